@@ -1,0 +1,65 @@
+#pragma once
+#include <cassert>
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace rill {
+
+/// What went wrong, coarse enough for a caller to branch on. Apps turn it into an exit code.
+enum class ErrorKind {
+  BadInput,     ///< a file, key, option or argument that the caller can correct
+  NoDevice,     ///< no Vulkan device that can run Rill
+  DeviceLost,   ///< the driver reported VK_ERROR_DEVICE_LOST
+  OutOfMemory,  ///< host or device memory
+  Shader,       ///< a shader or a pipeline could not be made
+  Io,           ///< reading or writing a file
+  Failed        ///< anything else
+};
+
+/// An error with a message that a user can act on: what was being done, what was found, what was expected.
+struct Error {
+  ErrorKind kind = ErrorKind::Failed;
+  std::string message;
+};
+
+/// A value or an Error. Rill's public functions return it in place of throwing.
+/// Reading the value of a failed result is a programmer error (assert).
+template <class T>
+class [[nodiscard]] Expected {
+ public:
+  Expected(T value) : state_(std::in_place_index<0>, std::move(value)) {}
+  Expected(Error error) : state_(std::in_place_index<1>, std::move(error)) {}
+
+  explicit operator bool() const { return state_.index() == 0; }
+  bool hasValue() const { return state_.index() == 0; }
+
+  T& operator*() & { assert(hasValue()); return *std::get_if<0>(&state_); }
+  const T& operator*() const& { assert(hasValue()); return *std::get_if<0>(&state_); }
+  T&& operator*() && { assert(hasValue()); return std::move(*std::get_if<0>(&state_)); }
+  T* operator->() { assert(hasValue()); return std::get_if<0>(&state_); }
+  const T* operator->() const { assert(hasValue()); return std::get_if<0>(&state_); }
+
+  const Error& error() const { assert(!hasValue()); return *std::get_if<1>(&state_); }
+
+ private:
+  std::variant<T, Error> state_;
+};
+
+/// Success, or an Error.
+template <>
+class [[nodiscard]] Expected<void> {
+ public:
+  Expected() = default;
+  Expected(Error error) : error_(std::move(error)), ok_(false) {}
+
+  explicit operator bool() const { return ok_; }
+  bool hasValue() const { return ok_; }
+  const Error& error() const { assert(!ok_); return error_; }
+
+ private:
+  Error error_;
+  bool ok_ = true;
+};
+
+}  // namespace rill

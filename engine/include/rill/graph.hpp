@@ -1,0 +1,186 @@
+#pragma once
+// The render graph: passes declared every frame, compiled on the CPU into an order, barriers and a memory plan, and recorded
+// into the host's command buffer. It never submits and never waits.
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rill/device.hpp"
+#include "rill/expected.hpp"
+
+namespace rill {
+
+struct ComputePipeline;
+class GraphImpl;
+class Graph;
+
+/// One version of a buffer in one frame's graph. Using last frame's, or a version that a later write consumed, is an error
+/// that compile() reports with the pass and the resource.
+struct BufferRef {
+  uint32_t index = UINT32_MAX;
+  uint32_t version = 0;
+  uint32_t epoch = 0;
+  friend bool operator==(const BufferRef&, const BufferRef&) = default;
+};
+
+/// What a pass does with a resource, and in which stage. One table (graph/use_table.cpp) maps it to stage and access.
+enum class Use : uint8_t {
+  None,            ///< no access; as an import's `before`: nothing to wait for, as its `after`: left as it is
+  ComputeRead,     ///< storage buffer, read
+  ComputeTexel,    ///< uniform texel buffer, read
+  ComputeUniform,  ///< uniform buffer, read
+  ComputeWrite,    ///< storage buffer, read and written
+  ComputeAtomic,   ///< storage buffer, atomics of one kind whose result is unused: they commute with each other, no barrier between
+  Indirect,        ///< dispatch arguments
+  CopySource,
+  CopyTarget,
+  HostRead,        ///< read by the host after the frame has completed
+  Unknown          ///< as an import's `before` alone: anything may have happened to it
+};
+
+struct BufferDesc {
+  uint64_t size = 0;  ///< bytes, 1 .. 128 MiB
+};
+
+struct BufferImport {
+  VkBuffer handle = VK_NULL_HANDLE;
+  uint64_t offset = 0;
+  uint64_t size = 0;            ///< bytes
+  Use before = Use::Unknown;    ///< its last use before this graph
+  Use after = Use::None;        ///< what it must be ready for after this graph; reached even when every pass is culled
+};
+
+/// Names a binding of a kernel: the buffer version and how the shader sees it follow from the pass's declared use.
+using Bindings = std::initializer_list<BufferRef>;
+
+/// A pipeline with what is bound to it, declared at set-up so that record() cannot fail.
+struct Kernel {
+  uint32_t index = UINT32_MAX;
+};
+
+/// A read-back in flight.
+struct Ticket {
+  uint64_t id = 0;
+};
+
+/// Declares one pass: what it reads and writes, and the kernels it dispatches.
+class Pass {
+ public:
+  void read(BufferRef buffer, Use use);
+  /// Consumes `buffer` and returns the version that this pass makes. The old content is kept unless `discard`.
+  [[nodiscard]] BufferRef write(BufferRef buffer, Use use, bool discard = false);
+  /// The pass matters even if nobody reads what it writes.
+  void sideEffect();
+  /// Binds buffers, in the order of the pipeline's bindings, each a version that this pass reads or one that it wrote.
+  Kernel kernel(const ComputePipeline* pipeline, std::span<const BufferRef> bindings);
+  Kernel kernel(const ComputePipeline* pipeline, Bindings bindings) { return kernel(pipeline, std::span<const BufferRef>(bindings.begin(), bindings.size())); }
+
+ private:
+  friend class Graph;
+  friend class GraphImpl;
+  Pass(GraphImpl& graph, uint32_t index) : graph_(graph), index_(index) {}
+  GraphImpl& graph_;
+  uint32_t index_;
+};
+
+/// What a record lambda can do. Nothing here fails. A version of a buffer that the pass did not declare is an assert.
+class Commands {
+ public:
+  /// `groups` workgroups; more than 65,535 are folded into x and y, so the shader takes its group index as
+  /// gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x and checks its bound. 0 groups records nothing.
+  void dispatch(Kernel kernel, uint64_t groups, std::span<const std::byte> push = {});
+  template <class Push>
+  void dispatch(Kernel kernel, uint64_t groups, const Push& push) { dispatch(kernel, groups, std::as_bytes(std::span(&push, 1))); }
+  /// Three uint at `offset` bytes of `arguments` (declared with Use::Indirect).
+  void dispatchIndirect(Kernel kernel, BufferRef arguments, uint64_t offset, std::span<const std::byte> push = {});
+  template <class Push>
+  void dispatchIndirect(Kernel kernel, BufferRef arguments, uint64_t offset, const Push& push) {
+    dispatchIndirect(kernel, arguments, offset, std::as_bytes(std::span(&push, 1)));
+  }
+  void copy(BufferRef source, BufferRef target, uint64_t bytes, uint64_t sourceOffset = 0, uint64_t targetOffset = 0);
+  void fill(BufferRef target, uint32_t value, uint64_t offset = 0, uint64_t bytes = UINT64_MAX);  ///< UINT64_MAX: to the end
+  VkCommandBuffer handle() const;
+
+ private:
+  friend class GraphImpl;
+  Commands(GraphImpl& graph, VkCommandBuffer commandBuffer) : graph_(graph), commandBuffer_(commandBuffer) {}
+  GraphImpl& graph_;
+  VkCommandBuffer commandBuffer_;
+};
+
+/// Time that a pass took on the device. Passes of one name are added up.
+struct Timing {
+  std::string_view name;
+  double ms = 0;
+  uint32_t runs = 0;  ///< passes of that name
+};
+
+/// A pass that was declared, or that a module left out with a reason (Graph::skipped).
+struct PassReport {
+  std::string_view name;
+  uint32_t runs = 0;
+  bool culled = false;
+  std::string_view reason;  ///< why it was culled or skipped; empty where it ran
+};
+
+/// One frame's graph. Declare, compile(), prepare(), record(); then reset() and declare the next frame: a steady state allocates nothing.
+/// Not thread safe. Execution order is the order of declaration.
+class Graph {
+ public:
+  Graph();
+  ~Graph();
+  Graph(const Graph&) = delete;
+  Graph& operator=(const Graph&) = delete;
+
+  /// Forgets the declared frame; refs of it become stale. Read-backs in flight and cached plans stay.
+  void reset();
+
+  BufferRef create(std::string_view name, BufferDesc desc);  ///< transient: lives in the graph's own memory, content undefined at first
+  BufferRef import(std::string_view name, const BufferImport& import);
+
+  /// `setup(Pass&)` declares the pass and returns what records it, a callable taking Commands&.
+  /// (Signature sketch: the implementation may store the callable without allocating in a steady state.)
+  template <class Setup>
+  void pass(std::string_view name, Setup&& setup) {
+    const uint32_t index = beginPass(name);
+    Pass declared(*impl_, index);
+    endPass(index, std::function<void(Commands&)>(setup(declared)));
+  }
+
+  /// For --explain: a module says that it left a pass out, and why. `reason` must outlive the frame (a literal).
+  void skipped(std::string_view name, std::string_view reason);
+
+  /// The buffer's bytes, copied at the end of the frame and readable once the host's clock says that the frame has completed.
+  Ticket readback(BufferRef buffer);
+  /// Empty while in flight. The span is valid until the next reset() after it was first seen ready.
+  std::span<const std::byte> data(Ticket ticket) const;
+
+  /// Culls, orders, plans barriers and memory. Touches no GPU. BadInput, naming pass and resource, for a stale or consumed ref,
+  /// a read of a buffer that nobody wrote, a buffer of no size.
+  Expected<void> compile();
+  /// Everything that can fail: memory, descriptor sets, query pools.
+  Expected<void> prepare(Device& device);
+  /// Records into the host's command buffer, which is in the recording state and outside a render pass. Cannot fail.
+  void record(VkCommandBuffer commandBuffer);
+
+  std::string dot() const;   ///< Graphviz; culled passes dashed with the reason
+  std::string json() const;  ///< passes, barriers, resources, memory plan
+  std::span<const Timing> timings() const;   ///< of the last frame that the host's clock says has completed
+  std::span<const PassReport> report() const;  ///< of the last compiled frame
+
+ private:
+  friend class Pass;
+  friend class Commands;
+  uint32_t beginPass(std::string_view name);
+  void endPass(uint32_t index, std::function<void(Commands&)> record);
+  std::unique_ptr<GraphImpl> impl_;
+};
+
+}  // namespace rill
