@@ -63,7 +63,7 @@ logged() {
 
 # install_packages SECTION...: installs what is missing. Asks neither apt nor the network when nothing is.
 install_packages() {
-  local section name upstream missing=() optional=()
+  local section name upstream missing=() optional=() lists=/var/lib/apt/lists
   if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
     {
       echo "This is neither Debian nor Ubuntu, so nothing was installed. Install these, then run again with --no-install:"
@@ -72,29 +72,30 @@ install_packages() {
     exit 1
   fi
   while read -r section name upstream; do
-    is_installed "$name" && continue
-    case $section in *\?) optional+=("$name") ;; *) missing+=("$name") ;; esac
+    if is_installed "$name"; then
+      continue
+    elif [[ $section != *\? ]]; then
+      missing+=("$name")
+    elif is_known "$name" || ! compgen -G "$lists/*_Packages*" >/dev/null; then
+      # A package that the system's lists do not have is no reason to fetch them again; lists that are absent are.
+      optional+=("$name")
+    fi
   done < <(in_sections "$@")
-
-  # A package that this system's lists do not have is no reason to fetch them again; lists that are absent are.
-  local lists=/var/lib/apt/lists wanted=()
-  for name in "${optional[@]}"; do
-    if is_known "$name" || ! compgen -G "$lists/*_Packages*" >/dev/null; then wanted+=("$name"); fi
-  done
-  if [ ${#missing[@]} = 0 ] && [ ${#wanted[@]} = 0 ]; then
+  local all=("${missing[@]}" "${optional[@]}")
+  if [ ${#all[@]} = 0 ]; then
     phase "Every package is already there"
     return
   fi
-
-  phase "Installing ${missing[*]} ${wanted[*]}"
   if [ "$(id -u)" != 0 ] && ! command -v sudo >/dev/null; then
-    fail "Needs root, and there is no sudo. As root: apt-get install --no-install-recommends ${missing[*]} ${wanted[*]}"
+    fail "Needs root, and there is no sudo. As root: apt-get install --no-install-recommends ${all[*]}"
   fi
+
+  phase "Installing ${all[*]}"
   logged as_root apt-get -o DPkg::Lock::Timeout=300 update || echo "apt-get update failed; trying with the package lists that are here" >&2
-  for name in "${wanted[@]}"; do
-    is_known "$name" && missing+=("$name")
+  for name in "${optional[@]}"; do
+    if is_known "$name"; then missing+=("$name"); fi
   done
-  [ ${#missing[@]} = 0 ] && return
+  if [ ${#missing[@]} = 0 ]; then return; fi
   logged as_root apt-get -o DPkg::Lock::Timeout=300 install -y --no-install-recommends "${missing[@]}" ||
     fail "apt-get could not install them (needs Debian 12, Ubuntu 24.04 or newer)"
 }

@@ -53,7 +53,7 @@ run_tests() {
   # Older loaders read VK_ICD_FILENAMES alone.
   VK_DRIVER_FILES=$driver VK_ICD_FILENAMES=$driver \
     ctest --test-dir build/release --output-on-failure --no-tests="$no_tests" --parallel "$(nproc)" "$@" 2>&1 | tee "$log" || failed=1
-  results+=("$name, $((SECONDS - begin)) s: $(grep -m1 -E 'tests passed|No tests were found' "$log" || echo 'ctest did not finish')")
+  results+=("$name, $((SECONDS - begin)) s: $(grep -m1 -E 'tests passed|No tests were found' "$log" || echo 'no test ran')")
 }
 
 [ $install = no ] || install_packages build run test 'test?'
