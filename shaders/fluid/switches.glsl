@@ -1,0 +1,37 @@
+// What begin.comp, arm.comp and control.comp share: switching a dispatch command, simulated time, gravity's schedule.
+#ifndef RILL_SWITCHES_GLSL
+#define RILL_SWITCHES_GLSL
+// `shapes` holds the group counts of each command, `commands` what the device dispatches.
+void switchCommand(uint k, bool on, FluidSums s) {
+  uvec3 groups = uvec3(shapes[3u * k], shapes[3u * k + 1u], shapes[3u * k + 2u]);
+  if (k == kCommandPlane || k == kCommandCorner || k == kCommandCollide || k == kCommandCollide + 1u) {
+    uint near = k == kCommandPlane ? s.planeCount : s.cornerCount;
+    uint needed = (near + kFluidGroup - 1u) / kFluidGroup;
+    groups = uvec3(min(needed, 65535u), needed == 0u ? 0u : (needed + 65534u) / 65535u, 1u);
+  }
+  if (!on) groups = uvec3(0u);
+  commands[3u * k] = groups.x;
+  commands[3u * k + 1u] = groups.y;
+  commands[3u * k + 2u] = groups.z;
+}
+
+// Adds to the two-float sum (Knuth's TwoSum).
+void addTime(inout FluidControl c, float step) {
+  precise float sum = c.timeHigh + (step + c.timeLow);
+  precise float rest = (c.timeHigh - sum) + (step + c.timeLow);
+  c.timeHigh = sum;
+  c.timeLow = rest;
+}
+
+// Gravity from the schedule's last entry that is due; entry 0 is the scene's own, due at once.
+void gravityAt(inout FluidControl c) {
+  for (uint n = 0u; n < params.gravityChanges && c.gravityIndex < params.gravityChanges; ++n) {
+    vec4 change = gravityChanges[c.gravityIndex];
+    if (change.w > c.timeHigh + 1.0e-7) break;
+    c.gravityX = change.x;
+    c.gravityY = change.y;
+    c.gravityZ = change.z;
+    c.gravityIndex += 1u;
+  }
+}
+#endif
