@@ -106,7 +106,9 @@ void main() {
   vec3 from = sortedPosition[i].xyz;
   uvec2 scalar = sortedScalar[i];
   if (twin != kNone) {  // coinciding particles have no direction to part in: each takes one from both numbers, opposite for the two
-    vec3 apart = pairDirection(scalar.y, sortedScalar[twin].y) * (0.02 * params.spacing);
+    uint other = sortedScalar[twin].y;
+    vec3 apart = vec3(pairDirection(scalar.y, other, 0u), pairDirection(scalar.y, other, 1u), pairDirection(scalar.y, other, 2u)) *
+                 (0.02 / 1024.0 * params.spacing);
     x = insideWalls(x + apart);
     from = insideWalls(from + apart);
   }

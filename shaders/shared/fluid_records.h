@@ -71,6 +71,9 @@ struct FluidParams {
   float farLimit;         // m from the origin beyond which a particle is parked
   float nearLimit;        // m from a wall or a solid's surface within which a particle is listed as near
   float solidSpeed;       // m/s, the fastest solid
+  float boundLowX, boundLowY, boundLowZ;     // m, the domain, open sides too: who is beyond counts as outside
+  float boundHighX, boundHighY, boundHighZ;
+  uint fullNeighbours;    // within the support: a particle with as many is inside the fluid
 };
 
 // Decided on the device, substep by substep; read as a uniform block by the passes, written by control.comp and begin.comp.
@@ -140,6 +143,25 @@ struct ControlPush {
   uint commands;       // how many
 };
 
+// Sums over one workgroup of measure.comp.
+struct MeasurePartial {
+  float compression, compressionMax;   // fraction of rest density
+  float kinetic;                       // sum of v^2
+  float speedMax;                      // m/s
+  float velocityX, velocityY, velocityZ;
+  float positionX, positionY, positionZ;
+  uint outside, counted;               // counted: particles inside the fluid, for the median
+};
+RILL_CONST uint kMeasureFirst = 107u << 9;          // bin 0: |C| = 2^-20, by the top bits of the float
+RILL_CONST uint kMeasureBins = 23u << 9;            // up to 8, 512 bins an octave
+RILL_CONST uint kMeasureGroup = 64u;
+
+// What measure_reduce.comp finds, for the host.
+struct MeasureResult {
+  MeasurePartial sums;
+  float compression99, signedMedian;
+};
+
 struct SweepPush {
   uint first, last;    // as in ChunkPush
   float share;         // 1 / sweeps
@@ -148,6 +170,7 @@ struct SweepPush {
 struct ChunkPush {
   uint first;          // particle that the list buffer starts with
   uint last;           // one past its last particle
+  uint iteration;      // 0 is the first
 };
 
 RILL_RECORDS_END
