@@ -16,8 +16,11 @@ void main() {
   control.travel = 0.0;
   control.builds += 1u;
   FluidSums s = sums;
-  switchCommand(kCommandDensity, true, s);
-  switchCommand(kCommandControl, true, s);
-  switchCommand(kCommandPlane, true, s);
-  switchCommand(kCommandCorner, true, s);
+  bool going = control.timeLeft > 0.0;
+  switchCommand(kCommandDensity, going, s);
+  switchCommand(kCommandControl, going, s);
+  switchCommand(kCommandPlane, going, s);
+  switchCommand(kCommandCorner, going, s);
+  switchCommand(kCommandMeasurePlane, true, s);
+  switchCommand(kCommandMeasureCorner, true, s);
 }

@@ -32,13 +32,15 @@ void main() {
   if (going) {
     c.step = fittedStep(push.advance, c.desiredStep, params.maxSubsteps);
     if (c.warmStep <= 0.0) c.warmStep = c.step;
-    if (c.travel + (c.speed + params.solidSpeed + acceleration * c.step) * c.step > params.travelLimit) c.stale = 1u;
+    if (c.travel + (c.speed + params.solidSpeed + acceleration * c.step) * c.step > params.travelLimit) c.stale = max(c.stale, 1u);
   }
   if (k < push.commands) {
     bool on;
     if (k == kCommandPredict) on = going;
     else if (k == kCommandDensity || k == kCommandControl || k == kCommandPlane || k == kCommandCorner) on = going && c.stale == 0u;
-    else if (k >= kCommandKeys && k != kCommandCollide && k != kCommandCollide + 1u) on = going && c.stale != 0u;
+    else if (k == kCommandMeasurePlane || k == kCommandMeasureCorner) on = true;
+    else if (k == kCommandKeys || k == kCommandReorder || k == kCommandBuild || k == kCommandArm || k >= kCommandSort)
+      on = c.stale == 2u || (going && c.stale != 0u);
     else on = false;
     switchCommand(k, on, s);
   }

@@ -60,6 +60,7 @@ void main() {
     else if (k == kCommandCorrect + push.parity || k == kCommandCollide + push.parity) on = true;
     else if (k == kCommandCorrect + 1u - push.parity || k == kCommandCollide + 1u - push.parity) on = false;
     else if (k == kCommandIterate || k == kCommandIterateControl) on = again;
+    else if (k == kCommandMeasurePlane || k == kCommandMeasureCorner) on = true;
     else on = going && c.stale != 0u;
     switchCommand(k, on, s);
   }

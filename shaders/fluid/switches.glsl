@@ -4,8 +4,8 @@
 // `shapes` holds the group counts of each command, `commands` what the device dispatches.
 void switchCommand(uint k, bool on, FluidSums s) {
   uvec3 groups = uvec3(shapes[3u * k], shapes[3u * k + 1u], shapes[3u * k + 2u]);
-  if (k == kCommandPlane || k == kCommandCorner || k == kCommandCollide || k == kCommandCollide + 1u) {
-    uint near = k == kCommandPlane ? s.planeCount : s.cornerCount;
+  if (k >= kCommandPlane && k <= kCommandMeasureCorner) {
+    uint near = k == kCommandPlane || k == kCommandMeasurePlane ? s.planeCount : s.cornerCount;
     uint needed = (near + kFluidGroup - 1u) / kFluidGroup;
     groups = uvec3(min(needed, 65535u), needed == 0u ? 0u : (needed + 65534u) / 65535u, 1u);
   }

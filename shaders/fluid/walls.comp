@@ -105,7 +105,7 @@ vec4 solidSample(SolidRecord s, vec3 x) {
   if (s.shape == 1u) {
     float r = length(local);
     float distance = r - s.halfX;
-    vec2 f = line(s.tableOffset, s.tableNodes, params.tableStep, max(distance, 0.0));
+    vec2 f = line(s.tableOffset, s.tableNodes, params.tableStep, distance - s.tableFirst);
     vec3 normal = r > 1.0e-6 * s.halfX ? local / r : vec3(0.0, 1.0, 0.0);
     return vec4(toWorld(s, normal * f.y), f.x);
   }

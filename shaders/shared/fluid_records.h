@@ -24,7 +24,9 @@ RILL_CONST uint kCommandArm = 10u;
 RILL_CONST uint kCommandPlane = 11u;          // over the particles near one wall
 RILL_CONST uint kCommandCorner = 12u;         // over those near several walls or a solid
 RILL_CONST uint kCommandCollide = 13u;        // two of them, by parity, over the same
-RILL_CONST uint kCommandSort = 15u;
+RILL_CONST uint kCommandMeasurePlane = 15u;   // the same particles as Plane and Corner, whenever there are any
+RILL_CONST uint kCommandMeasureCorner = 16u;
+RILL_CONST uint kCommandSort = 17u;
 RILL_CONST uint kMaxCommands = 64u;
 
 // Constant over a run; a uniform block.
@@ -89,7 +91,7 @@ struct FluidControl {
   float speed;         // m/s, the fastest particle
   float error;         // mean compression of the last prediction
   float gravityX, gravityY, gravityZ;  // m/s^2, for the prediction of the next substep
-  uint stale;          // the list must be rebuilt before the next substep
+  uint stale;          // 1: the list must be rebuilt before the next substep; 2: there has been none yet
   uint substeps;       // of the advance
   uint iterations;     // of the advance
   uint builds;         // list builds of the advance
@@ -125,7 +127,7 @@ struct SolidRecord {
   uint tableOffset;                // sphere: (value, slope) pairs into the table buffer
   uint tableNodes;
   float baseX, baseY, baseZ;       // centre before any motion, m
-  uint spare;
+  float tableFirst;                // sphere: signed distance of the table's first node, m
 };
 
 struct KeyframeRecord {
