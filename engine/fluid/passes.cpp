@@ -229,12 +229,7 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity) {
       pass.read(r_.keyframes, Use::ComputeRead);
       r_.solids = pass.write(r_.solids, Use::ComputeWrite);
       const Kernel kernel = pass.kernel(pipes_.pose, {r_.params, r_.control, r_.solids, r_.keyframes});
-      const uint64_t groups = divideUp(p.solidCount, 64);
-      return [=, arguments = r_.commands](Commands& commands) {
-        // The pass is over solids, a command over one group: solids beyond 64 take further dispatches of it.
-        (void)groups;
-        commands.dispatchIndirect(kernel, arguments, commandAt(kCommandControl));
-      };
+      return [=, arguments = r_.commands](Commands& commands) { commands.dispatchIndirect(kernel, arguments, commandAt(kCommandControl)); };
     });
   }
   for (uint32_t iteration = 0; iteration < p.iterations; ++iteration) {

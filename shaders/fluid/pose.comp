@@ -1,14 +1,13 @@
 #version 460
-// Where the solids are, and how fast they move, at the end of the substep at hand: keyframes, linear between, held outside.
+// Where the solids are, and how fast they move, at the end of the substep at hand: keyframes, linear between, held outside. One workgroup.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 2) buffer SolidBlock { SolidRecord solids[]; };
 layout(std430, binding = 3) readonly buffer KeyframeBlock { vec4 keyframes[]; };  // translation, time
 
-void main() {
-  uint n = flatInvocation();
-  if (n >= params.solidCount || solids[n].keyCount == 0u) return;
+void pose(uint n) {
+  if (solids[n].keyCount == 0u) return;
   float time = control.timeHigh + (control.timeLow + control.step);
   uint first = solids[n].firstKey, last = first + solids[n].keyCount - 1u;
   vec3 moved = keyframes[first].xyz, velocity = vec3(0.0);
@@ -28,4 +27,8 @@ void main() {
   solids[n].velocityX = velocity.x;
   solids[n].velocityY = velocity.y;
   solids[n].velocityZ = velocity.z;
+}
+
+void main() {
+  for (uint n = gl_LocalInvocationID.x; n < params.solidCount; n += gl_WorkGroupSize.x) pose(n);
 }
