@@ -1,0 +1,82 @@
+#pragma once
+// A simulation without a host: owns a device, runs a scene, hands out arrays. No Vulkan in sight.
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rill/expected.hpp"
+#include "rill/fluid.hpp"
+#include "rill/scene_io.hpp"
+
+namespace rill::offline {
+
+struct Options {
+  std::string device;                ///< part of a name, or an index; empty: the best there is
+  std::vector<Override> overrides;   ///< applied to the scene
+  bool validation = false;           ///< with the validation layer, synchronization included; needs it installed
+  uint32_t substepsPerSubmit = 0;    ///< 0: chosen; bits never depend on it
+};
+
+enum class Order { AsStored, ById };
+
+struct Particles {
+  std::vector<Float3> positions;   ///< m, in the scene's coordinates (origin added)
+  std::vector<Float3> velocities;  ///< m/s
+  std::vector<float> densities;    ///< kg/m^3
+  std::vector<uint32_t> ids;
+};
+
+/// An image in memory: RGBA, 8 bits a channel, sRGB, rows from the top.
+struct Image {
+  uint32_t width = 0, height = 0;
+  std::vector<uint8_t> rgba;
+};
+
+struct PassTime { std::string name; double ms = 0; uint32_t runs = 0; };
+
+/// Everything `rill-capture --stats` writes about an instant.
+struct Stats : FluidStats {
+  double front_m = 0;              ///< farthest fluid along +x from the domain's minimum
+  uint64_t state_hash = 0;         ///< of positions and velocities in id order
+  std::vector<std::pair<std::string, double>> probes;
+  double wall_s = 0;               ///< spent since the instant before, simulation alone
+  std::vector<PassTime> pass_ms;
+  std::vector<std::pair<std::string, std::string>> skipped;  ///< pass, reason
+};
+
+class Simulation {
+ public:
+  /// `scene` is a path to a scene file. BadInput, NoDevice, OutOfMemory.
+  static Expected<std::unique_ptr<Simulation>> open(const std::filesystem::path& scene, const Options& options = {});
+  /// A scene that was read before. The scene is judged before a device is opened.
+  static Expected<std::unique_ptr<Simulation>> open(Scene scene, const Options& options = {});
+  ~Simulation();
+
+  /// Runs `seconds` of simulated time on, waits for it. Exactly one advance of the solver: substeps divide it evenly at its end.
+  Expected<void> advance(double seconds);
+  double time() const;                           ///< s
+  Expected<Particles> particles(Order order = Order::ById);
+  Expected<Stats> stats();                       ///< of the present instant
+  /// Renders the present instant. `view` is one of views().
+  Expected<Image> render(const std::string& view, uint32_t width, uint32_t height);
+  static std::span<const std::string_view> views();
+
+  const Scene& scene() const;
+  const ParticleSet& start() const;              ///< as placed: counts of particles left out
+  const DeviceInfo& device() const;
+  std::vector<std::string> warnings() const;
+  std::string explain() const;                   ///< each pass of the last advance: ran, how often, ms; or skipped and why
+  std::string graphDot() const;                  ///< of the last advance
+
+ private:
+  class Impl;
+  explicit Simulation(std::unique_ptr<Impl>);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace rill::offline
