@@ -2,7 +2,7 @@
 // The dispatches of a module, one after another, recorded as they are or through arguments that the device decides on.
 #include <array>
 #include <cstdint>
-#include <functional>
+#include <string_view>
 #include <vector>
 
 #include "rill/graph.hpp"
@@ -28,19 +28,32 @@ struct Gate {
   uint32_t firstCommand = 0;
 };
 
+/// Records one dispatch, direct or through a gate: what the set-up of a pass returns.
+template <class Push>
+struct Dispatch {
+  Kernel kernel;
+  uint64_t groups = 0;
+  BufferRef arguments;  ///< none: `groups` are dispatched
+  uint64_t offset = 0;
+  Push push;
+
+  void operator()(Commands& commands) const {
+    if (arguments == BufferRef{}) commands.dispatch(kernel, groups, push);
+    else commands.dispatchIndirect(kernel, arguments, offset, push);
+  }
+};
+
 /// Counts a module's dispatches while its passes are declared, so that each finds its command behind the gate.
 class Dispatches {
  public:
-  explicit Dispatches(const Gate* gate) : gated_(gate != nullptr), gate_(gate ? *gate : Gate{}) {}
+  explicit Dispatches(const Gate* gate) : gate_(gate ? *gate : Gate{}) {}
 
-  /// What records the next dispatch: to be returned by the set-up of `pass`.
+  /// The next dispatch, which is to be all that `pass` records.
   template <class Push>
-  std::function<void(Commands&)> next(Pass& pass, Kernel kernel, uint64_t groups, const Push& push) {
-    if (!gated_) return [=](Commands& commands) { commands.dispatch(kernel, groups, push); };
+  Dispatch<Push> next(Pass& pass, Kernel kernel, uint64_t groups, const Push& push) {
+    if (gate_.arguments == BufferRef{}) return {kernel, groups, {}, 0, push};
     pass.read(gate_.arguments, Use::Indirect);
-    const BufferRef arguments = gate_.arguments;
-    const uint64_t offset = uint64_t{gate_.firstCommand + next_++} * sizeof(VkDispatchIndirectCommand);
-    return [=](Commands& commands) { commands.dispatchIndirect(kernel, arguments, offset, push); };
+    return {kernel, groups, gate_.arguments, (gate_.firstCommand + uint64_t{next_++}) * sizeof(VkDispatchIndirectCommand), push};
   }
 
   /// The gate for a module within this one, which takes `count` commands.
@@ -51,7 +64,6 @@ class Dispatches {
   }
 
  private:
-  bool gated_;
   Gate gate_;
   uint32_t next_ = 0;
 };

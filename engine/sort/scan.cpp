@@ -9,7 +9,7 @@ namespace rill {
 namespace {
 
 /// Up to so many values one workgroup is done before two more dispatches have started.
-constexpr uint32_t kSingleCount = 4 * kScanTile;
+constexpr uint32_t kSingleCount = 8 * kScanTile;
 
 uint32_t tileCount(uint32_t count) { return (count + kScanTile - 1) / kScanTile; }
 

@@ -11,6 +11,6 @@ layout(set = 0, binding = 1, std430) buffer Start { uint start[]; };
 layout(set = 0, binding = 2, std430) writeonly buffer Rank { uint rank[]; };
 
 void main() {
-  const uint i = flatInvocation();
+  const uint i = flatGroup() * kCountThreads + gl_LocalInvocationIndex;
   if (i < push.count) rank[i] = atomicAdd(start[min(keys[i], push.lastKey)], 1u);
 }

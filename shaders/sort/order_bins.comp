@@ -19,7 +19,7 @@ layout(set = 0, binding = 5, std430) buffer OversizedGroups { uint oversizedGrou
 layout(set = 0, binding = 6, std430) writeonly buffer OversizedBins { uint oversizedBins[]; };
 
 void main() {
-  const uint slot = flatInvocation();
+  const uint slot = flatGroup() * kCountThreads + gl_LocalInvocationIndex;
   if (slot >= push.count) return;
   const uint index = arrived[slot];
   const uint key = min(keys[index], push.lastKey);

@@ -11,17 +11,19 @@ layout(push_constant) uniform PushBlock { ScanPush push; };
 layout(set = 0, binding = 0, std430) readonly buffer Values { uint values[]; };
 layout(set = 0, binding = 1, std430) writeonly buffer TileSums { uint tileSums[]; };
 
-#define WORKGROUP_SCAN_THREADS kScanThreads
-#include "sort/workgroup_scan.glsl"
+shared uint tileSum;
 
 void main() {
   const uint tile = flatGroup();
+  if (gl_LocalInvocationIndex == 0u) tileSum = 0u;
+  barrier();
   uint sum = 0u;
   for (uint j = 0u; j < kScanItems; ++j) {
     const uint i = tile * kScanTile + j * kScanThreads + gl_LocalInvocationIndex;
     if (i < push.count) sum += values[i];
   }
-  uint total;
-  workgroupExclusiveAdd(sum, total);
-  if (gl_LocalInvocationIndex == 0u && tile * kScanTile < push.count) tileSums[tile] = total;
+  sum = subgroupAdd(sum);
+  if (subgroupElect()) atomicAdd(tileSum, sum);
+  barrier();
+  if (gl_LocalInvocationIndex == 0u && tile * kScanTile < push.count) tileSums[tile] = tileSum;
 }

@@ -12,6 +12,6 @@ layout(set = 0, binding = 2, std430) readonly buffer Rank { uint rank[]; };
 layout(set = 0, binding = 3, std430) writeonly buffer Arrived { uint arrived[]; };
 
 void main() {
-  const uint i = flatInvocation();
+  const uint i = flatGroup() * kCountThreads + gl_LocalInvocationIndex;
   if (i < push.count) arrived[start[min(keys[i], push.lastKey)] + rank[i]] = i;
 }

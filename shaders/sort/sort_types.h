@@ -5,7 +5,7 @@
 RILL_RECORDS_BEGIN
 
 // Scan: a workgroup takes a tile of kScanThreads * kScanItems values.
-RILL_CONST uint kScanThreads = 256u;
+RILL_CONST uint kScanThreads = 128u;
 RILL_CONST uint kScanItems = 16u;
 RILL_CONST uint kScanTile = kScanThreads * kScanItems;
 

@@ -10,7 +10,7 @@ layout(set = 0, binding = 0, std430) readonly buffer Keys { uint keys[]; };
 layout(set = 0, binding = 1, std430) writeonly buffer Start { uint start[]; };
 
 void main() {
-  const uint key = flatInvocation();
+  const uint key = flatGroup() * kCountThreads + gl_LocalInvocationIndex;
   if (key > push.range) return;
   uint low = 0u, high = push.count;
   while (low < high) {
