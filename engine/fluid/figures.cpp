@@ -22,13 +22,19 @@ void FluidImpl::poll() const {
     FluidControl control;
     FluidSums sums;
     if (!read(pending.graph->data(pending.control), control) || !read(pending.graph->data(pending.sums), sums)) return;
-    timeLeft = control.timeLeft;
+    progress = {.known = true,
+                .time_s = double{control.timeHigh} + control.timeLow,
+                .time_left_s = control.timeLeft,
+                .time_dropped_s = control.timeDropped,
+                .substeps = control.substeps,
+                .iterations = control.iterations,
+                .list_builds = control.builds};
     MeasureResult result{};
     if (pending.measured && read(pending.graph->data(pending.measure), result)) {
       const double n = count, mass = setup.params.particleMass;
       const MeasurePartial& m = result.sums;
       FluidStats s;
-      s.time_s = double{control.timeHigh} + control.timeLow;
+      s.time_s = progress.time_s;
       s.particles = count;
       s.substeps = control.substeps;
       s.iterations = control.iterations;

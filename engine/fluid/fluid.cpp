@@ -172,6 +172,8 @@ Expected<void> FluidImpl::stage(Device& device, const ParticleSet& particles) {
   FluidControl control{};
   control.stale = 2;
   control.speed = fastest;
+  // Fluid released at once finds its pressure in steps short against free fall over a spacing.
+  control.desiredStep = p.tolerance > 0 ? std::min(p.maxStep, 0.05f * std::sqrt(p.spacing / 9.81f)) : p.maxStep;
 
   std::vector<uint32_t> shapes(3 * kMaxCommands, 0);
   const auto shape = [&](uint32_t command, GroupCount groups) { std::copy(groups.begin(), groups.end(), shapes.begin() + 3 * command); };
@@ -179,7 +181,7 @@ Expected<void> FluidImpl::stage(Device& device, const ParticleSet& particles) {
   const GroupCount chunk = foldGroups(chunks_.front().groups());
   for (uint32_t k : {kCommandPredict, kCommandKeys, kCommandReorder}) shape(k, all);
   for (uint32_t k : {kCommandDensity, kCommandCorrect, kCommandCorrect + 1, kCommandIterate, kCommandBuild}) shape(k, chunk);
-  for (uint32_t k : {kCommandControl, kCommandIterateControl, kCommandArm}) shape(k, {1, 1, 1});
+  shape(kCommandPose, {1, 1, 1});
   uint32_t next = kCommandSort;
   for (const GroupCount& groups : sort_->groups()) shape(next++, groups);
   assert(next <= kMaxCommands);
@@ -283,9 +285,9 @@ std::optional<FluidStats> Fluid::stats() const {
   return impl_->stats;
 }
 
-std::optional<double> Fluid::timeLeft() const {
+const FluidProgress& Fluid::progress() const {
   impl_->poll();
-  return impl_->timeLeft;
+  return impl_->progress;
 }
 
 uint32_t Fluid::count() const { return impl_->count; }

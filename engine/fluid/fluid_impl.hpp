@@ -57,7 +57,7 @@ class FluidImpl {
   double origin[3] = {0, 0, 0};
   double gravityNow[3] = {0, 0, 0};
   mutable std::optional<FluidStats> stats;
-  mutable std::optional<double> timeLeft;
+  mutable FluidProgress progress;
 
  private:
   struct Pending {

@@ -160,16 +160,14 @@ void FluidImpl::declareRebuild(Graph& graph) {
     };
   });
   graph.pass("arm", [&](Pass& pass) {
-    const BufferRef gateRef = r_.commands;
     pass.read(r_.params, Use::ComputeUniform);
     pass.read(r_.sums, Use::ComputeRead);
     pass.read(r_.shapes, Use::ComputeRead);
     pass.read(r_.gravity, Use::ComputeRead);
-    pass.read(gateRef, Use::Indirect);
     r_.control = pass.write(r_.control, Use::ComputeWrite);
     r_.commands = pass.write(r_.commands, Use::ComputeWrite);
     const Kernel kernel = pass.kernel(pipes_.arm, {r_.params, r_.control, r_.sums, r_.shapes, r_.commands, r_.gravity});
-    return [=](Commands& commands) { commands.dispatchIndirect(kernel, gateRef, commandAt(kCommandArm)); };
+    return [=](Commands& commands) { commands.dispatch(kernel, 1); };
   });
 }
 
@@ -229,7 +227,7 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity) {
       pass.read(r_.keyframes, Use::ComputeRead);
       r_.solids = pass.write(r_.solids, Use::ComputeWrite);
       const Kernel kernel = pass.kernel(pipes_.pose, {r_.params, r_.control, r_.solids, r_.keyframes});
-      return [=, arguments = r_.commands](Commands& commands) { commands.dispatchIndirect(kernel, arguments, commandAt(kCommandControl)); };
+      return [=, arguments = r_.commands](Commands& commands) { commands.dispatchIndirect(kernel, arguments, commandAt(kCommandPose)); };
     });
   }
   for (uint32_t iteration = 0; iteration < p.iterations; ++iteration) {
@@ -252,17 +250,15 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity) {
                  bindings.add({r_.warm, r_.work, r_.nearSample, r_.multiplier, r_.density});
                });
     graph.pass("control", [&](Pass& pass) {
-      const BufferRef gate = r_.commands;
       pass.read(r_.params, Use::ComputeUniform);
       pass.read(r_.shapes, Use::ComputeRead);
       pass.read(r_.gravity, Use::ComputeRead);
-      pass.read(gate, Use::Indirect);
       r_.control = pass.write(r_.control, Use::ComputeWrite);
       r_.sums = pass.write(r_.sums, Use::ComputeWrite);
       r_.commands = pass.write(r_.commands, Use::ComputeWrite);
       const Kernel kernel = pass.kernel(pipes_.control, {r_.params, r_.control, r_.sums, r_.shapes, r_.commands, r_.gravity});
       const ControlPush push{iteration, parity, commandCount()};
-      return [=](Commands& commands) { commands.dispatchIndirect(kernel, gate, commandAt(first ? kCommandControl : kCommandIterateControl), push); };
+      return [=](Commands& commands) { commands.dispatch(kernel, 1, push); };
     });
   }
   gatherPass(graph, r_, texel_, chunks, "correct", pipes_.correct, r_.work, kCommandCorrect + parity, ChunkPush{}, [&](Pass& pass, BindingList& bindings) {
@@ -388,7 +384,7 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
     FluidStats none;
     none.time_s = emptyTime_;
     stats = none;
-    timeLeft = 0.0;
+    progress = {.known = true, .time_s = emptyTime_};
     return state;
   }
 

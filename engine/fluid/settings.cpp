@@ -42,7 +42,7 @@ void appendTable(std::vector<float>& tables, const std::vector<float>& table, ui
   tables.insert(tables.end(), table.begin(), table.end());
 }
 
-void addSolids(const Scene& scene, const Kernel& kernel, const double origin[3], FluidSetup& setup) {
+void addSolids(const Scene& scene, const SmoothingKernel& kernel, const double origin[3], FluidSetup& setup) {
   for (const Solid& solid : scene.solids) {
     const SolidPose pose = solidPose(solid, 0.0);
     SolidRecord record{};
@@ -101,7 +101,7 @@ void setWalls(const Scene& scene, const double origin[3], FluidParams& p) {
 }
 
 // XSPH with coefficient c acts like a kinematic viscosity c sigma^2 / (2 dt): so many sweeps, and a step short enough, that none has c above 1.
-void setViscosity(const Scene& scene, const Kernel& kernel, FluidSetup& setup) {
+void setViscosity(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
   FluidParams& p = setup.params;
   if (scene.fluid.viscosity <= 0) return;
   constexpr uint32_t kMaxSweeps = 8;
@@ -142,7 +142,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const double origin[3], 
   if (!(d > 0)) return Error{ErrorKind::BadInput, "fluid.spacing is not set: give it, or make the particles first"};
   FluidSetup setup;
   FluidParams& p = setup.params;
-  const Kernel kernel(scene.solver.kernel, h, d);
+  const SmoothingKernel kernel(scene.solver.kernel, h, d);
   setup.kernel = scene.solver.kernel == KernelChoice::Wendland ? 0u : 1u;
 
   p.count = count;

@@ -6,7 +6,7 @@
 
 namespace rill {
 
-Kernel::Kernel(KernelChoice choice, double h, double d) : choice_(choice), h_(h), d_(d) {
+SmoothingKernel::SmoothingKernel(KernelChoice choice, double h, double d) : choice_(choice), h_(h), d_(d) {
   assert(h > 0 && d > 0);
   const int reach = static_cast<int>(std::ceil(h / d));
   const auto overLattice = [&](auto&& term) {
@@ -25,7 +25,7 @@ Kernel::Kernel(KernelChoice choice, double h, double d) : choice_(choice), h_(h)
   secondMoment_ = overLattice([&](double x, double r) { return value(r) * x * x; });
 }
 
-double Kernel::value(double r) const {
+double SmoothingKernel::value(double r) const {
   if (r >= h_) return 0;
   const double q = r / h_;
   if (choice_ == KernelChoice::Wendland) {
@@ -36,7 +36,7 @@ double Kernel::value(double r) const {
   return valueScale_ * t * t * t;
 }
 
-double Kernel::gradientOverR(double r) const {
+double SmoothingKernel::gradientOverR(double r) const {
   if (r >= h_) return 0;
   const double t = 1 - r / h_;
   if (choice_ == KernelChoice::Wendland) return gradientScale_ * t * t * t;

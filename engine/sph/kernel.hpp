@@ -11,10 +11,10 @@ namespace rill {
 ///   (dK/dr)/r = -45 d^3 (1-q)^2 / (pi h^4 r): it is not K's derivative, which is why this pair pumps energy.
 ///
 /// `a` makes the sum over the cubic lattice, self included, exactly 1. The spiky gradient keeps its analytic factor.
-class Kernel {
+class SmoothingKernel {
  public:
   /// `h`: support radius, m, > 0. `d`: spacing, m, > 0. h/d is 1.2 .. 4 in a scene.
-  Kernel(KernelChoice choice, double h, double d);
+  SmoothingKernel(KernelChoice choice, double h, double d);
 
   /// K at distance `r` >= 0 (m): dimensionless, >= 0, 0 from h on.
   double value(double r) const;

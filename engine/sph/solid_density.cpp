@@ -10,7 +10,7 @@ namespace {
 
 /// I of the header over [0, h], by five-point Gauss-Legendre rules between the kinks of f.
 template <class Cosine>
-double integral(const Kernel& kernel, std::array<double, 4> kinks, const Cosine& cosine) {
+double integral(const SmoothingKernel& kernel, std::array<double, 4> kinks, const Cosine& cosine) {
   constexpr int kPieces = 16;
   constexpr double node[3] = {0, 0.5384693101056831, 0.9061798459386640};
   constexpr double weight[3] = {0.5688888888888889, 0.4786286704993665, 0.2369268850561891};
@@ -33,7 +33,7 @@ double integral(const Kernel& kernel, std::array<double, 4> kinks, const Cosine&
 }
 
 /// I_ball / I_half at signed distance s > -R.
-double ballOverHalfSpace(const Kernel& kernel, double R, double s) {
+double ballOverHalfSpace(const SmoothingKernel& kernel, double R, double s) {
   const double h = kernel.h();
   const double plane = integral(kernel, {0, std::abs(s), h, h}, [&](double rho) { return s / rho; });
   const double ball =
@@ -59,7 +59,7 @@ WallSample boxOf(const Share& share, const double local[3], const double half[3]
 
 }  // namespace
 
-LineSample exactSphere(const Kernel& kernel, double R, double s) {
+LineSample exactSphere(const SmoothingKernel& kernel, double R, double s) {
   if (s >= wallReach(kernel)) return {};
   // The centre itself is a kink (the distance to it): stay just off it.
   const double at = std::max(s, -R * (1 - 1e-6)), step = 1e-5 * std::min(R, kernel.spacing());
@@ -70,7 +70,7 @@ LineSample exactSphere(const Kernel& kernel, double R, double s) {
   return {f.value * ratio, f.slope * ratio + f.value * slope};
 }
 
-SphereTable makeSphereTable(const Kernel& kernel, double R) {
+SphereTable makeSphereTable(const SmoothingKernel& kernel, double R) {
   SphereTable t;
   t.step = kernel.spacing() / 16;
   const double reach = wallReach(kernel) * (1 - 1e-9);
@@ -93,7 +93,7 @@ LineSample SphereTable::sample(double s) const {
   return {n[0] * (1 - t) + n[2] * t, n[1] * (1 - t) + n[3] * t};
 }
 
-WallSample boxSample(const Kernel& kernel, const double local[3], const double half[3]) {
+WallSample boxSample(const SmoothingKernel& kernel, const double local[3], const double half[3]) {
   for (int a = 0; a < 3; ++a)
     if (std::abs(local[a]) - half[a] >= wallReach(kernel)) return {};
   return boxOf([&](double s) { return halfSpace(kernel, s); }, local, half);

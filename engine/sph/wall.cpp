@@ -12,19 +12,19 @@ constexpr int kStepsPerSpacing = 16, kCornerStepsPerSpacing = 8;
 /// Coordinates x_j - x_i along one axis.
 using Offsets = std::vector<double>;
 
-Offsets aligned(const Kernel& kernel) {
+Offsets aligned(const SmoothingKernel& kernel) {
   const int reach = static_cast<int>(std::ceil(kernel.h() / kernel.spacing()));
   Offsets offsets;
   for (int i = -reach; i <= reach; ++i) offsets.push_back(i * kernel.spacing());
   return offsets;
 }
 
-void addGhosts(const Kernel& kernel, double s, double side, Offsets& offsets) {
+void addGhosts(const SmoothingKernel& kernel, double s, double side, Offsets& offsets) {
   for (double at = std::max(s, 0.0) + kernel.spacing() / 2; at < kernel.h(); at += kernel.spacing()) offsets.push_back(side * at);
 }
 
 /// S over the product of three sets of coordinates; the gradient along the axes in `ghost` alone, since the others' cancel by symmetry.
-WallSample sumOver(const Kernel& kernel, const std::array<const Offsets*, 3>& axes, const std::array<bool, 3>& ghost) {
+WallSample sumOver(const SmoothingKernel& kernel, const std::array<const Offsets*, 3>& axes, const std::array<bool, 3>& ghost) {
   WallSample sum;
   const double hh = kernel.h() * kernel.h();
   for (const double x : *axes[0]) {
@@ -46,7 +46,7 @@ WallSample sumOver(const Kernel& kernel, const std::array<const Offsets*, 3>& ax
 }
 
 /// S with the first `walls` axes behind a low wall at s[axis].
-LineSample lowWalls(const Kernel& kernel, const Offsets& line, int walls, const double* s) {
+LineSample lowWalls(const SmoothingKernel& kernel, const Offsets& line, int walls, const double* s) {
   std::array<Offsets, 3> ghosts;
   std::array<const Offsets*, 3> axes = {&line, &line, &line};
   std::array<bool, 3> ghost = {};
@@ -84,9 +84,9 @@ LineSample sampleLine(const std::vector<float>& table, const Place& p) {
 
 }  // namespace
 
-double wallReach(const Kernel& kernel) { return kernel.h() - kernel.spacing() / 2; }
+double wallReach(const SmoothingKernel& kernel) { return kernel.h() - kernel.spacing() / 2; }
 
-WallSample exactWall(const Kernel& kernel, const double lo[3], const double hi[3]) {
+WallSample exactWall(const SmoothingKernel& kernel, const double lo[3], const double hi[3]) {
   std::array<Offsets, 3> ghosts;
   for (size_t a = 0; a < 3; ++a) {
     addGhosts(kernel, lo[a], -1, ghosts[a]);
@@ -112,12 +112,12 @@ WallSample exactWall(const Kernel& kernel, const double lo[3], const double hi[3
   return sum;
 }
 
-LineSample exactPlane(const Kernel& kernel, double s) {
+LineSample exactPlane(const SmoothingKernel& kernel, double s) {
   if (s >= wallReach(kernel)) return {};
   return lowWalls(kernel, aligned(kernel), 1, &s);
 }
 
-LineSample halfSpace(const Kernel& kernel, double s) {
+LineSample halfSpace(const SmoothingKernel& kernel, double s) {
   const double distance = std::abs(s), near = 1 - 2 * distance / kernel.spacing();
   LineSample f = exactPlane(kernel, distance);
   if (near > 0) {
@@ -129,7 +129,7 @@ LineSample halfSpace(const Kernel& kernel, double s) {
   return f;
 }
 
-WallTables makeWallTables(const Kernel& kernel) {
+WallTables makeWallTables(const SmoothingKernel& kernel) {
   WallTables t;
   const double d = kernel.spacing();
   // The last node that can be non-zero lies before h - d/2; one at or beyond it, and a guard.

@@ -12,15 +12,13 @@ layout(std430, binding = 5) readonly buffer GravityBlock { vec4 gravityChanges[]
 #include "fluid/switches.glsl"
 
 void main() {
-  control.stale = 0u;
-  control.travel = 0.0;
-  control.builds += 1u;
+  FluidControl c = control;
+  if (c.stale == 0u || (c.stale == 1u && c.timeLeft <= 0.0)) return;
+  c.stale = 0u;
+  c.travel = 0.0;
+  c.builds += 1u;
+  c.running = c.timeLeft > 0.0 ? 1u : 0u;
+  control = c;
   FluidSums s = sums;
-  bool going = control.timeLeft > 0.0;
-  switchCommand(kCommandDensity, going, s);
-  switchCommand(kCommandControl, going, s);
-  switchCommand(kCommandPlane, going, s);
-  switchCommand(kCommandCorner, going, s);
-  switchCommand(kCommandMeasurePlane, true, s);
-  switchCommand(kCommandMeasureCorner, true, s);
+  for (uint k = kCommandDensity; k <= kCommandMeasureCorner; ++k) switchCommand(k, commandRuns(k, c, 2u), s);
 }

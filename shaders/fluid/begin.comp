@@ -26,23 +26,15 @@ void main() {
   gravityAt(c);
   float acceleration = length(vec3(c.gravityX, c.gravityY, c.gravityZ));
   c.speed = uintBitsToFloat(s.speedMax);
-  float bound = desiredStep(0.0, c.speed, 0.0, acceleration);
-  c.desiredStep = c.desiredStep > 0.0 ? min(c.desiredStep, bound) : bound;
+  c.desiredStep = min(c.desiredStep, cflStep(c.speed, acceleration));
   bool going = push.advance > 0.0;
   if (going) {
-    c.step = fittedStep(push.advance, c.desiredStep, params.maxSubsteps);
-    if (c.warmStep <= 0.0) c.warmStep = c.step;
-    if (c.travel + (c.speed + params.solidSpeed + acceleration * c.step) * c.step > params.travelLimit) c.stale = max(c.stale, 1u);
+    c.nextStep = fittedStep(push.advance, c.desiredStep);
+    if (c.warmStep <= 0.0) c.warmStep = c.nextStep;
+    if (c.travel + (c.speed + params.solidSpeed + acceleration * c.nextStep) * c.nextStep > params.travelLimit) c.stale = max(c.stale, 1u);
   }
-  if (k < push.commands) {
-    bool on;
-    if (k == kCommandPredict) on = going;
-    else if (k == kCommandDensity || k == kCommandControl || k == kCommandPlane || k == kCommandCorner) on = going && c.stale == 0u;
-    else if (k == kCommandMeasurePlane || k == kCommandMeasureCorner) on = true;
-    else if (k == kCommandKeys || k == kCommandReorder || k == kCommandBuild || k == kCommandArm || k >= kCommandSort)
-      on = c.stale == 2u || (going && c.stale != 0u);
-    else on = false;
-    switchCommand(k, on, s);
-  }
+  c.running = going && c.stale == 0u ? 1u : 0u;
+  c.again = 0u;
+  if (k < push.commands) switchCommand(k, commandRuns(k, c, 2u), s);
   if (k == 0u) control = c;
 }

@@ -19,9 +19,13 @@ void main() {
   FluidSums s = sums;
   barrier();
   uint k = gl_LocalInvocationID.x;
+  bool first = push.iteration == 0u;
+  if ((first ? c.running : c.again) == 0u) {
+    if (first && k < push.commands) switchCommand(k, commandRuns(k, c, 2u), s);  // the last correction's command was still on
+    return;
+  }
 
   float error = (float(s.errorHigh) * 4294967296.0 + float(s.errorLow)) * kErrorUnit / float(params.count);
-  bool first = push.iteration == 0u;
   bool converged = params.tolerance > 0.0 && error <= params.tolerance && uintBitsToFloat(s.errorMax) <= 100.0 * params.tolerance;
   bool again = push.iteration + 1u < params.iterations && !converged;
   c.iterations += 1u;
@@ -32,6 +36,7 @@ void main() {
   }
 
   if (first) {
+    c.step = c.nextStep;
     c.error = error;
     c.speed = max(uintBitsToFloat(s.speedMax), 0.0);
     if (k == 0u) sums.speedMax = 0u;
@@ -42,27 +47,18 @@ void main() {
     c.travel += (c.speed + params.solidSpeed) * c.step;
     gravityAt(c);
     float acceleration = length(vec3(c.gravityX, c.gravityY, c.gravityZ));
-    c.desiredStep = desiredStep(c.step, c.speed, error, acceleration);
+    c.desiredStep = min(tolerableStep(c.desiredStep, c.step, error), cflStep(c.speed, acceleration));
     if (c.timeLeft < 1.0e-4 * c.step) c.timeLeft = 0.0;
     if (c.timeLeft > 0.0 && c.substeps >= params.maxSubsteps) {
       c.timeDropped += c.timeLeft;
       c.timeLeft = 0.0;
     }
-    c.nextStep = c.timeLeft > 0.0 ? fittedStep(c.timeLeft, c.desiredStep, params.maxSubsteps - c.substeps) : c.desiredStep;
+    c.nextStep = c.timeLeft > 0.0 ? fittedStep(c.timeLeft, c.desiredStep) : c.desiredStep;
     if (c.travel + (c.speed + params.solidSpeed + acceleration * c.nextStep) * c.nextStep > params.travelLimit) c.stale = 1u;
   }
 
-  bool going = c.timeLeft > 0.0;
-  if (k < push.commands) {
-    bool on;
-    if (k == kCommandPredict) on = false;
-    else if (k == kCommandDensity || k == kCommandControl || k == kCommandPlane || k == kCommandCorner) on = going && c.stale == 0u;
-    else if (k == kCommandCorrect + push.parity || k == kCommandCollide + push.parity) on = true;
-    else if (k == kCommandCorrect + 1u - push.parity || k == kCommandCollide + 1u - push.parity) on = false;
-    else if (k == kCommandIterate || k == kCommandIterateControl) on = again;
-    else if (k == kCommandMeasurePlane || k == kCommandMeasureCorner) on = true;
-    else on = going && c.stale != 0u;
-    switchCommand(k, on, s);
-  }
+  c.running = c.timeLeft > 0.0 && c.stale == 0u ? 1u : 0u;
+  c.again = again ? 1u : 0u;
+  if (k < push.commands) switchCommand(k, commandRuns(k, c, push.parity), s);
   if (k == 0u) control = c;
 }

@@ -54,7 +54,7 @@ void main() {
 
   float before, after, warmNext;
   if (push.iteration == 0u) {
-    float ratio = control.step / control.warmStep;
+    float ratio = control.nextStep / control.warmStep;
     before = warm[i] * ratio * ratio;
     after = min(0.0, before + delta);
     warmNext = min(0.0, before + params.warmGain * delta);

@@ -8,7 +8,7 @@ layout(std430, binding = 3) readonly buffer KeyframeBlock { vec4 keyframes[]; };
 
 void pose(uint n) {
   if (solids[n].keyCount == 0u) return;
-  float time = control.timeHigh + (control.timeLow + control.step);
+  float time = control.timeHigh + (control.timeLow + control.nextStep);
   uint first = solids[n].firstKey, last = first + solids[n].keyCount - 1u;
   vec3 moved = keyframes[first].xyz, velocity = vec3(0.0);
   for (uint k = first; k < last && k < first + 65536u; ++k) {

@@ -12,6 +12,6 @@ void main() {
   uint i = flatInvocation();
   if (i >= params.count) return;
   vec3 x = position[i].xyz;
-  vec3 next = insideWalls(x + control.step * (velocity[i].xyz + control.step * (gravity() + pushAway[i].xyz)));
+  vec3 next = insideWalls(x + control.nextStep * (velocity[i].xyz + control.nextStep * (gravity() + pushAway[i].xyz)));
   prediction[i] = vec4(isFinite(next) ? next : x, 0.0);
 }

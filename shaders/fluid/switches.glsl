@@ -15,6 +15,18 @@ void switchCommand(uint k, bool on, FluidSums s) {
   commands[3u * k + 2u] = groups.z;
 }
 
+// Which commands run, once the control block is settled. `parity`: of the substep whose density pass has just run; 2: none has.
+bool commandRuns(uint k, FluidControl c, uint parity) {
+  bool rebuild = c.stale == 2u || (c.stale == 1u && c.timeLeft > 0.0);
+  if (k == kCommandDensity || k == kCommandPose || k == kCommandPlane || k == kCommandCorner) return c.running != 0u;
+  if (k == kCommandCorrect || k == kCommandCollide) return parity == 0u;
+  if (k == kCommandCorrect + 1u || k == kCommandCollide + 1u) return parity == 1u;
+  if (k == kCommandIterate) return c.again != 0u;
+  if (k == kCommandMeasurePlane || k == kCommandMeasureCorner) return true;
+  if (k == kCommandPredict) return parity == 2u && c.timeLeft > 0.0;
+  return rebuild;
+}
+
 // Adds to the two-float sum (Knuth's TwoSum).
 void addTime(inout FluidControl c, float step) {
   precise float sum = c.timeHigh + (step + c.timeLow);

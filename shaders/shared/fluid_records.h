@@ -10,23 +10,21 @@ RILL_CONST uint kWalkBound = 32768u;      // candidates that one grid walk looks
 RILL_CONST float kParked = 1.0e9f;        // m: where the dummy neighbour sits that pads the list
 RILL_CONST float kMultiplierScale = 1024.0f;  // multipliers travel as halves in units of 1 / (restGradient * this)
 
-// Dispatch commands that the device switches on and off. The sort's own commands follow from kCommandSort on.
+// Dispatch commands that the device switches on and off.
 RILL_CONST uint kCommandPredict = 0u;
 RILL_CONST uint kCommandDensity = 1u;
-RILL_CONST uint kCommandControl = 2u;
+RILL_CONST uint kCommandPose = 2u;            // one group, with the density pass
 RILL_CONST uint kCommandCorrect = 3u;         // two of them, by the parity of the substep recorded
 RILL_CONST uint kCommandIterate = 5u;
-RILL_CONST uint kCommandIterateControl = 6u;
-RILL_CONST uint kCommandKeys = 7u;
-RILL_CONST uint kCommandReorder = 8u;
-RILL_CONST uint kCommandBuild = 9u;
-RILL_CONST uint kCommandArm = 10u;
-RILL_CONST uint kCommandPlane = 11u;          // over the particles near one wall
-RILL_CONST uint kCommandCorner = 12u;         // over those near several walls or a solid
-RILL_CONST uint kCommandCollide = 13u;        // two of them, by parity, over the same
-RILL_CONST uint kCommandMeasurePlane = 15u;   // the same particles as Plane and Corner, whenever there are any
-RILL_CONST uint kCommandMeasureCorner = 16u;
-RILL_CONST uint kCommandSort = 17u;
+RILL_CONST uint kCommandKeys = 6u;            // the rebuild
+RILL_CONST uint kCommandReorder = 7u;
+RILL_CONST uint kCommandBuild = 8u;
+RILL_CONST uint kCommandPlane = 9u;           // over the particles near one wall
+RILL_CONST uint kCommandCorner = 10u;         // over those near several walls or a solid
+RILL_CONST uint kCommandCollide = 11u;        // two of them, by parity, over the same
+RILL_CONST uint kCommandMeasurePlane = 13u;   // the same particles as Plane and Corner, whenever there are any
+RILL_CONST uint kCommandMeasureCorner = 14u;
+RILL_CONST uint kCommandSort = 15u;           // the sort's own follow
 RILL_CONST uint kMaxCommands = 64u;
 
 // Constant over a run; a uniform block.
@@ -80,8 +78,8 @@ struct FluidParams {
 
 // Decided on the device, substep by substep; read as a uniform block by the passes, written by control.comp and begin.comp.
 struct FluidControl {
-  float step;          // s, of the substep whose prediction is at hand
-  float nextStep;      // s, of the one after
+  float step;          // s, of the substep that control.comp has accounted for last
+  float nextStep;      // s, of the one whose prediction is at hand or is about to be made
   float warmStep;      // s, the step that the stored multipliers are expressed for
   float timeLeft;      // s of the advance
   float timeHigh;      // simulated time, s, as the sum of two floats
@@ -97,7 +95,8 @@ struct FluidControl {
   uint builds;         // list builds of the advance
   uint gravityIndex;   // next entry of the schedule
   float desiredStep;   // s, what cfl and tolerance ask for, before it is fitted to the advance
-  uint spare;
+  uint running;        // the next density pass runs
+  uint again;          // so does the next iteration
 };
 
 // Sums of the passes of one substep; integers, so that their order does not matter.

@@ -8,18 +8,18 @@
 
 namespace {
 
-using rill::Kernel;
+using rill::SmoothingKernel;
 using rill::KernelChoice;
 
 constexpr double kSpacing = 0.05;
 
 class KernelTest : public testing::TestWithParam<std::tuple<KernelChoice, double>> {
  protected:
-  Kernel kernel() const { return Kernel(std::get<0>(GetParam()), std::get<1>(GetParam()) * kSpacing, kSpacing); }
+  SmoothingKernel kernel() const { return SmoothingKernel(std::get<0>(GetParam()), std::get<1>(GetParam()) * kSpacing, kSpacing); }
 };
 
 TEST_P(KernelTest, RestLatticeMeasuresRestDensity) {
-  const Kernel k = kernel();
+  const SmoothingKernel k = kernel();
   double sum = 0, moment = 0, gradients = 0;
   for (int i = -5; i <= 5; ++i)
     for (int j = -5; j <= 5; ++j)
@@ -36,7 +36,7 @@ TEST_P(KernelTest, RestLatticeMeasuresRestDensity) {
 
 // In the continuum the integral of K over space is d^3 to within the lattice's discretisation error, which vanishes as h/d grows.
 TEST_P(KernelTest, IntegratesToAParticlesVolume) {
-  const Kernel k = kernel();
+  const SmoothingKernel k = kernel();
   const int n = 20000;
   double sum = 0;
   for (int i = 0; i < n; ++i) {
@@ -48,7 +48,7 @@ TEST_P(KernelTest, IntegratesToAParticlesVolume) {
 }
 
 TEST_P(KernelTest, FallsToZeroAtTheSupport) {
-  const Kernel k = kernel();
+  const SmoothingKernel k = kernel();
   for (int i = 0; i < 100; ++i) {
     EXPECT_GT(k.value(k.h() * i / 100), k.value(k.h() * (i + 1) / 100));
     EXPECT_LE(k.gradientOverR(k.h() * i / 100), 0);
@@ -60,7 +60,7 @@ TEST_P(KernelTest, FallsToZeroAtTheSupport) {
 }
 
 TEST_P(KernelTest, WhatShadersComputeFromTheScales) {
-  const Kernel k = kernel();
+  const SmoothingKernel k = kernel();
   for (int i = 1; i < 20; ++i) {
     const double q = i / 20.0, r = q * k.h(), t = 1 - q;
     if (k.choice() == KernelChoice::Wendland) {
@@ -74,8 +74,8 @@ TEST_P(KernelTest, WhatShadersComputeFromTheScales) {
 }
 
 TEST_P(KernelTest, DoesNotDependOnScale) {
-  const Kernel k = kernel();
-  const Kernel large(k.choice(), 100 * k.h(), 100 * kSpacing);
+  const SmoothingKernel k = kernel();
+  const SmoothingKernel large(k.choice(), 100 * k.h(), 100 * kSpacing);
   EXPECT_NEAR(large.value(0.3 * large.h()), k.value(0.3 * k.h()), 1e-14);
   EXPECT_NEAR(large.restGradientSum() * 1e4 / k.restGradientSum(), 1, 1e-12);
   EXPECT_NEAR(large.secondMoment() * 1e-4 / k.secondMoment(), 1, 1e-12);
@@ -87,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(All, KernelTest,
 
 TEST(WendlandKernel, GradientIsTheDerivativeOfTheValue) {
   for (const double ratio : {1.2, 2.0, 4.0}) {
-    const Kernel k(KernelChoice::Wendland, ratio * kSpacing, kSpacing);
+    const SmoothingKernel k(KernelChoice::Wendland, ratio * kSpacing, kSpacing);
     const double step = 1e-5 * k.h();
     for (int i = 1; i < 40; ++i) {
       const double r = k.h() * i / 40;
@@ -99,7 +99,7 @@ TEST(WendlandKernel, GradientIsTheDerivativeOfTheValue) {
 
 TEST(SpikyGradient, IsTheDerivativeOfItsOwnNormalisedKernel) {
   const double h = 2 * kSpacing;
-  const Kernel k(KernelChoice::Poly6Spiky, h, kSpacing);
+  const SmoothingKernel k(KernelChoice::Poly6Spiky, h, kSpacing);
   const auto spiky = [&](double r) { return std::pow(kSpacing, 3) * 15 / (std::numbers::pi * std::pow(h, 6)) * std::pow(h - r, 3); };
   for (int i = 1; i < 40; ++i) {
     const double r = h * i / 40, step = 1e-5 * h;

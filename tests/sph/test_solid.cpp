@@ -16,11 +16,11 @@ constexpr double kSpacing = 0.02;
 
 class SolidTest : public testing::TestWithParam<std::tuple<KernelChoice, double>> {
  protected:
-  Kernel kernel() const { return Kernel(std::get<0>(GetParam()), std::get<1>(GetParam()) * kSpacing, kSpacing); }
+  SmoothingKernel kernel() const { return SmoothingKernel(std::get<0>(GetParam()), std::get<1>(GetParam()) * kSpacing, kSpacing); }
 };
 
 TEST_P(SolidTest, ALargeBallIsAWall) {
-  const Kernel k = kernel();
+  const SmoothingKernel k = kernel();
   for (int i = 0; i <= 20; ++i) {
     const double s = kSpacing / 2 + (wallReach(k) - kSpacing / 2) * i / 20;
     const LineSample plane = exactPlane(k, s), ball = exactSphere(k, 1e5 * kSpacing, s);
@@ -30,7 +30,7 @@ TEST_P(SolidTest, ALargeBallIsAWall) {
 }
 
 TEST_P(SolidTest, ABallDisplacesLessThanAWallAndTheSmallerTheLess) {
-  const Kernel k = kernel();
+  const SmoothingKernel k = kernel();
   const double s = kSpacing / 2;
   double last = exactPlane(k, s).value;
   for (const double R : {100.0, 10.0, 3.0, 1.0, 0.5, 0.1, 0.01}) {
@@ -44,7 +44,7 @@ TEST_P(SolidTest, ABallDisplacesLessThanAWallAndTheSmallerTheLess) {
 }
 
 TEST_P(SolidTest, BallTablesFollowTheFormula) {
-  const Kernel k = kernel();
+  const SmoothingKernel k = kernel();
   const double bound = std::get<1>(GetParam()) < 2 ? 5e-3 : 1e-3;
   for (const double R : {0.2, 0.7, 2.0, 5.5, 40.0}) {
     const SphereTable table = makeSphereTable(k, R * kSpacing);
@@ -60,7 +60,7 @@ TEST_P(SolidTest, BallTablesFollowTheFormula) {
 }
 
 TEST_P(SolidTest, AThickBoxFaceIsAWallAndAThinPlateIsLess) {
-  const Kernel k = kernel();
+  const SmoothingKernel k = kernel();
   const WallTables tables = makeWallTables(k);
   const double wide = 10 * k.h();
   for (int i = 0; i <= 20; ++i) {
@@ -85,7 +85,7 @@ TEST_P(SolidTest, AThickBoxFaceIsAWallAndAThinPlateIsLess) {
 
 // A plate as thick as a layer of the lattice, half a spacing from both neighbours, stands for that layer.
 TEST_P(SolidTest, APlateOfOneSpacingIsOneLayer) {
-  const Kernel k = kernel();
+  const SmoothingKernel k = kernel();
   const double half[3] = {10 * k.h(), 10 * k.h(), kSpacing / 2}, at[3] = {0, 0, kSpacing};
   double layer = 0;
   for (int i = -5; i <= 5; ++i)
@@ -94,7 +94,7 @@ TEST_P(SolidTest, APlateOfOneSpacingIsOneLayer) {
 }
 
 TEST(WendlandBox, GradientIsTheDerivativeOfTheValue) {
-  const Kernel k(KernelChoice::Wendland, 2 * kSpacing, kSpacing);
+  const SmoothingKernel k(KernelChoice::Wendland, 2 * kSpacing, kSpacing);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(-4 * kSpacing, 4 * kSpacing), size(0.2 * kSpacing, 2 * kSpacing);
   for (int sample = 0; sample < 300; ++sample) {

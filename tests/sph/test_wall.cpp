@@ -10,7 +10,7 @@
 
 namespace {
 
-using rill::Kernel;
+using rill::SmoothingKernel;
 using rill::KernelChoice;
 using rill::LineSample;
 using rill::WallSample;
@@ -20,7 +20,7 @@ constexpr double kSpacing = 0.02, kFar = std::numeric_limits<double>::infinity()
 
 class WallTest : public testing::TestWithParam<std::tuple<KernelChoice, double>> {
  protected:
-  Kernel kernel() const { return Kernel(std::get<0>(GetParam()), std::get<1>(GetParam()) * kSpacing, kSpacing); }
+  SmoothingKernel kernel() const { return SmoothingKernel(std::get<0>(GetParam()), std::get<1>(GetParam()) * kSpacing, kSpacing); }
   double ratio() const { return std::get<1>(GetParam()); }
 };
 
@@ -31,7 +31,7 @@ struct Rest {
 };
 
 template <class Wall>
-Rest restLattice(const Kernel& k, const int (&layers)[3], const Wall& wall) {
+Rest restLattice(const SmoothingKernel& k, const int (&layers)[3], const Wall& wall) {
   const double d = k.spacing();
   const int reach = static_cast<int>(std::ceil(k.h() / d));
   Rest worst;
@@ -64,7 +64,7 @@ Rest restLattice(const Kernel& k, const int (&layers)[3], const Wall& wall) {
 }
 
 TEST_P(WallTest, RestLatticeMeasuresRestDensityEverywhere) {
-  const Kernel k = kernel();
+  const SmoothingKernel k = kernel();
   const WallTables tables = rill::makeWallTables(k);
   const int boxes[][3] = {{10, 0, 0}, {10, 10, 0}, {6, 6, 6}, {10, 9, 10}, {1, 0, 0}, {2, 0, 0}, {3, 5, 0}, {4, 4, 4}, {1, 1, 1}, {2, 1, 3}};
   for (const auto& layers : boxes) {
@@ -79,7 +79,7 @@ TEST_P(WallTest, RestLatticeMeasuresRestDensityEverywhere) {
 }
 
 TEST_P(WallTest, TablesFollowTheSums) {
-  const Kernel k = kernel();
+  const SmoothingKernel k = kernel();
   const WallTables tables = rill::makeWallTables(k);
   std::mt19937 random(7);
   std::uniform_real_distribution<double> distance(0, 1.1 * rill::wallReach(k));
@@ -100,7 +100,7 @@ TEST_P(WallTest, TablesFollowTheSums) {
 }
 
 TEST_P(WallTest, FadesAndGrowsTowardTheWall) {
-  const Kernel k = kernel();
+  const SmoothingKernel k = kernel();
   const WallTables tables = rill::makeWallTables(k);
   const double reach = rill::wallReach(k);
   for (int i = 0; i < 100; ++i) {
@@ -124,7 +124,7 @@ TEST_P(WallTest, FadesAndGrowsTowardTheWall) {
 }
 
 TEST_P(WallTest, HalfSpaceIsContinuousMonotoneAndThePlaneFromHalfASpacingOn) {
-  const Kernel k = kernel();
+  const SmoothingKernel k = kernel();
   const WallTables tables = rill::makeWallTables(k);
   const double reach = rill::wallReach(k), step = 1e-6 * kSpacing;
   EXPECT_NEAR(rill::halfSpace(k, 0).value, 0.5, 1e-14);
@@ -149,7 +149,7 @@ INSTANTIATE_TEST_SUITE_P(All, WallTest,
 TEST(WendlandWall, GradientIsTheDerivativeOfTheValue) {
   std::mt19937 random(11);
   for (const double ratio : {1.2, 2.0, 3.0}) {
-    const Kernel k(KernelChoice::Wendland, ratio * kSpacing, kSpacing);
+    const SmoothingKernel k(KernelChoice::Wendland, ratio * kSpacing, kSpacing);
     std::uniform_real_distribution<double> distance(0.01 * kSpacing, k.h());
     for (int sample = 0; sample < 50; ++sample) {
       double lo[3], hi[3];
@@ -171,7 +171,7 @@ TEST(WendlandWall, GradientIsTheDerivativeOfTheValue) {
 }
 
 TEST(WallTables, StaySmallAtTheWidestKernel) {
-  const WallTables t = rill::makeWallTables(Kernel(KernelChoice::Wendland, 4 * kSpacing, kSpacing));
+  const WallTables t = rill::makeWallTables(SmoothingKernel(KernelChoice::Wendland, 4 * kSpacing, kSpacing));
   const size_t bytes = sizeof(float) * (t.plane.size() + t.face.size() + t.edge.size() + t.corner.size());
   EXPECT_LT(bytes, 300u << 10);
   EXPECT_EQ(t.edge.size(), size_t(2) * t.nodes * t.nodes);
