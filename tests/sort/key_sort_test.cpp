@@ -22,8 +22,16 @@ Words randomKeys(uint32_t count, uint64_t keyRange) {
   return keys;
 }
 
-/// Sorts and compares everything that can be asked for.
-void check(SortMethod method, const Words& keys, uint64_t keyRange) {
+class KeySortTest : public SortTest {
+ protected:
+  /// Sorts and compares everything that can be asked for.
+  void check(SortMethod method, const Words& keys, uint64_t keyRange);
+};
+class BothSorts : public KeySortTest, public testing::WithParamInterface<SortMethod> {};
+INSTANTIATE_TEST_SUITE_P(, BothSorts, testing::Values(SortMethod::Counting, SortMethod::Radix),
+                         [](const auto& test) { return std::string(name(test.param)); });
+
+void KeySortTest::check(SortMethod method, const Words& keys, uint64_t keyRange) {
   const bool table = keyRange <= 16u << 20;
   const KeySortDesc desc{static_cast<uint32_t>(keys.size()), keyRange, method, table, true};
   const Sorted got = sorted(desc, keys), wanted = expected(keys, keyRange, table);
@@ -32,10 +40,6 @@ void check(SortMethod method, const Words& keys, uint64_t keyRange) {
   EXPECT_TRUE(got.keys == wanted.keys) << what;
   EXPECT_TRUE(got.start == wanted.start) << what;
 }
-
-class BothSorts : public testing::TestWithParam<SortMethod> {};
-INSTANTIATE_TEST_SUITE_P(, BothSorts, testing::Values(SortMethod::Counting, SortMethod::Radix),
-                         [](const auto& test) { return std::string(name(test.param)); });
 
 TEST_P(BothSorts, EveryCountAroundTheSizesOfWorkgroupsAndTiles) {
   for (uint32_t count : {1u, 2u, 3u, 63u, 64u, 65u, 255u, 256u, 257u, 511u, 512u, 513u, 1000u, 4095u, 4096u, 4097u, 65535u, 65536u, 65537u})
@@ -106,16 +110,15 @@ TEST_P(BothSorts, SeveralInOneCommandBuffer) {
   auto large = KeySort::create(device(), {5000, 3000, GetParam(), true, true});
   auto small = KeySort::create(device(), {700, 50, GetParam(), false, true});
   ASSERT_TRUE(large && small);
-  const WordBuffer keysA(device(), a), keysB(device(), b), keysC(device(), c);
-  const WordBuffer startA(device(), 3001), again(device(), 5000), orderB(device(), 5000), orderC(device(), 700);
+  const WordBuffer keysA = words(a), keysB = words(b), keysC = words(c);
+  const WordBuffer startA = words(3001), again = words(5000), orderB = words(5000), orderC = words(700);
   const auto frame = [&](Graph& graph) {
     const SortedKeys first = large->addTo(graph, keysA.in(graph, "a"), {.start = startA.in(graph, "start a")});
     large->addTo(graph, first.keys, {.order = again.in(graph, "again")});
     large->addTo(graph, keysB.in(graph, "b"), {.order = orderB.in(graph, "order b")});
     small->addTo(graph, keysC.in(graph, "c"), {.order = orderC.in(graph, "order c")});
   };
-  const std::function<void(Graph&)> frames[] = {frame, frame, frame};
-  runFrames(frames);
+  runGraphs({frame, frame, frame});
   EXPECT_TRUE(startA.copy() == expected(a, 3000, true).start);
   Words identity(5000);
   for (uint32_t i = 0; i < 5000; ++i) identity[i] = i;
@@ -135,9 +138,9 @@ TEST_P(BothSorts, AGateOpensAndCloses) {
         open.push_back(n);
         closed.push_back(0);
       }
-    const WordBuffer input(device(), keys), other(device(), randomKeys(5000, 100));
-    const WordBuffer order(device(), 5000, 1), start(device(), 3001, 2), sortedKeys(device(), 5000, 3);
-    const WordBuffer openGate(device(), open), closedGate(device(), closed);
+    const WordBuffer input = words(keys), other = words(randomKeys(5000, 100));
+    const WordBuffer order = words(5000, 1), start = words(3001, 2), sortedKeys = words(5000, 3);
+    const WordBuffer openGate = words(open), closedGate = words(closed);
     const auto frame = [&](const WordBuffer& from, const WordBuffer& arguments) {
       return [&](Graph& graph) {
         const Gate gate{arguments.in(graph, "gate"), 1};
@@ -145,34 +148,33 @@ TEST_P(BothSorts, AGateOpensAndCloses) {
                     {order.in(graph, "order"), start.in(graph, "start"), sortedKeys.in(graph, "sorted keys")}, &gate);
       };
     };
-    run(frame(input, closedGate));
+    runGraph(frame(input, closedGate));
     EXPECT_TRUE(order.copy() == Words(5000, 1));
     EXPECT_TRUE(start.copy() == Words(3001, 2));
     EXPECT_TRUE(sortedKeys.copy() == Words(5000, 3));
-    const std::function<void(Graph&)> frames[] = {frame(input, openGate), frame(other, closedGate)};
-    runFrames(frames);
+    runGraphs({frame(input, openGate), frame(other, closedGate)});
     EXPECT_TRUE((Sorted{order.copy(), start.copy(), sortedKeys.copy()}) == expected(keys, 3000, true));
   }
 }
 
-TEST(RadixSort, KeysOfAllBits) {
+TEST_F(KeySortTest, RadixOfAllBits) {
   for (uint64_t keyRange : {kAllBits, kAllBits - 1, kAllBits / 2 + 1, uint64_t{1} << 25})
     for (uint32_t count : {1u, 2u, 4097u, 65537u}) check(SortMethod::Radix, randomKeys(count, keyRange), keyRange);
   check(SortMethod::Radix, {~0u, 0, ~0u, 1u << 31, (1u << 31) - 1, 0}, kAllBits);
 }
 
-TEST(CountingSort, AKeyOutOfRangeHarmsNothingElse) {
+TEST_F(KeySortTest, CountingOfAKeyOutOfRangeHarmsNothingElse) {
   // Taken for the largest one; nothing is written outside, and the others are sorted.
   const Words got = sorted({4, 10, SortMethod::Counting, true}, Words{3, ~0u, 9, 0}).order;
   EXPECT_EQ(got, (Words{3, 0, 1, 2}));
 }
 
-TEST(KeySort, FourMillion) {
+TEST_F(KeySortTest, FourMillion) {
   constexpr uint32_t kCount = KeySortDesc::kMaxCount;
   check(SortMethod::Auto, randomKeys(kCount, kCount / 4), kCount / 4);
 }
 
-TEST(KeySort, ChoosesByTheDensityOfKeys) {
+TEST_F(KeySortTest, ChoosesByTheDensityOfKeys) {
   EXPECT_EQ(chooseSortMethod(100000, 100000), SortMethod::Counting);
   EXPECT_EQ(chooseSortMethod(100000, 20000), SortMethod::Counting);
   EXPECT_EQ(chooseSortMethod(100000, 64), SortMethod::Radix);
@@ -185,8 +187,8 @@ TEST(KeySort, ChoosesByTheDensityOfKeys) {
   EXPECT_TRUE(sorted({1000, 1000}, keys).order == expected(keys, 1000, false).order);
 }
 
-TEST(KeySort, RefusesWhatItCannotHold) {
-  const auto refusal = [](const KeySortDesc& desc) {
+TEST_F(KeySortTest, RefusesWhatItCannotHold) {
+  const auto refusal = [this](const KeySortDesc& desc) {
     auto sort = KeySort::create(device(), desc);
     EXPECT_FALSE(sort);
     return sort ? std::string() : sort.error().message;
@@ -198,7 +200,7 @@ TEST(KeySort, RefusesWhatItCannotHold) {
   EXPECT_EQ(refusal({10, kAllBits, SortMethod::Radix, true}), "sort: a table of 4294967296 keys, at most 33554431 fit in 128 MiB");
 }
 
-TEST(KeySort, FoldsLargeDispatches) {
+TEST(Dispatches, FoldsLargeDispatches) {
   for (uint64_t groups : {uint64_t{1}, uint64_t{65535}, uint64_t{65536}, uint64_t{131071}, uint64_t{1} << 25}) {
     const GroupCount folded = foldGroups(groups);
     EXPECT_LE(folded[0], 65535u);

@@ -1,10 +1,10 @@
 #include "sort/rig.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cassert>
+#include <deque>
 #include <numeric>
+#include <stdexcept>
 
 namespace rill::test {
 
@@ -23,8 +23,6 @@ BufferRef WordBuffer::in(Graph& graph, std::string_view name) const {
   return graph.import(name, {.handle = buffer_.handle(), .size = buffer_.size(), .before = Use::Unknown, .after = Use::HostRead});
 }
 
-void run(const std::function<void(Graph&)>& declare) { runFrames(std::span(&declare, 1)); }
-
 Sorted expected(std::span<const uint32_t> keys, uint64_t keyRange, bool withStart) {
   Sorted result;
   result.order.resize(keys.size());
@@ -41,14 +39,29 @@ Sorted expected(std::span<const uint32_t> keys, uint64_t keyRange, bool withStar
   return result;
 }
 
-Sorted sorted(const KeySortDesc& desc, std::span<const uint32_t> keys) {
+void SortTest::runGraphs(const std::vector<Declare>& declares) {
+  std::deque<Graph> graphs;
+  for (const Declare& declare : declares) {
+    Graph& graph = graphs.emplace_back();
+    declare(graph);
+    auto ok = graph.compile();
+    if (ok) ok = graph.prepare(device());
+    ASSERT_TRUE(ok) << ok.error().message;
+  }
+  auto ok = context().submit([&](VkCommandBuffer commands) {
+    for (Graph& graph : graphs) graph.record(commands);
+  });
+  if (ok) ok = context().wait();
+  ASSERT_TRUE(ok) << ok.error().message;
+}
+
+Sorted SortTest::sorted(const KeySortDesc& desc, const Words& keys) {
   assert(desc.count == keys.size());
   auto sort = KeySort::create(device(), desc);
   if (!sort) throw std::runtime_error(sort.error().message);
-  const WordBuffer input(device(), keys);
-  const WordBuffer order(device(), keys.size(), ~0u), start(device(), desc.start ? desc.keyRange + 1 : 0, ~0u),
-      sortedKeys(device(), desc.keys ? keys.size() : 0, ~0u);
-  run([&](Graph& graph) {
+  const WordBuffer input = words(keys), order = words(keys.size(), ~0u), start = words(desc.start ? desc.keyRange + 1 : 0, ~0u),
+                   sortedKeys = words(desc.keys ? keys.size() : 0, ~0u);
+  runGraph([&](Graph& graph) {
     SortTargets targets{.order = order.in(graph, "order")};
     if (desc.start) targets.start = start.in(graph, "start");
     if (desc.keys) targets.keys = sortedKeys.in(graph, "sorted keys");

@@ -9,6 +9,7 @@
 #include "gpu/resources.hpp"
 #include "rill/graph.hpp"
 #include "sort/key_sort.hpp"
+#include "support/gpu_test.hpp"
 
 namespace rill::test {
 
@@ -35,16 +36,22 @@ class WordBuffer {
   size_t count_;
 };
 
-Device& device();
-
-/// Declares, compiles, prepares and records each of `frames` into one command buffer, submits it and waits. Fails the test on an error.
-void runFrames(std::span<const std::function<void(Graph&)>> frames);
-void run(const std::function<void(Graph&)>& declare);
-
 /// std::stable_sort of the keys, with the table of the range's starts where `withStart`.
 Sorted expected(std::span<const uint32_t> keys, uint64_t keyRange, bool withStart);
 
-/// The same by the device, through targets that `desc` asks for.
-Sorted sorted(const KeySortDesc& desc, std::span<const uint32_t> keys);
+class SortTest : public GpuTest {
+ protected:
+  using Declare = std::function<void(Graph&)>;
+  /// Runs what `declare` declares as one frame, and waits for it.
+  void runGraph(const Declare& declare) { runGraphs({declare}); }
+  /// A graph for each, all recorded into one command buffer.
+  void runGraphs(const std::vector<Declare>& declares);
+
+  WordBuffer words(size_t count, uint32_t filling = 0) { return {device(), count, filling}; }
+  WordBuffer words(const Words& content) { return {device(), content}; }
+
+  /// Sorts on the device, into buffers of the test's for all that `desc` asks for.
+  Sorted sorted(const KeySortDesc& desc, const Words& keys);
+};
 
 }  // namespace rill::test

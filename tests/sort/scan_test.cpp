@@ -11,15 +11,20 @@
 namespace rill::test {
 namespace {
 
-Words scanned(const Words& values) {
+class ScanTest : public SortTest {
+ protected:
+  Words scanned(const Words& values);
+};
+
+Words ScanTest::scanned(const Words& values) {
   auto scan = Scan::create(device(), static_cast<uint32_t>(values.size()));
   if (!scan) throw std::runtime_error(scan.error().message);
-  const WordBuffer buffer(device(), values);
-  run([&](Graph& graph) { scan->addTo(graph, buffer.in(graph, "values")); });
-  return buffer.copy();
+  const WordBuffer inPlace = words(values);
+  runGraph([&](Graph& graph) { scan->addTo(graph, inPlace.in(graph, "values")); });
+  return inPlace.copy();
 }
 
-TEST(Scan, EveryCountAroundTheSizesOfTiles) {
+TEST_F(ScanTest, EveryCountAroundTheSizesOfTiles) {
   std::mt19937 random(1);
   for (uint32_t count : {1u, 2u, 63u, 64u, 65u, 127u, 128u, 129u, 2047u, 2048u, 2049u, 16383u, 16384u, 16385u, 100000u, 1000003u}) {
     Words values(count), wanted(count);
@@ -29,14 +34,14 @@ TEST(Scan, EveryCountAroundTheSizesOfTiles) {
   }
 }
 
-TEST(Scan, ScansItsOwnTileSumsInSeveralRounds) {
+TEST_F(ScanTest, ScansItsOwnTileSumsInSeveralRounds) {
   // More tiles than one tile has values.
   Words values(5000000, 1), wanted(5000000);
   std::iota(wanted.begin(), wanted.end(), 0u);
   EXPECT_TRUE(scanned(values) == wanted);
 }
 
-TEST(Scan, NothingAndTooMuch) {
+TEST_F(ScanTest, NothingAndTooMuch) {
   auto scan = Scan::create(device(), 0);
   ASSERT_TRUE(scan);
   EXPECT_TRUE(scan->groups().empty());
