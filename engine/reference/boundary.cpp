@@ -62,9 +62,10 @@ glm::dvec3 ReferenceSolver::collide(glm::dvec3 x, std::span<const SolidPose> sol
   return x;
 }
 
-/// The velocity after touching solids with restitution e and Coulomb friction mu, relative to the solid's own velocity. With the velocity before the solve,
-/// u = v_old + g dt - v_solid: a body that approached leaves at -e u_n or faster; the tangential part loses at most mu times the normal impulse, which is
-/// the larger of what the normal velocity gained, v_n - u_n, and of what the solid's share of the pressure gave, lambda_i (grad B_i . n) / dt.
+/// The velocity after touching solids with restitution e and Coulomb friction mu, relative to the solid's own velocity. With u = v_old + g dt - v_solid, the
+/// velocity before the solve, and f = sum_j (lambda_i + lambda_j) G_ij / dt, what the neighbours' pressure gave:
+///   v_n >= -e u_n where u_n < 0;   the tangential part loses at most mu max(0, v_n - u_n - f_n), all the impulse that the solid itself gave.
+/// Without f a layer would feel its own weight alone, not that of the column above: the clamp of the positions carries most of it.
 /// Domain walls are smooth: e = 0 by the positions' clamp, mu = 0.
 glm::dvec3 ReferenceSolver::contact(size_t i, glm::dvec3 v, double dt, std::span<const SolidPose> solids) const {
   const glm::dvec3& x = state.predicted[i];
@@ -80,8 +81,9 @@ glm::dvec3 ReferenceSolver::contact(size_t i, glm::dvec3 v, double dt, std::span
     double normal = glm::dot(relative, n);
     glm::dvec3 tangential = relative - normal * n;
     if (before < 0 && pose.restitution > 0) normal = std::max(normal, -pose.restitution * before);
-    const glm::dvec3 push = {boundary_[i].gradient[0], boundary_[i].gradient[1], boundary_[i].gradient[2]};
-    const double impulse = std::max({0.0, normal - before, lambda_[i] * glm::dot(push, n) / dt});
+    glm::dvec3 pressure(0);
+    for (const Pair& pair : pairs(i)) pressure += (lambda_[i] + lambda_[pair.j]) / dt * pair.gradient;
+    const double impulse = std::max(0.0, normal - before - glm::dot(pressure, n));
     const double slip = glm::length(tangential);
     if (slip > 0) tangential *= std::max(0.0, 1 - pose.friction * impulse / slip);
     v = solid + normal * n + tangential;
