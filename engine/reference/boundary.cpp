@@ -62,9 +62,10 @@ glm::dvec3 ReferenceSolver::collide(glm::dvec3 x, std::span<const SolidPose> sol
   return x;
 }
 
-/// The velocity after touching solids with restitution e and Coulomb friction mu, relative to the solid's own velocity. With u = v_old + g dt - v_solid, the
-/// velocity before the solve, and f = sum_j (lambda_i + lambda_j) G_ij / dt, what the neighbours' pressure gave:
-///   v_n >= -e u_n where u_n < 0;   the tangential part loses at most mu max(0, v_n - u_n - f_n), all the impulse that the solid itself gave.
+/// The velocity after touching solids with restitution e and Coulomb friction mu, relative to the solid's own velocity. With u = v_old + g
+/// dt - v_solid, the velocity before the solve, and f = sum_j (lambda_i + lambda_j) G_ij / dt, what the neighbours' pressure gave:
+///   v_n >= -e u_n where u_n < 0;   the tangential part loses at most mu max(0, v_n - u_n - f_n), all the impulse that the solid itself
+///   gave.
 /// Without f a layer would feel its own weight alone, not that of the column above: the clamp of the positions carries most of it.
 /// Domain walls are smooth: e = 0 by the positions' clamp, mu = 0.
 glm::dvec3 ReferenceSolver::contact(size_t i, glm::dvec3 v, double dt, std::span<const SolidPose> solids) const {

@@ -76,8 +76,7 @@ ReferenceSolver::Pair ReferenceSolver::makePair(uint32_t i, uint32_t j) const {
     pair.gradient = kernel_.gradientOverR(length) * r;
   } else {
     const uint32_t a = state.id[i], b = state.id[j];
-    pair.apart =
-        glm::normalize(glm::dvec3(shared::pairDirection(a, b, 0), shared::pairDirection(a, b, 1), shared::pairDirection(a, b, 2)));
+    pair.apart = glm::normalize(glm::dvec3(shared::pairDirection(a, b, 0), shared::pairDirection(a, b, 1), shared::pairDirection(a, b, 2)));
     pair.gradient = kernel_.gradientOverR(kCoincidentGradient * h) * kCoincidentGradient * h * pair.apart;
   }
   return pair;
@@ -193,7 +192,8 @@ void ReferenceSolver::predict(double dt, double dtNext) {
   const std::vector<SolidPose> solids = poses(time_, dtNext);
   for (double& w : state.warm) w *= (dtNext / dt) * (dtNext / dt);
   for (size_t i = 0; i < size(); ++i) {
-    glm::dvec3 x = state.position[i] + dtNext * (state.velocity[i] + dtNext * settings.gravity) + state.warm[i] * vec(boundary_[i].gradient);
+    glm::dvec3 x =
+        state.position[i] + dtNext * (state.velocity[i] + dtNext * settings.gravity) + state.warm[i] * vec(boundary_[i].gradient);
     for (const Pair& pair : pairs(i)) x += (state.warm[i] + state.warm[pair.j]) * pair.gradient;
     if (finite(x)) {
       state.predicted[i] = collide(x, solids);

@@ -133,6 +133,12 @@ TEST(Solver, WhatIsNotFiniteIsParkedAndHarmsNobody) {
   EXPECT_LT(rmsSpeed(solver), 3);
 }
 
+TEST(Solver, NoParticlesIsNoProblem) {
+  ReferenceSolver solver(tank(kSpacing, glm::dvec3(1)), {});
+  run(solver, 1e-3, 3);
+  EXPECT_EQ(solver.size(), 0u);
+}
+
 TEST(Solver, SpeedIsBounded) {
   ReferenceSettings s;
   s.spacing = kSpacing;
