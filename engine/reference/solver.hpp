@@ -117,7 +117,7 @@ class ReferenceSolver {
   size_t size() const { return state.position.size(); }
   double time() const { return time_; }  ///< s, since begin
   void setTime(double time) { time_ = time; }
-  const Kernel& kernel() const { return kernel_; }
+  const SmoothingKernel& kernel() const { return kernel_; }
   double mass() const;                         ///< of a particle: rho0 d^3, kg
   uint64_t parked() const { return parked_; }  ///< particles that were not finite, counted each time
 
@@ -146,7 +146,7 @@ class ReferenceSolver {
   Pair makePair(uint32_t i, uint32_t j) const;
   void park(size_t i);
 
-  Kernel kernel_;
+  SmoothingKernel kernel_;
   WallTables tables_;
   std::vector<SphereTable> sphereTables_;  ///< as settings.solids; unused for boxes
   double time_ = 0;

@@ -31,7 +31,7 @@ double wallReach(const SmoothingKernel& kernel);
 
 /// The lattice sums themselves. `lo`, `hi`: distances to the low and high wall of each axis, m; infinity where there is none; below 0 is
 /// taken as 0.
-WallSample exactWall(const Kernel& kernel, const double lo[3], const double hi[3]);
+WallSample exactWall(const SmoothingKernel& kernel, const double lo[3], const double hi[3]);
 
 /// G1(s): one wall at distance s >= 0 alone, by lattice sums.
 LineSample exactPlane(const SmoothingKernel& kernel, double s);
@@ -40,7 +40,7 @@ LineSample exactPlane(const SmoothingKernel& kernel, double s);
 ///   F(s) = G1(s) + (1/2 - G1(0)) (1 - 2s/d)^2 for 0 <= s < d/2,   G1(s) for s >= d/2,   1 - F(-s) for s < 0.
 /// Lattice sums give G1(0) = 0.486 at h = 2d (0.30 at 1.2d); the second term closes that step at s = 0 and is 0, with its slope, at d/2 and
 /// beyond, where centres are.
-LineSample halfSpace(const Kernel& kernel, double s);
+LineSample halfSpace(const SmoothingKernel& kernel, double s);
 
 /// The same sums on nodes, as the shaders interpolate them. Every odd multiple of d/2 is a node, so that a rest lattice stays exact.
 /// Node i is at the distance i * step; the last two nodes are 0, and beyond them is 0. Slopes are derivatives by the distance, 1/m, <= 0.
