@@ -17,7 +17,7 @@ constexpr uint32_t kMaxListChunks = 16;
 struct FluidBuffers {
   Buffer params, control, sums, shapes, commands, gravity, tables, solids, keyframes;
   Buffer position, velocity, prediction, pushAway, work, warm, id;  // vec4 each but the last two
-  Buffer multiplier, density;                                       // where iterations, or viscosity and vorticity, need them
+  Buffer multiplier;                                                // where there are several iterations
   Buffer neighbourCount, cell, order, start, nearSample, nearList;
   std::vector<Buffer> lists;
   Buffer staging;                                                   // the start state, until it has been copied
@@ -34,7 +34,7 @@ struct FluidPipelines {
 /// One frame's versions of the buffers.
 struct FluidRefs {
   BufferRef params, control, sums, shapes, commands, gravity, tables, solids, keyframes;
-  BufferRef position, velocity, prediction, pushAway, work, warm, id, multiplier, density;
+  BufferRef position, velocity, prediction, pushAway, work, warm, id, multiplier;
   BufferRef neighbourCount, cell, order, start, nearSample, nearList;
   std::array<BufferRef, kMaxListChunks> lists;
 };
