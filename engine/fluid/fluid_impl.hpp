@@ -27,7 +27,7 @@ struct FluidPipelines {
   const ComputePipeline *begin = nullptr, *control = nullptr, *arm = nullptr, *predict = nullptr, *keys = nullptr, *reorder = nullptr, *build = nullptr;
   const ComputePipeline *plane = nullptr, *corner = nullptr, *collide = nullptr, *pose = nullptr;
   const ComputePipeline *density = nullptr, *correct = nullptr, *iterate = nullptr;
-  const ComputePipeline *viscosity = nullptr, *curl = nullptr, *confine = nullptr;
+  const ComputePipeline *viscosity = nullptr, *keep = nullptr, *curl = nullptr, *confine = nullptr;
   const ComputePipeline *measure = nullptr, *reduce = nullptr;
 };
 

@@ -310,9 +310,15 @@ void FluidImpl::declareTerms(Graph& graph, uint32_t parity) {
     } else {
       r_.velocity = other;
       graph.pass("keep velocities", [&](Pass& pass) {
-        pass.read(from, Use::CopySource);
-        r_.velocity = pass.write(r_.velocity, Use::CopyTarget);
-        return [=, to = r_.velocity, size = uint64_t{count} * 16](Commands& commands) { commands.copy(from, to, size); };
+        pass.read(r_.params, Use::ComputeUniform);
+        pass.read(r_.control, Use::ComputeUniform);
+        pass.read(r_.commands, Use::Indirect);
+        pass.read(from, Use::ComputeRead);
+        r_.velocity = pass.write(r_.velocity, Use::ComputeWrite);
+        const Kernel kernel = pass.kernel(pipes_.keep, {r_.params, r_.control, from, r_.velocity});
+        return [=, arguments = r_.commands](Commands& commands) {
+          for (const Chunk& c : chunks) commands.dispatchIndirect(kernel, arguments, commandAt(command), ChunkPush{c.first, c.last, 0});
+        };
       });
     }
   }
