@@ -31,7 +31,7 @@ void main() {
   const vec2 middle = vec2(first) + 0.5 * float(kShadeTile);
   const float reach = 0.7072 * float(kShadeTile) + edgeHalfWidth() + 0.5;
   uint crossing = 0u;
-  for (uint k = 0u; k < kEdges; ++k) {
+  RILL_LOOP for (uint k = 0u; k < kEdges; ++k) {
     const EdgeRecord edge = edges[k];
     const float along = dot(edge.along.xy, middle);
     if (edge.line.w > 0.0 && abs(dot(edge.line.xy, middle) + edge.line.z) < reach && along > edge.along.z - reach && along < edge.along.w + reach) {

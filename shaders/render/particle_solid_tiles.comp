@@ -17,7 +17,7 @@ void main() {
   const uint tile = index / words, first = index % words * 32u;
   const uint columns = surfaceColumns();
   uint mask = 0u;
-  for (uint k = 0u; k < 32u && first + k < scene.counts.x; ++k) {
+  RILL_LOOP for (uint k = 0u; k < 32u && first + k < scene.counts.x; ++k) {
     if (meetsTile(poses[first + k], uvec2(tile % columns, tile / columns))) mask |= 1u << k;
   }
   masks[index] = mask;
