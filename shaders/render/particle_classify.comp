@@ -3,7 +3,7 @@
 // Kernels for one kind of owner each, on lists of tiles: a software driver runs both sides of every branch.
 #extension GL_GOOGLE_include_directive : require
 #include "render/particle_view.glsl"
-#include "render/particle_edges.glsl"
+#include "render/particle_tiles.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 0) readonly buffer Winner { uint winner[]; };

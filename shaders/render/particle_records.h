@@ -62,6 +62,7 @@ struct ViewPush {
   uint cell;         // pixels a side of an occlusion cell
   uint compression;  // 0: coloured by speed, 1: by compression
   float scale;       // 1 / the value at the colour map's end
+  uint winners;      // 0: splat depths, 1: splat indices
 };
 
 // What stays the same over a view's life.

@@ -3,7 +3,7 @@
 // An outline that crosses a pixel says how much of it the owner covers; the rest is the neighbour's beyond the outline.
 #extension GL_GOOGLE_include_directive : require
 #include "render/particle_view.glsl"
-#include "render/particle_edges.glsl"
+#include "render/particle_tiles.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, set = 0, binding = 0) uniform Scene { SceneRecord scene; };

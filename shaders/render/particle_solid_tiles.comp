@@ -8,6 +8,7 @@ layout(std140, set = 0, binding = 0) uniform Scene { SceneRecord scene; };
 layout(std430, set = 0, binding = 1) readonly buffer Poses { PoseRecord poses[]; };
 layout(std430, set = 0, binding = 2) writeonly buffer Masks { uint masks[]; };
 #include "render/particle_light.glsl"
+#define MEETS_TILE
 #include "render/particle_frustum.glsl"
 
 void main() {
