@@ -54,7 +54,7 @@ class ParticleViewImpl {
     ViewPush push;
     uint64_t pixels = 0;
     BufferRef scene, poses, edges, depth, winner, light, floor, tint, position, velocity, counters, survivors;
-    BufferRef tiles, tileEdges, shaded, rims;
+    BufferRef tiles, tileEdges, shaded, rims, picture;
   };
 
   ViewPush pushFor(const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc, double time) const;
@@ -68,7 +68,6 @@ class ParticleViewImpl {
   void addFloorShadow(Graph& graph, Frame& frame);
   void addClassify(Graph& graph, Frame& frame);
   void addShade(Graph& graph, Frame& frame);
-  BufferRef addResolve(Graph& graph, Frame& frame);
 
   uint64_t lightTexels() const { return uint64_t{scene_.scene.counts.y} * scene_.scene.counts.z; }
   bool hasFloor() const { return scene_.scene.domain_min.w > 0 && (scene_.scene.counts.w & 4u) != 0; }
@@ -93,8 +92,8 @@ Expected<void> ParticleViewImpl::create(Device& device, const Scene& scene, cons
   if (auto ok = keep(keyframes_, upload<Float4>(device, "particle view: keyframes", scene_.keyframes)); !ok) return ok;
 
   using enum BindingKind;
-  static constexpr BindingKind kStorage[] = {Storage, Storage, Storage, Storage, Storage};
-  static constexpr BindingKind kWithScene[] = {Uniform, Storage, Storage, Storage, Storage, Storage, Storage, Storage};
+  static constexpr BindingKind kStorage[] = {Storage, Storage, Storage, Storage, Storage, Storage, Storage, Storage};
+  static constexpr BindingKind kWithScene[] = {Uniform, Storage, Storage, Storage, Storage, Storage, Storage, Storage, Storage, Storage, Storage};
   struct Wanted { const ComputePipeline*& pipeline; std::string_view shader; std::span<const BindingKind> bindings; };
   const std::span<const BindingKind> storage = kStorage, withScene = kWithScene;
   const Wanted all[] = {
@@ -114,9 +113,9 @@ Expected<void> ParticleViewImpl::create(Device& device, const Scene& scene, cons
       {tint_, "render/particle_tint", withScene.first(8)},
       {classify_, "render/particle_classify", storage.first(5)},
       {shadeFluid_, "render/particle_shade_fluid", withScene.first(8)},
-      {shadeBackdrop_, "render/particle_shade_backdrop", withScene.first(7)},
+      {shadeBackdrop_, "render/particle_shade_backdrop", withScene.first(11)},
       {shadeSolids_, "render/particle_shade_solids", withScene.first(8)},
-      {resolve_, "render/particle_resolve", withScene.first(7)},
+      {resolve_, "render/particle_resolve", storage.first(8)},
   };
   for (const Wanted& wanted : all) {
     auto made = computePipeline(device, {.shader = wanted.shader, .bindings = wanted.bindings, .pushConstantBytes = sizeof(ViewPush)});
@@ -359,48 +358,60 @@ void ParticleViewImpl::addClassify(Graph& graph, Frame& frame) {
   });
 }
 
+/// Kernels that run on a list of tiles: each writes the pixels of its own kind, together they write all.
 void ParticleViewImpl::addShade(Graph& graph, Frame& frame) {
   frame.shaded = graph.create("view shaded", {frame.pixels * 4});
   frame.rims = graph.create("view rims", {frame.pixels * 4});
-  // Each kernel writes the pixels of its own kind; together they write all.
-  const auto shade = [&](std::string_view name, const ComputePipeline* pipeline, uint32_t list, bool first, std::span<const BufferRef> own) {
-    graph.pass(name, [&](Pass& pass) {
-      pass.read(frame.scene, Use::ComputeUniform);
-      pass.read(frame.counters, Use::ComputeRead);
-      pass.read(frame.counters, Use::Indirect);
-      pass.read(frame.tiles, Use::ComputeRead);
-      pass.read(frame.winner, Use::ComputeRead);
-      for (const BufferRef& buffer : own) pass.read(buffer, Use::ComputeRead);
-      frame.shaded = pass.write(frame.shaded, Use::ComputeWrite, first);
-      frame.rims = pass.write(frame.rims, Use::ComputeWrite, first);
-      BufferRef bindings[8] = {frame.scene, frame.counters, frame.tiles, frame.winner};
-      size_t count = 4;
-      for (const BufferRef& buffer : own) bindings[count++] = buffer;
-      bindings[count++] = frame.shaded;
-      bindings[count++] = frame.rims;
-      const Kernel kernel = pass.kernel(pipeline, std::span<const BufferRef>(bindings, count));
-      return [kernel, counters = frame.counters, offset = 4 * (kTileArguments + 4 * list), push = frame.push](Commands& commands) {
-        commands.dispatchIndirect(kernel, counters, offset, push);
-      };
-    });
+  frame.picture = graph.create("view picture", {frame.pixels * 4});
+  const auto onTiles = [&](Kernel kernel, uint32_t list) {
+    return [kernel, counters = frame.counters, offset = 4 * (kTileArguments + 4 * list), push = frame.push](Commands& commands) {
+      commands.dispatchIndirect(kernel, counters, offset, push);
+    };
   };
-  const BufferRef floor[] = {frame.floor}, fluid[] = {frame.position, frame.tint}, solids[] = {frame.poses, frame.light};
-  shade("view shade backdrop", shadeBackdrop_, kTilesBackdrop, true, floor);
-  if (frame.push.count > 0) shade("view shade fluid", shadeFluid_, kTilesFluid, false, fluid);
-  if (!scene_.solids.empty()) shade("view shade solids", shadeSolids_, kTilesSolid, false, solids);
-}
-
-BufferRef ParticleViewImpl::addResolve(Graph& graph, Frame& frame) {
-  BufferRef picture = graph.create("view picture", {frame.pixels * 4});
-  graph.pass("view resolve", [&](Pass& pass) {
+  const auto readLists = [&](Pass& pass) {
+    pass.read(frame.counters, Use::ComputeRead);
+    pass.read(frame.counters, Use::Indirect);
+    pass.read(frame.tiles, Use::ComputeRead);
+  };
+  graph.pass("view shade backdrop", [&](Pass& pass) {
+    readLists(pass);
     pass.read(frame.scene, Use::ComputeUniform);
-    for (const BufferRef& buffer : {frame.depth, frame.shaded, frame.rims, frame.edges, frame.tileEdges}) pass.read(buffer, Use::ComputeRead);
-    picture = pass.write(picture, Use::ComputeWrite, true);
-    const Kernel kernel = pass.kernel(resolve_, {frame.scene, frame.depth, frame.shaded, frame.rims, frame.edges, frame.tileEdges, picture});
-    const uint64_t groups = tiles(frame.push.width, frame.push.height, kShadeTile);
-    return [kernel, groups, push = frame.push](Commands& commands) { commands.dispatch(kernel, groups, push); };
+    for (const BufferRef& buffer : {frame.winner, frame.depth, frame.edges, frame.tileEdges}) pass.read(buffer, Use::ComputeRead);
+    if (frame.floor != frame.edges) pass.read(frame.floor, Use::ComputeRead);
+    for (BufferRef* buffer : {&frame.shaded, &frame.rims, &frame.picture}) *buffer = pass.write(*buffer, Use::ComputeWrite, true);
+    return onTiles(pass.kernel(shadeBackdrop_, {frame.scene, frame.counters, frame.tiles, frame.winner, frame.floor, frame.tileEdges, frame.edges,
+                                                frame.depth, frame.shaded, frame.rims, frame.picture}),
+                   kTilesBackdrop);
   });
-  return picture;
+  const bool fluid = frame.push.count > 0, solids = !scene_.solids.empty();
+  if (fluid) {
+    graph.pass("view shade fluid", [&](Pass& pass) {
+      readLists(pass);
+      pass.read(frame.scene, Use::ComputeUniform);
+      for (const BufferRef& buffer : {frame.winner, frame.position, frame.tint}) pass.read(buffer, Use::ComputeRead);
+      for (BufferRef* buffer : {&frame.shaded, &frame.rims}) *buffer = pass.write(*buffer, Use::ComputeWrite);
+      return onTiles(pass.kernel(shadeFluid_, {frame.scene, frame.counters, frame.tiles, frame.winner, frame.position, frame.tint, frame.shaded, frame.rims}),
+                     kTilesFluid);
+    });
+  }
+  if (solids) {
+    graph.pass("view shade solids", [&](Pass& pass) {
+      readLists(pass);
+      pass.read(frame.scene, Use::ComputeUniform);
+      for (const BufferRef& buffer : {frame.winner, frame.poses, frame.light}) pass.read(buffer, Use::ComputeRead);
+      for (BufferRef* buffer : {&frame.shaded, &frame.rims}) *buffer = pass.write(*buffer, Use::ComputeWrite);
+      return onTiles(pass.kernel(shadeSolids_, {frame.scene, frame.counters, frame.tiles, frame.winner, frame.poses, frame.light, frame.shaded, frame.rims}),
+                     kTilesSolid);
+    });
+  }
+  if (!fluid && !solids) return;
+  graph.pass("view resolve", [&](Pass& pass) {
+    readLists(pass);
+    for (const BufferRef& buffer : {frame.depth, frame.shaded, frame.rims, frame.edges, frame.tileEdges}) pass.read(buffer, Use::ComputeRead);
+    frame.picture = pass.write(frame.picture, Use::ComputeWrite);
+    return onTiles(pass.kernel(resolve_, {frame.counters, frame.tiles, frame.tileEdges, frame.edges, frame.depth, frame.shaded, frame.rims, frame.picture}),
+                   kTilesOutline);
+  });
 }
 
 BufferRef ParticleViewImpl::addTo(Graph& graph, const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc, double time) {
@@ -423,7 +434,7 @@ BufferRef ParticleViewImpl::addTo(Graph& graph, const FluidState& fluid, const C
   addFloorShadow(graph, frame);
   addClassify(graph, frame);
   addShade(graph, frame);
-  return addResolve(graph, frame);
+  return frame.picture;
 }
 
 Expected<std::unique_ptr<ParticleView>> ParticleView::create(Device& device, const Scene& scene, const ParticleSet& particles) {

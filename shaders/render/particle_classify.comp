@@ -16,15 +16,18 @@ void main() {
   const uint index = groupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
   const uint count = shadeTiles();
   if (index >= count) return;
-  const uvec2 first = shadeTileOrigin(index);
-  const uvec2 last = min(first + kShadeTile, uvec2(view.width, view.height));
-  uint kinds = 0u;
-  for (uint y = first.y; y < last.y; ++y) {
-    for (uint x = first.x; x < last.x; ++x) {
-      const uint owner = winner[y * view.width + x];
-      kinds |= 1u << (owner < kSolidBase ? kTilesFluid : (owner >= kFloorId ? kTilesBackdrop : kTilesSolid));
+  const ivec2 first = ivec2(shadeTileOrigin(index)), last = first + int(kShadeTile) - 1;
+  const ivec2 limit = ivec2(view.width, view.height) - 1;
+  uint kinds = 0u, around = 0u;
+  for (int y = max(first.y - 1, 0); y <= min(last.y + 1, limit.y); ++y) {
+    for (int x = max(first.x - 1, 0); x <= min(last.x + 1, limit.x); ++x) {
+      const uint owner = winner[uint(y) * view.width + uint(x)];
+      const uint kind = 1u << (owner < kSolidBase ? kTilesFluid : (owner >= kFloorId ? kTilesBackdrop : kTilesSolid));
+      around |= kind;
+      if (x >= first.x && x <= last.x && y >= first.y && y <= last.y) kinds |= kind;
     }
   }
+  if ((around & ~(1u << kTilesBackdrop)) != 0u) kinds |= 1u << kTilesOutline;
   for (uint list = 0u; list < kTileLists; ++list) {
     if ((kinds & (1u << list)) != 0u) tiles[list * count + atomicAdd(counters[kTileCount + list], 1u)] = index;
   }
