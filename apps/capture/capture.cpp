@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -34,6 +35,7 @@ class Capture {
     if (const auto places = checkPlaces(); !places) return refuse(places.error());
     offline::Options wanted;
     wanted.device = options_.device;
+    wanted.longestFrame_s = std::numeric_limits<double>::infinity();  // a frame is one advance, however long
     auto simulation = offline::Simulation::open(scene_, wanted);
     if (!simulation) return refuse(simulation.error());
     simulation_ = std::move(*simulation);
@@ -68,7 +70,10 @@ class Capture {
       scene_.fluid.spacing = 0;
     }
     if (auto known = checkFigures(options_.requirements, Record::figureNames(scene_)); !known) return known.error();
-    frames_ = options_.frames ? *options_.frames : frameCount(scene_.duration, options_.fps);
+    const double frames = options_.frames ? double(*options_.frames) : frameCount(scene_.duration, options_.fps);
+    if (frames > kMaxFrames)
+      return Error{ErrorKind::BadInput, "the scene's duration takes more than " + std::to_string(kMaxFrames) + " frames at " + std::to_string(options_.fps) + " a second; give --frames or another --fps"};
+    frames_ = static_cast<uint32_t>(frames);
     // A scene's name may hold a folder ("validation/x"); a path's folders are the user's, not ours.
     const bool byName = fs::path(options_.scene) != *file;
     out_ = options_.out ? *options_.out : fs::path("out") / (byName ? fs::path(options_.scene) : fs::path(scene_.name));
@@ -179,10 +184,9 @@ class Capture {
 
 }  // namespace
 
-uint32_t frameCount(double duration_s, double fps) {
-  // 0.3 s at 60 fps is a hair off 18 frames in binary; a frame that is early by a millionth of one is written.
-  const double frames = std::floor(duration_s * fps + 1e-6) + 1;
-  return static_cast<uint32_t>(std::min(frames, 100000.0));
+double frameCount(double duration_s, double fps) {
+  // 0.3 s at 60 fps is a hair off 18 frames in binary: a frame that is late by a millionth of one is written.
+  return std::floor(duration_s * fps + 1e-6) + 1;
 }
 
 int runCapture(const Options& options) { return Capture(options).run(); }

@@ -12,8 +12,8 @@
 namespace rill::capture {
 namespace {
 
-constexpr uint32_t kMaxFrames = 100000;   // frame_NNNNN
-constexpr uint32_t kMaxSide = 8192;       // pixels
+constexpr uint32_t kMaxSide = 8192;          // pixels
+constexpr uint64_t kMaxPixels = 1ull << 25;  // a picture is one buffer of at most 128 MiB
 constexpr uint64_t kMaxParticles = 1ull << 32;
 
 Error badInput(std::string_view option, std::string_view given, std::string_view expected) {
@@ -127,7 +127,8 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
     };
     const auto width = x == std::string::npos ? std::nullopt : side(std::string_view(raw.size).substr(0, x));
     const auto height = x == std::string::npos ? std::nullopt : side(std::string_view(raw.size).substr(x + 1));
-    if (!width || !height) return badInput("--size", raw.size, "WIDTHxHEIGHT in pixels, each from 1 to " + std::to_string(kMaxSide) + ", as 1280x720");
+    if (!width || !height || uint64_t{*width} * *height > kMaxPixels)
+      return badInput("--size", raw.size, "WIDTHxHEIGHT in pixels, as 1280x720: each from 1 to " + std::to_string(kMaxSide) + ", together at most " + std::to_string(kMaxPixels));
     options.width = *width;
     options.height = *height;
   }

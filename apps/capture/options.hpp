@@ -11,6 +11,9 @@
 
 namespace rill::capture {
 
+/// The most frames that a capture writes.
+constexpr uint32_t kMaxFrames = 10'000'000;
+
 /// What a command line asks for. Judged as far as that is possible without the scene.
 struct Options {
   std::string scene;                          ///< a name or a path
