@@ -65,10 +65,6 @@ class Capture {
     auto scene = loadScene(*file, options_.overrides);
     if (!scene) return scene.error();
     scene_ = std::move(*scene);
-    if (options_.particles) {
-      scene_.fluid.particles = *options_.particles;
-      scene_.fluid.spacing = 0;
-    }
     if (auto known = checkFigures(options_.requirements, Record::figureNames(scene_)); !known) return known.error();
     const double frames = options_.frames ? double(*options_.frames) : frameCount(scene_.duration, options_.fps);
     if (frames > kMaxFrames)

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/words.hpp"
 #include "rill/offline.hpp"
 #include "shared/words.hpp"
 
@@ -14,10 +15,10 @@ namespace {
 
 constexpr uint32_t kMaxSide = 8192;          // pixels
 constexpr uint64_t kMaxPixels = 1ull << 25;  // a picture is one buffer of at most 128 MiB
-constexpr uint64_t kMaxParticles = 1ull << 32;
+constexpr uint64_t kMaxParticles = UINT32_MAX;
 
 Error badInput(std::string_view option, std::string_view given, std::string_view expected) {
-  return Error{ErrorKind::BadInput, std::string(option) + ": '" + std::string(given) + "' was given; expected " + std::string(expected)};
+  return Error{ErrorKind::BadInput, std::string(option) + ": " + inQuotes(given) + " was given; expected " + std::string(expected)};
 }
 
 template <class Number>
@@ -135,7 +136,7 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
   if (given("--view")) {
     const std::vector<std::string> views = viewNames();
     if (std::find(views.begin(), views.end(), raw.view) == views.end())
-      return Error{ErrorKind::BadInput, "--view: there is no view '" + raw.view + "'" + apps::didYouMean(raw.view, views) + "\nviews: " + apps::joined(views)};
+      return Error{ErrorKind::BadInput, "--view: there is no view " + inQuotes(raw.view) + apps::didYouMean(raw.view, views) + "\nviews: " + apps::joined(views)};
     options.view = raw.view;
   }
   if (given("--export")) {
@@ -143,9 +144,8 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
     options.exportPly = true;
   }
   if (given("--particles")) {
-    options.particles = parse<uint64_t>(raw.particles);
-    if (!options.particles || *options.particles < 1 || *options.particles > kMaxParticles)
-      return badInput("--particles", raw.particles, "a whole number of particles, 1 or more");
+    const auto particles = parse<uint64_t>(raw.particles);
+    if (!particles || *particles < 1 || *particles > kMaxParticles) return badInput("--particles", raw.particles, "a whole number from 1 to " + grouped(kMaxParticles));
   }
   if (given("--out")) {
     if (raw.out.empty()) return badInput("--out", raw.out, "the name of a folder");
@@ -162,6 +162,7 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
     if (!assignment) return Error{ErrorKind::BadInput, "--set: " + assignment.error().message};
     options.overrides.push_back(std::move(*assignment));
   }
+  if (given("--particles")) options.overrides.push_back({"fluid.particles", raw.particles});
   for (const std::string& text : raw.require) {
     auto requirement = parseRequirement(text);
     if (!requirement) return requirement.error();
@@ -181,8 +182,8 @@ std::string usageMessage(const CLI::App& app, const CLI::ParseError& error) {
     for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
   for (std::string extra : app.remaining()) {
     if (const size_t equals = extra.find('='); extra.starts_with("--") && equals != std::string::npos) extra.resize(equals);
-    if (extra.starts_with("-")) return "there is no option '" + extra + "'" + apps::didYouMean(extra, known);
-    return "'" + extra + "' is one argument too many; expected one SCENE";
+    if (extra.starts_with("-")) return "there is no option " + inQuotes(extra) + apps::didYouMean(extra, known);
+    return inQuotes(extra) + " is one argument too many; expected one SCENE";
   }
   return error.what();
 }

@@ -24,8 +24,7 @@ struct Options {
   std::string view = "particles";
   std::optional<std::filesystem::path> stats;
   bool exportPly = false;
-  std::optional<uint64_t> particles;          ///< in place of the scene's spacing
-  std::vector<Override> overrides;
+  std::vector<Override> overrides;            ///< of the scene's keys, in order; --particles is the last one
   std::string device;
   std::vector<Requirement> requirements;
   bool explain = false, images = true, quiet = false;

@@ -5,6 +5,7 @@
 #include <system_error>
 #include <vector>
 
+#include "core/words.hpp"
 #include "shared/atomic_file.hpp"
 
 namespace rill::capture {
@@ -32,10 +33,10 @@ Expected<OutputFolder> OutputFolder::prepare(const fs::path& folder) {
     std::string_view target = name;
     if (isFrame(name) || (apps::isPartFile(name, target) && isFrame(target))) earlier.push_back(entry->path());
   }
-  if (failed) return Error{ErrorKind::BadInput, "--out: can't read the folder '" + folder.string() + "': " + failed.message()};
+  if (failed) return Error{ErrorKind::BadInput, "--out: can't read the folder " + inQuotes(folder.string()) + ": " + failed.message()};
   for (const fs::path& file : earlier) {
     fs::remove(file, failed);
-    if (failed) return Error{ErrorKind::BadInput, "--out: can't remove '" + file.string() + "', a frame of an earlier capture: " + failed.message()};
+    if (failed) return Error{ErrorKind::BadInput, "--out: can't remove " + inQuotes(file.string()) + ", a frame of an earlier capture: " + failed.message()};
   }
   return OutputFolder(folder, std::move(*lock));
 }

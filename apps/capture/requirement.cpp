@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/words.hpp"
 #include "shared/words.hpp"
 
 namespace rill::capture {
@@ -29,7 +30,7 @@ bool Requirement::holds(double value) const {
 }
 
 Expected<Requirement> parseRequirement(std::string_view text) {
-  const Error malformed{ErrorKind::BadInput, "--require: '" + std::string(text) + "' was given; expected FIGURE<NUMBER (or <=, >, >=), in quotes, as 'density_error_mean<0.001'"};
+  const Error malformed{ErrorKind::BadInput, "--require: " + inQuotes(text) + " was given; expected FIGURE<NUMBER (or <=, >, >=), in a shell's quotes, as 'density_error_mean<0.001'"};
   const size_t sign = text.find_first_of("<>");
   if (sign == std::string_view::npos) return malformed;
   Requirement requirement;
@@ -48,7 +49,7 @@ Expected<Requirement> parseRequirement(std::string_view text) {
 Expected<void> checkFigures(std::span<const Requirement> requirements, std::span<const std::string> known) {
   for (const Requirement& requirement : requirements) {
     if (std::find(known.begin(), known.end(), requirement.figure) != known.end()) continue;
-    return Error{ErrorKind::BadInput, "--require: there is no figure '" + requirement.figure + "'" + apps::didYouMean(requirement.figure, known) +
+    return Error{ErrorKind::BadInput, "--require: there is no figure " + inQuotes(requirement.figure) + apps::didYouMean(requirement.figure, known) +
                                           "\nfigures: " + apps::joined(known)};
   }
   return {};
@@ -62,7 +63,7 @@ std::vector<std::string> failures(std::span<const Requirement> requirements, std
     if (requirement.holds(value)) continue;
     char text[64];
     std::snprintf(text, sizeof text, "%.6g", value);
-    messages.push_back("--require: '" + requirement.text + "' does not hold: " + requirement.figure + " is " + (std::isnan(value) ? "undefined here" : text));
+    messages.push_back("--require: " + inQuotes(requirement.text) + " does not hold: " + requirement.figure + " is " + (std::isnan(value) ? "undefined here" : text));
   }
   return messages;
 }

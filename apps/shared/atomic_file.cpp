@@ -9,6 +9,8 @@
 #include <string>
 #include <system_error>
 
+#include "core/words.hpp"
+
 namespace rill::apps {
 namespace fs = std::filesystem;
 namespace {
@@ -147,12 +149,12 @@ Expected<void> checkFilePlace(std::string_view option, const fs::path& file) {
   if (file.empty()) return Error{ErrorKind::BadInput, prefix + "expected the name of a file"};
   if (standardStream(file) >= 0) return {};
   if (fs::is_directory(file, ignored) || !file.has_filename())
-    return Error{ErrorKind::BadInput, prefix + "'" + file.string() + "' is a folder; expected the name of a file"};
+    return Error{ErrorKind::BadInput, prefix + inQuotes(file.string()) + " is a folder; expected the name of a file"};
   if (fs::exists(file, ignored)) {
-    if (::access(file.c_str(), W_OK) != 0) return Error{ErrorKind::BadInput, prefix + "can't write '" + file.string() + "': " + reason(errno)};
+    if (::access(file.c_str(), W_OK) != 0) return Error{ErrorKind::BadInput, prefix + "can't write " + inQuotes(file.string()) + ": " + reason(errno)};
     if (isSpecialFile(file)) return {};
   } else if (isSpecialFile(file)) {
-    return Error{ErrorKind::BadInput, prefix + "there is no '" + file.string() + "'"};
+    return Error{ErrorKind::BadInput, prefix + "there is no " + inQuotes(file.string())};
   }
   return checkFolderPlace(option, folderOf(followLinks(file)));
 }
@@ -163,9 +165,9 @@ Expected<void> checkFolderPlace(std::string_view option, const fs::path& folder)
   if (folder.empty()) return Error{ErrorKind::BadInput, prefix + "expected the name of a folder"};
   const fs::path nearest = existingAncestor(folder);
   if (!fs::is_directory(nearest, ignored))
-    return Error{ErrorKind::BadInput, prefix + "'" + nearest.string() + "' is a file; expected a folder"};
+    return Error{ErrorKind::BadInput, prefix + inQuotes(nearest.string()) + " is a file; expected a folder"};
   if (::access(nearest.c_str(), W_OK | X_OK) != 0)
-    return Error{ErrorKind::BadInput, prefix + "can't write in '" + nearest.string() + "': " + reason(errno)};
+    return Error{ErrorKind::BadInput, prefix + "can't write in " + inQuotes(nearest.string()) + ": " + reason(errno)};
   return {};
 }
 
@@ -175,7 +177,7 @@ Expected<void> makeFolder(std::string_view option, const fs::path& folder) {
   // A trailing slash makes create_directories answer false for a folder that it made: only the folder's presence counts.
   std::error_code ignored;
   if (fs::is_directory(folder, ignored)) return {};
-  return Error{ErrorKind::BadInput, std::string(option) + ": can't make the folder '" + folder.string() + "': " + (failed ? failed.message() : "unknown reason")};
+  return Error{ErrorKind::BadInput, std::string(option) + ": can't make the folder " + inQuotes(folder.string()) + ": " + (failed ? failed.message() : "unknown reason")};
 }
 
 bool isPartFile(std::string_view name, std::string_view& target) {

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "core/words.hpp"
 #include "shared/words.hpp"
 
 namespace rill::apps {
@@ -45,7 +46,7 @@ Expected<fs::path> SceneFolders::find(const std::string& scene) const {
     for (const fs::path& folder : folders_)
       if (const fs::path file = folder / (scene + ".json"); fs::is_regular_file(file, ignored)) return file;
 
-  std::string message = "there is no scene '" + scene + "'" + didYouMean(scene, known);
+  std::string message = "there is no scene " + inQuotes(scene) + didYouMean(scene, known);
   if (known.empty()) {
     message += "\nno scenes were found in";
     for (const fs::path& folder : folders_) message += " " + folder.string();

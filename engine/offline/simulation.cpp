@@ -51,10 +51,11 @@ class Simulation::Impl {
     auto start = makeParticles(scene_, kMaxParticles);
     if (!start) return start.error();
     start_ = std::move(*start);
-    ContextOptions wanted;
-    wanted.device = options_.device;
-    wanted.validation = options_.validation;
-    auto context = Context::create(wanted);
+    ContextDesc desc;
+    desc.device = options_.device;
+    desc.validation = options_.validation;
+    desc.framesInFlight = 1;  // each frame is waited for
+    auto context = Context::create(desc);
     if (!context) return context.error();
     context_ = std::move(*context);
     auto fluid = Fluid::create(context_->device(), {&scene_, &start_});
@@ -160,6 +161,7 @@ class Simulation::Impl {
   const DeviceInfo& device() const { return context_->device().info(); }
   std::string explain() const { return log_.table(); }
   std::string graphDot() const { return advanceGraph_.dot(); }
+  std::vector<std::string> takeValidationMessages() { return context_->takeMessages(); }
 
   std::vector<std::string> warnings() const {
     std::vector<std::string> all = start_.warnings;
@@ -185,8 +187,10 @@ class Simulation::Impl {
     const bool anything = std::any_of(report.begin(), report.end(), [](const PassReport& pass) { return !pass.culled && pass.reason.empty() && pass.runs > 0; });
     log_.add(report, anything);
     if (!anything) return {};
+    if (auto began = context_->beginFrame(); !began) return began.error();
     if (auto prepared = graph.prepare(context_->device()); !prepared) return prepared;
     if (auto ran = context_->submit([&](VkCommandBuffer commands) { graph.record(commands); }); !ran) return ran;
+    if (auto waited = context_->wait(); !waited) return waited;
     log_.add(graph.timings());
     return {};
   }
@@ -285,5 +289,6 @@ const DeviceInfo& Simulation::device() const { return impl_->device(); }
 std::vector<std::string> Simulation::warnings() const { return impl_->warnings(); }
 std::string Simulation::explain() const { return impl_->explain(); }
 std::string Simulation::graphDot() const { return impl_->graphDot(); }
+std::vector<std::string> Simulation::takeValidationMessages() { return impl_->takeValidationMessages(); }
 
 }  // namespace rill::offline

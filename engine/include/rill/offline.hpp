@@ -74,6 +74,7 @@ class Simulation {
   std::vector<std::string> warnings() const;
   std::string explain() const;                   ///< each pass of the last advance: ran, how often, ms; or skipped and why
   std::string graphDot() const;                  ///< of the last advance
+  std::vector<std::string> takeValidationMessages();  ///< since the last call; none without Options::validation
 
  private:
   class Impl;
