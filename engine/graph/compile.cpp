@@ -89,7 +89,7 @@ void GraphImpl::planBarriers() {
     for (ResourceData& resource : resources) resource.state.passed(scope, seeing);
   };
   const auto wait = [&](PlannedBarrier& barrier, uint32_t resource, Use use, bool keep) {
-    const Hazard hazard = resources[resource].state.need(use, keep, orderAtomics, barrier.scope);
+    const Hazard hazard = resources[resource].state.need(use, keep, barrier.scope);
     if (hazard != Hazard::None) causes.push_back({resource, hazard, use}), ++barrier.causes.count;
   };
   const auto begin = [&](PlannedBarrier& barrier) {

@@ -240,7 +240,6 @@ void Graph::record(VkCommandBuffer commandBuffer) { impl_->record(commandBuffer)
 std::string Graph::dot() const { return impl_->dot(); }
 std::string Graph::json() const { return impl_->json(); }
 std::span<const PassReport> Graph::report() const { return impl_->reports; }
-void Graph::orderAtomics(bool ordered) { impl_->orderAtomics = ordered; }
 void Graph::enableTimings(bool enabled) { impl_->timed = enabled; }
 
 std::span<const Timing> Graph::timings() const {

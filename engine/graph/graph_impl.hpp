@@ -132,7 +132,7 @@ class GraphImpl {
   uint32_t epoch = 0;
   std::optional<Error> error;  ///< the first mistake in the declaration
   bool compiled = false, prepared = false;
-  bool orderAtomics = false, timed = true;
+  bool timed = true;
 
   std::vector<PassData> passes;
   std::vector<ResourceData> resources;

@@ -74,7 +74,7 @@ HazardState HazardState::seam() {
   return state;
 }
 
-Hazard HazardState::need(Use use, bool keep, bool orderAtomics, Scope& scope) const {
+Hazard HazardState::need(Use use, bool keep, Scope& scope) const {
   const UseRow& row = useRow(use);
   const bool sees = (visible_ & useBit(use)) != 0;
   if (!row.write) {
@@ -85,7 +85,7 @@ Hazard HazardState::need(Use use, bool keep, bool orderAtomics, Scope& scope) co
     scope.targetAccess |= row.read;
     return Hazard::ReadAfterWrite;
   }
-  if (atomic_ && use == Use::ComputeAtomic && !readStage_ && !orderAtomics) return Hazard::None;
+  if (atomic_ && use == Use::ComputeAtomic && !readStage_) return Hazard::None;
   // Reads since the last write have already waited for it: waiting for them is enough, and moves no memory,
   // unless this write also reads and has not seen it.
   const bool reads = keep && row.read != 0;

@@ -31,7 +31,7 @@ class HazardState {
   static HazardState seam();
 
   /// Adds to `scope` what must be waited for before `use`; `keep`: a write that also needs the old content.
-  Hazard need(Use use, bool keep, bool orderAtomics, Scope& scope) const;
+  Hazard need(Use use, bool keep, Scope& scope) const;
   /// A barrier was recorded, here or for another resource. `seeing` is usesSeeing(scope).
   void passed(const Scope& scope, uint32_t seeing);
   void used(Use use);

@@ -186,8 +186,6 @@ class Graph {
   std::span<const PassReport> report() const;  ///< of the last compiled frame
   uint64_t transientBytes() const;  ///< of device memory that the last compiled frame's transients take, aliased
 
-  /// Validation layers know no atomics and report those that commute as hazards: `true` puts barriers between them. Default false.
-  void orderAtomics(bool ordered);
   /// Two timestamps a pass. Default true.
   void enableTimings(bool enabled);
 
