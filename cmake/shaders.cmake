@@ -82,5 +82,6 @@ std::span<const EmbeddedShader> @function@() { return kShaders; }
 }  // namespace rill
 " @ONLY)
   set_source_files_properties(${table} PROPERTIES OBJECT_DEPENDS "${files}")
-  target_sources(${target} PRIVATE ${table} ${files})
+  target_sources(${target} PRIVATE ${table})
+  add_dependencies(${target} rill_shaders)
 endfunction()

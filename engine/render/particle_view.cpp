@@ -53,26 +53,32 @@ class ParticleViewImpl {
   struct Frame {
     ViewPush push;
     uint64_t pixels = 0;
-    BufferRef scene, poses, edges, depth, winner, light, floor, tint, picture;
-    BufferRef position, velocity, counters, survivors;
+    BufferRef scene, poses, edges, depth, winner, light, floor, tint, position, velocity, counters, survivors;
+    BufferRef tiles, tileEdges, shaded, rims;
   };
 
   ViewPush pushFor(const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc, double time) const;
   void addSetup(Graph& graph, Frame& frame);
   void addSurfaces(Graph& graph, Frame& frame);
+  void addLightMap(Graph& graph, Frame& frame);
+  BufferRef addMasks(Graph& graph, const Frame& frame, bool light);
   void addVisibility(Graph& graph, Frame& frame);
   void addSplat(Graph& graph, Frame& frame, bool winners);
   void addTint(Graph& graph, Frame& frame);
+  void addFloorShadow(Graph& graph, Frame& frame);
+  void addClassify(Graph& graph, Frame& frame);
   void addShade(Graph& graph, Frame& frame);
+  BufferRef addResolve(Graph& graph, Frame& frame);
 
   uint64_t lightTexels() const { return uint64_t{scene_.scene.counts.y} * scene_.scene.counts.z; }
   bool hasFloor() const { return scene_.scene.domain_min.w > 0 && (scene_.scene.counts.w & 4u) != 0; }
   bool hasShadows(const Frame& frame) const { return frame.push.count > 0 || scene_.scene.counts.x > 0; }
 
   Buffer sceneBuffer_, solids_, keyframes_;
-  const ComputePipeline *setup_ = nullptr, *surfaces_ = nullptr, *lightSolids_ = nullptr, *project_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr,
-                        *depth_ = nullptr, *winner_ = nullptr, *depthLarge_ = nullptr, *winnerLarge_ = nullptr, *floorShadow_ = nullptr,
-                        *tint_ = nullptr, *shade_ = nullptr;
+  const ComputePipeline *setup_ = nullptr, *solidTiles_ = nullptr, *lightTiles_ = nullptr, *surfaces_ = nullptr, *lightSolids_ = nullptr;
+  const ComputePipeline *project_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *depth_ = nullptr, *depthLarge_ = nullptr;
+  const ComputePipeline *winner_ = nullptr, *winnerLarge_ = nullptr, *floorShadow_ = nullptr, *tint_ = nullptr, *classify_ = nullptr;
+  const ComputePipeline *tileArguments_ = nullptr, *shadeFluid_ = nullptr, *shadeBackdrop_ = nullptr, *shadeSolids_ = nullptr, *resolve_ = nullptr;
 };
 
 Expected<void> ParticleViewImpl::create(Device& device, const Scene& scene, const ParticleSet& particles) {
@@ -88,17 +94,32 @@ Expected<void> ParticleViewImpl::create(Device& device, const Scene& scene, cons
 
   using enum BindingKind;
   static constexpr BindingKind kStorage[] = {Storage, Storage, Storage, Storage, Storage};
-  static constexpr BindingKind kWithScene[] = {Uniform, Storage, Storage, Storage, Storage, Storage, Storage, Storage, Storage};
+  static constexpr BindingKind kWithScene[] = {Uniform, Storage, Storage, Storage, Storage, Storage, Storage, Storage};
   struct Wanted { const ComputePipeline*& pipeline; std::string_view shader; std::span<const BindingKind> bindings; };
   const std::span<const BindingKind> storage = kStorage, withScene = kWithScene;
-  for (const Wanted& wanted : {Wanted{setup_, "render/particle_setup", withScene.first(5)}, Wanted{surfaces_, "render/particle_surfaces", withScene.first(4)},
-                               Wanted{lightSolids_, "render/particle_light_solids", withScene.first(3)},
-                               Wanted{project_, "render/particle_project", withScene.first(4)}, Wanted{cull_, "render/particle_cull", storage.first(4)},
-                               Wanted{arguments_, "render/particle_arguments", storage.first(1)}, Wanted{depth_, "render/particle_depth", storage.first(4)},
-                               Wanted{winner_, "render/particle_winner", storage.first(5)}, Wanted{depthLarge_, "render/particle_depth_large", storage.first(4)},
-                               Wanted{winnerLarge_, "render/particle_winner_large", storage.first(5)},
-                               Wanted{floorShadow_, "render/particle_floor_shadow", withScene.first(3)}, Wanted{tint_, "render/particle_tint", withScene.first(8)},
-                               Wanted{shade_, "render/particle_shade", withScene.first(9)}}) {
+  const Wanted all[] = {
+      {setup_, "render/particle_setup", withScene.first(5)},
+      {solidTiles_, "render/particle_solid_tiles", withScene.first(3)},
+      {lightTiles_, "render/particle_light_tiles", withScene.first(3)},
+      {surfaces_, "render/particle_surfaces", withScene.first(5)},
+      {lightSolids_, "render/particle_light_solids", withScene.first(4)},
+      {project_, "render/particle_project", withScene.first(4)},
+      {cull_, "render/particle_cull", storage.first(4)},
+      {arguments_, "render/particle_arguments", storage.first(1)},
+      {depth_, "render/particle_depth", storage.first(4)},
+      {depthLarge_, "render/particle_depth_large", storage.first(4)},
+      {winner_, "render/particle_winner", storage.first(5)},
+      {winnerLarge_, "render/particle_winner_large", storage.first(5)},
+      {floorShadow_, "render/particle_floor_shadow", withScene.first(3)},
+      {tint_, "render/particle_tint", withScene.first(8)},
+      {classify_, "render/particle_classify", storage.first(5)},
+      {tileArguments_, "render/particle_tile_arguments", storage.first(1)},
+      {shadeFluid_, "render/particle_shade_fluid", withScene.first(8)},
+      {shadeBackdrop_, "render/particle_shade_backdrop", withScene.first(7)},
+      {shadeSolids_, "render/particle_shade_solids", withScene.first(8)},
+      {resolve_, "render/particle_resolve", withScene.first(7)},
+  };
+  for (const Wanted& wanted : all) {
     auto made = computePipeline(device, {.shader = wanted.shader, .bindings = wanted.bindings, .pushConstantBytes = sizeof(ViewPush)});
     if (!made) return made.error();
     wanted.pipeline = *made;
@@ -155,50 +176,68 @@ void ParticleViewImpl::addSetup(Graph& graph, Frame& frame) {
   });
 }
 
+/// Which solids may be seen in which tile; anything that can be bound where there are none.
+BufferRef ParticleViewImpl::addMasks(Graph& graph, const Frame& frame, bool light) {
+  if (scene_.solids.empty()) return frame.poses;
+  const uint64_t tileCount = light ? tiles(scene_.scene.counts.y, scene_.scene.counts.z, kPixelTile) : tiles(frame.push.width, frame.push.height, kPixelTile);
+  const uint64_t words = tileCount * groupsFor(scene_.solids.size(), 32);
+  BufferRef masks = graph.create(light ? "view light masks" : "view solid masks", {words * 4});
+  graph.pass("view solid tiles", [&](Pass& pass) {
+    pass.read(frame.scene, Use::ComputeUniform);
+    pass.read(frame.poses, Use::ComputeRead);
+    masks = pass.write(masks, Use::ComputeWrite, true);
+    const Kernel kernel = pass.kernel(light ? lightTiles_ : solidTiles_, {frame.scene, frame.poses, masks});
+    return [kernel, groups = groupsFor(words, kParticleGroup), push = frame.push](Commands& commands) { commands.dispatch(kernel, groups, push); };
+  });
+  return masks;
+}
+
 void ParticleViewImpl::addSurfaces(Graph& graph, Frame& frame) {
+  const BufferRef masks = addMasks(graph, frame, false);
   frame.depth = graph.create("view depth", {frame.pixels * 4});
   frame.winner = graph.create("view winner", {frame.pixels * 4});
   graph.pass("view surfaces", [&](Pass& pass) {
     pass.read(frame.scene, Use::ComputeUniform);
     pass.read(frame.poses, Use::ComputeRead);
+    if (masks != frame.poses) pass.read(masks, Use::ComputeRead);
     frame.depth = pass.write(frame.depth, Use::ComputeWrite, true);
     frame.winner = pass.write(frame.winner, Use::ComputeWrite, true);
-    const Kernel kernel = pass.kernel(surfaces_, {frame.scene, frame.poses, frame.depth, frame.winner});
+    const Kernel kernel = pass.kernel(surfaces_, {frame.scene, frame.poses, masks, frame.depth, frame.winner});
     const uint64_t groups = tiles(frame.push.width, frame.push.height, kPixelTile);
     return [kernel, groups, push = frame.push](Commands& commands) { commands.dispatch(kernel, groups, push); };
   });
+}
+
+void ParticleViewImpl::addLightMap(Graph& graph, Frame& frame) {
   if (!hasShadows(frame)) return;
   frame.light = graph.create("view light map", {lightTexels() * 4});
-  if (scene_.scene.counts.x > 0) {
-    graph.pass("view light solids", [&](Pass& pass) {
-      pass.read(frame.scene, Use::ComputeUniform);
-      pass.read(frame.poses, Use::ComputeRead);
-      frame.light = pass.write(frame.light, Use::ComputeWrite, true);
-      const Kernel kernel = pass.kernel(lightSolids_, {frame.scene, frame.poses, frame.light});
-      const uint64_t groups = tiles(scene_.scene.counts.y, scene_.scene.counts.z, kPixelTile);
-      return [kernel, groups, push = frame.push](Commands& commands) { commands.dispatch(kernel, groups, push); };
-    });
-  } else {
+  if (scene_.solids.empty()) {
     graph.skipped("view light solids", "the scene has no solids");
-    graph.pass("view light clear", [&](Pass& pass) {
+    graph.pass("view clear", [&](Pass& pass) {
       frame.light = pass.write(frame.light, Use::CopyTarget, true);
       return [light = frame.light](Commands& commands) { commands.fill(light, kInfinity); };
     });
+    return;
   }
+  const BufferRef masks = addMasks(graph, frame, true);
+  graph.pass("view light solids", [&](Pass& pass) {
+    pass.read(frame.scene, Use::ComputeUniform);
+    pass.read(frame.poses, Use::ComputeRead);
+    pass.read(masks, Use::ComputeRead);
+    frame.light = pass.write(frame.light, Use::ComputeWrite, true);
+    const Kernel kernel = pass.kernel(lightSolids_, {frame.scene, frame.poses, masks, frame.light});
+    const uint64_t groups = tiles(scene_.scene.counts.y, scene_.scene.counts.z, kPixelTile);
+    return [kernel, groups, push = frame.push](Commands& commands) { commands.dispatch(kernel, groups, push); };
+  });
 }
 
 void ParticleViewImpl::addVisibility(Graph& graph, Frame& frame) {
   const uint64_t groups = groupsFor(frame.push.count, kParticleGroup);
   BufferRef occluders = graph.create("view occluders", {tiles(frame.push.width, frame.push.height, frame.push.cell) * 4});
-  frame.counters = graph.create("view counters", {kCounterWords * 4});
   frame.survivors = graph.create("view survivors", {uint64_t{frame.push.count} * 4});
   graph.pass("view clear", [&](Pass& pass) {
     occluders = pass.write(occluders, Use::CopyTarget, true);
-    frame.counters = pass.write(frame.counters, Use::CopyTarget, true);
-    return [occluders, counters = frame.counters](Commands& commands) {
-      commands.fill(occluders, kInfinity);
-      commands.fill(counters, 0);
-    };
+    return [occluders](Commands& commands) { commands.fill(occluders, kInfinity); };
   });
   graph.pass("view project", [&](Pass& pass) {
     pass.read(frame.scene, Use::ComputeUniform);
@@ -267,40 +306,85 @@ void ParticleViewImpl::addTint(Graph& graph, Frame& frame) {
   });
 }
 
-void ParticleViewImpl::addShade(Graph& graph, Frame& frame) {
-  if (hasFloor() && hasShadows(frame)) {
-    frame.floor = graph.create("view floor light", {lightTexels() * 4});
-    graph.pass("view floor shadow", [&](Pass& pass) {
-      pass.read(frame.scene, Use::ComputeUniform);
-      pass.read(frame.light, Use::ComputeRead);
-      frame.floor = pass.write(frame.floor, Use::ComputeWrite, true);
-      const Kernel kernel = pass.kernel(floorShadow_, {frame.scene, frame.light, frame.floor});
-      const uint64_t groups = groupsFor(lightTexels(), kParticleGroup);
-      return [kernel, groups, push = frame.push](Commands& commands) { commands.dispatch(kernel, groups, push); };
-    });
-  } else {
+void ParticleViewImpl::addFloorShadow(Graph& graph, Frame& frame) {
+  if (!hasFloor() || !hasShadows(frame)) {
     graph.skipped("view floor shadow", hasFloor() ? "nothing casts a shadow" : "the domain has no floor");
-    frame.floor = frame.edges;
+    frame.floor = frame.edges;  // not looked at
+    return;
   }
-  frame.picture = graph.create("view picture", {frame.pixels * 4});
-  graph.pass("view shade", [&](Pass& pass) {
-    // What the scene lacks, the shader does not look at: the edges stand in for its buffer.
-    const BufferRef position = frame.push.count > 0 ? frame.position : frame.edges;
-    const BufferRef tint = frame.push.count > 0 ? frame.tint : frame.edges;
-    const BufferRef light = hasShadows(frame) ? frame.light : frame.edges;
+  frame.floor = graph.create("view floor light", {lightTexels() * 4});
+  graph.pass("view floor shadow", [&](Pass& pass) {
     pass.read(frame.scene, Use::ComputeUniform);
+    pass.read(frame.light, Use::ComputeRead);
+    frame.floor = pass.write(frame.floor, Use::ComputeWrite, true);
+    const Kernel kernel = pass.kernel(floorShadow_, {frame.scene, frame.light, frame.floor});
+    const uint64_t groups = groupsFor(lightTexels(), kParticleGroup);
+    return [kernel, groups, push = frame.push](Commands& commands) { commands.dispatch(kernel, groups, push); };
+  });
+}
+
+void ParticleViewImpl::addClassify(Graph& graph, Frame& frame) {
+  const uint64_t tileCount = tiles(frame.push.width, frame.push.height, kShadeTile);
+  frame.tiles = graph.create("view tiles", {tileCount * kTileLists * 4});
+  frame.tileEdges = graph.create("view tile edges", {tileCount * 4});
+  graph.pass("view classify", [&](Pass& pass) {
     pass.read(frame.winner, Use::ComputeRead);
-    pass.read(frame.poses, Use::ComputeRead);
     pass.read(frame.edges, Use::ComputeRead);
-    for (const BufferRef& optional : {position, tint, light, frame.floor}) {
-      if (optional != frame.edges) pass.read(optional, Use::ComputeRead);
-    }
-    frame.picture = pass.write(frame.picture, Use::ComputeWrite, true);
-    const Kernel kernel =
-        pass.kernel(shade_, {frame.scene, position, tint, frame.winner, frame.poses, frame.edges, light, frame.floor, frame.picture});
+    frame.counters = pass.write(frame.counters, Use::ComputeWrite);
+    frame.tiles = pass.write(frame.tiles, Use::ComputeWrite, true);
+    frame.tileEdges = pass.write(frame.tileEdges, Use::ComputeWrite, true);
+    const Kernel kernel = pass.kernel(classify_, {frame.winner, frame.edges, frame.counters, frame.tiles, frame.tileEdges});
+    return [kernel, groups = groupsFor(tileCount, kParticleGroup), push = frame.push](Commands& commands) { commands.dispatch(kernel, groups, push); };
+  });
+  graph.pass("view arguments", [&](Pass& pass) {
+    frame.counters = pass.write(frame.counters, Use::ComputeWrite);
+    const Kernel kernel = pass.kernel(tileArguments_, {frame.counters});
+    return [kernel, push = frame.push](Commands& commands) { commands.dispatch(kernel, 1, push); };
+  });
+}
+
+void ParticleViewImpl::addShade(Graph& graph, Frame& frame) {
+  frame.shaded = graph.create("view shaded", {frame.pixels * 4});
+  frame.rims = graph.create("view rims", {frame.pixels * 4});
+  // Each kernel writes the pixels of its own kind; together they write all.
+  const auto shade = [&](std::string_view name, const ComputePipeline* pipeline, uint32_t list, bool first, std::span<const BufferRef> own) {
+    graph.pass(name, [&](Pass& pass) {
+      pass.read(frame.scene, Use::ComputeUniform);
+      pass.read(frame.counters, Use::ComputeRead);
+      pass.read(frame.counters, Use::Indirect);
+      pass.read(frame.tiles, Use::ComputeRead);
+      pass.read(frame.winner, Use::ComputeRead);
+      for (const BufferRef& buffer : own) pass.read(buffer, Use::ComputeRead);
+      frame.shaded = pass.write(frame.shaded, Use::ComputeWrite, first);
+      frame.rims = pass.write(frame.rims, Use::ComputeWrite, first);
+      BufferRef bindings[8] = {frame.scene, frame.counters, frame.tiles, frame.winner};
+      size_t count = 4;
+      for (const BufferRef& buffer : own) bindings[count++] = buffer;
+      bindings[count++] = frame.shaded;
+      bindings[count++] = frame.rims;
+      const Kernel kernel = pass.kernel(pipeline, std::span<const BufferRef>(bindings, count));
+      return [kernel, counters = frame.counters, offset = 4 * (kTileArguments + 4 * list), push = frame.push](Commands& commands) {
+        commands.dispatchIndirect(kernel, counters, offset, push);
+      };
+    });
+  };
+  const BufferRef floor[] = {frame.floor}, fluid[] = {frame.position, frame.tint}, solids[] = {frame.poses, frame.light};
+  shade("view shade backdrop", shadeBackdrop_, kTilesBackdrop, true, floor);
+  if (frame.push.count > 0) shade("view shade fluid", shadeFluid_, kTilesFluid, false, fluid);
+  if (!scene_.solids.empty()) shade("view shade solids", shadeSolids_, kTilesSolid, false, solids);
+}
+
+BufferRef ParticleViewImpl::addResolve(Graph& graph, Frame& frame) {
+  BufferRef picture = graph.create("view picture", {frame.pixels * 4});
+  graph.pass("view resolve", [&](Pass& pass) {
+    pass.read(frame.scene, Use::ComputeUniform);
+    for (const BufferRef& buffer : {frame.depth, frame.shaded, frame.rims, frame.edges, frame.tileEdges}) pass.read(buffer, Use::ComputeRead);
+    picture = pass.write(picture, Use::ComputeWrite, true);
+    const Kernel kernel = pass.kernel(resolve_, {frame.scene, frame.depth, frame.shaded, frame.rims, frame.edges, frame.tileEdges, picture});
     const uint64_t groups = tiles(frame.push.width, frame.push.height, kShadeTile);
     return [kernel, groups, push = frame.push](Commands& commands) { commands.dispatch(kernel, groups, push); };
   });
+  return picture;
 }
 
 BufferRef ParticleViewImpl::addTo(Graph& graph, const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc, double time) {
@@ -309,8 +393,14 @@ BufferRef ParticleViewImpl::addTo(Graph& graph, const FluidState& fluid, const C
   frame.pixels = uint64_t{desc.width} * desc.height;
   frame.position = fluid.position;
   frame.velocity = fluid.velocity;
+  frame.counters = graph.create("view counters", {kCounterWords * 4});
+  graph.pass("view clear", [&](Pass& pass) {
+    frame.counters = pass.write(frame.counters, Use::CopyTarget, true);
+    return [counters = frame.counters](Commands& commands) { commands.fill(counters, 0); };
+  });
   addSetup(graph, frame);
   addSurfaces(graph, frame);
+  addLightMap(graph, frame);
   if (fluid.count > 0) {
     addVisibility(graph, frame);
     addSplat(graph, frame, false);
@@ -319,8 +409,10 @@ BufferRef ParticleViewImpl::addTo(Graph& graph, const FluidState& fluid, const C
   } else {
     graph.skipped("view depth", "the scene has no particles");
   }
+  addFloorShadow(graph, frame);
+  addClassify(graph, frame);
   addShade(graph, frame);
-  return frame.picture;
+  return addResolve(graph, frame);
 }
 
 Expected<std::unique_ptr<ParticleView>> ParticleView::create(Device& device, const Scene& scene, const ParticleSet& particles) {

@@ -1,5 +1,5 @@
 #version 460
-// Dispatch arguments from the numbers of survivors.
+// Dispatch arguments from the numbers of survivors; with TILES, of tiles.
 #extension GL_GOOGLE_include_directive : require
 #include "render/particle_view.glsl"
 
@@ -14,9 +14,13 @@ void writeArguments(uint at, uint groups) {
 }
 
 void main() {
+#ifdef TILES
+  for (uint list = 0u; list < kTileLists; ++list) writeArguments(kTileArguments + 4u * list, counters[kTileCount + list]);
+#else
   const uint small = counters[kSmallCount], large = counters[kLargeCount];
   const uint tiles = ((view.width + kPixelTile - 1u) / kPixelTile) * ((view.height + kPixelTile - 1u) / kPixelTile);
   writeArguments(kSmallArguments, (small + kParticleGroup - 1u) / kParticleGroup);
   writeArguments(kLargeArguments, tiles * ((large + kLargeChunk - 1u) / kLargeChunk));
   writeArguments(kTintArguments, (small + large + kParticleGroup - 1u) / kParticleGroup);
+#endif
 }

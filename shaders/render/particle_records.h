@@ -29,13 +29,21 @@ RILL_CONSTANT kSolidBase = 0x80000000u;  // + number of the solid
 RILL_CONSTANT kFloorId = 0xFFFFFFFEu;
 RILL_CONSTANT kNobody = 0xFFFFFFFFu;
 
-// Words of the counter buffer: survivors, then three dispatch arguments each.
+// What a tile of the shading kernels holds: one list of tiles each.
+RILL_CONSTANT kTilesFluid = 0;     // a particle owns a pixel
+RILL_CONSTANT kTilesBackdrop = 1;  // the floor or nobody does
+RILL_CONSTANT kTilesSolid = 2;     // a solid does
+RILL_CONSTANT kTileLists = 3;
+
+// Words of the counter buffer: how many, then dispatch arguments, three words each.
 RILL_CONSTANT kSmallCount = 0;
 RILL_CONSTANT kLargeCount = 1;
-RILL_CONSTANT kSmallArguments = 4;
-RILL_CONSTANT kLargeArguments = 8;
-RILL_CONSTANT kTintArguments = 12;
-RILL_CONSTANT kCounterWords = 16;
+RILL_CONSTANT kTileCount = 4;       // + list
+RILL_CONSTANT kSmallArguments = 8;
+RILL_CONSTANT kLargeArguments = 12;
+RILL_CONSTANT kTintArguments = 16;
+RILL_CONSTANT kTileArguments = 20;  // + 4 * list
+RILL_CONSTANT kCounterWords = 32;
 
 // Camera and frame. Depth is the distance from the eye along `forward`; a pixel's ray has a forward component of 1.
 struct ViewPush {
