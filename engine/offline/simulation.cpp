@@ -74,13 +74,13 @@ class Simulation::Impl {
       const auto before = std::chrono::steady_clock::now();
       if (auto ran = advanceFrame(seconds / double(frames)); !ran) return ran;
       wall_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
-      if (frame + 1 == frames) break;
-      if (auto measured = measure(); !measured) return measured;
-      earlier_.substeps += measured_->substeps;
-      earlier_.iterations += measured_->iterations;
-      earlier_.time_dropped_s += measured_->time_dropped_s;
-      earlier_.list_builds += measured_->list_builds;
-      measured_.reset();
+      const FluidProgress& done = fluid_->progress();
+      advanced_.substeps += done.substeps;
+      advanced_.iterations += done.iterations;
+      advanced_.list_builds += done.list_builds;
+      // What the recorded maximum had no room for is dropped by the next advance, whoever counts it.
+      advanced_.time_dropped_s += std::max(done.time_dropped_s, done.time_left_s);
+      if (done.substeps > 0) expected_ = done.substeps;
     }
     time_s_ += seconds;
     return {};
@@ -113,10 +113,10 @@ class Simulation::Impl {
     if (auto measured = measure(); !measured) return measured.error();
     Stats stats;
     static_cast<FluidStats&>(stats) = *measured_;
-    stats.substeps += earlier_.substeps;
-    stats.iterations += earlier_.iterations;
-    stats.time_dropped_s += earlier_.time_dropped_s;
-    stats.list_builds += earlier_.list_builds;
+    stats.substeps = advanced_.substeps;
+    stats.iterations = advanced_.iterations;
+    stats.time_dropped_s = advanced_.time_dropped_s;
+    stats.list_builds = advanced_.list_builds;
     const ProbeReader reader(scene_, readout_.positions, start_.origin);
     stats.front_m = reader.front(Axis::PlusX);
     stats.state_hash = stateHash(readout_.positions, readout_.velocities, readout_.ids);
@@ -172,7 +172,7 @@ class Simulation::Impl {
  private:
   void beginInstant() {
     measured_.reset();
-    earlier_ = {};
+    advanced_ = {};
     wall_s_ = 0;
     log_.clear();
   }
@@ -200,7 +200,6 @@ class Simulation::Impl {
     const uint32_t block = std::max(1u, fluid_->substepsPerBlock());
     const uint32_t most = wholeBlocks(scene_.solver.max_substeps, block);
     const uint32_t guess = wholeBlocks(expected_, block);
-    timeLeft_ = 0;
     for (uint32_t recorded = 0; recorded < most;) {
       // The first piece is what the frame before took; what it leaves is done in pieces a quarter of that.
       uint32_t piece = recorded == 0 ? guess : wholeBlocks(guess / 4, block);
@@ -209,8 +208,7 @@ class Simulation::Impl {
       const FluidStep step{recorded == 0 ? seconds : 0.0, recorded > 0, piece, false};
       if (auto ran = run(advanceGraph_, [&](Graph& graph) { static_cast<void>(fluid_->addTo(graph, step)); }); !ran) return ran;
       recorded += piece;
-      timeLeft_ = fluid_->timeLeft().value_or(0);
-      if (!(timeLeft_ > 0)) break;
+      if (!(fluid_->progress().time_left_s > 0)) break;
     }
     return {};
   }
@@ -227,9 +225,6 @@ class Simulation::Impl {
     readout_ = collect(measureGraph_, tickets);
     FluidStats stats = fluid_->stats().value_or(FluidStats{});
     if (fluid_->count() == 0) stats.time_s = time_s_;
-    // Time that the recorded maximum had no room for is dropped by the next advance, whoever counts it.
-    stats.time_dropped_s = std::max(stats.time_dropped_s, timeLeft_);
-    if (stats.substeps > 0) expected_ = stats.substeps;
     measured_ = stats;
     return {};
   }
@@ -243,11 +238,10 @@ class Simulation::Impl {
   // One graph for each shape of frame: each keeps the memory plan of its own.
   Graph advanceGraph_, measureGraph_, renderGraph_;
   PassLog log_;                         ///< since the last instant
-  FluidStats earlier_;                  ///< of the frames before the last one of this advance
+  FluidProgress advanced_;              ///< by the last advance(), its frames added up
   std::optional<FluidStats> measured_;  ///< of the present instant
   Readout readout_;                     ///< likewise
   uint32_t expected_ = kFirstPiece;     ///< substeps that the next frame will take, a guess
-  double timeLeft_ = 0;                 ///< s, of the last frame's advance
   double time_s_ = 0;
   double wall_s_ = 0;
 };

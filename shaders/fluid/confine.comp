@@ -1,0 +1,43 @@
+#version 460
+// Vorticity confinement (Fedkiw, Stam and Jensen 2001; Macklin and Mueller 2013, equation 16): an acceleration eps h (N x curl v), N along the gradient
+// of the curl's length. Gathers positions and curls; predicts anew with the velocity it ends with.
+#extension GL_GOOGLE_include_directive : require
+#include "fluid/uniforms.glsl"
+#include "fluid/arrays.glsl"
+#include "fluid/kernel.glsl"
+layout(local_size_x = kFluidGroup) in;
+layout(push_constant) uniform Push { ChunkPush push; };
+#ifdef TEXEL
+layout(binding = 8) uniform samplerBuffer curlArray;
+#define CURL(j) texelFetch(curlArray, int(j))
+#else
+layout(std430, binding = 8) readonly buffer CurlBlock { vec4 curlArray[]; };
+#define CURL(j) curlArray[j]
+#endif
+layout(std430, binding = 9) buffer VelocityBlock { vec4 velocity[]; };
+layout(std430, binding = 10) writeonly buffer PredictionBlock { vec4 prediction[]; };
+layout(std430, binding = 11) readonly buffer PushBlock { vec4 pushAway[]; };
+
+vec3 here;
+vec3 rise = vec3(0.0);
+
+void visit(uint j, vec4 particle) {
+  vec3 r = here - particle.xyz;
+  rise += CURL(j).w * kernelGradient(sqrt(dot(r, r))) * r;
+}
+#include "fluid/neighbours.glsl"
+
+void main() {
+  uint local = flatInvocation();
+  uint i = push.first + local;
+  if (i >= push.last) return;
+  here = PARTICLE(i).xyz;
+  visitNeighbours(i, local);
+  vec3 spin = CURL(i).xyz;
+  // Below a spin that changes by a hundredth over a smoothing length the direction is noise.
+  vec3 direction = rise / (length(rise) + 0.01 * length(spin) * params.inverseSupport + 1.0e-12);
+  vec4 v = velocity[i];
+  v.xyz += control.step * params.vorticity * params.support * cross(direction, spin);
+  velocity[i] = v;
+  prediction[i] = vec4(insideWalls(here + control.nextStep * (v.xyz + control.nextStep * (gravity() + pushAway[i].xyz))), 0.0);
+}

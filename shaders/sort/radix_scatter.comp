@@ -1,0 +1,72 @@
+#version 460
+// Radix sort: every key of a tile to its place. The tile is read into shared memory so that reads are contiguous over the
+// workgroup, while each invocation ranks consecutive keys, which is what keeps the sort stable.
+#extension GL_GOOGLE_include_directive : require
+#include "shared/dispatch.glsl"
+#include "sort/sort_types.h"
+
+layout(constant_id = 0) const uint kFirstPass = 0u;  // an index is then its own position
+layout(constant_id = 1) const uint kWriteKeys = 0u;
+
+layout(local_size_x = kRadixThreads) in;
+layout(push_constant) uniform PushBlock { RadixPush push; };
+layout(set = 0, binding = 0, std430) readonly buffer Keys { uint keys[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Order { uint order[]; };
+layout(set = 0, binding = 2, std430) readonly buffer Offsets { uint offsets[]; };  // [digit][tile]
+layout(set = 0, binding = 3, std430) writeonly buffer KeysOut { uint keysOut[]; };
+layout(set = 0, binding = 4, std430) writeonly buffer OrderOut { uint orderOut[]; };
+
+const uint kRow = kRadixThreads + 1u;
+// The tile's keys, then each one's target: key j of invocation t at j * kRow + t.
+shared uint tileKeys[kRadixKeys * kRow];
+// Two digits a word: how many keys of a digit are in the tile before the invocation's next one.
+shared uint counters[(1u << kRadixBits) / 2u * kRow];
+shared uint base[1u << kRadixBits];
+
+// Where element e of the tile is kept.
+uint place(uint e) { return (e % kRadixKeys) * kRow + e / kRadixKeys; }
+
+void main() {
+  const uint lane = gl_LocalInvocationIndex;
+  const uint tile = flatGroup();
+  const uint first = tile * kRadixTile;
+  const uint count = first < push.count ? min(push.count - first, kRadixTile) : 0u;
+  const uint words = push.digits / 2u;
+
+  for (uint w = 0u; w < words; ++w) counters[w * kRow + lane] = 0u;
+  if (lane < push.digits && count != 0u) base[lane] = offsets[lane * push.tiles + tile];
+  for (uint e = lane; e < count; e += kRadixThreads) tileKeys[place(e)] = keys[first + e];
+  barrier();
+
+  const uint mine = min(count - min(lane * kRadixKeys, count), kRadixKeys);
+  for (uint j = 0u; j < mine; ++j) {
+    const uint digit = (tileKeys[j * kRow + lane] >> push.shift) & (push.digits - 1u);
+    counters[(digit >> 1u) * kRow + lane] += 1u << ((digit & 1u) * 16u);
+  }
+  barrier();
+
+  if (lane < words) {
+    uint running = 0u;
+    for (uint other = 0u; other < kRadixThreads; ++other) {
+      const uint here = counters[lane * kRow + other];
+      counters[lane * kRow + other] = running;
+      running += here;
+    }
+  }
+  barrier();
+
+  for (uint j = 0u; j < mine; ++j) {
+    const uint digit = (tileKeys[j * kRow + lane] >> push.shift) & (push.digits - 1u);
+    const uint word = (digit >> 1u) * kRow + lane;
+    const uint side = (digit & 1u) * 16u;
+    tileKeys[j * kRow + lane] = base[digit] + ((counters[word] >> side) & 0xffffu);
+    counters[word] += 1u << side;
+  }
+  barrier();
+
+  for (uint e = lane; e < count; e += kRadixThreads) {
+    const uint target = tileKeys[place(e)];
+    if (kWriteKeys != 0u) keysOut[target] = keys[first + e];
+    orderOut[target] = kFirstPass != 0u ? first + e : order[first + e];
+  }
+}
