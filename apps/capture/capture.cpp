@@ -12,6 +12,7 @@
 
 #include "capture/output_folder.hpp"
 #include "capture/record.hpp"
+#include "core/words.hpp"
 #include "rill/offline.hpp"
 #include "shared/atomic_file.hpp"
 #include "shared/exit_code.hpp"
@@ -96,8 +97,8 @@ class Capture {
   void announce() {
     if (options_.quiet) return;
     for (const std::string& warning : simulation_->warnings()) message("warning: " + warning);
-    std::string line = scene_.name + ": " + std::to_string(simulation_->start().positions.size()) + " particles, " + std::to_string(frames_) + " frames";
-    message(line + ", " + simulation_->device().name);
+    message(scene_.name + ": " + grouped(simulation_->start().positions.size()) + " particles, " + grouped(frames_) + (frames_ == 1 ? " frame, " : " frames, ") +
+            simulation_->device().name);
   }
 
   Expected<void> runFrames() {
@@ -139,7 +140,9 @@ class Capture {
       if (!text.empty()) text += "\n";
       for (const Figure& figure : record_->figures()) {
         char line[128];
-        std::snprintf(line, sizeof line, "%-24s %.6g %.*s", figure.name.c_str(), figure.value, static_cast<int>(figure.unit.size()), figure.unit.data());
+        const int unit = static_cast<int>(figure.unit.size());
+        if (std::isfinite(figure.value)) std::snprintf(line, sizeof line, "%-24s %.6g %.*s", figure.name.c_str(), figure.value, unit, figure.unit.data());
+        else std::snprintf(line, sizeof line, "%-24s -", figure.name.c_str());
         text += line;
         while (text.back() == ' ') text.pop_back();
         text += "\n";

@@ -213,12 +213,12 @@ std::string Record::passTable() const {
   text += line;
   for (const std::string& name : order) {
     const Total& pass = totals.at(name);
-    if (pass.runs > 0)
-      std::snprintf(line, sizeof line, "%-36s %9llu %11.3f %10.2f\n", name.c_str(), static_cast<unsigned long long>(pass.runs), pass.ms, 1e3 * pass.ms / double(pass.runs));
-    else
-      std::snprintf(line, sizeof line, "%-36s skipped: %s\n", name.c_str(), pass.reason.c_str());
+    if (pass.runs == 0) continue;
+    std::snprintf(line, sizeof line, "%-36s %9llu %11.3f %10.2f\n", name.c_str(), static_cast<unsigned long long>(pass.runs), pass.ms, 1e3 * pass.ms / double(pass.runs));
     text += line;
   }
+  for (const std::string& name : order)
+    if (const Total& pass = totals.at(name); pass.runs == 0) text += name + std::string(name.size() < 36 ? 36 - name.size() : 0, ' ') + " skipped: " + pass.reason + "\n";
   return text;
 }
 

@@ -42,11 +42,12 @@ std::vector<std::pair<std::string, std::string>> PassLog::skipped() const {
 std::string PassLog::table() const {
   std::string text;
   for (const Entry& e : entries_) {
+    if (e.runs == 0) continue;
     char line[256];
-    if (e.runs > 0) std::snprintf(line, sizeof line, "%-36s %7u runs %11.3f ms\n", e.name.c_str(), e.runs, e.ms);
-    else std::snprintf(line, sizeof line, "%-36s skipped: %s\n", e.name.c_str(), e.reason.c_str());
+    std::snprintf(line, sizeof line, "%-36s %7u runs %11.3f ms\n", e.name.c_str(), e.runs, e.ms);
     text += line;
   }
+  for (const auto& [name, reason] : skipped()) text += name + std::string(name.size() < 36 ? 36 - name.size() : 0, ' ') + " skipped: " + reason + "\n";
   return text;
 }
 

@@ -144,7 +144,7 @@ class Simulation::Impl {
     const double now = measured_->time_s;  // the device's: behind time() where time was dropped
     Ticket ticket;
     auto ran = run(renderGraph_, [&](Graph& graph) {
-      const FluidState state = fluid_->addTo(graph, {0, true, 0, false});
+      const FluidState state = fluid_->addTo(graph, {});
       ticket = graph.readback(particleView_->addTo(graph, state, sceneCamera(scene_, start_, double(width) / height), desc, now));
     });
     if (!ran) return ran.error();
@@ -218,7 +218,7 @@ class Simulation::Impl {
     if (measured_) return {};
     ReadoutTickets tickets;
     auto ran = run(measureGraph_, [&](Graph& graph) {
-      const FluidState state = fluid_->addTo(graph, {0, true, 0, true});
+      const FluidState state = fluid_->addTo(graph, {.stats = true});
       tickets = readout(graph, state);
     });
     if (!ran) return ran;
