@@ -35,7 +35,8 @@ class SmoothingKernel {
   /// D_rest, the sum of |grad K|^2 over a bulk particle's rest lattice, 1/m^2: the denominator of lambda at rest.
   double restGradientSum() const { return restGradientSum_; }
 
-  /// sigma^2, the sum of K x^2 over the rest lattice, m^2: XSPH with coefficient c, applied once a step dt, acts like nu = c sigma^2 / (2 dt).
+  /// sigma^2, the sum of K x^2 over the rest lattice, m^2: XSPH with coefficient c, applied once a step dt, acts like nu = c sigma^2 / (2
+  /// dt).
   double secondMoment() const { return secondMoment_; }
 
  private:

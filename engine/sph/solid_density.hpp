@@ -15,10 +15,11 @@ namespace rill {
 /// The ratio goes to 1 for large R, so that B goes to the plane wall. The slope is F' I_ball/I_half + F (I_ball/I_half)'.
 LineSample exactSphere(const SmoothingKernel& kernel, double R, double s);
 
-/// B on nodes at first + i * step; (value, slope) interleaved; the last two nodes are 0. Below `first` (= -min(R, h - d/2), rounded toward 0 to a node) the first node holds.
+/// B on nodes at first + i * step; (value, slope) interleaved; the last two nodes are 0. Below `first` (= -min(R, h - d/2), rounded toward
+/// 0 to a node) the first node holds.
 struct SphereTable {
-  double first = 0;     ///< m, <= 0
-  double step = 0;      ///< m, d / 16
+  double first = 0;  ///< m, <= 0
+  double step = 0;   ///< m, d / 16
   uint32_t nodes = 0;
   std::vector<float> table;
 
@@ -28,7 +29,8 @@ struct SphereTable {
 /// `R`: radius, m, > 0. One table serves all balls of that radius.
 SphereTable makeSphereTable(const SmoothingKernel& kernel, double R);
 
-/// An axis-aligned box centred on 0 with half extents `half` (m), seen from `local` (m, in the box' frame). The product over the axes of the slab's share
+/// An axis-aligned box centred on 0 with half extents `half` (m), seen from `local` (m, in the box' frame). The product over the axes of
+/// the slab's share
 ///   P_a = clamp(F(|x_a| - half_a) - F(|x_a| + half_a), 0, 1),  dP_a/dx_a = sign(x_a) (F'(|x_a| - half_a) - F'(|x_a| + half_a)).
 /// From d/2 on, a thick and wide box' face is the plane wall; a thin plate displaces what it holds. The gradient is in the box' frame.
 WallSample boxSample(const SmoothingKernel& kernel, const double local[3], const double half[3]);

@@ -82,7 +82,9 @@ void toSolid(const SolidPose& pose, const double x[3], double local[3]) {
   turn(pose.rotation, -1, offset, local);
 }
 
-void fromSolid(const SolidPose& pose, const double localDirection[3], double direction[3]) { turn(pose.rotation, 1, localDirection, direction); }
+void fromSolid(const SolidPose& pose, const double localDirection[3], double direction[3]) {
+  turn(pose.rotation, 1, localDirection, direction);
+}
 
 SurfacePoint sphereSurface(const double local[3], double radius) {
   SurfacePoint point;

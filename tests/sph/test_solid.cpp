@@ -52,7 +52,9 @@ TEST_P(SolidTest, BallTablesFollowTheFormula) {
       const double s = table.first + (1.1 * wallReach(k) - table.first) * i / 200;
       const LineSample exact = exactSphere(k, R * kSpacing, s), linear = table.sample(s);
       EXPECT_NEAR(exact.value, linear.value, bound) << "R/d " << R << " s/d " << s / kSpacing;
-      if (s > table.first + kSpacing / 8) { EXPECT_NEAR(exact.slope * kSpacing, linear.slope * kSpacing, 5 * bound) << "R/d " << R << " s/d " << s / kSpacing; }
+      if (s > table.first + kSpacing / 8) {
+        EXPECT_NEAR(exact.slope * kSpacing, linear.slope * kSpacing, 5 * bound) << "R/d " << R << " s/d " << s / kSpacing;
+      }
     }
     EXPECT_EQ(table.sample(1.2 * k.h()).value, 0);
     EXPECT_EQ(table.sample(-1e6).value, table.sample(table.first).value);

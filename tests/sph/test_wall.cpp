@@ -24,8 +24,8 @@ class WallTest : public testing::TestWithParam<std::tuple<KernelChoice, double>>
   double ratio() const { return std::get<1>(GetParam()); }
 };
 
-/// A full rest lattice of `layers` in a box, walls on all sides but those of an axis with 0 layers, which is endless: the largest |rho/rho0 - 1|
-/// and the largest force that the constraint's gradient would give, times d.
+/// A full rest lattice of `layers` in a box, walls on all sides but those of an axis with 0 layers, which is endless: the largest |rho/rho0
+/// - 1| and the largest force that the constraint's gradient would give, times d.
 struct Rest {
   double density = 0, gradient = 0;
 };
@@ -66,7 +66,8 @@ Rest restLattice(const SmoothingKernel& k, const int (&layers)[3], const Wall& w
 TEST_P(WallTest, RestLatticeMeasuresRestDensityEverywhere) {
   const SmoothingKernel k = kernel();
   const WallTables tables = rill::makeWallTables(k);
-  const int boxes[][3] = {{10, 0, 0}, {10, 10, 0}, {6, 6, 6}, {10, 9, 10}, {1, 0, 0}, {2, 0, 0}, {3, 5, 0}, {4, 4, 4}, {1, 1, 1}, {2, 1, 3}};
+  const int boxes[][3] = {{10, 0, 0}, {10, 10, 0}, {6, 6, 6}, {10, 9, 10}, {1, 0, 0},
+                          {2, 0, 0},  {3, 5, 0},   {4, 4, 4}, {1, 1, 1},   {2, 1, 3}};
   for (const auto& layers : boxes) {
     const auto name = testing::Message() << layers[0] << " x " << layers[1] << " x " << layers[2] << " layers";
     const Rest exact = restLattice(k, layers, [&](const double* lo, const double* hi) { return rill::exactWall(k, lo, hi); });

@@ -101,7 +101,7 @@ class Child {
 /// Runs rill-capture to its end.
 inline Outcome capture(std::vector<std::string> arguments, const std::string& folder = ".", const Child::Environment& environment = {},
                        const std::string& standardOutput = {}) {
-  arguments.insert(arguments.begin(), std::string(RILL_BINARY_DIR) + "/bin/rill-capture");
+  arguments.insert(arguments.begin(), std::string(RILL_BINARY_DIR) + "/apps/capture/rill-capture");
   return Child(arguments, folder, environment, standardOutput).wait();
 }
 
