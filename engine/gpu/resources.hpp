@@ -64,6 +64,7 @@ struct ComputePipelineDesc {
   uint32_t pushConstantBytes = 0;             ///< at most 128
   SpecializationConstants constants = {};
   uint32_t requiredSubgroupSize = 0;          ///< 0: the driver's choice
+  std::span<const uint32_t> words = {};       ///< SPIR-V to use in place of the library's; `shader` then only names it
 };
 
 struct ComputePipeline;  // layout and handle; owned by the device, alive as long as it

@@ -5,9 +5,11 @@
 #include <vulkan/vulkan.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rill/expected.hpp"
@@ -58,6 +60,9 @@ struct DeviceInfo {
   uint32_t subgroupSize = 0, minSubgroupSize = 0, maxSubgroupSize = 0;
 };
 
+/// Receives what Rill has to say outside a call's result (shader reloading). Rill itself never prints.
+using MessageCallback = std::function<void(std::string_view)>;
+
 class DeviceImpl;
 
 /// Rill's view of a borrowed device. Every module keeps a reference to it; it outlives them.
@@ -66,6 +71,7 @@ class Device {
  public:
   /// BadInput for a null handle, NoDevice where a required feature was not enabled (it is named).
   static Expected<std::unique_ptr<Device>> borrow(const HostDevice& host);
+  /// Destroys what Rill made: the host has waited for its work before.
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
@@ -76,6 +82,7 @@ class Device {
   void abandon(uint64_t frame);
 
   const DeviceInfo& info() const;
+  void setMessageCallback(MessageCallback callback);
 
   DeviceImpl& impl() { return *impl_; }  ///< engine/gpu; not for hosts
 

@@ -3,14 +3,14 @@
 // into the host's command buffer. It never submits and never waits.
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <initializer_list>
 #include <memory>
-#include <optional>
+#include <new>
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
+#include <type_traits>
+#include <utility>
 
 #include "rill/device.hpp"
 #include "rill/expected.hpp"
@@ -73,8 +73,10 @@ struct Ticket {
 /// Declares one pass: what it reads and writes, and the kernels it dispatches.
 class Pass {
  public:
+  /// A buffer may be read in several ways by one pass, but not read and written: a write reads as well.
   void read(BufferRef buffer, Use use);
-  /// Consumes `buffer` and returns the version that this pass makes. The old content is kept unless `discard`.
+  /// Consumes `buffer` and returns the version that this pass makes. The old content is kept unless `discard`; a new
+  /// transient has none to keep (so atomics on one are an error: fill it first).
   [[nodiscard]] BufferRef write(BufferRef buffer, Use use, bool discard = false);
   /// The pass matters even if nobody reads what it writes.
   void sideEffect();
@@ -111,8 +113,10 @@ class Commands {
  private:
   friend class GraphImpl;
   Commands(GraphImpl& graph, VkCommandBuffer commandBuffer) : graph_(graph), commandBuffer_(commandBuffer) {}
+  void bind(Kernel kernel, std::span<const std::byte> push);
   GraphImpl& graph_;
   VkCommandBuffer commandBuffer_;
+  uint32_t pass_ = 0;
 };
 
 /// Time that a pass took on the device. Passes of one name are added up.
@@ -151,15 +155,21 @@ class Graph {
   void pass(std::string_view name, Setup&& setup) {
     const uint32_t index = beginPass(name);
     Pass declared(*impl_, index);
-    endPass(index, std::function<void(Commands&)>(setup(declared)));
+    auto record = setup(declared);
+    using Record = decltype(record);
+    // The callable is kept in the graph's own memory, which is used again every frame.
+    void* place = endPass(index, sizeof(Record), alignof(Record), [](void* self, Commands& commands) { (*static_cast<Record*>(self))(commands); },
+                          std::is_trivially_destructible_v<Record> ? nullptr : +[](void* self) { static_cast<Record*>(self)->~Record(); });
+    ::new (place) Record(std::move(record));
   }
 
   /// For --explain: a module says that it left a pass out, and why. `reason` must outlive the frame (a literal).
   void skipped(std::string_view name, std::string_view reason);
 
-  /// The buffer's bytes, copied at the end of the frame and readable once the host's clock says that the frame has completed.
+  /// The buffer's bytes as of this place among the passes, readable once the host's clock says that the frame has completed.
   Ticket readback(BufferRef buffer);
-  /// Empty while in flight. The span is valid until the next reset() after it was first seen ready.
+  /// Empty while in flight, for an abandoned frame, and for a ticket that nobody asked about for 16 frames.
+  /// The span is valid until the next reset() after it was first seen ready.
   std::span<const std::byte> data(Ticket ticket) const;
 
   /// Culls, orders, plans barriers and memory. Touches no GPU. BadInput, naming pass and resource, for a stale or consumed ref,
@@ -174,12 +184,18 @@ class Graph {
   std::string json() const;  ///< passes, barriers, resources, memory plan
   std::span<const Timing> timings() const;   ///< of the last frame that the host's clock says has completed
   std::span<const PassReport> report() const;  ///< of the last compiled frame
+  uint64_t transientBytes() const;  ///< of device memory that the last compiled frame's transients take, aliased
+
+  /// Two timestamps a pass. Default true.
+  void enableTimings(bool enabled);
+
+  GraphImpl& impl() { return *impl_; }  ///< engine/graph and its tests; not for hosts
 
  private:
   friend class Pass;
   friend class Commands;
   uint32_t beginPass(std::string_view name);
-  void endPass(uint32_t index, std::function<void(Commands&)> record);
+  void* endPass(uint32_t index, size_t bytes, size_t alignment, void (*invoke)(void*, Commands&), void (*destroy)(void*));
   std::unique_ptr<GraphImpl> impl_;
 };
 

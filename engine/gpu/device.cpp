@@ -1,0 +1,128 @@
+#include <algorithm>
+
+#include "gpu/device_impl.hpp"
+#include "gpu/requirements.hpp"
+#include "gpu/shader_reload.hpp"
+#include "gpu/vulkan_error.hpp"
+
+namespace rill {
+namespace {
+
+std::string versionText(uint32_t v) {
+  return std::to_string(VK_API_VERSION_MAJOR(v)) + "." + std::to_string(VK_API_VERSION_MINOR(v)) + "." + std::to_string(VK_API_VERSION_PATCH(v));
+}
+
+Error badHost(const char* what) { return {ErrorKind::BadInput, std::string("Device::borrow: HostDevice::") + what}; }
+
+void describe(DeviceImpl& impl, const HostDevice& host) {
+  VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES, nullptr};
+  VkPhysicalDeviceSubgroupSizeControlProperties sizes{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES, &driver};
+  VkPhysicalDeviceSubgroupProperties subgroup{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES, &sizes};
+  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &subgroup};
+  impl.instance.GetPhysicalDeviceProperties2(host.physicalDevice, &properties);
+  impl.instance.GetPhysicalDeviceMemoryProperties(host.physicalDevice, &impl.memory);
+  impl.limits = properties.properties.limits;
+  impl.sizedSubgroups = (sizes.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
+
+  DeviceInfo& info = impl.info;
+  info.name = properties.properties.deviceName;
+  info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
+  info.api = versionText(properties.properties.apiVersion);
+  for (uint32_t i = 0; i < impl.memory.memoryHeapCount; ++i)
+    if (impl.memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT)
+      info.deviceLocalBytes = std::max<uint64_t>(info.deviceLocalBytes, impl.memory.memoryHeaps[i].size);
+  info.maxStorageBufferBytes = std::min<uint64_t>(impl.limits.maxStorageBufferRange, kMaxBufferBytes);
+  info.maxTexelBufferElements = impl.limits.maxTexelBufferElements;
+  info.subgroupSize = subgroup.subgroupSize;
+  info.minSubgroupSize = sizes.minSubgroupSize;
+  info.maxSubgroupSize = sizes.maxSubgroupSize;
+}
+
+/// The mask of valid timestamp bits of the host's queue family, or -1 where the device has no such family.
+int64_t timestampBits(const DeviceImpl& impl, const HostDevice& host, bool& compute) {
+  uint32_t count = 0;
+  impl.instance.GetPhysicalDeviceQueueFamilyProperties(host.physicalDevice, &count, nullptr);
+  if (host.queueFamily >= count) return -1;
+  std::vector<VkQueueFamilyProperties> families(count);
+  impl.instance.GetPhysicalDeviceQueueFamilyProperties(host.physicalDevice, &count, families.data());
+  compute = (families[host.queueFamily].queueFlags & VK_QUEUE_COMPUTE_BIT) != 0;
+  return families[host.queueFamily].timestampValidBits;
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<Device>> Device::borrow(const HostDevice& host) {
+  if (!host.instance) return badHost("instance is null");
+  if (!host.physicalDevice) return badHost("physicalDevice is null");
+  if (!host.device) return badHost("device is null");
+  if (!host.getInstanceProcAddr) return badHost("getInstanceProcAddr is null");
+  if (!host.enabled) return badHost("enabled is null: give the VkPhysicalDeviceFeatures2 chain of vkCreateDevice");
+  if (host.apiVersion < VK_API_VERSION_1_3) return badHost("apiVersion is below 1.3");
+
+  auto impl = std::make_unique<DeviceImpl>();
+  impl->handle = host.device;
+  impl->cache = host.cache;
+  impl->callbacks = host.callbacks;
+  if (const char* missing = impl->instance.load(host.getInstanceProcAddr, host.instance))
+    return Error{ErrorKind::NoDevice, std::string("the Vulkan instance lacks ") + missing};
+  if (auto ok = checkDevice(impl->instance, host.physicalDevice); !ok) return ok.error();
+  if (auto ok = checkEnabled(*host.enabled); !ok) return ok.error();
+  if (const char* missing = impl->vk.load(impl->instance.GetDeviceProcAddr, host.device))
+    return Error{ErrorKind::NoDevice, std::string("the Vulkan device lacks ") + missing};
+  bool compute = false;
+  const int64_t bits = timestampBits(*impl, host, compute);
+  if (bits < 0) return badHost("queueFamily: the device has no such family");
+  if (!compute) return badHost("queueFamily: its queues cannot compute");
+  impl->timestampMask = bits == 0 ? 0 : bits >= 64 ? ~0ull : (1ull << bits) - 1;
+  describe(*impl, host);
+  impl->reload = ShaderReload::fromEnvironment();
+  return std::unique_ptr<Device>(new Device(std::move(impl)));
+}
+
+Device::Device(std::unique_ptr<DeviceImpl> impl) : impl_(std::move(impl)) {}
+Device::~Device() = default;
+
+void Device::beginFrame(FrameClock clock) {
+  assert(clock.recording > clock.completed);
+  assert(clock.recording >= impl_->clock.recording && clock.completed >= impl_->clock.completed);
+  impl_->clock = clock;
+  impl_->retired.collect(*impl_, clock.completed);
+  if (impl_->reload) impl_->reload->poll(*impl_);
+}
+
+void Device::abandon(uint64_t frame) { impl_->abandon(frame); }
+const DeviceInfo& Device::info() const { return impl_->info; }
+void Device::setMessageCallback(MessageCallback callback) { impl_->message = std::move(callback); }
+
+DeviceImpl::DeviceImpl() = default;
+
+DeviceImpl::~DeviceImpl() {
+  if (!vk.DestroyBuffer) return;  // borrow() failed before the table was loaded
+  retired.collect(*this, UINT64_MAX);
+  pipelines.destroy(*this);
+}
+
+void DeviceImpl::abandon(uint64_t frame) { abandoned_[abandonedCount_++ % abandoned_.size()] = frame; }
+bool DeviceImpl::abandoned(uint64_t frame) const { return frame != 0 && std::find(abandoned_.begin(), abandoned_.end(), frame) != abandoned_.end(); }
+
+void RetireQueue::collect(DeviceImpl& device, uint64_t completed) {
+  const auto done = [&](const Entry& entry) {
+    if (entry.frame > completed) return false;
+    switch (entry.type) {
+#define RILL_DESTROY(type, Type, Destroy) \
+  case type: device.vk.Destroy(device.handle, reinterpret_cast<Type>(entry.handle), device.callbacks); break;
+      RILL_DESTROY(VK_OBJECT_TYPE_BUFFER, VkBuffer, DestroyBuffer)
+      RILL_DESTROY(VK_OBJECT_TYPE_BUFFER_VIEW, VkBufferView, DestroyBufferView)
+      RILL_DESTROY(VK_OBJECT_TYPE_DEVICE_MEMORY, VkDeviceMemory, FreeMemory)
+      RILL_DESTROY(VK_OBJECT_TYPE_DESCRIPTOR_POOL, VkDescriptorPool, DestroyDescriptorPool)
+      RILL_DESTROY(VK_OBJECT_TYPE_QUERY_POOL, VkQueryPool, DestroyQueryPool)
+      RILL_DESTROY(VK_OBJECT_TYPE_PIPELINE, VkPipeline, DestroyPipeline)
+#undef RILL_DESTROY
+      default: assert(!"an object type that is never retired");
+    }
+    return true;
+  };
+  std::erase_if(entries_, done);
+}
+
+}  // namespace rill

@@ -1,0 +1,69 @@
+#pragma once
+// What is behind rill::Device: the function tables, limits, the store of pipelines and what waits to be destroyed.
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "gpu/function_table.hpp"
+#include "gpu/pipeline.hpp"
+#include "gpu/resources.hpp"
+
+namespace rill {
+
+/// Largest buffer that Rill makes: lavapipe's maxStorageBufferRange, and so the least that has been tried.
+inline constexpr uint64_t kMaxBufferBytes = 128ull * 1024 * 1024;
+
+/// Handles whose last use was recorded in some frame, destroyed once the host says that the frame has completed.
+class RetireQueue {
+ public:
+  template <class Handle>
+  void add(uint64_t frame, VkObjectType type, Handle handle) {
+    if (handle != VK_NULL_HANDLE) entries_.push_back({frame, type, reinterpret_cast<uint64_t>(handle)});
+  }
+  void collect(DeviceImpl& device, uint64_t completed);
+  size_t size() const { return entries_.size(); }
+
+ private:
+  struct Entry {
+    uint64_t frame;
+    VkObjectType type;
+    uint64_t handle;
+  };
+  std::vector<Entry> entries_;
+};
+
+class ShaderReload;
+
+class DeviceImpl {
+ public:
+  DeviceImpl();
+  ~DeviceImpl();
+  DeviceImpl(const DeviceImpl&) = delete;
+  DeviceImpl& operator=(const DeviceImpl&) = delete;
+
+  Expected<Buffer> createBuffer(std::string_view name, uint64_t size, MemoryKind kind);
+  bool abandoned(uint64_t frame) const;
+  void abandon(uint64_t frame);
+
+  InstanceTable instance;
+  DeviceTable vk;
+  VkDevice handle = VK_NULL_HANDLE;
+  VkPipelineCache cache = VK_NULL_HANDLE;
+  const VkAllocationCallbacks* callbacks = nullptr;
+  DeviceInfo info;
+  VkPhysicalDeviceLimits limits{};
+  VkPhysicalDeviceMemoryProperties memory{};
+  uint64_t timestampMask = 0;      ///< valid bits of the queue's timestamps; 0: it has none
+  bool sizedSubgroups = false;     ///< a compute stage can be given a subgroup size
+  FrameClock clock;
+  RetireQueue retired;
+  PipelineStore pipelines;
+  MessageCallback message;
+  std::unique_ptr<ShaderReload> reload;
+
+ private:
+  std::array<uint64_t, 64> abandoned_{};  ///< the latest ones; older ones have long been looked at
+  size_t abandonedCount_ = 0;
+};
+
+}  // namespace rill

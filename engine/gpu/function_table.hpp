@@ -1,0 +1,66 @@
+#pragma once
+// The Vulkan functions that Rill calls, as private tables: the library defines and needs no vk* symbol, so it goes into any
+// host, whether that uses the loader's prototypes, volk or a table of its own.
+#include "rill/device.hpp"
+
+#define RILL_INSTANCE_FUNCTIONS(X)        \
+  X(GetDeviceProcAddr)                    \
+  X(GetPhysicalDeviceFeatures2)           \
+  X(GetPhysicalDeviceFormatProperties)    \
+  X(GetPhysicalDeviceMemoryProperties)    \
+  X(GetPhysicalDeviceProperties2)         \
+  X(GetPhysicalDeviceQueueFamilyProperties)
+
+#define RILL_DEVICE_FUNCTIONS(X) \
+  X(AllocateDescriptorSets)      \
+  X(AllocateMemory)              \
+  X(BindBufferMemory)            \
+  X(CmdBindDescriptorSets)       \
+  X(CmdBindPipeline)             \
+  X(CmdCopyBuffer)               \
+  X(CmdDispatch)                 \
+  X(CmdDispatchIndirect)         \
+  X(CmdFillBuffer)               \
+  X(CmdPipelineBarrier2)         \
+  X(CmdPushConstants)            \
+  X(CmdResetQueryPool)           \
+  X(CmdWriteTimestamp2)          \
+  X(CreateBuffer)                \
+  X(CreateBufferView)            \
+  X(CreateComputePipelines)      \
+  X(CreateDescriptorPool)        \
+  X(CreateDescriptorSetLayout)   \
+  X(CreatePipelineLayout)        \
+  X(CreateQueryPool)             \
+  X(CreateShaderModule)          \
+  X(DestroyBuffer)               \
+  X(DestroyBufferView)           \
+  X(DestroyDescriptorPool)       \
+  X(DestroyDescriptorSetLayout)  \
+  X(DestroyPipeline)             \
+  X(DestroyPipelineLayout)       \
+  X(DestroyQueryPool)            \
+  X(DestroyShaderModule)         \
+  X(FreeMemory)                  \
+  X(GetBufferMemoryRequirements) \
+  X(GetQueryPoolResults)         \
+  X(MapMemory)                   \
+  X(ResetDescriptorPool)         \
+  X(UpdateDescriptorSets)
+
+namespace rill {
+
+#define RILL_DECLARE(name) PFN_vk##name name = nullptr;
+struct InstanceTable {
+  RILL_INSTANCE_FUNCTIONS(RILL_DECLARE)
+  /// Null, or the name of a function that the loader does not have.
+  const char* load(PFN_vkGetInstanceProcAddr get, VkInstance instance);
+};
+struct DeviceTable {
+  RILL_DEVICE_FUNCTIONS(RILL_DECLARE)
+  /// Null, or the name of a function that the driver does not have.
+  const char* load(PFN_vkGetDeviceProcAddr get, VkDevice device);
+};
+#undef RILL_DECLARE
+
+}  // namespace rill

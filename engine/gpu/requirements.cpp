@@ -1,0 +1,114 @@
+// What Rill needs of a device, and the two places where that is judged: before vkCreateDevice and at Device::borrow.
+#include "gpu/requirements.hpp"
+
+#include "gpu/function_table.hpp"
+
+namespace rill {
+namespace {
+
+struct Feature {
+  const char* name;
+  VkBool32 VkPhysicalDeviceVulkan13Features::* flag;
+};
+
+// All mandatory in Vulkan 1.3; a host must still enable them. maintenance4: workgroup sizes from specialization constants.
+constexpr Feature kFeatures[] = {
+    {"synchronization2", &VkPhysicalDeviceVulkan13Features::synchronization2},
+    {"dynamicRendering", &VkPhysicalDeviceVulkan13Features::dynamicRendering},
+    {"maintenance4", &VkPhysicalDeviceVulkan13Features::maintenance4},
+    {"subgroupSizeControl", &VkPhysicalDeviceVulkan13Features::subgroupSizeControl},
+    {"computeFullSubgroups", &VkPhysicalDeviceVulkan13Features::computeFullSubgroups},
+};
+
+std::string version(uint32_t v) { return std::to_string(VK_API_VERSION_MAJOR(v)) + "." + std::to_string(VK_API_VERSION_MINOR(v)); }
+
+/// The 1.3 features in a chain, whether given as the 1.3 structure or as the ones it was promoted from.
+VkPhysicalDeviceVulkan13Features collect(const VkPhysicalDeviceFeatures2& enabled) {
+  VkPhysicalDeviceVulkan13Features found{};
+  for (auto* next = static_cast<const VkBaseInStructure*>(enabled.pNext); next; next = next->pNext) {
+    switch (next->sType) {
+      case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES: {
+        const auto& f = *reinterpret_cast<const VkPhysicalDeviceVulkan13Features*>(next);
+        for (const Feature& feature : kFeatures) found.*feature.flag |= f.*feature.flag;
+        break;
+      }
+      case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES:
+        found.synchronization2 |= reinterpret_cast<const VkPhysicalDeviceSynchronization2Features*>(next)->synchronization2;
+        break;
+      case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES:
+        found.dynamicRendering |= reinterpret_cast<const VkPhysicalDeviceDynamicRenderingFeatures*>(next)->dynamicRendering;
+        break;
+      case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES:
+        found.maintenance4 |= reinterpret_cast<const VkPhysicalDeviceMaintenance4Features*>(next)->maintenance4;
+        break;
+      case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES: {
+        const auto& f = *reinterpret_cast<const VkPhysicalDeviceSubgroupSizeControlFeatures*>(next);
+        found.subgroupSizeControl |= f.subgroupSizeControl;
+        found.computeFullSubgroups |= f.computeFullSubgroups;
+        break;
+      }
+      default: break;
+    }
+  }
+  return found;
+}
+
+Error lacking(const char* device, std::string what) {
+  return {ErrorKind::NoDevice, std::string("device '") + device + "' cannot run Rill: " + std::move(what)};
+}
+
+}  // namespace
+
+Expected<void> checkDevice(const InstanceTable& instance, VkPhysicalDevice device) {
+  VkPhysicalDeviceSubgroupProperties subgroup{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES, nullptr};
+  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, nullptr};
+  instance.GetPhysicalDeviceProperties2(device, &properties);
+  const char* name = properties.properties.deviceName;
+  if (properties.properties.apiVersion < VK_API_VERSION_1_3)
+    return lacking(name, "it offers Vulkan " + version(properties.properties.apiVersion) + ", 1.3 is needed");
+  properties.pNext = &subgroup;
+  instance.GetPhysicalDeviceProperties2(device, &properties);
+  constexpr VkSubgroupFeatureFlags operations =
+      VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_VOTE_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT;
+  if (!(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) || (subgroup.supportedOperations & operations) != operations)
+    return lacking(name, "it lacks subgroup operations (basic, vote, arithmetic, ballot) in compute shaders");
+  constexpr std::pair<VkFormat, const char*> formats[] = {{VK_FORMAT_R32G32B32A32_SFLOAT, "R32G32B32A32_SFLOAT"},
+                                                          {VK_FORMAT_R32G32B32A32_UINT, "R32G32B32A32_UINT"},
+                                                          {VK_FORMAT_R32_UINT, "R32_UINT"}};
+  for (const auto& [format, text] : formats) {
+    VkFormatProperties support{};
+    instance.GetPhysicalDeviceFormatProperties(device, format, &support);
+    if (!(support.bufferFeatures & VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT))
+      return lacking(name, std::string("it lacks uniform texel buffers of ") + text);
+  }
+  return {};
+}
+
+Expected<void> appendRequired(PFN_vkGetInstanceProcAddr get, VkInstance instance, VkPhysicalDevice device, DeviceRequirements& requirements) {
+  InstanceTable table;
+  if (!get || !instance || !device) return Error{ErrorKind::BadInput, "appendRequired: a null handle or function was given"};
+  if (const char* missing = table.load(get, instance))
+    return Error{ErrorKind::NoDevice, std::string("the Vulkan loader lacks ") + missing + ": was the instance made for Vulkan 1.1 or later?"};
+  if (auto ok = checkDevice(table, device); !ok) return ok;
+  VkPhysicalDeviceVulkan13Features vulkan13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES, nullptr};
+  VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &vulkan13};
+  table.GetPhysicalDeviceFeatures2(device, &features);
+  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, nullptr};
+  table.GetPhysicalDeviceProperties2(device, &properties);
+  for (const Feature& feature : kFeatures) {
+    if (!(vulkan13.*feature.flag)) return lacking(properties.properties.deviceName, std::string("it lacks the feature ") + feature.name);
+    requirements.vulkan13.*feature.flag = VK_TRUE;
+  }
+  return {};
+}
+
+Expected<void> checkEnabled(const VkPhysicalDeviceFeatures2& enabled) {
+  const VkPhysicalDeviceVulkan13Features found = collect(enabled);
+  for (const Feature& feature : kFeatures)
+    if (!(found.*feature.flag))
+      return Error{ErrorKind::NoDevice, std::string("the VkDevice was made without the feature ") + feature.name +
+                                            ", which Rill needs (rill::appendRequired lists all of them)"};
+  return {};
+}
+
+}  // namespace rill

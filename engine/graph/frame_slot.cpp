@@ -1,0 +1,33 @@
+#include "graph/frame_slot.hpp"
+
+#include <algorithm>
+
+namespace rill {
+namespace {
+
+// A read-back that nobody has asked for by then is given up, so that a forgotten ticket does not hold memory for ever.
+constexpr uint64_t kPatienceFrames = 16;
+
+}  // namespace
+
+FrameSlot::~FrameSlot() {
+  for (const View& view : views) device.retired.add(frame, VK_OBJECT_TYPE_BUFFER_VIEW, view.handle);
+  device.retired.add(frame, VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool);
+  device.retired.add(frame, VK_OBJECT_TYPE_QUERY_POOL, queries);
+}
+
+bool FrameSlot::reusable(const FrameClock& clock) const {
+  if (frame > clock.completed) return false;
+  return deliveries.empty() || clock.completed - frame >= kPatienceFrames || device.abandoned(frame);
+}
+
+void FrameSlot::recycle() {
+  for (const View& view : views) device.vk.DestroyBufferView(device.handle, view.handle, device.callbacks);
+  views.clear();
+  deliveries.clear();
+  timedNames.clear();
+  timingsPending = false;
+  if (pool) device.vk.ResetDescriptorPool(device.handle, pool, 0);
+}
+
+}  // namespace rill

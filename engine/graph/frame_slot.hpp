@@ -1,0 +1,59 @@
+#pragma once
+// What one frame in flight holds on the device. A slot is used again once the host's clock says that its frame has completed.
+#include <cstdint>
+#include <vector>
+
+#include "gpu/device_impl.hpp"
+
+namespace rill {
+
+struct FrameSlot {
+  struct View {
+    VkBuffer buffer;
+    uint64_t offset, size;
+    VkFormat format;
+    VkBufferView handle;
+  };
+  struct Delivery {
+    uint64_t ticket;
+    uint64_t offset, size;
+    bool seen = false;
+  };
+
+  explicit FrameSlot(DeviceImpl& owner) : device(owner) {}
+  ~FrameSlot();
+  FrameSlot(const FrameSlot&) = delete;
+  FrameSlot& operator=(const FrameSlot&) = delete;
+
+  /// Its frame has completed and nobody can still want its read-backs.
+  bool reusable(const FrameClock& clock) const;
+  /// Forgets the last frame; what it held on the device stays for the next one where it can.
+  void recycle();
+
+  DeviceImpl& device;
+  uint64_t frame = 0;
+  // Views live for one frame: handle values of imported buffers recur, so no view can be found again by its buffer.
+  std::vector<View> views;
+  VkDescriptorPool pool = VK_NULL_HANDLE;
+  uint32_t poolSets = 0, poolStorage = 0, poolUniform = 0, poolTexel = 0;  ///< what the pool was made for
+  VkQueryPool queries = VK_NULL_HANDLE;
+  uint32_t queryCapacity = 0;
+  std::vector<uint32_t> timedNames;  ///< the pass behind each pair of timestamps
+  bool timingsPending = false;
+  Buffer readback;
+  std::vector<Delivery> deliveries;
+};
+
+/// Kernels with equal layouts and equal buffers share a descriptor set: which kernel stands for each.
+struct SetSharing {
+  std::vector<uint32_t> table;      ///< open addressing: kernel indices
+  std::vector<uint32_t> standsFor;  ///< one a kernel
+  std::vector<uint32_t> unique;     ///< kernels that need a set of their own
+  std::vector<VkDescriptorSetLayout> layouts;
+  std::vector<VkDescriptorSet> sets;
+  std::vector<VkWriteDescriptorSet> writes;
+  std::vector<VkDescriptorBufferInfo> buffers;
+  std::vector<VkBufferView> views;
+};
+
+}  // namespace rill

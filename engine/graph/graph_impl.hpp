@@ -1,0 +1,165 @@
+#pragma once
+// What is behind rill::Graph. One frame's declaration and plan are flat arrays that keep their capacity from frame to frame.
+//   graph.cpp declares, compile.cpp culls and plans, prepare.cpp gets what the device must give, record.cpp records,
+//   describe.cpp writes it all down.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gpu/device_impl.hpp"
+#include "graph/frame_slot.hpp"
+#include "graph/hazard.hpp"
+#include "graph/memory_plan.hpp"
+#include "graph/names.hpp"
+#include "graph/record_arena.hpp"
+#include "rill/graph.hpp"
+
+namespace rill {
+
+inline constexpr uint32_t kNone = UINT32_MAX;
+
+struct Access {
+  uint32_t resource = 0;
+  uint32_t version = 0;  ///< read, or made by the write
+  Use use = Use::None;
+  bool write = false;
+  bool keep = false;  ///< a write that also needs the old content
+};
+
+struct Range {
+  uint32_t first = 0, count = 0;
+};
+
+struct KernelData {
+  const ComputePipeline* pipeline = nullptr;
+  Range bindings;  ///< into GraphImpl::bindings: resource indices
+  VkDescriptorSet set = VK_NULL_HANDLE;
+};
+
+/// Why a pass waits.
+struct Cause {
+  uint32_t resource = 0;
+  Hazard hazard = Hazard::None;
+  Use use = Use::None;
+};
+
+/// The one barrier before a pass, or at the end of the frame.
+struct PlannedBarrier {
+  Scope scope;
+  Range causes;
+};
+
+struct PassData {
+  uint32_t name = 0;
+  Range accesses, kernels;
+  void* record = nullptr;
+  void (*invoke)(void*, Commands&) = nullptr;
+  void (*destroy)(void*) = nullptr;
+  bool root = false;
+  bool readback = false;  ///< made by Graph::readback
+  bool alive = false;
+  std::string_view reason;  ///< why it was culled
+  PlannedBarrier barrier;   ///< an empty scope: none
+};
+
+struct ResourceData {
+  uint32_t name = 0;
+  bool imported = false;
+  bool needed = false;     ///< while culling: whether a later pass, or somebody outside, wants the content
+  BufferImport import;
+  uint64_t size = 0;
+  uint32_t version = 0;    ///< the latest one
+  uint32_t placement = kNone;  ///< of a transient that is used
+  HazardState state;
+  VkBuffer buffer = VK_NULL_HANDLE;  ///< resolved by prepare()
+  uint64_t offset = 0;
+};
+
+struct Readback {
+  uint64_t ticket = 0;
+  uint32_t pass = 0, resource = 0;
+  uint64_t offset = 0, size = 0;  ///< in the slot's buffer
+};
+
+struct Skipped {
+  uint32_t name;
+  std::string_view reason;
+};
+
+class GraphImpl {
+ public:
+  GraphImpl();
+  ~GraphImpl();
+
+  // graph.cpp
+  void reset();
+  BufferRef add(ResourceData resource);
+  /// Null, with the frame's error set, for a ref that is stale, consumed or none at all.
+  ResourceData* resolve(BufferRef ref, uint32_t pass, const char* doing);
+  uint32_t beginPass(std::string_view name);
+  void addAccess(uint32_t pass, Access access);
+  void fail(std::string message);
+  std::string quoted(uint32_t name) const { return "'" + std::string(names[name]) + "'"; }
+  const Access* accessOf(uint32_t pass, uint32_t resource) const;
+
+  // compile.cpp
+  Expected<void> compile();
+  void cull();
+  void placeTransients();
+  void planBarriers();
+  void makeReport();
+  Expected<void> checkImports() const;
+
+  // prepare.cpp
+  Expected<void> prepare(Device& device);
+  Expected<void> growHeaps(DeviceImpl& device);
+  Expected<void> resolveBuffers(DeviceImpl& device);
+  void shareSets();
+  Expected<void> makeSets(DeviceImpl& device, FrameSlot& slot);
+  /// Timings and read-backs of frames that have completed since the last look.
+  void collect();
+  std::span<const std::byte> data(Ticket ticket);
+
+  // record.cpp
+  void record(VkCommandBuffer commandBuffer);
+
+  // describe.cpp
+  std::string dot() const;
+  std::string json() const;
+
+  Names names;
+  RecordArena arena;
+  uint32_t epoch = 0;
+  std::optional<Error> error;  ///< the first mistake in the declaration
+  bool compiled = false, prepared = false;
+  bool timed = true;
+
+  std::vector<PassData> passes;
+  std::vector<ResourceData> resources;
+  std::vector<Access> accesses;
+  std::vector<KernelData> kernels;
+  std::vector<uint32_t> bindings;
+  std::vector<Readback> readbacks;
+  std::vector<Skipped> skips;
+
+  MemoryPlanner planner;
+  std::vector<Placement> placements;
+  std::vector<uint32_t> placed;  ///< the resource of each placement
+  std::vector<uint64_t> heapSizes;
+  std::vector<Cause> causes;
+  PlannedBarrier finalBarrier;
+  std::vector<PassReport> reports;
+  std::vector<uint32_t> rowOfName;  ///< scratch: where a name stands in a list
+
+  DeviceImpl* device = nullptr;
+  std::vector<Buffer> heaps;
+  std::vector<std::unique_ptr<FrameSlot>> slots;
+  FrameSlot* slot = nullptr;  ///< of the prepared frame
+  SetSharing sharing;
+  std::vector<Timing> timings;
+  std::vector<uint64_t> stamps;
+  uint64_t timingsFrame = 0;
+  uint64_t nextTicket = 1;
+};
+
+}  // namespace rill

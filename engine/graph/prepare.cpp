@@ -1,0 +1,259 @@
+// Everything of a frame that can fail: the transients' memory, descriptor sets, query pools; and what comes back from the device.
+#include <algorithm>
+#include <bit>
+#include <cassert>
+
+#include "gpu/vulkan_error.hpp"
+#include "graph/graph_impl.hpp"
+
+namespace rill {
+
+Expected<void> GraphImpl::prepare(Device& owner) {
+  assert(compiled && "Graph::prepare needs a compile() that succeeded");
+  DeviceImpl& d = owner.impl();
+  assert((!device || device == &d) && "a graph stays on one device");
+  device = &d;
+  prepared = false;
+  collect();
+  if (auto ok = growHeaps(d); !ok) return ok;
+  if (auto ok = resolveBuffers(d); !ok) return ok;
+
+  auto found = std::ranges::find_if(slots, [&](const auto& s) { return s->reusable(d.clock); });
+  if (found == slots.end()) {
+    slots.push_back(std::make_unique<FrameSlot>(d));
+    found = slots.end() - 1;
+  }
+  slot = found->get();
+  slot->recycle();
+  slot->frame = d.clock.recording;
+
+  shareSets();
+  if (auto ok = makeSets(d, *slot); !ok) return ok;
+
+  uint64_t bytes = 0;
+  for (Readback& readback : readbacks) {
+    readback.offset = bytes;
+    bytes += (readback.size + 15) & ~15ull;
+    slot->deliveries.push_back({readback.ticket, readback.offset, readback.size});
+  }
+  if (bytes > slot->readback.size()) {
+    auto buffer = d.createBuffer("read-back", std::max(bytes, std::bit_ceil(std::min(bytes, kMaxBufferBytes / 2))), MemoryKind::Readback);
+    if (!buffer) return buffer.error();
+    slot->readback = std::move(*buffer);
+  }
+
+  if (timed && d.timestampMask) {
+    for (const PassData& pass : passes)
+      if (pass.alive) slot->timedNames.push_back(pass.name);
+    const uint32_t needed = uint32_t(slot->timedNames.size()) * 2;
+    if (needed > slot->queryCapacity) {
+      d.retired.add(d.clock.completed, VK_OBJECT_TYPE_QUERY_POOL, slot->queries);
+      slot->queries = VK_NULL_HANDLE;
+      slot->queryCapacity = 0;
+      VkQueryPoolCreateInfo create{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
+      create.queryType = VK_QUERY_TYPE_TIMESTAMP;
+      create.queryCount = std::bit_ceil(needed);
+      if (VkResult r = d.vk.CreateQueryPool(d.handle, &create, d.callbacks, &slot->queries); r != VK_SUCCESS)
+        return vulkanError(r, "creating " + std::to_string(create.queryCount) + " timestamp queries");
+      slot->queryCapacity = create.queryCount;
+    }
+  }
+  prepared = true;
+  return {};
+}
+
+Expected<void> GraphImpl::growHeaps(DeviceImpl& d) {
+  if (heaps.size() < heapSizes.size()) heaps.resize(heapSizes.size());
+  for (size_t i = 0; i < heapSizes.size(); ++i) {
+    if (heapSizes[i] <= heaps[i].size()) continue;
+    constexpr uint64_t step = 64 * 1024;
+    auto heap = d.createBuffer("transients", std::min((heapSizes[i] + step - 1) / step * step, kMaxBufferBytes), MemoryKind::Device);
+    if (!heap) return heap.error();
+    heaps[i] = std::move(*heap);  // the old one is retired by the clock: frames in flight may still use it
+  }
+  return {};
+}
+
+Expected<void> GraphImpl::resolveBuffers(DeviceImpl& d) {
+  const uint64_t alignment = std::max({d.limits.minStorageBufferOffsetAlignment, d.limits.minUniformBufferOffsetAlignment,
+                                       d.limits.minTexelBufferOffsetAlignment, VkDeviceSize(4)});
+  for (ResourceData& resource : resources) {
+    if (resource.imported) {
+      if (resource.import.offset % alignment != 0)
+        return Error{ErrorKind::BadInput, "import " + quoted(resource.name) + " lies at offset " + std::to_string(resource.import.offset) +
+                                              ", which is no multiple of this device's " + std::to_string(alignment)};
+      resource.buffer = resource.import.handle;
+      resource.offset = resource.import.offset;
+    } else if (resource.placement != kNone) {
+      const Placement& place = placements[resource.placement];
+      resource.buffer = heaps[place.heap].handle();
+      resource.offset = place.offset;
+    }
+  }
+  return {};
+}
+
+void GraphImpl::shareSets() {
+  SetSharing& s = sharing;
+  s.unique.clear();
+  s.standsFor.resize(kernels.size());
+  s.table.assign(std::bit_ceil(kernels.size() * 2 + 1), kNone);
+  const auto key = [&](uint32_t k) { return std::span(bindings).subspan(kernels[k].bindings.first, kernels[k].bindings.count); };
+  for (const PassData& pass : passes) {
+    if (!pass.alive) continue;
+    for (uint32_t k = pass.kernels.first; k < pass.kernels.first + pass.kernels.count; ++k) {
+      uint64_t hash = reinterpret_cast<uintptr_t>(kernels[k].pipeline->set) * 0x9e3779b97f4a7c15ull;
+      for (uint32_t resource : key(k)) hash = (std::rotl(hash, 5) ^ resource) * 0x9e3779b97f4a7c15ull;
+      size_t at = (hash >> 32) & (s.table.size() - 1);
+      for (;; at = (at + 1) & (s.table.size() - 1)) {
+        const uint32_t other = s.table[at];
+        if (other == kNone) {
+          s.table[at] = k;
+          s.unique.push_back(k);
+          s.standsFor[k] = k;
+          break;
+        }
+        if (kernels[other].pipeline->set == kernels[k].pipeline->set && std::ranges::equal(key(other), key(k))) {
+          s.standsFor[k] = other;
+          break;
+        }
+      }
+    }
+  }
+}
+
+namespace {
+
+Expected<void> makePool(DeviceImpl& d, FrameSlot& slot, uint32_t sets, uint32_t storage, uint32_t uniform, uint32_t texel) {
+  if (sets <= slot.poolSets && storage <= slot.poolStorage && uniform <= slot.poolUniform && texel <= slot.poolTexel) return {};
+  if (slot.pool) d.vk.DestroyDescriptorPool(d.handle, slot.pool, d.callbacks);  // its frame has completed
+  slot.pool = VK_NULL_HANDLE;
+  const auto room = [](uint32_t have, uint32_t need) { return std::max(have, std::bit_ceil(std::max(need, 1u))); };
+  slot.poolSets = room(slot.poolSets, sets);
+  slot.poolStorage = room(slot.poolStorage, storage);
+  slot.poolUniform = room(slot.poolUniform, uniform);
+  slot.poolTexel = room(slot.poolTexel, texel);
+  const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, slot.poolStorage},
+                                        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, slot.poolUniform},
+                                        {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, slot.poolTexel}};
+  VkDescriptorPoolCreateInfo create{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+  create.maxSets = slot.poolSets;
+  create.poolSizeCount = 3;
+  create.pPoolSizes = sizes;
+  if (VkResult r = d.vk.CreateDescriptorPool(d.handle, &create, d.callbacks, &slot.pool); r != VK_SUCCESS) {
+    slot.poolSets = 0;
+    return vulkanError(r, "creating a pool of " + std::to_string(create.maxSets) + " descriptor sets");
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<void> GraphImpl::makeSets(DeviceImpl& d, FrameSlot& target) {
+  SetSharing& s = sharing;
+  uint32_t storage = 0, uniform = 0, texel = 0;
+  s.layouts.clear();
+  for (uint32_t k : s.unique) {
+    s.layouts.push_back(kernels[k].pipeline->set->handle);
+    for (BindingKind kind : kernels[k].pipeline->set->kinds)
+      ++(kind == BindingKind::Storage ? storage : kind == BindingKind::Uniform ? uniform : texel);
+  }
+  if (s.unique.empty()) return {};
+  if (auto ok = makePool(d, target, uint32_t(s.unique.size()), storage, uniform, texel); !ok) return ok;
+  s.sets.resize(s.unique.size());
+  VkDescriptorSetAllocateInfo allocate{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO, nullptr, target.pool, uint32_t(s.unique.size()), s.layouts.data()};
+  if (VkResult r = d.vk.AllocateDescriptorSets(d.handle, &allocate, s.sets.data()); r != VK_SUCCESS)
+    return vulkanError(r, "allocating " + std::to_string(s.unique.size()) + " descriptor sets");
+
+  s.writes.clear();
+  s.buffers.clear();
+  s.views.clear();
+  s.buffers.reserve(storage + uniform);  // the writes point into these two
+  s.views.reserve(texel);
+  for (size_t u = 0; u < s.unique.size(); ++u) {
+    KernelData& kernel = kernels[s.unique[u]];
+    kernel.set = s.sets[u];
+    for (uint32_t b = 0; b < kernel.bindings.count; ++b) {
+      const ResourceData& resource = resources[bindings[kernel.bindings.first + b]];
+      const BindingKind kind = kernel.pipeline->set->kinds[b];
+      VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET, nullptr, kernel.set, b, 0, 1, descriptorType(kind), nullptr, nullptr, nullptr};
+      const uint32_t bytes = texelBytes(kind);
+      if (bytes == 0) {
+        const uint64_t limit = kind == BindingKind::Uniform ? d.limits.maxUniformBufferRange : d.limits.maxStorageBufferRange;
+        if (resource.size > limit)
+          return Error{ErrorKind::BadInput, "buffer " + quoted(resource.name) + " of " + std::to_string(resource.size) + " bytes: " + d.info.name +
+                                                " binds at most " + std::to_string(limit)};
+        s.buffers.push_back({resource.buffer, resource.offset, resource.size});
+        write.pBufferInfo = &s.buffers.back();
+      } else {
+        const uint64_t size = resource.size / bytes * bytes;
+        if (size == 0 || size / bytes > d.limits.maxTexelBufferElements)
+          return Error{ErrorKind::BadInput, "texel buffer " + quoted(resource.name) + " of " + std::to_string(resource.size / bytes) + " texels: 1 to " +
+                                                std::to_string(d.limits.maxTexelBufferElements) + " are possible on " + d.info.name};
+        const VkFormat format = texelFormat(kind);
+        auto view = std::ranges::find_if(target.views, [&](const FrameSlot::View& v) {
+          return v.buffer == resource.buffer && v.offset == resource.offset && v.size == size && v.format == format;
+        });
+        if (view == target.views.end()) {
+          VkBufferViewCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO, nullptr, 0, resource.buffer, format, resource.offset, size};
+          VkBufferView handle = VK_NULL_HANDLE;
+          if (VkResult r = d.vk.CreateBufferView(d.handle, &create, d.callbacks, &handle); r != VK_SUCCESS)
+            return vulkanError(r, "creating a texel view of buffer " + quoted(resource.name));
+          target.views.push_back({resource.buffer, resource.offset, size, format, handle});
+          view = target.views.end() - 1;
+        }
+        s.views.push_back(view->handle);
+        write.pTexelBufferView = &s.views.back();
+      }
+      s.writes.push_back(write);
+    }
+  }
+  d.vk.UpdateDescriptorSets(d.handle, uint32_t(s.writes.size()), s.writes.data(), 0, nullptr);
+  for (const PassData& pass : passes)
+    if (pass.alive)
+      for (uint32_t k = pass.kernels.first; k < pass.kernels.first + pass.kernels.count; ++k) kernels[k].set = kernels[s.standsFor[k]].set;
+  return {};
+}
+
+void GraphImpl::collect() {
+  if (!device) return;
+  FrameSlot* newest = nullptr;
+  for (const auto& s : slots) {
+    if (!s->timingsPending || s->frame > device->clock.completed) continue;
+    if (device->abandoned(s->frame)) s->timingsPending = false;
+    else if (s->frame > timingsFrame && (!newest || s->frame > newest->frame)) newest = s.get();
+  }
+  if (!newest) return;
+  newest->timingsPending = false;
+  const uint32_t count = uint32_t(newest->timedNames.size());
+  stamps.resize(count * 2);
+  const VkResult got = device->vk.GetQueryPoolResults(device->handle, newest->queries, 0, count * 2, stamps.size() * sizeof(uint64_t), stamps.data(),
+                                                      sizeof(uint64_t), VK_QUERY_RESULT_64_BIT);
+  if (got != VK_SUCCESS) return;  // the host was wrong about the frame: no figures are better than wrong ones
+  timingsFrame = newest->frame;
+  timings.clear();
+  rowOfName.assign(names.size(), kNone);
+  for (uint32_t i = 0; i < count; ++i) {
+    uint32_t& row = rowOfName[newest->timedNames[i]];
+    if (row == kNone) {
+      row = uint32_t(timings.size());
+      timings.push_back({names[newest->timedNames[i]], 0, 0});
+    }
+    const uint64_t ticks = (stamps[2 * i + 1] - stamps[2 * i]) & device->timestampMask;
+    timings[row].ms += double(ticks) * double(device->limits.timestampPeriod) * 1e-6;
+    ++timings[row].runs;
+  }
+}
+
+std::span<const std::byte> GraphImpl::data(Ticket ticket) {
+  for (const auto& s : slots)
+    for (FrameSlot::Delivery& delivery : s->deliveries)
+      if (delivery.ticket == ticket.id) {
+        if (s->frame > device->clock.completed || device->abandoned(s->frame)) return {};
+        delivery.seen = true;
+        return {s->readback.mapped() + delivery.offset, delivery.size};
+      }
+  return {};
+}
+
+}  // namespace rill

@@ -1,0 +1,104 @@
+// Playing the plan into the host's command buffer. Nothing here fails or allocates.
+#include <algorithm>
+#include <cassert>
+
+#include "graph/graph_impl.hpp"
+
+namespace rill {
+namespace {
+
+constexpr uint64_t kMaxGroups = 65535;  // a dimension; the least that Vulkan guarantees, used everywhere so that folding is the same everywhere
+
+void recordBarrier(const DeviceTable& vk, VkCommandBuffer commandBuffer, const Scope& scope) {
+  if (scope.empty()) return;
+  const VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr,           scope.sourceStage, scope.sourceAccess,
+                                 scope.targetStage,                  scope.targetAccess};
+  VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+  dependency.memoryBarrierCount = 1;
+  dependency.pMemoryBarriers = &barrier;
+  vk.CmdPipelineBarrier2(commandBuffer, &dependency);
+}
+
+}  // namespace
+
+void GraphImpl::record(VkCommandBuffer commandBuffer) {
+  assert(prepared && "Graph::record needs a prepare() that succeeded, once a record()");
+  if (!prepared) return;
+  prepared = false;  // its descriptor sets and queries are this recording's alone
+  const DeviceTable& vk = device->vk;
+  const bool stamp = !slot->timedNames.empty();
+  if (stamp) vk.CmdResetQueryPool(commandBuffer, slot->queries, 0, uint32_t(slot->timedNames.size()) * 2);
+  slot->timingsPending = stamp;
+  uint32_t query = 0;
+  Commands commands(*this, commandBuffer);
+  for (uint32_t i = 0; i < passes.size(); ++i) {
+    const PassData& pass = passes[i];
+    if (!pass.alive) continue;
+    recordBarrier(vk, commandBuffer, pass.barrier.scope);
+    if (stamp) vk.CmdWriteTimestamp2(commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot->queries, query++);
+    if (pass.readback) {
+      for (const Readback& readback : readbacks) {
+        if (readback.pass != i) continue;
+        const VkBufferCopy region{resources[readback.resource].offset, readback.offset, readback.size};
+        vk.CmdCopyBuffer(commandBuffer, resources[readback.resource].buffer, slot->readback.handle(), 1, &region);
+      }
+    } else if (pass.record) {
+      commands.pass_ = i;
+      pass.invoke(pass.record, commands);
+    }
+    if (stamp) vk.CmdWriteTimestamp2(commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot->queries, query++);
+  }
+  recordBarrier(vk, commandBuffer, finalBarrier.scope);
+}
+
+void Commands::bind(Kernel kernel, std::span<const std::byte> push) {
+  [[maybe_unused]] const Range own = graph_.passes[pass_].kernels;
+  assert(kernel.index >= own.first && kernel.index < own.first + own.count && "a kernel is dispatched by the pass that declared it");
+  const KernelData& data = graph_.kernels[kernel.index];
+  const ComputePipeline& pipeline = *data.pipeline;
+  assert(push.size() == pipeline.pushBytes && "push constants of another size than the pipeline was made for");
+  const DeviceTable& vk = graph_.device->vk;
+  vk.CmdBindPipeline(commandBuffer_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle);
+  if (data.bindings.count != 0) vk.CmdBindDescriptorSets(commandBuffer_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &data.set, 0, nullptr);
+  if (!push.empty()) vk.CmdPushConstants(commandBuffer_, pipeline.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, uint32_t(push.size()), push.data());
+}
+
+void Commands::dispatch(Kernel kernel, uint64_t groups, std::span<const std::byte> push) {
+  if (groups == 0) return;
+  bind(kernel, push);
+  const uint64_t rows = (groups + kMaxGroups - 1) / kMaxGroups;
+  assert(rows <= kMaxGroups);
+  graph_.device->vk.CmdDispatch(commandBuffer_, uint32_t((groups + rows - 1) / rows), uint32_t(rows), 1);
+}
+
+void Commands::dispatchIndirect(Kernel kernel, BufferRef arguments, uint64_t offset, std::span<const std::byte> push) {
+  const ResourceData& resource = graph_.resources[arguments.index];
+  assert(arguments.epoch == graph_.epoch && graph_.accessOf(pass_, arguments.index) && "indirect arguments are declared with Use::Indirect");
+  assert(offset % 4 == 0 && offset + 12 <= resource.size);
+  bind(kernel, push);
+  graph_.device->vk.CmdDispatchIndirect(commandBuffer_, resource.buffer, resource.offset + offset);
+}
+
+void Commands::copy(BufferRef source, BufferRef target, uint64_t bytes, uint64_t sourceOffset, uint64_t targetOffset) {
+  assert(source.epoch == graph_.epoch && target.epoch == graph_.epoch);
+  assert(graph_.accessOf(pass_, source.index) && graph_.accessOf(pass_, target.index) && "a copy's buffers are declared by its pass");
+  const ResourceData& from = graph_.resources[source.index];
+  const ResourceData& to = graph_.resources[target.index];
+  assert(sourceOffset + bytes <= from.size && targetOffset + bytes <= to.size);
+  if (bytes == 0) return;
+  const VkBufferCopy region{from.offset + sourceOffset, to.offset + targetOffset, bytes};
+  graph_.device->vk.CmdCopyBuffer(commandBuffer_, from.buffer, to.buffer, 1, &region);
+}
+
+void Commands::fill(BufferRef target, uint32_t value, uint64_t offset, uint64_t bytes) {
+  assert(target.epoch == graph_.epoch && graph_.accessOf(pass_, target.index) && "a fill's buffer is declared by its pass");
+  const ResourceData& to = graph_.resources[target.index];
+  assert(offset % 4 == 0 && offset <= to.size);
+  // Whole words: a size that is no multiple of 4 is filled short of its last bytes, never beyond them.
+  const uint64_t size = std::min(bytes, to.size - offset) & ~3ull;
+  if (size != 0) graph_.device->vk.CmdFillBuffer(commandBuffer_, to.buffer, to.offset + offset, size, value);
+}
+
+VkCommandBuffer Commands::handle() const { return commandBuffer_; }
+
+}  // namespace rill

@@ -1,0 +1,38 @@
+#include "graph/use_table.hpp"
+
+#include <array>
+
+namespace rill {
+namespace {
+
+constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+constexpr VkPipelineStageFlags2 kTransfer = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;  // a fill is a clear, a copy a copy: both
+constexpr VkAccessFlags2 kStorageRead = VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
+constexpr VkAccessFlags2 kStorageWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+
+constexpr std::array<UseRow, kUseCount> kTable{{
+    {Use::None, "None", 0, 0, 0},
+    {Use::ComputeRead, "ComputeRead", kCompute, kStorageRead, 0},
+    {Use::ComputeTexel, "ComputeTexel", kCompute, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, 0},
+    {Use::ComputeUniform, "ComputeUniform", kCompute, VK_ACCESS_2_UNIFORM_READ_BIT, 0},
+    {Use::ComputeWrite, "ComputeWrite", kCompute, kStorageRead, kStorageWrite},
+    {Use::ComputeAtomic, "ComputeAtomic", kCompute, kStorageRead, kStorageWrite},
+    {Use::Indirect, "Indirect", VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, 0},
+    {Use::CopySource, "CopySource", kTransfer, VK_ACCESS_2_TRANSFER_READ_BIT, 0},
+    {Use::CopyTarget, "CopyTarget", kTransfer, 0, VK_ACCESS_2_TRANSFER_WRITE_BIT},
+    {Use::HostRead, "HostRead", VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT, 0},
+    {Use::Unknown, "Unknown", VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT},
+}};
+
+constexpr bool inOrder() {
+  for (size_t i = 0; i < kTable.size(); ++i)
+    if (size_t(kTable[i].use) != i) return false;
+  return true;
+}
+static_assert(inOrder());
+
+}  // namespace
+
+const UseRow& useRow(Use use) { return kTable[size_t(use)]; }
+
+}  // namespace rill

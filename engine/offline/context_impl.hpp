@@ -1,0 +1,76 @@
+#pragma once
+// What is behind offline::Context. vulkan_setup.cpp opens the loader and makes instance and device, context.cpp runs frames.
+#include "offline/context.hpp"
+
+#define RILL_CONTEXT_INSTANCE_FUNCTIONS(X)  \
+  X(CreateDevice)                           \
+  X(DestroyInstance)                        \
+  X(EnumeratePhysicalDevices)               \
+  X(GetDeviceProcAddr)                      \
+  X(GetPhysicalDeviceProperties)            \
+  X(GetPhysicalDeviceQueueFamilyProperties)
+
+#define RILL_CONTEXT_DEVICE_FUNCTIONS(X) \
+  X(AllocateCommandBuffers)              \
+  X(BeginCommandBuffer)                  \
+  X(CreateCommandPool)                   \
+  X(CreateSemaphore)                     \
+  X(DestroyCommandPool)                  \
+  X(DestroyDevice)                       \
+  X(DestroySemaphore)                    \
+  X(DeviceWaitIdle)                      \
+  X(EndCommandBuffer)                    \
+  X(GetDeviceQueue)                      \
+  X(GetSemaphoreCounterValue)            \
+  X(QueueSubmit2)                        \
+  X(ResetCommandBuffer)                  \
+  X(WaitSemaphores)
+
+namespace rill::offline {
+
+class ContextImpl {
+ public:
+  ~ContextImpl();
+
+  // vulkan_setup.cpp
+  Expected<void> openLoader();
+  Expected<void> makeInstance(const ContextDesc& desc);
+  Expected<void> chooseDevice(const std::string& wanted);
+  Expected<void> makeDevice(const ContextDesc& desc);
+  // context.cpp
+  Expected<void> makeFrames(uint32_t count);
+  Expected<void> waitFor(uint64_t frame);
+  Expected<void> lookAtClock();
+
+  PFN_vkGetInstanceProcAddr get = nullptr;
+  PFN_vkCreateInstance createInstance = nullptr;
+  VkInstance instance = VK_NULL_HANDLE;
+  VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
+  VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
+  std::string deviceName;
+  VkDevice device = VK_NULL_HANDLE;
+  VkQueue queue = VK_NULL_HANDLE;
+  uint32_t queueFamily = 0;
+  std::unique_ptr<Device> rill;
+
+  VkCommandPool pool = VK_NULL_HANDLE;
+  std::vector<VkCommandBuffer> commandBuffers;
+  VkSemaphore timeline = VK_NULL_HANDLE;  ///< its value is the last frame that has completed
+  uint64_t submitted = 0;
+  uint64_t completed = 0;
+  bool begun = false;
+
+  std::mutex messagesMutex;  // drivers and layers may call back from threads of their own
+  std::vector<std::string> messages;
+
+#define RILL_DECLARE(name) PFN_vk##name name = nullptr;
+  struct {
+    RILL_CONTEXT_INSTANCE_FUNCTIONS(RILL_DECLARE)
+  } vki;
+  struct {
+    RILL_CONTEXT_DEVICE_FUNCTIONS(RILL_DECLARE)
+  } vk;
+#undef RILL_DECLARE
+};
+
+}  // namespace rill::offline

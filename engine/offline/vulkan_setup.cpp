@@ -1,0 +1,202 @@
+// From nothing to a VkDevice: loader, instance, validation, choice of device.
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+
+#include "gpu/vulkan_error.hpp"
+#include "offline/context_impl.hpp"
+
+namespace rill::offline {
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+
+VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                         const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
+  auto& context = *static_cast<ContextImpl*>(user);
+  const std::lock_guard lock(context.messagesMutex);
+  context.messages.emplace_back(data->pMessage);
+  return VK_FALSE;
+}
+
+std::string lower(std::string_view text) {
+  std::string out(text);
+  std::ranges::transform(out, out.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return out;
+}
+
+int rank(VkPhysicalDeviceType type) {
+  switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return 0;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return 1;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return 2;
+    case VK_PHYSICAL_DEVICE_TYPE_CPU: return 3;
+    default: return 4;
+  }
+}
+
+struct Candidate {
+  VkPhysicalDevice handle;
+  std::string name;
+  VkPhysicalDeviceType type;
+};
+
+std::string listed(const std::vector<Candidate>& devices) {
+  std::string text;
+  for (size_t i = 0; i < devices.size(); ++i) text += "\n  " + std::to_string(i) + "  " + devices[i].name;
+  return text;
+}
+
+/// The device that `wanted` names: by its index where it is a number in range, else by part of its name.
+std::optional<size_t> match(const std::vector<Candidate>& devices, const std::string& wanted) {
+  if (wanted.size() <= 3 && std::ranges::all_of(wanted, [](unsigned char c) { return std::isdigit(c); }))
+    if (const size_t index = std::stoul(wanted); index < devices.size()) return index;
+  for (size_t i = 0; i < devices.size(); ++i)
+    if (lower(devices[i].name).find(lower(wanted)) != std::string::npos) return i;
+  return std::nullopt;
+}
+
+}  // namespace
+
+Expected<void> ContextImpl::openLoader() {
+  // Never closed: drivers leave threads and exit handlers behind that must not outlive their code.
+  void* library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
+  if (!library) library = dlopen("libvulkan.so", RTLD_NOW | RTLD_LOCAL);
+  if (!library) return Error{ErrorKind::NoDevice, "no Vulkan loader on this system: install libvulkan1 (libvulkan.so.1) and a driver"};
+  get = reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library, "vkGetInstanceProcAddr"));
+  createInstance = get ? reinterpret_cast<PFN_vkCreateInstance>(get(nullptr, "vkCreateInstance")) : nullptr;
+  if (!createInstance) return Error{ErrorKind::NoDevice, "libvulkan.so.1 is no Vulkan loader: it lacks vkGetInstanceProcAddr or vkCreateInstance"};
+  return {};
+}
+
+Expected<void> ContextImpl::makeInstance(const ContextDesc& desc) {
+  VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
+  application.pApplicationName = desc.applicationName.c_str();
+  application.pEngineName = "Rill";
+  application.apiVersion = VK_API_VERSION_1_3;
+  std::vector<const char*> extensions = desc.instanceExtensions;
+
+  VkDebugUtilsMessengerCreateInfoEXT debug{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
+  debug.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+  debug.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;  // not the loader's GENERAL
+  debug.pfnUserCallback = onMessage;
+  debug.pUserData = this;
+  const VkValidationFeatureEnableEXT enable[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+  VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT, &debug};
+  features.enabledValidationFeatureCount = 1;
+  features.pEnabledValidationFeatures = enable;
+
+  VkInstanceCreateInfo create{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
+  create.pApplicationInfo = &application;
+  if (desc.validation) {
+    extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    create.pNext = &features;
+    create.enabledLayerCount = 1;
+    create.ppEnabledLayerNames = &kValidationLayer;
+  }
+  create.enabledExtensionCount = uint32_t(extensions.size());
+  create.ppEnabledExtensionNames = extensions.data();
+  const VkResult made = createInstance(&create, nullptr, &instance);
+  if (made == VK_ERROR_LAYER_NOT_PRESENT)
+    return Error{ErrorKind::Failed, std::string("validation was asked for, but ") + kValidationLayer + " is not installed (vulkan-validationlayers)"};
+  if (made == VK_ERROR_INCOMPATIBLE_DRIVER) return Error{ErrorKind::NoDevice, "no Vulkan driver found (Debian: mesa-vulkan-drivers)"};
+  if (made != VK_SUCCESS) return vulkanError(made, "creating a Vulkan instance");
+
+#define RILL_LOAD(name)                                                             \
+  vki.name = reinterpret_cast<PFN_vk##name>(get(instance, "vk" #name));             \
+  if (!vki.name) return Error{ErrorKind::NoDevice, "the Vulkan instance lacks vk" #name};
+  RILL_CONTEXT_INSTANCE_FUNCTIONS(RILL_LOAD)
+#undef RILL_LOAD
+  if (desc.validation) {
+    auto createMessenger = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(get(instance, "vkCreateDebugUtilsMessengerEXT"));
+    if (!createMessenger) return Error{ErrorKind::Failed, "validation was asked for, but VK_EXT_debug_utils is missing"};
+    if (VkResult r = createMessenger(instance, &debug, nullptr, &messenger); r != VK_SUCCESS) return vulkanError(r, "listening to the validation layer");
+  }
+  return {};
+}
+
+Expected<void> ContextImpl::chooseDevice(const std::string& wanted) {
+  uint32_t count = 0;
+  if (VkResult r = vki.EnumeratePhysicalDevices(instance, &count, nullptr); r != VK_SUCCESS && r != VK_ERROR_INITIALIZATION_FAILED)
+    return vulkanError(r, "listing Vulkan devices");
+  std::vector<VkPhysicalDevice> handles(count);
+  if (count != 0) (void)vki.EnumeratePhysicalDevices(instance, &count, handles.data());
+  handles.resize(count);
+  std::vector<Candidate> devices;
+  for (VkPhysicalDevice handle : handles) {
+    VkPhysicalDeviceProperties properties{};
+    vki.GetPhysicalDeviceProperties(handle, &properties);
+    devices.push_back({handle, properties.deviceName, properties.deviceType});
+  }
+  if (devices.empty()) return Error{ErrorKind::NoDevice, "no Vulkan device found (Debian: mesa-vulkan-drivers brings one that needs no GPU)"};
+
+  const auto usable = [&](const Candidate& candidate) {
+    DeviceRequirements ignored;
+    return appendRequired(get, instance, candidate.handle, ignored);
+  };
+  std::optional<size_t> chosen;
+  if (!wanted.empty()) {
+    chosen = match(devices, wanted);
+    if (!chosen) return Error{ErrorKind::BadInput, "no Vulkan device matches '" + wanted + "'. There are:" + listed(devices)};
+    if (auto ok = usable(devices[*chosen]); !ok) return ok;
+  } else {
+    std::string reasons;
+    for (size_t i = 0; i < devices.size(); ++i) {
+      if (auto ok = usable(devices[i]); !ok) reasons += "\n  " + ok.error().message;
+      else if (!chosen || rank(devices[i].type) < rank(devices[*chosen].type)) chosen = i;
+    }
+    if (!chosen) return Error{ErrorKind::NoDevice, "no usable Vulkan device:" + reasons};
+  }
+  physicalDevice = devices[*chosen].handle;
+  deviceName = devices[*chosen].name;
+
+  vki.GetPhysicalDeviceQueueFamilyProperties(physicalDevice, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vki.GetPhysicalDeviceQueueFamilyProperties(physicalDevice, &count, families.data());
+  const auto find = [&](VkQueueFlags flags) { return std::ranges::find_if(families, [&](const auto& f) { return (f.queueFlags & flags) == flags; }); };
+  auto family = find(VK_QUEUE_COMPUTE_BIT | VK_QUEUE_GRAPHICS_BIT);
+  if (family == families.end()) family = find(VK_QUEUE_COMPUTE_BIT);  // a compute-only card can still simulate
+  if (family == families.end()) return Error{ErrorKind::NoDevice, "device '" + deviceName + "' has no queue that computes"};
+  queueFamily = uint32_t(family - families.begin());
+  return {};
+}
+
+Expected<void> ContextImpl::makeDevice(const ContextDesc& desc) {
+  DeviceRequirements needs;
+  if (auto ok = appendRequired(get, instance, physicalDevice, needs); !ok) return ok;
+  needs.vulkan12.timelineSemaphore = VK_TRUE;  // for this context's own frame clock
+  needs.vulkan12.pNext = &needs.vulkan13;
+  VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &needs.vulkan12, needs.core};
+  const float priority = 1;
+  const VkDeviceQueueCreateInfo queueInfo{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, queueFamily, 1, &priority};
+  VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features};
+  create.queueCreateInfoCount = 1;
+  create.pQueueCreateInfos = &queueInfo;
+  create.enabledExtensionCount = uint32_t(desc.deviceExtensions.size());
+  create.ppEnabledExtensionNames = desc.deviceExtensions.data();
+  if (VkResult r = vki.CreateDevice(physicalDevice, &create, nullptr, &device); r != VK_SUCCESS) return vulkanError(r, "opening device '" + deviceName + "'");
+
+#define RILL_LOAD(name)                                                                 \
+  vk.name = reinterpret_cast<PFN_vk##name>(vki.GetDeviceProcAddr(device, "vk" #name));  \
+  if (!vk.name) return Error{ErrorKind::NoDevice, "device '" + deviceName + "' lacks vk" #name};
+  RILL_CONTEXT_DEVICE_FUNCTIONS(RILL_LOAD)
+#undef RILL_LOAD
+  vk.GetDeviceQueue(device, queueFamily, 0, &queue);
+
+  HostDevice host;
+  host.instance = instance;
+  host.physicalDevice = physicalDevice;
+  host.device = device;
+  host.queueFamily = queueFamily;
+  host.getInstanceProcAddr = get;
+  host.enabled = &features;
+  host.extensions = desc.deviceExtensions;
+  auto borrowed = Device::borrow(host);
+  if (!borrowed) return borrowed.error();
+  rill = std::move(*borrowed);
+  return {};
+}
+
+}  // namespace rill::offline

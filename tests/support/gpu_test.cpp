@@ -1,0 +1,91 @@
+#include "support/gpu_test.hpp"
+
+#include <cstring>
+
+#include "gpu/shader_library.hpp"
+
+namespace rill {
+std::span<const EmbeddedShader> testShaders();
+}
+
+namespace rill::test {
+namespace {
+
+/// Destroyed by GoogleTest before main returns: a driver's own exit handlers would find a device that is still open.
+class SharedContext : public ::testing::Environment {
+ public:
+  static SharedContext& get() {
+    static auto* environment = static_cast<SharedContext*>(::testing::AddGlobalTestEnvironment(new SharedContext));
+    return *environment;
+  }
+  offline::Context* context() {
+    if (!context_ && error_.empty()) {
+      offline::ContextDesc desc;
+      desc.validation = true;
+      auto made = offline::Context::create(desc);
+      if (made) context_ = std::move(*made);
+      else error_ = made.error().message;
+    }
+    if (!context_) ADD_FAILURE() << error_;
+    return context_.get();
+  }
+  void TearDown() override { context_.reset(); }
+
+ private:
+  std::unique_ptr<offline::Context> context_;
+  std::string error_;
+};
+
+// Registered before main: GoogleTest takes no environments once tests run.
+[[maybe_unused]] SharedContext& registered = SharedContext::get();
+
+}  // namespace
+
+offline::Context* sharedContext() { return SharedContext::get().context(); }
+
+std::span<const uint32_t> testShader(std::string_view name) {
+  for (const EmbeddedShader& shader : testShaders())
+    if (shader.name == name) return shader.words;
+  ADD_FAILURE() << "no test shader '" << name << "'";
+  return {};
+}
+
+void GpuTest::SetUp() {
+  context_ = sharedContext();
+  ASSERT_NE(context_, nullptr);
+  (void)context_->takeMessages();
+}
+
+void GpuTest::TearDown() {
+  if (!context_) return;
+  if (auto ok = context_->wait(); !ok) ADD_FAILURE() << ok.error().message;
+  for (const std::string& message : context_->takeMessages()) ADD_FAILURE() << message;
+}
+
+void GpuTest::run(Graph& graph) {
+  auto ok = context().run(graph);
+  if (ok) ok = context().wait();
+  if (!ok) FAIL() << ok.error().message;
+}
+
+Buffer GpuTest::buffer(std::string_view name, uint64_t bytes, MemoryKind kind) {
+  auto made = createBuffer(device(), name, bytes, kind);
+  if (made) return std::move(*made);
+  ADD_FAILURE() << made.error().message;
+  return {};
+}
+
+Buffer GpuTest::uploadBytes(std::string_view name, std::span<const std::byte> bytes) {
+  Buffer made = buffer(name, bytes.size(), MemoryKind::Upload);
+  if (made) std::memcpy(made.mapped(), bytes.data(), bytes.size());
+  return made;
+}
+
+const ComputePipeline* GpuTest::pipeline(const ComputePipelineDesc& desc) {
+  auto made = computePipeline(device(), desc);
+  if (made) return *made;
+  ADD_FAILURE() << made.error().message;
+  return nullptr;
+}
+
+}  // namespace rill::test

@@ -1,0 +1,54 @@
+#pragma once
+// A test on whatever driver the environment selects (VK_DRIVER_FILES), with validation and synchronization validation: any message fails it.
+#include <gtest/gtest.h>
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "gpu/resources.hpp"
+#include "offline/context.hpp"
+#include "rill/graph.hpp"
+
+namespace rill::test {
+
+/// One context a test program, since opening a device costs more than most tests. Null where there is no device: the test fails.
+offline::Context* sharedContext();
+
+/// SPIR-V of tests/support/shaders/NAME.comp.
+std::span<const uint32_t> testShader(std::string_view name);
+
+class GpuTest : public ::testing::Test {
+ protected:
+  void SetUp() override;
+  void TearDown() override;
+
+  offline::Context& context() { return *context_; }
+  Device& device() { return context_->device(); }
+  /// Runs the graph as one frame and waits for it; a failure fails the test.
+  void run(Graph& graph);
+  /// A buffer of the host's bytes, in memory that the device reads.
+  template <class T>
+  Buffer upload(std::string_view name, std::span<const T> data) { return uploadBytes(name, std::as_bytes(data)); }
+  template <class T>
+  Buffer upload(std::string_view name, const std::vector<T>& data) { return uploadBytes(name, std::as_bytes(std::span(data))); }
+  Buffer buffer(std::string_view name, uint64_t bytes, MemoryKind kind = MemoryKind::Device);
+  const ComputePipeline* pipeline(const ComputePipelineDesc& desc);
+
+  static BufferImport importOf(const Buffer& buffer, Use before = Use::None, Use after = Use::None) {
+    return {buffer.handle(), 0, buffer.size(), before, after};
+  }
+  /// The ticket's bytes as a vector of T; empty where it has not arrived.
+  template <class T>
+  static std::vector<T> read(const Graph& graph, Ticket ticket) {
+    const auto bytes = graph.data(ticket);
+    const auto* first = reinterpret_cast<const T*>(bytes.data());
+    return {first, first + bytes.size() / sizeof(T)};
+  }
+
+ private:
+  Buffer uploadBytes(std::string_view name, std::span<const std::byte> bytes);
+  offline::Context* context_ = nullptr;
+};
+
+}  // namespace rill::test

@@ -1,0 +1,5 @@
+// Each group adds its size to a counter, all groups of all dispatches together.
+#version 460
+layout(local_size_x = 64) in;
+layout(binding = 0) buffer Counter { uint counter; };
+void main() { if (gl_LocalInvocationID.x == 0) atomicAdd(counter, gl_WorkGroupSize.x); }
