@@ -5,6 +5,7 @@
 
 #include "gpu/device_impl.hpp"
 #include "gpu/shader_library.hpp"
+#include "gpu/shader_reload.hpp"
 #include "gpu/vulkan_error.hpp"
 
 namespace rill {
@@ -13,7 +14,9 @@ namespace {
 constexpr size_t kMaxConstants = 32;
 constexpr uint32_t kMaxPushBytes = 128;  // the least that Vulkan guarantees
 
-std::span<const uint32_t> embedded(std::string_view name) {
+std::span<const uint32_t> libraryWords(const DeviceImpl& device, std::string_view name) {
+  if (device.reload)
+    if (const auto words = device.reload->words(name); !words.empty()) return words;
   for (const EmbeddedShader& shader : embeddedShaders())
     if (shader.name == name) return shader.words;
   return {};
@@ -112,7 +115,7 @@ Expected<const ComputePipeline*> PipelineStore::find(DeviceImpl& device, const C
         std::ranges::equal(p->words, desc.words))
       return p.get();
 
-  const std::span<const uint32_t> words = desc.words.empty() ? embedded(desc.shader) : desc.words;
+  const std::span<const uint32_t> words = desc.words.empty() ? libraryWords(device, desc.shader) : desc.words;
   if (words.empty()) return shaderError(desc.shader, "the library contains no such shader");
   if (desc.pushConstantBytes > kMaxPushBytes || desc.pushConstantBytes % 4 != 0)
     return shaderError(desc.shader, std::to_string(desc.pushConstantBytes) + " bytes of push constants: a multiple of 4 up to 128 is possible");
