@@ -1,0 +1,110 @@
+// What the particle view's shaders and its C++ side share. All lengths in m, relative to the view's origin; y up.
+#ifndef RILL_RENDER_PARTICLE_RECORDS_H
+#define RILL_RENDER_PARTICLE_RECORDS_H
+
+#ifdef __cplusplus
+#include <cstdint>
+
+#include "rill/float3.hpp"
+namespace rill::particle_view {
+using uint = std::uint32_t;
+using vec4 = Float4;
+struct uvec4 { uint x = 0, y = 0, z = 0, w = 0; };
+#define RILL_CONSTANT constexpr uint
+#else
+#define RILL_CONSTANT const uint
+#endif
+
+RILL_CONSTANT kPixelTile = 16;         // pixels a side of the tiles that share solids and large spheres
+RILL_CONSTANT kParticleGroup = 64;     // invocations of a particle kernel's workgroup
+RILL_CONSTANT kShadeTile = 8;          // pixels a side of the shading kernel's workgroup
+RILL_CONSTANT kSmallRect = 64;         // pixels: a sphere up to this wide and high is splatted by one invocation
+RILL_CONSTANT kLargeChunk = 4096;      // large spheres that one workgroup looks at
+RILL_CONSTANT kOccluderCells = 32;     // occlusion cells a side that one sphere covers at most
+RILL_CONSTANT kColours = 64;           // entries of a colour map
+RILL_CONSTANT kEdges = 12;             // of a box
+
+// Who owns a pixel: a particle's index, or one of these.
+RILL_CONSTANT kSolidBase = 0x80000000u;  // + number of the solid
+RILL_CONSTANT kFloorId = 0xFFFFFFFEu;
+RILL_CONSTANT kNobody = 0xFFFFFFFFu;
+
+// What a tile of the shading kernels holds: one list of tiles each.
+RILL_CONSTANT kTilesFluid = 0;     // a particle owns a pixel
+RILL_CONSTANT kTilesBackdrop = 1;  // the floor or nobody does
+RILL_CONSTANT kTilesSolid = 2;     // a solid does
+RILL_CONSTANT kTilesOutline = 3;   // a particle or a solid owns a pixel of it or beside it
+RILL_CONSTANT kTileLists = 4;
+
+// Words of the counter buffer: how many, then dispatch arguments, three words each.
+RILL_CONSTANT kSmallCount = 0;
+RILL_CONSTANT kLargeCount = 1;
+RILL_CONSTANT kTileCount = 4;       // + list
+RILL_CONSTANT kSmallArguments = 8;
+RILL_CONSTANT kLargeArguments = 12;
+RILL_CONSTANT kTintArguments = 16;
+RILL_CONSTANT kTileArguments = 20;  // + 4 * list
+RILL_CONSTANT kCounterWords = 36;
+
+// Camera and frame. Depth is the distance from the eye along `forward`; a pixel's ray has a forward component of 1.
+struct ViewPush {
+  float eye[3];
+  float focal;       // pixels
+  float right[3];
+  float near_depth;  // nothing nearer is drawn
+  float up[3];
+  float radius;      // of a particle
+  float forward[3];
+  float time;        // s
+  float offset[3];   // particle positions are relative to the view's origin plus this
+  uint count;        // particles
+  uint width;        // pixels
+  uint height;
+  uint cell;         // pixels a side of an occlusion cell
+  uint compression;  // 0: coloured by speed, 1: by compression
+  float scale;       // 1 / the value at the colour map's end
+  uint winners;      // 0: splat depths, 1: splat indices
+};
+
+// What stays the same over a view's life.
+struct SceneRecord {
+  vec4 domain_min;   // w: 1 where there is a domain
+  vec4 domain_max;   // w: spacing of the floor's grid lines
+  uvec4 counts;      // solids, light map width, light map height, closed sides (bits -x +x -y +y -z +z)
+  vec4 light_u;      // axis; w: coordinate of the light map's first texel centre
+  vec4 light_v;
+  vec4 light_to;     // direction to the light; w: coordinate of the plane that light depth counts from
+  vec4 light_texel;  // x: size of a texel
+  vec4 colours[2 * kColours];  // linear RGB: by speed, by compression
+};
+
+// A solid as the scene describes it.
+struct SolidRecord {
+  vec4 centre;    // w: radius of a sphere, 0 for a box
+  vec4 rotation;  // unit quaternion
+  vec4 half_size; // of a box; w: radius of the bounding sphere
+  uvec4 motion;   // first keyframe, number of keyframes
+};
+
+// A solid at the frame's time.
+struct PoseRecord {
+  vec4 centre;  // w: radius of a sphere, 0 for a box
+  vec4 axis_x;  // unit; w: half size along it
+  vec4 axis_y;
+  vec4 axis_z;
+  vec4 view;    // centre in view space; w: radius of the bounding sphere
+};
+
+// An edge of the domain on the screen: |line.x x + line.y y + line.z| is the distance in pixels.
+struct EdgeRecord {
+  vec4 line;   // w: 1 where any of it is in front of the eye
+  vec4 along;  // direction xy, coordinates of the start and of the end along it
+  vec4 depth;  // inverse depth at the start, its change a pixel
+};
+
+#undef RILL_CONSTANT
+#ifdef __cplusplus
+static_assert(sizeof(ViewPush) <= 128);
+}  // namespace rill::particle_view
+#endif
+#endif
