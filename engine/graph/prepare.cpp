@@ -45,7 +45,7 @@ Expected<void> GraphImpl::prepare(Device& owner) {
   if (timed && d.timestampMask) {
     for (const PassData& pass : passes)
       if (pass.alive) slot->timedNames.push_back(pass.name);
-    const uint32_t needed = uint32_t(slot->timedNames.size()) * 2;
+    const uint32_t needed = uint32_t(slot->timedNames.size()) + 1;
     if (needed > slot->queryCapacity) {
       d.retired.add(d.clock.completed, VK_OBJECT_TYPE_QUERY_POOL, slot->queries);
       slot->queries = VK_NULL_HANDLE;
@@ -226,8 +226,8 @@ void GraphImpl::collect() {
   if (!newest) return;
   newest->timingsPending = false;
   const uint32_t count = uint32_t(newest->timedNames.size());
-  stamps.resize(count * 2);
-  const VkResult got = device->vk.GetQueryPoolResults(device->handle, newest->queries, 0, count * 2, stamps.size() * sizeof(uint64_t), stamps.data(),
+  stamps.resize(count + 1);
+  const VkResult got = device->vk.GetQueryPoolResults(device->handle, newest->queries, 0, count + 1, stamps.size() * sizeof(uint64_t), stamps.data(),
                                                       sizeof(uint64_t), VK_QUERY_RESULT_64_BIT);
   if (got != VK_SUCCESS) return;  // the host was wrong about the frame: no figures are better than wrong ones
   timingsFrame = newest->frame;
@@ -239,7 +239,7 @@ void GraphImpl::collect() {
       row = uint32_t(timings.size());
       timings.push_back({names[newest->timedNames[i]], 0, 0});
     }
-    const uint64_t ticks = (stamps[2 * i + 1] - stamps[2 * i]) & device->timestampMask;
+    const uint64_t ticks = (stamps[i + 1] - stamps[i]) & device->timestampMask;
     timings[row].ms += double(ticks) * double(device->limits.timestampPeriod) * 1e-6;
     ++timings[row].runs;
   }

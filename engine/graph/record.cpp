@@ -27,15 +27,18 @@ void GraphImpl::record(VkCommandBuffer commandBuffer) {
   prepared = false;  // its descriptor sets and queries are this recording's alone
   const DeviceTable& vk = device->vk;
   const bool stamp = !slot->timedNames.empty();
-  if (stamp) vk.CmdResetQueryPool(commandBuffer, slot->queries, 0, uint32_t(slot->timedNames.size()) * 2);
+  if (stamp) vk.CmdResetQueryPool(commandBuffer, slot->queries, 0, uint32_t(slot->timedNames.size()) + 1);
   slot->timingsPending = stamp;
   uint32_t query = 0;
+  const auto writeStamp = [&] {
+    if (stamp) vk.CmdWriteTimestamp2(commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot->queries, query++);
+  };
+  writeStamp();
   Commands commands(*this, commandBuffer);
   for (uint32_t i = 0; i < passes.size(); ++i) {
     const PassData& pass = passes[i];
     if (!pass.alive) continue;
     recordBarrier(vk, commandBuffer, pass.barrier.scope);
-    if (stamp) vk.CmdWriteTimestamp2(commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot->queries, query++);
     if (pass.readback) {
       for (const Readback& readback : readbacks) {
         if (readback.pass != i) continue;
@@ -46,7 +49,7 @@ void GraphImpl::record(VkCommandBuffer commandBuffer) {
       commands.pass_ = i;
       pass.invoke(pass.record, commands);
     }
-    if (stamp) vk.CmdWriteTimestamp2(commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot->queries, query++);
+    writeStamp();
   }
   recordBarrier(vk, commandBuffer, finalBarrier.scope);
 }

@@ -119,7 +119,7 @@ class Commands {
   uint32_t pass_ = 0;
 };
 
-/// Time that a pass took on the device. Passes of one name are added up.
+/// Time that a pass took on the device, from the end of the pass before it, so that all add up to the frame's. Passes of one name are added up.
 struct Timing {
   std::string_view name;
   double ms = 0;
@@ -143,7 +143,7 @@ class Graph {
   Graph(const Graph&) = delete;
   Graph& operator=(const Graph&) = delete;
 
-  /// Forgets the declared frame; refs of it become stale. Read-backs in flight and cached plans stay.
+  /// Forgets the declared frame; refs of it become stale. Read-backs in flight, the transients' memory and timings stay.
   void reset();
 
   BufferRef create(std::string_view name, BufferDesc desc);  ///< transient: lives in the graph's own memory, content undefined at first
@@ -186,7 +186,7 @@ class Graph {
   std::span<const PassReport> report() const;  ///< of the last compiled frame
   uint64_t transientBytes() const;  ///< of device memory that the last compiled frame's transients take, aliased
 
-  /// Two timestamps a pass. Default true.
+  /// A timestamp before the first pass and after each. Default true; a software driver takes some 30 us for each.
   void enableTimings(bool enabled);
 
   GraphImpl& impl() { return *impl_; }  ///< engine/graph and its tests; not for hosts
