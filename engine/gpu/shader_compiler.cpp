@@ -48,8 +48,10 @@ std::string preamble(std::string_view defines) {
     defines.remove_prefix(std::min(end + 1, defines.size()));
     if (word.empty()) continue;
     const size_t equals = word.find('=');
-    if (equals == std::string::npos) word += " 1";
-    else word[equals] = ' ';
+    if (equals == std::string::npos)
+      word += " 1";
+    else
+      word[equals] = ' ';
     out += "#define " + word + "\n";
   }
   return out;

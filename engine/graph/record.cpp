@@ -7,12 +7,13 @@
 namespace rill {
 namespace {
 
-constexpr uint64_t kMaxGroups = 65535;  // a dimension; the least that Vulkan guarantees, used everywhere so that folding is the same everywhere
+// A dimension's limit: the least that Vulkan guarantees, on every device, so that folding is the same everywhere.
+constexpr uint64_t kMaxGroups = 65535;
 
 void recordBarrier(const DeviceTable& vk, VkCommandBuffer commandBuffer, const Scope& scope) {
   if (scope.empty()) return;
-  const VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr,           scope.sourceStage, scope.sourceAccess,
-                                 scope.targetStage,                  scope.targetAccess};
+  const VkMemoryBarrier2 barrier{
+      VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, scope.sourceStage, scope.sourceAccess, scope.targetStage, scope.targetAccess};
   VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
   dependency.memoryBarrierCount = 1;
   dependency.pMemoryBarriers = &barrier;
@@ -62,8 +63,10 @@ void Commands::bind(Kernel kernel, std::span<const std::byte> push) {
   assert(push.size() == pipeline.pushBytes && "push constants of another size than the pipeline was made for");
   const DeviceTable& vk = graph_.device->vk;
   vk.CmdBindPipeline(commandBuffer_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle);
-  if (data.bindings.count != 0) vk.CmdBindDescriptorSets(commandBuffer_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &data.set, 0, nullptr);
-  if (!push.empty()) vk.CmdPushConstants(commandBuffer_, pipeline.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, uint32_t(push.size()), push.data());
+  if (data.bindings.count != 0)
+    vk.CmdBindDescriptorSets(commandBuffer_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &data.set, 0, nullptr);
+  if (!push.empty())
+    vk.CmdPushConstants(commandBuffer_, pipeline.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, uint32_t(push.size()), push.data());
 }
 
 void Commands::dispatch(Kernel kernel, uint64_t groups, std::span<const std::byte> push) {
@@ -76,7 +79,8 @@ void Commands::dispatch(Kernel kernel, uint64_t groups, std::span<const std::byt
 
 void Commands::dispatchIndirect(Kernel kernel, BufferRef arguments, uint64_t offset, std::span<const std::byte> push) {
   const ResourceData& resource = graph_.resources[arguments.index];
-  assert(arguments.epoch == graph_.epoch && graph_.accessOf(pass_, arguments.index) && "indirect arguments are declared with Use::Indirect");
+  assert(arguments.epoch == graph_.epoch && graph_.accessOf(pass_, arguments.index) &&
+         "indirect arguments are declared with Use::Indirect");
   assert(offset % 4 == 0 && offset + 12 <= resource.size);
   bind(kernel, push);
   graph_.device->vk.CmdDispatchIndirect(commandBuffer_, resource.buffer, resource.offset + offset);

@@ -114,7 +114,8 @@ TEST_F(GraphOnGpu, ReadsTexelsOfImportsAndOfTransients) {
     return [=](Commands& commands) { commands.copy(imported, copy, 1600); };
   });
   Ticket tickets[2];
-  const ComputePipeline* texel = pipeline({.shader = "texel", .bindings = kTexelAndBuffer, .pushConstantBytes = 4, .words = testShader("texel")});
+  const ComputePipeline* texel =
+      pipeline({.shader = "texel", .bindings = kTexelAndBuffer, .pushConstantBytes = 4, .words = testShader("texel")});
   for (int i = 0; i < 2; ++i) {
     const BufferRef from = i == 0 ? imported : copy;
     BufferRef sums = graph.create("sums", {400});

@@ -113,9 +113,7 @@ TEST_F(Recording, APassHasAtMostOneBarrierAndLiesBetweenTwoTimestamps) {
   EXPECT_LE(vulkan.count(NullCommand::Barrier), 202u);
   EXPECT_EQ(vulkan.count(NullCommand::Timestamp), 201u + 1);
   for (const NullCommand& command : vulkan.commands) {
-    if (command.kind == NullCommand::Barrier) {
-      EXPECT_EQ(command.handle, 1u) << "one memory barrier";
-    }
+    if (command.kind == NullCommand::Barrier) { EXPECT_EQ(command.handle, 1u) << "one memory barrier"; }
   }
 }
 
@@ -129,7 +127,8 @@ TEST_F(Recording, FramesAreRecordedAlikeHoweverManyAreInFlight) {
     EXPECT_TRUE(go());
     std::vector<std::array<uint64_t, 4>> list;
     for (const NullCommand& c : vulkan.commands)
-      if (c.kind == NullCommand::Barrier) list.push_back({c.barrier.srcStageMask, c.barrier.srcAccessMask, c.barrier.dstStageMask, c.barrier.dstAccessMask});
+      if (c.kind == NullCommand::Barrier)
+        list.push_back({c.barrier.srcStageMask, c.barrier.srcAccessMask, c.barrier.dstStageMask, c.barrier.dstAccessMask});
     return list;
   };
   device->beginFrame({1, 0});
@@ -148,7 +147,8 @@ TEST_F(Recording, DispatchesAreFoldedAndEmptyOnesLeftOut) {
     out = pass.write(out, Use::ComputeWrite);
     const Kernel kernel = pass.kernel(update, {out});
     return [=](Commands& commands) {
-      for (uint64_t groups : {uint64_t(0), uint64_t(1), uint64_t(65535), uint64_t(65536), uint64_t(1'000'000)}) commands.dispatch(kernel, groups);
+      for (uint64_t groups : {uint64_t(0), uint64_t(1), uint64_t(65535), uint64_t(65536), uint64_t(1'000'000)})
+        commands.dispatch(kernel, groups);
     };
   });
   ASSERT_TRUE(go());
