@@ -58,8 +58,8 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
 Expected<Buffer> DeviceImpl::createBuffer(std::string_view name, uint64_t size, MemoryKind kind) {
   const std::string quoted = "'" + std::string(name) + "'";
   if (size == 0 || size > info.maxStorageBufferBytes)
-    return Error{ErrorKind::BadInput, "buffer " + quoted + " of " + bytesText(size) + ": 1 byte to " + bytesText(info.maxStorageBufferBytes) +
-                                          " are possible on " + info.name};
+    return Error{ErrorKind::BadInput, "buffer " + quoted + " of " + bytesText(size) + ": 1 byte to " +
+                                          bytesText(info.maxStorageBufferBytes) + " are possible on " + info.name};
   Buffer buffer;  // what has been made so far is retired by its destructor where a later step fails
   buffer.device_ = this;
   buffer.size_ = size;

@@ -9,7 +9,8 @@ namespace rill {
 namespace {
 
 std::string versionText(uint32_t v) {
-  return std::to_string(VK_API_VERSION_MAJOR(v)) + "." + std::to_string(VK_API_VERSION_MINOR(v)) + "." + std::to_string(VK_API_VERSION_PATCH(v));
+  return std::to_string(VK_API_VERSION_MAJOR(v)) + "." + std::to_string(VK_API_VERSION_MINOR(v)) + "." +
+         std::to_string(VK_API_VERSION_PATCH(v));
 }
 
 Error badHost(const char* what) { return {ErrorKind::BadInput, std::string("Device::borrow: HostDevice::") + what}; }
@@ -103,14 +104,18 @@ DeviceImpl::~DeviceImpl() {
 }
 
 void DeviceImpl::abandon(uint64_t frame) { abandoned_[abandonedCount_++ % abandoned_.size()] = frame; }
-bool DeviceImpl::abandoned(uint64_t frame) const { return frame != 0 && std::find(abandoned_.begin(), abandoned_.end(), frame) != abandoned_.end(); }
+bool DeviceImpl::abandoned(uint64_t frame) const {
+  return frame != 0 && std::find(abandoned_.begin(), abandoned_.end(), frame) != abandoned_.end();
+}
 
 void RetireQueue::collect(DeviceImpl& device, uint64_t completed) {
   const auto done = [&](const Entry& entry) {
     if (entry.frame > completed) return false;
     switch (entry.type) {
-#define RILL_DESTROY(type, Type, Destroy) \
-  case type: device.vk.Destroy(device.handle, reinterpret_cast<Type>(entry.handle), device.callbacks); break;
+#define RILL_DESTROY(type, Type, Destroy)                                                     \
+  case type:                                                                                  \
+    device.vk.Destroy(device.handle, reinterpret_cast<Type>(entry.handle), device.callbacks); \
+    break;
       RILL_DESTROY(VK_OBJECT_TYPE_BUFFER, VkBuffer, DestroyBuffer)
       RILL_DESTROY(VK_OBJECT_TYPE_BUFFER_VIEW, VkBufferView, DestroyBufferView)
       RILL_DESTROY(VK_OBJECT_TYPE_DEVICE_MEMORY, VkDeviceMemory, FreeMemory)
@@ -118,7 +123,8 @@ void RetireQueue::collect(DeviceImpl& device, uint64_t completed) {
       RILL_DESTROY(VK_OBJECT_TYPE_QUERY_POOL, VkQueryPool, DestroyQueryPool)
       RILL_DESTROY(VK_OBJECT_TYPE_PIPELINE, VkPipeline, DestroyPipeline)
 #undef RILL_DESTROY
-      default: assert(!"an object type that is never retired");
+      default:
+        assert(!"an object type that is never retired");
     }
     return true;
   };

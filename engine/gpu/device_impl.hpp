@@ -53,8 +53,8 @@ class DeviceImpl {
   DeviceInfo info;
   VkPhysicalDeviceLimits limits{};
   VkPhysicalDeviceMemoryProperties memory{};
-  uint64_t timestampMask = 0;      ///< valid bits of the queue's timestamps; 0: it has none
-  bool sizedSubgroups = false;     ///< a compute stage can be given a subgroup size
+  uint64_t timestampMask = 0;   ///< valid bits of the queue's timestamps; 0: it has none
+  bool sizedSubgroups = false;  ///< a compute stage can be given a subgroup size
   FrameClock clock;
   RetireQueue retired;
   PipelineStore pipelines;

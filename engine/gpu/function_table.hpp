@@ -3,12 +3,12 @@
 // host, whether that uses the loader's prototypes, volk or a table of its own.
 #include "rill/device.hpp"
 
-#define RILL_INSTANCE_FUNCTIONS(X)        \
-  X(GetDeviceProcAddr)                    \
-  X(GetPhysicalDeviceFeatures2)           \
-  X(GetPhysicalDeviceFormatProperties)    \
-  X(GetPhysicalDeviceMemoryProperties)    \
-  X(GetPhysicalDeviceProperties2)         \
+#define RILL_INSTANCE_FUNCTIONS(X)     \
+  X(GetDeviceProcAddr)                 \
+  X(GetPhysicalDeviceFeatures2)        \
+  X(GetPhysicalDeviceFormatProperties) \
+  X(GetPhysicalDeviceMemoryProperties) \
+  X(GetPhysicalDeviceProperties2)      \
   X(GetPhysicalDeviceQueueFamilyProperties)
 
 #define RILL_DEVICE_FUNCTIONS(X) \

@@ -5,6 +5,7 @@
 
 #include "gpu/device_impl.hpp"
 #include "gpu/shader_library.hpp"
+#include "gpu/shader_reload.hpp"
 #include "gpu/vulkan_error.hpp"
 
 namespace rill {
@@ -13,7 +14,9 @@ namespace {
 constexpr size_t kMaxConstants = 32;
 constexpr uint32_t kMaxPushBytes = 128;  // the least that Vulkan guarantees
 
-std::span<const uint32_t> embedded(std::string_view name) {
+std::span<const uint32_t> libraryWords(const DeviceImpl& device, std::string_view name) {
+  if (device.reload)
+    if (const auto words = device.reload->words(name); !words.empty()) return words;
   for (const EmbeddedShader& shader : embeddedShaders())
     if (shader.name == name) return shader.words;
   return {};
@@ -27,23 +30,32 @@ Error shaderError(std::string_view shader, std::string what) {
 
 VkDescriptorType descriptorType(BindingKind kind) {
   switch (kind) {
-    case BindingKind::Storage: return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    case BindingKind::Uniform: return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    case BindingKind::Storage:
+      return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    case BindingKind::Uniform:
+      return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     case BindingKind::TexelFloat4:
     case BindingKind::TexelUint:
-    case BindingKind::TexelUint4: return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
-    case BindingKind::StorageImage: return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-    case BindingKind::SampledImage: return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    case BindingKind::TexelUint4:
+      return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+    case BindingKind::StorageImage:
+      return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    case BindingKind::SampledImage:
+      return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
   }
   return VK_DESCRIPTOR_TYPE_MAX_ENUM;
 }
 
 VkFormat texelFormat(BindingKind kind) {
   switch (kind) {
-    case BindingKind::TexelFloat4: return VK_FORMAT_R32G32B32A32_SFLOAT;
-    case BindingKind::TexelUint: return VK_FORMAT_R32_UINT;
-    case BindingKind::TexelUint4: return VK_FORMAT_R32G32B32A32_UINT;
-    default: return VK_FORMAT_UNDEFINED;
+    case BindingKind::TexelFloat4:
+      return VK_FORMAT_R32G32B32A32_SFLOAT;
+    case BindingKind::TexelUint:
+      return VK_FORMAT_R32_UINT;
+    case BindingKind::TexelUint4:
+      return VK_FORMAT_R32G32B32A32_UINT;
+    default:
+      return VK_FORMAT_UNDEFINED;
   }
 }
 
@@ -82,7 +94,8 @@ Expected<VkPipeline> PipelineStore::build(DeviceImpl& device, const ComputePipel
   }
   std::array<VkSpecializationMapEntry, kMaxConstants> entries;
   for (uint32_t i = 0; i < pipeline.constants.size(); ++i) entries[i] = {i, i * 4, 4};
-  const VkSpecializationInfo constants{uint32_t(pipeline.constants.size()), entries.data(), pipeline.constants.size() * 4, pipeline.constants.data()};
+  const VkSpecializationInfo constants{uint32_t(pipeline.constants.size()), entries.data(), pipeline.constants.size() * 4,
+                                       pipeline.constants.data()};
   VkPipelineShaderStageRequiredSubgroupSizeCreateInfo sized{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO};
   sized.requiredSubgroupSize = pipeline.requiredSubgroupSize;
 
@@ -112,10 +125,11 @@ Expected<const ComputePipeline*> PipelineStore::find(DeviceImpl& device, const C
         std::ranges::equal(p->words, desc.words))
       return p.get();
 
-  const std::span<const uint32_t> words = desc.words.empty() ? embedded(desc.shader) : desc.words;
+  const std::span<const uint32_t> words = desc.words.empty() ? libraryWords(device, desc.shader) : desc.words;
   if (words.empty()) return shaderError(desc.shader, "the library contains no such shader");
   if (desc.pushConstantBytes > kMaxPushBytes || desc.pushConstantBytes % 4 != 0)
-    return shaderError(desc.shader, std::to_string(desc.pushConstantBytes) + " bytes of push constants: a multiple of 4 up to 128 is possible");
+    return shaderError(desc.shader,
+                       std::to_string(desc.pushConstantBytes) + " bytes of push constants: a multiple of 4 up to 128 is possible");
   if (desc.constants.size() > kMaxConstants)
     return shaderError(desc.shader, "more than " + std::to_string(kMaxConstants) + " specialization constants");
   const uint32_t size = desc.requiredSubgroupSize;

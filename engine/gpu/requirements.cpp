@@ -8,7 +8,7 @@ namespace {
 
 struct Feature {
   const char* name;
-  VkBool32 VkPhysicalDeviceVulkan13Features::* flag;
+  VkBool32 VkPhysicalDeviceVulkan13Features::*flag;
 };
 
 // All mandatory in Vulkan 1.3; a host must still enable them. maintenance4: workgroup sizes from specialization constants.
@@ -47,7 +47,8 @@ VkPhysicalDeviceVulkan13Features collect(const VkPhysicalDeviceFeatures2& enable
         found.computeFullSubgroups |= f.computeFullSubgroups;
         break;
       }
-      default: break;
+      default:
+        break;
     }
   }
   return found;
@@ -84,11 +85,13 @@ Expected<void> checkDevice(const InstanceTable& instance, VkPhysicalDevice devic
   return {};
 }
 
-Expected<void> appendRequired(PFN_vkGetInstanceProcAddr get, VkInstance instance, VkPhysicalDevice device, DeviceRequirements& requirements) {
+Expected<void> appendRequired(PFN_vkGetInstanceProcAddr get, VkInstance instance, VkPhysicalDevice device,
+                              DeviceRequirements& requirements) {
   InstanceTable table;
   if (!get || !instance || !device) return Error{ErrorKind::BadInput, "appendRequired: a null handle or function was given"};
   if (const char* missing = table.load(get, instance))
-    return Error{ErrorKind::NoDevice, std::string("the Vulkan loader lacks ") + missing + ": was the instance made for Vulkan 1.1 or later?"};
+    return Error{ErrorKind::NoDevice,
+                 std::string("the Vulkan loader lacks ") + missing + ": was the instance made for Vulkan 1.1 or later?"};
   if (auto ok = checkDevice(table, device); !ok) return ok;
   VkPhysicalDeviceVulkan13Features vulkan13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES, nullptr};
   VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &vulkan13};

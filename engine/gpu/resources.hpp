@@ -13,9 +13,9 @@
 namespace rill {
 
 enum class MemoryKind : uint8_t {
-  Device,    ///< device-local
-  Upload,    ///< mapped, written by the host
-  Readback   ///< mapped, cached where there is such memory, read by the host
+  Device,   ///< device-local
+  Upload,   ///< mapped, written by the host
+  Readback  ///< mapped, cached where there is such memory, read by the host
 };
 
 /// A buffer with memory of its own. Moving is cheap; the destructor hands the handles to the device, which frees them
@@ -28,8 +28,8 @@ class Buffer {
   Buffer& operator=(Buffer&&) noexcept;
 
   VkBuffer handle() const { return handle_; }
-  uint64_t size() const { return size_; }       ///< bytes asked for
-  std::byte* mapped() const { return mapped_; } ///< null for MemoryKind::Device; host-coherent
+  uint64_t size() const { return size_; }        ///< bytes asked for
+  std::byte* mapped() const { return mapped_; }  ///< null for MemoryKind::Device; host-coherent
   explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
 
  private:
@@ -46,11 +46,11 @@ Expected<Buffer> createBuffer(Device& device, std::string_view name, uint64_t si
 
 /// How a shader sees a binding. Set 0 alone is used; bindings are numbered 0, 1, 2 ... in the order given.
 enum class BindingKind : uint8_t {
-  Storage,       ///< buffer { ... }
-  Uniform,       ///< uniform block
-  TexelFloat4,   ///< samplerBuffer over R32G32B32A32_SFLOAT
-  TexelUint,     ///< usamplerBuffer over R32_UINT
-  TexelUint4,    ///< usamplerBuffer over R32G32B32A32_UINT
+  Storage,      ///< buffer { ... }
+  Uniform,      ///< uniform block
+  TexelFloat4,  ///< samplerBuffer over R32G32B32A32_SFLOAT
+  TexelUint,    ///< usamplerBuffer over R32_UINT
+  TexelUint4,   ///< usamplerBuffer over R32G32B32A32_UINT
   StorageImage,
   SampledImage
 };
@@ -59,12 +59,12 @@ enum class BindingKind : uint8_t {
 using SpecializationConstants = std::span<const uint32_t>;
 
 struct ComputePipelineDesc {
-  std::string_view shader;                    ///< name in the embedded library, e.g. "fluid/density"
+  std::string_view shader;  ///< name in the embedded library, e.g. "fluid/density"
   std::span<const BindingKind> bindings;
-  uint32_t pushConstantBytes = 0;             ///< at most 128
+  uint32_t pushConstantBytes = 0;  ///< at most 128
   SpecializationConstants constants = {};
-  uint32_t requiredSubgroupSize = 0;          ///< 0: the driver's choice
-  std::span<const uint32_t> words = {};       ///< SPIR-V to use in place of the library's; `shader` then only names it
+  uint32_t requiredSubgroupSize = 0;     ///< 0: the driver's choice
+  std::span<const uint32_t> words = {};  ///< SPIR-V to use in place of the library's; `shader` then only names it
 };
 
 struct ComputePipeline;  // layout and handle; owned by the device, alive as long as it

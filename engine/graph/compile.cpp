@@ -43,8 +43,10 @@ void GraphImpl::cull() {
     uint32_t unread = kNone;
     for (const Access& access : uses) {
       if (!access.write) continue;
-      if (resources[access.resource].needed) pass.alive = true;
-      else if (unread == kNone) unread = resources[access.resource].name;
+      if (resources[access.resource].needed)
+        pass.alive = true;
+      else if (unread == kNone)
+        unread = resources[access.resource].name;
     }
     pass.reason = {};
     if (!pass.alive) {

@@ -20,16 +20,18 @@ std::string escaped(std::string_view text) {
 std::string GraphImpl::dot() const {
   std::string out = "digraph frame {\n  rankdir=LR;\n  node [fontname=\"Helvetica\", fontsize=10];\n";
   for (size_t r = 0; r < resources.size(); ++r)
-    out += "  r" + std::to_string(r) + " [shape=" + (resources[r].imported ? "box3d" : "box") + ", label=\"" + escaped(names[resources[r].name]) + "\\n" +
-           std::to_string(resources[r].size) + " bytes\"];\n";
+    out += "  r" + std::to_string(r) + " [shape=" + (resources[r].imported ? "box3d" : "box") + ", label=\"" +
+           escaped(names[resources[r].name]) + "\\n" + std::to_string(resources[r].size) + " bytes\"];\n";
   for (size_t p = 0; p < passes.size(); ++p) {
     const PassData& pass = passes[p];
     const std::string node = "  p" + std::to_string(p);
-    out += node + " [shape=ellipse, label=\"" + escaped(names[pass.name]) + (pass.alive ? "\"" : "\\nculled: " + escaped(pass.reason) + "\", style=dashed") + "];\n";
+    out += node + " [shape=ellipse, label=\"" + escaped(names[pass.name]) +
+           (pass.alive ? "\"" : "\\nculled: " + escaped(pass.reason) + "\", style=dashed") + "];\n";
     for (uint32_t k = pass.accesses.first; k < pass.accesses.first + pass.accesses.count; ++k) {
       const Access& access = accesses[k];
       const std::string resource = "  r" + std::to_string(access.resource);
-      const std::string label = std::string(" [label=\"") + useRow(access.use).name + " v" + std::to_string(access.version) + "\"" + (pass.alive ? "" : ", style=dashed") + "];\n";
+      const std::string label = std::string(" [label=\"") + useRow(access.use).name + " v" + std::to_string(access.version) + "\"" +
+                                (pass.alive ? "" : ", style=dashed") + "];\n";
       out += (access.write ? node + " ->" + resource : resource + " ->" + node) + label;
     }
   }
@@ -42,7 +44,9 @@ std::string GraphImpl::json() const {
     if (barrier.scope.empty()) return nullptr;
     Json why = Json::array();
     for (uint32_t i = barrier.causes.first; i < barrier.causes.first + barrier.causes.count; ++i)
-      why.push_back({{"resource", names[resources[causes[i].resource].name]}, {"hazard", hazardName(causes[i].hazard)}, {"use", useRow(causes[i].use).name}});
+      why.push_back({{"resource", names[resources[causes[i].resource].name]},
+                     {"hazard", hazardName(causes[i].hazard)},
+                     {"use", useRow(causes[i].use).name}});
     return {{"source_stage", barrier.scope.sourceStage},
             {"source_access", barrier.scope.sourceAccess},
             {"target_stage", barrier.scope.targetStage},

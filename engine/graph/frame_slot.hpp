@@ -38,7 +38,7 @@ struct FrameSlot {
   uint32_t poolSets = 0, poolStorage = 0, poolUniform = 0, poolTexel = 0;  ///< what the pool was made for
   VkQueryPool queries = VK_NULL_HANDLE;
   uint32_t queryCapacity = 0;
-  std::vector<uint32_t> timedNames;  ///< the pass behind each pair of timestamps
+  std::vector<uint32_t> timedNames;  ///< the pass between each two timestamps
   bool timingsPending = false;
   Buffer readback;
   std::vector<Delivery> deliveries;

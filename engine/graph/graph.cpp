@@ -19,24 +19,32 @@ uint32_t nextEpoch() {
 /// Whether a binding of this kind can see a buffer that was declared with this use.
 bool fits(BindingKind kind, Use use) {
   switch (kind) {
-    case BindingKind::Storage: return use == Use::ComputeRead || use == Use::ComputeWrite || use == Use::ComputeAtomic;
-    case BindingKind::Uniform: return use == Use::ComputeUniform;
+    case BindingKind::Storage:
+      return use == Use::ComputeRead || use == Use::ComputeWrite || use == Use::ComputeAtomic;
+    case BindingKind::Uniform:
+      return use == Use::ComputeUniform;
     case BindingKind::TexelFloat4:
     case BindingKind::TexelUint:
-    case BindingKind::TexelUint4: return use == Use::ComputeTexel;
+    case BindingKind::TexelUint4:
+      return use == Use::ComputeTexel;
     case BindingKind::StorageImage:
-    case BindingKind::SampledImage: return false;
+    case BindingKind::SampledImage:
+      return false;
   }
   return false;
 }
 
 const char* kindName(BindingKind kind) {
   switch (kind) {
-    case BindingKind::Storage: return "a storage buffer";
-    case BindingKind::Uniform: return "a uniform buffer";
+    case BindingKind::Storage:
+      return "a storage buffer";
+    case BindingKind::Uniform:
+      return "a uniform buffer";
     case BindingKind::StorageImage:
-    case BindingKind::SampledImage: return "an image";
-    default: return "a texel buffer";
+    case BindingKind::SampledImage:
+      return "an image";
+    default:
+      return "a texel buffer";
   }
 }
 
@@ -73,7 +81,8 @@ BufferRef GraphImpl::add(ResourceData resource) {
   compiled = prepared = false;
   if (resource.size == 0) fail("buffer " + quoted(resource.name) + " has no size");
   if (resource.size > kMaxBufferBytes)
-    fail("buffer " + quoted(resource.name) + " of " + std::to_string(resource.size) + " bytes: at most " + std::to_string(kMaxBufferBytes) + " are possible");
+    fail("buffer " + quoted(resource.name) + " of " + std::to_string(resource.size) + " bytes: at most " + std::to_string(kMaxBufferBytes) +
+         " are possible");
   resources.push_back(resource);
   return {uint32_t(resources.size() - 1), 0, epoch};
 }
@@ -86,7 +95,8 @@ ResourceData* GraphImpl::resolve(BufferRef ref, uint32_t pass, const char* doing
     return nullptr;
   }
   if (ref.epoch != epoch || ref.index >= resources.size()) {
-    fail("pass '" + std::string(passName) + "' " + doing + " a buffer of another graph or of an earlier frame: refs do not outlive Graph::reset()");
+    fail("pass '" + std::string(passName) + "' " + doing +
+         " a buffer of another graph or of an earlier frame: refs do not outlive Graph::reset()");
     return nullptr;
   }
   ResourceData& resource = resources[ref.index];
@@ -148,11 +158,13 @@ BufferRef Pass::write(BufferRef buffer, Use use, bool discard) {
   if (!resource) return mistake;
   const std::string pass = "pass '" + std::string(graph_.names[graph_.passes[index_].name]) + "'";
   if (use == Use::Unknown || !writes(use)) {
-    graph_.fail(pass + " writes " + graph_.quoted(resource->name) + " with Use::" + useRow(use).name + ", which is no way for a pass to write");
+    graph_.fail(pass + " writes " + graph_.quoted(resource->name) + " with Use::" + useRow(use).name +
+                ", which is no way for a pass to write");
     return mistake;
   }
   if (graph_.accessOf(index_, buffer.index)) {
-    graph_.fail(pass + " uses " + graph_.quoted(resource->name) + " twice, once to write: declare the write alone (it may read as well), or make two passes");
+    graph_.fail(pass + " uses " + graph_.quoted(resource->name) +
+                " twice, once to write: declare the write alone (it may read as well), or make two passes");
     return mistake;
   }
   const bool fresh = resource->version == 0 && !resource->imported;
@@ -189,9 +201,13 @@ Kernel Pass::kernel(const ComputePipeline* pipeline, std::span<const BufferRef> 
       declared = true;
       fitting = fits(kinds[i], access.use);
     }
-    const auto name = [&] { return refs[i].index < graph_.resources.size() ? graph_.quoted(graph_.resources[refs[i].index].name) : "an empty ref"; };
-    if (!declared) return mistake("binding " + std::to_string(i) + " is " + name() + " in a version that the pass neither reads nor writes");
-    if (!fitting) return mistake("binding " + std::to_string(i) + " is " + kindName(kinds[i]) + ", which no declared use of " + name() + " is");
+    const auto name = [&] {
+      return refs[i].index < graph_.resources.size() ? graph_.quoted(graph_.resources[refs[i].index].name) : "an empty ref";
+    };
+    if (!declared)
+      return mistake("binding " + std::to_string(i) + " is " + name() + " in a version that the pass neither reads nor writes");
+    if (!fitting)
+      return mistake("binding " + std::to_string(i) + " is " + kindName(kinds[i]) + ", which no declared use of " + name() + " is");
     graph_.bindings.push_back(refs[i].index);
   }
   graph_.kernels.push_back({pipeline, {first, uint32_t(refs.size())}, VK_NULL_HANDLE});

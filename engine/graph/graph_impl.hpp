@@ -65,10 +65,10 @@ struct PassData {
 struct ResourceData {
   uint32_t name = 0;
   bool imported = false;
-  bool needed = false;     ///< while culling: whether a later pass, or somebody outside, wants the content
+  bool needed = false;  ///< while culling: whether a later pass, or somebody outside, wants the content
   BufferImport import;
   uint64_t size = 0;
-  uint32_t version = 0;    ///< the latest one
+  uint32_t version = 0;        ///< the latest one
   uint32_t placement = kNone;  ///< of a transient that is used
   HazardState state;
   VkBuffer buffer = VK_NULL_HANDLE;  ///< resolved by prepare()

@@ -9,8 +9,7 @@ bool stagesCover(VkPipelineStageFlags2 have, VkPipelineStageFlags2 need) {
 }
 
 bool accessesCover(VkAccessFlags2 have, VkAccessFlags2 need) {
-  constexpr VkAccessFlags2 anyWrite =
-      VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+  constexpr VkAccessFlags2 anyWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
   if (have & VK_ACCESS_2_MEMORY_WRITE_BIT) have |= anyWrite;
   if (have & VK_ACCESS_2_MEMORY_READ_BIT) have |= ~anyWrite;
   return (need & ~have) == 0;
@@ -32,10 +31,14 @@ uint32_t usesSeeing(const Scope& scope) {
 
 const char* hazardName(Hazard hazard) {
   switch (hazard) {
-    case Hazard::None: return "none";
-    case Hazard::ReadAfterWrite: return "read after write";
-    case Hazard::WriteAfterRead: return "write after read";
-    case Hazard::WriteAfterWrite: return "write after write";
+    case Hazard::None:
+      return "none";
+    case Hazard::ReadAfterWrite:
+      return "read after write";
+    case Hazard::WriteAfterRead:
+      return "write after read";
+    case Hazard::WriteAfterWrite:
+      return "write after write";
   }
   return "";
 }

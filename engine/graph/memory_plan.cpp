@@ -20,7 +20,8 @@ void MemoryPlanner::plan(std::span<Placement> placements, uint64_t limit, std::v
       const Placement& other = placements[order_[k]];
       if (other.last >= item.first && item.last >= other.first) taken_.push_back({other.heap, other.offset, other.offset + other.size});
     }
-    std::sort(taken_.begin(), taken_.end(), [](const Taken& a, const Taken& b) { return a.heap != b.heap ? a.heap < b.heap : a.begin < b.begin; });
+    std::sort(taken_.begin(), taken_.end(),
+              [](const Taken& a, const Taken& b) { return a.heap != b.heap ? a.heap < b.heap : a.begin < b.begin; });
     item.heap = 0;
     item.offset = 0;
     for (const Taken& taken : taken_) {

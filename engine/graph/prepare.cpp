@@ -45,7 +45,7 @@ Expected<void> GraphImpl::prepare(Device& owner) {
   if (timed && d.timestampMask) {
     for (const PassData& pass : passes)
       if (pass.alive) slot->timedNames.push_back(pass.name);
-    const uint32_t needed = uint32_t(slot->timedNames.size()) * 2;
+    const uint32_t needed = uint32_t(slot->timedNames.size()) + 1;
     if (needed > slot->queryCapacity) {
       d.retired.add(d.clock.completed, VK_OBJECT_TYPE_QUERY_POOL, slot->queries);
       slot->queries = VK_NULL_HANDLE;
@@ -161,7 +161,8 @@ Expected<void> GraphImpl::makeSets(DeviceImpl& d, FrameSlot& target) {
   if (s.unique.empty()) return {};
   if (auto ok = makePool(d, target, uint32_t(s.unique.size()), storage, uniform, texel); !ok) return ok;
   s.sets.resize(s.unique.size());
-  VkDescriptorSetAllocateInfo allocate{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO, nullptr, target.pool, uint32_t(s.unique.size()), s.layouts.data()};
+  VkDescriptorSetAllocateInfo allocate{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO, nullptr, target.pool, uint32_t(s.unique.size()),
+                                       s.layouts.data()};
   if (VkResult r = d.vk.AllocateDescriptorSets(d.handle, &allocate, s.sets.data()); r != VK_SUCCESS)
     return vulkanError(r, "allocating " + std::to_string(s.unique.size()) + " descriptor sets");
 
@@ -176,26 +177,29 @@ Expected<void> GraphImpl::makeSets(DeviceImpl& d, FrameSlot& target) {
     for (uint32_t b = 0; b < kernel.bindings.count; ++b) {
       const ResourceData& resource = resources[bindings[kernel.bindings.first + b]];
       const BindingKind kind = kernel.pipeline->set->kinds[b];
-      VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET, nullptr, kernel.set, b, 0, 1, descriptorType(kind), nullptr, nullptr, nullptr};
+      VkWriteDescriptorSet write{
+          VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET, nullptr, kernel.set, b, 0, 1, descriptorType(kind), nullptr, nullptr, nullptr};
       const uint32_t bytes = texelBytes(kind);
       if (bytes == 0) {
         const uint64_t limit = kind == BindingKind::Uniform ? d.limits.maxUniformBufferRange : d.limits.maxStorageBufferRange;
         if (resource.size > limit)
-          return Error{ErrorKind::BadInput, "buffer " + quoted(resource.name) + " of " + std::to_string(resource.size) + " bytes: " + d.info.name +
-                                                " binds at most " + std::to_string(limit)};
+          return Error{ErrorKind::BadInput, "buffer " + quoted(resource.name) + " of " + std::to_string(resource.size) +
+                                                " bytes: " + d.info.name + " binds at most " + std::to_string(limit)};
         s.buffers.push_back({resource.buffer, resource.offset, resource.size});
         write.pBufferInfo = &s.buffers.back();
       } else {
         const uint64_t size = resource.size / bytes * bytes;
         if (size == 0 || size / bytes > d.limits.maxTexelBufferElements)
-          return Error{ErrorKind::BadInput, "texel buffer " + quoted(resource.name) + " of " + std::to_string(resource.size / bytes) + " texels: 1 to " +
-                                                std::to_string(d.limits.maxTexelBufferElements) + " are possible on " + d.info.name};
+          return Error{ErrorKind::BadInput, "texel buffer " + quoted(resource.name) + " of " + std::to_string(resource.size / bytes) +
+                                                " texels: 1 to " + std::to_string(d.limits.maxTexelBufferElements) + " are possible on " +
+                                                d.info.name};
         const VkFormat format = texelFormat(kind);
         auto view = std::ranges::find_if(target.views, [&](const FrameSlot::View& v) {
           return v.buffer == resource.buffer && v.offset == resource.offset && v.size == size && v.format == format;
         });
         if (view == target.views.end()) {
-          VkBufferViewCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO, nullptr, 0, resource.buffer, format, resource.offset, size};
+          VkBufferViewCreateInfo create{
+              VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO, nullptr, 0, resource.buffer, format, resource.offset, size};
           VkBufferView handle = VK_NULL_HANDLE;
           if (VkResult r = d.vk.CreateBufferView(d.handle, &create, d.callbacks, &handle); r != VK_SUCCESS)
             return vulkanError(r, "creating a texel view of buffer " + quoted(resource.name));
@@ -220,15 +224,17 @@ void GraphImpl::collect() {
   FrameSlot* newest = nullptr;
   for (const auto& s : slots) {
     if (!s->timingsPending || s->frame > device->clock.completed) continue;
-    if (device->abandoned(s->frame)) s->timingsPending = false;
-    else if (s->frame > timingsFrame && (!newest || s->frame > newest->frame)) newest = s.get();
+    if (device->abandoned(s->frame))
+      s->timingsPending = false;
+    else if (s->frame > timingsFrame && (!newest || s->frame > newest->frame))
+      newest = s.get();
   }
   if (!newest) return;
   newest->timingsPending = false;
   const uint32_t count = uint32_t(newest->timedNames.size());
-  stamps.resize(count * 2);
-  const VkResult got = device->vk.GetQueryPoolResults(device->handle, newest->queries, 0, count * 2, stamps.size() * sizeof(uint64_t), stamps.data(),
-                                                      sizeof(uint64_t), VK_QUERY_RESULT_64_BIT);
+  stamps.resize(count + 1);
+  const VkResult got = device->vk.GetQueryPoolResults(device->handle, newest->queries, 0, count + 1, stamps.size() * sizeof(uint64_t),
+                                                      stamps.data(), sizeof(uint64_t), VK_QUERY_RESULT_64_BIT);
   if (got != VK_SUCCESS) return;  // the host was wrong about the frame: no figures are better than wrong ones
   timingsFrame = newest->frame;
   timings.clear();
@@ -239,7 +245,7 @@ void GraphImpl::collect() {
       row = uint32_t(timings.size());
       timings.push_back({names[newest->timedNames[i]], 0, 0});
     }
-    const uint64_t ticks = (stamps[2 * i + 1] - stamps[2 * i]) & device->timestampMask;
+    const uint64_t ticks = (stamps[i + 1] - stamps[i]) & device->timestampMask;
     timings[row].ms += double(ticks) * double(device->limits.timestampPeriod) * 1e-6;
     ++timings[row].runs;
   }

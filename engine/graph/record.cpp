@@ -7,12 +7,13 @@
 namespace rill {
 namespace {
 
-constexpr uint64_t kMaxGroups = 65535;  // a dimension; the least that Vulkan guarantees, used everywhere so that folding is the same everywhere
+// A dimension's limit: the least that Vulkan guarantees, on every device, so that folding is the same everywhere.
+constexpr uint64_t kMaxGroups = 65535;
 
 void recordBarrier(const DeviceTable& vk, VkCommandBuffer commandBuffer, const Scope& scope) {
   if (scope.empty()) return;
-  const VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr,           scope.sourceStage, scope.sourceAccess,
-                                 scope.targetStage,                  scope.targetAccess};
+  const VkMemoryBarrier2 barrier{
+      VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, scope.sourceStage, scope.sourceAccess, scope.targetStage, scope.targetAccess};
   VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
   dependency.memoryBarrierCount = 1;
   dependency.pMemoryBarriers = &barrier;
@@ -27,15 +28,18 @@ void GraphImpl::record(VkCommandBuffer commandBuffer) {
   prepared = false;  // its descriptor sets and queries are this recording's alone
   const DeviceTable& vk = device->vk;
   const bool stamp = !slot->timedNames.empty();
-  if (stamp) vk.CmdResetQueryPool(commandBuffer, slot->queries, 0, uint32_t(slot->timedNames.size()) * 2);
+  if (stamp) vk.CmdResetQueryPool(commandBuffer, slot->queries, 0, uint32_t(slot->timedNames.size()) + 1);
   slot->timingsPending = stamp;
   uint32_t query = 0;
+  const auto writeStamp = [&] {
+    if (stamp) vk.CmdWriteTimestamp2(commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot->queries, query++);
+  };
+  writeStamp();
   Commands commands(*this, commandBuffer);
   for (uint32_t i = 0; i < passes.size(); ++i) {
     const PassData& pass = passes[i];
     if (!pass.alive) continue;
     recordBarrier(vk, commandBuffer, pass.barrier.scope);
-    if (stamp) vk.CmdWriteTimestamp2(commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot->queries, query++);
     if (pass.readback) {
       for (const Readback& readback : readbacks) {
         if (readback.pass != i) continue;
@@ -46,7 +50,7 @@ void GraphImpl::record(VkCommandBuffer commandBuffer) {
       commands.pass_ = i;
       pass.invoke(pass.record, commands);
     }
-    if (stamp) vk.CmdWriteTimestamp2(commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot->queries, query++);
+    writeStamp();
   }
   recordBarrier(vk, commandBuffer, finalBarrier.scope);
 }
@@ -59,8 +63,10 @@ void Commands::bind(Kernel kernel, std::span<const std::byte> push) {
   assert(push.size() == pipeline.pushBytes && "push constants of another size than the pipeline was made for");
   const DeviceTable& vk = graph_.device->vk;
   vk.CmdBindPipeline(commandBuffer_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle);
-  if (data.bindings.count != 0) vk.CmdBindDescriptorSets(commandBuffer_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &data.set, 0, nullptr);
-  if (!push.empty()) vk.CmdPushConstants(commandBuffer_, pipeline.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, uint32_t(push.size()), push.data());
+  if (data.bindings.count != 0)
+    vk.CmdBindDescriptorSets(commandBuffer_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &data.set, 0, nullptr);
+  if (!push.empty())
+    vk.CmdPushConstants(commandBuffer_, pipeline.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, uint32_t(push.size()), push.data());
 }
 
 void Commands::dispatch(Kernel kernel, uint64_t groups, std::span<const std::byte> push) {
@@ -73,7 +79,8 @@ void Commands::dispatch(Kernel kernel, uint64_t groups, std::span<const std::byt
 
 void Commands::dispatchIndirect(Kernel kernel, BufferRef arguments, uint64_t offset, std::span<const std::byte> push) {
   const ResourceData& resource = graph_.resources[arguments.index];
-  assert(arguments.epoch == graph_.epoch && graph_.accessOf(pass_, arguments.index) && "indirect arguments are declared with Use::Indirect");
+  assert(arguments.epoch == graph_.epoch && graph_.accessOf(pass_, arguments.index) &&
+         "indirect arguments are declared with Use::Indirect");
   assert(offset % 4 == 0 && offset + 12 <= resource.size);
   bind(kernel, push);
   graph_.device->vk.CmdDispatchIndirect(commandBuffer_, resource.buffer, resource.offset + offset);

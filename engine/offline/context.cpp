@@ -39,14 +39,17 @@ Expected<void> ContextImpl::makeFrames(uint32_t count) {
   VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
   poolInfo.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
   poolInfo.queueFamilyIndex = queueFamily;
-  if (VkResult r = vk.CreateCommandPool(device, &poolInfo, nullptr, &pool); r != VK_SUCCESS) return vulkanError(r, "creating a command pool");
+  if (VkResult r = vk.CreateCommandPool(device, &poolInfo, nullptr, &pool); r != VK_SUCCESS)
+    return vulkanError(r, "creating a command pool");
   commandBuffers.resize(count);
-  const VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool, VK_COMMAND_BUFFER_LEVEL_PRIMARY, count};
+  const VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool, VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                             count};
   if (VkResult r = vk.AllocateCommandBuffers(device, &allocate, commandBuffers.data()); r != VK_SUCCESS)
     return vulkanError(r, "allocating command buffers");
   VkSemaphoreTypeCreateInfo type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO, nullptr, VK_SEMAPHORE_TYPE_TIMELINE, 0};
   const VkSemaphoreCreateInfo semaphore{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &type, 0};
-  if (VkResult r = vk.CreateSemaphore(device, &semaphore, nullptr, &timeline); r != VK_SUCCESS) return vulkanError(r, "creating a timeline semaphore");
+  if (VkResult r = vk.CreateSemaphore(device, &semaphore, nullptr, &timeline); r != VK_SUCCESS)
+    return vulkanError(r, "creating a timeline semaphore");
   return {};
 }
 
@@ -87,7 +90,8 @@ Expected<VkCommandBuffer> Context::beginCommands() {
   if (!c.begun)
     if (auto begun = beginFrame(); !begun) return begun.error();
   const VkCommandBuffer commands = c.commandBuffers[(c.submitted + 1) % c.commandBuffers.size()];
-  const VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
+  const VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
+                                      nullptr};
   if (VkResult r = c.vk.BeginCommandBuffer(commands, &info); r != VK_SUCCESS) return vulkanError(r, "beginning a command buffer");
   return commands;
 }

@@ -16,8 +16,8 @@
 namespace rill::offline {
 
 struct ContextDesc {
-  std::string device;        ///< part of a device's name (case ignored) or its index; empty: the most capable kind there is
-  bool validation = false;   ///< VK_LAYER_KHRONOS_validation with synchronization validation; an error where it is not installed
+  std::string device;       ///< part of a device's name (case ignored) or its index; empty: the most capable kind there is
+  bool validation = false;  ///< VK_LAYER_KHRONOS_validation with synchronization validation; an error where it is not installed
   uint32_t framesInFlight = 2;
   std::vector<const char*> instanceExtensions = {};  ///< e.g. those that a window system asks for
   std::vector<const char*> deviceExtensions = {};

@@ -2,12 +2,12 @@
 // What is behind offline::Context. vulkan_setup.cpp opens the loader and makes instance and device, context.cpp runs frames.
 #include "offline/context.hpp"
 
-#define RILL_CONTEXT_INSTANCE_FUNCTIONS(X)  \
-  X(CreateDevice)                           \
-  X(DestroyInstance)                        \
-  X(EnumeratePhysicalDevices)               \
-  X(GetDeviceProcAddr)                      \
-  X(GetPhysicalDeviceProperties)            \
+#define RILL_CONTEXT_INSTANCE_FUNCTIONS(X) \
+  X(CreateDevice)                          \
+  X(DestroyInstance)                       \
+  X(EnumeratePhysicalDevices)              \
+  X(GetDeviceProcAddr)                     \
+  X(GetPhysicalDeviceProperties)           \
   X(GetPhysicalDeviceQueueFamilyProperties)
 
 #define RILL_CONTEXT_DEVICE_FUNCTIONS(X) \

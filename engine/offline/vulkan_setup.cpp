@@ -29,11 +29,16 @@ std::string lower(std::string_view text) {
 
 int rank(VkPhysicalDeviceType type) {
   switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return 0;
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return 1;
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return 2;
-    case VK_PHYSICAL_DEVICE_TYPE_CPU: return 3;
-    default: return 4;
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return 0;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return 1;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return 2;
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+      return 3;
+    default:
+      return 4;
   }
 }
 
@@ -67,7 +72,8 @@ Expected<void> ContextImpl::openLoader() {
   if (!library) return Error{ErrorKind::NoDevice, "no Vulkan loader on this system: install libvulkan1 (libvulkan.so.1) and a driver"};
   get = reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library, "vkGetInstanceProcAddr"));
   createInstance = get ? reinterpret_cast<PFN_vkCreateInstance>(get(nullptr, "vkCreateInstance")) : nullptr;
-  if (!createInstance) return Error{ErrorKind::NoDevice, "libvulkan.so.1 is no Vulkan loader: it lacks vkGetInstanceProcAddr or vkCreateInstance"};
+  if (!createInstance)
+    return Error{ErrorKind::NoDevice, "libvulkan.so.1 is no Vulkan loader: it lacks vkGetInstanceProcAddr or vkCreateInstance"};
   return {};
 }
 
@@ -80,7 +86,8 @@ Expected<void> ContextImpl::makeInstance(const ContextDesc& desc) {
 
   VkDebugUtilsMessengerCreateInfoEXT debug{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
   debug.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-  debug.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;  // not the loader's GENERAL
+  debug.messageType =
+      VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;  // not the loader's GENERAL
   debug.pfnUserCallback = onMessage;
   debug.pUserData = this;
   const VkValidationFeatureEnableEXT enable[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
@@ -100,19 +107,21 @@ Expected<void> ContextImpl::makeInstance(const ContextDesc& desc) {
   create.ppEnabledExtensionNames = extensions.data();
   const VkResult made = createInstance(&create, nullptr, &instance);
   if (made == VK_ERROR_LAYER_NOT_PRESENT)
-    return Error{ErrorKind::Failed, std::string("validation was asked for, but ") + kValidationLayer + " is not installed (vulkan-validationlayers)"};
+    return Error{ErrorKind::Failed,
+                 std::string("validation was asked for, but ") + kValidationLayer + " is not installed (vulkan-validationlayers)"};
   if (made == VK_ERROR_INCOMPATIBLE_DRIVER) return Error{ErrorKind::NoDevice, "no Vulkan driver found (Debian: mesa-vulkan-drivers)"};
   if (made != VK_SUCCESS) return vulkanError(made, "creating a Vulkan instance");
 
-#define RILL_LOAD(name)                                                             \
-  vki.name = reinterpret_cast<PFN_vk##name>(get(instance, "vk" #name));             \
+#define RILL_LOAD(name)                                                 \
+  vki.name = reinterpret_cast<PFN_vk##name>(get(instance, "vk" #name)); \
   if (!vki.name) return Error{ErrorKind::NoDevice, "the Vulkan instance lacks vk" #name};
   RILL_CONTEXT_INSTANCE_FUNCTIONS(RILL_LOAD)
 #undef RILL_LOAD
   if (desc.validation) {
     auto createMessenger = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(get(instance, "vkCreateDebugUtilsMessengerEXT"));
     if (!createMessenger) return Error{ErrorKind::Failed, "validation was asked for, but VK_EXT_debug_utils is missing"};
-    if (VkResult r = createMessenger(instance, &debug, nullptr, &messenger); r != VK_SUCCESS) return vulkanError(r, "listening to the validation layer");
+    if (VkResult r = createMessenger(instance, &debug, nullptr, &messenger); r != VK_SUCCESS)
+      return vulkanError(r, "listening to the validation layer");
   }
   return {};
 }
@@ -130,7 +139,8 @@ Expected<void> ContextImpl::chooseDevice(const std::string& wanted) {
     vki.GetPhysicalDeviceProperties(handle, &properties);
     devices.push_back({handle, properties.deviceName, properties.deviceType});
   }
-  if (devices.empty()) return Error{ErrorKind::NoDevice, "no Vulkan device found (Debian: mesa-vulkan-drivers brings one that needs no GPU)"};
+  if (devices.empty())
+    return Error{ErrorKind::NoDevice, "no Vulkan device found (Debian: mesa-vulkan-drivers brings one that needs no GPU)"};
 
   const auto usable = [&](const Candidate& candidate) {
     DeviceRequirements ignored;
@@ -144,8 +154,10 @@ Expected<void> ContextImpl::chooseDevice(const std::string& wanted) {
   } else {
     std::string reasons;
     for (size_t i = 0; i < devices.size(); ++i) {
-      if (auto ok = usable(devices[i]); !ok) reasons += "\n  " + ok.error().message;
-      else if (!chosen || rank(devices[i].type) < rank(devices[*chosen].type)) chosen = i;
+      if (auto ok = usable(devices[i]); !ok)
+        reasons += "\n  " + ok.error().message;
+      else if (!chosen || rank(devices[i].type) < rank(devices[*chosen].type))
+        chosen = i;
     }
     if (!chosen) return Error{ErrorKind::NoDevice, "no usable Vulkan device:" + reasons};
   }
@@ -155,7 +167,9 @@ Expected<void> ContextImpl::chooseDevice(const std::string& wanted) {
   vki.GetPhysicalDeviceQueueFamilyProperties(physicalDevice, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
   vki.GetPhysicalDeviceQueueFamilyProperties(physicalDevice, &count, families.data());
-  const auto find = [&](VkQueueFlags flags) { return std::ranges::find_if(families, [&](const auto& f) { return (f.queueFlags & flags) == flags; }); };
+  const auto find = [&](VkQueueFlags flags) {
+    return std::ranges::find_if(families, [&](const auto& f) { return (f.queueFlags & flags) == flags; });
+  };
   auto family = find(VK_QUEUE_COMPUTE_BIT | VK_QUEUE_GRAPHICS_BIT);
   if (family == families.end()) family = find(VK_QUEUE_COMPUTE_BIT);  // a compute-only card can still simulate
   if (family == families.end()) return Error{ErrorKind::NoDevice, "device '" + deviceName + "' has no queue that computes"};
@@ -176,10 +190,11 @@ Expected<void> ContextImpl::makeDevice(const ContextDesc& desc) {
   create.pQueueCreateInfos = &queueInfo;
   create.enabledExtensionCount = uint32_t(desc.deviceExtensions.size());
   create.ppEnabledExtensionNames = desc.deviceExtensions.data();
-  if (VkResult r = vki.CreateDevice(physicalDevice, &create, nullptr, &device); r != VK_SUCCESS) return vulkanError(r, "opening device '" + deviceName + "'");
+  if (VkResult r = vki.CreateDevice(physicalDevice, &create, nullptr, &device); r != VK_SUCCESS)
+    return vulkanError(r, "opening device '" + deviceName + "'");
 
-#define RILL_LOAD(name)                                                                 \
-  vk.name = reinterpret_cast<PFN_vk##name>(vki.GetDeviceProcAddr(device, "vk" #name));  \
+#define RILL_LOAD(name)                                                                \
+  vk.name = reinterpret_cast<PFN_vk##name>(vki.GetDeviceProcAddr(device, "vk" #name)); \
   if (!vk.name) return Error{ErrorKind::NoDevice, "device '" + deviceName + "' lacks vk" #name};
   RILL_CONTEXT_DEVICE_FUNCTIONS(RILL_LOAD)
 #undef RILL_LOAD

@@ -11,7 +11,8 @@ using Resources = GpuTest;
 constexpr BindingKind kOneBuffer[] = {BindingKind::Storage};
 
 TEST_F(Resources, BuffersHaveTheMemoryThatTheirKindSays) {
-  const Buffer local = buffer("local", 1000), up = buffer("up", 1000, MemoryKind::Upload), back = buffer("back", 1000, MemoryKind::Readback);
+  const Buffer local = buffer("local", 1000), up = buffer("up", 1000, MemoryKind::Upload),
+               back = buffer("back", 1000, MemoryKind::Readback);
   EXPECT_EQ(local.mapped(), nullptr);
   ASSERT_NE(up.mapped(), nullptr);
   ASSERT_NE(back.mapped(), nullptr);
@@ -62,9 +63,12 @@ TEST_F(Resources, ConstantsAndSubgroupSizeReachTheShader) {
     BufferRef out = graph.create("out", {12});
     graph.pass("subgroup", [&](Pass& pass) {
       out = pass.write(out, Use::ComputeWrite);
-      const Kernel kernel = pass.kernel(
-          pipeline({.shader = "subgroup", .bindings = kOneBuffer, .constants = constants, .requiredSubgroupSize = size, .words = testShader("subgroup")}),
-          {out});
+      const Kernel kernel = pass.kernel(pipeline({.shader = "subgroup",
+                                                  .bindings = kOneBuffer,
+                                                  .constants = constants,
+                                                  .requiredSubgroupSize = size,
+                                                  .words = testShader("subgroup")}),
+                                        {out});
       return [=](Commands& commands) { commands.dispatch(kernel, 1); };
     });
     const Ticket ticket = graph.readback(out);
@@ -79,7 +83,8 @@ TEST_F(Resources, NamesTheShaderThatCannotBeMade) {
   EXPECT_EQ(unknown.error().kind, ErrorKind::Shader);
   EXPECT_NE(unknown.error().message.find("fluid/nonsense"), std::string::npos);
   const uint32_t tooLarge = device().info().maxSubgroupSize * 2;
-  const auto sized = computePipeline(device(), {.shader = "subgroup", .bindings = kOneBuffer, .requiredSubgroupSize = tooLarge, .words = testShader("subgroup")});
+  const auto sized = computePipeline(
+      device(), {.shader = "subgroup", .bindings = kOneBuffer, .requiredSubgroupSize = tooLarge, .words = testShader("subgroup")});
   ASSERT_FALSE(sized);
   EXPECT_NE(sized.error().message.find("subgroups of " + std::to_string(tooLarge)), std::string::npos) << sized.error().message;
 }

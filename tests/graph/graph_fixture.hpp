@@ -79,7 +79,8 @@ struct FakePipeline {
 };
 
 inline void PrintTo(const Scope& scope, std::ostream* out) {
-  *out << std::hex << "{" << scope.sourceStage << ", " << scope.sourceAccess << " -> " << scope.targetStage << ", " << scope.targetAccess << "}" << std::dec;
+  *out << std::hex << "{" << scope.sourceStage << ", " << scope.sourceAccess << " -> " << scope.targetStage << ", " << scope.targetAccess
+       << "}" << std::dec;
 }
 
 }  // namespace rill::test

@@ -120,9 +120,13 @@ TEST_F(Mistakes, BindingsThatDoNotFit) {
   };
   EXPECT_EQ(declare([&](Pass& p, BufferRef in, BufferRef, BufferRef) { (void)p.kernel(&fake.pipeline, {in}); }),
             "pass 'sort', shader 'fake': 1 buffers were given for its 2 bindings");
-  EXPECT_EQ(declare([&](Pass& p, BufferRef in, BufferRef out, BufferRef) { (void)p.kernel(&fake.pipeline, {in, out}); }),
+  EXPECT_EQ(declare([&](Pass& p, BufferRef in, BufferRef out, BufferRef) {
+              (void)p.kernel(&fake.pipeline, {in, out});
+            }),
             "pass 'sort', shader 'fake': binding 0 is a texel buffer, which no declared use of 'in' is");
-  EXPECT_EQ(declare([&](Pass& p, BufferRef, BufferRef out, BufferRef other) { (void)p.kernel(&fake.pipeline, {other, out}); }),
+  EXPECT_EQ(declare([&](Pass& p, BufferRef, BufferRef out, BufferRef other) {
+              (void)p.kernel(&fake.pipeline, {other, out});
+            }),
             "pass 'sort', shader 'fake': binding 0 is 'other' in a version that the pass neither reads nor writes");
 }
 

@@ -29,7 +29,8 @@ class RandomFrames : public GraphTest {
     const auto pick = [&](uint32_t below) { return uint32_t(random() % below); };
     std::vector<BufferRef> refs;
     std::vector<bool> written;
-    constexpr Use befores[] = {Use::None, Use::Unknown, Use::ComputeWrite, Use::ComputeRead, Use::CopyTarget, Use::ComputeAtomic, Use::HostRead};
+    constexpr Use befores[] = {Use::None,       Use::Unknown,       Use::ComputeWrite, Use::ComputeRead,
+                               Use::CopyTarget, Use::ComputeAtomic, Use::HostRead};
     constexpr Use afters[] = {Use::None, Use::ComputeRead, Use::ComputeWrite, Use::Indirect};
     for (int i = 0; i < 3; ++i) refs.push_back(import("import", befores[pick(7)], afters[pick(4)])), written.push_back(true);
     for (int i = 0; i < 4; ++i) refs.push_back(graph.create("transient", {256 + pick(3) * 256})), written.push_back(false);
@@ -89,14 +90,16 @@ class RandomFrames : public GraphTest {
         ASSERT_TRUE(available) << told(seed, "not available", first, second);
         // Only the latest write is read, and a transient's first write reads nothing.
         const bool reads = !second.access.write || second.access.keep;
-        if (same && reads && second.access.version == first.access.version + (second.access.write ? 1u : 0u) && sameFrame(first, second, steps.size())) {
+        if (same && reads && second.access.version == first.access.version + (second.access.write ? 1u : 0u) &&
+            sameFrame(first, second, steps.size())) {
           ASSERT_TRUE(visible) << told(seed, "not visible", first, second);
         }
       }
   }
   std::string told(uint32_t seed, const char* what, const Event& a, const Event& b) {
     const auto text = [](const Event& e) {
-      return std::string(useRow(e.access.use).name) + " of resource " + std::to_string(e.access.resource) + " v" + std::to_string(e.access.version) + " in step " + std::to_string(e.step);
+      return std::string(useRow(e.access.use).name) + " of resource " + std::to_string(e.access.resource) + " v" +
+             std::to_string(e.access.version) + " in step " + std::to_string(e.step);
     };
     return "seed " + std::to_string(seed) + ", " + what + ": " + text(a) + ", then " + text(b) + "\n" + graph.json();
   }

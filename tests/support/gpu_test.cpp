@@ -23,8 +23,10 @@ class SharedContext : public ::testing::Environment {
       offline::ContextDesc desc;
       desc.validation = true;
       auto made = offline::Context::create(desc);
-      if (made) context_ = std::move(*made);
-      else error_ = made.error().message;
+      if (made)
+        context_ = std::move(*made);
+      else
+        error_ = made.error().message;
     }
     if (!context_) ADD_FAILURE() << error_;
     return context_.get();

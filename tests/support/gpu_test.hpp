@@ -1,5 +1,6 @@
 #pragma once
-// A test on whatever driver the environment selects (VK_DRIVER_FILES), with validation and synchronization validation: any message fails it.
+// A test on whatever driver the environment selects (VK_DRIVER_FILES), with validation and synchronization validation: any message fails
+// it.
 #include <gtest/gtest.h>
 
 #include <span>
@@ -29,9 +30,13 @@ class GpuTest : public ::testing::Test {
   void run(Graph& graph);
   /// A buffer of the host's bytes, in memory that the device reads.
   template <class T>
-  Buffer upload(std::string_view name, std::span<const T> data) { return uploadBytes(name, std::as_bytes(data)); }
+  Buffer upload(std::string_view name, std::span<const T> data) {
+    return uploadBytes(name, std::as_bytes(data));
+  }
   template <class T>
-  Buffer upload(std::string_view name, const std::vector<T>& data) { return uploadBytes(name, std::as_bytes(std::span(data))); }
+  Buffer upload(std::string_view name, const std::vector<T>& data) {
+    return uploadBytes(name, std::as_bytes(std::span(data)));
+  }
   Buffer buffer(std::string_view name, uint64_t bytes, MemoryKind kind = MemoryKind::Device);
   const ComputePipeline* pipeline(const ComputePipelineDesc& desc);
 

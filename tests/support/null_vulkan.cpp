@@ -60,12 +60,15 @@ void properties(VkPhysicalDevice, VkPhysicalDeviceProperties2* out) {
   }
 }
 
-void formatProperties(VkPhysicalDevice, VkFormat, VkFormatProperties* out) { out->bufferFeatures = VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT; }
+void formatProperties(VkPhysicalDevice, VkFormat, VkFormatProperties* out) {
+  out->bufferFeatures = VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT;
+}
 
 void memoryProperties(VkPhysicalDevice, VkPhysicalDeviceMemoryProperties* out) {
   *out = {};
   out->memoryTypeCount = out->memoryHeapCount = 1;
-  out->memoryTypes[0].propertyFlags = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+  out->memoryTypes[0].propertyFlags =
+      VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
   out->memoryHeaps[0] = {1ull << 32, VK_MEMORY_HEAP_DEVICE_LOCAL_BIT};
 }
 
@@ -102,7 +105,8 @@ VkResult mapMemory(VkDevice, VkDeviceMemory, VkDeviceSize, VkDeviceSize, VkMemor
   return VK_SUCCESS;
 }
 
-VkResult createPipelines(VkDevice, VkPipelineCache, uint32_t count, const VkComputePipelineCreateInfo*, const VkAllocationCallbacks*, VkPipeline* out) {
+VkResult createPipelines(VkDevice, VkPipelineCache, uint32_t count, const VkComputePipelineCreateInfo*, const VkAllocationCallbacks*,
+                         VkPipeline* out) {
   for (uint32_t i = 0; i < count; ++i) out[i] = newHandle<VkPipeline>();
   return VK_SUCCESS;
 }
@@ -124,7 +128,9 @@ VkResult queryResults(VkDevice, VkQueryPool, uint32_t, uint32_t count, size_t, v
 }
 
 template <class T>
-uint64_t id(T handle) { return reinterpret_cast<uint64_t>(handle); }
+uint64_t id(T handle) {
+  return reinterpret_cast<uint64_t>(handle);
+}
 void add(NullCommand::Kind kind, uint64_t handle = 0, uint64_t a = 0, uint64_t b = 0, uint64_t c = 0) {
   current->commands.push_back({kind, {}, handle, a, b, c});
 }
@@ -132,7 +138,8 @@ void cmdBarrier(VkCommandBuffer, const VkDependencyInfo* info) {
   current->commands.push_back({NullCommand::Barrier, info->pMemoryBarriers[0], info->memoryBarrierCount, 0, 0, 0});
 }
 void cmdBindPipeline(VkCommandBuffer, VkPipelineBindPoint, VkPipeline pipeline) { add(NullCommand::BindPipeline, id(pipeline)); }
-void cmdBindSets(VkCommandBuffer, VkPipelineBindPoint, VkPipelineLayout, uint32_t, uint32_t, const VkDescriptorSet* sets, uint32_t, const uint32_t*) {
+void cmdBindSets(VkCommandBuffer, VkPipelineBindPoint, VkPipelineLayout, uint32_t, uint32_t, const VkDescriptorSet* sets, uint32_t,
+                 const uint32_t*) {
   add(NullCommand::BindSet, id(sets[0]));
 }
 void cmdPush(VkCommandBuffer, VkPipelineLayout, VkShaderStageFlags, uint32_t, uint32_t, const void*) {}
@@ -141,7 +148,9 @@ void cmdDispatchIndirect(VkCommandBuffer, VkBuffer buffer, VkDeviceSize offset) 
 void cmdCopy(VkCommandBuffer, VkBuffer, VkBuffer target, uint32_t, const VkBufferCopy* region) {
   add(NullCommand::Copy, id(target), region->srcOffset, region->dstOffset, region->size);
 }
-void cmdFill(VkCommandBuffer, VkBuffer target, VkDeviceSize offset, VkDeviceSize bytes, uint32_t value) { add(NullCommand::Fill, id(target), value, offset, bytes); }
+void cmdFill(VkCommandBuffer, VkBuffer target, VkDeviceSize offset, VkDeviceSize bytes, uint32_t value) {
+  add(NullCommand::Fill, id(target), value, offset, bytes);
+}
 void cmdResetQueries(VkCommandBuffer, VkQueryPool, uint32_t, uint32_t count) { add(NullCommand::ResetQueries, 0, count); }
 void cmdTimestamp(VkCommandBuffer, VkPipelineStageFlags2, VkQueryPool, uint32_t query) { add(NullCommand::Timestamp, 0, query); }
 

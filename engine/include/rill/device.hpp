@@ -22,13 +22,13 @@ struct HostDevice {
   VkInstance instance = VK_NULL_HANDLE;
   VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;
-  uint32_t queueFamily = 0;                                     ///< of the queue that recorded work goes to; graphics and compute
-  PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;      ///< where every Vulkan function is looked up
-  uint32_t apiVersion = VK_API_VERSION_1_3;                     ///< that the instance and device were made with
-  const VkPhysicalDeviceFeatures2* enabled = nullptr;           ///< features enabled at vkCreateDevice, with their chain (a VkDevice can't be asked)
-  std::span<const char* const> extensions = {};                 ///< extensions enabled at vkCreateDevice
-  VkPipelineCache cache = VK_NULL_HANDLE;                       ///< optional
-  const VkAllocationCallbacks* callbacks = nullptr;             ///< optional
+  uint32_t queueFamily = 0;                                 ///< of the queue that recorded work goes to; graphics and compute
+  PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;  ///< where every Vulkan function is looked up
+  uint32_t apiVersion = VK_API_VERSION_1_3;                 ///< that the instance and device were made with
+  const VkPhysicalDeviceFeatures2* enabled = nullptr;  ///< features enabled at vkCreateDevice, with their chain (a VkDevice can't be asked)
+  std::span<const char* const> extensions = {};        ///< extensions enabled at vkCreateDevice
+  VkPipelineCache cache = VK_NULL_HANDLE;              ///< optional
+  const VkAllocationCallbacks* callbacks = nullptr;    ///< optional
 };
 
 /// What Rill needs of a device, to be put into the host's VkDeviceCreateInfo.
@@ -51,11 +51,11 @@ struct FrameClock {
 };
 
 struct DeviceInfo {
-  std::string name;     ///< as the driver reports it
-  std::string driver;   ///< driver name and version
-  std::string api;      ///< "1.3.230"
-  uint64_t deviceLocalBytes = 0;        ///< size of the largest device-local heap
-  uint64_t maxStorageBufferBytes = 0;   ///< maxStorageBufferRange, at most 128 MiB is used by Rill
+  std::string name;                    ///< as the driver reports it
+  std::string driver;                  ///< driver name and version
+  std::string api;                     ///< "1.3.230"
+  uint64_t deviceLocalBytes = 0;       ///< size of the largest device-local heap
+  uint64_t maxStorageBufferBytes = 0;  ///< maxStorageBufferRange, at most 128 MiB is used by Rill
   uint32_t maxTexelBufferElements = 0;
   uint32_t subgroupSize = 0, minSubgroupSize = 0, maxSubgroupSize = 0;
 };

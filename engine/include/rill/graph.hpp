@@ -41,8 +41,8 @@ enum class Use : uint8_t {
   Indirect,        ///< dispatch arguments
   CopySource,
   CopyTarget,
-  HostRead,        ///< read by the host after the frame has completed
-  Unknown          ///< as an import's `before` alone: anything may have happened to it
+  HostRead,  ///< read by the host after the frame has completed
+  Unknown    ///< as an import's `before` alone: anything may have happened to it
 };
 
 struct BufferDesc {
@@ -52,9 +52,9 @@ struct BufferDesc {
 struct BufferImport {
   VkBuffer handle = VK_NULL_HANDLE;
   uint64_t offset = 0;
-  uint64_t size = 0;            ///< bytes
-  Use before = Use::Unknown;    ///< its last use before this graph
-  Use after = Use::None;        ///< what it must be ready for after this graph; reached even when every pass is culled
+  uint64_t size = 0;          ///< bytes
+  Use before = Use::Unknown;  ///< its last use before this graph
+  Use after = Use::None;      ///< what it must be ready for after this graph; reached even when every pass is culled
 };
 
 /// Names a binding of a kernel: the buffer version and how the shader sees it follow from the pass's declared use.
@@ -82,7 +82,9 @@ class Pass {
   void sideEffect();
   /// Binds buffers, in the order of the pipeline's bindings, each a version that this pass reads or one that it wrote.
   Kernel kernel(const ComputePipeline* pipeline, std::span<const BufferRef> bindings);
-  Kernel kernel(const ComputePipeline* pipeline, Bindings bindings) { return kernel(pipeline, std::span<const BufferRef>(bindings.begin(), bindings.size())); }
+  Kernel kernel(const ComputePipeline* pipeline, Bindings bindings) {
+    return kernel(pipeline, std::span<const BufferRef>(bindings.begin(), bindings.size()));
+  }
 
  private:
   friend class Graph;
@@ -99,7 +101,9 @@ class Commands {
   /// gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x and checks its bound. 0 groups records nothing.
   void dispatch(Kernel kernel, uint64_t groups, std::span<const std::byte> push = {});
   template <class Push>
-  void dispatch(Kernel kernel, uint64_t groups, const Push& push) { dispatch(kernel, groups, std::as_bytes(std::span(&push, 1))); }
+  void dispatch(Kernel kernel, uint64_t groups, const Push& push) {
+    dispatch(kernel, groups, std::as_bytes(std::span(&push, 1)));
+  }
   /// Three uint at `offset` bytes of `arguments` (declared with Use::Indirect).
   void dispatchIndirect(Kernel kernel, BufferRef arguments, uint64_t offset, std::span<const std::byte> push = {});
   template <class Push>
@@ -119,7 +123,8 @@ class Commands {
   uint32_t pass_ = 0;
 };
 
-/// Time that a pass took on the device. Passes of one name are added up.
+/// Time that a pass took on the device, from the end of the pass before it, so that all add up to the frame's. Passes of one name are added
+/// up.
 struct Timing {
   std::string_view name;
   double ms = 0;
@@ -143,7 +148,7 @@ class Graph {
   Graph(const Graph&) = delete;
   Graph& operator=(const Graph&) = delete;
 
-  /// Forgets the declared frame; refs of it become stale. Read-backs in flight and cached plans stay.
+  /// Forgets the declared frame; refs of it become stale. Read-backs in flight, the transients' memory and timings stay.
   void reset();
 
   BufferRef create(std::string_view name, BufferDesc desc);  ///< transient: lives in the graph's own memory, content undefined at first
@@ -158,8 +163,9 @@ class Graph {
     auto record = setup(declared);
     using Record = decltype(record);
     // The callable is kept in the graph's own memory, which is used again every frame.
-    void* place = endPass(index, sizeof(Record), alignof(Record), [](void* self, Commands& commands) { (*static_cast<Record*>(self))(commands); },
-                          std::is_trivially_destructible_v<Record> ? nullptr : +[](void* self) { static_cast<Record*>(self)->~Record(); });
+    void* place = endPass(
+        index, sizeof(Record), alignof(Record), [](void* self, Commands& commands) { (*static_cast<Record*>(self))(commands); },
+        std::is_trivially_destructible_v<Record> ? nullptr : +[](void* self) { static_cast<Record*>(self)->~Record(); });
     ::new (place) Record(std::move(record));
   }
 
@@ -180,13 +186,13 @@ class Graph {
   /// Records into the host's command buffer, which is in the recording state and outside a render pass. Cannot fail.
   void record(VkCommandBuffer commandBuffer);
 
-  std::string dot() const;   ///< Graphviz; culled passes dashed with the reason
-  std::string json() const;  ///< passes, barriers, resources, memory plan
-  std::span<const Timing> timings() const;   ///< of the last frame that the host's clock says has completed
+  std::string dot() const;                     ///< Graphviz; culled passes dashed with the reason
+  std::string json() const;                    ///< passes, barriers, resources, memory plan
+  std::span<const Timing> timings() const;     ///< of the last frame that the host's clock says has completed
   std::span<const PassReport> report() const;  ///< of the last compiled frame
-  uint64_t transientBytes() const;  ///< of device memory that the last compiled frame's transients take, aliased
+  uint64_t transientBytes() const;             ///< of device memory that the last compiled frame's transients take, aliased
 
-  /// Two timestamps a pass. Default true.
+  /// A timestamp before the first pass and after each. Default true; a software driver takes some 30 us for each.
   void enableTimings(bool enabled);
 
   GraphImpl& impl() { return *impl_; }  ///< engine/graph and its tests; not for hosts

@@ -1,0 +1,82 @@
+// A development build (RILL_SHADER_RELOAD): a changed shader replaces the running one, a broken one does not.
+#ifdef RILL_SHADER_RELOAD
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "gpu/pipeline.hpp"
+#include "support/gpu_test.hpp"
+
+namespace rill::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ShaderReloading : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("rill-shaders-" + std::to_string(getpid()));
+    fs::copy(RILL_SOURCE_DIR "/shaders", folder_, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+    setenv("RILL_SHADER_DIR", folder_.c_str(), 1);
+    auto made = offline::Context::create();
+    ASSERT_TRUE(made) << made.error().message;
+    context_ = std::move(*made);
+    context_->device().setMessageCallback([this](std::string_view text) { said_ += text; });
+  }
+  void TearDown() override {
+    unsetenv("RILL_SHADER_DIR");
+    context_.reset();
+    fs::remove_all(folder_);
+  }
+  /// Appends to a shader's file, dated so that the change is seen whatever the file system's clock resolves.
+  void append(const std::string& file, const std::string& text) {
+    std::ofstream(folder_ / file, std::ios::app) << text;
+    fs::last_write_time(folder_ / file, fs::file_time_type::clock::now() + std::chrono::seconds(++changes_));
+    for (int i = 0; i < 20; ++i) {
+      ASSERT_TRUE(context_->submit([](VkCommandBuffer) {}));
+    }
+  }
+  const ComputePipeline* make() {
+    constexpr BindingKind kinds[] = {BindingKind::Storage, BindingKind::Storage, BindingKind::Storage, BindingKind::Storage};
+    auto made = computePipeline(context_->device(), {.shader = "sort/clear", .bindings = kinds, .pushConstantBytes = 64});
+    EXPECT_TRUE(made) << made.error().message;
+    return made ? *made : nullptr;
+  }
+
+  fs::path folder_;
+  std::unique_ptr<offline::Context> context_;
+  std::string said_;
+  int changes_ = 0;
+};
+
+TEST_F(ShaderReloading, ReplacesWhatChangedAndKeepsWhatBroke) {
+  const ComputePipeline* pipeline = make();
+  ASSERT_NE(pipeline, nullptr);
+  const VkPipeline first = pipeline->handle;
+  append("sort/clear.comp", "\n// a remark\n");
+  EXPECT_EQ(said_, "shader 'sort/clear' was reloaded");
+  const VkPipeline second = pipeline->handle;
+  EXPECT_NE(second, first);
+  EXPECT_EQ(make(), pipeline);
+
+  said_.clear();
+  append("sort/clear.comp", "nonsense\n");
+  EXPECT_NE(said_.find("shader 'sort/clear' does not compile, the old one stays:"), std::string::npos) << said_;
+  EXPECT_NE(said_.find("sort/clear.comp:"), std::string::npos) << said_;
+  EXPECT_EQ(pipeline->handle, second);
+}
+
+TEST_F(ShaderReloading, AChangedHeaderReloadsEveryShader) {
+  append("sort/sort_types.h", "\n");
+  size_t reloaded = 0;
+  for (size_t at = said_.find("was reloaded"); at != std::string::npos; at = said_.find("was reloaded", at + 1)) ++reloaded;
+  EXPECT_GT(reloaded, 10u);
+  EXPECT_EQ(said_.find("does not compile"), std::string::npos) << said_;
+}
+
+}  // namespace
+}  // namespace rill::test
+#endif
