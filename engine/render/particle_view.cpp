@@ -20,7 +20,7 @@ using namespace particle_view;
 constexpr uint32_t kMaxSide = 8192;
 constexpr uint64_t kMaxPixels = uint64_t{1} << 25;  // 128 MiB of 4 bytes
 constexpr uint32_t kInfinity = 0x7F800000u;         // bits of the float
-constexpr uint64_t kNearParts = 2000;               // a near plane nearer than half a spacing: this part of the distance to the target
+constexpr double kNearPart = 1e-4;                  // of the distance to the target: where the near plane is at least
 
 uint64_t groupsFor(uint64_t items, uint64_t size) { return (items + size - 1) / size; }
 uint64_t tiles(uint64_t width, uint64_t height, uint64_t side) { return groupsFor(width, side) * groupsFor(height, side); }
@@ -140,8 +140,7 @@ ViewPush ParticleViewImpl::pushFor(const FluidState& fluid, const CameraView& ca
   const double focal = 0.5 * desc.height / std::tan(0.5 * camera.fov_y_deg * std::numbers::pi / 180);
   push.focal = static_cast<float>(focal);
   push.radius = 0.5f * fluid.spacing;
-  push.near_depth = static_cast<float>(fluid.count > 0 ? std::max(double{push.radius}, distance / kNearParts) : distance / kNearParts);
-  push.near_depth = std::max(push.near_depth, 1e-6f);
+  push.near_depth = static_cast<float>(std::max({0.1 * push.radius, distance * kNearPart, 1e-6}));
   push.time = static_cast<float>(time);
   push.count = fluid.count;
   push.width = desc.width;

@@ -88,7 +88,9 @@ void main() {
   const vec2 middle = vec2(pixel) + 0.5;
   const vec3 ray = rayOf(tangentOf(middle));
   const vec3 colour = id == kFloorId ? shadeFloor(ray) : overWalls(background(middle.y), ray);
-  shaded[index] = packColour(colour);
+  const uint packed = packColour(colour);
+  shaded[index] = packed;
   rims[index] = kNoRim;
-  picture[index] = encoded(overEdges(colour, tile_edges[tile], middle, uintBitsToFloat(depth[index])));
+  // Unpacked again, so that it is the same colour in a tile with outlines and in one without.
+  picture[index] = encoded(overEdges(unpackColour(packed), tile_edges[tile], middle, uintBitsToFloat(depth[index])));
 }
