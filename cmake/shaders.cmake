@@ -36,6 +36,8 @@ function(rill_shader source)
     COMMAND ${RILL_GLSLANG} --quiet -V --target-env vulkan1.3 -I${RILL_SHADER_ROOT} ${defines} --vn shader_${symbol} -o ${array} ${root}/${source}
     DEPENDS ${root}/${source} ${headers}
     COMMENT "Shader ${name}" VERBATIM)
+  # Rules are known to their own folder alone; a target carries them to whoever embeds the shader.
+  add_custom_target(shader_${group}_${symbol} DEPENDS ${spv} ${array})
   set_property(GLOBAL APPEND PROPERTY RILL_SHADER_NAMES_${group} ${name})
   set_property(GLOBAL APPEND PROPERTY RILL_SHADER_FILES_${group} ${array})
   list(JOIN ARG_DEFINES " " joined)
@@ -83,5 +85,9 @@ std::span<const EmbeddedShader> @function@() { return kShaders; }
 " @ONLY)
   set_source_files_properties(${table} PROPERTIES OBJECT_DEPENDS "${files}")
   target_sources(${target} PRIVATE ${table})
-  add_dependencies(${target} rill_shaders)
+  list(TRANSFORM names REPLACE "/" "_" OUTPUT_VARIABLE rules)
+  list(TRANSFORM rules PREPEND shader_${group}_)
+  if(rules)
+    add_dependencies(${target} ${rules})
+  endif()
 endfunction()

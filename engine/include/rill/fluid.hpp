@@ -49,6 +49,17 @@ struct FluidState {
   double origin[3] = {0, 0, 0};  ///< m
 };
 
+/// How far an advance has got.
+struct FluidProgress {
+  bool known = false;         ///< a frame has finished
+  double time_s = 0;          ///< simulated time
+  double time_left_s = 0;     ///< of the advance; 0 when it is complete
+  double time_dropped_s = 0;  ///< of the advance: what did not fit in solver.max_substeps
+  uint32_t substeps = 0;      ///< of the advance
+  uint32_t iterations = 0;    ///< of the advance, Jacobi iterations of all substeps
+  uint32_t list_builds = 0;   ///< of the advance
+};
+
 /// Figures of one instant, measured on the device with sums in a fixed order.
 struct FluidStats {
   double time_s = 0;                 ///< simulated time
@@ -82,8 +93,8 @@ class Fluid {
 
   /// Of the last finished frame that asked for them.
   std::optional<FluidStats> stats() const;
-  /// Simulated time left over in the last finished frame, s; 0 when its advance is complete.
-  std::optional<double> timeLeft() const;
+  /// How far the last finished frame got with its advance. Known without asking for figures.
+  const FluidProgress& progress() const;
 
   uint32_t count() const;
   uint32_t substepsPerBlock() const;

@@ -20,6 +20,7 @@ struct Options {
   std::vector<Override> overrides;   ///< applied to the scene
   bool validation = false;           ///< with the validation layer, synchronization included; needs it installed
   uint32_t substepsPerSubmit = 0;    ///< 0: chosen; bits never depend on it
+  double longestFrame_s = 1.0 / 24;  ///< s; a longer advance() is made of equal frames, each with the scene's max_substeps of its own
 };
 
 enum class Order { AsStored, ById };
@@ -51,13 +52,14 @@ struct Stats : FluidStats {
 
 class Simulation {
  public:
-  /// `scene` is a path to a scene file. BadInput, NoDevice, OutOfMemory.
+  /// `scene` is a path to a scene file. BadInput, NoDevice, OutOfMemory (with bytes needed and available).
   static Expected<std::unique_ptr<Simulation>> open(const std::filesystem::path& scene, const Options& options = {});
-  /// A scene that was read before. The scene is judged before a device is opened.
+  /// A scene that was read before, with its overrides applied (those of `options` are not). The scene is judged before a device is opened.
   static Expected<std::unique_ptr<Simulation>> open(Scene scene, const Options& options = {});
   ~Simulation();
 
-  /// Runs `seconds` of simulated time on, waits for it. Exactly one advance of the solver: substeps divide it evenly at its end.
+  /// Runs `seconds` of simulated time on (>= 0), waits for it. One advance of the solver up to Options::longestFrame_s: substeps divide it evenly
+  /// at its end. Figures of an advance (substeps, time dropped) are added up over the frames of a longer one.
   Expected<void> advance(double seconds);
   double time() const;                           ///< s
   Expected<Particles> particles(Order order = Order::ById);
@@ -72,6 +74,7 @@ class Simulation {
   std::vector<std::string> warnings() const;
   std::string explain() const;                   ///< each pass of the last advance: ran, how often, ms; or skipped and why
   std::string graphDot() const;                  ///< of the last advance
+  std::vector<std::string> takeValidationMessages();  ///< since the last call; none without Options::validation
 
  private:
   class Impl;

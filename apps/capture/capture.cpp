@@ -1,0 +1,193 @@
+#include "capture/capture.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "capture/output_folder.hpp"
+#include "capture/record.hpp"
+#include "core/words.hpp"
+#include "rill/offline.hpp"
+#include "shared/atomic_file.hpp"
+#include "shared/exit_code.hpp"
+#include "shared/ply.hpp"
+#include "shared/png.hpp"
+#include "shared/progress.hpp"
+#include "shared/scene_folders.hpp"
+#include "shared/signals.hpp"
+
+namespace rill::capture {
+namespace fs = std::filesystem;
+namespace {
+
+class Capture {
+ public:
+  explicit Capture(const Options& options)
+      : options_(options), progress_(options.quiet ? apps::Progress::Style::Quiet : apps::Progress::styleForTerminal()) {}
+
+  int run() {
+    if (const auto scene = readScene(); !scene) return refuse(scene.error());
+    if (const auto places = checkPlaces(); !places) return refuse(places.error());
+    offline::Options wanted;
+    wanted.device = options_.device;
+    wanted.longestFrame_s = std::numeric_limits<double>::infinity();  // a frame is one advance, however long
+    auto simulation = offline::Simulation::open(scene_, wanted);
+    if (!simulation) return refuse(simulation.error());
+    simulation_ = std::move(*simulation);
+    if (const int signal = apps::signalReceived()) return 128 + signal;
+    if (const auto made = makePlaces(); !made) return refuse(made.error());
+    announce();
+
+    record_ = std::make_unique<Record>(simulation_->scene(), simulation_->device(), options_.command);
+    const Expected<void> ran = runFrames();
+    progress_.clear();
+    int code = apps::kDone;
+    if (!ran) code = fail(ran.error());
+    // After a failure, too: the figures of the frames so far are whole.
+    if (const auto written = writeStats(); !written) code = fail(written.error());
+    if (const auto reported = report(); !reported) code = fail(reported.error());
+    if (code != apps::kDone) return code;
+    if (const int signal = apps::signalReceived(); signal && record_->frames() < frames_) return 128 + signal;
+    return judge();
+  }
+
+ private:
+  bool writesFrames() const { return options_.images || options_.exportPly; }
+
+  Expected<void> readScene() {
+    const auto file = apps::SceneFolders::standard().find(options_.scene);
+    if (!file) return file.error();
+    auto scene = loadScene(*file, options_.overrides);
+    if (!scene) return scene.error();
+    scene_ = std::move(*scene);
+    if (auto known = checkFigures(options_.requirements, Record::figureNames(scene_)); !known) return known.error();
+    const double frames = options_.frames ? double(*options_.frames) : frameCount(scene_.duration, options_.fps);
+    if (frames > kMaxFrames)
+      return Error{ErrorKind::BadInput, "the scene's duration takes more than " + std::to_string(kMaxFrames) + " frames at " + std::to_string(options_.fps) + " a second; give --frames or another --fps"};
+    frames_ = static_cast<uint32_t>(frames);
+    // A scene's name may hold a folder ("validation/x"); a path's folders are the user's, not ours.
+    const bool byName = fs::path(options_.scene) != *file;
+    out_ = options_.out ? *options_.out : fs::path("out") / (byName ? fs::path(options_.scene) : fs::path(scene_.name));
+    return {};
+  }
+
+  /// Whether all can be written, before a device is opened and before anything is made.
+  Expected<void> checkPlaces() const {
+    if (options_.stats)
+      if (auto place = apps::checkFilePlace("--stats", *options_.stats); !place) return place;
+    return writesFrames() ? apps::checkFolderPlace("--out", out_) : Expected<void>();
+  }
+
+  Expected<void> makePlaces() {
+    if (options_.stats && !apps::isSpecialFile(*options_.stats) && options_.stats->has_parent_path())
+      if (auto made = apps::makeFolder("--stats", options_.stats->parent_path()); !made) return made;
+    if (!writesFrames()) return {};
+    auto folder = OutputFolder::prepare(out_);
+    if (!folder) return folder.error();
+    folder_ = std::make_unique<OutputFolder>(std::move(*folder));
+    return {};
+  }
+
+  void announce() {
+    if (options_.quiet) return;
+    for (const std::string& warning : simulation_->warnings()) message("warning: " + warning);
+    message(scene_.name + ": " + grouped(simulation_->start().positions.size()) + " particles, " + grouped(frames_) + (frames_ == 1 ? " frame, " : " frames, ") +
+            simulation_->device().name);
+  }
+
+  Expected<void> runFrames() {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point begin = Clock::now();
+    for (uint32_t k = 0; k < frames_ && !apps::signalReceived(); ++k) {
+      if (k > 0)
+        if (auto ran = simulation_->advance(1.0 / options_.fps); !ran) return ran;
+      const double time_s = k / options_.fps;
+      if (auto written = writeFrame(k, time_s); !written) return written;
+      auto stats = simulation_->stats();
+      if (!stats) return stats.error();
+      const double error = stats->density_error_mean;
+      record_->add(time_s, std::move(*stats));
+      progress_.show({k + 1, frames_, time_s, error, std::chrono::duration<double>(Clock::now() - begin).count()});
+    }
+    return {};
+  }
+
+  Expected<void> writeFrame(uint32_t k, double time_s) {
+    if (options_.images) {
+      auto image = simulation_->render(options_.view, options_.width, options_.height);
+      if (!image) return image.error();
+      if (auto written = apps::writePng(folder_->frame(k, "png"), *image); !written) return written;
+    }
+    if (!options_.exportPly) return {};
+    auto particles = simulation_->particles();
+    if (!particles) return particles.error();
+    return apps::writePly(folder_->frame(k, "ply"), *particles, time_s);
+  }
+
+  Expected<void> writeStats() const { return options_.stats ? apps::writeFile(*options_.stats, record_->json()) : Expected<void>(); }
+
+  /// The table of passes where it was asked for, and the figures. On standard output, which is left to the JSON where that goes there.
+  Expected<void> report() const {
+    const bool taken = options_.stats && apps::isStandardOutput(*options_.stats);
+    std::string text = options_.explain ? record_->passTable() : "";
+    if (!options_.quiet && record_->frames() > 0 && !taken) {
+      if (!text.empty()) text += "\n";
+      for (const Figure& figure : record_->figures()) {
+        char line[128];
+        const int unit = static_cast<int>(figure.unit.size());
+        if (std::isfinite(figure.value)) std::snprintf(line, sizeof line, "%-24s %.6g %.*s", figure.name.c_str(), figure.value, unit, figure.unit.data());
+        else std::snprintf(line, sizeof line, "%-24s -", figure.name.c_str());
+        text += line;
+        while (text.back() == ' ') text.pop_back();
+        text += "\n";
+      }
+    }
+    if (!options_.quiet && folder_ && record_->frames() > 0) {
+      const auto last = static_cast<uint32_t>(record_->frames() - 1);
+      message("frames: " + folder_->frame(0, options_.images ? "png" : "ply").string() + " to " + folder_->frame(last, options_.images ? "png" : "ply").filename().string());
+    }
+    return text.empty() ? Expected<void>() : apps::writeAll(taken ? STDERR_FILENO : STDOUT_FILENO, taken ? "standard error" : "standard output", text);
+  }
+
+  int judge() const {
+    const std::vector<std::string> broken = failures(options_.requirements, record_->figures());
+    for (const std::string& text : broken) message(text);
+    return broken.empty() ? apps::kDone : apps::kRequireFailed;
+  }
+
+  int refuse(const Error& error) const {
+    message(error.message);
+    return apps::exitCodeBeforeRun(error);
+  }
+  int fail(const Error& error) const {
+    message(error.message);
+    return apps::kFailed;
+  }
+  void message(const std::string& text) const { std::fprintf(stderr, "rill-capture: %s\n", text.c_str()); }
+
+  const Options& options_;
+  Scene scene_;
+  fs::path out_;
+  uint32_t frames_ = 0;
+  apps::Progress progress_;
+  std::unique_ptr<offline::Simulation> simulation_;
+  std::unique_ptr<OutputFolder> folder_;
+  std::unique_ptr<Record> record_;
+};
+
+}  // namespace
+
+double frameCount(double duration_s, double fps) {
+  // 0.3 s at 60 fps is a hair off 18 frames in binary: a frame that is late by a millionth of one is written.
+  return std::floor(duration_s * fps + 1e-6) + 1;
+}
+
+int runCapture(const Options& options) { return Capture(options).run(); }
+
+}  // namespace rill::capture

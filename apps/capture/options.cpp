@@ -1,0 +1,229 @@
+#include "capture/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "core/words.hpp"
+#include "rill/offline.hpp"
+#include "shared/words.hpp"
+
+namespace rill::capture {
+namespace {
+
+constexpr uint32_t kMaxSide = 8192;          // pixels
+constexpr uint64_t kMaxPixels = 1ull << 25;  // a picture is one buffer of at most 128 MiB
+constexpr uint64_t kMaxParticles = UINT32_MAX;
+
+Error badInput(std::string_view option, std::string_view given, std::string_view expected) {
+  return Error{ErrorKind::BadInput, std::string(option) + ": " + inQuotes(given) + " was given; expected " + std::string(expected)};
+}
+
+template <class Number>
+std::optional<Number> parse(std::string_view text) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (text.empty() || error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+/// Options as text: numbers are read here, so that every version of the command line library gives the same messages.
+struct Raw {
+  std::string scene, frames, fps, size, out, view, stats, exportAs, particles, device;
+  std::vector<std::string> set, require;
+  bool explain = false, noImages = false, quiet = false;
+};
+
+std::vector<std::string> viewNames() {
+  const auto views = offline::Simulation::views();
+  return {views.begin(), views.end()};
+}
+
+void declare(CLI::App& app, Raw& raw) {
+  const auto once = [&](const std::string& name, std::string& value, const std::string& about, const std::string& type, const std::string& group) {
+    app.add_option(name, value, about)->type_name(type)->group(group);
+  };
+  const auto list = [&](const std::string& name, std::vector<std::string>& values, const std::string& about, const std::string& type, const std::string& group) {
+    app.add_option(name, values, about)->type_name(type)->group(group)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->expected(1);
+  };
+  const std::string what = "What is simulated", written = "What is written", run = "How it runs";
+  app.add_option("SCENE", raw.scene, "a scene's name, or the path of a .json file")->type_name("")->required()->group(what);
+  once("--frames", raw.frames, "frames to write, the start included (default: the scene's duration)", "N", what);
+  once("--fps", raw.fps, "frames a simulated second (default: 60)", "F", what);
+  once("--particles", raw.particles, "about so many particles, in place of the scene's spacing", "N", what);
+  list("--set", raw.set, "change a key of the scene, as fluid.viscosity=0.1", "KEY=VALUE", what);
+
+  once("--out", raw.out, "folder of the frames, made where missing (default: out/SCENE)", "DIR", written);
+  once("--size", raw.size, "pixels (default: 1280x720)", "WxH", written);
+  once("--view", raw.view, "what is drawn: " + apps::joined(viewNames()) + " (default: particles)", "VIEW", written);
+  app.add_flag("--no-images", raw.noImages, "draw nothing, write no pictures")->group(written);
+  once("--export", raw.exportAs, "write the particles of each frame: ply", "FORMAT", written);
+  once("--stats", raw.stats, "write all figures as JSON; - is standard output", "FILE", written);
+
+  once("--device", raw.device, "part of a device's name, or its index", "NAME", run);
+  list("--require", raw.require, "exit with 3 unless it holds, as 'outside<1'", "FIGURE<NUMBER", run);
+  app.add_flag("--explain", raw.explain, "list each pass: runs and time, or why it was skipped")->group(run);
+  app.add_flag("--quiet", raw.quiet, "print nothing but errors")->group(run);
+  app.set_help_flag("-h,--help", "show this text")->group(run);
+  app.set_version_flag("--version", std::string("rill-capture ") + RILL_VERSION, "show the version")->group(run);
+}
+
+/// "--set a=1 b=2" as "--set a=1 --set b=2": what looks like one more value is one, whatever stands after it is not.
+std::vector<std::string> spreadLists(int count, const char* const* arguments) {
+  std::vector<std::string> spread;
+  std::string list;   // the list option that the last argument belongs to
+  bool value = false; // the next argument is its value in any case
+  for (int i = 1; i < count; ++i) {
+    const std::string_view argument = arguments[i];
+    const bool option = argument.starts_with('-');
+    if (value) {
+      value = false;
+    } else if (argument == "--set" || argument == "--require") {
+      list = argument;
+      value = true;
+    } else if (option || list.empty()) {
+      list.clear();
+    } else {
+      const size_t sign = argument.find_first_of(list == "--set" ? "=" : "<>");
+      // A key has no '/': a path that holds a '=' is still a scene.
+      const bool another = sign != std::string_view::npos && sign > 0 && argument.substr(0, sign).find('/') == std::string_view::npos;
+      if (another) spread.push_back(list);
+      else list.clear();
+    }
+    spread.emplace_back(argument);
+  }
+  return spread;
+}
+
+std::string quoted(std::string_view argument) {
+  const bool plain = !argument.empty() && argument.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%") == std::string_view::npos;
+  if (plain) return std::string(argument);
+  std::string text = "'";
+  for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+Expected<Options> judged(const Raw& raw, const CLI::App& app) {
+  const auto given = [&](const char* name) { return app.count(name) > 0; };
+  Options options;
+  options.scene = raw.scene;
+  if (raw.scene.empty()) return badInput("SCENE", raw.scene, "a scene's name or the path of a .json file");
+  if (given("--frames")) {
+    options.frames = parse<uint32_t>(raw.frames);
+    if (!options.frames || *options.frames < 1 || *options.frames > kMaxFrames)
+      return badInput("--frames", raw.frames, "a whole number from 1 to " + std::to_string(kMaxFrames));
+  }
+  if (given("--fps")) {
+    const auto fps = parse<double>(raw.fps);
+    if (!fps || !(*fps >= 0.001 && *fps <= 1e6)) return badInput("--fps", raw.fps, "a number from 0.001 to 1000000");
+    options.fps = *fps;
+  }
+  if (given("--size")) {
+    const size_t x = raw.size.find_first_of("xX");
+    const auto side = [&](std::string_view text) {
+      const auto value = parse<uint32_t>(text);
+      return value && *value >= 1 && *value <= kMaxSide ? value : std::nullopt;
+    };
+    const auto width = x == std::string::npos ? std::nullopt : side(std::string_view(raw.size).substr(0, x));
+    const auto height = x == std::string::npos ? std::nullopt : side(std::string_view(raw.size).substr(x + 1));
+    if (!width || !height || uint64_t{*width} * *height > kMaxPixels)
+      return badInput("--size", raw.size, "WIDTHxHEIGHT in pixels, as 1280x720: each from 1 to " + std::to_string(kMaxSide) + ", together at most " + std::to_string(kMaxPixels));
+    options.width = *width;
+    options.height = *height;
+  }
+  if (given("--view")) {
+    const std::vector<std::string> views = viewNames();
+    if (std::find(views.begin(), views.end(), raw.view) == views.end())
+      return Error{ErrorKind::BadInput, "--view: there is no view " + inQuotes(raw.view) + apps::didYouMean(raw.view, views) + "\nviews: " + apps::joined(views)};
+    options.view = raw.view;
+  }
+  if (given("--export")) {
+    if (raw.exportAs != "ply") return badInput("--export", raw.exportAs, "ply");
+    options.exportPly = true;
+  }
+  if (given("--particles")) {
+    const auto particles = parse<uint64_t>(raw.particles);
+    if (!particles || *particles < 1 || *particles > kMaxParticles) return badInput("--particles", raw.particles, "a whole number from 1 to " + grouped(kMaxParticles));
+  }
+  if (given("--out")) {
+    if (raw.out.empty()) return badInput("--out", raw.out, "the name of a folder");
+    options.out = raw.out;
+  }
+  if (given("--stats")) {
+    if (raw.stats.empty()) return badInput("--stats", raw.stats, "the name of a file, or - for standard output");
+    options.stats = raw.stats;
+  }
+  if (given("--device") && raw.device.empty()) return badInput("--device", raw.device, "part of a device's name, or its index");
+  options.device = raw.device;
+  for (const std::string& text : raw.set) {
+    auto assignment = parseOverride(text);
+    if (!assignment) return Error{ErrorKind::BadInput, "--set: " + assignment.error().message};
+    options.overrides.push_back(std::move(*assignment));
+  }
+  if (given("--particles")) options.overrides.push_back({"fluid.particles", raw.particles});
+  for (const std::string& text : raw.require) {
+    auto requirement = parseRequirement(text);
+    if (!requirement) return requirement.error();
+    options.requirements.push_back(std::move(*requirement));
+  }
+  options.explain = raw.explain;
+  options.images = !raw.noImages;
+  options.quiet = raw.quiet;
+  return options;
+}
+
+/// The library's own message, with the nearest option for one that it does not know.
+std::string usageMessage(const CLI::App& app, const CLI::ParseError& error) {
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return error.what();
+  std::vector<std::string> known;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  for (std::string extra : app.remaining()) {
+    if (const size_t equals = extra.find('='); extra.starts_with("--") && equals != std::string::npos) extra.resize(equals);
+    if (extra.starts_with("-")) return "there is no option " + inQuotes(extra) + apps::didYouMean(extra, known);
+    return inQuotes(extra) + " is one argument too many; expected one SCENE";
+  }
+  return error.what();
+}
+
+}  // namespace
+
+Expected<CommandLine> parseCommandLine(int count, const char* const* arguments) {
+  Raw raw;
+  CLI::App app(
+      "Runs a fluid scene without a window and writes pictures, particles and figures.\n"
+      "Frame k is the instant k/fps after the start; frame 0 is the start itself.");
+  app.name("rill-capture");
+  app.get_formatter()->column_width(30);
+  declare(app, raw);
+  app.footer(
+      "\nExamples:\n"
+      "  rill-capture dam-break\n"
+      "      pictures of a dam break in out/dam-break, progress on the terminal\n"
+      "  rill-capture dam-break --no-images --stats run.json --set fluid.viscosity=0.1 --particles 10000\n"
+      "      the same with a tenth of a pascal second and 10,000 particles: figures alone, frame by frame\n"
+      "  rill-capture resting-column --frames 61 --no-images --quiet --require 'density_error_mean<0.001' 'outside<1'\n"
+      "      a check for a script: exit code 0 where both hold, 3 where one does not\n"
+      "\nExit codes: 0 done, 1 failed while running, 2 bad usage or input, 3 a --require did not hold,\n"
+      "4 no usable Vulkan device; 130, 143, 129 after a signal (the frame in hand is finished first).");
+  std::vector<std::string> spread = spreadLists(count, arguments);
+  std::reverse(spread.begin(), spread.end());  // the order in which the library takes a vector
+  try {
+    app.parse(spread);
+  } catch (const CLI::CallForVersion&) {
+    return CommandLine{std::nullopt, std::string("rill-capture ") + RILL_VERSION + "\n"};
+  } catch (const CLI::CallForHelp&) {
+    return CommandLine{std::nullopt, app.help()};
+  } catch (const CLI::ParseError& error) {
+    return Error{ErrorKind::BadInput, usageMessage(app, error) + "\ntry rill-capture --help"};
+  }
+  auto options = judged(raw, app);
+  if (!options) return options.error();
+  options->command = "rill-capture";
+  for (int i = 1; i < count; ++i) options->command += " " + quoted(arguments[i]);
+  return CommandLine{std::move(*options), {}};
+}
+
+}  // namespace rill::capture

@@ -1,0 +1,225 @@
+#include "capture/record.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+
+namespace rill::capture {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string hexadecimal(uint64_t value) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
+  return text;
+}
+
+/// One line: a list of frames stays readable, and grep finds a frame.
+std::string oneLine(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+Json frameJson(double time_s, const offline::Stats& stats) {
+  Json probes = Json::object(), pass_ms = Json::object(), skipped = Json::object();
+  for (const auto& [name, value] : stats.probes) probes[name] = value;
+  for (const offline::PassTime& pass : stats.pass_ms) pass_ms[pass.name] = pass.ms;
+  for (const auto& [name, reason] : stats.skipped) skipped[name] = reason;
+  Json frame;
+  frame["time_s"] = time_s;
+  frame["particles"] = stats.particles;
+  frame["substeps"] = stats.substeps;
+  frame["iterations"] = stats.iterations;
+  frame["time_dropped_s"] = stats.time_dropped_s;
+  frame["density_error_mean"] = stats.density_error_mean;
+  frame["density_error_p99"] = stats.density_error_p99;
+  frame["density_error_max"] = stats.density_error_max;
+  frame["density_signed_median"] = stats.density_signed_median;
+  frame["kinetic_J"] = stats.kinetic_J;
+  frame["potential_J"] = stats.potential_J;
+  frame["momentum"] = stats.momentum;
+  frame["centre_of_mass"] = stats.centre_of_mass;
+  frame["front_m"] = stats.front_m;
+  frame["max_speed"] = stats.max_speed;
+  frame["non_finite"] = stats.non_finite;
+  frame["outside"] = stats.outside;
+  frame["neighbour_overflow"] = stats.neighbour_overflow;
+  frame["loop_bound_hits"] = stats.loop_bound_hits;
+  frame["list_builds"] = stats.list_builds;
+  frame["state_hash"] = hexadecimal(stats.state_hash);
+  frame["probes"] = probes;
+  frame["wall_s"] = stats.wall_s;
+  frame["pass_ms"] = pass_ms;
+  frame["skipped"] = skipped;
+  return frame;
+}
+
+/// Potential energy of all the fluid in the domain's lowest corner, J: from there potential energy is counted, so that the ratio of energies
+/// does not depend on where the scene's zero lies.
+double lowestPotential(const Scene& scene, double mass) {
+  if (!scene.domain) return 0;
+  double least = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double g = scene.gravity[axis];
+    least += std::min(-g * scene.domain->min[axis], -g * scene.domain->max[axis]);
+  }
+  return mass * least;
+}
+
+}  // namespace
+
+Record::Record(const Scene& scene, const DeviceInfo& device, std::string command) : scene_(&scene), device_(device), command_(std::move(command)) {}
+
+void Record::add(double time_s, offline::Stats stats) { frames_.push_back({time_s, std::move(stats)}); }
+
+double Record::simulatedSeconds() const { return frames_.empty() ? 0 : frames_.back().time_s; }
+
+double Record::wallSeconds() const {
+  double sum = 0;
+  for (const Frame& frame : frames_) sum += frame.stats.wall_s;
+  return sum;
+}
+
+Record::Energy Record::energy() const {
+  Energy energy;
+  if (frames_.empty()) return energy;
+  const auto total = [](const Frame& frame) { return frame.stats.kinetic_J + frame.stats.potential_J; };
+  energy.start_J = energy.max_J = total(frames_.front());
+  energy.end_J = total(frames_.back());
+  for (const Frame& frame : frames_) energy.max_J = std::max(energy.max_J, total(frame));
+  const double mass = double(frames_.front().stats.particles) * scene_->fluid.density * std::pow(scene_->fluid.spacing, 3);
+  const double floor = lowestPotential(*scene_, mass);
+  const double gained = energy.max_J - energy.start_J;
+  if (gained != 0) energy.ratio = energy.start_J - floor > 0 ? (energy.max_J - floor) / (energy.start_J - floor) : std::numeric_limits<double>::quiet_NaN();
+  return energy;
+}
+
+Record::DensityError Record::densityError() const {
+  DensityError error;
+  if (frames_.empty()) return error;
+  const size_t skip = std::min((frames_.size() + 9) / 10, frames_.size() - 1);
+  std::vector<double> medians;
+  for (size_t k = skip; k < frames_.size(); ++k) {
+    const offline::Stats& stats = frames_[k].stats;
+    error.mean += stats.density_error_mean / double(frames_.size() - skip);
+    error.p99 = std::max(error.p99, stats.density_error_p99);
+    error.max = std::max(error.max, stats.density_error_max);
+    medians.push_back(stats.density_signed_median);
+  }
+  const auto middle = medians.begin() + static_cast<std::ptrdiff_t>(medians.size() / 2);
+  std::nth_element(medians.begin(), middle, medians.end());
+  error.signed_median = *middle;
+  return error;
+}
+
+std::vector<std::string> Record::figureNames(const Scene& scene) {
+  Record empty(scene, {}, {});
+  std::vector<std::string> names;
+  for (Figure& figure : empty.figures()) names.push_back(std::move(figure.name));
+  return names;
+}
+
+std::vector<Figure> Record::figures() const {
+  const auto of = [&](auto member) {
+    return [this, member](auto combine) {
+      double value = 0;
+      for (const Frame& frame : frames_) value = combine(value, double(frame.stats.*member));
+      return value;
+    };
+  };
+  const auto largest = [](double a, double b) { return std::max(a, b); };
+  const auto sum = std::plus<double>{};
+  using Stats = offline::Stats;
+  const DensityError error = densityError();
+  const double simulated = simulatedSeconds(), wall = wallSeconds();
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const Stats last = frames_.empty() ? Stats{} : frames_.back().stats;
+  std::vector<Figure> figures = {
+      {"frames", double(frames_.size()), ""},
+      {"particles", double(last.particles), ""},
+      {"simulated_s", simulated, "s"},
+      {"wall_s", wall, "s"},
+      {"wall_per_simulated_s", simulated > 0 ? wall / simulated : none, ""},
+      {"substeps", of(&Stats::substeps)(sum), ""},
+      {"iterations", of(&Stats::iterations)(sum), ""},
+      {"list_builds", of(&Stats::list_builds)(sum), ""},
+      {"time_dropped_s", of(&Stats::time_dropped_s)(sum), "s"},
+      {"density_error_mean", error.mean, ""},
+      {"density_error_p99", error.p99, ""},
+      {"density_error_max", error.max, ""},
+      {"density_signed_median", error.signed_median, ""},
+      {"energy_ratio", energy().ratio, ""},
+      {"kinetic_J", last.kinetic_J, "J"},
+      {"potential_J", last.potential_J, "J"},
+      {"front_m", last.front_m, "m"},
+      {"max_speed", of(&Stats::max_speed)(largest), "m/s"},
+      {"outside", of(&Stats::outside)(largest), ""},
+      {"non_finite", of(&Stats::non_finite)(largest), ""},
+      {"neighbour_overflow", of(&Stats::neighbour_overflow)(largest), ""},
+      {"loop_bound_hits", of(&Stats::loop_bound_hits)(largest), ""},
+  };
+  for (const Probe& probe : scene_->probes) {
+    const auto found = std::find_if(last.probes.begin(), last.probes.end(), [&](const auto& measured) { return measured.first == probe.name; });
+    figures.push_back({"probes." + probe.name, found == last.probes.end() ? none : found->second, "m"});
+  }
+  return figures;
+}
+
+std::string Record::json() const {
+  const DensityError error = densityError();
+  const Energy joules = energy();
+  Json head;
+  head["rill"] = RILL_VERSION;
+  head["command"] = command_;
+  head["scene"] = scene_->name;
+  head["device"] = {{"name", device_.name}, {"driver", device_.driver}, {"api", device_.api}};
+  head["particles"] = frames_.empty() ? 0 : frames_.back().stats.particles;
+  head["simulated_s"] = simulatedSeconds();
+  head["wall_s"] = wallSeconds();
+  head["density_error"] = {{"mean", error.mean}, {"p99", error.p99}, {"max", error.max}};
+  head["energy"] = {{"start_J", joules.start_J}, {"max_J", joules.max_J}, {"end_J", joules.end_J}, {"ratio", joules.ratio}};
+  std::string text = "{\n";
+  for (const auto& [key, value] : head.items()) text += "  " + oneLine(key) + ": " + oneLine(value) + ",\n";
+  text += "  \"frames\": [";
+  for (size_t k = 0; k < frames_.size(); ++k) text += std::string(k ? "," : "") + "\n    " + oneLine(frameJson(frames_[k].time_s, frames_[k].stats));
+  return text + (frames_.empty() ? "]\n}\n" : "\n  ]\n}\n");
+}
+
+std::string Record::passTable() const {
+  struct Total {
+    double ms = 0;
+    uint64_t runs = 0;
+    std::string reason;
+  };
+  std::vector<std::string> order;
+  std::map<std::string, Total> totals;
+  const auto total = [&](const std::string& name) -> Total& {
+    const auto [found, isNew] = totals.try_emplace(name);
+    if (isNew) order.push_back(name);
+    return found->second;
+  };
+  for (const Frame& frame : frames_) {
+    for (const offline::PassTime& pass : frame.stats.pass_ms) {
+      total(pass.name).ms += pass.ms;
+      total(pass.name).runs += pass.runs;
+    }
+    for (const auto& [name, reason] : frame.stats.skipped) total(name).reason = reason;
+  }
+  std::string text;
+  char line[256];
+  std::snprintf(line, sizeof line, "%-36s %9s %11s %10s\n", "pass", "runs", "ms", "us a run");
+  text += line;
+  for (const std::string& name : order) {
+    const Total& pass = totals.at(name);
+    if (pass.runs == 0) continue;
+    std::snprintf(line, sizeof line, "%-36s %9llu %11.3f %10.2f\n", name.c_str(), static_cast<unsigned long long>(pass.runs), pass.ms, 1e3 * pass.ms / double(pass.runs));
+    text += line;
+  }
+  for (const std::string& name : order)
+    if (const Total& pass = totals.at(name); pass.runs == 0) text += name + std::string(name.size() < 36 ? 36 - name.size() : 0, ' ') + " skipped: " + pass.reason + "\n";
+  return text;
+}
+
+}  // namespace rill::capture

@@ -1,0 +1,55 @@
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "capture/requirement.hpp"
+#include "rill/offline.hpp"
+
+namespace rill::capture {
+
+/// What a capture has measured so far: the object that --stats writes, the figures that --require judges, the passes that --explain lists.
+class Record {
+ public:
+  /// `command` is the command line, as one would type it again.
+  Record(const Scene& scene, const DeviceInfo& device, std::string command);
+
+  /// Frames in order; `time_s` is the frame's instant.
+  void add(double time_s, offline::Stats stats);
+  size_t frames() const { return frames_.size(); }
+
+  /// Names of all figures of a scene, known before anything runs.
+  static std::vector<std::string> figureNames(const Scene& scene);
+  /// In the order of figureNames(). Figures of the density error leave out the first tenth of the frames.
+  std::vector<Figure> figures() const;
+
+  /// One JSON object, ended by a line feed; what is not finite is null.
+  std::string json() const;
+
+  /// A table of passes: runs and milliseconds over all frames, or why a pass was skipped.
+  std::string passTable() const;
+
+ private:
+  struct Frame {
+    double time_s;
+    offline::Stats stats;
+  };
+  struct Energy {
+    double start_J = 0, max_J = 0, end_J = 0;
+    double ratio = 1;  ///< max over start, potential energy counted from the domain's lowest corner
+  };
+  struct DensityError {
+    double mean = 0, p99 = 0, max = 0, signed_median = 0;
+  };
+  Energy energy() const;
+  DensityError densityError() const;
+  double simulatedSeconds() const;
+  double wallSeconds() const;
+
+  const Scene* scene_;
+  DeviceInfo device_;
+  std::string command_;
+  std::vector<Frame> frames_;
+};
+
+}  // namespace rill::capture

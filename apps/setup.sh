@@ -1,0 +1,108 @@
+# shellcheck shell=bash
+# What apps/demo.sh and tests/run.sh share: the one list of packages, how they are installed, the build. Sourced, from the project's root.
+
+# section, Debian's and Ubuntu's name, what to look for on another system. "test?" is left out where the system has no such package.
+packages='
+build g++                     a C++20 compiler (GCC 12 or newer)
+build cmake                   CMake 3.25 or newer
+build ninja-build             Ninja
+build libvulkan-dev           Vulkan headers 1.3.239 or newer
+build libvulkan-volk-dev      volk (volk.h and volk.c)
+build glslang-tools           glslang (glslangValidator)
+build spirv-tools             SPIRV-Tools (spirv-val)
+build libglm-dev              GLM
+build nlohmann-json3-dev      nlohmann/json 3.11 or newer
+build libcli11-dev            CLI11
+build libfmt-dev              {fmt}
+build libstb-dev              stb (stb_image_write.h)
+run   libvulkan1              the Vulkan loader
+run   mesa-vulkan-drivers     a Vulkan 1.3 driver (Mesa: lavapipe needs no GPU)
+test  libgtest-dev            GoogleTest
+test  binutils                binutils (nm)
+test  vulkan-validationlayers the Khronos validation layer
+test? chromium-common         SwiftShader (libvk_swiftshader.so with its vk_swiftshader_icd.json)
+'
+
+# phase TEXT...: one line for each phase, with the seconds since the script began.
+phase() { printf '\n[%4d s] %s\n' "$SECONDS" "$*"; }
+
+fail() {
+  printf '%s\n' "$*" >&2
+  exit 1
+}
+
+# in_sections SECTION...: the rows of the list that belong to these sections.
+in_sections() {
+  local section name upstream
+  while read -r section name upstream; do
+    [[ " $* " == *" $section "* ]] && printf '%s %s %s\n' "$section" "$name" "$upstream"
+  done <<<"$packages"
+  return 0
+}
+
+is_installed() { [[ $(dpkg-query -W -f='${db:Status-Abbrev}' "$1" 2>/dev/null) == ii* ]]; }
+is_known() { LC_ALL=C apt-cache policy "$1" 2>/dev/null | grep -q 'Candidate: [^(]'; }
+
+as_root() {
+  if [ "$(id -u)" = 0 ]; then
+    env DEBIAN_FRONTEND=noninteractive "$@"
+  else
+    sudo env DEBIAN_FRONTEND=noninteractive "$@"
+  fi
+}
+
+# logged COMMAND...: quiet when it works; when not, shows what it said.
+logged() {
+  local log status=0
+  log=$(mktemp)
+  "$@" >"$log" 2>&1 </dev/null || status=$?
+  [ $status = 0 ] || tail -n 30 "$log" >&2
+  rm -f "$log"
+  return $status
+}
+
+# install_packages SECTION...: installs what is missing. Asks neither apt nor the network when nothing is.
+install_packages() {
+  local section name upstream missing=() optional=() lists=/var/lib/apt/lists
+  if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+    {
+      echo "This is neither Debian nor Ubuntu, so nothing was installed. Install these, then run again with --no-install:"
+      in_sections "$@" | while read -r section name upstream; do printf '  %s\n' "$upstream"; done
+    } >&2
+    exit 1
+  fi
+  while read -r section name upstream; do
+    if is_installed "$name"; then
+      continue
+    elif [[ $section != *\? ]]; then
+      missing+=("$name")
+    elif is_known "$name" || ! compgen -G "$lists/*_Packages*" >/dev/null; then
+      # A package that the system's lists do not have is no reason to fetch them again; lists that are absent are.
+      optional+=("$name")
+    fi
+  done < <(in_sections "$@")
+  local all=("${missing[@]}" "${optional[@]}")
+  if [ ${#all[@]} = 0 ]; then
+    phase "Every package is already there"
+    return
+  fi
+  if [ "$(id -u)" != 0 ] && ! command -v sudo >/dev/null; then
+    fail "Needs root, and there is no sudo. As root: apt-get install --no-install-recommends ${all[*]}"
+  fi
+
+  phase "Installing ${all[*]}"
+  logged as_root apt-get -o DPkg::Lock::Timeout=300 update || echo "apt-get update failed; trying with the package lists that are here" >&2
+  for name in "${optional[@]}"; do
+    if is_known "$name"; then missing+=("$name"); fi
+  done
+  if [ ${#missing[@]} = 0 ]; then return; fi
+  logged as_root apt-get -o DPkg::Lock::Timeout=300 install -y --no-install-recommends "${missing[@]}" ||
+    fail "apt-get could not install them (needs Debian 12, Ubuntu 24.04 or newer)"
+}
+
+# build_release TESTS TARGET: into build/release; TESTS is ON or OFF.
+build_release() {
+  phase "Building $2 into build/release"
+  logged cmake --preset release -DRILL_BUILD_TESTS="$1"
+  cmake --build --preset release --parallel "$(nproc)" --target "$2"
+}

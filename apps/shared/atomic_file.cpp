@@ -1,0 +1,195 @@
+#include "shared/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <system_error>
+
+#include "core/words.hpp"
+
+namespace rill::apps {
+namespace fs = std::filesystem;
+namespace {
+
+std::string reason(int code) { return std::generic_category().message(code); }
+
+Error ioError(std::string_view name, std::string_view what, int code) {
+  return Error{ErrorKind::Io, "can't " + std::string(what) + " " + std::string(name) + ": " + reason(code)};
+}
+
+/// An open file descriptor that closes itself.
+class Descriptor {
+ public:
+  explicit Descriptor(int value) : value_(value) {}
+  ~Descriptor() { close(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int get() const { return value_; }
+  int close() {
+    const int result = value_ >= 0 ? ::close(value_) : 0;
+    value_ = -1;
+    return result;
+  }
+
+ private:
+  int value_;
+};
+
+/// 1 or 2 for the names of a standard stream, else -1. They are written through the open descriptor: opening /dev/stdout again
+/// would start over at offset 0 of a redirected file, and fails for a socket.
+int standardStream(const fs::path& file) {
+  const std::string name = file.lexically_normal().string();
+  if (name == "-" || name == "/dev/stdout" || name == "/dev/fd/1" || name == "/proc/self/fd/1") return STDOUT_FILENO;
+  if (name == "/dev/stderr" || name == "/dev/fd/2" || name == "/proc/self/fd/2") return STDERR_FILENO;
+  return -1;
+}
+
+bool below(const fs::path& file, std::string_view root) { return file.string().starts_with(root); }
+
+/// The file that is to be replaced: what a chain of links ends at, even where nothing is there yet.
+fs::path followLinks(fs::path file) {
+  std::error_code ignored;
+  for (int depth = 0; depth < 40 && fs::is_symlink(file, ignored); ++depth) {
+    const fs::path target = fs::read_symlink(file, ignored);
+    if (ignored) break;
+    file = target.is_absolute() ? target : file.parent_path() / target;
+  }
+  return file;
+}
+
+fs::path folderOf(const fs::path& file) {
+  const fs::path folder = file.parent_path();
+  return folder.empty() ? fs::path(".") : folder;
+}
+
+Expected<void> replaceFile(const fs::path& shown, const fs::path& file, std::span<const std::byte> bytes) {
+  const std::string name = shown.string();
+  const fs::path part = folderOf(file) / ("." + file.filename().string() + "." + std::to_string(::getpid()) + ".part");
+  int opened = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (opened < 0 && errno == EEXIST) {  // left by a killed program that had this process's number
+    ::unlink(part.c_str());
+    opened = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  }
+  if (opened < 0) return ioError(name, "write", errno);
+  Descriptor descriptor(opened);
+
+  struct stat before {};
+  if (::stat(file.c_str(), &before) == 0 && ::fchmod(descriptor.get(), before.st_mode & 07777) != 0) { /* its mode stays the default one */ }
+
+  Expected<void> written = writeAll(descriptor.get(), name, bytes);
+  // A full disk may show only here; a file system that can't sync (EINVAL) has done what it can.
+  if (written && ::fsync(descriptor.get()) != 0 && errno != EINVAL && errno != ENOSYS) written = ioError(name, "write", errno);
+  if (descriptor.close() != 0 && written && errno != EINTR) written = ioError(name, "write", errno);
+  if (written && ::rename(part.c_str(), file.c_str()) != 0) written = ioError(name, "write", errno);
+  if (!written) ::unlink(part.c_str());
+  return written;
+}
+
+/// The nearest folder above that exists, or what stands in its place.
+fs::path existingAncestor(fs::path path) {
+  std::error_code ignored;
+  while (!fs::exists(path, ignored)) {
+    const fs::path parent = path.parent_path();
+    if (parent.empty()) return ".";
+    if (parent == path) break;
+    path = parent;
+  }
+  return path;
+}
+
+}  // namespace
+
+bool isStandardOutput(const fs::path& file) { return standardStream(file) == STDOUT_FILENO; }
+
+bool isSpecialFile(const fs::path& file) {
+  if (standardStream(file) >= 0 || below(file, "/dev/") || below(file, "/proc/")) return true;
+  struct stat info {};
+  return ::stat(file.c_str(), &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
+}
+
+Expected<void> writeAll(int descriptor, std::string_view name, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0) {
+      if (errno == EINTR) continue;
+      return ioError(name, "write", errno);
+    }
+    bytes = bytes.subspan(static_cast<size_t>(written));
+  }
+  return {};
+}
+
+Expected<void> writeAll(int descriptor, std::string_view name, std::string_view text) {
+  return writeAll(descriptor, name, std::as_bytes(std::span(text.data(), text.size())));
+}
+
+Expected<void> writeFile(const fs::path& file, std::span<const std::byte> bytes) {
+  const std::string name = file.string();
+  if (const int stream = standardStream(file); stream >= 0)
+    return writeAll(stream, stream == STDOUT_FILENO ? "standard output" : "standard error", bytes);
+  if (!isSpecialFile(file)) return replaceFile(file, followLinks(file), bytes);
+  Descriptor descriptor(::open(file.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY));
+  if (descriptor.get() < 0) return ioError(name, "open", errno);
+  Expected<void> written = writeAll(descriptor.get(), name, bytes);
+  if (descriptor.close() != 0 && written && errno != EINTR) written = ioError(name, "write", errno);
+  return written;
+}
+
+Expected<void> writeFile(const fs::path& file, std::string_view text) {
+  return writeFile(file, std::as_bytes(std::span(text.data(), text.size())));
+}
+
+Expected<void> checkFilePlace(std::string_view option, const fs::path& file) {
+  const std::string prefix = std::string(option) + ": ";
+  std::error_code ignored;
+  if (file.empty()) return Error{ErrorKind::BadInput, prefix + "expected the name of a file"};
+  if (standardStream(file) >= 0) return {};
+  if (fs::is_directory(file, ignored) || !file.has_filename())
+    return Error{ErrorKind::BadInput, prefix + inQuotes(file.string()) + " is a folder; expected the name of a file"};
+  if (fs::exists(file, ignored)) {
+    if (::access(file.c_str(), W_OK) != 0) return Error{ErrorKind::BadInput, prefix + "can't write " + inQuotes(file.string()) + ": " + reason(errno)};
+    if (isSpecialFile(file)) return {};
+  } else if (isSpecialFile(file)) {
+    return Error{ErrorKind::BadInput, prefix + "there is no " + inQuotes(file.string())};
+  }
+  return checkFolderPlace(option, folderOf(followLinks(file)));
+}
+
+Expected<void> checkFolderPlace(std::string_view option, const fs::path& folder) {
+  const std::string prefix = std::string(option) + ": ";
+  std::error_code ignored;
+  if (folder.empty()) return Error{ErrorKind::BadInput, prefix + "expected the name of a folder"};
+  const fs::path nearest = existingAncestor(folder);
+  if (!fs::is_directory(nearest, ignored))
+    return Error{ErrorKind::BadInput, prefix + inQuotes(nearest.string()) + " is a file; expected a folder"};
+  if (::access(nearest.c_str(), W_OK | X_OK) != 0)
+    return Error{ErrorKind::BadInput, prefix + "can't write in " + inQuotes(nearest.string()) + ": " + reason(errno)};
+  return {};
+}
+
+Expected<void> makeFolder(std::string_view option, const fs::path& folder) {
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  // A trailing slash makes create_directories answer false for a folder that it made: only the folder's presence counts.
+  std::error_code ignored;
+  if (fs::is_directory(folder, ignored)) return {};
+  return Error{ErrorKind::BadInput, std::string(option) + ": can't make the folder " + inQuotes(folder.string()) + ": " + (failed ? failed.message() : "unknown reason")};
+}
+
+bool isPartFile(std::string_view name, std::string_view& target) {
+  constexpr std::string_view suffix = ".part";
+  if (!name.starts_with('.') || !name.ends_with(suffix)) return false;
+  name.remove_prefix(1);
+  name.remove_suffix(suffix.size());
+  const size_t dot = name.rfind('.');
+  if (dot == std::string_view::npos || dot + 1 == name.size()) return false;
+  if (name.find_first_not_of("0123456789", dot + 1) != std::string_view::npos) return false;
+  target = name.substr(0, dot);
+  return !target.empty();
+}
+
+}  // namespace rill::apps

@@ -1,0 +1,25 @@
+#pragma once
+#include "rill/expected.hpp"
+
+namespace rill::apps {
+
+/// What a program's exit code means; 128 + the signal's number after a signal.
+enum ExitCode : int {
+  kDone = 0,
+  kFailed = 1,         ///< while running
+  kBadInput = 2,       ///< bad usage or bad input, nothing was run
+  kRequireFailed = 3,  ///< a --require did not hold
+  kNoDevice = 4        ///< no usable Vulkan device
+};
+
+/// The exit code of an error met before anything runs: a scene too large for the device is bad input there.
+inline int exitCodeBeforeRun(const Error& error) {
+  switch (error.kind) {
+    case ErrorKind::BadInput:
+    case ErrorKind::OutOfMemory: return kBadInput;
+    case ErrorKind::NoDevice: return kNoDevice;
+    default: return kFailed;
+  }
+}
+
+}  // namespace rill::apps

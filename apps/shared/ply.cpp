@@ -1,0 +1,54 @@
+#include "shared/ply.hpp"
+
+#include <bit>
+#include <cassert>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+#include "shared/atomic_file.hpp"
+
+namespace rill::apps {
+namespace {
+
+struct Vertex {
+  float position[3];
+  float velocity[3];
+  float density;
+  uint32_t id;
+};
+static_assert(sizeof(Vertex) == 32);
+static_assert(std::endian::native == std::endian::little, "the records are written as they lie in memory");
+
+std::string shortest(double value) {
+  char text[32];
+  const auto [end, error] = std::to_chars(text, text + sizeof text, value);
+  return error == std::errc{} ? std::string(text, end) : "0";
+}
+
+}  // namespace
+
+std::vector<std::byte> encodePly(const offline::Particles& particles, double time_s) {
+  const size_t count = particles.positions.size();
+  assert(particles.velocities.size() == count && particles.densities.size() == count && particles.ids.size() == count);
+  std::string header = "ply\nformat binary_little_endian 1.0\ncomment time " + shortest(time_s) + "\nelement vertex " + std::to_string(count) + "\n";
+  for (const char* name : {"x", "y", "z", "vx", "vy", "vz", "density"}) header += std::string("property float ") + name + "\n";
+  header += "property uint id\nend_header\n";
+
+  std::vector<std::byte> bytes(header.size() + count * sizeof(Vertex));
+  std::memcpy(bytes.data(), header.data(), header.size());
+  std::byte* next = bytes.data() + header.size();
+  for (size_t i = 0; i < count; ++i, next += sizeof(Vertex)) {
+    const Float3 &p = particles.positions[i], &v = particles.velocities[i];
+    const Vertex vertex{{p.x, p.y, p.z}, {v.x, v.y, v.z}, particles.densities[i], particles.ids[i]};
+    std::memcpy(next, &vertex, sizeof vertex);
+  }
+  return bytes;
+}
+
+Expected<void> writePly(const std::filesystem::path& file, const offline::Particles& particles, double time_s) {
+  return writeFile(file, encodePly(particles, time_s));
+}
+
+}  // namespace rill::apps

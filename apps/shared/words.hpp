@@ -1,0 +1,14 @@
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace rill::apps {
+
+/// "; did you mean "x"?" for the known word that `word` is most likely a typo of, or nothing.
+std::string didYouMean(std::string_view word, std::span<const std::string> known);
+
+/// "a, b, c"
+std::string joined(std::span<const std::string> words);
+
+}  // namespace rill::apps

@@ -1,0 +1,67 @@
+// What comes back from the device: the figures of finished frames.
+#include <bit>
+#include <cstring>
+
+#include "fluid/fluid_impl.hpp"
+
+namespace rill {
+namespace {
+
+template <class Record>
+bool read(std::span<const std::byte> bytes, Record& record) {
+  if (bytes.size() < sizeof record) return false;
+  std::memcpy(&record, bytes.data(), sizeof record);
+  return true;
+}
+
+}  // namespace
+
+void FluidImpl::poll() const {
+  while (!pending_.empty()) {
+    const Pending& pending = pending_.front();
+    FluidControl control;
+    FluidSums sums;
+    if (!read(pending.graph->data(pending.control), control) || !read(pending.graph->data(pending.sums), sums)) return;
+    progress = {.known = true,
+                .time_s = double{control.timeHigh} + control.timeLow,
+                .time_left_s = control.timeLeft,
+                .time_dropped_s = control.timeDropped,
+                .substeps = control.substeps,
+                .iterations = control.iterations,
+                .list_builds = control.builds};
+    MeasureResult result{};
+    if (pending.measured && read(pending.graph->data(pending.measure), result)) {
+      const double n = count, mass = setup.params.particleMass;
+      const MeasurePartial& m = result.sums;
+      FluidStats s;
+      s.time_s = progress.time_s;
+      s.particles = count;
+      s.substeps = control.substeps;
+      s.iterations = control.iterations;
+      s.time_dropped_s = control.timeDropped;
+      s.density_error_mean = m.compression / n;
+      s.density_error_p99 = result.compression99;
+      s.density_error_max = m.compressionMax;
+      s.density_signed_median = result.signedMedian;
+      s.kinetic_J = 0.5 * mass * m.kinetic;
+      const double sum[3] = {m.positionX + n * origin[0], m.positionY + n * origin[1], m.positionZ + n * origin[2]};
+      const double gravity[3] = {control.gravityX, control.gravityY, control.gravityZ};
+      const double velocity[3] = {m.velocityX, m.velocityY, m.velocityZ};
+      for (int a = 0; a < 3; ++a) {
+        s.potential_J -= mass * gravity[a] * sum[a];
+        s.momentum[a] = mass * velocity[a];
+        s.centre_of_mass[a] = sum[a] / n;
+      }
+      s.max_speed = m.speedMax;
+      s.non_finite = sums.nonFinite;
+      s.outside = m.outside;
+      s.neighbour_overflow = sums.overflow;
+      s.loop_bound_hits = sums.boundHits;
+      s.list_builds = control.builds;
+      stats = s;
+    }
+    pending_.pop_front();
+  }
+}
+
+}  // namespace rill

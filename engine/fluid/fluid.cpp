@@ -1,0 +1,298 @@
+// A Fluid's life: what it needs, its buffers and pipelines, its start state.
+#include "rill/fluid.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+
+#include "fluid/fluid_impl.hpp"
+
+namespace rill {
+namespace {
+
+constexpr uint64_t kMaxBuffer = uint64_t{128} << 20;
+
+uint64_t listEntries(const Scene& scene) {
+  if (scene.solver.neighbors == NeighborChoice::Grid) return 0;
+  return listCapacity(scene.fluid.smoothing_ratio + 0.3);
+}
+
+uint64_t blocks(uint64_t particles) { return (particles + kListBlock - 1) / kListBlock; }
+
+std::string mebibytes(uint64_t bytes) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.1f MiB", double(bytes) / (1 << 20));
+  return text;
+}
+
+bool finite(const Float3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+}  // namespace
+
+FluidMemory fluidMemory(const Scene& scene, uint64_t particles) {
+  FluidMemory memory;
+  // position, velocity, prediction, push, work and near sample; warm, id, count, cell, order, near list; and while sorting: three vec4, a pair, a key.
+  uint64_t each = 6 * 16 + 6 * 4 + (3 * 16 + 8 + 4);
+  if (scene.solver.iterations > 1) each += 4;
+  if (scene.fluid.viscosity > 0 || scene.fluid.vorticity > 0) each += 2 * 16;
+  if (!scene.solids.empty()) each += 16;
+  memory.particle_bytes = each * (particles + 1);
+  memory.list_bytes = blocks(particles) * kListBlock * listEntries(scene) * 4;
+  memory.grid_bytes = std::max<uint64_t>(4096, 2 * particles) * 8;
+  return memory;
+}
+
+Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const FluidDesc& desc) {
+  assert(desc.scene && desc.particles);
+  const Scene& scene = *desc.scene;
+  const ParticleSet& particles = *desc.particles;
+  const uint64_t n = particles.positions.size();
+  auto impl = std::make_unique<FluidImpl>();
+  impl->memory = fluidMemory(scene, n);
+  const uint64_t available = device.info().deviceLocalBytes;
+  const uint64_t largest = (n + 1) * 16;
+  if (impl->memory.total() > available || largest > kMaxBuffer || n > KeySortDesc::kMaxCount)
+    return Error{ErrorKind::OutOfMemory, std::to_string(n) + " particles need " + mebibytes(impl->memory.total()) + " on the device; \"" + device.info().name +
+                                             "\" has " + mebibytes(available) + " and holds at most " + std::to_string(KeySortDesc::kMaxCount) +
+                                             " particles: make fluid.spacing larger or fluid.particles smaller"};
+  if (particles.velocities.size() != n)
+    return Error{ErrorKind::BadInput, "a fluid needs as many velocities as positions: " + std::to_string(particles.velocities.size()) + " for " + std::to_string(n)};
+
+  double low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+  bool any = false;
+  for (const Float3& x : particles.positions) {
+    if (!finite(x)) continue;
+    const double v[3] = {x.x, x.y, x.z};
+    for (int a = 0; a < 3; ++a) {
+      low[a] = any ? std::min(low[a], v[a]) : v[a];
+      high[a] = any ? std::max(high[a], v[a]) : v[a];
+    }
+    any = true;
+  }
+  const double extent[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
+  auto setup = makeFluidSetup(scene, particles.origin, extent, static_cast<uint32_t>(n));
+  if (!setup) return setup.error();
+  impl->setup = std::move(*setup);
+  impl->count = static_cast<uint32_t>(n);
+  std::copy(particles.origin, particles.origin + 3, impl->origin);
+
+  if (impl->count == 0) return impl;
+  if (auto ok = impl->makeBuffers(device, particles); !ok) return ok.error();
+  if (auto ok = impl->makePipelines(device); !ok) return ok.error();
+  return impl;
+}
+
+Expected<void> FluidImpl::makeBuffers(Device& device, const ParticleSet& particles) {
+  const uint64_t n = count, more = n + 1;
+  const FluidParams& p = setup.params;
+
+  const uint64_t blockBytes = uint64_t{kListBlock} * p.listCapacity * 4;
+  const uint64_t wanted = p.listCapacity == 0 ? 1 : (blocks(n) * blockBytes + kMaxBuffer - 1) / kMaxBuffer;
+  const uint64_t chunkBlocks = (blocks(n) + wanted - 1) / wanted;
+  const uint32_t chunk = p.listCapacity == 0 ? count : static_cast<uint32_t>(chunkBlocks * kListBlock);
+  setup.params.chunkParticles = chunk;
+  for (uint32_t first = 0; first < count; first += chunk) chunks_.push_back({first, std::min(count, first + chunk)});
+  if (chunks_.size() > kMaxListChunks)
+    return Error{ErrorKind::OutOfMemory, "the neighbour list of " + std::to_string(n) + " particles at this smoothing_ratio needs " + mebibytes(memory.list_bytes) +
+                                             ", more than " + std::to_string(kMaxListChunks) + " buffers of 128 MiB: make smoothing_ratio smaller"};
+  texel_ = device.info().maxTexelBufferElements >= std::max<uint64_t>(more, uint64_t{chunk} * p.listCapacity / 4);
+
+  auto sort = KeySort::create(device, {.count = count, .keyRange = setup.grid.cells(), .start = true});
+  if (!sort) return sort.error();
+  sort_ = std::move(*sort);
+
+  // 64 bytes stand for what this scene has no use for: a binding must be something.
+  const auto unless = [](bool used, uint64_t bytes) { return used ? bytes : uint64_t{64}; };
+  const struct { Buffer* buffer; const char* name; uint64_t bytes; } table[] = {
+      {&buffers_.params, "fluid parameters", sizeof(FluidParams)},
+      {&buffers_.control, "fluid control", sizeof(FluidControl)},
+      {&buffers_.sums, "fluid sums", sizeof(FluidSums)},
+      {&buffers_.shapes, "dispatch shapes", kMaxCommands * 12},
+      {&buffers_.commands, "dispatch commands", kMaxCommands * 12},
+      {&buffers_.gravity, "gravity schedule", setup.gravity.size() * 4},
+      {&buffers_.tables, "wall tables", std::max<uint64_t>(64, setup.tables.size() * 4)},
+      {&buffers_.solids, "solids", std::max<uint64_t>(64, setup.solids.size() * sizeof(SolidRecord))},
+      {&buffers_.keyframes, "keyframes", std::max<uint64_t>(64, setup.keyframes.size() * 4)},
+      {&buffers_.position, "positions", more * 16},
+      {&buffers_.velocity, "velocities", more * 16},
+      {&buffers_.prediction, "predictions", more * 16},
+      {&buffers_.pushAway, "warm pushes", n * 16},
+      {&buffers_.work, "multipliers", more * 16},
+      {&buffers_.warm, "warm starts", n * 4},
+      {&buffers_.id, "ids", n * 4},
+      {&buffers_.multiplier, "iteration multipliers", unless(p.iterations > 1, n * 4)},
+      {&buffers_.neighbourCount, "neighbour counts", n * 4},
+      {&buffers_.cell, "cells", n * 4},
+      {&buffers_.order, "sorted order", n * 4},
+      {&buffers_.start, "cell starts", (setup.grid.cells() + 1) * 4},
+      {&buffers_.nearSample, "wall samples", unless(setup.near, n * 16)},
+      {&buffers_.nearList, "particles near walls", unless(setup.near, n * 4)},
+  };
+  for (const auto& row : table) {
+    auto buffer = createBuffer(device, row.name, row.bytes);
+    if (!buffer) return buffer.error();
+    *row.buffer = std::move(*buffer);
+  }
+  for (const Chunk& c : chunks_) {
+    auto list = createBuffer(device, "neighbour list", p.listCapacity == 0 ? 64 : blocks(c.last - c.first) * blockBytes);
+    if (!list) return list.error();
+    buffers_.lists.push_back(std::move(*list));
+  }
+  return stage(device, particles);
+}
+
+Expected<void> FluidImpl::stage(Device& device, const ParticleSet& particles) {
+  FluidParams& p = setup.params;
+  std::vector<float> position, velocity;
+  position.reserve(4 * (count + 1));
+  velocity.reserve(4 * (count + 1));
+  std::vector<uint32_t> id(count);
+  FluidSums sums{};
+  float fastest = 0;
+  for (uint32_t i = 0; i < count; ++i) {
+    Float3 x = particles.positions[i], v = particles.velocities[i];
+    const bool good = finite(x) && finite(v);
+    if (!good) {
+      ++sums.nonFinite;
+      x = {kParked, kParked, kParked};
+      v = {};
+    }
+    position.insert(position.end(), {x.x, x.y, x.z, 0.0f});
+    velocity.insert(velocity.end(), {v.x, v.y, v.z, 1.0f});
+    fastest = std::max(fastest, std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z));
+    id[i] = i;
+  }
+  position.insert(position.end(), {kParked, kParked, kParked, 0.0f});
+  velocity.insert(velocity.end(), {0.0f, 0.0f, 0.0f, 1.0f});
+  sums.speedMax = std::bit_cast<uint32_t>(fastest);
+
+  FluidControl control{};
+  control.stale = 2;
+  control.speed = fastest;
+  // Fluid released at once finds its pressure in steps short against free fall over a spacing.
+  control.desiredStep = p.tolerance > 0 ? std::min(p.maxStep, 0.05f * std::sqrt(p.spacing / 9.81f)) : p.maxStep;
+
+  std::vector<uint32_t> shapes(3 * kMaxCommands, 0);
+  const auto shape = [&](uint32_t command, GroupCount groups) { std::copy(groups.begin(), groups.end(), shapes.begin() + 3 * command); };
+  const GroupCount all = foldGroups(divideUp(count, kFluidGroup));
+  const GroupCount chunk = foldGroups(chunks_.front().groups());
+  for (uint32_t k : {kCommandPredict, kCommandKeys, kCommandReorder}) shape(k, all);
+  for (uint32_t k : {kCommandDensity, kCommandCorrect, kCommandCorrect + 1, kCommandIterate, kCommandBuild}) shape(k, chunk);
+  shape(kCommandPose, {1, 1, 1});
+  uint32_t next = kCommandSort;
+  for (const GroupCount& groups : sort_->groups()) shape(next++, groups);
+  assert(next <= kMaxCommands);
+
+  std::vector<std::byte> bytes;
+  const auto add = [&](const Buffer& target, const void* data, uint64_t size) {
+    if (size == 0) return;
+    const uint64_t at = bytes.size();
+    bytes.resize(at + (size + 15) / 16 * 16);
+    std::memcpy(bytes.data() + at, data, size);
+    uploads_.emplace_back(target.handle(), size);
+  };
+  add(buffers_.params, &p, sizeof p);
+  add(buffers_.control, &control, sizeof control);
+  add(buffers_.sums, &sums, sizeof sums);
+  add(buffers_.shapes, shapes.data(), shapes.size() * 4);
+  add(buffers_.gravity, setup.gravity.data(), setup.gravity.size() * 4);
+  add(buffers_.tables, setup.tables.data(), setup.tables.size() * 4);
+  add(buffers_.solids, setup.solids.data(), setup.solids.size() * sizeof(SolidRecord));
+  add(buffers_.keyframes, setup.keyframes.data(), setup.keyframes.size() * 4);
+  add(buffers_.position, position.data(), position.size() * 4);
+  add(buffers_.velocity, velocity.data(), velocity.size() * 4);
+  add(buffers_.id, id.data(), id.size() * 4);
+  auto staging = createBuffer(device, "start state", bytes.size(), MemoryKind::Upload);
+  if (!staging) return staging.error();
+  buffers_.staging = std::move(*staging);
+  std::memcpy(buffers_.staging.mapped(), bytes.data(), bytes.size());
+  return {};
+}
+
+Expected<void> FluidImpl::makePipelines(Device& device) {
+  using enum BindingKind;
+  const FluidParams& p = setup.params;
+  const uint32_t kernel = setup.kernel, capacity = p.listCapacity, nearWalls = setup.near;
+  Expected<void> result;
+  const auto make = [&](const ComputePipeline*& out, std::string_view shader, std::vector<BindingKind> bindings, uint32_t push, std::vector<uint32_t> constants = {}) {
+    if (!result) return;
+    auto pipeline = computePipeline(device, {.shader = shader, .bindings = bindings, .pushConstantBytes = push, .constants = constants});
+    if (pipeline) out = *pipeline;
+    else result = pipeline.error();
+  };
+  // A pass that gathers: two uniform blocks, particles, list, counts, cells, cell starts, sums, and its own.
+  const auto gather = [&](const ComputePipeline*& out, std::string name, std::vector<BindingKind> own, uint32_t push, std::vector<uint32_t> constants) {
+    std::vector<BindingKind> bindings = texel_ ? std::vector{Uniform, Uniform, TexelFloat4, TexelUint4, TexelUint, TexelUint, Storage, Storage}
+                                               : std::vector{Uniform, Uniform, Storage, Storage, Storage, Storage, Storage, Storage};
+    bindings.insert(bindings.end(), own.begin(), own.end());
+    if (texel_) name += "_texel";
+    make(out, name, bindings, push, std::move(constants));
+  };
+  const auto storages = [](size_t n) { return std::vector<BindingKind>(n, Storage); };
+  const auto plain = [&](size_t uniforms, size_t n) {
+    std::vector<BindingKind> bindings(uniforms, Uniform);
+    bindings.insert(bindings.end(), n, Storage);
+    return bindings;
+  };
+
+  make(pipes_.begin, "fluid/begin", plain(1, 5), sizeof(BeginPush));
+  make(pipes_.control, "fluid/control", plain(1, 5), sizeof(ControlPush));
+  make(pipes_.arm, "fluid/arm", plain(1, 5), 0);
+  make(pipes_.predict, "fluid/predict", plain(2, 4), 0);
+  make(pipes_.keys, "fluid/keys", plain(2, 3), 0);
+  make(pipes_.reorder, "fluid/reorder", plain(2, 10), 0);
+  {
+    std::vector<BindingKind> bindings = plain(2, 17);
+    if (texel_) bindings[2] = TexelFloat4;
+    make(pipes_.build, texel_ ? "fluid/build_texel" : "fluid/build", bindings, sizeof(ChunkPush), {0, capacity, nearWalls});
+  }
+  if (setup.near) {
+    make(pipes_.plane, "fluid/walls", plain(2, 6), 0, {0, 0});
+    make(pipes_.corner, "fluid/walls", plain(2, 6), 0, {1, p.solidCount > 0});
+  }
+  if (p.solidCount > 0) make(pipes_.collide, "fluid/collide", plain(2, 11), 0);
+  if (setup.movingSolids) make(pipes_.pose, "fluid/pose", plain(2, 2), 0);
+  gather(pipes_.density, "fluid/density", storages(4), sizeof(ChunkPush), {kernel, capacity, nearWalls, p.iterations > 1, p.tolerance > 0});
+  gather(pipes_.correct, "fluid/correct", storages(7), sizeof(ChunkPush), {kernel, capacity, nearWalls, p.tensile > 0, p.solidCount > 0});
+  if (p.iterations > 1) gather(pipes_.iterate, "fluid/iterate", storages(2), sizeof(ChunkPush), {kernel, capacity, nearWalls, p.tensile > 0});
+  const BindingKind vectors = texel_ ? TexelFloat4 : Storage;
+  if (setup.viscositySweeps > 0) gather(pipes_.viscosity, "fluid/viscosity", {vectors, Storage, Storage, Storage, Storage}, sizeof(SweepPush), {kernel, capacity});
+  if (setup.viscositySweeps % 2 == 1) make(pipes_.keep, "fluid/keep", plain(2, 2), sizeof(ChunkPush));
+  if (p.vorticity > 0) {
+    gather(pipes_.curl, "fluid/curl", {vectors, Storage}, sizeof(ChunkPush), {kernel, capacity});
+    gather(pipes_.confine, "fluid/confine", {vectors, Storage, Storage, Storage, Storage}, sizeof(ChunkPush), {kernel, capacity});
+  }
+  gather(pipes_.measure, "fluid/measure", storages(4), sizeof(ChunkPush), {kernel, capacity, nearWalls});
+  make(pipes_.reduce, "fluid/measure_reduce", plain(2, 3), 0);
+  return result;
+}
+
+Fluid::Fluid(std::unique_ptr<FluidImpl> impl) : impl_(std::move(impl)) {}
+Fluid::~Fluid() = default;
+
+Expected<std::unique_ptr<Fluid>> Fluid::create(Device& device, const FluidDesc& desc) {
+  auto impl = FluidImpl::create(device, desc);
+  if (!impl) return impl.error();
+  return std::unique_ptr<Fluid>(new Fluid(std::move(*impl)));
+}
+
+FluidState Fluid::addTo(Graph& graph, const FluidStep& step) { return impl_->addTo(graph, step); }
+
+std::optional<FluidStats> Fluid::stats() const {
+  impl_->poll();
+  return impl_->stats;
+}
+
+const FluidProgress& Fluid::progress() const {
+  impl_->poll();
+  return impl_->progress;
+}
+
+uint32_t Fluid::count() const { return impl_->count; }
+uint32_t Fluid::substepsPerBlock() const { return kSubstepsPerBlock; }
+FluidMemory Fluid::memory() const { return impl_->memory; }
+std::span<const std::string> Fluid::warnings() const { return impl_->setup.warnings; }
+
+}  // namespace rill

@@ -1,0 +1,99 @@
+#pragma once
+// What a Fluid holds: its settings, its buffers, its pipelines.
+#include <array>
+#include <deque>
+#include <optional>
+
+#include "fluid/settings.hpp"
+#include "gpu/resources.hpp"
+#include "rill/fluid.hpp"
+#include "sort/key_sort.hpp"
+
+namespace rill {
+
+constexpr uint32_t kMaxListChunks = 16;
+
+/// Device buffers that live as long as the fluid. Arrays of `count` + 1 entries end with the dummy neighbour that pads lists.
+struct FluidBuffers {
+  Buffer params, control, sums, shapes, commands, gravity, tables, solids, keyframes;
+  Buffer position, velocity, prediction, pushAway, work, warm, id;  // vec4 each but the last two
+  Buffer multiplier;                                                // where there are several iterations
+  Buffer neighbourCount, cell, order, start, nearSample, nearList;
+  std::vector<Buffer> lists;
+  Buffer staging;                                                   // the start state, until it has been copied
+};
+
+struct FluidPipelines {
+  const ComputePipeline *begin = nullptr, *control = nullptr, *arm = nullptr, *predict = nullptr, *keys = nullptr, *reorder = nullptr, *build = nullptr;
+  const ComputePipeline *plane = nullptr, *corner = nullptr, *collide = nullptr, *pose = nullptr;
+  const ComputePipeline *density = nullptr, *correct = nullptr, *iterate = nullptr;
+  const ComputePipeline *viscosity = nullptr, *keep = nullptr, *curl = nullptr, *confine = nullptr;
+  const ComputePipeline *measure = nullptr, *reduce = nullptr;
+};
+
+/// One frame's versions of the buffers.
+struct FluidRefs {
+  BufferRef params, control, sums, shapes, commands, gravity, tables, solids, keyframes;
+  BufferRef position, velocity, prediction, pushAway, work, warm, id, multiplier;
+  BufferRef neighbourCount, cell, order, start, nearSample, nearList;
+  std::array<BufferRef, kMaxListChunks> lists;
+};
+
+/// Range of particles that one list buffer serves; the whole fluid where there is no list.
+struct Chunk {
+  uint32_t first = 0, last = 0;
+  uint64_t groups() const { return divideUp(last - first, kFluidGroup); }
+};
+
+class FluidImpl {
+ public:
+  static Expected<std::unique_ptr<FluidImpl>> create(Device& device, const FluidDesc& desc);
+  FluidState addTo(Graph& graph, const FluidStep& step);
+  void poll() const;
+
+  FluidSetup setup;
+  FluidMemory memory;
+  uint32_t count = 0;
+  double origin[3] = {0, 0, 0};
+  double gravityNow[3] = {0, 0, 0};
+  mutable std::optional<FluidStats> stats;
+  mutable FluidProgress progress;
+
+ private:
+  struct Pending {
+    Graph* graph;
+    Ticket control, sums, measure;
+    bool measured;
+  };
+
+  Expected<void> makeBuffers(Device& device, const ParticleSet& particles);
+  Expected<void> makePipelines(Device& device);
+  Expected<void> stage(Device& device, const ParticleSet& particles);
+  void importAll(Graph& graph);
+  void declareUpload(Graph& graph);
+  void declareBegin(Graph& graph, double advance);
+  void declareRebuild(Graph& graph);
+  void declareSubstep(Graph& graph, uint32_t parity);
+  void declareTerms(Graph& graph, uint32_t parity);
+  void declareMeasure(Graph& graph, Pending& pending);
+  void declareSkipped(Graph& graph);
+  uint32_t chunkCount() const { return static_cast<uint32_t>(chunks_.size()); }
+  uint32_t commandCount() const;
+
+  FluidBuffers buffers_;
+  FluidPipelines pipes_;
+  FluidRefs r_;
+  std::optional<KeySort> sort_;
+  std::vector<Chunk> chunks_;
+  std::vector<std::pair<VkBuffer, uint64_t>> uploads_;   // target and bytes, in the order of the staging buffer
+  bool texel_ = false;
+  bool uploaded_ = false;
+  uint32_t recorded_ = 0;                                // substeps recorded since the start: parity of the next
+  double emptyTime_ = 0;                                 // simulated time of a fluid without particles, s
+  mutable std::deque<Pending> pending_;
+};
+
+/// Recorded substeps between two places where the list can be rebuilt.
+constexpr uint32_t kSubstepsPerBlock = 6;
+
+}  // namespace rill

@@ -1,0 +1,428 @@
+// One step as graph passes: begin, blocks of (rebuild, substeps), measure. See ARCHITECTURE.md, "A substep".
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+
+#include "fluid/fluid_impl.hpp"
+
+namespace rill {
+namespace {
+
+constexpr uint64_t commandAt(uint32_t command) { return uint64_t{command} * 12; }
+
+// Bindings in the order of the shader.
+struct BindingList {
+  std::array<BufferRef, 24> refs;
+  size_t size = 0;
+  void add(std::initializer_list<BufferRef> more) {
+    for (BufferRef ref : more) refs[size++] = ref;
+  }
+  std::span<const BufferRef> span() const { return {refs.data(), size}; }
+};
+
+}  // namespace
+
+uint32_t FluidImpl::commandCount() const { return kCommandSort + static_cast<uint32_t>(sort_->groups().size()); }
+
+void FluidImpl::importAll(Graph& graph) {
+  const auto import = [&](std::string_view name, const Buffer& buffer) { return graph.import(name, {.handle = buffer.handle(), .size = buffer.size()}); };
+  r_.params = import("parameters", buffers_.params);
+  r_.control = import("control", buffers_.control);
+  r_.sums = import("sums", buffers_.sums);
+  r_.shapes = import("shapes", buffers_.shapes);
+  r_.commands = import("commands", buffers_.commands);
+  r_.gravity = import("gravity", buffers_.gravity);
+  r_.tables = import("wall tables", buffers_.tables);
+  r_.solids = import("solids", buffers_.solids);
+  r_.keyframes = import("keyframes", buffers_.keyframes);
+  r_.position = import("positions", buffers_.position);
+  r_.velocity = import("velocities", buffers_.velocity);
+  r_.prediction = import("predictions", buffers_.prediction);
+  r_.pushAway = import("warm pushes", buffers_.pushAway);
+  r_.work = import("multipliers", buffers_.work);
+  r_.warm = import("warm starts", buffers_.warm);
+  r_.id = import("ids", buffers_.id);
+  r_.multiplier = import("iteration multipliers", buffers_.multiplier);
+  r_.neighbourCount = import("neighbour counts", buffers_.neighbourCount);
+  r_.cell = import("cells", buffers_.cell);
+  r_.order = import("order", buffers_.order);
+  r_.start = import("cell starts", buffers_.start);
+  r_.nearSample = import("wall samples", buffers_.nearSample);
+  r_.nearList = import("near list", buffers_.nearList);
+  for (size_t c = 0; c < chunks_.size(); ++c) r_.lists[c] = import("neighbour list", buffers_.lists[c]);
+}
+
+void FluidImpl::declareUpload(Graph& graph) {
+  const BufferRef staging = graph.import("start state", {.handle = buffers_.staging.handle(), .size = buffers_.staging.size(), .before = Use::None});
+  BufferRef* const targets[] = {&r_.params, &r_.control, &r_.sums, &r_.shapes, &r_.gravity, &r_.tables, &r_.solids, &r_.keyframes, &r_.position, &r_.velocity, &r_.id};
+  const Buffer* const owners[] = {&buffers_.params,    &buffers_.control,  &buffers_.sums,     &buffers_.shapes, &buffers_.gravity, &buffers_.tables, &buffers_.solids,
+                                  &buffers_.keyframes, &buffers_.position, &buffers_.velocity, &buffers_.id};
+  graph.pass("upload", [&](Pass& pass) {
+    pass.read(staging, Use::CopySource);
+    for (BufferRef* target : targets) *target = pass.write(*target, Use::CopyTarget);
+    r_.warm = pass.write(r_.warm, Use::CopyTarget, true);
+    r_.pushAway = pass.write(r_.pushAway, Use::CopyTarget, true);
+    r_.prediction = pass.write(r_.prediction, Use::CopyTarget, true);
+    r_.work = pass.write(r_.work, Use::CopyTarget, true);
+    r_.commands = pass.write(r_.commands, Use::CopyTarget, true);
+    return [this, staging, refs = r_, targets, owners](Commands& commands) {
+      uint64_t at = 0, positions = 0;
+      for (const auto& [handle, bytes] : uploads_) {
+        for (size_t k = 0; k < std::size(owners); ++k)
+          if (owners[k]->handle() == handle) commands.copy(staging, *targets[k], bytes, at);
+        if (handle == buffers_.position.handle()) positions = at;
+        at += (bytes + 15) / 16 * 16;
+      }
+      // Predictions start as the positions; they and `work` end with the dummy neighbour.
+      commands.copy(staging, refs.prediction, buffers_.position.size(), positions);
+      commands.copy(staging, refs.work, buffers_.position.size(), positions);
+      commands.fill(refs.warm, 0);
+      commands.fill(refs.pushAway, 0);
+      commands.fill(refs.commands, 0);
+    };
+  });
+}
+
+void FluidImpl::declareBegin(Graph& graph, double advance) {
+  graph.pass("begin", [&](Pass& pass) {
+    pass.read(r_.params, Use::ComputeUniform);
+    pass.read(r_.sums, Use::ComputeRead);
+    pass.read(r_.shapes, Use::ComputeRead);
+    pass.read(r_.gravity, Use::ComputeRead);
+    r_.control = pass.write(r_.control, Use::ComputeWrite);
+    r_.commands = pass.write(r_.commands, Use::ComputeWrite);
+    const Kernel kernel = pass.kernel(pipes_.begin, {r_.params, r_.control, r_.sums, r_.shapes, r_.commands, r_.gravity});
+    const BeginPush push{static_cast<float>(advance), commandCount()};
+    return [=](Commands& commands) { commands.dispatch(kernel, 1, push); };
+  });
+  graph.pass("predict", [&](Pass& pass) {
+    pass.read(r_.params, Use::ComputeUniform);
+    pass.read(r_.control, Use::ComputeUniform);
+    pass.read(r_.commands, Use::Indirect);
+    pass.read(r_.position, Use::ComputeRead);
+    pass.read(r_.velocity, Use::ComputeRead);
+    pass.read(r_.pushAway, Use::ComputeRead);
+    r_.prediction = pass.write(r_.prediction, Use::ComputeWrite);
+    const Kernel kernel = pass.kernel(pipes_.predict, {r_.params, r_.control, r_.position, r_.velocity, r_.pushAway, r_.prediction});
+    return [=, arguments = r_.commands](Commands& commands) { commands.dispatchIndirect(kernel, arguments, commandAt(kCommandPredict)); };
+  });
+}
+
+void FluidImpl::declareRebuild(Graph& graph) {
+  const uint64_t n = count;
+  BufferRef keys = graph.create("cell keys", {n * 4});
+  graph.pass("keys", [&](Pass& pass) {
+    pass.read(r_.params, Use::ComputeUniform);
+    pass.read(r_.control, Use::ComputeUniform);
+    pass.read(r_.commands, Use::Indirect);
+    pass.read(r_.prediction, Use::ComputeRead);
+    keys = pass.write(keys, Use::ComputeWrite, true);
+    r_.sums = pass.write(r_.sums, Use::ComputeWrite);
+    const Kernel kernel = pass.kernel(pipes_.keys, {r_.params, r_.control, r_.prediction, keys, r_.sums});
+    return [=, arguments = r_.commands](Commands& commands) { commands.dispatchIndirect(kernel, arguments, commandAt(kCommandKeys)); };
+  });
+
+  const Gate gate{r_.commands, kCommandSort};
+  const SortedKeys sorted = sort_->addTo(graph, keys, {.order = r_.order, .start = r_.start, .keys = {}}, &gate);
+  r_.order = sorted.order;
+  r_.start = sorted.start;
+
+  BufferRef position = graph.create("sorted positions", {n * 16}), prediction = graph.create("sorted predictions", {n * 16});
+  BufferRef velocity = graph.create("sorted velocities", {n * 16}), scalar = graph.create("sorted scalars", {n * 8});
+  graph.pass("reorder", [&](Pass& pass) {
+    pass.read(r_.params, Use::ComputeUniform);
+    pass.read(r_.control, Use::ComputeUniform);
+    pass.read(r_.commands, Use::Indirect);
+    for (BufferRef ref : {r_.order, r_.position, r_.prediction, r_.velocity, r_.warm, r_.id}) pass.read(ref, Use::ComputeRead);
+    for (BufferRef* ref : {&position, &prediction, &velocity, &scalar}) *ref = pass.write(*ref, Use::ComputeWrite, true);
+    const Kernel kernel = pass.kernel(pipes_.reorder, {r_.params, r_.control, r_.order, r_.position, r_.prediction, r_.velocity, r_.warm, r_.id, position, prediction,
+                                                       velocity, scalar});
+    return [=, arguments = r_.commands](Commands& commands) { commands.dispatchIndirect(kernel, arguments, commandAt(kCommandReorder)); };
+  });
+  graph.pass("build list", [&](Pass& pass) {
+    pass.read(r_.params, Use::ComputeUniform);
+    pass.read(r_.control, Use::ComputeUniform);
+    pass.read(r_.commands, Use::Indirect);
+    pass.read(prediction, texel_ ? Use::ComputeTexel : Use::ComputeRead);
+    for (BufferRef ref : {r_.start, position, velocity, scalar, r_.solids}) pass.read(ref, Use::ComputeRead);
+    for (BufferRef* ref : {&r_.neighbourCount, &r_.cell, &r_.sums, &r_.position, &r_.prediction, &r_.velocity, &r_.warm, &r_.id, &r_.nearSample, &r_.nearList})
+      *ref = pass.write(*ref, Use::ComputeWrite);
+    std::array<Kernel, kMaxListChunks> kernels;
+    for (uint32_t c = 0; c < chunkCount(); ++c) {
+      r_.lists[c] = pass.write(r_.lists[c], Use::ComputeWrite);
+      kernels[c] = pass.kernel(pipes_.build, {r_.params, r_.control, prediction, r_.lists[c], r_.neighbourCount, r_.cell, r_.start, r_.sums, position, velocity, scalar,
+                                              r_.position, r_.prediction, r_.velocity, r_.warm, r_.id, r_.nearSample, r_.nearList, r_.solids});
+    }
+    return [=, arguments = r_.commands, chunks = std::span<const Chunk>(chunks_)](Commands& commands) {
+      for (size_t c = 0; c < chunks.size(); ++c)
+        commands.dispatchIndirect(kernels[c], arguments, commandAt(kCommandBuild), ChunkPush{chunks[c].first, chunks[c].last, 0});
+    };
+  });
+  graph.pass("arm", [&](Pass& pass) {
+    pass.read(r_.params, Use::ComputeUniform);
+    pass.read(r_.sums, Use::ComputeRead);
+    pass.read(r_.shapes, Use::ComputeRead);
+    pass.read(r_.gravity, Use::ComputeRead);
+    r_.control = pass.write(r_.control, Use::ComputeWrite);
+    r_.commands = pass.write(r_.commands, Use::ComputeWrite);
+    const Kernel kernel = pass.kernel(pipes_.arm, {r_.params, r_.control, r_.sums, r_.shapes, r_.commands, r_.gravity});
+    return [=](Commands& commands) { commands.dispatch(kernel, 1); };
+  });
+}
+
+// A pass over all chunks that gathers from `particles`. `own(pass, bindings)` declares and appends its own bindings; without a command it is dispatched directly.
+template <class Push, class Own>
+static void gatherPass(Graph& graph, FluidRefs& r, bool texel, std::span<const Chunk> chunks, std::string_view name, const ComputePipeline* pipeline, BufferRef particles,
+                       std::optional<uint32_t> command, Push push, Own&& own) {
+  graph.pass(name, [&](Pass& pass) {
+    const Use use = texel ? Use::ComputeTexel : Use::ComputeRead;
+    pass.read(r.params, Use::ComputeUniform);
+    pass.read(r.control, Use::ComputeUniform);
+    for (BufferRef ref : {particles, r.neighbourCount, r.cell}) pass.read(ref, use);
+    pass.read(r.start, Use::ComputeRead);
+    if (command) pass.read(r.commands, Use::Indirect);
+    r.sums = pass.write(r.sums, Use::ComputeAtomic);
+    BindingList bindings;
+    bindings.add({r.params, r.control, particles, {}, r.neighbourCount, r.cell, r.start, r.sums});
+    own(pass, bindings);
+    std::array<Kernel, kMaxListChunks> kernels;
+    for (size_t c = 0; c < chunks.size(); ++c) {
+      pass.read(r.lists[c], use);
+      bindings.refs[3] = r.lists[c];
+      kernels[c] = pass.kernel(pipeline, bindings.span());
+    }
+    return [=, arguments = r.commands](Commands& commands) mutable {
+      for (size_t c = 0; c < chunks.size(); ++c) {
+        push.first = chunks[c].first;
+        push.last = chunks[c].last;
+        if (command) commands.dispatchIndirect(kernels[c], arguments, commandAt(*command), push);
+        else commands.dispatch(kernels[c], chunks[c].groups(), push);
+      }
+    };
+  });
+}
+
+// Wall and solid densities at `at` for the particles near them.
+static void wallPass(Graph& graph, FluidRefs& r, std::string_view name, const ComputePipeline* pipeline, BufferRef at, uint32_t command) {
+  graph.pass(name, [&](Pass& pass) {
+    pass.read(r.params, Use::ComputeUniform);
+    pass.read(r.control, Use::ComputeUniform);
+    pass.read(r.commands, Use::Indirect);
+    for (BufferRef ref : {at, r.nearList, r.sums, r.tables, r.solids}) pass.read(ref, Use::ComputeRead);
+    r.nearSample = pass.write(r.nearSample, Use::ComputeWrite);
+    const Kernel kernel = pass.kernel(pipeline, {r.params, r.control, at, r.nearList, r.sums, r.tables, r.solids, r.nearSample});
+    return [=, arguments = r.commands](Commands& commands) { commands.dispatchIndirect(kernel, arguments, commandAt(command)); };
+  });
+}
+
+void FluidImpl::declareSubstep(Graph& graph, uint32_t parity) {
+  const FluidParams& p = setup.params;
+  const std::span<const Chunk> chunks(chunks_);
+  if (setup.movingSolids) {
+    graph.pass("move solids", [&](Pass& pass) {
+      pass.read(r_.params, Use::ComputeUniform);
+      pass.read(r_.control, Use::ComputeUniform);
+      pass.read(r_.commands, Use::Indirect);
+      pass.read(r_.keyframes, Use::ComputeRead);
+      r_.solids = pass.write(r_.solids, Use::ComputeWrite);
+      const Kernel kernel = pass.kernel(pipes_.pose, {r_.params, r_.control, r_.solids, r_.keyframes});
+      return [=, arguments = r_.commands](Commands& commands) { commands.dispatchIndirect(kernel, arguments, commandAt(kCommandPose)); };
+    });
+  }
+  for (uint32_t iteration = 0; iteration < p.iterations; ++iteration) {
+    const bool first = iteration == 0;
+    if (!first) {
+      gatherPass(graph, r_, texel_, chunks, "iterate", pipes_.iterate, r_.work, kCommandIterate, ChunkPush{0, 0, iteration}, [&](Pass& pass, BindingList& bindings) {
+        pass.read(r_.nearSample, Use::ComputeRead);
+        r_.prediction = pass.write(r_.prediction, Use::ComputeWrite);
+        bindings.add({r_.prediction, r_.nearSample});
+      });
+    }
+    if (setup.near && first) {
+      wallPass(graph, r_, "walls", pipes_.plane, r_.prediction, kCommandPlane);
+      wallPass(graph, r_, "corners and solids", pipes_.corner, r_.prediction, kCommandCorner);
+    }
+    gatherPass(graph, r_, texel_, chunks, "density", pipes_.density, r_.prediction, first ? kCommandDensity : kCommandIterate, ChunkPush{0, 0, iteration},
+               [&](Pass& pass, BindingList& bindings) {
+                 pass.read(r_.nearSample, Use::ComputeRead);
+                 for (BufferRef* ref : {&r_.warm, &r_.work, &r_.multiplier}) *ref = pass.write(*ref, Use::ComputeWrite);
+                 bindings.add({r_.warm, r_.work, r_.nearSample, r_.multiplier});
+               });
+    graph.pass("control", [&](Pass& pass) {
+      pass.read(r_.params, Use::ComputeUniform);
+      pass.read(r_.shapes, Use::ComputeRead);
+      pass.read(r_.gravity, Use::ComputeRead);
+      r_.control = pass.write(r_.control, Use::ComputeWrite);
+      r_.sums = pass.write(r_.sums, Use::ComputeWrite);
+      r_.commands = pass.write(r_.commands, Use::ComputeWrite);
+      const Kernel kernel = pass.kernel(pipes_.control, {r_.params, r_.control, r_.sums, r_.shapes, r_.commands, r_.gravity});
+      const ControlPush push{iteration, parity, commandCount()};
+      return [=](Commands& commands) { commands.dispatch(kernel, 1, push); };
+    });
+  }
+  BufferRef free = p.solidCount > 0 ? graph.create("free velocities", {uint64_t{count} * 16}) : BufferRef{};
+  gatherPass(graph, r_, texel_, chunks, "correct", pipes_.correct, r_.work, kCommandCorrect + parity, ChunkPush{}, [&](Pass& pass, BindingList& bindings) {
+    pass.read(r_.nearSample, Use::ComputeRead);
+    for (BufferRef* ref : {&r_.position, &r_.velocity, &r_.prediction, &r_.pushAway, &r_.warm}) *ref = pass.write(*ref, Use::ComputeWrite);
+    if (p.solidCount > 0) free = pass.write(free, Use::ComputeWrite, true);
+    bindings.add({r_.position, r_.velocity, r_.nearSample, r_.prediction, r_.pushAway, p.solidCount > 0 ? free : r_.velocity, r_.warm});
+  });
+  if (p.solidCount > 0) {
+    graph.pass("collide", [&](Pass& pass) {
+      pass.read(r_.params, Use::ComputeUniform);
+      pass.read(r_.control, Use::ComputeUniform);
+      pass.read(r_.commands, Use::Indirect);
+      for (BufferRef ref : {r_.pushAway, r_.nearList, r_.sums, r_.solids, free, r_.work, r_.warm, r_.nearSample}) pass.read(ref, Use::ComputeRead);
+      for (BufferRef* ref : {&r_.position, &r_.velocity, &r_.prediction}) *ref = pass.write(*ref, Use::ComputeWrite);
+      const Kernel kernel = pass.kernel(pipes_.collide, {r_.params, r_.control, r_.position, r_.velocity, r_.prediction, r_.pushAway, r_.nearList, r_.sums, r_.solids, free,
+                                                          r_.work, r_.warm, r_.nearSample});
+      return [=, arguments = r_.commands](Commands& commands) { commands.dispatchIndirect(kernel, arguments, commandAt(kCommandCollide + parity)); };
+    });
+  }
+  declareTerms(graph, parity);
+}
+
+// Viscosity and vorticity confinement, where the scene has them.
+void FluidImpl::declareTerms(Graph& graph, uint32_t parity) {
+  const std::span<const Chunk> chunks(chunks_);
+  const Use use = texel_ ? Use::ComputeTexel : Use::ComputeRead;
+  const uint32_t command = kCommandCorrect + parity;
+  const uint64_t bytes = (uint64_t{count} + 1) * 16;
+  const uint32_t sweeps = setup.viscositySweeps;
+  if (sweeps > 0) {
+    BufferRef from = r_.velocity;
+    BufferRef other = graph.create("smoothed velocities", {bytes});
+    for (uint32_t sweep = 0; sweep < sweeps; ++sweep) {
+      BufferRef to;
+      gatherPass(graph, r_, texel_, chunks, "viscosity", pipes_.viscosity, r_.work, command, SweepPush{0, 0, 1.0f / float(sweeps)}, [&](Pass& pass, BindingList& bindings) {
+        pass.read(from, use);
+        pass.read(r_.pushAway, Use::ComputeRead);
+        to = pass.write(other, Use::ComputeWrite, true);
+        r_.prediction = pass.write(r_.prediction, Use::ComputeWrite);
+        pass.read(r_.position, Use::ComputeRead);
+        bindings.add({from, to, r_.prediction, r_.pushAway, r_.position});
+      });
+      other = from;
+      from = to;
+    }
+    if (sweeps % 2 == 0) {
+      r_.velocity = from;
+    } else {
+      r_.velocity = other;
+      graph.pass("keep velocities", [&](Pass& pass) {
+        pass.read(r_.params, Use::ComputeUniform);
+        pass.read(r_.control, Use::ComputeUniform);
+        pass.read(r_.commands, Use::Indirect);
+        pass.read(from, Use::ComputeRead);
+        r_.velocity = pass.write(r_.velocity, Use::ComputeWrite);
+        const Kernel kernel = pass.kernel(pipes_.keep, {r_.params, r_.control, from, r_.velocity});
+        return [=, arguments = r_.commands](Commands& commands) {
+          for (const Chunk& c : chunks) commands.dispatchIndirect(kernel, arguments, commandAt(command), ChunkPush{c.first, c.last, 0});
+        };
+      });
+    }
+  }
+  if (setup.params.vorticity > 0) {
+    BufferRef curl = graph.create("curl", {bytes});
+    gatherPass(graph, r_, texel_, chunks, "curl", pipes_.curl, r_.work, command, ChunkPush{}, [&](Pass& pass, BindingList& bindings) {
+      pass.read(r_.velocity, use);
+      curl = pass.write(curl, Use::ComputeWrite, true);
+      bindings.add({r_.velocity, curl});
+    });
+    gatherPass(graph, r_, texel_, chunks, "confine", pipes_.confine, r_.work, command, ChunkPush{}, [&](Pass& pass, BindingList& bindings) {
+      pass.read(curl, use);
+      pass.read(r_.pushAway, Use::ComputeRead);
+      r_.velocity = pass.write(r_.velocity, Use::ComputeWrite);
+      r_.prediction = pass.write(r_.prediction, Use::ComputeWrite);
+      pass.read(r_.position, Use::ComputeRead);
+      bindings.add({curl, r_.velocity, r_.prediction, r_.pushAway, r_.position});
+    });
+  }
+}
+
+void FluidImpl::declareMeasure(Graph& graph, Pending& pending) {
+  if (setup.near) {
+    wallPass(graph, r_, "measure walls", pipes_.plane, r_.position, kCommandMeasurePlane);
+    wallPass(graph, r_, "measure corners", pipes_.corner, r_.position, kCommandMeasureCorner);
+  }
+  BufferRef partials = graph.create("partial sums", {divideUp(count, kMeasureGroup) * sizeof(MeasurePartial)});
+  BufferRef histogram = graph.create("error histogram", {3 * kMeasureBins * 4});
+  graph.pass("clear histogram", [&](Pass& pass) {
+    histogram = pass.write(histogram, Use::CopyTarget, true);
+    return [histogram](Commands& commands) { commands.fill(histogram, 0); };
+  });
+  gatherPass(graph, r_, texel_, chunks_, "measure", pipes_.measure, r_.position, std::nullopt, ChunkPush{}, [&](Pass& pass, BindingList& bindings) {
+    pass.read(r_.nearSample, Use::ComputeRead);
+    r_.velocity = pass.write(r_.velocity, Use::ComputeWrite);
+    partials = pass.write(partials, Use::ComputeWrite, true);
+    histogram = pass.write(histogram, Use::ComputeAtomic);
+    bindings.add({r_.velocity, r_.nearSample, partials, histogram});
+  });
+  BufferRef result = graph.create("figures", {sizeof(MeasureResult)});
+  graph.pass("reduce", [&](Pass& pass) {
+    pass.read(r_.params, Use::ComputeUniform);
+    pass.read(r_.control, Use::ComputeUniform);
+    pass.read(partials, Use::ComputeRead);
+    pass.read(histogram, Use::ComputeRead);
+    result = pass.write(result, Use::ComputeWrite, true);
+    const Kernel kernel = pass.kernel(pipes_.reduce, {r_.params, r_.control, partials, histogram, result});
+    return [=](Commands& commands) { commands.dispatch(kernel, 1); };
+  });
+  pending.measure = graph.readback(result);
+  pending.measured = true;
+}
+
+void FluidImpl::declareSkipped(Graph& graph) {
+  const FluidParams& p = setup.params;
+  if (!setup.near) graph.skipped("walls", "no domain and no solids");
+  if (p.solidCount == 0) graph.skipped("collide", "no solids");
+  if (!setup.movingSolids) graph.skipped("move solids", "no solid moves");
+  if (p.iterations == 1) graph.skipped("iterate", "one iteration a substep");
+  if (setup.viscositySweeps == 0) graph.skipped("viscosity", "viscosity is 0");
+  if (p.vorticity <= 0) graph.skipped("confine", "vorticity is 0");
+}
+
+FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
+  FluidState state;
+  state.count = count;
+  state.spacing = setup.params.spacing;
+  std::copy(origin, origin + 3, state.origin);
+  if (count == 0) {
+    graph.skipped("density", "no particles");
+    if (!step.resume) emptyTime_ += step.advance_s;
+    FluidStats none;
+    none.time_s = emptyTime_;
+    stats = none;
+    progress = {.known = true, .time_s = emptyTime_};
+    return state;
+  }
+
+  importAll(graph);
+  if (!uploaded_) declareUpload(graph);
+  uploaded_ = true;
+  const bool advances = step.resume || step.advance_s > 0;
+  if (!step.resume) declareBegin(graph, std::max(step.advance_s, 0.0));
+  const uint32_t blocks = advances ? static_cast<uint32_t>(divideUp(std::max(step.substeps, 1u), kSubstepsPerBlock)) : 0;
+  for (uint32_t block = 0; block < blocks; ++block) {
+    declareRebuild(graph);
+    for (uint32_t k = 0; k < kSubstepsPerBlock; ++k) declareSubstep(graph, recorded_++ & 1u);
+  }
+  if (blocks == 0) declareRebuild(graph);  // runs where there has been none yet
+  declareSkipped(graph);
+
+  Pending pending{&graph, {}, {}, {}, false};
+  if (step.stats) declareMeasure(graph, pending);
+  else graph.skipped("measure", "no figures asked for");
+  pending.control = graph.readback(r_.control);
+  pending.sums = graph.readback(r_.sums);
+  pending_.push_back(pending);
+  while (pending_.size() > 8) pending_.pop_front();
+
+  state.position = r_.position;
+  state.velocity = r_.velocity;
+  state.id = r_.id;
+  state.control = r_.control;
+  return state;
+}
+
+}  // namespace rill

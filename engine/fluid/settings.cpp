@@ -1,0 +1,208 @@
+#include "fluid/settings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "sph/kernel.hpp"
+#include "sph/solid_density.hpp"
+#include "sph/solid_pose.hpp"
+#include "sph/wall.hpp"
+
+namespace rill {
+namespace {
+
+// Defaults of the solver's "auto" settings.
+constexpr double kRelaxation = 0.7;      // under the linear limit of 0.71 for signed corrections at h = 2d
+constexpr double kRegularization = 0.02; // of the rest lattice's sum |grad C|^2: keeps lone pairs from flying apart
+constexpr double kWarmGain = 0.1;
+constexpr double kSkin = 0.3;            // spacings beyond the support that the list reaches
+constexpr double kTravel = 1.0;          // spacings that the fastest particle may move before the list is rebuilt
+constexpr double kFarSpacings = 1.0e6;   // beyond it, positions have lost their meaning: float holds 24 bits
+
+float f(double value) { return static_cast<float>(value); }
+
+double length(const double v[3]) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+double fastestSolid(const Scene& scene) {
+  double fastest = 0;
+  for (const Solid& solid : scene.solids) {
+    for (size_t k = 1; k < solid.motion.size(); ++k) {
+      double way[3];
+      for (int a = 0; a < 3; ++a) way[a] = solid.motion[k].translate[a] - solid.motion[k - 1].translate[a];
+      fastest = std::max(fastest, length(way) / (solid.motion[k].at - solid.motion[k - 1].at));
+    }
+  }
+  return fastest;
+}
+
+void appendTable(std::vector<float>& tables, const std::vector<float>& table, uint32_t& offset) {
+  offset = static_cast<uint32_t>(tables.size() / 2);
+  tables.insert(tables.end(), table.begin(), table.end());
+}
+
+void addSolids(const Scene& scene, const SmoothingKernel& kernel, const double origin[3], FluidSetup& setup) {
+  for (const Solid& solid : scene.solids) {
+    const SolidPose pose = solidPose(solid, 0.0);
+    SolidRecord record{};
+    record.shape = pose.sphere ? 1u : 0u;
+    double translation[3];
+    solidTranslation(solid, 0.0, translation);
+    record.centerX = f(pose.centre[0] - origin[0]);
+    record.centerY = f(pose.centre[1] - origin[1]);
+    record.centerZ = f(pose.centre[2] - origin[2]);
+    record.baseX = f(pose.centre[0] - translation[0] - origin[0]);
+    record.baseY = f(pose.centre[1] - translation[1] - origin[1]);
+    record.baseZ = f(pose.centre[2] - translation[2] - origin[2]);
+    record.halfX = f(pose.half[0]);
+    record.halfY = f(pose.half[1]);
+    record.halfZ = f(pose.half[2]);
+    record.rotationX = f(pose.rotation[0]);
+    record.rotationY = f(pose.rotation[1]);
+    record.rotationZ = f(pose.rotation[2]);
+    record.rotationW = f(pose.rotation[3]);
+    record.friction = f(pose.friction);
+    record.restitution = f(pose.restitution);
+    record.firstKey = static_cast<uint32_t>(setup.keyframes.size() / 4);
+    record.keyCount = static_cast<uint32_t>(solid.motion.size());
+    for (const Keyframe& key : solid.motion) {
+      for (double x : key.translate) setup.keyframes.push_back(f(x));
+      setup.keyframes.push_back(f(key.at));
+    }
+    setup.movingSolids |= !solid.motion.empty();
+    if (pose.sphere) {
+      const SphereTable table = makeSphereTable(kernel, pose.half[0]);
+      appendTable(setup.tables, table.table, record.tableOffset);
+      record.tableNodes = table.nodes;
+      record.tableFirst = f(table.first);
+    }
+    setup.solids.push_back(record);
+  }
+}
+
+void setWalls(const Scene& scene, const double origin[3], FluidParams& p) {
+  float* low[3] = {&p.lowX, &p.lowY, &p.lowZ};
+  float* high[3] = {&p.highX, &p.highY, &p.highZ};
+  float* boundLow[3] = {&p.boundLowX, &p.boundLowY, &p.boundLowZ};
+  float* boundHigh[3] = {&p.boundHighX, &p.boundHighY, &p.boundHighZ};
+  double margin = 0.5 * scene.fluid.spacing;
+  for (int a = 0; a < 3; ++a) {
+    *low[a] = *boundLow[a] = -kParked;
+    *high[a] = *boundHigh[a] = kParked;
+    if (!scene.domain) continue;
+    *boundLow[a] = f(scene.domain->min[a] - origin[a]);
+    *boundHigh[a] = f(scene.domain->max[a] - origin[a]);
+    if (!(scene.domain->open & (1u << (2 * a)))) *low[a] = *boundLow[a];
+    if (!(scene.domain->open & (2u << (2 * a)))) *high[a] = *boundHigh[a];
+    if (*low[a] > -kParked && *high[a] < kParked) margin = std::min(margin, 0.5 * (scene.domain->max[a] - scene.domain->min[a]));
+  }
+  p.margin = f(margin);
+}
+
+// XSPH with coefficient c acts like a kinematic viscosity c sigma^2 / (2 dt): so many sweeps, and a step short enough, that none has c above 1.
+void setViscosity(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
+  FluidParams& p = setup.params;
+  if (scene.fluid.viscosity <= 0) return;
+  constexpr uint32_t kMaxSweeps = 8;
+  const double rate = 2 * scene.fluid.viscosity / (scene.fluid.density * kernel.secondMoment());
+  const double usual = std::min<double>(p.maxStep, 0.1 * std::sqrt(scene.fluid.spacing / 9.81));
+  setup.viscositySweeps = static_cast<uint32_t>(std::clamp(std::ceil(rate * usual), 1.0, double{kMaxSweeps}));
+  p.viscosityRate = f(rate);
+  const double most = setup.viscositySweeps / rate;
+  p.maxStep = std::min(p.maxStep, f(most));
+  const double frame = 1.0 / 60;
+  if (most * p.maxSubsteps < frame) {
+    char text[200];
+    std::snprintf(text, sizeof text, "viscosity %g Pa s needs substeps of at most %.3g s: %u of them are %.3g s, less than a frame of 1/60 s; time will be dropped",
+                  scene.fluid.viscosity, most, p.maxSubsteps, most * p.maxSubsteps);
+    setup.warnings.emplace_back(text);
+  }
+}
+
+void setGravity(const Scene& scene, FluidSetup& setup) {
+  for (double g : scene.gravity) setup.gravity.push_back(f(g));
+  setup.gravity.push_back(0);
+  for (const GravityChange& change : scene.gravity_changes) {
+    for (double g : change.value) setup.gravity.push_back(f(g));
+    setup.gravity.push_back(f(change.at));
+  }
+  setup.params.gravityChanges = static_cast<uint32_t>(setup.gravity.size() / 4);
+}
+
+}  // namespace
+
+uint32_t listCapacity(double reachInSpacings) {
+  const double ball = 4.0 / 3.0 * std::numbers::pi * std::pow(reachInSpacings, 3);
+  return (static_cast<uint32_t>(std::ceil(1.2 * ball)) + 3u) / 4u * 4u;
+}
+
+Expected<FluidSetup> makeFluidSetup(const Scene& scene, const double origin[3], const double extent[3], uint32_t count) {
+  const double d = scene.fluid.spacing, h = scene.fluid.smoothing_ratio * d;
+  if (!(d > 0)) return Error{ErrorKind::BadInput, "fluid.spacing is not set: give it, or make the particles first"};
+  FluidSetup setup;
+  FluidParams& p = setup.params;
+  const SmoothingKernel kernel(scene.solver.kernel, h, d);
+  setup.kernel = scene.solver.kernel == KernelChoice::Wendland ? 0u : 1u;
+
+  p.count = count;
+  p.spacing = f(d);
+  p.support = f(h);
+  p.inverseSupport = f(1 / h);
+  p.valueScale = f(kernel.valueScale());
+  p.gradientScale = f(setup.kernel == 0 ? -kernel.gradientScale() : -kernel.gradientScale() / h);
+  p.inverseRestGradient = f(1 / kernel.restGradientSum());
+  p.regularization = f(scene.solver.regularization.value_or(kRegularization) * kernel.restGradientSum());
+  p.relaxation = f(scene.solver.relaxation.value_or(kRelaxation));
+  p.warmGain = f(scene.solver.warm_start.value_or(scene.solver.iterations == 1 ? kWarmGain : 0.0));
+  p.reach = f(h + kSkin * d);
+  p.travelLimit = f(kTravel * d);
+  p.listCapacity = scene.solver.neighbors == NeighborChoice::List ? listCapacity((h + kSkin * d) / d) : 0u;
+  p.cfl = f(scene.solver.cfl);
+  p.tolerance = f(scene.solver.tolerance);
+  p.maxSubsteps = scene.solver.max_substeps;
+  p.iterations = scene.solver.iterations;
+  p.maxStep = f(scene.solver.time_step.value_or(1.0 / 60));
+  p.particleMass = f(scene.fluid.density * d * d * d);
+  p.farLimit = f(kFarSpacings * d);
+  p.nearLimit = f(wallReach(kernel) + (kTravel + 0.2) * d);
+  p.solidSpeed = f(fastestSolid(scene));
+  p.vorticity = f(scene.fluid.vorticity);
+  if (scene.fluid.tensile > 0) {
+    // s_corr as a multiplier: a tenth of the rest multiplier's scale, growing with the step as the pressure's does, against gravity over one spacing.
+    p.tensile = f(scene.fluid.tensile * 0.1 / kernel.restGradientSum() * 9.81 / d);
+    p.tensilePower = f(scene.fluid.tensile_power);
+    p.tensileInverse = f(1 / kernel.value(scene.fluid.tensile_radius * h));
+  }
+  p.fullNeighbours = static_cast<uint32_t>(0.8 * 4.0 / 3.0 * std::numbers::pi * std::pow(h / d, 3));
+
+  setWalls(scene, origin, p);
+  setup.near = scene.domain.has_value() || !scene.solids.empty();
+  if (setup.near) {
+    const WallTables tables = makeWallTables(kernel);
+    uint32_t first = 0;
+    appendTable(setup.tables, tables.plane, first);
+    appendTable(setup.tables, tables.edge, p.tableOffset2);
+    appendTable(setup.tables, tables.corner, p.tableOffset3);
+    appendTable(setup.tables, tables.face, p.tableOffsetFace);
+    p.tableStep = f(tables.step);
+    p.cornerStep = f(tables.cornerStep);
+    p.tableNodes = tables.nodes;
+    p.cornerNodes = tables.cornerNodes;
+  }
+  addSolids(scene, kernel, origin, setup);
+  p.solidCount = static_cast<uint32_t>(setup.solids.size());
+  setViscosity(scene, kernel, setup);
+  setGravity(scene, setup);
+
+  double room[3];
+  for (int a = 0; a < 3; ++a) room[a] = scene.domain ? scene.domain->max[a] - scene.domain->min[a] : 2 * extent[a];
+  setup.grid = chooseGridSize(p.reach, room, count);
+  p.gridBitsX = setup.grid.bits[0];
+  p.gridBitsY = setup.grid.bits[1];
+  p.gridBitsZ = setup.grid.bits[2];
+  p.inverseCell = f(1 / setup.grid.cell);
+  return setup;
+}
+
+}  // namespace rill

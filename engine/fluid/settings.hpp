@@ -1,0 +1,34 @@
+#pragma once
+// From a scene to the numbers and tables that the shaders read. No Vulkan: what a run needs is known, and refused, before anything is allocated.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fluid/grid_size.hpp"
+#include "rill/expected.hpp"
+#include "rill/fluid.hpp"
+#include "shared/fluid_records.h"
+
+namespace rill {
+
+struct FluidSetup {
+  FluidParams params{};
+  GridSize grid;
+  std::vector<float> tables;             ///< (value, slope) pairs of wall and ball tables
+  std::vector<SolidRecord> solids;       ///< relative to the particles' origin, at time 0
+  std::vector<float> keyframes;          ///< translation and time, four floats each
+  std::vector<float> gravity;            ///< the schedule: value and time, four floats each; the scene's own first
+  uint32_t kernel = 0;                   ///< specialization constant KERNEL
+  uint32_t viscositySweeps = 0;          ///< 0: no viscosity
+  bool near = false;                     ///< walls or solids displace density
+  bool movingSolids = false;
+  std::vector<std::string> warnings;
+};
+
+/// `count` particles that fill `extent` (m) and start no faster than `maxSpeed` (m/s). BadInput where the scene cannot run.
+Expected<FluidSetup> makeFluidSetup(const Scene& scene, const double origin[3], const double extent[3], uint32_t count);
+
+/// Neighbours that the list holds a particle, a multiple of 4: what a lattice compressed by a fifth puts within the reach.
+uint32_t listCapacity(double reachInSpacings);
+
+}  // namespace rill

@@ -1,0 +1,100 @@
+#pragma once
+// How one key of a scene is described. The descriptions themselves are in fields.hpp.
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace rill::model {
+
+/// The numbers that a key accepts. Every one must also fit a 32-bit float.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_open = false;   ///< `low` itself is not accepted
+  bool high_open = false;  ///< `high` itself is not accepted
+
+  constexpr bool hasLow() const { return low != -std::numeric_limits<double>::infinity(); }
+  constexpr bool hasHigh() const { return high != std::numeric_limits<double>::infinity(); }
+  constexpr bool contains(double v) const {
+    return (low_open ? v > low : v >= low) && (high_open ? v < high : v <= high);
+  }
+};
+constexpr Range atLeast(double low) { return {.low = low}; }
+constexpr Range above(double low) { return {.low = low, .low_open = true}; }
+constexpr Range between(double low, double high) { return {.low = low, .high = high}; }
+constexpr Range aboveTo(double low, double high) { return {.low = low, .high = high, .low_open = true}; }
+constexpr Range inside(double low, double high) { return {.low = low, .high = high, .low_open = true, .high_open = true}; }
+
+/// What is known of a key besides its C++ member. The default is the member's initialiser in rill/scene.hpp.
+struct Info {
+  std::string_view key;
+  std::string_view unit = {};  ///< empty: a pure number, or not a number
+  Range range = {};            ///< of a number; of each number of an array
+  std::string_view help;
+  std::span<const std::string_view> words = {};  ///< the words that a choice accepts, in the order of its enum or bits
+  bool required = false;                         ///< has no default
+  size_t most = 0;                               ///< entries of a list, at most; 0: as many as you like
+};
+
+/// A key and the member of Owner that it sets. Arrays, optionals, lists and described structs are read by the member's type.
+template <class Owner, class T>
+struct Field {
+  using Value = T;
+  Info info;
+  T Owner::*member;
+};
+template <class Owner, class T>
+Field(Info, T Owner::*) -> Field<Owner, T>;
+
+/// A key that is accepted and ignored. Its Field has no member.
+struct Anything {};
+/// The version key. It is judged before all others. Its Field has no member.
+struct Version {};
+
+/// The description of a struct; fields.hpp specialises it with
+///   static constexpr std::string_view about;     one line
+///   static constexpr std::tuple fields;          of Field
+///   static constexpr std::array<std::string_view, N> one_of;   exactly one of these keys is given; N may be 0
+template <class Owner>
+struct Table;
+
+template <class T>
+concept Described = requires { Table<T>::fields; };
+
+template <class T>
+inline constexpr bool kHasMember = !std::is_same_v<T, Anything> && !std::is_same_v<T, Version>;
+
+/// Calls visit(field) for each key of Owner in the order of the table.
+template <class Owner, class Visit>
+constexpr void forEachField(Visit&& visit) {
+  std::apply([&](const auto&... field) { (visit(field), ...); }, Table<Owner>::fields);
+}
+
+/// The keys of Owner, in the order of the table.
+template <class Owner>
+std::vector<std::string_view> keysOf() {
+  std::vector<std::string_view> keys;
+  forEachField<Owner>([&](const auto& field) { keys.push_back(field.info.key); });
+  return keys;
+}
+
+/// The struct inside std::optional<S>, std::vector<S> or S itself; void where there is none that is described.
+template <class T>
+struct Inner { using Type = std::conditional_t<Described<T>, T, void>; };
+template <class T>
+struct Inner<std::optional<T>> { using Type = std::conditional_t<Described<T>, T, void>; };
+template <class T>
+struct Inner<std::vector<T>> { using Type = std::conditional_t<Described<T>, T, void>; };
+
+template <class T>
+inline constexpr bool kIsList = false;
+template <class T>
+inline constexpr bool kIsList<std::vector<T>> = true;
+
+}  // namespace rill::model

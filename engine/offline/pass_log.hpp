@@ -1,0 +1,36 @@
+#pragma once
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rill/graph.hpp"
+#include "rill/offline.hpp"
+
+namespace rill::offline {
+
+/// Adds up what the graphs of one instant report of their passes.
+class PassLog {
+ public:
+  void clear() { entries_.clear(); }
+  /// Of a graph that was compiled; `submitted`: its passes have run.
+  void add(std::span<const PassReport> report, bool submitted);
+  /// Of that graph, once it has completed.
+  void add(std::span<const Timing> timings);
+
+  std::vector<PassTime> times() const;                             ///< passes that ran, in the order met
+  std::vector<std::pair<std::string, std::string>> skipped() const;  ///< passes that never ran, with the reason
+  std::string table() const;                                       ///< for a person
+
+ private:
+  struct Entry {
+    std::string name;
+    double ms = 0;
+    uint32_t runs = 0;
+    std::string reason;
+  };
+  Entry& entry(std::string_view name);
+  std::vector<Entry> entries_;
+};
+
+}  // namespace rill::offline

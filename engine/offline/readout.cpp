@@ -1,0 +1,48 @@
+#include "offline/readout.hpp"
+
+#include <cassert>
+#include <cstring>
+#include <span>
+
+namespace rill::offline {
+namespace {
+
+/// The first `count` records of a read-back; buffers may be longer than the particles they hold.
+template <class Record>
+std::vector<Record> records(std::span<const std::byte> bytes, uint32_t count) {
+  assert(bytes.size() >= size_t{count} * sizeof(Record));
+  std::vector<Record> copy(count);
+  std::memcpy(copy.data(), bytes.data(), size_t{count} * sizeof(Record));
+  return copy;
+}
+
+}  // namespace
+
+ReadoutTickets readout(Graph& graph, const FluidState& state) {
+  ReadoutTickets tickets;
+  tickets.count = state.count;
+  if (state.count == 0) return tickets;
+  tickets.position = graph.readback(state.position);
+  tickets.velocity = graph.readback(state.velocity);
+  tickets.id = graph.readback(state.id);
+  return tickets;
+}
+
+Readout collect(const Graph& graph, const ReadoutTickets& tickets) {
+  Readout result;
+  if (tickets.count == 0) return result;
+  const auto positions = records<Float4>(graph.data(tickets.position), tickets.count);
+  const auto velocities = records<Float4>(graph.data(tickets.velocity), tickets.count);
+  result.ids = records<uint32_t>(graph.data(tickets.id), tickets.count);
+  result.positions.reserve(tickets.count);
+  result.velocities.reserve(tickets.count);
+  result.relativeDensities.reserve(tickets.count);
+  for (uint32_t i = 0; i < tickets.count; ++i) {
+    result.positions.push_back({positions[i].x, positions[i].y, positions[i].z});
+    result.velocities.push_back({velocities[i].x, velocities[i].y, velocities[i].z});
+    result.relativeDensities.push_back(velocities[i].w);
+  }
+  return result;
+}
+
+}  // namespace rill::offline

@@ -1,0 +1,288 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <new>
+#include <optional>
+
+#include "offline/context.hpp"
+#include "offline/pass_log.hpp"
+#include "offline/probes.hpp"
+#include "offline/readout.hpp"
+#include "offline/state_hash.hpp"
+#include "render/camera.hpp"
+#include "render/legend.hpp"
+#include "render/particle_view.hpp"
+#include "rill/offline.hpp"
+
+namespace rill::offline {
+namespace {
+
+// A buffer holds at most 128 MiB and a particle's position takes 16 bytes.
+constexpr uint64_t kMaxParticles = (128ull << 20) / 16;
+constexpr uint32_t kFirstPiece = 16;  // substeps, before anything is known about a scene's need
+
+struct View {
+  std::string_view name;
+  ParticleColour colour;
+};
+constexpr View kViews[] = {{"particles", ParticleColour::Speed}, {"density", ParticleColour::Compression}};
+constexpr std::string_view kViewNames[] = {kViews[0].name, kViews[1].name};
+
+uint32_t wholeBlocks(uint32_t substeps, uint32_t block) { return (std::max(substeps, 1u) + block - 1) / block * block; }
+
+/// Runs `work`, with running out of host memory as an error like others.
+template <class Work>
+auto guarded(const char* what, Work&& work) -> decltype(work()) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorKind::OutOfMemory, std::string(what) + ": out of memory"};
+  }
+}
+
+}  // namespace
+
+class Simulation::Impl {
+ public:
+  Impl(Scene scene, const Options& options) : scene_(std::move(scene)), options_(options) {}
+
+  Expected<void> open() {
+    auto start = makeParticles(scene_, kMaxParticles);
+    if (!start) return start.error();
+    start_ = std::move(*start);
+    ContextDesc desc;
+    desc.device = options_.device;
+    desc.validation = options_.validation;
+    desc.framesInFlight = 1;  // each frame is waited for
+    auto context = Context::create(desc);
+    if (!context) return context.error();
+    context_ = std::move(*context);
+    auto fluid = Fluid::create(context_->device(), {&scene_, &start_});
+    if (!fluid) return fluid.error();
+    fluid_ = std::move(*fluid);
+    return {};
+  }
+
+  Expected<void> advance(double seconds) {
+    if (!std::isfinite(seconds) || seconds < 0)
+      return Error{ErrorKind::BadInput, "advance: " + std::to_string(seconds) + " s was given; expected a finite time, 0 or more"};
+    if (seconds == 0) return {};
+    beginInstant();
+    const auto frames = static_cast<uint64_t>(std::max(1.0, std::ceil(seconds / options_.longestFrame_s - 1e-9)));
+    for (uint64_t frame = 0; frame < frames; ++frame) {
+      const auto before = std::chrono::steady_clock::now();
+      if (auto ran = advanceFrame(seconds / double(frames)); !ran) return ran;
+      wall_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+      const FluidProgress& done = fluid_->progress();
+      advanced_.substeps += done.substeps;
+      advanced_.iterations += done.iterations;
+      advanced_.list_builds += done.list_builds;
+      // What the recorded maximum had no room for is dropped by the next advance, whoever counts it.
+      advanced_.time_dropped_s += std::max(done.time_dropped_s, done.time_left_s);
+      if (done.substeps > 0) expected_ = done.substeps;
+    }
+    time_s_ += seconds;
+    return {};
+  }
+
+  double time() const { return time_s_; }
+
+  Expected<Particles> particles(Order order) {
+    if (auto measured = measure(); !measured) return measured.error();
+    std::vector<uint32_t> visit;
+    if (order == Order::ById) visit = orderById(readout_.ids);
+    Particles particles;
+    const size_t count = readout_.ids.size();
+    particles.positions.resize(count);
+    particles.velocities.resize(count);
+    particles.densities.resize(count);
+    particles.ids.resize(count);
+    for (size_t k = 0; k < count; ++k) {
+      const size_t i = visit.empty() ? k : visit[k];
+      const Float3& p = readout_.positions[i];
+      particles.positions[k] = {static_cast<float>(start_.origin[0] + p.x), static_cast<float>(start_.origin[1] + p.y), static_cast<float>(start_.origin[2] + p.z)};
+      particles.velocities[k] = readout_.velocities[i];
+      particles.densities[k] = static_cast<float>(readout_.relativeDensities[i] * scene_.fluid.density);
+      particles.ids[k] = readout_.ids[i];
+    }
+    return particles;
+  }
+
+  Expected<Stats> stats() {
+    if (auto measured = measure(); !measured) return measured.error();
+    Stats stats;
+    static_cast<FluidStats&>(stats) = *measured_;
+    stats.substeps = advanced_.substeps;
+    stats.iterations = advanced_.iterations;
+    stats.time_dropped_s = advanced_.time_dropped_s;
+    stats.list_builds = advanced_.list_builds;
+    const ProbeReader reader(scene_, readout_.positions, start_.origin);
+    stats.front_m = reader.front(Axis::PlusX);
+    stats.state_hash = stateHash(readout_.positions, readout_.velocities, readout_.ids);
+    for (const Probe& probe : scene_.probes) stats.probes.emplace_back(probe.name, reader.measure(probe));
+    stats.wall_s = wall_s_;
+    stats.pass_ms = log_.times();
+    stats.skipped = log_.skipped();
+    return stats;
+  }
+
+  Expected<Image> render(std::string_view view, uint32_t width, uint32_t height) {
+    const auto known = std::find_if(std::begin(kViews), std::end(kViews), [&](const View& v) { return v.name == view; });
+    if (known == std::end(kViews)) return Error{ErrorKind::BadInput, "there is no view \"" + std::string(view) + "\""};
+    ParticleViewDesc desc;
+    desc.width = width;
+    desc.height = height;
+    desc.colour = known->colour;
+    if (auto possible = ParticleView::check(desc); !possible) return possible.error();
+    if (!particleView_) {
+      auto made = ParticleView::create(context_->device(), scene_, start_);
+      if (!made) return made.error();
+      particleView_ = std::move(*made);
+    }
+    if (auto measured = measure(); !measured) return measured.error();
+    const double now = measured_->time_s;  // the device's: behind time() where time was dropped
+    Ticket ticket;
+    auto ran = run(renderGraph_, [&](Graph& graph) {
+      const FluidState state = fluid_->addTo(graph, {});
+      ticket = graph.readback(particleView_->addTo(graph, state, sceneCamera(scene_, start_, double(width) / height), desc, now));
+    });
+    if (!ran) return ran.error();
+    const auto bytes = renderGraph_.data(ticket);
+    Image image{width, height, std::vector<uint8_t>(4 * size_t{width} * height)};
+    if (bytes.size() < image.rgba.size()) return Error{ErrorKind::Failed, "drawing the view \"" + std::string(view) + "\": no picture came back"};
+    std::memcpy(image.rgba.data(), bytes.data(), image.rgba.size());
+    drawLegend(image.rgba, width, height, {desc.colour, particleView_->scaleMax(desc.colour), now});
+    return image;
+  }
+
+  const Scene& scene() const { return scene_; }
+  const ParticleSet& start() const { return start_; }
+  const DeviceInfo& device() const { return context_->device().info(); }
+  std::string explain() const { return log_.table(); }
+  std::string graphDot() const { return advanceGraph_.dot(); }
+  std::vector<std::string> takeValidationMessages() { return context_->takeMessages(); }
+
+  std::vector<std::string> warnings() const {
+    std::vector<std::string> all = start_.warnings;
+    all.insert(all.end(), fluid_->warnings().begin(), fluid_->warnings().end());
+    return all;
+  }
+
+ private:
+  void beginInstant() {
+    measured_.reset();
+    advanced_ = {};
+    wall_s_ = 0;
+    log_.clear();
+  }
+
+  /// Declares a graph, runs it and waits. A graph without a pass to run is not submitted: an empty scene costs next to nothing.
+  template <class Declare>
+  Expected<void> run(Graph& graph, Declare&& declare) {
+    graph.reset();
+    declare(graph);
+    if (auto compiled = graph.compile(); !compiled) return compiled;
+    const auto report = graph.report();
+    const bool anything = std::any_of(report.begin(), report.end(), [](const PassReport& pass) { return !pass.culled && pass.reason.empty() && pass.runs > 0; });
+    log_.add(report, anything);
+    if (!anything) return {};
+    if (auto began = context_->beginFrame(); !began) return began.error();
+    if (auto prepared = graph.prepare(context_->device()); !prepared) return prepared;
+    if (auto ran = context_->submit([&](VkCommandBuffer commands) { graph.record(commands); }); !ran) return ran;
+    if (auto waited = context_->wait(); !waited) return waited;
+    log_.add(graph.timings());
+    return {};
+  }
+
+  /// One advance of the solver, recorded in pieces until no time is left or the scene's max_substeps are recorded.
+  Expected<void> advanceFrame(double seconds) {
+    const uint32_t block = std::max(1u, fluid_->substepsPerBlock());
+    const uint32_t most = wholeBlocks(scene_.solver.max_substeps, block);
+    const uint32_t guess = wholeBlocks(expected_, block);
+    for (uint32_t recorded = 0; recorded < most;) {
+      // The first piece is what the frame before took; what it leaves is done in pieces a quarter of that.
+      uint32_t piece = recorded == 0 ? guess : wholeBlocks(guess / 4, block);
+      if (options_.substepsPerSubmit > 0) piece = wholeBlocks(options_.substepsPerSubmit, block);
+      piece = std::min(piece, most - recorded);
+      const FluidStep step{recorded == 0 ? seconds : 0.0, recorded > 0, piece, false};
+      if (auto ran = run(advanceGraph_, [&](Graph& graph) { static_cast<void>(fluid_->addTo(graph, step)); }); !ran) return ran;
+      recorded += piece;
+      if (!(fluid_->progress().time_left_s > 0)) break;
+    }
+    return {};
+  }
+
+  /// The figures and arrays of the present instant, once.
+  Expected<void> measure() {
+    if (measured_) return {};
+    ReadoutTickets tickets;
+    auto ran = run(measureGraph_, [&](Graph& graph) {
+      const FluidState state = fluid_->addTo(graph, {.stats = true});
+      tickets = readout(graph, state);
+    });
+    if (!ran) return ran;
+    readout_ = collect(measureGraph_, tickets);
+    FluidStats stats = fluid_->stats().value_or(FluidStats{});
+    if (fluid_->count() == 0) stats.time_s = time_s_;
+    measured_ = stats;
+    return {};
+  }
+
+  Scene scene_;
+  Options options_;
+  ParticleSet start_;
+  std::unique_ptr<Context> context_;
+  std::unique_ptr<Fluid> fluid_;
+  std::unique_ptr<ParticleView> particleView_;  ///< made for the first picture
+  // One graph for each shape of frame: each keeps the memory plan of its own.
+  Graph advanceGraph_, measureGraph_, renderGraph_;
+  PassLog log_;                         ///< since the last instant
+  FluidProgress advanced_;              ///< by the last advance(), its frames added up
+  std::optional<FluidStats> measured_;  ///< of the present instant
+  Readout readout_;                     ///< likewise
+  uint32_t expected_ = kFirstPiece;     ///< substeps that the next frame will take, a guess
+  double time_s_ = 0;
+  double wall_s_ = 0;
+};
+
+Simulation::Simulation(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Simulation::~Simulation() = default;
+
+Expected<std::unique_ptr<Simulation>> Simulation::open(const std::filesystem::path& scene, const Options& options) {
+  auto read = loadScene(scene, options.overrides);
+  if (!read) return read.error();
+  return open(std::move(*read), options);
+}
+
+Expected<std::unique_ptr<Simulation>> Simulation::open(Scene scene, const Options& options) {
+  return guarded("opening the scene", [&]() -> Expected<std::unique_ptr<Simulation>> {
+    auto impl = std::make_unique<Impl>(std::move(scene), options);
+    if (auto opened = impl->open(); !opened) return opened.error();
+    return std::unique_ptr<Simulation>(new Simulation(std::move(impl)));
+  });
+}
+
+Expected<void> Simulation::advance(double seconds) {
+  return guarded("simulating", [&] { return impl_->advance(seconds); });
+}
+double Simulation::time() const { return impl_->time(); }
+Expected<Particles> Simulation::particles(Order order) {
+  return guarded("reading the particles", [&] { return impl_->particles(order); });
+}
+Expected<Stats> Simulation::stats() {
+  return guarded("measuring", [&] { return impl_->stats(); });
+}
+Expected<Image> Simulation::render(const std::string& view, uint32_t width, uint32_t height) {
+  return guarded("drawing", [&] { return impl_->render(view, width, height); });
+}
+std::span<const std::string_view> Simulation::views() { return kViewNames; }
+const Scene& Simulation::scene() const { return impl_->scene(); }
+const ParticleSet& Simulation::start() const { return impl_->start(); }
+const DeviceInfo& Simulation::device() const { return impl_->device(); }
+std::vector<std::string> Simulation::warnings() const { return impl_->warnings(); }
+std::string Simulation::explain() const { return impl_->explain(); }
+std::string Simulation::graphDot() const { return impl_->graphDot(); }
+std::vector<std::string> Simulation::takeValidationMessages() { return impl_->takeValidationMessages(); }
+
+}  // namespace rill::offline

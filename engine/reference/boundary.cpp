@@ -1,0 +1,95 @@
+// What walls and solids do to the fluid: displaced density, collisions, contact.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "reference/solver.hpp"
+
+namespace rill::reference {
+
+std::vector<SolidPose> ReferenceSolver::poses(double t, double dt) const {
+  std::vector<SolidPose> all;
+  for (const Solid& solid : settings.solids) {
+    SolidPose pose = dt > 0 ? solidPose(solid, t, dt) : solidPose(solid, t);
+    for (int a = 0; a < 3; ++a) pose.centre[a] -= settings.origin[a];
+    all.push_back(pose);
+  }
+  return all;
+}
+
+WallSample ReferenceSolver::boundaryAt(const glm::dvec3& x, double t) const { return boundaryOf(x, poses(t, 0)); }
+
+WallSample ReferenceSolver::boundaryOf(const glm::dvec3& x, std::span<const SolidPose> solids) const {
+  double lo[3], hi[3];
+  for (int a = 0; a < 3; ++a) lo[a] = x[a] - settings.lo[a], hi[a] = settings.hi[a] - x[a];
+  WallSample sum = settings.tabulated ? tables_.sample(lo, hi) : exactWall(kernel_, lo, hi);
+  const double at[3] = {x.x, x.y, x.z};
+  for (size_t n = 0; n < solids.size(); ++n) {
+    const SolidPose& pose = solids[n];
+    double gradient[3];
+    if (pose.sphere) {
+      const SurfacePoint surface = solidSurface(pose, at);
+      const LineSample ball =
+          settings.tabulated ? sphereTables_[n].sample(surface.distance) : exactSphere(kernel_, pose.half[0], surface.distance);
+      sum.value += ball.value;
+      for (int a = 0; a < 3; ++a) gradient[a] = ball.slope * surface.normal[a];
+    } else {
+      double local[3];
+      toSolid(pose, at, local);
+      const WallSample box = settings.tabulated ? boxSample(tables_, local, pose.half) : boxSample(kernel_, local, pose.half);
+      sum.value += box.value;
+      fromSolid(pose, box.gradient, gradient);
+    }
+    for (int a = 0; a < 3; ++a) sum.gradient[a] += gradient[a];
+  }
+  return sum;
+}
+
+/// Moves a centre to half a spacing off every surface it is nearer to: solids in their order, walls last, so that nothing ends outside.
+/// Between walls nearer than a spacing it goes to the middle.
+glm::dvec3 ReferenceSolver::collide(glm::dvec3 x, std::span<const SolidPose> solids) const {
+  const double keep = settings.spacing / 2;
+  for (const SolidPose& pose : solids) {
+    const double at[3] = {x.x, x.y, x.z};
+    const SurfacePoint surface = solidSurface(pose, at);
+    if (surface.distance >= keep) continue;
+    for (int a = 0; a < 3; ++a) x[a] += (keep - surface.distance) * surface.normal[a];
+  }
+  for (int a = 0; a < 3; ++a) {
+    const double lo = settings.lo[a] + keep, hi = settings.hi[a] - keep;
+    x[a] = lo > hi ? (lo + hi) / 2 : std::clamp(x[a], lo, hi);
+  }
+  return x;
+}
+
+/// The velocity after touching solids with restitution e and Coulomb friction mu, relative to the solid's own velocity. With u = v_old + g
+/// dt - v_solid, the velocity before the solve, and f = sum_j (lambda_i + lambda_j) G_ij / dt, what the neighbours' pressure gave:
+///   v_n >= -e u_n where u_n < 0;   the tangential part loses at most mu max(0, v_n - u_n - f_n), all the impulse that the solid itself
+///   gave.
+/// Without f a layer would feel its own weight alone, not that of the column above: the clamp of the positions carries most of it.
+/// Domain walls are smooth: e = 0 by the positions' clamp, mu = 0.
+glm::dvec3 ReferenceSolver::contact(size_t i, glm::dvec3 v, double dt, std::span<const SolidPose> solids) const {
+  const glm::dvec3& x = state.predicted[i];
+  for (const SolidPose& pose : solids) {
+    if (pose.restitution <= 0 && pose.friction <= 0) continue;
+    const double at[3] = {x.x, x.y, x.z};
+    const SurfacePoint surface = solidSurface(pose, at);
+    if (surface.distance > kContactDistance * settings.spacing) continue;
+    const glm::dvec3 n = {surface.normal[0], surface.normal[1], surface.normal[2]};
+    const glm::dvec3 solid = {pose.velocity[0], pose.velocity[1], pose.velocity[2]};
+    const double before = glm::dot(state.velocity[i] + dt * settings.gravity - solid, n);
+    const glm::dvec3 relative = v - solid;
+    double normal = glm::dot(relative, n);
+    glm::dvec3 tangential = relative - normal * n;
+    if (before < 0 && pose.restitution > 0) normal = std::max(normal, -pose.restitution * before);
+    glm::dvec3 pressure(0);
+    for (const Pair& pair : pairs(i)) pressure += (lambda_[i] + lambda_[pair.j]) / dt * pair.gradient;
+    const double impulse = std::max(0.0, normal - before - glm::dot(pressure, n));
+    const double slip = glm::length(tangential);
+    if (slip > 0) tangential *= std::max(0.0, 1 - pose.friction * impulse / slip);
+    v = solid + normal * n + tangential;
+  }
+  return v;
+}
+
+}  // namespace rill::reference

@@ -1,0 +1,214 @@
+#include "reference/solver.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numeric>
+
+#include "reference/neighbours.hpp"
+#include "shared/pair_hash.h"
+
+namespace rill::reference {
+namespace {
+
+bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+glm::dvec3 vec(const double v[3]) { return {v[0], v[1], v[2]}; }
+
+}  // namespace
+
+ReferenceSolver::ReferenceSolver(const ReferenceSettings& s, std::span<const glm::dvec3> positions, std::span<const glm::dvec3> velocities)
+    : settings(s), kernel_(s.kernel, s.smoothingRatio * s.spacing, s.spacing) {
+  assert(velocities.empty() || velocities.size() == positions.size());
+  const size_t count = positions.size();
+  state.position.assign(positions.begin(), positions.end());
+  state.velocity.assign(velocities.begin(), velocities.end());
+  state.velocity.resize(count, glm::dvec3(0));
+  state.predicted = state.position;
+  state.warm.assign(count, 0);
+  state.id.resize(count);
+  std::iota(state.id.begin(), state.id.end(), 0u);
+  lambda_.assign(count, 0);
+  lambdaChange_.assign(count, 0);
+  delta_.assign(count, 0);
+  curl_.assign(count, glm::dvec3(0));
+  if (settings.tabulated) {
+    tables_ = makeWallTables(kernel_);
+    for (const Solid& solid : settings.solids)
+      sphereTables_.push_back(solid.sphere ? makeSphereTable(kernel_, solid.sphere->radius) : SphereTable{});
+  }
+}
+
+double ReferenceSolver::mass() const { return settings.density * std::pow(settings.spacing, 3); }
+
+void ReferenceSolver::begin(double dt) {
+  for (size_t i = 0; i < size(); ++i) {
+    const bool placed = finite(state.position[i]);
+    if (placed && finite(state.velocity[i])) continue;
+    for (int a = 0; a < 3 && !placed; ++a) state.position[i][a] = std::isfinite(settings.lo[a]) ? settings.lo[a] : 0;
+    park(i);
+  }
+  state.predicted = state.position;
+  step_ = 0;
+  density();
+  predict(dt, dt);
+}
+
+void ReferenceSolver::substep(double dt, double dtNext) {
+  for (int iteration = 0; iteration < settings.iterations; ++iteration) {
+    density();
+    multipliers(iteration == 0);
+    correction(dt);
+  }
+  velocities(dt);
+  if (settings.viscosity > 0) viscosity(dt);
+  if (settings.vorticity > 0) vorticity(dt);
+  predict(dt, dtNext);
+}
+
+ReferenceSolver::Pair ReferenceSolver::makePair(uint32_t i, uint32_t j) const {
+  const glm::dvec3 r = state.predicted[i] - state.predicted[j];
+  const double length = glm::length(r), h = kernel_.h();
+  Pair pair{j, kernel_.value(length), {}, {}};
+  if (length >= kCoincidentDistance * h) {
+    pair.gradient = kernel_.gradientOverR(length) * r;
+  } else {
+    const uint32_t a = state.id[i], b = state.id[j];
+    pair.apart = glm::normalize(glm::dvec3(shared::pairDirection(a, b, 0), shared::pairDirection(a, b, 1), shared::pairDirection(a, b, 2)));
+    pair.gradient = kernel_.gradientOverR(kCoincidentGradient * h) * kCoincidentGradient * h * pair.apart;
+  }
+  return pair;
+}
+
+void ReferenceSolver::density() {
+  const Neighbours found = findNeighbours(state.predicted, kernel_.h());
+  const std::vector<SolidPose> solids = poses(time_, step_);
+  first_ = found.first;
+  pairs_.clear();
+  densityRatio_.resize(size());
+  denominator_.resize(size());
+  boundary_.resize(size());
+  const double rest = kernel_.restGradientSum();
+  for (uint32_t i = 0; i < size(); ++i) {
+    boundary_[i] = boundaryOf(state.predicted[i], solids);
+    double ratio = kernel_.value(0) + boundary_[i].value, squares = 0;
+    glm::dvec3 sum = vec(boundary_[i].gradient);
+    for (const uint32_t j : found.of(i)) {
+      pairs_.push_back(makePair(i, j));
+      ratio += pairs_.back().value;
+      sum += pairs_.back().gradient;
+      squares += glm::dot(pairs_.back().gradient, pairs_.back().gradient);
+    }
+    densityRatio_[i] = ratio;
+    denominator_[i] = std::max(glm::dot(sum, sum) + squares + settings.regularization * rest, kLeastDenominator * rest);
+  }
+}
+
+void ReferenceSolver::multipliers(bool firstIteration) {
+  for (size_t i = 0; i < size(); ++i) {
+    if (firstIteration) lambda_[i] = state.warm[i];
+    delta_[i] = -settings.relaxation * (densityRatio_[i] - 1) / denominator_[i];
+    const double lambda = std::min(0.0, lambda_[i] + delta_[i]);
+    lambdaChange_[i] = lambda - lambda_[i];
+    lambda_[i] = lambda;
+    if (firstIteration) state.warm[i] = std::min(0.0, state.warm[i] + settings.warmStart * delta_[i]);
+  }
+}
+
+double ReferenceSolver::tensileTerm(double value, double dt) const {
+  if (settings.tensile <= 0) return 0;
+  const double share = value / kernel_.value(settings.tensileRadius * kernel_.h());
+  const double steps = dt * dt * 9.81 / settings.spacing;
+  return -settings.tensile * 0.1 / kernel_.restGradientSum() * std::pow(share, settings.tensilePower) * steps;
+}
+
+void ReferenceSolver::correction(double dt) {
+  const std::vector<SolidPose> solids = poses(time_, dt);
+  for (size_t i = 0; i < size(); ++i) {
+    glm::dvec3 move = lambdaChange_[i] * vec(boundary_[i].gradient);
+    for (const Pair& pair : pairs(i)) {
+      move += (lambdaChange_[i] + lambdaChange_[pair.j] + tensileTerm(pair.value, dt)) * pair.gradient;
+      move += kCoincidentDistance * kernel_.h() * pair.apart;
+    }
+    const glm::dvec3 moved = state.predicted[i] + move;
+    if (finite(moved)) {
+      state.predicted[i] = collide(moved, solids);
+    } else {
+      park(i);
+    }
+  }
+}
+
+void ReferenceSolver::velocities(double dt) {
+  const std::vector<SolidPose> solids = poses(time_, dt);
+  for (size_t i = 0; i < size(); ++i) {
+    glm::dvec3 v = contact(i, (state.predicted[i] - state.position[i]) / dt, dt, solids);
+    const double speed = glm::length(v);
+    if (speed > settings.speedLimit) v *= settings.speedLimit / speed;
+    if (finite(v)) {
+      state.position[i] = state.predicted[i];
+      state.velocity[i] = v;
+    } else {
+      park(i);
+    }
+  }
+  time_ += dt;
+  step_ = 0;
+}
+
+double ReferenceSolver::viscosityCoefficient(double dt) const {
+  return 2 * settings.viscosity * dt / (settings.density * kernel_.secondMoment());
+}
+
+void ReferenceSolver::viscosity(double dt) {
+  const double c = viscosityCoefficient(dt) / settings.viscositySweeps;
+  for (int sweep = 0; sweep < settings.viscositySweeps; ++sweep) {
+    const std::vector<glm::dvec3> v = state.velocity;
+    for (size_t i = 0; i < size(); ++i)
+      for (const Pair& pair : pairs(i)) state.velocity[i] += c * pair.value * (v[pair.j] - v[i]);
+  }
+}
+
+void ReferenceSolver::vorticity(double dt) {
+  const std::vector<glm::dvec3> v = state.velocity;
+  const double h = kernel_.h();
+  for (size_t i = 0; i < size(); ++i) {
+    curl_[i] = glm::dvec3(0);
+    for (const Pair& pair : pairs(i)) curl_[i] += glm::cross(pair.gradient, v[pair.j] - v[i]);
+  }
+  for (size_t i = 0; i < size(); ++i) {
+    const double strength = glm::length(curl_[i]);
+    if (strength <= 0) continue;
+    glm::dvec3 eta(0);
+    for (const Pair& pair : pairs(i)) eta += (glm::length(curl_[pair.j]) - strength) * pair.gradient;
+    const glm::dvec3 toward = eta / (glm::length(eta) + 0.001 * strength / h);
+    state.velocity[i] += dt * settings.vorticity * h * strength * glm::cross(toward, curl_[i]);
+  }
+}
+
+void ReferenceSolver::predict(double dt, double dtNext) {
+  const std::vector<SolidPose> solids = poses(time_, dtNext);
+  for (double& w : state.warm) w *= (dtNext / dt) * (dtNext / dt);
+  for (size_t i = 0; i < size(); ++i) {
+    glm::dvec3 x =
+        state.position[i] + dtNext * (state.velocity[i] + dtNext * settings.gravity) + state.warm[i] * vec(boundary_[i].gradient);
+    for (const Pair& pair : pairs(i)) x += (state.warm[i] + state.warm[pair.j]) * pair.gradient;
+    if (finite(x)) {
+      state.predicted[i] = collide(x, solids);
+    } else {
+      park(i);
+    }
+  }
+  step_ = dtNext;
+}
+
+void ReferenceSolver::park(size_t i) {
+  state.predicted[i] = state.position[i];
+  state.velocity[i] = glm::dvec3(0);
+  state.warm[i] = 0;
+  ++parked_;
+}
+
+}  // namespace rill::reference

@@ -1,0 +1,48 @@
+#pragma once
+// The defaults of the table's keys as JSON, for the schema and the table of keys.
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "model/fields.hpp"
+
+namespace rill {
+
+using OrderedJson = nlohmann::ordered_json;
+
+/// 3 rather than 3.0 where the number is whole.
+inline OrderedJson tidyNumber(double number) {
+  constexpr double kExact = 9007199254740992.0;  // 2^53
+  if (number == std::floor(number) && std::abs(number) <= kExact) return static_cast<int64_t>(number);
+  return number;
+}
+
+/// What a key has when it is not given; null where it has no default. `value` is the member's initialiser.
+inline OrderedJson defaultJson(const model::Info& info, double value) { return info.range.contains(value) ? tidyNumber(value) : OrderedJson(); }
+inline OrderedJson defaultJson(const model::Info& info, uint32_t value) { return defaultJson(info, static_cast<double>(value)); }
+inline OrderedJson defaultJson(const model::Info& info, uint64_t value) { return defaultJson(info, static_cast<double>(value)); }
+inline OrderedJson defaultJson(const model::Info& info, const std::string& value) { return info.required || value.empty() ? OrderedJson() : OrderedJson(value); }
+inline OrderedJson defaultJson(const model::Info&, const std::optional<double>& value) { return value ? tidyNumber(*value) : OrderedJson("auto"); }
+inline OrderedJson defaultJson(const model::Info& info, SideMask value) {
+  OrderedJson sides = OrderedJson::array();
+  for (size_t side = 0; side < info.words.size(); ++side) {
+    if ((value >> side & 1) != 0) sides.push_back(info.words[side]);
+  }
+  return sides;
+}
+template <size_t N>
+OrderedJson defaultJson(const model::Info&, const double (&value)[N]) {
+  OrderedJson numbers = OrderedJson::array();
+  for (const double number : value) numbers.push_back(tidyNumber(number));
+  return numbers;
+}
+template <class Enum>
+  requires std::is_enum_v<Enum>
+OrderedJson defaultJson(const model::Info& info, const Enum& value) { return OrderedJson(info.words[static_cast<size_t>(value)]); }
+template <class T>
+OrderedJson defaultJson(const model::Info&, const std::vector<T>&) { return OrderedJson::array(); }
+/// Files, structs and optional ones: no default of their own; their keys have theirs.
+template <class T>
+OrderedJson defaultJson(const model::Info&, const T&) { return {}; }
+
+}  // namespace rill

@@ -1,0 +1,158 @@
+#include "scene/overrides.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+#include "core/words.hpp"
+
+namespace rill {
+namespace {
+
+/// One step of a key path: a key, or an index.
+struct Step {
+  std::string key;
+  std::optional<size_t> index;
+};
+
+Error refuse(const Override& change, const std::string& why) { return {ErrorKind::BadInput, "--set " + change.key + ": " + why}; }
+
+Expected<std::vector<Step>> stepsOf(const Override& change) {
+  const auto malformed = [&](const std::string& what) { return refuse(change, what + "; expected a key path such as fluid.viscosity or fill[0].jitter"); };
+  std::vector<Step> steps;
+  std::string_view rest = change.key;
+  bool want_key = true;
+  while (!rest.empty() || want_key) {
+    if (want_key) {
+      const size_t end = std::min(rest.find_first_of(".["), rest.size());
+      const std::string_view key = rest.substr(0, end);
+      if (key.empty()) return malformed("a key is empty");
+      steps.push_back({std::string(key), {}});
+      rest.remove_prefix(end);
+      want_key = false;
+    } else if (rest.front() == '.') {
+      rest.remove_prefix(1);
+      want_key = true;
+    } else if (rest.front() == '[') {
+      const size_t end = rest.find(']');
+      const std::string_view digits = rest.substr(1, end == std::string_view::npos ? end : end - 1);
+      size_t index = 0;
+      const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), index);
+      if (end == std::string_view::npos || digits.empty() || read.ec != std::errc() || read.ptr != digits.data() + digits.size()) {
+        return malformed(inQuotes(digits) + " is not an index in brackets");
+      }
+      steps.push_back({{}, index});
+      rest.remove_prefix(end + 1);
+    } else {
+      return malformed(inQuotes(rest) + " follows an index");
+    }
+  }
+  return steps;
+}
+
+/// JSON, or a bare word taken as a string.
+Expected<Json> valueOf(const Override& change) {
+  const size_t first = change.value.find_first_not_of(" \t\r\n");
+  const char start = first == std::string::npos ? '\0' : change.value[first];
+  Expected<Json> value = parseJsonText(change.value, "--set " + change.key);
+  if (value) return value;
+  const bool meant_as_json = start == '[' || start == '{' || start == '"';
+  const bool too_large = value.error().message.find("out of range") != std::string::npos;
+  const bool bad_text = value.error().message.find("UTF-") != std::string::npos;
+  if (meant_as_json || too_large || bad_text) return value;
+  return Json(change.value);
+}
+
+std::string nameOf(const std::string& path) { return path.empty() ? std::string("the scene") : path; }
+
+/// The place that `steps` lead to, made where it is missing.
+Expected<Json*> walk(Json& root, const Override& change, const std::vector<Step>& steps, OverrideMarks& marks, std::string& path) {
+  Json* node = &root;
+  for (size_t i = 0; i < steps.size(); ++i) {
+    const Step& step = steps[i];
+    bool fresh = false;
+    if (step.index) {
+      if (!node->is_array()) return refuse(change, nameOf(path) + " is not a list; expected a key without an index");
+      if (*step.index > node->size()) {
+        return refuse(change, nameOf(path) + " has " + grouped(node->size()) + (node->size() == 1 ? " entry" : " entries") +
+                                  " in the scene; expected an index of at most " + grouped(node->size()) + " (one more adds an entry)");
+      }
+      fresh = *step.index == node->size();
+      if (fresh) node->push_back(nullptr);
+      node = &(*node)[*step.index];
+      path = entryPath(path, *step.index);
+    } else {
+      if (!node->is_object()) return refuse(change, nameOf(path) + " has no keys inside it; expected a key path that the scene has");
+      const auto [entry, made] = node->emplace(step.key, nullptr);
+      fresh = made;
+      node = &*entry;
+      path = childPath(path, step.key);
+    }
+    if (fresh) {
+      marks.set(path, {change.key, {}});
+      if (i + 1 < steps.size()) *node = steps[i + 1].index ? Json::array() : Json::object();
+    }
+  }
+  return node;
+}
+
+/// Spacing and particles say the same thing twice: setting one takes the other away.
+void replaceTwin(Json& root, const std::vector<Step>& steps) {
+  if (steps.size() != 2 || steps[0].key != "fluid") return;
+  if (steps[1].key == "spacing") root["fluid"].erase("particles");
+  if (steps[1].key == "particles") root["fluid"].erase("spacing");
+}
+
+}  // namespace
+
+std::string childPath(std::string_view path, std::string_view key) {
+  const bool plain = !key.empty() && key.size() <= 60 && std::all_of(key.begin(), key.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '$';
+  });
+  std::string out(path);
+  if (!out.empty()) out += '.';
+  return out + (plain ? std::string(key) : inQuotes(key));
+}
+
+std::string entryPath(std::string_view path, size_t index) { return std::string(path) + "[" + std::to_string(index) + "]"; }
+
+const OverrideMarks::Mark* OverrideMarks::find(std::string_view path) const {
+  while (!path.empty()) {
+    if (const auto found = marks_.find(path); found != marks_.end()) return &found->second;
+    const size_t parent = path.find_last_of(".[");
+    path = path.substr(0, parent == std::string_view::npos ? 0 : parent);
+  }
+  return nullptr;
+}
+
+const OverrideMarks::Mark* OverrideMarks::valueAt(const std::string& path) const {
+  const auto found = marks_.find(path);
+  return found != marks_.end() && !found->second.text.empty() ? &found->second : nullptr;
+}
+
+Expected<Override> parseOverride(std::string_view text) {
+  const size_t equals = text.find('=');
+  if (equals == std::string_view::npos) return Error{ErrorKind::BadInput, "--set " + std::string(text) + ": no '='; expected KEY=VALUE, as in fluid.viscosity=0.1"};
+  if (equals == 0) return Error{ErrorKind::BadInput, "--set " + std::string(text) + ": no key before '='; expected KEY=VALUE, as in fluid.viscosity=0.1"};
+  return Override{std::string(text.substr(0, equals)), std::string(text.substr(equals + 1))};
+}
+
+Expected<void> applyOverrides(Json& root, std::span<const Override> overrides, OverrideMarks& marks) {
+  for (const Override& change : overrides) {
+    const auto steps = stepsOf(change);
+    if (!steps) return steps.error();
+    auto value = valueOf(change);
+    if (!value) return value.error();
+    std::string path;
+    const auto place = walk(root, change, *steps, marks, path);
+    if (!place) return place.error();
+    **place = std::move(*value);
+    marks.set(path, {change.key, change.value});
+    replaceTwin(root, *steps);
+  }
+  return {};
+}
+
+}  // namespace rill

@@ -1,0 +1,68 @@
+#pragma once
+// Points by place, to find whether one is near another.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace rill {
+
+/// Points in a hash of cells. Its answers do not depend on the order of insertion.
+class PointHash {
+ public:
+  /// `reach` is the largest distance that will be asked for; `expected` points are made room for.
+  PointHash(double reach, uint64_t expected) : cell_(2 * reach), heads_(std::bit_ceil(std::max<uint64_t>(16, expected)), kNone) {
+    points_.reserve(expected);
+  }
+
+  void insert(const double (&p)[3], uint32_t group) {
+    int64_t cell[3];
+    for (int axis = 0; axis < 3; ++axis) cell[axis] = index(p[axis] / cell_);
+    uint32_t& head = heads_[slot(cell[0], cell[1], cell[2])];
+    points_.push_back({{p[0], p[1], p[2]}, group, head});
+    head = static_cast<uint32_t>(points_.size() - 1);
+  }
+
+  /// True where a point of another group is nearer than `apart` to p, or one of the same group nearer than `together`.
+  bool crowded(const double (&p)[3], uint32_t group, double apart, double together) const {
+    // Cells are two reaches wide, so that the nearer half of p's cell and the cell beyond it hold every point in reach.
+    int64_t low[3];
+    for (int axis = 0; axis < 3; ++axis) low[axis] = index(p[axis] / cell_ - 0.5);
+    for (int corner = 0; corner < 8; ++corner) {
+      for (uint32_t i = heads_[slot(low[0] + (corner & 1), low[1] + (corner >> 1 & 1), low[2] + (corner >> 2))]; i != kNone; i = points_[i].next) {
+        const Point& other = points_[i];
+        const double x = other.at[0] - p[0], y = other.at[1] - p[1], z = other.at[2] - p[2];
+        const double limit = other.group == group ? together : apart;
+        if (x * x + y * y + z * z < limit * limit) return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+  struct Point {
+    double at[3];
+    uint32_t group, next;
+  };
+
+  /// Cells too far away to count share the last one.
+  static int64_t index(double cells) {
+    constexpr double kFarthest = 1e15;
+    return static_cast<int64_t>(std::floor(std::clamp(cells, -kFarthest, kFarthest)));
+  }
+
+  size_t slot(int64_t x, int64_t y, int64_t z) const {
+    uint64_t h = static_cast<uint64_t>(x) * 0x9E3779B97F4A7C15ULL ^ static_cast<uint64_t>(y) * 0xC2B2AE3D27D4EB4FULL ^ static_cast<uint64_t>(z) * 0x165667B19E3779F9ULL;
+    h = (h ^ (h >> 32)) * 0xD6E8FEB86659FD93ULL;
+    return static_cast<size_t>((h ^ (h >> 32)) & (heads_.size() - 1));
+  }
+
+  double cell_;
+  std::vector<uint32_t> heads_;
+  std::vector<Point> points_;
+};
+
+}  // namespace rill

@@ -1,0 +1,286 @@
+#include "scene/reader.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace rill {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string unitText(const model::Info& info) { return info.unit.empty() ? std::string() : " (" + std::string(info.unit) + ")"; }
+
+/// NaN and infinities come as words: JSON has no numbers for them.
+bool saysNotFinite(std::string_view text) {
+  std::string word;
+  for (const char c : text) {
+    if (c != '+' && c != '-') word += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  }
+  return word == "nan" || word == "inf" || word == "infinity";
+}
+
+bool fitsFloat(double value) {
+  if (!std::isfinite(value) || std::abs(value) > std::numeric_limits<float>::max()) return false;
+  return value == 0 || std::abs(value) >= std::numeric_limits<float>::denorm_min();
+}
+
+/// Dotted paths in the scene whose last key is `key`, the first of them; empty where there is none.
+template <class Owner>
+std::string elsewhere(std::string_view key, const std::string& path) {
+  std::string found;
+  model::forEachField<Owner>([&](const auto& field) {
+    using Value = typename std::remove_cvref_t<decltype(field)>::Value;
+    using Inner = typename model::Inner<Value>::Type;
+    if (!found.empty()) return;
+    const std::string here = childPath(path, field.info.key);
+    if (field.info.key == key) {
+      found = here;
+    } else if constexpr (!std::is_void_v<Inner>) {
+      found = elsewhere<Inner>(key, model::kIsList<Value> ? here + "[]" : here);
+    }
+  });
+  return found;
+}
+
+/// Numbers of "MAJOR.MINOR[.PATCH]", each cut at a billion; empty where the text is none.
+std::vector<uint32_t> versionNumbers(std::string_view text) {
+  constexpr uint32_t kMost = 1'000'000'000;
+  std::vector<uint32_t> numbers;
+  bool digit = false;
+  for (const char c : text) {
+    if (c >= '0' && c <= '9') {
+      if (!digit) numbers.push_back(0);
+      numbers.back() = numbers.back() >= kMost / 10 ? kMost : numbers.back() * 10 + static_cast<uint32_t>(c - '0');
+      digit = true;
+    } else if (c == '.' && digit) {
+      digit = false;
+    } else {
+      return {};
+    }
+  }
+  if (!digit || numbers.size() < 2 || numbers.size() > 3) return {};
+  numbers.resize(3, 0);
+  return numbers;
+}
+
+}  // namespace
+
+std::string foundText(const Json& json) {
+  switch (json.type()) {
+    case Json::value_t::null: return "found null";
+    case Json::value_t::boolean: return json.get<bool>() ? "found true" : "found false";
+    case Json::value_t::string: return "found the text " + inQuotes(json.get_ref<const std::string&>());
+    case Json::value_t::array: return json.size() == 1 ? "found an array of 1" : "found an array of " + grouped(json.size());
+    case Json::value_t::object: return "found an object";
+    case Json::value_t::number_unsigned: return "found " + std::to_string(json.get<uint64_t>());
+    case Json::value_t::number_integer: return "found " + std::to_string(json.get<int64_t>());
+    case Json::value_t::number_float: return "found " + shortNumber(json.get<double>());
+    default: return "found something else";
+  }
+}
+
+std::string rangeText(const model::Range& range) {
+  std::string text;
+  if (range.hasLow()) text = (range.low_open ? "above " : range.hasHigh() ? "from " : "at least ") + shortNumber(range.low);
+  if (range.hasHigh()) {
+    if (!text.empty()) text += range.low_open ? " and " : " to ";
+    if (range.high_open) {
+      text += "below ";
+    } else if (range.low_open || !range.hasLow()) {
+      text += "at most ";
+    }
+    constexpr double kExact = 9007199254740992.0;  // 2^53; beyond it the only bound is 2^64 - 1
+    text += range.high > kExact ? "18446744073709551615" : range.high >= 1e6 ? std::to_string(static_cast<uint64_t>(range.high)) : shortNumber(range.high);
+  }
+  return text;
+}
+
+std::string expectedNumber(const model::Info& info, bool whole) {
+  const std::string range = rangeText(info.range);
+  return std::string(whole ? "a whole number" : "a number") + (range.empty() ? "" : range.starts_with("at ") ? " of " + range : " " + range) + unitText(info);
+}
+
+bool Reader::fail(const std::string& path, const std::string& text) {
+  if (!message_.empty()) return false;
+  if (const OverrideMarks::Mark* mark = marks_.find(path)) {
+    message_ = "--set " + mark->key + ": " + (mark->key == path ? "" : path + ": ") + text;
+  } else {
+    message_ = name_ + ": " + (path.empty() ? "" : path + ": ") + text;
+  }
+  return false;
+}
+
+bool Reader::failAtOneOf(std::initializer_list<std::string> paths, const std::string& text) {
+  for (const std::string& path : paths) {
+    if (marks_.find(path)) return fail(path, text);
+  }
+  return fail(*paths.begin(), text);
+}
+
+bool Reader::unknownKey(const std::string& path, const std::string& key, const std::vector<std::string_view>& here) {
+  std::string text = "unknown key; ";
+  const std::string_view near = nearestWord(key, here);
+  const std::string other = near.empty() ? elsewhere<Scene>(key, "") : std::string();
+  if (!near.empty()) {
+    text += "did you mean " + inQuotes(near) + "?";
+  } else if (!other.empty()) {
+    text += "did you mean " + inQuotes(other) + "?";
+  } else {
+    text += "expected one of " + listInQuotes(here);
+  }
+  return fail(childPath(path, key), text);
+}
+
+bool Reader::exactlyOne(const Json& json, const std::string& path, std::span<const std::string_view> keys) {
+  std::vector<std::string_view> given;
+  for (const std::string_view key : keys) {
+    if (json.contains(std::string(key))) given.push_back(key);
+  }
+  if (keys.empty() || given.size() == 1) return true;
+  const std::string expected = "expected exactly one of " + listInQuotes(keys) + "; found ";
+  if (given.empty()) return fail(path, expected + "none");
+  const std::string blamed = marks_.find(childPath(path, given[0])) ? childPath(path, given[0]) : childPath(path, given[1]);
+  return fail(marks_.find(blamed) ? blamed : path, expected + listInQuotes(given));
+}
+
+bool Reader::version(const Json& root) {
+  const std::string path = "rill";
+  const auto found = root.find(path);
+  const std::string expected = "expected the oldest Rill that reads the scene, as in \"0.1\"";
+  if (found == root.end()) return fail(path, "missing; " + expected);
+  std::string given;
+  if (!text(*found, path, given)) return false;
+  const std::vector<uint32_t> needed = versionNumbers(given);
+  if (needed.empty()) return fail(path, "found " + inQuotes(given) + ", " + expected);
+  if (needed > versionNumbers(RILL_VERSION)) return fail(path, "the scene needs Rill " + given + " or later; this is Rill " + RILL_VERSION);
+  return true;
+}
+
+bool Reader::number(const Json& json, const std::string& path, const model::Info& info, bool whole, double& out) {
+  if (json.is_string() && saysNotFinite(json.get_ref<const std::string&>())) {
+    return fail(path, foundText(json) + ", which is not finite; expected " + expectedNumber(info, whole));
+  }
+  if (!json.is_number()) return fail(path, foundText(json) + ", expected " + expectedNumber(info, whole));
+  const double value = json.get<double>();
+  if (whole && std::isfinite(value) && value != std::floor(value)) return fail(path, foundText(json) + ", expected " + expectedNumber(info, whole));
+  if (!info.range.contains(value)) return fail(path, foundText(json).substr(6) + " is out of range; expected " + expectedNumber(info, whole));
+  if (!fitsFloat(value)) return fail(path, foundText(json).substr(6) + " is out of range of a 32-bit float; expected " + expectedNumber(info, whole));
+  out = value;
+  return true;
+}
+
+bool Reader::numbers(const Json& json, const std::string& path, const model::Info& info, std::string_view shape, std::span<double> out) {
+  const auto expected = [&] { return ", expected " + std::to_string(out.size()) + " numbers " + std::string(shape) + unitText(info); };
+  if (!json.is_array() || json.size() != out.size()) return fail(path, foundText(json) + expected());
+  for (size_t i = 0; i < out.size(); ++i) {
+    if (!number(json[i], entryPath(path, i), info, false, out[i])) return false;
+  }
+  return true;
+}
+
+bool Reader::text(const Json& json, const std::string& path, std::string& out) {
+  const OverrideMarks::Mark* mark = marks_.valueAt(path);
+  if (json.is_string()) {
+    out = json.get<std::string>();
+  } else if (mark != nullptr) {
+    out = mark->text;  // --set title=2024: where a text is expected every value is one
+  } else {
+    return fail(path, foundText(json) + ", expected a text");
+  }
+  return true;
+}
+
+bool Reader::word(const Json& json, const std::string& path, const model::Info& info, size_t& out) {
+  if (!json.is_string()) return fail(path, foundText(json) + ", expected one of " + listInQuotes(info.words));
+  const std::string& given = json.get_ref<const std::string&>();
+  for (size_t i = 0; i < info.words.size(); ++i) {
+    if (info.words[i] != given) continue;
+    out = i;
+    return true;
+  }
+  const std::string_view near = nearestWord(given, info.words);
+  return fail(path, foundText(json) + ", expected one of " + listInQuotes(info.words) + (near.empty() ? "" : "; did you mean " + inQuotes(near) + "?"));
+}
+
+bool Reader::value(const Json& json, const std::string& path, const model::Info& info, uint32_t& out) {
+  double value = 0;
+  if (!number(json, path, info, true, value)) return false;
+  out = static_cast<uint32_t>(value);
+  return true;
+}
+
+bool Reader::value(const Json& json, const std::string& path, const model::Info& info, uint64_t& out) {
+  double value = 0;
+  if (!number(json, path, info, true, value)) return false;
+  constexpr double kTooLarge = 18446744073709551616.0;  // 2^64, which the range's bound is rounded to
+  if (json.is_number_unsigned()) {
+    out = json.get<uint64_t>();
+  } else if (value < kTooLarge) {
+    out = static_cast<uint64_t>(value);
+  } else {
+    return fail(path, foundText(json).substr(6) + " is out of range; expected " + expectedNumber(info, true));
+  }
+  return true;
+}
+
+bool Reader::value(const Json& json, const std::string& path, const model::Info& info, std::string& out) {
+  if (info.words.empty()) return text(json, path, out);
+  size_t index = 0;
+  if (!word(json, path, info, index)) return false;
+  out = std::string(info.words[index]);
+  return true;
+}
+
+bool Reader::value(const Json& json, const std::string& path, const model::Info& info, SideMask& out) {
+  if (!json.is_array()) return fail(path, foundText(json) + ", expected a list of sides: " + listInQuotes(info.words));
+  out = 0;
+  for (size_t i = 0; i < json.size(); ++i) {
+    size_t side = 0;
+    if (!word(json[i], entryPath(path, i), info, side)) return false;
+    const auto bit = static_cast<SideMask>(1U << side);
+    if ((out & bit) != 0) return fail(entryPath(path, i), "found " + inQuotes(info.words[side]) + " a second time; expected each side once");
+    out = static_cast<SideMask>(out | bit);
+  }
+  return true;
+}
+
+bool Reader::value(const Json& json, const std::string& path, const model::Info& info, std::optional<double>& out) {
+  if (json.is_string() && json.get_ref<const std::string&>() == "auto") {
+    out.reset();
+    return true;
+  }
+  if (json.is_string() && !saysNotFinite(json.get_ref<const std::string&>())) {
+    return fail(path, foundText(json) + ", expected \"auto\" or " + expectedNumber(info, false));
+  }
+  return number(json, path, info, false, out.emplace());
+}
+
+bool Reader::value(const Json& json, const std::string& path, const model::Info& info, std::optional<std::pair<double, double>>& out) {
+  double pair[2] = {0, 0};
+  if (!numbers(json, path, info, "[x, z]", pair)) return false;
+  out.emplace(pair[0], pair[1]);
+  return true;
+}
+
+bool Reader::value(const Json& json, const std::string& path, const model::Info&, std::optional<fs::path>& out) {
+  model::FileName name;
+  if (!object(json, path, name)) return false;
+  out = std::move(name.file);
+  return true;
+}
+
+bool Reader::value(const Json& json, const std::string& path, const model::Info&, fs::path& out) {
+  std::string given;
+  if (!text(json, path, given)) return false;
+  if (given.empty() || given.find('\0') != std::string::npos) return fail(path, "found " + inQuotes(given) + ", expected the name of a file");
+  const fs::path file = folder_ / fs::path(given);
+  std::error_code trouble;
+  const fs::file_status status = fs::status(file, trouble);
+  if (!fs::exists(status)) return fail(path, inQuotes(given) + ": no such file (looked for " + file.string() + ")");
+  if (!fs::is_regular_file(status)) return fail(path, inQuotes(given) + ": found something other than a regular file, expected a PLY file");
+  const fs::path whole = fs::absolute(file, trouble);
+  out = (trouble ? file : whole).lexically_normal();
+  return true;
+}
+
+}  // namespace rill

@@ -1,0 +1,137 @@
+#pragma once
+// JSON into the structs of a Scene, driven by the table in model/fields.hpp. The first thing to refuse ends the reading.
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/words.hpp"
+#include "model/fields.hpp"
+#include "scene/overrides.hpp"
+
+namespace rill {
+
+/// "found an array of 2" and the like, for messages.
+std::string foundText(const Json& json);
+/// "a number above 0 and at most 10 (s)".
+std::string expectedNumber(const model::Info& info, bool whole);
+/// "at least 0", "above 0 and at most 10", "a..b" in words; empty where every number is accepted.
+std::string rangeText(const model::Range& range);
+
+/// Reads one scene. Every function returns false once something was refused; message() says what.
+class Reader {
+ public:
+  Reader(std::string_view name, const OverrideMarks& marks, std::filesystem::path folder) : name_(name), marks_(marks), folder_(std::move(folder)) {}
+
+  const std::string& message() const { return message_; }
+
+  /// The version key alone: a scene that is too new is refused by that and by nothing else.
+  bool version(const Json& root);
+
+  /// A JSON object into `owner`: unknown keys, then each key's own rules, then the rules between keys.
+  template <class Owner>
+  bool object(const Json& json, const std::string& path, Owner& owner) {
+    if (!json.is_object()) return fail(path, foundText(json) + ", expected an object");
+    for (const auto& item : json.items()) {
+      if (!known<Owner>(item.key())) return unknownKey(path, item.key(), model::keysOf<Owner>());
+    }
+    bool ok = true;
+    model::forEachField<Owner>([&](const auto& field) {
+      if (ok) ok = member(json, path, field, owner);
+    });
+    return ok && exactlyOne(json, path, model::Table<Owner>::one_of) && check(path, owner);
+  }
+
+ private:
+  bool fail(const std::string& path, const std::string& text);
+  /// Blames the override that made one of the paths, or the first path.
+  bool failAtOneOf(std::initializer_list<std::string> paths, const std::string& text);
+  bool unknownKey(const std::string& path, const std::string& key, const std::vector<std::string_view>& here);
+  bool exactlyOne(const Json& json, const std::string& path, std::span<const std::string_view> keys);
+
+  template <class Owner>
+  static bool known(std::string_view key) {
+    bool found = false;
+    model::forEachField<Owner>([&](const auto& field) { found = found || field.info.key == key; });
+    return found;
+  }
+
+  template <class Owner, class T>
+  bool member(const Json& json, const std::string& path, const model::Field<Owner, T>& field, Owner& owner) {
+    if constexpr (model::kHasMember<T>) {
+      const auto found = json.find(std::string(field.info.key));
+      const std::string here = childPath(path, field.info.key);
+      if (found != json.end()) return value(*found, here, field.info, owner.*field.member);
+      if (field.info.required) return fail(here, "missing; " + std::string(field.info.help));
+    }
+    return true;
+  }
+
+  // A value by the type of the member that it sets.
+  bool number(const Json& json, const std::string& path, const model::Info& info, bool whole, double& out);
+  bool numbers(const Json& json, const std::string& path, const model::Info& info, std::string_view shape, std::span<double> out);
+  bool word(const Json& json, const std::string& path, const model::Info& info, size_t& out);
+  bool text(const Json& json, const std::string& path, std::string& out);
+
+  bool value(const Json& json, const std::string& path, const model::Info& info, double& out) { return number(json, path, info, false, out); }
+  bool value(const Json& json, const std::string& path, const model::Info& info, uint32_t& out);
+  bool value(const Json& json, const std::string& path, const model::Info& info, uint64_t& out);
+  bool value(const Json& json, const std::string& path, const model::Info& info, std::string& out);
+  bool value(const Json& json, const std::string& path, const model::Info& info, SideMask& out);
+  bool value(const Json& json, const std::string& path, const model::Info& info, std::optional<double>& out);
+  bool value(const Json& json, const std::string& path, const model::Info& info, std::optional<std::pair<double, double>>& out);
+  bool value(const Json& json, const std::string& path, const model::Info& info, std::optional<std::filesystem::path>& out);
+  bool value(const Json& json, const std::string& path, const model::Info& info, std::filesystem::path& out);
+  bool value(const Json& json, const std::string& path, const model::Info& info, double (&out)[3]) { return numbers(json, path, info, "[x, y, z]", out); }
+  bool value(const Json& json, const std::string& path, const model::Info& info, double (&out)[4]) { return numbers(json, path, info, "[x, y, z, w]", out); }
+
+  template <class Enum>
+    requires std::is_enum_v<Enum>
+  bool value(const Json& json, const std::string& path, const model::Info& info, Enum& out) {
+    size_t index = 0;
+    if (!word(json, path, info, index)) return false;
+    out = static_cast<Enum>(index);
+    return true;
+  }
+  template <class Enum>
+    requires std::is_enum_v<Enum>
+  bool value(const Json& json, const std::string& path, const model::Info& info, std::optional<Enum>& out) {
+    return value(json, path, info, out.emplace());
+  }
+  template <model::Described Struct>
+  bool value(const Json& json, const std::string& path, const model::Info&, Struct& out) { return object(json, path, out); }
+  template <model::Described Struct>
+  bool value(const Json& json, const std::string& path, const model::Info&, std::optional<Struct>& out) { return object(json, path, out.emplace()); }
+  template <model::Described Struct>
+  bool value(const Json& json, const std::string& path, const model::Info& info, std::vector<Struct>& out) {
+    if (!json.is_array()) return fail(path, foundText(json) + ", expected a list of objects");
+    if (info.most > 0 && json.size() > info.most) return fail(path, "found " + grouped(json.size()) + " entries, expected at most " + grouped(info.most));
+    out.reserve(json.size());
+    for (size_t i = 0; i < json.size(); ++i) {
+      if (!object(json[i], entryPath(path, i), out.emplace_back())) return false;
+    }
+    return check(path, out);
+  }
+
+  // Rules between keys, in checks.cpp.
+  template <class T>
+  bool check(const std::string&, T&) { return true; }
+  bool check(const std::string& path, BoxShape& box);
+  bool check(const std::string& path, Domain& domain);
+  bool check(const std::string& path, FluidSettings& fluid);
+  bool check(const std::string& path, Solid& solid);
+  bool check(const std::string& path, Camera& camera);
+  bool check(const std::string& path, std::vector<Keyframe>& motion);
+  bool check(const std::string& path, std::vector<GravityChange>& changes);
+  bool check(const std::string& path, std::vector<Probe>& probes);
+  bool minBelowMax(const std::string& path, const double (&min)[3], const double (&max)[3]);
+  template <class Timed>
+  bool risingTimes(const std::string& path, const std::vector<Timed>& entries);
+
+  std::string name_;
+  const OverrideMarks& marks_;
+  std::filesystem::path folder_;
+  std::string message_;
+};
+
+}  // namespace rill

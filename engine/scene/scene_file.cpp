@@ -1,0 +1,56 @@
+// loadScene and parseScene: text, overrides, version, keys, in this order.
+#include <exception>
+#include <new>
+
+#include "rill/scene_io.hpp"
+#include "scene/reader.hpp"
+
+namespace rill {
+namespace {
+
+Expected<Scene> readScene(std::string_view text, std::string_view name, const std::filesystem::path& folder, std::span<const Override> overrides) {
+  auto root = parseJsonText(text, name);
+  if (!root) return root.error();
+  if (!root->is_object()) return Error{ErrorKind::BadInput, std::string(name) + ": " + foundText(*root) + ", expected an object { ... }"};
+
+  OverrideMarks marks;
+  const auto applied = applyOverrides(*root, overrides, marks);
+  Reader reader(name, marks, folder);
+  Scene scene;
+  if (!reader.version(*root)) return Error{ErrorKind::BadInput, reader.message()};
+  if (!applied) return applied.error();
+  if (!reader.object(*root, "", scene)) return Error{ErrorKind::BadInput, reader.message()};
+  scene.name = std::filesystem::path(name).stem().string();
+  return scene;
+}
+
+/// Nothing throws out of the library; what could is memory, in the JSON library and in ours.
+template <class Work>
+Expected<Scene> guarded(std::string_view name, Work&& work) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorKind::OutOfMemory, std::string(name) + ": not enough memory to read the scene"};
+  } catch (const std::exception& trouble) {
+    return Error{ErrorKind::Failed, std::string(name) + ": reading failed: " + trouble.what()};
+  }
+}
+
+}  // namespace
+
+Expected<Scene> parseScene(std::string_view text, std::string_view name, const std::filesystem::path& folder, std::span<const Override> overrides) {
+  return guarded(name, [&] { return readScene(text, name, folder, overrides); });
+}
+
+Expected<Scene> loadScene(const std::filesystem::path& file, std::span<const Override> overrides) {
+  const std::string name = file.string();
+  return guarded(name, [&]() -> Expected<Scene> {
+    const auto text = readWholeFile(file, kMostSceneBytes);
+    if (!text) return text.error();
+    auto scene = readScene(*text, name, file.parent_path(), overrides);
+    if (scene) scene->file = file;
+    return scene;
+  });
+}
+
+}  // namespace rill

@@ -1,0 +1,159 @@
+// The JSON Schema and the Markdown table of the scene's keys, both from model/fields.hpp.
+#include "core/words.hpp"
+#include "rill/scene_io.hpp"
+#include "scene/field_json.hpp"
+#include "scene/reader.hpp"
+
+namespace rill {
+namespace {
+
+// JSON Schema.
+
+template <class Owner>
+OrderedJson objectSchema();
+
+void addRange(OrderedJson& schema, const model::Range& range) {
+  if (range.hasLow()) schema[range.low_open ? "exclusiveMinimum" : "minimum"] = tidyNumber(range.low);
+  if (range.hasHigh()) schema[range.high_open ? "exclusiveMaximum" : "maximum"] = tidyNumber(range.high);
+}
+
+OrderedJson numberSchema(const model::Info& info, std::string_view type) {
+  OrderedJson schema{{"type", type}};
+  addRange(schema, info.range);
+  return schema;
+}
+
+OrderedJson arraySchema(const OrderedJson& items, size_t least, size_t most) {
+  return {{"type", "array"}, {"items", items}, {"minItems", least}, {"maxItems", most}};
+}
+
+/// The type of a key's value, by the type of its member.
+template <class T>
+OrderedJson typeSchema(const model::Info& info) {
+  using Inner = typename model::Inner<T>::Type;
+  if constexpr (std::is_same_v<T, model::Anything>) {
+    return OrderedJson::object();
+  } else if constexpr (std::is_same_v<T, model::Version>) {
+    return {{"type", "string"}, {"pattern", "^[0-9]+\\.[0-9]+(\\.[0-9]+)?$"}};
+  } else if constexpr (std::is_same_v<T, double>) {
+    return numberSchema(info, "number");
+  } else if constexpr (std::is_same_v<T, uint32_t> || std::is_same_v<T, uint64_t>) {
+    OrderedJson schema = numberSchema(info, "integer");
+    if (schema.contains("maximum") && schema["maximum"].is_number_float()) schema["maximum"] = std::numeric_limits<uint64_t>::max();
+    return schema;
+  } else if constexpr (std::is_same_v<T, std::optional<double>>) {
+    return {{"oneOf", OrderedJson::array({{{"const", "auto"}}, numberSchema(info, "number")})}};
+  } else if constexpr (std::is_same_v<T, std::optional<std::pair<double, double>>>) {
+    return arraySchema(numberSchema(info, "number"), 2, 2);
+  } else if constexpr (std::is_array_v<T>) {
+    return arraySchema(numberSchema(info, "number"), std::extent_v<T>, std::extent_v<T>);
+  } else if constexpr (std::is_same_v<T, SideMask>) {
+    OrderedJson schema = arraySchema({{"enum", info.words}}, 0, info.words.size());
+    schema["uniqueItems"] = true;
+    return schema;
+  } else if constexpr (std::is_same_v<T, std::optional<std::filesystem::path>>) {
+    return objectSchema<model::FileName>();
+  } else if constexpr (model::kIsList<T>) {
+    OrderedJson schema{{"type", "array"}, {"items", objectSchema<Inner>()}};
+    if (info.most > 0) schema["maxItems"] = info.most;
+    return schema;
+  } else if constexpr (!std::is_void_v<Inner>) {
+    return objectSchema<Inner>();
+  } else if (!info.words.empty()) {
+    return {{"enum", info.words}};
+  } else {
+    OrderedJson schema{{"type", "string"}};
+    if (info.required || std::is_same_v<T, std::filesystem::path>) schema["minLength"] = 1;
+    return schema;
+  }
+}
+
+/// Help with the unit in front: "m/s^2: [x, y, z]".
+std::string description(const model::Info& info) { return (info.unit.empty() ? "" : std::string(info.unit) + ": ") + std::string(info.help); }
+
+template <class Owner>
+OrderedJson objectSchema() {
+  OrderedJson properties = OrderedJson::object(), required = OrderedJson::array();
+  model::forEachField<Owner>([&](const auto& field) {
+    using T = typename std::remove_cvref_t<decltype(field)>::Value;
+    OrderedJson schema{{"description", description(field.info)}};
+    schema.update(typeSchema<T>(field.info));
+    schema["description"] = description(field.info);  // of the key, not of the struct
+    if constexpr (model::kHasMember<T>) {
+      const Owner defaults{};
+      const OrderedJson value = defaultJson(field.info, defaults.*field.member);
+      if (!value.is_null()) schema["default"] = value;
+    }
+    if (field.info.required) required.push_back(field.info.key);
+    properties[std::string(field.info.key)] = std::move(schema);
+  });
+  OrderedJson schema{{"description", model::Table<Owner>::about}, {"type", "object"}, {"properties", std::move(properties)}};
+  if (!required.empty()) schema["required"] = std::move(required);
+  OrderedJson one_of = OrderedJson::array();
+  for (const std::string_view key : model::Table<Owner>::one_of) one_of.push_back({{"required", OrderedJson::array({key})}});
+  if (!one_of.empty()) schema["oneOf"] = std::move(one_of);
+  schema["additionalProperties"] = false;
+  return schema;
+}
+
+// The table of keys.
+
+std::string code(std::string_view text) {
+  std::string out("`");
+  out += text;
+  return out += '`';
+}
+
+/// The range of one key in words, for people.
+template <class T>
+std::string valuesText(const model::Info& info) {
+  std::string text;
+  if (!info.words.empty()) {
+    for (const std::string_view word : info.words) (text += text.empty() ? "" : ", ") += code(word);
+  } else if constexpr (std::is_same_v<T, double> || std::is_same_v<T, uint32_t> || std::is_same_v<T, uint64_t> || std::is_same_v<T, std::optional<double>> ||
+                       std::is_array_v<T> || std::is_same_v<T, std::optional<std::pair<double, double>>>) {
+    text = rangeText(info.range);
+    if (std::is_same_v<T, std::optional<double>>) text = "`auto`, or " + text;
+  }
+  if (info.most > 0) text = "at most " + grouped(info.most) + " entries";
+  return text;
+}
+
+template <class Owner>
+void addRows(const std::string& path, std::string& out) {
+  model::forEachField<Owner>([&](const auto& field) {
+    using T = typename std::remove_cvref_t<decltype(field)>::Value;
+    using Inner = typename model::Inner<T>::Type;
+    const std::string here = (path.empty() ? "" : path + ".") + std::string(field.info.key) + (model::kIsList<T> ? "[]" : "");
+    std::string fallback = field.info.required ? "required" : "";
+    if constexpr (model::kHasMember<T>) {
+      const Owner defaults{};
+      const OrderedJson value = defaultJson(field.info, defaults.*field.member);
+      if (!value.is_null() && !field.info.required) fallback = code(value.dump());
+    }
+    const std::string cells[] = {code(here), std::string(field.info.unit), valuesText<T>(field.info), fallback, std::string(field.info.help)};
+    for (const std::string& cell : cells) (out += "| ") += cell + ' ';
+    out += "|\n";
+    if constexpr (std::is_same_v<T, std::optional<std::filesystem::path>>) {
+      addRows<model::FileName>(here, out);
+    } else if constexpr (!std::is_void_v<Inner>) {
+      addRows<Inner>(here, out);
+    }
+  });
+}
+
+}  // namespace
+
+std::string sceneSchema() {
+  OrderedJson schema{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "Rill scene"}};
+  schema.update(objectSchema<Scene>());
+  return schema.dump(1) + "\n";
+}
+
+std::string sceneKeyTable() {
+  std::string out = "| key | unit | values | default | what |\n| --- | --- | --- | --- | --- |\n";
+  addRows<Scene>("", out);
+  return out;
+}
+
+}  // namespace rill

@@ -1,0 +1,106 @@
+#include "sph/solid_density.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace rill {
+namespace {
+
+/// I of the header over [0, h], by five-point Gauss-Legendre rules between the kinks of f.
+template <class Cosine>
+double integral(const SmoothingKernel& kernel, std::array<double, 4> kinks, const Cosine& cosine) {
+  constexpr int kPieces = 16;
+  constexpr double node[3] = {0, 0.5384693101056831, 0.9061798459386640};
+  constexpr double weight[3] = {0.5688888888888889, 0.4786286704993665, 0.2369268850561891};
+  for (double& k : kinks) k = std::clamp(k, 0.0, kernel.h());
+  std::sort(kinks.begin(), kinks.end());
+  double sum = 0;
+  for (size_t part = 0; part + 1 < kinks.size(); ++part) {
+    const double half = (kinks[part + 1] - kinks[part]) / (2 * kPieces);
+    if (half <= 0) continue;
+    for (int piece = 0; piece < kPieces; ++piece) {
+      const double middle = kinks[part] + (2 * piece + 1) * half;
+      const auto at = [&](double rho) {
+        return kernel.value(rho) * 4 * std::numbers::pi * rho * rho * (1 - std::clamp(cosine(rho), -1.0, 1.0)) / 2;
+      };
+      sum += half * weight[0] * at(middle);
+      for (int n = 1; n < 3; ++n) sum += half * weight[n] * (at(middle - half * node[n]) + at(middle + half * node[n]));
+    }
+  }
+  return sum;
+}
+
+/// I_ball / I_half at signed distance s > -R.
+double ballOverHalfSpace(const SmoothingKernel& kernel, double R, double s) {
+  const double h = kernel.h();
+  const double plane = integral(kernel, {0, std::abs(s), h, h}, [&](double rho) { return s / rho; });
+  const double ball =
+      integral(kernel, {0, std::abs(s), 2 * R + s, h}, [&](double rho) { return (s * (2 * R + s) + rho * rho) / (2 * (R + s) * rho); });
+  return ball / plane;
+}
+
+template <class Share>
+WallSample boxOf(const Share& share, const double local[3], const double half[3]) {
+  LineSample slab[3];
+  for (int a = 0; a < 3; ++a) {
+    const double x = std::abs(local[a]);
+    const LineSample front = share(x - half[a]);
+    const LineSample back = share(x + half[a]);
+    slab[a].value = std::clamp(front.value - back.value, 0.0, 1.0);
+    slab[a].slope = (local[a] < 0 ? -1 : 1) * (front.slope - back.slope);
+  }
+  WallSample sum;
+  sum.value = slab[0].value * slab[1].value * slab[2].value;
+  for (int a = 0; a < 3; ++a) sum.gradient[a] = slab[a].slope * slab[(a + 1) % 3].value * slab[(a + 2) % 3].value;
+  return sum;
+}
+
+}  // namespace
+
+LineSample exactSphere(const SmoothingKernel& kernel, double R, double s) {
+  if (s >= wallReach(kernel)) return {};
+  // The centre itself is a kink (the distance to it): stay just off it.
+  const double at = std::max(s, -R * (1 - 1e-6)), step = 1e-5 * std::min(R, kernel.spacing());
+  const LineSample f = halfSpace(kernel, at);
+  const double ratio = ballOverHalfSpace(kernel, R, at);
+  const double below = std::max(at - step, -R * (1 - 1e-7));
+  const double slope = (ballOverHalfSpace(kernel, R, at + step) - ballOverHalfSpace(kernel, R, below)) / (at + step - below);
+  return {f.value * ratio, f.slope * ratio + f.value * slope};
+}
+
+SphereTable makeSphereTable(const SmoothingKernel& kernel, double R) {
+  SphereTable t;
+  t.step = kernel.spacing() / 16;
+  const double reach = wallReach(kernel) * (1 - 1e-9);
+  t.first = -t.step * std::floor(std::min(R, reach) / t.step);
+  t.nodes = static_cast<uint32_t>(std::ceil((reach - t.first) / t.step - 1e-6)) + 2;
+  for (uint32_t i = 0; i < t.nodes; ++i) {
+    const double s = t.first + i * t.step;
+    const LineSample ball = s >= reach ? LineSample{} : exactSphere(kernel, R, s);
+    t.table.push_back(static_cast<float>(ball.value));
+    t.table.push_back(static_cast<float>(ball.slope));
+  }
+  return t;
+}
+
+LineSample SphereTable::sample(double s) const {
+  const double at = std::max(s - first, 0.0) / step;
+  if (!(at < nodes - 1)) return {};
+  const double node = std::floor(at), t = at - node;
+  const float* n = &table[2 * static_cast<size_t>(node)];
+  return {n[0] * (1 - t) + n[2] * t, n[1] * (1 - t) + n[3] * t};
+}
+
+WallSample boxSample(const SmoothingKernel& kernel, const double local[3], const double half[3]) {
+  for (int a = 0; a < 3; ++a)
+    if (std::abs(local[a]) - half[a] >= wallReach(kernel)) return {};
+  return boxOf([&](double s) { return halfSpace(kernel, s); }, local, half);
+}
+
+WallSample boxSample(const WallTables& tables, const double local[3], const double half[3]) {
+  return boxOf([&](double s) { return tables.sampleFace(s); }, local, half);
+}
+
+}  // namespace rill

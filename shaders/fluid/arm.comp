@@ -1,0 +1,24 @@
+#version 460
+// After a list build: the list is fresh, the substeps of the block may run.
+#extension GL_GOOGLE_include_directive : require
+#include "shared/fluid_records.h"
+layout(local_size_x = 1) in;
+layout(binding = 0) uniform ParamsBlock { FluidParams params; };
+layout(std430, binding = 1) buffer ControlBlock { FluidControl control; };
+layout(std430, binding = 2) readonly buffer SumsBlock { FluidSums sums; };
+layout(std430, binding = 3) readonly buffer ShapeBlock { uint shapes[]; };
+layout(std430, binding = 4) buffer CommandBlock { uint commands[]; };
+layout(std430, binding = 5) readonly buffer GravityBlock { vec4 gravityChanges[]; };
+#include "fluid/switches.glsl"
+
+void main() {
+  FluidControl c = control;
+  if (c.stale == 0u || (c.stale == 1u && c.timeLeft <= 0.0)) return;
+  c.stale = 0u;
+  c.travel = 0.0;
+  c.builds += 1u;
+  c.running = c.timeLeft > 0.0 ? 1u : 0u;
+  control = c;
+  FluidSums s = sums;
+  for (uint k = kCommandDensity; k <= kCommandMeasureCorner; ++k) switchCommand(k, commandRuns(k, c, 2u), s);
+}

@@ -1,0 +1,40 @@
+#version 460
+// Begins an advance: its length, the first step, and the commands of its first block.
+#extension GL_GOOGLE_include_directive : require
+#include "shared/fluid_records.h"
+layout(local_size_x = 64) in;
+layout(push_constant) uniform Push { BeginPush push; };
+layout(binding = 0) uniform ParamsBlock { FluidParams params; };
+layout(std430, binding = 1) buffer ControlBlock { FluidControl control; };
+layout(std430, binding = 2) readonly buffer SumsBlock { FluidSums sums; };
+layout(std430, binding = 3) readonly buffer ShapeBlock { uint shapes[]; };
+layout(std430, binding = 4) buffer CommandBlock { uint commands[]; };
+layout(std430, binding = 5) readonly buffer GravityBlock { vec4 gravityChanges[]; };
+#include "fluid/step_plan.glsl"
+#include "fluid/switches.glsl"
+
+void main() {
+  FluidControl c = control;
+  FluidSums s = sums;
+  barrier();
+  uint k = gl_LocalInvocationID.x;
+  c.timeDropped = max(c.timeLeft, 0.0);  // an advance that was not recorded to its end
+  c.timeLeft = push.advance;
+  c.substeps = 0u;
+  c.iterations = 0u;
+  c.builds = 0u;
+  gravityAt(c);
+  float acceleration = length(vec3(c.gravityX, c.gravityY, c.gravityZ));
+  c.speed = uintBitsToFloat(s.speedMax);
+  c.desiredStep = min(c.desiredStep, cflStep(c.speed, acceleration));
+  bool going = push.advance > 0.0;
+  if (going) {
+    c.nextStep = fittedStep(push.advance, c.desiredStep);
+    if (c.warmStep <= 0.0) c.warmStep = c.nextStep;
+    if (c.travel + (c.speed + params.solidSpeed + acceleration * c.nextStep) * c.nextStep > params.travelLimit) c.stale = max(c.stale, 1u);
+  }
+  c.running = going && c.stale == 0u ? 1u : 0u;
+  c.again = 0u;
+  if (k < push.commands) switchCommand(k, commandRuns(k, c, 2u), s);
+  if (k == 0u) control = c;
+}

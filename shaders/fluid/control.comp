@@ -1,0 +1,64 @@
+#version 460
+// Ends a substep's density pass: accounts for its step, plans the next ones, and switches the dispatch commands that follow.
+// Everything that depends on the simulation's state is decided here, on the device, so that no bit depends on when the host reads.
+#extension GL_GOOGLE_include_directive : require
+#include "shared/fluid_records.h"
+layout(local_size_x = 64) in;
+layout(push_constant) uniform Push { ControlPush push; };
+layout(binding = 0) uniform ParamsBlock { FluidParams params; };
+layout(std430, binding = 1) buffer ControlBlock { FluidControl control; };
+layout(std430, binding = 2) buffer SumsBlock { FluidSums sums; };
+layout(std430, binding = 3) readonly buffer ShapeBlock { uint shapes[]; };
+layout(std430, binding = 4) buffer CommandBlock { uint commands[]; };
+layout(std430, binding = 5) readonly buffer GravityBlock { vec4 gravityChanges[]; };
+#include "fluid/step_plan.glsl"
+#include "fluid/switches.glsl"
+
+void main() {
+  FluidControl c = control;
+  FluidSums s = sums;
+  barrier();
+  uint k = gl_LocalInvocationID.x;
+  bool first = push.iteration == 0u;
+  if ((first ? c.running : c.again) == 0u) {
+    if (first && k < push.commands) switchCommand(k, commandRuns(k, c, 2u), s);  // the last correction's command was still on
+    return;
+  }
+
+  float error = (float(s.errorHigh) * 4294967296.0 + float(s.errorLow)) * kErrorUnit / float(params.count);
+  bool converged = params.tolerance > 0.0 && error <= params.tolerance && uintBitsToFloat(s.errorMax) <= 100.0 * params.tolerance;
+  bool again = push.iteration + 1u < params.iterations && !converged;
+  c.iterations += 1u;
+  if (k == 0u) {
+    sums.errorLow = 0u;
+    sums.errorHigh = 0u;
+    sums.errorMax = 0u;
+  }
+
+  if (first) {
+    c.step = c.nextStep;
+    c.error = error;
+    c.speed = max(uintBitsToFloat(s.speedMax), 0.0);
+    if (k == 0u) sums.speedMax = 0u;
+    c.warmStep = c.step;
+    c.timeLeft -= c.step;
+    c.substeps += 1u;
+    addTime(c, c.step);
+    c.travel += (c.speed + params.solidSpeed) * c.step;
+    gravityAt(c);
+    float acceleration = length(vec3(c.gravityX, c.gravityY, c.gravityZ));
+    c.desiredStep = min(tolerableStep(c.desiredStep, c.step, error), cflStep(c.speed, acceleration));
+    if (c.timeLeft < 1.0e-4 * c.step) c.timeLeft = 0.0;
+    if (c.timeLeft > 0.0 && c.substeps >= params.maxSubsteps) {
+      c.timeDropped += c.timeLeft;
+      c.timeLeft = 0.0;
+    }
+    c.nextStep = c.timeLeft > 0.0 ? fittedStep(c.timeLeft, c.desiredStep) : c.desiredStep;
+    if (c.travel + (c.speed + params.solidSpeed + acceleration * c.nextStep) * c.nextStep > params.travelLimit) c.stale = 1u;
+  }
+
+  c.running = c.timeLeft > 0.0 && c.stale == 0u ? 1u : 0u;
+  c.again = again ? 1u : 0u;
+  if (k < push.commands) switchCommand(k, commandRuns(k, c, push.parity), s);
+  if (k == 0u) control = c;
+}

@@ -1,0 +1,87 @@
+#version 460
+// Ends a substep in one loop over the neighbours: position correction (Macklin and Mueller 2013, equations 12 to 14), walls, velocity, and the
+// prediction of the next substep with the warm start's push. Gathers from `work`: the prediction, and the two multipliers as halves.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#include "fluid/uniforms.glsl"
+#include "fluid/arrays.glsl"
+#include "fluid/kernel.glsl"
+layout(local_size_x = kFluidGroup) in;
+layout(constant_id = 2) const uint NEAR = 0;
+layout(constant_id = 3) const uint TENSILE = 0;
+layout(constant_id = 4) const uint CONTACT = 0;  // collide.comp follows
+
+layout(push_constant) uniform Push { ChunkPush push; };
+layout(std430, binding = 8) buffer PositionBlock { vec4 position[]; };
+layout(std430, binding = 9) buffer VelocityBlock { vec4 velocity[]; };
+layout(std430, binding = 10) readonly buffer NearBlock { vec4 nearSample[]; };
+layout(std430, binding = 11) writeonly buffer PredictionBlock { vec4 prediction[]; };
+layout(std430, binding = 12) writeonly buffer PushBlock { vec4 pushAway[]; };
+layout(std430, binding = 13) writeonly buffer FreeBlock { vec4 freeVelocity[]; };  // before the solve: what contacts compare with
+layout(std430, binding = 14) buffer WarmBlock { float warm[]; };
+
+vec4 here;
+vec2 own;                     // multiplier change, warm start; m^2
+vec3 moved = vec3(0.0);       // m
+vec3 pushed = vec3(0.0);      // m
+
+vec2 multipliers(vec4 particle) {
+  return unpackHalf2x16(floatBitsToUint(particle.w)) * (params.inverseRestGradient / kMultiplierScale);
+}
+
+void visit(uint j, vec4 particle) {
+  vec3 r = here.xyz - particle.xyz;
+  float distance = sqrt(dot(r, r));
+  vec3 gradient = kernelGradient(distance) * r;
+  vec2 both = own + multipliers(particle);
+  if (TENSILE != 0u) {
+    float ratio = kernelValue(distance) * params.tensileInverse;
+    both.x -= params.tensile * control.step * control.step * pow(ratio, params.tensilePower);
+  }
+  moved += both.x * gradient;
+  pushed += both.y * gradient;
+}
+#include "fluid/neighbours.glsl"
+
+void main() {
+  uint local = flatInvocation();
+  uint i = push.first + local;
+  if (i >= push.last) return;
+  here = PARTICLE(i);
+  own = multipliers(here);
+  visitNeighbours(i, local);
+  if (NEAR != 0u) {
+    vec3 wall = nearSample[i].xyz;
+    moved += own.x * wall;
+    pushed += own.y * wall;
+  }
+
+  vec3 from = position[i].xyz;
+  vec3 to = insideWalls(here.xyz + moved);
+  // No more than twice what cfl allows in a substep: the next step shrinks to follow a particle that wants to go faster.
+  vec3 way = to - from;
+  float most = max(2.0 * params.cfl, 0.02) * params.spacing;
+  float far = sqrt(dot(way, way));
+  if (far > most) { way *= most / far; to = insideWalls(from + way); }
+  vec3 v = (to - from) / control.step;
+  vec3 away = pushed / (control.step * control.step);
+  vec3 next = insideWalls(to + control.nextStep * (v + control.nextStep * (gravity() + away)));
+  bool finite = isFinite(to) && isFinite(next);
+  if (!finite) {
+    bool gone = isFinite(here.xyz) || from.x >= kParked * 0.5;   // left through an open side, or parked before
+    if (!gone) { atomicAdd(sums.nonFinite, 1u); }
+    to = from;
+    v = vec3(0.0);
+    away = vec3(0.0);
+    next = from;
+    warm[i] = 0.0;
+  }
+  position[i] = vec4(to, 0.0);
+  if (CONTACT != 0u) freeVelocity[i] = vec4(velocity[i].xyz + control.step * gravity(), 0.0);
+  velocity[i] = vec4(v, 1.0);
+  pushAway[i] = vec4(away, 0.0);
+  prediction[i] = vec4(next, 0.0);
+
+  float fastest = subgroupMax(sqrt(dot(v, v)));
+  if (subgroupElect()) atomicMax(sums.speedMax, floatBitsToUint(fastest));
+}

@@ -1,0 +1,38 @@
+#version 460
+// Vorticity of the velocity field, curl v (Macklin and Mueller 2013, equation 15): xyz the curl, w its length, 1/s. Gathers from
+// `work`, and velocities.
+#extension GL_GOOGLE_include_directive : require
+#include "fluid/uniforms.glsl"
+#include "fluid/arrays.glsl"
+#include "fluid/kernel.glsl"
+layout(local_size_x = kFluidGroup) in;
+layout(push_constant) uniform Push { ChunkPush push; };
+#ifdef TEXEL
+layout(binding = 8) uniform samplerBuffer velocityArray;
+#define VELOCITY(j) texelFetch(velocityArray, int(j))
+#else
+layout(std430, binding = 8) readonly buffer VelocityBlock { vec4 velocityArray[]; };
+#define VELOCITY(j) velocityArray[j]
+#endif
+
+layout(std430, binding = 9) writeonly buffer CurlBlock { vec4 curl[]; };
+
+vec3 here;
+vec3 own;
+vec3 turning = vec3(0.0);
+
+void visit(uint j, vec4 particle) {
+  vec3 r = here - particle.xyz;
+  turning += cross(kernelGradient(sqrt(dot(r, r))) * r, VELOCITY(j).xyz - own);
+}
+#include "fluid/neighbours.glsl"
+
+void main() {
+  uint local = flatInvocation();
+  uint i = push.first + local;
+  if (i >= push.last) return;
+  here = PARTICLE(i).xyz;
+  own = VELOCITY(i).xyz;
+  visitNeighbours(i, local);
+  curl[i] = vec4(turning, length(turning));
+}

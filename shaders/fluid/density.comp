@@ -1,0 +1,81 @@
+#version 460
+// Density of the prediction, the constraint's gradient and the multiplier (Macklin and Mueller 2013, equations 1, 2, 9 and 11), with the
+// integral warm start: see ARCHITECTURE.md, "A substep". Gathers from the predicted positions.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#include "fluid/uniforms.glsl"
+#include "fluid/arrays.glsl"
+#include "fluid/kernel.glsl"
+layout(local_size_x = kFluidGroup) in;
+layout(constant_id = 2) const uint NEAR = 0;        // walls or solids displace density
+layout(constant_id = 3) const uint ITERATED = 0;    // more than one iteration a substep
+layout(constant_id = 4) const uint MEASURED = 0;    // the tolerance is looked at
+
+layout(push_constant) uniform Push { ChunkPush push; };
+layout(std430, binding = 8) buffer WarmBlock { float warm[]; };
+layout(std430, binding = 9) writeonly buffer WorkBlock { vec4 work[]; };
+layout(std430, binding = 10) readonly buffer NearBlock { vec4 nearSample[]; };
+layout(std430, binding = 11) buffer MultiplierBlock { float multiplier[]; };
+
+vec3 here;
+float rho = 0.0;        // over rest density
+vec3 gradientSum = vec3(0.0);
+float gradientSquares = 0.0;
+
+void visit(uint j, vec4 particle) {
+  vec3 r = here - particle.xyz;
+  float squared = dot(r, r);
+  float value, gradient;
+  kernelBoth(sqrt(squared), value, gradient);
+  rho += value;
+  gradientSum += gradient * r;
+  gradientSquares += gradient * gradient * squared;
+}
+#include "fluid/neighbours.glsl"
+
+void main() {
+  uint local = flatInvocation();
+  uint i = push.first + local;
+  if (i >= push.last) return;
+  here = PARTICLE(i).xyz;
+  visitNeighbours(i, local);
+  rho += kernelValue(0.0);
+  if (NEAR != 0u) {
+    vec4 displaced = nearSample[i];
+    gradientSum += displaced.xyz;
+    rho += displaced.w;
+  }
+
+  float constraint = rho - 1.0;
+  float stiffness = dot(gradientSum, gradientSum) + gradientSquares + params.regularization;
+  float delta = -params.relaxation * constraint / max(stiffness, 1.0e-20);
+
+  float before, after, warmNext;
+  if (push.iteration == 0u) {
+    float ratio = control.nextStep / control.warmStep;
+    before = warm[i] * ratio * ratio;
+    after = min(0.0, before + delta);
+    warmNext = min(0.0, before + params.warmGain * delta);
+    warm[i] = warmNext;
+  } else {
+    before = multiplier[i];
+    after = min(0.0, before + delta);
+    warmNext = warm[i];
+  }
+  if (ITERATED != 0u) multiplier[i] = after;
+
+  float unit = kMultiplierScale / params.inverseRestGradient;
+  work[i] = vec4(here, uintBitsToFloat(packHalf2x16(clamp(vec2(after - before, warmNext) * unit, -60000.0, 60000.0))));
+
+  if (MEASURED != 0u) {
+    float compression = clamp(constraint, 0.0, 8.0);
+    float sum = subgroupAdd(compression);
+    float most = subgroupMax(compression);
+    if (subgroupElect()) {
+      uint add = uint(sum / kErrorUnit + 0.5);
+      uint old = atomicAdd(sums.errorLow, add);
+      if (old + add < old) atomicAdd(sums.errorHigh, 1u);
+      atomicMax(sums.errorMax, floatBitsToUint(most));
+    }
+  }
+}

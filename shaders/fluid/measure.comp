@@ -1,0 +1,78 @@
+#version 460
+// Figures of the present instant: density at the positions (walls included), energies, momentum, who is outside; a partial sum a workgroup in a
+// fixed order, and histograms of the density error for its percentiles. Gathers from the positions.
+#extension GL_GOOGLE_include_directive : require
+#include "fluid/uniforms.glsl"
+#include "fluid/arrays.glsl"
+#include "fluid/kernel.glsl"
+layout(local_size_x = kMeasureGroup) in;
+layout(constant_id = 2) const uint NEAR = 0;
+layout(push_constant) uniform Push { ChunkPush push; };
+layout(std430, binding = 8) buffer VelocityBlock { vec4 velocity[]; };
+layout(std430, binding = 9) readonly buffer NearBlock { vec4 nearSample[]; };
+layout(std430, binding = 10) writeonly buffer PartialBlock { MeasurePartial partials[]; };
+layout(std430, binding = 11) buffer HistogramBlock { uint histogram[]; };  // compression; then inside the fluid: above, below rest density
+
+vec3 here;
+float rho = 0.0;
+uint inside = 0u;
+
+void visit(uint j, vec4 particle) {
+  vec3 r = here - particle.xyz;
+  float distance = sqrt(dot(r, r));
+  rho += kernelValue(distance);
+  inside += uint(distance < params.support);
+}
+#include "fluid/neighbours.glsl"
+
+shared MeasurePartial rows[kMeasureGroup];
+
+uint binOf(float size) {
+  return clamp(floatBitsToUint(size) >> 14, kMeasureFirst, kMeasureFirst + kMeasureBins - 1u) - kMeasureFirst;
+}
+
+void main() {
+  uint local = flatInvocation();
+  uint i = push.first + local;
+  uint lane = gl_LocalInvocationID.x;
+  MeasurePartial mine = MeasurePartial(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0u, 0u);
+  if (i < push.last) {
+    here = PARTICLE(i).xyz;
+    visitNeighbours(i, local);
+    rho += kernelValue(0.0);
+    if (NEAR != 0u) rho += nearSample[i].w;
+    vec3 v = velocity[i].xyz;
+    velocity[i].w = rho;
+    float error = rho - 1.0;
+    mine.compression = max(error, 0.0);
+    mine.compressionMax = mine.compression;
+    mine.kinetic = dot(v, v);
+    mine.speedMax = sqrt(mine.kinetic);
+    mine.velocityX = v.x;
+    mine.velocityY = v.y;
+    mine.velocityZ = v.z;
+    bool parked = here.x >= kParked * 0.5;
+    vec3 x = parked ? vec3(0.0) : here;
+    mine.positionX = x.x;
+    mine.positionY = x.y;
+    mine.positionZ = x.z;
+    vec3 low = vec3(params.boundLowX, params.boundLowY, params.boundLowZ), high = vec3(params.boundHighX, params.boundHighY, params.boundHighZ);
+    mine.outside = uint(parked || any(lessThan(here, low)) || any(greaterThan(here, high)));
+    if (error > 0.0) atomicAdd(histogram[binOf(error)], 1u);
+    if (inside >= params.fullNeighbours) {
+      mine.counted = 1u;
+      atomicAdd(histogram[(error > 0.0 ? kMeasureBins : 2u * kMeasureBins) + binOf(abs(error))], 1u);
+    }
+  }
+  rows[lane] = mine;
+  for (uint half_ = kMeasureGroup / 2u; half_ > 0u; half_ /= 2u) {
+    barrier();
+    if (lane < half_) {
+      MeasurePartial a = rows[lane], b = rows[lane + half_];
+      rows[lane] = MeasurePartial(a.compression + b.compression, max(a.compressionMax, b.compressionMax), a.kinetic + b.kinetic, max(a.speedMax, b.speedMax),
+                                  a.velocityX + b.velocityX, a.velocityY + b.velocityY, a.velocityZ + b.velocityZ, a.positionX + b.positionX,
+                                  a.positionY + b.positionY, a.positionZ + b.positionZ, a.outside + b.outside, a.counted + b.counted);
+    }
+  }
+  if (lane == 0u) partials[push.first / kMeasureGroup + flatGroup()] = rows[0];
+}

@@ -1,0 +1,48 @@
+// Visits the neighbours of a particle: from its list, or by walking the grid where there is no list or it overflowed.
+// The shader defines `void visit(uint j, vec4 particle)` before it includes this, and binds at 2 the array whose elements are handed over.
+// With TEXEL the arrays are uniform texel buffers (twice as fast on lavapipe: a storage load is made lane by lane there), else storage buffers.
+#ifndef RILL_NEIGHBOURS_GLSL
+#define RILL_NEIGHBOURS_GLSL
+#include "fluid/grid.glsl"
+layout(constant_id = 1) const uint LIST_CAPACITY = 0;  // 0: no list
+
+layout(std430, binding = 6) readonly buffer StartBlock { uint cellStart[]; };
+layout(std430, binding = 7) buffer SumsBlock { FluidSums sums; };
+
+#define WALK(visitor)                                                                  \
+  uvec3 cell = cellFromKey(KEY_OF(i));                                                 \
+  uint row = 0u, j = 0u, end = 0u, n = 0u;                                             \
+  for (; n < kWalkBound; ++n) {                                                        \
+    if (j >= end) {                                                                    \
+      if (row == 18u) break;                                                           \
+      uint first, last;                                                                \
+      rowKeys(cell, row >> 1, row & 1u, first, last);                                  \
+      j = cellStart[first];                                                            \
+      end = first == last ? j : cellStart[last];                                       \
+      ++row;                                                                           \
+    }                                                                                  \
+    if (j < end) {                                                                     \
+      if (j != i) visitor(j, PARTICLE(j));                                             \
+      ++j;                                                                             \
+    }                                                                                  \
+  }                                                                                    \
+  if (n == kWalkBound) atomicAdd(sums.boundHits, 1u);
+
+void visitNeighbours(uint i, uint local) {
+  uint count = LIST_CAPACITY == 0u ? 0u : COUNT_OF(i);
+  bool listed = LIST_CAPACITY != 0u && count <= LIST_CAPACITY;
+  if (LIST_CAPACITY != 0u) {
+    uint at = (local / kListBlock) * (kListBlock * (LIST_CAPACITY / 4u)) + local % kListBlock;
+    uint groups = listed ? (count + 3u) / 4u : 0u;
+    for (uint k = 0u; k < groups; ++k) {
+      uvec4 js = LIST_AT(at);
+      visit(js.x, PARTICLE(js.x));
+      visit(js.y, PARTICLE(js.y));
+      visit(js.z, PARTICLE(js.z));
+      visit(js.w, PARTICLE(js.w));
+      at += kListBlock;
+    }
+  }
+  if (!listed) { WALK(visit) }
+}
+#endif

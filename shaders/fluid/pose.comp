@@ -1,0 +1,34 @@
+#version 460
+// Where the solids are, and how fast they move, at the end of the substep at hand: keyframes, linear between, held outside. One workgroup.
+#extension GL_GOOGLE_include_directive : require
+#include "fluid/uniforms.glsl"
+layout(local_size_x = 64) in;
+layout(std430, binding = 2) buffer SolidBlock { SolidRecord solids[]; };
+layout(std430, binding = 3) readonly buffer KeyframeBlock { vec4 keyframes[]; };  // translation, time
+
+void pose(uint n) {
+  if (solids[n].keyCount == 0u) return;
+  float time = control.timeHigh + (control.timeLow + control.nextStep);
+  uint first = solids[n].firstKey, last = first + solids[n].keyCount - 1u;
+  vec3 moved = keyframes[first].xyz, velocity = vec3(0.0);
+  for (uint k = first; k < last && k < first + 65536u; ++k) {
+    vec4 a = keyframes[k], b = keyframes[k + 1u];
+    if (time < a.w) break;
+    if (time < b.w) {
+      velocity = (b.xyz - a.xyz) / (b.w - a.w);
+      moved = a.xyz + velocity * (time - a.w);
+      break;
+    }
+    moved = b.xyz;
+  }
+  solids[n].centerX = solids[n].baseX + moved.x;
+  solids[n].centerY = solids[n].baseY + moved.y;
+  solids[n].centerZ = solids[n].baseZ + moved.z;
+  solids[n].velocityX = velocity.x;
+  solids[n].velocityY = velocity.y;
+  solids[n].velocityZ = velocity.z;
+}
+
+void main() {
+  for (uint n = gl_LocalInvocationID.x; n < params.solidCount; n += gl_WorkGroupSize.x) pose(n);
+}

@@ -1,0 +1,22 @@
+// How long the next substep is: as long as the CFL bound and the tolerance allow, fitted to what is left of the advance.
+#ifndef RILL_STEP_PLAN_GLSL
+#define RILL_STEP_PLAN_GLSL
+// The step in which the fastest particle, going on accelerating, moves no farther than cfl allows: speed t + acceleration t^2 = reach.
+float cflStep(float speed, float acceleration) {
+  float reach = params.cfl * params.spacing;
+  return min(params.maxStep, 2.0 * reach / (speed + sqrt(speed * speed + 4.0 * acceleration * reach) + 1.0e-20));
+}
+
+// The step that the tolerance asks for, from the error that a step of `last` seconds gave: a prediction's error grows with the square of the step.
+// It moves slowly: what a long step left to correct is a kick in a short one.
+float tolerableStep(float desired, float last, float error) {
+  if (params.tolerance <= 0.0) return params.maxStep;
+  float target = last * sqrt(params.tolerance / max(error, 1.0e-9));
+  return clamp(target, 0.95 * desired, 1.03 * desired);
+}
+
+// The advance's rest in equal substeps of about `wanted` seconds: a piece may be a quarter longer, so that the end of an advance never asks for a stub.
+float fittedStep(float rest, float wanted) {
+  return rest / max(ceil(rest / wanted - 0.25), 1.0);
+}
+#endif

@@ -1,0 +1,24 @@
+// The two uniform blocks of every fluid pass, at bindings 0 and 1.
+#ifndef RILL_UNIFORMS_GLSL
+#define RILL_UNIFORMS_GLSL
+#include "shared/fluid_records.h"
+#include "shared/dispatch.glsl"
+layout(binding = 0) uniform ParamsBlock { FluidParams params; };
+layout(binding = 1) uniform ControlBlock { FluidControl control; };
+
+// Keeps a centre half a spacing off the domain's walls. NaN goes through.
+vec3 insideWalls(vec3 x) {
+  vec3 low = vec3(params.lowX, params.lowY, params.lowZ) + params.margin;
+  vec3 high = vec3(params.highX, params.highY, params.highZ) - params.margin;
+  return vec3(x.x < low.x ? low.x : (x.x > high.x ? high.x : x.x),
+              x.y < low.y ? low.y : (x.y > high.y ? high.y : x.y),
+              x.z < low.z ? low.z : (x.z > high.z ? high.z : x.z));
+}
+
+bool isFinite(vec3 x) {
+  vec3 limit = vec3(params.farLimit);
+  return all(lessThan(abs(x), limit));  // false for NaN, too
+}
+
+vec3 gravity() { return vec3(control.gravityX, control.gravityY, control.gravityZ); }
+#endif

@@ -1,0 +1,146 @@
+#version 460
+// The density that walls and solids displace near a particle, and its gradient, from the tables of engine/sph/wall.hpp: nearSample = (gradient, value).
+// CORNER 0 handles particles near one wall alone, CORNER 1 those near several walls or a solid.
+#extension GL_GOOGLE_include_directive : require
+#include "fluid/uniforms.glsl"
+#include "fluid/solids.glsl"
+layout(local_size_x = kFluidGroup) in;
+layout(constant_id = 0) const uint CORNER = 0;
+layout(constant_id = 1) const uint SOLIDS = 0;
+
+layout(std430, binding = 2) readonly buffer PredictionBlock { vec4 prediction[]; };
+layout(std430, binding = 3) readonly buffer NearListBlock { uint nearList[]; };
+layout(std430, binding = 4) readonly buffer SumsBlock { FluidSums sums; };
+layout(std430, binding = 5) readonly buffer TableBlock { vec2 tables[]; };
+layout(std430, binding = 6) readonly buffer SolidBlock { SolidRecord solids[]; };
+layout(std430, binding = 7) writeonly buffer NearBlock { vec4 nearSample[]; };
+
+// Node and weight of a distance; beyond the table both nodes are its last, which is 0.
+void locate(float s, float step, uint nodes, out uint node, out float weight) {
+  float place = clamp(s, 0.0, params.support * 2.0) / step;
+  node = min(uint(place), nodes - 2u);
+  weight = clamp(place - float(node), 0.0, 1.0);
+}
+
+vec2 line(uint offset, uint nodes, float step, float s) {
+  uint node;
+  float w;
+  locate(s, step, nodes, node, w);
+  return mix(tables[offset + node], tables[offset + node + 1u], w);
+}
+
+// Value and slope by s1.
+vec2 edge(float s1, float s2) {
+  uint a, b;
+  float u, v;
+  locate(s1, params.tableStep, params.tableNodes, a, u);
+  locate(s2, params.tableStep, params.tableNodes, b, v);
+  uint at = params.tableOffset2 + b * params.tableNodes + a;
+  return mix(mix(tables[at], tables[at + 1u], u), mix(tables[at + params.tableNodes], tables[at + params.tableNodes + 1u], u), v);
+}
+
+vec2 corner(float s1, float s2, float s3) {
+  uint a, b, c, n = params.cornerNodes;
+  float u, v, w;
+  locate(s1, params.cornerStep, n, a, u);
+  locate(s2, params.cornerStep, n, b, v);
+  locate(s3, params.cornerStep, n, c, w);
+  uint at = params.tableOffset3 + (c * n + b) * n + a;
+  vec2 low = mix(mix(tables[at], tables[at + 1u], u), mix(tables[at + n], tables[at + n + 1u], u), v);
+  at += n * n;
+  vec2 high = mix(mix(tables[at], tables[at + 1u], u), mix(tables[at + n], tables[at + n + 1u], u), v);
+  return mix(low, high, w);
+}
+
+// Domain walls by inclusion and exclusion over the axes; both sides of an axis count where the domain is thin.
+vec4 domainWalls(vec3 x) {
+  float s[3][2];
+  for (int a = 0; a < 3; ++a) {
+    s[a][0] = x[a] - (a == 0 ? params.lowX : (a == 1 ? params.lowY : params.lowZ));
+    s[a][1] = (a == 0 ? params.highX : (a == 1 ? params.highY : params.highZ)) - x[a];
+  }
+  float value = 0.0;
+  vec3 gradient = vec3(0.0);
+  float reach = params.tableStep * float(params.tableNodes - 1u);
+  for (int a = 0; a < 3; ++a) {
+    int b = (a + 1) % 3;
+    for (int i = 0; i < 2; ++i) {
+      if (s[a][i] >= reach) continue;
+      float di = i == 0 ? 1.0 : -1.0;
+      vec2 one = line(0u, params.tableNodes, params.tableStep, s[a][i]);
+      value += one.x;
+      gradient[a] += di * one.y;
+      for (int j = 0; j < 2; ++j) {
+        if (s[b][j] >= reach) continue;
+        float dj = j == 0 ? 1.0 : -1.0;
+        vec2 two = edge(s[a][i], s[b][j]);
+        value -= two.x;
+        gradient[a] -= di * two.y;
+        gradient[b] -= dj * edge(s[b][j], s[a][i]).y;
+        if (a != 0) continue;
+        for (int k = 0; k < 2; ++k) {
+          if (s[2][k] >= reach) continue;
+          float dk = k == 0 ? 1.0 : -1.0;
+          vec2 three = corner(s[0][i], s[1][j], s[2][k]);
+          value += three.x;
+          gradient.x += di * three.y;
+          gradient.y += dj * corner(s[1][j], s[2][k], s[0][i]).y;
+          gradient.z += dk * corner(s[2][k], s[0][i], s[1][j]).y;
+        }
+      }
+    }
+  }
+  return vec4(gradient, value);
+}
+
+// F of engine/sph/wall.hpp: the share that a half-space at signed distance s displaces, and its slope.
+vec2 face(float s) {
+  vec2 f = line(params.tableOffsetFace, params.tableNodes, params.tableStep, abs(s));
+  return s < 0.0 ? vec2(1.0 - f.x, f.y) : f;
+}
+
+// A box displaces the product of its slabs, a ball what its own table says.
+vec4 solidSample(SolidRecord s, vec3 x) {
+  vec3 local = toLocal(s, x);
+  if (s.shape == 1u) {
+    float r = length(local);
+    float distance = r - s.halfX;
+    vec2 f = line(s.tableOffset, s.tableNodes, params.tableStep, distance - s.tableFirst);
+    vec3 normal = r > 1.0e-6 * s.halfX ? local / r : vec3(0.0, 1.0, 0.0);
+    return vec4(toWorld(s, normal * f.y), f.x);
+  }
+  vec3 half_ = vec3(s.halfX, s.halfY, s.halfZ), slab, slope;
+  for (int a = 0; a < 3; ++a) {
+    vec2 near = face(local[a] - half_[a]), far = face(local[a] + half_[a]);
+    slab[a] = near.x - far.x;
+    slope[a] = near.y - far.y;
+  }
+  vec3 gradient = vec3(slope.x * slab.y * slab.z, slab.x * slope.y * slab.z, slab.x * slab.y * slope.z);
+  return vec4(toWorld(s, gradient), slab.x * slab.y * slab.z);
+}
+
+void main() {
+  uint n = flatInvocation();
+  if (CORNER == 0u) {
+    if (n >= sums.planeCount) return;
+    uint i = nearList[n];
+    vec3 x = prediction[i].xyz;
+    vec3 low = x - vec3(params.lowX, params.lowY, params.lowZ);
+    vec3 high = vec3(params.highX, params.highY, params.highZ) - x;
+    vec3 nearest = min(low, high);
+    float s = min(nearest.x, min(nearest.y, nearest.z));
+    vec3 axis = s == nearest.x ? vec3(1, 0, 0) : (s == nearest.y ? vec3(0, 1, 0) : vec3(0, 0, 1));
+    vec2 f = line(0u, params.tableNodes, params.tableStep, s);
+    float sign = dot(axis, low) <= dot(axis, high) ? 1.0 : -1.0;
+    nearSample[i] = vec4(sign * f.y * axis, f.x);
+    return;
+  }
+  if (n >= sums.cornerCount) return;
+  uint i = nearList[params.count - 1u - n];
+  vec3 x = prediction[i].xyz;
+  vec4 displaced = domainWalls(x);
+  if (SOLIDS != 0u) {
+    for (uint k = 0u; k < params.solidCount; ++k) displaced += solidSample(solids[k], x);
+  }
+  nearSample[i] = displaced;
+}

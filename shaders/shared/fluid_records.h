@@ -1,0 +1,178 @@
+// What the fluid solver's C++ and shaders share.
+#ifndef RILL_FLUID_RECORDS_H
+#define RILL_FLUID_RECORDS_H
+#include "shared/interop.h"
+RILL_RECORDS_BEGIN
+
+RILL_CONST uint kFluidGroup = 64u;        // invocations a workgroup of every per-particle pass
+RILL_CONST uint kListBlock = 4096u;       // particles a block of the neighbour list: k-major inside a block
+RILL_CONST uint kWalkBound = 32768u;      // candidates that one grid walk looks at, at most; more are counted as a bound hit
+RILL_CONST float kParked = 1.0e9f;        // m: where the dummy neighbour sits that pads the list
+RILL_CONST float kMultiplierScale = 1024.0f;  // multipliers travel as halves in units of 1 / (restGradient * this)
+
+// Dispatch commands that the device switches on and off.
+RILL_CONST uint kCommandPredict = 0u;
+RILL_CONST uint kCommandDensity = 1u;
+RILL_CONST uint kCommandPose = 2u;            // one group, with the density pass
+RILL_CONST uint kCommandCorrect = 3u;         // two of them, by the parity of the substep recorded
+RILL_CONST uint kCommandIterate = 5u;
+RILL_CONST uint kCommandKeys = 6u;            // the rebuild
+RILL_CONST uint kCommandReorder = 7u;
+RILL_CONST uint kCommandBuild = 8u;
+RILL_CONST uint kCommandPlane = 9u;           // over the particles near one wall
+RILL_CONST uint kCommandCorner = 10u;         // over those near several walls or a solid
+RILL_CONST uint kCommandCollide = 11u;        // two of them, by parity, over the same
+RILL_CONST uint kCommandMeasurePlane = 13u;   // the same particles as Plane and Corner, whenever there are any
+RILL_CONST uint kCommandMeasureCorner = 14u;
+RILL_CONST uint kCommandSort = 15u;           // the sort's own follow
+RILL_CONST uint kMaxCommands = 64u;
+
+// Constant over a run; a uniform block.
+struct FluidParams {
+  uint count;             // particles
+  uint listCapacity;      // neighbours that the list holds a particle, a multiple of 4; 0: no list
+  uint chunkParticles;    // particles a list buffer, a multiple of kListBlock
+  uint solidCount;
+  float spacing;          // m
+  float support;          // m, the kernel's support radius h
+  float inverseSupport;   // 1/m
+  float valueScale;       // of the kernel's polynomial
+  float gradientScale;    // of its gradient's polynomial, 1/m^2 (see kernel.glsl)
+  float inverseRestGradient;  // 1 / sum |grad K|^2 of the rest lattice, m^2
+  float regularization;   // epsilon times sum |grad K|^2 of the rest lattice, 1/m^2
+  float relaxation;       // omega
+  float warmGain;         // kappa
+  float reach;            // m, support plus skin: the list holds what was nearer when it was built
+  float travelLimit;      // m that the fastest particle may move before the list is rebuilt
+  float cfl;              // spacings a substep
+  float maxStep;          // s
+  float tolerance;        // mean compression aimed for; 0: none
+  uint maxSubsteps;       // an advance
+  uint iterations;        // Jacobi iterations a substep, at most
+  float lowX, lowY, lowZ;     // m, walls; -kParked where there is none
+  float highX, highY, highZ;  // m; kParked where there is none
+  float margin;           // m, how near a centre may come to a wall or a solid: half a spacing
+  uint gridBitsX, gridBitsY, gridBitsZ;  // log2 of the cells a dimension
+  float inverseCell;      // 1/m
+  float tableStep;        // m between nodes of the plane and edge tables
+  float cornerStep;       // and of the corner table
+  uint tableNodes;        // nodes an axis
+  uint cornerNodes;
+  uint tableOffset2;      // (value, slope) pairs into the table buffer
+  uint tableOffset3;
+  uint tableOffsetFace;
+  float viscosityRate;    // XSPH coefficient a second of step and a sweep, 1/s
+  float vorticity;        // dimensionless
+  float tensile;          // s_corr's strength, m^2 / s^2: times the step squared
+  float tensilePower;     // n
+  float tensileInverse;   // 1 / K(delta q)
+  float particleMass;     // kg
+  uint gravityChanges;    // entries of the schedule
+  float farLimit;         // m from the origin beyond which a particle is parked
+  float nearLimit;        // m from a wall or a solid's surface within which a particle is listed as near
+  float solidSpeed;       // m/s, the fastest solid
+  float boundLowX, boundLowY, boundLowZ;     // m, the domain, open sides too: who is beyond counts as outside
+  float boundHighX, boundHighY, boundHighZ;
+  uint fullNeighbours;    // within the support: a particle with as many is inside the fluid
+};
+
+// Decided on the device, substep by substep; read as a uniform block by the passes, written by control.comp and begin.comp.
+struct FluidControl {
+  float step;          // s, of the substep that control.comp has accounted for last
+  float nextStep;      // s, of the one whose prediction is at hand or is about to be made
+  float warmStep;      // s, the step that the stored multipliers are expressed for
+  float timeLeft;      // s of the advance
+  float timeHigh;      // simulated time, s, as the sum of two floats
+  float timeLow;
+  float timeDropped;   // s, of the advance
+  float travel;        // m that the fastest particle moved since the list was built
+  float speed;         // m/s, the fastest particle
+  float error;         // mean compression of the last prediction
+  float gravityX, gravityY, gravityZ;  // m/s^2, for the prediction of the next substep
+  uint stale;          // 1: the list must be rebuilt before the next substep; 2: there has been none yet
+  uint substeps;       // of the advance
+  uint iterations;     // of the advance
+  uint builds;         // list builds of the advance
+  uint gravityIndex;   // next entry of the schedule
+  float desiredStep;   // s, what cfl and tolerance ask for, before it is fitted to the advance
+  uint running;        // the next density pass runs
+  uint again;          // so does the next iteration
+};
+
+// Sums of the passes of one substep; integers, so that their order does not matter.
+struct FluidSums {
+  uint errorLow, errorHigh;  // 64-bit sum of compression in units of kErrorUnit
+  uint errorMax;             // bits of the largest compression
+  uint speedMax;             // bits of the largest speed
+  uint nonFinite;            // particles parked since the start
+  uint overflow;             // particles with more neighbours than the list holds, at the last build
+  uint boundHits;            // loops cut at their bound since the start
+  uint planeCount;           // particles near one wall, at the last build
+  uint cornerCount;          // particles near several walls or a solid, at the last build
+  uint spare0, spare1, spare2;
+};
+RILL_CONST float kErrorUnit = 1.0f / 16777216.0f;
+
+// A solid at the end of the present substep; a storage buffer. Shape 0: box, 1: sphere.
+struct SolidRecord {
+  float centerX, centerY, centerZ;
+  uint shape;
+  float halfX, halfY, halfZ;       // box: half extents; sphere: radius in halfX. m
+  float friction;
+  float rotationX, rotationY, rotationZ, rotationW;  // from local to world
+  float velocityX, velocityY, velocityZ;             // m/s
+  float restitution;
+  uint firstKey, keyCount;         // motion: entries of the keyframe buffer
+  uint tableOffset;                // sphere: (value, slope) pairs into the table buffer
+  uint tableNodes;
+  float baseX, baseY, baseZ;       // centre before any motion, m
+  float tableFirst;                // sphere: signed distance of the table's first node, m
+};
+
+struct KeyframeRecord {
+  float at, x, y, z;               // s; m
+};
+
+struct BeginPush {
+  float advance;       // s
+  uint commands;       // how many
+};
+
+struct ControlPush {
+  uint iteration;      // 0 is the first
+  uint parity;         // of the recorded substep
+  uint commands;       // how many
+};
+
+// Sums over one workgroup of measure.comp.
+struct MeasurePartial {
+  float compression, compressionMax;   // fraction of rest density
+  float kinetic;                       // sum of v^2
+  float speedMax;                      // m/s
+  float velocityX, velocityY, velocityZ;
+  float positionX, positionY, positionZ;
+  uint outside, counted;               // counted: particles inside the fluid, for the median
+};
+RILL_CONST uint kMeasureFirst = 107u << 9;          // bin 0: |C| = 2^-20, by the top bits of the float
+RILL_CONST uint kMeasureBins = 23u << 9;            // up to 8, 512 bins an octave
+RILL_CONST uint kMeasureGroup = 64u;
+
+// What measure_reduce.comp finds, for the host.
+struct MeasureResult {
+  MeasurePartial sums;
+  float compression99, signedMedian;
+};
+
+struct SweepPush {
+  uint first, last;    // as in ChunkPush
+  float share;         // 1 / sweeps
+};
+
+struct ChunkPush {
+  uint first;          // particle that the list buffer starts with
+  uint last;           // one past its last particle
+  uint iteration;      // 0 is the first
+};
+
+RILL_RECORDS_END
+#endif

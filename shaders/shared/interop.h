@@ -1,0 +1,15 @@
+// Lets one header declare constants and records for C++ and GLSL alike. Records hold 4-byte scalars alone (and arrays of them in storage
+// buffers), so that std430, std140 and C++ agree on every offset.
+#ifndef RILL_INTEROP_H
+#define RILL_INTEROP_H
+#ifdef __cplusplus
+#include <cstdint>
+#define RILL_RECORDS_BEGIN namespace rill { using uint = uint32_t;
+#define RILL_RECORDS_END }
+#define RILL_CONST inline constexpr
+#else
+#define RILL_RECORDS_BEGIN
+#define RILL_RECORDS_END
+#define RILL_CONST const
+#endif
+#endif

@@ -1,0 +1,52 @@
+#version 460
+// Counting sort: bins too large for sort/order_bins. Workgroup (c, b) sets a bit for each index of the b-th listed bin that lies in
+// the c-th chunk of all indices, counts the bin's indices below the chunk, and writes the set bits out in order. Linear in
+// the bin's size for each chunk of 65,536 indices, and no loop is longer than (keys / 256) + 520.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#include "sort/sort_types.h"
+
+layout(local_size_x = kCountThreads) in;
+layout(push_constant) uniform PushBlock { CountingPush push; };
+layout(set = 0, binding = 0, std430) readonly buffer Start { uint start[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Arrived { uint arrived[]; };
+layout(set = 0, binding = 2, std430) writeonly buffer Order { uint order[]; };
+layout(set = 0, binding = 3, std430) readonly buffer OversizedBins { uint oversizedBins[]; };
+
+shared uint present[kChunkWords];
+shared uint indicesBelow;
+
+#define WORKGROUP_SCAN_THREADS kCountThreads
+#include "sort/workgroup_scan.glsl"
+
+void main() {
+  const uint key = oversizedBins[gl_WorkGroupID.y];
+  const uint begin = start[key];
+  const uint end = start[key + 1u];
+  const uint firstIndex = gl_WorkGroupID.x * kChunkIndices;
+
+  for (uint w = gl_LocalInvocationIndex; w < kChunkWords; w += kCountThreads) present[w] = 0u;
+  if (gl_LocalInvocationIndex == 0u) indicesBelow = 0u;
+  barrier();
+
+  uint below = 0u;
+  for (uint slot = begin + gl_LocalInvocationIndex; slot < end; slot += kCountThreads) {
+    const uint index = arrived[slot];
+    const uint inChunk = index - firstIndex;  // wraps below the chunk, so one comparison tells both sides
+    if (inChunk < kChunkIndices) atomicOr(present[inChunk >> 5u], 1u << (inChunk & 31u));
+    below += index < firstIndex ? 1u : 0u;
+  }
+  atomicAdd(indicesBelow, below);
+  barrier();
+
+  const uint wordsEach = kChunkWords / kCountThreads;
+  const uint firstWord = scanLane() * wordsEach;
+  uint mine = 0u;
+  for (uint w = firstWord; w < firstWord + wordsEach; ++w) mine += uint(bitCount(present[w]));
+  uint total;
+  uint place = begin + indicesBelow + workgroupExclusiveAdd(mine, total);
+  for (uint w = firstWord; w < firstWord + wordsEach; ++w) {
+    for (uint word = present[w]; word != 0u; word &= word - 1u) order[place++] = firstIndex + 32u * w + uint(findLSB(word));
+  }
+}

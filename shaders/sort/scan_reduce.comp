@@ -1,0 +1,29 @@
+#version 460
+// Scan, first step: the sum of each tile.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#include "shared/dispatch.glsl"
+#include "sort/sort_types.h"
+
+layout(local_size_x = kScanThreads) in;
+layout(push_constant) uniform PushBlock { ScanPush push; };
+layout(set = 0, binding = 0, std430) readonly buffer Values { uint values[]; };
+layout(set = 0, binding = 1, std430) writeonly buffer TileSums { uint tileSums[]; };
+
+shared uint tileSum;
+
+void main() {
+  const uint tile = flatGroup();
+  if (gl_LocalInvocationIndex == 0u) tileSum = 0u;
+  barrier();
+  uint sum = 0u;
+  for (uint j = 0u; j < kScanItems; ++j) {
+    const uint i = tile * kScanTile + j * kScanThreads + gl_LocalInvocationIndex;
+    if (i < push.count) sum += values[i];
+  }
+  sum = subgroupAdd(sum);
+  if (subgroupElect()) atomicAdd(tileSum, sum);
+  barrier();
+  if (gl_LocalInvocationIndex == 0u && tile * kScanTile < push.count) tileSums[tile] = tileSum;
+}

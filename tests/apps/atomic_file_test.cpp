@@ -1,0 +1,129 @@
+#include "shared/atomic_file.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <thread>
+
+#include "shared/folder_lock.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace rill::apps {
+namespace {
+
+using test::contentOf;
+using test::TemporaryFolder;
+namespace fs = std::filesystem;
+
+TEST(WriteFile, WritesAndReplacesWithoutLeavingParts) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(writeFile(folder / "a.json", "first"));
+  ASSERT_TRUE(writeFile(folder / "a.json", "second, longer"));
+  EXPECT_EQ(contentOf(folder / "a.json"), "second, longer");
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"a.json"});
+}
+
+TEST(WriteFile, ReadersHoldTheOldContentUntilTheNewIsWhole) {
+  const TemporaryFolder folder;
+  folder.write("a", "old");
+  std::ifstream reader(folder / "a");
+  ASSERT_TRUE(writeFile(folder / "a", "new"));
+  std::string text;
+  reader >> text;
+  EXPECT_EQ(text, "old");
+}
+
+TEST(WriteFile, FollowsALinkAndKeepsTheMode) {
+  const TemporaryFolder folder;
+  folder.write("target", "old");
+  ASSERT_EQ(::chmod((folder / "target").c_str(), 0640), 0);
+  fs::create_symlink("target", folder / "link");
+  ASSERT_TRUE(writeFile(folder / "link", "new"));
+  EXPECT_TRUE(fs::is_symlink(folder / "link"));
+  EXPECT_EQ(contentOf(folder / "target"), "new");
+  struct stat info {};
+  ASSERT_EQ(::stat((folder / "target").c_str(), &info), 0);
+  EXPECT_EQ(info.st_mode & 0777, 0640u);
+}
+
+TEST(WriteFile, AFullDiskIsAnErrorThatNamesTheFile) {
+  const auto written = writeFile("/dev/full", "text");
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().kind, ErrorKind::Io);
+  EXPECT_NE(written.error().message.find("/dev/full"), std::string::npos);
+  EXPECT_NE(written.error().message.find("No space left"), std::string::npos);
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+TEST(WriteFile, AMissingFolderIsAnErrorAndNothingIsLeft) {
+  const TemporaryFolder folder;
+  EXPECT_FALSE(writeFile(folder / "none/a", "text"));
+  EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(WriteFile, WritesAPipeInPlace) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  std::string read;
+  std::thread reader([&] { read = contentOf(folder / "pipe"); });
+  EXPECT_TRUE(writeFile(folder / "pipe", "through"));
+  reader.join();
+  EXPECT_EQ(read, "through");
+  EXPECT_TRUE(fs::is_fifo(folder / "pipe"));
+}
+
+TEST(SpecialFile, StreamsAndDevicesAre) {
+  for (const char* name : {"-", "/dev/stdout", "/dev/null", "/dev/full", "/proc/self/fd/1", "/dev/../dev/stdout"}) EXPECT_TRUE(isSpecialFile(name)) << name;
+  for (const char* name : {"a.json", "/tmp/a", "./-"}) EXPECT_FALSE(isSpecialFile(name)) << name;
+  EXPECT_TRUE(isStandardOutput("-"));
+  EXPECT_TRUE(isStandardOutput("/dev/stdout"));
+  EXPECT_FALSE(isStandardOutput("/dev/stderr"));
+}
+
+TEST(CheckPlace, RefusesWhatCannotBeWritten) {
+  const TemporaryFolder folder;
+  folder.write("file", "");
+  const auto message = [](const Expected<void>& result) { return result ? std::string() : result.error().message; };
+  EXPECT_EQ(message(checkFilePlace("--stats", folder / "new.json")), "");
+  EXPECT_EQ(message(checkFilePlace("--stats", folder / "a/b/new.json")), "");
+  EXPECT_EQ(message(checkFilePlace("--stats", "new.json")), "");
+  EXPECT_EQ(message(checkFilePlace("--stats", "-")), "");
+  EXPECT_NE(message(checkFilePlace("--stats", folder.path())).find("is a folder"), std::string::npos);
+  EXPECT_NE(message(checkFilePlace("--stats", folder / "file/x.json")).find("is a file"), std::string::npos);
+  EXPECT_NE(message(checkFilePlace("--stats", "/dev/rill-none")).find("there is no"), std::string::npos);
+  EXPECT_EQ(message(checkFolderPlace("--out", folder / "x/y")), "");
+  EXPECT_NE(message(checkFolderPlace("--out", folder / "file")).find("--out"), std::string::npos);
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"file"}) << "judging makes nothing";
+}
+
+TEST(MakeFolder, MakesThoseAboveAndTakesATrailingSlash) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(makeFolder("--out", folder / "a/b/"));
+  EXPECT_TRUE(makeFolder("--out", folder / "a/b"));
+  folder.write("file", "");
+  EXPECT_FALSE(makeFolder("--out", folder / "file/b"));
+}
+
+TEST(PartFile, IsKnownByItsName) {
+  std::string_view target;
+  ASSERT_TRUE(isPartFile(".frame_00001.png.4711.part", target));
+  EXPECT_EQ(target, "frame_00001.png");
+  for (const char* name : {"frame_00001.png", ".frame_00001.png.part", "frame_00001.png.1.part", ".a.b.part", ".part"}) EXPECT_FALSE(isPartFile(name, target)) << name;
+}
+
+TEST(FolderLock, IsForOneAtATime) {
+  const TemporaryFolder folder;
+  {
+    auto first = FolderLock::take(folder.path());
+    ASSERT_TRUE(first);
+    auto second = FolderLock::take(folder.path());
+    ASSERT_FALSE(second);
+    EXPECT_NE(second.error().message.find("another capture is writing"), std::string::npos);
+  }
+  EXPECT_TRUE(FolderLock::take(folder.path()));
+  EXPECT_TRUE(folder.names().empty()) << "the lock leaves nothing";
+}
+
+}  // namespace
+}  // namespace rill::apps

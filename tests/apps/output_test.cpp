@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "capture/output_folder.hpp"
+#include "shared/ply.hpp"
+#include "shared/png.hpp"
+#include "shared/progress.hpp"
+#include "shared/scene_folders.hpp"
+#include "support/temporary_folder.hpp"
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_ONLY_PNG
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wunused-but-set-variable"
+#include <stb/stb_image.h>
+#pragma GCC diagnostic pop
+
+namespace rill::apps {
+namespace {
+
+using test::contentOf;
+using test::TemporaryFolder;
+
+TEST(Ply, IsWhatTheFormatSays) {
+  offline::Particles particles;
+  particles.positions = {{1, 2, 3}, {4, 5, 6}};
+  particles.velocities = {{-1, 0, 0.5f}, {0, 0, 0}};
+  particles.densities = {1000, 998};
+  particles.ids = {7, 4000000000u};
+  const auto bytes = encodePly(particles, 0.25);
+  const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::string header =
+      "ply\nformat binary_little_endian 1.0\ncomment time 0.25\nelement vertex 2\n"
+      "property float x\nproperty float y\nproperty float z\nproperty float vx\nproperty float vy\nproperty float vz\nproperty float density\nproperty uint id\nend_header\n";
+  ASSERT_EQ(text.substr(0, header.size()), header);
+  ASSERT_EQ(bytes.size(), header.size() + 2 * 32);
+  float values[7];
+  uint32_t id = 0;
+  std::memcpy(values, bytes.data() + header.size() + 32, sizeof values);
+  std::memcpy(&id, bytes.data() + header.size() + 32 + 28, sizeof id);
+  EXPECT_EQ(values[0], 4);
+  EXPECT_EQ(values[6], 998);
+  EXPECT_EQ(id, 4000000000u);
+}
+
+TEST(Ply, OfNoParticlesIsAHeader) {
+  const auto bytes = encodePly({}, 1.0 / 3);
+  const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  EXPECT_NE(text.find("comment time 0.3333333333333333\n"), std::string::npos);
+  EXPECT_TRUE(text.ends_with("end_header\n"));
+}
+
+TEST(Png, ComesBackAsItWas) {
+  const TemporaryFolder folder;
+  for (const bool opaque : {true, false}) {
+    offline::Image image{5, 3, std::vector<uint8_t>(5 * 3 * 4)};
+    for (size_t i = 0; i < image.rgba.size(); ++i) image.rgba[i] = i % 4 == 3 ? (opaque ? 255 : uint8_t(i)) : uint8_t(17 * i);
+    ASSERT_TRUE(writePng(folder / "a.png", image));
+    const std::string file = contentOf(folder / "a.png");
+    int width = 0, height = 0, channels = 0;
+    stbi_uc* pixels = stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(file.data()), int(file.size()), &width, &height, &channels, 4);
+    ASSERT_NE(pixels, nullptr);
+    EXPECT_EQ(width, 5);
+    EXPECT_EQ(height, 3);
+    EXPECT_EQ(channels, opaque ? 3 : 4);
+    EXPECT_EQ(std::memcmp(pixels, image.rgba.data(), image.rgba.size()), 0);
+    stbi_image_free(pixels);
+  }
+}
+
+TEST(OutputFolder, RemovesEarlierFramesAndNothingElse) {
+  const TemporaryFolder folder;
+  for (const char* name : {"frame_00000.png", "frame_00012.ply", "frame_123456.png", ".frame_00003.png.99.part", "frame_0001.png", "frame_00001.jpg", "frame_0000x.png",
+                           "notes.txt", ".notes.txt.99.part"})
+    folder.write(name, "x");
+  auto prepared = capture::OutputFolder::prepare(folder.path());
+  ASSERT_TRUE(prepared);
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{".notes.txt.99.part", "frame_00001.jpg", "frame_0000x.png", "frame_0001.png", "notes.txt"}));
+  EXPECT_EQ(prepared->frame(42, "png").filename(), "frame_00042.png");
+  EXPECT_EQ(prepared->frame(1234567, "ply").filename(), "frame_1234567.ply");
+  EXPECT_FALSE(capture::OutputFolder::prepare(folder.path())) << "held";
+}
+
+TEST(OutputFolder, AHeldFolderKeepsItsFrames) {
+  const TemporaryFolder folder;
+  auto first = capture::OutputFolder::prepare(folder.path());
+  ASSERT_TRUE(first);
+  folder.write("frame_00000.png", "x");
+  EXPECT_FALSE(capture::OutputFolder::prepare(folder.path()));
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"frame_00000.png"});
+}
+
+TEST(Progress, SaysWhereItIs) {
+  EXPECT_EQ(progressText({3, 181, 1.0 / 30, 0.00041, 6}), "frame 3/181  t 0.033 s  error 0.041 %  left 5 min 56 s");
+  EXPECT_EQ(progressText({181, 181, 3, 0.0005, 61.2}), "frame 181/181  t 3.000 s  error 0.050 %  took 1 min 02 s");
+}
+
+TEST(Progress, BarFitsTheTerminal) {
+  const ProgressState half{50, 100, 0.8, 0.001, 30};
+  const std::string bar = progressBar(half, 120);
+  EXPECT_EQ(bar.substr(0, 27), "[############............] ");
+  EXPECT_EQ(progressBar({100, 100, 1, 0, 1}, 120).substr(0, 26), "[" + std::string(24, '#') + "]");
+  for (const int columns : {1, 10, 40, 60, 79, 80, 200}) EXPECT_LT(int(progressBar(half, columns).size()), std::max(columns, 2)) << columns;
+}
+
+TEST(Progress, DurationsAreReadable) {
+  EXPECT_EQ(formatDuration(0), "0 s");
+  EXPECT_EQ(formatDuration(59.2), "1 min 00 s");
+  EXPECT_EQ(formatDuration(3725), "1 h 02 min");
+  EXPECT_EQ(formatDuration(-1), "?");
+  EXPECT_EQ(formatDuration(std::nan("")), "?");
+}
+
+TEST(SceneFolders, FindsByNameAndListsForATypo) {
+  const TemporaryFolder first, second;
+  std::filesystem::create_directories(second / "validation");
+  first.write("dam-break.json", "{}");
+  first.write("scene.schema.json", "{}");
+  second.write("dam-break.json", "{}");
+  second.write("validation/column.json", "{}");
+  const SceneFolders folders({first.path(), second / "missing", second.path()});
+  EXPECT_EQ(folders.names(), (std::vector<std::string>{"dam-break", "validation/column"}));
+  EXPECT_EQ(*folders.find("dam-break"), first / "dam-break.json");
+  EXPECT_EQ(*folders.find("validation/column"), second / "validation/column.json");
+  EXPECT_EQ(*folders.find("any/path.json"), "any/path.json");
+  EXPECT_EQ(*folders.find((second / "dam-break.json").string()), second / "dam-break.json");
+  const auto unknown = folders.find("dambreak");
+  ASSERT_FALSE(unknown);
+  EXPECT_NE(unknown.error().message.find("did you mean \"dam-break\"?"), std::string::npos) << unknown.error().message;
+  EXPECT_NE(unknown.error().message.find("validation/column"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rill::apps

@@ -1,0 +1,153 @@
+#include "capture/record.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "capture/capture.hpp"
+
+namespace rill::capture {
+namespace {
+
+Scene scene() {
+  Scene made;
+  made.name = "small";
+  made.domain = Domain{{0, 0, 0}, {1, 1, 1}, 0};
+  made.fluid.spacing = 0.1;
+  made.probes = {{"H1", std::pair(0.3, 0.1), std::nullopt}};
+  return made;
+}
+
+offline::Stats stats(double error, double kinetic, double potential) {
+  offline::Stats made;
+  made.particles = 100;
+  made.density_error_mean = error;
+  made.density_error_p99 = 2 * error;
+  made.density_error_max = 3 * error;
+  made.kinetic_J = kinetic;
+  made.potential_J = potential;
+  made.state_hash = 0xabc;
+  made.wall_s = 0.5;
+  made.probes = {{"H1", 0.25}};
+  made.pass_ms = {{"density", 1.5, 4}};
+  made.skipped = {{"vorticity", "vorticity is 0"}};
+  return made;
+}
+
+double figure(const Record& record, const std::string& name) {
+  for (const Figure& f : record.figures())
+    if (f.name == name) return f.value;
+  ADD_FAILURE() << name;
+  return NAN;
+}
+
+TEST(FrameCount, CountsBothEnds) {
+  EXPECT_EQ(frameCount(2, 50), 101);
+  EXPECT_EQ(frameCount(3, 60), 181);
+  EXPECT_EQ(frameCount(0, 60), 1);
+  EXPECT_EQ(frameCount(0.3, 60), 19) << "0.3 * 60 is a hair under 18";
+  EXPECT_EQ(frameCount(0.99, 1), 1);
+}
+
+TEST(Record, LeavesTheFirstTenthOutOfTheError) {
+  const Scene small = scene();
+  Record record(small, {}, "");
+  for (int k = 0; k < 10; ++k) record.add(k / 10.0, stats(k == 0 ? 9.0 : 0.001 * k, 1, 1));
+  EXPECT_NEAR(figure(record, "density_error_mean"), 0.005, 1e-12);
+  EXPECT_NEAR(figure(record, "density_error_p99"), 0.018, 1e-12);
+  EXPECT_NEAR(figure(record, "density_error_max"), 0.027, 1e-12);
+  Record one(small, {}, "");
+  one.add(0, stats(0.5, 1, 1));
+  EXPECT_EQ(figure(one, "density_error_mean"), 0.5) << "a single frame is not left out";
+}
+
+TEST(Record, CountsEnergyFromTheLowestCorner) {
+  Scene high = scene();
+  high.domain = Domain{{0, -10, 0}, {1, -9, 1}, 0};
+  const double mass = 100 * 1000 * 0.001, floor = mass * 9.81 * -10;
+  Record record(high, {}, "");
+  record.add(0, stats(0, 0, floor + 400));
+  record.add(1, stats(0, 104, floor + 300));
+  EXPECT_NEAR(figure(record, "energy_ratio"), 1.01, 1e-9);
+  Record resting(high, {}, "");
+  resting.add(0, stats(0, 0, floor));
+  EXPECT_EQ(figure(resting, "energy_ratio"), 1) << "no energy, none gained";
+}
+
+TEST(Record, WritesTheAgreedJson) {
+  const Scene small = scene();
+  DeviceInfo device;
+  device.name = "llvmpipe";
+  Record record(small, device, "rill-capture small");
+  record.add(0, stats(0.001, 1, 1));
+  offline::Stats broken = stats(std::numeric_limits<double>::quiet_NaN(), 1, 1);
+  broken.max_speed = std::numeric_limits<double>::infinity();
+  record.add(0.5, broken);
+  const auto json = nlohmann::json::parse(record.json());
+  for (const char* key : {"rill", "scene", "device", "particles", "simulated_s", "wall_s", "density_error", "frames", "command", "energy"}) EXPECT_TRUE(json.contains(key)) << key;
+  EXPECT_EQ(json["scene"], "small");
+  EXPECT_EQ(json["device"]["name"], "llvmpipe");
+  EXPECT_EQ(json["simulated_s"], 0.5);
+  EXPECT_EQ(json["wall_s"], 1.0);
+  ASSERT_EQ(json["frames"].size(), 2u);
+  const auto& frame = json["frames"][0];
+  for (const char* key : {"time_s", "particles", "substeps", "iterations", "time_dropped_s", "density_error_mean", "density_error_p99", "density_error_max", "kinetic_J", "potential_J",
+                          "momentum", "centre_of_mass", "front_m", "max_speed", "non_finite", "outside", "neighbour_overflow", "state_hash", "probes", "wall_s", "pass_ms", "skipped"})
+    EXPECT_TRUE(frame.contains(key)) << key;
+  EXPECT_EQ(frame["state_hash"], "0000000000000abc");
+  EXPECT_EQ(frame["momentum"].size(), 3u);
+  EXPECT_EQ(frame["probes"]["H1"], 0.25);
+  EXPECT_EQ(frame["pass_ms"]["density"], 1.5);
+  EXPECT_EQ(frame["skipped"]["vorticity"], "vorticity is 0");
+  EXPECT_TRUE(json["frames"][1]["density_error_mean"].is_null());
+  EXPECT_TRUE(json["frames"][1]["max_speed"].is_null());
+}
+
+TEST(Record, OfNoFramesIsWhole) {
+  const Scene small = scene();
+  const auto json = nlohmann::json::parse(Record(small, {}, "").json());
+  EXPECT_TRUE(json["frames"].empty());
+}
+
+TEST(Record, TellsWhichPassesRan) {
+  const Scene small = scene();
+  Record record(small, {}, "");
+  record.add(0, stats(0, 1, 1));
+  record.add(1, stats(0, 1, 1));
+  const std::string table = record.passTable();
+  EXPECT_NE(table.find("density                                      8       3.000     375.00"), std::string::npos) << table;
+  EXPECT_NE(table.find("skipped: vorticity is 0"), std::string::npos) << table;
+}
+
+TEST(Requirement, ReadsAllComparisons) {
+  EXPECT_TRUE(parseRequirement("outside<1")->holds(0));
+  EXPECT_FALSE(parseRequirement("outside<1")->holds(1));
+  EXPECT_TRUE(parseRequirement("outside <= 1")->holds(1));
+  EXPECT_TRUE(parseRequirement("front_m>1e-3")->holds(0.01));
+  EXPECT_TRUE(parseRequirement("front_m>=0.01")->holds(0.01));
+  EXPECT_FALSE(parseRequirement("front_m>=0.01")->holds(NAN));
+  for (const char* text : {"", "outside", "<1", "outside<", "outside<x", "outside<1x", "outside=1", "outside<nan", "outside<inf"}) EXPECT_FALSE(parseRequirement(text)) << text;
+}
+
+TEST(Requirement, UnknownFiguresGetTheList) {
+  const std::vector<Requirement> wanted = {*parseRequirement("density_eror_mean<1")};
+  const auto known = checkFigures(wanted, Record::figureNames(scene()));
+  ASSERT_FALSE(known);
+  EXPECT_NE(known.error().message.find("did you mean \"density_error_mean\"?"), std::string::npos) << known.error().message;
+  EXPECT_NE(known.error().message.find("probes.H1"), std::string::npos);
+  EXPECT_TRUE(checkFigures(std::vector<Requirement>{*parseRequirement("probes.H1>0")}, Record::figureNames(scene())));
+}
+
+TEST(Requirement, SaysWhatTheFigureIs) {
+  const std::vector<Figure> figures = {{"outside", 3, ""}, {"energy_ratio", NAN, ""}};
+  const std::vector<Requirement> wanted = {*parseRequirement("outside<1"), *parseRequirement("outside<4"), *parseRequirement("energy_ratio<2")};
+  const auto broken = failures(wanted, figures);
+  ASSERT_EQ(broken.size(), 2u);
+  EXPECT_NE(broken[0].find("outside is 3"), std::string::npos);
+  EXPECT_NE(broken[1].find("undefined"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rill::capture

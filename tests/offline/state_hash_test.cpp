@@ -1,0 +1,47 @@
+#include "offline/state_hash.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace rill::offline {
+namespace {
+
+const std::vector<Float3> kPositions = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
+const std::vector<Float3> kVelocities = {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}};
+const std::vector<uint32_t> kIds = {0, 1, 2};
+
+TEST(StateHash, OfNothingIsTheOffsetBasis) { EXPECT_EQ(stateHash({}, {}, {}), 0xcbf29ce484222325ull); }
+
+TEST(StateHash, IsFnv1aOverTheBytes) {
+  // Six zero floats: 24 times a multiplication by the prime.
+  uint64_t expected = 0xcbf29ce484222325ull;
+  for (int i = 0; i < 24; ++i) expected *= 0x100000001b3ull;
+  const std::vector<Float3> zero(1);
+  EXPECT_EQ(stateHash(zero, zero, std::vector<uint32_t>{0}), expected);
+}
+
+TEST(StateHash, DoesNotDependOnTheStorageOrder) {
+  const std::vector<Float3> p = {kPositions[2], kPositions[0], kPositions[1]}, v = {kVelocities[2], kVelocities[0], kVelocities[1]};
+  EXPECT_EQ(stateHash(p, v, std::vector<uint32_t>{2, 0, 1}), stateHash(kPositions, kVelocities, kIds));
+}
+
+TEST(StateHash, SeesEachBit) {
+  const uint64_t base = stateHash(kPositions, kVelocities, kIds);
+  auto positions = kPositions;
+  positions[1].y = 5.0000005f;
+  EXPECT_NE(stateHash(positions, kVelocities, kIds), base);
+  auto velocities = kVelocities;
+  velocities[0].x = -0.0f;
+  EXPECT_NE(stateHash(kPositions, velocities, kIds), base);
+}
+
+TEST(OrderById, SortsIdsWithGapsAndRepeats) {
+  EXPECT_EQ(orderById(std::vector<uint32_t>{2, 0, 1}), (std::vector<uint32_t>{1, 2, 0}));
+  EXPECT_EQ(orderById(std::vector<uint32_t>{90, 7, 40}), (std::vector<uint32_t>{1, 2, 0}));
+  EXPECT_EQ(orderById(std::vector<uint32_t>{1, 1, 0}), (std::vector<uint32_t>{2, 0, 1}));
+  EXPECT_TRUE(orderById({}).empty());
+}
+
+}  // namespace
+}  // namespace rill::offline

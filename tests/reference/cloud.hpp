@@ -1,0 +1,74 @@
+#pragma once
+// Clouds and sums that the reference solver's tests share.
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <random>
+#include <vector>
+
+#include "reference/solver.hpp"
+
+namespace rill::reference {
+
+/// A lattice of nx x ny x nz, the first point half a spacing inside `from`.
+inline std::vector<glm::dvec3> lattice(int nx, int ny, int nz, double d, glm::dvec3 from = glm::dvec3(0)) {
+  std::vector<glm::dvec3> x;
+  for (int k = 0; k < nz; ++k)
+    for (int j = 0; j < ny; ++j)
+      for (int i = 0; i < nx; ++i) x.push_back(from + d * glm::dvec3(i + 0.5, j + 0.5, k + 0.5));
+  return x;
+}
+
+inline std::vector<glm::dvec3> randomCloud(size_t count, double edge, unsigned seed, glm::dvec3 from = glm::dvec3(0)) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> place(0, edge);
+  std::vector<glm::dvec3> x(count);
+  for (glm::dvec3& p : x)
+    for (int a = 0; a < 3; ++a) p[a] = from[a] + place(random);
+  return x;
+}
+
+inline glm::dvec3 meanVelocity(const ReferenceSolver& solver) {
+  glm::dvec3 sum(0);
+  for (const glm::dvec3& v : solver.state.velocity) sum += v;
+  return sum / double(solver.size());
+}
+
+inline glm::dvec3 centreOfMass(const ReferenceSolver& solver) {
+  glm::dvec3 sum(0);
+  for (const glm::dvec3& x : solver.state.position) sum += x;
+  return sum / double(solver.size());
+}
+
+inline double rmsSpeed(const ReferenceSolver& solver) {
+  double sum = 0;
+  for (const glm::dvec3& v : solver.state.velocity) sum += glm::dot(v, v);
+  return std::sqrt(sum / double(solver.size()));
+}
+
+/// Kinetic and potential energy, J; the potential's zero is the origin.
+inline double energy(const ReferenceSolver& solver) {
+  double sum = 0;
+  for (size_t i = 0; i < solver.size(); ++i)
+    sum += glm::dot(solver.state.velocity[i], solver.state.velocity[i]) / 2 - glm::dot(solver.settings.gravity, solver.state.position[i]);
+  return sum * solver.mass();
+}
+
+/// Mean compression, a fraction of rho0, of the last density evaluation.
+inline double compression(const ReferenceSolver& solver) {
+  double sum = 0;
+  for (const double ratio : solver.densityRatio()) sum += std::max(0.0, ratio - 1);
+  return sum / double(solver.size());
+}
+
+inline ReferenceSettings tank(double d, glm::dvec3 hi) {
+  ReferenceSettings s;
+  s.spacing = d;
+  s.lo = glm::dvec3(0);
+  s.hi = hi;
+  s.tabulated = true;
+  return s;
+}
+
+}  // namespace rill::reference

@@ -1,0 +1,191 @@
+// Whole substeps.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "reference/cloud.hpp"
+
+namespace rill::reference {
+namespace {
+
+constexpr double kSpacing = 0.05, kNaN = std::numeric_limits<double>::quiet_NaN();
+
+void run(ReferenceSolver& solver, double dt, int steps) {
+  solver.begin(dt);
+  for (int step = 0; step < steps; ++step) solver.substep(dt, dt);
+}
+
+double leastDistance(const ReferenceSolver& solver) {
+  double least = 1e9;
+  for (size_t i = 0; i < solver.size(); ++i)
+    for (size_t j = 0; j < i; ++j) least = std::min(least, glm::length(solver.state.position[i] - solver.state.position[j]));
+  return least;
+}
+
+TEST(Solver, AFullBoxWithoutGravityDoesNotMove) {
+  for (const KernelChoice kernel : {KernelChoice::Wendland, KernelChoice::Poly6Spiky}) {
+    for (const bool tabulated : {false, true}) {
+      for (const double ratio : {1.2, 2.0, 2.7}) {
+        ReferenceSettings s = tank(kSpacing, kSpacing * glm::dvec3(5, 4, 1));
+        s.gravity = glm::dvec3(0);
+        s.kernel = kernel;
+        s.smoothingRatio = ratio;
+        s.tabulated = tabulated;
+        s.relaxation = 0.3;
+        const std::vector<glm::dvec3> x = lattice(5, 4, 1, kSpacing);
+        ReferenceSolver solver(s, x);
+        run(solver, 2e-3, 30);
+        for (size_t i = 0; i < x.size(); ++i) EXPECT_LT(glm::length(solver.state.position[i] - x[i]), (tabulated ? 1e-4 : 1e-9) * kSpacing);
+      }
+    }
+  }
+}
+
+TEST(Solver, ADropFallsFreely) {
+  ReferenceSettings s;
+  s.spacing = kSpacing;
+  const std::vector<glm::dvec3> x = lattice(5, 5, 5, kSpacing);
+  ReferenceSolver solver(s, x);
+  const double dt = 2e-3;
+  const int steps = 200;
+  run(solver, dt, steps);
+  for (size_t i = 0; i < x.size(); ++i) {
+    const glm::dvec3 exact = x[i] + 0.5 * s.gravity * dt * dt * double(steps * (steps + 1));
+    EXPECT_LT(glm::length(solver.state.position[i] - exact), 1e-9);
+    EXPECT_LT(glm::length(solver.state.velocity[i] - s.gravity * dt * double(steps)), 1e-7);
+  }
+}
+
+TEST(Solver, AStillColumnRests) {
+  const int layers = 8;
+  ReferenceSettings s = tank(kSpacing, kSpacing * glm::dvec3(6, 3 * layers, 6));
+  s.relaxation = 0.5;
+  s.warmStart = 0.01;
+  ReferenceSolver solver(s, lattice(6, layers, 6, kSpacing));
+  const double height = centreOfMass(solver).y;
+  run(solver, 1.0 / 960, 960);
+  EXPECT_LT(rmsSpeed(solver), 0.05);
+  EXPECT_NEAR(centreOfMass(solver).y / height, 1, 0.01);
+  EXPECT_LT(compression(solver), 0.002);
+  EXPECT_EQ(solver.parked(), 0u);
+}
+
+TEST(Solver, ADamBreakStaysInsideKeepsItsParticlesAndGainsNoEnergy) {
+  for (const bool tabulated : {true, false}) {
+    ReferenceSettings s = tank(kSpacing, kSpacing * glm::dvec3(24, 24, 6));
+    s.tabulated = tabulated;
+    s.relaxation = 0.7;
+    s.warmStart = 0.1;
+    ReferenceSolver solver(s, lattice(9, 12, 6, kSpacing));
+    const double start = energy(solver), dt = 1.0 / 960;
+    solver.begin(dt);
+    double highest = 0, error = 0;
+    const int steps = tabulated ? 960 : 120;
+    for (int step = 0; step < steps; ++step) {
+      solver.substep(dt, dt);
+      highest = std::max(highest, energy(solver));
+      error += compression(solver) / steps;
+      for (const glm::dvec3& x : solver.state.position) {
+        for (int a = 0; a < 3; ++a) {
+          ASSERT_GE(x[a], s.lo[a] + 0.5 * kSpacing);
+          ASSERT_LE(x[a], s.hi[a] - 0.5 * kSpacing);
+        }
+      }
+    }
+    EXPECT_LT(highest / start, 1.002);
+    EXPECT_LT(error, 0.002);
+    EXPECT_EQ(solver.parked(), 0u);
+    if (tabulated) { EXPECT_GT(centreOfMass(solver).x, 1.4 * 4.5 * kSpacing); }
+  }
+}
+
+TEST(Solver, CoincidentParticlesSeparate) {
+  ReferenceSettings s;
+  s.spacing = kSpacing;
+  s.gravity = glm::dvec3(0);
+  ReferenceSolver lone(s, std::vector<glm::dvec3>(2, glm::dvec3(0.1)));
+  run(lone, 1e-3, 20);
+  EXPECT_GT(leastDistance(lone), 1.9e-3 * lone.kernel().h());
+  EXPECT_LT(glm::length(meanVelocity(lone)), 1e-15);
+
+  ReferenceSolver pile(s, std::vector<glm::dvec3>(30, glm::dvec3(-0.2)));
+  run(pile, 1e-3, 20);
+  EXPECT_GT(leastDistance(pile), 1e-3 * pile.kernel().h());
+  EXPECT_EQ(pile.parked(), 0u);
+}
+
+TEST(Solver, WhatIsNotFiniteIsParkedAndHarmsNobody) {
+  ReferenceSettings s = tank(kSpacing, kSpacing * glm::dvec3(6, 12, 6));
+  std::vector<glm::dvec3> x = lattice(6, 6, 6, kSpacing), v(x.size(), glm::dvec3(0));
+  x[3].y = kNaN;
+  v[100].z = std::numeric_limits<double>::infinity();
+  ReferenceSolver solver(s, x, v);
+  run(solver, 1e-3, 5);
+  EXPECT_EQ(solver.parked(), 2u);
+  solver.state.velocity[50].x = kNaN;
+  solver.density();
+  solver.predict(1e-3, 1e-3);
+  EXPECT_EQ(solver.parked(), 3u);
+  EXPECT_EQ(solver.state.velocity[50], glm::dvec3(0));
+  for (int step = 0; step < 50; ++step) solver.substep(1e-3, 1e-3);
+  for (const glm::dvec3& p : solver.state.position)
+    for (int a = 0; a < 3; ++a) EXPECT_TRUE(p[a] >= 0 && p[a] <= s.hi[a]);
+  EXPECT_LT(rmsSpeed(solver), 3);
+}
+
+TEST(Solver, NoParticlesIsNoProblem) {
+  ReferenceSolver solver(tank(kSpacing, glm::dvec3(1)), {});
+  run(solver, 1e-3, 3);
+  EXPECT_EQ(solver.size(), 0u);
+}
+
+TEST(Solver, SpeedIsBounded) {
+  ReferenceSettings s;
+  s.spacing = kSpacing;
+  s.speedLimit = 4;
+  ReferenceSolver solver(s, randomCloud(200, 2 * kSpacing, 4));
+  run(solver, 1e-3, 3);
+  for (const glm::dvec3& v : solver.state.velocity) EXPECT_LE(glm::length(v), 4 * (1 + 1e-12));
+}
+
+TEST(Solver, FarFromTheOriginAndWithAnUnevenStepItIsTheSameFlow) {
+  ReferenceSettings s = tank(kSpacing, kSpacing * glm::dvec3(12, 12, 4));
+  ReferenceSettings far = s;
+  const glm::dvec3 away = {1000, -500, 250};
+  far.lo += away;
+  far.hi += away;
+  std::vector<glm::dvec3> x = lattice(5, 6, 4, kSpacing);
+  ReferenceSolver here(s, x);
+  for (glm::dvec3& p : x) p += away;
+  ReferenceSolver there(far, x);
+  const double steps[] = {1e-3, 0.5e-3, 2e-3};
+  here.begin(steps[0]);
+  there.begin(steps[0]);
+  for (int n = 0; n < 60; ++n) {
+    here.substep(steps[n % 3], steps[(n + 1) % 3]);
+    there.substep(steps[n % 3], steps[(n + 1) % 3]);
+  }
+  for (size_t i = 0; i < here.size(); ++i) EXPECT_LT(glm::length(there.state.position[i] - away - here.state.position[i]), 1e-7);
+}
+
+TEST(Solver, VorticityConfinementFeedsADamBreakWithoutBlowingUp) {
+  double kinetic[2];
+  for (const bool on : {false, true}) {
+    ReferenceSettings s = tank(kSpacing, kSpacing * glm::dvec3(24, 24, 4));
+    s.vorticity = on ? 1 : 0;
+    ReferenceSolver solver(s, lattice(9, 12, 4, kSpacing));
+    const double start = energy(solver), dt = 1.0 / 960;
+    solver.begin(dt);
+    double highest = 0;
+    for (int step = 0; step < 960; ++step) {
+      solver.substep(dt, dt);
+      highest = std::max(highest, energy(solver));
+    }
+    EXPECT_LT(highest / start, on ? 1.05 : 1.002);
+    kinetic[on] = rmsSpeed(solver);
+  }
+  EXPECT_NE(kinetic[0], kinetic[1]);
+}
+
+}  // namespace
+}  // namespace rill::reference

@@ -1,0 +1,78 @@
+#!/usr/bin/env bash
+# Every test, on every software Vulkan driver that this system has.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+. apps/setup.sh
+
+usage() {
+  cat <<'END'
+Usage: ./tests/run.sh [--no-install] [--help] [CTEST OPTION...]
+
+Installs what is missing (Debian 12 or Ubuntu 24.04 and newer; with sudo where not root), builds, and runs
+  all tests on lavapipe,
+  the tests of label sort on lavapipe with subgroups of 4 and of 16,
+  the tests of labels gpu and sort on SwiftShader, where the system has it.
+
+  --no-install   install nothing, only build and run
+  CTEST OPTION   for ctest, for example: -R graph
+END
+}
+
+install=yes
+none=error  # a run that finds no test has failed, unless the caller chose which to run
+while [ $# -gt 0 ]; do
+  case $1 in
+    --no-install) install=no ;;
+    -h | --help) usage; exit ;;
+    *) none=ignore; break ;;
+  esac
+  shift
+done
+
+# first_file PATH...: the first that exists.
+first_file() {
+  local path
+  for path in "$@"; do
+    if [ -f "$path" ]; then
+      printf '%s\n' "$path"
+      return
+    fi
+  done
+}
+
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+failed=0
+results=()
+
+# run_tests NAME DRIVER NO_TESTS CTEST_OPTION...
+run_tests() {
+  local name=$1 driver=$2 no_tests=$3 begin=$SECONDS
+  shift 3
+  phase "Testing on $name"
+  # Older loaders read VK_ICD_FILENAMES alone.
+  VK_DRIVER_FILES=$driver VK_ICD_FILENAMES=$driver \
+    ctest --test-dir build/release --output-on-failure --no-tests="$no_tests" --parallel "$(nproc)" "$@" 2>&1 | tee "$log" || failed=1
+  results+=("$name, $((SECONDS - begin)) s: $(grep -m1 -E 'tests passed|No tests were found' "$log" || echo 'no test ran')")
+}
+
+[ $install = no ] || install_packages build run test 'test?'
+build_release ON all
+
+lavapipe=$(first_file /usr/share/vulkan/icd.d/lvp_icd."$(uname -m)".json /usr/share/vulkan/icd.d/lvp_icd.json)
+swiftshader=$(first_file /usr/lib/chromium/vk_swiftshader_icd.json)
+[ -n "$lavapipe" ] || fail "lavapipe's lvp_icd.*.json is not in /usr/share/vulkan/icd.d"
+
+run_tests "lavapipe" "$lavapipe" error "$@"
+for subgroup in 4 16; do
+  LP_NATIVE_VECTOR_WIDTH=$((32 * subgroup)) run_tests "lavapipe with subgroups of $subgroup" "$lavapipe" $none -L '^sort$' "$@"
+done
+if [ -n "$swiftshader" ]; then
+  run_tests "SwiftShader" "$swiftshader" $none -L '^(gpu|sort)$' "$@"
+else
+  results+=("SwiftShader: this system has no package of it (chromium-common), so not tested")
+fi
+
+phase "Results"
+printf '%s\n' "${results[@]}"
+exit $failed

@@ -1,0 +1,180 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <tuple>
+
+#include "shared/pair_hash.h"
+#include "sph/solid_density.hpp"
+#include "sph/solid_pose.hpp"
+
+namespace {
+
+using namespace rill;
+
+constexpr double kSpacing = 0.02;
+
+class SolidTest : public testing::TestWithParam<std::tuple<KernelChoice, double>> {
+ protected:
+  SmoothingKernel kernel() const { return SmoothingKernel(std::get<0>(GetParam()), std::get<1>(GetParam()) * kSpacing, kSpacing); }
+};
+
+TEST_P(SolidTest, ALargeBallIsAWall) {
+  const SmoothingKernel k = kernel();
+  for (int i = 0; i <= 20; ++i) {
+    const double s = kSpacing / 2 + (wallReach(k) - kSpacing / 2) * i / 20;
+    const LineSample plane = exactPlane(k, s), ball = exactSphere(k, 1e5 * kSpacing, s);
+    EXPECT_NEAR(ball.value, plane.value, 1e-4);
+    EXPECT_NEAR(ball.slope * kSpacing, plane.slope * kSpacing, 1e-4);
+  }
+}
+
+TEST_P(SolidTest, ABallDisplacesLessThanAWallAndTheSmallerTheLess) {
+  const SmoothingKernel k = kernel();
+  const double s = kSpacing / 2;
+  double last = exactPlane(k, s).value;
+  for (const double R : {100.0, 10.0, 3.0, 1.0, 0.5, 0.1, 0.01}) {
+    const LineSample ball = exactSphere(k, R * kSpacing, s);
+    EXPECT_LT(ball.value, last);
+    EXPECT_GT(ball.value, 0);
+    EXPECT_LT(ball.slope, 0);
+    last = ball.value;
+  }
+  EXPECT_LT(last, 1e-4);
+}
+
+TEST_P(SolidTest, BallTablesFollowTheFormula) {
+  const SmoothingKernel k = kernel();
+  const double bound = std::get<1>(GetParam()) < 2 ? 5e-3 : 1e-3;
+  for (const double R : {0.2, 0.7, 2.0, 5.5, 40.0}) {
+    const SphereTable table = makeSphereTable(k, R * kSpacing);
+    for (int i = 0; i <= 200; ++i) {
+      const double s = table.first + (1.1 * wallReach(k) - table.first) * i / 200;
+      const LineSample exact = exactSphere(k, R * kSpacing, s), linear = table.sample(s);
+      EXPECT_NEAR(exact.value, linear.value, bound) << "R/d " << R << " s/d " << s / kSpacing;
+      if (s > table.first + kSpacing / 8) {
+        EXPECT_NEAR(exact.slope * kSpacing, linear.slope * kSpacing, 5 * bound) << "R/d " << R << " s/d " << s / kSpacing;
+      }
+    }
+    EXPECT_EQ(table.sample(1.2 * k.h()).value, 0);
+    EXPECT_EQ(table.sample(-1e6).value, table.sample(table.first).value);
+  }
+}
+
+TEST_P(SolidTest, AThickBoxFaceIsAWallAndAThinPlateIsLess) {
+  const SmoothingKernel k = kernel();
+  const WallTables tables = makeWallTables(k);
+  const double wide = 10 * k.h();
+  for (int i = 0; i <= 20; ++i) {
+    const double s = kSpacing / 2 + (wallReach(k) - kSpacing / 2) * i / 20;
+    const LineSample plane = exactPlane(k, s);
+    double last = plane.value;
+    for (const double thickness : {2 * k.h(), 1.5 * kSpacing, kSpacing, 0.3 * kSpacing}) {
+      const double half[3] = {wide, wide, thickness / 2}, at[3] = {0.1 * kSpacing, -0.2 * kSpacing, -(s + thickness / 2)};
+      const WallSample box = boxSample(k, at, half);
+      if (thickness > k.h()) {
+        EXPECT_NEAR(box.value, plane.value, 1e-12);
+        EXPECT_NEAR(box.gradient[2], -plane.slope, 1e-9 / kSpacing);
+        EXPECT_NEAR(boxSample(tables, at, half).value, tables.samplePlane(s).value, 1e-6);
+      }
+      EXPECT_LE(box.value, last + 1e-12);
+      EXPECT_GE(box.value, 0);
+      EXPECT_EQ(box.gradient[0], 0);
+      last = box.value;
+    }
+  }
+}
+
+// A plate as thick as a layer of the lattice, half a spacing from both neighbours, stands for that layer.
+TEST_P(SolidTest, APlateOfOneSpacingIsOneLayer) {
+  const SmoothingKernel k = kernel();
+  const double half[3] = {10 * k.h(), 10 * k.h(), kSpacing / 2}, at[3] = {0, 0, kSpacing};
+  double layer = 0;
+  for (int i = -5; i <= 5; ++i)
+    for (int j = -5; j <= 5; ++j) layer += k.value(kSpacing * std::sqrt(i * i + j * j + 1.0));
+  EXPECT_NEAR(boxSample(k, at, half).value, layer, 1e-12);
+}
+
+TEST(WendlandBox, GradientIsTheDerivativeOfTheValue) {
+  const SmoothingKernel k(KernelChoice::Wendland, 2 * kSpacing, kSpacing);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(-4 * kSpacing, 4 * kSpacing), size(0.2 * kSpacing, 2 * kSpacing);
+  for (int sample = 0; sample < 300; ++sample) {
+    const double at[3] = {place(random), place(random), place(random)}, half[3] = {size(random), size(random), size(random)};
+    const WallSample box = boxSample(k, at, half);
+    for (int a = 0; a < 3; ++a) {
+      const double step = 1e-6 * kSpacing;
+      double low[3] = {at[0], at[1], at[2]}, high[3] = {at[0], at[1], at[2]};
+      low[a] -= step, high[a] += step;
+      const double slope = (boxSample(k, high, half).value - boxSample(k, low, half).value) / (2 * step);
+      EXPECT_NEAR(box.gradient[a] * kSpacing, slope * kSpacing, 1e-4);
+    }
+  }
+}
+
+TEST(SolidPose, FollowsItsKeyframes) {
+  Solid solid;
+  solid.sphere = SphereShape{{1, 2, 3}, 0.5};
+  EXPECT_EQ(solidPose(solid, 5).centre[0], 1);
+  EXPECT_EQ(solidPose(solid, 5).velocity[0], 0);
+  solid.motion = {{1, {1, 0, 0}}, {3, {5, 0, 0}}, {4, {5, -2, 0}}};
+  EXPECT_DOUBLE_EQ(solidPose(solid, 0).centre[0], 2);
+  EXPECT_DOUBLE_EQ(solidPose(solid, 0).velocity[0], 0);
+  EXPECT_DOUBLE_EQ(solidPose(solid, 2).centre[0], 4);
+  EXPECT_DOUBLE_EQ(solidPose(solid, 2).velocity[0], 2);
+  EXPECT_DOUBLE_EQ(solidPose(solid, 3).velocity[0], 0);
+  EXPECT_DOUBLE_EQ(solidPose(solid, 3).velocity[1], -2);
+  EXPECT_DOUBLE_EQ(solidPose(solid, 3.5).centre[1], 1);
+  EXPECT_DOUBLE_EQ(solidPose(solid, 9).centre[1], 0);
+  EXPECT_DOUBLE_EQ(solidPose(solid, 9).velocity[1], 0);
+  const SolidPose step = solidPose(solid, 2.5, 1.0);  // half a second at 2 m/s in x, half at -2 in y
+  EXPECT_DOUBLE_EQ(step.velocity[0], 1);
+  EXPECT_DOUBLE_EQ(step.velocity[1], -1);
+  EXPECT_DOUBLE_EQ(step.centre[1], 1);
+}
+
+TEST(SolidPose, SurfacesOfBallsAndTurnedBoxes) {
+  Solid ball;
+  ball.sphere = SphereShape{{1, 0, 0}, 0.5};
+  const double above[3] = {1, 2, 0}, centre[3] = {1, 0, 0};
+  EXPECT_DOUBLE_EQ(solidSurface(solidPose(ball, 0), above).distance, 1.5);
+  EXPECT_DOUBLE_EQ(solidSurface(solidPose(ball, 0), above).normal[1], 1);
+  EXPECT_DOUBLE_EQ(solidSurface(solidPose(ball, 0), centre).distance, -0.5);
+  EXPECT_DOUBLE_EQ(solidSurface(solidPose(ball, 0), centre).normal[1], 1);
+
+  Solid box;
+  box.box = BoxShape{{-2, -1, -1}, {2, 1, 1}};
+  box.rotation[2] = box.rotation[3] = std::sqrt(0.5);  // a quarter turn about z: long along y
+  const SolidPose pose = solidPose(box, 0);
+  const double top[3] = {0, 3, 0}, inside[3] = {0.9, 0.5, 0}, corner[3] = {1 + 3, 2 + 4, 0};
+  EXPECT_NEAR(solidSurface(pose, top).distance, 1, 1e-12);
+  EXPECT_NEAR(solidSurface(pose, top).normal[1], 1, 1e-12);
+  EXPECT_NEAR(solidSurface(pose, inside).distance, -0.1, 1e-12);
+  EXPECT_NEAR(solidSurface(pose, inside).normal[0], 1, 1e-12);
+  EXPECT_NEAR(solidSurface(pose, corner).distance, 5, 1e-12);
+  EXPECT_NEAR(solidSurface(pose, corner).normal[0], 0.6, 1e-12);
+  EXPECT_NEAR(solidSurface(pose, corner).normal[1], 0.8, 1e-12);
+}
+
+TEST(PairHash, IsAntisymmetricNeverZeroAndSpread) {
+  double mean[3] = {0, 0, 0};
+  int count = 0;
+  for (uint32_t i = 0; i < 60; ++i) {
+    for (uint32_t j = 0; j < i; ++j, ++count) {
+      for (uint32_t a = 0; a < 3; ++a) {
+        const int32_t component = shared::pairDirection(i, j, a);
+        EXPECT_EQ(component, -shared::pairDirection(j, i, a));
+        EXPECT_NE(component, 0);
+        EXPECT_LE(std::abs(component), 1023);
+        mean[a] += component / 1023.0;
+      }
+    }
+  }
+  for (const double m : mean) EXPECT_LT(std::abs(m / count), 0.06);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SolidTest,
+                         testing::Combine(testing::Values(KernelChoice::Wendland, KernelChoice::Poly6Spiky),
+                                          testing::Values(1.2, 2.0, 3.0, 4.0)));
+
+}  // namespace

@@ -1,0 +1,182 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <tuple>
+
+#include "sph/wall.hpp"
+
+namespace {
+
+using rill::SmoothingKernel;
+using rill::KernelChoice;
+using rill::LineSample;
+using rill::WallSample;
+using rill::WallTables;
+
+constexpr double kSpacing = 0.02, kFar = std::numeric_limits<double>::infinity();
+
+class WallTest : public testing::TestWithParam<std::tuple<KernelChoice, double>> {
+ protected:
+  SmoothingKernel kernel() const { return SmoothingKernel(std::get<0>(GetParam()), std::get<1>(GetParam()) * kSpacing, kSpacing); }
+  double ratio() const { return std::get<1>(GetParam()); }
+};
+
+/// A full rest lattice of `layers` in a box, walls on all sides but those of an axis with 0 layers, which is endless: the largest |rho/rho0
+/// - 1| and the largest force that the constraint's gradient would give, times d.
+struct Rest {
+  double density = 0, gradient = 0;
+};
+
+template <class Wall>
+Rest restLattice(const SmoothingKernel& k, const int (&layers)[3], const Wall& wall) {
+  const double d = k.spacing();
+  const int reach = static_cast<int>(std::ceil(k.h() / d));
+  Rest worst;
+  int count[3], p[3], n[3];
+  for (int a = 0; a < 3; ++a) count[a] = std::max(layers[a], 1);
+  for (p[0] = 0; p[0] < count[0]; ++p[0])
+    for (p[1] = 0; p[1] < count[1]; ++p[1])
+      for (p[2] = 0; p[2] < count[2]; ++p[2]) {
+        double lo[3], hi[3];
+        for (int a = 0; a < 3; ++a) {
+          lo[a] = layers[a] ? (p[a] + 0.5) * d : kFar;
+          hi[a] = layers[a] ? (layers[a] - p[a] - 0.5) * d : kFar;
+        }
+        const WallSample w = wall(lo, hi);
+        double sum = w.value, g[3] = {w.gradient[0], w.gradient[1], w.gradient[2]};
+        for (n[0] = -reach; n[0] <= reach; ++n[0])
+          for (n[1] = -reach; n[1] <= reach; ++n[1])
+            for (n[2] = -reach; n[2] <= reach; ++n[2]) {
+              bool there = true;
+              for (int a = 0; a < 3; ++a) there = there && (!layers[a] || (p[a] + n[a] >= 0 && p[a] + n[a] < layers[a]));
+              if (!there) continue;
+              const double r = d * std::sqrt(double(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]));
+              sum += k.value(r);
+              for (int a = 0; a < 3; ++a) g[a] -= k.gradientOverR(r) * d * n[a];
+            }
+        worst.density = std::max(worst.density, std::abs(sum - 1));
+        worst.gradient = std::max(worst.gradient, d * std::hypot(g[0], g[1], g[2]));
+      }
+  return worst;
+}
+
+TEST_P(WallTest, RestLatticeMeasuresRestDensityEverywhere) {
+  const SmoothingKernel k = kernel();
+  const WallTables tables = rill::makeWallTables(k);
+  const int boxes[][3] = {{10, 0, 0}, {10, 10, 0}, {6, 6, 6}, {10, 9, 10}, {1, 0, 0},
+                          {2, 0, 0},  {3, 5, 0},   {4, 4, 4}, {1, 1, 1},   {2, 1, 3}};
+  for (const auto& layers : boxes) {
+    const auto name = testing::Message() << layers[0] << " x " << layers[1] << " x " << layers[2] << " layers";
+    const Rest exact = restLattice(k, layers, [&](const double* lo, const double* hi) { return rill::exactWall(k, lo, hi); });
+    EXPECT_LT(exact.density, 1e-12) << name;
+    EXPECT_LT(exact.gradient, 1e-12) << name;
+    const Rest tabulated = restLattice(k, layers, [&](const double* lo, const double* hi) { return tables.sample(lo, hi); });
+    EXPECT_LT(tabulated.density, 2e-6) << name;
+    EXPECT_LT(tabulated.gradient, 1e-5) << name;
+  }
+}
+
+TEST_P(WallTest, TablesFollowTheSums) {
+  const SmoothingKernel k = kernel();
+  const WallTables tables = rill::makeWallTables(k);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> distance(0, 1.1 * rill::wallReach(k));
+  std::uniform_int_distribution<int> closed(0, 1);
+  // Linear interpolation errs by step^2 / 8 times the curvature, which grows as the kernel narrows.
+  const double bound = ratio() < 2 ? 5e-3 : ratio() < 3 ? 1.3e-3 : 5e-4;
+  for (int sample = 0; sample < 2000; ++sample) {
+    double lo[3], hi[3];
+    for (int a = 0; a < 3; ++a) {
+      lo[a] = closed(random) ? distance(random) : kFar;
+      hi[a] = closed(random) && sample % 4 == 0 ? distance(random) : kFar;
+    }
+    const WallSample exact = rill::exactWall(k, lo, hi), table = tables.sample(lo, hi);
+    const double crowd = sample % 4 == 0 ? 4 : 1;  // both walls of an axis near: more terms
+    EXPECT_NEAR(exact.value, table.value, crowd * bound);
+    for (int a = 0; a < 3; ++a) EXPECT_NEAR(exact.gradient[a] * kSpacing, table.gradient[a] * kSpacing, crowd * 4 * bound);
+  }
+}
+
+TEST_P(WallTest, FadesAndGrowsTowardTheWall) {
+  const SmoothingKernel k = kernel();
+  const WallTables tables = rill::makeWallTables(k);
+  const double reach = rill::wallReach(k);
+  for (int i = 0; i < 100; ++i) {
+    const double s = reach * i / 100;
+    const LineSample near = rill::exactPlane(k, s), far = rill::exactPlane(k, reach * (i + 1) / 100);
+    EXPECT_GT(near.value, far.value);
+    EXPECT_LT(near.slope, 0);
+    const double lo[3] = {kFar, s, kFar}, hi[3] = {kFar, kFar, kFar};
+    const WallSample low = rill::exactWall(k, lo, hi), high = rill::exactWall(k, hi, lo);
+    EXPECT_NEAR(low.value, near.value, 1e-14);
+    EXPECT_NEAR(low.gradient[1], near.slope, 1e-12 / kSpacing);
+    EXPECT_NEAR(high.gradient[1], -near.slope, 1e-12 / kSpacing);
+    EXPECT_EQ(low.gradient[0], 0);
+  }
+  for (const double s : {reach, 1.01 * reach, 50.0, kFar}) {
+    EXPECT_EQ(rill::exactPlane(k, s).value, 0);
+    EXPECT_NEAR(tables.samplePlane(s).value, 0, 1e-5);
+  }
+  const LineSample inside = rill::exactPlane(k, -0.3 * kSpacing), surface = rill::exactPlane(k, 0);
+  EXPECT_EQ(inside.value, surface.value);
+}
+
+TEST_P(WallTest, HalfSpaceIsContinuousMonotoneAndThePlaneFromHalfASpacingOn) {
+  const SmoothingKernel k = kernel();
+  const WallTables tables = rill::makeWallTables(k);
+  const double reach = rill::wallReach(k), step = 1e-6 * kSpacing;
+  EXPECT_NEAR(rill::halfSpace(k, 0).value, 0.5, 1e-14);
+  double last = 1;
+  for (int i = -100; i <= 100; ++i) {
+    const double s = reach * i / 100 * (1 - 1e-6);
+    const LineSample f = rill::halfSpace(k, s);
+    EXPECT_LE(f.value, last + 1e-15);
+    last = f.value;
+    EXPECT_NEAR(f.value + rill::halfSpace(k, -s).value, 1, 1e-14);
+    EXPECT_NEAR(rill::halfSpace(k, s + step).value, rill::halfSpace(k, s - step).value, 1e-5);
+    EXPECT_NEAR(f.value, tables.sampleFace(s).value, ratio() < 2 ? 5e-3 : 1e-3);
+    EXPECT_NEAR(f.slope * kSpacing, tables.sampleFace(s).slope * kSpacing, ratio() < 2 ? 1.5e-2 : 3e-3);
+    if (s >= kSpacing / 2) { EXPECT_EQ(f.value, rill::exactPlane(k, s).value); }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, WallTest,
+                         testing::Combine(testing::Values(KernelChoice::Wendland, KernelChoice::Poly6Spiky),
+                                          testing::Values(1.2, 1.5, 2.0, 2.5, 3.0, 3.7, 4.0)));
+
+TEST(WendlandWall, GradientIsTheDerivativeOfTheValue) {
+  std::mt19937 random(11);
+  for (const double ratio : {1.2, 2.0, 3.0}) {
+    const SmoothingKernel k(KernelChoice::Wendland, ratio * kSpacing, kSpacing);
+    std::uniform_real_distribution<double> distance(0.01 * kSpacing, k.h());
+    for (int sample = 0; sample < 50; ++sample) {
+      double lo[3], hi[3];
+      for (int a = 0; a < 3; ++a) lo[a] = distance(random), hi[a] = sample % 2 ? distance(random) : kFar;
+      const WallSample at = rill::exactWall(k, lo, hi);
+      for (int a = 0; a < 3; ++a) {
+        const double step = 1e-5 * kSpacing;
+        double value[2];
+        for (int side = 0; side < 2; ++side) {
+          double l[3] = {lo[0], lo[1], lo[2]}, u[3] = {hi[0], hi[1], hi[2]};
+          const double move = side ? step : -step;
+          l[a] += move, u[a] -= move;
+          value[side] = rill::exactWall(k, l, u).value;
+        }
+        EXPECT_NEAR(at.gradient[a] * kSpacing, (value[1] - value[0]) / (2 * step) * kSpacing, 1e-6);
+      }
+    }
+  }
+}
+
+TEST(WallTables, StaySmallAtTheWidestKernel) {
+  const WallTables t = rill::makeWallTables(SmoothingKernel(KernelChoice::Wendland, 4 * kSpacing, kSpacing));
+  const size_t bytes = sizeof(float) * (t.plane.size() + t.face.size() + t.edge.size() + t.corner.size());
+  EXPECT_LT(bytes, 300u << 10);
+  EXPECT_EQ(t.edge.size(), size_t(2) * t.nodes * t.nodes);
+  EXPECT_EQ(t.corner.size(), size_t(2) * t.cornerNodes * t.cornerNodes * t.cornerNodes);
+}
+
+}  // namespace

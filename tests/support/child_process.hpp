@@ -1,0 +1,108 @@
+#pragma once
+// Runs a program as a child and keeps what it wrote.
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rill::test {
+
+struct Outcome {
+  int code = -1;         ///< exit code; 128 + signal where one ended the program
+  std::string out, err;  ///< standard output and standard error
+};
+
+/// A running program. It is killed where the test leaves before it has ended.
+class Child {
+ public:
+  using Environment = std::vector<std::pair<std::string, std::string>>;
+
+  /// `standardOutput`: a file that takes standard output in place of a pipe (opened for writing).
+  explicit Child(const std::vector<std::string>& command, const std::string& folder = ".", const Environment& environment = {},
+                 const std::string& standardOutput = {}) {
+    int out[2] = {-1, -1}, err[2] = {-1, -1};
+    if (::pipe2(out, O_CLOEXEC) != 0 || ::pipe2(err, O_CLOEXEC) != 0) return;
+    std::vector<char*> arguments;
+    for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
+    arguments.push_back(nullptr);
+    pid_ = ::fork();
+    if (pid_ == 0) {
+      for (const auto& [name, value] : environment) ::setenv(name.c_str(), value.c_str(), 1);
+      const int target = standardOutput.empty() ? out[1] : ::open(standardOutput.c_str(), O_WRONLY | O_CLOEXEC);
+      if (::chdir(folder.c_str()) == 0 && ::dup2(target, STDOUT_FILENO) >= 0 && ::dup2(err[1], STDERR_FILENO) >= 0) ::execv(arguments[0], arguments.data());
+      ::_exit(127);
+    }
+    ::close(out[1]);
+    ::close(err[1]);
+    out_ = out[0];
+    err_ = err[0];
+  }
+  ~Child() {
+    if (pid_ > 0) {
+      ::kill(pid_, SIGKILL);
+      ::waitpid(pid_, nullptr, 0);
+    }
+    closeOut();
+    if (err_ >= 0) ::close(err_);
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  /// Reads until `text` shows up on standard error; false where the program ends before.
+  bool waitForMessage(const std::string& text) {
+    while (outcome_.err.find(text) == std::string::npos)
+      if (!readSome()) return false;
+    return true;
+  }
+  void signal(int number) const { ::kill(pid_, number); }
+  /// As a reader that has gone: what is written to standard output from now on meets a closed pipe.
+  void closeOut() {
+    if (out_ >= 0) ::close(std::exchange(out_, -1));
+  }
+
+  Outcome wait() {
+    while (readSome()) {}
+    int status = 0;
+    while (pid_ > 0 && ::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {}
+    pid_ = -1;
+    outcome_.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return outcome_;
+  }
+
+ private:
+  bool readSome() {
+    pollfd ends[2] = {{out_, POLLIN, 0}, {err_, POLLIN, 0}};  // poll passes over -1
+    if (out_ < 0 && err_ < 0) return false;
+    if (::poll(ends, 2, -1) < 0) return errno == EINTR;
+    const auto take = [](pollfd& end, int& descriptor, std::string& text) {
+      if (end.fd < 0 || end.revents == 0) return;
+      char buffer[4096];
+      const ssize_t count = ::read(descriptor, buffer, sizeof buffer);
+      if (count > 0) text.append(buffer, static_cast<size_t>(count));
+      else ::close(std::exchange(descriptor, -1));
+    };
+    take(ends[0], out_, outcome_.out);
+    take(ends[1], err_, outcome_.err);
+    return true;
+  }
+
+  pid_t pid_ = -1;
+  int out_ = -1, err_ = -1;
+  Outcome outcome_;
+};
+
+/// Runs rill-capture to its end.
+inline Outcome capture(std::vector<std::string> arguments, const std::string& folder = ".", const Child::Environment& environment = {},
+                       const std::string& standardOutput = {}) {
+  arguments.insert(arguments.begin(), std::string(RILL_BINARY_DIR) + "/apps/capture/rill-capture");
+  return Child(arguments, folder, environment, standardOutput).wait();
+}
+
+}  // namespace rill::test
