@@ -20,8 +20,8 @@ RILL_CONSTANT kParticleGroup = 64;     // invocations of a particle kernel's wor
 RILL_CONSTANT kShadeTile = 8;          // pixels a side of the shading kernel's workgroup
 RILL_CONSTANT kSmallRect = 64;         // pixels: a sphere up to this wide and high is splatted by one invocation
 RILL_CONSTANT kLargeChunk = 4096;      // large spheres that one workgroup looks at
-RILL_CONSTANT kHiddenCells = 4096;     // occlusion cells that are looked at for one sphere at most
-RILL_CONSTANT kOccluderCells = 32;     // occlusion cells a side that one sphere covers at most
+RILL_CONSTANT kHiddenCells = 16384;    // occlusion cells that are looked at for one sphere at most
+RILL_CONSTANT kOccluderCells = 128;    // occlusion cells a side that one sphere covers at most
 RILL_CONSTANT kColours = 64;           // entries of a colour map
 RILL_CONSTANT kEdges = 12;             // of a box
 
