@@ -73,7 +73,7 @@ constexpr uint8_t kInk[3] = {32, 36, 42}, kPaper[3] = {250, 250, 250};
 void drawLegend(std::span<uint8_t> rgba, uint32_t width, uint32_t height, const LegendDesc& legend) {
   assert(rgba.size() >= size_t{4} * width * height);
   Canvas canvas{rgba, static_cast<int>(width), static_cast<int>(height)};
-  const int scale = std::max(1, static_cast<int>(std::lround(height / 480.0)));
+  const int scale = std::max(1, static_cast<int>(std::lround(height / 400.0)));
   const int line = 8 * scale, pad = 6 * scale, margin = 8 * scale, thick = 7 * scale;
   const bool compression = legend.colour == ParticleColour::Compression;
   const std::string title = compression ? "compression  %" : "speed  m/s";
@@ -85,7 +85,7 @@ void drawLegend(std::span<uint8_t> rgba, uint32_t width, uint32_t height, const 
 
   const int boxWidth = bar + 2 * pad + 10 * scale, boxHeight = 2 * pad + 2 * line + thick + 8 * scale;
   const int left = margin, top = canvas.height - margin - boxHeight;
-  if (bar < 30 * scale || top < 0 || textWidth(title, scale) > bar) return;
+  if (bar < 30 * scale || top < 0 || textWidth(title, scale) > bar || 5 * boxWidth > 2 * canvas.width) return;
 
   canvas.fill(left, top, left + boxWidth, top + boxHeight, kPaper, 0.62);
   const int x = left + pad + 3 * scale;
