@@ -7,7 +7,7 @@ namespace rill {
 Bounds fluidBounds(const Scene& scene, const ParticleSet& particles) {
   Bounds bounds;
   for (const Float3& p : particles.positions) {
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) continue;
+    if (!(std::abs(p.x) + std::abs(p.y) + std::abs(p.z) < 1e15f)) continue;
     const double at[3] = {particles.origin[0] + p.x, particles.origin[1] + p.y, particles.origin[2] + p.z};
     bounds.add(at, 0.5 * scene.fluid.spacing);
   }

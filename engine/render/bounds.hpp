@@ -20,7 +20,7 @@ struct Bounds {
   }
 };
 
-/// The particles with half a spacing around each; empty without any. Particles that are not finite are left out.
+/// The particles with half a spacing around each; empty without any. Particles that are not finite, or beyond 1e15 m, are left out.
 Bounds fluidBounds(const Scene& scene, const ParticleSet& particles);
 /// Adds the solids' bounding spheres, over all of their keyframes.
 void addSolids(Bounds& bounds, const Scene& scene);

@@ -73,25 +73,25 @@ constexpr uint8_t kInk[3] = {32, 36, 42}, kPaper[3] = {250, 250, 250};
 void drawLegend(std::span<uint8_t> rgba, uint32_t width, uint32_t height, const LegendDesc& legend) {
   assert(rgba.size() >= size_t{4} * width * height);
   Canvas canvas{rgba, static_cast<int>(width), static_cast<int>(height)};
-  const int scale = std::max(1, static_cast<int>(std::lround(height / 480.0)));
-  const int line = 8 * scale, pad = 6 * scale, margin = 8 * scale;
-  const int bar = std::min(static_cast<int>(0.28 * height) + 40 * scale, canvas.width - 2 * (margin + pad) - 12 * scale), thick = 7 * scale;
+  const int scale = std::max(1, static_cast<int>(std::lround(height / 400.0)));
+  const int line = 8 * scale, pad = 6 * scale, margin = 8 * scale, thick = 7 * scale;
   const bool compression = legend.colour == ParticleColour::Compression;
   const std::string title = compression ? "compression  %" : "speed  m/s";
   char caption[48] = "";
   if (legend.time_s) std::snprintf(caption, sizeof caption, "t = %.2f s", *legend.time_s);
+  const int words = textWidth(title, scale) + (legend.time_s ? textWidth(caption, scale) + 14 * scale : 0);
+  const int bar = std::min(std::max(static_cast<int>(0.28 * height) + 40 * scale, words), canvas.width - 2 * (margin + pad) - 12 * scale);
   const double range = legend.max > 0 && std::isfinite(legend.max) ? legend.max * (compression ? 100 : 1) : 1;
 
   const int boxWidth = bar + 2 * pad + 10 * scale, boxHeight = 2 * pad + 2 * line + thick + 8 * scale;
   const int left = margin, top = canvas.height - margin - boxHeight;
-  const bool captionFits = textWidth(title, scale) + textWidth(caption, scale) + 12 * scale <= bar;
-  if (bar < 30 * scale || top < 0 || textWidth(title, scale) > bar) return;
+  if (bar < 30 * scale || top < 0 || textWidth(title, scale) > bar || 5 * boxWidth > 2 * canvas.width) return;
 
   canvas.fill(left, top, left + boxWidth, top + boxHeight, kPaper, 0.62);
   const int x = left + pad + 3 * scale;
   int y = top + pad;
   canvas.text(x, y, scale, title, kInk);
-  if (captionFits) canvas.text(x + bar - textWidth(caption, scale), y, scale, caption, kInk);
+  if (words <= bar) canvas.text(x + bar - textWidth(caption, scale), y, scale, caption, kInk);
   y += line + 4 * scale;
   for (int k = 0; k < bar; ++k) {
     const Float3 c = mapColour(legend.colour, (k + 0.5) / bar);

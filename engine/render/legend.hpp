@@ -15,7 +15,7 @@ struct LegendDesc {
 };
 
 /// Draws a colour bar with ticks, a title and the time into the bottom left corner of a picture: width x height RGBA8 sRGB pixels, rows from
-/// the top. Its size follows the picture's height; what does not fit into a tiny picture is left out.
+/// the top. Its size follows the picture's height; a picture that is too small for it, so that it would cover the fluid, gets none.
 void drawLegend(std::span<uint8_t> rgba, uint32_t width, uint32_t height, const LegendDesc& legend);
 
 }  // namespace rill

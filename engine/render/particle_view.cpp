@@ -20,7 +20,7 @@ using namespace particle_view;
 constexpr uint32_t kMaxSide = 8192;
 constexpr uint64_t kMaxPixels = uint64_t{1} << 25;  // 128 MiB of 4 bytes
 constexpr uint32_t kInfinity = 0x7F800000u;         // bits of the float
-constexpr uint64_t kNearParts = 2000;               // a near plane nearer than half a spacing: this part of the distance to the target
+constexpr double kNearPart = 1e-4;                  // of the distance to the target: where the near plane is at least
 
 uint64_t groupsFor(uint64_t items, uint64_t size) { return (items + size - 1) / size; }
 uint64_t tiles(uint64_t width, uint64_t height, uint64_t side) { return groupsFor(width, side) * groupsFor(height, side); }
@@ -54,7 +54,7 @@ class ParticleViewImpl {
     ViewPush push;
     uint64_t pixels = 0;
     BufferRef scene, poses, edges, depth, winner, light, floor, tint, position, velocity, counters, survivors;
-    BufferRef tiles, tileEdges, shaded, rims, picture;
+    BufferRef tiles, shaded, rims, picture;
   };
 
   ViewPush pushFor(const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc, double time) const;
@@ -76,8 +76,8 @@ class ParticleViewImpl {
   Buffer sceneBuffer_, solids_, keyframes_;
   const ComputePipeline *edges_ = nullptr, *poses_ = nullptr, *solidTiles_ = nullptr, *lightTiles_ = nullptr, *surfaces_ = nullptr, *floor_ = nullptr;
   const ComputePipeline *lightSolids_ = nullptr, *project_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr, *splatLarge_ = nullptr;
-  const ComputePipeline *floorShadow_ = nullptr, *tint_ = nullptr, *classify_ = nullptr, *shadeFluid_ = nullptr, *shadeBackdrop_ = nullptr;
-  const ComputePipeline *shadeSolids_ = nullptr, *resolve_ = nullptr;
+  const ComputePipeline *floorShadow_ = nullptr, *tint_ = nullptr, *classify_ = nullptr, *shadeFluid_ = nullptr, *shadeFloor_ = nullptr;
+  const ComputePipeline *shadeSky_ = nullptr, *shadeSolids_ = nullptr, *resolve_ = nullptr, *drawEdges_ = nullptr;
 };
 
 Expected<void> ParticleViewImpl::create(Device& device, const Scene& scene, const ParticleSet& particles) {
@@ -92,8 +92,8 @@ Expected<void> ParticleViewImpl::create(Device& device, const Scene& scene, cons
   if (auto ok = keep(keyframes_, upload<Float4>(device, "particle view: keyframes", scene_.keyframes)); !ok) return ok;
 
   using enum BindingKind;
-  static constexpr BindingKind kStorage[] = {Storage, Storage, Storage, Storage, Storage, Storage, Storage, Storage};
-  static constexpr BindingKind kWithScene[] = {Uniform, Storage, Storage, Storage, Storage, Storage, Storage, Storage, Storage, Storage, Storage};
+  static constexpr BindingKind kStorage[] = {Storage, Storage, Storage, Storage, Storage, Storage};
+  static constexpr BindingKind kWithScene[] = {Uniform, Storage, Storage, Storage, Storage, Storage, Storage, Storage};
   struct Wanted { const ComputePipeline*& pipeline; std::string_view shader; std::span<const BindingKind> bindings; };
   const std::span<const BindingKind> storage = kStorage, withScene = kWithScene;
   const Wanted all[] = {
@@ -111,11 +111,13 @@ Expected<void> ParticleViewImpl::create(Device& device, const Scene& scene, cons
       {splatLarge_, "render/particle_splat_large", storage.first(5)},
       {floorShadow_, "render/particle_floor_shadow", withScene.first(3)},
       {tint_, "render/particle_tint", withScene.first(8)},
-      {classify_, "render/particle_classify", storage.first(5)},
+      {classify_, "render/particle_classify", storage.first(4)},
       {shadeFluid_, "render/particle_shade_fluid", withScene.first(8)},
-      {shadeBackdrop_, "render/particle_shade_backdrop", withScene.first(11)},
+      {shadeFloor_, "render/particle_shade_floor", withScene.first(8)},
+      {shadeSky_, "render/particle_shade_sky", withScene.first(7)},
       {shadeSolids_, "render/particle_shade_solids", withScene.first(8)},
-      {resolve_, "render/particle_resolve", storage.first(8)},
+      {resolve_, "render/particle_resolve", storage.first(6)},
+      {drawEdges_, "render/particle_draw_edges", storage.first(5)},
   };
   for (const Wanted& wanted : all) {
     auto made = computePipeline(device, {.shader = wanted.shader, .bindings = wanted.bindings, .pushConstantBytes = sizeof(ViewPush)});
@@ -140,8 +142,7 @@ ViewPush ParticleViewImpl::pushFor(const FluidState& fluid, const CameraView& ca
   const double focal = 0.5 * desc.height / std::tan(0.5 * camera.fov_y_deg * std::numbers::pi / 180);
   push.focal = static_cast<float>(focal);
   push.radius = 0.5f * fluid.spacing;
-  push.near_depth = static_cast<float>(fluid.count > 0 ? std::max(double{push.radius}, distance / kNearParts) : distance / kNearParts);
-  push.near_depth = std::max(push.near_depth, 1e-6f);
+  push.near_depth = static_cast<float>(std::max({0.1 * push.radius, distance * kNearPart, 1e-6}));
   push.time = static_cast<float>(time);
   push.count = fluid.count;
   push.width = desc.width;
@@ -341,14 +342,12 @@ void ParticleViewImpl::addFloorShadow(Graph& graph, Frame& frame) {
 void ParticleViewImpl::addClassify(Graph& graph, Frame& frame) {
   const uint64_t tileCount = tiles(frame.push.width, frame.push.height, kShadeTile);
   frame.tiles = graph.create("view tiles", {tileCount * kTileLists * 4});
-  frame.tileEdges = graph.create("view tile edges", {tileCount * 4});
   graph.pass("view classify", [&](Pass& pass) {
     pass.read(frame.winner, Use::ComputeRead);
     pass.read(frame.edges, Use::ComputeRead);
     frame.counters = pass.write(frame.counters, Use::ComputeWrite);
     frame.tiles = pass.write(frame.tiles, Use::ComputeWrite, true);
-    frame.tileEdges = pass.write(frame.tileEdges, Use::ComputeWrite, true);
-    const Kernel kernel = pass.kernel(classify_, {frame.winner, frame.edges, frame.counters, frame.tiles, frame.tileEdges});
+    const Kernel kernel = pass.kernel(classify_, {frame.winner, frame.edges, frame.counters, frame.tiles});
     return [kernel, groups = groupsFor(tileCount, kParticleGroup), push = frame.push](Commands& commands) { commands.dispatch(kernel, groups, push); };
   });
   graph.pass("view arguments", [&](Pass& pass) {
@@ -373,16 +372,19 @@ void ParticleViewImpl::addShade(Graph& graph, Frame& frame) {
     pass.read(frame.counters, Use::Indirect);
     pass.read(frame.tiles, Use::ComputeRead);
   };
-  graph.pass("view shade backdrop", [&](Pass& pass) {
-    readLists(pass);
-    pass.read(frame.scene, Use::ComputeUniform);
-    for (const BufferRef& buffer : {frame.winner, frame.depth, frame.edges, frame.tileEdges}) pass.read(buffer, Use::ComputeRead);
-    if (frame.floor != frame.edges) pass.read(frame.floor, Use::ComputeRead);
-    for (BufferRef* buffer : {&frame.shaded, &frame.rims, &frame.picture}) *buffer = pass.write(*buffer, Use::ComputeWrite, true);
-    return onTiles(pass.kernel(shadeBackdrop_, {frame.scene, frame.counters, frame.tiles, frame.winner, frame.floor, frame.tileEdges, frame.edges,
-                                                frame.depth, frame.shaded, frame.rims, frame.picture}),
-                   kTilesBackdrop);
-  });
+  const auto backdrop = [&](std::string_view name, const ComputePipeline* pipeline, uint32_t list, bool first, const BufferRef* light) {
+    graph.pass(name, [&](Pass& pass) {
+      readLists(pass);
+      pass.read(frame.scene, Use::ComputeUniform);
+      pass.read(frame.winner, Use::ComputeRead);
+      for (BufferRef* buffer : {&frame.shaded, &frame.rims, &frame.picture}) *buffer = pass.write(*buffer, Use::ComputeWrite, first);
+      if (!light) return onTiles(pass.kernel(pipeline, {frame.scene, frame.counters, frame.tiles, frame.winner, frame.shaded, frame.rims, frame.picture}), list);
+      pass.read(*light, Use::ComputeRead);
+      return onTiles(pass.kernel(pipeline, {frame.scene, frame.counters, frame.tiles, frame.winner, *light, frame.shaded, frame.rims, frame.picture}), list);
+    });
+  };
+  backdrop("view shade sky", shadeSky_, kTilesSky, true, nullptr);
+  if (hasFloor()) backdrop("view shade floor", shadeFloor_, kTilesFloor, false, &frame.floor);
   const bool fluid = frame.push.count > 0, solids = !scene_.solids.empty();
   if (fluid) {
     graph.pass("view shade fluid", [&](Pass& pass) {
@@ -404,14 +406,22 @@ void ParticleViewImpl::addShade(Graph& graph, Frame& frame) {
                      kTilesSolid);
     });
   }
-  if (!fluid && !solids) return;
-  graph.pass("view resolve", [&](Pass& pass) {
-    readLists(pass);
-    for (const BufferRef& buffer : {frame.depth, frame.shaded, frame.rims, frame.edges, frame.tileEdges}) pass.read(buffer, Use::ComputeRead);
-    frame.picture = pass.write(frame.picture, Use::ComputeWrite);
-    return onTiles(pass.kernel(resolve_, {frame.counters, frame.tiles, frame.tileEdges, frame.edges, frame.depth, frame.shaded, frame.rims, frame.picture}),
-                   kTilesOutline);
-  });
+  if (fluid || solids) {
+    graph.pass("view resolve", [&](Pass& pass) {
+      readLists(pass);
+      for (const BufferRef& buffer : {frame.depth, frame.shaded, frame.rims}) pass.read(buffer, Use::ComputeRead);
+      frame.picture = pass.write(frame.picture, Use::ComputeWrite);
+      return onTiles(pass.kernel(resolve_, {frame.counters, frame.tiles, frame.depth, frame.shaded, frame.rims, frame.picture}), kTilesOutline);
+    });
+  }
+  if (scene_.scene.domain_min.w > 0) {
+    graph.pass("view draw edges", [&](Pass& pass) {
+      readLists(pass);
+      for (const BufferRef& buffer : {frame.depth, frame.edges}) pass.read(buffer, Use::ComputeRead);
+      frame.picture = pass.write(frame.picture, Use::ComputeWrite);
+      return onTiles(pass.kernel(drawEdges_, {frame.counters, frame.tiles, frame.edges, frame.depth, frame.picture}), kTilesEdge);
+    });
+  }
 }
 
 BufferRef ParticleViewImpl::addTo(Graph& graph, const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc, double time) {

@@ -13,6 +13,7 @@ bool hidden(vec3 centre, float radius, ivec4 rect) {
   const uint columns = (view.width + view.cell - 1u) / view.cell;
   const uint bits = floatBitsToUint(centre.z - radius);
   const uvec4 cells = uvec4(rect) / view.cell;
+  if ((cells.z - cells.x + 1u) * (cells.w - cells.y + 1u) > kHiddenCells) return false;
   for (uint y = cells.y; y <= cells.w; ++y) {
     for (uint x = cells.x; x <= cells.z; ++x) {
       if (occluders[y * columns + x] >= bits) return false;
@@ -31,9 +32,10 @@ void main() {
   if (outsideImage(centre, radius)) return;
   const ivec4 rect = sphereRect(centre, radius);
   if (rect.z < rect.x || rect.w < rect.y) return;
-  const bool small = max(rect.z - rect.x, rect.w - rect.y) < int(kSmallRect) && centre.z - radius > view.near_depth;
-  if (small) {
-    if (!hidden(centre, radius, rect)) survivors[atomicAdd(counters[kSmallCount], 1u)] = i;
+  const bool whole = centre.z - radius > view.near_depth;  // not cut by the near plane
+  if (whole && hidden(centre, radius, rect)) return;
+  if (whole && max(rect.z - rect.x, rect.w - rect.y) < int(kSmallRect)) {
+    survivors[atomicAdd(counters[kSmallCount], 1u)] = i;
   } else {
     survivors[view.count - 1u - atomicAdd(counters[kLargeCount], 1u)] = i;
   }

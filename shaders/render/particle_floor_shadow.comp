@@ -21,12 +21,12 @@ void main() {
   const ivec2 at = ivec2(index % scene.counts.y, index / scene.counts.y);
   const float bias = 0.25 * view.radius;
   float sum = 0.0;
-  RILL_LOOP for (int y = -3; y <= 3; ++y) {
-    RILL_LOOP for (int x = -3; x <= 3; ++x) {
+  RILL_LOOP for (int y = -2; y <= 2; ++y) {
+    RILL_LOOP for (int x = -2; x <= 2; ++x) {
       const ivec2 texel = clamp(at + ivec2(x, y), ivec2(0), size - 1);
       const uint limit = floatBitsToUint(max(floorDepth(vec2(texel)) - bias, 0.0));
-      if (light_map[texel.y * size.x + texel.x] >= limit) sum += float((4 - abs(x)) * (4 - abs(y)));
+      if (light_map[texel.y * size.x + texel.x] >= limit) sum += float((3 - abs(x)) * (3 - abs(y)));
     }
   }
-  floor_light[index] = sum / 256.0;
+  floor_light[index] = sum / 81.0;
 }

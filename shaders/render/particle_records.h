@@ -20,7 +20,8 @@ RILL_CONSTANT kParticleGroup = 64;     // invocations of a particle kernel's wor
 RILL_CONSTANT kShadeTile = 8;          // pixels a side of the shading kernel's workgroup
 RILL_CONSTANT kSmallRect = 64;         // pixels: a sphere up to this wide and high is splatted by one invocation
 RILL_CONSTANT kLargeChunk = 4096;      // large spheres that one workgroup looks at
-RILL_CONSTANT kOccluderCells = 32;     // occlusion cells a side that one sphere covers at most
+RILL_CONSTANT kHiddenCells = 16384;    // occlusion cells that are looked at for one sphere at most
+RILL_CONSTANT kOccluderCells = 128;    // occlusion cells a side that one sphere covers at most
 RILL_CONSTANT kColours = 64;           // entries of a colour map
 RILL_CONSTANT kEdges = 12;             // of a box
 
@@ -30,21 +31,23 @@ RILL_CONSTANT kFloorId = 0xFFFFFFFEu;
 RILL_CONSTANT kNobody = 0xFFFFFFFFu;
 
 // What a tile of the shading kernels holds: one list of tiles each.
-RILL_CONSTANT kTilesFluid = 0;     // a particle owns a pixel
-RILL_CONSTANT kTilesBackdrop = 1;  // the floor or nobody does
-RILL_CONSTANT kTilesSolid = 2;     // a solid does
-RILL_CONSTANT kTilesOutline = 3;   // a particle or a solid owns a pixel of it or beside it
-RILL_CONSTANT kTileLists = 4;
+RILL_CONSTANT kTilesFluid = 0;    // a particle owns a pixel
+RILL_CONSTANT kTilesSolid = 1;    // a solid does
+RILL_CONSTANT kTilesFloor = 2;    // the floor does
+RILL_CONSTANT kTilesSky = 3;      // nobody does
+RILL_CONSTANT kTilesOutline = 4;  // a particle or a solid owns a pixel of it or beside it
+RILL_CONSTANT kTilesEdge = 5;     // an edge of the domain may cross it
+RILL_CONSTANT kTileLists = 6;
 
 // Words of the counter buffer: how many, then dispatch arguments, three words each.
 RILL_CONSTANT kSmallCount = 0;
 RILL_CONSTANT kLargeCount = 1;
-RILL_CONSTANT kTileCount = 4;       // + list
+RILL_CONSTANT kTileCount = 2;       // + list
 RILL_CONSTANT kSmallArguments = 8;
 RILL_CONSTANT kLargeArguments = 12;
 RILL_CONSTANT kTintArguments = 16;
 RILL_CONSTANT kTileArguments = 20;  // + 4 * list
-RILL_CONSTANT kCounterWords = 36;
+RILL_CONSTANT kCounterWords = 44;
 
 // Camera and frame. Depth is the distance from the eye along `forward`; a pixel's ray has a forward component of 1.
 struct ViewPush {

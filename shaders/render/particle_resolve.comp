@@ -1,5 +1,5 @@
 #version 460
-// Tiles that hold outlines: shaded pixels blended along them, under the tank's edges, encoded. A workgroup is a tile of the list.
+// Tiles that hold outlines: shaded pixels blended along them and encoded. A workgroup is a tile of the list.
 // An outline that crosses a pixel says how much of it the owner covers; the rest is the neighbour's beyond the outline.
 #extension GL_GOOGLE_include_directive : require
 #include "render/particle_view.glsl"
@@ -8,12 +8,10 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, set = 0, binding = 0) readonly buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 1) readonly buffer Tiles { uint tiles[]; };
-layout(std430, set = 0, binding = 2) readonly buffer TileEdges { uint tile_edges[]; };
-layout(std430, set = 0, binding = 3) readonly buffer Edges { EdgeRecord edges[]; };
-layout(std430, set = 0, binding = 4) readonly buffer Depth { uint depth[]; };
-layout(std430, set = 0, binding = 5) readonly buffer Shaded { uint shaded[]; };
-layout(std430, set = 0, binding = 6) readonly buffer Rims { uint rims[]; };
-layout(std430, set = 0, binding = 7) writeonly buffer Picture { uint picture[]; };
+layout(std430, set = 0, binding = 2) readonly buffer Depth { uint depth[]; };
+layout(std430, set = 0, binding = 3) readonly buffer Shaded { uint shaded[]; };
+layout(std430, set = 0, binding = 4) readonly buffer Rims { uint rims[]; };
+layout(std430, set = 0, binding = 5) writeonly buffer Picture { uint picture[]; };
 #include "render/particle_finish.glsl"
 
 uint indexAt(ivec2 pixel) {
@@ -39,5 +37,5 @@ void main() {
     const float reach = rimDistance(reaching) - 0.5;
     if ((reaching & 3u) == side && reach > 0.0 && reach < 0.5 && depth[other] < bits) colour = mix(colour, unpackColour(shaded[other]), reach);
   }
-  picture[index] = encoded(overEdges(colour, tile_edges[tile], vec2(pixel) + 0.5, uintBitsToFloat(bits)));
+  picture[index] = encoded(colour);
 }

@@ -18,7 +18,8 @@ layout(std430, set = 0, binding = 7) writeonly buffer Rims { uint rims[]; };
 #include "render/particle_light.glsl"
 #include "render/particle_solids.glsl"
 
-const vec3 kSolid = vec3(0.62, 0.50, 0.36);
+const vec3 kSolid = vec3(0.62, 0.50, 0.36);      // sand, against the blues of speed
+const vec3 kSolidGrey = vec3(0.36, 0.40, 0.44);  // against the warm colours of compression
 
 // Whether a box is seen through a point of the image; spheres have a rim of their own.
 bool seesBox(PoseRecord pose, vec2 pixel) {
@@ -68,6 +69,6 @@ void main() {
     if (solidHit(pose, eye, rayOf(tangentOf(middle + offset)), facing) < view.near_depth) facing = normal;
     lit += 0.25 * (ambient(facing) * open + kKey * (max(dot(facing, scene.light_to.xyz), 0.0) * light));
   }
-  shaded[index] = packColour(kSolid * lit);
+  shaded[index] = packColour((view.compression != 0u ? kSolidGrey : kSolid) * lit);
   rims[index] = pose.centre.w > 0.0 ? sphereRim(pose.view.xyz, pose.centre.w, tangentOf(middle)) : boxRim(pose, middle);
 }

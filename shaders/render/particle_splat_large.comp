@@ -13,6 +13,7 @@ layout(std430, set = 0, binding = 4) buffer Winner { uint winner[]; };
 shared vec4 spheres[256];
 shared uint indices[256];
 shared uint sphere_count;
+shared uint tile_depth;  // of the tile's farthest pixel so far: what lies behind is hidden
 
 void main() {
   const uint columns = (view.width + kPixelTile - 1u) / kPixelTile, rows = (view.height + kPixelTile - 1u) / kPixelTile;
@@ -27,7 +28,9 @@ void main() {
   uint best = before, owner = kNobody;
   for (uint base = first; base < last; base += 256u) {
     barrier();
-    if (gl_LocalInvocationIndex == 0u) sphere_count = 0u;
+    if (gl_LocalInvocationIndex == 0u) sphere_count = tile_depth = 0u;
+    barrier();
+    if (inside) atomicMax(tile_depth, best);
     barrier();
     const uint k = base + gl_LocalInvocationIndex;
     if (k < last) {
@@ -36,7 +39,8 @@ void main() {
       const float radius = drawnRadius(centre.z);
       const ivec4 rect = sphereRect(centre, radius);
       const ivec2 low = ivec2(tile), high = low + int(kPixelTile) - 1;
-      if (rect.x <= high.x && rect.z >= low.x && rect.y <= high.y && rect.w >= low.y) {
+      const bool shown = floatBitsToUint(max(centre.z - radius, 0.0)) <= tile_depth;
+      if (shown && rect.x <= high.x && rect.z >= low.x && rect.y <= high.y && rect.w >= low.y) {
         const uint slot = atomicAdd(sphere_count, 1u);
         spheres[slot] = vec4(centre, radius);
         indices[slot] = i;

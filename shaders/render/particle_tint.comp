@@ -55,6 +55,6 @@ void main() {
   const float radius = drawnRadius(centre.z);
   const vec3 root = sqrt(particleColour(velocity[i]));
   const float open = centre.z > radius ? openness(centre, radius) : 1.0;
-  const float light = lightVisibility(world, 3.0 * view.radius);
+  const float light = lightVisibility(world, 5.0 * view.radius);
   tint[i] = uvec2(packUnorm2x16(root.rg), uint(root.b * 65535.0 + 0.5) | uint(open * 255.0 + 0.5) << 16 | uint(light * 255.0 + 0.5) << 24);
 }

@@ -36,8 +36,8 @@ bool drawable(vec3 p) {
   return all(lessThan(magnitude, uvec3(0x58635FA9u)));  // 1e15 m
 }
 
-// A particle is drawn at least 1.2 pixels wide, so that none falls between the pixels.
-float drawnRadius(float depth) { return max(view.radius, 0.6 * depth / view.focal); }
+// A particle's disc is drawn so wide that it covers a pixel's centre wherever it is.
+float drawnRadius(float depth) { return max(view.radius, 0.71 * depth / view.focal); }
 
 // Depth of the near side of a sphere (view space) along a ray; negative where the ray misses or the hit is nearer than the near plane.
 // Measured from the ray's nearest point to the centre, so that a small sphere far away keeps its precision.

@@ -47,7 +47,8 @@ TEST(Legend, IsInTheBottomLeftCornerAlone) {
   EXPECT_GT(changed, 10000u);
 }
 
-TEST(Legend, TinyPicturesHaveNone) {
+TEST(Legend, SmallPicturesHaveNone) {
+  for (const uint8_t byte : draw(320, 180, {ParticleColour::Speed, 4, 0.5})) EXPECT_EQ(byte, kGrey);
   for (const uint8_t byte : draw(16, 16, {ParticleColour::Speed, 4, 0.5})) EXPECT_EQ(byte, kGrey);
 }
 
