@@ -42,8 +42,9 @@ class Descriptor {
 /// 1 or 2 for the names of a standard stream, else -1. They are written through the open descriptor: opening /dev/stdout again
 /// would start over at offset 0 of a redirected file, and fails for a socket.
 int standardStream(const fs::path& file) {
+  if (file == "-") return STDOUT_FILENO;  // "./-" is a file
   const std::string name = file.lexically_normal().string();
-  if (name == "-" || name == "/dev/stdout" || name == "/dev/fd/1" || name == "/proc/self/fd/1") return STDOUT_FILENO;
+  if (name == "/dev/stdout" || name == "/dev/fd/1" || name == "/proc/self/fd/1") return STDOUT_FILENO;
   if (name == "/dev/stderr" || name == "/dev/fd/2" || name == "/proc/self/fd/2") return STDERR_FILENO;
   return -1;
 }
@@ -182,7 +183,7 @@ Expected<void> makeFolder(std::string_view option, const fs::path& folder) {
 
 bool isPartFile(std::string_view name, std::string_view& target) {
   constexpr std::string_view suffix = ".part";
-  if (!name.starts_with('.') || !name.ends_with(suffix)) return false;
+  if (name.size() <= suffix.size() || !name.starts_with('.') || !name.ends_with(suffix)) return false;
   name.remove_prefix(1);
   name.remove_suffix(suffix.size());
   const size_t dot = name.rfind('.');
