@@ -93,6 +93,12 @@ std::string shortNumber(double number) {
   return {text.data(), end};
 }
 
+std::string roughNumber(double number) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.4g", number);
+  return text.data();
+}
+
 std::string listInQuotes(std::span<const std::string_view> words) {
   std::string out;
   for (const std::string_view word : words) {

@@ -20,6 +20,9 @@ std::string grouped(uint64_t number);
 /// The shortest text that reads back as the same double: "0.1", "1000", "1e-09".
 std::string shortNumber(double number);
 
+/// Four digits of it, for figures that are measured or estimated: "0.002307".
+std::string roughNumber(double number);
+
 /// `words` quoted, with commas: "\"a\", \"b\"".
 std::string listInQuotes(std::span<const std::string_view> words);
 

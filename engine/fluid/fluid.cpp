@@ -36,7 +36,8 @@ FluidMemory fluidMemory(const Scene& scene, uint64_t particles) {
   // position, velocity, prediction, push, work and near sample; warm, id, count, cell, order, near list; and while sorting: three vec4, a pair, a key.
   uint64_t each = 6 * 16 + 6 * 4 + (3 * 16 + 8 + 4);
   if (scene.solver.iterations > 1) each += 4;
-  if (scene.fluid.viscosity > 0 || scene.fluid.vorticity > 0) each += 4 + 2 * 16;
+  if (scene.fluid.viscosity > 0 || scene.fluid.vorticity > 0) each += 2 * 16;
+  if (!scene.solids.empty()) each += 16;
   memory.particle_bytes = each * (particles + 1);
   memory.list_bytes = blocks(particles) * kListBlock * listEntries(scene) * 4;
   memory.grid_bytes = std::max<uint64_t>(4096, 2 * particles) * 8;
@@ -86,7 +87,6 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
 Expected<void> FluidImpl::makeBuffers(Device& device, const ParticleSet& particles) {
   const uint64_t n = count, more = n + 1;
   const FluidParams& p = setup.params;
-  const bool terms = setup.viscositySweeps > 0 || p.vorticity > 0;
 
   const uint64_t blockBytes = uint64_t{kListBlock} * p.listCapacity * 4;
   const uint64_t wanted = p.listCapacity == 0 ? 1 : (blocks(n) * blockBytes + kMaxBuffer - 1) / kMaxBuffer;
@@ -123,7 +123,6 @@ Expected<void> FluidImpl::makeBuffers(Device& device, const ParticleSet& particl
       {&buffers_.warm, "warm starts", n * 4},
       {&buffers_.id, "ids", n * 4},
       {&buffers_.multiplier, "iteration multipliers", unless(p.iterations > 1, n * 4)},
-      {&buffers_.density, "densities", unless(terms, n * 4)},
       {&buffers_.neighbourCount, "neighbour counts", n * 4},
       {&buffers_.cell, "cells", n * 4},
       {&buffers_.order, "sorted order", n * 4},
@@ -215,7 +214,7 @@ Expected<void> FluidImpl::stage(Device& device, const ParticleSet& particles) {
 Expected<void> FluidImpl::makePipelines(Device& device) {
   using enum BindingKind;
   const FluidParams& p = setup.params;
-  const uint32_t kernel = setup.kernel, capacity = p.listCapacity, nearWalls = setup.near, terms = setup.viscositySweeps > 0 || p.vorticity > 0;
+  const uint32_t kernel = setup.kernel, capacity = p.listCapacity, nearWalls = setup.near;
   Expected<void> result;
   const auto make = [&](const ComputePipeline*& out, std::string_view shader, std::vector<BindingKind> bindings, uint32_t push, std::vector<uint32_t> constants = {}) {
     if (!result) return;
@@ -253,16 +252,17 @@ Expected<void> FluidImpl::makePipelines(Device& device) {
     make(pipes_.plane, "fluid/walls", plain(2, 6), 0, {0, 0});
     make(pipes_.corner, "fluid/walls", plain(2, 6), 0, {1, p.solidCount > 0});
   }
-  if (p.solidCount > 0) make(pipes_.collide, "fluid/collide", plain(2, 7), 0);
+  if (p.solidCount > 0) make(pipes_.collide, "fluid/collide", plain(2, 11), 0);
   if (setup.movingSolids) make(pipes_.pose, "fluid/pose", plain(2, 2), 0);
-  gather(pipes_.density, "fluid/density", storages(5), sizeof(ChunkPush), {kernel, capacity, nearWalls, p.iterations > 1, terms, p.tolerance > 0});
-  gather(pipes_.correct, "fluid/correct", storages(7), sizeof(ChunkPush), {kernel, capacity, nearWalls, terms, p.tensile > 0});
+  gather(pipes_.density, "fluid/density", storages(4), sizeof(ChunkPush), {kernel, capacity, nearWalls, p.iterations > 1, p.tolerance > 0});
+  gather(pipes_.correct, "fluid/correct", storages(7), sizeof(ChunkPush), {kernel, capacity, nearWalls, p.tensile > 0, p.solidCount > 0});
   if (p.iterations > 1) gather(pipes_.iterate, "fluid/iterate", storages(2), sizeof(ChunkPush), {kernel, capacity, nearWalls, p.tensile > 0});
   const BindingKind vectors = texel_ ? TexelFloat4 : Storage;
-  if (setup.viscositySweeps > 0) gather(pipes_.viscosity, "fluid/viscosity", {vectors, Storage, Storage, Storage}, sizeof(SweepPush), {kernel, capacity});
+  if (setup.viscositySweeps > 0) gather(pipes_.viscosity, "fluid/viscosity", {vectors, Storage, Storage, Storage, Storage}, sizeof(SweepPush), {kernel, capacity});
+  if (setup.viscositySweeps % 2 == 1) make(pipes_.keep, "fluid/keep", plain(2, 2), sizeof(ChunkPush));
   if (p.vorticity > 0) {
     gather(pipes_.curl, "fluid/curl", {vectors, Storage}, sizeof(ChunkPush), {kernel, capacity});
-    gather(pipes_.confine, "fluid/confine", {vectors, Storage, Storage, Storage}, sizeof(ChunkPush), {kernel, capacity});
+    gather(pipes_.confine, "fluid/confine", {vectors, Storage, Storage, Storage, Storage}, sizeof(ChunkPush), {kernel, capacity});
   }
   gather(pipes_.measure, "fluid/measure", storages(4), sizeof(ChunkPush), {kernel, capacity, nearWalls});
   make(pipes_.reduce, "fluid/measure_reduce", plain(2, 3), 0);

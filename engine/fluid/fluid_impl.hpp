@@ -17,7 +17,7 @@ constexpr uint32_t kMaxListChunks = 16;
 struct FluidBuffers {
   Buffer params, control, sums, shapes, commands, gravity, tables, solids, keyframes;
   Buffer position, velocity, prediction, pushAway, work, warm, id;  // vec4 each but the last two
-  Buffer multiplier, density;                                       // where iterations, or viscosity and vorticity, need them
+  Buffer multiplier;                                                // where there are several iterations
   Buffer neighbourCount, cell, order, start, nearSample, nearList;
   std::vector<Buffer> lists;
   Buffer staging;                                                   // the start state, until it has been copied
@@ -27,14 +27,14 @@ struct FluidPipelines {
   const ComputePipeline *begin = nullptr, *control = nullptr, *arm = nullptr, *predict = nullptr, *keys = nullptr, *reorder = nullptr, *build = nullptr;
   const ComputePipeline *plane = nullptr, *corner = nullptr, *collide = nullptr, *pose = nullptr;
   const ComputePipeline *density = nullptr, *correct = nullptr, *iterate = nullptr;
-  const ComputePipeline *viscosity = nullptr, *curl = nullptr, *confine = nullptr;
+  const ComputePipeline *viscosity = nullptr, *keep = nullptr, *curl = nullptr, *confine = nullptr;
   const ComputePipeline *measure = nullptr, *reduce = nullptr;
 };
 
 /// One frame's versions of the buffers.
 struct FluidRefs {
   BufferRef params, control, sums, shapes, commands, gravity, tables, solids, keyframes;
-  BufferRef position, velocity, prediction, pushAway, work, warm, id, multiplier, density;
+  BufferRef position, velocity, prediction, pushAway, work, warm, id, multiplier;
   BufferRef neighbourCount, cell, order, start, nearSample, nearList;
   std::array<BufferRef, kMaxListChunks> lists;
 };

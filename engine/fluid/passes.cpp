@@ -43,7 +43,6 @@ void FluidImpl::importAll(Graph& graph) {
   r_.warm = import("warm starts", buffers_.warm);
   r_.id = import("ids", buffers_.id);
   r_.multiplier = import("iteration multipliers", buffers_.multiplier);
-  r_.density = import("densities", buffers_.density);
   r_.neighbourCount = import("neighbour counts", buffers_.neighbourCount);
   r_.cell = import("cells", buffers_.cell);
   r_.order = import("order", buffers_.order);
@@ -246,8 +245,8 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity) {
     gatherPass(graph, r_, texel_, chunks, "density", pipes_.density, r_.prediction, first ? kCommandDensity : kCommandIterate, ChunkPush{0, 0, iteration},
                [&](Pass& pass, BindingList& bindings) {
                  pass.read(r_.nearSample, Use::ComputeRead);
-                 for (BufferRef* ref : {&r_.warm, &r_.work, &r_.multiplier, &r_.density}) *ref = pass.write(*ref, Use::ComputeWrite);
-                 bindings.add({r_.warm, r_.work, r_.nearSample, r_.multiplier, r_.density});
+                 for (BufferRef* ref : {&r_.warm, &r_.work, &r_.multiplier}) *ref = pass.write(*ref, Use::ComputeWrite);
+                 bindings.add({r_.warm, r_.work, r_.nearSample, r_.multiplier});
                });
     graph.pass("control", [&](Pass& pass) {
       pass.read(r_.params, Use::ComputeUniform);
@@ -261,20 +260,22 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity) {
       return [=](Commands& commands) { commands.dispatch(kernel, 1, push); };
     });
   }
+  BufferRef free = p.solidCount > 0 ? graph.create("free velocities", {uint64_t{count} * 16}) : BufferRef{};
   gatherPass(graph, r_, texel_, chunks, "correct", pipes_.correct, r_.work, kCommandCorrect + parity, ChunkPush{}, [&](Pass& pass, BindingList& bindings) {
     pass.read(r_.nearSample, Use::ComputeRead);
-    pass.read(r_.density, Use::ComputeRead);
     for (BufferRef* ref : {&r_.position, &r_.velocity, &r_.prediction, &r_.pushAway, &r_.warm}) *ref = pass.write(*ref, Use::ComputeWrite);
-    bindings.add({r_.position, r_.velocity, r_.nearSample, r_.prediction, r_.pushAway, r_.density, r_.warm});
+    if (p.solidCount > 0) free = pass.write(free, Use::ComputeWrite, true);
+    bindings.add({r_.position, r_.velocity, r_.nearSample, r_.prediction, r_.pushAway, p.solidCount > 0 ? free : r_.velocity, r_.warm});
   });
   if (p.solidCount > 0) {
     graph.pass("collide", [&](Pass& pass) {
       pass.read(r_.params, Use::ComputeUniform);
       pass.read(r_.control, Use::ComputeUniform);
       pass.read(r_.commands, Use::Indirect);
-      for (BufferRef ref : {r_.pushAway, r_.nearList, r_.sums, r_.solids}) pass.read(ref, Use::ComputeRead);
+      for (BufferRef ref : {r_.pushAway, r_.nearList, r_.sums, r_.solids, free, r_.work, r_.warm, r_.nearSample}) pass.read(ref, Use::ComputeRead);
       for (BufferRef* ref : {&r_.position, &r_.velocity, &r_.prediction}) *ref = pass.write(*ref, Use::ComputeWrite);
-      const Kernel kernel = pass.kernel(pipes_.collide, {r_.params, r_.control, r_.position, r_.velocity, r_.prediction, r_.pushAway, r_.nearList, r_.sums, r_.solids});
+      const Kernel kernel = pass.kernel(pipes_.collide, {r_.params, r_.control, r_.position, r_.velocity, r_.prediction, r_.pushAway, r_.nearList, r_.sums, r_.solids, free,
+                                                          r_.work, r_.warm, r_.nearSample});
       return [=, arguments = r_.commands](Commands& commands) { commands.dispatchIndirect(kernel, arguments, commandAt(kCommandCollide + parity)); };
     });
   }
@@ -293,12 +294,13 @@ void FluidImpl::declareTerms(Graph& graph, uint32_t parity) {
     BufferRef other = graph.create("smoothed velocities", {bytes});
     for (uint32_t sweep = 0; sweep < sweeps; ++sweep) {
       BufferRef to;
-      gatherPass(graph, r_, texel_, chunks, "viscosity", pipes_.viscosity, r_.position, command, SweepPush{0, 0, 1.0f / float(sweeps)}, [&](Pass& pass, BindingList& bindings) {
+      gatherPass(graph, r_, texel_, chunks, "viscosity", pipes_.viscosity, r_.work, command, SweepPush{0, 0, 1.0f / float(sweeps)}, [&](Pass& pass, BindingList& bindings) {
         pass.read(from, use);
         pass.read(r_.pushAway, Use::ComputeRead);
         to = pass.write(other, Use::ComputeWrite, true);
         r_.prediction = pass.write(r_.prediction, Use::ComputeWrite);
-        bindings.add({from, to, r_.prediction, r_.pushAway});
+        pass.read(r_.position, Use::ComputeRead);
+        bindings.add({from, to, r_.prediction, r_.pushAway, r_.position});
       });
       other = from;
       from = to;
@@ -308,25 +310,32 @@ void FluidImpl::declareTerms(Graph& graph, uint32_t parity) {
     } else {
       r_.velocity = other;
       graph.pass("keep velocities", [&](Pass& pass) {
-        pass.read(from, Use::CopySource);
-        r_.velocity = pass.write(r_.velocity, Use::CopyTarget);
-        return [=, to = r_.velocity, size = uint64_t{count} * 16](Commands& commands) { commands.copy(from, to, size); };
+        pass.read(r_.params, Use::ComputeUniform);
+        pass.read(r_.control, Use::ComputeUniform);
+        pass.read(r_.commands, Use::Indirect);
+        pass.read(from, Use::ComputeRead);
+        r_.velocity = pass.write(r_.velocity, Use::ComputeWrite);
+        const Kernel kernel = pass.kernel(pipes_.keep, {r_.params, r_.control, from, r_.velocity});
+        return [=, arguments = r_.commands](Commands& commands) {
+          for (const Chunk& c : chunks) commands.dispatchIndirect(kernel, arguments, commandAt(command), ChunkPush{c.first, c.last, 0});
+        };
       });
     }
   }
   if (setup.params.vorticity > 0) {
     BufferRef curl = graph.create("curl", {bytes});
-    gatherPass(graph, r_, texel_, chunks, "curl", pipes_.curl, r_.position, command, ChunkPush{}, [&](Pass& pass, BindingList& bindings) {
+    gatherPass(graph, r_, texel_, chunks, "curl", pipes_.curl, r_.work, command, ChunkPush{}, [&](Pass& pass, BindingList& bindings) {
       pass.read(r_.velocity, use);
       curl = pass.write(curl, Use::ComputeWrite, true);
       bindings.add({r_.velocity, curl});
     });
-    gatherPass(graph, r_, texel_, chunks, "confine", pipes_.confine, r_.position, command, ChunkPush{}, [&](Pass& pass, BindingList& bindings) {
+    gatherPass(graph, r_, texel_, chunks, "confine", pipes_.confine, r_.work, command, ChunkPush{}, [&](Pass& pass, BindingList& bindings) {
       pass.read(curl, use);
       pass.read(r_.pushAway, Use::ComputeRead);
       r_.velocity = pass.write(r_.velocity, Use::ComputeWrite);
       r_.prediction = pass.write(r_.prediction, Use::ComputeWrite);
-      bindings.add({curl, r_.velocity, r_.prediction, r_.pushAway});
+      pass.read(r_.position, Use::ComputeRead);
+      bindings.add({curl, r_.velocity, r_.prediction, r_.pushAway, r_.position});
     });
   }
 }

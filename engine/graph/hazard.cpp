@@ -59,6 +59,7 @@ HazardState HazardState::after(Use last) {
     state.writeStage_ = state.readStage_ = row.stage;
     state.writeAccess_ = VK_ACCESS_2_MEMORY_WRITE_BIT;
     state.visible_ = useBit(last);
+    state.writeBefore_ = row.stage;
     state.available_ = true;
   }
   return state;
@@ -86,12 +87,13 @@ Hazard HazardState::need(Use use, bool keep, Scope& scope) const {
     return Hazard::ReadAfterWrite;
   }
   if (atomic_ && use == Use::ComputeAtomic && !readStage_) return Hazard::None;
-  // Reads since the last write have already waited for it: waiting for them is enough, and moves no memory,
+  // Where the reads have waited for the last write, waiting for them is waiting for it, and moves no memory:
   // unless this write also reads and has not seen it.
   const bool reads = keep && row.read != 0;
   const bool seesOld = sees || (visible_ & readingHalf(use)) != 0;
-  const bool waitForWrite = writeStage_ && !sees && (!readStage_ || !available_ || (reads && !seesOld));
   const bool waitForReads = readStage_ && !stagesCover(readsBefore_, row.stage);
+  const bool ordered = available_ && (stagesCover(writeBefore_, row.stage) || (waitForReads && (readStage_ & writeBefore_)));
+  const bool waitForWrite = writeStage_ && !sees && (!ordered || (reads && !seesOld));
   if (!waitForWrite && !waitForReads) return Hazard::None;
   scope.targetStage |= row.stage;
   if (waitForReads) scope.sourceStage |= readStage_;
@@ -106,6 +108,9 @@ void HazardState::passed(const Scope& scope, uint32_t seeing) {
   if (writeStage_ && stagesCover(scope.sourceStage, writeStage_) && accessesCover(scope.sourceAccess, writeAccess_)) {
     available_ = true;
     visible_ |= seeing;
+    writeBefore_ |= scope.targetStage;
+  } else if (available_ && (scope.sourceStage & writeBefore_)) {
+    writeBefore_ |= scope.targetStage;
   }
   if (readStage_ && stagesCover(scope.sourceStage, readStage_)) readsBefore_ |= scope.targetStage;
 }
@@ -119,7 +124,7 @@ void HazardState::used(Use use) {
   }
   writeStage_ = row.stage;
   writeAccess_ = row.write;
-  readStage_ = readsBefore_ = 0;
+  readStage_ = readsBefore_ = writeBefore_ = 0;
   visible_ = 0;
   available_ = false;
   atomic_ = use == Use::ComputeAtomic;
@@ -134,6 +139,7 @@ void HazardState::join(const HazardState& other) {
   }
   constexpr VkPipelineStageFlags2 all = ~VkPipelineStageFlags2(0);
   readsBefore_ = (readStage_ ? readsBefore_ : all) & (other.readStage_ ? other.readsBefore_ : all);
+  writeBefore_ = (writeStage_ ? writeBefore_ : all) & (other.writeStage_ ? other.writeBefore_ : all);
   writeStage_ |= other.writeStage_;
   writeAccess_ |= other.writeAccess_;
   readStage_ |= other.readStage_;

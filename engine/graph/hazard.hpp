@@ -43,6 +43,7 @@ class HazardState {
   VkAccessFlags2 writeAccess_ = 0;
   VkPipelineStageFlags2 readStage_ = 0;    ///< of the reads since the last write
   VkPipelineStageFlags2 readsBefore_ = 0;  ///< stages that already wait for all of these reads
+  VkPipelineStageFlags2 writeBefore_ = 0;  ///< stages that already wait for the last write, directly or through other stages
   uint32_t visible_ = 0;                   ///< bits of the uses that see the last write
   bool available_ = false;                 ///< some barrier has waited for the last write
   bool atomic_ = false;                    ///< the last write was ComputeAtomic

@@ -54,7 +54,7 @@ class ParticleViewImpl {
     ViewPush push;
     uint64_t pixels = 0;
     BufferRef scene, poses, edges, depth, winner, light, floor, tint, position, velocity, counters, survivors;
-    BufferRef tiles, tileEdges, shaded, rims;
+    BufferRef tiles, tileEdges, shaded, rims, picture;
   };
 
   ViewPush pushFor(const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc, double time) const;
@@ -68,17 +68,16 @@ class ParticleViewImpl {
   void addFloorShadow(Graph& graph, Frame& frame);
   void addClassify(Graph& graph, Frame& frame);
   void addShade(Graph& graph, Frame& frame);
-  BufferRef addResolve(Graph& graph, Frame& frame);
 
   uint64_t lightTexels() const { return uint64_t{scene_.scene.counts.y} * scene_.scene.counts.z; }
   bool hasFloor() const { return scene_.scene.domain_min.w > 0 && (scene_.scene.counts.w & 4u) != 0; }
   bool hasShadows(const Frame& frame) const { return frame.push.count > 0 || scene_.scene.counts.x > 0; }
 
   Buffer sceneBuffer_, solids_, keyframes_;
-  const ComputePipeline *setup_ = nullptr, *solidTiles_ = nullptr, *lightTiles_ = nullptr, *surfaces_ = nullptr, *lightSolids_ = nullptr;
-  const ComputePipeline *project_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *depth_ = nullptr, *depthLarge_ = nullptr;
-  const ComputePipeline *winner_ = nullptr, *winnerLarge_ = nullptr, *floorShadow_ = nullptr, *tint_ = nullptr, *classify_ = nullptr;
-  const ComputePipeline *tileArguments_ = nullptr, *shadeFluid_ = nullptr, *shadeBackdrop_ = nullptr, *shadeSolids_ = nullptr, *resolve_ = nullptr;
+  const ComputePipeline *edges_ = nullptr, *poses_ = nullptr, *solidTiles_ = nullptr, *lightTiles_ = nullptr, *surfaces_ = nullptr, *floor_ = nullptr;
+  const ComputePipeline *lightSolids_ = nullptr, *project_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr, *splatLarge_ = nullptr;
+  const ComputePipeline *floorShadow_ = nullptr, *tint_ = nullptr, *classify_ = nullptr, *shadeFluid_ = nullptr, *shadeBackdrop_ = nullptr;
+  const ComputePipeline *shadeSolids_ = nullptr, *resolve_ = nullptr;
 };
 
 Expected<void> ParticleViewImpl::create(Device& device, const Scene& scene, const ParticleSet& particles) {
@@ -93,31 +92,30 @@ Expected<void> ParticleViewImpl::create(Device& device, const Scene& scene, cons
   if (auto ok = keep(keyframes_, upload<Float4>(device, "particle view: keyframes", scene_.keyframes)); !ok) return ok;
 
   using enum BindingKind;
-  static constexpr BindingKind kStorage[] = {Storage, Storage, Storage, Storage, Storage};
-  static constexpr BindingKind kWithScene[] = {Uniform, Storage, Storage, Storage, Storage, Storage, Storage, Storage};
+  static constexpr BindingKind kStorage[] = {Storage, Storage, Storage, Storage, Storage, Storage, Storage, Storage};
+  static constexpr BindingKind kWithScene[] = {Uniform, Storage, Storage, Storage, Storage, Storage, Storage, Storage, Storage, Storage, Storage};
   struct Wanted { const ComputePipeline*& pipeline; std::string_view shader; std::span<const BindingKind> bindings; };
   const std::span<const BindingKind> storage = kStorage, withScene = kWithScene;
   const Wanted all[] = {
-      {setup_, "render/particle_setup", withScene.first(5)},
+      {edges_, "render/particle_edges", withScene.first(2)},
+      {poses_, "render/particle_poses", withScene.first(4)},
       {solidTiles_, "render/particle_solid_tiles", withScene.first(3)},
       {lightTiles_, "render/particle_light_tiles", withScene.first(3)},
       {surfaces_, "render/particle_surfaces", withScene.first(5)},
-      {lightSolids_, "render/particle_light_solids", withScene.first(4)},
+      {floor_, "render/particle_floor", withScene.first(3)},
+      {lightSolids_, "render/particle_light_solids", withScene.first(5)},
       {project_, "render/particle_project", withScene.first(4)},
       {cull_, "render/particle_cull", storage.first(4)},
       {arguments_, "render/particle_arguments", storage.first(1)},
-      {depth_, "render/particle_depth", storage.first(4)},
-      {depthLarge_, "render/particle_depth_large", storage.first(4)},
-      {winner_, "render/particle_winner", storage.first(5)},
-      {winnerLarge_, "render/particle_winner_large", storage.first(5)},
+      {splat_, "render/particle_splat", storage.first(5)},
+      {splatLarge_, "render/particle_splat_large", storage.first(5)},
       {floorShadow_, "render/particle_floor_shadow", withScene.first(3)},
       {tint_, "render/particle_tint", withScene.first(8)},
       {classify_, "render/particle_classify", storage.first(5)},
-      {tileArguments_, "render/particle_tile_arguments", storage.first(1)},
       {shadeFluid_, "render/particle_shade_fluid", withScene.first(8)},
-      {shadeBackdrop_, "render/particle_shade_backdrop", withScene.first(7)},
+      {shadeBackdrop_, "render/particle_shade_backdrop", withScene.first(11)},
       {shadeSolids_, "render/particle_shade_solids", withScene.first(8)},
-      {resolve_, "render/particle_resolve", withScene.first(7)},
+      {resolve_, "render/particle_resolve", storage.first(8)},
   };
   for (const Wanted& wanted : all) {
     auto made = computePipeline(device, {.shader = wanted.shader, .bindings = wanted.bindings, .pushConstantBytes = sizeof(ViewPush)});
@@ -158,27 +156,39 @@ ViewPush ParticleViewImpl::pushFor(const FluidState& fluid, const CameraView& ca
 }
 
 void ParticleViewImpl::addSetup(Graph& graph, Frame& frame) {
+  frame.scene = graph.import("view scene", {sceneBuffer_.handle(), 0, sceneBuffer_.size(), Use::None, Use::None});
+  frame.counters = graph.create("view counters", {kCounterWords * 4});
+  frame.edges = graph.create("view edges", {kEdges * sizeof(EdgeRecord)});
+  graph.pass("view clear", [&](Pass& pass) {
+    frame.counters = pass.write(frame.counters, Use::CopyTarget, true);
+    return [counters = frame.counters](Commands& commands) { commands.fill(counters, 0); };
+  });
+  graph.pass("view edges", [&](Pass& pass) {
+    pass.read(frame.scene, Use::ComputeUniform);
+    frame.edges = pass.write(frame.edges, Use::ComputeWrite, true);
+    const Kernel kernel = pass.kernel(edges_, {frame.scene, frame.edges});
+    return [kernel, push = frame.push](Commands& commands) { commands.dispatch(kernel, 1, push); };
+  });
+  if (scene_.solids.empty()) {
+    graph.skipped("view poses", "the scene has no solids");
+    return;
+  }
   const BufferRef solids = graph.import("view solids", {solids_.handle(), 0, solids_.size(), Use::None, Use::None});
   const BufferRef keyframes = graph.import("view keyframes", {keyframes_.handle(), 0, keyframes_.size(), Use::None, Use::None});
-  frame.scene = graph.import("view scene", {sceneBuffer_.handle(), 0, sceneBuffer_.size(), Use::None, Use::None});
-  const uint64_t count = std::max<uint64_t>(scene_.solids.size(), 1);
-  frame.poses = graph.create("view poses", {count * sizeof(PoseRecord)});
-  frame.edges = graph.create("view edges", {kEdges * sizeof(EdgeRecord)});
-  graph.pass("view setup", [&](Pass& pass) {
+  frame.poses = graph.create("view poses", {scene_.solids.size() * sizeof(PoseRecord)});
+  graph.pass("view poses", [&](Pass& pass) {
     pass.read(frame.scene, Use::ComputeUniform);
     pass.read(solids, Use::ComputeRead);
     pass.read(keyframes, Use::ComputeRead);
     frame.poses = pass.write(frame.poses, Use::ComputeWrite, true);
-    frame.edges = pass.write(frame.edges, Use::ComputeWrite, true);
-    const Kernel kernel = pass.kernel(setup_, {frame.scene, solids, keyframes, frame.poses, frame.edges});
-    const uint64_t groups = groupsFor(std::max<uint64_t>(count, kEdges), kParticleGroup);
+    const Kernel kernel = pass.kernel(poses_, {frame.scene, solids, keyframes, frame.poses});
+    const uint64_t groups = groupsFor(scene_.solids.size(), kParticleGroup);
     return [kernel, groups, push = frame.push](Commands& commands) { commands.dispatch(kernel, groups, push); };
   });
 }
 
-/// Which solids may be seen in which tile; anything that can be bound where there are none.
+/// Which solids may be seen in which tile.
 BufferRef ParticleViewImpl::addMasks(Graph& graph, const Frame& frame, bool light) {
-  if (scene_.solids.empty()) return frame.poses;
   const uint64_t tileCount = light ? tiles(scene_.scene.counts.y, scene_.scene.counts.z, kPixelTile) : tiles(frame.push.width, frame.push.height, kPixelTile);
   const uint64_t words = tileCount * groupsFor(scene_.solids.size(), 32);
   BufferRef masks = graph.create(light ? "view light masks" : "view solid masks", {words * 4});
@@ -193,16 +203,23 @@ BufferRef ParticleViewImpl::addMasks(Graph& graph, const Frame& frame, bool ligh
 }
 
 void ParticleViewImpl::addSurfaces(Graph& graph, Frame& frame) {
-  const BufferRef masks = addMasks(graph, frame, false);
+  const bool bare = scene_.solids.empty();
+  BufferRef masks;
+  if (!bare) masks = addMasks(graph, frame, false);
   frame.depth = graph.create("view depth", {frame.pixels * 4});
   frame.winner = graph.create("view winner", {frame.pixels * 4});
   graph.pass("view surfaces", [&](Pass& pass) {
     pass.read(frame.scene, Use::ComputeUniform);
-    pass.read(frame.poses, Use::ComputeRead);
-    if (masks != frame.poses) pass.read(masks, Use::ComputeRead);
     frame.depth = pass.write(frame.depth, Use::ComputeWrite, true);
     frame.winner = pass.write(frame.winner, Use::ComputeWrite, true);
-    const Kernel kernel = pass.kernel(surfaces_, {frame.scene, frame.poses, masks, frame.depth, frame.winner});
+    Kernel kernel;
+    if (bare) {
+      kernel = pass.kernel(floor_, {frame.scene, frame.depth, frame.winner});
+    } else {
+      pass.read(frame.poses, Use::ComputeRead);
+      pass.read(masks, Use::ComputeRead);
+      kernel = pass.kernel(surfaces_, {frame.scene, frame.depth, frame.winner, frame.poses, masks});
+    }
     const uint64_t groups = tiles(frame.push.width, frame.push.height, kPixelTile);
     return [kernel, groups, push = frame.push](Commands& commands) { commands.dispatch(kernel, groups, push); };
   });
@@ -225,7 +242,7 @@ void ParticleViewImpl::addLightMap(Graph& graph, Frame& frame) {
     pass.read(frame.poses, Use::ComputeRead);
     pass.read(masks, Use::ComputeRead);
     frame.light = pass.write(frame.light, Use::ComputeWrite, true);
-    const Kernel kernel = pass.kernel(lightSolids_, {frame.scene, frame.poses, masks, frame.light});
+    const Kernel kernel = pass.kernel(lightSolids_, {frame.scene, frame.light, frame.light, frame.poses, masks});
     const uint64_t groups = tiles(scene_.scene.counts.y, scene_.scene.counts.z, kPixelTile);
     return [kernel, groups, push = frame.push](Commands& commands) { commands.dispatch(kernel, groups, push); };
   });
@@ -270,16 +287,14 @@ void ParticleViewImpl::addSplat(Graph& graph, Frame& frame, bool winners) {
       pass.read(frame.counters, Use::ComputeRead);
       pass.read(frame.counters, Use::Indirect);
       pass.read(frame.survivors, Use::ComputeRead);
-      Kernel kernel;
-      if (winners) {
-        pass.read(frame.depth, Use::ComputeRead);
-        frame.winner = pass.write(frame.winner, Use::ComputeWrite);
-        kernel = pass.kernel(large ? winnerLarge_ : winner_, {frame.position, frame.counters, frame.survivors, frame.depth, frame.winner});
-      } else {
-        frame.depth = pass.write(frame.depth, Use::ComputeWrite);
-        kernel = pass.kernel(large ? depthLarge_ : depth_, {frame.position, frame.counters, frame.survivors, frame.depth});
-      }
-      return [kernel, counters = frame.counters, offset = 4 * (large ? kLargeArguments : kSmallArguments), push = frame.push](Commands& commands) {
+      // One of the two is written: the kernel is the same, so that both runs find the very same depths.
+      BufferRef& written = winners ? frame.winner : frame.depth;
+      pass.read(winners ? frame.depth : frame.winner, Use::ComputeRead);
+      written = pass.write(written, Use::ComputeWrite);
+      const Kernel kernel = pass.kernel(large ? splatLarge_ : splat_, {frame.position, frame.counters, frame.survivors, frame.depth, frame.winner});
+      ViewPush push = frame.push;
+      push.winners = winners ? 1 : 0;
+      return [kernel, counters = frame.counters, offset = 4 * (large ? kLargeArguments : kSmallArguments), push](Commands& commands) {
         commands.dispatchIndirect(kernel, counters, offset, push);
       };
     });
@@ -338,53 +353,65 @@ void ParticleViewImpl::addClassify(Graph& graph, Frame& frame) {
   });
   graph.pass("view arguments", [&](Pass& pass) {
     frame.counters = pass.write(frame.counters, Use::ComputeWrite);
-    const Kernel kernel = pass.kernel(tileArguments_, {frame.counters});
+    const Kernel kernel = pass.kernel(arguments_, {frame.counters});
     return [kernel, push = frame.push](Commands& commands) { commands.dispatch(kernel, 1, push); };
   });
 }
 
+/// Kernels that run on a list of tiles: each writes the pixels of its own kind, together they write all.
 void ParticleViewImpl::addShade(Graph& graph, Frame& frame) {
   frame.shaded = graph.create("view shaded", {frame.pixels * 4});
   frame.rims = graph.create("view rims", {frame.pixels * 4});
-  // Each kernel writes the pixels of its own kind; together they write all.
-  const auto shade = [&](std::string_view name, const ComputePipeline* pipeline, uint32_t list, bool first, std::span<const BufferRef> own) {
-    graph.pass(name, [&](Pass& pass) {
-      pass.read(frame.scene, Use::ComputeUniform);
-      pass.read(frame.counters, Use::ComputeRead);
-      pass.read(frame.counters, Use::Indirect);
-      pass.read(frame.tiles, Use::ComputeRead);
-      pass.read(frame.winner, Use::ComputeRead);
-      for (const BufferRef& buffer : own) pass.read(buffer, Use::ComputeRead);
-      frame.shaded = pass.write(frame.shaded, Use::ComputeWrite, first);
-      frame.rims = pass.write(frame.rims, Use::ComputeWrite, first);
-      BufferRef bindings[8] = {frame.scene, frame.counters, frame.tiles, frame.winner};
-      size_t count = 4;
-      for (const BufferRef& buffer : own) bindings[count++] = buffer;
-      bindings[count++] = frame.shaded;
-      bindings[count++] = frame.rims;
-      const Kernel kernel = pass.kernel(pipeline, std::span<const BufferRef>(bindings, count));
-      return [kernel, counters = frame.counters, offset = 4 * (kTileArguments + 4 * list), push = frame.push](Commands& commands) {
-        commands.dispatchIndirect(kernel, counters, offset, push);
-      };
-    });
+  frame.picture = graph.create("view picture", {frame.pixels * 4});
+  const auto onTiles = [&](Kernel kernel, uint32_t list) {
+    return [kernel, counters = frame.counters, offset = 4 * (kTileArguments + 4 * list), push = frame.push](Commands& commands) {
+      commands.dispatchIndirect(kernel, counters, offset, push);
+    };
   };
-  const BufferRef floor[] = {frame.floor}, fluid[] = {frame.position, frame.tint}, solids[] = {frame.poses, frame.light};
-  shade("view shade backdrop", shadeBackdrop_, kTilesBackdrop, true, floor);
-  if (frame.push.count > 0) shade("view shade fluid", shadeFluid_, kTilesFluid, false, fluid);
-  if (!scene_.solids.empty()) shade("view shade solids", shadeSolids_, kTilesSolid, false, solids);
-}
-
-BufferRef ParticleViewImpl::addResolve(Graph& graph, Frame& frame) {
-  BufferRef picture = graph.create("view picture", {frame.pixels * 4});
-  graph.pass("view resolve", [&](Pass& pass) {
+  const auto readLists = [&](Pass& pass) {
+    pass.read(frame.counters, Use::ComputeRead);
+    pass.read(frame.counters, Use::Indirect);
+    pass.read(frame.tiles, Use::ComputeRead);
+  };
+  graph.pass("view shade backdrop", [&](Pass& pass) {
+    readLists(pass);
     pass.read(frame.scene, Use::ComputeUniform);
-    for (const BufferRef& buffer : {frame.depth, frame.shaded, frame.rims, frame.edges, frame.tileEdges}) pass.read(buffer, Use::ComputeRead);
-    picture = pass.write(picture, Use::ComputeWrite, true);
-    const Kernel kernel = pass.kernel(resolve_, {frame.scene, frame.depth, frame.shaded, frame.rims, frame.edges, frame.tileEdges, picture});
-    const uint64_t groups = tiles(frame.push.width, frame.push.height, kShadeTile);
-    return [kernel, groups, push = frame.push](Commands& commands) { commands.dispatch(kernel, groups, push); };
+    for (const BufferRef& buffer : {frame.winner, frame.depth, frame.edges, frame.tileEdges}) pass.read(buffer, Use::ComputeRead);
+    if (frame.floor != frame.edges) pass.read(frame.floor, Use::ComputeRead);
+    for (BufferRef* buffer : {&frame.shaded, &frame.rims, &frame.picture}) *buffer = pass.write(*buffer, Use::ComputeWrite, true);
+    return onTiles(pass.kernel(shadeBackdrop_, {frame.scene, frame.counters, frame.tiles, frame.winner, frame.floor, frame.tileEdges, frame.edges,
+                                                frame.depth, frame.shaded, frame.rims, frame.picture}),
+                   kTilesBackdrop);
   });
-  return picture;
+  const bool fluid = frame.push.count > 0, solids = !scene_.solids.empty();
+  if (fluid) {
+    graph.pass("view shade fluid", [&](Pass& pass) {
+      readLists(pass);
+      pass.read(frame.scene, Use::ComputeUniform);
+      for (const BufferRef& buffer : {frame.winner, frame.position, frame.tint}) pass.read(buffer, Use::ComputeRead);
+      for (BufferRef* buffer : {&frame.shaded, &frame.rims}) *buffer = pass.write(*buffer, Use::ComputeWrite);
+      return onTiles(pass.kernel(shadeFluid_, {frame.scene, frame.counters, frame.tiles, frame.winner, frame.position, frame.tint, frame.shaded, frame.rims}),
+                     kTilesFluid);
+    });
+  }
+  if (solids) {
+    graph.pass("view shade solids", [&](Pass& pass) {
+      readLists(pass);
+      pass.read(frame.scene, Use::ComputeUniform);
+      for (const BufferRef& buffer : {frame.winner, frame.poses, frame.light}) pass.read(buffer, Use::ComputeRead);
+      for (BufferRef* buffer : {&frame.shaded, &frame.rims}) *buffer = pass.write(*buffer, Use::ComputeWrite);
+      return onTiles(pass.kernel(shadeSolids_, {frame.scene, frame.counters, frame.tiles, frame.winner, frame.poses, frame.light, frame.shaded, frame.rims}),
+                     kTilesSolid);
+    });
+  }
+  if (!fluid && !solids) return;
+  graph.pass("view resolve", [&](Pass& pass) {
+    readLists(pass);
+    for (const BufferRef& buffer : {frame.depth, frame.shaded, frame.rims, frame.edges, frame.tileEdges}) pass.read(buffer, Use::ComputeRead);
+    frame.picture = pass.write(frame.picture, Use::ComputeWrite);
+    return onTiles(pass.kernel(resolve_, {frame.counters, frame.tiles, frame.tileEdges, frame.edges, frame.depth, frame.shaded, frame.rims, frame.picture}),
+                   kTilesOutline);
+  });
 }
 
 BufferRef ParticleViewImpl::addTo(Graph& graph, const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc, double time) {
@@ -393,11 +420,6 @@ BufferRef ParticleViewImpl::addTo(Graph& graph, const FluidState& fluid, const C
   frame.pixels = uint64_t{desc.width} * desc.height;
   frame.position = fluid.position;
   frame.velocity = fluid.velocity;
-  frame.counters = graph.create("view counters", {kCounterWords * 4});
-  graph.pass("view clear", [&](Pass& pass) {
-    frame.counters = pass.write(frame.counters, Use::CopyTarget, true);
-    return [counters = frame.counters](Commands& commands) { commands.fill(counters, 0); };
-  });
   addSetup(graph, frame);
   addSurfaces(graph, frame);
   addLightMap(graph, frame);
@@ -412,7 +434,7 @@ BufferRef ParticleViewImpl::addTo(Graph& graph, const FluidState& fluid, const C
   addFloorShadow(graph, frame);
   addClassify(graph, frame);
   addShade(graph, frame);
-  return addResolve(graph, frame);
+  return frame.picture;
 }
 
 Expected<std::unique_ptr<ParticleView>> ParticleView::create(Device& device, const Scene& scene, const ParticleSet& particles) {

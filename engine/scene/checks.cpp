@@ -25,7 +25,7 @@ bool Reader::check(const std::string& path, FluidSettings& fluid) {
   const double mass = fluid.density * fluid.spacing * fluid.spacing * fluid.spacing;
   if (mass >= std::numeric_limits<float>::min() && mass <= std::numeric_limits<float>::max()) return true;
   return failAtOneOf({childPath(path, "spacing"), childPath(path, "density")},
-                     "a particle's mass, density x spacing^3, would be " + shortNumber(mass) + " kg, which is out of range of a 32-bit float");
+                     "a particle's mass, density x spacing^3, would be " + roughNumber(mass) + " kg, which is out of range of a 32-bit float");
 }
 
 bool Reader::check(const std::string& path, Solid& solid) {

@@ -130,17 +130,21 @@ class Builder : public nlohmann::json_sax<Json> {
     return true;
   }
 
-  bool parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception& error) override {
-    size_t at = std::min(position > 0 ? position - 1 : 0, text_.size());
-    if (!token.empty() && token.size() <= position && text_.substr(position - token.size(), token.size()) == token) at = position - token.size();
+  bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& error) override {
+    const size_t at = startOfToken(std::min(position > 0 ? position - 1 : 0, text_.size()));
     constexpr int kOutOfRange = 406;
-    if (error.id == kOutOfRange) return fail(at, "the number " + clipped(token) + " is out of range; expected one that a 32-bit float can hold");
+    if (error.id == kOutOfRange) return fail(at, "the number " + clipped(std::string(text_.substr(at, position - at))) + " is out of range; expected one that a 32-bit float can hold");
     std::string what = error.what();
     const size_t column = what.find("column ");
     const size_t colon = column == std::string::npos ? column : what.find(": ", column);
     if (colon != std::string::npos) what.erase(0, colon + 2);
     constexpr std::string_view kTheirs = "syntax error ";
     if (what.starts_with(kTheirs)) what.erase(0, kTheirs.size());
+    constexpr std::string_view kRead = "; last read: '";  // repeats much of the line
+    if (const size_t read = what.find(kRead); read != std::string::npos) {
+      const size_t expected = what.rfind("'; expected ");
+      what.erase(read, expected == std::string::npos || expected < read ? std::string::npos : expected + 1 - read);
+    }
     if (trailingComma(at)) what = std::string("trailing comma before ") + text_[at];
     return fail(at, "broken JSON: " + clipped(what));
   }
@@ -178,6 +182,17 @@ class Builder : public nlohmann::json_sax<Json> {
   }
 
   size_t offset() const { return static_cast<size_t>(reached - text_.data()); }
+
+  /// Where the word or number starts that has a letter at `at`; `at` itself for anything else.
+  size_t startOfToken(size_t at) const {
+    const auto part = [&](size_t i) {
+      const char c = text_[i];
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '+' || c == '-' || c == '.';
+    };
+    if (at >= text_.size() || !part(at)) return at;
+    while (at > 0 && part(at - 1)) --at;
+    return at;
+  }
 
   /// The opening quote of the string that the lexer has just read.
   size_t startOfString() const {

@@ -37,13 +37,7 @@ Error refuse(const Scene& scene, const std::string& why) {
   return {ErrorKind::BadInput, (name.empty() ? "" : name + ": ") + why};
 }
 
-std::string countText(double count) { return count < 1e18 ? grouped(static_cast<uint64_t>(count)) : shortNumber(count); }
-
-std::string fourDigits(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", number);
-  return text;
-}
+std::string countText(double count) { return count < 1e15 ? grouped(static_cast<uint64_t>(count)) : "about " + roughNumber(count); }
 
 /// A number in [-1, 1) that depends on nothing but its arguments (splitmix64's finaliser over a counter).
 double randomAlong(uint64_t seed, uint64_t fill, uint64_t particle, uint64_t axis) {
@@ -201,7 +195,7 @@ void warnOf(const Scene& scene, const std::vector<Source>& sources, std::vector<
     const Source& s = sources[i];
     const std::string of = " of " + countText(s.count) + " particles ";
     if (s.count < 1) {
-      say(i, s.file ? "yields no particle: the file has none" : "yields no particle: it is too thin for a spacing of " + fourDigits(scene.fluid.spacing) + " m");
+      say(i, s.file ? "yields no particle: the file has none" : "yields no particle: it is too thin for a spacing of " + roughNumber(scene.fluid.spacing) + " m");
       continue;
     }
     if (s.domain > 0) say(i, grouped(s.domain) + of + "start outside the domain's walls and are left out");
@@ -224,8 +218,8 @@ void warnOfDistance(const Scene& scene, const ParticleSet& set, const Bounds& al
     step = std::max({step, reach * kFloatStep, place * kDoubleStep});
   }
   if (step <= kTooCoarse * scene.fluid.spacing) return;
-  warnings.push_back(nameOf(scene) + ": fluid starts " + fourDigits(far) + " m from the domain's minimum (or the fluid's centre), where positions are rounded to " +
-                     fourDigits(step) + " m, more than a thousandth of the spacing " + fourDigits(scene.fluid.spacing) + " m");
+  warnings.push_back(nameOf(scene) + ": fluid starts " + roughNumber(far) + " m from the domain's minimum (or the fluid's centre), where positions are rounded to " +
+                     roughNumber(step) + " m, more than a thousandth of the spacing " + roughNumber(scene.fluid.spacing) + " m");
 }
 
 /// Places every source at the scene's spacing.
@@ -244,7 +238,7 @@ Expected<ParticleSet> place(const Scene& scene, std::vector<Source>& sources, ui
   }
   if (total > static_cast<double>(most)) {
     return refuse(scene, "fluid.spacing: " + shortNumber(spacing) + " m makes " + countText(total) + " particles; expected at most " + grouped(most) + ", as a spacing of about " +
-                             fourDigits(spacing * std::cbrt(total / static_cast<double>(most)) * 1.01) + " m gives");
+                             roughNumber(spacing * std::cbrt(total / static_cast<double>(most)) * 1.01) + " m gives");
   }
   Bounds all;
   std::vector<Bounds> bounds;

@@ -97,7 +97,7 @@ std::string rangeText(const model::Range& range) {
 
 std::string expectedNumber(const model::Info& info, bool whole) {
   const std::string range = rangeText(info.range);
-  return std::string(whole ? "a whole number" : "a number") + (range.empty() ? "" : " " + range) + unitText(info);
+  return std::string(whole ? "a whole number" : "a number") + (range.empty() ? "" : range.starts_with("at ") ? " of " + range : " " + range) + unitText(info);
 }
 
 bool Reader::fail(const std::string& path, const std::string& text) {
@@ -137,10 +137,10 @@ bool Reader::exactlyOne(const Json& json, const std::string& path, std::span<con
     if (json.contains(std::string(key))) given.push_back(key);
   }
   if (keys.empty() || given.size() == 1) return true;
-  const std::string expected = "; expected exactly one of " + listInQuotes(keys);
-  if (given.empty()) return fail(path, "found none of them" + expected);
+  const std::string expected = "expected exactly one of " + listInQuotes(keys) + "; found ";
+  if (given.empty()) return fail(path, expected + "none");
   const std::string blamed = marks_.find(childPath(path, given[0])) ? childPath(path, given[0]) : childPath(path, given[1]);
-  return fail(marks_.find(blamed) ? blamed : path, "found " + listInQuotes(given) + expected);
+  return fail(marks_.find(blamed) ? blamed : path, expected + listInQuotes(given));
 }
 
 bool Reader::version(const Json& root) {

@@ -98,12 +98,18 @@ OrderedJson objectSchema() {
 
 // The table of keys.
 
+std::string code(std::string_view text) {
+  std::string out("`");
+  out += text;
+  return out += '`';
+}
+
 /// The range of one key in words, for people.
 template <class T>
 std::string valuesText(const model::Info& info) {
   std::string text;
   if (!info.words.empty()) {
-    for (const std::string_view word : info.words) text += (text.empty() ? "" : ", ") + ("`" + std::string(word) + "`");
+    for (const std::string_view word : info.words) (text += text.empty() ? "" : ", ") += code(word);
   } else if constexpr (std::is_same_v<T, double> || std::is_same_v<T, uint32_t> || std::is_same_v<T, uint64_t> || std::is_same_v<T, std::optional<double>> ||
                        std::is_array_v<T> || std::is_same_v<T, std::optional<std::pair<double, double>>>) {
     text = rangeText(info.range);
@@ -123,9 +129,11 @@ void addRows(const std::string& path, std::string& out) {
     if constexpr (model::kHasMember<T>) {
       const Owner defaults{};
       const OrderedJson value = defaultJson(field.info, defaults.*field.member);
-      if (!value.is_null() && !field.info.required) fallback = "`" + value.dump() + "`";
+      if (!value.is_null() && !field.info.required) fallback = code(value.dump());
     }
-    out += "| `" + here + "` | " + std::string(field.info.unit) + " | " + valuesText<T>(field.info) + " | " + fallback + " | " + std::string(field.info.help) + " |\n";
+    const std::string cells[] = {code(here), std::string(field.info.unit), valuesText<T>(field.info), fallback, std::string(field.info.help)};
+    for (const std::string& cell : cells) (out += "| ") += cell + ' ';
+    out += "|\n";
     if constexpr (std::is_same_v<T, std::optional<std::filesystem::path>>) {
       addRows<model::FileName>(here, out);
     } else if constexpr (!std::is_void_v<Inner>) {

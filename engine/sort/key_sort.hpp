@@ -38,7 +38,7 @@ class KeySort {
   std::variant<CountingSort, RadixSort> sort_;
 };
 
-/// The method that Auto takes for such keys.
-SortMethod chooseSortMethod(uint32_t count, uint64_t keyRange);
+/// The method that is taken: desc.method, or the one that Auto stands for.
+SortMethod chooseSortMethod(const KeySortDesc& desc);
 
 }  // namespace rill

@@ -1,5 +1,6 @@
 #version 460
-// Contacts with solids at the end of a substep: a centre is kept half a spacing off the surface; restitution and Coulomb friction relative to the solid.
+// Solids at the end of a substep: centres are kept half a spacing off their surfaces, then contact with restitution and Coulomb friction relative to
+// the solid. A solid's impulse is what its own displaced density and the projection gave, so that friction feels the weight of the column above.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "fluid/solids.glsl"
@@ -11,8 +12,12 @@ layout(std430, binding = 5) readonly buffer PushBlock { vec4 pushAway[]; };
 layout(std430, binding = 6) readonly buffer NearListBlock { uint nearList[]; };
 layout(std430, binding = 7) readonly buffer SumsBlock { FluidSums sums; };
 layout(std430, binding = 8) readonly buffer SolidBlock { SolidRecord solids[]; };
+layout(std430, binding = 9) readonly buffer FreeBlock { vec4 freeVelocity[]; };
+layout(std430, binding = 10) readonly buffer WorkBlock { vec4 work[]; };
+layout(std430, binding = 11) readonly buffer WarmBlock { float warm[]; };
+layout(std430, binding = 12) readonly buffer NearBlock { vec4 nearSample[]; };
 
-// Moves a centre out of every solid.
+// Moves a centre out of every solid, walls last.
 vec3 outside(vec3 x) {
   for (uint k = 0u; k < params.solidCount; ++k) {
     vec3 normal;
@@ -26,29 +31,34 @@ void main() {
   uint n = flatInvocation();
   if (n >= sums.cornerCount) return;
   uint i = nearList[params.count - 1u - n];
-  vec3 x = position[i].xyz;
-  vec4 keep = velocity[i];
-  vec3 v = keep.xyz;
+  vec3 from = position[i].xyz;
+  if (from.x >= kParked * 0.5) return;
+  vec3 x = outside(from);
+  vec3 v = velocity[i].xyz + (x - from) / control.step;
+  // The multiplier in all: what the warm start had, and the change. `warm` has a share of the change already.
+  float change = unpackHalf2x16(floatBitsToUint(work[i].w)).x * (params.inverseRestGradient / kMultiplierScale);
+  float multiplier = warm[i] + (1.0 - params.warmGain) * change;
+  vec3 given = multiplier * nearSample[i].xyz / control.step + (x - from) / control.step;
   for (uint k = 0u; k < params.solidCount; ++k) {
+    if (solids[k].friction <= 0.0 && solids[k].restitution <= 0.0) continue;
     vec3 normal;
-    float distance = surfaceDistance(solids[k], toLocal(solids[k], x), normal);
-    if (distance >= params.margin) continue;
+    if (surfaceDistance(solids[k], toLocal(solids[k], x), normal) > 1.1 * params.margin) continue;
     normal = toWorld(solids[k], normal);
-    x += normal * (params.margin - distance);
     vec3 moving = vec3(solids[k].velocityX, solids[k].velocityY, solids[k].velocityZ);
+    float before = dot(freeVelocity[i].xyz - moving, normal);
     vec3 relative = v - moving;
-    float into = dot(relative, normal);
-    if (into >= 0.0) continue;
-    vec3 along = relative - into * normal;
-    float slide = length(along);
-    float back = -solids[k].restitution * into;
-    float lost = solids[k].friction * (back - into);
-    along *= slide > 0.0 ? max(0.0, 1.0 - lost / slide) : 0.0;
-    v = moving + along + back * normal;
+    float away = dot(relative, normal);
+    vec3 along = relative - away * normal;
+    float impulse = max(0.0, dot(given, normal));
+    if (before < 0.0 && solids[k].restitution > 0.0 && away < -solids[k].restitution * before) {
+      impulse += -solids[k].restitution * before - away;
+      away = -solids[k].restitution * before;
+    }
+    float slip = length(along);
+    along *= slip > 0.0 ? max(0.0, 1.0 - solids[k].friction * impulse / slip) : 0.0;
+    v = moving + along + away * normal;
   }
-  x = insideWalls(x);
   position[i] = vec4(x, 0.0);
-  velocity[i] = vec4(v, keep.w);
-  vec3 next = x + control.nextStep * (v + control.nextStep * (gravity() + pushAway[i].xyz));
-  prediction[i] = vec4(outside(insideWalls(next)), 0.0);
+  velocity[i] = vec4(v, 1.0);
+  prediction[i] = vec4(outside(x + control.nextStep * (v + control.nextStep * (gravity() + pushAway[i].xyz))), 0.0);
 }

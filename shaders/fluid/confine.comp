@@ -1,5 +1,5 @@
 #version 460
-// Vorticity confinement (Fedkiw, Stam and Jensen 2001; Macklin and Mueller 2013, equation 16): an acceleration eps h (N x curl v), N along the gradient
+// Vorticity confinement (Fedkiw, Stam and Jensen 2001; Macklin and Mueller 2013, equation 16): an acceleration eps h |curl v| (N x curl v), N along the gradient
 // of the curl's length. Gathers positions and curls; predicts anew with the velocity it ends with.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
@@ -17,13 +17,15 @@ layout(std430, binding = 8) readonly buffer CurlBlock { vec4 curlArray[]; };
 layout(std430, binding = 9) buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 10) writeonly buffer PredictionBlock { vec4 prediction[]; };
 layout(std430, binding = 11) readonly buffer PushBlock { vec4 pushAway[]; };
+layout(std430, binding = 12) readonly buffer PositionBlock { vec4 position[]; };
 
 vec3 here;
+vec4 own;
 vec3 rise = vec3(0.0);
 
 void visit(uint j, vec4 particle) {
   vec3 r = here - particle.xyz;
-  rise += CURL(j).w * kernelGradient(sqrt(dot(r, r))) * r;
+  rise += (CURL(j).w - own.w) * kernelGradient(sqrt(dot(r, r))) * r;
 }
 #include "fluid/neighbours.glsl"
 
@@ -32,12 +34,12 @@ void main() {
   uint i = push.first + local;
   if (i >= push.last) return;
   here = PARTICLE(i).xyz;
+  own = CURL(i);
   visitNeighbours(i, local);
-  vec3 spin = CURL(i).xyz;
-  // Below a spin that changes by a hundredth over a smoothing length the direction is noise.
-  vec3 direction = rise / (length(rise) + 0.01 * length(spin) * params.inverseSupport + 1.0e-12);
+  // Below a thousandth of the spin a smoothing length its change is noise.
+  vec3 direction = rise / (length(rise) + 0.001 * own.w * params.inverseSupport + 1.0e-20);
   vec4 v = velocity[i];
-  v.xyz += control.step * params.vorticity * params.support * cross(direction, spin);
+  v.xyz += control.step * params.vorticity * params.support * own.w * cross(direction, own.xyz);
   velocity[i] = v;
-  prediction[i] = vec4(insideWalls(here + control.nextStep * (v.xyz + control.nextStep * (gravity() + pushAway[i].xyz))), 0.0);
+  prediction[i] = vec4(insideWalls(position[i].xyz + control.nextStep * (v.xyz + control.nextStep * (gravity() + pushAway[i].xyz))), 0.0);
 }

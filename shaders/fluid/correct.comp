@@ -8,16 +8,16 @@
 #include "fluid/kernel.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 2) const uint NEAR = 0;
-layout(constant_id = 3) const uint KEEP_DENSITY = 0;
-layout(constant_id = 4) const uint TENSILE = 0;
+layout(constant_id = 3) const uint TENSILE = 0;
+layout(constant_id = 4) const uint CONTACT = 0;  // collide.comp follows
 
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer PositionBlock { vec4 position[]; };
-layout(std430, binding = 9) writeonly buffer VelocityBlock { vec4 velocity[]; };
+layout(std430, binding = 9) buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 10) readonly buffer NearBlock { vec4 nearSample[]; };
 layout(std430, binding = 11) writeonly buffer PredictionBlock { vec4 prediction[]; };
 layout(std430, binding = 12) writeonly buffer PushBlock { vec4 pushAway[]; };
-layout(std430, binding = 13) readonly buffer DensityBlock { float density[]; };
+layout(std430, binding = 13) writeonly buffer FreeBlock { vec4 freeVelocity[]; };  // before the solve: what contacts compare with
 layout(std430, binding = 14) buffer WarmBlock { float warm[]; };
 
 vec4 here;
@@ -77,7 +77,8 @@ void main() {
     warm[i] = 0.0;
   }
   position[i] = vec4(to, 0.0);
-  velocity[i] = vec4(v, KEEP_DENSITY != 0u ? density[i] : 1.0);
+  if (CONTACT != 0u) freeVelocity[i] = vec4(velocity[i].xyz + control.step * gravity(), 0.0);
+  velocity[i] = vec4(v, 1.0);
   pushAway[i] = vec4(away, 0.0);
   prediction[i] = vec4(next, 0.0);
 

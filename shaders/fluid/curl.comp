@@ -1,5 +1,6 @@
 #version 460
-// Vorticity of the velocity field, curl v (Macklin and Mueller 2013, equation 15): xyz the curl, 1/s, w its length over the density.
+// Vorticity of the velocity field, curl v (Macklin and Mueller 2013, equation 15): xyz the curl, w its length, 1/s. Gathers from
+// `work`, and velocities.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "fluid/arrays.glsl"
@@ -22,9 +23,7 @@ vec3 turning = vec3(0.0);
 
 void visit(uint j, vec4 particle) {
   vec3 r = here - particle.xyz;
-  vec4 other = VELOCITY(j);
-  vec3 gradient = kernelGradient(sqrt(dot(r, r))) * r;
-  turning += cross(gradient, (other.xyz - own) / max(other.w, 0.1));
+  turning += cross(kernelGradient(sqrt(dot(r, r))) * r, VELOCITY(j).xyz - own);
 }
 #include "fluid/neighbours.glsl"
 
@@ -33,8 +32,7 @@ void main() {
   uint i = push.first + local;
   if (i >= push.last) return;
   here = PARTICLE(i).xyz;
-  vec4 mine = VELOCITY(i);
-  own = mine.xyz;
+  own = VELOCITY(i).xyz;
   visitNeighbours(i, local);
-  curl[i] = vec4(turning, length(turning) / max(mine.w, 0.1));
+  curl[i] = vec4(turning, length(turning));
 }

@@ -9,15 +9,13 @@
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 2) const uint NEAR = 0;        // walls or solids displace density
 layout(constant_id = 3) const uint ITERATED = 0;    // more than one iteration a substep
-layout(constant_id = 4) const uint KEEP_DENSITY = 0;  // later passes read it
-layout(constant_id = 5) const uint MEASURED = 0;    // the tolerance is looked at
+layout(constant_id = 4) const uint MEASURED = 0;    // the tolerance is looked at
 
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer WarmBlock { float warm[]; };
 layout(std430, binding = 9) writeonly buffer WorkBlock { vec4 work[]; };
 layout(std430, binding = 10) readonly buffer NearBlock { vec4 nearSample[]; };
 layout(std430, binding = 11) buffer MultiplierBlock { float multiplier[]; };
-layout(std430, binding = 12) writeonly buffer DensityBlock { float density[]; };
 
 vec3 here;
 float rho = 0.0;        // over rest density
@@ -65,7 +63,6 @@ void main() {
     warmNext = warm[i];
   }
   if (ITERATED != 0u) multiplier[i] = after;
-  if (KEEP_DENSITY != 0u) density[i] = rho;
 
   float unit = kMultiplierScale / params.inverseRestGradient;
   work[i] = vec4(here, uintBitsToFloat(packHalf2x16(clamp(vec2(after - before, warmNext) * unit, -60000.0, 60000.0))));

@@ -1,6 +1,6 @@
 #version 460
 // One sweep of XSPH viscosity (Schechter and Bridson 2012; Macklin and Mueller 2013, equation 17), its coefficient that of a dynamic viscosity in Pa s.
-// Gathers positions and velocities; the last sweep predicts anew with the velocity it ends with.
+// The pairs are those of the density pass: gathers from `work`, and velocities. Predicts anew with the velocity it ends with.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "fluid/arrays.glsl"
@@ -17,6 +17,7 @@ layout(std430, binding = 8) readonly buffer VelocityBlock { vec4 velocityArray[]
 layout(std430, binding = 9) writeonly buffer SmoothedBlock { vec4 smoothed[]; };
 layout(std430, binding = 10) writeonly buffer PredictionBlock { vec4 prediction[]; };
 layout(std430, binding = 11) readonly buffer PushBlock { vec4 pushAway[]; };
+layout(std430, binding = 12) readonly buffer PositionBlock { vec4 position[]; };
 
 vec3 here;
 vec4 own;
@@ -24,8 +25,7 @@ vec3 change = vec3(0.0);
 
 void visit(uint j, vec4 particle) {
   vec3 r = here - particle.xyz;
-  vec4 other = VELOCITY(j);
-  change += kernelValue(sqrt(dot(r, r))) / max(other.w, 0.1) * (other.xyz - own.xyz);
+  change += kernelValue(sqrt(dot(r, r))) * (VELOCITY(j).xyz - own.xyz);
 }
 #include "fluid/neighbours.glsl"
 
@@ -38,5 +38,5 @@ void main() {
   visitNeighbours(i, local);
   vec3 v = own.xyz + params.viscosityRate * control.step * push.share * change;
   smoothed[i] = vec4(v, own.w);
-  prediction[i] = vec4(insideWalls(here + control.nextStep * (v + control.nextStep * (gravity() + pushAway[i].xyz))), 0.0);
+  prediction[i] = vec4(insideWalls(position[i].xyz + control.nextStep * (v + control.nextStep * (gravity() + pushAway[i].xyz))), 0.0);
 }

@@ -1,5 +1,5 @@
 #version 460
-// Dispatch arguments from the numbers of survivors; with TILES, of tiles.
+// Dispatch arguments from the numbers of survivors and of tiles. It runs after each has been counted, and writes all of them.
 #extension GL_GOOGLE_include_directive : require
 #include "render/particle_view.glsl"
 
@@ -14,13 +14,10 @@ void writeArguments(uint at, uint groups) {
 }
 
 void main() {
-#ifdef TILES
-  for (uint list = 0u; list < kTileLists; ++list) writeArguments(kTileArguments + 4u * list, counters[kTileCount + list]);
-#else
+  RILL_LOOP for (uint list = 0u; list < kTileLists; ++list) writeArguments(kTileArguments + 4u * list, counters[kTileCount + list]);
   const uint small = counters[kSmallCount], large = counters[kLargeCount];
   const uint tiles = ((view.width + kPixelTile - 1u) / kPixelTile) * ((view.height + kPixelTile - 1u) / kPixelTile);
   writeArguments(kSmallArguments, (small + kParticleGroup - 1u) / kParticleGroup);
   writeArguments(kLargeArguments, tiles * ((large + kLargeChunk - 1u) / kLargeChunk));
   writeArguments(kTintArguments, (small + large + kParticleGroup - 1u) / kParticleGroup);
-#endif
 }

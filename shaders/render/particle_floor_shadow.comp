@@ -21,8 +21,8 @@ void main() {
   const ivec2 at = ivec2(index % scene.counts.y, index / scene.counts.y);
   const float bias = 0.25 * view.radius;
   float sum = 0.0;
-  for (int y = -3; y <= 3; ++y) {
-    for (int x = -3; x <= 3; ++x) {
+  RILL_LOOP for (int y = -3; y <= 3; ++y) {
+    RILL_LOOP for (int x = -3; x <= 3; ++x) {
       const ivec2 texel = clamp(at + ivec2(x, y), ivec2(0), size - 1);
       const uint limit = floatBitsToUint(max(floorDepth(vec2(texel)) - bias, 0.0));
       if (light_map[texel.y * size.x + texel.x] >= limit) sum += float((4 - abs(x)) * (4 - abs(y)));

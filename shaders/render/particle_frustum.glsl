@@ -9,6 +9,7 @@ uint surfaceColumns() { return (surfaceSize().x + kPixelTile - 1u) / kPixelTile;
 uint surfaceTiles() { return surfaceColumns() * ((surfaceSize().y + kPixelTile - 1u) / kPixelTile); }
 uint solidWords() { return (scene.counts.x + 31u) / 32u; }
 
+#ifdef MEETS_TILE
 bool meetsTile(PoseRecord pose, uvec2 tile) {
   const vec2 low = vec2(tile * kPixelTile), high = low + float(kPixelTile);
 #ifdef LIGHT
@@ -23,3 +24,4 @@ bool meetsTile(PoseRecord pose, uvec2 tile) {
          c.y - a.y * c.z < r * sqrt(1.0 + a.y * a.y) && c.y - b.y * c.z > -r * sqrt(1.0 + b.y * b.y);
 #endif
 }
+#endif

@@ -12,9 +12,9 @@ float lightVisibility(vec3 world, float bias) {
   const vec2 part = at - base;
   const uint limit = floatBitsToUint(max(lightDepth(world) - bias, 0.0));
   float sum = 0.0;
-  for (int y = -1; y <= 2; ++y) {
+  RILL_LOOP for (int y = -1; y <= 2; ++y) {
     const float wy = y == -1 ? 1.0 - part.y : (y == 2 ? part.y : 1.0);
-    for (int x = -1; x <= 2; ++x) {
+    RILL_LOOP for (int x = -1; x <= 2; ++x) {
       const float wx = x == -1 ? 1.0 - part.x : (x == 2 ? part.x : 1.0);
       const ivec2 texel = ivec2(base) + ivec2(x, y);
       const bool inside = all(greaterThanEqual(texel, ivec2(0))) && texel.x < int(scene.counts.y) && texel.y < int(scene.counts.z);

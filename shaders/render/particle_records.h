@@ -33,7 +33,8 @@ RILL_CONSTANT kNobody = 0xFFFFFFFFu;
 RILL_CONSTANT kTilesFluid = 0;     // a particle owns a pixel
 RILL_CONSTANT kTilesBackdrop = 1;  // the floor or nobody does
 RILL_CONSTANT kTilesSolid = 2;     // a solid does
-RILL_CONSTANT kTileLists = 3;
+RILL_CONSTANT kTilesOutline = 3;   // a particle or a solid owns a pixel of it or beside it
+RILL_CONSTANT kTileLists = 4;
 
 // Words of the counter buffer: how many, then dispatch arguments, three words each.
 RILL_CONSTANT kSmallCount = 0;
@@ -43,7 +44,7 @@ RILL_CONSTANT kSmallArguments = 8;
 RILL_CONSTANT kLargeArguments = 12;
 RILL_CONSTANT kTintArguments = 16;
 RILL_CONSTANT kTileArguments = 20;  // + 4 * list
-RILL_CONSTANT kCounterWords = 32;
+RILL_CONSTANT kCounterWords = 36;
 
 // Camera and frame. Depth is the distance from the eye along `forward`; a pixel's ray has a forward component of 1.
 struct ViewPush {
@@ -62,6 +63,7 @@ struct ViewPush {
   uint cell;         // pixels a side of an occlusion cell
   uint compression;  // 0: coloured by speed, 1: by compression
   float scale;       // 1 / the value at the colour map's end
+  uint winners;      // 0: splat depths, 1: splat indices
 };
 
 // What stays the same over a view's life.

@@ -1,8 +1,8 @@
 #version 460
-// Shades the floor and the background, a workgroup a tile of the list.
+// Shades the floor and the background, a workgroup a tile of the list. Where no outline is near, that is the picture.
 #extension GL_GOOGLE_include_directive : require
 #include "render/particle_view.glsl"
-#include "render/particle_edges.glsl"
+#include "render/particle_tiles.glsl"
 #include "render/particle_lighting.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -11,10 +11,16 @@ layout(std430, set = 0, binding = 1) readonly buffer Counters { uint counters[];
 layout(std430, set = 0, binding = 2) readonly buffer Tiles { uint tiles[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Winner { uint winner[]; };
 layout(std430, set = 0, binding = 4) readonly buffer FloorLight { float floor_light[]; };
-layout(std430, set = 0, binding = 5) writeonly buffer Shaded { uint shaded[]; };
-layout(std430, set = 0, binding = 6) writeonly buffer Rims { uint rims[]; };
+layout(std430, set = 0, binding = 5) readonly buffer TileEdges { uint tile_edges[]; };
+layout(std430, set = 0, binding = 6) readonly buffer Edges { EdgeRecord edges[]; };
+layout(std430, set = 0, binding = 7) readonly buffer Depth { uint depth[]; };
+layout(std430, set = 0, binding = 8) writeonly buffer Shaded { uint shaded[]; };
+layout(std430, set = 0, binding = 9) writeonly buffer Rims { uint rims[]; };
+layout(std430, set = 0, binding = 10) writeonly buffer Picture { uint picture[]; };
 #include "render/particle_light.glsl"
+#include "render/particle_finish.glsl"
 
+const vec3 kWall = vec3(0.30, 0.42, 0.52);
 const vec3 kFloor = vec3(0.50, 0.50, 0.49);
 
 vec3 background(float y) { return mix(vec3(0.78, 0.80, 0.82), vec3(0.50, 0.52, 0.55), smoothstep(0.0, 1.0, y / float(view.height))); }
@@ -57,14 +63,32 @@ vec3 shadeFloor(vec3 ray) {
   return colour * corner * (kSky * mix(0.55, 1.0, light) + kKey * (max(scene.light_to.y, 0.0) * light));
 }
 
+// The closed wall through which the ray leaves the domain tints what is behind it.
+vec3 overWalls(vec3 colour, vec3 ray) {
+  const vec3 eye = eyePoint();
+  const vec3 step = vec3(ray.x < 0.0 ? -1.0 : 1.0, ray.y < 0.0 ? -1.0 : 1.0, ray.z < 0.0 ? -1.0 : 1.0) * max(abs(ray), vec3(1e-12));
+  const vec3 a = (scene.domain_min.xyz - eye) / step, b = (scene.domain_max.xyz - eye) / step;
+  const vec3 enter = min(a, b), leave = max(a, b);
+  const float in_at = max(max(enter.x, enter.y), max(enter.z, 0.0)), out_at = min(leave.x, min(leave.y, leave.z));
+  const uint side = out_at == leave.x ? (ray.x < 0.0 ? 0u : 1u) : (out_at == leave.y ? (ray.y < 0.0 ? 2u : 3u) : (ray.z < 0.0 ? 4u : 5u));
+  const bool tinted = scene.domain_min.w > 0.0 && out_at > in_at && side != 2u && (scene.counts.w & (1u << side)) != 0u;
+  const float height = clamp((eye.y + out_at * ray.y - scene.domain_min.y) / (scene.domain_max.y - scene.domain_min.y), 0.0, 1.0);
+  return tinted ? mix(colour, kWall, mix(0.26, 0.10, height)) : colour;
+}
+
 void main() {
   const uint group = groupIndex();
   if (group >= counters[kTileCount + kTilesBackdrop]) return;
-  const uvec2 pixel = shadeTileOrigin(tiles[kTilesBackdrop * shadeTiles() + group]) + gl_LocalInvocationID.xy;
+  const uint tile = tiles[kTilesBackdrop * shadeTiles() + group];
+  const uvec2 pixel = shadeTileOrigin(tile) + gl_LocalInvocationID.xy;
   if (pixel.x >= view.width || pixel.y >= view.height) return;
   const uint index = pixel.y * view.width + pixel.x;
   const uint id = winner[index];
   if (id < kFloorId) return;
-  shaded[index] = packColour(id == kFloorId ? shadeFloor(rayOf(tangentOf(vec2(pixel) + 0.5))) : background(float(pixel.y) + 0.5));
+  const vec2 middle = vec2(pixel) + 0.5;
+  const vec3 ray = rayOf(tangentOf(middle));
+  const vec3 colour = id == kFloorId ? shadeFloor(ray) : overWalls(background(middle.y), ray);
+  shaded[index] = packColour(colour);
   rims[index] = kNoRim;
+  picture[index] = encoded(overEdges(colour, tile_edges[tile], middle, uintBitsToFloat(depth[index])));
 }

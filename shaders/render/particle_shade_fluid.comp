@@ -2,7 +2,7 @@
 // Shades the pixels that particles own, a workgroup a tile of the list.
 #extension GL_GOOGLE_include_directive : require
 #include "render/particle_view.glsl"
-#include "render/particle_edges.glsl"
+#include "render/particle_tiles.glsl"
 #include "render/particle_lighting.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -2,7 +2,7 @@
 // Shades the pixels that solids own, a workgroup a tile of the list.
 #extension GL_GOOGLE_include_directive : require
 #include "render/particle_view.glsl"
-#include "render/particle_edges.glsl"
+#include "render/particle_tiles.glsl"
 #include "render/particle_lighting.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -29,11 +29,11 @@ bool seesBox(PoseRecord pose, vec2 pixel) {
 // The rim of a box: the nearest of four neighbouring points that miss it, and by bisection where.
 uint boxRim(PoseRecord pose, vec2 pixel) {
   uint best = kNoRim;
-  for (uint side = 0u; side < 4u; ++side) {
+  RILL_LOOP for (uint side = 0u; side < 4u; ++side) {
     const vec2 step = vec2(rimStep(side));
     float low = 0.0, high = 1.0;
     if (seesBox(pose, pixel + step)) low = 1.0;
-    for (int k = 0; k < 6; ++k) {
+    RILL_LOOP for (int k = 0; k < 6; ++k) {
       const float middle = 0.5 * (low + high);
       if (seesBox(pose, pixel + middle * step)) low = middle; else high = middle;
     }
@@ -57,12 +57,12 @@ void main() {
   vec3 normal;
   const vec3 at = eye + solidHit(pose, eye, ray, normal) * ray;
   const float texel = scene.light_texel.x;
-  const float light = lightVisibility(at + normal * texel, 1.5 * texel);
+  const float light = lightVisibility(at + normal * (2.0 * texel), 2.5 * texel);
   const float lifted = scene.domain_min.w > 0.0 ? (at.y - scene.domain_min.y) / (scene.domain_max.y - scene.domain_min.y) : 1.0;
   const float open = mix(0.6, 1.0, smoothstep(0.0, 0.12, lifted));
   // Lit by the mean of four points of the pixel: a box's edges are smooth.
   vec3 lit = vec3(0.0);
-  for (int k = 0; k < 4; ++k) {
+  RILL_LOOP for (int k = 0; k < 4; ++k) {
     const vec2 offset = vec2(float(k & 1) - 0.5, float(k >> 1) - 0.5) * 0.5;
     vec3 facing = normal;
     if (solidHit(pose, eye, rayOf(tangentOf(middle + offset)), facing) < view.near_depth) facing = normal;

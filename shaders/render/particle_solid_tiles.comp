@@ -8,6 +8,7 @@ layout(std140, set = 0, binding = 0) uniform Scene { SceneRecord scene; };
 layout(std430, set = 0, binding = 1) readonly buffer Poses { PoseRecord poses[]; };
 layout(std430, set = 0, binding = 2) writeonly buffer Masks { uint masks[]; };
 #include "render/particle_light.glsl"
+#define MEETS_TILE
 #include "render/particle_frustum.glsl"
 
 void main() {
@@ -17,7 +18,7 @@ void main() {
   const uint tile = index / words, first = index % words * 32u;
   const uint columns = surfaceColumns();
   uint mask = 0u;
-  for (uint k = 0u; k < 32u && first + k < scene.counts.x; ++k) {
+  RILL_LOOP for (uint k = 0u; k < 32u && first + k < scene.counts.x; ++k) {
     if (meetsTile(poses[first + k], uvec2(tile % columns, tile / columns))) mask |= 1u << k;
   }
   masks[index] = mask;

@@ -1,5 +1,6 @@
 #version 460
-// Depth of the small survivors, an invocation a sphere; with WINNER, the least index among those whose depth is a pixel's depth.
+// Depth of the small survivors, an invocation a sphere; in the second run, the least index among those whose depth is a pixel's depth.
+// One kernel for both runs, so that both find the very same depths.
 #extension GL_GOOGLE_include_directive : require
 #include "render/particle_view.glsl"
 
@@ -7,12 +8,8 @@ layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 0) readonly buffer Position { vec4 position[]; };
 layout(std430, set = 0, binding = 1) readonly buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Survivors { uint survivors[]; };
-#ifdef WINNER
-layout(std430, set = 0, binding = 3) readonly buffer Depth { uint depth[]; };
-layout(std430, set = 0, binding = 4) buffer Winner { uint winner[]; };
-#else
 layout(std430, set = 0, binding = 3) buffer Depth { uint depth[]; };
-#endif
+layout(std430, set = 0, binding = 4) buffer Winner { uint winner[]; };
 
 void main() {
   const uint k = groupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
@@ -28,11 +25,12 @@ void main() {
     if (t > 0.0) {
       const uint at = uint(pixel.y) * view.width + uint(pixel.x);
       const uint bits = floatBitsToUint(t);
-#ifdef WINNER
-      if (bits == depth[at] && i < winner[at]) atomicMin(winner[at], i);
-#else
-      if (bits < depth[at]) atomicMin(depth[at], bits);
-#endif
+      const uint before = depth[at];
+      if (view.winners == 0u) {
+        if (bits < before) atomicMin(depth[at], bits);
+      } else {
+        if (bits == before) atomicMin(winner[at], i);
+      }
     }
     pixel.x += 1;
     if (pixel.x > rect.z) pixel = ivec2(rect.x, pixel.y + 1);

@@ -1,5 +1,5 @@
 #version 460
-// Depth of the large survivors: a workgroup is a tile of pixels and a chunk of spheres, an invocation a pixel. WINNER as in particle_splat.
+// Depth of the large survivors: a workgroup is a tile of pixels and a chunk of spheres, an invocation a pixel. Runs as in particle_splat.
 #extension GL_GOOGLE_include_directive : require
 #include "render/particle_view.glsl"
 
@@ -7,12 +7,8 @@ layout(local_size_x = 16, local_size_y = 16) in;
 layout(std430, set = 0, binding = 0) readonly buffer Position { vec4 position[]; };
 layout(std430, set = 0, binding = 1) readonly buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Survivors { uint survivors[]; };
-#ifdef WINNER
-layout(std430, set = 0, binding = 3) readonly buffer Depth { uint depth[]; };
-layout(std430, set = 0, binding = 4) buffer Winner { uint winner[]; };
-#else
 layout(std430, set = 0, binding = 3) buffer Depth { uint depth[]; };
-#endif
+layout(std430, set = 0, binding = 4) buffer Winner { uint winner[]; };
 
 shared vec4 spheres[256];
 shared uint indices[256];
@@ -50,18 +46,15 @@ void main() {
     for (uint n = 0u; n < sphere_count; ++n) {
       const float t = pixelDepth(spheres[n].xyz, spheres[n].w, ivec2(pixel));
       if (t > 0.0) {
-#ifdef WINNER
-        if (floatBitsToUint(t) == before) owner = min(owner, indices[n]);
-#else
         best = min(best, floatBitsToUint(t));
-#endif
+        if (floatBitsToUint(t) == before) owner = min(owner, indices[n]);
       }
     }
   }
   if (!inside) return;
-#ifdef WINNER
-  if (owner != kNobody) atomicMin(winner[at], owner);
-#else
-  if (best < before) atomicMin(depth[at], best);
-#endif
+  if (view.winners == 0u) {
+    if (best < before) atomicMin(depth[at], best);
+  } else {
+    if (owner != kNobody) atomicMin(winner[at], owner);
+  }
 }

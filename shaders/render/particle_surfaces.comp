@@ -1,19 +1,19 @@
 #version 460
-// The nearest floor or solid of every pixel; with LIGHT, the nearest solid of every texel of the light map.
+// The nearest floor or solid of every pixel; with LIGHT, the nearest solid of every texel of the light map; with BARE, for scenes without solids.
 #extension GL_GOOGLE_include_directive : require
 #include "render/particle_view.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 layout(std140, set = 0, binding = 0) uniform Scene { SceneRecord scene; };
-layout(std430, set = 0, binding = 1) readonly buffer Poses { PoseRecord poses[]; };
-layout(std430, set = 0, binding = 2) readonly buffer Masks { uint masks[]; };
-layout(std430, set = 0, binding = 3) writeonly buffer Depth { uint depth[]; };
-#ifndef LIGHT
-layout(std430, set = 0, binding = 4) writeonly buffer Winner { uint winner[]; };
-#endif
+layout(std430, set = 0, binding = 1) writeonly buffer Depth { uint depth[]; };
+layout(std430, set = 0, binding = 2) writeonly buffer Winner { uint winner[]; };  // with LIGHT not written
 #include "render/particle_light.glsl"
 #include "render/particle_frustum.glsl"
+#ifndef BARE
+layout(std430, set = 0, binding = 3) readonly buffer Poses { PoseRecord poses[]; };
+layout(std430, set = 0, binding = 4) readonly buffer Masks { uint masks[]; };
 #include "render/particle_solids.glsl"
+#endif
 
 void main() {
   const uvec2 size = surfaceSize();
@@ -43,6 +43,7 @@ void main() {
     }
   }
 #endif
+#ifndef BARE
   const uint words = solidWords();
   for (uint word = 0u; word < words; ++word) {
     for (uint mask = masks[tile * words + word]; mask != 0u; mask &= mask - 1u) {
@@ -55,6 +56,7 @@ void main() {
       }
     }
   }
+#endif
   const uint index = pixel.y * size.x + pixel.x;
   depth[index] = floatBitsToUint(best);
 #ifndef LIGHT

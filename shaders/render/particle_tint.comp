@@ -34,8 +34,8 @@ float openness(vec3 centre, float radius) {
   const float reach = radius / centre.z * view.focal;
   const float low = centre.z - 6.0 * radius, high = centre.z + 3.0 * radius;
   float sum = 0.0;
-  for (int ring = 0; ring < 2; ++ring) {
-    for (int k = 0; k < 4; ++k) {
+  RILL_LOOP for (int ring = 0; ring < 2; ++ring) {
+    RILL_LOOP for (int k = 0; k < 4; ++k) {
       const float angle = 0.7853982 * (float(k) + 0.5 * float(ring));
       const vec2 offset = reach * (ring == 0 ? 2.0 : 4.0) * vec2(cos(angle), sin(angle));
       const float pair = 0.5 * (depthAround(middle + offset, low, high) + depthAround(middle - offset, low, high));

@@ -1,5 +1,9 @@
 // Camera, spheres and the light map, for every kernel of the particle view.
+#extension GL_EXT_control_flow_attributes : require
 #include "render/particle_records.h"
+
+// Before loops of a fixed count: a software driver takes seconds to compile them unrolled.
+#define RILL_LOOP [[dont_unroll]]
 
 layout(push_constant) uniform Push { ViewPush view; };
 

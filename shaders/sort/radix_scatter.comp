@@ -1,6 +1,6 @@
 #version 460
-// Radix sort: every key of a tile to its place. The tile is read into shared memory so that reads are contiguous over the
-// workgroup, while each invocation ranks consecutive keys, which is what keeps the sort stable.
+// Radix sort: every key of a tile to its place. An invocation ranks consecutive keys, which is what keeps the sort stable. It reads
+// them from memory twice: a tile of 16 KiB stays in a cache, and a copy of it in shared memory made the pass 20 % slower on lavapipe.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/dispatch.glsl"
 #include "sort/sort_types.h"
@@ -17,14 +17,9 @@ layout(set = 0, binding = 3, std430) writeonly buffer KeysOut { uint keysOut[]; 
 layout(set = 0, binding = 4, std430) writeonly buffer OrderOut { uint orderOut[]; };
 
 const uint kRow = kRadixThreads + 1u;
-// The tile's keys, then each one's target: key j of invocation t at j * kRow + t.
-shared uint tileKeys[kRadixKeys * kRow];
 // Two digits a word: how many keys of a digit are in the tile before the invocation's next one.
 shared uint counters[(1u << kRadixBits) / 2u * kRow];
 shared uint base[1u << kRadixBits];
-
-// Where element e of the tile is kept.
-uint place(uint e) { return (e % kRadixKeys) * kRow + e / kRadixKeys; }
 
 void main() {
   const uint lane = gl_LocalInvocationIndex;
@@ -35,12 +30,11 @@ void main() {
 
   for (uint w = 0u; w < words; ++w) counters[w * kRow + lane] = 0u;
   if (lane < push.digits && count != 0u) base[lane] = offsets[lane * push.tiles + tile];
-  for (uint e = lane; e < count; e += kRadixThreads) tileKeys[place(e)] = keys[first + e];
   barrier();
 
   const uint mine = min(count - min(lane * kRadixKeys, count), kRadixKeys);
   for (uint j = 0u; j < mine; ++j) {
-    const uint digit = (tileKeys[j * kRow + lane] >> push.shift) & (push.digits - 1u);
+    const uint digit = (keys[first + lane * kRadixKeys + j] >> push.shift) & (push.digits - 1u);
     counters[(digit >> 1u) * kRow + lane] += 1u << ((digit & 1u) * 16u);
   }
   barrier();
@@ -56,17 +50,14 @@ void main() {
   barrier();
 
   for (uint j = 0u; j < mine; ++j) {
-    const uint digit = (tileKeys[j * kRow + lane] >> push.shift) & (push.digits - 1u);
+    const uint e = first + lane * kRadixKeys + j;
+    const uint key = keys[e];
+    const uint digit = (key >> push.shift) & (push.digits - 1u);
     const uint word = (digit >> 1u) * kRow + lane;
     const uint side = (digit & 1u) * 16u;
-    tileKeys[j * kRow + lane] = base[digit] + ((counters[word] >> side) & 0xffffu);
+    const uint target = base[digit] + ((counters[word] >> side) & 0xffffu);
     counters[word] += 1u << side;
-  }
-  barrier();
-
-  for (uint e = lane; e < count; e += kRadixThreads) {
-    const uint target = tileKeys[place(e)];
-    if (kWriteKeys != 0u) keysOut[target] = keys[first + e];
-    orderOut[target] = kFirstPass != 0u ? first + e : order[first + e];
+    if (kWriteKeys != 0u) keysOut[target] = key;
+    orderOut[target] = kFirstPass != 0u ? e : order[e];
   }
 }

@@ -175,11 +175,13 @@ TEST_F(KeySortTest, FourMillion) {
 }
 
 TEST_F(KeySortTest, ChoosesByTheDensityOfKeys) {
-  EXPECT_EQ(chooseSortMethod(100000, 100000), SortMethod::Counting);
-  EXPECT_EQ(chooseSortMethod(100000, 20000), SortMethod::Counting);
-  EXPECT_EQ(chooseSortMethod(100000, 64), SortMethod::Radix);
-  EXPECT_EQ(chooseSortMethod(100000, 100000000), SortMethod::Radix);
-  EXPECT_EQ(chooseSortMethod(KeySortDesc::kMaxCount, kAllBits), SortMethod::Radix);
+  EXPECT_EQ(chooseSortMethod({100000, 100000}), SortMethod::Counting);
+  EXPECT_EQ(chooseSortMethod({100000, 20000}), SortMethod::Counting);
+  EXPECT_EQ(chooseSortMethod({100000, 64}), SortMethod::Radix);
+  EXPECT_EQ(chooseSortMethod({100000, 1000000}), SortMethod::Radix);
+  EXPECT_EQ(chooseSortMethod({.count = 100000, .keyRange = 1000000, .start = true}), SortMethod::Counting);
+  EXPECT_EQ(chooseSortMethod({KeySortDesc::kMaxCount, kAllBits}), SortMethod::Radix);
+  EXPECT_EQ(chooseSortMethod({100, 100, SortMethod::Radix}), SortMethod::Radix);
   auto sort = KeySort::create(device(), {1000, 1000});
   ASSERT_TRUE(sort);
   EXPECT_EQ(sort->method(), SortMethod::Counting);

@@ -1,0 +1,13 @@
+#version 460
+// Takes over the velocities of an odd number of viscosity sweeps.
+#extension GL_GOOGLE_include_directive : require
+#include "fluid/uniforms.glsl"
+layout(local_size_x = kFluidGroup) in;
+layout(push_constant) uniform Push { ChunkPush push; };
+layout(std430, binding = 2) readonly buffer SmoothedBlock { vec4 smoothed[]; };
+layout(std430, binding = 3) writeonly buffer VelocityBlock { vec4 velocity[]; };
+
+void main() {
+  uint i = push.first + flatInvocation();
+  if (i < push.last) velocity[i] = smoothed[i];
+}

@@ -1,0 +1,68 @@
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "render/legend.hpp"
+
+namespace rill {
+namespace {
+
+constexpr uint8_t kGrey = 128, kGuard = 77;
+
+/// The picture after drawing, with the guard bytes before and after it checked.
+std::vector<uint8_t> draw(uint32_t width, uint32_t height, const LegendDesc& legend) {
+  const size_t bytes = size_t{4} * width * height;
+  std::vector<uint8_t> memory(bytes + 8192, kGuard);
+  std::fill_n(memory.begin() + 4096, bytes, kGrey);
+  drawLegend({memory.data() + 4096, bytes}, width, height, legend);
+  for (size_t k = 0; k < 4096; ++k) {
+    EXPECT_EQ(memory[k], kGuard);
+    EXPECT_EQ(memory[4096 + bytes + k], kGuard);
+  }
+  return {memory.begin() + 4096, memory.begin() + 4096 + static_cast<std::ptrdiff_t>(bytes)};
+}
+
+TEST(Legend, StaysInsideOfAnyPicture) {
+  for (const uint32_t width : {1u, 16u, 60u, 100u, 161u, 640u}) {
+    for (const uint32_t height : {1u, 16u, 40u, 90u, 480u}) {
+      for (const double max : {4.0, 0.0, 1e-9, 1e12}) draw(width, height, {ParticleColour::Compression, max, 1234567.5});
+    }
+  }
+}
+
+TEST(Legend, IsInTheBottomLeftCornerAlone) {
+  constexpr uint32_t kWidth = 1280, kHeight = 720;
+  const auto picture = draw(kWidth, kHeight, {ParticleColour::Speed, 4, 0.5});
+  size_t changed = 0;
+  for (uint32_t y = 0; y < kHeight; ++y) {
+    for (uint32_t x = 0; x < kWidth; ++x) {
+      const uint8_t* pixel = &picture[4 * (size_t{y} * kWidth + x)];
+      if (pixel[0] == kGrey && pixel[1] == kGrey && pixel[2] == kGrey) continue;
+      ++changed;
+      ASSERT_LT(x, kWidth / 3);
+      ASSERT_GT(y, kHeight * 4 / 5);
+      EXPECT_EQ(pixel[3], kGrey) << "alpha is left as it was";
+    }
+  }
+  EXPECT_GT(changed, 10000u);
+}
+
+TEST(Legend, TinyPicturesHaveNone) {
+  for (const uint8_t byte : draw(16, 16, {ParticleColour::Speed, 4, 0.5})) EXPECT_EQ(byte, kGrey);
+}
+
+TEST(Legend, ShowsTheMapFromEndToEnd) {
+  constexpr uint32_t kWidth = 640, kHeight = 480;
+  const auto picture = draw(kWidth, kHeight, {ParticleColour::Speed, 4, std::nullopt});
+  const Float3 first = mapColour(ParticleColour::Speed, 0.002), last = mapColour(ParticleColour::Speed, 0.998);
+  bool low = false, high = false;
+  for (size_t k = 0; k < picture.size(); k += 4) {
+    low = low || (std::abs(picture[k] - srgbByte(first.x)) < 3 && std::abs(picture[k + 2] - srgbByte(first.z)) < 3);
+    high = high || (std::abs(picture[k] - srgbByte(last.x)) < 3 && std::abs(picture[k + 1] - srgbByte(last.y)) < 3);
+  }
+  EXPECT_TRUE(low);
+  EXPECT_TRUE(high);
+}
+
+}  // namespace
+}  // namespace rill

@@ -1,0 +1,313 @@
+// Pictures of particles on a driver, against what geometry says must be in them.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "render/particle_view.hpp"
+#include "support/gpu_test.hpp"
+
+namespace rill::test {
+namespace {
+
+struct Particle {
+  float x, y, z;
+  float vx = 0, vy = 0, vz = 0, density = 1;
+};
+
+struct Picture {
+  uint32_t width = 0, height = 0;
+  std::vector<uint32_t> pixels;
+  uint32_t at(uint32_t x, uint32_t y) const { return pixels[size_t{y} * width + x]; }
+};
+
+constexpr double kTangent = 0.5;  // of half the vertical field of view
+const double kFov = 2 * std::atan(kTangent) * 180 / std::numbers::pi;
+
+class ParticleViewOnGpu : public GpuTest {
+ protected:
+  /// Looks along -z from the origin; nothing but particles, unless the scene says otherwise.
+  ParticleViewOnGpu() {
+    scene_.fluid.spacing = 1;
+    scene_.gravity[1] = 0;
+    camera_.eye[0] = camera_.eye[1] = camera_.eye[2] = 0;
+    camera_.target[2] = -10;
+    camera_.fov_y_deg = kFov;
+  }
+
+  /// Two frames in one command buffer would need two graphs: the same frame twice, which must not differ.
+  Picture take(const std::vector<Particle>& particles, uint32_t width, uint32_t height, double time = 0,
+               ParticleColour colour = ParticleColour::Speed) {
+    ParticleSet start;
+    std::copy_n(origin_, 3, start.origin);
+    std::vector<Float4> positions, velocities;
+    for (const Particle& p : particles) {
+      positions.push_back({p.x, p.y, p.z, 0});
+      velocities.push_back({p.vx, p.vy, p.vz, p.density});
+      start.positions.push_back({p.x, p.y, p.z});
+    }
+    auto view = ParticleView::create(device(), scene_, start);
+    EXPECT_TRUE(view) << view.error().message;
+    if (!view) return {};
+    Buffer position, velocity;
+    if (!particles.empty()) {
+      position = upload("position", positions);
+      velocity = upload("velocity", velocities);
+    }
+    Picture picture{width, height, {}};
+    for (int round = 0; round < 2; ++round) {
+      Graph graph;
+      FluidState state;
+      state.count = static_cast<uint32_t>(particles.size());
+      state.spacing = static_cast<float>(scene_.fluid.spacing);
+      std::copy_n(origin_, 3, state.origin);
+      if (!particles.empty()) {
+        state.position = graph.import("position", importOf(position));
+        state.velocity = graph.import("velocity", importOf(velocity));
+      }
+      const Ticket ticket = graph.readback((*view)->addTo(graph, state, camera_, {width, height, colour}, time));
+      run(graph);
+      auto pixels = read<uint32_t>(graph, ticket);
+      EXPECT_EQ(pixels.size(), size_t{width} * height);
+      if (round == 1) {
+      EXPECT_TRUE(pixels == picture.pixels) << "two runs differ";
+    }
+      picture.pixels = std::move(pixels);
+    }
+    return picture;
+  }
+
+  /// Pixels that differ between two pictures of one size.
+  static size_t difference(const Picture& a, const Picture& b) {
+    size_t count = 0;
+    for (size_t k = 0; k < a.pixels.size(); ++k) count += a.pixels[k] != b.pixels[k] ? 1 : 0;
+    return count;
+  }
+
+  /// How far inside a sphere's outline the ray of a pixel runs, as a fraction of its radius: 1 through the centre, negative outside.
+  static double inside(const Particle& p, double radius, double x, double y, uint32_t width, uint32_t height) {
+    const double focal = 0.5 * height / kTangent;
+    const double d[3] = {(x - 0.5 * width) / focal, (0.5 * height - y) / focal, -1};
+    const double t = (p.x * d[0] + p.y * d[1] + p.z * d[2]) / (d[0] * d[0] + d[1] * d[1] + 1);
+    return 1 - std::hypot(p.x - t * d[0], p.y - t * d[1], p.z - t * d[2]) / radius;
+  }
+
+  Scene scene_;
+  CameraView camera_;
+  double origin_[3] = {0, 0, 0};
+};
+
+TEST_F(ParticleViewOnGpu, DrawsTheOutlineThatGeometrySays) {
+  constexpr uint32_t kWidth = 200, kHeight = 120;
+  const Picture empty = take({}, kWidth, kHeight);
+  // Near and large (the tiled kernel), far and small, off the axis where the outline is an ellipse, cut by the picture's border.
+  for (const Particle& p : {Particle{0.4f, -0.3f, -2}, Particle{1, 1, -8}, Particle{-5.5f, 2.6f, -7}, Particle{7, -3, -8.2f}, Particle{0.1f, 0, -1.1f}}) {
+    const Picture picture = take({p}, kWidth, kHeight);
+    const double pixel = std::abs(p.z) / (0.5 * kHeight / kTangent) / 0.5;  // of a radius
+    size_t covered = 0;
+    for (uint32_t y = 0; y < kHeight; ++y) {
+      for (uint32_t x = 0; x < kWidth; ++x) {
+        const double depth = inside(p, 0.5, x + 0.5, y + 0.5, kWidth, kHeight);
+        const bool drawn = picture.at(x, y) != empty.at(x, y);
+        covered += drawn ? 1 : 0;
+        if (depth > 0.02 * pixel) {
+      EXPECT_TRUE(drawn) << x << ' ' << y << " of the sphere at z " << p.z;
+    }
+        if (depth < -1.5 * pixel) {
+      EXPECT_FALSE(drawn) << x << ' ' << y << " of the sphere at z " << p.z;
+    }
+      }
+    }
+    EXPECT_GT(covered, 20u);
+  }
+}
+
+TEST_F(ParticleViewOnGpu, DepthDecidesBetweenSpheres) {
+  constexpr uint32_t kWidth = 160, kHeight = 160;
+  // Two that intersect: the boundary is where their depths along the ray are equal.
+  const Particle a{-0.2f, 0, -3, 0, 0, 0}, b{0.25f, 0, -3.1f, 1, 0, 0};
+  const Picture both = take({a, b}, kWidth, kHeight), onlyA = take({a, {100, 0, 50, 1}}, kWidth, kHeight), onlyB = take({{100, 0, 50}, b}, kWidth, kHeight);
+  const double focal = 0.5 * kHeight / kTangent;
+  const auto depth = [&](const Particle& p, uint32_t x, uint32_t y) {
+    const double d[3] = {(x + 0.5 - 0.5 * kWidth) / focal, (0.5 * kHeight - y - 0.5) / focal, -1};
+    const double dd = d[0] * d[0] + d[1] * d[1] + 1, dp = d[0] * p.x + d[1] * p.y + d[2] * p.z;
+    const double square = dp * dp - dd * (double{p.x} * p.x + double{p.y} * p.y + double{p.z} * p.z - 0.25);
+    return square < 0 ? std::numeric_limits<double>::infinity() : (dp - std::sqrt(square)) / dd;
+  };
+  // Hue tells them apart: ambient occlusion may shade either.
+  const auto blueness = [](uint32_t p) { return (static_cast<double>((p >> 16) & 255) + 1) / (static_cast<double>(p & 255) + 1); };
+  size_t compared = 0;
+  for (uint32_t y = 0; y < kHeight; ++y) {
+    for (uint32_t x = 0; x < kWidth; ++x) {
+      const double da = depth(a, x, y), db = depth(b, x, y);
+      const double wellInside = std::min(inside(a, 0.5, x + 0.5, y + 0.5, kWidth, kHeight), inside(b, 0.5, x + 0.5, y + 0.5, kWidth, kHeight));
+      if (wellInside < 0.12 || std::abs(da - db) < 0.02) continue;
+      ++compared;
+      const double seen = std::log(blueness(both.at(x, y))), asA = std::log(blueness(onlyA.at(x, y))), asB = std::log(blueness(onlyB.at(x, y)));
+      EXPECT_EQ(std::abs(seen - asA) < std::abs(seen - asB), da < db) << x << ' ' << y;
+    }
+  }
+  EXPECT_GT(compared, 100u);
+}
+
+TEST_F(ParticleViewOnGpu, LeavesOutWhatCannotBeSeen) {
+  constexpr uint32_t kSize = 96;
+  const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+  const Particle seen{0, 0, -6};
+  const Particle nowhere[] = {{0, 0, 6},     {nan, 0, -6},  {0, nan, -6},  {0, 0, nan},     {inf, 0, -6}, {0, 0, -inf},
+                              {0, -inf, -6}, {3e38f, 0, -6}, {-3e38f, 3e38f, -3e38f}, {40, 0, -6},  {0, 0, 0.6f}};
+  const Picture alone = take({seen, seen, seen, seen, seen, seen, seen, seen, seen, seen, seen, seen}, kSize, kSize);
+  std::vector<Particle> all(std::begin(nowhere), std::end(nowhere));
+  all.push_back(seen);
+  EXPECT_EQ(difference(take(all, kSize, kSize), alone), 0u);
+}
+
+TEST_F(ParticleViewOnGpu, NearAndHugeSpheresFillThePictureInBoundedLoops) {
+  constexpr uint32_t kWidth = 700, kHeight = 500;
+  const Picture empty = take({}, kWidth, kHeight);
+  // One that covers everything; behind a large one, a small one is hidden.
+  scene_.fluid.spacing = 1000;
+  const Picture huge = take({{0, 0, -600}}, kWidth, kHeight);
+  EXPECT_EQ(difference(huge, empty), huge.pixels.size());
+  EXPECT_EQ(difference(take({{0, 0, -600}, {0, 0, -2600}}, kWidth, kHeight), huge), 0u);
+  // The eye inside of a sphere, and many that cross the near plane: finite work, and nothing hangs.
+  scene_.fluid.spacing = 1;
+  std::vector<Particle> crowd;
+  for (int k = 0; k < 6000; ++k) crowd.push_back({0.02f * static_cast<float>(k % 50 - 25), 0.01f * static_cast<float>(k / 50 - 60), -0.3f * static_cast<float>(k % 7)});
+  const Picture inside = take(crowd, kWidth, kHeight);
+  EXPECT_EQ(inside.pixels.size(), size_t{kWidth} * kHeight);
+}
+
+TEST_F(ParticleViewOnGpu, DistantParticlesStayVisible) {
+  // Each is less than a hundredth of a pixel wide, and drawn one pixel wide.
+  constexpr uint32_t kSize = 64;
+  const Picture empty = take({}, kSize, kSize);
+  for (const float x : {0.0f, 3000.0f, 12345.0f}) {
+    const Picture picture = take({{x, 0, -100000}}, kSize, kSize);
+    const size_t changed = difference(picture, empty);
+    EXPECT_GE(changed, 1u) << x;
+    EXPECT_LE(changed, 9u) << x;
+  }
+}
+
+TEST_F(ParticleViewOnGpu, CullingBehindOthersChangesNoPixel) {
+  // A dense block: most of it hidden and culled. Its outer layers alone give the same picture.
+  constexpr uint32_t kWidth = 320, kHeight = 180;
+  scene_.fluid.spacing = 0.1;
+  std::vector<Particle> block, shell;
+  for (int z = 0; z < 16; ++z) {
+    for (int y = -10; y < 10; ++y) {
+      for (int x = -20; x < 20; ++x) {
+        const Particle p{0.1f * static_cast<float>(x) + 0.013f * static_cast<float>((y * 7 + z * 3) % 5), 0.1f * static_cast<float>(y), -3 - 0.1f * static_cast<float>(z)};
+        block.push_back(p);
+        shell.push_back(z < 4 || std::abs(y) > 6 || std::abs(x) > 16 ? p : Particle{0, 0, 50});
+      }
+    }
+  }
+  EXPECT_EQ(difference(take(block, kWidth, kHeight), take(shell, kWidth, kHeight)), 0u);
+}
+
+TEST_F(ParticleViewOnGpu, EmptyTankHasFloorWallsAndEdges) {
+  constexpr uint32_t kWidth = 320, kHeight = 180;
+  const Picture nothing = take({}, kWidth, kHeight);
+  scene_.domain = Domain{{0, 0, 0}, {2, 1, 1}, 0};
+  camera_ = frameCamera(scene_.domain->min, scene_.domain->max, static_cast<double>(kWidth) / kHeight);
+  const Picture tank = take({}, kWidth, kHeight);
+  EXPECT_GT(difference(tank, nothing), tank.pixels.size() / 4);
+  // Corners of the picture are background.
+  EXPECT_EQ(tank.at(0, 0), nothing.at(0, 0));
+  EXPECT_EQ(tank.at(kWidth - 1, kHeight - 1), nothing.at(kWidth - 1, kHeight - 1));
+  // Without the floor it looks different, without a back wall too.
+  scene_.domain->open = 1 << 2;
+  const Picture noFloor = take({}, kWidth, kHeight);
+  EXPECT_GT(difference(tank, noFloor), tank.pixels.size() / 20);
+  scene_.domain->open = 1 << 4;
+  EXPECT_GT(difference(tank, take({}, kWidth, kHeight)), tank.pixels.size() / 20);
+}
+
+TEST_F(ParticleViewOnGpu, SolidsHideParticlesAndMove) {
+  constexpr uint32_t kSize = 128;
+  Solid box;
+  box.box = BoxShape{{-1, -1, -6}, {1, 1, -5}};
+  box.motion = {{0, {0, 0, 0}}, {1, {30, 0, 0}}};
+  scene_.solids = {box};
+  const Particle behind{0, 0, -8}, before{0, 0, -3}, far{100, 100, 50};
+  const Picture bare = take({far}, kSize, kSize), hidden = take({behind}, kSize, kSize), seen = take({before}, kSize, kSize);
+  EXPECT_EQ(difference(bare, hidden), 0u);
+  EXPECT_GT(difference(bare, seen), 500u);
+  // At 1 s the box is out of the picture, in between half way.
+  scene_.solids.clear();
+  const Picture open = take({behind}, kSize, kSize);
+  scene_.solids = {box};
+  EXPECT_EQ(difference(take({behind}, kSize, kSize, 1), open), 0u);
+  EXPECT_EQ(difference(take({behind}, kSize, kSize, 7), open), 0u) << "the last keyframe holds";
+  EXPECT_EQ(difference(take({behind}, kSize, kSize, -1), hidden), 0u) << "and the first";
+  EXPECT_GT(difference(take({behind}, kSize, kSize, 0.05), hidden), 100u);
+}
+
+TEST_F(ParticleViewOnGpu, ManySolidsOfBothKinds) {
+  // More than one word of a tile's mask; each sphere is where it must be.
+  constexpr uint32_t kWidth = 256, kHeight = 128;
+  const Picture empty = take({}, kWidth, kHeight);
+  std::vector<std::pair<double, double>> centres;
+  for (int k = 0; k < 100; ++k) {
+    Solid solid;
+    const double x = 0.8 * (k % 20 - 9.5), y = 0.8 * (k / 20 - 2);
+    if (k % 2 == 0) solid.sphere = SphereShape{{x, y, -10}, 0.3};
+    else solid.box = BoxShape{{x - 0.2, y - 0.2, -10.2}, {x + 0.2, y + 0.2, -9.8}};
+    scene_.solids.push_back(solid);
+    centres.emplace_back(x, y);
+  }
+  const Picture picture = take({}, kWidth, kHeight);
+  const double scale = 0.5 * kHeight / kTangent / 10;
+  for (const auto& [x, y] : centres) {
+    const double px = 0.5 * kWidth + x * scale, py = 0.5 * kHeight - y * scale;
+    EXPECT_NE(picture.at(static_cast<uint32_t>(px), static_cast<uint32_t>(py)), empty.at(static_cast<uint32_t>(px), static_cast<uint32_t>(py)));
+    const double gap = px + 0.4 * scale;
+    if (gap < kWidth) {
+      EXPECT_EQ(picture.at(static_cast<uint32_t>(gap), static_cast<uint32_t>(py)), empty.at(static_cast<uint32_t>(gap), static_cast<uint32_t>(py)));
+    }
+  }
+}
+
+TEST_F(ParticleViewOnGpu, FarFromTheOriginTheSamePicture) {
+  constexpr uint32_t kSize = 100;
+  const std::vector<Particle> particles = {{0.3f, 0.2f, -4}, {-1, 0.5f, -6, 2, 0, 0}};
+  scene_.domain = Domain{{-2, -2, -10}, {2, 2, -1}, 0};
+  const Picture here = take(particles, kSize, kSize);
+  for (int a = 0; a < 3; ++a) {
+    origin_[a] = 1e7;
+    camera_.eye[a] += 1e7;
+    camera_.target[a] += 1e7;
+    scene_.domain->min[a] += 1e7;
+    scene_.domain->max[a] += 1e7;
+  }
+  EXPECT_EQ(difference(take(particles, kSize, kSize), here), 0u);
+}
+
+TEST_F(ParticleViewOnGpu, ColoursSpeedAndCompression) {
+  constexpr uint32_t kSize = 64;
+  const uint32_t middle = kSize / 2;
+  const auto channel = [&](const Picture& picture, int k) { return static_cast<int>((picture.at(middle, middle) >> (8 * k)) & 255); };
+  const Picture slow = take({{0, 0, -4, 0, 0, 0, 1}}, kSize, kSize), fast = take({{0, 0, -4, 0, 1, 0, 1}}, kSize, kSize);
+  EXPECT_GT(channel(fast, 0), channel(slow, 0) + 60);
+  EXPECT_GT(channel(slow, 2), 2 * channel(slow, 0)) << "rest is blue";
+  const auto compression = ParticleColour::Compression;
+  const Picture loose = take({{0, 0, -4, 9, 0, 0, 0.5f}}, kSize, kSize, 0, compression), rest = take({{0, 0, -4, 0, 0, 0, 1}}, kSize, kSize, 0, compression);
+  const Picture dense = take({{0, 0, -4, 0, 0, 0, 1.5f}}, kSize, kSize, 0, compression);
+  EXPECT_EQ(difference(loose, rest), 0u) << "expansion counts as none";
+  EXPECT_LT(channel(dense, 1), channel(rest, 1) - 60);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(difference(take({{0, 0, -4, nan, 0, 0, nan}}, kSize, kSize, 0, compression), rest), 0u);
+}
+
+TEST_F(ParticleViewOnGpu, TinyAndOddPictures) {
+  scene_.domain = Domain{{-1, -1, -5}, {1, 1, -3}, 0};
+  for (const auto& [width, height] : {std::pair{1u, 1u}, std::pair{3u, 17u}, std::pair{257u, 9u}}) {
+    const Picture picture = take({{0, 0, -4}}, width, height);
+    for (const uint32_t pixel : picture.pixels) EXPECT_EQ(pixel >> 24, 255u);
+  }
+}
+
+}  // namespace
+}  // namespace rill::test

@@ -1,0 +1,226 @@
+#include "support/null_vulkan.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <string_view>
+
+namespace rill::test {
+namespace {
+
+NullVulkan* current = nullptr;  // Vulkan's functions have no other way to know whom they serve
+std::vector<std::unique_ptr<std::byte[]>> mappings;
+
+template <class Handle>
+Handle newHandle() {
+  static uint64_t next = 1000;
+  ++current->liveObjects;
+  return reinterpret_cast<Handle>(++next);
+}
+template <class Handle, class... Rest>
+void destroy(VkDevice, Handle handle, Rest...) {
+  if (handle) --current->liveObjects;
+}
+template <class Info, class Handle>
+VkResult create(VkDevice, const Info*, const VkAllocationCallbacks*, Handle* out) {
+  *out = newHandle<Handle>();
+  return VK_SUCCESS;
+}
+
+void features(VkPhysicalDevice, VkPhysicalDeviceFeatures2* out) {
+  for (auto* next = static_cast<VkBaseOutStructure*>(out->pNext); next; next = next->pNext)
+    if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES) {
+      auto& f = *reinterpret_cast<VkPhysicalDeviceVulkan13Features*>(next);
+      f.synchronization2 = f.dynamicRendering = f.maintenance4 = f.subgroupSizeControl = f.computeFullSubgroups = VK_TRUE;
+    }
+}
+
+void properties(VkPhysicalDevice, VkPhysicalDeviceProperties2* out) {
+  VkPhysicalDeviceProperties& p = out->properties;
+  p.apiVersion = VK_API_VERSION_1_3;
+  std::snprintf(p.deviceName, sizeof p.deviceName, "null device");
+  p.limits.maxStorageBufferRange = 1u << 30;
+  p.limits.maxUniformBufferRange = 65536;
+  p.limits.maxTexelBufferElements = 65536;
+  p.limits.maxPerStageDescriptorStorageBuffers = 16;
+  p.limits.minStorageBufferOffsetAlignment = p.limits.minUniformBufferOffsetAlignment = p.limits.minTexelBufferOffsetAlignment = 64;
+  p.limits.timestampPeriod = 1;
+  for (auto* next = static_cast<VkBaseOutStructure*>(out->pNext); next; next = next->pNext) {
+    if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES) {
+      auto& s = *reinterpret_cast<VkPhysicalDeviceSubgroupProperties*>(next);
+      s.subgroupSize = 8;
+      s.supportedStages = VK_SHADER_STAGE_COMPUTE_BIT;
+      s.supportedOperations = 0xff;
+    } else if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES) {
+      auto& s = *reinterpret_cast<VkPhysicalDeviceSubgroupSizeControlProperties*>(next);
+      s.minSubgroupSize = s.maxSubgroupSize = 8;
+      s.requiredSubgroupSizeStages = VK_SHADER_STAGE_COMPUTE_BIT;
+    }
+  }
+}
+
+void formatProperties(VkPhysicalDevice, VkFormat, VkFormatProperties* out) { out->bufferFeatures = VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT; }
+
+void memoryProperties(VkPhysicalDevice, VkPhysicalDeviceMemoryProperties* out) {
+  *out = {};
+  out->memoryTypeCount = out->memoryHeapCount = 1;
+  out->memoryTypes[0].propertyFlags = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+  out->memoryHeaps[0] = {1ull << 32, VK_MEMORY_HEAP_DEVICE_LOCAL_BIT};
+}
+
+void queueFamilies(VkPhysicalDevice, uint32_t* count, VkQueueFamilyProperties* out) {
+  *count = 1;
+  if (out) *out = {VK_QUEUE_COMPUTE_BIT | VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_TRANSFER_BIT, 1, 64, {1, 1, 1}};
+}
+
+VkResult createBuffer(VkDevice, const VkBufferCreateInfo*, const VkAllocationCallbacks*, VkBuffer* out) {
+  ++current->buffersCreated;
+  *out = newHandle<VkBuffer>();
+  return VK_SUCCESS;
+}
+
+VkResult createView(VkDevice, const VkBufferViewCreateInfo*, const VkAllocationCallbacks*, VkBufferView* out) {
+  ++current->viewsCreated;
+  *out = newHandle<VkBufferView>();
+  return VK_SUCCESS;
+}
+
+void bufferRequirements(VkDevice, VkBuffer, VkMemoryRequirements* out) { *out = {4096, 64, 1}; }
+
+VkResult allocateMemory(VkDevice, const VkMemoryAllocateInfo*, const VkAllocationCallbacks*, VkDeviceMemory* out) {
+  if (current->allocationResult != VK_SUCCESS) return current->allocationResult;
+  *out = newHandle<VkDeviceMemory>();
+  return VK_SUCCESS;
+}
+
+VkResult bindMemory(VkDevice, VkBuffer, VkDeviceMemory, VkDeviceSize) { return VK_SUCCESS; }
+
+VkResult mapMemory(VkDevice, VkDeviceMemory, VkDeviceSize, VkDeviceSize, VkMemoryMapFlags, void** out) {
+  mappings.push_back(std::make_unique<std::byte[]>(1 << 16));  // more than any test reads back
+  *out = mappings.back().get();
+  return VK_SUCCESS;
+}
+
+VkResult createPipelines(VkDevice, VkPipelineCache, uint32_t count, const VkComputePipelineCreateInfo*, const VkAllocationCallbacks*, VkPipeline* out) {
+  for (uint32_t i = 0; i < count; ++i) out[i] = newHandle<VkPipeline>();
+  return VK_SUCCESS;
+}
+
+VkResult allocateSets(VkDevice, const VkDescriptorSetAllocateInfo* info, VkDescriptorSet* out) {
+  static uint64_t next = 1;
+  current->setsAllocated += info->descriptorSetCount;
+  for (uint32_t i = 0; i < info->descriptorSetCount; ++i) out[i] = reinterpret_cast<VkDescriptorSet>(++next);
+  return VK_SUCCESS;
+}
+
+VkResult resetPool(VkDevice, VkDescriptorPool, VkDescriptorPoolResetFlags) { return VK_SUCCESS; }
+void updateSets(VkDevice, uint32_t, const VkWriteDescriptorSet*, uint32_t, const VkCopyDescriptorSet*) {}
+
+VkResult queryResults(VkDevice, VkQueryPool, uint32_t, uint32_t count, size_t, void* data, VkDeviceSize, VkQueryResultFlags) {
+  auto* out = static_cast<uint64_t*>(data);
+  for (uint32_t i = 0; i < count; ++i) out[i] = uint64_t(i) * 1000;
+  return VK_SUCCESS;
+}
+
+template <class T>
+uint64_t id(T handle) { return reinterpret_cast<uint64_t>(handle); }
+void add(NullCommand::Kind kind, uint64_t handle = 0, uint64_t a = 0, uint64_t b = 0, uint64_t c = 0) {
+  current->commands.push_back({kind, {}, handle, a, b, c});
+}
+void cmdBarrier(VkCommandBuffer, const VkDependencyInfo* info) {
+  current->commands.push_back({NullCommand::Barrier, info->pMemoryBarriers[0], info->memoryBarrierCount, 0, 0, 0});
+}
+void cmdBindPipeline(VkCommandBuffer, VkPipelineBindPoint, VkPipeline pipeline) { add(NullCommand::BindPipeline, id(pipeline)); }
+void cmdBindSets(VkCommandBuffer, VkPipelineBindPoint, VkPipelineLayout, uint32_t, uint32_t, const VkDescriptorSet* sets, uint32_t, const uint32_t*) {
+  add(NullCommand::BindSet, id(sets[0]));
+}
+void cmdPush(VkCommandBuffer, VkPipelineLayout, VkShaderStageFlags, uint32_t, uint32_t, const void*) {}
+void cmdDispatch(VkCommandBuffer, uint32_t x, uint32_t y, uint32_t z) { add(NullCommand::Dispatch, 0, x, y, z); }
+void cmdDispatchIndirect(VkCommandBuffer, VkBuffer buffer, VkDeviceSize offset) { add(NullCommand::DispatchIndirect, id(buffer), offset); }
+void cmdCopy(VkCommandBuffer, VkBuffer, VkBuffer target, uint32_t, const VkBufferCopy* region) {
+  add(NullCommand::Copy, id(target), region->srcOffset, region->dstOffset, region->size);
+}
+void cmdFill(VkCommandBuffer, VkBuffer target, VkDeviceSize offset, VkDeviceSize bytes, uint32_t value) { add(NullCommand::Fill, id(target), value, offset, bytes); }
+void cmdResetQueries(VkCommandBuffer, VkQueryPool, uint32_t, uint32_t count) { add(NullCommand::ResetQueries, 0, count); }
+void cmdTimestamp(VkCommandBuffer, VkPipelineStageFlags2, VkQueryPool, uint32_t query) { add(NullCommand::Timestamp, 0, query); }
+
+PFN_vkVoidFunction lookUp(std::string_view name) {
+#define RILL_FUNCTION(vulkan, function) \
+  if (name == #vulkan) return reinterpret_cast<PFN_vkVoidFunction>(static_cast<PFN_##vulkan>(function));
+  RILL_FUNCTION(vkGetPhysicalDeviceFeatures2, features)
+  RILL_FUNCTION(vkGetPhysicalDeviceFormatProperties, formatProperties)
+  RILL_FUNCTION(vkGetPhysicalDeviceMemoryProperties, memoryProperties)
+  RILL_FUNCTION(vkGetPhysicalDeviceProperties2, properties)
+  RILL_FUNCTION(vkGetPhysicalDeviceQueueFamilyProperties, queueFamilies)
+  RILL_FUNCTION(vkAllocateDescriptorSets, allocateSets)
+  RILL_FUNCTION(vkAllocateMemory, allocateMemory)
+  RILL_FUNCTION(vkBindBufferMemory, bindMemory)
+  RILL_FUNCTION(vkCmdBindDescriptorSets, cmdBindSets)
+  RILL_FUNCTION(vkCmdBindPipeline, cmdBindPipeline)
+  RILL_FUNCTION(vkCmdCopyBuffer, cmdCopy)
+  RILL_FUNCTION(vkCmdDispatch, cmdDispatch)
+  RILL_FUNCTION(vkCmdDispatchIndirect, cmdDispatchIndirect)
+  RILL_FUNCTION(vkCmdFillBuffer, cmdFill)
+  RILL_FUNCTION(vkCmdPipelineBarrier2, cmdBarrier)
+  RILL_FUNCTION(vkCmdPushConstants, cmdPush)
+  RILL_FUNCTION(vkCmdResetQueryPool, cmdResetQueries)
+  RILL_FUNCTION(vkCmdWriteTimestamp2, cmdTimestamp)
+  RILL_FUNCTION(vkCreateBuffer, createBuffer)
+  RILL_FUNCTION(vkCreateBufferView, createView)
+  RILL_FUNCTION(vkCreateComputePipelines, createPipelines)
+  RILL_FUNCTION(vkCreateDescriptorPool, create)
+  RILL_FUNCTION(vkCreateDescriptorSetLayout, create)
+  RILL_FUNCTION(vkCreatePipelineLayout, create)
+  RILL_FUNCTION(vkCreateQueryPool, create)
+  RILL_FUNCTION(vkCreateShaderModule, create)
+  RILL_FUNCTION(vkDestroyBuffer, destroy)
+  RILL_FUNCTION(vkDestroyBufferView, destroy)
+  RILL_FUNCTION(vkDestroyDescriptorPool, destroy)
+  RILL_FUNCTION(vkDestroyDescriptorSetLayout, destroy)
+  RILL_FUNCTION(vkDestroyPipeline, destroy)
+  RILL_FUNCTION(vkDestroyPipelineLayout, destroy)
+  RILL_FUNCTION(vkDestroyQueryPool, destroy)
+  RILL_FUNCTION(vkDestroyShaderModule, destroy)
+  RILL_FUNCTION(vkFreeMemory, destroy)
+  RILL_FUNCTION(vkGetBufferMemoryRequirements, bufferRequirements)
+  RILL_FUNCTION(vkGetQueryPoolResults, queryResults)
+  RILL_FUNCTION(vkMapMemory, mapMemory)
+  RILL_FUNCTION(vkResetDescriptorPool, resetPool)
+  RILL_FUNCTION(vkUpdateDescriptorSets, updateSets)
+#undef RILL_FUNCTION
+  return nullptr;
+}
+
+PFN_vkVoidFunction getDeviceProc(VkDevice, const char* name) { return lookUp(name); }
+PFN_vkVoidFunction getInstanceProc(VkInstance, const char* name) {
+  if (std::string_view(name) == "vkGetDeviceProcAddr") return reinterpret_cast<PFN_vkVoidFunction>(&getDeviceProc);
+  return lookUp(name);
+}
+
+}  // namespace
+
+NullVulkan::NullVulkan() { current = this; }
+NullVulkan::~NullVulkan() {
+  current = nullptr;
+  mappings.clear();
+}
+
+HostDevice NullVulkan::host() {
+  vulkan13_ = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES, nullptr};
+  features_ = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &vulkan13_};
+  features(VK_NULL_HANDLE, &features_);
+  HostDevice host;
+  host.instance = reinterpret_cast<VkInstance>(uintptr_t(1));
+  host.physicalDevice = reinterpret_cast<VkPhysicalDevice>(uintptr_t(1));
+  host.device = reinterpret_cast<VkDevice>(uintptr_t(1));
+  host.getInstanceProcAddr = &getInstanceProc;
+  host.enabled = &features_;
+  return host;
+}
+
+size_t NullVulkan::count(NullCommand::Kind kind) const {
+  return size_t(std::ranges::count_if(commands, [&](const NullCommand& c) { return c.kind == kind; }));
+}
+
+}  // namespace rill::test

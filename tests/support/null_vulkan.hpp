@@ -1,0 +1,38 @@
+#pragma once
+// A Vulkan device that does nothing but remember what was recorded: prepare() and record() can be tested without a driver,
+// and without a driver's own allocations.
+#include <vector>
+
+#include "rill/device.hpp"
+
+namespace rill::test {
+
+struct NullCommand {
+  enum Kind : uint8_t { Barrier, BindPipeline, BindSet, Dispatch, DispatchIndirect, Copy, Fill, ResetQueries, Timestamp } kind;
+  VkMemoryBarrier2 barrier;  ///< of Barrier
+  uint64_t handle;           ///< pipeline, set or target buffer
+  uint64_t a, b, c;          ///< groups; or source offset, target offset, bytes
+};
+
+class NullVulkan {
+ public:
+  NullVulkan();
+  ~NullVulkan();
+  NullVulkan(const NullVulkan&) = delete;
+  NullVulkan& operator=(const NullVulkan&) = delete;
+
+  HostDevice host();
+  static VkCommandBuffer commandBuffer() { return reinterpret_cast<VkCommandBuffer>(uintptr_t(1)); }
+  size_t count(NullCommand::Kind kind) const;
+
+  std::vector<NullCommand> commands;
+  VkResult allocationResult = VK_SUCCESS;  ///< what vkAllocateMemory answers
+  int64_t liveObjects = 0;                 ///< created and not yet destroyed
+  size_t setsAllocated = 0, viewsCreated = 0, buffersCreated = 0;
+
+ private:
+  VkPhysicalDeviceVulkan13Features vulkan13_{};
+  VkPhysicalDeviceFeatures2 features_{};
+};
+
+}  // namespace rill::test
