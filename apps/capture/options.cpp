@@ -8,6 +8,7 @@
 
 #include "core/words.hpp"
 #include "rill/offline.hpp"
+#include "shared/scene_folders.hpp"
 #include "shared/words.hpp"
 
 namespace rill::capture {
@@ -199,7 +200,8 @@ Expected<CommandLine> parseCommandLine(int count, const char* const* arguments) 
   app.get_formatter()->column_width(30);
   declare(app, raw);
   app.footer(
-      "\nExamples:\n"
+      "Scenes: " + apps::joined(apps::SceneFolders::standard().names()) +
+      "\n\nExamples:\n"
       "  rill-capture dam-break\n"
       "      pictures of a dam break in out/dam-break, progress on the terminal\n"
       "  rill-capture dam-break --no-images --stats run.json --set fluid.viscosity=0.1 --particles 10000\n"
