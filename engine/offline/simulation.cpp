@@ -14,12 +14,12 @@
 #include "render/legend.hpp"
 #include "render/particle_view.hpp"
 #include "rill/offline.hpp"
+#include "sort/key_sort_types.hpp"
 
 namespace rill::offline {
 namespace {
 
-// A buffer holds at most 128 MiB and a particle's position takes 16 bytes.
-constexpr uint64_t kMaxParticles = (128ull << 20) / 16;
+constexpr uint64_t kMaxParticles = KeySortDesc::kMaxCount;  // whatever the device
 constexpr uint32_t kFirstPiece = 16;  // substeps, before anything is known about a scene's need
 
 struct View {

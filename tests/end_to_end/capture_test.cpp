@@ -225,6 +225,20 @@ TEST_F(CaptureTest, AnEmptySceneIsDrawn) {
   EXPECT_NE(contentOf(folder / "out/none/frame_00000.ply").find("element vertex 0\n"), std::string::npos);
 }
 
+TEST_F(CaptureTest, EveryShippedSceneRuns) {
+  const std::filesystem::path scenes = std::filesystem::path(RILL_SOURCE_DIR) / "assets/scenes";
+  size_t count = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(scenes)) {
+    const std::filesystem::path& file = entry.path();
+    if (file.extension() != ".json" || file.filename().string().ends_with(".schema.json")) continue;
+    ++count;
+    const std::string name = file.lexically_relative(scenes).replace_extension().generic_string();
+    const Outcome outcome = capture({name, "--frames", "2", "--no-images", "--quiet", "--require", "outside<1", "non_finite<1", "time_dropped_s<=0"}, folder.string());
+    EXPECT_EQ(outcome.code, 0) << name << ": " << outcome.err;
+  }
+  EXPECT_GE(count, 10u);
+}
+
 TEST_F(CaptureTest, DroppedTimeIsReported) {
   ASSERT_EQ(run({"--frames", "3", "--fps", "2", "--no-images", "--stats", "s.json", "--set", "solver.max_substeps=4"}).code, 0);
   const Json json = stats("s.json");
