@@ -16,7 +16,8 @@ uint32_t tileCount(uint32_t count) { return (count + kScanTile - 1) / kScanTile;
 }  // namespace
 
 Expected<Scan> Scan::create(Device& device, uint32_t count) {
-  if (count > kMaxCount) return Error{ErrorKind::BadInput, "scan: " + std::to_string(count) + " values, at most " + std::to_string(kMaxCount) + " are possible"};
+  if (count > kMaxCount)
+    return Error{ErrorKind::BadInput, "scan: " + std::to_string(count) + " values, at most " + std::to_string(kMaxCount) + " are possible"};
   Scan scan;
   scan.count_ = count;
   if (count == 0) return scan;

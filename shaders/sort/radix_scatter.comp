@@ -30,7 +30,6 @@ void main() {
 
   for (uint w = 0u; w < words; ++w) counters[w * kRow + lane] = 0u;
   if (lane < push.digits && count != 0u) base[lane] = offsets[lane * push.tiles + tile];
-  barrier();
 
   const uint mine = min(count - min(lane * kRadixKeys, count), kRadixKeys);
   for (uint j = 0u; j < mine; ++j) {
