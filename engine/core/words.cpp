@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <vector>
 
@@ -89,7 +90,10 @@ std::string grouped(uint64_t number) {
 
 std::string shortNumber(double number) {
   std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
+  const double size = std::abs(number);
+  const bool plain = number == 0 || (size >= 1e-5 && size < 1e15);
+  const auto end = plain ? std::to_chars(text.data(), text.data() + text.size(), number, std::chars_format::fixed).ptr
+                         : std::to_chars(text.data(), text.data() + text.size(), number).ptr;
   return {text.data(), end};
 }
 

@@ -21,9 +21,7 @@ struct Range {
 
   constexpr bool hasLow() const { return low != -std::numeric_limits<double>::infinity(); }
   constexpr bool hasHigh() const { return high != std::numeric_limits<double>::infinity(); }
-  constexpr bool contains(double v) const {
-    return (low_open ? v > low : v >= low) && (high_open ? v < high : v <= high);
-  }
+  constexpr bool contains(double v) const { return (low_open ? v > low : v >= low) && (high_open ? v < high : v <= high); }
 };
 constexpr Range atLeast(double low) { return {.low = low}; }
 constexpr Range above(double low) { return {.low = low, .low_open = true}; }
@@ -65,7 +63,9 @@ template <class Owner>
 struct Table;
 
 template <class T>
-concept Described = requires { Table<T>::fields; };
+concept Described = requires {
+  Table<T>::fields;
+};
 
 template <class T>
 inline constexpr bool kHasMember = !std::is_same_v<T, Anything> && !std::is_same_v<T, Version>;
@@ -86,11 +86,17 @@ std::vector<std::string_view> keysOf() {
 
 /// The struct inside std::optional<S>, std::vector<S> or S itself; void where there is none that is described.
 template <class T>
-struct Inner { using Type = std::conditional_t<Described<T>, T, void>; };
+struct Inner {
+  using Type = std::conditional_t<Described<T>, T, void>;
+};
 template <class T>
-struct Inner<std::optional<T>> { using Type = std::conditional_t<Described<T>, T, void>; };
+struct Inner<std::optional<T>> {
+  using Type = std::conditional_t<Described<T>, T, void>;
+};
 template <class T>
-struct Inner<std::vector<T>> { using Type = std::conditional_t<Described<T>, T, void>; };
+struct Inner<std::vector<T>> {
+  using Type = std::conditional_t<Described<T>, T, void>;
+};
 
 template <class T>
 inline constexpr bool kIsList = false;

@@ -18,7 +18,9 @@ inline constexpr std::array<std::string_view, 4> kSurfaceWords{"auto", "planes",
 inline constexpr std::array<std::string_view, 0> kNoWords{};
 
 /// The object around a file's name: {"file": "settled.ply"}.
-struct FileName { std::filesystem::path file; };
+struct FileName {
+  std::filesystem::path file;
+};
 
 template <>
 struct Table<Domain> {
@@ -27,7 +29,8 @@ struct Table<Domain> {
   static constexpr std::tuple fields{
       Field{Info{.key = "min", .unit = "m", .help = "lowest corner [x, y, z]"}, &Domain::min},
       Field{Info{.key = "max", .unit = "m", .help = "highest corner, above min on every axis"}, &Domain::max},
-      Field{Info{.key = "open", .help = "sides without a wall: what leaves goes on and is counted as outside", .words = kSideWords}, &Domain::open}};
+      Field{Info{.key = "open", .help = "sides without a wall: what leaves goes on and is counted as outside", .words = kSideWords},
+            &Domain::open}};
 };
 
 template <>
@@ -35,9 +38,14 @@ struct Table<FluidSettings> {
   static constexpr std::string_view about = "The fluid; give either its spacing or a number of particles";
   static constexpr std::array<std::string_view, 2> one_of{"spacing", "particles"};
   static constexpr std::tuple fields{
-      Field{Info{.key = "spacing", .unit = "m", .range = above(0), .help = "distance of particles at rest; a particle's mass is density x spacing^3"},
+      Field{Info{.key = "spacing",
+                 .unit = "m",
+                 .range = above(0),
+                 .help = "distance of particles at rest; a particle's mass is density x spacing^3"},
             &FluidSettings::spacing},
-      Field{Info{.key = "particles", .range = between(1, 4294967295.0), .help = "about how many particles the fills make; the spacing follows"},
+      Field{Info{.key = "particles",
+                 .range = between(1, 4294967295.0),
+                 .help = "about how many particles the fills make; the spacing follows"},
             &FluidSettings::particles},
       Field{Info{.key = "density", .unit = "kg/m^3", .range = above(0), .help = "rest density"}, &FluidSettings::density},
       Field{Info{.key = "smoothing_ratio", .range = between(1.2, 4), .help = "smoothing length (the kernel's support) over spacing"},
@@ -46,11 +54,15 @@ struct Table<FluidSettings> {
             &FluidSettings::viscosity},
       Field{Info{.key = "vorticity", .range = between(0, 1), .help = "vorticity confinement: gives back spin that the solver loses"},
             &FluidSettings::vorticity},
-      Field{Info{.key = "tensile", .range = between(0, 1), .help = "artificial pressure (s_corr), strength: keeps sparse particles from clumping"},
+      Field{Info{.key = "tensile",
+                 .range = between(0, 1),
+                 .help = "artificial pressure (s_corr), strength: keeps sparse particles from clumping"},
             &FluidSettings::tensile},
-      Field{Info{.key = "tensile_radius", .range = inside(0, 1), .help = "artificial pressure, reference distance over the smoothing length"},
-            &FluidSettings::tensile_radius},
-      Field{Info{.key = "tensile_power", .range = between(1, 16), .help = "artificial pressure, exponent n"}, &FluidSettings::tensile_power}};
+      Field{
+          Info{.key = "tensile_radius", .range = inside(0, 1), .help = "artificial pressure, reference distance over the smoothing length"},
+          &FluidSettings::tensile_radius},
+      Field{Info{.key = "tensile_power", .range = between(1, 16), .help = "artificial pressure, exponent n"},
+            &FluidSettings::tensile_power}};
 };
 
 template <>
@@ -58,23 +70,38 @@ struct Table<SolverSettings> {
   static constexpr std::string_view about = "How the fluid is solved";
   static constexpr std::array one_of = kNoWords;
   static constexpr std::tuple fields{
-      Field{Info{.key = "time_step", .unit = "s", .range = above(0), .help = "the longest time step; auto: as long as cfl and tolerance allow"},
+      Field{Info{.key = "time_step",
+                 .unit = "s",
+                 .range = above(0),
+                 .help = "the longest time step; auto: as long as cfl and tolerance allow"},
             &SolverSettings::time_step},
-      Field{Info{.key = "cfl", .range = aboveTo(0, 10), .help = "spacings that the fastest particle may move in a substep"}, &SolverSettings::cfl},
-      Field{Info{.key = "max_substeps", .range = between(1, 256), .help = "substeps a frame, at most; time beyond them is dropped and reported"},
+      Field{Info{.key = "cfl", .range = aboveTo(0, 10), .help = "spacings that the fastest particle may move in a substep"},
+            &SolverSettings::cfl},
+      Field{Info{.key = "max_substeps",
+                 .range = between(1, 256),
+                 .help = "substeps a frame, at most; time beyond them is dropped and reported"},
             &SolverSettings::max_substeps},
-      Field{Info{.key = "iterations", .range = between(1, 1000), .help = "Jacobi iterations a substep, at most"}, &SolverSettings::iterations},
-      Field{Info{.key = "tolerance", .range = atLeast(0),
-                 .help = "mean compression to keep under: no more iterations and no shorter steps than that needs; 0: always the full count"},
-            &SolverSettings::tolerance},
+      Field{Info{.key = "iterations", .range = between(1, 1000), .help = "Jacobi iterations a substep, at most"},
+            &SolverSettings::iterations},
+      Field{
+          Info{.key = "tolerance",
+               .range = atLeast(0),
+               .help = "mean compression to keep under: no more iterations and no shorter steps than that needs; 0: always the full count"},
+          &SolverSettings::tolerance},
       Field{Info{.key = "relaxation", .range = aboveTo(0, 2), .help = "Jacobi under-relaxation"}, &SolverSettings::relaxation},
-      Field{Info{.key = "regularization", .range = atLeast(0), .help = "epsilon of the paper, as a fraction of the rest lattice's sum of |grad C|^2"},
+      Field{Info{.key = "regularization",
+                 .range = atLeast(0),
+                 .help = "epsilon of the paper, as a fraction of the rest lattice's sum of |grad C|^2"},
             &SolverSettings::regularization},
       Field{Info{.key = "warm_start", .range = between(0, 0.5), .help = "gain of the pressure kept from substep to substep; 0: none"},
             &SolverSettings::warm_start},
-      Field{Info{.key = "kernel", .help = "wendland: one consistent kernel; poly6_spiky: the pair of Macklin and Mueller 2013", .words = kKernelWords},
+      Field{Info{.key = "kernel",
+                 .help = "wendland: one consistent kernel; poly6_spiky: the pair of Macklin and Mueller 2013",
+                 .words = kKernelWords},
             &SolverSettings::kernel},
-      Field{Info{.key = "neighbors", .help = "list: a neighbour list kept for several substeps; grid: walk the grid in every pass", .words = kNeighborWords},
+      Field{Info{.key = "neighbors",
+                 .help = "list: a neighbour list kept for several substeps; grid: walk the grid in every pass",
+                 .words = kNeighborWords},
             &SolverSettings::neighbors}};
 };
 
@@ -82,8 +109,9 @@ template <>
 struct Table<BoxShape> {
   static constexpr std::string_view about = "An axis-aligned box";
   static constexpr std::array one_of = kNoWords;
-  static constexpr std::tuple fields{Field{Info{.key = "min", .unit = "m", .help = "lowest corner [x, y, z]"}, &BoxShape::min},
-                                     Field{Info{.key = "max", .unit = "m", .help = "highest corner, above min on every axis"}, &BoxShape::max}};
+  static constexpr std::tuple fields{
+      Field{Info{.key = "min", .unit = "m", .help = "lowest corner [x, y, z]"}, &BoxShape::min},
+      Field{Info{.key = "max", .unit = "m", .help = "highest corner, above min on every axis"}, &BoxShape::max}};
 };
 
 template <>
@@ -111,7 +139,9 @@ struct Table<Fill> {
       Field{Info{.key = "sphere", .help = "the lattice points inside it, the lattice centred on its centre"}, &Fill::sphere},
       Field{Info{.key = "particles", .help = "positions from a file, and velocities where it has them"}, &Fill::particles},
       Field{Info{.key = "velocity", .unit = "m/s", .help = "at the start; added to a file's velocities"}, &Fill::velocity},
-      Field{Info{.key = "jitter", .range = between(0, 0.5), .help = "random displacement an axis, at most this fraction of the spacing, from the scene's seed"},
+      Field{Info{.key = "jitter",
+                 .range = between(0, 0.5),
+                 .help = "random displacement an axis, at most this fraction of the spacing, from the scene's seed"},
             &Fill::jitter}};
 };
 
@@ -131,10 +161,13 @@ struct Table<Solid> {
   static constexpr std::tuple fields{
       Field{Info{.key = "box", .help = "its corners before it is turned"}, &Solid::box},
       Field{Info{.key = "sphere", .help = "its centre and radius"}, &Solid::sphere},
-      Field{Info{.key = "rotation", .help = "quaternion [x, y, z, w] about its centre, as in glTF; normalised when read"}, &Solid::rotation},
+      Field{Info{.key = "rotation", .help = "quaternion [x, y, z, w] about its centre, as in glTF; normalised when read"},
+            &Solid::rotation},
       Field{Info{.key = "friction", .range = atLeast(0), .help = "Coulomb coefficient"}, &Solid::friction},
-      Field{Info{.key = "restitution", .range = between(0, 1), .help = "share of the normal speed that a bounce keeps"}, &Solid::restitution},
-      Field{Info{.key = "motion", .help = "keyframes in order of time, linear between, held before the first and after the last"}, &Solid::motion}};
+      Field{Info{.key = "restitution", .range = between(0, 1), .help = "share of the normal speed that a bounce keeps"},
+            &Solid::restitution},
+      Field{Info{.key = "motion", .help = "keyframes in order of time, linear between, held before the first and after the last"},
+            &Solid::motion}};
 };
 
 template <>
@@ -172,7 +205,8 @@ struct Table<Look> {
   static constexpr std::array one_of = kNoWords;
   static constexpr std::tuple fields{
       Field{Info{.key = "preset", .help = "material", .words = kPresetWords}, &Look::preset},
-      Field{Info{.key = "surface", .help = "surface reconstruction; auto: the one that measured best", .words = kSurfaceWords}, &Look::surface}};
+      Field{Info{.key = "surface", .help = "surface reconstruction; auto: the one that measured best", .words = kSurfaceWords},
+            &Look::surface}};
 };
 
 template <>
@@ -185,7 +219,8 @@ struct Table<Scene> {
       Field{Info{.key = "title", .help = "one line"}, &Scene::title},
       Field{Info{.key = "about", .help = "what to look at; the source, where it reproduces an experiment"}, &Scene::about},
       Field<Scene, Anything>{Info{.key = "extras", .help = "anything; ignored"}, nullptr},
-      Field{Info{.key = "duration", .unit = "s", .range = atLeast(0), .help = "what a capture runs when it is not told otherwise"}, &Scene::duration},
+      Field{Info{.key = "duration", .unit = "s", .range = atLeast(0), .help = "what a capture runs when it is not told otherwise"},
+            &Scene::duration},
       Field{Info{.key = "seed", .range = between(0, 18446744073709551615.0), .help = "of all that is random"}, &Scene::seed},
       Field{Info{.key = "gravity", .unit = "m/s^2", .help = "[x, y, z]"}, &Scene::gravity},
       Field{Info{.key = "gravity_changes", .help = "in order of time; each holds until the next (a shaken tank)"}, &Scene::gravity_changes},

@@ -24,14 +24,16 @@ bool Reader::check(const std::string& path, FluidSettings& fluid) {
   if (fluid.spacing <= 0) return true;
   const double mass = fluid.density * fluid.spacing * fluid.spacing * fluid.spacing;
   if (mass >= std::numeric_limits<float>::min() && mass <= std::numeric_limits<float>::max()) return true;
-  return failAtOneOf({childPath(path, "spacing"), childPath(path, "density")},
-                     "a particle's mass, density x spacing^3, would be " + roughNumber(mass) + " kg, which is out of range of a 32-bit float");
+  return failAtOneOf(
+      {childPath(path, "spacing"), childPath(path, "density")},
+      "a particle's mass, density x spacing^3, would be " + roughNumber(mass) + " kg, which is out of range of a 32-bit float");
 }
 
 bool Reader::check(const std::string& path, Solid& solid) {
   double length = 0;
   for (const double part : solid.rotation) length = std::hypot(length, part);
-  if (!(length > 0)) return fail(childPath(path, "rotation"), "the quaternion has zero length; expected one that turns, [0, 0, 0, 1] for none");
+  if (!(length > 0))
+    return fail(childPath(path, "rotation"), "the quaternion has zero length; expected one that turns, [0, 0, 0, 1] for none");
   for (double& part : solid.rotation) part /= length;
   return true;
 }
@@ -63,7 +65,8 @@ bool Reader::check(const std::string& path, std::vector<Probe>& probes) {
     const std::string here = childPath(entryPath(path, i), "name");
     if (probes[i].name.empty()) return fail(here, "is empty; expected a name");
     const auto [first, fresh] = seen.emplace(probes[i].name, i);
-    if (!fresh) return fail(here, inQuotes(probes[i].name) + " is the name of " + entryPath(path, first->second) + " too; expected each name once");
+    if (!fresh)
+      return fail(here, inQuotes(probes[i].name) + " is the name of " + entryPath(path, first->second) + " too; expected each name once");
   }
   return true;
 }

@@ -18,11 +18,17 @@ inline OrderedJson tidyNumber(double number) {
 }
 
 /// What a key has when it is not given; null where it has no default. `value` is the member's initialiser.
-inline OrderedJson defaultJson(const model::Info& info, double value) { return info.range.contains(value) ? tidyNumber(value) : OrderedJson(); }
+inline OrderedJson defaultJson(const model::Info& info, double value) {
+  return info.range.contains(value) ? tidyNumber(value) : OrderedJson();
+}
 inline OrderedJson defaultJson(const model::Info& info, uint32_t value) { return defaultJson(info, static_cast<double>(value)); }
 inline OrderedJson defaultJson(const model::Info& info, uint64_t value) { return defaultJson(info, static_cast<double>(value)); }
-inline OrderedJson defaultJson(const model::Info& info, const std::string& value) { return info.required || value.empty() ? OrderedJson() : OrderedJson(value); }
-inline OrderedJson defaultJson(const model::Info&, const std::optional<double>& value) { return value ? tidyNumber(*value) : OrderedJson("auto"); }
+inline OrderedJson defaultJson(const model::Info& info, const std::string& value) {
+  return info.required || value.empty() ? OrderedJson() : OrderedJson(value);
+}
+inline OrderedJson defaultJson(const model::Info&, const std::optional<double>& value) {
+  return value ? tidyNumber(*value) : OrderedJson("auto");
+}
 inline OrderedJson defaultJson(const model::Info& info, SideMask value) {
   OrderedJson sides = OrderedJson::array();
   for (size_t side = 0; side < info.words.size(); ++side) {
@@ -37,12 +43,17 @@ OrderedJson defaultJson(const model::Info&, const double (&value)[N]) {
   return numbers;
 }
 template <class Enum>
-  requires std::is_enum_v<Enum>
-OrderedJson defaultJson(const model::Info& info, const Enum& value) { return OrderedJson(info.words[static_cast<size_t>(value)]); }
+requires std::is_enum_v<Enum> OrderedJson defaultJson(const model::Info& info, const Enum& value) {
+  return OrderedJson(info.words[static_cast<size_t>(value)]);
+}
 template <class T>
-OrderedJson defaultJson(const model::Info&, const std::vector<T>&) { return OrderedJson::array(); }
+OrderedJson defaultJson(const model::Info&, const std::vector<T>&) {
+  return OrderedJson::array();
+}
 /// Files, structs and optional ones: no default of their own; their keys have theirs.
 template <class T>
-OrderedJson defaultJson(const model::Info&, const T&) { return {}; }
+OrderedJson defaultJson(const model::Info&, const T&) {
+  return {};
+}
 
 }  // namespace rill

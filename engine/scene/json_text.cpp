@@ -17,12 +17,17 @@ namespace fs = std::filesystem;
 
 std::string_view kindOf(const fs::file_status& status) {
   switch (status.type()) {
-    case fs::file_type::directory: return "a directory";
-    case fs::file_type::fifo: return "a pipe";
-    case fs::file_type::socket: return "a socket";
+    case fs::file_type::directory:
+      return "a directory";
+    case fs::file_type::fifo:
+      return "a pipe";
+    case fs::file_type::socket:
+      return "a socket";
     case fs::file_type::character:
-    case fs::file_type::block: return "a device";
-    default: return "something else";
+    case fs::file_type::block:
+      return "a device";
+    default:
+      return "something else";
   }
 }
 
@@ -62,13 +67,19 @@ size_t firstInvalidUtf8(std::string_view text) {
   const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
   for (size_t i = 0; i < text.size();) {
     const unsigned first = byte(i);
-    const size_t length = first < 0x80 ? 1 : first >= 0xC2 && first < 0xE0 ? 2 : (first & 0xF0U) == 0xE0 ? 3 : first >= 0xF0 && first < 0xF5 ? 4 : 0;
+    const size_t length = first < 0x80                    ? 1
+                          : first >= 0xC2 && first < 0xE0 ? 2
+                          : (first & 0xF0U) == 0xE0       ? 3
+                          : first >= 0xF0 && first < 0xF5 ? 4
+                                                          : 0;
     if (length == 0) return i;
     for (size_t k = 1; k < length; ++k) {
       if ((byte(i + k) & 0xC0U) != 0x80U) return i;
     }
     const unsigned second = byte(i + 1);  // overlong forms, surrogates, beyond U+10FFFF
-    if ((first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) || (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F)) return i;
+    if ((first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) || (first == 0xF0 && second < 0x90) ||
+        (first == 0xF4 && second > 0x8F))
+      return i;
     i += length;
   }
   return text.size();
@@ -95,7 +106,6 @@ class Cursor {
     return before;
   }
   friend bool operator==(const Cursor& a, const Cursor& b) { return a.at_ == b.at_; }
-  friend bool operator!=(const Cursor& a, const Cursor& b) { return a.at_ != b.at_; }
 
  private:
   const char* at_;
@@ -133,7 +143,9 @@ class Builder : public nlohmann::json_sax<Json> {
   bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& error) override {
     const size_t at = startOfToken(std::min(position > 0 ? position - 1 : 0, text_.size()));
     constexpr int kOutOfRange = 406;
-    if (error.id == kOutOfRange) return fail(at, "the number " + clipped(std::string(text_.substr(at, position - at))) + " is out of range; expected one that a 32-bit float can hold");
+    if (error.id == kOutOfRange)
+      return fail(at, "the number " + clipped(std::string(text_.substr(at, position - at))) +
+                          " is out of range; expected one that a 32-bit float can hold");
     std::string what = error.what();
     const size_t column = what.find("column ");
     const size_t colon = column == std::string::npos ? column : what.find(": ", column);
@@ -255,12 +267,14 @@ Expected<std::string> readWholeFile(const fs::path& file, uint64_t most) {
 
 Expected<Json> parseJsonText(std::string_view text, std::string_view name) {
   const auto refuse = [&](const std::string& why) { return Error{ErrorKind::BadInput, std::string(name) + ": " + why}; };
-  if (const std::string_view encoding = foreignEncoding(text); !encoding.empty()) return refuse("is " + std::string(encoding) + "; expected UTF-8");
+  if (const std::string_view encoding = foreignEncoding(text); !encoding.empty())
+    return refuse("is " + std::string(encoding) + "; expected UTF-8");
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   if (const size_t at = firstInvalidUtf8(text); at < text.size()) {
     char byte[8];
     std::snprintf(byte, sizeof byte, "0x%02X", static_cast<unsigned char>(text[at]));
-    return Error{ErrorKind::BadInput, std::string(name) + ":" + lineAndColumn(text, at) + ": the byte " + byte + " is not valid UTF-8; expected UTF-8"};
+    return Error{ErrorKind::BadInput,
+                 std::string(name) + ":" + lineAndColumn(text, at) + ": the byte " + byte + " is not valid UTF-8; expected UTF-8"};
   }
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) return refuse("is empty; expected a JSON object");
   Builder builder(text, name);

@@ -23,6 +23,18 @@ double volumeOf(const Fill& fill) {
   return fill.sphere ? 4.0 / 3.0 * std::numbers::pi * std::pow(fill.sphere->radius, 3) : 0.0;
 }
 
+/// How far the lattices are from fitting their boxes, in spacings: 0 to 0.5, of the worst side.
+double worstMisfit(std::span<const Fill> fills, double spacing) {
+  double worst = 0;
+  for (const Fill& fill : fills) {
+    for (int axis = 0; fill.box && axis < 3; ++axis) {
+      const double ratio = (fill.box->max[axis] - fill.box->min[axis]) / spacing;
+      worst = std::max(worst, std::abs(ratio - std::round(ratio)));
+    }
+  }
+  return worst;
+}
+
 double totalPoints(std::span<const Fill> fills, double spacing) {
   const double exact_rows = std::min(4096.0, 40000.0 / static_cast<double>(fills.size()));  // a search asks thousands of times
   double total = 0;
@@ -90,23 +102,34 @@ double spacingFor(std::span<const Fill> fills, double target) {
   double volume = 0;
   for (const Fill& fill : fills) volume += volumeOf(fill);
   if (!(volume > 0) || !(target > 0)) return 0;
+  const double middle = std::cbrt(volume / target);
+  double best = middle, best_cost = std::numeric_limits<double>::infinity();
+  const auto consider = [&](double spacing) {
+    // A lattice that is half a spacing too wide or narrow for its box starts with a crushed or a missing layer at a wall: rather
+    // have up to two per cent more or fewer particles.
+    constexpr double kCostOfMisfit = 0.04, kCostOfVolume = 0.01;
+    const double count = totalPoints(fills, spacing);
+    if (!(count > 0)) return;
+    const double cost = std::abs(count - target) / target + kCostOfMisfit * worstMisfit(fills, spacing) +
+                        kCostOfVolume * std::abs(std::log(count * spacing * spacing * spacing / volume));
+    if (cost >= best_cost) return;
+    best = spacing;
+    best_cost = cost;
+  };
   // The count is a staircase in the spacing, and with spheres not even a falling one: look at all of it around the spacing that
   // the volume suggests. Thin fills (a layer or two) can be off by up to a factor of two there.
   const int steps = fills.size() <= 1000 ? 1200 : 100;
-  const double middle = std::cbrt(volume / target);
-  double best = middle, best_miss = std::numeric_limits<double>::infinity(), best_stretch = best_miss;
-  const auto consider = [&](double spacing) {
-    const double count = totalPoints(fills, spacing);
-    const double miss = std::abs(count - target);
-    const double stretch = std::abs(std::log(count * spacing * spacing * spacing / volume));  // 0: the particles have the fill's volume
-    if (miss > best_miss || (miss == best_miss && !(stretch < best_stretch))) return;
-    best = spacing;
-    best_miss = miss;
-    best_stretch = stretch;
-  };
   for (int i = -steps; i <= steps; ++i) consider(middle * std::exp2(static_cast<double>(i) / steps));
-  const double count = totalPoints(fills, best);
-  if (count > 0) consider(std::cbrt(volume / count));  // the lattice that fits its box exactly, where there is one
+  // And the spacings that fit a side of a box exactly.
+  constexpr size_t kFillsToFit = 8;
+  constexpr double kMostAlong = 2000;
+  for (const Fill& fill : fills.first(std::min(fills.size(), kFillsToFit))) {
+    for (int axis = 0; fill.box && axis < 3; ++axis) {
+      const double length = fill.box->max[axis] - fill.box->min[axis];
+      const double last = std::min(2 * length / middle, kMostAlong);
+      for (double n = std::max(1.0, std::floor(0.5 * length / middle)); n <= last; ++n) consider(length / n);
+    }
+  }
   return best;
 }
 

@@ -27,8 +27,8 @@ double countPoints(const Lattice& lattice, double exactRows);
 /// Points of row (j, k) of the lattice that belong to the fill: from `begin` up to `end`.
 void rowOf(const Lattice& lattice, uint64_t j, uint64_t k, uint64_t& begin, uint64_t& end);
 
-/// The spacing at which the lattices of `fills` have as nearly `target` points as they can, and fill their volume best among those.
-/// 0 where no fill is a box or a sphere. Depends on nothing but its arguments.
+/// The spacing at which the lattices of `fills` have nearly `target` points (within two per cent of the nearest count that any
+/// spacing gives) and fit their boxes well. 0 where no fill is a box or a sphere. Depends on nothing but its arguments.
 double spacingFor(std::span<const Fill> fills, double target);
 
 }  // namespace rill

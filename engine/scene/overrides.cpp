@@ -20,7 +20,9 @@ struct Step {
 Error refuse(const Override& change, const std::string& why) { return {ErrorKind::BadInput, "--set " + change.key + ": " + why}; }
 
 Expected<std::vector<Step>> stepsOf(const Override& change) {
-  const auto malformed = [&](const std::string& what) { return refuse(change, what + "; expected a key path such as fluid.viscosity or fill[0].jitter"); };
+  const auto malformed = [&](const std::string& what) {
+    return refuse(change, what + "; expected a key path such as fluid.viscosity or fill[0].jitter");
+  };
   std::vector<Step> steps;
   std::string_view rest = change.key;
   bool want_key = true;
@@ -134,8 +136,10 @@ const OverrideMarks::Mark* OverrideMarks::valueAt(const std::string& path) const
 
 Expected<Override> parseOverride(std::string_view text) {
   const size_t equals = text.find('=');
-  if (equals == std::string_view::npos) return Error{ErrorKind::BadInput, "--set " + std::string(text) + ": no '='; expected KEY=VALUE, as in fluid.viscosity=0.1"};
-  if (equals == 0) return Error{ErrorKind::BadInput, "--set " + std::string(text) + ": no key before '='; expected KEY=VALUE, as in fluid.viscosity=0.1"};
+  if (equals == std::string_view::npos)
+    return Error{ErrorKind::BadInput, "--set " + std::string(text) + ": no '='; expected KEY=VALUE, as in fluid.viscosity=0.1"};
+  if (equals == 0)
+    return Error{ErrorKind::BadInput, "--set " + std::string(text) + ": no key before '='; expected KEY=VALUE, as in fluid.viscosity=0.1"};
   return Override{std::string(text.substr(0, equals)), std::string(text.substr(equals + 1))};
 }
 

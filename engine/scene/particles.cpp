@@ -26,7 +26,7 @@ struct Source {
   std::optional<PlyFile> file;
   PlyParticles particles;  ///< of the file, once read
   Lattice lattice;
-  double count = 0;        ///< before any is left out
+  double count = 0;  ///< before any is left out
   uint64_t overlap = 0, solid = 0, domain = 0, kept = 0;
 };
 
@@ -53,8 +53,10 @@ double randomAlong(uint64_t seed, uint64_t fill, uint64_t particle, uint64_t axi
 
 /// Around the fluid of all sources; empty boxes have low > high.
 struct Bounds {
-  double low[3] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  double high[3] = {-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  double low[3] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+                   std::numeric_limits<double>::infinity()};
+  double high[3] = {-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+                    -std::numeric_limits<double>::infinity()};
 
   bool empty() const { return low[0] > high[0]; }
   void add(double x, double y, double z) {
@@ -79,7 +81,8 @@ Bounds boundsOf(const Source& source) {
   } else if (source.count > 0) {
     const Lattice& l = source.lattice;
     bounds.add(l.first[0], l.first[1], l.first[2]);
-    bounds.add(l.first[0] + (l.along[0] - 1) * l.spacing, l.first[1] + (l.along[1] - 1) * l.spacing, l.first[2] + (l.along[2] - 1) * l.spacing);
+    bounds.add(l.first[0] + (l.along[0] - 1) * l.spacing, l.first[1] + (l.along[1] - 1) * l.spacing,
+               l.first[2] + (l.along[2] - 1) * l.spacing);
   }
   return bounds;
 }
@@ -100,7 +103,8 @@ bool mayCrowd(const std::vector<Source>& sources, const std::vector<Bounds>& bou
 /// Puts particles one by one, or leaves them out.
 class Placer {
  public:
-  Placer(const Scene& scene, ParticleSet& out, PointHash* placed) : scene_(scene), out_(out), solids_(scene.solids), placed_(placed), spacing_(scene.fluid.spacing) {}
+  Placer(const Scene& scene, ParticleSet& out, PointHash* placed)
+      : scene_(scene), out_(out), solids_(scene.solids), placed_(placed), spacing_(scene.fluid.spacing) {}
 
   /// `p` in the scene's coordinates; `number` counts within the fill.
   void put(const double (&p)[3], const Float3& velocity, size_t fill, uint64_t number, Source& source) {
@@ -114,7 +118,8 @@ class Placer {
       ++source.domain;
     } else if (solids_.inside(at, kSlack * spacing_)) {
       ++source.solid;
-    } else if (placed_ != nullptr && placed_->crowded(own, static_cast<uint32_t>(fill), kOverlap * spacing_ * (1 - kSlack), kTogether * spacing_)) {
+    } else if (placed_ != nullptr &&
+               placed_->crowded(own, static_cast<uint32_t>(fill), kOverlap * spacing_ * (1 - kSlack), kTogether * spacing_)) {
       ++source.overlap;
     } else {
       if (placed_ != nullptr) placed_->insert(own, static_cast<uint32_t>(fill));
@@ -163,18 +168,21 @@ void placeFill(const Scene& scene, size_t index, Source& source, Placer& placer)
     const PlyParticles& from = source.particles;
     for (size_t i = 0; i < from.positions.size(); ++i) {
       const Float3 own = from.velocities.empty() ? Float3{} : from.velocities[i];
-      placer.put({from.positions[i].x, from.positions[i].y, from.positions[i].z}, {own.x + velocity.x, own.y + velocity.y, own.z + velocity.z}, index, i, source);
+      placer.put({from.positions[i].x, from.positions[i].y, from.positions[i].z},
+                 {own.x + velocity.x, own.y + velocity.y, own.z + velocity.z}, index, i, source);
     }
     return;
   }
   const Lattice& lattice = source.lattice;
-  const auto nx = static_cast<uint64_t>(lattice.along[0]), ny = static_cast<uint64_t>(lattice.along[1]), nz = static_cast<uint64_t>(lattice.along[2]);
+  const auto nx = static_cast<uint64_t>(lattice.along[0]), ny = static_cast<uint64_t>(lattice.along[1]),
+             nz = static_cast<uint64_t>(lattice.along[2]);
   for (uint64_t k = 0; k < nz; ++k) {
     for (uint64_t j = 0; j < ny; ++j) {
       uint64_t begin = 0, end = 0;
       rowOf(lattice, j, k, begin, end);
       for (uint64_t i = begin; i < end; ++i) {
-        const double p[3] = {lattice.first[0] + static_cast<double>(i) * lattice.spacing, lattice.first[1] + static_cast<double>(j) * lattice.spacing,
+        const double p[3] = {lattice.first[0] + static_cast<double>(i) * lattice.spacing,
+                             lattice.first[1] + static_cast<double>(j) * lattice.spacing,
                              lattice.first[2] + static_cast<double>(k) * lattice.spacing};
         placer.put(p, velocity, index, (k * ny + j) * nx + i, source);
       }
@@ -195,12 +203,15 @@ void warnOf(const Scene& scene, const std::vector<Source>& sources, std::vector<
     const Source& s = sources[i];
     const std::string of = " of " + countText(s.count) + " particles ";
     if (s.count < 1) {
-      say(i, s.file ? "yields no particle: the file has none" : "yields no particle: it is too thin for a spacing of " + roughNumber(scene.fluid.spacing) + " m");
+      say(i, s.file ? "yields no particle: the file has none"
+                    : "yields no particle: it is too thin for a spacing of " + roughNumber(scene.fluid.spacing) + " m");
       continue;
     }
     if (s.domain > 0) say(i, grouped(s.domain) + of + "start outside the domain's walls and are left out");
     if (s.solid > 0) say(i, grouped(s.solid) + of + "start inside a solid and are left out");
-    if (s.overlap > 0) say(i, grouped(s.overlap) + of + (s.file ? "coincide, or are" : "are") + " nearer than 0.9 spacings to fluid placed before, and are left out");
+    if (s.overlap > 0)
+      say(i, grouped(s.overlap) + of + (s.file ? "coincide, or are" : "are") +
+                 " nearer than 0.9 spacings to fluid placed before, and are left out");
     if (s.kept == 0) say(i, "yields no particle: all are left out");
   }
   if (unsaid > 0) warnings.push_back("and " + grouped(unsaid) + " warnings more about fills");
@@ -218,8 +229,9 @@ void warnOfDistance(const Scene& scene, const ParticleSet& set, const Bounds& al
     step = std::max({step, reach * kFloatStep, place * kDoubleStep});
   }
   if (step <= kTooCoarse * scene.fluid.spacing) return;
-  warnings.push_back(nameOf(scene) + ": fluid starts " + roughNumber(far) + " m from the domain's minimum (or the fluid's centre), where positions are rounded to " +
-                     roughNumber(step) + " m, more than a thousandth of the spacing " + roughNumber(scene.fluid.spacing) + " m");
+  warnings.push_back(nameOf(scene) + ": fluid starts " + roughNumber(far) +
+                     " m from the domain's minimum (or the fluid's centre), where positions are rounded to " + roughNumber(step) +
+                     " m, more than a thousandth of the spacing " + roughNumber(scene.fluid.spacing) + " m");
 }
 
 /// Places every source at the scene's spacing.
@@ -237,7 +249,8 @@ Expected<ParticleSet> place(const Scene& scene, std::vector<Source>& sources, ui
     total += s.count;
   }
   if (total > static_cast<double>(most)) {
-    return refuse(scene, "fluid.spacing: " + shortNumber(spacing) + " m makes " + countText(total) + " particles; expected at most " + grouped(most) + ", as a spacing of about " +
+    return refuse(scene, "fluid.spacing: " + shortNumber(spacing) + " m makes " + countText(total) + " particles; expected at most " +
+                             grouped(most) + ", as a spacing of about " +
                              roughNumber(spacing * std::cbrt(total / static_cast<double>(most)) * 1.01) + " m gives");
   }
   Bounds all;
@@ -291,11 +304,13 @@ Expected<ParticleSet> placeAbout(Scene& scene, std::vector<Source>& sources, uin
   }
   ParticleSet best;
   double best_spacing = 0, best_miss = std::numeric_limits<double>::infinity(), target = wanted - from_files;
-  constexpr int kAttempts = 4;  // what is left out depends on the spacing in turn
+  constexpr int kAttempts = 4;      // what is left out depends on the spacing in turn
+  constexpr double kMostTried = 3;  // times the particles wanted
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     scene.fluid.spacing = spacingFor(scene.fill, target);
-    if (scene.fluid.spacing <= 0) return say("the scene has no box or sphere of fluid from which a spacing follows; expected fluid.spacing");
-    auto set = place(scene, sources, std::max(most, static_cast<uint64_t>(2 * target)));
+    if (scene.fluid.spacing <= 0)
+      return say("the scene has no box or sphere of fluid from which a spacing follows; expected fluid.spacing");
+    auto set = place(scene, sources, std::max(most, static_cast<uint64_t>(2 * kMostTried * wanted)));
     if (!set) return set;
     const auto kept = static_cast<double>(set->positions.size());
     const bool complete = set->left_out_overlap + set->left_out_solid + set->left_out_domain == 0;
@@ -307,10 +322,15 @@ Expected<ParticleSet> placeAbout(Scene& scene, std::vector<Source>& sources, uin
     }
     const double kept_of_lattices = kept - from_files;
     if (complete || miss <= 0.005 * wanted || kept_of_lattices <= 0) break;
-    target = std::min(target * (wanted - from_files) / kept_of_lattices, 8 * wanted);
+    target = std::min(target * (wanted - from_files) / kept_of_lattices, kMostTried * wanted);
   }
   scene.fluid.spacing = best_spacing;
-  if (best.positions.size() > most) return say(grouped(best.positions.size()) + " particles come nearest, expected at most " + grouped(most));
+  if (best.positions.size() > most)
+    return say(grouped(best.positions.size()) + " particles come nearest, expected at most " + grouped(most));
+  if (best_miss > 0.05 * wanted) {
+    best.warnings.push_back(nameOf(scene) + ": fluid.particles: " + grouped(best.positions.size()) + " particles instead of " +
+                            grouped(scene.fluid.particles) + ": no spacing comes nearer");
+  }
   return best;
 }
 
@@ -331,7 +351,8 @@ Expected<ParticleSet> make(Scene& scene, uint64_t maxParticles) {
   }
   auto set = by_count ? placeAbout(scene, sources, most) : place(scene, sources, most);
   if (set && set->positions.empty() && !scene.fill.empty()) {
-    return refuse(scene, "fill: no particle is left (" + grouped(set->left_out_domain) + " outside the walls, " + grouped(set->left_out_solid) + " inside solids); expected at least one. " +
+    return refuse(scene, "fill: no particle is left (" + grouped(set->left_out_domain) + " outside the walls, " +
+                             grouped(set->left_out_solid) + " inside solids); expected at least one. " +
                              (set->warnings.empty() ? "" : set->warnings.front()));
   }
   return set;

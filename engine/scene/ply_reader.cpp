@@ -24,8 +24,14 @@ enum class Scalar : uint8_t { I8, U8, I16, U16, I32, U32, F32, F64 };
 constexpr std::array<size_t, 8> kScalarBytes{1, 1, 2, 2, 4, 4, 4, 8};
 
 std::optional<Scalar> scalarNamed(std::string_view name) {
-  constexpr std::array<std::array<std::string_view, 2>, 8> kNames{{{"char", "int8"}, {"uchar", "uint8"}, {"short", "int16"}, {"ushort", "uint16"},
-                                                                   {"int", "int32"}, {"uint", "uint32"}, {"float", "float32"}, {"double", "float64"}}};
+  constexpr std::array<std::array<std::string_view, 2>, 8> kNames{{{"char", "int8"},
+                                                                   {"uchar", "uint8"},
+                                                                   {"short", "int16"},
+                                                                   {"ushort", "uint16"},
+                                                                   {"int", "int32"},
+                                                                   {"uint", "uint32"},
+                                                                   {"float", "float32"},
+                                                                   {"double", "float64"}}};
   for (size_t i = 0; i < kNames.size(); ++i) {
     if (kNames[i][0] == name || kNames[i][1] == name) return static_cast<Scalar>(i);
   }
@@ -52,7 +58,9 @@ enum class Format : uint8_t { Ascii, Little, Big };
 uint64_t leastBytes(const Element& element, Format format) {
   uint64_t bytes = 0;
   for (const Property& property : element.properties) {
-    bytes += format == Format::Ascii ? 2 : property.count ? bytesOf(*property.count) : bytesOf(property.type);  // ascii: a digit and a separator
+    bytes += format == Format::Ascii ? 2
+             : property.count        ? bytesOf(*property.count)
+                                     : bytesOf(property.type);  // ascii: a digit and a separator
   }
   return bytes;
 }
@@ -67,14 +75,22 @@ double swapped(const char* bytes, bool swap) {
 
 double decode(const char* bytes, Scalar type, bool swap) {
   switch (type) {
-    case Scalar::I8: return swapped<int8_t>(bytes, swap);
-    case Scalar::U8: return swapped<uint8_t>(bytes, swap);
-    case Scalar::I16: return swapped<int16_t>(bytes, swap);
-    case Scalar::U16: return swapped<uint16_t>(bytes, swap);
-    case Scalar::I32: return swapped<int32_t>(bytes, swap);
-    case Scalar::U32: return swapped<uint32_t>(bytes, swap);
-    case Scalar::F32: return swapped<float>(bytes, swap);
-    case Scalar::F64: return swapped<double>(bytes, swap);
+    case Scalar::I8:
+      return swapped<int8_t>(bytes, swap);
+    case Scalar::U8:
+      return swapped<uint8_t>(bytes, swap);
+    case Scalar::I16:
+      return swapped<int16_t>(bytes, swap);
+    case Scalar::U16:
+      return swapped<uint16_t>(bytes, swap);
+    case Scalar::I32:
+      return swapped<int32_t>(bytes, swap);
+    case Scalar::U32:
+      return swapped<uint32_t>(bytes, swap);
+    case Scalar::F32:
+      return swapped<float>(bytes, swap);
+    case Scalar::F64:
+      return swapped<double>(bytes, swap);
   }
   return 0;
 }
@@ -82,7 +98,8 @@ double decode(const char* bytes, Scalar type, bool swap) {
 /// The numbers of a PLY body, one after another.
 class Body {
  public:
-  Body(std::ifstream& in, Format format) : in_(in), format_(format), swap_((format == Format::Little) != (std::endian::native == std::endian::little)) {}
+  Body(std::ifstream& in, Format format)
+      : in_(in), format_(format), swap_((format == Format::Little) != (std::endian::native == std::endian::little)) {}
 
   /// False at the end of the file, or at a word that is no number (see word()).
   bool next(Scalar type, double& out) {
@@ -139,8 +156,8 @@ bool fitsFloat(double v) { return std::abs(v) <= std::numeric_limits<float>::max
 struct PlyFile::Header {
   fs::path file;
   Format format = Format::Ascii;
-  std::vector<Element> elements;  ///< up to and with "vertex"
-  uint64_t body = 0;              ///< where the numbers begin, bytes
+  std::vector<Element> elements;                      ///< up to and with "vertex"
+  uint64_t body = 0;                                  ///< where the numbers begin, bytes
   std::array<int, 6> column{-1, -1, -1, -1, -1, -1};  ///< of x y z vx vy vz among the vertex's properties
 
   bool hasVelocity() const { return column[3] >= 0 && column[4] >= 0 && column[5] >= 0; }
@@ -156,10 +173,14 @@ Expected<void> PlyFile::Header::parseLine(const std::string& line, bool& vertex_
   words >> keyword >> a >> b >> c >> d;
   if (keyword.empty() || keyword == "comment" || keyword == "obj_info") return {};
   if (keyword == "format") {
-    if (a == "ascii") format = Format::Ascii;
-    else if (a == "binary_little_endian") format = Format::Little;
-    else if (a == "binary_big_endian") format = Format::Big;
-    else return refuse("the format is " + inQuotes(a) + "; expected ascii, binary_little_endian or binary_big_endian");
+    if (a == "ascii")
+      format = Format::Ascii;
+    else if (a == "binary_little_endian")
+      format = Format::Little;
+    else if (a == "binary_big_endian")
+      format = Format::Big;
+    else
+      return refuse("the format is " + inQuotes(a) + "; expected ascii, binary_little_endian or binary_big_endian");
     if (b != "1.0") return refuse("the format's version is " + inQuotes(b) + "; expected 1.0");
     format_seen = true;
     return {};
@@ -183,7 +204,8 @@ Expected<void> PlyFile::Header::parseLine(const std::string& line, bool& vertex_
     if (a == "list") count = scalarNamed(b);
     property.name = a == "list" ? d : b;
     if (!type || (a == "list" && !count) || property.name.empty()) {
-      return refuse("the header line " + inQuotes(line) + " is not understood; expected property TYPE NAME with a type such as float or uint");
+      return refuse("the header line " + inQuotes(line) +
+                    " is not understood; expected property TYPE NAME with a type such as float or uint");
     }
     property.type = *type;
     property.count = count;
@@ -202,7 +224,8 @@ Expected<void> PlyFile::Header::parse(std::ifstream& in) {
     char c = 0;
     while (in.get(c) && c != '\n' && ++body <= kMostBytes) line += c;
     ++body;
-    if (body > kMostBytes || !in) return refuse(first ? "does not begin with \"ply\"; expected a PLY file" : "the header has no end; expected a line end_header");
+    if (body > kMostBytes || !in)
+      return refuse(first ? "does not begin with \"ply\"; expected a PLY file" : "the header has no end; expected a line end_header");
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (first) {
       if (line != "ply") return refuse("begins with " + inQuotes(line) + "; expected a PLY file, whose first line is \"ply\"");
@@ -237,8 +260,8 @@ Expected<void> PlyFile::Header::judge(uint64_t fileBytes) {
     const uint64_t each = leastBytes(element, format);
     if (each == 0) continue;
     if (element.count > left / each) {
-      return refuse("the header promises " + grouped(element.count) + " of " + inQuotes(element.name) + ", at least " + grouped(each) + " bytes each, but only " +
-                    grouped(left) + " bytes are left; expected a whole file");
+      return refuse("the header promises " + grouped(element.count) + " of " + inQuotes(element.name) + ", at least " + grouped(each) +
+                    " bytes each, but only " + grouped(left) + " bytes are left; expected a whole file");
     }
     left -= element.count * each;
   }
@@ -300,8 +323,8 @@ Expected<PlyParticles> PlyFile::read() const {
       const auto at = [&](size_t k) { return row[static_cast<size_t>(header.column[k])]; };
       for (size_t k = 0; k < (header.hasVelocity() ? 6U : 3U); ++k) {
         if (!fitsFloat(at(k))) {
-          return header.refuse("vertex " + grouped(i) + ": " + (k < 3 ? "the position" : "the velocity") + " is " + shortNumber(at(k)) + " along " + "xyz"[k % 3] +
-                               "; expected a finite number that a 32-bit float can hold");
+          return header.refuse("vertex " + grouped(i) + ": " + (k < 3 ? "the position" : "the velocity") + " is " + shortNumber(at(k)) +
+                               " along " + "xyz"[k % 3] + "; expected a finite number that a 32-bit float can hold");
         }
       }
       out.positions.push_back({at(0), at(1), at(2)});

@@ -31,7 +31,8 @@ class PointHash {
     int64_t low[3];
     for (int axis = 0; axis < 3; ++axis) low[axis] = index(p[axis] / cell_ - 0.5);
     for (int corner = 0; corner < 8; ++corner) {
-      for (uint32_t i = heads_[slot(low[0] + (corner & 1), low[1] + (corner >> 1 & 1), low[2] + (corner >> 2))]; i != kNone; i = points_[i].next) {
+      for (uint32_t i = heads_[slot(low[0] + (corner & 1), low[1] + (corner >> 1 & 1), low[2] + (corner >> 2))]; i != kNone;
+           i = points_[i].next) {
         const Point& other = points_[i];
         const double x = other.at[0] - p[0], y = other.at[1] - p[1], z = other.at[2] - p[2];
         const double limit = other.group == group ? together : apart;
@@ -55,7 +56,8 @@ class PointHash {
   }
 
   size_t slot(int64_t x, int64_t y, int64_t z) const {
-    uint64_t h = static_cast<uint64_t>(x) * 0x9E3779B97F4A7C15ULL ^ static_cast<uint64_t>(y) * 0xC2B2AE3D27D4EB4FULL ^ static_cast<uint64_t>(z) * 0x165667B19E3779F9ULL;
+    uint64_t h = static_cast<uint64_t>(x) * 0x9E3779B97F4A7C15ULL ^ static_cast<uint64_t>(y) * 0xC2B2AE3D27D4EB4FULL ^
+                 static_cast<uint64_t>(z) * 0x165667B19E3779F9ULL;
     h = (h ^ (h >> 32)) * 0xD6E8FEB86659FD93ULL;
     return static_cast<size_t>((h ^ (h >> 32)) & (heads_.size() - 1));
   }

@@ -67,15 +67,24 @@ std::vector<uint32_t> versionNumbers(std::string_view text) {
 
 std::string foundText(const Json& json) {
   switch (json.type()) {
-    case Json::value_t::null: return "found null";
-    case Json::value_t::boolean: return json.get<bool>() ? "found true" : "found false";
-    case Json::value_t::string: return "found the text " + inQuotes(json.get_ref<const std::string&>());
-    case Json::value_t::array: return json.size() == 1 ? "found an array of 1" : "found an array of " + grouped(json.size());
-    case Json::value_t::object: return "found an object";
-    case Json::value_t::number_unsigned: return "found " + std::to_string(json.get<uint64_t>());
-    case Json::value_t::number_integer: return "found " + std::to_string(json.get<int64_t>());
-    case Json::value_t::number_float: return "found " + shortNumber(json.get<double>());
-    default: return "found something else";
+    case Json::value_t::null:
+      return "found null";
+    case Json::value_t::boolean:
+      return json.get<bool>() ? "found true" : "found false";
+    case Json::value_t::string:
+      return "found the text " + inQuotes(json.get_ref<const std::string&>());
+    case Json::value_t::array:
+      return json.size() == 1 ? "found an array of 1" : "found an array of " + grouped(json.size());
+    case Json::value_t::object:
+      return "found an object";
+    case Json::value_t::number_unsigned:
+      return "found " + std::to_string(json.get<uint64_t>());
+    case Json::value_t::number_integer:
+      return "found " + std::to_string(json.get<int64_t>());
+    case Json::value_t::number_float:
+      return "found " + shortNumber(json.get<double>());
+    default:
+      return "found something else";
   }
 }
 
@@ -90,14 +99,20 @@ std::string rangeText(const model::Range& range) {
       text += "at most ";
     }
     constexpr double kExact = 9007199254740992.0;  // 2^53; beyond it the only bound is 2^64 - 1
-    text += range.high > kExact ? "18446744073709551615" : range.high >= 1e6 ? std::to_string(static_cast<uint64_t>(range.high)) : shortNumber(range.high);
+    text += range.high > kExact ? "18446744073709551615"
+            : range.high >= 1e6 ? std::to_string(static_cast<uint64_t>(range.high))
+                                : shortNumber(range.high);
   }
   return text;
 }
 
 std::string expectedNumber(const model::Info& info, bool whole) {
   const std::string range = rangeText(info.range);
-  return std::string(whole ? "a whole number" : "a number") + (range.empty() ? "" : range.starts_with("at ") ? " of " + range : " " + range) + unitText(info);
+  return std::string(whole ? "a whole number" : "a number") +
+         (range.empty()              ? ""
+          : range.starts_with("at ") ? " of " + range
+                                     : " " + range) +
+         unitText(info);
 }
 
 bool Reader::fail(const std::string& path, const std::string& text) {
@@ -162,9 +177,12 @@ bool Reader::number(const Json& json, const std::string& path, const model::Info
   }
   if (!json.is_number()) return fail(path, foundText(json) + ", expected " + expectedNumber(info, whole));
   const double value = json.get<double>();
-  if (whole && std::isfinite(value) && value != std::floor(value)) return fail(path, foundText(json) + ", expected " + expectedNumber(info, whole));
-  if (!info.range.contains(value)) return fail(path, foundText(json).substr(6) + " is out of range; expected " + expectedNumber(info, whole));
-  if (!fitsFloat(value)) return fail(path, foundText(json).substr(6) + " is out of range of a 32-bit float; expected " + expectedNumber(info, whole));
+  if (whole && std::isfinite(value) && value != std::floor(value))
+    return fail(path, foundText(json) + ", expected " + expectedNumber(info, whole));
+  if (!info.range.contains(value))
+    return fail(path, foundText(json).substr(6) + " is out of range; expected " + expectedNumber(info, whole));
+  if (!fitsFloat(value))
+    return fail(path, foundText(json).substr(6) + " is out of range of a 32-bit float; expected " + expectedNumber(info, whole));
   out = value;
   return true;
 }
@@ -199,7 +217,8 @@ bool Reader::word(const Json& json, const std::string& path, const model::Info& 
     return true;
   }
   const std::string_view near = nearestWord(given, info.words);
-  return fail(path, foundText(json) + ", expected one of " + listInQuotes(info.words) + (near.empty() ? "" : "; did you mean " + inQuotes(near) + "?"));
+  return fail(path, foundText(json) + ", expected one of " + listInQuotes(info.words) +
+                        (near.empty() ? "" : "; did you mean " + inQuotes(near) + "?"));
 }
 
 bool Reader::value(const Json& json, const std::string& path, const model::Info& info, uint32_t& out) {
@@ -238,7 +257,8 @@ bool Reader::value(const Json& json, const std::string& path, const model::Info&
     size_t side = 0;
     if (!word(json[i], entryPath(path, i), info, side)) return false;
     const auto bit = static_cast<SideMask>(1U << side);
-    if ((out & bit) != 0) return fail(entryPath(path, i), "found " + inQuotes(info.words[side]) + " a second time; expected each side once");
+    if ((out & bit) != 0)
+      return fail(entryPath(path, i), "found " + inQuotes(info.words[side]) + " a second time; expected each side once");
     out = static_cast<SideMask>(out | bit);
   }
   return true;
@@ -272,7 +292,8 @@ bool Reader::value(const Json& json, const std::string& path, const model::Info&
 bool Reader::value(const Json& json, const std::string& path, const model::Info&, fs::path& out) {
   std::string given;
   if (!text(json, path, given)) return false;
-  if (given.empty() || given.find('\0') != std::string::npos) return fail(path, "found " + inQuotes(given) + ", expected the name of a file");
+  if (given.empty() || given.find('\0') != std::string::npos)
+    return fail(path, "found " + inQuotes(given) + ", expected the name of a file");
   const fs::path file = folder_ / fs::path(given);
   std::error_code trouble;
   const fs::file_status status = fs::status(file, trouble);

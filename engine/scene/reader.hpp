@@ -21,7 +21,8 @@ std::string rangeText(const model::Range& range);
 /// Reads one scene. Every function returns false once something was refused; message() says what.
 class Reader {
  public:
-  Reader(std::string_view name, const OverrideMarks& marks, std::filesystem::path folder) : name_(name), marks_(marks), folder_(std::move(folder)) {}
+  Reader(std::string_view name, const OverrideMarks& marks, std::filesystem::path folder)
+      : name_(name), marks_(marks), folder_(std::move(folder)) {}
 
   const std::string& message() const { return message_; }
 
@@ -73,7 +74,9 @@ class Reader {
   bool word(const Json& json, const std::string& path, const model::Info& info, size_t& out);
   bool text(const Json& json, const std::string& path, std::string& out);
 
-  bool value(const Json& json, const std::string& path, const model::Info& info, double& out) { return number(json, path, info, false, out); }
+  bool value(const Json& json, const std::string& path, const model::Info& info, double& out) {
+    return number(json, path, info, false, out);
+  }
   bool value(const Json& json, const std::string& path, const model::Info& info, uint32_t& out);
   bool value(const Json& json, const std::string& path, const model::Info& info, uint64_t& out);
   bool value(const Json& json, const std::string& path, const model::Info& info, std::string& out);
@@ -82,11 +85,15 @@ class Reader {
   bool value(const Json& json, const std::string& path, const model::Info& info, std::optional<std::pair<double, double>>& out);
   bool value(const Json& json, const std::string& path, const model::Info& info, std::optional<std::filesystem::path>& out);
   bool value(const Json& json, const std::string& path, const model::Info& info, std::filesystem::path& out);
-  bool value(const Json& json, const std::string& path, const model::Info& info, double (&out)[3]) { return numbers(json, path, info, "[x, y, z]", out); }
-  bool value(const Json& json, const std::string& path, const model::Info& info, double (&out)[4]) { return numbers(json, path, info, "[x, y, z, w]", out); }
+  bool value(const Json& json, const std::string& path, const model::Info& info, double (&out)[3]) {
+    return numbers(json, path, info, "[x, y, z]", out);
+  }
+  bool value(const Json& json, const std::string& path, const model::Info& info, double (&out)[4]) {
+    return numbers(json, path, info, "[x, y, z, w]", out);
+  }
 
   template <class Enum>
-    requires std::is_enum_v<Enum>
+  requires std::is_enum_v<Enum>
   bool value(const Json& json, const std::string& path, const model::Info& info, Enum& out) {
     size_t index = 0;
     if (!word(json, path, info, index)) return false;
@@ -94,18 +101,23 @@ class Reader {
     return true;
   }
   template <class Enum>
-    requires std::is_enum_v<Enum>
+  requires std::is_enum_v<Enum>
   bool value(const Json& json, const std::string& path, const model::Info& info, std::optional<Enum>& out) {
     return value(json, path, info, out.emplace());
   }
   template <model::Described Struct>
-  bool value(const Json& json, const std::string& path, const model::Info&, Struct& out) { return object(json, path, out); }
+  bool value(const Json& json, const std::string& path, const model::Info&, Struct& out) {
+    return object(json, path, out);
+  }
   template <model::Described Struct>
-  bool value(const Json& json, const std::string& path, const model::Info&, std::optional<Struct>& out) { return object(json, path, out.emplace()); }
+  bool value(const Json& json, const std::string& path, const model::Info&, std::optional<Struct>& out) {
+    return object(json, path, out.emplace());
+  }
   template <model::Described Struct>
   bool value(const Json& json, const std::string& path, const model::Info& info, std::vector<Struct>& out) {
     if (!json.is_array()) return fail(path, foundText(json) + ", expected a list of objects");
-    if (info.most > 0 && json.size() > info.most) return fail(path, "found " + grouped(json.size()) + " entries, expected at most " + grouped(info.most));
+    if (info.most > 0 && json.size() > info.most)
+      return fail(path, "found " + grouped(json.size()) + " entries, expected at most " + grouped(info.most));
     out.reserve(json.size());
     for (size_t i = 0; i < json.size(); ++i) {
       if (!object(json[i], entryPath(path, i), out.emplace_back())) return false;
@@ -115,7 +127,9 @@ class Reader {
 
   // Rules between keys, in checks.cpp.
   template <class T>
-  bool check(const std::string&, T&) { return true; }
+  bool check(const std::string&, T&) {
+    return true;
+  }
   bool check(const std::string& path, BoxShape& box);
   bool check(const std::string& path, Domain& domain);
   bool check(const std::string& path, FluidSettings& fluid);

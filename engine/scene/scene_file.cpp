@@ -8,7 +8,8 @@
 namespace rill {
 namespace {
 
-Expected<Scene> readScene(std::string_view text, std::string_view name, const std::filesystem::path& folder, std::span<const Override> overrides) {
+Expected<Scene> readScene(std::string_view text, std::string_view name, const std::filesystem::path& folder,
+                          std::span<const Override> overrides) {
   auto root = parseJsonText(text, name);
   if (!root) return root.error();
   if (!root->is_object()) return Error{ErrorKind::BadInput, std::string(name) + ": " + foundText(*root) + ", expected an object { ... }"};
@@ -31,14 +32,13 @@ Expected<Scene> guarded(std::string_view name, Work&& work) {
     return work();
   } catch (const std::bad_alloc&) {
     return Error{ErrorKind::OutOfMemory, std::string(name) + ": not enough memory to read the scene"};
-  } catch (const std::exception& trouble) {
-    return Error{ErrorKind::Failed, std::string(name) + ": reading failed: " + trouble.what()};
-  }
+  } catch (const std::exception& trouble) { return Error{ErrorKind::Failed, std::string(name) + ": reading failed: " + trouble.what()}; }
 }
 
 }  // namespace
 
-Expected<Scene> parseScene(std::string_view text, std::string_view name, const std::filesystem::path& folder, std::span<const Override> overrides) {
+Expected<Scene> parseScene(std::string_view text, std::string_view name, const std::filesystem::path& folder,
+                           std::span<const Override> overrides) {
   return guarded(name, [&] { return readScene(text, name, folder, overrides); });
 }
 

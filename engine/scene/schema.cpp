@@ -69,7 +69,9 @@ OrderedJson typeSchema(const model::Info& info) {
 }
 
 /// Help with the unit in front: "m/s^2: [x, y, z]".
-std::string description(const model::Info& info) { return (info.unit.empty() ? "" : std::string(info.unit) + ": ") + std::string(info.help); }
+std::string description(const model::Info& info) {
+  return (info.unit.empty() ? "" : std::string(info.unit) + ": ") + std::string(info.help);
+}
 
 template <class Owner>
 OrderedJson objectSchema() {
@@ -110,8 +112,9 @@ std::string valuesText(const model::Info& info) {
   std::string text;
   if (!info.words.empty()) {
     for (const std::string_view word : info.words) (text += text.empty() ? "" : ", ") += code(word);
-  } else if constexpr (std::is_same_v<T, double> || std::is_same_v<T, uint32_t> || std::is_same_v<T, uint64_t> || std::is_same_v<T, std::optional<double>> ||
-                       std::is_array_v<T> || std::is_same_v<T, std::optional<std::pair<double, double>>>) {
+  } else if constexpr (std::is_same_v<T, double> || std::is_same_v<T, uint32_t> || std::is_same_v<T, uint64_t> ||
+                       std::is_same_v<T, std::optional<double>> || std::is_array_v<T> ||
+                       std::is_same_v<T, std::optional<std::pair<double, double>>>) {
     text = rangeText(info.range);
     if (std::is_same_v<T, std::optional<double>>) text = "`auto`, or " + text;
   }
@@ -131,7 +134,8 @@ void addRows(const std::string& path, std::string& out) {
       const OrderedJson value = defaultJson(field.info, defaults.*field.member);
       if (!value.is_null() && !field.info.required) fallback = code(value.dump());
     }
-    const std::string cells[] = {code(here), std::string(field.info.unit), valuesText<T>(field.info), fallback, std::string(field.info.help)};
+    const std::string cells[] = {code(here), std::string(field.info.unit), valuesText<T>(field.info), fallback,
+                                 std::string(field.info.help)};
     for (const std::string& cell : cells) (out += "| ") += cell + ' ';
     out += "|\n";
     if constexpr (std::is_same_v<T, std::optional<std::filesystem::path>>) {

@@ -8,7 +8,8 @@ namespace rill {
 
 SolidTest::Body SolidTest::bodyOf(const Solid& solid) {
   Body body{};
-  const double* moved = solid.motion.empty() ? nullptr : solid.motion.front().translate;  // held before the first keyframe, which is not before 0
+  const double* moved =
+      solid.motion.empty() ? nullptr : solid.motion.front().translate;  // held before the first keyframe, which is not before 0
   body.radius = solid.sphere ? solid.sphere->radius : -1;
   for (int axis = 0; axis < 3; ++axis) {
     if (solid.sphere) {

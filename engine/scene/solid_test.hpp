@@ -19,17 +19,17 @@ class SolidTest {
  private:
   struct Body {
     double center[3];
-    double half[3];       ///< of a box, before it is turned
-    double axes[3][3];    ///< a box's own axes in the scene's coordinates
-    double radius = -1;   ///< of a sphere; negative: a box
-    double extent[3];     ///< half the size of what encloses it along the scene's axes
+    double half[3];      ///< of a box, before it is turned
+    double axes[3][3];   ///< a box's own axes in the scene's coordinates
+    double radius = -1;  ///< of a sphere; negative: a box
+    double extent[3];    ///< half the size of what encloses it along the scene's axes
     bool holds(const double (&p)[3], double margin) const;
   };
   static Body bodyOf(const Solid& solid);
   size_t cellAlong(int axis, double x) const;
 
   std::vector<Body> bodies_;
-  size_t cells_ = 1;  // along each axis
+  size_t cells_ = 1;                                 // along each axis
   double low_[3] = {0, 0, 0}, high_[3] = {0, 0, 0};  // around all bodies
   std::vector<std::vector<uint32_t>> inCell_;
 };

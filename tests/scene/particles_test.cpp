@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 
@@ -10,10 +9,13 @@ namespace {
 
 double distance(const Float3& a, const Float3& b) { return std::hypot(double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z); }
 
-std::string withSpacing(const std::string& spacing, const std::string& more) { return R"({"rill": "0.1", "fluid": {"spacing": )" + spacing + "}, " + more + "}"; }
+std::string withSpacing(const std::string& spacing, const std::string& more) {
+  return R"({"rill": "0.1", "fluid": {"spacing": )" + spacing + "}, " + more + "}";
+}
 
 TEST(Particles, ABoxIsALatticeHalfASpacingInside) {
-  const ParticleSet set = particles(with(R"("domain": {"max": [1, 1, 1]}, "fill": [{"box": {"min": [0, 0, 0], "max": [0.3, 0.2, 0.1]}, "velocity": [1, 2, 3]}])"));
+  const ParticleSet set = particles(
+      with(R"("domain": {"max": [1, 1, 1]}, "fill": [{"box": {"min": [0, 0, 0], "max": [0.3, 0.2, 0.1]}, "velocity": [1, 2, 3]}])"));
   ASSERT_EQ(set.positions.size(), 6U);
   ASSERT_EQ(set.velocities.size(), 6U);
   EXPECT_EQ(set.positions[0], (Float3{0.05F, 0.05F, 0.05F}));
@@ -69,14 +71,16 @@ TEST(Particles, JitterComesFromTheSeedAndKeepsWithinItsBounds) {
 }
 
 TEST(Particles, JitterDoesNotDependOnOtherEntriesOrLosesParticles) {
-  const ParticleSet both = particles(with(R"("domain": {"max": [2, 1, 1]}, "fill": [{"box": {}, "jitter": 0.5}, {"box": {"min": [1, 0, 0], "max": [2, 1, 1]}, "jitter": 0.5}])"));
+  const ParticleSet both = particles(with(
+      R"("domain": {"max": [2, 1, 1]}, "fill": [{"box": {}, "jitter": 0.5}, {"box": {"min": [1, 0, 0], "max": [2, 1, 1]}, "jitter": 0.5}])"));
   EXPECT_EQ(both.positions.size(), 2000U);  // neighbours across the seam may be near: they were not on the lattice
   const ParticleSet alone = particles(with(R"("domain": {"max": [2, 1, 1]}, "fill": [{"box": {}, "jitter": 0.5}])"));
   EXPECT_TRUE(std::equal(alone.positions.begin(), alone.positions.end(), both.positions.begin()));
 }
 
 TEST(Particles, OverlapsAreLeftOutCountedAndNamed) {
-  const ParticleSet set = particles(with(R"("fill": [{"box": {}}, {"box": {"min": [0.5, 0, 0], "max": [1.5, 1, 1]}}, {"sphere": {"center": [5, 5, 5], "radius": 0.2}}])"));
+  const ParticleSet set = particles(with(
+      R"("fill": [{"box": {}}, {"box": {"min": [0.5, 0, 0], "max": [1.5, 1, 1]}}, {"sphere": {"center": [5, 5, 5], "radius": 0.2}}])"));
   EXPECT_EQ(set.left_out_overlap, 500U);
   EXPECT_GE(set.positions.size(), 1500U);
   ASSERT_EQ(set.warnings.size(), 1U);
@@ -88,11 +92,15 @@ TEST(Particles, OverlapsAreLeftOutCountedAndNamed) {
 
 /// The hash of cells gives what comparing all pairs gives, also across cell borders and at negative places.
 TEST(Particles, OverlapsAreThoseOfAllPairs) {
-  const ParticleSet set = particles(with(R"("fill": [{"sphere": {"center": [0.03, -0.01, 0.02], "radius": 0.5}}, {"sphere": {"center": [-0.4, 0.21, 0.1], "radius": 0.5}}])"));
-  const ParticleSet a = particles(with(R"("domain": {"min": [-9, -9, -9], "max": [9, 9, 9]}, "fill": [{"sphere": {"center": [0.03, -0.01, 0.02], "radius": 0.5}}])"));
-  const ParticleSet b = particles(with(R"("domain": {"min": [-9, -9, -9], "max": [9, 9, 9]}, "fill": [{"sphere": {"center": [-0.4, 0.21, 0.1], "radius": 0.5}}])"));
+  const ParticleSet set = particles(with(
+      R"("fill": [{"sphere": {"center": [0.03, -0.01, 0.02], "radius": 0.5}}, {"sphere": {"center": [-0.4, 0.21, 0.1], "radius": 0.5}}])"));
+  const ParticleSet a = particles(
+      with(R"("domain": {"min": [-9, -9, -9], "max": [9, 9, 9]}, "fill": [{"sphere": {"center": [0.03, -0.01, 0.02], "radius": 0.5}}])"));
+  const ParticleSet b = particles(
+      with(R"("domain": {"min": [-9, -9, -9], "max": [9, 9, 9]}, "fill": [{"sphere": {"center": [-0.4, 0.21, 0.1], "radius": 0.5}}])"));
   uint64_t near = 0;
-  for (const Float3& p : b.positions) near += std::any_of(a.positions.begin(), a.positions.end(), [&](const Float3& q) { return distance(p, q) < 0.09; });
+  for (const Float3& p : b.positions)
+    near += std::any_of(a.positions.begin(), a.positions.end(), [&](const Float3& q) { return distance(p, q) < 0.09; });
   EXPECT_GT(near, 20U);
   EXPECT_EQ(set.left_out_overlap, near);
   EXPECT_EQ(set.positions.size(), a.positions.size() + b.positions.size() - near);
@@ -103,7 +111,10 @@ TEST(Particles, InsideSolidsAreLeftOut) {
   const auto left = [&](const std::string& solid) { return particles(with(fill + "\"solids\": [" + solid + "]")).left_out_solid; };
   EXPECT_EQ(left(R"({"box": {"min": [0, 0, 0], "max": [0.5, 0.5, 0.5]}})"), 125U);
   EXPECT_EQ(left(R"({"box": {"min": [0.2, 0.2, 0.2], "max": [0.4, 0.4, 0.4]}, "motion": [{"at": 1, "translate": [5, 0, 0]}]})"), 0U);
-  EXPECT_EQ(left(R"({"box": {"min": [0.2, 0.2, 0.2], "max": [0.4, 0.4, 0.4]}, "motion": [{"at": 0, "translate": [0.1, 0, 0]}, {"at": 1, "translate": [5, 0, 0]}]})"), 8U);
+  EXPECT_EQ(
+      left(
+          R"({"box": {"min": [0.2, 0.2, 0.2], "max": [0.4, 0.4, 0.4]}, "motion": [{"at": 0, "translate": [0.1, 0, 0]}, {"at": 1, "translate": [5, 0, 0]}]})"),
+      8U);
   // A bar along x, turned by 90 degrees about y: along z.
   EXPECT_EQ(left(R"({"box": {"min": [0, 0.4, 0.4], "max": [1, 0.6, 0.6]}, "rotation": [0, 1, 0, 1]})"), 40U);
   EXPECT_EQ(left(R"({"box": {"min": [0, 0.4, 0], "max": [1, 0.6, 0.2]}, "rotation": [0, 1, 0, 1]})"), 24U);
@@ -116,8 +127,8 @@ TEST(Particles, InsideSolidsAreLeftOut) {
 TEST(Particles, ManySolidsAreAllSeen) {
   std::string solids;
   for (int i = 0; i < 1000; ++i) {
-    solids += (i ? "," : "") + std::string(R"({"sphere": {"radius": 0.01, "center": [)") + std::to_string(0.05 + 0.1 * (i % 10)) + "," + std::to_string(0.05 + 0.1 * (i / 10 % 10)) + "," +
-              std::to_string(0.05 + 0.1 * (i / 100)) + "]}}";
+    solids += (i ? "," : "") + std::string(R"({"sphere": {"radius": 0.01, "center": [)") + std::to_string(0.05 + 0.1 * (i % 10)) + "," +
+              std::to_string(0.05 + 0.1 * (i / 10 % 10)) + "," + std::to_string(0.05 + 0.1 * (i / 100)) + "]}}";
   }
   const ParticleSet set = particles(with(R"("fill": [{"box": {"max": [1, 1, 1.1]}}], "solids": [)" + solids + "]"));
   EXPECT_EQ(set.left_out_solid, 1000U);
@@ -139,15 +150,19 @@ TEST(Particles, BeyondClosedWallsAreLeftOutAndOpenSidesKept) {
 
 TEST(Particles, AFullTankLosesNothingToRounding) {
   for (const std::string spacing : {"0.1", "0.05", "0.03", "0.07", "0.023", "0.3"}) {
-    const ParticleSet set = particles(withSpacing(spacing, R"("domain": {"min": [0.1, -0.7, 1000.3], "max": [1.3, 0.2, 1001.2]}, "fill": [{"box": {"min": [0.1, -0.7, 1000.3], "max": [1.3, 0.2, 1001.2]}}])"));
+    const ParticleSet set = particles(withSpacing(
+        spacing,
+        R"("domain": {"min": [0.1, -0.7, 1000.3], "max": [1.3, 0.2, 1001.2]}, "fill": [{"box": {"min": [0.1, -0.7, 1000.3], "max": [1.3, 0.2, 1001.2]}}])"));
     EXPECT_EQ(set.left_out_domain, 0U) << spacing;
-    for (const Float3& p : set.positions) ASSERT_TRUE(p.x > 0 && p.y > 0 && p.z > 0 && p.x <= 1.2F && p.y <= 0.9F && p.z <= 0.9F + 1e-4F) << spacing;
+    for (const Float3& p : set.positions)
+      ASSERT_TRUE(p.x > 0 && p.y > 0 && p.z > 0 && p.x <= 1.2F && p.y <= 0.9F && p.z <= 0.9F + 1e-4F) << spacing;
   }
 }
 
 TEST(Particles, FarFromTheOriginIsTheSame) {
   const ParticleSet near = particles(with(R"("domain": {}, "fill": [{"box": {"max": [0.5, 0.5, 0.5]}, "jitter": 0.2}])"));
-  const ParticleSet far = particles(with(R"("domain": {"min": [4096, -8192, 1024], "max": [4097, -8191, 1025]}, "fill": [{"box": {"min": [4096, -8192, 1024], "max": [4096.5, -8191.5, 1024.5]}, "jitter": 0.2}])"));
+  const ParticleSet far = particles(with(
+      R"("domain": {"min": [4096, -8192, 1024], "max": [4097, -8191, 1025]}, "fill": [{"box": {"min": [4096, -8192, 1024], "max": [4096.5, -8191.5, 1024.5]}, "jitter": 0.2}])"));
   ASSERT_EQ(near.positions.size(), far.positions.size());
   EXPECT_EQ(far.origin[1], -8192);
   for (size_t i = 0; i < near.positions.size(); ++i) ASSERT_LT(distance(near.positions[i], far.positions[i]), 1e-7);
@@ -162,17 +177,20 @@ TEST(Particles, WithoutADomainTheOriginIsInTheFluidAtWholeSpacings) {
 }
 
 TEST(Particles, FarFromTheDomainWarnsOfCoarseFloats) {
-  const ParticleSet set = particles(withSpacing("0.01", R"("domain": {"max": [1, 1, 1], "open": ["+x"]}, "fill": [{"box": {"min": [5000, 0, 0], "max": [5000.1, 0.1, 0.1]}}])"));
+  const ParticleSet set = particles(withSpacing(
+      "0.01", R"("domain": {"max": [1, 1, 1], "open": ["+x"]}, "fill": [{"box": {"min": [5000, 0, 0], "max": [5000.1, 0.1, 0.1]}}])"));
   ASSERT_EQ(set.warnings.size(), 1U);
   EXPECT_NE(set.warnings[0].find("5000 m from the domain's minimum"), std::string::npos) << set.warnings[0];
 }
 
 TEST(Particles, FillsThatYieldNothingAreNamed) {
-  const ParticleSet set = particles(with(R"("domain": {}, "fill": [{"box": {}}, {"box": {"max": [1, 0.04, 1]}}, {"sphere": {"radius": 0.02}}, {"box": {}}])"));
+  const ParticleSet set =
+      particles(with(R"("domain": {}, "fill": [{"box": {}}, {"box": {"max": [1, 0.04, 1]}}, {"sphere": {"radius": 0.02}}, {"box": {}}])"));
   ASSERT_EQ(set.warnings.size(), 4U);
   EXPECT_EQ(set.warnings[0], "dam: fill[1]: yields no particle: it is too thin for a spacing of 0.1 m");
   EXPECT_EQ(set.warnings[1], "dam: fill[2]: yields no particle: it is too thin for a spacing of 0.1 m");
-  EXPECT_EQ(set.warnings[2], "dam: fill[3]: 1,000 of 1,000 particles are nearer than 0.9 spacings to fluid placed before, and are left out");
+  EXPECT_EQ(set.warnings[2],
+            "dam: fill[3]: 1,000 of 1,000 particles are nearer than 0.9 spacings to fluid placed before, and are left out");
   EXPECT_EQ(set.warnings[3], "dam: fill[3]: yields no particle: all are left out");
 }
 
@@ -185,11 +203,13 @@ TEST(Particles, NoneLeftIsAnErrorOnlyWithAFill) {
   const auto refused = makeParticles(outside, kMany);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, ErrorKind::BadInput);
-  EXPECT_EQ(refused.error().message.rfind("dam: fill: no particle is left (1,000 outside the walls, 0 inside solids); expected at least one.", 0), 0U) << refused.error().message;
+  EXPECT_EQ(
+      refused.error().message.rfind("dam: fill: no particle is left (1,000 outside the walls, 0 inside solids); expected at least one.", 0),
+      0U)
+      << refused.error().message;
 }
 
-TEST(Particles, TooManyAreRefusedQuicklyAndInSixtyFourBits) {
-  const auto begin = std::chrono::steady_clock::now();
+TEST(Particles, TooManyAreRefusedBeforeAnyIsMade) {
   const auto message = [](const std::string& spacing, const std::string& fill, uint64_t most) {
     Scene s = scene(withSpacing(spacing, "\"fill\": [" + fill + "]"));
     const auto result = makeParticles(s, most);
@@ -197,26 +217,33 @@ TEST(Particles, TooManyAreRefusedQuicklyAndInSixtyFourBits) {
   };
   EXPECT_EQ(message("0.002", R"({"box": {"max": [1, 0.8, 0.5]}})", 33'554'432),
             "dam: fluid.spacing: 0.002 m makes 50,000,000 particles; expected at most 33,554,432, as a spacing of about 0.002307 m gives");
-  EXPECT_EQ(message("0.1", R"({"box": {"max": [1, 1, 1]}})", 999).rfind("dam: fluid.spacing: 0.1 m makes 1,000 particles; expected at most 999", 0), 0U);
+  EXPECT_EQ(message("0.1", R"({"box": {"max": [1, 1, 1]}})", 999)
+                .rfind("dam: fluid.spacing: 0.1 m makes 1,000 particles; expected at most 999", 0),
+            0U);
   EXPECT_EQ(message("0.1", R"({"box": {"max": [1, 1, 1]}})", 1000), "made 1000");
-  EXPECT_EQ(message("1e-7", R"({"box": {"max": [1e6, 1e6, 1e6]}})", kMany).rfind("dam: fluid.spacing: 1e-07 m makes about 1e+39 particles", 0), 0U);
-  EXPECT_EQ(message("1e-7", R"({"sphere": {"radius": 1e6}})", kMany).rfind("dam: fluid.spacing: 1e-07 m makes about 4.189e+39 particles", 0), 0U);
+  EXPECT_EQ(
+      message("1e-7", R"({"box": {"max": [1e6, 1e6, 1e6]}})", kMany).rfind("dam: fluid.spacing: 1e-07 m makes about 1e+39 particles", 0),
+      0U);
+  EXPECT_EQ(
+      message("1e-7", R"({"sphere": {"radius": 1e6}})", kMany).rfind("dam: fluid.spacing: 1e-07 m makes about 4.189e+39 particles", 0), 0U);
   EXPECT_NE(message("0.0004", R"({"box": {"max": [1, 1, 1]}})", ~0ULL).find("expected at most 4,294,967,295"), std::string::npos);
   Scene asked = scene(with(R"("fill": [{"box": {}}])"), {{"fluid.particles", "50000000"}});
   EXPECT_EQ(makeParticles(asked, 1'000'000).error().message, "dam: fluid.particles: 50,000,000 found, expected at most 1,000,000");
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));  // hours, if any of these were made
 }
 
 TEST(Particles, SpacingFollowsFromTheNumberOfParticles) {
-  const std::string fills[] = {R"({"box": {"max": [1, 1, 1]}})", R"({"box": {"max": [0.6, 0.45, 0.375]}})", R"({"sphere": {"radius": 0.3}})",
+  const std::string fills[] = {R"({"box": {"max": [1, 1, 1]}})", R"({"box": {"max": [0.6, 0.45, 0.375]}})",
+                               R"({"sphere": {"radius": 0.3}})",
                                R"({"box": {"max": [2, 0.1, 1]}}, {"sphere": {"center": [1, 1, 0.5], "radius": 0.2}})"};
   for (const std::string& fill : fills) {
     for (const double wanted : {8000.0, 30000.0, 200000.0}) {
-      Scene s = scene(R"({"rill": "0.1", "fluid": {"particles": )" + std::to_string(static_cast<int>(wanted)) + R"(}, "fill": [)" + fill + "]}");
+      Scene s =
+          scene(R"({"rill": "0.1", "fluid": {"particles": )" + std::to_string(static_cast<int>(wanted)) + R"(}, "fill": [)" + fill + "]}");
       const ParticleSet set = particles(s);
       EXPECT_NEAR(static_cast<double>(set.positions.size()) / wanted, 1, 0.05) << fill;
       EXPECT_GT(s.fluid.spacing, 0);
-      Scene again = scene(R"({"rill": "0.1", "fluid": {"particles": )" + std::to_string(static_cast<int>(wanted)) + R"(}, "fill": [)" + fill + "]}");
+      Scene again =
+          scene(R"({"rill": "0.1", "fluid": {"particles": )" + std::to_string(static_cast<int>(wanted)) + R"(}, "fill": [)" + fill + "]}");
       EXPECT_EQ(particles(again).positions, set.positions);
       EXPECT_EQ(again.fluid.spacing, s.fluid.spacing);
     }
@@ -227,13 +254,22 @@ TEST(Particles, SpacingFollowsFromTheNumberOfParticles) {
 }
 
 TEST(Particles, TheNumberCountsThoseThatAreKept) {
-  Scene s = scene(R"({"rill": "0.1", "domain": {}, "fluid": {"particles": 20000}, "fill": [{"box": {"min": [-1, 0, 0]}}, {"box": {"max": [0.5, 1, 1]}}]})");
+  Scene s = scene(
+      R"({"rill": "0.1", "domain": {}, "fluid": {"particles": 20000}, "fill": [{"box": {"min": [-1, 0, 0]}}, {"box": {"max": [0.5, 1, 1]}}]})");
   EXPECT_NEAR(static_cast<double>(particles(s).positions.size()), 20000, 1000);
+}
+
+TEST(Particles, ANumberThatIsMissedByFarIsSaid) {
+  Scene s = scene(R"({"rill": "0.1", "domain": {}, "fluid": {"particles": 1000}, "fill": [{"box": {"min": [-19, 0, 0]}}]})");
+  const ParticleSet set = particles(s);
+  ASSERT_EQ(set.warnings.size(), 2U);
+  EXPECT_NE(set.warnings[1].find("particles instead of 1,000"), std::string::npos) << set.warnings[1];
 }
 
 TEST(Particles, ANumberNeedsAFillToFollowFrom) {
   Scene s = scene(R"({"rill": "0.1", "fluid": {"particles": 100}})");
-  EXPECT_EQ(makeParticles(s, kMany).error().message, "dam: fluid.particles: the scene has no box or sphere of fluid from which a spacing follows; expected fluid.spacing");
+  EXPECT_EQ(makeParticles(s, kMany).error().message,
+            "dam: fluid.particles: the scene has no box or sphere of fluid from which a spacing follows; expected fluid.spacing");
   Scene unset;
   EXPECT_EQ(makeParticles(unset, kMany).error().message, "fluid.spacing: found 0, expected a number above 0 (m)");
 }

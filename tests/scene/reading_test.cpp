@@ -72,9 +72,17 @@ TEST(Reading, AutoIsTheDefault) {
 
 TEST(Overrides, SetKeysBeforeTheChecks) {
   const std::string base = with(R"("fill": [{"box": {}}])");
-  const Scene s = scene(base, {{"fluid.viscosity", "0.1"}, {"fill[0].jitter", "0.1"}, {"gravity", "[0,-1,0]"}, {"look.surface", "planes"}, {"title", "2024"},
-                               {"solver.kernel", "\"poly6_spiky\""}, {"solver.time_step", "0.002"}, {"domain.open", "[\"+y\"]"}, {"fluid.density", "900"},
-                               {"fluid.density", "950"}, {"extras.note.deep", "anything at all"}});
+  const Scene s = scene(base, {{"fluid.viscosity", "0.1"},
+                               {"fill[0].jitter", "0.1"},
+                               {"gravity", "[0,-1,0]"},
+                               {"look.surface", "planes"},
+                               {"title", "2024"},
+                               {"solver.kernel", "\"poly6_spiky\""},
+                               {"solver.time_step", "0.002"},
+                               {"domain.open", "[\"+y\"]"},
+                               {"fluid.density", "900"},
+                               {"fluid.density", "950"},
+                               {"extras.note.deep", "anything at all"}});
   EXPECT_EQ(s.fluid.viscosity, 0.1);
   EXPECT_EQ(s.fill[0].jitter, 0.1);
   EXPECT_EQ(s.gravity[1], -1);
@@ -101,7 +109,8 @@ TEST(Overrides, SpacingAndParticlesReplaceEachOther) {
 }
 
 TEST(Overrides, EntriesCanBeChangedAndAdded) {
-  const Scene s = scene(with(R"("fill": [{"box": {}}])"), {{"fill[1]", R"({"sphere": {"radius": 2}})"}, {"gravity", "[1,2,3]"}, {"gravity[2]", "7"}});
+  const Scene s =
+      scene(with(R"("fill": [{"box": {}}])"), {{"fill[1]", R"({"sphere": {"radius": 2}})"}, {"gravity", "[1,2,3]"}, {"gravity[2]", "7"}});
   ASSERT_EQ(s.fill.size(), 2U);
   EXPECT_EQ(s.fill[1].sphere->radius, 2);
   EXPECT_EQ(s.gravity[2], 7);
@@ -115,31 +124,37 @@ TEST(Overrides, MessagesNameTheOverride) {
   EXPECT_EQ(message("viscosity", "1"), "--set viscosity: unknown key; did you mean \"fluid.viscosity\"?");
   EXPECT_EQ(message("fluid.viscosity", "thick"), "--set fluid.viscosity: found the text \"thick\", expected a number of at least 0 (Pa s)");
   EXPECT_EQ(message("fluid.viscosity", ""), "--set fluid.viscosity: found the text \"\", expected a number of at least 0 (Pa s)");
-  EXPECT_EQ(message("fluid.viscosity", "nan"), "--set fluid.viscosity: found the text \"nan\", which is not finite; expected a number of at least 0 (Pa s)");
+  EXPECT_EQ(message("fluid.viscosity", "nan"),
+            "--set fluid.viscosity: found the text \"nan\", which is not finite; expected a number of at least 0 (Pa s)");
   EXPECT_EQ(message("fluid.viscosity", "-1"), "--set fluid.viscosity: -1 is out of range; expected a number of at least 0 (Pa s)");
   EXPECT_NE(message("fluid.viscosity", "1e999").find("--set fluid.viscosity:1:1: the number 1e999 is out of range"), std::string::npos);
-  EXPECT_EQ(message("fluid.viscosity.x", "1"), "--set fluid.viscosity.x: fluid.viscosity: found an object, expected a number of at least 0 (Pa s)");
+  EXPECT_EQ(message("fluid.viscosity.x", "1"),
+            "--set fluid.viscosity.x: fluid.viscosity: found an object, expected a number of at least 0 (Pa s)");
   EXPECT_EQ(message("rill", "999.5").rfind("--set rill: the scene needs Rill 999.5 or later; this is Rill ", 0), 0U);
   EXPECT_EQ(message("fill[0]", R"({"box": {"mn": 1}})"), "--set fill[0]: fill[0].box.mn: unknown key; did you mean \"min\"?");
-  EXPECT_EQ(message("fill[0].sphere", "{}"), "--set fill[0].sphere: expected exactly one of \"box\", \"sphere\", \"particles\"; found \"box\", \"sphere\"");
+  EXPECT_EQ(message("fill[0].sphere", "{}"),
+            "--set fill[0].sphere: expected exactly one of \"box\", \"sphere\", \"particles\"; found \"box\", \"sphere\"");
   EXPECT_EQ(message("fill[0].box.max", "[0,1,1]"),
             "--set fill[0].box.max: fill[0].box.max[0]: max is 0 and min is 0 along x; expected min below max on every axis");
   EXPECT_EQ(message("fill[5].jitter", "0"),
             "--set fill[5].jitter: fill has 1 entry in the scene; expected an index of at most 1 (one more adds an entry)");
   EXPECT_EQ(message("fluid[0]", "0"), "--set fluid[0]: fluid is not a list; expected a key without an index");
-  EXPECT_EQ(message("fluid.spacing.x", "0"), "--set fluid.spacing.x: fluid.spacing has no keys inside it; expected a key path that the scene has");
+  EXPECT_EQ(message("fluid.spacing.x", "0"),
+            "--set fluid.spacing.x: fluid.spacing has no keys inside it; expected a key path that the scene has");
   const std::string path = "; expected a key path such as fluid.viscosity or fill[0].jitter";
   EXPECT_EQ(message("fluid..x", "0"), "--set fluid..x: a key is empty" + path);
   EXPECT_EQ(message("fluid.", "0"), "--set fluid.: a key is empty" + path);
   EXPECT_EQ(message("fill[", "0"), "--set fill[: \"\" is not an index in brackets" + path);
   EXPECT_EQ(message("fill[x]", "0"), "--set fill[x]: \"x\" is not an index in brackets" + path);
-  EXPECT_EQ(message("fill[99999999999999999999]", "0"), "--set fill[99999999999999999999]: \"99999999999999999999\" is not an index in brackets" + path);
+  EXPECT_EQ(message("fill[99999999999999999999]", "0"),
+            "--set fill[99999999999999999999]: \"99999999999999999999\" is not an index in brackets" + path);
   EXPECT_EQ(message("fill[0]jitter", "0"), "--set fill[0]jitter: \"jitter\" follows an index" + path);
   EXPECT_EQ(message("gravity", "[0,-1,0").rfind("--set gravity:1:", 0), 0U) << message("gravity", "[0,-1,0");
 }
 
 TEST(Overrides, TheFilesOwnErrorsStayTheFiles) {
-  EXPECT_EQ(refusal(withFluid("\"spacing\": -1"), {{"fluid.viscosity", "1"}}), "dam.json: fluid.spacing: -1 is out of range; expected a number above 0 (m)");
+  EXPECT_EQ(refusal(withFluid("\"spacing\": -1"), {{"fluid.viscosity", "1"}}),
+            "dam.json: fluid.spacing: -1 is out of range; expected a number above 0 (m)");
 }
 
 TEST(Overrides, AreKeyEqualsValue) {

@@ -23,7 +23,9 @@ TEST(Refusals, BrokenJsonNamesLineAndColumn) {
       {"{\"gravity\": [0, 1, ]}", ":1:20: broken JSON: trailing comma before ]"},
       {"{\n\"rill\" 1}", ":2:8: broken JSON: while parsing object separator - unexpected number literal; expected ':'"},
   });
-  EXPECT_NE(refusal("{\"rill\": \"0.1\"").find("dam.json:1:15: broken JSON: while parsing object - unexpected end of input"), std::string::npos) << refusal("{\"rill\": \"0.1\"");
+  EXPECT_NE(refusal("{\"rill\": \"0.1\"").find("dam.json:1:15: broken JSON: while parsing object - unexpected end of input"),
+            std::string::npos)
+      << refusal("{\"rill\": \"0.1\"");
   EXPECT_NE(refusal("{} {}").find("dam.json:1:4: broken JSON"), std::string::npos);
   EXPECT_NE(refusal("{\"rill\": NaN}").find("dam.json:1:10: broken JSON"), std::string::npos) << refusal("{\"rill\": NaN}");
   EXPECT_NE(refusal("{\"rill\": -Infinity}").find("dam.json:1:1"), std::string::npos);
@@ -66,7 +68,9 @@ TEST(Refusals, OtherEncodingsByName) {
       {"{\"\xF4\x90\x80\x80\": 1}", ":1:3: the byte 0xF4 is not valid UTF-8; expected UTF-8"},
       {"{\"\xE2\x82", ":1:3: the byte 0xE2 is not valid UTF-8; expected UTF-8"},
   });
-  EXPECT_EQ(refusal("\xEF\xBB\xBF" + with(R"("title": "caf)" "\xC3\xA9 \xE2\x82\xAC \xF0\x9F\x8C\x8A\"")), "accepted");
+  EXPECT_EQ(refusal("\xEF\xBB\xBF" + with(R"("title": "caf)"
+                                          "\xC3\xA9 \xE2\x82\xAC \xF0\x9F\x8C\x8A\"")),
+            "accepted");
 }
 
 TEST(Refusals, Version) {
@@ -82,9 +86,12 @@ TEST(Refusals, Version) {
       {version(R"("v0.1")"), ": rill: found \"v0.1\", " + expected},
   });
   for (const std::string value : {"999.0", "0.999", "999.1.2", "99999999999999999999.0"}) {
-    EXPECT_EQ(refusal(version("\"" + value + "\"")).rfind("dam.json: rill: the scene needs Rill " + value + " or later; this is Rill ", 0), 0U) << value;
+    EXPECT_EQ(refusal(version("\"" + value + "\"")).rfind("dam.json: rill: the scene needs Rill " + value + " or later; this is Rill ", 0),
+              0U)
+        << value;
   }
-  for (const std::string value : {"0.1", "0.0", "0.1.0", "0.0.99", "00.01"}) EXPECT_EQ(refusal(R"({"rill": ")" + value + R"(", "fluid": {"spacing": 1}})"), "accepted") << value;
+  for (const std::string value : {"0.1", "0.0", "0.1.0", "0.0.99", "00.01"})
+    EXPECT_EQ(refusal(R"({"rill": ")" + value + R"(", "fluid": {"spacing": 1}})"), "accepted") << value;
 }
 
 TEST(Refusals, UnknownKeysNameTheNearest) {
@@ -105,7 +112,8 @@ TEST(Refusals, WrongTypesAndLengths) {
       {R"({"rill": "0.1"})", ": fluid: missing; the fluid"},
       {R"({"rill": "0.1", "fluid": 3})", ": fluid: found 3, expected an object"},
       {R"({"rill": "0.1", "fluid": {}})", ": fluid: expected exactly one of \"spacing\", \"particles\"; found none"},
-      {withFluid(R"("spacing": 0.1, "particles": 10)"), ": fluid: expected exactly one of \"spacing\", \"particles\"; found \"spacing\", \"particles\""},
+      {withFluid(R"("spacing": 0.1, "particles": 10)"),
+       ": fluid: expected exactly one of \"spacing\", \"particles\"; found \"spacing\", \"particles\""},
       {withFluid(R"("spacing": "wide")"), ": fluid.spacing: found the text \"wide\", expected a number above 0 (m)"},
       {withFluid(R"("spacing": true)"), ": fluid.spacing: found true, expected a number above 0 (m)"},
       {withFluid(R"("spacing": null)"), ": fluid.spacing: found null, expected a number above 0 (m)"},
@@ -117,16 +125,22 @@ TEST(Refusals, WrongTypesAndLengths) {
       {with(R"("title": 7)"), ": title: found 7, expected a text"},
       {with(R"("seed": -1)"), ": seed: -1 is out of range; expected a whole number from 0 to 18446744073709551615"},
       {with(R"("seed": 1.5)"), ": seed: found 1.5, expected a whole number from 0 to 18446744073709551615"},
-      {with(R"("seed": 18446744073709551616)"), ": seed: 18446744073709551616 is out of range; expected a whole number from 0 to 18446744073709551615"},
+      {with(R"("seed": 18446744073709551616)"),
+       ": seed: 18446744073709551616 is out of range; expected a whole number from 0 to 18446744073709551615"},
       {with(R"("fill": {})"), ": fill: found an object, expected a list of objects"},
       {with(R"("fill": [3])"), ": fill[0]: found 3, expected an object"},
-      {with(R"("domain": {"open": "+y"})"), ": domain.open: found the text \"+y\", expected a list of sides: \"-x\", \"+x\", \"-y\", \"+y\", \"-z\", \"+z\""},
-      {with(R"("domain": {"open": ["y"]})"), ": domain.open[0]: found the text \"y\", expected one of \"-x\", \"+x\", \"-y\", \"+y\", \"-z\", \"+z\""},
+      {with(R"("domain": {"open": "+y"})"),
+       ": domain.open: found the text \"+y\", expected a list of sides: \"-x\", \"+x\", \"-y\", \"+y\", \"-z\", \"+z\""},
+      {with(R"("domain": {"open": ["y"]})"),
+       ": domain.open[0]: found the text \"y\", expected one of \"-x\", \"+x\", \"-y\", \"+y\", \"-z\", \"+z\""},
       {with(R"("domain": {"open": ["+y", "+y"]})"), ": domain.open[1]: found \"+y\" a second time; expected each side once"},
-      {with(R"("solver": {"time_step": "atuo"})"), ": solver.time_step: found the text \"atuo\", expected \"auto\" or a number above 0 (s)"},
-      {with(R"("solver": {"kernel": "wendlnd"})"), ": solver.kernel: found the text \"wendlnd\", expected one of \"wendland\", \"poly6_spiky\"; did you mean \"wendland\"?"},
+      {with(R"("solver": {"time_step": "atuo"})"),
+       ": solver.time_step: found the text \"atuo\", expected \"auto\" or a number above 0 (s)"},
+      {with(R"("solver": {"kernel": "wendlnd"})"),
+       ": solver.kernel: found the text \"wendlnd\", expected one of \"wendland\", \"poly6_spiky\"; did you mean \"wendland\"?"},
       {with(R"("look": {"surface": "plane"})"),
-       ": look.surface: found the text \"plane\", expected one of \"auto\", \"planes\", \"curvature_flow\", \"narrow_range\"; did you mean \"planes\"?"},
+       ": look.surface: found the text \"plane\", expected one of \"auto\", \"planes\", \"curvature_flow\", \"narrow_range\"; did you mean "
+       "\"planes\"?"},
       {with(R"("probes": [{"name": "p", "level": [1, 2, 3]}])"), ": probes[0].level: found an array of 3, expected 2 numbers [x, z] (m)"},
   });
 }
@@ -140,10 +154,13 @@ TEST(Refusals, NumbersOutOfRange) {
       {withFluid(R"("spacing": 1e39)"), ": fluid.spacing: 1e+39 is out of range of a 32-bit float; expected a number above 0 (m)"},
       {withFluid(R"("spacing": 1e-50)"), ": fluid.spacing: 1e-50 is out of range of a 32-bit float; expected a number above 0 (m)"},
       {withFluid(R"("spacing": 1e999)"), ":1:38: the number 1e999 is out of range; expected one that a 32-bit float can hold"},
-      {withFluid(R"("spacing": 1e-20)"), ": fluid.spacing: a particle's mass, density x spacing^3, would be 1e-57 kg, which is out of range of a 32-bit float"},
+      {withFluid(R"("spacing": 1e-20)"),
+       ": fluid.spacing: a particle's mass, density x spacing^3, would be 1e-57 kg, which is out of range of a 32-bit float"},
       {withFluid(R"("particles": 0)"), ": fluid.particles: 0 is out of range; expected a whole number from 1 to 4294967295"},
-      {withFluid(R"("spacing": 1, "smoothing_ratio": 1.1)"), ": fluid.smoothing_ratio: 1.1 is out of range; expected a number from 1.2 to 4"},
-      {withFluid(R"("spacing": 1, "tensile_radius": 1)"), ": fluid.tensile_radius: 1 is out of range; expected a number above 0 and below 1"},
+      {withFluid(R"("spacing": 1, "smoothing_ratio": 1.1)"),
+       ": fluid.smoothing_ratio: 1.1 is out of range; expected a number from 1.2 to 4"},
+      {withFluid(R"("spacing": 1, "tensile_radius": 1)"),
+       ": fluid.tensile_radius: 1 is out of range; expected a number above 0 and below 1"},
       {withFluid(R"("spacing": 1, "viscosity": -0.1)"), ": fluid.viscosity: -0.1 is out of range; expected a number of at least 0 (Pa s)"},
       {with(R"("gravity": [0, -1e40, 0])"), ": gravity[1]: -1e+40 is out of range of a 32-bit float; expected a number (m/s^2)"},
       {with(R"("duration": -1)"), ": duration: -1 is out of range; expected a number of at least 0 (s)"},
@@ -153,7 +170,8 @@ TEST(Refusals, NumbersOutOfRange) {
       {solver(R"("relaxation": 2.1)"), ": solver.relaxation: 2.1 is out of range; expected a number above 0 and at most 2"},
       {solver(R"("warm_start": 0.6)"), ": solver.warm_start: 0.6 is out of range; expected a number from 0 to 0.5"},
       {solid(R"("restitution": 1.5)"), ": solids[0].restitution: 1.5 is out of range; expected a number from 0 to 1"},
-      {with(R"("camera": {"fov_y_deg": 180})"), ": camera.fov_y_deg: 180 is out of range; expected a number above 0 and below 180 (degrees)"},
+      {with(R"("camera": {"fov_y_deg": 180})"),
+       ": camera.fov_y_deg: 180 is out of range; expected a number above 0 and below 180 (degrees)"},
       {with(R"("fill": [{"box": {}, "jitter": 0.51}])"), ": fill[0].jitter: 0.51 is out of range; expected a number from 0 to 0.5"},
       {with(R"("fill": [{"sphere": {"radius": 0}}])"), ": fill[0].sphere.radius: 0 is out of range; expected a number above 0 (m)"},
   });
@@ -164,9 +182,11 @@ TEST(Refusals, RulesBetweenKeys) {
   expectMessages({
       {with(R"("domain": {"min": [0, 2, 0]})"), ": domain.max[1]: max is 1 and min is 2 along y" + order},
       {with(R"("fill": [{"box": {"min": [0, 0, 1], "max": [1, 1, 1]}}])"), ": fill[0].box.max[2]: max is 1 and min is 1 along z" + order},
-      {with(R"("solids": [{"box": {"min": [3, 0, 1], "max": [1, 1, 2]}}])"), ": solids[0].box.max[0]: max is 1 and min is 3 along x" + order},
+      {with(R"("solids": [{"box": {"min": [3, 0, 1], "max": [1, 1, 2]}}])"),
+       ": solids[0].box.max[0]: max is 1 and min is 3 along x" + order},
       {with(R"("fill": [{}])"), ": fill[0]: expected exactly one of \"box\", \"sphere\", \"particles\"; found none"},
-      {with(R"("fill": [{"box": {}, "sphere": {}}])"), ": fill[0]: expected exactly one of \"box\", \"sphere\", \"particles\"; found \"box\", \"sphere\""},
+      {with(R"("fill": [{"box": {}, "sphere": {}}])"),
+       ": fill[0]: expected exactly one of \"box\", \"sphere\", \"particles\"; found \"box\", \"sphere\""},
       {with(R"("solids": [{"friction": 1}])"), ": solids[0]: expected exactly one of \"box\", \"sphere\"; found none"},
       {with(R"("probes": [{"name": "a"}])"), ": probes[0]: expected exactly one of \"level\", \"front\"; found none"},
       {with(R"("probes": [{"front": "+x"}])"), ": probes[0].name: missing; unique, not empty"},
@@ -176,7 +196,8 @@ TEST(Refusals, RulesBetweenKeys) {
       {with(R"("camera": {"eye": [1, 2, 3], "target": [1, 2, 3]})"), ": camera.target: eye and target are the same point; expected two"},
       {with(R"("solids": [{"box": {}, "rotation": [0, 0, 0, 0]}])"),
        ": solids[0].rotation: the quaternion has zero length; expected one that turns, [0, 0, 0, 1] for none"},
-      {with(R"("gravity_changes": [{"at": 1}, {"at": 1}])"), ": gravity_changes[1].at: 1 s does not come after 1 s, the entry before; expected times that rise"},
+      {with(R"("gravity_changes": [{"at": 1}, {"at": 1}])"),
+       ": gravity_changes[1].at: 1 s does not come after 1 s, the entry before; expected times that rise"},
       {with(R"("gravity_changes": [{"at": -1}])"), ": gravity_changes[0].at: -1 is out of range; expected a number of at least 0 (s)"},
       {with(R"("solids": [{"sphere": {}, "motion": [{"at": 2}, {"at": 1}]}])"),
        ": solids[0].motion[1].at: 1 s does not come after 2 s, the entry before; expected times that rise"},

@@ -15,19 +15,24 @@ const std::filesystem::path kScenes = std::filesystem::path(RILL_SOURCE_DIR) / "
 
 /// As much of JSON Schema draft-07 as the scene's schema uses. Empty where `value` is valid, otherwise where it is not.
 std::string violation(const json& schema, const json& value, const std::string& at = "") {
-  static const std::set<std::string> known{"$schema", "title", "description", "default", "type", "properties", "additionalProperties", "required", "oneOf", "enum", "const", "pattern",
-                                           "minLength", "items", "minItems", "maxItems", "uniqueItems", "minimum", "maximum", "exclusiveMinimum", "exclusiveMaximum"};
+  static const std::set<std::string> known{
+      "$schema",  "title",    "description", "default", "type",    "properties",       "additionalProperties",
+      "required", "oneOf",    "enum",        "const",   "pattern", "minLength",        "items",
+      "minItems", "maxItems", "uniqueItems", "minimum", "maximum", "exclusiveMinimum", "exclusiveMaximum"};
   for (const auto& [key, rule] : schema.items()) {
     if (!known.contains(key)) return at + ": the schema uses " + key;
   }
   const std::string type = schema.value("type", "");
   const bool whole = value.is_number() && value.get<double>() == std::floor(value.get<double>());
   if ((type == "object" && !value.is_object()) || (type == "array" && !value.is_array()) || (type == "string" && !value.is_string()) ||
-      (type == "number" && !value.is_number()) || (type == "integer" && !whole)) return at + ": type " + type;
+      (type == "number" && !value.is_number()) || (type == "integer" && !whole))
+    return at + ": type " + type;
   if (schema.contains("const") && value != schema["const"]) return at + ": const";
-  if (schema.contains("enum") && std::find(schema["enum"].begin(), schema["enum"].end(), value) == schema["enum"].end()) return at + ": enum";
+  if (schema.contains("enum") && std::find(schema["enum"].begin(), schema["enum"].end(), value) == schema["enum"].end())
+    return at + ": enum";
   if (schema.contains("oneOf")) {
-    const auto valid = std::count_if(schema["oneOf"].begin(), schema["oneOf"].end(), [&](const json& choice) { return violation(choice, value, at).empty(); });
+    const auto valid = std::count_if(schema["oneOf"].begin(), schema["oneOf"].end(),
+                                     [&](const json& choice) { return violation(choice, value, at).empty(); });
     if (valid != 1) return at + ": oneOf";
   }
   if (value.is_number()) {
@@ -43,8 +48,10 @@ std::string violation(const json& schema, const json& value, const std::string& 
     if (text.size() < schema.value("minLength", 0U)) return at + ": minLength";
   }
   if (value.is_array()) {
-    if (value.size() < schema.value("minItems", 0U) || value.size() > schema.value("maxItems", size_t{1} << 30)) return at + ": number of items";
-    if (schema.value("uniqueItems", false) && std::set<json>(value.begin(), value.end()).size() != value.size()) return at + ": uniqueItems";
+    if (value.size() < schema.value("minItems", 0U) || value.size() > schema.value("maxItems", size_t{1} << 30))
+      return at + ": number of items";
+    if (schema.value("uniqueItems", false) && std::set<json>(value.begin(), value.end()).size() != value.size())
+      return at + ": uniqueItems";
     for (size_t i = 0; schema.contains("items") && i < value.size(); ++i) {
       if (auto bad = violation(schema["items"], value[i], at + "/" + std::to_string(i)); !bad.empty()) return bad;
     }
@@ -74,7 +81,8 @@ std::string fileText(const std::filesystem::path& file) {
 TEST(Schema, TheFileIsWhatTheTableSays) {
   const std::filesystem::path fresh = std::filesystem::path(RILL_BINARY_DIR) / "scene.schema.json";
   std::ofstream(fresh, std::ios::binary) << sceneSchema();
-  EXPECT_TRUE(fileText(kScenes / "scene.schema.json") == sceneSchema()) << "the table of fields has changed: cp " << fresh.string() << " assets/scenes/";
+  EXPECT_TRUE(fileText(kScenes / "scene.schema.json") == sceneSchema())
+      << "the table of fields has changed: cp " << fresh.string() << " assets/scenes/";
 }
 
 TEST(Schema, AcceptsEveryScene) {
@@ -88,19 +96,50 @@ TEST(Schema, AcceptsEveryScene) {
 /// The schema and the parser agree on what neither needs the other's eyes for.
 TEST(Schema, AgreesWithTheParser) {
   const json schema = json::parse(sceneSchema());
-  const std::string texts[] = {
-      withFluid(R"("spacing": 0.1)"), withFluid(R"("particles": 100)"), withFluid(""), withFluid(R"("spacing": 0.1, "particles": 3)"), withFluid(R"("spacing": 0)"),
-      withFluid(R"("particles": 0)"), withFluid(R"("particles": 1.5)"), withFluid(R"("spacing": 0.1, "viscosty": 1)"), withFluid(R"("spacing": 1, "tensile_radius": 1)"),
-      withFluid(R"("spacing": 1, "smoothing_ratio": 4)"), R"({"rill": "0.1"})", R"({"rill": 0.1, "fluid": {"spacing": 1}})", R"({"rill": "x", "fluid": {"spacing": 1}})",
-      with(R"("solver": {"time_step": "auto", "relaxation": 0.5})"), with(R"("solver": {"time_step": "never"})"), with(R"("solver": {"time_step": 0})"),
-      with(R"("solver": {"warm_start": 0.5, "kernel": "wendland", "neighbors": "grid"})"), with(R"("solver": {"warm_start": 0.6})"), with(R"("solver": {"kernel": "x"})"),
-      with(R"("domain": {"open": ["+y"]})"), with(R"("domain": {"open": ["+y", "+y"]})"), with(R"("domain": {"open": ["y"]})"), with(R"("domain": {"open": []})"),
-      with(R"("gravity": [0, 1])"), with(R"("gravity": [0, 1, 2, 3])"), with(R"("seed": -1)"), with(R"("seed": 18446744073709551615)"), with(R"("fill": [{}])"),
-      with(R"("fill": [{"box": {}}, {"sphere": {}}])"), with(R"("fill": [{"box": {}, "sphere": {}}])"), with(R"("fill": [{"particles": {}}])"),
-      with(R"("solids": [{"box": {}, "rotation": [0, 0, 1]}])"), with(R"("solids": [{"box": {}, "motion": [{"at": 0, "translate": [1, 2, 3]}]}])"),
-      with(R"("solids": [{"box": {}, "motion": [{"at": -1}]}])"), with(R"("probes": [{"name": "", "front": "+x"}])"), with(R"("probes": [{"name": "a", "front": "x"}])"),
-      with(R"("probes": [{"name": "a", "level": [0, 1]}])"), with(R"("probes": [{"level": [0, 1]}])"), with(R"("camera": {"fov_y_deg": 0})"), with(R"("look": {"surface": "planes"})"),
-      with(R"("look": {"preset": 3})"), with(R"("extras": 3, "$schema": "x")"), with(R"("title": 3)"), with(R"("unknown": 3)")};
+  const std::string texts[] = {withFluid(R"("spacing": 0.1)"),
+                               withFluid(R"("particles": 100)"),
+                               withFluid(""),
+                               withFluid(R"("spacing": 0.1, "particles": 3)"),
+                               withFluid(R"("spacing": 0)"),
+                               withFluid(R"("particles": 0)"),
+                               withFluid(R"("particles": 1.5)"),
+                               withFluid(R"("spacing": 0.1, "viscosty": 1)"),
+                               withFluid(R"("spacing": 1, "tensile_radius": 1)"),
+                               withFluid(R"("spacing": 1, "smoothing_ratio": 4)"),
+                               R"({"rill": "0.1"})",
+                               R"({"rill": 0.1, "fluid": {"spacing": 1}})",
+                               R"({"rill": "x", "fluid": {"spacing": 1}})",
+                               with(R"("solver": {"time_step": "auto", "relaxation": 0.5})"),
+                               with(R"("solver": {"time_step": "never"})"),
+                               with(R"("solver": {"time_step": 0})"),
+                               with(R"("solver": {"warm_start": 0.5, "kernel": "wendland", "neighbors": "grid"})"),
+                               with(R"("solver": {"warm_start": 0.6})"),
+                               with(R"("solver": {"kernel": "x"})"),
+                               with(R"("domain": {"open": ["+y"]})"),
+                               with(R"("domain": {"open": ["+y", "+y"]})"),
+                               with(R"("domain": {"open": ["y"]})"),
+                               with(R"("domain": {"open": []})"),
+                               with(R"("gravity": [0, 1])"),
+                               with(R"("gravity": [0, 1, 2, 3])"),
+                               with(R"("seed": -1)"),
+                               with(R"("seed": 18446744073709551615)"),
+                               with(R"("fill": [{}])"),
+                               with(R"("fill": [{"box": {}}, {"sphere": {}}])"),
+                               with(R"("fill": [{"box": {}, "sphere": {}}])"),
+                               with(R"("fill": [{"particles": {}}])"),
+                               with(R"("solids": [{"box": {}, "rotation": [0, 0, 1]}])"),
+                               with(R"("solids": [{"box": {}, "motion": [{"at": 0, "translate": [1, 2, 3]}]}])"),
+                               with(R"("solids": [{"box": {}, "motion": [{"at": -1}]}])"),
+                               with(R"("probes": [{"name": "", "front": "+x"}])"),
+                               with(R"("probes": [{"name": "a", "front": "x"}])"),
+                               with(R"("probes": [{"name": "a", "level": [0, 1]}])"),
+                               with(R"("probes": [{"level": [0, 1]}])"),
+                               with(R"("camera": {"fov_y_deg": 0})"),
+                               with(R"("look": {"surface": "planes"})"),
+                               with(R"("look": {"preset": 3})"),
+                               with(R"("extras": 3, "$schema": "x")"),
+                               with(R"("title": 3)"),
+                               with(R"("unknown": 3)")};
   for (const std::string& text : texts) {
     const std::string parsed = refusal(text), by_schema = violation(schema, commented(text));
     EXPECT_EQ(parsed == "accepted", by_schema.empty()) << text << "\n" << parsed << "\n" << by_schema;
@@ -109,9 +148,11 @@ TEST(Schema, AgreesWithTheParser) {
 
 TEST(KeyTable, HasARowForEveryKeyWithItsDefault) {
   const std::string table = sceneKeyTable();
-  for (const std::string row : {"| `fluid.viscosity` | Pa s | at least 0 | `0` |", "| `solver.time_step` | s | `auto`, or above 0 | `\"auto\"` |", "| `fill[].jitter` |  | from 0 to 0.5 | `0` |",
-                                "| `solids[].motion[].translate` | m |  | `[0,0,0]` |", "| `rill` |  |  | required |", "| `fill[].particles.file` |  |  | required |",
-                                "| `solver.kernel` |  | `wendland`, `poly6_spiky` | `\"wendland\"` |", "| `fluid.spacing` | m | above 0 |  |"}) {
+  for (const std::string row :
+       {"| `fluid.viscosity` | Pa s | at least 0 | `0` |", "| `solver.time_step` | s | `auto`, or above 0 | `\"auto\"` |",
+        "| `fill[].jitter` |  | from 0 to 0.5 | `0` |", "| `solids[].motion[].translate` | m |  | `[0,0,0]` |",
+        "| `rill` |  |  | required |", "| `fill[].particles.file` |  |  | required |",
+        "| `solver.kernel` |  | `wendland`, `poly6_spiky` | `\"wendland\"` |", "| `fluid.spacing` | m | above 0 |  |"}) {
     EXPECT_NE(table.find(row), std::string::npos) << row << "\n" << table;
   }
 }

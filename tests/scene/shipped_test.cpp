@@ -8,9 +8,17 @@ namespace {
 const std::filesystem::path kScenes = std::filesystem::path(RILL_SOURCE_DIR) / "assets/scenes";
 
 /// Every scene that ships, with its number of particles. A scene that is not listed here fails the test below.
-const std::map<std::string, size_t> kCounts{{"box-and-sphere", 30000}, {"dam-break", 30000}, {"dam10k", 10800}, {"dam50k", 50000}, {"double-dam", 37500},
-                                            {"drop", 28693}, {"empty", 0}, {"resting-column", 8000}, {"zero-gravity-drop", 4224},
-                                            {"validation/martin-moyce-1", 6912}, {"validation/martin-moyce-2", 8000}};
+const std::map<std::string, size_t> kCounts{{"box-and-sphere", 30000},
+                                            {"dam-break", 30000},
+                                            {"dam10k", 10800},
+                                            {"dam50k", 50000},
+                                            {"double-dam", 37500},
+                                            {"drop", 28693},
+                                            {"empty", 0},
+                                            {"resting-column", 8000},
+                                            {"zero-gravity-drop", 4224},
+                                            {"validation/martin-moyce-1", 6912},
+                                            {"validation/martin-moyce-2", 8000}};
 
 TEST(Shipped, EveryScenesParticlesAreAsExpected) {
   size_t seen = 0;

@@ -18,7 +18,8 @@ class Folder {
   Folder() {
     static std::atomic<int> number{0};
     const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    path = std::filesystem::path(RILL_BINARY_DIR) / "test_scene" / (std::string(info->test_suite_name()) + "_" + info->name() + "_" + std::to_string(number++));
+    path = std::filesystem::path(RILL_BINARY_DIR) / "test_scene" /
+           (std::string(info->test_suite_name()) + "_" + info->name() + "_" + std::to_string(number++));
     std::filesystem::remove_all(path);
     std::filesystem::create_directories(path);
   }
@@ -37,7 +38,9 @@ class Folder {
   std::filesystem::path path;
 };
 
-inline Expected<Scene> parse(std::string_view text, std::vector<Override> overrides = {}) { return parseScene(text, "dam.json", {}, overrides); }
+inline Expected<Scene> parse(std::string_view text, std::vector<Override> overrides = {}) {
+  return parseScene(text, "dam.json", {}, overrides);
+}
 
 /// The scene, or a test failure with the message.
 inline Scene scene(std::string_view text, std::vector<Override> overrides = {}) {
