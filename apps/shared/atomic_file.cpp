@@ -79,7 +79,8 @@ Expected<void> replaceFile(const fs::path& shown, const fs::path& file, std::spa
   Descriptor descriptor(opened);
 
   struct stat before {};
-  if (::stat(file.c_str(), &before) == 0 && ::fchmod(descriptor.get(), before.st_mode & 07777) != 0) { /* its mode stays the default one */ }
+  if (::stat(file.c_str(), &before) == 0 && ::fchmod(descriptor.get(), before.st_mode & 07777) != 0) { /* its mode stays the default one */
+  }
 
   Expected<void> written = writeAll(descriptor.get(), name, bytes);
   // A full disk may show only here; a file system that can't sync (EINVAL) has done what it can.
@@ -152,7 +153,8 @@ Expected<void> checkFilePlace(std::string_view option, const fs::path& file) {
   if (fs::is_directory(file, ignored) || !file.has_filename())
     return Error{ErrorKind::BadInput, prefix + inQuotes(file.string()) + " is a folder; expected the name of a file"};
   if (fs::exists(file, ignored)) {
-    if (::access(file.c_str(), W_OK) != 0) return Error{ErrorKind::BadInput, prefix + "can't write " + inQuotes(file.string()) + ": " + reason(errno)};
+    if (::access(file.c_str(), W_OK) != 0)
+      return Error{ErrorKind::BadInput, prefix + "can't write " + inQuotes(file.string()) + ": " + reason(errno)};
     if (isSpecialFile(file)) return {};
   } else if (isSpecialFile(file)) {
     return Error{ErrorKind::BadInput, prefix + "there is no " + inQuotes(file.string())};
@@ -178,7 +180,8 @@ Expected<void> makeFolder(std::string_view option, const fs::path& folder) {
   // A trailing slash makes create_directories answer false for a folder that it made: only the folder's presence counts.
   std::error_code ignored;
   if (fs::is_directory(folder, ignored)) return {};
-  return Error{ErrorKind::BadInput, std::string(option) + ": can't make the folder " + inQuotes(folder.string()) + ": " + (failed ? failed.message() : "unknown reason")};
+  return Error{ErrorKind::BadInput, std::string(option) + ": can't make the folder " + inQuotes(folder.string()) + ": " +
+                                        (failed ? failed.message() : "unknown reason")};
 }
 
 bool isPartFile(std::string_view name, std::string_view& target) {

@@ -24,7 +24,8 @@ namespace rill::apps {
 
 Expected<void> writePng(const std::filesystem::path& file, const offline::Image& image) {
   const size_t pixels = size_t{image.width} * image.height;
-  if (pixels == 0 || image.rgba.size() != 4 * pixels) return Error{ErrorKind::Failed, "can't write " + file.string() + ": the image is empty"};
+  if (pixels == 0 || image.rgba.size() != 4 * pixels)
+    return Error{ErrorKind::Failed, "can't write " + file.string() + ": the image is empty"};
 
   bool opaque = true;
   for (size_t i = 0; i < pixels && opaque; ++i) opaque = image.rgba[4 * i + 3] == 255;

@@ -30,10 +30,13 @@ TEST(CommandLine, HelpTeaches) {
     const Outcome outcome = capture({option});
     EXPECT_EQ(outcome.code, 0);
     EXPECT_EQ(outcome.err, "");
-    for (const char* word : {"SCENE", "--frames", "--fps", "--size", "--out", "--view", "--stats", "--export", "--particles", "--set", "--device", "--require", "--explain", "--no-images",
-                             "--quiet", "--help", "--version", "Examples:", "Exit codes:", "particles, density"})
+    for (const char* word : {"SCENE",    "--frames",  "--fps",     "--size",      "--out",
+                             "--view",   "--stats",   "--export",  "--particles", "--set",
+                             "--device", "--require", "--explain", "--no-images", "--quiet",
+                             "--help",   "--version", "Examples:", "Exit codes:", "particles, density"})
       EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
-    for (const char* word : {"--video", "--play", "--checkpoint", "--resume"}) EXPECT_EQ(outcome.out.find(word), std::string::npos) << word << " does not work yet";
+    for (const char* word : {"--video", "--play", "--checkpoint", "--resume"})
+      EXPECT_EQ(outcome.out.find(word), std::string::npos) << word << " does not work yet";
   }
 }
 
@@ -54,11 +57,14 @@ TEST(CommandLine, NamesTheOptionAndWhatWasExpected) {
   expectRefused({}, {"SCENE"});
   expectRefused({"scene.json", "--frmes", "3"}, {"\"--frmes\"", "did you mean \"--frames\"?", "--help"});
   expectRefused({"scene.json", "--frames"}, {"--frames"});
-  for (const char* bad : {"0", "-1", "3.5", "x", "", "99999999999999999999"}) expectRefused({"scene.json", "--frames", bad}, {"--frames", "expected a whole number from 1"});
+  for (const char* bad : {"0", "-1", "3.5", "x", "", "99999999999999999999"})
+    expectRefused({"scene.json", "--frames", bad}, {"--frames", "expected a whole number from 1"});
   for (const char* bad : {"0", "-60", "nan", "inf", "60x"}) expectRefused({"scene.json", "--fps", bad}, {"--fps", "expected a number"});
-  for (const char* bad : {"640", "640x", "x480", "640x480x2", "0x480", "640*480", "9000x10", "8192x8192"}) expectRefused({"scene.json", "--size", bad}, {"--size", "as 1280x720"});
+  for (const char* bad : {"640", "640x", "x480", "640x480x2", "0x480", "640*480", "9000x10", "8192x8192"})
+    expectRefused({"scene.json", "--size", bad}, {"--size", "as 1280x720"});
   expectRefused({"scene.json", "--export", "obj"}, {"--export", "expected ply"});
-  for (const char* bad : {"0", "-5", "1e4", "many"}) expectRefused({"scene.json", "--particles", bad}, {"--particles", "expected a whole number"});
+  for (const char* bad : {"0", "-5", "1e4", "many"})
+    expectRefused({"scene.json", "--particles", bad}, {"--particles", "expected a whole number"});
   expectRefused({"scene.json", "--set", "fluid.viscosity"}, {"--set", "fluid.viscosity"});
   expectRefused({"scene.json", "other.json"}, {"\"other.json\"", "one argument too many"});
   expectRefused({"scene.json", "--frames", "2", "--frames", "3"}, {"--frames"});
@@ -71,7 +77,8 @@ TEST(CommandLine, UnknownNamesGetTheList) {
 }
 
 TEST(CommandLine, RequirementsAreReadBeforeAnythingRuns) {
-  for (const char* bad : {"outside", "outside=1", "<1", "outside<one"}) expectRefused({"scene.json", "--require", bad}, {"--require", "expected FIGURE<NUMBER"});
+  for (const char* bad : {"outside", "outside=1", "<1", "outside<one"})
+    expectRefused({"scene.json", "--require", bad}, {"--require", "expected FIGURE<NUMBER"});
 }
 
 TEST(CommandLine, ScenesAreJudgedBeforeADeviceIsOpened) {
@@ -97,9 +104,10 @@ Expected<rill::capture::CommandLine> parsed(std::vector<const char*> arguments) 
 }
 
 TEST(Options, ListsTakeSeveralValuesAndLeaveTheScene) {
-  for (const auto& arguments : {std::vector{"dam-break", "--set", "a=1", "b=2", "--require", "outside<1", "non_finite<1", "--quiet"},
-                                std::vector{"--set", "a=1", "b=2", "--require", "outside<1", "non_finite<1", "--quiet", "dam-break"},
-                                std::vector{"--set", "a=1", "--quiet", "--require", "outside<1", "--set", "b=2", "dam-break", "--require", "non_finite<1"}}) {
+  for (const auto& arguments :
+       {std::vector{"dam-break", "--set", "a=1", "b=2", "--require", "outside<1", "non_finite<1", "--quiet"},
+        std::vector{"--set", "a=1", "b=2", "--require", "outside<1", "non_finite<1", "--quiet", "dam-break"},
+        std::vector{"--set", "a=1", "--quiet", "--require", "outside<1", "--set", "b=2", "dam-break", "--require", "non_finite<1"}}) {
     const auto line = parsed(arguments);
     ASSERT_TRUE(line) << line.error().message;
     EXPECT_EQ(line->options->scene, "dam-break");

@@ -92,9 +92,13 @@ TEST_F(CaptureTest, TwoRunsAgreeToTheLastBit) {
 }
 
 TEST_F(CaptureTest, WritesPicturesParticlesAndFigures) {
-  ASSERT_EQ(capture({scene, "--frames", "3", "--size", "96x54", "--out", "made/here", "--export", "ply", "--stats", "also/made/s.json"}, folder.string()).code, 0);
-  EXPECT_EQ(TemporaryFolder::namesIn(folder / "made/here"), (std::vector<std::string>{"frame_00000.ply", "frame_00000.png", "frame_00001.ply", "frame_00001.png", "frame_00002.ply",
-                                                                                       "frame_00002.png"}));
+  ASSERT_EQ(capture({scene, "--frames", "3", "--size", "96x54", "--out", "made/here", "--export", "ply", "--stats", "also/made/s.json"},
+                    folder.string())
+                .code,
+            0);
+  EXPECT_EQ(TemporaryFolder::namesIn(folder / "made/here"),
+            (std::vector<std::string>{"frame_00000.ply", "frame_00000.png", "frame_00001.ply", "frame_00001.png", "frame_00002.ply",
+                                      "frame_00002.png"}));
   expectWholePng(folder / "made/here/frame_00002.png");
   const std::string ply = contentOf(folder / "made/here/frame_00002.ply");
   EXPECT_NE(ply.find("element vertex 600\n"), std::string::npos);
@@ -169,7 +173,8 @@ TEST_F(CaptureTest, UnknownDevicesGetTheList) {
 }
 
 TEST_F(CaptureTest, NoDriverIsFour) {
-  const Outcome outcome = capture({scene, "--frames", "1"}, folder.string(), {{"VK_DRIVER_FILES", "/nonexistent.json"}, {"VK_ICD_FILENAMES", "/nonexistent.json"}});
+  const Outcome outcome = capture({scene, "--frames", "1"}, folder.string(),
+                                  {{"VK_DRIVER_FILES", "/nonexistent.json"}, {"VK_ICD_FILENAMES", "/nonexistent.json"}});
   EXPECT_EQ(outcome.code, 4) << outcome.err;
   EXPECT_EQ(folder.names(), std::vector<std::string>{"dam.json"});
 }
@@ -177,7 +182,8 @@ TEST_F(CaptureTest, NoDriverIsFour) {
 TEST_F(CaptureTest, ASignalLeavesWholeFrames) {
   for (const auto& [signal, code] : {std::pair(SIGINT, 130), std::pair(SIGTERM, 143), std::pair(SIGHUP, 129)}) {
     const std::string out = "signal" + std::to_string(code);
-    Child child({std::string(RILL_BINARY_DIR) + "/apps/capture/rill-capture", scene, "--frames", "100000", "--fps", "200", "--size", "64x36", "--out", out, "--stats", out + ".json"},
+    Child child({std::string(RILL_BINARY_DIR) + "/apps/capture/rill-capture", scene, "--frames", "100000", "--fps", "200", "--size",
+                 "64x36", "--out", out, "--stats", out + ".json"},
                 folder.string());
     ASSERT_TRUE(child.waitForMessage("frame 1/"));
     child.signal(signal);
@@ -197,7 +203,8 @@ TEST_F(CaptureTest, ASignalLeavesWholeFrames) {
 }
 
 TEST_F(CaptureTest, AClosedPipeIsAnErrorThatIsTold) {
-  Child child({std::string(RILL_BINARY_DIR) + "/apps/capture/rill-capture", scene, "--frames", "2", "--no-images", "--stats", "-"}, folder.string());
+  Child child({std::string(RILL_BINARY_DIR) + "/apps/capture/rill-capture", scene, "--frames", "2", "--no-images", "--stats", "-"},
+              folder.string());
   child.closeOut();
   const Outcome outcome = child.wait();
   EXPECT_EQ(outcome.code, 1);
@@ -212,7 +219,8 @@ TEST_F(CaptureTest, AFullDiskIsAnErrorThatIsTold) {
 }
 
 TEST_F(CaptureTest, AnEmptySceneIsDrawn) {
-  const std::string empty = folder.write("none.json", R"({"rill": "0.1", "fluid": {"spacing": 0.1}, "domain": {"min": [0,0,0], "max": [1,1,1]}})").string();
+  const std::string empty =
+      folder.write("none.json", R"({"rill": "0.1", "fluid": {"spacing": 0.1}, "domain": {"min": [0,0,0], "max": [1,1,1]}})").string();
   const Outcome outcome = capture({empty, "--frames", "3", "--size", "64x36", "--export", "ply", "--stats", "s.json"}, folder.string());
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const Json json = stats("s.json");
@@ -233,7 +241,8 @@ TEST_F(CaptureTest, EveryShippedSceneRuns) {
     if (file.extension() != ".json" || file.filename().string().ends_with(".schema.json")) continue;
     ++count;
     const std::string name = file.lexically_relative(scenes).replace_extension().generic_string();
-    const Outcome outcome = capture({name, "--frames", "2", "--no-images", "--quiet", "--require", "outside<1", "non_finite<1", "time_dropped_s<=0"}, folder.string());
+    const Outcome outcome = capture(
+        {name, "--frames", "2", "--no-images", "--quiet", "--require", "outside<1", "non_finite<1", "time_dropped_s<=0"}, folder.string());
     EXPECT_EQ(outcome.code, 0) << name << ": " << outcome.err;
   }
   EXPECT_GE(count, 10u);

@@ -1,4 +1,5 @@
-// Pictures against those that were looked at and found right (assets/golden). RILL_UPDATE_GOLDEN=1 in the environment replaces them: look before committing.
+// Pictures against those that were looked at and found right (assets/golden). RILL_UPDATE_GOLDEN=1 in the environment replaces them: look
+// before committing.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -32,10 +33,12 @@ TEST_P(GoldenTest, LooksAsItDid) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("golden.json", kScene).string();
   const std::string frames = std::to_string(wanted.frame + 1);
-  const Outcome outcome = capture({scene, "--frames", frames, "--fps", "20", "--view", wanted.view, "--size", "320x180", "--out", folder.string(), "--quiet"});
+  const Outcome outcome =
+      capture({scene, "--frames", frames, "--fps", "20", "--view", wanted.view, "--size", "320x180", "--out", folder.string(), "--quiet"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const fs::path made = folder / ("frame_0000" + std::to_string(wanted.frame) + ".png");
-  const fs::path golden = fs::path(RILL_SOURCE_DIR) / "assets/golden" / (std::string(wanted.view) + "-" + std::to_string(wanted.frame) + ".png");
+  const fs::path golden =
+      fs::path(RILL_SOURCE_DIR) / "assets/golden" / (std::string(wanted.view) + "-" + std::to_string(wanted.frame) + ".png");
   if (std::getenv("RILL_UPDATE_GOLDEN")) fs::copy_file(made, golden, fs::copy_options::overwrite_existing);
   const Picture picture = readPng(made), expected = readPng(golden);
   ASSERT_FALSE(expected.rgb.empty()) << golden;
@@ -44,7 +47,9 @@ TEST_P(GoldenTest, LooksAsItDid) {
   EXPECT_LE(apart.worst, wanted.most.worst);
 }
 
-INSTANTIATE_TEST_SUITE_P(Views, GoldenTest, ::testing::Values(Case{"particles", 0, {0.005, 0.05}}, Case{"particles", 6, {0.02, 0.25}}, Case{"density", 0, {0.005, 0.05}}),
+INSTANTIATE_TEST_SUITE_P(Views, GoldenTest,
+                         ::testing::Values(Case{"particles", 0, {0.005, 0.05}}, Case{"particles", 6, {0.02, 0.25}},
+                                           Case{"density", 0, {0.005, 0.05}}),
                          [](const auto& one) { return std::string(one.param.view) + std::to_string(one.param.frame); });
 
 TEST(PictureDistance, SeesAMissingShapeAndForgivesAPixel) {

@@ -32,7 +32,8 @@ std::array<double, 3> meanColour(const Picture& picture, uint32_t x0, uint32_t y
 Picture readPng(const std::filesystem::path& file) {
   const std::string bytes = contentOf(file);
   int width = 0, height = 0, channels = 0;
-  stbi_uc* pixels = stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()), static_cast<int>(bytes.size()), &width, &height, &channels, 3);
+  stbi_uc* pixels =
+      stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()), static_cast<int>(bytes.size()), &width, &height, &channels, 3);
   if (!pixels) return {};
   Picture picture{static_cast<uint32_t>(width), static_cast<uint32_t>(height), {}};
   picture.rgb.assign(pixels, pixels + size_t{3} * picture.width * picture.height);
