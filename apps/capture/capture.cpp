@@ -69,7 +69,8 @@ class Capture {
     if (auto known = checkFigures(options_.requirements, Record::figureNames(scene_)); !known) return known.error();
     const double frames = options_.frames ? double(*options_.frames) : frameCount(scene_.duration, options_.fps);
     if (frames > kMaxFrames)
-      return Error{ErrorKind::BadInput, "the scene's duration takes more than " + std::to_string(kMaxFrames) + " frames at " + std::to_string(options_.fps) + " a second; give --frames or another --fps"};
+      return Error{ErrorKind::BadInput, "the scene's duration takes more than " + std::to_string(kMaxFrames) + " frames at " +
+                                            std::to_string(options_.fps) + " a second; give --frames or another --fps"};
     frames_ = static_cast<uint32_t>(frames);
     // A scene's name may hold a folder ("validation/x"); a path's folders are the user's, not ours.
     const bool byName = fs::path(options_.scene) != *file;
@@ -97,8 +98,8 @@ class Capture {
   void announce() {
     if (options_.quiet) return;
     for (const std::string& warning : simulation_->warnings()) message("warning: " + warning);
-    message(scene_.name + ": " + grouped(simulation_->start().positions.size()) + " particles, " + grouped(frames_) + (frames_ == 1 ? " frame, " : " frames, ") +
-            simulation_->device().name);
+    message(scene_.name + ": " + grouped(simulation_->start().positions.size()) + " particles, " + grouped(frames_) +
+            (frames_ == 1 ? " frame, " : " frames, ") + simulation_->device().name);
   }
 
   Expected<void> runFrames() {
@@ -141,8 +142,10 @@ class Capture {
       for (const Figure& figure : record_->figures()) {
         char line[128];
         const int unit = static_cast<int>(figure.unit.size());
-        if (std::isfinite(figure.value)) std::snprintf(line, sizeof line, "%-24s %.6g %.*s", figure.name.c_str(), figure.value, unit, figure.unit.data());
-        else std::snprintf(line, sizeof line, "%-24s -", figure.name.c_str());
+        if (std::isfinite(figure.value))
+          std::snprintf(line, sizeof line, "%-24s %.6g %.*s", figure.name.c_str(), figure.value, unit, figure.unit.data());
+        else
+          std::snprintf(line, sizeof line, "%-24s -", figure.name.c_str());
         text += line;
         while (text.back() == ' ') text.pop_back();
         text += "\n";
@@ -150,9 +153,11 @@ class Capture {
     }
     if (!options_.quiet && folder_ && record_->frames() > 0) {
       const auto last = static_cast<uint32_t>(record_->frames() - 1);
-      message("frames: " + folder_->frame(0, options_.images ? "png" : "ply").string() + " to " + folder_->frame(last, options_.images ? "png" : "ply").filename().string());
+      message("frames: " + folder_->frame(0, options_.images ? "png" : "ply").string() + " to " +
+              folder_->frame(last, options_.images ? "png" : "ply").filename().string());
     }
-    return text.empty() ? Expected<void>() : apps::writeAll(taken ? STDERR_FILENO : STDOUT_FILENO, taken ? "standard error" : "standard output", text);
+    return text.empty() ? Expected<void>()
+                        : apps::writeAll(taken ? STDERR_FILENO : STDOUT_FILENO, taken ? "standard error" : "standard output", text);
   }
 
   int judge() const {

@@ -8,6 +8,7 @@
 
 #include "core/words.hpp"
 #include "rill/offline.hpp"
+#include "shared/scene_folders.hpp"
 #include "shared/words.hpp"
 
 namespace rill::capture {
@@ -42,11 +43,16 @@ std::vector<std::string> viewNames() {
 }
 
 void declare(CLI::App& app, Raw& raw) {
-  const auto once = [&](const std::string& name, std::string& value, const std::string& about, const std::string& type, const std::string& group) {
-    app.add_option(name, value, about)->type_name(type)->group(group);
-  };
-  const auto list = [&](const std::string& name, std::vector<std::string>& values, const std::string& about, const std::string& type, const std::string& group) {
-    app.add_option(name, values, about)->type_name(type)->group(group)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->expected(1);
+  const auto once = [&](const std::string& name, std::string& value, const std::string& about, const std::string& type,
+                        const std::string& group) { app.add_option(name, value, about)->type_name(type)->group(group); };
+  const auto list = [&](const std::string& name, std::vector<std::string>& values, const std::string& about, const std::string& type,
+                        const std::string& group) {
+    app.add_option(name, values, about)
+        ->type_name(type)
+        ->group(group)
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->expected(1);
   };
   const std::string what = "What is simulated", written = "What is written", run = "How it runs";
   app.add_option("SCENE", raw.scene, "a scene's name, or the path of a .json file")->type_name("")->required()->group(what);
@@ -73,8 +79,8 @@ void declare(CLI::App& app, Raw& raw) {
 /// "--set a=1 b=2" as "--set a=1 --set b=2": what looks like one more value is one, whatever stands after it is not.
 std::vector<std::string> spreadLists(int count, const char* const* arguments) {
   std::vector<std::string> spread;
-  std::string list;   // the list option that the last argument belongs to
-  bool value = false; // the next argument is its value in any case
+  std::string list;    // the list option that the last argument belongs to
+  bool value = false;  // the next argument is its value in any case
   for (int i = 1; i < count; ++i) {
     const std::string_view argument = arguments[i];
     const bool option = argument.starts_with('-');
@@ -89,8 +95,10 @@ std::vector<std::string> spreadLists(int count, const char* const* arguments) {
       const size_t sign = argument.find_first_of(list == "--set" ? "=" : "<>");
       // A key has no '/': a path that holds a '=' is still a scene.
       const bool another = sign != std::string_view::npos && sign > 0 && argument.substr(0, sign).find('/') == std::string_view::npos;
-      if (another) spread.push_back(list);
-      else list.clear();
+      if (another)
+        spread.push_back(list);
+      else
+        list.clear();
     }
     spread.emplace_back(argument);
   }
@@ -98,7 +106,9 @@ std::vector<std::string> spreadLists(int count, const char* const* arguments) {
 }
 
 std::string quoted(std::string_view argument) {
-  const bool plain = !argument.empty() && argument.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%") == std::string_view::npos;
+  const bool plain =
+      !argument.empty() &&
+      argument.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%") == std::string_view::npos;
   if (plain) return std::string(argument);
   std::string text = "'";
   for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -129,14 +139,17 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
     const auto width = x == std::string::npos ? std::nullopt : side(std::string_view(raw.size).substr(0, x));
     const auto height = x == std::string::npos ? std::nullopt : side(std::string_view(raw.size).substr(x + 1));
     if (!width || !height || uint64_t{*width} * *height > kMaxPixels)
-      return badInput("--size", raw.size, "WIDTHxHEIGHT in pixels, as 1280x720: each from 1 to " + std::to_string(kMaxSide) + ", together at most " + std::to_string(kMaxPixels));
+      return badInput("--size", raw.size,
+                      "WIDTHxHEIGHT in pixels, as 1280x720: each from 1 to " + std::to_string(kMaxSide) + ", together at most " +
+                          std::to_string(kMaxPixels));
     options.width = *width;
     options.height = *height;
   }
   if (given("--view")) {
     const std::vector<std::string> views = viewNames();
     if (std::find(views.begin(), views.end(), raw.view) == views.end())
-      return Error{ErrorKind::BadInput, "--view: there is no view " + inQuotes(raw.view) + apps::didYouMean(raw.view, views) + "\nviews: " + apps::joined(views)};
+      return Error{ErrorKind::BadInput, "--view: there is no view " + inQuotes(raw.view) + apps::didYouMean(raw.view, views) +
+                                            "\nviews: " + apps::joined(views)};
     options.view = raw.view;
   }
   if (given("--export")) {
@@ -145,7 +158,8 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
   }
   if (given("--particles")) {
     const auto particles = parse<uint64_t>(raw.particles);
-    if (!particles || *particles < 1 || *particles > kMaxParticles) return badInput("--particles", raw.particles, "a whole number from 1 to " + grouped(kMaxParticles));
+    if (!particles || *particles < 1 || *particles > kMaxParticles)
+      return badInput("--particles", raw.particles, "a whole number from 1 to " + grouped(kMaxParticles));
   }
   if (given("--out")) {
     if (raw.out.empty()) return badInput("--out", raw.out, "the name of a folder");
@@ -198,25 +212,23 @@ Expected<CommandLine> parseCommandLine(int count, const char* const* arguments) 
   app.name("rill-capture");
   app.get_formatter()->column_width(30);
   declare(app, raw);
-  app.footer(
-      "\nExamples:\n"
-      "  rill-capture dam-break\n"
-      "      pictures of a dam break in out/dam-break, progress on the terminal\n"
-      "  rill-capture dam-break --no-images --stats run.json --set fluid.viscosity=0.1 --particles 10000\n"
-      "      the same with a tenth of a pascal second and 10,000 particles: figures alone, frame by frame\n"
-      "  rill-capture resting-column --frames 61 --no-images --quiet --require 'density_error_mean<0.001' 'outside<1'\n"
-      "      a check for a script: exit code 0 where both hold, 3 where one does not\n"
-      "\nExit codes: 0 done, 1 failed while running, 2 bad usage or input, 3 a --require did not hold,\n"
-      "4 no usable Vulkan device; 130, 143, 129 after a signal (the frame in hand is finished first).");
+  app.footer("Scenes: " + apps::joined(apps::SceneFolders::standard().names()) +
+             "\n\nExamples:\n"
+             "  rill-capture dam-break\n"
+             "      pictures of a dam break in out/dam-break, progress on the terminal\n"
+             "  rill-capture dam-break --no-images --stats run.json --set fluid.viscosity=0.1 --particles 10000\n"
+             "      the same with a tenth of a pascal second and 10,000 particles: figures alone, frame by frame\n"
+             "  rill-capture resting-column --frames 61 --no-images --quiet --require 'density_error_mean<0.001' 'outside<1'\n"
+             "      a check for a script: exit code 0 where both hold, 3 where one does not\n"
+             "\nExit codes: 0 done, 1 failed while running, 2 bad usage or input, 3 a --require did not hold,\n"
+             "4 no usable Vulkan device; 130, 143, 129 after a signal (the frame in hand is finished first).");
   std::vector<std::string> spread = spreadLists(count, arguments);
   std::reverse(spread.begin(), spread.end());  // the order in which the library takes a vector
   try {
     app.parse(spread);
   } catch (const CLI::CallForVersion&) {
     return CommandLine{std::nullopt, std::string("rill-capture ") + RILL_VERSION + "\n"};
-  } catch (const CLI::CallForHelp&) {
-    return CommandLine{std::nullopt, app.help()};
-  } catch (const CLI::ParseError& error) {
+  } catch (const CLI::CallForHelp&) { return CommandLine{std::nullopt, app.help()}; } catch (const CLI::ParseError& error) {
     return Error{ErrorKind::BadInput, usageMessage(app, error) + "\ntry rill-capture --help"};
   }
   auto options = judged(raw, app);

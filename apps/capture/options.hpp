@@ -16,19 +16,19 @@ constexpr uint32_t kMaxFrames = 10'000'000;
 
 /// What a command line asks for. Judged as far as that is possible without the scene.
 struct Options {
-  std::string scene;                          ///< a name or a path
-  std::optional<uint32_t> frames;             ///< none: the scene's duration
-  double fps = 60;                            ///< frames a simulated second
-  uint32_t width = 1280, height = 720;        ///< pixels
-  std::optional<std::filesystem::path> out;   ///< none: out/SCENE
+  std::string scene;                         ///< a name or a path
+  std::optional<uint32_t> frames;            ///< none: the scene's duration
+  double fps = 60;                           ///< frames a simulated second
+  uint32_t width = 1280, height = 720;       ///< pixels
+  std::optional<std::filesystem::path> out;  ///< none: out/SCENE
   std::string view = "particles";
   std::optional<std::filesystem::path> stats;
   bool exportPly = false;
-  std::vector<Override> overrides;            ///< of the scene's keys, in order; --particles is the last one
+  std::vector<Override> overrides;  ///< of the scene's keys, in order; --particles is the last one
   std::string device;
   std::vector<Requirement> requirements;
   bool explain = false, images = true, quiet = false;
-  std::string command;                        ///< the command line, quoted where a shell needs it
+  std::string command;  ///< the command line, quoted where a shell needs it
 };
 
 /// Options, or text that was asked for in place of a run (--help, --version).

@@ -36,7 +36,9 @@ Expected<OutputFolder> OutputFolder::prepare(const fs::path& folder) {
   if (failed) return Error{ErrorKind::BadInput, "--out: can't read the folder " + inQuotes(folder.string()) + ": " + failed.message()};
   for (const fs::path& file : earlier) {
     fs::remove(file, failed);
-    if (failed) return Error{ErrorKind::BadInput, "--out: can't remove " + inQuotes(file.string()) + ", a frame of an earlier capture: " + failed.message()};
+    if (failed)
+      return Error{ErrorKind::BadInput,
+                   "--out: can't remove " + inQuotes(file.string()) + ", a frame of an earlier capture: " + failed.message()};
   }
   return OutputFolder(folder, std::move(*lock));
 }

@@ -10,7 +10,8 @@ namespace rill::capture {
 /// The folder that frames go to, held for this capture alone.
 class OutputFolder {
  public:
-  /// Makes the folder, takes it, and removes the frames of an earlier capture: frame_NNNNN.png and .ply, and parts of such files. Nothing else is touched.
+  /// Makes the folder, takes it, and removes the frames of an earlier capture: frame_NNNNN.png and .ply, and parts of such files. Nothing
+  /// else is touched.
   static Expected<OutputFolder> prepare(const std::filesystem::path& folder);
 
   /// DIR/frame_00042.EXTENSION

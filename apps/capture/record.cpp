@@ -56,8 +56,8 @@ Json frameJson(double time_s, const offline::Stats& stats) {
   return frame;
 }
 
-/// Potential energy of all the fluid in the domain's lowest corner, J: from there potential energy is counted, so that the ratio of energies
-/// does not depend on where the scene's zero lies.
+/// Potential energy of all the fluid in the domain's lowest corner, J: from there potential energy is counted, so that the ratio of
+/// energies does not depend on where the scene's zero lies.
 double lowestPotential(const Scene& scene, double mass) {
   if (!scene.domain) return 0;
   double least = 0;
@@ -70,7 +70,8 @@ double lowestPotential(const Scene& scene, double mass) {
 
 }  // namespace
 
-Record::Record(const Scene& scene, const DeviceInfo& device, std::string command) : scene_(&scene), device_(device), command_(std::move(command)) {}
+Record::Record(const Scene& scene, const DeviceInfo& device, std::string command)
+    : scene_(&scene), device_(device), command_(std::move(command)) {}
 
 void Record::add(double time_s, offline::Stats stats) { frames_.push_back({time_s, std::move(stats)}); }
 
@@ -92,7 +93,9 @@ Record::Energy Record::energy() const {
   const double mass = double(frames_.front().stats.particles) * scene_->fluid.density * std::pow(scene_->fluid.spacing, 3);
   const double floor = lowestPotential(*scene_, mass);
   const double gained = energy.max_J - energy.start_J;
-  if (gained != 0) energy.ratio = energy.start_J - floor > 0 ? (energy.max_J - floor) / (energy.start_J - floor) : std::numeric_limits<double>::quiet_NaN();
+  if (gained != 0)
+    energy.ratio =
+        energy.start_J - floor > 0 ? (energy.max_J - floor) / (energy.start_J - floor) : std::numeric_limits<double>::quiet_NaN();
   return energy;
 }
 
@@ -161,7 +164,8 @@ std::vector<Figure> Record::figures() const {
       {"loop_bound_hits", of(&Stats::loop_bound_hits)(largest), ""},
   };
   for (const Probe& probe : scene_->probes) {
-    const auto found = std::find_if(last.probes.begin(), last.probes.end(), [&](const auto& measured) { return measured.first == probe.name; });
+    const auto found =
+        std::find_if(last.probes.begin(), last.probes.end(), [&](const auto& measured) { return measured.first == probe.name; });
     figures.push_back({"probes." + probe.name, found == last.probes.end() ? none : found->second, "m"});
   }
   return figures;
@@ -183,7 +187,8 @@ std::string Record::json() const {
   std::string text = "{\n";
   for (const auto& [key, value] : head.items()) text += "  " + oneLine(key) + ": " + oneLine(value) + ",\n";
   text += "  \"frames\": [";
-  for (size_t k = 0; k < frames_.size(); ++k) text += std::string(k ? "," : "") + "\n    " + oneLine(frameJson(frames_[k].time_s, frames_[k].stats));
+  for (size_t k = 0; k < frames_.size(); ++k)
+    text += std::string(k ? "," : "") + "\n    " + oneLine(frameJson(frames_[k].time_s, frames_[k].stats));
   return text + (frames_.empty() ? "]\n}\n" : "\n  ]\n}\n");
 }
 
@@ -214,11 +219,13 @@ std::string Record::passTable() const {
   for (const std::string& name : order) {
     const Total& pass = totals.at(name);
     if (pass.runs == 0) continue;
-    std::snprintf(line, sizeof line, "%-36s %9llu %11.3f %10.2f\n", name.c_str(), static_cast<unsigned long long>(pass.runs), pass.ms, 1e3 * pass.ms / double(pass.runs));
+    std::snprintf(line, sizeof line, "%-36s %9llu %11.3f %10.2f\n", name.c_str(), static_cast<unsigned long long>(pass.runs), pass.ms,
+                  1e3 * pass.ms / double(pass.runs));
     text += line;
   }
   for (const std::string& name : order)
-    if (const Total& pass = totals.at(name); pass.runs == 0) text += name + std::string(name.size() < 36 ? 36 - name.size() : 0, ' ') + " skipped: " + pass.reason + "\n";
+    if (const Total& pass = totals.at(name); pass.runs == 0)
+      text += name + std::string(name.size() < 36 ? 36 - name.size() : 0, ' ') + " skipped: " + pass.reason + "\n";
   return text;
 }
 

@@ -21,16 +21,22 @@ std::string_view trimmed(std::string_view text) {
 
 bool Requirement::holds(double value) const {
   switch (comparison) {
-    case Comparison::Less: return value < limit;
-    case Comparison::LessOrEqual: return value <= limit;
-    case Comparison::Greater: return value > limit;
-    case Comparison::GreaterOrEqual: return value >= limit;
+    case Comparison::Less:
+      return value < limit;
+    case Comparison::LessOrEqual:
+      return value <= limit;
+    case Comparison::Greater:
+      return value > limit;
+    case Comparison::GreaterOrEqual:
+      return value >= limit;
   }
   return false;
 }
 
 Expected<Requirement> parseRequirement(std::string_view text) {
-  const Error malformed{ErrorKind::BadInput, "--require: " + inQuotes(text) + " was given; expected FIGURE<NUMBER (or <=, >, >=), in a shell's quotes, as 'density_error_mean<0.001'"};
+  const Error malformed{ErrorKind::BadInput,
+                        "--require: " + inQuotes(text) +
+                            " was given; expected FIGURE<NUMBER (or <=, >, >=), in a shell's quotes, as 'density_error_mean<0.001'"};
   const size_t sign = text.find_first_of("<>");
   if (sign == std::string_view::npos) return malformed;
   Requirement requirement;
@@ -49,8 +55,8 @@ Expected<Requirement> parseRequirement(std::string_view text) {
 Expected<void> checkFigures(std::span<const Requirement> requirements, std::span<const std::string> known) {
   for (const Requirement& requirement : requirements) {
     if (std::find(known.begin(), known.end(), requirement.figure) != known.end()) continue;
-    return Error{ErrorKind::BadInput, "--require: there is no figure " + inQuotes(requirement.figure) + apps::didYouMean(requirement.figure, known) +
-                                          "\nfigures: " + apps::joined(known)};
+    return Error{ErrorKind::BadInput, "--require: there is no figure " + inQuotes(requirement.figure) +
+                                          apps::didYouMean(requirement.figure, known) + "\nfigures: " + apps::joined(known)};
   }
   return {};
 }
@@ -63,7 +69,8 @@ std::vector<std::string> failures(std::span<const Requirement> requirements, std
     if (requirement.holds(value)) continue;
     char text[64];
     std::snprintf(text, sizeof text, "%.6g", value);
-    messages.push_back("--require: " + inQuotes(requirement.text) + " does not hold: " + requirement.figure + " is " + (std::isnan(value) ? "undefined here" : text));
+    messages.push_back("--require: " + inQuotes(requirement.text) + " does not hold: " + requirement.figure + " is " +
+                       (std::isnan(value) ? "undefined here" : text));
   }
   return messages;
 }

@@ -11,14 +11,14 @@ namespace rill::capture {
 /// A figure of a whole run that the summary prints and --require can judge.
 struct Figure {
   std::string name;
-  double value = 0;      ///< NaN where the run has no such figure
-  std::string_view unit; ///< empty where it is a count or a fraction
+  double value = 0;       ///< NaN where the run has no such figure
+  std::string_view unit;  ///< empty where it is a count or a fraction
 };
 
 /// "density_error_mean<0.001": a condition on a figure.
 struct Requirement {
   enum class Comparison { Less, LessOrEqual, Greater, GreaterOrEqual };
-  std::string text;      ///< as given
+  std::string text;  ///< as given
   std::string figure;
   Comparison comparison = Comparison::Less;
   double limit = 0;

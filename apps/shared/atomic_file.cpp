@@ -42,8 +42,9 @@ class Descriptor {
 /// 1 or 2 for the names of a standard stream, else -1. They are written through the open descriptor: opening /dev/stdout again
 /// would start over at offset 0 of a redirected file, and fails for a socket.
 int standardStream(const fs::path& file) {
+  if (file == "-") return STDOUT_FILENO;  // "./-" is a file
   const std::string name = file.lexically_normal().string();
-  if (name == "-" || name == "/dev/stdout" || name == "/dev/fd/1" || name == "/proc/self/fd/1") return STDOUT_FILENO;
+  if (name == "/dev/stdout" || name == "/dev/fd/1" || name == "/proc/self/fd/1") return STDOUT_FILENO;
   if (name == "/dev/stderr" || name == "/dev/fd/2" || name == "/proc/self/fd/2") return STDERR_FILENO;
   return -1;
 }
@@ -78,7 +79,8 @@ Expected<void> replaceFile(const fs::path& shown, const fs::path& file, std::spa
   Descriptor descriptor(opened);
 
   struct stat before {};
-  if (::stat(file.c_str(), &before) == 0 && ::fchmod(descriptor.get(), before.st_mode & 07777) != 0) { /* its mode stays the default one */ }
+  if (::stat(file.c_str(), &before) == 0 && ::fchmod(descriptor.get(), before.st_mode & 07777) != 0) { /* its mode stays the default one */
+  }
 
   Expected<void> written = writeAll(descriptor.get(), name, bytes);
   // A full disk may show only here; a file system that can't sync (EINVAL) has done what it can.
@@ -151,7 +153,8 @@ Expected<void> checkFilePlace(std::string_view option, const fs::path& file) {
   if (fs::is_directory(file, ignored) || !file.has_filename())
     return Error{ErrorKind::BadInput, prefix + inQuotes(file.string()) + " is a folder; expected the name of a file"};
   if (fs::exists(file, ignored)) {
-    if (::access(file.c_str(), W_OK) != 0) return Error{ErrorKind::BadInput, prefix + "can't write " + inQuotes(file.string()) + ": " + reason(errno)};
+    if (::access(file.c_str(), W_OK) != 0)
+      return Error{ErrorKind::BadInput, prefix + "can't write " + inQuotes(file.string()) + ": " + reason(errno)};
     if (isSpecialFile(file)) return {};
   } else if (isSpecialFile(file)) {
     return Error{ErrorKind::BadInput, prefix + "there is no " + inQuotes(file.string())};
@@ -177,12 +180,13 @@ Expected<void> makeFolder(std::string_view option, const fs::path& folder) {
   // A trailing slash makes create_directories answer false for a folder that it made: only the folder's presence counts.
   std::error_code ignored;
   if (fs::is_directory(folder, ignored)) return {};
-  return Error{ErrorKind::BadInput, std::string(option) + ": can't make the folder " + inQuotes(folder.string()) + ": " + (failed ? failed.message() : "unknown reason")};
+  return Error{ErrorKind::BadInput, std::string(option) + ": can't make the folder " + inQuotes(folder.string()) + ": " +
+                                        (failed ? failed.message() : "unknown reason")};
 }
 
 bool isPartFile(std::string_view name, std::string_view& target) {
   constexpr std::string_view suffix = ".part";
-  if (!name.starts_with('.') || !name.ends_with(suffix)) return false;
+  if (name.size() <= suffix.size() || !name.starts_with('.') || !name.ends_with(suffix)) return false;
   name.remove_prefix(1);
   name.remove_suffix(suffix.size());
   const size_t dot = name.rfind('.');

@@ -13,8 +13,8 @@ bool isSpecialFile(const std::filesystem::path& file);
 /// Whether what is written to `file` goes to this program's standard output.
 bool isStandardOutput(const std::filesystem::path& file);
 
-/// Writes all of `bytes` to `file`. A regular file is written beside, synced and renamed, so that others see the old content or the new, never a part;
-/// a link is followed, not replaced. A special file is written directly. Io, naming the file and the reason.
+/// Writes all of `bytes` to `file`. A regular file is written beside, synced and renamed, so that others see the old content or the new,
+/// never a part; a link is followed, not replaced. A special file is written directly. Io, naming the file and the reason.
 Expected<void> writeFile(const std::filesystem::path& file, std::span<const std::byte> bytes);
 Expected<void> writeFile(const std::filesystem::path& file, std::string_view text);
 
@@ -22,8 +22,8 @@ Expected<void> writeFile(const std::filesystem::path& file, std::string_view tex
 Expected<void> writeAll(int descriptor, std::string_view name, std::span<const std::byte> bytes);
 Expected<void> writeAll(int descriptor, std::string_view name, std::string_view text);
 
-/// Whether writeFile() could succeed, as far as can be told without touching anything: BadInput, naming `option`, for a folder in the file's place,
-/// a file in a folder's place, a place that may not be written to.
+/// Whether writeFile() could succeed, as far as can be told without touching anything: BadInput, naming `option`, for a folder in the
+/// file's place, a file in a folder's place, a place that may not be written to.
 Expected<void> checkFilePlace(std::string_view option, const std::filesystem::path& file);
 /// The same for a folder that will be made where it is missing.
 Expected<void> checkFolderPlace(std::string_view option, const std::filesystem::path& folder);

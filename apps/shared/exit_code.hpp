@@ -16,9 +16,12 @@ enum ExitCode : int {
 inline int exitCodeBeforeRun(const Error& error) {
   switch (error.kind) {
     case ErrorKind::BadInput:
-    case ErrorKind::OutOfMemory: return kBadInput;
-    case ErrorKind::NoDevice: return kNoDevice;
-    default: return kFailed;
+    case ErrorKind::OutOfMemory:
+      return kBadInput;
+    case ErrorKind::NoDevice:
+      return kNoDevice;
+    default:
+      return kFailed;
   }
 }
 

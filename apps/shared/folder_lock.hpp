@@ -5,7 +5,8 @@
 
 namespace rill::apps {
 
-/// Holds a folder for one program at a time, as long as it lives. The lock is on the folder itself: nothing is left in it, and it ends with the process.
+/// Holds a folder for one program at a time, as long as it lives. The lock is on the folder itself: nothing is left in it, and it ends with
+/// the process.
 class FolderLock {
  public:
   /// BadInput where another program holds it. A file system that knows no locks is used without one.

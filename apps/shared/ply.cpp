@@ -32,7 +32,8 @@ std::string shortest(double value) {
 std::vector<std::byte> encodePly(const offline::Particles& particles, double time_s) {
   const size_t count = particles.positions.size();
   assert(particles.velocities.size() == count && particles.densities.size() == count && particles.ids.size() == count);
-  std::string header = "ply\nformat binary_little_endian 1.0\ncomment time " + shortest(time_s) + "\nelement vertex " + std::to_string(count) + "\n";
+  std::string header =
+      "ply\nformat binary_little_endian 1.0\ncomment time " + shortest(time_s) + "\nelement vertex " + std::to_string(count) + "\n";
   for (const char* name : {"x", "y", "z", "vx", "vy", "vz", "density"}) header += std::string("property float ") + name + "\n";
   header += "property uint id\nend_header\n";
 

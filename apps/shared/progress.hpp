@@ -6,10 +6,10 @@ namespace rill::apps {
 
 /// How far a capture is.
 struct ProgressState {
-  uint32_t done = 0, total = 0;   ///< frames
-  double time_s = 0;              ///< simulated
-  double density_error = 0;       ///< mean compression, fraction of rest density
-  double elapsed_s = 0;           ///< wall time since the first frame was begun
+  uint32_t done = 0, total = 0;  ///< frames
+  double time_s = 0;             ///< simulated
+  double density_error = 0;      ///< mean compression, fraction of rest density
+  double elapsed_s = 0;          ///< wall time since the first frame was begun
 };
 
 /// "1 h 02 min", "3 min 05 s", "12 s".
@@ -21,7 +21,8 @@ std::string progressText(const ProgressState& state);
 /// The same behind a bar, at most `columns` wide.
 std::string progressBar(const ProgressState& state, int columns);
 
-/// Shows progress on standard error: a bar that is redrawn on a terminal, else a line now and then (each tenth of the way, or after ten seconds of silence).
+/// Shows progress on standard error: a bar that is redrawn on a terminal, else a line now and then (each tenth of the way, or after ten
+/// seconds of silence).
 class Progress {
  public:
   enum class Style { Quiet, Lines, Bar };

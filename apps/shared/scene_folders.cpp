@@ -24,11 +24,12 @@ std::vector<std::string> SceneFolders::names() const {
   std::vector<std::string> names;
   for (const fs::path& folder : folders_) {
     std::error_code failed;
-    for (fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, failed), end; !failed && entry != end;
-         entry.increment(failed)) {
+    for (fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, failed), end;
+         !failed && entry != end; entry.increment(failed)) {
       const fs::path& file = entry->path();
       std::error_code ignored;
-      if (file.extension() != ".json" || file.filename().string().ends_with(".schema.json") || !fs::is_regular_file(file, ignored)) continue;
+      if (file.extension() != ".json" || file.filename().string().ends_with(".schema.json") || !fs::is_regular_file(file, ignored))
+        continue;
       names.push_back(file.lexically_relative(folder).replace_extension().generic_string());
     }
   }

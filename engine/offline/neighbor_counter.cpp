@@ -41,7 +41,8 @@ uint32_t NeighborCounter::count(uint32_t index, uint32_t enough) const {
           Cell theirs;
           // Two of the 27 cells may share a bucket: without this a point would be counted twice.
           if (other == index || !cellOf(points_[other], theirs) || theirs != cell) continue;
-          const double dx = double(points_[other].x) - centre.x, dy = double(points_[other].y) - centre.y, dz = double(points_[other].z) - centre.z;
+          const double dx = double(points_[other].x) - centre.x, dy = double(points_[other].y) - centre.y,
+                       dz = double(points_[other].z) - centre.z;
           if (dx * dx + dy * dy + dz * dz <= radius_ * radius_ && ++found >= enough) return found;
         }
       }

@@ -25,9 +25,9 @@ class NeighborCounter {
 
   std::span<const Float3> points_;
   double radius_;
-  uint32_t mask_ = 0;                ///< buckets - 1, a power of two less one
-  std::vector<uint32_t> start_;      ///< first entry of each bucket, one more at the end
-  std::vector<uint32_t> entries_;    ///< point indices by bucket
+  uint32_t mask_ = 0;              ///< buckets - 1, a power of two less one
+  std::vector<uint32_t> start_;    ///< first entry of each bucket, one more at the end
+  std::vector<uint32_t> entries_;  ///< point indices by bucket
 };
 
 }  // namespace rill::offline

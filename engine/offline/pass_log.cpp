@@ -16,8 +16,10 @@ PassLog::Entry& PassLog::entry(std::string_view name) {
 void PassLog::add(std::span<const PassReport> report, bool submitted) {
   for (const PassReport& pass : report) {
     Entry& known = entry(pass.name);
-    if (!pass.reason.empty()) known.reason = pass.reason;
-    else if (submitted && !pass.culled) known.runs += pass.runs;
+    if (!pass.reason.empty())
+      known.reason = pass.reason;
+    else if (submitted && !pass.culled)
+      known.runs += pass.runs;
   }
 }
 
@@ -47,7 +49,8 @@ std::string PassLog::table() const {
     std::snprintf(line, sizeof line, "%-36s %7u runs %11.3f ms\n", e.name.c_str(), e.runs, e.ms);
     text += line;
   }
-  for (const auto& [name, reason] : skipped()) text += name + std::string(name.size() < 36 ? 36 - name.size() : 0, ' ') + " skipped: " + reason + "\n";
+  for (const auto& [name, reason] : skipped())
+    text += name + std::string(name.size() < 36 ? 36 - name.size() : 0, ' ') + " skipped: " + reason + "\n";
   return text;
 }
 

@@ -10,9 +10,9 @@ namespace rill::offline {
 
 /// The particles of an instant as the device holds them.
 struct Readout {
-  std::vector<Float3> positions;          ///< m, relative to FluidState::origin
-  std::vector<Float3> velocities;         ///< m/s
-  std::vector<float> relativeDensities;   ///< density over rest density
+  std::vector<Float3> positions;         ///< m, relative to FluidState::origin
+  std::vector<Float3> velocities;        ///< m/s
+  std::vector<float> relativeDensities;  ///< density over rest density
   std::vector<uint32_t> ids;
 };
 

@@ -14,13 +14,13 @@
 #include "render/legend.hpp"
 #include "render/particle_view.hpp"
 #include "rill/offline.hpp"
+#include "sort/key_sort_types.hpp"
 
 namespace rill::offline {
 namespace {
 
-// A buffer holds at most 128 MiB and a particle's position takes 16 bytes.
-constexpr uint64_t kMaxParticles = (128ull << 20) / 16;
-constexpr uint32_t kFirstPiece = 16;  // substeps, before anything is known about a scene's need
+constexpr uint64_t kMaxParticles = KeySortDesc::kMaxCount;  // whatever the device
+constexpr uint32_t kFirstPiece = 16;                        // substeps, before anything is known about a scene's need
 
 struct View {
   std::string_view name;
@@ -36,9 +36,7 @@ template <class Work>
 auto guarded(const char* what, Work&& work) -> decltype(work()) {
   try {
     return work();
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorKind::OutOfMemory, std::string(what) + ": out of memory"};
-  }
+  } catch (const std::bad_alloc&) { return Error{ErrorKind::OutOfMemory, std::string(what) + ": out of memory"}; }
 }
 
 }  // namespace
@@ -101,7 +99,8 @@ class Simulation::Impl {
     for (size_t k = 0; k < count; ++k) {
       const size_t i = visit.empty() ? k : visit[k];
       const Float3& p = readout_.positions[i];
-      particles.positions[k] = {static_cast<float>(start_.origin[0] + p.x), static_cast<float>(start_.origin[1] + p.y), static_cast<float>(start_.origin[2] + p.z)};
+      particles.positions[k] = {static_cast<float>(start_.origin[0] + p.x), static_cast<float>(start_.origin[1] + p.y),
+                                static_cast<float>(start_.origin[2] + p.z)};
       particles.velocities[k] = readout_.velocities[i];
       particles.densities[k] = static_cast<float>(readout_.relativeDensities[i] * scene_.fluid.density);
       particles.ids[k] = readout_.ids[i];
@@ -150,7 +149,8 @@ class Simulation::Impl {
     if (!ran) return ran.error();
     const auto bytes = renderGraph_.data(ticket);
     Image image{width, height, std::vector<uint8_t>(4 * size_t{width} * height)};
-    if (bytes.size() < image.rgba.size()) return Error{ErrorKind::Failed, "drawing the view \"" + std::string(view) + "\": no picture came back"};
+    if (bytes.size() < image.rgba.size())
+      return Error{ErrorKind::Failed, "drawing the view \"" + std::string(view) + "\": no picture came back"};
     std::memcpy(image.rgba.data(), bytes.data(), image.rgba.size());
     drawLegend(image.rgba, width, height, {desc.colour, particleView_->scaleMax(desc.colour), now});
     return image;
@@ -184,7 +184,8 @@ class Simulation::Impl {
     declare(graph);
     if (auto compiled = graph.compile(); !compiled) return compiled;
     const auto report = graph.report();
-    const bool anything = std::any_of(report.begin(), report.end(), [](const PassReport& pass) { return !pass.culled && pass.reason.empty() && pass.runs > 0; });
+    const bool anything = std::any_of(report.begin(), report.end(),
+                                      [](const PassReport& pass) { return !pass.culled && pass.reason.empty() && pass.runs > 0; });
     log_.add(report, anything);
     if (!anything) return {};
     if (auto began = context_->beginFrame(); !began) return began.error();

@@ -74,7 +74,8 @@ TEST(WriteFile, WritesAPipeInPlace) {
 }
 
 TEST(SpecialFile, StreamsAndDevicesAre) {
-  for (const char* name : {"-", "/dev/stdout", "/dev/null", "/dev/full", "/proc/self/fd/1", "/dev/../dev/stdout"}) EXPECT_TRUE(isSpecialFile(name)) << name;
+  for (const char* name : {"-", "/dev/stdout", "/dev/null", "/dev/full", "/proc/self/fd/1", "/dev/../dev/stdout"})
+    EXPECT_TRUE(isSpecialFile(name)) << name;
   for (const char* name : {"a.json", "/tmp/a", "./-"}) EXPECT_FALSE(isSpecialFile(name)) << name;
   EXPECT_TRUE(isStandardOutput("-"));
   EXPECT_TRUE(isStandardOutput("/dev/stdout"));
@@ -109,7 +110,8 @@ TEST(PartFile, IsKnownByItsName) {
   std::string_view target;
   ASSERT_TRUE(isPartFile(".frame_00001.png.4711.part", target));
   EXPECT_EQ(target, "frame_00001.png");
-  for (const char* name : {"frame_00001.png", ".frame_00001.png.part", "frame_00001.png.1.part", ".a.b.part", ".part"}) EXPECT_FALSE(isPartFile(name, target)) << name;
+  for (const char* name : {"frame_00001.png", ".frame_00001.png.part", "frame_00001.png.1.part", ".a.b.part", ".part"})
+    EXPECT_FALSE(isPartFile(name, target)) << name;
 }
 
 TEST(FolderLock, IsForOneAtATime) {

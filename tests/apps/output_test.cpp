@@ -34,7 +34,8 @@ TEST(Ply, IsWhatTheFormatSays) {
   const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const std::string header =
       "ply\nformat binary_little_endian 1.0\ncomment time 0.25\nelement vertex 2\n"
-      "property float x\nproperty float y\nproperty float z\nproperty float vx\nproperty float vy\nproperty float vz\nproperty float density\nproperty uint id\nend_header\n";
+      "property float x\nproperty float y\nproperty float z\nproperty float vx\nproperty float vy\nproperty float vz\nproperty float "
+      "density\nproperty uint id\nend_header\n";
   ASSERT_EQ(text.substr(0, header.size()), header);
   ASSERT_EQ(bytes.size(), header.size() + 2 * 32);
   float values[7];
@@ -73,12 +74,13 @@ TEST(Png, ComesBackAsItWas) {
 
 TEST(OutputFolder, RemovesEarlierFramesAndNothingElse) {
   const TemporaryFolder folder;
-  for (const char* name : {"frame_00000.png", "frame_00012.ply", "frame_123456.png", ".frame_00003.png.99.part", "frame_0001.png", "frame_00001.jpg", "frame_0000x.png",
-                           "notes.txt", ".notes.txt.99.part"})
+  for (const char* name : {"frame_00000.png", "frame_00012.ply", "frame_123456.png", ".frame_00003.png.99.part", "frame_0001.png",
+                           "frame_00001.jpg", "frame_0000x.png", "notes.txt", ".notes.txt.99.part"})
     folder.write(name, "x");
   auto prepared = capture::OutputFolder::prepare(folder.path());
   ASSERT_TRUE(prepared);
-  EXPECT_EQ(folder.names(), (std::vector<std::string>{".notes.txt.99.part", "frame_00001.jpg", "frame_0000x.png", "frame_0001.png", "notes.txt"}));
+  EXPECT_EQ(folder.names(),
+            (std::vector<std::string>{".notes.txt.99.part", "frame_00001.jpg", "frame_0000x.png", "frame_0001.png", "notes.txt"}));
   EXPECT_EQ(prepared->frame(42, "png").filename(), "frame_00042.png");
   EXPECT_EQ(prepared->frame(1234567, "ply").filename(), "frame_1234567.ply");
   EXPECT_FALSE(capture::OutputFolder::prepare(folder.path())) << "held";

@@ -86,15 +86,36 @@ TEST(Record, WritesTheAgreedJson) {
   broken.max_speed = std::numeric_limits<double>::infinity();
   record.add(0.5, broken);
   const auto json = nlohmann::json::parse(record.json());
-  for (const char* key : {"rill", "scene", "device", "particles", "simulated_s", "wall_s", "density_error", "frames", "command", "energy"}) EXPECT_TRUE(json.contains(key)) << key;
+  for (const char* key : {"rill", "scene", "device", "particles", "simulated_s", "wall_s", "density_error", "frames", "command", "energy"})
+    EXPECT_TRUE(json.contains(key)) << key;
   EXPECT_EQ(json["scene"], "small");
   EXPECT_EQ(json["device"]["name"], "llvmpipe");
   EXPECT_EQ(json["simulated_s"], 0.5);
   EXPECT_EQ(json["wall_s"], 1.0);
   ASSERT_EQ(json["frames"].size(), 2u);
   const auto& frame = json["frames"][0];
-  for (const char* key : {"time_s", "particles", "substeps", "iterations", "time_dropped_s", "density_error_mean", "density_error_p99", "density_error_max", "kinetic_J", "potential_J",
-                          "momentum", "centre_of_mass", "front_m", "max_speed", "non_finite", "outside", "neighbour_overflow", "state_hash", "probes", "wall_s", "pass_ms", "skipped"})
+  for (const char* key : {"time_s",
+                          "particles",
+                          "substeps",
+                          "iterations",
+                          "time_dropped_s",
+                          "density_error_mean",
+                          "density_error_p99",
+                          "density_error_max",
+                          "kinetic_J",
+                          "potential_J",
+                          "momentum",
+                          "centre_of_mass",
+                          "front_m",
+                          "max_speed",
+                          "non_finite",
+                          "outside",
+                          "neighbour_overflow",
+                          "state_hash",
+                          "probes",
+                          "wall_s",
+                          "pass_ms",
+                          "skipped"})
     EXPECT_TRUE(frame.contains(key)) << key;
   EXPECT_EQ(frame["state_hash"], "0000000000000abc");
   EXPECT_EQ(frame["momentum"].size(), 3u);
@@ -128,7 +149,8 @@ TEST(Requirement, ReadsAllComparisons) {
   EXPECT_TRUE(parseRequirement("front_m>1e-3")->holds(0.01));
   EXPECT_TRUE(parseRequirement("front_m>=0.01")->holds(0.01));
   EXPECT_FALSE(parseRequirement("front_m>=0.01")->holds(NAN));
-  for (const char* text : {"", "outside", "<1", "outside<", "outside<x", "outside<1x", "outside=1", "outside<nan", "outside<inf"}) EXPECT_FALSE(parseRequirement(text)) << text;
+  for (const char* text : {"", "outside", "<1", "outside<", "outside<x", "outside<1x", "outside=1", "outside<nan", "outside<inf"})
+    EXPECT_FALSE(parseRequirement(text)) << text;
 }
 
 TEST(Requirement, UnknownFiguresGetTheList) {
@@ -142,7 +164,8 @@ TEST(Requirement, UnknownFiguresGetTheList) {
 
 TEST(Requirement, SaysWhatTheFigureIs) {
   const std::vector<Figure> figures = {{"outside", 3, ""}, {"energy_ratio", NAN, ""}};
-  const std::vector<Requirement> wanted = {*parseRequirement("outside<1"), *parseRequirement("outside<4"), *parseRequirement("energy_ratio<2")};
+  const std::vector<Requirement> wanted = {*parseRequirement("outside<1"), *parseRequirement("outside<4"),
+                                           *parseRequirement("energy_ratio<2")};
   const auto broken = failures(wanted, figures);
   ASSERT_EQ(broken.size(), 2u);
   EXPECT_NE(broken[0].find("outside is 3"), std::string::npos);

@@ -79,7 +79,7 @@ TEST(Level, IsTheColumnsHeight) {
 }
 
 TEST(Level, StopsAtTheFirstEmptyBin) {
-  auto points = block(10, 3, 5);            // to 0.3
+  auto points = block(10, 3, 5);  // to 0.3
   const auto splash = block(10, 1, 5, 0, 0.8);
   points.insert(points.end(), splash.begin(), splash.end());
   EXPECT_NEAR(level(tank(), points, 0.5, 0.25), 0.3, 1e-6);

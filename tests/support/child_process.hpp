@@ -36,7 +36,8 @@ class Child {
     if (pid_ == 0) {
       for (const auto& [name, value] : environment) ::setenv(name.c_str(), value.c_str(), 1);
       const int target = standardOutput.empty() ? out[1] : ::open(standardOutput.c_str(), O_WRONLY | O_CLOEXEC);
-      if (::chdir(folder.c_str()) == 0 && ::dup2(target, STDOUT_FILENO) >= 0 && ::dup2(err[1], STDERR_FILENO) >= 0) ::execv(arguments[0], arguments.data());
+      if (::chdir(folder.c_str()) == 0 && ::dup2(target, STDOUT_FILENO) >= 0 && ::dup2(err[1], STDERR_FILENO) >= 0)
+        ::execv(arguments[0], arguments.data());
       ::_exit(127);
     }
     ::close(out[1]);
@@ -85,8 +86,10 @@ class Child {
       if (end.fd < 0 || end.revents == 0) return;
       char buffer[4096];
       const ssize_t count = ::read(descriptor, buffer, sizeof buffer);
-      if (count > 0) text.append(buffer, static_cast<size_t>(count));
-      else ::close(std::exchange(descriptor, -1));
+      if (count > 0)
+        text.append(buffer, static_cast<size_t>(count));
+      else
+        ::close(std::exchange(descriptor, -1));
     };
     take(ends[0], out_, outcome_.out);
     take(ends[1], err_, outcome_.err);

@@ -1,0 +1,259 @@
+// rill-capture from end to end, as a user runs it, on whatever driver the environment selects.
+#include <gtest/gtest.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "support/child_process.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace rill::test {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* kDam = R"({
+  "rill": "0.1", "title": "A small dam break", "duration": 0.5,
+  "domain": {"min": [0, 0, 0], "max": [1, 1, 0.3]},
+  "fluid": {"spacing": 0.05},
+  "fill": [{"box": {"min": [0, 0, 0], "max": [0.5, 0.5, 0.3]}}],
+  "probes": [{"name": "H1", "level": [0.25, 0.15]}, {"name": "front", "front": "+x"}]
+})";
+
+class CaptureTest : public ::testing::Test {
+ protected:
+  void SetUp() override { scene = folder.write("dam.json", kDam).string(); }
+  Outcome run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), scene);
+    return capture(arguments, folder.string());
+  }
+  Json stats(const std::string& name) const { return Json::parse(contentOf(folder / name)); }
+
+  TemporaryFolder folder;
+  std::string scene;
+};
+
+/// Whole: it begins as a PNG does and ends with the IEND chunk.
+void expectWholePng(const std::filesystem::path& file) {
+  const std::string bytes = contentOf(file);
+  ASSERT_GT(bytes.size(), 40u) << file;
+  EXPECT_EQ(bytes.substr(0, 8), "\x89PNG\r\n\x1a\n") << file;
+  EXPECT_EQ(bytes.substr(bytes.size() - 8, 4), "IEND") << file;
+}
+
+TEST_F(CaptureTest, ADamBreakIsSound) {
+  const Outcome outcome = run({"--fps", "40", "--no-images", "--stats", "stats.json", "--require", "outside<1", "non_finite<1"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json json = stats("stats.json");
+  ASSERT_EQ(json["frames"].size(), 21u) << "0.5 s at 40 fps, both ends";
+  double highest = 0, previousTime = -1;
+  const double start = json["frames"][0]["kinetic_J"].get<double>() + json["frames"][0]["potential_J"].get<double>();
+  for (size_t k = 0; k < json["frames"].size(); ++k) {
+    const Json& frame = json["frames"][k];
+    EXPECT_NEAR(frame["time_s"].get<double>(), double(k) / 40, 1e-12);
+    EXPECT_GT(frame["time_s"].get<double>(), previousTime);
+    previousTime = frame["time_s"];
+    EXPECT_EQ(frame["particles"], 600);
+    EXPECT_EQ(frame["outside"], 0);
+    EXPECT_EQ(frame["non_finite"], 0);
+    EXPECT_EQ(frame["loop_bound_hits"], 0);
+    EXPECT_EQ(frame["time_dropped_s"], 0.0);
+    EXPECT_EQ(frame["substeps"].get<int>() > 0, k > 0);
+    EXPECT_TRUE(frame["max_speed"].is_number());
+    for (const double x : frame["centre_of_mass"]) EXPECT_TRUE(std::isfinite(x));
+    highest = std::max(highest, frame["kinetic_J"].get<double>() + frame["potential_J"].get<double>());
+  }
+  EXPECT_LE(highest, 1.002 * start);
+  EXPECT_NEAR(json["energy"]["ratio"].get<double>(), highest / start, 1e-6);
+  EXPECT_LT(json["density_error"]["mean"].get<double>(), 0.001);
+  EXPECT_GT(json["frames"].back()["front_m"].get<double>(), 0.8) << "the front has travelled";
+  EXPECT_NEAR(json["frames"][0]["front_m"].get<double>(), 0.5, 1e-4);
+  EXPECT_NEAR(json["frames"][0]["probes"]["front"].get<double>(), 0.5, 1e-4);
+  EXPECT_NEAR(json["frames"][0]["probes"]["H1"].get<double>(), 0.5, 1e-4);
+  EXPECT_EQ(json["frames"][0]["potential_J"].get<double>() > 0, true) << "gravity is known at the start";
+}
+
+TEST_F(CaptureTest, TwoRunsAgreeToTheLastBit) {
+  ASSERT_EQ(run({"--frames", "6", "--fps", "20", "--no-images", "--stats", "a.json"}).code, 0);
+  ASSERT_EQ(run({"--frames", "6", "--fps", "20", "--out", "pictures", "--size", "64x36", "--stats", "b.json"}).code, 0);
+  Json a = stats("a.json"), b = stats("b.json");
+  std::set<std::string> hashes;
+  for (size_t k = 0; k < 6; ++k) {
+    for (Json* frame : {&a["frames"][k], &b["frames"][k]})
+      for (const char* key : {"wall_s", "pass_ms", "skipped"}) frame->erase(key);  // pictures have passes of their own
+    EXPECT_EQ(a["frames"][k], b["frames"][k]) << k;
+    hashes.insert(a["frames"][k]["state_hash"].get<std::string>());
+  }
+  EXPECT_EQ(hashes.size(), 6u) << "the state changes from frame to frame";
+}
+
+TEST_F(CaptureTest, WritesPicturesParticlesAndFigures) {
+  ASSERT_EQ(capture({scene, "--frames", "3", "--size", "96x54", "--out", "made/here", "--export", "ply", "--stats", "also/made/s.json"},
+                    folder.string())
+                .code,
+            0);
+  EXPECT_EQ(TemporaryFolder::namesIn(folder / "made/here"),
+            (std::vector<std::string>{"frame_00000.ply", "frame_00000.png", "frame_00001.ply", "frame_00001.png", "frame_00002.ply",
+                                      "frame_00002.png"}));
+  expectWholePng(folder / "made/here/frame_00002.png");
+  const std::string ply = contentOf(folder / "made/here/frame_00002.ply");
+  EXPECT_NE(ply.find("element vertex 600\n"), std::string::npos);
+  EXPECT_NE(ply.find("comment time 0.03333333333333333\n"), std::string::npos);
+  EXPECT_EQ(ply.size(), ply.find("end_header\n") + 11 + 600 * 32);
+  EXPECT_EQ(stats("also/made/s.json")["frames"].size(), 3u);
+}
+
+TEST_F(CaptureTest, EarlierFramesAreRemoved) {
+  std::filesystem::create_directories(folder / "out/dam");
+  folder.write("out/dam/frame_00007.png", "old");
+  folder.write("out/dam/keep.txt", "mine");
+  ASSERT_EQ(run({"--frames", "1", "--size", "64x36"}).code, 0);
+  EXPECT_EQ(TemporaryFolder::namesIn(folder / "out/dam"), (std::vector<std::string>{"frame_00000.png", "keep.txt"}));
+}
+
+TEST_F(CaptureTest, AFolderInUseIsRefused) {
+  std::filesystem::create_directories(folder / "held");
+  folder.write("held/frame_00000.png", "another's");
+  const int held = ::open((folder / "held").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  ASSERT_EQ(::flock(held, LOCK_EX), 0);
+  const Outcome outcome = run({"--frames", "1", "--size", "64x36", "--out", "held"});
+  ::close(held);
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("another capture is writing"), std::string::npos) << outcome.err;
+  EXPECT_EQ(contentOf(folder / "held/frame_00000.png"), "another's");
+}
+
+TEST_F(CaptureTest, StandardOutputHoldsTheJsonAlone) {
+  for (const char* place : {"-", "/dev/stdout"}) {
+    const Outcome outcome = run({"--frames", "2", "--no-images", "--stats", place});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(Json::parse(outcome.out)["frames"].size(), 2u);
+  }
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"dam.json"});
+}
+
+TEST_F(CaptureTest, QuietSaysNothing) {
+  const Outcome outcome = run({"--frames", "2", "--no-images", "--quiet"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.out + outcome.err, "");
+}
+
+TEST_F(CaptureTest, PlainLinesWithoutATerminal) {
+  const Outcome outcome = run({"--frames", "2", "--no-images"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.err.find("frame 2/2  t 0.017 s  error "), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find('\r'), std::string::npos);
+  EXPECT_NE(outcome.out.find("density_error_mean "), std::string::npos) << outcome.out;
+}
+
+TEST_F(CaptureTest, ExplainTellsWhatRanAndWhatDidNot) {
+  const Outcome outcome = run({"--frames", "2", "--no-images", "--explain"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.out.find("density "), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("skipped: viscosity is 0"), std::string::npos) << outcome.out;
+}
+
+TEST_F(CaptureTest, ARequirementThatDoesNotHoldIsThree) {
+  const Outcome outcome = run({"--frames", "2", "--no-images", "--quiet", "--stats", "s.json", "--require", "particles<10", "outside<1"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_NE(outcome.err.find("particles is 600"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("outside"), std::string::npos) << outcome.err;
+  EXPECT_EQ(stats("s.json")["frames"].size(), 2u);
+}
+
+TEST_F(CaptureTest, UnknownDevicesGetTheList) {
+  const Outcome outcome = run({"--frames", "1", "--device", "no such card"});
+  EXPECT_EQ(outcome.code, 2) << outcome.err;
+  EXPECT_NE(outcome.err.find("no such card"), std::string::npos) << outcome.err;
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"dam.json"});
+}
+
+TEST_F(CaptureTest, NoDriverIsFour) {
+  const Outcome outcome = capture({scene, "--frames", "1"}, folder.string(),
+                                  {{"VK_DRIVER_FILES", "/nonexistent.json"}, {"VK_ICD_FILENAMES", "/nonexistent.json"}});
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"dam.json"});
+}
+
+TEST_F(CaptureTest, ASignalLeavesWholeFrames) {
+  for (const auto& [signal, code] : {std::pair(SIGINT, 130), std::pair(SIGTERM, 143), std::pair(SIGHUP, 129)}) {
+    const std::string out = "signal" + std::to_string(code);
+    Child child({std::string(RILL_BINARY_DIR) + "/apps/capture/rill-capture", scene, "--frames", "100000", "--fps", "200", "--size",
+                 "64x36", "--out", out, "--stats", out + ".json"},
+                folder.string());
+    ASSERT_TRUE(child.waitForMessage("frame 1/"));
+    child.signal(signal);
+    const Outcome outcome = child.wait();
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    const Json json = stats(out + ".json");
+    const std::vector<std::string> frames = TemporaryFolder::namesIn(folder / out);
+    ASSERT_FALSE(frames.empty());
+    EXPECT_EQ(json["frames"].size(), frames.size());
+    for (size_t k = 0; k < frames.size(); ++k) {
+      char name[32];
+      std::snprintf(name, sizeof name, "frame_%05zu.png", k);
+      EXPECT_EQ(frames[k], name) << "frames without a gap, no parts";
+      expectWholePng(folder / out / frames[k]);
+    }
+  }
+}
+
+TEST_F(CaptureTest, AClosedPipeIsAnErrorThatIsTold) {
+  Child child({std::string(RILL_BINARY_DIR) + "/apps/capture/rill-capture", scene, "--frames", "2", "--no-images", "--stats", "-"},
+              folder.string());
+  child.closeOut();
+  const Outcome outcome = child.wait();
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_NE(outcome.err.find("Broken pipe"), std::string::npos) << outcome.err;
+}
+
+TEST_F(CaptureTest, AFullDiskIsAnErrorThatIsTold) {
+  const Outcome outcome = run({"--frames", "2", "--no-images", "--stats", "/dev/full"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_NE(outcome.err.find("No space left"), std::string::npos) << outcome.err;
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
+}
+
+TEST_F(CaptureTest, AnEmptySceneIsDrawn) {
+  const std::string empty =
+      folder.write("none.json", R"({"rill": "0.1", "fluid": {"spacing": 0.1}, "domain": {"min": [0,0,0], "max": [1,1,1]}})").string();
+  const Outcome outcome = capture({empty, "--frames", "3", "--size", "64x36", "--export", "ply", "--stats", "s.json"}, folder.string());
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json json = stats("s.json");
+  EXPECT_EQ(json["particles"], 0);
+  ASSERT_EQ(json["frames"].size(), 3u);
+  EXPECT_EQ(json["frames"][2]["density_error_mean"], 0.0);
+  EXPECT_EQ(json["frames"][2]["front_m"], 0.0);
+  EXPECT_FALSE(json["frames"][2]["skipped"].empty());
+  expectWholePng(folder / "out/none/frame_00002.png");
+  EXPECT_NE(contentOf(folder / "out/none/frame_00000.ply").find("element vertex 0\n"), std::string::npos);
+}
+
+TEST_F(CaptureTest, EveryShippedSceneRuns) {
+  const std::filesystem::path scenes = std::filesystem::path(RILL_SOURCE_DIR) / "assets/scenes";
+  size_t count = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(scenes)) {
+    const std::filesystem::path& file = entry.path();
+    if (file.extension() != ".json" || file.filename().string().ends_with(".schema.json")) continue;
+    ++count;
+    const std::string name = file.lexically_relative(scenes).replace_extension().generic_string();
+    const Outcome outcome = capture(
+        {name, "--frames", "2", "--no-images", "--quiet", "--require", "outside<1", "non_finite<1", "time_dropped_s<=0"}, folder.string());
+    EXPECT_EQ(outcome.code, 0) << name << ": " << outcome.err;
+  }
+  EXPECT_GE(count, 10u);
+}
+
+TEST_F(CaptureTest, DroppedTimeIsReported) {
+  ASSERT_EQ(run({"--frames", "3", "--fps", "2", "--no-images", "--stats", "s.json", "--set", "solver.max_substeps=4"}).code, 0);
+  const Json json = stats("s.json");
+  EXPECT_GT(json["frames"][1]["time_dropped_s"].get<double>(), 0.0);
+  EXPECT_LE(json["frames"][1]["substeps"].get<int>(), 4);
+}
+
+}  // namespace
+}  // namespace rill::test

@@ -1,0 +1,154 @@
+// rill::offline as a researcher uses it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "rill/offline.hpp"
+
+namespace rill::offline {
+namespace {
+
+Scene dam() {
+  auto scene = parseScene(R"({
+    "rill": "0.1", "domain": {"min": [0, 0, 0], "max": [1, 1, 0.3]}, "fluid": {"spacing": 0.05},
+    "fill": [{"box": {"min": [0, 0, 0], "max": [0.5, 0.5, 0.3]}}],
+    "probes": [{"name": "front", "front": "+x"}]})",
+                          "dam", ".");
+  EXPECT_TRUE(scene);
+  return *scene;
+}
+
+std::unique_ptr<Simulation> open(const Options& options = {}, Scene scene = dam()) {
+  auto simulation = Simulation::open(std::move(scene), options);
+  if (!simulation) {
+    ADD_FAILURE() << simulation.error().message;
+    return nullptr;
+  }
+  return std::move(*simulation);
+}
+
+uint64_t hashAfter(const Options& options, int frames) {
+  const auto simulation = open(options);
+  if (!simulation) return 0;
+  for (int k = 0; k < frames; ++k) EXPECT_TRUE(simulation->advance(1.0 / 60));
+  const auto stats = simulation->stats();
+  EXPECT_TRUE(stats);
+  return stats ? stats->state_hash : 0;
+}
+
+TEST(Simulation, NoBitDependsOnThePieces) {
+  Options options;
+  const uint64_t chosen = hashAfter(options, 12);
+  for (const uint32_t piece : {1u, 7u, 64u}) {
+    options.substepsPerSubmit = piece;
+    EXPECT_EQ(hashAfter(options, 12), chosen) << piece;
+  }
+}
+
+TEST(Simulation, LookingChangesNothing) {
+  const auto looked = open(), left = open();
+  ASSERT_TRUE(looked && left);
+  for (int k = 0; k < 8; ++k) {
+    ASSERT_TRUE(looked->advance(1.0 / 60));
+    ASSERT_TRUE(left->advance(1.0 / 60));
+    ASSERT_TRUE(looked->stats());
+    ASSERT_TRUE(looked->particles());
+    ASSERT_TRUE(looked->render("density", 64, 36));
+  }
+  EXPECT_EQ(looked->stats()->state_hash, left->stats()->state_hash);
+}
+
+TEST(Simulation, LongAdvancesAreMadeOfFrames) {
+  Options frames;
+  frames.longestFrame_s = 1.0 / 60;
+  const auto once = open(frames), often = open(frames);
+  ASSERT_TRUE(once && often);
+  ASSERT_TRUE(once->advance(12.0 / 60));
+  for (int k = 0; k < 12; ++k) ASSERT_TRUE(often->advance((12.0 / 60) / 12));
+  const auto a = once->stats(), b = often->stats();
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(a->state_hash, b->state_hash);
+  EXPECT_GT(a->substeps, b->substeps) << "of the whole advance";
+  EXPECT_EQ(a->time_dropped_s, 0);
+  EXPECT_NEAR(once->time(), 0.2, 1e-12);
+  EXPECT_NEAR(a->time_s, 0.2, 1e-6);
+}
+
+TEST(Simulation, HandsOutParticles) {
+  const auto simulation = open();
+  ASSERT_TRUE(simulation);
+  const auto start = simulation->particles();
+  ASSERT_TRUE(start);
+  ASSERT_EQ(start->ids.size(), 600u);
+  for (uint32_t i = 0; i < 600; ++i) {
+    ASSERT_EQ(start->ids[i], i);
+    EXPECT_EQ(start->positions[i], simulation->start().positions[i]) << "the origin is zero here";
+  }
+  ASSERT_TRUE(simulation->advance(0.2));
+  const auto byId = simulation->particles(Order::ById), stored = simulation->particles(Order::AsStored);
+  ASSERT_TRUE(byId && stored);
+  bool moved = false;
+  for (uint32_t i = 0; i < 600; ++i) {
+    moved |= !(byId->positions[i] == start->positions[i]);
+    EXPECT_EQ(stored->positions[i], byId->positions[stored->ids[i]]);
+    EXPECT_NEAR(byId->densities[i], 700, 400);
+  }
+  EXPECT_TRUE(moved);
+}
+
+TEST(Simulation, AddsTheOrigin) {
+  Scene far = dam();
+  for (int axis = 0; axis < 3; ++axis) {
+    far.domain->min[axis] += 512, far.domain->max[axis] += 512;
+    far.fill[0].box->min[axis] += 512, far.fill[0].box->max[axis] += 512;
+  }
+  const auto near = open(), moved = open({}, far);
+  ASSERT_TRUE(near && moved);
+  ASSERT_TRUE(near->advance(0.1));
+  ASSERT_TRUE(moved->advance(0.1));
+  EXPECT_EQ(near->stats()->state_hash, moved->stats()->state_hash) << "the same to the last bit, far from zero";
+  EXPECT_NEAR(near->stats()->front_m, moved->stats()->front_m, 1e-12);
+  EXPECT_NEAR(moved->particles()->positions[0].x, 512 + near->particles()->positions[0].x, 1e-4);
+}
+
+TEST(Simulation, StatsAreThoseOfTheInstant) {
+  const auto simulation = open();
+  ASSERT_TRUE(simulation);
+  ASSERT_TRUE(simulation->advance(1.0 / 60));
+  const auto first = simulation->stats(), again = simulation->stats();
+  ASSERT_TRUE(first && again);
+  EXPECT_EQ(first->wall_s, again->wall_s);
+  EXPECT_EQ(first->substeps, again->substeps);
+  EXPECT_GT(first->wall_s, 0);
+  EXPECT_FALSE(first->pass_ms.empty());
+  EXPECT_FALSE(first->skipped.empty());
+  EXPECT_FALSE(simulation->explain().empty());
+  EXPECT_NE(simulation->graphDot().find("digraph"), std::string::npos);
+}
+
+TEST(Simulation, RefusesWhatMakesNoSense) {
+  const auto simulation = open();
+  ASSERT_TRUE(simulation);
+  EXPECT_FALSE(simulation->advance(-1));
+  EXPECT_FALSE(simulation->advance(std::nan("")));
+  EXPECT_TRUE(simulation->advance(0));
+  EXPECT_FALSE(simulation->render("inside out", 64, 36));
+  EXPECT_FALSE(simulation->render("particles", 0, 36));
+  EXPECT_FALSE(Simulation::open(std::filesystem::path("missing.json")));
+}
+
+TEST(Simulation, IsCleanUnderValidation) {
+  Options options;
+  options.validation = true;
+  const auto simulation = open(options);
+  ASSERT_TRUE(simulation);
+  ASSERT_TRUE(simulation->advance(0.05));
+  ASSERT_TRUE(simulation->stats());
+  ASSERT_TRUE(simulation->render("particles", 96, 54));
+  for (const std::string& message : simulation->takeValidationMessages()) ADD_FAILURE() << message;
+}
+
+}  // namespace
+}  // namespace rill::offline
