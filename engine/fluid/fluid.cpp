@@ -79,12 +79,12 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   std::copy(particles.origin, particles.origin + 3, impl->origin);
 
   if (impl->count == 0) return impl;
-  if (auto ok = impl->makeBuffers(device, particles); !ok) return ok.error();
+  if (auto ok = impl->makeBuffers(device, particles, desc.storageReads); !ok) return ok.error();
   if (auto ok = impl->makePipelines(device); !ok) return ok.error();
   return impl;
 }
 
-Expected<void> FluidImpl::makeBuffers(Device& device, const ParticleSet& particles) {
+Expected<void> FluidImpl::makeBuffers(Device& device, const ParticleSet& particles, bool storageReads) {
   const uint64_t n = count, more = n + 1;
   const FluidParams& p = setup.params;
 
@@ -97,7 +97,7 @@ Expected<void> FluidImpl::makeBuffers(Device& device, const ParticleSet& particl
   if (chunks_.size() > kMaxListChunks)
     return Error{ErrorKind::OutOfMemory, "the neighbour list of " + std::to_string(n) + " particles at this smoothing_ratio needs " + mebibytes(memory.list_bytes) +
                                              ", more than " + std::to_string(kMaxListChunks) + " buffers of 128 MiB: make smoothing_ratio smaller"};
-  texel_ = device.info().maxTexelBufferElements >= std::max<uint64_t>(more, uint64_t{chunk} * p.listCapacity / 4);
+  texel_ = !storageReads && device.info().maxTexelBufferElements >= std::max<uint64_t>(more, uint64_t{chunk} * p.listCapacity / 4);
 
   auto sort = KeySort::create(device, {.count = count, .keyRange = setup.grid.cells(), .start = true});
   if (!sort) return sort.error();
@@ -240,7 +240,7 @@ Expected<void> FluidImpl::makePipelines(Device& device) {
   make(pipes_.begin, "fluid/begin", plain(1, 5), sizeof(BeginPush));
   make(pipes_.control, "fluid/control", plain(1, 5), sizeof(ControlPush));
   make(pipes_.arm, "fluid/arm", plain(1, 5), 0);
-  make(pipes_.predict, "fluid/predict", plain(2, 4), 0);
+  make(pipes_.predict, "fluid/predict", plain(2, 5), 0);
   make(pipes_.keys, "fluid/keys", plain(2, 3), 0);
   make(pipes_.reorder, "fluid/reorder", plain(2, 10), 0);
   {
@@ -252,7 +252,8 @@ Expected<void> FluidImpl::makePipelines(Device& device) {
     make(pipes_.plane, "fluid/walls", plain(2, 6), 0, {0, 0});
     make(pipes_.corner, "fluid/walls", plain(2, 6), 0, {1, p.solidCount > 0});
   }
-  if (p.solidCount > 0) make(pipes_.collide, "fluid/collide", plain(2, 11), 0);
+  if (p.solidCount > 0) make(pipes_.collide, "fluid/collide", plain(2, 11), 0, {0});
+  if (p.solidCount > 0 && (setup.viscositySweeps > 0 || p.vorticity > 0)) make(pipes_.collideAgain, "fluid/collide", plain(2, 11), 0, {1});
   if (setup.movingSolids) make(pipes_.pose, "fluid/pose", plain(2, 2), 0);
   gather(pipes_.density, "fluid/density", storages(4), sizeof(ChunkPush), {kernel, capacity, nearWalls, p.iterations > 1, p.tolerance > 0});
   gather(pipes_.correct, "fluid/correct", storages(7), sizeof(ChunkPush), {kernel, capacity, nearWalls, p.tensile > 0, p.solidCount > 0});

@@ -25,7 +25,7 @@ struct FluidBuffers {
 
 struct FluidPipelines {
   const ComputePipeline *begin = nullptr, *control = nullptr, *arm = nullptr, *predict = nullptr, *keys = nullptr, *reorder = nullptr, *build = nullptr;
-  const ComputePipeline *plane = nullptr, *corner = nullptr, *collide = nullptr, *pose = nullptr;
+  const ComputePipeline *plane = nullptr, *corner = nullptr, *collide = nullptr, *collideAgain = nullptr, *pose = nullptr;
   const ComputePipeline *density = nullptr, *correct = nullptr, *iterate = nullptr;
   const ComputePipeline *viscosity = nullptr, *keep = nullptr, *curl = nullptr, *confine = nullptr;
   const ComputePipeline *measure = nullptr, *reduce = nullptr;
@@ -50,6 +50,8 @@ class FluidImpl {
   static Expected<std::unique_ptr<FluidImpl>> create(Device& device, const FluidDesc& desc);
   FluidState addTo(Graph& graph, const FluidStep& step);
   void poll() const;
+  const FluidRefs& refs() const { return r_; }                  ///< of the step declared last
+  std::span<const Chunk> chunks() const { return chunks_; }
 
   FluidSetup setup;
   FluidMemory memory;
@@ -66,7 +68,7 @@ class FluidImpl {
     bool measured;
   };
 
-  Expected<void> makeBuffers(Device& device, const ParticleSet& particles);
+  Expected<void> makeBuffers(Device& device, const ParticleSet& particles, bool storageReads);
   Expected<void> makePipelines(Device& device);
   Expected<void> stage(Device& device, const ParticleSet& particles);
   void importAll(Graph& graph);
@@ -74,6 +76,7 @@ class FluidImpl {
   void declareBegin(Graph& graph, double advance);
   void declareRebuild(Graph& graph);
   void declareSubstep(Graph& graph, uint32_t parity);
+  void declareCollide(Graph& graph, std::string_view name, const ComputePipeline* pipeline, BufferRef free, uint32_t parity);
   void declareTerms(Graph& graph, uint32_t parity);
   void declareMeasure(Graph& graph, Pending& pending);
   void declareSkipped(Graph& graph);

@@ -102,8 +102,9 @@ void FluidImpl::declareBegin(Graph& graph, double advance) {
     pass.read(r_.position, Use::ComputeRead);
     pass.read(r_.velocity, Use::ComputeRead);
     pass.read(r_.pushAway, Use::ComputeRead);
+    pass.read(r_.solids, Use::ComputeRead);
     r_.prediction = pass.write(r_.prediction, Use::ComputeWrite);
-    const Kernel kernel = pass.kernel(pipes_.predict, {r_.params, r_.control, r_.position, r_.velocity, r_.pushAway, r_.prediction});
+    const Kernel kernel = pass.kernel(pipes_.predict, {r_.params, r_.control, r_.position, r_.velocity, r_.pushAway, r_.prediction, r_.solids});
     return [=, arguments = r_.commands](Commands& commands) { commands.dispatchIndirect(kernel, arguments, commandAt(kCommandPredict)); };
   });
 }
@@ -238,9 +239,9 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity) {
         bindings.add({r_.prediction, r_.nearSample});
       });
     }
-    if (setup.near && first) {
-      wallPass(graph, r_, "walls", pipes_.plane, r_.prediction, kCommandPlane);
-      wallPass(graph, r_, "corners and solids", pipes_.corner, r_.prediction, kCommandCorner);
+    if (setup.near) {
+      wallPass(graph, r_, "walls", pipes_.plane, r_.prediction, first ? kCommandPlane : kCommandPlaneAgain);
+      wallPass(graph, r_, "corners and solids", pipes_.corner, r_.prediction, first ? kCommandCorner : kCommandCornerAgain);
     }
     gatherPass(graph, r_, texel_, chunks, "density", pipes_.density, r_.prediction, first ? kCommandDensity : kCommandIterate, ChunkPush{0, 0, iteration},
                [&](Pass& pass, BindingList& bindings) {
@@ -267,19 +268,23 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity) {
     if (p.solidCount > 0) free = pass.write(free, Use::ComputeWrite, true);
     bindings.add({r_.position, r_.velocity, r_.nearSample, r_.prediction, r_.pushAway, p.solidCount > 0 ? free : r_.velocity, r_.warm});
   });
-  if (p.solidCount > 0) {
-    graph.pass("collide", [&](Pass& pass) {
-      pass.read(r_.params, Use::ComputeUniform);
-      pass.read(r_.control, Use::ComputeUniform);
-      pass.read(r_.commands, Use::Indirect);
-      for (BufferRef ref : {r_.pushAway, r_.nearList, r_.sums, r_.solids, free, r_.work, r_.warm, r_.nearSample}) pass.read(ref, Use::ComputeRead);
-      for (BufferRef* ref : {&r_.position, &r_.velocity, &r_.prediction}) *ref = pass.write(*ref, Use::ComputeWrite);
-      const Kernel kernel = pass.kernel(pipes_.collide, {r_.params, r_.control, r_.position, r_.velocity, r_.prediction, r_.pushAway, r_.nearList, r_.sums, r_.solids, free,
-                                                          r_.work, r_.warm, r_.nearSample});
-      return [=, arguments = r_.commands](Commands& commands) { commands.dispatchIndirect(kernel, arguments, commandAt(kCommandCollide + parity)); };
-    });
-  }
+  if (p.solidCount > 0) declareCollide(graph, "collide", pipes_.collide, free, parity);
   declareTerms(graph, parity);
+  // Those have predicted anew, with walls but without solids.
+  if (p.solidCount > 0 && (setup.viscositySweeps > 0 || p.vorticity > 0)) declareCollide(graph, "collide again", pipes_.collideAgain, free, parity);
+}
+
+void FluidImpl::declareCollide(Graph& graph, std::string_view name, const ComputePipeline* pipeline, BufferRef free, uint32_t parity) {
+  graph.pass(name, [&](Pass& pass) {
+    pass.read(r_.params, Use::ComputeUniform);
+    pass.read(r_.control, Use::ComputeUniform);
+    pass.read(r_.commands, Use::Indirect);
+    for (BufferRef ref : {r_.pushAway, r_.nearList, r_.sums, r_.solids, free, r_.work, r_.warm, r_.nearSample}) pass.read(ref, Use::ComputeRead);
+    for (BufferRef* ref : {&r_.position, &r_.velocity, &r_.prediction}) *ref = pass.write(*ref, Use::ComputeWrite);
+    const Kernel kernel = pass.kernel(pipeline, {r_.params, r_.control, r_.position, r_.velocity, r_.prediction, r_.pushAway, r_.nearList, r_.sums, r_.solids, free, r_.work,
+                                                 r_.warm, r_.nearSample});
+    return [=, arguments = r_.commands](Commands& commands) { commands.dispatchIndirect(kernel, arguments, commandAt(kCommandCollide + parity)); };
+  });
 }
 
 // Viscosity and vorticity confinement, where the scene has them.

@@ -55,6 +55,9 @@ void addSolids(const Scene& scene, const SmoothingKernel& kernel, const double o
     record.baseX = f(pose.centre[0] - translation[0] - origin[0]);
     record.baseY = f(pose.centre[1] - translation[1] - origin[1]);
     record.baseZ = f(pose.centre[2] - translation[2] - origin[2]);
+    record.velocityX = f(pose.velocity[0]);
+    record.velocityY = f(pose.velocity[1]);
+    record.velocityZ = f(pose.velocity[2]);
     record.halfX = f(pose.half[0]);
     record.halfY = f(pose.half[1]);
     record.halfZ = f(pose.half[2]);

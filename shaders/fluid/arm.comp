@@ -20,5 +20,5 @@ void main() {
   c.running = c.timeLeft > 0.0 ? 1u : 0u;
   control = c;
   FluidSums s = sums;
-  for (uint k = kCommandDensity; k <= kCommandMeasureCorner; ++k) switchCommand(k, commandRuns(k, c, 2u), s);
+  for (uint k = kCommandDensity; k <= kCommandCornerAgain; ++k) switchCommand(k, commandRuns(k, c, 2u), s);
 }

@@ -51,6 +51,7 @@ void listNear(uint i, vec3 x) {
     if (surfaceDistance(solids[s], toLocal(solids[s], x), normal) < params.nearLimit) solid = true;
   }
   nearSample[i] = vec4(0.0);
+  if (x.x == kParked) return;
   if (solid || walls > 1u) nearList[params.count - 1u - atomicAdd(sums.cornerCount, 1u)] = i;
   else if (walls == 1u) nearList[atomicAdd(sums.planeCount, 1u)] = i;
 }
@@ -59,7 +60,8 @@ void main() {
   uint local = flatInvocation();
   uint i = push.first + local;
   if (i >= push.last) return;
-  vec3 x = PARTICLE(i).xyz;
+  vec4 predicted = PARTICLE(i);
+  vec3 x = predicted.xyz;
   uvec3 home = cellOf(x);
   cell[i] = cellKey(home);
 
@@ -113,7 +115,7 @@ void main() {
     from = insideWalls(from + apart);
   }
   position[i] = vec4(from, 0.0);
-  prediction[i] = vec4(x, 0.0);
+  prediction[i] = vec4(x, predicted.w);
   velocity[i] = sortedVelocity[i];
   warm[i] = uintBitsToFloat(scalar.x);
   id[i] = scalar.y;

@@ -3,8 +3,8 @@
 // the solid. A solid's impulse is what its own displaced density and the projection gave, so that friction feels the weight of the column above.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
-#include "fluid/solids.glsl"
 layout(local_size_x = kFluidGroup) in;
+layout(constant_id = 0) const uint AGAIN = 0;  // viscosity or vorticity have changed the velocity: the prediction alone
 layout(std430, binding = 2) buffer PositionBlock { vec4 position[]; };
 layout(std430, binding = 3) buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 4) buffer PredictionBlock { vec4 prediction[]; };
@@ -12,19 +12,16 @@ layout(std430, binding = 5) readonly buffer PushBlock { vec4 pushAway[]; };
 layout(std430, binding = 6) readonly buffer NearListBlock { uint nearList[]; };
 layout(std430, binding = 7) readonly buffer SumsBlock { FluidSums sums; };
 layout(std430, binding = 8) readonly buffer SolidBlock { SolidRecord solids[]; };
+#include "fluid/outside.glsl"
 layout(std430, binding = 9) readonly buffer FreeBlock { vec4 freeVelocity[]; };
 layout(std430, binding = 10) readonly buffer WorkBlock { vec4 work[]; };
 layout(std430, binding = 11) readonly buffer WarmBlock { float warm[]; };
 layout(std430, binding = 12) readonly buffer NearBlock { vec4 nearSample[]; };
 
-// Moves a centre out of every solid, walls last.
-vec3 outside(vec3 x) {
-  for (uint k = 0u; k < params.solidCount; ++k) {
-    vec3 normal;
-    float distance = surfaceDistance(solids[k], toLocal(solids[k], x), normal);
-    if (distance < params.margin) x += toWorld(solids[k], normal) * (params.margin - distance);
-  }
-  return insideWalls(x);
+void predict(uint i, vec3 x, vec3 v) {
+  float pushed;
+  vec3 next = outside(x + control.nextStep * (v + control.nextStep * (gravity() + pushAway[i].xyz)), control.nextStep, pushed);
+  prediction[i] = vec4(next, pushed);
 }
 
 void main() {
@@ -33,11 +30,16 @@ void main() {
   uint i = nearList[params.count - 1u - n];
   vec3 from = position[i].xyz;
   if (from.x >= kParked * 0.5) return;
-  vec3 x = outside(from);
+  if (AGAIN != 0u) {
+    predict(i, from, velocity[i].xyz);
+    return;
+  }
+  float pushed;
+  vec3 x = outside(from, 0.0, pushed);
   vec3 v = velocity[i].xyz + (x - from) / control.step;
-  // The multiplier in all: what the warm start had, and the change. `warm` has a share of the change already.
+  // The multiplier in all, never positive: what the warm start had, and the change. `warm` has a share of the change already.
   float change = unpackHalf2x16(floatBitsToUint(work[i].w)).x * (params.inverseRestGradient / kMultiplierScale);
-  float multiplier = warm[i] + (1.0 - params.warmGain) * change;
+  float multiplier = min(0.0, warm[i] + (1.0 - params.warmGain) * change);
   vec3 given = multiplier * nearSample[i].xyz / control.step + (x - from) / control.step;
   for (uint k = 0u; k < params.solidCount; ++k) {
     if (solids[k].friction <= 0.0 && solids[k].restitution <= 0.0) continue;
@@ -49,7 +51,7 @@ void main() {
     vec3 relative = v - moving;
     float away = dot(relative, normal);
     vec3 along = relative - away * normal;
-    float impulse = max(0.0, dot(given, normal));
+    float impulse = max(0.0, dot(given, normal) + freeVelocity[i].w / control.step);
     if (before < 0.0 && solids[k].restitution > 0.0 && away < -solids[k].restitution * before) {
       impulse += -solids[k].restitution * before - away;
       away = -solids[k].restitution * before;
@@ -60,5 +62,5 @@ void main() {
   }
   position[i] = vec4(x, 0.0);
   velocity[i] = vec4(v, 1.0);
-  prediction[i] = vec4(outside(x + control.nextStep * (v + control.nextStep * (gravity() + pushAway[i].xyz))), 0.0);
+  predict(i, x, v);
 }

@@ -15,9 +15,9 @@ layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer PositionBlock { vec4 position[]; };
 layout(std430, binding = 9) buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 10) readonly buffer NearBlock { vec4 nearSample[]; };
-layout(std430, binding = 11) writeonly buffer PredictionBlock { vec4 prediction[]; };
+layout(std430, binding = 11) buffer PredictionBlock { vec4 prediction[]; };
 layout(std430, binding = 12) writeonly buffer PushBlock { vec4 pushAway[]; };
-layout(std430, binding = 13) writeonly buffer FreeBlock { vec4 freeVelocity[]; };  // before the solve: what contacts compare with
+layout(std430, binding = 13) writeonly buffer FreeBlock { vec4 freeVelocity[]; };  // before the solve: what contacts compare with; w: the prediction's
 layout(std430, binding = 14) buffer WarmBlock { float warm[]; };
 
 vec4 here;
@@ -77,7 +77,7 @@ void main() {
     warm[i] = 0.0;
   }
   position[i] = vec4(to, 0.0);
-  if (CONTACT != 0u) freeVelocity[i] = vec4(velocity[i].xyz + control.step * gravity(), 0.0);
+  if (CONTACT != 0u) freeVelocity[i] = vec4(velocity[i].xyz + control.step * gravity(), prediction[i].w);
   velocity[i] = vec4(v, 1.0);
   pushAway[i] = vec4(away, 0.0);
   prediction[i] = vec4(next, 0.0);

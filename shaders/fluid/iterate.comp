@@ -9,7 +9,7 @@ layout(constant_id = 2) const uint NEAR = 0;
 layout(constant_id = 3) const uint TENSILE = 0;
 
 layout(push_constant) uniform Push { ChunkPush push; };
-layout(std430, binding = 8) writeonly buffer PredictionBlock { vec4 prediction[]; };
+layout(std430, binding = 8) buffer PredictionBlock { vec4 prediction[]; };
 layout(std430, binding = 9) readonly buffer NearBlock { vec4 nearSample[]; };
 
 vec4 here;
@@ -40,5 +40,5 @@ void main() {
   own = multiplier(here);
   visitNeighbours(i, local);
   if (NEAR != 0u) moved += own * nearSample[i].xyz;
-  prediction[i] = vec4(insideWalls(here.xyz + moved), 0.0);
+  prediction[i] = vec4(insideWalls(here.xyz + moved), prediction[i].w);
 }

@@ -1,7 +1,9 @@
 #version 460
-// The prediction of an advance's first substep, whose step was not known when the last one ended: x* = x + dt (v + dt (g + push)).
+// The prediction (w: m that solids pushed it out) of an advance's first substep, whose step was not known when the last one ended: x* = x + dt (v + dt (g + push)).
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
+layout(std430, binding = 6) readonly buffer SolidBlock { SolidRecord solids[]; };
+#include "fluid/outside.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(std430, binding = 2) readonly buffer PositionBlock { vec4 position[]; };
 layout(std430, binding = 3) readonly buffer VelocityBlock { vec4 velocity[]; };
@@ -12,6 +14,8 @@ void main() {
   uint i = flatInvocation();
   if (i >= params.count) return;
   vec3 x = position[i].xyz;
-  vec3 next = insideWalls(x + control.nextStep * (velocity[i].xyz + control.nextStep * (gravity() + pushAway[i].xyz)));
-  prediction[i] = vec4(isFinite(next) ? next : x, 0.0);
+  vec3 next = x + control.nextStep * (velocity[i].xyz + control.nextStep * (gravity() + pushAway[i].xyz));
+  float pushed;
+  next = outside(next, control.nextStep, pushed);
+  prediction[i] = vec4(isFinite(next) ? next : x, pushed);
 }

@@ -4,8 +4,8 @@
 // `shapes` holds the group counts of each command, `commands` what the device dispatches.
 void switchCommand(uint k, bool on, FluidSums s) {
   uvec3 groups = uvec3(shapes[3u * k], shapes[3u * k + 1u], shapes[3u * k + 2u]);
-  if (k >= kCommandPlane && k <= kCommandMeasureCorner) {
-    uint near = k == kCommandPlane || k == kCommandMeasurePlane ? s.planeCount : s.cornerCount;
+  if (k >= kCommandPlane && k <= kCommandCornerAgain) {
+    uint near = k == kCommandPlane || k == kCommandMeasurePlane || k == kCommandPlaneAgain ? s.planeCount : s.cornerCount;
     uint needed = (near + kFluidGroup - 1u) / kFluidGroup;
     groups = uvec3(min(needed, 65535u), needed == 0u ? 0u : (needed + 65534u) / 65535u, 1u);
   }
@@ -21,7 +21,7 @@ bool commandRuns(uint k, FluidControl c, uint parity) {
   if (k == kCommandDensity || k == kCommandPose || k == kCommandPlane || k == kCommandCorner) return c.running != 0u;
   if (k == kCommandCorrect || k == kCommandCollide) return parity == 0u;
   if (k == kCommandCorrect + 1u || k == kCommandCollide + 1u) return parity == 1u;
-  if (k == kCommandIterate) return c.again != 0u;
+  if (k == kCommandIterate || k == kCommandPlaneAgain || k == kCommandCornerAgain) return c.again != 0u;
   if (k == kCommandMeasurePlane || k == kCommandMeasureCorner) return true;
   if (k == kCommandPredict) return parity == 2u && c.timeLeft > 0.0;
   return rebuild;

@@ -6,8 +6,9 @@
 layout(binding = 0) uniform ParamsBlock { FluidParams params; };
 layout(binding = 1) uniform ControlBlock { FluidControl control; };
 
-// Keeps a centre half a spacing off the domain's walls. NaN goes through.
+// Keeps a centre half a spacing off the domain's walls. NaN goes through, and so does a parked particle.
 vec3 insideWalls(vec3 x) {
+  if (x.x == kParked) return x;
   vec3 low = vec3(params.lowX, params.lowY, params.lowZ) + params.margin;
   vec3 high = vec3(params.highX, params.highY, params.highZ) - params.margin;
   return vec3(x.x < low.x ? low.x : (x.x > high.x ? high.x : x.x),

@@ -24,7 +24,9 @@ RILL_CONST uint kCommandCorner = 10u;         // over those near several walls o
 RILL_CONST uint kCommandCollide = 11u;        // two of them, by parity, over the same
 RILL_CONST uint kCommandMeasurePlane = 13u;   // the same particles as Plane and Corner, whenever there are any
 RILL_CONST uint kCommandMeasureCorner = 14u;
-RILL_CONST uint kCommandSort = 15u;           // the sort's own follow
+RILL_CONST uint kCommandPlaneAgain = 15u;     // and in every further iteration
+RILL_CONST uint kCommandCornerAgain = 16u;
+RILL_CONST uint kCommandSort = 17u;           // the sort's own follow
 RILL_CONST uint kMaxCommands = 64u;
 
 // Constant over a run; a uniform block.

@@ -19,6 +19,7 @@ struct FluidDesc {
   const Scene* scene = nullptr;          ///< settings, domain, solids, gravity; fluid.spacing > 0
   const ParticleSet* particles = nullptr;
   uint64_t listBytes = 0;                ///< cap on the neighbour list's memory; 0: what the device's buffers allow
+  bool storageReads = false;             ///< gather through storage buffers even where texel buffers would hold enough (slower on most CPU drivers)
 };
 
 /// Device memory that a Fluid of `particles` particles needs, in bytes, split as reports show it. Computed in 64 bits from the numbers alone.

@@ -1,0 +1,237 @@
+#include "fluid/rig.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <random>
+#include <stdexcept>
+
+#include "offline/readout.hpp"
+
+namespace rill::test {
+namespace {
+
+glm::dvec3 wide(const Float3& v) { return {v.x, v.y, v.z}; }
+Float3 narrow(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+
+FluidSetup setupOf(const Trial& trial) {
+  const double extent[3] = {1, 1, 1};
+  auto setup = makeFluidSetup(trial.timedScene(), trial.origin, extent, static_cast<uint32_t>(trial.x.size()));
+  if (!setup) throw std::runtime_error(setup.error().message);
+  return *std::move(setup);
+}
+
+reference::ReferenceSettings settingsOf(const Trial& trial) {
+  const Scene& scene = trial.scene;
+  reference::ReferenceSettings s;
+  s.kernel = scene.solver.kernel;
+  s.spacing = scene.fluid.spacing;
+  s.smoothingRatio = scene.fluid.smoothing_ratio;
+  s.density = scene.fluid.density;
+  for (int a = 0; a < 3; ++a) {
+    s.gravity[a] = scene.gravity[a];
+    s.origin[a] = trial.origin[a];
+    if (!scene.domain) continue;
+    if (!(scene.domain->open & (1u << (2 * a)))) s.lo[a] = scene.domain->min[a] - trial.origin[a];
+    if (!(scene.domain->open & (2u << (2 * a)))) s.hi[a] = scene.domain->max[a] - trial.origin[a];
+  }
+  s.solids = scene.solids;
+  s.tabulated = true;
+  s.iterations = static_cast<int>(scene.solver.iterations);
+  s.relaxation = scene.solver.relaxation.value();
+  s.regularization = scene.solver.regularization.value();
+  s.warmStart = scene.solver.warm_start.value();
+  s.tensile = scene.fluid.tensile;
+  s.tensileRadius = scene.fluid.tensile_radius;
+  s.tensilePower = scene.fluid.tensile_power;
+  s.viscosity = scene.fluid.viscosity;
+  s.viscositySweeps = scene.fluid.viscosity > 0 ? static_cast<int>(setupOf(trial).viscositySweeps) : 1;
+  s.vorticity = scene.fluid.vorticity;
+  return s;
+}
+
+// As the device gets them.
+std::vector<glm::dvec3> rounded(std::vector<glm::dvec3> points) {
+  for (glm::dvec3& p : points) p = wide(narrow(p));
+  return points;
+}
+
+}  // namespace
+
+const char* nameOf(Gather gather) {
+  return gather == Gather::Texel ? "list through texel buffers" : (gather == Gather::Storage ? "list through storage buffers" : "grid");
+}
+
+Scene Trial::timedScene() const {
+  Scene timed = scene;
+  timed.solver.time_step = step;
+  return timed;
+}
+
+ParticleSet Trial::particles() const {
+  ParticleSet set;
+  std::copy(origin, origin + 3, set.origin);
+  for (const glm::dvec3& p : x) set.positions.push_back(narrow(p));
+  for (const glm::dvec3& p : v) set.velocities.push_back(narrow(p));
+  set.velocities.resize(set.positions.size());
+  return set;
+}
+
+Trial trial() {
+  Trial t;
+  t.scene.fluid.spacing = 1.0 / 16;
+  t.scene.solver.tolerance = 0;
+  t.scene.solver.cfl = 10;
+  t.scene.solver.max_substeps = 256;
+  t.scene.solver.relaxation = 0.7;
+  t.scene.solver.regularization = 0.02;
+  t.scene.solver.warm_start = 0.1;
+  return t;
+}
+
+void setWalls(Trial& trial, glm::dvec3 size, SideMask open) {
+  Domain domain;
+  for (int a = 0; a < 3; ++a) {
+    domain.min[a] = trial.origin[a];
+    domain.max[a] = trial.origin[a] + size[a];
+  }
+  domain.open = open;
+  trial.scene.domain = domain;
+}
+
+Solid ball(glm::dvec3 centre, double radius) {
+  Solid solid;
+  solid.sphere = SphereShape{{centre.x, centre.y, centre.z}, radius};
+  return solid;
+}
+
+Solid slab(glm::dvec3 low, glm::dvec3 high) {
+  Solid solid;
+  solid.box = BoxShape{{low.x, low.y, low.z}, {high.x, high.y, high.z}};
+  return solid;
+}
+
+std::vector<glm::dvec3> block(glm::ivec3 count, double d, glm::dvec3 from, double jitter, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> part(-jitter, jitter);
+  std::vector<glm::dvec3> x;
+  for (int k = 0; k < count.z; ++k)
+    for (int j = 0; j < count.y; ++j)
+      for (int i = 0; i < count.x; ++i) {
+        glm::dvec3 p = from + d * glm::dvec3(i + 0.5, j + 0.5, k + 0.5);
+        for (int a = 0; a < 3; ++a) p[a] += d * part(random);
+        x.push_back(p);
+      }
+  return x;
+}
+
+std::vector<glm::dvec3> cloud(size_t count, double edge, unsigned seed, glm::dvec3 from) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> place(0, edge);
+  std::vector<glm::dvec3> x(count);
+  for (glm::dvec3& p : x)
+    for (int a = 0; a < 3; ++a) p[a] = from[a] + place(random);
+  return x;
+}
+
+bool Snapshot::finite() const {
+  for (const auto* all : {&x, &v})
+    for (const glm::dvec3& p : *all)
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return false;
+  return true;
+}
+
+Oracle::Oracle(const Trial& trial) : trial_(trial), solver_(settingsOf(trial), rounded(trial.x), rounded(trial.v)) {
+  solver_.begin(trial.step);
+}
+
+void Oracle::advance(int substeps) {
+  for (int n = 0; n < substeps; ++n) {
+    // A change that is due when a substep ends acts on the prediction of the next one.
+    for (const GravityChange& change : trial_.scene.gravity_changes)
+      if (change.at <= solver_.time() + trial_.step + 1e-7) solver_.settings.gravity = {change.value[0], change.value[1], change.value[2]};
+    solver_.substep(trial_.step, trial_.step);
+  }
+}
+
+FluidTest::Run::Run(FluidTest& test, const Trial& trial) : test_(test), step_(trial.step) {
+  Scene scene = trial.timedScene();
+  if (trial.gather == Gather::Grid) scene.solver.neighbors = NeighborChoice::Grid;
+  const ParticleSet particles = trial.particles();
+  auto made = Fluid::create(test.rillDevice(), {.scene = &scene, .particles = &particles, .storageReads = trial.gather == Gather::Storage});
+  if (!made) throw std::runtime_error(made.error().message);
+  fluid_ = std::move(*made);
+}
+
+void FluidTest::Run::advance(double seconds, uint32_t piece) {
+  bool resume = false;
+  do {
+    graph_.reset();
+    fluid_->addTo(graph_, {.advance_s = seconds, .resume = resume, .substeps = piece});
+    test_.runGraph(graph_);
+    if (HasFatalFailure()) return;
+    resume = true;
+  } while (fluid_->progress().time_left_s > 0);
+}
+
+Snapshot FluidTest::Run::read(const FluidStep& step) {
+  graph_.reset();
+  const FluidState state = fluid_->addTo(graph_, step);
+  const auto tickets = offline::readout(graph_, state);
+  test_.runGraph(graph_);
+  const auto raw = offline::collect(graph_, tickets);
+  Snapshot result;
+  result.x.resize(raw.ids.size());
+  result.v.resize(raw.ids.size());
+  result.density.resize(raw.ids.size());
+  for (size_t i = 0; i < raw.ids.size(); ++i) {
+    const uint32_t id = raw.ids[i];
+    if (id >= raw.ids.size()) throw std::runtime_error("an id beyond the particles' number");
+    result.x[id] = wide(raw.positions[i]);
+    result.v[id] = wide(raw.velocities[i]);
+    result.density[id] = step.stats ? raw.relativeDensities[i] : 0.0;
+  }
+  return result;
+}
+
+Snapshot FluidTest::Run::snapshot() { return read({}); }
+
+FluidStats FluidTest::Run::stats() {
+  measured_ = read({.stats = true});
+  const auto stats = fluid_->stats();
+  if (!stats) throw std::runtime_error("no figures came back");
+  return *stats;
+}
+
+Difference FluidTest::difference(const Trial& trial, int substeps) {
+  auto run = start(trial);
+  run->substeps(substeps);
+  const Snapshot device = run->snapshot();
+  Oracle oracle(trial);
+  oracle.advance(substeps);
+  const auto& exact = oracle.solver().state;
+  Difference most;
+  for (size_t i = 0; i < device.x.size(); ++i) {
+    const double position = glm::length(device.x[i] - exact.position[i]) / trial.d();
+    const double velocity = glm::length(device.v[i] - exact.velocity[i]) * trial.step / trial.d();
+    if (!(position <= most.position)) most.worst = i;
+    // Not std::max: what is not a number has to stand out.
+    if (!(position <= most.position)) most.position = position;
+    if (!(velocity <= most.velocity)) most.velocity = velocity;
+  }
+  return most;
+}
+
+void FluidTest::expectEqual(Trial trial, int substeps, double position, double velocity) {
+  for (Gather gather : kGathers) {
+    trial.gather = gather;
+    SCOPED_TRACE(std::string(nameOf(gather)) + ", " + std::to_string(substeps) + " substeps");
+    const Difference most = difference(trial, substeps);
+    if (std::getenv("RILL_SHOW")) std::printf("%s %d: %.3g %.3g (%zu)\n", nameOf(gather), substeps, most.position, most.velocity, most.worst);
+    EXPECT_LE(most.position, position) << "spacings, particle " << most.worst;
+    EXPECT_LE(most.velocity, velocity) << "spacings a substep, particle " << most.worst;
+  }
+}
+
+}  // namespace rill::test

@@ -1,0 +1,106 @@
+#pragma once
+// The solver on the device beside the reference: both made from one scene, particles compared by id, in units of the spacing.
+#include <glm/vec3.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fluid/fluid_impl.hpp"
+#include "reference/solver.hpp"
+#include "rill/fluid.hpp"
+#include "support/gpu_test.hpp"
+
+namespace rill::test {
+
+/// The three ways to gather neighbours.
+enum class Gather { Texel, Storage, Grid };
+inline constexpr Gather kGathers[] = {Gather::Texel, Gather::Storage, Gather::Grid};
+const char* nameOf(Gather gather);
+
+/// A scene with its particles, and the fixed step that both solvers take.
+struct Trial {
+  Scene scene;
+  double origin[3] = {0, 0, 0};  ///< m
+  std::vector<glm::dvec3> x, v;  ///< m and m/s, relative to the origin; `v` may be empty: at rest
+  double step = 1e-3;            ///< s
+  Gather gather = Gather::Texel;
+
+  double d() const { return scene.fluid.spacing; }
+  Scene timedScene() const;  ///< with the step as its longest one
+  ParticleSet particles() const;
+};
+
+/// Spacing 1/16 m, no walls, gravity; relaxation, regularization and warm start explicit, a fixed step, no bound on the speed to speak of.
+Trial trial();
+/// Walls from 0 to `size`.
+void setWalls(Trial& trial, glm::dvec3 size, SideMask open = 0);
+
+Solid ball(glm::dvec3 centre, double radius);
+Solid slab(glm::dvec3 low, glm::dvec3 high);
+
+/// Points of a lattice, the first half a spacing from `from`, each moved by up to `jitter` spacings an axis.
+std::vector<glm::dvec3> block(glm::ivec3 count, double d, glm::dvec3 from = glm::dvec3(0), double jitter = 0, unsigned seed = 1);
+std::vector<glm::dvec3> cloud(size_t count, double edge, unsigned seed, glm::dvec3 from = glm::dvec3(0));
+
+/// Particles in the order of their ids.
+struct Snapshot {
+  std::vector<glm::dvec3> x, v;
+  std::vector<double> density;  ///< over the rest density; 0 unless figures were asked for
+  friend bool operator==(const Snapshot&, const Snapshot&) = default;
+  bool finite() const;
+};
+
+/// The reference of a trial, before its first substep.
+class Oracle {
+ public:
+  explicit Oracle(const Trial& trial);
+  /// Substeps of the trial's step, with the scene's changes of gravity.
+  void advance(int substeps);
+  reference::ReferenceSolver& solver() { return solver_; }
+
+ private:
+  const Trial& trial_;
+  reference::ReferenceSolver solver_;
+};
+
+/// Largest difference over all particles, in units of the spacing; the velocity's is over a step's time.
+struct Difference {
+  double position = 0, velocity = 0;
+  size_t worst = 0;
+};
+
+class FluidTest : public GpuTest {
+ protected:
+  /// One fluid with the graph that runs it.
+  class Run {
+   public:
+    Run(FluidTest& test, const Trial& trial);
+    /// Goes on until the advance is complete, in pieces of `piece` substeps recorded.
+    void advance(double seconds, uint32_t piece = 64);
+    void substeps(int count, uint32_t piece = 64) { advance(count * step_, piece); }
+    Snapshot snapshot();
+    FluidStats stats();                                     ///< of the present instant
+    const Snapshot& measured() const { return measured_; }  ///< the particles that stats() saw
+    const FluidProgress& progress() const { return fluid_->progress(); }
+    Fluid& fluid() { return *fluid_; }
+
+   private:
+    Snapshot read(const FluidStep& step);
+    FluidTest& test_;
+    double step_;
+    Graph graph_;
+    Snapshot measured_;
+    std::unique_ptr<Fluid> fluid_;
+  };
+
+  std::unique_ptr<Run> start(const Trial& trial) { return std::make_unique<Run>(*this, trial); }
+  void runGraph(Graph& graph) { run(graph); }
+  Device& rillDevice() { return device(); }
+
+  /// After `substeps` of both solvers.
+  Difference difference(const Trial& trial, int substeps);
+  /// The same for every way to gather neighbours, none above the limits (spacings).
+  void expectEqual(Trial trial, int substeps, double position, double velocity);
+};
+
+}  // namespace rill::test

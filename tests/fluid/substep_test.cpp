@@ -1,0 +1,240 @@
+// Whole substeps against the reference: the same scene, the same fixed step, particles compared by id. Limits are in spacings; multipliers travel as
+// halves on the device, which is a relative error of about 5e-4 of each correction.
+#include "fluid/rig.hpp"
+
+namespace rill::test {
+namespace {
+
+using SubstepTest = FluidTest;
+
+constexpr double kOne = 1e-4;   // after one substep
+constexpr double kTen = 1e-3;   // after ten
+
+TEST_F(SubstepTest, CloudTakesOneStep) {
+  Trial t = trial();
+  t.x = cloud(400, 7.4 * t.d(), 11);
+  t.v = cloud(400, 1.0, 12, glm::dvec3(-0.5));
+  expectEqual(t, 1, kOne, kOne);
+}
+
+TEST_F(SubstepTest, Lattice) {
+  Trial t = trial();
+  t.x = block({7, 6, 8}, t.d());
+  expectEqual(t, 1, kOne, kOne);
+  expectEqual(t, 10, kTen, kTen);
+}
+
+TEST_F(SubstepTest, CompressedLattice) {
+  Trial t = trial();
+  t.x = block({7, 6, 8}, 0.93 * t.d(), {}, 0.05);
+  expectEqual(t, 1, kOne, kOne);
+  expectEqual(t, 10, kTen, kTen);
+}
+
+TEST_F(SubstepTest, JitteredBlockInACorner) {
+  Trial t = trial();
+  setWalls(t, {1, 1, 1});
+  t.x = block({6, 7, 6}, t.d(), {}, 0.2);
+  t.v = cloud(t.x.size(), 0.4, 5, glm::dvec3(-0.2));
+  expectEqual(t, 1, kOne, kOne);
+  expectEqual(t, 10, kTen, kTen);
+}
+
+TEST_F(SubstepTest, BlockInTheFarCorner) {
+  Trial t = trial();
+  setWalls(t, {0.75, 1, 0.875});
+  t.x = block({6, 7, 6}, t.d(), {0.75 - 6 * t.d(), 1 - 7 * t.d(), 0.875 - 6 * t.d()}, 0.1);
+  t.scene.gravity[0] = 3;
+  t.scene.gravity[1] = 9.81;
+  expectEqual(t, 10, kTen, kTen);
+}
+
+TEST_F(SubstepTest, ThinSlab) {
+  Trial t = trial();
+  setWalls(t, {1, 1, 2.2 * t.d()});
+  t.x = block({8, 8, 2}, t.d(), {0.1, 0, 0.1 * t.d()}, 0.05);
+  expectEqual(t, 10, kTen, kTen);
+}
+
+TEST_F(SubstepTest, OneSpacingThin) {
+  Trial t = trial();
+  setWalls(t, {1, 1, 1.0 * t.d()});
+  t.x = block({10, 8, 1}, t.d(), {}, 0.05);
+  expectEqual(t, 10, kTen, kTen);
+}
+
+TEST_F(SubstepTest, OpenSides) {
+  Trial t = trial();
+  setWalls(t, {0.5, 1, 0.5}, 0b001010);
+  t.x = block({8, 6, 8}, t.d(), {}, 0.1);
+  expectEqual(t, 10, kTen, kTen);
+}
+
+TEST_F(SubstepTest, Poly6Spiky) {
+  Trial t = trial();
+  t.scene.solver.kernel = KernelChoice::Poly6Spiky;
+  setWalls(t, {1, 1, 1});
+  t.x = block({6, 7, 6}, t.d(), {}, 0.1);
+  expectEqual(t, 1, kOne, kOne);
+  expectEqual(t, 10, kTen, kTen);
+}
+
+TEST_F(SubstepTest, WideSupport) {
+  Trial t = trial();
+  t.scene.fluid.smoothing_ratio = 3;
+  setWalls(t, {1, 1, 1});
+  t.x = block({6, 7, 6}, t.d(), {}, 0.1);
+  expectEqual(t, 10, kTen, kTen);
+}
+
+TEST_F(SubstepTest, OneSweepOfViscosity) {
+  Trial t = trial();
+  t.scene.fluid.viscosity = 20;
+  setWalls(t, {1, 1, 1});
+  t.x = block({6, 7, 6}, t.d(), {}, 0.1);
+  t.v = cloud(t.x.size(), 2.0, 5, glm::dvec3(-1.0));
+  expectEqual(t, 1, kOne, kOne);
+  expectEqual(t, 10, kTen, kTen);
+}
+
+TEST_F(SubstepTest, SeveralSweepsOfViscosity) {
+  Trial t = trial();
+  t.scene.fluid.viscosity = 2500;
+  setWalls(t, {1, 1, 1});
+  t.x = block({6, 7, 6}, t.d(), {}, 0.1);
+  t.v = cloud(t.x.size(), 2.0, 5, glm::dvec3(-1.0));
+  const ParticleSet particles = t.particles();
+  expectEqual(t, 1, kOne, kOne);
+  expectEqual(t, 10, kTen, kTen);
+}
+
+TEST_F(SubstepTest, Vorticity) {
+  Trial t = trial();
+  t.scene.fluid.vorticity = 0.5;
+  setWalls(t, {1, 1, 1});
+  t.x = block({6, 7, 6}, t.d(), {}, 0.1);
+  t.v = cloud(t.x.size(), 2.0, 5, glm::dvec3(-1.0));
+  expectEqual(t, 1, kOne, kOne);
+  expectEqual(t, 10, kTen, kTen);
+}
+
+TEST_F(SubstepTest, ViscosityAndVorticity) {
+  Trial t = trial();
+  t.scene.fluid.viscosity = 20;
+  t.scene.fluid.vorticity = 0.5;
+  t.x = block({6, 7, 6}, t.d(), {}, 0.1);
+  t.v = cloud(t.x.size(), 2.0, 5, glm::dvec3(-1.0));
+  expectEqual(t, 10, kTen, kTen);
+}
+
+TEST_F(SubstepTest, Tensile) {
+  Trial t = trial();
+  t.scene.fluid.tensile = 1;
+  t.step = 4e-3;
+  setWalls(t, {1, 1, 1});
+  t.x = block({6, 7, 6}, t.d(), {}, 0.2);
+  expectEqual(t, 1, kOne, kOne);
+  expectEqual(t, 10, kTen, kTen);
+}
+
+TEST_F(SubstepTest, ThreeIterations) {
+  Trial t = trial();
+  t.scene.solver.iterations = 3;
+  t.scene.fluid.tensile = 0.5;
+  t.x = block({6, 7, 6}, t.d(), {}, 0.15);
+  expectEqual(t, 1, kOne, kOne);
+  expectEqual(t, 10, kTen, kTen);
+}
+
+TEST_F(SubstepTest, ThreeIterationsAtWalls) {
+  Trial t = trial();
+  t.scene.solver.iterations = 3;
+  setWalls(t, {1, 1, 1});
+  t.x = block({6, 7, 6}, t.d(), {}, 0.15);
+  expectEqual(t, 1, kOne, kOne);
+  expectEqual(t, 10, kTen, kTen);
+}
+
+TEST_F(SubstepTest, GravityThatChanges) {
+  Trial t = trial();
+  t.scene.gravity_changes = {{0.003, {5, 0, 0}}, {0.0062, {0, 0, -20}}};
+  t.x = block({5, 5, 5}, t.d());
+  expectEqual(t, 10, kTen, kTen);
+}
+
+TEST_F(SubstepTest, RestsOnABox) {
+  Trial t = trial();
+  setWalls(t, {1, 1, 1});
+  t.scene.solids = {slab({0.1, 0, 0.1}, {0.9, 0.25, 0.9})};
+  t.x = block({7, 4, 7}, t.d(), {0.2, 0.25, 0.25}, 0.05);
+  t.v = cloud(t.x.size(), 1.0, 5, {-0.5, -1.0, 0.5});
+  expectEqual(t, 1, kOne, kOne);
+  expectEqual(t, 10, kTen, kTen);
+}
+
+TEST_F(SubstepTest, RestsOnATurnedBox) {
+  Trial t = trial();
+  t.scene.solids = {slab({-0.4, -0.2, -0.4}, {0.4, 0.2, 0.4})};
+  t.scene.solids[0].rotation[2] = 0.6;
+  t.scene.solids[0].rotation[3] = 0.8;
+  t.x = block({6, 4, 6}, t.d(), {-0.5, 0.46, -0.2}, 0.05);
+  t.v = cloud(t.x.size(), 1.0, 5, {-0.5, -4.0, 0.5});
+  expectEqual(t, 1, kOne, kOne);
+  expectEqual(t, 10, kTen, kTen);
+}
+
+TEST_F(SubstepTest, FlowsOverABall) {
+  Trial t = trial();
+  setWalls(t, {1, 1, 1});
+  t.scene.solids = {ball({0.5, 0.2, 0.5}, 0.2)};
+  t.x = block({7, 4, 7}, t.d(), {0.25, 0.405, 0.25}, 0.05);
+  t.v.assign(t.x.size(), {0.5, -3, 0});
+  expectEqual(t, 1, kOne, kOne);
+  expectEqual(t, 10, kTen, kTen);
+}
+
+TEST_F(SubstepTest, RubsAndBounces) {
+  Trial t = trial();
+  setWalls(t, {1, 1, 1});
+  t.scene.solids = {slab({0.1, 0, 0.1}, {0.9, 0.25, 0.9})};
+  t.scene.solids[0].friction = 0.4;
+  t.scene.solids[0].restitution = 0.5;
+  t.x = block({7, 4, 7}, t.d(), {0.2, 0.26, 0.25}, 0.05);
+  t.v.assign(t.x.size(), {1, -2, 0.5});
+  expectEqual(t, 1, kOne, kOne);
+  expectEqual(t, 10, kTen, kTen);
+}
+
+TEST_F(SubstepTest, LoneParticleRubs) {
+  Trial t = trial();
+  t.scene.solids = {slab({-1, -1, -1}, {1, 0, 1})};
+  t.scene.solids[0].friction = 0.3;
+  t.x = {{0, 0.5 * t.d(), 0}};
+  t.v = {{0.5, 0, 0}};
+  expectEqual(t, 10, 1e-5, 1e-5);
+}
+
+TEST_F(SubstepTest, SolidThatMoves) {
+  Trial t = trial();
+  setWalls(t, {1, 1, 1});
+  t.scene.solids = {slab({0.1, 0, 0.1}, {0.9, 0.25, 0.9}), ball({0.5, 0.8, 0.5}, 0.15)};
+  t.scene.solids[0].motion = {{0, {0, 0, 0}}, {0.1, {0, 0.1, 0}}, {1, {0.1, 0, 0}}};
+  t.scene.solids[0].friction = 0.2;
+  t.scene.solids[1].motion = {{0.004, {0, 0, 0}}, {0.104, {0, -0.2, 0}}};
+  t.x = block({7, 4, 7}, t.d(), {0.2, 0.26, 0.25}, 0.05);
+  expectEqual(t, 1, kOne, kOne);
+  expectEqual(t, 10, kTen, kTen);
+}
+
+TEST_F(SubstepTest, SolidWithViscosity) {
+  Trial t = trial();
+  t.scene.fluid.viscosity = 20;
+  setWalls(t, {1, 1, 1});
+  t.scene.solids = {slab({0.1, 0, 0.1}, {0.9, 0.25, 0.9})};
+  t.x = block({7, 4, 7}, t.d(), {0.2, 0.25, 0.25}, 0.05);
+  t.v.assign(t.x.size(), {1, -1, 0.5});
+  expectEqual(t, 10, kTen, kTen);
+}
+
+}  // namespace
+}  // namespace rill::test
