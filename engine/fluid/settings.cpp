@@ -153,7 +153,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const double origin[3], 
   p.support = f(h);
   p.inverseSupport = f(1 / h);
   p.valueScale = f(kernel.valueScale());
-  p.gradientScale = f(setup.kernel == 0 ? -kernel.gradientScale() : -kernel.gradientScale() / h);
+  p.gradientScale = f(setup.kernel == 0 ? kernel.gradientScale() : kernel.gradientScale() / h);
   p.inverseRestGradient = f(1 / kernel.restGradientSum());
   p.regularization = f(scene.solver.regularization.value_or(kRegularization) * kernel.restGradientSum());
   p.relaxation = f(scene.solver.relaxation.value_or(kRelaxation));

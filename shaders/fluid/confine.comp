@@ -25,7 +25,7 @@ vec3 rise = vec3(0.0);
 
 void visit(uint j, vec4 particle) {
   vec3 r = here - particle.xyz;
-  rise += (CURL(j).w - own.w) * kernelGradient(sqrt(dot(r, r))) * r;
+  rise += (CURL(j).w - own.w) * gradientShape(sqrt(dot(r, r))) * r;
 }
 #include "fluid/neighbours.glsl"
 
@@ -36,6 +36,7 @@ void main() {
   here = PARTICLE(i).xyz;
   own = CURL(i);
   visitNeighbours(i, local);
+  rise *= params.gradientScale;
   // Below a thousandth of the spin a smoothing length its change is noise.
   vec3 direction = rise / (length(rise) + 0.001 * own.w * params.inverseSupport + 1.0e-20);
   vec4 v = velocity[i];

@@ -21,22 +21,24 @@ layout(std430, binding = 13) writeonly buffer FreeBlock { vec4 freeVelocity[]; }
 layout(std430, binding = 14) buffer WarmBlock { float warm[]; };
 
 vec4 here;
-vec2 own;                     // multiplier change, warm start; m^2
-vec3 moved = vec3(0.0);       // m
-vec3 pushed = vec3(0.0);      // m
+vec2 own;                     // multiplier change, warm start; in the unit
+vec3 moved = vec3(0.0);       // m, once scaled
+vec3 pushed = vec3(0.0);      // m, once scaled
 
-vec2 multipliers(vec4 particle) {
-  return unpackHalf2x16(floatBitsToUint(particle.w)) * (params.inverseRestGradient / kMultiplierScale);
-}
+float unit = params.inverseRestGradient / kMultiplierScale;  // m^2, of the multipliers
+float tensile = params.tensile * control.step * control.step / unit;
+float tensileScale = params.valueScale * params.tensileInverse;
+float tensilePower = params.tensilePower;
+
+vec2 multipliers(vec4 particle) { return unpackHalf2x16(floatBitsToUint(particle.w)); }
 
 void visit(uint j, vec4 particle) {
   vec3 r = here.xyz - particle.xyz;
   float distance = sqrt(dot(r, r));
-  vec3 gradient = kernelGradient(distance) * r;
+  vec3 gradient = gradientShape(distance) * r;
   vec2 both = own + multipliers(particle);
   if (TENSILE != 0u) {
-    float ratio = kernelValue(distance) * params.tensileInverse;
-    both.x -= params.tensile * control.step * control.step * pow(ratio, params.tensilePower);
+    both.x -= tensile * pow(kernelShape(distance) * tensileScale, tensilePower);
   }
   moved += both.x * gradient;
   pushed += both.y * gradient;
@@ -50,8 +52,10 @@ void main() {
   here = PARTICLE(i);
   own = multipliers(here);
   visitNeighbours(i, local);
+  moved *= unit * params.gradientScale;
+  pushed *= unit * params.gradientScale;
   if (NEAR != 0u) {
-    vec3 wall = nearSample[i].xyz;
+    vec3 wall = unit * nearSample[i].xyz;
     moved += own.x * wall;
     pushed += own.y * wall;
   }

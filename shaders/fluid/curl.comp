@@ -23,7 +23,7 @@ vec3 turning = vec3(0.0);
 
 void visit(uint j, vec4 particle) {
   vec3 r = here - particle.xyz;
-  turning += cross(kernelGradient(sqrt(dot(r, r))) * r, VELOCITY(j).xyz - own);
+  turning += cross(gradientShape(sqrt(dot(r, r))) * r, VELOCITY(j).xyz - own);
 }
 #include "fluid/neighbours.glsl"
 
@@ -34,5 +34,6 @@ void main() {
   here = PARTICLE(i).xyz;
   own = VELOCITY(i).xyz;
   visitNeighbours(i, local);
+  turning *= params.gradientScale;
   curl[i] = vec4(turning, length(turning));
 }

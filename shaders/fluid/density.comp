@@ -26,7 +26,7 @@ void visit(uint j, vec4 particle) {
   vec3 r = here - particle.xyz;
   float squared = dot(r, r);
   float value, gradient;
-  kernelBoth(sqrt(squared), value, gradient);
+  kernelShapes(sqrt(squared), value, gradient);
   rho += value;
   gradientSum += gradient * r;
   gradientSquares += gradient * gradient * squared;
@@ -39,7 +39,9 @@ void main() {
   if (i >= push.last) return;
   here = PARTICLE(i).xyz;
   visitNeighbours(i, local);
-  rho += kernelValue(0.0);
+  rho = params.valueScale * (rho + kernelShape(0.0));
+  gradientSum *= params.gradientScale;
+  gradientSquares *= params.gradientScale * params.gradientScale;
   if (NEAR != 0u) {
     vec4 displaced = nearSample[i];
     gradientSum += displaced.xyz;

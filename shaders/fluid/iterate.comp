@@ -16,19 +16,21 @@ vec4 here;
 float own;
 vec3 moved = vec3(0.0);
 
-float multiplier(vec4 particle) {
-  return unpackHalf2x16(floatBitsToUint(particle.w)).x * (params.inverseRestGradient / kMultiplierScale);
-}
+float unit = params.inverseRestGradient / kMultiplierScale;  // m^2, of the multipliers
+float tensile = params.tensile * control.step * control.step / unit;
+float tensileScale = params.valueScale * params.tensileInverse;
+float tensilePower = params.tensilePower;
+
+float multiplier(vec4 particle) { return unpackHalf2x16(floatBitsToUint(particle.w)).x; }
 
 void visit(uint j, vec4 particle) {
   vec3 r = here.xyz - particle.xyz;
   float distance = sqrt(dot(r, r));
   float both = own + multiplier(particle);
   if (TENSILE != 0u) {
-    float ratio = kernelValue(distance) * params.tensileInverse;
-    both -= params.tensile * control.step * control.step * pow(ratio, params.tensilePower);
+    both -= tensile * pow(kernelShape(distance) * tensileScale, tensilePower);
   }
-  moved += both * kernelGradient(distance) * r;
+  moved += both * gradientShape(distance) * r;
 }
 #include "fluid/neighbours.glsl"
 
@@ -39,6 +41,7 @@ void main() {
   here = PARTICLE(i);
   own = multiplier(here);
   visitNeighbours(i, local);
-  if (NEAR != 0u) moved += own * nearSample[i].xyz;
+  moved *= unit * params.gradientScale;
+  if (NEAR != 0u) moved += unit * own * nearSample[i].xyz;
   prediction[i] = vec4(insideWalls(here.xyz + moved), prediction[i].w);
 }

@@ -16,12 +16,13 @@ layout(std430, binding = 11) buffer HistogramBlock { uint histogram[]; };  // co
 vec3 here;
 float rho = 0.0;
 uint inside = 0u;
+float support = params.support;
 
 void visit(uint j, vec4 particle) {
   vec3 r = here - particle.xyz;
   float distance = sqrt(dot(r, r));
-  rho += kernelValue(distance);
-  inside += uint(distance < params.support);
+  rho += kernelShape(distance);
+  inside += uint(distance < support);
 }
 #include "fluid/neighbours.glsl"
 
@@ -39,7 +40,7 @@ void main() {
   if (i < push.last) {
     here = PARTICLE(i).xyz;
     visitNeighbours(i, local);
-    rho += kernelValue(0.0);
+    rho = params.valueScale * (rho + kernelShape(0.0));
     if (NEAR != 0u) rho += nearSample[i].w;
     vec3 v = velocity[i].xyz;
     velocity[i].w = rho;

@@ -25,7 +25,7 @@ vec3 change = vec3(0.0);
 
 void visit(uint j, vec4 particle) {
   vec3 r = here - particle.xyz;
-  change += kernelValue(sqrt(dot(r, r))) * (VELOCITY(j).xyz - own.xyz);
+  change += kernelShape(sqrt(dot(r, r))) * (VELOCITY(j).xyz - own.xyz);
 }
 #include "fluid/neighbours.glsl"
 
@@ -36,7 +36,7 @@ void main() {
   here = PARTICLE(i).xyz;
   own = VELOCITY(i);
   visitNeighbours(i, local);
-  vec3 v = own.xyz + params.viscosityRate * control.step * push.share * change;
+  vec3 v = own.xyz + params.viscosityRate * control.step * push.share * params.valueScale * change;
   smoothed[i] = vec4(v, own.w);
   prediction[i] = vec4(insideWalls(position[i].xyz + control.nextStep * (v + control.nextStep * (gravity() + pushAway[i].xyz))), 0.0);
 }

@@ -39,7 +39,7 @@ struct FluidParams {
   float support;          // m, the kernel's support radius h
   float inverseSupport;   // 1/m
   float valueScale;       // of the kernel's polynomial
-  float gradientScale;    // of its gradient's polynomial, 1/m^2 (see kernel.glsl)
+  float gradientScale;    // of its gradient's polynomial, negative, 1/m^2 (see kernel.glsl)
   float inverseRestGradient;  // 1 / sum |grad K|^2 of the rest lattice, m^2
   float regularization;   // epsilon times sum |grad K|^2 of the rest lattice, 1/m^2
   float relaxation;       // omega
