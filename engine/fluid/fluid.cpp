@@ -265,7 +265,9 @@ Expected<void> FluidImpl::makePipelines(Device& device) {
     gather(pipes_.curl, "fluid/curl", {vectors, Storage}, sizeof(ChunkPush), {kernel, capacity});
     gather(pipes_.confine, "fluid/confine", {vectors, Storage, Storage, Storage, Storage}, sizeof(ChunkPush), {kernel, capacity});
   }
-  gather(pipes_.measure, "fluid/measure", storages(4), sizeof(ChunkPush), {kernel, capacity, nearWalls});
+  make(pipes_.measureKeys, "fluid/measure_keys", plain(2, 2), 0);
+  make(pipes_.measureOrder, "fluid/measure_order", plain(2, 3), 0);
+  make(pipes_.measure, "fluid/measure", plain(2, 7), 0, {kernel, nearWalls});
   make(pipes_.reduce, "fluid/measure_reduce", plain(2, 3), 0);
   return result;
 }

@@ -28,7 +28,7 @@ struct FluidPipelines {
   const ComputePipeline *plane = nullptr, *corner = nullptr, *collide = nullptr, *collideAgain = nullptr, *pose = nullptr;
   const ComputePipeline *density = nullptr, *correct = nullptr, *iterate = nullptr;
   const ComputePipeline *viscosity = nullptr, *keep = nullptr, *curl = nullptr, *confine = nullptr;
-  const ComputePipeline *measure = nullptr, *reduce = nullptr;
+  const ComputePipeline *measureKeys = nullptr, *measureOrder = nullptr, *measure = nullptr, *reduce = nullptr;
 };
 
 /// One frame's versions of the buffers.

@@ -203,6 +203,31 @@ static void gatherPass(Graph& graph, FluidRefs& r, bool texel, std::span<const C
   });
 }
 
+// A pass over all particles. Its shader binds, after the two uniform blocks, what is read, what is written anew and what is changed.
+static void plainPass(Graph& graph, FluidRefs& r, std::string_view name, const ComputePipeline* pipeline, uint32_t count, std::initializer_list<BufferRef> reads,
+                      std::initializer_list<BufferRef*> writes, std::initializer_list<BufferRef*> changes = {}) {
+  graph.pass(name, [&](Pass& pass) {
+    pass.read(r.params, Use::ComputeUniform);
+    pass.read(r.control, Use::ComputeUniform);
+    BindingList bindings;
+    bindings.add({r.params, r.control});
+    for (BufferRef ref : reads) {
+      pass.read(ref, Use::ComputeRead);
+      bindings.add({ref});
+    }
+    for (BufferRef* ref : writes) {
+      *ref = pass.write(*ref, Use::ComputeWrite, true);
+      bindings.add({*ref});
+    }
+    for (BufferRef* ref : changes) {
+      *ref = pass.write(*ref, Use::ComputeAtomic);
+      bindings.add({*ref});
+    }
+    const Kernel kernel = pass.kernel(pipeline, bindings.span());
+    return [=, groups = divideUp(count, kFluidGroup)](Commands& commands) { commands.dispatch(kernel, groups); };
+  });
+}
+
 // Wall and solid densities at `at` for the particles near them.
 static void wallPass(Graph& graph, FluidRefs& r, std::string_view name, const ComputePipeline* pipeline, BufferRef at, uint32_t command) {
   graph.pass(name, [&](Pass& pass) {
@@ -356,13 +381,12 @@ void FluidImpl::declareMeasure(Graph& graph, Pending& pending) {
     histogram = pass.write(histogram, Use::CopyTarget, true);
     return [histogram](Commands& commands) { commands.fill(histogram, 0); };
   });
-  gatherPass(graph, r_, texel_, chunks_, "measure", pipes_.measure, r_.position, std::nullopt, ChunkPush{}, [&](Pass& pass, BindingList& bindings) {
-    pass.read(r_.nearSample, Use::ComputeRead);
-    r_.velocity = pass.write(r_.velocity, Use::ComputeWrite);
-    partials = pass.write(partials, Use::ComputeWrite, true);
-    histogram = pass.write(histogram, Use::ComputeAtomic);
-    bindings.add({r_.velocity, r_.nearSample, partials, histogram});
-  });
+  BufferRef keys = graph.create("position keys", {uint64_t{count} * 4}), ordered = graph.create("ordered positions", {uint64_t{count} * 16});
+  plainPass(graph, r_, "measure keys", pipes_.measureKeys, count, {r_.position}, {&keys});
+  const SortedKeys sorted = sort_->addTo(graph, keys);
+  plainPass(graph, r_, "measure order", pipes_.measureOrder, count, {sorted.order, r_.position}, {&ordered});
+  plainPass(graph, r_, "measure", pipes_.measure, count, {ordered, sorted.start, r_.nearSample}, {&partials},
+            {&r_.sums, &r_.velocity, &histogram});
   BufferRef result = graph.create("figures", {sizeof(MeasureResult)});
   graph.pass("reduce", [&](Pass& pass) {
     pass.read(r_.params, Use::ComputeUniform);

@@ -1,17 +1,20 @@
 #version 460
 // Figures of the present instant: density at the positions (walls included), energies, momentum, who is outside; a partial sum a workgroup in a
-// fixed order, and histograms of the density error for its percentiles. Gathers from the positions.
+// fixed order, and histograms of the density error for its percentiles. Walks a grid of its own, made of the positions: no neighbour that the solver's
+// list has missed is missed here.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
-#include "fluid/arrays.glsl"
 #include "fluid/kernel.glsl"
 layout(local_size_x = kMeasureGroup) in;
-layout(constant_id = 2) const uint NEAR = 0;
-layout(push_constant) uniform Push { ChunkPush push; };
-layout(std430, binding = 8) buffer VelocityBlock { vec4 velocity[]; };
-layout(std430, binding = 9) readonly buffer NearBlock { vec4 nearSample[]; };
-layout(std430, binding = 10) writeonly buffer PartialBlock { MeasurePartial partials[]; };
-layout(std430, binding = 11) buffer HistogramBlock { uint histogram[]; };  // compression; then inside the fluid: above, below rest density
+layout(constant_id = 1) const uint NEAR = 0;
+layout(std430, binding = 2) readonly buffer SortedBlock { vec4 sorted[]; };  // w: the particle's place in the solver's arrays
+#define PARTICLE(j) sorted[j]
+layout(std430, binding = 3) readonly buffer StartBlock { uint cellStart[]; };
+layout(std430, binding = 4) readonly buffer NearBlock { vec4 nearSample[]; };
+layout(std430, binding = 5) writeonly buffer PartialBlock { MeasurePartial partials[]; };
+layout(std430, binding = 6) buffer SumsBlock { FluidSums sums; };
+layout(std430, binding = 7) buffer VelocityBlock { vec4 velocity[]; };
+layout(std430, binding = 8) buffer HistogramBlock { uint histogram[]; };  // compression; then inside the fluid: above, below rest density
 
 vec3 here;
 float rho = 0.0;
@@ -24,7 +27,7 @@ void visit(uint j, vec4 particle) {
   rho += kernelShape(distance);
   inside += uint(distance < support);
 }
-#include "fluid/neighbours.glsl"
+#include "fluid/walk.glsl"
 
 shared MeasurePartial rows[kMeasureGroup];
 
@@ -33,13 +36,15 @@ uint binOf(float size) {
 }
 
 void main() {
-  uint local = flatInvocation();
-  uint i = push.first + local;
+  uint place = flatInvocation();
   uint lane = gl_LocalInvocationID.x;
   MeasurePartial mine = MeasurePartial(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0u, 0u);
-  if (i < push.last) {
-    here = PARTICLE(i).xyz;
-    visitNeighbours(i, local);
+  if (place < params.count) {
+    vec4 particle = sorted[place];
+    here = particle.xyz;
+    uint i = floatBitsToUint(particle.w);
+    uvec3 home = cellOf(here);
+    WALK_GRID(place, home, visit)
     rho = params.valueScale * (rho + kernelShape(0.0));
     if (NEAR != 0u) rho += nearSample[i].w;
     vec3 v = velocity[i].xyz;
@@ -75,5 +80,5 @@ void main() {
                                   a.positionY + b.positionY, a.positionZ + b.positionZ, a.outside + b.outside, a.counted + b.counted);
     }
   }
-  if (lane == 0u) partials[push.first / kMeasureGroup + flatGroup()] = rows[0];
+  if (lane == 0u) partials[flatGroup()] = rows[0];
 }

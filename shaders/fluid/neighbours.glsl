@@ -3,30 +3,11 @@
 // With TEXEL the arrays are uniform texel buffers (twice as fast on lavapipe: a storage load is made lane by lane there), else storage buffers.
 #ifndef RILL_NEIGHBOURS_GLSL
 #define RILL_NEIGHBOURS_GLSL
-#include "fluid/grid.glsl"
+#include "fluid/walk.glsl"
 layout(constant_id = 1) const uint LIST_CAPACITY = 0;  // 0: no list
 
 layout(std430, binding = 6) readonly buffer StartBlock { uint cellStart[]; };
 layout(std430, binding = 7) buffer SumsBlock { FluidSums sums; };
-
-#define WALK(visitor)                                                                  \
-  uvec3 cell = cellFromKey(KEY_OF(i));                                                 \
-  uint row = 0u, j = 0u, end = 0u, n = 0u;                                             \
-  for (; n < kWalkBound; ++n) {                                                        \
-    if (j >= end) {                                                                    \
-      if (row == 18u) break;                                                           \
-      uint first, last;                                                                \
-      rowKeys(cell, row >> 1, row & 1u, first, last);                                  \
-      j = cellStart[first];                                                            \
-      end = first == last ? j : cellStart[last];                                       \
-      ++row;                                                                           \
-    }                                                                                  \
-    if (j < end) {                                                                     \
-      if (j != i) visitor(j, PARTICLE(j));                                             \
-      ++j;                                                                             \
-    }                                                                                  \
-  }                                                                                    \
-  if (n == kWalkBound) atomicAdd(sums.boundHits, 1u);
 
 void visitNeighbours(uint i, uint local) {
   uint count = LIST_CAPACITY == 0u ? 0u : COUNT_OF(i);
@@ -43,6 +24,9 @@ void visitNeighbours(uint i, uint local) {
       at += kListBlock;
     }
   }
-  if (!listed) { WALK(visit) }
+  if (!listed) {
+    uvec3 home = cellFromKey(KEY_OF(i));
+    WALK_GRID(i, home, visit)
+  }
 }
 #endif
