@@ -3,19 +3,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shared/fluid_records.h"
+
 namespace rill {
 
 GridSize chooseGridSize(double cell, const double extent[3], uint64_t particles) {
+  const GridSize least;
   GridSize size;
   size.cell = cell;
   for (int axis = 0; axis < 3; ++axis) {
-    const double cells = std::clamp(std::ceil(extent[axis] / cell) + 1.0, 4.0, 4096.0);
+    const double edge = axis == 0 ? cell / kCellsPerReach : cell;
+    const double cells = std::clamp(std::ceil(extent[axis] / edge) + 1.0, double(1u << least.bits[axis]), 4096.0);
     size.bits[axis] = static_cast<uint32_t>(std::ceil(std::log2(cells)));
   }
-  const uint64_t most = std::max<uint64_t>(4096, 2 * particles);
+  const uint64_t most = std::max<uint64_t>(4096, 4 * particles);
   while (size.cells() > most) {
     uint32_t* longest = std::max_element(size.bits, size.bits + 3);
-    if (*longest == 2) break;
+    if (*longest <= least.bits[longest - size.bits]) break;
     --*longest;
   }
   return size;

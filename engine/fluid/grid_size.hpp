@@ -5,13 +5,13 @@ namespace rill {
 
 /// The wrapped grid: 2^bits cells a dimension. Cell coordinates are taken modulo that, so that particles may be anywhere.
 struct GridSize {
-  double cell = 0;                 ///< m
-  uint32_t bits[3] = {2, 2, 2};    ///< at least 2: the three cells around a coordinate differ
+  double cell = 0;               ///< m, in y and z; kCellsPerReach times shorter in x
+  uint32_t bits[3] = {3, 2, 2};  ///< at least these: the cells around a coordinate differ
 
   uint64_t cells() const { return uint64_t{1} << (bits[0] + bits[1] + bits[2]); }
 };
 
-/// Dimensions that cover `extent` (m) where that takes at most about two cells a particle, else wrapped, the longest dimension first.
+/// Dimensions that cover `extent` (m) where that takes at most about four cells a particle, else wrapped, the longest dimension first.
 /// Clearing and scanning cost a cell what a sort costs a particle, so more cells than that buy nothing.
 GridSize chooseGridSize(double cell, const double extent[3], uint64_t particles);
 

@@ -69,11 +69,13 @@ void main() {
   uint count = 0u, looked = 0u, twin = kNone;
   float reachSquared = params.reach * params.reach;
   float twinSquared = 1.0e-6 * params.support * params.support;
-  uint parts = home.x == 0u || home.x == gridMask().x ? 2u : 1u;
+  uint parts = home.x < kCellsPerReach || home.x + kCellsPerReach > gridMask.x ? 2u : 1u;
   for (uint row = 0u; row < 9u; ++row) {
+    int low, high;
+    rowReach(x, params.reach, row, low, high);
     for (uint part = 0u; part < parts; ++part) {
       uint first, last;
-      rowKeys(home, row, part, first, last);
+      rowKeys(home, row, low, high, part, first, last);
       uint begin = cellStart[first];
       uint end = first == last ? begin : cellStart[last];
       for (uint base = begin; base < end && looked < kWalkBound; base += 32u) {

@@ -1,36 +1,43 @@
-// The wrapped grid: cell coordinates modulo a power of two a dimension, so that the domain is unbounded. Needs `params`.
+// The wrapped grid: cell coordinates modulo a power of two a dimension, so that the domain is unbounded. Cells are kCellsPerReach times narrower in x than in
+// y and z: what follows in x is contiguous in the sorted arrays, and narrow cells make its ends fit. Needs `params`.
 #ifndef RILL_GRID_GLSL
 #define RILL_GRID_GLSL
-uvec3 gridMask() {
-  return (uvec3(1u) << uvec3(params.gridBitsX, params.gridBitsY, params.gridBitsZ)) - 1u;
-}
+// Loaded once, see kernel.glsl.
+uvec3 gridBits = uvec3(params.gridBitsX, params.gridBitsY, params.gridBitsZ);
+uvec3 gridMask = (uvec3(1u) << gridBits) - 1u;
+vec3 inverseCell = params.inverseCell * vec3(kCellsPerReach, 1, 1);
 
-uint cellKey(uvec3 cell) {
-  return ((cell.z << params.gridBitsY | cell.y) << params.gridBitsX) | cell.x;
-}
+uint cellKey(uvec3 cell) { return ((cell.z << gridBits.y | cell.y) << gridBits.x) | cell.x; }
 
-uvec3 cellOf(vec3 x) {
-  vec3 scaled = clamp(floor(x * params.inverseCell), -1.0e9, 1.0e9);
-  return uvec3(ivec3(scaled)) & gridMask();
-}
+vec3 scaledPosition(vec3 x) { return clamp(x * inverseCell, -1.0e9, 1.0e9); }
+
+uvec3 cellOf(vec3 x) { return uvec3(ivec3(floor(scaledPosition(x)))) & gridMask; }
 
 uvec3 cellFromKey(uint key) {
-  uvec3 mask = gridMask();
-  return uvec3(key & mask.x, key >> params.gridBitsX & mask.y, key >> (params.gridBitsX + params.gridBitsY));
+  return uvec3(key & gridMask.x, key >> gridBits.x & gridMask.y, key >> (gridBits.x + gridBits.y));
 }
 
-// Row `row` of 0 .. 8 around a cell: three cells that follow each other in x are one range of keys, two where the row wraps (part 0 and 1).
+// Row `row` of 0 .. 8 around the cell `home`, its cells home.x + low .. home.x + high: one range of keys, two where the row wraps (part 0 and 1).
 // Gives the keys [first, last) of the part; first == last where there is none.
-void rowKeys(uvec3 cell, uint row, uint part, out uint first, out uint last) {
-  uvec3 mask = gridMask();
-  uint y = (cell.y + row % 3u - 1u) & mask.y;
-  uint z = (cell.z + row / 3u - 1u) & mask.z;
+void rowKeys(uvec3 home, uint row, int low, int high, uint part, out uint first, out uint last) {
+  uint y = (home.y + row % 3u - 1u) & gridMask.y;
+  uint z = (home.z + row / 3u - 1u) & gridMask.z;
   uint base = cellKey(uvec3(0u, y, z));
-  uint low = cell.x == 0u ? 0u : cell.x - 1u;
-  uint high = min(cell.x + 1u, mask.x);
-  bool wraps = high - low < 2u;
-  uint other = cell.x == 0u ? mask.x : 0u;
-  first = base + (part == 0u ? low : other);
-  last = base + (part == 0u ? high + 1u : (wraps ? other + 1u : other));
+  uint from = (home.x + uint(low)) & gridMask.x;
+  uint past = from + uint(max(high - low + 1, 0));
+  first = base + (part == 0u ? from : 0u);
+  last = base + (part == 0u ? min(past, gridMask.x + 1u) : max(past, gridMask.x + 1u) - (gridMask.x + 1u));
+}
+
+// The cells of a row, relative to x's own, that hold whatever is nearer to x than `reach` (m, at most a cell's edge in y). None: low > high.
+void rowReach(vec3 x, float reach, uint row, out int low, out int high) {
+  vec3 scaled = scaledPosition(x);
+  vec3 within = scaled - floor(scaled);
+  uvec2 side = uvec2(row % 3u, row / 3u);
+  vec2 gap = vec2(side.x == 0u ? within.y : (side.x == 2u ? 1.0 - within.y : 0.0), side.y == 0u ? within.z : (side.y == 2u ? 1.0 - within.z : 0.0)) / inverseCell.yz;
+  float left = reach * reach - dot(gap, gap);
+  float width = sqrt(max(left, 0.0)) * inverseCell.x;
+  low = left < 0.0 ? 1 : int(floor(within.x - width));
+  high = left < 0.0 ? 0 : int(floor(within.x + width));
 }
 #endif

@@ -44,7 +44,7 @@ void main() {
     here = particle.xyz;
     uint i = floatBitsToUint(particle.w);
     uvec3 home = cellOf(here);
-    WALK_GRID(place, home, visit)
+    WALK_GRID(place, home, rowReach(here, support, row, low, high);, visit)
     rho = params.valueScale * (rho + kernelShape(0.0));
     if (NEAR != 0u) rho += nearSample[i].w;
     vec3 v = velocity[i].xyz;

@@ -26,7 +26,7 @@ void visitNeighbours(uint i, uint local) {
   }
   if (!listed) {
     uvec3 home = cellFromKey(KEY_OF(i));
-    WALK_GRID(i, home, visit)
+    WALK_GRID(i, home, , visit)
   }
 }
 #endif

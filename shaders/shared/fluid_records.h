@@ -6,6 +6,7 @@ RILL_RECORDS_BEGIN
 
 RILL_CONST uint kFluidGroup = 64u;        // invocations a workgroup of every per-particle pass
 RILL_CONST uint kListBlock = 4096u;       // particles a block of the neighbour list: k-major inside a block
+RILL_CONST uint kCellsPerReach = 2u;       // grid cells in x as long as one in y or z
 RILL_CONST uint kWalkBound = 32768u;      // candidates that one grid walk looks at, at most; more are counted as a bound hit
 RILL_CONST float kParked = 1.0e9f;        // m: where the dummy neighbour sits that pads the list
 RILL_CONST float kMultiplierScale = 1024.0f;  // multipliers travel as halves in units of 1 / (restGradient * this)
@@ -55,7 +56,7 @@ struct FluidParams {
   float highX, highY, highZ;  // m; kParked where there is none
   float margin;           // m, how near a centre may come to a wall or a solid: half a spacing
   uint gridBitsX, gridBitsY, gridBitsZ;  // log2 of the cells a dimension
-  float inverseCell;      // 1/m
+  float inverseCell;      // 1/m, in y and z
   float tableStep;        // m between nodes of the plane and edge tables
   float cornerStep;       // and of the corner table
   uint tableNodes;        // nodes an axis

@@ -99,7 +99,7 @@ class FluidTest : public GpuTest {
 
   /// After `substeps` of both solvers.
   Difference difference(const Trial& trial, int substeps);
-  /// The same for every way to gather neighbours, none above the limits (spacings).
+  /// For every way to gather neighbours: none above the limits (spacings), but for what an ageing list misses.
   void expectEqual(Trial trial, int substeps, double position, double velocity);
 };
 

@@ -7,8 +7,8 @@ namespace {
 
 using SubstepTest = FluidTest;
 
-constexpr double kOne = 1e-4;   // after one substep
-constexpr double kTen = 1e-3;   // after ten
+constexpr double kOne = 2e-4;  // after one substep
+constexpr double kTen = 1e-3;  // after ten
 
 TEST_F(SubstepTest, CloudTakesOneStep) {
   Trial t = trial();
