@@ -171,8 +171,7 @@ Expected<void> FluidImpl::stage(Device& device, const ParticleSet& particles) {
   FluidControl control{};
   control.stale = 2;
   control.speed = fastest;
-  // Fluid released at once finds its pressure in steps short against free fall over a spacing.
-  control.desiredStep = p.tolerance > 0 ? std::min(p.maxStep, 0.05f * std::sqrt(p.spacing / 9.81f)) : p.maxStep;
+  control.desiredStep = static_cast<float>(setup.firstStep);
 
   std::vector<uint32_t> shapes(3 * kMaxCommands, 0);
   const auto shape = [&](uint32_t command, GroupCount groups) { std::copy(groups.begin(), groups.end(), shapes.begin() + 3 * command); };

@@ -16,9 +16,11 @@ namespace {
 // Defaults of the solver's "auto" settings.
 constexpr double kRelaxation = 0.7;      // under the linear limit of 0.71 for signed corrections at h = 2d
 constexpr double kRegularization = 0.02; // of the rest lattice's sum |grad C|^2: keeps lone pairs from flying apart
-constexpr double kWarmGain = 0.1;
-constexpr double kSkin = 0.3;            // spacings beyond the support that the list reaches
-constexpr double kTravel = 1.0;          // spacings that the fastest particle may move before the list is rebuilt
+constexpr double kWarmGain = 0.05;
+constexpr double kWarmRelease = 1.3;     // the gain where density is too low, over that where it is too high: what builds up slower than it goes pumps less energy
+constexpr double kErrorOfHead = 0.06;    // mean compression over dt^2 g H / d^2, of the dam breaks in assets/scenes
+constexpr double kSkin = 0.15;           // spacings beyond the support that the list reaches
+constexpr double kTravel = 1.6;          // spacings that the fastest particle may move before the list is rebuilt
 constexpr double kFarSpacings = 1.0e6;   // beyond it, positions have lost their meaning: float holds 24 bits
 
 float f(double value) { return static_cast<float>(value); }
@@ -123,6 +125,20 @@ void setViscosity(const Scene& scene, const SmoothingKernel& kernel, FluidSetup&
   }
 }
 
+// The first step: half of what the tolerance allows under a column as high as all particles. Fluid that is released has to find its pressure: the step
+// that it can bear is known only when it has, and what compresses until then springs back.
+double firstStep(const Scene& scene, const double extent[3], double longest) {
+  if (scene.solver.tolerance <= 0) return longest;
+  double head = 0;  // m^2/s^2
+  for (int a = 0; a < 3; ++a) {
+    double most = std::abs(scene.gravity[a]);
+    for (const GravityChange& change : scene.gravity_changes) most = std::max(most, std::abs(change.value[a]));
+    head += most * std::max(extent[a], scene.fluid.spacing);
+  }
+  if (head <= 0) return longest;
+  return std::min(longest, 0.5 * scene.fluid.spacing * std::sqrt(scene.solver.tolerance / (kErrorOfHead * head)));
+}
+
 void setGravity(const Scene& scene, FluidSetup& setup) {
   for (double g : scene.gravity) setup.gravity.push_back(f(g));
   setup.gravity.push_back(0);
@@ -158,6 +174,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const double origin[3], 
   p.regularization = f(scene.solver.regularization.value_or(kRegularization) * kernel.restGradientSum());
   p.relaxation = f(scene.solver.relaxation.value_or(kRelaxation));
   p.warmGain = f(scene.solver.warm_start.value_or(scene.solver.iterations == 1 ? kWarmGain : 0.0));
+  p.warmRelease = f(kWarmRelease);
   p.reach = f(h + kSkin * d);
   p.travelLimit = f(kTravel * d);
   p.listCapacity = scene.solver.neighbors == NeighborChoice::List ? listCapacity((h + kSkin * d) / d) : 0u;
@@ -197,6 +214,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const double origin[3], 
   p.solidCount = static_cast<uint32_t>(setup.solids.size());
   setViscosity(scene, kernel, setup);
   setGravity(scene, setup);
+  setup.firstStep = firstStep(scene, extent, p.maxStep);
 
   double room[3];
   for (int a = 0; a < 3; ++a) room[a] = scene.domain ? scene.domain->max[a] - scene.domain->min[a] : 2 * extent[a];

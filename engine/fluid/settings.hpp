@@ -20,12 +20,13 @@ struct FluidSetup {
   std::vector<float> gravity;            ///< the schedule: value and time, four floats each; the scene's own first
   uint32_t kernel = 0;                   ///< specialization constant KERNEL
   uint32_t viscositySweeps = 0;          ///< 0: no viscosity
+  double firstStep = 0;                  ///< s
   bool near = false;                     ///< walls or solids displace density
   bool movingSolids = false;
   std::vector<std::string> warnings;
 };
 
-/// `count` particles that fill `extent` (m) and start no faster than `maxSpeed` (m/s). BadInput where the scene cannot run.
+/// `count` particles that fill `extent` (m). BadInput where the scene cannot run.
 Expected<FluidSetup> makeFluidSetup(const Scene& scene, const double origin[3], const double extent[3], uint32_t count);
 
 /// Neighbours that the list holds a particle, a multiple of 4: what a lattice compressed by a fifth puts within the reach.

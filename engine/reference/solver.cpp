@@ -113,7 +113,9 @@ void ReferenceSolver::multipliers(bool firstIteration) {
     const double lambda = std::min(0.0, lambda_[i] + delta_[i]);
     lambdaChange_[i] = lambda - lambda_[i];
     lambda_[i] = lambda;
-    if (firstIteration) state.warm[i] = std::min(0.0, state.warm[i] + settings.warmStart * delta_[i]);
+    if (!firstIteration) continue;
+    const double gain = settings.warmStart * (delta_[i] > 0 ? settings.warmRelease : 1.0);
+    state.warm[i] = std::min(0.0, state.warm[i] + gain * delta_[i]);
   }
 }
 

@@ -57,7 +57,7 @@ void main() {
     float ratio = control.nextStep / control.warmStep;
     before = warm[i] * ratio * ratio;
     after = min(0.0, before + delta);
-    warmNext = min(0.0, before + params.warmGain * delta);
+    warmNext = min(0.0, before + params.warmGain * (delta > 0.0 ? params.warmRelease : 1.0) * delta);
     warm[i] = warmNext;
   } else {
     before = multiplier[i];

@@ -17,10 +17,11 @@ void visitNeighbours(uint i, uint local) {
     uint groups = listed ? (count + 3u) / 4u : 0u;
     for (uint k = 0u; k < groups; ++k) {
       uvec4 js = LIST_AT(at);
-      visit(js.x, PARTICLE(js.x));
-      visit(js.y, PARTICLE(js.y));
-      visit(js.z, PARTICLE(js.z));
-      visit(js.w, PARTICLE(js.w));
+      vec4 x = PARTICLE(js.x), y = PARTICLE(js.y), z = PARTICLE(js.z), w = PARTICLE(js.w);
+      visit(js.x, x);
+      visit(js.y, y);
+      visit(js.z, z);
+      visit(js.w, w);
       at += kListBlock;
     }
   }

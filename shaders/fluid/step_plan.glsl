@@ -12,7 +12,7 @@ float cflStep(float speed, float acceleration) {
 float tolerableStep(float desired, float last, float error) {
   if (params.tolerance <= 0.0) return params.maxStep;
   float target = last * sqrt(params.tolerance / max(error, 1.0e-9));
-  return clamp(target, 0.95 * desired, 1.03 * desired);
+  return clamp(target, 0.97 * desired, 1.003 * desired);
 }
 
 // The advance's rest in equal substeps of about `wanted` seconds: a piece may be a quarter longer, so that the end of an advance never asks for a stub.

@@ -45,6 +45,7 @@ struct FluidParams {
   float regularization;   // epsilon times sum |grad K|^2 of the rest lattice, 1/m^2
   float relaxation;       // omega
   float warmGain;         // kappa
+  float warmRelease;      // times kappa where density is below rest density
   float reach;            // m, support plus skin: the list holds what was nearer when it was built
   float travelLimit;      // m that the fastest particle may move before the list is rebuilt
   float cfl;              // spacings a substep

@@ -116,7 +116,7 @@ TEST(Multipliers, FollowTheirFormula) {
     const double delta = -0.6 * (ratio - 1) / (glm::dot(own, own) + squares + 0.1 * solver.kernel().restGradientSum());
     EXPECT_NEAR(solver.lambda()[i], std::min(0.0, warm[i] + delta), 1e-15);
     EXPECT_NEAR(solver.lambdaChange()[i], solver.lambda()[i] - warm[i], 1e-15);
-    EXPECT_NEAR(solver.state.warm[i], std::min(0.0, warm[i] + 0.2 * delta), 1e-15);
+    EXPECT_NEAR(solver.state.warm[i], std::min(0.0, warm[i] + 0.2 * (delta > 0 ? s.warmRelease : 1.0) * delta), 1e-15);
   }
 }
 
