@@ -210,6 +210,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const double origin[3], 
     p.tableNodes = tables.nodes;
     p.cornerNodes = tables.cornerNodes;
   }
+  for (int a = 0; a < 3 && scene.domain; ++a) setup.thin |= scene.domain->max[a] - scene.domain->min[a] < 2 * wallReach(kernel) + scene.fluid.spacing;
   addSolids(scene, kernel, origin, setup);
   p.solidCount = static_cast<uint32_t>(setup.solids.size());
   setViscosity(scene, kernel, setup);

@@ -22,6 +22,7 @@ struct FluidSetup {
   uint32_t viscositySweeps = 0;          ///< 0: no viscosity
   double firstStep = 0;                  ///< s
   bool near = false;                     ///< walls or solids displace density
+  bool thin = false;                     ///< walls that face each other can both be near a particle
   bool movingSolids = false;
   std::vector<std::string> warnings;
 };

@@ -26,7 +26,7 @@ void main() {
   gravityAt(c);
   float acceleration = length(vec3(c.gravityX, c.gravityY, c.gravityZ));
   c.speed = uintBitsToFloat(s.speedMax);
-  c.desiredStep = min(c.desiredStep, cflStep(c.speed, acceleration));
+  c.desiredStep = plannedStep(c, c.desiredStep, cflStep(c.speed, acceleration));
   bool going = push.advance > 0.0;
   if (going) {
     c.nextStep = fittedStep(push.advance, c.desiredStep);

@@ -47,7 +47,7 @@ void main() {
     c.travel += (c.speed + params.solidSpeed) * c.step;
     gravityAt(c);
     float acceleration = length(vec3(c.gravityX, c.gravityY, c.gravityZ));
-    c.desiredStep = min(tolerableStep(c.desiredStep, c.step, error), cflStep(c.speed, acceleration));
+    c.desiredStep = plannedStep(c, tolerableStep(c.desiredStep, c.step, error), cflStep(c.speed, acceleration));
     if (c.timeLeft < 1.0e-4 * c.step) c.timeLeft = 0.0;
     if (c.timeLeft > 0.0 && c.substeps >= params.maxSubsteps) {
       c.timeDropped += c.timeLeft;

@@ -12,7 +12,13 @@ float cflStep(float speed, float acceleration) {
 float tolerableStep(float desired, float last, float error) {
   if (params.tolerance <= 0.0) return params.maxStep;
   float target = last * sqrt(params.tolerance / max(error, 1.0e-9));
-  return clamp(target, 0.97 * desired, 1.003 * desired);
+  return clamp(target, 0.995 * desired, 1.002 * desired);
+}
+
+// The tolerance gives way before time has to be dropped: no shorter than what lets the substeps that are left finish the advance. cfl does not.
+float plannedStep(FluidControl c, float tolerable, float cflBound) {
+  float left = float(max(params.maxSubsteps, c.substeps + 1u) - c.substeps);
+  return min(max(tolerable, 1.01 * c.timeLeft / left), cflBound);
 }
 
 // The advance's rest in equal substeps of about `wanted` seconds: a piece may be a quarter longer, so that the end of an advance never asks for a stub.

@@ -7,6 +7,7 @@
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 0) const uint CORNER = 0;
 layout(constant_id = 1) const uint SOLIDS = 0;
+layout(constant_id = 2) const int SIDES = 2;  // of an axis that can be near at once: 1 where the domain is nowhere thin (an eighth of the corner look-ups)
 
 layout(std430, binding = 2) readonly buffer PredictionBlock { vec4 prediction[]; };
 layout(std430, binding = 3) readonly buffer NearListBlock { uint nearList[]; };
@@ -52,35 +53,38 @@ vec2 corner(float s1, float s2, float s3) {
   return mix(low, high, w);
 }
 
-// Domain walls by inclusion and exclusion over the axes; both sides of an axis count where the domain is thin.
+// Domain walls by inclusion and exclusion over the axes.
 vec4 domainWalls(vec3 x) {
-  float s[3][2];
+  vec3 low = x - vec3(params.lowX, params.lowY, params.lowZ), high = vec3(params.highX, params.highY, params.highZ) - x;
+  float s[3][2], d[3][2];  // distance to a wall, and the sign of its normal
   for (int a = 0; a < 3; ++a) {
-    s[a][0] = x[a] - (a == 0 ? params.lowX : (a == 1 ? params.lowY : params.lowZ));
-    s[a][1] = (a == 0 ? params.highX : (a == 1 ? params.highY : params.highZ)) - x[a];
+    s[a][0] = SIDES == 2 ? low[a] : min(low[a], high[a]);
+    d[a][0] = SIDES == 2 || low[a] <= high[a] ? 1.0 : -1.0;
+    s[a][1] = high[a];
+    d[a][1] = -1.0;
   }
   float value = 0.0;
   vec3 gradient = vec3(0.0);
   float reach = params.tableStep * float(params.tableNodes - 1u);
   for (int a = 0; a < 3; ++a) {
     int b = (a + 1) % 3;
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < SIDES; ++i) {
       if (s[a][i] >= reach) continue;
-      float di = i == 0 ? 1.0 : -1.0;
+      float di = d[a][i];
       vec2 one = line(0u, params.tableNodes, params.tableStep, s[a][i]);
       value += one.x;
       gradient[a] += di * one.y;
-      for (int j = 0; j < 2; ++j) {
+      for (int j = 0; j < SIDES; ++j) {
         if (s[b][j] >= reach) continue;
-        float dj = j == 0 ? 1.0 : -1.0;
+        float dj = d[b][j];
         vec2 two = edge(s[a][i], s[b][j]);
         value -= two.x;
         gradient[a] -= di * two.y;
         gradient[b] -= dj * edge(s[b][j], s[a][i]).y;
         if (a != 0) continue;
-        for (int k = 0; k < 2; ++k) {
+        for (int k = 0; k < SIDES; ++k) {
           if (s[2][k] >= reach) continue;
-          float dk = k == 0 ? 1.0 : -1.0;
+          float dk = d[2][k];
           vec2 three = corner(s[0][i], s[1][j], s[2][k]);
           value += three.x;
           gradient.x += di * three.y;
