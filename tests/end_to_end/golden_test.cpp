@@ -24,6 +24,8 @@ struct Case {
   const char* view;
   int frame;
   Distance most;  ///< another driver rounds otherwise, and a later solver flows a little otherwise
+
+  friend void PrintTo(const Case& one, std::ostream* out) { *out << one.view << one.frame; }
 };
 
 class GoldenTest : public ::testing::TestWithParam<Case> {};
