@@ -171,6 +171,7 @@ Expected<void> FluidImpl::stage(Device& device, const ParticleSet& particles) {
   FluidControl control{};
   control.stale = 2;
   control.speed = fastest;
+  control.settling = p.tolerance > 0 ? kSettleSubsteps : 0;
   control.desiredStep = static_cast<float>(setup.firstStep);
 
   std::vector<uint32_t> shapes(3 * kMaxCommands, 0);
@@ -294,6 +295,7 @@ const FluidProgress& Fluid::progress() const {
 
 uint32_t Fluid::count() const { return impl_->count; }
 uint32_t Fluid::substepsPerBlock() const { return kSubstepsPerBlock; }
+uint32_t Fluid::mostSubsteps() const { return kSubstepsPerBlock * (impl_->setup.params.maxSubsteps + kSettleSubsteps); }
 FluidMemory Fluid::memory() const { return impl_->memory; }
 std::span<const std::string> Fluid::warnings() const { return impl_->setup.warnings; }
 

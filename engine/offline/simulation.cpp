@@ -196,10 +196,10 @@ class Simulation::Impl {
     return {};
   }
 
-  /// One advance of the solver, recorded in pieces until no time is left or the scene's max_substeps are recorded.
+  /// One advance of the solver, recorded in pieces until no time is left.
   Expected<void> advanceFrame(double seconds) {
     const uint32_t block = std::max(1u, fluid_->substepsPerBlock());
-    const uint32_t most = wholeBlocks(scene_.solver.max_substeps, block);
+    const uint32_t most = fluid_->mostSubsteps();
     const uint32_t guess = wholeBlocks(expected_, block);
     for (uint32_t recorded = 0; recorded < most;) {
       // The first piece is what the frame before took; what it leaves is done in pieces a quarter of that.

@@ -20,7 +20,7 @@ layout(std430, binding = 12) readonly buffer NearBlock { vec4 nearSample[]; };
 
 void predict(uint i, vec3 x, vec3 v) {
   float pushed;
-  vec3 next = outside(x + control.nextStep * (v + control.nextStep * (gravity() + pushAway[i].xyz)), control.nextStep, pushed);
+  vec3 next = outside(predicted(x, v, pushAway[i].xyz), control.settling != 0u ? 0.0 : control.nextStep, pushed);
   prediction[i] = vec4(next, pushed);
 }
 
@@ -36,6 +36,11 @@ void main() {
   }
   float pushed;
   vec3 x = outside(from, 0.0, pushed);
+  if (control.step == 0.0) {  // settling
+    position[i] = vec4(x, 0.0);
+    predict(i, x, velocity[i].xyz);
+    return;
+  }
   vec3 v = velocity[i].xyz + (x - from) / control.step;
   // The multiplier in all, never positive: what the warm start had, and the change. `warm` has a share of the change already.
   float change = unpackHalf2x16(floatBitsToUint(work[i].w)).x * (params.inverseRestGradient / kMultiplierScale);

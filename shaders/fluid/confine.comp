@@ -42,5 +42,5 @@ void main() {
   vec4 v = velocity[i];
   v.xyz += control.step * params.vorticity * params.support * own.w * cross(direction, own.xyz);
   velocity[i] = v;
-  prediction[i] = vec4(insideWalls(position[i].xyz + control.nextStep * (v.xyz + control.nextStep * (gravity() + pushAway[i].xyz))), 0.0);
+  prediction[i] = vec4(insideWalls(predicted(position[i].xyz, v.xyz, pushAway[i].xyz)), 0.0);
 }

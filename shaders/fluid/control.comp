@@ -35,7 +35,15 @@ void main() {
     sums.errorMax = 0u;
   }
 
-  if (first) {
+  // Particles that overlap at the start part first: position corrections without a step in time give no speed, where a short step would give them all of it.
+  if (first && c.settling > 0u) {
+    bool apart = error <= 0.5 * params.tolerance && uintBitsToFloat(s.errorMax) <= 20.0 * params.tolerance;
+    c.settling = apart ? 0u : c.settling - 1u;
+    c.step = 0.0;
+    c.travel += 0.1 * params.spacing;
+    if (c.travel > params.travelLimit) c.stale = 1u;
+    again = false;
+  } else if (first) {
     c.step = c.nextStep;
     c.error = error;
     c.speed = max(uintBitsToFloat(s.speedMax), 0.0);

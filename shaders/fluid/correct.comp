@@ -67,9 +67,10 @@ void main() {
   float most = max(2.0 * params.cfl, 0.02) * params.spacing;
   float far = sqrt(dot(way, way));
   if (far > most) { way *= most / far; to = insideWalls(from + way); }
-  vec3 v = (to - from) / control.step;
-  vec3 away = pushed / (control.step * control.step);
-  vec3 next = insideWalls(to + control.nextStep * (v + control.nextStep * (gravity() + away)));
+  bool settles = control.step == 0.0;
+  vec3 v = settles ? velocity[i].xyz : (to - from) / control.step;
+  vec3 away = settles ? vec3(0.0) : pushed / (control.step * control.step);
+  vec3 next = insideWalls(predicted(to, v, away));
   bool finite = isFinite(to) && isFinite(next);
   if (!finite) {
     bool gone = isFinite(here.xyz) || from.x >= kParked * 0.5;   // left through an open side, or parked before

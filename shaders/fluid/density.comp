@@ -55,9 +55,10 @@ void main() {
   float before, after, warmNext;
   if (push.iteration == 0u) {
     float ratio = control.nextStep / control.warmStep;
-    before = warm[i] * ratio * ratio;
+    before = warm[i] * ratio * ratio;  // 0 while particles settle
     after = min(0.0, before + delta);
     warmNext = min(0.0, before + params.warmGain * (delta > 0.0 ? params.warmRelease : 1.0) * delta);
+    if (control.settling != 0u) warmNext = 0.0;
     warm[i] = warmNext;
   } else {
     before = multiplier[i];

@@ -14,7 +14,7 @@ void main() {
   uint i = flatInvocation();
   if (i >= params.count) return;
   vec3 x = position[i].xyz;
-  vec3 next = x + control.nextStep * (velocity[i].xyz + control.nextStep * (gravity() + pushAway[i].xyz));
+  vec3 next = predicted(x, velocity[i].xyz, pushAway[i].xyz);
   float pushed;
   next = outside(next, control.nextStep, pushed);
   prediction[i] = vec4(isFinite(next) ? next : x, pushed);

@@ -22,4 +22,9 @@ bool isFinite(vec3 x) {
 }
 
 vec3 gravity() { return vec3(control.gravityX, control.gravityY, control.gravityZ); }
+
+// The prediction of the next substep, before walls and solids; `away`: the warm start's push, m/s^2.
+vec3 predicted(vec3 x, vec3 v, vec3 away) {
+  return control.settling != 0u ? x : x + control.nextStep * (v + control.nextStep * (gravity() + away));
+}
 #endif

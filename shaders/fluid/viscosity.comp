@@ -38,5 +38,5 @@ void main() {
   visitNeighbours(i, local);
   vec3 v = own.xyz + params.viscosityRate * control.step * push.share * params.valueScale * change;
   smoothed[i] = vec4(v, own.w);
-  prediction[i] = vec4(insideWalls(position[i].xyz + control.nextStep * (v + control.nextStep * (gravity() + pushAway[i].xyz))), 0.0);
+  prediction[i] = vec4(insideWalls(predicted(position[i].xyz, v, pushAway[i].xyz)), 0.0);
 }

@@ -7,6 +7,7 @@ RILL_RECORDS_BEGIN
 RILL_CONST uint kFluidGroup = 64u;        // invocations a workgroup of every per-particle pass
 RILL_CONST uint kListBlock = 4096u;       // particles a block of the neighbour list: k-major inside a block
 RILL_CONST uint kCellsPerReach = 2u;       // grid cells in x as long as one in y or z
+RILL_CONST uint kSettleSubsteps = 64u;     // at most, before the first substep in time
 RILL_CONST uint kWalkBound = 32768u;      // candidates that one grid walk looks at, at most; more are counted as a bound hit
 RILL_CONST float kParked = 1.0e9f;        // m: where the dummy neighbour sits that pads the list
 RILL_CONST float kMultiplierScale = 1024.0f;  // multipliers travel as halves in units of 1 / (restGradient * this)
@@ -82,7 +83,7 @@ struct FluidParams {
 
 // Decided on the device, substep by substep; read as a uniform block by the passes, written by control.comp and begin.comp.
 struct FluidControl {
-  float step;          // s, of the substep that control.comp has accounted for last
+  float step;          // s, of the substep that control.comp has accounted for last; 0: it settled
   float nextStep;      // s, of the one whose prediction is at hand or is about to be made
   float warmStep;      // s, the step that the stored multipliers are expressed for
   float timeLeft;      // s of the advance
@@ -101,6 +102,7 @@ struct FluidControl {
   float desiredStep;   // s, what cfl and tolerance ask for, before it is fitted to the advance
   uint running;        // the next density pass runs
   uint again;          // so does the next iteration
+  uint settling;       // substeps left, at most, in which particles that overlap at the start part without gaining speed
 };
 
 // Sums of the passes of one substep; integers, so that their order does not matter.

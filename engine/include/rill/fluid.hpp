@@ -99,6 +99,8 @@ class Fluid {
 
   uint32_t count() const;
   uint32_t substepsPerBlock() const;
+  /// Recorded substeps that complete any advance: those that the device leaves out, to rebuild the list or because none is due, are among them.
+  uint32_t mostSubsteps() const;
   FluidMemory memory() const;
   /// What the solver cannot follow, each with its figure ("viscosity 50 Pa s needs ..."). Known at creation.
   std::span<const std::string> warnings() const;
