@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <memory>
 #include <string>
 
@@ -36,7 +35,6 @@ class Capture {
     if (const auto places = checkPlaces(); !places) return refuse(places.error());
     offline::Options wanted;
     wanted.device = options_.device;
-    wanted.longestFrame_s = std::numeric_limits<double>::infinity();  // a frame is one advance, however long
     auto simulation = offline::Simulation::open(scene_, wanted);
     if (!simulation) return refuse(simulation.error());
     simulation_ = std::move(*simulation);

@@ -79,7 +79,7 @@ struct Table<SolverSettings> {
             &SolverSettings::cfl},
       Field{Info{.key = "max_substeps",
                  .range = between(1, 256),
-                 .help = "substeps a frame, at most; time beyond them is dropped and reported"},
+                 .help = "substeps a frame of up to 1/60 s, at most; time beyond them is dropped and reported"},
             &SolverSettings::max_substeps},
       Field{Info{.key = "iterations", .range = between(1, 1000), .help = "Jacobi iterations a substep, at most"},
             &SolverSettings::iterations},

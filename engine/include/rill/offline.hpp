@@ -20,7 +20,7 @@ struct Options {
   std::vector<Override> overrides;   ///< applied to the scene
   bool validation = false;           ///< with the validation layer, synchronization included; needs it installed
   uint32_t substepsPerSubmit = 0;    ///< 0: chosen; bits never depend on it
-  double longestFrame_s = 1.0 / 24;  ///< s; a longer advance() is made of equal frames, each with the scene's max_substeps of its own
+  double longestFrame_s = 1.0 / 60;  ///< s; a longer advance() is made of equal frames, each with the scene's max_substeps of its own
 };
 
 enum class Order { AsStored, ById };
