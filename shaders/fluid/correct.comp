@@ -67,7 +67,7 @@ void main() {
   float most = max(2.0 * params.cfl, 0.02) * params.spacing;
   float far = sqrt(dot(way, way));
   if (far > most) { way *= most / far; to = insideWalls(from + way); }
-  vec3 v = (to - from) / control.step;
+  vec3 v = way / control.step;  // not (to - from): who starts outside the walls is put inside, and gets no speed for it
   vec3 away = pushed / (control.step * control.step);
   vec3 next = insideWalls(to + control.nextStep * (v + control.nextStep * (gravity() + away)));
   bool finite = isFinite(to) && isFinite(next);
