@@ -1,4 +1,5 @@
 // What comes back from the device: the figures of finished frames.
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -31,8 +32,8 @@ void FluidImpl::poll() const {
                 .list_builds = control.builds};
     MeasureResult result{};
     if (pending.measured && read(pending.graph->data(pending.measure), result)) {
-      const double n = count, mass = setup.params.particleMass;
       const MeasurePartial& m = result.sums;
+      const double n = std::max(count - m.parked, 1u), mass = setup.params.particleMass;
       FluidStats s;
       s.time_s = progress.time_s;
       s.particles = count;

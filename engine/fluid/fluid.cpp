@@ -153,7 +153,8 @@ Expected<void> FluidImpl::stage(Device& device, const ParticleSet& particles) {
   float fastest = 0;
   for (uint32_t i = 0; i < count; ++i) {
     Float3 x = particles.positions[i], v = particles.velocities[i];
-    const bool good = finite(x) && finite(v);
+    const float speed = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+    const bool good = finite(x) && std::isfinite(speed);  // a speed that overflows would make every step 0
     if (!good) {
       ++sums.nonFinite;
       x = {kParked, kParked, kParked};
@@ -161,7 +162,7 @@ Expected<void> FluidImpl::stage(Device& device, const ParticleSet& particles) {
     }
     position.insert(position.end(), {x.x, x.y, x.z, 0.0f});
     velocity.insert(velocity.end(), {v.x, v.y, v.z, 1.0f});
-    fastest = std::max(fastest, std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z));
+    if (good) fastest = std::max(fastest, speed);
     id[i] = i;
   }
   position.insert(position.end(), {kParked, kParked, kParked, 0.0f});

@@ -427,9 +427,16 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   }
 
   importAll(graph);
-  if (!uploaded_) declareUpload(graph);
-  uploaded_ = true;
   const bool advances = step.resume || step.advance_s > 0;
+  if (!uploaded_) {
+    declareUpload(graph);
+    // The start is sorted, whether anyone looks at it before the first advance or not: the order of sums is the same.
+    if (advances) {
+      declareBegin(graph, 0);
+      declareRebuild(graph);
+    }
+  }
+  uploaded_ = true;
   if (!step.resume) declareBegin(graph, std::max(step.advance_s, 0.0));
   const uint32_t blocks = advances ? static_cast<uint32_t>(divideUp(std::max(step.substeps, 1u), kSubstepsPerBlock)) : 0;
   for (uint32_t block = 0; block < blocks; ++block) {

@@ -70,7 +70,8 @@ void main() {
   float reachSquared = params.reach * params.reach;
   float twinSquared = 1.0e-6 * params.support * params.support;
   uint parts = home.x < kCellsPerReach || home.x + kCellsPerReach > gridMask.x ? 2u : 1u;
-  for (uint row = 0u; row < 9u; ++row) {
+  uint rows = x.x == kParked ? 0u : 9u;
+  for (uint row = 0u; row < rows; ++row) {
     int low, high;
     rowReach(x, params.reach, row, low, high);
     for (uint part = 0u; part < parts; ++part) {

@@ -68,7 +68,7 @@ void main() {
   float far = sqrt(dot(way, way));
   if (far > most) { way *= most / far; to = insideWalls(from + way); }
   bool settles = control.step == 0.0;
-  vec3 v = settles ? velocity[i].xyz : (to - from) / control.step;
+  vec3 v = settles ? velocity[i].xyz : way / control.step;  // not (to - from): who starts outside the walls is put inside, and gets no speed for it
   vec3 away = settles ? vec3(0.0) : pushed / (control.step * control.step);
   vec3 next = insideWalls(predicted(to, v, away));
   bool finite = isFinite(to) && isFinite(next);

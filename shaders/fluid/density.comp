@@ -48,7 +48,7 @@ void main() {
     rho += displaced.w;
   }
 
-  float constraint = rho - 1.0;
+  float constraint = here.x == kParked ? -1.0 : rho - 1.0;  // who is parked meets all others there: no density of the fluid's
   float stiffness = dot(gradientSum, gradientSum) + gradientSquares + params.regularization;
   float delta = -params.relaxation * constraint / max(stiffness, 1.0e-20);
 

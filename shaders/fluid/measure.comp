@@ -38,9 +38,13 @@ uint binOf(float size) {
 void main() {
   uint place = flatInvocation();
   uint lane = gl_LocalInvocationID.x;
-  MeasurePartial mine = MeasurePartial(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0u, 0u);
-  if (place < params.count) {
-    vec4 particle = sorted[place];
+  MeasurePartial mine = MeasurePartial(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0u, 0u, 0u);
+  bool there = place < params.count;
+  vec4 particle = there ? sorted[place] : vec4(0.0);
+  if (there && particle.x >= kParked * 0.5) {
+    mine.outside = 1u;
+    mine.parked = 1u;
+  } else if (there) {
     here = particle.xyz;
     uint i = floatBitsToUint(particle.w);
     uvec3 home = cellOf(here);
@@ -57,13 +61,11 @@ void main() {
     mine.velocityX = v.x;
     mine.velocityY = v.y;
     mine.velocityZ = v.z;
-    bool parked = here.x >= kParked * 0.5;
-    vec3 x = parked ? vec3(0.0) : here;
-    mine.positionX = x.x;
-    mine.positionY = x.y;
-    mine.positionZ = x.z;
+    mine.positionX = here.x;
+    mine.positionY = here.y;
+    mine.positionZ = here.z;
     vec3 low = vec3(params.boundLowX, params.boundLowY, params.boundLowZ), high = vec3(params.boundHighX, params.boundHighY, params.boundHighZ);
-    mine.outside = uint(parked || any(lessThan(here, low)) || any(greaterThan(here, high)));
+    mine.outside = uint(any(lessThan(here, low)) || any(greaterThan(here, high)));
     if (error > 0.0) atomicAdd(histogram[binOf(error)], 1u);
     if (inside >= params.fullNeighbours) {
       mine.counted = 1u;
@@ -77,7 +79,7 @@ void main() {
       MeasurePartial a = rows[lane], b = rows[lane + half_];
       rows[lane] = MeasurePartial(a.compression + b.compression, max(a.compressionMax, b.compressionMax), a.kinetic + b.kinetic, max(a.speedMax, b.speedMax),
                                   a.velocityX + b.velocityX, a.velocityY + b.velocityY, a.velocityZ + b.velocityZ, a.positionX + b.positionX,
-                                  a.positionY + b.positionY, a.positionZ + b.positionZ, a.outside + b.outside, a.counted + b.counted);
+                                  a.positionY + b.positionY, a.positionZ + b.positionZ, a.outside + b.outside, a.counted + b.counted, a.parked + b.parked);
     }
   }
   if (lane == 0u) partials[flatGroup()] = rows[0];

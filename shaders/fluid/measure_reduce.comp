@@ -63,13 +63,13 @@ float percentile(bool signed_, uint rank, uint below) {
 MeasurePartial add(MeasurePartial a, MeasurePartial b) {
   return MeasurePartial(a.compression + b.compression, max(a.compressionMax, b.compressionMax), a.kinetic + b.kinetic, max(a.speedMax, b.speedMax),
                         a.velocityX + b.velocityX, a.velocityY + b.velocityY, a.velocityZ + b.velocityZ, a.positionX + b.positionX,
-                        a.positionY + b.positionY, a.positionZ + b.positionZ, a.outside + b.outside, a.counted + b.counted);
+                        a.positionY + b.positionY, a.positionZ + b.positionZ, a.outside + b.outside, a.counted + b.counted, a.parked + b.parked);
 }
 
 void main() {
   uint lane = gl_LocalInvocationID.x;
   uint groups = (params.count + kMeasureGroup - 1u) / kMeasureGroup;
-  MeasurePartial mine = MeasurePartial(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0u, 0u);
+  MeasurePartial mine = MeasurePartial(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0u, 0u, 0u);
   for (uint k = lane; k < groups; k += 256u) mine = add(mine, partials[k]);
   rows[lane] = mine;
   for (uint half_ = 128u; half_ > 0u; half_ /= 2u) {
@@ -87,7 +87,8 @@ void main() {
   uint sum = 0u;
   for (uint k = 0u; k < 256u; ++k) sum += before[k];
   barrier();
-  float p99 = percentile(false, (params.count * 99u + 99u) / 100u, params.count - sum);
+  uint present = params.count - all_.parked;
+  float p99 = percentile(false, (present * 99u + 99u) / 100u, present - sum);
   float median = percentile(true, (all_.counted + 1u) / 2u, 0u);
   if (lane == 0u) {
     result.sums = all_;

@@ -158,6 +158,7 @@ struct MeasurePartial {
   float velocityX, velocityY, velocityZ;
   float positionX, positionY, positionZ;
   uint outside, counted;               // counted: particles inside the fluid, for the median
+  uint parked;                         // outside, and in no other figure
 };
 RILL_CONST uint kMeasureFirst = 107u << 9;          // bin 0: |C| = 2^-20, by the top bits of the float
 RILL_CONST uint kMeasureBins = 23u << 9;            // up to 8, 512 bins an octave
