@@ -1,8 +1,10 @@
 #include "fluid/rig.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstdio>
+#include <cstring>
 #include <glm/geometric.hpp>
 #include <random>
 #include <stdexcept>
@@ -142,6 +144,18 @@ bool Snapshot::finite() const {
   return true;
 }
 
+glm::dvec3 Snapshot::velocitySum() const {
+  glm::dvec3 sum(0);
+  for (const glm::dvec3& each : v) sum += each;
+  return sum;
+}
+
+double Snapshot::fastest() const {
+  double most = 0;
+  for (const glm::dvec3& each : v) most = std::max(most, glm::length(each));
+  return most;
+}
+
 Oracle::Oracle(const Trial& trial) : trial_(trial), solver_(settingsOf(trial), rounded(trial.x), rounded(trial.v)) {
   solver_.begin(trial.step);
 }
@@ -179,7 +193,9 @@ Snapshot FluidTest::Run::read(const FluidStep& step) {
   graph_.reset();
   const FluidState state = fluid_->addTo(graph_, step);
   const auto tickets = offline::readout(graph_, state);
+  const Ticket control = state.count > 0 ? graph_.readback(state.control) : Ticket{};
   test_.runGraph(graph_);
+  if (const auto bytes = graph_.data(control); bytes.size() >= sizeof control_) std::memcpy(&control_, bytes.data(), sizeof control_);
   const auto raw = offline::collect(graph_, tickets);
   Snapshot result;
   result.x.resize(raw.ids.size());

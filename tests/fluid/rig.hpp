@@ -48,6 +48,8 @@ struct Snapshot {
   std::vector<double> density;  ///< over the rest density; 0 unless figures were asked for
   friend bool operator==(const Snapshot&, const Snapshot&) = default;
   bool finite() const;
+  glm::dvec3 velocitySum() const;
+  double fastest() const;  ///< m/s
 };
 
 /// The reference of a trial, before its first substep.
@@ -79,22 +81,25 @@ class FluidTest : public GpuTest {
     void advance(double seconds, uint32_t piece = 64);
     void substeps(int count, uint32_t piece = 64) { advance(count * step_, piece); }
     Snapshot snapshot();
-    FluidStats stats();                                     ///< of the present instant
-    const Snapshot& measured() const { return measured_; }  ///< the particles that stats() saw
+    Snapshot read(const FluidStep& step);                     ///< the particles after one graph of it
+    FluidStats stats();                                       ///< of the present instant
+    const Snapshot& measured() const { return measured_; }    ///< the particles that stats() saw
+    const FluidControl& control() const { return control_; }  ///< what the device had decided at the end of the last read
     const FluidProgress& progress() const { return fluid_->progress(); }
     Fluid& fluid() { return *fluid_; }
 
    private:
-    Snapshot read(const FluidStep& step);
     FluidTest& test_;
     double step_;
     Graph graph_;
     Snapshot measured_;
+    FluidControl control_{};
     std::unique_ptr<Fluid> fluid_;
   };
 
   std::unique_ptr<Run> start(const Trial& trial) { return std::make_unique<Run>(*this, trial); }
   void runGraph(Graph& graph) { run(graph); }
+  void runGraphs(std::span<Graph* const> graphs) { run(graphs); }
   Device& rillDevice() { return device(); }
 
   /// After `substeps` of both solvers.

@@ -70,6 +70,22 @@ void GpuTest::run(Graph& graph) {
   if (!ok) FAIL() << ok.error().message;
 }
 
+void GpuTest::run(std::span<Graph* const> graphs) {
+  Expected<void> ok;
+  for (Graph* graph : graphs)
+    if (ok) ok = graph->compile();
+  if (ok)
+    if (auto begun = context().beginFrame(); !begun) ok = begun.error();
+  for (Graph* graph : graphs)
+    if (ok) ok = graph->prepare(device());
+  if (ok)
+    ok = context().submit([&](VkCommandBuffer commands) {
+      for (Graph* graph : graphs) graph->record(commands);
+    });
+  if (ok) ok = context().wait();
+  if (!ok) FAIL() << ok.error().message;
+}
+
 Buffer GpuTest::buffer(std::string_view name, uint64_t bytes, MemoryKind kind) {
   auto made = createBuffer(device(), name, bytes, kind);
   if (made) return std::move(*made);

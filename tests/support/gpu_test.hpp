@@ -28,6 +28,8 @@ class GpuTest : public ::testing::Test {
   Device& device() { return context_->device(); }
   /// Runs the graph as one frame and waits for it; a failure fails the test.
   void run(Graph& graph);
+  /// The same of several graphs, recorded into one command buffer in this order.
+  void run(std::span<Graph* const> graphs);
   /// A buffer of the host's bytes, in memory that the device reads.
   template <class T>
   Buffer upload(std::string_view name, std::span<const T> data) {

@@ -1,0 +1,161 @@
+// The figures against sums over the particles that came back with them, in double precision; densities by looking at every pair.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "fluid/rig.hpp"
+
+namespace rill::test {
+namespace {
+
+// What the figures should be.
+struct Sums {
+  std::vector<double> density;
+  double mean = 0, p99 = 0, max = 0, median = 0;
+  double kinetic = 0, potential = 0, fastest = 0;
+  glm::dvec3 momentum = glm::dvec3(0), centre = glm::dvec3(0);
+};
+
+class StatsTest : public FluidTest {
+ protected:
+  static Sums sumsOf(const Trial& t, const Snapshot& s) {
+    Sums sums;
+    const SmoothingKernel kernel(t.scene.solver.kernel, t.scene.fluid.smoothing_ratio * t.d(), t.d());
+    Oracle oracle(t);
+    const double full = std::floor(0.8 * 4.0 / 3.0 * 3.14159265358979 * std::pow(t.scene.fluid.smoothing_ratio, 3));
+    const double mass = t.scene.fluid.density * std::pow(t.d(), 3), n = double(s.x.size());
+    std::vector<double> compression, inside;
+    for (size_t i = 0; i < s.x.size(); ++i) {
+      double rho = oracle.solver().boundaryAt(s.x[i], 0).value;
+      int neighbours = -1;
+      for (const glm::dvec3& other : s.x) {
+        const double distance = glm::length(s.x[i] - other);
+        rho += kernel.value(distance);
+        neighbours += distance < kernel.h();
+      }
+      sums.density.push_back(rho);
+      compression.push_back(std::max(rho - 1, 0.0));
+      if (neighbours >= full) inside.push_back(rho - 1);
+      sums.mean += compression.back() / n;
+      sums.kinetic += 0.5 * mass * glm::dot(s.v[i], s.v[i]);
+      sums.momentum += mass * s.v[i];
+      for (int a = 0; a < 3; ++a) {
+        const double place = s.x[i][a] + t.origin[a];
+        sums.potential -= mass * t.scene.gravity[a] * place;
+        sums.centre[a] += place / n;
+      }
+    }
+    std::sort(compression.begin(), compression.end());
+    std::sort(inside.begin(), inside.end());
+    sums.max = compression.back();
+    sums.p99 = compression[(compression.size() * 99 + 99) / 100 - 1];
+    if (!inside.empty()) sums.median = inside[(inside.size() + 1) / 2 - 1];
+    sums.fastest = s.fastest();
+    return sums;
+  }
+
+  // Floats added up in a tree, and percentiles from bins a 512th of an octave wide. `own`: of a density.
+  void expectLike(const Trial& t, Run& run, double own = 1e-5) {
+    const FluidStats stats = run.stats();
+    const Snapshot& s = run.measured();
+    const Sums sums = sumsOf(t, s);
+    for (size_t i = 0; i < s.x.size(); ++i) EXPECT_NEAR(s.density[i], sums.density[i], own * std::max(1.0, sums.density[i])) << i;
+    EXPECT_EQ(stats.particles, t.x.size());
+    EXPECT_NEAR(stats.density_error_mean, sums.mean, own + 1e-5 * sums.mean);
+    EXPECT_NEAR(stats.density_error_p99, sums.p99, own + sums.p99 / 512);
+    EXPECT_NEAR(stats.density_error_max, sums.max, own + 1e-5 * sums.max);
+    EXPECT_NEAR(stats.density_signed_median, sums.median, own + std::abs(sums.median) / 512);
+    EXPECT_NEAR(stats.kinetic_J, sums.kinetic, 1e-5 * sums.kinetic);
+    const double mass = t.scene.fluid.density * std::pow(t.d(), 3) * double(t.x.size());
+    EXPECT_NEAR(stats.potential_J, sums.potential, 1e-5 * mass * 9.81 + 1e-7 * std::abs(sums.potential));
+    for (int a = 0; a < 3; ++a) {
+      EXPECT_NEAR(stats.momentum[a], sums.momentum[a], 1e-5 * mass * sums.fastest) << a;
+      EXPECT_NEAR(stats.centre_of_mass[a], sums.centre[a], 1e-6) << a;
+    }
+    EXPECT_NEAR(stats.max_speed, sums.fastest, 1e-6 * sums.fastest);
+  }
+};
+
+TEST_F(StatsTest, CompressedCloud) {
+  Trial t = trial();
+  setWalls(t, {1, 1, 1});
+  t.x = cloud(500, 6 * t.d(), 21, glm::dvec3(0.03));
+  t.v = cloud(500, 3.0, 22, {-1, -1, -2});
+  t.scene.gravity[0] = 2;
+  t.scene.solver.cfl = 0.25;  // who is near a wall is known to within a list's life: nobody may fly there at once
+  auto run = start(t);
+  expectLike(t, *run);
+  run->substeps(2);
+  expectLike(t, *run);
+}
+
+TEST_F(StatsTest, CloudWithoutWallsFarFromZero) {
+  Trial t = trial();
+  t.origin[0] = 1000;
+  t.origin[1] = -500;
+  t.x = cloud(400, 7 * t.d(), 31, glm::dvec3(-0.2));
+  t.v = cloud(400, 3.0, 32, {-1, -1, -2});
+  expectLike(t, *start(t));
+}
+
+TEST_F(StatsTest, OtherKernelAndSupport) {
+  Trial t = trial();
+  t.scene.solver.kernel = KernelChoice::Poly6Spiky;
+  t.scene.fluid.smoothing_ratio = 2.6;
+  setWalls(t, {1, 1, 1});
+  t.x = cloud(500, 7 * t.d(), 41, glm::dvec3(0.03));
+  expectLike(t, *start(t));
+}
+
+TEST_F(StatsTest, AroundSolids) {
+  Trial t = trial();
+  setWalls(t, {1, 1, 1});
+  t.scene.solids = {slab({0.3, 0.2, 0.3}, {0.7, 0.4, 0.7}), ball({0.5, 0.8, 0.5}, 0.125)};
+  t.x = block({7, 5, 7}, t.d(), {0.28, 0.4, 0.28}, 0.2);
+  expectLike(t, *start(t));
+}
+
+// The walls stand in for the lattice beyond them: every particle with a full neighbourhood of fluid and walls has the rest density, those at the free
+// faces less.
+TEST_F(StatsTest, RestLatticeInACorner) {
+  Trial t = trial();
+  setWalls(t, {6 * t.d(), 6 * t.d(), 6 * t.d()});
+  t.x = block({6, 6, 6}, t.d());
+  auto run = start(t);
+  const FluidStats full = run->stats();
+  for (double density : run->measured().density) EXPECT_NEAR(density, 1, 1e-5);
+  EXPECT_LT(full.density_error_max, 1e-5);
+  EXPECT_LT(std::abs(full.density_signed_median), 1e-5);
+
+  setWalls(t, {1, 1, 1});
+  run = start(t);
+  const FluidStats corner = run->stats();
+  EXPECT_LT(corner.density_error_max, 1e-5);
+  for (size_t i = 0; i < t.x.size(); ++i) {
+    const bool buried = std::max({t.x[i].x, t.x[i].y, t.x[i].z}) < 4 * t.d();
+    EXPECT_LT(run->measured().density[i], 1 + 1e-5) << i;
+    EXPECT_GT(run->measured().density[i], buried ? 1 - 1e-5 : 0.5) << i;
+  }
+  EXPECT_EQ(corner.kinetic_J, 0);
+  EXPECT_EQ(corner.max_speed, 0);
+  EXPECT_NEAR(corner.centre_of_mass[1], 3 * t.d(), 1e-6);
+}
+
+// 0.1 of 300: the 99th percentile leaves out the three that are worst.
+TEST_F(StatsTest, PercentileOfAFewBadOnes) {
+  Trial t = trial();
+  t.scene.gravity[1] = 0;
+  for (int i = 0; i < 297; ++i) t.x.push_back({4.0 * t.d() * (i % 27), 4.0 * t.d() * (i / 27), 0});
+  for (int i = 0; i < 3; ++i) t.x.push_back({-1 - 0.01 * i, 0, 0});
+  auto run = start(t);
+  const FluidStats stats = run->stats();
+  const SmoothingKernel kernel(t.scene.solver.kernel, 2 * t.d(), t.d());
+  EXPECT_NEAR(stats.density_error_max, kernel.value(0) + 2 * kernel.value(0.01) - 1, 1e-5);
+  EXPECT_EQ(stats.density_error_p99, 0);
+  t.x.push_back({-1 - 0.02, 0, 0});
+  run = start(t);
+  EXPECT_GT(run->stats().density_error_p99, 0.1);
+}
+
+}  // namespace
+}  // namespace rill::test
