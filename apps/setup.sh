@@ -7,7 +7,6 @@ build g++                     a C++20 compiler (GCC 12 or newer)
 build cmake                   CMake 3.25 or newer
 build ninja-build             Ninja
 build libvulkan-dev           Vulkan headers 1.3.239 or newer
-build libvulkan-volk-dev      volk (volk.h and volk.c)
 build glslang-tools           glslang (glslangValidator)
 build spirv-tools             SPIRV-Tools (spirv-val)
 build libglm-dev              GLM
@@ -17,6 +16,7 @@ build libstb-dev              stb (stb_image_write.h)
 run   libvulkan1              the Vulkan loader
 run   mesa-vulkan-drivers     a Vulkan 1.3 driver (Mesa: lavapipe needs no GPU)
 test  libgtest-dev            GoogleTest
+test  glslang-dev             glslang (library: the debug preset reloads shaders)
 test  binutils                binutils (nm)
 test  vulkan-validationlayers the Khronos validation layer
 test? chromium-common         SwiftShader (libvk_swiftshader.so with its vk_swiftshader_icd.json)

@@ -16,7 +16,7 @@ namespace {
 
 constexpr uint32_t kMaxSide = 8192;          // pixels
 constexpr uint64_t kMaxPixels = 1ull << 25;  // a picture is one buffer of at most 128 MiB
-constexpr uint64_t kMaxParticles = UINT32_MAX;
+constexpr uint64_t kMaxParticles = 4'194'304;  // what the solver takes, on any device
 
 Error badInput(std::string_view option, std::string_view given, std::string_view expected) {
   return Error{ErrorKind::BadInput, std::string(option) + ": " + inQuotes(given) + " was given; expected " + std::string(expected)};

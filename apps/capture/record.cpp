@@ -214,7 +214,7 @@ std::string Record::passTable() const {
   }
   std::string text;
   char line[256];
-  std::snprintf(line, sizeof line, "%-36s %9s %11s %10s\n", "pass", "runs", "ms", "us a run");
+  std::snprintf(line, sizeof line, "%-36s %9s %11s %10s\n", "pass", "recorded", "ms", "us each");
   text += line;
   for (const std::string& name : order) {
     const Total& pass = totals.at(name);

@@ -16,7 +16,7 @@ constexpr uint64_t kMaxBuffer = uint64_t{128} << 20;
 
 uint64_t listEntries(const Scene& scene) {
   if (scene.solver.neighbors == NeighborChoice::Grid) return 0;
-  return listCapacity(scene.fluid.smoothing_ratio + 0.3);
+  return listCapacity(scene.fluid.smoothing_ratio + kListSkin);
 }
 
 uint64_t blocks(uint64_t particles) { return (particles + kListBlock - 1) / kListBlock; }
@@ -40,7 +40,7 @@ FluidMemory fluidMemory(const Scene& scene, uint64_t particles) {
   if (!scene.solids.empty()) each += 16;
   memory.particle_bytes = each * (particles + 1);
   memory.list_bytes = blocks(particles) * kListBlock * listEntries(scene) * 4;
-  memory.grid_bytes = std::max<uint64_t>(4096, 2 * particles) * 8;
+  memory.grid_bytes = maxGridCells(particles) * 4 * 5 / 4;  // cell starts, and a sort's tile sums
   return memory;
 }
 
@@ -79,12 +79,12 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   std::copy(particles.origin, particles.origin + 3, impl->origin);
 
   if (impl->count == 0) return impl;
-  if (auto ok = impl->makeBuffers(device, particles, desc.storageReads); !ok) return ok.error();
+  if (auto ok = impl->makeBuffers(device, particles, desc.storageReads, desc.settle); !ok) return ok.error();
   if (auto ok = impl->makePipelines(device); !ok) return ok.error();
   return impl;
 }
 
-Expected<void> FluidImpl::makeBuffers(Device& device, const ParticleSet& particles, bool storageReads) {
+Expected<void> FluidImpl::makeBuffers(Device& device, const ParticleSet& particles, bool storageReads, bool settle) {
   const uint64_t n = count, more = n + 1;
   const FluidParams& p = setup.params;
 
@@ -140,10 +140,10 @@ Expected<void> FluidImpl::makeBuffers(Device& device, const ParticleSet& particl
     if (!list) return list.error();
     buffers_.lists.push_back(std::move(*list));
   }
-  return stage(device, particles);
+  return stage(device, particles, settle);
 }
 
-Expected<void> FluidImpl::stage(Device& device, const ParticleSet& particles) {
+Expected<void> FluidImpl::stage(Device& device, const ParticleSet& particles, bool settle) {
   FluidParams& p = setup.params;
   std::vector<float> position, velocity;
   position.reserve(4 * (count + 1));
@@ -172,7 +172,7 @@ Expected<void> FluidImpl::stage(Device& device, const ParticleSet& particles) {
   FluidControl control{};
   control.stale = 2;
   control.speed = fastest;
-  control.settling = p.tolerance > 0 ? kSettleSubsteps : 0;
+  control.settling = settle ? kSettleSubsteps : 0;
   control.desiredStep = static_cast<float>(setup.firstStep);
 
   std::vector<uint32_t> shapes(3 * kMaxCommands, 0);
@@ -256,7 +256,7 @@ Expected<void> FluidImpl::makePipelines(Device& device) {
   if (p.solidCount > 0) make(pipes_.collide, "fluid/collide", plain(2, 11), 0, {0});
   if (p.solidCount > 0 && (setup.viscositySweeps > 0 || p.vorticity > 0)) make(pipes_.collideAgain, "fluid/collide", plain(2, 11), 0, {1});
   if (setup.movingSolids) make(pipes_.pose, "fluid/pose", plain(2, 2), 0);
-  gather(pipes_.density, "fluid/density", storages(4), sizeof(ChunkPush), {kernel, capacity, nearWalls, p.iterations > 1, p.tolerance > 0});
+  gather(pipes_.density, "fluid/density", storages(4), sizeof(ChunkPush), {kernel, capacity, nearWalls, p.iterations > 1});
   gather(pipes_.correct, "fluid/correct", storages(7), sizeof(ChunkPush), {kernel, capacity, nearWalls, p.tensile > 0, p.solidCount > 0});
   if (p.iterations > 1) gather(pipes_.iterate, "fluid/iterate", storages(2), sizeof(ChunkPush), {kernel, capacity, nearWalls, p.tensile > 0});
   const BindingKind vectors = texel_ ? TexelFloat4 : Storage;

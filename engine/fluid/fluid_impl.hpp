@@ -57,7 +57,6 @@ class FluidImpl {
   FluidMemory memory;
   uint32_t count = 0;
   double origin[3] = {0, 0, 0};
-  double gravityNow[3] = {0, 0, 0};
   mutable std::optional<FluidStats> stats;
   mutable FluidProgress progress;
 
@@ -68,9 +67,9 @@ class FluidImpl {
     bool measured;
   };
 
-  Expected<void> makeBuffers(Device& device, const ParticleSet& particles, bool storageReads);
+  Expected<void> makeBuffers(Device& device, const ParticleSet& particles, bool storageReads, bool settle);
   Expected<void> makePipelines(Device& device);
-  Expected<void> stage(Device& device, const ParticleSet& particles);
+  Expected<void> stage(Device& device, const ParticleSet& particles, bool settle);
   void importAll(Graph& graph);
   void declareUpload(Graph& graph);
   void declareBegin(Graph& graph, double advance);

@@ -7,6 +7,8 @@
 
 namespace rill {
 
+uint64_t maxGridCells(uint64_t particles) { return std::max<uint64_t>(4096, 4 * particles); }
+
 GridSize chooseGridSize(double cell, const double extent[3], uint64_t particles) {
   const GridSize least;
   GridSize size;
@@ -16,7 +18,7 @@ GridSize chooseGridSize(double cell, const double extent[3], uint64_t particles)
     const double cells = std::clamp(std::ceil(extent[axis] / edge) + 1.0, double(1u << least.bits[axis]), 4096.0);
     size.bits[axis] = static_cast<uint32_t>(std::ceil(std::log2(cells)));
   }
-  const uint64_t most = std::max<uint64_t>(4096, 4 * particles);
+  const uint64_t most = maxGridCells(particles);
   while (size.cells() > most) {
     uint32_t* longest = std::max_element(size.bits, size.bits + 3);
     if (*longest <= least.bits[longest - size.bits]) break;

@@ -220,7 +220,7 @@ static void plainPass(Graph& graph, FluidRefs& r, std::string_view name, const C
       bindings.add({*ref});
     }
     for (BufferRef* ref : changes) {
-      *ref = pass.write(*ref, Use::ComputeAtomic);
+      *ref = pass.write(*ref, Use::ComputeWrite);
       bindings.add({*ref});
     }
     const Kernel kernel = pass.kernel(pipeline, bindings.span());

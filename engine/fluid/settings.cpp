@@ -19,7 +19,6 @@ constexpr double kRegularization = 0.02; // of the rest lattice's sum |grad C|^2
 constexpr double kWarmGain = 0.05;
 constexpr double kWarmRelease = 1.3;     // the gain where density is too low, over that where it is too high: what builds up slower than it goes pumps less energy
 constexpr double kErrorOfHead = 0.06;    // mean compression over dt^2 g H / d^2, of the dam breaks in assets/scenes
-constexpr double kSkin = 0.15;           // spacings beyond the support that the list reaches
 constexpr double kTravel = 1.6;          // spacings that the fastest particle may move before the list is rebuilt
 constexpr double kFarSpacings = 1.0e6;   // beyond it, positions have lost their meaning: float holds 24 bits
 
@@ -175,9 +174,9 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const double origin[3], 
   p.relaxation = f(scene.solver.relaxation.value_or(kRelaxation));
   p.warmGain = f(scene.solver.warm_start.value_or(scene.solver.iterations == 1 ? kWarmGain : 0.0));
   p.warmRelease = f(kWarmRelease);
-  p.reach = f(h + kSkin * d);
+  p.reach = f(h + kListSkin * d);
   p.travelLimit = f(kTravel * d);
-  p.listCapacity = scene.solver.neighbors == NeighborChoice::List ? listCapacity((h + kSkin * d) / d) : 0u;
+  p.listCapacity = scene.solver.neighbors == NeighborChoice::List ? listCapacity((h + kListSkin * d) / d) : 0u;
   p.cfl = f(scene.solver.cfl);
   p.tolerance = f(scene.solver.tolerance);
   p.maxSubsteps = scene.solver.max_substeps;

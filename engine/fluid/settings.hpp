@@ -11,6 +11,9 @@
 
 namespace rill {
 
+/// Spacings beyond the support that the list reaches.
+inline constexpr double kListSkin = 0.15;
+
 struct FluidSetup {
   FluidParams params{};
   GridSize grid;

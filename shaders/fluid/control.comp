@@ -37,7 +37,8 @@ void main() {
 
   // Particles that overlap at the start part first: position corrections without a step in time give no speed, where a short step would give them all of it.
   if (first && c.settling > 0u) {
-    bool apart = error <= 0.5 * params.tolerance && uintBitsToFloat(s.errorMax) <= 20.0 * params.tolerance;
+    float enough = params.tolerance > 0.0 ? min(params.tolerance, 0.001) : 0.001;
+    bool apart = error <= 0.5 * enough && uintBitsToFloat(s.errorMax) <= 20.0 * enough;
     c.settling = apart ? 0u : c.settling - 1u;
     c.step = 0.0;
     c.travel += 0.1 * params.spacing;

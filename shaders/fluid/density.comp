@@ -9,7 +9,6 @@
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 2) const uint NEAR = 0;        // walls or solids displace density
 layout(constant_id = 3) const uint ITERATED = 0;    // more than one iteration a substep
-layout(constant_id = 4) const uint MEASURED = 0;    // the tolerance is looked at
 
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer WarmBlock { float warm[]; };
@@ -70,15 +69,13 @@ void main() {
   float unit = kMultiplierScale / params.inverseRestGradient;
   work[i] = vec4(here, uintBitsToFloat(packHalf2x16(clamp(vec2(after - before, warmNext) * unit, -60000.0, 60000.0))));
 
-  if (MEASURED != 0u) {
-    float compression = clamp(constraint, 0.0, 8.0);
-    float sum = subgroupAdd(compression);
-    float most = subgroupMax(compression);
-    if (subgroupElect()) {
-      uint add = uint(sum / kErrorUnit + 0.5);
-      uint old = atomicAdd(sums.errorLow, add);
-      if (old + add < old) atomicAdd(sums.errorHigh, 1u);
-      atomicMax(sums.errorMax, floatBitsToUint(most));
-    }
+  float compression = clamp(constraint, 0.0, 1.0);  // of 64 lanes, in kErrorUnit, it fits into 32 bits
+  float sum = subgroupAdd(compression);
+  float most = subgroupMax(compression);
+  if (subgroupElect()) {
+    uint add = uint(sum / kErrorUnit + 0.5);
+    uint old = atomicAdd(sums.errorLow, add);
+    if (old + add < old) atomicAdd(sums.errorHigh, 1u);
+    atomicMax(sums.errorMax, floatBitsToUint(most));
   }
 }

@@ -169,6 +169,7 @@ TEST_F(CaptureTest, UnknownDevicesGetTheList) {
   const Outcome outcome = run({"--frames", "1", "--device", "no such card"});
   EXPECT_EQ(outcome.code, 2) << outcome.err;
   EXPECT_NE(outcome.err.find("no such card"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("  0  "), std::string::npos) << "the devices there are: " << outcome.err;
   EXPECT_EQ(folder.names(), std::vector<std::string>{"dam.json"});
 }
 

@@ -173,7 +173,7 @@ FluidTest::Run::Run(FluidTest& test, const Trial& trial) : test_(test), step_(tr
   Scene scene = trial.timedScene();
   if (trial.gather == Gather::Grid) scene.solver.neighbors = NeighborChoice::Grid;
   const ParticleSet particles = trial.particles();
-  auto made = Fluid::create(test.rillDevice(), {.scene = &scene, .particles = &particles, .storageReads = trial.gather == Gather::Storage});
+  auto made = Fluid::create(test.rillDevice(), {.scene = &scene, .particles = &particles, .settle = trial.settle, .storageReads = trial.gather == Gather::Storage});
   if (!made) throw std::runtime_error(made.error().message);
   fluid_ = std::move(*made);
 }

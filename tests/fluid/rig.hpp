@@ -24,6 +24,7 @@ struct Trial {
   std::vector<glm::dvec3> x, v;  ///< m and m/s, relative to the origin; `v` may be empty: at rest
   double step = 1e-3;            ///< s
   Gather gather = Gather::Texel;
+  bool settle = false;
 
   double d() const { return scene.fluid.spacing; }
   Scene timedScene() const;  ///< with the step as its longest one

@@ -19,6 +19,7 @@ struct FluidDesc {
   const Scene* scene = nullptr;          ///< settings, domain, solids, gravity; fluid.spacing > 0
   const ParticleSet* particles = nullptr;
   uint64_t listBytes = 0;                ///< cap on the neighbour list's memory; 0: what the device's buffers allow
+  bool settle = true;                    ///< before the first substep, part particles that overlap at the start: positions move, speeds do not
   bool storageReads = false;             ///< gather through storage buffers even where texel buffers would hold enough (slower on most CPU drivers)
 };
 
@@ -42,7 +43,7 @@ struct FluidStep {
 /// Where a module finds the particles of this frame: versions of buffers of the same graph. Read them with any Use.
 struct FluidState {
   BufferRef position;   ///< vec4 a particle: xyz in m relative to `origin`, w unused
-  BufferRef velocity;   ///< vec4 a particle: xyz in m/s, w the density over rest density (the solver's estimate, walls included; 1 in the bulk at rest)
+  BufferRef velocity;   ///< vec4 a particle: xyz in m/s, w the density over rest density where the step asked for `stats`, else 1
   BufferRef id;         ///< uint a particle: its number at birth
   BufferRef control;    ///< FluidControl (shaders/shared/fluid_records.h), read back by offline callers
   uint32_t count = 0;   ///< particles

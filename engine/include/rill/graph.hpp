@@ -155,7 +155,6 @@ class Graph {
   BufferRef import(std::string_view name, const BufferImport& import);
 
   /// `setup(Pass&)` declares the pass and returns what records it, a callable taking Commands&.
-  /// (Signature sketch: the implementation may store the callable without allocating in a steady state.)
   template <class Setup>
   void pass(std::string_view name, Setup&& setup) {
     const uint32_t index = beginPass(name);
