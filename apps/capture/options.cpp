@@ -14,8 +14,8 @@
 namespace rill::capture {
 namespace {
 
-constexpr uint32_t kMaxSide = 8192;          // pixels
-constexpr uint64_t kMaxPixels = 1ull << 25;  // a picture is one buffer of at most 128 MiB
+constexpr uint32_t kMaxSide = 8192;            // pixels
+constexpr uint64_t kMaxPixels = 1ull << 25;    // a picture is one buffer of at most 128 MiB
 constexpr uint64_t kMaxParticles = 4'194'304;  // what the solver takes, on any device
 
 Error badInput(std::string_view option, std::string_view given, std::string_view expected) {

@@ -33,7 +33,8 @@ bool finite(const Float3& v) { return std::isfinite(v.x) && std::isfinite(v.y) &
 
 FluidMemory fluidMemory(const Scene& scene, uint64_t particles) {
   FluidMemory memory;
-  // position, velocity, prediction, push, work and near sample; warm, id, count, cell, order, near list; and while sorting: three vec4, a pair, a key.
+  // position, velocity, prediction, push, work and near sample; warm, id, count, cell, order, near list; and while sorting: three vec4, a
+  // pair, a key.
   uint64_t each = 6 * 16 + 6 * 4 + (3 * 16 + 8 + 4);
   if (scene.solver.iterations > 1) each += 4;
   if (scene.fluid.viscosity > 0 || scene.fluid.vorticity > 0) each += 2 * 16;
@@ -54,11 +55,13 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   const uint64_t available = device.info().deviceLocalBytes;
   const uint64_t largest = (n + 1) * 16;
   if (impl->memory.total() > available || largest > kMaxBuffer || n > KeySortDesc::kMaxCount)
-    return Error{ErrorKind::OutOfMemory, std::to_string(n) + " particles need " + mebibytes(impl->memory.total()) + " on the device; \"" + device.info().name +
-                                             "\" has " + mebibytes(available) + " and holds at most " + std::to_string(KeySortDesc::kMaxCount) +
+    return Error{ErrorKind::OutOfMemory, std::to_string(n) + " particles need " + mebibytes(impl->memory.total()) + " on the device; \"" +
+                                             device.info().name + "\" has " + mebibytes(available) + " and holds at most " +
+                                             std::to_string(KeySortDesc::kMaxCount) +
                                              " particles: make fluid.spacing larger or fluid.particles smaller"};
   if (particles.velocities.size() != n)
-    return Error{ErrorKind::BadInput, "a fluid needs as many velocities as positions: " + std::to_string(particles.velocities.size()) + " for " + std::to_string(n)};
+    return Error{ErrorKind::BadInput, "a fluid needs as many velocities as positions: " + std::to_string(particles.velocities.size()) +
+                                          " for " + std::to_string(n)};
 
   double low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
   bool any = false;
@@ -95,8 +98,9 @@ Expected<void> FluidImpl::makeBuffers(Device& device, const ParticleSet& particl
   setup.params.chunkParticles = chunk;
   for (uint32_t first = 0; first < count; first += chunk) chunks_.push_back({first, std::min(count, first + chunk)});
   if (chunks_.size() > kMaxListChunks)
-    return Error{ErrorKind::OutOfMemory, "the neighbour list of " + std::to_string(n) + " particles at this smoothing_ratio needs " + mebibytes(memory.list_bytes) +
-                                             ", more than " + std::to_string(kMaxListChunks) + " buffers of 128 MiB: make smoothing_ratio smaller"};
+    return Error{ErrorKind::OutOfMemory, "the neighbour list of " + std::to_string(n) + " particles at this smoothing_ratio needs " +
+                                             mebibytes(memory.list_bytes) + ", more than " + std::to_string(kMaxListChunks) +
+                                             " buffers of 128 MiB: make smoothing_ratio smaller"};
   texel_ = !storageReads && device.info().maxTexelBufferElements >= std::max<uint64_t>(more, uint64_t{chunk} * p.listCapacity / 4);
 
   auto sort = KeySort::create(device, {.count = count, .keyRange = setup.grid.cells(), .start = true});
@@ -105,7 +109,11 @@ Expected<void> FluidImpl::makeBuffers(Device& device, const ParticleSet& particl
 
   // 64 bytes stand for what this scene has no use for: a binding must be something.
   const auto unless = [](bool used, uint64_t bytes) { return used ? bytes : uint64_t{64}; };
-  const struct { Buffer* buffer; const char* name; uint64_t bytes; } table[] = {
+  const struct {
+    Buffer* buffer;
+    const char* name;
+    uint64_t bytes;
+  } table[] = {
       {&buffers_.params, "fluid parameters", sizeof(FluidParams)},
       {&buffers_.control, "fluid control", sizeof(FluidControl)},
       {&buffers_.sums, "fluid sums", sizeof(FluidSums)},
@@ -217,16 +225,21 @@ Expected<void> FluidImpl::makePipelines(Device& device) {
   const FluidParams& p = setup.params;
   const uint32_t kernel = setup.kernel, capacity = p.listCapacity, nearWalls = setup.near;
   Expected<void> result;
-  const auto make = [&](const ComputePipeline*& out, std::string_view shader, std::vector<BindingKind> bindings, uint32_t push, std::vector<uint32_t> constants = {}) {
+  const auto make = [&](const ComputePipeline*& out, std::string_view shader, std::vector<BindingKind> bindings, uint32_t push,
+                        std::vector<uint32_t> constants = {}) {
     if (!result) return;
     auto pipeline = computePipeline(device, {.shader = shader, .bindings = bindings, .pushConstantBytes = push, .constants = constants});
-    if (pipeline) out = *pipeline;
-    else result = pipeline.error();
+    if (pipeline)
+      out = *pipeline;
+    else
+      result = pipeline.error();
   };
   // A pass that gathers: two uniform blocks, particles, list, counts, cells, cell starts, sums, and its own.
-  const auto gather = [&](const ComputePipeline*& out, std::string name, std::vector<BindingKind> own, uint32_t push, std::vector<uint32_t> constants) {
-    std::vector<BindingKind> bindings = texel_ ? std::vector{Uniform, Uniform, TexelFloat4, TexelUint4, TexelUint, TexelUint, Storage, Storage}
-                                               : std::vector{Uniform, Uniform, Storage, Storage, Storage, Storage, Storage, Storage};
+  const auto gather = [&](const ComputePipeline*& out, std::string name, std::vector<BindingKind> own, uint32_t push,
+                          std::vector<uint32_t> constants) {
+    std::vector<BindingKind> bindings = texel_
+                                            ? std::vector{Uniform, Uniform, TexelFloat4, TexelUint4, TexelUint, TexelUint, Storage, Storage}
+                                            : std::vector{Uniform, Uniform, Storage, Storage, Storage, Storage, Storage, Storage};
     bindings.insert(bindings.end(), own.begin(), own.end());
     if (texel_) name += "_texel";
     make(out, name, bindings, push, std::move(constants));
@@ -258,9 +271,11 @@ Expected<void> FluidImpl::makePipelines(Device& device) {
   if (setup.movingSolids) make(pipes_.pose, "fluid/pose", plain(2, 2), 0);
   gather(pipes_.density, "fluid/density", storages(4), sizeof(ChunkPush), {kernel, capacity, nearWalls, p.iterations > 1});
   gather(pipes_.correct, "fluid/correct", storages(7), sizeof(ChunkPush), {kernel, capacity, nearWalls, p.tensile > 0, p.solidCount > 0});
-  if (p.iterations > 1) gather(pipes_.iterate, "fluid/iterate", storages(2), sizeof(ChunkPush), {kernel, capacity, nearWalls, p.tensile > 0});
+  if (p.iterations > 1)
+    gather(pipes_.iterate, "fluid/iterate", storages(2), sizeof(ChunkPush), {kernel, capacity, nearWalls, p.tensile > 0});
   const BindingKind vectors = texel_ ? TexelFloat4 : Storage;
-  if (setup.viscositySweeps > 0) gather(pipes_.viscosity, "fluid/viscosity", {vectors, Storage, Storage, Storage, Storage}, sizeof(SweepPush), {kernel, capacity});
+  if (setup.viscositySweeps > 0)
+    gather(pipes_.viscosity, "fluid/viscosity", {vectors, Storage, Storage, Storage, Storage}, sizeof(SweepPush), {kernel, capacity});
   if (setup.viscositySweeps % 2 == 1) make(pipes_.keep, "fluid/keep", plain(2, 2), sizeof(ChunkPush));
   if (p.vorticity > 0) {
     gather(pipes_.curl, "fluid/curl", {vectors, Storage}, sizeof(ChunkPush), {kernel, capacity});

@@ -20,11 +20,12 @@ struct FluidBuffers {
   Buffer multiplier;                                                // where there are several iterations
   Buffer neighbourCount, cell, order, start, nearSample, nearList;
   std::vector<Buffer> lists;
-  Buffer staging;                                                   // the start state, until it has been copied
+  Buffer staging;  // the start state, until it has been copied
 };
 
 struct FluidPipelines {
-  const ComputePipeline *begin = nullptr, *control = nullptr, *arm = nullptr, *predict = nullptr, *keys = nullptr, *reorder = nullptr, *build = nullptr;
+  const ComputePipeline *begin = nullptr, *control = nullptr, *arm = nullptr, *predict = nullptr, *keys = nullptr, *reorder = nullptr,
+                        *build = nullptr;
   const ComputePipeline *plane = nullptr, *corner = nullptr, *collide = nullptr, *collideAgain = nullptr, *pose = nullptr;
   const ComputePipeline *density = nullptr, *correct = nullptr, *iterate = nullptr;
   const ComputePipeline *viscosity = nullptr, *keep = nullptr, *curl = nullptr, *confine = nullptr;
@@ -50,7 +51,7 @@ class FluidImpl {
   static Expected<std::unique_ptr<FluidImpl>> create(Device& device, const FluidDesc& desc);
   FluidState addTo(Graph& graph, const FluidStep& step);
   void poll() const;
-  const FluidRefs& refs() const { return r_; }                  ///< of the step declared last
+  const FluidRefs& refs() const { return r_; }  ///< of the step declared last
   std::span<const Chunk> chunks() const { return chunks_; }
 
   FluidSetup setup;
@@ -87,11 +88,11 @@ class FluidImpl {
   FluidRefs r_;
   std::optional<KeySort> sort_;
   std::vector<Chunk> chunks_;
-  std::vector<std::pair<VkBuffer, uint64_t>> uploads_;   // target and bytes, in the order of the staging buffer
+  std::vector<std::pair<VkBuffer, uint64_t>> uploads_;  // target and bytes, in the order of the staging buffer
   bool texel_ = false;
   bool uploaded_ = false;
-  uint32_t recorded_ = 0;                                // substeps recorded since the start: parity of the next
-  double emptyTime_ = 0;                                 // simulated time of a fluid without particles, s
+  uint32_t recorded_ = 0;  // substeps recorded since the start: parity of the next
+  double emptyTime_ = 0;   // simulated time of a fluid without particles, s
   mutable std::deque<Pending> pending_;
 };
 

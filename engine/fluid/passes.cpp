@@ -25,7 +25,9 @@ struct BindingList {
 uint32_t FluidImpl::commandCount() const { return kCommandSort + static_cast<uint32_t>(sort_->groups().size()); }
 
 void FluidImpl::importAll(Graph& graph) {
-  const auto import = [&](std::string_view name, const Buffer& buffer) { return graph.import(name, {.handle = buffer.handle(), .size = buffer.size()}); };
+  const auto import = [&](std::string_view name, const Buffer& buffer) {
+    return graph.import(name, {.handle = buffer.handle(), .size = buffer.size()});
+  };
   r_.params = import("parameters", buffers_.params);
   r_.control = import("control", buffers_.control);
   r_.sums = import("sums", buffers_.sums);
@@ -53,10 +55,13 @@ void FluidImpl::importAll(Graph& graph) {
 }
 
 void FluidImpl::declareUpload(Graph& graph) {
-  const BufferRef staging = graph.import("start state", {.handle = buffers_.staging.handle(), .size = buffers_.staging.size(), .before = Use::None});
-  BufferRef* const targets[] = {&r_.params, &r_.control, &r_.sums, &r_.shapes, &r_.gravity, &r_.tables, &r_.solids, &r_.keyframes, &r_.position, &r_.velocity, &r_.id};
-  const Buffer* const owners[] = {&buffers_.params,    &buffers_.control,  &buffers_.sums,     &buffers_.shapes, &buffers_.gravity, &buffers_.tables, &buffers_.solids,
-                                  &buffers_.keyframes, &buffers_.position, &buffers_.velocity, &buffers_.id};
+  const BufferRef staging =
+      graph.import("start state", {.handle = buffers_.staging.handle(), .size = buffers_.staging.size(), .before = Use::None});
+  BufferRef* const targets[] = {&r_.params, &r_.control,   &r_.sums,     &r_.shapes,   &r_.gravity, &r_.tables,
+                                &r_.solids, &r_.keyframes, &r_.position, &r_.velocity, &r_.id};
+  const Buffer* const owners[] = {&buffers_.params,   &buffers_.control,  &buffers_.sums,   &buffers_.shapes,
+                                  &buffers_.gravity,  &buffers_.tables,   &buffers_.solids, &buffers_.keyframes,
+                                  &buffers_.position, &buffers_.velocity, &buffers_.id};
   graph.pass("upload", [&](Pass& pass) {
     pass.read(staging, Use::CopySource);
     for (BufferRef* target : targets) *target = pass.write(*target, Use::CopyTarget);
@@ -104,7 +109,8 @@ void FluidImpl::declareBegin(Graph& graph, double advance) {
     pass.read(r_.pushAway, Use::ComputeRead);
     pass.read(r_.solids, Use::ComputeRead);
     r_.prediction = pass.write(r_.prediction, Use::ComputeWrite);
-    const Kernel kernel = pass.kernel(pipes_.predict, {r_.params, r_.control, r_.position, r_.velocity, r_.pushAway, r_.prediction, r_.solids});
+    const Kernel kernel =
+        pass.kernel(pipes_.predict, {r_.params, r_.control, r_.position, r_.velocity, r_.pushAway, r_.prediction, r_.solids});
     return [=, arguments = r_.commands](Commands& commands) { commands.dispatchIndirect(kernel, arguments, commandAt(kCommandPredict)); };
   });
 }
@@ -136,8 +142,8 @@ void FluidImpl::declareRebuild(Graph& graph) {
     pass.read(r_.commands, Use::Indirect);
     for (BufferRef ref : {r_.order, r_.position, r_.prediction, r_.velocity, r_.warm, r_.id}) pass.read(ref, Use::ComputeRead);
     for (BufferRef* ref : {&position, &prediction, &velocity, &scalar}) *ref = pass.write(*ref, Use::ComputeWrite, true);
-    const Kernel kernel = pass.kernel(pipes_.reorder, {r_.params, r_.control, r_.order, r_.position, r_.prediction, r_.velocity, r_.warm, r_.id, position, prediction,
-                                                       velocity, scalar});
+    const Kernel kernel = pass.kernel(pipes_.reorder, {r_.params, r_.control, r_.order, r_.position, r_.prediction, r_.velocity, r_.warm,
+                                                       r_.id, position, prediction, velocity, scalar});
     return [=, arguments = r_.commands](Commands& commands) { commands.dispatchIndirect(kernel, arguments, commandAt(kCommandReorder)); };
   });
   graph.pass("build list", [&](Pass& pass) {
@@ -146,13 +152,15 @@ void FluidImpl::declareRebuild(Graph& graph) {
     pass.read(r_.commands, Use::Indirect);
     pass.read(prediction, texel_ ? Use::ComputeTexel : Use::ComputeRead);
     for (BufferRef ref : {r_.start, position, velocity, scalar, r_.solids}) pass.read(ref, Use::ComputeRead);
-    for (BufferRef* ref : {&r_.neighbourCount, &r_.cell, &r_.sums, &r_.position, &r_.prediction, &r_.velocity, &r_.warm, &r_.id, &r_.nearSample, &r_.nearList})
+    for (BufferRef* ref : {&r_.neighbourCount, &r_.cell, &r_.sums, &r_.position, &r_.prediction, &r_.velocity, &r_.warm, &r_.id,
+                           &r_.nearSample, &r_.nearList})
       *ref = pass.write(*ref, Use::ComputeWrite);
     std::array<Kernel, kMaxListChunks> kernels;
     for (uint32_t c = 0; c < chunkCount(); ++c) {
       r_.lists[c] = pass.write(r_.lists[c], Use::ComputeWrite);
-      kernels[c] = pass.kernel(pipes_.build, {r_.params, r_.control, prediction, r_.lists[c], r_.neighbourCount, r_.cell, r_.start, r_.sums, position, velocity, scalar,
-                                              r_.position, r_.prediction, r_.velocity, r_.warm, r_.id, r_.nearSample, r_.nearList, r_.solids});
+      kernels[c] = pass.kernel(
+          pipes_.build, {r_.params, r_.control, prediction, r_.lists[c], r_.neighbourCount, r_.cell, r_.start, r_.sums, position, velocity,
+                         scalar, r_.position, r_.prediction, r_.velocity, r_.warm, r_.id, r_.nearSample, r_.nearList, r_.solids});
     }
     return [=, arguments = r_.commands, chunks = std::span<const Chunk>(chunks_)](Commands& commands) {
       for (size_t c = 0; c < chunks.size(); ++c)
@@ -171,10 +179,11 @@ void FluidImpl::declareRebuild(Graph& graph) {
   });
 }
 
-// A pass over all chunks that gathers from `particles`. `own(pass, bindings)` declares and appends its own bindings; without a command it is dispatched directly.
+// A pass over all chunks that gathers from `particles`. `own(pass, bindings)` declares and appends its own bindings; without a command it
+// is dispatched directly.
 template <class Push, class Own>
-static void gatherPass(Graph& graph, FluidRefs& r, bool texel, std::span<const Chunk> chunks, std::string_view name, const ComputePipeline* pipeline, BufferRef particles,
-                       std::optional<uint32_t> command, Push push, Own&& own) {
+static void gatherPass(Graph& graph, FluidRefs& r, bool texel, std::span<const Chunk> chunks, std::string_view name,
+                       const ComputePipeline* pipeline, BufferRef particles, std::optional<uint32_t> command, Push push, Own&& own) {
   graph.pass(name, [&](Pass& pass) {
     const Use use = texel ? Use::ComputeTexel : Use::ComputeRead;
     pass.read(r.params, Use::ComputeUniform);
@@ -196,16 +205,19 @@ static void gatherPass(Graph& graph, FluidRefs& r, bool texel, std::span<const C
       for (size_t c = 0; c < chunks.size(); ++c) {
         push.first = chunks[c].first;
         push.last = chunks[c].last;
-        if (command) commands.dispatchIndirect(kernels[c], arguments, commandAt(*command), push);
-        else commands.dispatch(kernels[c], chunks[c].groups(), push);
+        if (command)
+          commands.dispatchIndirect(kernels[c], arguments, commandAt(*command), push);
+        else
+          commands.dispatch(kernels[c], chunks[c].groups(), push);
       }
     };
   });
 }
 
 // A pass over all particles. Its shader binds, after the two uniform blocks, what is read, what is written anew and what is changed.
-static void plainPass(Graph& graph, FluidRefs& r, std::string_view name, const ComputePipeline* pipeline, uint32_t count, std::initializer_list<BufferRef> reads,
-                      std::initializer_list<BufferRef*> writes, std::initializer_list<BufferRef*> changes = {}) {
+static void plainPass(Graph& graph, FluidRefs& r, std::string_view name, const ComputePipeline* pipeline, uint32_t count,
+                      std::initializer_list<BufferRef> reads, std::initializer_list<BufferRef*> writes,
+                      std::initializer_list<BufferRef*> changes = {}) {
   graph.pass(name, [&](Pass& pass) {
     pass.read(r.params, Use::ComputeUniform);
     pass.read(r.control, Use::ComputeUniform);
@@ -258,18 +270,19 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity) {
   for (uint32_t iteration = 0; iteration < p.iterations; ++iteration) {
     const bool first = iteration == 0;
     if (!first) {
-      gatherPass(graph, r_, texel_, chunks, "iterate", pipes_.iterate, r_.work, kCommandIterate, ChunkPush{0, 0, iteration}, [&](Pass& pass, BindingList& bindings) {
-        pass.read(r_.nearSample, Use::ComputeRead);
-        r_.prediction = pass.write(r_.prediction, Use::ComputeWrite);
-        bindings.add({r_.prediction, r_.nearSample});
-      });
+      gatherPass(graph, r_, texel_, chunks, "iterate", pipes_.iterate, r_.work, kCommandIterate, ChunkPush{0, 0, iteration},
+                 [&](Pass& pass, BindingList& bindings) {
+                   pass.read(r_.nearSample, Use::ComputeRead);
+                   r_.prediction = pass.write(r_.prediction, Use::ComputeWrite);
+                   bindings.add({r_.prediction, r_.nearSample});
+                 });
     }
     if (setup.near) {
       wallPass(graph, r_, "walls", pipes_.plane, r_.prediction, first ? kCommandPlane : kCommandPlaneAgain);
       wallPass(graph, r_, "corners and solids", pipes_.corner, r_.prediction, first ? kCommandCorner : kCommandCornerAgain);
     }
-    gatherPass(graph, r_, texel_, chunks, "density", pipes_.density, r_.prediction, first ? kCommandDensity : kCommandIterate, ChunkPush{0, 0, iteration},
-               [&](Pass& pass, BindingList& bindings) {
+    gatherPass(graph, r_, texel_, chunks, "density", pipes_.density, r_.prediction, first ? kCommandDensity : kCommandIterate,
+               ChunkPush{0, 0, iteration}, [&](Pass& pass, BindingList& bindings) {
                  pass.read(r_.nearSample, Use::ComputeRead);
                  for (BufferRef* ref : {&r_.warm, &r_.work, &r_.multiplier}) *ref = pass.write(*ref, Use::ComputeWrite);
                  bindings.add({r_.warm, r_.work, r_.nearSample, r_.multiplier});
@@ -287,16 +300,20 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity) {
     });
   }
   BufferRef free = p.solidCount > 0 ? graph.create("free velocities", {uint64_t{count} * 16}) : BufferRef{};
-  gatherPass(graph, r_, texel_, chunks, "correct", pipes_.correct, r_.work, kCommandCorrect + parity, ChunkPush{}, [&](Pass& pass, BindingList& bindings) {
-    pass.read(r_.nearSample, Use::ComputeRead);
-    for (BufferRef* ref : {&r_.position, &r_.velocity, &r_.prediction, &r_.pushAway, &r_.warm}) *ref = pass.write(*ref, Use::ComputeWrite);
-    if (p.solidCount > 0) free = pass.write(free, Use::ComputeWrite, true);
-    bindings.add({r_.position, r_.velocity, r_.nearSample, r_.prediction, r_.pushAway, p.solidCount > 0 ? free : r_.velocity, r_.warm});
-  });
+  gatherPass(
+      graph, r_, texel_, chunks, "correct", pipes_.correct, r_.work, kCommandCorrect + parity, ChunkPush{},
+      [&](Pass& pass, BindingList& bindings) {
+        pass.read(r_.nearSample, Use::ComputeRead);
+        for (BufferRef* ref : {&r_.position, &r_.velocity, &r_.prediction, &r_.pushAway, &r_.warm})
+          *ref = pass.write(*ref, Use::ComputeWrite);
+        if (p.solidCount > 0) free = pass.write(free, Use::ComputeWrite, true);
+        bindings.add({r_.position, r_.velocity, r_.nearSample, r_.prediction, r_.pushAway, p.solidCount > 0 ? free : r_.velocity, r_.warm});
+      });
   if (p.solidCount > 0) declareCollide(graph, "collide", pipes_.collide, free, parity);
   declareTerms(graph, parity);
   // Those have predicted anew, with walls but without solids.
-  if (p.solidCount > 0 && (setup.viscositySweeps > 0 || p.vorticity > 0)) declareCollide(graph, "collide again", pipes_.collideAgain, free, parity);
+  if (p.solidCount > 0 && (setup.viscositySweeps > 0 || p.vorticity > 0))
+    declareCollide(graph, "collide again", pipes_.collideAgain, free, parity);
 }
 
 void FluidImpl::declareCollide(Graph& graph, std::string_view name, const ComputePipeline* pipeline, BufferRef free, uint32_t parity) {
@@ -304,11 +321,14 @@ void FluidImpl::declareCollide(Graph& graph, std::string_view name, const Comput
     pass.read(r_.params, Use::ComputeUniform);
     pass.read(r_.control, Use::ComputeUniform);
     pass.read(r_.commands, Use::Indirect);
-    for (BufferRef ref : {r_.pushAway, r_.nearList, r_.sums, r_.solids, free, r_.work, r_.warm, r_.nearSample}) pass.read(ref, Use::ComputeRead);
+    for (BufferRef ref : {r_.pushAway, r_.nearList, r_.sums, r_.solids, free, r_.work, r_.warm, r_.nearSample})
+      pass.read(ref, Use::ComputeRead);
     for (BufferRef* ref : {&r_.position, &r_.velocity, &r_.prediction}) *ref = pass.write(*ref, Use::ComputeWrite);
-    const Kernel kernel = pass.kernel(pipeline, {r_.params, r_.control, r_.position, r_.velocity, r_.prediction, r_.pushAway, r_.nearList, r_.sums, r_.solids, free, r_.work,
-                                                 r_.warm, r_.nearSample});
-    return [=, arguments = r_.commands](Commands& commands) { commands.dispatchIndirect(kernel, arguments, commandAt(kCommandCollide + parity)); };
+    const Kernel kernel = pass.kernel(pipeline, {r_.params, r_.control, r_.position, r_.velocity, r_.prediction, r_.pushAway, r_.nearList,
+                                                 r_.sums, r_.solids, free, r_.work, r_.warm, r_.nearSample});
+    return [=, arguments = r_.commands](Commands& commands) {
+      commands.dispatchIndirect(kernel, arguments, commandAt(kCommandCollide + parity));
+    };
   });
 }
 
@@ -324,14 +344,15 @@ void FluidImpl::declareTerms(Graph& graph, uint32_t parity) {
     BufferRef other = graph.create("smoothed velocities", {bytes});
     for (uint32_t sweep = 0; sweep < sweeps; ++sweep) {
       BufferRef to;
-      gatherPass(graph, r_, texel_, chunks, "viscosity", pipes_.viscosity, r_.work, command, SweepPush{0, 0, 1.0f / float(sweeps)}, [&](Pass& pass, BindingList& bindings) {
-        pass.read(from, use);
-        pass.read(r_.pushAway, Use::ComputeRead);
-        to = pass.write(other, Use::ComputeWrite, true);
-        r_.prediction = pass.write(r_.prediction, Use::ComputeWrite);
-        pass.read(r_.position, Use::ComputeRead);
-        bindings.add({from, to, r_.prediction, r_.pushAway, r_.position});
-      });
+      gatherPass(graph, r_, texel_, chunks, "viscosity", pipes_.viscosity, r_.work, command, SweepPush{0, 0, 1.0f / float(sweeps)},
+                 [&](Pass& pass, BindingList& bindings) {
+                   pass.read(from, use);
+                   pass.read(r_.pushAway, Use::ComputeRead);
+                   to = pass.write(other, Use::ComputeWrite, true);
+                   r_.prediction = pass.write(r_.prediction, Use::ComputeWrite);
+                   pass.read(r_.position, Use::ComputeRead);
+                   bindings.add({from, to, r_.prediction, r_.pushAway, r_.position});
+                 });
       other = from;
       from = to;
     }
@@ -381,7 +402,8 @@ void FluidImpl::declareMeasure(Graph& graph, Pending& pending) {
     histogram = pass.write(histogram, Use::CopyTarget, true);
     return [histogram](Commands& commands) { commands.fill(histogram, 0); };
   });
-  BufferRef keys = graph.create("position keys", {uint64_t{count} * 4}), ordered = graph.create("ordered positions", {uint64_t{count} * 16});
+  BufferRef keys = graph.create("position keys", {uint64_t{count} * 4}),
+            ordered = graph.create("ordered positions", {uint64_t{count} * 16});
   plainPass(graph, r_, "measure keys", pipes_.measureKeys, count, {r_.position}, {&keys});
   const SortedKeys sorted = sort_->addTo(graph, keys);
   plainPass(graph, r_, "measure order", pipes_.measureOrder, count, {sorted.order, r_.position}, {&ordered});
@@ -447,8 +469,10 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   declareSkipped(graph);
 
   Pending pending{&graph, {}, {}, {}, false};
-  if (step.stats) declareMeasure(graph, pending);
-  else graph.skipped("measure", "no figures asked for");
+  if (step.stats)
+    declareMeasure(graph, pending);
+  else
+    graph.skipped("measure", "no figures asked for");
   pending.control = graph.readback(r_.control);
   pending.sums = graph.readback(r_.sums);
   pending_.push_back(pending);

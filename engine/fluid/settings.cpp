@@ -14,13 +14,14 @@ namespace rill {
 namespace {
 
 // Defaults of the solver's "auto" settings.
-constexpr double kRelaxation = 0.7;      // under the linear limit of 0.71 for signed corrections at h = 2d
-constexpr double kRegularization = 0.02; // of the rest lattice's sum |grad C|^2: keeps lone pairs from flying apart
+constexpr double kRelaxation = 0.7;       // under the linear limit of 0.71 for signed corrections at h = 2d
+constexpr double kRegularization = 0.02;  // of the rest lattice's sum |grad C|^2: keeps lone pairs from flying apart
 constexpr double kWarmGain = 0.05;
-constexpr double kWarmRelease = 1.3;     // the gain where density is too low, over that where it is too high: what builds up slower than it goes pumps less energy
-constexpr double kErrorOfHead = 0.06;    // mean compression over dt^2 g H / d^2, of the dam breaks in assets/scenes
-constexpr double kTravel = 1.6;          // spacings that the fastest particle may move before the list is rebuilt
-constexpr double kFarSpacings = 1.0e6;   // beyond it, positions have lost their meaning: float holds 24 bits
+constexpr double kWarmRelease =
+    1.3;  // the gain where density is too low, over that where it is too high: what builds up slower than it goes pumps less energy
+constexpr double kErrorOfHead = 0.06;   // mean compression over dt^2 g H / d^2, of the dam breaks in assets/scenes
+constexpr double kTravel = 1.6;         // spacings that the fastest particle may move before the list is rebuilt
+constexpr double kFarSpacings = 1.0e6;  // beyond it, positions have lost their meaning: float holds 24 bits
 
 float f(double value) { return static_cast<float>(value); }
 
@@ -104,7 +105,8 @@ void setWalls(const Scene& scene, const double origin[3], FluidParams& p) {
   p.margin = f(margin);
 }
 
-// XSPH with coefficient c acts like a kinematic viscosity c sigma^2 / (2 dt): so many sweeps, and a step short enough, that none has c above 1.
+// XSPH with coefficient c acts like a kinematic viscosity c sigma^2 / (2 dt): so many sweeps, and a step short enough, that none has c
+// above 1.
 void setViscosity(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
   FluidParams& p = setup.params;
   if (scene.fluid.viscosity <= 0) return;
@@ -118,14 +120,16 @@ void setViscosity(const Scene& scene, const SmoothingKernel& kernel, FluidSetup&
   const double frame = 1.0 / 60;
   if (most * p.maxSubsteps < frame) {
     char text[200];
-    std::snprintf(text, sizeof text, "viscosity %g Pa s needs substeps of at most %.3g s: %u of them are %.3g s, less than a frame of 1/60 s; time will be dropped",
-                  scene.fluid.viscosity, most, p.maxSubsteps, most * p.maxSubsteps);
+    std::snprintf(
+        text, sizeof text,
+        "viscosity %g Pa s needs substeps of at most %.3g s: %u of them are %.3g s, less than a frame of 1/60 s; time will be dropped",
+        scene.fluid.viscosity, most, p.maxSubsteps, most * p.maxSubsteps);
     setup.warnings.emplace_back(text);
   }
 }
 
-// The first step: half of what the tolerance allows under a column as high as all particles. Fluid that is released has to find its pressure: the step
-// that it can bear is known only when it has, and what compresses until then springs back.
+// The first step: half of what the tolerance allows under a column as high as all particles. Fluid that is released has to find its
+// pressure: the step that it can bear is known only when it has, and what compresses until then springs back.
 double firstStep(const Scene& scene, const double extent[3], double longest) {
   if (scene.solver.tolerance <= 0) return longest;
   double head = 0;  // m^2/s^2
@@ -188,7 +192,8 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const double origin[3], 
   p.solidSpeed = f(fastestSolid(scene));
   p.vorticity = f(scene.fluid.vorticity);
   if (scene.fluid.tensile > 0) {
-    // s_corr as a multiplier: a tenth of the rest multiplier's scale, growing with the step as the pressure's does, against gravity over one spacing.
+    // s_corr as a multiplier: a tenth of the rest multiplier's scale, growing with the step as the pressure's does, against gravity over
+    // one spacing.
     p.tensile = f(scene.fluid.tensile * 0.1 / kernel.restGradientSum() * 9.81 / d);
     p.tensilePower = f(scene.fluid.tensile_power);
     p.tensileInverse = f(1 / kernel.value(scene.fluid.tensile_radius * h));
@@ -209,7 +214,8 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const double origin[3], 
     p.tableNodes = tables.nodes;
     p.cornerNodes = tables.cornerNodes;
   }
-  for (int a = 0; a < 3 && scene.domain; ++a) setup.thin |= scene.domain->max[a] - scene.domain->min[a] < 2 * wallReach(kernel) + scene.fluid.spacing;
+  for (int a = 0; a < 3 && scene.domain; ++a)
+    setup.thin |= scene.domain->max[a] - scene.domain->min[a] < 2 * wallReach(kernel) + scene.fluid.spacing;
   addSolids(scene, kernel, origin, setup);
   p.solidCount = static_cast<uint32_t>(setup.solids.size());
   setViscosity(scene, kernel, setup);

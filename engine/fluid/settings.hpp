@@ -1,5 +1,6 @@
 #pragma once
-// From a scene to the numbers and tables that the shaders read. No Vulkan: what a run needs is known, and refused, before anything is allocated.
+// From a scene to the numbers and tables that the shaders read. No Vulkan: what a run needs is known, and refused, before anything is
+// allocated.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -17,15 +18,15 @@ inline constexpr double kListSkin = 0.15;
 struct FluidSetup {
   FluidParams params{};
   GridSize grid;
-  std::vector<float> tables;             ///< (value, slope) pairs of wall and ball tables
-  std::vector<SolidRecord> solids;       ///< relative to the particles' origin, at time 0
-  std::vector<float> keyframes;          ///< translation and time, four floats each
-  std::vector<float> gravity;            ///< the schedule: value and time, four floats each; the scene's own first
-  uint32_t kernel = 0;                   ///< specialization constant KERNEL
-  uint32_t viscositySweeps = 0;          ///< 0: no viscosity
-  double firstStep = 0;                  ///< s
-  bool near = false;                     ///< walls or solids displace density
-  bool thin = false;                     ///< walls that face each other can both be near a particle
+  std::vector<float> tables;        ///< (value, slope) pairs of wall and ball tables
+  std::vector<SolidRecord> solids;  ///< relative to the particles' origin, at time 0
+  std::vector<float> keyframes;     ///< translation and time, four floats each
+  std::vector<float> gravity;       ///< the schedule: value and time, four floats each; the scene's own first
+  uint32_t kernel = 0;              ///< specialization constant KERNEL
+  uint32_t viscositySweeps = 0;     ///< 0: no viscosity
+  double firstStep = 0;             ///< s
+  bool near = false;                ///< walls or solids displace density
+  bool thin = false;                ///< walls that face each other can both be near a particle
   bool movingSolids = false;
   std::vector<std::string> warnings;
 };

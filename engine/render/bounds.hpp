@@ -8,8 +8,10 @@ namespace rill {
 
 /// An axis-aligned box, m; empty until something is added.
 struct Bounds {
-  double min[3] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  double max[3] = {-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  double min[3] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+                   std::numeric_limits<double>::infinity()};
+  double max[3] = {-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+                   -std::numeric_limits<double>::infinity()};
 
   bool empty() const { return !(min[0] <= max[0]); }
   void add(const double point[3], double reach = 0) {

@@ -1,11 +1,10 @@
 #include "render/camera.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <glm/vec3.hpp>
-
-#include <algorithm>
-#include <cmath>
 
 #include "render/bounds.hpp"
 

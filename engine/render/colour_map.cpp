@@ -7,7 +7,9 @@
 namespace rill {
 namespace {
 
-struct Key { double chroma, hue; };  // Oklab; hue in degrees, going on beyond 0 and 360
+struct Key {
+  double chroma, hue;
+};  // Oklab; hue in degrees, going on beyond 0 and 360
 
 /// Lightness runs evenly from `first` to `last`; chroma and hue are interpolated between keys.
 struct Map {
@@ -34,7 +36,8 @@ Float3 mapColour(ParticleColour colour, double t) {
   const double m = std::pow(lightness - 0.1055613458 * a - 0.0638541728 * b, 3);
   const double s = std::pow(lightness - 0.0894841775 * a - 1.2914855480 * b, 3);
   const auto component = [](double v) { return static_cast<float>(std::clamp(v, 0.0, 1.0)); };
-  return {component(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s), component(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
+  return {component(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
+          component(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
           component(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
 }
 

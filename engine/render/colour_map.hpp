@@ -11,7 +11,8 @@ enum class ParticleColour : uint8_t {
   Compression  ///< density over rest density - 1, from none (pale) to much (dark purple)
 };
 
-/// Linear RGB of a value `t` in 0 .. 1 (clamped). Lightness is linear in `t` (Oklab), so the maps read the same in grey and to a colour-blind eye.
+/// Linear RGB of a value `t` in 0 .. 1 (clamped). Lightness is linear in `t` (Oklab), so the maps read the same in grey and to a
+/// colour-blind eye.
 Float3 mapColour(ParticleColour colour, double t);
 
 /// A linear component in 0 .. 1 (clamped) as an sRGB byte.

@@ -34,14 +34,17 @@ struct Canvas {
   }
 
   void text(int x, int y, int scale, const std::string& words, const uint8_t colour[3]) {
-    struct Vertex { float x, y, z; uint8_t colour[4]; };
+    struct Vertex {
+      float x, y, z;
+      uint8_t colour[4];
+    };
     std::vector<Vertex> vertices(words.size() * 24 + 64);
     std::string copy = words;
     const int quads = stb_easy_font_print(0, 0, copy.data(), nullptr, vertices.data(), static_cast<int>(vertices.size() * sizeof(Vertex)));
     for (int q = 0; q < quads; ++q) {
       const Vertex &a = vertices[static_cast<size_t>(4 * q)], &b = vertices[static_cast<size_t>(4 * q + 2)];
-      fill(x + static_cast<int>(a.x) * scale, y + static_cast<int>(a.y) * scale, x + static_cast<int>(b.x) * scale, y + static_cast<int>(b.y) * scale,
-           colour, 1);
+      fill(x + static_cast<int>(a.x) * scale, y + static_cast<int>(a.y) * scale, x + static_cast<int>(b.x) * scale,
+           y + static_cast<int>(b.y) * scale, colour, 1);
     }
   }
 };

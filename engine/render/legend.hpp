@@ -14,8 +14,8 @@ struct LegendDesc {
   std::optional<double> time_s;  ///< caption "t = 0.50 s"; none: no caption
 };
 
-/// Draws a colour bar with ticks, a title and the time into the bottom left corner of a picture: width x height RGBA8 sRGB pixels, rows from
-/// the top. Its size follows the picture's height; a picture that is too small for it, so that it would cover the fluid, gets none.
+/// Draws a colour bar with ticks, a title and the time into the bottom left corner of a picture: width x height RGBA8 sRGB pixels, rows
+/// from the top. Its size follows the picture's height; a picture that is too small for it, so that it would cover the fluid, gets none.
 void drawLegend(std::span<uint8_t> rgba, uint32_t width, uint32_t height, const LegendDesc& legend);
 
 }  // namespace rill

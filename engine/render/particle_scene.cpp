@@ -11,13 +11,14 @@
 namespace rill {
 namespace {
 
+using particle_view::kColours;
 using particle_view::SceneRecord;
 using particle_view::SolidRecord;
-using particle_view::kColours;
 
 constexpr uint32_t kLightTexels = 512;  // a side at most
 
-/// Directions of the light map: across, across and to the light. The light comes from the front, left and above, so that the usual camera sees lit sides.
+/// Directions of the light map: across, across and to the light. The light comes from the front, left and above, so that the usual camera
+/// sees lit sides.
 struct LightFrame {
   double u[3], v[3], to[3];
 };
@@ -75,7 +76,9 @@ void fillLight(SceneRecord& record, const Bounds& bounds, const double origin[3]
   }
   const double extent = std::max({high[0] - low[0], high[1] - low[1], 1e-6});
   const double texel = std::max(extent / (kLightTexels - 4), 0.5 * spacing);
-  const auto vec = [](const double v[3], double w) { return Float4{static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), static_cast<float>(w)}; };
+  const auto vec = [](const double v[3], double w) {
+    return Float4{static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), static_cast<float>(w)};
+  };
   record.light_u = vec(frame.u, low[0] - texel);
   record.light_v = vec(frame.v, low[1] - texel);
   record.light_to = vec(frame.to, high[2] + 0.5 * spacing);
@@ -97,8 +100,8 @@ void fillSolids(ParticleScene& out, const Scene& scene) {
     record.half_size = {half(0), half(1), half(2), static_cast<float>(radius)};
     record.motion = {static_cast<uint32_t>(out.keyframes.size()), static_cast<uint32_t>(solid.motion.size()), 0, 0};
     for (const Keyframe& key : solid.motion) {
-      out.keyframes.push_back({static_cast<float>(key.translate[0]), static_cast<float>(key.translate[1]), static_cast<float>(key.translate[2]),
-                               static_cast<float>(key.at)});
+      out.keyframes.push_back({static_cast<float>(key.translate[0]), static_cast<float>(key.translate[1]),
+                               static_cast<float>(key.translate[2]), static_cast<float>(key.at)});
     }
     out.solids.push_back(record);
   }

@@ -74,8 +74,10 @@ class ParticleViewImpl {
   bool hasShadows(const Frame& frame) const { return frame.push.count > 0 || scene_.scene.counts.x > 0; }
 
   Buffer sceneBuffer_, solids_, keyframes_;
-  const ComputePipeline *edges_ = nullptr, *poses_ = nullptr, *solidTiles_ = nullptr, *lightTiles_ = nullptr, *surfaces_ = nullptr, *floor_ = nullptr;
-  const ComputePipeline *lightSolids_ = nullptr, *project_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr, *splatLarge_ = nullptr;
+  const ComputePipeline *edges_ = nullptr, *poses_ = nullptr, *solidTiles_ = nullptr, *lightTiles_ = nullptr, *surfaces_ = nullptr,
+                        *floor_ = nullptr;
+  const ComputePipeline *lightSolids_ = nullptr, *project_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr,
+                        *splatLarge_ = nullptr;
   const ComputePipeline *floorShadow_ = nullptr, *tint_ = nullptr, *classify_ = nullptr, *shadeFluid_ = nullptr, *shadeFloor_ = nullptr;
   const ComputePipeline *shadeSky_ = nullptr, *shadeSolids_ = nullptr, *resolve_ = nullptr, *drawEdges_ = nullptr;
 };
@@ -94,7 +96,11 @@ Expected<void> ParticleViewImpl::create(Device& device, const Scene& scene, cons
   using enum BindingKind;
   static constexpr BindingKind kStorage[] = {Storage, Storage, Storage, Storage, Storage, Storage};
   static constexpr BindingKind kWithScene[] = {Uniform, Storage, Storage, Storage, Storage, Storage, Storage, Storage};
-  struct Wanted { const ComputePipeline*& pipeline; std::string_view shader; std::span<const BindingKind> bindings; };
+  struct Wanted {
+    const ComputePipeline*& pipeline;
+    std::string_view shader;
+    std::span<const BindingKind> bindings;
+  };
   const std::span<const BindingKind> storage = kStorage, withScene = kWithScene;
   const Wanted all[] = {
       {edges_, "render/particle_edges", withScene.first(2)},
@@ -190,7 +196,8 @@ void ParticleViewImpl::addSetup(Graph& graph, Frame& frame) {
 
 /// Which solids may be seen in which tile.
 BufferRef ParticleViewImpl::addMasks(Graph& graph, const Frame& frame, bool light) {
-  const uint64_t tileCount = light ? tiles(scene_.scene.counts.y, scene_.scene.counts.z, kPixelTile) : tiles(frame.push.width, frame.push.height, kPixelTile);
+  const uint64_t tileCount =
+      light ? tiles(scene_.scene.counts.y, scene_.scene.counts.z, kPixelTile) : tiles(frame.push.width, frame.push.height, kPixelTile);
   const uint64_t words = tileCount * groupsFor(scene_.solids.size(), 32);
   BufferRef masks = graph.create(light ? "view light masks" : "view solid masks", {words * 4});
   graph.pass("view solid tiles", [&](Pass& pass) {
@@ -198,7 +205,9 @@ BufferRef ParticleViewImpl::addMasks(Graph& graph, const Frame& frame, bool ligh
     pass.read(frame.poses, Use::ComputeRead);
     masks = pass.write(masks, Use::ComputeWrite, true);
     const Kernel kernel = pass.kernel(light ? lightTiles_ : solidTiles_, {frame.scene, frame.poses, masks});
-    return [kernel, groups = groupsFor(words, kParticleGroup), push = frame.push](Commands& commands) { commands.dispatch(kernel, groups, push); };
+    return [kernel, groups = groupsFor(words, kParticleGroup), push = frame.push](Commands& commands) {
+      commands.dispatch(kernel, groups, push);
+    };
   });
   return masks;
 }
@@ -292,7 +301,8 @@ void ParticleViewImpl::addSplat(Graph& graph, Frame& frame, bool winners) {
       BufferRef& written = winners ? frame.winner : frame.depth;
       pass.read(winners ? frame.depth : frame.winner, Use::ComputeRead);
       written = pass.write(written, Use::ComputeWrite);
-      const Kernel kernel = pass.kernel(large ? splatLarge_ : splat_, {frame.position, frame.counters, frame.survivors, frame.depth, frame.winner});
+      const Kernel kernel =
+          pass.kernel(large ? splatLarge_ : splat_, {frame.position, frame.counters, frame.survivors, frame.depth, frame.winner});
       ViewPush push = frame.push;
       push.winners = winners ? 1 : 0;
       return [kernel, counters = frame.counters, offset = 4 * (large ? kLargeArguments : kSmallArguments), push](Commands& commands) {
@@ -348,7 +358,9 @@ void ParticleViewImpl::addClassify(Graph& graph, Frame& frame) {
     frame.counters = pass.write(frame.counters, Use::ComputeWrite);
     frame.tiles = pass.write(frame.tiles, Use::ComputeWrite, true);
     const Kernel kernel = pass.kernel(classify_, {frame.winner, frame.edges, frame.counters, frame.tiles});
-    return [kernel, groups = groupsFor(tileCount, kParticleGroup), push = frame.push](Commands& commands) { commands.dispatch(kernel, groups, push); };
+    return [kernel, groups = groupsFor(tileCount, kParticleGroup), push = frame.push](Commands& commands) {
+      commands.dispatch(kernel, groups, push);
+    };
   });
   graph.pass("view arguments", [&](Pass& pass) {
     frame.counters = pass.write(frame.counters, Use::ComputeWrite);
@@ -378,9 +390,13 @@ void ParticleViewImpl::addShade(Graph& graph, Frame& frame) {
       pass.read(frame.scene, Use::ComputeUniform);
       pass.read(frame.winner, Use::ComputeRead);
       for (BufferRef* buffer : {&frame.shaded, &frame.rims, &frame.picture}) *buffer = pass.write(*buffer, Use::ComputeWrite, first);
-      if (!light) return onTiles(pass.kernel(pipeline, {frame.scene, frame.counters, frame.tiles, frame.winner, frame.shaded, frame.rims, frame.picture}), list);
+      if (!light)
+        return onTiles(
+            pass.kernel(pipeline, {frame.scene, frame.counters, frame.tiles, frame.winner, frame.shaded, frame.rims, frame.picture}), list);
       pass.read(*light, Use::ComputeRead);
-      return onTiles(pass.kernel(pipeline, {frame.scene, frame.counters, frame.tiles, frame.winner, *light, frame.shaded, frame.rims, frame.picture}), list);
+      return onTiles(
+          pass.kernel(pipeline, {frame.scene, frame.counters, frame.tiles, frame.winner, *light, frame.shaded, frame.rims, frame.picture}),
+          list);
     });
   };
   backdrop("view shade sky", shadeSky_, kTilesSky, true, nullptr);
@@ -392,7 +408,8 @@ void ParticleViewImpl::addShade(Graph& graph, Frame& frame) {
       pass.read(frame.scene, Use::ComputeUniform);
       for (const BufferRef& buffer : {frame.winner, frame.position, frame.tint}) pass.read(buffer, Use::ComputeRead);
       for (BufferRef* buffer : {&frame.shaded, &frame.rims}) *buffer = pass.write(*buffer, Use::ComputeWrite);
-      return onTiles(pass.kernel(shadeFluid_, {frame.scene, frame.counters, frame.tiles, frame.winner, frame.position, frame.tint, frame.shaded, frame.rims}),
+      return onTiles(pass.kernel(shadeFluid_, {frame.scene, frame.counters, frame.tiles, frame.winner, frame.position, frame.tint,
+                                               frame.shaded, frame.rims}),
                      kTilesFluid);
     });
   }
@@ -402,7 +419,8 @@ void ParticleViewImpl::addShade(Graph& graph, Frame& frame) {
       pass.read(frame.scene, Use::ComputeUniform);
       for (const BufferRef& buffer : {frame.winner, frame.poses, frame.light}) pass.read(buffer, Use::ComputeRead);
       for (BufferRef* buffer : {&frame.shaded, &frame.rims}) *buffer = pass.write(*buffer, Use::ComputeWrite);
-      return onTiles(pass.kernel(shadeSolids_, {frame.scene, frame.counters, frame.tiles, frame.winner, frame.poses, frame.light, frame.shaded, frame.rims}),
+      return onTiles(pass.kernel(shadeSolids_, {frame.scene, frame.counters, frame.tiles, frame.winner, frame.poses, frame.light,
+                                                frame.shaded, frame.rims}),
                      kTilesSolid);
     });
   }
@@ -411,7 +429,8 @@ void ParticleViewImpl::addShade(Graph& graph, Frame& frame) {
       readLists(pass);
       for (const BufferRef& buffer : {frame.depth, frame.shaded, frame.rims}) pass.read(buffer, Use::ComputeRead);
       frame.picture = pass.write(frame.picture, Use::ComputeWrite);
-      return onTiles(pass.kernel(resolve_, {frame.counters, frame.tiles, frame.depth, frame.shaded, frame.rims, frame.picture}), kTilesOutline);
+      return onTiles(pass.kernel(resolve_, {frame.counters, frame.tiles, frame.depth, frame.shaded, frame.rims, frame.picture}),
+                     kTilesOutline);
     });
   }
   if (scene_.scene.domain_min.w > 0) {
@@ -424,7 +443,8 @@ void ParticleViewImpl::addShade(Graph& graph, Frame& frame) {
   }
 }
 
-BufferRef ParticleViewImpl::addTo(Graph& graph, const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc, double time) {
+BufferRef ParticleViewImpl::addTo(Graph& graph, const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc,
+                                  double time) {
   Frame frame;
   frame.push = pushFor(fluid, camera, desc, time);
   frame.pixels = uint64_t{desc.width} * desc.height;
@@ -461,11 +481,12 @@ Expected<void> ParticleView::check(const ParticleViewDesc& desc) {
                     uint64_t{desc.width} * desc.height <= kMaxPixels;
   if (fits) return {};
   return Error{ErrorKind::BadInput, "a picture of " + std::to_string(desc.width) + "x" + std::to_string(desc.height) +
-                                        " pixels: width and height must be 1 to " + std::to_string(kMaxSide) + " and their product at most " +
-                                        std::to_string(kMaxPixels)};
+                                        " pixels: width and height must be 1 to " + std::to_string(kMaxSide) +
+                                        " and their product at most " + std::to_string(kMaxPixels)};
 }
 
-BufferRef ParticleView::addTo(Graph& graph, const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc, double time_s) {
+BufferRef ParticleView::addTo(Graph& graph, const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc,
+                              double time_s) {
   assert(check(desc));
   return impl_->addTo(graph, fluid, camera, desc, time_s);
 }

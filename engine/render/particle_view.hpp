@@ -15,10 +15,10 @@ namespace rill {
 
 /// What a picture of the particles looks like.
 struct ParticleViewDesc {
-  uint32_t width = 1280;   ///< pixels, 1 .. 8192
-  uint32_t height = 720;   ///< pixels, 1 .. 8192; width x height is at most 2^25
+  uint32_t width = 1280;  ///< pixels, 1 .. 8192
+  uint32_t height = 720;  ///< pixels, 1 .. 8192; width x height is at most 2^25
   ParticleColour colour = ParticleColour::Speed;
-  double scale_max = 0;    ///< value at the colour map's end (m/s, or fraction of rest density); 0: ParticleView::scaleMax(colour)
+  double scale_max = 0;  ///< value at the colour map's end (m/s, or fraction of rest density); 0: ParticleView::scaleMax(colour)
 };
 
 class ParticleViewImpl;
@@ -27,8 +27,8 @@ class ParticleViewImpl;
 /// Nothing depends on the order of execution: two runs on one driver give the same bytes.
 class ParticleView {
  public:
-  /// Copies the domain, the solids and the light's frame to the device. `particles` is the start: it fixes the colour scales, and its origin.
-  /// Scene and particles are not kept.
+  /// Copies the domain, the solids and the light's frame to the device. `particles` is the start: it fixes the colour scales, and its
+  /// origin. Scene and particles are not kept.
   static Expected<std::unique_ptr<ParticleView>> create(Device& device, const Scene& scene, const ParticleSet& particles);
   ~ParticleView();
 
@@ -40,8 +40,8 @@ class ParticleView {
   /// `time_s`: simulated time, where the solids are. With no particles, the state's buffers are not looked at.
   BufferRef addTo(Graph& graph, const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc, double time_s);
 
-  /// The value at a colour map's end, fixed by the scene so that colours do not flicker: for speed, sqrt(2 g H) of the fall from the fluid's top at the start
-  /// to the tank's floor, for compression ten times the solver's tolerance, each rounded to a handsome number.
+  /// The value at a colour map's end, fixed by the scene so that colours do not flicker: for speed, sqrt(2 g H) of the fall from the
+  /// fluid's top at the start to the tank's floor, for compression ten times the solver's tolerance, each rounded to a handsome number.
   double scaleMax(ParticleColour colour) const;
 
  private:

@@ -38,8 +38,10 @@ struct Dispatch {
   Push push;
 
   void operator()(Commands& commands) const {
-    if (arguments == BufferRef{}) commands.dispatch(kernel, groups, push);
-    else commands.dispatchIndirect(kernel, arguments, offset, push);
+    if (arguments == BufferRef{})
+      commands.dispatch(kernel, groups, push);
+    else
+      commands.dispatchIndirect(kernel, arguments, offset, push);
   }
 };
 

@@ -18,11 +18,11 @@ struct KeySortDesc {
   /// Largest key range that has a `start` table, and so of the counting sort: its keyRange + 1 entries fit in 128 MiB.
   static constexpr uint64_t kMaxStartRange = (128u << 20) / sizeof(uint32_t) - 1;
 
-  uint32_t count = 0;         ///< keys, 0 .. kMaxCount
-  uint64_t keyRange = 0;      ///< keys are below it; 1 .. kMaxKeyRange
+  uint32_t count = 0;     ///< keys, 0 .. kMaxCount
+  uint64_t keyRange = 0;  ///< keys are below it; 1 .. kMaxKeyRange
   SortMethod method = SortMethod::Auto;
-  bool start = false;         ///< whether SortedKeys::start is made; keyRange at most kMaxStartRange
-  bool keys = false;          ///< whether SortedKeys::keys is made
+  bool start = false;  ///< whether SortedKeys::start is made; keyRange at most kMaxStartRange
+  bool keys = false;   ///< whether SortedKeys::keys is made
 };
 
 /// Where the results go. A ref left out is made as a transient where the result is asked for: behind a gate, give the

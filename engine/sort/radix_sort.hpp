@@ -29,7 +29,7 @@ class RadixSort {
 
   KeySortDesc desc_;
   uint32_t passes_ = 0;
-  uint32_t bits_ = 0;   // of a digit
+  uint32_t bits_ = 0;  // of a digit
   uint32_t tiles_ = 0;
   Scan scan_;
   const ComputePipeline* count_ = nullptr;

@@ -250,7 +250,9 @@ TEST_F(CaptureTest, EveryShippedSceneRuns) {
 }
 
 TEST_F(CaptureTest, DroppedTimeIsReported) {
-  ASSERT_EQ(run({"--frames", "13", "--fps", "60", "--no-images", "--stats", "s.json", "--set", "solver.max_substeps=2", "solver.cfl=0.05"}).code, 0);
+  ASSERT_EQ(
+      run({"--frames", "13", "--fps", "60", "--no-images", "--stats", "s.json", "--set", "solver.max_substeps=2", "solver.cfl=0.05"}).code,
+      0);
   const Json json = stats("s.json");
   EXPECT_GT(json["frames"][12]["time_dropped_s"].get<double>(), 0.0);
   EXPECT_EQ(json["frames"][12]["substeps"], 2);

@@ -7,7 +7,8 @@
 namespace rill::test {
 namespace {
 
-// A small dam break with a choice of its own steps: they depend on every particle, and lists are rebuilt at times that depend on the fastest.
+// A small dam break with a choice of its own steps: they depend on every particle, and lists are rebuilt at times that depend on the
+// fastest.
 Trial dam() {
   Trial t = trial();
   setWalls(t, {0.75, 0.75, 0.375});

@@ -1,6 +1,6 @@
-// Without walls, solids and gravity the forces of the solver are opposite in pairs: the sum of all velocities stays. Multipliers travel as halves, but both
-// partners of a pair add the same two halves and the same gradient with the other sign. What is left is the rounding of each position, half an ulp,
-// divided by the step.
+// Without walls, solids and gravity the forces of the solver are opposite in pairs: the sum of all velocities stays. Multipliers travel as
+// halves, but both partners of a pair add the same two halves and the same gradient with the other sign. What is left is the rounding of
+// each position, half an ulp, divided by the step.
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -36,7 +36,7 @@ class MomentumTest : public FluidTest {
       EXPECT_GT(moved, 0.1) << "nothing happened";
       // Roundings are random: their sum grows with the root of their number.
       const double ulp = std::exp2(std::ceil(std::log2(far)) - 24);
-      const double limit = 2 * ulp / t.step * std::sqrt( double(after.x.size()) * substeps);
+      const double limit = 2 * ulp / t.step * std::sqrt(double(after.x.size()) * substeps);
       for (int a = 0; a < 3; ++a) EXPECT_NEAR(after.velocitySum()[a], before.velocitySum()[a], limit) << a;
     }
   }

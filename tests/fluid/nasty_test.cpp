@@ -1,4 +1,5 @@
-// What no scene should contain and some will: lone, coincident, crushed and lost particles; thin tanks; places far from zero. See broken_test.cpp, too.
+// What no scene should contain and some will: lone, coincident, crushed and lost particles; thin tanks; places far from zero. See
+// broken_test.cpp, too.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -36,7 +37,8 @@ double speeds(const Snapshot& s) {
   return sum;
 }
 
-// All numbers are sums of few powers of two: nothing is rounded, and symplectic Euler's parabola x0 + n dt v + n (n + 1) / 2 dt^2 g is met to the bit.
+// All numbers are sums of few powers of two: nothing is rounded, and symplectic Euler's parabola x0 + n dt v + n (n + 1) / 2 dt^2 g is met
+// to the bit.
 TEST_F(NastyTest, LoneParticleFallsAlongTheParabola) {
   Trial t = trial();
   t.step = 1.0 / 1024;
@@ -79,8 +81,8 @@ TEST_F(NastyTest, TwoParticlesAtTheSupportDoNotFeelEachOther) {
   }
 }
 
-// Forces between two particles are opposite: what the sum of velocities may change by is the rounding of positions (2^-24 of the few spacings that
-// the cluster spans, over the step), for every particle and substep.
+// Forces between two particles are opposite: what the sum of velocities may change by is the rounding of positions (2^-24 of the few
+// spacings that the cluster spans, over the step), for every particle and substep.
 TEST_F(NastyTest, CoincidentParticlesPart) {
   Trial t = trial();
   t.scene.gravity[1] = 0;
@@ -114,9 +116,9 @@ TEST_F(NastyTest, ManyCoincidentParticlesPart) {
   EXPECT_EQ(outsideOf(t, s), 0u);
 }
 
-// A block with a hundred times the rest density. A substep moves nobody farther than twice what cfl allows, half a spacing, and may be half as long as the
-// one before: four of them take a particle out of the reach of all others, with at most 2^4 times half a spacing a first step. From then on walls take
-// energy out.
+// A block with a hundred times the rest density. A substep moves nobody farther than twice what cfl allows, half a spacing, and may be half
+// as long as the one before: four of them take a particle out of the reach of all others, with at most 2^4 times half a spacing a first
+// step. From then on walls take energy out.
 TEST_F(NastyTest, CrushedBlockStaysInsideAtABoundedSpeed) {
   Trial t = trial();
   setWalls(t, {1, 1, 1});

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <random>
@@ -173,7 +173,9 @@ FluidTest::Run::Run(FluidTest& test, const Trial& trial) : test_(test), step_(tr
   Scene scene = trial.timedScene();
   if (trial.gather == Gather::Grid) scene.solver.neighbors = NeighborChoice::Grid;
   const ParticleSet particles = trial.particles();
-  auto made = Fluid::create(test.rillDevice(), {.scene = &scene, .particles = &particles, .settle = trial.settle, .storageReads = trial.gather == Gather::Storage});
+  auto made =
+      Fluid::create(test.rillDevice(),
+                    {.scene = &scene, .particles = &particles, .settle = trial.settle, .storageReads = trial.gather == Gather::Storage});
   if (!made) throw std::runtime_error(made.error().message);
   fluid_ = std::move(*made);
 }
@@ -244,7 +246,8 @@ void FluidTest::expectEqual(Trial trial, int substeps, double position, double v
     trial.gather = gather;
     SCOPED_TRACE(std::string(nameOf(gather)) + ", " + std::to_string(substeps) + " substeps");
     const Difference most = difference(trial, substeps);
-    if (std::getenv("RILL_SHOW")) std::printf("%s %d: %.3g %.3g (%zu)\n", nameOf(gather), substeps, most.position, most.velocity, most.worst);
+    if (std::getenv("RILL_SHOW"))
+      std::printf("%s %d: %.3g %.3g (%zu)\n", nameOf(gather), substeps, most.position, most.velocity, most.worst);
     EXPECT_LE(most.position, position + (gather == Gather::Grid ? 0 : ageing)) << "spacings, particle " << most.worst;
     EXPECT_LE(most.velocity, velocity + (gather == Gather::Grid ? 0 : ageing)) << "spacings a substep, particle " << most.worst;
   }

@@ -105,8 +105,8 @@ class FluidTest : public GpuTest {
 
   /// After `substeps` of both solvers.
   Difference difference(const Trial& trial, int substeps);
-  /// For every way to gather neighbours: none above the limits (spacings). `ageing` is added for the list, in which pairs that have come nearer by more
-  /// than its skin since it was built are missing: fragments that fly apart at several spacings in ten substeps.
+  /// For every way to gather neighbours: none above the limits (spacings). `ageing` is added for the list, in which pairs that have come
+  /// nearer by more than its skin since it was built are missing: fragments that fly apart at several spacings in ten substeps.
   void expectEqual(Trial trial, int substeps, double position, double velocity, double ageing = 0);
 };
 

@@ -115,8 +115,8 @@ TEST_F(StatsTest, AroundSolids) {
   expectLike(t, *start(t));
 }
 
-// The walls stand in for the lattice beyond them: every particle with a full neighbourhood of fluid and walls has the rest density, those at the free
-// faces less.
+// The walls stand in for the lattice beyond them: every particle with a full neighbourhood of fluid and walls has the rest density, those
+// at the free faces less.
 TEST_F(StatsTest, RestLatticeInACorner) {
   Trial t = trial();
   setWalls(t, {6 * t.d(), 6 * t.d(), 6 * t.d()});

@@ -1,5 +1,5 @@
-// Whole substeps against the reference: the same scene, the same fixed step, particles compared by id. Limits are in spacings; multipliers travel as
-// halves on the device, which is a relative error of about 5e-4 of each correction.
+// Whole substeps against the reference: the same scene, the same fixed step, particles compared by id. Limits are in spacings; multipliers
+// travel as halves on the device, which is a relative error of about 5e-4 of each correction.
 #include "fluid/rig.hpp"
 
 namespace rill::test {

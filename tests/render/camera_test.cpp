@@ -1,10 +1,11 @@
 // Cameras and colour maps: no device needed.
+#include "render/camera.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "render/camera.hpp"
 #include "render/colour_map.hpp"
 #include "render/particle_scene.hpp"
 #include "render/particle_view.hpp"
@@ -25,7 +26,8 @@ void project(const CameraView& camera, const double point[3], double& x, double&
 }
 
 TEST(Camera, FramesBoxesOfAnyShape) {
-  const double boxes[][6] = {{0, 0, 0, 5, 4, 1}, {0, 0, 0, 1.6, 0.8, 0.15}, {-3, 0, -40, 3, 2, 40}, {1e6, 0, 0, 1e6 + 1, 1, 1}, {0, 0, 0, 0.01, 8, 0.01}};
+  const double boxes[][6] = {
+      {0, 0, 0, 5, 4, 1}, {0, 0, 0, 1.6, 0.8, 0.15}, {-3, 0, -40, 3, 2, 40}, {1e6, 0, 0, 1e6 + 1, 1, 1}, {0, 0, 0, 0.01, 8, 0.01}};
   for (const auto& box : boxes) {
     for (const double aspect : {16.0 / 9, 1.0, 0.4}) {
       const CameraView camera = frameCamera(box, box + 3, aspect);
@@ -78,9 +80,7 @@ TEST(ColourMap, LightnessIsMonotonicAndInGamut) {
     for (int k = 0; k <= 100; ++k) {
       const Float3 c = mapColour(colour, k / 100.0);
       const double luminance = 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
-      if (k > 0) {
-        EXPECT_GT((luminance - before) * (colour == ParticleColour::Speed ? 1 : -1), 0) << k;
-      }
+      if (k > 0) { EXPECT_GT((luminance - before) * (colour == ParticleColour::Speed ? 1 : -1), 0) << k; }
       before = luminance;
     }
   }
@@ -107,7 +107,8 @@ TEST(ParticleScene, ScalesAreFixedByTheScene) {
 TEST(ParticleView, RefusesPicturesThatAreEmptyOrTooLarge) {
   EXPECT_TRUE(ParticleView::check({1, 1}));
   EXPECT_TRUE(ParticleView::check({7680, 4320}));
-  for (const ParticleViewDesc& desc : {ParticleViewDesc{0, 10}, ParticleViewDesc{10, 0}, ParticleViewDesc{8193, 1}, ParticleViewDesc{8192, 8192}}) {
+  for (const ParticleViewDesc& desc :
+       {ParticleViewDesc{0, 10}, ParticleViewDesc{10, 0}, ParticleViewDesc{8193, 1}, ParticleViewDesc{8192, 8192}}) {
     const auto ok = ParticleView::check(desc);
     ASSERT_FALSE(ok);
     EXPECT_EQ(ok.error().kind, ErrorKind::BadInput);

@@ -1,8 +1,8 @@
+#include "render/legend.hpp"
+
 #include <gtest/gtest.h>
 
 #include <vector>
-
-#include "render/legend.hpp"
 
 namespace rill {
 namespace {

@@ -1,4 +1,6 @@
 // Pictures of particles on a driver, against what geometry says must be in them.
+#include "render/particle_view.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -6,7 +8,6 @@
 #include <optional>
 #include <random>
 
-#include "render/particle_view.hpp"
 #include "support/gpu_test.hpp"
 
 namespace rill::test {
@@ -101,7 +102,8 @@ TEST_F(ParticleViewOnGpu, DrawsTheOutlineThatGeometrySays) {
   constexpr uint32_t kWidth = 200, kHeight = 120;
   const Picture empty = take({}, kWidth, kHeight);
   // Near and large (the tiled kernel), far and small, off the axis where the outline is an ellipse, cut by the picture's border.
-  for (const Particle& p : {Particle{0.4f, -0.3f, -2}, Particle{1, 1, -8}, Particle{-5.5f, 2.6f, -7}, Particle{7, -3, -8.2f}, Particle{0.1f, 0, -1.1f}}) {
+  for (const Particle& p :
+       {Particle{0.4f, -0.3f, -2}, Particle{1, 1, -8}, Particle{-5.5f, 2.6f, -7}, Particle{7, -3, -8.2f}, Particle{0.1f, 0, -1.1f}}) {
     const Picture picture = take({p}, kWidth, kHeight);
     const double pixel = std::abs(p.z) / (0.5 * kHeight / kTangent) / 0.5;  // of a radius
     size_t covered = 0;
@@ -110,12 +112,8 @@ TEST_F(ParticleViewOnGpu, DrawsTheOutlineThatGeometrySays) {
         const double depth = inside(p, 0.5, x + 0.5, y + 0.5, kWidth, kHeight);
         const bool drawn = picture.at(x, y) != empty.at(x, y);
         covered += drawn ? 1 : 0;
-        if (depth > 0.02 * pixel) {
-          EXPECT_TRUE(drawn) << x << ' ' << y << " of the sphere at z " << p.z;
-        }
-        if (depth < -1.5 * pixel) {
-          EXPECT_FALSE(drawn) << x << ' ' << y << " of the sphere at z " << p.z;
-        }
+        if (depth > 0.02 * pixel) { EXPECT_TRUE(drawn) << x << ' ' << y << " of the sphere at z " << p.z; }
+        if (depth < -1.5 * pixel) { EXPECT_FALSE(drawn) << x << ' ' << y << " of the sphere at z " << p.z; }
       }
     }
     EXPECT_GT(covered, 20u);
@@ -126,7 +124,8 @@ TEST_F(ParticleViewOnGpu, DepthDecidesBetweenSpheres) {
   constexpr uint32_t kWidth = 160, kHeight = 160;
   // Two that intersect: the boundary is where their depths along the ray are equal.
   const Particle a{-0.2f, 0, -3, 0, 0, 0}, b{0.25f, 0, -3.1f, 1, 0, 0};
-  const Picture both = take({a, b}, kWidth, kHeight), onlyA = take({a, {100, 0, 50, 1}}, kWidth, kHeight), onlyB = take({{100, 0, 50}, b}, kWidth, kHeight);
+  const Picture both = take({a, b}, kWidth, kHeight), onlyA = take({a, {100, 0, 50, 1}}, kWidth, kHeight),
+                onlyB = take({{100, 0, 50}, b}, kWidth, kHeight);
   const double focal = 0.5 * kHeight / kTangent;
   const auto depth = [&](const Particle& p, uint32_t x, uint32_t y) {
     const double d[3] = {(x + 0.5 - 0.5 * kWidth) / focal, (0.5 * kHeight - y - 0.5) / focal, -1};
@@ -140,10 +139,12 @@ TEST_F(ParticleViewOnGpu, DepthDecidesBetweenSpheres) {
   for (uint32_t y = 0; y < kHeight; ++y) {
     for (uint32_t x = 0; x < kWidth; ++x) {
       const double da = depth(a, x, y), db = depth(b, x, y);
-      const double wellInside = std::min(inside(a, 0.5, x + 0.5, y + 0.5, kWidth, kHeight), inside(b, 0.5, x + 0.5, y + 0.5, kWidth, kHeight));
+      const double wellInside =
+          std::min(inside(a, 0.5, x + 0.5, y + 0.5, kWidth, kHeight), inside(b, 0.5, x + 0.5, y + 0.5, kWidth, kHeight));
       if (wellInside < 0.12 || std::abs(da - db) < 0.02) continue;
       ++compared;
-      const double seen = std::log(blueness(both.at(x, y))), asA = std::log(blueness(onlyA.at(x, y))), asB = std::log(blueness(onlyB.at(x, y)));
+      const double seen = std::log(blueness(both.at(x, y))), asA = std::log(blueness(onlyA.at(x, y))),
+                   asB = std::log(blueness(onlyB.at(x, y)));
       EXPECT_EQ(std::abs(seen - asA) < std::abs(seen - asB), da < db) << x << ' ' << y;
     }
   }
@@ -154,8 +155,10 @@ TEST_F(ParticleViewOnGpu, LeavesOutWhatCannotBeSeen) {
   constexpr uint32_t kSize = 96;
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   const Particle seen{0, 0, -6};
-  const Particle nowhere[] = {{0, 0, 6},     {nan, 0, -6},  {0, nan, -6},  {0, 0, nan},     {inf, 0, -6}, {0, 0, -inf},
-                              {0, -inf, -6}, {3e38f, 0, -6}, {-3e38f, 3e38f, -3e38f}, {40, 0, -6},  {0, 0, 0.6f}};
+  const Particle nowhere[] = {{0, 0, 6},     {nan, 0, -6},   {0, nan, -6},
+                              {0, 0, nan},   {inf, 0, -6},   {0, 0, -inf},
+                              {0, -inf, -6}, {3e38f, 0, -6}, {-3e38f, 3e38f, -3e38f},
+                              {40, 0, -6},   {0, 0, 0.6f}};
   start_ = {0, 0, -6};
   const Picture alone = take({seen, seen, seen, seen, seen, seen, seen, seen, seen, seen, seen, seen}, kSize, kSize);
   std::vector<Particle> all(std::begin(nowhere), std::end(nowhere));
@@ -176,7 +179,8 @@ TEST_F(ParticleViewOnGpu, NearAndHugeSpheresFillThePictureInBoundedLoops) {
   scene_.fluid.spacing = 1;
   std::vector<Particle> crowd;
   for (int k = 0; k < 2000; ++k) {
-    crowd.push_back({0.04f * static_cast<float>(k % 50 - 25), 0.04f * static_cast<float>(k / 50 % 50 - 25), -0.4f * static_cast<float>(k % 7)});
+    crowd.push_back(
+        {0.04f * static_cast<float>(k % 50 - 25), 0.04f * static_cast<float>(k / 50 % 50 - 25), -0.4f * static_cast<float>(k % 7)});
   }
   take(crowd, 200, 120);
 }
@@ -200,7 +204,8 @@ TEST_F(ParticleViewOnGpu, ShowsTheNearestOfACloud) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> unit(-1, 1);
   std::vector<Particle> cloud;
-  for (int k = 0; k < 4000; ++k) cloud.push_back({2.2f * unit(random), 1.3f * unit(random), -3.6f + unit(random), 0, k % 2 ? 1.0f : 0.0f, 0});
+  for (int k = 0; k < 4000; ++k)
+    cloud.push_back({2.2f * unit(random), 1.3f * unit(random), -3.6f + unit(random), 0, k % 2 ? 1.0f : 0.0f, 0});
   const Picture picture = take(cloud, kWidth, kHeight), empty = take({}, kWidth, kHeight);
   const double focal = 0.5 * kHeight / kTangent;
   size_t compared = 0, wrong = 0, bare = 0;
@@ -290,8 +295,10 @@ TEST_F(ParticleViewOnGpu, ManySolidsOfBothKinds) {
   for (int k = 0; k < 100; ++k) {
     Solid solid;
     const double x = 0.8 * (k % 20 - 9.5), y = 0.8 * (k / 20 - 2);
-    if (k % 2 == 0) solid.sphere = SphereShape{{x, y, -10}, 0.2};
-    else solid.box = BoxShape{{x - 0.12, y - 0.12, -10.1}, {x + 0.12, y + 0.12, -9.9}};
+    if (k % 2 == 0)
+      solid.sphere = SphereShape{{x, y, -10}, 0.2};
+    else
+      solid.box = BoxShape{{x - 0.12, y - 0.12, -10.1}, {x + 0.12, y + 0.12, -9.9}};
     scene_.solids.push_back(solid);
     centres.emplace_back(x, y);
   }
@@ -299,10 +306,12 @@ TEST_F(ParticleViewOnGpu, ManySolidsOfBothKinds) {
   const double scale = 0.5 * kHeight / kTangent / 10;
   for (const auto& [x, y] : centres) {
     const double px = 0.5 * kWidth + x * scale, py = 0.5 * kHeight - y * scale;
-    EXPECT_NE(picture.at(static_cast<uint32_t>(px), static_cast<uint32_t>(py)), empty.at(static_cast<uint32_t>(px), static_cast<uint32_t>(py)));
+    EXPECT_NE(picture.at(static_cast<uint32_t>(px), static_cast<uint32_t>(py)),
+              empty.at(static_cast<uint32_t>(px), static_cast<uint32_t>(py)));
     const double gap = px + 0.4 * scale;
     if (gap < kWidth) {
-      EXPECT_EQ(picture.at(static_cast<uint32_t>(gap), static_cast<uint32_t>(py)), empty.at(static_cast<uint32_t>(gap), static_cast<uint32_t>(py)));
+      EXPECT_EQ(picture.at(static_cast<uint32_t>(gap), static_cast<uint32_t>(py)),
+                empty.at(static_cast<uint32_t>(gap), static_cast<uint32_t>(py)));
     }
   }
 }
@@ -330,7 +339,8 @@ TEST_F(ParticleViewOnGpu, ColoursSpeedAndCompression) {
   EXPECT_GT(channel(fast, 0), channel(slow, 0) + 60);
   EXPECT_GT(channel(slow, 2), 2 * channel(slow, 0)) << "rest is blue";
   const auto compression = ParticleColour::Compression;
-  const Picture loose = take({{0, 0, -4, 9, 0, 0, 0.5f}}, kSize, kSize, 0, compression), rest = take({{0, 0, -4, 0, 0, 0, 1}}, kSize, kSize, 0, compression);
+  const Picture loose = take({{0, 0, -4, 9, 0, 0, 0.5f}}, kSize, kSize, 0, compression),
+                rest = take({{0, 0, -4, 0, 0, 0, 1}}, kSize, kSize, 0, compression);
   const Picture dense = take({{0, 0, -4, 0, 0, 0, 1.5f}}, kSize, kSize, 0, compression);
   EXPECT_EQ(difference(loose, rest), 0u) << "expansion counts as none";
   EXPECT_LT(channel(dense, 1), channel(rest, 1) - 60);

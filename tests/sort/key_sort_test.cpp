@@ -65,9 +65,7 @@ TEST_P(BothSorts, KeysThatAreSortedReversedOrFew) {
   for (const Words& keys : {rising, falling, few, sparse}) check(GetParam(), keys, kCount);
 }
 
-TEST_P(BothSorts, HundredThousandEqualKeysStayInOrder) {
-  check(GetParam(), Words(100000, 77), 1000);
-}
+TEST_P(BothSorts, HundredThousandEqualKeysStayInOrder) { check(GetParam(), Words(100000, 77), 1000); }
 
 TEST_P(BothSorts, BinsOnBothSidesOfTheLimit) {
   // Neighbouring bins of limit - 1, limit, limit + 1 and several chunks, their keys spread over all indices.

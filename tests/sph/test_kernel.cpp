@@ -8,8 +8,8 @@
 
 namespace {
 
-using rill::SmoothingKernel;
 using rill::KernelChoice;
+using rill::SmoothingKernel;
 
 constexpr double kSpacing = 0.05;
 

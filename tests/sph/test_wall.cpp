@@ -10,9 +10,9 @@
 
 namespace {
 
-using rill::SmoothingKernel;
 using rill::KernelChoice;
 using rill::LineSample;
+using rill::SmoothingKernel;
 using rill::WallSample;
 using rill::WallTables;
 

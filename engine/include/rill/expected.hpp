@@ -34,13 +34,31 @@ class [[nodiscard]] Expected {
   explicit operator bool() const { return state_.index() == 0; }
   bool hasValue() const { return state_.index() == 0; }
 
-  T& operator*() & { assert(hasValue()); return *std::get_if<0>(&state_); }
-  const T& operator*() const& { assert(hasValue()); return *std::get_if<0>(&state_); }
-  T&& operator*() && { assert(hasValue()); return std::move(*std::get_if<0>(&state_)); }
-  T* operator->() { assert(hasValue()); return std::get_if<0>(&state_); }
-  const T* operator->() const { assert(hasValue()); return std::get_if<0>(&state_); }
+  T& operator*() & {
+    assert(hasValue());
+    return *std::get_if<0>(&state_);
+  }
+  const T& operator*() const& {
+    assert(hasValue());
+    return *std::get_if<0>(&state_);
+  }
+  T&& operator*() && {
+    assert(hasValue());
+    return std::move(*std::get_if<0>(&state_));
+  }
+  T* operator->() {
+    assert(hasValue());
+    return std::get_if<0>(&state_);
+  }
+  const T* operator->() const {
+    assert(hasValue());
+    return std::get_if<0>(&state_);
+  }
 
-  const Error& error() const { assert(!hasValue()); return *std::get_if<1>(&state_); }
+  const Error& error() const {
+    assert(!hasValue());
+    return *std::get_if<1>(&state_);
+  }
 
  private:
   std::variant<T, Error> state_;
@@ -55,7 +73,10 @@ class [[nodiscard]] Expected<void> {
 
   explicit operator bool() const { return ok_; }
   bool hasValue() const { return ok_; }
-  const Error& error() const { assert(!ok_); return error_; }
+  const Error& error() const {
+    assert(!ok_);
+    return error_;
+  }
 
  private:
   Error error_;

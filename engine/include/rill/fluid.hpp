@@ -16,14 +16,15 @@ namespace rill {
 
 /// What a Fluid is made from. Both are read in create() and not kept.
 struct FluidDesc {
-  const Scene* scene = nullptr;          ///< settings, domain, solids, gravity; fluid.spacing > 0
+  const Scene* scene = nullptr;  ///< settings, domain, solids, gravity; fluid.spacing > 0
   const ParticleSet* particles = nullptr;
-  uint64_t listBytes = 0;                ///< cap on the neighbour list's memory; 0: what the device's buffers allow
-  bool settle = true;                    ///< before the first substep, part particles that overlap at the start: positions move, speeds do not
-  bool storageReads = false;             ///< gather through storage buffers even where texel buffers would hold enough (slower on most CPU drivers)
+  uint64_t listBytes = 0;     ///< cap on the neighbour list's memory; 0: what the device's buffers allow
+  bool settle = true;         ///< before the first substep, part particles that overlap at the start: positions move, speeds do not
+  bool storageReads = false;  ///< gather through storage buffers even where texel buffers would hold enough (slower on most CPU drivers)
 };
 
-/// Device memory that a Fluid of `particles` particles needs, in bytes, split as reports show it. Computed in 64 bits from the numbers alone.
+/// Device memory that a Fluid of `particles` particles needs, in bytes, split as reports show it. Computed in 64 bits from the numbers
+/// alone.
 struct FluidMemory {
   uint64_t particle_bytes = 0;  ///< all per-particle arrays, without the list
   uint64_t list_bytes = 0;
@@ -34,20 +35,20 @@ FluidMemory fluidMemory(const Scene& scene, uint64_t particles);
 
 /// One piece of simulation to declare in a graph.
 struct FluidStep {
-  double advance_s = 0;      ///< s of simulated time to go on from where the last completed advance ended; ignored where `resume`
-  bool resume = false;       ///< go on with the time that the last step left over (an offline caller records a frame in pieces)
-  uint32_t substeps = 64;    ///< the most that this graph records, rounded up to whole blocks of `Fluid::substepsPerBlock()`
-  bool stats = false;        ///< measure Stats at the end
+  double advance_s = 0;    ///< s of simulated time to go on from where the last completed advance ended; ignored where `resume`
+  bool resume = false;     ///< go on with the time that the last step left over (an offline caller records a frame in pieces)
+  uint32_t substeps = 64;  ///< the most that this graph records, rounded up to whole blocks of `Fluid::substepsPerBlock()`
+  bool stats = false;      ///< measure Stats at the end
 };
 
 /// Where a module finds the particles of this frame: versions of buffers of the same graph. Read them with any Use.
 struct FluidState {
-  BufferRef position;   ///< vec4 a particle: xyz in m relative to `origin`, w unused
-  BufferRef velocity;   ///< vec4 a particle: xyz in m/s, w the density over rest density where the step asked for `stats`, else 1
-  BufferRef id;         ///< uint a particle: its number at birth
-  BufferRef control;    ///< FluidControl (shaders/shared/fluid_records.h), read back by offline callers
-  uint32_t count = 0;   ///< particles
-  float spacing = 0;    ///< m
+  BufferRef position;            ///< vec4 a particle: xyz in m relative to `origin`, w unused
+  BufferRef velocity;            ///< vec4 a particle: xyz in m/s, w the density over rest density where the step asked for `stats`, else 1
+  BufferRef id;                  ///< uint a particle: its number at birth
+  BufferRef control;             ///< FluidControl (shaders/shared/fluid_records.h), read back by offline callers
+  uint32_t count = 0;            ///< particles
+  float spacing = 0;             ///< m
   double origin[3] = {0, 0, 0};  ///< m
 };
 
@@ -64,29 +65,30 @@ struct FluidProgress {
 
 /// Figures of one instant, measured on the device with sums in a fixed order.
 struct FluidStats {
-  double time_s = 0;                 ///< simulated time
+  double time_s = 0;  ///< simulated time
   uint64_t particles = 0;
-  uint32_t substeps = 0;             ///< of the last advance
-  uint32_t iterations = 0;           ///< Jacobi iterations of the last advance, all substeps added up
-  double time_dropped_s = 0;         ///< of the last advance
+  uint32_t substeps = 0;      ///< of the last advance
+  uint32_t iterations = 0;    ///< Jacobi iterations of the last advance, all substeps added up
+  double time_dropped_s = 0;  ///< of the last advance
   double density_error_mean = 0, density_error_p99 = 0, density_error_max = 0;  ///< compression only, fraction of rest density
   double density_signed_median = 0;  ///< of rho / rho0 - 1 over particles with a full neighbourhood
   double kinetic_J = 0, potential_J = 0;
   double momentum[3] = {0, 0, 0};        ///< kg m/s
   double centre_of_mass[3] = {0, 0, 0};  ///< m
   double max_speed = 0;                  ///< m/s
-  uint64_t non_finite = 0;           ///< particles parked since the start
-  uint64_t outside = 0;              ///< centres beyond a closed wall, or gone through an open side
-  uint64_t neighbour_overflow = 0;   ///< particles whose list was full at the last build: they walk the grid
-  uint64_t loop_bound_hits = 0;      ///< times a bounded shader loop ran into its bound since the start
-  uint32_t list_builds = 0;          ///< of the last advance
+  uint64_t non_finite = 0;               ///< particles parked since the start
+  uint64_t outside = 0;                  ///< centres beyond a closed wall, or gone through an open side
+  uint64_t neighbour_overflow = 0;       ///< particles whose list was full at the last build: they walk the grid
+  uint64_t loop_bound_hits = 0;          ///< times a bounded shader loop ran into its bound since the start
+  uint32_t list_builds = 0;              ///< of the last advance
 };
 
 class FluidImpl;
 
 class Fluid {
  public:
-  /// BadInput for a description that cannot run, OutOfMemory (with bytes needed and available, nothing allocated) where the device cannot hold it.
+  /// BadInput for a description that cannot run, OutOfMemory (with bytes needed and available, nothing allocated) where the device cannot
+  /// hold it.
   static Expected<std::unique_ptr<Fluid>> create(Device& device, const FluidDesc& desc);
   ~Fluid();
 
@@ -100,7 +102,8 @@ class Fluid {
 
   uint32_t count() const;
   uint32_t substepsPerBlock() const;
-  /// Recorded substeps that complete any advance: those that the device leaves out, to rebuild the list or because none is due, are among them.
+  /// Recorded substeps that complete any advance: those that the device leaves out, to rebuild the list or because none is due, are among
+  /// them.
   uint32_t mostSubsteps() const;
   FluidMemory memory() const;
   /// What the solver cannot follow, each with its figure ("viscosity 50 Pa s needs ..."). Known at creation.

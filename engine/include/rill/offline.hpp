@@ -38,14 +38,18 @@ struct Image {
   std::vector<uint8_t> rgba;
 };
 
-struct PassTime { std::string name; double ms = 0; uint32_t runs = 0; };
+struct PassTime {
+  std::string name;
+  double ms = 0;
+  uint32_t runs = 0;
+};
 
 /// Everything `rill-capture --stats` writes about an instant.
 struct Stats : FluidStats {
-  double front_m = 0;              ///< farthest fluid along +x from the domain's minimum
-  uint64_t state_hash = 0;         ///< of positions and velocities in id order
+  double front_m = 0;       ///< farthest fluid along +x from the domain's minimum
+  uint64_t state_hash = 0;  ///< of positions and velocities in id order
   std::vector<std::pair<std::string, double>> probes;
-  double wall_s = 0;               ///< spent since the instant before, simulation alone
+  double wall_s = 0;  ///< spent since the instant before, simulation alone
   std::vector<PassTime> pass_ms;
   std::vector<std::pair<std::string, std::string>> skipped;  ///< pass, reason
 };
@@ -58,22 +62,22 @@ class Simulation {
   static Expected<std::unique_ptr<Simulation>> open(Scene scene, const Options& options = {});
   ~Simulation();
 
-  /// Runs `seconds` of simulated time on (>= 0), waits for it. One advance of the solver up to Options::longestFrame_s: substeps divide it evenly
-  /// at its end. Figures of an advance (substeps, time dropped) are added up over the frames of a longer one.
+  /// Runs `seconds` of simulated time on (>= 0), waits for it. One advance of the solver up to Options::longestFrame_s: substeps divide it
+  /// evenly at its end. Figures of an advance (substeps, time dropped) are added up over the frames of a longer one.
   Expected<void> advance(double seconds);
-  double time() const;                           ///< s
+  double time() const;  ///< s
   Expected<Particles> particles(Order order = Order::ById);
-  Expected<Stats> stats();                       ///< of the present instant
+  Expected<Stats> stats();  ///< of the present instant
   /// Renders the present instant. `view` is one of views().
   Expected<Image> render(const std::string& view, uint32_t width, uint32_t height);
   static std::span<const std::string_view> views();
 
   const Scene& scene() const;
-  const ParticleSet& start() const;              ///< as placed: counts of particles left out
+  const ParticleSet& start() const;  ///< as placed: counts of particles left out
   const DeviceInfo& device() const;
   std::vector<std::string> warnings() const;
-  std::string explain() const;                   ///< each pass of the last advance: ran, how often, ms; or skipped and why
-  std::string graphDot() const;                  ///< of the last advance
+  std::string explain() const;                        ///< each pass of the last advance: ran, how often, ms; or skipped and why
+  std::string graphDot() const;                       ///< of the last advance
   std::vector<std::string> takeValidationMessages();  ///< since the last call; none without Options::validation
 
  private:

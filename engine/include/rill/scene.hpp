@@ -1,5 +1,6 @@
 #pragma once
-// What a scene is: plain descriptions with units and defaults. No JSON, no Vulkan. assets/scenes/scene.schema.json says the same to editors.
+// What a scene is: plain descriptions with units and defaults. No JSON, no Vulkan. assets/scenes/scene.schema.json says the same to
+// editors.
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -31,15 +32,15 @@ enum class NeighborChoice : uint8_t {
 };
 
 struct FluidSettings {
-  double spacing = 0;             ///< m, > 0; 0 where `particles` gives it
-  uint64_t particles = 0;         ///< aim for this many particles; 0 where `spacing` is given
-  double density = 1000;          ///< rest density, kg/m^3, > 0
-  double smoothing_ratio = 2.0;   ///< smoothing length (kernel support) over spacing, 1.2 .. 4
-  double viscosity = 0;           ///< dynamic, Pa s, >= 0
-  double vorticity = 0;           ///< vorticity confinement, 0 .. 1
-  double tensile = 0;             ///< artificial pressure s_corr: strength, 0 .. 1
-  double tensile_radius = 0.2;    ///< delta q over the smoothing length, 0 .. 1 exclusive
-  double tensile_power = 4;       ///< n, 1 .. 16
+  double spacing = 0;            ///< m, > 0; 0 where `particles` gives it
+  uint64_t particles = 0;        ///< aim for this many particles; 0 where `spacing` is given
+  double density = 1000;         ///< rest density, kg/m^3, > 0
+  double smoothing_ratio = 2.0;  ///< smoothing length (kernel support) over spacing, 1.2 .. 4
+  double viscosity = 0;          ///< dynamic, Pa s, >= 0
+  double vorticity = 0;          ///< vorticity confinement, 0 .. 1
+  double tensile = 0;            ///< artificial pressure s_corr: strength, 0 .. 1
+  double tensile_radius = 0.2;   ///< delta q over the smoothing length, 0 .. 1 exclusive
+  double tensile_power = 4;      ///< n, 1 .. 16
 };
 
 struct SolverSettings {
@@ -55,8 +56,13 @@ struct SolverSettings {
   NeighborChoice neighbors = NeighborChoice::List;
 };
 
-struct BoxShape { double min[3] = {0, 0, 0}, max[3] = {1, 1, 1}; };
-struct SphereShape { double center[3] = {0, 0, 0}; double radius = 1; };
+struct BoxShape {
+  double min[3] = {0, 0, 0}, max[3] = {1, 1, 1};
+};
+struct SphereShape {
+  double center[3] = {0, 0, 0};
+  double radius = 1;
+};
 
 /// Fluid at the start: one of the three.
 struct Fill {
@@ -67,7 +73,10 @@ struct Fill {
   double jitter = 0;                               ///< fraction of the spacing, 0 .. 0.5
 };
 
-struct Keyframe { double at = 0; double translate[3] = {0, 0, 0}; };  ///< s; m
+struct Keyframe {
+  double at = 0;
+  double translate[3] = {0, 0, 0};
+};  ///< s; m
 
 /// A solid: one of the two shapes, turned about its centre, moving along keyframes (linear between, held outside).
 struct Solid {
@@ -79,7 +88,10 @@ struct Solid {
   std::vector<Keyframe> motion;
 };
 
-struct GravityChange { double at = 0; double value[3] = {0, 0, 0}; };  ///< s; m/s^2
+struct GravityChange {
+  double at = 0;
+  double value[3] = {0, 0, 0};
+};  ///< s; m/s^2
 
 enum class Axis : uint8_t { PlusX, MinusX, PlusY, MinusY, PlusZ, MinusZ };
 
@@ -90,38 +102,45 @@ struct Probe {
   std::optional<Axis> front;
 };
 
-struct Camera { double eye[3] = {0, 0, 1}, target[3] = {0, 0, 0}; double fov_y_deg = 40; };
+struct Camera {
+  double eye[3] = {0, 0, 1}, target[3] = {0, 0, 0};
+  double fov_y_deg = 40;
+};
 
-struct Look { std::string preset = "water"; std::string surface = "auto"; };
+struct Look {
+  std::string preset = "water";
+  std::string surface = "auto";
+};
 
 /// A whole scene in SI units, y up, right handed.
 struct Scene {
   std::filesystem::path file;  ///< where it was read from; empty for one made in memory
   std::string name;            ///< file name without extension
   std::string title, about;
-  double duration = 3.0;       ///< s
+  double duration = 3.0;  ///< s
   uint64_t seed = 1;
   double gravity[3] = {0, -9.81, 0};  ///< m/s^2
   std::vector<GravityChange> gravity_changes;
-  std::optional<Domain> domain;       ///< none: unbounded
+  std::optional<Domain> domain;  ///< none: unbounded
   FluidSettings fluid;
   SolverSettings solver;
   std::vector<Fill> fill;
   std::vector<Solid> solids;
   std::vector<Probe> probes;
-  std::optional<Camera> camera;       ///< none: one that frames the domain or the fluid
+  std::optional<Camera> camera;  ///< none: one that frames the domain or the fluid
   Look look;
 };
 
 /// The particles that a scene's fills make, in the order of the fills: what a simulation starts from.
-/// Positions are relative to `origin` (the domain's minimum, or the fluid's centre rounded to whole spacings), so that a scene far from zero loses no precision.
+/// Positions are relative to `origin` (the domain's minimum, or the fluid's centre rounded to whole spacings), so that a scene far from
+/// zero loses no precision.
 struct ParticleSet {
-  double origin[3] = {0, 0, 0};     ///< m
-  std::vector<Float3> positions;    ///< m, relative to origin
-  std::vector<Float3> velocities;   ///< m/s
-  uint64_t left_out_overlap = 0;    ///< nearer than 0.9 spacings to an earlier one
-  uint64_t left_out_solid = 0;      ///< inside a solid
-  uint64_t left_out_domain = 0;     ///< outside the walls
+  double origin[3] = {0, 0, 0};    ///< m
+  std::vector<Float3> positions;   ///< m, relative to origin
+  std::vector<Float3> velocities;  ///< m/s
+  uint64_t left_out_overlap = 0;   ///< nearer than 0.9 spacings to an earlier one
+  uint64_t left_out_solid = 0;     ///< inside a solid
+  uint64_t left_out_domain = 0;    ///< outside the walls
   std::vector<std::string> warnings;
 };
 

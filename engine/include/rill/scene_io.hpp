@@ -12,16 +12,21 @@
 
 namespace rill {
 
-/// `key` is a path as in the file ("fluid.viscosity", "solver.time_step", "fill[0].jitter"), `value` is JSON, or a bare word taken as a string.
-struct Override { std::string key, value; };
+/// `key` is a path as in the file ("fluid.viscosity", "solver.time_step", "fill[0].jitter"), `value` is JSON, or a bare word taken as a
+/// string.
+struct Override {
+  std::string key, value;
+};
 
 /// "key=value". BadInput where there is no '=' or no key.
 Expected<Override> parseOverride(std::string_view text);
 
-/// Reads, applies the overrides and checks everything. BadInput with one message naming file, line or key path, what was found and what was expected.
+/// Reads, applies the overrides and checks everything. BadInput with one message naming file, line or key path, what was found and what was
+/// expected.
 Expected<Scene> loadScene(const std::filesystem::path& file, std::span<const Override> overrides = {});
 /// The same from text; `name` stands for the file in messages, relative paths are resolved against `folder`.
-Expected<Scene> parseScene(std::string_view text, std::string_view name, const std::filesystem::path& folder, std::span<const Override> overrides = {});
+Expected<Scene> parseScene(std::string_view text, std::string_view name, const std::filesystem::path& folder,
+                           std::span<const Override> overrides = {});
 
 /// The scene's fills as particles (see ParticleSet), PLY files read. The spacing follows from `fluid.particles` where that is given
 /// (`scene.fluid.spacing` is set then). BadInput where a file cannot be read, or a fill was given and no particle is left.
