@@ -17,6 +17,8 @@ std::string readme() {
 
 TEST(Readme, HasTheTableOfKeys) { EXPECT_NE(readme().find(sceneKeyTable()), std::string::npos) << "paste this:\n" << sceneKeyTable(); }
 
+TEST(Readme, HasNoPlaceLeftToFill) { EXPECT_EQ(readme().find('@'), std::string::npos); }
+
 TEST(Readme, ItsSceneIsAccepted) {
   const std::string text = readme();
   const size_t begin = text.find("```json\n"), end = text.find("```", begin + 8);
