@@ -75,11 +75,18 @@ install_packages() {
       continue
     elif [[ $section != *\? ]]; then
       missing+=("$name")
-    elif is_known "$name" || ! compgen -G "$lists/*_Packages*" >/dev/null; then
-      # A package that the system's lists do not have is no reason to fetch them again; lists that are absent are.
+    else
       optional+=("$name")
     fi
   done < <(in_sections "$@")
+  # Where nothing else is missing, a package that the system's lists do not have is no reason to fetch them again.
+  if [ ${#missing[@]} = 0 ] && compgen -G "$lists/*_Packages*" >/dev/null; then
+    local known=()
+    for name in "${optional[@]}"; do
+      if is_known "$name"; then known+=("$name"); fi
+    done
+    optional=("${known[@]}")
+  fi
   local all=("${missing[@]}" "${optional[@]}")
   if [ ${#all[@]} = 0 ]; then
     phase "Every package is already there"

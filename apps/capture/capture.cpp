@@ -151,8 +151,8 @@ class Capture {
     }
     if (!options_.quiet && folder_ && record_->frames() > 0) {
       const auto last = static_cast<uint32_t>(record_->frames() - 1);
-      message("frames: " + folder_->frame(0, options_.images ? "png" : "ply").string() + " to " +
-              folder_->frame(last, options_.images ? "png" : "ply").filename().string());
+      const char* kind = options_.images ? "png" : "ply";
+      message("frames: " + folder_->frame(0, kind).string() + (last > 0 ? " to " + folder_->frame(last, kind).filename().string() : ""));
     }
     return text.empty() ? Expected<void>()
                         : apps::writeAll(taken ? STDERR_FILENO : STDOUT_FILENO, taken ? "standard error" : "standard output", text);

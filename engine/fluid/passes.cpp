@@ -430,7 +430,8 @@ void FluidImpl::declareSkipped(Graph& graph) {
   if (!setup.movingSolids) graph.skipped("move solids", "no solid moves");
   if (p.iterations == 1) graph.skipped("iterate", "one iteration a substep");
   if (setup.viscositySweeps == 0) graph.skipped("viscosity", "viscosity is 0");
-  if (p.vorticity <= 0) graph.skipped("confine", "vorticity is 0");
+  if (p.vorticity <= 0) graph.skipped("curl, confine", "vorticity is 0");
+  if (p.tensile <= 0) graph.skipped("tensile term", "tensile is 0");
 }
 
 FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
@@ -439,7 +440,7 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   state.spacing = setup.params.spacing;
   std::copy(origin, origin + 3, state.origin);
   if (count == 0) {
-    graph.skipped("density", "no particles");
+    for (const char* name : {"build list", "density", "correct", "measure"}) graph.skipped(name, "no particles");
     if (!step.resume) emptyTime_ += step.advance_s;
     FluidStats none;
     none.time_s = emptyTime_;

@@ -81,7 +81,9 @@ class Device {
   /// A recorded command buffer of this frame will not be submitted.
   void abandon(uint64_t frame);
 
-  const DeviceInfo& info() const;
+  const DeviceInfo& info() const;  ///< what was found out when it was borrowed
+  /// Where warnings go that are nobody's result (a shader that did not reload). Called by the thread that calls Rill; none: they are
+  /// dropped.
   void setMessageCallback(MessageCallback callback);
 
   DeviceImpl& impl() { return *impl_; }  ///< engine/gpu; not for hosts

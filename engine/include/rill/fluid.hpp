@@ -23,14 +23,14 @@ struct FluidDesc {
   bool storageReads = false;  ///< gather through storage buffers even where texel buffers would hold enough (slower on most CPU drivers)
 };
 
-/// Device memory that a Fluid of `particles` particles needs, in bytes, split as reports show it. Computed in 64 bits from the numbers
-/// alone.
+/// Device memory of a Fluid, in bytes, split as reports show it.
 struct FluidMemory {
   uint64_t particle_bytes = 0;  ///< all per-particle arrays, without the list
-  uint64_t list_bytes = 0;
-  uint64_t grid_bytes = 0;
+  uint64_t list_bytes = 0;      ///< the neighbour list; 0 with solver.neighbors "grid"
+  uint64_t grid_bytes = 0;      ///< cell starts, at most
   uint64_t total() const { return particle_bytes + list_bytes + grid_bytes; }
 };
+/// What a Fluid of `particles` particles will need, computed in 64 bits from the numbers alone: before anything is allocated.
 FluidMemory fluidMemory(const Scene& scene, uint64_t particles);
 
 /// One piece of simulation to declare in a graph.
@@ -85,6 +85,8 @@ struct FluidStats {
 
 class FluidImpl;
 
+/// A Position Based Fluid on a borrowed device (Macklin and Mueller 2013; ARCHITECTURE.md, "A substep"). Declares passes in a graph of its
+/// host's; lives longer than every command buffer that they were recorded into.
 class Fluid {
  public:
   /// BadInput for a description that cannot run, OutOfMemory (with bytes needed and available, nothing allocated) where the device cannot
@@ -100,7 +102,8 @@ class Fluid {
   /// How far the last finished frame got with its advance. Known without asking for figures.
   const FluidProgress& progress() const;
 
-  uint32_t count() const;
+  uint32_t count() const;  ///< particles, parked ones too
+  /// What FluidStep::substeps is rounded up to whole multiples of.
   uint32_t substepsPerBlock() const;
   /// Recorded substeps that complete any advance: those that the device leaves out, to rebuild the list or because none is due, are among
   /// them.

@@ -29,7 +29,7 @@ struct Particles {
   std::vector<Float3> positions;   ///< m, in the scene's coordinates (origin added)
   std::vector<Float3> velocities;  ///< m/s
   std::vector<float> densities;    ///< kg/m^3
-  std::vector<uint32_t> ids;
+  std::vector<uint32_t> ids;       ///< numbers at birth: the order of the scene's fills
 };
 
 /// An image in memory: RGBA, 8 bits a channel, sRGB, rows from the top.
@@ -46,14 +46,15 @@ struct PassTime {
 
 /// Everything `rill-capture --stats` writes about an instant.
 struct Stats : FluidStats {
-  double front_m = 0;       ///< farthest fluid along +x from the domain's minimum
-  uint64_t state_hash = 0;  ///< of positions and velocities in id order
-  std::vector<std::pair<std::string, double>> probes;
-  double wall_s = 0;  ///< spent since the instant before, simulation alone
+  double front_m = 0;                                  ///< farthest fluid along +x from the domain's minimum
+  uint64_t state_hash = 0;                             ///< of positions and velocities in id order
+  std::vector<std::pair<std::string, double>> probes;  ///< name and value, m
+  double wall_s = 0;                                   ///< spent since the instant before, simulation alone
   std::vector<PassTime> pass_ms;
   std::vector<std::pair<std::string, std::string>> skipped;  ///< pass, reason
 };
 
+/// One scene on a device of its own. Not for several threads at once.
 class Simulation {
  public:
   /// `scene` is a path to a scene file. BadInput, NoDevice, OutOfMemory (with bytes needed and available).
@@ -63,12 +64,15 @@ class Simulation {
   ~Simulation();
 
   /// Runs `seconds` of simulated time on (>= 0), waits for it. One advance of the solver up to Options::longestFrame_s: substeps divide it
-  /// evenly at its end. Figures of an advance (substeps, time dropped) are added up over the frames of a longer one.
+  /// evenly at its end. Figures of an advance (substeps, time dropped) are added up over the frames of a longer one. BadInput for a time
+  /// that is not finite or negative; DeviceLost, OutOfMemory or Failed, saying what was being done.
   Expected<void> advance(double seconds);
   double time() const;  ///< s
+  /// Of the present instant. Errors as advance().
   Expected<Particles> particles(Order order = Order::ById);
-  Expected<Stats> stats();  ///< of the present instant
-  /// Renders the present instant. `view` is one of views().
+  Expected<Stats> stats();  ///< of the present instant, measured when first asked for; errors as advance()
+  /// Renders the present instant. `view` is one of views(); sizes in pixels. BadInput for another view or a size that the device cannot
+  /// draw.
   Expected<Image> render(const std::string& view, uint32_t width, uint32_t height);
   static std::span<const std::string_view> views();
 

@@ -57,11 +57,11 @@ struct SolverSettings {
 };
 
 struct BoxShape {
-  double min[3] = {0, 0, 0}, max[3] = {1, 1, 1};
+  double min[3] = {0, 0, 0}, max[3] = {1, 1, 1};  ///< m, corners, max above min
 };
 struct SphereShape {
-  double center[3] = {0, 0, 0};
-  double radius = 1;
+  double center[3] = {0, 0, 0};  ///< m
+  double radius = 1;             ///< m, > 0
 };
 
 /// Fluid at the start: one of the three.
@@ -103,8 +103,8 @@ struct Probe {
 };
 
 struct Camera {
-  double eye[3] = {0, 0, 1}, target[3] = {0, 0, 0};
-  double fov_y_deg = 40;
+  double eye[3] = {0, 0, 1}, target[3] = {0, 0, 0};  ///< m, different points
+  double fov_y_deg = 40;                             ///< degrees, vertical, > 0 .. < 180
 };
 
 struct Look {
