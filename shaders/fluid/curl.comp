@@ -36,4 +36,5 @@ void main() {
   visitNeighbours(i, local);
   turning *= params.gradientScale;
   curl[i] = vec4(turning, length(turning));
+  if (i == 0u) curl[params.count] = vec4(0.0);  // the dummy neighbour, whose weight of 0 would not do away with a NaN
 }

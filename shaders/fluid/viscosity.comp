@@ -38,5 +38,6 @@ void main() {
   visitNeighbours(i, local);
   vec3 v = own.xyz + params.viscosityRate * control.step * push.share * params.valueScale * change;
   smoothed[i] = vec4(v, own.w);
+  if (i == 0u) smoothed[params.count] = vec4(0.0);  // the dummy neighbour, whose weight of 0 would not do away with a NaN
   prediction[i] = vec4(insideWalls(predicted(position[i].xyz, v, pushAway[i].xyz)), 0.0);
 }

@@ -178,6 +178,14 @@ FluidTest::Run::Run(FluidTest& test, const Trial& trial) : test_(test), step_(tr
                     {.scene = &scene, .particles = &particles, .settle = trial.settle, .storageReads = trial.gather == Gather::Storage});
   if (!made) throw std::runtime_error(made.error().message);
   fluid_ = std::move(*made);
+  // Transient memory starts as NaN: what reads a transient before anyone wrote it stands out.
+  BufferRef poison = graph_.create("poison", {uint64_t{8} << 20});
+  graph_.pass("poison", [&](Pass& pass) {
+    poison = pass.write(poison, Use::CopyTarget, true);
+    pass.sideEffect();
+    return [poison](Commands& commands) { commands.fill(poison, 0xffffffffu); };
+  });
+  test.runGraph(graph_);
 }
 
 void FluidTest::Run::advance(double seconds, uint32_t piece) {
