@@ -12,12 +12,12 @@ constexpr uint64_t commandAt(uint32_t command) { return uint64_t{command} * 12; 
 
 // Bindings in the order of the shader.
 struct BindingList {
-  std::array<BufferRef, 24> refs;
+  std::array<ResourceRef, 24> refs;
   size_t size = 0;
-  void add(std::initializer_list<BufferRef> more) {
-    for (BufferRef ref : more) refs[size++] = ref;
+  void add(std::initializer_list<ResourceRef> more) {
+    for (ResourceRef ref : more) refs[size++] = ref;
   }
-  std::span<const BufferRef> span() const { return {refs.data(), size}; }
+  std::span<const ResourceRef> span() const { return {refs.data(), size}; }
 };
 
 }  // namespace

@@ -17,7 +17,9 @@ std::optional<uint32_t> findMemoryType(const VkPhysicalDeviceMemoryProperties& m
   return std::nullopt;
 }
 
-std::optional<uint32_t> chooseMemoryType(const VkPhysicalDeviceMemoryProperties& memory, uint32_t allowed, MemoryKind kind) {
+}  // namespace
+
+std::optional<uint32_t> DeviceImpl::chooseMemoryType(uint32_t allowed, MemoryKind kind) const {
   constexpr VkMemoryPropertyFlags mapped = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
   if (kind == MemoryKind::Device) {
     if (auto type = findMemoryType(memory, allowed, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)) return type;
@@ -27,8 +29,6 @@ std::optional<uint32_t> chooseMemoryType(const VkPhysicalDeviceMemoryProperties&
     if (auto type = findMemoryType(memory, allowed, mapped | VK_MEMORY_PROPERTY_HOST_CACHED_BIT)) return type;
   return findMemoryType(memory, allowed, mapped);
 }
-
-}  // namespace
 
 Buffer::~Buffer() {
   if (!device_) return;
@@ -71,7 +71,7 @@ Expected<Buffer> DeviceImpl::createBuffer(std::string_view name, uint64_t size, 
 
   VkMemoryRequirements needs{};
   vk.GetBufferMemoryRequirements(handle, buffer.handle_, &needs);
-  const auto type = chooseMemoryType(memory, needs.memoryTypeBits, kind);
+  const auto type = chooseMemoryType(needs.memoryTypeBits, kind);
   if (!type) return Error{ErrorKind::NoDevice, "device '" + info.name + "' has no memory type for buffer " + quoted};
   VkMemoryDedicatedAllocateInfo dedicated{VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO};
   dedicated.buffer = buffer.handle_;

@@ -22,6 +22,7 @@ void describe(DeviceImpl& impl, const HostDevice& host) {
   VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &subgroup};
   impl.instance.GetPhysicalDeviceProperties2(host.physicalDevice, &properties);
   impl.instance.GetPhysicalDeviceMemoryProperties(host.physicalDevice, &impl.memory);
+  impl.physical = host.physicalDevice;
   impl.limits = properties.properties.limits;
   impl.sizedSubgroups = (sizes.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
 
@@ -118,6 +119,8 @@ void RetireQueue::collect(DeviceImpl& device, uint64_t completed) {
     break;
       RILL_DESTROY(VK_OBJECT_TYPE_BUFFER, VkBuffer, DestroyBuffer)
       RILL_DESTROY(VK_OBJECT_TYPE_BUFFER_VIEW, VkBufferView, DestroyBufferView)
+      RILL_DESTROY(VK_OBJECT_TYPE_IMAGE, VkImage, DestroyImage)
+      RILL_DESTROY(VK_OBJECT_TYPE_IMAGE_VIEW, VkImageView, DestroyImageView)
       RILL_DESTROY(VK_OBJECT_TYPE_DEVICE_MEMORY, VkDeviceMemory, FreeMemory)
       RILL_DESTROY(VK_OBJECT_TYPE_DESCRIPTOR_POOL, VkDescriptorPool, DestroyDescriptorPool)
       RILL_DESTROY(VK_OBJECT_TYPE_QUERY_POOL, VkQueryPool, DestroyQueryPool)

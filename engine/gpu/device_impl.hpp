@@ -2,6 +2,7 @@
 // What is behind rill::Device: the function tables, limits, the store of pipelines and what waits to be destroyed.
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "gpu/function_table.hpp"
@@ -42,11 +43,14 @@ class DeviceImpl {
   DeviceImpl& operator=(const DeviceImpl&) = delete;
 
   Expected<Buffer> createBuffer(std::string_view name, uint64_t size, MemoryKind kind);
+  /// Nothing where the device has no such memory among the types `allowed`.
+  std::optional<uint32_t> chooseMemoryType(uint32_t allowed, MemoryKind kind) const;
   bool abandoned(uint64_t frame) const;
   void abandon(uint64_t frame);
 
   InstanceTable instance;
   DeviceTable vk;
+  VkPhysicalDevice physical = VK_NULL_HANDLE;
   VkDevice handle = VK_NULL_HANDLE;
   VkPipelineCache cache = VK_NULL_HANDLE;
   const VkAllocationCallbacks* callbacks = nullptr;

@@ -41,7 +41,7 @@ VkDescriptorType descriptorType(BindingKind kind) {
     case BindingKind::StorageImage:
       return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
     case BindingKind::SampledImage:
-      return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+      return VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
   }
   return VK_DESCRIPTOR_TYPE_MAX_ENUM;
 }

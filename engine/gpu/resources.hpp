@@ -46,13 +46,13 @@ Expected<Buffer> createBuffer(Device& device, std::string_view name, uint64_t si
 
 /// How a shader sees a binding. Set 0 alone is used; bindings are numbered 0, 1, 2 ... in the order given.
 enum class BindingKind : uint8_t {
-  Storage,      ///< buffer { ... }
-  Uniform,      ///< uniform block
-  TexelFloat4,  ///< samplerBuffer over R32G32B32A32_SFLOAT
-  TexelUint,    ///< usamplerBuffer over R32_UINT
-  TexelUint4,   ///< usamplerBuffer over R32G32B32A32_UINT
-  StorageImage,
-  SampledImage
+  Storage,       ///< buffer { ... }
+  Uniform,       ///< uniform block
+  TexelFloat4,   ///< samplerBuffer over R32G32B32A32_SFLOAT
+  TexelUint,     ///< usamplerBuffer over R32_UINT
+  TexelUint4,    ///< usamplerBuffer over R32G32B32A32_UINT
+  StorageImage,  ///< image2D, with its format in the shader
+  SampledImage   ///< texture2D, read by texelFetch
 };
 
 /// One 32-bit specialization constant: id k is the k-th of the list; floats by std::bit_cast.

@@ -4,18 +4,26 @@
 #include "graph/graph_impl.hpp"
 
 namespace rill {
+namespace {
+
+constexpr uint64_t kImageHeapBytes = 256ull << 20;  // an image that is larger has a heap as large as itself
+
+}  // namespace
 
 Expected<void> GraphImpl::checkImports() const {
   for (size_t i = 0; i < resources.size(); ++i) {
     const ResourceData& a = resources[i];
     if (!a.imported) continue;
-    if (!a.import.handle) return Error{ErrorKind::BadInput, "import " + quoted(a.name) + " has a null VkBuffer"};
+    if (a.isImage ? !a.image : !a.buffer)
+      return Error{ErrorKind::BadInput, "import " + quoted(a.name) + " has a null " + (a.isImage ? "VkImage" : "VkBuffer")};
     for (size_t k = 0; k < i; ++k) {
       const ResourceData& b = resources[k];
-      if (!b.imported || a.import.handle != b.import.handle || (a.version == 0 && b.version == 0)) continue;
-      if (a.import.offset < b.import.offset + b.size && b.import.offset < a.import.offset + a.size)
-        return Error{ErrorKind::BadInput, "imports " + quoted(b.name) + " and " + quoted(a.name) +
-                                              " overlap in one VkBuffer and one is written: import the memory once"};
+      if (!b.imported || a.isImage != b.isImage || (a.version == 0 && b.version == 0)) continue;
+      const bool overlap =
+          a.isImage ? a.image == b.image : a.buffer == b.buffer && a.offset < b.offset + b.size && b.offset < a.offset + a.size;
+      if (overlap)
+        return Error{ErrorKind::BadInput, "imports " + quoted(b.name) + " and " + quoted(a.name) + " overlap in one " +
+                                              (a.isImage ? "VkImage" : "VkBuffer") + " and one is written: import the memory once"};
     }
   }
   return {};
@@ -58,31 +66,50 @@ void GraphImpl::cull() {
 }
 
 void GraphImpl::placeTransients() {
-  placements.clear();
-  placed.clear();
-  for (ResourceData& resource : resources) resource.placement = kNone;
+  for (TransientPlan& plan : plans) {
+    plan.placements.clear();
+    plan.resources.clear();
+  }
+  for (ResourceData& resource : resources) {
+    resource.placement = kNone;
+    resource.usage = 0;
+  }
   for (uint32_t i = 0; i < passes.size(); ++i) {
     if (!passes[i].alive) continue;
     const Range range = passes[i].accesses;
     for (uint32_t k = range.first; k < range.first + range.count; ++k) {
       ResourceData& resource = resources[accesses[k].resource];
+      resource.usage |= useRow(accesses[k].use).usage;
       if (resource.imported) continue;
+      TransientPlan& plan = planOf(resource);
       if (resource.placement == kNone) {
-        resource.placement = uint32_t(placements.size());
-        placements.push_back({i, i, resource.size, 0, 0});
-        placed.push_back(accesses[k].resource);
+        resource.placement = uint32_t(plan.placements.size());
+        plan.placements.push_back({i, i, resource.size});
+        plan.resources.push_back(accesses[k].resource);
       }
-      placements[resource.placement].last = i;
+      plan.placements[resource.placement].last = i;
     }
   }
-  planner.plan(placements, kMaxBufferBytes, heapSizes);
+  uint64_t largest = 0;
+  for (size_t k = 0; k < plans[1].placements.size(); ++k) {
+    ResourceData& image = resources[plans[1].resources[k]];
+    const ImageNeeds needs = images.needs({image.desc.format, image.desc.width, image.desc.height, image.usage});
+    image.size = plans[1].placements[k].size = needs.size;
+    plans[1].placements[k].alignment = needs.alignment;
+    largest = std::max(largest, needs.size);
+  }
+  planner.plan(plans[0].placements, kMaxBufferBytes, plans[0].heapSizes);
+  planner.plan(plans[1].placements, std::max(largest, kImageHeapBytes), plans[1].heapSizes);
 }
 
 void GraphImpl::planBarriers() {
   causes.clear();
-  for (ResourceData& resource : resources)
-    resource.state = resource.imported ? HazardState::after(resource.import.before) : HazardState::nothing();
-  // Other frames' use of the heap: a state of its own, so that the frame's first barrier on the heap serves all transients.
+  transitions.clear();
+  for (ResourceData& resource : resources) {
+    resource.state = resource.imported ? HazardState::after(resource.before) : HazardState::nothing();
+    resource.layout = useRow(resource.before).layout;
+  }
+  // Other frames' use of the heaps: a state of its own, so that the frame's first barrier on them serves all transients.
   HazardState seam = HazardState::seam();
 
   const auto apply = [&](const Scope& scope) {
@@ -90,14 +117,20 @@ void GraphImpl::planBarriers() {
     seam.passed(scope, seeing);
     for (ResourceData& resource : resources) resource.state.passed(scope, seeing);
   };
-  const auto wait = [&](PlannedBarrier& barrier, uint32_t resource, Use use, bool keep) {
-    const Hazard hazard = resources[resource].state.need(use, keep, barrier.scope);
-    if (hazard != Hazard::None) causes.push_back({resource, hazard, use}), ++barrier.causes.count;
+  const auto wait = [&](PlannedBarrier& barrier, uint32_t index, Use use, bool keep) {
+    ResourceData& resource = resources[index];
+    const VkImageLayout layout = useRow(use).layout;
+    if (resource.isImage && resource.layout != layout) {
+      transitions.push_back({index, keep ? resource.layout : VK_IMAGE_LAYOUT_UNDEFINED, layout, {}});
+      resource.state.changeLayout(use, transitions.back().scope);
+      resource.layout = layout;
+      ++barrier.transitions.count;
+      return;
+    }
+    const Hazard hazard = resource.state.need(use, keep, barrier.scope);
+    if (hazard != Hazard::None) causes.push_back({index, hazard, use}), ++barrier.causes.count;
   };
-  const auto begin = [&](PlannedBarrier& barrier) {
-    barrier.scope = {};
-    barrier.causes = {uint32_t(causes.size()), 0};
-  };
+  const auto begin = [&](PlannedBarrier& barrier) { barrier = {{}, {uint32_t(causes.size()), 0}, {uint32_t(transitions.size()), 0}}; };
 
   for (uint32_t i = 0; i < passes.size(); ++i) {
     PassData& pass = passes[i];
@@ -106,12 +139,13 @@ void GraphImpl::planBarriers() {
     const auto uses = std::span(accesses).subspan(pass.accesses.first, pass.accesses.count);
     for (const Access& access : uses) {
       ResourceData& resource = resources[access.resource];
-      if (!resource.imported && placements[resource.placement].first == i) {
+      if (!resource.imported && planOf(resource).placements[resource.placement].first == i) {
         // The memory's earlier users, in this frame and the one before, are what a new transient waits for.
+        const TransientPlan& plan = planOf(resource);
         resource.state.join(seam);
-        for (size_t k = 0; k < placements.size(); ++k)
-          if (placements[k].last < i && sharesMemory(placements[k], placements[resource.placement]))
-            resource.state.join(resources[placed[k]].state);
+        for (size_t k = 0; k < plan.placements.size(); ++k)
+          if (plan.placements[k].last < i && sharesMemory(plan.placements[k], plan.placements[resource.placement]))
+            resource.state.join(resources[plan.resources[k]].state);
       }
       wait(pass.barrier, access.resource, access.use, access.keep);
     }
@@ -121,7 +155,7 @@ void GraphImpl::planBarriers() {
 
   begin(finalBarrier);
   for (uint32_t i = 0; i < resources.size(); ++i)
-    if (resources[i].imported && resources[i].import.after != Use::None) wait(finalBarrier, i, resources[i].import.after, true);
+    if (resources[i].imported && resources[i].after != Use::None) wait(finalBarrier, i, resources[i].after, true);
   if (!readbacks.empty()) {
     finalBarrier.scope.sourceStage |= useRow(Use::CopyTarget).stage;
     finalBarrier.scope.sourceAccess |= useRow(Use::CopyTarget).write;

@@ -12,6 +12,7 @@ constexpr uint64_t kPatienceFrames = 16;
 
 FrameSlot::~FrameSlot() {
   for (const View& view : views) device.retired.add(frame, VK_OBJECT_TYPE_BUFFER_VIEW, view.handle);
+  for (VkImageView view : imageViews) device.retired.add(frame, VK_OBJECT_TYPE_IMAGE_VIEW, view);
   device.retired.add(frame, VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool);
   device.retired.add(frame, VK_OBJECT_TYPE_QUERY_POOL, queries);
 }
@@ -23,7 +24,9 @@ bool FrameSlot::reusable(const FrameClock& clock) const {
 
 void FrameSlot::recycle() {
   for (const View& view : views) device.vk.DestroyBufferView(device.handle, view.handle, device.callbacks);
+  for (VkImageView view : imageViews) device.vk.DestroyImageView(device.handle, view, device.callbacks);
   views.clear();
+  imageViews.clear();
   deliveries.clear();
   timedNames.clear();
   timingsPending = false;

@@ -34,8 +34,10 @@ struct FrameSlot {
   uint64_t frame = 0;
   // Views live for one frame: handle values of imported buffers recur, so no view can be found again by its buffer.
   std::vector<View> views;
+  std::vector<VkImageView> imageViews;  ///< of imported images
   VkDescriptorPool pool = VK_NULL_HANDLE;
-  uint32_t poolSets = 0, poolStorage = 0, poolUniform = 0, poolTexel = 0;  ///< what the pool was made for
+  uint32_t poolSets = 0, poolStorage = 0, poolUniform = 0, poolTexel = 0, poolStorageImage = 0,
+           poolSampledImage = 0;  ///< what the pool was made for
   VkQueryPool queries = VK_NULL_HANDLE;
   uint32_t queryCapacity = 0;
   std::vector<uint32_t> timedNames;  ///< the pass between each two timestamps
@@ -54,6 +56,7 @@ struct SetSharing {
   std::vector<VkWriteDescriptorSet> writes;
   std::vector<VkDescriptorBufferInfo> buffers;
   std::vector<VkBufferView> views;
+  std::vector<VkDescriptorImageInfo> images;
 };
 
 }  // namespace rill

@@ -16,10 +16,12 @@ uint32_t nextEpoch() {
   return ++epoch;
 }
 
-/// Whether a binding of this kind can see a buffer that was declared with this use.
-bool fits(BindingKind kind, Use use) {
+/// Whether a binding of this kind can see a resource that was declared with this use.
+bool fits(BindingKind kind, bool isImage, Use use) {
+  if (isImage != (kind == BindingKind::StorageImage || kind == BindingKind::SampledImage)) return false;
   switch (kind) {
     case BindingKind::Storage:
+    case BindingKind::StorageImage:
       return use == Use::ComputeRead || use == Use::ComputeWrite || use == Use::ComputeAtomic;
     case BindingKind::Uniform:
       return use == Use::ComputeUniform;
@@ -27,9 +29,8 @@ bool fits(BindingKind kind, Use use) {
     case BindingKind::TexelUint:
     case BindingKind::TexelUint4:
       return use == Use::ComputeTexel;
-    case BindingKind::StorageImage:
     case BindingKind::SampledImage:
-      return false;
+      return use == Use::ComputeSampled;
   }
   return false;
 }
@@ -41,12 +42,15 @@ const char* kindName(BindingKind kind) {
     case BindingKind::Uniform:
       return "a uniform buffer";
     case BindingKind::StorageImage:
+      return "a storage image";
     case BindingKind::SampledImage:
-      return "an image";
+      return "a sampled image";
     default:
       return "a texel buffer";
   }
 }
+
+constexpr ResourceRef kMistake{0, 0, 0};  ///< what a write returns for a mistake that has been reported
 
 }  // namespace
 
@@ -77,26 +81,38 @@ void GraphImpl::fail(std::string message) {
   if (!error) error = Error{ErrorKind::BadInput, std::move(message)};
 }
 
-BufferRef GraphImpl::add(ResourceData resource) {
+ResourceRef GraphImpl::add(ResourceData resource) {
   compiled = prepared = false;
-  if (resource.size == 0) fail("buffer " + quoted(resource.name) + " has no size");
-  if (resource.size > kMaxBufferBytes)
-    fail("buffer " + quoted(resource.name) + " of " + std::to_string(resource.size) + " bytes: at most " + std::to_string(kMaxBufferBytes) +
-         " are possible");
+  const std::string_view kind = resource.kind();
+  const auto mistake = [&](std::string_view what) { fail(std::string(kind) + quoted(resource.name) + std::string(what)); };
+  if (resource.isImage) {
+    if (resource.desc.format == VK_FORMAT_UNDEFINED) mistake(" has no format");
+    if (resource.desc.width == 0 || resource.desc.height == 0) mistake(" has no size");
+  } else {
+    if (resource.size == 0) mistake(" has no size");
+    if (resource.size > kMaxBufferBytes)
+      mistake(" of " + std::to_string(resource.size) + " bytes: at most " + std::to_string(kMaxBufferBytes) + " are possible");
+  }
+  if (resource.after == Use::Unknown) fail("import " + quoted(resource.name) + ": Use::Unknown is no state to leave it in");
+  if (resource.isImage)
+    for (Use use : {resource.before, resource.after})
+      if (use != Use::None && use != Use::Unknown && useRow(use).layout == VK_IMAGE_LAYOUT_UNDEFINED)
+        fail("import " + quoted(resource.name) + ": Use::" + useRow(use).name + " is no use of an image");
   resources.push_back(resource);
   return {uint32_t(resources.size() - 1), 0, epoch};
 }
 
-ResourceData* GraphImpl::resolve(BufferRef ref, uint32_t pass, const char* doing) {
-  if (ref == BufferRef{0, 0, 0}) return nullptr;  // what write() returned for a mistake already reported
+ResourceData* GraphImpl::resolve(ResourceRef ref, bool isImage, uint32_t pass, const char* doing) {
+  if (ref == kMistake) return nullptr;
   const std::string_view passName = names[passes[pass].name];
+  const char* kind = isImage ? " an image" : " a buffer";
   if (ref.index == kNone) {
-    fail("pass '" + std::string(passName) + "' " + doing + " a buffer that was never made (an empty ref)");
+    fail("pass '" + std::string(passName) + "' " + doing + kind + " that was never made (an empty ref)");
     return nullptr;
   }
-  if (ref.epoch != epoch || ref.index >= resources.size()) {
-    fail("pass '" + std::string(passName) + "' " + doing +
-         " a buffer of another graph or of an earlier frame: refs do not outlive Graph::reset()");
+  if (ref.epoch != epoch || ref.index >= resources.size() || resources[ref.index].isImage != isImage) {
+    fail("pass '" + std::string(passName) + "' " + doing + kind +
+         " of another graph or of an earlier frame: refs do not outlive Graph::reset()");
     return nullptr;
   }
   ResourceData& resource = resources[ref.index];
@@ -131,54 +147,59 @@ void GraphImpl::addAccess(uint32_t pass, Access access) {
   ++passes[pass].accesses.count;
 }
 
-void Pass::read(BufferRef buffer, Use use) {
-  ResourceData* resource = graph_.resolve(buffer, index_, "reads");
+void GraphImpl::read(uint32_t index, ResourceRef ref, bool isImage, Use use) {
+  ResourceData* resource = resolve(ref, isImage, index, "reads");
   if (!resource) return;
-  const std::string_view pass = graph_.names[graph_.passes[index_].name];
-  if (use == Use::None || use == Use::Unknown || use == Use::HostRead || writes(use))
-    return graph_.fail("pass '" + std::string(pass) + "' reads " + graph_.quoted(resource->name) + " with Use::" + useRow(use).name +
-                       ", which is no way for a pass to read");
-  if (resource->version == 0 && !resource->imported)
-    return graph_.fail("pass '" + std::string(pass) + "' reads " + graph_.quoted(resource->name) + ", which no pass has written");
-  const Range range = graph_.passes[index_].accesses;
+  const std::string pass = "pass '" + std::string(names[passes[index].name]) + "'";
+  if (use == Use::None || use == Use::Unknown || use == Use::HostRead || writes(use) ||
+      (isImage ? useRow(use).layout == VK_IMAGE_LAYOUT_UNDEFINED : use == Use::ComputeSampled))
+    return fail(pass + " reads " + quoted(resource->name) + " with Use::" + useRow(use).name + ", which is no way for a pass to read" +
+                (isImage ? " an image" : ""));
+  if (!resource->hasContent()) return fail(pass + " reads " + quoted(resource->name) + ", which no pass has written");
+  const Range range = passes[index].accesses;
   for (uint32_t i = range.first; i < range.first + range.count; ++i) {
-    const Access& other = graph_.accesses[i];
-    if (other.resource != buffer.index) continue;
+    const Access& other = accesses[i];
+    if (other.resource != ref.index) continue;
     if (other.write)
-      return graph_.fail("pass '" + std::string(pass) + "' reads and writes " + graph_.quoted(resource->name) +
-                         ": declare the write alone (it may read as well), or make two passes");
+      return fail(pass + " reads and writes " + quoted(resource->name) +
+                  ": declare the write alone (it may read as well), or make two passes");
     if (other.use == use) return;
+    if (isImage && useRow(other.use).layout != useRow(use).layout)
+      return fail(pass + " reads " + quoted(resource->name) + " with Use::" + useRow(other.use).name + " and Use::" + useRow(use).name +
+                  ", which need different layouts: make two passes");
   }
-  graph_.addAccess(index_, {buffer.index, buffer.version, use, false, true});
+  addAccess(index, {ref.index, ref.version, use, false, true});
 }
 
-BufferRef Pass::write(BufferRef buffer, Use use, bool discard) {
-  constexpr BufferRef mistake{0, 0, 0};
-  ResourceData* resource = graph_.resolve(buffer, index_, "writes");
-  if (!resource) return mistake;
-  const std::string pass = "pass '" + std::string(graph_.names[graph_.passes[index_].name]) + "'";
+ResourceRef GraphImpl::write(uint32_t index, ResourceRef ref, bool isImage, Use use, bool discard) {
+  ResourceData* resource = resolve(ref, isImage, index, "writes");
+  if (!resource) return kMistake;
+  const std::string pass = "pass '" + std::string(names[passes[index].name]) + "'";
   if (use == Use::Unknown || !writes(use)) {
-    graph_.fail(pass + " writes " + graph_.quoted(resource->name) + " with Use::" + useRow(use).name +
-                ", which is no way for a pass to write");
-    return mistake;
+    fail(pass + " writes " + quoted(resource->name) + " with Use::" + useRow(use).name + ", which is no way for a pass to write");
+    return kMistake;
   }
-  if (graph_.accessOf(index_, buffer.index)) {
-    graph_.fail(pass + " uses " + graph_.quoted(resource->name) +
-                " twice, once to write: declare the write alone (it may read as well), or make two passes");
-    return mistake;
+  if (accessOf(index, ref.index)) {
+    fail(pass + " uses " + quoted(resource->name) +
+         " twice, once to write: declare the write alone (it may read as well), or make two passes");
+    return kMistake;
   }
-  const bool fresh = resource->version == 0 && !resource->imported;
+  const bool fresh = !resource->hasContent();
   if (fresh && use == Use::ComputeAtomic) {
-    graph_.fail(pass + " does atomics on " + graph_.quoted(resource->name) + ", whose content is undefined: fill it first");
-    return mistake;
+    fail(pass + " does atomics on " + quoted(resource->name) + ", whose content is undefined: fill it first");
+    return kMistake;
   }
-  graph_.addAccess(index_, {buffer.index, ++resource->version, use, true, !discard && !fresh});
-  return {buffer.index, resource->version, graph_.epoch};
+  addAccess(index, {ref.index, ++resource->version, use, true, !discard && !fresh});
+  return {ref.index, resource->version, epoch};
 }
 
+void Pass::read(BufferRef buffer, Use use) { graph_.read(index_, buffer, false, use); }
+void Pass::read(ImageRef image, Use use) { graph_.read(index_, image, true, use); }
+BufferRef Pass::write(BufferRef buffer, Use use, bool discard) { return {graph_.write(index_, buffer, false, use, discard)}; }
+ImageRef Pass::write(ImageRef image, Use use, bool discard) { return {graph_.write(index_, image, true, use, discard)}; }
 void Pass::sideEffect() { graph_.passes[index_].root = true; }
 
-Kernel Pass::kernel(const ComputePipeline* pipeline, std::span<const BufferRef> refs) {
+Kernel Pass::kernel(const ComputePipeline* pipeline, std::span<const ResourceRef> refs) {
   assert(pipeline);
   const std::string_view pass = graph_.names[graph_.passes[index_].name];
   const auto mistake = [&](std::string message) {
@@ -187,10 +208,10 @@ Kernel Pass::kernel(const ComputePipeline* pipeline, std::span<const BufferRef> 
   };
   const std::vector<BindingKind>& kinds = pipeline->set->kinds;
   if (refs.size() != kinds.size())
-    return mistake(std::to_string(refs.size()) + " buffers were given for its " + std::to_string(kinds.size()) + " bindings");
+    return mistake(std::to_string(refs.size()) + " resources were given for its " + std::to_string(kinds.size()) + " bindings");
   const uint32_t first = uint32_t(graph_.bindings.size());
   for (size_t i = 0; i < refs.size(); ++i) {
-    if (refs[i] == BufferRef{0, 0, 0}) return {};  // already reported
+    if (refs[i] == kMistake) return {};
     bool declared = false, fitting = false;
     const Range range = graph_.passes[index_].accesses;
     for (uint32_t k = range.first; k < range.first + range.count && !fitting; ++k) {
@@ -199,7 +220,7 @@ Kernel Pass::kernel(const ComputePipeline* pipeline, std::span<const BufferRef> 
       if (refs[i].epoch != graph_.epoch || access.resource != refs[i].index) continue;
       if (access.version != refs[i].version && !(access.write && access.version == refs[i].version + 1)) continue;
       declared = true;
-      fitting = fits(kinds[i], access.use);
+      fitting = fits(kinds[i], graph_.resources[access.resource].isImage, access.use);
     }
     const auto name = [&] {
       return refs[i].index < graph_.resources.size() ? graph_.quoted(graph_.resources[refs[i].index].name) : "an empty ref";
@@ -223,17 +244,38 @@ BufferRef Graph::create(std::string_view name, BufferDesc desc) {
   ResourceData resource;
   resource.name = impl_->names.intern(name);
   resource.size = desc.size;
-  return impl_->add(resource);
+  return {impl_->add(resource)};
+}
+
+ImageRef Graph::create(std::string_view name, ImageDesc desc) {
+  ResourceData resource;
+  resource.name = impl_->names.intern(name);
+  resource.isImage = true;
+  resource.desc = desc;
+  return {impl_->add(resource)};
 }
 
 BufferRef Graph::import(std::string_view name, const BufferImport& import) {
   ResourceData resource;
   resource.name = impl_->names.intern(name);
   resource.imported = true;
-  resource.import = import;
+  resource.before = import.before;
+  resource.after = import.after;
+  resource.buffer = import.handle;
+  resource.offset = import.offset;
   resource.size = import.size;
-  if (import.after == Use::Unknown) impl_->fail("import " + impl_->quoted(resource.name) + ": Use::Unknown is no state to leave it in");
-  return impl_->add(resource);
+  return {impl_->add(resource)};
+}
+
+ImageRef Graph::import(std::string_view name, const ImageImport& import) {
+  ResourceData resource;
+  resource.name = impl_->names.intern(name);
+  resource.imported = resource.isImage = true;
+  resource.before = import.before;
+  resource.after = import.after;
+  resource.image = import.handle;
+  resource.desc = import.desc;
+  return {impl_->add(resource)};
 }
 
 void Graph::skipped(std::string_view name, std::string_view reason) { impl_->skips.push_back({impl_->names.intern(name), reason}); }
@@ -265,7 +307,8 @@ std::span<const Timing> Graph::timings() const {
 
 uint64_t Graph::transientBytes() const {
   uint64_t bytes = 0;
-  for (uint64_t size : impl_->heapSizes) bytes += size;
+  for (const TransientPlan& plan : impl_->plans)
+    for (uint64_t size : plan.heapSizes) bytes += size;
   return bytes;
 }
 

@@ -9,6 +9,7 @@
 #include "gpu/device_impl.hpp"
 #include "graph/frame_slot.hpp"
 #include "graph/hazard.hpp"
+#include "graph/image_store.hpp"
 #include "graph/memory_plan.hpp"
 #include "graph/names.hpp"
 #include "graph/record_arena.hpp"
@@ -36,6 +37,13 @@ struct KernelData {
   VkDescriptorSet set = VK_NULL_HANDLE;
 };
 
+/// A change of an image's layout, part of a pass's barrier.
+struct Transition {
+  uint32_t resource = 0;
+  VkImageLayout from = VK_IMAGE_LAYOUT_UNDEFINED, to = VK_IMAGE_LAYOUT_UNDEFINED;
+  Scope scope;
+};
+
 /// Why a pass waits.
 struct Cause {
   uint32_t resource = 0;
@@ -46,7 +54,8 @@ struct Cause {
 /// The one barrier before a pass, or at the end of the frame.
 struct PlannedBarrier {
   Scope scope;
-  Range causes;
+  Range causes, transitions;
+  bool empty() const { return scope.empty() && transitions.count == 0; }
 };
 
 struct PassData {
@@ -59,20 +68,37 @@ struct PassData {
   bool readback = false;  ///< made by Graph::readback
   bool alive = false;
   std::string_view reason;  ///< why it was culled
-  PlannedBarrier barrier;   ///< an empty scope: none
+  PlannedBarrier barrier;
 };
 
 struct ResourceData {
   uint32_t name = 0;
   bool imported = false;
-  bool needed = false;  ///< while culling: whether a later pass, or somebody outside, wants the content
-  BufferImport import;
-  uint64_t size = 0;
-  uint32_t version = 0;        ///< the latest one
-  uint32_t placement = kNone;  ///< of a transient that is used
+  bool isImage = false;
+  bool needed = false;                        ///< while culling: whether a later pass, or somebody outside, wants the content
+  Use before = Use::None, after = Use::None;  ///< of an import
+  uint64_t size = 0;                          ///< bytes; an image's is an estimate until prepare() has asked
+  ImageDesc desc;                             ///< of an image
+  uint32_t version = 0;                       ///< the latest one
+  uint32_t placement = kNone;                 ///< of a transient that is used
   HazardState state;
-  VkBuffer buffer = VK_NULL_HANDLE;  ///< resolved by prepare()
+  VkImageUsageFlags usage = 0;                       ///< of an image, by the passes that run
+  VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  ///< while planning: the image's
+  VkBuffer buffer = VK_NULL_HANDLE;                  ///< a transient's is resolved by prepare()
   uint64_t offset = 0;
+  VkImage image = VK_NULL_HANDLE;
+  VkImageView view = VK_NULL_HANDLE;
+
+  const char* kind() const { return isImage ? "image " : "buffer "; }
+  /// Imported in a state that keeps its content, or written by a pass.
+  bool hasContent() const { return version > 0 || (imported && (!isImage || (before != Use::None && before != Use::Unknown))); }
+};
+
+/// Where the transients of one kind lie.
+struct TransientPlan {
+  std::vector<Placement> placements;
+  std::vector<uint32_t> resources;  ///< of each placement
+  std::vector<uint64_t> heapSizes;
 };
 
 struct Readback {
@@ -93,9 +119,11 @@ class GraphImpl {
 
   // graph.cpp
   void reset();
-  BufferRef add(ResourceData resource);
+  ResourceRef add(ResourceData resource);
   /// Null, with the frame's error set, for a ref that is stale, consumed or none at all.
-  ResourceData* resolve(BufferRef ref, uint32_t pass, const char* doing);
+  ResourceData* resolve(ResourceRef ref, bool isImage, uint32_t pass, const char* doing);
+  void read(uint32_t pass, ResourceRef ref, bool isImage, Use use);
+  ResourceRef write(uint32_t pass, ResourceRef ref, bool isImage, Use use, bool discard);
   uint32_t beginPass(std::string_view name);
   void addAccess(uint32_t pass, Access access);
   void fail(std::string message);
@@ -106,6 +134,8 @@ class GraphImpl {
   Expected<void> compile();
   void cull();
   void placeTransients();
+  TransientPlan& planOf(const ResourceData& resource) { return plans[resource.isImage]; }
+  const TransientPlan& planOf(const ResourceData& resource) const { return plans[resource.isImage]; }
   void planBarriers();
   void makeReport();
   Expected<void> checkImports() const;
@@ -114,6 +144,8 @@ class GraphImpl {
   Expected<void> prepare(Device& device);
   Expected<void> growHeaps(DeviceImpl& device);
   Expected<void> resolveBuffers(DeviceImpl& device);
+  Expected<void> learnImages(DeviceImpl& device);
+  Expected<void> resolveImages(DeviceImpl& device, FrameSlot& slot);
   void shareSets();
   Expected<void> makeSets(DeviceImpl& device, FrameSlot& slot);
   /// Timings and read-backs of frames that have completed since the last look.
@@ -143,16 +175,17 @@ class GraphImpl {
   std::vector<Skipped> skips;
 
   MemoryPlanner planner;
-  std::vector<Placement> placements;
-  std::vector<uint32_t> placed;  ///< the resource of each placement
-  std::vector<uint64_t> heapSizes;
+  TransientPlan plans[2];  ///< of buffers, of images
   std::vector<Cause> causes;
+  std::vector<Transition> transitions;
+  std::vector<VkImageMemoryBarrier2> imageBarriers;  ///< of `transitions`, made by prepare()
   PlannedBarrier finalBarrier;
   std::vector<PassReport> reports;
   std::vector<uint32_t> rowOfName;  ///< scratch: where a name stands in a list
 
   DeviceImpl* device = nullptr;
   std::vector<Buffer> heaps;
+  ImageStore images;
   std::vector<std::unique_ptr<FrameSlot>> slots;
   FrameSlot* slot = nullptr;  ///< of the prepared frame
   SetSharing sharing;

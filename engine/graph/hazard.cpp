@@ -133,6 +133,17 @@ void HazardState::used(Use use) {
   atomic_ = use == Use::ComputeAtomic;
 }
 
+void HazardState::changeLayout(Use use, Scope& scope) {
+  const UseRow& row = useRow(use);
+  scope = {writeStage_ | readStage_, writeAccess_, row.stage, row.read | row.write};
+  // From here on it is as if the change were a write in the stage that waits for it.
+  *this = {};
+  writeStage_ = writeBefore_ = row.stage;
+  writeAccess_ = VK_ACCESS_2_MEMORY_WRITE_BIT;
+  visible_ = usesSeeing(scope);
+  available_ = true;
+}
+
 void HazardState::join(const HazardState& other) {
   if (!other.writeStage_ && !other.readStage_) return;
   if (!writeStage_ && !readStage_) {

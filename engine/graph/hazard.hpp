@@ -35,6 +35,8 @@ class HazardState {
   /// A barrier was recorded, here or for another resource. `seeing` is usesSeeing(scope).
   void passed(const Scope& scope, uint32_t seeing);
   void used(Use use);
+  /// An image changes its layout before `use`, in a barrier of its own: `scope` gets what that must wait for and who sees it.
+  void changeLayout(Use use, Scope& scope);
   /// The memory was another resource's before: this one must wait for what happened to both.
   void join(const HazardState& other);
 

@@ -30,7 +30,7 @@ void MemoryPlanner::plan(std::span<Placement> placements, uint64_t limit, std::v
         ++item.heap, item.offset = 0;
       }
       if (item.heap < taken.heap || item.offset + item.size <= taken.begin) break;
-      item.offset = std::max(item.offset, (taken.end + kTransientAlignment - 1) / kTransientAlignment * kTransientAlignment);
+      item.offset = std::max(item.offset, (taken.end + item.alignment - 1) / item.alignment * item.alignment);
     }
     if (item.offset + item.size > limit) ++item.heap, item.offset = 0;
     if (item.heap >= heaps.size()) heaps.resize(item.heap + 1, 0);

@@ -1,5 +1,5 @@
 #pragma once
-// Where transient buffers lie: those whose lifetimes do not meet share memory. Knows no graph and no Vulkan.
+// Where transients lie: those whose lifetimes do not meet share memory. Knows no graph and no Vulkan.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,6 +12,7 @@ inline constexpr uint64_t kTransientAlignment = 256;
 struct Placement {
   uint32_t first = 0, last = 0;  ///< passes that use it, both included
   uint64_t size = 0;
+  uint64_t alignment = kTransientAlignment;
   uint32_t heap = 0;    ///< out
   uint64_t offset = 0;  ///< out
 };

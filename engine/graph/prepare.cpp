@@ -15,6 +15,7 @@ Expected<void> GraphImpl::prepare(Device& owner) {
   device = &d;
   prepared = false;
   collect();
+  if (auto ok = learnImages(d); !ok) return ok;
   if (auto ok = growHeaps(d); !ok) return ok;
   if (auto ok = resolveBuffers(d); !ok) return ok;
 
@@ -26,6 +27,7 @@ Expected<void> GraphImpl::prepare(Device& owner) {
   slot = found->get();
   slot->recycle();
   slot->frame = d.clock.recording;
+  if (auto ok = resolveImages(d, *slot); !ok) return ok;
 
   shareSets();
   if (auto ok = makeSets(d, *slot); !ok) return ok;
@@ -62,7 +64,23 @@ Expected<void> GraphImpl::prepare(Device& owner) {
   return {};
 }
 
+Expected<void> GraphImpl::learnImages(DeviceImpl& d) {
+  bool news = false;
+  for (uint32_t index : plans[1].resources) {
+    const ResourceData& image = resources[index];
+    auto learned = images.learn(d, {image.desc.format, image.desc.width, image.desc.height, image.usage}, names[image.name]);
+    if (!learned) return learned.error();
+    news |= *learned;
+  }
+  if (news) {
+    placeTransients();
+    planBarriers();
+  }
+  return {};
+}
+
 Expected<void> GraphImpl::growHeaps(DeviceImpl& d) {
+  const std::vector<uint64_t>& heapSizes = plans[0].heapSizes;
   if (heaps.size() < heapSizes.size()) heaps.resize(heapSizes.size());
   for (size_t i = 0; i < heapSizes.size(); ++i) {
     if (heapSizes[i] <= heaps[i].size()) continue;
@@ -78,18 +96,57 @@ Expected<void> GraphImpl::resolveBuffers(DeviceImpl& d) {
   const uint64_t alignment = std::max({d.limits.minStorageBufferOffsetAlignment, d.limits.minUniformBufferOffsetAlignment,
                                        d.limits.minTexelBufferOffsetAlignment, VkDeviceSize(4)});
   for (ResourceData& resource : resources) {
+    if (resource.isImage) continue;
     if (resource.imported) {
-      if (resource.import.offset % alignment != 0)
-        return Error{ErrorKind::BadInput, "import " + quoted(resource.name) + " lies at offset " + std::to_string(resource.import.offset) +
+      if (resource.offset % alignment != 0)
+        return Error{ErrorKind::BadInput, "import " + quoted(resource.name) + " lies at offset " + std::to_string(resource.offset) +
                                               ", which is no multiple of this device's " + std::to_string(alignment)};
-      resource.buffer = resource.import.handle;
-      resource.offset = resource.import.offset;
     } else if (resource.placement != kNone) {
-      const Placement& place = placements[resource.placement];
+      const Placement& place = plans[0].placements[resource.placement];
       resource.buffer = heaps[place.heap].handle();
       resource.offset = place.offset;
     }
   }
+  return {};
+}
+
+Expected<void> GraphImpl::resolveImages(DeviceImpl& d, FrameSlot& target) {
+  uint32_t memoryTypes = ~0u;
+  for (uint32_t index : plans[1].resources) {
+    const ResourceData& image = resources[index];
+    memoryTypes &= images.needs({image.desc.format, image.desc.width, image.desc.height, image.usage}).memoryTypes;
+  }
+  if (auto ok = images.growHeaps(d, plans[1].heapSizes, memoryTypes); !ok) return ok;
+  for (ResourceData& image : resources) {
+    if (!image.isImage || image.usage == 0) continue;
+    const ImageKind kind{image.desc.format, image.desc.width, image.desc.height, image.usage};
+    if (!image.imported) {
+      const Placement& place = plans[1].placements[image.placement];
+      auto made = images.place(d, kind, place.heap, place.offset, names[image.name]);
+      if (!made) return made.error();
+      image.image = made->image;
+      image.view = made->view;
+    } else if (image.usage & kViewedUsage) {
+      auto view = makeImageView(d, image.image, image.desc.format, names[image.name]);
+      if (!view) return view.error();
+      target.imageViews.push_back(image.view = *view);
+    }
+  }
+  images.sweep();
+  imageBarriers.clear();
+  for (const Transition& t : transitions)
+    imageBarriers.push_back({VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+                             nullptr,
+                             t.scope.sourceStage,
+                             t.scope.sourceAccess,
+                             t.scope.targetStage,
+                             t.scope.targetAccess,
+                             t.from,
+                             t.to,
+                             VK_QUEUE_FAMILY_IGNORED,
+                             VK_QUEUE_FAMILY_IGNORED,
+                             resources[t.resource].image,
+                             {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}});
   return {};
 }
 
@@ -124,8 +181,11 @@ void GraphImpl::shareSets() {
 
 namespace {
 
-Expected<void> makePool(DeviceImpl& d, FrameSlot& slot, uint32_t sets, uint32_t storage, uint32_t uniform, uint32_t texel) {
-  if (sets <= slot.poolSets && storage <= slot.poolStorage && uniform <= slot.poolUniform && texel <= slot.poolTexel) return {};
+Expected<void> makePool(DeviceImpl& d, FrameSlot& slot, uint32_t sets, uint32_t storage, uint32_t uniform, uint32_t texel,
+                        uint32_t storageImages, uint32_t sampledImages) {
+  if (sets <= slot.poolSets && storage <= slot.poolStorage && uniform <= slot.poolUniform && texel <= slot.poolTexel &&
+      storageImages <= slot.poolStorageImage && sampledImages <= slot.poolSampledImage)
+    return {};
   if (slot.pool) d.vk.DestroyDescriptorPool(d.handle, slot.pool, d.callbacks);  // its frame has completed
   slot.pool = VK_NULL_HANDLE;
   const auto room = [](uint32_t have, uint32_t need) { return std::max(have, std::bit_ceil(std::max(need, 1u))); };
@@ -133,12 +193,16 @@ Expected<void> makePool(DeviceImpl& d, FrameSlot& slot, uint32_t sets, uint32_t 
   slot.poolStorage = room(slot.poolStorage, storage);
   slot.poolUniform = room(slot.poolUniform, uniform);
   slot.poolTexel = room(slot.poolTexel, texel);
+  slot.poolStorageImage = room(slot.poolStorageImage, storageImages);
+  slot.poolSampledImage = room(slot.poolSampledImage, sampledImages);
   const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, slot.poolStorage},
                                         {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, slot.poolUniform},
-                                        {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, slot.poolTexel}};
+                                        {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, slot.poolTexel},
+                                        {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, slot.poolStorageImage},
+                                        {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, slot.poolSampledImage}};
   VkDescriptorPoolCreateInfo create{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   create.maxSets = slot.poolSets;
-  create.poolSizeCount = 3;
+  create.poolSizeCount = uint32_t(std::size(sizes));
   create.pPoolSizes = sizes;
   if (VkResult r = d.vk.CreateDescriptorPool(d.handle, &create, d.callbacks, &slot.pool); r != VK_SUCCESS) {
     slot.poolSets = 0;
@@ -151,15 +215,31 @@ Expected<void> makePool(DeviceImpl& d, FrameSlot& slot, uint32_t sets, uint32_t 
 
 Expected<void> GraphImpl::makeSets(DeviceImpl& d, FrameSlot& target) {
   SetSharing& s = sharing;
-  uint32_t storage = 0, uniform = 0, texel = 0;
+  uint32_t storage = 0, uniform = 0, texel = 0, storageImages = 0, sampledImages = 0;
   s.layouts.clear();
   for (uint32_t k : s.unique) {
     s.layouts.push_back(kernels[k].pipeline->set->handle);
-    for (BindingKind kind : kernels[k].pipeline->set->kinds)
-      ++(kind == BindingKind::Storage ? storage : kind == BindingKind::Uniform ? uniform : texel);
+    for (BindingKind kind : kernels[k].pipeline->set->kinds) {
+      switch (kind) {
+        case BindingKind::Storage:
+          ++storage;
+          break;
+        case BindingKind::Uniform:
+          ++uniform;
+          break;
+        case BindingKind::StorageImage:
+          ++storageImages;
+          break;
+        case BindingKind::SampledImage:
+          ++sampledImages;
+          break;
+        default:
+          ++texel;
+      }
+    }
   }
   if (s.unique.empty()) return {};
-  if (auto ok = makePool(d, target, uint32_t(s.unique.size()), storage, uniform, texel); !ok) return ok;
+  if (auto ok = makePool(d, target, uint32_t(s.unique.size()), storage, uniform, texel, storageImages, sampledImages); !ok) return ok;
   s.sets.resize(s.unique.size());
   VkDescriptorSetAllocateInfo allocate{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO, nullptr, target.pool, uint32_t(s.unique.size()),
                                        s.layouts.data()};
@@ -169,7 +249,9 @@ Expected<void> GraphImpl::makeSets(DeviceImpl& d, FrameSlot& target) {
   s.writes.clear();
   s.buffers.clear();
   s.views.clear();
-  s.buffers.reserve(storage + uniform);  // the writes point into these two
+  s.images.clear();
+  s.images.reserve(storageImages + sampledImages);  // the writes point into these three
+  s.buffers.reserve(storage + uniform);
   s.views.reserve(texel);
   for (size_t u = 0; u < s.unique.size(); ++u) {
     KernelData& kernel = kernels[s.unique[u]];
@@ -180,7 +262,11 @@ Expected<void> GraphImpl::makeSets(DeviceImpl& d, FrameSlot& target) {
       VkWriteDescriptorSet write{
           VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET, nullptr, kernel.set, b, 0, 1, descriptorType(kind), nullptr, nullptr, nullptr};
       const uint32_t bytes = texelBytes(kind);
-      if (bytes == 0) {
+      if (resource.isImage) {
+        const bool sampled = kind == BindingKind::SampledImage;
+        s.images.push_back({VK_NULL_HANDLE, resource.view, sampled ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL : VK_IMAGE_LAYOUT_GENERAL});
+        write.pImageInfo = &s.images.back();
+      } else if (bytes == 0) {
         const uint64_t limit = kind == BindingKind::Uniform ? d.limits.maxUniformBufferRange : d.limits.maxStorageBufferRange;
         if (resource.size > limit)
           return Error{ErrorKind::BadInput, "buffer " + quoted(resource.name) + " of " + std::to_string(resource.size) +

@@ -10,14 +10,22 @@ namespace {
 // A dimension's limit: the least that Vulkan guarantees, on every device, so that folding is the same everywhere.
 constexpr uint64_t kMaxGroups = 65535;
 
-void recordBarrier(const DeviceTable& vk, VkCommandBuffer commandBuffer, const Scope& scope) {
-  if (scope.empty()) return;
+void recordBarrier(const DeviceTable& vk, VkCommandBuffer commandBuffer, const PlannedBarrier& planned,
+                   std::span<const VkImageMemoryBarrier2> images) {
+  if (planned.empty()) return;
+  const Scope& scope = planned.scope;
   const VkMemoryBarrier2 barrier{
       VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, scope.sourceStage, scope.sourceAccess, scope.targetStage, scope.targetAccess};
   VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-  dependency.memoryBarrierCount = 1;
+  dependency.memoryBarrierCount = scope.empty() ? 0 : 1;
   dependency.pMemoryBarriers = &barrier;
+  dependency.imageMemoryBarrierCount = planned.transitions.count;
+  dependency.pImageMemoryBarriers = images.data() + planned.transitions.first;
   vk.CmdPipelineBarrier2(commandBuffer, &dependency);
+}
+
+VkBufferImageCopy wholeImage(const ImageDesc& desc, uint64_t bufferOffset) {
+  return {bufferOffset, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {0, 0, 0}, {desc.width, desc.height, 1}};
 }
 
 }  // namespace
@@ -39,7 +47,7 @@ void GraphImpl::record(VkCommandBuffer commandBuffer) {
   for (uint32_t i = 0; i < passes.size(); ++i) {
     const PassData& pass = passes[i];
     if (!pass.alive) continue;
-    recordBarrier(vk, commandBuffer, pass.barrier.scope);
+    recordBarrier(vk, commandBuffer, pass.barrier, imageBarriers);
     if (pass.readback) {
       for (const Readback& readback : readbacks) {
         if (readback.pass != i) continue;
@@ -52,7 +60,7 @@ void GraphImpl::record(VkCommandBuffer commandBuffer) {
     }
     writeStamp();
   }
-  recordBarrier(vk, commandBuffer, finalBarrier.scope);
+  recordBarrier(vk, commandBuffer, finalBarrier, imageBarriers);
 }
 
 void Commands::bind(Kernel kernel, std::span<const std::byte> push) {
@@ -104,6 +112,33 @@ void Commands::fill(BufferRef target, uint32_t value, uint64_t offset, uint64_t 
   // Whole words: a size that is no multiple of 4 is filled short of its last bytes, never beyond them.
   const uint64_t size = std::min(bytes, to.size - offset) & ~3ull;
   if (size != 0) graph_.device->vk.CmdFillBuffer(commandBuffer_, to.buffer, to.offset + offset, size, value);
+}
+
+void Commands::copy(BufferRef source, ImageRef target, uint64_t offset) {
+  assert(source.epoch == graph_.epoch && target.epoch == graph_.epoch);
+  assert(graph_.accessOf(pass_, source.index) && graph_.accessOf(pass_, target.index) &&
+         "a copy's buffer and image are declared by its pass");
+  const ResourceData& from = graph_.resources[source.index];
+  const ResourceData& to = graph_.resources[target.index];
+  const VkBufferImageCopy region = wholeImage(to.desc, from.offset + offset);
+  graph_.device->vk.CmdCopyBufferToImage(commandBuffer_, from.buffer, to.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+}
+
+void Commands::copy(ImageRef source, BufferRef target, uint64_t offset) {
+  assert(source.epoch == graph_.epoch && target.epoch == graph_.epoch);
+  assert(graph_.accessOf(pass_, source.index) && graph_.accessOf(pass_, target.index) &&
+         "a copy's image and buffer are declared by its pass");
+  const ResourceData& from = graph_.resources[source.index];
+  const ResourceData& to = graph_.resources[target.index];
+  const VkBufferImageCopy region = wholeImage(from.desc, to.offset + offset);
+  graph_.device->vk.CmdCopyImageToBuffer(commandBuffer_, from.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.buffer, 1, &region);
+}
+
+void Commands::clear(ImageRef target, const VkClearColorValue& value) {
+  assert(target.epoch == graph_.epoch && graph_.accessOf(pass_, target.index) && "a clear's image is declared by its pass");
+  const VkImageSubresourceRange whole{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+  graph_.device->vk.CmdClearColorImage(commandBuffer_, graph_.resources[target.index].image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &value,
+                                       1, &whole);
 }
 
 VkCommandBuffer Commands::handle() const { return commandBuffer_; }

@@ -1,5 +1,5 @@
 #pragma once
-// The one place that says which stage and access a Use is.
+// The one place that says which stage, access and layout a Use is.
 #include "rill/graph.hpp"
 
 namespace rill {
@@ -10,6 +10,8 @@ struct UseRow {
   VkPipelineStageFlags2 stage;
   VkAccessFlags2 read;
   VkAccessFlags2 write;
+  VkImageLayout layout;     ///< VK_IMAGE_LAYOUT_UNDEFINED: no use of an image
+  VkImageUsageFlags usage;  ///< what an image must have been made for
 };
 
 inline constexpr size_t kUseCount = size_t(Use::Unknown) + 1;

@@ -138,7 +138,7 @@ TEST_F(Barriers, AliasedMemoryWaitsForItsEarlierUser) {
   const BufferRef b = write("make b", graph.create("b", {64}), Use::CopyTarget);
   read("look b", b, Use::CopySource);
   compile();
-  ASSERT_EQ(graph.impl().placements[0].offset, graph.impl().placements[1].offset);
+  ASSERT_EQ(graph.impl().plans[0].placements[0].offset, graph.impl().plans[0].placements[1].offset);
   EXPECT_NE(barrier(2).sourceStage & kCompute, 0u);
   EXPECT_EQ(barrier(2).targetStage, kTransfer);
 }

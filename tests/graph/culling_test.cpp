@@ -13,7 +13,7 @@ TEST_F(Culling, WhatReachesNobodyIsCulledWithItsCauses) {
   compile();
   EXPECT_FALSE(alive(0));
   EXPECT_FALSE(alive(1));
-  EXPECT_TRUE(graph.impl().placements.empty()) << "a culled pass needs no memory";
+  EXPECT_TRUE(graph.impl().plans[0].placements.empty()) << "a culled pass needs no memory";
   ASSERT_EQ(graph.report().size(), 2u);
   EXPECT_TRUE(graph.report()[1].culled);
   EXPECT_EQ(graph.report()[1].reason, "nothing reads 'b'");

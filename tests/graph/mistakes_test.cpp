@@ -119,7 +119,7 @@ TEST_F(Mistakes, BindingsThatDoNotFit) {
     return mistake();
   };
   EXPECT_EQ(declare([&](Pass& p, BufferRef in, BufferRef, BufferRef) { (void)p.kernel(&fake.pipeline, {in}); }),
-            "pass 'sort', shader 'fake': 1 buffers were given for its 2 bindings");
+            "pass 'sort', shader 'fake': 1 resources were given for its 2 bindings");
   EXPECT_EQ(declare([&](Pass& p, BufferRef in, BufferRef out, BufferRef) {
               (void)p.kernel(&fake.pipeline, {in, out});
             }),

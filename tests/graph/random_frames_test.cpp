@@ -7,9 +7,15 @@
 namespace rill::test {
 namespace {
 
+struct Barrier {
+  Scope scope;
+  uint32_t image = kNone;  // of a change of layout: memory of this image alone
+};
+
 struct Step {  // a pass or a barrier of the recorded sequence
-  Scope barrier;
+  std::vector<Barrier> barriers;
   std::vector<Access> accesses;
+  std::vector<Transition> transitions;
 };
 
 struct Event {
@@ -36,6 +42,18 @@ class RandomFrames : public GraphTest {
     for (int i = 0; i < 4; ++i) refs.push_back(graph.create("transient", {256 + pick(3) * 256})), written.push_back(false);
     constexpr Use reads[] = {Use::ComputeRead, Use::ComputeTexel, Use::ComputeUniform, Use::Indirect, Use::CopySource};
     constexpr Use writings[] = {Use::ComputeWrite, Use::CopyTarget, Use::ComputeAtomic};
+    constexpr Use imageStates[] = {Use::None, Use::Unknown, Use::ComputeWrite, Use::ComputeSampled, Use::CopySource, Use::CopyTarget};
+    constexpr Use imageReads[] = {Use::ComputeRead, Use::ComputeSampled, Use::CopySource};
+    std::vector<ImageRef> images;
+    std::vector<bool> drawn;
+    for (uint64_t i = 0; i < 2; ++i) {
+      const Use before = imageStates[pick(6)];
+      const Use after = pick(2) ? imageStates[2 + pick(4)] : Use::None;
+      images.push_back(graph.import("imported image", {reinterpret_cast<VkImage>(100 + i), {VK_FORMAT_R32_SFLOAT, 16, 16}, before, after}));
+      drawn.push_back(before != Use::None && before != Use::Unknown);
+    }
+    for (int i = 0; i < 4; ++i)
+      images.push_back(graph.create("image", {VK_FORMAT_R32_SFLOAT, 16, 16 + 16 * pick(2)})), drawn.push_back(false);
     for (int p = 0; p < 14; ++p)
       graph.pass("pass", [&](Pass& pass) {
         std::vector<bool> used(refs.size());
@@ -50,6 +68,18 @@ class RandomFrames : public GraphTest {
             written[r] = true;
           }
         }
+        std::vector<bool> seen(images.size());
+        for (uint32_t n = pick(3); n > 0; --n) {
+          const uint32_t r = pick(uint32_t(images.size()));
+          if (seen[r]) continue;
+          seen[r] = true;
+          if (drawn[r] && pick(2)) {
+            pass.read(images[r], imageReads[pick(3)]);
+          } else {
+            images[r] = pass.write(images[r], writings[pick(drawn[r] ? 3 : 2)], pick(4) == 0);
+            drawn[r] = true;
+          }
+        }
         if (pick(3) == 0) pass.sideEffect();
         return [](Commands&) {};
       });
@@ -59,8 +89,67 @@ class RandomFrames : public GraphTest {
   bool sameMemory(const Access& a, const Access& b) {
     const auto& ra = graph.impl().resources[a.resource];
     const auto& rb = graph.impl().resources[b.resource];
-    if (ra.imported || rb.imported) return a.resource == b.resource;
-    return sharesMemory(graph.impl().placements[ra.placement], graph.impl().placements[rb.placement]);
+    if (ra.imported || rb.imported || ra.isImage != rb.isImage) return a.resource == b.resource;
+    const auto& placements = graph.impl().planOf(ra).placements;
+    return sharesMemory(placements[ra.placement], placements[rb.placement]);
+  }
+
+  /// Every image is in the layout that its use wants, by changes that start from the layout it has, and none that loses content.
+  void checkLayouts(const std::vector<Step>& steps, uint32_t seed) {
+    const auto& resources = graph.impl().resources;
+    std::vector<VkImageLayout> layout(resources.size());
+    for (size_t s = 0; s < steps.size(); ++s) {
+      if (s == 0 || s == steps.size() / 2)
+        for (size_t r = 0; r < resources.size(); ++r) layout[r] = useRow(resources[r].before).layout;
+      for (const Transition& t : steps[s].transitions) {
+        ASSERT_NE(t.to, VK_IMAGE_LAYOUT_UNDEFINED) << "seed " << seed;
+        for (const Access& access : steps[s].accesses)
+          if (access.resource == t.resource && access.keep) { ASSERT_EQ(t.from, layout[t.resource]) << "seed " << seed << ", step " << s; }
+        if (t.from != VK_IMAGE_LAYOUT_UNDEFINED) { ASSERT_EQ(t.from, layout[t.resource]) << "seed " << seed << ", step " << s; }
+        layout[t.resource] = t.to;
+      }
+      for (const Access& access : steps[s].accesses)
+        if (resources[access.resource].isImage) {
+          ASSERT_EQ(layout[access.resource], useRow(access.use).layout) << "seed " << seed << ", step " << s;
+        }
+      if (s + 1 == steps.size() / 2 || s + 1 == steps.size())
+        for (size_t r = 0; r < resources.size(); ++r)
+          if (resources[r].imported && resources[r].isImage && resources[r].after != Use::None) {
+            ASSERT_EQ(layout[r], useRow(resources[r].after).layout) << "seed " << seed;
+          }
+    }
+  }
+
+  /// Barriers of a pass. `all`: those of imported images too, of which the second frame's are not checked against the first's.
+  Step stepOf(const PlannedBarrier& planned, bool all) {
+    const GraphImpl& g = graph.impl();
+    Step step;
+    step.barriers.push_back({planned.scope});
+    for (uint32_t k = planned.transitions.first; k < planned.transitions.first + planned.transitions.count; ++k) {
+      step.transitions.push_back(g.transitions[k]);
+      if (all || !g.resources[g.transitions[k].resource].imported)
+        step.barriers.push_back({g.transitions[k].scope, g.transitions[k].resource});
+    }
+    return step;
+  }
+
+  /// A change of layout reads and writes the image: whoever touched its memory before must have been waited for.
+  void checkChanges(const std::vector<Step>& steps, uint32_t seed) {
+    for (size_t i = 0; i < steps.size(); ++i)
+      for (const Access& access : steps[i].accesses) {
+        VkPipelineStageFlags2 ordered = 0;
+        for (size_t s = i + 1; s < steps.size(); ++s) {
+          const VkPipelineStageFlags2 before = ordered;
+          for (const auto& [b, image] : steps[s].barriers) {
+            const bool waits = covers(b.sourceStage, useRow(access.use).stage) || (b.sourceStage & before);
+            if (image != kNone && sameMemory(access, {image})) {
+              ASSERT_TRUE(waits) << "seed " << seed << ": a change of layout in step " << s << " does not wait for step " << i << "\n"
+                                 << graph.json();
+            }
+            if (waits) ordered |= b.targetStage;
+          }
+        }
+      }
   }
 
   void check(const std::vector<Step>& steps, uint32_t seed) {
@@ -78,15 +167,19 @@ class RandomFrames : public GraphTest {
         VkPipelineStageFlags2 ordered = 0;
         bool available = false, visible = false;
         for (size_t s = first.step + 1; s <= second.step; ++s) {
-          const Scope& b = steps[s].barrier;
-          if (b.empty()) continue;
-          const bool direct = covers(b.sourceStage, from.stage);
-          if (direct || (b.sourceStage & ordered) || ((b.sourceStage & kAll) && ordered)) ordered |= b.targetStage;
-          if (direct && coversAccess(b.sourceAccess, from.write)) available = true;
-          if (available && covers(b.targetStage, to.stage) && coversAccess(b.targetAccess, to.read)) visible = true;
+          const VkPipelineStageFlags2 before = ordered;  // barriers of one call do not wait for each other
+          for (const auto& [b, image] : steps[s].barriers) {
+            if (b.empty()) continue;
+            const bool direct = covers(b.sourceStage, from.stage), chained = (b.sourceStage & before) || ((b.sourceStage & kAll) && before);
+            const bool own = image == first.access.resource;
+            if (direct || chained) ordered |= b.targetStage;
+            if (image != kNone && !own) continue;
+            if (own || (direct && coversAccess(b.sourceAccess, from.write))) available = true;
+            if (available && covers(b.targetStage, to.stage) && coversAccess(b.targetAccess, to.read)) visible = true;
+          }
         }
         ASSERT_TRUE(covers(ordered, to.stage)) << told(seed, "not ordered", first, second);
-        if (!first.access.write) continue;
+        if (!first.access.write || (!same && graph.impl().resources[second.access.resource].isImage)) continue;
         ASSERT_TRUE(available) << told(seed, "not available", first, second);
         // Only the latest write is read, and a transient's first write reads nothing.
         const bool reads = !second.access.write || second.access.keep;
@@ -113,24 +206,27 @@ TEST_F(RandomFrames, EveryConflictIsOrdered) {
     declare(random);
     compile();
     const GraphImpl& g = graph.impl();
-    for (size_t a = 0; a < g.placements.size(); ++a)
-      for (size_t b = 0; b < a; ++b)
-        if (g.placements[a].first <= g.placements[b].last && g.placements[b].first <= g.placements[a].last) {
-          ASSERT_FALSE(sharesMemory(g.placements[a], g.placements[b])) << "seed " << seed;
-        }
+    for (const TransientPlan& plan : g.plans)
+      for (const Placement& a : plan.placements)
+        for (const Placement& b : plan.placements)
+          if (&a < &b && a.first <= b.last && b.first <= a.last) { ASSERT_FALSE(sharesMemory(a, b)) << "seed " << seed; }
     std::vector<Step> steps;
     for (int frame = 0; frame < 2; ++frame) {
       for (const PassData& pass : g.passes) {
         if (!pass.alive) continue;
-        Step step{pass.barrier.scope, {}};
+        Step step = stepOf(pass.barrier, frame == 0);
         for (uint32_t k = pass.accesses.first; k < pass.accesses.first + pass.accesses.count; ++k) {
           // The imports' states are a promise about one frame: the second frame's are not checked against the first's.
           if (frame == 0 || !g.resources[g.accesses[k].resource].imported) step.accesses.push_back(g.accesses[k]);
         }
         steps.push_back(step);
       }
-      steps.push_back({g.finalBarrier.scope, {}});
+      steps.push_back(stepOf(g.finalBarrier, frame == 0));
     }
+    checkLayouts(steps, seed);
+    if (HasFatalFailure()) return;
+    checkChanges(steps, seed);
+    if (HasFatalFailure()) return;
     check(steps, seed);
     if (HasFatalFailure()) return;
   }

@@ -42,6 +42,7 @@ void properties(VkPhysicalDevice, VkPhysicalDeviceProperties2* out) {
   std::snprintf(p.deviceName, sizeof p.deviceName, "null device");
   p.limits.maxStorageBufferRange = 1u << 30;
   p.limits.maxUniformBufferRange = 65536;
+  p.limits.maxImageDimension2D = 4096;
   p.limits.maxTexelBufferElements = 65536;
   p.limits.maxPerStageDescriptorStorageBuffers = 16;
   p.limits.minStorageBufferOffsetAlignment = p.limits.minUniformBufferOffsetAlignment = p.limits.minTexelBufferOffsetAlignment = 64;
@@ -62,6 +63,8 @@ void properties(VkPhysicalDevice, VkPhysicalDeviceProperties2* out) {
 
 void formatProperties(VkPhysicalDevice, VkFormat, VkFormatProperties* out) {
   out->bufferFeatures = VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT;
+  out->optimalTilingFeatures = VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT |
+                               VK_FORMAT_FEATURE_TRANSFER_SRC_BIT | VK_FORMAT_FEATURE_TRANSFER_DST_BIT;
 }
 
 void memoryProperties(VkPhysicalDevice, VkPhysicalDeviceMemoryProperties* out) {
@@ -98,6 +101,18 @@ VkResult allocateMemory(VkDevice, const VkMemoryAllocateInfo*, const VkAllocatio
 }
 
 VkResult bindMemory(VkDevice, VkBuffer, VkDeviceMemory, VkDeviceSize) { return VK_SUCCESS; }
+VkResult bindImage(VkDevice, VkImage, VkDeviceMemory, VkDeviceSize) { return VK_SUCCESS; }
+
+VkResult createImage(VkDevice, const VkImageCreateInfo*, const VkAllocationCallbacks*, VkImage* out) {
+  ++current->imagesCreated;
+  *out = newHandle<VkImage>();
+  return VK_SUCCESS;
+}
+
+void imageRequirements(VkDevice, const VkDeviceImageMemoryRequirements* info, VkMemoryRequirements2* out) {
+  const VkExtent3D size = info->pCreateInfo->extent;
+  out->memoryRequirements = {uint64_t{size.width} * size.height * 4, 1024, 1};
+}
 
 VkResult mapMemory(VkDevice, VkDeviceMemory, VkDeviceSize, VkDeviceSize, VkMemoryMapFlags, void** out) {
   mappings.push_back(std::make_unique<std::byte[]>(1 << 16));  // more than any test reads back
@@ -135,7 +150,8 @@ void add(NullCommand::Kind kind, uint64_t handle = 0, uint64_t a = 0, uint64_t b
   current->commands.push_back({kind, {}, handle, a, b, c});
 }
 void cmdBarrier(VkCommandBuffer, const VkDependencyInfo* info) {
-  current->commands.push_back({NullCommand::Barrier, info->pMemoryBarriers[0], info->memoryBarrierCount, 0, 0, 0});
+  const VkMemoryBarrier2 memory = info->memoryBarrierCount ? info->pMemoryBarriers[0] : VkMemoryBarrier2{};
+  current->commands.push_back({NullCommand::Barrier, memory, info->memoryBarrierCount, info->imageMemoryBarrierCount, 0, 0});
 }
 void cmdBindPipeline(VkCommandBuffer, VkPipelineBindPoint, VkPipeline pipeline) { add(NullCommand::BindPipeline, id(pipeline)); }
 void cmdBindSets(VkCommandBuffer, VkPipelineBindPoint, VkPipelineLayout, uint32_t, uint32_t, const VkDescriptorSet* sets, uint32_t,
@@ -147,6 +163,16 @@ void cmdDispatch(VkCommandBuffer, uint32_t x, uint32_t y, uint32_t z) { add(Null
 void cmdDispatchIndirect(VkCommandBuffer, VkBuffer buffer, VkDeviceSize offset) { add(NullCommand::DispatchIndirect, id(buffer), offset); }
 void cmdCopy(VkCommandBuffer, VkBuffer, VkBuffer target, uint32_t, const VkBufferCopy* region) {
   add(NullCommand::Copy, id(target), region->srcOffset, region->dstOffset, region->size);
+}
+void cmdCopyToImage(VkCommandBuffer, VkBuffer, VkImage target, VkImageLayout layout, uint32_t, const VkBufferImageCopy* region) {
+  add(NullCommand::CopyToImage, id(target), layout, region->imageExtent.width, region->imageExtent.height);
+}
+void cmdCopyFromImage(VkCommandBuffer, VkImage source, VkImageLayout layout, VkBuffer, uint32_t, const VkBufferImageCopy* region) {
+  add(NullCommand::CopyFromImage, id(source), layout, region->imageExtent.width, region->imageExtent.height);
+}
+void cmdClearImage(VkCommandBuffer, VkImage target, VkImageLayout layout, const VkClearColorValue*, uint32_t,
+                   const VkImageSubresourceRange*) {
+  add(NullCommand::ClearImage, id(target), layout);
 }
 void cmdFill(VkCommandBuffer, VkBuffer target, VkDeviceSize offset, VkDeviceSize bytes, uint32_t value) {
   add(NullCommand::Fill, id(target), value, offset, bytes);
@@ -165,9 +191,13 @@ PFN_vkVoidFunction lookUp(std::string_view name) {
   RILL_FUNCTION(vkAllocateDescriptorSets, allocateSets)
   RILL_FUNCTION(vkAllocateMemory, allocateMemory)
   RILL_FUNCTION(vkBindBufferMemory, bindMemory)
+  RILL_FUNCTION(vkBindImageMemory, bindImage)
   RILL_FUNCTION(vkCmdBindDescriptorSets, cmdBindSets)
   RILL_FUNCTION(vkCmdBindPipeline, cmdBindPipeline)
+  RILL_FUNCTION(vkCmdClearColorImage, cmdClearImage)
   RILL_FUNCTION(vkCmdCopyBuffer, cmdCopy)
+  RILL_FUNCTION(vkCmdCopyBufferToImage, cmdCopyToImage)
+  RILL_FUNCTION(vkCmdCopyImageToBuffer, cmdCopyFromImage)
   RILL_FUNCTION(vkCmdDispatch, cmdDispatch)
   RILL_FUNCTION(vkCmdDispatchIndirect, cmdDispatchIndirect)
   RILL_FUNCTION(vkCmdFillBuffer, cmdFill)
@@ -180,6 +210,8 @@ PFN_vkVoidFunction lookUp(std::string_view name) {
   RILL_FUNCTION(vkCreateComputePipelines, createPipelines)
   RILL_FUNCTION(vkCreateDescriptorPool, create)
   RILL_FUNCTION(vkCreateDescriptorSetLayout, create)
+  RILL_FUNCTION(vkCreateImage, createImage)
+  RILL_FUNCTION(vkCreateImageView, create)
   RILL_FUNCTION(vkCreatePipelineLayout, create)
   RILL_FUNCTION(vkCreateQueryPool, create)
   RILL_FUNCTION(vkCreateShaderModule, create)
@@ -187,12 +219,15 @@ PFN_vkVoidFunction lookUp(std::string_view name) {
   RILL_FUNCTION(vkDestroyBufferView, destroy)
   RILL_FUNCTION(vkDestroyDescriptorPool, destroy)
   RILL_FUNCTION(vkDestroyDescriptorSetLayout, destroy)
+  RILL_FUNCTION(vkDestroyImage, destroy)
+  RILL_FUNCTION(vkDestroyImageView, destroy)
   RILL_FUNCTION(vkDestroyPipeline, destroy)
   RILL_FUNCTION(vkDestroyPipelineLayout, destroy)
   RILL_FUNCTION(vkDestroyQueryPool, destroy)
   RILL_FUNCTION(vkDestroyShaderModule, destroy)
   RILL_FUNCTION(vkFreeMemory, destroy)
   RILL_FUNCTION(vkGetBufferMemoryRequirements, bufferRequirements)
+  RILL_FUNCTION(vkGetDeviceImageMemoryRequirements, imageRequirements)
   RILL_FUNCTION(vkGetQueryPoolResults, queryResults)
   RILL_FUNCTION(vkMapMemory, mapMemory)
   RILL_FUNCTION(vkResetDescriptorPool, resetPool)

@@ -8,10 +8,23 @@
 namespace rill::test {
 
 struct NullCommand {
-  enum Kind : uint8_t { Barrier, BindPipeline, BindSet, Dispatch, DispatchIndirect, Copy, Fill, ResetQueries, Timestamp } kind;
+  enum Kind : uint8_t {
+    Barrier,
+    BindPipeline,
+    BindSet,
+    Dispatch,
+    DispatchIndirect,
+    Copy,
+    CopyToImage,
+    CopyFromImage,
+    ClearImage,
+    Fill,
+    ResetQueries,
+    Timestamp
+  } kind;
   VkMemoryBarrier2 barrier;  ///< of Barrier
-  uint64_t handle;           ///< pipeline, set or target buffer
-  uint64_t a, b, c;          ///< groups; or source offset, target offset, bytes
+  uint64_t handle;           ///< pipeline, set, target buffer or image
+  uint64_t a, b, c;          ///< groups; source offset, target offset, bytes; layout, width, height; of Barrier: memory and image barriers
 };
 
 class NullVulkan {
@@ -28,7 +41,7 @@ class NullVulkan {
   std::vector<NullCommand> commands;
   VkResult allocationResult = VK_SUCCESS;  ///< what vkAllocateMemory answers
   int64_t liveObjects = 0;                 ///< created and not yet destroyed
-  size_t setsAllocated = 0, viewsCreated = 0, buffersCreated = 0;
+  size_t setsAllocated = 0, viewsCreated = 0, buffersCreated = 0, imagesCreated = 0;
 
  private:
   VkPhysicalDeviceVulkan13Features vulkan13_{};

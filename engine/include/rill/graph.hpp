@@ -21,28 +21,31 @@ struct ComputePipeline;
 class GraphImpl;
 class Graph;
 
-/// One version of a buffer in one frame's graph. Using last frame's, or a version that a later write consumed, is an error
+/// One version of a resource in one frame's graph. Using last frame's, or a version that a later write consumed, is an error
 /// that compile() reports with the pass and the resource.
-struct BufferRef {
+struct ResourceRef {
   uint32_t index = UINT32_MAX;
   uint32_t version = 0;
   uint32_t epoch = 0;
-  friend bool operator==(const BufferRef&, const BufferRef&) = default;
+  friend bool operator==(const ResourceRef&, const ResourceRef&) = default;
 };
+struct BufferRef : ResourceRef {};
+struct ImageRef : ResourceRef {};
 
-/// What a pass does with a resource, and in which stage. One table (graph/use_table.cpp) maps it to stage and access.
+/// What a pass does with a resource, and in which stage. One table (graph/use_table.cpp) maps it to stage, access and layout.
 enum class Use : uint8_t {
-  None,            ///< no access; as an import's `before`: nothing to wait for, as its `after`: left as it is
-  ComputeRead,     ///< storage buffer, read
+  None,            ///< no access; as an import's `before`: nothing to wait for (an image: no content), as its `after`: left as it is
+  ComputeRead,     ///< storage buffer or image, read
   ComputeTexel,    ///< uniform texel buffer, read
   ComputeUniform,  ///< uniform buffer, read
-  ComputeWrite,    ///< storage buffer, read and written
-  ComputeAtomic,   ///< storage buffer, atomics of one kind whose result is unused: they commute with each other, no barrier between
+  ComputeSampled,  ///< image, fetched or sampled
+  ComputeWrite,    ///< storage buffer or image, read and written
+  ComputeAtomic,   ///< the same, atomics of one kind whose result is unused: they commute with each other, no barrier between
   Indirect,        ///< dispatch arguments
   CopySource,
   CopyTarget,
   HostRead,  ///< read by the host after the frame has completed
-  Unknown    ///< as an import's `before` alone: anything may have happened to it
+  Unknown    ///< as an import's `before` alone: anything may have happened to it; an image's content is lost
 };
 
 struct BufferDesc {
@@ -57,8 +60,21 @@ struct BufferImport {
   Use after = Use::None;      ///< what it must be ready for after this graph; reached even when every pass is culled
 };
 
-/// Names a binding of a kernel: the buffer version and how the shader sees it follow from the pass's declared use.
-using Bindings = std::initializer_list<BufferRef>;
+/// A two-dimensional colour image of one level.
+struct ImageDesc {
+  VkFormat format = VK_FORMAT_UNDEFINED;
+  uint32_t width = 0, height = 0;  ///< texels
+};
+
+struct ImageImport {
+  VkImage handle = VK_NULL_HANDLE;
+  ImageDesc desc;
+  Use before = Use::Unknown;  ///< its last use before this graph, in whose layout it is
+  Use after = Use::None;      ///< what it must be ready for after this graph, and in whose layout; reached even when every pass is culled
+};
+
+/// Names a binding of a kernel: the version and how the shader sees it follow from the pass's declared use.
+using Bindings = std::initializer_list<ResourceRef>;
 
 /// A pipeline with what is bound to it, declared at set-up so that record() cannot fail.
 struct Kernel {
@@ -75,15 +91,17 @@ class Pass {
  public:
   /// A buffer may be read in several ways by one pass, but not read and written: a write reads as well.
   void read(BufferRef buffer, Use use);
+  void read(ImageRef image, Use use);
   /// Consumes `buffer` and returns the version that this pass makes. The old content is kept unless `discard`; a new
   /// transient has none to keep (so atomics on one are an error: fill it first).
   [[nodiscard]] BufferRef write(BufferRef buffer, Use use, bool discard = false);
+  [[nodiscard]] ImageRef write(ImageRef image, Use use, bool discard = false);
   /// The pass matters even if nobody reads what it writes.
   void sideEffect();
-  /// Binds buffers, in the order of the pipeline's bindings, each a version that this pass reads or one that it wrote.
-  Kernel kernel(const ComputePipeline* pipeline, std::span<const BufferRef> bindings);
+  /// Binds buffers and images, in the order of the pipeline's bindings, each a version that this pass reads or one that it wrote.
+  Kernel kernel(const ComputePipeline* pipeline, std::span<const ResourceRef> bindings);
   Kernel kernel(const ComputePipeline* pipeline, Bindings bindings) {
-    return kernel(pipeline, std::span<const BufferRef>(bindings.begin(), bindings.size()));
+    return kernel(pipeline, std::span<const ResourceRef>(bindings.begin(), bindings.size()));
   }
 
  private:
@@ -112,6 +130,10 @@ class Commands {
   }
   void copy(BufferRef source, BufferRef target, uint64_t bytes, uint64_t sourceOffset = 0, uint64_t targetOffset = 0);
   void fill(BufferRef target, uint32_t value, uint64_t offset = 0, uint64_t bytes = UINT64_MAX);  ///< UINT64_MAX: to the end
+  /// The whole image from or to tightly packed rows that start at `offset` bytes of the buffer.
+  void copy(BufferRef source, ImageRef target, uint64_t offset = 0);
+  void copy(ImageRef source, BufferRef target, uint64_t offset = 0);
+  void clear(ImageRef target, const VkClearColorValue& value);
   VkCommandBuffer handle() const;
 
  private:
@@ -152,7 +174,9 @@ class Graph {
   void reset();
 
   BufferRef create(std::string_view name, BufferDesc desc);  ///< transient: lives in the graph's own memory, content undefined at first
+  ImageRef create(std::string_view name, ImageDesc desc);
   BufferRef import(std::string_view name, const BufferImport& import);
+  ImageRef import(std::string_view name, const ImageImport& import);
 
   /// `setup(Pass&)` declares the pass and returns what records it, a callable taking Commands&.
   template <class Setup>
@@ -178,9 +202,10 @@ class Graph {
   std::span<const std::byte> data(Ticket ticket) const;
 
   /// Culls, orders, plans barriers and memory. Touches no GPU. BadInput, naming pass and resource, for a stale or consumed ref,
-  /// a read of a buffer that nobody wrote, a buffer of no size.
+  /// a read of a resource that nobody wrote, a buffer of no size. What memory an image of a new kind takes is an estimate.
   Expected<void> compile();
-  /// Everything that can fail: memory, descriptor sets, query pools.
+  /// Everything that can fail: memory, descriptor sets, query pools. Asks the device for the size of images of a new kind, and plans
+  /// again where the estimate was wrong.
   Expected<void> prepare(Device& device);
   /// Records into the host's command buffer, which is in the recording state and outside a render pass. Cannot fail.
   void record(VkCommandBuffer commandBuffer);

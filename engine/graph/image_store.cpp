@@ -1,0 +1,152 @@
+#include "graph/image_store.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "gpu/device_impl.hpp"
+#include "gpu/vulkan_error.hpp"
+
+namespace rill {
+namespace {
+
+std::string described(const ImageKind& kind, std::string_view name) {
+  return "image '" + std::string(name) + "' of " + std::to_string(kind.width) + " x " + std::to_string(kind.height) + " texels of format " +
+         std::to_string(kind.format);
+}
+
+VkImageCreateInfo createInfo(const ImageKind& kind) {
+  VkImageCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
+  create.flags = VK_IMAGE_CREATE_ALIAS_BIT;
+  create.imageType = VK_IMAGE_TYPE_2D;
+  create.format = kind.format;
+  create.extent = {kind.width, kind.height, 1};
+  create.mipLevels = create.arrayLayers = 1;
+  create.samples = VK_SAMPLE_COUNT_1_BIT;
+  create.tiling = VK_IMAGE_TILING_OPTIMAL;
+  create.usage = kind.usage;
+  return create;
+}
+
+/// What of `usage` this device cannot do with images of this format; null: nothing.
+const char* lacking(DeviceImpl& device, const ImageKind& kind) {
+  VkFormatProperties properties{};
+  device.instance.GetPhysicalDeviceFormatProperties(device.physical, kind.format, &properties);
+  constexpr struct {
+    VkImageUsageFlags usage;
+    VkFormatFeatureFlags feature;
+    const char* what;
+  } table[] = {{VK_IMAGE_USAGE_STORAGE_BIT, VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT, "storage images"},
+               {VK_IMAGE_USAGE_SAMPLED_BIT, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT, "sampled images"},
+               {VK_IMAGE_USAGE_TRANSFER_SRC_BIT, VK_FORMAT_FEATURE_TRANSFER_SRC_BIT, "copies from images"},
+               {VK_IMAGE_USAGE_TRANSFER_DST_BIT, VK_FORMAT_FEATURE_TRANSFER_DST_BIT, "copies to images"}};
+  for (const auto& row : table)
+    if ((kind.usage & row.usage) && !(properties.optimalTilingFeatures & row.feature)) return row.what;
+  return nullptr;
+}
+
+}  // namespace
+
+Expected<VkImageView> makeImageView(DeviceImpl& device, VkImage image, VkFormat format, std::string_view name) {
+  VkImageViewCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+  create.image = image;
+  create.viewType = VK_IMAGE_VIEW_TYPE_2D;
+  create.format = format;
+  create.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+  VkImageView view = VK_NULL_HANDLE;
+  if (VkResult r = device.vk.CreateImageView(device.handle, &create, device.callbacks, &view); r != VK_SUCCESS)
+    return vulkanError(r, "creating a view of image '" + std::string(name) + "'");
+  return view;
+}
+
+ImageStore::~ImageStore() {
+  for (const Placed& placed : placed_) retire(placed);
+  for (const Heap& heap : heaps_) device_->retired.add(device_->clock.recording, VK_OBJECT_TYPE_DEVICE_MEMORY, heap.memory);
+}
+
+void ImageStore::retire(const Placed& placed) {
+  device_->retired.add(device_->clock.recording, VK_OBJECT_TYPE_IMAGE_VIEW, placed.handles.view);
+  device_->retired.add(device_->clock.recording, VK_OBJECT_TYPE_IMAGE, placed.handles.image);
+}
+
+ImageNeeds ImageStore::needs(const ImageKind& kind) const {
+  const auto found = std::ranges::find(known_, kind, &Known::kind);
+  return found != known_.end() ? found->needs : ImageNeeds{16ull * kind.width * kind.height, 256};
+}
+
+Expected<bool> ImageStore::learn(DeviceImpl& device, const ImageKind& kind, std::string_view name) {
+  device_ = &device;
+  if (std::ranges::find(known_, kind, &Known::kind) != known_.end()) return false;
+  if (const char* what = lacking(device, kind))
+    return Error{ErrorKind::BadInput, described(kind, name) + ": " + device.info.name + " has no " + what + " of that format"};
+  if (std::max(kind.width, kind.height) > device.limits.maxImageDimension2D)
+    return Error{ErrorKind::BadInput, described(kind, name) + ": " + device.info.name + " allows " +
+                                          std::to_string(device.limits.maxImageDimension2D) + " a side"};
+  const VkImageCreateInfo create = createInfo(kind);
+  const VkDeviceImageMemoryRequirements ask{VK_STRUCTURE_TYPE_DEVICE_IMAGE_MEMORY_REQUIREMENTS, nullptr, &create,
+                                            VK_IMAGE_ASPECT_COLOR_BIT};
+  VkMemoryRequirements2 answer{VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
+  device.vk.GetDeviceImageMemoryRequirements(device.handle, &ask, &answer);
+  const VkMemoryRequirements& m = answer.memoryRequirements;
+  known_.push_back({kind, {m.size, m.alignment, m.memoryTypeBits}});
+  return true;
+}
+
+Expected<void> ImageStore::growHeaps(DeviceImpl& device, std::span<const uint64_t> sizes, uint32_t memoryTypes) {
+  if (sizes.empty()) return {};
+  const auto type = device.chooseMemoryType(memoryTypes, MemoryKind::Device);
+  if (!type) return Error{ErrorKind::NoDevice, "device '" + device.info.name + "' has no memory that all images of a frame can lie in"};
+  if (heaps_.size() < sizes.size()) heaps_.resize(sizes.size());
+  for (uint32_t i = 0; i < sizes.size(); ++i) {
+    Heap& heap = heaps_[i];
+    if (heap.memory && heap.size >= sizes[i] && heap.type == *type) continue;
+    // Frames in flight may still use the old one, and what lies in it.
+    for (const Placed& placed : placed_)
+      if (placed.heap == i) retire(placed);
+    std::erase_if(placed_, [i](const Placed& placed) { return placed.heap == i; });
+    device.retired.add(device.clock.recording, VK_OBJECT_TYPE_DEVICE_MEMORY, heap.memory);
+    heap = {};
+    const VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, sizes[i], *type};
+    if (VkResult r = device.vk.AllocateMemory(device.handle, &allocate, device.callbacks, &heap.memory); r != VK_SUCCESS)
+      return vulkanError(r, "allocating " + bytesText(sizes[i]) + " for transient images");
+    heap.size = sizes[i];
+    heap.type = *type;
+  }
+  return {};
+}
+
+Expected<ImageStore::Handles> ImageStore::place(DeviceImpl& device, const ImageKind& kind, uint32_t heap, uint64_t offset,
+                                                std::string_view name) {
+  for (Placed& placed : placed_)
+    if (placed.heap == heap && placed.offset == offset && placed.kind == kind) {
+      placed.used = true;
+      return placed.handles;
+    }
+  Placed made{kind, heap, offset, {}};
+  const VkImageCreateInfo create = createInfo(kind);
+  if (VkResult r = device.vk.CreateImage(device.handle, &create, device.callbacks, &made.handles.image); r != VK_SUCCESS)
+    return vulkanError(r, "creating " + described(kind, name));
+  VkResult bound = device.vk.BindImageMemory(device.handle, made.handles.image, heaps_[heap].memory, offset);
+  if (bound != VK_SUCCESS) {
+    retire(made);
+    return vulkanError(bound, "binding the memory of " + described(kind, name));
+  }
+  if (kind.usage & kViewedUsage) {
+    auto view = makeImageView(device, made.handles.image, kind.format, name);
+    if (!view) {
+      retire(made);
+      return view.error();
+    }
+    made.handles.view = *view;
+  }
+  placed_.push_back(made);
+  return made.handles;
+}
+
+void ImageStore::sweep() {
+  for (const Placed& placed : placed_)
+    if (!placed.used) retire(placed);
+  std::erase_if(placed_, [](const Placed& placed) { return !placed.used; });
+  for (Placed& placed : placed_) placed.used = false;
+}
+
+}  // namespace rill

@@ -1,0 +1,81 @@
+#pragma once
+// Transient images on the device: what they take of memory, the heaps that they lie in, and their handles, kept from frame to frame.
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "rill/expected.hpp"
+#include "rill/graph.hpp"
+
+namespace rill {
+
+class DeviceImpl;
+
+struct ImageKind {
+  VkFormat format = VK_FORMAT_UNDEFINED;
+  uint32_t width = 0, height = 0;
+  VkImageUsageFlags usage = 0;
+  friend bool operator==(const ImageKind&, const ImageKind&) = default;
+};
+
+struct ImageNeeds {
+  uint64_t size = 0, alignment = 1;
+  uint32_t memoryTypes = ~0u;
+};
+
+/// Uses that see an image through a view.
+inline constexpr VkImageUsageFlags kViewedUsage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+
+class ImageStore {
+ public:
+  struct Handles {
+    VkImage image = VK_NULL_HANDLE;
+    VkImageView view = VK_NULL_HANDLE;  ///< null where no use needs one
+  };
+
+  ImageStore() = default;
+  ~ImageStore();
+  ImageStore(const ImageStore&) = delete;
+  ImageStore& operator=(const ImageStore&) = delete;
+
+  /// What the device said of this kind; before it was asked, 16 bytes a texel.
+  ImageNeeds needs(const ImageKind& kind) const;
+  /// Asks the device, once a kind; true where that was news. BadInput, naming the image, where the device cannot make it.
+  Expected<bool> learn(DeviceImpl& device, const ImageKind& kind, std::string_view name);
+  /// Heaps of at least these sizes, of a type among `memoryTypes`.
+  Expected<void> growHeaps(DeviceImpl& device, std::span<const uint64_t> sizes, uint32_t memoryTypes);
+  /// The image of this kind at this place, made if there is none yet.
+  Expected<Handles> place(DeviceImpl& device, const ImageKind& kind, uint32_t heap, uint64_t offset, std::string_view name);
+  /// Retires what has not been placed since the last sweep.
+  void sweep();
+
+ private:
+  struct Known {
+    ImageKind kind;
+    ImageNeeds needs;
+  };
+  struct Heap {
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    uint64_t size = 0;
+    uint32_t type = 0;
+  };
+  struct Placed {
+    ImageKind kind;
+    uint32_t heap = 0;
+    uint64_t offset = 0;
+    Handles handles;
+    bool used = true;
+  };
+  void retire(const Placed& placed);
+
+  DeviceImpl* device_ = nullptr;
+  std::vector<Known> known_;
+  std::vector<Heap> heaps_;
+  std::vector<Placed> placed_;
+};
+
+/// A view of the whole image.
+Expected<VkImageView> makeImageView(DeviceImpl& device, VkImage image, VkFormat format, std::string_view name);
+
+}  // namespace rill
