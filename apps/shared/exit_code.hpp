@@ -16,7 +16,7 @@ enum ExitCode : int {
 inline int exitCodeBeforeRun(const Error& error) {
   switch (error.kind) {
     case ErrorKind::BadInput:
-    case ErrorKind::OutOfMemory:
+    case ErrorKind::TooLarge:
       return kBadInput;
     case ErrorKind::NoDevice:
       return kNoDevice;

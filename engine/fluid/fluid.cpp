@@ -55,7 +55,7 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   const uint64_t available = device.info().deviceLocalBytes;
   const uint64_t largest = (n + 1) * 16;
   if (impl->memory.total() > available || largest > kMaxBuffer || n > KeySortDesc::kMaxCount)
-    return Error{ErrorKind::OutOfMemory, std::to_string(n) + " particles need " + mebibytes(impl->memory.total()) + " on the device; \"" +
+    return Error{ErrorKind::TooLarge, std::to_string(n) + " particles need " + mebibytes(impl->memory.total()) + " on the device; \"" +
                                              device.info().name + "\" has " + mebibytes(available) + " and holds at most " +
                                              std::to_string(KeySortDesc::kMaxCount) +
                                              " particles: make fluid.spacing larger or fluid.particles smaller"};
@@ -98,7 +98,7 @@ Expected<void> FluidImpl::makeBuffers(Device& device, const ParticleSet& particl
   setup.params.chunkParticles = chunk;
   for (uint32_t first = 0; first < count; first += chunk) chunks_.push_back({first, std::min(count, first + chunk)});
   if (chunks_.size() > kMaxListChunks)
-    return Error{ErrorKind::OutOfMemory, "the neighbour list of " + std::to_string(n) + " particles at this smoothing_ratio needs " +
+    return Error{ErrorKind::TooLarge, "the neighbour list of " + std::to_string(n) + " particles at this smoothing_ratio needs " +
                                              mebibytes(memory.list_bytes) + ", more than " + std::to_string(kMaxListChunks) +
                                              " buffers of 128 MiB: make smoothing_ratio smaller"};
   texel_ = !storageReads && device.info().maxTexelBufferElements >= std::max<uint64_t>(more, uint64_t{chunk} * p.listCapacity / 4);

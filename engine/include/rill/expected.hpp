@@ -9,9 +9,10 @@ namespace rill {
 /// What went wrong, coarse enough for a caller to branch on. Apps turn it into an exit code.
 enum class ErrorKind {
   BadInput,     ///< a file, key, option or argument that the caller can correct
+  TooLarge,     ///< more than the device can hold, refused before anything was allocated: the message says how much of what
   NoDevice,     ///< no Vulkan device that can run Rill
   DeviceLost,   ///< the driver reported VK_ERROR_DEVICE_LOST
-  OutOfMemory,  ///< host or device memory
+  OutOfMemory,  ///< host or device memory ran out
   Shader,       ///< a shader or a pipeline could not be made
   Io,           ///< reading or writing a file
   Failed        ///< anything else

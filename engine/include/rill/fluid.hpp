@@ -18,7 +18,6 @@ namespace rill {
 struct FluidDesc {
   const Scene* scene = nullptr;  ///< settings, domain, solids, gravity; fluid.spacing > 0
   const ParticleSet* particles = nullptr;
-  uint64_t listBytes = 0;     ///< cap on the neighbour list's memory; 0: what the device's buffers allow
   bool settle = true;         ///< before the first substep, part particles that overlap at the start: positions move, speeds do not
   bool storageReads = false;  ///< gather through storage buffers even where texel buffers would hold enough (slower on most CPU drivers)
 };
@@ -89,8 +88,8 @@ class FluidImpl;
 /// host's; lives longer than every command buffer that they were recorded into.
 class Fluid {
  public:
-  /// BadInput for a description that cannot run, OutOfMemory (with bytes needed and available, nothing allocated) where the device cannot
-  /// hold it.
+  /// BadInput for a description that cannot run, TooLarge (with bytes needed and available) where the device cannot hold it: nothing was
+  /// allocated then. OutOfMemory where memory ran out.
   static Expected<std::unique_ptr<Fluid>> create(Device& device, const FluidDesc& desc);
   ~Fluid();
 

@@ -57,7 +57,7 @@ struct Stats : FluidStats {
 /// One scene on a device of its own. Not for several threads at once.
 class Simulation {
  public:
-  /// `scene` is a path to a scene file. BadInput, NoDevice, OutOfMemory (with bytes needed and available).
+  /// `scene` is a path to a scene file. BadInput, NoDevice, TooLarge (with bytes needed and available), OutOfMemory.
   static Expected<std::unique_ptr<Simulation>> open(const std::filesystem::path& scene, const Options& options = {});
   /// A scene that was read before, with its overrides applied (those of `options` are not). The scene is judged before a device is opened.
   static Expected<std::unique_ptr<Simulation>> open(Scene scene, const Options& options = {});

@@ -1,0 +1,79 @@
+// A device that is lost, memory that runs out, a shader that the driver refuses: the tool says what it was doing, exits with 1, and leaves
+// whole files. tests/failing_layer makes the calls fail.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "support/child_process.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace rill::test {
+namespace {
+
+constexpr const char* kDrop = R"({
+  "rill": "0.1", "duration": 1,
+  "domain": {"min": [0, 0, 0], "max": [1, 1, 1]},
+  "fluid": {"spacing": 0.1},
+  "fill": [{"box": {"min": [0, 0, 0], "max": [0.5, 0.5, 0.5]}}]
+})";
+
+struct Failure {
+  const char* name;
+  const char* plan;     ///< function, which call, what it returns
+  const char* message;  ///< a regular expression
+};
+
+void PrintTo(const Failure& failure, std::ostream* out) { *out << failure.plan; }
+
+class DeviceFailure : public ::testing::TestWithParam<Failure> {
+ protected:
+  Outcome run(const std::string& plan) {
+    const std::string scene = folder.write("drop.json", kDrop).string();
+    return capture({scene, "--frames", "6", "--size", "64x48", "--stats", "stats.json", "--export", "ply"}, folder.string(),
+                   {{"VK_LAYER_PATH", RILL_FAILING_LAYER_FOLDER}, {"VK_INSTANCE_LAYERS", "VK_LAYER_RILL_failing"}, {"RILL_TEST_FAIL", plan}});
+  }
+  TemporaryFolder folder;
+};
+
+TEST_P(DeviceFailure, IsToldAndLeavesWholeFiles) {
+  const Outcome outcome = run(GetParam().plan);
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  EXPECT_TRUE(std::regex_search(outcome.err, std::regex(GetParam().message))) << outcome.err;
+  if (std::filesystem::exists(folder / "stats.json")) {
+    EXPECT_LT(nlohmann::json::parse(contentOf(folder / "stats.json"))["frames"].size(), 6u) << "figures of the frames so far";
+  }
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.string())) {
+    if (!entry.is_regular_file()) continue;
+    const std::string bytes = contentOf(entry.path());
+    const auto extension = entry.path().extension();
+    EXPECT_TRUE(extension == ".json" || extension == ".png" || extension == ".ply") << "left behind: " << entry.path();
+    if (extension == ".png") { EXPECT_EQ(bytes.substr(bytes.size() - 8, 4), "IEND") << entry.path(); }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Calls, DeviceFailure,
+    ::testing::Values(Failure{"LostAtSubmit", "vkQueueSubmit2 4 -4", "submitting frame 4 on .*VK_ERROR_DEVICE_LOST"},
+                      Failure{"LostWhileWaiting", "vkWaitSemaphores 3 -4", "waiting for frame [0-9]+ on .*VK_ERROR_DEVICE_LOST"},
+                      Failure{"NoDeviceMemory", "vkAllocateMemory 5 -2", "allocating .* for buffer '.*VK_ERROR_OUT_OF_DEVICE_MEMORY"},
+                      Failure{"NoHostMemory", "vkCreateBuffer 2 -1", "creating buffer '.*VK_ERROR_OUT_OF_HOST_MEMORY"},
+                      Failure{"ShaderModule", "vkCreateShaderModule 3 -13", "creating the module of shader '.*-13"},
+                      Failure{"Pipeline", "vkCreateComputePipelines 3 -3",
+                              "compiling the pipeline of shader '.*VK_ERROR_INITIALIZATION_FAILED"}),
+    [](const auto& failure) { return failure.param.name; });
+
+class WithoutFailure : public DeviceFailure {};
+
+// The layer itself is harmless, and it is there: a call that never comes fails nothing.
+TEST_P(WithoutFailure, TheToolRuns) {
+  const Outcome outcome = run(GetParam().plan);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(std::filesystem::exists(folder / "stats.json"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Calls, WithoutFailure, ::testing::Values(Failure{"Never", "vkQueueSubmit2 1000000 -4", ""}),
+                         [](const auto& failure) { return failure.param.name; });
+
+}  // namespace
+}  // namespace rill::test
