@@ -173,7 +173,7 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
   options.device = raw.device;
   for (const std::string& text : raw.set) {
     auto assignment = parseOverride(text);
-    if (!assignment) return Error{ErrorKind::BadInput, "--set: " + assignment.error().message};
+    if (!assignment) return assignment.error();
     options.overrides.push_back(std::move(*assignment));
   }
   if (given("--particles")) options.overrides.push_back({"fluid.particles", raw.particles});

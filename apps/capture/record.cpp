@@ -193,40 +193,25 @@ std::string Record::json() const {
 }
 
 std::string Record::passTable() const {
-  struct Total {
-    double ms = 0;
-    uint64_t runs = 0;
-    std::string reason;
-  };
-  std::vector<std::string> order;
-  std::map<std::string, Total> totals;
-  const auto total = [&](const std::string& name) -> Total& {
-    const auto [found, isNew] = totals.try_emplace(name);
-    if (isNew) order.push_back(name);
-    return found->second;
-  };
+  std::vector<offline::PassTime> passes;
+  std::vector<offline::SkippedPass> skipped;
+  uint64_t substeps = 0, builds = 0;
   for (const Frame& frame : frames_) {
     for (const offline::PassTime& pass : frame.stats.pass_ms) {
-      total(pass.name).ms += pass.ms;
-      total(pass.name).runs += pass.runs;
+      auto found = std::ranges::find(passes, pass.name, &offline::PassTime::name);
+      if (found == passes.end()) found = passes.insert(passes.end(), {pass.name});
+      found->ms += pass.ms;
+      found->runs += pass.runs;
     }
-    for (const auto& [name, reason] : frame.stats.skipped) total(name).reason = reason;
+    substeps += frame.stats.substeps;
+    builds += frame.stats.list_builds;
   }
-  std::string text;
-  char line[256];
-  std::snprintf(line, sizeof line, "%-36s %9s %11s %10s\n", "pass", "recorded", "ms", "us each");
-  text += line;
-  for (const std::string& name : order) {
-    const Total& pass = totals.at(name);
-    if (pass.runs == 0) continue;
-    std::snprintf(line, sizeof line, "%-36s %9llu %11.3f %10.2f\n", name.c_str(), static_cast<unsigned long long>(pass.runs), pass.ms,
-                  1e3 * pass.ms / double(pass.runs));
-    text += line;
-  }
-  for (const std::string& name : order)
-    if (const Total& pass = totals.at(name); pass.runs == 0)
-      text += name + std::string(name.size() < 36 ? 36 - name.size() : 0, ' ') + " skipped: " + pass.reason + "\n";
-  return text;
+  for (const Frame& frame : frames_)
+    for (const offline::SkippedPass& skip : frame.stats.skipped)
+      if (std::ranges::find(passes, skip.first, &offline::PassTime::name) == passes.end() &&
+          std::ranges::find(skipped, skip.first, &offline::SkippedPass::first) == skipped.end())
+        skipped.push_back(skip);
+  return offline::passTable(passes, skipped, substeps, builds);
 }
 
 }  // namespace rill::capture

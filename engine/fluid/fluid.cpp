@@ -56,9 +56,9 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   const uint64_t largest = (n + 1) * 16;
   if (impl->memory.total() > available || largest > kMaxBuffer || n > KeySortDesc::kMaxCount)
     return Error{ErrorKind::TooLarge, std::to_string(n) + " particles need " + mebibytes(impl->memory.total()) + " on the device; \"" +
-                                             device.info().name + "\" has " + mebibytes(available) + " and holds at most " +
-                                             std::to_string(KeySortDesc::kMaxCount) +
-                                             " particles: make fluid.spacing larger or fluid.particles smaller"};
+                                          device.info().name + "\" has " + mebibytes(available) + " and holds at most " +
+                                          std::to_string(KeySortDesc::kMaxCount) +
+                                          " particles: make fluid.spacing larger or fluid.particles smaller"};
   if (particles.velocities.size() != n)
     return Error{ErrorKind::BadInput, "a fluid needs as many velocities as positions: " + std::to_string(particles.velocities.size()) +
                                           " for " + std::to_string(n)};
@@ -99,8 +99,8 @@ Expected<void> FluidImpl::makeBuffers(Device& device, const ParticleSet& particl
   for (uint32_t first = 0; first < count; first += chunk) chunks_.push_back({first, std::min(count, first + chunk)});
   if (chunks_.size() > kMaxListChunks)
     return Error{ErrorKind::TooLarge, "the neighbour list of " + std::to_string(n) + " particles at this smoothing_ratio needs " +
-                                             mebibytes(memory.list_bytes) + ", more than " + std::to_string(kMaxListChunks) +
-                                             " buffers of 128 MiB: make smoothing_ratio smaller"};
+                                          mebibytes(memory.list_bytes) + ", more than " + std::to_string(kMaxListChunks) +
+                                          " buffers of 128 MiB: make smoothing_ratio smaller"};
   texel_ = !storageReads && device.info().maxTexelBufferElements >= std::max<uint64_t>(more, uint64_t{chunk} * p.listCapacity / 4);
 
   auto sort = KeySort::create(device, {.count = count, .keyRange = setup.grid.cells(), .start = true});

@@ -34,24 +34,27 @@ std::vector<PassTime> PassLog::times() const {
   return times;
 }
 
-std::vector<std::pair<std::string, std::string>> PassLog::skipped() const {
-  std::vector<std::pair<std::string, std::string>> skipped;
+std::vector<SkippedPass> PassLog::skipped() const {
+  std::vector<SkippedPass> skipped;
   for (const Entry& e : entries_)
     if (e.runs == 0 && !e.reason.empty()) skipped.emplace_back(e.name, e.reason);
   return skipped;
 }
 
-std::string PassLog::table() const {
-  std::string text;
-  for (const Entry& e : entries_) {
-    if (e.runs == 0) continue;
-    char line[256];
-    std::snprintf(line, sizeof line, "%-36s %7u runs %11.3f ms\n", e.name.c_str(), e.runs, e.ms);
+std::string passTable(std::span<const PassTime> passes, std::span<const SkippedPass> skipped, uint64_t substeps, uint64_t listBuilds) {
+  char line[256];
+  std::snprintf(line, sizeof line, "%-36s %9s %11s %10s\n", "pass", "recorded", "ms", "us each");
+  std::string text = line;
+  for (const PassTime& pass : passes) {
+    std::snprintf(line, sizeof line, "%-36s %9u %11.3f %10.2f\n", pass.name.c_str(), pass.runs, pass.ms, 1e3 * pass.ms / pass.runs);
     text += line;
   }
-  for (const auto& [name, reason] : skipped())
+  for (const auto& [name, reason] : skipped)
     text += name + std::string(name.size() < 36 ? 36 - name.size() : 0, ' ') + " skipped: " + reason + "\n";
-  return text;
+  std::snprintf(line, sizeof line,
+                "the device ran %llu substeps and built the neighbour list %llu times; what was recorded beyond that was empty\n",
+                static_cast<unsigned long long>(substeps), static_cast<unsigned long long>(listBuilds));
+  return text + line;
 }
 
 }  // namespace rill::offline

@@ -18,9 +18,8 @@ class PassLog {
   /// Of that graph, once it has completed.
   void add(std::span<const Timing> timings);
 
-  std::vector<PassTime> times() const;                               ///< passes that ran, in the order met
-  std::vector<std::pair<std::string, std::string>> skipped() const;  ///< passes that never ran, with the reason
-  std::string table() const;                                         ///< for a person
+  std::vector<PassTime> times() const;       ///< passes that ran, in the order met
+  std::vector<SkippedPass> skipped() const;  ///< passes that never ran
 
  private:
   struct Entry {

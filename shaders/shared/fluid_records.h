@@ -115,7 +115,6 @@ struct FluidSums {
   uint boundHits;            // loops cut at their bound since the start
   uint planeCount;           // particles near one wall, at the last build
   uint cornerCount;          // particles near several walls or a solid, at the last build
-  uint spare0, spare1, spare2;
 };
 RILL_CONST float kErrorUnit = 1.0f / 16777216.0f;
 

@@ -30,8 +30,9 @@ class DeviceFailure : public ::testing::TestWithParam<Failure> {
  protected:
   Outcome run(const std::string& plan) {
     const std::string scene = folder.write("drop.json", kDrop).string();
-    return capture({scene, "--frames", "6", "--size", "64x48", "--stats", "stats.json", "--export", "ply"}, folder.string(),
-                   {{"VK_LAYER_PATH", RILL_FAILING_LAYER_FOLDER}, {"VK_INSTANCE_LAYERS", "VK_LAYER_RILL_failing"}, {"RILL_TEST_FAIL", plan}});
+    return capture(
+        {scene, "--frames", "6", "--size", "64x48", "--stats", "stats.json", "--export", "ply"}, folder.string(),
+        {{"VK_LAYER_PATH", RILL_FAILING_LAYER_FOLDER}, {"VK_INSTANCE_LAYERS", "VK_LAYER_RILL_failing"}, {"RILL_TEST_FAIL", plan}});
   }
   TemporaryFolder folder;
 };

@@ -1,12 +1,12 @@
-// A Vulkan layer that makes one call fail: RILL_TEST_FAIL="vkQueueSubmit2 3 -4" has the third vkQueueSubmit2 return -4 (VK_ERROR_DEVICE_LOST).
-// It serves one instance and one device, as the programs that it tests have.
+// A Vulkan layer that makes one call fail: RILL_TEST_FAIL="vkQueueSubmit2 3 -4" has the third vkQueueSubmit2 return -4
+// (VK_ERROR_DEVICE_LOST). It serves one instance and one device, as the programs that it tests have.
+#include <vulkan/vk_layer.h>
+#include <vulkan/vulkan_core.h>
+
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-
-#include <vulkan/vk_layer.h>
-#include <vulkan/vulkan_core.h>
 
 #define EXPORTED extern "C" __attribute__((visibility("default")))
 
@@ -72,7 +72,8 @@ Link* takeLink(const Info* info, VkStructureType type) {
   return nullptr;
 }
 
-VKAPI_ATTR VkResult VKAPI_CALL createInstance(const VkInstanceCreateInfo* info, const VkAllocationCallbacks* callbacks, VkInstance* instance) {
+VKAPI_ATTR VkResult VKAPI_CALL createInstance(const VkInstanceCreateInfo* info, const VkAllocationCallbacks* callbacks,
+                                              VkInstance* instance) {
   auto* link = takeLink<VkLayerInstanceCreateInfo>(info, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
   if (!link) return VK_ERROR_INITIALIZATION_FAILED;
   nextInstanceProc = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
@@ -80,14 +81,15 @@ VKAPI_ATTR VkResult VKAPI_CALL createInstance(const VkInstanceCreateInfo* info, 
   return reinterpret_cast<PFN_vkCreateInstance>(nextInstanceProc(VK_NULL_HANDLE, "vkCreateInstance"))(info, callbacks, instance);
 }
 
-VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkDeviceCreateInfo* info, const VkAllocationCallbacks* callbacks,
-                                            VkDevice* device) {
+VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkDeviceCreateInfo* info,
+                                            const VkAllocationCallbacks* callbacks, VkDevice* device) {
   auto* link = takeLink<VkLayerDeviceCreateInfo>(info, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
   if (!link) return VK_ERROR_INITIALIZATION_FAILED;
   const PFN_vkGetInstanceProcAddr instanceProc = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
   nextDeviceProc = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
   link->u.pLayerInfo = link->u.pLayerInfo->pNext;
-  const VkResult made = reinterpret_cast<PFN_vkCreateDevice>(instanceProc(VK_NULL_HANDLE, "vkCreateDevice"))(physical, info, callbacks, device);
+  const VkResult made =
+      reinterpret_cast<PFN_vkCreateDevice>(instanceProc(VK_NULL_HANDLE, "vkCreateDevice"))(physical, info, callbacks, device);
   if (made != VK_SUCCESS) return made;
 #define FIND(function)                                               \
   Failing<PFN_vk##function>::Of<k##function>::name = "vk" #function; \
@@ -100,8 +102,9 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkD
 PFN_vkVoidFunction own(const char* name) {
   if (std::strcmp(name, "vkCreateInstance") == 0) return reinterpret_cast<PFN_vkVoidFunction>(&createInstance);
   if (std::strcmp(name, "vkCreateDevice") == 0) return reinterpret_cast<PFN_vkVoidFunction>(&createDevice);
-#define LOOK(function) \
-  if (std::strcmp(name, "vk" #function) == 0) return reinterpret_cast<PFN_vkVoidFunction>(&Failing<PFN_vk##function>::Of<k##function>::call);
+#define LOOK(function)                        \
+  if (std::strcmp(name, "vk" #function) == 0) \
+    return reinterpret_cast<PFN_vkVoidFunction>(&Failing<PFN_vk##function>::Of<k##function>::call);
   FAILING_FUNCTIONS(LOOK)
 #undef LOOK
   return nullptr;

@@ -44,7 +44,7 @@ void properties(VkPhysicalDevice, VkPhysicalDeviceProperties2* out) {
   p.limits.maxUniformBufferRange = 65536;
   p.limits.maxImageDimension2D = 4096;
   p.limits.maxTexelBufferElements = 65536;
-  p.limits.maxPerStageDescriptorStorageBuffers = 16;
+  p.limits.maxPerStageDescriptorStorageBuffers = 64;
   p.limits.minStorageBufferOffsetAlignment = p.limits.minUniformBufferOffsetAlignment = p.limits.minTexelBufferOffsetAlignment = 64;
   p.limits.timestampPeriod = 1;
   for (auto* next = static_cast<VkBaseOutStructure*>(out->pNext); next; next = next->pNext) {
@@ -80,8 +80,12 @@ void queueFamilies(VkPhysicalDevice, uint32_t* count, VkQueueFamilyProperties* o
   if (out) *out = {VK_QUEUE_COMPUTE_BIT | VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_TRANSFER_BIT, 1, 64, {1, 1, 1}};
 }
 
-VkResult createBuffer(VkDevice, const VkBufferCreateInfo*, const VkAllocationCallbacks*, VkBuffer* out) {
+// A buffer's requirements are asked for, its memory allocated and mapped, before the next one is created.
+uint64_t newestBuffer = 0, newestAllocation = 0;
+
+VkResult createBuffer(VkDevice, const VkBufferCreateInfo* info, const VkAllocationCallbacks*, VkBuffer* out) {
   ++current->buffersCreated;
+  current->bufferBytes += newestBuffer = info->size;
   *out = newHandle<VkBuffer>();
   return VK_SUCCESS;
 }
@@ -92,10 +96,11 @@ VkResult createView(VkDevice, const VkBufferViewCreateInfo*, const VkAllocationC
   return VK_SUCCESS;
 }
 
-void bufferRequirements(VkDevice, VkBuffer, VkMemoryRequirements* out) { *out = {4096, 64, 1}; }
+void bufferRequirements(VkDevice, VkBuffer, VkMemoryRequirements* out) { *out = {std::max<uint64_t>(4096, newestBuffer), 64, 1}; }
 
-VkResult allocateMemory(VkDevice, const VkMemoryAllocateInfo*, const VkAllocationCallbacks*, VkDeviceMemory* out) {
+VkResult allocateMemory(VkDevice, const VkMemoryAllocateInfo* info, const VkAllocationCallbacks*, VkDeviceMemory* out) {
   if (current->allocationResult != VK_SUCCESS) return current->allocationResult;
+  newestAllocation = info->allocationSize;
   *out = newHandle<VkDeviceMemory>();
   return VK_SUCCESS;
 }
@@ -115,7 +120,7 @@ void imageRequirements(VkDevice, const VkDeviceImageMemoryRequirements* info, Vk
 }
 
 VkResult mapMemory(VkDevice, VkDeviceMemory, VkDeviceSize, VkDeviceSize, VkMemoryMapFlags, void** out) {
-  mappings.push_back(std::make_unique<std::byte[]>(1 << 16));  // more than any test reads back
+  mappings.push_back(std::make_unique<std::byte[]>(newestAllocation));
   *out = mappings.back().get();
   return VK_SUCCESS;
 }

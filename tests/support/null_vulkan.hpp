@@ -40,6 +40,7 @@ class NullVulkan {
 
   std::vector<NullCommand> commands;
   VkResult allocationResult = VK_SUCCESS;  ///< what vkAllocateMemory answers
+  uint64_t bufferBytes = 0;                ///< of all buffers that were created
   int64_t liveObjects = 0;                 ///< created and not yet destroyed
   size_t setsAllocated = 0, viewsCreated = 0, buffersCreated = 0, imagesCreated = 0;
 

@@ -41,8 +41,12 @@ struct Image {
 struct PassTime {
   std::string name;
   double ms = 0;
-  uint32_t runs = 0;
+  uint32_t runs = 0;  ///< times recorded: the device leaves out substeps and rebuilds that are not due, which then cost an empty dispatch
 };
+using SkippedPass = std::pair<std::string, std::string>;  ///< and the reason
+
+/// A table for people: what was recorded and the time it took, then what was skipped and why.
+std::string passTable(std::span<const PassTime> passes, std::span<const SkippedPass> skipped, uint64_t substeps, uint64_t listBuilds);
 
 /// Everything `rill-capture --stats` writes about an instant.
 struct Stats : FluidStats {
@@ -51,7 +55,7 @@ struct Stats : FluidStats {
   std::vector<std::pair<std::string, double>> probes;  ///< name and value, m
   double wall_s = 0;                                   ///< spent since the instant before, simulation alone
   std::vector<PassTime> pass_ms;
-  std::vector<std::pair<std::string, std::string>> skipped;  ///< pass, reason
+  std::vector<SkippedPass> skipped;
 };
 
 /// One scene on a device of its own. Not for several threads at once.

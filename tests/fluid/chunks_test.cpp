@@ -1,0 +1,39 @@
+// A neighbour list too long for one buffer of 128 MiB.
+#include <glm/geometric.hpp>
+
+#include "rig.hpp"
+
+namespace rill::test {
+namespace {
+
+using Chunks = FluidTest;
+
+TEST_F(Chunks, TwoListsGiveWhatTheGridGives) {
+  Trial t = trial();
+  t.x = block({100, 85, 80}, t.d(), glm::dvec3(0), 0.1);
+  t.v.assign(t.x.size(), glm::dvec3(0));
+  Snapshot listed, walked;
+  {
+    const auto run = start(t);
+    ASSERT_GT(run->fluid().memory().list_bytes, uint64_t{128} << 20);
+    run->substeps(2);
+    listed = run->snapshot();
+  }
+  t.scene.solver.neighbors = NeighborChoice::Grid;
+  {
+    const auto run = start(t);
+    run->substeps(2);
+    walked = run->snapshot();
+  }
+  ASSERT_EQ(listed.x.size(), walked.x.size());
+  double worst = 0, moved = 0;
+  for (size_t i = 0; i < listed.x.size(); ++i) {
+    worst = std::max(worst, glm::length(listed.x[i] - walked.x[i]) / t.d());
+    moved = std::max(moved, glm::length(listed.x[i] - t.x[i]) / t.d());
+  }
+  EXPECT_LT(worst, 1e-3);
+  EXPECT_GT(moved, 0.02) << "nothing to compare";
+}
+
+}  // namespace
+}  // namespace rill::test

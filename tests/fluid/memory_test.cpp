@@ -1,0 +1,61 @@
+// What a fluid says that it needs, against the buffers that are created: for the fluid, and for the transients of a frame.
+#include <gtest/gtest.h>
+
+#include "fluid/fluid_impl.hpp"
+#include "rill/graph.hpp"
+#include "support/null_vulkan.hpp"
+
+namespace rill::test {
+namespace {
+
+struct Case {
+  const char* name;
+  uint32_t count;
+  void (*change)(Scene&);
+};
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+class FluidMemoryTest : public ::testing::TestWithParam<Case> {};
+
+TEST_P(FluidMemoryTest, IsWhatIsAllocated) {
+  NullVulkan vulkan;
+  auto device = Device::borrow(vulkan.host());
+  ASSERT_TRUE(device);
+  (*device)->beginFrame({1, 0});
+  Scene scene;
+  scene.fluid.spacing = 0.1;
+  scene.domain = Domain{};
+  scene.domain->max[0] = scene.domain->max[1] = scene.domain->max[2] = 100;
+  GetParam().change(scene);
+  ParticleSet particles;
+  const uint32_t n = GetParam().count;
+  for (uint32_t i = 0; i < n; ++i)
+    particles.positions.push_back({float(i % 100) * 0.1f, float(i / 100 % 100) * 0.1f, float(i / 10000) * 0.1f});
+  particles.velocities.resize(n);
+
+  auto fluid = Fluid::create(**device, {.scene = &scene, .particles = &particles});
+  ASSERT_TRUE(fluid) << fluid.error().message;
+  const FluidMemory said = (*fluid)->memory();
+  EXPECT_EQ(said.total(), fluidMemory(scene, n).total());
+  Graph graph;
+  (void)(*fluid)->addTo(graph, {.advance_s = 0.01});
+  ASSERT_TRUE(graph.compile());
+  ASSERT_TRUE(graph.prepare(**device));
+  // Not counted: the start state on its way to the device, tables, parameters, read-backs; half a MiB at most.
+  const double upload = double(n) * (2 * 16 + 4), others = 512 * 1024;
+  EXPECT_LE(double(vulkan.bufferBytes), double(said.total()) + upload + others) << "less was announced than was allocated";
+  EXPECT_GE(double(vulkan.bufferBytes), 0.75 * double(said.total())) << "far more was announced";
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, FluidMemoryTest,
+                         ::testing::Values(Case{"Plain", 100000, [](Scene&) {}},
+                                           Case{"Grid", 100000, [](Scene& s) { s.solver.neighbors = NeighborChoice::Grid; }},
+                                           Case{"Iterations", 100000, [](Scene& s) { s.solver.iterations = 4; }},
+                                           Case{"Terms", 100000, [](Scene& s) { s.fluid.viscosity = 1, s.fluid.vorticity = 0.5; }},
+                                           Case{"WideSupport", 50000, [](Scene& s) { s.fluid.smoothing_ratio = 3; }},
+                                           Case{"SeveralLists", 700000, [](Scene& s) { s.domain.reset(); }}),
+                         [](const auto& c) { return c.param.name; });
+
+}  // namespace
+}  // namespace rill::test
