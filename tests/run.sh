@@ -10,8 +10,8 @@ Usage: ./tests/run.sh [--no-install] [--help] [CTEST OPTION...]
 
 Installs what is missing (Debian 12 or Ubuntu 24.04 and newer; with sudo where not root), builds, and runs
   all tests on lavapipe,
-  the tests of label sort on lavapipe with subgroups of 4 and of 16,
-  the tests of labels gpu and sort on SwiftShader, where the system has it.
+  the tests of label subgroups on lavapipe with subgroups of 4 and of 16,
+  the tests of labels gpu and subgroups on SwiftShader, where the system has it.
 
   --no-install   install nothing, only build and run
   CTEST OPTION   for ctest, for example: -R graph
@@ -65,10 +65,10 @@ swiftshader=$(first_file /usr/lib/chromium/vk_swiftshader_icd.json)
 
 run_tests "lavapipe" "$lavapipe" error "$@"
 for subgroup in 4 16; do
-  LP_NATIVE_VECTOR_WIDTH=$((32 * subgroup)) run_tests "lavapipe with subgroups of $subgroup" "$lavapipe" $none -L '^sort$' "$@"
+  LP_NATIVE_VECTOR_WIDTH=$((32 * subgroup)) run_tests "lavapipe with subgroups of $subgroup" "$lavapipe" $none -L '^subgroups$' "$@"
 done
 if [ -n "$swiftshader" ]; then
-  run_tests "SwiftShader" "$swiftshader" $none -L '^(gpu|sort)$' "$@"
+  run_tests "SwiftShader" "$swiftshader" $none -L '^(gpu|subgroups)$' "$@"
 else
   results+=("SwiftShader: this system has no package of it (chromium-common), so not tested")
 fi

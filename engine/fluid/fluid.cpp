@@ -12,6 +12,8 @@
 namespace rill {
 namespace {
 
+constexpr uint32_t kLeastCluster = 4, kMostCluster = 8;  // see shaders/fluid/cluster.glsl
+
 constexpr uint64_t kMaxBuffer = uint64_t{128} << 20;
 
 uint64_t listEntries(const Scene& scene) {
@@ -224,11 +226,16 @@ Expected<void> FluidImpl::makePipelines(Device& device) {
   using enum BindingKind;
   const FluidParams& p = setup.params;
   const uint32_t kernel = setup.kernel, capacity = p.listCapacity, nearWalls = setup.near;
+  // Particles that walk the grid together, in a subgroup of which the shader knows that it is whole.
+  const uint32_t cluster = std::clamp(device.info().minSubgroupSize, kLeastCluster, kMostCluster);
+  const uint32_t whole = std::min(device.info().subgroupSize, kFluidGroup);
   Expected<void> result;
   const auto make = [&](const ComputePipeline*& out, std::string_view shader, std::vector<BindingKind> bindings, uint32_t push,
-                        std::vector<uint32_t> constants = {}) {
+                        std::vector<uint32_t> constants = {}, uint32_t subgroup = 0) {
     if (!result) return;
-    auto pipeline = computePipeline(device, {.shader = shader, .bindings = bindings, .pushConstantBytes = push, .constants = constants});
+    auto pipeline = computePipeline(
+        device,
+        {.shader = shader, .bindings = bindings, .pushConstantBytes = push, .constants = constants, .requiredSubgroupSize = subgroup});
     if (pipeline)
       out = *pipeline;
     else
@@ -236,13 +243,14 @@ Expected<void> FluidImpl::makePipelines(Device& device) {
   };
   // A pass that gathers: two uniform blocks, particles, list, counts, cells, cell starts, sums, and its own.
   const auto gather = [&](const ComputePipeline*& out, std::string name, std::vector<BindingKind> own, uint32_t push,
-                          std::vector<uint32_t> constants) {
+                          std::vector<uint32_t> constants = {}) {
     std::vector<BindingKind> bindings = texel_
                                             ? std::vector{Uniform, Uniform, TexelFloat4, TexelUint4, TexelUint, TexelUint, Storage, Storage}
                                             : std::vector{Uniform, Uniform, Storage, Storage, Storage, Storage, Storage, Storage};
     bindings.insert(bindings.end(), own.begin(), own.end());
     if (texel_) name += "_texel";
-    make(out, name, bindings, push, std::move(constants));
+    constants.insert(constants.begin(), {kernel, cluster, capacity});
+    make(out, name, bindings, push, std::move(constants), whole);
   };
   const auto storages = [](size_t n) { return std::vector<BindingKind>(n, Storage); };
   const auto plain = [&](size_t uniforms, size_t n) {
@@ -260,7 +268,7 @@ Expected<void> FluidImpl::makePipelines(Device& device) {
   {
     std::vector<BindingKind> bindings = plain(2, 17);
     if (texel_) bindings[2] = TexelFloat4;
-    make(pipes_.build, texel_ ? "fluid/build_texel" : "fluid/build", bindings, sizeof(ChunkPush), {0, capacity, nearWalls});
+    make(pipes_.build, texel_ ? "fluid/build_texel" : "fluid/build", bindings, sizeof(ChunkPush), {0, cluster, capacity, nearWalls}, whole);
   }
   if (setup.near) {
     make(pipes_.plane, "fluid/walls", plain(2, 6), 0, {0, 0, 1});
@@ -269,21 +277,20 @@ Expected<void> FluidImpl::makePipelines(Device& device) {
   if (p.solidCount > 0) make(pipes_.collide, "fluid/collide", plain(2, 11), 0, {0});
   if (p.solidCount > 0 && (setup.viscositySweeps > 0 || p.vorticity > 0)) make(pipes_.collideAgain, "fluid/collide", plain(2, 11), 0, {1});
   if (setup.movingSolids) make(pipes_.pose, "fluid/pose", plain(2, 2), 0);
-  gather(pipes_.density, "fluid/density", storages(4), sizeof(ChunkPush), {kernel, capacity, nearWalls, p.iterations > 1});
-  gather(pipes_.correct, "fluid/correct", storages(7), sizeof(ChunkPush), {kernel, capacity, nearWalls, p.tensile > 0, p.solidCount > 0});
-  if (p.iterations > 1)
-    gather(pipes_.iterate, "fluid/iterate", storages(2), sizeof(ChunkPush), {kernel, capacity, nearWalls, p.tensile > 0});
+  gather(pipes_.density, "fluid/density", storages(4), sizeof(ChunkPush), {nearWalls, p.iterations > 1});
+  gather(pipes_.correct, "fluid/correct", storages(7), sizeof(ChunkPush), {nearWalls, p.tensile > 0, p.solidCount > 0});
+  if (p.iterations > 1) gather(pipes_.iterate, "fluid/iterate", storages(2), sizeof(ChunkPush), {nearWalls, p.tensile > 0});
   const BindingKind vectors = texel_ ? TexelFloat4 : Storage;
   if (setup.viscositySweeps > 0)
-    gather(pipes_.viscosity, "fluid/viscosity", {vectors, Storage, Storage, Storage, Storage}, sizeof(SweepPush), {kernel, capacity});
+    gather(pipes_.viscosity, "fluid/viscosity", {vectors, Storage, Storage, Storage, Storage}, sizeof(SweepPush));
   if (setup.viscositySweeps % 2 == 1) make(pipes_.keep, "fluid/keep", plain(2, 2), sizeof(ChunkPush));
   if (p.vorticity > 0) {
-    gather(pipes_.curl, "fluid/curl", {vectors, Storage}, sizeof(ChunkPush), {kernel, capacity});
-    gather(pipes_.confine, "fluid/confine", {vectors, Storage, Storage, Storage, Storage}, sizeof(ChunkPush), {kernel, capacity});
+    gather(pipes_.curl, "fluid/curl", {vectors, Storage}, sizeof(ChunkPush));
+    gather(pipes_.confine, "fluid/confine", {vectors, Storage, Storage, Storage, Storage}, sizeof(ChunkPush));
   }
   make(pipes_.measureKeys, "fluid/measure_keys", plain(2, 2), 0);
   make(pipes_.measureOrder, "fluid/measure_order", plain(2, 3), 0);
-  make(pipes_.measure, "fluid/measure", plain(2, 7), 0, {kernel, nearWalls});
+  make(pipes_.measure, "fluid/measure", plain(2, 7), 0, {kernel, cluster, nearWalls}, whole);
   make(pipes_.reduce, "fluid/measure_reduce", plain(2, 3), 0);
   return result;
 }

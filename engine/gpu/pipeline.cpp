@@ -105,7 +105,10 @@ Expected<VkPipeline> PipelineStore::build(DeviceImpl& device, const ComputePipel
   create.stage.module = module;
   create.stage.pName = "main";
   create.stage.pSpecializationInfo = pipeline.constants.empty() ? nullptr : &constants;
-  if (pipeline.requiredSubgroupSize != 0 && device.sizedSubgroups) create.stage.pNext = &sized;
+  if (pipeline.requiredSubgroupSize != 0) {
+    create.stage.flags = VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
+    if (device.sizedSubgroups) create.stage.pNext = &sized;
+  }
   create.layout = pipeline.layout;
   VkPipeline handle = VK_NULL_HANDLE;
   const VkResult made = device.vk.CreateComputePipelines(device.handle, device.cache, 1, &create, device.callbacks, &handle);

@@ -4,13 +4,14 @@
 // Gathers from the sorted predictions.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_shuffle : require
 #include "fluid/uniforms.glsl"
-#include "fluid/grid.glsl"
+#include "fluid/cluster.glsl"
 #include "fluid/solids.glsl"
 #include "shared/pair_hash.h"
 layout(local_size_x = kFluidGroup) in;
-layout(constant_id = 1) const uint LIST_CAPACITY = 0;
-layout(constant_id = 2) const uint NEAR = 0;
+layout(constant_id = 2) const uint LIST_CAPACITY = 0;
+layout(constant_id = 3) const uint NEAR = 0;
 
 layout(push_constant) uniform Push { ChunkPush push; };
 #ifdef TEXEL
@@ -20,7 +21,7 @@ layout(binding = 2) uniform samplerBuffer particleArray;
 layout(std430, binding = 2) readonly buffer ParticleBlock { vec4 particleArray[]; };
 #define PARTICLE(j) particleArray[j]
 #endif
-layout(std430, binding = 3) writeonly buffer ListBlock { uint list[]; };
+layout(std430, binding = 3) writeonly buffer ListBlock { uvec4 list[]; };
 layout(std430, binding = 4) writeonly buffer CountBlock { uint neighbourCount[]; };
 layout(std430, binding = 5) writeonly buffer KeyBlock { uint cell[]; };
 layout(std430, binding = 6) readonly buffer StartBlock { uint cellStart[]; };
@@ -56,56 +57,82 @@ void listNear(uint i, vec3 x) {
   else if (walls == 1u) nearList[atomicAdd(sums.planeCount, 1u)] = i;
 }
 
+// Neighbours are stored four at a time: lavapipe stores lane by lane, and the more that a store holds, the fewer lanes wait for each other.
+uvec4 held;
+uint holds = 0u;
+uint count = 0u;
+uint at;
+
+void store() {
+  if (count < LIST_CAPACITY) list[at] = held;
+  at += kListBlock;
+  count += holds;
+  holds = 0u;
+}
+
+// Particles base + k for the bits k of `mask`.
+void listNeighbours(uint base, uint mask) {
+  while (mask != 0u) {
+    for (uint k = 0u; k < 4u; ++k) {
+      if (holds != k || mask == 0u) continue;
+      held[k] = base + findLSB(mask);
+      mask &= mask - 1u;
+      holds = k + 1u;
+    }
+    if (holds == 4u) store();
+  }
+}
+
+uint self;
+vec3 place, here;
+uint twin = kNone;
+float reachSquared = params.reach * params.reach;
+float twinSquared = 1.0e-6 * params.support * params.support;
+
+void takeTurn(bool mine) { here = mine ? place : vec3(-kParked); }  // from there nothing is near
+void candidates(uint first, uint end) {
+  uint mask = 0u, twins = 0u;
+  for (uint base = first; base < end; base += CLUSTER) {
+    vec3 candidate = PARTICLE(min(base + clusterLane, end - 1u)).xyz;
+    uint near = 0u, same = 0u;
+    for (uint lane = 0u; lane < CLUSTER; ++lane) {
+      vec3 r = here - SPREAD(candidate, lane);
+      float squared = dot(r, r);
+      near |= uint(squared < reachSquared) << lane;
+      same |= uint(squared < twinSquared) << lane;
+    }
+    mask |= near << (base - first);
+    twins |= same << (base - first);
+  }
+  if (end - first < kWindow) mask &= (1u << (end - first)) - 1u;
+  if (self - first < kWindow) mask &= ~(1u << (self - first));
+  twins &= mask;
+  if (twins != 0u) twin = first + findMSB(twins);
+  if (LIST_CAPACITY != 0u) listNeighbours(first, mask);
+}
+#include "fluid/walk.glsl"
+
 void main() {
-  uint local = flatInvocation();
+  uint local = clusterInvocation();
   uint i = push.first + local;
-  if (i >= push.last) return;
+  bool there = i < push.last;
+  if (!there) i = push.last - 1u;
   vec4 predicted = PARTICLE(i);
   vec3 x = predicted.xyz;
-  uvec3 home = cellOf(x);
-  cell[i] = cellKey(home);
 
-  uint at = ((local / kListBlock) * (kListBlock * (LIST_CAPACITY / 4u)) + local % kListBlock) * 4u;
-  uint count = 0u, looked = 0u, twin = kNone;
-  float reachSquared = params.reach * params.reach;
-  float twinSquared = 1.0e-6 * params.support * params.support;
-  uint parts = home.x < kCellsPerReach || home.x + kCellsPerReach > gridMask.x ? 2u : 1u;
-  uint rows = x.x == kParked ? 0u : 9u;
-  for (uint row = 0u; row < rows; ++row) {
-    int low, high;
-    rowReach(x, params.reach, row, low, high);
-    for (uint part = 0u; part < parts; ++part) {
-      uint first, last;
-      rowKeys(home, row, low, high, part, first, last);
-      uint begin = cellStart[first];
-      uint end = first == last ? begin : cellStart[last];
-      for (uint base = begin; base < end && looked < kWalkBound; base += 32u) {
-        uint most = min(32u, end - base);
-        looked += most;
-        uint mask = 0u;
-        for (uint k = 0u; k < most; ++k) {
-          vec3 r = x - PARTICLE(base + k).xyz;
-          float squared = dot(r, r);
-          mask |= uint(squared < reachSquared) << k;
-          twin = squared < twinSquared && base + k != i ? base + k : twin;
-        }
-        if (i - base < 32u) mask &= ~(1u << (i - base));
-        if (LIST_CAPACITY != 0u) {
-          while (mask != 0u) {
-            uint j = base + findLSB(mask);
-            mask &= mask - 1u;
-            if (count < LIST_CAPACITY) list[at + (count >> 2u) * (4u * kListBlock) + (count & 3u)] = j;
-            count += 1u;
-          }
-        }
-      }
-    }
-  }
-  if (looked >= kWalkBound) atomicAdd(sums.boundHits, 1u);
+  at = (local / kListBlock) * (kListBlock * (LIST_CAPACITY / 4u)) + local % kListBlock;
+  place = x;
+  self = i;
+  vec3 scaled = scaledPosition(x);
+  walkGrid(scaled, scaled, there && x.x != kParked, params.reach);
+  if (!there) return;
+  cell[i] = cellKey(cellOf(x));
   if (LIST_CAPACITY != 0u) {
-    neighbourCount[i] = count;
-    if (count > LIST_CAPACITY) atomicAdd(sums.overflow, 1u);
-    for (uint n = min(count, LIST_CAPACITY); (n & 3u) != 0u; ++n) list[at + (n >> 2u) * (4u * kListBlock) + (n & 3u)] = params.count;
+    uint all = count + holds;
+    for (uint k = 1u; k < 4u; ++k) held[k] = holds <= k ? params.count : held[k];
+    if (holds != 0u) store();
+    neighbourCount[i] = all;
+    if (all > LIST_CAPACITY) atomicAdd(sums.overflow, 1u);
   }
 
   vec3 from = sortedPosition[i].xyz;

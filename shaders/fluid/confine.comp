@@ -2,8 +2,11 @@
 // Vorticity confinement (Fedkiw, Stam and Jensen 2001; Macklin and Mueller 2013, equation 16): an acceleration eps h |curl v| (N x curl v), N along the gradient
 // of the curl's length. Gathers positions and curls; predicts anew with the velocity it ends with.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_shuffle : require
 #include "fluid/uniforms.glsl"
 #include "fluid/arrays.glsl"
+#include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(push_constant) uniform Push { ChunkPush push; };
@@ -19,23 +22,27 @@ layout(std430, binding = 10) writeonly buffer PredictionBlock { vec4 prediction[
 layout(std430, binding = 11) readonly buffer PushBlock { vec4 pushAway[]; };
 layout(std430, binding = 12) readonly buffer PositionBlock { vec4 position[]; };
 
+#define COMPANION(j) CURL(j)
+
 vec3 here;
 vec4 own;
 vec3 rise = vec3(0.0);
 
-void visit(uint j, vec4 particle) {
+void visit(vec4 particle, vec4 companion) {
   vec3 r = here - particle.xyz;
-  rise += (CURL(j).w - own.w) * gradientShape(sqrt(dot(r, r))) * r;
+  rise += (companion.w - own.w) * gradientShape(sqrt(dot(r, r))) * r;
 }
 #include "fluid/neighbours.glsl"
 
 void main() {
-  uint local = flatInvocation();
+  uint local = clusterInvocation();
   uint i = push.first + local;
-  if (i >= push.last) return;
+  bool there = i < push.last;
+  if (!there) i = params.count;
   here = PARTICLE(i).xyz;
   own = CURL(i);
-  visitNeighbours(i, local);
+  visitNeighbours(i, local, there);
+  if (!there) return;
   rise *= params.gradientScale;
   // Below a thousandth of the spin a smoothing length its change is noise.
   vec3 direction = rise / (length(rise) + 0.001 * own.w * params.inverseSupport + 1.0e-20);

@@ -2,14 +2,17 @@
 // Ends a substep in one loop over the neighbours: position correction (Macklin and Mueller 2013, equations 12 to 14), walls, velocity, and the
 // prediction of the next substep with the warm start's push. Gathers from `work`: the prediction, and the two multipliers as halves.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "fluid/uniforms.glsl"
 #include "fluid/arrays.glsl"
+#include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
 layout(local_size_x = kFluidGroup) in;
-layout(constant_id = 2) const uint NEAR = 0;
-layout(constant_id = 3) const uint TENSILE = 0;
-layout(constant_id = 4) const uint CONTACT = 0;  // collide.comp follows
+layout(constant_id = 3) const uint NEAR = 0;
+layout(constant_id = 4) const uint TENSILE = 0;
+layout(constant_id = 5) const uint CONTACT = 0;  // collide.comp follows
 
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer PositionBlock { vec4 position[]; };
@@ -20,7 +23,7 @@ layout(std430, binding = 12) writeonly buffer PushBlock { vec4 pushAway[]; };
 layout(std430, binding = 13) writeonly buffer FreeBlock { vec4 freeVelocity[]; };  // before the solve: what contacts compare with; w: the prediction's
 layout(std430, binding = 14) buffer WarmBlock { float warm[]; };
 
-vec4 here;
+vec3 here;
 vec2 own;                     // multiplier change, warm start; in the unit
 vec3 moved = vec3(0.0);       // m, once scaled
 vec3 pushed = vec3(0.0);      // m, once scaled
@@ -32,8 +35,8 @@ float tensilePower = params.tensilePower;
 
 vec2 multipliers(vec4 particle) { return unpackHalf2x16(floatBitsToUint(particle.w)); }
 
-void visit(uint j, vec4 particle) {
-  vec3 r = here.xyz - particle.xyz;
+void visit(vec4 particle) {
+  vec3 r = here - particle.xyz;
   float distance = sqrt(dot(r, r));
   vec3 gradient = gradientShape(distance) * r;
   vec2 both = own + multipliers(particle);
@@ -46,12 +49,15 @@ void visit(uint j, vec4 particle) {
 #include "fluid/neighbours.glsl"
 
 void main() {
-  uint local = flatInvocation();
+  uint local = clusterInvocation();
   uint i = push.first + local;
-  if (i >= push.last) return;
-  here = PARTICLE(i);
-  own = multipliers(here);
-  visitNeighbours(i, local);
+  bool there = i < push.last;
+  if (!there) i = params.count;
+  vec4 particle = PARTICLE(i);
+  here = particle.xyz;
+  own = multipliers(particle);
+  visitNeighbours(i, local, there);
+  if (!there) return;
   moved *= unit * params.gradientScale;
   pushed *= unit * params.gradientScale;
   if (NEAR != 0u) {
@@ -61,7 +67,7 @@ void main() {
   }
 
   vec3 from = position[i].xyz;
-  vec3 to = insideWalls(here.xyz + moved);
+  vec3 to = insideWalls(here + moved);
   // No more than twice what cfl allows in a substep: the next step shrinks to follow a particle that wants to go faster.
   vec3 way = to - from;
   float most = max(2.0 * params.cfl, 0.02) * params.spacing;
@@ -73,7 +79,7 @@ void main() {
   vec3 next = insideWalls(predicted(to, v, away));
   bool finite = isFinite(to) && isFinite(next);
   if (!finite) {
-    bool gone = isFinite(here.xyz) || from.x >= kParked * 0.5;   // left through an open side, or parked before
+    bool gone = isFinite(here) || from.x >= kParked * 0.5;   // left through an open side, or parked before
     if (!gone) { atomicAdd(sums.nonFinite, 1u); }
     to = from;
     v = vec3(0.0);

@@ -2,8 +2,11 @@
 // Vorticity of the velocity field, curl v (Macklin and Mueller 2013, equation 15): xyz the curl, w its length, 1/s. Gathers from
 // `work`, and velocities.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_shuffle : require
 #include "fluid/uniforms.glsl"
 #include "fluid/arrays.glsl"
+#include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(push_constant) uniform Push { ChunkPush push; };
@@ -17,23 +20,27 @@ layout(std430, binding = 8) readonly buffer VelocityBlock { vec4 velocityArray[]
 
 layout(std430, binding = 9) writeonly buffer CurlBlock { vec4 curl[]; };
 
+#define COMPANION(j) VELOCITY(j)
+
 vec3 here;
 vec3 own;
 vec3 turning = vec3(0.0);
 
-void visit(uint j, vec4 particle) {
+void visit(vec4 particle, vec4 companion) {
   vec3 r = here - particle.xyz;
-  turning += cross(gradientShape(sqrt(dot(r, r))) * r, VELOCITY(j).xyz - own);
+  turning += cross(gradientShape(sqrt(dot(r, r))) * r, companion.xyz - own);
 }
 #include "fluid/neighbours.glsl"
 
 void main() {
-  uint local = flatInvocation();
+  uint local = clusterInvocation();
   uint i = push.first + local;
-  if (i >= push.last) return;
+  bool there = i < push.last;
+  if (!there) i = params.count;
   here = PARTICLE(i).xyz;
   own = VELOCITY(i).xyz;
-  visitNeighbours(i, local);
+  visitNeighbours(i, local, there);
+  if (!there) return;
   turning *= params.gradientScale;
   curl[i] = vec4(turning, length(turning));
   if (i == 0u) curl[params.count] = vec4(0.0);  // the dummy neighbour, whose weight of 0 would not do away with a NaN

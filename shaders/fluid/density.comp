@@ -2,13 +2,16 @@
 // Density of the prediction, the constraint's gradient and the multiplier (Macklin and Mueller 2013, equations 1, 2, 9 and 11), with the
 // integral warm start: see ARCHITECTURE.md, "A substep". Gathers from the predicted positions.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "fluid/uniforms.glsl"
 #include "fluid/arrays.glsl"
+#include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
 layout(local_size_x = kFluidGroup) in;
-layout(constant_id = 2) const uint NEAR = 0;        // walls or solids displace density
-layout(constant_id = 3) const uint ITERATED = 0;    // more than one iteration a substep
+layout(constant_id = 3) const uint NEAR = 0;        // walls or solids displace density
+layout(constant_id = 4) const uint ITERATED = 0;    // more than one iteration a substep
 
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer WarmBlock { float warm[]; };
@@ -21,7 +24,7 @@ float rho = 0.0;        // over rest density
 vec3 gradientSum = vec3(0.0);
 float gradientSquares = 0.0;
 
-void visit(uint j, vec4 particle) {
+void visit(vec4 particle) {
   vec3 r = here - particle.xyz;
   float squared = dot(r, r);
   float value, gradient;
@@ -33,11 +36,13 @@ void visit(uint j, vec4 particle) {
 #include "fluid/neighbours.glsl"
 
 void main() {
-  uint local = flatInvocation();
+  uint local = clusterInvocation();
   uint i = push.first + local;
-  if (i >= push.last) return;
+  bool there = i < push.last;
+  if (!there) i = params.count;
   here = PARTICLE(i).xyz;
-  visitNeighbours(i, local);
+  visitNeighbours(i, local, there);
+  if (!there) return;
   rho = params.valueScale * (rho + kernelShape(0.0));
   gradientSum *= params.gradientScale;
   gradientSquares *= params.gradientScale * params.gradientScale;

@@ -1,18 +1,21 @@
 #version 460
 // One more Jacobi iteration: moves the prediction by the last multipliers. Gathers from `work`.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_shuffle : require
 #include "fluid/uniforms.glsl"
 #include "fluid/arrays.glsl"
+#include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
 layout(local_size_x = kFluidGroup) in;
-layout(constant_id = 2) const uint NEAR = 0;
-layout(constant_id = 3) const uint TENSILE = 0;
+layout(constant_id = 3) const uint NEAR = 0;
+layout(constant_id = 4) const uint TENSILE = 0;
 
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer PredictionBlock { vec4 prediction[]; };
 layout(std430, binding = 9) readonly buffer NearBlock { vec4 nearSample[]; };
 
-vec4 here;
+vec3 here;
 float own;
 vec3 moved = vec3(0.0);
 
@@ -23,8 +26,8 @@ float tensilePower = params.tensilePower;
 
 float multiplier(vec4 particle) { return unpackHalf2x16(floatBitsToUint(particle.w)).x; }
 
-void visit(uint j, vec4 particle) {
-  vec3 r = here.xyz - particle.xyz;
+void visit(vec4 particle) {
+  vec3 r = here - particle.xyz;
   float distance = sqrt(dot(r, r));
   float both = own + multiplier(particle);
   if (TENSILE != 0u) {
@@ -35,13 +38,16 @@ void visit(uint j, vec4 particle) {
 #include "fluid/neighbours.glsl"
 
 void main() {
-  uint local = flatInvocation();
+  uint local = clusterInvocation();
   uint i = push.first + local;
-  if (i >= push.last) return;
-  here = PARTICLE(i);
-  own = multiplier(here);
-  visitNeighbours(i, local);
+  bool there = i < push.last;
+  if (!there) i = params.count;
+  vec4 particle = PARTICLE(i);
+  here = particle.xyz;
+  own = multiplier(particle);
+  visitNeighbours(i, local, there);
+  if (!there) return;
   moved *= unit * params.gradientScale;
   if (NEAR != 0u) moved += unit * own * nearSample[i].xyz;
-  prediction[i] = vec4(insideWalls(here.xyz + moved), prediction[i].w);
+  prediction[i] = vec4(insideWalls(here + moved), prediction[i].w);
 }

@@ -3,10 +3,13 @@
 // fixed order, and histograms of the density error for its percentiles. Walks a grid of its own, made of the positions: no neighbour that the solver's
 // list has missed is missed here.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_shuffle : require
 #include "fluid/uniforms.glsl"
+#include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
 layout(local_size_x = kMeasureGroup) in;
-layout(constant_id = 1) const uint NEAR = 0;
+layout(constant_id = 2) const uint NEAR = 0;
 layout(std430, binding = 2) readonly buffer SortedBlock { vec4 sorted[]; };  // w: the particle's place in the solver's arrays
 #define PARTICLE(j) sorted[j]
 layout(std430, binding = 3) readonly buffer StartBlock { uint cellStart[]; };
@@ -21,11 +24,18 @@ float rho = 0.0;
 uint inside = 0u;
 float support = params.support;
 
-void visit(uint j, vec4 particle) {
-  vec3 r = here - particle.xyz;
-  float distance = sqrt(dot(r, r));
-  rho += kernelShape(distance);
-  inside += uint(distance < support);
+vec3 place;
+void takeTurn(bool mine) { here = mine ? place : vec3(-kParked); }  // from there nothing is near
+void candidates(uint first, uint end) {
+  for (uint base = first; base < end; base += CLUSTER) {
+    vec3 candidate = base + clusterLane < end ? PARTICLE(base + clusterLane).xyz : vec3(kParked);
+    for (uint lane = 0u; lane < CLUSTER; ++lane) {
+      vec3 r = here - SPREAD(candidate, lane);
+      float distance = sqrt(dot(r, r));
+      rho += kernelShape(distance);
+      inside += uint(distance < support);
+    }
+  }
 }
 #include "fluid/walk.glsl"
 
@@ -36,20 +46,22 @@ uint binOf(float size) {
 }
 
 void main() {
-  uint place = flatInvocation();
-  uint lane = gl_LocalInvocationID.x;
+  uint slot = clusterInvocation();
+  uint lane = slot % kMeasureGroup;
   MeasurePartial mine = MeasurePartial(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0u, 0u, 0u);
-  bool there = place < params.count;
-  vec4 particle = there ? sorted[place] : vec4(0.0);
-  if (there && particle.x >= kParked * 0.5) {
+  bool there = slot < params.count;
+  vec4 particle = there ? sorted[slot] : vec4(0.0);
+  bool parked = particle.x >= kParked * 0.5;
+  place = particle.xyz;
+  vec3 scaled = scaledPosition(place);
+  walkGrid(scaled, scaled, there && !parked, support);
+  here = place;
+  if (there && parked) {
     mine.outside = 1u;
     mine.parked = 1u;
   } else if (there) {
-    here = particle.xyz;
     uint i = floatBitsToUint(particle.w);
-    uvec3 home = cellOf(here);
-    WALK_GRID(place, home, rowReach(here, support, row, low, high);, visit)
-    rho = params.valueScale * (rho + kernelShape(0.0));
+    rho *= params.valueScale;
     if (NEAR != 0u) rho += nearSample[i].w;
     vec3 v = velocity[i].xyz;
     velocity[i].w = rho;
@@ -67,7 +79,7 @@ void main() {
     vec3 low = vec3(params.boundLowX, params.boundLowY, params.boundLowZ), high = vec3(params.boundHighX, params.boundHighY, params.boundHighZ);
     mine.outside = uint(any(lessThan(here, low)) || any(greaterThan(here, high)));
     if (error > 0.0) atomicAdd(histogram[binOf(error)], 1u);
-    if (inside >= params.fullNeighbours) {
+    if (inside > params.fullNeighbours) {
       mine.counted = 1u;
       atomicAdd(histogram[(error > 0.0 ? kMeasureBins : 2u * kMeasureBins) + binOf(abs(error))], 1u);
     }

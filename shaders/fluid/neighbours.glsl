@@ -1,16 +1,46 @@
-// Visits the neighbours of a particle: from its list, or by walking the grid where there is no list or it overflowed.
-// The shader defines `void visit(uint j, vec4 particle)` before it includes this, and binds at 2 the array whose elements are handed over.
+// Sums over the neighbours of a particle: from its list, or by walking the grid where there is no list or it overflowed.
+// Before it includes this the shader defines `vec3 here`, the particle's place, and `void visit(vec4 particle)`, and binds at 2 the array whose elements are
+// handed over; with COMPANION(j) defined, `void visit(vec4 particle, vec4 companion)`. What is farther than the support, or not there, is visited too.
 // With TEXEL the arrays are uniform texel buffers (twice as fast on lavapipe: a storage load is made lane by lane there), else storage buffers.
 #ifndef RILL_NEIGHBOURS_GLSL
 #define RILL_NEIGHBOURS_GLSL
-#include "fluid/walk.glsl"
-layout(constant_id = 1) const uint LIST_CAPACITY = 0;  // 0: no list
+layout(constant_id = 2) const uint LIST_CAPACITY = 0;  // entries a particle; 0: no list
 
 layout(std430, binding = 6) readonly buffer StartBlock { uint cellStart[]; };
 layout(std430, binding = 7) buffer SumsBlock { FluidSums sums; };
 
-void visitNeighbours(uint i, uint local) {
-  uint count = LIST_CAPACITY == 0u ? 0u : COUNT_OF(i);
+vec3 place;
+uint self;
+void takeTurn(bool mine) { here = mine ? place : vec3(-kParked); }  // from there nothing is near
+void candidates(uint first, uint end) {
+  for (uint base = first; base < end; base += CLUSTER) {
+    uint j = base + clusterLane < end ? base + clusterLane : params.count;
+    vec4 particle = PARTICLE(j);
+#ifdef COMPANION
+    vec4 companion = COMPANION(j);
+#endif
+    for (uint lane = 0u; lane < CLUSTER; ++lane) {
+      vec4 other = SPREAD(particle, lane);
+      if (base + lane == self) other.xyz = vec3(kParked);
+#ifdef COMPANION
+      visit(other, SPREAD(companion, lane));
+#else
+      visit(other);
+#endif
+    }
+  }
+}
+#include "fluid/walk.glsl"
+
+#ifdef COMPANION
+#define VISIT(j, particle) visit(particle, COMPANION(j))
+#else
+#define VISIT(j, particle) visit(particle)
+#endif
+
+// Of particle i, where it is `there`, at invocation `local` of its chunk. All lanes of a cluster call this.
+void visitNeighbours(uint i, uint local, bool there) {
+  uint count = LIST_CAPACITY == 0u || !there ? 0u : COUNT_OF(i);
   bool listed = LIST_CAPACITY != 0u && count <= LIST_CAPACITY;
   if (LIST_CAPACITY != 0u) {
     uint at = (local / kListBlock) * (kListBlock * (LIST_CAPACITY / 4u)) + local % kListBlock;
@@ -18,16 +48,18 @@ void visitNeighbours(uint i, uint local) {
     for (uint k = 0u; k < groups; ++k) {
       uvec4 js = LIST_AT(at);
       vec4 x = PARTICLE(js.x), y = PARTICLE(js.y), z = PARTICLE(js.z), w = PARTICLE(js.w);
-      visit(js.x, x);
-      visit(js.y, y);
-      visit(js.z, z);
-      visit(js.w, w);
+      VISIT(js.x, x);
+      VISIT(js.y, y);
+      VISIT(js.z, z);
+      VISIT(js.w, w);
       at += kListBlock;
     }
   }
-  if (!listed) {
-    uvec3 home = cellFromKey(KEY_OF(i));
-    WALK_GRID(i, home, , visit)
-  }
+  bool walks = there && !listed && here.x != kParked;
+  vec3 home = vec3(cellFromKey(KEY_OF(there ? i : 0u)));
+  place = here;
+  self = i;
+  walkGrid(home, home + 1.0, walks, params.reach);
+  here = place;
 }
 #endif

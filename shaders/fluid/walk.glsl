@@ -1,24 +1,62 @@
-// Visits the particles of the cells around `home` but for i itself: visitor(j, PARTICLE(j)). CELLS may narrow `low` and `high`, the cells of a `row`.
-// Needs PARTICLE(j), the starts of the cells that the particles were sorted by, and `sums`.
+// Walks the grid around a cluster. Before it includes this the shader binds `sums` and the starts of the cells that the particles were sorted by, and defines:
+//   void takeTurn(bool mine)               the lanes whose neighbours come next: they are in one row of cells
+//   void candidates(uint first, uint end)  particles of the sorted arrays, 1 to kWindow of them; all lanes of the cluster are here
 #ifndef RILL_WALK_GLSL
 #define RILL_WALK_GLSL
 #include "fluid/grid.glsl"
 
-#define WALK_GRID(i, home, CELLS, visitor)                                                               \
-  uint walked = 0u, parts = home.x < kCellsPerReach || home.x + kCellsPerReach > gridMask.x ? 2u : 1u;   \
-  for (uint row = 0u; row < 9u; ++row) {                                                                 \
-    int low = -int(kCellsPerReach), high = int(kCellsPerReach);                                          \
-    CELLS                                                                                                \
-    for (uint part = 0u; part < parts; ++part) {                                                         \
-      uint first, last;                                                                                  \
-      rowKeys(home, row, low, high, part, first, last);                                                  \
-      uint j = cellStart[first], end = first == last ? j : cellStart[last];                              \
-      end = min(end, j + (kWalkBound - walked));                                                         \
-      walked += end - j;                                                                                 \
-      for (; j < end; ++j) {                                                                             \
-        if (j != i) visitor(j, PARTICLE(j));                                                             \
-      }                                                                                                  \
-    }                                                                                                    \
-  }                                                                                                      \
-  if (walked == kWalkBound) atomicAdd(sums.boundHits, 1u);
+// Row `side` of 0 .. 8 around the row (y, z) of cells: the particles [begin, end) in it that can be within `reach` (m) of a box in that row, which goes from low
+// to high (in cells) in x and keeps `gaps` (m) from the row's sides at low y, low z, high y, high z. The row is two ranges where it wraps: part 0 and 1.
+void rowRange(float low, float high, ivec2 row, vec4 gaps, float reach, uint side, uint part, out uint begin, out uint end) {
+  ivec2 way = ivec2(side % 3u, side / 3u) - 1;
+  vec2 gap = vec2(way.x < 0 ? gaps.x : (way.x > 0 ? gaps.z : 0.0), way.y < 0 ? gaps.y : (way.y > 0 ? gaps.w : 0.0));
+  float left = reach * reach - dot(gap, gap);
+  begin = 0u;
+  end = 0u;
+  if (left < 0.0) return;
+  float width = sqrt(left) * inverseCell.x;
+  vec2 cells = floor(vec2(low, high));
+  int from = int(cells.x) + int(floor(low - cells.x - width));
+  int to = int(cells.y) + int(floor(high - cells.y + width));
+  uint size = gridMask.x + 1u;
+  uint first = uint(from) & gridMask.x, past = first + min(uint(to - from) + 1u, size);
+  if (part == 1u && past <= size) return;
+  uint base = cellKey(uvec3(0u, uvec2(row + way) & gridMask.yz));
+  begin = cellStart[base + (part == 0u ? first : 0u)];
+  end = cellStart[base + (part == 0u ? min(past, size) : past - size)];
+}
+
+// `boxLow` to `boxHigh`: a box in one cell, in cells, that the lane's particle was in when the cells were sorted; `waits`: whether the lane wants neighbours.
+// `reach` (m): at most a cell's edge in y.
+void walkGrid(vec3 boxLow, vec3 boxHigh, bool waits, float reach) {
+  vec2 cell = floor(boxLow.yz);
+  uint walked = 0u;
+  for (uint turn = 0u; turn < CLUSTER; ++turn) {
+    uint leader = clusterMin(waits ? clusterLane : CLUSTER);
+    if (leader == CLUSTER) break;
+    vec2 row = SPREAD(cell, leader);
+    bool mine = waits && cell == row;
+    if (mine) waits = false;
+    vec3 low = clusterMin(mine ? boxLow : vec3(2.0e9)), high = clusterMax(mine ? boxHigh : vec3(-2.0e9));
+    takeTurn(mine);
+
+    // Nine rows of cells, in two parts where the grid may wrap: every lane looks one up, then all go through them together. A row's parts follow each other,
+    // so that the order in which a particle meets its neighbours does not depend on who is in its cluster.
+    vec4 gaps = vec4(low.yz - row, row + 1.0 - high.yz) / inverseCell.yzyz;
+    int first = int(floor(low.x)) - int(kCellsPerReach) - 1, last = int(floor(high.x)) + int(kCellsPerReach) + 1;
+    uint parts = (uint(first) & gridMask.x) + uint(last - first) > gridMask.x ? 2u : 1u;
+    for (uint base = 0u; base < 9u * parts; base += CLUSTER) {
+      uint at = base + clusterLane, begin = 0u, end = 0u;
+      if (at < 9u * parts) rowRange(low.x, high.x, ivec2(row), gaps, reach, at / parts, at % parts, begin, end);
+      for (uint lane = 0u; lane < min(CLUSTER, 9u * parts - base); ++lane) {
+        uint from = SPREAD(begin, lane), to = SPREAD(end, lane);
+        for (; from < to && walked < kWalkBound; from += kWindow) {
+          candidates(from, min(to, from + kWindow));
+          walked += kWindow;
+        }
+      }
+    }
+  }
+  if (walked >= kWalkBound && clusterLane == 0u) atomicAdd(sums.boundHits, 1u);
+}
 #endif

@@ -8,7 +8,8 @@ RILL_CONST uint kFluidGroup = 64u;        // invocations a workgroup of every pe
 RILL_CONST uint kListBlock = 4096u;       // particles a block of the neighbour list: k-major inside a block
 RILL_CONST uint kCellsPerReach = 2u;       // grid cells in x as long as one in y or z
 RILL_CONST uint kSettleSubsteps = 64u;     // at most, before the first substep in time
-RILL_CONST uint kWalkBound = 32768u;      // candidates that one grid walk looks at, at most; more are counted as a bound hit
+RILL_CONST uint kWindow = 32u;            // candidates that a grid walk looks at together, a bit of a mask each
+RILL_CONST uint kWalkBound = 65536u;      // candidates that one grid walk looks at, at most; more are counted as a bound hit
 RILL_CONST float kParked = 1.0e9f;        // m: where the dummy neighbour sits that pads the list
 RILL_CONST float kMultiplierScale = 1024.0f;  // multipliers travel as halves in units of 1 / (restGradient * this)
 
