@@ -20,5 +20,5 @@ void main() {
   c.running = c.timeLeft > 0.0 ? 1u : 0u;
   control = c;
   FluidSums s = sums;
-  for (uint k = kCommandDensity; k <= kCommandCornerAgain; ++k) switchCommand(k, commandRuns(k, c, 2u), s);
+  switchCommands(kCommandSort, c, 2u, s);
 }

@@ -2,7 +2,7 @@
 // Begins an advance: its length, the first step, and the commands of its first block.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/fluid_records.h"
-layout(local_size_x = 64) in;
+layout(local_size_x = 1) in;
 layout(push_constant) uniform Push { BeginPush push; };
 layout(binding = 0) uniform ParamsBlock { FluidParams params; };
 layout(std430, binding = 1) buffer ControlBlock { FluidControl control; };
@@ -16,8 +16,6 @@ layout(std430, binding = 5) readonly buffer GravityBlock { vec4 gravityChanges[]
 void main() {
   FluidControl c = control;
   FluidSums s = sums;
-  barrier();
-  uint k = gl_LocalInvocationID.x;
   c.timeDropped = max(c.timeLeft, 0.0);  // an advance that was not recorded to its end
   c.timeLeft = push.advance;
   c.substeps = 0u;
@@ -35,6 +33,6 @@ void main() {
   }
   c.running = going && c.stale == 0u ? 1u : 0u;
   c.again = 0u;
-  if (k < push.commands) switchCommand(k, commandRuns(k, c, 2u), s);
-  if (k == 0u) control = c;
+  switchCommands(push.commands, c, 2u, s);
+  control = c;
 }

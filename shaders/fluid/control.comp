@@ -3,7 +3,7 @@
 // Everything that depends on the simulation's state is decided here, on the device, so that no bit depends on when the host reads.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/fluid_records.h"
-layout(local_size_x = 64) in;
+layout(local_size_x = 1) in;
 layout(push_constant) uniform Push { ControlPush push; };
 layout(binding = 0) uniform ParamsBlock { FluidParams params; };
 layout(std430, binding = 1) buffer ControlBlock { FluidControl control; };
@@ -17,11 +17,9 @@ layout(std430, binding = 5) readonly buffer GravityBlock { vec4 gravityChanges[]
 void main() {
   FluidControl c = control;
   FluidSums s = sums;
-  barrier();
-  uint k = gl_LocalInvocationID.x;
   bool first = push.iteration == 0u;
   if ((first ? c.running : c.again) == 0u) {
-    if (first && k < push.commands) switchCommand(k, commandRuns(k, c, 2u), s);  // the last correction's command was still on
+    if (first) switchCommands(push.commands, c, 2u, s);  // the last correction's command was still on
     return;
   }
 
@@ -29,11 +27,9 @@ void main() {
   bool converged = params.tolerance > 0.0 && error <= params.tolerance && uintBitsToFloat(s.errorMax) <= 100.0 * params.tolerance;
   bool again = push.iteration + 1u < params.iterations && !converged;
   c.iterations += 1u;
-  if (k == 0u) {
-    sums.errorLow = 0u;
-    sums.errorHigh = 0u;
-    sums.errorMax = 0u;
-  }
+  sums.errorLow = 0u;
+  sums.errorHigh = 0u;
+  sums.errorMax = 0u;
 
   // Particles that overlap at the start part first: position corrections without a step in time give no speed, where a short step would give them all of it.
   if (first && c.settling > 0u) {
@@ -48,7 +44,7 @@ void main() {
     c.step = c.nextStep;
     c.error = error;
     c.speed = max(uintBitsToFloat(s.speedMax), 0.0);
-    if (k == 0u) sums.speedMax = 0u;
+    sums.speedMax = 0u;
     c.warmStep = c.step;
     c.timeLeft -= c.step;
     c.substeps += 1u;
@@ -68,6 +64,6 @@ void main() {
 
   c.running = c.timeLeft > 0.0 && c.stale == 0u ? 1u : 0u;
   c.again = again ? 1u : 0u;
-  if (k < push.commands) switchCommand(k, commandRuns(k, c, push.parity), s);
-  if (k == 0u) control = c;
+  switchCommands(push.commands, c, push.parity, s);
+  control = c;
 }

@@ -27,6 +27,11 @@ bool commandRuns(uint k, FluidControl c, uint parity) {
   return rebuild;
 }
 
+// One invocation does it all: a workgroup that has to meet at a barrier costs lavapipe more.
+void switchCommands(uint count, FluidControl c, uint parity, FluidSums s) {
+  for (uint k = 0u; k < count; ++k) switchCommand(k, commandRuns(k, c, parity), s);
+}
+
 // Adds to the two-float sum (Knuth's TwoSum).
 void addTime(inout FluidControl c, float step) {
   precise float sum = c.timeHigh + (step + c.timeLow);
