@@ -191,6 +191,7 @@ Expected<void> FluidImpl::stage(Device& device, const ParticleSet& particles, bo
   const GroupCount chunk = foldGroups(chunks_.front().groups());
   for (uint32_t k : {kCommandPredict, kCommandKeys, kCommandReorder}) shape(k, all);
   for (uint32_t k : {kCommandDensity, kCommandCorrect, kCommandCorrect + 1, kCommandIterate, kCommandBuild}) shape(k, chunk);
+  for (uint32_t k = kCommandWalks; k < kCommandSort; ++k) shape(k, chunk);
   shape(kCommandPose, {1, 1, 1});
   uint32_t next = kCommandSort;
   for (const GroupCount& groups : sort_->groups()) shape(next++, groups);
@@ -242,15 +243,17 @@ Expected<void> FluidImpl::makePipelines(Device& device) {
       result = pipeline.error();
   };
   // A pass that gathers: two uniform blocks, particles, list, counts, cells, cell starts, sums, and its own.
-  const auto gather = [&](const ComputePipeline*& out, std::string name, std::vector<BindingKind> own, uint32_t push,
+  const auto gather = [&](GatherPipelines& out, std::string name, std::vector<BindingKind> own, uint32_t push,
                           std::vector<uint32_t> constants = {}) {
     std::vector<BindingKind> bindings = texel_
                                             ? std::vector{Uniform, Uniform, TexelFloat4, TexelUint4, TexelUint, TexelUint, Storage, Storage}
                                             : std::vector{Uniform, Uniform, Storage, Storage, Storage, Storage, Storage, Storage};
     bindings.insert(bindings.end(), own.begin(), own.end());
     if (texel_) name += "_texel";
-    constants.insert(constants.begin(), {kernel, cluster, capacity});
-    make(out, name, bindings, push, std::move(constants), whole);
+    constants.insert(constants.begin(), {kernel, cluster, capacity, 0});
+    if (capacity > 0) make(out.list, name, bindings, push, constants, whole);
+    constants[3] = 1;
+    make(out.walk, name, bindings, push, constants, whole);
   };
   const auto storages = [](size_t n) { return std::vector<BindingKind>(n, Storage); };
   const auto plain = [&](size_t uniforms, size_t n) {

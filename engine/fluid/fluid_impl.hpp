@@ -23,12 +23,17 @@ struct FluidBuffers {
   Buffer staging;  // the start state, until it has been copied
 };
 
+/// A pass over the neighbours: from the list, and the variant that can walk the grid as well. No list variant where there is no list.
+struct GatherPipelines {
+  const ComputePipeline *list = nullptr, *walk = nullptr;
+};
+
 struct FluidPipelines {
   const ComputePipeline *begin = nullptr, *control = nullptr, *arm = nullptr, *predict = nullptr, *keys = nullptr, *reorder = nullptr,
                         *build = nullptr;
   const ComputePipeline *plane = nullptr, *corner = nullptr, *collide = nullptr, *collideAgain = nullptr, *pose = nullptr;
-  const ComputePipeline *density = nullptr, *correct = nullptr, *iterate = nullptr;
-  const ComputePipeline *viscosity = nullptr, *keep = nullptr, *curl = nullptr, *confine = nullptr;
+  GatherPipelines density, correct, iterate, viscosity, curl, confine;
+  const ComputePipeline* keep = nullptr;
   const ComputePipeline *measureKeys = nullptr, *measureOrder = nullptr, *measure = nullptr, *reduce = nullptr;
 };
 

@@ -179,36 +179,41 @@ void FluidImpl::declareRebuild(Graph& graph) {
   });
 }
 
-// A pass over all chunks that gathers from `particles`. `own(pass, bindings)` declares and appends its own bindings; without a command it
-// is dispatched directly.
+// The command of the variant that walks.
+constexpr uint32_t walksInPlaceOf(uint32_t command) {
+  return command == kCommandDensity ? kCommandWalks : kCommandWalks + 1 + (command - kCommandCorrect);
+}
+
+// A pass over all chunks that gathers from `particles`: the device switches on one of its two variants. `own(pass, bindings)` declares and
+// appends its own bindings.
 template <class Push, class Own>
 static void gatherPass(Graph& graph, FluidRefs& r, bool texel, std::span<const Chunk> chunks, std::string_view name,
-                       const ComputePipeline* pipeline, BufferRef particles, std::optional<uint32_t> command, Push push, Own&& own) {
+                       const GatherPipelines& pipelines, BufferRef particles, uint32_t command, Push push, Own&& own) {
   graph.pass(name, [&](Pass& pass) {
     const Use use = texel ? Use::ComputeTexel : Use::ComputeRead;
     pass.read(r.params, Use::ComputeUniform);
     pass.read(r.control, Use::ComputeUniform);
     for (BufferRef ref : {particles, r.neighbourCount, r.cell}) pass.read(ref, use);
     pass.read(r.start, Use::ComputeRead);
-    if (command) pass.read(r.commands, Use::Indirect);
+    pass.read(r.commands, Use::Indirect);
     r.sums = pass.write(r.sums, Use::ComputeAtomic);
     BindingList bindings;
     bindings.add({r.params, r.control, particles, {}, r.neighbourCount, r.cell, r.start, r.sums});
     own(pass, bindings);
-    std::array<Kernel, kMaxListChunks> kernels;
+    const bool lists = pipelines.list != nullptr;
+    std::array<Kernel, kMaxListChunks> list, walk;
     for (size_t c = 0; c < chunks.size(); ++c) {
       pass.read(r.lists[c], use);
       bindings.refs[3] = r.lists[c];
-      kernels[c] = pass.kernel(pipeline, bindings.span());
+      if (lists) list[c] = pass.kernel(pipelines.list, bindings.span());
+      walk[c] = pass.kernel(pipelines.walk, bindings.span());
     }
     return [=, arguments = r.commands](Commands& commands) mutable {
       for (size_t c = 0; c < chunks.size(); ++c) {
         push.first = chunks[c].first;
         push.last = chunks[c].last;
-        if (command)
-          commands.dispatchIndirect(kernels[c], arguments, commandAt(*command), push);
-        else
-          commands.dispatch(kernels[c], chunks[c].groups(), push);
+        if (lists) commands.dispatchIndirect(list[c], arguments, commandAt(command), push);
+        commands.dispatchIndirect(walk[c], arguments, commandAt(walksInPlaceOf(command)), push);
       }
     };
   });
@@ -368,7 +373,9 @@ void FluidImpl::declareTerms(Graph& graph, uint32_t parity) {
         r_.velocity = pass.write(r_.velocity, Use::ComputeWrite);
         const Kernel kernel = pass.kernel(pipes_.keep, {r_.params, r_.control, from, r_.velocity});
         return [=, arguments = r_.commands](Commands& commands) {
-          for (const Chunk& c : chunks) commands.dispatchIndirect(kernel, arguments, commandAt(command), ChunkPush{c.first, c.last, 0});
+          for (const Chunk& c : chunks)
+            for (uint32_t either : {command, walksInPlaceOf(command)})
+              commands.dispatchIndirect(kernel, arguments, commandAt(either), ChunkPush{c.first, c.last, 0});
         };
       });
     }

@@ -10,9 +10,9 @@
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
 layout(local_size_x = kFluidGroup) in;
-layout(constant_id = 3) const uint NEAR = 0;
-layout(constant_id = 4) const uint TENSILE = 0;
-layout(constant_id = 5) const uint CONTACT = 0;  // collide.comp follows
+layout(constant_id = 4) const uint NEAR = 0;
+layout(constant_id = 5) const uint TENSILE = 0;
+layout(constant_id = 6) const uint CONTACT = 0;  // collide.comp follows
 
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer PositionBlock { vec4 position[]; };

@@ -10,8 +10,8 @@
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
 layout(local_size_x = kFluidGroup) in;
-layout(constant_id = 3) const uint NEAR = 0;        // walls or solids displace density
-layout(constant_id = 4) const uint ITERATED = 0;    // more than one iteration a substep
+layout(constant_id = 4) const uint NEAR = 0;        // walls or solids displace density
+layout(constant_id = 5) const uint ITERATED = 0;    // more than one iteration a substep
 
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer WarmBlock { float warm[]; };

@@ -8,8 +8,8 @@
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
 layout(local_size_x = kFluidGroup) in;
-layout(constant_id = 3) const uint NEAR = 0;
-layout(constant_id = 4) const uint TENSILE = 0;
+layout(constant_id = 4) const uint NEAR = 0;
+layout(constant_id = 5) const uint TENSILE = 0;
 
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer PredictionBlock { vec4 prediction[]; };

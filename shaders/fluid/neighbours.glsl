@@ -1,10 +1,12 @@
-// Sums over the neighbours of a particle: from its list, or by walking the grid where there is no list or it overflowed.
+// Sums over the neighbours of a particle: from its list, or by walking the grid where there is no list or it overflowed. Only the variant WALKS can walk; the
+// device dispatches it in place of the other while somebody has to (the code alone, never run, costs the other an eighth of its time on lavapipe).
 // Before it includes this the shader defines `vec3 here`, the particle's place, and `void visit(vec4 particle)`, and binds at 2 the array whose elements are
 // handed over; with COMPANION(j) defined, `void visit(vec4 particle, vec4 companion)`. What is farther than the support, or not there, is visited too.
 // With TEXEL the arrays are uniform texel buffers (twice as fast on lavapipe: a storage load is made lane by lane there), else storage buffers.
 #ifndef RILL_NEIGHBOURS_GLSL
 #define RILL_NEIGHBOURS_GLSL
 layout(constant_id = 2) const uint LIST_CAPACITY = 0;  // entries a particle; 0: no list
+layout(constant_id = 3) const uint WALKS = 0;
 
 layout(std430, binding = 6) readonly buffer StartBlock { uint cellStart[]; };
 layout(std430, binding = 7) buffer SumsBlock { FluidSums sums; };
@@ -55,6 +57,7 @@ void visitNeighbours(uint i, uint local, bool there) {
       at += kListBlock;
     }
   }
+  if (WALKS == 0u) return;
   bool walks = there && !listed && here.x != kParked;
   vec3 home = vec3(cellFromKey(KEY_OF(there ? i : 0u)));
   place = here;

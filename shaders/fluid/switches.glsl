@@ -1,6 +1,9 @@
 // What begin.comp, arm.comp and control.comp share: switching a dispatch command, simulated time, gravity's schedule.
 #ifndef RILL_SWITCHES_GLSL
 #define RILL_SWITCHES_GLSL
+// Of a command from kCommandWalks on, the one that it is in place of.
+uint walksInPlaceOf(uint k) { return k == kCommandWalks ? kCommandDensity : kCommandCorrect + (k - kCommandWalks - 1u); }
+
 // `shapes` holds the group counts of each command, `commands` what the device dispatches.
 void switchCommand(uint k, bool on, FluidSums s) {
   uvec3 groups = uvec3(shapes[3u * k], shapes[3u * k + 1u], shapes[3u * k + 2u]);
@@ -16,7 +19,12 @@ void switchCommand(uint k, bool on, FluidSums s) {
 }
 
 // Which commands run, once the control block is settled. `parity`: of the substep whose density pass has just run; 2: none has.
-bool commandRuns(uint k, FluidControl c, uint parity) {
+bool commandRuns(uint k, FluidControl c, uint parity, FluidSums s) {
+  bool walks = k >= kCommandWalks && k < kCommandSort;
+  if (walks) k = walksInPlaceOf(k);
+  if (k == kCommandDensity || k == kCommandCorrect || k == kCommandCorrect + 1u || k == kCommandIterate) {
+    if (walks != (params.listCapacity == 0u || s.overflow > 0u)) return false;
+  }
   bool rebuild = c.stale == 2u || (c.stale == 1u && c.timeLeft > 0.0);
   if (k == kCommandDensity || k == kCommandPose || k == kCommandPlane || k == kCommandCorner) return c.running != 0u;
   if (k == kCommandCorrect || k == kCommandCollide) return parity == 0u;
@@ -29,7 +37,7 @@ bool commandRuns(uint k, FluidControl c, uint parity) {
 
 // One invocation does it all: a workgroup that has to meet at a barrier costs lavapipe more.
 void switchCommands(uint count, FluidControl c, uint parity, FluidSums s) {
-  for (uint k = 0u; k < count; ++k) switchCommand(k, commandRuns(k, c, parity), s);
+  for (uint k = 0u; k < count; ++k) switchCommand(k, commandRuns(k, c, parity, s), s);
 }
 
 // Adds to the two-float sum (Knuth's TwoSum).

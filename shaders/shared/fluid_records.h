@@ -29,7 +29,8 @@ RILL_CONST uint kCommandMeasurePlane = 13u;   // the same particles as Plane and
 RILL_CONST uint kCommandMeasureCorner = 14u;
 RILL_CONST uint kCommandPlaneAgain = 15u;     // and in every further iteration
 RILL_CONST uint kCommandCornerAgain = 16u;
-RILL_CONST uint kCommandSort = 17u;           // the sort's own follow
+RILL_CONST uint kCommandWalks = 17u;          // Density, Correct (two) and Iterate once more, where a neighbour list overflowed or there is none
+RILL_CONST uint kCommandSort = 21u;           // the sort's own follow
 RILL_CONST uint kMaxCommands = 64u;
 
 // Constant over a run; a uniform block.
