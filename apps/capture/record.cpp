@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <functional>
 #include <limits>
-#include <map>
 #include <nlohmann/json.hpp>
 
 namespace rill::capture {

@@ -12,7 +12,7 @@
 namespace rill {
 namespace {
 
-constexpr uint32_t kLeastCluster = 4, kMostCluster = 8;  // see shaders/fluid/cluster.glsl
+constexpr uint32_t kMostCluster = 32;  // see shaders/fluid/cluster.glsl: a window of candidates has as many
 
 constexpr uint64_t kMaxBuffer = uint64_t{128} << 20;
 
@@ -101,8 +101,8 @@ Expected<void> FluidImpl::makeBuffers(Device& device, const ParticleSet& particl
   for (uint32_t first = 0; first < count; first += chunk) chunks_.push_back({first, std::min(count, first + chunk)});
   if (chunks_.size() > kMaxListChunks)
     return Error{ErrorKind::TooLarge, "the neighbour list of " + std::to_string(n) + " particles at this smoothing_ratio needs " +
-                                          mebibytes(memory.list_bytes) + ", more than " + std::to_string(kMaxListChunks) +
-                                          " buffers of 128 MiB: make smoothing_ratio smaller"};
+                                          mebibytes(memory.list_bytes) + ", more than the " + std::to_string(kMaxListChunks) +
+                                          " buffers of 128 MiB that are available: make smoothing_ratio smaller"};
   texel_ = !storageReads && device.info().maxTexelBufferElements >= std::max<uint64_t>(more, uint64_t{chunk} * p.listCapacity / 4);
 
   auto sort = KeySort::create(device, {.count = count, .keyRange = setup.grid.cells(), .start = true});
@@ -227,9 +227,8 @@ Expected<void> FluidImpl::makePipelines(Device& device) {
   using enum BindingKind;
   const FluidParams& p = setup.params;
   const uint32_t kernel = setup.kernel, capacity = p.listCapacity, nearWalls = setup.near;
-  // Particles that walk the grid together, in a subgroup of which the shader knows that it is whole.
-  const uint32_t cluster = std::clamp(device.info().minSubgroupSize, kLeastCluster, kMostCluster);
-  const uint32_t whole = std::min(device.info().subgroupSize, kFluidGroup);
+  // Particles that walk the grid together are a subgroup, of which the shader knows that it is whole.
+  const uint32_t whole = std::min(device.info().subgroupSize, kFluidGroup), cluster = std::min(whole, kMostCluster);
   Expected<void> result;
   const auto make = [&](const ComputePipeline*& out, std::string_view shader, std::vector<BindingKind> bindings, uint32_t push,
                         std::vector<uint32_t> constants = {}, uint32_t subgroup = 0) {

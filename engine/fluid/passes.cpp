@@ -179,10 +179,8 @@ void FluidImpl::declareRebuild(Graph& graph) {
   });
 }
 
-// The command of the variant that walks.
-constexpr uint32_t walksInPlaceOf(uint32_t command) {
-  return command == kCommandDensity ? kCommandWalks : kCommandWalks + 1 + (command - kCommandCorrect);
-}
+// Of a pass over neighbours, the command of the variant that walks.
+constexpr uint32_t walkingCommand(uint32_t command) { return kCommandWalks + (command - kCommandDensity); }
 
 // A pass over all chunks that gathers from `particles`: the device switches on one of its two variants. `own(pass, bindings)` declares and
 // appends its own bindings.
@@ -213,7 +211,7 @@ static void gatherPass(Graph& graph, FluidRefs& r, bool texel, std::span<const C
         push.first = chunks[c].first;
         push.last = chunks[c].last;
         if (lists) commands.dispatchIndirect(list[c], arguments, commandAt(command), push);
-        commands.dispatchIndirect(walk[c], arguments, commandAt(walksInPlaceOf(command)), push);
+        commands.dispatchIndirect(walk[c], arguments, commandAt(walkingCommand(command)), push);
       }
     };
   });
@@ -374,7 +372,7 @@ void FluidImpl::declareTerms(Graph& graph, uint32_t parity) {
         const Kernel kernel = pass.kernel(pipes_.keep, {r_.params, r_.control, from, r_.velocity});
         return [=, arguments = r_.commands](Commands& commands) {
           for (const Chunk& c : chunks)
-            for (uint32_t either : {command, walksInPlaceOf(command)})
+            for (uint32_t either : {command, walkingCommand(command)})
               commands.dispatchIndirect(kernel, arguments, commandAt(either), ChunkPush{c.first, c.last, 0});
         };
       });

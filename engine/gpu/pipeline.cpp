@@ -67,10 +67,19 @@ uint32_t texelBytes(BindingKind kind) {
 Expected<const SetLayout*> PipelineStore::setLayout(DeviceImpl& device, std::span<const BindingKind> kinds, std::string_view shader) {
   for (const auto& layout : layouts_)
     if (std::ranges::equal(layout->kinds, kinds)) return layout.get();
-  const auto storage = std::ranges::count(kinds, BindingKind::Storage);
-  if (uint64_t(storage) > device.limits.maxPerStageDescriptorStorageBuffers)
-    return shaderError(shader, "needs " + std::to_string(storage) + " storage buffers, " + device.info.name + " binds at most " +
-                                   std::to_string(device.limits.maxPerStageDescriptorStorageBuffers));
+  const struct {
+    VkDescriptorType type;
+    const char* name;
+    uint32_t most;
+  } limits[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, "storage buffers", device.limits.maxPerStageDescriptorStorageBuffers},
+                {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, "storage images", device.limits.maxPerStageDescriptorStorageImages},
+                {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, "sampled images", device.limits.maxPerStageDescriptorSampledImages}};
+  for (const auto& limit : limits) {
+    const auto used = std::ranges::count(kinds, limit.type, descriptorType);
+    if (uint64_t(used) > limit.most)
+      return shaderError(shader, "needs " + std::to_string(used) + " " + limit.name + ", " + device.info.name + " binds at most " +
+                                     std::to_string(limit.most));
+  }
   std::vector<VkDescriptorSetLayoutBinding> bindings(kinds.size());
   for (uint32_t i = 0; i < kinds.size(); ++i) bindings[i] = {i, descriptorType(kinds[i]), 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
   VkDescriptorSetLayoutCreateInfo create{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};

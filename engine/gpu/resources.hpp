@@ -63,7 +63,7 @@ struct ComputePipelineDesc {
   std::span<const BindingKind> bindings;
   uint32_t pushConstantBytes = 0;  ///< at most 128
   SpecializationConstants constants = {};
-  uint32_t requiredSubgroupSize = 0;     ///< 0: the driver's choice
+  uint32_t requiredSubgroupSize = 0;     ///< subgroups are whole then: local_size_x is a multiple of it; 0: the driver's choice
   std::span<const uint32_t> words = {};  ///< SPIR-V to use in place of the library's; `shader` then only names it
 };
 

@@ -18,12 +18,13 @@ Expected<void> GraphImpl::checkImports() const {
       return Error{ErrorKind::BadInput, "import " + quoted(a.name) + " has a null " + (a.isImage ? "VkImage" : "VkBuffer")};
     for (size_t k = 0; k < i; ++k) {
       const ResourceData& b = resources[k];
-      if (!b.imported || a.isImage != b.isImage || (a.version == 0 && b.version == 0)) continue;
+      if (!b.imported || a.isImage != b.isImage) continue;
+      if (!a.isImage && a.version == 0 && b.version == 0) continue;  // a read, too, changes an image's layout
       const bool overlap =
           a.isImage ? a.image == b.image : a.buffer == b.buffer && a.offset < b.offset + b.size && b.offset < a.offset + a.size;
       if (overlap)
         return Error{ErrorKind::BadInput, "imports " + quoted(b.name) + " and " + quoted(a.name) + " overlap in one " +
-                                              (a.isImage ? "VkImage" : "VkBuffer") + " and one is written: import the memory once"};
+                                              (a.isImage ? "VkImage" : "VkBuffer and one is written") + ": import the memory once"};
     }
   }
   return {};

@@ -50,6 +50,8 @@ const char* kindName(BindingKind kind) {
   }
 }
 
+constexpr uint32_t kMaxImageSide = 32768;  // more than devices offer, and few enough that sizes stay in 64 bits
+
 constexpr ResourceRef kMistake{0, 0, 0};  ///< what a write returns for a mistake that has been reported
 
 }  // namespace
@@ -88,16 +90,21 @@ ResourceRef GraphImpl::add(ResourceData resource) {
   if (resource.isImage) {
     if (resource.desc.format == VK_FORMAT_UNDEFINED) mistake(" has no format");
     if (resource.desc.width == 0 || resource.desc.height == 0) mistake(" has no size");
+    if (std::max(resource.desc.width, resource.desc.height) > kMaxImageSide)
+      mistake(" of " + std::to_string(resource.desc.width) + " x " + std::to_string(resource.desc.height) + " texels: at most " +
+              std::to_string(kMaxImageSide) + " a side are possible");
   } else {
     if (resource.size == 0) mistake(" has no size");
     if (resource.size > kMaxBufferBytes)
       mistake(" of " + std::to_string(resource.size) + " bytes: at most " + std::to_string(kMaxBufferBytes) + " are possible");
   }
   if (resource.after == Use::Unknown) fail("import " + quoted(resource.name) + ": Use::Unknown is no state to leave it in");
-  if (resource.isImage)
-    for (Use use : {resource.before, resource.after})
-      if (use != Use::None && use != Use::Unknown && useRow(use).layout == VK_IMAGE_LAYOUT_UNDEFINED)
-        fail("import " + quoted(resource.name) + ": Use::" + useRow(use).name + " is no use of an image");
+  for (Use use : {resource.before, resource.after}) {
+    const bool ofImages = useRow(use).layout != VK_IMAGE_LAYOUT_UNDEFINED;
+    if (use != Use::None && use != Use::Unknown && (resource.isImage ? !ofImages : use == Use::ComputeSampled))
+      fail("import " + quoted(resource.name) + ": Use::" + useRow(use).name + " is no use of " +
+           (resource.isImage ? "an image" : "a buffer"));
+  }
   resources.push_back(resource);
   return {uint32_t(resources.size() - 1), 0, epoch};
 }
@@ -175,8 +182,9 @@ ResourceRef GraphImpl::write(uint32_t index, ResourceRef ref, bool isImage, Use 
   ResourceData* resource = resolve(ref, isImage, index, "writes");
   if (!resource) return kMistake;
   const std::string pass = "pass '" + std::string(names[passes[index].name]) + "'";
-  if (use == Use::Unknown || !writes(use)) {
-    fail(pass + " writes " + quoted(resource->name) + " with Use::" + useRow(use).name + ", which is no way for a pass to write");
+  if (use == Use::Unknown || !writes(use) || (isImage && useRow(use).layout == VK_IMAGE_LAYOUT_UNDEFINED)) {
+    fail(pass + " writes " + quoted(resource->name) + " with Use::" + useRow(use).name + ", which is no way for a pass to write" +
+         (isImage ? " an image" : ""));
     return kMistake;
   }
   if (accessOf(index, ref.index)) {

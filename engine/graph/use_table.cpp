@@ -20,7 +20,7 @@ constexpr std::array<UseRow, kUseCount> kTable{{
     {Use::ComputeSampled, "ComputeSampled", kCompute, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, 0, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
      VK_IMAGE_USAGE_SAMPLED_BIT},
     {Use::ComputeWrite, "ComputeWrite", kCompute, kStorageRead, kStorageWrite, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_USAGE_STORAGE_BIT},
-    {Use::ComputeAtomic, "ComputeAtomic", kCompute, kStorageRead, kStorageWrite, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_USAGE_STORAGE_BIT},
+    {Use::ComputeAtomic, "ComputeAtomic", kCompute, kStorageRead, kStorageWrite, kNoImage, 0},
     {Use::Indirect, "Indirect", VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, 0, kNoImage, 0},
     {Use::CopySource, "CopySource", kTransfer, VK_ACCESS_2_TRANSFER_READ_BIT, 0, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
      VK_IMAGE_USAGE_TRANSFER_SRC_BIT},

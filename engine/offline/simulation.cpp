@@ -159,10 +159,7 @@ class Simulation::Impl {
   const Scene& scene() const { return scene_; }
   const ParticleSet& start() const { return start_; }
   const DeviceInfo& device() const { return context_->device().info(); }
-  std::string explain() const {
-    const FluidProgress& progress = fluid_->progress();
-    return passTable(log_.times(), log_.skipped(), progress.substeps, progress.list_builds);
-  }
+  std::string explain() const { return passTable(log_.times(), log_.skipped(), advanced_.substeps, advanced_.list_builds); }
   std::string graphDot() const { return advanceGraph_.dot(); }
   std::vector<std::string> takeValidationMessages() { return context_->takeMessages(); }
 

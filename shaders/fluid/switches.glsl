@@ -1,9 +1,6 @@
 // What begin.comp, arm.comp and control.comp share: switching a dispatch command, simulated time, gravity's schedule.
 #ifndef RILL_SWITCHES_GLSL
 #define RILL_SWITCHES_GLSL
-// Of a command from kCommandWalks on, the one that it is in place of.
-uint walksInPlaceOf(uint k) { return k == kCommandWalks ? kCommandDensity : kCommandCorrect + (k - kCommandWalks - 1u); }
-
 // `shapes` holds the group counts of each command, `commands` what the device dispatches.
 void switchCommand(uint k, bool on, FluidSums s) {
   uvec3 groups = uvec3(shapes[3u * k], shapes[3u * k + 1u], shapes[3u * k + 2u]);
@@ -21,10 +18,9 @@ void switchCommand(uint k, bool on, FluidSums s) {
 // Which commands run, once the control block is settled. `parity`: of the substep whose density pass has just run; 2: none has.
 bool commandRuns(uint k, FluidControl c, uint parity, FluidSums s) {
   bool walks = k >= kCommandWalks && k < kCommandSort;
-  if (walks) k = walksInPlaceOf(k);
-  if (k == kCommandDensity || k == kCommandCorrect || k == kCommandCorrect + 1u || k == kCommandIterate) {
-    if (walks != (params.listCapacity == 0u || s.overflow > 0u)) return false;
-  }
+  if (walks) k = k - kCommandWalks + kCommandDensity;
+  bool gathers = k >= kCommandDensity && k <= kCommandIterate;
+  if (gathers && walks != (params.listCapacity == 0u || s.overflow > 0u)) return false;
   bool rebuild = c.stale == 2u || (c.stale == 1u && c.timeLeft > 0.0);
   if (k == kCommandDensity || k == kCommandPose || k == kCommandPlane || k == kCommandCorner) return c.running != 0u;
   if (k == kCommandCorrect || k == kCommandCollide) return parity == 0u;

@@ -19,7 +19,11 @@ void rowRange(float low, float high, ivec2 row, vec4 gaps, float reach, uint sid
   int from = int(cells.x) + int(floor(low - cells.x - width));
   int to = int(cells.y) + int(floor(high - cells.y + width));
   uint size = gridMask.x + 1u;
-  uint first = uint(from) & gridMask.x, past = first + min(uint(to - from) + 1u, size);
+  uint first = uint(from) & gridMask.x, past = first + uint(to - from) + 1u;
+  if (uint(to - from) >= gridMask.x) {  // all around
+    first = 0u;
+    past = size;
+  }
   if (part == 1u && past <= size) return;
   uint base = cellKey(uvec3(0u, uvec2(row + way) & gridMask.yz));
   begin = cellStart[base + (part == 0u ? first : 0u)];
@@ -35,7 +39,7 @@ void walkGrid(vec3 boxLow, vec3 boxHigh, bool waits, float reach) {
     uint leader = clusterMin(waits ? clusterLane : CLUSTER);
     if (leader == CLUSTER) break;
     vec2 row = SPREAD(cell, leader);
-    bool mine = waits && cell == row;
+    bool mine = waits && (cell == row || clusterLane == leader);  // the leader at least, whatever NaN compares like
     if (mine) waits = false;
     vec3 low = clusterMin(mine ? boxLow : vec3(2.0e9)), high = clusterMax(mine ? boxHigh : vec3(-2.0e9));
     takeTurn(mine);

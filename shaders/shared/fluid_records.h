@@ -9,16 +9,18 @@ RILL_CONST uint kListBlock = 4096u;       // particles a block of the neighbour 
 RILL_CONST uint kCellsPerReach = 2u;       // grid cells in x as long as one in y or z
 RILL_CONST uint kSettleSubsteps = 64u;     // at most, before the first substep in time
 RILL_CONST uint kWindow = 32u;            // candidates that a grid walk looks at together, a bit of a mask each
-RILL_CONST uint kWalkBound = 65536u;      // candidates that one grid walk looks at, at most; more are counted as a bound hit
+// Candidates that the particles of a cluster look at together, at most, in whole windows; more are counted as a bound hit. Lavapipe ends a shader after 65,535
+// steps of its loops: a window takes about 20 where a cluster is 4, so that 1,024 windows leave room for the loops around them.
+RILL_CONST uint kWalkBound = 32768u;
 RILL_CONST float kParked = 1.0e9f;        // m: where the dummy neighbour sits that pads the list
 RILL_CONST float kMultiplierScale = 1024.0f;  // multipliers travel as halves in units of 1 / (restGradient * this)
 
 // Dispatch commands that the device switches on and off.
 RILL_CONST uint kCommandPredict = 0u;
-RILL_CONST uint kCommandDensity = 1u;
-RILL_CONST uint kCommandPose = 2u;            // one group, with the density pass
-RILL_CONST uint kCommandCorrect = 3u;         // two of them, by the parity of the substep recorded
-RILL_CONST uint kCommandIterate = 5u;
+RILL_CONST uint kCommandDensity = 1u;         // the passes over neighbours: 1 to 4
+RILL_CONST uint kCommandCorrect = 2u;         // two of them, by the parity of the substep recorded
+RILL_CONST uint kCommandIterate = 4u;
+RILL_CONST uint kCommandPose = 5u;            // one group, with the density pass
 RILL_CONST uint kCommandKeys = 6u;            // the rebuild
 RILL_CONST uint kCommandReorder = 7u;
 RILL_CONST uint kCommandBuild = 8u;
@@ -29,7 +31,7 @@ RILL_CONST uint kCommandMeasurePlane = 13u;   // the same particles as Plane and
 RILL_CONST uint kCommandMeasureCorner = 14u;
 RILL_CONST uint kCommandPlaneAgain = 15u;     // and in every further iteration
 RILL_CONST uint kCommandCornerAgain = 16u;
-RILL_CONST uint kCommandWalks = 17u;          // Density, Correct (two) and Iterate once more, where a neighbour list overflowed or there is none
+RILL_CONST uint kCommandWalks = 17u;          // the passes over neighbours once more, in this order: where a list overflowed or there is none
 RILL_CONST uint kCommandSort = 21u;           // the sort's own follow
 RILL_CONST uint kMaxCommands = 64u;
 
@@ -163,7 +165,7 @@ struct MeasurePartial {
 };
 RILL_CONST uint kMeasureFirst = 107u << 9;          // bin 0: |C| = 2^-20, by the top bits of the float
 RILL_CONST uint kMeasureBins = 23u << 9;            // up to 8, 512 bins an octave
-RILL_CONST uint kMeasureGroup = 64u;
+RILL_CONST uint kMeasureGroup = kFluidGroup;
 
 // What measure_reduce.comp finds, for the host.
 struct MeasureResult {

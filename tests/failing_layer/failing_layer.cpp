@@ -45,7 +45,7 @@ struct Failing;
 template <class... Arguments>
 struct Failing<VkResult(VKAPI_PTR*)(Arguments...)> {
   using Pointer = VkResult(VKAPI_PTR*)(Arguments...);
-  template <int Line>
+  template <int Index>
   struct Of {
     static inline Pointer next = nullptr;
     static inline const char* name = nullptr;
@@ -56,7 +56,7 @@ struct Failing<VkResult(VKAPI_PTR*)(Arguments...)> {
   };
 };
 
-enum Index : int {
+enum FunctionIndex : int {
 #define INDEX(function) k##function,
   FAILING_FUNCTIONS(INDEX)
 #undef INDEX

@@ -48,6 +48,32 @@ TEST_P(FluidMemoryTest, IsWhatIsAllocated) {
   EXPECT_GE(double(vulkan.bufferBytes), 0.75 * double(said.total())) << "far more was announced";
 }
 
+TEST(FluidTooLarge, IsRefusedWithWhatItNeedsAndWhatThereIs) {
+  NullVulkan vulkan;
+  auto device = Device::borrow(vulkan.host());
+  ASSERT_TRUE(device);
+  Scene scene;
+  scene.fluid.spacing = 0.1;
+  ParticleSet particles;
+  const auto refusal = [&](size_t n) {
+    particles.positions.assign(n, {});
+    particles.velocities.assign(n, {});
+    const size_t before = vulkan.buffersCreated;
+    auto fluid = Fluid::create(**device, {.scene = &scene, .particles = &particles});
+    EXPECT_FALSE(fluid);
+    EXPECT_EQ(vulkan.buffersCreated, before) << "nothing is allocated";
+    return fluid ? Error{} : fluid.error();
+  };
+  const Error many = refusal((4u << 20) + 1);
+  EXPECT_EQ(many.kind, ErrorKind::TooLarge);
+  EXPECT_NE(many.message.find("4194305 particles need"), std::string::npos) << many.message;
+  EXPECT_NE(many.message.find("has 4096.0 MiB"), std::string::npos) << many.message;
+  scene.fluid.smoothing_ratio = 4;
+  const Error wide = refusal(2000000);
+  EXPECT_EQ(wide.kind, ErrorKind::TooLarge);
+  EXPECT_NE(wide.message.find("make smoothing_ratio smaller"), std::string::npos) << wide.message;
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, FluidMemoryTest,
                          ::testing::Values(Case{"Plain", 100000, [](Scene&) {}},
                                            Case{"Grid", 100000, [](Scene& s) { s.solver.neighbors = NeighborChoice::Grid; }},

@@ -159,6 +159,50 @@ TEST_F(NastyTest, FullListsWalkTheGrid) {
   expectEqual(t, 1, 1e-3, 1e-3);
 }
 
+// Lists that overflow at first and fit once the fluid has spread: the device switches between the two variants of every pass over
+// neighbours.
+TEST_F(NastyTest, ListsThatOverflowForAWhile) {
+  Trial t = trial();
+  setWalls(t, {1, 1, 1});
+  t.scene.solver.iterations = 2;
+  t.scene.fluid.viscosity = 1;
+  t.scene.fluid.vorticity = 0.2;
+  t.x = cloud(400, 5 * t.d(), 7, glm::dvec3(0.03));
+  t.v.assign(400, glm::dvec3(0));
+  const auto after = [&](int substeps, uint32_t piece, uint64_t& overflow) {
+    auto run = start(t);
+    run->substeps(substeps, piece);
+    overflow = run->stats().neighbour_overflow;
+    return run->snapshot();
+  };
+  constexpr int kLong = 60;
+  uint64_t early = 0, late = 0;
+  (void)after(1, 64, early);
+  const Snapshot whole = after(kLong, 64, late);
+  EXPECT_GT(early, 0u);
+  EXPECT_EQ(late, 0u) << "spread";
+  EXPECT_TRUE(whole.finite());
+  EXPECT_EQ(whole, after(kLong, 6, late)) << "in pieces";
+  t.scene.solver.iterations = 1;  // of two, the second would move them by more than the list's skin
+  const Snapshot listed = after(1, 64, late);
+  t.gather = Gather::Grid;
+  const Snapshot walked = after(1, 64, late);
+  for (size_t i = 0; i < listed.x.size(); ++i) EXPECT_LT(glm::length(listed.x[i] - walked.x[i]), 1e-3 * t.d()) << i;
+}
+
+// More particles at one place than a walk looks at: it ends, and says so.
+TEST_F(NastyTest, AWalkIsBoundedAndSaysSo) {
+  Trial t = trial();
+  t.x.assign(40000, glm::dvec3(0.5));
+  t.v.assign(t.x.size(), glm::dvec3(0));
+  auto run = start(t);
+  run->substeps(1);
+  const FluidStats stats = run->stats();
+  EXPECT_GT(stats.loop_bound_hits, 0u);
+  EXPECT_EQ(stats.particles, t.x.size());
+  EXPECT_TRUE(run->snapshot().finite());
+}
+
 TEST_F(NastyTest, NoParticles) {
   Trial t = trial();
   setWalls(t, {1, 1, 1});

@@ -123,6 +123,19 @@ TEST_F(Images, MistakesAreNamed) {
   EXPECT_EQ(after([&] { GraphTest::read("look", import("buffer"), Use::ComputeSampled); }),
             "pass 'look' reads 'buffer' with Use::ComputeSampled, which is no way for a pass to read");
   EXPECT_EQ(after([&] { (void)graph.create("image", ImageDesc{VK_FORMAT_UNDEFINED, 1, 1}); }), "image 'image' has no format");
+  EXPECT_EQ(after([&] {
+              (void)graph.create("image", ImageDesc{VK_FORMAT_R32_SFLOAT, 1u << 30, 1u << 30});
+            }),
+            "image 'image' of 1073741824 x 1073741824 texels: at most 32768 a side are possible");
+  EXPECT_EQ(after([&] {
+              (void)graph.import("one", {fakeImage(1), kDesc, Use::ComputeSampled, Use::None});
+              (void)graph.import("two", {fakeImage(1), kDesc, Use::ComputeSampled, Use::None});
+            }),
+            "imports 'one' and 'two' overlap in one VkImage: import the memory once");
+  EXPECT_EQ(after([&] {
+              (void)write("add", graph.import("image", {fakeImage(1), kDesc, Use::ComputeRead, Use::None}), Use::ComputeAtomic);
+            }),
+            "pass 'add' writes 'image' with Use::ComputeAtomic, which is no way for a pass to write an image");
   EXPECT_EQ(after([&] { (void)graph.create("image", ImageDesc{VK_FORMAT_R32_SFLOAT, 0, 1}); }), "image 'image' has no size");
   EXPECT_EQ(after([&] {
               (void)graph.import("image", ImageImport{VK_NULL_HANDLE, kDesc, Use::None, Use::None});
@@ -161,6 +174,7 @@ class ImagesOnNullDevice : public Images {
     EXPECT_TRUE(borrowed);
     device = std::move(*borrowed);
     vulkan.commands.reserve(1 << 14);
+    vulkan.imageBarriers.reserve(1 << 14);
   }
   ~ImagesOnNullDevice() override { owned.reset(); }
   Expected<void> frame(uint32_t count, uint32_t width) {
@@ -169,6 +183,7 @@ class ImagesOnNullDevice : public Images {
     device->beginFrame(clock);
     graph.reset();
     vulkan.commands.clear();
+    vulkan.imageBarriers.clear();
     for (uint32_t i = 0; i < count; ++i) {
       ImageRef image = graph.create("image", ImageDesc{VK_FORMAT_R32_SFLOAT, width, 64});
       graph.pass("clear", [&](Pass& p) {
@@ -201,6 +216,15 @@ TEST_F(ImagesOnNullDevice, AreMadeOnceAndThePlanUsesWhatTheDeviceSays) {
   EXPECT_EQ(vulkan.count(NullCommand::CopyFromImage), 4u);
   for (const NullCommand& c : vulkan.commands)
     if (c.kind == NullCommand::Barrier) { EXPECT_LE(c.handle, 1u); }
+  ASSERT_EQ(vulkan.imageBarriers.size(), 8u) << "for the clear and for the copy of each";
+  const VkImage image = vulkan.imageBarriers[0].image;
+  for (size_t k = 0; k < 8; ++k) {
+    const VkImageMemoryBarrier2& b = vulkan.imageBarriers[k];
+    EXPECT_EQ(b.image, image);
+    EXPECT_EQ(b.oldLayout, k % 2 ? kTarget : kUndefined);
+    EXPECT_EQ(b.newLayout, k % 2 ? kSource : kTarget);
+    EXPECT_EQ(b.srcAccessMask & kTransferWrite, kTransferWrite) << "even the first waits, for the frame before";
+  }
   for (int i = 0; i < 8; ++i) ASSERT_TRUE(frame(4, 64));
   EXPECT_EQ(vulkan.imagesCreated, 1u);
   ASSERT_TRUE(frame(4, 128));  // grows the heap, and makes another image in it

@@ -76,7 +76,7 @@ class RandomFrames : public GraphTest {
           if (drawn[r] && pick(2)) {
             pass.read(images[r], imageReads[pick(3)]);
           } else {
-            images[r] = pass.write(images[r], writings[pick(drawn[r] ? 3 : 2)], pick(4) == 0);
+            images[r] = pass.write(images[r], writings[pick(2)], pick(4) == 0);
             drawn[r] = true;
           }
         }

@@ -43,6 +43,7 @@ void properties(VkPhysicalDevice, VkPhysicalDeviceProperties2* out) {
   p.limits.maxStorageBufferRange = 1u << 30;
   p.limits.maxUniformBufferRange = 65536;
   p.limits.maxImageDimension2D = 4096;
+  p.limits.maxPerStageDescriptorStorageImages = p.limits.maxPerStageDescriptorSampledImages = 16;
   p.limits.maxTexelBufferElements = 65536;
   p.limits.maxPerStageDescriptorStorageBuffers = 64;
   p.limits.minStorageBufferOffsetAlignment = p.limits.minUniformBufferOffsetAlignment = p.limits.minTexelBufferOffsetAlignment = 64;
@@ -155,6 +156,8 @@ void add(NullCommand::Kind kind, uint64_t handle = 0, uint64_t a = 0, uint64_t b
   current->commands.push_back({kind, {}, handle, a, b, c});
 }
 void cmdBarrier(VkCommandBuffer, const VkDependencyInfo* info) {
+  current->imageBarriers.insert(current->imageBarriers.end(), info->pImageMemoryBarriers,
+                                info->pImageMemoryBarriers + info->imageMemoryBarrierCount);
   const VkMemoryBarrier2 memory = info->memoryBarrierCount ? info->pMemoryBarriers[0] : VkMemoryBarrier2{};
   current->commands.push_back({NullCommand::Barrier, memory, info->memoryBarrierCount, info->imageMemoryBarrierCount, 0, 0});
 }

@@ -24,7 +24,8 @@ struct NullCommand {
   } kind;
   VkMemoryBarrier2 barrier;  ///< of Barrier
   uint64_t handle;           ///< pipeline, set, target buffer or image
-  uint64_t a, b, c;          ///< groups; source offset, target offset, bytes; layout, width, height; of Barrier: memory and image barriers
+  uint64_t a, b, c;  ///< groups; source offset, target offset, bytes; layout, width, height; of Barrier: image barriers in a, memory
+                     ///< barriers in handle
 };
 
 class NullVulkan {
@@ -39,9 +40,10 @@ class NullVulkan {
   size_t count(NullCommand::Kind kind) const;
 
   std::vector<NullCommand> commands;
-  VkResult allocationResult = VK_SUCCESS;  ///< what vkAllocateMemory answers
-  uint64_t bufferBytes = 0;                ///< of all buffers that were created
-  int64_t liveObjects = 0;                 ///< created and not yet destroyed
+  std::vector<VkImageMemoryBarrier2> imageBarriers;  ///< of all barriers, in order
+  VkResult allocationResult = VK_SUCCESS;            ///< what vkAllocateMemory answers
+  uint64_t bufferBytes = 0;                          ///< of all buffers that were created
+  int64_t liveObjects = 0;                           ///< created and not yet destroyed
   size_t setsAllocated = 0, viewsCreated = 0, buffersCreated = 0, imagesCreated = 0;
 
  private:

@@ -38,9 +38,9 @@ enum class Use : uint8_t {
   ComputeRead,     ///< storage buffer or image, read
   ComputeTexel,    ///< uniform texel buffer, read
   ComputeUniform,  ///< uniform buffer, read
-  ComputeSampled,  ///< image, fetched or sampled
+  ComputeSampled,  ///< image, read by texelFetch
   ComputeWrite,    ///< storage buffer or image, read and written
-  ComputeAtomic,   ///< the same, atomics of one kind whose result is unused: they commute with each other, no barrier between
+  ComputeAtomic,   ///< storage buffer, atomics of one kind whose result is unused: they commute with each other, no barrier between
   Indirect,        ///< dispatch arguments
   CopySource,
   CopyTarget,
@@ -112,7 +112,7 @@ class Pass {
   uint32_t index_;
 };
 
-/// What a record lambda can do. Nothing here fails. A version of a buffer that the pass did not declare is an assert.
+/// What a record lambda can do. Nothing here fails. A version of a resource that the pass did not declare is an assert.
 class Commands {
  public:
   /// `groups` workgroups; more than 65,535 are folded into x and y, so the shader takes its group index as
@@ -130,7 +130,7 @@ class Commands {
   }
   void copy(BufferRef source, BufferRef target, uint64_t bytes, uint64_t sourceOffset = 0, uint64_t targetOffset = 0);
   void fill(BufferRef target, uint32_t value, uint64_t offset = 0, uint64_t bytes = UINT64_MAX);  ///< UINT64_MAX: to the end
-  /// The whole image from or to tightly packed rows that start at `offset` bytes of the buffer.
+  /// The whole image from or to tightly packed rows that start at `offset` bytes of the buffer: a multiple of 4 and of a texel's bytes.
   void copy(BufferRef source, ImageRef target, uint64_t offset = 0);
   void copy(ImageRef source, BufferRef target, uint64_t offset = 0);
   void clear(ImageRef target, const VkClearColorValue& value);
@@ -202,10 +202,13 @@ class Graph {
   std::span<const std::byte> data(Ticket ticket) const;
 
   /// Culls, orders, plans barriers and memory. Touches no GPU. BadInput, naming pass and resource, for a stale or consumed ref,
-  /// a read of a resource that nobody wrote, a buffer of no size. What memory an image of a new kind takes is an estimate.
+  /// a read of a resource that nobody wrote, a buffer of no size, an image without a format. What memory an image of a new kind takes is an
+  /// estimate.
   Expected<void> compile();
   /// Everything that can fail: memory, descriptor sets, query pools. Asks the device for the size of images of a new kind, and plans
-  /// again where the estimate was wrong.
+  /// again where the estimate was wrong. BadInput where a resource is more than the device can bind or its format cannot be used so,
+  /// NoDevice where no memory type suits all transient images, OutOfMemory, Failed. Transient images that the frame before had and this
+  /// one has not are destroyed: frames that alternate should have a graph each.
   Expected<void> prepare(Device& device);
   /// Records into the host's command buffer, which is in the recording state and outside a render pass. Cannot fail.
   void record(VkCommandBuffer commandBuffer);
