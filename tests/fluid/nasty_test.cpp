@@ -192,8 +192,9 @@ TEST_F(NastyTest, ListsThatOverflowForAWhile) {
 
 // More particles at one place than a walk looks at: it ends, and says so.
 TEST_F(NastyTest, AWalkIsBoundedAndSaysSo) {
+  if (rillDevice().info().name.find("SwiftShader") != std::string::npos) GTEST_SKIP() << "a thousand million pairs take it two minutes";
   Trial t = trial();
-  t.x.assign(40000, glm::dvec3(0.5));
+  t.x.assign(33000, glm::dvec3(0.5));
   t.v.assign(t.x.size(), glm::dvec3(0));
   auto run = start(t);
   run->substeps(1);
