@@ -1,11 +1,18 @@
 #pragma once
 // What one frame in flight holds on the device. A slot is used again once the host's clock says that its frame has completed.
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "gpu/device_impl.hpp"
 
 namespace rill {
+
+/// Descriptors of each type of kDescriptorTypes.
+constexpr std::array kDescriptorTypes = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                                         VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+                                         VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE};
+using DescriptorCounts = std::array<uint32_t, kDescriptorTypes.size()>;
 
 struct FrameSlot {
   struct View {
@@ -36,8 +43,8 @@ struct FrameSlot {
   std::vector<View> views;
   std::vector<VkImageView> imageViews;  ///< of imported images
   VkDescriptorPool pool = VK_NULL_HANDLE;
-  uint32_t poolSets = 0, poolStorage = 0, poolUniform = 0, poolTexel = 0, poolStorageImage = 0,
-           poolSampledImage = 0;  ///< what the pool was made for
+  uint32_t poolSets = 0;  ///< what the pool was made for
+  DescriptorCounts poolCounts{};
   VkQueryPool queries = VK_NULL_HANDLE;
   uint32_t queryCapacity = 0;
   std::vector<uint32_t> timedNames;  ///< the pass between each two timestamps

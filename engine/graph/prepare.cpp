@@ -181,29 +181,23 @@ void GraphImpl::shareSets() {
 
 namespace {
 
-Expected<void> makePool(DeviceImpl& d, FrameSlot& slot, uint32_t sets, uint32_t storage, uint32_t uniform, uint32_t texel,
-                        uint32_t storageImages, uint32_t sampledImages) {
-  if (sets <= slot.poolSets && storage <= slot.poolStorage && uniform <= slot.poolUniform && texel <= slot.poolTexel &&
-      storageImages <= slot.poolStorageImage && sampledImages <= slot.poolSampledImage)
-    return {};
+Expected<void> makePool(DeviceImpl& d, FrameSlot& slot, uint32_t sets, const DescriptorCounts& counts) {
+  bool enough = sets <= slot.poolSets;
+  for (size_t t = 0; t < counts.size(); ++t) enough = enough && counts[t] <= slot.poolCounts[t];
+  if (enough) return {};
   if (slot.pool) d.vk.DestroyDescriptorPool(d.handle, slot.pool, d.callbacks);  // its frame has completed
   slot.pool = VK_NULL_HANDLE;
-  const auto room = [](uint32_t have, uint32_t need) { return std::max(have, std::bit_ceil(std::max(need, 1u))); };
-  slot.poolSets = room(slot.poolSets, sets);
-  slot.poolStorage = room(slot.poolStorage, storage);
-  slot.poolUniform = room(slot.poolUniform, uniform);
-  slot.poolTexel = room(slot.poolTexel, texel);
-  slot.poolStorageImage = room(slot.poolStorageImage, storageImages);
-  slot.poolSampledImage = room(slot.poolSampledImage, sampledImages);
-  const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, slot.poolStorage},
-                                        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, slot.poolUniform},
-                                        {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, slot.poolTexel},
-                                        {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, slot.poolStorageImage},
-                                        {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, slot.poolSampledImage}};
+  const auto grow = [](uint32_t& have, uint32_t need) { have = std::max(have, std::bit_ceil(std::max(need, 1u))); };
+  grow(slot.poolSets, sets);
+  std::array<VkDescriptorPoolSize, kDescriptorTypes.size()> sizes;
+  for (size_t t = 0; t < counts.size(); ++t) {
+    grow(slot.poolCounts[t], counts[t]);
+    sizes[t] = {kDescriptorTypes[t], slot.poolCounts[t]};
+  }
   VkDescriptorPoolCreateInfo create{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   create.maxSets = slot.poolSets;
-  create.poolSizeCount = uint32_t(std::size(sizes));
-  create.pPoolSizes = sizes;
+  create.poolSizeCount = uint32_t(sizes.size());
+  create.pPoolSizes = sizes.data();
   if (VkResult r = d.vk.CreateDescriptorPool(d.handle, &create, d.callbacks, &slot.pool); r != VK_SUCCESS) {
     slot.poolSets = 0;
     return vulkanError(r, "creating a pool of " + std::to_string(create.maxSets) + " descriptor sets");
@@ -215,31 +209,15 @@ Expected<void> makePool(DeviceImpl& d, FrameSlot& slot, uint32_t sets, uint32_t 
 
 Expected<void> GraphImpl::makeSets(DeviceImpl& d, FrameSlot& target) {
   SetSharing& s = sharing;
-  uint32_t storage = 0, uniform = 0, texel = 0, storageImages = 0, sampledImages = 0;
+  DescriptorCounts counts{};
   s.layouts.clear();
   for (uint32_t k : s.unique) {
     s.layouts.push_back(kernels[k].pipeline->set->handle);
-    for (BindingKind kind : kernels[k].pipeline->set->kinds) {
-      switch (kind) {
-        case BindingKind::Storage:
-          ++storage;
-          break;
-        case BindingKind::Uniform:
-          ++uniform;
-          break;
-        case BindingKind::StorageImage:
-          ++storageImages;
-          break;
-        case BindingKind::SampledImage:
-          ++sampledImages;
-          break;
-        default:
-          ++texel;
-      }
-    }
+    for (BindingKind kind : kernels[k].pipeline->set->kinds)
+      ++counts[size_t(std::ranges::find(kDescriptorTypes, descriptorType(kind)) - kDescriptorTypes.begin())];
   }
   if (s.unique.empty()) return {};
-  if (auto ok = makePool(d, target, uint32_t(s.unique.size()), storage, uniform, texel, storageImages, sampledImages); !ok) return ok;
+  if (auto ok = makePool(d, target, uint32_t(s.unique.size()), counts); !ok) return ok;
   s.sets.resize(s.unique.size());
   VkDescriptorSetAllocateInfo allocate{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO, nullptr, target.pool, uint32_t(s.unique.size()),
                                        s.layouts.data()};
@@ -250,9 +228,9 @@ Expected<void> GraphImpl::makeSets(DeviceImpl& d, FrameSlot& target) {
   s.buffers.clear();
   s.views.clear();
   s.images.clear();
-  s.images.reserve(storageImages + sampledImages);  // the writes point into these three
-  s.buffers.reserve(storage + uniform);
-  s.views.reserve(texel);
+  s.buffers.reserve(counts[0] + counts[1]);  // the writes point into these three, in the order of kDescriptorTypes
+  s.views.reserve(counts[2]);
+  s.images.reserve(counts[3] + counts[4]);
   for (size_t u = 0; u < s.unique.size(); ++u) {
     KernelData& kernel = kernels[s.unique[u]];
     kernel.set = s.sets[u];

@@ -24,10 +24,6 @@ void recordBarrier(const DeviceTable& vk, VkCommandBuffer commandBuffer, const P
   vk.CmdPipelineBarrier2(commandBuffer, &dependency);
 }
 
-VkBufferImageCopy wholeImage(const ImageDesc& desc, uint64_t bufferOffset) {
-  return {bufferOffset, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {0, 0, 0}, {desc.width, desc.height, 1}};
-}
-
 }  // namespace
 
 void GraphImpl::record(VkCommandBuffer commandBuffer) {
@@ -114,24 +110,21 @@ void Commands::fill(BufferRef target, uint32_t value, uint64_t offset, uint64_t 
   if (size != 0) graph_.device->vk.CmdFillBuffer(commandBuffer_, to.buffer, to.offset + offset, size, value);
 }
 
-void Commands::copy(BufferRef source, ImageRef target, uint64_t offset) {
-  assert(source.epoch == graph_.epoch && target.epoch == graph_.epoch);
-  assert(graph_.accessOf(pass_, source.index) && graph_.accessOf(pass_, target.index) &&
-         "a copy's buffer and image are declared by its pass");
-  const ResourceData& from = graph_.resources[source.index];
-  const ResourceData& to = graph_.resources[target.index];
-  const VkBufferImageCopy region = wholeImage(to.desc, from.offset + offset);
-  graph_.device->vk.CmdCopyBufferToImage(commandBuffer_, from.buffer, to.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
-}
+void Commands::copy(BufferRef source, ImageRef target, uint64_t offset) { copyWhole(source, target, offset, true); }
+void Commands::copy(ImageRef source, BufferRef target, uint64_t offset) { copyWhole(target, source, offset, false); }
 
-void Commands::copy(ImageRef source, BufferRef target, uint64_t offset) {
-  assert(source.epoch == graph_.epoch && target.epoch == graph_.epoch);
-  assert(graph_.accessOf(pass_, source.index) && graph_.accessOf(pass_, target.index) &&
-         "a copy's image and buffer are declared by its pass");
-  const ResourceData& from = graph_.resources[source.index];
-  const ResourceData& to = graph_.resources[target.index];
-  const VkBufferImageCopy region = wholeImage(from.desc, to.offset + offset);
-  graph_.device->vk.CmdCopyImageToBuffer(commandBuffer_, from.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.buffer, 1, &region);
+void Commands::copyWhole(BufferRef buffer, ImageRef image, uint64_t offset, bool toImage) {
+  assert(buffer.epoch == graph_.epoch && image.epoch == graph_.epoch);
+  assert(graph_.accessOf(pass_, buffer.index) && graph_.accessOf(pass_, image.index) &&
+         "a copy's buffer and image are declared by its pass");
+  const ResourceData &bytes = graph_.resources[buffer.index], &texels = graph_.resources[image.index];
+  const VkBufferImageCopy region{
+      bytes.offset + offset, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {0, 0, 0}, {texels.desc.width, texels.desc.height, 1}};
+  const DeviceTable& vk = graph_.device->vk;
+  if (toImage)
+    vk.CmdCopyBufferToImage(commandBuffer_, bytes.buffer, texels.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+  else
+    vk.CmdCopyImageToBuffer(commandBuffer_, texels.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, bytes.buffer, 1, &region);
 }
 
 void Commands::clear(ImageRef target, const VkClearColorValue& value) {

@@ -21,7 +21,7 @@ float plannedStep(FluidControl c, float tolerable, float cflBound) {
   return min(max(tolerable, 1.01 * c.timeLeft / left), cflBound);
 }
 
-// The advance's rest in equal substeps of about `wanted` seconds: a piece may be a quarter longer, so that the end of an advance never asks for a stub.
+// The advance's rest in equal substeps of about `wanted` seconds: a piece may be a quarter longer, so that the end of an advance never asks for a sliver.
 float fittedStep(float rest, float wanted) {
   return rest / max(ceil(rest / wanted - 0.25), 1.0);
 }

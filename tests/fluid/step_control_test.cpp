@@ -33,7 +33,7 @@ class StepControlTest : public FluidTest {
   }
 };
 
-// A planned step may be a quarter longer than cfl's bound where that saves a stub at the end of an advance, and correction may double the
+// A planned step may be a quarter longer than cfl's bound where that saves a sliver at the end of an advance, and correction may double the
 // way.
 TEST_F(StepControlTest, CflIsRespected) {
   Trial t = dam({6, 8, 5}, {1, 1, 5.0 / 16});

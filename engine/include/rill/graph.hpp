@@ -140,6 +140,7 @@ class Commands {
   friend class GraphImpl;
   Commands(GraphImpl& graph, VkCommandBuffer commandBuffer) : graph_(graph), commandBuffer_(commandBuffer) {}
   void bind(Kernel kernel, std::span<const std::byte> push);
+  void copyWhole(BufferRef buffer, ImageRef image, uint64_t offset, bool toImage);
   GraphImpl& graph_;
   VkCommandBuffer commandBuffer_;
   uint32_t pass_ = 0;
