@@ -9,6 +9,7 @@
 #include "core/words.hpp"
 #include "rill/offline.hpp"
 #include "shared/scene_folders.hpp"
+#include "shared/usage.hpp"
 #include "shared/words.hpp"
 
 namespace rill::capture {
@@ -34,7 +35,7 @@ std::optional<Number> parse(std::string_view text) {
 struct Raw {
   std::string scene, frames, fps, size, out, view, stats, exportAs, particles, device;
   std::vector<std::string> set, require;
-  bool explain = false, noImages = false, quiet = false;
+  bool explain = false, noImages = false, noPassTimes = false, quiet = false;
 };
 
 std::vector<std::string> viewNames() {
@@ -68,6 +69,8 @@ void declare(CLI::App& app, Raw& raw) {
   once("--export", raw.exportAs, "write the particles of each frame: ply", "FORMAT", written);
   once("--stats", raw.stats, "write all figures as JSON; - is standard output", "FILE", written);
 
+  app.add_flag("--no-pass-times", raw.noPassTimes, "do not time passes for --stats and --explain: on a software device that takes a tenth of the run or more")
+      ->group(run);
   once("--device", raw.device, "part of a device's name, or its index", "NAME", run);
   list("--require", raw.require, "exit with 3 unless it holds, as 'outside<1'", "FIGURE<NUMBER", run);
   app.add_flag("--explain", raw.explain, "list each pass: runs and time, or why it was skipped")->group(run);
@@ -103,16 +106,6 @@ std::vector<std::string> spreadLists(int count, const char* const* arguments) {
     spread.emplace_back(argument);
   }
   return spread;
-}
-
-std::string quoted(std::string_view argument) {
-  const bool plain =
-      !argument.empty() &&
-      argument.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%") == std::string_view::npos;
-  if (plain) return std::string(argument);
-  std::string text = "'";
-  for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
 }
 
 Expected<Options> judged(const Raw& raw, const CLI::App& app) {
@@ -184,22 +177,9 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
   }
   options.explain = raw.explain;
   options.images = !raw.noImages;
+  options.passTimes = !raw.noPassTimes;
   options.quiet = raw.quiet;
   return options;
-}
-
-/// The library's own message, with the nearest option for one that it does not know.
-std::string usageMessage(const CLI::App& app, const CLI::ParseError& error) {
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return error.what();
-  std::vector<std::string> known;
-  for (const CLI::Option* option : app.get_options())
-    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-  for (std::string extra : app.remaining()) {
-    if (const size_t equals = extra.find('='); extra.starts_with("--") && equals != std::string::npos) extra.resize(equals);
-    if (extra.starts_with("-")) return "there is no option " + inQuotes(extra) + apps::didYouMean(extra, known);
-    return inQuotes(extra) + " is one argument too many; expected one SCENE";
-  }
-  return error.what();
 }
 
 }  // namespace
@@ -229,12 +209,12 @@ Expected<CommandLine> parseCommandLine(int count, const char* const* arguments) 
   } catch (const CLI::CallForVersion&) {
     return CommandLine{std::nullopt, std::string("rill-capture ") + RILL_VERSION + "\n"};
   } catch (const CLI::CallForHelp&) { return CommandLine{std::nullopt, app.help()}; } catch (const CLI::ParseError& error) {
-    return Error{ErrorKind::BadInput, usageMessage(app, error) + "\ntry rill-capture --help"};
+    return Error{ErrorKind::BadInput, apps::usageMessage(app, error) + "\ntry rill-capture --help"};
   }
   auto options = judged(raw, app);
   if (!options) return options.error();
   options->command = "rill-capture";
-  for (int i = 1; i < count; ++i) options->command += " " + quoted(arguments[i]);
+  for (int i = 1; i < count; ++i) options->command += " " + apps::shellQuoted(arguments[i]);
   return CommandLine{std::move(*options), {}};
 }
 

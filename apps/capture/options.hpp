@@ -28,6 +28,7 @@ struct Options {
   std::string device;
   std::vector<Requirement> requirements;
   bool explain = false, images = true, quiet = false;
+  bool passTimes = true;  ///< where --stats or --explain would show them
   std::string command;  ///< the command line, quoted where a shell needs it
 };
 

@@ -273,8 +273,8 @@ Expected<void> FluidImpl::makePipelines(Device& device) {
     make(pipes_.build, texel_ ? "fluid/build_texel" : "fluid/build", bindings, sizeof(ChunkPush), {0, cluster, capacity, nearWalls}, whole);
   }
   if (setup.near) {
-    make(pipes_.plane, "fluid/walls", plain(2, 6), 0, {0, 0, 1});
-    make(pipes_.corner, "fluid/walls", plain(2, 6), 0, {1, p.solidCount > 0, setup.thin ? 2u : 1u});
+    make(pipes_.walls.plane, "fluid/walls", plain(2, 6), 0, {0, 0, 1});
+    make(pipes_.walls.corner, "fluid/walls", plain(2, 6), 0, {1, p.solidCount > 0, setup.thin ? 2u : 1u});
   }
   if (p.solidCount > 0) make(pipes_.collide, "fluid/collide", plain(2, 11), 0, {0});
   if (p.solidCount > 0 && (setup.viscositySweeps > 0 || p.vorticity > 0)) make(pipes_.collideAgain, "fluid/collide", plain(2, 11), 0, {1});

@@ -23,6 +23,11 @@ struct FluidBuffers {
   Buffer staging;  // the start state, until it has been copied
 };
 
+/// Of the particles near one wall, and of those near several walls or a solid.
+struct WallPipelines {
+  const ComputePipeline *plane = nullptr, *corner = nullptr;
+};
+
 /// A pass over the neighbours: from the list, and the variant that can walk the grid as well. No list variant where there is no list.
 struct GatherPipelines {
   const ComputePipeline *list = nullptr, *walk = nullptr;
@@ -31,7 +36,8 @@ struct GatherPipelines {
 struct FluidPipelines {
   const ComputePipeline *begin = nullptr, *control = nullptr, *arm = nullptr, *predict = nullptr, *keys = nullptr, *reorder = nullptr,
                         *build = nullptr;
-  const ComputePipeline *plane = nullptr, *corner = nullptr, *collide = nullptr, *collideAgain = nullptr, *pose = nullptr;
+  const ComputePipeline *collide = nullptr, *collideAgain = nullptr, *pose = nullptr;
+  WallPipelines walls;
   GatherPipelines density, correct, iterate, viscosity, curl, confine;
   const ComputePipeline* keep = nullptr;
   const ComputePipeline *measureKeys = nullptr, *measureOrder = nullptr, *measure = nullptr, *reduce = nullptr;

@@ -243,16 +243,21 @@ static void plainPass(Graph& graph, FluidRefs& r, std::string_view name, const C
   });
 }
 
-// Wall and solid densities at `at` for the particles near them.
-static void wallPass(Graph& graph, FluidRefs& r, std::string_view name, const ComputePipeline* pipeline, BufferRef at, uint32_t command) {
+// Wall and solid densities at `at` for the particles near them. Those near one wall and those near more are never the same: two dispatches, one pass.
+static void wallPass(Graph& graph, FluidRefs& r, std::string_view name, const WallPipelines& pipelines, BufferRef at, uint32_t planeCommand,
+                     uint32_t cornerCommand) {
   graph.pass(name, [&](Pass& pass) {
     pass.read(r.params, Use::ComputeUniform);
     pass.read(r.control, Use::ComputeUniform);
     pass.read(r.commands, Use::Indirect);
     for (BufferRef ref : {at, r.nearList, r.sums, r.tables, r.solids}) pass.read(ref, Use::ComputeRead);
     r.nearSample = pass.write(r.nearSample, Use::ComputeWrite);
-    const Kernel kernel = pass.kernel(pipeline, {r.params, r.control, at, r.nearList, r.sums, r.tables, r.solids, r.nearSample});
-    return [=, arguments = r.commands](Commands& commands) { commands.dispatchIndirect(kernel, arguments, commandAt(command)); };
+    const std::initializer_list<ResourceRef> bindings = {r.params, r.control, at, r.nearList, r.sums, r.tables, r.solids, r.nearSample};
+    const Kernel plane = pass.kernel(pipelines.plane, bindings), corner = pass.kernel(pipelines.corner, bindings);
+    return [=, arguments = r.commands](Commands& commands) {
+      commands.dispatchIndirect(corner, arguments, commandAt(cornerCommand));
+      commands.dispatchIndirect(plane, arguments, commandAt(planeCommand));
+    };
   });
 }
 
@@ -281,8 +286,8 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity) {
                  });
     }
     if (setup.near) {
-      wallPass(graph, r_, "walls", pipes_.plane, r_.prediction, first ? kCommandPlane : kCommandPlaneAgain);
-      wallPass(graph, r_, "corners and solids", pipes_.corner, r_.prediction, first ? kCommandCorner : kCommandCornerAgain);
+      wallPass(graph, r_, "walls and solids", pipes_.walls, r_.prediction, first ? kCommandPlane : kCommandPlaneAgain,
+               first ? kCommandCorner : kCommandCornerAgain);
     }
     gatherPass(graph, r_, texel_, chunks, "density", pipes_.density, r_.prediction, first ? kCommandDensity : kCommandIterate,
                ChunkPush{0, 0, iteration}, [&](Pass& pass, BindingList& bindings) {
@@ -398,8 +403,7 @@ void FluidImpl::declareTerms(Graph& graph, uint32_t parity) {
 
 void FluidImpl::declareMeasure(Graph& graph, Pending& pending) {
   if (setup.near) {
-    wallPass(graph, r_, "measure walls", pipes_.plane, r_.position, kCommandMeasurePlane);
-    wallPass(graph, r_, "measure corners", pipes_.corner, r_.position, kCommandMeasureCorner);
+    wallPass(graph, r_, "measure walls", pipes_.walls, r_.position, kCommandMeasurePlane, kCommandMeasureCorner);
   }
   BufferRef partials = graph.create("partial sums", {divideUp(count, kMeasureGroup) * sizeof(MeasurePartial)});
   BufferRef histogram = graph.create("error histogram", {3 * kMeasureBins * 4});
@@ -430,7 +434,7 @@ void FluidImpl::declareMeasure(Graph& graph, Pending& pending) {
 
 void FluidImpl::declareSkipped(Graph& graph) {
   const FluidParams& p = setup.params;
-  if (!setup.near) graph.skipped("walls", "no domain and no solids");
+  if (!setup.near) graph.skipped("walls and solids", "no domain and no solids");
   if (p.solidCount == 0) graph.skipped("collide", "no solids");
   if (!setup.movingSolids) graph.skipped("move solids", "no solid moves");
   if (p.iterations == 1) graph.skipped("iterate", "one iteration a substep");

@@ -18,7 +18,7 @@ constexpr double kRelaxation = 0.7;       // under the linear limit of 0.71 for 
 constexpr double kRegularization = 0.02;  // of the rest lattice's sum |grad C|^2: keeps lone pairs from flying apart
 constexpr double kWarmGain = 0.05;
 constexpr double kWarmRelease =
-    1.3;  // the gain where density is too low, over that where it is too high: what builds up slower than it goes pumps less energy
+    1.5;  // the gain where density is too low, over that where it is too high: what builds up slower than it goes pumps less energy
 constexpr double kErrorOfHead = 0.06;   // mean compression over dt^2 g H / d^2, of the dam breaks in assets/scenes
 constexpr double kTravel = 1.6;         // spacings that the fastest particle may move before the list is rebuilt
 constexpr double kFarSpacings = 1.0e6;  // beyond it, positions have lost their meaning: float holds 24 bits

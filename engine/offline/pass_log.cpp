@@ -46,7 +46,10 @@ std::string passTable(std::span<const PassTime> passes, std::span<const SkippedP
   std::snprintf(line, sizeof line, "%-36s %9s %11s %10s\n", "pass", "recorded", "ms", "us each");
   std::string text = line;
   for (const PassTime& pass : passes) {
-    std::snprintf(line, sizeof line, "%-36s %9u %11.3f %10.2f\n", pass.name.c_str(), pass.runs, pass.ms, 1e3 * pass.ms / pass.runs);
+    if (pass.ms > 0)
+      std::snprintf(line, sizeof line, "%-36s %9u %11.3f %10.2f\n", pass.name.c_str(), pass.runs, pass.ms, 1e3 * pass.ms / pass.runs);
+    else  // not timed
+      std::snprintf(line, sizeof line, "%-36s %9u %11s %10s\n", pass.name.c_str(), pass.runs, "-", "-");
     text += line;
   }
   for (const auto& [name, reason] : skipped)

@@ -59,6 +59,7 @@ class Simulation::Impl {
     auto fluid = Fluid::create(context_->device(), {&scene_, &start_});
     if (!fluid) return fluid.error();
     fluid_ = std::move(*fluid);
+    for (Graph* graph : {&advanceGraph_, &measureGraph_, &renderGraph_}) graph->enableTimings(options_.passTimes);
     return {};
   }
 

@@ -59,7 +59,7 @@ struct ReferenceSettings {
   double relaxation = 0.5;    ///< omega, > 0 .. 2; 0.5 is quiet in a still tank
   double regularization = 0;  ///< eps, a fraction of D_rest, >= 0
   double warmStart = 0.01;    ///< kappa, 0 .. 0.5
-  double warmRelease = 1.3;   ///< times kappa where density is below rest density
+  double warmRelease = 1.5;   ///< times kappa where density is below rest density
 
   double tensile = 0;          ///< strength of the artificial pressure, 0 .. 1
   double tensileRadius = 0.2;  ///< delta q / h

@@ -157,6 +157,15 @@ TEST_F(CaptureTest, ExplainTellsWhatRanAndWhatDidNot) {
   EXPECT_NE(outcome.out.find("skipped: viscosity is 0"), std::string::npos) << outcome.out;
 }
 
+TEST_F(CaptureTest, PassesAreNotTimedWhereThatIsSaid) {
+  ASSERT_EQ(run({"--frames", "2", "--no-images", "--stats", "timed.json"}).code, 0);
+  EXPECT_GT(stats("timed.json")["frames"][1]["pass_ms"]["density"].get<double>(), 0);
+  const Outcome outcome = run({"--frames", "2", "--no-images", "--no-pass-times", "--explain", "--stats", "plain.json"});
+  ASSERT_EQ(outcome.code, 0);
+  EXPECT_EQ(stats("plain.json")["frames"][1]["pass_ms"], Json::object());
+  EXPECT_NE(outcome.out.find("density "), std::string::npos) << "what ran is told all the same: " << outcome.out;
+}
+
 TEST_F(CaptureTest, ARequirementThatDoesNotHoldIsThree) {
   const Outcome outcome = run({"--frames", "2", "--no-images", "--quiet", "--stats", "s.json", "--require", "particles<10", "outside<1"});
   EXPECT_EQ(outcome.code, 3);

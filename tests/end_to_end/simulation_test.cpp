@@ -114,7 +114,9 @@ TEST(Simulation, AddsTheOrigin) {
 }
 
 TEST(Simulation, StatsAreThoseOfTheInstant) {
-  const auto simulation = open();
+  Options options;
+  options.passTimes = true;
+  const auto simulation = open(options);
   ASSERT_TRUE(simulation);
   ASSERT_TRUE(simulation->advance(1.0 / 60));
   const auto first = simulation->stats(), again = simulation->stats();
@@ -122,11 +124,28 @@ TEST(Simulation, StatsAreThoseOfTheInstant) {
   EXPECT_EQ(first->wall_s, again->wall_s);
   EXPECT_EQ(first->substeps, again->substeps);
   EXPECT_GT(first->wall_s, 0);
-  EXPECT_FALSE(first->pass_ms.empty());
+  ASSERT_FALSE(first->pass_ms.empty());
+  for (const PassTime& pass : first->pass_ms) EXPECT_GT(pass.ms, 0) << pass.name;
   EXPECT_FALSE(first->skipped.empty());
   const auto said = simulation->explain();
   EXPECT_NE(said.find("the device ran " + std::to_string(simulation->stats()->substeps) + " substeps"), std::string::npos) << said;
   EXPECT_NE(simulation->graphDot().find("digraph"), std::string::npos);
+}
+
+TEST(Simulation, PassesAreTimedWhereThatIsAskedFor) {
+  const auto simulation = open();
+  ASSERT_TRUE(simulation);
+  ASSERT_TRUE(simulation->advance(1.0 / 60));
+  const auto stats = simulation->stats();
+  ASSERT_TRUE(stats);
+  ASSERT_FALSE(stats->pass_ms.empty()) << "what ran is known all the same";
+  for (const PassTime& pass : stats->pass_ms) {
+    EXPECT_GT(pass.runs, 0u) << pass.name;
+    EXPECT_EQ(pass.ms, 0) << pass.name;
+  }
+  Options timed;
+  timed.passTimes = true;
+  EXPECT_EQ(hashAfter({}, 3), hashAfter(timed, 3));
 }
 
 TEST(Simulation, RefusesWhatMakesNoSense) {

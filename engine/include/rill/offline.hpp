@@ -19,6 +19,7 @@ struct Options {
   std::string device;                ///< part of a name, or an index; empty: the best there is
   std::vector<Override> overrides;   ///< applied to the scene
   bool validation = false;           ///< with the validation layer, synchronization included; needs it installed
+  bool passTimes = false;            ///< with Stats::pass_ms; its time stamps cost a tenth to a fifth of a run on lavapipe
   uint32_t substepsPerSubmit = 0;    ///< 0: chosen; bits never depend on it
   double longestFrame_s = 1.0 / 60;  ///< s; a longer advance() is made of equal frames, each with the scene's max_substeps of its own
 };
@@ -40,7 +41,7 @@ struct Image {
 
 struct PassTime {
   std::string name;
-  double ms = 0;
+  double ms = 0;      ///< 0 without Options::passTimes
   uint32_t runs = 0;  ///< times recorded: the device leaves out substeps and rebuilds that are not due, which then cost an empty dispatch
 };
 using SkippedPass = std::pair<std::string, std::string>;  ///< and the reason
@@ -54,7 +55,7 @@ struct Stats : FluidStats {
   uint64_t state_hash = 0;                             ///< of positions and velocities in id order
   std::vector<std::pair<std::string, double>> probes;  ///< name and value, m
   double wall_s = 0;                                   ///< spent since the instant before, simulation alone
-  std::vector<PassTime> pass_ms;
+  std::vector<PassTime> pass_ms;                       ///< what was recorded
   std::vector<SkippedPass> skipped;
 };
 
