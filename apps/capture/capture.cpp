@@ -35,6 +35,7 @@ class Capture {
     if (const auto places = checkPlaces(); !places) return refuse(places.error());
     offline::Options wanted;
     wanted.device = options_.device;
+    wanted.passTimes = options_.passTimes && (options_.stats || options_.explain);
     auto simulation = offline::Simulation::open(scene_, wanted);
     if (!simulation) return refuse(simulation.error());
     simulation_ = std::move(*simulation);
@@ -112,7 +113,9 @@ class Capture {
       if (!stats) return stats.error();
       const double error = stats->density_error_mean;
       record_->add(time_s, std::move(*stats));
-      progress_.show({k + 1, frames_, time_s, error, std::chrono::duration<double>(Clock::now() - begin).count()});
+      char about[64];
+      std::snprintf(about, sizeof about, "t %.3f s  error %.3f %%", time_s, 100 * error);
+      progress_.show({"frame", k + 1, frames_, about, std::chrono::duration<double>(Clock::now() - begin).count()});
     }
     return {};
   }

@@ -24,7 +24,8 @@ std::string oneLine(const Json& json) { return json.dump(-1, ' ', false, Json::e
 Json frameJson(double time_s, const offline::Stats& stats) {
   Json probes = Json::object(), pass_ms = Json::object(), skipped = Json::object();
   for (const auto& [name, value] : stats.probes) probes[name] = value;
-  for (const offline::PassTime& pass : stats.pass_ms) pass_ms[pass.name] = pass.ms;
+  for (const offline::PassTime& pass : stats.pass_ms)
+    if (pass.ms > 0) pass_ms[pass.name] = pass.ms;
   for (const auto& [name, reason] : stats.skipped) skipped[name] = reason;
   Json frame;
   frame["time_s"] = time_s;
@@ -55,18 +56,6 @@ Json frameJson(double time_s, const offline::Stats& stats) {
   return frame;
 }
 
-/// Potential energy of all the fluid in the domain's lowest corner, J: from there potential energy is counted, so that the ratio of
-/// energies does not depend on where the scene's zero lies.
-double lowestPotential(const Scene& scene, double mass) {
-  if (!scene.domain) return 0;
-  double least = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double g = scene.gravity[axis];
-    least += std::min(-g * scene.domain->min[axis], -g * scene.domain->max[axis]);
-  }
-  return mass * least;
-}
-
 }  // namespace
 
 Record::Record(const Scene& scene, const DeviceInfo& device, std::string command)
@@ -75,46 +64,6 @@ Record::Record(const Scene& scene, const DeviceInfo& device, std::string command
 void Record::add(double time_s, offline::Stats stats) { frames_.push_back({time_s, std::move(stats)}); }
 
 double Record::simulatedSeconds() const { return frames_.empty() ? 0 : frames_.back().time_s; }
-
-double Record::wallSeconds() const {
-  double sum = 0;
-  for (const Frame& frame : frames_) sum += frame.stats.wall_s;
-  return sum;
-}
-
-Record::Energy Record::energy() const {
-  Energy energy;
-  if (frames_.empty()) return energy;
-  const auto total = [](const Frame& frame) { return frame.stats.kinetic_J + frame.stats.potential_J; };
-  energy.start_J = energy.max_J = total(frames_.front());
-  energy.end_J = total(frames_.back());
-  for (const Frame& frame : frames_) energy.max_J = std::max(energy.max_J, total(frame));
-  const double mass = double(frames_.front().stats.particles) * scene_->fluid.density * std::pow(scene_->fluid.spacing, 3);
-  const double floor = lowestPotential(*scene_, mass);
-  const double gained = energy.max_J - energy.start_J;
-  if (gained != 0)
-    energy.ratio =
-        energy.start_J - floor > 0 ? (energy.max_J - floor) / (energy.start_J - floor) : std::numeric_limits<double>::quiet_NaN();
-  return energy;
-}
-
-Record::DensityError Record::densityError() const {
-  DensityError error;
-  if (frames_.empty()) return error;
-  const size_t skip = std::min((frames_.size() + 9) / 10, frames_.size() - 1);
-  std::vector<double> medians;
-  for (size_t k = skip; k < frames_.size(); ++k) {
-    const offline::Stats& stats = frames_[k].stats;
-    error.mean += stats.density_error_mean / double(frames_.size() - skip);
-    error.p99 = std::max(error.p99, stats.density_error_p99);
-    error.max = std::max(error.max, stats.density_error_max);
-    medians.push_back(stats.density_signed_median);
-  }
-  const auto middle = medians.begin() + static_cast<std::ptrdiff_t>(medians.size() / 2);
-  std::nth_element(medians.begin(), middle, medians.end());
-  error.signed_median = *middle;
-  return error;
-}
 
 std::vector<std::string> Record::figureNames(const Scene& scene) {
   Record empty(scene, {}, {});
@@ -127,15 +76,15 @@ std::vector<Figure> Record::figures() const {
   const auto of = [&](auto member) {
     return [this, member](auto combine) {
       double value = 0;
-      for (const Frame& frame : frames_) value = combine(value, double(frame.stats.*member));
+      for (const apps::Instant& frame : frames_) value = combine(value, double(frame.stats.*member));
       return value;
     };
   };
   const auto largest = [](double a, double b) { return std::max(a, b); };
   const auto sum = std::plus<double>{};
   using Stats = offline::Stats;
-  const DensityError error = densityError();
-  const double simulated = simulatedSeconds(), wall = wallSeconds();
+  const apps::DensityFigures error = apps::densityFigures(frames_);
+  const double simulated = simulatedSeconds(), wall = apps::wallSeconds(frames_);
   const double none = std::numeric_limits<double>::quiet_NaN();
   const Stats last = frames_.empty() ? Stats{} : frames_.back().stats;
   std::vector<Figure> figures = {
@@ -152,7 +101,7 @@ std::vector<Figure> Record::figures() const {
       {"density_error_p99", error.p99, ""},
       {"density_error_max", error.max, ""},
       {"density_signed_median", error.signed_median, ""},
-      {"energy_ratio", energy().ratio, ""},
+      {"energy_ratio", apps::energyFigures(*scene_, frames_).ratio, ""},
       {"kinetic_J", last.kinetic_J, "J"},
       {"potential_J", last.potential_J, "J"},
       {"front_m", last.front_m, "m"},
@@ -171,8 +120,8 @@ std::vector<Figure> Record::figures() const {
 }
 
 std::string Record::json() const {
-  const DensityError error = densityError();
-  const Energy joules = energy();
+  const apps::DensityFigures error = apps::densityFigures(frames_);
+  const apps::EnergyFigures joules = apps::energyFigures(*scene_, frames_);
   Json head;
   head["rill"] = RILL_VERSION;
   head["command"] = command_;
@@ -180,7 +129,7 @@ std::string Record::json() const {
   head["device"] = {{"name", device_.name}, {"driver", device_.driver}, {"api", device_.api}};
   head["particles"] = frames_.empty() ? 0 : frames_.back().stats.particles;
   head["simulated_s"] = simulatedSeconds();
-  head["wall_s"] = wallSeconds();
+  head["wall_s"] = apps::wallSeconds(frames_);
   head["density_error"] = {{"mean", error.mean}, {"p99", error.p99}, {"max", error.max}};
   head["energy"] = {{"start_J", joules.start_J}, {"max_J", joules.max_J}, {"end_J", joules.end_J}, {"ratio", joules.ratio}};
   std::string text = "{\n";
@@ -195,7 +144,7 @@ std::string Record::passTable() const {
   std::vector<offline::PassTime> passes;
   std::vector<offline::SkippedPass> skipped;
   uint64_t substeps = 0, builds = 0;
-  for (const Frame& frame : frames_) {
+  for (const apps::Instant& frame : frames_) {
     for (const offline::PassTime& pass : frame.stats.pass_ms) {
       auto found = std::ranges::find(passes, pass.name, &offline::PassTime::name);
       if (found == passes.end()) found = passes.insert(passes.end(), {pass.name});
@@ -205,7 +154,7 @@ std::string Record::passTable() const {
     substeps += frame.stats.substeps;
     builds += frame.stats.list_builds;
   }
-  for (const Frame& frame : frames_)
+  for (const apps::Instant& frame : frames_)
     for (const offline::SkippedPass& skip : frame.stats.skipped)
       if (std::ranges::find(passes, skip.first, &offline::PassTime::name) == passes.end() &&
           std::ranges::find(skipped, skip.first, &offline::SkippedPass::first) == skipped.end())

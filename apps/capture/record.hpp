@@ -5,6 +5,7 @@
 
 #include "capture/requirement.hpp"
 #include "rill/offline.hpp"
+#include "shared/run_figures.hpp"
 
 namespace rill::capture {
 
@@ -30,26 +31,12 @@ class Record {
   std::string passTable() const;
 
  private:
-  struct Frame {
-    double time_s;
-    offline::Stats stats;
-  };
-  struct Energy {
-    double start_J = 0, max_J = 0, end_J = 0;
-    double ratio = 1;  ///< max over start, potential energy counted from the domain's lowest corner
-  };
-  struct DensityError {
-    double mean = 0, p99 = 0, max = 0, signed_median = 0;
-  };
-  Energy energy() const;
-  DensityError densityError() const;
   double simulatedSeconds() const;
-  double wallSeconds() const;
 
   const Scene* scene_;
   DeviceInfo device_;
   std::string command_;
-  std::vector<Frame> frames_;
+  std::vector<apps::Instant> frames_;
 };
 
 }  // namespace rill::capture

@@ -48,7 +48,7 @@ double secondsLeft(const ProgressState& state) {
 }
 
 std::string progressText(const ProgressState& state) {
-  std::string text = format("frame %u/%u  t %.3f s  error %.3f %%", state.done, state.total, state.time_s, 100 * state.density_error);
+  const std::string text = std::string(state.unit) + format(" %u/%u  ", state.done, state.total) + state.about;
   return text + (state.done < state.total ? "  left " + formatDuration(secondsLeft(state)) : "  took " + formatDuration(state.elapsed_s));
 }
 

@@ -1,22 +1,23 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace rill::apps {
 
-/// How far a capture is.
+/// How far counted work is.
 struct ProgressState {
-  uint32_t done = 0, total = 0;  ///< frames
-  double time_s = 0;             ///< simulated
-  double density_error = 0;      ///< mean compression, fraction of rest density
-  double elapsed_s = 0;          ///< wall time since the first frame was begun
+  std::string_view unit;         ///< what is counted, "frame"
+  uint32_t done = 0, total = 0;
+  std::string about;             ///< of what is at hand, "t 0.033 s"
+  double elapsed_s = 0;          ///< wall time since the first was begun
 };
 
 /// "1 h 02 min", "3 min 05 s", "12 s".
 std::string formatDuration(double seconds);
-/// Wall time left if the frames to come cost what those done have cost in the mean.
+/// Wall time left if those to come cost what those done have cost in the mean.
 double secondsLeft(const ProgressState& state);
-/// One line of text: frame, simulated time, error, time left.
+/// One line of text: how many, about what, time left.
 std::string progressText(const ProgressState& state);
 /// The same behind a bar, at most `columns` wide.
 std::string progressBar(const ProgressState& state, int columns);

@@ -33,7 +33,7 @@ TEST(CommandLine, HelpTeaches) {
     for (const char* word : {"SCENE",    "--frames",  "--fps",     "--size",      "--out",
                              "--view",   "--stats",   "--export",  "--particles", "--set",
                              "--device", "--require", "--explain", "--no-images", "--quiet",
-                             "--help",   "--version", "Examples:", "Exit codes:", "particles, density"})
+                             "--help",   "--version", "--no-pass-times", "Examples:", "Exit codes:", "particles, density"})
       EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
     for (const char* word : {"--video", "--play", "--checkpoint", "--resume"})
       EXPECT_EQ(outcome.out.find(word), std::string::npos) << word << " does not work yet";

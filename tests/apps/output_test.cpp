@@ -96,15 +96,15 @@ TEST(OutputFolder, AHeldFolderKeepsItsFrames) {
 }
 
 TEST(Progress, SaysWhereItIs) {
-  EXPECT_EQ(progressText({3, 181, 1.0 / 30, 0.00041, 6}), "frame 3/181  t 0.033 s  error 0.041 %  left 5 min 56 s");
-  EXPECT_EQ(progressText({181, 181, 3, 0.0005, 61.2}), "frame 181/181  t 3.000 s  error 0.050 %  took 1 min 02 s");
+  EXPECT_EQ(progressText({"frame", 3, 181, "t 0.033 s  error 0.041 %", 6}), "frame 3/181  t 0.033 s  error 0.041 %  left 5 min 56 s");
+  EXPECT_EQ(progressText({"frame", 181, 181, "t 3.000 s  error 0.050 %", 61.2}), "frame 181/181  t 3.000 s  error 0.050 %  took 1 min 02 s");
 }
 
 TEST(Progress, BarFitsTheTerminal) {
-  const ProgressState half{50, 100, 0.8, 0.001, 30};
+  const ProgressState half{"frame", 50, 100, "t 0.800 s  error 0.100 %", 30};
   const std::string bar = progressBar(half, 120);
   EXPECT_EQ(bar.substr(0, 27), "[############............] ");
-  EXPECT_EQ(progressBar({100, 100, 1, 0, 1}, 120).substr(0, 26), "[" + std::string(24, '#') + "]");
+  EXPECT_EQ(progressBar({"case", 100, 100, "", 1}, 120).substr(0, 26), "[" + std::string(24, '#') + "]");
   for (const int columns : {1, 10, 40, 60, 79, 80, 200}) EXPECT_LT(int(progressBar(half, columns).size()), std::max(columns, 2)) << columns;
 }
 

@@ -1,0 +1,203 @@
+#include "bench/bench.hpp"
+
+#include <sys/utsname.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <thread>
+
+#include "bench/plot.hpp"
+#include "core/words.hpp"
+#include "shared/atomic_file.hpp"
+#include "shared/exit_code.hpp"
+#include "shared/scene_folders.hpp"
+#include "shared/signals.hpp"
+
+namespace rill::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+void message(const std::string& text) { std::fprintf(stderr, "rill-bench: %s\n", text.c_str()); }
+
+std::string processor() {
+  std::ifstream file("/proc/cpuinfo");
+  std::string name = "unknown processor", line;
+  while (std::getline(file, line))
+    if (line.starts_with("model name") && line.find(": ") != std::string::npos) {
+      name = line.substr(line.find(": ") + 2);
+      break;
+    }
+  return name + ", " + std::to_string(std::thread::hardware_concurrency()) + " threads";
+}
+
+std::string platform() {
+  utsname system{};
+  return ::uname(&system) == 0 ? std::string(system.sysname) + " " + system.machine : "unknown";
+}
+
+Expected<DeviceInfo> deviceInfo(const Options& options) {
+  Scene empty;
+  empty.fluid.spacing = 1;
+  offline::Options wanted;
+  wanted.device = options.device;
+  auto simulation = offline::Simulation::open(empty, wanted);
+  if (!simulation) return simulation.error();
+  return (*simulation)->device();
+}
+
+}  // namespace
+
+Bench::Bench(const Options& options)
+    : options_(options), progress_(options.quiet ? apps::Progress::Style::Quiet : apps::Progress::styleForTerminal()), begin_(Clock::now()) {}
+
+void Bench::plan(size_t steps) {
+  total_ = static_cast<uint32_t>(steps);
+  done_ = 0;
+  begin_ = Clock::now();
+}
+
+void Bench::step(const std::string& about) {
+  progress_.show({"case", done_, total_, about, since(begin_)});
+  if (done_ < total_) ++done_;
+}
+
+void Bench::finished() {
+  if (total_ > 0) progress_.show({"case", total_, total_, "", since(begin_)});
+  progress_.clear();
+}
+
+bool Bench::stopped() const { return apps::signalReceived() != 0; }
+
+Expected<Scene> namedScene(const std::string& name, const std::vector<Override>& overrides) {
+  const auto file = apps::SceneFolders::standard().find(name);
+  if (!file) return file.error();
+  return loadScene(*file, overrides);
+}
+
+Expected<RunFigures> runScene(const Bench& bench, const SceneRun& run, bool validation) {
+  const Clock::time_point begin = Clock::now();
+  offline::Options wanted;
+  wanted.device = bench.options().device;
+  wanted.passTimes = run.passTimes;
+  wanted.validation = validation;
+  auto opened = offline::Simulation::open(run.scene, wanted);
+  if (!opened) return opened.error();
+  offline::Simulation& simulation = **opened;
+  RunFigures figures;
+  figures.device = simulation.device();
+  const auto frames = static_cast<uint64_t>(run.duration_s / run.frame_s + 1e-6);
+  for (uint64_t k = 0; k <= frames && !bench.stopped(); ++k) {
+    if (k > 0)
+      if (auto ran = simulation.advance(run.frame_s); !ran) return ran.error();
+    auto stats = simulation.stats();
+    if (!stats) return stats.error();
+    const double time = double(k) * run.frame_s;
+    if (run.look) run.look(simulation, time);
+    figures.substeps += stats->substeps;
+    figures.iterations += stats->iterations;
+    figures.list_builds += stats->list_builds;
+    figures.time_dropped_s += stats->time_dropped_s;
+    figures.outside = std::max(figures.outside, stats->outside);
+    figures.non_finite = std::max(figures.non_finite, stats->non_finite);
+    figures.particles = stats->particles;
+    for (const offline::PassTime& pass : stats->pass_ms) {
+      auto found = std::ranges::find(figures.passes, pass.name, &offline::PassTime::name);
+      if (found == figures.passes.end()) found = figures.passes.insert(figures.passes.end(), {pass.name});
+      found->ms += pass.ms;
+      found->runs += pass.runs;
+    }
+    figures.instants.push_back({time, std::move(*stats)});
+    figures.simulated_s = time;
+  }
+  figures.density = apps::densityFigures(figures.instants);
+  figures.energy = apps::energyFigures(simulation.scene(), figures.instants);
+  figures.wall_s = apps::wallSeconds(figures.instants);
+  figures.total_s = since(begin);
+  figures.messages = simulation.takeValidationMessages();
+  return figures;
+}
+
+Json runJson(const RunFigures& run) {
+  Json json;
+  json["particles"] = run.particles;
+  json["simulated_s"] = run.simulated_s;
+  json["wall_s"] = run.wall_s;
+  json["total_s"] = run.total_s;
+  json["substeps"] = run.substeps;
+  json["iterations"] = run.iterations;
+  json["list_builds"] = run.list_builds;
+  json["time_dropped_s"] = run.time_dropped_s;
+  json["density_error"] = {
+      {"mean", run.density.mean}, {"p99", run.density.p99}, {"max", run.density.max}, {"signed_median", run.density.signed_median}};
+  json["energy"] = {{"ratio", run.energy.ratio}, {"end_ratio", run.energy.end_ratio}};
+  json["outside"] = run.outside;
+  json["non_finite"] = run.non_finite;
+  return json;
+}
+
+int runBench(const Options& options) {
+  const auto refuse = [](const Error& error) {
+    message(error.message);
+    return apps::exitCodeBeforeRun(error);
+  };
+  const auto suite = std::ranges::find(suites(), std::string_view(options.suite), &Suite::name);
+  for (const auto& [option, file] : {std::pair{"--json", options.json}, std::pair{"--plot", options.plot}})
+    if (file)
+      if (auto place = apps::checkFilePlace(option, *file); !place) return refuse(place.error());
+  if (options.plot)
+    if (auto can = checkPlotter(); !can) return refuse(can.error());
+  const auto device = deviceInfo(options);
+  if (!device) return refuse(device.error());
+  if (!options.quiet)
+    message(options.suite + (options.quick ? ", quick" : "") + ": " + device->name + " (" + device->driver + "), " + processor());
+
+  Bench bench(options);
+  const Clock::time_point begin = Clock::now();
+  auto report = suite->run(bench);
+  bench.finished();
+  if (!report) {
+    message(report.error().message);
+    return apps::exitCodeBeforeRun(report.error());
+  }
+
+  std::string text;
+  for (const Table& table : report->tables) text += tableText(table) + "\n";
+  for (const std::string& failure : report->failures) text += "FAILED " + failure + "\n";
+  const bool taken = options.json && apps::isStandardOutput(*options.json);
+  if (!options.quiet || !report->failures.empty())
+    if (auto written = apps::writeAll(taken ? STDERR_FILENO : STDOUT_FILENO, "standard output", text); !written) {
+      message(written.error().message);
+      return apps::kFailed;
+    }
+  if (options.json) {
+    Json json;
+    json["rill"] = RILL_VERSION;
+    json["suite"] = options.suite;
+    json["command"] = options.command;
+    json["quick"] = options.quick;
+    json["device"] = {{"name", device->name}, {"driver", device->driver}, {"api", device->api}, {"subgroup_size", device->subgroupSize}};
+    json["processor"] = processor();
+    json["system"] = platform();
+    json["took_s"] = since(begin);
+    json["failures"] = report->failures;
+    json["results"] = report->results;
+    if (auto written = apps::writeFile(*options.json, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"); !written) {
+      message(written.error().message);
+      return apps::kFailed;
+    }
+  }
+  if (options.plot && !report->plots.empty())
+    if (auto drawn = writePlots(*options.plot, report->plots); !drawn) {
+      message(drawn.error().message);
+      return apps::kFailed;
+    }
+  if (options.plot && report->plots.empty() && !options.quiet) message("this suite draws no plot");
+  if (const int signal = apps::signalReceived()) return 128 + signal;
+  return report->failures.empty() ? apps::kDone : apps::kRequireFailed;
+}
+
+}  // namespace rill::bench

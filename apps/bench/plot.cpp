@@ -1,0 +1,103 @@
+// Drawing is gnuplot's: we write its program and its data, and take what it prints.
+#include "bench/plot.hpp"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "core/words.hpp"
+#include "shared/atomic_file.hpp"
+
+namespace rill::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kWidth = 720, kHeight = 480;  // of one diagram
+constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999933"};
+
+/// A gnuplot string in single quotes.
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("''") : std::string(1, c == '\n' ? ' ' : c);
+  return out + "'";
+}
+
+bool drawable(const Plot& plot, const std::pair<double, double>& point) {
+  return std::isfinite(point.first) && std::isfinite(point.second) && (!plot.logX || point.first > 0) && (!plot.logY || point.second > 0);
+}
+
+}  // namespace
+
+Expected<void> checkPlotter() {
+  if (std::system("gnuplot --version >/dev/null 2>&1") == 0) return {};
+  return Error{ErrorKind::BadInput, "--plot: needs the program gnuplot, which is not there (Debian and Ubuntu: apt-get install gnuplot-nox)"};
+}
+
+std::string plotProgram(std::span<const Plot> plots) {
+  const int columns = plots.size() > 1 ? 2 : 1, rows = static_cast<int>((plots.size() + static_cast<size_t>(columns) - 1) / static_cast<size_t>(columns));
+  std::ostringstream out;
+  out << "set terminal svg noenhanced size " << columns * kWidth << "," << std::max(1, rows) * kHeight
+      << " font 'sans,12' background rgb 'white'\n"
+      << "set multiplot layout " << std::max(1, rows) << "," << columns << "\n"
+      << "set grid lc rgb '#dddddd'\nset key outside below\nset pointsize 0.7\n";
+  for (size_t p = 0; p < plots.size(); ++p) {
+    const Plot& plot = plots[p];
+    out << "set title " << quoted(plot.title) << "\nset xlabel " << quoted(plot.x) << "\nset ylabel " << quoted(plot.y) << "\n";
+    out << (plot.logX ? "set logscale x\n" : "unset logscale x\n") << (plot.logY ? "set logscale y\n" : "unset logscale y\n");
+    std::string curves;
+    for (size_t s = 0; s < plot.series.size(); ++s) {
+      const Series& series = plot.series[s];
+      const std::string block = "$d" + std::to_string(p) + "_" + std::to_string(s);
+      size_t drawn = 0;
+      out << block << " << EOD\n";
+      for (size_t k = 0; k < series.points.size(); ++k) {
+        if (!drawable(plot, series.points[k])) continue;
+        std::string label = k < series.labels.size() ? series.labels[k] : "";
+        for (char& c : label)
+          if (c == '"' || c == '\\' || c == '\n') c = ' ';
+        out << shortNumber(series.points[k].first) << " " << shortNumber(series.points[k].second) << " \"" << label << "\"\n";
+        ++drawn;
+      }
+      out << "EOD\n";
+      if (drawn == 0) continue;
+      const std::string colour = kColours[s % std::size(kColours)];
+      const char* with = series.style == Series::Style::Points ? "points" : series.style == Series::Style::Lines ? "lines" : "linespoints";
+      curves += (curves.empty() ? "plot " : ", ") + block + " using 1:2 with " + with + " pt " + std::to_string(s % 13 + 4) + " lw 1.5 lc rgb '" + colour + "' " +
+                (series.name.empty() ? std::string("notitle") : "title " + quoted(series.name));
+      if (!series.labels.empty())
+        curves += ", " + block + " using 1:2:3 with labels offset 0.6,0.6 left font ',9' tc rgb '" + colour + "' notitle";
+    }
+    out << (curves.empty() ? std::string("set multiplot next") : curves) << "\n";
+  }
+  out << "unset multiplot\n";
+  return out.str();
+}
+
+Expected<void> writePlots(const fs::path& file, std::span<const Plot> plots) {
+  std::error_code ignored;
+  const fs::path folder = fs::temp_directory_path(ignored);
+  std::string pattern = (folder / "rill-bench-XXXXXX").string();
+  if (::mkdtemp(pattern.data()) == nullptr) return Error{ErrorKind::Io, "making a temporary folder in " + folder.string() + " failed"};
+  const fs::path place(pattern), program = place / "plot.gp", drawn = place / "plot.svg", said = place / "said";
+  std::ofstream(program) << plotProgram(plots);
+  const std::string command = "gnuplot '" + program.string() + "' >'" + drawn.string() + "' 2>'" + said.string() + "'";
+  const int status = std::system(command.c_str());
+  const auto content = [](const fs::path& from) {
+    std::ostringstream text;
+    text << std::ifstream(from, std::ios::binary).rdbuf();
+    return text.str();
+  };
+  const std::string svg = content(drawn), message = content(said);
+  fs::remove_all(place, ignored);
+  if (status != 0 || svg.find("</svg>") == std::string::npos)
+    return Error{ErrorKind::Io, file.string() + ": gnuplot did not draw it: " + message.substr(0, 400)};
+  return apps::writeFile(file, svg);
+}
+
+}  // namespace rill::bench

@@ -1,0 +1,8 @@
+#pragma once
+#include "bench/bench.hpp"
+
+namespace rill::bench {
+
+Expected<Report> runAccuracy(Bench& bench);
+
+}  // namespace rill::bench

@@ -1,0 +1,65 @@
+#include "shared/run_figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rill::apps {
+namespace {
+
+/// Potential energy of all the fluid in the domain's lowest corner, J: from there potential energy is counted, so that the ratio of
+/// energies does not depend on where the scene's zero lies.
+double lowestPotential(const Scene& scene, double mass) {
+  if (!scene.domain) return 0;
+  double least = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double g = scene.gravity[axis];
+    least += std::min(-g * scene.domain->min[axis], -g * scene.domain->max[axis]);
+  }
+  return mass * least;
+}
+
+}  // namespace
+
+EnergyFigures energyFigures(const Scene& scene, std::span<const Instant> run) {
+  EnergyFigures energy;
+  if (run.empty()) return energy;
+  const auto total = [](const Instant& instant) { return instant.stats.kinetic_J + instant.stats.potential_J; };
+  energy.start_J = energy.max_J = total(run.front());
+  energy.end_J = total(run.back());
+  for (const Instant& instant : run) energy.max_J = std::max(energy.max_J, total(instant));
+  const double mass = double(run.front().stats.particles) * scene.fluid.density * std::pow(scene.fluid.spacing, 3);
+  const double floor = lowestPotential(scene, mass);
+  const auto ratio = [&](double joules) {
+    if (joules == energy.start_J) return 1.0;
+    return energy.start_J - floor > 0 ? (joules - floor) / (energy.start_J - floor) : std::numeric_limits<double>::quiet_NaN();
+  };
+  energy.ratio = ratio(energy.max_J);
+  energy.end_ratio = ratio(energy.end_J);
+  return energy;
+}
+
+DensityFigures densityFigures(std::span<const Instant> run) {
+  DensityFigures error;
+  if (run.empty()) return error;
+  const size_t skip = std::min((run.size() + 9) / 10, run.size() - 1);
+  std::vector<double> medians;
+  for (const Instant& instant : run.subspan(skip)) {
+    error.mean += instant.stats.density_error_mean / double(run.size() - skip);
+    error.p99 = std::max(error.p99, instant.stats.density_error_p99);
+    error.max = std::max(error.max, instant.stats.density_error_max);
+    medians.push_back(instant.stats.density_signed_median);
+  }
+  const auto middle = medians.begin() + static_cast<std::ptrdiff_t>(medians.size() / 2);
+  std::nth_element(medians.begin(), middle, medians.end());
+  error.signed_median = *middle;
+  return error;
+}
+
+double wallSeconds(std::span<const Instant> run) {
+  double sum = 0;
+  for (const Instant& instant : run) sum += instant.stats.wall_s;
+  return sum;
+}
+
+}  // namespace rill::apps

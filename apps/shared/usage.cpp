@@ -1,0 +1,31 @@
+#include "shared/usage.hpp"
+
+#include "core/words.hpp"
+#include "shared/words.hpp"
+
+namespace rill::apps {
+
+std::string usageMessage(const CLI::App& app, const CLI::ParseError& error) {
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return error.what();
+  std::vector<std::string> known;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  for (std::string extra : app.remaining()) {
+    if (const size_t equals = extra.find('='); extra.starts_with("--") && equals != std::string::npos) extra.resize(equals);
+    if (extra.starts_with("-")) return "there is no option " + inQuotes(extra) + didYouMean(extra, known);
+    return inQuotes(extra) + " is one argument too many";
+  }
+  return error.what();
+}
+
+std::string shellQuoted(std::string_view argument) {
+  const bool plain =
+      !argument.empty() &&
+      argument.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%") == std::string_view::npos;
+  if (plain) return std::string(argument);
+  std::string text = "'";
+  for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+}  // namespace rill::apps
