@@ -52,7 +52,9 @@ Expected<DeviceInfo> deviceInfo(const Options& options) {
 }  // namespace
 
 Bench::Bench(const Options& options)
-    : options_(options), progress_(options.quiet ? apps::Progress::Style::Quiet : apps::Progress::styleForTerminal()), begin_(Clock::now()) {}
+    : options_(options),
+      progress_(options.quiet ? apps::Progress::Style::Quiet : apps::Progress::styleForTerminal()),
+      begin_(Clock::now()) {}
 
 void Bench::plan(size_t steps) {
   total_ = static_cast<uint32_t>(steps);

@@ -73,7 +73,8 @@ Expected<CommandLine> parseCommandLine(int count, const char* const* arguments) 
   app.set_version_flag("--version", std::string("rill-bench ") + RILL_VERSION, "show the version");
   std::string footer = "Suites:\n";
   for (const Suite& suite : suites())
-    footer += "  " + std::string(suite.name) + std::string(12 - std::min<size_t>(suite.name.size(), 11), ' ') + std::string(suite.about) + "\n";
+    footer +=
+        "  " + std::string(suite.name) + std::string(12 - std::min<size_t>(suite.name.size(), 11), ' ') + std::string(suite.about) + "\n";
   footer +=
       "\nExamples:\n"
       "  rill-bench accuracy --quick --plot accuracy.svg\n"

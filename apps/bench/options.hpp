@@ -13,9 +13,9 @@ struct Options {
   std::string suite;
   bool quick = false;  ///< under a minute: fewer and smaller cases
   bool quiet = false;
-  uint32_t repeat = 3;       ///< samples of each time, of which the median counts
-  std::string only;          ///< run only the cases whose names contain this
-  std::string device;        ///< part of a name, or an index
+  uint32_t repeat = 3;  ///< samples of each time, of which the median counts
+  std::string only;     ///< run only the cases whose names contain this
+  std::string device;   ///< part of a name, or an index
   std::optional<std::filesystem::path> json, plot;
   std::string command;  ///< the command line, quoted where a shell needs it
 };

@@ -36,11 +36,13 @@ bool drawable(const Plot& plot, const std::pair<double, double>& point) {
 
 Expected<void> checkPlotter() {
   if (std::system("gnuplot --version >/dev/null 2>&1") == 0) return {};
-  return Error{ErrorKind::BadInput, "--plot: needs the program gnuplot, which is not there (Debian and Ubuntu: apt-get install gnuplot-nox)"};
+  return Error{ErrorKind::BadInput,
+               "--plot: needs the program gnuplot, which is not there (Debian and Ubuntu: apt-get install gnuplot-nox)"};
 }
 
 std::string plotProgram(std::span<const Plot> plots) {
-  const int columns = plots.size() > 1 ? 2 : 1, rows = static_cast<int>((plots.size() + static_cast<size_t>(columns) - 1) / static_cast<size_t>(columns));
+  const int columns = plots.size() > 1 ? 2 : 1,
+            rows = static_cast<int>((plots.size() + static_cast<size_t>(columns) - 1) / static_cast<size_t>(columns));
   std::ostringstream out;
   out << "set terminal svg noenhanced size " << columns * kWidth << "," << std::max(1, rows) * kHeight
       << " font 'sans,12' background rgb 'white'\n"
@@ -68,8 +70,8 @@ std::string plotProgram(std::span<const Plot> plots) {
       if (drawn == 0) continue;
       const std::string colour = kColours[s % std::size(kColours)];
       const char* with = series.style == Series::Style::Points ? "points" : series.style == Series::Style::Lines ? "lines" : "linespoints";
-      curves += (curves.empty() ? "plot " : ", ") + block + " using 1:2 with " + with + " pt " + std::to_string(s % 13 + 4) + " lw 1.5 lc rgb '" + colour + "' " +
-                (series.name.empty() ? std::string("notitle") : "title " + quoted(series.name));
+      curves += (curves.empty() ? "plot " : ", ") + block + " using 1:2 with " + with + " pt " + std::to_string(s % 13 + 4) +
+                " lw 1.5 lc rgb '" + colour + "' " + (series.name.empty() ? std::string("notitle") : "title " + quoted(series.name));
       if (!series.labels.empty())
         curves += ", " + block + " using 1:2:3 with labels offset 0.6,0.6 left font ',9' tc rgb '" + colour + "' notitle";
     }

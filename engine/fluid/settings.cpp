@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <numbers>
 
+#include "core/words.hpp"
+#include "sph/jacobi_limit.hpp"
 #include "sph/kernel.hpp"
 #include "sph/solid_density.hpp"
 #include "sph/solid_pose.hpp"
@@ -14,13 +16,19 @@ namespace rill {
 namespace {
 
 // Defaults of the solver's "auto" settings.
-constexpr double kRelaxation = 0.7;       // under the linear limit of 0.71 for signed corrections at h = 2d
+constexpr double kRelaxation = 0.7;       // at most; more brings nothing even where it converges
+constexpr double kOfJacobiLimit = 0.92;   // and so much of the linear limit, which is that of a lattice: disorder is stiffer
 constexpr double kRegularization = 0.02;  // of the rest lattice's sum |grad C|^2: keeps lone pairs from flying apart
 constexpr double kWarmGain = 0.05;
 constexpr double kWarmRelease =
     1.5;  // the gain where density is too low, over that where it is too high: what builds up slower than it goes pumps less energy
-constexpr double kErrorOfHead = 0.06;   // mean compression over dt^2 g H / d^2, of the dam breaks in assets/scenes
-constexpr double kTravel = 1.6;         // spacings that the fastest particle may move before the list is rebuilt
+constexpr double kStableError =
+    0.006;  // mean compression by its own weight that an iteration can bear: 0.007 held, 0.013 exploded (dam10k)
+constexpr double kStableGain =
+    20;  // and the less, the higher the warm start's gain: 0.0032 held at 0.05, 0.0036 gained a quarter of energy
+constexpr double kErrorOfHead =
+    0.38;                        // mean compression of a column, over that of one which rests on its corrections alone (see errorOfHead)
+constexpr double kTravel = 1.6;  // spacings that the fastest particle may move before the list is rebuilt
 constexpr double kFarSpacings = 1.0e6;  // beyond it, positions have lost their meaning: float holds 24 bits
 
 float f(double value) { return static_cast<float>(value); }
@@ -128,18 +136,59 @@ void setViscosity(const Scene& scene, const SmoothingKernel& kernel, FluidSetup&
   }
 }
 
-// The first step: half of what the tolerance allows under a column as high as all particles. Fluid that is released has to find its
-// pressure: the step that it can bear is known only when it has, and what compresses until then springs back.
-double firstStep(const Scene& scene, const double extent[3], double longest) {
-  if (scene.solver.tolerance <= 0) return longest;
-  double head = 0;  // m^2/s^2
+// Gravity times the height of a column of all the fluid there is, m^2/s^2.
+double headOf(const Scene& scene, const double extent[3]) {
+  double head = 0;
   for (int a = 0; a < 3; ++a) {
     double most = std::abs(scene.gravity[a]);
     for (const GravityChange& change : scene.gravity_changes) most = std::max(most, std::abs(change.value[a]));
     head += most * std::max(extent[a], scene.fluid.spacing);
   }
-  if (head <= 0) return longest;
-  return std::min(longest, 0.5 * scene.fluid.spacing * std::sqrt(scene.solver.tolerance / (kErrorOfHead * head)));
+  return head;
+}
+
+// Mean compression over dt^2 g H / d^2. Corrections hold a column up where 2 omega / D grad C = g dt^2, so that it is D d^2 / (4 omega) at
+// rest; in the dam breaks of assets/scenes it is less, 0.06 at h = 2 d.
+double errorOfHead(const FluidParams& p, const SmoothingKernel& kernel) {
+  const double d = kernel.spacing();
+  // With a short support the gradients grow as soon as particles come nearer.
+  double gradients = kernel.restGradientSum();
+  for (const double nearer : {1.1, 1.2, 1.3})
+    gradients = std::max(gradients, SmoothingKernel(kernel.choice(), nearer * kernel.h(), d).restGradientSum());
+  return kErrorOfHead * gradients * d * d / (4 * p.relaxation);
+}
+
+// The step in which such a column's mean compression is `error`.
+double stepOfError(double error, double head, const FluidParams& p, const SmoothingKernel& kernel) {
+  return kernel.spacing() * std::sqrt(error / (errorOfHead(p, kernel) * head));
+}
+
+void setRelaxation(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
+  const double limit = kOfJacobiLimit * jacobiLimit(kernel), wanted = scene.solver.relaxation.value_or(std::min(kRelaxation, limit));
+  setup.params.relaxation = f(std::min(wanted, limit));
+  if (wanted > limit)
+    setup.warnings.push_back("solver.relaxation " + roughNumber(wanted) + " does not converge with this kernel: " + roughNumber(limit) +
+                             " is taken");
+}
+
+// No step is longer than the fluid can bear, whatever is asked for: a column that its weight compresses by too much in a step folds, and
+// springs back with more energy than it had.
+void setLongestStep(const Scene& scene, const SmoothingKernel& kernel, double head, FluidSetup& setup) {
+  FluidParams& p = setup.params;
+  if (head <= 0) return;
+  const double stable = stepOfError(kStableError * p.iterations / (1 + kStableGain * p.warmGain), head, p, kernel);
+  if (scene.solver.time_step && *scene.solver.time_step > stable)
+    setup.warnings.push_back("solver.time_step " + roughNumber(*scene.solver.time_step) + " s is more than " +
+                             std::to_string(p.iterations) + (p.iterations == 1 ? " iteration" : " iterations") +
+                             " can hold this fluid's weight in: steps are at most " + roughNumber(stable) + " s");
+  p.maxStep = std::min(p.maxStep, f(stable));
+}
+
+// The first step: half of what the tolerance allows under a column as high as all particles. Fluid that is released has to find its
+// pressure: the step that it can bear is known only when it has, and what compresses until then springs back.
+double firstStep(const Scene& scene, const SmoothingKernel& kernel, double head, const FluidParams& p) {
+  if (scene.solver.tolerance <= 0 || head <= 0) return p.maxStep;
+  return std::min<double>(p.maxStep, 0.5 * stepOfError(scene.solver.tolerance, head, p, kernel));
 }
 
 void setGravity(const Scene& scene, FluidSetup& setup) {
@@ -175,16 +224,17 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const double origin[3], 
   p.gradientScale = f(setup.kernel == 0 ? kernel.gradientScale() : kernel.gradientScale() / h);
   p.inverseRestGradient = f(1 / kernel.restGradientSum());
   p.regularization = f(scene.solver.regularization.value_or(kRegularization) * kernel.restGradientSum());
-  p.relaxation = f(scene.solver.relaxation.value_or(kRelaxation));
+  setRelaxation(scene, kernel, setup);
   p.warmGain = f(scene.solver.warm_start.value_or(scene.solver.iterations == 1 ? kWarmGain : 0.0));
   p.warmRelease = f(kWarmRelease);
   p.reach = f(h + kListSkin * d);
   p.travelLimit = f(kTravel * d);
   p.listCapacity = scene.solver.neighbors == NeighborChoice::List ? listCapacity((h + kListSkin * d) / d) : 0u;
   p.cfl = f(scene.solver.cfl);
-  p.tolerance = f(scene.solver.tolerance);
-  p.maxSubsteps = scene.solver.max_substeps;
   p.iterations = scene.solver.iterations;
+  // Iterations do not stop at an error that the fluid cannot bear.
+  p.tolerance = f(p.iterations > 1 ? std::min(scene.solver.tolerance, kStableError) : scene.solver.tolerance);
+  p.maxSubsteps = scene.solver.max_substeps;
   p.maxStep = f(scene.solver.time_step.value_or(1.0 / 60));
   p.particleMass = f(scene.fluid.density * d * d * d);
   p.farLimit = f(kFarSpacings * d);
@@ -220,7 +270,9 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const double origin[3], 
   p.solidCount = static_cast<uint32_t>(setup.solids.size());
   setViscosity(scene, kernel, setup);
   setGravity(scene, setup);
-  setup.firstStep = firstStep(scene, extent, p.maxStep);
+  const double head = headOf(scene, extent);
+  setLongestStep(scene, kernel, head, setup);
+  setup.firstStep = firstStep(scene, kernel, head, p);
 
   double room[3];
   for (int a = 0; a < 3; ++a) room[a] = scene.domain ? scene.domain->max[a] - scene.domain->min[a] : 2 * extent[a];

@@ -1,0 +1,46 @@
+#include "sph/jacobi_limit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <numbers>
+#include <vector>
+
+namespace rill {
+
+double jacobiLimit(const SmoothingKernel& kernel) {
+  struct Neighbour {
+    glm::dvec3 at, moves, feels;  // what a correction moves by, and what density feels of a move: not the same for poly6 with spiky
+  };
+  std::vector<Neighbour> neighbours;
+  const double h = kernel.h(), d = kernel.spacing();
+  const int reach = static_cast<int>(std::ceil(h / d));
+  for (int i = -reach; i <= reach; ++i)
+    for (int j = -reach; j <= reach; ++j)
+      for (int k = -reach; k <= reach; ++k) {
+        const glm::dvec3 at = glm::dvec3(i, j, k) * d;
+        const double r = glm::length(at), step = 1e-5 * h;
+        if (r == 0 || r >= h) continue;
+        const double slope = (kernel.value(r + step) - kernel.value(r - step)) / (2 * step);
+        neighbours.push_back({at, kernel.gradientOverR(r) * at, slope / r * at});
+      }
+  // By symmetry a sixth of an octant holds all waves.
+  constexpr int kNodes = 12;
+  double most = 0;
+  for (int a = 0; a <= kNodes; ++a)
+    for (int b = 0; b <= a; ++b)
+      for (int c = 0; c <= b; ++c) {
+        const glm::dvec3 wave = glm::dvec3(a, b, c) * (std::numbers::pi / (kNodes * d));
+        glm::dvec3 moves(0), feels(0);
+        for (const Neighbour& n : neighbours) {
+          const double phase = std::sin(glm::dot(wave, n.at));
+          moves += phase * n.moves;
+          feels += phase * n.feels;
+        }
+        most = std::max(most, glm::dot(moves, feels));
+      }
+  return most > 0 ? 2 * kernel.restGradientSum() / most : 2;
+}
+
+}  // namespace rill
