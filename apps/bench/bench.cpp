@@ -80,13 +80,13 @@ Expected<Scene> namedScene(const std::string& name, const std::vector<Override>&
   return loadScene(*file, overrides);
 }
 
-Expected<RunFigures> runScene(const Bench& bench, const SceneRun& run, bool validation) {
+Expected<RunFigures> runScene(const Bench& bench, const SceneRun& run) {
   const Clock::time_point begin = Clock::now();
   offline::Options wanted;
   wanted.device = bench.options().device;
   wanted.passTimes = run.passTimes;
-  wanted.validation = validation;
-  auto opened = offline::Simulation::open(run.scene, wanted);
+  wanted.validation = run.validation;
+  auto opened = run.start ? offline::Simulation::open(run.scene, *run.start, wanted) : offline::Simulation::open(run.scene, wanted);
   if (!opened) return opened.error();
   offline::Simulation& simulation = **opened;
   RunFigures figures;

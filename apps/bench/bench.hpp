@@ -39,10 +39,12 @@ class Bench {
 /// What is run, and how it is looked at.
 struct SceneRun {
   Scene scene;
+  std::optional<ParticleSet> start = {};  ///< in place of the scene's fills
   double duration_s = 0;
   double frame_s = 1.0 / 60;  ///< figures are measured at its multiples
   bool passTimes = false;
-  std::function<void(offline::Simulation&, double time_s)> look;  ///< called at each instant, the start too
+  bool validation = false;                                             ///< with the validation layer; NoDevice where it is not installed
+  std::function<void(offline::Simulation&, double time_s)> look = {};  ///< called at each instant, the start too
 };
 
 struct RunFigures {
@@ -60,7 +62,7 @@ struct RunFigures {
 };
 
 /// Runs a scene on a device of its own, until its end or a signal.
-Expected<RunFigures> runScene(const Bench& bench, const SceneRun& run, bool validation = false);
+Expected<RunFigures> runScene(const Bench& bench, const SceneRun& run);
 
 /// A scene of assets/scenes, with keys changed.
 Expected<Scene> namedScene(const std::string& name, const std::vector<Override>& overrides = {});

@@ -5,6 +5,7 @@ namespace {
 
 constexpr Suite kSuites[] = {
     {"accuracy", "run time against error: density and trajectory, the Pareto front, a peer's points", runAccuracy},
+    {"stability", "stress: odd starts, forces, sizes and parameters, random scenes; each asserted", runStability},
 };
 
 }  // namespace

@@ -31,6 +31,9 @@ std::string mebibytes(uint64_t bytes) {
 
 bool finite(const Float3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
+// As a float: infinite where its square does not fit.
+float speedOf(const Float3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
+
 }  // namespace
 
 FluidMemory fluidMemory(const Scene& scene, uint64_t particles) {
@@ -65,10 +68,13 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
     return Error{ErrorKind::BadInput, "a fluid needs as many velocities as positions: " + std::to_string(particles.velocities.size()) +
                                           " for " + std::to_string(n)};
 
+  StartFigures start{.count = static_cast<uint32_t>(n)};
   double low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
   bool any = false;
-  for (const Float3& x : particles.positions) {
+  for (size_t i = 0; i < n; ++i) {
+    const Float3 &x = particles.positions[i], &u = particles.velocities[i];
     if (!finite(x)) continue;
+    if (const float speed = speedOf(u); std::isfinite(speed)) start.fastest = std::max<double>(start.fastest, speed);
     const double v[3] = {x.x, x.y, x.z};
     for (int a = 0; a < 3; ++a) {
       low[a] = any ? std::min(low[a], v[a]) : v[a];
@@ -76,8 +82,11 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
     }
     any = true;
   }
-  const double extent[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
-  auto setup = makeFluidSetup(scene, particles.origin, extent, static_cast<uint32_t>(n));
+  for (int a = 0; a < 3; ++a) {
+    start.origin[a] = particles.origin[a];
+    start.extent[a] = high[a] - low[a];
+  }
+  auto setup = makeFluidSetup(scene, start);
   if (!setup) return setup.error();
   impl->setup = std::move(*setup);
   impl->count = static_cast<uint32_t>(n);
@@ -163,7 +172,7 @@ Expected<void> FluidImpl::stage(Device& device, const ParticleSet& particles, bo
   float fastest = 0;
   for (uint32_t i = 0; i < count; ++i) {
     Float3 x = particles.positions[i], v = particles.velocities[i];
-    const float speed = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+    const float speed = speedOf(v);
     const bool good = finite(x) && std::isfinite(speed);  // a speed that overflows would make every step 0
     if (!good) {
       ++sums.nonFinite;

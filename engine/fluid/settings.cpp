@@ -27,8 +27,12 @@ constexpr double kStableError =
 constexpr double kStableGain =
     20;  // and the less, the higher the warm start's gain: 0.0032 held at 0.05, 0.0036 gained a quarter of energy
 constexpr double kErrorOfHead =
-    0.38;                        // mean compression of a column, over that of one which rests on its corrections alone (see errorOfHead)
-constexpr double kTravel = 1.6;  // spacings that the fastest particle may move before the list is rebuilt
+    0.38;                           // mean compression of a column, over that of one which rests on its corrections alone (see errorOfHead)
+constexpr double kTravel = 1.2;     // spacings that the fastest particle may move before the list is rebuilt
+constexpr double kLeastCfl = 0.01;  // spacings a substep
+constexpr double kPushLow = 0.06;   // of the usual speed (setSpeeds): a correction may always add as much to a speed
+constexpr double kPushHigh = 0.5;   // and never more
+constexpr double kSpeedLimit = 8;   // of the usual speed: jets at walls reach two or three times that
 constexpr double kFarSpacings = 1.0e6;  // beyond it, positions have lost their meaning: float holds 24 bits
 
 float f(double value) { return static_cast<float>(value); }
@@ -171,6 +175,18 @@ void setRelaxation(const Scene& scene, const SmoothingKernel& kernel, FluidSetup
                              " is taken");
 }
 
+// Speeds that flow can have: what falling through all the room gives, what it started with, what solids push it with.
+void setSpeeds(const Scene& scene, const StartFigures& start, FluidParams& p) {
+  double room[3];
+  const bool closed = scene.domain && scene.domain->open == 0;
+  for (int a = 0; a < 3; ++a) room[a] = std::max(start.extent[a], scene.domain ? scene.domain->max[a] - scene.domain->min[a] : 0);
+  const double usual = std::sqrt(2 * headOf(scene, room) + start.fastest * start.fastest) + p.solidSpeed;
+  constexpr double kNone = 1e18;  // m/s: where nothing bounds the way that something falls
+  p.pushLow = f(kPushLow * usual);
+  p.pushHigh = f(closed ? kPushHigh * usual : kNone);
+  p.speedLimit = f(closed ? kSpeedLimit * usual : kNone);
+}
+
 // No step is longer than the fluid can bear, whatever is asked for: a column that its weight compresses by too much in a step folds, and
 // springs back with more energy than it had.
 void setLongestStep(const Scene& scene, const SmoothingKernel& kernel, double head, FluidSetup& setup) {
@@ -208,7 +224,9 @@ uint32_t listCapacity(double reachInSpacings) {
   return (static_cast<uint32_t>(std::ceil(1.2 * ball)) + 3u) / 4u * 4u;
 }
 
-Expected<FluidSetup> makeFluidSetup(const Scene& scene, const double origin[3], const double extent[3], uint32_t count) {
+Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& start) {
+  const uint32_t count = start.count;
+  const double *origin = start.origin, *extent = start.extent;
   const double d = scene.fluid.spacing, h = scene.fluid.smoothing_ratio * d;
   if (!(d > 0)) return Error{ErrorKind::BadInput, "fluid.spacing is not set: give it, or make the particles first"};
   FluidSetup setup;
@@ -230,7 +248,10 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const double origin[3], 
   p.reach = f(h + kListSkin * d);
   p.travelLimit = f(kTravel * d);
   p.listCapacity = scene.solver.neighbors == NeighborChoice::List ? listCapacity((h + kListSkin * d) / d) : 0u;
-  p.cfl = f(scene.solver.cfl);
+  p.cfl = f(std::max(scene.solver.cfl, kLeastCfl));
+  if (scene.solver.cfl < kLeastCfl)
+    setup.warnings.push_back("solver.cfl " + roughNumber(scene.solver.cfl) +
+                             " leaves no room to part particles in: " + roughNumber(kLeastCfl) + " is taken");
   p.iterations = scene.solver.iterations;
   // Iterations do not stop at an error that the fluid cannot bear.
   p.tolerance = f(p.iterations > 1 ? std::min(scene.solver.tolerance, kStableError) : scene.solver.tolerance);
@@ -270,6 +291,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const double origin[3], 
   p.solidCount = static_cast<uint32_t>(setup.solids.size());
   setViscosity(scene, kernel, setup);
   setGravity(scene, setup);
+  setSpeeds(scene, start, p);
   const double head = headOf(scene, extent);
   setLongestStep(scene, kernel, head, setup);
   setup.firstStep = firstStep(scene, kernel, head, p);

@@ -31,8 +31,16 @@ struct FluidSetup {
   std::vector<std::string> warnings;
 };
 
-/// `count` particles that fill `extent` (m). BadInput where the scene cannot run.
-Expected<FluidSetup> makeFluidSetup(const Scene& scene, const double origin[3], const double extent[3], uint32_t count);
+/// What is known of the particles before they are placed.
+struct StartFigures {
+  uint32_t count = 0;
+  double origin[3] = {0, 0, 0};  ///< m
+  double extent[3] = {0, 0, 0};  ///< m
+  double fastest = 0;            ///< m/s
+};
+
+/// BadInput where the scene cannot run.
+Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& start);
 
 /// Neighbours that the list holds a particle, a multiple of 4: what a lattice compressed by a fifth puts within the reach.
 uint32_t listCapacity(double reachInSpacings);

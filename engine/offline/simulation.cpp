@@ -45,10 +45,15 @@ class Simulation::Impl {
  public:
   Impl(Scene scene, const Options& options) : scene_(std::move(scene)), options_(options) {}
 
-  Expected<void> open() {
+  Expected<void> place() {
     auto start = makeParticles(scene_, kMaxParticles);
     if (!start) return start.error();
     start_ = std::move(*start);
+    return {};
+  }
+  void place(ParticleSet start) { start_ = std::move(start); }
+
+  Expected<void> open() {
     ContextDesc desc;
     desc.device = options_.device;
     desc.validation = options_.validation;
@@ -260,6 +265,19 @@ Expected<std::unique_ptr<Simulation>> Simulation::open(const std::filesystem::pa
 Expected<std::unique_ptr<Simulation>> Simulation::open(Scene scene, const Options& options) {
   return guarded("opening the scene", [&]() -> Expected<std::unique_ptr<Simulation>> {
     auto impl = std::make_unique<Impl>(std::move(scene), options);
+    if (auto placed = impl->place(); !placed) return placed.error();
+    if (auto opened = impl->open(); !opened) return opened.error();
+    return std::unique_ptr<Simulation>(new Simulation(std::move(impl)));
+  });
+}
+
+Expected<std::unique_ptr<Simulation>> Simulation::open(Scene scene, ParticleSet start, const Options& options) {
+  return guarded("opening the scene", [&]() -> Expected<std::unique_ptr<Simulation>> {
+    if (start.positions.size() > kMaxParticles)
+      return Error{ErrorKind::TooLarge,
+                   std::to_string(start.positions.size()) + " particles; at most " + std::to_string(kMaxParticles) + " are possible"};
+    auto impl = std::make_unique<Impl>(std::move(scene), options);
+    impl->place(std::move(start));
     if (auto opened = impl->open(); !opened) return opened.error();
     return std::unique_ptr<Simulation>(new Simulation(std::move(impl)));
   });

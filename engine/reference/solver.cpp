@@ -34,6 +34,9 @@ ReferenceSolver::ReferenceSolver(const ReferenceSettings& s, std::span<const glm
   lambdaChange_.assign(count, 0);
   delta_.assign(count, 0);
   curl_.assign(count, glm::dvec3(0));
+  gained_ = walled_ = std::vector<glm::dvec3>(count, glm::dvec3(0));
+  for (const glm::dvec3& v : state.velocity)
+    if (finite(v)) fastest_ = std::max(fastest_, glm::length(v));
   if (settings.tabulated) {
     tables_ = makeWallTables(kernel_);
     for (const Solid& solid : settings.solids)
@@ -135,7 +138,10 @@ void ReferenceSolver::correction(double dt) {
       move += kCoincidentDistance * kernel_.h() * pair.apart;
     }
     const glm::dvec3 moved = state.predicted[i] + move;
+    gained_[i] = glm::dvec3(0);
     if (finite(moved)) {
+      walled_[i] = collide(moved, {});
+      gained_[i] = walled_[i] - state.predicted[i];
       state.predicted[i] = collide(moved, solids);
     } else {
       park(i);
@@ -145,8 +151,13 @@ void ReferenceSolver::correction(double dt) {
 
 void ReferenceSolver::velocities(double dt) {
   const std::vector<SolidPose> solids = poses(time_, dt);
+  const double mostGain = dt * (std::clamp(0.5 * fastest_, settings.pushLow, settings.pushHigh) + 4 * dt * glm::length(settings.gravity));
+  fastest_ = 0;  // before solids, as the shaders have it
   for (size_t i = 0; i < size(); ++i) {
-    glm::dvec3 v = contact(i, (state.predicted[i] - state.position[i]) / dt, dt, solids);
+    const double gain = glm::length(gained_[i]);
+    const glm::dvec3 excess = gain > mostGain ? gained_[i] * (1 - mostGain / gain) : glm::dvec3(0);
+    if (finite(walled_[i])) fastest_ = std::max(fastest_, glm::length(walled_[i] - state.position[i] - excess) / dt);
+    glm::dvec3 v = contact(i, (state.predicted[i] - state.position[i] - excess) / dt, dt, solids);
     const double speed = glm::length(v);
     if (speed > settings.speedLimit) v *= settings.speedLimit / speed;
     if (finite(v)) {

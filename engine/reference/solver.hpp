@@ -69,6 +69,9 @@ struct ReferenceSettings {
   int viscositySweeps = 1;                                      ///< n: XSPH sweeps a substep, each with c/n, which has to be below 1
   double vorticity = 0;                                         ///< eps_v, dimensionless, 0 .. 1
   double speedLimit = std::numeric_limits<double>::infinity();  ///< m/s, of a particle after a substep
+  double pushLow =
+      std::numeric_limits<double>::infinity();  ///< m/s: half of the fastest particle's speed, held between these, and 4 g dt on top,
+  double pushHigh = std::numeric_limits<double>::infinity();  ///< is the most that the last correction may add to a particle's speed
 };
 
 class ReferenceSolver {
@@ -158,6 +161,9 @@ class ReferenceSolver {
   std::vector<double> densityRatio_, denominator_, delta_, lambda_, lambdaChange_;
   std::vector<WallSample> boundary_;
   std::vector<glm::dvec3> curl_;
+  double fastest_ = 0;              ///< m/s, at the start or in the last velocities()
+  std::vector<glm::dvec3> walled_;  ///< m, where the last correction put a particle, walls included, solids not
+  std::vector<glm::dvec3> gained_;  ///< m, what the last correction moved a particle by, walls included
 };
 
 }  // namespace rill::reference

@@ -65,6 +65,7 @@ void main() {
     along *= slip > 0.0 ? max(0.0, 1.0 - solids[k].friction * impulse / slip) : 0.0;
     v = moving + along + away * normal;
   }
+  v *= min(1.0, params.speedLimit / max(sqrt(dot(v, v)), 1.0e-20));
   position[i] = vec4(x, 0.0);
   velocity[i] = vec4(v, 1.0);
   predict(i, x, v);

@@ -68,12 +68,18 @@ void main() {
 
   vec3 from = position[i].xyz;
   vec3 to = insideWalls(here + moved);
-  // No more than twice what cfl allows in a substep: the next step shrinks to follow a particle that wants to go faster.
-  vec3 way = to - from;
-  float most = max(2.0 * params.cfl, 0.02) * params.spacing;
-  float far = sqrt(dot(way, way));
-  if (far > most) { way *= most / far; to = insideWalls(from + way); }
   bool settles = control.step == 0.0;
+  // A correction parts particles whatever it takes, but gives no more speed than what can have brought them together: see ARCHITECTURE.md, "Overlaps".
+  vec3 gained = to - here;
+  float gain = sqrt(dot(gained, gained));
+  float mostGain = control.step * (clamp(0.5 * control.speed, params.pushLow, params.pushHigh) + 4.0 * control.step * sqrt(dot(gravity(), gravity())));
+  vec3 way = (here - from) + gained * min(1.0, mostGain / max(gain, 1.0e-20));
+  // No more than twice what cfl allows in a substep: the next step shrinks to follow a particle that wants to go faster.
+  float most = max(2.0 * params.cfl, 0.02) * params.spacing;
+  vec3 moves = to - from;
+  float far = sqrt(dot(moves, moves));
+  if (far > most) { way *= most / far; to = insideWalls(from + moves * (most / far)); }
+  way *= min(1.0, min(most, params.speedLimit * control.step) / max(sqrt(dot(way, way)), 1.0e-20));
   vec3 v = settles ? velocity[i].xyz : way / control.step;  // not (to - from): who starts outside the walls is put inside, and gets no speed for it
   vec3 away = settles ? vec3(0.0) : pushed / (control.step * control.step);
   vec3 next = insideWalls(predicted(to, v, away));

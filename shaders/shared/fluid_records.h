@@ -80,6 +80,8 @@ struct FluidParams {
   float farLimit;         // m from the origin beyond which a particle is parked
   float nearLimit;        // m from a wall or a solid's surface within which a particle is listed as near
   float solidSpeed;       // m/s, the fastest solid
+  float pushLow, pushHigh;  // m/s: what a correction may add to a speed in a substep is held between them
+  float speedLimit;       // m/s, of any particle
   float boundLowX, boundLowY, boundLowZ;     // m, the domain, open sides too: who is beyond counts as outside
   float boundHighX, boundHighY, boundHighZ;
   uint fullNeighbours;    // within the support: a particle with as many is inside the fluid

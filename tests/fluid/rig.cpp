@@ -18,8 +18,17 @@ glm::dvec3 wide(const Float3& v) { return {v.x, v.y, v.z}; }
 Float3 narrow(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 
 FluidSetup setupOf(const Trial& trial) {
-  const double extent[3] = {1, 1, 1};
-  auto setup = makeFluidSetup(trial.timedScene(), trial.origin, extent, static_cast<uint32_t>(trial.x.size()));
+  StartFigures start{.count = static_cast<uint32_t>(trial.x.size())};
+  for (int a = 0; a < 3; ++a) {
+    start.origin[a] = trial.origin[a];
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const glm::dvec3& p : trial.x)
+      if (std::isfinite(p.x + p.y + p.z)) low = std::min(low, p[a]), high = std::max(high, p[a]);
+    start.extent[a] = std::max(0.0, high - low);
+  }
+  for (const glm::dvec3& v : trial.v)
+    if (std::isfinite(glm::length(v))) start.fastest = std::max(start.fastest, glm::length(v));
+  auto setup = makeFluidSetup(trial.timedScene(), start);
   if (!setup) throw std::runtime_error(setup.error().message);
   return *std::move(setup);
 }
@@ -50,6 +59,9 @@ reference::ReferenceSettings settingsOf(const Trial& trial) {
   s.viscosity = scene.fluid.viscosity;
   s.viscositySweeps = scene.fluid.viscosity > 0 ? static_cast<int>(setupOf(trial).viscositySweeps) : 1;
   s.vorticity = scene.fluid.vorticity;
+  const FluidSetup setup = setupOf(trial);
+  s.pushLow = setup.params.pushLow;
+  s.pushHigh = setup.params.pushHigh;
   return s;
 }
 

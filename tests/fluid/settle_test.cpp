@@ -21,14 +21,10 @@ Trial tight() {
 
 TEST_F(SettleTest, OverlapBecomesNoSpeed) {
   Trial t = tight();
-  auto hasty = start(t);
-  hasty->advance(0.01);
-  const double fast = hasty->stats().max_speed;
-  EXPECT_GT(fast, 1.0) << "the overlap is resolved within steps of 0.1 ms";
   t.settle = true;
   auto settled = start(t);
   settled->advance(0.01);
-  EXPECT_LT(settled->stats().max_speed, 0.1 * fast);
+  EXPECT_LT(settled->stats().max_speed, 0.1) << "resolved within steps of 0.1 ms it would be tens of m/s";
   EXPECT_LT(settled->stats().density_error_mean, 1e-3);
 }
 

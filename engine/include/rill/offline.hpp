@@ -66,6 +66,9 @@ class Simulation {
   static Expected<std::unique_ptr<Simulation>> open(const std::filesystem::path& scene, const Options& options = {});
   /// A scene that was read before, with its overrides applied (those of `options` are not). The scene is judged before a device is opened.
   static Expected<std::unique_ptr<Simulation>> open(Scene scene, const Options& options = {});
+  /// With particles of the caller's own in place of the scene's fills, taken as they are: they may overlap, lie outside, or not be numbers.
+  /// `fluid.spacing` is given. BadInput for as many velocities as there are not positions, or no spacing.
+  static Expected<std::unique_ptr<Simulation>> open(Scene scene, ParticleSet start, const Options& options = {});
   ~Simulation();
 
   /// Runs `seconds` of simulated time on (>= 0), waits for it. One advance of the solver up to Options::longestFrame_s: substeps divide it

@@ -1,0 +1,178 @@
+// Forces, steps and scales far from the usual.
+#include <cmath>
+#include <limits>
+
+#include "bench/stability/stress_case.hpp"
+
+namespace rill::bench {
+namespace {
+
+Scene dam(double d = 0.05) { return tankScene(d, {8 * d, 12 * d, 6 * d}, {20 * d, 20 * d, 6 * d}); }
+
+StressCase make(std::string name, std::string asserts, Scene scene) {
+  StressCase c{.name = std::move(name), .asserts = std::move(asserts), .scene = std::move(scene)};
+  c.mostSpeed = usualSpeed(c.scene);
+  return c;
+}
+
+/// A dam break of the same shape, as large as its spacing says, for the same number of its own times sqrt(L/g).
+StressCase scaled(const std::string& name, double spacing) {
+  StressCase c = make(name, "as at 5 cm: mean error and energy to a tenth", dam(spacing));
+  const double time = std::sqrt(spacing / 0.05);
+  c.duration_s = 0.5 * time;
+  c.frame_s = time / 60;
+  return c;
+}
+
+double levelOf(const Outcome& o, double spacing) {
+  double highest = 0;
+  for (const Float3& p : o.particles.positions) highest = std::max(highest, double(p.y));
+  return highest + 0.5 * spacing;
+}
+
+double rms(const Outcome& o) {
+  double sum = 0;
+  for (const Float3& v : o.particles.velocities) sum += double(v.x) * v.x + double(v.y) * v.y + double(v.z) * v.z;
+  return o.particles.velocities.empty() ? 0 : std::sqrt(sum / double(o.particles.velocities.size()));
+}
+
+}  // namespace
+
+std::vector<StressCase> forceCases() {
+  std::vector<StressCase> cases;
+  for (const double step : {0.1, 1.0}) {
+    Scene scene = dam();
+    scene.solver.time_step = step;
+    scene.solver.max_substeps = 1;
+    scene.solver.tolerance = 0;
+    scene.solver.cfl = 10;
+    StressCase c = make("step-" + number(step) + "-s", "with one substep a frame what does not fit is reported as dropped", scene);
+    c.own = [](const Outcome& o) { return o.run.time_dropped_s > 0 ? std::string() : std::string("no time was dropped"); };
+    cases.push_back(std::move(c));
+  }
+  {
+    Scene drop;
+    drop.name = "stress";
+    drop.fluid.spacing = 0.05;
+    for (double& g : drop.gravity) g = 0;
+    Fill ball;
+    ball.sphere = SphereShape{{0, 0, 0}, 0.2};
+    ball.velocity[0] = 0.3;
+    ball.velocity[1] = -0.1;
+    drop.fill.push_back(ball);
+    StressCase c = make("weightless-10-s", "momentum is kept to 1e-5", drop);
+    c.mostSpeed = 1;
+    c.duration_s = 10;
+    c.frame_s = 0.1;
+    c.own = [](const Outcome& o) {
+      const auto &a = o.run.instants.front().stats.momentum, &b = o.run.instants.back().stats.momentum;
+      const double change = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]) / std::hypot(a[0], a[1], a[2]);
+      return change > 1e-5 ? "it changed by " + number(change) : std::string();
+    };
+    cases.push_back(std::move(c));
+  }
+  {
+    Scene heavy = dam();
+    heavy.gravity[1] = -1000;
+    heavy.solver.max_substeps = 256;
+    StressCase c = make("gravity-1000", "", heavy);
+    c.duration_s = 0.1;
+    c.frame_s = 1.0 / 600;
+    cases.push_back(std::move(c));
+  }
+  {
+    Scene flips = dam();
+    for (int k = 1; k < 10; ++k) flips.gravity_changes.push_back({0.1 * k, {0, k % 2 ? 9.81 : -9.81, 0}});
+    StressCase c = make("gravity-flips", "", flips);
+    c.worked = true;
+    c.duration_s = 1;
+    cases.push_back(std::move(c));
+  }
+  cases.push_back(scaled("spacing-0.05-mm", 5e-5));
+  cases.push_back(scaled("spacing-50-m", 50));
+  {
+    Scene far = dam();
+    for (int axis = 0; axis < 3; ++axis) {
+      far.domain->min[axis] += 1e4;
+      far.domain->max[axis] += 1e4;
+      far.fill[0].box->min[axis] += 1e4;
+      far.fill[0].box->max[axis] += 1e4;
+    }
+    cases.push_back(make("origin-at-10-km", "", far));
+  }
+  {
+    constexpr double d = 0.02;
+    Scene column = tankScene(d, {10 * d, 100 * d, 10 * d}, {10 * d, 130 * d, 10 * d});
+    StressCase c = make("column-100-layers", "level within 1 %; rms speed under 0.01 sqrt(g d) = 4.4 mm/s", column);
+    c.duration_s = 2;
+    c.full = true;
+    c.own = [](const Outcome& o) {
+      const double level = levelOf(o, d), speed = rms(o);
+      if (std::abs(level - 2) > 0.02) return "level " + number(level, 4) + " m of 2 m";
+      return speed > 0.01 * std::sqrt(9.81 * d) ? "rms speed " + number(speed) + " m/s" : std::string();
+    };
+    cases.push_back(std::move(c));
+  }
+  {
+    // A piston takes a fifth of the room that the fluid needs, holds it, and goes back.
+    Scene crush = tankScene(0.05, {0.5, 0.5, 0.5}, {0.6, 0.5, 0.5});
+    Solid piston;
+    piston.box = BoxShape{{0.5, -0.1, -0.1}, {0.6, 0.6, 0.6}};
+    piston.motion = {{0, {0, 0, 0}}, {0.2, {-0.1, 0, 0}}, {0.4, {-0.1, 0, 0}}, {0.5, {0, 0, 0}}};
+    crush.solids.push_back(piston);
+    StressCase c = make("crushed-to-80-percent", "let go, it slows to 2 m/s", crush);
+    c.worked = true;
+    c.duration_s = 1.5;
+    c.mostSpeed = 60;
+    c.own = [](const Outcome& o) {
+      const double speed = o.run.instants.back().stats.max_speed;
+      return speed > 2 ? "it still moves at " + number(speed) + " m/s" : std::string();
+    };
+    cases.push_back(std::move(c));
+  }
+  for (const bool full : {false, true}) {
+    Scene small = tankScene(0.05, {0.2, 0.2, 0.2}, {0.4, 0.4, 0.2});
+    const int substeps = full ? 100000 : 5000;
+    small.solver.time_step = 1.0 / 3840;
+    small.solver.tolerance = 0;
+    StressCase c = make(std::to_string(substeps) + "-steps", "energy does not drift; a second run gives the same bits", small);
+    c.duration_s = substeps / 3840.0;
+    c.frame_s = 1.0 / 60;
+    c.full = full;
+    cases.push_back(std::move(c));
+  }
+  return cases;
+}
+
+std::vector<StressCase> sizeCases() {
+  std::vector<StressCase> cases;
+  const auto line = [](uint64_t count) {
+    // A long tank, a handful of particles across.
+    std::vector<Float3> points;
+    points.reserve(count);
+    const uint64_t across = count < 5000 ? 8 : 64, layer = across * across;
+    for (uint64_t k = 0; k < count; ++k)
+      points.push_back({static_cast<float>(0.05 * (double(k / layer) + 0.5)),
+                        static_cast<float>(0.05 * (double(k / across % across) + 0.5)),
+                        static_cast<float>(0.05 * (double(k % across) + 0.5))});
+    return points;
+  };
+  const auto sized = [&](uint64_t count, bool full) {
+    const double across = count < 5000 ? 0.4 : 3.2, length = std::max(1.0, 0.05 * double(count) / (across / 0.05 * across / 0.05) + 1);
+    const Scene tank = tankScene(0.05, {0, 0, 0}, {length, across, across});
+    StressCase c{.name = "count-" + std::to_string(count), .asserts = "", .scene = tank};
+    c.start = placed(line(count));
+    c.mostSpeed = usualSpeed(tank);
+    c.duration_s = full ? 1.0 / 240 : 1.0 / 60;
+    c.frame_s = c.duration_s;
+    c.full = full;
+    c.mayRefuse = count > 4'194'304;
+    return c;
+  };
+  for (const uint64_t count : {0, 1, 63, 64, 65, 4095, 4096, 4097}) cases.push_back(sized(count, false));
+  // 65,535 groups of 64; a list buffer of 128 MiB (4,096 x 186 particles at 176 bytes each); the most that there can be, and one more.
+  for (const uint64_t count : {761'855, 761'857, 4'194'240, 4'194'241, 4'194'304, 4'194'305}) cases.push_back(sized(count, true));
+  return cases;
+}
+
+}  // namespace rill::bench

@@ -1,0 +1,127 @@
+// Each key of fluid and solver alone at its smallest and largest value, from the table that the parser uses; then all of them at random.
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "bench/stability/stress_case.hpp"
+#include "model/fields.hpp"
+
+namespace rill::bench {
+namespace {
+
+Scene dam() {
+  Scene scene = tankScene(0.05, {0.3, 0.5, 0.3}, {0.8, 0.8, 0.3});
+  scene.fluid.vorticity = scene.fluid.tensile = 0;
+  return scene;
+}
+
+/// What stands for "as small" or "as large as you like".
+constexpr double kSmall = 1e-6, kLarge = 1e6;
+
+double lowest(const model::Range& r) {
+  const double low = r.hasLow() ? r.low : -kLarge;
+  return r.low_open ? low + kSmall : low;
+}
+double highest(const model::Range& r) {
+  const double high = r.hasHigh() ? r.high : kLarge;
+  return r.high_open ? high - kSmall : high;
+}
+
+/// `value` for the key, as a scene file would give it.
+template <class Owner, class Value>
+void set(Owner& owner, const model::Field<Owner, Value>& field, double value) {
+  if constexpr (std::is_same_v<Value, std::optional<double>> || std::is_same_v<Value, double>)
+    owner.*field.member = value;
+  else if constexpr (std::is_integral_v<Value>)
+    owner.*field.member = static_cast<Value>(std::llround(value));
+  else if constexpr (std::is_enum_v<Value>)
+    owner.*field.member = static_cast<Value>(std::llround(value));
+}
+
+/// The lengths and counts of the scene are not what is tried here.
+bool tried(std::string_view key) { return key != "spacing" && key != "particles"; }
+
+template <class Owner>
+void addExtremes(std::vector<StressCase>& cases, const std::string& owner, Owner Scene::*part) {
+  model::forEachField<Owner>([&](const auto& field) {
+    if (!tried(field.info.key)) return;
+    const bool words = !field.info.words.empty();
+    const double ends[] = {words ? 0 : lowest(field.info.range), words ? double(field.info.words.size() - 1) : highest(field.info.range)};
+    for (const double value : ends) {
+      Scene scene = dam();
+      set(scene.*part, field, value);
+      const std::string shown = words ? std::string(field.info.words[static_cast<size_t>(value)]) : number(value, 7);
+      StressCase c{.name = owner + "." + std::string(field.info.key) + "=" + shown, .scene = scene};
+      c.duration_s = 0.25;
+      c.mostSpeed = usualSpeed(scene);
+      c.mayRefuse = true;
+      cases.push_back(std::move(c));
+    }
+  });
+}
+
+}  // namespace
+
+std::vector<StressCase> parameterCases() {
+  std::vector<StressCase> cases;
+  addExtremes<FluidSettings>(cases, "fluid", &Scene::fluid);
+  addExtremes<SolverSettings>(cases, "solver", &Scene::solver);
+  return cases;
+}
+
+std::vector<StressCase> randomCases(uint64_t first, uint64_t count) {
+  std::vector<StressCase> cases;
+  for (uint64_t seed = first; seed < first + count; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto uniform = [&](double low, double high) { return low + (high - low) * double(random() >> 11) * 0x1p-53; };
+    const auto sometimes = [&](double share) { return uniform(0, 1) < share; };
+    const double d = std::pow(10.0, uniform(-3, 1));
+    const double room[3] = {d * uniform(6, 24), d * uniform(6, 24), d * uniform(4, 16)};
+    Scene scene = tankScene(
+        d, {d * std::floor(uniform(2, room[0] / d)), d * std::floor(uniform(2, room[1] / d)), d * std::floor(uniform(2, room[2] / d))},
+        {room[0], room[1], room[2]});
+    // Gravity and times that go with the size, off the usual by up to ten.
+    for (double& g : scene.gravity) g = sometimes(0.7) ? uniform(-10, 10) : 0;
+    const auto any = [&](auto& owner, double share) {
+      model::forEachField<std::remove_reference_t<decltype(owner)>>([&](const auto& field) {
+        if (!tried(field.info.key) || !sometimes(share)) return;
+        const bool words = !field.info.words.empty();
+        const double low = words ? 0 : lowest(field.info.range),
+                     high = words ? double(field.info.words.size() - 1) : highest(field.info.range);
+        const double value = !words && high > 1000 ? std::pow(10.0, uniform(-4, 4)) : uniform(low, high);
+        set(owner, field, std::clamp(value, low, high));
+      });
+    };
+    any(scene.fluid, 0.25);
+    any(scene.solver, 0.25);
+    scene.solver.iterations = std::min(scene.solver.iterations, 8u);  // more takes long and nothing else
+    const int solids = sometimes(0.5) ? 1 + static_cast<int>(uniform(0, 3)) : 0;
+    for (int k = 0; k < solids; ++k) {
+      Solid solid;
+      const double at[3] = {uniform(0, room[0]), uniform(0, room[1]), uniform(0, room[2])}, size = d * uniform(0.5, 4);
+      if (sometimes(0.5))
+        solid.sphere = SphereShape{{at[0], at[1], at[2]}, size};
+      else
+        solid.box = BoxShape{{at[0] - size, at[1] - size, at[2] - size}, {at[0] + size, at[1] + size, at[2] + size}};
+      solid.friction = uniform(0, 1);
+      solid.restitution = uniform(0, 1);
+      if (sometimes(0.3)) solid.motion = {{0, {0, 0, 0}}, {0.2, {uniform(-4, 4) * d, uniform(-4, 4) * d, uniform(-4, 4) * d}}};
+      scene.solids.push_back(solid);
+    }
+    for (double& v : scene.fill[0].velocity) v = uniform(-2, 2) * std::sqrt(10 * d);
+    scene.fill[0].jitter = sometimes(0.3) ? uniform(0, 0.5) : 0;
+
+    StressCase c{.name = "random-" + std::to_string(seed), .scene = scene};
+    c.duration_s = 12 * std::sqrt(d / 10);
+    c.frame_s = c.duration_s / 12;
+    c.worked = std::ranges::any_of(scene.solids, [](const Solid& s) { return !s.motion.empty(); });
+    // Overlaps at the start (jitter, a solid on the fluid) part, and lift it.
+    c.mostEnergy = scene.fill[0].jitter > 0 || solids > 0 ? 1.2 : 1.02;
+    c.mostSpeed = usualSpeed(scene, 4 * std::sqrt(10 * d) + (c.worked ? 40 * d : 0));
+    c.mayRefuse = true;
+    cases.push_back(std::move(c));
+  }
+  return cases;
+}
+
+}  // namespace rill::bench

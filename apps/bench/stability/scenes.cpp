@@ -1,0 +1,44 @@
+#include <algorithm>
+#include <cmath>
+
+#include "bench/stability/stress_case.hpp"
+
+namespace rill::bench {
+
+Scene tankScene(double spacing, const double (&fluid)[3], const double (&tank)[3]) {
+  Scene scene;
+  scene.name = "stress";
+  scene.fluid.spacing = spacing;
+  Domain domain;
+  Fill fill;
+  fill.box = BoxShape{};
+  for (int axis = 0; axis < 3; ++axis) {
+    domain.min[axis] = fill.box->min[axis] = 0;
+    domain.max[axis] = tank[axis];
+    fill.box->max[axis] = fluid[axis];
+  }
+  scene.domain = domain;
+  if (fluid[0] > 0) scene.fill.push_back(fill);
+  return scene;
+}
+
+ParticleSet placed(std::vector<Float3> positions, const Float3& velocity) {
+  ParticleSet set;
+  set.velocities.assign(positions.size(), velocity);
+  set.positions = std::move(positions);
+  return set;
+}
+
+double usualSpeed(const Scene& scene, double start) {
+  double head = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    double most = std::abs(scene.gravity[axis]);
+    for (const GravityChange& change : scene.gravity_changes) most = std::max(most, std::abs(change.value[axis]));
+    const double room = scene.domain ? scene.domain->max[axis] - scene.domain->min[axis] : 1;
+    head += most * room;
+  }
+  // Jets at walls reach two to three times the speed of what falls.
+  return 4 * std::sqrt(2 * head + start * start + 1e-12);
+}
+
+}  // namespace rill::bench
