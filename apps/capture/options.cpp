@@ -41,9 +41,13 @@ struct Raw {
   bool explain = false, noImages = false, noPassTimes = false, quiet = false;
 };
 
+/// Whether they will be, where none is there yet.
 bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code ignored;
-  return std::filesystem::weakly_canonical(a, ignored) == std::filesystem::weakly_canonical(b, ignored);
+  const auto whole = [&](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
+  };
+  return whole(a) == whole(b);
 }
 
 std::vector<std::string> viewNames() {

@@ -1,11 +1,9 @@
-// A Fluid's life: what it needs, its buffers and pipelines, its start state.
+// A Fluid's life: what it needs, its buffers and pipelines.
 #include "rill/fluid.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 
 #include "fluid/fluid_impl.hpp"
 #include "fluid/snapshot.hpp"

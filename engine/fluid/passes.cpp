@@ -267,8 +267,7 @@ static void plainPass(Graph& graph, FluidRefs& r, std::string_view name, const C
   });
 }
 
-// Wall and solid densities at `at` for the particles near them. Those near one wall and those near more are never the same: two dispatches,
-// one pass.
+// Wall and solid densities at `at` for the particles near them. Those near one wall and those near more are never the same: two dispatches, one pass.
 static void wallPass(Graph& graph, FluidRefs& r, std::string_view name, const WallPipelines& pipelines, BufferRef at, uint32_t planeCommand,
                      uint32_t cornerCommand) {
   graph.pass(name, [&](Pass& pass) {
@@ -427,7 +426,9 @@ void FluidImpl::declareTerms(Graph& graph, uint32_t parity) {
 }
 
 void FluidImpl::declareMeasure(Graph& graph, Pending& pending) {
-  if (setup.near) { wallPass(graph, r_, "measure walls", pipes_.walls, r_.position, kCommandMeasurePlane, kCommandMeasureCorner); }
+  if (setup.near) {
+    wallPass(graph, r_, "measure walls", pipes_.walls, r_.position, kCommandMeasurePlane, kCommandMeasureCorner);
+  }
   BufferRef partials = graph.create("partial sums", {divideUp(count, kMeasureGroup) * sizeof(MeasurePartial)});
   BufferRef histogram = graph.create("error histogram", {3 * kMeasureBins * 4});
   graph.pass("clear histogram", [&](Pass& pass) {

@@ -40,7 +40,8 @@ class CheckpointTest : public ::testing::Test {
   }
   std::vector<Json> frames(const std::string& name) const {
     std::vector<Json> all;
-    for (Json frame : Json::parse(contentOf(folder / name))["frames"]) {
+    const Json json = Json::parse(contentOf(folder / name));
+    for (Json frame : json["frames"]) {
       for (const char* key : {"wall_s", "pass_ms", "skipped"}) frame.erase(key);
       all.push_back(std::move(frame));
     }
