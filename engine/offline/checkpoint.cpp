@@ -132,6 +132,11 @@ void writeAbout(Writer& writer, const Checkpoint& c) {
   }
 }
 
+/// As a scene's keys and their values are; messages show them.
+bool isPlain(std::string_view text) {
+  return std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
+}
+
 bool readAbout(std::span<const std::byte> bytes, Checkpoint& c) {
   Taker taker(bytes);
   for (std::string* text : {&c.rill, &c.scene, &c.device, &c.driver}) *text = taker.text();
@@ -143,6 +148,7 @@ bool readAbout(std::span<const std::byte> bytes, Checkpoint& c) {
   for (uint32_t k = 0; k < keys && taker.good; ++k) {
     std::string key = taker.text();
     c.keys.emplace_back(std::move(key), taker.text());
+    taker.good = taker.good && isPlain(c.keys.back().first) && isPlain(c.keys.back().second);
   }
   return taker.good && taker.left() == 0 && c.time_s >= 0 && c.time_s <= 1e300 && c.fps >= 0 && c.fps <= 1e300;
 }

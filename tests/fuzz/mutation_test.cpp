@@ -2,8 +2,6 @@
 // libFuzzer goes further (tests/fuzz/run.sh).
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <fstream>
 #include <random>
 
 #include "fuzz/seeds.hpp"
@@ -68,18 +66,6 @@ void expectSurvives(Target target, const std::vector<std::string>& seeds, int ro
 TEST(Mutations, OfScenes) { expectSurvives(fuzzScene, sceneSeeds(), 300); }
 TEST(Mutations, OfPlyFiles) { expectSurvives(fuzzPly, plySeeds(), 1500); }
 TEST(Mutations, OfCheckpoints) { expectSurvives(fuzzCheckpoint, checkpointSeeds(), 3000); }
-
-// Writes the seeds for libFuzzer into the folder that RILL_FUZZ_CORPUS names.
-TEST(Corpus, IsWrittenWhereAskedFor) {
-  const char* folder = std::getenv("RILL_FUZZ_CORPUS");
-  if (!folder) GTEST_SKIP() << "RILL_FUZZ_CORPUS is not set";
-  for (const auto& [name, seeds] :
-       {std::pair{"scene", sceneSeeds()}, std::pair{"ply", plySeeds()}, std::pair{"checkpoint", checkpointSeeds()}}) {
-    const auto place = std::filesystem::path(folder) / name;
-    std::filesystem::create_directories(place);
-    for (size_t k = 0; k < seeds.size(); ++k) std::ofstream(place / ("seed" + std::to_string(k)), std::ios::binary) << seeds[k];
-  }
-}
 
 }  // namespace
 }  // namespace rill::test

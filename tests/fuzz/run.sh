@@ -17,9 +17,9 @@ if [ -z "$clang" ] || ! echo 'extern "C" int LLVMFuzzerTestOneInput(const unsign
 fi
 
 cmake --preset fuzz >/dev/null
-cmake --build --preset fuzz --target fuzz_scene fuzz_ply fuzz_checkpoint test_fuzz
+cmake --build --preset fuzz --target fuzz_scene fuzz_ply fuzz_checkpoint fuzz_seeds
 mkdir -p build/fuzz/findings
-RILL_FUZZ_CORPUS=build/fuzz/corpus build/fuzz/tests/test_fuzz --gtest_filter='Corpus.*' --gtest_brief=1
+build/fuzz/tests/fuzz_seeds build/fuzz/corpus
 failed=0
 for target in scene ply checkpoint; do
   echo "Fuzzing $target for $seconds s"

@@ -82,6 +82,12 @@ TEST(CheckpointFile, LengthsThatDoNotFitAreRefused) {
   }
 }
 
+TEST(CheckpointFile, KeysThatNoSceneHasAreRefused) {
+  Checkpoint c = seedCheckpoint();
+  c.keys[0].second = "\x1b[2J";
+  EXPECT_NE(refusal(offline::encodeCheckpoint(c)).find("is damaged"), std::string::npos) << "they would reach a terminal";
+}
+
 TEST(CheckpointFile, IsReadFromDisk) {
   const TemporaryFolder folder;
   const auto bytes = offline::encodeCheckpoint(seedCheckpoint());
