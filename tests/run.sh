@@ -6,7 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 usage() {
   cat <<'END'
-Usage: ./tests/run.sh [--no-install] [--help] [CTEST OPTION...]
+Usage: ./tests/run.sh [--no-install] [--long] [--help] [CTEST OPTION...]
 
 Installs what is missing (Debian 12 or Ubuntu 24.04 and newer; with sudo where not root), builds, and runs
   all tests on lavapipe,
@@ -14,15 +14,18 @@ Installs what is missing (Debian 12 or Ubuntu 24.04 and newer; with sudo where n
   the tests of labels gpu and subgroups on SwiftShader, where the system has it.
 
   --no-install   install nothing, only build and run
+  --long         then the tests of label long, too, on lavapipe: minutes of fuzzing, where clang is installed
   CTEST OPTION   for ctest, for example: -R graph
 END
 }
 
 install=yes
+long=no
 none=error  # a run that finds no test has failed, unless the caller chose which to run
 while [ $# -gt 0 ]; do
   case $1 in
     --no-install) install=no ;;
+    --long) long=yes ;;
     -h | --help) usage; exit ;;
     *) none=ignore; break ;;
   esac
@@ -63,7 +66,7 @@ lavapipe=$(first_file /usr/share/vulkan/icd.d/lvp_icd."$(uname -m)".json /usr/sh
 swiftshader=$(first_file /usr/lib/chromium/vk_swiftshader_icd.json)
 [ -n "$lavapipe" ] || fail "lavapipe's lvp_icd.*.json is not in /usr/share/vulkan/icd.d"
 
-run_tests "lavapipe" "$lavapipe" error "$@"
+run_tests "lavapipe" "$lavapipe" error -LE '^long$' "$@"
 for subgroup in 4 16; do
   LP_NATIVE_VECTOR_WIDTH=$((32 * subgroup)) run_tests "lavapipe with subgroups of $subgroup" "$lavapipe" $none -L '^subgroups$' "$@"
 done
@@ -72,6 +75,7 @@ if [ -n "$swiftshader" ]; then
 else
   results+=("SwiftShader: this system has no package of it (chromium-common), so not tested")
 fi
+[ $long = no ] || run_tests "lavapipe, long tests" "$lavapipe" $none -L '^long$' "$@"
 
 phase "Results"
 printf '%s\n' "${results[@]}"

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "capture/output_folder.hpp"
 #include "capture/record.hpp"
@@ -36,18 +38,21 @@ class Capture {
     offline::Options wanted;
     wanted.device = options_.device;
     wanted.passTimes = options_.passTimes && (options_.stats || options_.explain);
-    auto simulation = offline::Simulation::open(scene_, wanted);
+    auto simulation = resumed_ ? offline::Simulation::resume(scene_, *resumed_, wanted) : offline::Simulation::open(scene_, wanted);
     if (!simulation) return refuse(simulation.error());
     simulation_ = std::move(*simulation);
+    if (resumed_) resumed_->fluid = {};  // the device has it
     if (const int signal = apps::signalReceived()) return 128 + signal;
     if (const auto made = makePlaces(); !made) return refuse(made.error());
     announce();
 
-    record_ = std::make_unique<Record>(simulation_->scene(), simulation_->device(), options_.command);
+    record_ = std::make_unique<Record>(simulation_->scene(), simulation_->device(), options_.command, first_ > 0 ? (first_ - 1) / fps_ : 0);
     const Expected<void> ran = runFrames();
     progress_.clear();
     int code = apps::kDone;
     if (!ran) code = fail(ran.error());
+    if (ran)
+      if (const auto kept = keepCheckpoint(); !kept) code = fail(kept.error());
     // After a failure, too: the figures of the frames so far are whole.
     if (const auto written = writeStats(); !written) code = fail(written.error());
     if (const auto reported = report(); !reported) code = fail(reported.error());
@@ -66,10 +71,14 @@ class Capture {
     if (!scene) return scene.error();
     scene_ = std::move(*scene);
     if (auto known = checkFigures(options_.requirements, Record::figureNames(scene_)); !known) return known.error();
-    const double frames = options_.frames ? double(*options_.frames) : frameCount(scene_.duration, options_.fps);
-    if (frames > kMaxFrames)
+    if (const auto read = readResumed(); !read) return read.error();
+    const double frames = options_.frames ? double(*options_.frames) : frameCount(scene_.duration, fps_) - first_;
+    if (frames < 1)
+      return Error{ErrorKind::BadInput, "--resume: the checkpoint is of frame " + std::to_string(first_ - 1) +
+                                            ", and the scene's duration ends there or before; give --frames"};
+    if (first_ + frames > kMaxFrames)
       return Error{ErrorKind::BadInput, "the scene's duration takes more than " + std::to_string(kMaxFrames) + " frames at " +
-                                            std::to_string(options_.fps) + " a second; give --frames or another --fps"};
+                                            std::to_string(fps_) + " a second; give --frames or another --fps"};
     frames_ = static_cast<uint32_t>(frames);
     // A scene's name may hold a folder ("validation/x"); a path's folders are the user's, not ours.
     const bool byName = fs::path(options_.scene) != *file;
@@ -77,18 +86,38 @@ class Capture {
     return {};
   }
 
+  /// The checkpoint to go on from, and what follows from it: the number of the first frame, and the rate of frames.
+  Expected<void> readResumed() {
+    fps_ = options_.fps;
+    if (!options_.resume) return {};
+    auto read = offline::loadCheckpoint(*options_.resume);
+    if (!read) return aboutResume(read.error());
+    if (!(read->fps > 0) || read->frame >= kMaxFrames)
+      return aboutResume({ErrorKind::BadInput, inQuotes(options_.resume->string()) + " is of no capture: it has no frame to go on from"});
+    if (options_.fpsGiven && options_.fps != read->fps)
+      return Error{ErrorKind::BadInput, "--fps: " + shortNumber(options_.fps) + " was given; expected " + shortNumber(read->fps) +
+                                            ", with which the checkpoint was written"};
+    fps_ = read->fps;
+    first_ = static_cast<uint32_t>(read->frame + 1);
+    resumed_ = std::move(*read);
+    return {};
+  }
+
   /// Whether all can be written, before a device is opened and before anything is made.
   Expected<void> checkPlaces() const {
     if (options_.stats)
       if (auto place = apps::checkFilePlace("--stats", *options_.stats); !place) return place;
+    if (options_.checkpoint)
+      if (auto place = apps::checkFilePlace("--checkpoint", *options_.checkpoint); !place) return place;
     return writesFrames() ? apps::checkFolderPlace("--out", out_) : Expected<void>();
   }
 
   Expected<void> makePlaces() {
-    if (options_.stats && !apps::isSpecialFile(*options_.stats) && options_.stats->has_parent_path())
-      if (auto made = apps::makeFolder("--stats", options_.stats->parent_path()); !made) return made;
+    for (const auto& [option, file] : {std::pair{"--stats", &options_.stats}, std::pair{"--checkpoint", &options_.checkpoint}})
+      if (*file && !apps::isSpecialFile(**file) && (*file)->has_parent_path())
+        if (auto made = apps::makeFolder(option, (*file)->parent_path()); !made) return made;
     if (!writesFrames()) return {};
-    auto folder = OutputFolder::prepare(out_);
+    auto folder = OutputFolder::prepare(out_, options_.resume.has_value());
     if (!folder) return folder.error();
     folder_ = std::make_unique<OutputFolder>(std::move(*folder));
     return {};
@@ -98,17 +127,20 @@ class Capture {
     if (options_.quiet) return;
     for (const std::string& warning : simulation_->warnings()) message("warning: " + warning);
     message(scene_.name + ": " + grouped(simulation_->start().positions.size()) + " particles, " + grouped(frames_) +
-            (frames_ == 1 ? " frame, " : " frames, ") + simulation_->device().name);
+            (frames_ == 1 ? " frame, " : " frames, ") + (resumed_ ? "from " + std::to_string(first_) + " on, " : "") +
+            simulation_->device().name);
   }
 
   Expected<void> runFrames() {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point begin = Clock::now();
+    Clock::time_point kept = begin;
     for (uint32_t k = 0; k < frames_ && !apps::signalReceived(); ++k) {
-      if (k > 0)
-        if (auto ran = simulation_->advance(1.0 / options_.fps); !ran) return ran;
-      const double time_s = k / options_.fps;
-      if (auto written = writeFrame(k, time_s); !written) return written;
+      const uint32_t number = first_ + k;
+      if (number > 0)
+        if (auto ran = simulation_->advance(1.0 / fps_); !ran) return ran;
+      const double time_s = number / fps_;
+      if (auto written = writeFrame(number, time_s); !written) return written;
       auto stats = simulation_->stats();
       if (!stats) return stats.error();
       const double error = stats->density_error_mean;
@@ -116,7 +148,22 @@ class Capture {
       char about[64];
       std::snprintf(about, sizeof about, "t %.3f s  error %.3f %%", time_s, 100 * error);
       progress_.show({"frame", k + 1, frames_, about, std::chrono::duration<double>(Clock::now() - begin).count()});
+      if (options_.checkpointEvery_s && std::chrono::duration<double>(Clock::now() - kept).count() >= *options_.checkpointEvery_s) {
+        if (auto written = keepCheckpoint(); !written) return written;
+        kept = Clock::now();
+      }
     }
+    return {};
+  }
+
+  /// Of the last frame, where one was asked for and is not there yet.
+  Expected<void> keepCheckpoint() {
+    const auto frames = static_cast<uint32_t>(record_->frames());
+    if (!options_.checkpoint || frames == kept_) return {};
+    auto taken = simulation_->checkpoint(first_ + frames - 1, fps_);
+    if (!taken) return taken.error();
+    if (auto written = apps::writeFile(*options_.checkpoint, offline::encodeCheckpoint(*taken)); !written) return written;
+    kept_ = frames;
     return {};
   }
 
@@ -153,10 +200,13 @@ class Capture {
       }
     }
     if (!options_.quiet && folder_ && record_->frames() > 0) {
-      const auto last = static_cast<uint32_t>(record_->frames() - 1);
+      const auto last = static_cast<uint32_t>(first_ + record_->frames() - 1);
       const char* kind = options_.images ? "png" : "ply";
-      message("frames: " + folder_->frame(0, kind).string() + (last > 0 ? " to " + folder_->frame(last, kind).filename().string() : ""));
+      message("frames: " + folder_->frame(first_, kind).string() +
+              (last > first_ ? " to " + folder_->frame(last, kind).filename().string() : ""));
     }
+    if (!options_.quiet && kept_ > 0)
+      message("checkpoint: " + options_.checkpoint->string() + ", frame " + std::to_string(first_ + kept_ - 1));
     return text.empty() ? Expected<void>()
                         : apps::writeAll(taken ? STDERR_FILENO : STDOUT_FILENO, taken ? "standard error" : "standard output", text);
   }
@@ -167,6 +217,7 @@ class Capture {
     return broken.empty() ? apps::kDone : apps::kRequireFailed;
   }
 
+  static Error aboutResume(const Error& error) { return {error.kind, "--resume: " + error.message}; }
   int refuse(const Error& error) const {
     message(error.message);
     return apps::exitCodeBeforeRun(error);
@@ -180,7 +231,11 @@ class Capture {
   const Options& options_;
   Scene scene_;
   fs::path out_;
-  uint32_t frames_ = 0;
+  uint32_t frames_ = 0;  // of this run
+  uint32_t first_ = 0;   // number of the first
+  double fps_ = 60;
+  std::optional<offline::Checkpoint> resumed_;
+  uint32_t kept_ = 0;  // frames of this run as of the last checkpoint
   apps::Progress progress_;
   std::unique_ptr<offline::Simulation> simulation_;
   std::unique_ptr<OutputFolder> folder_;

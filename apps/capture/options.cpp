@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <string_view>
+#include <system_error>
 
 #include "core/words.hpp"
 #include "rill/offline.hpp"
+#include "shared/atomic_file.hpp"
 #include "shared/scene_folders.hpp"
 #include "shared/usage.hpp"
 #include "shared/words.hpp"
@@ -33,10 +36,19 @@ std::optional<Number> parse(std::string_view text) {
 
 /// Options as text: numbers are read here, so that every version of the command line library gives the same messages.
 struct Raw {
-  std::string scene, frames, fps, size, out, view, stats, exportAs, particles, device;
+  std::string scene, frames, fps, size, out, view, stats, exportAs, particles, device, checkpoint, checkpointEvery, resume;
   std::vector<std::string> set, require;
   bool explain = false, noImages = false, noPassTimes = false, quiet = false;
 };
+
+/// Whether they will be, where none is there yet.
+bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code ignored;
+  const auto whole = [&](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
+  };
+  return whole(a) == whole(b);
+}
 
 std::vector<std::string> viewNames() {
   const auto views = offline::Simulation::views();
@@ -60,6 +72,7 @@ void declare(CLI::App& app, Raw& raw) {
   once("--frames", raw.frames, "frames to write, the start included (default: the scene's duration)", "N", what);
   once("--fps", raw.fps, "frames a simulated second (default: 60)", "F", what);
   once("--particles", raw.particles, "about so many particles, in place of the scene's spacing", "N", what);
+  once("--resume", raw.resume, "go on from a checkpoint of the same scene; --frames counts the frames of this run", "FILE", what);
   list("--set", raw.set, "change a key of the scene, as fluid.viscosity=0.1", "KEY=VALUE", what);
 
   once("--out", raw.out, "folder of the frames, made where missing (default: out/SCENE)", "DIR", written);
@@ -69,7 +82,12 @@ void declare(CLI::App& app, Raw& raw) {
   once("--export", raw.exportAs, "write the particles of each frame: ply", "FORMAT", written);
   once("--stats", raw.stats, "write all figures as JSON; - is standard output", "FILE", written);
 
-  app.add_flag("--no-pass-times", raw.noPassTimes, "do not time passes for --stats and --explain: on a software device that takes a tenth of the run or more")
+  once("--checkpoint", raw.checkpoint, "write all that a later run needs to go on, at the end and on Ctrl-C", "FILE", written);
+  once("--checkpoint-every", raw.checkpointEvery, "and after a frame that ends so many seconds (wall time) after the last one", "SECONDS",
+       written);
+
+  app.add_flag("--no-pass-times", raw.noPassTimes,
+               "do not time passes for --stats and --explain: on a software device that takes a tenth of the run or more")
       ->group(run);
   once("--device", raw.device, "part of a device's name, or its index", "NAME", run);
   list("--require", raw.require, "exit with 3 unless it holds, as 'outside<1'", "FIGURE<NUMBER", run);
@@ -122,6 +140,7 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
     const auto fps = parse<double>(raw.fps);
     if (!fps || !(*fps >= 0.001 && *fps <= 1e6)) return badInput("--fps", raw.fps, "a number from 0.001 to 1000000");
     options.fps = *fps;
+    options.fpsGiven = true;
   }
   if (given("--size")) {
     const size_t x = raw.size.find_first_of("xX");
@@ -162,6 +181,25 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
     if (raw.stats.empty()) return badInput("--stats", raw.stats, "the name of a file, or - for standard output");
     options.stats = raw.stats;
   }
+  if (given("--checkpoint")) {
+    if (raw.checkpoint.empty() || apps::isStandardOutput(raw.checkpoint))
+      return badInput("--checkpoint", raw.checkpoint, "the name of a file");
+    options.checkpoint = raw.checkpoint;
+    if (options.stats && sameFile(*options.stats, *options.checkpoint))
+      return badInput("--checkpoint", raw.checkpoint, "another file than that of --stats");
+  }
+  if (given("--checkpoint-every")) {
+    const auto seconds = parse<double>(raw.checkpointEvery);
+    if (!seconds || !(*seconds >= 0 && *seconds <= 1e9))
+      return badInput("--checkpoint-every", raw.checkpointEvery, "a number of seconds from 0 (after every frame) to 1000000000");
+    if (!options.checkpoint)
+      return Error{ErrorKind::BadInput, "--checkpoint-every: there is no --checkpoint; expected --checkpoint FILE beside it"};
+    options.checkpointEvery_s = *seconds;
+  }
+  if (given("--resume")) {
+    if (raw.resume.empty()) return badInput("--resume", raw.resume, "a file that --checkpoint wrote");
+    options.resume = raw.resume;
+  }
   if (given("--device") && raw.device.empty()) return badInput("--device", raw.device, "part of a device's name, or its index");
   options.device = raw.device;
   for (const std::string& text : raw.set) {
@@ -200,6 +238,9 @@ Expected<CommandLine> parseCommandLine(int count, const char* const* arguments) 
              "      the same with a tenth of a pascal second and 10,000 particles: figures alone, frame by frame\n"
              "  rill-capture resting-column --frames 61 --no-images --quiet --require 'density_error_mean<0.001' 'outside<1'\n"
              "      a check for a script: exit code 0 where both hold, 3 where one does not\n"
+             "  rill-capture dam-break --checkpoint run.rill --checkpoint-every 600\n"
+             "  rill-capture dam-break --resume run.rill\n"
+             "      a long run that may be interrupted, and the rest of it: the same bits as in one go\n"
              "\nExit codes: 0 done, 1 failed while running, 2 bad usage or input, 3 a --require did not hold,\n"
              "4 no usable Vulkan device; 130, 143, 129 after a signal (the frame in hand is finished first).");
   std::vector<std::string> spread = spreadLists(count, arguments);

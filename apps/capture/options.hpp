@@ -19,17 +19,21 @@ struct Options {
   std::string scene;                         ///< a name or a path
   std::optional<uint32_t> frames;            ///< none: the scene's duration
   double fps = 60;                           ///< frames a simulated second
+  bool fpsGiven = false;                     ///< else a checkpoint's own are taken where a run goes on from one
   uint32_t width = 1280, height = 720;       ///< pixels
   std::optional<std::filesystem::path> out;  ///< none: out/SCENE
   std::string view = "particles";
   std::optional<std::filesystem::path> stats;
   bool exportPly = false;
-  std::vector<Override> overrides;  ///< of the scene's keys, in order; --particles is the last one
+  std::optional<std::filesystem::path> checkpoint;  ///< where to
+  std::optional<double> checkpointEvery_s;          ///< wall time
+  std::optional<std::filesystem::path> resume;      ///< where from
+  std::vector<Override> overrides;                  ///< of the scene's keys, in order; --particles is the last one
   std::string device;
   std::vector<Requirement> requirements;
   bool explain = false, images = true, quiet = false;
   bool passTimes = true;  ///< where --stats or --explain would show them
-  std::string command;  ///< the command line, quoted where a shell needs it
+  std::string command;    ///< the command line, quoted where a shell needs it
 };
 
 /// Options, or text that was asked for in place of a run (--help, --version).

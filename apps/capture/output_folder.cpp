@@ -21,7 +21,7 @@ bool isFrame(std::string_view name) {
 
 }  // namespace
 
-Expected<OutputFolder> OutputFolder::prepare(const fs::path& folder) {
+Expected<OutputFolder> OutputFolder::prepare(const fs::path& folder, bool keep) {
   if (auto made = apps::makeFolder("--out", folder); !made) return made.error();
   auto lock = apps::FolderLock::take(folder);
   if (!lock) return Error{lock.error().kind, "--out: " + lock.error().message};
@@ -31,7 +31,7 @@ Expected<OutputFolder> OutputFolder::prepare(const fs::path& folder) {
   for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed)) {
     const std::string name = entry->path().filename().string();
     std::string_view target = name;
-    if (isFrame(name) || (apps::isPartFile(name, target) && isFrame(target))) earlier.push_back(entry->path());
+    if ((!keep && isFrame(name)) || (apps::isPartFile(name, target) && isFrame(target))) earlier.push_back(entry->path());
   }
   if (failed) return Error{ErrorKind::BadInput, "--out: can't read the folder " + inQuotes(folder.string()) + ": " + failed.message()};
   for (const fs::path& file : earlier) {

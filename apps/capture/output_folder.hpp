@@ -10,9 +10,9 @@ namespace rill::capture {
 /// The folder that frames go to, held for this capture alone.
 class OutputFolder {
  public:
-  /// Makes the folder, takes it, and removes the frames of an earlier capture: frame_NNNNN.png and .ply, and parts of such files. Nothing
-  /// else is touched.
-  static Expected<OutputFolder> prepare(const std::filesystem::path& folder);
+  /// Makes the folder, takes it, and removes the frames of an earlier capture, unless this one goes on from it (`keep`): frame_NNNNN.png
+  /// and .ply, and in any case parts of such files. Nothing else is touched.
+  static Expected<OutputFolder> prepare(const std::filesystem::path& folder, bool keep = false);
 
   /// DIR/frame_00042.EXTENSION
   std::filesystem::path frame(uint32_t number, const char* extension) const;

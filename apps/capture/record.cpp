@@ -58,12 +58,12 @@ Json frameJson(double time_s, const offline::Stats& stats) {
 
 }  // namespace
 
-Record::Record(const Scene& scene, const DeviceInfo& device, std::string command)
-    : scene_(&scene), device_(device), command_(std::move(command)) {}
+Record::Record(const Scene& scene, const DeviceInfo& device, std::string command, double start_s)
+    : scene_(&scene), device_(device), command_(std::move(command)), start_s_(start_s) {}
 
 void Record::add(double time_s, offline::Stats stats) { frames_.push_back({time_s, std::move(stats)}); }
 
-double Record::simulatedSeconds() const { return frames_.empty() ? 0 : frames_.back().time_s; }
+double Record::simulatedSeconds() const { return frames_.empty() ? 0 : frames_.back().time_s - start_s_; }
 
 std::vector<std::string> Record::figureNames(const Scene& scene) {
   Record empty(scene, {}, {});

@@ -12,8 +12,8 @@ namespace rill::capture {
 /// What a capture has measured so far: the object that --stats writes, the figures that --require judges, the passes that --explain lists.
 class Record {
  public:
-  /// `command` is the command line, as one would type it again.
-  Record(const Scene& scene, const DeviceInfo& device, std::string command);
+  /// `command` is the command line, as one would type it again; `start_s` the simulated time at which this run began.
+  Record(const Scene& scene, const DeviceInfo& device, std::string command, double start_s = 0);
 
   /// Frames in order; `time_s` is the frame's instant.
   void add(double time_s, offline::Stats stats);
@@ -31,11 +31,12 @@ class Record {
   std::string passTable() const;
 
  private:
-  double simulatedSeconds() const;
+  double simulatedSeconds() const;  ///< of this run
 
   const Scene* scene_;
   DeviceInfo device_;
   std::string command_;
+  double start_s_;
   std::vector<apps::Instant> frames_;
 };
 

@@ -19,10 +19,16 @@ bool read(std::span<const std::byte> bytes, Record& record) {
 
 void FluidImpl::poll() const {
   while (!pending_.empty()) {
-    const Pending& pending = pending_.front();
     FluidControl control;
     FluidSums sums;
-    if (!read(pending.graph->data(pending.control), control) || !read(pending.graph->data(pending.sums), sums)) return;
+    const auto finished = [&](const Pending& p) { return read(p.graph->data(p.control), control) && read(p.graph->data(p.sums), sums); };
+    // One that was given up, since nobody asked in time, does not stand before those that came after it.
+    const auto next = std::find_if(pending_.begin(), pending_.end(), finished);
+    if (next == pending_.end()) return;
+    for (auto given_up = pending_.begin(); given_up != next; ++given_up)
+      if (given_up->uploads) staging_.reset();
+    pending_.erase(pending_.begin(), next);
+    const Pending& pending = pending_.front();
     progress = {.known = true,
                 .time_s = double{control.timeHigh} + control.timeLow,
                 .time_left_s = control.timeLeft,
@@ -61,6 +67,7 @@ void FluidImpl::poll() const {
       s.list_builds = control.builds;
       stats = s;
     }
+    if (pending.uploads) staging_.reset();
     pending_.pop_front();
   }
 }

@@ -1,13 +1,12 @@
-// A Fluid's life: what it needs, its buffers and pipelines, its start state.
+// A Fluid's life: what it needs, its buffers and pipelines.
 #include "rill/fluid.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 
 #include "fluid/fluid_impl.hpp"
+#include "fluid/snapshot.hpp"
 
 namespace rill {
 namespace {
@@ -29,10 +28,6 @@ std::string mebibytes(uint64_t bytes) {
   return text;
 }
 
-bool finite(const Float3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-// As a float: infinite where its square does not fit.
-float speedOf(const Float3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
 
 }  // namespace
 
@@ -92,13 +87,22 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   impl->count = static_cast<uint32_t>(n);
   std::copy(particles.origin, particles.origin + 3, impl->origin);
 
+  if (desc.snapshot && impl->count > 0)
+    if (auto fits = checkSnapshot(*desc.snapshot, snapshotShape(impl->setup)); !fits) return fits.error();
+
   if (impl->count == 0) return impl;
-  if (auto ok = impl->makeBuffers(device, particles, desc.storageReads, desc.settle); !ok) return ok.error();
+  if (auto ok = impl->makeBuffers(device, desc.storageReads); !ok) return ok.error();
+  impl->stageScene();
+  if (desc.snapshot)
+    impl->stageSnapshot(*desc.snapshot);
+  else
+    impl->stageStart(particles, desc.settle);
+  if (auto ok = impl->staging_->make(device); !ok) return ok.error();
   if (auto ok = impl->makePipelines(device); !ok) return ok.error();
   return impl;
 }
 
-Expected<void> FluidImpl::makeBuffers(Device& device, const ParticleSet& particles, bool storageReads, bool settle) {
+Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
   const uint64_t n = count, more = n + 1;
   const FluidParams& p = setup.params;
 
@@ -159,76 +163,6 @@ Expected<void> FluidImpl::makeBuffers(Device& device, const ParticleSet& particl
     if (!list) return list.error();
     buffers_.lists.push_back(std::move(*list));
   }
-  return stage(device, particles, settle);
-}
-
-Expected<void> FluidImpl::stage(Device& device, const ParticleSet& particles, bool settle) {
-  FluidParams& p = setup.params;
-  std::vector<float> position, velocity;
-  position.reserve(4 * (count + 1));
-  velocity.reserve(4 * (count + 1));
-  std::vector<uint32_t> id(count);
-  FluidSums sums{};
-  float fastest = 0;
-  for (uint32_t i = 0; i < count; ++i) {
-    Float3 x = particles.positions[i], v = particles.velocities[i];
-    const float speed = speedOf(v);
-    const bool good = finite(x) && std::isfinite(speed);  // a speed that overflows would make every step 0
-    if (!good) {
-      ++sums.nonFinite;
-      x = {kParked, kParked, kParked};
-      v = {};
-    }
-    position.insert(position.end(), {x.x, x.y, x.z, 0.0f});
-    velocity.insert(velocity.end(), {v.x, v.y, v.z, 1.0f});
-    if (good) fastest = std::max(fastest, speed);
-    id[i] = i;
-  }
-  position.insert(position.end(), {kParked, kParked, kParked, 0.0f});
-  velocity.insert(velocity.end(), {0.0f, 0.0f, 0.0f, 1.0f});
-  sums.speedMax = std::bit_cast<uint32_t>(fastest);
-
-  FluidControl control{};
-  control.stale = 2;
-  control.speed = fastest;
-  control.settling = settle ? kSettleSubsteps : 0;
-  control.desiredStep = static_cast<float>(setup.firstStep);
-
-  std::vector<uint32_t> shapes(3 * kMaxCommands, 0);
-  const auto shape = [&](uint32_t command, GroupCount groups) { std::copy(groups.begin(), groups.end(), shapes.begin() + 3 * command); };
-  const GroupCount all = foldGroups(divideUp(count, kFluidGroup));
-  const GroupCount chunk = foldGroups(chunks_.front().groups());
-  for (uint32_t k : {kCommandPredict, kCommandKeys, kCommandReorder}) shape(k, all);
-  for (uint32_t k : {kCommandDensity, kCommandCorrect, kCommandCorrect + 1, kCommandIterate, kCommandBuild}) shape(k, chunk);
-  for (uint32_t k = kCommandWalks; k < kCommandSort; ++k) shape(k, chunk);
-  shape(kCommandPose, {1, 1, 1});
-  uint32_t next = kCommandSort;
-  for (const GroupCount& groups : sort_->groups()) shape(next++, groups);
-  assert(next <= kMaxCommands);
-
-  std::vector<std::byte> bytes;
-  const auto add = [&](const Buffer& target, const void* data, uint64_t size) {
-    if (size == 0) return;
-    const uint64_t at = bytes.size();
-    bytes.resize(at + (size + 15) / 16 * 16);
-    std::memcpy(bytes.data() + at, data, size);
-    uploads_.emplace_back(target.handle(), size);
-  };
-  add(buffers_.params, &p, sizeof p);
-  add(buffers_.control, &control, sizeof control);
-  add(buffers_.sums, &sums, sizeof sums);
-  add(buffers_.shapes, shapes.data(), shapes.size() * 4);
-  add(buffers_.gravity, setup.gravity.data(), setup.gravity.size() * 4);
-  add(buffers_.tables, setup.tables.data(), setup.tables.size() * 4);
-  add(buffers_.solids, setup.solids.data(), setup.solids.size() * sizeof(SolidRecord));
-  add(buffers_.keyframes, setup.keyframes.data(), setup.keyframes.size() * 4);
-  add(buffers_.position, position.data(), position.size() * 4);
-  add(buffers_.velocity, velocity.data(), velocity.size() * 4);
-  add(buffers_.id, id.data(), id.size() * 4);
-  auto staging = createBuffer(device, "start state", bytes.size(), MemoryKind::Upload);
-  if (!staging) return staging.error();
-  buffers_.staging = std::move(*staging);
-  std::memcpy(buffers_.staging.mapped(), bytes.data(), bytes.size());
   return {};
 }
 

@@ -1,15 +1,21 @@
 #pragma once
 // What a Fluid holds: its settings, its buffers, its pipelines.
+#include <cmath>
 #include <array>
 #include <deque>
 #include <optional>
 
 #include "fluid/settings.hpp"
+#include "fluid/staging.hpp"
 #include "gpu/resources.hpp"
 #include "rill/fluid.hpp"
 #include "sort/key_sort.hpp"
 
 namespace rill {
+
+inline bool finite(const Float3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+/// As a float: infinite where its square does not fit.
+inline float speedOf(const Float3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
 
 constexpr uint32_t kMaxListChunks = 16;
 
@@ -20,7 +26,6 @@ struct FluidBuffers {
   Buffer multiplier;                                                // where there are several iterations
   Buffer neighbourCount, cell, order, start, nearSample, nearList;
   std::vector<Buffer> lists;
-  Buffer staging;  // the start state, until it has been copied
 };
 
 /// Of the particles near one wall, and of those near several walls or a solid.
@@ -64,6 +69,7 @@ class FluidImpl {
   void poll() const;
   const FluidRefs& refs() const { return r_; }  ///< of the step declared last
   std::span<const Chunk> chunks() const { return chunks_; }
+  const FluidBuffers& buffers() const { return buffers_; }
 
   FluidSetup setup;
   FluidMemory memory;
@@ -77,11 +83,16 @@ class FluidImpl {
     Graph* graph;
     Ticket control, sums, measure;
     bool measured;
+    bool uploads;  ///< the start state has been copied once this frame has finished
   };
 
-  Expected<void> makeBuffers(Device& device, const ParticleSet& particles, bool storageReads, bool settle);
+  Expected<void> makeBuffers(Device& device, bool storageReads);
   Expected<void> makePipelines(Device& device);
-  Expected<void> stage(Device& device, const ParticleSet& particles, bool settle);
+  void stageScene();
+  void stageStart(const ParticleSet& particles, bool settle);
+  void stageSnapshot(const FluidSnapshot& snapshot);
+  void stageParticles(std::vector<Float3> positions, std::vector<Float3> velocities);
+  BufferRef& refOf(const Buffer& buffer);
   void importAll(Graph& graph);
   void declareUpload(Graph& graph);
   void declareBegin(Graph& graph, double advance);
@@ -99,9 +110,10 @@ class FluidImpl {
   FluidRefs r_;
   std::optional<KeySort> sort_;
   std::vector<Chunk> chunks_;
-  std::vector<std::pair<VkBuffer, uint64_t>> uploads_;  // target and bytes, in the order of the staging buffer
+  mutable std::optional<Staging> staging_;  // the start state, until it has been copied
   bool texel_ = false;
   bool uploaded_ = false;
+  bool resumed_ = false;   // from a snapshot
   uint32_t recorded_ = 0;  // substeps recorded since the start: parity of the next
   double emptyTime_ = 0;   // simulated time of a fluid without particles, s
   mutable std::deque<Pending> pending_;

@@ -54,36 +54,60 @@ void FluidImpl::importAll(Graph& graph) {
   for (size_t c = 0; c < chunks_.size(); ++c) r_.lists[c] = import("neighbour list", buffers_.lists[c]);
 }
 
+BufferRef& FluidImpl::refOf(const Buffer& buffer) {
+  const std::pair<const Buffer*, BufferRef*> pairs[] = {{&buffers_.params, &r_.params},
+                                                        {&buffers_.control, &r_.control},
+                                                        {&buffers_.sums, &r_.sums},
+                                                        {&buffers_.shapes, &r_.shapes},
+                                                        {&buffers_.commands, &r_.commands},
+                                                        {&buffers_.gravity, &r_.gravity},
+                                                        {&buffers_.tables, &r_.tables},
+                                                        {&buffers_.solids, &r_.solids},
+                                                        {&buffers_.keyframes, &r_.keyframes},
+                                                        {&buffers_.position, &r_.position},
+                                                        {&buffers_.velocity, &r_.velocity},
+                                                        {&buffers_.prediction, &r_.prediction},
+                                                        {&buffers_.pushAway, &r_.pushAway},
+                                                        {&buffers_.work, &r_.work},
+                                                        {&buffers_.warm, &r_.warm},
+                                                        {&buffers_.id, &r_.id},
+                                                        {&buffers_.cell, &r_.cell},
+                                                        {&buffers_.neighbourCount, &r_.neighbourCount},
+                                                        {&buffers_.start, &r_.start},
+                                                        {&buffers_.nearList, &r_.nearList},
+                                                        {&buffers_.nearSample, &r_.nearSample}};
+  for (const auto& [owner, ref] : pairs)
+    if (owner == &buffer) return *ref;
+  const size_t list = static_cast<size_t>(&buffer - buffers_.lists.data());
+  assert(list < buffers_.lists.size());
+  return r_.lists[list];
+}
+
 void FluidImpl::declareUpload(Graph& graph) {
-  const BufferRef staging =
-      graph.import("start state", {.handle = buffers_.staging.handle(), .size = buffers_.staging.size(), .before = Use::None});
-  BufferRef* const targets[] = {&r_.params, &r_.control,   &r_.sums,     &r_.shapes,   &r_.gravity, &r_.tables,
-                                &r_.solids, &r_.keyframes, &r_.position, &r_.velocity, &r_.id};
-  const Buffer* const owners[] = {&buffers_.params,   &buffers_.control,  &buffers_.sums,   &buffers_.shapes,
-                                  &buffers_.gravity,  &buffers_.tables,   &buffers_.solids, &buffers_.keyframes,
-                                  &buffers_.position, &buffers_.velocity, &buffers_.id};
+  struct Copy {
+    BufferRef from, to;
+    uint64_t bytes, at;
+  };
   graph.pass("upload", [&](Pass& pass) {
-    pass.read(staging, Use::CopySource);
-    for (BufferRef* target : targets) *target = pass.write(*target, Use::CopyTarget);
-    r_.warm = pass.write(r_.warm, Use::CopyTarget, true);
-    r_.pushAway = pass.write(r_.pushAway, Use::CopyTarget, true);
-    r_.prediction = pass.write(r_.prediction, Use::CopyTarget, true);
-    r_.work = pass.write(r_.work, Use::CopyTarget, true);
-    r_.commands = pass.write(r_.commands, Use::CopyTarget, true);
-    return [this, staging, refs = r_, targets, owners](Commands& commands) {
-      uint64_t at = 0, positions = 0;
-      for (const auto& [handle, bytes] : uploads_) {
-        for (size_t k = 0; k < std::size(owners); ++k)
-          if (owners[k]->handle() == handle) commands.copy(staging, *targets[k], bytes, at);
-        if (handle == buffers_.position.handle()) positions = at;
-        at += (bytes + 15) / 16 * 16;
-      }
-      // Predictions start as the positions; they and `work` end with the dummy neighbour.
-      commands.copy(staging, refs.prediction, buffers_.position.size(), positions);
-      commands.copy(staging, refs.work, buffers_.position.size(), positions);
-      commands.fill(refs.warm, 0);
-      commands.fill(refs.pushAway, 0);
-      commands.fill(refs.commands, 0);
+    std::vector<BufferRef> sources, cleared;
+    for (const Buffer& buffer : staging_->sources()) {
+      sources.push_back(graph.import("start state", {.handle = buffer.handle(), .size = buffer.size(), .before = Use::None}));
+      pass.read(sources.back(), Use::CopySource);
+    }
+    std::vector<Copy> copies;
+    for (const Staging::Copy& copy : staging_->copies()) {
+      BufferRef& ref = refOf(*copy.target);
+      ref = pass.write(ref, Use::CopyTarget);
+      copies.push_back({sources[copy.source], ref, copy.bytes, copy.at});
+    }
+    for (const Buffer* buffer : staging_->cleared()) {
+      BufferRef& ref = refOf(*buffer);
+      ref = pass.write(ref, Use::CopyTarget, true);
+      cleared.push_back(ref);
+    }
+    return [copies = std::move(copies), cleared = std::move(cleared)](Commands& commands) {
+      for (const Copy& copy : copies) commands.copy(copy.from, copy.to, copy.bytes, copy.at);
+      for (BufferRef ref : cleared) commands.fill(ref, 0);
     };
   });
 }
@@ -459,10 +483,11 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
 
   importAll(graph);
   const bool advances = step.resume || step.advance_s > 0;
-  if (!uploaded_) {
+  const bool uploads = !uploaded_;
+  if (uploads) {
     declareUpload(graph);
     // The start is sorted, whether anyone looks at it before the first advance or not: the order of sums is the same.
-    if (advances) {
+    if (advances && !resumed_) {
       declareBegin(graph, 0);
       declareRebuild(graph);
     }
@@ -477,7 +502,7 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   if (blocks == 0) declareRebuild(graph);  // runs where there has been none yet
   declareSkipped(graph);
 
-  Pending pending{&graph, {}, {}, {}, false};
+  Pending pending{&graph, {}, {}, {}, false, uploads};
   if (step.stats)
     declareMeasure(graph, pending);
   else

@@ -5,6 +5,7 @@
 #include <new>
 #include <optional>
 
+#include "core/words.hpp"
 #include "offline/context.hpp"
 #include "offline/pass_log.hpp"
 #include "offline/probes.hpp"
@@ -14,6 +15,7 @@
 #include "render/legend.hpp"
 #include "render/particle_view.hpp"
 #include "rill/offline.hpp"
+#include "scene/simulation_keys.hpp"
 #include "sort/key_sort_types.hpp"
 
 namespace rill::offline {
@@ -45,15 +47,19 @@ class Simulation::Impl {
  public:
   Impl(Scene scene, const Options& options) : scene_(std::move(scene)), options_(options) {}
 
-  Expected<void> place() {
-    auto start = makeParticles(scene_, kMaxParticles);
+  /// The particles given, or those of the scene's fills.
+  Expected<void> place(std::optional<ParticleSet> given) {
+    auto start = given ? Expected<ParticleSet>(std::move(*given)) : makeParticles(scene_, kMaxParticles);
     if (!start) return start.error();
     start_ = std::move(*start);
     return {};
   }
-  void place(ParticleSet start) { start_ = std::move(start); }
 
-  Expected<void> open() {
+  /// `from`: the checkpoint that it goes on from, or null.
+  Expected<void> open(const Checkpoint* from) {
+    if (from)
+      if (const std::string other = firstDifference(from->keys, simulationKeys(scene_, start_)); !other.empty())
+        return Error{ErrorKind::BadInput, "the checkpoint was written by another scene: " + other};
     ContextDesc desc;
     desc.device = options_.device;
     desc.validation = options_.validation;
@@ -61,9 +67,13 @@ class Simulation::Impl {
     auto context = Context::create(desc);
     if (!context) return context.error();
     context_ = std::move(*context);
-    auto fluid = Fluid::create(context_->device(), {&scene_, &start_});
+    auto fluid = Fluid::create(context_->device(), {.scene = &scene_, .particles = &start_, .snapshot = from ? &from->fluid : nullptr});
     if (!fluid) return fluid.error();
     fluid_ = std::move(*fluid);
+    if (from) {
+      time_s_ = from->time_s;
+      warnOfOthers(*from);
+    }
     for (Graph* graph : {&advanceGraph_, &measureGraph_, &renderGraph_}) graph->enableTimings(options_.passTimes);
     return {};
   }
@@ -132,6 +142,28 @@ class Simulation::Impl {
     return stats;
   }
 
+  Expected<Checkpoint> checkpoint(uint64_t frame, double fps) {
+    // Whoever looks has the state uploaded and the last advance closed.
+    if (auto measured = measure(); !measured) return measured.error();
+    Checkpoint c;
+    c.rill = RILL_VERSION;
+    c.scene = scene_.name;
+    c.device = device().name;
+    c.driver = device().driver;
+    c.time_s = time_s_;
+    c.frame = frame;
+    c.fps = fps;
+    c.keys = simulationKeys(scene_, start_);
+    SnapshotReader reader(*fluid_);
+    for (Graph graph; !reader.done();) {  // its own: what it reads into goes with it
+      auto ran = runAside(graph, [&](Graph& g) { reader.declare(g); });
+      if (!ran) return ran.error();
+      if (auto taken = reader.take(graph); !taken) return taken.error();
+    }
+    c.fluid = std::move(reader.snapshot());
+    return c;
+  }
+
   Expected<Image> render(std::string_view view, uint32_t width, uint32_t height) {
     const auto known = std::find_if(std::begin(kViews), std::end(kViews), [&](const View& v) { return v.name == view; });
     if (known == std::end(kViews)) return Error{ErrorKind::BadInput, "there is no view \"" + std::string(view) + "\""};
@@ -172,6 +204,7 @@ class Simulation::Impl {
   std::vector<std::string> warnings() const {
     std::vector<std::string> all = start_.warnings;
     all.insert(all.end(), fluid_->warnings().begin(), fluid_->warnings().end());
+    all.insert(all.end(), warnings_.begin(), warnings_.end());
     return all;
   }
 
@@ -181,6 +214,27 @@ class Simulation::Impl {
     advanced_ = {};
     wall_s_ = 0;
     log_.clear();
+  }
+
+  /// What differs from the run that wrote the checkpoint, where bits may differ for it.
+  void warnOfOthers(const Checkpoint& from) {
+    const auto compare = [&](const char* what, const std::string& there, const std::string& here) {
+      if (there != here)
+        warnings_.push_back("the checkpoint was written with the " + std::string(what) + " " + inQuotes(there) + ", this is " +
+                            inQuotes(here) + ": the run goes on, its bits may differ");
+    };
+    compare("device", from.device, device().name);
+    compare("driver", from.driver, device().driver);
+    compare("Rill", from.rill, RILL_VERSION);
+  }
+
+  /// Like run(), unseen by the log of the instant.
+  template <class Declare>
+  Expected<void> runAside(Graph& graph, Declare&& declare) {
+    const PassLog log = log_;
+    auto ran = run(graph, std::forward<Declare>(declare));
+    log_ = log;
+    return ran;
   }
 
   /// Declares a graph, runs it and waits. A graph without a pass to run is not submitted: an empty scene costs next to nothing.
@@ -239,6 +293,7 @@ class Simulation::Impl {
   Scene scene_;
   Options options_;
   ParticleSet start_;
+  std::vector<std::string> warnings_;
   std::unique_ptr<Context> context_;
   std::unique_ptr<Fluid> fluid_;
   std::unique_ptr<ParticleView> particleView_;  ///< made for the first picture
@@ -262,25 +317,29 @@ Expected<std::unique_ptr<Simulation>> Simulation::open(const std::filesystem::pa
   return open(std::move(*read), options);
 }
 
-Expected<std::unique_ptr<Simulation>> Simulation::open(Scene scene, const Options& options) {
+Expected<std::unique_ptr<Simulation>> Simulation::make(Scene scene, std::optional<ParticleSet> start, const Options& options,
+                                                       const Checkpoint* from) {
   return guarded("opening the scene", [&]() -> Expected<std::unique_ptr<Simulation>> {
+    if (start && start->positions.size() > kMaxParticles)
+      return Error{ErrorKind::TooLarge,
+                   std::to_string(start->positions.size()) + " particles; at most " + std::to_string(kMaxParticles) + " are possible"};
     auto impl = std::make_unique<Impl>(std::move(scene), options);
-    if (auto placed = impl->place(); !placed) return placed.error();
-    if (auto opened = impl->open(); !opened) return opened.error();
+    if (auto placed = impl->place(std::move(start)); !placed) return placed.error();
+    if (auto opened = impl->open(from); !opened) return opened.error();
     return std::unique_ptr<Simulation>(new Simulation(std::move(impl)));
   });
 }
 
+Expected<std::unique_ptr<Simulation>> Simulation::open(Scene scene, const Options& options) {
+  return make(std::move(scene), {}, options, nullptr);
+}
+
 Expected<std::unique_ptr<Simulation>> Simulation::open(Scene scene, ParticleSet start, const Options& options) {
-  return guarded("opening the scene", [&]() -> Expected<std::unique_ptr<Simulation>> {
-    if (start.positions.size() > kMaxParticles)
-      return Error{ErrorKind::TooLarge,
-                   std::to_string(start.positions.size()) + " particles; at most " + std::to_string(kMaxParticles) + " are possible"};
-    auto impl = std::make_unique<Impl>(std::move(scene), options);
-    impl->place(std::move(start));
-    if (auto opened = impl->open(); !opened) return opened.error();
-    return std::unique_ptr<Simulation>(new Simulation(std::move(impl)));
-  });
+  return make(std::move(scene), std::move(start), options, nullptr);
+}
+
+Expected<std::unique_ptr<Simulation>> Simulation::resume(Scene scene, const Checkpoint& checkpoint, const Options& options) {
+  return make(std::move(scene), {}, options, &checkpoint);
 }
 
 Expected<void> Simulation::advance(double seconds) {
@@ -292,6 +351,9 @@ Expected<Particles> Simulation::particles(Order order) {
 }
 Expected<Stats> Simulation::stats() {
   return guarded("measuring", [&] { return impl_->stats(); });
+}
+Expected<Checkpoint> Simulation::checkpoint(uint64_t frame, double fps) {
+  return guarded("taking a checkpoint", [&] { return impl_->checkpoint(frame, fps); });
 }
 Expected<Image> Simulation::render(const std::string& view, uint32_t width, uint32_t height) {
   return guarded("drawing", [&] { return impl_->render(view, width, height); });

@@ -5,21 +5,14 @@
 #include <cassert>
 #include <numeric>
 
+#include "core/fnv1a.hpp"
+
 namespace rill::offline {
 namespace {
 
-class Fnv1a {
- public:
-  void add(float value) {
-    uint32_t bits = std::bit_cast<uint32_t>(value);
-    for (int byte = 0; byte < 4; ++byte, bits >>= 8) hash_ = (hash_ ^ (bits & 0xffu)) * 0x100000001b3ull;
-  }
-  void add(const Float3& value) { add(value.x), add(value.y), add(value.z); }
-  uint64_t value() const { return hash_; }
-
- private:
-  uint64_t hash_ = 0xcbf29ce484222325ull;
-};
+void add(Fnv1a& hash, const Float3& value) {
+  for (float number : {value.x, value.y, value.z}) hash.add(std::bit_cast<uint32_t>(number));
+}
 
 }  // namespace
 
@@ -40,8 +33,8 @@ uint64_t stateHash(std::span<const Float3> positions, std::span<const Float3> ve
   assert(positions.size() == ids.size() && velocities.size() == ids.size());
   Fnv1a hash;
   for (const uint32_t i : orderById(ids)) {
-    hash.add(positions[i]);
-    hash.add(velocities[i]);
+    add(hash, positions[i]);
+    add(hash, velocities[i]);
   }
   return hash.value();
 }

@@ -33,9 +33,9 @@ TEST(CommandLine, HelpTeaches) {
     for (const char* word : {"SCENE",    "--frames",  "--fps",     "--size",      "--out",
                              "--view",   "--stats",   "--export",  "--particles", "--set",
                              "--device", "--require", "--explain", "--no-images", "--quiet",
-                             "--help",   "--version", "--no-pass-times", "Examples:", "Exit codes:", "particles, density"})
+                             "--help",   "--version", "--no-pass-times", "--checkpoint", "--checkpoint-every", "--resume", "Examples:", "Exit codes:", "particles, density"})
       EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
-    for (const char* word : {"--video", "--play", "--checkpoint", "--resume"})
+    for (const char* word : {"--video", "--play"})
       EXPECT_EQ(outcome.out.find(word), std::string::npos) << word << " does not work yet";
   }
 }
@@ -66,6 +66,13 @@ TEST(CommandLine, NamesTheOptionAndWhatWasExpected) {
   for (const char* bad : {"0", "-5", "1e4", "many"})
     expectRefused({"scene.json", "--particles", bad}, {"--particles", "expected a whole number"});
   expectRefused({"scene.json", "--set", "fluid.viscosity"}, {"--set", "fluid.viscosity"});
+  for (const char* bad : {"-1", "soon", "", "nan"})
+    expectRefused({"scene.json", "--checkpoint", "run.rill", "--checkpoint-every", bad}, {"--checkpoint-every", "a number of seconds"});
+  expectRefused({"scene.json", "--checkpoint-every", "60"}, {"--checkpoint-every", "expected --checkpoint FILE"});
+  expectRefused({"scene.json", "--checkpoint", ""}, {"--checkpoint", "expected the name of a file"});
+  expectRefused({"scene.json", "--checkpoint", "-"}, {"--checkpoint", "expected the name of a file"});
+  expectRefused({"scene.json", "--checkpoint", "./a", "--stats", "a"}, {"--checkpoint", "another file than that of --stats"});
+  expectRefused({"scene.json", "--resume", ""}, {"--resume", "a file that --checkpoint wrote"});
   expectRefused({"scene.json", "other.json"}, {"\"other.json\"", "one argument too many"});
   expectRefused({"scene.json", "--frames", "2", "--frames", "3"}, {"--frames"});
 }
@@ -96,6 +103,10 @@ TEST(CommandLine, PlacesAreJudgedBeforeADeviceIsOpened) {
   expectRefused({"scene.json", "--stats", "."}, {"--stats", "is a folder"});
   expectRefused({"scene.json", "--stats", "scene.json/stats.json"}, {"--stats", "is a file"});
   expectRefused({"scene.json", "--stats", "/dev/rill-none"}, {"--stats", "/dev/rill-none"});
+  expectRefused({"scene.json", "--checkpoint", "."}, {"--checkpoint", "is a folder"});
+  expectRefused({"scene.json", "--checkpoint", "scene.json/run.rill"}, {"--checkpoint", "is a file"});
+  expectRefused({"scene.json", "--resume", "none.rill"}, {"--resume", "\"none.rill\" is not there"});
+  expectRefused({"scene.json", "--resume", "scene.json"}, {"--resume", "is no checkpoint"});
 }
 
 Expected<rill::capture::CommandLine> parsed(std::vector<const char*> arguments) {

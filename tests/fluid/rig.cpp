@@ -181,13 +181,15 @@ void Oracle::advance(int substeps) {
   }
 }
 
-FluidTest::Run::Run(FluidTest& test, const Trial& trial) : test_(test), step_(trial.step) {
+FluidTest::Run::Run(FluidTest& test, const Trial& trial, const FluidSnapshot* from) : test_(test), step_(trial.step) {
   Scene scene = trial.timedScene();
   if (trial.gather == Gather::Grid) scene.solver.neighbors = NeighborChoice::Grid;
   const ParticleSet particles = trial.particles();
-  auto made =
-      Fluid::create(test.rillDevice(),
-                    {.scene = &scene, .particles = &particles, .settle = trial.settle, .storageReads = trial.gather == Gather::Storage});
+  auto made = Fluid::create(test.rillDevice(), {.scene = &scene,
+                                                .particles = &particles,
+                                                .snapshot = from,
+                                                .settle = trial.settle,
+                                                .storageReads = trial.gather == Gather::Storage});
   if (!made) throw std::runtime_error(made.error().message);
   fluid_ = std::move(*made);
   // Transient memory starts as NaN: what reads a transient before anyone wrote it stands out.
@@ -198,6 +200,20 @@ FluidTest::Run::Run(FluidTest& test, const Trial& trial) : test_(test), step_(tr
     return [poison](Commands& commands) { commands.fill(poison, 0xffffffffu); };
   });
   test.runGraph(graph_);
+}
+
+FluidSnapshot FluidTest::Run::saved() {
+  read({});
+  SnapshotReader reader(*fluid_);
+  for (Graph graph; !reader.done();) {
+    graph.reset();
+    reader.declare(graph);
+    test_.runGraph(graph);
+    const auto taken = reader.take(graph);
+    EXPECT_TRUE(taken) << taken.error().message;
+    if (!taken) break;
+  }
+  return std::move(reader.snapshot());
 }
 
 void FluidTest::Run::advance(double seconds, uint32_t piece) {

@@ -77,12 +77,14 @@ class FluidTest : public GpuTest {
   /// One fluid with the graph that runs it.
   class Run {
    public:
-    Run(FluidTest& test, const Trial& trial);
+    /// `from`: goes on from it.
+    Run(FluidTest& test, const Trial& trial, const FluidSnapshot* from = nullptr);
     /// Goes on until the advance is complete, in pieces of `piece` substeps recorded.
     void advance(double seconds, uint32_t piece = 64);
     void substeps(int count, uint32_t piece = 64) { advance(count * step_, piece); }
     Snapshot snapshot();
     Snapshot read(const FluidStep& step);                     ///< the particles after one graph of it
+    FluidSnapshot saved();                                    ///< the state, as a checkpoint has it
     FluidStats stats();                                       ///< of the present instant
     const Snapshot& measured() const { return measured_; }    ///< the particles that stats() saw
     const FluidControl& control() const { return control_; }  ///< what the device had decided at the end of the last read
@@ -98,7 +100,7 @@ class FluidTest : public GpuTest {
     std::unique_ptr<Fluid> fluid_;
   };
 
-  std::unique_ptr<Run> start(const Trial& trial) { return std::make_unique<Run>(*this, trial); }
+  std::unique_ptr<Run> start(const Trial& trial, const FluidSnapshot* from = nullptr) { return std::make_unique<Run>(*this, trial, from); }
   void runGraph(Graph& graph) { run(graph); }
   void runGraphs(std::span<Graph* const> graphs) { run(graphs); }
   Device& rillDevice() { return device(); }

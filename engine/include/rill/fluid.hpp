@@ -14,10 +14,29 @@
 
 namespace rill {
 
-/// What a Fluid is made from. Both are read in create() and not kept.
+/// All of a fluid's state that the bits of its later steps depend on, between two advances, on the host (ARCHITECTURE.md, "Checkpoints").
+/// What a step writes before it reads it is not among it. Arrays have an entry a particle, in the order of the device.
+struct FluidSnapshot {
+  std::vector<uint32_t> control;                 ///< FluidControl (shaders/shared/fluid_records.h), word by word
+  std::vector<uint32_t> sums;                    ///< FluidSums, word by word
+  std::vector<float> solids;                     ///< centre (m) and velocity (m/s) of each solid, six numbers; empty where none moves
+  std::vector<Float3> position, velocity, push;  ///< m, m/s, m/s^2
+  std::vector<float> warm;                       ///< multipliers of the warm start
+  std::vector<uint32_t> id;
+  std::vector<uint32_t> nearWall, nearMore;  ///< particles near one wall; near several walls or a solid: rising
+  // The neighbour list, as long as it is not due to be built anew.
+  uint32_t listCapacity = 0;             ///< entries a particle that the list holds
+  std::vector<uint32_t> neighbourCount;  ///< empty where the list is due, or the fluid has none
+  std::vector<uint32_t> neighbours;      ///< of one particle after another; of none that has more than the list holds
+  std::vector<uint32_t> cell;            ///< of the sorted particles, where some walk the grid
+  friend bool operator==(const FluidSnapshot&, const FluidSnapshot&) = default;
+};
+
+/// What a Fluid is made from. All are read in create() and not kept.
 struct FluidDesc {
   const Scene* scene = nullptr;  ///< settings, domain, solids, gravity; fluid.spacing > 0
   const ParticleSet* particles = nullptr;
+  const FluidSnapshot* snapshot = nullptr;  ///< go on from it; of a fluid of the same scene and particles. BadInput where it is none
   bool settle = true;         ///< before the first substep, part particles that overlap at the start: positions move, speeds do not
   bool storageReads = false;  ///< gather through storage buffers even where texel buffers would hold enough (slower on most CPU drivers)
 };
@@ -111,9 +130,32 @@ class Fluid {
   /// What the solver cannot follow, each with its figure ("viscosity 50 Pa s needs ..."). Known at creation.
   std::span<const std::string> warnings() const;
 
+  const FluidImpl& impl() const { return *impl_; }  ///< engine/fluid and its tests; not for hosts
+
  private:
   explicit Fluid(std::unique_ptr<FluidImpl>);
   std::unique_ptr<FluidImpl> impl_;
+};
+
+/// Reads a fluid's state back, in graphs of at most 128 MiB each:
+///   for (SnapshotReader reader(fluid); !reader.done(); reader.take(graph)) { graph.reset(); reader.declare(graph); ... run it ... }
+/// Before the first, a frame of the fluid with an `advance_s` of 0 has completed; between them nothing else is done with the fluid.
+class SnapshotReader {
+ public:
+  explicit SnapshotReader(const Fluid& fluid);
+  bool done() const;
+  void declare(Graph& graph);
+  /// Failed where the graph's frame has not completed.
+  Expected<void> take(const Graph& graph);
+  FluidSnapshot& snapshot() { return snapshot_; }  ///< once done()
+
+ private:
+  void plan();
+  const FluidImpl& fluid_;
+  FluidSnapshot snapshot_;
+  std::vector<uint32_t> parts_;  ///< buffers to be read, in this order
+  size_t next_ = 0;
+  std::vector<Ticket> tickets_;
 };
 
 }  // namespace rill

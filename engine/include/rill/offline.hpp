@@ -1,11 +1,14 @@
 #pragma once
 // A simulation without a host: owns a device, runs a scene, hands out arrays. No Vulkan in sight.
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -59,6 +62,26 @@ struct Stats : FluidStats {
   std::vector<SkippedPass> skipped;
 };
 
+/// A simulation between two advances: a run that goes on from it has the bits of one that was never interrupted, on the same driver.
+struct Checkpoint {
+  std::string rill;                                       ///< version that wrote it
+  std::string scene;                                      ///< its name
+  std::string device, driver;                             ///< as in DeviceInfo
+  double time_s = 0;                                      ///< simulated
+  uint64_t frame = 0;                                     ///< for the caller: where in a sequence of frames this is,
+  double fps = 0;                                         ///< and how many of them make a second; 0: in none
+  std::vector<std::pair<std::string, std::string>> keys;  ///< what of the scene decides the simulation; another scene's is refused
+  FluidSnapshot fluid;
+  friend bool operator==(const Checkpoint&, const Checkpoint&) = default;
+};
+
+/// The bytes of a checkpoint's file: versioned, with a checksum (the format is described in engine/offline/checkpoint.cpp).
+std::vector<std::byte> encodeCheckpoint(const Checkpoint& checkpoint);
+/// `name` stands for the file in messages. BadInput for bytes that are no checkpoint, of a newer format, cut short, or changed anywhere.
+Expected<Checkpoint> decodeCheckpoint(std::span<const std::byte> bytes, std::string_view name);
+/// The same from a file. OutOfMemory, too.
+Expected<Checkpoint> loadCheckpoint(const std::filesystem::path& file);
+
 /// One scene on a device of its own. Not for several threads at once.
 class Simulation {
  public:
@@ -69,6 +92,9 @@ class Simulation {
   /// With particles of the caller's own in place of the scene's fills, taken as they are: they may overlap, lie outside, or not be numbers.
   /// `fluid.spacing` is given. BadInput for as many velocities as there are not positions, or no spacing.
   static Expected<std::unique_ptr<Simulation>> open(Scene scene, ParticleSet start, const Options& options = {});
+  /// Goes on from a checkpoint of the same scene. BadInput, naming the first key that differs, for one of another scene, judged before a
+  /// device is opened; a device, a driver or a Rill other than the checkpoint's is among warnings(). Other errors as open().
+  static Expected<std::unique_ptr<Simulation>> resume(Scene scene, const Checkpoint& checkpoint, const Options& options = {});
   ~Simulation();
 
   /// Runs `seconds` of simulated time on (>= 0), waits for it. One advance of the solver up to Options::longestFrame_s: substeps divide it
@@ -79,6 +105,8 @@ class Simulation {
   /// Of the present instant. Errors as advance().
   Expected<Particles> particles(Order order = Order::ById);
   Expected<Stats> stats();  ///< of the present instant, measured when first asked for; errors as advance()
+  /// Of the present instant; no later bit depends on whether one was taken. Errors as advance().
+  Expected<Checkpoint> checkpoint(uint64_t frame = 0, double fps = 0);
   /// Renders the present instant. `view` is one of views(); sizes in pixels. BadInput for another view or a size that the device cannot
   /// draw.
   Expected<Image> render(const std::string& view, uint32_t width, uint32_t height);
@@ -94,6 +122,8 @@ class Simulation {
 
  private:
   class Impl;
+  static Expected<std::unique_ptr<Simulation>> make(Scene scene, std::optional<ParticleSet> start, const Options& options,
+                                                    const Checkpoint* from);
   explicit Simulation(std::unique_ptr<Impl>);
   std::unique_ptr<Impl> impl_;
 };

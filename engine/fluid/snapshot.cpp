@@ -1,0 +1,146 @@
+#include "fluid/snapshot.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+namespace rill {
+namespace {
+
+template <class Record>
+Record record(std::span<const uint32_t> words) {
+  Record r{};
+  std::memcpy(&r, words.data(), std::min(words.size_bytes(), sizeof r));
+  return r;
+}
+
+Error wrong(std::string what) { return Error{ErrorKind::BadInput, "the state does not fit the scene: " + std::move(what)}; }
+
+Expected<void> checkLength(const char* name, uint64_t entries, uint64_t expected) {
+  if (entries == expected) return {};
+  return wrong(std::string(name) + " has " + std::to_string(entries) + " entries; expected " + std::to_string(expected));
+}
+
+Expected<void> checkLengths(const FluidSnapshot& s, const SnapshotShape& shape) {
+  const struct {
+    const char* name;
+    uint64_t entries, expected;
+  } rows[] = {
+      {"control", s.control.size(), sizeof(FluidControl) / 4},
+      {"sums", s.sums.size(), sizeof(FluidSums) / 4},
+      {"solids", s.solids.size(), shape.movingSolids ? uint64_t{6} * shape.solidCount : 0},
+      {"position", s.position.size(), shape.count},
+      {"velocity", s.velocity.size(), shape.count},
+      {"push", s.push.size(), shape.count},
+      {"warm", s.warm.size(), shape.count},
+      {"id", s.id.size(), shape.count},
+  };
+  for (const auto& row : rows)
+    if (auto right = checkLength(row.name, row.entries, row.expected); !right) return right;
+  return {};
+}
+
+/// Marks entries; false for one that is out of range or was there before.
+bool markNew(std::vector<bool>& seen, std::span<const uint32_t> entries) {
+  for (uint32_t entry : entries) {
+    if (entry >= seen.size() || seen[entry]) return false;
+    seen[entry] = true;
+  }
+  return true;
+}
+
+Expected<void> checkNear(const FluidSnapshot& s, const FluidSums& sums, const SnapshotShape& shape) {
+  if (s.nearWall.size() != sums.planeCount || s.nearMore.size() != sums.cornerCount ||
+      (!shape.near && sums.planeCount + sums.cornerCount > 0))
+    return wrong("the lists of particles near walls have other lengths than their counts");
+  std::vector<bool> seen(shape.count);
+  if (!markNew(seen, s.nearWall) || !markNew(seen, s.nearMore))
+    return wrong("a list of particles near walls names no particle, or one twice");
+  return {};
+}
+
+Expected<void> checkNeighbours(const FluidSnapshot& s, const FluidSums& sums, const SnapshotShape& shape) {
+  const bool alive = hasNeighbours(s), lists = alive && shape.listCapacity > 0;
+  if (s.listCapacity != shape.listCapacity)
+    return wrong("its neighbour lists hold " + std::to_string(s.listCapacity) + " entries; expected " + std::to_string(shape.listCapacity));
+  if (auto right = checkLength("neighbour counts", s.neighbourCount.size(), lists ? shape.count : 0); !right) return right;
+  uint64_t entries = 0, overflow = 0;
+  for (uint32_t n : s.neighbourCount) {
+    if (n <= shape.listCapacity)
+      entries += n;
+    else
+      ++overflow;
+  }
+  if (auto right = checkLength("neighbours", s.neighbours.size(), entries); !right) return right;
+  if (lists && overflow != sums.overflow) return wrong("its neighbour counts do not add up");
+  if (std::any_of(s.neighbours.begin(), s.neighbours.end(), [&](uint32_t j) { return j >= shape.count; }))
+    return wrong("a neighbour is no particle");
+
+  if (auto right = checkLength("cells", s.cell.size(), alive && walksGrid(s) ? shape.count : 0); !right) return right;
+  if (!std::is_sorted(s.cell.begin(), s.cell.end()) || (!s.cell.empty() && s.cell.back() >= shape.cells))
+    return wrong("the particles are not sorted by their cells");
+  return {};
+}
+
+/// Where a particle's groups of four lie in its chunk's list, in entries; groups follow at a distance of 4 kListBlock.
+uint64_t firstEntry(uint32_t local, uint32_t capacity) {
+  return (uint64_t{local / kListBlock} * capacity / 4 * kListBlock + local % kListBlock) * 4;
+}
+
+}  // namespace
+
+SnapshotShape snapshotShape(const FluidSetup& setup) {
+  return {setup.params.count, setup.params.solidCount, setup.params.listCapacity, setup.grid.cells(), setup.near, setup.movingSolids};
+}
+
+bool hasNeighbours(const FluidSnapshot& snapshot) { return record<FluidControl>(snapshot.control).stale == 0; }
+
+bool walksGrid(const FluidSnapshot& snapshot) { return snapshot.listCapacity == 0 || record<FluidSums>(snapshot.sums).overflow > 0; }
+
+Expected<void> checkSnapshot(const FluidSnapshot& snapshot, const SnapshotShape& shape) {
+  if (auto right = checkLengths(snapshot, shape); !right) return right;
+  const auto control = record<FluidControl>(snapshot.control);
+  const auto sums = record<FluidSums>(snapshot.sums);
+  if (control.stale > 1 || control.settling > kSettleSubsteps || control.timeLeft != 0)
+    return wrong("its control block is not that of an advance's end");
+  std::vector<bool> seen(shape.count);
+  if (!markNew(seen, snapshot.id)) return wrong("its ids are not 0 to " + std::to_string(shape.count - 1) + ", each once");
+  if (auto right = checkNear(snapshot, sums, shape); !right) return right;
+  return checkNeighbours(snapshot, sums, shape);
+}
+
+void layOutList(const FluidSnapshot& snapshot, uint32_t first, uint32_t last, std::span<uint32_t> out) {
+  const auto count = static_cast<uint32_t>(snapshot.neighbourCount.size());
+  const uint32_t capacity = snapshot.listCapacity;
+  const auto listed = [&](uint32_t i) { return snapshot.neighbourCount[i] <= capacity ? snapshot.neighbourCount[i] : 0; };
+  uint64_t from = 0;
+  for (uint32_t i = 0; i < first; ++i) from += listed(i);
+  for (uint32_t i = first; i < last; ++i) {
+    const uint64_t at = firstEntry(i - first, capacity);
+    const uint32_t n = listed(i);
+    for (uint32_t k = 0; k < (n + 3) / 4 * 4; ++k)
+      out[at + uint64_t{k / 4} * kListBlock * 4 + k % 4] = k < n ? snapshot.neighbours[from + k] : count;
+    from += n;
+  }
+}
+
+void gatherList(FluidSnapshot& snapshot, uint32_t first, uint32_t last, std::span<const uint32_t> list) {
+  for (uint32_t i = first; i < last; ++i) {
+    const uint32_t n = snapshot.neighbourCount[i];
+    if (n > snapshot.listCapacity) continue;
+    const uint64_t at = firstEntry(i - first, snapshot.listCapacity);
+    for (uint32_t k = 0; k < n; ++k) snapshot.neighbours.push_back(list[at + uint64_t{k / 4} * kListBlock * 4 + k % 4]);
+  }
+}
+
+void cellStarts(std::span<const uint32_t> cell, std::span<uint32_t> start) {
+  size_t i = 0;
+  for (size_t key = 0; key < start.size(); ++key) {
+    while (i < cell.size() && cell[i] < key) ++i;
+    start[key] = static_cast<uint32_t>(i);
+  }
+}
+
+}  // namespace rill

@@ -1,0 +1,37 @@
+#pragma once
+// A fluid's state on the host: whether a snapshot fits a fluid, and its lists as the device lays them out. No Vulkan.
+#include <span>
+
+#include "fluid/settings.hpp"
+#include "rill/fluid.hpp"
+
+namespace rill {
+
+/// What a snapshot must fit.
+struct SnapshotShape {
+  uint32_t count = 0;  ///< particles
+  uint32_t solidCount = 0;
+  uint32_t listCapacity = 0;
+  uint64_t cells = 0;                       ///< of the grid
+  bool near = false, movingSolids = false;  ///< as in FluidSetup
+};
+SnapshotShape snapshotShape(const FluidSetup& setup);
+
+/// BadInput, naming the array, where a snapshot does not fit: lengths, and all numbers that a shader finds its way by. Floats may be any.
+Expected<void> checkSnapshot(const FluidSnapshot& snapshot, const SnapshotShape& shape);
+
+/// Whether the snapshot has a list (or, where the fluid has none, a grid) that is not due to be built anew.
+bool hasNeighbours(const FluidSnapshot& snapshot);
+/// Whether some particle walks the grid that the list was made with.
+bool walksGrid(const FluidSnapshot& snapshot);
+
+/// The list of particles [first, last) as the device holds it: k-major in blocks of kListBlock particles, four entries at a time, the last
+/// of a particle's filled up with `count`. `out` has room for whole blocks and is written where it will be read.
+void layOutList(const FluidSnapshot& snapshot, uint32_t first, uint32_t last, std::span<uint32_t> out);
+/// The other way: appends the neighbours of particles [first, last) to the snapshot, which has their counts.
+void gatherList(FluidSnapshot& snapshot, uint32_t first, uint32_t last, std::span<const uint32_t> list);
+
+/// Where the particles of each cell begin, one more at the end: what the sort gave.
+void cellStarts(std::span<const uint32_t> cell, std::span<uint32_t> start);
+
+}  // namespace rill

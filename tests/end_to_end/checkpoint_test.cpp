@@ -1,0 +1,222 @@
+// rill-capture --checkpoint and --resume: a run in pieces is the run in one go.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "rill/offline.hpp"
+#include "support/child_process.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace rill::test {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* kDam = R"({
+  "rill": "0.1", "duration": 0.1,
+  "domain": {"min": [0, 0, 0], "max": [1, 1, 0.3]},
+  "fluid": {"spacing": 0.05},
+  "fill": [{"box": {"min": [0, 0, 0], "max": [0.52, 0.5, 0.3]}, "jitter": 0.2}],
+  "solids": [{"sphere": {"center": [0.7, 0.1, 0.15], "radius": 0.1}, "friction": 0.2,
+              "motion": [{"at": 0, "translate": [0, 0, 0]}, {"at": 1, "translate": [-0.4, 0, 0]}]}],
+  "gravity_changes": [{"at": 0.05, "value": [2, -9, 0]}],
+  "probes": [{"name": "front", "front": "+x"}]
+})";
+
+class CheckpointTest : public ::testing::Test {
+ protected:
+  void SetUp() override { folder.write("dam.json", kDam); }
+  Outcome run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "dam.json");
+    return capture(arguments, folder.string());
+  }
+  /// A run of figures alone.
+  void figures(std::vector<std::string> arguments, const std::vector<std::string>& settings = {}) {
+    for (const char* more : {"--no-images", "--no-pass-times", "--quiet"}) arguments.emplace_back(more);
+    for (const std::string& setting : settings) arguments.insert(arguments.end(), {"--set", setting});
+    const Outcome outcome = run(arguments);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+  }
+  std::vector<Json> frames(const std::string& name) const {
+    std::vector<Json> all;
+    const Json json = Json::parse(contentOf(folder / name));
+    for (Json frame : json["frames"]) {
+      for (const char* key : {"wall_s", "pass_ms", "skipped"}) frame.erase(key);
+      all.push_back(std::move(frame));
+    }
+    return all;
+  }
+  void expectRefused(const std::vector<std::string>& arguments, const std::vector<std::string>& words) {
+    const auto before = folder.names();
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    for (const std::string& word : words) EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " is not in: " << outcome.err;
+    EXPECT_EQ(folder.names(), before) << "nothing is written";
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(CheckpointTest, FourAndFourFramesAreEight) {
+  const std::vector<std::vector<std::string>> scenes = {
+      {},
+      {"solver.neighbors=grid"},
+      {"solver.iterations=3", "fluid.tensile=0.3", "fluid.viscosity=2", "fluid.vorticity=0.3"},
+      {"solver.kernel=poly6_spiky", "domain.open=[\"+x\"]"},
+  };
+  for (const auto& settings : scenes) {
+    SCOPED_TRACE(settings.empty() ? "as it is" : settings.front());
+    figures({"--frames", "8", "--stats", "whole.json"}, settings);
+    figures({"--frames", "4", "--checkpoint", "run.rill", "--stats", "first.json"}, settings);
+    figures({"--frames", "4", "--resume", "run.rill", "--stats", "rest.json"}, settings);
+    auto whole = frames("whole.json"), pieces = frames("first.json");
+    const auto rest = frames("rest.json");
+    pieces.insert(pieces.end(), rest.begin(), rest.end());
+    EXPECT_EQ(pieces, whole) << "every figure and time, to the last bit";
+  }
+}
+
+TEST_F(CheckpointTest, FromTheStartAndFromEveryFrame) {
+  figures({"--frames", "4", "--stats", "whole.json"});
+  const auto whole = frames("whole.json");
+  figures({"--frames", "1", "--checkpoint", "run.rill"});
+  for (size_t k = 1; k < 4; ++k) {  // each goes on from the one before, in the same file
+    figures({"--frames", "1", "--resume", "run.rill", "--checkpoint", "run.rill", "--stats", "one.json"});
+    EXPECT_EQ(frames("one.json"), std::vector<Json>{whole[k]}) << k;
+  }
+}
+
+TEST_F(CheckpointTest, WritingThemChangesNothing) {
+  figures({"--frames", "6", "--stats", "without.json"});
+  figures({"--frames", "6", "--stats", "with.json", "--checkpoint", "made/run.rill", "--checkpoint-every", "0"});
+  EXPECT_EQ(frames("with.json"), frames("without.json"));
+  EXPECT_EQ(TemporaryFolder::namesIn(folder / "made"), std::vector<std::string>{"run.rill"}) << "and no part is left";
+}
+
+TEST_F(CheckpointTest, PicturesGoOnBesideTheEarlierOnes) {
+  ASSERT_EQ(run({"--frames", "4", "--size", "64x36", "--out", "whole", "--quiet"}).code, 0);
+  ASSERT_EQ(run({"--frames", "2", "--size", "64x36", "--out", "pieces", "--quiet", "--checkpoint", "run.rill"}).code, 0);
+  const Outcome rest = run({"--frames", "2", "--size", "64x36", "--out", "pieces", "--resume", "run.rill"});
+  ASSERT_EQ(rest.code, 0) << rest.err;
+  EXPECT_NE(rest.err.find("frame_00002.png to frame_00003.png"), std::string::npos) << rest.err;
+  const auto names = TemporaryFolder::namesIn(folder / "whole");
+  EXPECT_EQ(TemporaryFolder::namesIn(folder / "pieces"), names);
+  for (const std::string& name : names) EXPECT_EQ(contentOf(folder / "whole" / name), contentOf(folder / "pieces" / name)) << name;
+}
+
+TEST_F(CheckpointTest, TheSceneSDurationIsWhatIsLeft) {
+  figures({"--frames", "5", "--fps", "40", "--checkpoint", "run.rill"});  // all of it
+  expectRefused({"--resume", "run.rill"}, {"--resume", "frame 4", "--frames"});
+  figures({"--frames", "3", "--fps", "40", "--checkpoint", "run.rill"});
+  figures({"--resume", "run.rill", "--stats", "rest.json"});
+  const auto rest = frames("rest.json");
+  ASSERT_EQ(rest.size(), 2u) << "at the checkpoint's own frames a second";
+  EXPECT_EQ(rest.back()["time_s"], 0.1);
+}
+
+TEST_F(CheckpointTest, ASignalLeavesAWholeOne) {
+  for (const auto& [signal, code] : {std::pair(SIGINT, 130), std::pair(SIGTERM, 143)}) {
+    Child child({std::string(RILL_BINARY_DIR) + "/apps/capture/rill-capture", "dam.json", "--frames", "100000", "--fps", "200",
+                 "--no-images", "--no-pass-times", "--stats", "cut.json", "--checkpoint", "run.rill"},
+                folder.string());
+    ASSERT_TRUE(child.waitForMessage("frame 1/"));
+    child.signal(signal);
+    const Outcome outcome = child.wait();
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    auto pieces = frames("cut.json");
+    ASSERT_FALSE(pieces.empty());
+    const size_t cut = pieces.size();
+    EXPECT_NE(outcome.err.find("checkpoint: run.rill, frame " + std::to_string(cut - 1)), std::string::npos) << outcome.err;
+    figures({"--frames", "2", "--resume", "run.rill", "--stats", "rest.json"});
+    for (Json& frame : frames("rest.json")) pieces.push_back(std::move(frame));
+    figures({"--frames", std::to_string(cut + 2), "--fps", "200", "--stats", "whole.json"});
+    EXPECT_EQ(pieces, frames("whole.json"));
+  }
+}
+
+TEST_F(CheckpointTest, AFullDiskIsAnErrorThatIsTold) {
+  const Outcome outcome = run({"--frames", "2", "--no-images", "--stats", "s.json", "--checkpoint", "/dev/full"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_NE(outcome.err.find("No space left"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("checkpoint: /dev/full"), std::string::npos) << "not said to be there: " << outcome.err;
+  EXPECT_EQ(frames("s.json").size(), 2u) << "figures are written all the same";
+}
+
+TEST_F(CheckpointTest, OtherScenesAreRefusedByTheKey) {
+  figures({"--frames", "2", "--checkpoint", "run.rill"});
+  expectRefused({"--resume", "run.rill", "--set", "fluid.viscosity=1"}, {"another scene", "fluid.viscosity was 0 there and is 1 here"});
+  expectRefused({"--resume", "run.rill", "--set", "seed=7"}, {"seed was 1 there and is 7 here"});
+  expectRefused({"--resume", "run.rill", "--set", "solids[0].friction=0"}, {"solids[0].friction was 0.2 there and is 0 here"});
+  expectRefused({"--resume", "run.rill", "--set", "gravity_changes=[]"}, {"gravity_changes[0].at was 0.05 there and is not set here"});
+  expectRefused({"--resume", "run.rill", "--fps", "30"}, {"--fps", "expected 60"});
+  figures({"--frames", "1", "--resume", "run.rill"}, {"title=Another", "duration=9"});
+}
+
+TEST_F(CheckpointTest, FilesThatAreNoneAreRefused) {
+  figures({"--frames", "2", "--checkpoint", "run.rill"});
+  const std::string whole = contentOf(folder / "run.rill");
+  std::string changed = whole;
+  changed[whole.size() / 2] ^= 4;
+  folder.write("changed.rill", changed);
+  folder.write("cut.rill", whole.substr(0, whole.size() - 1));
+  expectRefused({"--resume", "none.rill"}, {"--resume", "\"none.rill\" is not there"});
+  expectRefused({"--resume", "dam.json"}, {"--resume", "no checkpoint"});
+  expectRefused({"--resume", "changed.rill"}, {"--resume", "is damaged"});
+  expectRefused({"--resume", "cut.rill"}, {"--resume", "is cut short"});
+  expectRefused({"--resume", "."}, {"--resume", "is no file"});
+}
+
+TEST_F(CheckpointTest, AChangedFileOfParticlesIsNoticed) {
+  const auto ply = [](double x) {
+    return "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n0.5 0.5 0.5\n" +
+           std::to_string(x) + " 0.7 0.7\n";
+  };
+  folder.write("two.ply", ply(0.7));
+  folder.write("dam.json", R"({"rill": "0.1", "fluid": {"spacing": 0.1}, "domain": {}, "fill": [{"particles": {"file": "two.ply"}}]})");
+  figures({"--frames", "2", "--checkpoint", "run.rill"});
+  figures({"--frames", "1", "--resume", "run.rill"});
+  folder.write("two.ply", ply(0.71));
+  expectRefused({"--frames", "1", "--resume", "run.rill"}, {"the particles at the start are others"});
+}
+
+TEST_F(CheckpointTest, EmptyScenesGoOnToo) {
+  folder.write("dam.json", R"({"rill": "0.1", "fluid": {"spacing": 0.1}, "domain": {}})");
+  figures({"--frames", "2", "--checkpoint", "run.rill"});
+  figures({"--frames", "1", "--resume", "run.rill", "--stats", "rest.json"});
+  EXPECT_EQ(frames("rest.json")[0]["time_s"], 2.0 / 60);
+}
+
+TEST_F(CheckpointTest, AsALibrary) {
+  auto scene = loadScene(folder / "dam.json");
+  ASSERT_TRUE(scene);
+  auto whole = offline::Simulation::open(*scene);
+  ASSERT_TRUE(whole);
+  ASSERT_TRUE((*whole)->advance(0.02));
+  const auto taken = (*whole)->checkpoint();
+  ASSERT_TRUE(taken) << taken.error().message;
+  EXPECT_EQ(taken->time_s, 0.02);
+  offline::Options options;
+  options.validation = true;
+  auto rest = offline::Simulation::resume(*scene, *taken, options);
+  ASSERT_TRUE(rest) << rest.error().message;
+  EXPECT_EQ((*rest)->time(), 0.02);
+  EXPECT_EQ((*rest)->stats()->state_hash, (*whole)->stats()->state_hash);
+  for (auto& each : {&*whole, &*rest}) ASSERT_TRUE((*each)->advance(0.03));
+  EXPECT_EQ((*rest)->stats()->state_hash, (*whole)->stats()->state_hash);
+  EXPECT_TRUE((*rest)->warnings().empty());
+  const auto again = (*rest)->checkpoint();
+  ASSERT_TRUE(again);
+  EXPECT_EQ(*again, *(*whole)->checkpoint());
+  for (const std::string& message : (*rest)->takeValidationMessages()) ADD_FAILURE() << message;
+
+  offline::Checkpoint other = *taken;
+  other.driver = "another driver";
+  const auto warned = offline::Simulation::resume(*scene, other, {});
+  ASSERT_TRUE(warned);
+  ASSERT_EQ((*warned)->warnings().size(), 1u);
+  EXPECT_NE((*warned)->warnings()[0].find("another driver"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rill::test

@@ -1,0 +1,168 @@
+// A fluid that goes on from a snapshot has the bits of the one that it was taken of, and one that is taken leaves no trace.
+#include "fluid/snapshot.hpp"
+
+#include <cstring>
+
+#include "fluid/rig.hpp"
+
+namespace rill::test {
+namespace {
+
+constexpr double kFrame = 1.0 / 60;
+
+/// A dam break that chooses its own steps; the fill overlaps, so that it settles first.
+Trial dam() {
+  Trial t = trial();
+  setWalls(t, {0.75, 0.75, 0.375});
+  t.x = block({6, 7, 6}, t.d(), {}, 0.1);
+  t.v = cloud(t.x.size(), 0.5, 9, {1.5, -0.25, -0.25});
+  t.step = kFrame;
+  t.settle = true;
+  t.scene.solver.cfl = 0.25;
+  t.scene.solver.tolerance = 0.005;
+  return t;
+}
+
+Solid moving(Solid solid) {
+  solid.motion = {{0, {0, 0, 0}}, {0.03, {-0.02, 0.01, 0}}, {0.2, {-0.1, 0.05, 0}}};
+  return solid;
+}
+
+class SnapshotTest : public FluidTest {
+ protected:
+  /// Fills all that a snapshot does not bring with numbers that make no sense: what reads it before it is written stands out.
+  void poison(const Fluid& fluid) {
+    const FluidBuffers& b = fluid.impl().buffers();
+    std::vector<const Buffer*> all = {&b.position,   &b.velocity,       &b.prediction, &b.pushAway, &b.work,  &b.warm,       &b.id,
+                                      &b.multiplier, &b.neighbourCount, &b.cell,       &b.order,    &b.start, &b.nearSample, &b.nearList};
+    for (const Buffer& list : b.lists) all.push_back(&list);
+    Graph graph;
+    graph.pass("poison", [&](Pass& pass) {
+      pass.sideEffect();
+      std::vector<BufferRef> refs;
+      for (const Buffer* buffer : all)
+        refs.push_back(pass.write(graph.import("any", {.handle = buffer->handle(), .size = buffer->size()}), Use::CopyTarget, true));
+      return [refs](Commands& commands) {
+        for (BufferRef ref : refs) commands.fill(ref, 0x7fc00001u);
+      };
+    });
+    runGraph(graph);
+  }
+
+  static void expectEqual(const FluidSnapshot& a, const FluidSnapshot& b) {
+    EXPECT_EQ(a.control, b.control);
+    EXPECT_EQ(a.sums, b.sums);
+    EXPECT_EQ(a.solids, b.solids);
+    EXPECT_TRUE(a.position == b.position && a.velocity == b.velocity && a.push == b.push && a.warm == b.warm && a.id == b.id);
+    EXPECT_TRUE(a.nearWall == b.nearWall && a.nearMore == b.nearMore);
+    EXPECT_TRUE(a.neighbourCount == b.neighbourCount && a.neighbours == b.neighbours && a.cell == b.cell);
+    EXPECT_EQ(a, b) << "nothing is lost on the way";
+  }
+
+  /// A snapshot before the first step and after each of two frames; each goes on for two more.
+  void expectTheSame(const Trial& t) {
+    std::vector<Snapshot> untouched;
+    auto straight = start(t);
+    for (int n = 0; n < 4; ++n) {
+      straight->advance(kFrame);
+      untouched.push_back(straight->snapshot());
+    }
+    auto looked = start(t);
+    for (size_t n = 0; n < 3; ++n) {
+      SCOPED_TRACE("after " + std::to_string(n) + " frames");
+      const FluidSnapshot saved = looked->saved();
+      alive_ += hasNeighbours(saved) ? 1 : 0;
+      walks_ += hasNeighbours(saved) && walksGrid(saved) ? 1 : 0;
+      auto resumed = start(t, &saved);
+      poison(resumed->fluid());
+      expectEqual(resumed->saved(), saved);
+      const FluidStats there = looked->stats(), here = resumed->stats();
+      EXPECT_EQ(there.density_error_mean, here.density_error_mean);
+      EXPECT_EQ(there.time_s, here.time_s);
+      for (size_t more = n; more < n + 2 && more < 4; ++more) {
+        resumed->advance(kFrame, more % 2 ? 12 : 64);
+        EXPECT_EQ(resumed->snapshot(), untouched[more]) << "frame " << more + 1;
+      }
+      auto unseen = start(t, &saved);
+      poison(unseen->fluid());
+      unseen->advance(kFrame);
+      EXPECT_EQ(unseen->snapshot(), untouched[n]) << "without a look at its start";
+      looked->advance(kFrame);
+      EXPECT_EQ(looked->snapshot(), untouched[n]) << "who is read goes on as if he were not";
+    }
+  }
+
+  int alive_ = 0, walks_ = 0;  // snapshots with a list, with walkers
+};
+
+TEST_F(SnapshotTest, GoesOnWhateverTheGather) {
+  for (Gather gather : kGathers) {
+    SCOPED_TRACE(nameOf(gather));
+    Trial t = dam();
+    t.gather = gather;
+    expectTheSame(t);
+  }
+  EXPECT_GT(alive_, 3) << "lists that are alive among them";
+}
+
+TEST_F(SnapshotTest, GoesOnWithSolidsThatMove) {
+  Trial t = dam();
+  t.scene.solids = {moving(ball({0.55, 0.15, 0.1875}, 0.1)), slab({0.6, 0, 0}, {0.7, 0.2, 0.2})};
+  t.scene.solids[0].friction = 0.3;
+  expectTheSame(t);
+}
+
+TEST_F(SnapshotTest, GoesOnWithEveryTerm) {
+  for (double viscosity : {1.0, 20.0}) {
+    Trial t = dam();
+    t.scene.solver.iterations = 3;
+    t.scene.fluid.viscosity = viscosity;
+    t.scene.fluid.vorticity = 0.3;
+    t.scene.fluid.tensile = 0.5;
+    t.scene.gravity_changes = {{0.02, {3, -9, 0}}, {0.045, {0, 5, 1}}};
+    t.scene.solids = {moving(ball({0.55, 0.15, 0.1875}, 0.1))};
+    expectTheSame(t);
+  }
+}
+
+TEST_F(SnapshotTest, GoesOnWithoutWalls) {
+  Trial t = dam();
+  t.scene.domain.reset();
+  expectTheSame(t);
+}
+
+TEST_F(SnapshotTest, GoesOnWithListsThatOverflow) {
+  Trial t = dam();
+  t.settle = false;
+  t.x = cloud(400, 5 * t.d(), 7, glm::dvec3(0.03));
+  t.v.assign(400, glm::dvec3(0));
+  t.scene.solver.max_substeps = 2;  // no more, or they have spread before the first frame is over
+  t.scene.solver.cfl = 0.05;
+  t.scene.solver.tolerance = 0;
+  expectTheSame(t);
+  EXPECT_GT(walks_, 0) << "some walk the grid";
+}
+
+TEST_F(SnapshotTest, WithParkedParticles) {
+  Trial t = dam();
+  t.x[5].x = std::numeric_limits<double>::quiet_NaN();
+  expectTheSame(t);
+}
+
+TEST_F(SnapshotTest, OfAnotherFluidIsRefused) {
+  Trial t = dam();
+  auto run = start(t);
+  run->advance(kFrame);
+  const FluidSnapshot saved = run->saved();
+  t.x.pop_back();
+  t.v.pop_back();
+  const ParticleSet fewer = t.particles();
+  const Scene scene = t.timedScene();
+  const auto made = Fluid::create(rillDevice(), {.scene = &scene, .particles = &fewer, .snapshot = &saved});
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().kind, ErrorKind::BadInput);
+  EXPECT_NE(made.error().message.find("position has 252 entries; expected 251"), std::string::npos) << made.error().message;
+}
+
+}  // namespace
+}  // namespace rill::test

@@ -1,0 +1,71 @@
+// The fuzz targets on some thousand mutations of their seeds, the same in every run: with the ordinary compiler, in the ordinary suite.
+// libFuzzer goes further (tests/fuzz/run.sh).
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "fuzz/seeds.hpp"
+#include "fuzz/targets.hpp"
+
+namespace rill::test {
+namespace {
+
+using Target = int (*)(const uint8_t*, size_t);
+
+void feed(Target target, const std::string& input) {
+  // In memory of exactly its size, so that a sanitizer sees a read beyond it.
+  const std::vector<uint8_t> bytes(input.begin(), input.end());
+  EXPECT_EQ(target(bytes.data(), bytes.size()), 0);
+}
+
+/// A few changes of the kinds that find things: bits, extreme numbers, pieces left out, doubled, or taken from another seed.
+std::string mutated(std::string text, const std::vector<std::string>& seeds, std::mt19937& random) {
+  const auto below = [&](size_t end) { return end == 0 ? 0 : random() % end; };
+  for (size_t changes = 1 + below(4); changes > 0; --changes) {
+    const size_t at = below(text.size()), length = std::min(text.size() - at, 1 + below(16));
+    switch (below(7)) {
+      case 0:
+        if (!text.empty()) text[at] = static_cast<char>(text[at] ^ 1 << below(8));
+        break;
+      case 1:
+        if (!text.empty()) text[at] = static_cast<char>(random());
+        break;
+      case 2:
+        text.erase(at, length);
+        break;
+      case 3:
+        text.insert(at, text.substr(at, length));
+        break;
+      case 4: {
+        static const char* const words[] = {
+            "-1", "1e309", "0", "null", "[]", "{}", "\"", "99999999999999999999", "nan", "\xff\xff\xff\xff", "1e-320"};
+        text.insert(at, words[below(std::size(words))]);
+        break;
+      }
+      case 5: {
+        const std::string& other = seeds[below(seeds.size())];
+        text.insert(at, other.substr(below(other.size()), 1 + below(64)));
+        break;
+      }
+      default:
+        text.resize(at);
+    }
+  }
+  return text;
+}
+
+void expectSurvives(Target target, const std::vector<std::string>& seeds, int rounds) {
+  std::mt19937 random(1);
+  for (const std::string& seed : seeds) {
+    feed(target, seed);
+    for (int round = 0; round < rounds; ++round) feed(target, mutated(seed, seeds, random));
+  }
+  feed(target, "");
+}
+
+TEST(Mutations, OfScenes) { expectSurvives(fuzzScene, sceneSeeds(), 300); }
+TEST(Mutations, OfPlyFiles) { expectSurvives(fuzzPly, plySeeds(), 1500); }
+TEST(Mutations, OfCheckpoints) { expectSurvives(fuzzCheckpoint, checkpointSeeds(), 3000); }
+
+}  // namespace
+}  // namespace rill::test

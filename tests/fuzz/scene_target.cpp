@@ -1,0 +1,39 @@
+#include <algorithm>
+#include <string_view>
+
+#include "fuzz/require.hpp"
+#include "fuzz/targets.hpp"
+#include "rill/scene_io.hpp"
+#include "scene/simulation_keys.hpp"
+
+namespace rill::test {
+
+int fuzzScene(const uint8_t* data, size_t size) {
+  const std::string_view input(reinterpret_cast<const char*>(data), size);
+  const size_t zero = std::min(input.find('\0'), size);
+  std::vector<Override> overrides;
+  for (std::string_view rest = input.substr(zero); rest.size() > 1;) {
+    rest.remove_prefix(1);  // the zero, or the line feed
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(line.size());
+    if (auto assignment = parseOverride(line)) overrides.push_back(std::move(*assignment));
+  }
+  auto scene = parseScene(input.substr(0, zero), "scene.json", "/nonexistent", overrides);
+  if (!scene) {
+    RILL_REQUIRE(!scene.error().message.empty());
+    return 0;
+  }
+  // Nobody's files are opened.
+  if (std::any_of(scene->fill.begin(), scene->fill.end(), [](const Fill& fill) { return fill.particles.has_value(); })) return 0;
+  const auto particles = makeParticles(*scene, 2000);
+  if (!particles) {
+    RILL_REQUIRE(!particles.error().message.empty());
+    return 0;
+  }
+  RILL_REQUIRE(particles->positions.size() <= 2000 && particles->velocities.size() == particles->positions.size());
+  const SimulationKeys keys = simulationKeys(*scene, *particles);
+  RILL_REQUIRE(firstDifference(keys, keys).empty());
+  return 0;
+}
+
+}  // namespace rill::test

@@ -1,0 +1,51 @@
+#pragma once
+// What fuzzing starts from.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support/checkpoint_seed.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace rill::test {
+
+/// All scenes that come with Rill, and one with overrides.
+inline std::vector<std::string> sceneSeeds() {
+  std::vector<std::string> seeds;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(std::filesystem::path(RILL_SOURCE_DIR) / "assets/scenes"))
+    if (entry.path().extension() == ".json" && !entry.path().filename().string().ends_with(".schema.json"))
+      seeds.push_back(contentOf(entry.path()));
+  std::sort(seeds.begin(), seeds.end());
+  seeds.push_back(seeds.front() + '\0' + "fluid.viscosity=0.1\nsolver.time_step=auto\nfill[0].jitter=0.2\nprobes=[]");
+  return seeds;
+}
+
+inline std::vector<std::string> plySeeds() {
+  const std::string head =
+      " 1.0\ncomment one\nelement vertex 2\nproperty float x\nproperty double y\nproperty float z\nproperty list uchar int n\n";
+  std::string little = "ply\nformat binary_little_endian" + head + "end_header\n",
+              big = "ply\nformat binary_big_endian" + head + "end_header\n";
+  for (int k = 0; k < 2; ++k) {
+    for (std::string* text : {&little, &big}) *text += std::string(16, static_cast<char>(k)) + '\2' + std::string(8, 'n');
+  }
+  return {
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nproperty float vx\nproperty float "
+      "vy\n"
+      "property float vz\nend_header\n0 0.5 1e-3 0 0 0\n-1 2 3 4 5 6\n",
+      little, big};
+}
+
+inline std::vector<std::string> checkpointSeeds() {
+  std::vector<std::string> seeds;
+  offline::Checkpoint walking = seedCheckpoint(), nothing;
+  FluidSnapshot& s = walking.fluid;  // no list at hand
+  s.control[offsetof(FluidControl, stale) / 4] = 1;
+  for (auto* array : {&s.neighbourCount, &s.neighbours, &s.cell}) array->clear();
+  for (const offline::Checkpoint& c : {seedCheckpoint(), walking, nothing}) {
+    const auto bytes = offline::encodeCheckpoint(c);
+    seeds.emplace_back(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  }
+  return seeds;
+}
+
+}  // namespace rill::test

@@ -1,0 +1,196 @@
+// A checkpoint's file: what comes back, and what is refused.
+#include <gtest/gtest.h>
+
+#include "fluid/snapshot.hpp"
+#include "rill/offline.hpp"
+#include "support/checkpoint_seed.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace rill::test {
+namespace {
+
+using offline::Checkpoint;
+
+std::string refusal(std::span<const std::byte> bytes) {
+  const auto read = offline::decodeCheckpoint(bytes, "run.rill");
+  if (read) return "";
+  EXPECT_EQ(read.error().kind, ErrorKind::BadInput);
+  return read.error().message;
+}
+
+TEST(CheckpointFile, ComesBackAsItWas) {
+  const Checkpoint c = seedCheckpoint();
+  const auto bytes = offline::encodeCheckpoint(c);
+  const auto read = offline::decodeCheckpoint(bytes, "run.rill");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(*read, c);
+  EXPECT_EQ(offline::encodeCheckpoint(*read), bytes);
+  const Checkpoint nothing;
+  const auto empty = offline::decodeCheckpoint(offline::encodeCheckpoint(nothing), "run.rill");
+  ASSERT_TRUE(empty) << empty.error().message;
+  EXPECT_EQ(*empty, nothing);
+}
+
+TEST(CheckpointFile, CutShortAnywhereIsRefused) {
+  const auto bytes = offline::encodeCheckpoint(seedCheckpoint());
+  for (size_t size = 1; size < bytes.size(); ++size) {
+    const std::string why = refusal(std::span(bytes).first(size));
+    EXPECT_NE(why.find("is cut short"), std::string::npos) << size << ": " << why;
+  }
+  EXPECT_NE(refusal({}).find("no checkpoint"), std::string::npos);
+  auto longer = bytes;
+  longer.push_back({});
+  EXPECT_NE(refusal(longer).find("1 bytes more"), std::string::npos) << refusal(longer);
+}
+
+TEST(CheckpointFile, ChangedAnywhereIsRefused) {
+  auto bytes = offline::encodeCheckpoint(seedCheckpoint());
+  for (size_t at = 0; at < bytes.size(); ++at)
+    for (int bit = 0; bit < 8; ++bit) {
+      bytes[at] ^= static_cast<std::byte>(1 << bit);
+      EXPECT_NE(refusal(bytes), "") << "byte " << at << ", bit " << bit;
+      bytes[at] ^= static_cast<std::byte>(1 << bit);
+    }
+}
+
+TEST(CheckpointFile, ForeignAndNewerFilesAreToldApart) {
+  const std::string picture = "\x89PNG\r\n\x1a\n and so on and so on";
+  EXPECT_NE(refusal(std::as_bytes(std::span(picture))).find("is no checkpoint of Rill"), std::string::npos);
+  auto newer = offline::encodeCheckpoint(seedCheckpoint());
+  newer[8] = std::byte{2};
+  seal(newer);
+  EXPECT_NE(refusal(newer).find("a newer Rill, in format 2; this one reads format 1"), std::string::npos) << refusal(newer);
+}
+
+// With a checksum that holds: lengths are not believed for that.
+TEST(CheckpointFile, LengthsThatDoNotFitAreRefused) {
+  const auto whole = offline::encodeCheckpoint(seedCheckpoint());
+  for (uint64_t wrong : {uint64_t{1}, uint64_t{1} << 40, ~uint64_t{0}, ~uint64_t{7}, uint64_t{1} << 63}) {
+    for (size_t row = 0; row < 14; ++row) {
+      auto bytes = whole;
+      std::memcpy(bytes.data() + 24 + 16 * row + 8, &wrong, 8);
+      seal(bytes);
+      EXPECT_NE(refusal(bytes).find("is damaged"), std::string::npos) << row << ": " << wrong;
+    }
+    auto bytes = whole;
+    std::memcpy(bytes.data() + 16, &wrong, 8);  // of the whole file
+    EXPECT_NE(refusal(bytes), "");
+    bytes = whole;
+    std::memcpy(bytes.data() + 24 + 16 * 14, &wrong, 8);  // of the first text
+    seal(bytes);
+    EXPECT_NE(refusal(bytes).find("is damaged"), std::string::npos) << wrong;
+  }
+}
+
+TEST(CheckpointFile, KeysThatNoSceneHasAreRefused) {
+  Checkpoint c = seedCheckpoint();
+  c.keys[0].second = "\x1b[2J";
+  EXPECT_NE(refusal(offline::encodeCheckpoint(c)).find("is damaged"), std::string::npos) << "they would reach a terminal";
+}
+
+TEST(CheckpointFile, IsReadFromDisk) {
+  const TemporaryFolder folder;
+  const auto bytes = offline::encodeCheckpoint(seedCheckpoint());
+  const auto file = folder.write("run.rill", std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  const auto read = offline::loadCheckpoint(file);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(*read, seedCheckpoint());
+  for (const auto& [path, words] : {std::pair{folder / "none", "is not there"}, std::pair{folder.path(), "is no file"},
+                                    std::pair{std::filesystem::path("/dev/zero"), "is no file"}}) {
+    const auto missing = offline::loadCheckpoint(path);
+    ASSERT_FALSE(missing);
+    EXPECT_NE(missing.error().message.find(words), std::string::npos) << missing.error().message;
+  }
+  const auto film = folder.write("film", std::string(1 << 20, 'x'));
+  EXPECT_NE(offline::loadCheckpoint(film).error().message.find("no checkpoint"), std::string::npos);
+}
+
+class State : public ::testing::Test {
+ protected:
+  void expectRefused(const char* words) {
+    const auto checked = checkSnapshot(s, seedShape());
+    ASSERT_FALSE(checked) << words;
+    EXPECT_NE(checked.error().message.find(words), std::string::npos) << checked.error().message;
+    s = seedCheckpoint().fluid;
+  }
+  FluidSnapshot s = seedCheckpoint().fluid;
+};
+
+TEST_F(State, FitsItsScene) {
+  const auto checked = checkSnapshot(s, seedShape());
+  EXPECT_TRUE(checked) << checked.error().message;
+}
+
+// Every number that a shader finds its way by.
+TEST_F(State, IndicesAreJudged) {
+  s.id[1] = s.id[0];
+  expectRefused("ids");
+  s.id[1] = seedShape().count;
+  expectRefused("ids");
+  s.nearMore.push_back(0);
+  expectRefused("near walls");
+  s.nearWall[0] = 1000;
+  expectRefused("near walls");
+  s.nearMore[0] = s.nearWall[0];
+  expectRefused("near walls");
+  s.neighbours[0] = seedShape().count;
+  expectRefused("a neighbour is no particle");
+  s.neighbours.pop_back();
+  expectRefused("neighbours has");
+  s.neighbourCount[0] = seedShape().listCapacity + 1;
+  expectRefused("neighbours has");
+  s.neighbourCount.pop_back();
+  expectRefused("neighbour counts has");
+  s.cell.back() = static_cast<uint32_t>(seedShape().cells);
+  expectRefused("cells");
+  s.cell.front() = s.cell.back() + 1;
+  expectRefused("cells");
+  s.cell.clear();
+  expectRefused("cells");
+  s.listCapacity += 4;
+  expectRefused("lists hold");
+  s.control[offsetof(FluidControl, stale) / 4] = 2;
+  expectRefused("control block");
+  s.control[offsetof(FluidControl, settling) / 4] = 1 << 30;
+  expectRefused("control block");
+  s.control.clear();
+  expectRefused("control has 0 entries");
+  s.sums[offsetof(FluidSums, planeCount) / 4] = 5;
+  expectRefused("near walls");
+  s.push.pop_back();
+  expectRefused("push has");
+  s.solids.push_back(0);
+  expectRefused("solids has");
+}
+
+TEST(List, IsLaidOutInBlocksAndBack) {
+  FluidSnapshot s;
+  s.listCapacity = 8;
+  const uint32_t count = 3 * kListBlock + 17;
+  for (uint32_t i = 0; i < count; ++i) {
+    s.neighbourCount.push_back(i % 11);  // some of them more than the list holds
+    for (uint32_t k = 0; k < i % 11 && i % 11 <= 8; ++k) s.neighbours.push_back((i * 7 + k) % count);
+  }
+  FluidSnapshot back = s;
+  back.neighbours.clear();
+  for (const auto& [first, last] : {std::pair{0u, 2 * kListBlock}, std::pair{2 * kListBlock, count}}) {
+    std::vector<uint32_t> list(8 * kListBlock * 2, 0xdead);
+    layOutList(s, first, last, list);
+    if (first == 0) {  // particle 4097's fifth neighbour, its last: block 1, second group, filled up
+      const size_t at = ((kListBlock * 2 + 1) + kListBlock) * 4;
+      EXPECT_EQ(list[at], (4097u * 7 + 4) % count);
+      EXPECT_EQ(list[at + 1], count);
+    }
+    gatherList(back, first, last, list);
+  }
+  EXPECT_EQ(back, s);
+}
+
+TEST(Cells, StartWhereTheyDid) {
+  std::vector<uint32_t> start(7);
+  cellStarts(std::vector<uint32_t>{1, 1, 4}, start);
+  EXPECT_EQ(start, (std::vector<uint32_t>{0, 0, 2, 2, 2, 3, 3}));
+}
+
+}  // namespace
+}  // namespace rill::test

@@ -1,0 +1,69 @@
+#pragma once
+// A small checkpoint that no device wrote, and the means to change one so that its checksum holds.
+#include <cstring>
+#include <vector>
+
+#include "core/fnv1a.hpp"
+#include "fluid/snapshot.hpp"
+#include "rill/offline.hpp"
+
+namespace rill::test {
+
+/// What the state of seedCheckpoint() fits.
+inline SnapshotShape seedShape() {
+  return {.count = 6, .solidCount = 1, .listCapacity = 4, .cells = 256, .near = true, .movingSolids = true};
+}
+
+/// Six particles: one near a wall, two near more, one of them with more neighbours than its list holds.
+inline offline::Checkpoint seedCheckpoint() {
+  offline::Checkpoint c;
+  c.rill = "0.1.0";
+  c.scene = "seed";
+  c.device = "none";
+  c.driver = "none";
+  c.time_s = 0.1;
+  c.frame = 6;
+  c.fps = 60;
+  c.keys = {{"fluid.spacing", "0.1"}, {"start", "0123456789abcdef"}};
+  FluidSnapshot& s = c.fluid;
+  FluidControl control{};
+  control.desiredStep = 1e-3f;
+  FluidSums sums{};
+  sums.overflow = 1;
+  sums.planeCount = 1;
+  sums.cornerCount = 2;
+  const auto words = [](const auto& record) {
+    std::vector<uint32_t> all(sizeof record / 4);
+    std::memcpy(all.data(), &record, sizeof record);
+    return all;
+  };
+  s.control = words(control);
+  s.sums = words(sums);
+  s.solids = {1, 2, 3, 0, 0, 0.5f};
+  for (uint32_t i = 0; i < 6; ++i) {
+    const auto x = static_cast<float>(i);
+    s.position.push_back({x, 0.5f, 0.25f});
+    s.velocity.push_back({0, -x, 0});
+    s.push.push_back({0, 0, x});
+    s.warm.push_back(-0.125f * x);
+    s.id.push_back(5 - i);
+    s.cell.push_back(3 * i);
+  }
+  s.nearWall = {2};
+  s.nearMore = {0, 5};
+  s.listCapacity = 4;
+  s.neighbourCount = {1, 2, 0, 4, 9, 1};
+  s.neighbours = {1, 0, 3, 0, 1, 2, 5, 3};
+  return c;
+}
+
+/// Makes the checksum that of the bytes.
+inline void seal(std::vector<std::byte>& file) {
+  if (file.size() < 8) return;
+  Fnv1a hash;
+  hash.add(std::span<const std::byte>(file).first(file.size() - 8));
+  const uint64_t value = hash.value();
+  std::memcpy(file.data() + file.size() - 8, &value, 8);
+}
+
+}  // namespace rill::test
