@@ -5,6 +5,7 @@ namespace {
 
 constexpr Suite kSuites[] = {
     {"accuracy", "run time against error: density and trajectory, the Pareto front, a peer's points", runAccuracy},
+    {"sort", "the engine's two sorts against the standard library's, by count, by distinct keys, by order", runSort},
 };
 
 }  // namespace
