@@ -41,6 +41,9 @@ class Workbench {
 
   /// Declares a graph over `graph`, runs it and waits for it.
   Expected<GraphTime> run(const std::function<void(Graph&)>& declare);
+  /// Whether each pass is timed from now on: it slows the whole.
+  void timePasses(bool timed) { graph_->enableTimings(timed); }
+  std::span<const Timing> passTimes() const { return graph_->timings(); }  ///< of the last graph
 
  private:
   explicit Workbench(std::unique_ptr<offline::Context> context) : context_(std::move(context)), graph_(std::make_unique<Graph>()) {

@@ -17,22 +17,30 @@ using Pair = std::pair<uint32_t, uint32_t>;  // key, index
 /// Keys below a range, as a sort may meet them.
 struct Kind {
   std::string_view name, about;
-  uint64_t range;  ///< 0: as many as there are keys
+  uint64_t (*range)(uint64_t count);
   uint32_t (*key)(uint32_t index, uint32_t count, std::mt19937& random);
+  bool start = false;  ///< with the table of where each key begins
 };
 
-constexpr uint64_t kAll = KeySortDesc::kMaxKeyRange;
+uint64_t asKeys(uint64_t count) { return count; }
+uint32_t below(uint64_t range, std::mt19937& random) {
+  return std::uniform_int_distribution<uint32_t>(0, static_cast<uint32_t>(range - 1))(random);
+}
+
 constexpr Kind kKinds[] = {
-    {"random", "random, as many values as keys", 0,
-     [](uint32_t, uint32_t count, std::mt19937& random) { return std::uniform_int_distribution<uint32_t>(0, count - 1)(random); }},
-    {"sorted", "sorted, all different", 0, [](uint32_t index, uint32_t, std::mt19937&) { return index; }},
-    {"reversed", "reversed, all different", 0, [](uint32_t index, uint32_t count, std::mt19937&) { return count - 1 - index; }},
-    {"few", "random of 16 values, which the range says", 16,
-     [](uint32_t, uint32_t, std::mt19937& random) { return uint32_t(random()) % 16; }},
-    {"hidden-few", "random of 16 values, in a range of as many as keys", 0,
-     [](uint32_t, uint32_t count, std::mt19937& random) { return uint32_t(random()) % 16 * (count / 16); }},
-    {"equal", "all equal, in a range of as many values as keys", 0, [](uint32_t, uint32_t count, std::mt19937&) { return count / 2; }},
-    {"many", "random of 2^32 values", kAll, [](uint32_t, uint32_t, std::mt19937& random) { return uint32_t(random()); }},
+    {"random", "random, as many values as keys", asKeys,
+     [](uint32_t, uint32_t count, std::mt19937& random) { return below(count, random); }},
+    {"cells", "random of four values a key, with the table of starts, as the fluid's grid asks", [](uint64_t count) { return 4 * count; },
+     [](uint32_t, uint32_t count, std::mt19937& random) { return below(uint64_t{4} * count, random); }, true},
+    {"sorted", "sorted, all different", asKeys, [](uint32_t index, uint32_t, std::mt19937&) { return index; }},
+    {"reversed", "reversed, all different", asKeys, [](uint32_t index, uint32_t count, std::mt19937&) { return count - 1 - index; }},
+    {"few", "random of 16 values, which the range says", [](uint64_t) { return uint64_t{16}; },
+     [](uint32_t, uint32_t, std::mt19937& random) { return below(16, random); }},
+    {"hidden-few", "random of 16 values, in a range of as many as keys", asKeys,
+     [](uint32_t, uint32_t count, std::mt19937& random) { return below(16, random) * (count / 16); }},
+    {"equal", "all equal, in a range of as many values as keys", asKeys, [](uint32_t, uint32_t count, std::mt19937&) { return count / 2; }},
+    {"many", "random of 2^32 values", [](uint64_t) { return KeySortDesc::kMaxKeyRange; },
+     [](uint32_t, uint32_t, std::mt19937& random) { return uint32_t(random()); }},
 };
 
 /// The samples of one way to sort, or why there are none.
@@ -68,9 +76,16 @@ Expected<Samples> timedOnDevice(Workbench& workbench, uint32_t repeat, const Key
   if (!sort) return sort.error();
   auto order = workbench.make("bench order", uint64_t{desc.count} * sizeof(uint32_t));
   if (!order) return order.error();
+  Buffer start;
+  if (desc.start) {
+    auto made = workbench.make("bench start", (desc.keyRange + 1) * sizeof(uint32_t));
+    if (!made) return made.error();
+    start = std::move(*made);
+  }
   auto taken = sampleGraph(workbench, repeat, [&](Graph& graph) {
-    (void)sort->addTo(graph, importWhole(graph, "bench keys", keys),
-                      {.order = importWhole(graph, "bench order", *order), .start = {}, .keys = {}});
+    SortTargets targets{.order = importWhole(graph, "bench order", *order), .start = {}, .keys = {}};
+    if (desc.start) targets.start = importWhole(graph, "bench start", start);
+    (void)sort->addTo(graph, importWhole(graph, "bench keys", keys), targets);
   });
   if (!taken) return taken.error();
   samples.run_ms = std::move(taken->run_ms);
@@ -90,7 +105,10 @@ Json json(const Samples& samples) {
   return {{"ms", sampled(samples.run_ms)}, {"with_everything_ms", sampled(samples.whole_ms)}};
 }
 
-std::string cell(const Samples& samples) { return samples.none.empty() ? number(samples.middle()) : std::string("-"); }
+std::string cell(const Samples& samples) {
+  const double ms = samples.middle();  // NaN of none
+  return number(ms, ms >= 1000 ? 4 : 3);
+}
 
 }  // namespace
 
@@ -143,7 +161,7 @@ Expected<Report> runSort(Bench& bench) {
       });
       const auto uploaded = workbench->upload("bench keys", std::span<const uint32_t>(keys));
       if (!uploaded) return uploaded.error();
-      KeySortDesc desc{.count = count, .keyRange = kind.range ? kind.range : count};
+      KeySortDesc desc{.count = count, .keyRange = kind.range(count), .start = kind.start};
       const bool autoCounts = chooseSortMethod(desc) == SortMethod::Counting;
       Samples byMethod[2];
       for (const bool counting : {true, false}) {
