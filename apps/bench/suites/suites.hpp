@@ -6,5 +6,6 @@ namespace rill::bench {
 Expected<Report> runAccuracy(Bench& bench);
 Expected<Report> runSort(Bench& bench);
 Expected<Report> runSpeed(Bench& bench);
+Expected<Report> runFeatures(Bench& bench);
 
 }  // namespace rill::bench
