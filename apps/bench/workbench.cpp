@@ -65,8 +65,9 @@ BufferRef importWhole(Graph& graph, std::string_view name, const Buffer& buffer)
   return graph.import(name, {.handle = buffer.handle(), .size = buffer.size()});
 }
 
-Expected<GraphSamples> sampleGraph(Workbench& bench, uint32_t samples, const std::function<void(Graph&)>& declare) {
-  if (auto warmUp = bench.run(declare); !warmUp) return warmUp.error();
+Expected<GraphSamples> sampleGraph(Workbench& bench, uint32_t samples, const std::function<void(Graph&)>& declare, WarmUp warmUp) {
+  if (warmUp == WarmUp::Needed)
+    if (auto first = bench.run(declare); !first) return first.error();
   GraphSamples taken;
   for (uint32_t k = 0; k < samples; ++k) {
     const auto time = bench.run(declare);

@@ -59,10 +59,14 @@ class Workbench {
 /// A whole buffer in a graph. What is written to it stays there after the graph.
 BufferRef importWhole(Graph& graph, std::string_view name, const Buffer& buffer);
 
-/// `samples` of a graph's time after one run that does not count: a driver may compile its shaders in it.
+/// Whether one run goes before those that count: a driver may compile shaders in it.
+enum class WarmUp { Needed, Done };
+
+/// `samples` of a graph's time.
 struct GraphSamples {
   std::vector<double> run_ms, whole_ms;
 };
-Expected<GraphSamples> sampleGraph(Workbench& bench, uint32_t samples, const std::function<void(Graph&)>& declare);
+Expected<GraphSamples> sampleGraph(Workbench& bench, uint32_t samples, const std::function<void(Graph&)>& declare,
+                                   WarmUp warmUp = WarmUp::Needed);
 
 }  // namespace rill::bench

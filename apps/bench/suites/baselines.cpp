@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "bench/shaders/cloud.h"
+#include "bench/suites/count_name.hpp"
 #include "bench/suites/tank.hpp"
 #include "bench/workbench.hpp"
 #include "core/words.hpp"
@@ -136,16 +137,19 @@ class Searches {
     return {};
   }
 
-  Expected<Result> allPairs() {
-    return sampled([&](Graph& graph) {
+  Expected<Result> allPairs(uint32_t repeat) {
+    const auto search = [&](Graph& graph, uint32_t last) {
       const BufferRef positions = importWhole(graph, "positions", positions_);
       BufferRef result = importWhole(graph, "result", result_);
       CloudPush push = cloud_.push;
-      for (push.first = 0; push.first < push.count; push.first += kTile) {
-        push.last = std::min(push.count, push.first + kTile);
+      for (push.first = 0; push.first < last; push.first += kTile) {
+        push.last = std::min(last, push.first + kTile);
         declare(graph, allPairs_, push, {positions}, result, push.first == 0);
       }
-    });
+    };
+    // Its warm-up needs no more than one pair each.
+    if (auto warmUp = workbench_.run([&](Graph& graph) { search(graph, 1); }); !warmUp) return warmUp.error();
+    return sampled(repeat, WarmUp::Done, [&](Graph& graph) { search(graph, cloud_.push.count); });
   }
 
   /// Keys, sort, and positions in the order of cells: what a search by the grid needs first.
@@ -178,7 +182,7 @@ class Searches {
 
  private:
   Expected<Result> gathered(const ComputePipeline* pipeline, const Buffer& particles) {
-    auto result = sampled([&](Graph& graph) {
+    auto result = sampled(repeat_, WarmUp::Needed, [&](Graph& graph) {
       BufferRef found = importWhole(graph, "result", result_);
       declare(graph, pipeline, cloud_.push, {importWhole(graph, "particles", particles), importWhole(graph, "start", start_)}, found);
     });
@@ -189,8 +193,8 @@ class Searches {
     return result;
   }
 
-  Expected<Result> sampled(const std::function<void(Graph&)>& graph) {
-    auto samples = sampleGraph(workbench_, repeat_, graph);
+  Expected<Result> sampled(uint32_t repeat, WarmUp warmUp, const std::function<void(Graph&)>& graph) {
+    auto samples = sampleGraph(workbench_, repeat, graph, warmUp);
     if (!samples) return samples.error();
     auto found = workbench_.download<Found>(result_);
     if (!found) return found.error();
@@ -206,12 +210,25 @@ class Searches {
   std::vector<uint32_t> orderOnHost_;
 };
 
+std::vector<uint32_t> countsOf(const Bench& bench) {
+  std::vector<uint32_t> counts = bench.quick() ? std::vector<uint32_t>{10'000} : std::vector<uint32_t>{10'000, 50'000};
+  std::erase_if(counts, [&](uint32_t count) { return !bench.wanted("baseline-" + countName(count)); });
+  return counts;
+}
+
+/// The naive search takes long enough to be sampled once where it is large; the others are short enough to be sampled more often.
+uint32_t naiveSamples(const Bench& bench, uint32_t count) { return count > 20'000 ? 1 : bench.options().repeat; }
+uint32_t samplesOf(const Bench& bench) { return std::max(5u, bench.options().repeat); }
+
+/// Pairs are nearly all of it.
+size_t partsOf(const Bench& bench, uint32_t count) { return 1 + naiveSamples(bench, count) * (uint64_t{count} * count / 4'000'000); }
+
 }  // namespace
 
-std::vector<uint32_t> Baselines::counts(const Bench& bench) const {
-  std::vector<uint32_t> counts = bench.quick() ? std::vector<uint32_t>{10'000} : std::vector<uint32_t>{10'000, 50'000};
-  std::erase_if(counts, [&](uint32_t count) { return !bench.wanted("baseline-" + std::to_string(count)); });
-  return counts;
+size_t Baselines::parts(const Bench& bench) const {
+  size_t parts = 0;
+  for (const uint32_t count : countsOf(bench)) parts += partsOf(bench, count);
+  return parts;
 }
 
 Expected<void> Baselines::run(Bench& bench, Report& report) const {
@@ -224,17 +241,17 @@ Expected<void> Baselines::run(Bench& bench, Report& report) const {
                {"particles", "one struct", "arrays", "struct over arrays"},
                {},
                ""};
-  for (const uint32_t wanted : counts(bench)) {
+  for (const uint32_t wanted : countsOf(bench)) {
     if (bench.stopped()) break;
-    const std::string name = "baseline-" + std::to_string(wanted);
-    bench.step(name);
+    const std::string name = "baseline-" + countName(wanted);
+    bench.step(name, partsOf(bench, wanted));
     auto workbench = Workbench::open(bench);
     if (!workbench) return workbench.error();
     const auto cloud = cloudOf(wanted);
     if (!cloud) return cloud.error();
-    Searches searches(*workbench, *cloud, bench.options().repeat);
+    Searches searches(*workbench, *cloud, samplesOf(bench));
     if (auto ready = searches.prepare(); !ready) return ready;
-    const auto pairs = searches.allPairs(), build = searches.build();
+    const auto pairs = searches.allPairs(naiveSamples(bench, wanted)), build = searches.build();
     if (!pairs) return pairs.error();
     if (!build) return build.error();
     const auto grid = searches.byGrid(), structs = searches.byStructs();

@@ -4,9 +4,9 @@
 namespace rill::bench {
 
 /// Baselines of the suite "speed": a naive search against a grid, one struct a particle against separate arrays.
-/// Cases are named "baseline-N", N particles.
+/// Cases are named "baseline-10k".
 struct Baselines {
-  std::vector<uint32_t> counts(const Bench& bench) const;
+  size_t parts(const Bench& bench) const;  ///< that they count as in progress
   /// Adds a table each, and fails the report where two that should give the same do not.
   Expected<void> run(Bench& bench, Report& report) const;
 };

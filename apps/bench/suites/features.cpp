@@ -161,7 +161,7 @@ Expected<void> costs(Bench& bench, const std::vector<Feature>& wanted, Report& r
       "fastest: its fastest frame over the base's fastest; where the two differ, other programs disturbed the run. off: named and set to\n"
       "zero; it then has the base's passes and bits, or the suite fails."};
   Plot plot{"A feature's cost, and that of having it off",
-            "",
+            "feature, in the table's order",
             "time over that of the scene without it",
             false,
             false,

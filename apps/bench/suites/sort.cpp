@@ -3,6 +3,7 @@
 #include <chrono>
 #include <random>
 
+#include "bench/suites/count_name.hpp"
 #include "bench/suites/suites.hpp"
 #include "bench/workbench.hpp"
 #include "core/words.hpp"
@@ -117,11 +118,12 @@ Expected<Report> runSort(Bench& bench) {
   if (!workbench) return workbench.error();
   const std::vector<uint32_t> counts =
       bench.quick() ? std::vector<uint32_t>{1000, 10'000, 100'000} : std::vector<uint32_t>{1000, 10'000, 100'000, 1'000'000, 4'000'000};
-  const auto nameOf = [](const Kind& kind, uint32_t count) { return std::string(kind.name) + "-" + std::to_string(count); };
-  size_t cases = 0;
+  const auto nameOf = [](const Kind& kind, uint32_t count) { return std::string(kind.name) + "-" + countName(count); };
+  const auto partsOf = [](uint32_t count) { return 1 + count / 10'000; };
+  size_t parts = 0;
   for (const Kind& kind : kKinds)
-    for (const uint32_t count : counts) cases += bench.wanted(nameOf(kind, count));
-  bench.plan(cases);
+    for (const uint32_t count : counts) parts += bench.wanted(nameOf(kind, count)) ? partsOf(count) : 0;
+  bench.plan(parts, "part");
 
   Report report;
   Table table;
@@ -145,7 +147,7 @@ Expected<Report> runSort(Bench& bench) {
       const std::string name = nameOf(kind, count);
       if (!bench.wanted(name)) continue;
       if (bench.stopped()) break;
-      bench.step(name);
+      bench.step(name, partsOf(count));
       std::mt19937 random(count);
       Keys keys(count);
       std::vector<Pair> pairs(count), sorted;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "bench/suites/baselines.hpp"
+#include "bench/suites/count_name.hpp"
 #include "bench/suites/suites.hpp"
 #include "bench/suites/tank.hpp"
 #include "bench/workbench.hpp"
@@ -21,6 +22,9 @@ constexpr const char* kSpeed = "[8, 0, 0]";
 
 /// Longer where particles are larger, so that every count has about as many substeps a frame.
 double frameOf(const Scene& scene) { return scene.fluid.spacing / 0.05 / 60; }
+
+/// Of a run's time: opening it, then what its particles take.
+size_t partsOf(uint32_t count) { return 8 + count / 1000; }
 
 /// A pass, or those of a module: time in each frame, and what it is divided by.
 struct PassCost {
@@ -79,7 +83,7 @@ struct Case {
   FluidMemory memory;
   std::vector<PassCost> passes;
   std::string refused;  ///< why there are no times
-  std::string name() const { return "particles-" + std::to_string(wanted); }
+  std::string name() const { return "particles-" + countName(wanted); }
   double sum() const {
     double sum = 0;
     for (const PassCost& pass : passes) sum += median(pass.ns);
@@ -99,7 +103,7 @@ Expected<Case> measured(Bench& bench, uint32_t wanted) {
   made.particles = static_cast<uint64_t>(std::llround(6.25 * layers * layers * layers));
   made.memory = fluidMemory(*scene, made.particles);
   for (uint32_t k = 0; k < bench.options().repeat && !bench.stopped(); ++k) {
-    bench.step(made.name());
+    bench.step(made.name(), partsOf(wanted));
     const double frame_s = frameOf(*scene);
     const auto run = runScene(bench, {*scene, (kFrames + 1.5) * frame_s, frame_s, false, {}});
     if (!run && isLimit(run.error())) {
@@ -122,7 +126,7 @@ Expected<Case> measured(Bench& bench, uint32_t wanted) {
     made.buildsASubstep = double(builds) / double(substeps);
   }
   if (bench.stopped()) return made;
-  bench.step(made.name() + ", passes");
+  bench.step(made.name() + ", passes", partsOf(wanted));
   auto passes = passCosts(bench, *scene);
   if (!passes) return passes.error();
   made.passes = std::move(*passes);
@@ -215,9 +219,11 @@ std::vector<Plot> plots(const std::vector<Case>& cases) {
 Expected<Report> runSpeed(Bench& bench) {
   std::vector<uint32_t> counts = bench.quick() ? std::vector<uint32_t>{1000, 10'000, 50'000, 100'000}
                                                : std::vector<uint32_t>{1000, 10'000, 50'000, 100'000, 200'000, 500'000, 1'000'000};
-  std::erase_if(counts, [&](uint32_t count) { return !bench.wanted("particles-" + std::to_string(count)); });
+  std::erase_if(counts, [&](uint32_t count) { return !bench.wanted("particles-" + countName(count)); });
   const Baselines baselines;
-  bench.plan(counts.size() * (bench.options().repeat + 1) + baselines.counts(bench).size());
+  size_t parts = baselines.parts(bench);
+  for (const uint32_t count : counts) parts += (bench.options().repeat + 1) * partsOf(count);
+  bench.plan(parts, "part");
 
   Report report;
   std::vector<Case> cases;
