@@ -1,6 +1,8 @@
 // What each feature costs when it is on, that it costs nothing when it is off, and which passes a scene runs at all.
 #include <algorithm>
 #include <map>
+#include <optional>
+#include <span>
 
 #include "bench/suites/suites.hpp"
 #include "core/words.hpp"
@@ -44,8 +46,8 @@ std::vector<Feature> features() {
       // Off, its other settings are to change nothing.
       {"tensile", {{"fluid.tensile", "0.1"}}, {{"fluid.tensile", "0"}, {"fluid.tensile_radius", "0.4"}, {"fluid.tensile_power", "2"}}},
       {"solid box", {{"solids", kBox}}, {{"solids", "[]"}}},
-      {"solid sphere", {{"solids", kSphere}}, {{"solids", "[]"}}},
-      {"moving solid", {{"solids", kMoving}}, {{"solids", "[]"}}},
+      {"solid sphere", {{"solids", kSphere}}},  // no solids: as above
+      {"moving solid", {{"solids", kMoving}}},
       {"3 iterations", {{"solver.iterations", "3"}, {"solver.warm_start", "0.05"}}, {{"solver.iterations", "1"}}},
       {"no warm start", {{"solver.warm_start", "0"}}},
       {"poly6 and spiky", {{"solver.kernel", "poly6_spiky"}}, {{"solver.kernel", "wendland"}}},
@@ -145,11 +147,61 @@ void holdZero(const std::string& name, const Samples& zero, const Samples& base,
     report.failures.push_back(name + ": set to zero it gives other bits than the scene without it");
 }
 
+Json passesJson(const std::vector<PassTime>& passes) {
+  Json json = Json::object();
+  for (const PassTime& pass : passes) json[pass.name] = pass.runs;
+  return json;
+}
+
 Json samplesJson(const Samples& samples) {
   return {{"ms_a_frame", sampled(samples.ms)},
           {"over_base", sampled(samples.ratio)},
           {"ns_a_particle_a_substep", samples.ns()},
-          {"passes", samples.end.pass_ms.size()}};
+          {"passes", passesJson(samples.end.pass_ms)}};
+}
+
+/// What was measured of a feature; no `off` where it cannot be.
+struct Cost {
+  const Feature* feature;
+  Samples base, on;
+  std::optional<Samples> off;
+};
+
+/// Features that share one base, whose frames theirs take turns with.
+constexpr size_t kGroup = 4;
+Expected<std::vector<Cost>> measured(Bench& bench, std::span<const Feature> group) {
+  std::string names;
+  for (const Feature& feature : group) names += (names.empty() ? "" : ", ") + std::string(feature.name);
+  std::vector<Samples> samples;
+  for (uint32_t k = 0; k < bench.options().repeat && !bench.stopped(); ++k) {
+    bench.step(names, group.size());
+    std::vector<Lane> lanes;
+    const auto open = [&](const Overrides& more, bool passTimes, bool measuring) -> Expected<void> {
+      Overrides overrides = kBase;
+      overrides.insert(overrides.end(), more.begin(), more.end());
+      auto lane = Lane::open(bench, "dam10k", overrides, passTimes, measuring);
+      if (!lane) return lane.error();
+      lanes.push_back(std::move(*lane));
+      return {};
+    };
+    if (auto opened = open({}, false, false); !opened) return opened.error();
+    for (const Feature& feature : group) {
+      if (auto opened = open(feature.on, feature.passTimes, feature.measuring); !opened) return opened.error();
+      if (feature.zero.empty()) continue;
+      if (auto opened = open(feature.zero, false, false); !opened) return opened.error();
+    }
+    samples.resize(lanes.size());
+    if (auto ran = runTogether(bench, lanes, bench.quick() ? 6 : 16, samples); !ran) return ran.error();
+  }
+  std::vector<Cost> costs;
+  if (samples.empty() || samples[0].ms.empty()) return costs;  // stopped before a frame that counts
+  size_t next = 1;
+  for (const Feature& feature : group) {
+    Cost& cost = costs.emplace_back(Cost{&feature, samples[0], samples[next++], {}});
+    if (!feature.zero.empty()) cost.off = samples[next++];
+  }
+  std::erase_if(costs, [](const Cost& cost) { return cost.on.ms.size() != cost.base.ms.size(); });
+  return costs;
 }
 
 Expected<void> costs(Bench& bench, const std::vector<Feature>& wanted, Report& report) {
@@ -169,25 +221,9 @@ Expected<void> costs(Bench& bench, const std::vector<Feature>& wanted, Report& r
   const auto fastest = [](const Samples& one, const Samples& other) {
     return number(std::ranges::min(one.ms) / std::ranges::min(other.ms));
   };
-  for (const Feature& feature : wanted) {
-    const std::string name(feature.name);
-    const int frames = bench.quick() ? 8 : 16;
-    std::vector<Samples> samples(feature.zero.empty() ? 2 : 3);
-    for (uint32_t k = 0; k < bench.options().repeat && !bench.stopped(); ++k) {
-      bench.step(name);
-      std::vector<Lane> lanes;
-      for (size_t lane = 0; lane < samples.size(); ++lane) {
-        Overrides overrides = kBase;
-        const Overrides& more = lane == 1 ? feature.on : lane == 2 ? feature.zero : Overrides{};
-        overrides.insert(overrides.end(), more.begin(), more.end());
-        auto opened = Lane::open(bench, "dam10k", overrides, lane == 1 && feature.passTimes, lane == 1 && feature.measuring);
-        if (!opened) return opened.error();
-        lanes.push_back(std::move(*opened));
-      }
-      if (auto ran = runTogether(bench, lanes, frames, samples); !ran) return ran;
-    }
-    if (samples[0].ms.empty()) break;
-    const Samples &base = samples[0], &on = samples[1];
+  const auto add = [&](const Cost& cost) {
+    const auto& [feature, base, on, off] = cost;
+    const std::string name(feature->name);
     if (on.end.substeps != base.end.substeps)
       report.failures.push_back(name + ": took " + std::to_string(on.end.substeps) + " substeps a frame, the base " +
                                 std::to_string(base.end.substeps) + "; expected as many, or costs do not compare");
@@ -197,16 +233,20 @@ Expected<void> costs(Bench& bench, const std::vector<Feature>& wanted, Report& r
     const double place = double(table.rows.size() + 1);
     plot.series[0].points.emplace_back(place, median(on.ratio));
     plot.series[0].labels.push_back(name);
-    if (samples.size() > 2) {
-      const Samples& zero = samples[2];
-      holdZero(name, zero, base, report);
-      row[4] = number(median(zero.ratio));
-      row[5] = fastest(zero, base);
-      json["off"] = samplesJson(zero);
-      plot.series[1].points.emplace_back(place, median(zero.ratio));
+    if (off) {
+      holdZero(name, *off, base, report);
+      row[4] = number(median(off->ratio));
+      row[5] = fastest(*off, base);
+      json["off"] = samplesJson(*off);
+      plot.series[1].points.emplace_back(place, median(off->ratio));
     }
     table.rows.push_back(std::move(row));
     report.results.push_back(std::move(json));
+  };
+  for (size_t first = 0; first < wanted.size() && !bench.stopped(); first += kGroup) {
+    const auto group = measured(bench, std::span(wanted).subspan(first, std::min(kGroup, wanted.size() - first)));
+    if (!group) return group.error();
+    for (const Cost& cost : *group) add(cost);
   }
   if (table.rows.empty()) return {};
   report.tables.push_back(std::move(table));
@@ -260,12 +300,9 @@ Expected<void> passes(Bench& bench, const std::vector<PassScene>& scenes, Report
     if (!stats) return stats.error();
     uint64_t runs = 0;
     Json json{{"case", name + ", passes"}, {"scene", scene.scene}, {"ms_a_frame", sampled(ms)}, {"substeps", stats->substeps}};
-    json["passes"] = Json::object();
+    json["passes"] = passesJson(stats->pass_ms);
     json["skipped"] = Json::object();
-    for (const PassTime& pass : stats->pass_ms) {
-      json["passes"][pass.name] = pass.runs;
-      runs += pass.runs;
-    }
+    for (const PassTime& pass : stats->pass_ms) runs += pass.runs;
     for (const auto& [pass, reason] : stats->skipped) {
       json["skipped"][pass] = reason;
       std::string& where = reasons[{pass, reason}];

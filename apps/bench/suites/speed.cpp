@@ -23,6 +23,11 @@ constexpr const char* kSpeed = "[8, 0, 0]";
 /// Longer where particles are larger, so that every count has about as many substeps a frame.
 double frameOf(const Scene& scene) { return scene.fluid.spacing / 0.05 / 60; }
 
+/// What is short is sampled more often: it costs little, and other programs disturb it more.
+uint32_t samplesOf(const Bench& bench, uint32_t count) {
+  return count <= 20'000 ? std::max(3u, bench.options().repeat) : bench.options().repeat;
+}
+
 /// Of a run's time: opening it, then what its particles take.
 size_t partsOf(uint32_t count) { return 8 + count / 1000; }
 
@@ -50,7 +55,7 @@ Expected<std::vector<PassCost>> passCosts(const Bench& bench, Scene scene) {
   for (int frame = 0; frame <= kFrames && !bench.stopped(); ++frame) {
     std::vector<std::pair<std::string, double>> ms;
     FluidStep step{frame_s, false, expected, false};
-    for (uint32_t recorded = 0; recorded < (*fluid)->mostSubsteps(); recorded += step.substeps) {
+    for (uint32_t recorded = 0; recorded < (*fluid)->mostSubsteps();) {
       step.resume = recorded > 0;
       if (auto ran = workbench->run([&](Graph& graph) { (void)(*fluid)->addTo(graph, step); }); !ran) return ran.error();
       for (const Timing& timing : workbench->passTimes()) {
@@ -60,6 +65,7 @@ Expected<std::vector<PassCost>> passCosts(const Bench& bench, Scene scene) {
         found->second += timing.ms;
       }
       if (!((*fluid)->progress().time_left_s > 0)) break;
+      recorded += step.substeps;
       step.substeps = (*fluid)->substepsPerBlock();
     }
     const uint32_t substeps = (*fluid)->progress().substeps;
@@ -102,7 +108,7 @@ Expected<Case> measured(Bench& bench, uint32_t wanted) {
   const double layers = 1 / scene->fluid.spacing;
   made.particles = static_cast<uint64_t>(std::llround(6.25 * layers * layers * layers));
   made.memory = fluidMemory(*scene, made.particles);
-  for (uint32_t k = 0; k < bench.options().repeat && !bench.stopped(); ++k) {
+  for (uint32_t k = 0; k < samplesOf(bench, wanted) && !bench.stopped(); ++k) {
     bench.step(made.name(), partsOf(wanted));
     const double frame_s = frameOf(*scene);
     const auto run = runScene(bench, {*scene, (kFrames + 1.5) * frame_s, frame_s, false, {}});
@@ -222,7 +228,7 @@ Expected<Report> runSpeed(Bench& bench) {
   std::erase_if(counts, [&](uint32_t count) { return !bench.wanted("particles-" + countName(count)); });
   const Baselines baselines;
   size_t parts = baselines.parts(bench);
-  for (const uint32_t count : counts) parts += (bench.options().repeat + 1) * partsOf(count);
+  for (const uint32_t count : counts) parts += (samplesOf(bench, count) + 1) * partsOf(count);
   bench.plan(parts, "part");
 
   Report report;
