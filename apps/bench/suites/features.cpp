@@ -35,6 +35,7 @@ const Overrides kBase = {{"solver.time_step", "0.00083333333"},
                          {"fill[0].velocity", "[8, 0, 0]"}};
 
 constexpr const char* kBox = R"([{"box": {"min": [2.6, 0, 0.3], "max": [2.9, 0.6, 0.7]}}])";
+constexpr const char* kFar = R"([{"box": {"min": [4.6, 3, 0.3], "max": [4.9, 3.6, 0.7]}}])";
 constexpr const char* kSphere = R"([{"sphere": {"center": [2.8, 0.3, 0.5], "radius": 0.25}}])";
 constexpr const char* kMoving =
     R"([{"box": {"min": [2.6, 0, 0.3], "max": [2.9, 0.6, 0.7]}, "motion": [{"at": 0}, {"at": 1, "translate": [0.5, 0, 0]}]}])";
@@ -46,7 +47,8 @@ std::vector<Feature> features() {
       // Off, its other settings are to change nothing.
       {"tensile", {{"fluid.tensile", "0.1"}}, {{"fluid.tensile", "0"}, {"fluid.tensile_radius", "0.4"}, {"fluid.tensile_power", "2"}}},
       {"solid box", {{"solids", kBox}}, {{"solids", "[]"}}},
-      {"solid sphere", {{"solids", kSphere}}},  // no solids: as above
+      {"solid out of reach", {{"solids", kFar}}},  // none at all: as above
+      {"solid sphere", {{"solids", kSphere}}},
       {"moving solid", {{"solids", kMoving}}},
       {"3 iterations", {{"solver.iterations", "3"}, {"solver.warm_start", "0.05"}}, {{"solver.iterations", "1"}}},
       {"no warm start", {{"solver.warm_start", "0"}}},
@@ -94,6 +96,7 @@ class Lane {
 /// Frames of one lane.
 struct Samples {
   std::vector<double> ms, ratio;  ///< of a frame; over the base's frame beside it
+  uint64_t builds = 0;            ///< of the list
   offline::Stats end;             ///< of the last frame
   double ns() const { return 1e6 * median(ms) / (double(end.particles) * end.substeps); }
 };
@@ -106,15 +109,15 @@ Expected<void> runTogether(const Bench& bench, std::vector<Lane>& lanes, int fra
       const auto ms = lanes[k].frame(kFrame_s);
       if (!ms) return ms.error();
       if (k == 0) base = *ms;
-      if (frame < kWarmUp) continue;
-      samples[k].ms.push_back(*ms);
-      samples[k].ratio.push_back(*ms / base);
+      auto stats = lanes[k].stats();
+      if (!stats) return stats.error();
+      if (frame >= kWarmUp) {
+        samples[k].ms.push_back(*ms);
+        samples[k].ratio.push_back(*ms / base);
+        samples[k].builds += stats->list_builds;
+      }
+      samples[k].end = std::move(*stats);
     }
-  }
-  for (size_t k = 0; k < lanes.size(); ++k) {
-    auto stats = lanes[k].stats();
-    if (!stats) return stats.error();
-    samples[k].end = std::move(*stats);
   }
   return {};
 }
@@ -137,6 +140,11 @@ std::string passChanges(const std::vector<PassTime>& passes, const std::vector<P
   return text;
 }
 
+/// "+3", "-2", "0".
+std::string moreOf(uint64_t count, uint64_t base) {
+  return count > base ? "+" + std::to_string(count - base) : std::to_string(int64_t(count) - int64_t(base));
+}
+
 /// Off must be what never was: the same passes as often, the same bits.
 void holdZero(const std::string& name, const Samples& zero, const Samples& base, Report& report) {
   const std::string passes = passList(zero.end.pass_ms), expected = passList(base.end.pass_ms);
@@ -157,6 +165,7 @@ Json samplesJson(const Samples& samples) {
   return {{"ms_a_frame", sampled(samples.ms)},
           {"over_base", sampled(samples.ratio)},
           {"ns_a_particle_a_substep", samples.ns()},
+          {"list_builds", samples.builds},
           {"passes", passesJson(samples.end.pass_ms)}};
 }
 
@@ -207,11 +216,12 @@ Expected<std::vector<Cost>> measured(Bench& bench, std::span<const Feature> grou
 Expected<void> costs(Bench& bench, const std::vector<Feature>& wanted, Report& report) {
   Table table{
       "Each feature alone on the scene dam10k, steps of 1/1200 s",
-      {"feature", "ns", "over base", "fastest", "off, over base", "fastest", "passes that it adds"},
+      {"feature", "ns", "over base", "fastest", "list builds", "off, over base", "fastest", "passes that it adds"},
       {},
       "ns: a particle a substep. over base: the median over frames of its time over that of the scene without it, run side by side.\n"
       "fastest: its fastest frame over the base's fastest; where the two differ, other programs disturbed the run. off: named and set to\n"
-      "zero; it then has the base's passes and bits, or the suite fails."};
+      "zero; it then has the base's passes and bits, or the suite fails. list builds: more than the base's, in all frames measured; what\n"
+      "changes how the water moves (a solid that it hits) changes how often the list is built, and that is in its cost."};
   Plot plot{"A feature's cost, and that of having it off",
             "feature, in the table's order",
             "time over that of the scene without it",
@@ -227,16 +237,22 @@ Expected<void> costs(Bench& bench, const std::vector<Feature>& wanted, Report& r
     if (on.end.substeps != base.end.substeps)
       report.failures.push_back(name + ": took " + std::to_string(on.end.substeps) + " substeps a frame, the base " +
                                 std::to_string(base.end.substeps) + "; expected as many, or costs do not compare");
-    std::vector<std::string> row{
-        name, number(on.ns()), number(median(on.ratio)), fastest(on, base), "-", "-", passChanges(on.end.pass_ms, base.end.pass_ms)};
+    std::vector<std::string> row{name,
+                                 number(on.ns()),
+                                 number(median(on.ratio)),
+                                 fastest(on, base),
+                                 moreOf(on.builds, base.builds),
+                                 "-",
+                                 "-",
+                                 passChanges(on.end.pass_ms, base.end.pass_ms)};
     Json json{{"case", name}, {"base", samplesJson(base)}, {"on", samplesJson(on)}};
     const double place = double(table.rows.size() + 1);
     plot.series[0].points.emplace_back(place, median(on.ratio));
     plot.series[0].labels.push_back(name);
     if (off) {
       holdZero(name, *off, base, report);
-      row[4] = number(median(off->ratio));
-      row[5] = fastest(*off, base);
+      row[5] = number(median(off->ratio));
+      row[6] = fastest(*off, base);
       json["off"] = samplesJson(*off);
       plot.series[1].points.emplace_back(place, median(off->ratio));
     }
