@@ -2,7 +2,7 @@
 #   rill_shader(fluid/density.comp)                                         becomes "fluid/density"
 #   rill_shader(fluid/density.comp AS fluid/density_texel DEFINES LIST_TEXEL) becomes "fluid/density_texel"
 #   rill_shader(gpu/add.comp ROOT ${CMAKE_CURRENT_SOURCE_DIR} GROUP tests)  belongs to a table of its own, not to the library's
-# Every header under shaders/ is a dependency of every shader: they are few, and a stale one is worse than a rebuild.
+# Every header under shaders/, and beside a shader, is a dependency of every shader: they are few, and a stale one is worse than a rebuild.
 find_program(RILL_GLSLANG glslangValidator REQUIRED)
 find_program(RILL_SPIRV_VAL spirv-val REQUIRED)
 set(RILL_SHADER_ROOT ${PROJECT_SOURCE_DIR}/shaders)
@@ -26,7 +26,7 @@ function(rill_shader source)
   set(array ${PROJECT_BINARY_DIR}/shaders/${group}/${name}.inc)
   get_filename_component(folder ${spv} DIRECTORY)
   file(MAKE_DIRECTORY ${folder})
-  file(GLOB headers CONFIGURE_DEPENDS ${RILL_SHADER_ROOT}/*/*.h ${RILL_SHADER_ROOT}/*/*.glsl)
+  file(GLOB headers CONFIGURE_DEPENDS ${RILL_SHADER_ROOT}/*/*.h ${RILL_SHADER_ROOT}/*/*.glsl ${root}/*.h ${root}/*.glsl)
   set(defines ${ARG_DEFINES})
   list(TRANSFORM defines PREPEND -D)
   add_custom_command(

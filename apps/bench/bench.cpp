@@ -56,19 +56,20 @@ Bench::Bench(const Options& options)
       progress_(options.quiet ? apps::Progress::Style::Quiet : apps::Progress::styleForTerminal()),
       begin_(Clock::now()) {}
 
-void Bench::plan(size_t steps) {
+void Bench::plan(size_t steps, std::string_view unit) {
+  unit_ = unit;
   total_ = static_cast<uint32_t>(steps);
   done_ = 0;
   begin_ = Clock::now();
 }
 
-void Bench::step(const std::string& about) {
-  progress_.show({"case", done_, total_, about, since(begin_)});
-  if (done_ < total_) ++done_;
+void Bench::step(const std::string& about, size_t parts) {
+  progress_.show({unit_, done_, total_, about, since(begin_)});
+  done_ = static_cast<uint32_t>(std::min<size_t>(total_, done_ + parts));
 }
 
 void Bench::finished() {
-  if (total_ > 0) progress_.show({"case", total_, total_, "", since(begin_)});
+  if (total_ > 0) progress_.show({unit_, total_, total_, "", since(begin_)});
   progress_.clear();
 }
 

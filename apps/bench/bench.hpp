@@ -23,8 +23,9 @@ class Bench {
   bool wanted(std::string_view name) const { return options_.only.empty() || name.find(options_.only) != std::string_view::npos; }
 
   /// How many steps there will be; then each step when it begins, and so that progress can say how long the rest takes.
-  void plan(size_t steps);
-  void step(const std::string& about);
+  /// Where steps are far from equally long, they are counted in parts, each step as many as it takes time.
+  void plan(size_t steps, std::string_view unit = "case");
+  void step(const std::string& about, size_t parts = 1);
   void finished();
   /// A signal came: the suite returns what it has.
   bool stopped() const;
@@ -32,6 +33,7 @@ class Bench {
  private:
   const Options& options_;
   apps::Progress progress_;
+  std::string unit_ = "case";
   uint32_t done_ = 0, total_ = 0;
   std::chrono::steady_clock::time_point begin_;
 };

@@ -5,5 +5,8 @@ namespace rill::bench {
 
 Expected<Report> runAccuracy(Bench& bench);
 Expected<Report> runStability(Bench& bench);
+Expected<Report> runSort(Bench& bench);
+Expected<Report> runSpeed(Bench& bench);
+Expected<Report> runFeatures(Bench& bench);
 
 }  // namespace rill::bench

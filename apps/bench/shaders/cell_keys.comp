@@ -1,0 +1,14 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "cloud.h"
+#include "shared/dispatch.glsl"
+layout(local_size_x = kCloudGroup) in;
+layout(push_constant) uniform PushBlock { CloudPush push; };
+layout(binding = 0, std430) readonly buffer Positions { vec4 position[]; };
+layout(binding = 1, std430) writeonly buffer Keys { uint key[]; };
+#include "cell.glsl"
+
+void main() {
+  const uint i = flatInvocation();
+  if (i < push.count) key[i] = cellKey(cellOf(position[i].xyz));
+}

@@ -1,0 +1,290 @@
+#include "bench/suites/baselines.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bench/shaders/cloud.h"
+#include "bench/suites/count_name.hpp"
+#include "bench/suites/tank.hpp"
+#include "bench/workbench.hpp"
+#include "core/words.hpp"
+#include "gpu/shader_library.hpp"
+#include "rill/float3.hpp"
+#include "sort/key_sort.hpp"
+
+namespace rill {
+std::span<const EmbeddedShader> benchShaders();
+}
+
+namespace rill::bench {
+namespace {
+
+constexpr uint32_t kTile = 16384;  // candidates of a dispatch of the naive search
+constexpr uint32_t kStructFloats = 20;
+
+/// Particles in no order, in a box from 0 to its cells' end.
+struct Cloud {
+  std::vector<Float4> positions;
+  CloudPush push{};
+  uint32_t cells() const { return push.cellsX * push.cellsY * push.cellsZ; }
+};
+
+/// Of a particle: the sum that a density pass makes, and how many it summed over, itself included.
+struct Found {
+  float density, neighbours;
+};
+
+Expected<Cloud> cloudOf(uint32_t count) {
+  auto scene = tank(count, {{"fill[0].jitter", "0.2"}});
+  if (!scene) return scene.error();
+  const auto start = makeParticles(*scene, KeySortDesc::kMaxCount);
+  if (!start) return start.error();
+  Cloud cloud;
+  cloud.push.count = static_cast<uint32_t>(start->positions.size());
+  cloud.push.radius = static_cast<float>(scene->fluid.smoothing_ratio * scene->fluid.spacing);
+  float high[3] = {0, 0, 0};
+  for (const Float3& x : start->positions) {
+    cloud.positions.push_back({x.x, x.y, x.z, 0});
+    high[0] = std::max(high[0], x.x);
+    high[1] = std::max(high[1], x.y);
+    high[2] = std::max(high[2], x.z);
+  }
+  uint32_t* const cells[] = {&cloud.push.cellsX, &cloud.push.cellsY, &cloud.push.cellsZ};
+  for (int axis = 0; axis < 3; ++axis) *cells[axis] = static_cast<uint32_t>(high[axis] / cloud.push.radius) + 1;
+  return cloud;
+}
+
+Expected<const ComputePipeline*> pipelineOf(Workbench& workbench, std::string_view name, size_t bindings) {
+  const auto shader = std::ranges::find(benchShaders(), name, &EmbeddedShader::name);
+  const std::vector<BindingKind> kinds(bindings, BindingKind::Storage);
+  return computePipeline(
+      workbench.device(),
+      {.shader = name, .bindings = kinds, .pushConstantBytes = sizeof(CloudPush), .constants = {}, .words = shader->words});
+}
+
+/// One pass: what is read, then what is written, in the order of the bindings.
+void declare(Graph& graph, const ComputePipeline* pipeline, const CloudPush& push, std::initializer_list<BufferRef> reads,
+             BufferRef& writes, bool discard = true) {
+  graph.pass("baseline", [&](Pass& pass) {
+    std::vector<ResourceRef> bindings;
+    for (const BufferRef ref : reads) {
+      pass.read(ref, Use::ComputeRead);
+      bindings.push_back(ref);
+    }
+    writes = pass.write(writes, Use::ComputeWrite, discard);
+    bindings.push_back(writes);
+    const Kernel kernel = pass.kernel(pipeline, bindings);
+    return [=](Commands& commands) { commands.dispatch(kernel, (push.count + kCloudGroup - 1) / kCloudGroup, push); };
+  });
+}
+
+/// A search or a layout: its samples and what it found, by the particle's number.
+struct Result {
+  GraphSamples samples;
+  std::vector<Found> found;
+  double middle() const { return median(samples.run_ms); }
+};
+
+/// The most that two densities differ by, relative; infinite where counts differ.
+double difference(const std::vector<Found>& a, const std::vector<Found>& b) {
+  double worst = a.size() == b.size() ? 0 : std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+    worst = std::max(worst, a[i].neighbours != b[i].neighbours ? std::numeric_limits<double>::infinity()
+                                                               : std::abs(double(a[i].density) - b[i].density) / a[i].density);
+  return worst;
+}
+
+/// All searches over one cloud.
+class Searches {
+ public:
+  Searches(Workbench& workbench, const Cloud& cloud, uint32_t repeat) : workbench_(workbench), cloud_(cloud), repeat_(repeat) {}
+
+  Expected<void> prepare() {
+    const struct {
+      const ComputePipeline** pipeline;
+      const char* name;
+      size_t bindings;
+    } pipelines[] = {{&allPairs_, "all_pairs", 2},
+                     {&keys_, "cell_keys", 2},
+                     {&reorder_, "reorder", 3},
+                     {&arrays_, "grid_density", 3},
+                     {&structs_, "grid_density_struct", 3}};
+    for (const auto& wanted : pipelines) {
+      auto made = pipelineOf(workbench_, wanted.name, wanted.bindings);
+      if (!made) return made.error();
+      *wanted.pipeline = *made;
+    }
+    auto sort = KeySort::create(workbench_.device(), {.count = cloud_.push.count, .keyRange = cloud_.cells(), .start = true});
+    if (!sort) return sort.error();
+    sort_ = std::move(*sort);
+    auto positions = workbench_.upload("bench positions", std::span<const Float4>(cloud_.positions));
+    if (!positions) return positions.error();
+    positions_ = std::move(*positions);
+    const struct {
+      Buffer* buffer;
+      const char* name;
+      uint64_t bytes;
+    } buffers[] = {{&sorted_, "bench sorted", sizeof(Float4) * uint64_t{cloud_.push.count}},
+                   {&order_, "bench order", 4 * uint64_t{cloud_.push.count}},
+                   {&start_, "bench start", 4 * (uint64_t{cloud_.cells()} + 1)},
+                   {&result_, "bench result", sizeof(Found) * uint64_t{cloud_.push.count}}};
+    for (const auto& wanted : buffers) {
+      auto made = workbench_.make(wanted.name, wanted.bytes);
+      if (!made) return made.error();
+      *wanted.buffer = std::move(*made);
+    }
+    return {};
+  }
+
+  Expected<Result> allPairs(uint32_t repeat) {
+    const auto search = [&](Graph& graph, uint32_t last) {
+      const BufferRef positions = importWhole(graph, "positions", positions_);
+      BufferRef result = importWhole(graph, "result", result_);
+      CloudPush push = cloud_.push;
+      for (push.first = 0; push.first < last; push.first += kTile) {
+        push.last = std::min(last, push.first + kTile);
+        declare(graph, allPairs_, push, {positions}, result, push.first == 0);
+      }
+    };
+    // Its warm-up needs no more than one pair each.
+    if (auto warmUp = workbench_.run([&](Graph& graph) { search(graph, 1); }); !warmUp) return warmUp.error();
+    return sampled(repeat, WarmUp::Done, [&](Graph& graph) { search(graph, cloud_.push.count); });
+  }
+
+  /// Keys, sort, and positions in the order of cells: what a search by the grid needs first.
+  Expected<Result> build() {
+    auto samples = sampleGraph(workbench_, repeat_, [&](Graph& graph) {
+      const BufferRef positions = importWhole(graph, "positions", positions_);
+      BufferRef keys = graph.create("keys", {4 * uint64_t{cloud_.push.count}}), sorted = importWhole(graph, "sorted", sorted_);
+      declare(graph, keys_, cloud_.push, {positions}, keys);
+      const SortedKeys order = sort_->addTo(
+          graph, keys, {.order = importWhole(graph, "order", order_), .start = importWhole(graph, "start", start_), .keys = {}});
+      declare(graph, reorder_, cloud_.push, {positions, order.order}, sorted);
+    });
+    if (!samples) return samples.error();
+    auto order = workbench_.download<uint32_t>(order_);
+    if (!order) return order.error();
+    orderOnHost_ = std::move(*order);
+    return Result{std::move(*samples), {}};
+  }
+
+  Expected<Result> byGrid() { return gathered(arrays_, sorted_); }
+
+  Expected<Result> byStructs() {
+    std::vector<float> structs(size_t{kStructFloats} * cloud_.push.count);
+    for (size_t slot = 0; slot < orderOnHost_.size(); ++slot)
+      std::memcpy(&structs[kStructFloats * slot], &cloud_.positions[orderOnHost_[slot]], sizeof(Float4));
+    const auto particles = workbench_.upload("bench structs", std::span<const float>(structs));
+    if (!particles) return particles.error();
+    return gathered(structs_, *particles);
+  }
+
+ private:
+  Expected<Result> gathered(const ComputePipeline* pipeline, const Buffer& particles) {
+    auto result = sampled(repeat_, WarmUp::Needed, [&](Graph& graph) {
+      BufferRef found = importWhole(graph, "result", result_);
+      declare(graph, pipeline, cloud_.push, {importWhole(graph, "particles", particles), importWhole(graph, "start", start_)}, found);
+    });
+    if (!result) return result;
+    std::vector<Found> byNumber(result->found.size());
+    for (size_t slot = 0; slot < byNumber.size(); ++slot) byNumber[orderOnHost_[slot]] = result->found[slot];
+    result->found = std::move(byNumber);
+    return result;
+  }
+
+  Expected<Result> sampled(uint32_t repeat, WarmUp warmUp, const std::function<void(Graph&)>& graph) {
+    auto samples = sampleGraph(workbench_, repeat, graph, warmUp);
+    if (!samples) return samples.error();
+    auto found = workbench_.download<Found>(result_);
+    if (!found) return found.error();
+    return Result{std::move(*samples), std::move(*found)};
+  }
+
+  Workbench& workbench_;
+  const Cloud& cloud_;
+  uint32_t repeat_;
+  const ComputePipeline *allPairs_ = nullptr, *keys_ = nullptr, *reorder_ = nullptr, *arrays_ = nullptr, *structs_ = nullptr;
+  std::optional<KeySort> sort_;
+  Buffer positions_, sorted_, order_, start_, result_;
+  std::vector<uint32_t> orderOnHost_;
+};
+
+std::vector<uint32_t> countsOf(const Bench& bench) {
+  std::vector<uint32_t> counts = bench.quick() ? std::vector<uint32_t>{10'000} : std::vector<uint32_t>{10'000, 50'000};
+  std::erase_if(counts, [&](uint32_t count) { return !bench.wanted("baseline-" + countName(count)); });
+  return counts;
+}
+
+/// The naive search takes long enough to be sampled once where it is large; the others are short enough to be sampled more often.
+uint32_t naiveSamples(const Bench& bench, uint32_t count) { return count > 20'000 ? 1 : bench.options().repeat; }
+uint32_t samplesOf(const Bench& bench) { return std::max(5u, bench.options().repeat); }
+
+/// Pairs are nearly all of it.
+size_t partsOf(const Bench& bench, uint32_t count) { return 1 + naiveSamples(bench, count) * (uint64_t{count} * count / 4'000'000); }
+
+}  // namespace
+
+size_t Baselines::parts(const Bench& bench) const {
+  size_t parts = 0;
+  for (const uint32_t count : countsOf(bench)) parts += partsOf(bench, count);
+  return parts;
+}
+
+Expected<void> Baselines::run(Bench& bench, Report& report) const {
+  Table search{"Neighbour search, a density pass: naive all-pairs against the grid, ms",
+               {"particles", "neighbours", "all pairs", "grid: sort", "grid: search", "all pairs over grid"},
+               {},
+               "Over the grid: its sort included. Both are the bench's own, without a list, and find the same neighbours."};
+  Table layout{"Layout, the same search by the grid: one struct of " + std::to_string(4 * kStructFloats) +
+                   " bytes a particle against separate arrays, ms",
+               {"particles", "one struct", "arrays", "struct over arrays"},
+               {},
+               ""};
+  for (const uint32_t wanted : countsOf(bench)) {
+    if (bench.stopped()) break;
+    const std::string name = "baseline-" + countName(wanted);
+    bench.step(name, partsOf(bench, wanted));
+    auto workbench = Workbench::open(bench);
+    if (!workbench) return workbench.error();
+    const auto cloud = cloudOf(wanted);
+    if (!cloud) return cloud.error();
+    Searches searches(*workbench, *cloud, samplesOf(bench));
+    if (auto ready = searches.prepare(); !ready) return ready;
+    const auto pairs = searches.allPairs(naiveSamples(bench, wanted)), build = searches.build();
+    if (!pairs) return pairs.error();
+    if (!build) return build.error();
+    const auto grid = searches.byGrid(), structs = searches.byStructs();
+    if (!grid) return grid.error();
+    if (!structs) return structs.error();
+
+    double neighbours = 0;
+    for (const Found& found : grid->found) neighbours += (found.neighbours - 1.0) / double(grid->found.size());
+    if (const double apart = difference(pairs->found, grid->found); !(apart <= 1e-4))
+      report.failures.push_back(name + ": all pairs and the grid differ by " + roughNumber(apart) +
+                                " (infinite: in a count); expected at most 1e-4");
+    if (const double apart = difference(structs->found, grid->found); !(apart == 0))
+      report.failures.push_back(name + ": structs and arrays differ by " + roughNumber(apart) + " (infinite: in a count); expected 0");
+    const double byGrid = build->middle() + grid->middle();
+    search.rows.push_back({grouped(cloud->push.count), number(neighbours), number(pairs->middle()), number(build->middle()),
+                           number(grid->middle()), number(pairs->middle() / byGrid)});
+    layout.rows.push_back(
+        {grouped(cloud->push.count), number(structs->middle()), number(grid->middle()), number(structs->middle() / grid->middle())});
+    report.results.push_back({{"case", name},
+                              {"particles", cloud->push.count},
+                              {"neighbours", neighbours},
+                              {"all_pairs_ms", bench::sampled(pairs->samples.run_ms)},
+                              {"grid_sort_ms", bench::sampled(build->samples.run_ms)},
+                              {"grid_search_ms", bench::sampled(grid->samples.run_ms)},
+                              {"struct_search_ms", bench::sampled(structs->samples.run_ms)},
+                              {"all_pairs_over_grid", pairs->middle() / byGrid},
+                              {"struct_over_arrays", structs->middle() / grid->middle()}});
+  }
+  if (!search.rows.empty()) {
+    report.tables.push_back(std::move(search));
+    report.tables.push_back(std::move(layout));
+  }
+  return {};
+}
+
+}  // namespace rill::bench

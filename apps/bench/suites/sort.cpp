@@ -1,0 +1,206 @@
+// The engine's two sorts against the standard library's, over how many keys there are, how many of them differ and how they lie.
+#include <algorithm>
+#include <chrono>
+#include <random>
+
+#include "bench/suites/count_name.hpp"
+#include "bench/suites/suites.hpp"
+#include "bench/workbench.hpp"
+#include "core/words.hpp"
+#include "sort/key_sort.hpp"
+
+namespace rill::bench {
+namespace {
+
+using Keys = std::vector<uint32_t>;
+using Pair = std::pair<uint32_t, uint32_t>;  // key, index
+
+/// Keys below a range, as a sort may meet them.
+struct Kind {
+  std::string_view name, about;
+  uint64_t (*range)(uint64_t count);
+  uint32_t (*key)(uint32_t index, uint32_t count, std::mt19937& random);
+  bool start = false;  ///< with the table of where each key begins
+};
+
+uint64_t asKeys(uint64_t count) { return count; }
+uint32_t below(uint64_t range, std::mt19937& random) {
+  return std::uniform_int_distribution<uint32_t>(0, static_cast<uint32_t>(range - 1))(random);
+}
+
+constexpr Kind kKinds[] = {
+    {"random", "random, as many values as keys", asKeys,
+     [](uint32_t, uint32_t count, std::mt19937& random) { return below(count, random); }},
+    {"cells", "random of four values a key, with the table of starts, as the fluid's grid asks", [](uint64_t count) { return 4 * count; },
+     [](uint32_t, uint32_t count, std::mt19937& random) { return below(uint64_t{4} * count, random); }, true},
+    {"sorted", "sorted, all different", asKeys, [](uint32_t index, uint32_t, std::mt19937&) { return index; }},
+    {"reversed", "reversed, all different", asKeys, [](uint32_t index, uint32_t count, std::mt19937&) { return count - 1 - index; }},
+    {"few", "random of 16 values, which the range says", [](uint64_t) { return uint64_t{16}; },
+     [](uint32_t, uint32_t, std::mt19937& random) { return below(16, random); }},
+    {"hidden-few", "random of 16 values, in a range of as many as keys", asKeys,
+     [](uint32_t, uint32_t count, std::mt19937& random) { return below(16, random) * (count / 16); }},
+    {"equal", "all equal, in a range of as many values as keys", asKeys, [](uint32_t, uint32_t count, std::mt19937&) { return count / 2; }},
+    {"many", "random of 2^32 values", [](uint64_t) { return KeySortDesc::kMaxKeyRange; },
+     [](uint32_t, uint32_t, std::mt19937& random) { return uint32_t(random()); }},
+};
+
+/// The samples of one way to sort, or why there are none.
+struct Samples {
+  std::vector<double> run_ms, whole_ms;
+  std::string none;
+  double middle() const { return median(run_ms); }
+};
+
+template <class Work>
+Samples timedOnHost(uint32_t repeat, const std::vector<Pair>& pairs, std::vector<Pair>& sorted, Work&& work) {
+  Samples samples;
+  for (uint32_t k = 0; k <= repeat; ++k) {
+    sorted = pairs;
+    const auto begin = std::chrono::steady_clock::now();
+    work(sorted);
+    const double ms = 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (k > 0) samples.run_ms.push_back(ms);  // the first one warms the caches
+  }
+  samples.whole_ms = samples.run_ms;
+  return samples;
+}
+
+/// Times one method on the device, and holds its result against `expected`.
+Expected<Samples> timedOnDevice(Workbench& workbench, uint32_t repeat, const KeySortDesc& desc, const Buffer& keys,
+                                const std::vector<Pair>& expected, const std::string& name, Report& report) {
+  Samples samples;
+  if (desc.method == SortMethod::Counting && desc.keyRange > KeySortDesc::kMaxStartRange) {
+    samples.none = "refused";
+    return samples;
+  }
+  auto sort = KeySort::create(workbench.device(), desc);
+  if (!sort) return sort.error();
+  auto order = workbench.make("bench order", uint64_t{desc.count} * sizeof(uint32_t));
+  if (!order) return order.error();
+  Buffer start;
+  if (desc.start) {
+    auto made = workbench.make("bench start", (desc.keyRange + 1) * sizeof(uint32_t));
+    if (!made) return made.error();
+    start = std::move(*made);
+  }
+  auto taken = sampleGraph(workbench, repeat, [&](Graph& graph) {
+    SortTargets targets{.order = importWhole(graph, "bench order", *order), .start = {}, .keys = {}};
+    if (desc.start) targets.start = importWhole(graph, "bench start", start);
+    (void)sort->addTo(graph, importWhole(graph, "bench keys", keys), targets);
+  });
+  if (!taken) return taken.error();
+  samples.run_ms = std::move(taken->run_ms);
+  samples.whole_ms = std::move(taken->whole_ms);
+  const auto result = workbench.download<uint32_t>(*order);
+  if (!result) return result.error();
+  size_t wrong = 0;
+  for (size_t slot = 0; slot < expected.size(); ++slot) wrong += (*result)[slot] != expected[slot].second;
+  if (wrong > 0)
+    report.failures.push_back(name + ", " + (desc.method == SortMethod::Counting ? "counting" : "radix") + ": " + std::to_string(wrong) +
+                              " places differ from std::stable_sort");
+  return samples;
+}
+
+Json json(const Samples& samples) {
+  if (!samples.none.empty()) return {{"skipped", samples.none}};
+  return {{"ms", sampled(samples.run_ms)}, {"with_everything_ms", sampled(samples.whole_ms)}};
+}
+
+/// What is short is sampled more often: it costs little, and other programs disturb it more.
+uint32_t samplesOf(const Bench& bench, uint32_t count) {
+  return count <= 100'000 ? std::max(5u, bench.options().repeat) : bench.options().repeat;
+}
+
+std::string cell(const Samples& samples) {
+  const double ms = samples.middle();  // NaN of none
+  return number(ms, ms >= 1000 ? 4 : 3);
+}
+
+}  // namespace
+
+Expected<Report> runSort(Bench& bench) {
+  auto workbench = Workbench::open(bench);
+  if (!workbench) return workbench.error();
+  const std::vector<uint32_t> counts =
+      bench.quick() ? std::vector<uint32_t>{1000, 10'000, 100'000} : std::vector<uint32_t>{1000, 10'000, 100'000, 1'000'000, 4'000'000};
+  const auto nameOf = [](const Kind& kind, uint32_t count) { return std::string(kind.name) + "-" + countName(count); };
+  const auto partsOf = [](uint32_t count) { return 1 + count / 10'000; };
+  size_t parts = 0;
+  for (const Kind& kind : kKinds)
+    for (const uint32_t count : counts) parts += bench.wanted(nameOf(kind, count)) ? partsOf(count) : 0;
+  bench.plan(parts, "part");
+
+  Report report;
+  Table table;
+  table.title = "Sorting pairs of a 32-bit key and an index, ms (medians)";
+  table.columns = {"case", "counting", "radix", "std::sort", "std::stable_sort", "Auto takes", "over best", "over std"};
+  table.note =
+      "over best: what Auto takes over the faster one of the two. over std: over the faster of the standard library's, one thread.\n"
+      "-: refused, a key range beyond " +
+      grouped(KeySortDesc::kMaxStartRange) + " has no table of counters";
+  for (const Kind& kind : kKinds) table.note += "\n" + std::string(kind.name) + ": " + std::string(kind.about);
+
+  for (const Kind& kind : kKinds) {
+    Plot plot;
+    plot.title = "Sort: " + std::string(kind.name);
+    plot.x = "keys";
+    plot.y = "ns a key";
+    plot.logX = plot.logY = true;
+    for (const char* series : {"counting", "radix", "std::sort", "std::stable_sort"})
+      plot.series.push_back({series, Series::Style::Both, {}, {}});
+    for (const uint32_t count : counts) {
+      const std::string name = nameOf(kind, count);
+      if (!bench.wanted(name)) continue;
+      if (bench.stopped()) break;
+      bench.step(name, partsOf(count));
+      std::mt19937 random(count);
+      Keys keys(count);
+      std::vector<Pair> pairs(count), sorted;
+      for (uint32_t i = 0; i < count; ++i) {
+        keys[i] = kind.key(i, count, random);
+        pairs[i] = {keys[i], i};
+      }
+      const uint32_t repeat = samplesOf(bench, count);
+      // By key, then by index: the order that a stable sort gives.
+      const Samples byStd = timedOnHost(repeat, pairs, sorted, [](std::vector<Pair>& p) { std::sort(p.begin(), p.end()); });
+      const Samples byStable = timedOnHost(repeat, pairs, sorted, [](std::vector<Pair>& p) {
+        std::stable_sort(p.begin(), p.end(), [](const Pair& a, const Pair& b) { return a.first < b.first; });
+      });
+      const auto uploaded = workbench->upload("bench keys", std::span<const uint32_t>(keys));
+      if (!uploaded) return uploaded.error();
+      KeySortDesc desc{.count = count, .keyRange = kind.range(count), .start = kind.start};
+      const bool autoCounts = chooseSortMethod(desc) == SortMethod::Counting;
+      Samples byMethod[2];
+      for (const bool counting : {true, false}) {
+        desc.method = counting ? SortMethod::Counting : SortMethod::Radix;
+        auto samples = timedOnDevice(*workbench, repeat, desc, *uploaded, sorted, name, report);
+        if (!samples) return samples.error();
+        byMethod[counting ? 0 : 1] = std::move(*samples);
+      }
+      const auto& [byCounting, byRadix] = byMethod;
+      const double chosen = (autoCounts ? byCounting : byRadix).middle();
+      const double best = byCounting.none.empty() ? std::min(byCounting.middle(), byRadix.middle()) : byRadix.middle();
+      const double host = std::min(byStd.middle(), byStable.middle());
+      table.rows.push_back({name, cell(byCounting), cell(byRadix), cell(byStd), cell(byStable), autoCounts ? "counting" : "radix",
+                            number(chosen / best), number(chosen / host)});
+      report.results.push_back({{"case", name},
+                                {"keys", count},
+                                {"key_range", desc.keyRange},
+                                {"counting", json(byCounting)},
+                                {"radix", json(byRadix)},
+                                {"std_sort", json(byStd)},
+                                {"std_stable_sort", json(byStable)},
+                                {"auto", autoCounts ? "counting" : "radix"},
+                                {"auto_over_best", chosen / best},
+                                {"auto_over_std", chosen / host}});
+      const Samples* const all[] = {&byCounting, &byRadix, &byStd, &byStable};
+      for (size_t s = 0; s < std::size(all); ++s)
+        if (all[s]->none.empty()) plot.series[s].points.emplace_back(count, 1e6 * all[s]->middle() / count);
+    }
+    if (!plot.series[2].points.empty()) report.plots.push_back(std::move(plot));
+  }
+  report.tables.push_back(std::move(table));
+  return report;
+}
+
+}  // namespace rill::bench

@@ -1,0 +1,251 @@
+// What a particle costs in a substep, over how many there are; where that time goes; and two baselines.
+#include <algorithm>
+#include <cmath>
+
+#include "bench/suites/baselines.hpp"
+#include "bench/suites/count_name.hpp"
+#include "bench/suites/suites.hpp"
+#include "bench/suites/tank.hpp"
+#include "bench/workbench.hpp"
+#include "core/words.hpp"
+#include "rill/fluid.hpp"
+#include "sort/key_sort.hpp"
+
+namespace rill::bench {
+namespace {
+
+constexpr int kFrames = 3;  // measured; one more goes before them, in which shaders are compiled
+
+// At this speed the list is built about once in eleven substeps, as in the whole dam break: water that has only just been let go needs no
+// build for a while.
+constexpr const char* kSpeed = "[8, 0, 0]";
+
+/// Longer where particles are larger, so that every count has about as many substeps a frame.
+double frameOf(const Scene& scene) { return scene.fluid.spacing / 0.05 / 60; }
+
+/// What is short is sampled more often: it costs little, and other programs disturb it more.
+uint32_t samplesOf(const Bench& bench, uint32_t count) {
+  return count <= 20'000 ? std::max(3u, bench.options().repeat) : bench.options().repeat;
+}
+
+/// Of a run's time: opening it, then what its particles take.
+size_t partsOf(uint32_t count) { return 8 + count / 1000; }
+
+/// A pass, or those of a module: time in each frame, and what it is divided by.
+struct PassCost {
+  std::string name;
+  std::vector<double> ns;  ///< a particle a substep, a sample a frame
+};
+
+std::string_view moduleOf(std::string_view pass) { return pass.starts_with("sort/") ? "sort" : pass; }
+
+/// Runs a scene's solver alone, in frames of its own: where figures are measured their sort would count as the solver's.
+Expected<std::vector<PassCost>> passCosts(const Bench& bench, Scene scene) {
+  auto workbench = Workbench::open(bench);
+  if (!workbench) return workbench.error();
+  workbench->timePasses(true);
+  const double frame_s = frameOf(scene);
+  const auto start = makeParticles(scene, KeySortDesc::kMaxCount);
+  if (!start) return start.error();
+  auto fluid = Fluid::create(workbench->device(), {&scene, &*start});
+  if (!fluid) return fluid.error();
+  const double particles = (*fluid)->count();
+  std::vector<PassCost> costs;
+  uint32_t expected = 4 * (*fluid)->substepsPerBlock();
+  for (int frame = 0; frame <= kFrames && !bench.stopped(); ++frame) {
+    std::vector<std::pair<std::string, double>> ms;
+    FluidStep step{frame_s, false, expected, false};
+    for (uint32_t recorded = 0; recorded < (*fluid)->mostSubsteps();) {
+      step.resume = recorded > 0;
+      if (auto ran = workbench->run([&](Graph& graph) { (void)(*fluid)->addTo(graph, step); }); !ran) return ran.error();
+      for (const Timing& timing : workbench->passTimes()) {
+        const std::string name(moduleOf(timing.name));
+        auto found = std::ranges::find(ms, name, &std::pair<std::string, double>::first);
+        if (found == ms.end()) found = ms.insert(ms.end(), {name, 0});
+        found->second += timing.ms;
+      }
+      if (!((*fluid)->progress().time_left_s > 0)) break;
+      recorded += step.substeps;
+      step.substeps = (*fluid)->substepsPerBlock();
+    }
+    const uint32_t substeps = (*fluid)->progress().substeps;
+    if (frame == 0) continue;
+    for (const auto& [name, time] : ms) {
+      auto found = std::ranges::find(costs, name, &PassCost::name);
+      if (found == costs.end()) found = costs.insert(costs.end(), {name, {}});
+      found->ns.push_back(1e6 * time / (particles * substeps));
+    }
+  }
+  return costs;
+}
+
+/// One count of particles.
+struct Case {
+  uint32_t wanted = 0;
+  uint64_t particles = 0;
+  std::vector<double> ns, whole_s;  ///< a sample a run: a particle a substep; wall time with everything
+  double buildsASubstep = 0;
+  double step_ms = 0;  ///< wall time of a substep
+  FluidMemory memory;
+  std::vector<PassCost> passes;
+  std::string refused;  ///< why there are no times
+  std::string name() const { return "particles-" + countName(wanted); }
+  double sum() const {
+    double sum = 0;
+    for (const PassCost& pass : passes) sum += median(pass.ns);
+    return sum;
+  }
+};
+
+/// Whether an error is a device's or a host's limit: a finding here, not a failure.
+bool isLimit(const Error& error) { return error.kind == ErrorKind::TooLarge || error.kind == ErrorKind::OutOfMemory; }
+
+Expected<Case> measured(Bench& bench, uint32_t wanted) {
+  Case made;
+  made.wanted = wanted;
+  const auto scene = tank(wanted, {{"fill[0].velocity", kSpeed}});
+  if (!scene) return scene.error();
+  const double layers = 1 / scene->fluid.spacing;
+  made.particles = static_cast<uint64_t>(std::llround(6.25 * layers * layers * layers));
+  made.memory = fluidMemory(*scene, made.particles);
+  for (uint32_t k = 0; k < samplesOf(bench, wanted) && !bench.stopped(); ++k) {
+    bench.step(made.name(), partsOf(wanted));
+    const double frame_s = frameOf(*scene);
+    const auto run = runScene(bench, {*scene, (kFrames + 1.5) * frame_s, frame_s, false, {}});
+    if (!run && isLimit(run.error())) {
+      made.refused = run.error().message;
+      return made;
+    }
+    if (!run) return run.error();
+    double wall_s = 0;
+    uint64_t substeps = 0, builds = 0;
+    for (size_t frame = 2; frame < run->instants.size(); ++frame) {  // the start, and the frame in which shaders are compiled, do not count
+      wall_s += run->instants[frame].stats.wall_s;
+      substeps += run->instants[frame].stats.substeps;
+      builds += run->instants[frame].stats.list_builds;
+    }
+    if (substeps == 0) continue;
+    made.particles = run->particles;
+    made.ns.push_back(1e9 * wall_s / (double(run->particles) * double(substeps)));
+    made.whole_s.push_back(run->total_s);
+    made.step_ms = 1e3 * wall_s / double(substeps);
+    made.buildsASubstep = double(builds) / double(substeps);
+  }
+  if (bench.stopped()) return made;
+  bench.step(made.name() + ", passes", partsOf(wanted));
+  auto passes = passCosts(bench, *scene);
+  if (!passes) return passes.error();
+  made.passes = std::move(*passes);
+  return made;
+}
+
+Json json(const Case& c) {
+  Json json{{"case", c.name()}, {"particles", c.particles}};
+  const double particles = double(c.particles);
+  json["bytes_a_particle"] = {{"arrays", double(c.memory.particle_bytes) / particles},
+                              {"grid", double(c.memory.grid_bytes) / particles},
+                              {"list", double(c.memory.list_bytes) / particles}};
+  if (!c.refused.empty()) {
+    json["refused"] = c.refused;
+    return json;
+  }
+  json["ns_a_particle_a_substep"] = sampled(c.ns);
+  json["with_everything_s"] = sampled(c.whole_s);
+  json["list_builds_a_substep"] = c.buildsASubstep;
+  for (const PassCost& pass : c.passes) json["passes_ns_a_particle_a_substep"][pass.name] = sampled(pass.ns);
+  return json;
+}
+
+Table costTable(const std::vector<Case>& cases) {
+  Table table{"A particle's cost, simulation alone, pass times off",
+              {"particles", "ns a substep", "ms a substep", "substeps a list build", "bytes", "of these list", "whole run, s", "refused"},
+              {},
+              "ns: a particle a substep, list builds included. whole run: with opening the device, compiling shaders, measuring figures."};
+  for (const Case& c : cases) {
+    const double particles = double(c.particles), bytes = double(c.memory.total()) / particles;
+    table.rows.push_back({grouped(c.particles), number(median(c.ns)), number(c.refused.empty() ? c.step_ms : std::nan("")),
+                          number(1 / c.buildsASubstep), number(bytes), number(double(c.memory.list_bytes) / particles),
+                          number(median(c.whole_s)), c.refused});
+  }
+  const bool any = std::ranges::any_of(cases, [](const Case& c) { return !c.refused.empty(); });
+  if (!any) {
+    table.columns.pop_back();
+    for (auto& row : table.rows) row.pop_back();
+  }
+  return table;
+}
+
+Table passTable(const std::vector<Case>& cases) {
+  Table table{"Where it goes: ns a particle a substep of each pass",
+              {"pass"},
+              {},
+              "With a time stamp after each pass, which costs a tenth and more of it."};
+  std::vector<std::string> names;
+  for (const Case& c : cases) {
+    if (c.passes.empty()) continue;
+    table.columns.push_back(grouped(c.particles));
+    for (const PassCost& pass : c.passes)
+      if (std::ranges::find(names, pass.name) == names.end()) names.push_back(pass.name);
+  }
+  for (const std::string& name : names) {
+    std::vector<std::string> row{name};
+    for (const Case& c : cases) {
+      if (c.passes.empty()) continue;
+      const auto pass = std::ranges::find(c.passes, name, &PassCost::name);
+      row.push_back(pass == c.passes.end() ? "-" : number(median(pass->ns)));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  std::vector<std::string> sums{"all"};
+  for (const Case& c : cases)
+    if (!c.passes.empty()) sums.push_back(number(c.sum()));
+  table.rows.push_back(std::move(sums));
+  return table;
+}
+
+std::vector<Plot> plots(const std::vector<Case>& cases) {
+  Plot total{"A particle's cost in a substep, simulation alone", "particles", "ns", true, false, {{"total", Series::Style::Both, {}, {}}}};
+  Plot passes{"Where it goes: passes above 2 ns somewhere", "particles", "ns a particle a substep", true, true, {}};
+  for (const Case& c : cases) {
+    if (!c.ns.empty()) total.series[0].points.emplace_back(c.particles, median(c.ns));
+    for (const PassCost& pass : c.passes) {
+      auto series = std::ranges::find(passes.series, pass.name, &Series::name);
+      if (series == passes.series.end()) series = passes.series.insert(passes.series.end(), {pass.name, Series::Style::Both, {}, {}});
+      series->points.emplace_back(c.particles, median(pass.ns));
+    }
+  }
+  std::erase_if(passes.series, [](const Series& series) {
+    return std::ranges::none_of(series.points, [](const auto& point) { return point.second > 2; });
+  });
+  return {total, passes};
+}
+
+}  // namespace
+
+Expected<Report> runSpeed(Bench& bench) {
+  std::vector<uint32_t> counts = bench.quick() ? std::vector<uint32_t>{1000, 10'000, 50'000, 100'000}
+                                               : std::vector<uint32_t>{1000, 10'000, 50'000, 100'000, 200'000, 500'000, 1'000'000};
+  std::erase_if(counts, [&](uint32_t count) { return !bench.wanted("particles-" + countName(count)); });
+  const Baselines baselines;
+  size_t parts = baselines.parts(bench);
+  for (const uint32_t count : counts) parts += (samplesOf(bench, count) + 1) * partsOf(count);
+  bench.plan(parts, "part");
+
+  Report report;
+  std::vector<Case> cases;
+  for (const uint32_t count : counts) {
+    if (bench.stopped()) break;
+    auto made = measured(bench, count);
+    if (!made) return made.error();
+    report.results.push_back(json(*made));
+    cases.push_back(std::move(*made));
+  }
+  if (!cases.empty()) {
+    report.tables = {costTable(cases), passTable(cases)};
+    report.plots = plots(cases);
+  }
+  if (auto ran = baselines.run(bench, report); !ran) return ran.error();
+  return report;
+}
+
+}  // namespace rill::bench

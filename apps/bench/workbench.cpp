@@ -1,0 +1,81 @@
+#include "bench/workbench.hpp"
+
+#include <chrono>
+
+namespace rill::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double millisecondsSince(Clock::time_point begin) { return 1e3 * std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+}  // namespace
+
+Expected<Workbench> Workbench::open(const Bench& bench) {
+  offline::ContextDesc desc;
+  desc.device = bench.options().device;
+  desc.framesInFlight = 1;  // each graph is waited for
+  auto context = offline::Context::create(desc);
+  if (!context) return context.error();
+  return Workbench(std::move(*context));
+}
+
+Expected<GraphTime> Workbench::run(const std::function<void(Graph&)>& declare) {
+  const Clock::time_point begin = Clock::now();
+  graph_->reset();
+  declare(*graph_);
+  if (auto compiled = graph_->compile(); !compiled) return compiled.error();
+  if (auto began = context_->beginFrame(); !began) return began.error();
+  if (auto prepared = graph_->prepare(device()); !prepared) return prepared.error();
+  const Clock::time_point recording = Clock::now();
+  if (auto ran = context_->submit([&](VkCommandBuffer commands) { graph_->record(commands); }); !ran) return ran.error();
+  if (auto waited = context_->wait(); !waited) return waited.error();
+  return GraphTime{millisecondsSince(recording), millisecondsSince(begin)};
+}
+
+Expected<Buffer> Workbench::uploadBytes(std::string_view name, std::span<const std::byte> bytes) {
+  auto staging = createBuffer(device(), "bench upload", bytes.size(), MemoryKind::Upload);
+  if (!staging) return staging.error();
+  std::memcpy(staging->mapped(), bytes.data(), bytes.size());
+  auto target = make(name, bytes.size());
+  if (!target) return target.error();
+  auto ran = run([&](Graph& graph) {
+    const BufferRef from = importWhole(graph, "bench upload", *staging);
+    BufferRef to = importWhole(graph, name, *target);
+    graph.pass("upload", [&](Pass& pass) {
+      pass.read(from, Use::CopySource);
+      to = pass.write(to, Use::CopyTarget, true);
+      return [=, size = bytes.size()](Commands& commands) { commands.copy(from, to, size); };
+    });
+  });
+  if (!ran) return ran.error();
+  return std::move(*target);
+}
+
+Expected<void> Workbench::downloadBytes(const Buffer& buffer, std::span<std::byte> bytes) {
+  Ticket ticket;
+  auto ran = run([&](Graph& graph) { ticket = graph.readback(importWhole(graph, "bench download", buffer)); });
+  if (!ran) return ran.error();
+  const auto content = graph_->data(ticket);
+  if (content.size() < bytes.size()) return Error{ErrorKind::Failed, "reading a buffer of the bench back: nothing came"};
+  std::memcpy(bytes.data(), content.data(), bytes.size());
+  return {};
+}
+
+BufferRef importWhole(Graph& graph, std::string_view name, const Buffer& buffer) {
+  return graph.import(name, {.handle = buffer.handle(), .size = buffer.size()});
+}
+
+Expected<GraphSamples> sampleGraph(Workbench& bench, uint32_t samples, const std::function<void(Graph&)>& declare, WarmUp warmUp) {
+  if (warmUp == WarmUp::Needed)
+    if (auto first = bench.run(declare); !first) return first.error();
+  GraphSamples taken;
+  for (uint32_t k = 0; k < samples; ++k) {
+    const auto time = bench.run(declare);
+    if (!time) return time.error();
+    taken.run_ms.push_back(time->run_ms);
+    taken.whole_ms.push_back(time->whole_ms);
+  }
+  return taken;
+}
+
+}  // namespace rill::bench

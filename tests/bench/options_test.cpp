@@ -1,0 +1,70 @@
+// What rill-bench makes of a command line, without running anything.
+#include "bench/options.hpp"
+
+#include <gtest/gtest.h>
+
+#include "bench/bench.hpp"
+
+namespace rill::bench {
+namespace {
+
+Expected<CommandLine> parsed(std::vector<const char*> arguments) {
+  arguments.insert(arguments.begin(), "rill-bench");
+  return parseCommandLine(static_cast<int>(arguments.size()), arguments.data());
+}
+
+void expectRefused(const std::vector<const char*>& arguments, const std::vector<std::string>& words) {
+  const auto line = parsed(arguments);
+  ASSERT_FALSE(line) << "expected a refusal";
+  EXPECT_EQ(line.error().kind, ErrorKind::BadInput);
+  for (const std::string& word : words)
+    EXPECT_NE(line.error().message.find(word), std::string::npos) << word << " is not in: " << line.error().message;
+}
+
+TEST(Options, Defaults) {
+  const auto line = parsed({"sort"});
+  ASSERT_TRUE(line) << line.error().message;
+  ASSERT_TRUE(line->options);
+  EXPECT_EQ(line->options->suite, "sort");
+  EXPECT_EQ(line->options->repeat, 3u);
+  EXPECT_FALSE(line->options->quick);
+  EXPECT_FALSE(line->options->json);
+}
+
+TEST(Options, QuickTakesOneSampleUnlessToldOtherwise) {
+  EXPECT_EQ(parsed({"sort", "--quick"})->options->repeat, 1u);
+  EXPECT_EQ(parsed({"sort", "--quick", "--repeat", "5"})->options->repeat, 5u);
+}
+
+TEST(Options, FilesAndNames) {
+  const auto line = parsed({"sort", "--json", "a b.json", "--plot", "p.svg", "--only", "random", "--device", "0"});
+  ASSERT_TRUE(line) << line.error().message;
+  EXPECT_EQ(line->options->json, "a b.json");
+  EXPECT_EQ(line->options->plot, "p.svg");
+  EXPECT_EQ(line->options->only, "random");
+  EXPECT_EQ(line->options->device, "0");
+  EXPECT_EQ(line->options->command, "rill-bench sort --json 'a b.json' --plot p.svg --only random --device 0");
+}
+
+TEST(Options, MistakesAreNamed) {
+  expectRefused({}, {"SUITE"});
+  expectRefused({"srot"}, {"\"srot\"", "did you mean \"sort\"?", "speed"});
+  expectRefused({"sort", "--qick"}, {"\"--qick\"", "did you mean \"--quick\"?"});
+  for (const char* bad : {"0", "-1", "2.5", "x", "", "1001", "99999999999999999999"})
+    expectRefused({"sort", "--repeat", bad}, {"--repeat", std::string("\"") + bad + "\"", "1 to 1000"});
+  expectRefused({"sort", "--json", ""}, {"--json", "name of a file"});
+  expectRefused({"sort", "--device", ""}, {"--device", "index"});
+}
+
+TEST(Options, HelpListsEverySuite) {
+  const auto line = parsed({"--help"});
+  ASSERT_TRUE(line) << line.error().message;
+  EXPECT_FALSE(line->options);
+  for (const Suite& suite : suites()) {
+    EXPECT_NE(line->text.find("  " + std::string(suite.name) + " "), std::string::npos) << suite.name;
+    EXPECT_NE(line->text.find(suite.about), std::string::npos) << suite.name;
+  }
+}
+
+}  // namespace
+}  // namespace rill::bench

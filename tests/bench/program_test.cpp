@@ -1,0 +1,94 @@
+// The program from end to end, on cases small enough for every driver.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support/child_process.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace rill::test {
+namespace {
+
+using Json = nlohmann::json;
+
+Outcome bench(std::vector<std::string> arguments, const std::string& folder = ".") {
+  arguments.insert(arguments.begin(), std::string(RILL_BINARY_DIR) + "/apps/bench/rill-bench");
+  return Child(arguments, folder).wait();
+}
+
+const Json* resultOf(const Json& report, const std::string& name) {
+  for (const Json& result : report["results"])
+    if (result["case"] == name) return &result;
+  ADD_FAILURE() << "no case " << name << " in " << report.dump();
+  return nullptr;
+}
+
+TEST(RillBench, SortWritesATableAndJsonThatParses) {
+  const TemporaryFolder folder;
+  const Outcome outcome = bench({"sort", "--quick", "--only", "-1k", "--json", "out.json"}, folder.string());
+  ASSERT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+  EXPECT_NE(outcome.out.find("std::stable_sort"), std::string::npos) << outcome.out;
+  const Json report = Json::parse(contentOf(folder / "out.json"), nullptr, false);
+  ASSERT_FALSE(report.is_discarded()) << contentOf(folder / "out.json");
+  EXPECT_EQ(report["suite"], "sort");
+  EXPECT_TRUE(report["failures"].empty()) << report["failures"].dump();
+  const Json* random = resultOf(report, "random-1k");
+  ASSERT_NE(random, nullptr);
+  EXPECT_EQ((*random)["keys"], 1000);
+  for (const char* way : {"counting", "radix", "std_sort", "std_stable_sort"}) EXPECT_EQ((*random)[way]["ms"]["samples"].size(), 5u) << way;
+  const Json* many = resultOf(report, "many-1k");
+  ASSERT_NE(many, nullptr);
+  EXPECT_TRUE((*many)["counting"].contains("skipped")) << "no counter for each of 2^32 values";
+}
+
+TEST(RillBench, JsonOnStandardOutputLeavesTheTableToStandardError) {
+  const Outcome outcome = bench({"sort", "--quick", "--only", "equal-1k", "--json", "-"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json report = Json::parse(outcome.out, nullptr, false);
+  ASSERT_FALSE(report.is_discarded()) << outcome.out;
+  EXPECT_NE(outcome.err.find("equal-1k"), std::string::npos) << outcome.err;
+}
+
+TEST(RillBench, SpeedTimesEachPass) {
+  const Outcome outcome = bench({"speed", "--quick", "--quiet", "--only", "particles-1k", "--json", "-"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json report = Json::parse(outcome.out, nullptr, false);
+  ASSERT_FALSE(report.is_discarded()) << outcome.out;
+  const Json* thousand = resultOf(report, "particles-1k");
+  ASSERT_NE(thousand, nullptr);
+  EXPECT_EQ((*thousand)["particles"], 1350) << "whole layers";
+  EXPECT_GT((*thousand)["ns_a_particle_a_substep"]["median"], 0);
+  for (const char* pass : {"density", "correct", "build list", "sort"})
+    EXPECT_GT((*thousand)["passes_ns_a_particle_a_substep"][pass]["median"], 0) << pass;
+}
+
+TEST(RillBench, AnEmptySceneRunsNoPass) {
+  const Outcome outcome = bench({"features", "--quick", "--quiet", "--only", "empty, passes", "--json", "-"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json report = Json::parse(outcome.out, nullptr, false);
+  ASSERT_FALSE(report.is_discarded()) << outcome.out;
+  const Json* empty = resultOf(report, "empty, passes");
+  ASSERT_NE(empty, nullptr);
+  EXPECT_TRUE((*empty)["passes"].empty()) << empty->dump();
+  EXPECT_EQ((*empty)["skipped"]["density"], "no particles");
+}
+
+TEST(RillBench, AFeatureThatIsOffLeavesNoTrace) {
+  const Outcome outcome = bench({"features", "--quick", "--quiet", "--only", "viscosity", "--json", "-"});
+  EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;  // 3 where passes or bits differ
+}
+
+TEST(RillBench, BadInputRunsNothing) {
+  const TemporaryFolder folder;
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"sort", "--device", "no such device"}, {"nothing"}, {"sort", "--json", folder.string()}}) {
+    const Outcome outcome = bench(arguments, folder.string());
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_TRUE(outcome.err.starts_with("rill-bench: ")) << outcome.err;
+  }
+  EXPECT_TRUE(folder.names().empty());
+}
+
+}  // namespace
+}  // namespace rill::test

@@ -1,0 +1,100 @@
+#include "bench/report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "bench/plot.hpp"
+
+namespace rill::bench {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+TEST(Table, AlignsNumbersRightAndWordsLeft) {
+  const Table table{"Title", {"name", "ms"}, {{"a", "1.5"}, {"longer", "200"}, {"none", "-"}}, "a note"};
+  EXPECT_EQ(tableText(table),
+            "Title\n"
+            "name     ms\n"
+            "a       1.5\n"
+            "longer  200\n"
+            "none      -\n"
+            "a note\n");
+}
+
+TEST(Table, CountsCharactersNotBytes) {
+  const Table table{"T", {"a", "b"}, {{"é", "1"}, {"xy", "2"}}, ""};
+  EXPECT_EQ(tableText(table), "T\na   b\né   1\nxy  2\n");
+}
+
+TEST(Table, MayHaveNoRow) { EXPECT_EQ(tableText({"T", {"a", "b"}, {}, ""}), "T\na  b\n"); }
+
+TEST(Median, IsTheMiddleOrTheMeanOfTheTwo) {
+  EXPECT_EQ(median({3}), 3);
+  EXPECT_EQ(median({9, 1, 5}), 5);
+  EXPECT_EQ(median({4, 1, 3, 100}), 3.5);
+  EXPECT_TRUE(std::isnan(median({})));
+}
+
+TEST(Sampled, HasEverySampleItsMedianAndItsSpread) {
+  const double samples[] = {4, 2, 3};
+  const Json json = sampled(samples);
+  EXPECT_EQ(json["median"], 3);
+  EXPECT_DOUBLE_EQ(json["spread"], 2.0 / 3);
+  EXPECT_EQ(json["samples"], Json({4, 2, 3}));
+}
+
+TEST(Sampled, OfNothingIsStillJson) {
+  const Json json = sampled({});
+  EXPECT_EQ(json["spread"], 0);
+  EXPECT_TRUE(json["samples"].empty());
+  EXPECT_NE(json.dump().find("\"median\":null"), std::string::npos) << "JSON knows no NaN: " << json.dump();
+}
+
+TEST(Number, HasSoManyDigitsOrIsADash) {
+  EXPECT_EQ(number(1234.567, 3), "1.23e+03");
+  EXPECT_EQ(number(0.00012345, 2), "0.00012");
+  EXPECT_EQ(number(kNaN), "-");
+  EXPECT_EQ(number(std::numeric_limits<double>::infinity()), "-");
+  EXPECT_EQ(percent(0.00046), "0.046 %");
+}
+
+Plot plotOf(std::vector<std::pair<double, double>> points) {
+  return {"It's a title", "x", "y", true, true, {{"it's", Series::Style::Both, std::move(points), {}}}};
+}
+
+TEST(PlotProgram, HoldsTheDataAndTheNamesQuoted) {
+  const Plot plot = plotOf({{1, 0.25}, {1000, 7}});
+  const std::string program = plotProgram(std::span(&plot, 1));
+  EXPECT_NE(program.find("1 0.25 "), std::string::npos) << program;
+  EXPECT_NE(program.find("1000 7 "), std::string::npos) << program;
+  EXPECT_NE(program.find("set title 'It''s a title'"), std::string::npos) << program;
+  EXPECT_NE(program.find("title 'it''s'"), std::string::npos) << program;
+  EXPECT_NE(program.find("set logscale x"), std::string::npos) << program;
+}
+
+TEST(PlotProgram, NoTextEndsAStringOrALine) {
+  Plot plot = plotOf({{1, 2}});
+  plot.title = "a\nb'; system('x')";
+  plot.series[0].labels = {"c\"d\\e\nf"};
+  const std::string program = plotProgram(std::span(&plot, 1));
+  EXPECT_NE(program.find("'a b''; system(''x'')'"), std::string::npos) << program;
+  EXPECT_NE(program.find("\"c d e f\""), std::string::npos) << program;
+}
+
+TEST(PlotProgram, LeavesOutWhatAnAxisCannotShow) {
+  const Plot plot = plotOf({{0, 5}, {2, kNaN}, {3, -1}});
+  const std::string program = plotProgram(std::span(&plot, 1));
+  EXPECT_EQ(program.find("\nplot "), std::string::npos) << "gnuplot refuses a plot without points: " << program;
+  EXPECT_NE(program.find("set multiplot next"), std::string::npos) << "its place stays empty: " << program;
+}
+
+TEST(PlotProgram, SetsDiagramsSideBySide) {
+  const std::vector<Plot> plots(3, plotOf({{1, 1}}));
+  EXPECT_NE(plotProgram(plots).find("layout 2,2"), std::string::npos);
+  EXPECT_NE(plotProgram(std::span(plots).first(1)).find("layout 1,1"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rill::bench
