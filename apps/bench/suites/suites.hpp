@@ -4,5 +4,6 @@
 namespace rill::bench {
 
 Expected<Report> runAccuracy(Bench& bench);
+Expected<Report> runValidation(Bench& bench);
 
 }  // namespace rill::bench
