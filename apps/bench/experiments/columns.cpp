@@ -62,7 +62,7 @@ std::vector<Experiment> columnExperiments() {
   std::vector<Experiment> all;
   for (const int high : {1, 2})
     for (unsigned level = 0; level < kLevels; ++level)
-      all.push_back({"martin-moyce-" + std::to_string(high), level, level < 2, kBase / kAcross[level],
+      all.push_back({"martin-moyce-" + std::to_string(high), level, level == 0, kBase / kAcross[level],
                      [high, level](const Bench& bench) { return collapse(bench, high, level); }});
   return all;
 }

@@ -72,6 +72,7 @@ Expected<Outcome> drop(const Bench& bench, unsigned level) {
   outcome.figures.push_back(plainFigure("long axis, worst", worst));
   outcome.figures.push_back(relativeFigure("short axis, end", shortAxis.back().second, exact.a));
   outcome.figures.push_back(relativeFigure("area, end", shortAxis.back().second * longAxis.back().second, 1));
+  outcome.figures.push_back(plainFigure("energy, peak", outcome.run.energy.ratio - 1));
   outcome.curves["long_axis"] = curveJson(longAxis);
   outcome.curves["short_axis"] = curveJson(shortAxis);
   outcome.overlays.push_back({"elliptic", {"R / d = " + std::to_string(kAcross[level]), Series::Style::Lines, longAxis, {}}});

@@ -81,6 +81,7 @@ Expected<Outcome> flight(const Bench& bench, unsigned level) {
   outcome.run = std::move(*run);
   outcome.figures.push_back(plainFigure("momentum, drift", momentumDrift));
   outcome.figures.push_back(plainFigure("angular momentum, drift", spinDrift));
+  outcome.figures.push_back(plainFigure("energy, peak", outcome.run.energy.ratio - 1));
   outcome.curves["angular_momentum_z_m2_s"] = curveJson(spins);
   return outcome;
 }

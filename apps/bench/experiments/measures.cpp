@@ -119,8 +119,9 @@ std::vector<size_t> deepBulk(const Cloud& cloud, const Walls& walls, double reac
       for (int y = -1; y <= 1; ++y)
         for (int z = -1; z <= 1; ++z) {
           if (x == 0 && y == 0 && z == 0) continue;
-          const double scale = reach_m / std::sqrt(double(x * x + y * y + z * z));
-          if (!grid.anyWithin({point[0] + scale * x, point[1] + scale * y, point[2] + scale * z}, gap)) return false;
+          const double whole = reach_m / std::sqrt(double(x * x + y * y + z * z));
+          for (const double scale : {whole, whole / 2})
+            if (!grid.anyWithin({point[0] + scale * x, point[1] + scale * y, point[2] + scale * z}, gap)) return false;
         }
     return true;
   };

@@ -9,7 +9,8 @@
 namespace rill::bench {
 namespace {
 
-constexpr double kStillSpacing[kLevels] = {0.1, 0.05, 1.0 / 30};
+constexpr double kSide = 0.8, kStillDepth = 1;  // m, of the still tank: wide enough that twice the support fits in from both sides
+constexpr double kStillSpacing[kLevels] = {1.0 / 15, 0.05, 1.0 / 30};
 constexpr double kDamSpacing[kLevels] = {0.05, 1.0 / 30, 0.025};
 constexpr double kFrame = 1.0 / 60;
 
@@ -42,26 +43,22 @@ struct Support {
 
 Expected<Outcome> stillTank(const Bench& bench, unsigned level) {
   const double spacing = kStillSpacing[level];
-  Scene scene = boxScene(spacing, {0, 0, 0}, {1, 2, 1});
-  scene.fill.push_back(boxFill({0, 0, 0}, {1, 1, 1}));
+  Scene scene = boxScene(spacing, {0, 0, 0}, {kSide, 2 * kStillDepth, kSide});
+  scene.fill.push_back(boxFill({0, 0, 0}, {kSide, kStillDepth, kSide}));
   Outcome outcome;
   Support support;
-  Curve unrest;
   auto run = watch(
-      bench, scene, 6, kFrame, [](double) { return true; },
+      bench, scene, 6, kFrame, [](double time) { return near(time, 4) || near(time, 6); },
       [&](const Cloud& cloud, double time) {
-        unrest.emplace_back(time, rmsSpeed(cloud));
-        for (const double instant : {0.5, 2.0, 6.0})
-          if (near(time, instant)) outcome.figures.push_back(plainFigure("rms speed, " + number(instant) + " s", unrest.back().second));
         if (near(time, 4)) support = {cloud, time};
         if (!near(time, 6)) return;
-        const double rest = double(cloud.size()) * std::pow(spacing, 3);  // over an area of 1 m^2
-        const double surface = surfaceLevel(cloud, 0, 0, 1);
+        const double area = kSide * kSide, rest = double(cloud.size()) * std::pow(spacing, 3) / area;
+        const double surface = surfaceLevel(cloud, 0, 0, kSide);
         outcome.figures.push_back(relativeFigure("level", surface, rest));
         outcome.figures.push_back(relativeFigure("twice the centre of mass", 2 * meanPosition(cloud)[1], rest));
         double worst = 0;
         for (const double share : {0.0, 0.25, 0.5, 0.75}) {
-          const double held = support.pressure(cloud, time, share * rest, scene, 1),
+          const double held = support.pressure(cloud, time, share * rest, scene, area),
                        hydrostatic = -scene.gravity[1] * scene.fluid.density * (rest - share * rest);
           const double error = (held - hydrostatic) / (-scene.gravity[1] * scene.fluid.density * rest);
           outcome.curves["pressure"].push_back({{"height_m", share * rest}, {"held_Pa", held}, {"hydrostatic_Pa", hydrostatic}});
@@ -72,10 +69,14 @@ Expected<Outcome> stillTank(const Bench& bench, unsigned level) {
       });
   if (!run) return run.error();
   outcome.run = std::move(*run);
+  if (bench.stopped()) return outcome;
+  const auto& instants = outcome.run.instants;
+  const double mass = double(outcome.run.particles) * scene.fluid.density * std::pow(spacing, 3), weight = mass * -scene.gravity[1];
+  Curve unrest;
+  for (const apps::Instant& instant : instants) unrest.emplace_back(instant.time_s, std::sqrt(2 * instant.stats.kinetic_J / mass));
+  for (const double time : {0.5, 2.0, 6.0}) outcome.figures.push_back(plainFigure("rms speed, " + number(time) + " s", at(unrest, time)));
   // What the floor bears from frame to frame, about its mean over the last two seconds.
   double sum = 0, squares = 0, count = 0;
-  const auto& instants = outcome.run.instants;
-  const double weight = double(outcome.run.particles) * scene.fluid.density * std::pow(spacing, 3) * -scene.gravity[1];
   for (size_t k = 1; k < instants.size(); ++k)
     if (instants[k].time_s > 4) {
       const double force = 1 + (instants[k].stats.momentum[1] - instants[k - 1].stats.momentum[1]) / (kFrame * weight);
