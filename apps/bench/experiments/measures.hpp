@@ -52,7 +52,7 @@ struct Walls {
 Walls wallsOf(const Scene& scene);
 
 /// Particles deep inside: farther than `reach_m` from every wall, and with fluid all around at that distance and at half of it (each of 26
-/// points on the sphere has a particle within 1.25 spacings). No kernel decides who counts.
+/// points on either sphere has a particle within 1.25 spacings). No kernel decides who counts.
 std::vector<size_t> deepBulk(const Cloud& cloud, const Walls& walls, double reach_m);
 
 /// Density over rest density in a Wendland kernel of support `support_m`, at each of `of`. Scaled so that the cubic rest lattice reads 1.

@@ -1,4 +1,5 @@
 // The suite `validation`: published experiments and exact solutions at three resolutions each, every figure with its aim and its pass band.
+#include <algorithm>
 #include <cmath>
 
 #include "bench/experiments/bands.hpp"
@@ -53,7 +54,11 @@ struct Findings {
       "Experiments and exact solutions", {"experiment", "d m", "figure", "measured", "expected", "error", "aim", "band", "holds"}, {}, ""};
   std::vector<std::pair<std::string, Series>> overlays;
   std::vector<Series> convergence[std::size(kConvergences)];
-  std::vector<std::string> missed;  ///< notes on aims
+  struct Missed {
+    std::string reason;
+    std::vector<std::string> figures;
+  };
+  std::vector<Missed> missed;  ///< aims
 
   void judge(const Experiment& experiment, const Figure& figure, Json& json) {
     const Band* band = bandOf(experiment.family, figure.name);
@@ -72,9 +77,11 @@ struct Findings {
       report.failures.push_back(experiment.name() + ": " + figure.name + " " + inUnit(figure.error, unit) + ", band " +
                                 inUnit(limit, unit));
     if (judged && !reached && band->reason.size() > 0) {
-      const std::string note =
-          std::string(band->family.empty() ? experiment.family : band->family) + ", " + figure.name + ": " + std::string(band->reason);
-      if (std::ranges::find(missed, note) == missed.end()) missed.push_back(note);
+      // Several figures may have one reason.
+      const std::string reason(band->reason), about = experiment.family + ", " + figure.name;
+      auto found = std::ranges::find(missed, reason, &Missed::reason);
+      if (found == missed.end()) found = missed.insert(missed.end(), {reason, {}});
+      if (std::ranges::find(found->figures, about) == found->figures.end()) found->figures.push_back(about);
     }
     json.push_back(
         {{"name", figure.name}, {"measured", figure.measured}, {"error", figure.error}, {"unit", unit == "%" ? "fraction" : unit}});
@@ -162,7 +169,11 @@ Expected<Report> runValidation(Bench& bench) {
   }
   findings.table.note = kNote;
   if (!findings.missed.empty()) findings.table.note += "\nAims missed:";
-  for (const std::string& note : findings.missed) findings.table.note += "\n  " + note;
+  for (const auto& [reason, figures] : findings.missed) {
+    findings.table.note += "\n";
+    for (const std::string& figure : figures) findings.table.note += (&figure == &figures.front() ? "  " : "; ") + figure;
+    findings.table.note += ":\n    " + reason;
+  }
   findings.report.tables.push_back(std::move(findings.table));
   if (auto drawn = findings.drawAll(); !drawn) return drawn.error();
   return std::move(findings.report);
