@@ -1,0 +1,37 @@
+#include "bench/experiments/exact.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace rill::bench {
+namespace {
+
+EllipticDrop derivative(const EllipticDrop& at) {
+  const double aa = at.a * at.a, bb = at.b * at.b;
+  return {-at.rate * at.a, at.rate * at.b, at.rate * at.rate * (aa - bb) / (aa + bb)};
+}
+
+EllipticDrop moved(const EllipticDrop& from, const EllipticDrop& by, double times) {
+  return {from.a + times * by.a, from.b + times * by.b, from.rate + times * by.rate};
+}
+
+}  // namespace
+
+EllipticDrop ellipticDrop(double time) {
+  constexpr int kSteps = 2000;  // of Runge and Kutta's fourth order: far below what a float holds
+  const double step = time / kSteps;
+  EllipticDrop drop;
+  for (int k = 0; k < kSteps; ++k) {
+    const EllipticDrop k1 = derivative(drop), k2 = derivative(moved(drop, k1, step / 2)), k3 = derivative(moved(drop, k2, step / 2)),
+                       k4 = derivative(moved(drop, k3, step));
+    drop = moved(moved(moved(moved(drop, k1, step / 6), k2, step / 3), k3, step / 3), k4, step / 6);
+  }
+  return drop;
+}
+
+double sloshPeriod(double length_m, double depth_m, double gravity) {
+  const double k = std::numbers::pi / length_m;
+  return 2 * std::numbers::pi / std::sqrt(gravity * k * std::tanh(k * depth_m));
+}
+
+}  // namespace rill::bench

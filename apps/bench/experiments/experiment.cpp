@@ -1,0 +1,59 @@
+#include "bench/experiments/experiment.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace rill::bench {
+
+Figure relativeFigure(std::string name, double measured, double expected) {
+  return {std::move(name), measured, expected, measured / expected - 1};
+}
+Figure plainFigure(std::string name, double error) { return {std::move(name), error, std::numeric_limits<double>::quiet_NaN(), error}; }
+
+std::string Experiment::name() const { return family + "@" + number(spacing_m, 4); }
+
+Expected<RunFigures> watch(const Bench& bench, const Scene& scene, double duration_s, double frame_s,
+                           const std::function<bool(double)>& wanted, const std::function<void(const Cloud&, double)>& look) {
+  SceneRun run;
+  run.scene = scene;
+  run.duration_s = duration_s;
+  run.frame_s = frame_s;
+  std::optional<Error> failed;
+  run.look = [&](offline::Simulation& simulation, double time_s) {
+    if (failed || !wanted(time_s)) return;
+    const auto particles = simulation.particles();
+    if (particles)
+      look(cloudOf(*particles, scene.fluid.spacing), time_s);
+    else
+      failed = particles.error();
+  };
+  auto figures = runScene(bench, run);
+  if (figures && failed) return *failed;
+  return figures;
+}
+
+Scene boxScene(double spacing_m, const Point& min, const Point& max) {
+  Scene scene;
+  scene.name = "validation";
+  scene.fluid.spacing = spacing_m;
+  scene.domain.emplace();
+  std::ranges::copy(min, scene.domain->min);
+  std::ranges::copy(max, scene.domain->max);
+  return scene;
+}
+
+Fill boxFill(const Point& min, const Point& max) {
+  Fill fill;
+  fill.box.emplace();
+  std::ranges::copy(min, fill.box->min);
+  std::ranges::copy(max, fill.box->max);
+  return fill;
+}
+
+Json curveJson(const std::vector<std::pair<double, double>>& curve) {
+  Json json = Json::array();
+  for (const auto& [x, y] : curve) json.push_back({x, y});
+  return json;
+}
+
+}  // namespace rill::bench

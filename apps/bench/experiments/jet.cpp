@@ -1,0 +1,83 @@
+// Torricelli: a tank runs out through a slit at its foot.
+#include <cmath>
+
+#include "bench/experiments/curves.hpp"
+#include "bench/experiments/experiment.hpp"
+
+namespace rill::bench {
+namespace {
+
+constexpr double kTank = 2, kDepth = 1, kSlit = 0.2, kWall = 0.2;  // m
+constexpr double kFrom = 0.6, kTo = 1.2;                           // s: the flow has started, the head is still high
+constexpr double kSpacing[kLevels] = {0.05, 1.0 / 30, 0.025};
+constexpr int kThick = 4;
+
+Expected<Outcome> jet(const Bench& bench, unsigned level) {
+  const double spacing = kSpacing[level], thick = kThick * spacing;
+  Scene scene = boxScene(spacing, {0, 0, 0}, {12, 2, thick});  // so long that nothing comes back
+  scene.fill.push_back(boxFill({0, 0, 0}, {kTank, kDepth, thick}));
+  Solid wall;
+  wall.box.emplace();
+  const double low[] = {kTank, kSlit, -1}, high[] = {kTank + kWall, 3, thick + 1};
+  for (size_t axis = 0; axis < 3; ++axis) {
+    wall.box->min[axis] = low[axis];
+    wall.box->max[axis] = high[axis];
+  }
+  scene.solids.push_back(wall);
+  Curve ratio, head, speeds, ideals, left;
+  auto run = watch(
+      bench, scene, kTo, 1.0 / 60, [](double) { return true; },
+      [&](const Cloud& cloud, double time) {
+        // The jet behind the wall, where it has contracted: from half a slit to two slits on.
+        double speed = 0, height = 0, count = 0, inside = 0;
+        for (size_t i = 0; i < cloud.size(); ++i) {
+          const double x = cloud.position[i][0];
+          if (x < kTank) ++inside;
+          if (x < kTank + kWall + 0.5 * kSlit || x > kTank + kWall + 2 * kSlit) continue;
+          speed += cloud.velocity[i][0];
+          height += cloud.position[i][1];
+          ++count;
+        }
+        left.emplace_back(time, inside / double(cloud.size()));
+        if (count == 0) return;
+        // As under a sluice gate: the jet's surface is a streamline without pressure, so head counts down to it. It lies at twice the
+        // height of the jet's mean.
+        const double level_m = surfaceLevel(cloud, 0, 0, kTank / 2), ideal = std::sqrt(2 * 9.81 * (level_m - 2 * height / count));
+        head.emplace_back(time, level_m);
+        speeds.emplace_back(time, speed / count);
+        ideals.emplace_back(time, ideal);
+        ratio.emplace_back(time, speed / count / ideal);
+      });
+  if (!run) return run.error();
+  Outcome outcome;
+  outcome.run = std::move(*run);
+  if (bench.stopped()) return outcome;
+  double sum = 0, ideal = 0, count = 0;
+  for (size_t k = 0; k < ratio.size(); ++k)
+    if (ratio[k].first >= kFrom) {
+      sum += ratio[k].second;
+      ideal += ideals[k].second;
+      ++count;
+    }
+  outcome.figures.push_back(relativeFigure("speed over Torricelli's", sum / count, 1));
+  // What left the tank, over what a slit without contraction would have let out: 0.611 of a sharp edge in plane flow.
+  const double volume = (at(left, kFrom) - at(left, kTo)) * kTank * kDepth;
+  outcome.figures.push_back(relativeFigure("contraction", volume / (kSlit * (kTo - kFrom) * ideal / count), 0.611));
+  outcome.curves["speed_m_s"] = curveJson(speeds);
+  outcome.curves["level_m"] = curveJson(head);
+  outcome.curves["ratio"] = curveJson(ratio);
+  outcome.curves["share_left"] = curveJson(left);
+  outcome.overlays.push_back({"jet", {"d = " + number(spacing) + " m", Series::Style::Lines, ratio, {}}});
+  return outcome;
+}
+
+}  // namespace
+
+std::vector<Experiment> jetExperiments() {
+  std::vector<Experiment> all;
+  for (unsigned level = 0; level < kLevels; ++level)
+    all.push_back({"torricelli", level, level == 0, kSpacing[level], [level](const Bench& bench) { return jet(bench, level); }});
+  return all;
+}
+
+}  // namespace rill::bench

@@ -1,0 +1,106 @@
+#include "bench/experiments/curves.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+#include "bench/experiments/exact.hpp"
+
+namespace rill::bench {
+namespace {
+
+const std::filesystem::path kPublished = std::filesystem::path(RILL_SOURCE_DIR) / "assets" / "validation";
+
+TEST(Curves, LinearBetweenSamplesAndHeldOutside) {
+  const Curve curve{{0, 1}, {1, 3}, {3, 3}};
+  EXPECT_EQ(at(curve, -1), 1);
+  EXPECT_EQ(at(curve, 0.5), 2);
+  EXPECT_EQ(at(curve, 2), 3);
+  EXPECT_EQ(at(curve, 9), 3);
+}
+
+TEST(Curves, AShiftIsFoundAndItsSignMeansLater) {
+  Curve curve, points;
+  for (double x = 0; x < 6; x += 0.01) curve.emplace_back(x, 1 + x * x);
+  for (double x = 1; x < 4; x += 0.3) points.emplace_back(x + 0.137, 1 + x * x);
+  const ShiftFit fit = fitShift(curve, points);
+  EXPECT_NEAR(fit.shift, 0.137, 1e-4);
+  EXPECT_LT(fit.shifted, 1e-4);
+  EXPECT_GT(fit.unshifted, 0.05);
+}
+
+TEST(Curves, AShiftDoesNotHideAWrongShape) {
+  Curve curve, points;
+  for (double x = 0; x < 6; x += 0.01) curve.emplace_back(x, 1 + 1.2 * x * x);
+  for (double x = 1; x < 4; x += 0.3) points.emplace_back(x, 1 + x * x);
+  const ShiftFit fit = fitShift(curve, points);
+  EXPECT_LT(fit.shifted, fit.unshifted);
+  EXPECT_GT(fit.shifted, 0.01);
+}
+
+TEST(Curves, PeriodAndDampingOfADampedSine) {
+  constexpr double kPeriod = 1.18, kDecrement = 0.2;
+  Curve curve;
+  for (int k = 0; k < 400; ++k) {
+    const double t = k / 60.0;
+    curve.emplace_back(t, 0.02 * std::exp(-kDecrement * t / kPeriod) * std::cos(2 * std::numbers::pi * t / kPeriod));
+  }
+  const Oscillation found = oscillation(curve, 0);
+  EXPECT_NEAR(found.period, kPeriod, 1e-3 * kPeriod);
+  EXPECT_NEAR(found.decrement, kDecrement, 0.01 * kDecrement);
+  EXPECT_GE(found.peaks.size(), 9u);
+}
+
+TEST(Curves, NoiseAfterTheWaveHasDiedIsNoCrossing) {
+  Curve curve;
+  for (int k = 0; k < 600; ++k) {
+    const double t = k / 60.0;
+    curve.emplace_back(t, t < 4.75 ? std::cos(2 * std::numbers::pi * t) : (k % 2 ? 0.001 : -0.001));
+  }
+  EXPECT_NEAR(oscillation(curve, 0).period, 1, 0.01);
+}
+
+TEST(Curves, TooFewCrossingsHaveNoPeriod) { EXPECT_TRUE(std::isnan(oscillation({{0, 1}, {1, 0.5}, {2, -0.1}}, 0).period)); }
+
+TEST(Curves, PublishedFilesAreRead) {
+  for (const char* name : {"martin_moyce_n2_1_front", "martin_moyce_n2_2_front", "martin_moyce_n2_1_height", "martin_moyce_n2_2_height"}) {
+    const auto curve = readCurve(kPublished / (std::string(name) + ".csv"));
+    ASSERT_TRUE(curve) << curve.error().message;
+    EXPECT_GE(curve->size(), 6u);
+  }
+  EXPECT_FALSE(readCurve(kPublished / "nothing.csv"));
+  EXPECT_FALSE(readCurve(kPublished / "README.md"));
+}
+
+TEST(Exact, EllipticDropIsThatOfTheTable) {
+  const auto table = readCurve(kPublished / "elliptic_drop.csv");
+  ASSERT_TRUE(table);
+  for (const auto& [time, axis] : *table) {
+    const EllipticDrop drop = ellipticDrop(time);
+    EXPECT_NEAR(drop.b, axis, 6e-4) << time;  // the table's last digit
+    EXPECT_NEAR(drop.a * drop.b, 1, 1e-9);
+  }
+}
+
+TEST(Exact, SloshPeriodsAreThoseOfTheTable) {
+  std::ifstream file(kPublished / "sloshing_first_mode.csv");
+  std::string line;
+  std::getline(file, line);
+  int rows = 0;
+  while (std::getline(file, line)) {
+    std::istringstream cells(line);
+    double length = 0, depth = 0, period = 0;
+    char comma = 0;
+    ASSERT_TRUE(cells >> length >> comma >> depth >> comma >> period);
+    EXPECT_NEAR(sloshPeriod(length, depth, 9.81), period, 1e-5);
+    ++rows;
+  }
+  EXPECT_EQ(rows, 3);
+}
+
+}  // namespace
+}  // namespace rill::bench
