@@ -28,7 +28,6 @@ std::string mebibytes(uint64_t bytes) {
   return text;
 }
 
-
 }  // namespace
 
 FluidMemory fluidMemory(const Scene& scene, uint64_t particles) {

@@ -1,7 +1,7 @@
 #pragma once
 // What a Fluid holds: its settings, its buffers, its pipelines.
-#include <cmath>
 #include <array>
+#include <cmath>
 #include <deque>
 #include <optional>
 

@@ -30,6 +30,7 @@ constexpr double kErrorOfHead =
     0.38;                           // mean compression of a column, over that of one which rests on its corrections alone (see errorOfHead)
 constexpr double kTravel = 1.2;     // spacings that the fastest particle may move before the list is rebuilt
 constexpr double kLeastCfl = 0.01;  // spacings a substep
+constexpr double kWarmLimit = 1;    // w is p dt^2 / (2 rho) for a pressure p: four times that of water as high as the room
 constexpr double kPushLow = 0.06;   // of the usual speed (setSpeeds): a correction may always add as much to a speed
 constexpr double kPushHigh = 0.5;   // and never more
 constexpr double kSpeedLimit = 8;   // of the usual speed: jets at walls reach two or three times that
@@ -182,6 +183,7 @@ void setSpeeds(const Scene& scene, const StartFigures& start, FluidParams& p) {
   for (int a = 0; a < 3; ++a) room[a] = std::max(start.extent[a], scene.domain ? scene.domain->max[a] - scene.domain->min[a] : 0);
   const double usual = std::sqrt(2 * headOf(scene, room) + start.fastest * start.fastest) + p.solidSpeed;
   constexpr double kNone = 1e18;  // m/s: where nothing bounds the way that something falls
+  p.warmLimit = f(kWarmLimit * usual * usual);
   p.pushLow = f(kPushLow * usual);
   p.pushHigh = f(closed ? kPushHigh * usual : kNone);
   p.speedLimit = f(closed ? kSpeedLimit * usual : kNone);

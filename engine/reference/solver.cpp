@@ -119,6 +119,7 @@ void ReferenceSolver::multipliers(bool firstIteration) {
     if (!firstIteration) continue;
     const double gain = settings.warmStart * (delta_[i] > 0 ? settings.warmRelease : 1.0);
     state.warm[i] = std::min(0.0, state.warm[i] + gain * delta_[i]);
+    if (std::isfinite(settings.warmLimit)) state.warm[i] = std::max(state.warm[i], -settings.warmLimit * step_ * step_);
   }
 }
 
@@ -155,7 +156,8 @@ void ReferenceSolver::velocities(double dt) {
   fastest_ = 0;  // before solids, as the shaders have it
   for (size_t i = 0; i < size(); ++i) {
     const double gain = glm::length(gained_[i]);
-    const glm::dvec3 excess = gain > mostGain ? gained_[i] * (1 - mostGain / gain) : glm::dvec3(0);
+    const double lost = gain > mostGain ? 1 - mostGain / gain : 0;
+    const glm::dvec3 excess = lost * (gained_[i] + 0.5 * (walled_[i] - gained_[i] - state.position[i]));
     if (finite(walled_[i])) fastest_ = std::max(fastest_, glm::length(walled_[i] - state.position[i] - excess) / dt);
     glm::dvec3 v = contact(i, (state.predicted[i] - state.position[i] - excess) / dt, dt, solids);
     const double speed = glm::length(v);

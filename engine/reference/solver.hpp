@@ -69,6 +69,7 @@ struct ReferenceSettings {
   int viscositySweeps = 1;                                      ///< n: XSPH sweeps a substep, each with c/n, which has to be below 1
   double vorticity = 0;                                         ///< eps_v, dimensionless, 0 .. 1
   double speedLimit = std::numeric_limits<double>::infinity();  ///< m/s, of a particle after a substep
+  double warmLimit = std::numeric_limits<double>::infinity();   ///< m^2/s^2: w is at least -warmLimit dt^2
   double pushLow =
       std::numeric_limits<double>::infinity();  ///< m/s: half of the fastest particle's speed, held between these, and 4 g dt on top,
   double pushHigh = std::numeric_limits<double>::infinity();  ///< is the most that the last correction may add to a particle's speed

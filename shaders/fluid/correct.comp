@@ -19,7 +19,7 @@ layout(std430, binding = 8) buffer PositionBlock { vec4 position[]; };
 layout(std430, binding = 9) buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 10) readonly buffer NearBlock { vec4 nearSample[]; };
 layout(std430, binding = 11) buffer PredictionBlock { vec4 prediction[]; };
-layout(std430, binding = 12) writeonly buffer PushBlock { vec4 pushAway[]; };
+layout(std430, binding = 12) buffer PushBlock { vec4 pushAway[]; };
 layout(std430, binding = 13) writeonly buffer FreeBlock { vec4 freeVelocity[]; };  // before the solve: what contacts compare with; w: the prediction's
 layout(std430, binding = 14) buffer WarmBlock { float warm[]; };
 
@@ -48,6 +48,15 @@ void visit(vec4 particle) {
 }
 #include "fluid/neighbours.glsl"
 
+// What the prediction moved by. Not as a difference of positions, whose rounding over a step is a random walk of the velocity, where nothing but
+// the step made the prediction.
+vec3 plannedWay(vec3 from, uint i) {
+  vec3 difference = here - from;
+  vec3 planned = control.step * (velocity[i].xyz + control.step * (gravity() + pushAway[i].xyz));
+  vec3 rounding = 3.0e-7 * (abs(from) + abs(here));
+  return all(lessThanEqual(abs(difference - planned), rounding)) ? planned : difference;
+}
+
 void main() {
   uint local = clusterInvocation();
   uint i = push.first + local;
@@ -73,7 +82,8 @@ void main() {
   vec3 gained = to - here;
   float gain = sqrt(dot(gained, gained));
   float mostGain = control.step * (clamp(0.5 * control.speed, params.pushLow, params.pushHigh) + 4.0 * control.step * sqrt(dot(gravity(), gravity())));
-  vec3 way = (here - from) + gained * min(1.0, mostGain / max(gain, 1.0e-20));
+  float kept = min(1.0, mostGain / max(gain, 1.0e-20));
+  vec3 way = (0.5 + 0.5 * kept) * plannedWay(from, i) + gained * kept;  // who overlaps by more has come too fast: that cools, too
   // No more than twice what cfl allows in a substep: the next step shrinks to follow a particle that wants to go faster.
   float most = max(2.0 * params.cfl, 0.02) * params.spacing;
   vec3 moves = to - from;

@@ -62,6 +62,7 @@ void main() {
     before = warm[i] * ratio * ratio;  // 0 while particles settle
     after = min(0.0, before + delta);
     warmNext = min(0.0, before + params.warmGain * (delta > 0.0 ? params.warmRelease : 1.0) * delta);
+    warmNext = max(warmNext, -params.warmLimit * control.nextStep * control.nextStep);  // fluid without room would wind it up for ever
     if (control.settling != 0u) warmNext = 0.0;
     warm[i] = warmNext;
   } else {

@@ -82,6 +82,7 @@ struct FluidParams {
   float solidSpeed;       // m/s, the fastest solid
   float pushLow, pushHigh;  // m/s: what a correction may add to a speed in a substep is held between them
   float speedLimit;       // m/s, of any particle
+  float warmLimit;        // m^2/s^2: the warm start is at most this times the step squared
   float boundLowX, boundLowY, boundLowZ;     // m, the domain, open sides too: who is beyond counts as outside
   float boundHighX, boundHighY, boundHighZ;
   uint fullNeighbours;    // within the support: a particle with as many is inside the fluid

@@ -60,6 +60,7 @@ reference::ReferenceSettings settingsOf(const Trial& trial) {
   s.viscositySweeps = scene.fluid.viscosity > 0 ? static_cast<int>(setupOf(trial).viscositySweeps) : 1;
   s.vorticity = scene.fluid.vorticity;
   const FluidSetup setup = setupOf(trial);
+  s.warmLimit = setup.params.warmLimit;
   s.pushLow = setup.params.pushLow;
   s.pushHigh = setup.params.pushHigh;
   return s;

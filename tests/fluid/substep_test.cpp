@@ -205,7 +205,7 @@ TEST_F(SubstepTest, RubsAndBounces) {
   t.x = block({7, 4, 7}, t.d(), {0.2, 0.26, 0.25}, 0.05);
   t.v.assign(t.x.size(), {1, -2, 0.5});
   expectEqual(t, 1, kOne, kOne);
-  expectEqual(t, 10, kTen, kTen);
+  expectEqual(t, 10, 1.5 * kTen, kTen);
 }
 
 TEST_F(SubstepTest, LoneParticleRubs) {

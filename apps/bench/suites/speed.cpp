@@ -111,7 +111,7 @@ Expected<Case> measured(Bench& bench, uint32_t wanted) {
   for (uint32_t k = 0; k < samplesOf(bench, wanted) && !bench.stopped(); ++k) {
     bench.step(made.name(), partsOf(wanted));
     const double frame_s = frameOf(*scene);
-    const auto run = runScene(bench, {*scene, (kFrames + 1.5) * frame_s, frame_s, false, {}});
+    const auto run = runScene(bench, {.scene = *scene, .duration_s = (kFrames + 1.5) * frame_s, .frame_s = frame_s});
     if (!run && isLimit(run.error())) {
       made.refused = run.error().message;
       return made;
