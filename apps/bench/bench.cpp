@@ -167,6 +167,9 @@ int runBench(const Options& options) {
     return apps::exitCodeBeforeRun(report.error());
   }
 
+  if (!options.only.empty() && report->results.empty() && apps::signalReceived() == 0)
+    return refuse(Error{ErrorKind::BadInput, "--only: no case of " + options.suite + " has " + inQuotes(options.only) + " in its name"});
+
   std::string text;
   for (const Table& table : report->tables) text += tableText(table) + "\n";
   for (const std::string& failure : report->failures) text += "FAILED " + failure + "\n";

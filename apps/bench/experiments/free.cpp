@@ -72,8 +72,9 @@ Expected<Outcome> flight(const Bench& bench, unsigned level) {
           speed = newSpeed;
           spin = newSpin;
         }
-        momentumDrift = std::max(momentumDrift, length(difference(newSpeed, speed)) / length(speed));
-        spinDrift = std::max(spinDrift, length(difference(newSpin, spin)) / length(spin));
+        // In this order a NaN stays one.
+        momentumDrift = std::max(length(difference(newSpeed, speed)) / length(speed), momentumDrift);
+        spinDrift = std::max(length(difference(newSpin, spin)) / length(spin), spinDrift);
         spins.emplace_back(time, newSpin[2]);
       });
   if (!run) return run.error();

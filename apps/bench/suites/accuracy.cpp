@@ -132,6 +132,7 @@ class Accuracy {
       for (Fill& fill : scene->fill) fill.jitter = 1e-3;
       auto ran = runScene(bench_, {.scene = *scene, .duration_s = c.duration_s, .frame_s = kFrame_s});
       if (!ran) return ran.error();
+      if (bench_.stopped()) return {};
       if (seed == 1) {
         length = std::max(ran->instants[0].stats.front_m, scene->fluid.spacing);
         energy = std::max(std::abs(ran->instants[0].stats.potential_J), 1e-12);
@@ -152,6 +153,7 @@ class Accuracy {
       for (uint32_t k = 0; k < bench_.options().repeat && !bench_.stopped(); ++k) {
         auto ran = runScene(bench_, {.scene = *scene, .duration_s = c.duration_s, .frame_s = kFrame_s});
         if (!ran) return ran.error();
+        if (bench_.stopped()) break;  // a run that was cut short is no sample
         if (k > 0 && ran->instants.back().stats.state_hash != m.run.instants.back().stats.state_hash)
           report_.failures.push_back(c.name + " " + setting.name + ": two runs do not agree to the last bit");
         m.wall.push_back(ran->wall_s / std::max(ran->simulated_s, 1e-12));
@@ -215,8 +217,12 @@ class Accuracy {
                  " substeps a frame, over first extent and energy; those runs are " + percent(chance) + " apart by chance.";
     report_.tables.push_back(std::move(table));
 
-    Plot first{
-        c.name + ": density error", "wall seconds a simulated second", "mean compression (solver's kernel, h = 2 d)", true, true, {}};
+    Plot first{c.name + ": density error",
+               "wall seconds a simulated second",
+               "mean compression (solver's kernel, h = 2 d if not said)",
+               true,
+               true,
+               {}};
     Plot second{c.name + ": trajectory error", "wall seconds a simulated second", "rms distance from converged runs", true, true, {}};
     std::vector<std::string> families;
     for (const Measured& m : measured)

@@ -62,6 +62,7 @@ struct Findings {
 
   void judge(const Experiment& experiment, const Figure& figure, Json& json) {
     const Band* band = bandOf(experiment.family, figure.name);
+    if (!band) report.failures.push_back(experiment.name() + ": " + figure.name + " has no band to keep");
     const std::string_view unit = band ? band->unit : std::string_view();
     const double aim = band ? band->aim : std::numeric_limits<double>::quiet_NaN();
     const double limit = band ? band->band[experiment.level] : std::numeric_limits<double>::infinity();
