@@ -56,7 +56,7 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
 
 }  // namespace
 
-Expected<CommandLine> parseCommandLine(int count, const char* const* arguments) {
+Expected<apps::CommandLine<Options>> parseCommandLine(int count, const char* const* arguments) {
   Raw raw;
   CLI::App app("Measures Rill: time against error, experiments, cost of each feature, stress.");
   app.name("rill-bench");
@@ -84,18 +84,13 @@ Expected<CommandLine> parseCommandLine(int count, const char* const* arguments) 
       "\nExit codes: 0 done, 1 failed while running, 2 bad usage, 3 a case did not hold what the suite asserts,\n"
       "4 no usable Vulkan device; 130, 143, 129 after a signal (what was measured by then is written).";
   app.footer(footer);
-  try {
-    app.parse(count, arguments);
-  } catch (const CLI::CallForVersion&) {
-    return CommandLine{std::nullopt, std::string("rill-bench ") + RILL_VERSION + "\n"};
-  } catch (const CLI::CallForHelp&) { return CommandLine{std::nullopt, app.help()}; } catch (const CLI::ParseError& error) {
-    return Error{ErrorKind::BadInput, apps::usageMessage(app, error) + "\ntry rill-bench --help"};
-  }
+  auto asked = apps::parsed(app, "rill-bench " RILL_VERSION, [&] { app.parse(count, arguments); });
+  if (!asked) return asked.error();
+  if (!asked->empty()) return apps::CommandLine<Options>{std::nullopt, std::move(*asked)};
   auto options = judged(raw, app);
   if (!options) return options.error();
-  options->command = "rill-bench";
-  for (int i = 1; i < count; ++i) options->command += " " + apps::shellQuoted(arguments[i]);
-  return CommandLine{std::move(*options), {}};
+  options->command = apps::commandText("rill-bench", count, arguments);
+  return apps::CommandLine<Options>{std::move(*options), {}};
 }
 
 }  // namespace rill::bench

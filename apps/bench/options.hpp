@@ -5,6 +5,7 @@
 #include <string>
 
 #include "rill/expected.hpp"
+#include "shared/program.hpp"
 
 namespace rill::bench {
 
@@ -20,13 +21,7 @@ struct Options {
   std::string command;  ///< the command line, quoted where a shell needs it
 };
 
-/// Options, or text that was asked for in place of a run (--help, --version).
-struct CommandLine {
-  std::optional<Options> options;
-  std::string text;
-};
-
 /// BadInput with a message that names the option, what was given and what was expected.
-Expected<CommandLine> parseCommandLine(int count, const char* const* arguments);
+Expected<apps::CommandLine<Options>> parseCommandLine(int count, const char* const* arguments);
 
 }  // namespace rill::bench

@@ -1,9 +1,6 @@
 // Drawing is gnuplot's: we write its program and its data, and take what it prints.
 #include "bench/plot.hpp"
 
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -12,6 +9,7 @@
 
 #include "core/words.hpp"
 #include "shared/atomic_file.hpp"
+#include "shared/temporary_folder.hpp"
 
 namespace rill::bench {
 namespace {
@@ -82,11 +80,9 @@ std::string plotProgram(std::span<const Plot> plots) {
 }
 
 Expected<void> writePlots(const fs::path& file, std::span<const Plot> plots) {
-  std::error_code ignored;
-  const fs::path folder = fs::temp_directory_path(ignored);
-  std::string pattern = (folder / "rill-bench-XXXXXX").string();
-  if (::mkdtemp(pattern.data()) == nullptr) return Error{ErrorKind::Io, "making a temporary folder in " + folder.string() + " failed"};
-  const fs::path place(pattern), program = place / "plot.gp", drawn = place / "plot.svg", said = place / "said";
+  auto folder = apps::TemporaryFolder::make();
+  if (!folder) return folder.error();
+  const fs::path program = folder->path() / "plot.gp", drawn = folder->path() / "plot.svg", said = folder->path() / "said";
   std::ofstream(program) << plotProgram(plots);
   const std::string command = "gnuplot '" + program.string() + "' >'" + drawn.string() + "' 2>'" + said.string() + "'";
   const int status = std::system(command.c_str());
@@ -96,7 +92,6 @@ Expected<void> writePlots(const fs::path& file, std::span<const Plot> plots) {
     return text.str();
   };
   const std::string svg = content(drawn), message = content(said);
-  fs::remove_all(place, ignored);
   if (status != 0 || svg.find("</svg>") == std::string::npos)
     return Error{ErrorKind::Io, file.string() + ": gnuplot did not draw it: " + message.substr(0, 400)};
   return apps::writeFile(file, svg);

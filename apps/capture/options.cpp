@@ -222,7 +222,7 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
 
 }  // namespace
 
-Expected<CommandLine> parseCommandLine(int count, const char* const* arguments) {
+Expected<apps::CommandLine<Options>> parseCommandLine(int count, const char* const* arguments) {
   Raw raw;
   CLI::App app(
       "Runs a fluid scene without a window and writes pictures, particles and figures.\n"
@@ -245,18 +245,13 @@ Expected<CommandLine> parseCommandLine(int count, const char* const* arguments) 
              "4 no usable Vulkan device; 130, 143, 129 after a signal (the frame in hand is finished first).");
   std::vector<std::string> spread = spreadLists(count, arguments);
   std::reverse(spread.begin(), spread.end());  // the order in which the library takes a vector
-  try {
-    app.parse(spread);
-  } catch (const CLI::CallForVersion&) {
-    return CommandLine{std::nullopt, std::string("rill-capture ") + RILL_VERSION + "\n"};
-  } catch (const CLI::CallForHelp&) { return CommandLine{std::nullopt, app.help()}; } catch (const CLI::ParseError& error) {
-    return Error{ErrorKind::BadInput, apps::usageMessage(app, error) + "\ntry rill-capture --help"};
-  }
+  auto asked = apps::parsed(app, "rill-capture " RILL_VERSION, [&] { app.parse(spread); });
+  if (!asked) return asked.error();
+  if (!asked->empty()) return apps::CommandLine<Options>{std::nullopt, std::move(*asked)};
   auto options = judged(raw, app);
   if (!options) return options.error();
-  options->command = "rill-capture";
-  for (int i = 1; i < count; ++i) options->command += " " + apps::shellQuoted(arguments[i]);
-  return CommandLine{std::move(*options), {}};
+  options->command = apps::commandText("rill-capture", count, arguments);
+  return apps::CommandLine<Options>{std::move(*options), {}};
 }
 
 }  // namespace rill::capture

@@ -8,6 +8,7 @@
 #include "capture/requirement.hpp"
 #include "rill/expected.hpp"
 #include "rill/scene_io.hpp"
+#include "shared/program.hpp"
 
 namespace rill::capture {
 
@@ -36,13 +37,7 @@ struct Options {
   std::string command;    ///< the command line, quoted where a shell needs it
 };
 
-/// Options, or text that was asked for in place of a run (--help, --version).
-struct CommandLine {
-  std::optional<Options> options;
-  std::string text;
-};
-
 /// BadInput with a message that names the option, what was given and what was expected.
-Expected<CommandLine> parseCommandLine(int count, const char* const* arguments);
+Expected<apps::CommandLine<Options>> parseCommandLine(int count, const char* const* arguments);
 
 }  // namespace rill::capture

@@ -7,10 +7,10 @@ namespace rill::apps {
 
 /// How far counted work is.
 struct ProgressState {
-  std::string_view unit;         ///< what is counted, "frame"
+  std::string_view unit;  ///< what is counted, "frame"
   uint32_t done = 0, total = 0;
-  std::string about;             ///< of what is at hand, "t 0.033 s"
-  double elapsed_s = 0;          ///< wall time since the first was begun
+  std::string about;     ///< of what is at hand, "t 0.033 s"
+  double elapsed_s = 0;  ///< wall time since the first was begun
 };
 
 /// "1 h 02 min", "3 min 05 s", "12 s".

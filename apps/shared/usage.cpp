@@ -4,6 +4,7 @@
 #include "shared/words.hpp"
 
 namespace rill::apps {
+namespace {
 
 std::string usageMessage(const CLI::App& app, const CLI::ParseError& error) {
   if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return error.what();
@@ -26,6 +27,25 @@ std::string shellQuoted(std::string_view argument) {
   std::string text = "'";
   for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return text + "'";
+}
+
+}  // namespace
+
+Expected<std::string> parsed(CLI::App& app, const std::string& version, const std::function<void()>& parse) {
+  try {
+    parse();
+  } catch (const CLI::CallForVersion&) { return version + "\n"; } catch (const CLI::CallForHelp&) {
+    return app.help();
+  } catch (const CLI::ParseError& error) {
+    return Error{ErrorKind::BadInput, usageMessage(app, error) + "\ntry " + app.get_name() + " --help"};
+  }
+  return std::string();
+}
+
+std::string commandText(std::string_view program, int count, const char* const* arguments) {
+  std::string text(program);
+  for (int i = 1; i < count; ++i) text += " " + shellQuoted(arguments[i]);
+  return text;
 }
 
 }  // namespace rill::apps

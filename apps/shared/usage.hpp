@@ -1,15 +1,19 @@
 #pragma once
 // What the command lines share. Needs CLI11.
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <string>
 #include <string_view>
 
+#include "rill/expected.hpp"
+
 namespace rill::apps {
 
-/// The library's own message, with the nearest option for one that it does not know.
-std::string usageMessage(const CLI::App& app, const CLI::ParseError& error);
+/// Calls `parse`, which has `app` parse. Empty, or the text that --help or --version asks for; BadInput with the library's own message, and
+/// the nearest option for one that it does not know. `version`: "rill-capture 0.1.0".
+Expected<std::string> parsed(CLI::App& app, const std::string& version, const std::function<void()>& parse);
 
-/// An argument as one would type it in a shell.
-std::string shellQuoted(std::string_view argument);
+/// The command as one would type it in a shell.
+std::string commandText(std::string_view program, int count, const char* const* arguments);
 
 }  // namespace rill::apps

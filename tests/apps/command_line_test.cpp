@@ -109,7 +109,7 @@ TEST(CommandLine, PlacesAreJudgedBeforeADeviceIsOpened) {
   expectRefused({"scene.json", "--resume", "scene.json"}, {"--resume", "is no checkpoint"});
 }
 
-Expected<rill::capture::CommandLine> parsed(std::vector<const char*> arguments) {
+Expected<rill::apps::CommandLine<capture::Options>> parsed(std::vector<const char*> arguments) {
   arguments.insert(arguments.begin(), "rill-capture");
   return rill::capture::parseCommandLine(static_cast<int>(arguments.size()), arguments.data());
 }

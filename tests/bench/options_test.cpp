@@ -8,7 +8,7 @@
 namespace rill::bench {
 namespace {
 
-Expected<CommandLine> parsed(std::vector<const char*> arguments) {
+Expected<apps::CommandLine<Options>> parsed(std::vector<const char*> arguments) {
   arguments.insert(arguments.begin(), "rill-bench");
   return parseCommandLine(static_cast<int>(arguments.size()), arguments.data());
 }

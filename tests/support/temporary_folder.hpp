@@ -1,6 +1,4 @@
 #pragma once
-#include <stdlib.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -9,28 +7,19 @@
 #include <system_error>
 #include <vector>
 
+#include "shared/temporary_folder.hpp"
+
 namespace rill::test {
 
 /// A folder of a test's own, removed at its end.
 class TemporaryFolder {
  public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "rill-XXXXXX").string();
-    if (::mkdtemp(name.data())) path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  std::string string() const { return path_.string(); }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return folder_->path(); }
+  std::string string() const { return path().string(); }
+  std::filesystem::path operator/(const std::string& name) const { return path() / name; }
 
   /// Names in the folder, hidden ones too, sorted.
-  std::vector<std::string> names() const { return namesIn(path_); }
+  std::vector<std::string> names() const { return namesIn(path()); }
   static std::vector<std::string> namesIn(const std::filesystem::path& folder) {
     std::vector<std::string> names;
     std::error_code failed;
@@ -41,12 +30,12 @@ class TemporaryFolder {
   }
 
   std::filesystem::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return path_ / name;
+    std::ofstream(path() / name, std::ios::binary) << text;
+    return path() / name;
   }
 
  private:
-  std::filesystem::path path_;
+  Expected<apps::TemporaryFolder> folder_ = apps::TemporaryFolder::make();
 };
 
 inline std::string contentOf(const std::filesystem::path& file) {

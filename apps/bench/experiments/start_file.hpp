@@ -3,6 +3,7 @@
 
 #include "bench/experiments/measures.hpp"
 #include "rill/expected.hpp"
+#include "shared/temporary_folder.hpp"
 
 namespace rill::bench {
 
@@ -12,15 +13,12 @@ class StartFile {
  public:
   /// Io, naming the file.
   static Expected<StartFile> write(const Cloud& cloud);
-  StartFile(StartFile&& other) noexcept;
-  StartFile& operator=(StartFile&&) = delete;
-  ~StartFile();
   Fill fill() const;
 
  private:
-  explicit StartFile(std::filesystem::path folder) : folder_(std::move(folder)) {}
-  std::filesystem::path file() const { return folder_ / "start.ply"; }
-  std::filesystem::path folder_;
+  explicit StartFile(apps::TemporaryFolder folder) : folder_(std::move(folder)) {}
+  std::filesystem::path file() const { return folder_.path() / "start.ply"; }
+  apps::TemporaryFolder folder_;
 };
 
 }  // namespace rill::bench
