@@ -32,24 +32,6 @@ Expected<RunFigures> watch(const Bench& bench, const Scene& scene, double durati
   return figures;
 }
 
-Scene boxScene(double spacing_m, const Point& min, const Point& max) {
-  Scene scene;
-  scene.name = "validation";
-  scene.fluid.spacing = spacing_m;
-  scene.domain.emplace();
-  std::ranges::copy(min, scene.domain->min);
-  std::ranges::copy(max, scene.domain->max);
-  return scene;
-}
-
-Fill boxFill(const Point& min, const Point& max) {
-  Fill fill;
-  fill.box.emplace();
-  std::ranges::copy(min, fill.box->min);
-  std::ranges::copy(max, fill.box->max);
-  return fill;
-}
-
 Json curveJson(const std::vector<std::pair<double, double>>& curve) {
   Json json = Json::array();
   for (const auto& [x, y] : curve) json.push_back({x, y});

@@ -7,6 +7,7 @@
 
 #include "bench/bench.hpp"
 #include "bench/experiments/measures.hpp"
+#include "bench/scenes.hpp"
 
 namespace rill::bench {
 
@@ -54,10 +55,6 @@ std::vector<Experiment> jetExperiments();
 /// Runs a scene and calls `look` with the particles at the multiples of `frame_s` that `wanted` names.
 Expected<RunFigures> watch(const Bench& bench, const Scene& scene, double duration_s, double frame_s,
                            const std::function<bool(double time_s)>& wanted, const std::function<void(const Cloud&, double time_s)>& look);
-
-/// Default settings in a box of walls.
-Scene boxScene(double spacing_m, const Point& min, const Point& max);
-Fill boxFill(const Point& min, const Point& max);
 
 /// Points as [[x, y], ...].
 Json curveJson(const std::vector<std::pair<double, double>>& curve);

@@ -9,11 +9,10 @@
 #include <unordered_map>
 #include <vector>
 
+#include "bench/scenes.hpp"
 #include "rill/offline.hpp"
 
 namespace rill::bench {
-
-using Point = std::array<double, 3>;
 
 /// Particles of one instant, in the order of their birth.
 struct Cloud {

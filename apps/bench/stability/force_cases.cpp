@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bench/experiments/measures.hpp"
 #include "bench/stability/stress_case.hpp"
 #include "fluid/settings.hpp"
 
@@ -26,18 +27,6 @@ StressCase scaled(const std::string& name, double spacing) {
   return c;
 }
 
-double levelOf(const Outcome& o, double spacing) {
-  double highest = 0;
-  for (const Float3& p : o.particles.positions) highest = std::max(highest, double(p.y));
-  return highest + 0.5 * spacing;
-}
-
-double rms(const Outcome& o) {
-  double sum = 0;
-  for (const Float3& v : o.particles.velocities) sum += double(v.x) * v.x + double(v.y) * v.y + double(v.z) * v.z;
-  return o.particles.velocities.empty() ? 0 : std::sqrt(sum / double(o.particles.velocities.size()));
-}
-
 }  // namespace
 
 std::vector<StressCase> forceCases() {
@@ -49,7 +38,7 @@ std::vector<StressCase> forceCases() {
     scene.solver.tolerance = 0;
     scene.solver.cfl = 10;
     StressCase c = make("step-" + number(step) + "-s", "with one substep a frame what does not fit is reported as dropped", scene);
-    c.own = [](const Outcome& o) { return o.run.time_dropped_s > 0 ? std::string() : std::string("no time was dropped"); };
+    c.own = [](const StressOutcome& o) { return o.run.time_dropped_s > 0 ? std::string() : std::string("no time was dropped"); };
     cases.push_back(std::move(c));
   }
   {
@@ -66,7 +55,7 @@ std::vector<StressCase> forceCases() {
     c.mostSpeed = 1;
     c.duration_s = 10;
     c.frame_s = 0.1;
-    c.own = [](const Outcome& o) {
+    c.own = [](const StressOutcome& o) {
       const auto &a = o.run.instants.front().stats.momentum, &b = o.run.instants.back().stats.momentum;
       const double change = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]) / std::hypot(a[0], a[1], a[2]);
       return change > 1e-5 ? "it changed by " + number(change) : std::string();
@@ -110,8 +99,9 @@ std::vector<StressCase> forceCases() {
     StressCase c = make("column-100-layers", "level within 1 %; rms speed under 0.01 sqrt(g d) = 4.4 mm/s", column);
     c.duration_s = 2;
     c.full = true;
-    c.own = [](const Outcome& o) {
-      const double level = levelOf(o, d), speed = rms(o);
+    c.own = [](const StressOutcome& o) {
+      const Cloud cloud = cloudOf(o.particles, d);
+      const double level = surfaceLevel(cloud, 0, 0, 10 * d), speed = rmsSpeed(cloud);
       if (std::abs(level - 2) > 0.02) return "level " + number(level, 4) + " m of 2 m";
       return speed > 0.01 * std::sqrt(9.81 * d) ? "rms speed " + number(speed) + " m/s" : std::string();
     };
@@ -128,7 +118,7 @@ std::vector<StressCase> forceCases() {
     c.worked = true;
     c.duration_s = 1.5;
     c.mostSpeed = 60;
-    c.own = [](const Outcome& o) {
+    c.own = [](const StressOutcome& o) {
       const double speed = o.run.instants.back().stats.max_speed;
       return speed > 2 ? "it still moves at " + number(speed) + " m/s" : std::string();
     };

@@ -5,20 +5,9 @@
 
 namespace rill::bench {
 
-Scene tankScene(double spacing, const double (&fluid)[3], const double (&tank)[3]) {
-  Scene scene;
-  scene.name = "stress";
-  scene.fluid.spacing = spacing;
-  Domain domain;
-  Fill fill;
-  fill.box = BoxShape{};
-  for (int axis = 0; axis < 3; ++axis) {
-    domain.min[axis] = fill.box->min[axis] = 0;
-    domain.max[axis] = tank[axis];
-    fill.box->max[axis] = fluid[axis];
-  }
-  scene.domain = domain;
-  if (fluid[0] > 0) scene.fill.push_back(fill);
+Scene tankScene(double spacing, const Point& fluid, const Point& tank) {
+  Scene scene = boxScene(spacing, {0, 0, 0}, tank);
+  if (fluid[0] > 0) scene.fill.push_back(boxFill({0, 0, 0}, fluid));
   return scene;
 }
 

@@ -8,8 +8,8 @@ namespace rill::bench {
 namespace {
 
 constexpr double kSpacing = 0.05;
-constexpr double kRoom[3] = {1, 1, 1};
-constexpr double kNothing[3] = {0, 0, 0};
+constexpr Point kRoom = {1, 1, 1};
+constexpr Point kNothing = {0, 0, 0};
 
 Scene room() { return tankScene(kSpacing, kNothing, kRoom); }
 Scene weightless(Scene scene) {
@@ -45,7 +45,7 @@ std::vector<StressCase> startCases() {
     StressCase c = make("coincident-pair", "they part, with no momentum", open, placed({{0, 0, 0}, {0, 0, 0}}));
     c.mostSpeed = 1;
     c.mostEnergy = std::numeric_limits<double>::infinity();
-    c.own = [](const Outcome& o) {
+    c.own = [](const StressOutcome& o) {
       const double distance = apart(o.particles.positions[0], o.particles.positions[1]);
       if (distance < 0.01 * kSpacing) return "they are " + number(distance / kSpacing) + " d apart";
       const auto& p = o.run.instants.back().stats.momentum;
@@ -58,7 +58,7 @@ std::vector<StressCase> startCases() {
     StressCase c = make("thousand-coincident", "they spread", weightless(room()), placed(std::vector<Float3>(1000, {0.5f, 0.5f, 0.5f})));
     c.mostSpeed = 20;
     c.mostEnergy = std::numeric_limits<double>::infinity();
-    c.own = [](const Outcome& o) {
+    c.own = [](const StressOutcome& o) {
       double farthest = 0;
       for (const Float3& p : o.particles.positions) farthest = std::max(farthest, apart(p, {0.5f, 0.5f, 0.5f}));
       return farthest < 3 * kSpacing ? "the farthest is " + number(farthest / kSpacing) + " d away" : std::string();
@@ -70,7 +70,7 @@ std::vector<StressCase> startCases() {
     open.domain.reset();
     StressCase c = make("single-particle", "it falls by the formula, to 1e-3", open, placed({{0, 0, 0}}, {1, 2, 0}));
     c.mostSpeed = 20;
-    c.own = [](const Outcome& o) {
+    c.own = [](const StressOutcome& o) {
       const double t = o.run.simulated_s;
       const Float3& p = o.particles.positions[0];
       // Symplectic Euler is ahead of the parabola by g t dt / 2, for steps of one length.
@@ -147,7 +147,7 @@ std::vector<StressCase> startCases() {
                         placed(lattice(12, 12, 12, 0.4 * kSpacing, {0.1f, 0.05f, 0.1f})));
     c.mostSpeed = 20;
     c.mostEnergy = std::numeric_limits<double>::infinity();
-    c.own = [](const Outcome& o) {
+    c.own = [](const StressOutcome& o) {
       return o.run.instants.front().stats.neighbour_overflow > 0 ? std::string() : std::string("no overflow was counted");
     };
     cases.push_back(std::move(c));
@@ -162,7 +162,7 @@ std::vector<StressCase> startCases() {
   {
     StressCase c = make("one-in-each-cell", "all fall freely", room(), placed(lattice(7, 2, 7, 2.5 * kSpacing, {0.1f, 0.6f, 0.1f})));
     c.duration_s = 0.2;
-    c.own = [](const Outcome& o) {
+    c.own = [](const StressOutcome& o) {
       const double fallen = 0.5 * 9.81 * 0.04;
       for (size_t k = 0; k < o.particles.positions.size(); ++k) {
         const double from = k / 7 % 2 == 0 ? 0.6 : 0.6 + 2.5 * kSpacing;

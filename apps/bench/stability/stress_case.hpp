@@ -5,11 +5,12 @@
 #include <vector>
 
 #include "bench/bench.hpp"
+#include "bench/scenes.hpp"
 
 namespace rill::bench {
 
 /// What a stress case ended with.
-struct Outcome {
+struct StressOutcome {
   RunFigures run;
   offline::Particles particles;  ///< of the last instant, by id
 };
@@ -31,11 +32,11 @@ struct StressCase {
   std::optional<Scene> like;  ///< a scene for 0.5 s, of which this is the same at another size or place: errors and energy agree
   bool twice = false;         ///< run again: the same bits, and no drift of the energy
   bool full = false;          ///< too long for a quick run
-  std::function<std::string(const Outcome&)> own;  ///< empty: it holds; else what was found and what was expected
+  std::function<std::string(const StressOutcome&)> own;  ///< empty: it holds; else what was found and what was expected
 };
 
 /// A box of fluid of `spacing` in a tank, both from the origin, m.
-Scene tankScene(double spacing, const double (&fluid)[3], const double (&tank)[3]);
+Scene tankScene(double spacing, const Point& fluid, const Point& tank);
 /// Particles at these places, at rest or moving.
 ParticleSet placed(std::vector<Float3> positions, const Float3& velocity = {});
 /// A bound of speeds that any real flow of the scene keeps: a few times what falling through all the room gives, and what it starts with.

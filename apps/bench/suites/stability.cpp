@@ -11,7 +11,7 @@ namespace {
 constexpr uint64_t kQuickRandom = 12, kRandom = 200;
 
 /// What did not hold of a run that was not refused; empty: all did.
-std::string judged(const StressCase& c, const Outcome& o, uint64_t particles) {
+std::string judged(const StressCase& c, const StressOutcome& o, uint64_t particles) {
   const RunFigures& run = o.run;
   for (const apps::Instant& instant : run.instants) {
     const offline::Stats& s = instant.stats;
@@ -71,7 +71,7 @@ class Stability {
 
  private:
   Expected<void> runCase(const StressCase& c) {
-    Outcome outcome;
+    StressOutcome outcome;
     const auto last = static_cast<uint64_t>(c.duration_s / c.frame_s + 1e-6);
     uint64_t seen = 0, particles = c.start ? c.start->positions.size() : 0;
     Expected<void> read;
@@ -124,7 +124,7 @@ class Stability {
   }
 
   /// A second run gives the same bits, and the mean energy of the last quarter lies no higher than that of the third.
-  std::string again(const StressCase& c, const Outcome& first) {
+  std::string again(const StressCase& c, const StressOutcome& first) {
     auto second = runScene(bench_, {.scene = c.scene, .start = c.start, .duration_s = c.duration_s, .frame_s = c.frame_s});
     if (!second) return second.error().message;
     if (bench_.stopped()) return {};
@@ -140,7 +140,7 @@ class Stability {
     return !(late <= 1.001 * early) ? "energy rose from " + number(early, 6) + " to " + number(late, 6) + " J" : std::string();
   }
 
-  std::string alike(const Scene& usual, const Outcome& outcome) {
+  std::string alike(const Scene& usual, const StressOutcome& outcome) {
     auto other = runScene(bench_, {.scene = usual, .duration_s = 0.5});
     if (!other) return other.error().message;
     if (bench_.stopped()) return {};

@@ -1,0 +1,14 @@
+#pragma once
+#include <array>
+
+#include "rill/scene.hpp"
+
+namespace rill::bench {
+
+using Point = std::array<double, 3>;
+
+/// Default settings in a box of walls, m.
+Scene boxScene(double spacing_m, const Point& min, const Point& max);
+Fill boxFill(const Point& min, const Point& max);
+
+}  // namespace rill::bench
