@@ -37,6 +37,7 @@ FluidMemory fluidMemory(const Scene& scene, uint64_t particles) {
   uint64_t each = 6 * 16 + 6 * 4 + (3 * 16 + 8 + 4);
   if (scene.solver.iterations > 1) each += 4;
   if (scene.fluid.viscosity > 0 || scene.fluid.vorticity > 0) each += 2 * 16;
+  if (scene.fluid.viscosity <= 0 && calmingViscosity(scene) > 0) each += 16;
   if (!scene.solids.empty()) each += 16;
   memory.particle_bytes = each * (particles + 1);
   memory.list_bytes = blocks(particles) * kListBlock * listEntries(scene) * 4;
@@ -219,15 +220,15 @@ Expected<void> FluidImpl::makePipelines(Device& device) {
     make(pipes_.walls.corner, "fluid/walls", plain(2, 6), 0, {1, p.solidCount > 0, setup.thin ? 2u : 1u});
   }
   if (p.solidCount > 0) make(pipes_.collide, "fluid/collide", plain(2, 11), 0, {0});
-  if (p.solidCount > 0 && (setup.viscositySweeps > 0 || p.vorticity > 0)) make(pipes_.collideAgain, "fluid/collide", plain(2, 11), 0, {1});
+  const bool smooths = setup.viscositySweeps > 0 || p.calmingRate > 0;
+  if (p.solidCount > 0 && (smooths || p.vorticity > 0)) make(pipes_.collideAgain, "fluid/collide", plain(2, 11), 0, {1});
   if (setup.movingSolids) make(pipes_.pose, "fluid/pose", plain(2, 2), 0);
   gather(pipes_.density, "fluid/density", storages(4), sizeof(ChunkPush), {nearWalls, p.iterations > 1});
   gather(pipes_.correct, "fluid/correct", storages(7), sizeof(ChunkPush), {nearWalls, p.tensile > 0, p.solidCount > 0});
   if (p.iterations > 1) gather(pipes_.iterate, "fluid/iterate", storages(2), sizeof(ChunkPush), {nearWalls, p.tensile > 0});
   const BindingKind vectors = texel_ ? TexelFloat4 : Storage;
-  if (setup.viscositySweeps > 0)
-    gather(pipes_.viscosity, "fluid/viscosity", {vectors, Storage, Storage, Storage, Storage}, sizeof(SweepPush));
-  if (setup.viscositySweeps % 2 == 1) make(pipes_.keep, "fluid/keep", plain(2, 2), sizeof(ChunkPush));
+  if (smooths) gather(pipes_.viscosity, "fluid/viscosity", {vectors, Storage, Storage, Storage, Storage}, sizeof(SweepPush));
+  if (setup.viscositySweeps % 2 == 1 || p.calmingRate > 0) make(pipes_.keep, "fluid/keep", plain(2, 2), sizeof(ChunkPush));
   if (p.vorticity > 0) {
     gather(pipes_.curl, "fluid/curl", {vectors, Storage}, sizeof(ChunkPush));
     gather(pipes_.confine, "fluid/confine", {vectors, Storage, Storage, Storage, Storage}, sizeof(ChunkPush));

@@ -97,9 +97,10 @@ class FluidImpl {
   void declareUpload(Graph& graph);
   void declareBegin(Graph& graph, double advance);
   void declareRebuild(Graph& graph);
-  void declareSubstep(Graph& graph, uint32_t parity);
+  void declareSubstep(Graph& graph, uint32_t parity, bool first);  ///< first of its block
   void declareCollide(Graph& graph, std::string_view name, const ComputePipeline* pipeline, BufferRef free, uint32_t parity);
-  void declareTerms(Graph& graph, uint32_t parity);
+  void declareTerms(Graph& graph, uint32_t parity, bool calms);
+  void declareSweeps(Graph& graph, std::string_view name, uint32_t sweeps, uint32_t command, float share);
   void declareMeasure(Graph& graph, Pending& pending);
   void declareSkipped(Graph& graph);
   uint32_t chunkCount() const { return static_cast<uint32_t>(chunks_.size()); }

@@ -286,9 +286,10 @@ static void wallPass(Graph& graph, FluidRefs& r, std::string_view name, const Wa
   });
 }
 
-void FluidImpl::declareSubstep(Graph& graph, uint32_t parity) {
+void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
   const FluidParams& p = setup.params;
   const std::span<const Chunk> chunks(chunks_);
+  const bool calms = first && p.calmingRate > 0;
   if (setup.movingSolids) {
     graph.pass("move solids", [&](Pass& pass) {
       pass.read(r_.params, Use::ComputeUniform);
@@ -301,8 +302,8 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity) {
     });
   }
   for (uint32_t iteration = 0; iteration < p.iterations; ++iteration) {
-    const bool first = iteration == 0;
-    if (!first) {
+    const bool again = iteration > 0;
+    if (again) {
       gatherPass(graph, r_, texel_, chunks, "iterate", pipes_.iterate, r_.work, kCommandIterate, ChunkPush{0, 0, iteration},
                  [&](Pass& pass, BindingList& bindings) {
                    pass.read(r_.nearSample, Use::ComputeRead);
@@ -311,10 +312,10 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity) {
                  });
     }
     if (setup.near) {
-      wallPass(graph, r_, "walls and solids", pipes_.walls, r_.prediction, first ? kCommandPlane : kCommandPlaneAgain,
-               first ? kCommandCorner : kCommandCornerAgain);
+      wallPass(graph, r_, "walls and solids", pipes_.walls, r_.prediction, again ? kCommandPlaneAgain : kCommandPlane,
+               again ? kCommandCornerAgain : kCommandCorner);
     }
-    gatherPass(graph, r_, texel_, chunks, "density", pipes_.density, r_.prediction, first ? kCommandDensity : kCommandIterate,
+    gatherPass(graph, r_, texel_, chunks, "density", pipes_.density, r_.prediction, again ? kCommandIterate : kCommandDensity,
                ChunkPush{0, 0, iteration}, [&](Pass& pass, BindingList& bindings) {
                  pass.read(r_.nearSample, Use::ComputeRead);
                  for (BufferRef* ref : {&r_.warm, &r_.work, &r_.multiplier}) *ref = pass.write(*ref, Use::ComputeWrite);
@@ -328,7 +329,7 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity) {
       r_.sums = pass.write(r_.sums, Use::ComputeWrite);
       r_.commands = pass.write(r_.commands, Use::ComputeWrite);
       const Kernel kernel = pass.kernel(pipes_.control, {r_.params, r_.control, r_.sums, r_.shapes, r_.commands, r_.gravity});
-      const ControlPush push{iteration, parity, commandCount()};
+      const ControlPush push{iteration, parity, commandCount(), calms};
       return [=](Commands& commands) { commands.dispatch(kernel, 1, push); };
     });
   }
@@ -343,9 +344,9 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity) {
         bindings.add({r_.position, r_.velocity, r_.nearSample, r_.prediction, r_.pushAway, p.solidCount > 0 ? free : r_.velocity, r_.warm});
       });
   if (p.solidCount > 0) declareCollide(graph, "collide", pipes_.collide, free, parity);
-  declareTerms(graph, parity);
+  declareTerms(graph, parity, calms);
   // Those have predicted anew, with walls but without solids.
-  if (p.solidCount > 0 && (setup.viscositySweeps > 0 || p.vorticity > 0))
+  if (p.solidCount > 0 && (setup.viscositySweeps > 0 || calms || p.vorticity > 0))
     declareCollide(graph, "collide again", pipes_.collideAgain, free, parity);
 }
 
@@ -365,49 +366,51 @@ void FluidImpl::declareCollide(Graph& graph, std::string_view name, const Comput
   });
 }
 
-// Viscosity and vorticity confinement, where the scene has them.
-void FluidImpl::declareTerms(Graph& graph, uint32_t parity) {
+// Sweeps of XSPH, there and back between the velocities and a copy.
+void FluidImpl::declareSweeps(Graph& graph, std::string_view name, uint32_t sweeps, uint32_t command, float share) {
+  const Use use = texel_ ? Use::ComputeTexel : Use::ComputeRead;
+  BufferRef from = r_.velocity;
+  BufferRef other = graph.create("smoothed velocities", {(uint64_t{count} + 1) * 16});
+  for (uint32_t sweep = 0; sweep < sweeps; ++sweep) {
+    BufferRef to;
+    gatherPass(graph, r_, texel_, chunks_, name, pipes_.viscosity, r_.work, command, SweepPush{0, 0, share},
+               [&](Pass& pass, BindingList& bindings) {
+                 pass.read(from, use);
+                 pass.read(r_.pushAway, Use::ComputeRead);
+                 to = pass.write(other, Use::ComputeWrite, true);
+                 r_.prediction = pass.write(r_.prediction, Use::ComputeWrite);
+                 pass.read(r_.position, Use::ComputeRead);
+                 bindings.add({from, to, r_.prediction, r_.pushAway, r_.position});
+               });
+    other = from;
+    from = to;
+  }
+  r_.velocity = sweeps % 2 == 0 ? from : other;
+  if (sweeps % 2 == 0) return;
+  graph.pass("keep velocities", [&](Pass& pass) {
+    pass.read(r_.params, Use::ComputeUniform);
+    pass.read(r_.control, Use::ComputeUniform);
+    pass.read(r_.commands, Use::Indirect);
+    pass.read(from, Use::ComputeRead);
+    r_.velocity = pass.write(r_.velocity, Use::ComputeWrite);
+    const Kernel kernel = pass.kernel(pipes_.keep, {r_.params, r_.control, from, r_.velocity});
+    return [=, arguments = r_.commands, chunks = std::span<const Chunk>(chunks_)](Commands& commands) {
+      for (const Chunk& c : chunks)
+        for (uint32_t either : {command, walkingCommand(command)})
+          commands.dispatchIndirect(kernel, arguments, commandAt(either), ChunkPush{c.first, c.last, 0});
+    };
+  });
+}
+
+// Viscosity, damping of noise and vorticity confinement, where the scene has them.
+void FluidImpl::declareTerms(Graph& graph, uint32_t parity, bool calms) {
   const std::span<const Chunk> chunks(chunks_);
   const Use use = texel_ ? Use::ComputeTexel : Use::ComputeRead;
   const uint32_t command = kCommandCorrect + parity;
   const uint64_t bytes = (uint64_t{count} + 1) * 16;
   const uint32_t sweeps = setup.viscositySweeps;
-  if (sweeps > 0) {
-    BufferRef from = r_.velocity;
-    BufferRef other = graph.create("smoothed velocities", {bytes});
-    for (uint32_t sweep = 0; sweep < sweeps; ++sweep) {
-      BufferRef to;
-      gatherPass(graph, r_, texel_, chunks, "viscosity", pipes_.viscosity, r_.work, command, SweepPush{0, 0, 1.0f / float(sweeps)},
-                 [&](Pass& pass, BindingList& bindings) {
-                   pass.read(from, use);
-                   pass.read(r_.pushAway, Use::ComputeRead);
-                   to = pass.write(other, Use::ComputeWrite, true);
-                   r_.prediction = pass.write(r_.prediction, Use::ComputeWrite);
-                   pass.read(r_.position, Use::ComputeRead);
-                   bindings.add({from, to, r_.prediction, r_.pushAway, r_.position});
-                 });
-      other = from;
-      from = to;
-    }
-    if (sweeps % 2 == 0) {
-      r_.velocity = from;
-    } else {
-      r_.velocity = other;
-      graph.pass("keep velocities", [&](Pass& pass) {
-        pass.read(r_.params, Use::ComputeUniform);
-        pass.read(r_.control, Use::ComputeUniform);
-        pass.read(r_.commands, Use::Indirect);
-        pass.read(from, Use::ComputeRead);
-        r_.velocity = pass.write(r_.velocity, Use::ComputeWrite);
-        const Kernel kernel = pass.kernel(pipes_.keep, {r_.params, r_.control, from, r_.velocity});
-        return [=, arguments = r_.commands](Commands& commands) {
-          for (const Chunk& c : chunks)
-            for (uint32_t either : {command, walkingCommand(command)})
-              commands.dispatchIndirect(kernel, arguments, commandAt(either), ChunkPush{c.first, c.last, 0});
-        };
-      });
-    }
-  }
+  if (sweeps > 0) declareSweeps(graph, "viscosity", sweeps, command, 1.0f / float(sweeps));
+  if (calms) declareSweeps(graph, "calm", 1, kCommandCalm, 0);
   if (setup.params.vorticity > 0) {
     BufferRef curl = graph.create("curl", {bytes});
     gatherPass(graph, r_, texel_, chunks, "curl", pipes_.curl, r_.work, command, ChunkPush{}, [&](Pass& pass, BindingList& bindings) {
@@ -462,6 +465,7 @@ void FluidImpl::declareSkipped(Graph& graph) {
   if (!setup.movingSolids) graph.skipped("move solids", "no solid moves");
   if (p.iterations == 1) graph.skipped("iterate", "one iteration a substep");
   if (setup.viscositySweeps == 0) graph.skipped("viscosity", "viscosity is 0");
+  if (p.calmingRate <= 0) graph.skipped("calm", setup.whyNotCalming);
   if (p.vorticity <= 0) graph.skipped("curl, confine", "vorticity is 0");
   if (p.tensile <= 0) graph.skipped("tensile term", "tensile is 0");
 }
@@ -497,7 +501,7 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   const uint32_t blocks = advances ? static_cast<uint32_t>(divideUp(std::max(step.substeps, 1u), kSubstepsPerBlock)) : 0;
   for (uint32_t block = 0; block < blocks; ++block) {
     declareRebuild(graph);
-    for (uint32_t k = 0; k < kSubstepsPerBlock; ++k) declareSubstep(graph, recorded_++ & 1u);
+    for (uint32_t k = 0; k < kSubstepsPerBlock; ++k) declareSubstep(graph, recorded_++ & 1u, k == 0);
   }
   if (blocks == 0) declareRebuild(graph);  // runs where there has been none yet
   declareSkipped(graph);

@@ -16,16 +16,23 @@ namespace rill {
 namespace {
 
 // Defaults of the solver's "auto" settings.
-constexpr double kRelaxation = 0.7;       // at most; more brings nothing even where it converges
+constexpr double kRelaxation = 0.7;  // at most; more brings nothing even where it converges
+constexpr double kCalmOfJacobiLimit =
+    2.0 / 3;  // in a fluid at rest: a substep's correction is a speed in the next one, which a lattice's shortest wave bears up to here
 constexpr double kOfJacobiLimit = 0.92;   // and so much of the linear limit, which is that of a lattice: disorder is stiffer
 constexpr double kRegularization = 0.02;  // of the rest lattice's sum |grad C|^2: keeps lone pairs from flying apart
-constexpr double kWarmGain = 0.05;
+constexpr double kWarmGain = 0.02;
+constexpr double kCalmWarmGain =
+    1.2;  // over the square of the column's layers, in a fluid at rest: its longest wave gains kappa / 2 a substep
+constexpr double kMostCalmWarmGain = 0.005;  // and no more than this
+constexpr double kRoughFroude = 0.5;  // of the fastest particle, over what falling through all the fluid's height gives: no longer at rest
+constexpr double kCalming = 0.03;     // density x spacing x sqrt(g spacing): numerical viscosity of a fluid at rest
 constexpr double kWarmRelease =
     1.5;  // the gain where density is too low, over that where it is too high: what builds up slower than it goes pumps less energy
 constexpr double kStableError =
-    0.006;  // mean compression by its own weight that an iteration can bear: 0.007 held, 0.013 exploded (dam10k)
+    0.0055;  // mean compression by its own weight that an iteration can bear: 0.007 held, 0.013 exploded (dam10k)
 constexpr double kStableGain =
-    20;  // and the less, the higher the warm start's gain: 0.0032 held at 0.05, 0.0036 gained a quarter of energy
+    40;  // and the less, the higher the warm start's gain: 0.0032 held at 0.05, 0.0036 gained a quarter of energy
 constexpr double kErrorOfHead =
     0.38;                           // mean compression of a column, over that of one which rests on its corrections alone (see errorOfHead)
 constexpr double kTravel = 1.2;     // spacings that the fastest particle may move before the list is rebuilt
@@ -118,13 +125,18 @@ void setWalls(const Scene& scene, const double origin[3], FluidParams& p) {
   p.margin = f(margin);
 }
 
+// XSPH coefficient a second that a dynamic viscosity (Pa s) asks for.
+double xsphRate(double viscosity, const Scene& scene, const SmoothingKernel& kernel) {
+  return 2 * viscosity / (scene.fluid.density * kernel.secondMoment());
+}
+
 // XSPH with coefficient c acts like a kinematic viscosity c sigma^2 / (2 dt): so many sweeps, and a step short enough, that none has c
 // above 1.
 void setViscosity(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
   FluidParams& p = setup.params;
   if (scene.fluid.viscosity <= 0) return;
   constexpr uint32_t kMaxSweeps = 8;
-  const double rate = 2 * scene.fluid.viscosity / (scene.fluid.density * kernel.secondMoment());
+  const double rate = xsphRate(scene.fluid.viscosity, scene, kernel);
   const double usual = std::min<double>(p.maxStep, 0.1 * std::sqrt(scene.fluid.spacing / 9.81));
   setup.viscositySweeps = static_cast<uint32_t>(std::clamp(std::ceil(rate * usual), 1.0, double{kMaxSweeps}));
   p.viscosityRate = f(rate);
@@ -139,6 +151,21 @@ void setViscosity(const Scene& scene, const SmoothingKernel& kernel, FluidSetup&
         scene.fluid.viscosity, most, p.maxSubsteps, most * p.maxSubsteps);
     setup.warnings.emplace_back(text);
   }
+}
+
+double strongestGravity(const Scene& scene) {
+  double most = length(scene.gravity);
+  for (const GravityChange& change : scene.gravity_changes) most = std::max(most, length(change.value));
+  return most;
+}
+
+void setCalming(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
+  setup.calmingViscosity = calmingViscosity(scene);
+  setup.params.calmingRate = f(xsphRate(setup.calmingViscosity, scene, kernel));
+  if (setup.calmingViscosity > 0) return;
+  setup.whyNotCalming = strongestGravity(scene) == 0            ? "no gravity"
+                        : scene.solver.calming.value_or(1) == 0 ? "calming is 0"
+                                                                : "viscosity does it";
 }
 
 // Gravity times the height of a column of all the fluid there is, m^2/s^2.
@@ -160,7 +187,7 @@ double errorOfHead(const FluidParams& p, const SmoothingKernel& kernel) {
   double gradients = kernel.restGradientSum();
   for (const double nearer : {1.1, 1.2, 1.3})
     gradients = std::max(gradients, SmoothingKernel(kernel.choice(), nearer * kernel.h(), d).restGradientSum());
-  return kErrorOfHead * gradients * d * d / (4 * p.relaxation);
+  return kErrorOfHead * gradients * d * d / (4 * p.roughRelaxation);
 }
 
 // The step in which such a column's mean compression is `error`.
@@ -169,11 +196,22 @@ double stepOfError(double error, double head, const FluidParams& p, const Smooth
 }
 
 void setRelaxation(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
-  const double limit = kOfJacobiLimit * jacobiLimit(kernel), wanted = scene.solver.relaxation.value_or(std::min(kRelaxation, limit));
-  setup.params.relaxation = f(std::min(wanted, limit));
+  const double most = jacobiLimit(kernel), limit = kOfJacobiLimit * most,
+               wanted = scene.solver.relaxation.value_or(std::min(kRelaxation, limit));
+  setup.params.roughRelaxation = f(std::min(wanted, limit));
+  setup.params.calmRelaxation = scene.solver.relaxation ? setup.params.roughRelaxation : f(std::min(wanted, kCalmOfJacobiLimit * most));
   if (wanted > limit)
     setup.warnings.push_back("solver.relaxation " + roughNumber(wanted) + " does not converge with this kernel: " + roughNumber(limit) +
                              " is taken");
+}
+
+// See ARCHITECTURE.md, "Calm water".
+void setWarmGain(const Scene& scene, double head, FluidParams& p) {
+  const double layers = head / (std::max(strongestGravity(scene), 1e-20) * scene.fluid.spacing);
+  const double gain = scene.solver.warm_start.value_or(scene.solver.iterations == 1 ? kWarmGain : 0.0);
+  p.roughWarmGain = f(gain);
+  p.calmWarmGain = f(scene.solver.warm_start ? gain : std::min(std::min(gain, kMostCalmWarmGain), kCalmWarmGain / (layers * layers)));
+  p.roughSpeed = f(kRoughFroude * std::sqrt(2 * head));
 }
 
 // Speeds that flow can have: what falling through all the room gives, what it started with, what solids push it with.
@@ -194,7 +232,7 @@ void setSpeeds(const Scene& scene, const StartFigures& start, FluidParams& p) {
 void setLongestStep(const Scene& scene, const SmoothingKernel& kernel, double head, FluidSetup& setup) {
   FluidParams& p = setup.params;
   if (head <= 0) return;
-  const double stable = stepOfError(kStableError * p.iterations / (1 + kStableGain * p.warmGain), head, p, kernel);
+  const double stable = stepOfError(kStableError * p.iterations / (1 + kStableGain * p.roughWarmGain), head, p, kernel);
   if (scene.solver.time_step && *scene.solver.time_step > stable)
     setup.warnings.push_back("solver.time_step " + roughNumber(*scene.solver.time_step) + " s is more than " +
                              std::to_string(p.iterations) + (p.iterations == 1 ? " iteration" : " iterations") +
@@ -221,6 +259,12 @@ void setGravity(const Scene& scene, FluidSetup& setup) {
 
 }  // namespace
 
+double calmingViscosity(const Scene& scene) {
+  const double d = scene.fluid.spacing;
+  const double wanted = scene.solver.calming.value_or(kCalming) * scene.fluid.density * d * std::sqrt(strongestGravity(scene) * d);
+  return std::max(0.0, wanted - scene.fluid.viscosity);
+}
+
 uint32_t listCapacity(double reachInSpacings) {
   const double ball = 4.0 / 3.0 * std::numbers::pi * std::pow(reachInSpacings, 3);
   return (static_cast<uint32_t>(std::ceil(1.2 * ball)) + 3u) / 4u * 4u;
@@ -245,7 +289,6 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   p.inverseRestGradient = f(1 / kernel.restGradientSum());
   p.regularization = f(scene.solver.regularization.value_or(kRegularization) * kernel.restGradientSum());
   setRelaxation(scene, kernel, setup);
-  p.warmGain = f(scene.solver.warm_start.value_or(scene.solver.iterations == 1 ? kWarmGain : 0.0));
   p.warmRelease = f(kWarmRelease);
   p.reach = f(h + kListSkin * d);
   p.travelLimit = f(kTravel * d);
@@ -292,9 +335,11 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   addSolids(scene, kernel, origin, setup);
   p.solidCount = static_cast<uint32_t>(setup.solids.size());
   setViscosity(scene, kernel, setup);
+  setCalming(scene, kernel, setup);
   setGravity(scene, setup);
   setSpeeds(scene, start, p);
   const double head = headOf(scene, extent);
+  setWarmGain(scene, head, p);
   setLongestStep(scene, kernel, head, setup);
   setup.firstStep = firstStep(scene, kernel, head, p);
 

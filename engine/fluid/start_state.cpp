@@ -37,7 +37,7 @@ void FluidImpl::stageScene() {
   const GroupCount all = foldGroups(divideUp(count, kFluidGroup));
   const GroupCount chunk = foldGroups(chunks_.front().groups());
   for (uint32_t k : {kCommandPredict, kCommandKeys, kCommandReorder}) shape(k, all);
-  for (uint32_t k : {kCommandDensity, kCommandCorrect, kCommandCorrect + 1, kCommandIterate, kCommandBuild}) shape(k, chunk);
+  for (uint32_t k : {kCommandDensity, kCommandCorrect, kCommandCorrect + 1, kCommandIterate, kCommandCalm, kCommandBuild}) shape(k, chunk);
   for (uint32_t k = kCommandWalks; k < kCommandSort; ++k) shape(k, chunk);
   shape(kCommandPose, {1, 1, 1});
   uint32_t next = kCommandSort;

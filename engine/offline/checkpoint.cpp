@@ -23,7 +23,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie in memory");
 
 constexpr std::string_view kMagic = "RILLCKPT";
-constexpr uint32_t kFormat = 1;
+constexpr uint32_t kFormat = 2;
 constexpr uint64_t kHeadBytes = 24, kRowBytes = 16, kChecksumBytes = 8;
 
 /// The state's arrays in the order of the file, each with the name of its section: calls visit(name, array).
@@ -112,6 +112,8 @@ std::string headTrouble(std::span<const std::byte> head, uint64_t size) {
   if (!taker.good) return "is cut short: " + grouped(size) + " bytes are left of it";
   if (format > kFormat)
     return "was written by a newer Rill, in format " + std::to_string(format) + "; this one reads format " + std::to_string(kFormat);
+  if (format > 0 && format < kFormat)
+    return "was written by an older Rill, in format " + std::to_string(format) + "; this one reads format " + std::to_string(kFormat);
   if (format != kFormat || sections != kSections) return "is damaged: its first bytes make no sense";
   if (size < bytes) return "is cut short: " + grouped(size) + " of " + grouped(bytes) + " bytes are left of it";
   if (size > bytes) return "is damaged: it has " + grouped(size - bytes) + " bytes more than it should";

@@ -55,6 +55,7 @@ void ReferenceSolver::begin(double dt) {
   }
   state.predicted = state.position;
   step_ = 0;
+  judgeCalmness();
   density();
   predict(dt, dt);
 }
@@ -65,10 +66,18 @@ void ReferenceSolver::substep(double dt, double dtNext) {
     multipliers(iteration == 0);
     correction(dt);
   }
+  judgeCalmness();
   velocities(dt);
   if (settings.viscosity > 0) viscosity(dt);
+  if (settings.calmViscosity > 0) calm(dt);
   if (settings.vorticity > 0) vorticity(dt);
   predict(dt, dtNext);
+}
+
+// From the speeds that the substep started with.
+void ReferenceSolver::judgeCalmness() {
+  const double share = settings.roughSpeed > 0 ? std::min(fastest_ / settings.roughSpeed, 1.0) : 1;
+  calmness_ = 1 - std::pow(share, 4);
 }
 
 ReferenceSolver::Pair ReferenceSolver::makePair(uint32_t i, uint32_t j) const {
@@ -110,14 +119,16 @@ void ReferenceSolver::density() {
 }
 
 void ReferenceSolver::multipliers(bool firstIteration) {
+  const double omega = std::lerp(settings.relaxation, settings.calmRelaxation, calmness_),
+               kappa = std::lerp(settings.warmStart, settings.calmWarmStart, calmness_);
   for (size_t i = 0; i < size(); ++i) {
     if (firstIteration) lambda_[i] = state.warm[i];
-    delta_[i] = -settings.relaxation * (densityRatio_[i] - 1) / denominator_[i];
+    delta_[i] = -omega * (densityRatio_[i] - 1) / denominator_[i];
     const double lambda = std::min(0.0, lambda_[i] + delta_[i]);
     lambdaChange_[i] = lambda - lambda_[i];
     lambda_[i] = lambda;
     if (!firstIteration) continue;
-    const double gain = settings.warmStart * (delta_[i] > 0 ? settings.warmRelease : 1.0);
+    const double gain = kappa * (delta_[i] > 0 ? settings.warmRelease : 1.0);
     state.warm[i] = std::min(0.0, state.warm[i] + gain * delta_[i]);
     if (std::isfinite(settings.warmLimit)) state.warm[i] = std::max(state.warm[i], -settings.warmLimit * step_ * step_);
   }
@@ -173,17 +184,21 @@ void ReferenceSolver::velocities(double dt) {
   step_ = 0;
 }
 
-double ReferenceSolver::viscosityCoefficient(double dt) const {
-  return 2 * settings.viscosity * dt / (settings.density * kernel_.secondMoment());
+double ReferenceSolver::xsphCoefficient(double viscosity, double dt) const {
+  return 2 * viscosity * dt / (settings.density * kernel_.secondMoment());
 }
 
 void ReferenceSolver::viscosity(double dt) {
-  const double c = viscosityCoefficient(dt) / settings.viscositySweeps;
-  for (int sweep = 0; sweep < settings.viscositySweeps; ++sweep) {
-    const std::vector<glm::dvec3> v = state.velocity;
-    for (size_t i = 0; i < size(); ++i)
-      for (const Pair& pair : pairs(i)) state.velocity[i] += c * pair.value * (v[pair.j] - v[i]);
-  }
+  const double c = xsphCoefficient(settings.viscosity, dt) / settings.viscositySweeps;
+  for (int sweep = 0; sweep < settings.viscositySweeps; ++sweep) smooth(c);
+}
+
+void ReferenceSolver::calm(double dt) { smooth(std::min(xsphCoefficient(calmness_ * settings.calmViscosity, dt), kMostCalming)); }
+
+void ReferenceSolver::smooth(double coefficient) {
+  const std::vector<glm::dvec3> v = state.velocity;
+  for (size_t i = 0; i < size(); ++i)
+    for (const Pair& pair : pairs(i)) state.velocity[i] += coefficient * pair.value * (v[pair.j] - v[i]);
 }
 
 void ReferenceSolver::vorticity(double dt) {

@@ -11,7 +11,7 @@
 //                 from substep to substep
 //   correction    x*_i += sum_j (dlambda_i + dlambda_j + s_ij) G_ij + dlambda_i grad B_i, then out of solids and walls
 //   velocities    v = (x* - x) / dt, contact with solids, |v| <= the limit, x = x*
-//   viscosity     XSPH;  vorticity   confinement
+//   viscosity     XSPH, with more of it where the fluid is at rest;  vorticity   confinement
 //   predict       w_i *= (dt_next/dt)^2,
 //                 x*_i = x_i + dt_next (v_i + g dt_next) + sum_j (w_i + w_j) G_ij + w_i grad B_i, then out of solids and walls
 // Density to correction repeat for every iteration.
@@ -41,6 +41,9 @@ inline constexpr double kContactDistance = 0.55;
 /// D_i is at least this share of D_rest, so that eps = 0 does not divide a lone particle by 0.
 inline constexpr double kLeastDenominator = 1e-6;
 
+/// The XSPH coefficient of calm() is at most this.
+inline constexpr double kMostCalming = 0.5;
+
 /// Every coefficient, explicit. Nothing is "auto" here.
 struct ReferenceSettings {
   KernelChoice kernel = KernelChoice::Wendland;
@@ -60,6 +63,11 @@ struct ReferenceSettings {
   double regularization = 0;  ///< eps, a fraction of D_rest, >= 0
   double warmStart = 0.01;    ///< kappa, 0 .. 0.5
   double warmRelease = 1.5;   ///< times kappa where density is below rest density
+
+  double roughSpeed = 0;      ///< m/s of the fastest particle, at which omega and kappa are those above; 0: always
+  double calmRelaxation = 0;  ///< omega of a fluid at rest, likewise; between them by the fourth power of the speed
+  double calmWarmStart = 0;   ///< kappa of a fluid at rest
+  double calmViscosity = 0;   ///< mu of a fluid at rest, Pa s, on top of `viscosity`; none at roughSpeed
 
   double tensile = 0;          ///< strength of the artificial pressure, 0 .. 1
   double tensileRadius = 0.2;  ///< delta q / h
@@ -110,6 +118,7 @@ class ReferenceSolver {
   void correction(double dt);             ///< x*
   void velocities(double dt);             ///< v, x; time goes on by dt
   void viscosity(double dt);              ///< v: v_i += c/n sum_j K_ij (v_j - v_i), n times; symmetric, so it keeps momentum
+  void calm(double dt);                   ///< v: the same once, with the viscosity that a fluid at rest has on top
   /// v += dt eps_v h |omega| (N x omega), with the curl omega_i = sum_j G_ij x (v_j - v_i), eta_i = sum_j G_ij (|omega_j| - |omega_i|) and
   /// N = eta / (|eta| + 0.001 |omega| / h). An acceleration needs eps_v h |omega|^2 for a dimensionless eps_v: a vortex is fed at the rate
   /// at which it turns, and slow water is left alone.
@@ -141,7 +150,7 @@ class ReferenceSolver {
   /// so that it is an acceleration of k times a fixed part of g for pairs at delta q, at any spacing and step.
   double tensileTerm(double value, double dt) const;
   /// c of XSPH over the whole substep, dimensionless: 2 mu dt / (rho0 sigma^2).
-  double viscosityCoefficient(double dt) const;
+  double xsphCoefficient(double viscosity, double dt) const;
 
  private:
   glm::dvec3 collide(glm::dvec3 x, std::span<const SolidPose> poses) const;
@@ -150,6 +159,8 @@ class ReferenceSolver {
   WallSample boundaryOf(const glm::dvec3& x, std::span<const SolidPose> poses) const;
   Pair makePair(uint32_t i, uint32_t j) const;
   void park(size_t i);
+  void judgeCalmness();
+  void smooth(double coefficient);
 
   SmoothingKernel kernel_;
   WallTables tables_;
@@ -162,6 +173,7 @@ class ReferenceSolver {
   std::vector<double> densityRatio_, denominator_, delta_, lambda_, lambdaChange_;
   std::vector<WallSample> boundary_;
   std::vector<glm::dvec3> curl_;
+  double calmness_ = 0;             ///< 1: at rest, 0: at roughSpeed or faster
   double fastest_ = 0;              ///< m/s, at the start or in the last velocities()
   std::vector<glm::dvec3> walled_;  ///< m, where the last correction put a particle, walls included, solids not
   std::vector<glm::dvec3> gained_;  ///< m, what the last correction moved a particle by, walls included

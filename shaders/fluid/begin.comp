@@ -10,6 +10,7 @@ layout(std430, binding = 2) readonly buffer SumsBlock { FluidSums sums; };
 layout(std430, binding = 3) readonly buffer ShapeBlock { uint shapes[]; };
 layout(std430, binding = 4) buffer CommandBlock { uint commands[]; };
 layout(std430, binding = 5) readonly buffer GravityBlock { vec4 gravityChanges[]; };
+#include "fluid/calmness.glsl"
 #include "fluid/step_plan.glsl"
 #include "fluid/switches.glsl"
 
@@ -24,6 +25,7 @@ void main() {
   gravityAt(c);
   float acceleration = length(vec3(c.gravityX, c.gravityY, c.gravityZ));
   c.speed = uintBitsToFloat(s.speedMax);
+  if (c.relaxation == 0.0) setGains(c);  // the first advance: from then on each substep sets those of the next
   c.desiredStep = plannedStep(c, c.desiredStep, cflStep(c.speed, acceleration));
   bool going = push.advance > 0.0;
   if (going) {

@@ -44,7 +44,7 @@ void main() {
   vec3 v = velocity[i].xyz + (x - from) / control.step;
   // The multiplier in all, never positive: what the warm start had, and the change. `warm` has a share of the change already.
   float change = unpackHalf2x16(floatBitsToUint(work[i].w)).x * (params.inverseRestGradient / kMultiplierScale);
-  float multiplier = min(0.0, warm[i] + (1.0 - params.warmGain) * change);
+  float multiplier = min(0.0, warm[i] + (1.0 - control.warmGain) * change);
   vec3 given = multiplier * nearSample[i].xyz / control.step + (x - from) / control.step;
   for (uint k = 0u; k < params.solidCount; ++k) {
     if (solids[k].friction <= 0.0 && solids[k].restitution <= 0.0) continue;

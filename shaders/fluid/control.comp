@@ -11,6 +11,7 @@ layout(std430, binding = 2) buffer SumsBlock { FluidSums sums; };
 layout(std430, binding = 3) readonly buffer ShapeBlock { uint shapes[]; };
 layout(std430, binding = 4) buffer CommandBlock { uint commands[]; };
 layout(std430, binding = 5) readonly buffer GravityBlock { vec4 gravityChanges[]; };
+#include "fluid/calmness.glsl"
 #include "fluid/step_plan.glsl"
 #include "fluid/switches.glsl"
 
@@ -37,6 +38,7 @@ void main() {
     bool apart = error <= 0.5 * enough && uintBitsToFloat(s.errorMax) <= 20.0 * enough;
     c.settling = apart ? 0u : c.settling - 1u;
     c.step = 0.0;
+    c.calming = 0.0;
     c.travel += 0.1 * params.spacing;
     if (c.travel > params.travelLimit) c.stale = 1u;
     again = false;
@@ -45,6 +47,8 @@ void main() {
     c.error = error;
     c.speed = max(uintBitsToFloat(s.speedMax), 0.0);
     sums.speedMax = 0u;
+    setGains(c);
+    planCalming(c, push.calms != 0u);
     c.warmStep = c.step;
     c.timeLeft -= c.step;
     c.substeps += 1u;

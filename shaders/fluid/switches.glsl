@@ -19,12 +19,13 @@ void switchCommand(uint k, bool on, FluidSums s) {
 bool commandRuns(uint k, FluidControl c, uint parity, FluidSums s) {
   bool walks = k >= kCommandWalks && k < kCommandSort;
   if (walks) k = k - kCommandWalks + kCommandDensity;
-  bool gathers = k >= kCommandDensity && k <= kCommandIterate;
+  bool gathers = k >= kCommandDensity && k <= kCommandCalm;
   if (gathers && walks != (params.listCapacity == 0u || s.overflow > 0u)) return false;
   bool rebuild = c.stale == 2u || (c.stale == 1u && c.timeLeft > 0.0);
   if (k == kCommandDensity || k == kCommandPose || k == kCommandPlane || k == kCommandCorner) return c.running != 0u;
   if (k == kCommandCorrect || k == kCommandCollide) return parity == 0u;
   if (k == kCommandCorrect + 1u || k == kCommandCollide + 1u) return parity == 1u;
+  if (k == kCommandCalm) return parity != 2u && c.calming > 0.0;
   if (k == kCommandIterate || k == kCommandPlaneAgain || k == kCommandCornerAgain) return c.again != 0u;
   if (k == kCommandMeasurePlane || k == kCommandMeasureCorner) return true;
   if (k == kCommandPredict) return parity == 2u && c.timeLeft > 0.0;

@@ -1,5 +1,6 @@
 #version 460
-// One sweep of XSPH viscosity (Schechter and Bridson 2012; Macklin and Mueller 2013, equation 17), its coefficient that of a dynamic viscosity in Pa s.
+// One sweep of XSPH (Schechter and Bridson 2012; Macklin and Mueller 2013, equation 17), its coefficient that of a dynamic viscosity in Pa s: the
+// fluid's own, or that which calms noise.
 // The pairs are those of the density pass: gathers from `work`, and velocities. Predicts anew with the velocity it ends with.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
@@ -43,7 +44,8 @@ void main() {
   own = VELOCITY(i);
   visitNeighbours(i, local, there);
   if (!there) return;
-  vec3 v = own.xyz + params.viscosityRate * control.step * push.share * params.valueScale * change;
+  float coefficient = push.share > 0.0 ? params.viscosityRate * control.step * push.share : control.calming;
+  vec3 v = own.xyz + coefficient * params.valueScale * change;
   smoothed[i] = vec4(v, own.w);
   if (i == 0u) smoothed[params.count] = vec4(0.0);  // the dummy neighbour, whose weight of 0 would not do away with a NaN
   prediction[i] = vec4(insideWalls(predicted(position[i].xyz, v, pushAway[i].xyz)), 0.0);

@@ -17,22 +17,23 @@ RILL_CONST float kMultiplierScale = 1024.0f;  // multipliers travel as halves in
 
 // Dispatch commands that the device switches on and off.
 RILL_CONST uint kCommandPredict = 0u;
-RILL_CONST uint kCommandDensity = 1u;         // the passes over neighbours: 1 to 4
+RILL_CONST uint kCommandDensity = 1u;         // the passes over neighbours: 1 to 5
 RILL_CONST uint kCommandCorrect = 2u;         // two of them, by the parity of the substep recorded
 RILL_CONST uint kCommandIterate = 4u;
-RILL_CONST uint kCommandPose = 5u;            // one group, with the density pass
-RILL_CONST uint kCommandKeys = 6u;            // the rebuild
-RILL_CONST uint kCommandReorder = 7u;
-RILL_CONST uint kCommandBuild = 8u;
-RILL_CONST uint kCommandPlane = 9u;           // over the particles near one wall
-RILL_CONST uint kCommandCorner = 10u;         // over those near several walls or a solid
-RILL_CONST uint kCommandCollide = 11u;        // two of them, by parity, over the same
-RILL_CONST uint kCommandMeasurePlane = 13u;   // the same particles as Plane and Corner, whenever there are any
-RILL_CONST uint kCommandMeasureCorner = 14u;
-RILL_CONST uint kCommandPlaneAgain = 15u;     // and in every further iteration
-RILL_CONST uint kCommandCornerAgain = 16u;
-RILL_CONST uint kCommandWalks = 17u;          // the passes over neighbours once more, in this order: where a list overflowed or there is none
-RILL_CONST uint kCommandSort = 21u;           // the sort's own follow
+RILL_CONST uint kCommandCalm = 5u;
+RILL_CONST uint kCommandPose = 6u;            // one group, with the density pass
+RILL_CONST uint kCommandKeys = 7u;            // the rebuild
+RILL_CONST uint kCommandReorder = 8u;
+RILL_CONST uint kCommandBuild = 9u;
+RILL_CONST uint kCommandPlane = 10u;          // over the particles near one wall
+RILL_CONST uint kCommandCorner = 11u;         // over those near several walls or a solid
+RILL_CONST uint kCommandCollide = 12u;        // two of them, by parity, over the same
+RILL_CONST uint kCommandMeasurePlane = 14u;   // the same particles as Plane and Corner, whenever there are any
+RILL_CONST uint kCommandMeasureCorner = 15u;
+RILL_CONST uint kCommandPlaneAgain = 16u;     // and in every further iteration
+RILL_CONST uint kCommandCornerAgain = 17u;
+RILL_CONST uint kCommandWalks = 18u;          // the passes over neighbours once more, in this order: where a list overflowed or there is none
+RILL_CONST uint kCommandSort = 23u;           // the sort's own follow
 RILL_CONST uint kMaxCommands = 64u;
 
 // Constant over a run; a uniform block.
@@ -48,8 +49,9 @@ struct FluidParams {
   float gradientScale;    // of its gradient's polynomial, negative, 1/m^2 (see kernel.glsl)
   float inverseRestGradient;  // 1 / sum |grad K|^2 of the rest lattice, m^2
   float regularization;   // epsilon times sum |grad K|^2 of the rest lattice, 1/m^2
-  float relaxation;       // omega
-  float warmGain;         // kappa
+  float calmRelaxation, roughRelaxation;  // omega of a fluid at rest, and of one that moves at roughSpeed (see calmness.glsl)
+  float calmWarmGain, roughWarmGain;      // kappa, likewise
+  float roughSpeed;       // m/s
   float warmRelease;      // times kappa where density is below rest density
   float reach;            // m, support plus skin: the list holds what was nearer when it was built
   float travelLimit;      // m that the fastest particle may move before the list is rebuilt
@@ -70,7 +72,8 @@ struct FluidParams {
   uint tableOffset2;      // (value, slope) pairs into the table buffer
   uint tableOffset3;
   uint tableOffsetFace;
-  float viscosityRate;    // XSPH coefficient a second of step and a sweep, 1/s
+  float viscosityRate;    // XSPH coefficient a second of step, 1/s
+  float calmingRate;      // the same, of the noise's damping in a fluid at rest
   float vorticity;        // dimensionless
   float tensile;          // s_corr's strength, m^2 / s^2: times the step squared
   float tensilePower;     // n
@@ -109,6 +112,11 @@ struct FluidControl {
   float desiredStep;   // s, what cfl and tolerance ask for, before it is fitted to the advance
   uint running;        // the next density pass runs
   uint again;          // so does the next iteration
+  float relaxation;    // omega of the next substep
+  float warmGain;      // kappa
+  float calmness;      // 1: at rest, 0: at roughSpeed or faster
+  float calming;       // XSPH coefficient of the calm pass after this substep; 0: it does not run
+  float uncalmed;      // s since the last one
   uint settling;       // substeps left, at most, in which particles that overlap at the start part without gaining speed
 };
 
@@ -154,6 +162,7 @@ struct ControlPush {
   uint iteration;      // 0 is the first
   uint parity;         // of the recorded substep
   uint commands;       // how many
+  uint calms;          // the calm pass is recorded with this substep
 };
 
 // Sums over one workgroup of measure.comp.
@@ -178,7 +187,7 @@ struct MeasureResult {
 
 struct SweepPush {
   uint first, last;    // as in ChunkPush
-  float share;         // 1 / sweeps
+  float share;         // 1 / sweeps; 0: the calm pass
 };
 
 struct ChunkPush {

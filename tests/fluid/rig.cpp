@@ -35,6 +35,7 @@ FluidSetup setupOf(const Trial& trial) {
 
 reference::ReferenceSettings settingsOf(const Trial& trial) {
   const Scene& scene = trial.scene;
+  const FluidSetup setup = setupOf(trial);
   reference::ReferenceSettings s;
   s.kernel = scene.solver.kernel;
   s.spacing = scene.fluid.spacing;
@@ -50,17 +51,22 @@ reference::ReferenceSettings settingsOf(const Trial& trial) {
   s.solids = scene.solids;
   s.tabulated = true;
   s.iterations = static_cast<int>(scene.solver.iterations);
-  s.relaxation = scene.solver.relaxation.value();
+  s.relaxation = setup.params.roughRelaxation;
   s.regularization = scene.solver.regularization.value();
-  s.warmStart = scene.solver.warm_start.value();
+  s.warmStart = setup.params.roughWarmGain;
   s.tensile = scene.fluid.tensile;
   s.tensileRadius = scene.fluid.tensile_radius;
   s.tensilePower = scene.fluid.tensile_power;
   s.viscosity = scene.fluid.viscosity;
-  s.viscositySweeps = scene.fluid.viscosity > 0 ? static_cast<int>(setupOf(trial).viscositySweeps) : 1;
+  s.viscositySweeps = scene.fluid.viscosity > 0 ? static_cast<int>(setup.viscositySweeps) : 1;
   s.vorticity = scene.fluid.vorticity;
-  const FluidSetup setup = setupOf(trial);
   s.warmLimit = setup.params.warmLimit;
+  if (scene.solver.calming.value() > 0) {
+    s.roughSpeed = setup.params.roughSpeed;
+    s.calmRelaxation = setup.params.calmRelaxation;
+    s.calmWarmStart = setup.params.calmWarmGain;
+    s.calmViscosity = calmingViscosity(scene);
+  }
   s.pushLow = setup.params.pushLow;
   s.pushHigh = setup.params.pushHigh;
   return s;
@@ -102,6 +108,7 @@ Trial trial() {
   t.scene.solver.relaxation = 0.7;
   t.scene.solver.regularization = 0.02;
   t.scene.solver.warm_start = 0.1;
+  t.scene.solver.calming = 0;
   return t;
 }
 
@@ -261,7 +268,10 @@ FluidStats FluidTest::Run::stats() {
 
 Difference FluidTest::difference(const Trial& trial, int substeps) {
   auto run = start(trial);
-  run->substeps(substeps);
+  if (trial.stepwise)
+    for (int n = 0; n < substeps; ++n) run->substeps(1);
+  else
+    run->substeps(substeps);
   const Snapshot device = run->snapshot();
   Oracle oracle(trial);
   oracle.advance(substeps);

@@ -25,13 +25,15 @@ struct Trial {
   double step = 1e-3;            ///< s
   Gather gather = Gather::Texel;
   bool settle = false;
+  bool stepwise = false;  ///< each substep is an advance of its own: the calm pass then runs in every one
 
   double d() const { return scene.fluid.spacing; }
   Scene timedScene() const;  ///< with the step as its longest one
   ParticleSet particles() const;
 };
 
-/// Spacing 1/16 m, no walls, gravity; relaxation, regularization and warm start explicit, a fixed step, no bound on the speed to speak of.
+/// Spacing 1/16 m, no walls, gravity; relaxation, regularization and warm start explicit, no calming, a fixed step, no bound on the speed
+/// to speak of.
 Trial trial();
 /// Walls from 0 to `size`.
 void setWalls(Trial& trial, glm::dvec3 size, SideMask open = 0);

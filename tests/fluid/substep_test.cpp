@@ -100,6 +100,45 @@ TEST_F(SubstepTest, OneSweepOfViscosity) {
   expectEqual(t, 10, kTen, kTen, kAgeing);
 }
 
+// Gains and damping between those of a fluid at rest and of one that is rough; the numerical viscosity is much more than the default.
+Trial calmed() {
+  Trial t = trial();
+  t.scene.solver.relaxation.reset();
+  t.scene.solver.warm_start.reset();
+  t.scene.solver.calming = 1;
+  t.stepwise = true;
+  setWalls(t, {1, 1, 1});
+  t.x = block({6, 7, 6}, t.d(), {}, 0.1);
+  t.v = cloud(t.x.size(), 0.6, 5, glm::dvec3(-0.3));
+  return t;
+}
+
+TEST_F(SubstepTest, Calming) {
+  expectEqual(calmed(), 1, kOne, kOne);
+  expectEqual(calmed(), 10, kTen, kTen, kAgeing);
+}
+
+TEST_F(SubstepTest, CalmingAroundABall) {
+  Trial t = calmed();
+  t.scene.solids.push_back(ball({0.2, 0.6, 0.2}, 0.15));
+  expectEqual(t, 10, kTen, kTen, kAgeing);
+}
+
+TEST_F(SubstepTest, CalmingChangesSomething) {
+  Trial none = calmed(), little = calmed();
+  none.scene.solver.calming = 0;
+  little.scene.solver.calming = 0.1;
+  const auto energy = [&](Trial t) {
+    t.x = block({6, 7, 6}, t.d());  // a jittered one springs apart, which is more than its noise
+    auto run = start(t);
+    for (int n = 0; n < 10; ++n) run->substeps(1);
+    return run->stats().kinetic_J;
+  };
+  const double full = energy(calmed()), some = energy(little), nothing = energy(none);
+  EXPECT_LT(some, 0.99 * nothing);
+  EXPECT_LT(full, 0.9 * some);
+}
+
 TEST_F(SubstepTest, SeveralSweepsOfViscosity) {
   Trial t = trial();
   t.scene.fluid.viscosity = 2500;

@@ -52,7 +52,7 @@ void addExtremes(std::vector<StressCase>& cases, const std::string& owner, Owner
       set(scene.*part, field, value);
       const std::string shown = words ? std::string(field.info.words[static_cast<size_t>(value)]) : number(value, 7);
       StressCase c{.name = owner + "." + std::string(field.info.key) + "=" + shown, .scene = scene};
-      c.duration_s = 0.25;
+      c.duration_s = scene.solver.iterations > 100 ? 0.05 : 0.25;
       c.mostSpeed = usualSpeed(scene);
       c.mayRefuse = true;
       cases.push_back(std::move(c));

@@ -58,11 +58,12 @@ std::vector<Setting> settings(bool quick) {
     all.push_back(fixedStep(s, i, {}, "iterations"));
   for (const auto& [s, i] : {std::pair{4, 4}, std::pair{8, 2}})
     all.push_back(named(fixedStep(s, i, paper, "Macklin and Mueller 2013"), " paper"));
-  for (const char* ratio : {"1.6", "1.8", "2.5"})
+  for (const char* ratio : {"1.8", "2.3", "2.5"})
     all.push_back({"smoothing ratio", std::string("h ") + ratio + " d", {{"fluid.smoothing_ratio", ratio}}});
   for (const char* cfl : {"0.15", "0.4", "0.6"}) all.push_back({"cfl", std::string("cfl ") + cfl, {{"solver.cfl", cfl}}});
-  for (const char* gain : {"0", "0.01", "0.1"}) all.push_back({"warm start", std::string("gain ") + gain, {{"solver.warm_start", gain}}});
-  for (const char* omega : {"0.3", "0.5"}) all.push_back({"relaxation", std::string("omega ") + omega, {{"solver.relaxation", omega}}});
+  for (const char* gain : {"0", "0.01", "0.05"}) all.push_back({"warm start", std::string("gain ") + gain, {{"solver.warm_start", gain}}});
+  for (const char* omega : {"0.5", "0.7"}) all.push_back({"relaxation", std::string("omega ") + omega, {{"solver.relaxation", omega}}});
+  all.push_back({"calming", "no calming", {{"solver.calming", "0"}}});
   return all;
 }
 

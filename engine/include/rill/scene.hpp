@@ -52,6 +52,7 @@ struct SolverSettings {
   std::optional<double> relaxation;      ///< Jacobi under-relaxation, > 0 .. 2; empty: "auto"
   std::optional<double> regularization;  ///< epsilon as a fraction of the rest lattice's sum of |grad C|^2, >= 0; empty: "auto"
   std::optional<double> warm_start;      ///< gain of the integral warm start, 0 .. 0.5; 0: none; empty: "auto"
+  std::optional<double> calming;  ///< numerical viscosity of a fluid at rest over density spacing sqrt(g spacing), 0 .. 1; empty: "auto"
   KernelChoice kernel = KernelChoice::Wendland;
   NeighborChoice neighbors = NeighborChoice::List;
 };
