@@ -48,7 +48,7 @@ Json frameJson(double time_s, const offline::Stats& stats) {
   frame["neighbour_overflow"] = stats.neighbour_overflow;
   frame["loop_bound_hits"] = stats.loop_bound_hits;
   frame["list_builds"] = stats.list_builds;
-  frame["numerical_viscosity_Pa_s"] = stats.numerical_viscosity_Pa_s;
+  frame["artificial_viscosity_Pa_s"] = stats.artificial_viscosity_Pa_s;
   frame["state_hash"] = hexadecimal(stats.state_hash);
   frame["probes"] = probes;
   frame["wall_s"] = stats.wall_s;
@@ -107,7 +107,7 @@ std::vector<Figure> Record::figures() const {
       {"potential_J", last.potential_J, "J"},
       {"front_m", last.front_m, "m"},
       {"max_speed", of(&Stats::max_speed)(largest), "m/s"},
-      {"numerical_viscosity", last.numerical_viscosity_Pa_s, "Pa s"},
+      {"artificial_viscosity", last.artificial_viscosity_Pa_s, "Pa s"},
       {"outside", of(&Stats::outside)(largest), ""},
       {"non_finite", of(&Stats::non_finite)(largest), ""},
       {"neighbour_overflow", of(&Stats::neighbour_overflow)(largest), ""},

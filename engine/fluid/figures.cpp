@@ -65,7 +65,7 @@ void FluidImpl::poll() const {
       s.neighbour_overflow = sums.overflow;
       s.loop_bound_hits = sums.boundHits;
       s.list_builds = control.builds;
-      s.numerical_viscosity_Pa_s = setup.calmingViscosity * control.calmness;
+      s.artificial_viscosity_Pa_s = setup.artificialViscosity * control.calmness;
       stats = s;
     }
     if (pending.uploads) staging_.reset();

@@ -37,7 +37,6 @@ FluidMemory fluidMemory(const Scene& scene, uint64_t particles) {
   uint64_t each = 6 * 16 + 6 * 4 + (3 * 16 + 8 + 4);
   if (scene.solver.iterations > 1) each += 4;
   if (scene.fluid.viscosity > 0 || scene.fluid.vorticity > 0) each += 2 * 16;
-  if (scene.fluid.viscosity <= 0 && calmingViscosity(scene) > 0) each += 16;
   if (!scene.solids.empty()) each += 16;
   memory.particle_bytes = each * (particles + 1);
   memory.list_bytes = blocks(particles) * kListBlock * listEntries(scene) * 4;

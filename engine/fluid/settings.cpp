@@ -16,31 +16,30 @@ namespace rill {
 namespace {
 
 // Defaults of the solver's "auto" settings.
-constexpr double kRelaxation = 0.7;  // at most; more brings nothing even where it converges
-constexpr double kCalmOfJacobiLimit =
-    2.0 / 3;  // in a fluid at rest: a substep's correction is a speed in the next one, which a lattice's shortest wave bears up to here
-constexpr double kOfJacobiLimit = 0.92;   // and so much of the linear limit, which is that of a lattice: disorder is stiffer
+constexpr double kRelaxation = 0.7;      // at most; more brings nothing even where it converges
+constexpr double kOfJacobiLimit = 0.92;  // and so much of the linear limit, which is that of a lattice: disorder is stiffer
+// And in a fluid at rest: a correction is a speed in the next substep, which the shortest wave of a lattice bears up to here.
+constexpr double kCalmOfJacobiLimit = 2.0 / 3;
 constexpr double kRegularization = 0.02;  // of the rest lattice's sum |grad C|^2: keeps lone pairs from flying apart
 constexpr double kWarmGain = 0.02;
-constexpr double kCalmWarmGain =
-    1.2;  // over the square of the column's layers, in a fluid at rest: its longest wave gains kappa / 2 a substep
-constexpr double kMostCalmWarmGain = 0.005;  // and no more than this
-constexpr double kRoughFroude = 0.5;  // of the fastest particle, over what falling through all the fluid's height gives: no longer at rest
-constexpr double kCalming = 0.03;     // density x spacing x sqrt(g spacing): numerical viscosity of a fluid at rest
-constexpr double kWarmRelease =
-    1.5;  // the gain where density is too low, over that where it is too high: what builds up slower than it goes pumps less energy
-constexpr double kStableError =
-    0.0055;  // mean compression by its own weight that an iteration can bear: 0.007 held, 0.013 exploded (dam10k)
-constexpr double kStableGain =
-    40;  // and the less, the higher the warm start's gain: 0.0032 held at 0.05, 0.0036 gained a quarter of energy
-constexpr double kErrorOfHead =
-    0.38;                           // mean compression of a column, over that of one which rests on its corrections alone (see errorOfHead)
-constexpr double kTravel = 1.2;     // spacings that the fastest particle may move before the list is rebuilt
-constexpr double kLeastCfl = 0.01;  // spacings a substep
-constexpr double kWarmLimit = 1;    // w is p dt^2 / (2 rho) for a pressure p: four times that of water as high as the room
-constexpr double kPushLow = 0.06;   // of the usual speed (setSpeeds): a correction may always add as much to a speed
-constexpr double kPushHigh = 0.5;   // and never more
-constexpr double kSpeedLimit = 8;   // of the usual speed: jets at walls reach two or three times that
+// In a fluid at rest, over the square of the column's layers, and at most: its longest wave gains kappa / 2 a substep.
+constexpr double kCalmWarmGain = 1.2, kMostCalmWarmGain = 0.005;
+constexpr double kCalmSubsteps = 10;  // a layer: the mean error that the step follows there; the column's first wave takes about seven
+constexpr double kRough = 0.5;        // the fastest particle's speed over that of falling through all the fluid's height: no longer at rest
+constexpr double kArtificialViscosity = 0.03;  // of a fluid at rest, over density x spacing x sqrt(g spacing)
+// The gain where density is too low, over that where it is too high: what builds up slower than it goes pumps less energy.
+constexpr double kWarmRelease = 1.5;
+// Mean compression by its own weight that an iteration can bear: 0.007 held, 0.013 exploded (dam10k without warm start). And the less, the
+// higher the warm start's gain: at 0.05 0.0032 held, 0.0036 gained a quarter of energy; at 0.02 0.0036 gained 2.5 %.
+constexpr double kStableError = 0.0055, kStableGain = 40;
+// Mean compression of a column, over that of one which rests on its corrections alone (see stepOfError).
+constexpr double kErrorOfHead = 0.38;
+constexpr double kTravel = 1.2;         // spacings that the fastest particle may move before the list is rebuilt
+constexpr double kLeastCfl = 0.01;      // spacings a substep
+constexpr double kWarmLimit = 1;        // w is p dt^2 / (2 rho) for a pressure p: four times that of water as high as the room
+constexpr double kPushLow = 0.06;       // of the usual speed (setSpeeds): a correction may always add as much to a speed
+constexpr double kPushHigh = 0.5;       // and never more
+constexpr double kSpeedLimit = 8;       // of the usual speed: jets at walls reach two or three times that
 constexpr double kFarSpacings = 1.0e6;  // beyond it, positions have lost their meaning: float holds 24 bits
 
 float f(double value) { return static_cast<float>(value); }
@@ -160,12 +159,12 @@ double strongestGravity(const Scene& scene) {
 }
 
 void setCalming(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
-  setup.calmingViscosity = calmingViscosity(scene);
-  setup.params.calmingRate = f(xsphRate(setup.calmingViscosity, scene, kernel));
-  if (setup.calmingViscosity > 0) return;
-  setup.whyNotCalming = strongestGravity(scene) == 0            ? "no gravity"
-                        : scene.solver.calming.value_or(1) == 0 ? "calming is 0"
-                                                                : "viscosity does it";
+  setup.artificialViscosity = artificialViscosity(scene);
+  setup.params.calmingRate = f(xsphRate(setup.artificialViscosity, scene, kernel));
+  if (setup.artificialViscosity > 0) return;
+  setup.whyNotCalming = strongestGravity(scene) == 0                         ? "no gravity"
+                        : scene.solver.artificial_viscosity.value_or(1) == 0 ? "artificial viscosity is 0"
+                                                                             : "fluid.viscosity is larger";
 }
 
 // Gravity times the height of a column of all the fluid there is, m^2/s^2.
@@ -179,20 +178,16 @@ double headOf(const Scene& scene, const double extent[3]) {
   return head;
 }
 
-// Mean compression over dt^2 g H / d^2. Corrections hold a column up where 2 omega / D grad C = g dt^2, so that it is D d^2 / (4 omega) at
-// rest; in the dam breaks of assets/scenes it is less, 0.06 at h = 2 d.
-double errorOfHead(const FluidParams& p, const SmoothingKernel& kernel) {
+// The step in which the mean compression of such a column is `error`, over dt^2 g H / d^2. Corrections hold a column up where
+// 2 omega / D grad C = g dt^2, so that it is D d^2 / (4 omega) at rest; in the dam breaks of assets/scenes it is less, 0.06 at h = 2 d.
+double stepOfError(double error, double head, double relaxation, const SmoothingKernel& kernel) {
   const double d = kernel.spacing();
   // With a short support the gradients grow as soon as particles come nearer.
   double gradients = kernel.restGradientSum();
   for (const double nearer : {1.1, 1.2, 1.3})
     gradients = std::max(gradients, SmoothingKernel(kernel.choice(), nearer * kernel.h(), d).restGradientSum());
-  return kErrorOfHead * gradients * d * d / (4 * p.roughRelaxation);
-}
-
-// The step in which such a column's mean compression is `error`.
-double stepOfError(double error, double head, const FluidParams& p, const SmoothingKernel& kernel) {
-  return kernel.spacing() * std::sqrt(error / (errorOfHead(p, kernel) * head));
+  const double errorOfHead = kErrorOfHead * gradients * d * d / (4 * relaxation);
+  return d * std::sqrt(error / (errorOfHead * head));
 }
 
 void setRelaxation(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
@@ -206,12 +201,13 @@ void setRelaxation(const Scene& scene, const SmoothingKernel& kernel, FluidSetup
 }
 
 // See ARCHITECTURE.md, "Calm water".
-void setWarmGain(const Scene& scene, double head, FluidParams& p) {
+void setGains(const Scene& scene, double head, FluidParams& p) {
   const double layers = head / (std::max(strongestGravity(scene), 1e-20) * scene.fluid.spacing);
   const double gain = scene.solver.warm_start.value_or(scene.solver.iterations == 1 ? kWarmGain : 0.0);
   p.roughWarmGain = f(gain);
   p.calmWarmGain = f(scene.solver.warm_start ? gain : std::min(std::min(gain, kMostCalmWarmGain), kCalmWarmGain / (layers * layers)));
-  p.roughSpeed = f(kRoughFroude * std::sqrt(2 * head));
+  p.roughSpeed = f(kRough * std::sqrt(2 * head));
+  p.calmShare = f(1 / std::max(1.0, kCalmSubsteps * layers));
 }
 
 // Speeds that flow can have: what falling through all the room gives, what it started with, what solids push it with.
@@ -232,7 +228,7 @@ void setSpeeds(const Scene& scene, const StartFigures& start, FluidParams& p) {
 void setLongestStep(const Scene& scene, const SmoothingKernel& kernel, double head, FluidSetup& setup) {
   FluidParams& p = setup.params;
   if (head <= 0) return;
-  const double stable = stepOfError(kStableError * p.iterations / (1 + kStableGain * p.roughWarmGain), head, p, kernel);
+  const double stable = stepOfError(kStableError * p.iterations / (1 + kStableGain * p.roughWarmGain), head, p.roughRelaxation, kernel);
   if (scene.solver.time_step && *scene.solver.time_step > stable)
     setup.warnings.push_back("solver.time_step " + roughNumber(*scene.solver.time_step) + " s is more than " +
                              std::to_string(p.iterations) + (p.iterations == 1 ? " iteration" : " iterations") +
@@ -244,7 +240,7 @@ void setLongestStep(const Scene& scene, const SmoothingKernel& kernel, double he
 // pressure: the step that it can bear is known only when it has, and what compresses until then springs back.
 double firstStep(const Scene& scene, const SmoothingKernel& kernel, double head, const FluidParams& p) {
   if (scene.solver.tolerance <= 0 || head <= 0) return p.maxStep;
-  return std::min<double>(p.maxStep, 0.5 * stepOfError(scene.solver.tolerance, head, p, kernel));
+  return std::min<double>(p.maxStep, 0.5 * stepOfError(scene.solver.tolerance, head, p.calmRelaxation, kernel));
 }
 
 void setGravity(const Scene& scene, FluidSetup& setup) {
@@ -259,9 +255,10 @@ void setGravity(const Scene& scene, FluidSetup& setup) {
 
 }  // namespace
 
-double calmingViscosity(const Scene& scene) {
+double artificialViscosity(const Scene& scene) {
   const double d = scene.fluid.spacing;
-  const double wanted = scene.solver.calming.value_or(kCalming) * scene.fluid.density * d * std::sqrt(strongestGravity(scene) * d);
+  const double wanted =
+      scene.solver.artificial_viscosity.value_or(kArtificialViscosity) * scene.fluid.density * d * std::sqrt(strongestGravity(scene) * d);
   return std::max(0.0, wanted - scene.fluid.viscosity);
 }
 
@@ -339,7 +336,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   setGravity(scene, setup);
   setSpeeds(scene, start, p);
   const double head = headOf(scene, extent);
-  setWarmGain(scene, head, p);
+  setGains(scene, head, p);
   setLongestStep(scene, kernel, head, setup);
   setup.firstStep = firstStep(scene, kernel, head, p);
 

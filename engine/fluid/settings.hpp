@@ -24,7 +24,7 @@ struct FluidSetup {
   std::vector<float> gravity;       ///< the schedule: value and time, four floats each; the scene's own first
   uint32_t kernel = 0;              ///< specialization constant KERNEL
   uint32_t viscositySweeps = 0;     ///< 0: no viscosity
-  double calmingViscosity = 0;      ///< Pa s, of a fluid at rest
+  double artificialViscosity = 0;   ///< Pa s, of a fluid at rest
   std::string whyNotCalming;        ///< where that is 0
   double firstStep = 0;             ///< s
   bool near = false;                ///< walls or solids displace density
@@ -45,7 +45,7 @@ struct StartFigures {
 Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& start);
 
 /// The dynamic viscosity that damps particle noise in a fluid at rest, Pa s; 0 where there is none.
-double calmingViscosity(const Scene& scene);
+double artificialViscosity(const Scene& scene);
 
 /// Neighbours that the list holds a particle, a multiple of 4: what a lattice compressed by a fifth puts within the reach.
 uint32_t listCapacity(double reachInSpacings);

@@ -98,14 +98,14 @@ struct Table<SolverSettings> {
             &SolverSettings::regularization},
       Field{Info{.key = "warm_start",
                  .range = between(0, 0.5),
-                 .help =
-                     "gain of the pressure kept from substep to substep; 0: none; auto: 0.02 in a flow, at most 0.005 in a fluid at rest"},
+                 .help = "gain of the pressure kept from substep to substep; 0: none; auto: 0.02 in a flow, at most 0.005 in a fluid at "
+                         "rest, 0 with several iterations"},
             &SolverSettings::warm_start},
-      Field{Info{.key = "calming",
-                 .range = between(0, 1),
-                 .help = "numerical viscosity that damps particle noise while the fluid is slow, over density x spacing x sqrt(g x "
-                         "spacing); auto: 0.03"},
-            &SolverSettings::calming},
+      Field{Info{.key = "artificial_viscosity",
+                 .range = between(0, 0.3),
+                 .help = "damps particle noise while the fluid is slow, over density x spacing x sqrt(g x spacing), less fluid.viscosity; "
+                         "auto: 0.03"},
+            &SolverSettings::artificial_viscosity},
       Field{Info{.key = "kernel",
                  .help = "wendland: one consistent kernel; poly6_spiky: the pair of Macklin and Mueller 2013",
                  .words = kKernelWords},

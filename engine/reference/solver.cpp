@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "reference/neighbours.hpp"
+#include "shared/fluid_records.h"
 #include "shared/pair_hash.h"
 
 namespace rill::reference {
@@ -69,7 +70,11 @@ void ReferenceSolver::substep(double dt, double dtNext) {
   judgeCalmness();
   velocities(dt);
   if (settings.viscosity > 0) viscosity(dt);
-  if (settings.calmViscosity > 0) calm(dt);
+  uncalmed_ += dt;
+  if (substeps_++ % settings.calmEvery == 0) {
+    if (settings.calmViscosity > 0) calm(uncalmed_);
+    uncalmed_ = 0;
+  }
   if (settings.vorticity > 0) vorticity(dt);
   predict(dt, dtNext);
 }
@@ -193,7 +198,7 @@ void ReferenceSolver::viscosity(double dt) {
   for (int sweep = 0; sweep < settings.viscositySweeps; ++sweep) smooth(c);
 }
 
-void ReferenceSolver::calm(double dt) { smooth(std::min(xsphCoefficient(calmness_ * settings.calmViscosity, dt), kMostCalming)); }
+void ReferenceSolver::calm(double dt) { smooth(std::min(xsphCoefficient(calmness_ * settings.calmViscosity, dt), double{kMostCalming})); }
 
 void ReferenceSolver::smooth(double coefficient) {
   const std::vector<glm::dvec3> v = state.velocity;

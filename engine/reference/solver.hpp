@@ -41,9 +41,6 @@ inline constexpr double kContactDistance = 0.55;
 /// D_i is at least this share of D_rest, so that eps = 0 does not divide a lone particle by 0.
 inline constexpr double kLeastDenominator = 1e-6;
 
-/// The XSPH coefficient of calm() is at most this.
-inline constexpr double kMostCalming = 0.5;
-
 /// Every coefficient, explicit. Nothing is "auto" here.
 struct ReferenceSettings {
   KernelChoice kernel = KernelChoice::Wendland;
@@ -68,6 +65,7 @@ struct ReferenceSettings {
   double calmRelaxation = 0;  ///< omega of a fluid at rest, likewise; between them by the fourth power of the speed
   double calmWarmStart = 0;   ///< kappa of a fluid at rest
   double calmViscosity = 0;   ///< mu of a fluid at rest, Pa s, on top of `viscosity`; none at roughSpeed
+  int calmEvery = 1;          ///< substeps from one use of it to the next
 
   double tensile = 0;          ///< strength of the artificial pressure, 0 .. 1
   double tensileRadius = 0.2;  ///< delta q / h
@@ -173,6 +171,8 @@ class ReferenceSolver {
   std::vector<double> densityRatio_, denominator_, delta_, lambda_, lambdaChange_;
   std::vector<WallSample> boundary_;
   std::vector<glm::dvec3> curl_;
+  double uncalmed_ = 0;             ///< s since the last calm()
+  int substeps_ = 0;                ///< since the start
   double calmness_ = 0;             ///< 1: at rest, 0: at roughSpeed or faster
   double fastest_ = 0;              ///< m/s, at the start or in the last velocities()
   std::vector<glm::dvec3> walled_;  ///< m, where the last correction put a particle, walls included, solids not

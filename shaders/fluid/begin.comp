@@ -25,7 +25,7 @@ void main() {
   gravityAt(c);
   float acceleration = length(vec3(c.gravityX, c.gravityY, c.gravityZ));
   c.speed = uintBitsToFloat(s.speedMax);
-  if (c.relaxation == 0.0) setGains(c);  // the first advance: from then on each substep sets those of the next
+  if (c.nextRelaxation == 0.0) setGains(c);  // the first advance: from then on each substep sets those of the next
   c.desiredStep = plannedStep(c, c.desiredStep, cflStep(c.speed, acceleration));
   bool going = push.advance > 0.0;
   if (going) {

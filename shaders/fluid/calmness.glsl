@@ -2,19 +2,23 @@
 // "Calm water".
 #ifndef RILL_CALMNESS_GLSL
 #define RILL_CALMNESS_GLSL
+// From the fastest particle's speed, the gains of the next substep.
 void setGains(inout FluidControl c) {
-  float share = min(c.speed / max(params.roughSpeed, 1.0e-20), 1.0), squared = share * share;
+  float share = params.roughSpeed > 0.0 ? min(c.speed / params.roughSpeed, 1.0) : 1.0, squared = share * share;
   c.calmness = 1.0 - squared * squared;
-  c.relaxation = mix(params.roughRelaxation, params.calmRelaxation, c.calmness);
-  c.warmGain = mix(params.roughWarmGain, params.calmWarmGain, c.calmness);
+  c.relaxation = c.nextRelaxation;
+  c.warmGain = c.nextWarmGain;
+  c.nextRelaxation = mix(params.roughRelaxation, params.calmRelaxation, c.settling > 0u ? 0.0 : c.calmness);  // without time corrections are no speeds
+  c.nextWarmGain = mix(params.roughWarmGain, params.calmWarmGain, c.calmness);
 }
 
 // Noise is damped now and then, by as much as the time since then asks for: `calms` says that the pass is there.
 void planCalming(inout FluidControl c, bool calms) {
-  c.uncalmed += c.step;
   c.calming = 0.0;
+  if (params.calmingRate <= 0.0) return;
+  c.uncalmed += c.step;
   if (!calms) return;
-  c.calming = min(params.calmingRate * c.calmness * c.uncalmed, 0.5);
+  c.calming = min(params.calmingRate * c.calmness * c.uncalmed, kMostCalming);
   c.uncalmed = 0.0;
 }
 #endif

@@ -39,6 +39,7 @@ void main() {
     c.settling = apart ? 0u : c.settling - 1u;
     c.step = 0.0;
     c.calming = 0.0;
+    setGains(c);
     c.travel += 0.1 * params.spacing;
     if (c.travel > params.travelLimit) c.stale = 1u;
     again = false;
@@ -56,7 +57,7 @@ void main() {
     c.travel += (c.speed + params.solidSpeed) * c.step;
     gravityAt(c);
     float acceleration = length(vec3(c.gravityX, c.gravityY, c.gravityZ));
-    c.desiredStep = plannedStep(c, tolerableStep(c.desiredStep, c.step, error), cflStep(c.speed, acceleration));
+    c.desiredStep = plannedStep(c, tolerableStep(c, error), cflStep(c.speed, acceleration));
     if (c.timeLeft < 1.0e-4 * c.step) c.timeLeft = 0.0;
     if (c.timeLeft > 0.0 && c.substeps >= params.maxSubsteps) {
       c.timeDropped += c.timeLeft;

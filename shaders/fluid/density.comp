@@ -54,14 +54,15 @@ void main() {
 
   float constraint = here.x == kParked ? -1.0 : rho - 1.0;  // who is parked meets all others there: no density of the fluid's
   float stiffness = dot(gradientSum, gradientSum) + gradientSquares + params.regularization;
-  float delta = -control.relaxation * constraint / max(stiffness, 1.0e-20);
+  bool first = push.iteration == 0u;
+  float delta = -(first ? control.nextRelaxation : control.relaxation) * constraint / max(stiffness, 1.0e-20);
 
   float before, after, warmNext;
-  if (push.iteration == 0u) {
+  if (first) {
     float ratio = control.nextStep / control.warmStep;
     before = warm[i] * ratio * ratio;  // 0 while particles settle
     after = min(0.0, before + delta);
-    warmNext = min(0.0, before + control.warmGain * (delta > 0.0 ? params.warmRelease : 1.0) * delta);
+    warmNext = min(0.0, before + control.nextWarmGain * (delta > 0.0 ? params.warmRelease : 1.0) * delta);
     warmNext = max(warmNext, -params.warmLimit * control.nextStep * control.nextStep);  // fluid without room would wind it up for ever
     if (control.settling != 0u) warmNext = 0.0;
     warm[i] = warmNext;

@@ -7,12 +7,15 @@ float cflStep(float speed, float acceleration) {
   return min(params.maxStep, 2.0 * reach / (speed + sqrt(speed * speed + 4.0 * acceleration * reach) + 1.0e-20));
 }
 
-// The step that the tolerance asks for, from the error that a step of `last` seconds gave: a prediction's error grows with the square of the step.
-// It moves slowly: what a long step left to correct is a kick in a short one.
-float tolerableStep(float desired, float last, float error) {
+// The step that the tolerance asks for, from the error of the step that was taken: over the square of the step it hardly depends on it.
+// It moves slowly: what a long step left to correct is a kick in a short one. In calm fluid it follows a mean over many steps, since a step that
+// follows each wave of pressure stiffens the fluid where it is compressed, and feeds the wave.
+float tolerableStep(inout FluidControl c, float error) {
   if (params.tolerance <= 0.0) return params.maxStep;
-  float target = last * sqrt(params.tolerance / max(error, 1.0e-9));
-  return clamp(target, 0.995 * desired, 1.002 * desired);
+  if (c.errorRate == 0.0) c.errorRate = params.tolerance / (c.desiredStep * c.desiredStep);
+  float now = max(error, 1.0e-9) / (c.step * c.step);
+  c.errorRate = mix(c.errorRate, now, pow(params.calmShare, c.calmness));
+  return clamp(sqrt(params.tolerance / c.errorRate), 0.995 * c.desiredStep, 1.002 * c.desiredStep);
 }
 
 // The tolerance gives way before time has to be dropped: no shorter than what lets the substeps that are left finish the advance. cfl does not.

@@ -8,6 +8,7 @@ RILL_CONST uint kFluidGroup = 64u;        // invocations a workgroup of every pe
 RILL_CONST uint kListBlock = 4096u;       // particles a block of the neighbour list: k-major inside a block
 RILL_CONST uint kCellsPerReach = 2u;       // grid cells in x as long as one in y or z
 RILL_CONST uint kSettleSubsteps = 64u;     // at most, before the first substep in time
+RILL_CONST float kMostCalming = 0.5f;     // XSPH coefficient of a calm pass, at most
 RILL_CONST uint kWindow = 32u;            // candidates that a grid walk looks at together, a bit of a mask each
 // Candidates that the particles of a cluster look at together, at most, in whole windows; more are counted as a bound hit. Lavapipe ends a shader after 65,535
 // steps of its loops: a window takes about 20 where a cluster is 4, so that 1,024 windows leave room for the loops around them.
@@ -51,7 +52,8 @@ struct FluidParams {
   float regularization;   // epsilon times sum |grad K|^2 of the rest lattice, 1/m^2
   float calmRelaxation, roughRelaxation;  // omega of a fluid at rest, and of one that moves at roughSpeed (see calmness.glsl)
   float calmWarmGain, roughWarmGain;      // kappa, likewise
-  float roughSpeed;       // m/s
+  float roughSpeed;       // m/s; 0: never calm
+  float calmShare;        // of a substep in the mean error that the step follows in a fluid at rest
   float warmRelease;      // times kappa where density is below rest density
   float reach;            // m, support plus skin: the list holds what was nearer when it was built
   float travelLimit;      // m that the fastest particle may move before the list is rebuilt
@@ -112,8 +114,9 @@ struct FluidControl {
   float desiredStep;   // s, what cfl and tolerance ask for, before it is fitted to the advance
   uint running;        // the next density pass runs
   uint again;          // so does the next iteration
-  float relaxation;    // omega of the next substep
-  float warmGain;      // kappa
+  float relaxation, nextRelaxation;  // omega of this substep, and of the next, whose density pass comes before control.comp
+  float warmGain, nextWarmGain;      // kappa, likewise
+  float errorRate;     // mean compression over the step's square, 1/s^2; in calm fluid a mean over many steps
   float calmness;      // 1: at rest, 0: at roughSpeed or faster
   float calming;       // XSPH coefficient of the calm pass after this substep; 0: it does not run
   float uncalmed;      // s since the last one

@@ -111,7 +111,7 @@ TEST(Record, WritesTheAgreedJson) {
                           "non_finite",
                           "outside",
                           "neighbour_overflow",
-                          "numerical_viscosity_Pa_s",
+                          "artificial_viscosity_Pa_s",
                           "state_hash",
                           "probes",
                           "wall_s",

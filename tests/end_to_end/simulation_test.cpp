@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "rill/offline.hpp"
@@ -60,6 +60,32 @@ TEST(Simulation, LookingChangesNothing) {
     ASSERT_TRUE(looked->render("density", 64, 36));
   }
   EXPECT_EQ(looked->stats()->state_hash, left->stats()->state_hash);
+}
+
+/// rms speed of a tank, 16 layers deep, that has stood for two seconds, m/s.
+double unrest(std::optional<double> artificialViscosity) {
+  auto scene = parseScene(R"({
+    "rill": "0.1", "domain": {"min": [0, 0, 0], "max": [0.4, 1.2, 0.4]}, "fluid": {"spacing": 0.05},
+    "fill": [{"box": {"min": [0, 0, 0], "max": [0.4, 0.8, 0.4]}}]})",
+                          "tank", ".");
+  EXPECT_TRUE(scene);
+  scene->solver.artificial_viscosity = artificialViscosity;
+  const auto simulation = open({}, *scene);
+  if (!simulation) return 0;
+  EXPECT_TRUE(simulation->advance(2));
+  const auto stats = simulation->stats();
+  EXPECT_TRUE(stats);
+  if (!stats) return 0;
+  EXPECT_EQ(stats->artificial_viscosity_Pa_s > 0, artificialViscosity != 0.0);
+  EXPECT_LT(stats->density_error_mean, 0.001);
+  return std::sqrt(2 * stats->kinetic_J / (1000 * 0.4 * 0.8 * 0.4));
+}
+
+TEST(Simulation, WaterAtRestComesToRest) {
+  const double still = unrest({}), undamped = unrest(0.0);
+  EXPECT_LT(still, 0.04);
+  EXPECT_LT(still, undamped);
+  EXPECT_LT(undamped, 0.12) << "0.13 with the gains of a flow";
 }
 
 TEST(Simulation, LongAdvancesAreMadeOfFrames) {
@@ -177,7 +203,8 @@ TEST(Simulation, StepsAreNoLongerThanTheFluidCanBear) {
     const auto simulation = open({}, tall);
     ASSERT_TRUE(simulation);
     const auto warnings = simulation->warnings();
-    EXPECT_TRUE(std::ranges::any_of(warnings, [](const std::string& text) { return text.starts_with("solver.time_step 1 s is more than"); }));
+    EXPECT_TRUE(
+        std::ranges::any_of(warnings, [](const std::string& text) { return text.starts_with("solver.time_step 1 s is more than"); }));
     const auto start = simulation->stats();
     ASSERT_TRUE(start);
     for (int frame = 0; frame < 30; ++frame) {

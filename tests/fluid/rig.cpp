@@ -61,12 +61,11 @@ reference::ReferenceSettings settingsOf(const Trial& trial) {
   s.viscositySweeps = scene.fluid.viscosity > 0 ? static_cast<int>(setup.viscositySweeps) : 1;
   s.vorticity = scene.fluid.vorticity;
   s.warmLimit = setup.params.warmLimit;
-  if (scene.solver.calming.value() > 0) {
-    s.roughSpeed = setup.params.roughSpeed;
-    s.calmRelaxation = setup.params.calmRelaxation;
-    s.calmWarmStart = setup.params.calmWarmGain;
-    s.calmViscosity = calmingViscosity(scene);
-  }
+  s.roughSpeed = setup.params.roughSpeed;
+  s.calmRelaxation = setup.params.calmRelaxation;
+  s.calmWarmStart = setup.params.calmWarmGain;
+  s.calmViscosity = setup.artificialViscosity;
+  s.calmEvery = trial.stepwise ? 1 : kSubstepsPerBlock;
   s.pushLow = setup.params.pushLow;
   s.pushHigh = setup.params.pushHigh;
   return s;
@@ -108,7 +107,7 @@ Trial trial() {
   t.scene.solver.relaxation = 0.7;
   t.scene.solver.regularization = 0.02;
   t.scene.solver.warm_start = 0.1;
-  t.scene.solver.calming = 0;
+  t.scene.solver.artificial_viscosity = 0;
   return t;
 }
 

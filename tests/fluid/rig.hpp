@@ -32,8 +32,8 @@ struct Trial {
   ParticleSet particles() const;
 };
 
-/// Spacing 1/16 m, no walls, gravity; relaxation, regularization and warm start explicit, no calming, a fixed step, no bound on the speed
-/// to speak of.
+/// Spacing 1/16 m, no walls, gravity; relaxation, regularization and warm start explicit, no artificial viscosity, a fixed step, no bound
+/// on the speed to speak of.
 Trial trial();
 /// Walls from 0 to `size`.
 void setWalls(Trial& trial, glm::dvec3 size, SideMask open = 0);

@@ -100,12 +100,12 @@ TEST_F(SubstepTest, OneSweepOfViscosity) {
   expectEqual(t, 10, kTen, kTen, kAgeing);
 }
 
-// Gains and damping between those of a fluid at rest and of one that is rough; the numerical viscosity is much more than the default.
+// Gains and damping between those of a fluid at rest and of one that is rough; ten times the default artificial viscosity.
 Trial calmed() {
   Trial t = trial();
   t.scene.solver.relaxation.reset();
   t.scene.solver.warm_start.reset();
-  t.scene.solver.calming = 1;
+  t.scene.solver.artificial_viscosity = 0.3;
   t.stepwise = true;
   setWalls(t, {1, 1, 1});
   t.x = block({6, 7, 6}, t.d(), {}, 0.1);
@@ -113,30 +113,61 @@ Trial calmed() {
   return t;
 }
 
-TEST_F(SubstepTest, Calming) {
+TEST_F(SubstepTest, Calm) {
   expectEqual(calmed(), 1, kOne, kOne);
   expectEqual(calmed(), 10, kTen, kTen, kAgeing);
 }
 
-TEST_F(SubstepTest, CalmingAroundABall) {
+// The pass runs in the first substep of a block alone, with the time since the last one.
+TEST_F(SubstepTest, CalmOnceABlock) {
   Trial t = calmed();
-  t.scene.solids.push_back(ball({0.2, 0.6, 0.2}, 0.15));
+  t.stepwise = false;
+  expectEqual(t, 8, kTen, kTen, kAgeing);
+}
+
+TEST_F(SubstepTest, CalmInThreeIterations) {
+  Trial t = calmed();
+  t.scene.solver.iterations = 3;
+  expectEqual(t, 1, kOne, kOne);
   expectEqual(t, 10, kTen, kTen, kAgeing);
 }
 
-TEST_F(SubstepTest, CalmingChangesSomething) {
+TEST_F(SubstepTest, CalmUnderABall) {
+  Trial t = calmed();
+  t.scene.solids.push_back(ball({0.2, 0.545, 0.2}, 0.1));
+  t.scene.solids.back().friction = 0.3;
+  expectEqual(t, 10, kTen, kTen, kAgeing);
+}
+
+TEST_F(SubstepTest, WithoutGravityNothingIsCalm) {
+  Trial t = calmed();
+  t.scene.gravity[1] = 0;
+  t.x = block({6, 7, 6}, t.d());
+  expectEqual(t, 1, kOne, kOne);
+  const FluidStats stats = start(t)->stats();
+  EXPECT_EQ(stats.artificial_viscosity_Pa_s, 0);
+}
+
+TEST_F(SubstepTest, ArtificialViscosityDampsNoise) {
   Trial none = calmed(), little = calmed();
-  none.scene.solver.calming = 0;
-  little.scene.solver.calming = 0.1;
+  none.scene.solver.artificial_viscosity = 0;
+  little.scene.solver.artificial_viscosity = 0.03;
+  double said = 0;
   const auto energy = [&](Trial t) {
     t.x = block({6, 7, 6}, t.d());  // a jittered one springs apart, which is more than its noise
     auto run = start(t);
-    for (int n = 0; n < 10; ++n) run->substeps(1);
-    return run->stats().kinetic_J;
+    for (int n = 0; n < 30; ++n) run->substeps(1);
+    const FluidStats stats = run->stats();
+    said = stats.artificial_viscosity_Pa_s;
+    return stats.kinetic_J;
   };
-  const double full = energy(calmed()), some = energy(little), nothing = energy(none);
+  const double full = energy(calmed()), saidFull = said, some = energy(little), nothing = energy(none);
   EXPECT_LT(some, 0.99 * nothing);
   EXPECT_LT(full, 0.9 * some);
+  EXPECT_EQ(said, 0);
+  const double atRest = 0.3 * 1000 * calmed().d() * std::sqrt(9.81 * calmed().d());
+  EXPECT_LE(saidFull, 1.000001 * atRest);
+  EXPECT_GT(saidFull, 0.5 * atRest);
 }
 
 TEST_F(SubstepTest, SeveralSweepsOfViscosity) {

@@ -9,18 +9,12 @@ constexpr double kShown = std::numeric_limits<double>::infinity();
 // Where a band is wider than its aim, the solver misses the aim today: the band is what it reached, with room for another driver's
 // rounding, so that it cannot get worse unseen. Coarse, middle, fine. Nothing was tuned to make a figure fit; when the solver gets better,
 // bands follow.
-constexpr std::string_view kUnrest =
-    "the corrections themselves keep the fluid moving, whatever the list misses: at 20 layers 0.149 m/s after 2 s, and 0.135 and 0.142 "
-    "with lists that "
-    "live half and a quarter as long; in resting-column without warm start 0.045 in place of 0.105";
+constexpr std::string_view kUnrest = "see ARCHITECTURE.md, Calm water: what the release leaves is damped slowly, and long waves hardly";
 constexpr std::string_view kSlosh =
-    "not the list: -12.8 %, and -13.4 and -11 % with lists that live half and a quarter as long. At H = 0.5 m, d = 1/32 m and steps of 0.3 "
-    "ms without "
-    "warm start it was 2 % long: the length of the step and the warm start decide it";
+    "the rest lattice resists shear at h = 2 d, at every resolution, step and warm start that was tried; with a smoothing ratio of 2.3 "
+    "(slosh-wide) it does so much less";
 constexpr std::string_view kElliptic =
-    "the drop is thrown apart: its energy grows by 22 % at R / d = 16. A step of 0.25 spacings is too long for this strain; with "
-    "solver.cfl=0.1 it grew "
-    "by 0.3 %";
+    "the drop is thrown apart: its energy grows. A step of 0.25 spacings is too long for this strain; with solver.cfl=0.1 it does not";
 
 constexpr Band kBands[] = {
     {"martin-moyce-1", "front, shifted", 0.05, {0.05, 0.05, 0.065}, "%", "finer is faster: walls without friction, and no gate that drags"},
@@ -30,21 +24,16 @@ constexpr Band kBands[] = {
     {"martin-moyce", "height, shifted", kNone, {0.15, 0.13, 0.12}, "%", ""},
     {"martin-moyce", "height, as it is", kNone, {0.25, 0.23, 0.2}, "%", ""},
     {"martin-moyce", "height, shift", kNone, {0.6, 0.6, 0.5}, "", ""},
-    {"still-tank", "rms speed, 0.5 s", kNone, {0.22, 0.22, 0.24}, "m/s", ""},
-    {"still-tank", "rms speed, 2 s", 0.02, {0.35, 0.25, 0.25}, "m/s", kUnrest},
-    {"still-tank", "rms speed, 6 s", 0.02, {0.4, 0.25, 0.25}, "m/s", kUnrest},
-    {"still-tank", "level", 0.01, {0.015, 0.01, 0.01}, "%", "a surface that is shaken is rough: see rms speed"},
-    {"still-tank", "twice the centre of mass", 0.01, {0.015, 0.01, 0.01}, "%", "as its level"},
+    {"still-tank", "rms speed, 0.5 s", kNone, {0.1, 0.1, 0.1}, "m/s", ""},
+    {"still-tank", "rms speed, 2 s", 0.02, {0.04, 0.04, 0.04}, "m/s", kUnrest},
+    {"still-tank", "rms speed, 6 s", 0.02, {0.03, 0.03, 0.06}, "m/s", kUnrest},
+    {"still-tank", "level", 0.01, {0.015, 0.01, 0.01}, "%", "the highest particles of a disordered surface lie lower than a lattice's"},
+    {"still-tank", "twice the centre of mass", 0.01, {0.005, 0.005, 0.005}, "%", ""},
     {"still-tank", "pressure", kNone, {0.03, 0.01, 0.01}, "%", ""},
-    {"still-tank", "floor's load, rms", kNone, {0.15, 0.1, 0.11}, "%", ""},
-    {"still-tank", "energy, end", kNone, {0.03, 0.01, 0.01}, "%", ""},
-    {"still-tank", "energy, peak", kNone, {0.08, 0.02, 0.015}, "%", ""},
-    {"still-tank",
-     "bulk density",
-     0.003,
-     {0.015, 0.006, 0.0055},
-     "%",
-     "the upper half is thin (-1 % at 0.85 m of 1 m at d = 0.05 m): probably because it is shaken"},
+    {"still-tank", "floor's load, rms", kNone, {0.02, 0.02, 0.06}, "%", ""},
+    {"still-tank", "energy, end", kNone, {0.005, 0.005, 0.005}, "%", ""},
+    {"still-tank", "energy, peak", kNone, {0.005, 0.005, 0.005}, "%", ""},
+    {"still-tank", "bulk density", 0.003, {0.003, 0.003, 0.003}, "%", ""},
     {"dam-break",
      "bulk density",
      0.003,
@@ -54,14 +43,15 @@ constexpr Band kBands[] = {
     {"still-tank", "clumped", 0.01, {0.015, 0.01, 0.01}, "%", ""},
     {"dam-break", "clumped", 0.01, {0.045, 0.035, 0.03}, "%", "probably near the surface, where density is too low to part a pair"},
     {"dam-break", "energy, peak", kNone, {0.01, 0.01, 0.01}, "%", ""},
-    {"slosh", "period", 0.02, {0.5, 0.3, 0.3}, "%", kSlosh},
-    {"slosh", "damping a period", kNone, {1, 1, 1}, "", ""},
-    {"slosh", "energy, peak", kNone, {0.25, 0.25, 0.25}, "%", ""},
+    {"slosh-wide", "period", 0.02, {0.06, 0.06, 0.05}, "%", "scattered: half of the amplitude is lost in a period"},
+    {"slosh", "period", 0.02, {0.2, 0.2, 0.2}, "%", kSlosh},
+    {"slosh", "damping a period", kNone, {1.2, 1.2, 1}, "", ""},
+    {"slosh", "energy, peak", kNone, {0.02, 0.02, 0.02}, "%", ""},
     {"elliptic-drop", "long axis, end", 0.03, {0.03, 0.14, 0.09}, "%", kElliptic},
     {"elliptic-drop", "long axis, worst", 0.03, {0.03, 0.14, 0.09}, "%", kElliptic},
     {"elliptic-drop", "short axis, end", kNone, {1.3, 6, 3}, "%", ""},
     {"elliptic-drop", "area, end", kNone, {1.3, 7, 3}, "%", ""},
-    {"elliptic-drop", "energy, peak", kNone, {0.6, 0.6, 0.6}, "%", ""},
+    {"elliptic-drop", "energy, peak", kNone, {0.05, 0.2, 0.6}, "%", ""},
     {"free-fall", "way", kNone, {0.005, 0.004, 0.003}, "%", ""},  // steps of explicit first order: half a step's fall
     {"free-fall", "speed", kNone, {0.001, 0.001, 0.004}, "%", ""},
     {"free-drop", "momentum, drift", kNone, {1e-5, 1e-5, 1e-5}, "%", ""},

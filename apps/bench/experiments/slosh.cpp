@@ -15,6 +15,7 @@ constexpr double kDepths[] = {0.25, 0.5, 1};   // m, those of sloshing_first_mod
 constexpr int kAlong[kLevels] = {20, 28, 40};  // spacings; multiples of 4, so that each depth holds whole ones
 constexpr int kThick = 4;                      // spacings in z, between frictionless walls
 constexpr double kPeriods = 5.3;               // long enough for ten crossings
+constexpr double kWide = 2.3;                  // smoothing ratio of a second run, at the middle depth
 
 /// A rest lattice displaced as the linear wave displaces water: free of divergence, so that density stays, and a cosine at the surface.
 Cloud wave(double depth, double spacing) {
@@ -32,11 +33,12 @@ Cloud wave(double depth, double spacing) {
   return cloud;
 }
 
-Expected<Outcome> slosh(const Bench& bench, double depth, unsigned level) {
+Expected<Outcome> slosh(const Bench& bench, double depth, unsigned level, double smoothingRatio) {
   const double spacing = kLength / kAlong[level];
   const auto start = StartFile::write(wave(depth, spacing));
   if (!start) return start.error();
   Scene scene = boxScene(spacing, {0, 0, 0}, {kLength, 2 * depth, kThick * spacing});
+  scene.fluid.smoothing_ratio = smoothingRatio;
   scene.fill.push_back(start->fill());
   const double expected = sloshPeriod(kLength, depth, -scene.gravity[1]);
   auto run = watch(
@@ -54,7 +56,9 @@ Expected<Outcome> slosh(const Bench& bench, double depth, unsigned level) {
   outcome.figures.push_back(plainFigure("energy, peak", outcome.run.energy.ratio - 1));
   outcome.curves["centre_of_mass_x"] = curveJson(sway);
   outcome.curves["peaks"] = curveJson(found.peaks);
-  outcome.overlays.push_back({"slosh", {"H = " + number(depth) + ", d = " + number(spacing), Series::Style::Lines, drawn, {}}});
+  outcome.overlays.push_back(
+      {"slosh",
+       {"H = " + number(depth) + ", d = " + number(spacing) + ", h = " + number(smoothingRatio) + " d", Series::Style::Lines, drawn, {}}});
   return outcome;
 }
 
@@ -62,10 +66,13 @@ Expected<Outcome> slosh(const Bench& bench, double depth, unsigned level) {
 
 std::vector<Experiment> sloshExperiments() {
   std::vector<Experiment> all;
-  for (const double depth : kDepths)
+  const auto add = [&](const std::string& name, double depth, double smoothingRatio) {
     for (unsigned level = 0; level < kLevels; ++level)
-      all.push_back({"slosh-" + number(depth), level, level == 0 && depth == 0.5, kLength / kAlong[level],
-                     [depth, level](const Bench& bench) { return slosh(bench, depth, level); }});
+      all.push_back({name + number(depth), level, level == 0 && depth == kDepths[1], kLength / kAlong[level],
+                     [=](const Bench& bench) { return slosh(bench, depth, level, smoothingRatio); }});
+  };
+  for (const double depth : kDepths) add("slosh-", depth, Scene().fluid.smoothing_ratio);
+  add("slosh-wide-", kDepths[1], kWide);
   return all;
 }
 

@@ -63,7 +63,7 @@ std::vector<Setting> settings(bool quick) {
   for (const char* cfl : {"0.15", "0.4", "0.6"}) all.push_back({"cfl", std::string("cfl ") + cfl, {{"solver.cfl", cfl}}});
   for (const char* gain : {"0", "0.01", "0.05"}) all.push_back({"warm start", std::string("gain ") + gain, {{"solver.warm_start", gain}}});
   for (const char* omega : {"0.5", "0.7"}) all.push_back({"relaxation", std::string("omega ") + omega, {{"solver.relaxation", omega}}});
-  all.push_back({"calming", "no calming", {{"solver.calming", "0"}}});
+  all.push_back({"artificial viscosity", "none", {{"solver.artificial_viscosity", "0"}}});
   return all;
 }
 

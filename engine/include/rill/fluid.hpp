@@ -99,7 +99,7 @@ struct FluidStats {
   uint64_t neighbour_overflow = 0;       ///< particles whose list was full at the last build: they walk the grid
   uint64_t loop_bound_hits = 0;          ///< times a bounded shader loop ran into its bound since the start
   uint32_t list_builds = 0;              ///< of the last advance
-  double numerical_viscosity_Pa_s = 0;   ///< what solver.calming adds at present, Pa s: nothing while the fluid is rough
+  double artificial_viscosity_Pa_s = 0;  ///< what solver.artificial_viscosity adds at present, Pa s: nothing while the fluid is rough
 };
 
 class FluidImpl;

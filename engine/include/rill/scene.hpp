@@ -44,15 +44,15 @@ struct FluidSettings {
 };
 
 struct SolverSettings {
-  std::optional<double> time_step;       ///< s, the longest one, > 0; empty: "auto", as long as cfl and tolerance allow
-  double cfl = 0.25;                     ///< spacings that the fastest particle may move in a substep, > 0 .. 10
-  uint32_t max_substeps = 64;            ///< a frame of up to 1/60 s, 1 .. 256; time beyond them is dropped and reported
-  uint32_t iterations = 1;               ///< Jacobi iterations a substep, at most, 1 .. 1000
-  double tolerance = 0.001;              ///< mean compression to keep under, fraction of rest density, >= 0; 0: always the full count
-  std::optional<double> relaxation;      ///< Jacobi under-relaxation, > 0 .. 2; empty: "auto"
-  std::optional<double> regularization;  ///< epsilon as a fraction of the rest lattice's sum of |grad C|^2, >= 0; empty: "auto"
-  std::optional<double> warm_start;      ///< gain of the integral warm start, 0 .. 0.5; 0: none; empty: "auto"
-  std::optional<double> calming;  ///< numerical viscosity of a fluid at rest over density spacing sqrt(g spacing), 0 .. 1; empty: "auto"
+  std::optional<double> time_step;             ///< s, the longest one, > 0; empty: "auto", as long as cfl and tolerance allow
+  double cfl = 0.25;                           ///< spacings that the fastest particle may move in a substep, > 0 .. 10
+  uint32_t max_substeps = 64;                  ///< a frame of up to 1/60 s, 1 .. 256; time beyond them is dropped and reported
+  uint32_t iterations = 1;                     ///< Jacobi iterations a substep, at most, 1 .. 1000
+  double tolerance = 0.001;                    ///< mean compression to keep under, fraction of rest density, >= 0; 0: always the full count
+  std::optional<double> relaxation;            ///< Jacobi under-relaxation, > 0 .. 2; empty: "auto"
+  std::optional<double> regularization;        ///< epsilon as a fraction of the rest lattice's sum of |grad C|^2, >= 0; empty: "auto"
+  std::optional<double> warm_start;            ///< gain of the integral warm start, 0 .. 0.5; 0: none; empty: "auto"
+  std::optional<double> artificial_viscosity;  ///< of a fluid at rest, over density spacing sqrt(g spacing), 0 .. 0.3; empty: "auto"
   KernelChoice kernel = KernelChoice::Wendland;
   NeighborChoice neighbors = NeighborChoice::List;
 };
