@@ -16,7 +16,7 @@ class TemporaryFolder {
   /// Io, naming the place, where none can be made.
   static Expected<TemporaryFolder> make() {
     std::error_code failed;
-    std::string pattern = (std::filesystem::temp_directory_path(failed) / "rill-XXXXXX").string();
+    std::string pattern = (std::filesystem::temp_directory_path(failed) / ("rill-" + std::string(6, 'X'))).string();
     if (failed || ::mkdtemp(pattern.data()) == nullptr) return Error{ErrorKind::Io, "making a temporary folder as " + pattern + " failed"};
     return TemporaryFolder(pattern);
   }
