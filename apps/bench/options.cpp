@@ -62,7 +62,7 @@ Expected<apps::CommandLine<Options>> parseCommandLine(int count, const char* con
   app.name("rill-bench");
   app.get_formatter()->column_width(30);
   app.add_option("SUITE", raw.suite, "which one, see below")->type_name("")->required();
-  app.add_flag("--quick", raw.quick, "fewer and smaller cases, one sample of each time: about a minute");
+  app.add_flag("--quick", raw.quick, "fewer and smaller cases, one sample of each time: under a minute, stability about two");
   app.add_option("--json", raw.json, "write every figure and sample; - is standard output")->type_name("FILE");
   app.add_option("--plot", raw.plot, "draw the suite's diagrams (needs gnuplot)")->type_name("FILE.svg");
   app.add_option("--only", raw.only, "run only the cases whose names contain this")->type_name("TEXT");
