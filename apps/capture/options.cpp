@@ -77,7 +77,7 @@ void declare(CLI::App& app, Raw& raw) {
 
   once("--out", raw.out, "folder of the frames, made where missing (default: out/SCENE)", "DIR", written);
   once("--size", raw.size, "pixels (default: 1280x720)", "WxH", written);
-  once("--view", raw.view, "what is drawn: " + apps::joined(viewNames()) + " (default: particles)", "VIEW", written);
+  once("--view", raw.view, "what is drawn: " + apps::joined(viewNames()) + " (default: final)", "VIEW", written);
   app.add_flag("--no-images", raw.noImages, "draw nothing, write no pictures")->group(written);
   once("--export", raw.exportAs, "write the particles of each frame: ply", "FORMAT", written);
   once("--stats", raw.stats, "write all figures as JSON; - is standard output", "FILE", written);

@@ -23,7 +23,7 @@ struct Options {
   bool fpsGiven = false;                     ///< else a checkpoint's own are taken where a run goes on from one
   uint32_t width = 1280, height = 720;       ///< pixels
   std::optional<std::filesystem::path> out;  ///< none: out/SCENE
-  std::string view = "particles";
+  std::string view = "final";
   std::optional<std::filesystem::path> stats;
   bool exportPly = false;
   std::optional<std::filesystem::path> checkpoint;  ///< where to

@@ -41,13 +41,13 @@ void describe(DeviceImpl& impl, const HostDevice& host) {
 }
 
 /// The mask of valid timestamp bits of the host's queue family, or -1 where the device has no such family.
-int64_t timestampBits(const DeviceImpl& impl, const HostDevice& host, bool& compute) {
+int64_t timestampBits(const DeviceImpl& impl, const HostDevice& host, VkQueueFlags& can) {
   uint32_t count = 0;
   impl.instance.GetPhysicalDeviceQueueFamilyProperties(host.physicalDevice, &count, nullptr);
   if (host.queueFamily >= count) return -1;
   std::vector<VkQueueFamilyProperties> families(count);
   impl.instance.GetPhysicalDeviceQueueFamilyProperties(host.physicalDevice, &count, families.data());
-  compute = (families[host.queueFamily].queueFlags & VK_QUEUE_COMPUTE_BIT) != 0;
+  can = families[host.queueFamily].queueFlags;
   return families[host.queueFamily].timestampValidBits;
 }
 
@@ -71,10 +71,11 @@ Expected<std::unique_ptr<Device>> Device::borrow(const HostDevice& host) {
   if (auto ok = checkEnabled(*host.enabled); !ok) return ok.error();
   if (const char* missing = impl->vk.load(impl->instance.GetDeviceProcAddr, host.device))
     return Error{ErrorKind::NoDevice, std::string("the Vulkan device lacks ") + missing};
-  bool compute = false;
-  const int64_t bits = timestampBits(*impl, host, compute);
+  VkQueueFlags can = 0;
+  const int64_t bits = timestampBits(*impl, host, can);
   if (bits < 0) return badHost("queueFamily: the device has no such family");
-  if (!compute) return badHost("queueFamily: its queues cannot compute");
+  if (!(can & VK_QUEUE_COMPUTE_BIT)) return badHost("queueFamily: its queues cannot compute");
+  impl->draws = (can & VK_QUEUE_GRAPHICS_BIT) != 0;
   impl->timestampMask = bits == 0 ? 0 : bits >= 64 ? ~0ull : (1ull << bits) - 1;
   describe(*impl, host);
   impl->reload = ShaderReload::fromEnvironment();

@@ -16,6 +16,7 @@
   X(AllocateMemory)                   \
   X(BindBufferMemory)                 \
   X(BindImageMemory)                  \
+  X(CmdBeginRendering)                \
   X(CmdBindDescriptorSets)            \
   X(CmdBindPipeline)                  \
   X(CmdClearColorImage)               \
@@ -24,16 +25,23 @@
   X(CmdCopyImageToBuffer)             \
   X(CmdDispatch)                      \
   X(CmdDispatchIndirect)              \
+  X(CmdDraw)                          \
+  X(CmdDrawIndirect)                  \
+  X(CmdEndRendering)                  \
   X(CmdFillBuffer)                    \
   X(CmdPipelineBarrier2)              \
   X(CmdPushConstants)                 \
   X(CmdResetQueryPool)                \
+  X(CmdSetScissor)                    \
+  X(CmdSetViewport)                   \
+  X(CmdUpdateBuffer)                  \
   X(CmdWriteTimestamp2)               \
   X(CreateBuffer)                     \
   X(CreateBufferView)                 \
   X(CreateComputePipelines)           \
   X(CreateDescriptorPool)             \
   X(CreateDescriptorSetLayout)        \
+  X(CreateGraphicsPipelines)          \
   X(CreateImage)                      \
   X(CreateImageView)                  \
   X(CreatePipelineLayout)             \

@@ -1,7 +1,6 @@
 #include "gpu/pipeline.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "gpu/device_impl.hpp"
 #include "gpu/shader_library.hpp"
@@ -13,6 +12,8 @@ namespace {
 
 constexpr size_t kMaxConstants = 32;
 constexpr uint32_t kMaxPushBytes = 128;  // the least that Vulkan guarantees
+
+}  // namespace
 
 std::span<const uint32_t> libraryWords(const DeviceImpl& device, std::string_view name) {
   if (device.reload)
@@ -26,7 +27,31 @@ Error shaderError(std::string_view shader, std::string what) {
   return {ErrorKind::Shader, "shader '" + std::string(shader) + "': " + std::move(what)};
 }
 
-}  // namespace
+Error pipelineError(VkResult result, std::string_view shader) {
+  Error error = vulkanError(result, "compiling the pipeline of shader '" + std::string(shader) + "'");
+  if (error.kind == ErrorKind::Failed) error.kind = ErrorKind::Shader;
+  return error;
+}
+
+Expected<ShaderModule> ShaderModule::make(DeviceImpl& device, std::string_view shader, std::span<const uint32_t> words) {
+  VkShaderModuleCreateInfo create{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, nullptr, 0, words.size_bytes(), words.data()};
+  VkShaderModule module = VK_NULL_HANDLE;
+  if (VkResult r = device.vk.CreateShaderModule(device.handle, &create, device.callbacks, &module); r != VK_SUCCESS) {
+    Error error = vulkanError(r, "creating the module of shader '" + std::string(shader) + "'");
+    if (error.kind == ErrorKind::Failed) error.kind = ErrorKind::Shader;
+    return error;
+  }
+  return ShaderModule(device, module);
+}
+
+ShaderModule::~ShaderModule() {
+  if (handle_) device_.vk.DestroyShaderModule(device_.handle, handle_, device_.callbacks);
+}
+
+Constants::Constants(std::span<const uint32_t> values) : info_{uint32_t(values.size()), entries_.data(), values.size_bytes(), values.data()} {
+  static_assert(kMaxConstants == std::tuple_size_v<decltype(entries_)>);
+  for (uint32_t i = 0; i < values.size(); ++i) entries_[i] = {i, i * 4, 4};
+}
 
 VkDescriptorType descriptorType(BindingKind kind) {
   switch (kind) {
@@ -64,9 +89,10 @@ uint32_t texelBytes(BindingKind kind) {
   return format == VK_FORMAT_UNDEFINED ? 0 : format == VK_FORMAT_R32_UINT ? 4 : 16;
 }
 
-Expected<const SetLayout*> PipelineStore::setLayout(DeviceImpl& device, std::span<const BindingKind> kinds, std::string_view shader) {
+Expected<const SetLayout*> PipelineStore::setLayout(DeviceImpl& device, std::span<const BindingKind> kinds,
+                                                    VkShaderStageFlags stages, std::string_view shader) {
   for (const auto& layout : layouts_)
-    if (std::ranges::equal(layout->kinds, kinds)) return layout.get();
+    if (layout->stages == stages && std::ranges::equal(layout->kinds, kinds)) return layout.get();
   const struct {
     VkDescriptorType type;
     const char* name;
@@ -81,52 +107,63 @@ Expected<const SetLayout*> PipelineStore::setLayout(DeviceImpl& device, std::spa
                                      std::to_string(limit.most));
   }
   std::vector<VkDescriptorSetLayoutBinding> bindings(kinds.size());
-  for (uint32_t i = 0; i < kinds.size(); ++i) bindings[i] = {i, descriptorType(kinds[i]), 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
+  for (uint32_t i = 0; i < kinds.size(); ++i) bindings[i] = {i, descriptorType(kinds[i]), 1, stages, nullptr};
   VkDescriptorSetLayoutCreateInfo create{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
   create.bindingCount = uint32_t(bindings.size());
   create.pBindings = bindings.data();
   auto layout = std::make_unique<SetLayout>();
   layout->kinds.assign(kinds.begin(), kinds.end());
+  layout->stages = stages;
   if (VkResult r = device.vk.CreateDescriptorSetLayout(device.handle, &create, device.callbacks, &layout->handle); r != VK_SUCCESS)
     return vulkanError(r, "creating the descriptor set layout of shader '" + std::string(shader) + "'");
   layouts_.push_back(std::move(layout));
   return layouts_.back().get();
 }
 
+Expected<void> PipelineStore::begin(DeviceImpl& device, Pipeline& pipeline, std::span<const BindingKind> bindings, uint32_t pushBytes,
+                                    SpecializationConstants constants) {
+  if (pushBytes > kMaxPushBytes || pushBytes % 4 != 0)
+    return shaderError(pipeline.shader, std::to_string(pushBytes) + " bytes of push constants: a multiple of 4 up to 128 is possible");
+  if (constants.size() > kMaxConstants)
+    return shaderError(pipeline.shader, "more than " + std::to_string(kMaxConstants) + " specialization constants");
+  auto set = setLayout(device, bindings, pipeline.stages, pipeline.shader);
+  if (!set) return set.error();
+  pipeline.set = *set;
+  pipeline.pushBytes = pushBytes;
+  pipeline.constants.assign(constants.begin(), constants.end());
+
+  const VkPushConstantRange push{pipeline.stages, 0, pushBytes};
+  VkPipelineLayoutCreateInfo create{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+  create.setLayoutCount = 1;
+  create.pSetLayouts = &pipeline.set->handle;
+  create.pushConstantRangeCount = pushBytes ? 1 : 0;
+  create.pPushConstantRanges = &push;
+  if (VkResult r = device.vk.CreatePipelineLayout(device.handle, &create, device.callbacks, &pipeline.layout); r != VK_SUCCESS)
+    return vulkanError(r, "creating the pipeline layout of shader '" + pipeline.shader + "'");
+  return {};
+}
+
 Expected<VkPipeline> PipelineStore::build(DeviceImpl& device, const ComputePipeline& pipeline, std::span<const uint32_t> words) {
-  VkShaderModuleCreateInfo moduleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, nullptr, 0, words.size_bytes(), words.data()};
-  VkShaderModule module = VK_NULL_HANDLE;
-  if (VkResult r = device.vk.CreateShaderModule(device.handle, &moduleInfo, device.callbacks, &module); r != VK_SUCCESS) {
-    Error error = vulkanError(r, "creating the module of shader '" + pipeline.shader + "'");
-    if (error.kind == ErrorKind::Failed) error.kind = ErrorKind::Shader;
-    return error;
-  }
-  std::array<VkSpecializationMapEntry, kMaxConstants> entries;
-  for (uint32_t i = 0; i < pipeline.constants.size(); ++i) entries[i] = {i, i * 4, 4};
-  const VkSpecializationInfo constants{uint32_t(pipeline.constants.size()), entries.data(), pipeline.constants.size() * 4,
-                                       pipeline.constants.data()};
+  auto module = ShaderModule::make(device, pipeline.shader, words);
+  if (!module) return module.error();
+  const Constants constants(pipeline.constants);
   VkPipelineShaderStageRequiredSubgroupSizeCreateInfo sized{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO};
   sized.requiredSubgroupSize = pipeline.requiredSubgroupSize;
 
   VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
   create.stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
   create.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-  create.stage.module = module;
+  create.stage.module = module->handle();
   create.stage.pName = "main";
-  create.stage.pSpecializationInfo = pipeline.constants.empty() ? nullptr : &constants;
+  create.stage.pSpecializationInfo = constants.info();
   if (pipeline.requiredSubgroupSize != 0) {
     create.stage.flags = VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
     if (device.sizedSubgroups) create.stage.pNext = &sized;
   }
   create.layout = pipeline.layout;
   VkPipeline handle = VK_NULL_HANDLE;
-  const VkResult made = device.vk.CreateComputePipelines(device.handle, device.cache, 1, &create, device.callbacks, &handle);
-  device.vk.DestroyShaderModule(device.handle, module, device.callbacks);
-  if (made != VK_SUCCESS) {
-    Error error = vulkanError(made, "compiling the pipeline of shader '" + pipeline.shader + "'");
-    if (error.kind == ErrorKind::Failed) error.kind = ErrorKind::Shader;
-    return error;
-  }
+  if (VkResult r = device.vk.CreateComputePipelines(device.handle, device.cache, 1, &create, device.callbacks, &handle); r != VK_SUCCESS)
+    return pipelineError(r, pipeline.shader);
   return handle;
 }
 
@@ -139,11 +176,6 @@ Expected<const ComputePipeline*> PipelineStore::find(DeviceImpl& device, const C
 
   const std::span<const uint32_t> words = desc.words.empty() ? libraryWords(device, desc.shader) : desc.words;
   if (words.empty()) return shaderError(desc.shader, "the library contains no such shader");
-  if (desc.pushConstantBytes > kMaxPushBytes || desc.pushConstantBytes % 4 != 0)
-    return shaderError(desc.shader,
-                       std::to_string(desc.pushConstantBytes) + " bytes of push constants: a multiple of 4 up to 128 is possible");
-  if (desc.constants.size() > kMaxConstants)
-    return shaderError(desc.shader, "more than " + std::to_string(kMaxConstants) + " specialization constants");
   const uint32_t size = desc.requiredSubgroupSize;
   const DeviceInfo& info = device.info;
   // Where the driver takes no size, its only one will do.
@@ -153,24 +185,11 @@ Expected<const ComputePipeline*> PipelineStore::find(DeviceImpl& device, const C
     return shaderError(desc.shader, "needs subgroups of " + std::to_string(size) + ", " + info.name + " has " +
                                         std::to_string(info.minSubgroupSize) + " to " + std::to_string(info.maxSubgroupSize));
 
-  auto set = setLayout(device, desc.bindings, desc.shader);
-  if (!set) return set.error();
   auto pipeline = std::make_unique<ComputePipeline>();
   pipeline->shader = desc.shader;
-  pipeline->set = *set;
-  pipeline->pushBytes = desc.pushConstantBytes;
-  pipeline->constants.assign(desc.constants.begin(), desc.constants.end());
   pipeline->words.assign(desc.words.begin(), desc.words.end());
   pipeline->requiredSubgroupSize = size;
-
-  const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, desc.pushConstantBytes};
-  VkPipelineLayoutCreateInfo create{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
-  create.setLayoutCount = 1;
-  create.pSetLayouts = &pipeline->set->handle;
-  create.pushConstantRangeCount = desc.pushConstantBytes ? 1 : 0;
-  create.pPushConstantRanges = &push;
-  if (VkResult r = device.vk.CreatePipelineLayout(device.handle, &create, device.callbacks, &pipeline->layout); r != VK_SUCCESS)
-    return vulkanError(r, "creating the pipeline layout of shader '" + pipeline->shader + "'");
+  if (auto ok = begin(device, *pipeline, desc.bindings, desc.pushConstantBytes, desc.constants); !ok) return ok.error();
   auto handle = build(device, *pipeline, words);
   if (!handle) {
     device.vk.DestroyPipelineLayout(device.handle, pipeline->layout, device.callbacks);
@@ -182,23 +201,39 @@ Expected<const ComputePipeline*> PipelineStore::find(DeviceImpl& device, const C
 }
 
 Expected<void> PipelineStore::replace(DeviceImpl& device, std::string_view shader, std::span<const uint32_t> words) {
+  const auto exchange = [&](Pipeline& pipeline, VkPipeline handle) {
+    device.retired.add(device.clock.recording, VK_OBJECT_TYPE_PIPELINE, pipeline.handle);
+    pipeline.handle = handle;
+  };
   for (const auto& pipeline : pipelines_) {
     if (pipeline->shader != shader || !pipeline->words.empty()) continue;
     auto handle = build(device, *pipeline, words);
     if (!handle) return handle.error();
-    device.retired.add(device.clock.recording, VK_OBJECT_TYPE_PIPELINE, pipeline->handle);
-    pipeline->handle = *handle;
+    exchange(*pipeline, *handle);
+  }
+  for (const auto& pipeline : graphics_) {
+    const bool vertex = pipeline->shader == shader && pipeline->words.empty();
+    const bool fragment = pipeline->fragment == shader && pipeline->fragmentWords.empty();
+    if (!vertex && !fragment) continue;
+    const auto other = [&](std::string_view name, std::span<const uint32_t> own) { return own.empty() ? libraryWords(device, name) : own; };
+    auto handle = build(device, *pipeline, vertex ? words : other(pipeline->shader, pipeline->words),
+                        fragment ? words : other(pipeline->fragment, pipeline->fragmentWords));
+    if (!handle) return handle.error();
+    exchange(*pipeline, *handle);
   }
   return {};
 }
 
 void PipelineStore::destroy(DeviceImpl& device) {
-  for (const auto& pipeline : pipelines_) {
-    device.vk.DestroyPipeline(device.handle, pipeline->handle, device.callbacks);
-    device.vk.DestroyPipelineLayout(device.handle, pipeline->layout, device.callbacks);
-  }
+  const auto end = [&](const Pipeline& pipeline) {
+    device.vk.DestroyPipeline(device.handle, pipeline.handle, device.callbacks);
+    device.vk.DestroyPipelineLayout(device.handle, pipeline.layout, device.callbacks);
+  };
+  for (const auto& pipeline : pipelines_) end(*pipeline);
+  for (const auto& pipeline : graphics_) end(*pipeline);
   for (const auto& layout : layouts_) device.vk.DestroyDescriptorSetLayout(device.handle, layout->handle, device.callbacks);
   pipelines_.clear();
+  graphics_.clear();
   layouts_.clear();
 }
 

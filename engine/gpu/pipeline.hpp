@@ -1,7 +1,9 @@
 #pragma once
-// What a compute pipeline is made of, and the device's store of them.
+// What pipelines are made of, and the device's store of them. pipeline.cpp: what all share, and compute; graphics_pipeline.cpp: the rest.
+#include <array>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gpu/resources.hpp"
@@ -11,6 +13,7 @@ namespace rill {
 /// Pipelines with equal kinds share a layout, so that a frame's kernels can share descriptor sets.
 struct SetLayout {
   std::vector<BindingKind> kinds;
+  VkShaderStageFlags stages = 0;
   VkDescriptorSetLayout handle = VK_NULL_HANDLE;
 };
 
@@ -20,30 +23,84 @@ VkFormat texelFormat(BindingKind kind);
 /// Bytes of a texel; 0 for what is not a texel buffer.
 uint32_t texelBytes(BindingKind kind);
 
-struct ComputePipeline {
-  std::string shader;
+struct Pipeline {
+  std::string shader;  ///< its name in messages; of a graphics pipeline the vertex shader's
   const SetLayout* set = nullptr;
   uint32_t pushBytes = 0;
   std::vector<uint32_t> constants;
   std::vector<uint32_t> words;  ///< SPIR-V of a caller's own; empty: the embedded library's
-  uint32_t requiredSubgroupSize = 0;
+  VkPipelineBindPoint bindPoint = VK_PIPELINE_BIND_POINT_COMPUTE;
+  VkShaderStageFlags stages = VK_SHADER_STAGE_COMPUTE_BIT;
   VkPipelineLayout layout = VK_NULL_HANDLE;
   VkPipeline handle = VK_NULL_HANDLE;  ///< changes when a shader is reloaded
+};
+
+struct ComputePipeline : Pipeline {
+  uint32_t requiredSubgroupSize = 0;
+};
+
+struct GraphicsPipeline : Pipeline {
+  std::string fragment;
+  std::vector<uint32_t> fragmentWords;
+  std::vector<VkFormat> colours;
+  VkFormat depth = VK_FORMAT_UNDEFINED;
+  VkCompareOp depthCompare = VK_COMPARE_OP_ALWAYS;
+  bool depthWrite = false;
+  Blend blend = Blend::None;
+  VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
 };
 
 class PipelineStore {
  public:
   Expected<const ComputePipeline*> find(DeviceImpl& device, const ComputePipelineDesc& desc);
+  Expected<const GraphicsPipeline*> find(DeviceImpl& device, const GraphicsPipelineDesc& desc);
   /// Makes every pipeline of `shader` from new SPIR-V; the old one is kept where that fails.
   Expected<void> replace(DeviceImpl& device, std::string_view shader, std::span<const uint32_t> words);
-  size_t size() const { return pipelines_.size(); }
+  size_t size() const { return pipelines_.size() + graphics_.size(); }
   void destroy(DeviceImpl& device);
 
  private:
-  Expected<const SetLayout*> setLayout(DeviceImpl& device, std::span<const BindingKind> kinds, std::string_view shader);
+  Expected<const SetLayout*> setLayout(DeviceImpl& device, std::span<const BindingKind> kinds, VkShaderStageFlags stages,
+                                       std::string_view shader);
+  /// Set layout, pipeline layout, constants. Shader where more is asked for than there can be.
+  Expected<void> begin(DeviceImpl& device, Pipeline& pipeline, std::span<const BindingKind> bindings, uint32_t pushBytes,
+                       SpecializationConstants constants);
   Expected<VkPipeline> build(DeviceImpl& device, const ComputePipeline& pipeline, std::span<const uint32_t> words);
+  Expected<VkPipeline> build(DeviceImpl& device, const GraphicsPipeline& pipeline, std::span<const uint32_t> vertex,
+                             std::span<const uint32_t> fragment);
   std::vector<std::unique_ptr<SetLayout>> layouts_;
   std::vector<std::unique_ptr<ComputePipeline>> pipelines_;
+  std::vector<std::unique_ptr<GraphicsPipeline>> graphics_;
 };
+
+/// SPIR-V of the embedded library, or what replaced it; empty where there is none of that name.
+std::span<const uint32_t> libraryWords(const DeviceImpl& device, std::string_view name);
+Error shaderError(std::string_view shader, std::string what);
+/// A module for as long as a pipeline is being made.
+class ShaderModule {
+ public:
+  static Expected<ShaderModule> make(DeviceImpl& device, std::string_view shader, std::span<const uint32_t> words);
+  ShaderModule(ShaderModule&& other) noexcept : device_(other.device_), handle_(std::exchange(other.handle_, VK_NULL_HANDLE)) {}
+  ShaderModule& operator=(ShaderModule&&) = delete;
+  ~ShaderModule();
+  VkShaderModule handle() const { return handle_; }
+
+ private:
+  ShaderModule(DeviceImpl& device, VkShaderModule handle) : device_(device), handle_(handle) {}
+  DeviceImpl& device_;
+  VkShaderModule handle_;
+};
+/// Specialization constants numbered from 0, for one vkCreate*Pipelines call.
+class Constants {
+ public:
+  explicit Constants(std::span<const uint32_t> values);
+  const VkSpecializationInfo* info() const { return info_.mapEntryCount ? &info_ : nullptr; }
+
+ private:
+  std::array<VkSpecializationMapEntry, 32> entries_;
+  VkSpecializationInfo info_;
+};
+/// What vkCreate*Pipelines returned, said with the shader's name.
+Error pipelineError(VkResult result, std::string_view shader);
 
 }  // namespace rill

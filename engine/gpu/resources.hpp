@@ -52,7 +52,7 @@ enum class BindingKind : uint8_t {
   TexelUint,     ///< usamplerBuffer over R32_UINT
   TexelUint4,    ///< usamplerBuffer over R32G32B32A32_UINT
   StorageImage,  ///< image2D, with its format in the shader
-  SampledImage   ///< texture2D, read by texelFetch
+  SampledImage   ///< texture2D or utexture2D, read by texelFetch
 };
 
 /// One 32-bit specialization constant: id k is the k-th of the list; floats by std::bit_cast.
@@ -71,6 +71,33 @@ struct ComputePipeline;  // layout and handle; owned by the device, alive as lon
 
 /// Makes the pipeline or finds it among those made before with the same description. Shader, naming the shader, on failure.
 Expected<const ComputePipeline*> computePipeline(Device& device, const ComputePipelineDesc& desc);
+
+/// What a fragment does to the colour that is there.
+enum class Blend : uint8_t {
+  None,          ///< replaces it
+  Premultiplied  ///< colour + (1 - alpha) times it
+};
+
+/// A vertex and a fragment shader for dynamic rendering: no vertex buffers (shaders read storage buffers), nothing culled by winding,
+/// viewport and scissor dynamic.
+struct GraphicsPipelineDesc {
+  std::string_view vertex, fragment;        ///< names in the embedded library, e.g. "render/scene_vertex"; fragment may be empty
+  std::span<const BindingKind> bindings;    ///< seen by both
+  uint32_t pushConstantBytes = 0;           ///< at most 128, seen by both
+  SpecializationConstants constants = {};   ///< of both
+  std::span<const VkFormat> colours = {};   ///< of the colour targets, in the order that the pass declares them
+  VkFormat depth = VK_FORMAT_UNDEFINED;     ///< of the depth target; undefined: none
+  VkCompareOp depthCompare = VK_COMPARE_OP_ALWAYS;
+  bool depthWrite = false;
+  Blend blend = Blend::None;                ///< of all colour targets
+  VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+  std::span<const uint32_t> vertexWords = {}, fragmentWords = {};  ///< SPIR-V to use in place of the library's
+};
+
+struct GraphicsPipeline;
+
+/// As computePipeline(). Shader, naming the shaders, on failure.
+Expected<const GraphicsPipeline*> graphicsPipeline(Device& device, const GraphicsPipelineDesc& desc);
 
 /// How many pipelines the device holds (a test bounds it).
 size_t pipelineCount(const Device& device);

@@ -65,12 +65,13 @@ Expected<std::vector<uint32_t>> compileShader(const std::filesystem::path& folde
   const std::string name(source), definitions = preamble(defines);
   std::string text;
   if (!readFile(folder / source, text)) return Error{ErrorKind::Shader, "cannot read " + (folder / source).string()};
+  const EShLanguage stage = name.ends_with(".vert") ? EShLangVertex : name.ends_with(".frag") ? EShLangFragment : EShLangCompute;
   const char* string = text.c_str();
   const char* label = name.c_str();
-  glslang::TShader shader(EShLangCompute);
+  glslang::TShader shader(stage);
   shader.setStringsWithLengthsAndNames(&string, nullptr, &label, 1);
   shader.setPreamble(definitions.c_str());
-  shader.setEnvInput(glslang::EShSourceGlsl, EShLangCompute, glslang::EShClientVulkan, 100);
+  shader.setEnvInput(glslang::EShSourceGlsl, stage, glslang::EShClientVulkan, 100);
   shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_3);
   shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);
   constexpr auto rules = EShMessages(EShMsgSpvRules | EShMsgVulkanRules);
@@ -80,7 +81,7 @@ Expected<std::vector<uint32_t>> compileShader(const std::filesystem::path& folde
   program.addShader(&shader);
   if (!program.link(rules)) return Error{ErrorKind::Shader, program.getInfoLog()};
   std::vector<uint32_t> words;
-  glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), words);
+  glslang::GlslangToSpv(*program.getIntermediate(stage), words);
   return words;
 }
 

@@ -18,7 +18,7 @@ Expected<void> GraphImpl::checkImports() const {
       return Error{ErrorKind::BadInput, "import " + quoted(a.name) + " has a null " + (a.isImage ? "VkImage" : "VkBuffer")};
     for (size_t k = 0; k < i; ++k) {
       const ResourceData& b = resources[k];
-      if (!b.imported || a.isImage != b.isImage) continue;
+      if (!b.imported || a.isImage != b.isImage || i - a.level == k - b.level) continue;
       if (!a.isImage && a.version == 0 && b.version == 0) continue;  // a read, too, changes an image's layout
       const bool overlap =
           a.isImage ? a.image == b.image : a.buffer == b.buffer && a.offset < b.offset + b.size && b.offset < a.offset + a.size;
@@ -62,6 +62,8 @@ void GraphImpl::cull() {
       pass.reason = unread == kNone ? std::string_view("it writes nothing") : names.unread(unread);
       continue;
     }
+    for (uint32_t t = pass.targets.first; t < pass.targets.first + pass.targets.count; ++t)
+      targets[t].store = resources[targets[t].resource].needed;
     for (const Access& access : uses) resources[access.resource].needed = !access.write || access.keep;
   }
 }
@@ -79,14 +81,15 @@ void GraphImpl::placeTransients() {
     if (!passes[i].alive) continue;
     const Range range = passes[i].accesses;
     for (uint32_t k = range.first; k < range.first + range.count; ++k) {
-      ResourceData& resource = resources[accesses[k].resource];
+      ResourceData& resource = memoryOf(accesses[k].resource);
       resource.usage |= useRow(accesses[k].use).usage;
+      draws |= isDrawing(accesses[k].use);
       if (resource.imported) continue;
       TransientPlan& plan = planOf(resource);
       if (resource.placement == kNone) {
         resource.placement = uint32_t(plan.placements.size());
         plan.placements.push_back({i, i, resource.size});
-        plan.resources.push_back(accesses[k].resource);
+        plan.resources.push_back(accesses[k].resource - resources[accesses[k].resource].level);
       }
       plan.placements[resource.placement].last = i;
     }
@@ -94,7 +97,7 @@ void GraphImpl::placeTransients() {
   uint64_t largest = 0;
   for (size_t k = 0; k < plans[1].placements.size(); ++k) {
     ResourceData& image = resources[plans[1].resources[k]];
-    const ImageNeeds needs = images.needs({image.desc.format, image.desc.width, image.desc.height, image.usage});
+    const ImageNeeds needs = images.needs({image.desc, image.usage});
     image.size = plans[1].placements[k].size = needs.size;
     plans[1].placements[k].alignment = needs.alignment;
     largest = std::max(largest, needs.size);
@@ -103,15 +106,30 @@ void GraphImpl::placeTransients() {
   planner.plan(plans[1].placements, std::max(largest, kImageHeapBytes), plans[1].heapSizes);
 }
 
+/// The memory's earlier users, in this frame and the one before, are what a new transient waits for.
+void GraphImpl::waitForMemory(uint32_t index, const HazardState& seam) {
+  ResourceData& resource = resources[index];
+  const TransientPlan& plan = planOf(resource);
+  const Placement& own = plan.placements[memoryOf(index).placement];
+  resource.placed = true;
+  resource.state.join(seam);
+  for (size_t k = 0; k < plan.placements.size(); ++k) {
+    if (plan.placements[k].last >= own.first || !sharesMemory(plan.placements[k], own)) continue;
+    const uint32_t first = plan.resources[k];
+    for (uint32_t l = 0; l < (resource.isImage ? resources[first].desc.levels : 1); ++l) resource.state.join(resources[first + l].state);
+  }
+}
+
 void GraphImpl::planBarriers() {
   causes.clear();
   transitions.clear();
   for (ResourceData& resource : resources) {
     resource.state = resource.imported ? HazardState::after(resource.before) : HazardState::nothing();
     resource.layout = useRow(resource.before).layout;
+    resource.placed = resource.imported;
   }
   // Other frames' use of the heaps: a state of its own, so that the frame's first barrier on them serves all transients.
-  HazardState seam = HazardState::seam();
+  HazardState seam = HazardState::seam(draws);
 
   const auto apply = [&](const Scope& scope) {
     const uint32_t seeing = usesSeeing(scope);
@@ -139,15 +157,7 @@ void GraphImpl::planBarriers() {
     if (!pass.alive) continue;
     const auto uses = std::span(accesses).subspan(pass.accesses.first, pass.accesses.count);
     for (const Access& access : uses) {
-      ResourceData& resource = resources[access.resource];
-      if (!resource.imported && planOf(resource).placements[resource.placement].first == i) {
-        // The memory's earlier users, in this frame and the one before, are what a new transient waits for.
-        const TransientPlan& plan = planOf(resource);
-        resource.state.join(seam);
-        for (size_t k = 0; k < plan.placements.size(); ++k)
-          if (plan.placements[k].last < i && sharesMemory(plan.placements[k], plan.placements[resource.placement]))
-            resource.state.join(resources[plan.resources[k]].state);
-      }
+      if (!resources[access.resource].placed) waitForMemory(access.resource, seam);
       wait(pass.barrier, access.resource, access.use, access.keep);
     }
     if (!pass.barrier.scope.empty()) apply(pass.barrier.scope);

@@ -23,6 +23,7 @@ struct FrameSlot {
   };
   struct Delivery {
     uint64_t ticket;
+    uint32_t buffer;  ///< of FrameSlot::readbacks
     uint64_t offset, size;
     bool seen = false;
   };
@@ -49,7 +50,7 @@ struct FrameSlot {
   uint32_t queryCapacity = 0;
   std::vector<uint32_t> timedNames;  ///< the pass between each two timestamps
   bool timingsPending = false;
-  Buffer readback;
+  std::vector<Buffer> readbacks;  ///< none of them larger than a buffer may be
   std::vector<Delivery> deliveries;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cassert>
 
 #include "graph/graph_impl.hpp"
@@ -17,20 +18,22 @@ uint32_t nextEpoch() {
 }
 
 /// Whether a binding of this kind can see a resource that was declared with this use.
-bool fits(BindingKind kind, bool isImage, Use use) {
+bool fits(BindingKind kind, bool isImage, Use use, bool draws) {
   if (isImage != (kind == BindingKind::StorageImage || kind == BindingKind::SampledImage)) return false;
   switch (kind) {
     case BindingKind::Storage:
+      if (draws) return use == Use::DrawRead;
+      [[fallthrough]];
     case BindingKind::StorageImage:
-      return use == Use::ComputeRead || use == Use::ComputeWrite || use == Use::ComputeAtomic;
+      return !draws && (use == Use::ComputeRead || use == Use::ComputeWrite || use == Use::ComputeAtomic);
     case BindingKind::Uniform:
-      return use == Use::ComputeUniform;
+      return use == (draws ? Use::DrawUniform : Use::ComputeUniform);
     case BindingKind::TexelFloat4:
     case BindingKind::TexelUint:
     case BindingKind::TexelUint4:
-      return use == Use::ComputeTexel;
+      return !draws && use == Use::ComputeTexel;
     case BindingKind::SampledImage:
-      return use == Use::ComputeSampled;
+      return use == (draws ? Use::DrawSampled : Use::ComputeSampled);
   }
   return false;
 }
@@ -70,6 +73,7 @@ void GraphImpl::reset() {
   resources.clear();
   accesses.clear();
   kernels.clear();
+  targets.clear();
   bindings.clear();
   readbacks.clear();
   skips.clear();
@@ -93,6 +97,11 @@ ResourceRef GraphImpl::add(ResourceData resource) {
     if (std::max(resource.desc.width, resource.desc.height) > kMaxImageSide)
       mistake(" of " + std::to_string(resource.desc.width) + " x " + std::to_string(resource.desc.height) + " texels: at most " +
               std::to_string(kMaxImageSide) + " a side are possible");
+    const uint32_t most = uint32_t(std::bit_width(std::max({resource.desc.width, resource.desc.height, 1u})));
+    if (resource.desc.levels == 0 || resource.desc.levels > most) {
+      mistake(" has " + std::to_string(resource.desc.levels) + " levels: 1 to " + std::to_string(most) + " are possible at its size");
+      resource.desc.levels = 1;
+    }
   } else {
     if (resource.size == 0) mistake(" has no size");
     if (resource.size > kMaxBufferBytes)
@@ -101,12 +110,13 @@ ResourceRef GraphImpl::add(ResourceData resource) {
   if (resource.after == Use::Unknown) fail("import " + quoted(resource.name) + ": Use::Unknown is no state to leave it in");
   for (Use use : {resource.before, resource.after}) {
     const bool ofImages = useRow(use).layout != VK_IMAGE_LAYOUT_UNDEFINED;
-    if (use != Use::None && use != Use::Unknown && (resource.isImage ? !ofImages : use == Use::ComputeSampled))
+    if (use != Use::None && use != Use::Unknown && (resource.isImage ? !ofImages : needsImage(use)))
       fail("import " + quoted(resource.name) + ": Use::" + useRow(use).name + " is no use of " +
            (resource.isImage ? "an image" : "a buffer"));
   }
-  resources.push_back(resource);
-  return {uint32_t(resources.size() - 1), 0, epoch};
+  const uint32_t index = uint32_t(resources.size());
+  for (resource.level = 0; resource.level < (resource.isImage ? resource.desc.levels : 1); ++resource.level) resources.push_back(resource);
+  return {index, 0, epoch};
 }
 
 ResourceData* GraphImpl::resolve(ResourceRef ref, bool isImage, uint32_t pass, const char* doing) {
@@ -137,6 +147,7 @@ uint32_t GraphImpl::beginPass(std::string_view name) {
   pass.name = names.intern(name);
   pass.accesses.first = uint32_t(accesses.size());
   pass.kernels.first = uint32_t(kernels.size());
+  pass.targets.first = uint32_t(targets.size());
   passes.push_back(pass);
   return uint32_t(passes.size() - 1);
 }
@@ -159,7 +170,7 @@ void GraphImpl::read(uint32_t index, ResourceRef ref, bool isImage, Use use) {
   if (!resource) return;
   const std::string pass = "pass '" + std::string(names[passes[index].name]) + "'";
   if (use == Use::None || use == Use::Unknown || use == Use::HostRead || writes(use) ||
-      (isImage ? useRow(use).layout == VK_IMAGE_LAYOUT_UNDEFINED : use == Use::ComputeSampled))
+      (isImage ? useRow(use).layout == VK_IMAGE_LAYOUT_UNDEFINED : needsImage(use)))
     return fail(pass + " reads " + quoted(resource->name) + " with Use::" + useRow(use).name + ", which is no way for a pass to read" +
                 (isImage ? " an image" : ""));
   if (!resource->hasContent()) return fail(pass + " reads " + quoted(resource->name) + ", which no pass has written");
@@ -178,11 +189,11 @@ void GraphImpl::read(uint32_t index, ResourceRef ref, bool isImage, Use use) {
   addAccess(index, {ref.index, ref.version, use, false, true});
 }
 
-ResourceRef GraphImpl::write(uint32_t index, ResourceRef ref, bool isImage, Use use, bool discard) {
+ResourceRef GraphImpl::write(uint32_t index, ResourceRef ref, bool isImage, Use use, Load load) {
   ResourceData* resource = resolve(ref, isImage, index, "writes");
   if (!resource) return kMistake;
   const std::string pass = "pass '" + std::string(names[passes[index].name]) + "'";
-  if (use == Use::Unknown || !writes(use) || (isImage && useRow(use).layout == VK_IMAGE_LAYOUT_UNDEFINED)) {
+  if (use == Use::Unknown || !writes(use) || (isImage ? useRow(use).layout == VK_IMAGE_LAYOUT_UNDEFINED : needsImage(use))) {
     fail(pass + " writes " + quoted(resource->name) + " with Use::" + useRow(use).name + ", which is no way for a pass to write" +
          (isImage ? " an image" : ""));
     return kMistake;
@@ -197,24 +208,85 @@ ResourceRef GraphImpl::write(uint32_t index, ResourceRef ref, bool isImage, Use 
     fail(pass + " does atomics on " + quoted(resource->name) + ", whose content is undefined: fill it first");
     return kMistake;
   }
-  addAccess(index, {ref.index, ++resource->version, use, true, !discard && !fresh});
+  if (load == Load::Clear && !isTarget(use)) {
+    fail(pass + " writes " + quoted(resource->name) + " with Use::" + useRow(use).name + " and Load::Clear: only what is drawn to is cleared so");
+    return kMistake;
+  }
+  if (fresh && load == Load::Keep && isTarget(use)) {
+    fail(pass + " draws to " + quoted(resource->name) + " and keeps what is there, but no pass has written it: clear or discard it");
+    return kMistake;
+  }
+  addAccess(index, {ref.index, ++resource->version, use, true, load == Load::Keep && !fresh});
   return {ref.index, resource->version, epoch};
+}
+
+void GraphImpl::addTarget(uint32_t index, ResourceRef ref, Load load, const VkClearValue& clear) {
+  PassData& pass = passes[index];
+  const ResourceData& image = resources[ref.index];
+  const auto mistake = [&](const std::string& what) { fail("pass '" + std::string(names[pass.name]) + "' draws to " + quoted(image.name) + what); };
+  const bool isDepth = hasDepth(image.desc.format);
+  const Access& access = accesses.back();
+  if (isDepth != (access.use == Use::DepthTarget))
+    return mistake(std::string(" with Use::") + useRow(access.use).name + ", but its format " + (isDepth ? "holds depth" : "holds no depth"));
+  for (uint32_t t = pass.targets.first; t < targets.size(); ++t) {
+    const ResourceData& other = resources[targets[t].resource];
+    if (other.width() != image.width() || other.height() != image.height())
+      return mistake(" and to " + quoted(other.name) + ", which is of another size");
+    if (isDepth && hasDepth(other.desc.format)) return mistake(" and to " + quoted(other.name) + ": one depth target is possible");
+  }
+  if (pass.targets.count == kMaxTargets - 1) return mistake(": more than eight targets");
+  targets.push_back({ref.index, load, true, clear});
+  ++pass.targets.count;
 }
 
 void Pass::read(BufferRef buffer, Use use) { graph_.read(index_, buffer, false, use); }
 void Pass::read(ImageRef image, Use use) { graph_.read(index_, image, true, use); }
-BufferRef Pass::write(BufferRef buffer, Use use, bool discard) { return {graph_.write(index_, buffer, false, use, discard)}; }
-ImageRef Pass::write(ImageRef image, Use use, bool discard) { return {graph_.write(index_, image, true, use, discard)}; }
+BufferRef Pass::write(BufferRef buffer, Use use, bool discard) {
+  return {graph_.write(index_, buffer, false, use, discard ? Load::Discard : Load::Keep)};
+}
+ImageRef Pass::write(ImageRef image, Use use, Load load, const VkClearValue& clear) {
+  const ImageRef written{graph_.write(index_, image, true, use, load)};
+  if (written != kMistake && isTarget(use)) graph_.addTarget(index_, written, load, clear);
+  return written;
+}
 void Pass::sideEffect() { graph_.passes[index_].root = true; }
 
 Kernel Pass::kernel(const ComputePipeline* pipeline, std::span<const ResourceRef> refs) {
   assert(pipeline);
+  return bound(*pipeline, refs);
+}
+
+Kernel Pass::kernel(const GraphicsPipeline* pipeline, std::span<const ResourceRef> refs) {
+  assert(pipeline);
+  if (graph_.error) return {};
+  std::span<const VkFormat> colours = pipeline->colours;
+  VkFormat depth = VK_FORMAT_UNDEFINED;
+  bool fitting = true;
+  const Range range = graph_.passes[index_].targets;
+  for (uint32_t t = range.first; t < range.first + range.count; ++t) {
+    const VkFormat format = graph_.resources[graph_.targets[t].resource].desc.format;
+    if (hasDepth(format)) {
+      depth = format;
+    } else {
+      fitting = fitting && !colours.empty() && colours.front() == format;
+      colours = colours.subspan(colours.empty() ? 0 : 1);
+    }
+  }
+  if (!fitting || !colours.empty() || depth != pipeline->depth) {
+    graph_.fail("pass '" + std::string(graph_.names[graph_.passes[index_].name]) + "', shader '" + pipeline->shader +
+                "': its pipeline was made for targets of other formats, or another number of them, than the pass draws to");
+    return {};
+  }
+  return bound(*pipeline, refs);
+}
+
+Kernel Pass::bound(const Pipeline& pipeline, std::span<const ResourceRef> refs) {
   const std::string_view pass = graph_.names[graph_.passes[index_].name];
   const auto mistake = [&](std::string message) {
-    graph_.fail("pass '" + std::string(pass) + "', shader '" + pipeline->shader + "': " + std::move(message));
+    graph_.fail("pass '" + std::string(pass) + "', shader '" + pipeline.shader + "': " + std::move(message));
     return Kernel{};
   };
-  const std::vector<BindingKind>& kinds = pipeline->set->kinds;
+  const std::vector<BindingKind>& kinds = pipeline.set->kinds;
   if (refs.size() != kinds.size())
     return mistake(std::to_string(refs.size()) + " resources were given for its " + std::to_string(kinds.size()) + " bindings");
   const uint32_t first = uint32_t(graph_.bindings.size());
@@ -228,7 +300,8 @@ Kernel Pass::kernel(const ComputePipeline* pipeline, std::span<const ResourceRef
       if (refs[i].epoch != graph_.epoch || access.resource != refs[i].index) continue;
       if (access.version != refs[i].version && !(access.write && access.version == refs[i].version + 1)) continue;
       declared = true;
-      fitting = fits(kinds[i], graph_.resources[access.resource].isImage, access.use);
+      fitting = fits(kinds[i], graph_.resources[access.resource].isImage, access.use,
+                     pipeline.bindPoint == VK_PIPELINE_BIND_POINT_GRAPHICS);
     }
     const auto name = [&] {
       return refs[i].index < graph_.resources.size() ? graph_.quoted(graph_.resources[refs[i].index].name) : "an empty ref";
@@ -239,7 +312,7 @@ Kernel Pass::kernel(const ComputePipeline* pipeline, std::span<const ResourceRef
       return mistake("binding " + std::to_string(i) + " is " + kindName(kinds[i]) + ", which no declared use of " + name() + " is");
     graph_.bindings.push_back(refs[i].index);
   }
-  graph_.kernels.push_back({pipeline, {first, uint32_t(refs.size())}, VK_NULL_HANDLE});
+  graph_.kernels.push_back({&pipeline, {first, uint32_t(refs.size())}, VK_NULL_HANDLE});
   ++graph_.passes[index_].kernels.count;
   return {uint32_t(graph_.kernels.size() - 1)};
 }
@@ -286,6 +359,22 @@ ImageRef Graph::import(std::string_view name, const ImageImport& import) {
   return {impl_->add(resource)};
 }
 
+ImageRef Graph::level(ImageRef image, uint32_t k) {
+  GraphImpl& graph = *impl_;
+  if (image == kMistake) return image;
+  if (image.epoch != graph.epoch || image.index >= graph.resources.size() || !graph.resources[image.index].isImage) {
+    graph.fail("a level of an image of another graph or of an earlier frame was asked for");
+    return {kMistake};
+  }
+  const ResourceData& resource = graph.memoryOf(image.index);
+  if (k >= resource.desc.levels) {
+    graph.fail("level " + std::to_string(k) + " of image " + graph.quoted(resource.name) + " was asked for: it has " +
+               std::to_string(resource.desc.levels));
+    return {kMistake};
+  }
+  return {{image.index - graph.resources[image.index].level + k, 0, graph.epoch}};
+}
+
 void Graph::skipped(std::string_view name, std::string_view reason) { impl_->skips.push_back({impl_->names.intern(name), reason}); }
 
 Ticket Graph::readback(BufferRef buffer) {
@@ -295,7 +384,7 @@ Ticket Graph::readback(BufferRef buffer) {
   graph.passes[pass].readback = graph.passes[pass].root = true;
   const Ticket ticket{graph.nextTicket++};
   Pass(graph, pass).read(buffer, Use::CopySource);
-  if (!graph.error) graph.readbacks.push_back({ticket.id, pass, buffer.index, 0, graph.resources[buffer.index].size});
+  if (!graph.error) graph.readbacks.push_back({ticket.id, pass, buffer.index, 0, 0, graph.resources[buffer.index].size});
   return ticket;
 }
 

@@ -2,11 +2,14 @@
 // What is behind rill::Graph. One frame's declaration and plan are flat arrays that keep their capacity from frame to frame.
 //   graph.cpp declares, compile.cpp culls and plans, prepare.cpp gets what the device must give, record.cpp records,
 //   describe.cpp writes it all down.
+#include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "gpu/device_impl.hpp"
+#include "gpu/pipeline.hpp"
 #include "graph/frame_slot.hpp"
 #include "graph/hazard.hpp"
 #include "graph/image_store.hpp"
@@ -31,8 +34,18 @@ struct Range {
   uint32_t first = 0, count = 0;
 };
 
+inline constexpr size_t kMaxTargets = 9;  ///< of a pass: eight colours (more than the four that Vulkan guarantees) and a depth
+
+/// An image that a pass draws to.
+struct Target {
+  uint32_t resource = 0;
+  Load load = Load::Keep;
+  bool store = true;  ///< somebody wants what is drawn
+  VkClearValue clear{};
+};
+
 struct KernelData {
-  const ComputePipeline* pipeline = nullptr;
+  const Pipeline* pipeline = nullptr;
   Range bindings;  ///< into GraphImpl::bindings: resource indices
   VkDescriptorSet set = VK_NULL_HANDLE;
 };
@@ -60,7 +73,7 @@ struct PlannedBarrier {
 
 struct PassData {
   uint32_t name = 0;
-  Range accesses, kernels;
+  Range accesses, kernels, targets;
   void* record = nullptr;
   void (*invoke)(void*, Commands&) = nullptr;
   void (*destroy)(void*) = nullptr;
@@ -78,11 +91,13 @@ struct ResourceData {
   bool needed = false;                        ///< while culling: whether a later pass, or somebody outside, wants the content
   Use before = Use::None, after = Use::None;  ///< of an import
   uint64_t size = 0;                          ///< bytes; an image's is an estimate until prepare() has asked
-  ImageDesc desc;                             ///< of an image
+  ImageDesc desc;                             ///< of an image: all of its levels
+  uint32_t level = 0;                         ///< of an image: each is a resource of its own, one after another
   uint32_t version = 0;                       ///< the latest one
-  uint32_t placement = kNone;                 ///< of a transient that is used
+  uint32_t placement = kNone;                 ///< of a transient that is used; a pyramid's stands at its level 0
+  bool placed = false;                        ///< while planning: it has waited for what its memory held before
   HazardState state;
-  VkImageUsageFlags usage = 0;                       ///< of an image, by the passes that run
+  VkImageUsageFlags usage = 0;                       ///< of an image, by the passes that run; a pyramid's stands at its level 0
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  ///< while planning: the image's
   VkBuffer buffer = VK_NULL_HANDLE;                  ///< a transient's is resolved by prepare()
   uint64_t offset = 0;
@@ -90,6 +105,8 @@ struct ResourceData {
   VkImageView view = VK_NULL_HANDLE;
 
   const char* kind() const { return isImage ? "image " : "buffer "; }
+  uint32_t width() const { return std::max(1u, desc.width >> level); }
+  uint32_t height() const { return std::max(1u, desc.height >> level); }
   /// Imported in a state that keeps its content, or written by a pass.
   bool hasContent() const { return version > 0 || (imported && (!isImage || (before != Use::None && before != Use::Unknown))); }
 };
@@ -104,7 +121,8 @@ struct TransientPlan {
 struct Readback {
   uint64_t ticket = 0;
   uint32_t pass = 0, resource = 0;
-  uint64_t offset = 0, size = 0;  ///< in the slot's buffer
+  uint32_t buffer = 0;            ///< of the slot's
+  uint64_t offset = 0, size = 0;  ///< in it
 };
 
 struct Skipped {
@@ -123,7 +141,8 @@ class GraphImpl {
   /// Null, with the frame's error set, for a ref that is stale, consumed or none at all.
   ResourceData* resolve(ResourceRef ref, bool isImage, uint32_t pass, const char* doing);
   void read(uint32_t pass, ResourceRef ref, bool isImage, Use use);
-  ResourceRef write(uint32_t pass, ResourceRef ref, bool isImage, Use use, bool discard);
+  ResourceRef write(uint32_t pass, ResourceRef ref, bool isImage, Use use, Load load);
+  void addTarget(uint32_t pass, ResourceRef ref, Load load, const VkClearValue& clear);
   uint32_t beginPass(std::string_view name);
   void addAccess(uint32_t pass, Access access);
   void fail(std::string message);
@@ -136,6 +155,10 @@ class GraphImpl {
   void placeTransients();
   TransientPlan& planOf(const ResourceData& resource) { return plans[resource.isImage]; }
   const TransientPlan& planOf(const ResourceData& resource) const { return plans[resource.isImage]; }
+  /// Where what concerns a resource's memory stands: level 0 of a pyramid, else itself.
+  ResourceData& memoryOf(uint32_t resource) { return resources[resource - resources[resource].level]; }
+  const ResourceData& memoryOf(uint32_t resource) const { return resources[resource - resources[resource].level]; }
+  void waitForMemory(uint32_t resource, const HazardState& seam);
   void planBarriers();
   void makeReport();
   Expected<void> checkImports() const;
@@ -144,6 +167,7 @@ class GraphImpl {
   Expected<void> prepare(Device& device);
   Expected<void> growHeaps(DeviceImpl& device);
   Expected<void> resolveBuffers(DeviceImpl& device);
+  Expected<void> placeReadbacks(DeviceImpl& device, FrameSlot& slot);
   Expected<void> learnImages(DeviceImpl& device);
   Expected<void> resolveImages(DeviceImpl& device, FrameSlot& slot);
   void shareSets();
@@ -154,6 +178,7 @@ class GraphImpl {
 
   // record.cpp
   void record(VkCommandBuffer commandBuffer);
+  void beginTargets(const PassData& pass, VkCommandBuffer commandBuffer) const;
 
   // describe.cpp
   std::string dot() const;
@@ -165,11 +190,13 @@ class GraphImpl {
   std::optional<Error> error;  ///< the first mistake in the declaration
   bool compiled = false, prepared = false;
   bool timed = true;
+  bool draws = false;  ///< some frame so far has drawn
 
   std::vector<PassData> passes;
   std::vector<ResourceData> resources;
   std::vector<Access> accesses;
   std::vector<KernelData> kernels;
+  std::vector<Target> targets;
   std::vector<uint32_t> bindings;
   std::vector<Readback> readbacks;
   std::vector<Skipped> skips;

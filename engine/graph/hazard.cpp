@@ -9,7 +9,9 @@ bool stagesCover(VkPipelineStageFlags2 have, VkPipelineStageFlags2 need) {
 }
 
 bool accessesCover(VkAccessFlags2 have, VkAccessFlags2 need) {
-  constexpr VkAccessFlags2 anyWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+  constexpr VkAccessFlags2 anyWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT |
+                                      VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |
+                                      VK_ACCESS_2_MEMORY_WRITE_BIT;
   if (have & VK_ACCESS_2_MEMORY_WRITE_BIT) have |= anyWrite;
   if (have & VK_ACCESS_2_MEMORY_READ_BIT) have |= ~anyWrite;
   return (need & ~have) == 0;
@@ -68,13 +70,18 @@ HazardState HazardState::after(Use last) {
   return state;
 }
 
-HazardState HazardState::seam() {
+HazardState HazardState::seam(bool draws) {
   HazardState state;
-  for (Use use : {Use::ComputeWrite, Use::CopyTarget}) {
+  const auto wrote = [&](Use use) {
     state.writeStage_ |= useRow(use).stage;
     state.writeAccess_ |= useRow(use).write;
-  }
+  };
+  for (Use use : {Use::ComputeWrite, Use::CopyTarget}) wrote(use);
   for (Use use : {Use::ComputeRead, Use::Indirect, Use::CopySource}) state.readStage_ |= useRow(use).stage;
+  if (draws) {
+    for (Use use : {Use::ColourTarget, Use::DepthTarget}) wrote(use);
+    state.readStage_ |= useRow(Use::DrawRead).stage;
+  }
   return state;
 }
 

@@ -27,8 +27,8 @@ class HazardState {
   static HazardState nothing() { return {}; }
   /// After `last`, done before this graph by someone else.
   static HazardState after(Use last);
-  /// A transient's memory at the start of a frame: whatever the frame before did to it.
-  static HazardState seam();
+  /// A transient's memory at the start of a frame: whatever the frame before did to it, draws included where there may have been any.
+  static HazardState seam(bool draws);
 
   /// Adds to `scope` what must be waited for before `use`; `keep`: a write that also needs the old content.
   Hazard need(Use use, bool keep, Scope& scope) const;

@@ -10,17 +10,18 @@ namespace rill {
 namespace {
 
 std::string described(const ImageKind& kind, std::string_view name) {
-  return "image '" + std::string(name) + "' of " + std::to_string(kind.width) + " x " + std::to_string(kind.height) + " texels of format " +
-         std::to_string(kind.format);
+  return "image '" + std::string(name) + "' of " + std::to_string(kind.desc.width) + " x " + std::to_string(kind.desc.height) +
+         " texels of format " + std::to_string(kind.desc.format);
 }
 
 VkImageCreateInfo createInfo(const ImageKind& kind) {
   VkImageCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
   create.flags = VK_IMAGE_CREATE_ALIAS_BIT;
   create.imageType = VK_IMAGE_TYPE_2D;
-  create.format = kind.format;
-  create.extent = {kind.width, kind.height, 1};
-  create.mipLevels = create.arrayLayers = 1;
+  create.format = kind.desc.format;
+  create.extent = {kind.desc.width, kind.desc.height, 1};
+  create.mipLevels = kind.desc.levels;
+  create.arrayLayers = 1;
   create.samples = VK_SAMPLE_COUNT_1_BIT;
   create.tiling = VK_IMAGE_TILING_OPTIMAL;
   create.usage = kind.usage;
@@ -30,13 +31,15 @@ VkImageCreateInfo createInfo(const ImageKind& kind) {
 /// What of `usage` this device cannot do with images of this format; null: nothing.
 const char* lacking(DeviceImpl& device, const ImageKind& kind) {
   VkFormatProperties properties{};
-  device.instance.GetPhysicalDeviceFormatProperties(device.physical, kind.format, &properties);
+  device.instance.GetPhysicalDeviceFormatProperties(device.physical, kind.desc.format, &properties);
   constexpr struct {
     VkImageUsageFlags usage;
     VkFormatFeatureFlags feature;
     const char* what;
   } table[] = {{VK_IMAGE_USAGE_STORAGE_BIT, VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT, "storage images"},
                {VK_IMAGE_USAGE_SAMPLED_BIT, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT, "sampled images"},
+               {VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT, "colour targets"},
+               {VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT, "depth targets"},
                {VK_IMAGE_USAGE_TRANSFER_SRC_BIT, VK_FORMAT_FEATURE_TRANSFER_SRC_BIT, "copies from images"},
                {VK_IMAGE_USAGE_TRANSFER_DST_BIT, VK_FORMAT_FEATURE_TRANSFER_DST_BIT, "copies to images"}};
   for (const auto& row : table)
@@ -46,12 +49,32 @@ const char* lacking(DeviceImpl& device, const ImageKind& kind) {
 
 }  // namespace
 
-Expected<VkImageView> makeImageView(DeviceImpl& device, VkImage image, VkFormat format, std::string_view name) {
+bool hasDepth(VkFormat format) {
+  switch (format) {
+    case VK_FORMAT_D16_UNORM:
+    case VK_FORMAT_X8_D24_UNORM_PACK32:
+    case VK_FORMAT_D32_SFLOAT:
+    case VK_FORMAT_D16_UNORM_S8_UINT:
+    case VK_FORMAT_D24_UNORM_S8_UINT:
+    case VK_FORMAT_D32_SFLOAT_S8_UINT:
+      return true;
+    default:
+      return false;
+  }
+}
+
+VkImageAspectFlags aspectsOf(VkFormat format) {
+  if (!hasDepth(format)) return VK_IMAGE_ASPECT_COLOR_BIT;
+  const bool stencil = format == VK_FORMAT_D16_UNORM_S8_UINT || format == VK_FORMAT_D24_UNORM_S8_UINT || format == VK_FORMAT_D32_SFLOAT_S8_UINT;
+  return VK_IMAGE_ASPECT_DEPTH_BIT | (stencil ? VK_IMAGE_ASPECT_STENCIL_BIT : 0);
+}
+
+Expected<VkImageView> makeImageView(DeviceImpl& device, VkImage image, VkFormat format, uint32_t level, std::string_view name) {
   VkImageViewCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
   create.image = image;
   create.viewType = VK_IMAGE_VIEW_TYPE_2D;
   create.format = format;
-  create.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+  create.subresourceRange = {VkImageAspectFlags(hasDepth(format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT), level, 1, 0, 1};
   VkImageView view = VK_NULL_HANDLE;
   if (VkResult r = device.vk.CreateImageView(device.handle, &create, device.callbacks, &view); r != VK_SUCCESS)
     return vulkanError(r, "creating a view of image '" + std::string(name) + "'");
@@ -64,13 +87,13 @@ ImageStore::~ImageStore() {
 }
 
 void ImageStore::retire(const Placed& placed) {
-  device_->retired.add(device_->clock.recording, VK_OBJECT_TYPE_IMAGE_VIEW, placed.handles.view);
+  for (VkImageView view : placed.handles.views) device_->retired.add(device_->clock.recording, VK_OBJECT_TYPE_IMAGE_VIEW, view);
   device_->retired.add(device_->clock.recording, VK_OBJECT_TYPE_IMAGE, placed.handles.image);
 }
 
 ImageNeeds ImageStore::needs(const ImageKind& kind) const {
   const auto found = std::ranges::find(known_, kind, &Known::kind);
-  return found != known_.end() ? found->needs : ImageNeeds{16ull * kind.width * kind.height, 256};
+  return found != known_.end() ? found->needs : ImageNeeds{(kind.desc.levels > 1 ? 24ull : 16ull) * kind.desc.width * kind.desc.height, 256};
 }
 
 Expected<bool> ImageStore::learn(DeviceImpl& device, const ImageKind& kind, std::string_view name) {
@@ -78,7 +101,7 @@ Expected<bool> ImageStore::learn(DeviceImpl& device, const ImageKind& kind, std:
   if (std::ranges::find(known_, kind, &Known::kind) != known_.end()) return false;
   if (const char* what = lacking(device, kind))
     return Error{ErrorKind::BadInput, described(kind, name) + ": " + device.info.name + " has no " + what + " of that format"};
-  if (std::max(kind.width, kind.height) > device.limits.maxImageDimension2D)
+  if (std::max(kind.desc.width, kind.desc.height) > device.limits.maxImageDimension2D)
     return Error{ErrorKind::BadInput, described(kind, name) + ": " + device.info.name + " allows " +
                                           std::to_string(device.limits.maxImageDimension2D) + " a side"};
   const VkImageCreateInfo create = createInfo(kind);
@@ -114,12 +137,12 @@ Expected<void> ImageStore::growHeaps(DeviceImpl& device, std::span<const uint64_
   return {};
 }
 
-Expected<ImageStore::Handles> ImageStore::place(DeviceImpl& device, const ImageKind& kind, uint32_t heap, uint64_t offset,
-                                                std::string_view name) {
+Expected<const ImageStore::Handles*> ImageStore::place(DeviceImpl& device, const ImageKind& kind, uint32_t heap, uint64_t offset,
+                                                       std::string_view name) {
   for (Placed& placed : placed_)
     if (placed.heap == heap && placed.offset == offset && placed.kind == kind) {
       placed.used = true;
-      return placed.handles;
+      return &placed.handles;
     }
   Placed made{kind, heap, offset, {}};
   const VkImageCreateInfo create = createInfo(kind);
@@ -131,15 +154,17 @@ Expected<ImageStore::Handles> ImageStore::place(DeviceImpl& device, const ImageK
     return vulkanError(bound, "binding the memory of " + described(kind, name));
   }
   if (kind.usage & kViewedUsage) {
-    auto view = makeImageView(device, made.handles.image, kind.format, name);
-    if (!view) {
-      retire(made);
-      return view.error();
+    for (uint32_t level = 0; level < kind.desc.levels; ++level) {
+      auto view = makeImageView(device, made.handles.image, kind.desc.format, level, name);
+      if (!view) {
+        retire(made);
+        return view.error();
+      }
+      made.handles.views.push_back(*view);
     }
-    made.handles.view = *view;
   }
-  placed_.push_back(made);
-  return made.handles;
+  placed_.push_back(std::move(made));
+  return &placed_.back().handles;
 }
 
 void ImageStore::sweep() {

@@ -13,8 +13,7 @@ namespace rill {
 class DeviceImpl;
 
 struct ImageKind {
-  VkFormat format = VK_FORMAT_UNDEFINED;
-  uint32_t width = 0, height = 0;
+  ImageDesc desc;
   VkImageUsageFlags usage = 0;
   friend bool operator==(const ImageKind&, const ImageKind&) = default;
 };
@@ -25,13 +24,14 @@ struct ImageNeeds {
 };
 
 /// Uses that see an image through a view.
-inline constexpr VkImageUsageFlags kViewedUsage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+inline constexpr VkImageUsageFlags kViewedUsage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                                                  VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
 
 class ImageStore {
  public:
   struct Handles {
     VkImage image = VK_NULL_HANDLE;
-    VkImageView view = VK_NULL_HANDLE;  ///< null where no use needs one
+    std::vector<VkImageView> views;  ///< one a level; empty where no use needs them
   };
 
   ImageStore() = default;
@@ -46,7 +46,7 @@ class ImageStore {
   /// Heaps of at least these sizes, of a type among `memoryTypes`.
   Expected<void> growHeaps(DeviceImpl& device, std::span<const uint64_t> sizes, uint32_t memoryTypes);
   /// The image of this kind at this place, made if there is none yet.
-  Expected<Handles> place(DeviceImpl& device, const ImageKind& kind, uint32_t heap, uint64_t offset, std::string_view name);
+  Expected<const Handles*> place(DeviceImpl& device, const ImageKind& kind, uint32_t heap, uint64_t offset, std::string_view name);
   /// Retires what has not been placed since the last sweep.
   void sweep();
 
@@ -75,7 +75,11 @@ class ImageStore {
   std::vector<Placed> placed_;
 };
 
-/// A view of the whole image.
-Expected<VkImageView> makeImageView(DeviceImpl& device, VkImage image, VkFormat format, std::string_view name);
+/// A view of one level; of a depth format its depth alone.
+Expected<VkImageView> makeImageView(DeviceImpl& device, VkImage image, VkFormat format, uint32_t level, std::string_view name);
+
+bool hasDepth(VkFormat format);
+/// All that an image of this format has: what barriers name.
+VkImageAspectFlags aspectsOf(VkFormat format);
 
 }  // namespace rill

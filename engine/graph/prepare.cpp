@@ -32,17 +32,7 @@ Expected<void> GraphImpl::prepare(Device& owner) {
   shareSets();
   if (auto ok = makeSets(d, *slot); !ok) return ok;
 
-  uint64_t bytes = 0;
-  for (Readback& readback : readbacks) {
-    readback.offset = bytes;
-    bytes += (readback.size + 15) & ~15ull;
-    slot->deliveries.push_back({readback.ticket, readback.offset, readback.size});
-  }
-  if (bytes > slot->readback.size()) {
-    auto buffer = d.createBuffer("read-back", std::max(bytes, std::bit_ceil(std::min(bytes, kMaxBufferBytes / 2))), MemoryKind::Readback);
-    if (!buffer) return buffer.error();
-    slot->readback = std::move(*buffer);
-  }
+  if (auto ok = placeReadbacks(d, *slot); !ok) return ok;
 
   if (timed && d.timestampMask) {
     for (const PassData& pass : passes)
@@ -64,11 +54,38 @@ Expected<void> GraphImpl::prepare(Device& owner) {
   return {};
 }
 
+/// One buffer after another, each filled as far as a buffer may be.
+Expected<void> GraphImpl::placeReadbacks(DeviceImpl& d, FrameSlot& target) {
+  uint32_t buffer = 0;
+  uint64_t bytes = 0;
+  const auto finish = [&]() -> Expected<void> {
+    if (target.readbacks.size() <= buffer) target.readbacks.resize(buffer + 1);
+    if (bytes <= target.readbacks[buffer].size()) return {};
+    auto made = d.createBuffer("read-back", std::max(bytes, std::bit_ceil(std::min(bytes, kMaxBufferBytes / 2))), MemoryKind::Readback);
+    if (!made) return made.error();
+    target.readbacks[buffer] = std::move(*made);
+    return {};
+  };
+  for (Readback& readback : readbacks) {
+    const uint64_t size = (readback.size + 15) & ~15ull;
+    if (bytes + size > kMaxBufferBytes && bytes > 0) {
+      if (auto ok = finish(); !ok) return ok;
+      ++buffer;
+      bytes = 0;
+    }
+    readback.buffer = buffer;
+    readback.offset = bytes;
+    bytes += size;
+    target.deliveries.push_back({readback.ticket, buffer, readback.offset, readback.size});
+  }
+  return bytes > 0 ? finish() : Expected<void>{};
+}
+
 Expected<void> GraphImpl::learnImages(DeviceImpl& d) {
   bool news = false;
   for (uint32_t index : plans[1].resources) {
     const ResourceData& image = resources[index];
-    auto learned = images.learn(d, {image.desc.format, image.desc.width, image.desc.height, image.usage}, names[image.name]);
+    auto learned = images.learn(d, {image.desc, image.usage}, names[image.name]);
     if (!learned) return learned.error();
     news |= *learned;
   }
@@ -114,22 +131,27 @@ Expected<void> GraphImpl::resolveImages(DeviceImpl& d, FrameSlot& target) {
   uint32_t memoryTypes = ~0u;
   for (uint32_t index : plans[1].resources) {
     const ResourceData& image = resources[index];
-    memoryTypes &= images.needs({image.desc.format, image.desc.width, image.desc.height, image.usage}).memoryTypes;
+    memoryTypes &= images.needs({image.desc, image.usage}).memoryTypes;
   }
   if (auto ok = images.growHeaps(d, plans[1].heapSizes, memoryTypes); !ok) return ok;
-  for (ResourceData& image : resources) {
-    if (!image.isImage || image.usage == 0) continue;
-    const ImageKind kind{image.desc.format, image.desc.width, image.desc.height, image.usage};
+  for (size_t r = 0; r < resources.size(); ++r) {
+    ResourceData& image = resources[r];
+    if (!image.isImage || image.level != 0 || image.usage == 0) continue;
+    const auto levels = std::span(resources).subspan(r, image.desc.levels);
     if (!image.imported) {
       const Placement& place = plans[1].placements[image.placement];
-      auto made = images.place(d, kind, place.heap, place.offset, names[image.name]);
+      auto made = images.place(d, {image.desc, image.usage}, place.heap, place.offset, names[image.name]);
       if (!made) return made.error();
-      image.image = made->image;
-      image.view = made->view;
+      for (ResourceData& level : levels) {
+        level.image = (*made)->image;
+        if (!(*made)->views.empty()) level.view = (*made)->views[level.level];
+      }
     } else if (image.usage & kViewedUsage) {
-      auto view = makeImageView(d, image.image, image.desc.format, names[image.name]);
-      if (!view) return view.error();
-      target.imageViews.push_back(image.view = *view);
+      for (ResourceData& level : levels) {
+        auto view = makeImageView(d, image.image, image.desc.format, level.level, names[image.name]);
+        if (!view) return view.error();
+        target.imageViews.push_back(level.view = *view);
+      }
     }
   }
   images.sweep();
@@ -146,7 +168,7 @@ Expected<void> GraphImpl::resolveImages(DeviceImpl& d, FrameSlot& target) {
                              VK_QUEUE_FAMILY_IGNORED,
                              VK_QUEUE_FAMILY_IGNORED,
                              resources[t.resource].image,
-                             {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}});
+                             {aspectsOf(resources[t.resource].desc.format), resources[t.resource].level, 1, 0, 1}});
   return {};
 }
 
@@ -321,7 +343,7 @@ std::span<const std::byte> GraphImpl::data(Ticket ticket) {
       if (delivery.ticket == ticket.id) {
         if (s->frame > device->clock.completed || device->abandoned(s->frame)) return {};
         delivery.seen = true;
-        return {s->readback.mapped() + delivery.offset, delivery.size};
+        return {s->readbacks[delivery.buffer].mapped() + delivery.offset, delivery.size};
       }
   return {};
 }

@@ -48,29 +48,65 @@ void GraphImpl::record(VkCommandBuffer commandBuffer) {
       for (const Readback& readback : readbacks) {
         if (readback.pass != i) continue;
         const VkBufferCopy region{resources[readback.resource].offset, readback.offset, readback.size};
-        vk.CmdCopyBuffer(commandBuffer, resources[readback.resource].buffer, slot->readback.handle(), 1, &region);
+        vk.CmdCopyBuffer(commandBuffer, resources[readback.resource].buffer, slot->readbacks[readback.buffer].handle(), 1, &region);
       }
     } else if (pass.record) {
       commands.pass_ = i;
+      if (pass.targets.count != 0) beginTargets(pass, commandBuffer);
       pass.invoke(pass.record, commands);
+      if (pass.targets.count != 0) vk.CmdEndRendering(commandBuffer);
     }
     writeStamp();
   }
   recordBarrier(vk, commandBuffer, finalBarrier, imageBarriers);
 }
 
+void GraphImpl::beginTargets(const PassData& pass, VkCommandBuffer commandBuffer) const {
+  constexpr VkAttachmentLoadOp loads[] = {VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_LOAD_OP_CLEAR, VK_ATTACHMENT_LOAD_OP_DONT_CARE};
+  static_assert(size_t(Load::Keep) == 0 && size_t(Load::Clear) == 1 && size_t(Load::Discard) == 2);
+  std::array<VkRenderingAttachmentInfo, kMaxTargets> infos;
+  uint32_t colours = 0;
+  const VkRenderingAttachmentInfo* depth = nullptr;
+  VkRect2D area{};
+  for (uint32_t t = 0; t < pass.targets.count; ++t) {
+    const Target& target = targets[pass.targets.first + t];
+    const ResourceData& image = resources[target.resource];
+    area.extent = {image.width(), image.height()};
+    const bool isDepth = hasDepth(image.desc.format);
+    // Colours from the front, depth in the last place.
+    VkRenderingAttachmentInfo& info = infos[isDepth ? infos.size() - 1 : colours++];
+    info = {VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+    info.imageView = image.view;
+    info.imageLayout = useRow(isDepth ? Use::DepthTarget : Use::ColourTarget).layout;
+    info.loadOp = loads[size_t(target.load)];
+    info.storeOp = target.store ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    info.clearValue = target.clear;
+    if (isDepth) depth = &info;
+  }
+  VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
+  rendering.renderArea = area;
+  rendering.layerCount = 1;
+  rendering.colorAttachmentCount = colours;
+  rendering.pColorAttachments = infos.data();
+  rendering.pDepthAttachment = depth;
+  device->vk.CmdBeginRendering(commandBuffer, &rendering);
+  const VkViewport viewport{0, 0, float(area.extent.width), float(area.extent.height), 0, 1};
+  device->vk.CmdSetViewport(commandBuffer, 0, 1, &viewport);
+  device->vk.CmdSetScissor(commandBuffer, 0, 1, &area);
+}
+
 void Commands::bind(Kernel kernel, std::span<const std::byte> push) {
   [[maybe_unused]] const Range own = graph_.passes[pass_].kernels;
   assert(kernel.index >= own.first && kernel.index < own.first + own.count && "a kernel is dispatched by the pass that declared it");
   const KernelData& data = graph_.kernels[kernel.index];
-  const ComputePipeline& pipeline = *data.pipeline;
+  const Pipeline& pipeline = *data.pipeline;
   assert(push.size() == pipeline.pushBytes && "push constants of another size than the pipeline was made for");
   const DeviceTable& vk = graph_.device->vk;
-  vk.CmdBindPipeline(commandBuffer_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle);
+  vk.CmdBindPipeline(commandBuffer_, pipeline.bindPoint, pipeline.handle);
   if (data.bindings.count != 0)
-    vk.CmdBindDescriptorSets(commandBuffer_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &data.set, 0, nullptr);
+    vk.CmdBindDescriptorSets(commandBuffer_, pipeline.bindPoint, pipeline.layout, 0, 1, &data.set, 0, nullptr);
   if (!push.empty())
-    vk.CmdPushConstants(commandBuffer_, pipeline.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, uint32_t(push.size()), push.data());
+    vk.CmdPushConstants(commandBuffer_, pipeline.layout, pipeline.stages, 0, uint32_t(push.size()), push.data());
 }
 
 void Commands::dispatch(Kernel kernel, uint64_t groups, std::span<const std::byte> push) {
@@ -90,6 +126,28 @@ void Commands::dispatchIndirect(Kernel kernel, BufferRef arguments, uint64_t off
   graph_.device->vk.CmdDispatchIndirect(commandBuffer_, resource.buffer, resource.offset + offset);
 }
 
+void Commands::draw(Kernel kernel, uint32_t vertices, uint32_t instances, std::span<const std::byte> push) {
+  if (vertices == 0 || instances == 0) return;
+  bind(kernel, push);
+  graph_.device->vk.CmdDraw(commandBuffer_, vertices, instances, 0, 0);
+}
+
+void Commands::drawIndirect(Kernel kernel, BufferRef arguments, uint64_t offset, std::span<const std::byte> push) {
+  const ResourceData& resource = graph_.resources[arguments.index];
+  assert(arguments.epoch == graph_.epoch && graph_.accessOf(pass_, arguments.index) &&
+         "indirect arguments are declared with Use::Indirect");
+  assert(offset % 4 == 0 && offset + 16 <= resource.size);
+  bind(kernel, push);
+  graph_.device->vk.CmdDrawIndirect(commandBuffer_, resource.buffer, resource.offset + offset, 1, 16);
+}
+
+void Commands::viewport(uint32_t x, uint32_t y, uint32_t width, uint32_t height) {
+  const VkViewport viewport{float(x), float(y), float(width), float(height), 0, 1};
+  const VkRect2D scissor{{int32_t(x), int32_t(y)}, {width, height}};
+  graph_.device->vk.CmdSetViewport(commandBuffer_, 0, 1, &viewport);
+  graph_.device->vk.CmdSetScissor(commandBuffer_, 0, 1, &scissor);
+}
+
 void Commands::copy(BufferRef source, BufferRef target, uint64_t bytes, uint64_t sourceOffset, uint64_t targetOffset) {
   assert(source.epoch == graph_.epoch && target.epoch == graph_.epoch);
   assert(graph_.accessOf(pass_, source.index) && graph_.accessOf(pass_, target.index) && "a copy's buffers are declared by its pass");
@@ -99,6 +157,13 @@ void Commands::copy(BufferRef source, BufferRef target, uint64_t bytes, uint64_t
   if (bytes == 0) return;
   const VkBufferCopy region{from.offset + sourceOffset, to.offset + targetOffset, bytes};
   graph_.device->vk.CmdCopyBuffer(commandBuffer_, from.buffer, to.buffer, 1, &region);
+}
+
+void Commands::update(BufferRef target, std::span<const std::byte> bytes, uint64_t offset) {
+  assert(target.epoch == graph_.epoch && graph_.accessOf(pass_, target.index) && "an update's buffer is declared by its pass");
+  const ResourceData& to = graph_.resources[target.index];
+  assert(offset % 4 == 0 && bytes.size() % 4 == 0 && bytes.size() <= 65536 && offset + bytes.size() <= to.size);
+  graph_.device->vk.CmdUpdateBuffer(commandBuffer_, to.buffer, to.offset + offset, bytes.size(), bytes.data());
 }
 
 void Commands::fill(BufferRef target, uint32_t value, uint64_t offset, uint64_t bytes) {
@@ -118,8 +183,9 @@ void Commands::copyWhole(BufferRef buffer, ImageRef image, uint64_t offset, bool
   assert(graph_.accessOf(pass_, buffer.index) && graph_.accessOf(pass_, image.index) &&
          "a copy's buffer and image are declared by its pass");
   const ResourceData &bytes = graph_.resources[buffer.index], &texels = graph_.resources[image.index];
+  const VkImageAspectFlags aspect = hasDepth(texels.desc.format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
   const VkBufferImageCopy region{
-      bytes.offset + offset, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {0, 0, 0}, {texels.desc.width, texels.desc.height, 1}};
+      bytes.offset + offset, 0, 0, {aspect, texels.level, 0, 1}, {0, 0, 0}, {texels.width(), texels.height(), 1}};
   const DeviceTable& vk = graph_.device->vk;
   if (toImage)
     vk.CmdCopyBufferToImage(commandBuffer_, bytes.buffer, texels.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
@@ -129,7 +195,7 @@ void Commands::copyWhole(BufferRef buffer, ImageRef image, uint64_t offset, bool
 
 void Commands::clear(ImageRef target, const VkClearColorValue& value) {
   assert(target.epoch == graph_.epoch && graph_.accessOf(pass_, target.index) && "a clear's image is declared by its pass");
-  const VkImageSubresourceRange whole{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+  const VkImageSubresourceRange whole{VK_IMAGE_ASPECT_COLOR_BIT, graph_.resources[target.index].level, 1, 0, 1};
   graph_.device->vk.CmdClearColorImage(commandBuffer_, graph_.resources[target.index].image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &value,
                                        1, &whole);
 }

@@ -10,6 +10,9 @@ constexpr VkPipelineStageFlags2 kTransfer = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT
 constexpr VkAccessFlags2 kStorageRead = VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
 constexpr VkAccessFlags2 kStorageWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
 
+constexpr VkPipelineStageFlags2 kDraw = VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+constexpr VkPipelineStageFlags2 kDepth = VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
+
 constexpr VkImageLayout kNoImage = VK_IMAGE_LAYOUT_UNDEFINED;
 
 constexpr std::array<UseRow, kUseCount> kTable{{
@@ -21,6 +24,15 @@ constexpr std::array<UseRow, kUseCount> kTable{{
      VK_IMAGE_USAGE_SAMPLED_BIT},
     {Use::ComputeWrite, "ComputeWrite", kCompute, kStorageRead, kStorageWrite, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_USAGE_STORAGE_BIT},
     {Use::ComputeAtomic, "ComputeAtomic", kCompute, kStorageRead, kStorageWrite, kNoImage, 0},
+    {Use::DrawRead, "DrawRead", kDraw, kStorageRead, 0, kNoImage, 0},
+    {Use::DrawUniform, "DrawUniform", kDraw, VK_ACCESS_2_UNIFORM_READ_BIT, 0, kNoImage, 0},
+    {Use::DrawSampled, "DrawSampled", kDraw, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, 0, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+     VK_IMAGE_USAGE_SAMPLED_BIT},
+    {Use::ColourTarget, "ColourTarget", VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT,
+     VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT},
+    {Use::DepthTarget, "DepthTarget", kDepth, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
+     VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
+     VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT},
     {Use::Indirect, "Indirect", VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, 0, kNoImage, 0},
     {Use::CopySource, "CopySource", kTransfer, VK_ACCESS_2_TRANSFER_READ_BIT, 0, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
      VK_IMAGE_USAGE_TRANSFER_SRC_BIT},

@@ -18,6 +18,11 @@ inline constexpr size_t kUseCount = size_t(Use::Unknown) + 1;
 
 const UseRow& useRow(Use use);
 inline bool writes(Use use) { return useRow(use).write != 0; }
+inline bool isTarget(Use use) { return use == Use::ColourTarget || use == Use::DepthTarget; }
+/// Uses that need a queue with graphics.
+inline bool isDrawing(Use use) { return use == Use::DrawRead || use == Use::DrawUniform || use == Use::DrawSampled || isTarget(use); }
+/// What only an image can be used as.
+inline bool needsImage(Use use) { return use == Use::ComputeSampled || use == Use::DrawSampled || isTarget(use); }
 inline uint32_t useBit(Use use) { return 1u << uint32_t(use); }
 
 }  // namespace rill

@@ -13,7 +13,7 @@ inline constexpr std::array<std::string_view, 6> kSideWords{"-x", "+x", "-y", "+
 inline constexpr std::array<std::string_view, 6> kAxisWords{"+x", "-x", "+y", "-y", "+z", "-z"};  // Axis
 inline constexpr std::array<std::string_view, 2> kKernelWords{"wendland", "poly6_spiky"};         // KernelChoice
 inline constexpr std::array<std::string_view, 2> kNeighborWords{"list", "grid"};                  // NeighborChoice
-inline constexpr std::array<std::string_view, 1> kPresetWords{"water"};
+inline constexpr std::array<std::string_view, 4> kPresetWords{"water", "milk", "ink", "clay"};
 inline constexpr std::array<std::string_view, 4> kSurfaceWords{"auto", "planes", "curvature_flow", "narrow_range"};
 inline constexpr std::array<std::string_view, 0> kNoWords{};
 

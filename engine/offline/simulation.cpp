@@ -7,13 +7,11 @@
 
 #include "core/words.hpp"
 #include "offline/context.hpp"
+#include "offline/painter.hpp"
 #include "offline/pass_log.hpp"
 #include "offline/probes.hpp"
 #include "offline/readout.hpp"
 #include "offline/state_hash.hpp"
-#include "render/camera.hpp"
-#include "render/legend.hpp"
-#include "render/particle_view.hpp"
 #include "rill/offline.hpp"
 #include "scene/simulation_keys.hpp"
 #include "sort/key_sort_types.hpp"
@@ -23,13 +21,6 @@ namespace {
 
 constexpr uint64_t kMaxParticles = KeySortDesc::kMaxCount;  // whatever the device
 constexpr uint32_t kFirstPiece = 16;                        // substeps, before anything is known about a scene's need
-
-struct View {
-  std::string_view name;
-  ParticleColour colour;
-};
-constexpr View kViews[] = {{"particles", ParticleColour::Speed}, {"density", ParticleColour::Compression}};
-constexpr std::string_view kViewNames[] = {kViews[0].name, kViews[1].name};
 
 uint32_t wholeBlocks(uint32_t substeps, uint32_t block) { return (std::max(substeps, 1u) + block - 1) / block * block; }
 
@@ -165,24 +156,13 @@ class Simulation::Impl {
   }
 
   Expected<Image> render(std::string_view view, uint32_t width, uint32_t height) {
-    const auto known = std::find_if(std::begin(kViews), std::end(kViews), [&](const View& v) { return v.name == view; });
-    if (known == std::end(kViews)) return Error{ErrorKind::BadInput, "there is no view \"" + std::string(view) + "\""};
-    ParticleViewDesc desc;
-    desc.width = width;
-    desc.height = height;
-    desc.colour = known->colour;
-    if (auto possible = ParticleView::check(desc); !possible) return possible.error();
-    if (!particleView_) {
-      auto made = ParticleView::create(context_->device(), scene_, start_);
-      if (!made) return made.error();
-      particleView_ = std::move(*made);
-    }
+    if (auto ready = painter_.prepare(context_->device(), view, width, height); !ready) return ready.error();
     if (auto measured = measure(); !measured) return measured.error();
     const double now = measured_->time_s;  // the device's: behind time() where time was dropped
     Ticket ticket;
     auto ran = run(renderGraph_, [&](Graph& graph) {
       const FluidState state = fluid_->addTo(graph, {});
-      ticket = graph.readback(particleView_->addTo(graph, state, sceneCamera(scene_, start_, double(width) / height), desc, now));
+      ticket = painter_.declare(graph, state, view, width, height, now);
     });
     if (!ran) return ran.error();
     const auto bytes = renderGraph_.data(ticket);
@@ -190,7 +170,7 @@ class Simulation::Impl {
     if (bytes.size() < image.rgba.size())
       return Error{ErrorKind::Failed, "drawing the view \"" + std::string(view) + "\": no picture came back"};
     std::memcpy(image.rgba.data(), bytes.data(), image.rgba.size());
-    drawLegend(image.rgba, width, height, {desc.colour, particleView_->scaleMax(desc.colour), now});
+    painter_.finish(image, view, now);
     return image;
   }
 
@@ -296,7 +276,7 @@ class Simulation::Impl {
   std::vector<std::string> warnings_;
   std::unique_ptr<Context> context_;
   std::unique_ptr<Fluid> fluid_;
-  std::unique_ptr<ParticleView> particleView_;  ///< made for the first picture
+  Painter painter_{scene_, start_};
   // One graph for each shape of frame: each keeps the memory plan of its own.
   Graph advanceGraph_, measureGraph_, renderGraph_;
   PassLog log_;                         ///< since the last instant
@@ -358,7 +338,7 @@ Expected<Checkpoint> Simulation::checkpoint(uint64_t frame, double fps) {
 Expected<Image> Simulation::render(const std::string& view, uint32_t width, uint32_t height) {
   return guarded("drawing", [&] { return impl_->render(view, width, height); });
 }
-std::span<const std::string_view> Simulation::views() { return kViewNames; }
+std::span<const std::string_view> Simulation::views() { return Painter::views(); }
 const Scene& Simulation::scene() const { return impl_->scene(); }
 const ParticleSet& Simulation::start() const { return impl_->start(); }
 const DeviceInfo& Simulation::device() const { return impl_->device(); }

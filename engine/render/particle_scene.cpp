@@ -82,7 +82,7 @@ void fillLight(SceneRecord& record, const Bounds& bounds, const double origin[3]
   record.light_u = vec(frame.u, low[0] - texel);
   record.light_v = vec(frame.v, low[1] - texel);
   record.light_to = vec(frame.to, high[2] + 0.5 * spacing);
-  record.light_texel = {static_cast<float>(texel), 0, 0, 0};
+  record.light_texel = {static_cast<float>(texel), static_cast<float>(high[2] - low[2] + spacing), 0, 0};
   record.counts.y = static_cast<uint32_t>((high[0] - low[0]) / texel) + 4;
   record.counts.z = static_cast<uint32_t>((high[1] - low[1]) / texel) + 4;
 }

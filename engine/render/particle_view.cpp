@@ -11,6 +11,7 @@
 #include "gpu/resources.hpp"
 #include "render/particle_records.h"
 #include "render/particle_scene.hpp"
+#include "render/scene_buffers.hpp"
 
 namespace rill {
 namespace {
@@ -25,16 +26,6 @@ constexpr double kNearPart = 1e-4;                  // of the distance to the ta
 uint64_t groupsFor(uint64_t items, uint64_t size) { return (items + size - 1) / size; }
 uint64_t tiles(uint64_t width, uint64_t height, uint64_t side) { return groupsFor(width, side) * groupsFor(height, side); }
 
-/// A host-written buffer with the bytes of `data`; at least one element, so that it can be bound.
-template <class T>
-Expected<Buffer> upload(Device& device, std::string_view name, std::span<const T> data) {
-  Expected<Buffer> buffer = createBuffer(device, name, std::max<uint64_t>(data.size_bytes(), sizeof(T)), MemoryKind::Upload);
-  if (!buffer) return buffer;
-  std::memset(buffer->mapped(), 0, buffer->size());
-  if (!data.empty()) std::memcpy(buffer->mapped(), data.data(), data.size_bytes());
-  return buffer;
-}
-
 void storeAxis(const double from[3], float to[3]) {
   for (int a = 0; a < 3; ++a) to[a] = static_cast<float>(from[a]);
 }
@@ -46,7 +37,8 @@ class ParticleViewImpl {
   Expected<void> create(Device& device, const Scene& scene, const ParticleSet& particles);
   BufferRef addTo(Graph& graph, const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc, double time);
 
-  ParticleScene scene_;
+  SceneBuffers buffers_;
+  const ParticleScene& scene_ = buffers_.host;
 
  private:
   /// Buffers of one frame, as versions go on.
@@ -73,8 +65,7 @@ class ParticleViewImpl {
   bool hasFloor() const { return scene_.scene.domain_min.w > 0 && (scene_.scene.counts.w & 4u) != 0; }
   bool hasShadows(const Frame& frame) const { return frame.push.count > 0 || scene_.scene.counts.x > 0; }
 
-  Buffer sceneBuffer_, solids_, keyframes_;
-  const ComputePipeline *edges_ = nullptr, *poses_ = nullptr, *solidTiles_ = nullptr, *lightTiles_ = nullptr, *surfaces_ = nullptr,
+  const ComputePipeline *edges_ = nullptr, *solidTiles_ = nullptr, *lightTiles_ = nullptr, *surfaces_ = nullptr,
                         *floor_ = nullptr;
   const ComputePipeline *lightSolids_ = nullptr, *project_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr,
                         *splatLarge_ = nullptr;
@@ -83,15 +74,9 @@ class ParticleViewImpl {
 };
 
 Expected<void> ParticleViewImpl::create(Device& device, const Scene& scene, const ParticleSet& particles) {
-  scene_ = particleScene(scene, particles);
-  const auto keep = [](Buffer& target, Expected<Buffer> made) -> Expected<void> {
-    if (!made) return made.error();
-    target = *std::move(made);
-    return {};
-  };
-  if (auto ok = keep(sceneBuffer_, upload<SceneRecord>(device, "particle view: scene", {&scene_.scene, 1})); !ok) return ok;
-  if (auto ok = keep(solids_, upload<SolidRecord>(device, "particle view: solids", scene_.solids)); !ok) return ok;
-  if (auto ok = keep(keyframes_, upload<Float4>(device, "particle view: keyframes", scene_.keyframes)); !ok) return ok;
+  auto uploaded = SceneBuffers::create(device, particleScene(scene, particles));
+  if (!uploaded) return uploaded.error();
+  buffers_ = *std::move(uploaded);
 
   using enum BindingKind;
   static constexpr BindingKind kStorage[] = {Storage, Storage, Storage, Storage, Storage, Storage};
@@ -104,7 +89,6 @@ Expected<void> ParticleViewImpl::create(Device& device, const Scene& scene, cons
   const std::span<const BindingKind> storage = kStorage, withScene = kWithScene;
   const Wanted all[] = {
       {edges_, "render/particle_edges", withScene.first(2)},
-      {poses_, "render/particle_poses", withScene.first(4)},
       {solidTiles_, "render/particle_solid_tiles", withScene.first(3)},
       {lightTiles_, "render/particle_light_tiles", withScene.first(3)},
       {surfaces_, "render/particle_surfaces", withScene.first(5)},
@@ -163,7 +147,7 @@ ViewPush ParticleViewImpl::pushFor(const FluidState& fluid, const CameraView& ca
 }
 
 void ParticleViewImpl::addSetup(Graph& graph, Frame& frame) {
-  frame.scene = graph.import("view scene", {sceneBuffer_.handle(), 0, sceneBuffer_.size(), Use::None, Use::None});
+  frame.scene = buffers_.importScene(graph);
   frame.counters = graph.create("view counters", {kCounterWords * 4});
   frame.edges = graph.create("view edges", {kEdges * sizeof(EdgeRecord)});
   graph.pass("view clear", [&](Pass& pass) {
@@ -180,18 +164,7 @@ void ParticleViewImpl::addSetup(Graph& graph, Frame& frame) {
     graph.skipped("view poses", "the scene has no solids");
     return;
   }
-  const BufferRef solids = graph.import("view solids", {solids_.handle(), 0, solids_.size(), Use::None, Use::None});
-  const BufferRef keyframes = graph.import("view keyframes", {keyframes_.handle(), 0, keyframes_.size(), Use::None, Use::None});
-  frame.poses = graph.create("view poses", {scene_.solids.size() * sizeof(PoseRecord)});
-  graph.pass("view poses", [&](Pass& pass) {
-    pass.read(frame.scene, Use::ComputeUniform);
-    pass.read(solids, Use::ComputeRead);
-    pass.read(keyframes, Use::ComputeRead);
-    frame.poses = pass.write(frame.poses, Use::ComputeWrite, true);
-    const Kernel kernel = pass.kernel(poses_, {frame.scene, solids, keyframes, frame.poses});
-    const uint64_t groups = groupsFor(scene_.solids.size(), kParticleGroup);
-    return [kernel, groups, push = frame.push](Commands& commands) { commands.dispatch(kernel, groups, push); };
-  });
+  frame.poses = buffers_.addPoses(graph, frame.scene, frame.push);
 }
 
 /// Which solids may be seen in which tile.

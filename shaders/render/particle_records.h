@@ -77,7 +77,7 @@ struct SceneRecord {
   vec4 light_u;      // axis; w: coordinate of the light map's first texel centre
   vec4 light_v;
   vec4 light_to;     // direction to the light; w: coordinate of the plane that light depth counts from
-  vec4 light_texel;  // x: size of a texel
+  vec4 light_texel;  // x: size of a texel, y: how far light depths reach
   vec4 colours[2 * kColours];  // linear RGB: by speed, by compression
 };
 

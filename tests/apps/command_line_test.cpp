@@ -33,7 +33,7 @@ TEST(CommandLine, HelpTeaches) {
     for (const char* word : {"SCENE",    "--frames",  "--fps",     "--size",      "--out",
                              "--view",   "--stats",   "--export",  "--particles", "--set",
                              "--device", "--require", "--explain", "--no-images", "--quiet",
-                             "--help",   "--version", "--no-pass-times", "--checkpoint", "--checkpoint-every", "--resume", "Examples:", "Exit codes:", "particles, density"})
+                             "--help",   "--version", "--no-pass-times", "--checkpoint", "--checkpoint-every", "--resume", "Examples:", "Exit codes:", "final, particles, density"})
       EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
     for (const char* word : {"--video", "--play"})
       EXPECT_EQ(outcome.out.find(word), std::string::npos) << word << " does not work yet";
@@ -78,7 +78,7 @@ TEST(CommandLine, NamesTheOptionAndWhatWasExpected) {
 }
 
 TEST(CommandLine, UnknownNamesGetTheList) {
-  expectRefused({"scene.json", "--view", "particels"}, {"\"particels\"", "did you mean \"particles\"?", "views: particles, density"});
+  expectRefused({"scene.json", "--view", "particels"}, {"\"particels\"", "did you mean \"particles\"?", "views: final, particles, density, depth, normals, thickness"});
   expectRefused({"dam-brake"}, {"\"dam-brake\"", "did you mean \"dam-break\"?", "resting-column", "validation/martin-moyce-1"});
   expectRefused({"scene.json", "--require", "outsid<1"}, {"\"outsid\"", "did you mean \"outside\"?", "density_error_p99", "probes.H1"});
 }
@@ -137,7 +137,7 @@ TEST(Options, DefaultsAreTheDocumentedOnes) {
   EXPECT_EQ(line->options->fps, 60);
   EXPECT_EQ(line->options->width, 1280u);
   EXPECT_EQ(line->options->height, 720u);
-  EXPECT_EQ(line->options->view, "particles");
+  EXPECT_EQ(line->options->view, "final");
   EXPECT_TRUE(line->options->images);
   EXPECT_FALSE(line->options->out);
 }

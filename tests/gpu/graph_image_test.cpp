@@ -18,7 +18,7 @@ class GraphImages : public GpuTest {
     const ComputePipeline* filler =
         pipeline({.shader = "image_fill", .bindings = kinds, .pushConstantBytes = 4, .words = testShader("image_fill")});
     graph.pass("fill", [&](Pass& pass) {
-      image = pass.write(image, Use::ComputeWrite, true);
+      image = pass.write(image, Use::ComputeWrite, Load::Discard);
       const Kernel kernel = pass.kernel(filler, {image});
       return [=](Commands& commands) { commands.dispatch(kernel, (kWidth * kHeight + 63) / 64, base); };
     });

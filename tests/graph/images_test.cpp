@@ -16,9 +16,9 @@ constexpr VkImageLayout kUndefined = VK_IMAGE_LAYOUT_UNDEFINED, kGeneral = VK_IM
 class Images : public GraphTest {
  protected:
   static VkImage fakeImage(uint64_t n) { return reinterpret_cast<VkImage>(n); }
-  ImageRef write(std::string_view pass, ImageRef image, Use use = Use::ComputeWrite, bool discard = false) {
+  ImageRef write(std::string_view pass, ImageRef image, Use use = Use::ComputeWrite, Load load = Load::Keep) {
     graph.pass(pass, [&](Pass& p) {
-      image = p.write(image, use, discard);
+      image = p.write(image, use, load);
       return [](Commands&) {};
     });
     return image;
@@ -46,7 +46,7 @@ TEST_F(Images, LayoutsFollowTheUses) {
   image = write("draw", image);
   read("look", image);
   read("look again", image);
-  image = write("redraw", image, Use::ComputeWrite, true);
+  image = write("redraw", image, Use::ComputeWrite, Load::Discard);
   read("copy", image, Use::CopySource);
   compile();
   EXPECT_EQ(changes(planned(0)), (Changes{{kUndefined, kTarget}}));

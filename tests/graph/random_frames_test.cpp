@@ -25,7 +25,7 @@ struct Event {
 
 bool covers(VkPipelineStageFlags2 have, VkPipelineStageFlags2 need) { return (have & kAll) || (have & need) == need; }
 bool coversAccess(VkAccessFlags2 have, VkAccessFlags2 need) {
-  if (have & kMemoryWrite) have |= kStorageWrite | kTransferWrite;
+  if (have & kMemoryWrite) have |= kStorageWrite | kTransferWrite | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
   return (have & need) == need;
 }
 
@@ -43,7 +43,7 @@ class RandomFrames : public GraphTest {
     constexpr Use reads[] = {Use::ComputeRead, Use::ComputeTexel, Use::ComputeUniform, Use::Indirect, Use::CopySource};
     constexpr Use writings[] = {Use::ComputeWrite, Use::CopyTarget, Use::ComputeAtomic};
     constexpr Use imageStates[] = {Use::None, Use::Unknown, Use::ComputeWrite, Use::ComputeSampled, Use::CopySource, Use::CopyTarget};
-    constexpr Use imageReads[] = {Use::ComputeRead, Use::ComputeSampled, Use::CopySource};
+    constexpr Use imageReads[] = {Use::ComputeRead, Use::ComputeSampled, Use::CopySource, Use::DrawSampled};
     std::vector<ImageRef> images;
     std::vector<bool> drawn;
     for (uint64_t i = 0; i < 2; ++i) {
@@ -69,14 +69,19 @@ class RandomFrames : public GraphTest {
           }
         }
         std::vector<bool> seen(images.size());
+        bool target = false;
         for (uint32_t n = pick(3); n > 0; --n) {
           const uint32_t r = pick(uint32_t(images.size()));
           if (seen[r]) continue;
           seen[r] = true;
           if (drawn[r] && pick(2)) {
-            pass.read(images[r], imageReads[pick(3)]);
+            pass.read(images[r], imageReads[pick(4)]);
           } else {
-            images[r] = pass.write(images[r], writings[pick(2)], pick(4) == 0);
+            constexpr Use imageWritings[] = {Use::ComputeWrite, Use::CopyTarget, Use::ColourTarget};
+            const Use use = imageWritings[pick(target ? 2 : 3)];  // targets of one pass are of one size: one of them
+            target |= use == Use::ColourTarget;
+            const bool discard = pick(4) == 0 || (use == Use::ColourTarget && !drawn[r]);
+            images[r] = pass.write(images[r], use, discard ? Load::Discard : Load::Keep);
             drawn[r] = true;
           }
         }

@@ -65,7 +65,8 @@ void properties(VkPhysicalDevice, VkPhysicalDeviceProperties2* out) {
 void formatProperties(VkPhysicalDevice, VkFormat, VkFormatProperties* out) {
   out->bufferFeatures = VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT;
   out->optimalTilingFeatures = VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT |
-                               VK_FORMAT_FEATURE_TRANSFER_SRC_BIT | VK_FORMAT_FEATURE_TRANSFER_DST_BIT;
+                               VK_FORMAT_FEATURE_TRANSFER_SRC_BIT | VK_FORMAT_FEATURE_TRANSFER_DST_BIT |
+                               VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT;
 }
 
 void memoryProperties(VkPhysicalDevice, VkPhysicalDeviceMemoryProperties* out) {
@@ -132,6 +133,12 @@ VkResult createPipelines(VkDevice, VkPipelineCache, uint32_t count, const VkComp
   return VK_SUCCESS;
 }
 
+VkResult createGraphics(VkDevice, VkPipelineCache, uint32_t count, const VkGraphicsPipelineCreateInfo*, const VkAllocationCallbacks*,
+                        VkPipeline* out) {
+  for (uint32_t i = 0; i < count; ++i) out[i] = newHandle<VkPipeline>();
+  return VK_SUCCESS;
+}
+
 VkResult allocateSets(VkDevice, const VkDescriptorSetAllocateInfo* info, VkDescriptorSet* out) {
   static uint64_t next = 1;
   current->setsAllocated += info->descriptorSetCount;
@@ -169,8 +176,22 @@ void cmdBindSets(VkCommandBuffer, VkPipelineBindPoint, VkPipelineLayout, uint32_
 void cmdPush(VkCommandBuffer, VkPipelineLayout, VkShaderStageFlags, uint32_t, uint32_t, const void*) {}
 void cmdDispatch(VkCommandBuffer, uint32_t x, uint32_t y, uint32_t z) { add(NullCommand::Dispatch, 0, x, y, z); }
 void cmdDispatchIndirect(VkCommandBuffer, VkBuffer buffer, VkDeviceSize offset) { add(NullCommand::DispatchIndirect, id(buffer), offset); }
+void cmdBeginRendering(VkCommandBuffer, const VkRenderingInfo* info) {
+  const VkRenderingAttachmentInfo* first = info->colorAttachmentCount ? info->pColorAttachments : info->pDepthAttachment;
+  add(NullCommand::BeginRendering, info->colorAttachmentCount, first->loadOp, first->storeOp, info->pDepthAttachment != nullptr);
+}
+void cmdEndRendering(VkCommandBuffer) { add(NullCommand::EndRendering); }
+void cmdDraw(VkCommandBuffer, uint32_t vertices, uint32_t instances, uint32_t, uint32_t) { add(NullCommand::Draw, 0, vertices, instances); }
+void cmdDrawIndirect(VkCommandBuffer, VkBuffer buffer, VkDeviceSize offset, uint32_t, uint32_t) {
+  add(NullCommand::DrawIndirect, id(buffer), offset);
+}
+void cmdScissor(VkCommandBuffer, uint32_t, uint32_t, const VkRect2D*) {}
+void cmdViewport(VkCommandBuffer, uint32_t, uint32_t, const VkViewport*) {}
 void cmdCopy(VkCommandBuffer, VkBuffer, VkBuffer target, uint32_t, const VkBufferCopy* region) {
   add(NullCommand::Copy, id(target), region->srcOffset, region->dstOffset, region->size);
+}
+void cmdUpdate(VkCommandBuffer, VkBuffer target, VkDeviceSize offset, VkDeviceSize bytes, const void*) {
+  add(NullCommand::Update, id(target), offset, bytes);
 }
 void cmdCopyToImage(VkCommandBuffer, VkBuffer, VkImage target, VkImageLayout layout, uint32_t, const VkBufferImageCopy* region) {
   add(NullCommand::CopyToImage, id(target), layout, region->imageExtent.width, region->imageExtent.height);
@@ -200,6 +221,7 @@ PFN_vkVoidFunction lookUp(std::string_view name) {
   RILL_FUNCTION(vkAllocateMemory, allocateMemory)
   RILL_FUNCTION(vkBindBufferMemory, bindMemory)
   RILL_FUNCTION(vkBindImageMemory, bindImage)
+  RILL_FUNCTION(vkCmdBeginRendering, cmdBeginRendering)
   RILL_FUNCTION(vkCmdBindDescriptorSets, cmdBindSets)
   RILL_FUNCTION(vkCmdBindPipeline, cmdBindPipeline)
   RILL_FUNCTION(vkCmdClearColorImage, cmdClearImage)
@@ -208,16 +230,23 @@ PFN_vkVoidFunction lookUp(std::string_view name) {
   RILL_FUNCTION(vkCmdCopyImageToBuffer, cmdCopyFromImage)
   RILL_FUNCTION(vkCmdDispatch, cmdDispatch)
   RILL_FUNCTION(vkCmdDispatchIndirect, cmdDispatchIndirect)
+  RILL_FUNCTION(vkCmdDraw, cmdDraw)
+  RILL_FUNCTION(vkCmdDrawIndirect, cmdDrawIndirect)
+  RILL_FUNCTION(vkCmdEndRendering, cmdEndRendering)
   RILL_FUNCTION(vkCmdFillBuffer, cmdFill)
   RILL_FUNCTION(vkCmdPipelineBarrier2, cmdBarrier)
   RILL_FUNCTION(vkCmdPushConstants, cmdPush)
   RILL_FUNCTION(vkCmdResetQueryPool, cmdResetQueries)
+  RILL_FUNCTION(vkCmdSetScissor, cmdScissor)
+  RILL_FUNCTION(vkCmdSetViewport, cmdViewport)
+  RILL_FUNCTION(vkCmdUpdateBuffer, cmdUpdate)
   RILL_FUNCTION(vkCmdWriteTimestamp2, cmdTimestamp)
   RILL_FUNCTION(vkCreateBuffer, createBuffer)
   RILL_FUNCTION(vkCreateBufferView, createView)
   RILL_FUNCTION(vkCreateComputePipelines, createPipelines)
   RILL_FUNCTION(vkCreateDescriptorPool, create)
   RILL_FUNCTION(vkCreateDescriptorSetLayout, create)
+  RILL_FUNCTION(vkCreateGraphicsPipelines, createGraphics)
   RILL_FUNCTION(vkCreateImage, createImage)
   RILL_FUNCTION(vkCreateImageView, create)
   RILL_FUNCTION(vkCreatePipelineLayout, create)

@@ -18,6 +18,11 @@ struct NullCommand {
     CopyToImage,
     CopyFromImage,
     ClearImage,
+    Update,
+    BeginRendering,  // colours, load and store of the first target, whether there is depth
+    EndRendering,
+    Draw,
+    DrawIndirect,
     Fill,
     ResetQueries,
     Timestamp

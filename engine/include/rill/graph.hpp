@@ -18,6 +18,8 @@
 namespace rill {
 
 struct ComputePipeline;
+struct GraphicsPipeline;
+struct Pipeline;
 class GraphImpl;
 class Graph;
 
@@ -41,7 +43,12 @@ enum class Use : uint8_t {
   ComputeSampled,  ///< image, read by texelFetch
   ComputeWrite,    ///< storage buffer or image, read and written
   ComputeAtomic,   ///< storage buffer, atomics of one kind whose result is unused: they commute with each other, no barrier between
-  Indirect,        ///< dispatch arguments
+  DrawRead,        ///< storage buffer, read by vertex and fragment shaders
+  DrawUniform,     ///< uniform buffer, read by vertex and fragment shaders
+  DrawSampled,     ///< image, read by vertex and fragment shaders by texelFetch
+  ColourTarget,    ///< image, drawn to
+  DepthTarget,     ///< image of a depth format, tested and written by draws
+  Indirect,        ///< dispatch or draw arguments
   CopySource,
   CopyTarget,
   HostRead,  ///< read by the host after the frame has completed
@@ -60,10 +67,20 @@ struct BufferImport {
   Use after = Use::None;      ///< what it must be ready for after this graph; reached even when every pass is culled
 };
 
-/// A two-dimensional colour image of one level.
+/// A two-dimensional image. Each level of a pyramid is half as wide and high as the one before, and a version of its own to the graph:
+/// a pass may read one while it writes the next (Graph::level).
 struct ImageDesc {
   VkFormat format = VK_FORMAT_UNDEFINED;
-  uint32_t width = 0, height = 0;  ///< texels
+  uint32_t width = 0, height = 0;  ///< texels of level 0
+  uint32_t levels = 1;             ///< at most what halving leaves until 1 x 1
+  friend bool operator==(const ImageDesc&, const ImageDesc&) = default;
+};
+
+/// What becomes of an image's old content when a pass writes it.
+enum class Load : uint8_t {
+  Keep,    ///< stays where nothing is drawn
+  Clear,   ///< of targets alone: replaced by a value before anything is drawn
+  Discard  ///< undefined: the pass writes all of it that anyone will read
 };
 
 struct ImageImport {
@@ -95,7 +112,9 @@ class Pass {
   /// Consumes `buffer` and returns the version that this pass makes. The old content is kept unless `discard`; a new
   /// transient has none to keep (so atomics on one are an error: fill it first).
   [[nodiscard]] BufferRef write(BufferRef buffer, Use use, bool discard = false);
-  [[nodiscard]] ImageRef write(ImageRef image, Use use, bool discard = false);
+  /// Targets (ColourTarget, DepthTarget) are what the pass draws to, colours in the order of these calls; all are of one size, and a pass
+  /// with targets only draws. Keep of an image that has no content is an error there.
+  [[nodiscard]] ImageRef write(ImageRef image, Use use, Load load = Load::Keep, const VkClearValue& clear = {});
   /// The pass matters even if nobody reads what it writes.
   void sideEffect();
   /// Binds buffers and images, in the order of the pipeline's bindings, each a version that this pass reads or one that it wrote.
@@ -103,10 +122,16 @@ class Pass {
   Kernel kernel(const ComputePipeline* pipeline, Bindings bindings) {
     return kernel(pipeline, std::span<const ResourceRef>(bindings.begin(), bindings.size()));
   }
+  /// The same for a pipeline that draws to this pass's targets, which are declared before and are of the pipeline's formats.
+  Kernel kernel(const GraphicsPipeline* pipeline, std::span<const ResourceRef> bindings);
+  Kernel kernel(const GraphicsPipeline* pipeline, Bindings bindings) {
+    return kernel(pipeline, std::span<const ResourceRef>(bindings.begin(), bindings.size()));
+  }
 
  private:
   friend class Graph;
   friend class GraphImpl;
+  Kernel bound(const Pipeline& pipeline, std::span<const ResourceRef> bindings);
   Pass(GraphImpl& graph, uint32_t index) : graph_(graph), index_(index) {}
   GraphImpl& graph_;
   uint32_t index_;
@@ -128,7 +153,23 @@ class Commands {
   void dispatchIndirect(Kernel kernel, BufferRef arguments, uint64_t offset, const Push& push) {
     dispatchIndirect(kernel, arguments, offset, std::as_bytes(std::span(&push, 1)));
   }
+  /// In a pass with targets. The viewport is all of them until viewport() is called.
+  void draw(Kernel kernel, uint32_t vertices, uint32_t instances, std::span<const std::byte> push = {});
+  template <class Push>
+  void draw(Kernel kernel, uint32_t vertices, uint32_t instances, const Push& push) {
+    draw(kernel, vertices, instances, std::as_bytes(std::span(&push, 1)));
+  }
+  /// Four uint (vertices, instances, first of each) at `offset` bytes of `arguments` (declared with Use::Indirect).
+  void drawIndirect(Kernel kernel, BufferRef arguments, uint64_t offset, std::span<const std::byte> push = {});
+  template <class Push>
+  void drawIndirect(Kernel kernel, BufferRef arguments, uint64_t offset, const Push& push) {
+    drawIndirect(kernel, arguments, offset, std::as_bytes(std::span(&push, 1)));
+  }
+  /// Texels that the following draws of this pass cover, scissor included; within the targets.
+  void viewport(uint32_t x, uint32_t y, uint32_t width, uint32_t height);
   void copy(BufferRef source, BufferRef target, uint64_t bytes, uint64_t sourceOffset = 0, uint64_t targetOffset = 0);
+  /// At most 64 KiB, a multiple of 4; kept in the command buffer until it runs.
+  void update(BufferRef target, std::span<const std::byte> bytes, uint64_t offset = 0);
   void fill(BufferRef target, uint32_t value, uint64_t offset = 0, uint64_t bytes = UINT64_MAX);  ///< UINT64_MAX: to the end
   /// The whole image from or to tightly packed rows that start at `offset` bytes of the buffer: a multiple of 4 and of a texel's bytes.
   void copy(BufferRef source, ImageRef target, uint64_t offset = 0);
@@ -176,6 +217,8 @@ class Graph {
 
   BufferRef create(std::string_view name, BufferDesc desc);  ///< transient: lives in the graph's own memory, content undefined at first
   ImageRef create(std::string_view name, ImageDesc desc);
+  /// Level k of an image that was created or imported with more than k levels, as it was then: later versions are what writes return.
+  ImageRef level(ImageRef image, uint32_t k);
   BufferRef import(std::string_view name, const BufferImport& import);
   ImageRef import(std::string_view name, const ImageImport& import);
 

@@ -1,0 +1,127 @@
+// Pipelines that draw, for dynamic rendering.
+#include <algorithm>
+#include <optional>
+
+#include "gpu/device_impl.hpp"
+#include "gpu/pipeline.hpp"
+
+namespace rill {
+
+Expected<VkPipeline> PipelineStore::build(DeviceImpl& device, const GraphicsPipeline& pipeline, std::span<const uint32_t> vertex,
+                                          std::span<const uint32_t> fragment) {
+  const Constants constants(pipeline.constants);
+  const auto stage = [&](VkShaderStageFlagBits bit, const ShaderModule& module) {
+    VkPipelineShaderStageCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
+    info.stage = bit;
+    info.module = module.handle();
+    info.pName = "main";
+    info.pSpecializationInfo = constants.info();
+    return info;
+  };
+  auto vertexModule = ShaderModule::make(device, pipeline.shader, vertex);
+  if (!vertexModule) return vertexModule.error();
+  std::vector<VkPipelineShaderStageCreateInfo> stages{stage(VK_SHADER_STAGE_VERTEX_BIT, *vertexModule)};
+  std::optional<ShaderModule> fragmentModule;  // depth alone needs none
+  if (!fragment.empty()) {
+    auto made = ShaderModule::make(device, pipeline.fragment, fragment);
+    if (!made) return made.error();
+    fragmentModule.emplace(*std::move(made));
+    stages.push_back(stage(VK_SHADER_STAGE_FRAGMENT_BIT, *fragmentModule));
+  }
+
+  const VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+  VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
+  assembly.topology = pipeline.topology;
+  VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
+  viewport.viewportCount = viewport.scissorCount = 1;
+  VkPipelineRasterizationStateCreateInfo raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
+  raster.cullMode = VK_CULL_MODE_NONE;
+  raster.lineWidth = 1;
+  VkPipelineMultisampleStateCreateInfo samples{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
+  samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+  VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
+  depth.depthTestEnable = pipeline.depth != VK_FORMAT_UNDEFINED;  // a write needs the test, which may be ALWAYS
+  depth.depthWriteEnable = pipeline.depthWrite;
+  depth.depthCompareOp = pipeline.depthCompare;
+  VkPipelineColorBlendAttachmentState attachment{};
+  attachment.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+  attachment.blendEnable = pipeline.blend == Blend::Premultiplied;
+  attachment.srcColorBlendFactor = attachment.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+  attachment.dstColorBlendFactor = attachment.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+  const std::vector<VkPipelineColorBlendAttachmentState> attachments(pipeline.colours.size(), attachment);
+  VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
+  blend.attachmentCount = uint32_t(attachments.size());
+  blend.pAttachments = attachments.data();
+  constexpr VkDynamicState states[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+  VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
+  dynamic.dynamicStateCount = 2;
+  dynamic.pDynamicStates = states;
+  VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
+  rendering.colorAttachmentCount = uint32_t(pipeline.colours.size());
+  rendering.pColorAttachmentFormats = pipeline.colours.data();
+  rendering.depthAttachmentFormat = pipeline.depth;
+
+  VkGraphicsPipelineCreateInfo create{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &rendering};
+  create.stageCount = uint32_t(stages.size());
+  create.pStages = stages.data();
+  create.pVertexInputState = &input;
+  create.pInputAssemblyState = &assembly;
+  create.pViewportState = &viewport;
+  create.pRasterizationState = &raster;
+  create.pMultisampleState = &samples;
+  create.pDepthStencilState = &depth;
+  create.pColorBlendState = &blend;
+  create.pDynamicState = &dynamic;
+  create.layout = pipeline.layout;
+  VkPipeline handle = VK_NULL_HANDLE;
+  if (VkResult r = device.vk.CreateGraphicsPipelines(device.handle, device.cache, 1, &create, device.callbacks, &handle); r != VK_SUCCESS)
+    return pipelineError(r, pipeline.shader);
+  return handle;
+}
+
+Expected<const GraphicsPipeline*> PipelineStore::find(DeviceImpl& device, const GraphicsPipelineDesc& desc) {
+  for (const auto& p : graphics_)
+    if (p->shader == desc.vertex && p->fragment == desc.fragment && p->pushBytes == desc.pushConstantBytes && p->depth == desc.depth &&
+        p->depthCompare == desc.depthCompare && p->depthWrite == desc.depthWrite && p->blend == desc.blend &&
+        p->topology == desc.topology && std::ranges::equal(p->set->kinds, desc.bindings) &&
+        std::ranges::equal(p->constants, desc.constants) && std::ranges::equal(p->colours, desc.colours) &&
+        std::ranges::equal(p->words, desc.vertexWords) && std::ranges::equal(p->fragmentWords, desc.fragmentWords))
+      return p.get();
+
+  if (!device.draws)
+    return Error{ErrorKind::NoDevice, "the queue family that Rill was given on '" + device.info.name + "' cannot draw: shader '" +
+                                          std::string(desc.vertex) + "' needs one with graphics"};
+  const auto words = [&](std::string_view name, std::span<const uint32_t> own) { return own.empty() ? libraryWords(device, name) : own; };
+  const std::span<const uint32_t> vertex = words(desc.vertex, desc.vertexWords), fragment = words(desc.fragment, desc.fragmentWords);
+  if (vertex.empty()) return shaderError(desc.vertex, "the library contains no such shader");
+  if (fragment.empty() && !desc.fragment.empty()) return shaderError(desc.fragment, "the library contains no such shader");
+
+  auto pipeline = std::make_unique<GraphicsPipeline>();
+  pipeline->shader = desc.vertex;
+  pipeline->fragment = desc.fragment;
+  pipeline->words.assign(desc.vertexWords.begin(), desc.vertexWords.end());
+  pipeline->fragmentWords.assign(desc.fragmentWords.begin(), desc.fragmentWords.end());
+  pipeline->bindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
+  pipeline->stages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+  pipeline->colours.assign(desc.colours.begin(), desc.colours.end());
+  pipeline->depth = desc.depth;
+  pipeline->depthCompare = desc.depthCompare;
+  pipeline->depthWrite = desc.depthWrite;
+  pipeline->blend = desc.blend;
+  pipeline->topology = desc.topology;
+  if (auto ok = begin(device, *pipeline, desc.bindings, desc.pushConstantBytes, desc.constants); !ok) return ok.error();
+  auto handle = build(device, *pipeline, vertex, fragment);
+  if (!handle) {
+    device.vk.DestroyPipelineLayout(device.handle, pipeline->layout, device.callbacks);
+    return handle.error();
+  }
+  pipeline->handle = *handle;
+  graphics_.push_back(std::move(pipeline));
+  return graphics_.back().get();
+}
+
+Expected<const GraphicsPipeline*> graphicsPipeline(Device& device, const GraphicsPipelineDesc& desc) {
+  return device.impl().pipelines.find(device.impl(), desc);
+}
+
+}  // namespace rill

@@ -1,0 +1,98 @@
+#pragma once
+// Screen-space rendering of a fluid's particles into a host's colour and depth, as passes of a render graph.
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "rill/device.hpp"
+#include "rill/expected.hpp"
+#include "rill/float3.hpp"
+#include "rill/fluid.hpp"
+#include "rill/graph.hpp"
+#include "rill/scene.hpp"
+
+namespace rill {
+
+/// Formats of the images that a FluidRenderer draws to: pipelines are made for them.
+struct TargetFormats {
+  VkFormat colour = VK_FORMAT_R16G16B16A16_SFLOAT;  ///< linear values are written: a UNORM format gets no curve, an SRGB one its own
+  VkFormat depth = VK_FORMAT_D32_SFLOAT;
+};
+
+/// What the host has drawn, and what the fluid is drawn into: versions of images of the same graph.
+struct SceneTargets {
+  ImageRef colour, depth;
+};
+
+/// The host's camera.
+struct FluidView {
+  /// World (relative to `origin`) to view space, rigid: the eye looks along -z, y up, right handed, as GLM's lookAt makes it.
+  Float4x4 view;
+  /// View to Vulkan's clip space. Perspective or orthographic, standard or reversed depth, finite or infinite, centred or not.
+  Float4x4 projection;
+  double origin[3] = {0, 0, 0};        ///< m, in the scene's coordinates
+  uint32_t x = 0, y = 0;               ///< of the viewport in the targets, pixels
+  uint32_t width = 1280, height = 720;  ///< of the viewport, pixels
+  double focus_m = 1;                  ///< m: how far away the fluid is, roughly. Work is planned for it: the picture is right at any distance
+};
+
+/// How the surface is found from particles.
+enum class SurfaceMethod : uint8_t {
+  Auto,          ///< what `rill-bench render` found best: Planes
+  Planes,        ///< a plane fitted around each surface particle, blended
+};
+
+/// What the fluid is made of, to the eye. Colours are linear RGB.
+struct FluidLook {
+  SurfaceMethod surface = SurfaceMethod::Auto;
+  Float3 absorption{2.6f, 0.75f, 0.40f};  ///< 1/m, Beer and Lambert
+  Float3 scatter{0.01f, 0.07f, 0.11f};  ///< what its inside sends back where it is thick, of white light; of an opaque fluid its colour
+  bool opaque = false;                    ///< nothing is seen through it, and no thickness is made
+  float refraction_index = 1.333f;        ///< above 1
+  float highlight = 900;                  ///< exponent of the sun's reflection
+  float sun = 18;                         ///< radiance of the sun's reflection over the sky's
+  Float3 to_sun{-0.30f, 0.84f, 0.45f};    ///< direction, of any length
+};
+
+/// The looks that `look.preset` of a scene names: water, milk, ink, clay. Nothing for another name.
+std::optional<FluidLook> fluidLook(std::string_view preset);
+std::span<const std::string_view> fluidLooks();
+
+/// What can be read of the surface, exactly: no tone curve, alpha 0 where there is no fluid.
+enum class SurfaceData : uint8_t {
+  Normals,   ///< n / 2 + 1/2, in the world
+  Depth,     ///< distance along the view direction over `full`, grey
+  Thickness  ///< of the fluid along the ray over `full`, grey
+};
+
+class FluidRendererImpl;
+
+/// Draws the fluid of a FluidState: only its position, count, spacing and origin are used, so a host can fill one itself.
+/// Two runs on one driver give the same pixels.
+class FluidRenderer {
+ public:
+  /// NoDevice where the host's queue cannot draw; Shader, BadInput for formats that cannot be drawn to.
+  static Expected<std::unique_ptr<FluidRenderer>> create(Device& device, const TargetFormats& formats = {});
+  ~FluidRenderer();
+
+  /// BadInput for a view that cannot be drawn (empty, larger than 8192 a side, a projection that is none). Needs no device.
+  static Expected<void> check(const FluidView& view);
+
+  /// Declares the passes that draw the fluid over what is in `targets` and returns their new versions; `view` is one that check() allows.
+  [[nodiscard]] SceneTargets addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view,
+                                   const FluidLook& look = {});
+
+  /// width x height pixels, RGBA8, rows from the top. `full`: m at white.
+  BufferRef addData(Graph& graph, const FluidState& fluid, const FluidView& view, SurfaceData data, float full,
+                    SurfaceMethod method = SurfaceMethod::Auto);
+
+  FluidRendererImpl& impl() { return *impl_; }  ///< engine/render and its tests; not for hosts
+
+ private:
+  explicit FluidRenderer(std::unique_ptr<FluidRendererImpl>);
+  std::unique_ptr<FluidRendererImpl> impl_;
+};
+
+}  // namespace rill

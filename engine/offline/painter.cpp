@@ -1,0 +1,118 @@
+#include "offline/painter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/words.hpp"
+#include "gpu/resources.hpp"
+#include "render/fluid_renderer_impl.hpp"
+#include "render/legend.hpp"
+#include "sort/dispatches.hpp"
+
+namespace rill::offline {
+namespace {
+
+enum class Kind { Final, Particles, Data };
+
+struct View {
+  std::string_view name;
+  Kind kind;
+  ParticleColour colour = ParticleColour::Speed;
+  SurfaceData data = SurfaceData::Normals;
+};
+constexpr View kViews[] = {{"final", Kind::Final},
+                           {"particles", Kind::Particles, ParticleColour::Speed},
+                           {"density", Kind::Particles, ParticleColour::Compression},
+                           {"depth", Kind::Data, {}, SurfaceData::Depth},
+                           {"normals", Kind::Data, {}, SurfaceData::Normals},
+                           {"thickness", Kind::Data, {}, SurfaceData::Thickness}};
+constexpr auto kNames = [] {
+  std::array<std::string_view, std::size(kViews)> names;
+  for (size_t i = 0; i < names.size(); ++i) names[i] = kViews[i].name;
+  return names;
+}();
+
+const View* find(std::string_view name) {
+  const auto found = std::find_if(std::begin(kViews), std::end(kViews), [&](const View& v) { return v.name == name; });
+  return found == std::end(kViews) ? nullptr : found;
+}
+
+}  // namespace
+
+std::span<const std::string_view> Painter::views() { return kNames; }
+
+CameraView Painter::camera(uint32_t width, uint32_t height) const { return sceneCamera(scene_, start_, double(width) / height); }
+
+Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t width, uint32_t height) {
+  const View* view = find(name);
+  if (!view) return Error{ErrorKind::BadInput, "there is no view \"" + std::string(name) + "\""};
+  ParticleViewDesc desc;
+  desc.width = width;
+  desc.height = height;
+  if (auto possible = ParticleView::check(desc); !possible) return possible;
+  if (view->kind == Kind::Particles) {
+    if (particles_) return {};
+    auto made = ParticleView::create(device, scene_, start_);
+    if (!made) return made.error();
+    particles_ = std::move(*made);
+    return {};
+  }
+  if (auto possible = FluidRenderer::check(fluidView(camera(width, height), width, height, scene_.fluid.spacing)); !possible) return possible;
+  if (!fluid_) {
+    const auto look = fluidLook(scene_.look.preset);
+    if (!look) return Error{ErrorKind::BadInput, "look.preset: there is no look " + inQuotes(scene_.look.preset)};
+    look_ = *look;
+    auto made = FluidRenderer::create(device);
+    if (!made) return made.error();
+    fluid_ = std::move(*made);
+  }
+  if (view->kind != Kind::Final || scenery_) return {};
+  auto scenery = Scenery::create(device, scene_, start_, {});
+  if (!scenery) return scenery.error();
+  scenery_ = std::move(*scenery);
+  look_.to_sun = scenery_->toSun();
+  static constexpr BindingKind kBindings[] = {BindingKind::SampledImage, BindingKind::Storage};
+  auto tonemap = computePipeline(device, {.shader = "render/tonemap", .bindings = kBindings});
+  if (!tonemap) return tonemap.error();
+  tonemap_ = *tonemap;
+  return {};
+}
+
+Ticket Painter::declare(Graph& graph, const FluidState& fluid, std::string_view name, uint32_t width, uint32_t height, double time_s) {
+  const View& view = *find(name);
+  const CameraView eye = camera(width, height);
+  if (view.kind == Kind::Particles) {
+    ParticleViewDesc desc;
+    desc.width = width;
+    desc.height = height;
+    desc.colour = view.colour;
+    return graph.readback(particles_->addTo(graph, fluid, eye, desc, time_s));
+  }
+  const FluidView seen = fluidView(eye, width, height, scene_.fluid.spacing);
+  if (view.kind == Kind::Data) {
+    const double full = view.data == SurfaceData::Depth ? 2 * seen.focus_m : 0.5 * seen.focus_m;
+    return graph.readback(fluid_->addData(graph, fluid, seen, view.data, static_cast<float>(full)));
+  }
+  const TargetFormats formats;
+  SceneTargets targets{graph.create("picture colour", {formats.colour, width, height}),
+                       graph.create("picture depth", {formats.depth, width, height})};
+  targets = scenery_->addTo(graph, fluid, targets, seen, look_, time_s);
+  targets = fluid_->impl().addTo(graph, fluid, targets, seen, look_, true);
+  if (fluid.count > 0) targets = scenery_->addEdgesOverFluid(graph, targets, seen, fluid_->impl().last.pixels);
+  BufferRef picture = graph.create("picture", {uint64_t{width} * height * 4});
+  graph.pass("picture tone", [&](Pass& pass) {
+    pass.read(targets.colour, Use::ComputeSampled);
+    picture = pass.write(picture, Use::ComputeWrite, true);
+    const Kernel kernel = pass.kernel(tonemap_, {targets.colour, picture});
+    return [kernel, groups = divideUp(uint64_t{width} * height, 64)](Commands& commands) { commands.dispatch(kernel, groups); };
+  });
+  return graph.readback(picture);
+}
+
+void Painter::finish(Image& image, std::string_view name, double time_s) const {
+  const View& view = *find(name);
+  if (view.kind == Kind::Particles)
+    drawLegend(image.rgba, image.width, image.height, {view.colour, particles_->scaleMax(view.colour), time_s});
+}
+
+}  // namespace rill::offline

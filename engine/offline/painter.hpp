@@ -1,0 +1,38 @@
+#pragma once
+// The pictures of a simulation: which views there are, and the passes of each.
+#include <memory>
+#include <string_view>
+
+#include "render/particle_view.hpp"
+#include "render/scenery.hpp"
+#include "rill/fluid_renderer.hpp"
+#include "rill/offline.hpp"
+
+namespace rill::offline {
+
+class Painter {
+ public:
+  /// Scene and particles outlive it.
+  Painter(const Scene& scene, const ParticleSet& start) : scene_(scene), start_(start) {}
+
+  static std::span<const std::string_view> views();
+  /// BadInput for a view that there is not, a size that cannot be drawn, a look that is unknown; makes on the device what it needs.
+  Expected<void> prepare(Device& device, std::string_view view, uint32_t width, uint32_t height);
+  /// Declares the passes of a picture that prepare() allowed.
+  Ticket declare(Graph& graph, const FluidState& fluid, std::string_view view, uint32_t width, uint32_t height, double time_s);
+  /// What is drawn on the finished picture by the host.
+  void finish(Image& image, std::string_view view, double time_s) const;
+
+ private:
+  CameraView camera(uint32_t width, uint32_t height) const;
+
+  const Scene& scene_;
+  const ParticleSet& start_;
+  std::unique_ptr<ParticleView> particles_;
+  std::unique_ptr<FluidRenderer> fluid_;
+  std::unique_ptr<Scenery> scenery_;
+  const ComputePipeline* tonemap_ = nullptr;
+  FluidLook look_;
+};
+
+}  // namespace rill::offline

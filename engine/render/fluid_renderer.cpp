@@ -1,0 +1,162 @@
+#include "rill/fluid_renderer.hpp"
+
+#include <cassert>
+#include <cmath>
+#include <cstring>
+
+#include "render/compute_step.hpp"
+#include "render/fluid_renderer_impl.hpp"
+#include "render/view_push.hpp"
+#include "sort/dispatches.hpp"
+
+namespace rill {
+
+using namespace surface;
+
+look::LookRecord lookRecord(const FluidLook& look, const SurfacePush& thickness) {
+  look::LookRecord record{};
+  record.absorption = {look.absorption.x, look.absorption.y, look.absorption.z, look.refraction_index};
+  record.scatter = {look.scatter.x, look.scatter.y, look.scatter.z, look.opaque ? 1.0f : 0.0f};
+  const Float3& s = look.to_sun;
+  const float size = std::sqrt(s.x * s.x + s.y * s.y + s.z * s.z);
+  record.light = {s.x / size, s.y / size, s.z / size, look.sun};
+  record.finish = {look.highlight, static_cast<float>(thickness.step), thickness.unit, 0};
+  return record;
+}
+
+BufferRef addLook(Graph& graph, const look::LookRecord& record) {
+  BufferRef buffer = graph.create("fluid look", {sizeof record});
+  graph.pass("fluid look", [&](Pass& pass) {
+    buffer = pass.write(buffer, Use::CopyTarget, true);
+    return [buffer, record](Commands& commands) { commands.update(buffer, std::as_bytes(std::span(&record, 1))); };
+  });
+  return buffer;
+}
+
+Expected<void> FluidRendererImpl::create(Device& device, const TargetFormats& formats) {
+  auto stage = SurfaceStage::create(device);
+  if (!stage) return stage.error();
+  surface = *stage;
+  using enum BindingKind;
+  static constexpr BindingKind kScene[] = {SampledImage, SampledImage, Storage, Storage};
+  static constexpr BindingKind kShade[] = {Uniform, Storage, Storage, Storage, Storage, Storage};
+  static constexpr BindingKind kData[] = {Storage, Storage, Storage};
+  auto made = computePipeline(device, {.shader = "render/surface_scene", .bindings = kScene, .pushConstantBytes = sizeof(SurfacePush)});
+  if (!made) return made.error();
+  scene = *made;
+  for (uint32_t what = 0; what < 3; ++what) {
+    const uint32_t constants[] = {what};
+    made = computePipeline(
+        device, {.shader = "render/analysis", .bindings = kData, .pushConstantBytes = sizeof(DataPush), .constants = constants});
+    if (!made) return made.error();
+    data[what] = *made;
+  }
+  auto drawn = graphicsPipeline(device, {.vertex = "render/fluid_shade_vertex",
+                                         .fragment = "render/fluid_shade_fragment",
+                                         .bindings = kShade,
+                                         .pushConstantBytes = sizeof(SurfacePush),
+                                         .colours = {&formats.colour, 1},
+                                         .depth = formats.depth,
+                                         .depthCompare = VK_COMPARE_OP_ALWAYS,  // the shader compares in m
+                                         .depthWrite = true});
+  if (!drawn) return drawn.error();
+  shade = *drawn;
+  return {};
+}
+
+SurfacePush FluidRendererImpl::camera(const FluidState& fluid, const FluidView& view) const {
+  SurfacePush push = viewPush(view, fluid.origin);
+  push.step = sampleStep(push, fluid.spacing, view.focus_m);
+  return push;
+}
+
+SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view,
+                                      const FluidLook& look, bool whole) {
+  if (fluid.count == 0) {
+    graph.skipped("fluid shade", "there are no particles");
+    return targets;
+  }
+  const SurfacePush push = camera(fluid, view);
+  last = surface.addTo(graph, fluid, push, look.surface, whole);
+  const uint64_t pixels = uint64_t{push.width} * push.height;
+  BufferRef sceneColour = graph.create("fluid scene colour", {pixels * 8}), sceneDepth = graph.create("fluid scene depth", {pixels * 4});
+  graph.pass("fluid scene", [&](Pass& pass) {
+    pass.read(targets.colour, Use::ComputeSampled);
+    pass.read(targets.depth, Use::ComputeSampled);
+    pass.read(last.arguments, Use::Indirect);
+    sceneColour = pass.write(sceneColour, Use::ComputeWrite, true);
+    sceneDepth = pass.write(sceneDepth, Use::ComputeWrite, true);
+    const Kernel kernel = pass.kernel(scene, {targets.colour, targets.depth, sceneColour, sceneDepth});
+    return [kernel, push, arguments = last.arguments](Commands& commands) {
+      commands.dispatchIndirect(kernel, arguments, kPixelArguments * 4, push);
+    };
+  });
+  const SurfacePush thick = SurfaceStage::thicknessPush(push, fluid, kThicknessStep);
+  BufferRef thickness;
+  if (look.opaque) {
+    graph.skipped("fluid thickness", "the look is opaque");
+    thickness = last.tiles;  // bound, never read
+  } else {
+    thickness = surface.addThickness(graph, fluid, thick, sceneDepth);
+  }
+  const BufferRef record = addLook(graph, lookRecord(look, thick));
+  graph.pass("fluid shade", [&](Pass& pass) {
+    pass.read(record, Use::DrawUniform);
+    for (BufferRef buffer : {last.tiles, last.pixels, thickness, sceneColour, sceneDepth}) pass.read(buffer, Use::DrawRead);
+    pass.read(last.arguments, Use::Indirect);
+    targets.colour = pass.write(targets.colour, Use::ColourTarget);
+    targets.depth = pass.write(targets.depth, Use::DepthTarget);
+    const Kernel kernel = pass.kernel(shade, {record, last.tiles, last.pixels, thickness, sceneColour, sceneDepth});
+    return [kernel, push, arguments = last.arguments](Commands& commands) {
+      commands.viewport(push.left, push.top, push.width, push.height);
+      commands.drawIndirect(kernel, arguments, kTileDraw * 4, push);
+    };
+  });
+  return targets;
+}
+
+BufferRef FluidRendererImpl::addData(Graph& graph, const FluidState& fluid, const FluidView& view, SurfaceData what, float full,
+                                     SurfaceMethod method) {
+  const SurfacePush push = camera(fluid, view);
+  const uint64_t pixels = uint64_t{push.width} * push.height;
+  BufferRef picture = graph.create("surface data", {pixels * 4});
+  if (fluid.count == 0) {
+    graph.pass("surface data", [&](Pass& pass) {
+      picture = pass.write(picture, Use::CopyTarget, true);
+      return [picture](Commands& commands) { commands.fill(picture, 0); };
+    });
+    return picture;
+  }
+  const SurfaceBuffers found = surface.addTo(graph, fluid, push, method, true);
+  const SurfacePush thick = SurfaceStage::thicknessPush(push, fluid, kThicknessStep);
+  BufferRef thickness = found.tiles;  // bound, never read
+  if (what == SurfaceData::Thickness) thickness = surface.addThickness(graph, fluid, thick, {});
+  addStep(graph, "surface data", data[static_cast<size_t>(what)], {reads(found.pixels), reads(thickness), fresh(picture)},
+          divideUp(pixels, kSurfaceGroup), DataPush{thick, full});
+  return picture;
+}
+
+Expected<std::unique_ptr<FluidRenderer>> FluidRenderer::create(Device& device, const TargetFormats& formats) {
+  auto impl = std::make_unique<FluidRendererImpl>();
+  if (auto ok = impl->create(device, formats); !ok) return ok.error();
+  return std::unique_ptr<FluidRenderer>(new FluidRenderer(std::move(impl)));
+}
+
+FluidRenderer::FluidRenderer(std::unique_ptr<FluidRendererImpl> impl) : impl_(std::move(impl)) {}
+FluidRenderer::~FluidRenderer() = default;
+
+Expected<void> FluidRenderer::check(const FluidView& view) { return checkView(view); }
+
+SceneTargets FluidRenderer::addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view,
+                                  const FluidLook& look) {
+  assert(check(view));
+  return impl_->addTo(graph, fluid, targets, view, look, false);
+}
+
+BufferRef FluidRenderer::addData(Graph& graph, const FluidState& fluid, const FluidView& view, SurfaceData data, float full,
+                                 SurfaceMethod method) {
+  assert(check(view));
+  return impl_->addData(graph, fluid, view, data, full, method);
+}
+
+}  // namespace rill

@@ -1,0 +1,35 @@
+#pragma once
+// What is behind rill::FluidRenderer.
+#include "render/look_records.h"
+#include "render/surface.hpp"
+#include "rill/fluid_renderer.hpp"
+
+namespace rill {
+
+inline constexpr uint32_t kThicknessStep = 4;  ///< pixels a side of the thickness buffer's samples
+
+struct DataPush {
+  surface::SurfacePush view;
+  float full = 1;
+};
+static_assert(sizeof(DataPush) <= 128);
+
+class FluidRendererImpl {
+ public:
+  Expected<void> create(Device& device, const TargetFormats& formats);
+  surface::SurfacePush camera(const FluidState& fluid, const FluidView& view) const;
+  SceneTargets addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view, const FluidLook& look,
+                     bool whole);
+  BufferRef addData(Graph& graph, const FluidState& fluid, const FluidView& view, SurfaceData data, float full, SurfaceMethod method);
+
+  SurfaceStage surface;
+  SurfaceBuffers last;  ///< of the frame that is being declared
+  const ComputePipeline *scene = nullptr, *data[3] = {};
+  const GraphicsPipeline* shade = nullptr;
+};
+
+look::LookRecord lookRecord(const FluidLook& look, const surface::SurfacePush& thickness);
+/// A uniform buffer with the record, written by a pass of its own.
+BufferRef addLook(Graph& graph, const look::LookRecord& record);
+
+}  // namespace rill

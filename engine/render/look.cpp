@@ -1,0 +1,40 @@
+// The looks that scenes name.
+#include <iterator>
+
+#include "rill/fluid_renderer.hpp"
+
+namespace rill {
+namespace {
+
+constexpr std::string_view kNames[] = {"water", "milk", "ink", "clay"};
+
+}  // namespace
+
+std::span<const std::string_view> fluidLooks() { return kNames; }
+
+std::optional<FluidLook> fluidLook(std::string_view preset) {
+  FluidLook look;
+  if (preset == kNames[0]) return look;
+  if (preset == kNames[1]) {
+    look.absorption = {55, 60, 75};
+    look.scatter = {0.84f, 0.82f, 0.76f};
+    look.refraction_index = 1.35f;
+    return look;
+  }
+  if (preset == kNames[2]) {
+    look.absorption = {60, 42, 16};
+    look.scatter = {0.004f, 0.008f, 0.03f};
+    return look;
+  }
+  if (preset == kNames[3]) {
+    look.opaque = true;
+    look.scatter = {0.52f, 0.30f, 0.20f};
+    look.refraction_index = 1.3f;
+    look.highlight = 12;
+    look.sun = 1;
+    return look;
+  }
+  return std::nullopt;
+}
+
+}  // namespace rill

@@ -1,0 +1,57 @@
+#include "render/scene_buffers.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "render/compute_step.hpp"
+#include "sort/dispatches.hpp"
+
+namespace rill {
+namespace {
+
+using namespace particle_view;
+
+/// A host-written buffer with the bytes of `data`; at least one element, so that it can be bound.
+template <class T>
+Expected<Buffer> upload(Device& device, std::string_view name, std::span<const T> data) {
+  Expected<Buffer> buffer = createBuffer(device, name, std::max<uint64_t>(data.size_bytes(), sizeof(T)), MemoryKind::Upload);
+  if (!buffer) return buffer;
+  std::memset(buffer->mapped(), 0, buffer->size());
+  if (!data.empty()) std::memcpy(buffer->mapped(), data.data(), data.size_bytes());
+  return buffer;
+}
+
+}  // namespace
+
+Expected<SceneBuffers> SceneBuffers::create(Device& device, ParticleScene host) {
+  SceneBuffers out;
+  out.host = std::move(host);
+  const auto keep = [](Buffer& target, Expected<Buffer> made) -> Expected<void> {
+    if (!made) return made.error();
+    target = *std::move(made);
+    return {};
+  };
+  if (auto ok = keep(out.scene, upload<SceneRecord>(device, "view: scene", {&out.host.scene, 1})); !ok) return ok.error();
+  if (auto ok = keep(out.solids, upload<SolidRecord>(device, "view: solids", out.host.solids)); !ok) return ok.error();
+  if (auto ok = keep(out.keyframes, upload<Float4>(device, "view: keyframes", out.host.keyframes)); !ok) return ok.error();
+  static constexpr BindingKind kBindings[] = {BindingKind::Uniform, BindingKind::Storage, BindingKind::Storage, BindingKind::Storage};
+  auto made = computePipeline(device, {.shader = "render/particle_poses", .bindings = kBindings, .pushConstantBytes = sizeof(ViewPush)});
+  if (!made) return made.error();
+  out.poses = *made;
+  return out;
+}
+
+BufferRef SceneBuffers::importScene(Graph& graph) const {
+  return graph.import("view scene", {scene.handle(), 0, scene.size(), Use::None, Use::None});
+}
+
+BufferRef SceneBuffers::addPoses(Graph& graph, BufferRef sceneRef, const ViewPush& push) const {
+  const BufferRef solidRecords = graph.import("view solids", {solids.handle(), 0, solids.size(), Use::None, Use::None});
+  const BufferRef keys = graph.import("view keyframes", {keyframes.handle(), 0, keyframes.size(), Use::None, Use::None});
+  BufferRef out = graph.create("view poses", {host.solids.size() * sizeof(PoseRecord)});
+  addStep(graph, "view poses", poses, {uniform(sceneRef), reads(solidRecords), reads(keys), fresh(out)},
+          divideUp(host.solids.size(), kParticleGroup), push);
+  return out;
+}
+
+}  // namespace rill

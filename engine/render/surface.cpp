@@ -1,0 +1,153 @@
+#include "render/surface.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+
+#include "render/compute_step.hpp"
+#include "sort/dispatches.hpp"
+
+namespace rill {
+namespace {
+
+using namespace surface;
+
+constexpr uint32_t kInfinity = 0x7F800000u;  // bits of the float
+constexpr float kHardRadius = 0.9f;          // spacings: spheres that leave no gap between surface particles
+constexpr float kThicknessRadius = 1.2f;     // spacings: a disc that overlaps enough to be smooth
+constexpr float kThicknessUnit = 1.0f / 1024;  // spacings
+constexpr uint32_t kMostStep = 16;
+
+uint64_t gridCells(uint32_t width, uint32_t height, uint32_t side) { return divideUp(width, side) * divideUp(height, side); }
+
+}  // namespace
+
+uint32_t sampleStep(const SurfacePush& camera, float spacing, double depth) {
+  const double metres = std::abs(double{camera.scale[1]}) * 2 / camera.height * (camera.perspective > 0 ? depth : 1.0);
+  const double samples = spacing / std::max(metres, 1e-30) / 3.0;  // pixels that a third of a spacing is wide
+  return samples >= kMostStep ? kMostStep : std::bit_floor(static_cast<uint32_t>(std::max(samples, 1.0)));
+}
+
+Expected<SurfaceStage> SurfaceStage::create(Device& device) {
+  SurfaceStage stage;
+  stage.device_ = &device;
+  static constexpr BindingKind kStorage[] = {BindingKind::Storage, BindingKind::Storage, BindingKind::Storage, BindingKind::Storage,
+                                             BindingKind::Storage, BindingKind::Storage, BindingKind::Storage, BindingKind::Storage};
+  const struct {
+    const ComputePipeline*& pipeline;
+    std::string_view shader;
+    size_t bindings;
+  } all[] = {
+      {stage.occlude_, "render/surface_occlude", 2}, {stage.cull_, "render/surface_cull", 4},
+      {stage.arguments_, "render/surface_arguments", 2}, {stage.splat_, "render/surface_splat", 4},
+      {stage.pick_, "render/surface_pick", 6},       {stage.scatter_, "render/surface_scatter", 6},
+      {stage.order_, "render/surface_order", 5},     {stage.planes_, "render/surface_planes", 4},
+      {stage.blend_, "render/surface_blend", 5},     {stage.tiles_, "render/surface_tiles", 3},
+      {stage.compose_, "render/surface_compose", 8}, {stage.thickness_, "render/surface_thickness", 3},
+      {stage.thicknessBare_, "render/surface_thickness_bare", 2},
+  };
+  for (const auto& row : all) {
+    auto made = computePipeline(
+        device, {.shader = row.shader, .bindings = std::span(kStorage).first(row.bindings), .pushConstantBytes = sizeof(SurfacePush)});
+    if (!made) return made.error();
+    row.pipeline = *made;
+  }
+  // Finds its pipelines among those made now, whatever the picture's size.
+  if (auto scan = Scan::create(device, Scan::kMaxCount); !scan) return scan.error();
+  return stage;
+}
+
+SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, SurfacePush push, SurfaceMethod method, bool whole) const {
+  assert(fluid.count > 0);
+  static_cast<void>(method);
+  push.spacing = fluid.spacing;
+  push.radius = kHardRadius * fluid.spacing;
+  push.count = fluid.count;
+  const uint64_t particles = divideUp(fluid.count, kSurfaceGroup);
+  const uint64_t samples = gridCells(push.width, push.height, push.step);
+  const uint64_t cells = gridCells(push.width, push.height, push.step * kCellSamples);
+  const uint64_t tiles = gridCells(push.width, push.height, kSurfaceTile);
+  const uint64_t most = fluid.count;  // particles that can be surface
+
+  SurfaceBuffers out;
+  out.push = push;
+  BufferRef occluders = graph.create("surface occluders", {gridCells(push.width, push.height, push.step * kOccluderSamples) * 4});
+  BufferRef depth = graph.create("surface hard depth", {samples * 4});
+  BufferRef start = graph.create("surface cells", {(cells + 1) * 4});
+  out.counters = graph.create("surface counters", {kSurfaceCounterWords * 4});
+  out.arguments = graph.create("surface arguments", {kSurfaceArgumentWords * 4});
+  BufferRef survivors = graph.create("surface survivors", {most * 4}), rank = graph.create("surface ranks", {most * 4});
+  BufferRef arrived = graph.create("surface arrived", {most * 4});
+  BufferRef centre = graph.create("surface centres", {most * 16}), plane = graph.create("surface planes", {most * 32});
+  BufferRef smooth = graph.create("surface samples", {samples * 8});
+  out.tiles = graph.create("surface tiles", {tiles * 4});
+  out.pixels = graph.create("surface pixels", {uint64_t{push.width} * push.height * 8});
+
+  graph.pass("surface clear", [&](Pass& pass) {
+    for (BufferRef* buffer : {&occluders, &depth, &start, &out.counters}) *buffer = pass.write(*buffer, Use::CopyTarget, true);
+    if (whole) out.pixels = pass.write(out.pixels, Use::CopyTarget, true);
+    return [=, pixels = out.pixels, counters = out.counters](Commands& commands) {
+      commands.fill(occluders, kInfinity);
+      commands.fill(depth, kInfinity);
+      commands.fill(start, 0);
+      commands.fill(counters, 0);
+      if (whole) commands.fill(pixels, kInfinity);
+    };
+  });
+  const auto arguments = [&] {
+    addStep(graph, "surface arguments", arguments_, {reads(out.counters), fresh(out.arguments)}, 1, push);
+  };
+  const auto survivorGroups = [&] { return StepGroups(out.arguments, kSurvivorArguments); };
+  const auto surfaceGroups = [&] { return StepGroups(out.arguments, kSurfaceArguments); };
+  addStep(graph, "surface occlude", occlude_, {reads(fluid.position), writes(occluders)}, particles, push);
+  addStep(graph, "surface cull", cull_, {reads(fluid.position), reads(occluders), writes(out.counters), fresh(survivors)}, particles, push);
+  arguments();
+  addStep(graph, "surface splat", splat_, {reads(fluid.position), writes(out.counters), reads(survivors), writes(depth)}, survivorGroups(),
+          push);
+  addStep(graph, "surface tiles", tiles_, {reads(depth), writes(out.counters), fresh(out.tiles)}, divideUp(tiles, kSurfaceGroup), push);
+  addStep(graph, "surface pick", pick_,
+          {reads(fluid.position), writes(out.counters), reads(survivors), reads(depth), writes(start), fresh(rank)}, survivorGroups(), push);
+  arguments();
+  auto scan = Scan::create(*device_, static_cast<uint32_t>(cells + 1));
+  assert(scan && "its pipelines were made in create()");
+  start = scan->addTo(graph, start);
+  addStep(graph, "surface scatter", scatter_,
+          {reads(fluid.position), reads(out.counters), reads(survivors), reads(start), reads(rank), fresh(arrived)}, survivorGroups(), push);
+  addStep(graph, "surface order", order_, {reads(fluid.position), reads(out.counters), reads(start), reads(arrived), fresh(centre)},
+          surfaceGroups(), push);
+  addStep(graph, "surface planes", planes_, {reads(out.counters), reads(start), reads(centre), fresh(plane)}, surfaceGroups(), push);
+  addStep(graph, "surface blend", blend_, {reads(start), reads(centre), reads(plane), reads(depth), fresh(smooth)},
+          gridCells(static_cast<uint32_t>(divideUp(push.width, push.step)), static_cast<uint32_t>(divideUp(push.height, push.step)), 8), push);
+  addStep(graph, "surface compose", compose_,
+          {reads(start), reads(centre), reads(plane), reads(depth), reads(smooth), reads(out.counters), reads(out.tiles),
+           whole ? writes(out.pixels) : fresh(out.pixels)},
+          StepGroups(out.arguments, kSurfaceTileArguments), push);
+  return out;
+}
+
+SurfacePush SurfaceStage::thicknessPush(SurfacePush camera, const FluidState& fluid, uint32_t step) {
+  camera.spacing = fluid.spacing;
+  camera.radius = kThicknessRadius * fluid.spacing;
+  camera.unit = kThicknessUnit * fluid.spacing;
+  camera.count = fluid.count;
+  camera.step = step;
+  return camera;
+}
+
+BufferRef SurfaceStage::addThickness(Graph& graph, const FluidState& fluid, const SurfacePush& push, BufferRef sceneDepth) const {
+  BufferRef thickness = graph.create("fluid thickness", {gridCells(push.width, push.height, push.step) * 4});
+  graph.pass("fluid thickness clear", [&](Pass& pass) {
+    thickness = pass.write(thickness, Use::CopyTarget, true);
+    return [thickness](Commands& commands) { commands.fill(thickness, 0); };
+  });
+  if (fluid.count == 0) return thickness;
+  const uint64_t groups = divideUp(fluid.count, kSurfaceGroup);
+  if (sceneDepth == BufferRef{})
+    addStep(graph, "fluid thickness", thicknessBare_, {reads(fluid.position), writes(thickness)}, groups, push);
+  else
+    addStep(graph, "fluid thickness", thickness_, {reads(fluid.position), writes(thickness), reads(sceneDepth)}, groups, push);
+  return thickness;
+}
+
+}  // namespace rill

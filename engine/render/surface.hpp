@@ -1,0 +1,44 @@
+#pragma once
+// From particles to a smooth surface: its depth and normal in every pixel. The methods share all that comes before the smoothing.
+#include "gpu/resources.hpp"
+#include "render/surface_records.h"
+#include "rill/fluid.hpp"
+#include "rill/fluid_renderer.hpp"
+#include "rill/graph.hpp"
+#include "sort/scan.hpp"
+
+namespace rill {
+
+/// What a surface is handed on as. Only pixels of the listed tiles are written, unless it was asked for as a whole.
+struct SurfaceBuffers {
+  BufferRef pixels;     ///< two words a pixel: depth in m (infinite: no fluid), packed normal in view space
+  BufferRef tiles;      ///< numbers of the tiles that hold fluid, in any order
+  BufferRef counters;   ///< kSurvivorCount ...
+  BufferRef arguments;  ///< kSurfaceTileArguments, kTileDraw, kPixelArguments
+  surface::SurfacePush push;
+};
+
+class SurfaceStage {
+ public:
+  static Expected<SurfaceStage> create(Device& device);
+
+  /// `camera`: viewPush() of the view. `whole`: pixels without fluid are written, too. The state has particles.
+  SurfaceBuffers addTo(Graph& graph, const FluidState& fluid, surface::SurfacePush camera, SurfaceMethod method, bool whole) const;
+
+  /// Counts of `push.unit` along each sample's ray, a sample every `push.step` pixels: 1 m of fluid measures 1 m.
+  /// `sceneDepth`: m a pixel, what lies behind it is not counted; an empty ref: nothing is in the way.
+  BufferRef addThickness(Graph& graph, const FluidState& fluid, const surface::SurfacePush& push, BufferRef sceneDepth) const;
+  /// The camera with what addThickness() asks for.
+  static surface::SurfacePush thicknessPush(surface::SurfacePush camera, const FluidState& fluid, uint32_t step);
+
+ private:
+  Device* device_ = nullptr;
+  const ComputePipeline *occlude_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr, *pick_ = nullptr,
+                        *scatter_ = nullptr, *order_ = nullptr, *planes_ = nullptr, *blend_ = nullptr, *tiles_ = nullptr,
+                        *compose_ = nullptr, *thickness_ = nullptr, *thicknessBare_ = nullptr;
+};
+
+/// Pixels a side of a sample: what sees a spacing as three to six samples where the fluid is.
+uint32_t sampleStep(const surface::SurfacePush& camera, float spacing, double depth);
+
+}  // namespace rill

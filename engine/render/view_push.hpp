@@ -1,0 +1,14 @@
+#pragma once
+// A camera as the shaders read it.
+#include "render/surface_records.h"
+#include "rill/expected.hpp"
+#include "rill/fluid_renderer.hpp"
+
+namespace rill {
+
+/// For positions that are stored relative to `origin`. `view` is one that FluidRenderer::check() allows.
+surface::SurfacePush viewPush(const FluidView& view, const double origin[3]);
+
+Expected<void> checkView(const FluidView& view);
+
+}  // namespace rill

@@ -1,0 +1,34 @@
+#version 460
+// The surface as data: exact, with no tone curve, alpha 0 where there is no fluid.
+#extension GL_GOOGLE_include_directive : require
+#define RILL_PUSH_MORE float full;
+#include "render/surface.glsl"
+
+layout(local_size_x = kSurfaceGroup) in;
+layout(std430, set = 0, binding = 0) readonly buffer Surface { uvec2 surface[]; };
+layout(std430, set = 0, binding = 1) readonly buffer Thickness { uint thickness[]; };
+layout(std430, set = 0, binding = 2) writeonly buffer Picture { uint picture[]; };
+layout(constant_id = 0) const uint kWhat = 0u;  // 0: the normal in the world, n / 2 + 1/2; 1: depth, 2: thickness, grey from 0 to `full`
+
+uint bytes(vec3 c) {
+  const uvec3 b = uvec3(clamp(c, 0.0, 1.0) * 255.0 + 0.5);
+  return b.r | b.g << 8 | b.b << 16 | 0xFF000000u;
+}
+
+void main() {
+  const uint index = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
+  if (index >= view.width * view.height) return;
+  const uvec2 own = surface[index];
+  uint result = 0u;
+  if (own.x < kInfiniteBits) {
+    if (kWhat == 0u) {
+      result = bytes(worldDirection(unpackNormal(own.y)) * 0.5 + 0.5);
+    } else if (kWhat == 1u) {
+      result = bytes(vec3(uintBitsToFloat(own.x) / full));
+    } else {
+      const uvec2 at = uvec2(index % view.width, index / view.width) / view.step;
+      result = bytes(vec3(float(thickness[at.y * sampleGrid().x + at.x]) * view.unit / full));
+    }
+  }
+  picture[index] = result;
+}

@@ -1,0 +1,90 @@
+#version 460
+// The fluid over what was drawn before it: reflection of the sky, refraction of the scene, absorption by thickness (Beer and Lambert).
+#extension GL_GOOGLE_include_directive : require
+#include "render/surface.glsl"
+#include "render/look_records.h"
+#include "render/sky.glsl"
+
+layout(std140, set = 0, binding = 0) uniform Look { LookRecord look; };
+layout(std430, set = 0, binding = 2) readonly buffer Surface { uvec2 surface[]; };
+layout(std430, set = 0, binding = 3) readonly buffer Thickness { uint thickness[]; };
+layout(std430, set = 0, binding = 4) readonly buffer SceneColour { uvec2 scene_colour[]; };
+layout(std430, set = 0, binding = 5) readonly buffer SceneDepth { float scene_depth[]; };
+layout(location = 0) out vec4 colour;
+
+const float kFarthestBend = 8.0;  // spacings that a bent ray is followed: what thickness says of a drop is that of all behind it
+
+vec3 sceneAt(ivec2 pixel) {
+  const uvec2 packed = scene_colour[uint(pixel.y) * view.width + uint(pixel.x)];
+  return vec3(unpackHalf2x16(packed.x), unpackHalf2x16(packed.y).x);
+}
+
+vec3 sceneBetween(vec2 pixel) {
+  const vec2 at = clamp(pixel - 0.5, vec2(0.0), pictureSize() - 1.001);
+  const ivec2 base = ivec2(at);
+  const ivec2 next = min(base + 1, ivec2(view.width, view.height) - 1);
+  const vec2 part = at - vec2(base);
+  return mix(mix(sceneAt(base), sceneAt(ivec2(next.x, base.y)), part.x), mix(sceneAt(ivec2(base.x, next.y)), sceneAt(next), part.x), part.y);
+}
+
+float thicknessAt(vec2 pixel) {
+  const uint step = uint(look.finish.y);
+  const ivec2 grid = ivec2((uvec2(view.width, view.height) + step - 1u) / step);
+  const vec2 at = clamp(pixel / float(step) - 0.5, vec2(0.0), vec2(grid) - 1.0);
+  const ivec2 base = ivec2(at), next = min(base + 1, grid - 1);
+  const vec2 part = at - vec2(base);
+  const float a = float(thickness[base.y * grid.x + base.x]), b = float(thickness[base.y * grid.x + next.x]);
+  const float c = float(thickness[next.y * grid.x + base.x]), d = float(thickness[next.y * grid.x + next.x]);
+  return mix(mix(a, b, part.x), mix(c, d, part.x), part.y) * look.finish.z;
+}
+
+// Of unpolarised light that meets the surface at this cosine (Fresnel).
+float fresnel(float cosine, float index) {
+  const float sine = sqrt(max(1.0 - cosine * cosine, 0.0)) / index;
+  const float inner = sqrt(max(1.0 - sine * sine, 0.0));
+  const float s = (cosine - index * inner) / (cosine + index * inner);
+  const float p = (inner - index * cosine) / (inner + index * cosine);
+  return 0.5 * (s * s + p * p);
+}
+
+void main() {
+  const ivec2 pixel = ivec2(gl_FragCoord.xy) - ivec2(view.left, view.top);
+  const uint index = uint(pixel.y) * view.width + uint(pixel.x);
+  const uvec2 own = surface[index];
+  const float z = uintBitsToFloat(own.x);
+  if (!(z < scene_depth[index]) || own.x >= kInfiniteBits) discard;
+  const vec2 middle = vec2(pixel) + 0.5, axis = axisOf(middle);
+  const vec3 along = rayAlong(axis);
+  const vec3 point = rayFrom(axis) + z * along;
+  const vec3 sight = normalize(along);
+  vec3 normal = unpackNormal(own.y);
+  // A normal that looks away at a silhouette is turned until it is seen edge on.
+  const float facing = dot(normal, sight);
+  if (facing > -0.02) normal = normalize(normal - (facing + 0.02) * sight);
+  const float cosine = clamp(-dot(normal, sight), 0.0, 1.0);
+  const vec3 world_normal = worldDirection(normal), world_sight = worldDirection(sight);
+  const vec3 sun = look.light.xyz;
+  const float lit = max(dot(world_normal, sun), 0.0);
+  const vec3 ambient = mix(kGround, mix(kHorizon, kZenith, 0.4), 0.5 + 0.5 * world_normal.y);
+  const float reflected = fresnel(cosine, look.absorption.w);
+  const vec3 mirrored = reflect(world_sight, world_normal);
+  const vec3 sky = skyColour(mirrored, sun);
+  const float highlight = pow(max(dot(mirrored, sun), 0.0), look.finish.x) * look.light.w;
+
+  vec3 body;
+  if (look.scatter.w > 0.0) {
+    body = look.scatter.rgb * (ambient + vec3(1.0, 0.95, 0.88) * lit);
+  } else {
+    const float metres = thicknessAt(middle);
+    const vec3 bent = refract(sight, normal, 1.0 / look.absorption.w);
+    const vec3 behind = point + bent * min(metres, kFarthestBend * view.spacing);
+    vec2 there = behind.z > view.near_depth ? pixelOf(behind) : middle;
+    const ivec2 target = clamp(ivec2(there), ivec2(0), ivec2(view.width, view.height) - 1);
+    // What stands in front of the fluid is not seen through it.
+    if (scene_depth[uint(target.y) * view.width + uint(target.x)] < z) there = middle;
+    const vec3 through = exp(-look.absorption.rgb * metres);
+    body = sceneBetween(there) * through + look.scatter.rgb * (ambient + vec3(0.5) * (0.3 + 0.7 * lit)) * (1.0 - through);
+  }
+  colour = vec4(mix(body, sky, reflected) + vec3(1.0, 0.95, 0.86) * (reflected * highlight), 1.0);
+  gl_FragDepth = targetDepth(z);
+}

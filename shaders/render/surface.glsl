@@ -1,0 +1,138 @@
+// Camera and spheres for every kernel of the surface.
+#extension GL_EXT_control_flow_attributes : require
+#include "render/surface_records.h"
+
+// Before loops of a fixed count: a software driver takes seconds to compile them unrolled.
+#define RILL_LOOP [[dont_unroll]]
+
+#ifndef RILL_PUSH_MORE
+#define RILL_PUSH_MORE
+#endif
+layout(push_constant) uniform Push {
+  SurfacePush view;
+  RILL_PUSH_MORE
+};
+
+#define groupIndex() (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x)  // of kernels alone
+
+const uint kInfiniteBits = 0x7F800000u;
+float infinity() { return uintBitsToFloat(kInfiniteBits); }
+
+// By bits: a compiler may assume that there are no NaNs.
+bool drawable(vec3 p) {
+  const uvec3 magnitude = floatBitsToUint(p) & 0x7FFFFFFFu;
+  return all(lessThan(magnitude, uvec3(0x58635FA9u)));  // 1e15 m
+}
+
+vec3 viewPoint(vec3 p) {
+  return vec3(dot(vec3(view.rows[0], view.rows[1], view.rows[2]), p) + view.rows[3],
+              dot(vec3(view.rows[4], view.rows[5], view.rows[6]), p) + view.rows[7],
+              dot(vec3(view.rows[8], view.rows[9], view.rows[10]), p) + view.rows[11]);
+}
+// Directions back to where positions are stored: the rows are orthonormal.
+vec3 worldDirection(vec3 v) {
+  return vec3(view.rows[0], view.rows[1], view.rows[2]) * v.x + vec3(view.rows[4], view.rows[5], view.rows[6]) * v.y +
+         vec3(view.rows[8], view.rows[9], view.rows[10]) * v.z;
+}
+
+vec3 worldPoint(vec3 v) { return worldDirection(v - vec3(view.rows[3], view.rows[7], view.rows[11])); }
+
+vec2 pictureSize() { return vec2(float(view.width), float(view.height)); }
+float widening(float z) { return view.perspective > 0.0 ? z : 1.0; }  // how a pixel's extent grows with depth
+vec2 axisOf(vec2 pixel) {
+  return (pixel / pictureSize() * 2.0 - 1.0 - vec2(view.shift[0], view.shift[1])) * vec2(view.scale[0], view.scale[1]);
+}
+vec2 pixelOfAxis(vec2 axis) {
+  return (axis / vec2(view.scale[0], view.scale[1]) + vec2(view.shift[0], view.shift[1]) + 1.0) * 0.5 * pictureSize();
+}
+vec2 pixelOf(vec3 p) { return pixelOfAxis(p.xy / widening(p.z)); }
+float metresAPixel(float z) { return abs(view.scale[1]) * 2.0 / float(view.height) * widening(z); }
+
+// A pixel's ray: from + z * along is the point at depth z.
+vec3 rayFrom(vec2 axis) { return view.perspective > 0.0 ? vec3(0.0) : vec3(axis, 0.0); }
+vec3 rayAlong(vec2 axis) { return view.perspective > 0.0 ? vec3(axis, 1.0) : vec3(0.0, 0.0, 1.0); }
+
+// Depth of the near side of a sphere along a ray; negative where it misses. Measured from the ray's nearest point to the centre, so that a
+// small sphere far away keeps its precision.
+float sphereDepth(vec3 centre, float radius, vec2 axis) {
+  const vec3 from = rayFrom(axis), along = rayAlong(axis);
+  const float inverse = 1.0 / dot(along, along);
+  const float middle = dot(centre - from, along) * inverse;
+  const vec3 miss = centre - from - middle * along;
+  const float inside = radius * radius - dot(miss, miss);
+  return inside > 0.0 ? middle - sqrt(inside * inverse) : -1.0;
+}
+
+// Square of a point's distance to a ray.
+float raySquare(vec3 point, vec2 axis) {
+  const vec3 from = rayFrom(axis), along = rayAlong(axis);
+  const vec3 miss = point - from - dot(point - from, along) / dot(along, along) * along;
+  return dot(miss, miss);
+}
+
+// Pixels between which a sphere is seen; its whole must be in front of the near plane.
+vec4 sphereExtent(vec3 centre, float radius) {
+  vec2 low = centre.xy - radius, high = centre.xy + radius;
+  if (view.perspective > 0.0) {
+    const float square = (centre.z - radius) * (centre.z + radius);
+    const vec2 spread = radius * sqrt(centre.xy * centre.xy + square);
+    low = (centre.xy * centre.z - spread) / square;
+    high = (centre.xy * centre.z + spread) / square;
+  }
+  const vec2 a = pixelOfAxis(low), b = pixelOfAxis(high);
+  return vec4(min(a, b), max(a, b));
+}
+
+bool shown(vec3 centre, float radius) {
+  if (!(centre.z - radius > view.near_depth)) return false;
+  const vec4 extent = sphereExtent(centre, radius);
+  return extent.z >= 0.0 && extent.w >= 0.0 && extent.x <= float(view.width) && extent.y <= float(view.height);
+}
+
+// Samples: one a square of view.step pixels, at its middle.
+uvec2 sampleGrid() { return (uvec2(view.width, view.height) + view.step - 1u) / view.step; }
+vec2 samplePixel(ivec2 at) { return (vec2(at) + 0.5) * float(view.step); }
+// First and last sample whose middle a sphere may cover, both included; empty where last < first. Bounded around the middle.
+ivec4 sampleRect(vec3 centre, float radius, out bool cut) {
+  const vec4 extent = clamp(sphereExtent(centre, radius), vec4(-1e6), vec4(1e6)) / float(view.step) - 0.5;
+  const ivec2 grid = ivec2(sampleGrid());
+  ivec4 rect = ivec4(max(ivec2(ceil(extent.xy)), ivec2(0)), min(ivec2(floor(extent.zw)), grid - 1));
+  const ivec2 middle = (rect.xy + rect.zw) / 2;
+  const ivec4 bounded = ivec4(max(rect.xy, middle - int(kMostRectSamples) / 2), min(rect.zw, middle + int(kMostRectSamples) / 2 - 1));
+  cut = bounded != rect;
+  return bounded;
+}
+
+// The screen grid: cells of kCellSamples samples a side; what lies beyond the picture counts for the nearest cell.
+uvec2 cellGrid() { return (sampleGrid() + kCellSamples - 1u) / kCellSamples; }
+ivec2 cellOf(vec2 pixel) {
+  return clamp(ivec2(floor(pixel / float(view.step * kCellSamples))), ivec2(0), ivec2(cellGrid()) - 1);
+}
+
+// What the target's depth is for a view depth.
+float targetDepth(float z) { return view.depth_map[0] + view.depth_map[1] * (view.perspective > 0.0 ? 1.0 / z : z); }
+float depthOfTarget(float stored) {
+  const float part = (stored - view.depth_map[0]) / view.depth_map[1];
+  return view.perspective > 0.0 ? (part > 0.0 ? 1.0 / part : infinity()) : part;
+}
+
+// Where a point of view space is drawn, in clip space.
+vec4 clipPoint(vec3 v) {
+  const float w = widening(v.z);
+  const float depth = view.perspective > 0.0 ? view.depth_map[0] * v.z + view.depth_map[1] : targetDepth(v.z);
+  return vec4(v.xy / vec2(view.scale[0], view.scale[1]) + w * vec2(view.shift[0], view.shift[1]), depth, w);
+}
+
+// Unit vectors in 32 bits: octahedral, 16 bits a coordinate (Cigolle et al. 2014).
+uint packNormal(vec3 n) {
+  vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
+  if (n.z < 0.0) p = (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
+  return packSnorm2x16(p);
+}
+vec3 unpackNormal(uint packed) {
+  const vec2 p = unpackSnorm2x16(packed);
+  vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+  const float fold = max(-n.z, 0.0);
+  n.xy += vec2(n.x >= 0.0 ? -fold : fold, n.y >= 0.0 ? -fold : fold);
+  return normalize(n);
+}

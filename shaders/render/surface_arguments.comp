@@ -1,0 +1,25 @@
+#version 460
+// Dispatch and draw arguments from the counts so far.
+#extension GL_GOOGLE_include_directive : require
+#include "render/surface.glsl"
+
+layout(local_size_x = 1) in;
+layout(std430, set = 0, binding = 0) readonly buffer Counters { uint counters[]; };
+layout(std430, set = 0, binding = 1) writeonly buffer Arguments { uint arguments[]; };
+
+void groups(uint at, uint count) {
+  const uint rows = (count + 65534u) / 65535u;
+  arguments[at] = rows == 0u ? 0u : (count + rows - 1u) / rows;
+  arguments[at + 1u] = rows;
+  arguments[at + 2u] = 1u;
+}
+
+void main() {
+  groups(kSurvivorArguments, (counters[kSurvivorCount] + kSurfaceGroup - 1u) / kSurfaceGroup);
+  groups(kSurfaceArguments, (counters[kSurfaceCount] + kSurfaceGroup - 1u) / kSurfaceGroup);
+  groups(kSurfaceTileArguments, counters[kSurfaceTileCount]);
+  groups(kPixelArguments, counters[kSurvivorCount] == 0u ? 0u : (view.width * view.height + kSurfaceGroup - 1u) / kSurfaceGroup);
+  arguments[kTileDraw] = 6u;
+  arguments[kTileDraw + 1u] = counters[kSurfaceTileCount];
+  arguments[kTileDraw + 2u] = arguments[kTileDraw + 3u] = 0u;
+}

@@ -1,0 +1,55 @@
+// The smooth surface along a ray: where the weighted sum of the planes' heights is zero (implicit moving least squares, Kolluri 2005).
+// Needs `start`, `centre`, `plane`.
+#include "render/surface_walk.glsl"
+
+layout(constant_id = 0) const float kBlendReach = 1.8;  // spacings, across a plane
+layout(constant_id = 1) const float kBlendRange = 1.2;  // spacings, along its normal
+layout(constant_id = 2) const float kCoverReach = 1.2;  // spacings from a ray at which a centre stops covering it
+layout(constant_id = 3) const float kCover = 0.7;       // sum of what centres add (1 on the ray itself) from which there is fluid
+
+struct Blend {
+  float depth;     // of the surface; what came in where there is none
+  bool covered;    // there is fluid on the ray
+  vec3 normal;     // in view space, towards the eye
+};
+
+Blend blendAt(vec2 axis, float depth) {
+  const vec3 from = rayFrom(axis), along = rayAlong(axis);
+  const vec3 x = from + depth * along;
+  const float reach = kBlendReach * view.spacing;
+  const float inverse = 1.0 / (reach * reach), range_inverse = 1.0 / (kBlendRange * view.spacing);
+  const CellRange range = cellsAround(x, reach + 0.5 * view.spacing);
+  const float cover_inverse = 1.0 / (kCoverReach * kCoverReach * view.spacing * view.spacing);
+  float height = 0.0, slope = 0.0, cover = 0.0;
+  vec3 normal = vec3(0.0);
+  for (int y = range.first.y; y <= range.last.y; ++y) {
+    const uvec2 row = rowOf(range, y);
+    for (uint j = row.x; j < row.y; ++j) {
+      const vec4 anchor = plane[2u * j];
+      vec3 n = plane[2u * j + 1u].xyz;
+      vec3 d = x - anchor.xyz;
+      if (anchor.w > 0.0) {  // a ball: the plane that touches it where the ray passes
+        n = d / max(length(d), 1e-3 * view.spacing);
+        d -= 0.5 * view.spacing * n;
+      }
+      const float h = dot(d, n);
+      const float across = max(1.0 - (dot(d, d) - h * h) * inverse, 0.0);
+      const float off = h * range_inverse;
+      const float within = max(1.0 - off * off, 0.0);
+      const float w = across * across * across * within * within;
+      height += w * h;
+      slope += w * dot(along, n);
+      normal += w * n;
+      const float beside = max(1.0 - raySquare(centre[j].xyz, axis) * cover_inverse, 0.0);
+      if (within > 0.0) cover += beside * beside;
+    }
+  }
+  Blend blend;
+  blend.covered = cover > kCover;
+  // At grazing angles the sums say little: no farther than the range allows.
+  const float step = slope < -1e-6 ? clamp(height / -slope, -kBlendRange * view.spacing, kBlendRange * view.spacing) : 0.0;
+  blend.depth = depth + step;
+  const float size = length(normal);
+  blend.normal = size > 1e-6 ? normal / size : -normalize(along);
+  return blend;
+}

@@ -1,0 +1,79 @@
+#version 460
+// The surface of every pixel of the tiles with fluid: between four samples that lie on one surface what they say, elsewhere its own look.
+#extension GL_GOOGLE_include_directive : require
+#include "render/surface.glsl"
+
+layout(local_size_x = kSurfaceTile, local_size_y = kSurfaceTile) in;
+layout(std430, set = 0, binding = 0) readonly buffer Start { uint start[]; };
+layout(std430, set = 0, binding = 1) readonly buffer Centre { vec4 centre[]; };
+layout(std430, set = 0, binding = 2) readonly buffer Plane { vec4 plane[]; };
+layout(std430, set = 0, binding = 3) readonly buffer Depth { uint depth[]; };
+layout(std430, set = 0, binding = 4) readonly buffer Samples { uvec2 samples[]; };
+layout(std430, set = 0, binding = 5) readonly buffer Counters { uint counters[]; };
+layout(std430, set = 0, binding = 6) readonly buffer Tiles { uint tiles[]; };
+layout(std430, set = 0, binding = 7) writeonly buffer Surface { uvec2 surface[]; };  // a pixel: depth (infinite: no fluid), normal
+#include "render/surface_blend.glsl"
+
+const float kAgree = 0.35;  // spacings that a sample may lie off the plane through another
+
+void main() {
+  if (groupIndex() >= counters[kSurfaceTileCount]) return;
+  const uint tile = tiles[groupIndex()];
+  const uint columns = (view.width + kSurfaceTile - 1u) / kSurfaceTile;
+  const uvec2 pixel = uvec2(tile % columns, tile / columns) * kSurfaceTile + gl_LocalInvocationID.xy;
+  if (pixel.x >= view.width || pixel.y >= view.height) return;
+  const vec2 middle = vec2(pixel) + 0.5, axis = axisOf(middle);
+  const ivec2 grid = ivec2(sampleGrid());
+  const vec2 at = middle / float(view.step) - 0.5;
+  const ivec2 base = ivec2(floor(at));
+  const vec2 part = at - vec2(base);
+
+  // The four samples around, each with its plane: how far off the plane of the first one do the others lie?
+  float depths[4];
+  vec3 normals[4];
+  bool agree = true;
+  float nearest = infinity(), farthest = 0.0;
+  for (int k = 0; k < 4; ++k) {
+    const ivec2 s = clamp(base + ivec2(k & 1, k >> 1), ivec2(0), grid - 1);
+    const uvec2 stored = samples[uint(s.y * grid.x + s.x)];
+    depths[k] = uintBitsToFloat(stored.x);
+    normals[k] = unpackNormal(stored.y);
+    agree = agree && depths[k] < infinity();
+  }
+  vec3 points[4];
+  for (int k = 0; k < 4; ++k) {
+    const vec2 sample_axis = axisOf(samplePixel(clamp(base + ivec2(k & 1, k >> 1), ivec2(0), grid - 1)));
+    points[k] = rayFrom(sample_axis) + depths[k] * rayAlong(sample_axis);
+  }
+  for (int k = 1; k < 4 && agree; ++k) {
+    const vec3 d = points[k] - points[0];
+    agree = abs(dot(d, normals[0])) < kAgree * view.spacing && abs(dot(d, normals[k])) < kAgree * view.spacing;
+  }
+
+  float z = infinity();
+  vec3 normal = vec3(0.0, 0.0, -1.0);
+  if (agree) {
+    const vec4 weight = vec4((1.0 - part.x) * (1.0 - part.y), part.x * (1.0 - part.y), (1.0 - part.x) * part.y, part.x * part.y);
+    // In perspective it is the inverse of depth that is linear across a plane.
+    const vec4 each = vec4(depths[0], depths[1], depths[2], depths[3]);
+    z = view.perspective > 0.0 ? 1.0 / dot(weight, 1.0 / each) : dot(weight, each);
+    normal = normalize(weight.x * normals[0] + weight.y * normals[1] + weight.z * normals[2] + weight.w * normals[3]);
+  } else {
+    const ivec2 own = ivec2(pixel / view.step);
+    for (int y = max(own.y - 1, 0); y <= min(own.y + 1, grid.y - 1); ++y)
+      for (int x = max(own.x - 1, 0); x <= min(own.x + 1, grid.x - 1); ++x) {
+        const float hard = uintBitsToFloat(depth[uint(y * grid.x + x)]);
+        nearest = min(nearest, hard);
+        if (hard < infinity()) farthest = max(farthest, hard);
+      }
+    if (nearest < infinity()) {
+      Blend blend = blendAt(axis, nearest);
+      if (!blend.covered && farthest > nearest + 0.5 * view.spacing) blend = blendAt(axis, farthest);
+      if (blend.covered) {
+        z = blend.depth;
+        normal = blend.normal;
+      }
+    }
+  }
+  surface[pixel.y * view.width + pixel.x] = uvec2(floatBitsToUint(z > view.near_depth ? z : infinity()), packNormal(normal));
+}

@@ -1,0 +1,31 @@
+#version 460
+// Lists the particles that occlusion leaves, in any order.
+#extension GL_GOOGLE_include_directive : require
+#include "render/surface.glsl"
+
+layout(local_size_x = kSurfaceGroup) in;
+layout(std430, set = 0, binding = 0) readonly buffer Position { vec4 position[]; };
+layout(std430, set = 0, binding = 1) readonly buffer Occluders { uint occluders[]; };
+layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };
+layout(std430, set = 0, binding = 3) writeonly buffer Survivors { uint survivors[]; };
+
+bool hidden(vec3 centre) {
+  const float cell = float(view.step * kOccluderSamples);
+  const ivec2 cells = ivec2((sampleGrid() + kOccluderSamples - 1u) / kOccluderSamples);
+  const vec4 extent = clamp(sphereExtent(centre, view.radius) / cell, vec4(-1e6), vec4(1e6));
+  const ivec2 first = clamp(ivec2(floor(extent.xy)), ivec2(0), cells - 1), last = clamp(ivec2(floor(extent.zw)), ivec2(0), cells - 1);
+  if (any(greaterThan(last - first, ivec2(int(kMostRectSamples))))) return false;
+  const uint bits = floatBitsToUint(centre.z - view.radius);
+  for (int y = first.y; y <= last.y; ++y)
+    for (int x = first.x; x <= last.x; ++x)
+      if (occluders[uint(y * cells.x + x)] >= bits) return false;
+  return true;
+}
+
+void main() {
+  const uint i = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
+  if (i >= view.count || !drawable(position[i].xyz)) return;
+  const vec3 centre = viewPoint(position[i].xyz);
+  if (!shown(centre, view.radius) || hidden(centre)) return;
+  survivors[atomicAdd(counters[kSurvivorCount], 1u)] = i;
+}

@@ -1,0 +1,29 @@
+#version 460
+// Every particle marks the occlusion cells that its sphere covers wholly, with the depth of its centre: nothing behind that is seen there.
+#extension GL_GOOGLE_include_directive : require
+#include "render/surface.glsl"
+
+layout(local_size_x = kSurfaceGroup) in;
+layout(std430, set = 0, binding = 0) readonly buffer Position { vec4 position[]; };
+layout(std430, set = 0, binding = 1) buffer Occluders { uint occluders[]; };
+
+void main() {
+  const uint i = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
+  if (i >= view.count || !drawable(position[i].xyz)) return;
+  const vec3 centre = viewPoint(position[i].xyz);
+  if (!shown(centre, view.radius)) return;
+  // A square inside the silhouette, which is at least as large as the section through the centre.
+  const vec2 middle = pixelOf(centre);
+  const float side = 0.7 * view.radius / metresAPixel(centre.z);
+  const float cell = float(view.step * kOccluderSamples);
+  const ivec2 cells = ivec2((sampleGrid() + kOccluderSamples - 1u) / kOccluderSamples);
+  const ivec2 first = max(ivec2(ceil(clamp((middle - side) / cell, vec2(-1e6), vec2(1e6)))), ivec2(0));
+  const ivec2 last = min(ivec2(floor(clamp((middle + side) / cell, vec2(-1e6), vec2(1e6)))) - 1, cells - 1);
+  const ivec2 most = min(last, first + int(kMostRectSamples) - 1);
+  const uint bits = floatBitsToUint(centre.z);
+  for (int y = first.y; y <= most.y; ++y)
+    for (int x = first.x; x <= most.x; ++x) {
+      const uint at = uint(y * cells.x + x);
+      if (bits < occluders[at]) atomicMin(occluders[at], bits);
+    }
+}

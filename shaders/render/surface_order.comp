@@ -1,0 +1,23 @@
+#version 460
+// Each cell in ascending order of particle, so that sums over it do not depend on the order of arrival; centres in view space.
+#extension GL_GOOGLE_include_directive : require
+#include "render/surface.glsl"
+
+layout(local_size_x = kSurfaceGroup) in;
+layout(std430, set = 0, binding = 0) readonly buffer Position { vec4 position[]; };
+layout(std430, set = 0, binding = 1) readonly buffer Counters { uint counters[]; };
+layout(std430, set = 0, binding = 2) readonly buffer Start { uint start[]; };
+layout(std430, set = 0, binding = 3) readonly buffer Arrived { uint arrived[]; };
+layout(std430, set = 0, binding = 4) writeonly buffer Centre { vec4 centre[]; };
+
+void main() {
+  const uint slot = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
+  if (slot >= counters[kSurfaceCount]) return;
+  const uint i = arrived[slot];
+  const vec3 at = viewPoint(position[i].xyz);
+  const ivec2 cell = cellOf(pixelOf(at));
+  const uint key = uint(cell.y) * cellGrid().x + uint(cell.x);
+  uint place = start[key];
+  for (uint other = start[key]; other < start[key + 1u]; ++other) place += arrived[other] < i ? 1u : 0u;
+  centre[place] = vec4(at, 0.0);
+}

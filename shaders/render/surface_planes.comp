@@ -1,0 +1,67 @@
+#version 460
+// A plane for every surface particle: the weighted principal directions of the surface particles around it, raised to where the fluid ends.
+// One with too few of them around it, or around which they do not spread in a plane, is a ball.
+#extension GL_GOOGLE_include_directive : require
+#include "render/surface.glsl"
+
+layout(local_size_x = kSurfaceGroup) in;
+layout(std430, set = 0, binding = 0) readonly buffer Counters { uint counters[]; };
+layout(std430, set = 0, binding = 1) readonly buffer Start { uint start[]; };
+layout(std430, set = 0, binding = 2) readonly buffer Centre { vec4 centre[]; };
+layout(std430, set = 0, binding = 3) writeonly buffer Plane { vec4 plane[]; };
+#include "render/surface_walk.glsl"
+
+layout(constant_id = 0) const float kFitReach = 2.5;     // spacings
+layout(constant_id = 1) const float kFewest = 1.5;       // sum of the others' weights below which it is a ball
+layout(constant_id = 2) const float kFlattest = 0.6;     // least over middle eigenvalue above which it is one
+
+// The eigenvector of the least eigenvalue of a symmetric matrix (a b c; b d e; c e f), and the three eigenvalues, rising.
+vec3 leastDirection(float a, float b, float c, float d, float e, float f, out vec3 values) {
+  const float mean = (a + d + f) / 3.0;
+  const float p2 = (a - mean) * (a - mean) + (d - mean) * (d - mean) + (f - mean) * (f - mean) + 2.0 * (b * b + c * c + e * e);
+  const float p = sqrt(max(p2 / 6.0, 1e-20));
+  const float A = (a - mean) / p, B = b / p, C = c / p, D = (d - mean) / p, E = e / p, F = (f - mean) / p;
+  const float half_det = 0.5 * (A * (D * F - E * E) - B * (B * F - E * C) + C * (B * E - D * C));
+  const float angle = acos(clamp(half_det, -1.0, 1.0)) / 3.0;
+  values.z = mean + 2.0 * p * cos(angle);
+  values.x = mean + 2.0 * p * cos(angle + 2.0943951);
+  values.y = 3.0 * mean - values.x - values.z;
+  const vec3 r0 = vec3(a - values.x, b, c), r1 = vec3(b, d - values.x, e), r2 = vec3(c, e, f - values.x);
+  const vec3 c0 = cross(r0, r1), c1 = cross(r0, r2), c2 = cross(r1, r2);
+  const float s0 = dot(c0, c0), s1 = dot(c1, c1), s2 = dot(c2, c2);
+  const vec3 best = s0 >= s1 && s0 >= s2 ? c0 : (s1 >= s2 ? c1 : c2);
+  return best / sqrt(max(max(s0, max(s1, s2)), 1e-30));
+}
+
+void main() {
+  const uint k = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
+  if (k >= counters[kSurfaceCount]) return;
+  const vec3 own = centre[k].xyz;
+  const float reach = kFitReach * view.spacing, inverse = 1.0 / reach;
+  const CellRange range = cellsAround(own, reach);
+  float sum = 0.0;
+  vec3 first = vec3(0.0), square = vec3(0.0), mixed = vec3(0.0);
+  for (int y = range.first.y; y <= range.last.y; ++y) {
+    const uvec2 row = rowOf(range, y);
+    for (uint j = row.x; j < row.y; ++j) {
+      const vec3 q = (centre[j].xyz - own) * inverse;
+      const float inside = max(1.0 - dot(q, q), 0.0);
+      const float w = inside * inside;
+      sum += w;
+      first += w * q;
+      square += w * q * q;
+      mixed += w * q.xyz * q.yzx;
+    }
+  }
+  const vec3 mean = first / sum;
+  square = square / sum - mean * mean;
+  mixed = mixed / sum - mean.xyz * mean.yzx;
+  vec3 values;
+  vec3 normal = leastDirection(square.x, mixed.x, mixed.z, square.y, mixed.y, square.z, values);
+  const vec3 towards = view.perspective > 0.0 ? own : vec3(0.0, 0.0, 1.0);
+  if (dot(normal, towards) > 0.0) normal = -normal;
+  const bool ball = sum - 1.0 < kFewest || values.x > kFlattest * values.y;
+  const float height = ball ? 0.0 : dot(mean, normal) * reach + 0.5 * view.spacing;
+  plane[2u * k] = vec4(own + height * normal, ball ? 1.0 : 0.0);
+  plane[2u * k + 1u] = vec4(ball ? vec3(0.0) : normal, 0.0);
+}

@@ -1,0 +1,23 @@
+#version 460
+// Lists the tiles of the picture in which a sample is covered, or one beside them.
+#extension GL_GOOGLE_include_directive : require
+#include "render/surface.glsl"
+
+layout(local_size_x = kSurfaceGroup) in;
+layout(std430, set = 0, binding = 0) readonly buffer Depth { uint depth[]; };
+layout(std430, set = 0, binding = 1) buffer Counters { uint counters[]; };
+layout(std430, set = 0, binding = 2) writeonly buffer Tiles { uint tiles[]; };
+
+void main() {
+  const uvec2 grid = (uvec2(view.width, view.height) + kSurfaceTile - 1u) / kSurfaceTile;
+  const uint tile = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
+  if (tile >= grid.x * grid.y) return;
+  const uvec2 samples = sampleGrid();
+  const ivec2 pixel = ivec2(tile % grid.x, tile / grid.x) * int(kSurfaceTile);
+  const ivec2 first = max(pixel / int(view.step) - 1, ivec2(0));
+  const ivec2 last = min((pixel + int(kSurfaceTile) - 1) / int(view.step) + 1, ivec2(samples) - 1);
+  bool any_covered = false;
+  for (int y = first.y; y <= last.y && !any_covered; ++y)
+    for (int x = first.x; x <= last.x && !any_covered; ++x) any_covered = depth[uint(y) * samples.x + uint(x)] != kInfiniteBits;
+  if (any_covered) tiles[atomicAdd(counters[kSurfaceTileCount], 1u)] = tile;
+}
