@@ -48,7 +48,8 @@ ShaderModule::~ShaderModule() {
   if (handle_) device_.vk.DestroyShaderModule(device_.handle, handle_, device_.callbacks);
 }
 
-Constants::Constants(std::span<const uint32_t> values) : info_{uint32_t(values.size()), entries_.data(), values.size_bytes(), values.data()} {
+Constants::Constants(std::span<const uint32_t> values)
+    : info_{uint32_t(values.size()), entries_.data(), values.size_bytes(), values.data()} {
   static_assert(kMaxConstants == std::tuple_size_v<decltype(entries_)>);
   for (uint32_t i = 0; i < values.size(); ++i) entries_[i] = {i, i * 4, 4};
 }
@@ -89,8 +90,8 @@ uint32_t texelBytes(BindingKind kind) {
   return format == VK_FORMAT_UNDEFINED ? 0 : format == VK_FORMAT_R32_UINT ? 4 : 16;
 }
 
-Expected<const SetLayout*> PipelineStore::setLayout(DeviceImpl& device, std::span<const BindingKind> kinds,
-                                                    VkShaderStageFlags stages, std::string_view shader) {
+Expected<const SetLayout*> PipelineStore::setLayout(DeviceImpl& device, std::span<const BindingKind> kinds, VkShaderStageFlags stages,
+                                                    std::string_view shader) {
   for (const auto& layout : layouts_)
     if (layout->stages == stages && std::ranges::equal(layout->kinds, kinds)) return layout.get();
   const struct {

@@ -81,15 +81,15 @@ enum class Blend : uint8_t {
 /// A vertex and a fragment shader for dynamic rendering: no vertex buffers (shaders read storage buffers), nothing culled by winding,
 /// viewport and scissor dynamic.
 struct GraphicsPipelineDesc {
-  std::string_view vertex, fragment;        ///< names in the embedded library, e.g. "render/scene_vertex"; fragment may be empty
-  std::span<const BindingKind> bindings;    ///< seen by both
-  uint32_t pushConstantBytes = 0;           ///< at most 128, seen by both
-  SpecializationConstants constants = {};   ///< of both
-  std::span<const VkFormat> colours = {};   ///< of the colour targets, in the order that the pass declares them
-  VkFormat depth = VK_FORMAT_UNDEFINED;     ///< of the depth target; undefined: none
+  std::string_view vertex, fragment;       ///< names in the embedded library, e.g. "render/scene_vertex"; fragment may be empty
+  std::span<const BindingKind> bindings;   ///< seen by both
+  uint32_t pushConstantBytes = 0;          ///< at most 128, seen by both
+  SpecializationConstants constants = {};  ///< of both
+  std::span<const VkFormat> colours = {};  ///< of the colour targets, in the order that the pass declares them
+  VkFormat depth = VK_FORMAT_UNDEFINED;    ///< of the depth target; undefined: none
   VkCompareOp depthCompare = VK_COMPARE_OP_ALWAYS;
   bool depthWrite = false;
-  Blend blend = Blend::None;                ///< of all colour targets
+  Blend blend = Blend::None;  ///< of all colour targets
   VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
   std::span<const uint32_t> vertexWords = {}, fragmentWords = {};  ///< SPIR-V to use in place of the library's
 };

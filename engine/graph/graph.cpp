@@ -209,7 +209,8 @@ ResourceRef GraphImpl::write(uint32_t index, ResourceRef ref, bool isImage, Use 
     return kMistake;
   }
   if (load == Load::Clear && !isTarget(use)) {
-    fail(pass + " writes " + quoted(resource->name) + " with Use::" + useRow(use).name + " and Load::Clear: only what is drawn to is cleared so");
+    fail(pass + " writes " + quoted(resource->name) + " with Use::" + useRow(use).name +
+         " and Load::Clear: only what is drawn to is cleared so");
     return kMistake;
   }
   if (fresh && load == Load::Keep && isTarget(use)) {
@@ -223,11 +224,14 @@ ResourceRef GraphImpl::write(uint32_t index, ResourceRef ref, bool isImage, Use 
 void GraphImpl::addTarget(uint32_t index, ResourceRef ref, Load load, const VkClearValue& clear) {
   PassData& pass = passes[index];
   const ResourceData& image = resources[ref.index];
-  const auto mistake = [&](const std::string& what) { fail("pass '" + std::string(names[pass.name]) + "' draws to " + quoted(image.name) + what); };
+  const auto mistake = [&](const std::string& what) {
+    fail("pass '" + std::string(names[pass.name]) + "' draws to " + quoted(image.name) + what);
+  };
   const bool isDepth = hasDepth(image.desc.format);
   const Access& access = accesses.back();
   if (isDepth != (access.use == Use::DepthTarget))
-    return mistake(std::string(" with Use::") + useRow(access.use).name + ", but its format " + (isDepth ? "holds depth" : "holds no depth"));
+    return mistake(std::string(" with Use::") + useRow(access.use).name + ", but its format " +
+                   (isDepth ? "holds depth" : "holds no depth"));
   for (uint32_t t = pass.targets.first; t < targets.size(); ++t) {
     const ResourceData& other = resources[targets[t].resource];
     if (other.width() != image.width() || other.height() != image.height())
@@ -300,8 +304,8 @@ Kernel Pass::bound(const Pipeline& pipeline, std::span<const ResourceRef> refs) 
       if (refs[i].epoch != graph_.epoch || access.resource != refs[i].index) continue;
       if (access.version != refs[i].version && !(access.write && access.version == refs[i].version + 1)) continue;
       declared = true;
-      fitting = fits(kinds[i], graph_.resources[access.resource].isImage, access.use,
-                     pipeline.bindPoint == VK_PIPELINE_BIND_POINT_GRAPHICS);
+      fitting =
+          fits(kinds[i], graph_.resources[access.resource].isImage, access.use, pipeline.bindPoint == VK_PIPELINE_BIND_POINT_GRAPHICS);
     }
     const auto name = [&] {
       return refs[i].index < graph_.resources.size() ? graph_.quoted(graph_.resources[refs[i].index].name) : "an empty ref";

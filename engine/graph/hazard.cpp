@@ -103,7 +103,7 @@ Hazard HazardState::need(Use use, bool keep, Scope& scope) const {
   const bool seesOld = sees || (visible_ & readingHalf(use)) != 0;
   const bool waitForReads = readStage_ && !stagesCover(readsBefore_, row.stage);
   const bool ordered = available_ && (stagesCover(writeBefore_, row.stage) || (waitForReads && (readStage_ & writeBefore_)));
-  const bool waitForWrite = writeStage_ && !sees && (!ordered || (reads && !seesOld));
+  const bool waitForWrite = writeStage_ && !sees && (reused_ || !ordered || (reads && !seesOld));
   if (!waitForWrite && !waitForReads) return Hazard::None;
   scope.targetStage |= row.stage;
   if (waitForReads) scope.sourceStage |= readStage_;
@@ -138,6 +138,7 @@ void HazardState::used(Use use) {
   visible_ = 0;
   available_ = false;
   atomic_ = use == Use::ComputeAtomic;
+  reused_ = false;
 }
 
 void HazardState::changeLayout(Use use, Scope& scope) {
@@ -156,6 +157,7 @@ void HazardState::join(const HazardState& other) {
   if (!writeStage_ && !readStage_) {
     *this = other;
     atomic_ = false;  // another resource's atomics do not commute with this one's
+    reused_ = true;
     return;
   }
   constexpr VkPipelineStageFlags2 all = ~VkPipelineStageFlags2(0);
@@ -167,6 +169,7 @@ void HazardState::join(const HazardState& other) {
   visible_ &= other.visible_;
   available_ = available_ && other.available_;
   atomic_ = false;
+  reused_ = true;
 }
 
 }  // namespace rill

@@ -49,6 +49,7 @@ class HazardState {
   uint32_t visible_ = 0;                   ///< bits of the uses that see the last write
   bool available_ = false;                 ///< some barrier has waited for the last write
   bool atomic_ = false;                    ///< the last write was ComputeAtomic
+  bool reused_ = false;                    ///< the memory was another resource's: of its bytes some were written and never read
 };
 
 }  // namespace rill

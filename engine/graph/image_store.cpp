@@ -65,7 +65,8 @@ bool hasDepth(VkFormat format) {
 
 VkImageAspectFlags aspectsOf(VkFormat format) {
   if (!hasDepth(format)) return VK_IMAGE_ASPECT_COLOR_BIT;
-  const bool stencil = format == VK_FORMAT_D16_UNORM_S8_UINT || format == VK_FORMAT_D24_UNORM_S8_UINT || format == VK_FORMAT_D32_SFLOAT_S8_UINT;
+  const bool stencil =
+      format == VK_FORMAT_D16_UNORM_S8_UINT || format == VK_FORMAT_D24_UNORM_S8_UINT || format == VK_FORMAT_D32_SFLOAT_S8_UINT;
   return VK_IMAGE_ASPECT_DEPTH_BIT | (stencil ? VK_IMAGE_ASPECT_STENCIL_BIT : 0);
 }
 
@@ -93,7 +94,8 @@ void ImageStore::retire(const Placed& placed) {
 
 ImageNeeds ImageStore::needs(const ImageKind& kind) const {
   const auto found = std::ranges::find(known_, kind, &Known::kind);
-  return found != known_.end() ? found->needs : ImageNeeds{(kind.desc.levels > 1 ? 24ull : 16ull) * kind.desc.width * kind.desc.height, 256};
+  return found != known_.end() ? found->needs
+                               : ImageNeeds{(kind.desc.levels > 1 ? 24ull : 16ull) * kind.desc.width * kind.desc.height, 256};
 }
 
 Expected<bool> ImageStore::learn(DeviceImpl& device, const ImageKind& kind, std::string_view name) {

@@ -103,10 +103,8 @@ void Commands::bind(Kernel kernel, std::span<const std::byte> push) {
   assert(push.size() == pipeline.pushBytes && "push constants of another size than the pipeline was made for");
   const DeviceTable& vk = graph_.device->vk;
   vk.CmdBindPipeline(commandBuffer_, pipeline.bindPoint, pipeline.handle);
-  if (data.bindings.count != 0)
-    vk.CmdBindDescriptorSets(commandBuffer_, pipeline.bindPoint, pipeline.layout, 0, 1, &data.set, 0, nullptr);
-  if (!push.empty())
-    vk.CmdPushConstants(commandBuffer_, pipeline.layout, pipeline.stages, 0, uint32_t(push.size()), push.data());
+  if (data.bindings.count != 0) vk.CmdBindDescriptorSets(commandBuffer_, pipeline.bindPoint, pipeline.layout, 0, 1, &data.set, 0, nullptr);
+  if (!push.empty()) vk.CmdPushConstants(commandBuffer_, pipeline.layout, pipeline.stages, 0, uint32_t(push.size()), push.data());
 }
 
 void Commands::dispatch(Kernel kernel, uint64_t groups, std::span<const std::byte> push) {
@@ -184,8 +182,8 @@ void Commands::copyWhole(BufferRef buffer, ImageRef image, uint64_t offset, bool
          "a copy's buffer and image are declared by its pass");
   const ResourceData &bytes = graph_.resources[buffer.index], &texels = graph_.resources[image.index];
   const VkImageAspectFlags aspect = hasDepth(texels.desc.format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
-  const VkBufferImageCopy region{
-      bytes.offset + offset, 0, 0, {aspect, texels.level, 0, 1}, {0, 0, 0}, {texels.width(), texels.height(), 1}};
+  const VkBufferImageCopy region{bytes.offset + offset,        0,         0,
+                                 {aspect, texels.level, 0, 1}, {0, 0, 0}, {texels.width(), texels.height(), 1}};
   const DeviceTable& vk = graph_.device->vk;
   if (toImage)
     vk.CmdCopyBufferToImage(commandBuffer_, bytes.buffer, texels.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);

@@ -57,11 +57,13 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
     particles_ = std::move(*made);
     return {};
   }
-  if (auto possible = FluidRenderer::check(fluidView(camera(width, height), width, height, scene_.fluid.spacing)); !possible) return possible;
+  if (auto possible = FluidRenderer::check(fluidView(camera(width, height), width, height, scene_.fluid.spacing)); !possible)
+    return possible;
   if (!fluid_) {
     const auto look = fluidLook(scene_.look.preset);
     if (!look) return Error{ErrorKind::BadInput, "look.preset: there is no look " + inQuotes(scene_.look.preset)};
     look_ = *look;
+    look_.surface = surfaceMethod(scene_.look.surface).value_or(SurfaceMethod::Auto);
     auto made = FluidRenderer::create(device);
     if (!made) return made.error();
     fluid_ = std::move(*made);
@@ -91,7 +93,7 @@ Ticket Painter::declare(Graph& graph, const FluidState& fluid, std::string_view 
   const FluidView seen = fluidView(eye, width, height, scene_.fluid.spacing);
   if (view.kind == Kind::Data) {
     const double full = view.data == SurfaceData::Depth ? 2 * seen.focus_m : 0.5 * seen.focus_m;
-    return graph.readback(fluid_->addData(graph, fluid, seen, view.data, static_cast<float>(full)));
+    return graph.readback(fluid_->addData(graph, fluid, seen, view.data, static_cast<float>(full), look_.surface));
   }
   const TargetFormats formats;
   SceneTargets targets{graph.create("picture colour", {formats.colour, width, height}),

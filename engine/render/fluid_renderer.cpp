@@ -46,8 +46,8 @@ Expected<void> FluidRendererImpl::create(Device& device, const TargetFormats& fo
   scene = *made;
   for (uint32_t what = 0; what < 3; ++what) {
     const uint32_t constants[] = {what};
-    made = computePipeline(
-        device, {.shader = "render/analysis", .bindings = kData, .pushConstantBytes = sizeof(DataPush), .constants = constants});
+    made = computePipeline(device,
+                           {.shader = "render/analysis", .bindings = kData, .pushConstantBytes = sizeof(DataPush), .constants = constants});
     if (!made) return made.error();
     data[what] = *made;
   }
@@ -77,7 +77,7 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
     return targets;
   }
   const SurfacePush push = camera(fluid, view);
-  last = surface.addTo(graph, fluid, push, look.surface, whole);
+  last = surface.addTo(graph, fluid, push, look.surface, whole, view.focus_m);
   const uint64_t pixels = uint64_t{push.width} * push.height;
   BufferRef sceneColour = graph.create("fluid scene colour", {pixels * 8}), sceneDepth = graph.create("fluid scene depth", {pixels * 4});
   graph.pass("fluid scene", [&](Pass& pass) {
@@ -127,7 +127,7 @@ BufferRef FluidRendererImpl::addData(Graph& graph, const FluidState& fluid, cons
     });
     return picture;
   }
-  const SurfaceBuffers found = surface.addTo(graph, fluid, push, method, true);
+  const SurfaceBuffers found = surface.addTo(graph, fluid, push, method, true, view.focus_m);
   const SurfacePush thick = SurfaceStage::thicknessPush(push, fluid, kThicknessStep);
   BufferRef thickness = found.tiles;  // bound, never read
   if (what == SurfaceData::Thickness) thickness = surface.addThickness(graph, fluid, thick, {});

@@ -18,8 +18,7 @@ class FluidRendererImpl {
  public:
   Expected<void> create(Device& device, const TargetFormats& formats);
   surface::SurfacePush camera(const FluidState& fluid, const FluidView& view) const;
-  SceneTargets addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view, const FluidLook& look,
-                     bool whole);
+  SceneTargets addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view, const FluidLook& look, bool whole);
   BufferRef addData(Graph& graph, const FluidState& fluid, const FluidView& view, SurfaceData data, float full, SurfaceMethod method);
 
   SurfaceStage surface;

@@ -1,5 +1,5 @@
 // The looks that scenes name.
-#include <iterator>
+#include <utility>
 
 #include "rill/fluid_renderer.hpp"
 
@@ -11,6 +11,16 @@ constexpr std::string_view kNames[] = {"water", "milk", "ink", "clay"};
 }  // namespace
 
 std::span<const std::string_view> fluidLooks() { return kNames; }
+
+std::optional<SurfaceMethod> surfaceMethod(std::string_view name) {
+  constexpr std::pair<std::string_view, SurfaceMethod> kAll[] = {{"auto", SurfaceMethod::Auto},
+                                                                 {"planes", SurfaceMethod::Planes},
+                                                                 {"curvature_flow", SurfaceMethod::CurvatureFlow},
+                                                                 {"narrow_range", SurfaceMethod::NarrowRange}};
+  for (const auto& [known, method] : kAll)
+    if (known == name) return method;
+  return std::nullopt;
+}
 
 std::optional<FluidLook> fluidLook(std::string_view preset) {
   FluidLook look;

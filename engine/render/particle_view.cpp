@@ -65,8 +65,7 @@ class ParticleViewImpl {
   bool hasFloor() const { return scene_.scene.domain_min.w > 0 && (scene_.scene.counts.w & 4u) != 0; }
   bool hasShadows(const Frame& frame) const { return frame.push.count > 0 || scene_.scene.counts.x > 0; }
 
-  const ComputePipeline *edges_ = nullptr, *solidTiles_ = nullptr, *lightTiles_ = nullptr, *surfaces_ = nullptr,
-                        *floor_ = nullptr;
+  const ComputePipeline *edges_ = nullptr, *solidTiles_ = nullptr, *lightTiles_ = nullptr, *surfaces_ = nullptr, *floor_ = nullptr;
   const ComputePipeline *lightSolids_ = nullptr, *project_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr,
                         *splatLarge_ = nullptr;
   const ComputePipeline *floorShadow_ = nullptr, *tint_ = nullptr, *classify_ = nullptr, *shadeFluid_ = nullptr, *shadeFloor_ = nullptr;

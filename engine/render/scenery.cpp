@@ -78,9 +78,9 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
                                 .depthCompare = VK_COMPARE_OP_GREATER,
                                 .depthWrite = true};
   };
-  GraphicsPipelineDesc ground = desc("render/scenery_ground_vertex",
-                                     solids ? "render/scenery_ground_solids_fragment" : "render/scenery_ground_fragment",
-                                     std::span(kLit).first(solids ? 4 : 3));
+  GraphicsPipelineDesc ground =
+      desc("render/scenery_ground_vertex", solids ? "render/scenery_ground_solids_fragment" : "render/scenery_ground_fragment",
+           std::span(kLit).first(solids ? 4 : 3));
   ground.depthCompare = VK_COMPARE_OP_ALWAYS;
   GraphicsPipelineDesc edges = desc("render/scenery_edges_vertex", "render/scenery_edges_fragment", std::span(kEdges).first(1));
   edges.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
@@ -176,7 +176,8 @@ SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets 
     readLight(pass);
     targets.colour = pass.write(targets.colour, Use::ColourTarget, Load::Discard);
     targets.depth = pass.write(targets.depth, Use::DepthTarget, Load::Discard);
-    const Kernel kernel = solids ? pass.kernel(ground_, {scene, record, shadow, lightDepth}) : pass.kernel(ground_, {scene, record, shadow});
+    const Kernel kernel =
+        solids ? pass.kernel(ground_, {scene, record, shadow, lightDepth}) : pass.kernel(ground_, {scene, record, shadow});
     return [kernel, camera](Commands& commands) { commands.draw(kernel, 3, 1, camera); };
   });
   if (solids) {

@@ -13,18 +13,29 @@ namespace {
 
 using namespace surface;
 
-constexpr uint32_t kInfinity = 0x7F800000u;  // bits of the float
-constexpr float kHardRadius = 0.9f;          // spacings: spheres that leave no gap between surface particles
-constexpr float kThicknessRadius = 1.2f;     // spacings: a disc that overlaps enough to be smooth
+constexpr uint32_t kInfinity = 0x7F800000u;    // bits of the float
+constexpr float kHardRadius = 0.9f;            // spacings: spheres that leave no gap between surface particles
+constexpr float kThicknessRadius = 1.2f;       // spacings: a disc that overlaps enough to be smooth
 constexpr float kThicknessUnit = 1.0f / 1024;  // spacings
 constexpr uint32_t kMostStep = 16;
+constexpr double kFlowTime = 1.3;     // spacings squared: a blur of about a spacing
+constexpr double kFlowStable = 0.45;  // of a sample's square: a step at the focus
+constexpr uint32_t kMostFlowSteps = 128;
+constexpr uint32_t kNarrowPasses = 2;
+constexpr uint32_t kMargin = 8;  // samples: as far as a plane is fitted at the usual three samples a spacing
 
-uint64_t gridCells(uint32_t width, uint32_t height, uint32_t side) { return divideUp(width, side) * divideUp(height, side); }
+static_assert(kMargin % kCellSamples == 0);
+
+uint64_t gridCells(uint64_t width, uint64_t height, uint32_t side) { return divideUp(width, side) * divideUp(height, side); }
+
+double metresAPixel(const SurfacePush& camera, double depth) {
+  return std::abs(double{camera.scale[1]}) * 2 / camera.height * (camera.perspective > 0 ? depth : 1.0);
+}
 
 }  // namespace
 
 uint32_t sampleStep(const SurfacePush& camera, float spacing, double depth) {
-  const double metres = std::abs(double{camera.scale[1]}) * 2 / camera.height * (camera.perspective > 0 ? depth : 1.0);
+  const double metres = metresAPixel(camera, depth);
   const double samples = spacing / std::max(metres, 1e-30) / 3.0;  // pixels that a third of a spacing is wide
   return samples >= kMostStep ? kMostStep : std::bit_floor(static_cast<uint32_t>(std::max(samples, 1.0)));
 }
@@ -39,12 +50,21 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device) {
     std::string_view shader;
     size_t bindings;
   } all[] = {
-      {stage.occlude_, "render/surface_occlude", 2}, {stage.cull_, "render/surface_cull", 4},
-      {stage.arguments_, "render/surface_arguments", 2}, {stage.splat_, "render/surface_splat", 4},
-      {stage.pick_, "render/surface_pick", 6},       {stage.scatter_, "render/surface_scatter", 6},
-      {stage.order_, "render/surface_order", 5},     {stage.planes_, "render/surface_planes", 4},
-      {stage.blend_, "render/surface_blend", 5},     {stage.tiles_, "render/surface_tiles", 3},
-      {stage.compose_, "render/surface_compose", 8}, {stage.thickness_, "render/surface_thickness", 3},
+      {stage.occlude_, "render/surface_occlude", 2},
+      {stage.cull_, "render/surface_cull", 4},
+      {stage.arguments_, "render/surface_arguments", 2},
+      {stage.splat_, "render/surface_splat", 4},
+      {stage.pick_, "render/surface_pick", 6},
+      {stage.scatter_, "render/surface_scatter", 6},
+      {stage.order_, "render/surface_order", 5},
+      {stage.planes_, "render/surface_planes", 4},
+      {stage.blend_, "render/surface_blend", 5},
+      {stage.tiles_, "render/surface_tiles", 3},
+      {stage.compose_, "render/surface_compose", 8},
+      {stage.thickness_, "render/surface_thickness", 3},
+      {stage.flow_, "render/surface_flow", 2},
+      {stage.normals_, "render/surface_normals", 5},
+      {stage.composeFiltered_, "render/surface_compose_filtered", 8},
       {stage.thicknessBare_, "render/surface_thickness_bare", 2},
   };
   for (const auto& row : all) {
@@ -53,34 +73,50 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device) {
     if (!made) return made.error();
     row.pipeline = *made;
   }
+  for (uint32_t vertical = 0; vertical < 2; ++vertical) {
+    const uint32_t constants[] = {vertical};
+    auto made = computePipeline(device, {.shader = "render/surface_narrow",
+                                         .bindings = std::span(kStorage).first(2),
+                                         .pushConstantBytes = sizeof(SurfacePush),
+                                         .constants = constants});
+    if (!made) return made.error();
+    stage.narrow_[vertical] = *made;
+  }
   // Finds its pipelines among those made now, whatever the picture's size.
   if (auto scan = Scan::create(device, Scan::kMaxCount); !scan) return scan.error();
   return stage;
 }
 
-SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, SurfacePush push, SurfaceMethod method, bool whole) const {
+SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, SurfacePush push, SurfaceMethod method, bool whole,
+                                   double focus) const {
   assert(fluid.count > 0);
-  static_cast<void>(method);
+  const bool filtered = method == SurfaceMethod::CurvatureFlow || method == SurfaceMethod::NarrowRange;
   push.spacing = fluid.spacing;
   push.radius = kHardRadius * fluid.spacing;
   push.count = fluid.count;
+  push.margin = kMargin;
+  const double sampleSide = std::max(metresAPixel(push, focus) * push.step, 1e-6 * fluid.spacing), sampleArea = sampleSide * sampleSide;
+  // As many steps as the time takes where the fluid is; nearer to the eye, where samples are smaller, the stable step falls short of it.
+  const double area = double{push.spacing} * push.spacing;
+  const uint32_t flowSteps =
+      std::clamp(static_cast<uint32_t>(std::ceil(kFlowTime * area / (kFlowStable * sampleArea))), 1u, kMostFlowSteps);
+  push.flow_time = static_cast<float>(kFlowTime * area / flowSteps);
   const uint64_t particles = divideUp(fluid.count, kSurfaceGroup);
-  const uint64_t samples = gridCells(push.width, push.height, push.step);
-  const uint64_t cells = gridCells(push.width, push.height, push.step * kCellSamples);
+  const uint64_t columns = divideUp(push.width, push.step) + 2 * kMargin, rows = divideUp(push.height, push.step) + 2 * kMargin;
+  const uint64_t samples = columns * rows, cells = gridCells(columns, rows, kCellSamples);
   const uint64_t tiles = gridCells(push.width, push.height, kSurfaceTile);
   const uint64_t most = fluid.count;  // particles that can be surface
 
   SurfaceBuffers out;
   out.push = push;
-  BufferRef occluders = graph.create("surface occluders", {gridCells(push.width, push.height, push.step * kOccluderSamples) * 4});
+  BufferRef occluders = graph.create("surface occluders", {gridCells(columns, rows, kOccluderSamples) * 4});
   BufferRef depth = graph.create("surface hard depth", {samples * 4});
   BufferRef start = graph.create("surface cells", {(cells + 1) * 4});
   out.counters = graph.create("surface counters", {kSurfaceCounterWords * 4});
   out.arguments = graph.create("surface arguments", {kSurfaceArgumentWords * 4});
   BufferRef survivors = graph.create("surface survivors", {most * 4}), rank = graph.create("surface ranks", {most * 4});
   BufferRef arrived = graph.create("surface arrived", {most * 4});
-  BufferRef centre = graph.create("surface centres", {most * 16}), plane = graph.create("surface planes", {most * 32});
-  BufferRef smooth = graph.create("surface samples", {samples * 8});
+  BufferRef centre = graph.create("surface centres", {most * 16});
   out.tiles = graph.create("surface tiles", {tiles * 4});
   out.pixels = graph.create("surface pixels", {uint64_t{push.width} * push.height * 8});
 
@@ -95,9 +131,7 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
       if (whole) commands.fill(pixels, kInfinity);
     };
   });
-  const auto arguments = [&] {
-    addStep(graph, "surface arguments", arguments_, {reads(out.counters), fresh(out.arguments)}, 1, push);
-  };
+  const auto arguments = [&] { addStep(graph, "surface arguments", arguments_, {reads(out.counters), fresh(out.arguments)}, 1, push); };
   const auto survivorGroups = [&] { return StepGroups(out.arguments, kSurvivorArguments); };
   const auto surfaceGroups = [&] { return StepGroups(out.arguments, kSurfaceArguments); };
   addStep(graph, "surface occlude", occlude_, {reads(fluid.position), writes(occluders)}, particles, push);
@@ -107,23 +141,54 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
           push);
   addStep(graph, "surface tiles", tiles_, {reads(depth), writes(out.counters), fresh(out.tiles)}, divideUp(tiles, kSurfaceGroup), push);
   addStep(graph, "surface pick", pick_,
-          {reads(fluid.position), writes(out.counters), reads(survivors), reads(depth), writes(start), fresh(rank)}, survivorGroups(), push);
+          {reads(fluid.position), writes(out.counters), reads(survivors), reads(depth), writes(start), fresh(rank)}, survivorGroups(),
+          push);
   arguments();
   auto scan = Scan::create(*device_, static_cast<uint32_t>(cells + 1));
   assert(scan && "its pipelines were made in create()");
   start = scan->addTo(graph, start);
   addStep(graph, "surface scatter", scatter_,
-          {reads(fluid.position), reads(out.counters), reads(survivors), reads(start), reads(rank), fresh(arrived)}, survivorGroups(), push);
+          {reads(fluid.position), reads(out.counters), reads(survivors), reads(start), reads(rank), fresh(arrived)}, survivorGroups(),
+          push);
   addStep(graph, "surface order", order_, {reads(fluid.position), reads(out.counters), reads(start), reads(arrived), fresh(centre)},
           surfaceGroups(), push);
-  addStep(graph, "surface planes", planes_, {reads(out.counters), reads(start), reads(centre), fresh(plane)}, surfaceGroups(), push);
-  addStep(graph, "surface blend", blend_, {reads(start), reads(centre), reads(plane), reads(depth), fresh(smooth)},
-          gridCells(static_cast<uint32_t>(divideUp(push.width, push.step)), static_cast<uint32_t>(divideUp(push.height, push.step)), 8), push);
-  addStep(graph, "surface compose", compose_,
-          {reads(start), reads(centre), reads(plane), reads(depth), reads(smooth), reads(out.counters), reads(out.tiles),
+  Grid grid{push, out.counters, out.arguments, start, centre, depth, {}, samples, gridCells(columns, rows, 8), flowSteps};
+  BufferRef smooth;
+  if (filtered) {
+    smooth = addFiltered(graph, grid, method);
+    grid.plane = centre;  // bound, never read
+  } else {
+    grid.plane = graph.create("surface planes", {most * 32});
+    addStep(graph, "surface planes", planes_, {reads(out.counters), reads(start), reads(centre), fresh(grid.plane)}, surfaceGroups(), push);
+    smooth = graph.create("surface samples", {samples * 8});
+    addStep(graph, "surface blend", blend_, {reads(start), reads(centre), reads(grid.plane), reads(depth), fresh(smooth)},
+            grid.sampleGroups, push);
+  }
+  addStep(graph, "surface compose", filtered ? composeFiltered_ : compose_,
+          {reads(start), reads(centre), reads(grid.plane), reads(depth), reads(smooth), reads(out.counters), reads(out.tiles),
            whole ? writes(out.pixels) : fresh(out.pixels)},
           StepGroups(out.arguments, kSurfaceTileArguments), push);
   return out;
+}
+
+/// A depth filter in passes from one buffer to another, then normals.
+BufferRef SurfaceStage::addFiltered(Graph& graph, const Grid& grid, SurfaceMethod method) const {
+  BufferRef from = grid.depth;
+  const auto pass = [&](std::string_view name, const ComputePipeline* pipeline) {
+    BufferRef to = graph.create("surface filtered", {grid.samples * 4});
+    addStep(graph, name, pipeline, {reads(from), fresh(to)}, grid.sampleGroups, grid.push);
+    from = to;
+  };
+  if (method == SurfaceMethod::CurvatureFlow) {
+    for (uint32_t k = 0; k < grid.flowSteps; ++k) pass("surface flow", flow_);
+  } else {
+    for (uint32_t k = 0; k < kNarrowPasses; ++k)
+      for (const ComputePipeline* pipeline : narrow_) pass("surface narrow range", pipeline);
+  }
+  BufferRef samples = graph.create("surface samples", {grid.samples * 8});
+  addStep(graph, "surface normals", normals_, {reads(grid.start), reads(grid.centre), reads(from), reads(grid.depth), fresh(samples)},
+          grid.sampleGroups, grid.push);
+  return samples;
 }
 
 SurfacePush SurfaceStage::thicknessPush(SurfacePush camera, const FluidState& fluid, uint32_t step) {
@@ -132,6 +197,7 @@ SurfacePush SurfaceStage::thicknessPush(SurfacePush camera, const FluidState& fl
   camera.unit = kThicknessUnit * fluid.spacing;
   camera.count = fluid.count;
   camera.step = step;
+  camera.margin = 0;
   return camera;
 }
 

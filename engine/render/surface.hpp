@@ -22,8 +22,10 @@ class SurfaceStage {
  public:
   static Expected<SurfaceStage> create(Device& device);
 
-  /// `camera`: viewPush() of the view. `whole`: pixels without fluid are written, too. The state has particles.
-  SurfaceBuffers addTo(Graph& graph, const FluidState& fluid, surface::SurfacePush camera, SurfaceMethod method, bool whole) const;
+  /// `camera`: viewPush() of the view with its step. `whole`: pixels without fluid are written, too. `focus`: m, how far away the fluid is.
+  /// The state has particles.
+  SurfaceBuffers addTo(Graph& graph, const FluidState& fluid, surface::SurfacePush camera, SurfaceMethod method, bool whole,
+                       double focus) const;
 
   /// Counts of `push.unit` along each sample's ray, a sample every `push.step` pixels: 1 m of fluid measures 1 m.
   /// `sceneDepth`: m a pixel, what lies behind it is not counted; an empty ref: nothing is in the way.
@@ -32,10 +34,22 @@ class SurfaceStage {
   static surface::SurfacePush thicknessPush(surface::SurfacePush camera, const FluidState& fluid, uint32_t step);
 
  private:
+  /// What methods share: the screen grid of surface particles, and the spheres' depth.
+  struct Grid {
+    surface::SurfacePush push;
+    BufferRef counters, arguments, start, centre, depth;
+    BufferRef plane;  ///< of the method that has planes
+    uint64_t samples = 0, sampleGroups = 0;
+    uint32_t flowSteps = 0;
+  };
+  /// From the spheres' depth to samples (depth, normal).
+  BufferRef addFiltered(Graph& graph, const Grid& grid, SurfaceMethod method) const;
+
   Device* device_ = nullptr;
   const ComputePipeline *occlude_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr, *pick_ = nullptr,
                         *scatter_ = nullptr, *order_ = nullptr, *planes_ = nullptr, *blend_ = nullptr, *tiles_ = nullptr,
-                        *compose_ = nullptr, *thickness_ = nullptr, *thicknessBare_ = nullptr;
+                        *compose_ = nullptr, *composeFiltered_ = nullptr, *flow_ = nullptr, *narrow_[2] = {}, *normals_ = nullptr,
+                        *thickness_ = nullptr, *thicknessBare_ = nullptr;
 };
 
 /// Pixels a side of a sample: what sees a spacing as three to six samples where the fluid is.

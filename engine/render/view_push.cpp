@@ -20,8 +20,8 @@ double at(const Float4x4& m, int row, int column) {
 Expected<void> checkView(const FluidView& view) {
   const auto bad = [](std::string what) { return Error{ErrorKind::BadInput, "FluidView: " + std::move(what)}; };
   if (view.width == 0 || view.height == 0 || view.width > kMaxSide || view.height > kMaxSide)
-    return bad("a viewport of " + std::to_string(view.width) + "x" + std::to_string(view.height) + " pixels: width and height must be 1 to " +
-               std::to_string(kMaxSide));
+    return bad("a viewport of " + std::to_string(view.width) + "x" + std::to_string(view.height) +
+               " pixels: width and height must be 1 to " + std::to_string(kMaxSide));
   for (const Float4x4* matrix : {&view.view, &view.projection})
     for (int r = 0; r < 4; ++r)
       for (int c = 0; c < 4; ++c)

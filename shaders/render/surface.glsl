@@ -83,18 +83,23 @@ vec4 sphereExtent(vec3 centre, float radius) {
   return vec4(min(a, b), max(a, b));
 }
 
+// In front of the near plane as a whole, and inside the picture with its margin as a part.
 bool shown(vec3 centre, float radius) {
   if (!(centre.z - radius > view.near_depth)) return false;
+  const float margin = float(view.margin * view.step);
   const vec4 extent = sphereExtent(centre, radius);
-  return extent.z >= 0.0 && extent.w >= 0.0 && extent.x <= float(view.width) && extent.y <= float(view.height);
+  return all(greaterThanEqual(extent.zw, vec2(-margin))) && all(lessThanEqual(extent.xy, pictureSize() + margin));
 }
 
-// Samples: one a square of view.step pixels, at its middle.
-uvec2 sampleGrid() { return (uvec2(view.width, view.height) + view.step - 1u) / view.step; }
-vec2 samplePixel(ivec2 at) { return (vec2(at) + 0.5) * float(view.step); }
+// Samples: one a square of view.step pixels, at its middle, the first ones in the margin.
+uvec2 sampleGrid() { return (uvec2(view.width, view.height) + view.step - 1u) / view.step + 2u * view.margin; }
+vec2 samplePixel(ivec2 at) { return (vec2(at - int(view.margin)) + 0.5) * float(view.step); }
+// Where among the samples a pixel lies; whole numbers are samples.
+vec2 sampleOf(vec2 pixel) { return pixel / float(view.step) - 0.5 + float(view.margin); }
 // First and last sample whose middle a sphere may cover, both included; empty where last < first. Bounded around the middle.
 ivec4 sampleRect(vec3 centre, float radius, out bool cut) {
-  const vec4 extent = clamp(sphereExtent(centre, radius), vec4(-1e6), vec4(1e6)) / float(view.step) - 0.5;
+  const vec4 pixels = clamp(sphereExtent(centre, radius), vec4(-1e6), vec4(1e6));
+  const vec4 extent = vec4(sampleOf(pixels.xy), sampleOf(pixels.zw));
   const ivec2 grid = ivec2(sampleGrid());
   ivec4 rect = ivec4(max(ivec2(ceil(extent.xy)), ivec2(0)), min(ivec2(floor(extent.zw)), grid - 1));
   const ivec2 middle = (rect.xy + rect.zw) / 2;
@@ -106,7 +111,7 @@ ivec4 sampleRect(vec3 centre, float radius, out bool cut) {
 // The screen grid: cells of kCellSamples samples a side; what lies beyond the picture counts for the nearest cell.
 uvec2 cellGrid() { return (sampleGrid() + kCellSamples - 1u) / kCellSamples; }
 ivec2 cellOf(vec2 pixel) {
-  return clamp(ivec2(floor(pixel / float(view.step * kCellSamples))), ivec2(0), ivec2(cellGrid()) - 1);
+  return clamp(ivec2(floor((sampleOf(pixel) + 0.5) / float(kCellSamples))), ivec2(0), ivec2(cellGrid()) - 1);
 }
 
 // What the target's depth is for a view depth.

@@ -5,7 +5,9 @@
 layout(constant_id = 0) const float kBlendReach = 1.8;  // spacings, across a plane
 layout(constant_id = 1) const float kBlendRange = 1.2;  // spacings, along its normal
 layout(constant_id = 2) const float kCoverReach = 1.2;  // spacings from a ray at which a centre stops covering it
-layout(constant_id = 3) const float kCover = 0.7;       // sum of what centres add (1 on the ray itself) from which there is fluid
+layout(constant_id = 3) const float kCover = 0.6;       // sum of what centres add (1 on the ray itself) from which there is fluid
+layout(constant_id = 5) const float kCoverEdgeOn = 0.35;  // weight of a particle whose plane is seen edge on
+layout(constant_id = 4) const float kCoverInside = 0.4;  // the same amid many others: a gap, not an edge
 
 struct Blend {
   float depth;     // of the surface; what came in where there is none
@@ -15,12 +17,12 @@ struct Blend {
 
 Blend blendAt(vec2 axis, float depth) {
   const vec3 from = rayFrom(axis), along = rayAlong(axis);
-  const vec3 x = from + depth * along;
+  const vec3 x = from + depth * along, sight = normalize(along);
   const float reach = kBlendReach * view.spacing;
   const float inverse = 1.0 / (reach * reach), range_inverse = 1.0 / (kBlendRange * view.spacing);
   const CellRange range = cellsAround(x, reach + 0.5 * view.spacing);
   const float cover_inverse = 1.0 / (kCoverReach * kCoverReach * view.spacing * view.spacing);
-  float height = 0.0, slope = 0.0, cover = 0.0;
+  float height = 0.0, slope = 0.0, cover = 0.0, sum = 0.0;
   vec3 normal = vec3(0.0);
   for (int y = range.first.y; y <= range.last.y; ++y) {
     const uvec2 row = rowOf(range, y);
@@ -37,15 +39,17 @@ Blend blendAt(vec2 axis, float depth) {
       const float off = h * range_inverse;
       const float within = max(1.0 - off * off, 0.0);
       const float w = across * across * across * within * within;
+      sum += w;
       height += w * h;
       slope += w * dot(along, n);
       normal += w * n;
       const float beside = max(1.0 - raySquare(centre[j].xyz, axis) * cover_inverse, 0.0);
-      if (within > 0.0) cover += beside * beside;
+      // Where the surface is seen edge on, its particles crowd before the eye.
+      if (within > 0.0) cover += beside * beside * max(abs(dot(n, sight)), kCoverEdgeOn);
     }
   }
   Blend blend;
-  blend.covered = cover > kCover;
+  blend.covered = cover > mix(kCover, kCoverInside, smoothstep(1.5, 2.8, sum));
   // At grazing angles the sums say little: no farther than the range allows.
   const float step = slope < -1e-6 ? clamp(height / -slope, -kBlendRange * view.spacing, kBlendRange * view.spacing) : 0.0;
   blend.depth = depth + step;

@@ -6,13 +6,19 @@
 layout(local_size_x = kSurfaceTile, local_size_y = kSurfaceTile) in;
 layout(std430, set = 0, binding = 0) readonly buffer Start { uint start[]; };
 layout(std430, set = 0, binding = 1) readonly buffer Centre { vec4 centre[]; };
+#ifndef FILTERED
 layout(std430, set = 0, binding = 2) readonly buffer Plane { vec4 plane[]; };
+#endif
 layout(std430, set = 0, binding = 3) readonly buffer Depth { uint depth[]; };
 layout(std430, set = 0, binding = 4) readonly buffer Samples { uvec2 samples[]; };
 layout(std430, set = 0, binding = 5) readonly buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 6) readonly buffer Tiles { uint tiles[]; };
 layout(std430, set = 0, binding = 7) writeonly buffer Surface { uvec2 surface[]; };  // a pixel: depth (infinite: no fluid), normal
+#ifdef FILTERED
+#include "render/surface_cover.glsl"
+#else
 #include "render/surface_blend.glsl"
+#endif
 
 const float kAgree = 0.35;  // spacings that a sample may lie off the plane through another
 
@@ -24,7 +30,7 @@ void main() {
   if (pixel.x >= view.width || pixel.y >= view.height) return;
   const vec2 middle = vec2(pixel) + 0.5, axis = axisOf(middle);
   const ivec2 grid = ivec2(sampleGrid());
-  const vec2 at = middle / float(view.step) - 0.5;
+  const vec2 at = sampleOf(middle);
   const ivec2 base = ivec2(floor(at));
   const vec2 part = at - vec2(base);
 
@@ -59,13 +65,30 @@ void main() {
     z = view.perspective > 0.0 ? 1.0 / dot(weight, 1.0 / each) : dot(weight, each);
     normal = normalize(weight.x * normals[0] + weight.y * normals[1] + weight.z * normals[2] + weight.w * normals[3]);
   } else {
-    const ivec2 own = ivec2(pixel / view.step);
+    const ivec2 own = ivec2(pixel / view.step + view.margin);
     for (int y = max(own.y - 1, 0); y <= min(own.y + 1, grid.y - 1); ++y)
       for (int x = max(own.x - 1, 0); x <= min(own.x + 1, grid.x - 1); ++x) {
         const float hard = uintBitsToFloat(depth[uint(y * grid.x + x)]);
         nearest = min(nearest, hard);
         if (hard < infinity()) farthest = max(farthest, hard);
       }
+#ifdef FILTERED
+    // The nearest of the four samples, of the surface that covers this pixel.
+    const float hard = nearest < infinity() && coveredAt(axis, nearest) ? nearest : (farthest > 0.0 && coveredAt(axis, farthest) ? farthest : infinity());
+    if (hard < infinity()) {
+      float best = 1e30;
+      for (int k = 0; k < 4; ++k) {
+        const vec2 off = part - vec2(k & 1, k >> 1);
+        const float badness = depths[k] < infinity() ? dot(off, off) + 4.0 * abs(depths[k] - hard) / view.spacing : 1e30;
+        if (badness >= best) continue;
+        best = badness;
+        normal = normals[k];
+        // On that sample's plane.
+        const float slope = dot(rayAlong(axis), normal), height = dot(points[k] - rayFrom(axis), normal);
+        z = slope < -0.05 * length(rayAlong(axis)) ? clamp(height / slope, depths[k] - view.spacing, depths[k] + view.spacing) : depths[k];
+      }
+    }
+#else
     if (nearest < infinity()) {
       Blend blend = blendAt(axis, nearest);
       if (!blend.covered && farthest > nearest + 0.5 * view.spacing) blend = blendAt(axis, farthest);
@@ -74,6 +97,7 @@ void main() {
         normal = blend.normal;
       }
     }
+#endif
   }
   surface[pixel.y * view.width + pixel.x] = uvec2(floatBitsToUint(z > view.near_depth ? z : infinity()), packNormal(normal));
 }

@@ -10,9 +10,10 @@ layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 3) writeonly buffer Survivors { uint survivors[]; };
 
 bool hidden(vec3 centre) {
-  const float cell = float(view.step * kOccluderSamples);
+  const float cell = float(kOccluderSamples);
   const ivec2 cells = ivec2((sampleGrid() + kOccluderSamples - 1u) / kOccluderSamples);
-  const vec4 extent = clamp(sphereExtent(centre, view.radius) / cell, vec4(-1e6), vec4(1e6));
+  const vec4 pixels = clamp(sphereExtent(centre, view.radius), vec4(-1e6), vec4(1e6));
+  const vec4 extent = (vec4(sampleOf(pixels.xy), sampleOf(pixels.zw)) + 0.5) / cell;
   const ivec2 first = clamp(ivec2(floor(extent.xy)), ivec2(0), cells - 1), last = clamp(ivec2(floor(extent.zw)), ivec2(0), cells - 1);
   if (any(greaterThan(last - first, ivec2(int(kMostRectSamples))))) return false;
   const uint bits = floatBitsToUint(centre.z - view.radius);

@@ -48,8 +48,10 @@ struct SurfacePush {
   uint width, height;  // pixels of the picture
   uint left, top;      // of it in the targets
   uint step;           // pixels a side of a sample
+  uint margin;         // samples beyond each side of the picture, so that the surface does not end there; whole cells
   float radius;        // m; of a particle's sphere in the hard depth
   float unit;          // m; of a count of the thickness buffer
+  float flow_time;     // m^2; that a step of curvature flow goes on by, where that is stable
 };
 
 #undef RILL_CONSTANT

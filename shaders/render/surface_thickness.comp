@@ -14,7 +14,7 @@ bool behindScene(ivec2 at, float z) {
 #ifdef BARE
   return false;
 #else
-  const uvec2 pixel = min(uvec2(at) * view.step + view.step / 2u, uvec2(view.width, view.height) - 1u);
+  const uvec2 pixel = min(uvec2(samplePixel(at)), uvec2(view.width, view.height) - 1u);
   return z > scene_depth[pixel.y * view.width + pixel.x];
 #endif
 }
@@ -35,7 +35,7 @@ void main() {
   const float volume = view.spacing * view.spacing * view.spacing;
   const float side = metresAPixel(centre.z) * float(view.step);
   if (radius < 1.5 * side) {  // too small for its disc to be sampled: shared among the four samples around
-    const vec2 at = pixelOf(centre) / float(view.step) - 0.5;
+    const vec2 at = sampleOf(pixelOf(centre));
     const ivec2 base = ivec2(floor(at));
     const vec2 part = at - vec2(base);
     const float all = volume / (side * side);

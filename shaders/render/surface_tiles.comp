@@ -14,8 +14,8 @@ void main() {
   if (tile >= grid.x * grid.y) return;
   const uvec2 samples = sampleGrid();
   const ivec2 pixel = ivec2(tile % grid.x, tile / grid.x) * int(kSurfaceTile);
-  const ivec2 first = max(pixel / int(view.step) - 1, ivec2(0));
-  const ivec2 last = min((pixel + int(kSurfaceTile) - 1) / int(view.step) + 1, ivec2(samples) - 1);
+  const ivec2 first = pixel / int(view.step) - 1 + int(view.margin);
+  const ivec2 last = min((pixel + int(kSurfaceTile) - 1) / int(view.step) + 1 + int(view.margin), ivec2(samples) - 1);
   bool any_covered = false;
   for (int y = first.y; y <= last.y && !any_covered; ++y)
     for (int x = first.x; x <= last.x && !any_covered; ++x) any_covered = depth[uint(y) * samples.x + uint(x)] != kInfiniteBits;

@@ -156,7 +156,9 @@ TEST_F(Targets, MistakesAreNamed) {
   EXPECT_EQ(after([&] { (void)write("draw", graph.create("buffer", {256}), Use::ColourTarget); }),
             "pass 'draw' writes 'buffer' with Use::ColourTarget, which is no way for a pass to write");
   EXPECT_EQ(after([&] { (void)graph.level(graph.create("image", kColour), 1); }), "level 1 of image 'image' was asked for: it has 1");
-  EXPECT_EQ(after([&] { (void)graph.create("image", ImageDesc{VK_FORMAT_R32_SFLOAT, 4, 4, 4}); }),
+  EXPECT_EQ(after([&] {
+              (void)graph.create("image", ImageDesc{VK_FORMAT_R32_SFLOAT, 4, 4, 4});
+            }),
             "image 'image' has 4 levels: 1 to 3 are possible at its size");
   SetLayout set;
   GraphicsPipeline pipeline;
@@ -164,15 +166,16 @@ TEST_F(Targets, MistakesAreNamed) {
   pipeline.set = &set;
   pipeline.bindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
   pipeline.colours = {VK_FORMAT_R8G8B8A8_UNORM};
-  EXPECT_EQ(after([&] {
-              graph.pass("draw", [&](Pass& p) {
-                (void)p.write(graph.create("image", kColour), Use::ColourTarget, Load::Clear);
-                (void)p.kernel(&pipeline, {});
-                return [](Commands&) {};
-              });
-            }),
-            "pass 'draw', shader 'fake': its pipeline was made for targets of other formats, or another number of them, than the pass draws "
-            "to");
+  EXPECT_EQ(
+      after([&] {
+        graph.pass("draw", [&](Pass& p) {
+          (void)p.write(graph.create("image", kColour), Use::ColourTarget, Load::Clear);
+          (void)p.kernel(&pipeline, {});
+          return [](Commands&) {};
+        });
+      }),
+      "pass 'draw', shader 'fake': its pipeline was made for targets of other formats, or another number of them, than the pass draws "
+      "to");
 }
 
 }  // namespace

@@ -32,23 +32,25 @@ struct FluidView {
   Float4x4 view;
   /// View to Vulkan's clip space. Perspective or orthographic, standard or reversed depth, finite or infinite, centred or not.
   Float4x4 projection;
-  double origin[3] = {0, 0, 0};        ///< m, in the scene's coordinates
-  uint32_t x = 0, y = 0;               ///< of the viewport in the targets, pixels
+  double origin[3] = {0, 0, 0};         ///< m, in the scene's coordinates
+  uint32_t x = 0, y = 0;                ///< of the viewport in the targets, pixels
   uint32_t width = 1280, height = 720;  ///< of the viewport, pixels
-  double focus_m = 1;                  ///< m: how far away the fluid is, roughly. Work is planned for it: the picture is right at any distance
+  double focus_m = 1;  ///< m: how far away the fluid is, roughly. Work is planned for it: the picture is right at any distance
 };
 
 /// How the surface is found from particles.
 enum class SurfaceMethod : uint8_t {
-  Auto,          ///< what `rill-bench render` found best: Planes
-  Planes,        ///< a plane fitted around each surface particle, blended
+  Auto,           ///< what `rill-bench render` found best: Planes
+  Planes,         ///< a plane fitted around each surface particle, blended
+  CurvatureFlow,  ///< van der Laan, Green and Sainz 2009: the spheres' depth, moved with its mean curvature
+  NarrowRange     ///< Truong and Yuksel 2018: the spheres' depth, filtered over a narrow range of it
 };
 
 /// What the fluid is made of, to the eye. Colours are linear RGB.
 struct FluidLook {
   SurfaceMethod surface = SurfaceMethod::Auto;
   Float3 absorption{2.6f, 0.75f, 0.40f};  ///< 1/m, Beer and Lambert
-  Float3 scatter{0.01f, 0.07f, 0.11f};  ///< what its inside sends back where it is thick, of white light; of an opaque fluid its colour
+  Float3 scatter{0.01f, 0.07f, 0.11f};    ///< what its inside sends back where it is thick, of white light; of an opaque fluid its colour
   bool opaque = false;                    ///< nothing is seen through it, and no thickness is made
   float refraction_index = 1.333f;        ///< above 1
   float highlight = 900;                  ///< exponent of the sun's reflection
@@ -58,6 +60,8 @@ struct FluidLook {
 
 /// The looks that `look.preset` of a scene names: water, milk, ink, clay. Nothing for another name.
 std::optional<FluidLook> fluidLook(std::string_view preset);
+/// What `look.surface` of a scene names. Nothing for another name.
+std::optional<SurfaceMethod> surfaceMethod(std::string_view name);
 std::span<const std::string_view> fluidLooks();
 
 /// What can be read of the surface, exactly: no tone curve, alpha 0 where there is no fluid.

@@ -1,0 +1,128 @@
+#include "bench/surface_shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace rill::bench {
+namespace {
+
+constexpr int kLayers = 3;  // that a renderer can see
+
+/// A surface whose depth is a function of x alone: a tilted plane, waves.
+class Relief : public Shape {
+ public:
+  Relief(std::string name, double distance, double tangentX, double tangentY, double slope, double amplitude, double length)
+      : name_(std::move(name)),
+        distance_(distance),
+        tangentX_(tangentX),
+        tangentY_(tangentY),
+        slope_(slope),
+        amplitude_(amplitude),
+        wave_(2 * std::numbers::pi / length) {}
+
+  std::string name() const override { return name_; }
+
+  bool hit(double x, double y, Truth& truth) const override {
+    double t = distance_;
+    for (int k = 0; k < 40; ++k) {
+      const double miss = t - depth(t * x), change = 1 - rise(t * x) * x;
+      t -= miss / std::max(change, 0.2);
+    }
+    const double r = rise(t * x), size = std::sqrt(1 + r * r);
+    truth = {t, {r / size, 0, -1 / size}};
+    static_cast<void>(y);
+    return true;
+  }
+
+  std::vector<Float3> particles(const Jitter& jitter, uint32_t seed) const override {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> along(-jitter.along, jitter.along), across(-jitter.across, jitter.across);
+    std::vector<Float3> out;
+    const double farthest = 1.3 * distance_ / std::max(1 - std::abs(slope_) * tangentX_, 0.3);
+    const double width = farthest * tangentX_ + 4, height = farthest * tangentY_ + 4;
+    for (int layer = 0; layer < kLayers; ++layer)
+      for (double x = -width; x < width;) {
+        const double r = rise(x), size = std::sqrt(1 + r * r);
+        for (double y = -height; y < height; y += 1) {
+          const double u = along(random), h = layer + 0.5 + across(random);
+          const double at = x + u / size;
+          const double ra = rise(at), sa = std::sqrt(1 + ra * ra);
+          out.push_back({float(at - h * ra / sa), float(y + along(random)), float(depth(at) + h / sa)});
+        }
+        x += 1 / size;
+      }
+    return out;
+  }
+
+ private:
+  double depth(double x) const { return distance_ + slope_ * x + amplitude_ * std::sin(wave_ * x); }
+  double rise(double x) const { return slope_ + amplitude_ * wave_ * std::cos(wave_ * x); }
+
+  std::string name_;
+  double distance_, tangentX_, tangentY_, slope_, amplitude_, wave_;
+};
+
+class Balls : public Shape {
+ public:
+  struct Ball {
+    double x, y, z, radius;
+  };
+  explicit Balls(std::vector<Ball> balls) : balls_(std::move(balls)) {}
+
+  std::string name() const override { return "balls"; }
+
+  bool hit(double x, double y, Truth& truth) const override {
+    bool any = false;
+    for (const Ball& ball : balls_) {
+      const double a = x * x + y * y + 1, b = ball.x * x + ball.y * y + ball.z;
+      const double c = ball.x * ball.x + ball.y * ball.y + ball.z * ball.z - ball.radius * ball.radius, under = b * b - a * c;
+      if (under <= 0) continue;
+      const double t = (b - std::sqrt(under)) / a;
+      if (any && t >= truth.depth) continue;
+      any = true;
+      truth = {t, {(t * x - ball.x) / ball.radius, (t * y - ball.y) / ball.radius, (t - ball.z) / ball.radius}};
+    }
+    return any;
+  }
+
+  std::vector<Float3> particles(const Jitter& jitter, uint32_t seed) const override {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> along(-jitter.along, jitter.along), across(-jitter.across, jitter.across);
+    std::vector<Float3> out;
+    for (const Ball& ball : balls_)
+      for (int layer = 0; layer < kLayers; ++layer) {
+        const double r = ball.radius - layer - 0.5;
+        const int count = std::max(1, static_cast<int>(4 * std::numbers::pi * r * r));
+        for (int k = 0; k < count; ++k) {  // a spiral of equal areas
+          const double up = 1 - (2 * k + 1.0) / count, s = std::sqrt(1 - up * up), angle = 2.399963229728653 * k;
+          const double n[3] = {s * std::cos(angle), s * std::sin(angle), up};
+          const double h = r + across(random), u = along(random), v = along(random);
+          const double a[3] = {-n[1] / s, n[0] / s, 0}, b[3] = {-n[2] * a[1], n[2] * a[0], n[0] * a[1] - n[1] * a[0]};
+          out.push_back({float(ball.x + h * n[0] + u * a[0] + v * b[0]), float(ball.y + h * n[1] + u * a[1] + v * b[1]),
+                         float(ball.z + h * n[2] + u * a[2] + v * b[2])});
+        }
+      }
+    return out;
+  }
+
+ private:
+  std::vector<Ball> balls_;
+};
+
+}  // namespace
+
+std::vector<std::unique_ptr<Shape>> shapes(double distance, double tangentX, double tangentY) {
+  std::vector<std::unique_ptr<Shape>> all;
+  all.push_back(std::make_unique<Relief>("plane", distance, tangentX, tangentY, 0.6, 0, 1));
+  for (const double length : {8.0, 18.0, 50.0})
+    all.push_back(std::make_unique<Relief>("waves " + std::to_string(static_cast<int>(length)), distance, tangentX, tangentY, 0,
+                                           0.05 * length, length));
+  const double r = 0.55 * distance * tangentY;
+  all.push_back(std::make_unique<Balls>(
+      std::vector<Balls::Ball>{{-0.6 * r, -0.1 * r, distance, r}, {0.9 * r, 0.4 * r, distance + 0.6 * r, 0.6 * r}}));
+  return all;
+}
+
+}  // namespace rill::bench

@@ -1,0 +1,39 @@
+#pragma once
+// Surfaces whose depth and normal are known in every pixel, and particles that fill what is under them.
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rill/float3.hpp"
+#include "rill/fluid_renderer.hpp"
+
+namespace rill::bench {
+
+/// View space: x right, y up, z away from the eye; lengths in spacings.
+struct Truth {
+  double depth = 0;
+  double normal[3] = {0, 0, -1};  ///< towards the eye
+};
+
+/// How far from where they should be particles are, in spacings: along the surface, across it.
+struct Jitter {
+  double along = 0.25, across = 0.1;
+};
+
+class Shape {
+ public:
+  virtual ~Shape() = default;
+  virtual std::string name() const = 0;
+  /// Where the ray through (x, y, 1) meets it; false: nowhere.
+  virtual bool hit(double x, double y, Truth& truth) const = 0;
+  /// Positions in view space.
+  virtual std::vector<Float3> particles(const Jitter& jitter, uint32_t seed) const = 0;
+};
+
+/// What the bench looks at from `distance` spacings away: a tilted plane, standing waves of 8, 18 and 50 spacings, two balls.
+/// `tangentX`, `tangentY`: of half the field of view.
+std::vector<std::unique_ptr<Shape>> shapes(double distance, double tangentX, double tangentY);
+
+}  // namespace rill::bench

@@ -1,0 +1,46 @@
+#version 460
+// One step of screen-space curvature flow (van der Laan, Green and Sainz 2009): depth moves with the surface's mean curvature. Beyond an edge
+// of depth the surface goes on as it is, so that silhouettes neither shrink nor are pulled.
+#extension GL_GOOGLE_include_directive : require
+#include "render/surface.glsl"
+#include "render/surface_filter.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(std430, set = 0, binding = 0) readonly buffer Before { float before[]; };
+layout(std430, set = 0, binding = 1) writeonly buffer After { float after[]; };
+
+const float kEdge = 1.0;   // spacings between samples from which on they are two surfaces
+const float kStable = 0.47;  // of the square of a sample's side: explicit steps in two dimensions are stable up to a half of it
+
+float at(ivec2 p, ivec2 grid) { return before[uint(clamp(p.y, 0, grid.y - 1) * grid.x + clamp(p.x, 0, grid.x - 1))]; }
+
+void main() {
+  const ivec2 grid = ivec2(sampleGrid());
+  const int columns = (grid.x + 7) / 8;
+  const ivec2 p = ivec2(int(groupIndex()) % columns, int(groupIndex()) / columns) * 8 + ivec2(gl_LocalInvocationID.xy);
+  if (p.x >= grid.x || p.y >= grid.y) return;
+  const uint index = uint(p.y * grid.x + p.x);
+  const float z = before[index];
+  if (z == infinity()) {
+    after[index] = z;
+    return;
+  }
+  const float q = toLinear(z), edge = kEdge * view.spacing;
+  float side[9];
+  for (int k = 0; k < 9; ++k) side[k] = at(p + ivec2(k % 3 - 1, k / 3 - 1), grid);
+  float value[9];
+  // A neighbour on another surface is replaced by what its opposite says, or by this sample.
+  for (int k = 0; k < 9; ++k) {
+    const bool same = abs(side[k] - z) < edge, other = abs(side[8 - k] - z) < edge;
+    value[k] = same ? toLinear(side[k]) : (other ? 2.0 * q - toLinear(side[8 - k]) : q);
+  }
+  const float length = metresASample(z), scale = depthPerLinear(z) / length;
+  const float zx = 0.5 * (value[5] - value[3]) * scale, zy = 0.5 * (value[7] - value[1]) * scale;
+  const float zxx = (value[5] - 2.0 * q + value[3]) * scale / length, zyy = (value[7] - 2.0 * q + value[1]) * scale / length;
+  const float zxy = 0.25 * (value[8] - value[6] - value[2] + value[0]) * scale / length;
+  const float square = 1.0 + zx * zx + zy * zy;
+  const float twice = ((1.0 + zy * zy) * zxx - 2.0 * zx * zy * zxy + (1.0 + zx * zx) * zyy) / square;
+  const float time = min(view.flow_time, kStable * length * length);
+  const float moved = clamp(0.5 * time * twice, -0.25 * view.spacing, 0.25 * view.spacing);
+  after[index] = z + moved;
+}

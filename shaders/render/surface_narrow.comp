@@ -1,0 +1,52 @@
+#version 460
+// The narrow-range filter (Truong and Yuksel 2018), one dimension of it: a Gaussian over samples, of which those far in front are left out and those
+// far behind count as just behind.
+#extension GL_GOOGLE_include_directive : require
+#include "render/surface.glsl"
+#include "render/surface_filter.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(std430, set = 0, binding = 0) readonly buffer Before { float before[]; };
+layout(std430, set = 0, binding = 1) writeonly buffer After { float after[]; };
+layout(constant_id = 0) const uint kVertical = 0u;
+
+const float kReach = 3.0;    // spacings
+const float kSigma = 1.3;    // spacings
+const float kFront = 2.0;    // spacings in front of this sample: another surface
+const float kBehind = 1.0;   // spacings behind it at most
+const int kMostTaps = 24;
+
+void main() {
+  const ivec2 grid = ivec2(sampleGrid());
+  const int columns = (grid.x + 7) / 8;
+  const ivec2 p = ivec2(int(groupIndex()) % columns, int(groupIndex()) / columns) * 8 + ivec2(gl_LocalInvocationID.xy);
+  if (p.x >= grid.x || p.y >= grid.y) return;
+  const uint index = uint(p.y * grid.x + p.x);
+  const float z = before[index];
+  if (z == infinity()) {
+    after[index] = z;
+    return;
+  }
+  const float length = metresASample(z) / view.spacing;
+  const int taps = clamp(int(kReach / length), 1, kMostTaps);
+  const ivec2 along = kVertical != 0u ? ivec2(0, 1) : ivec2(1, 0);
+  float sum = toLinear(z), weights = 1.0;
+  for (int k = 1; k <= taps; ++k) {
+    // Both sides or none: what is missing on one side would tilt the surface.
+    float pair = 0.0;
+    bool whole = true;
+    for (int s = -1; s <= 1; s += 2) {
+      const ivec2 there = p + s * k * along;
+      const bool inside = all(greaterThanEqual(there, ivec2(0))) && all(lessThan(there, grid));
+      const float other = inside ? before[uint(there.y * grid.x + there.x)] : infinity();
+      whole = whole && other > z - kFront * view.spacing * float(k) * length && other < infinity();
+      const float slope = float(k) * length;  // a slanted surface lies behind itself
+      pair += toLinear(min(other, z + (kBehind + 2.0 * slope) * view.spacing));
+    }
+    const float off = float(k) * length / kSigma;
+    const float w = whole ? exp(-0.5 * off * off) : 0.0;
+    sum += w * pair;
+    weights += 2.0 * w;
+  }
+  after[index] = toDepth(sum / weights);
+}

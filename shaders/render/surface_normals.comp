@@ -1,0 +1,59 @@
+#version 460
+// Normals of a filtered depth: differences to the nearer one of the two neighbours across, so that none reaches over an edge.
+#extension GL_GOOGLE_include_directive : require
+#include "render/surface.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(std430, set = 0, binding = 0) readonly buffer Start { uint start[]; };
+layout(std430, set = 0, binding = 1) readonly buffer Centre { vec4 centre[]; };
+layout(std430, set = 0, binding = 2) readonly buffer Filtered { float filtered[]; };
+layout(std430, set = 0, binding = 3) readonly buffer Hard { uint hard[]; };
+layout(std430, set = 0, binding = 4) writeonly buffer Samples { uvec2 samples[]; };  // depth, normal
+#include "render/surface_cover.glsl"
+
+const float kInset = 0.3;  // spacings: how far the smoothed spheres of 0.9 spacings lie above the surface, half a spacing above the centres
+
+vec3 pointAt(ivec2 p, ivec2 grid, out bool there) {
+  there = all(greaterThanEqual(p, ivec2(0))) && all(lessThan(p, grid));
+  const float z = there ? filtered[uint(p.y * grid.x + p.x)] : infinity();
+  there = there && z < infinity();
+  const vec2 axis = axisOf(samplePixel(p));
+  return rayFrom(axis) + (there ? z : 0.0) * rayAlong(axis);
+}
+
+vec3 difference(ivec2 p, ivec2 along, ivec2 grid, vec3 own) {
+  bool before_there, after_there;
+  const vec3 before = own - pointAt(p - along, grid, before_there), after = pointAt(p + along, grid, after_there) - own;
+  if (before_there && after_there) {
+    const float edge = 0.5 * view.spacing;
+    // On one surface the mean of both sides, across an edge the nearer one.
+    if (abs(before.z - after.z) < edge) return before + after;
+    return abs(before.z) < abs(after.z) ? before : after;
+  }
+  if (before_there) return before;
+  if (after_there) return after;
+  const float length = metresAPixel(own.z) * float(view.step);
+  return vec3(vec2(along), 0.0) * length;
+}
+
+void main() {
+  const ivec2 grid = ivec2(sampleGrid());
+  const int columns = (grid.x + 7) / 8;
+  const ivec2 p = ivec2(int(groupIndex()) % columns, int(groupIndex()) / columns) * 8 + ivec2(gl_LocalInvocationID.xy);
+  if (p.x >= grid.x || p.y >= grid.y) return;
+  const uint index = uint(p.y * grid.x + p.x);
+  const float z = filtered[index];
+  samples[index] = uvec2(kInfiniteBits, 0u);
+  if (z == infinity() || !coveredAt(axisOf(samplePixel(p)), uintBitsToFloat(hard[index]))) return;
+  bool there;
+  const vec3 own = pointAt(p, grid, there);
+  vec3 normal = cross(difference(p, ivec2(1, 0), grid, own), difference(p, ivec2(0, 1), grid, own));
+  const vec3 towards = view.perspective > 0.0 ? own : vec3(0.0, 0.0, 1.0);
+  if (dot(normal, towards) > 0.0) normal = -normal;
+  const float size = length(normal);
+  normal = size > 0.0 ? normal / size : -normalize(towards);
+  // The spheres reach beyond where the fluid ends.
+  const float slope = dot(rayAlong(axisOf(samplePixel(p))), normal);
+  const float inset = min(kInset / max(-slope, 0.1), 3.0 * kInset) * view.spacing;
+  samples[index] = uvec2(floatBitsToUint(z + inset), packNormal(normal));
+}
