@@ -91,6 +91,21 @@ Expected<const GraphicsPipeline*> PipelineStore::find(DeviceImpl& device, const 
   if (!device.draws)
     return Error{ErrorKind::NoDevice, "the queue family that Rill was given on '" + device.info.name + "' cannot draw: shader '" +
                                           std::string(desc.vertex) + "' needs one with graphics"};
+  const auto lacks = [&](VkFormat format, VkFormatFeatureFlags feature) {
+    VkFormatProperties properties{};
+    device.instance.GetPhysicalDeviceFormatProperties(device.physical, format, &properties);
+    return (properties.optimalTilingFeatures & feature) != feature;
+  };
+  const auto refused = [&](VkFormat format, const char* what) {
+    return Error{ErrorKind::BadInput, std::string(what) + " target of format " + std::to_string(format) + ": " + device.info.name +
+                                          " cannot draw to it (shader '" + std::string(desc.vertex) + "')"};
+  };
+  const VkFormatFeatureFlags drawn =
+      VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | (desc.blend == Blend::None ? 0 : VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT);
+  for (const VkFormat format : desc.colours)
+    if (lacks(format, drawn)) return refused(format, "a colour");
+  if (desc.depth != VK_FORMAT_UNDEFINED && lacks(desc.depth, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT))
+    return refused(desc.depth, "a depth");
   const auto words = [&](std::string_view name, std::span<const uint32_t> own) { return own.empty() ? libraryWords(device, name) : own; };
   const std::span<const uint32_t> vertex = words(desc.vertex, desc.vertexWords), fragment = words(desc.fragment, desc.fragmentWords);
   if (vertex.empty()) return shaderError(desc.vertex, "the library contains no such shader");

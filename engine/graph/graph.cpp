@@ -238,7 +238,7 @@ void GraphImpl::addTarget(uint32_t index, ResourceRef ref, Load load, const VkCl
       return mistake(" and to " + quoted(other.name) + ", which is of another size");
     if (isDepth && hasDepth(other.desc.format)) return mistake(" and to " + quoted(other.name) + ": one depth target is possible");
   }
-  if (pass.targets.count == kMaxTargets - 1) return mistake(": more than eight targets");
+  if (pass.targets.count == kMaxTargets) return mistake(": more than eight targets");
   targets.push_back({ref.index, load, true, clear});
   ++pass.targets.count;
 }

@@ -34,7 +34,7 @@ struct Range {
   uint32_t first = 0, count = 0;
 };
 
-inline constexpr size_t kMaxTargets = 9;  ///< of a pass: eight colours (more than the four that Vulkan guarantees) and a depth
+inline constexpr size_t kMaxTargets = 8;  ///< of a pass, the depth among them; Vulkan guarantees four colours
 
 /// An image that a pass draws to.
 struct Target {

@@ -15,6 +15,8 @@ Expected<void> GraphImpl::prepare(Device& owner) {
   device = &d;
   prepared = false;
   collect();
+  if (draws && !d.draws)
+    return Error{ErrorKind::NoDevice, "the frame draws, but the queue family that Rill was given on '" + d.info.name + "' has no graphics"};
   if (auto ok = learnImages(d); !ok) return ok;
   if (auto ok = growHeaps(d); !ok) return ok;
   if (auto ok = resolveBuffers(d); !ok) return ok;

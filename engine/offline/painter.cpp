@@ -62,8 +62,10 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
   if (!fluid_) {
     const auto look = fluidLook(scene_.look.preset);
     if (!look) return Error{ErrorKind::BadInput, "look.preset: there is no look " + inQuotes(scene_.look.preset)};
+    const auto method = surfaceMethod(scene_.look.surface);
+    if (!method) return Error{ErrorKind::BadInput, "look.surface: there is no method " + inQuotes(scene_.look.surface)};
     look_ = *look;
-    look_.surface = surfaceMethod(scene_.look.surface).value_or(SurfaceMethod::Auto);
+    look_.surface = *method;
     auto made = FluidRenderer::create(device);
     if (!made) return made.error();
     fluid_ = std::move(*made);
@@ -71,12 +73,12 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
   if (view->kind != Kind::Final || scenery_) return {};
   auto scenery = Scenery::create(device, scene_, start_, {});
   if (!scenery) return scenery.error();
-  scenery_ = std::move(*scenery);
-  look_.to_sun = scenery_->toSun();
   static constexpr BindingKind kBindings[] = {BindingKind::SampledImage, BindingKind::Storage};
   auto tonemap = computePipeline(device, {.shader = "render/tonemap", .bindings = kBindings});
   if (!tonemap) return tonemap.error();
   tonemap_ = *tonemap;
+  scenery_ = std::move(*scenery);
+  look_.to_sun = scenery_->toSun();
   return {};
 }
 

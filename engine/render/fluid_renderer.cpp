@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "graph/graph_impl.hpp"
 #include "render/compute_step.hpp"
 #include "render/fluid_renderer_impl.hpp"
 #include "render/view_push.hpp"
@@ -19,7 +20,7 @@ look::LookRecord lookRecord(const FluidLook& look, const SurfacePush& thickness)
   record.scatter = {look.scatter.x, look.scatter.y, look.scatter.z, look.opaque ? 1.0f : 0.0f};
   const Float3& s = look.to_sun;
   const float size = std::sqrt(s.x * s.x + s.y * s.y + s.z * s.z);
-  record.light = {s.x / size, s.y / size, s.z / size, look.sun};
+  record.light = size > 0 ? Float4{s.x / size, s.y / size, s.z / size, look.sun} : Float4{0, 1, 0, look.sun};
   record.finish = {look.highlight, static_cast<float>(thickness.step), thickness.unit, 0};
   return record;
 }
@@ -64,6 +65,24 @@ Expected<void> FluidRendererImpl::create(Device& device, const TargetFormats& fo
   return {};
 }
 
+/// Whether it can be drawn; the graph's compile() says what not.
+bool FluidRendererImpl::fits(Graph& graph, const FluidState& fluid, const SceneTargets& targets, const FluidView& view) const {
+  const auto& resources = graph.impl().resources;
+  for (const ImageRef target : {targets.colour, targets.depth}) {
+    if (target.index >= resources.size() || !resources[target.index].isImage) continue;  // the pass that reads it says so
+    const ResourceData& image = resources[target.index];
+    if (uint64_t{view.x} + view.width <= image.width() && uint64_t{view.y} + view.height <= image.height()) continue;
+    graph.impl().fail("the fluid's viewport of " + std::to_string(view.width) + "x" + std::to_string(view.height) + " pixels at " +
+                      std::to_string(view.x) + ", " + std::to_string(view.y) + " does not lie within a target of " +
+                      std::to_string(image.width()) + "x" + std::to_string(image.height()));
+    return false;
+  }
+  if (fluid.count <= SurfaceStage::kMostParticles) return true;
+  graph.impl().fail("a fluid of " + std::to_string(fluid.count) + " particles: at most " + std::to_string(SurfaceStage::kMostParticles) +
+                    " can be drawn");
+  return false;
+}
+
 SurfacePush FluidRendererImpl::camera(const FluidState& fluid, const FluidView& view) const {
   SurfacePush push = viewPush(view, fluid.origin);
   push.step = sampleStep(push, fluid.spacing, view.focus_m);
@@ -76,6 +95,7 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
     graph.skipped("fluid shade", "there are no particles");
     return targets;
   }
+  if (!fits(graph, fluid, targets, view)) return targets;
   const SurfacePush push = camera(fluid, view);
   last = surface.addTo(graph, fluid, push, look.surface, whole, view.focus_m);
   const uint64_t pixels = uint64_t{push.width} * push.height;

@@ -17,6 +17,7 @@ static_assert(sizeof(DataPush) <= 128);
 class FluidRendererImpl {
  public:
   Expected<void> create(Device& device, const TargetFormats& formats);
+  bool fits(Graph& graph, const FluidState& fluid, const SceneTargets& targets, const FluidView& view) const;
   surface::SurfacePush camera(const FluidState& fluid, const FluidView& view) const;
   SceneTargets addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view, const FluidLook& look, bool whole);
   BufferRef addData(Graph& graph, const FluidState& fluid, const FluidView& view, SurfaceData data, float full, SurfaceMethod method);

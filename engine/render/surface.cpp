@@ -22,9 +22,8 @@ constexpr double kFlowTime = 1.3;     // spacings squared: a blur of about a spa
 constexpr double kFlowStable = 0.45;  // of a sample's square: a step at the focus
 constexpr uint32_t kMostFlowSteps = 128;
 constexpr uint32_t kNarrowPasses = 2;
-constexpr uint32_t kMargin = 8;  // samples: as far as a plane is fitted at the usual three samples a spacing
 
-static_assert(kMargin % kCellSamples == 0);
+static_assert(kMarginSamples % kCellSamples == 0);
 
 uint64_t gridCells(uint64_t width, uint64_t height, uint32_t side) { return divideUp(width, side) * divideUp(height, side); }
 
@@ -94,7 +93,7 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
   push.spacing = fluid.spacing;
   push.radius = kHardRadius * fluid.spacing;
   push.count = fluid.count;
-  push.margin = kMargin;
+  push.margin = kMarginSamples;
   const double sampleSide = std::max(metresAPixel(push, focus) * push.step, 1e-6 * fluid.spacing), sampleArea = sampleSide * sampleSide;
   // As many steps as the time takes where the fluid is; nearer to the eye, where samples are smaller, the stable step falls short of it.
   const double area = double{push.spacing} * push.spacing;
@@ -102,7 +101,8 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
       std::clamp(static_cast<uint32_t>(std::ceil(kFlowTime * area / (kFlowStable * sampleArea))), 1u, kMostFlowSteps);
   push.flow_time = static_cast<float>(kFlowTime * area / flowSteps);
   const uint64_t particles = divideUp(fluid.count, kSurfaceGroup);
-  const uint64_t columns = divideUp(push.width, push.step) + 2 * kMargin, rows = divideUp(push.height, push.step) + 2 * kMargin;
+  const uint64_t columns = divideUp(push.width, push.step) + 2 * kMarginSamples,
+                 rows = divideUp(push.height, push.step) + 2 * kMarginSamples;
   const uint64_t samples = columns * rows, cells = gridCells(columns, rows, kCellSamples);
   const uint64_t tiles = gridCells(push.width, push.height, kSurfaceTile);
   const uint64_t most = fluid.count;  // particles that can be surface

@@ -20,6 +20,9 @@ struct SurfaceBuffers {
 
 class SurfaceStage {
  public:
+  /// Of 32 bytes a plane: what a buffer holds.
+  static constexpr uint32_t kMostParticles = (128u << 20) / 32;
+
   static Expected<SurfaceStage> create(Device& device);
 
   /// `camera`: viewPush() of the view with its step. `whole`: pixels without fluid are written, too. `focus`: m, how far away the fluid is.

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace rill {
 namespace {
 
 constexpr uint32_t kMaxSide = 8192;
+constexpr uint64_t kMaxPixels = uint64_t{1} << 24;  // of eight bytes: a buffer's 128 MiB
 
 /// Element of a row and a column.
 double at(const Float4x4& m, int row, int column) {
@@ -34,7 +36,14 @@ Expected<void> checkView(const FluidView& view) {
     }
     if (std::abs(square - 1) > 1e-3 || std::abs(dot) > 1e-3) return bad("the view matrix is not rigid: it scales or shears");
   }
+  if (!(view.focus_m > 0) || !std::isfinite(view.focus_m)) return bad("focus_m must be a distance above 0");
+  constexpr uint64_t kBorder = 2 * surface::kMarginSamples;
+  if ((view.width + kBorder) * (view.height + kBorder) > kMaxPixels)
+    return bad("a viewport of " + std::to_string(view.width) + "x" + std::to_string(view.height) + " pixels: with " +
+               std::to_string(kBorder) + " more each way at most " + std::to_string(kMaxPixels) + " are possible");
   const Float4x4& p = view.projection;
+  for (const auto& [row, column] : {std::pair{0, 1}, std::pair{1, 0}, std::pair{2, 0}, std::pair{2, 1}, std::pair{3, 0}, std::pair{3, 1}})
+    if (at(p, row, column) != 0) return bad("the projection shears: only a centred or shifted one is possible");
   const double w = at(p, 3, 2), constant = at(p, 3, 3);
   const bool perspective = w != 0 && constant == 0, orthographic = w == 0 && constant != 0;
   if (!(perspective || orthographic) || at(p, 0, 0) == 0 || at(p, 1, 1) == 0)
@@ -73,6 +82,11 @@ surface::SurfacePush viewPush(const FluidView& view, const double origin[3]) {
   const double a = depthOf(0), b = depthOf(1);
   double near = perspective ? (std::isfinite(a) && a > 0 ? a : b) : std::min(a, b);
   if (perspective && std::isfinite(b) && b > 0) near = std::min(near, b);
+  if (!perspective) {  // depth counts from the near plane, which may lie behind the eye: shaders compare depths by their bits
+    push.rows[11] -= static_cast<float>(near);
+    push.depth_map[0] += static_cast<float>(varying * near);
+    near = 0;
+  }
   push.near_depth = static_cast<float>(perspective ? std::max(near, 1e-9) : near);
   push.width = view.width;
   push.height = view.height;

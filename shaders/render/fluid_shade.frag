@@ -79,7 +79,7 @@ void main() {
     const vec3 bent = refract(sight, normal, 1.0 / look.absorption.w);
     const vec3 behind = point + bent * min(metres, kFarthestBend * view.spacing);
     vec2 there = behind.z > view.near_depth ? pixelOf(behind) : middle;
-    const ivec2 target = clamp(ivec2(there), ivec2(0), ivec2(view.width, view.height) - 1);
+    const ivec2 target = ivec2(clamp(there, vec2(0.0), pictureSize() - 1.0));
     // What stands in front of the fluid is not seen through it.
     if (scene_depth[uint(target.y) * view.width + uint(target.x)] < z) there = middle;
     const vec3 through = exp(-look.absorption.rgb * metres);

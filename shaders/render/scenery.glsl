@@ -46,7 +46,8 @@ float pastSolids(vec3 p, float bias) {
       const float wx = x == -1 ? 1.0 - part.x : (x == 2 ? part.x : 1.0), wy = y == -1 ? 1.0 - part.y : (y == 2 ? part.y : 1.0);
       const ivec2 texel = base + ivec2(x, y);
       const bool inside = all(greaterThanEqual(texel, ivec2(0))) && texel.x < int(scene.counts.y) && texel.y < int(scene.counts.z);
-      if (!inside || texelFetch(light_depth, texel, 0).r * scene.light_texel.y >= own) sum += wx * wy;
+      const float stored = inside ? texelFetch(light_depth, texel, 0).r : 1.0;
+      if (stored >= 1.0 || stored * scene.light_texel.y >= own) sum += wx * wy;
     }
   return sum / 9.0;
 #else

@@ -108,6 +108,10 @@ ivec4 sampleRect(vec3 centre, float radius, out bool cut) {
   return bounded;
 }
 
+// Where particles are smaller than samples, spheres and lengths are those of a sample: far away the fluid is a coarser one.
+float hardRadius(float z) { return max(view.radius, 0.71 * metresAPixel(z) * float(view.step)); }
+float spacingAt(float z) { return max(view.spacing, 1.2 * metresAPixel(z) * float(view.step)); }
+
 // The screen grid: cells of kCellSamples samples a side; what lies beyond the picture counts for the nearest cell.
 uvec2 cellGrid() { return (sampleGrid() + kCellSamples - 1u) / kCellSamples; }
 ivec2 cellOf(vec2 pixel) {

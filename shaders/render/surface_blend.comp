@@ -10,6 +10,7 @@ layout(std430, set = 0, binding = 2) readonly buffer Plane { vec4 plane[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Depth { uint depth[]; };
 layout(std430, set = 0, binding = 4) writeonly buffer Samples { uvec2 samples[]; };  // depth, normal
 #include "render/surface_blend.glsl"
+#include "render/surface_solid.glsl"
 
 void main() {
   const uvec2 grid = sampleGrid();
@@ -23,5 +24,5 @@ void main() {
     return;
   }
   const Blend blend = blendAt(axisOf(samplePixel(ivec2(at))), hard);
-  samples[index] = blend.covered ? uvec2(floatBitsToUint(blend.depth), packNormal(blend.normal)) : uvec2(kInfiniteBits, 0u);
+  samples[index] = blend.covered || solidAround(ivec2(at)) ? uvec2(floatBitsToUint(blend.depth), packNormal(blend.normal)) : uvec2(kInfiniteBits, 0u);
 }

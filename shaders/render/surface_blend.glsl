@@ -2,12 +2,12 @@
 // Needs `start`, `centre`, `plane`.
 #include "render/surface_walk.glsl"
 
-layout(constant_id = 0) const float kBlendReach = 1.8;  // spacings, across a plane
-layout(constant_id = 1) const float kBlendRange = 1.2;  // spacings, along its normal
-layout(constant_id = 2) const float kCoverReach = 1.2;  // spacings from a ray at which a centre stops covering it
-layout(constant_id = 3) const float kCover = 0.6;       // sum of what centres add (1 on the ray itself) from which there is fluid
-layout(constant_id = 5) const float kCoverEdgeOn = 0.35;  // weight of a particle whose plane is seen edge on
-layout(constant_id = 4) const float kCoverInside = 0.4;  // the same amid many others: a gap, not an edge
+const float kBlendReach = 1.8;  // spacings, across a plane
+const float kBlendRange = 1.2;  // spacings, along its normal
+const float kCoverReach = 1.2;  // spacings from a ray at which a centre stops covering it
+const float kCover = 0.6;       // sum of what centres add (1 on the ray itself) from which there is fluid
+const float kCoverInside = 0.4;  // the same amid many others: a gap, not an edge
+const float kCoverEdgeOn = 0.35;  // weight of a particle whose plane is seen edge on
 
 struct Blend {
   float depth;     // of the surface; what came in where there is none
@@ -17,11 +17,12 @@ struct Blend {
 
 Blend blendAt(vec2 axis, float depth) {
   const vec3 from = rayFrom(axis), along = rayAlong(axis);
+  const float spacing = spacingAt(depth);
   const vec3 x = from + depth * along, sight = normalize(along);
-  const float reach = kBlendReach * view.spacing;
-  const float inverse = 1.0 / (reach * reach), range_inverse = 1.0 / (kBlendRange * view.spacing);
-  const CellRange range = cellsAround(x, reach + 0.5 * view.spacing);
-  const float cover_inverse = 1.0 / (kCoverReach * kCoverReach * view.spacing * view.spacing);
+  const float reach = kBlendReach * spacing;
+  const float inverse = 1.0 / (reach * reach), range_inverse = 1.0 / (kBlendRange * spacing);
+  const CellRange range = cellsAround(x, reach + 0.5 * spacing);
+  const float cover_inverse = 1.0 / (kCoverReach * kCoverReach * spacing * spacing);
   float height = 0.0, slope = 0.0, cover = 0.0, sum = 0.0;
   vec3 normal = vec3(0.0);
   for (int y = range.first.y; y <= range.last.y; ++y) {
@@ -31,8 +32,8 @@ Blend blendAt(vec2 axis, float depth) {
       vec3 n = plane[2u * j + 1u].xyz;
       vec3 d = x - anchor.xyz;
       if (anchor.w > 0.0) {  // a ball: the plane that touches it where the ray passes
-        n = d / max(length(d), 1e-3 * view.spacing);
-        d -= 0.5 * view.spacing * n;
+        n = d / max(length(d), 1e-3 * spacing);
+        d -= 0.5 * spacing * n;
       }
       const float h = dot(d, n);
       const float across = max(1.0 - (dot(d, d) - h * h) * inverse, 0.0);
@@ -51,7 +52,7 @@ Blend blendAt(vec2 axis, float depth) {
   Blend blend;
   blend.covered = cover > mix(kCover, kCoverInside, smoothstep(1.5, 2.8, sum));
   // At grazing angles the sums say little: no farther than the range allows.
-  const float step = slope < -1e-6 ? clamp(height / -slope, -kBlendRange * view.spacing, kBlendRange * view.spacing) : 0.0;
+  const float step = slope < -1e-6 ? clamp(height / -slope, -kBlendRange * spacing, kBlendRange * spacing) : 0.0;
   blend.depth = depth + step;
   const float size = length(normal);
   blend.normal = size > 1e-6 ? normal / size : -normalize(along);

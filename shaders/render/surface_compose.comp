@@ -19,6 +19,7 @@ layout(std430, set = 0, binding = 7) writeonly buffer Surface { uvec2 surface[];
 #else
 #include "render/surface_blend.glsl"
 #endif
+#include "render/surface_solid.glsl"
 
 const float kAgree = 0.35;  // spacings that a sample may lie off the plane through another
 
@@ -74,7 +75,7 @@ void main() {
       }
 #ifdef FILTERED
     // The nearest of the four samples, of the surface that covers this pixel.
-    const float hard = nearest < infinity() && coveredAt(axis, nearest) ? nearest : (farthest > 0.0 && coveredAt(axis, farthest) ? farthest : infinity());
+    const float hard = nearest < infinity() && coveredAt(axis, nearest) ? nearest : (farthest > 0.0 && (coveredAt(axis, farthest) || solidAround(own)) ? farthest : infinity());
     if (hard < infinity()) {
       float best = 1e30;
       for (int k = 0; k < 4; ++k) {
@@ -92,7 +93,12 @@ void main() {
     if (nearest < infinity()) {
       Blend blend = blendAt(axis, nearest);
       if (!blend.covered && farthest > nearest + 0.5 * view.spacing) blend = blendAt(axis, farthest);
-      if (blend.covered) {
+      bool covered = blend.covered;
+      if (!covered && solidAround(own)) {
+        covered = true;
+        blend = blendAt(axis, uintBitsToFloat(depth[uint(own.y * grid.x + own.x)]));
+      }
+      if (covered) {
         z = blend.depth;
         normal = blend.normal;
       }

@@ -7,13 +7,13 @@ const float kCover = 0.7;       // sum of what centres add (1 on the ray itself)
 
 bool coveredAt(vec2 axis, float depth) {
   const vec3 x = rayFrom(axis) + depth * rayAlong(axis);
-  const float reach = kCoverReach * view.spacing, inverse = 1.0 / (reach * reach);
+  const float spacing = spacingAt(depth), reach = kCoverReach * spacing, inverse = 1.0 / (reach * reach);
   const CellRange range = cellsAround(x, reach);
   float cover = 0.0;
   for (int y = range.first.y; y <= range.last.y; ++y) {
     const uvec2 row = rowOf(range, y);
     for (uint j = row.x; j < row.y; ++j) {
-      if (abs(centre[j].z - depth) > kCoverDepth * view.spacing) continue;
+      if (abs(centre[j].z - depth) > kCoverDepth * spacing) continue;
       const float beside = max(1.0 - raySquare(centre[j].xyz, axis) * inverse, 0.0);
       cover += beside * beside;
     }

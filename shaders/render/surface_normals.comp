@@ -7,9 +7,10 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, set = 0, binding = 0) readonly buffer Start { uint start[]; };
 layout(std430, set = 0, binding = 1) readonly buffer Centre { vec4 centre[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Filtered { float filtered[]; };
-layout(std430, set = 0, binding = 3) readonly buffer Hard { uint hard[]; };
+layout(std430, set = 0, binding = 3) readonly buffer Depth { uint depth[]; };
 layout(std430, set = 0, binding = 4) writeonly buffer Samples { uvec2 samples[]; };  // depth, normal
 #include "render/surface_cover.glsl"
+#include "render/surface_solid.glsl"
 
 const float kInset = 0.3;  // spacings: how far the smoothed spheres of 0.9 spacings lie above the surface, half a spacing above the centres
 
@@ -44,7 +45,8 @@ void main() {
   const uint index = uint(p.y * grid.x + p.x);
   const float z = filtered[index];
   samples[index] = uvec2(kInfiniteBits, 0u);
-  if (z == infinity() || !coveredAt(axisOf(samplePixel(p)), uintBitsToFloat(hard[index]))) return;
+  if (z == infinity()) return;
+  if (!coveredAt(axisOf(samplePixel(p)), uintBitsToFloat(depth[index])) && !solidAround(p)) return;
   bool there;
   const vec3 own = pointAt(p, grid, there);
   vec3 normal = cross(difference(p, ivec2(1, 0), grid, own), difference(p, ivec2(0, 1), grid, own));

@@ -11,10 +11,11 @@ void main() {
   const uint i = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
   if (i >= view.count || !drawable(position[i].xyz)) return;
   const vec3 centre = viewPoint(position[i].xyz);
-  if (!shown(centre, view.radius)) return;
+  const float radius = hardRadius(centre.z);
+  if (!shown(centre, radius)) return;
   // A square inside the silhouette, which is at least as large as the section through the centre.
   const vec2 middle = sampleOf(pixelOf(centre)) + 0.5;
-  const float side = 0.7 * view.radius / metresAPixel(centre.z) / float(view.step);
+  const float side = 0.7 * radius / metresAPixel(centre.z) / float(view.step);
   const float cell = float(kOccluderSamples);
   const ivec2 cells = ivec2((sampleGrid() + kOccluderSamples - 1u) / kOccluderSamples);
   const ivec2 first = max(ivec2(ceil(clamp((middle - side) / cell, vec2(-1e6), vec2(1e6)))), ivec2(0));

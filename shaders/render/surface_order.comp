@@ -17,7 +17,9 @@ void main() {
   const vec3 at = viewPoint(position[i].xyz);
   const ivec2 cell = cellOf(pixelOf(at));
   const uint key = uint(cell.y) * cellGrid().x + uint(cell.x);
-  uint place = start[key];
-  for (uint other = start[key]; other < start[key + 1u]; ++other) place += arrived[other] < i ? 1u : 0u;
+  const uint begin = start[key], end = start[key + 1u];
+  uint place = begin;
+  for (uint other = begin; other < min(end, begin + kMostInCell); ++other) place += arrived[other] < i ? 1u : 0u;
+  if (end - begin > kMostInCell) place = slot;  // particles upon each other: their order tells nobody anything
   centre[place] = vec4(at, 0.0);
 }

@@ -17,14 +17,15 @@ void main() {
   const uint k = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
   if (k >= counters[kSurvivorCount]) return;
   const vec3 centre = viewPoint(position[survivors[k]].xyz);
+  const float radius = hardRadius(centre.z);
   bool cut;
-  const ivec4 rect = sampleRect(centre, view.radius, cut);
+  const ivec4 rect = sampleRect(centre, radius, cut);
   const uint columns = sampleGrid().x;
   const float slack = 1e-3 * view.spacing;
   uint inside = 0u, owned = 0u;
   for (int y = rect.y; y <= rect.w; ++y)
     for (int x = rect.x; x <= rect.z; ++x) {
-      const float t = sphereDepth(centre, view.radius, axisOf(samplePixel(ivec2(x, y))));
+      const float t = sphereDepth(centre, radius, axisOf(samplePixel(ivec2(x, y))));
       if (t <= view.near_depth) continue;
       ++inside;
       if (t <= uintBitsToFloat(depth[uint(y) * columns + uint(x)]) + slack) ++owned;

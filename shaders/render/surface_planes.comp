@@ -11,9 +11,9 @@ layout(std430, set = 0, binding = 2) readonly buffer Centre { vec4 centre[]; };
 layout(std430, set = 0, binding = 3) writeonly buffer Plane { vec4 plane[]; };
 #include "render/surface_walk.glsl"
 
-layout(constant_id = 0) const float kFitReach = 2.5;     // spacings
-layout(constant_id = 1) const float kFewest = 1.5;       // sum of the others' weights below which it is a ball
-layout(constant_id = 2) const float kFlattest = 0.6;     // least over middle eigenvalue above which it is one
+const float kFitReach = 2.5;     // spacings
+const float kFewest = 1.5;       // sum of the others' weights below which it is a ball
+const float kFlattest = 0.6;     // least over middle eigenvalue above which it is one
 
 // The eigenvector of the least eigenvalue of a symmetric matrix (a b c; b d e; c e f), and the three eigenvalues, rising.
 vec3 leastDirection(float a, float b, float c, float d, float e, float f, out vec3 values) {
@@ -37,7 +37,7 @@ void main() {
   const uint k = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
   if (k >= counters[kSurfaceCount]) return;
   const vec3 own = centre[k].xyz;
-  const float reach = kFitReach * view.spacing, inverse = 1.0 / reach;
+  const float spacing = spacingAt(own.z), reach = kFitReach * spacing, inverse = 1.0 / reach;
   const CellRange range = cellsAround(own, reach);
   float sum = 0.0;
   vec3 first = vec3(0.0), square = vec3(0.0), mixed = vec3(0.0);
@@ -53,6 +53,7 @@ void main() {
       mixed += w * q.xyz * q.yzx;
     }
   }
+  sum = max(sum, 1e-6);  // of a crowded row only the first are seen, and the particle itself may not be among them
   const vec3 mean = first / sum;
   square = square / sum - mean * mean;
   mixed = mixed / sum - mean.xyz * mean.yzx;

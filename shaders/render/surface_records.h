@@ -15,9 +15,11 @@ RILL_CONSTANT kSurfaceGroup = 64;      // invocations of a particle kernel's wor
 RILL_CONSTANT kSurfaceTile = 16;       // pixels a side of the tiles that are composed and shaded
 RILL_CONSTANT kCellSamples = 4;        // samples a side of a cell of the screen grid
 RILL_CONSTANT kOccluderSamples = 2;    // samples a side of an occlusion cell
-RILL_CONSTANT kMostRectSamples = 96;   // samples a side that one particle is splatted to at most
+RILL_CONSTANT kMostRectSamples = 192;  // samples a side that one particle is splatted to at most
+RILL_CONSTANT kMarginSamples = 8;     // beyond each side of the picture: as far as a plane is fitted at three samples a spacing
 RILL_CONSTANT kMostRows = 48;          // rows of the screen grid that one walk visits at most
-RILL_CONSTANT kMostVisited = 1024;     // particles that one walk visits at most
+RILL_CONSTANT kMostInRow = 64;         // particles of one row that a walk visits at most
+RILL_CONSTANT kMostInCell = 1024;      // particles of a cell that are put in order
 RILL_CONSTANT kNotSurface = 0xFFFFFFFFu;
 
 // Words of the counter buffer.

@@ -13,13 +13,14 @@ void main() {
   const uint k = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
   if (k >= counters[kSurvivorCount]) return;
   const vec3 centre = viewPoint(position[survivors[k]].xyz);
+  const float radius = hardRadius(centre.z);
   bool cut;
-  const ivec4 rect = sampleRect(centre, view.radius, cut);
+  const ivec4 rect = sampleRect(centre, radius, cut);
   if (cut) atomicAdd(counters[kBoundHits], 1u);
   const uint columns = sampleGrid().x;
   for (int y = rect.y; y <= rect.w; ++y)
     for (int x = rect.x; x <= rect.z; ++x) {
-      const float t = sphereDepth(centre, view.radius, axisOf(samplePixel(ivec2(x, y))));
+      const float t = sphereDepth(centre, radius, axisOf(samplePixel(ivec2(x, y))));
       if (t <= view.near_depth) continue;
       const uint at = uint(y) * columns + uint(x);
       const uint bits = floatBitsToUint(t);

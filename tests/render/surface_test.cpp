@@ -274,7 +274,7 @@ TEST_F(SurfaceOnGpu, NastyCloudsAreDrawnWithoutANumberThatIsNone) {
   const std::vector<std::vector<Float4>> clouds = {
       {{0, 0, -4, 0}},
       {{nan, 0, -4, 0}, {0, inf, -4, 0}, {0, 0, -1e30f, 0}, {0.1f, 0, -4, 0}},
-      std::vector<Float4>(500, Float4{0, 0, -4, 0}),
+      std::vector<Float4>(100000, Float4{0, 0, -4, 0}),
       {{0, 0, -0.0999f, 0}, {0, 0, -0.1f, 0}, {0, 0, -0.19f, 0}, {0, 0, 0, 0}, {0, 0, 5, 0}},
       {{0, 0, -0.12f, 0}},  // fills the picture
       {{1e7f, 0, -4, 0}, {0, 0, -1e7f, 0}},
@@ -377,6 +377,40 @@ TEST_F(SurfaceOnGpu, OnlyTheViewportIsDrawnTo) {
   EXPECT_LT(gaps, 100 * 60 / 500) << "at less than two pixels a spacing";
 }
 
+TEST_F(SurfaceOnGpu, AViewportBeyondTheTargetsIsAnError) {
+  fill(block({-1, -1, -5}, {1, 1, -4}));
+  Graph graph;
+  const TargetFormats formats;
+  const SceneTargets targets{graph.create("colour", {formats.colour, 8, 8}), graph.create("depth", {formats.depth, 8, 8})};
+  (void)renderer().addTo(graph, state(graph), targets, perspective(), {}, false);
+  const auto ok = graph.compile();
+  ASSERT_FALSE(ok);
+  EXPECT_EQ(ok.error().message, "the fluid's viewport of 320x240 pixels at 0, 0 does not lie within a target of 8x8");
+}
+
+// Thirty particles a pixel: a slab is whole, and one ball fills a picture that it is before.
+TEST_F(SurfaceOnGpu, FarAndNearFluidIsWhole) {
+  fill(block({-3, -3, -5}, {3, 3, -4}));
+  FluidView tiny = perspective();
+  tiny.width = 8;
+  tiny.height = 6;
+  for (const SurfaceMethod method : {SurfaceMethod::Planes, SurfaceMethod::CurvatureFlow, SurfaceMethod::NarrowRange})
+    for (const Pixel& pixel : surface(tiny, method)) EXPECT_NEAR(pixel.depth, 4, 0.5) << int(method);
+  fill({{0, 0, -0.16f, 0}});  // 0.06 before the eye, of a radius of 0.05 as it is drawn
+  const auto filled = surface(perspective());
+  for (uint32_t y = kHeight / 2 - 60; y < kHeight / 2 + 60; ++y)
+    for (uint32_t x = kWidth / 2 - 60; x < kWidth / 2 + 60; ++x) ASSERT_TRUE(std::isfinite(filled[y * kWidth + x].depth)) << x << " " << y;
+}
+
+// Depth may begin behind the eye.
+TEST_F(SurfaceOnGpu, AnOrthographicViewMaySeeBehindItsEye) {
+  fill(block({-3, -3, 1}, {3, 3, 2}));
+  FluidView view = orthographic(1);
+  view.projection.column[2].z = -0.05f;  // -10 to 10 m
+  view.projection.column[3].z = 0.5f;
+  for (const Pixel& pixel : surface(view)) ASSERT_NEAR(pixel.depth, 8, 0.1);
+}
+
 TEST_F(SurfaceOnGpu, WithoutParticlesNothingRuns) {
   fill({});
   Graph graph;
@@ -407,6 +441,15 @@ TEST(FluidViewCheck, RefusesWhatIsNoCamera) {
   bad = view;
   bad.projection.column[3].w = 1;
   EXPECT_NE(said(bad).find("neither a perspective"), std::string::npos);
+  bad = view;
+  bad.projection.column[1].x = 0.5f;
+  EXPECT_NE(said(bad).find("shears"), std::string::npos);
+  bad = view;
+  bad.width = bad.height = 4096;
+  EXPECT_NE(said(bad).find("16777216"), std::string::npos);
+  bad = view;
+  bad.focus_m = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(said(bad).find("focus_m"), std::string::npos);
   bad = view;
   bad.projection.column[0].x = std::numeric_limits<float>::quiet_NaN();
   EXPECT_NE(said(bad).find("not finite"), std::string::npos);

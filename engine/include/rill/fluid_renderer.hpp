@@ -50,7 +50,7 @@ enum class SurfaceMethod : uint8_t {
 struct FluidLook {
   SurfaceMethod surface = SurfaceMethod::Auto;
   Float3 absorption{2.6f, 0.75f, 0.40f};  ///< 1/m, Beer and Lambert
-  Float3 scatter{0.01f, 0.07f, 0.11f};    ///< what its inside sends back where it is thick, of white light; of an opaque fluid its colour
+  Float3 scatter{0.02f, 0.13f, 0.19f};    ///< what its inside sends back where it is thick, of white light; of an opaque fluid its colour
   bool opaque = false;                    ///< nothing is seen through it, and no thickness is made
   float refraction_index = 1.333f;        ///< above 1
   float highlight = 900;                  ///< exponent of the sun's reflection
@@ -81,9 +81,10 @@ class FluidRenderer {
   static Expected<std::unique_ptr<FluidRenderer>> create(Device& device, const TargetFormats& formats = {});
   ~FluidRenderer();
 
-  /// BadInput for a view that cannot be drawn (empty, larger than 8192 a side, a projection that is none). Needs no device.
+  /// BadInput for a view that cannot be drawn (empty, larger than 8192 a side or 2^24 pixels, a projection that is none). Needs no device.
   static Expected<void> check(const FluidView& view);
 
+  /// A viewport beyond the targets, or more than 2^22 particles, is an error that the graph's compile() reports.
   /// Declares the passes that draw the fluid over what is in `targets` and returns their new versions; `view` is one that check() allows.
   [[nodiscard]] SceneTargets addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view,
                                    const FluidLook& look = {});
