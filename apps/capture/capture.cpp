@@ -37,6 +37,7 @@ class Capture {
     if (const auto places = checkPlaces(); !places) return refuse(places.error());
     offline::Options wanted;
     wanted.device = options_.device;
+    wanted.orbit_deg_per_s = options_.orbit_deg_per_s;
     wanted.passTimes = options_.passTimes && (options_.stats || options_.explain);
     auto simulation = resumed_ ? offline::Simulation::resume(scene_, *resumed_, wanted) : offline::Simulation::open(scene_, wanted);
     if (!simulation) return refuse(simulation.error());

@@ -36,7 +36,7 @@ std::optional<Number> parse(std::string_view text) {
 
 /// Options as text: numbers are read here, so that every version of the command line library gives the same messages.
 struct Raw {
-  std::string scene, frames, fps, size, out, view, stats, exportAs, particles, device, checkpoint, checkpointEvery, resume;
+  std::string scene, frames, fps, size, out, view, stats, exportAs, particles, device, checkpoint, checkpointEvery, resume, play, orbit;
   std::vector<std::string> set, require;
   bool explain = false, noImages = false, noPassTimes = false, quiet = false;
 };
@@ -73,11 +73,14 @@ void declare(CLI::App& app, Raw& raw) {
   once("--fps", raw.fps, "frames a simulated second (default: 60)", "F", what);
   once("--particles", raw.particles, "about so many particles, in place of the scene's spacing", "N", what);
   once("--resume", raw.resume, "go on from a checkpoint of the same scene; --frames counts the frames of this run", "FILE", what);
+  once("--play", raw.play, "simulate nothing: draw the .ply files of a folder, whoever wrote them, in the order of their names", "DIR",
+       what);
   list("--set", raw.set, "change a key of the scene, as fluid.viscosity=0.1", "KEY=VALUE", what);
 
   once("--out", raw.out, "folder of the frames, made where missing (default: out/SCENE)", "DIR", written);
   once("--size", raw.size, "pixels (default: 1280x720)", "WxH", written);
   once("--view", raw.view, "what is drawn: " + apps::joined(viewNames()) + " (default: final)", "VIEW", written);
+  once("--orbit", raw.orbit, "let the camera go around its target, so many degrees a simulated second", "DEG_PER_S", written);
   app.add_flag("--no-images", raw.noImages, "draw nothing, write no pictures")->group(written);
   once("--export", raw.exportAs, "write the particles of each frame: ply", "FORMAT", written);
   once("--stats", raw.stats, "write all figures as JSON; - is standard output", "FILE", written);
@@ -164,6 +167,11 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
                                             "\nviews: " + apps::joined(views)};
     options.view = raw.view;
   }
+  if (given("--orbit")) {
+    const auto orbit = parse<double>(raw.orbit);
+    if (!orbit || !(std::abs(*orbit) <= 36000)) return badInput("--orbit", raw.orbit, "a number of degrees from -36000 to 36000");
+    options.orbit_deg_per_s = *orbit;
+  }
   if (given("--export")) {
     if (raw.exportAs != "ply") return badInput("--export", raw.exportAs, "ply");
     options.exportPly = true;
@@ -199,6 +207,13 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
   if (given("--resume")) {
     if (raw.resume.empty()) return badInput("--resume", raw.resume, "a file that --checkpoint wrote");
     options.resume = raw.resume;
+  }
+  if (given("--play")) {
+    if (raw.play.empty()) return badInput("--play", raw.play, "a folder of .ply files");
+    options.play = raw.play;
+    // What a run alone has.
+    for (const char* other : {"--stats", "--export", "--checkpoint", "--resume", "--require", "--explain", "--no-images", "--particles"})
+      if (given(other)) return Error{ErrorKind::BadInput, std::string(other) + ": --play simulates nothing; expected one of the two"};
   }
   if (given("--device") && raw.device.empty()) return badInput("--device", raw.device, "part of a device's name, or its index");
   options.device = raw.device;
@@ -241,6 +256,8 @@ Expected<apps::CommandLine<Options>> parseCommandLine(int count, const char* con
              "  rill-capture dam-break --checkpoint run.rill --checkpoint-every 600\n"
              "  rill-capture dam-break --resume run.rill\n"
              "      a long run that may be interrupted, and the rest of it: the same bits as in one go\n"
+             "  rill-capture dam-break --play frames --view final\n"
+             "      pictures of frames/*.ply, with the camera, solids and look of dam-break\n"
              "\nExit codes: 0 done, 1 failed while running, 2 bad usage or input, 3 a --require did not hold,\n"
              "4 no usable Vulkan device; 130, 143, 129 after a signal (the frame in hand is finished first).");
   std::vector<std::string> spread = spreadLists(count, arguments);

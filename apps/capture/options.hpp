@@ -24,11 +24,13 @@ struct Options {
   uint32_t width = 1280, height = 720;       ///< pixels
   std::optional<std::filesystem::path> out;  ///< none: out/SCENE
   std::string view = "final";
+  double orbit_deg_per_s = 0;                ///< of the camera around its target
   std::optional<std::filesystem::path> stats;
   bool exportPly = false;
   std::optional<std::filesystem::path> checkpoint;  ///< where to
   std::optional<double> checkpointEvery_s;          ///< wall time
   std::optional<std::filesystem::path> resume;      ///< where from
+  std::optional<std::filesystem::path> play;        ///< a folder of PLY files to draw in place of simulating
   std::vector<Override> overrides;                  ///< of the scene's keys, in order; --particles is the last one
   std::string device;
   std::vector<Requirement> requirements;

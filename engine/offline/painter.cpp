@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/words.hpp"
 #include "gpu/resources.hpp"
@@ -41,7 +42,14 @@ const View* find(std::string_view name) {
 
 std::span<const std::string_view> Painter::views() { return kNames; }
 
-CameraView Painter::camera(uint32_t width, uint32_t height) const { return sceneCamera(scene_, start_, double(width) / height); }
+CameraView Painter::camera(uint32_t width, uint32_t height, double time_s) const {
+  CameraView view = sceneCamera(scene_, start_, double(width) / height);
+  const double angle = orbit_deg_per_s_ * time_s * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
+  const double x = view.eye[0] - view.target[0], z = view.eye[2] - view.target[2];
+  view.eye[0] = view.target[0] + c * x + s * z;
+  view.eye[2] = view.target[2] - s * x + c * z;
+  return view;
+}
 
 Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t width, uint32_t height) {
   const View* view = find(name);
@@ -57,7 +65,7 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
     particles_ = std::move(*made);
     return {};
   }
-  if (auto possible = FluidRenderer::check(fluidView(camera(width, height), width, height, scene_.fluid.spacing)); !possible)
+  if (auto possible = FluidRenderer::check(fluidView(camera(width, height, 0), width, height, scene_.fluid.spacing)); !possible)
     return possible;
   if (!fluid_) {
     const auto look = fluidLook(scene_.look.preset);
@@ -84,7 +92,7 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
 
 Ticket Painter::declare(Graph& graph, const FluidState& fluid, std::string_view name, uint32_t width, uint32_t height, double time_s) {
   const View& view = *find(name);
-  const CameraView eye = camera(width, height);
+  const CameraView eye = camera(width, height, time_s);
   if (view.kind == Kind::Particles) {
     ParticleViewDesc desc;
     desc.width = width;

@@ -13,7 +13,8 @@ namespace rill::offline {
 class Painter {
  public:
   /// Scene and particles outlive it.
-  Painter(const Scene& scene, const ParticleSet& start) : scene_(scene), start_(start) {}
+  Painter(const Scene& scene, const ParticleSet& start, double orbit_deg_per_s)
+      : scene_(scene), start_(start), orbit_deg_per_s_(orbit_deg_per_s) {}
 
   static std::span<const std::string_view> views();
   /// BadInput for a view that there is not, a size that cannot be drawn, a look that is unknown; makes on the device what it needs.
@@ -24,10 +25,12 @@ class Painter {
   void finish(Image& image, std::string_view view, double time_s) const;
 
  private:
-  CameraView camera(uint32_t width, uint32_t height) const;
+  /// The scene's, gone around its target for so long.
+  CameraView camera(uint32_t width, uint32_t height, double time_s) const;
 
   const Scene& scene_;
   const ParticleSet& start_;
+  double orbit_deg_per_s_;
   std::unique_ptr<ParticleView> particles_;
   std::unique_ptr<FluidRenderer> fluid_;
   std::unique_ptr<Scenery> scenery_;

@@ -276,7 +276,7 @@ class Simulation::Impl {
   std::vector<std::string> warnings_;
   std::unique_ptr<Context> context_;
   std::unique_ptr<Fluid> fluid_;
-  Painter painter_{scene_, start_};
+  Painter painter_{scene_, start_, options_.orbit_deg_per_s};
   // One graph for each shape of frame: each keeps the memory plan of its own.
   Graph advanceGraph_, measureGraph_, renderGraph_;
   PassLog log_;                         ///< since the last instant

@@ -19,6 +19,7 @@
 namespace rill::offline {
 
 struct Options {
+  double orbit_deg_per_s = 0;        ///< pictures: how fast the camera goes around its target, counter-clockwise from above
   std::string device;                ///< part of a name, or an index; empty: the best there is
   std::vector<Override> overrides;   ///< applied to the scene
   bool validation = false;           ///< with the validation layer, synchronization included; needs it installed
@@ -125,6 +126,30 @@ class Simulation {
   static Expected<std::unique_ptr<Simulation>> make(Scene scene, std::optional<ParticleSet> start, const Options& options,
                                                     const Checkpoint* from);
   explicit Simulation(std::unique_ptr<Impl>);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Pictures of particles that somebody else simulated, with a scene's camera, solids and look. Not for several threads at once.
+class Player {
+ public:
+  /// BadInput for a scene without a spacing; errors as Simulation::open(). Of `options` the device and validation count.
+  static Expected<std::unique_ptr<Player>> open(Scene scene, const Options& options = {});
+  ~Player();
+
+  /// What is drawn from now on: positions in m, relative to `origin`; velocities in m/s (they colour the view `particles`), or none at all.
+  /// `time_s`: where moving solids are. BadInput for as many velocities as there are not positions, TooLarge, OutOfMemory.
+  Expected<void> show(const std::vector<Float3>& positions, const double origin[3], const std::vector<Float3>& velocities = {},
+                      double time_s = 0);
+  /// As Simulation::render(); before the first show() a scene without fluid.
+  Expected<Image> render(const std::string& view, uint32_t width, uint32_t height);
+
+  const Scene& scene() const;
+  const DeviceInfo& device() const;
+  std::vector<std::string> takeValidationMessages();
+
+ private:
+  class Impl;
+  explicit Player(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
 

@@ -1,0 +1,116 @@
+#include "capture/playback.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "capture/output_folder.hpp"
+#include "core/words.hpp"
+#include "rill/offline.hpp"
+#include "scene/ply_reader.hpp"
+#include "shared/atomic_file.hpp"
+#include "shared/exit_code.hpp"
+#include "shared/png.hpp"
+#include "shared/progress.hpp"
+#include "shared/scene_folders.hpp"
+#include "shared/signals.hpp"
+
+namespace rill::capture {
+namespace fs = std::filesystem;
+namespace {
+
+void message(const std::string& text) { std::fprintf(stderr, "rill-capture: %s\n", text.c_str()); }
+
+/// DIR/*.ply in the order of their names.
+Expected<std::vector<fs::path>> filesIn(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> files;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+    if (at->path().extension() == ".ply") files.push_back(at->path());
+  if (error) return Error{ErrorKind::BadInput, "--play: cannot read the folder " + inQuotes(folder.string()) + ": " + error.message()};
+  if (files.empty())
+    return Error{ErrorKind::BadInput, "--play: " + inQuotes(folder.string()) + " holds no .ply file; expected a folder of frames"};
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// One frame's particles, relative to the first one so that a fluid far from zero keeps its precision.
+Expected<void> show(offline::Player& player, const fs::path& file, double time_s) {
+  auto opened = PlyFile::open(file);
+  if (!opened) return opened.error();
+  auto particles = opened->read();
+  if (!particles) return particles.error();
+  double origin[3] = {0, 0, 0};
+  if (!particles->positions.empty()) {
+    const Double3& first = particles->positions.front();
+    origin[0] = first.x, origin[1] = first.y, origin[2] = first.z;
+  }
+  std::vector<Float3> positions;
+  positions.reserve(particles->positions.size());
+  for (const Double3& p : particles->positions)
+    positions.push_back({static_cast<float>(p.x - origin[0]), static_cast<float>(p.y - origin[1]), static_cast<float>(p.z - origin[2])});
+  return player.show(positions, origin, particles->velocities, time_s);
+}
+
+}  // namespace
+
+int runPlayback(const Options& options) {
+  const auto refuse = [](const Error& error) {
+    message(error.message);
+    return apps::exitCodeBeforeRun(error);
+  };
+  const auto found = apps::SceneFolders::standard().find(options.scene);
+  if (!found) return refuse(found.error());
+  auto scene = loadScene(*found, options.overrides);
+  if (!scene) return refuse(scene.error());
+  auto files = filesIn(*options.play);
+  if (!files) return refuse(files.error());
+  if (options.frames && *options.frames < files->size()) files->resize(*options.frames);
+  const bool byName = fs::path(options.scene) != *found;
+  const fs::path out = options.out ? *options.out : fs::path("out") / (byName ? fs::path(options.scene) : fs::path(scene->name));
+  std::error_code ignored;
+  if (fs::equivalent(out, *options.play, ignored))
+    return refuse({ErrorKind::BadInput, "--out: " + inQuotes(out.string()) + " is the folder that --play reads; expected another"});
+  if (auto place = apps::checkFolderPlace("--out", out); !place) return refuse(place.error());
+
+  offline::Options wanted;
+  wanted.device = options.device;
+  wanted.orbit_deg_per_s = options.orbit_deg_per_s;
+  auto player = offline::Player::open(*std::move(scene), wanted);
+  if (!player) return refuse(player.error());
+  auto folder = OutputFolder::prepare(out, false);
+  if (!folder) return refuse(folder.error());
+  apps::Progress progress(options.quiet ? apps::Progress::Style::Quiet : apps::Progress::styleForTerminal());
+  const auto count = static_cast<uint32_t>(files->size());
+  if (!options.quiet)
+    message((*player)->scene().name + ": " + grouped(count) + (count == 1 ? " frame" : " frames") + " of " +
+            inQuotes(options.play->string()) + ", " + (*player)->device().name);
+  const auto begin = std::chrono::steady_clock::now();
+  const auto frame = [&](uint32_t k) -> Expected<void> {
+    if (auto shown = show(**player, (*files)[k], k / options.fps); !shown) return shown;
+    auto image = (*player)->render(options.view, options.width, options.height);
+    if (!image) return image.error();
+    return apps::writePng(folder->frame(k, "png"), *image);
+  };
+  uint32_t done = 0;
+  for (; done < count && !apps::signalReceived(); ++done) {
+    if (auto drawn = frame(done); !drawn) {
+      progress.clear();
+      message(drawn.error().message);
+      return drawn.error().kind == ErrorKind::BadInput ? apps::kBadInput : apps::kFailed;
+    }
+    const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    progress.show({"frame", done + 1, count, (*files)[done].filename().string(), spent});
+  }
+  progress.clear();
+  if (!options.quiet && done > 0)
+    message("frames: " + folder->frame(0, "png").string() + (done > 1 ? " to " + folder->frame(done - 1, "png").filename().string() : ""));
+  const int signal = apps::signalReceived();
+  return signal && done < count ? 128 + signal : apps::kDone;
+}
+
+}  // namespace rill::capture

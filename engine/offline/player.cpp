@@ -1,0 +1,131 @@
+// Pictures of particles that somebody else simulated.
+#include <cmath>
+#include <cstring>
+#include <new>
+
+#include "gpu/resources.hpp"
+#include "offline/context.hpp"
+#include "offline/painter.hpp"
+#include "rill/offline.hpp"
+#include "sort/key_sort_types.hpp"
+
+namespace rill::offline {
+namespace {
+
+constexpr uint64_t kMaxParticles = KeySortDesc::kMaxCount;
+
+Error outOfMemory(const char* what) { return {ErrorKind::OutOfMemory, std::string(what) + ": out of memory"}; }
+
+}  // namespace
+
+class Player::Impl {
+ public:
+  Impl(Scene scene, double orbit_deg_per_s) : scene_(std::move(scene)), painter_(scene_, start_, orbit_deg_per_s) {}
+
+  Expected<void> open(const Options& options) {
+    auto start = makeParticles(scene_, kMaxParticles);
+    if (!start) return start.error();
+    start_ = std::move(*start);
+    if (!(scene_.fluid.spacing > 0))
+      return Error{ErrorKind::BadInput,
+                   "fluid.spacing: the scene says how many particles there are but fills nothing; expected a spacing in m"};
+    ContextDesc desc;
+    desc.device = options.device;
+    desc.validation = options.validation;
+    desc.framesInFlight = 1;
+    auto context = Context::create(desc);
+    if (!context) return context.error();
+    context_ = std::move(*context);
+    return {};
+  }
+
+  Expected<void> show(const std::vector<Float3>& positions, const double origin[3], const std::vector<Float3>& velocities, double time_s) {
+    if (positions.size() > kMaxParticles)
+      return Error{ErrorKind::TooLarge,
+                   std::to_string(positions.size()) + " particles; at most " + std::to_string(kMaxParticles) + " are possible"};
+    if (!velocities.empty() && velocities.size() != positions.size())
+      return Error{ErrorKind::BadInput,
+                   std::to_string(velocities.size()) + " velocities for " + std::to_string(positions.size()) + " positions"};
+    count_ = static_cast<uint32_t>(positions.size());
+    time_s_ = time_s;
+    std::copy_n(origin, 3, origin_);
+    if (count_ == 0) return {};
+    for (const auto& [buffer, from, w] : {std::tuple{&position_, &positions, 0.0f}, std::tuple{&velocity_, &velocities, 1.0f}}) {
+      const uint64_t bytes = uint64_t{count_} * sizeof(Float4);
+      if (buffer->size() < bytes) {
+        auto made = createBuffer(context_->device(), "played particles", bytes, MemoryKind::Upload);
+        if (!made) return made.error();
+        *buffer = std::move(*made);
+      }
+      std::byte* to = buffer->mapped();
+      for (uint32_t i = 0; i < count_; ++i, to += sizeof(Float4)) {
+        const Float3 v = from->empty() ? Float3{} : (*from)[i];
+        const Float4 record{v.x, v.y, v.z, w};
+        std::memcpy(to, &record, sizeof record);
+      }
+    }
+    return {};
+  }
+
+  Expected<Image> render(std::string_view view, uint32_t width, uint32_t height) {
+    if (auto ready = painter_.prepare(context_->device(), view, width, height); !ready) return ready.error();
+    graph_.reset();
+    FluidState fluid;
+    fluid.count = count_;
+    fluid.spacing = static_cast<float>(scene_.fluid.spacing);
+    std::copy_n(origin_, 3, fluid.origin);
+    if (count_ > 0) {
+      fluid.position = graph_.import("played positions", {position_.handle(), 0, position_.size(), Use::None, Use::None});
+      fluid.velocity = graph_.import("played velocities", {velocity_.handle(), 0, velocity_.size(), Use::None, Use::None});
+    }
+    const Ticket ticket = painter_.declare(graph_, fluid, view, width, height, time_s_);
+    if (auto ran = context_->run(graph_); !ran) return ran.error();
+    if (auto waited = context_->wait(); !waited) return waited.error();
+    Image image{width, height, std::vector<uint8_t>(4 * size_t{width} * height)};
+    const auto bytes = graph_.data(ticket);
+    if (bytes.size() < image.rgba.size())
+      return Error{ErrorKind::Failed, "drawing the view \"" + std::string(view) + "\": no picture came back"};
+    std::memcpy(image.rgba.data(), bytes.data(), image.rgba.size());
+    painter_.finish(image, view, time_s_);
+    return image;
+  }
+
+  const DeviceInfo& device() const { return context_->device().info(); }
+  std::vector<std::string> takeMessages() { return context_->takeMessages(); }
+  const Scene& scene() const { return scene_; }
+
+ private:
+  Scene scene_;
+  ParticleSet start_;  ///< what frames the picture where the scene has no camera
+  std::unique_ptr<Context> context_;
+  Buffer position_, velocity_;
+  uint32_t count_ = 0;
+  double origin_[3] = {0, 0, 0};
+  double time_s_ = 0;
+  Painter painter_;
+  Graph graph_;
+};
+
+Player::Player(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Player::~Player() = default;
+
+Expected<std::unique_ptr<Player>> Player::open(Scene scene, const Options& options) try {
+  auto impl = std::make_unique<Impl>(std::move(scene), options.orbit_deg_per_s);
+  if (auto opened = impl->open(options); !opened) return opened.error();
+  return std::unique_ptr<Player>(new Player(std::move(impl)));
+} catch (const std::bad_alloc&) { return outOfMemory("opening the scene"); }
+
+Expected<void> Player::show(const std::vector<Float3>& positions, const double origin[3], const std::vector<Float3>& velocities,
+                            double time_s) {
+  return impl_->show(positions, origin, velocities, time_s);
+}
+
+Expected<Image> Player::render(const std::string& view, uint32_t width, uint32_t height) try {
+  return impl_->render(view, width, height);
+} catch (const std::bad_alloc&) { return outOfMemory("drawing"); }
+
+const DeviceInfo& Player::device() const { return impl_->device(); }
+const Scene& Player::scene() const { return impl_->scene(); }
+std::vector<std::string> Player::takeValidationMessages() { return impl_->takeMessages(); }
+
+}  // namespace rill::offline

@@ -1,0 +1,115 @@
+// Frames that somebody else simulated.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "rill/offline.hpp"
+#include "support/child_process.hpp"
+#include "support/picture.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace rill::test {
+namespace {
+
+constexpr const char* kScene = R"({
+  "rill": "0.1", "domain": {"min": [0, 0, 0], "max": [1.6, 0.8, 0.4]}, "fluid": {"spacing": 0.05},
+  "fill": [{"box": {"min": [0, 0, 0], "max": [0.6, 0.5, 0.4]}}], "camera": {"eye": [2.4, 1.0, 2.0], "target": [0.75, 0.25, 0.2], "fov_y_deg": 38}
+})";
+
+void write(const std::filesystem::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
+
+TEST(Play, DrawsWhatWasExported) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.json", kScene).string();
+  for (const char* view : {"final", "particles"}) {
+    const auto run = (folder / "run").string(), played = (folder / "played").string();
+    const Outcome made =
+        capture({scene, "--frames", "3", "--fps", "10", "--view", view, "--export", "ply", "--size", "240x135", "--out", run, "--quiet"});
+    ASSERT_EQ(made.code, 0) << made.err;
+    const Outcome drawn = capture({scene, "--play", run, "--fps", "10", "--view", view, "--size", "240x135", "--out", played, "--quiet"});
+    ASSERT_EQ(drawn.code, 0) << drawn.err;
+    EXPECT_EQ(drawn.err + drawn.out, "");
+    for (const char* name : {"frame_00000.png", "frame_00002.png"}) {
+      const Distance apart = distance(readPng(folder / "run" / name), readPng(folder / "played" / name));
+      EXPECT_LE(apart.mean, 0.003) << view;
+      EXPECT_LE(apart.worst, 0.1) << view;
+    }
+  }
+}
+
+TEST(Play, TakesPositionsAloneInAnyForm) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.json", kScene).string();
+  std::filesystem::create_directories(folder / "in");
+  write(folder / "in/a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 2\nproperty double x\nproperty double y\nproperty double z\nend_header\n0.5 0.2 0.2\n0.6 "
+        "0.3 0.2\n");
+  write(folder / "in/b.ply", "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n");
+  const Outcome drawn = capture({scene, "--play", (folder / "in").string(), "--size", "64x36", "--out", (folder / "out").string()});
+  EXPECT_EQ(drawn.code, 0) << drawn.err;
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/frame_00001.png"));
+}
+
+// A camera that has gone all around sees the same again, and something else on the way.
+TEST(Play, TheCameraGoesAround) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.json", kScene).string();
+  std::filesystem::create_directories(folder / "in");
+  for (const char* name : {"in/a.ply", "in/b.ply", "in/c.ply"})
+    write(folder / name,
+          "ply\nformat ascii 1.0\nelement vertex 2\nproperty double x\nproperty double y\nproperty double z\nend_header\n0.5 0.2 0.2\n0.6 "
+          "0.3 0.2\n");
+  const Outcome drawn = capture({scene, "--play", (folder / "in").string(), "--size", "160x90", "--fps", "2", "--orbit", "360", "--out",
+                                 (folder / "out").string(), "--quiet"});
+  ASSERT_EQ(drawn.code, 0) << drawn.err;
+  const Picture start = readPng(folder / "out/frame_00000.png");
+  EXPECT_LE(distance(start, readPng(folder / "out/frame_00002.png")).mean, 1e-3);
+  EXPECT_GT(distance(start, readPng(folder / "out/frame_00001.png")).mean, 0.002);
+}
+
+TEST(Play, RefusesByName) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.json", kScene).string();
+  std::filesystem::create_directories(folder / "in");
+  const auto said = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{scene, "--size", "64x36", "--out", (folder / "out").string(), "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = capture(arguments);
+    EXPECT_EQ(outcome.code, 2);
+    return outcome.err;
+  };
+  const std::string in = (folder / "in").string();
+  EXPECT_NE(said({"--play", in}).find("holds no .ply file"), std::string::npos);
+  EXPECT_NE(said({"--play", (folder / "nowhere").string()}).find("cannot read the folder"), std::string::npos);
+  EXPECT_NE(said({"--play", in, "--stats", "-"}).find("--stats: --play simulates nothing"), std::string::npos);
+  write(folder / "in/broken.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nend_header\n0\n");
+  EXPECT_NE(said({"--play", in}).find("broken.ply"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/frame_00000.png"));
+}
+
+// The same as a library, with validation listening.
+TEST(Play, LibraryDrawsEveryViewWithoutAWord) {
+  Scene scene;
+  scene.fluid.spacing = 0.1;
+  scene.camera = Camera{{0, 0, 4}, {0, 0, 0}, 40};
+  offline::Options options;
+  options.validation = true;
+  auto player = offline::Player::open(scene, options);
+  ASSERT_TRUE(player) << player.error().message;
+  std::vector<Float3> positions;
+  for (int i = 0; i < 1000; ++i) positions.push_back({0.1f * float(i % 10), 0.1f * float(i / 10 % 10), 0.1f * float(i / 100)});
+  const double origin[3] = {-0.5, -0.5, -0.5};
+  for (int round = 0; round < 2; ++round) {
+    for (const std::string_view view : offline::Simulation::views()) {
+      const auto image = (*player)->render(std::string(view), 160, 90);
+      ASSERT_TRUE(image) << image.error().message;
+      EXPECT_EQ(image->rgba.size(), 160u * 90 * 4);
+    }
+    ASSERT_TRUE((*player)->show(positions, origin));
+  }
+  EXPECT_FALSE((*player)->show(positions, origin, {{0, 0, 0}}));
+  for (const std::string& text : (*player)->takeValidationMessages()) ADD_FAILURE() << text;
+}
+
+}  // namespace
+}  // namespace rill::test
