@@ -111,6 +111,79 @@ class Balls : public Shape {
   std::vector<Ball> balls_;
 };
 
+/// The corner of a box that points at the eye: three planes at right angles.
+class Corner : public Shape {
+ public:
+  Corner(double distance, double reach) : tip_(distance), reach_(reach) {}
+
+  std::string name() const override { return "corner"; }
+
+  bool hit(double x, double y, Truth& truth) const override {
+    truth.depth = 0;
+    for (const auto& n : kNormals) {  // inside is behind all three
+      const double t = n[2] * tip_ / (n[0] * x + n[1] * y + n[2]);
+      if (t > truth.depth) truth = {t, {n[0], n[1], n[2]}};
+    }
+    return true;
+  }
+
+  std::vector<Float3> particles(const Jitter& jitter, uint32_t seed) const override {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> along(-jitter.along, jitter.along), across(-jitter.across, jitter.across);
+    std::vector<Float3> out;
+    for (int face = 0; face < 3; ++face) {
+      const int next = (face + 1) % 3, last = (face + 2) % 3;
+      const double *n = kNormals[face], *u = kNormals[next], *v = kNormals[last];  // at right angles: each other's axes
+      for (int layer = 0; layer < kLayers; ++layer)
+        for (double a = layer + (next < face ? 1.5 : 0.5); a < reach_; ++a)  // an edge belongs to the lower one of its faces
+          for (double b = layer + (last < face ? 1.5 : 0.5); b < reach_; ++b) {
+            const double p = a + along(random), q = b + along(random), h = layer + 0.5 + across(random);
+            out.push_back({float(-h * n[0] - p * u[0] - q * v[0]), float(-h * n[1] - p * u[1] - q * v[1]),
+                           float(tip_ - h * n[2] - p * u[2] - q * v[2])});
+          }
+    }
+    return out;
+  }
+
+ private:
+  // 1 / sqrt(3) towards the eye each.
+  static constexpr double kNormals[3][3] = {{0.816496580927726, 0, -0.5773502691896258},
+                                            {-0.408248290463863, 0.7071067811865476, -0.5773502691896258},
+                                            {-0.408248290463863, -0.7071067811865476, -0.5773502691896258}};
+  double tip_, reach_;
+};
+
+/// A round sheet of one layer, face on.
+class Sheet : public Shape {
+ public:
+  Sheet(double distance, double radius) : distance_(distance), radius_(radius) {}
+
+  std::string name() const override { return "sheet"; }
+
+  bool hit(double x, double y, Truth& truth) const override {
+    truth = {distance_, {0, 0, -1}};
+    return std::hypot(x, y) * distance_ < radius_;
+  }
+
+  std::vector<Float3> particles(const Jitter& jitter, uint32_t seed) const override {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> along(-jitter.along, jitter.along), across(-jitter.across, jitter.across);
+    std::vector<Float3> out;
+    for (double r = 0.5; r < radius_; ++r) {  // rings, the outermost half a spacing inside the rim
+      const int count = std::max(1, static_cast<int>(2 * std::numbers::pi * r));
+      for (int k = 0; k < count; ++k) {
+        const double angle = 2 * std::numbers::pi * k / count, ring = std::abs(radius_ - std::floor(radius_) + r - 1);
+        out.push_back({float(ring * std::cos(angle) + along(random)), float(ring * std::sin(angle) + along(random)),
+                       float(distance_ + 0.5 + across(random))});
+      }
+    }
+    return out;
+  }
+
+ private:
+  double distance_, radius_;
+};
+
 }  // namespace
 
 std::vector<std::unique_ptr<Shape>> shapes(double distance, double tangentX, double tangentY) {
@@ -122,6 +195,9 @@ std::vector<std::unique_ptr<Shape>> shapes(double distance, double tangentX, dou
   const double r = 0.55 * distance * tangentY;
   all.push_back(std::make_unique<Balls>(
       std::vector<Balls::Ball>{{-0.6 * r, -0.1 * r, distance, r}, {0.9 * r, 0.4 * r, distance + 0.6 * r, 0.6 * r}}));
+  all.push_back(std::make_unique<Corner>(0.7 * distance, 3 * distance * std::max(tangentX, tangentY) + 8));
+  // A fifth of the picture.
+  all.push_back(std::make_unique<Sheet>(distance, distance * std::sqrt(0.2 * 4 * tangentX * tangentY / std::numbers::pi)));
   return all;
 }
 

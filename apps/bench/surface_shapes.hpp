@@ -32,7 +32,8 @@ class Shape {
   virtual std::vector<Float3> particles(const Jitter& jitter, uint32_t seed) const = 0;
 };
 
-/// What the bench looks at from `distance` spacings away: a tilted plane, standing waves of 8, 18 and 50 spacings, two balls.
+/// What the bench looks at from `distance` spacings away: a tilted plane, waves of 8, 18 and 50 spacings, two balls, the corner of a box, a round sheet of
+/// one layer over a fifth of the picture.
 /// `tangentX`, `tangentY`: of half the field of view.
 std::vector<std::unique_ptr<Shape>> shapes(double distance, double tangentX, double tangentY);
 

@@ -70,7 +70,7 @@ class Render {
       for (const auto& [w, h] : {std::pair{640u, 360u}, std::pair{1280u, 720u}, std::pair{1920u, 1080u}})
         pictures.push_back({w, h, 10, {}});
     }
-    bench_.plan(pictures.size() * std::size(kMethods) * 5);
+    bench_.plan(pictures.size() * std::size(kMethods) * shapes(100, 1, 1).size());
     table_.title = "Surfaces against the truth: ms of the whole chain, errors in degrees";
     table_.columns = {"picture", "shape", "method", "particles", "ms", "mean", "p95", "edge", "depth d", "IoU", "flicker"};
     table_.note =
