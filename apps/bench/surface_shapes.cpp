@@ -24,7 +24,7 @@ class Relief : public Shape {
 
   std::string name() const override { return name_; }
 
-  bool hit(double x, double y, Truth& truth) const override {
+  bool hit(double x, double /*y*/, Truth& truth) const override {
     double t = distance_;
     for (int k = 0; k < 40; ++k) {
       const double miss = t - depth(t * x), change = 1 - rise(t * x) * x;
@@ -32,7 +32,6 @@ class Relief : public Shape {
     }
     const double r = rise(t * x), size = std::sqrt(1 + r * r);
     truth = {t, {r / size, 0, -1 / size}};
-    static_cast<void>(y);
     return true;
   }
 

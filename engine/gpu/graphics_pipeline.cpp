@@ -126,13 +126,7 @@ Expected<const GraphicsPipeline*> PipelineStore::find(DeviceImpl& device, const 
   pipeline->topology = desc.topology;
   if (auto ok = begin(device, *pipeline, desc.bindings, desc.pushConstantBytes, desc.constants); !ok) return ok.error();
   auto handle = build(device, *pipeline, vertex, fragment);
-  if (!handle) {
-    device.vk.DestroyPipelineLayout(device.handle, pipeline->layout, device.callbacks);
-    return handle.error();
-  }
-  pipeline->handle = *handle;
-  graphics_.push_back(std::move(pipeline));
-  return graphics_.back().get();
+  return keep(device, graphics_, std::move(pipeline), std::move(handle));
 }
 
 Expected<const GraphicsPipeline*> graphicsPipeline(Device& device, const GraphicsPipelineDesc& desc) {

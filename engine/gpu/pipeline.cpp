@@ -192,13 +192,7 @@ Expected<const ComputePipeline*> PipelineStore::find(DeviceImpl& device, const C
   pipeline->requiredSubgroupSize = size;
   if (auto ok = begin(device, *pipeline, desc.bindings, desc.pushConstantBytes, desc.constants); !ok) return ok.error();
   auto handle = build(device, *pipeline, words);
-  if (!handle) {
-    device.vk.DestroyPipelineLayout(device.handle, pipeline->layout, device.callbacks);
-    return handle.error();
-  }
-  pipeline->handle = *handle;
-  pipelines_.push_back(std::move(pipeline));
-  return pipelines_.back().get();
+  return keep(device, pipelines_, std::move(pipeline), std::move(handle));
 }
 
 Expected<void> PipelineStore::replace(DeviceImpl& device, std::string_view shader, std::span<const uint32_t> words) {
@@ -225,10 +219,14 @@ Expected<void> PipelineStore::replace(DeviceImpl& device, std::string_view shade
   return {};
 }
 
+void PipelineStore::destroyLayout(DeviceImpl& device, const Pipeline& pipeline) {
+  device.vk.DestroyPipelineLayout(device.handle, pipeline.layout, device.callbacks);
+}
+
 void PipelineStore::destroy(DeviceImpl& device) {
   const auto end = [&](const Pipeline& pipeline) {
     device.vk.DestroyPipeline(device.handle, pipeline.handle, device.callbacks);
-    device.vk.DestroyPipelineLayout(device.handle, pipeline.layout, device.callbacks);
+    destroyLayout(device, pipeline);
   };
   for (const auto& pipeline : pipelines_) end(*pipeline);
   for (const auto& pipeline : graphics_) end(*pipeline);

@@ -65,6 +65,19 @@ class PipelineStore {
   /// Set layout, pipeline layout, constants. Shader where more is asked for than there can be.
   Expected<void> begin(DeviceImpl& device, Pipeline& pipeline, std::span<const BindingKind> bindings, uint32_t pushBytes,
                        SpecializationConstants constants);
+  /// Keeps a pipeline that was begun, with the handle that was built for it, or undoes it.
+  template <class Made>
+  Expected<const Made*> keep(DeviceImpl& device, std::vector<std::unique_ptr<Made>>& all, std::unique_ptr<Made> pipeline,
+                             Expected<VkPipeline> handle) {
+    if (!handle) {
+      destroyLayout(device, *pipeline);
+      return handle.error();
+    }
+    pipeline->handle = *handle;
+    all.push_back(std::move(pipeline));
+    return all.back().get();
+  }
+  static void destroyLayout(DeviceImpl& device, const Pipeline& pipeline);
   Expected<VkPipeline> build(DeviceImpl& device, const ComputePipeline& pipeline, std::span<const uint32_t> words);
   Expected<VkPipeline> build(DeviceImpl& device, const GraphicsPipeline& pipeline, std::span<const uint32_t> vertex,
                              std::span<const uint32_t> fragment);

@@ -115,13 +115,18 @@ void Commands::dispatch(Kernel kernel, uint64_t groups, std::span<const std::byt
   graph_.device->vk.CmdDispatch(commandBuffer_, uint32_t((groups + rows - 1) / rows), uint32_t(rows), 1);
 }
 
-void Commands::dispatchIndirect(Kernel kernel, BufferRef arguments, uint64_t offset, std::span<const std::byte> push) {
+Commands::Arguments Commands::argumentsAt(BufferRef arguments, uint64_t offset, [[maybe_unused]] uint64_t bytes) const {
   const ResourceData& resource = graph_.resources[arguments.index];
   assert(arguments.epoch == graph_.epoch && graph_.accessOf(pass_, arguments.index) &&
          "indirect arguments are declared with Use::Indirect");
-  assert(offset % 4 == 0 && offset + 12 <= resource.size);
+  assert(offset % 4 == 0 && offset + bytes <= resource.size);
+  return {resource.buffer, resource.offset + offset};
+}
+
+void Commands::dispatchIndirect(Kernel kernel, BufferRef arguments, uint64_t offset, std::span<const std::byte> push) {
+  const Arguments from = argumentsAt(arguments, offset, sizeof(VkDispatchIndirectCommand));
   bind(kernel, push);
-  graph_.device->vk.CmdDispatchIndirect(commandBuffer_, resource.buffer, resource.offset + offset);
+  graph_.device->vk.CmdDispatchIndirect(commandBuffer_, from.buffer, from.offset);
 }
 
 void Commands::draw(Kernel kernel, uint32_t vertices, uint32_t instances, std::span<const std::byte> push) {
@@ -131,12 +136,9 @@ void Commands::draw(Kernel kernel, uint32_t vertices, uint32_t instances, std::s
 }
 
 void Commands::drawIndirect(Kernel kernel, BufferRef arguments, uint64_t offset, std::span<const std::byte> push) {
-  const ResourceData& resource = graph_.resources[arguments.index];
-  assert(arguments.epoch == graph_.epoch && graph_.accessOf(pass_, arguments.index) &&
-         "indirect arguments are declared with Use::Indirect");
-  assert(offset % 4 == 0 && offset + 16 <= resource.size);
+  const Arguments from = argumentsAt(arguments, offset, sizeof(VkDrawIndirectCommand));
   bind(kernel, push);
-  graph_.device->vk.CmdDrawIndirect(commandBuffer_, resource.buffer, resource.offset + offset, 1, 16);
+  graph_.device->vk.CmdDrawIndirect(commandBuffer_, from.buffer, from.offset, 1, sizeof(VkDrawIndirectCommand));
 }
 
 void Commands::viewport(uint32_t x, uint32_t y, uint32_t width, uint32_t height) {

@@ -33,6 +33,16 @@ double metresAPixel(const SurfacePush& camera, double depth) {
 
 }  // namespace
 
+std::array<double, 3> unpackNormal(uint32_t packed) {
+  const auto part = [](uint32_t half) { return std::max(double(int16_t(half)) / 32767, -1.0); };
+  double x = part(packed & 0xFFFF), y = part(packed >> 16);
+  const double z = 1 - std::abs(x) - std::abs(y), fold = std::max(-z, 0.0);
+  x += x >= 0 ? -fold : fold;
+  y += y >= 0 ? -fold : fold;
+  const double size = std::sqrt(x * x + y * y + z * z);
+  return {x / size, y / size, z / size};
+}
+
 uint32_t sampleStep(const SurfacePush& camera, float spacing, double depth) {
   const double metres = metresAPixel(camera, depth);
   const double samples = spacing / std::max(metres, 1e-30) / 3.0;  // pixels that a third of a spacing is wide

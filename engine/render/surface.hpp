@@ -1,5 +1,7 @@
 #pragma once
 // From particles to a smooth surface: its depth and normal in every pixel. The methods share all that comes before the smoothing.
+#include <array>
+
 #include "gpu/resources.hpp"
 #include "render/surface_records.h"
 #include "rill/fluid.hpp"
@@ -54,6 +56,9 @@ class SurfaceStage {
                         *compose_ = nullptr, *composeFiltered_ = nullptr, *flow_ = nullptr, *narrow_[2] = {}, *normals_ = nullptr,
                         *thickness_ = nullptr, *thicknessBare_ = nullptr;
 };
+
+/// A packed normal of SurfaceBuffers::pixels, as shaders/render/surface.glsl unpacks it: x, y, z of a unit vector.
+std::array<double, 3> unpackNormal(uint32_t packed);
 
 /// Pixels a side of a sample: what sees a spacing as three to six samples where the fluid is.
 uint32_t sampleStep(const surface::SurfacePush& camera, float spacing, double depth);

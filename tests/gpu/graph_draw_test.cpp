@@ -31,6 +31,22 @@ class GraphDraw : public GpuTest {
     EXPECT_TRUE(made) << made.error().message;
     return made ? *made : nullptr;
   }
+  /// Several frames of one graph in one command buffer, where synchronization validation sees all.
+  template <class Declare>
+  void runFrames(Graph& graph, int count, Declare&& declare) {
+    auto submitted = context().submit([&](VkCommandBuffer commandBuffer) {
+      for (int frame = 0; frame < count; ++frame) {
+        graph.reset();
+        declare(frame);
+        auto ok = graph.compile();
+        if (ok) ok = graph.prepare(device());
+        ASSERT_TRUE(ok) << ok.error().message;
+        graph.record(commandBuffer);
+      }
+    });
+    ASSERT_TRUE(submitted);
+    ASSERT_TRUE(context().wait());
+  }
   Ticket readback(Graph& graph, ImageRef image, uint32_t width, uint32_t height) {
     BufferRef bytes = graph.create("texels", {uint64_t{width} * height * 4});
     graph.pass("copy", [&](Pass& pass) {
@@ -53,45 +69,36 @@ TEST_F(GraphDraw, ComposesByDepthAndKeepsWhatItDoesNotTouch) {
   const Buffer arguments = upload("arguments", std::vector<uint32_t>{0, 0, 0, 0, 4, 1, 0, 0});
   Graph graph;
   Ticket tickets[3], depths[3];
-  auto submitted = context().submit([&](VkCommandBuffer commandBuffer) {
-    for (int frame = 0; frame < 3; ++frame) {
-      graph.reset();
-      const BufferRef added = graph.import("added", importOf(addedBuffer)), indirect = graph.import("arguments", importOf(arguments));
-      ImageRef colour = graph.create("colour", kColour), depth = graph.create("depth", kDepth);
-      graph.pass("draw", [&](Pass& pass) {
-        pass.read(added, Use::DrawRead);
-        VkClearValue far{};
-        far.depthStencil = {1, 0};
-        colour = pass.write(colour, Use::ColourTarget, Load::Discard);
-        depth = pass.write(depth, Use::DepthTarget, Load::Clear, far);
-        const Kernel kernel = pass.kernel(less, {added});
-        return [=](Commands& commands) {
-          commands.draw(kernel, 4, 1, DrawPush{{-1, -1, 1, 1}, 0.75f, 1.0f + float(frame)});
-          commands.draw(kernel, 4, 1, DrawPush{{0, -1, 1, 1}, 0.25f, 10.0f});
-          commands.draw(kernel, 4, 1, DrawPush{{-1, -1, 1, 1}, 0.5f, 100.0f});
-        };
-      });
-      graph.pass("over", [&](Pass& pass) {
-        pass.read(added, Use::DrawRead);
-        pass.read(indirect, Use::Indirect);
-        colour = pass.write(colour, Use::ColourTarget);
-        depth = pass.write(depth, Use::DepthTarget);
-        const Kernel kernel = pass.kernel(less, {added});
-        return [=](Commands& commands) {
-          commands.viewport(0, 0, kWidth, kHeight / 2);
-          commands.drawIndirect(kernel, indirect, 16, DrawPush{{-1, -1, 1, 1}, 0.375f, 1000.0f});
-        };
-      });
-      tickets[frame] = readback(graph, colour, kWidth, kHeight);
-      depths[frame] = readback(graph, depth, kWidth, kHeight);
-      auto ok = graph.compile();
-      if (ok) ok = graph.prepare(device());
-      ASSERT_TRUE(ok) << ok.error().message;
-      graph.record(commandBuffer);
-    }
+  runFrames(graph, 3, [&](int frame) {
+    const BufferRef added = graph.import("added", importOf(addedBuffer)), indirect = graph.import("arguments", importOf(arguments));
+    ImageRef colour = graph.create("colour", kColour), depth = graph.create("depth", kDepth);
+    graph.pass("draw", [&](Pass& pass) {
+      pass.read(added, Use::DrawRead);
+      VkClearValue far{};
+      far.depthStencil = {1, 0};
+      colour = pass.write(colour, Use::ColourTarget, Load::Discard);
+      depth = pass.write(depth, Use::DepthTarget, Load::Clear, far);
+      const Kernel kernel = pass.kernel(less, {added});
+      return [=](Commands& commands) {
+        commands.draw(kernel, 4, 1, DrawPush{{-1, -1, 1, 1}, 0.75f, 1.0f + float(frame)});
+        commands.draw(kernel, 4, 1, DrawPush{{0, -1, 1, 1}, 0.25f, 10.0f});
+        commands.draw(kernel, 4, 1, DrawPush{{-1, -1, 1, 1}, 0.5f, 100.0f});
+      };
+    });
+    graph.pass("over", [&](Pass& pass) {
+      pass.read(added, Use::DrawRead);
+      pass.read(indirect, Use::Indirect);
+      colour = pass.write(colour, Use::ColourTarget);
+      depth = pass.write(depth, Use::DepthTarget);
+      const Kernel kernel = pass.kernel(less, {added});
+      return [=](Commands& commands) {
+        commands.viewport(0, 0, kWidth, kHeight / 2);
+        commands.drawIndirect(kernel, indirect, 16, DrawPush{{-1, -1, 1, 1}, 0.375f, 1000.0f});
+      };
+    });
+    tickets[frame] = readback(graph, colour, kWidth, kHeight);
+    depths[frame] = readback(graph, depth, kWidth, kHeight);
   });
-  ASSERT_TRUE(submitted);
-  ASSERT_TRUE(context().wait());
   for (int frame = 0; frame < 3; ++frame) {
     const auto colour = read<float>(graph, tickets[frame]), depth = read<float>(graph, depths[frame]);
     ASSERT_EQ(colour.size(), size_t{kWidth} * kHeight);
@@ -112,33 +119,24 @@ TEST_F(GraphDraw, APyramidIsReadLevelByLevel) {
   const ComputePipeline* halve = pipeline({.shader = "image_halve", .bindings = kHalve, .words = testShader("image_halve")});
   Graph graph;
   Ticket tickets[2];
-  auto submitted = context().submit([&](VkCommandBuffer commandBuffer) {
-    for (int frame = 0; frame < 2; ++frame) {
-      graph.reset();
-      const ImageRef pyramid = graph.create("pyramid", {VK_FORMAT_R32_SFLOAT, kWidth, kHeight, 4});
-      ImageRef level = graph.level(pyramid, 0);
-      graph.pass("fill", [&](Pass& pass) {
-        level = pass.write(level, Use::ComputeWrite, Load::Discard);
-        const Kernel kernel = pass.kernel(fill, {level});
-        return [=](Commands& commands) { commands.dispatch(kernel, kWidth * kHeight / 64, float(frame)); };
+  runFrames(graph, 2, [&](int frame) {
+    const ImageRef pyramid = graph.create("pyramid", {VK_FORMAT_R32_SFLOAT, kWidth, kHeight, 4});
+    ImageRef level = graph.level(pyramid, 0);
+    graph.pass("fill", [&](Pass& pass) {
+      level = pass.write(level, Use::ComputeWrite, Load::Discard);
+      const Kernel kernel = pass.kernel(fill, {level});
+      return [=](Commands& commands) { commands.dispatch(kernel, kWidth * kHeight / 64, float(frame)); };
+    });
+    for (uint32_t k = 1; k < 4; ++k)
+      graph.pass("halve", [&](Pass& pass) {
+        pass.read(level, Use::ComputeSampled);
+        const ImageRef next = pass.write(graph.level(pyramid, k), Use::ComputeWrite, Load::Discard);
+        const Kernel kernel = pass.kernel(halve, {level, next});
+        level = next;
+        return [=](Commands& commands) { commands.dispatch(kernel, ((kWidth >> k) * (kHeight >> k) + 63) / 64); };
       });
-      for (uint32_t k = 1; k < 4; ++k)
-        graph.pass("halve", [&](Pass& pass) {
-          pass.read(level, Use::ComputeSampled);
-          const ImageRef next = pass.write(graph.level(pyramid, k), Use::ComputeWrite, Load::Discard);
-          const Kernel kernel = pass.kernel(halve, {level, next});
-          level = next;
-          return [=](Commands& commands) { commands.dispatch(kernel, ((kWidth >> k) * (kHeight >> k) + 63) / 64); };
-        });
-      tickets[frame] = readback(graph, level, kWidth / 8, kHeight / 8);
-      auto ok = graph.compile();
-      if (ok) ok = graph.prepare(device());
-      ASSERT_TRUE(ok) << ok.error().message;
-      graph.record(commandBuffer);
-    }
+    tickets[frame] = readback(graph, level, kWidth / 8, kHeight / 8);
   });
-  ASSERT_TRUE(submitted);
-  ASSERT_TRUE(context().wait());
   for (int frame = 0; frame < 2; ++frame) {
     const auto sums = read<float>(graph, tickets[frame]);
     ASSERT_EQ(sums.size(), size_t{kWidth / 8} * (kHeight / 8));

@@ -28,17 +28,6 @@ struct Pixel {
   Vector normal;    ///< in view space: x right, y up, z away from the eye
 };
 
-/// As shaders/render/surface.glsl packs it.
-Vector unpacked(uint32_t packed) {
-  const auto part = [](uint32_t half) { return std::max(double(int16_t(half)) / 32767, -1.0); };
-  double x = part(packed & 0xFFFF), y = part(packed >> 16), z = 1 - std::abs(x) - std::abs(y);
-  const double fold = std::max(-z, 0.0);
-  x += x >= 0 ? -fold : fold;
-  y += y >= 0 ? -fold : fold;
-  const double size = std::sqrt(x * x + y * y + z * z);
-  return {x / size, y / size, z / size};
-}
-
 class SurfaceOnGpu : public GpuTest {
  protected:
   static constexpr uint32_t kWidth = 320, kHeight = 240;
@@ -97,7 +86,8 @@ class SurfaceOnGpu : public GpuTest {
     std::vector<Pixel> pixels(first.size() / 2);
     for (size_t i = 0; i < pixels.size(); ++i) {
       std::memcpy(&pixels[i].depth, &first[2 * i], 4);
-      pixels[i].normal = unpacked(first[2 * i + 1]);
+      const auto n = unpackNormal(first[2 * i + 1]);
+      pixels[i].normal = {n[0], n[1], n[2]};
     }
     return pixels;
   }

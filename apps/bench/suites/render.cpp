@@ -22,7 +22,7 @@ constexpr std::pair<std::string_view, SurfaceMethod> kMethods[] = {
 /// A picture's surface as it was read back.
 struct Drawn {
   std::vector<float> depth;  ///< spacings; infinite: no fluid
-  std::vector<std::array<float, 3>> normal;
+  std::vector<std::array<double, 3>> normal;
 };
 
 struct Errors {
@@ -33,18 +33,8 @@ struct Errors {
   double flicker = 0;        ///< mean change of the normal under another jitter, degrees
 };
 
-double angle(const float* a, const double* b) {
+double angle(const double* a, const double* b) {
   return std::acos(std::clamp(a[0] * b[0] + a[1] * b[1] + a[2] * b[2], -1.0, 1.0)) / kDegree;
-}
-
-std::array<float, 3> unpacked(uint32_t word) {
-  const auto part = [](uint32_t half) { return std::max(float(int16_t(half)) / 32767, -1.0f); };
-  float x = part(word & 0xFFFF), y = part(word >> 16), z = 1 - std::abs(x) - std::abs(y);
-  const float fold = std::max(-z, 0.0f);
-  x += x >= 0 ? -fold : fold;
-  y += y >= 0 ? -fold : fold;
-  const float size = std::sqrt(x * x + y * y + z * z);
-  return {x / size, y / size, z / size};
 }
 
 class Render {
@@ -154,7 +144,7 @@ class Render {
     drawn.normal.resize(drawn.depth.size());
     for (size_t i = 0; i < drawn.depth.size(); ++i) {
       std::memcpy(&drawn.depth[i], &(*words)[2 * i], 4);
-      drawn.normal[i] = unpacked((*words)[2 * i + 1]);
+      drawn.normal[i] = unpackNormal((*words)[2 * i + 1]);
     }
     return std::pair{std::move(drawn), static_cast<uint32_t>(positions.size())};
   }
@@ -228,10 +218,7 @@ class Render {
         }
         inner.push_back(off);
         square += std::pow(drawn.depth[i] - truth[i].depth, 2);
-        if (std::isfinite(other.depth[i])) {
-          const double n[3] = {other.normal[i][0], other.normal[i][1], other.normal[i][2]};
-          flicker.push_back(angle(drawn.normal[i].data(), n));
-        }
+        if (std::isfinite(other.depth[i])) { flicker.push_back(angle(drawn.normal[i].data(), other.normal[i].data())); }
       }
     const auto mean = [](const std::vector<double>& values) {
       double sum = 0;

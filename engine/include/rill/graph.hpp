@@ -180,6 +180,11 @@ class Commands {
  private:
   friend class GraphImpl;
   Commands(GraphImpl& graph, VkCommandBuffer commandBuffer) : graph_(graph), commandBuffer_(commandBuffer) {}
+  struct Arguments {
+    VkBuffer buffer;
+    uint64_t offset;
+  };
+  Arguments argumentsAt(BufferRef arguments, uint64_t offset, uint64_t bytes) const;
   void bind(Kernel kernel, std::span<const std::byte> push);
   void copyWhole(BufferRef buffer, ImageRef image, uint64_t offset, bool toImage);
   GraphImpl& graph_;
