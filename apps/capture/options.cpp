@@ -167,6 +167,8 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
                                             "\nviews: " + apps::joined(views)};
     options.view = raw.view;
   }
+  if (auto possible = offline::Simulation::checkPicture(options.view, options.width, options.height); !possible)
+    return Error{ErrorKind::BadInput, "--size, --view " + options.view + ": " + possible.error().message};
   if (given("--orbit")) {
     const auto orbit = parse<double>(raw.orbit);
     if (!orbit || !(std::abs(*orbit) <= 36000)) return badInput("--orbit", raw.orbit, "a number of degrees from -36000 to 36000");

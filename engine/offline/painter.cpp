@@ -8,6 +8,7 @@
 #include "gpu/resources.hpp"
 #include "render/fluid_renderer_impl.hpp"
 #include "render/legend.hpp"
+#include "render/view_push.hpp"
 #include "sort/dispatches.hpp"
 
 namespace rill::offline {
@@ -51,13 +52,19 @@ CameraView Painter::camera(uint32_t width, uint32_t height, double time_s) const
   return view;
 }
 
-Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t width, uint32_t height) {
+Expected<void> Painter::check(std::string_view name, uint32_t width, uint32_t height) {
   const View* view = find(name);
   if (!view) return Error{ErrorKind::BadInput, "there is no view \"" + std::string(name) + "\""};
+  if (view->kind != Kind::Particles) return checkViewport(width, height);
   ParticleViewDesc desc;
   desc.width = width;
   desc.height = height;
-  if (auto possible = ParticleView::check(desc); !possible) return possible;
+  return ParticleView::check(desc);
+}
+
+Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t width, uint32_t height) {
+  if (auto possible = check(name, width, height); !possible) return possible;
+  const View* view = find(name);
   if (view->kind == Kind::Particles) {
     if (particles_) return {};
     auto made = ParticleView::create(device, scene_, start_);

@@ -17,7 +17,9 @@ class Painter {
       : scene_(scene), start_(start), orbit_deg_per_s_(orbit_deg_per_s) {}
 
   static std::span<const std::string_view> views();
-  /// BadInput for a view that there is not, a size that cannot be drawn, a look that is unknown; makes on the device what it needs.
+  /// BadInput for a view that there is not, or a size that it cannot be drawn in. Needs no device.
+  static Expected<void> check(std::string_view view, uint32_t width, uint32_t height);
+  /// What check() says, BadInput for a look that is unknown; makes on the device what it needs.
   Expected<void> prepare(Device& device, std::string_view view, uint32_t width, uint32_t height);
   /// Declares the passes of a picture that prepare() allowed.
   Ticket declare(Graph& graph, const FluidState& fluid, std::string_view view, uint32_t width, uint32_t height, double time_s);

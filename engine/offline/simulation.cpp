@@ -338,6 +338,9 @@ Expected<Checkpoint> Simulation::checkpoint(uint64_t frame, double fps) {
 Expected<Image> Simulation::render(const std::string& view, uint32_t width, uint32_t height) {
   return guarded("drawing", [&] { return impl_->render(view, width, height); });
 }
+Expected<void> Simulation::checkPicture(const std::string& view, uint32_t width, uint32_t height) {
+  return Painter::check(view, width, height);
+}
 std::span<const std::string_view> Simulation::views() { return Painter::views(); }
 const Scene& Simulation::scene() const { return impl_->scene(); }
 const ParticleSet& Simulation::start() const { return impl_->start(); }

@@ -19,11 +19,22 @@ double at(const Float4x4& m, int row, int column) {
 
 }  // namespace
 
+Expected<void> checkViewport(uint32_t width, uint32_t height) {
+  constexpr uint64_t kBorder = 2 * surface::kMarginSamples;
+  const auto bad = [&](const std::string& expected) {
+    return Error{ErrorKind::BadInput,
+                 "a picture of the fluid of " + std::to_string(width) + "x" + std::to_string(height) + " pixels: " + expected};
+  };
+  if (width == 0 || height == 0 || width > kMaxSide || height > kMaxSide)
+    return bad("width and height must be 1 to " + std::to_string(kMaxSide));
+  if ((width + kBorder) * (height + kBorder) > kMaxPixels)
+    return bad("with " + std::to_string(kBorder) + " more each way at most " + std::to_string(kMaxPixels) + " are possible");
+  return {};
+}
+
 Expected<void> checkView(const FluidView& view) {
+  if (auto ok = checkViewport(view.width, view.height); !ok) return ok;
   const auto bad = [](std::string what) { return Error{ErrorKind::BadInput, "FluidView: " + std::move(what)}; };
-  if (view.width == 0 || view.height == 0 || view.width > kMaxSide || view.height > kMaxSide)
-    return bad("a viewport of " + std::to_string(view.width) + "x" + std::to_string(view.height) +
-               " pixels: width and height must be 1 to " + std::to_string(kMaxSide));
   for (const Float4x4* matrix : {&view.view, &view.projection})
     for (int r = 0; r < 4; ++r)
       for (int c = 0; c < 4; ++c)
@@ -37,10 +48,6 @@ Expected<void> checkView(const FluidView& view) {
     if (std::abs(square - 1) > 1e-3 || std::abs(dot) > 1e-3) return bad("the view matrix is not rigid: it scales or shears");
   }
   if (!(view.focus_m > 0) || !std::isfinite(view.focus_m)) return bad("focus_m must be a distance above 0");
-  constexpr uint64_t kBorder = 2 * surface::kMarginSamples;
-  if ((view.width + kBorder) * (view.height + kBorder) > kMaxPixels)
-    return bad("a viewport of " + std::to_string(view.width) + "x" + std::to_string(view.height) + " pixels: with " +
-               std::to_string(kBorder) + " more each way at most " + std::to_string(kMaxPixels) + " are possible");
   const Float4x4& p = view.projection;
   for (const auto& [row, column] : {std::pair{0, 1}, std::pair{1, 0}, std::pair{2, 0}, std::pair{2, 1}, std::pair{3, 0}, std::pair{3, 1}})
     if (at(p, row, column) != 0) return bad("the projection shears: only a centred or shifted one is possible");

@@ -112,6 +112,8 @@ class Simulation {
   /// draw.
   Expected<Image> render(const std::string& view, uint32_t width, uint32_t height);
   static std::span<const std::string_view> views();
+  /// BadInput where render() would refuse this view or size. Needs no device.
+  static Expected<void> checkPicture(const std::string& view, uint32_t width, uint32_t height);
 
   const Scene& scene() const;
   const ParticleSet& start() const;  ///< as placed: counts of particles left out
