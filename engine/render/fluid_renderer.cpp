@@ -96,8 +96,8 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
     return targets;
   }
   if (!fits(graph, fluid, targets, view)) return targets;
-  const SurfacePush push = camera(fluid, view);
-  last = surface.addTo(graph, fluid, push, look.surface, whole, view.focus_m);
+  last = surface.addTo(graph, fluid, camera(fluid, view), look.surface, whole, view.focus_m);
+  const SurfacePush push = last.push;
   const uint64_t pixels = uint64_t{push.width} * push.height;
   BufferRef sceneColour = graph.create("fluid scene colour", {pixels * 8}), sceneDepth = graph.create("fluid scene depth", {pixels * 4});
   graph.pass("fluid scene", [&](Pass& pass) {
