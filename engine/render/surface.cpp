@@ -4,6 +4,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "render/compute_step.hpp"
 #include "sort/dispatches.hpp"
@@ -33,14 +34,17 @@ double metresAPixel(const SurfacePush& camera, double depth) {
 
 }  // namespace
 
-std::array<double, 3> unpackNormal(uint32_t packed) {
-  const auto part = [](uint32_t half) { return std::max(double(int16_t(half)) / 32767, -1.0); };
-  double x = part(packed & 0xFFFF), y = part(packed >> 16);
+SurfacePixel unpackPixel(const uint32_t* words) {
+  SurfacePixel pixel{std::bit_cast<float>(words[0]), {}};
+  if (std::signbit(pixel.depth)) pixel.depth = std::numeric_limits<float>::infinity();
+  const auto part = [](uint32_t bits) { return double(int32_t(bits << 18) >> 18) / 8191; };  // 14 bits, signed
+  double x = part(words[1]), y = part(words[1] >> 14);
   const double z = 1 - std::abs(x) - std::abs(y), fold = std::max(-z, 0.0);
   x += x >= 0 ? -fold : fold;
   y += y >= 0 ? -fold : fold;
   const double size = std::sqrt(x * x + y * y + z * z);
-  return {x / size, y / size, z / size};
+  pixel.normal = {x / size, y / size, z / size};
+  return pixel;
 }
 
 uint32_t sampleStep(const SurfacePush& camera, float spacing, double depth) {

@@ -13,7 +13,7 @@ namespace rill {
 
 /// What a surface is handed on as. Only pixels of the listed tiles are written, unless it was asked for as a whole.
 struct SurfaceBuffers {
-  BufferRef pixels;     ///< two words a pixel: depth in m (infinite: no fluid), packed normal in view space
+  BufferRef pixels;     ///< two words a pixel, as unpackPixel() reads them
   BufferRef tiles;      ///< numbers of the tiles that hold fluid, in any order
   BufferRef counters;   ///< kSurvivorCount ...
   BufferRef arguments;  ///< kSurfaceTileArguments, kTileDraw, kPixelArguments
@@ -57,8 +57,12 @@ class SurfaceStage {
                         *thickness_ = nullptr, *thicknessBare_ = nullptr;
 };
 
-/// A packed normal of SurfaceBuffers::pixels, as shaders/render/surface.glsl unpacks it: x, y, z of a unit vector.
-std::array<double, 3> unpackNormal(uint32_t packed);
+/// A pixel of SurfaceBuffers::pixels, as shaders/render/surface.glsl packs it.
+struct SurfacePixel {
+  float depth = 0;               ///< m; infinite: no fluid, or less than half a pixel of it
+  std::array<double, 3> normal;  ///< unit vector in view space
+};
+SurfacePixel unpackPixel(const uint32_t* words);
 
 /// Pixels a side of a sample: what sees a spacing as three to six samples where the fluid is.
 uint32_t sampleStep(const surface::SurfacePush& camera, float spacing, double depth);

@@ -52,8 +52,8 @@ void main() {
   const ivec2 pixel = ivec2(gl_FragCoord.xy) - ivec2(view.left, view.top);
   const uint index = uint(pixel.y) * view.width + uint(pixel.x);
   const uvec2 own = surface[index];
-  const float z = uintBitsToFloat(own.x);
-  if (!(z < scene_depth[index]) || own.x >= kInfiniteBits) discard;
+  const float z = pixelDepth(own);
+  if (!(z < scene_depth[index]) || isinf(z)) discard;
   const vec2 middle = vec2(pixel) + 0.5, axis = axisOf(middle);
   const vec3 along = rayAlong(axis);
   const vec3 point = rayFrom(axis) + z * along;
@@ -97,6 +97,7 @@ void main() {
     const vec3 through = exp(-look.absorption.rgb * metres);
     body = sceneBetween(there) * through + look.scatter.rgb * (ambient + vec3(0.5) * (0.3 + 0.7 * lit)) * (1.0 - through);
   }
-  colour = vec4(mix(body, sky, reflected) + vec3(1.0, 0.95, 0.86) * (reflected * highlight), 1.0);
+  const vec3 fluid = mix(body, sky, reflected) + vec3(1.0, 0.95, 0.86) * (reflected * highlight);
+  colour = vec4(mix(sceneAt(pixel), fluid, pixelCoverage(own)), 1.0);
   gl_FragDepth = targetDepth(z);
 }

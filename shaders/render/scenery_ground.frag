@@ -19,7 +19,7 @@ float checker(vec2 at, vec2 width) {
 }
 
 // Darker than the sky that is reflected, so that reflections are seen against it.
-vec3 backdrop(vec3 sight) { return mix(vec3(0.32, 0.38, 0.45), vec3(0.06, 0.10, 0.17), sqrt(clamp(sight.y, 0.0, 1.0))); }
+vec3 backdrop(vec3 sight) { return mix(vec3(0.27, 0.32, 0.39), vec3(0.05, 0.08, 0.14), sqrt(clamp(sight.y, 0.0, 1.0))); }
 
 void main() {
   const vec2 middle = gl_FragCoord.xy - vec2(view.left, view.top), axis = axisOf(middle);

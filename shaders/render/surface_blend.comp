@@ -24,5 +24,5 @@ void main() {
     return;
   }
   const Blend blend = blendAt(axisOf(samplePixel(ivec2(at))), hard);
-  samples[index] = blend.covered || solidAround(ivec2(at)) ? uvec2(floatBitsToUint(blend.depth), packNormal(blend.normal)) : uvec2(kInfiniteBits, 0u);
+  samples[index] = blend.coverage >= 0.5 || solidAround(ivec2(at)) ? uvec2(floatBitsToUint(blend.depth), packNormal(blend.normal)) : uvec2(kInfiniteBits, 0u);
 }

@@ -1,6 +1,7 @@
 // The smooth surface along a ray: where the weighted sum of the planes' heights is zero (implicit moving least squares, Kolluri 2005).
 // Needs `start`, `centre`, `plane`.
 #include "render/surface_walk.glsl"
+#include "render/surface_edge.glsl"
 
 const float kBlendReach = 1.8;  // spacings, across a plane
 const float kBlendRange = 1.2;  // spacings, along its normal
@@ -15,7 +16,7 @@ const float kFirm = 0.5;        // weight of planes from which a look is taken f
 struct Blend {
   float depth;     // of the surface; what came in where there is none
   float firm;      // weight of planes less that of balls
-  bool covered;    // there is fluid on the ray
+  float coverage;  // of the pixel around the ray by fluid: a half at the silhouette
   vec3 normal;     // in view space, towards the eye
 };
 
@@ -57,7 +58,7 @@ Blend lookFrom(vec2 axis, float depth) {
   }
   Blend blend;
   blend.firm = firm;
-  blend.covered = cover > mix(kCover, kCoverInside, smoothstep(1.5, 2.8, sum));
+  blend.coverage = coverageAt(cover - mix(kCover, kCoverInside, smoothstep(1.5, 2.8, sum)), depth);
   // At grazing angles the sums say little: no farther than the range allows.
   const float step = slope < -1e-6 ? clamp(height / -slope, -kBlendRange * spacing, kBlendRange * spacing) : 0.0;
   blend.depth = depth + step;

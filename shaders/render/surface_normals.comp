@@ -46,7 +46,7 @@ void main() {
   const float z = filtered[index];
   samples[index] = uvec2(kInfiniteBits, 0u);
   if (z == infinity()) return;
-  if (!coveredAt(axisOf(samplePixel(p)), uintBitsToFloat(depth[index])) && !solidAround(p)) return;
+  if (coverOf(axisOf(samplePixel(p)), uintBitsToFloat(depth[index])) < 0.5 && !solidAround(p)) return;
   bool there;
   const vec3 own = pointAt(p, grid, there);
   vec3 normal = cross(difference(p, ivec2(1, 0), grid, own), difference(p, ivec2(0, 1), grid, own));

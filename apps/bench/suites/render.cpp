@@ -143,8 +143,9 @@ class Render {
     drawn.depth.resize(words->size() / 2);
     drawn.normal.resize(drawn.depth.size());
     for (size_t i = 0; i < drawn.depth.size(); ++i) {
-      std::memcpy(&drawn.depth[i], &(*words)[2 * i], 4);
-      drawn.normal[i] = unpackNormal((*words)[2 * i + 1]);
+      const SurfacePixel pixel = unpackPixel(&(*words)[2 * i]);
+      drawn.depth[i] = pixel.depth;
+      drawn.normal[i] = pixel.normal;
     }
     return std::pair{std::move(drawn), static_cast<uint32_t>(positions.size())};
   }
