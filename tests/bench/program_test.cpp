@@ -81,7 +81,7 @@ TEST(RillBench, RenderHoldsMethodsAndSettingsAgainstTheTruth) {
   for (const auto& [method, settings] : errors) {
     EXPECT_GE(settings.size(), 3u) << method;
     for (const auto& [setting, degrees] : settings)
-      if (!setting.empty()) EXPECT_NE(degrees, settings.at("")) << method << ": " << setting << " changes nothing";
+      if (!setting.empty()) { EXPECT_NE(degrees, settings.at("")) << method << ": " << setting << " changes nothing"; }
   }
 }
 
