@@ -19,7 +19,6 @@ constexpr float kHardRadius = 0.9f;            // spacings: spheres that leave n
 constexpr float kThicknessRadius = 1.2f;       // spacings: a disc that overlaps enough to be smooth
 constexpr float kThicknessUnit = 1.0f / 1024;  // spacings
 constexpr uint32_t kMostStep = 16;
-constexpr double kFlowTime = 1.3;     // spacings squared: a blur of about a spacing
 constexpr double kFlowStable = 0.45;  // of a sample's square: a step at the focus
 constexpr uint32_t kMostFlowSteps = 128;
 constexpr uint32_t kNarrowPasses = 2;
@@ -30,6 +29,12 @@ uint64_t gridCells(uint64_t width, uint64_t height, uint32_t side) { return divi
 
 double metresAPixel(const SurfacePush& camera, double depth) {
   return std::abs(double{camera.scale[1]}) * 2 / camera.height * (camera.perspective > 0 ? depth : 1.0);
+}
+
+/// As wide in spacings as the one of the default, in whole cells.
+uint32_t marginSamples(double samples) {
+  const double finer = std::max(samples / SurfaceSettings{}.samples, 1.0);
+  return kMarginSamples / kCellSamples * static_cast<uint32_t>(std::ceil(finer)) * kCellSamples;
 }
 
 }  // namespace
@@ -47,10 +52,10 @@ SurfacePixel unpackPixel(const uint32_t* words) {
   return pixel;
 }
 
-uint32_t sampleStep(const SurfacePush& camera, float spacing, double depth) {
+uint32_t sampleStep(const SurfacePush& camera, float spacing, double depth, double samples) {
   const double metres = metresAPixel(camera, depth);
-  const double samples = spacing / std::max(metres, 1e-30) / 3.0;  // pixels that a third of a spacing is wide
-  return samples >= kMostStep ? kMostStep : std::bit_floor(static_cast<uint32_t>(std::max(samples, 1.0)));
+  const double pixels = spacing / std::max(metres, 1e-30) / samples;  // of the widest sample
+  return pixels >= kMostStep ? kMostStep : std::bit_floor(static_cast<uint32_t>(std::max(pixels, 1.0)));
 }
 
 Expected<SurfaceStage> SurfaceStage::create(Device& device) {
@@ -100,23 +105,24 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device) {
   return stage;
 }
 
-SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, SurfacePush push, SurfaceMethod method, bool whole,
-                                   double focus) const {
+SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, SurfacePush push, SurfaceMethod method, bool whole, double focus,
+                                   const SurfaceSettings& settings) const {
   assert(fluid.count > 0);
-  const bool filtered = method == SurfaceMethod::CurvatureFlow || method == SurfaceMethod::NarrowRange;
+  const bool filtered = settings.filter || method == SurfaceMethod::CurvatureFlow || method == SurfaceMethod::NarrowRange;
   push.spacing = fluid.spacing;
   push.radius = kHardRadius * fluid.spacing;
   push.count = fluid.count;
-  push.margin = kMarginSamples;
   const double sampleSide = std::max(metresAPixel(push, focus) * push.step, 1e-6 * fluid.spacing), sampleArea = sampleSide * sampleSide;
+  push.margin = marginSamples(std::min(settings.samples, push.spacing / sampleSide));
   // As many steps as the time takes where the fluid is; nearer to the eye, where samples are smaller, the stable step falls short of it.
   const double area = double{push.spacing} * push.spacing;
   const uint32_t flowSteps =
-      std::clamp(static_cast<uint32_t>(std::ceil(kFlowTime * area / (kFlowStable * sampleArea))), 1u, kMostFlowSteps);
-  push.flow_time = static_cast<float>(kFlowTime * area / flowSteps);
+      std::clamp(static_cast<uint32_t>(std::ceil(settings.flow_time * area / (kFlowStable * sampleArea))), 1u, kMostFlowSteps);
+  push.smoothing = static_cast<float>(method == SurfaceMethod::CurvatureFlow ? settings.flow_time * area / flowSteps
+                                      : method == SurfaceMethod::NarrowRange ? settings.narrow_sigma
+                                                                             : settings.fit_reach);
   const uint64_t particles = divideUp(fluid.count, kSurfaceGroup);
-  const uint64_t columns = divideUp(push.width, push.step) + 2 * kMarginSamples,
-                 rows = divideUp(push.height, push.step) + 2 * kMarginSamples;
+  const uint64_t columns = divideUp(push.width, push.step) + 2 * push.margin, rows = divideUp(push.height, push.step) + 2 * push.margin;
   const uint64_t samples = columns * rows, cells = gridCells(columns, rows, kCellSamples);
   const uint64_t tiles = gridCells(push.width, push.height, kSurfaceTile);
   const uint64_t most = fluid.count;  // particles that can be surface
@@ -169,7 +175,7 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
   Grid grid{push, out.counters, out.arguments, start, centre, depth, {}, samples, gridCells(columns, rows, 8), flowSteps};
   BufferRef smooth;
   if (filtered) {
-    smooth = addFiltered(graph, grid, method);
+    smooth = addFiltered(graph, grid, method, settings.filter);
     grid.plane = centre;  // bound, never read
   } else {
     grid.plane = graph.create("surface planes", {most * 32});
@@ -186,14 +192,16 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
 }
 
 /// A depth filter in passes from one buffer to another, then normals.
-BufferRef SurfaceStage::addFiltered(Graph& graph, const Grid& grid, SurfaceMethod method) const {
+BufferRef SurfaceStage::addFiltered(Graph& graph, const Grid& grid, SurfaceMethod method, const DepthFilter& filter) const {
   BufferRef from = grid.depth;
   const auto pass = [&](std::string_view name, const ComputePipeline* pipeline) {
     BufferRef to = graph.create("surface filtered", {grid.samples * 4});
     addStep(graph, name, pipeline, {reads(from), fresh(to)}, grid.sampleGroups, grid.push);
     from = to;
   };
-  if (method == SurfaceMethod::CurvatureFlow) {
+  if (filter) {
+    from = filter(graph, from, grid.push);
+  } else if (method == SurfaceMethod::CurvatureFlow) {
     for (uint32_t k = 0; k < grid.flowSteps; ++k) pass("surface flow", flow_);
   } else {
     for (uint32_t k = 0; k < kNarrowPasses; ++k)

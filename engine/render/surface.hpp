@@ -1,6 +1,7 @@
 #pragma once
 // From particles to a smooth surface: its depth and normal in every pixel. The methods share all that comes before the smoothing.
 #include <array>
+#include <functional>
 
 #include "gpu/resources.hpp"
 #include "render/surface_records.h"
@@ -20,6 +21,19 @@ struct SurfaceBuffers {
   surface::SurfacePush push;
 };
 
+/// From the spheres' depth, a float a sample, to a smooth one.
+using DepthFilter = std::function<BufferRef(Graph&, BufferRef depth, const surface::SurfacePush&)>;
+
+/// How finely the surface is sampled and how far it is smoothed. The defaults are what pictures are made with; `rill-bench render` varies
+/// them.
+struct SurfaceSettings {
+  double samples = 3;         ///< a spacing at the focus, at least: samples are 1, 2, 4 ... pixels wide
+  double fit_reach = 2.5;     ///< planes: how far around a particle its plane is fitted, spacings
+  double flow_time = 1.3;     ///< curvature flow: spacings squared; blurs over about its root
+  double narrow_sigma = 1.3;  ///< narrow range: standard deviation of its Gaussian, spacings
+  DepthFilter filter = {};    ///< in place of the method's own; for baselines
+};
+
 class SurfaceStage {
  public:
   /// Of 32 bytes a plane: what a buffer holds.
@@ -29,8 +43,8 @@ class SurfaceStage {
 
   /// `camera`: viewPush() of the view with its step. `whole`: pixels without fluid are written, too. `focus`: m, how far away the fluid is.
   /// The state has particles.
-  SurfaceBuffers addTo(Graph& graph, const FluidState& fluid, surface::SurfacePush camera, SurfaceMethod method, bool whole,
-                       double focus) const;
+  SurfaceBuffers addTo(Graph& graph, const FluidState& fluid, surface::SurfacePush camera, SurfaceMethod method, bool whole, double focus,
+                       const SurfaceSettings& settings = {}) const;
 
   /// Counts of `push.unit` along each sample's ray, a sample every `push.step` pixels: 1 m of fluid measures 1 m.
   /// `sceneDepth`: m a pixel, what lies behind it is not counted; an empty ref: nothing is in the way.
@@ -48,7 +62,7 @@ class SurfaceStage {
     uint32_t flowSteps = 0;
   };
   /// From the spheres' depth to samples (depth, normal).
-  BufferRef addFiltered(Graph& graph, const Grid& grid, SurfaceMethod method) const;
+  BufferRef addFiltered(Graph& graph, const Grid& grid, SurfaceMethod method, const DepthFilter& filter) const;
 
   Device* device_ = nullptr;
   const ComputePipeline *occlude_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr, *pick_ = nullptr,
@@ -64,7 +78,7 @@ struct SurfacePixel {
 };
 SurfacePixel unpackPixel(const uint32_t* words);
 
-/// Pixels a side of a sample: what sees a spacing as three to six samples where the fluid is.
-uint32_t sampleStep(const surface::SurfacePush& camera, float spacing, double depth);
+/// Pixels a side of a sample: what sees a spacing as `samples` to twice as many where the fluid is.
+uint32_t sampleStep(const surface::SurfacePush& camera, float spacing, double depth, double samples = SurfaceSettings{}.samples);
 
 }  // namespace rill

@@ -10,11 +10,10 @@ layout(std430, set = 0, binding = 0) readonly buffer Before { float before[]; };
 layout(std430, set = 0, binding = 1) writeonly buffer After { float after[]; };
 layout(constant_id = 0) const uint kVertical = 0u;
 
-const float kReach = 3.0;    // spacings
-const float kSigma = 1.3;    // spacings
-const float kFront = 2.0;    // spacings in front of this sample: another surface
-const float kBehind = 1.0;   // spacings behind it at most
-const int kMostTaps = 24;
+const float kReach = 3.0 / 1.3;  // standard deviations
+const float kFront = 2.0;        // spacings in front of this sample: another surface
+const float kBehind = 1.0;       // spacings behind it at most
+const uint kMostTaps = 3u;       // margins of samples
 
 void main() {
   const ivec2 grid = ivec2(sampleGrid());
@@ -28,7 +27,7 @@ void main() {
     return;
   }
   const float length = metresASample(z) / view.spacing;
-  const int taps = clamp(int(kReach / length), 1, kMostTaps);
+  const int taps = clamp(int(kReach * view.smoothing / length), 1, int(kMostTaps * view.margin));
   const ivec2 along = kVertical != 0u ? ivec2(0, 1) : ivec2(1, 0);
   float sum = toLinear(z), weights = 1.0;
   for (int k = 1; k <= taps; ++k) {
@@ -43,7 +42,7 @@ void main() {
       const float slope = float(k) * length;  // a slanted surface lies behind itself
       pair += toLinear(min(other, z + (kBehind + 2.0 * slope) * view.spacing));
     }
-    const float off = float(k) * length / kSigma;
+    const float off = float(k) * length / view.smoothing;
     const float w = whole ? exp(-0.5 * off * off) : 0.0;
     sum += w * pair;
     weights += 2.0 * w;

@@ -12,7 +12,6 @@ layout(std430, set = 0, binding = 2) readonly buffer Centre { vec4 centre[]; };
 layout(std430, set = 0, binding = 3) writeonly buffer Plane { vec4 plane[]; };
 #include "render/surface_walk.glsl"
 
-const float kFitReach = 2.5;     // spacings
 const float kFewest = 1.5;       // sum of the others' weights below which it is a ball
 const float kFlattest = 0.6;     // least over middle eigenvalue above which it is one
 const float kCrease = 0.04;      // the same ratio above which two faces may meet here, and it is fitted again to its own
@@ -71,7 +70,7 @@ void main() {
   const uint k = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
   if (k >= counters[kSurfaceCount]) return;
   const vec3 own = centre[k].xyz;
-  const float spacing = spacingAt(own.z), reach = kFitReach * spacing, inverse = 1.0 / reach;
+  const float spacing = spacingAt(own.z), reach = view.smoothing * spacing, inverse = 1.0 / reach;
   const CellRange range = cellsAround(own, reach);
   Fit fit = fitAround(own, inverse, range, vec3(0.0));
   vec3 values;
