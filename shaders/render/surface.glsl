@@ -83,13 +83,13 @@ vec4 sphereExtent(vec3 centre, float radius) {
   return vec4(min(a, b), max(a, b));
 }
 
-// In front of the near plane as a whole, and inside the picture with its margin as a part.
-bool shown(vec3 centre, float radius) {
+// In front of the near plane as a whole, and inside the picture with this margin (pixels) as a part.
+bool shownWithin(vec3 centre, float radius, float margin) {
   if (!(centre.z - radius > view.near_depth)) return false;
-  const float margin = float(view.margin * view.step);
   const vec4 extent = sphereExtent(centre, radius);
   return all(greaterThanEqual(extent.zw, vec2(-margin))) && all(lessThanEqual(extent.xy, pictureSize() + margin));
 }
+bool shown(vec3 centre, float radius) { return shownWithin(centre, radius, float(view.margin * view.step)); }
 
 // Samples: one a square of view.step pixels, at its middle, the first ones in the margin.
 uvec2 sampleGrid() { return (uvec2(view.width, view.height) + view.step - 1u) / view.step + 2u * view.margin; }

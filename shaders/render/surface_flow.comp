@@ -10,7 +10,7 @@ layout(std430, set = 0, binding = 0) readonly buffer Before { float before[]; };
 layout(std430, set = 0, binding = 1) writeonly buffer After { float after[]; };
 
 const float kEdge = 1.0;   // spacings between samples from which on they are two surfaces
-const float kStable = 0.47;  // of the square of a sample's side: explicit steps in two dimensions are stable up to a half of it
+layout(constant_id = 0) const float kStable = 0.47;  // of the square of a sample's side: explicit steps in two dimensions are stable up to a half of it
 
 float at(ivec2 p, ivec2 grid) { return before[uint(clamp(p.y, 0, grid.y - 1) * grid.x + clamp(p.x, 0, grid.x - 1))]; }
 

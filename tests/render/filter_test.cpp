@@ -1,0 +1,296 @@
+// The depth filters, a step at a time, against their formulas in double precision, and how long a step of the flow may be.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "render/compute_step.hpp"
+#include "render/surface_rig.hpp"
+#include "render/view_push.hpp"
+
+namespace rill::test {
+namespace {
+
+using surface::SurfacePush;
+
+constexpr float kNone = std::numeric_limits<float>::infinity();
+constexpr double kH = double{kSpacing};
+
+/// Depth a sample, rows from the top.
+struct Map {
+  int columns = 0, rows = 0;
+  std::vector<float> z;
+
+  Map(int across, int down, float value) : columns(across), rows(down), z(size_t(across) * size_t(down), value) {}
+  float& at(int x, int y) { return z[size_t(y) * size_t(columns) + size_t(x)]; }
+  float at(int x, int y) const { return z[size_t(y) * size_t(columns) + size_t(x)]; }
+  bool has(int x, int y) const { return x >= 0 && y >= 0 && x < columns && y < rows; }
+};
+
+/// What a filter makes of a sample, and how near its decisions were to falling otherwise (in m, or in samples of a reach).
+struct Wanted {
+  double z = 0;
+  double margin = 1;
+  bool cut = false;  ///< a bound took effect
+};
+
+/// m that a sample is wide at a depth.
+double sideAt(const SurfacePush& push, double z) {
+  return std::abs(double{push.scale[1]}) * 2 / push.height * push.step * (push.perspective > 0 ? z : 1);
+}
+
+class DepthFilters : public SurfaceOnGpu {
+ protected:
+  static constexpr int kColumns = 45, kRows = 37;  // not multiples of a workgroup
+  static constexpr uint32_t kStep = 2;
+
+  /// Of a picture whose samples are `side` m wide, in perspective four metres away.
+  static SurfacePush pushOf(bool inPerspective, double side) {
+    const FluidView eye = looking({0, 0, 0}, {0, 0, -4}, kColumns * kStep, kRows * kStep);
+    const double half = 0.5 * side * kRows;
+    FluidView view = orthographic(half, eye);
+    if (inPerspective) {
+      view = eye;
+      view.projection.column[0].x = static_cast<float>(4 / half * kRows / kColumns);
+      view.projection.column[1].y = static_cast<float>(-4 / half);
+    }
+    const double origin[3] = {0, 0, 0};
+    SurfacePush push = viewPush(view, origin);
+    push.step = kStep;
+    push.spacing = kSpacing;
+    push.flow_time = 1e9f;  // m^2: what is stable
+    return push;
+  }
+  static Vector pointAt(const SurfacePush& push, int x, int y, double z) {
+    const double wide = push.perspective > 0 ? z : 1;
+    return {((x + 0.5) * push.step / push.width * 2 - 1) * double{push.scale[0]} * wide,
+            ((y + 0.5) * push.step / push.height * 2 - 1) * double{push.scale[1]} * wide, z};
+  }
+
+  Map filtered(std::string_view shader, const Map& before, const SurfacePush& push, uint32_t passes = 1,
+               SpecializationConstants constants = {}) {
+    static constexpr BindingKind kStorage[] = {BindingKind::Storage, BindingKind::Storage};
+    const ComputePipeline* filter =
+        pipeline({.shader = shader, .bindings = kStorage, .pushConstantBytes = sizeof(SurfacePush), .constants = constants});
+    const Buffer source = upload("before", before.z);
+    Graph graph;
+    BufferRef from = graph.import("before", importOf(source));
+    for (uint32_t k = 0; k < passes; ++k) {
+      BufferRef to = graph.create("after", {before.z.size() * 4});
+      addStep(graph, "filter", filter, {reads(from), fresh(to)}, uint64_t((before.columns + 7) / 8) * uint64_t((before.rows + 7) / 8),
+              push);
+      from = to;
+    }
+    const Ticket ticket = graph.readback(from);
+    run(graph);
+    Map after = before;
+    after.z = read<float>(graph, ticket);
+    EXPECT_EQ(after.z.size(), before.z.size());
+    return after;
+  }
+
+  /// Two rough surfaces and holes: one slants through the picture, one is a band before it.
+  Map rough(double side, double noise) {
+    std::uniform_real_distribution<double> bump(-noise, noise), any(0, 1);
+    Map map(kColumns, kRows, kNone);
+    for (int y = 0; y < kRows; ++y)
+      for (int x = 0; x < kColumns; ++x) {
+        if (any(random_) < 0.06) continue;
+        const double plane = 4 + 0.3 * side * x - 0.2 * side * y, band = 3.4 + 0.1 * side * x;
+        map.at(x, y) = float((std::abs(x - y) < 6 ? band : plane) + bump(random_));
+      }
+    return map;
+  }
+
+  template <class Formula>
+  void compare(const std::string& name, const Map& before, const Map& after, const Formula& formula, bool cuts) {
+    int unclear = 0, cut = 0, moved = 0;
+    for (int y = 0; y < before.rows; ++y)
+      for (int x = 0; x < before.columns; ++x) {
+        if (before.at(x, y) == kNone) {
+          ASSERT_EQ(after.at(x, y), kNone) << x << " " << y;
+          continue;
+        }
+        const Wanted wanted = formula(x, y);
+        if (wanted.margin < 1e-4) {
+          ++unclear;
+          continue;
+        }
+        ASSERT_NEAR(double{after.at(x, y)}, wanted.z, 1e-4 * kH) << x << " " << y << " of " << name;
+        cut += wanted.cut ? 1 : 0;
+        moved += std::abs(wanted.z - double{before.at(x, y)}) > 1e-2 * kH ? 1 : 0;
+      }
+    EXPECT_LT(unclear, before.columns * before.rows / 20);
+    EXPECT_GT(moved, before.columns * before.rows / 2);
+    if (cuts) { EXPECT_GT(cut, 0) << "the bound was not tried"; }
+  }
+};
+
+// Depth as a function of both directions across, moved by half the mean curvature of its graph: dz/dt = (trace H - g.H.g / (1 + g.g)) / 2
+// with its gradient g and second derivatives H. Differences are taken of 1 / z in perspective, of which -z^2 makes differences of z.
+Wanted flowed(const Map& map, const SurfacePush& push, int x, int y, double share) {
+  const double z = double{map.at(x, y)}, side = sideAt(push, z);
+  const auto linear = [&](double depth) { return push.perspective > 0 ? 1 / depth : depth; };
+  Wanted wanted;
+  const auto neighbour = [&](int dx, int dy) {
+    return double{map.at(std::clamp(x + dx, 0, map.columns - 1), std::clamp(y + dy, 0, map.rows - 1))};
+  };
+  const auto sees = [&](double other) {
+    wanted.margin = std::min(wanted.margin, std::abs(std::abs(other - z) - kH));
+    return std::abs(other - z) < kH;
+  };
+  const auto value = [&](int dx, int dy) {
+    const double there = neighbour(dx, dy), opposite = neighbour(-dx, -dy);
+    if (sees(there)) return linear(there);
+    return sees(opposite) ? 2 * linear(z) - linear(opposite) : linear(z);
+  };
+  const double metres = push.perspective > 0 ? -z * z : 1;
+  const auto slope = [&](int dx, int dy) { return metres * (value(dx, dy) - value(-dx, -dy)) / (2 * side); };
+  const auto bend = [&](int dx, int dy) { return metres * (value(dx, dy) - 2 * linear(z) + value(-dx, -dy)) / (side * side); };
+  const double g[2] = {slope(1, 0), slope(0, 1)};
+  const double mixed = metres * (value(1, 1) - value(-1, 1) - value(1, -1) + value(-1, -1)) / (4 * side * side);
+  const double hessian[2][2] = {{bend(1, 0), mixed}, {mixed, bend(0, 1)}};
+  double along = 0;
+  for (int i = 0; i < 2; ++i)
+    for (int j = 0; j < 2; ++j) along += g[i] * hessian[i][j] * g[j];
+  const double rate = 0.5 * (hessian[0][0] + hessian[1][1] - along / (1 + g[0] * g[0] + g[1] * g[1]));
+  const double time = std::min(double{push.flow_time}, share * side * side);
+  wanted.cut = std::abs(time * rate) > 0.25 * kH;
+  wanted.z = z + std::clamp(time * rate, -0.25 * kH, 0.25 * kH);
+  return wanted;
+}
+
+TEST_F(DepthFilters, AStepOfFlowIsItsFormula) {
+  for (const bool inPerspective : {false, true})
+    for (const double time : {1e9, 1e-4}) {  // as long as is stable, and less
+      const double side = kH / 4;
+      SurfacePush push = pushOf(inPerspective, side);
+      push.flow_time = static_cast<float>(time);
+      const Map before = rough(side, 0.25 * kH), after = filtered("render/surface_flow", before, push);
+      compare(
+          inPerspective ? "perspective" : "parallel rays", before, after, [&](int x, int y) { return flowed(before, push, x, y, 0.47); },
+          time > 1);
+    }
+}
+
+// Of the shape, not of the formula: a plane stays, a ball shrinks by time over radius along its normals.
+TEST_F(DepthFilters, FlowLeavesPlanesAndShrinksBalls) {
+  const double side = kH / 4;
+  for (const bool inPerspective : {false, true}) {
+    const SurfacePush push = pushOf(inPerspective, side);
+    const Vector normal = unit({0.4, -0.3, 1}), across = normal * (1 / dot(normal, {0, 0, 4}));  // n.p = n.(0, 0, 4)
+    Map plane(kColumns, kRows, 0);
+    for (int y = 0; y < kRows; ++y)
+      for (int x = 0; x < kColumns; ++x) {
+        const Vector ray = pointAt(push, x, y, 1);
+        plane.at(x, y) = float(inPerspective ? 1 / dot(across, ray) : (1 - across.x * ray.x - across.y * ray.y) / across.z);
+      }
+    const Map after = filtered("render/surface_flow", plane, push, 10);
+    for (int y = 12; y < kRows - 12; ++y)  // a step carries the border's bend one sample inwards
+      for (int x = 12; x < kColumns - 12; ++x) ASSERT_NEAR(after.at(x, y), plane.at(x, y), 2e-5 * kH) << x << " " << y;
+  }
+  SurfacePush push = pushOf(false, side);
+  push.flow_time = float(0.2 * side * side);
+  const double radius = 1.2;
+  Map ball(kColumns, kRows, 0);
+  for (int y = 0; y < kRows; ++y)
+    for (int x = 0; x < kColumns; ++x) {
+      const Vector p = pointAt(push, x, y, 0);
+      ball.at(x, y) = float(5 - std::sqrt(radius * radius - p.x * p.x - p.y * p.y));
+    }
+  const Map after = filtered("render/surface_flow", ball, push);
+  for (int y = 1; y < kRows - 1; ++y)
+    for (int x = 1; x < kColumns - 1; ++x) {
+      const Vector p = pointAt(push, x, y, 0);
+      const double slant = std::sqrt(1 - (p.x * p.x + p.y * p.y) / (radius * radius));  // of the normal to the ray
+      const double shrunk = double{push.flow_time} / radius / slant;
+      ASSERT_NEAR(double{after.at(x, y)} - double{ball.at(x, y)}, shrunk, 0.05 * shrunk) << x << " " << y;
+    }
+}
+
+// The limit of an explicit step is half of a sample's square: the roughest pattern there is changes by 1 - 2 share / limit a step.
+TEST_F(DepthFilters, FlowIsStableUpToItsLimitAndNotBeyond) {
+  const double side = kH / 4, limit = 0.5;
+  const SurfacePush push = pushOf(false, side);
+  std::uniform_real_distribution<double> bump(-1, 1);
+  const auto roughness = [](const Map& map) {
+    double sum = 0;
+    for (const float z : map.z) sum += std::pow(double{z} - 4, 2);
+    return std::sqrt(sum / double(map.z.size())) / kH;
+  };
+  const auto start = [&](double size) {
+    Map map(kColumns, kRows, 0);
+    for (int y = 0; y < kRows; ++y)
+      for (int x = 0; x < kColumns; ++x)
+        map.at(x, y) = float(4 + size * kH * ((x + y) % 2 == 0 ? 1 : -1) + 0.5 * size * kH * bump(random_));
+    return map;
+  };
+  const auto flow = [&](const Map& from, uint32_t steps, double share) {
+    const uint32_t constants[] = {std::bit_cast<uint32_t>(float(share))};
+    return roughness(filtered("render/surface_flow", from, push, steps, constants));
+  };
+  for (const double size : {0.01, 0.3}) {  // small, and so rough that bounds and edges take part
+    const Map map = start(size);
+    double before = roughness(map);
+    for (const uint32_t steps : {1u, 10u, 100u, 400u}) {
+      const double after = flow(map, steps, 0.95 * limit);
+      EXPECT_LT(after, before) << size << " after " << steps;
+      before = after;
+    }
+    EXPECT_LT(before, 0.1 * size);
+    // The step that is shipped, however much time it is given.
+    EXPECT_LT(roughness(filtered("render/surface_flow", map, push, 400)), 0.1 * size);
+  }
+  const Map map = start(0.001);
+  EXPECT_GT(flow(map, 40, 1.05 * limit), 20 * roughness(map));  // 1.1^40 = 45
+  EXPECT_GT(flow(map, 4, 2.05 * limit), 50 * roughness(map));   // 3.1^4 = 92
+}
+
+// A Gaussian in one direction over pairs of samples: a pair counts where neither is a hole or more before this one than two metres a metre
+// aside; one that lies behind counts as at most a spacing behind, and two metres a metre aside.
+Wanted narrowed(const Map& map, const SurfacePush& push, int x, int y, bool vertical) {
+  constexpr double kReach = 3, kSigma = 1.3, kFront = 2, kBehind = 1, kSlant = 2;
+  const double z = double{map.at(x, y)}, side = sideAt(push, z);
+  const auto linear = [&](double depth) { return push.perspective > 0 ? 1 / depth : depth; };
+  Wanted wanted;
+  const double reach = kReach * kH / side;
+  if (reach > 1 && reach < 24) wanted.margin = std::abs(reach - std::round(reach));
+  const int taps = std::clamp(int(reach), 1, 24);
+  double sum = linear(z), weights = 1;
+  for (int k = 1; k <= taps; ++k) {
+    const double away = k * side;
+    bool counts = true;
+    double pair = 0;
+    for (const int s : {-k, k}) {
+      const int u = vertical ? x : x + s, v = vertical ? y + s : y;
+      const double other = map.has(u, v) ? double{map.at(u, v)} : double{kNone};
+      if (std::isfinite(other)) wanted.margin = std::min(wanted.margin, std::abs(other - (z - kFront * away)));
+      counts = counts && std::isfinite(other) && other > z - kFront * away;
+      const double farthest = z + kBehind * kH + kSlant * away;
+      wanted.cut = wanted.cut || (std::isfinite(other) && other > farthest);
+      pair += linear(std::min(other, farthest));
+    }
+    if (!counts) continue;
+    const double weight = std::exp(-away * away / (2 * kSigma * kSigma * kH * kH));
+    sum += weight * pair;
+    weights += 2 * weight;
+  }
+  wanted.z = linear(sum / weights);
+  return wanted;
+}
+
+TEST_F(DepthFilters, APassOfTheNarrowRangeIsItsFormula) {
+  for (const bool inPerspective : {false, true})
+    for (const uint32_t vertical : {0u, 1u})
+      for (const double side : {0.22 * kH, 1.8 * kH, 0.09 * kH}) {  // 13 taps, one, and as many as there may be
+        const SurfacePush push = pushOf(inPerspective, side);
+        const uint32_t constants[] = {vertical};
+        const Map before = rough(side, 0.2 * kH), after = filtered("render/surface_narrow", before, push, 1, constants);
+        const std::string name = std::string(vertical ? "down" : "across") + ", samples of " + std::to_string(side);
+        compare(
+            name, before, after, [&](int x, int y) { return narrowed(before, push, x, y, vertical != 0); }, true);
+      }
+}
+
+}  // namespace
+}  // namespace rill::test

@@ -1,0 +1,91 @@
+// Pictures from where no picture is meant to be taken: each number of them is one, and two runs give the same bits (the rig compares them).
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "render/surface_rig.hpp"
+
+namespace rill::test {
+namespace {
+
+class NastyViews : public SurfaceOnGpu {
+ protected:
+  /// How many pixels hold fluid.
+  size_t scanned(const FluidView& view, const FluidLook& look) {
+    const VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
+    Backdrop backdrop;
+    backdrop.colour = {0.25f, 0.5f, 0.75f, 1};
+    const Drawn got = drawn(view, look, backdrop, {.colour = format});
+    size_t fluid = 0;
+    for (const float depth : got.depth) {
+      EXPECT_TRUE(depth >= 0 && depth <= 1) << depth;
+      fluid += depth > 0 ? 1 : 0;
+    }
+    for (const auto& pixel : got.channels(format))
+      for (const double channel : pixel) EXPECT_TRUE(channel >= 0 && channel < 1000) << channel;
+    return fluid;
+  }
+  /// The same with each method and with an opaque look; the least.
+  size_t scannedAll(const FluidView& view) {
+    size_t least = SIZE_MAX;
+    for (const SurfaceMethod method : {SurfaceMethod::Planes, SurfaceMethod::CurvatureFlow, SurfaceMethod::NarrowRange}) {
+      FluidLook look;
+      look.surface = method;
+      look.opaque = method == SurfaceMethod::NarrowRange;
+      least = std::min(least, scanned(view, look));
+    }
+    return least;
+  }
+  static float nearOf(const FluidView& view) { return view.projection.column[3].z; }
+};
+
+TEST_F(NastyViews, FromInsideTheFluid) {
+  fill(block({-0.6, -0.6, -0.6}, {0.6, 0.6, 0.6}));
+  const FluidView view = looking({0, 0, 0}, {0, 0, -1}, 96, 72);
+  EXPECT_GT(scannedAll(view), 96u * 72 / 2);
+}
+
+TEST_F(NastyViews, OneParticleFillsTheScreen) {
+  const FluidView view = looking({0, 0, 0}, {0, 0, -4}, 96, 72);
+  // The ball of half a spacing that is drawn, so near that the picture's corners still hit it.
+  fill({{0, 0, -0.1f - nearOf(view), 0}});
+  EXPECT_GT(scannedAll(view), 96u * 72 / 2);
+}
+
+TEST_F(NastyViews, OnePixelAndAVeryWideRow) {
+  fill(block({-3, -0.3, -4.4}, {3, 0.3, -4}));
+  EXPECT_EQ(scannedAll(looking({0, 0, 0}, {0, 0, -4}, 1, 1)), 1u);
+  FluidView wide = looking({0, 0, 0}, {0, 0, -4}, 4096, 4);
+  for (float* zoom : {&wide.projection.column[0].x, &wide.projection.column[1].y}) *zoom *= 200;  // 4096 pixels are 17 m there
+  EXPECT_GT(scannedAll(wide), 4u * 1400);
+}
+
+TEST_F(NastyViews, ParticlesOnTheNearPlane) {
+  const FluidView view = looking({0, 0, 0}, {0, 0, -4}, 96, 72);
+  const float near = nearOf(view), beyond = std::nextafter(near, 1.0f), before = std::nextafter(near, 0.0f);
+  std::vector<Float4> cloud;
+  for (const float z : {near, beyond, before, near + 0.05f, near + 0.09f, near + 0.1f})
+    for (int k = -2; k <= 2; ++k) cloud.push_back({0.02f * float(k), 0.01f * float(k), -z, 0});
+  fill(cloud);
+  (void)scannedAll(view);
+  cloud.push_back({0, 0, -1, 0});
+  fill(cloud);
+  (void)scannedAll(view);
+}
+
+TEST_F(NastyViews, ParticlesThatAreNoNumbers) {
+  const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+  const FluidView view = looking({0, 0, 0}, {0, 0, -4}, 96, 72);
+  std::vector<Float4> cloud = block({-0.5, -0.5, -4.5}, {0.5, 0.5, -4});
+  fill(cloud);
+  const size_t wanted = scannedAll(view);
+  EXPECT_GT(wanted, 100u);
+  for (const Float4& bad :
+       {Float4{nan, 0, -4, 0}, Float4{0, nan, nan, 0}, Float4{0, 0, -inf, 0}, Float4{inf, -inf, -4, 0}, Float4{0, 0, -3e38f, 0}})
+    cloud.insert(cloud.begin() + std::ptrdiff_t(cloud.size() / 2), bad);
+  fill(cloud);
+  EXPECT_EQ(scannedAll(view), wanted);
+}
+
+}  // namespace
+}  // namespace rill::test

@@ -1,0 +1,229 @@
+// The first passes, from particles to depth and thickness a sample, against every particle on every ray in double precision.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "render/compute_step.hpp"
+#include "render/surface_rig.hpp"
+#include "render/view_push.hpp"
+
+namespace rill::test {
+namespace {
+
+using surface::SurfacePush;
+
+constexpr double kNothing = std::numeric_limits<double>::infinity();
+
+/// A camera's samples in double precision: x and y across, z the depth, as SurfacePush has them.
+struct Samples {
+  explicit Samples(const SurfacePush& camera)
+      : push(camera),
+        columns(int((push.width + push.step - 1) / push.step + 2 * push.margin)),
+        rows(int((push.height + push.step - 1) / push.step + 2 * push.margin)) {}
+
+  Vector seen(const Float4& p) const {
+    double v[3];
+    for (int r = 0; r < 3; ++r) {
+      const float* row = push.rows + 4 * r;
+      v[r] = double{row[0]} * double{p.x} + double{row[1]} * double{p.y} + double{row[2]} * double{p.z} + double{row[3]};
+    }
+    return {v[0], v[1], v[2]};
+  }
+  /// Of the ray through a sample's middle: where it begins, and a step along it that is one deeper.
+  struct Ray {
+    Vector from, along;
+  };
+  Ray ray(int x, int y) const {
+    const auto axis = [&](int at, uint32_t pixels, int a) {
+      const double middle = (at - int(push.margin) + 0.5) * push.step;
+      return (middle / pixels * 2 - 1 - double{push.shift[a]}) * double{push.scale[a]};
+    };
+    const Vector across{axis(x, push.width, 0), axis(y, push.height, 1), 0};
+    if (push.perspective > 0) return {{0, 0, 0}, across + Vector{0, 0, 1}};
+    return {across, {0, 0, 1}};
+  }
+  /// m that a sample is wide at a depth.
+  double side(double depth) const {
+    return std::abs(double{push.scale[1]}) * 2 / push.height * push.step * (push.perspective > 0 ? depth : 1);
+  }
+
+  SurfacePush push;
+  int columns, rows;
+};
+
+class ParticlesToSamples : public SurfaceOnGpu {
+ protected:
+  static SurfacePush pushOf(const FluidView& view, uint32_t step, uint32_t count) {
+    const double origin[3] = {0, 0, 0};
+    SurfacePush push = viewPush(view, origin);
+    push.step = step;
+    push.spacing = kSpacing;
+    push.radius = 0.9f * kSpacing;
+    push.count = count;
+    push.margin = surface::kMarginSamples;
+    return push;
+  }
+  const ComputePipeline* kernel(std::string_view shader, size_t bindings) {
+    static constexpr BindingKind kStorage[] = {BindingKind::Storage, BindingKind::Storage, BindingKind::Storage, BindingKind::Storage};
+    return pipeline({.shader = shader, .bindings = std::span(kStorage).first(bindings), .pushConstantBytes = sizeof(SurfacePush)});
+  }
+
+  struct Splatted {
+    std::vector<float> depth;
+    uint32_t survivors = 0;
+  };
+  Splatted splatted(const SurfacePush& push) {
+    const Samples samples(push);
+    const uint64_t groups = (count_ + surface::kSurfaceGroup - 1) / surface::kSurfaceGroup;
+    Graph graph;
+    const BufferRef position = state(graph).position;
+    BufferRef occluders = graph.create("occluders", {uint64_t(samples.columns) * uint64_t(samples.rows) * 4});
+    BufferRef depth = graph.create("depth", {uint64_t(samples.columns) * uint64_t(samples.rows) * 4});
+    BufferRef counters = graph.create("counters", {surface::kSurfaceCounterWords * 4});
+    BufferRef survivors = graph.create("survivors", {uint64_t{count_} * 4});
+    graph.pass("clear", [&](Pass& pass) {
+      for (BufferRef* buffer : {&occluders, &depth, &counters}) *buffer = pass.write(*buffer, Use::CopyTarget, true);
+      return [=](Commands& commands) {
+        commands.fill(occluders, 0x7F800000u);
+        commands.fill(depth, 0x7F800000u);
+        commands.fill(counters, 0);
+      };
+    });
+    addStep(graph, "occlude", kernel("render/surface_occlude", 2), {reads(position), writes(occluders)}, groups, push);
+    addStep(graph, "cull", kernel("render/surface_cull", 4), {reads(position), reads(occluders), writes(counters), fresh(survivors)},
+            groups, push);
+    addStep(graph, "splat", kernel("render/surface_splat", 4), {reads(position), writes(counters), reads(survivors), writes(depth)}, groups,
+            push);
+    const Ticket depthTicket = graph.readback(depth), counterTicket = graph.readback(counters);
+    run(graph);
+    const auto counts = read<uint32_t>(graph, counterTicket);
+    EXPECT_EQ(counts.at(surface::kBoundHits), 0u);
+    return {read<float>(graph, depthTicket), counts.at(surface::kSurvivorCount)};
+  }
+
+  /// The nearest sphere on a sample's ray, of those that lie wholly before the near plane. `grown`: of their radius.
+  static double nearest(const Samples& samples, const std::vector<Vector>& centres, int x, int y, double grown) {
+    const Samples::Ray ray = samples.ray(x, y);
+    double best = kNothing;
+    for (const Vector& centre : centres) {
+      const double radius = std::max(double{samples.push.radius}, 0.71 * samples.side(centre.z));
+      if (!(centre.z - radius > double{samples.push.near_depth})) continue;
+      const Vector to = centre - ray.from;
+      const double a = dot(ray.along, ray.along), b = dot(to, ray.along), c = dot(to, to) - radius * radius * grown * grown;
+      if (b * b - a * c <= 0) continue;
+      const double depth = (b - std::sqrt(b * b - a * c)) / a;
+      if (depth > double{samples.push.near_depth}) best = std::min(best, depth);
+    }
+    return best;
+  }
+};
+
+TEST_F(ParticlesToSamples, EachSampleHoldsTheNearestSphere) {
+  struct Case {
+    FluidView view;
+    uint32_t step, count;
+    Vector low, high;
+    bool hides;  ///< some are behind others
+  };
+  const FluidView eye = looking({0.1, 0.2, 0.3}, {0.3, 0, -4}, 64, 48);
+  const Case cases[] = {
+      {eye, 1, 60, {-1.5, -1.2, -3}, {1.5, 1.2, -0.2}, false},    // far apart, some at the near plane, some beside the picture
+      {eye, 1, 600, {-0.2, -0.2, -1.2}, {0.4, 0.4, -0.4}, true},  // a crowd
+      {eye, 2, 3000, {-2, -1.5, -5}, {2, 1.5, -1}, false},
+      {eye, 1, 3000, {-40, -40, -90}, {40, 40, -30}, false},  // smaller than samples: drawn as large as one
+      {orthographic(0.3, eye), 1, 800, {-0.2, -0.05, -4}, {0.4, 0.4, 0}, true},
+      {orthographic(1.2, eye), 4, 2000, {-2, -2, -4}, {2, 2, 0}, false},
+  };
+  for (const Case& one : cases) {
+    const auto particles = scattered(one.low, one.high, one.count);
+    fill(particles);
+    const SurfacePush push = pushOf(one.view, one.step, count_);
+    const Samples samples(push);
+    std::vector<Vector> centres;
+    for (const Float4& p : particles) centres.push_back(samples.seen(p));
+    const Splatted got = splatted(push);
+    ASSERT_EQ(got.depth.size(), size_t(samples.columns) * size_t(samples.rows));
+    if (one.hides) { EXPECT_LT(got.survivors, count_ * 9 / 10) << "hardly any is left out, all are in the picture"; }
+    size_t covered = 0;
+    for (int y = 0; y < samples.rows; ++y)
+      for (int x = 0; x < samples.columns; ++x) {
+        // At a rim the square root makes much of the last bits: between spheres a little smaller and a little larger.
+        const double nearer = nearest(samples, centres, x, y, 1 + 1e-4), farther = nearest(samples, centres, x, y, 1 - 1e-4);
+        const double depth = double{got.depth[size_t(y) * size_t(samples.columns) + size_t(x)]};
+        const double slack = 2e-6 * (std::isfinite(depth) ? depth : 0);
+        ASSERT_GE(depth, nearer - slack) << x << " " << y << " of step " << one.step;
+        ASSERT_LE(depth, farther + slack) << x << " " << y << " of step " << one.step;
+        covered += std::isfinite(depth) ? 1 : 0;
+      }
+    EXPECT_GT(covered, got.depth.size() / 50);
+    EXPECT_LT(covered, got.depth.size());
+  }
+}
+
+TEST_F(ParticlesToSamples, ThicknessIsTheSumOfAllDiscs) {
+  const FluidView eye = looking({0, 0, 0}, {0, 0, -4}, 64, 48);
+  std::vector<float> wall(64 * 48);
+  for (size_t i = 0; i < wall.size(); ++i) wall[i] = i % 64 < 32 ? 3.0f : 100.0f;  // its left half hides what is farther away
+  const auto particles = scattered({-2, -1.5, -5}, {2, 1.5, -1}, 1500);
+  fill(particles);
+  const Buffer wallBuffer = upload("wall", wall);
+  for (const auto& [view, step] : {std::pair{eye, 1u}, {eye, 8u}, {orthographic(1.2, eye), 2u}, {orthographic(0.3, eye), 4u}})
+    for (const bool scene : {false, true}) {
+      Graph graph;
+      const FluidState fluid = state(graph);
+      const SurfacePush push = SurfaceStage::thicknessPush(pushOf(view, step, count_), fluid, step);
+      const BufferRef depth = scene ? graph.import("wall", importOf(wallBuffer)) : BufferRef{};
+      const Ticket ticket = graph.readback(renderer().surface.addThickness(graph, fluid, push, depth));
+      run(graph);
+      const auto counts = read<uint32_t>(graph, ticket);
+      const Samples samples(push);
+      ASSERT_EQ(counts.size(), size_t(samples.columns) * size_t(samples.rows));
+      std::vector<double> wanted(counts.size()), terms(counts.size());
+      const double radius = double{push.radius}, volume = std::pow(double{kSpacing}, 3);
+      const auto add = [&](int x, int y, double z, double metres) {
+        if (x < 0 || y < 0 || x >= samples.columns || y >= samples.rows) return;
+        const auto pixel = [&](int at, uint32_t size) { return std::min(size_t((at + 0.5) * step), size_t(size) - 1); };
+        if (scene && z > double{wall[pixel(y, 48) * 64 + pixel(x, 64)]}) return;
+        const size_t at = size_t(y) * size_t(samples.columns) + size_t(x);
+        wanted[at] += metres;
+        terms[at] += metres > 0 ? 1 : 0;
+      };
+      for (const Float4& p : particles) {
+        const Vector centre = samples.seen(p);
+        if (!(centre.z - radius > double{push.near_depth})) continue;
+        const double side = samples.side(centre.z);
+        if (radius < 1.5 * side) {  // shared among the four samples around
+          const double wide = push.perspective > 0 ? centre.z : 1;
+          const auto sample = [&](double across, int a, uint32_t size) {
+            return ((across / wide / double{push.scale[a]} + double{push.shift[a]} + 1) * 0.5 * size) / step - 0.5;
+          };
+          const double x = sample(centre.x, 0, push.width), y = sample(centre.y, 1, push.height);
+          const double left = std::floor(x), top = std::floor(y);
+          for (int k = 0; k < 4; ++k) {
+            const double px = k & 1 ? x - left : 1 - (x - left), py = k & 2 ? y - top : 1 - (y - top);
+            add(int(left) + (k & 1), int(top) + (k >> 1), centre.z, volume / (side * side) * px * py);
+          }
+          continue;
+        }
+        for (int y = 0; y < samples.rows; ++y)
+          for (int x = 0; x < samples.columns; ++x) {
+            const Samples::Ray ray = samples.ray(x, y);
+            const Vector to = centre - ray.from;
+            const double along = dot(to, ray.along), square = dot(to, to) - along * along / dot(ray.along, ray.along);
+            const double inside = 1 - square / (radius * radius);
+            if (inside > 0) add(x, y, centre.z, 3 * volume / (std::numbers::pi * radius * radius) * inside * inside);
+          }
+      }
+      double thickest = 0;
+      for (size_t i = 0; i < counts.size(); ++i) {
+        // Each term is rounded to a count; the float of it by less.
+        ASSERT_NEAR(counts[i] * double{push.unit}, wanted[i], 0.51 * double{push.unit} * terms[i] + 1e-4 * wanted[i])
+            << i << " of step " << step << (scene ? " before a wall" : "");
+        thickest = std::max(thickest, wanted[i]);
+      }
+      EXPECT_GT(thickest, double{kSpacing});
+    }
+}
+
+}  // namespace
+}  // namespace rill::test

@@ -1,0 +1,230 @@
+#include "render/surface_rig.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <glm/gtc/packing.hpp>
+
+namespace rill::test {
+namespace {
+
+uint32_t texelBytes(VkFormat format) {
+  switch (format) {
+    case VK_FORMAT_R8G8B8A8_UNORM:
+    case VK_FORMAT_R8G8B8A8_SRGB:
+      return 4;
+    case VK_FORMAT_R16G16B16A16_SFLOAT:
+      return 8;
+    case VK_FORMAT_R32G32B32A32_SFLOAT:
+      return 16;
+    default:
+      ADD_FAILURE() << "a format that the rig does not know: " << format;
+      return 16;
+  }
+}
+
+double decodedSrgb(double stored) { return stored <= 0.04045 ? stored / 12.92 : std::pow((stored + 0.055) / 1.055, 2.4); }
+
+}  // namespace
+
+double encodedSrgb(double linear) { return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055; }
+
+std::vector<std::array<double, 4>> Drawn::channels(VkFormat format) const {
+  const uint32_t bytes = texelBytes(format);
+  std::vector<std::array<double, 4>> out(colour.size() / bytes);
+  for (size_t i = 0; i < out.size(); ++i)
+    for (size_t c = 0; c < 4; ++c) {
+      const std::byte* at = colour.data() + i * bytes + c * (bytes / 4);
+      double& value = out[i][c];
+      if (bytes == 16) {
+        float single;
+        std::memcpy(&single, at, 4);
+        value = double{single};
+      } else if (bytes == 8) {
+        uint16_t half;
+        std::memcpy(&half, at, 2);
+        value = double{glm::unpackHalf1x16(half)};
+      } else {
+        value = std::to_integer<int>(*at) / 255.0;
+        if (format == VK_FORMAT_R8G8B8A8_SRGB && c < 3) value = decodedSrgb(value);
+      }
+    }
+  return out;
+}
+
+FluidView SurfaceOnGpu::looking(Vector eye, Vector target, uint32_t width, uint32_t height) {
+  CameraView camera;
+  const double from[] = {eye.x, eye.y, eye.z}, to[] = {target.x, target.y, target.z};
+  std::copy_n(from, 3, camera.eye);
+  std::copy_n(to, 3, camera.target);
+  camera.fov_y_deg = 45;
+  return fluidView(camera, width, height, double{kSpacing});
+}
+
+FluidView SurfaceOnGpu::perspective(double focus) { return looking({0, 0, 0}, {0, 0, -focus}, kWidth, kHeight); }
+
+FluidView SurfaceOnGpu::orthographic(double halfHeight, FluidView eye) {
+  const float h = static_cast<float>(halfHeight), w = h * float(eye.width) / float(eye.height);
+  eye.projection = {{{1 / w, 0, 0, 0}, {0, -1 / h, 0, 0}, {0, 0, -0.01f, 0}, {0, 0, 0, 1}}};
+  return eye;
+}
+
+FluidView SurfaceOnGpu::finite(FluidView view, double near, double far, bool reversed) {
+  const double from = reversed ? far : near, to = reversed ? near : far;  // where depth is 0, where 1
+  view.projection.column[2].z = static_cast<float>(to / (from - to));
+  view.projection.column[3].z = static_cast<float>(from * to / (from - to));
+  return view;
+}
+
+void SurfaceOnGpu::fill(const std::vector<Float4>& positions) {
+  count_ = uint32_t(positions.size());
+  if (count_ > 0) position_ = upload("position", positions);
+}
+
+FluidState SurfaceOnGpu::state(Graph& graph) {
+  FluidState fluid;
+  fluid.count = count_;
+  fluid.spacing = kSpacing;
+  if (count_ > 0) fluid.position = graph.import("position", importOf(position_));
+  return fluid;
+}
+
+FluidRendererImpl& SurfaceOnGpu::renderer() {
+  if (!renderer_) {
+    auto made = FluidRenderer::create(device());
+    EXPECT_TRUE(made) << made.error().message;
+    renderer_ = std::move(*made);
+  }
+  return renderer_->impl();
+}
+
+std::vector<Pixel> SurfaceOnGpu::surface(const FluidView& view, SurfaceMethod method) {
+  EXPECT_TRUE(FluidRenderer::check(view));
+  std::vector<uint32_t> first;
+  for (int run = 0; run < 2; ++run) {
+    Graph graph;
+    const FluidState fluid = state(graph);
+    SurfaceBuffers found = renderer().surface.addTo(graph, fluid, renderer().camera(fluid, view), method, true, view.focus_m);
+    const Ticket ticket = graph.readback(found.pixels);
+    GpuTest::run(graph);
+    auto words = read<uint32_t>(graph, ticket);
+    if (run == 0)
+      first = std::move(words);
+    else
+      EXPECT_EQ(first, words) << "two runs, two pictures";
+  }
+  std::vector<Pixel> pixels(first.size() / 2);
+  for (size_t i = 0; i < pixels.size(); ++i) {
+    const auto [depth, n] = unpackPixel(&first[2 * i]);
+    pixels[i] = {depth, {n[0], n[1], n[2]}};
+  }
+  return pixels;
+}
+
+SceneTargets SurfaceOnGpu::hosts(Graph& graph, const TargetFormats& formats, uint32_t width, uint32_t height, const Backdrop& backdrop) {
+  SceneTargets targets{graph.create("colour", {formats.colour, width, height}), graph.create("depth", {formats.depth, width, height})};
+  VkClearValue colour{}, depth{};
+  std::copy_n(backdrop.colour.data(), 4, colour.color.float32);
+  depth.depthStencil = {backdrop.depth, 0};
+  if (!backdrop.pixels.empty()) {
+    EXPECT_EQ(backdrop.pixels.size(), size_t{width} * height);
+    backdrop_ = upload("backdrop", backdrop.pixels);
+    const BufferRef texels = graph.import("backdrop", importOf(backdrop_));
+    graph.pass("backdrop", [&](Pass& pass) {
+      pass.read(texels, Use::CopySource);
+      targets.colour = pass.write(targets.colour, Use::CopyTarget);
+      return [texels, to = targets.colour](Commands& commands) { commands.copy(texels, to); };
+    });
+  }
+  graph.pass("clear", [&](Pass& pass) {
+    if (backdrop.pixels.empty()) targets.colour = pass.write(targets.colour, Use::ColourTarget, Load::Clear, colour);
+    targets.depth = pass.write(targets.depth, Use::DepthTarget, Load::Clear, depth);
+    return [](Commands&) {};
+  });
+  return targets;
+}
+
+Drawn SurfaceOnGpu::drawn(const FluidView& view, const FluidLook& look, const Backdrop& backdrop, const TargetFormats& formats,
+                          uint32_t width, uint32_t height) {
+  EXPECT_TRUE(FluidRenderer::check(view));
+  if (width == 0) width = view.x + view.width;
+  if (height == 0) height = view.y + view.height;
+  auto made = FluidRenderer::create(device(), formats);
+  EXPECT_TRUE(made) << made.error().message;
+  if (!made) return {};
+  Drawn first;
+  for (int run = 0; run < 2; ++run) {
+    Graph graph;
+    const FluidState fluid = state(graph);
+    const SceneTargets targets = (*made)->addTo(graph, fluid, hosts(graph, formats, width, height, backdrop), view, look);
+    const uint64_t pixels = uint64_t{width} * height;
+    BufferRef colour = graph.create("colour texels", {pixels * texelBytes(formats.colour)});
+    BufferRef depth = graph.create("depth texels", {pixels * 4});
+    graph.pass("copy", [&](Pass& pass) {
+      pass.read(targets.colour, Use::CopySource);
+      pass.read(targets.depth, Use::CopySource);
+      colour = pass.write(colour, Use::CopyTarget);
+      depth = pass.write(depth, Use::CopyTarget);
+      return [=](Commands& commands) {
+        commands.copy(targets.colour, colour);
+        commands.copy(targets.depth, depth);
+      };
+    });
+    const Ticket colourTicket = graph.readback(colour), depthTicket = graph.readback(depth);
+    GpuTest::run(graph);
+    Drawn out{read<std::byte>(graph, colourTicket), read<float>(graph, depthTicket)};
+    EXPECT_EQ(out.colour.size(), pixels * texelBytes(formats.colour));
+    if (run == 0) {
+      first = std::move(out);
+    } else {
+      EXPECT_TRUE(first.colour == out.colour) << "two runs, two pictures";
+      EXPECT_TRUE(std::memcmp(first.depth.data(), out.depth.data(), out.depth.size() * 4) == 0) << "two runs, two depths";
+    }
+  }
+  return first;
+}
+
+std::vector<Float4> SurfaceOnGpu::block(Vector low, Vector high, double jitter) {
+  std::uniform_real_distribution<double> wobble(-jitter * kSpacing, jitter * kSpacing);
+  std::vector<Float4> out;
+  for (double z = low.z + 0.5 * kSpacing; z < high.z; z += kSpacing)
+    for (double y = low.y + 0.5 * kSpacing; y < high.y; y += kSpacing)
+      for (double x = low.x + 0.5 * kSpacing; x < high.x; x += kSpacing)
+        out.push_back({float(x + wobble(random_)), float(y + wobble(random_)), float(z + wobble(random_)), 0});
+  return out;
+}
+
+std::vector<Float4> SurfaceOnGpu::under(Vector point, Vector normal, Vector u, Vector v, double extent) {
+  std::uniform_real_distribution<double> along(-0.25 * kSpacing, 0.25 * kSpacing), across(-0.1 * kSpacing, 0.1 * kSpacing);
+  std::vector<Float4> out;
+  for (int layer = 0; layer < 4; ++layer)
+    for (double a = -extent; a < extent; a += kSpacing)
+      for (double b = -extent; b < extent; b += kSpacing) {
+        const double p = a + along(random_), q = b + along(random_), h = -(layer + 0.5) * kSpacing + across(random_);
+        out.push_back({float(point.x + p * u.x + q * v.x + h * normal.x), float(point.y + p * u.y + q * v.y + h * normal.y),
+                       float(point.z + p * u.z + q * v.z + h * normal.z), 0});
+      }
+  return out;
+}
+
+std::vector<Float4> SurfaceOnGpu::shells(Vector centre, double radius) {
+  std::uniform_real_distribution<double> wobble(-0.1 * kSpacing, 0.1 * kSpacing);
+  std::vector<Float4> out;
+  for (double r = radius - 0.5 * kSpacing; r > 0; r -= kSpacing) {
+    const int count = std::max(1, int(4 * std::numbers::pi * r * r / (kSpacing * kSpacing)));
+    for (int k = 0; k < count; ++k) {
+      const double z = 1 - (2 * k + 1.0) / count, angle = 2.399963 * k, s = std::sqrt(1 - z * z);
+      out.push_back({float(centre.x + r * s * std::cos(angle) + wobble(random_)),
+                     float(centre.y + r * s * std::sin(angle) + wobble(random_)), float(centre.z + r * z + wobble(random_)), 0});
+    }
+  }
+  return out;
+}
+
+std::vector<Float4> SurfaceOnGpu::scattered(Vector low, Vector high, uint32_t count) {
+  std::uniform_real_distribution<double> x(low.x, high.x), y(low.y, high.y), z(low.z, high.z);
+  std::vector<Float4> out(count);
+  for (Float4& p : out) p = {float(x(random_)), float(y(random_)), float(z(random_)), 0};
+  return out;
+}
+
+}  // namespace rill::test

@@ -1,0 +1,109 @@
+// The tone curve against its formula (Khronos PBR Neutral) and sRGB's.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "render/surface_rig.hpp"
+
+namespace rill::test {
+namespace {
+
+using Colour = std::array<double, 3>;
+
+// Khronos PBR Neutral Tone Mapper, specification of May 2024, equations (1) to (6).
+Colour neutral(Colour c) {
+  constexpr double f90 = 0.04, ks = 0.8 - f90, kd = 0.15;
+  const double x = std::min({c[0], c[1], c[2]});
+  const double f = x <= 2 * f90 ? x - x * x / (4 * f90) : f90;
+  for (double& channel : c) channel -= f;
+  const double p = std::max({c[0], c[1], c[2]});
+  if (p <= ks) return c;
+  const double pn = 1 - (1 - ks) * (1 - ks) / (p + 1 - 2 * ks), g = 1 / (kd * (p - pn) + 1);
+  for (double& channel : c) channel = channel * pn / p * g + pn * (1 - g);
+  return c;
+}
+
+class ToneMap : public GpuTest {
+ protected:
+  /// The bytes that become of linear colours.
+  std::vector<std::array<uint8_t, 4>> mapped(const std::vector<std::array<float, 4>>& colours) {
+    static constexpr BindingKind kBindings[] = {BindingKind::SampledImage, BindingKind::Storage};
+    const ComputePipeline* tonemap = pipeline({.shader = "render/tonemap", .bindings = kBindings});
+    constexpr uint32_t kRow = 37;  // not a multiple of a workgroup
+    const uint32_t rows = uint32_t(colours.size() + kRow - 1) / kRow;
+    std::vector<std::array<float, 4>> texels = colours;
+    texels.resize(size_t{kRow} * rows);
+    const Buffer source = upload("texels", texels);
+    Graph graph;
+    const BufferRef in = graph.import("texels", importOf(source));
+    ImageRef image = graph.create("light", {VK_FORMAT_R32G32B32A32_SFLOAT, kRow, rows});
+    graph.pass("upload", [&](Pass& pass) {
+      pass.read(in, Use::CopySource);
+      image = pass.write(image, Use::CopyTarget);
+      return [=](Commands& commands) { commands.copy(in, image); };
+    });
+    BufferRef picture = graph.create("picture", {texels.size() * 4});
+    graph.pass("tone", [&](Pass& pass) {
+      pass.read(image, Use::ComputeSampled);
+      picture = pass.write(picture, Use::ComputeWrite, true);
+      const Kernel kernel = pass.kernel(tonemap, {image, picture});
+      return [=, groups = (texels.size() + 63) / 64](Commands& commands) { commands.dispatch(kernel, groups); };
+    });
+    const Ticket ticket = graph.readback(picture);
+    run(graph);
+    auto bytes = read<std::array<uint8_t, 4>>(graph, ticket);
+    EXPECT_EQ(bytes.size(), texels.size());
+    bytes.resize(colours.size());
+    return bytes;
+  }
+};
+
+TEST_F(ToneMap, IsItsFormula) {
+  std::vector<std::array<float, 4>> colours;
+  for (const float scale : {1.0f, 0.05f, 0.003f, 8.0f, 1000.0f, 60000.0f})  // all branches of both curves
+    for (int r = 0; r <= 8; ++r)
+      for (int g = 0; g <= 8; ++g)
+        for (int b = 0; b <= 8; ++b) colours.push_back({scale * float(r) / 8, scale * float(g) / 8, scale * float(b) / 8, 1});
+  const auto got = mapped(colours);
+  for (size_t i = 0; i < colours.size(); ++i) {
+    const Colour wanted = neutral({double{colours[i][0]}, double{colours[i][1]}, double{colours[i][2]}});
+    for (size_t c = 0; c < 3; ++c)
+      ASSERT_NEAR(got[i][c], 255 * encodedSrgb(std::clamp(wanted[c], 0.0, 1.0)), 0.5 + 0.1 + 0.02)  // sRGB's power is a polynomial there
+          << colours[i][0] << " " << colours[i][1] << " " << colours[i][2] << ", channel " << c;
+    ASSERT_EQ(got[i][3], 255);
+  }
+}
+
+TEST_F(ToneMap, MoreLightIsNeverDarkerAndBlackStaysBlack) {
+  std::vector<std::array<float, 4>> greys{{0, 0, 0, 0}};
+  for (double light = 1e-4; light < 65504; light *= 1.002) greys.push_back({float(light), float(light), float(light), 1});
+  const auto got = mapped(greys);
+  EXPECT_EQ(got.front(), (std::array<uint8_t, 4>{0, 0, 0, 255}));
+  EXPECT_EQ(got.back(), (std::array<uint8_t, 4>{255, 255, 255, 255}));
+  for (size_t i = 1; i < got.size(); ++i) {
+    ASSERT_GE(got[i][0], got[i - 1][0]) << greys[i][0];
+    ASSERT_TRUE(got[i][0] == got[i][1] && got[i][1] == got[i][2]) << "grey stays grey, " << greys[i][0];
+  }
+}
+
+TEST_F(ToneMap, WhatIsNoLightIsBlackAndWhatIsEndlessWhite) {
+  const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+  const float most = std::numeric_limits<float>::max();
+  const auto got = mapped({{-1, -1, -1, 1},
+                           {-inf, -inf, -inf, 1},
+                           {nan, nan, nan, 1},
+                           {-0.0f, -0.0f, -0.0f, 1},  // black
+                           {inf, inf, inf, 1},
+                           {most, most, most, 1},  // white
+                           {0.5f, -3, 0.25f, 1},
+                           {0.5f, 0, 0.25f, 1},  // the same
+                           {0.5f, nan, 0.25f, 1}});
+  const std::array<uint8_t, 4> black{0, 0, 0, 255}, white{255, 255, 255, 255};
+  for (size_t i = 0; i < 4; ++i) EXPECT_EQ(got[i], black) << i;
+  for (size_t i = 4; i < 6; ++i) EXPECT_EQ(got[i], white) << i;
+  EXPECT_EQ(got[6], got[7]);
+  EXPECT_EQ(got[8], got[7]);
+}
+
+}  // namespace
+}  // namespace rill::test
