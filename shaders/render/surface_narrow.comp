@@ -8,6 +8,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, set = 0, binding = 0) readonly buffer Before { float before[]; };
 layout(std430, set = 0, binding = 1) writeonly buffer After { float after[]; };
+layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };
 layout(constant_id = 0) const uint kVertical = 0u;
 
 const float kReach = 3.0;    // spacings
@@ -28,7 +29,8 @@ void main() {
     return;
   }
   const float length = metresASample(z) / view.spacing;
-  const int taps = clamp(int(kReach / length), 1, kMostTaps);
+  const int wanted = max(int(min(kReach / length, 1e6)), 1), taps = min(wanted, kMostTaps);
+  if (taps < wanted) atomicAdd(counters[kBoundHits], 1u);
   const ivec2 along = kVertical != 0u ? ivec2(0, 1) : ivec2(1, 0);
   float sum = toLinear(z), weights = 1.0;
   for (int k = 1; k <= taps; ++k) {
