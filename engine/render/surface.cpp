@@ -76,14 +76,14 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device) {
       {stage.scatter_, "render/surface_scatter", 6},
       {stage.order_, "render/surface_order", 5},
       {stage.planes_, "render/surface_planes", 4},
-      {stage.blend_, "render/surface_blend", 5},
+      {stage.blend_, "render/surface_blend", 6},
       {stage.tiles_, "render/surface_tiles", 3},
       {stage.compose_, "render/surface_compose", 8},
-      {stage.thickness_, "render/surface_thickness", 3},
+      {stage.thickness_, "render/surface_thickness", 4},
       {stage.flow_, "render/surface_flow", 2},
-      {stage.normals_, "render/surface_normals", 5},
+      {stage.normals_, "render/surface_normals", 6},
       {stage.composeFiltered_, "render/surface_compose_filtered", 8},
-      {stage.thicknessBare_, "render/surface_thickness_bare", 2},
+      {stage.thicknessBare_, "render/surface_thickness_bare", 3},
   };
   for (const auto& row : all) {
     auto made = computePipeline(
@@ -94,7 +94,7 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device) {
   for (uint32_t vertical = 0; vertical < 2; ++vertical) {
     const uint32_t constants[] = {vertical};
     auto made = computePipeline(device, {.shader = "render/surface_narrow",
-                                         .bindings = std::span(kStorage).first(2),
+                                         .bindings = std::span(kStorage).first(3),
                                          .pushConstantBytes = sizeof(SurfacePush),
                                          .constants = constants});
     if (!made) return made.error();
@@ -170,45 +170,50 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
   addStep(graph, "surface scatter", scatter_,
           {reads(fluid.position), reads(out.counters), reads(survivors), reads(start), reads(rank), fresh(arrived)}, survivorGroups(),
           push);
-  addStep(graph, "surface order", order_, {reads(fluid.position), reads(out.counters), reads(start), reads(arrived), fresh(centre)},
+  addStep(graph, "surface order", order_, {reads(fluid.position), writes(out.counters), reads(start), reads(arrived), fresh(centre)},
           surfaceGroups(), push);
   Grid grid{push, out.counters, out.arguments, start, centre, depth, {}, samples, gridCells(columns, rows, 8), flowSteps};
   BufferRef smooth;
   if (filtered) {
     smooth = addFiltered(graph, grid, method, settings.filter);
+    out.counters = grid.counters;
     grid.plane = centre;  // bound, never read
   } else {
     grid.plane = graph.create("surface planes", {most * 32});
-    addStep(graph, "surface planes", planes_, {reads(out.counters), reads(start), reads(centre), fresh(grid.plane)}, surfaceGroups(), push);
+    addStep(graph, "surface planes", planes_, {writes(out.counters), reads(start), reads(centre), fresh(grid.plane)}, surfaceGroups(), push);
     smooth = graph.create("surface samples", {samples * 8});
-    addStep(graph, "surface blend", blend_, {reads(start), reads(centre), reads(grid.plane), reads(depth), fresh(smooth)},
+    addStep(graph, "surface blend", blend_, {reads(start), reads(centre), reads(grid.plane), reads(depth), fresh(smooth), writes(out.counters)},
             grid.sampleGroups, push);
   }
   addStep(graph, "surface compose", filtered ? composeFiltered_ : compose_,
-          {reads(start), reads(centre), reads(grid.plane), reads(depth), reads(smooth), reads(out.counters), reads(out.tiles),
+          {reads(start), reads(centre), reads(grid.plane), reads(depth), reads(smooth), writes(out.counters), reads(out.tiles),
            whole ? writes(out.pixels) : fresh(out.pixels)},
           StepGroups(out.arguments, kSurfaceTileArguments), push);
   return out;
 }
 
 /// A depth filter in passes from one buffer to another, then normals.
-BufferRef SurfaceStage::addFiltered(Graph& graph, const Grid& grid, SurfaceMethod method, const DepthFilter& filter) const {
+BufferRef SurfaceStage::addFiltered(Graph& graph, Grid& grid, SurfaceMethod method, const DepthFilter& filter) const {
   BufferRef from = grid.depth;
-  const auto pass = [&](std::string_view name, const ComputePipeline* pipeline) {
-    BufferRef to = graph.create("surface filtered", {grid.samples * 4});
-    addStep(graph, name, pipeline, {reads(from), fresh(to)}, grid.sampleGroups, grid.push);
-    from = to;
-  };
+  const auto filtered = [&] { return graph.create("surface filtered", {grid.samples * 4}); };
   if (filter) {
     from = filter(graph, from, grid.push);
   } else if (method == SurfaceMethod::CurvatureFlow) {
-    for (uint32_t k = 0; k < grid.flowSteps; ++k) pass("surface flow", flow_);
+    for (uint32_t k = 0; k < grid.flowSteps; ++k) {
+      BufferRef to = filtered();
+      addStep(graph, "surface flow", flow_, {reads(from), fresh(to)}, grid.sampleGroups, grid.push);
+      from = to;
+    }
   } else {
     for (uint32_t k = 0; k < kNarrowPasses; ++k)
-      for (const ComputePipeline* pipeline : narrow_) pass("surface narrow range", pipeline);
+      for (const ComputePipeline* pipeline : narrow_) {
+        BufferRef to = filtered();
+        addStep(graph, "surface narrow range", pipeline, {reads(from), fresh(to), writes(grid.counters)}, grid.sampleGroups, grid.push);
+        from = to;
+      }
   }
   BufferRef samples = graph.create("surface samples", {grid.samples * 8});
-  addStep(graph, "surface normals", normals_, {reads(grid.start), reads(grid.centre), reads(from), reads(grid.depth), fresh(samples)},
+  addStep(graph, "surface normals", normals_, {reads(grid.start), reads(grid.centre), reads(from), reads(grid.depth), fresh(samples), writes(grid.counters)},
           grid.sampleGroups, grid.push);
   return samples;
 }
@@ -223,18 +228,27 @@ SurfacePush SurfaceStage::thicknessPush(SurfacePush camera, const FluidState& fl
   return camera;
 }
 
-BufferRef SurfaceStage::addThickness(Graph& graph, const FluidState& fluid, const SurfacePush& push, BufferRef sceneDepth) const {
+BufferRef SurfaceStage::addThickness(Graph& graph, const FluidState& fluid, const SurfacePush& push, BufferRef sceneDepth,
+                                     BufferRef* counters) const {
+  BufferRef own;
+  if (!counters) own = graph.create("fluid thickness counters", {kSurfaceCounterWords * 4});
   BufferRef thickness = graph.create("fluid thickness", {gridCells(push.width, push.height, push.step) * 4});
   graph.pass("fluid thickness clear", [&](Pass& pass) {
     thickness = pass.write(thickness, Use::CopyTarget, true);
-    return [thickness](Commands& commands) { commands.fill(thickness, 0); };
+    if (!counters) own = pass.write(own, Use::CopyTarget, true);
+    return [thickness, counters = own, clear = !counters](Commands& commands) {
+      commands.fill(thickness, 0);
+      if (clear) commands.fill(counters, 0);
+    };
   });
   if (fluid.count == 0) return thickness;
   const uint64_t groups = divideUp(fluid.count, kSurfaceGroup);
+  BufferRef& counted = counters ? *counters : own;
   if (sceneDepth == BufferRef{})
-    addStep(graph, "fluid thickness", thicknessBare_, {reads(fluid.position), writes(thickness)}, groups, push);
+    addStep(graph, "fluid thickness", thicknessBare_, {reads(fluid.position), writes(thickness), writes(counted)}, groups, push);
   else
-    addStep(graph, "fluid thickness", thickness_, {reads(fluid.position), writes(thickness), reads(sceneDepth)}, groups, push);
+    addStep(graph, "fluid thickness", thickness_, {reads(fluid.position), writes(thickness), writes(counted), reads(sceneDepth)},
+            groups, push);
   return thickness;
 }
 

@@ -48,7 +48,9 @@ class SurfaceStage {
 
   /// Counts of `push.unit` along each sample's ray, a sample every `push.step` pixels: 1 m of fluid measures 1 m.
   /// `sceneDepth`: m a pixel, what lies behind it is not counted; an empty ref: nothing is in the way.
-  BufferRef addThickness(Graph& graph, const FluidState& fluid, const surface::SurfacePush& push, BufferRef sceneDepth) const;
+  /// `counters`: those of addTo(), where kBoundHits goes on; null: nobody asks.
+  BufferRef addThickness(Graph& graph, const FluidState& fluid, const surface::SurfacePush& push, BufferRef sceneDepth,
+                         BufferRef* counters) const;
   /// The camera with what addThickness() asks for.
   static surface::SurfacePush thicknessPush(surface::SurfacePush camera, const FluidState& fluid, uint32_t step);
 
@@ -62,7 +64,7 @@ class SurfaceStage {
     uint32_t flowSteps = 0;
   };
   /// From the spheres' depth to samples (depth, normal).
-  BufferRef addFiltered(Graph& graph, const Grid& grid, SurfaceMethod method, const DepthFilter& filter) const;
+  BufferRef addFiltered(Graph& graph, Grid& grid, SurfaceMethod method, const DepthFilter& filter) const;
 
   Device* device_ = nullptr;
   const ComputePipeline *occlude_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr, *pick_ = nullptr,

@@ -11,7 +11,7 @@ layout(std430, set = 0, binding = 2) readonly buffer Plane { vec4 plane[]; };
 #endif
 layout(std430, set = 0, binding = 3) readonly buffer Depth { uint depth[]; };
 layout(std430, set = 0, binding = 4) readonly buffer Samples { uvec2 samples[]; };
-layout(std430, set = 0, binding = 5) readonly buffer Counters { uint counters[]; };
+layout(std430, set = 0, binding = 5) buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 6) readonly buffer Tiles { uint tiles[]; };
 layout(std430, set = 0, binding = 7) writeonly buffer Surface { uvec2 surface[]; };  // packPixel()
 #ifdef FILTERED
@@ -116,4 +116,5 @@ void main() {
 #endif
   }
   surface[pixel.y * view.width + pixel.x] = packPixel(z, normal, coverage);
+  if (bound_hit) atomicAdd(counters[kBoundHits], 1u);
 }

@@ -8,6 +8,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, set = 0, binding = 0) readonly buffer Before { float before[]; };
 layout(std430, set = 0, binding = 1) writeonly buffer After { float after[]; };
+layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };
 layout(constant_id = 0) const uint kVertical = 0u;
 
 const float kReach = 3.0 / 1.3;  // standard deviations
@@ -27,7 +28,8 @@ void main() {
     return;
   }
   const float length = metresASample(z) / view.spacing;
-  const int taps = clamp(int(kReach * view.smoothing / length), 1, int(kMostTaps * view.margin));
+  const int wanted = max(int(min(kReach * view.smoothing / length, 1e6)), 1), taps = min(wanted, int(kMostTaps * view.margin));
+  if (taps < wanted) atomicAdd(counters[kBoundHits], 1u);
   // By numbers: of a constant vector chosen by a specialization constant lavapipe (Mesa 22.3) takes the same one always.
   const ivec2 along = ivec2(1 - int(kVertical), int(kVertical));
   float sum = toLinear(z), weights = 1.0;

@@ -6,7 +6,7 @@
 #include "render/surface.glsl"
 
 layout(local_size_x = kSurfaceGroup) in;
-layout(std430, set = 0, binding = 0) readonly buffer Counters { uint counters[]; };
+layout(std430, set = 0, binding = 0) buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 1) readonly buffer Start { uint start[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Centre { vec4 centre[]; };
 layout(std430, set = 0, binding = 3) writeonly buffer Plane { vec4 plane[]; };
@@ -85,4 +85,5 @@ void main() {
   const float height = ball ? 0.0 : dot(fit.mean, normal) * reach + 0.5 * view.spacing;
   plane[2u * k] = vec4(own + height * normal, ball ? 1.0 : 0.0);
   plane[2u * k + 1u] = vec4(ball ? vec3(0.0) : normal, 0.0);
+  if (bound_hit) atomicAdd(counters[kBoundHits], 1u);
 }

@@ -26,7 +26,7 @@ RILL_CONSTANT kNotSurface = 0xFFFFFFFFu;
 RILL_CONSTANT kSurvivorCount = 0;   // particles that occlusion left
 RILL_CONSTANT kSurfaceCount = 1;    // of them, those that own a part of the picture
 RILL_CONSTANT kSurfaceTileCount = 2;       // tiles that hold fluid
-RILL_CONSTANT kBoundHits = 3;       // times that a bounded loop ran into its bound
+RILL_CONSTANT kBoundHits = 3;       // invocations in which a bounded loop ran into its bound: something was left out of the picture
 RILL_CONSTANT kSurfaceCounterWords = 4;
 
 // Words of the argument buffer: three a dispatch, four a draw.
