@@ -69,7 +69,8 @@ std::string plotProgram(std::span<const Plot> plots) {
       const std::string colour = kColours[s % std::size(kColours)];
       const char* with = series.style == Series::Style::Points ? "points" : series.style == Series::Style::Lines ? "lines" : "linespoints";
       curves += (curves.empty() ? "plot " : ", ") + block + " using 1:2 with " + with + " pt " + std::to_string(s % 13 + 4) +
-                " lw 1.5 lc rgb '" + colour + "' " + (series.name.empty() ? std::string("notitle") : "title " + quoted(series.name));
+                (series.emphasised ? " ps 2" : "") + " lw 1.5 lc rgb '" + colour + "' " +
+                (series.name.empty() ? std::string("notitle") : "title " + quoted(series.name));
       if (!series.labels.empty())
         curves += ", " + block + " using 1:2:3 with labels offset 0.6,0.6 left font ',9' tc rgb '" + colour + "' notitle";
     }

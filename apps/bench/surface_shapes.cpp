@@ -8,27 +8,33 @@
 namespace rill::bench {
 namespace {
 
-constexpr int kLayers = 3;  // that a renderer can see
+constexpr int kLayers = 3;           // that a renderer can see
+constexpr double kSteepness = 0.05;  // amplitude of a wave over its length
+constexpr double kTilt = 1.2;        // slope of what is seen at 50 degrees
 
-/// A surface whose depth is a function of x alone: a tilted plane, waves.
+/// A surface whose depth is a function of x alone: a tilted plane, waves. They may have travelled: then particles ride on them, and do not
+/// travel.
 class Relief : public Shape {
  public:
-  Relief(std::string name, double distance, double tangentX, double tangentY, double slope, double amplitude, double length)
+  Relief(std::string name, double distance, double tangentX, double tangentY, double slope, double amplitude, double length,
+         double travelled = 0)
       : name_(std::move(name)),
         distance_(distance),
         tangentX_(tangentX),
         tangentY_(tangentY),
         slope_(slope),
         amplitude_(amplitude),
-        wave_(2 * std::numbers::pi / length) {}
+        wave_(2 * std::numbers::pi / length),
+        travelled_(travelled) {}
 
   std::string name() const override { return name_; }
 
   bool hit(double x, double /*y*/, Truth& truth) const override {
     double t = distance_;
     for (int k = 0; k < 40; ++k) {
-      const double miss = t - depth(t * x), change = 1 - rise(t * x) * x;
-      t -= miss / std::max(change, 0.2);
+      const double step = (t - depth(t * x)) / std::max(1 - rise(t * x) * x, 0.2);
+      t -= step;
+      if (std::abs(step) < 1e-12 * distance_) break;
     }
     const double r = rise(t * x), size = std::sqrt(1 + r * r);
     truth = {t, {r / size, 0, -1 / size}};
@@ -43,7 +49,7 @@ class Relief : public Shape {
     const double width = farthest * tangentX_ + 4, height = farthest * tangentY_ + 4;
     for (int layer = 0; layer < kLayers; ++layer)
       for (double x = -width; x < width;) {
-        const double r = rise(x), size = std::sqrt(1 + r * r);
+        const double r = riseOf(x), size = std::sqrt(1 + r * r);  // before it travelled: particles stay the same ones
         for (double y = -height; y < height; y += 1) {
           const double u = along(random), h = layer + 0.5 + across(random);
           const double at = x + u / size;
@@ -56,11 +62,12 @@ class Relief : public Shape {
   }
 
  private:
-  double depth(double x) const { return distance_ + slope_ * x + amplitude_ * std::sin(wave_ * x); }
-  double rise(double x) const { return slope_ + amplitude_ * wave_ * std::cos(wave_ * x); }
+  double depth(double x) const { return distance_ + slope_ * x + amplitude_ * std::sin(wave_ * (x - travelled_)); }
+  double rise(double x) const { return riseOf(x - travelled_); }
+  double riseOf(double x) const { return slope_ + amplitude_ * wave_ * std::cos(wave_ * x); }
 
   std::string name_;
-  double distance_, tangentX_, tangentY_, slope_, amplitude_, wave_;
+  double distance_, tangentX_, tangentY_, slope_, amplitude_, wave_, travelled_;
 };
 
 class Balls : public Shape {
@@ -110,7 +117,7 @@ class Balls : public Shape {
   std::vector<Ball> balls_;
 };
 
-/// The corner of a box that points at the eye: three planes at right angles.
+/// The corner of a box that points at the eye: three planes at right angles, as far as `reach` from their edges.
 class Corner : public Shape {
  public:
   Corner(double distance, double reach) : tip_(distance), reach_(reach) {}
@@ -123,7 +130,9 @@ class Corner : public Shape {
       const double t = n[2] * tip_ / (n[0] * x + n[1] * y + n[2]);
       if (t > truth.depth) truth = {t, {n[0], n[1], n[2]}};
     }
-    return true;
+    const double t = truth.depth;
+    return t > 0 &&
+           std::ranges::all_of(kNormals, [&](const double* n) { return -n[0] * t * x - n[1] * t * y - n[2] * (t - tip_) < reach_; });
   }
 
   std::vector<Float3> particles(const Jitter& jitter, uint32_t seed) const override {
@@ -168,10 +177,10 @@ class Sheet : public Shape {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> along(-jitter.along, jitter.along), across(-jitter.across, jitter.across);
     std::vector<Float3> out;
-    for (double r = 0.5; r < radius_; ++r) {  // rings, the outermost half a spacing inside the rim
-      const int count = std::max(1, static_cast<int>(2 * std::numbers::pi * r));
+    for (double ring = radius_ - 0.5; ring > 0; --ring) {  // the outermost half a spacing inside the rim
+      const int count = std::max(1, static_cast<int>(2 * std::numbers::pi * ring));
       for (int k = 0; k < count; ++k) {
-        const double angle = 2 * std::numbers::pi * k / count, ring = std::abs(radius_ - std::floor(radius_) + r - 1);
+        const double angle = 2 * std::numbers::pi * k / count;
         out.push_back({float(ring * std::cos(angle) + along(random)), float(ring * std::sin(angle) + along(random)),
                        float(distance_ + 0.5 + across(random))});
       }
@@ -188,9 +197,9 @@ class Sheet : public Shape {
 std::vector<std::unique_ptr<Shape>> shapes(double distance, double tangentX, double tangentY) {
   std::vector<std::unique_ptr<Shape>> all;
   all.push_back(std::make_unique<Relief>("plane", distance, tangentX, tangentY, 0.6, 0, 1));
-  for (const double length : {8.0, 18.0, 50.0})
-    all.push_back(std::make_unique<Relief>("waves " + std::to_string(static_cast<int>(length)), distance, tangentX, tangentY, 0,
-                                           0.05 * length, length));
+  for (const int length : {8, 18, 30, 50, 60})
+    all.push_back(
+        std::make_unique<Relief>("waves " + std::to_string(length), distance, tangentX, tangentY, 0, kSteepness * length, length));
   const double r = 0.55 * distance * tangentY;
   all.push_back(std::make_unique<Balls>(
       std::vector<Balls::Ball>{{-0.6 * r, -0.1 * r, distance, r}, {0.9 * r, 0.4 * r, distance + 0.6 * r, 0.6 * r}}));
@@ -198,6 +207,19 @@ std::vector<std::unique_ptr<Shape>> shapes(double distance, double tangentX, dou
   // A fifth of the picture.
   all.push_back(std::make_unique<Sheet>(distance, distance * std::sqrt(0.2 * 4 * tangentX * tangentY / std::numbers::pi)));
   return all;
+}
+
+std::vector<std::unique_ptr<Shape>> tiltedShapes(double distance, double tangentX, double tangentY) {
+  std::vector<std::unique_ptr<Shape>> all;
+  all.push_back(std::make_unique<Relief>("plane at 50 deg", distance, tangentX, tangentY, kTilt, 0, 1));
+  for (const int length : {18, 50})
+    all.push_back(std::make_unique<Relief>("waves " + std::to_string(length) + " at 50 deg", distance, tangentX, tangentY, kTilt,
+                                           kSteepness * length, length));
+  return all;
+}
+
+std::unique_ptr<Shape> travelledWave(double distance, double tangentX, double tangentY, double length, double travelled) {
+  return std::make_unique<Relief>("moving wave", distance, tangentX, tangentY, 0, kSteepness * length, length, travelled);
 }
 
 }  // namespace rill::bench

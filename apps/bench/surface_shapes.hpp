@@ -1,7 +1,6 @@
 #pragma once
 // Surfaces whose depth and normal are known in every pixel, and particles that fill what is under them.
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,9 +31,12 @@ class Shape {
   virtual std::vector<Float3> particles(const Jitter& jitter, uint32_t seed) const = 0;
 };
 
-/// What the bench looks at from `distance` spacings away: a tilted plane, waves of 8, 18 and 50 spacings, two balls, the corner of a box, a round sheet of
-/// one layer over a fifth of the picture.
-/// `tangentX`, `tangentY`: of half the field of view.
+/// What the bench looks at from `distance` spacings away: a tilted plane, waves of 8 to 60 spacings, two balls, the corner of a box, a
+/// round sheet of one layer over a fifth of the picture. `tangentX`, `tangentY`: of half the field of view.
 std::vector<std::unique_ptr<Shape>> shapes(double distance, double tangentX, double tangentY);
+/// A plane and waves that lean away at 50 degrees, for fields of view up to 1 / 1.8 of half a picture's width.
+std::vector<std::unique_ptr<Shape>> tiltedShapes(double distance, double tangentX, double tangentY);
+/// A wave that has moved on by `travelled` spacings, with the same particles in the same order: they ride up and down on it.
+std::unique_ptr<Shape> travelledWave(double distance, double tangentX, double tangentY, double length, double travelled);
 
 }  // namespace rill::bench

@@ -2,6 +2,8 @@
 
 #include <chrono>
 
+#include "bench/count_allocations.hpp"
+
 namespace rill::bench {
 namespace {
 
@@ -20,16 +22,45 @@ Expected<Workbench> Workbench::open(const Bench& bench) {
 }
 
 Expected<GraphTime> Workbench::run(const std::function<void(Graph&)>& declare) {
-  const Clock::time_point begin = Clock::now();
+  GraphTime time;
+  Clock::time_point begin = Clock::now();
+  const Clock::time_point first = begin;
+  const auto lap = [&] {
+    const double ms = millisecondsSince(begin);
+    begin = Clock::now();
+    return 1e3 * ms;
+  };
+  startCounting();
   graph_->reset();
   declare(*graph_);
-  if (auto compiled = graph_->compile(); !compiled) return compiled.error();
+  time.host.declare_us = lap();
+  time.host.declare_allocations = stopCounting();
+  begin = Clock::now();
+  startCounting();
+  const auto compiled = graph_->compile();
+  time.host.graph_allocations = stopCounting();
+  time.host.compile_us = lap();
+  if (!compiled) return compiled.error();
   if (auto began = context_->beginFrame(); !began) return began.error();
-  if (auto prepared = graph_->prepare(device()); !prepared) return prepared.error();
+  begin = Clock::now();
+  startCounting();
+  const auto prepared = graph_->prepare(device());
+  time.host.graph_allocations += stopCounting();
+  time.host.prepare_us = lap();
+  if (!prepared) return prepared.error();
   const Clock::time_point recording = Clock::now();
-  if (auto ran = context_->submit([&](VkCommandBuffer commands) { graph_->record(commands); }); !ran) return ran.error();
+  const auto ran = context_->submit([&](VkCommandBuffer commands) {
+    begin = Clock::now();
+    startCounting();
+    graph_->record(commands);
+    time.host.graph_allocations += stopCounting();
+    time.host.record_us = lap();
+  });
+  if (!ran) return ran.error();
   if (auto waited = context_->wait(); !waited) return waited.error();
-  return GraphTime{millisecondsSince(recording), millisecondsSince(begin)};
+  time.run_ms = millisecondsSince(recording);
+  time.whole_ms = millisecondsSince(first);
+  return time;
 }
 
 Expected<Buffer> Workbench::uploadBytes(std::string_view name, std::span<const std::byte> bytes) {

@@ -15,6 +15,11 @@ namespace rill::bench {
 
 /// What a graph took.
 struct GraphTime {
+  /// Of the host's work, in order.
+  struct Host {
+    double declare_us = 0, compile_us = 0, prepare_us = 0, record_us = 0;
+    size_t declare_allocations = 0, graph_allocations = 0;  ///< of who declares; in the three others
+  } host;
   double run_ms = 0;    ///< from recording it to its end on the device
   double whole_ms = 0;  ///< with declaring, compiling and preparing it
 };
@@ -43,6 +48,7 @@ class Workbench {
   Expected<GraphTime> run(const std::function<void(Graph&)>& declare);
   /// Whether each pass is timed from now on: it slows the whole.
   void timePasses(bool timed) { graph_->enableTimings(timed); }
+  std::span<const PassReport> passReport() const { return graph_->report(); }  ///< of the last graph
   std::span<const Timing> passTimes() const { return graph_->timings(); }  ///< of the last graph
 
  private:

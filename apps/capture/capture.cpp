@@ -56,6 +56,7 @@ class Capture {
       if (const auto kept = keepCheckpoint(); !kept) code = fail(kept.error());
     // After a failure, too: the figures of the frames so far are whole.
     if (const auto written = writeStats(); !written) code = fail(written.error());
+    if (const auto written = writeGraph(); !written) code = fail(written.error());
     if (const auto reported = report(); !reported) code = fail(reported.error());
     if (code != apps::kDone) return code;
     if (const int signal = apps::signalReceived(); signal && record_->frames() < frames_) return 128 + signal;
@@ -108,13 +109,15 @@ class Capture {
   Expected<void> checkPlaces() const {
     if (options_.stats)
       if (auto place = apps::checkFilePlace("--stats", *options_.stats); !place) return place;
+    if (options_.graph)
+      if (auto place = apps::checkFilePlace("--graph", *options_.graph); !place) return place;
     if (options_.checkpoint)
       if (auto place = apps::checkFilePlace("--checkpoint", *options_.checkpoint); !place) return place;
     return writesFrames() ? apps::checkFolderPlace("--out", out_) : Expected<void>();
   }
 
   Expected<void> makePlaces() {
-    for (const auto& [option, file] : {std::pair{"--stats", &options_.stats}, std::pair{"--checkpoint", &options_.checkpoint}})
+    for (const auto& [option, file] : {std::pair{"--stats", &options_.stats}, std::pair{"--graph", &options_.graph}, std::pair{"--checkpoint", &options_.checkpoint}})
       if (*file && !apps::isSpecialFile(**file) && (*file)->has_parent_path())
         if (auto made = apps::makeFolder(option, (*file)->parent_path()); !made) return made;
     if (!writesFrames()) return {};
@@ -182,10 +185,15 @@ class Capture {
 
   Expected<void> writeStats() const { return options_.stats ? apps::writeFile(*options_.stats, record_->json()) : Expected<void>(); }
 
+  Expected<void> writeGraph() const {
+    if (!options_.graph) return {};
+    return apps::writeFile(*options_.graph, options_.images ? simulation_->pictureDot() : simulation_->graphDot());
+  }
+
   /// The table of passes where it was asked for, and the figures. On standard output, which is left to the JSON where that goes there.
   Expected<void> report() const {
     const bool taken = options_.stats && apps::isStandardOutput(*options_.stats);
-    std::string text = options_.explain ? record_->passTable() : "";
+    std::string text = options_.explain ? record_->passTable() + offline::memoryTable(simulation_->transientMemory()) : "";
     if (!options_.quiet && record_->frames() > 0 && !taken) {
       if (!text.empty()) text += "\n";
       for (const Figure& figure : record_->figures()) {
@@ -206,6 +214,8 @@ class Capture {
       message("frames: " + folder_->frame(first_, kind).string() +
               (last > first_ ? " to " + folder_->frame(last, kind).filename().string() : ""));
     }
+    if (const uint64_t hits = record_->pictureBoundHits(); hits > 0 && !options_.quiet)
+      message(boundHitsWarning(hits));
     if (!options_.quiet && kept_ > 0)
       message("checkpoint: " + options_.checkpoint->string() + ", frame " + std::to_string(first_ + kept_ - 1));
     return text.empty() ? Expected<void>()

@@ -36,7 +36,7 @@ std::optional<Number> parse(std::string_view text) {
 
 /// Options as text: numbers are read here, so that every version of the command line library gives the same messages.
 struct Raw {
-  std::string scene, frames, fps, size, out, view, stats, exportAs, particles, device, checkpoint, checkpointEvery, resume, play, orbit;
+  std::string scene, frames, fps, size, out, view, stats, exportAs, particles, device, checkpoint, checkpointEvery, resume, play, orbit, graph;
   std::vector<std::string> set, require;
   bool explain = false, noImages = false, noPassTimes = false, quiet = false;
 };
@@ -85,6 +85,8 @@ void declare(CLI::App& app, Raw& raw) {
   once("--export", raw.exportAs, "write the particles of each frame: ply", "FORMAT", written);
   once("--stats", raw.stats, "write all figures as JSON; - is standard output", "FILE", written);
 
+  once("--graph", raw.graph, "write the passes of the last picture for Graphviz's dot (without pictures: those of the last advance)", "FILE.dot",
+       written);
   once("--checkpoint", raw.checkpoint, "write all that a later run needs to go on, at the end and on Ctrl-C", "FILE", written);
   once("--checkpoint-every", raw.checkpointEvery, "and after a frame that ends so many seconds (wall time) after the last one", "SECONDS",
        written);
@@ -190,6 +192,10 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
   if (given("--stats")) {
     if (raw.stats.empty()) return badInput("--stats", raw.stats, "the name of a file, or - for standard output");
     options.stats = raw.stats;
+  }
+  if (given("--graph")) {
+    if (raw.graph.empty()) return badInput("--graph", raw.graph, "the name of a file, or - for standard output");
+    options.graph = raw.graph;
   }
   if (given("--checkpoint")) {
     if (raw.checkpoint.empty() || apps::isStandardOutput(raw.checkpoint))

@@ -26,6 +26,7 @@ struct Options {
   std::string view = "final";
   double orbit_deg_per_s = 0;                ///< of the camera around its target
   std::optional<std::filesystem::path> stats;
+  std::optional<std::filesystem::path> graph;  ///< where the last picture's passes go, as Graphviz's dot
   bool exportPly = false;
   std::optional<std::filesystem::path> checkpoint;  ///< where to
   std::optional<double> checkpointEvery_s;          ///< wall time

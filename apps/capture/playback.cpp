@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "capture/output_folder.hpp"
+#include "capture/record.hpp"
 #include "core/words.hpp"
 #include "rill/offline.hpp"
 #include "scene/ply_reader.hpp"
@@ -76,6 +77,8 @@ int runPlayback(const Options& options) {
   if (fs::equivalent(out, *options.play, ignored))
     return refuse({ErrorKind::BadInput, "--out: " + inQuotes(out.string()) + " is the folder that --play reads; expected another"});
   if (auto place = apps::checkFolderPlace("--out", out); !place) return refuse(place.error());
+  if (options.graph)
+    if (auto place = apps::checkFilePlace("--graph", *options.graph); !place) return refuse(place.error());
 
   offline::Options wanted;
   wanted.device = options.device;
@@ -84,16 +87,20 @@ int runPlayback(const Options& options) {
   if (!player) return refuse(player.error());
   auto folder = OutputFolder::prepare(out, false);
   if (!folder) return refuse(folder.error());
+  if (options.graph && !apps::isSpecialFile(*options.graph) && options.graph->has_parent_path())
+    if (auto made = apps::makeFolder("--graph", options.graph->parent_path()); !made) return refuse(made.error());
   apps::Progress progress(options.quiet ? apps::Progress::Style::Quiet : apps::Progress::styleForTerminal());
   const auto count = static_cast<uint32_t>(files->size());
   if (!options.quiet)
     message((*player)->scene().name + ": " + grouped(count) + (count == 1 ? " frame" : " frames") + " of " +
             inQuotes(options.play->string()) + ", " + (*player)->device().name);
   const auto begin = std::chrono::steady_clock::now();
+  uint64_t hits = 0;
   const auto frame = [&](uint32_t k) -> Expected<void> {
     if (auto shown = show(**player, (*files)[k], k / options.fps); !shown) return shown;
     auto image = (*player)->render(options.view, options.width, options.height);
     if (!image) return image.error();
+    hits += (*player)->boundHits();
     return apps::writePng(folder->frame(k, "png"), *image);
   };
   uint32_t done = 0;
@@ -107,8 +114,14 @@ int runPlayback(const Options& options) {
     progress.show({"frame", done + 1, count, (*files)[done].filename().string(), spent});
   }
   progress.clear();
+  if (options.graph)
+    if (auto written = apps::writeFile(*options.graph, (*player)->pictureDot()); !written) {
+      message(written.error().message);
+      return apps::kFailed;
+    }
   if (!options.quiet && done > 0)
     message("frames: " + folder->frame(0, "png").string() + (done > 1 ? " to " + folder->frame(done - 1, "png").filename().string() : ""));
+  if (hits > 0 && !options.quiet) message(boundHitsWarning(hits));
   const int signal = apps::signalReceived();
   return signal && done < count ? 128 + signal : apps::kDone;
 }

@@ -7,6 +7,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/words.hpp"
+
 namespace rill::capture {
 namespace {
 
@@ -47,6 +49,7 @@ Json frameJson(double time_s, const offline::Stats& stats) {
   frame["outside"] = stats.outside;
   frame["neighbour_overflow"] = stats.neighbour_overflow;
   frame["loop_bound_hits"] = stats.loop_bound_hits;
+  frame["picture_bound_hits"] = stats.picture_bound_hits;
   frame["list_builds"] = stats.list_builds;
   frame["artificial_viscosity_Pa_s"] = stats.artificial_viscosity_Pa_s;
   frame["state_hash"] = hexadecimal(stats.state_hash);
@@ -112,6 +115,7 @@ std::vector<Figure> Record::figures() const {
       {"non_finite", of(&Stats::non_finite)(largest), ""},
       {"neighbour_overflow", of(&Stats::neighbour_overflow)(largest), ""},
       {"loop_bound_hits", of(&Stats::loop_bound_hits)(largest), ""},
+      {"picture_bound_hits", double(pictureBoundHits()), ""},
   };
   for (const Probe& probe : scene_->probes) {
     const auto found =
@@ -119,6 +123,12 @@ std::vector<Figure> Record::figures() const {
     figures.push_back({"probes." + probe.name, found == last.probes.end() ? none : found->second, "m"});
   }
   return figures;
+}
+
+uint64_t Record::pictureBoundHits() const {
+  uint64_t hits = 0;
+  for (const apps::Instant& frame : frames_) hits += frame.stats.picture_bound_hits;
+  return hits;
 }
 
 std::string Record::json() const {
@@ -162,6 +172,10 @@ std::string Record::passTable() const {
           std::ranges::find(skipped, skip.first, &offline::SkippedPass::first) == skipped.end())
         skipped.push_back(skip);
   return offline::passTable(passes, skipped, substeps, builds);
+}
+
+std::string boundHitsWarning(uint64_t hits) {
+  return "warning: loops of the renderer's shaders ran into their bounds " + grouped(hits) + " times: pictures lack something there";
 }
 
 }  // namespace rill::capture

@@ -24,6 +24,9 @@ class Record {
   /// In the order of figureNames(). Figures of the density error leave out the first tenth of the frames.
   std::vector<Figure> figures() const;
 
+  /// Of all pictures.
+  uint64_t pictureBoundHits() const;
+
   /// One JSON object, ended by a line feed; what is not finite is null.
   std::string json() const;
 
@@ -39,5 +42,8 @@ class Record {
   double start_s_;
   std::vector<apps::Instant> frames_;
 };
+
+/// What is said where pictures lost something to a bound.
+std::string boundHitsWarning(uint64_t hits);
 
 }  // namespace rill::capture

@@ -31,14 +31,18 @@ Expected<void> GraphImpl::checkImports() const {
 }
 
 Expected<void> GraphImpl::compile() {
-  compiled = prepared = false;
+  compiled = prepared = planWhole = false;
   if (error) return *error;
   if (auto ok = checkImports(); !ok) return ok;
-  cull();
-  placeTransients();
-  planBarriers();
+  if (!reusePlan()) {
+    before.valid = false;
+    ++plansMade;
+    cull();
+    placeTransients();
+    planBarriers();
+  }
   makeReport();
-  compiled = true;
+  compiled = planWhole = true;
   return {};
 }
 
@@ -104,6 +108,20 @@ void GraphImpl::placeTransients() {
   }
   planner.plan(plans[0].placements, kMaxBufferBytes, plans[0].heapSizes);
   planner.plan(plans[1].placements, std::max(largest, kImageHeapBytes), plans[1].heapSizes);
+  reportHeaps();
+}
+
+void GraphImpl::reportHeaps() {
+  heapReports.clear();
+  for (const TransientPlan& plan : plans) {
+    const size_t first = heapReports.size();
+    for (const uint64_t bytes : plan.heapSizes) heapReports.push_back({&plan == &plans[1], 0, bytes, 0});
+    for (const Placement& place : plan.placements) {
+      TransientHeap& heap = heapReports[first + place.heap];
+      heap.separate = (heap.separate + place.alignment - 1) / place.alignment * place.alignment + place.size;
+      ++heap.transients;
+    }
+  }
 }
 
 /// The memory's earlier users, in this frame and the one before, are what a new transient waits for.

@@ -1,6 +1,7 @@
 // The compiled frame for people (Graphviz) and for tools (JSON).
 #include <nlohmann/json.hpp>
 
+#include "gpu/vulkan_error.hpp"
 #include "graph/graph_impl.hpp"
 
 namespace rill {
@@ -16,30 +17,55 @@ std::string escaped(std::string_view text) {
 }
 
 std::string sizeText(const ResourceData& resource) {
-  if (!resource.isImage) return std::to_string(resource.size) + " bytes";
-  return std::to_string(resource.desc.width) + " x " + std::to_string(resource.desc.height) + " of format " +
-         std::to_string(resource.desc.format);
+  if (!resource.isImage) return "";
+  return std::to_string(resource.width()) + " x " + std::to_string(resource.height()) + ", format " + std::to_string(resource.desc.format) +
+         "\\n";
 }
 
 }  // namespace
 
+/// Bytes, place and lifetime; of an import its bytes, where they are known.
+std::string GraphImpl::memoryText(uint32_t index) const {
+  const ResourceData& resource = resources[index];
+  if (resource.imported) return resource.isImage ? "imported" : bytesText(resource.size) + ", imported";
+  const uint32_t placement = memoryOf(index).placement;
+  if (placement == kNone) return "no pass that runs uses it";
+  const Placement& place = planOf(resource).placements[placement];
+  return bytesText(place.size) + " in " + (resource.isImage ? "image heap " : "heap ") + std::to_string(place.heap) + " from " +
+         bytesText(place.offset) + "\\npasses " + std::to_string(place.first) + " to " + std::to_string(place.last);
+}
+
+// Passes from the top in the order in which they run, resources beside the first pass that uses them. Blue: written; grey: read.
 std::string GraphImpl::dot() const {
-  std::string out = "digraph frame {\n  rankdir=LR;\n  node [fontname=\"Helvetica\", fontsize=10];\n";
-  for (size_t r = 0; r < resources.size(); ++r)
-    out += "  r" + std::to_string(r) + " [shape=" + (resources[r].imported ? "box3d" : "box") + ", label=\"" +
-           escaped(names[resources[r].name]) + "\\n" + sizeText(resources[r]) + "\"];\n";
+  std::string out =
+      "digraph frame {\n"
+      "  node [fontname=\"Helvetica\", fontsize=10, height=0.3, margin=\"0.08,0.04\"];\n"
+      "  edge [arrowsize=0.6];\n"
+      "  ranksep=0.25;\n"
+      "  nodesep=0.15;\n";
+  std::vector<bool> drawn(resources.size());
   for (size_t p = 0; p < passes.size(); ++p) {
     const PassData& pass = passes[p];
-    const std::string node = "  p" + std::to_string(p);
-    out += node + " [shape=ellipse, label=\"" + escaped(names[pass.name]) +
-           (pass.alive ? "\"" : "\\nculled: " + escaped(pass.reason) + "\", style=dashed") + "];\n";
+    const std::string node = "p" + std::to_string(p);
+    out += "  " + node + " [shape=ellipse, group=passes, label=\"" + std::to_string(p) + "  " + escaped(names[pass.name]) +
+           (pass.alive ? "\", style=filled, fillcolor=\"#eef4fa\"" : "\\nculled: " + escaped(pass.reason) + "\", style=dashed") + "];\n";
+    if (p > 0) out += "  p" + std::to_string(p - 1) + " -> " + node + " [weight=100, style=invis];\n";
+    std::string beside;
     for (uint32_t k = pass.accesses.first; k < pass.accesses.first + pass.accesses.count; ++k) {
       const Access& access = accesses[k];
-      const std::string resource = "  r" + std::to_string(access.resource);
-      const std::string label = std::string(" [label=\"") + useRow(access.use).name + " v" + std::to_string(access.version) + "\"" +
-                                (pass.alive ? "" : ", style=dashed") + "];\n";
-      out += (access.write ? node + " ->" + resource : resource + " ->" + node) + label;
+      const ResourceData& resource = resources[access.resource];
+      const std::string other = "r" + std::to_string(access.resource);
+      if (!drawn[access.resource]) {
+        drawn[access.resource] = true;
+        beside += "; " + other + " [shape=" + (resource.imported ? "box3d" : "box") + ", fontsize=8, label=\"" +
+                  escaped(names[resource.name]) + (resource.desc.levels > 1 ? ", level " + std::to_string(resource.level) : "") + "\\n" +
+                  sizeText(resource) + memoryText(access.resource) + "\"]";
+      }
+      out += "  " + (access.write ? node + " -> " + other : other + " -> " + node) + " [constraint=false, color=\"" +
+             (access.write ? "#2f6fab" : "#999999") + "\", tooltip=\"" + useRow(access.use).name + ", version " +
+             std::to_string(access.version) + "\"" + (pass.alive ? "" : ", style=dashed") + "];\n";
     }
+    if (!beside.empty()) out += "  {rank=same; " + node + beside + "}\n";
   }
   return out + "}\n";
 }
@@ -91,8 +117,12 @@ std::string GraphImpl::json() const {
     }
     out["resources"].push_back(std::move(entry));
   }
-  out["heaps"] = plans[0].heapSizes;
-  out["image_heaps"] = plans[1].heapSizes;
+  out["heaps"] = Json::array();
+  for (const TransientHeap& heap : heapReports)
+    out["heaps"].push_back({{"kind", heap.images ? "images" : "buffers"},
+                            {"transients", heap.transients},
+                            {"bytes", heap.bytes},
+                            {"bytes_without_aliasing", heap.separate}});
   out["skipped"] = Json::array();
   for (const Skipped& skip : skips) out["skipped"].push_back({{"name", names[skip.name]}, {"reason", skip.reason}});
   return out.dump(2);

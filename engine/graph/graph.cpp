@@ -69,6 +69,7 @@ void GraphImpl::reset() {
   for (PassData& pass : passes)
     if (pass.record && pass.destroy) pass.destroy(pass.record);
   arena.rewind();
+  keepPlan();
   passes.clear();
   resources.clear();
   accesses.clear();
@@ -160,6 +161,7 @@ const Access* GraphImpl::accessOf(uint32_t pass, uint32_t resource) const {
 }
 
 void GraphImpl::addAccess(uint32_t pass, Access access) {
+  compiled = prepared = false;
   assert(pass + 1 == passes.size() && "a pass declares its accesses inside its own set-up");
   accesses.push_back(access);
   ++passes[pass].accesses.count;
@@ -406,10 +408,11 @@ std::span<const Timing> Graph::timings() const {
   return impl_->timings;
 }
 
+std::span<const TransientHeap> Graph::transientHeaps() const { return impl_->heapReports; }
+
 uint64_t Graph::transientBytes() const {
   uint64_t bytes = 0;
-  for (const TransientPlan& plan : impl_->plans)
-    for (uint64_t size : plan.heapSizes) bytes += size;
+  for (const TransientHeap& heap : impl_->heapReports) bytes += heap.bytes;
   return bytes;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // What is behind rill::Graph. One frame's declaration and plan are flat arrays that keep their capacity from frame to frame.
-//   graph.cpp declares, compile.cpp culls and plans, prepare.cpp gets what the device must give, record.cpp records,
+//   graph.cpp declares, compile.cpp culls and plans, plan_reuse.cpp takes over the plan of an equal frame, prepare.cpp gets what the device must give, record.cpp records,
 //   describe.cpp writes it all down.
 #include <algorithm>
 #include <array>
@@ -28,6 +28,7 @@ struct Access {
   Use use = Use::None;
   bool write = false;
   bool keep = false;  ///< a write that also needs the old content
+  friend bool operator==(const Access&, const Access&) = default;
 };
 
 struct Range {
@@ -125,6 +126,15 @@ struct Readback {
   uint64_t offset = 0, size = 0;  ///< in it
 };
 
+/// The frame whose plan the graph holds, as it was declared and planned.
+struct PlannedFrame {
+  bool valid = false;
+  std::vector<PassData> passes;
+  std::vector<ResourceData> resources;
+  std::vector<Access> accesses;
+  std::vector<Target> targets;
+};
+
 struct Skipped {
   uint32_t name;
   std::string_view reason;
@@ -153,6 +163,7 @@ class GraphImpl {
   Expected<void> compile();
   void cull();
   void placeTransients();
+  void reportHeaps();
   TransientPlan& planOf(const ResourceData& resource) { return plans[resource.isImage]; }
   const TransientPlan& planOf(const ResourceData& resource) const { return plans[resource.isImage]; }
   /// Where what concerns a resource's memory stands: level 0 of a pyramid, else itself.
@@ -162,6 +173,12 @@ class GraphImpl {
   void planBarriers();
   void makeReport();
   Expected<void> checkImports() const;
+
+  // plan_reuse.cpp
+  /// At the end of a frame: its plan may serve the next one.
+  void keepPlan();
+  /// Whether the frame is declared like the one before; it then has that one's plan.
+  bool reusePlan();
 
   // prepare.cpp
   Expected<void> prepare(Device& device);
@@ -181,6 +198,7 @@ class GraphImpl {
   void beginTargets(const PassData& pass, VkCommandBuffer commandBuffer) const;
 
   // describe.cpp
+  std::string memoryText(uint32_t resource) const;
   std::string dot() const;
   std::string json() const;
 
@@ -203,6 +221,10 @@ class GraphImpl {
 
   MemoryPlanner planner;
   TransientPlan plans[2];  ///< of buffers, of images
+  std::vector<TransientHeap> heapReports;
+  PlannedFrame before;
+  bool planWhole = false;   ///< of this frame: nothing has failed since compile()
+  uint64_t plansMade = 0;  ///< how often a plan could not be taken over
   std::vector<Cause> causes;
   std::vector<Transition> transitions;
   std::vector<VkImageMemoryBarrier2> imageBarriers;  ///< of `transitions`, made by prepare()

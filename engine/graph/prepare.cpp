@@ -13,7 +13,7 @@ Expected<void> GraphImpl::prepare(Device& owner) {
   DeviceImpl& d = owner.impl();
   assert((!device || device == &d) && "a graph stays on one device");
   device = &d;
-  prepared = false;
+  prepared = planWhole = false;
   collect();
   if (draws && !d.draws)
     return Error{ErrorKind::NoDevice, "the frame draws, but the queue family that Rill was given on '" + d.info.name + "' has no graphics"};
@@ -52,7 +52,7 @@ Expected<void> GraphImpl::prepare(Device& owner) {
       slot->queryCapacity = create.queryCount;
     }
   }
-  prepared = true;
+  prepared = planWhole = true;
   return {};
 }
 
@@ -89,7 +89,9 @@ Expected<void> GraphImpl::learnImages(DeviceImpl& d) {
     const ResourceData& image = resources[index];
     auto learned = images.learn(d, {image.desc, image.usage}, names[image.name]);
     if (!learned) return learned.error();
-    news |= *learned;
+    if (!*learned) continue;
+    news = true;
+    before.valid = false;  // planned by an estimate
   }
   if (news) {
     placeTransients();

@@ -1,7 +1,9 @@
 #include "offline/painter.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
 #include "core/words.hpp"
@@ -40,6 +42,14 @@ const View* find(std::string_view name) {
 }
 
 }  // namespace
+
+uint64_t boundHits(const Graph& graph, const PictureTickets& tickets) {
+  if (!tickets.counters) return 0;
+  const auto bytes = graph.data(*tickets.counters);
+  std::array<uint32_t, surface::kSurfaceCounterWords> words{};
+  std::memcpy(words.data(), bytes.data(), std::min(bytes.size(), sizeof words));
+  return words[surface::kBoundHits];
+}
 
 std::span<const std::string_view> Painter::views() { return kNames; }
 
@@ -97,7 +107,8 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
   return {};
 }
 
-Ticket Painter::declare(Graph& graph, const FluidState& fluid, std::string_view name, uint32_t width, uint32_t height, double time_s) {
+PictureTickets Painter::declare(Graph& graph, const FluidState& fluid, std::string_view name, uint32_t width, uint32_t height,
+                                double time_s) {
   const View& view = *find(name);
   const CameraView eye = camera(width, height, time_s);
   if (view.kind == Kind::Particles) {
@@ -105,12 +116,17 @@ Ticket Painter::declare(Graph& graph, const FluidState& fluid, std::string_view 
     desc.width = width;
     desc.height = height;
     desc.colour = view.colour;
-    return graph.readback(particles_->addTo(graph, fluid, eye, desc, time_s));
+    return {graph.readback(particles_->addTo(graph, fluid, eye, desc, time_s)), {}};
   }
+  const auto withCounters = [&](BufferRef picture) {
+    PictureTickets tickets{graph.readback(picture), {}};
+    if (fluid.count > 0) tickets.counters = graph.readback(fluid_->impl().last.counters);
+    return tickets;
+  };
   const FluidView seen = fluidView(eye, width, height, scene_.fluid.spacing);
   if (view.kind == Kind::Data) {
     const double full = view.data == SurfaceData::Depth ? 2 * seen.focus_m : 0.5 * seen.focus_m;
-    return graph.readback(fluid_->addData(graph, fluid, seen, view.data, static_cast<float>(full), look_.surface));
+    return withCounters(fluid_->addData(graph, fluid, seen, view.data, static_cast<float>(full), look_.surface));
   }
   const TargetFormats formats;
   SceneTargets targets{graph.create("picture colour", {formats.colour, width, height}),
@@ -125,7 +141,7 @@ Ticket Painter::declare(Graph& graph, const FluidState& fluid, std::string_view 
     const Kernel kernel = pass.kernel(tonemap_, {targets.colour, picture});
     return [kernel, groups = divideUp(uint64_t{width} * height, 64)](Commands& commands) { commands.dispatch(kernel, groups); };
   });
-  return graph.readback(picture);
+  return withCounters(picture);
 }
 
 void Painter::finish(Image& image, std::string_view name, double time_s) const {

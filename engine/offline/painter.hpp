@@ -1,6 +1,7 @@
 #pragma once
 // The pictures of a simulation: which views there are, and the passes of each.
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include "render/particle_view.hpp"
@@ -9,6 +10,15 @@
 #include "rill/offline.hpp"
 
 namespace rill::offline {
+
+/// What comes back of a picture.
+struct PictureTickets {
+  Ticket picture;
+  std::optional<Ticket> counters;  ///< of the surface, where one was made
+};
+
+/// Times that loops of the picture's shaders ran into their bound, once it has arrived.
+uint64_t boundHits(const Graph& graph, const PictureTickets& tickets);
 
 class Painter {
  public:
@@ -22,7 +32,7 @@ class Painter {
   /// What check() says, BadInput for a look that is unknown; makes on the device what it needs.
   Expected<void> prepare(Device& device, std::string_view view, uint32_t width, uint32_t height);
   /// Declares the passes of a picture that prepare() allowed.
-  Ticket declare(Graph& graph, const FluidState& fluid, std::string_view view, uint32_t width, uint32_t height, double time_s);
+  PictureTickets declare(Graph& graph, const FluidState& fluid, std::string_view view, uint32_t width, uint32_t height, double time_s);
   /// What is drawn on the finished picture by the host.
   void finish(Image& image, std::string_view view, double time_s) const;
 

@@ -60,4 +60,20 @@ std::string passTable(std::span<const PassTime> passes, std::span<const SkippedP
   return text + line;
 }
 
+std::string memoryTable(std::span<const FrameMemory> frames) {
+  if (frames.empty()) return "";
+  char line[256];
+  std::snprintf(line, sizeof line, "%-36s %9s %11s %10s\n", "transient memory", "resources", "MiB", "unaliased");
+  std::string text = line;
+  constexpr double kMiB = 1 << 20;
+  for (const FrameMemory& frame : frames)
+    for (const TransientHeap& heap : frame.heaps) {
+      const std::string name = frame.frame + (heap.images ? ", images" : ", buffers");
+      std::snprintf(line, sizeof line, "%-36s %9u %11.3f %10.3f\n", name.c_str(), heap.transients, double(heap.bytes) / kMiB,
+                    double(heap.separate) / kMiB);
+      text += line;
+    }
+  return text;
+}
+
 }  // namespace rill::offline

@@ -78,18 +78,21 @@ class Player::Impl {
       fluid.position = graph_.import("played positions", {position_.handle(), 0, position_.size(), Use::None, Use::None});
       fluid.velocity = graph_.import("played velocities", {velocity_.handle(), 0, velocity_.size(), Use::None, Use::None});
     }
-    const Ticket ticket = painter_.declare(graph_, fluid, view, width, height, time_s_);
+    const PictureTickets tickets = painter_.declare(graph_, fluid, view, width, height, time_s_);
     if (auto ran = context_->run(graph_); !ran) return ran.error();
     if (auto waited = context_->wait(); !waited) return waited.error();
     Image image{width, height, std::vector<uint8_t>(4 * size_t{width} * height)};
-    const auto bytes = graph_.data(ticket);
+    const auto bytes = graph_.data(tickets.picture);
     if (bytes.size() < image.rgba.size())
       return Error{ErrorKind::Failed, "drawing the view \"" + std::string(view) + "\": no picture came back"};
     std::memcpy(image.rgba.data(), bytes.data(), image.rgba.size());
     painter_.finish(image, view, time_s_);
+    boundHits_ = offline::boundHits(graph_, tickets);
     return image;
   }
 
+  std::string pictureDot() const { return graph_.dot(); }
+  uint64_t boundHits() const { return boundHits_; }
   const DeviceInfo& device() const { return context_->device().info(); }
   std::vector<std::string> takeMessages() { return context_->takeMessages(); }
   const Scene& scene() const { return scene_; }
@@ -102,6 +105,7 @@ class Player::Impl {
   uint32_t count_ = 0;
   double origin_[3] = {0, 0, 0};
   double time_s_ = 0;
+  uint64_t boundHits_ = 0;  ///< of the last picture
   Painter painter_;
   Graph graph_;
 };
@@ -124,6 +128,8 @@ Expected<Image> Player::render(const std::string& view, uint32_t width, uint32_t
   return impl_->render(view, width, height);
 } catch (const std::bad_alloc&) { return outOfMemory("drawing"); }
 
+std::string Player::pictureDot() const { return impl_->pictureDot(); }
+uint64_t Player::boundHits() const { return impl_->boundHits(); }
 const DeviceInfo& Player::device() const { return impl_->device(); }
 const Scene& Player::scene() const { return impl_->scene(); }
 std::vector<std::string> Player::takeValidationMessages() { return impl_->takeMessages(); }

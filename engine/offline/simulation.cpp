@@ -127,6 +127,7 @@ class Simulation::Impl {
     stats.front_m = reader.front(Axis::PlusX);
     stats.state_hash = stateHash(readout_.positions, readout_.velocities, readout_.ids);
     for (const Probe& probe : scene_.probes) stats.probes.emplace_back(probe.name, reader.measure(probe));
+    stats.picture_bound_hits = pictureBoundHits_;
     stats.wall_s = wall_s_;
     stats.pass_ms = log_.times();
     stats.skipped = log_.skipped();
@@ -159,26 +160,36 @@ class Simulation::Impl {
     if (auto ready = painter_.prepare(context_->device(), view, width, height); !ready) return ready.error();
     if (auto measured = measure(); !measured) return measured.error();
     const double now = measured_->time_s;  // the device's: behind time() where time was dropped
-    Ticket ticket;
+    PictureTickets tickets;
     auto ran = run(renderGraph_, [&](Graph& graph) {
       const FluidState state = fluid_->addTo(graph, {});
-      ticket = painter_.declare(graph, state, view, width, height, now);
+      tickets = painter_.declare(graph, state, view, width, height, now);
     });
     if (!ran) return ran.error();
-    const auto bytes = renderGraph_.data(ticket);
+    const auto bytes = renderGraph_.data(tickets.picture);
     Image image{width, height, std::vector<uint8_t>(4 * size_t{width} * height)};
     if (bytes.size() < image.rgba.size())
       return Error{ErrorKind::Failed, "drawing the view \"" + std::string(view) + "\": no picture came back"};
     std::memcpy(image.rgba.data(), bytes.data(), image.rgba.size());
     painter_.finish(image, view, now);
+    pictureBoundHits_ += boundHits(renderGraph_, tickets);
     return image;
   }
 
   const Scene& scene() const { return scene_; }
   const ParticleSet& start() const { return start_; }
   const DeviceInfo& device() const { return context_->device().info(); }
-  std::string explain() const { return passTable(log_.times(), log_.skipped(), advanced_.substeps, advanced_.list_builds); }
+  std::string explain() const {
+    return passTable(log_.times(), log_.skipped(), advanced_.substeps, advanced_.list_builds) + memoryTable(transientMemory());
+  }
+  std::vector<FrameMemory> transientMemory() const {
+    std::vector<FrameMemory> all;
+    for (const auto& [frame, graph] : {std::pair{"advance", &advanceGraph_}, {"measure", &measureGraph_}, {"picture", &renderGraph_}})
+      if (const auto heaps = graph->transientHeaps(); !heaps.empty()) all.push_back({frame, {heaps.begin(), heaps.end()}});
+    return all;
+  }
   std::string graphDot() const { return advanceGraph_.dot(); }
+  std::string pictureDot() const { return renderGraph_.dot(); }
   std::vector<std::string> takeValidationMessages() { return context_->takeMessages(); }
 
   std::vector<std::string> warnings() const {
@@ -193,6 +204,7 @@ class Simulation::Impl {
     measured_.reset();
     advanced_ = {};
     wall_s_ = 0;
+    pictureBoundHits_ = 0;
     log_.clear();
   }
 
@@ -286,6 +298,7 @@ class Simulation::Impl {
   uint32_t expected_ = kFirstPiece;     ///< substeps that the next frame will take, a guess
   double time_s_ = 0;
   double wall_s_ = 0;
+  uint64_t pictureBoundHits_ = 0;  ///< of the present instant
 };
 
 Simulation::Simulation(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -347,7 +360,9 @@ const ParticleSet& Simulation::start() const { return impl_->start(); }
 const DeviceInfo& Simulation::device() const { return impl_->device(); }
 std::vector<std::string> Simulation::warnings() const { return impl_->warnings(); }
 std::string Simulation::explain() const { return impl_->explain(); }
+std::vector<FrameMemory> Simulation::transientMemory() const { return impl_->transientMemory(); }
 std::string Simulation::graphDot() const { return impl_->graphDot(); }
+std::string Simulation::pictureDot() const { return impl_->pictureDot(); }
 std::vector<std::string> Simulation::takeValidationMessages() { return impl_->takeValidationMessages(); }
 
 }  // namespace rill::offline

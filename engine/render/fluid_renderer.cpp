@@ -96,8 +96,8 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
     return targets;
   }
   if (!fits(graph, fluid, targets, view)) return targets;
-  const SurfacePush push = camera(fluid, view);
-  last = surface.addTo(graph, fluid, push, look.surface, whole, view.focus_m);
+  last = surface.addTo(graph, fluid, camera(fluid, view), look.surface, whole, view.focus_m);
+  const SurfacePush push = last.push;
   const uint64_t pixels = uint64_t{push.width} * push.height;
   BufferRef sceneColour = graph.create("fluid scene colour", {pixels * 8}), sceneDepth = graph.create("fluid scene depth", {pixels * 4});
   graph.pass("fluid scene", [&](Pass& pass) {
@@ -117,7 +117,7 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
     graph.skipped("fluid thickness", "the look is opaque");
     thickness = last.tiles;  // bound, never read
   } else {
-    thickness = surface.addThickness(graph, fluid, thick, sceneDepth);
+    thickness = surface.addThickness(graph, fluid, thick, sceneDepth, &last.counters);
   }
   const BufferRef record = addLook(graph, lookRecord(look, thick));
   graph.pass("fluid shade", [&](Pass& pass) {
@@ -147,11 +147,11 @@ BufferRef FluidRendererImpl::addData(Graph& graph, const FluidState& fluid, cons
     });
     return picture;
   }
-  const SurfaceBuffers found = surface.addTo(graph, fluid, push, method, true, view.focus_m);
+  last = surface.addTo(graph, fluid, push, method, true, view.focus_m);
   const SurfacePush thick = SurfaceStage::thicknessPush(push, fluid, kThicknessStep);
-  BufferRef thickness = found.tiles;  // bound, never read
-  if (what == SurfaceData::Thickness) thickness = surface.addThickness(graph, fluid, thick, {});
-  addStep(graph, "surface data", data[static_cast<size_t>(what)], {reads(found.pixels), reads(thickness), fresh(picture)},
+  BufferRef thickness = last.tiles;  // bound, never read
+  if (what == SurfaceData::Thickness) thickness = surface.addThickness(graph, fluid, thick, {}, &last.counters);
+  addStep(graph, "surface data", data[static_cast<size_t>(what)], {reads(last.pixels), reads(thickness), fresh(picture)},
           divideUp(pixels, kSurfaceGroup), DataPush{thick, full});
   return picture;
 }

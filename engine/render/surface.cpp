@@ -4,6 +4,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "render/compute_step.hpp"
 #include "sort/dispatches.hpp"
@@ -18,7 +19,6 @@ constexpr float kHardRadius = 0.9f;            // spacings: spheres that leave n
 constexpr float kThicknessRadius = 1.2f;       // spacings: a disc that overlaps enough to be smooth
 constexpr float kThicknessUnit = 1.0f / 1024;  // spacings
 constexpr uint32_t kMostStep = 16;
-constexpr double kFlowTime = 1.3;     // spacings squared: a blur of about a spacing
 constexpr double kFlowStable = 0.45;  // of a sample's square: a step at the focus
 constexpr uint32_t kMostFlowSteps = 128;
 constexpr uint32_t kNarrowPasses = 2;
@@ -31,22 +31,31 @@ double metresAPixel(const SurfacePush& camera, double depth) {
   return std::abs(double{camera.scale[1]}) * 2 / camera.height * (camera.perspective > 0 ? depth : 1.0);
 }
 
+/// As wide in spacings as the one of the default, in whole cells.
+uint32_t marginSamples(double samples) {
+  const double finer = std::max(samples / SurfaceSettings{}.samples, 1.0);
+  return kMarginSamples / kCellSamples * static_cast<uint32_t>(std::ceil(finer)) * kCellSamples;
+}
+
 }  // namespace
 
-std::array<double, 3> unpackNormal(uint32_t packed) {
-  const auto part = [](uint32_t half) { return std::max(double(int16_t(half)) / 32767, -1.0); };
-  double x = part(packed & 0xFFFF), y = part(packed >> 16);
+SurfacePixel unpackPixel(const uint32_t* words) {
+  SurfacePixel pixel{std::bit_cast<float>(words[0]), {}};
+  if (std::signbit(pixel.depth)) pixel.depth = std::numeric_limits<float>::infinity();
+  const auto part = [](uint32_t bits) { return double(int32_t(bits << 18) >> 18) / 8191; };  // 14 bits, signed
+  double x = part(words[1]), y = part(words[1] >> 14);
   const double z = 1 - std::abs(x) - std::abs(y), fold = std::max(-z, 0.0);
   x += x >= 0 ? -fold : fold;
   y += y >= 0 ? -fold : fold;
   const double size = std::sqrt(x * x + y * y + z * z);
-  return {x / size, y / size, z / size};
+  pixel.normal = {x / size, y / size, z / size};
+  return pixel;
 }
 
-uint32_t sampleStep(const SurfacePush& camera, float spacing, double depth) {
+uint32_t sampleStep(const SurfacePush& camera, float spacing, double depth, double samples) {
   const double metres = metresAPixel(camera, depth);
-  const double samples = spacing / std::max(metres, 1e-30) / 3.0;  // pixels that a third of a spacing is wide
-  return samples >= kMostStep ? kMostStep : std::bit_floor(static_cast<uint32_t>(std::max(samples, 1.0)));
+  const double pixels = spacing / std::max(metres, 1e-30) / samples;  // of the widest sample
+  return pixels >= kMostStep ? kMostStep : std::bit_floor(static_cast<uint32_t>(std::max(pixels, 1.0)));
 }
 
 Expected<SurfaceStage> SurfaceStage::create(Device& device) {
@@ -67,14 +76,14 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device) {
       {stage.scatter_, "render/surface_scatter", 6},
       {stage.order_, "render/surface_order", 5},
       {stage.planes_, "render/surface_planes", 4},
-      {stage.blend_, "render/surface_blend", 5},
+      {stage.blend_, "render/surface_blend", 6},
       {stage.tiles_, "render/surface_tiles", 3},
       {stage.compose_, "render/surface_compose", 8},
-      {stage.thickness_, "render/surface_thickness", 3},
+      {stage.thickness_, "render/surface_thickness", 4},
       {stage.flow_, "render/surface_flow", 2},
-      {stage.normals_, "render/surface_normals", 5},
+      {stage.normals_, "render/surface_normals", 6},
       {stage.composeFiltered_, "render/surface_compose_filtered", 8},
-      {stage.thicknessBare_, "render/surface_thickness_bare", 2},
+      {stage.thicknessBare_, "render/surface_thickness_bare", 3},
   };
   for (const auto& row : all) {
     auto made = computePipeline(
@@ -85,7 +94,7 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device) {
   for (uint32_t vertical = 0; vertical < 2; ++vertical) {
     const uint32_t constants[] = {vertical};
     auto made = computePipeline(device, {.shader = "render/surface_narrow",
-                                         .bindings = std::span(kStorage).first(2),
+                                         .bindings = std::span(kStorage).first(3),
                                          .pushConstantBytes = sizeof(SurfacePush),
                                          .constants = constants});
     if (!made) return made.error();
@@ -96,23 +105,24 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device) {
   return stage;
 }
 
-SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, SurfacePush push, SurfaceMethod method, bool whole,
-                                   double focus) const {
+SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, SurfacePush push, SurfaceMethod method, bool whole, double focus,
+                                   const SurfaceSettings& settings) const {
   assert(fluid.count > 0);
-  const bool filtered = method == SurfaceMethod::CurvatureFlow || method == SurfaceMethod::NarrowRange;
+  const bool filtered = settings.filter || method == SurfaceMethod::CurvatureFlow || method == SurfaceMethod::NarrowRange;
   push.spacing = fluid.spacing;
   push.radius = kHardRadius * fluid.spacing;
   push.count = fluid.count;
-  push.margin = kMarginSamples;
   const double sampleSide = std::max(metresAPixel(push, focus) * push.step, 1e-6 * fluid.spacing), sampleArea = sampleSide * sampleSide;
+  push.margin = marginSamples(std::min(settings.samples, push.spacing / sampleSide));
   // As many steps as the time takes where the fluid is; nearer to the eye, where samples are smaller, the stable step falls short of it.
   const double area = double{push.spacing} * push.spacing;
   const uint32_t flowSteps =
-      std::clamp(static_cast<uint32_t>(std::ceil(kFlowTime * area / (kFlowStable * sampleArea))), 1u, kMostFlowSteps);
-  push.flow_time = static_cast<float>(kFlowTime * area / flowSteps);
+      std::clamp(static_cast<uint32_t>(std::ceil(settings.flow_time * area / (kFlowStable * sampleArea))), 1u, kMostFlowSteps);
+  push.smoothing = static_cast<float>(method == SurfaceMethod::CurvatureFlow ? settings.flow_time * area / flowSteps
+                                      : method == SurfaceMethod::NarrowRange ? settings.narrow_sigma
+                                                                             : settings.fit_reach);
   const uint64_t particles = divideUp(fluid.count, kSurfaceGroup);
-  const uint64_t columns = divideUp(push.width, push.step) + 2 * kMarginSamples,
-                 rows = divideUp(push.height, push.step) + 2 * kMarginSamples;
+  const uint64_t columns = divideUp(push.width, push.step) + 2 * push.margin, rows = divideUp(push.height, push.step) + 2 * push.margin;
   const uint64_t samples = columns * rows, cells = gridCells(columns, rows, kCellSamples);
   const uint64_t tiles = gridCells(push.width, push.height, kSurfaceTile);
   const uint64_t most = fluid.count;  // particles that can be surface
@@ -160,43 +170,50 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
   addStep(graph, "surface scatter", scatter_,
           {reads(fluid.position), reads(out.counters), reads(survivors), reads(start), reads(rank), fresh(arrived)}, survivorGroups(),
           push);
-  addStep(graph, "surface order", order_, {reads(fluid.position), reads(out.counters), reads(start), reads(arrived), fresh(centre)},
+  addStep(graph, "surface order", order_, {reads(fluid.position), writes(out.counters), reads(start), reads(arrived), fresh(centre)},
           surfaceGroups(), push);
   Grid grid{push, out.counters, out.arguments, start, centre, depth, {}, samples, gridCells(columns, rows, 8), flowSteps};
   BufferRef smooth;
   if (filtered) {
-    smooth = addFiltered(graph, grid, method);
+    smooth = addFiltered(graph, grid, method, settings.filter);
+    out.counters = grid.counters;
     grid.plane = centre;  // bound, never read
   } else {
     grid.plane = graph.create("surface planes", {most * 32});
-    addStep(graph, "surface planes", planes_, {reads(out.counters), reads(start), reads(centre), fresh(grid.plane)}, surfaceGroups(), push);
+    addStep(graph, "surface planes", planes_, {writes(out.counters), reads(start), reads(centre), fresh(grid.plane)}, surfaceGroups(), push);
     smooth = graph.create("surface samples", {samples * 8});
-    addStep(graph, "surface blend", blend_, {reads(start), reads(centre), reads(grid.plane), reads(depth), fresh(smooth)},
+    addStep(graph, "surface blend", blend_, {reads(start), reads(centre), reads(grid.plane), reads(depth), fresh(smooth), writes(out.counters)},
             grid.sampleGroups, push);
   }
   addStep(graph, "surface compose", filtered ? composeFiltered_ : compose_,
-          {reads(start), reads(centre), reads(grid.plane), reads(depth), reads(smooth), reads(out.counters), reads(out.tiles),
+          {reads(start), reads(centre), reads(grid.plane), reads(depth), reads(smooth), writes(out.counters), reads(out.tiles),
            whole ? writes(out.pixels) : fresh(out.pixels)},
           StepGroups(out.arguments, kSurfaceTileArguments), push);
   return out;
 }
 
 /// A depth filter in passes from one buffer to another, then normals.
-BufferRef SurfaceStage::addFiltered(Graph& graph, const Grid& grid, SurfaceMethod method) const {
+BufferRef SurfaceStage::addFiltered(Graph& graph, Grid& grid, SurfaceMethod method, const DepthFilter& filter) const {
   BufferRef from = grid.depth;
-  const auto pass = [&](std::string_view name, const ComputePipeline* pipeline) {
-    BufferRef to = graph.create("surface filtered", {grid.samples * 4});
-    addStep(graph, name, pipeline, {reads(from), fresh(to)}, grid.sampleGroups, grid.push);
-    from = to;
-  };
-  if (method == SurfaceMethod::CurvatureFlow) {
-    for (uint32_t k = 0; k < grid.flowSteps; ++k) pass("surface flow", flow_);
+  const auto filtered = [&] { return graph.create("surface filtered", {grid.samples * 4}); };
+  if (filter) {
+    from = filter(graph, from, grid.push);
+  } else if (method == SurfaceMethod::CurvatureFlow) {
+    for (uint32_t k = 0; k < grid.flowSteps; ++k) {
+      BufferRef to = filtered();
+      addStep(graph, "surface flow", flow_, {reads(from), fresh(to)}, grid.sampleGroups, grid.push);
+      from = to;
+    }
   } else {
     for (uint32_t k = 0; k < kNarrowPasses; ++k)
-      for (const ComputePipeline* pipeline : narrow_) pass("surface narrow range", pipeline);
+      for (const ComputePipeline* pipeline : narrow_) {
+        BufferRef to = filtered();
+        addStep(graph, "surface narrow range", pipeline, {reads(from), fresh(to), writes(grid.counters)}, grid.sampleGroups, grid.push);
+        from = to;
+      }
   }
   BufferRef samples = graph.create("surface samples", {grid.samples * 8});
-  addStep(graph, "surface normals", normals_, {reads(grid.start), reads(grid.centre), reads(from), reads(grid.depth), fresh(samples)},
+  addStep(graph, "surface normals", normals_, {reads(grid.start), reads(grid.centre), reads(from), reads(grid.depth), fresh(samples), writes(grid.counters)},
           grid.sampleGroups, grid.push);
   return samples;
 }
@@ -211,18 +228,27 @@ SurfacePush SurfaceStage::thicknessPush(SurfacePush camera, const FluidState& fl
   return camera;
 }
 
-BufferRef SurfaceStage::addThickness(Graph& graph, const FluidState& fluid, const SurfacePush& push, BufferRef sceneDepth) const {
+BufferRef SurfaceStage::addThickness(Graph& graph, const FluidState& fluid, const SurfacePush& push, BufferRef sceneDepth,
+                                     BufferRef* counters) const {
+  BufferRef own;
+  if (!counters) own = graph.create("fluid thickness counters", {kSurfaceCounterWords * 4});
   BufferRef thickness = graph.create("fluid thickness", {gridCells(push.width, push.height, push.step) * 4});
   graph.pass("fluid thickness clear", [&](Pass& pass) {
     thickness = pass.write(thickness, Use::CopyTarget, true);
-    return [thickness](Commands& commands) { commands.fill(thickness, 0); };
+    if (!counters) own = pass.write(own, Use::CopyTarget, true);
+    return [thickness, counters = own, clear = !counters](Commands& commands) {
+      commands.fill(thickness, 0);
+      if (clear) commands.fill(counters, 0);
+    };
   });
   if (fluid.count == 0) return thickness;
   const uint64_t groups = divideUp(fluid.count, kSurfaceGroup);
+  BufferRef& counted = counters ? *counters : own;
   if (sceneDepth == BufferRef{})
-    addStep(graph, "fluid thickness", thicknessBare_, {reads(fluid.position), writes(thickness)}, groups, push);
+    addStep(graph, "fluid thickness", thicknessBare_, {reads(fluid.position), writes(thickness), writes(counted)}, groups, push);
   else
-    addStep(graph, "fluid thickness", thickness_, {reads(fluid.position), writes(thickness), reads(sceneDepth)}, groups, push);
+    addStep(graph, "fluid thickness", thickness_, {reads(fluid.position), writes(thickness), writes(counted), reads(sceneDepth)},
+            groups, push);
   return thickness;
 }
 

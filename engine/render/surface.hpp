@@ -1,6 +1,7 @@
 #pragma once
 // From particles to a smooth surface: its depth and normal in every pixel. The methods share all that comes before the smoothing.
 #include <array>
+#include <functional>
 
 #include "gpu/resources.hpp"
 #include "render/surface_records.h"
@@ -13,11 +14,24 @@ namespace rill {
 
 /// What a surface is handed on as. Only pixels of the listed tiles are written, unless it was asked for as a whole.
 struct SurfaceBuffers {
-  BufferRef pixels;     ///< two words a pixel: depth in m (infinite: no fluid), packed normal in view space
+  BufferRef pixels;     ///< two words a pixel, as unpackPixel() reads them
   BufferRef tiles;      ///< numbers of the tiles that hold fluid, in any order
   BufferRef counters;   ///< kSurvivorCount ...
   BufferRef arguments;  ///< kSurfaceTileArguments, kTileDraw, kPixelArguments
   surface::SurfacePush push;
+};
+
+/// From the spheres' depth, a float a sample, to a smooth one.
+using DepthFilter = std::function<BufferRef(Graph&, BufferRef depth, const surface::SurfacePush&)>;
+
+/// How finely the surface is sampled and how far it is smoothed. The defaults are what pictures are made with; `rill-bench render` varies
+/// them.
+struct SurfaceSettings {
+  double samples = 3;         ///< a spacing at the focus, at least: samples are 1, 2, 4 ... pixels wide
+  double fit_reach = 2.5;     ///< planes: how far around a particle its plane is fitted, spacings
+  double flow_time = 1.3;     ///< curvature flow: spacings squared; blurs over about its root
+  double narrow_sigma = 1.3;  ///< narrow range: standard deviation of its Gaussian, spacings
+  DepthFilter filter = {};    ///< in place of the method's own; for baselines
 };
 
 class SurfaceStage {
@@ -29,12 +43,14 @@ class SurfaceStage {
 
   /// `camera`: viewPush() of the view with its step. `whole`: pixels without fluid are written, too. `focus`: m, how far away the fluid is.
   /// The state has particles.
-  SurfaceBuffers addTo(Graph& graph, const FluidState& fluid, surface::SurfacePush camera, SurfaceMethod method, bool whole,
-                       double focus) const;
+  SurfaceBuffers addTo(Graph& graph, const FluidState& fluid, surface::SurfacePush camera, SurfaceMethod method, bool whole, double focus,
+                       const SurfaceSettings& settings = {}) const;
 
   /// Counts of `push.unit` along each sample's ray, a sample every `push.step` pixels: 1 m of fluid measures 1 m.
   /// `sceneDepth`: m a pixel, what lies behind it is not counted; an empty ref: nothing is in the way.
-  BufferRef addThickness(Graph& graph, const FluidState& fluid, const surface::SurfacePush& push, BufferRef sceneDepth) const;
+  /// `counters`: those of addTo(), where kBoundHits goes on; null: nobody asks.
+  BufferRef addThickness(Graph& graph, const FluidState& fluid, const surface::SurfacePush& push, BufferRef sceneDepth,
+                         BufferRef* counters) const;
   /// The camera with what addThickness() asks for.
   static surface::SurfacePush thicknessPush(surface::SurfacePush camera, const FluidState& fluid, uint32_t step);
 
@@ -48,7 +64,7 @@ class SurfaceStage {
     uint32_t flowSteps = 0;
   };
   /// From the spheres' depth to samples (depth, normal).
-  BufferRef addFiltered(Graph& graph, const Grid& grid, SurfaceMethod method) const;
+  BufferRef addFiltered(Graph& graph, Grid& grid, SurfaceMethod method, const DepthFilter& filter) const;
 
   Device* device_ = nullptr;
   const ComputePipeline *occlude_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr, *pick_ = nullptr,
@@ -57,10 +73,14 @@ class SurfaceStage {
                         *thickness_ = nullptr, *thicknessBare_ = nullptr;
 };
 
-/// A packed normal of SurfaceBuffers::pixels, as shaders/render/surface.glsl unpacks it: x, y, z of a unit vector.
-std::array<double, 3> unpackNormal(uint32_t packed);
+/// A pixel of SurfaceBuffers::pixels, as shaders/render/surface.glsl packs it.
+struct SurfacePixel {
+  float depth = 0;               ///< m; infinite: no fluid, or less than half a pixel of it
+  std::array<double, 3> normal;  ///< unit vector in view space
+};
+SurfacePixel unpackPixel(const uint32_t* words);
 
-/// Pixels a side of a sample: what sees a spacing as three to six samples where the fluid is.
-uint32_t sampleStep(const surface::SurfacePush& camera, float spacing, double depth);
+/// Pixels a side of a sample: what sees a spacing as `samples` to twice as many where the fluid is.
+uint32_t sampleStep(const surface::SurfacePush& camera, float spacing, double depth, double samples = SurfaceSettings{}.samples);
 
 }  // namespace rill

@@ -12,7 +12,8 @@ layout(std430, set = 0, binding = 4) readonly buffer SceneColour { uvec2 scene_c
 layout(std430, set = 0, binding = 5) readonly buffer SceneDepth { float scene_depth[]; };
 layout(location = 0) out vec4 colour;
 
-const float kFarthestBend = 8.0;  // spacings that a bent ray is followed: what thickness says of a drop is that of all behind it
+const float kFarthest = 1e4;  // spacings that a ray is followed
+const int kFollow = 3;        // looks at the scene's depth for where it ends
 
 vec3 sceneAt(ivec2 pixel) {
   const uvec2 packed = scene_colour[uint(pixel.y) * view.width + uint(pixel.x)];
@@ -51,8 +52,8 @@ void main() {
   const ivec2 pixel = ivec2(gl_FragCoord.xy) - ivec2(view.left, view.top);
   const uint index = uint(pixel.y) * view.width + uint(pixel.x);
   const uvec2 own = surface[index];
-  const float z = uintBitsToFloat(own.x);
-  if (!(z < scene_depth[index]) || own.x >= kInfiniteBits) discard;
+  const float z = pixelDepth(own);
+  if (!(z < scene_depth[index]) || isinf(z)) discard;
   const vec2 middle = vec2(pixel) + 0.5, axis = axisOf(middle);
   const vec3 along = rayAlong(axis);
   const vec3 point = rayFrom(axis) + z * along;
@@ -75,16 +76,28 @@ void main() {
   if (look.scatter.w > 0.0) {
     body = look.scatter.rgb * (ambient + vec3(1.0, 0.95, 0.88) * lit);
   } else {
-    const float metres = thicknessAt(middle);
     const vec3 bent = refract(sight, normal, 1.0 / look.absorption.w);
-    const vec3 behind = point + bent * min(metres, kFarthestBend * view.spacing);
-    vec2 there = behind.z > view.near_depth ? pixelOf(behind) : middle;
-    const ivec2 target = ivec2(clamp(there, vec2(0.0), pictureSize() - 1.0));
+    float inside = thicknessAt(middle);
+    // Bent inside the fluid, parallel to what it was after it: followed to where the scene's depth says that it ends.
+    const float farthest = kFarthest * view.spacing;
+    float walked = (min(scene_depth[index], farthest) - z) / sight.z;
+    vec2 there = middle;
+    float beyond = scene_depth[index];
+    for (int turn = 0; turn < kFollow; ++turn) {
+      const vec3 at = point + bent * min(walked, inside) + sight * max(walked - inside, 0.0);
+      if (!(at.z > view.near_depth)) break;
+      there = clamp(pixelOf(at), vec2(0.0), pictureSize() - 1.0);
+      beyond = scene_depth[uint(there.y) * view.width + uint(there.x)];
+      walked = max(walked + (min(beyond, farthest) - at.z) / max(walked < inside ? bent.z : sight.z, 0.1), 0.0);
+      inside = max(inside, thicknessAt(there));
+    }
     // What stands in front of the fluid is not seen through it.
-    if (scene_depth[uint(target.y) * view.width + uint(target.x)] < z) there = middle;
+    if (beyond < z) there = middle;
+    const float metres = min(inside, walked);
     const vec3 through = exp(-look.absorption.rgb * metres);
     body = sceneBetween(there) * through + look.scatter.rgb * (ambient + vec3(0.5) * (0.3 + 0.7 * lit)) * (1.0 - through);
   }
-  colour = vec4(mix(body, sky, reflected) + vec3(1.0, 0.95, 0.86) * (reflected * highlight), 1.0);
+  const vec3 fluid = mix(body, sky, reflected) + vec3(1.0, 0.95, 0.86) * (reflected * highlight);
+  colour = vec4(mix(sceneAt(pixel), fluid, pixelCoverage(own)), 1.0);
   gl_FragDepth = targetDepth(z);
 }

@@ -19,7 +19,8 @@ float fluidThickness(ivec2 texel) {
 // What of the sun's light comes through the fluid.
 vec3 throughFluid(vec3 p) {
   const vec2 at = lightTexel(p);
-  const ivec2 base = ivec2(floor(clamp(at, vec2(-8.0), vec2(8192.0))));
+  if (any(lessThan(at, vec2(-2.0))) || any(greaterThan(at, vec2(scene.counts.yz) + 1.0))) return vec3(1.0);
+  const ivec2 base = ivec2(floor(at));
   const vec2 part = at - floor(at);
   // Twice as wide as a texel is: the disc of the sun blurs the edge.
   float metres = 0.0;

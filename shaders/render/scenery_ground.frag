@@ -19,7 +19,7 @@ float checker(vec2 at, vec2 width) {
 }
 
 // Darker than the sky that is reflected, so that reflections are seen against it.
-vec3 backdrop(vec3 sight) { return mix(vec3(0.50, 0.58, 0.66), vec3(0.12, 0.18, 0.29), sqrt(clamp(sight.y, 0.0, 1.0))); }
+vec3 backdrop(vec3 sight) { return mix(vec3(0.27, 0.32, 0.39), vec3(0.05, 0.08, 0.14), sqrt(clamp(sight.y, 0.0, 1.0))); }
 
 void main() {
   const vec2 middle = gl_FragCoord.xy - vec2(view.left, view.top), axis = axisOf(middle);
@@ -43,7 +43,7 @@ void main() {
   const vec2 beyond = max(max(-inner, inner - extent), vec2(0.0));
   const float step = scene.domain_max.w;
   const bool inside = all(equal(beyond, vec2(0.0)));
-  vec3 albedo = vec3(0.29, 0.30, 0.31);
+  vec3 albedo = vec3(0.22, 0.225, 0.23);
   if (inside) albedo = mix(vec3(0.34, 0.37, 0.40), vec3(0.70, 0.70, 0.68), checker(inner / step, width / step));
   const float bias = 2.0 * scene.light_texel.x;
   const vec3 sunlight = kSun * max(sun.y, 0.0) * pastSolids(p, bias) * throughFluid(p);

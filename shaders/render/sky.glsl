@@ -10,7 +10,7 @@ vec3 skyColour(vec3 direction, vec3 sun) {
   const float near_sun = max(dot(direction, sun), 0.0);
   // A wide soft light overhead: its edges show how a surface curves.
   const vec2 at = direction.xz / max(up, 1e-3) - vec2(-0.35, -0.55);
-  const vec2 inside = smoothstep(vec2(0.85, 0.45), vec2(0.65, 0.30), abs(at));
+  const vec2 inside = smoothstep(vec2(1.5, 1.0), vec2(0.2, 0.1), abs(at));
   const vec3 lamp = vec3(1.0, 0.97, 0.92) * (up > 0.05 ? inside.x * inside.y * 0.9 : 0.0);
   return base + lamp + vec3(1.0, 0.93, 0.82) * 0.5 * pow(near_sun, 24.0);
 }

@@ -132,16 +132,27 @@ vec4 clipPoint(vec3 v) {
   return vec4(v.xy / vec2(view.scale[0], view.scale[1]) + w * vec2(view.shift[0], view.shift[1]), depth, w);
 }
 
-// Unit vectors in 32 bits: octahedral, 16 bits a coordinate (Cigolle et al. 2014).
+// Unit vectors in 28 bits: octahedral, 14 bits a coordinate (Cigolle et al. 2014). The other four are for what a pixel's coverage is.
 uint packNormal(vec3 n) {
   vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
   if (n.z < 0.0) p = (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
-  return packSnorm2x16(p);
+  const ivec2 q = ivec2(round(p * 8191.0)) & 0x3FFF;
+  return uint(q.x | q.y << 14);
 }
 vec3 unpackNormal(uint packed) {
-  const vec2 p = unpackSnorm2x16(packed);
+  const ivec2 q = ivec2(bitfieldExtract(int(packed), 0, 14), bitfieldExtract(int(packed), 14, 14));
+  const vec2 p = vec2(q) / 8191.0;
   vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
   const float fold = max(-n.z, 0.0);
   n.xy += vec2(n.x >= 0.0 ? -fold : fold, n.y >= 0.0 ? -fold : fold);
   return normalize(n);
 }
+
+// A pixel of the surface: depth and normal, and how much of it is fluid. Where that is less than half, the depth's sign is set: it reads as no fluid
+// to all but those who draw edges.
+uvec2 packPixel(float z, vec3 normal, float coverage) {
+  if (coverage <= 0.0 || !(z > view.near_depth)) return uvec2(kInfiniteBits, 0u);
+  return uvec2(floatBitsToUint(coverage < 0.5 ? -z : z), packNormal(normal) | uint(coverage * 15.0 + 0.5) << 28);
+}
+float pixelDepth(uvec2 pixel) { return abs(uintBitsToFloat(pixel.x)); }
+float pixelCoverage(uvec2 pixel) { return float(pixel.y >> 28) / 15.0; }

@@ -9,6 +9,7 @@ layout(std430, set = 0, binding = 1) readonly buffer Centre { vec4 centre[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Plane { vec4 plane[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Depth { uint depth[]; };
 layout(std430, set = 0, binding = 4) writeonly buffer Samples { uvec2 samples[]; };  // depth, normal
+layout(std430, set = 0, binding = 5) buffer Counters { uint counters[]; };
 #include "render/surface_blend.glsl"
 #include "render/surface_solid.glsl"
 
@@ -24,5 +25,6 @@ void main() {
     return;
   }
   const Blend blend = blendAt(axisOf(samplePixel(ivec2(at))), hard);
-  samples[index] = blend.covered || solidAround(ivec2(at)) ? uvec2(floatBitsToUint(blend.depth), packNormal(blend.normal)) : uvec2(kInfiniteBits, 0u);
+  samples[index] = blend.coverage >= 0.5 || solidAround(ivec2(at)) ? uvec2(floatBitsToUint(blend.depth), packNormal(blend.normal)) : uvec2(kInfiniteBits, 0u);
+  if (bound_hit) atomicAdd(counters[kBoundHits], 1u);
 }

@@ -1,6 +1,7 @@
 // The smooth surface along a ray: where the weighted sum of the planes' heights is zero (implicit moving least squares, Kolluri 2005).
 // Needs `start`, `centre`, `plane`.
 #include "render/surface_walk.glsl"
+#include "render/surface_edge.glsl"
 
 const float kBlendReach = 1.8;  // spacings, across a plane
 const float kBlendRange = 1.2;  // spacings, along its normal
@@ -8,14 +9,19 @@ const float kCoverReach = 1.2;  // spacings from a ray at which a centre stops c
 const float kCover = 0.6;       // sum of what centres add (1 on the ray itself) from which there is fluid
 const float kCoverInside = 0.4;  // the same amid many others: a gap, not an edge
 const float kCoverEdgeOn = 0.35;  // weight of a particle whose plane is seen edge on
+const int kLooks = 2;           // more of them, where the first moved the surface
+const float kStill = 0.1;       // spacings of a move after which none is needed
+const float kFirm = 0.5;        // weight of planes from which a look is taken for the surface
 
 struct Blend {
   float depth;     // of the surface; what came in where there is none
-  bool covered;    // there is fluid on the ray
+  float firm;      // weight of planes less that of balls
+  float coverage;  // of the pixel around the ray by fluid: a half at the silhouette
   vec3 normal;     // in view space, towards the eye
 };
 
-Blend blendAt(vec2 axis, float depth) {
+// As seen from one depth.
+Blend lookFrom(vec2 axis, float depth) {
   const vec3 from = rayFrom(axis), along = rayAlong(axis);
   const float spacing = spacingAt(depth);
   const vec3 x = from + depth * along, sight = normalize(along);
@@ -23,7 +29,7 @@ Blend blendAt(vec2 axis, float depth) {
   const float inverse = 1.0 / (reach * reach), range_inverse = 1.0 / (kBlendRange * spacing);
   const CellRange range = cellsAround(x, reach + 0.5 * spacing);
   const float cover_inverse = 1.0 / (kCoverReach * kCoverReach * spacing * spacing);
-  float height = 0.0, slope = 0.0, cover = 0.0, sum = 0.0;
+  float height = 0.0, slope = 0.0, cover = 0.0, sum = 0.0, firm = 0.0;
   vec3 normal = vec3(0.0);
   for (int y = range.first.y; y <= range.last.y; ++y) {
     const uvec2 row = rowOf(range, y);
@@ -41,6 +47,7 @@ Blend blendAt(vec2 axis, float depth) {
       const float within = max(1.0 - off * off, 0.0);
       const float w = across * across * across * within * within;
       sum += w;
+      firm += anchor.w > 0.0 ? -w : w;
       height += w * h;
       slope += w * dot(along, n);
       normal += w * n;
@@ -50,11 +57,27 @@ Blend blendAt(vec2 axis, float depth) {
     }
   }
   Blend blend;
-  blend.covered = cover > mix(kCover, kCoverInside, smoothstep(1.5, 2.8, sum));
+  blend.firm = firm;
+  blend.coverage = coverageAt(cover - mix(kCover, kCoverInside, smoothstep(1.5, 2.8, sum)), depth);
   // At grazing angles the sums say little: no farther than the range allows.
   const float step = slope < -1e-6 ? clamp(height / -slope, -kBlendRange * spacing, kBlendRange * spacing) : 0.0;
   blend.depth = depth + step;
   const float size = length(normal);
   blend.normal = size > 1e-6 ? normal / size : -normalize(along);
+  return blend;
+}
+
+// At a grazing angle the spheres' depth lies far off the surface, and jumps from one to the next: looked at again from what was found.
+Blend blendAt(vec2 axis, float depth) {
+  Blend blend = lookFrom(axis, depth);
+  const float still = kStill * spacingAt(depth);
+  float from = depth;
+  for (int turn = 0; turn < kLooks && blend.firm > kFirm && abs(blend.depth - from) > still; ++turn) {
+    const Blend next = lookFrom(axis, blend.depth);
+    if (next.firm <= kFirm) break;
+    from = blend.depth;
+    blend.depth = next.depth;
+    blend.normal = next.normal;
+  }
   return blend;
 }

@@ -11,9 +11,9 @@ layout(std430, set = 0, binding = 2) readonly buffer Plane { vec4 plane[]; };
 #endif
 layout(std430, set = 0, binding = 3) readonly buffer Depth { uint depth[]; };
 layout(std430, set = 0, binding = 4) readonly buffer Samples { uvec2 samples[]; };
-layout(std430, set = 0, binding = 5) readonly buffer Counters { uint counters[]; };
+layout(std430, set = 0, binding = 5) buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 6) readonly buffer Tiles { uint tiles[]; };
-layout(std430, set = 0, binding = 7) writeonly buffer Surface { uvec2 surface[]; };  // a pixel: depth (infinite: no fluid), normal
+layout(std430, set = 0, binding = 7) writeonly buffer Surface { uvec2 surface[]; };  // packPixel()
 #ifdef FILTERED
 #include "render/surface_cover.glsl"
 #else
@@ -57,9 +57,10 @@ void main() {
     agree = abs(dot(d, normals[0])) < kAgree * view.spacing && abs(dot(d, normals[k])) < kAgree * view.spacing;
   }
 
-  float z = infinity();
+  float z = infinity(), coverage = 0.0;
   vec3 normal = vec3(0.0, 0.0, -1.0);
   if (agree) {
+    coverage = 1.0;
     const vec4 weight = vec4((1.0 - part.x) * (1.0 - part.y), part.x * (1.0 - part.y), (1.0 - part.x) * part.y, part.x * part.y);
     // In perspective it is the inverse of depth that is linear across a plane.
     const vec4 each = vec4(depths[0], depths[1], depths[2], depths[3]);
@@ -75,8 +76,15 @@ void main() {
       }
 #ifdef FILTERED
     // The nearest of the four samples, of the surface that covers this pixel.
-    const float hard = nearest < infinity() && coveredAt(axis, nearest) ? nearest : (farthest > 0.0 && (coveredAt(axis, farthest) || solidAround(own)) ? farthest : infinity());
-    if (hard < infinity()) {
+    float hard = nearest;
+    if (nearest < infinity()) coverage = coverOf(axis, nearest);
+    if (coverage < 1.0 && farthest > nearest + 0.5 * view.spacing) {
+      const float behind = coverOf(axis, farthest);
+      if (coverage < 0.5) hard = farthest;
+      coverage = max(coverage, behind) >= 0.5 ? 1.0 : behind;
+    }
+    if (coverage < 1.0 && solidAround(own)) coverage = 1.0;
+    if (coverage > 0.0) {
       float best = 1e30;
       for (int k = 0; k < 4; ++k) {
         const vec2 off = part - vec2(k & 1, k >> 1);
@@ -92,18 +100,21 @@ void main() {
 #else
     if (nearest < infinity()) {
       Blend blend = blendAt(axis, nearest);
-      if (!blend.covered && farthest > nearest + 0.5 * view.spacing) blend = blendAt(axis, farthest);
-      bool covered = blend.covered;
-      if (!covered && solidAround(own)) {
-        covered = true;
+      coverage = blend.coverage;
+      if (coverage < 1.0 && farthest > nearest + 0.5 * view.spacing) {  // an edge before other fluid is one without a pixel of what is behind both
+        const Blend behind = blendAt(axis, farthest);
+        if (coverage < 0.5) blend = behind;
+        coverage = max(coverage, behind.coverage) >= 0.5 ? 1.0 : behind.coverage;
+      }
+      if (coverage < 0.5 && solidAround(own)) {
         blend = blendAt(axis, uintBitsToFloat(depth[uint(own.y * grid.x + own.x)]));
+        coverage = 1.0;
       }
-      if (covered) {
-        z = blend.depth;
-        normal = blend.normal;
-      }
+      z = blend.depth;
+      normal = blend.normal;
     }
 #endif
   }
-  surface[pixel.y * view.width + pixel.x] = uvec2(floatBitsToUint(z > view.near_depth ? z : infinity()), packNormal(normal));
+  surface[pixel.y * view.width + pixel.x] = packPixel(z, normal, coverage);
+  if (bound_hit) atomicAdd(counters[kBoundHits], 1u);
 }

@@ -1,11 +1,12 @@
-// Whether there is fluid on a ray near a depth, from the centres alone. Needs `start`, `centre`.
+// How much of the pixel around a ray is fluid near a depth, from the centres alone. Needs `start`, `centre`.
 #include "render/surface_walk.glsl"
+#include "render/surface_edge.glsl"
 
 const float kCoverReach = 1.2;  // spacings from a ray at which a centre stops covering it
 const float kCoverDepth = 1.6;  // spacings before and behind the depth
 const float kCover = 0.7;       // sum of what centres add (1 on the ray itself) from which there is fluid
 
-bool coveredAt(vec2 axis, float depth) {
+float coverOf(vec2 axis, float depth) {
   const vec3 x = rayFrom(axis) + depth * rayAlong(axis);
   const float spacing = spacingAt(depth), reach = kCoverReach * spacing, inverse = 1.0 / (reach * reach);
   const CellRange range = cellsAround(x, reach);
@@ -18,5 +19,5 @@ bool coveredAt(vec2 axis, float depth) {
       cover += beside * beside;
     }
   }
-  return cover > kCover;
+  return coverageAt(cover - kCover, depth);
 }

@@ -40,7 +40,7 @@ void main() {
   const float zxy = 0.25 * (value[8] - value[6] - value[2] + value[0]) * scale / length;
   const float square = 1.0 + zx * zx + zy * zy;
   const float twice = ((1.0 + zy * zy) * zxx - 2.0 * zx * zy * zxy + (1.0 + zx * zx) * zyy) / square;
-  const float time = min(view.flow_time, kStable * length * length);
+  const float time = min(view.smoothing, kStable * length * length);
   const float moved = clamp(0.5 * time * twice, -0.25 * view.spacing, 0.25 * view.spacing);
   after[index] = z + moved;
 }

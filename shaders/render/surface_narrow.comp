@@ -8,13 +8,13 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, set = 0, binding = 0) readonly buffer Before { float before[]; };
 layout(std430, set = 0, binding = 1) writeonly buffer After { float after[]; };
+layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };
 layout(constant_id = 0) const uint kVertical = 0u;
 
-const float kReach = 3.0;    // spacings
-const float kSigma = 1.3;    // spacings
-const float kFront = 2.0;    // spacings in front of this sample: another surface
-const float kBehind = 1.0;   // spacings behind it at most
-const int kMostTaps = 24;
+const float kReach = 3.0 / 1.3;  // standard deviations
+const float kFront = 2.0;        // spacings in front of this sample: another surface
+const float kBehind = 1.0;       // spacings behind it at most
+const uint kMostTaps = 3u;       // margins of samples
 
 void main() {
   const ivec2 grid = ivec2(sampleGrid());
@@ -28,7 +28,8 @@ void main() {
     return;
   }
   const float length = metresASample(z) / view.spacing;
-  const int taps = clamp(int(kReach / length), 1, kMostTaps);
+  const int wanted = max(int(min(kReach * view.smoothing / length, 1e6)), 1), taps = min(wanted, int(kMostTaps * view.margin));
+  if (taps < wanted) atomicAdd(counters[kBoundHits], 1u);
   // By numbers: of a constant vector chosen by a specialization constant lavapipe (Mesa 22.3) takes the same one always.
   const ivec2 along = ivec2(1 - int(kVertical), int(kVertical));
   float sum = toLinear(z), weights = 1.0;
@@ -44,7 +45,7 @@ void main() {
       const float slope = float(k) * length;  // a slanted surface lies behind itself
       pair += toLinear(min(other, z + (kBehind + 2.0 * slope) * view.spacing));
     }
-    const float off = float(k) * length / kSigma;
+    const float off = float(k) * length / view.smoothing;
     const float w = whole ? exp(-0.5 * off * off) : 0.0;
     sum += w * pair;
     weights += 2.0 * w;

@@ -9,6 +9,7 @@ layout(std430, set = 0, binding = 1) readonly buffer Centre { vec4 centre[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Filtered { float filtered[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Depth { uint depth[]; };
 layout(std430, set = 0, binding = 4) writeonly buffer Samples { uvec2 samples[]; };  // depth, normal
+layout(std430, set = 0, binding = 5) buffer Counters { uint counters[]; };
 #include "render/surface_cover.glsl"
 #include "render/surface_solid.glsl"
 
@@ -46,7 +47,9 @@ void main() {
   const float z = filtered[index];
   samples[index] = uvec2(kInfiniteBits, 0u);
   if (z == infinity()) return;
-  if (!coveredAt(axisOf(samplePixel(p)), uintBitsToFloat(depth[index])) && !solidAround(p)) return;
+  const float coverage = coverOf(axisOf(samplePixel(p)), uintBitsToFloat(depth[index]));
+  if (bound_hit) atomicAdd(counters[kBoundHits], 1u);
+  if (coverage < 0.5 && !solidAround(p)) return;
   bool there;
   const vec3 own = pointAt(p, grid, there);
   vec3 normal = cross(difference(p, ivec2(1, 0), grid, own), difference(p, ivec2(0, 1), grid, own));

@@ -5,7 +5,7 @@
 
 layout(local_size_x = kSurfaceGroup) in;
 layout(std430, set = 0, binding = 0) readonly buffer Position { vec4 position[]; };
-layout(std430, set = 0, binding = 1) readonly buffer Counters { uint counters[]; };
+layout(std430, set = 0, binding = 1) buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Start { uint start[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Arrived { uint arrived[]; };
 layout(std430, set = 0, binding = 4) writeonly buffer Centre { vec4 centre[]; };
@@ -20,6 +20,9 @@ void main() {
   const uint begin = start[key], end = start[key + 1u];
   uint place = begin;
   for (uint other = begin; other < min(end, begin + kMostInCell); ++other) place += arrived[other] < i ? 1u : 0u;
-  if (end - begin > kMostInCell) place = slot;  // particles upon each other: their order tells nobody anything
+  if (end - begin > kMostInCell) {  // particles upon each other: in the order of arrival
+    place = slot;
+    if (slot == begin) atomicAdd(counters[kBoundHits], 1u);
+  }
   centre[place] = vec4(at, 0.0);
 }

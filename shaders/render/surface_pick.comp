@@ -20,6 +20,7 @@ void main() {
   const float radius = hardRadius(centre.z);
   bool cut;
   const ivec4 rect = sampleRect(centre, radius, cut);
+  if (cut) atomicAdd(counters[kBoundHits], 1u);
   const uint columns = sampleGrid().x;
   const float slack = 1e-3 * view.spacing;
   uint inside = 0u, owned = 0u;

@@ -1,19 +1,22 @@
 #version 460
 // A plane for every surface particle: the weighted principal directions of the surface particles around it, raised to where the fluid ends.
+// Where they do not lie in one plane, those off the plane are left out and the rest is fitted again: a crease stays one.
 // One with too few of them around it, or around which they do not spread in a plane, is a ball.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 
 layout(local_size_x = kSurfaceGroup) in;
-layout(std430, set = 0, binding = 0) readonly buffer Counters { uint counters[]; };
+layout(std430, set = 0, binding = 0) buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 1) readonly buffer Start { uint start[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Centre { vec4 centre[]; };
 layout(std430, set = 0, binding = 3) writeonly buffer Plane { vec4 plane[]; };
 #include "render/surface_walk.glsl"
 
-const float kFitReach = 2.5;     // spacings
 const float kFewest = 1.5;       // sum of the others' weights below which it is a ball
 const float kFlattest = 0.6;     // least over middle eigenvalue above which it is one
+const float kCrease = 0.04;      // the same ratio above which two faces may meet here, and it is fitted again to its own
+const int kRefits = 2;         // times
+const float kSameFace = 0.9;     // spacings off the last plane within which others count then
 
 // The eigenvector of the least eigenvalue of a symmetric matrix (a b c; b d e; c e f), and the three eigenvalues, rising.
 vec3 leastDirection(float a, float b, float c, float d, float e, float f, out vec3 values) {
@@ -33,36 +36,54 @@ vec3 leastDirection(float a, float b, float c, float d, float e, float f, out ve
   return best / sqrt(max(max(s0, max(s1, s2)), 1e-30));
 }
 
-void main() {
-  const uint k = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
-  if (k >= counters[kSurfaceCount]) return;
-  const vec3 own = centre[k].xyz;
-  const float spacing = spacingAt(own.z), reach = kFitReach * spacing, inverse = 1.0 / reach;
-  const CellRange range = cellsAround(own, reach);
-  float sum = 0.0;
-  vec3 first = vec3(0.0), square = vec3(0.0), mixed = vec3(0.0);
+struct Fit {
+  float sum;
+  vec3 mean, square, mixed;
+};
+
+// Weighted moments of the centres around one, in units of the reach. `across`: the normal of a plane through it, over the distance in these
+// units at which others stop to count; zero: all do.
+Fit fitAround(vec3 own, float inverse, CellRange range, vec3 across) {
+  Fit fit = Fit(0.0, vec3(0.0), vec3(0.0), vec3(0.0));
   for (int y = range.first.y; y <= range.last.y; ++y) {
     const uvec2 row = rowOf(range, y);
     for (uint j = row.x; j < row.y; ++j) {
       const vec3 q = (centre[j].xyz - own) * inverse;
       const float inside = max(1.0 - dot(q, q), 0.0);
-      const float w = inside * inside;
-      sum += w;
-      first += w * q;
-      square += w * q * q;
-      mixed += w * q.xyz * q.yzx;
+      const float off = dot(q, across);
+      const float near = max(1.0 - off * off, 0.0);
+      const float w = inside * inside * near * near;
+      fit.sum += w;
+      fit.mean += w * q;
+      fit.square += w * q * q;
+      fit.mixed += w * q.xyz * q.yzx;
     }
   }
-  sum = max(sum, 1e-6);  // of a crowded row only the first are seen, and the particle itself may not be among them
-  const vec3 mean = first / sum;
-  square = square / sum - mean * mean;
-  mixed = mixed / sum - mean.xyz * mean.yzx;
+  fit.sum = max(fit.sum, 1e-6);  // of a crowded row only the first are seen, and the particle itself may not be among them
+  fit.mean /= fit.sum;
+  fit.square = fit.square / fit.sum - fit.mean * fit.mean;
+  fit.mixed = fit.mixed / fit.sum - fit.mean.xyz * fit.mean.yzx;
+  return fit;
+}
+
+void main() {
+  const uint k = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
+  if (k >= counters[kSurfaceCount]) return;
+  const vec3 own = centre[k].xyz;
+  const float spacing = spacingAt(own.z), reach = view.smoothing * spacing, inverse = 1.0 / reach;
+  const CellRange range = cellsAround(own, reach);
+  Fit fit = fitAround(own, inverse, range, vec3(0.0));
   vec3 values;
-  vec3 normal = leastDirection(square.x, mixed.x, mixed.z, square.y, mixed.y, square.z, values);
+  vec3 normal = leastDirection(fit.square.x, fit.mixed.x, fit.mixed.z, fit.square.y, fit.mixed.y, fit.square.z, values);
+  for (int turn = 0; turn < kRefits && values.x > kCrease * values.y; ++turn) {
+    fit = fitAround(own, inverse, range, normal * (kFitReach / kSameFace));
+    normal = leastDirection(fit.square.x, fit.mixed.x, fit.mixed.z, fit.square.y, fit.mixed.y, fit.square.z, values);
+  }
+  const bool ball = fit.sum - 1.0 < kFewest || values.x > kFlattest * values.y;
   const vec3 towards = view.perspective > 0.0 ? own : vec3(0.0, 0.0, 1.0);
   if (dot(normal, towards) > 0.0) normal = -normal;
-  const bool ball = sum - 1.0 < kFewest || values.x > kFlattest * values.y;
-  const float height = ball ? 0.0 : dot(mean, normal) * reach + 0.5 * view.spacing;
+  const float height = ball ? 0.0 : dot(fit.mean, normal) * reach + 0.5 * view.spacing;
   plane[2u * k] = vec4(own + height * normal, ball ? 1.0 : 0.0);
   plane[2u * k + 1u] = vec4(ball ? vec3(0.0) : normal, 0.0);
+  if (bound_hit) atomicAdd(counters[kBoundHits], 1u);
 }

@@ -16,7 +16,7 @@ RILL_CONSTANT kSurfaceTile = 16;       // pixels a side of the tiles that are co
 RILL_CONSTANT kCellSamples = 4;        // samples a side of a cell of the screen grid
 RILL_CONSTANT kOccluderSamples = 2;    // samples a side of an occlusion cell
 RILL_CONSTANT kMostRectSamples = 192;  // samples a side that one particle is splatted to at most
-RILL_CONSTANT kMarginSamples = 8;     // beyond each side of the picture: as far as a plane is fitted at three samples a spacing
+RILL_CONSTANT kMarginSamples = 8;     // beyond each side of the picture: as far as a plane is fitted at three samples a spacing, the default
 RILL_CONSTANT kMostRows = 48;          // rows of the screen grid that one walk visits at most
 RILL_CONSTANT kMostInRow = 64;         // particles of one row that a walk visits at most
 RILL_CONSTANT kMostInCell = 1024;      // particles of a cell that are put in order
@@ -26,7 +26,7 @@ RILL_CONSTANT kNotSurface = 0xFFFFFFFFu;
 RILL_CONSTANT kSurvivorCount = 0;   // particles that occlusion left
 RILL_CONSTANT kSurfaceCount = 1;    // of them, those that own a part of the picture
 RILL_CONSTANT kSurfaceTileCount = 2;       // tiles that hold fluid
-RILL_CONSTANT kBoundHits = 3;       // times that a bounded loop ran into its bound
+RILL_CONSTANT kBoundHits = 3;       // invocations in which a bounded loop ran into its bound: something was left out of the picture
 RILL_CONSTANT kSurfaceCounterWords = 4;
 
 // Words of the argument buffer: three a dispatch, four a draw.
@@ -53,7 +53,7 @@ struct SurfacePush {
   uint margin;         // samples beyond each side of the picture, so that the surface does not end there; whole cells
   float radius;        // m; of a particle's sphere in the hard depth
   float unit;          // m; of a count of the thickness buffer
-  float flow_time;     // m^2; that a step of curvature flow goes on by, where that is stable
+  float smoothing;     // planes: spacings that they are fitted over; narrow range: spacings, sigma; curvature flow: m^2 that a step goes on by
 };
 
 #undef RILL_CONSTANT

@@ -6,8 +6,9 @@
 layout(local_size_x = kSurfaceGroup) in;
 layout(std430, set = 0, binding = 0) readonly buffer Position { vec4 position[]; };
 layout(std430, set = 0, binding = 1) buffer Thickness { uint thickness[]; };  // in view.unit
+layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };
 #ifndef BARE
-layout(std430, set = 0, binding = 2) readonly buffer SceneDepth { float scene_depth[]; };  // a pixel, m
+layout(std430, set = 0, binding = 3) readonly buffer SceneDepth { float scene_depth[]; };  // a pixel, m
 #endif
 
 bool behindScene(ivec2 at, float z) {
@@ -49,6 +50,7 @@ void main() {
   const float peak = volume * 3.0 / (3.14159265 * radius * radius);
   bool cut;
   const ivec4 rect = sampleRect(centre, radius, cut);
+  if (cut) atomicAdd(counters[kBoundHits], 1u);
   for (int y = rect.y; y <= rect.w; ++y)
     for (int x = rect.x; x <= rect.z; ++x) {
       const float inside = 1.0 - raySquare(centre, axisOf(samplePixel(ivec2(x, y)))) / (radius * radius);

@@ -1,4 +1,6 @@
 // The cells of the screen grid around a point. Needs `start`.
+bool bound_hit = false;  // a walk has left something out
+
 struct CellRange {
   ivec2 first, last;  // both included
 };
@@ -8,6 +10,7 @@ CellRange cellsAround(vec3 point, float reach) {
   const vec2 middle = pixelOf(point);
   CellRange range = CellRange(cellOf(clamp(middle - side, vec2(-1e6), vec2(1e6))), cellOf(clamp(middle + side, vec2(-1e6), vec2(1e6))));
   const ivec2 centre = (range.first + range.last) / 2;
+  bound_hit = bound_hit || range.last.y - range.first.y >= int(kMostRows);
   range.first.y = max(range.first.y, centre.y - int(kMostRows) / 2);
   range.last.y = min(range.last.y, range.first.y + int(kMostRows) - 1);
   return range;
@@ -15,6 +18,7 @@ CellRange cellsAround(vec3 point, float reach) {
 // Surface particles of one row of the range: first, and the one after the last.
 uvec2 rowOf(CellRange range, int y) {
   const uint row = uint(y) * cellGrid().x;
-  const uint begin = start[row + uint(range.first.x)];
-  return uvec2(begin, min(start[row + uint(range.last.x) + 1u], begin + kMostInRow));
+  const uint begin = start[row + uint(range.first.x)], end = start[row + uint(range.last.x) + 1u];
+  bound_hit = bound_hit || end > begin + kMostInRow;
+  return uvec2(begin, min(end, begin + kMostInRow));
 }

@@ -1,6 +1,7 @@
 // The program from end to end, on cases small enough for every driver.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "support/child_process.hpp"
@@ -60,6 +61,39 @@ TEST(RillBench, SpeedTimesEachPass) {
   EXPECT_GT((*thousand)["ns_a_particle_a_substep"]["median"], 0);
   for (const char* pass : {"density", "correct", "build list", "sort"})
     EXPECT_GT((*thousand)["passes_ns_a_particle_a_substep"][pass]["median"], 0) << pass;
+}
+
+TEST(RillBench, RenderHoldsMethodsAndSettingsAgainstTheTruth) {
+  const Outcome outcome = bench({"render", "--quick", "--only", "640x360 r 10, waves 50, ", "--json", "-"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("front"), std::string::npos) << outcome.err;
+  const Json report = Json::parse(outcome.out, nullptr, false);
+  ASSERT_FALSE(report.is_discarded()) << outcome.out;
+  std::map<std::string, std::map<std::string, double>> errors;  // degrees by method and setting
+  for (const Json& result : report["results"]) {
+    EXPECT_EQ(result["ms"]["samples"].size(), 3u);
+    EXPECT_EQ(result.contains("jittered_anew_deg"), result["setting"] == "") << result.dump();
+    errors[result["method"]][result["setting"]] = result["normal_mean_deg"];
+  }
+  ASSERT_EQ(errors.size(), 4u);
+  EXPECT_GT(errors["planes"][""], 0.1) << "of jittered particles";
+  EXPECT_LT(errors["planes"][""], 2);
+  for (const auto& [method, settings] : errors) {
+    EXPECT_GE(settings.size(), 3u) << method;
+    for (const auto& [setting, degrees] : settings)
+      if (!setting.empty()) { EXPECT_NE(degrees, settings.at("")) << method << ": " << setting << " changes nothing"; }
+  }
+}
+
+TEST(RillBench, RenderTellsTheFlickerOfTheSolversOwnFrames) {
+  const Outcome outcome = bench({"render", "--quick", "--quiet", "--only", "resting column, planes", "--json", "-"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json report = Json::parse(outcome.out, nullptr, false);
+  ASSERT_FALSE(report.is_discarded()) << outcome.out;
+  const Json* column = resultOf(report, "resting column");
+  ASSERT_NE(column, nullptr);
+  EXPECT_GT((*column)["flicker_deg"], 0.001);
+  EXPECT_LT((*column)["flicker_deg"], 2);
 }
 
 TEST(RillBench, AnEmptySceneRunsNoPass) {

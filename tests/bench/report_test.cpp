@@ -74,6 +74,13 @@ TEST(PlotProgram, HoldsTheDataAndTheNamesQuoted) {
   EXPECT_NE(program.find("set logscale x"), std::string::npos) << program;
 }
 
+TEST(PlotProgram, WhatIsEmphasisedIsLarger) {
+  Plot plot = plotOf({{1, 2}});
+  EXPECT_EQ(plotProgram(std::span(&plot, 1)).find(" ps 2"), std::string::npos);
+  plot.series[0].emphasised = true;
+  EXPECT_NE(plotProgram(std::span(&plot, 1)).find(" ps 2"), std::string::npos);
+}
+
 TEST(PlotProgram, NoTextEndsAStringOrALine) {
   Plot plot = plotOf({{1, 2}});
   plot.title = "a\nb'; system('x')";

@@ -1,7 +1,7 @@
 // Images in the plan: layouts, memory, mistakes; and what prepare() makes of them on a device that only remembers.
 #include <algorithm>
 
-#include "count_allocations.hpp"
+#include "bench/count_allocations.hpp"
 #include "graph_fixture.hpp"
 #include "support/null_vulkan.hpp"
 
@@ -235,9 +235,9 @@ TEST_F(ImagesOnNullDevice, ASteadyStateAllocatesNothing) {
   for (int i = 0; i < 8; ++i) ASSERT_TRUE(frame(4, 64));
   const int64_t live = vulkan.liveObjects;
   bool fine = true;
-  startCounting();
+  bench::startCounting();
   for (int i = 0; i < 20; ++i) fine = bool(frame(4, 64)) && fine;
-  EXPECT_EQ(stopCounting(), 0u);
+  EXPECT_EQ(bench::stopCounting(), 0u);
   EXPECT_TRUE(fine);
   EXPECT_EQ(vulkan.liveObjects, live);
 }

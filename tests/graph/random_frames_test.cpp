@@ -237,5 +237,21 @@ TEST_F(RandomFrames, EveryConflictIsOrdered) {
   }
 }
 
+// A frame that is declared again has the plan that it had, and any other a plan of its own: what these plans must hold is tested above.
+TEST_F(RandomFrames, AnEqualFrameTakesOverThePlanAndNoOtherDoes) {
+  for (uint32_t seed = 0; seed < 200; ++seed) {
+    std::string planned;
+    for (int time = 0; time < 3; ++time) {
+      std::mt19937 random(seed);
+      graph.reset();
+      declare(random);
+      compile();
+      ASSERT_EQ(graph.impl().plansMade, seed + 1) << "seed " << seed << ", time " << time;
+      if (time == 0) planned = graph.json();
+      ASSERT_EQ(graph.json(), planned) << "seed " << seed;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace rill::test

@@ -114,9 +114,8 @@ std::vector<Pixel> SurfaceOnGpu::surface(const FluidView& view, SurfaceMethod me
   }
   std::vector<Pixel> pixels(first.size() / 2);
   for (size_t i = 0; i < pixels.size(); ++i) {
-    std::memcpy(&pixels[i].depth, &first[2 * i], 4);
-    const auto n = unpackNormal(first[2 * i + 1]);
-    pixels[i].normal = {n[0], n[1], n[2]};
+    const auto [depth, n] = unpackPixel(&first[2 * i]);
+    pixels[i] = {depth, {n[0], n[1], n[2]}};
   }
   return pixels;
 }

@@ -4,18 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "bench/shaders.hpp"
 #include "bench/shaders/cloud.h"
 #include "bench/suites/count_name.hpp"
 #include "bench/suites/tank.hpp"
 #include "bench/workbench.hpp"
 #include "core/words.hpp"
-#include "gpu/shader_library.hpp"
 #include "rill/float3.hpp"
 #include "sort/key_sort.hpp"
-
-namespace rill {
-std::span<const EmbeddedShader> benchShaders();
-}
 
 namespace rill::bench {
 namespace {
@@ -56,11 +52,10 @@ Expected<Cloud> cloudOf(uint32_t count) {
 }
 
 Expected<const ComputePipeline*> pipelineOf(Workbench& workbench, std::string_view name, size_t bindings) {
-  const auto shader = std::ranges::find(benchShaders(), name, &EmbeddedShader::name);
   const std::vector<BindingKind> kinds(bindings, BindingKind::Storage);
   return computePipeline(
       workbench.device(),
-      {.shader = name, .bindings = kinds, .pushConstantBytes = sizeof(CloudPush), .constants = {}, .words = shader->words});
+      {.shader = name, .bindings = kinds, .pushConstantBytes = sizeof(CloudPush), .constants = {}, .words = benchShader(name)});
 }
 
 /// One pass: what is read, then what is written, in the order of the bindings.

@@ -4,8 +4,10 @@
 #include <cstring>
 #include <numbers>
 
+#include "bench/pareto.hpp"
 #include "bench/suites/suites.hpp"
-#include "bench/surface_shapes.hpp"
+#include "bench/suites/surface_ways.hpp"
+#include "bench/surface_errors.hpp"
 #include "bench/workbench.hpp"
 #include "render/fluid_renderer_impl.hpp"
 #include "render/scenery.hpp"
@@ -13,29 +15,88 @@
 namespace rill::bench {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kFov = 40;  // degrees
+constexpr double kFov = 40;         // degrees
+constexpr double kRadius = 0.75;    // spacings: of the spheres by which pictures are named
+constexpr double kTravel = 0.25;    // spacings that the moving wave travels a frame
+constexpr double kTravelling = 18;  // spacings: its length
+constexpr double kFrame_s = 1.0 / 60;
+constexpr double kPixelsAPart = 2e5;  // of progress
 
-constexpr std::pair<std::string_view, SurfaceMethod> kMethods[] = {
-    {"planes", SurfaceMethod::Planes}, {"curvature flow", SurfaceMethod::CurvatureFlow}, {"narrow range", SurfaceMethod::NarrowRange}};
+constexpr const char* kAsItIs = "settings as they are";
 
-/// A picture's surface as it was read back.
-struct Drawn {
-  std::vector<float> depth;  ///< spacings; infinite: no fluid
-  std::vector<std::array<double, 3>> normal;
+struct Picture {
+  std::string name;
+  Eye eye;
+  Jitter jitter = {};
+  bool tilted = false;
+  bool settings = true;  ///< whether settings are varied, too
 };
 
-struct Errors {
-  double mean = 0, p95 = 0;  ///< degrees, away from edges
-  double edge = 0;           ///< degrees in the band of 1.5 spacings along them
-  double depth = 0;          ///< rms, spacings, away from edges
-  double overlap = 1;        ///< of silhouettes: both over either
-  double flicker = 0;        ///< mean change of the normal under another jitter, degrees
-};
-
-double angle(const double* a, const double* b) {
-  return std::acos(std::clamp(a[0] * b[0] + a[1] * b[1] + a[2] * b[2], -1.0, 1.0)) / kDegree;
+Picture picture(uint32_t width, uint32_t height, double radius) {
+  const double tangentY = std::tan(0.5 * kFov * std::numbers::pi / 180);
+  char name[64];
+  std::snprintf(name, sizeof name, "%ux%u r %g", width, height, radius);
+  return {name, {width, height, tangentY * width / height, tangentY, kRadius * height / (2 * tangentY * radius)}};
 }
+
+std::vector<Picture> pictures(bool quick) {
+  Picture main = picture(1024, 768, 10);
+  if (quick) {
+    main.settings = false;
+    return {main, picture(640, 360, 10)};
+  }
+  std::vector<Picture> all{main};
+  for (const double radius : {4.0, 25.0}) all.push_back(picture(1024, 768, radius));
+  Picture noisy = main, tilted = main;
+  noisy.name += " noisy";
+  noisy.jitter = {0.35, 0.2};
+  tilted.name += " tilted";
+  tilted.tilted = true;
+  all.push_back(std::move(noisy));
+  all.push_back(std::move(tilted));
+  for (const auto& [w, h] : {std::pair{640u, 360u}, std::pair{1280u, 720u}, std::pair{1920u, 1080u}}) all.push_back(picture(w, h, 10));
+  for (const double radius : {3.0, 30.0}) {
+    all.push_back(picture(1024, 768, radius));
+    all.back().settings = false;
+  }
+  return all;
+}
+
+std::vector<std::unique_ptr<Shape>> shapesOf(const Picture& picture, bool quick) {
+  const Eye& eye = picture.eye;
+  if (picture.tilted) return tiltedShapes(eye.distance, eye.tangentX, eye.tangentY);
+  auto all = shapes(eye.distance, eye.tangentX, eye.tangentY);
+  if (quick) std::erase_if(all, [](const auto& shape) { return shape->name() == "waves 30" || shape->name() == "waves 60"; });
+  return all;
+}
+
+/// What fronts are drawn of: neither the corner nor the sheet, where edges decide.
+bool smooth(const Shape& shape) { return shape.name() != "corner" && shape.name() != "sheet"; }
+
+/// A run of the solver, whose surface nobody knows.
+struct Recorded {
+  const char *name, *scene;
+  std::vector<Override> changes;
+  double from_s;  ///< of the first frame
+};
+const std::vector<Recorded>& recordings() {
+  static const std::vector<Recorded> all{{"resting column", "resting-column", {}, 1.0},
+                                         {"dam break", "dam50k", {{"fluid.spacing", "0.1"}}, 0.8}};
+  return all;
+}
+
+/// Particles on the device.
+struct Points {
+  Buffer positions;
+  uint32_t count = 0;
+  double spacing = 1;
+};
+
+/// A way's cost and error, added up over shapes or frames.
+struct Sum {
+  const SurfaceWay* way = nullptr;
+  double ms = 0, mean = 0, p95 = 0, count = 0;
+};
 
 class Render {
  public:
@@ -48,87 +109,90 @@ class Render {
     auto renderer = FluidRenderer::create(workbench_->device());
     if (!renderer) return renderer.error();
     renderer_ = std::move(*renderer);
-    struct Picture {
-      uint32_t width, height;
-      double radius;  ///< pixels of a sphere of 0.75 spacings
-      Jitter jitter;
-    };
-    std::vector<Picture> pictures{{1024, 768, 10, {}}};
-    if (!bench_.quick()) {
-      for (const double radius : {3.0, 4.0, 25.0}) pictures.push_back({1024, 768, radius, {}});
-      pictures.push_back({1024, 768, 10, {0.35, 0.2}});
-      for (const auto& [w, h] : {std::pair{640u, 360u}, std::pair{1280u, 720u}, std::pair{1920u, 1080u}})
-        pictures.push_back({w, h, 10, {}});
+    auto bilateral = Bilateral::create(workbench_->device());
+    if (!bilateral) return bilateral.error();
+    ways_ = surfaceWays(*bilateral, bench_.quick());
+    errors_.title = "Surfaces against the truth: ms of the whole chain, errors in degrees";
+    errors_.columns = {"picture", "shape", "method", "particles", "ms", "mean", "p95", "edge", "depth d", "IoU", "anew"};
+    errors_.note =
+        "r: pixels of a sphere of 0.75 spacings. ms: occlusion, splat, fit, blend, composition; the median. mean, p95: of the angle to "
+        "the\n"
+        "true normal, 1.5 spacings away from edges; edge: mean nearer to them. depth: rms in spacings. IoU: of silhouettes. anew: mean\n"
+        "change of the normal where particles are jittered anew.";
+    const std::vector<Picture> all = pictures(bench_.quick());
+    size_t parts = 0;
+    for (const Picture& p : all) {
+      for (const auto& shape : shapesOf(p, bench_.quick())) parts += wanted(p, *shape).size() * partsOf(p.eye);
     }
-    bench_.plan(pictures.size() * std::size(kMethods) * shapes(100, 1, 1).size());
-    table_.title = "Surfaces against the truth: ms of the whole chain, errors in degrees";
-    table_.columns = {"picture", "shape", "method", "particles", "ms", "mean", "p95", "edge", "depth d", "IoU", "flicker"};
-    table_.note =
-        "ms: occlusion, splat, fit, blend, composition; the median. mean, p95: of the angle to the true normal, 1.5 spacings away from "
-        "edges; edge: mean nearer\n"
-        "to them. depth: rms in spacings. IoU: of silhouettes. flicker: mean change of the normal where particles are jittered anew.";
-    for (const Picture& picture : pictures) {
-      const double tangentY = std::tan(0.5 * kFov * kDegree), tangentX = tangentY * picture.width / picture.height;
-      // A sphere of 0.75 spacings is `radius` pixels wide at this distance.
-      const double distance = 0.75 * picture.height / (2 * tangentY * picture.radius);
-      char name[64];
-      std::snprintf(name, sizeof name, "%ux%u r %.3g%s", picture.width, picture.height, picture.radius,
-                    picture.jitter.along > 0.3 ? " noisy" : "");
-      for (const auto& shape : shapes(distance, tangentX, tangentY))
-        for (const auto& [method, which] : kMethods) {
-          if (bench_.stopped()) return finish();
-          const std::string about = std::string(name) + ", " + shape->name() + ", " + std::string(method);
-          bench_.step(about);
-          if (!bench_.wanted(about)) continue;
-          CameraView camera;
-          camera.eye[2] = 0;
-          camera.target[2] = -distance;
-          camera.fov_y_deg = kFov;
-          const FluidView view = fluidView(camera, picture.width, picture.height, 1);
-          if (auto ok = measure(name, *shape, std::string(method), which, view, tangentX, tangentY, picture.jitter); !ok) return ok.error();
-        }
-    }
-    return finish();
-  }
-
- private:
-  Expected<Report> finish() {
-    report_.tables.push_back(std::move(table_));
-    Plot plot{"1024x768, spheres of 10 pixels", "ms", "mean error of the normal (degrees)", true, true, {}};
-    plot.series = std::move(series_);
-    if (!plot.series.empty()) report_.plots.push_back(std::move(plot));
+    for (const Picture& p : moving()) parts += wanted("moving wave, " + p.name).size() * partsOf(p.eye);
+    for (const Recorded& r : recordings()) parts += wanted(r.name).size() * partsOf(still().eye);
+    bench_.plan(parts, "part");
+    for (const Picture& p : all)
+      if (auto ok = measure(p); !ok) return ok.error();
+    for (const Picture& p : moving())
+      if (auto ok = flickerOfWave(p); !ok) return ok.error();
+    for (const Recorded& r : recordings())
+      if (auto ok = flickerOfRun(r); !ok) return ok.error();
+    if (!errors_.rows.empty()) report_.tables.insert(report_.tables.begin(), std::move(errors_));
     return std::move(report_);
   }
 
-  Expected<std::pair<Drawn, uint32_t>> draw(const Shape& shape, SurfaceMethod method, const FluidView& view, const Jitter& jitter,
-                                            uint32_t seed, GraphSamples* times) {
+ private:
+  std::vector<Picture> moving() const {
+    if (bench_.quick()) return {picture(640, 360, 10)};
+    return {picture(1024, 768, 10), picture(1024, 768, 4), picture(1024, 768, 25)};
+  }
+  Picture still() const { return bench_.quick() ? picture(640, 360, 10) : picture(1024, 768, 10); }
+  int frames() const { return bench_.quick() ? 3 : 8; }
+  uint32_t samples() const { return std::max(3u, bench_.options().repeat); }
+  static size_t partsOf(const Eye& eye) { return std::max<size_t>(1, static_cast<size_t>(eye.width * eye.height / kPixelsAPart)); }
+
+  std::vector<const SurfaceWay*> wanted(const std::string& about) const {
+    std::vector<const SurfaceWay*> out;
+    for (const SurfaceWay& way : ways_)
+      if (bench_.wanted(about + ", " + way.name())) out.push_back(&way);
+    return out;
+  }
+  std::vector<const SurfaceWay*> wanted(const Picture& picture, const Shape& shape) const {
+    auto out = wanted(picture.name + ", " + shape.name());
+    std::erase_if(out, [&](const SurfaceWay* way) { return !way->standard() && !(picture.settings && smooth(shape)); });
+    return out;
+  }
+
+  Expected<Points> upload(std::span<const Float4> positions, double spacing) {
+    auto buffer = workbench_->upload("positions", positions);
+    if (!buffer) return buffer.error();
+    return Points{std::move(*buffer), static_cast<uint32_t>(positions.size()), spacing};
+  }
+  Expected<Points> upload(const Shape& shape, const Jitter& jitter, uint32_t seed) {
     std::vector<Float4> positions;
     for (const Float3& p : shape.particles(jitter, seed)) positions.push_back({p.x, p.y, -p.z, 0});
-    auto buffer = workbench_->upload("positions", std::span<const Float4>(positions));
-    if (!buffer) return buffer.error();
-    const auto declare = [&](Graph& graph, bool whole) {
-      FluidState fluid;
-      fluid.position = importWhole(graph, "positions", *buffer);
-      fluid.count = static_cast<uint32_t>(positions.size());
-      fluid.spacing = 1;
-      return renderer_->impl().surface.addTo(graph, fluid, renderer_->impl().camera(fluid, view), method, whole, view.focus_m);
-    };
-    if (times) {
-      auto taken = sampleGraph(*workbench_, std::max(3u, bench_.options().repeat), [&](Graph& graph) {
-        const SurfaceBuffers found = declare(graph, false);
-        graph.pass("look", [&](Pass& pass) {
-          pass.read(found.pixels, Use::CopySource);
-          pass.sideEffect();
-          return [](Commands&) {};
-        });
-      });
-      if (!taken) return taken.error();
-      *times = std::move(*taken);
-    }
+    return upload(positions, 1);
+  }
+  static FluidView viewOf(const Eye& eye) {
+    CameraView camera;
+    camera.eye[2] = 0;
+    camera.target[2] = -eye.distance;
+    camera.fov_y_deg = kFov;
+    return fluidView(camera, eye.width, eye.height, 1);
+  }
+
+  SurfaceBuffers declare(Graph& graph, const Points& points, const SurfaceWay& way, const FluidView& view, bool whole) {
+    FluidState fluid;
+    fluid.position = importWhole(graph, "positions", points.positions);
+    fluid.count = points.count;
+    fluid.spacing = static_cast<float>(points.spacing);
+    surface::SurfacePush camera = renderer_->impl().camera(fluid, view);
+    camera.step = sampleStep(camera, fluid.spacing, view.focus_m, way.settings.samples);
+    return renderer_->impl().surface.addTo(graph, fluid, camera, way.method, whole, view.focus_m, way.settings);
+  }
+
+  /// `ms`: what it took, its pixels kept.
+  Expected<Drawn> draw(const Points& points, const SurfaceWay& way, const FluidView& view, double* ms = nullptr) {
     auto pixels = workbench_->make("pixels", uint64_t{view.width} * view.height * 8);
     if (!pixels) return pixels.error();
-    auto ran = workbench_->run([&](Graph& graph) {
-      const SurfaceBuffers found = declare(graph, true);
+    const auto ran = workbench_->run([&](Graph& graph) {
+      const SurfaceBuffers found = declare(graph, points, way, view, true);
       BufferRef kept = importWhole(graph, "pixels", *pixels);
       graph.pass("keep", [&](Pass& pass) {
         pass.read(found.pixels, Use::CopySource);
@@ -137,112 +201,193 @@ class Render {
       });
     });
     if (!ran) return ran.error();
+    if (ms) *ms = ran->run_ms;
     const auto words = workbench_->download<uint32_t>(*pixels);
     if (!words) return words.error();
     Drawn drawn;
     drawn.depth.resize(words->size() / 2);
     drawn.normal.resize(drawn.depth.size());
     for (size_t i = 0; i < drawn.depth.size(); ++i) {
-      std::memcpy(&drawn.depth[i], &(*words)[2 * i], 4);
-      drawn.normal[i] = unpackNormal((*words)[2 * i + 1]);
+      const SurfacePixel pixel = unpackPixel(&(*words)[2 * i]);
+      drawn.depth[i] = pixel.depth;
+      drawn.normal[i] = pixel.normal;
     }
-    return std::pair{std::move(drawn), static_cast<uint32_t>(positions.size())};
+    return drawn;
   }
 
-  Expected<void> measure(const std::string& picture, const Shape& shape, const std::string& method, SurfaceMethod which,
-                         const FluidView& view, double tangentX, double tangentY, const Jitter& jitter) {
-    GraphSamples times;
-    auto first = draw(shape, which, view, jitter, 1, &times);
-    if (!first) return first.error();
-    auto second = draw(shape, which, view, jitter, 2, nullptr);
-    if (!second) return second.error();
-    const Errors e = compare(shape, first->first, second->first, view, tangentX, tangentY);
-    const double ms = median(times.run_ms);
-    table_.rows.push_back({picture, shape.name(), method, std::to_string(first->second), number(ms), number(e.mean), number(e.p95),
-                           number(e.edge), number(e.depth), number(e.overlap, 4), number(e.flicker)});
-    report_.results.push_back({{"picture", picture},
-                               {"shape", shape.name()},
-                               {"method", method},
-                               {"particles", first->second},
-                               {"ms", sampled(times.run_ms)},
-                               {"normal_mean_deg", e.mean},
-                               {"normal_p95_deg", e.p95},
-                               {"edge_mean_deg", e.edge},
-                               {"depth_rms_spacings", e.depth},
-                               {"silhouette_iou", e.overlap},
-                               {"flicker_deg", e.flicker}});
-    if (picture == "1024x768 r 10") {
-      auto found = std::ranges::find(series_, shape.name(), &Series::name);
-      if (found == series_.end()) found = series_.insert(series_.end(), {shape.name(), Series::Style::Points, {}, {}});
-      found->points.emplace_back(ms, e.mean);
-      found->labels.push_back(method);
+  /// Once its shaders have run.
+  Expected<std::vector<double>> time(const Points& points, const SurfaceWay& way, const FluidView& view) {
+    auto taken = sampleGraph(
+        *workbench_, samples(),
+        [&](Graph& graph) {
+          const SurfaceBuffers found = declare(graph, points, way, view, false);
+          graph.pass("look", [&](Pass& pass) {
+            pass.read(found.pixels, Use::CopySource);
+            pass.sideEffect();
+            return [](Commands&) {};
+          });
+        },
+        WarmUp::Done);
+    if (!taken) return taken.error();
+    return std::move(taken->run_ms);
+  }
+
+  /// A picture of each shape, in each way.
+  Expected<void> measure(const Picture& picture) {
+    const FluidView view = viewOf(picture.eye);
+    std::vector<Sum> sums;
+    for (const auto& shape : shapesOf(picture, bench_.quick())) {
+      const auto ways = wanted(picture, *shape);
+      if (ways.empty()) continue;
+      const TrueSurface truth = trueSurface(*shape, picture.eye);
+      auto points = upload(*shape, picture.jitter, 1), anew = upload(*shape, picture.jitter, 2);
+      if (!points) return points.error();
+      if (!anew) return anew.error();
+      for (const SurfaceWay* way : ways) {
+        if (bench_.stopped()) break;
+        bench_.step(picture.name + ", " + shape->name() + ", " + way->name(), partsOf(picture.eye));
+        const auto drawn = draw(*points, *way, view);
+        if (!drawn) return drawn.error();
+        const auto ms = time(*points, *way, view);
+        if (!ms) return ms.error();
+        const Errors e = surfaceErrors(truth, *drawn);
+        Json json{{"picture", picture.name},       {"shape", shape->name()},     {"method", way->family},
+                  {"setting", way->setting},       {"particles", points->count}, {"ms", sampled(*ms)},
+                  {"normal_mean_deg", e.mean},     {"normal_p95_deg", e.p95},    {"edge_mean_deg", e.edge},
+                  {"depth_rms_spacings", e.depth}, {"silhouette_iou", e.overlap}};
+        if (way->standard()) {
+          const auto other = draw(*anew, *way, view);
+          if (!other) return other.error();
+          const double change = errorChange(truth, *drawn, truth, *other);
+          json["jittered_anew_deg"] = change;
+          errors_.rows.push_back({picture.name, shape->name(), way->family, std::to_string(points->count), number(median(*ms)),
+                                  number(e.mean), number(e.p95), number(e.edge), number(e.depth), number(e.overlap, 4), number(change)});
+        }
+        report_.results.push_back(std::move(json));
+        if (smooth(*shape)) add(sums, way, median(*ms), e.mean, e.p95);
+      }
     }
+    if (picture.settings) tell(picture.name + ": mean over plane, waves and balls", "mean error of the normal (degrees)", sums);
     return {};
   }
 
-  Errors compare(const Shape& shape, const Drawn& drawn, const Drawn& other, const FluidView& view, double tangentX,
-                 double tangentY) const {
-    const uint32_t width = view.width, height = view.height;
-    std::vector<Truth> truth(size_t{width} * height);
-    std::vector<uint8_t> hit(truth.size());
-    for (uint32_t y = 0; y < height; ++y)
-      for (uint32_t x = 0; x < width; ++x) {
-        const size_t i = size_t{y} * width + x;
-        hit[i] = shape.hit(((x + 0.5) / width * 2 - 1) * tangentX, (1 - (y + 0.5) / height * 2) * tangentY, truth[i]);
-      }
-    const int band = std::max(1, static_cast<int>(1.5 * height / (2 * tangentY * view.focus_m)));
-    const auto nearEdge = [&](uint32_t x, uint32_t y) {
-      const size_t i = size_t{y} * width + x;
-      for (const auto& [dx, dy] : {std::pair{band, 0}, std::pair{-band, 0}, std::pair{0, band}, std::pair{0, -band}}) {
-        const int nx = int(x) + dx, ny = int(y) + dy;
-        if (nx < 0 || ny < 0 || nx >= int(width) || ny >= int(height)) continue;
-        const size_t j = size_t(ny) * width + size_t(nx);
-        if (!hit[j] || std::abs(truth[j].depth - truth[i].depth) > 4) return true;
-      }
-      return false;
-    };
-    Errors e;
-    std::vector<double> inner, edge, flicker;
-    double both = 0, either = 0, square = 0;
-    for (uint32_t y = 0; y < height; ++y)
-      for (uint32_t x = 0; x < width; ++x) {
-        const size_t i = size_t{y} * width + x;
-        const bool there = std::isfinite(drawn.depth[i]);
-        both += there && hit[i];
-        either += there || hit[i];
-        if (!there || !hit[i]) continue;
-        const double off = angle(drawn.normal[i].data(), truth[i].normal);
-        if (nearEdge(x, y)) {
-          edge.push_back(off);
-          continue;
-        }
-        inner.push_back(off);
-        square += std::pow(drawn.depth[i] - truth[i].depth, 2);
-        if (std::isfinite(other.depth[i])) { flicker.push_back(angle(drawn.normal[i].data(), other.normal[i].data())); }
-      }
-    const auto mean = [](const std::vector<double>& values) {
-      double sum = 0;
-      for (const double v : values) sum += v;
-      return values.empty() ? 0 : sum / double(values.size());
-    };
-    e.mean = mean(inner);
-    e.edge = mean(edge);
-    e.flicker = mean(flicker);
-    e.depth = std::sqrt(square / std::max<double>(double(inner.size()), 1));
-    e.overlap = both / std::max(either, 1.0);
-    if (!inner.empty()) {
-      const auto place = inner.begin() + static_cast<std::ptrdiff_t>(0.95 * double(inner.size() - 1));
-      std::nth_element(inner.begin(), place, inner.end());
-      e.p95 = *place;
+  /// One jitter of particles on a wave that travels: what changes in the error of the normal from frame to frame.
+  Expected<void> flickerOfWave(const Picture& picture) {
+    const std::string name = "moving wave, " + picture.name;
+    const auto ways = wanted(name);
+    if (ways.empty()) return {};
+    const Eye& eye = picture.eye;
+    std::vector<Points> points;
+    std::vector<TrueSurface> truth;
+    for (int k = 0; k < frames() && !bench_.stopped(); ++k) {
+      const auto wave = travelledWave(eye.distance, eye.tangentX, eye.tangentY, kTravelling, kTravel * k);
+      auto uploaded = upload(*wave, picture.jitter, 1);
+      if (!uploaded) return uploaded.error();
+      points.push_back(std::move(*uploaded));
+      truth.push_back(trueSurface(*wave, eye));
     }
-    return e;
+    return flicker(name, eye, viewOf(eye), points, ways,
+                   [&](size_t k, const Drawn& before, const Drawn& after) { return errorChange(truth[k - 1], before, truth[k], after); });
+  }
+
+  /// Frames of the solver in a still camera. What moves is counted, too: only the ways can be compared.
+  Expected<void> flickerOfRun(const Recorded& recorded) {
+    const auto ways = wanted(recorded.name);
+    if (ways.empty() || bench_.stopped()) return {};
+    const auto scene = namedScene(recorded.scene, recorded.changes);
+    if (!scene) return scene.error();
+    offline::Options options;
+    options.device = bench_.options().device;
+    auto simulation = offline::Simulation::open(*scene, options);
+    if (!simulation) return simulation.error();
+    std::vector<Points> points;
+    for (int k = 0; k < frames() && !bench_.stopped(); ++k) {
+      if (auto ran = (*simulation)->advance(k == 0 ? recorded.from_s : kFrame_s); !ran) return ran.error();
+      const auto particles = (*simulation)->particles();
+      if (!particles) return particles.error();
+      std::vector<Float4> positions;
+      for (const Float3& p : particles->positions) positions.push_back({p.x, p.y, p.z, 0});
+      auto uploaded = upload(positions, scene->fluid.spacing);
+      if (!uploaded) return uploaded.error();
+      points.push_back(std::move(*uploaded));
+    }
+    const Eye eye = still().eye;
+    const CameraView camera = sceneCamera(*scene, (*simulation)->start(), double(eye.width) / eye.height);
+    return flicker(recorded.name, eye, fluidView(camera, eye.width, eye.height, scene->fluid.spacing), points, ways,
+                   [&](size_t, const Drawn& before, const Drawn& after) { return normalChange(before, after, scene->fluid.spacing); });
+  }
+
+  /// `change`: of frame k from the one before, degrees.
+  Expected<void> flicker(const std::string& name, const Eye& eye, const FluidView& view, std::span<const Points> points,
+                         std::span<const SurfaceWay* const> ways, const std::function<double(size_t, const Drawn&, const Drawn&)>& change) {
+    std::vector<Sum> sums;
+    for (const SurfaceWay* way : ways) {
+      if (bench_.stopped()) break;
+      bench_.step(name + ", " + way->name(), partsOf(eye));
+      Drawn before;
+      std::vector<double> ms(points.size()), changes;
+      for (size_t k = 0; k < points.size(); ++k) {
+        auto drawn = draw(points[k], *way, view, &ms[k]);
+        if (!drawn) return drawn.error();
+        if (k > 0) changes.push_back(change(k, before, *drawn));
+        before = std::move(*drawn);
+      }
+      double mean = 0;
+      for (const double c : changes) mean += c / double(changes.size());
+      report_.results.push_back({{"case", name},
+                                 {"method", way->family},
+                                 {"setting", way->setting},
+                                 {"particles", points[0].count},
+                                 {"ms", sampled(ms)},
+                                 {"flicker_deg", mean}});
+      add(sums, way, median(ms), mean, *std::ranges::max_element(changes));
+    }
+    tell(name + ": from frame to frame", "mean change of the normal (degrees)", sums);
+    return {};
+  }
+
+  static void add(std::vector<Sum>& sums, const SurfaceWay* way, double ms, double mean, double p95) {
+    auto found = std::ranges::find(sums, way, &Sum::way);
+    if (found == sums.end()) found = sums.insert(sums.end(), Sum{way});
+    found->ms += ms;
+    found->mean += mean;
+    found->p95 += p95;
+    ++found->count;
+  }
+
+  /// A table and a diagram of cost against error, with the front; methods as they are stand out.
+  void tell(const std::string& title, const std::string& what, const std::vector<Sum>& sums) {
+    if (sums.empty()) return;
+    std::vector<CostError> points;
+    for (const Sum& sum : sums) points.emplace_back(sum.ms / sum.count, sum.mean / sum.count);
+    const std::vector<size_t> front = paretoFront(points);
+    Table table{title, {"method", "ms", "degrees", "p95 or worst frame", "front"}, {}, ""};
+    for (size_t k = 0; k < sums.size(); ++k)
+      table.rows.push_back({sums[k].way->name(), number(points[k].first), number(points[k].second), number(sums[k].p95 / sums[k].count),
+                            std::ranges::find(front, k) != front.end() ? "front" : ""});
+    report_.tables.push_back(std::move(table));
+
+    Plot plot{title, "ms", what, true, true, {}};
+    plot.series.push_back({kAsItIs, Series::Style::Points, {}, {}, true});
+    for (size_t k = 0; k < sums.size(); ++k) {
+      const SurfaceWay& way = *sums[k].way;
+      const std::string name = way.standard() ? kAsItIs : way.family;
+      auto found = std::ranges::find(plot.series, name, &Series::name);
+      if (found == plot.series.end()) found = plot.series.insert(plot.series.end(), {name, Series::Style::Points, {}, {}});
+      found->points.push_back(points[k]);
+      found->labels.push_back(&way == &ways_.front() ? way.family + ", the default" : way.standard() ? way.family : way.setting);
+    }
+    Series line{"Pareto front", Series::Style::Lines, {}, {}};
+    for (const size_t k : front) line.points.push_back(points[k]);
+    plot.series.push_back(std::move(line));
+    report_.plots.push_back(std::move(plot));
   }
 
   Bench& bench_;
   std::optional<Workbench> workbench_;
   std::unique_ptr<FluidRenderer> renderer_;
-  Table table_;
-  std::vector<Series> series_;
+  std::vector<SurfaceWay> ways_;
+  Table errors_;
   Report report_;
 };
 

@@ -6,6 +6,7 @@ namespace rill::bench {
 Expected<Report> runAccuracy(Bench& bench);
 Expected<Report> runStability(Bench& bench);
 Expected<Report> runSort(Bench& bench);
+Expected<Report> runGraph(Bench& bench);
 Expected<Report> runSpeed(Bench& bench);
 Expected<Report> runFeatures(Bench& bench);
 Expected<Report> runRender(Bench& bench);

@@ -208,6 +208,14 @@ struct PassReport {
   std::string_view reason;  ///< why it was culled or skipped; empty where it ran
 };
 
+/// A piece of device memory that transients share.
+struct TransientHeap {
+  bool images = false;      ///< holds images, else buffers
+  uint32_t transients = 0;  ///< that lie in it
+  uint64_t bytes = 0;       ///< that it takes
+  uint64_t separate = 0;    ///< that they would take without aliasing, one after another
+};
+
 /// One frame's graph. Declare, compile(), prepare(), record(); then reset() and declare the next frame: a steady state allocates nothing.
 /// Not thread safe. Execution order is the order of declaration.
 class Graph {
@@ -262,11 +270,12 @@ class Graph {
   /// Records into the host's command buffer, which is in the recording state and outside a render pass. Cannot fail.
   void record(VkCommandBuffer commandBuffer);
 
-  std::string dot() const;                     ///< Graphviz; culled passes dashed with the reason
+  std::string dot() const;                     ///< Graphviz; culled passes dashed with the reason, resources with memory and lifetime
   std::string json() const;                    ///< passes, barriers, resources, memory plan
   std::span<const Timing> timings() const;     ///< of the last frame that the host's clock says has completed
   std::span<const PassReport> report() const;  ///< of the last compiled frame
   uint64_t transientBytes() const;             ///< of device memory that the last compiled frame's transients take, aliased
+  std::span<const TransientHeap> transientHeaps() const;  ///< where these bytes are, and what aliasing saves
 
   /// A timestamp before the first pass and after each. Default true; a software driver takes some 30 us for each.
   void enableTimings(bool enabled);

@@ -53,11 +53,21 @@ using SkippedPass = std::pair<std::string, std::string>;  ///< and the reason
 /// A table for people: what was recorded and the time it took, then what was skipped and why.
 std::string passTable(std::span<const PassTime> passes, std::span<const SkippedPass> skipped, uint64_t substeps, uint64_t listBuilds);
 
+/// What the transients of one kind of frame take on the device.
+struct FrameMemory {
+  std::string frame;
+  std::vector<TransientHeap> heaps;
+};
+
+/// A table for people: each heap's bytes with and without aliasing.
+std::string memoryTable(std::span<const FrameMemory> frames);
+
 /// Everything `rill-capture --stats` writes about an instant.
 struct Stats : FluidStats {
   double front_m = 0;                                  ///< farthest fluid along +x from the domain's minimum
   uint64_t state_hash = 0;                             ///< of positions and velocities in id order
   std::vector<std::pair<std::string, double>> probes;  ///< name and value, m
+  uint64_t picture_bound_hits = 0;                     ///< times that loops of the renderer's shaders ran into their bound, in pictures of it
   double wall_s = 0;                                   ///< spent since the instant before, simulation alone
   std::vector<PassTime> pass_ms;                       ///< what was recorded
   std::vector<SkippedPass> skipped;
@@ -120,7 +130,9 @@ class Simulation {
   const DeviceInfo& device() const;
   std::vector<std::string> warnings() const;
   std::string explain() const;                        ///< each pass of the last advance: ran, how often, ms; or skipped and why
+  std::vector<FrameMemory> transientMemory() const;   ///< of the last frame of each kind: advance, measure, picture
   std::string graphDot() const;                       ///< of the last advance
+  std::string pictureDot() const;                     ///< of the last picture
   std::vector<std::string> takeValidationMessages();  ///< since the last call; none without Options::validation
 
  private:
@@ -144,6 +156,8 @@ class Player {
                       double time_s = 0);
   /// As Simulation::render(); before the first show() a scene without fluid.
   Expected<Image> render(const std::string& view, uint32_t width, uint32_t height);
+  std::string pictureDot() const;  ///< passes of the last picture
+  uint64_t boundHits() const;      ///< as Stats::picture_bound_hits, of the last picture
 
   const Scene& scene() const;
   const DeviceInfo& device() const;

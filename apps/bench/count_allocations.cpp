@@ -1,21 +1,21 @@
 // The program's operator new, in a file of its own: a compiler that sees through it mistakes it for a mismatch.
-#include "count_allocations.hpp"
+#include "bench/count_allocations.hpp"
 
 #include <cstdlib>
 #include <new>
 
 namespace {
-bool counting = false;
-size_t allocations = 0;
+thread_local bool counting = false;
+thread_local size_t allocations = 0;
 }  // namespace
 
-namespace rill::test {
+namespace rill::bench {
 void startCounting() { counting = true, allocations = 0; }
 size_t stopCounting() {
   counting = false;
   return allocations;
 }
-}  // namespace rill::test
+}  // namespace rill::bench
 
 void* operator new(size_t size) {
   if (counting) ++allocations;

@@ -1,0 +1,58 @@
+#include "bench/bilateral.hpp"
+
+#include "bench/shaders.hpp"
+#include "render/compute_step.hpp"
+#include "sort/dispatches.hpp"
+
+namespace rill::bench {
+namespace {
+
+struct BilateralPush {
+  surface::SurfacePush view;
+  float range = 0;
+};
+static_assert(sizeof(BilateralPush) <= 128);
+
+}  // namespace
+
+Expected<Bilateral> Bilateral::create(Device& device) {
+  Bilateral made;
+  const struct {
+    const ComputePipeline** pipeline;
+    uint32_t columns, rows;
+  } all[] = {{&made.columns_, 1, 0}, {&made.rows_, 0, 1}, {&made.both_, 1, 1}};
+  static constexpr BindingKind kBindings[] = {BindingKind::Storage, BindingKind::Storage};
+  for (const auto& wanted : all) {
+    const uint32_t constants[] = {wanted.columns, wanted.rows};
+    auto pipeline = computePipeline(device, {.shader = "bilateral",
+                                             .bindings = kBindings,
+                                             .pushConstantBytes = sizeof(BilateralPush),
+                                             .constants = constants,
+                                             .words = benchShader("bilateral")});
+    if (!pipeline) return pipeline.error();
+    *wanted.pipeline = *pipeline;
+  }
+  return made;
+}
+
+DepthFilter Bilateral::filter(const BilateralSettings& settings) const {
+  return [*this, settings](Graph& graph, BufferRef depth, const surface::SurfacePush& view) {
+    BilateralPush push{view, static_cast<float>(settings.range)};
+    push.view.smoothing = static_cast<float>(settings.sigma);
+    const uint64_t columns = divideUp(view.width, view.step) + 2 * view.margin, rows = divideUp(view.height, view.step) + 2 * view.margin;
+    const auto pass = [&](const ComputePipeline* pipeline) {
+      BufferRef to = graph.create("bilateral", {columns * rows * 4});
+      addStep(graph, "bilateral", pipeline, {reads(depth), fresh(to)}, divideUp(columns, 8) * divideUp(rows, 8), push);
+      depth = to;
+    };
+    if (settings.separable) {
+      pass(columns_);
+      pass(rows_);
+    } else {
+      pass(both_);
+    }
+    return depth;
+  };
+}
+
+}  // namespace rill::bench

@@ -1,0 +1,58 @@
+#include "bench/suites/surface_ways.hpp"
+
+#include "bench/report.hpp"
+
+namespace rill::bench {
+namespace {
+
+constexpr double kEveryPixel = 1e3;  // samples a spacing
+
+/// One number of the settings, varied.
+void vary(std::vector<SurfaceWay>& all, const SurfaceWay& from, const std::string& what, double SurfaceSettings::*member,
+          std::initializer_list<double> values) {
+  for (const double value : values) {
+    SurfaceWay way = from;
+    way.setting = what + " " + number(value);
+    way.settings.*member = value;
+    all.push_back(std::move(way));
+  }
+}
+
+}  // namespace
+
+std::vector<SurfaceWay> surfaceWays(const Bilateral& bilateral, bool quick) {
+  // What another setting is called in diagrams: n: samples a spacing at least; reach, sigma, range: spacings; time: spacings squared.
+  const SurfaceWay planes{"planes", "", SurfaceMethod::Planes}, flow{"curvature flow", "", SurfaceMethod::CurvatureFlow},
+      narrow{"narrow range", "", SurfaceMethod::NarrowRange};
+  const auto filtered = [&](std::string setting, const BilateralSettings& settings, double samples = SurfaceSettings{}.samples) {
+    return SurfaceWay{"bilateral", std::move(setting), SurfaceMethod::Auto, {.samples = samples, .filter = bilateral.filter(settings)}};
+  };
+  std::vector<SurfaceWay> all{planes, flow, narrow, filtered("", {})};
+  constexpr auto samples = &SurfaceSettings::samples, reach = &SurfaceSettings::fit_reach, time = &SurfaceSettings::flow_time,
+                 sigma = &SurfaceSettings::narrow_sigma;
+  vary(all, planes, "n", samples, {1.5, 6});
+  vary(all, planes, "reach", reach, {1.8, 3.5});
+  vary(all, flow, "n", samples, {1.5});
+  vary(all, flow, "time", time, {0.6, 2.6});
+  vary(all, narrow, "n", samples, {6});
+  vary(all, narrow, "sigma", sigma, {0.8, 2.2});
+  all.push_back(filtered("sigma 2.2", {.sigma = 2.2}));
+  all.push_back(filtered("full 2D", {.separable = false}));
+  if (quick) return all;
+  vary(all, flow, "n", samples, {6});
+  SurfaceWay full = narrow;
+  full.setting = "full resolution";
+  full.settings.samples = kEveryPixel;
+  all.push_back(std::move(full));
+  vary(all, planes, "reach", reach, {2.1, 3});
+  vary(all, flow, "time", time, {0.3, 0.9, 2, 4});
+  vary(all, narrow, "sigma", sigma, {1.7, 3});
+  all.push_back(filtered("n 6", {}, 6));
+  all.push_back(filtered("sigma 0.8", {.sigma = 0.8}));
+  all.push_back(filtered("range 0.5", {.range = 0.5}));
+  all.push_back(filtered("range 2", {.range = 2}));
+  all.push_back(filtered("full 2D, sigma 2.2", {.sigma = 2.2, .separable = false}));
+  return all;
+}
+
+}  // namespace rill::bench

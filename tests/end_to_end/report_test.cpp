@@ -1,0 +1,85 @@
+// What rill-capture says of a picture: its passes, the memory that they share, what its shaders left out.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "support/child_process.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace rill::test {
+namespace {
+
+constexpr const char* kScene = R"({
+  "rill": "0.1", "domain": {"min": [0, 0, 0], "max": [1, 1, 0.3]}, "fluid": {"spacing": 0.05},
+  "fill": [{"box": {"min": [0, 0, 0], "max": [0.5, 0.5, 0.3]}}]
+})";
+
+/// As many particles, all in one place.
+std::string heap(int count) {
+  std::string ply = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) +
+                    "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+  for (int k = 0; k < count; ++k) ply += "0.5 0.5 0.15\n";
+  return ply;
+}
+
+TEST(PictureReport, ExplainTellsWhatAliasingSaves) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.json", kScene).string();
+  const Outcome run = capture({scene, "--frames", "2", "--size", "160x90", "--explain", "--quiet"}, folder.string());
+  ASSERT_EQ(run.code, 0) << run.err;
+  ASSERT_NE(run.out.find("transient memory"), std::string::npos) << run.out;
+  for (const char* kind : {"\nadvance, buffers ", "\nmeasure, buffers ", "\npicture, buffers ", "\npicture, images "}) {
+    const size_t at = run.out.find(kind);
+    ASSERT_NE(at, std::string::npos) << kind << run.out;
+    unsigned resources = 0;
+    double aliased = 0, separate = 0;
+    ASSERT_EQ(std::sscanf(run.out.c_str() + at + std::string(kind).size(), "%u %lf %lf", &resources, &aliased, &separate), 3) << run.out;
+    EXPECT_GT(resources, 0u) << kind;
+    EXPECT_LE(aliased, separate) << kind;
+    if (std::string(kind) == "\npicture, buffers ") { EXPECT_LT(aliased, 0.8 * separate) << run.out; }
+  }
+}
+
+TEST(PictureReport, TheGraphIsWritten) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.json", kScene).string();
+  ASSERT_EQ(capture({scene, "--frames", "2", "--size", "160x90", "--graph", "picture.dot", "--quiet"}, folder.string()).code, 0);
+  ASSERT_EQ(capture({scene, "--frames", "2", "--no-images", "--graph", "advance.dot", "--quiet"}, folder.string()).code, 0);
+  const std::string picture = contentOf(folder / "picture.dot"), advance = contentOf(folder / "advance.dot");
+  EXPECT_EQ(picture.substr(0, 13), "digraph frame");
+  EXPECT_NE(picture.find("  surface splat\""), std::string::npos);
+  EXPECT_EQ(advance.find("  surface splat\""), std::string::npos);
+  EXPECT_NE(advance.find("  density\""), std::string::npos);
+}
+
+TEST(PictureReport, WhatAPictureLacksIsCountedAndSaid) {
+  const TemporaryFolder folder;
+  folder.write("heap.ply", heap(500));
+  const std::string scene = folder
+                                .write("scene.json", R"({"rill": "0.1", "domain": {"min": [0, 0, 0], "max": [1, 1, 0.3]},
+                                  "fluid": {"spacing": 0.05}, "fill": [{"particles": {"file": "heap.ply"}}]})")
+                                .string();
+  const Outcome lost = capture({scene, "--frames", "1", "--size", "160x90", "--stats", "lost.json"}, folder.string());
+  ASSERT_EQ(lost.code, 0) << lost.err;
+  EXPECT_GT(nlohmann::json::parse(contentOf(folder / "lost.json"))["frames"][0]["picture_bound_hits"].get<int>(), 0);
+  EXPECT_NE(lost.err.find("warning: loops of the renderer's shaders ran into their bounds"), std::string::npos) << lost.err;
+  EXPECT_EQ(lost.out.find("picture_bound_hits       0"), std::string::npos) << lost.out;
+
+  std::filesystem::create_directories(folder / "frames");
+  std::filesystem::copy_file(folder / "heap.ply", folder / "frames/a.ply");
+  const Outcome played =
+      capture({scene, "--play", "frames", "--size", "160x90", "--out", "played", "--graph", "played.dot"}, folder.string());
+  ASSERT_EQ(played.code, 0) << played.err;
+  EXPECT_NE(contentOf(folder / "played.dot").find("  surface splat\""), std::string::npos);
+  EXPECT_NE(played.err.find("warning: loops of the renderer's shaders ran into their bounds"), std::string::npos) << played.err;
+
+  const std::string water = folder.write("water.json", kScene).string();
+  const Outcome whole = capture({water, "--frames", "3", "--size", "160x90", "--stats", "whole.json"}, folder.string());
+  ASSERT_EQ(whole.code, 0) << whole.err;
+  EXPECT_EQ(whole.err.find("warning"), std::string::npos) << whole.err;
+  EXPECT_NE(whole.out.find("picture_bound_hits       0\n"), std::string::npos) << whole.out;
+}
+
+}  // namespace
+}  // namespace rill::test

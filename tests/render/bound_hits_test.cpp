@@ -1,0 +1,73 @@
+// What bounded loops of the surface's shaders leave out is counted.
+#include <random>
+
+#include "render/fluid_renderer_impl.hpp"
+#include "render/scenery.hpp"
+#include "support/gpu_test.hpp"
+
+namespace rill::test {
+namespace {
+
+constexpr float kSpacing = 0.1f;
+
+class BoundHits : public GpuTest {
+ protected:
+  /// Of a picture of 320x240 from the origin along -z, planned for fluid that is `focus` m away.
+  uint32_t hits(const std::vector<Float4>& positions, SurfaceMethod method, double focus, SurfaceData data = SurfaceData::Normals) {
+    CameraView camera;
+    for (int k = 0; k < 3; ++k) camera.eye[k] = camera.target[k] = 0;
+    camera.target[2] = -focus;
+    camera.fov_y_deg = 45;
+    if (!renderer_) {
+      auto made = FluidRenderer::create(device());
+      EXPECT_TRUE(made) << made.error().message;
+      renderer_ = std::move(*made);
+    }
+    const Buffer position = upload("position", positions);
+    Graph graph;
+    FluidState fluid;
+    fluid.count = uint32_t(positions.size());
+    fluid.spacing = kSpacing;
+    fluid.position = graph.import("position", importOf(position));
+    (void)graph.readback(renderer_->addData(graph, fluid, fluidView(camera, 320, 240, kSpacing), data, 1, method));
+    const Ticket counters = graph.readback(renderer_->impl().last.counters);
+    run(graph);
+    const auto words = read<uint32_t>(graph, counters);
+    EXPECT_EQ(words.size(), surface::kSurfaceCounterWords);
+    return words.empty() ? 0 : words[surface::kBoundHits];
+  }
+  /// A jittered block, its near side so far away.
+  static std::vector<Float4> water(float metres) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> wobble(-0.2f * kSpacing, 0.2f * kSpacing);
+    std::vector<Float4> out;
+    for (int z = 0; z < 8; ++z)
+      for (int y = -10; y < 10; ++y)
+        for (int x = -10; x < 10; ++x)
+          out.push_back({float(x) * kSpacing + wobble(random), float(y) * kSpacing + wobble(random), -metres - float(z) * kSpacing + wobble(random), 0});
+    return out;
+  }
+  std::unique_ptr<FluidRenderer> renderer_;
+};
+
+constexpr SurfaceMethod kMethods[] = {SurfaceMethod::Planes, SurfaceMethod::CurvatureFlow, SurfaceMethod::NarrowRange};
+
+TEST_F(BoundHits, NoneInWater) {
+  for (const SurfaceMethod method : kMethods) EXPECT_EQ(hits(water(4), method, 4), 0u) << int(method);
+}
+
+TEST_F(BoundHits, ParticlesUponEachOther) {
+  // More than a walk looks at in a row of the grid, fewer than are put in order.
+  std::vector<Float4> heap(500, Float4{0, 0, -4, 0});
+  for (const SurfaceMethod method : kMethods) EXPECT_GT(hits(heap, method, 4), 0u) << int(method);
+}
+
+// Samples are as small as what is far away needs.
+TEST_F(BoundHits, FarNearerThanPlannedFor) {
+  const std::vector<Float4> near = {{0, 0, -0.12f, 0}};
+  EXPECT_GT(hits(near, SurfaceMethod::Planes, 40), 0u) << "a disc that fills the picture";
+  EXPECT_GT(hits(water(2), SurfaceMethod::NarrowRange, 40), 0u) << "fewer taps than the filter reaches over";
+}
+
+}  // namespace
+}  // namespace rill::test
