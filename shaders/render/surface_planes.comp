@@ -15,7 +15,7 @@ layout(std430, set = 0, binding = 3) writeonly buffer Plane { vec4 plane[]; };
 const float kFewest = 1.5;       // sum of the others' weights below which it is a ball
 const float kFlattest = 0.6;     // least over middle eigenvalue above which it is one
 const float kCrease = 0.04;      // the same ratio above which two faces may meet here, and it is fitted again to its own
-const int kRefits = 2;         // times
+const int kRefits = 2;           // times
 const float kSameFace = 0.9;     // spacings off the last plane within which others count then
 
 // The eigenvector of the least eigenvalue of a symmetric matrix (a b c; b d e; c e f), and the three eigenvalues, rising.
@@ -76,7 +76,7 @@ void main() {
   vec3 values;
   vec3 normal = leastDirection(fit.square.x, fit.mixed.x, fit.mixed.z, fit.square.y, fit.mixed.y, fit.square.z, values);
   for (int turn = 0; turn < kRefits && values.x > kCrease * values.y; ++turn) {
-    fit = fitAround(own, inverse, range, normal * (kFitReach / kSameFace));
+    fit = fitAround(own, inverse, range, normal * (view.smoothing / kSameFace));
     normal = leastDirection(fit.square.x, fit.mixed.x, fit.mixed.z, fit.square.y, fit.mixed.y, fit.square.z, values);
   }
   const bool ball = fit.sum - 1.0 < kFewest || values.x > kFlattest * values.y;

@@ -42,43 +42,51 @@ double sideAt(const SurfacePush& push, double z) {
 class DepthFilters : public SurfaceOnGpu {
  protected:
   static constexpr int kColumns = 45, kRows = 37;  // not multiples of a workgroup
-  static constexpr uint32_t kStep = 2;
+  static constexpr uint32_t kStep = 2, kMargin = surface::kMarginSamples;
 
   /// Of a picture whose samples are `side` m wide, in perspective four metres away.
   static SurfacePush pushOf(bool inPerspective, double side) {
-    const FluidView eye = looking({0, 0, 0}, {0, 0, -4}, kColumns * kStep, kRows * kStep);
-    const double half = 0.5 * side * kRows;
+    const FluidView eye = looking({0, 0, 0}, {0, 0, -4}, (kColumns - 2 * kMargin) * kStep, (kRows - 2 * kMargin) * kStep);
+    const double half = 0.5 * side * (kRows - 2 * kMargin);
     FluidView view = orthographic(half, eye);
     if (inPerspective) {
       view = eye;
-      view.projection.column[0].x = static_cast<float>(4 / half * kRows / kColumns);
+      view.projection.column[0].x = static_cast<float>(4 / half * view.height / view.width);
       view.projection.column[1].y = static_cast<float>(-4 / half);
     }
     const double origin[3] = {0, 0, 0};
     SurfacePush push = viewPush(view, origin);
     push.step = kStep;
+    push.margin = kMargin;
     push.spacing = kSpacing;
-    push.flow_time = 1e9f;  // m^2: what is stable
+    push.smoothing = 1e9f;  // of the flow, m^2: what is stable
     return push;
   }
   static Vector pointAt(const SurfacePush& push, int x, int y, double z) {
     const double wide = push.perspective > 0 ? z : 1;
-    return {((x + 0.5) * push.step / push.width * 2 - 1) * double{push.scale[0]} * wide,
-            ((y + 0.5) * push.step / push.height * 2 - 1) * double{push.scale[1]} * wide, z};
+    return {((x - int(kMargin) + 0.5) * push.step / push.width * 2 - 1) * double{push.scale[0]} * wide,
+            ((y - int(kMargin) + 0.5) * push.step / push.height * 2 - 1) * double{push.scale[1]} * wide, z};
   }
 
   Map filtered(std::string_view shader, const Map& before, const SurfacePush& push, uint32_t passes = 1,
                SpecializationConstants constants = {}) {
-    static constexpr BindingKind kStorage[] = {BindingKind::Storage, BindingKind::Storage};
-    const ComputePipeline* filter =
-        pipeline({.shader = shader, .bindings = kStorage, .pushConstantBytes = sizeof(SurfacePush), .constants = constants});
+    static constexpr BindingKind kStorage[] = {BindingKind::Storage, BindingKind::Storage, BindingKind::Storage};
+    const bool counts = shader == "render/surface_narrow";  // taps that it was not allowed
+    const ComputePipeline* filter = pipeline({.shader = shader,
+                                              .bindings = std::span(kStorage).first(counts ? 3 : 2),
+                                              .pushConstantBytes = sizeof(SurfacePush),
+                                              .constants = constants});
     const Buffer source = upload("before", before.z);
+    const Buffer zeros = upload("counters", std::vector<uint32_t>(surface::kSurfaceCounterWords));
     Graph graph;
-    BufferRef from = graph.import("before", importOf(source));
+    BufferRef from = graph.import("before", importOf(source)), counters = graph.import("counters", importOf(zeros));
+    const uint64_t groups = uint64_t((before.columns + 7) / 8) * uint64_t((before.rows + 7) / 8);
     for (uint32_t k = 0; k < passes; ++k) {
       BufferRef to = graph.create("after", {before.z.size() * 4});
-      addStep(graph, "filter", filter, {reads(from), fresh(to)}, uint64_t((before.columns + 7) / 8) * uint64_t((before.rows + 7) / 8),
-              push);
+      if (counts)
+        addStep(graph, "filter", filter, {reads(from), fresh(to), writes(counters)}, groups, push);
+      else
+        addStep(graph, "filter", filter, {reads(from), fresh(to)}, groups, push);
       from = to;
     }
     const Ticket ticket = graph.readback(from);
@@ -154,7 +162,7 @@ Wanted flowed(const Map& map, const SurfacePush& push, int x, int y, double shar
   for (int i = 0; i < 2; ++i)
     for (int j = 0; j < 2; ++j) along += g[i] * hessian[i][j] * g[j];
   const double rate = 0.5 * (hessian[0][0] + hessian[1][1] - along / (1 + g[0] * g[0] + g[1] * g[1]));
-  const double time = std::min(double{push.flow_time}, share * side * side);
+  const double time = std::min(double{push.smoothing}, share * side * side);
   wanted.cut = std::abs(time * rate) > 0.25 * kH;
   wanted.z = z + std::clamp(time * rate, -0.25 * kH, 0.25 * kH);
   return wanted;
@@ -165,7 +173,7 @@ TEST_F(DepthFilters, AStepOfFlowIsItsFormula) {
     for (const double time : {1e9, 1e-4}) {  // as long as is stable, and less
       const double side = kH / 4;
       SurfacePush push = pushOf(inPerspective, side);
-      push.flow_time = static_cast<float>(time);
+      push.smoothing = static_cast<float>(time);
       const Map before = rough(side, 0.25 * kH), after = filtered("render/surface_flow", before, push);
       compare(
           inPerspective ? "perspective" : "parallel rays", before, after, [&](int x, int y) { return flowed(before, push, x, y, 0.47); },
@@ -190,7 +198,7 @@ TEST_F(DepthFilters, FlowLeavesPlanesAndShrinksBalls) {
       for (int x = 12; x < kColumns - 12; ++x) ASSERT_NEAR(after.at(x, y), plane.at(x, y), 2e-5 * kH) << x << " " << y;
   }
   SurfacePush push = pushOf(false, side);
-  push.flow_time = float(0.2 * side * side);
+  push.smoothing = float(0.2 * side * side);
   const double radius = 1.2;
   Map ball(kColumns, kRows, 0);
   for (int y = 0; y < kRows; ++y)
@@ -203,7 +211,7 @@ TEST_F(DepthFilters, FlowLeavesPlanesAndShrinksBalls) {
     for (int x = 1; x < kColumns - 1; ++x) {
       const Vector p = pointAt(push, x, y, 0);
       const double slant = std::sqrt(1 - (p.x * p.x + p.y * p.y) / (radius * radius));  // of the normal to the ray
-      const double shrunk = double{push.flow_time} / radius / slant;
+      const double shrunk = double{push.smoothing} / radius / slant;
       ASSERT_NEAR(double{after.at(x, y)} - double{ball.at(x, y)}, shrunk, 0.05 * shrunk) << x << " " << y;
     }
 }
@@ -283,7 +291,8 @@ TEST_F(DepthFilters, APassOfTheNarrowRangeIsItsFormula) {
   for (const bool inPerspective : {false, true})
     for (const uint32_t vertical : {0u, 1u})
       for (const double side : {0.22 * kH, 1.8 * kH, 0.09 * kH}) {  // 13 taps, one, and as many as there may be
-        const SurfacePush push = pushOf(inPerspective, side);
+        SurfacePush push = pushOf(inPerspective, side);
+        push.smoothing = 1.3f;  // spacings
         const uint32_t constants[] = {vertical};
         const Map before = rough(side, 0.2 * kH), after = filtered("render/surface_narrow", before, push, 1, constants);
         const std::string name = std::string(vertical ? "down" : "across") + ", samples of " + std::to_string(side);

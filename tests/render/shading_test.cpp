@@ -32,7 +32,7 @@ double sky(int channel, Vector direction, Vector sun) {
   const double above = horizon[channel] + (zenith[channel] - horizon[channel]) * high;
   const double base = ground[channel] + (above - ground[channel]) * over;
   const double x = std::abs(direction.x / direction.y + 0.35), z = std::abs(direction.z / direction.y + 0.55);
-  const double lamp = up > 0.05 ? (1 - smooth(0.65, 0.85, x)) * (1 - smooth(0.30, 0.45, z)) * 0.9 : 0;
+  const double lamp = up > 0.05 ? (1 - smooth(0.2, 1.5, x)) * (1 - smooth(0.1, 1.0, z)) * 0.9 : 0;
   return base + lampColour[channel] * lamp + glow[channel] * 0.5 * std::pow(std::max(dot(direction, sun), 0.0), 24);
 }
 
