@@ -81,7 +81,7 @@ TEST(CommandLine, NamesTheOptionAndWhatWasExpected) {
 
 TEST(CommandLine, UnknownNamesGetTheList) {
   expectRefused({"scene.json", "--size", "8192x4096"}, {"--size, --view final", "8192x4096", "16777216"});
-  expectRefused({"scene.json", "--view", "particels"}, {"\"particels\"", "did you mean \"particles\"?", "views: final, particles, density, depth, normals, thickness"});
+  expectRefused({"scene.json", "--view", "particels"}, {"\"particels\"", "did you mean \"particles\"?", "views: final, particles, density, speed, depth, normals, thickness"});
   expectRefused({"dam-brake"}, {"\"dam-brake\"", "did you mean \"dam-break\"?", "resting-column", "validation/martin-moyce-1"});
   expectRefused({"scene.json", "--require", "outsid<1"}, {"\"outsid\"", "did you mean \"outside\"?", "density_error_p99", "probes.H1"});
 }
