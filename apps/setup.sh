@@ -18,6 +18,7 @@ run   mesa-vulkan-drivers     a Vulkan 1.3 driver (Mesa: lavapipe needs no GPU)
 test  libgtest-dev            GoogleTest
 test  glslang-dev             glslang (library: the debug preset reloads shaders)
 test  binutils                binutils (nm)
+test  ffmpeg              ffmpeg with libx264, and ffprobe (the videos of rill-capture)
 test  gnuplot-nox             gnuplot (the diagrams of rill-bench)
 test  vulkan-validationlayers the Khronos validation layer
 test? chromium-common         SwiftShader (libvk_swiftshader.so with its vk_swiftshader_icd.json)

@@ -22,14 +22,16 @@ struct View {
   std::string_view name;
   Kind kind;
   ParticleColour colour = ParticleColour::Speed;
+  bool unlit = false;
   SurfaceData data = SurfaceData::Normals;
 };
 constexpr View kViews[] = {{"final", Kind::Final},
                            {"particles", Kind::Particles, ParticleColour::Speed},
                            {"density", Kind::Particles, ParticleColour::Compression},
-                           {"depth", Kind::Data, {}, SurfaceData::Depth},
-                           {"normals", Kind::Data, {}, SurfaceData::Normals},
-                           {"thickness", Kind::Data, {}, SurfaceData::Thickness}};
+                           {"speed", Kind::Particles, ParticleColour::Speed, true},
+                           {"depth", Kind::Data, {}, {}, SurfaceData::Depth},
+                           {"normals", Kind::Data, {}, {}, SurfaceData::Normals},
+                           {"thickness", Kind::Data, {}, {}, SurfaceData::Thickness}};
 constexpr auto kNames = [] {
   std::array<std::string_view, std::size(kViews)> names;
   for (size_t i = 0; i < names.size(); ++i) names[i] = kViews[i].name;
@@ -116,6 +118,7 @@ PictureTickets Painter::declare(Graph& graph, const FluidState& fluid, std::stri
     desc.width = width;
     desc.height = height;
     desc.colour = view.colour;
+    desc.unlit = view.unlit;
     return {graph.readback(particles_->addTo(graph, fluid, eye, desc, time_s)), {}};
   }
   const auto withCounters = [&](BufferRef picture) {

@@ -76,7 +76,7 @@ void main() {
   vec3 values;
   vec3 normal = leastDirection(fit.square.x, fit.mixed.x, fit.mixed.z, fit.square.y, fit.mixed.y, fit.square.z, values);
   for (int turn = 0; turn < kRefits && values.x > kCrease * values.y; ++turn) {
-    fit = fitAround(own, inverse, range, normal * (kFitReach / kSameFace));
+    fit = fitAround(own, inverse, range, normal * (view.smoothing / kSameFace));
     normal = leastDirection(fit.square.x, fit.mixed.x, fit.mixed.z, fit.square.y, fit.mixed.y, fit.square.z, values);
   }
   const bool ball = fit.sum - 1.0 < kFewest || values.x > kFlattest * values.y;
