@@ -117,7 +117,8 @@ class Capture {
   }
 
   Expected<void> makePlaces() {
-    for (const auto& [option, file] : {std::pair{"--stats", &options_.stats}, std::pair{"--graph", &options_.graph}, std::pair{"--checkpoint", &options_.checkpoint}})
+    for (const auto& [option, file] :
+         {std::pair{"--stats", &options_.stats}, std::pair{"--graph", &options_.graph}, std::pair{"--checkpoint", &options_.checkpoint}})
       if (*file && !apps::isSpecialFile(**file) && (*file)->has_parent_path())
         if (auto made = apps::makeFolder(option, (*file)->parent_path()); !made) return made;
     if (!writesFrames()) return {};
@@ -214,8 +215,7 @@ class Capture {
       message("frames: " + folder_->frame(first_, kind).string() +
               (last > first_ ? " to " + folder_->frame(last, kind).filename().string() : ""));
     }
-    if (const uint64_t hits = record_->pictureBoundHits(); hits > 0 && !options_.quiet)
-      message(boundHitsWarning(hits));
+    if (const uint64_t hits = record_->pictureBoundHits(); hits > 0 && !options_.quiet) message(boundHitsWarning(hits));
     if (!options_.quiet && kept_ > 0)
       message("checkpoint: " + options_.checkpoint->string() + ", frame " + std::to_string(first_ + kept_ - 1));
     return text.empty() ? Expected<void>()

@@ -36,7 +36,8 @@ std::optional<Number> parse(std::string_view text) {
 
 /// Options as text: numbers are read here, so that every version of the command line library gives the same messages.
 struct Raw {
-  std::string scene, frames, fps, size, out, view, stats, exportAs, particles, device, checkpoint, checkpointEvery, resume, play, orbit, graph;
+  std::string scene, frames, fps, size, out, view, stats, exportAs, particles, device, checkpoint, checkpointEvery, resume, play, orbit,
+      graph;
   std::vector<std::string> set, require;
   bool explain = false, noImages = false, noPassTimes = false, quiet = false;
 };
@@ -85,8 +86,8 @@ void declare(CLI::App& app, Raw& raw) {
   once("--export", raw.exportAs, "write the particles of each frame: ply", "FORMAT", written);
   once("--stats", raw.stats, "write all figures as JSON; - is standard output", "FILE", written);
 
-  once("--graph", raw.graph, "write the passes of the last picture for Graphviz's dot (without pictures: those of the last advance)", "FILE.dot",
-       written);
+  once("--graph", raw.graph, "write the passes of the last picture for Graphviz's dot (without pictures: those of the last advance)",
+       "FILE.dot", written);
   once("--checkpoint", raw.checkpoint, "write all that a later run needs to go on, at the end and on Ctrl-C", "FILE", written);
   once("--checkpoint-every", raw.checkpointEvery, "and after a frame that ends so many seconds (wall time) after the last one", "SECONDS",
        written);
