@@ -122,7 +122,8 @@ class Capture {
   }
 
   Expected<void> makePlaces() {
-    for (const auto& [option, file] : {std::pair{"--stats", &options_.stats}, std::pair{"--graph", &options_.graph}, std::pair{"--checkpoint", &options_.checkpoint}})
+    for (const auto& [option, file] :
+         {std::pair{"--stats", &options_.stats}, std::pair{"--graph", &options_.graph}, std::pair{"--checkpoint", &options_.checkpoint}})
       if (*file && !apps::isSpecialFile(**file) && (*file)->has_parent_path())
         if (auto made = apps::makeFolder(option, (*file)->parent_path()); !made) return made;
     if (writesFrames()) {

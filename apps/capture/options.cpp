@@ -88,8 +88,8 @@ void declare(CLI::App& app, Raw& raw) {
   once("--export", raw.exportAs, "write the particles of each frame: ply", "FORMAT", written);
   once("--stats", raw.stats, "write all figures as JSON; - is standard output", "FILE", written);
 
-  once("--graph", raw.graph, "write the passes of the last picture for Graphviz's dot (without pictures: those of the last advance)", "FILE.dot",
-       written);
+  once("--graph", raw.graph, "write the passes of the last picture for Graphviz's dot (without pictures: those of the last advance)",
+       "FILE.dot", written);
   once("--checkpoint", raw.checkpoint, "write all that a later run needs to go on, at the end and on Ctrl-C", "FILE", written);
   once("--checkpoint-every", raw.checkpointEvery, "and after a frame that ends so many seconds (wall time) after the last one", "SECONDS",
        written);
