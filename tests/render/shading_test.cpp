@@ -1,0 +1,206 @@
+// What the eye sees of a flat pool, against the formulas of Fresnel, Snell, and Beer and Lambert in double precision. The view has parallel
+// rays, so that all of the picture is seen at one angle, or is in perspective, so that a picture holds many.
+#include <algorithm>
+#include <cmath>
+
+#include "render/surface_rig.hpp"
+
+namespace rill::test {
+namespace {
+
+constexpr VkFormat kFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+using Colour = std::array<double, 4>;  // linear; the fourth is 1
+
+/// Of unpolarised light that meets a surface at an angle (rad) to its normal: Fresnel's equations in the angles, by Snell's law.
+double fresnel(double angle, double index) {
+  if (angle < 1e-6) return std::pow((index - 1) / (index + 1), 2);
+  const double inner = std::asin(std::sin(angle) / index);
+  const double across = std::sin(angle - inner) / std::sin(angle + inner), within = std::tan(angle - inner) / std::tan(angle + inner);
+  return 0.5 * (across * across + within * within);
+}
+
+double smooth(double from, double to, double x) {
+  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+/// The sky of shaders/render/sky.glsl; `up` is y.
+double sky(int channel, Vector direction, Vector sun) {
+  constexpr double zenith[] = {0.16, 0.30, 0.58}, horizon[] = {0.62, 0.74, 0.88}, ground[] = {0.20, 0.20, 0.21};
+  constexpr double lampColour[] = {1, 0.97, 0.92}, glow[] = {1, 0.93, 0.82};
+  const double up = std::clamp(direction.y, 0.0, 1.0), high = std::pow(up, 0.55), over = smooth(-0.08, 0.04, direction.y);
+  const double above = horizon[channel] + (zenith[channel] - horizon[channel]) * high;
+  const double base = ground[channel] + (above - ground[channel]) * over;
+  const double x = std::abs(direction.x / direction.y + 0.35), z = std::abs(direction.z / direction.y + 0.55);
+  const double lamp = up > 0.05 ? (1 - smooth(0.65, 0.85, x)) * (1 - smooth(0.30, 0.45, z)) * 0.9 : 0;
+  return base + lampColour[channel] * lamp + glow[channel] * 0.5 * std::pow(std::max(dot(direction, sun), 0.0), 24);
+}
+
+class FlatPool : public SurfaceOnGpu {
+ protected:
+  static constexpr uint32_t kAcross = 160, kDown = 120;
+  static constexpr double kDistance = 5;
+
+  /// A pool of this depth whose surface is y = 0.
+  void pool(double depth, double half = 2.6) { fill(block({-half, -depth, -half}, {half, 0, half}, 0)); }
+  /// Seen at an angle (rad) from straight above, from the side of +z.
+  static FluidView eye(double angle) {
+    return looking({0, kDistance * std::cos(angle), kDistance * std::sin(angle)}, {0, 0, 0}, kAcross, kDown);
+  }
+  static FluidView parallel(double angle) { return orthographic(0.5, eye(angle)); }
+  static Vector sightOf(double angle) { return {0, -std::cos(angle), -std::sin(angle)}; }
+
+  static FluidLook clear() {
+    FluidLook look;
+    look.absorption = look.scatter = {0, 0, 0};
+    look.sun = 0;
+    look.to_sun = {0, -1, 0};  // from below: no glow around it in what the pool mirrors
+    return look;
+  }
+  std::vector<Colour> seen(const FluidView& view, const FluidLook& look, std::array<float, 4> behind) {
+    Backdrop backdrop;
+    backdrop.colour = behind;
+    backdrop.depth = view.projection.column[2].w == 0 ? 1.0f : 0.0f;  // as far as there is
+    return drawn(view, look, backdrop, {.colour = kFormat}).channels(kFormat);
+  }
+  /// What of the light behind comes through, whatever is mirrored: the difference that a white backdrop makes.
+  std::vector<Colour> through(const FluidView& view, const FluidLook& look) {
+    auto white = seen(view, look, {1, 1, 1, 1});
+    const auto black = seen(view, look, {0, 0, 0, 1});
+    for (size_t i = 0; i < white.size(); ++i)
+      for (size_t c = 0; c < 3; ++c) white[i][c] -= black.at(i)[c];
+    return white;
+  }
+  static Colour mean(const std::vector<Colour>& pixels) {
+    Colour sum{};
+    for (const Colour& pixel : pixels)
+      for (size_t c = 0; c < 4; ++c) sum[c] += pixel[c] / double(pixels.size());
+    return sum;
+  }
+};
+
+TEST_F(FlatPool, LetsThroughWhatItDoesNotMirror) {
+  pool(0.3, 4);
+  for (const float index : {1.333f, 2.0f}) {
+    FluidLook look = clear();
+    look.refraction_index = index;
+    // From 27 to 73 degrees in one picture.
+    const FluidView view = eye(50 * kDegree);
+    const auto light = through(view, look);
+    double steepest = 90, flattest = 0;
+    for (uint32_t y = 0; y < kDown; ++y)
+      for (uint32_t x = 0; x < kAcross; ++x) {
+        const double across = (x + 0.5) / kAcross * 2 - 1, down = (y + 0.5) / kDown * 2 - 1, tangent = std::tan(22.5 * kDegree);
+        const Vector forward = sightOf(50 * kDegree), up{0, std::sin(50 * kDegree), -std::cos(50 * kDegree)};
+        const Vector sight = unit(forward + Vector{1, 0, 0} * (across * tangent * kAcross / kDown) - up * (down * tangent));
+        const double angle = std::acos(-sight.y);
+        const double away = kDistance * std::cos(50 * kDegree) / -sight.y;
+        const Vector hit = Vector{0, kDistance * std::cos(50 * kDegree), kDistance * std::sin(50 * kDegree)} + sight * away;
+        if (std::abs(hit.x) > 3.5 || std::abs(hit.z) > 3.5) continue;
+        steepest = std::min(steepest, angle / kDegree);
+        flattest = std::max(flattest, angle / kDegree);
+        for (size_t c = 0; c < 3; ++c)
+          ASSERT_NEAR(light[size_t{y} * kAcross + x][c], 1 - fresnel(angle, double{index}), 0.01) << angle / kDegree << " degrees";
+      }
+    EXPECT_LT(steepest, 30);
+    EXPECT_GT(flattest, 65);
+  }
+}
+
+// Absorption is a metre's: twice as deep a pool lets through the square, and a slanted ray goes through more of it.
+TEST_F(FlatPool, AbsorbsByTheMetre) {
+  FluidLook look = clear();
+  look.absorption = {2.5f, 0.8f, 0.2f};
+  const double rates[] = {2.5, 0.8, 0.2};
+  for (const double depth : {0.3, 0.6, 1.2})
+    for (const double angle : {0.0, 40 * kDegree}) {
+      pool(depth);
+      const auto light = through(parallel(angle), look);
+      const Colour whole = mean(light);
+      const double metres = depth / std::cos(angle), left = 1 - fresnel(angle, double{look.refraction_index});
+      for (size_t c = 0; c < 3; ++c) {
+        EXPECT_NEAR(std::log(whole[c] / left) / -rates[c], metres, 0.02 * metres + 0.002 / rates[c]) << depth << " m, channel " << c;
+        for (const Colour& pixel : light)
+          ASSERT_NEAR(pixel[c] / left, std::exp(-rates[c] * metres), 0.12 * rates[c] * metres * std::exp(-rates[c] * metres) + 0.005);
+      }
+    }
+}
+
+TEST_F(FlatPool, IsTheWholeFormulaAtAnyAngle) {
+  pool(0.4);
+  for (const double degrees : {0.0, 20.0, 45.0, 65.0}) {
+    const double angle = degrees * kDegree, metres = 0.4 / std::cos(angle);
+    const Vector sight = sightOf(angle), mirrored{sight.x, -sight.y, sight.z};
+    for (const bool sunny : {false, true}) {
+      FluidLook look = clear();
+      look.absorption = {1.2f, 0.5f, 0.1f};
+      Vector sun{0, -1, 0};
+      if (sunny) {  // where the pool mirrors it
+        sun = mirrored;
+        look.to_sun = {float(sun.x), float(sun.y), float(sun.z)};
+        look.sun = 3;
+      }
+      const double rates[] = {1.2, 0.5, 0.1}, behind[] = {0.7, 0.4, 0.9}, white[] = {1, 0.95, 0.86};
+      const double part = fresnel(angle, double{look.refraction_index});
+      const auto pixels = seen(parallel(angle), look, {0.7f, 0.4f, 0.9f, 1});
+      const Colour whole = mean(pixels);
+      for (int c = 0; c < 3; ++c) {
+        const double mirror = sky(c, mirrored, sun) + (sunny ? 3 * white[c] : 0);
+        const double wanted = part * mirror + (1 - part) * std::exp(-rates[c] * metres) * behind[c];
+        EXPECT_NEAR(whole[size_t(c)], wanted, 0.01 * wanted) << degrees << " degrees, channel " << c << (sunny ? ", in the sun" : "");
+        for (const Colour& pixel : pixels) ASSERT_NEAR(pixel[size_t(c)], wanted, 0.07 * wanted) << degrees << " degrees, channel " << c;
+      }
+    }
+  }
+}
+
+// An opaque pool has a colour of its own and mirrors the sky; nothing behind it is seen.
+TEST_F(FlatPool, OpaqueIsItsColourUnderTheSky) {
+  pool(0.2);
+  for (const double degrees : {0.0, 60.0}) {
+    const double angle = degrees * kDegree, part = fresnel(angle, 1.5);
+    const Vector sight = sightOf(angle), mirrored{sight.x, -sight.y, sight.z}, sun = unit({0.6, 0.7, 0.2});
+    FluidLook look = clear();
+    look.opaque = true;
+    look.scatter = {0.5f, 0.3f, 0.1f};
+    look.refraction_index = 1.5f;
+    look.to_sun = {float(sun.x), float(sun.y), float(sun.z)};
+    const auto pixels = seen(parallel(angle), look, {9, 9, 9, 1});
+    const double own[] = {0.5, 0.3, 0.1}, direct[] = {1, 0.95, 0.88};
+    for (int c = 0; c < 3; ++c) {
+      const double horizon[] = {0.62, 0.74, 0.88}, zenith[] = {0.16, 0.30, 0.58};
+      const double ambient = horizon[c] + 0.4 * (zenith[c] - horizon[c]);  // all of the upper half, of a surface that lies flat
+      const double wanted = part * sky(c, mirrored, sun) + (1 - part) * own[c] * (ambient + direct[c] * sun.y);
+      for (const Colour& pixel : pixels) ASSERT_NEAR(pixel[size_t(c)], wanted, 0.01 * wanted) << degrees << " degrees, channel " << c;
+    }
+  }
+}
+
+// Behind a pool of thickness t along the ray, the picture is shifted as a ray that Snell's law has bent is after t metres.
+TEST_F(FlatPool, ShiftsWhatIsBehindAsSnellSays) {
+  pool(0.3);
+  for (const double degrees : {0.0, 30.0, 50.0}) {
+    const double angle = degrees * kDegree;
+    const FluidView view = parallel(angle);
+    const FluidLook look = clear();
+    Backdrop black, ramp;
+    black.depth = ramp.depth = 1;
+    for (uint32_t y = 0; y < kDown; ++y)
+      for (uint32_t x = 0; x < kAcross; ++x) ramp.pixels.push_back({float(x) + 0.5f, float(y) + 0.5f, 0, 1});
+    const auto dark = drawn(view, look, black, {.colour = kFormat}).channels(kFormat);
+    const auto light = drawn(view, look, ramp, {.colour = kFormat}).channels(kFormat);
+    const double inner = std::asin(std::sin(angle) / double{look.refraction_index});
+    const double metres = 0.3 / std::cos(angle), pixel = 1.0 / kDown;
+    // Bent towards the normal, it comes out nearer to the eye's side than it went in: down the picture.
+    const double shift = std::sin(angle - inner) * metres / pixel, left = 1 - fresnel(angle, double{look.refraction_index});
+    for (uint32_t y = 30; y < kDown - 30; ++y)
+      for (uint32_t x = 30; x < kAcross - 30; ++x) {
+        const size_t i = size_t{y} * kAcross + x;
+        ASSERT_NEAR((light[i][0] - dark[i][0]) / left, x + 0.5, 0.2) << degrees << " degrees at " << x << " " << y;
+        ASSERT_NEAR((light[i][1] - dark[i][1]) / left, y + 0.5 + shift, 0.2 + 0.08 * shift) << degrees << " degrees at " << x << " " << y;
+      }
+  }
+}
+
+}  // namespace
+}  // namespace rill::test
