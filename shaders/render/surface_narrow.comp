@@ -8,7 +8,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, set = 0, binding = 0) readonly buffer Before { float before[]; };
 layout(std430, set = 0, binding = 1) writeonly buffer After { float after[]; };
-layout(constant_id = 0) const uint kVertical = 0u;
+layout(constant_id = 0) const int kVertical = 0;  // 1: along columns. No choice between vectors by it: Mesa 22.3 folds that to (0, 0)
 
 const float kReach = 3.0 / 1.3;  // standard deviations
 const float kFront = 2.0;        // spacings in front of this sample: another surface
@@ -28,7 +28,7 @@ void main() {
   }
   const float length = metresASample(z) / view.spacing;
   const int taps = clamp(int(kReach * view.smoothing / length), 1, int(kMostTaps * view.margin));
-  const ivec2 along = kVertical != 0u ? ivec2(0, 1) : ivec2(1, 0);
+  const ivec2 along = ivec2(1 - kVertical, kVertical);
   float sum = toLinear(z), weights = 1.0;
   for (int k = 1; k <= taps; ++k) {
     // Both sides or none: what is missing on one side would tilt the surface.

@@ -174,7 +174,7 @@ TEST_F(SurfaceOnGpu, ATiltedPlaneIsAPlane) {
   const Vector v{normal.y * u.z - normal.z * u.y, normal.z * u.x - normal.x * u.z, normal.x * u.y - normal.y * u.x};
   fill(under({0, 0, at}, normal, u, v, 5));
   const std::pair<SurfaceMethod, double> methods[] = {
-      {SurfaceMethod::Planes, 2}, {SurfaceMethod::CurvatureFlow, 2}, {SurfaceMethod::NarrowRange, 6}};
+      {SurfaceMethod::Planes, 2}, {SurfaceMethod::CurvatureFlow, 2}, {SurfaceMethod::NarrowRange, 2}};
   for (const auto& [method, degrees] : methods) {
     const Errors e = compared(surface(perspective(), method), kWidth, kHeight, [&](double x, double y, Pixel& wanted) {
       const Vector ray{x * kTangent * kAspect, y * kTangent, -1};
