@@ -39,7 +39,6 @@ std::vector<SurfaceWay> surfaceWays(const Bilateral& bilateral, bool quick) {
   all.push_back(filtered("sigma 2.2", {.sigma = 2.2}));
   all.push_back(filtered("full 2D", {.separable = false}));
   if (quick) return all;
-  vary(all, flow, "n", samples, {6});
   SurfaceWay full = narrow;
   full.setting = "full resolution";
   full.settings.samples = kEveryPixel;
