@@ -44,6 +44,9 @@ class Capture {
     if (!simulation) return refuse(simulation.error());
     simulation_ = std::move(*simulation);
     if (resumed_) resumed_->fluid = {};  // the device has it
+    if (draws())
+      if (const auto ready = simulation_->prepareRender(options_.view, options_.width, options_.height); !ready)
+        return refuse(ready.error());
     if (const int signal = apps::signalReceived()) return 128 + signal;
     if (const auto made = makePlaces(); !made) return refuse(made.error());
     announce();
@@ -67,6 +70,7 @@ class Capture {
   }
 
  private:
+  bool draws() const { return options_.images || options_.video; }
   bool writesFrames() const { return options_.images || options_.exportPly; }
 
   Expected<void> readScene() {
@@ -184,7 +188,7 @@ class Capture {
   }
 
   Expected<void> writeFrame(uint32_t k, double time_s) {
-    if (options_.images || video_) {
+    if (draws()) {
       auto image = simulation_->render(options_.view, options_.width, options_.height);
       if (!image) return image.error();
       if (options_.images)

@@ -90,6 +90,7 @@ int runPlayback(const Options& options) {
   wanted.orbit_deg_per_s = options.orbit_deg_per_s;
   auto player = offline::Player::open(*std::move(scene), wanted);
   if (!player) return refuse(player.error());
+  if (auto ready = (*player)->prepareRender(options.view, options.width, options.height); !ready) return refuse(ready.error());
   std::optional<OutputFolder> folder;
   if (options.images) {
     auto prepared = OutputFolder::prepare(out, false);

@@ -58,7 +58,7 @@ class DepthFilters : public SurfaceOnGpu {
     SurfacePush push = viewPush(view, origin);
     push.step = kStep;
     push.spacing = kSpacing;
-    push.flow_time = 1e9f;  // m^2: what is stable
+    push.smoothing = 1e9f;  // m^2: what is stable
     return push;
   }
   static Vector pointAt(const SurfacePush& push, int x, int y, double z) {
@@ -154,7 +154,7 @@ Wanted flowed(const Map& map, const SurfacePush& push, int x, int y, double shar
   for (int i = 0; i < 2; ++i)
     for (int j = 0; j < 2; ++j) along += g[i] * hessian[i][j] * g[j];
   const double rate = 0.5 * (hessian[0][0] + hessian[1][1] - along / (1 + g[0] * g[0] + g[1] * g[1]));
-  const double time = std::min(double{push.flow_time}, share * side * side);
+  const double time = std::min(double{push.smoothing}, share * side * side);
   wanted.cut = std::abs(time * rate) > 0.25 * kH;
   wanted.z = z + std::clamp(time * rate, -0.25 * kH, 0.25 * kH);
   return wanted;
@@ -165,7 +165,7 @@ TEST_F(DepthFilters, AStepOfFlowIsItsFormula) {
     for (const double time : {1e9, 1e-4}) {  // as long as is stable, and less
       const double side = kH / 4;
       SurfacePush push = pushOf(inPerspective, side);
-      push.flow_time = static_cast<float>(time);
+      push.smoothing = static_cast<float>(time);
       const Map before = rough(side, 0.25 * kH), after = filtered("render/surface_flow", before, push);
       compare(
           inPerspective ? "perspective" : "parallel rays", before, after, [&](int x, int y) { return flowed(before, push, x, y, 0.47); },
@@ -190,7 +190,7 @@ TEST_F(DepthFilters, FlowLeavesPlanesAndShrinksBalls) {
       for (int x = 12; x < kColumns - 12; ++x) ASSERT_NEAR(after.at(x, y), plane.at(x, y), 2e-5 * kH) << x << " " << y;
   }
   SurfacePush push = pushOf(false, side);
-  push.flow_time = float(0.2 * side * side);
+  push.smoothing = float(0.2 * side * side);
   const double radius = 1.2;
   Map ball(kColumns, kRows, 0);
   for (int y = 0; y < kRows; ++y)
@@ -203,7 +203,7 @@ TEST_F(DepthFilters, FlowLeavesPlanesAndShrinksBalls) {
     for (int x = 1; x < kColumns - 1; ++x) {
       const Vector p = pointAt(push, x, y, 0);
       const double slant = std::sqrt(1 - (p.x * p.x + p.y * p.y) / (radius * radius));  // of the normal to the ray
-      const double shrunk = double{push.flow_time} / radius / slant;
+      const double shrunk = double{push.smoothing} / radius / slant;
       ASSERT_NEAR(double{after.at(x, y)} - double{ball.at(x, y)}, shrunk, 0.05 * shrunk) << x << " " << y;
     }
 }
