@@ -12,7 +12,7 @@ Installs what is missing (Debian 12 or Ubuntu 24.04 and newer; with sudo where n
 and captures the scene dam-break into ./out/dam-break. Needs no GPU.
 
   --no-install   install nothing, only build and run
-  -- OPTION...   options for rill-capture, for example: -- --frames 30 --size 640x360
+  -- OPTION...   options for rill-capture, for example: -- --frames 30 --size 640x360, or -- --video dam.mp4
 END
 }
 

@@ -12,12 +12,13 @@ build spirv-tools             SPIRV-Tools (spirv-val)
 build libglm-dev              GLM
 build nlohmann-json3-dev      nlohmann/json 3.11 or newer
 build libcli11-dev            CLI11
-build libstb-dev              stb (stb_image_write.h)
+build libstb-dev              stb (stb_image.h, stb_image_write.h)
 run   libvulkan1              the Vulkan loader
 run   mesa-vulkan-drivers     a Vulkan 1.3 driver (Mesa: lavapipe needs no GPU)
 test  libgtest-dev            GoogleTest
 test  glslang-dev             glslang (library: the debug preset reloads shaders)
 test  binutils                binutils (nm)
+test  ffmpeg              ffmpeg with libx264, and ffprobe (the videos of rill-capture)
 test  gnuplot-nox             gnuplot (the diagrams of rill-bench)
 test  vulkan-validationlayers the Khronos validation layer
 test? chromium-common         SwiftShader (libvk_swiftshader.so with its vk_swiftshader_icd.json)

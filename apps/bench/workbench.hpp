@@ -49,7 +49,7 @@ class Workbench {
   /// Whether each pass is timed from now on: it slows the whole.
   void timePasses(bool timed) { graph_->enableTimings(timed); }
   std::span<const PassReport> passReport() const { return graph_->report(); }  ///< of the last graph
-  std::span<const Timing> passTimes() const { return graph_->timings(); }  ///< of the last graph
+  std::span<const Timing> passTimes() const { return graph_->timings(); }      ///< of the last graph
 
  private:
   explicit Workbench(std::unique_ptr<offline::Context> context) : context_(std::move(context)), graph_(std::make_unique<Graph>()) {

@@ -13,6 +13,7 @@
 
 #include "capture/output_folder.hpp"
 #include "capture/record.hpp"
+#include "capture/video.hpp"
 #include "core/words.hpp"
 #include "rill/offline.hpp"
 #include "shared/atomic_file.hpp"
@@ -43,6 +44,9 @@ class Capture {
     if (!simulation) return refuse(simulation.error());
     simulation_ = std::move(*simulation);
     if (resumed_) resumed_->fluid = {};  // the device has it
+    if (draws())
+      if (const auto ready = simulation_->prepareRender(options_.view, options_.width, options_.height); !ready)
+        return refuse(ready.error());
     if (const int signal = apps::signalReceived()) return 128 + signal;
     if (const auto made = makePlaces(); !made) return refuse(made.error());
     announce();
@@ -54,7 +58,9 @@ class Capture {
     if (!ran) code = fail(ran.error());
     if (ran)
       if (const auto kept = keepCheckpoint(); !kept) code = fail(kept.error());
-    // After a failure, too: the figures of the frames so far are whole.
+    // After a failure, too: the figures of the frames so far are whole, and so is their video.
+    if (video_)
+      if (const auto finished = video_->finish(); !finished) code = fail(finished.error());
     if (const auto written = writeStats(); !written) code = fail(written.error());
     if (const auto written = writeGraph(); !written) code = fail(written.error());
     if (const auto reported = report(); !reported) code = fail(reported.error());
@@ -64,6 +70,7 @@ class Capture {
   }
 
  private:
+  bool draws() const { return options_.images || options_.video; }
   bool writesFrames() const { return options_.images || options_.exportPly; }
 
   Expected<void> readScene() {
@@ -113,17 +120,26 @@ class Capture {
       if (auto place = apps::checkFilePlace("--graph", *options_.graph); !place) return place;
     if (options_.checkpoint)
       if (auto place = apps::checkFilePlace("--checkpoint", *options_.checkpoint); !place) return place;
+    if (options_.video)
+      if (auto possible = Video::check(*options_.video); !possible) return possible;
     return writesFrames() ? apps::checkFolderPlace("--out", out_) : Expected<void>();
   }
 
   Expected<void> makePlaces() {
-    for (const auto& [option, file] : {std::pair{"--stats", &options_.stats}, std::pair{"--graph", &options_.graph}, std::pair{"--checkpoint", &options_.checkpoint}})
+    for (const auto& [option, file] :
+         {std::pair{"--stats", &options_.stats}, std::pair{"--graph", &options_.graph}, std::pair{"--checkpoint", &options_.checkpoint}})
       if (*file && !apps::isSpecialFile(**file) && (*file)->has_parent_path())
         if (auto made = apps::makeFolder(option, (*file)->parent_path()); !made) return made;
-    if (!writesFrames()) return {};
-    auto folder = OutputFolder::prepare(out_, options_.resume.has_value());
-    if (!folder) return folder.error();
-    folder_ = std::make_unique<OutputFolder>(std::move(*folder));
+    if (writesFrames()) {
+      auto folder = OutputFolder::prepare(out_, options_.resume.has_value());
+      if (!folder) return folder.error();
+      folder_ = std::make_unique<OutputFolder>(std::move(*folder));
+    }
+    if (options_.video) {
+      auto video = Video::start(*options_.video, options_.width, options_.height, fps_);
+      if (!video) return video.error();
+      video_.emplace(*std::move(video));
+    }
     return {};
   }
 
@@ -172,10 +188,13 @@ class Capture {
   }
 
   Expected<void> writeFrame(uint32_t k, double time_s) {
-    if (options_.images) {
+    if (draws()) {
       auto image = simulation_->render(options_.view, options_.width, options_.height);
       if (!image) return image.error();
-      if (auto written = apps::writePng(folder_->frame(k, "png"), *image); !written) return written;
+      if (options_.images)
+        if (auto written = apps::writePng(folder_->frame(k, "png"), *image); !written) return written;
+      if (video_)
+        if (auto added = video_->add(*image); !added) return added;
     }
     if (!options_.exportPly) return {};
     auto particles = simulation_->particles();
@@ -216,6 +235,7 @@ class Capture {
     }
     if (const uint64_t hits = record_->pictureBoundHits(); hits > 0 && !options_.quiet)
       message(boundHitsWarning(hits));
+    if (!options_.quiet && video_ && video_->finished()) message("video: " + options_.video->string());
     if (!options_.quiet && kept_ > 0)
       message("checkpoint: " + options_.checkpoint->string() + ", frame " + std::to_string(first_ + kept_ - 1));
     return text.empty() ? Expected<void>()
@@ -250,6 +270,7 @@ class Capture {
   apps::Progress progress_;
   std::unique_ptr<offline::Simulation> simulation_;
   std::unique_ptr<OutputFolder> folder_;
+  std::optional<Video> video_;
   std::unique_ptr<Record> record_;
 };
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "capture/video.hpp"
 #include "core/words.hpp"
 #include "rill/offline.hpp"
 #include "shared/atomic_file.hpp"
@@ -36,7 +37,8 @@ std::optional<Number> parse(std::string_view text) {
 
 /// Options as text: numbers are read here, so that every version of the command line library gives the same messages.
 struct Raw {
-  std::string scene, frames, fps, size, out, view, stats, exportAs, particles, device, checkpoint, checkpointEvery, resume, play, orbit, graph;
+  std::string scene, frames, fps, size, out, view, video, stats, exportAs, particles, device, checkpoint, checkpointEvery, resume, play,
+      orbit, graph;
   std::vector<std::string> set, require;
   bool explain = false, noImages = false, noPassTimes = false, quiet = false;
 };
@@ -81,12 +83,13 @@ void declare(CLI::App& app, Raw& raw) {
   once("--size", raw.size, "pixels (default: 1280x720)", "WxH", written);
   once("--view", raw.view, "what is drawn: " + apps::joined(viewNames()) + " (default: final)", "VIEW", written);
   once("--orbit", raw.orbit, "let the camera go around its target, so many degrees a simulated second", "DEG_PER_S", written);
-  app.add_flag("--no-images", raw.noImages, "draw nothing, write no pictures")->group(written);
+  once("--video", raw.video, "write the pictures as a video, too (.mp4, .mkv or .mov; needs the program ffmpeg)", "FILE", written);
+  app.add_flag("--no-images", raw.noImages, "write no pictures, and without --video draw none")->group(written);
   once("--export", raw.exportAs, "write the particles of each frame: ply", "FORMAT", written);
   once("--stats", raw.stats, "write all figures as JSON; - is standard output", "FILE", written);
 
-  once("--graph", raw.graph, "write the passes of the last picture for Graphviz's dot (without pictures: those of the last advance)", "FILE.dot",
-       written);
+  once("--graph", raw.graph, "write the passes of the last picture for Graphviz's dot (without pictures: those of the last advance)",
+       "FILE.dot", written);
   once("--checkpoint", raw.checkpoint, "write all that a later run needs to go on, at the end and on Ctrl-C", "FILE", written);
   once("--checkpoint-every", raw.checkpointEvery, "and after a frame that ends so many seconds (wall time) after the last one", "SECONDS",
        written);
@@ -204,6 +207,13 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
     if (options.stats && sameFile(*options.stats, *options.checkpoint))
       return badInput("--checkpoint", raw.checkpoint, "another file than that of --stats");
   }
+  if (given("--video")) {
+    if (!isVideoName(raw.video)) return badInput("--video", raw.video, "the name of a file that ends in .mp4, .mkv or .mov");
+    options.video = raw.video;
+    for (const auto& [other, file] : {std::pair{"--stats", &options.stats}, std::pair{"--checkpoint", &options.checkpoint}})
+      if (*file && sameFile(**file, *options.video))
+        return badInput("--video", raw.video, std::string("another file than that of ") + other);
+  }
   if (given("--checkpoint-every")) {
     const auto seconds = parse<double>(raw.checkpointEvery);
     if (!seconds || !(*seconds >= 0 && *seconds <= 1e9))
@@ -220,8 +230,10 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
     if (raw.play.empty()) return badInput("--play", raw.play, "a folder of .ply files");
     options.play = raw.play;
     // What a run alone has.
-    for (const char* other : {"--stats", "--export", "--checkpoint", "--resume", "--require", "--explain", "--no-images", "--particles"})
+    for (const char* other : {"--stats", "--export", "--checkpoint", "--resume", "--require", "--explain", "--particles"})
       if (given(other)) return Error{ErrorKind::BadInput, std::string(other) + ": --play simulates nothing; expected one of the two"};
+    if (raw.noImages && !options.video)
+      return Error{ErrorKind::BadInput, "--no-images: nothing is left to do of --play; expected --video FILE beside it"};
   }
   if (given("--device") && raw.device.empty()) return badInput("--device", raw.device, "part of a device's name, or its index");
   options.device = raw.device;
@@ -264,6 +276,8 @@ Expected<apps::CommandLine<Options>> parseCommandLine(int count, const char* con
              "  rill-capture dam-break --checkpoint run.rill --checkpoint-every 600\n"
              "  rill-capture dam-break --resume run.rill\n"
              "      a long run that may be interrupted, and the rest of it: the same bits as in one go\n"
+             "  rill-capture dam-break --no-images --video dam.mp4\n"
+             "      a video alone; on Ctrl-C it holds the frames so far\n"
              "  rill-capture dam-break --play frames --view final\n"
              "      pictures of frames/*.ply, with the camera, solids and look of dam-break\n"
              "\nExit codes: 0 done, 1 failed while running, 2 bad usage or input, 3 a --require did not hold,\n"

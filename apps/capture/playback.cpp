@@ -4,12 +4,14 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "capture/output_folder.hpp"
 #include "capture/record.hpp"
+#include "capture/video.hpp"
 #include "core/words.hpp"
 #include "rill/offline.hpp"
 #include "scene/ply_reader.hpp"
@@ -74,21 +76,35 @@ int runPlayback(const Options& options) {
   const bool byName = fs::path(options.scene) != *found;
   const fs::path out = options.out ? *options.out : fs::path("out") / (byName ? fs::path(options.scene) : fs::path(scene->name));
   std::error_code ignored;
-  if (fs::equivalent(out, *options.play, ignored))
+  if (options.images && fs::equivalent(out, *options.play, ignored))
     return refuse({ErrorKind::BadInput, "--out: " + inQuotes(out.string()) + " is the folder that --play reads; expected another"});
-  if (auto place = apps::checkFolderPlace("--out", out); !place) return refuse(place.error());
+  if (options.images)
+    if (auto place = apps::checkFolderPlace("--out", out); !place) return refuse(place.error());
   if (options.graph)
     if (auto place = apps::checkFilePlace("--graph", *options.graph); !place) return refuse(place.error());
+  if (options.video)
+    if (auto possible = Video::check(*options.video); !possible) return refuse(possible.error());
 
   offline::Options wanted;
   wanted.device = options.device;
   wanted.orbit_deg_per_s = options.orbit_deg_per_s;
   auto player = offline::Player::open(*std::move(scene), wanted);
   if (!player) return refuse(player.error());
-  auto folder = OutputFolder::prepare(out, false);
-  if (!folder) return refuse(folder.error());
+  if (auto ready = (*player)->prepareRender(options.view, options.width, options.height); !ready) return refuse(ready.error());
+  std::optional<OutputFolder> folder;
+  if (options.images) {
+    auto prepared = OutputFolder::prepare(out, false);
+    if (!prepared) return refuse(prepared.error());
+    folder.emplace(*std::move(prepared));
+  }
   if (options.graph && !apps::isSpecialFile(*options.graph) && options.graph->has_parent_path())
     if (auto made = apps::makeFolder("--graph", options.graph->parent_path()); !made) return refuse(made.error());
+  std::optional<Video> video;
+  if (options.video) {
+    auto started = Video::start(*options.video, options.width, options.height, options.fps);
+    if (!started) return refuse(started.error());
+    video.emplace(*std::move(started));
+  }
   apps::Progress progress(options.quiet ? apps::Progress::Style::Quiet : apps::Progress::styleForTerminal());
   const auto count = static_cast<uint32_t>(files->size());
   if (!options.quiet)
@@ -101,27 +117,38 @@ int runPlayback(const Options& options) {
     auto image = (*player)->render(options.view, options.width, options.height);
     if (!image) return image.error();
     hits += (*player)->boundHits();
-    return apps::writePng(folder->frame(k, "png"), *image);
+    if (folder)
+      if (auto written = apps::writePng(folder->frame(k, "png"), *image); !written) return written;
+    return video ? video->add(*image) : Expected<void>();
   };
   uint32_t done = 0;
+  int code = apps::kDone;
   for (; done < count && !apps::signalReceived(); ++done) {
     if (auto drawn = frame(done); !drawn) {
       progress.clear();
       message(drawn.error().message);
-      return drawn.error().kind == ErrorKind::BadInput ? apps::kBadInput : apps::kFailed;
+      code = drawn.error().kind == ErrorKind::BadInput ? apps::kBadInput : apps::kFailed;
+      break;
     }
     const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     progress.show({"frame", done + 1, count, (*files)[done].filename().string(), spent});
   }
   progress.clear();
+  if (video)  // after a failure, too: that of the frames so far is whole
+    if (auto finished = video->finish(); !finished) {
+      message(finished.error().message);
+      code = apps::kFailed;
+    }
   if (options.graph)
     if (auto written = apps::writeFile(*options.graph, (*player)->pictureDot()); !written) {
       message(written.error().message);
-      return apps::kFailed;
+      code = apps::kFailed;
     }
-  if (!options.quiet && done > 0)
+  if (!options.quiet && folder && done > 0 && code == apps::kDone)
     message("frames: " + folder->frame(0, "png").string() + (done > 1 ? " to " + folder->frame(done - 1, "png").filename().string() : ""));
+  if (!options.quiet && video && video->finished()) message("video: " + options.video->string());
   if (hits > 0 && !options.quiet) message(boundHitsWarning(hits));
+  if (code != apps::kDone) return code;
   const int signal = apps::signalReceived();
   return signal && done < count ? 128 + signal : apps::kDone;
 }

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <string>
 #include <system_error>
 
@@ -20,24 +19,6 @@ std::string reason(int code) { return std::generic_category().message(code); }
 Error ioError(std::string_view name, std::string_view what, int code) {
   return Error{ErrorKind::Io, "can't " + std::string(what) + " " + std::string(name) + ": " + reason(code)};
 }
-
-/// An open file descriptor that closes itself.
-class Descriptor {
- public:
-  explicit Descriptor(int value) : value_(value) {}
-  ~Descriptor() { close(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int get() const { return value_; }
-  int close() {
-    const int result = value_ >= 0 ? ::close(value_) : 0;
-    value_ = -1;
-    return result;
-  }
-
- private:
-  int value_;
-};
 
 /// 1 or 2 for the names of a standard stream, else -1. They are written through the open descriptor: opening /dev/stdout again
 /// would start over at offset 0 of a redirected file, and fails for a socket.
@@ -65,30 +46,6 @@ fs::path followLinks(fs::path file) {
 fs::path folderOf(const fs::path& file) {
   const fs::path folder = file.parent_path();
   return folder.empty() ? fs::path(".") : folder;
-}
-
-Expected<void> replaceFile(const fs::path& shown, const fs::path& file, std::span<const std::byte> bytes) {
-  const std::string name = shown.string();
-  const fs::path part = folderOf(file) / ("." + file.filename().string() + "." + std::to_string(::getpid()) + ".part");
-  int opened = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (opened < 0 && errno == EEXIST) {  // left by a killed program that had this process's number
-    ::unlink(part.c_str());
-    opened = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  }
-  if (opened < 0) return ioError(name, "write", errno);
-  Descriptor descriptor(opened);
-
-  struct stat before {};
-  if (::stat(file.c_str(), &before) == 0 && ::fchmod(descriptor.get(), before.st_mode & 07777) != 0) { /* its mode stays the default one */
-  }
-
-  Expected<void> written = writeAll(descriptor.get(), name, bytes);
-  // A full disk may show only here; a file system that can't sync (EINVAL) has done what it can.
-  if (written && ::fsync(descriptor.get()) != 0 && errno != EINVAL && errno != ENOSYS) written = ioError(name, "write", errno);
-  if (descriptor.close() != 0 && written && errno != EINTR) written = ioError(name, "write", errno);
-  if (written && ::rename(part.c_str(), file.c_str()) != 0) written = ioError(name, "write", errno);
-  if (!written) ::unlink(part.c_str());
-  return written;
 }
 
 /// The nearest folder above that exists, or what stands in its place.
@@ -129,11 +86,44 @@ Expected<void> writeAll(int descriptor, std::string_view name, std::string_view 
   return writeAll(descriptor, name, std::as_bytes(std::span(text.data(), text.size())));
 }
 
+Expected<PartFile> PartFile::create(const fs::path& file) {
+  const fs::path target = followLinks(file);
+  const fs::path part = folderOf(target) / ("." + target.filename().string() + "." + std::to_string(::getpid()) + ".part");
+  int opened = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (opened < 0 && errno == EEXIST) {  // left by a killed program that had this process's number
+    ::unlink(part.c_str());
+    opened = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  }
+  if (opened < 0) return ioError(file.string(), "write", errno);
+  struct stat before {};
+  if (::stat(target.c_str(), &before) == 0 && ::fchmod(opened, before.st_mode & 07777) != 0) { /* its mode stays the default one */
+  }
+  return PartFile(file.string(), target, part, Descriptor(opened));
+}
+
+PartFile::~PartFile() {
+  if (!path_.empty()) ::unlink(path_.c_str());
+}
+
+Expected<void> PartFile::commit() {
+  // A full disk may show only here; a file system that can't sync (EINVAL) has done what it can.
+  if (::fsync(descriptor_.get()) != 0 && errno != EINVAL && errno != ENOSYS) return ioError(name_, "write", errno);
+  if (descriptor_.close() != 0 && errno != EINTR) return ioError(name_, "write", errno);
+  if (::rename(path_.c_str(), target_.c_str()) != 0) return ioError(name_, "write", errno);
+  path_.clear();
+  return {};
+}
+
 Expected<void> writeFile(const fs::path& file, std::span<const std::byte> bytes) {
   const std::string name = file.string();
   if (const int stream = standardStream(file); stream >= 0)
     return writeAll(stream, stream == STDOUT_FILENO ? "standard output" : "standard error", bytes);
-  if (!isSpecialFile(file)) return replaceFile(file, followLinks(file), bytes);
+  if (!isSpecialFile(file)) {
+    auto part = PartFile::create(file);
+    if (!part) return part.error();
+    if (auto written = writeAll(part->descriptor(), name, bytes); !written) return written;
+    return part->commit();
+  }
   Descriptor descriptor(::open(file.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY));
   if (descriptor.get() < 0) return ioError(name, "open", errno);
   Expected<void> written = writeAll(descriptor.get(), name, bytes);

@@ -2,9 +2,12 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include "rill/expected.hpp"
+#include "shared/descriptor.hpp"
 
 namespace rill::apps {
 
@@ -31,7 +34,33 @@ Expected<void> checkFolderPlace(std::string_view option, const std::filesystem::
 /// Makes the folder and those above it. BadInput, naming `option`, where that fails.
 Expected<void> makeFolder(std::string_view option, const std::filesystem::path& folder);
 
-/// Whether `name` is that of a part file that writeFile() left when it was killed; `target` is then the file it was meant for.
+/// A file that is written beside the one it is meant for, and takes its place when it is whole. What is not committed is removed.
+class PartFile {
+ public:
+  /// Empty, with the mode of the file that is there; a link is followed. Io, naming `file`.
+  static Expected<PartFile> create(const std::filesystem::path& file);
+  PartFile(PartFile&& other) noexcept
+      : name_(std::move(other.name_)),
+        target_(std::move(other.target_)),
+        path_(std::exchange(other.path_, {})),
+        descriptor_(std::move(other.descriptor_)) {}
+  PartFile& operator=(PartFile&&) = delete;
+  ~PartFile();
+
+  const std::filesystem::path& path() const { return path_; }
+  int descriptor() const { return descriptor_.get(); }
+  /// Syncs and renames, once all is written. Io.
+  Expected<void> commit();
+
+ private:
+  PartFile(std::string name, std::filesystem::path target, std::filesystem::path path, Descriptor descriptor)
+      : name_(std::move(name)), target_(std::move(target)), path_(std::move(path)), descriptor_(std::move(descriptor)) {}
+  std::string name_;                     ///< as given, for messages
+  std::filesystem::path target_, path_;  ///< the file that it becomes; its own, empty once it is renamed
+  Descriptor descriptor_;
+};
+
+/// Whether `name` is that of a part file of a program that was killed; `target` is then the file it was meant for.
 bool isPartFile(std::string_view name, std::string_view& target);
 
 }  // namespace rill::apps

@@ -1,7 +1,9 @@
 #pragma once
 #include <filesystem>
+#include <utility>
 
 #include "rill/expected.hpp"
+#include "shared/descriptor.hpp"
 
 namespace rill::apps {
 
@@ -11,13 +13,10 @@ class FolderLock {
  public:
   /// BadInput where another program holds it. A file system that knows no locks is used without one.
   static Expected<FolderLock> take(const std::filesystem::path& folder);
-  ~FolderLock();
-  FolderLock(FolderLock&& other) noexcept : descriptor_(other.descriptor_) { other.descriptor_ = -1; }
-  FolderLock& operator=(FolderLock&& other) noexcept;
 
  private:
-  explicit FolderLock(int descriptor) : descriptor_(descriptor) {}
-  int descriptor_ = -1;
+  explicit FolderLock(Descriptor descriptor) : descriptor_(std::move(descriptor)) {}
+  Descriptor descriptor_;
 };
 
 }  // namespace rill::apps

@@ -170,22 +170,22 @@ void GraphImpl::addAccess(uint32_t pass, Access access) {
 void GraphImpl::read(uint32_t index, ResourceRef ref, bool isImage, Use use) {
   ResourceData* resource = resolve(ref, isImage, index, "reads");
   if (!resource) return;
-  const std::string pass = "pass '" + std::string(names[passes[index].name]) + "'";
+  const auto pass = [&] { return "pass '" + std::string(names[passes[index].name]) + "'"; };
   if (use == Use::None || use == Use::Unknown || use == Use::HostRead || writes(use) ||
       (isImage ? useRow(use).layout == VK_IMAGE_LAYOUT_UNDEFINED : needsImage(use)))
-    return fail(pass + " reads " + quoted(resource->name) + " with Use::" + useRow(use).name + ", which is no way for a pass to read" +
+    return fail(pass() + " reads " + quoted(resource->name) + " with Use::" + useRow(use).name + ", which is no way for a pass to read" +
                 (isImage ? " an image" : ""));
-  if (!resource->hasContent()) return fail(pass + " reads " + quoted(resource->name) + ", which no pass has written");
+  if (!resource->hasContent()) return fail(pass() + " reads " + quoted(resource->name) + ", which no pass has written");
   const Range range = passes[index].accesses;
   for (uint32_t i = range.first; i < range.first + range.count; ++i) {
     const Access& other = accesses[i];
     if (other.resource != ref.index) continue;
     if (other.write)
-      return fail(pass + " reads and writes " + quoted(resource->name) +
+      return fail(pass() + " reads and writes " + quoted(resource->name) +
                   ": declare the write alone (it may read as well), or make two passes");
     if (other.use == use) return;
     if (isImage && useRow(other.use).layout != useRow(use).layout)
-      return fail(pass + " reads " + quoted(resource->name) + " with Use::" + useRow(other.use).name + " and Use::" + useRow(use).name +
+      return fail(pass() + " reads " + quoted(resource->name) + " with Use::" + useRow(other.use).name + " and Use::" + useRow(use).name +
                   ", which need different layouts: make two passes");
   }
   addAccess(index, {ref.index, ref.version, use, false, true});
@@ -194,29 +194,29 @@ void GraphImpl::read(uint32_t index, ResourceRef ref, bool isImage, Use use) {
 ResourceRef GraphImpl::write(uint32_t index, ResourceRef ref, bool isImage, Use use, Load load) {
   ResourceData* resource = resolve(ref, isImage, index, "writes");
   if (!resource) return kMistake;
-  const std::string pass = "pass '" + std::string(names[passes[index].name]) + "'";
+  const auto pass = [&] { return "pass '" + std::string(names[passes[index].name]) + "'"; };
   if (use == Use::Unknown || !writes(use) || (isImage ? useRow(use).layout == VK_IMAGE_LAYOUT_UNDEFINED : needsImage(use))) {
-    fail(pass + " writes " + quoted(resource->name) + " with Use::" + useRow(use).name + ", which is no way for a pass to write" +
+    fail(pass() + " writes " + quoted(resource->name) + " with Use::" + useRow(use).name + ", which is no way for a pass to write" +
          (isImage ? " an image" : ""));
     return kMistake;
   }
   if (accessOf(index, ref.index)) {
-    fail(pass + " uses " + quoted(resource->name) +
+    fail(pass() + " uses " + quoted(resource->name) +
          " twice, once to write: declare the write alone (it may read as well), or make two passes");
     return kMistake;
   }
   const bool fresh = !resource->hasContent();
   if (fresh && use == Use::ComputeAtomic) {
-    fail(pass + " does atomics on " + quoted(resource->name) + ", whose content is undefined: fill it first");
+    fail(pass() + " does atomics on " + quoted(resource->name) + ", whose content is undefined: fill it first");
     return kMistake;
   }
   if (load == Load::Clear && !isTarget(use)) {
-    fail(pass + " writes " + quoted(resource->name) + " with Use::" + useRow(use).name +
+    fail(pass() + " writes " + quoted(resource->name) + " with Use::" + useRow(use).name +
          " and Load::Clear: only what is drawn to is cleared so");
     return kMistake;
   }
   if (fresh && load == Load::Keep && isTarget(use)) {
-    fail(pass + " draws to " + quoted(resource->name) + " and keeps what is there, but no pass has written it: clear or discard it");
+    fail(pass() + " draws to " + quoted(resource->name) + " and keeps what is there, but no pass has written it: clear or discard it");
     return kMistake;
   }
   addAccess(index, {ref.index, ++resource->version, use, true, load == Load::Keep && !fresh});

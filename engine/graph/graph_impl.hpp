@@ -1,7 +1,7 @@
 #pragma once
 // What is behind rill::Graph. One frame's declaration and plan are flat arrays that keep their capacity from frame to frame.
-//   graph.cpp declares, compile.cpp culls and plans, plan_reuse.cpp takes over the plan of an equal frame, prepare.cpp gets what the device must give, record.cpp records,
-//   describe.cpp writes it all down.
+//   graph.cpp declares, compile.cpp culls and plans, plan_reuse.cpp takes over the plan of an equal frame, prepare.cpp gets what the device
+//   must give, record.cpp records, describe.cpp writes it all down.
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -223,7 +223,7 @@ class GraphImpl {
   TransientPlan plans[2];  ///< of buffers, of images
   std::vector<TransientHeap> heapReports;
   PlannedFrame before;
-  bool planWhole = false;   ///< of this frame: nothing has failed since compile()
+  bool planWhole = false;  ///< of this frame: nothing has failed since compile()
   uint64_t plansMade = 0;  ///< how often a plan could not be taken over
   std::vector<Cause> causes;
   std::vector<Transition> transitions;

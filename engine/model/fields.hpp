@@ -217,7 +217,12 @@ struct Table<Look> {
   static constexpr std::tuple fields{
       Field{Info{.key = "preset", .help = "material", .words = kPresetWords}, &Look::preset},
       Field{Info{.key = "surface", .help = "surface reconstruction; auto: the one that measured best", .words = kSurfaceWords},
-            &Look::surface}};
+            &Look::surface},
+      Field{Info{.key = "environment",
+                 .help =
+                     "an equirectangular picture (.hdr, or .png or .jpg as sRGB) relative to the scene file, in place of the sky; at most "
+                     "8192x4096 pixels"},
+            &Look::environment}};
 };
 
 template <>

@@ -22,14 +22,16 @@ struct View {
   std::string_view name;
   Kind kind;
   ParticleColour colour = ParticleColour::Speed;
+  bool unlit = false;
   SurfaceData data = SurfaceData::Normals;
 };
 constexpr View kViews[] = {{"final", Kind::Final},
                            {"particles", Kind::Particles, ParticleColour::Speed},
                            {"density", Kind::Particles, ParticleColour::Compression},
-                           {"depth", Kind::Data, {}, SurfaceData::Depth},
-                           {"normals", Kind::Data, {}, SurfaceData::Normals},
-                           {"thickness", Kind::Data, {}, SurfaceData::Thickness}};
+                           {"speed", Kind::Particles, ParticleColour::Speed, true},
+                           {"depth", Kind::Data, {}, {}, SurfaceData::Depth},
+                           {"normals", Kind::Data, {}, {}, SurfaceData::Normals},
+                           {"thickness", Kind::Data, {}, {}, SurfaceData::Thickness}};
 constexpr auto kNames = [] {
   std::array<std::string_view, std::size(kViews)> names;
   for (size_t i = 0; i < names.size(); ++i) names[i] = kViews[i].name;
@@ -60,6 +62,11 @@ CameraView Painter::camera(uint32_t width, uint32_t height, double time_s) const
   view.eye[0] = view.target[0] + c * x + s * z;
   view.eye[2] = view.target[2] - s * x + c * z;
   return view;
+}
+
+Error Painter::aboutEnvironment(const Error& error) const {
+  const std::string scene = scene_.file.empty() ? scene_.name : scene_.file.string();
+  return {error.kind, scene + ": look.environment: " + error.message};
 }
 
 Expected<void> Painter::check(std::string_view name, uint32_t width, uint32_t height) {
@@ -96,7 +103,12 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
     fluid_ = std::move(*made);
   }
   if (view->kind != Kind::Final || scenery_) return {};
-  auto scenery = Scenery::create(device, scene_, start_, {});
+  if (!scene_.look.environment.empty()) {
+    const auto picture = loadEnvironment(scene_.look.environment);
+    if (!picture) return aboutEnvironment(picture.error());
+    if (auto set = fluid_->setEnvironment(*picture); !set) return aboutEnvironment(set.error());
+  }
+  auto scenery = Scenery::create(device, scene_, start_, {}, fluid_->impl().environment.get());
   if (!scenery) return scenery.error();
   static constexpr BindingKind kBindings[] = {BindingKind::SampledImage, BindingKind::Storage};
   auto tonemap = computePipeline(device, {.shader = "render/tonemap", .bindings = kBindings});
@@ -116,6 +128,7 @@ PictureTickets Painter::declare(Graph& graph, const FluidState& fluid, std::stri
     desc.width = width;
     desc.height = height;
     desc.colour = view.colour;
+    desc.unlit = view.unlit;
     return {graph.readback(particles_->addTo(graph, fluid, eye, desc, time_s)), {}};
   }
   const auto withCounters = [&](BufferRef picture) {
@@ -131,9 +144,11 @@ PictureTickets Painter::declare(Graph& graph, const FluidState& fluid, std::stri
   const TargetFormats formats;
   SceneTargets targets{graph.create("picture colour", {formats.colour, width, height}),
                        graph.create("picture depth", {formats.depth, width, height})};
-  targets = scenery_->addTo(graph, fluid, targets, seen, look_, time_s);
-  targets = fluid_->impl().addTo(graph, fluid, targets, seen, look_, true);
-  if (fluid.count > 0) targets = scenery_->addEdgesOverFluid(graph, targets, seen, fluid_->impl().last.pixels);
+  FluidRendererImpl& renderer = fluid_->impl();
+  const BufferRef environment = renderer.environment ? renderer.environment->addTo(graph) : BufferRef{};
+  targets = scenery_->addTo(graph, fluid, targets, seen, look_, time_s, environment);
+  targets = renderer.addTo(graph, fluid, targets, seen, look_, true, environment);
+  if (fluid.count > 0) targets = scenery_->addEdgesOverFluid(graph, targets, seen, renderer.last.pixels);
   BufferRef picture = graph.create("picture", {uint64_t{width} * height * 4});
   graph.pass("picture tone", [&](Pass& pass) {
     pass.read(targets.colour, Use::ComputeSampled);

@@ -39,6 +39,7 @@ class Painter {
  private:
   /// The scene's, gone around its target for so long.
   CameraView camera(uint32_t width, uint32_t height, double time_s) const;
+  Error aboutEnvironment(const Error& error) const;
 
   const Scene& scene_;
   const ParticleSet& start_;

@@ -67,8 +67,11 @@ class Player::Impl {
     return {};
   }
 
+  Expected<void> prepareRender(std::string_view view, uint32_t width, uint32_t height) {
+    return painter_.prepare(context_->device(), view, width, height);
+  }
   Expected<Image> render(std::string_view view, uint32_t width, uint32_t height) {
-    if (auto ready = painter_.prepare(context_->device(), view, width, height); !ready) return ready.error();
+    if (auto ready = prepareRender(view, width, height); !ready) return ready.error();
     graph_.reset();
     FluidState fluid;
     fluid.count = count_;
@@ -130,6 +133,10 @@ Expected<Image> Player::render(const std::string& view, uint32_t width, uint32_t
 
 std::string Player::pictureDot() const { return impl_->pictureDot(); }
 uint64_t Player::boundHits() const { return impl_->boundHits(); }
+Expected<void> Player::prepareRender(const std::string& view, uint32_t width, uint32_t height) try {
+  return impl_->prepareRender(view, width, height);
+} catch (const std::bad_alloc&) { return outOfMemory("drawing"); }
+
 const DeviceInfo& Player::device() const { return impl_->device(); }
 const Scene& Player::scene() const { return impl_->scene(); }
 std::vector<std::string> Player::takeValidationMessages() { return impl_->takeMessages(); }

@@ -156,8 +156,11 @@ class Simulation::Impl {
     return c;
   }
 
+  Expected<void> prepareRender(std::string_view view, uint32_t width, uint32_t height) {
+    return painter_.prepare(context_->device(), view, width, height);
+  }
   Expected<Image> render(std::string_view view, uint32_t width, uint32_t height) {
-    if (auto ready = painter_.prepare(context_->device(), view, width, height); !ready) return ready.error();
+    if (auto ready = prepareRender(view, width, height); !ready) return ready.error();
     if (auto measured = measure(); !measured) return measured.error();
     const double now = measured_->time_s;  // the device's: behind time() where time was dropped
     PictureTickets tickets;
@@ -350,6 +353,9 @@ Expected<Checkpoint> Simulation::checkpoint(uint64_t frame, double fps) {
 }
 Expected<Image> Simulation::render(const std::string& view, uint32_t width, uint32_t height) {
   return guarded("drawing", [&] { return impl_->render(view, width, height); });
+}
+Expected<void> Simulation::prepareRender(const std::string& view, uint32_t width, uint32_t height) {
+  return guarded("drawing", [&] { return impl_->prepareRender(view, width, height); });
 }
 Expected<void> Simulation::checkPicture(const std::string& view, uint32_t width, uint32_t height) {
   return Painter::check(view, width, height);

@@ -14,7 +14,7 @@ namespace rill {
 
 using namespace surface;
 
-look::LookRecord lookRecord(const FluidLook& look, const SurfacePush& thickness) {
+look::LookRecord lookRecord(const FluidLook& look, const SurfacePush& thickness, const Environment* environment) {
   look::LookRecord record{};
   record.absorption = {look.absorption.x, look.absorption.y, look.absorption.z, look.refraction_index};
   record.scatter = {look.scatter.x, look.scatter.y, look.scatter.z, look.opaque ? 1.0f : 0.0f};
@@ -22,6 +22,11 @@ look::LookRecord lookRecord(const FluidLook& look, const SurfacePush& thickness)
   const float size = std::sqrt(s.x * s.x + s.y * s.y + s.z * s.z);
   record.light = size > 0 ? Float4{s.x / size, s.y / size, s.z / size, look.sun} : Float4{0, 1, 0, look.sun};
   record.finish = {look.highlight, static_cast<float>(thickness.step), thickness.unit, 0};
+  if (environment) {
+    const Float3 above = environment->above(), below = environment->below();
+    record.above = {above.x, above.y, above.z, static_cast<float>(environment->width())};
+    record.below = {below.x, below.y, below.z, static_cast<float>(environment->height())};
+  }
   return record;
 }
 
@@ -34,35 +39,50 @@ BufferRef addLook(Graph& graph, const look::LookRecord& record) {
   return buffer;
 }
 
-Expected<void> FluidRendererImpl::create(Device& device, const TargetFormats& formats) {
-  auto stage = SurfaceStage::create(device);
+Expected<void> FluidRendererImpl::create(Device& host, const TargetFormats& targets) {
+  device = &host;
+  formats = targets;
+  auto stage = SurfaceStage::create(host);
   if (!stage) return stage.error();
   surface = *stage;
   using enum BindingKind;
   static constexpr BindingKind kScene[] = {SampledImage, SampledImage, Storage, Storage};
-  static constexpr BindingKind kShade[] = {Uniform, Storage, Storage, Storage, Storage, Storage};
   static constexpr BindingKind kData[] = {Storage, Storage, Storage};
-  auto made = computePipeline(device, {.shader = "render/surface_scene", .bindings = kScene, .pushConstantBytes = sizeof(SurfacePush)});
+  auto made = computePipeline(host, {.shader = "render/surface_scene", .bindings = kScene, .pushConstantBytes = sizeof(SurfacePush)});
   if (!made) return made.error();
   scene = *made;
   for (uint32_t what = 0; what < 3; ++what) {
     const uint32_t constants[] = {what};
-    made = computePipeline(device,
+    made = computePipeline(host,
                            {.shader = "render/analysis", .bindings = kData, .pushConstantBytes = sizeof(DataPush), .constants = constants});
     if (!made) return made.error();
     data[what] = *made;
   }
-  auto drawn = graphicsPipeline(device, {.vertex = "render/fluid_shade_vertex",
-                                         .fragment = "render/fluid_shade_fragment",
-                                         .bindings = kShade,
-                                         .pushConstantBytes = sizeof(SurfacePush),
-                                         .colours = {&formats.colour, 1},
-                                         .depth = formats.depth,
-                                         .depthCompare = VK_COMPARE_OP_ALWAYS,  // the shader compares in m
-                                         .depthWrite = true});
+  return makeShade();
+}
+
+Expected<void> FluidRendererImpl::makeShade() {
+  using enum BindingKind;
+  static constexpr BindingKind kShade[] = {Uniform, Storage, Storage, Storage, Storage, Storage, Storage};
+  auto drawn =
+      graphicsPipeline(*device, {.vertex = "render/fluid_shade_vertex",
+                                 .fragment = environment ? "render/fluid_shade_environment_fragment" : "render/fluid_shade_fragment",
+                                 .bindings = std::span(kShade).first(environment ? 7 : 6),
+                                 .pushConstantBytes = sizeof(SurfacePush),
+                                 .colours = {&formats.colour, 1},
+                                 .depth = formats.depth,
+                                 .depthCompare = VK_COMPARE_OP_ALWAYS,  // the shader compares in m
+                                 .depthWrite = true});
   if (!drawn) return drawn.error();
   shade = *drawn;
   return {};
+}
+
+Expected<void> FluidRendererImpl::setEnvironment(const EnvironmentPicture& picture) {
+  auto made = Environment::create(*device, picture);
+  if (!made) return made.error();
+  environment = *std::move(made);
+  return makeShade();
 }
 
 /// Whether it can be drawn; the graph's compile() says what not.
@@ -90,7 +110,7 @@ SurfacePush FluidRendererImpl::camera(const FluidState& fluid, const FluidView& 
 }
 
 SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view,
-                                      const FluidLook& look, bool whole) {
+                                      const FluidLook& look, bool whole, BufferRef texels) {
   if (fluid.count == 0) {
     graph.skipped("fluid shade", "there are no particles");
     return targets;
@@ -119,14 +139,16 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
   } else {
     thickness = surface.addThickness(graph, fluid, thick, sceneDepth, &last.counters);
   }
-  const BufferRef record = addLook(graph, lookRecord(look, thick));
+  const BufferRef record = addLook(graph, lookRecord(look, thick, environment.get()));
   graph.pass("fluid shade", [&](Pass& pass) {
     pass.read(record, Use::DrawUniform);
-    for (BufferRef buffer : {last.tiles, last.pixels, thickness, sceneColour, sceneDepth}) pass.read(buffer, Use::DrawRead);
+    const ResourceRef bound[] = {record, last.tiles, last.pixels, thickness, sceneColour, sceneDepth, texels};
+    const size_t count = environment ? 7 : 6;
+    for (size_t k = 1; k < count; ++k) pass.read(BufferRef{bound[k]}, Use::DrawRead);
     pass.read(last.arguments, Use::Indirect);
     targets.colour = pass.write(targets.colour, Use::ColourTarget);
     targets.depth = pass.write(targets.depth, Use::DepthTarget);
-    const Kernel kernel = pass.kernel(shade, {record, last.tiles, last.pixels, thickness, sceneColour, sceneDepth});
+    const Kernel kernel = pass.kernel(shade, std::span(bound).first(count));
     return [kernel, push, arguments = last.arguments](Commands& commands) {
       commands.viewport(push.left, push.top, push.width, push.height);
       commands.drawIndirect(kernel, arguments, kTileDraw * 4, push);
@@ -165,12 +187,15 @@ Expected<std::unique_ptr<FluidRenderer>> FluidRenderer::create(Device& device, c
 FluidRenderer::FluidRenderer(std::unique_ptr<FluidRendererImpl> impl) : impl_(std::move(impl)) {}
 FluidRenderer::~FluidRenderer() = default;
 
+Expected<void> FluidRenderer::setEnvironment(const EnvironmentPicture& picture) { return impl_->setEnvironment(picture); }
+
 Expected<void> FluidRenderer::check(const FluidView& view) { return checkView(view); }
 
 SceneTargets FluidRenderer::addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view,
                                   const FluidLook& look) {
   assert(check(view));
-  return impl_->addTo(graph, fluid, targets, view, look, false);
+  const bool drawn = impl_->environment && fluid.count > 0;
+  return impl_->addTo(graph, fluid, targets, view, look, false, drawn ? impl_->environment->addTo(graph) : BufferRef{});
 }
 
 BufferRef FluidRenderer::addData(Graph& graph, const FluidState& fluid, const FluidView& view, SurfaceData data, float full,

@@ -1,5 +1,6 @@
 #pragma once
 // What is behind rill::FluidRenderer.
+#include "render/environment.hpp"
 #include "render/look_records.h"
 #include "render/surface.hpp"
 #include "rill/fluid_renderer.hpp"
@@ -19,16 +20,26 @@ class FluidRendererImpl {
   Expected<void> create(Device& device, const TargetFormats& formats);
   bool fits(Graph& graph, const FluidState& fluid, const SceneTargets& targets, const FluidView& view) const;
   surface::SurfacePush camera(const FluidState& fluid, const FluidView& view) const;
-  SceneTargets addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view, const FluidLook& look, bool whole);
+  Expected<void> setEnvironment(const EnvironmentPicture& picture);
+  /// `texels`: of the environment, where there is one.
+  SceneTargets addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view, const FluidLook& look, bool whole,
+                     BufferRef texels = {});
   BufferRef addData(Graph& graph, const FluidState& fluid, const FluidView& view, SurfaceData data, float full, SurfaceMethod method);
 
+  Device* device = nullptr;
+  TargetFormats formats;
+  std::unique_ptr<Environment> environment;  ///< none: the sky of Rill's own
   SurfaceStage surface;
   SurfaceBuffers last;  ///< of the frame that is being declared
   const ComputePipeline *scene = nullptr, *data[3] = {};
   const GraphicsPipeline* shade = nullptr;
+
+ private:
+  Expected<void> makeShade();
 };
 
-look::LookRecord lookRecord(const FluidLook& look, const surface::SurfacePush& thickness);
+/// `environment` may be null.
+look::LookRecord lookRecord(const FluidLook& look, const surface::SurfacePush& thickness, const Environment* environment);
 /// A uniform buffer with the record, written by a pass of its own.
 BufferRef addLook(Graph& graph, const look::LookRecord& record);
 

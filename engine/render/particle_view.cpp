@@ -140,6 +140,7 @@ ViewPush ParticleViewImpl::pushFor(const FluidState& fluid, const CameraView& ca
   const double pixels = distance > 0 ? push.radius * focal / distance : 0;
   push.cell = pixels < 10 ? 2 : 4;
   push.compression = desc.colour == ParticleColour::Compression ? 1 : 0;
+  push.unlit = desc.unlit ? 1 : 0;
   const double scale = desc.scale_max > 0 ? desc.scale_max : (push.compression ? scene_.compression_max : scene_.speed_max);
   push.scale = static_cast<float>(1 / scale);
   return push;
@@ -305,8 +306,10 @@ void ParticleViewImpl::addTint(Graph& graph, Frame& frame) {
 }
 
 void ParticleViewImpl::addFloorShadow(Graph& graph, Frame& frame) {
-  if (!hasFloor() || !hasShadows(frame)) {
-    graph.skipped("view floor shadow", hasFloor() ? "nothing casts a shadow" : "the domain has no floor");
+  if (!hasFloor() || !hasShadows(frame) || frame.push.unlit) {
+    graph.skipped("view floor shadow", !hasFloor()        ? "the domain has no floor"
+                                       : frame.push.unlit ? "nothing is lit"
+                                                          : "nothing casts a shadow");
     frame.floor = frame.edges;  // not looked at
     return;
   }

@@ -18,6 +18,9 @@ struct ParticleViewDesc {
   uint32_t width = 1280;  ///< pixels, 1 .. 8192
   uint32_t height = 720;  ///< pixels, 1 .. 8192; width x height is at most 2^25
   ParticleColour colour = ParticleColour::Speed;
+  /// A particle's pixels have the map's colour of its value, to be read off the legend: nothing is lit or casts a shadow, and what is around
+  /// the particles is darker than any colour of a map.
+  bool unlit = false;
   double scale_max = 0;  ///< value at the colour map's end (m/s, or fraction of rest density); 0: ParticleView::scaleMax(colour)
 };
 

@@ -50,8 +50,9 @@ FluidView fluidView(const CameraView& camera, uint32_t width, uint32_t height, d
 }
 
 Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& scene, const ParticleSet& particles,
-                                                   const TargetFormats& formats) {
+                                                   const TargetFormats& formats, const Environment* environment) {
   auto out = std::make_unique<Scenery>();
+  out->environment_ = environment;
   auto buffers = SceneBuffers::create(device, particleScene(scene, particles));
   if (!buffers) return buffers.error();
   out->buffers_ = *std::move(buffers);
@@ -60,6 +61,7 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
   out->stage_ = *stage;
   using enum BindingKind;
   static constexpr BindingKind kLit[] = {Uniform, Uniform, Storage, SampledImage, Storage};
+  static constexpr BindingKind kBare[] = {Uniform, Uniform, Storage, Storage};  // of the ground without solids
   static constexpr BindingKind kPoses[] = {Storage};
   static constexpr BindingKind kEdges[] = {Uniform, Storage};
   const bool solids = !out->buffers_.host.solids.empty();
@@ -78,9 +80,12 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
                                 .depthCompare = VK_COMPARE_OP_GREATER,
                                 .depthWrite = true};
   };
-  GraphicsPipelineDesc ground =
-      desc("render/scenery_ground_vertex", solids ? "render/scenery_ground_solids_fragment" : "render/scenery_ground_fragment",
-           std::span(kLit).first(solids ? 4 : 3));
+  constexpr std::string_view kGround[2][2] = {
+      {"render/scenery_ground_fragment", "render/scenery_ground_environment_fragment"},
+      {"render/scenery_ground_solids_fragment", "render/scenery_ground_solids_environment_fragment"}};
+  GraphicsPipelineDesc ground = desc("render/scenery_ground_vertex", kGround[solids][environment != nullptr],
+                                     (solids ? std::span<const BindingKind>(kLit).first(environment ? 5 : 4)
+                                             : std::span<const BindingKind>(kBare).first(environment ? 4 : 3)));
   ground.depthCompare = VK_COMPARE_OP_ALWAYS;
   GraphicsPipelineDesc edges = desc("render/scenery_edges_vertex", "render/scenery_edges_fragment", std::span(kEdges).first(1));
   edges.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
@@ -95,7 +100,8 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
     light.colours = {};
     light.depth = kShadowFormat;
     light.depthCompare = VK_COMPARE_OP_LESS;
-    all.push_back({out->solid_, desc("render/scenery_solid_vertex", "render/scenery_solid_fragment", kLit)});
+    all.push_back({out->solid_, desc("render/scenery_solid_vertex",
+                                     environment ? "render/scenery_solid_environment_fragment" : "render/scenery_solid_fragment", kLit)});
     all.push_back({out->solidLight_, light});
   }
   for (const Wanted& wanted : all) {
@@ -141,14 +147,14 @@ SurfacePush Scenery::lightPush(const FluidState& fluid, const double origin[3]) 
 }
 
 SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view, const FluidLook& look,
-                            double time_s) const {
+                            double time_s, BufferRef texels) const {
   const bool solids = !buffers_.host.solids.empty();
   SurfacePush camera = viewPush(view, buffers_.host.origin);
   camera.spacing = fluid.spacing;
   const BufferRef scene = buffers_.importScene(graph);
   const SurfacePush light = SurfaceStage::thicknessPush(lightPush(fluid, fluid.origin), fluid, 1);
   const BufferRef shadow = stage_.addThickness(graph, fluid, light, {}, nullptr);  // a particle spans five texels at most
-  const BufferRef record = addLook(graph, lookRecord(look, light));
+  const BufferRef record = addLook(graph, lookRecord(look, light, environment_));
   BufferRef poses;
   ImageRef lightDepth;
   if (solids) {
@@ -176,8 +182,13 @@ SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets 
     readLight(pass);
     targets.colour = pass.write(targets.colour, Use::ColourTarget, Load::Discard);
     targets.depth = pass.write(targets.depth, Use::DepthTarget, Load::Discard);
-    const Kernel kernel =
-        solids ? pass.kernel(ground_, {scene, record, shadow, lightDepth}) : pass.kernel(ground_, {scene, record, shadow});
+    std::vector<ResourceRef> bound{scene, record, shadow};
+    if (solids) bound.push_back(lightDepth);
+    if (environment_) {
+      pass.read(texels, Use::DrawRead);
+      bound.push_back(texels);
+    }
+    const Kernel kernel = pass.kernel(ground_, bound);
     return [kernel, camera](Commands& commands) { commands.draw(kernel, 3, 1, camera); };
   });
   if (solids) {

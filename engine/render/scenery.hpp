@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "render/camera.hpp"
+#include "render/environment.hpp"
 #include "render/scene_buffers.hpp"
 #include "render/surface.hpp"
 #include "rill/fluid_renderer.hpp"
@@ -15,13 +16,14 @@ FluidView fluidView(const CameraView& camera, uint32_t width, uint32_t height, d
 
 class Scenery {
  public:
-  /// Scene and particles are not kept.
+  /// Scene and particles are not kept; `environment` outlives it, null: the sky of Rill's own.
   static Expected<std::unique_ptr<Scenery>> create(Device& device, const Scene& scene, const ParticleSet& particles,
-                                                   const TargetFormats& formats);
+                                                   const TargetFormats& formats, const Environment* environment = nullptr);
 
   /// Draws all of the targets anew; depth as fluidView() has it. `time_s`: where the solids are. Shadows are those that `look` casts.
+  /// `texels`: of the environment, where there is one.
   SceneTargets addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view, const FluidLook& look,
-                     double time_s) const;
+                     double time_s, BufferRef texels = {}) const;
   /// The edges that lie before the fluid, once it has been drawn: `pixels` are SurfaceBuffers::pixels of the whole picture.
   SceneTargets addEdgesOverFluid(Graph& graph, SceneTargets targets, const FluidView& view, BufferRef pixels) const;
 
@@ -31,6 +33,7 @@ class Scenery {
   surface::SurfacePush lightPush(const FluidState& fluid, const double origin[3]) const;
   bool hasEdges() const { return buffers_.host.scene.domain_min.w > 0; }
 
+  const Environment* environment_ = nullptr;
   SceneBuffers buffers_;
   SurfaceStage stage_;
   const GraphicsPipeline *ground_ = nullptr, *solid_ = nullptr, *solidLight_ = nullptr, *edges_ = nullptr, *edgesOverFluid_ = nullptr;

@@ -180,10 +180,11 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
     grid.plane = centre;  // bound, never read
   } else {
     grid.plane = graph.create("surface planes", {most * 32});
-    addStep(graph, "surface planes", planes_, {writes(out.counters), reads(start), reads(centre), fresh(grid.plane)}, surfaceGroups(), push);
+    addStep(graph, "surface planes", planes_, {writes(out.counters), reads(start), reads(centre), fresh(grid.plane)}, surfaceGroups(),
+            push);
     smooth = graph.create("surface samples", {samples * 8});
-    addStep(graph, "surface blend", blend_, {reads(start), reads(centre), reads(grid.plane), reads(depth), fresh(smooth), writes(out.counters)},
-            grid.sampleGroups, push);
+    addStep(graph, "surface blend", blend_,
+            {reads(start), reads(centre), reads(grid.plane), reads(depth), fresh(smooth), writes(out.counters)}, grid.sampleGroups, push);
   }
   addStep(graph, "surface compose", filtered ? composeFiltered_ : compose_,
           {reads(start), reads(centre), reads(grid.plane), reads(depth), reads(smooth), writes(out.counters), reads(out.tiles),
@@ -213,8 +214,9 @@ BufferRef SurfaceStage::addFiltered(Graph& graph, Grid& grid, SurfaceMethod meth
       }
   }
   BufferRef samples = graph.create("surface samples", {grid.samples * 8});
-  addStep(graph, "surface normals", normals_, {reads(grid.start), reads(grid.centre), reads(from), reads(grid.depth), fresh(samples), writes(grid.counters)},
-          grid.sampleGroups, grid.push);
+  addStep(graph, "surface normals", normals_,
+          {reads(grid.start), reads(grid.centre), reads(from), reads(grid.depth), fresh(samples), writes(grid.counters)}, grid.sampleGroups,
+          grid.push);
   return samples;
 }
 
@@ -247,8 +249,8 @@ BufferRef SurfaceStage::addThickness(Graph& graph, const FluidState& fluid, cons
   if (sceneDepth == BufferRef{})
     addStep(graph, "fluid thickness", thicknessBare_, {reads(fluid.position), writes(thickness), writes(counted)}, groups, push);
   else
-    addStep(graph, "fluid thickness", thickness_, {reads(fluid.position), writes(thickness), writes(counted), reads(sceneDepth)},
-            groups, push);
+    addStep(graph, "fluid thickness", thickness_, {reads(fluid.position), writes(thickness), writes(counted), reads(sceneDepth)}, groups,
+            push);
   return thickness;
 }
 

@@ -289,7 +289,7 @@ bool Reader::value(const Json& json, const std::string& path, const model::Info&
   return true;
 }
 
-bool Reader::value(const Json& json, const std::string& path, const model::Info&, fs::path& out) {
+bool Reader::value(const Json& json, const std::string& path, const model::Info& info, fs::path& out) {
   std::string given;
   if (!text(json, path, given)) return false;
   if (given.empty() || given.find('\0') != std::string::npos)
@@ -298,7 +298,8 @@ bool Reader::value(const Json& json, const std::string& path, const model::Info&
   std::error_code trouble;
   const fs::file_status status = fs::status(file, trouble);
   if (!fs::exists(status)) return fail(path, inQuotes(given) + ": no such file (looked for " + file.string() + ")");
-  if (!fs::is_regular_file(status)) return fail(path, inQuotes(given) + ": found something other than a regular file, expected a PLY file");
+  if (!fs::is_regular_file(status))
+    return fail(path, inQuotes(given) + ": found something other than a regular file, expected " + std::string(info.help));
   const fs::path whole = fs::absolute(file, trouble);
   out = (trouble ? file : whole).lexically_normal();
   return true;

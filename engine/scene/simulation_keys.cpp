@@ -70,6 +70,7 @@ class Lister {
   }
   // Texts and probes: all are left out.
   void add(const model::Info&, std::string, const std::string&) {}
+  void add(const model::Info&, std::string, const std::filesystem::path&) {}
   void add(const model::Info&, std::string, const std::optional<std::pair<double, double>>&) {}
   void add(const model::Info&, std::string, const std::optional<Axis>&) {}
 

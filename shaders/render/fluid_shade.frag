@@ -3,9 +3,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 #include "render/look_records.h"
-#include "render/sky.glsl"
 
 layout(std140, set = 0, binding = 0) uniform Look { LookRecord look; };
+#include "render/sky.glsl"
 layout(std430, set = 0, binding = 2) readonly buffer Surface { uvec2 surface[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Thickness { uint thickness[]; };
 layout(std430, set = 0, binding = 4) readonly buffer SceneColour { uvec2 scene_colour[]; };
@@ -66,7 +66,7 @@ void main() {
   const vec3 world_normal = worldDirection(normal), world_sight = worldDirection(sight);
   const vec3 sun = look.light.xyz;
   const float lit = max(dot(world_normal, sun), 0.0);
-  const vec3 ambient = mix(kGround, mix(kHorizon, kZenith, 0.4), 0.5 + 0.5 * world_normal.y);
+  const vec3 ambient = skyLight(world_normal);
   const float reflected = fresnel(cosine, look.absorption.w);
   const vec3 mirrored = reflect(world_sight, world_normal);
   const vec3 sky = skyColour(mirrored, sun);

@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "render/particle_view.glsl"
 #include "render/particle_tiles.glsl"
+#include "render/particle_lighting.glsl"
 #include "render/particle_finish.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -37,5 +38,5 @@ void main() {
     const float line_depth = 0.9995 / max(edge.depth.x + edge.depth.y * (along - edge.along.z), 1e-30);
     if (own > line_depth) cover = max(cover, clamp(half_width + 0.5 - distance, 0.0, 1.0) * clamp(ends, 0.0, 1.0) * edge.line.w);
   }
-  if (cover > 0.0) picture[index] = encoded(mix(decoded(picture[index]), kLine, 0.62 * cover));
+  if (cover > 0.0) picture[index] = encoded(mix(decoded(picture[index]), view.unlit != 0u ? kPlainSolid : kLine, 0.62 * cover));
 }

@@ -67,6 +67,7 @@ struct ViewPush {
   uint compression;  // 0: coloured by speed, 1: by compression
   float scale;       // 1 / the value at the colour map's end
   uint winners;      // 0: splat depths, 1: splat indices
+  uint unlit;        // 1: a particle's pixels have its colour as it is, and what is around them is darker than any colour map
 };
 
 // What stays the same over a view's life.

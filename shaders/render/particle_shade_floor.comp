@@ -49,6 +49,7 @@ vec3 shadeFloor(vec3 ray) {
   const float step = scene.domain_max.w, line = 0.02 * step;
   const vec2 inner = at - scene.domain_min.xz;
   const float grid = max(gridCover(inner.x, width.x, line, step), gridCover(inner.y, width.y, line, step));
+  if (view.unlit != 0u) return mix(kPlain, kPlainGrid, grid);
   const vec2 extent = scene.domain_max.xz - scene.domain_min.xz;
   const vec2 rim = min(inner, extent - inner) / (0.06 * max(min(extent.x, extent.y), step));
   const float corner = (1.0 - 0.12 * exp(-max(rim.x, 0.0))) * (1.0 - 0.12 * exp(-max(rim.y, 0.0)));

@@ -43,6 +43,6 @@ void main() {
   glint *= glint;
   glint *= glint;
   const vec3 lit = ambient(normal) * mix(0.35, 1.0, open) + kKey * (diffuse * mix(0.25, 1.0, light) * mix(0.7, 1.0, open));
-  shaded[index] = packColour(root * root * lit + kKey * (0.10 * glint * light));
+  shaded[index] = packColour(view.unlit != 0u ? root * root : root * root * lit + kKey * (0.10 * glint * light));
   rims[index] = sphereRim(centre, radius, tangent);
 }

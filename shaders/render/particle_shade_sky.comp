@@ -41,7 +41,7 @@ void main() {
   if (winner[index] != kNobody) return;
   const vec2 middle = vec2(pixel) + 0.5;
   const vec3 ray = rayOf(tangentOf(middle));
-  const uint packed = packColour(overWalls(background(middle.y), ray));
+  const uint packed = packColour(view.unlit != 0u ? kPlain : overWalls(background(middle.y), ray));
   shaded[index] = packed;
   rims[index] = kNoRim;
   picture[index] = encoded(unpackColour(packed));  // unpacked again: the same colour in a tile with outlines and in one without

@@ -69,6 +69,6 @@ void main() {
     if (solidHit(pose, eye, rayOf(tangentOf(middle + offset)), facing) < view.near_depth) facing = normal;
     lit += 0.25 * (ambient(facing) * open + kKey * (max(dot(facing, scene.light_to.xyz), 0.0) * light));
   }
-  shaded[index] = packColour((view.compression != 0u ? kSolidGrey : kSolid) * lit);
+  shaded[index] = packColour(view.unlit != 0u ? kPlainSolid * min(lit.g, 1.0) : (view.compression != 0u ? kSolidGrey : kSolid) * lit);
   rims[index] = pose.centre.w > 0.0 ? sphereRim(pose.view.xyz, pose.centre.w, tangentOf(middle)) : boxRim(pose, middle);
 }

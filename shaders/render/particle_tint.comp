@@ -51,9 +51,13 @@ void main() {
   if (k >= small + counters[kLargeCount]) return;
   const uint i = k < small ? survivors[k] : survivors[view.count - 1u - (k - small)];
   const vec3 world = particlePoint(position[i].xyz);
+  const vec3 root = sqrt(particleColour(velocity[i]));
+  if (view.unlit != 0u) {
+    tint[i] = uvec2(packUnorm2x16(root.rg), uint(root.b * 65535.0 + 0.5));
+    return;
+  }
   const vec3 centre = viewPoint(world);
   const float radius = drawnRadius(centre.z);
-  const vec3 root = sqrt(particleColour(velocity[i]));
   const float open = centre.z > radius ? openness(centre, radius) : 1.0;
   const float light = lightVisibility(world, 5.0 * view.radius);
   tint[i] = uvec2(packUnorm2x16(root.rg), uint(root.b * 65535.0 + 0.5) | uint(open * 255.0 + 0.5) << 16 | uint(light * 255.0 + 0.5) << 24);

@@ -56,5 +56,4 @@ float pastSolids(vec3 p, float bias) {
 #endif
 }
 
-vec3 skyLight(vec3 normal) { return mix(kGround, mix(kHorizon, kZenith, 0.4), 0.5 + 0.5 * normal.y); }
 const vec3 kSun = vec3(1.0, 0.94, 0.84);

@@ -18,8 +18,14 @@ float checker(vec2 at, vec2 width) {
   return 0.5 - 0.5 * mean.x * mean.y;
 }
 
+#ifdef ENVIRONMENT
+vec3 backdrop(vec3 sight) { return skyColour(sight, scene.light_to.xyz); }
+vec3 haze(vec3 sight) { return backdrop(sight); }  // the picture has a ground of its own
+#else
 // Darker than the sky that is reflected, so that reflections are seen against it.
 vec3 backdrop(vec3 sight) { return mix(vec3(0.27, 0.32, 0.39), vec3(0.05, 0.08, 0.14), sqrt(clamp(sight.y, 0.0, 1.0))); }
+vec3 haze(vec3 sight) { return backdrop(normalize(vec3(sight.x, 0.02, sight.z))); }
+#endif
 
 void main() {
   const vec2 middle = gl_FragCoord.xy - vec2(view.left, view.top), axis = axisOf(middle);
@@ -49,6 +55,6 @@ void main() {
   const vec3 sunlight = kSun * max(sun.y, 0.0) * pastSolids(p, bias) * throughFluid(p);
   const vec3 lit = albedo * (0.55 * skyLight(vec3(0.0, 1.0, 0.0)) + 0.75 * sunlight);
   const float far = length(beyond) / (2.5 * max(max(extent.x, extent.y), 1e-6));
-  colour = vec4(mix(lit, backdrop(normalize(vec3(sight.x, 0.02, sight.z))), 1.0 - exp(-far * far)), 1.0);
+  colour = vec4(mix(lit, haze(sight), 1.0 - exp(-far * far)), 1.0);
   gl_FragDepth = clamp(targetDepth(z), 0.0, 1.0);
 }

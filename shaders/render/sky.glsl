@@ -1,4 +1,31 @@
-// The sky that fluids reflect and that lights the scenery: a gradient, a bright band near the horizon, a wide soft light around the sun.
+// The sky that fluids reflect and that lights the scenery. Needs `look`. With ENVIRONMENT, the number of a binding, it is a picture.
+#ifdef ENVIRONMENT
+layout(std430, set = 0, binding = ENVIRONMENT) readonly buffer Environment { uint environment[]; };
+
+vec3 environmentTexel(ivec2 at, ivec2 size) {
+  const uint texel = environment[uint(at.y * size.x + at.x)];
+  // Nine bits each, over 2^24, times two to the power of the upper five.
+  return vec3(texel & 0x1FFu, (texel >> 9) & 0x1FFu, (texel >> 18) & 0x1FFu) * uintBitsToFloat(((texel >> 27) + 103u) << 23);
+}
+
+// Rows from straight up to straight down, the middle column towards -z; between four texels, around the back, too.
+vec3 skyColour(vec3 direction, vec3 sun) {
+  const ivec2 size = ivec2(look.above.w, look.below.w);
+  const vec2 flat_on = dot(direction.xz, direction.xz) > 1e-20 ? direction.xz : vec2(0.0, -1.0);
+  const vec2 turn = vec2(atan(flat_on.x, -flat_on.y) * 0.15915494 + 0.5, acos(clamp(direction.y, -1.0, 1.0)) * 0.31830989);
+  const vec2 at = turn * vec2(size) - 0.5;
+  const vec2 part = at - floor(at);
+  const ivec2 base = ivec2(floor(at));
+  const ivec2 columns = (ivec2(base.x, base.x + 1) + size.x) % size.x, rows = clamp(ivec2(base.y, base.y + 1), ivec2(0), ivec2(size.y - 1));
+  const vec3 upper = mix(environmentTexel(ivec2(columns.x, rows.x), size), environmentTexel(ivec2(columns.y, rows.x), size), part.x);
+  const vec3 lower = mix(environmentTexel(ivec2(columns.x, rows.y), size), environmentTexel(ivec2(columns.y, rows.y), size), part.x);
+  return mix(upper, lower, part.y);
+}
+
+vec3 skyLight(vec3 normal) { return mix(look.below.rgb, look.above.rgb, 0.5 + 0.5 * normal.y); }
+
+#else
+// A gradient, a bright band near the horizon, a wide soft light around the sun.
 const vec3 kZenith = vec3(0.16, 0.30, 0.58);
 const vec3 kHorizon = vec3(0.62, 0.74, 0.88);
 const vec3 kGround = vec3(0.20, 0.20, 0.21);
@@ -14,3 +41,6 @@ vec3 skyColour(vec3 direction, vec3 sun) {
   const vec3 lamp = vec3(1.0, 0.97, 0.92) * (up > 0.05 ? inside.x * inside.y * 0.9 : 0.0);
   return base + lamp + vec3(1.0, 0.93, 0.82) * 0.5 * pow(near_sun, 24.0);
 }
+
+vec3 skyLight(vec3 normal) { return mix(kGround, mix(kHorizon, kZenith, 0.4), 0.5 + 0.5 * normal.y); }
+#endif

@@ -106,6 +106,28 @@ TEST(MakeFolder, MakesThoseAboveAndTakesATrailingSlash) {
   EXPECT_FALSE(makeFolder("--out", folder / "file/b"));
 }
 
+TEST(PartFile, TakesItsPlaceOnlyWhenItIsCommitted) {
+  const TemporaryFolder folder;
+  folder.write("a", "old");
+  {
+    auto part = PartFile::create(folder / "a");
+    ASSERT_TRUE(part);
+    ASSERT_TRUE(writeAll(part->descriptor(), "a", "new"));
+    EXPECT_EQ(contentOf(part->path()), "new");
+    EXPECT_EQ(contentOf(folder / "a"), "old");
+  }
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"a"}) << "what is not committed is removed";
+  auto part = PartFile::create(folder / "a");
+  ASSERT_TRUE(part);
+  std::string_view target;
+  const std::string name = part->path().filename().string();
+  EXPECT_TRUE(isPartFile(name, target));
+  ASSERT_TRUE(writeAll(part->descriptor(), "a", "new"));
+  ASSERT_TRUE(part->commit());
+  EXPECT_EQ(contentOf(folder / "a"), "new");
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"a"});
+}
+
 TEST(PartFile, IsKnownByItsName) {
   std::string_view target;
   ASSERT_TRUE(isPartFile(".frame_00001.png.4711.part", target));

@@ -50,7 +50,8 @@ TEST_F(Describe, DotShowsPlaceAndLifetime) {
   declare();
   const std::string dot = graph.dot();
   for (const char* wanted :
-       {"label=\"first\\n1000 bytes in heap 0 from 0 bytes\\npasses 0 to 1\"", "label=\"second\\n1000 bytes in heap 0 from 1024 bytes\\npasses 1 to 2\"",
+       {"label=\"first\\n1000 bytes in heap 0 from 0 bytes\\npasses 0 to 1\"",
+        "label=\"second\\n1000 bytes in heap 0 from 1024 bytes\\npasses 1 to 2\"",
         "label=\"third\\n1000 bytes in heap 0 from 0 bytes\\npasses 2 to 3\"", "4  idle\\nculled: nothing reads 'nobody's'\", style=dashed",
         "label=\"nobody's\\nno pass that runs uses it\"", "label=\"picture, level 0\\n16 x 8, format 100\\n",
         "label=\"picture, level 1\\n8 x 4, format 100\\n", "passes 5 to 5\""})

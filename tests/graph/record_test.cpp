@@ -37,9 +37,9 @@ class Recording : public GraphTest {
     BufferRef state = graph.import("state", {fakeBuffer(1), 0, 4096, Use::ComputeWrite, Use::ComputeWrite});
     BufferRef list = graph.import("list", {fakeBuffer(2), 0, 4096, Use::ComputeWrite, Use::ComputeWrite});
     for (int i = 0; i < 100; ++i) {
-      BufferRef scratch = graph.create("scratch", {scratchBytes});
+      BufferRef scratch = graph.create("scratch of both, with a long name", {scratchBytes});
       const std::array<uint64_t, 20> much{};  // what a record lambda may carry
-      graph.pass("first", [&](Pass& pass) {
+      graph.pass("first of the two, with a long name", [&](Pass& pass) {
         pass.read(list, Use::ComputeTexel);
         scratch = pass.write(scratch, Use::ComputeWrite);
         const Kernel kernel = pass.kernel(texel, {list, scratch});

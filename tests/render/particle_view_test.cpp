@@ -40,7 +40,7 @@ class ParticleViewOnGpu : public GpuTest {
 
   /// The picture, taken twice in one command buffer, where synchronization validation sees both: they must be the same.
   Picture take(const std::vector<Particle>& particles, uint32_t width, uint32_t height, double time = 0,
-               ParticleColour colour = ParticleColour::Speed) {
+               ParticleColour colour = ParticleColour::Speed, bool unlit = false) {
     ParticleSet start;
     std::copy_n(origin_, 3, start.origin);
     std::vector<Float4> positions, velocities;
@@ -69,7 +69,7 @@ class ParticleViewOnGpu : public GpuTest {
       state.velocity = graph.import("velocity", importOf(velocity));
     }
     Ticket tickets[2];
-    for (Ticket& ticket : tickets) ticket = graph.readback((*view)->addTo(graph, state, camera_, {width, height, colour}, time));
+    for (Ticket& ticket : tickets) ticket = graph.readback((*view)->addTo(graph, state, camera_, {width, height, colour, unlit}, time));
     run(graph);
     picture.pixels = read<uint32_t>(graph, tickets[0]);
     EXPECT_EQ(picture.pixels.size(), size_t{width} * height);
@@ -346,6 +346,38 @@ TEST_F(ParticleViewOnGpu, ColoursSpeedAndCompression) {
   EXPECT_LT(channel(dense, 1), channel(rest, 1) - 60);
   const float nan = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(difference(take({{0, 0, -4, nan, 0, 0, nan}}, kSize, kSize, 0, compression), rest), 0u);
+}
+
+// Unlit, every pixel of a particle has the map's own colour of its value, wherever the light is and whatever lies before it; all else is
+// darker than the map.
+TEST_F(ParticleViewOnGpu, UnlitColoursAreThoseOfTheMap) {
+  constexpr uint32_t kSize = 96;
+  scene_.domain = Domain{{-3, -0.6, -7}, {3, 2, -1}, 0};
+  scene_.solids.push_back(Solid{{}, SphereShape{{1.4, 0.2, -5}, 0.7}});
+  for (const auto colour : {ParticleColour::Speed, ParticleColour::Compression}) {
+    double darkest = 1;
+    for (int k = 0; k <= 16; ++k) {
+      const Float3 c = mapColour(colour, k / 16.0);
+      darkest = std::min(darkest, 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z);
+    }
+    for (const double t : {0.0, 0.3, 0.77, 1.0}) {
+      // The scale's end: see scaleMax(); a scene without gravity has the start's fastest, none here, and so 1 m/s.
+      const float value = static_cast<float>(t * (colour == ParticleColour::Speed ? 1 : 0.01));
+      const Particle near{0, 0, -4, 0, value, 0, 1 + value}, aside{-0.9f, 0.3f, -4.6f, 0, value, 0, 1 + value};
+      const Picture picture = take({near, aside}, kSize, kSize, 0, colour, true);
+      const Float3 wanted = mapColour(colour, t);
+      size_t own = 0, mixed = 0;
+      for (const uint32_t pixel : picture.pixels) {
+        const int r = pixel & 255, g = (pixel >> 8) & 255, b = (pixel >> 16) & 255;
+        if (std::abs(r - srgbByte(wanted.x)) <= 2 && std::abs(g - srgbByte(wanted.y)) <= 2 && std::abs(b - srgbByte(wanted.z)) <= 2)
+          ++own;
+        else if (std::max({r, g, b}) > srgbByte(0.9 * darkest))
+          ++mixed;  // an outline
+      }
+      EXPECT_GT(own, 400u) << t;
+      EXPECT_LT(mixed, own / 3) << t;
+    }
+  }
 }
 
 TEST_F(ParticleViewOnGpu, TinyAndOddPictures) {

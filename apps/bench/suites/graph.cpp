@@ -127,10 +127,12 @@ Expected<Report> runGraph(Bench& bench) {
   Report report;
   Table table;
   table.title = "CPU time of a frame's graph, us (medians)";
-  table.columns = {"case", "passes", "declare", "compile", "plan new", "new over known", "prepare", "record", "allocations", "of declaring"};
+  table.columns = {"case",           "passes",  "declare", "compile",     "plan new",
+                   "new over known", "prepare", "record",  "allocations", "of declaring"};
   table.note =
       "compile: the plan is that of the frame before. plan new: the same where the frame before was another one.\n"
-      "allocations: operator new in compiling, preparing and recording, the plan known; of declaring: of the modules whose passes they are.\n"
+      "allocations: operator new in compiling, preparing and recording, the plan known; of declaring: of the modules whose passes they "
+      "are.\n"
       "copies-N: N passes, each of which copies from two before it.\n"
       "advance: " +
       std::to_string(kSubsteps) + " substeps of dam-break; picture: its view final. Both in one graph in the last line";

@@ -5,8 +5,6 @@
 namespace rill::bench {
 namespace {
 
-constexpr double kEveryPixel = 1e3;  // samples a spacing
-
 /// One number of the settings, varied.
 void vary(std::vector<SurfaceWay>& all, const SurfaceWay& from, const std::string& what, double SurfaceSettings::*member,
           std::initializer_list<double> values) {
@@ -39,11 +37,7 @@ std::vector<SurfaceWay> surfaceWays(const Bilateral& bilateral, bool quick) {
   all.push_back(filtered("sigma 2.2", {.sigma = 2.2}));
   all.push_back(filtered("full 2D", {.separable = false}));
   if (quick) return all;
-  vary(all, flow, "n", samples, {6});
-  SurfaceWay full = narrow;
-  full.setting = "full resolution";
-  full.settings.samples = kEveryPixel;
-  all.push_back(std::move(full));
+  vary(all, narrow, "n", samples, {12});  // every pixel, at spheres of 10
   vary(all, planes, "reach", reach, {2.1, 3});
   vary(all, flow, "time", time, {0.3, 0.9, 2, 4});
   vary(all, narrow, "sigma", sigma, {1.7, 3});

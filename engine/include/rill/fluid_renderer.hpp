@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "rill/device.hpp"
+#include "rill/environment.hpp"
 #include "rill/expected.hpp"
 #include "rill/float3.hpp"
 #include "rill/fluid.hpp"
@@ -80,6 +81,11 @@ class FluidRenderer {
   /// NoDevice where the host's queue cannot draw; Shader, BadInput for formats that cannot be drawn to.
   static Expected<std::unique_ptr<FluidRenderer>> create(Device& device, const TargetFormats& formats = {});
   ~FluidRenderer();
+
+  /// What the fluid reflects and is lit by from now on, in place of a sky of Rill's own; the sun stays where FluidLook has it. The host draws
+  /// its background itself. Once; not between a graph's declaration and its recording. Errors as create(), BadInput for a picture that
+  /// EnvironmentPicture does not allow, OutOfMemory. The first frames copy it to the device, in a pass of their own.
+  Expected<void> setEnvironment(const EnvironmentPicture& picture);
 
   /// BadInput for a view that cannot be drawn (empty, larger than 8192 a side or 2^24 pixels, a projection that is none). Needs no device.
   static Expected<void> check(const FluidView& view);

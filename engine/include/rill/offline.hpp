@@ -121,6 +121,8 @@ class Simulation {
   /// Renders the present instant. `view` is one of views(); sizes in pixels. BadInput for another view or a size that the device cannot
   /// draw.
   Expected<Image> render(const std::string& view, uint32_t width, uint32_t height);
+  /// What render() needs before the first picture: BadInput already here for what it would refuse, the environment's file among it.
+  Expected<void> prepareRender(const std::string& view, uint32_t width, uint32_t height);
   static std::span<const std::string_view> views();
   /// BadInput where render() would refuse this view or size. Needs no device.
   static Expected<void> checkPicture(const std::string& view, uint32_t width, uint32_t height);
@@ -156,6 +158,7 @@ class Player {
                       double time_s = 0);
   /// As Simulation::render(); before the first show() a scene without fluid.
   Expected<Image> render(const std::string& view, uint32_t width, uint32_t height);
+  Expected<void> prepareRender(const std::string& view, uint32_t width, uint32_t height);  ///< as Simulation::prepareRender()
   std::string pictureDot() const;  ///< passes of the last picture
   uint64_t boundHits() const;      ///< as Stats::picture_bound_hits, of the last picture
 

@@ -111,6 +111,7 @@ struct Camera {
 struct Look {
   std::string preset = "water";
   std::string surface = "auto";
+  std::filesystem::path environment;  ///< a picture of all around, absolute once the scene is read; empty: the sky of Rill's own
 };
 
 /// A whole scene in SI units, y up, right handed.

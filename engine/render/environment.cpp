@@ -1,0 +1,79 @@
+#include "render/environment.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+#include "gpu/device_impl.hpp"
+
+namespace rill {
+namespace {
+
+/// The mean radiance over the upper and the lower half, weighted with the cosine to the vertical: irradiance over pi.
+void lightOf(const EnvironmentPicture& picture, Float3& above, Float3& below) {
+  double sums[2][3] = {}, weights[2] = {};
+  for (uint32_t y = 0; y < picture.height; ++y) {
+    const double polar = (y + 0.5) / picture.height * std::numbers::pi, up = std::cos(polar);
+    const double weight = std::abs(up) * std::sin(polar);
+    const int half = up > 0 ? 0 : 1;
+    double row[3] = {};
+    for (uint32_t x = 0; x < picture.width; ++x) {
+      const uint32_t texel = picture.texels[size_t{y} * picture.width + x];
+      const double scale = std::ldexp(1.0, static_cast<int>(texel >> 27) - 24);
+      for (int c = 0; c < 3; ++c) row[c] += scale * ((texel >> (9 * c)) & 0x1FFu);
+    }
+    for (int c = 0; c < 3; ++c) sums[half][c] += weight * row[c];
+    weights[half] += weight * picture.width;
+  }
+  const auto mean = [&](int half) {
+    // A picture of one row has nothing below its middle.
+    if (weights[half] <= 0) half = 1 - half;
+    return Float3{static_cast<float>(sums[half][0] / weights[half]), static_cast<float>(sums[half][1] / weights[half]),
+                  static_cast<float>(sums[half][2] / weights[half])};
+  };
+  above = mean(0);
+  below = mean(1);
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<Environment>> Environment::create(Device& device, const EnvironmentPicture& picture) {
+  if (auto fits = checkEnvironmentSize(picture.width, picture.height); !fits)
+    return Error{ErrorKind::BadInput, "an environment: " + fits.error().message};
+  if (picture.texels.size() != size_t{picture.width} * picture.height)
+    return Error{ErrorKind::BadInput, "an environment of " + std::to_string(picture.width) + "x" + std::to_string(picture.height) +
+                                          " pixels: found " + std::to_string(picture.texels.size()) + " texels"};
+  auto out = std::unique_ptr<Environment>(new Environment(device));
+  out->width_ = picture.width;
+  lightOf(picture, out->above_, out->below_);
+  const uint64_t bytes = picture.texels.size() * sizeof(uint32_t);
+  auto texels = createBuffer(device, "environment", bytes, MemoryKind::Device);
+  if (!texels) return texels.error();
+  auto staging = createBuffer(device, "environment on its way", bytes, MemoryKind::Upload);
+  if (!staging) return staging.error();
+  std::memcpy(staging->mapped(), picture.texels.data(), bytes);
+  out->texels_ = *std::move(texels);
+  out->staging_ = *std::move(staging);
+  return out;
+}
+
+BufferRef Environment::addTo(Graph& graph) {
+  const DeviceImpl& device = device_.impl();
+  if (copied_ && device.abandoned(*copied_)) copied_.reset();
+  if (copied_ && *copied_ <= device.clock.completed) staging_ = {};
+  BufferRef texels =
+      graph.import("environment", {texels_.handle(), 0, texels_.size(), staging_ ? Use::Unknown : Use::CopyTarget, Use::None});
+  if (!staging_) return texels;
+  const BufferRef from = graph.import("environment on its way", {staging_.handle(), 0, staging_.size(), Use::None, Use::None});
+  graph.pass("environment upload", [&](Pass& pass) {
+    pass.read(from, Use::CopySource);
+    texels = pass.write(texels, Use::CopyTarget, true);
+    return [this, from, texels](Commands& commands) {
+      commands.copy(from, texels, texels_.size());
+      if (!copied_) copied_ = device_.impl().clock.recording;
+    };
+  });
+  return texels;
+}
+
+}  // namespace rill

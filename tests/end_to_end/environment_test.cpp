@@ -1,0 +1,95 @@
+// look.environment of a scene, as a user meets it.
+#include <gtest/gtest.h>
+
+#include "rill/offline.hpp"
+#include "support/child_process.hpp"
+#include "support/picture.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace rill::test {
+namespace {
+
+constexpr const char* kScene = R"({
+  "rill": "0.1", "domain": {"min": [0, 0, 0], "max": [1, 0.6, 0.4], "open": ["-y"]}, "fluid": {"spacing": 0.05},
+  "fill": [{"box": {"min": [0, 0, 0], "max": [0.5, 0.4, 0.4]}}], "solids": [{"sphere": {"center": [0.8, 0.2, 0.2], "radius": 0.1}}],
+  "camera": {"eye": [1.6, 0.8, 1.6], "target": [0.4, 0.2, 0.2]}, "look": {"environment": "skies/sky.hdr"}
+})";
+
+/// One colour all around: the same four bytes for each of 8 x 4 pixels.
+std::string radiance(const std::string& rgbe) {
+  std::string text = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n";
+  for (int k = 0; k < 32; ++k) text += rgbe;
+  return text;
+}
+
+TEST(SceneEnvironment, IsBehindEverything) {
+  const TemporaryFolder folder;
+  folder.write("scene.json", kScene);
+  std::filesystem::create_directory(folder / "skies");
+  folder.write("skies/sky.hdr", radiance({'\x80', '\x10', '\x10', '\x80'}));  // a dull red
+  const Outcome with = capture({"scene.json", "--frames", "2", "--size", "96x54", "--out", "out"}, folder.string());
+  ASSERT_EQ(with.code, 0) << with.err;
+  const Outcome without =
+      capture({"scene.json", "--frames", "2", "--size", "96x54", "--out", "plain", "--set", "look={}"}, folder.string());
+  ASSERT_EQ(without.code, 0) << without.err;
+  const Picture red = readPng(folder / "out/frame_00001.png"), plain = readPng(folder / "plain/frame_00001.png");
+  ASSERT_EQ(red.rgb.size(), 3u * 96 * 54);
+  const size_t corner = 0;
+  EXPECT_GT(red.rgb[corner], 150);
+  EXPECT_LT(red.rgb[corner + 1], 80);
+  EXPECT_GT(plain.rgb[corner + 2], plain.rgb[corner]) << "the sky of Rill's own is blue";
+  EXPECT_GT(distance(red, plain).mean, 0.1);
+}
+
+TEST(SceneEnvironment, BadFilesAreRefusedByName) {
+  const TemporaryFolder folder;
+  folder.write("scene.json", kScene);
+  const auto said = [&](const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"scene.json", "--frames", "1", "--size", "64x36", "--out", "out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = capture(arguments, folder.string());
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out")) << "nothing is written";
+    return outcome.err;
+  };
+  EXPECT_NE(said().find("scene.json: look.environment: \"skies/sky.hdr\": no such file"), std::string::npos) << said();
+  std::filesystem::create_directory(folder / "skies");
+  EXPECT_NE(said({"--set", "look.environment=skies"}).find("expected an equirectangular picture"), std::string::npos);
+  EXPECT_NE(said({"--set", "look.environment="}).find("expected the name of a file"), std::string::npos);
+  folder.write("skies/sky.hdr", "no picture at all");
+  const std::string text = said();
+  EXPECT_NE(text.find("scene.json: look.environment: "), std::string::npos) << text;
+  EXPECT_NE(text.find("sky.hdr: is no picture; expected a .hdr, .png or .jpg file"), std::string::npos) << text;
+  folder.write("skies/sky.hdr", radiance("abcd").substr(0, 100));
+  EXPECT_NE(said().find("sky.hdr: ends before its last pixel"), std::string::npos);
+  folder.write("square.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\nabcdabcdabcdabcd");
+  EXPECT_NE(said({"--set", "look.environment=square.hdr"}).find("found 2x2 pixels; expected twice as wide as high"), std::string::npos);
+  // Where no picture is drawn, none is read.
+  EXPECT_EQ(capture({"scene.json", "--frames", "1", "--no-images", "--quiet"}, folder.string()).code, 0);
+}
+
+// The whole of it with validation listening: solids, no solids, pictures of several frames.
+TEST(SceneEnvironment, IsDrawnWithoutAWord) {
+  const TemporaryFolder folder;
+  for (const bool solids : {true, false}) {
+    Scene scene;
+    scene.fluid.spacing = 0.1;
+    scene.domain = Domain{{0, 0, 0}, {1, 1, 1}, 0};
+    scene.fill.push_back(Fill{.box = BoxShape{{0, 0, 0}, {0.5, 0.5, 1}}});
+    if (solids) scene.solids.push_back(Solid{.sphere = SphereShape{{0.8, 0.2, 0.5}, 0.1}});
+    scene.look.environment = folder.write("sky.hdr", radiance({'\x80', '\x40', '\x20', '\x81'}));
+    offline::Options options;
+    options.validation = true;
+    auto run = offline::Simulation::open(scene, options);
+    ASSERT_TRUE(run) << run.error().message;
+    for (int frame = 0; frame < 3; ++frame) {
+      ASSERT_TRUE((*run)->advance(0.02));
+      const auto image = (*run)->render("final", 160, 90);
+      ASSERT_TRUE(image) << image.error().message;
+    }
+    for (const std::string& text : (*run)->takeValidationMessages()) ADD_FAILURE() << text;
+  }
+}
+
+}  // namespace
+}  // namespace rill::test

@@ -1,0 +1,266 @@
+// A picture in place of the sky: as it is read, behind the fluid, and mirrored in it.
+#include "render/environment.hpp"
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "render/fluid_renderer_impl.hpp"
+#include "render/scenery.hpp"
+#include "support/gpu_test.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace rill::test {
+namespace {
+
+using Rgb = std::array<double, 3>;
+
+Rgb unpacked(uint32_t texel) {
+  const double scale = std::ldexp(1.0, int(texel >> 27) - 24);
+  return {(texel & 511) * scale, (texel >> 9 & 511) * scale, (texel >> 18 & 511) * scale};
+}
+
+/// `colour` of (column, row).
+EnvironmentPicture picture(uint32_t width, const std::function<Rgb(uint32_t, uint32_t)>& colour) {
+  EnvironmentPicture out{width, width / 2, {}};
+  for (uint32_t y = 0; y < out.height; ++y)
+    for (uint32_t x = 0; x < width; ++x) {
+      const Rgb c = colour(x, y);
+      out.texels.push_back(sharedExponent(float(c[0]), float(c[1]), float(c[2])));
+    }
+  return out;
+}
+
+/// A Radiance picture without run lengths: the same four bytes for each pixel.
+std::string radiance(int width, int height, const std::string& rgbe, int pixels) {
+  std::string text = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(height) + " +X " + std::to_string(width) + "\n";
+  for (int k = 0; k < pixels; ++k) text += rgbe;
+  return text;
+}
+
+/// Big-endian, as PNG has its numbers.
+std::string word(uint32_t value) { return {char(value >> 24), char(value >> 16), char(value >> 8), char(value)}; }
+/// A PNG whose pixels all have one colour. Its checksums are none: stb_image looks at none.
+std::string png(uint32_t width, uint32_t height, const std::string& rgb) {
+  std::string rows;
+  for (uint32_t y = 0; y < height; ++y) {
+    rows += '\0';
+    for (uint32_t x = 0; x < width; ++x) rows += rgb;
+  }
+  const auto chunk = [](const std::string& name, const std::string& data) { return word(uint32_t(data.size())) + name + data + word(0); };
+  const uint16_t length = uint16_t(rows.size()), inverse = uint16_t(~length);
+  const std::string stored = {'\x78', '\x01', '\x01', char(length & 255), char(length >> 8), char(inverse & 255), char(inverse >> 8)};
+  return "\x89PNG\r\n\x1a\n" + chunk("IHDR", word(width) + word(height) + std::string("\x08\x02\0\0\0", 5)) +
+         chunk("IDAT", stored + rows + word(0)) + chunk("IEND", "");
+}
+
+TEST(SharedExponent, KeepsNineBitsAndTakesAnything) {
+  EXPECT_EQ(unpacked(sharedExponent(1, 0.5f, 0.25f)), (Rgb{1, 0.5, 0.25}));
+  EXPECT_EQ(unpacked(sharedExponent(0, 0, 0)), (Rgb{0, 0, 0}));
+  for (const float value : {1e-4f, 0.0311f, 0.9999f, 3.3f, 511.6f, 32767.9f}) {
+    const Rgb back = unpacked(sharedExponent(value, value / 3, 0));
+    EXPECT_NEAR(back[0], value, value / 500) << value;
+    EXPECT_NEAR(back[1], value / 3, value / 500);
+    EXPECT_EQ(back[2], 0);
+  }
+  const float infinite = std::numeric_limits<float>::infinity(), none = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(unpacked(sharedExponent(infinite, none, -3)), (Rgb{32768, 0, 0}));
+}
+
+TEST(LoadEnvironment, ReadsRadianceAsItIsAndBytesAsSrgb) {
+  const TemporaryFolder folder;
+  const auto hdr = loadEnvironment(folder.write("a.hdr", radiance(4, 2, {'\x80', '\x40', '\x20', '\x82'}, 8)));
+  ASSERT_TRUE(hdr) << hdr.error().message;
+  EXPECT_EQ(hdr->width, 4u);
+  EXPECT_EQ(hdr->height, 2u);
+  ASSERT_EQ(hdr->texels.size(), 8u);
+  for (const uint32_t texel : hdr->texels) EXPECT_EQ(unpacked(texel), (Rgb{2, 1, 0.5}));
+  const auto bytes = loadEnvironment(folder.write("a.png", png(2, 1, {'\xFF', '\x80', '\0'})));
+  ASSERT_TRUE(bytes) << bytes.error().message;
+  ASSERT_EQ(bytes->texels.size(), 2u);
+  const Rgb linear = unpacked(bytes->texels[1]);
+  EXPECT_EQ(linear[0], 1);
+  EXPECT_NEAR(linear[1], 0.21586, 1.0 / 512);
+  EXPECT_EQ(linear[2], 0);
+}
+
+TEST(LoadEnvironment, RefusesByName) {
+  const TemporaryFolder folder;
+  const auto said = [&](const std::string& content) {
+    const auto file = folder.write("sky.hdr", content);
+    const auto read = loadEnvironment(file);
+    if (read) return std::string("taken");
+    EXPECT_EQ(read.error().kind, ErrorKind::BadInput);
+    EXPECT_EQ(read.error().message.rfind(file.string() + ": ", 0), 0u) << read.error().message;
+    return read.error().message.substr(file.string().size() + 2);
+  };
+  EXPECT_EQ(said(""), "is no picture; expected a .hdr, .png or .jpg file");
+  EXPECT_EQ(said("{}"), "is no picture; expected a .hdr, .png or .jpg file");
+  EXPECT_EQ(said(radiance(3, 2, "abcd", 6)), "found 3x2 pixels; expected twice as wide as high, at most 8192x4096");
+  EXPECT_EQ(said(radiance(16384, 8192, "abcd", 1)), "found 16384x8192 pixels; expected twice as wide as high, at most 8192x4096");
+  EXPECT_EQ(said(radiance(4, 2, "abcd", 7)), "ends before its last pixel");
+  const std::string whole = png(64, 32, "abc");
+  EXPECT_EQ(said(whole), "taken");
+  EXPECT_EQ(said(whole.substr(0, whole.size() / 2)).rfind("can't be decoded: ", 0), 0u);
+  EXPECT_FALSE(loadEnvironment(folder / "none.hdr"));
+  EXPECT_FALSE(loadEnvironment(folder.path()));
+}
+
+class EnvironmentOnGpu : public GpuTest {
+ protected:
+  static constexpr uint32_t kWidth = 160, kHeight = 120;
+  static constexpr float kSpacing = 0.1f;
+
+  void use(const EnvironmentPicture& environment) {
+    auto made = FluidRenderer::create(device());
+    ASSERT_TRUE(made) << made.error().message;
+    renderer_ = *std::move(made);
+    const auto set = renderer_->setEnvironment(environment);
+    ASSERT_TRUE(set) << set.error().message;
+    scenery_ = {};
+  }
+  /// Linear colours of the scene's surroundings with the fluid, and whether the environment was copied for it.
+  std::vector<Rgb> draw(const CameraView& camera, const FluidLook& look = {}) {
+    if (!scenery_) {
+      auto made = Scenery::create(device(), scene_, start_, {}, renderer_->impl().environment.get());
+      EXPECT_TRUE(made) << made.error().message;
+      scenery_ = *std::move(made);
+    }
+    Graph graph;
+    FluidState fluid;
+    fluid.count = uint32_t(start_.positions.size());
+    fluid.spacing = kSpacing;
+    std::vector<Float4> positions;
+    for (const Float3& p : start_.positions) positions.push_back({p.x, p.y, p.z, 0});
+    Buffer position;
+    if (fluid.count > 0) {
+      position = upload("position", positions);
+      fluid.position = graph.import("position", importOf(position));
+    } else {
+      fluid.position = fluid.velocity = {};
+    }
+    const FluidView view = fluidView(camera, kWidth, kHeight, kSpacing);
+    const TargetFormats formats;
+    SceneTargets targets{graph.create("colour", {formats.colour, kWidth, kHeight}),
+                         graph.create("depth", {formats.depth, kWidth, kHeight})};
+    FluidRendererImpl& renderer = renderer_->impl();
+    const BufferRef texels = renderer.environment ? renderer.environment->addTo(graph) : BufferRef{};
+    targets = scenery_->addTo(graph, fluid, targets, view, look, 0, texels);
+    targets = renderer.addTo(graph, fluid, targets, view, look, true, texels);
+    BufferRef colours = graph.create("colours", {uint64_t{kWidth} * kHeight * 8});
+    graph.pass("copy", [&](Pass& pass) {
+      pass.read(targets.colour, Use::CopySource);
+      colours = pass.write(colours, Use::CopyTarget);
+      return [=](Commands& commands) { commands.copy(targets.colour, colours); };
+    });
+    const Ticket ticket = graph.readback(colours);
+    run(graph);
+    copied_ = false;
+    for (const PassReport& pass : graph.report()) copied_ = copied_ || pass.name == "environment upload";
+    std::vector<Rgb> out;
+    const auto halves = read<uint16_t>(graph, ticket);
+    const auto number = [](uint16_t half) {
+      return std::ldexp(half < 1024 ? half : (half & 1023) + 1024, half < 1024 ? -24 : (half >> 10) - 25);
+    };
+    for (size_t k = 0; k < halves.size(); k += 4) out.push_back({number(halves[k]), number(halves[k + 1]), number(halves[k + 2])});
+    return out;
+  }
+  static CameraView looking(double x, double y, double z) {
+    CameraView camera;
+    const double at[3] = {x, y, z};
+    for (int a = 0; a < 3; ++a) {
+      camera.eye[a] = 0;
+      camera.target[a] = at[a];
+    }
+    camera.fov_y_deg = 60;
+    return camera;
+  }
+
+  Scene scene_ = [] {
+    Scene scene;
+    scene.fluid.spacing = kSpacing;
+    return scene;
+  }();
+  ParticleSet start_;
+  std::unique_ptr<FluidRenderer> renderer_;
+  std::unique_ptr<Scenery> scenery_;
+  bool copied_ = false;
+};
+
+TEST_F(EnvironmentOnGpu, OneColourIsTheBackgroundExactly) {
+  use(picture(16, [](uint32_t, uint32_t) { return Rgb{0.25, 0.5, 1.5}; }));
+  for (const auto& camera : {looking(0, 0, -1), looking(0.01, 1, 0), looking(0.3, -1, 1)})
+    for (const Rgb& c : draw(camera)) ASSERT_EQ(c, (Rgb{0.25, 0.5, 1.5}));
+  EXPECT_EQ(renderer_->impl().environment->above().x, 0.25f);
+  EXPECT_EQ(renderer_->impl().environment->below().z, 1.5f);
+}
+
+// Each direction in which an axis points shows what the picture has there.
+TEST_F(EnvironmentOnGpu, DirectionsAreWhereTheyAreSaidToBe) {
+  // Columns by eighths of a turn from +z over -x, -z, +x; the poles in rows of their own.
+  const EnvironmentPicture compass = picture(64, [](uint32_t x, uint32_t y) {
+    if (y < 8) return Rgb{4, 4, 4};
+    if (y >= 24) return Rgb{8, 8, 8};
+    return x < 8 || x >= 56 ? Rgb{1, 1, 0} : x < 24 ? Rgb{1, 0, 0} : x < 40 ? Rgb{0, 1, 0} : Rgb{0, 0, 1};
+  });
+  use(compass);
+  const auto middle = [&](double x, double y, double z) { return draw(looking(x, y, z))[kHeight / 2 * kWidth + kWidth / 2]; };
+  EXPECT_EQ(middle(0, 0, 1), (Rgb{1, 1, 0})) << "around the seam";
+  EXPECT_EQ(middle(-1, 0, 0), (Rgb{1, 0, 0}));
+  EXPECT_EQ(middle(0, 0, -1), (Rgb{0, 1, 0}));
+  EXPECT_EQ(middle(1, 0, 0), (Rgb{0, 0, 1}));
+  EXPECT_EQ(middle(0, 1, 1e-3), (Rgb{4, 4, 4}));
+  EXPECT_EQ(middle(0, -1, 1e-3), (Rgb{8, 8, 8}));
+}
+
+// A ball before a picture whose left half is bright mirrors it on its left, and on its left alone.
+TEST_F(EnvironmentOnGpu, TheFluidMirrorsIt) {
+  use(picture(64, [](uint32_t x, uint32_t) { return x < 32 ? Rgb{1, 1, 1} : Rgb{0, 0, 0}; }));
+  for (double z = -1; z < 1; z += kSpacing)
+    for (double y = -1; y < 1; y += kSpacing)
+      for (double x = -1; x < 1; x += kSpacing)
+        if (x * x + y * y + z * z < 1) start_.positions.push_back({float(x), float(y), float(z - 3)});
+  FluidLook mirror;
+  mirror.opaque = true;
+  mirror.scatter = {0, 0, 0};
+  mirror.sun = 0;
+  const std::vector<Rgb> drawn = draw(looking(0, 0, -1), mirror);
+  double left = 0, right = 0;
+  for (uint32_t y = kHeight / 2 - 10; y < kHeight / 2 + 10; ++y)
+    for (uint32_t k = 10; k < 25; ++k) {
+      left += drawn[y * kWidth + kWidth / 2 - k][0] / 300;
+      right += drawn[y * kWidth + kWidth / 2 + k][0] / 300;
+    }
+  EXPECT_GT(left, 0.015) << "about what Fresnel says of water";
+  EXPECT_LT(left, 0.2);
+  EXPECT_LT(right, 0.1 * left);
+}
+
+TEST_F(EnvironmentOnGpu, IsCopiedOnceAndNotAtAllWithoutOne) {
+  use(picture(4, [](uint32_t, uint32_t) { return Rgb{0.5, 0.5, 0.5}; }));
+  const auto first = draw(looking(0, 0, -1));
+  EXPECT_TRUE(copied_);
+  const auto second = draw(looking(0, 0, -1));
+  EXPECT_FALSE(copied_);
+  EXPECT_EQ(first, second);
+  auto plain = FluidRenderer::create(device());
+  ASSERT_TRUE(plain);
+  renderer_ = *std::move(plain);
+  scenery_ = {};
+  EXPECT_NE(draw(looking(0, 0, -1)), first);
+  EXPECT_FALSE(copied_);
+}
+
+TEST_F(EnvironmentOnGpu, PicturesThatCannotBeAreRefused) {
+  auto made = FluidRenderer::create(device());
+  ASSERT_TRUE(made);
+  for (const EnvironmentPicture& bad : {EnvironmentPicture{}, EnvironmentPicture{4, 2, {1, 2, 3}}, EnvironmentPicture{4, 4, {}}}) {
+    const auto set = (*made)->setEnvironment(bad);
+    ASSERT_FALSE(set);
+    EXPECT_EQ(set.error().kind, ErrorKind::BadInput);
+  }
+}
+
+}  // namespace
+}  // namespace rill::test
