@@ -30,7 +30,7 @@ struct SurfaceSettings {
   double samples = 3;         ///< a spacing at the focus, at least: samples are 1, 2, 4 ... pixels wide
   double fit_reach = 2.5;     ///< planes: how far around a particle its plane is fitted, spacings
   double flow_time = 1.3;     ///< curvature flow: spacings squared; blurs over about its root
-  double narrow_sigma = 1.3;  ///< narrow range: standard deviation of its Gaussian, spacings
+  double narrow_sigma = 0.8;  ///< narrow range: standard deviation of its Gaussian, spacings
   DepthFilter filter = {};    ///< in place of the method's own; for baselines
 };
 

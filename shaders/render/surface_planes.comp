@@ -15,7 +15,8 @@ layout(std430, set = 0, binding = 3) writeonly buffer Plane { vec4 plane[]; };
 const float kFewest = 1.5;       // sum of the others' weights below which it is a ball
 const float kFlattest = 0.6;     // least over middle eigenvalue above which it is one
 const float kCrease = 0.04;      // the same ratio above which two faces may meet here, and it is fitted again to its own
-const int kRefits = 2;           // times
+const int kRefits = 2;         // times
+const float kToEye = 0.4;        // that the first plane leans to the eye: on a crease a particle is of the face that is seen, in every frame
 const float kSameFace = 0.9;     // spacings off the last plane within which others count then
 
 // The eigenvector of the least eigenvalue of a symmetric matrix (a b c; b d e; c e f), and the three eigenvalues, rising.
@@ -75,12 +76,15 @@ void main() {
   Fit fit = fitAround(own, inverse, range, vec3(0.0));
   vec3 values;
   vec3 normal = leastDirection(fit.square.x, fit.mixed.x, fit.mixed.z, fit.square.y, fit.mixed.y, fit.square.z, values);
-  for (int turn = 0; turn < kRefits && values.x > kCrease * values.y; ++turn) {
+  const vec3 towards = view.perspective > 0.0 ? normalize(own) : vec3(0.0, 0.0, 1.0);
+  if (dot(normal, towards) > 0.0) normal = -normal;
+  const bool sharp = values.x > kCrease * values.y;
+  if (sharp) normal = normalize(normal - kToEye * towards);
+  for (int turn = 0; turn < kRefits && sharp; ++turn) {
     fit = fitAround(own, inverse, range, normal * (view.smoothing / kSameFace));
     normal = leastDirection(fit.square.x, fit.mixed.x, fit.mixed.z, fit.square.y, fit.mixed.y, fit.square.z, values);
   }
   const bool ball = fit.sum - 1.0 < kFewest || values.x > kFlattest * values.y;
-  const vec3 towards = view.perspective > 0.0 ? own : vec3(0.0, 0.0, 1.0);
   if (dot(normal, towards) > 0.0) normal = -normal;
   const float height = ball ? 0.0 : dot(fit.mean, normal) * reach + 0.5 * view.spacing;
   plane[2u * k] = vec4(own + height * normal, ball ? 1.0 : 0.0);

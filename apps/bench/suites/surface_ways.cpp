@@ -33,14 +33,14 @@ std::vector<SurfaceWay> surfaceWays(const Bilateral& bilateral, bool quick) {
   vary(all, flow, "n", samples, {1.5});
   vary(all, flow, "time", time, {0.6, 2.6});
   vary(all, narrow, "n", samples, {6});
-  vary(all, narrow, "sigma", sigma, {0.8, 2.2});
+  vary(all, narrow, "sigma", sigma, {0.5, 1.3});
   all.push_back(filtered("sigma 2.2", {.sigma = 2.2}));
   all.push_back(filtered("full 2D", {.separable = false}));
   if (quick) return all;
   vary(all, narrow, "n", samples, {12});  // every pixel, at spheres of 10
   vary(all, planes, "reach", reach, {2.1, 3});
   vary(all, flow, "time", time, {0.3, 0.9, 2, 4});
-  vary(all, narrow, "sigma", sigma, {1.7, 3});
+  vary(all, narrow, "sigma", sigma, {1, 2.2});
   all.push_back(filtered("n 6", {}, 6));
   all.push_back(filtered("sigma 0.8", {.sigma = 0.8}));
   all.push_back(filtered("range 0.5", {.range = 0.5}));
