@@ -32,9 +32,10 @@ Expected<void> Display::fit(Window::Size size) {
   return swapchain_->make(size.width, size.height);
 }
 
-Expected<void> Display::paint(Session& session, std::string_view view, const CameraView& eye, double scale, double time_s) {
+Expected<void> Display::paint(Session& session, std::string_view view, const CameraView& eye, const Area& area, double scale,
+                              double time_s) {
   const auto side = [&](uint32_t pixels) { return std::max(1u, static_cast<uint32_t>(std::lround(pixels * scale))); };
-  const uint32_t width = side(size_.width), height = side(size_.height);
+  const uint32_t width = side(area.width), height = side(area.height);
   if (auto ready = session.painter().prepare(context_.device(), view, width, height); !ready) return ready;
   const uint64_t bytes = uint64_t{width} * height * 4;
   if (shown_.size() != bytes) {
@@ -44,6 +45,7 @@ Expected<void> Display::paint(Session& session, std::string_view view, const Cam
   }
   shownWidth_ = width;
   shownHeight_ = height;
+  area_ = area;
   auto frame = context_.beginFrame();
   if (!frame) return frame.error();
   picture_.reset();
@@ -76,15 +78,15 @@ Expected<void> Display::show(const ImDrawData& lists, const ImVec4& behind, offl
   const Swapchain::Target& target = **acquired;
   if (auto frame = context_.beginFrame(); !frame) return frame.error();
   window_.reset();
-  const ShownPicture picture{window_.import("shown picture", {.handle = shown_.handle(), .size = shown_.size()}), shownWidth_,
-                             shownHeight_};
+  const ShownPicture picture{window_.import("shown picture", {.handle = shown_.handle(), .size = shown_.size()}), shownWidth_, shownHeight_,
+                             area_};
   pass_->upload(window_, lists);
   const ImageDesc desc{swapchain_->format(), target.width, target.height};
   const ImageRef image = window_.import("window", {target.image, desc, Use::Unknown, Use::ColourTarget});
-  static_cast<void>(pass_->draw(window_, image, target.width, target.height, picture, behind));
+  static_cast<void>(pass_->draw(window_, image, picture, behind));
   Ticket ticket;
   if (screenshot) {
-    const ImageRef copied = pass_->draw(window_, window_.create("screenshot", desc), target.width, target.height, picture, behind);
+    const ImageRef copied = pass_->draw(window_, window_.create("screenshot", desc), picture, behind);
     BufferRef bytes = window_.create("screenshot bytes", {uint64_t{target.width} * target.height * 4});
     window_.pass("screenshot", [&](Pass& pass) {
       pass.read(copied, Use::CopySource);

@@ -18,8 +18,9 @@ class Display {
 
   /// Makes the window's images anew where its size, or the present mode, has changed.
   Expected<void> fit(Window::Size size);
-  /// Draws the scene at `scale` of the window's pixels a side. BadInput where that view cannot be drawn from there: the old picture stays.
-  Expected<void> paint(Session& session, std::string_view view, const CameraView& eye, double scale, double time_s);
+  /// Draws the scene for an area of the window, at `scale` of its pixels a side. BadInput where that view cannot be drawn from there: the
+  /// old picture stays.
+  Expected<void> paint(Session& session, std::string_view view, const CameraView& eye, const Area& area, double scale, double time_s);
   /// Draws the window and shows it; its content goes to `screenshot`, too, where one is asked for.
   Expected<void> show(const ImDrawData& lists, const ImVec4& behind, offline::Image* screenshot);
 
@@ -43,6 +44,7 @@ class Display {
   Graph picture_, window_;
   Buffer shown_;  ///< the picture
   uint32_t shownWidth_ = 0, shownHeight_ = 0;
+  Area area_;
   Window::Size size_;
   bool stale_ = true;               ///< the swapchain
   std::optional<uint64_t> timing_;  ///< frame of the picture whose time is to be told

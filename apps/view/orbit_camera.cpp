@@ -23,14 +23,32 @@ void OrbitCamera::home(const CameraView& view) {
   settle();
 }
 
-void OrbitCamera::home() {
+OrbitCamera::Pose OrbitCamera::pose(const CameraView& view) {
   std::array<double, 3> away{};
-  for (int a = 0; a < 3; ++a) away[a] = home_.eye[a] - home_.target[a];
-  goal_.distance = std::clamp(std::hypot(away[0], away[1], away[2]), kNearest, kFarthest);
-  std::copy_n(home_.target, 3, goal_.target.begin());
-  goal_.pitch = std::clamp(std::asin(std::clamp(away[1] / goal_.distance, -1.0, 1.0)), -kPole, kPole);
-  goal_.yaw = std::atan2(away[0], away[2]);
-  now_.yaw += 2 * kPi * std::round((goal_.yaw - now_.yaw) / (2 * kPi));  // the short way around
+  for (size_t a = 0; a < 3; ++a) away[a] = view.eye[a] - view.target[a];
+  Pose pose;
+  pose.distance = std::clamp(std::hypot(away[0], away[1], away[2]), kNearest, kFarthest);
+  std::copy_n(view.target, 3, pose.target.begin());
+  pose.pitch = std::clamp(std::asin(std::clamp(away[1] / pose.distance, -1.0, 1.0)), -kPole, kPole);
+  pose.yaw = std::atan2(away[0], away[2]);
+  return pose;
+}
+
+void OrbitCamera::home() {
+  goal_ = pose(home_);
+  takeShortWay();
+}
+
+void OrbitCamera::takeShortWay() { now_.yaw += 2 * kPi * std::round((goal_.yaw - now_.yaw) / (2 * kPi)); }
+
+void OrbitCamera::reframe(const CameraView& view) {
+  const bool atHome = goal_.target == pose(home_).target && goal_.distance == pose(home_).distance;
+  home_ = view;
+  if (atHome) {  // nobody has moved it: it stays framed
+    goal_.target = pose(home_).target;
+    goal_.distance = pose(home_).distance;
+    settle();
+  }
 }
 
 void OrbitCamera::orbit(double right, double down) {
@@ -73,7 +91,7 @@ void OrbitCamera::look(AxisView axis) {
       goal_.yaw = 0, goal_.pitch = -kPole;
       break;
   }
-  now_.yaw += 2 * kPi * std::round((goal_.yaw - now_.yaw) / (2 * kPi));
+  takeShortWay();
 }
 
 void OrbitCamera::update(double seconds) {

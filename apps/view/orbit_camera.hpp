@@ -20,12 +20,13 @@ class OrbitCamera {
   /// Nearer by `steps` of the wheel (farther where negative), towards what lies at the target's depth under the pointer, which is so far
   /// right of the picture's middle and below it.
   void dolly(double steps, double right, double down);
-  void home();                        ///< back to the start
-  void home(const CameraView& view);  ///< to another scene's, at once
-  void look(AxisView axis);           ///< along an axis, at the same target and distance
-  void update(double seconds);        ///< goes on towards where hands have moved it
-  void settle() { now_ = goal_; }     ///< is there at once
-  bool moving() const;                ///< whether update() would still change the picture
+  void home();                           ///< back to the start
+  void home(const CameraView& view);     ///< to another scene's, at once
+  void reframe(const CameraView& view);  ///< what home() goes back to, and the field of view, in a picture of another shape
+  void look(AxisView axis);              ///< along an axis, at the same target and distance
+  void update(double seconds);           ///< goes on towards where hands have moved it
+  void settle() { now_ = goal_; }        ///< is there at once
+  bool moving() const;                   ///< whether update() would still change the picture
   CameraView view() const;
 
  private:
@@ -34,6 +35,8 @@ class OrbitCamera {
     double distance = 1;             // m
     double yaw = 0, pitch = 0;       // radians; 0: looking along -z. pitch: up, of the eye over the target
   };
+  static Pose pose(const CameraView& view);
+  void takeShortWay();  ///< of two ways around
   static CameraView viewOf(const Pose& pose, double fov_y_deg);
   double metresAHeight() const;  // at the target's depth
 

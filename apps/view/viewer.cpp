@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <thread>
 
 #include "core/words.hpp"
@@ -117,11 +118,27 @@ class Viewer {
     for (const std::string& name : sceneNames_)
       if (auto known = scenes_.find(name); known && *known == file) sceneName_ = name;
     window_->setTitle("Rill: " + sceneName_ + " (" + deviceName_ + ")");
-    const Window::Size size = window_->framebuffer();
-    camera_.home(session_->camera(size.height > 0 ? double(size.width) / size.height : 16.0 / 9));
+    layOutWindow(window_->framebuffer());
+    camera_.home(homeView());
     begun();
     for (const std::string& warning : session_->runner().warnings()) tell("warning: " + warning);
     return {};
+  }
+
+  void layOutWindow(Window::Size size) {
+    layout_ = layOut(std::max(size.width, 4u), std::max(size.height, 4u), interface_->scale(), settings_.panels);
+  }
+
+  /// The scene's camera, opened where the picture is narrower than it was meant for, so that nothing is lost at its sides.
+  CameraView homeView() const {
+    constexpr double kMeant = 16.0 / 9;
+    const double aspect = double(layout_.picture.width) / layout_.picture.height;
+    CameraView view = session_->camera(aspect);
+    if (session_->scene().camera && aspect < kMeant) {
+      const double half = view.fov_y_deg * std::numbers::pi / 360;
+      view.fov_y_deg = std::atan(std::tan(half) * kMeant / aspect) * 360 / std::numbers::pi;
+    }
+    return view;
   }
 
   /// After anything that begins a simulation at its start.
@@ -172,8 +189,9 @@ class Viewer {
       return {};
     }
     if (auto fits = display_->fit(size); !fits) return fits;
+    if (const Area before = layout_.picture; layOutWindow(size), layout_.picture != before) camera_.reframe(homeView());
     camera_.update(seconds);
-    if (auto drawn = paint(size); !drawn) return drawn;
+    if (auto drawn = paint(); !drawn) return drawn;
     return draw(seconds, size, picture);
   }
 
@@ -225,7 +243,7 @@ class Viewer {
     return {};
   }
 
-  Expected<void> paint(Window::Size size) {
+  Expected<void> paint() {
     if (const auto took = display_->pictureSeconds()) {
       picture_s_ = *took;
       if (settings_.scale == 0 && !options_.lockstep) scale_.drew(*took);
@@ -234,16 +252,16 @@ class Viewer {
     const CameraView eye = camera_.view();
     const bool same = eye.fov_y_deg == painted_.eye.fov_y_deg && std::ranges::equal(eye.eye, painted_.eye.eye) &&
                       std::ranges::equal(eye.target, painted_.eye.target) && painted_.scale == scale && painted_.view == settings_.view &&
-                      painted_.width == size.width && painted_.height == size.height;
+                      painted_.area == layout_.picture;
     if (same && !dirty_) return {};
     if (settings_.view == "density" && painted_.view != "density" && session_->runner().between())
       if (auto measured = session_->runner().measure(); !measured) return measured.error();
-    auto drawn = display_->paint(*session_, settings_.view, eye, scale, session_->runner().time_s());
+    auto drawn = display_->paint(*session_, settings_.view, eye, layout_.picture, scale, session_->runner().time_s());
     if (!drawn) {
-      if (drawn.error().kind != ErrorKind::BadInput || painted_.width == 0) return drawn;
+      if (drawn.error().kind != ErrorKind::BadInput || painted_.area.width == 0) return drawn;
       tell(drawn.error().message);  // the old picture stays
     }
-    painted_ = {eye, scale, settings_.view, size.width, size.height};
+    painted_ = {eye, scale, settings_.view, layout_.picture};
     dirty_ = false;
     return {};
   }
@@ -251,6 +269,7 @@ class Viewer {
   Expected<void> draw(double seconds, Window::Size size, const std::optional<fs::path>& picture) {
     interface_->begin(seconds, size.width, size.height);
     Board board{*session_, *display_, *interface_, settings_, sceneNames_, sceneName_, deviceName_, histories_, held_, message_};
+    board.layout = layout_;
     board.stats = stats_;
     board.framesPerSecond = frameTime_ > 0 ? 1 / frameTime_ : 0;
     board.speed = clock_.speed();
@@ -338,7 +357,8 @@ class Viewer {
 
   Expected<void> handle(const InputEvent& event) {
     interface_->feed(event);
-    const double height = std::max(1u, window_->framebuffer().height), width = window_->framebuffer().width;
+    const Area& area = layout_.picture;
+    const double height = area.height, middle[2] = {area.x + 0.5 * area.width, area.y + 0.5 * area.height};
     switch (event.kind) {
       case InputEvent::Kind::Move: {
         const double right = (event.x - pointer_.x) / height, down = (event.y - pointer_.y) / height;
@@ -346,7 +366,7 @@ class Viewer {
         pointer_.y = event.y;
         if (drag_ == Drag::Orbit) camera_.orbit(right, down);
         if (drag_ == Drag::Pan) camera_.pan(right, down);
-        if (drag_ == Drag::Dolly) camera_.dolly(-20 * down, (grip_.x - 0.5 * width) / height, (grip_.y - 0.5 * height) / height);
+        if (drag_ == Drag::Dolly) camera_.dolly(-20 * down, (grip_.x - middle[0]) / height, (grip_.y - middle[1]) / height);
         return {};
       }
       case InputEvent::Kind::Button:
@@ -358,7 +378,7 @@ class Viewer {
                                                                                                : Drag::Orbit;
         return {};
       case InputEvent::Kind::Wheel:
-        if (!interface_->wantsMouse()) camera_.dolly(event.y, (pointer_.x - 0.5 * width) / height, (pointer_.y - 0.5 * height) / height);
+        if (!interface_->wantsMouse()) camera_.dolly(event.y, (pointer_.x - middle[0]) / height, (pointer_.y - middle[1]) / height);
         return {};
       case InputEvent::Kind::Key:
         if (!event.down || interface_->wantsKeys() || (event.modifiers & GLFW_MOD_CONTROL)) return {};
@@ -504,7 +524,7 @@ class Viewer {
     CameraView eye;
     double scale = 1;
     std::string view;
-    uint32_t width = 0, height = 0;
+    Area area;
   };
 
   const Options& options_;
@@ -522,6 +542,7 @@ class Viewer {
 
   std::string deviceName_, sceneName_, message_;
   Settings settings_;
+  Layout layout_;
   OrbitCamera camera_{CameraView{}};
   Clock clock_;
   PictureScale scale_;

@@ -23,6 +23,8 @@ struct UiPush {
 struct PicturePush {
   uint32_t size[2];
   float scale[2];
+  float corner[2];
+  float unused[2];
   float behind[4];
 };
 
@@ -107,22 +109,26 @@ void WindowPass::upload(Graph& graph, const ImDrawData& lists) {
   fontRef_ = graph.import("font", {font_.handle(), 0, font_.size(), Use::None, Use::None});
 }
 
-ImageRef WindowPass::draw(Graph& graph, ImageRef target, uint32_t width, uint32_t height, const ShownPicture& picture,
-                          const ImVec4& behind) const {
+ImageRef WindowPass::draw(Graph& graph, ImageRef target, const ShownPicture& picture, const ImVec4& behind) const {
   graph.pass("window", [&](Pass& pass) {
     pass.read(picture.pixels, Use::DrawRead);
-    target = pass.write(target, Use::ColourTarget, Load::Discard);
+    const VkClearValue clear{.color = {.float32 = {behind.x, behind.y, behind.z, 1}}};
+    target = pass.write(target, Use::ColourTarget, Load::Clear, clear);
     const Kernel stretched = pass.kernel(picture_, {picture.pixels});
     Kernel ui;
     if (!parts_.empty()) {
       for (const BufferRef buffer : {vertexRef_, indexRef_, fontRef_}) pass.read(buffer, Use::DrawRead);
       ui = pass.kernel(ui_, {vertexRef_, indexRef_, fontRef_});
     }
-    const PicturePush push{
-        {picture.width, picture.height},
-        {static_cast<float>(picture.width) / static_cast<float>(width), static_cast<float>(picture.height) / static_cast<float>(height)},
-        {behind.x, behind.y, behind.z, 1}};
-    return [this, stretched, ui, push](Commands& commands) {
+    const auto over = [](uint32_t a, uint32_t b) { return static_cast<float>(a) / static_cast<float>(b); };
+    const Area area = picture.area;
+    const PicturePush push{{picture.width, picture.height},
+                           {over(picture.width, area.width), over(picture.height, area.height)},
+                           {static_cast<float>(area.x), static_cast<float>(area.y)},
+                           {},
+                           {behind.x, behind.y, behind.z, 1}};
+    return [this, stretched, ui, push, area](Commands& commands) {
+      commands.viewport(area.x, area.y, area.width, area.height);
       commands.draw(stretched, 3, 1, push);
       for (const Part& p : parts_) {
         commands.viewport(p.x, p.y, p.width, p.height);

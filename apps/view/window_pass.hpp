@@ -1,5 +1,5 @@
 #pragma once
-// What the window shows, as passes of our own graph: a picture stretched over it, and Dear ImGui's draw lists over that.
+// What the window shows, as passes of our own graph: a picture stretched over an area of it, and Dear ImGui's draw lists over that.
 #include <imgui.h>
 
 #include <memory>
@@ -7,6 +7,7 @@
 
 #include "gpu/resources.hpp"
 #include "rill/graph.hpp"
+#include "view/layout.hpp"
 
 namespace rill::view {
 
@@ -14,6 +15,7 @@ namespace rill::view {
 struct ShownPicture {
   BufferRef pixels;
   uint32_t width = 0, height = 0;
+  Area area;  ///< of the window, over which it is stretched
 };
 
 class WindowPass {
@@ -23,8 +25,8 @@ class WindowPass {
 
   /// Brings the lists to the device, once a frame. They are kept until the graph has been recorded.
   void upload(Graph& graph, const ImDrawData& lists);
-  /// Draws all of `target`: width x height pixels.
-  ImageRef draw(Graph& graph, ImageRef target, uint32_t width, uint32_t height, const ShownPicture& picture, const ImVec4& behind) const;
+  /// Draws all of `target`; `behind` is what there is where the picture is not, or is transparent.
+  ImageRef draw(Graph& graph, ImageRef target, const ShownPicture& picture, const ImVec4& behind) const;
 
  private:
   struct Part {

@@ -11,6 +11,7 @@
 
 #include "view/display.hpp"
 #include "view/interface.hpp"
+#include "view/layout.hpp"
 #include "view/session.hpp"
 
 namespace rill::view {
@@ -69,6 +70,7 @@ struct Board {
   Histories& histories;
   HeldEdit& held;
   std::string& message;  ///< an error or a notice, until a hand closes it
+  Layout layout;
   std::optional<FluidStats> stats;
   double framesPerSecond = 0;
   double speed = 1;         ///< simulated over real time
@@ -87,7 +89,7 @@ void figurePanel(Board& board);
 void passPanel(Board& board);
 void memoryPanel(Board& board);
 void helpOverlay(Board& board);
-void legendOverlay(Board& board, float left, float bottom);
+void legendOverlay(Board& board);
 
 /// A line of name and figure, the figures under each other.
 void figureLine(const char* name, const char* format, ...) IM_FMTARGS(2);

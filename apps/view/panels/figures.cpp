@@ -17,7 +17,7 @@ void plot(const char* name, const History& history, const char* format) {
   const float top = *std::ranges::max_element(values);
   ImGui::PushID(name);
   ImGui::PlotLines("##plot", values.data(), static_cast<int>(values.size()), 0, nullptr, 0, top > 0 ? 1.1f * top : 1,
-                   ImVec2(-1, 2.0f * ImGui::GetFontSize()));
+                   ImVec2(ImGui::GetContentRegionAvail().x, 2.0f * ImGui::GetFontSize()));
   ImGui::PopID();
 }
 
@@ -29,9 +29,9 @@ void figurePanel(Board& board) {
   plot("step", h.wall_ms, "%.1f ms");
   plot("substeps a step", h.substeps, "%.0f");
   plot("iterations a step", h.iterations, "%.0f");
-  plot("compression, mean", h.error, "%.3f %%");
+  plot("compression mean", h.error, "%.3f %%");
   if (board.stats) {
-    figureLine("compression, p99", "%.3f %%", 100 * board.stats->density_error_p99);
+    figureLine("compression p99", "%.3f %%", 100 * board.stats->density_error_p99);
     figureLine("fastest", "%.3g m/s", board.stats->max_speed);
     figureLine("energy", "%.4g J", board.stats->kinetic_J + board.stats->potential_J);
     figureLine("outside; not finite", "%llu; %llu", static_cast<unsigned long long>(board.stats->outside),

@@ -6,11 +6,13 @@
 
 namespace rill::view {
 
-void legendOverlay(Board& board, float left, float bottom) {
+void legendOverlay(Board& board) {
   const auto legend = board.session.painter().legend(board.settings.view, board.session.runner().time_s());
   if (!legend) return;
   const float em = ImGui::GetFontSize();
-  ImGui::SetNextWindowPos(ImVec2(left, bottom), 0, ImVec2(0, 1));
+  const Area& area = board.layout.picture;
+  ImGui::SetNextWindowPos(ImVec2(static_cast<float>(area.x) + 0.6f * em, static_cast<float>(area.y + area.height) - 0.6f * em), 0,
+                          ImVec2(0, 1));
   ImGui::Begin("legend", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoInputs |
                    ImGuiWindowFlags_AlwaysAutoResize);

@@ -145,7 +145,7 @@ void group(Board& board, const char* name, const Owner& owner) {
 
 void parameterPanel(Board& board) {
   const Scene& scene = board.session.scene();
-  ImGui::TextDisabled("* begins the scene anew; hover for help");
+  ImGui::TextDisabled("* begins the scene anew");
   model::forEachField<Scene>([&](const auto& field) {
     using Value = typename std::decay_t<decltype(field)>::Value;
     if constexpr (std::is_same_v<Value, double[3]>) KeyField(board, "", field.info).draw(scene.*(field.member));

@@ -1,4 +1,6 @@
 // The passes of the last step and of the last picture: time, or why there was none.
+#include <cfloat>
+
 #include "view/panels/board.hpp"
 
 namespace rill::view {
@@ -18,7 +20,8 @@ void row(Board& board, const std::string& name, double ms, uint32_t runs, bool f
   ImGui::TableNextColumn();
   const auto& values = history.values();
   ImGui::PushID(name.c_str());
-  ImGui::PlotLines("##ms", values.data(), static_cast<int>(values.size()), 0, nullptr, 0, 3.4e38f, ImVec2(-1, ImGui::GetFontSize()));
+  ImGui::PlotLines("##ms", values.data(), static_cast<int>(values.size()), 0, nullptr, 0, FLT_MAX,
+                   ImVec2(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize()));
   ImGui::PopID();
 }
 
