@@ -6,8 +6,8 @@
 namespace rill::view {
 namespace {
 
-constexpr double kMemory = 1.0;                   // s
-constexpr double kMostOwed = 2.5 * Clock::kStep;  // uneven frames of a display are evened out, a slow machine is not run after
+constexpr double kMemory = 1.0;    // s
+constexpr double kMostOwed = 0.1;  // s: the frames of a slow display hold several steps, what a slow machine misses is not run after
 
 }  // namespace
 

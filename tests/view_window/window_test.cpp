@@ -1,0 +1,150 @@
+// rill-view from end to end, in a window on a display of its own (Xvfb), with validation.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "support/child_process.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace rill::test {
+namespace {
+
+constexpr const char* kDam = R"({
+  "rill": "0.1", "domain": {"min": [0, 0, 0], "max": [1, 1, 0.3]}, "fluid": {"spacing": 0.05},
+  "fill": [{"box": {"min": [0, 0, 0], "max": [0.5, 0.5, 0.3]}}]
+})";
+
+class ViewWindowTest : public ::testing::Test {
+ protected:
+  void SetUp() override { scene = folder.write("dam.json", kDam).string(); }
+  static std::string program() { return std::string(RILL_BINARY_DIR) + "/apps/view/rill-view"; }
+  std::vector<std::string> command(std::vector<std::string> arguments) const {
+    std::vector<std::string> all{"/usr/bin/xvfb-run", "-a", "-s", "-screen 0 1280x720x24", program()};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    return all;
+  }
+  Outcome view(std::vector<std::string> arguments) const { return Child(command(std::move(arguments)), folder.string()).wait(); }
+  /// The figure after `name` in what a run printed.
+  static std::string figure(const Outcome& outcome, const std::string& name) {
+    std::istringstream words(outcome.out);
+    for (std::string word, value; words >> word >> value;)
+      if (word == name) return value;
+    return {};
+  }
+  std::pair<int, int> sizeOf(const std::string& png) const {
+    const std::string bytes = contentOf(folder / png);
+    if (bytes.size() < 24 || bytes.substr(0, 8) != "\x89PNG\r\n\x1a\n") return {0, 0};
+    const auto number = [&](size_t at) {
+      int value = 0;
+      for (size_t k = 0; k < 4; ++k) value = value << 8 | static_cast<unsigned char>(bytes[at + k]);
+      return value;
+    };
+    return {number(16), number(20)};
+  }
+
+  TemporaryFolder folder;
+  std::string scene;
+};
+
+TEST_F(ViewWindowTest, OpensDrawsAndClosesByItself) {
+  const Outcome outcome = view({scene, "--frames", "5", "--screenshot", "last.png", "--validate"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(figure(outcome, "frames"), "5");
+  EXPECT_EQ(sizeOf("last.png"), std::pair(1280, 720));
+}
+
+TEST_F(ViewWindowTest, InLockstepAFrameIsCaptures) {
+  const Outcome shown = view({scene, "--frames", "7", "--lockstep", "--size", "320x200", "--validate"});
+  ASSERT_EQ(shown.code, 0) << shown.err;
+  const Outcome captured = capture({scene, "--frames", "7", "--no-images", "--quiet", "--stats", "stats.json"}, folder.string());
+  ASSERT_EQ(captured.code, 0) << captured.err;
+  const auto stats = nlohmann::json::parse(contentOf(folder / "stats.json"));
+  EXPECT_EQ(figure(shown, "steps"), "6");
+  EXPECT_EQ(figure(shown, "state_hash"), stats["frames"][6]["state_hash"].get<std::string>());
+}
+
+TEST_F(ViewWindowTest, AScriptGoesThroughAllViewsKeysAndSizes) {
+  std::string script;
+  int frame = 0;
+  for (const char* view : {"final", "particles", "density", "depth", "normals", "thickness"})
+    script += std::to_string(frame++) + " view " + view + "\n";
+  const int first = frame;
+  for (const char* key : {"V", "F1", "F1", "Tab", "Tab", "T", "P", "O", "P", "R", "1", "2", "3", "4", "5", "6", "Home"})
+    script += std::to_string(frame++) + " key " + key + "\n";
+  script += std::to_string(frame) + " move 640 300\n" + std::to_string(frame) + " press left\n";
+  script += std::to_string(frame + 1) + " move 700 340\n" + std::to_string(frame + 2) + " release left\n";
+  script += std::to_string(frame + 2) + " wheel 3\n" + std::to_string(frame + 3) + " wheel -2\n";
+  frame += 4;
+  for (const char* size : {"900 500", "200 100", "64 64", "1280 720"}) script += std::to_string(frame += 2) + " resize " + size + "\n";
+  script += std::to_string(frame + 1) + " minimise\n" + std::to_string(frame + 3) + " restore\n";
+  script += std::to_string(frame + 4) + " set fluid.viscosity=0.1\n" + std::to_string(frame + 5) + " set fluid.spacing=0.06\n";
+  script += std::to_string(frame + 6) + " set fluid.viscosity=-3\n";
+  script += std::to_string(frame + 7) + " screenshot end.png\n";
+  folder.write("hands.txt", script);
+  const Outcome outcome = view({scene, "--script", "hands.txt", "--validate"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_GT(std::stoi("0" + figure(outcome, "frames")), first);
+  EXPECT_EQ(sizeOf("end.png"), std::pair(1280, 720));
+}
+
+TEST_F(ViewWindowTest, ReplayedTwiceItEndsInTheSameState) {
+  folder.write("hands.txt", "0 key P\n2 key P\n5 set fluid.viscosity=2\n8 set gravity=[3,-9.81,0]\n14 view depth\n");
+  const Outcome one = view({scene, "--script", "hands.txt", "--size", "320x200"});
+  const Outcome two = view({scene, "--script", "hands.txt", "--size", "400x300", "--view", "particles"});
+  ASSERT_EQ(one.code, 0) << one.err;
+  ASSERT_EQ(two.code, 0) << two.err;
+  EXPECT_EQ(figure(one, "steps"), "13") << "fifteen frames, the first two paused";
+  EXPECT_EQ(figure(one, "state_hash"), figure(two, "state_hash"));
+  EXPECT_EQ(figure(one, "state_hash").size(), 16u);
+}
+
+TEST_F(ViewWindowTest, GoesThroughTheScenesThereAre) {
+  const auto small = [&](const char* name) {
+    std::string text = kDam;
+    folder.write(name, text.replace(text.find("0.05"), 4, "0.1"));
+  };
+  small("a.json");
+  small("b.json");
+  folder.write("broken.json", "{ \"rill\": ");
+  folder.write("hands.txt", "1 key ]\n2 key ]\n3 key ]\n4 key ]\n5 key [\n6 drop b.json\n7 drop missing.json\n8 scene a\n");
+  const Child::Environment environment{{"RILL_SCENES", folder.string()}};
+  const Outcome outcome = Child(command({"a", "--script", "hands.txt", "--validate"}), folder.string(), environment).wait();
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "") << "a broken scene is told in the window";
+  EXPECT_EQ(figure(outcome, "scene"), "a");
+}
+
+TEST_F(ViewWindowTest, ASignalClosesIt) {
+  const std::string xvfb = "/usr/bin/xvfb-run", timeout = "/usr/bin/timeout";
+  const Outcome outcome =
+      Child({xvfb, "-a", timeout, "--preserve-status", "-s", "INT", "5", program(), scene, "--validate"}, folder.string()).wait();
+  EXPECT_EQ(outcome.code, 130) << "as after any Ctrl-C: " << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST_F(ViewWindowTest, BadInputIsToldBeforeAWindowOpens) {
+  const Child::Environment nowhere{{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}};
+  const auto refused = [&](std::vector<std::string> arguments, const std::string& says) {
+    arguments.insert(arguments.begin(), program());
+    const Outcome outcome = Child(arguments, folder.string(), nowhere).wait();
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_NE(outcome.err.find(says), std::string::npos) << outcome.err;
+  };
+  refused({scene}, "rill-capture");
+  refused({"dam-brake"}, "did you mean \"dam-break\"?");
+  refused({scene, "--set", "fluid.viscosity=-1"}, "fluid.viscosity");
+  folder.write("broken.json", "{ \"rill\": ");
+  refused({(folder / "broken.json").string()}, "broken.json:1");
+  folder.write("hands.txt", "0 key P\n1 view nothing\n");
+  refused({scene, "--script", "hands.txt"}, "nothing");
+  refused({scene, "--script", "no-such-file"}, "no-such-file");
+  const Outcome device = view({scene, "--device", "no such device", "--frames", "1"});
+  EXPECT_EQ(device.code, 2);
+  EXPECT_NE(device.err.find("There are:"), std::string::npos) << device.err;
+}
+
+}  // namespace
+}  // namespace rill::test
