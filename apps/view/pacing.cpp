@@ -1,7 +1,6 @@
 #include "view/pacing.hpp"
 
 #include <algorithm>
-#include <iterator>
 
 namespace rill::view {
 
@@ -29,25 +28,36 @@ void Pacing::finished(uint32_t substeps) {
 
 namespace {
 
-constexpr double kScales[] = {1, 0.75, 0.5, 0.375};
 constexpr double kTooLong = 0.120, kQuick = 0.060;  // s
+constexpr double kWorth = 0.8;                      // of the time that a coarser picture may take at most
 constexpr uint32_t kPatience = 20;                  // pictures, before it gets finer again
+constexpr uint32_t kMemory = 100;                   // pictures, after which other levels are tried anew
 
 }  // namespace
 
-double PictureScale::scale() const { return kScales[level_]; }
+void PictureScale::go(size_t level) {
+  level_ = level;
+  calm_ = 0;
+  ignored_ = 1;
+}
 
 void PictureScale::drew(double seconds) {
-  if (seconds > kTooLong) {
-    level_ = std::min<uint32_t>(level_ + 1, std::size(kScales) - 1);
-    calm_ = 0;
-  } else if (level_ > 0) {
-    const double finer = kScales[level_ - 1] / kScales[level_];
-    calm_ = seconds * finer * finer < kQuick ? calm_ + 1 : 0;
-    if (calm_ >= kPatience) {
-      --level_;
-      calm_ = 0;
-    }
+  if (ignored_ > 0) {
+    --ignored_;
+    return;
+  }
+  double& took = took_s_[level_];
+  if (++age_ == kMemory) took_s_ = {}, age_ = 0;
+  took = took > 0 ? 0.5 * (took + seconds) : seconds;
+  const bool first = level_ == 0, last = level_ + 1 == kScales.size();
+  if (!first && took_s_[level_ - 1] > 0 && took > kWorth * took_s_[level_ - 1]) return go(level_ - 1);  // it brought nothing
+  if (!last && took > kTooLong && took_s_[level_ + 1] <= kWorth * took) return go(level_ + 1);
+  if (first) return;
+  const double finer = kScales[level_ - 1] / kScales[level_];
+  calm_ = took * finer * finer < kQuick ? calm_ + 1 : 0;
+  if (calm_ >= kPatience) {
+    took_s_[level_ - 1] = 0;
+    go(level_ - 1);
   }
 }
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace rill::view {
@@ -28,17 +30,25 @@ class Pacing {
   uint32_t done_ = 0;      // of the step under way
 };
 
-/// How fine the picture is where drawing it takes so long that the window would not answer: it is drawn smaller and stretched.
+/// How fine the picture is where drawing it takes so long that the window would not answer: it is drawn smaller and stretched, as far as
+/// that makes it quicker (what is done for each particle costs the same at any size).
 class PictureScale {
  public:
   /// A picture of this scale took so long on the device.
   void drew(double seconds);
-  double scale() const;  ///< pixels of the picture over pixels of the window, a side
-  void restart() { level_ = 0, calm_ = 0; }
+  double scale() const { return kScales[level_]; }  ///< pixels of the picture over pixels of the window, a side
+  void restart() { *this = {}; }
 
  private:
-  uint32_t level_ = 0;
-  uint32_t calm_ = 0;  // pictures in a row that would have been quick enough a level finer
+  static constexpr std::array kScales{1.0, 0.75, 0.5, 0.375};
+
+  void go(size_t level);
+
+  size_t level_ = 0;
+  uint32_t ignored_ = 2;                         // pictures: the first ones compile shaders, and find their memory
+  uint32_t calm_ = 0;                            // pictures in a row that would have been quick enough a level finer
+  uint32_t age_ = 0;                             // pictures since other levels were forgotten
+  std::array<double, kScales.size()> took_s_{};  // of late, by level; 0: not known
 };
 
 }  // namespace rill::view

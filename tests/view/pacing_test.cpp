@@ -66,22 +66,42 @@ TEST(Pacing, FollowsAMachineThatBecomesSlower) {
   EXPECT_LE(stepOf(pacing, 48, 0.01, 0.07).longest, 0.07);
 }
 
-TEST(PictureScale, GetsSmallerWhereDrawingIsSlowAndFinerOnlyWhereItWouldStayQuick) {
+/// Pictures on a machine that takes `fixed` s, and `whole` s more at a scale of 1.
+void draw(PictureScale& scale, double fixed, double whole, int pictures) {
+  for (int k = 0; k < pictures; ++k) scale.drew(fixed + whole * scale.scale() * scale.scale());
+}
+
+TEST(PictureScale, StaysWholeWhereTheWindowAnswers) {
   PictureScale scale;
+  scale.drew(3);  // shaders are compiled
+  draw(scale, 0.02, 0.08, 300);
   EXPECT_EQ(scale.scale(), 1);
-  scale.drew(0.1);
-  EXPECT_EQ(scale.scale(), 1) << "slow, but the window answers";
-  scale.drew(0.5);
-  const double second = scale.scale();
-  EXPECT_LT(second, 1);
-  for (int k = 0; k < 10; ++k) scale.drew(5);
-  const double least = scale.scale();
-  EXPECT_LT(least, second);
-  EXPECT_GT(least, 0.3);
-  for (int k = 0; k < 100; ++k) scale.drew(0.05);
-  EXPECT_EQ(scale.scale(), least) << "finer would be too slow again: it does not swing";
-  for (int k = 0; k < 100; ++k) scale.drew(0.001);
+}
+
+TEST(PictureScale, GetsSmallerWhereDrawingIsSlowAndDoesNotSwing) {
+  PictureScale scale;
+  draw(scale, 0, 0.3, 20);
+  EXPECT_EQ(scale.scale(), 0.5) << "0.075 s";
+  for (int k = 0; k < 90; ++k) {
+    draw(scale, 0, 0.3, 1);
+    EXPECT_EQ(scale.scale(), 0.5);
+  }
+  draw(scale, 0, 10, 20);
+  EXPECT_EQ(scale.scale(), 0.375) << "the least";
+}
+
+TEST(PictureScale, GetsFinerAgainWhereItWouldBeQuick) {
+  PictureScale scale;
+  draw(scale, 0, 1, 20);
+  EXPECT_LT(scale.scale(), 1);
+  draw(scale, 0, 0.02, 100);
   EXPECT_EQ(scale.scale(), 1);
+}
+
+TEST(PictureScale, GivesNoPixelsAwayForNothing) {
+  PictureScale scale;
+  draw(scale, 0.5, 0.01, 20);
+  EXPECT_EQ(scale.scale(), 1) << "particles cost the same at any size";
 }
 
 }  // namespace
