@@ -23,7 +23,9 @@ class Interface {
   void begin(double seconds, uint32_t width, uint32_t height);
   /// The lists are valid until the next begin().
   const ImDrawData& end();
+  void skip() { ImGui::EndFrame(); }  ///< in place of end(), where nothing is drawn
 
+  // After begin(): where the pointer is now.
   bool wantsMouse() const { return ImGui::GetIO().WantCaptureMouse; }
   bool wantsKeys() const { return ImGui::GetIO().WantTextInput; }
   ImFontAtlas& fonts() { return *ImGui::GetIO().Fonts; }

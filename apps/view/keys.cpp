@@ -22,6 +22,10 @@ constexpr KeyBinding kBindings[] = {{GLFW_KEY_P, "P", Action::Pause, "pause, go 
                                     {GLFW_KEY_4, "4", Action::Left, "from the left"},
                                     {GLFW_KEY_5, "5", Action::Top, "from above"},
                                     {GLFW_KEY_6, "6", Action::Bottom, "from below"},
+                                    {GLFW_KEY_LEFT, "Left", Action::TiltLeft, "tilt gravity to the left of the picture, by 10 degrees"},
+                                    {GLFW_KEY_RIGHT, "Right", Action::TiltRight, "to the right"},
+                                    {GLFW_KEY_UP, "Up", Action::TiltAway, "away from you"},
+                                    {GLFW_KEY_DOWN, "Down", Action::TiltTowards, "towards you"},
                                     {GLFW_KEY_TAB, "Tab", Action::Panels, "hide or show the panels"},
                                     {GLFW_KEY_T, "T", Action::Theme, "dark or light panels"},
                                     {GLFW_KEY_C, "C", Action::Screenshot, "write the window to a PNG file"},
@@ -36,8 +40,10 @@ struct NamedKey {
   std::string_view name;
   int key;
 };
-constexpr NamedKey kOthers[] = {{"Enter", GLFW_KEY_ENTER},  {"Escape", GLFW_KEY_ESCAPE},       {"Left", GLFW_KEY_LEFT},
-                                {"Right", GLFW_KEY_RIGHT},  {"Backspace", GLFW_KEY_BACKSPACE}, {"End", GLFW_KEY_END},
+constexpr NamedKey kOthers[] = {{"Enter", GLFW_KEY_ENTER},
+                                {"Escape", GLFW_KEY_ESCAPE},
+                                {"Backspace", GLFW_KEY_BACKSPACE},
+                                {"End", GLFW_KEY_END},
                                 {"Delete", GLFW_KEY_DELETE}};
 
 bool same(std::string_view a, std::string_view b) {

@@ -21,6 +21,10 @@ enum class Action {
   Left,
   Top,
   Bottom,
+  TiltLeft,
+  TiltRight,
+  TiltAway,
+  TiltTowards,
   Panels,
   Theme,
   Screenshot,
@@ -44,7 +48,7 @@ std::span<const MouseUse> mouseUses();
 /// Both as lines of text.
 std::string keyHelp();
 
-/// The key of a name in a script, upper or lower case; also those that panels alone use (Enter, Escape, Left ...).
+/// The key of a name in a script, upper or lower case; also those that panels alone use (Enter, Escape ...).
 std::optional<int> keyNamed(std::string_view name);
 
 }  // namespace rill::view

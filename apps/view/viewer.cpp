@@ -18,6 +18,7 @@
 #include "shared/signals.hpp"
 #include "view/clock.hpp"
 #include "view/display.hpp"
+#include "view/gravity_tilt.hpp"
 #include "view/keys.hpp"
 #include "view/orbit_camera.hpp"
 #include "view/panels/board.hpp"
@@ -174,17 +175,21 @@ class Viewer {
     std::optional<fs::path> picture = screenshot ? options_.screenshot : std::nullopt;
     // Nothing moves: wait for a hand rather than draw the same again and again.
     const bool idle = settings_.paused && !dirty_ && !camera_.moving() && !options_.frames && script_.empty();
-    for (const InputEvent& event : window_->events(idle ? 0.1 : 0))
+    std::vector<InputEvent> events = window_->events(idle ? 0.1 : 0);
+    if (auto done = replay(events, picture); !done) return done;
+    const Window::Size size = window_->framebuffer();
+    for (const InputEvent& event : events) interface_->feed(event);
+    interface_->begin(seconds, std::max(size.width, 1u), std::max(size.height, 1u));
+    for (const InputEvent& event : events)
       if (auto done = handle(event); !done) return done;
-    if (auto done = replay(picture); !done) return done;
     if (asked_) picture = std::exchange(asked_, std::nullopt);
     if (session_->fileChanged(now_s_))
       if (auto done = reload(); !done) return done;
 
     if (auto done = simulate(seconds); !done) return done;
 
-    const Window::Size size = window_->framebuffer();
     if (size.width == 0 || size.height == 0) {  // minimised
+      interface_->skip();
       if (!options_.lockstep) std::this_thread::sleep_for(std::chrono::milliseconds(10));
       return {};
     }
@@ -192,7 +197,7 @@ class Viewer {
     if (const Area before = layout_.picture; layOutWindow(size), layout_.picture != before) camera_.reframe(homeView());
     camera_.update(seconds);
     if (auto drawn = paint(); !drawn) return drawn;
-    return draw(seconds, size, picture);
+    return draw(picture);
   }
 
   /// The piece of simulation that belongs to this frame.
@@ -266,8 +271,7 @@ class Viewer {
     return {};
   }
 
-  Expected<void> draw(double seconds, Window::Size size, const std::optional<fs::path>& picture) {
-    interface_->begin(seconds, size.width, size.height);
+  Expected<void> draw(const std::optional<fs::path>& picture) {
     Board board{*session_, *display_, *interface_, settings_, sceneNames_, sceneName_, deviceName_, histories_, held_, message_};
     board.layout = layout_;
     board.stats = stats_;
@@ -327,6 +331,19 @@ class Viewer {
     return attempt(show(*file), "");
   }
 
+  Expected<void> tilt(Tilt way) {
+    constexpr double kDegrees = 10;
+    const Scene& scene = session_->scene();
+    if (!session_->isLive("gravity")) {
+      tell("This scene's gravity follows a schedule (gravity_changes)");
+      return {};
+    }
+    const auto g = tilted({scene.gravity[0], scene.gravity[1], scene.gravity[2]}, camera_.view(), way, kDegrees);
+    char text[96];
+    std::snprintf(text, sizeof text, "[%.9g, %.9g, %.9g]", g[0], g[1], g[2]);
+    return changed(session_->change({"gravity", text}), "gravity");
+  }
+
   void oneStepAndPause() {
     settings_.paused = true;
     oneStep_ = true;
@@ -356,7 +373,6 @@ class Viewer {
   void tell(const std::string& text) { message_ = text; }
 
   Expected<void> handle(const InputEvent& event) {
-    interface_->feed(event);
     const Area& area = layout_.picture;
     const double height = area.height, middle[2] = {area.x + 0.5 * area.width, area.y + 0.5 * area.height};
     switch (event.kind) {
@@ -433,6 +449,14 @@ class Viewer {
       case Action::Bottom:
         camera_.look(AxisView::Bottom);
         break;
+      case Action::TiltLeft:
+        return tilt(Tilt::Left);
+      case Action::TiltRight:
+        return tilt(Tilt::Right);
+      case Action::TiltAway:
+        return tilt(Tilt::Away);
+      case Action::TiltTowards:
+        return tilt(Tilt::Towards);
       case Action::Panels:
         settings_.panels = !settings_.panels;
         break;
@@ -461,13 +485,13 @@ class Viewer {
   }
 
   /// What the script says of this frame.
-  Expected<void> replay(std::optional<fs::path>& picture) {
+  Expected<void> replay(std::vector<InputEvent>& events, std::optional<fs::path>& picture) {
     for (; nextLine_ < script_.size() && script_[nextLine_].frame <= frame_; ++nextLine_) {
       const ScriptLine& line = script_[nextLine_];
       Expected<void> done;
       switch (line.kind) {
         case ScriptLine::Kind::Input:
-          done = handle(line.input);
+          events.push_back(line.input);
           break;
         case ScriptLine::Kind::Set:
           done = changed(session_->change(line.change), line.change.key);

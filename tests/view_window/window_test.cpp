@@ -71,7 +71,7 @@ TEST_F(ViewWindowTest, AScriptGoesThroughAllViewsKeysAndSizes) {
   for (const char* view : {"final", "particles", "density", "depth", "normals", "thickness"})
     script += std::to_string(frame++) + " view " + view + "\n";
   const int first = frame;
-  for (const char* key : {"V", "F1", "F1", "Tab", "Tab", "T", "P", "O", "P", "R", "1", "2", "3", "4", "5", "6", "Home"})
+  for (const char* key : {"V", "F1", "F1", "Tab", "Tab", "T", "P", "O", "P", "R", "1", "2", "3", "4", "5", "6", "Home", "Left", "Up"})
     script += std::to_string(frame++) + " key " + key + "\n";
   script += std::to_string(frame) + " move 640 300\n" + std::to_string(frame) + " press left\n";
   script += std::to_string(frame + 1) + " move 700 340\n" + std::to_string(frame + 2) + " release left\n";
@@ -99,6 +99,16 @@ TEST_F(ViewWindowTest, ReplayedTwiceItEndsInTheSameState) {
   EXPECT_EQ(figure(one, "steps"), "13") << "fifteen frames, the first two paused";
   EXPECT_EQ(figure(one, "state_hash"), figure(two, "state_hash"));
   EXPECT_EQ(figure(one, "state_hash").size(), 16u);
+}
+
+TEST_F(ViewWindowTest, AClickInAPanelIsThePanels) {
+  // On the button "Pause (P)"; and in the picture, where it pauses nothing.
+  folder.write("click.txt", "1 move 42 97\n1 press left\n2 release left\n9 view final\n");
+  folder.write("beside.txt", "1 move 640 300\n1 press left\n2 release left\n9 view final\n");
+  const Outcome paused = view({scene, "--script", "click.txt"}), running = view({scene, "--script", "beside.txt"});
+  ASSERT_EQ(paused.code, 0) << paused.err;
+  EXPECT_LE(std::stoi("0" + figure(paused, "steps")), 3);
+  EXPECT_EQ(figure(running, "steps"), "9");
 }
 
 TEST_F(ViewWindowTest, GoesThroughTheScenesThereAre) {
