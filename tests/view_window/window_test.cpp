@@ -111,6 +111,15 @@ TEST_F(ViewWindowTest, AClickInAPanelIsThePanels) {
   EXPECT_EQ(figure(running, "steps"), "9");
 }
 
+TEST_F(ViewWindowTest, TheSceneIsSavedWithItsChanges) {
+  folder.write("save.txt", "1 set fluid.viscosity=0.5\n2 move 49 123\n2 press left\n3 release left\n6 view final\n");
+  const Outcome outcome = view({scene, "--script", "save.txt"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto saved = nlohmann::json::parse(contentOf(folder / "dam-changed.json"));
+  EXPECT_EQ(saved["fluid"]["viscosity"], 0.5);
+  EXPECT_EQ(saved["fluid"]["spacing"], 0.05);
+}
+
 TEST_F(ViewWindowTest, GoesThroughTheScenesThereAre) {
   const auto small = [&](const char* name) {
     std::string text = kDam;

@@ -11,10 +11,8 @@ void row(Board& board, const std::string& name, double ms, uint32_t runs, bool f
   if (fresh) history.add(ms);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  if (runs > 1)
-    ImGui::Text("%s (%u)", name.c_str(), runs);
-  else
-    ImGui::TextUnformatted(name.c_str());
+  ImGui::TextUnformatted(name.c_str());
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s, recorded %u times", name.c_str(), runs);
   ImGui::TableNextColumn();
   ImGui::Text("%.2f", ms);
   ImGui::TableNextColumn();
@@ -38,9 +36,9 @@ void left(std::string_view name, std::string_view reason) {
 
 bool beginTable(const char* name) {
   if (!ImGui::BeginTable(name, 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) return false;
-  ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthStretch, 0.46f);
+  ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthStretch, 0.6f);
   ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, 3.2f * ImGui::GetFontSize());
-  ImGui::TableSetupColumn("lately", ImGuiTableColumnFlags_WidthStretch, 0.34f);
+  ImGui::TableSetupColumn("lately", ImGuiTableColumnFlags_WidthStretch, 0.3f);
   ImGui::TableHeadersRow();
   return true;
 }
