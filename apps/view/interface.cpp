@@ -101,16 +101,28 @@ void Interface::feed(const InputEvent& event) {
   ImGuiIO& io = ImGui::GetIO();
   switch (event.kind) {
     case InputEvent::Kind::Move:
+#if IMGUI_VERSION_NUM >= 18700
+      io.AddMousePosEvent(static_cast<float>(event.x), static_cast<float>(event.y));
+#else
       io.MousePos = ImVec2(static_cast<float>(event.x), static_cast<float>(event.y));
+#endif
       break;
     case InputEvent::Kind::Button:
       if (event.code < 0 || event.code > 2) break;
+#if IMGUI_VERSION_NUM >= 18700
+      io.AddMouseButtonEvent(event.code, event.down);
+#else
       down_[event.code] = event.down;
       pressed_[event.code] |= event.down;
+#endif
       break;
     case InputEvent::Kind::Wheel:
+#if IMGUI_VERSION_NUM >= 18700
+      io.AddMouseWheelEvent(static_cast<float>(event.x), static_cast<float>(event.y));
+#else
       io.MouseWheelH += static_cast<float>(event.x);
       io.MouseWheel += static_cast<float>(event.y);
+#endif
       break;
     case InputEvent::Kind::Key: {
       const bool control = event.modifiers & GLFW_MOD_CONTROL, shift = event.modifiers & GLFW_MOD_SHIFT;
@@ -130,7 +142,11 @@ void Interface::feed(const InputEvent& event) {
       io.AddInputCharactersUTF8(event.text.c_str());
       break;
     case InputEvent::Kind::Focus:
+#if IMGUI_VERSION_NUM >= 18700
+      io.AddFocusEvent(event.down);
+#else
       if (!event.down) std::ranges::fill(down_, false);
+#endif
       break;
     case InputEvent::Kind::Drop:
       break;
@@ -141,10 +157,12 @@ void Interface::begin(double seconds, uint32_t width, uint32_t height) {
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = ImVec2(static_cast<float>(width), static_cast<float>(height));
   io.DeltaTime = static_cast<float>(std::clamp(seconds, 1e-4, 1.0));
+#if IMGUI_VERSION_NUM < 18700
   for (int b = 0; b < 3; ++b) {
     io.MouseDown[b] = down_[b] || pressed_[b];
     pressed_[b] = false;
   }
+#endif
   ImGui::NewFrame();
 }
 

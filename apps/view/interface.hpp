@@ -37,7 +37,9 @@ class Interface {
  private:
   float scale_;
   Theme theme_ = Theme::Dark;
+#if IMGUI_VERSION_NUM < 18700            // later ones queue what happens in a frame
   bool pressed_[3] = {}, down_[3] = {};  // a click shorter than a frame is still one
+#endif
   std::function<std::string()> paste_;
   std::function<void(const char*)> copy_;
   std::string pasted_;

@@ -25,6 +25,12 @@ class ViewWindowTest : public ::testing::Test {
     return all;
   }
   Outcome view(std::vector<std::string> arguments) const { return Child(command(std::move(arguments)), folder.string()).wait(); }
+  /// With a Vulkan call that fails, see failing_layer.cpp.
+  Outcome viewFailing(const std::string& plan, std::vector<std::string> arguments) const {
+    const Child::Environment failing{
+        {"VK_LAYER_PATH", RILL_FAILING_LAYER_FOLDER}, {"VK_INSTANCE_LAYERS", "VK_LAYER_RILL_failing"}, {"RILL_TEST_FAIL", plan}};
+    return Child(command(std::move(arguments)), folder.string(), failing).wait();
+  }
   /// The figure after `name` in what a run printed.
   static std::string figure(const Outcome& outcome, const std::string& name) {
     std::istringstream words(outcome.out);
@@ -118,6 +124,25 @@ TEST_F(ViewWindowTest, TheSceneIsSavedWithItsChanges) {
   const auto saved = nlohmann::json::parse(contentOf(folder / "dam-changed.json"));
   EXPECT_EQ(saved["fluid"]["viscosity"], 0.5);
   EXPECT_EQ(saved["fluid"]["spacing"], 0.05);
+}
+
+TEST_F(ViewWindowTest, TheWindowsImagesMayGoOutOfDate) {
+  for (const char* plan : {"vkAcquireNextImageKHR 3 -1000001004", "vkQueuePresentKHR 3 -1000001004", "vkQueuePresentKHR 3 1000001003"}) {
+    const Outcome outcome = viewFailing(plan, {scene, "--frames", "8"});
+    EXPECT_EQ(outcome.code, 0) << plan << ": " << outcome.err;
+    EXPECT_EQ(figure(outcome, "frames"), "8");
+  }
+}
+
+TEST_F(ViewWindowTest, ALostDeviceIsTold) {
+  for (const char* plan : {"vkQueueSubmit2 9 -4", "vkWaitSemaphores 6 -4", "vkAcquireNextImageKHR 3 -4", "vkQueuePresentKHR 3 -4"}) {
+    const Outcome outcome = viewFailing(plan, {scene, "--frames", "30"});
+    EXPECT_EQ(outcome.code, 1) << plan;
+    EXPECT_NE(outcome.err.find("lost"), std::string::npos) << plan << ": " << outcome.err;
+  }
+  const Outcome full = viewFailing("vkAllocateMemory 30 -2", {scene, "--frames", "30"});
+  EXPECT_EQ(full.code, 1);
+  EXPECT_NE(full.err.find("memory"), std::string::npos) << full.err;
 }
 
 TEST_F(ViewWindowTest, GoesThroughTheScenesThereAre) {
