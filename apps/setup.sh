@@ -13,7 +13,10 @@ build libglm-dev              GLM
 build nlohmann-json3-dev      nlohmann/json 3.11 or newer
 build libcli11-dev            CLI11
 build libstb-dev              stb (stb_image.h, stb_image_write.h)
+build libglfw3-dev            GLFW 3.3 or newer
+build libimgui-dev            Dear ImGui 1.86 or newer
 run   libvulkan1              the Vulkan loader
+run   fonts-dejavu-core       DejaVu Sans (the viewer's typeface)
 run   mesa-vulkan-drivers     a Vulkan 1.3 driver (Mesa: lavapipe needs no GPU)
 test  libgtest-dev            GoogleTest
 test  glslang-dev             glslang (library: the debug preset reloads shaders)
@@ -21,6 +24,8 @@ test  binutils                binutils (nm)
 test  ffmpeg              ffmpeg with libx264, and ffprobe (the videos of rill-capture)
 test  gnuplot-nox             gnuplot (the diagrams of rill-bench)
 test  vulkan-validationlayers the Khronos validation layer
+test  xvfb                    Xvfb (a display for the viewer's windows)
+test  xauth                   xauth (which xvfb-run needs)
 test? chromium-common         SwiftShader (libvk_swiftshader.so with its vk_swiftshader_icd.json)
 '
 

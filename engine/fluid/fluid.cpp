@@ -250,6 +250,8 @@ Expected<std::unique_ptr<Fluid>> Fluid::create(Device& device, const FluidDesc& 
 
 FluidState Fluid::addTo(Graph& graph, const FluidStep& step) { return impl_->addTo(graph, step); }
 
+FluidState Fluid::present(Graph& graph) const { return impl_->present(graph); }
+
 std::optional<FluidStats> Fluid::stats() const {
   impl_->poll();
   return impl_->stats;

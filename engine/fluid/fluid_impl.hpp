@@ -66,6 +66,7 @@ class FluidImpl {
  public:
   static Expected<std::unique_ptr<FluidImpl>> create(Device& device, const FluidDesc& desc);
   FluidState addTo(Graph& graph, const FluidStep& step);
+  FluidState present(Graph& graph) const;
   void poll() const;
   const FluidRefs& refs() const { return r_; }  ///< of the step declared last
   std::span<const Chunk> chunks() const { return chunks_; }
@@ -92,6 +93,7 @@ class FluidImpl {
   void stageStart(const ParticleSet& particles, bool settle);
   void stageSnapshot(const FluidSnapshot& snapshot);
   void stageParticles(std::vector<Float3> positions, std::vector<Float3> velocities);
+  FluidState described() const;  ///< without buffers
   BufferRef& refOf(const Buffer& buffer);
   void importAll(Graph& graph);
   void declareUpload(Graph& graph);

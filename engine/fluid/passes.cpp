@@ -470,11 +470,29 @@ void FluidImpl::declareSkipped(Graph& graph) {
   if (p.tensile <= 0) graph.skipped("tensile term", "tensile is 0");
 }
 
-FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
+FluidState FluidImpl::described() const {
   FluidState state;
   state.count = count;
   state.spacing = setup.params.spacing;
   std::copy(origin, origin + 3, state.origin);
+  return state;
+}
+
+FluidState FluidImpl::present(Graph& graph) const {
+  FluidState state = described();
+  if (count == 0) return state;
+  const auto import = [&](std::string_view name, const Buffer& buffer) {
+    return graph.import(name, {.handle = buffer.handle(), .size = buffer.size()});
+  };
+  state.position = import("positions", buffers_.position);
+  state.velocity = import("velocities", buffers_.velocity);
+  state.id = import("ids", buffers_.id);
+  state.control = import("control", buffers_.control);
+  return state;
+}
+
+FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
+  FluidState state = described();
   if (count == 0) {
     for (const char* name : {"build list", "density", "correct", "measure"}) graph.skipped(name, "no particles");
     if (!step.resume) emptyTime_ += step.advance_s;

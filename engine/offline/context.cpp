@@ -12,7 +12,7 @@ Expected<std::unique_ptr<Context>> Context::create(const ContextDesc& desc) {
   auto impl = std::make_unique<ContextImpl>();
   if (auto ok = impl->openLoader(); !ok) return ok.error();
   if (auto ok = impl->makeInstance(desc); !ok) return ok.error();
-  if (auto ok = impl->chooseDevice(desc.device); !ok) return ok.error();
+  if (auto ok = impl->chooseDevice(desc); !ok) return ok.error();
   if (auto ok = impl->makeDevice(desc); !ok) return ok.error();
   if (auto ok = impl->makeFrames(std::max(desc.framesInFlight, 1u)); !ok) return ok.error();
   return std::unique_ptr<Context>(new Context(std::move(impl)));
@@ -132,6 +132,8 @@ Expected<void> Context::run(Graph& graph) {
 }
 
 Expected<void> Context::wait() { return impl_->waitFor(impl_->submitted); }
+
+Expected<void> Context::waitFor(uint64_t frame) { return impl_->waitFor(frame); }
 
 Expected<void> Context::waitUntilInFlight(uint32_t frames) {
   return impl_->waitFor(impl_->submitted > frames ? impl_->submitted - frames : 0);

@@ -2,6 +2,7 @@
 // A Vulkan instance, device and queue of our own, for programs that have none to lend: capture, bench, tests, the viewer.
 // No loader is linked: libvulkan is opened at run time, so that a program without it can say so.
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -22,6 +23,8 @@ struct ContextDesc {
   std::vector<const char*> instanceExtensions = {};  ///< e.g. those that a window system asks for
   std::vector<const char*> deviceExtensions = {};
   std::string applicationName = "rill";
+  /// Whether a queue family can show pictures in the program's windows; devices without such a family are not chosen. Empty: any will do.
+  std::function<bool(VkInstance, VkPhysicalDevice, uint32_t queueFamily)> presents = {};
 };
 
 /// Binary semaphores of a swapchain, for the viewer.
@@ -57,6 +60,8 @@ class Context {
   Expected<void> run(Graph& graph);
   /// Waits for everything submitted. Read-backs and timings of those frames are there afterwards.
   Expected<void> wait();
+  /// Waits until this submitted frame is finished.
+  Expected<void> waitFor(uint64_t frame);
   /// Waits until at most `frames` submitted frames are unfinished.
   Expected<void> waitUntilInFlight(uint32_t frames);
 

@@ -1,5 +1,7 @@
 #pragma once
 // What is behind offline::Context. vulkan_setup.cpp opens the loader and makes instance and device, context.cpp runs frames.
+#include <optional>
+
 #include "offline/context.hpp"
 
 #define RILL_CONTEXT_INSTANCE_FUNCTIONS(X) \
@@ -35,7 +37,9 @@ class ContextImpl {
   // vulkan_setup.cpp
   Expected<void> openLoader();
   Expected<void> makeInstance(const ContextDesc& desc);
-  Expected<void> chooseDevice(const std::string& wanted);
+  Expected<void> chooseDevice(const ContextDesc& desc);
+  /// The queue family that suits best: one that draws too, where there is one. None: the device has none that computes, or shows pictures.
+  std::optional<uint32_t> familyOf(VkPhysicalDevice handle, const ContextDesc& desc) const;
   Expected<void> makeDevice(const ContextDesc& desc);
   // context.cpp
   Expected<void> makeFrames(uint32_t count);

@@ -9,7 +9,6 @@
 #include "core/words.hpp"
 #include "gpu/resources.hpp"
 #include "render/fluid_renderer_impl.hpp"
-#include "render/legend.hpp"
 #include "render/view_push.hpp"
 #include "sort/dispatches.hpp"
 
@@ -119,27 +118,28 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
   return {};
 }
 
-PictureTickets Painter::declare(Graph& graph, const FluidState& fluid, std::string_view name, uint32_t width, uint32_t height,
+PictureTickets Painter::declare(Graph& graph, const FluidState& fluid, std::string_view view, uint32_t width, uint32_t height,
                                 double time_s) {
+  PictureTickets tickets{graph.readback(addTo(graph, fluid, view, camera(width, height, time_s), width, height, time_s)), {}};
+  if (find(view)->kind != Kind::Particles && fluid.count > 0) tickets.counters = graph.readback(fluid_->impl().last.counters);
+  return tickets;
+}
+
+BufferRef Painter::addTo(Graph& graph, const FluidState& fluid, std::string_view name, const CameraView& eye, uint32_t width,
+                         uint32_t height, double time_s) {
   const View& view = *find(name);
-  const CameraView eye = camera(width, height, time_s);
   if (view.kind == Kind::Particles) {
     ParticleViewDesc desc;
     desc.width = width;
     desc.height = height;
     desc.colour = view.colour;
     desc.unlit = view.unlit;
-    return {graph.readback(particles_->addTo(graph, fluid, eye, desc, time_s)), {}};
+    return particles_->addTo(graph, fluid, eye, desc, time_s);
   }
-  const auto withCounters = [&](BufferRef picture) {
-    PictureTickets tickets{graph.readback(picture), {}};
-    if (fluid.count > 0) tickets.counters = graph.readback(fluid_->impl().last.counters);
-    return tickets;
-  };
   const FluidView seen = fluidView(eye, width, height, scene_.fluid.spacing);
   if (view.kind == Kind::Data) {
     const double full = view.data == SurfaceData::Depth ? 2 * seen.focus_m : 0.5 * seen.focus_m;
-    return withCounters(fluid_->addData(graph, fluid, seen, view.data, static_cast<float>(full), look_.surface));
+    return fluid_->addData(graph, fluid, seen, view.data, static_cast<float>(full), look_.surface);
   }
   const TargetFormats formats;
   SceneTargets targets{graph.create("picture colour", {formats.colour, width, height}),
@@ -156,13 +156,17 @@ PictureTickets Painter::declare(Graph& graph, const FluidState& fluid, std::stri
     const Kernel kernel = pass.kernel(tonemap_, {targets.colour, picture});
     return [kernel, groups = divideUp(uint64_t{width} * height, 64)](Commands& commands) { commands.dispatch(kernel, groups); };
   });
-  return withCounters(picture);
+  return picture;
 }
 
 void Painter::finish(Image& image, std::string_view name, double time_s) const {
+  if (const auto scale = legend(name, time_s)) drawLegend(image.rgba, image.width, image.height, *scale);
+}
+
+std::optional<LegendDesc> Painter::legend(std::string_view name, double time_s) const {
   const View& view = *find(name);
-  if (view.kind == Kind::Particles)
-    drawLegend(image.rgba, image.width, image.height, {view.colour, particles_->scaleMax(view.colour), time_s});
+  if (view.kind != Kind::Particles || !particles_) return std::nullopt;
+  return LegendDesc{view.colour, particles_->scaleMax(view.colour), time_s};
 }
 
 }  // namespace rill::offline

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string_view>
 
+#include "render/legend.hpp"
 #include "render/particle_view.hpp"
 #include "render/scenery.hpp"
 #include "rill/fluid_renderer.hpp"
@@ -31,8 +32,13 @@ class Painter {
   static Expected<void> check(std::string_view view, uint32_t width, uint32_t height);
   /// What check() says, BadInput for a look that is unknown; makes on the device what it needs.
   Expected<void> prepare(Device& device, std::string_view view, uint32_t width, uint32_t height);
-  /// Declares the passes of a picture that prepare() allowed.
+  /// Declares the passes of a picture that prepare() allowed, seen from `eye`: width x height pixels, RGBA8 in sRGB, rows from the top.
+  BufferRef addTo(Graph& graph, const FluidState& fluid, std::string_view view, const CameraView& eye, uint32_t width, uint32_t height,
+                  double time_s);
+  /// The same from the scene's camera, read back.
   PictureTickets declare(Graph& graph, const FluidState& fluid, std::string_view view, uint32_t width, uint32_t height, double time_s);
+  /// The scale of what a view colours particles by; none for the other views, or before prepare().
+  std::optional<LegendDesc> legend(std::string_view view, double time_s) const;
   /// What is drawn on the finished picture by the host.
   void finish(Image& image, std::string_view view, double time_s) const;
 

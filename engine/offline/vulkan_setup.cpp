@@ -126,7 +126,22 @@ Expected<void> ContextImpl::makeInstance(const ContextDesc& desc) {
   return {};
 }
 
-Expected<void> ContextImpl::chooseDevice(const std::string& wanted) {
+std::optional<uint32_t> ContextImpl::familyOf(VkPhysicalDevice handle, const ContextDesc& desc) const {
+  uint32_t count = 0;
+  vki.GetPhysicalDeviceQueueFamilyProperties(handle, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vki.GetPhysicalDeviceQueueFamilyProperties(handle, &count, families.data());
+  const auto find = [&](VkQueueFlags flags) -> std::optional<uint32_t> {
+    for (uint32_t f = 0; f < count; ++f)
+      if ((families[f].queueFlags & flags) == flags && (!desc.presents || desc.presents(instance, handle, f))) return f;
+    return std::nullopt;
+  };
+  if (const auto draws = find(VK_QUEUE_COMPUTE_BIT | VK_QUEUE_GRAPHICS_BIT); draws || desc.presents) return draws;
+  return find(VK_QUEUE_COMPUTE_BIT);  // a compute-only card can still simulate
+}
+
+Expected<void> ContextImpl::chooseDevice(const ContextDesc& desc) {
+  const std::string& wanted = desc.device;
   uint32_t count = 0;
   if (VkResult r = vki.EnumeratePhysicalDevices(instance, &count, nullptr); r != VK_SUCCESS && r != VK_ERROR_INITIALIZATION_FAILED)
     return vulkanError(r, "listing Vulkan devices");
@@ -142,9 +157,12 @@ Expected<void> ContextImpl::chooseDevice(const std::string& wanted) {
   if (devices.empty())
     return Error{ErrorKind::NoDevice, "no Vulkan device found (Debian: mesa-vulkan-drivers brings one that needs no GPU)"};
 
-  const auto usable = [&](const Candidate& candidate) {
+  const auto usable = [&](const Candidate& candidate) -> Expected<void> {
     DeviceRequirements ignored;
-    return appendRequired(get, instance, candidate.handle, ignored);
+    if (auto ok = appendRequired(get, instance, candidate.handle, ignored); !ok) return ok;
+    if (familyOf(candidate.handle, desc)) return {};
+    return Error{ErrorKind::NoDevice, "device '" + candidate.name + "' has no queue that " +
+                                          (desc.presents ? "computes, draws and shows pictures on this display" : "computes")};
   };
   std::optional<size_t> chosen;
   if (!wanted.empty()) {
@@ -164,16 +182,7 @@ Expected<void> ContextImpl::chooseDevice(const std::string& wanted) {
   physicalDevice = devices[*chosen].handle;
   deviceName = devices[*chosen].name;
 
-  vki.GetPhysicalDeviceQueueFamilyProperties(physicalDevice, &count, nullptr);
-  std::vector<VkQueueFamilyProperties> families(count);
-  vki.GetPhysicalDeviceQueueFamilyProperties(physicalDevice, &count, families.data());
-  const auto find = [&](VkQueueFlags flags) {
-    return std::ranges::find_if(families, [&](const auto& f) { return (f.queueFlags & flags) == flags; });
-  };
-  auto family = find(VK_QUEUE_COMPUTE_BIT | VK_QUEUE_GRAPHICS_BIT);
-  if (family == families.end()) family = find(VK_QUEUE_COMPUTE_BIT);  // a compute-only card can still simulate
-  if (family == families.end()) return Error{ErrorKind::NoDevice, "device '" + deviceName + "' has no queue that computes"};
-  queueFamily = uint32_t(family - families.begin());
+  queueFamily = *familyOf(physicalDevice, desc);
   return {};
 }
 

@@ -33,10 +33,12 @@ bool fails(const char* function, VkResult& result) {
 }
 
 #define FAILING_FUNCTIONS(X) \
+  X(AcquireNextImageKHR)     \
   X(AllocateMemory)          \
   X(CreateBuffer)            \
   X(CreateComputePipelines)  \
   X(CreateShaderModule)      \
+  X(QueuePresentKHR)         \
   X(QueueSubmit2)            \
   X(WaitSemaphores)
 

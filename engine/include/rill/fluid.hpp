@@ -115,6 +115,8 @@ class Fluid {
 
   /// Declares the passes of one step. It advances when recorded, not when declared.
   FluidState addTo(Graph& graph, const FluidStep& step);
+  /// The particles as they are, between the pieces of an advance too: declares no pass. After a graph of addTo().
+  FluidState present(Graph& graph) const;
 
   /// Of the last finished frame that asked for them.
   std::optional<FluidStats> stats() const;

@@ -1,0 +1,141 @@
+#include "view/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+
+#include "core/words.hpp"
+#include "rill/offline.hpp"
+#include "shared/usage.hpp"
+#include "shared/words.hpp"
+#include "view/keys.hpp"
+#include "view/script.hpp"
+
+namespace rill::view {
+namespace {
+
+constexpr uint32_t kMostSide = 8192;  // pixels
+constexpr uint64_t kMostFrames = 1'000'000'000;
+
+/// Options as text: numbers are read here, so that every version of the command line library gives the same messages.
+struct Raw {
+  std::string scene, device, size, view, frames, screenshot, script;
+  std::vector<std::string> set;
+  bool lockstep = false, validate = false;
+};
+
+Error badInput(std::string_view option, std::string_view given, std::string_view expected) {
+  return Error{ErrorKind::BadInput, std::string(option) + ": " + inQuotes(given) + " was given; expected " + std::string(expected)};
+}
+
+template <class Number>
+std::optional<Number> number(std::string_view text) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (text.empty() || error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::vector<std::string> viewNames() {
+  const auto views = offline::Simulation::views();
+  return {views.begin(), views.end()};
+}
+
+void declare(CLI::App& app, Raw& raw) {
+  const std::string shown = "What is shown", run = "How it runs";
+  app.add_option("SCENE", raw.scene, "a scene's name, or the path of a .json file (default: dam-break)")->type_name("")->group(shown);
+  const auto text = [&](const char* name, std::string& value, const std::string& about, const char* type, const std::string& group) {
+    app.add_option(name, value, about)->type_name(type)->group(group);
+  };
+  text("--view", raw.view, "what is drawn at first: " + apps::joined(viewNames()) + " (default: final)", "VIEW", shown);
+  text("--size", raw.size, "of the window, pixels (default: 1280x720)", "WxH", shown);
+  app.add_option("--set", raw.set, "change a key of the scene, as fluid.viscosity=0.1")
+      ->type_name("KEY=VALUE")
+      ->group(shown)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->expected(1);
+  text("--device", raw.device, "part of a device's name, or its index", "NAME", run);
+  text("--frames", raw.frames, "close the window after so many displayed frames", "N", run);
+  text("--screenshot", raw.screenshot, "write the window's last frame, panels and all, as PNG", "FILE", run);
+  text("--script", raw.script, "replay what hands do from a file, in lockstep (commands below)", "FILE", run);
+  app.add_flag("--lockstep", raw.lockstep,
+               "a step of 1/60 s for each displayed frame, however long it takes: frame k then shows what frame k of rill-capture shows")
+      ->group(run);
+  app.add_flag("--validate", raw.validate, "check every Vulkan call with the Khronos layer, and exit with 1 if it says anything")
+      ->group(run);
+  app.set_help_flag("-h,--help", "show this text")->group(run);
+  app.set_version_flag("--version", std::string("rill-view ") + RILL_VERSION, "show the version")->group(run);
+  app.footer("Mouse and keys:\n" + keyHelp() + "\nScripts have lines \"FRAME COMMAND\", frames from 0 on, comments after '#':\n" +
+             scriptHelp());
+}
+
+Expected<Options> judged(const Raw& raw, const CLI::App& app) {
+  const auto given = [&](const char* name) { return app.count(name) > 0; };
+  Options options;
+  if (given("SCENE")) {
+    if (raw.scene.empty()) return badInput("SCENE", raw.scene, "a scene's name or the path of a .json file");
+    options.scene = raw.scene;
+  }
+  if (given("--size")) {
+    const size_t x = std::min(raw.size.find_first_of("xX"), raw.size.size());
+    const auto width = number<uint32_t>(std::string_view(raw.size).substr(0, x));
+    const auto height = number<uint32_t>(std::string_view(raw.size).substr(std::min(x + 1, raw.size.size())));
+    if (!width || !height || *width < 64 || *height < 64 || *width > kMostSide || *height > kMostSide)
+      return badInput("--size", raw.size, "WIDTHxHEIGHT in pixels, as 1280x720: each from 64 to " + std::to_string(kMostSide));
+    options.width = *width;
+    options.height = *height;
+  }
+  if (given("--view")) {
+    const std::vector<std::string> views = viewNames();
+    if (std::ranges::find(views, raw.view) == views.end())
+      return Error{ErrorKind::BadInput, "--view: there is no view " + inQuotes(raw.view) + apps::didYouMean(raw.view, views) +
+                                            "\nviews: " + apps::joined(views)};
+    options.view = raw.view;
+  }
+  if (given("--frames")) {
+    options.frames = number<uint64_t>(raw.frames);
+    if (!options.frames || *options.frames < 1 || *options.frames > kMostFrames)
+      return badInput("--frames", raw.frames, "a whole number from 1 to " + std::to_string(kMostFrames));
+  }
+  if (given("--device") && raw.device.empty()) return badInput("--device", raw.device, "part of a device's name, or its index");
+  options.device = raw.device;
+  if (given("--screenshot")) {
+    if (raw.screenshot.empty()) return badInput("--screenshot", raw.screenshot, "the name of a file");
+    if (auto place = apps::checkFilePlace("--screenshot", raw.screenshot); !place) return place.error();
+    options.screenshot = raw.screenshot;
+  }
+  if (given("--script")) {
+    if (raw.script.empty()) return badInput("--script", raw.script, "the name of a file");
+    options.script = raw.script;
+  }
+  for (const std::string& text : raw.set) {
+    auto change = parseOverride(text);
+    if (!change) return change.error();
+    options.overrides.push_back(std::move(*change));
+  }
+  options.lockstep = raw.lockstep || options.script;
+  options.validate = raw.validate;
+  return options;
+}
+
+}  // namespace
+
+Expected<apps::CommandLine<Options>> parseCommandLine(int count, const char* const* arguments) {
+  Raw raw;
+  CLI::App app("A window on a scene: see it run, go around it, tune it.", "rill-view");
+  declare(app, raw);
+  auto text = apps::parsed(app, std::string("rill-view ") + RILL_VERSION, [&] { app.parse(count, arguments); });
+  if (!text) return text.error();
+  apps::CommandLine<Options> line;
+  if (!text->empty()) {
+    line.text = std::move(*text);
+    return line;
+  }
+  auto options = judged(raw, app);
+  if (!options) return options.error();
+  line.options = std::move(*options);
+  return line;
+}
+
+}  // namespace rill::view

@@ -1,0 +1,30 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rill/scene_io.hpp"
+#include "shared/program.hpp"
+
+namespace rill::view {
+
+/// What a command line asks for. Judged as far as that is possible without the scene.
+struct Options {
+  std::string scene = "dam-break";  ///< a name or a path
+  std::string device;
+  uint32_t width = 1280, height = 720;  ///< of the window, pixels
+  std::string view = "final";
+  std::vector<Override> overrides;  ///< of the scene's keys, in order
+  std::optional<uint64_t> frames;   ///< displayed; then it ends by itself
+  std::optional<std::filesystem::path> screenshot;
+  std::optional<std::filesystem::path> script;
+  bool lockstep = false;  ///< a step a displayed frame, however long it takes
+  bool validate = false;
+};
+
+/// BadInput with a message that names the option, what was given and what was expected.
+Expected<apps::CommandLine<Options>> parseCommandLine(int count, const char* const* arguments);
+
+}  // namespace rill::view

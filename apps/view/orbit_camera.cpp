@@ -1,0 +1,127 @@
+#include "view/orbit_camera.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace rill::view {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kPole = 0.5 * kPi - 1e-3;          // the eye stays off the vertical, where there is no right and left
+constexpr double kTime = 0.06;                      // s, in which 63 % of a way is gone
+constexpr double kWheel = 0.88;                     // of the distance that is left after a step of the wheel
+constexpr double kNearest = 1e-4, kFarthest = 1e6;  // m
+
+}  // namespace
+
+OrbitCamera::OrbitCamera(const CameraView& view) { home(view); }
+
+void OrbitCamera::home(const CameraView& view) {
+  home_ = view;
+  home();
+  settle();
+}
+
+OrbitCamera::Pose OrbitCamera::pose(const CameraView& view) {
+  std::array<double, 3> away{};
+  for (size_t a = 0; a < 3; ++a) away[a] = view.eye[a] - view.target[a];
+  Pose pose;
+  pose.distance = std::clamp(std::hypot(away[0], away[1], away[2]), kNearest, kFarthest);
+  std::copy_n(view.target, 3, pose.target.begin());
+  pose.pitch = std::clamp(std::asin(std::clamp(away[1] / pose.distance, -1.0, 1.0)), -kPole, kPole);
+  pose.yaw = std::atan2(away[0], away[2]);
+  return pose;
+}
+
+void OrbitCamera::home() {
+  goal_ = pose(home_);
+  takeShortWay();
+}
+
+void OrbitCamera::takeShortWay() { now_.yaw += 2 * kPi * std::round((goal_.yaw - now_.yaw) / (2 * kPi)); }
+
+void OrbitCamera::reframe(const CameraView& view) {
+  const bool atHome = goal_.target == pose(home_).target && goal_.distance == pose(home_).distance;
+  home_ = view;
+  if (atHome) {  // nobody has moved it: it stays framed
+    goal_.target = pose(home_).target;
+    goal_.distance = pose(home_).distance;
+    settle();
+  }
+}
+
+void OrbitCamera::orbit(double right, double down) {
+  goal_.yaw -= kPi * right;
+  goal_.pitch = std::clamp(goal_.pitch + kPi * down, -kPole, kPole);
+}
+
+double OrbitCamera::metresAHeight() const { return 2 * goal_.distance * std::tan(home_.fov_y_deg * kPi / 360); }
+
+void OrbitCamera::pan(double right, double down) {
+  const CameraBasis basis = cameraBasis(viewOf(goal_, home_.fov_y_deg));
+  for (int a = 0; a < 3; ++a) goal_.target[a] -= metresAHeight() * (right * basis.right[a] - down * basis.up[a]);
+}
+
+void OrbitCamera::dolly(double steps, double right, double down) {
+  const double wanted = std::clamp(goal_.distance * std::pow(kWheel, steps), kNearest, kFarthest), left = wanted / goal_.distance;
+  const CameraBasis basis = cameraBasis(viewOf(goal_, home_.fov_y_deg));
+  for (int a = 0; a < 3; ++a) goal_.target[a] += (1 - left) * metresAHeight() * (right * basis.right[a] - down * basis.up[a]);
+  goal_.distance = wanted;
+}
+
+void OrbitCamera::look(AxisView axis) {
+  switch (axis) {
+    case AxisView::Front:
+      goal_.yaw = 0, goal_.pitch = 0;
+      break;
+    case AxisView::Back:
+      goal_.yaw = kPi, goal_.pitch = 0;
+      break;
+    case AxisView::Right:
+      goal_.yaw = 0.5 * kPi, goal_.pitch = 0;
+      break;
+    case AxisView::Left:
+      goal_.yaw = -0.5 * kPi, goal_.pitch = 0;
+      break;
+    case AxisView::Top:
+      goal_.yaw = 0, goal_.pitch = kPole;
+      break;
+    case AxisView::Bottom:
+      goal_.yaw = 0, goal_.pitch = -kPole;
+      break;
+  }
+  takeShortWay();
+}
+
+void OrbitCamera::update(double seconds) {
+  if (!moving()) return settle();
+  const double gone = 1 - std::exp(-std::max(seconds, 0.0) / kTime);
+  // Target and distance go by the same share, so that what a dolly aims at stays under the pointer all the way.
+  for (int a = 0; a < 3; ++a) now_.target[a] += gone * (goal_.target[a] - now_.target[a]);
+  now_.distance += gone * (goal_.distance - now_.distance);
+  now_.yaw += gone * (goal_.yaw - now_.yaw);
+  now_.pitch += gone * (goal_.pitch - now_.pitch);
+}
+
+bool OrbitCamera::moving() const {
+  constexpr double kSeen = 1e-4;  // radians, or of the distance: a tenth of a pixel
+  double way = std::abs(goal_.distance - now_.distance);
+  for (int a = 0; a < 3; ++a) way = std::max(way, std::abs(goal_.target[a] - now_.target[a]));
+  return way > kSeen * goal_.distance || std::abs(goal_.yaw - now_.yaw) > kSeen || std::abs(goal_.pitch - now_.pitch) > kSeen;
+}
+
+CameraView OrbitCamera::viewOf(const Pose& pose, double fov_y_deg) {
+  const double direction[3] = {std::cos(pose.pitch) * std::sin(pose.yaw), std::sin(pose.pitch), std::cos(pose.pitch) * std::cos(pose.yaw)};
+  CameraView view;
+  view.fov_y_deg = fov_y_deg;
+  for (int a = 0; a < 3; ++a) {
+    view.target[a] = pose.target[a];
+    view.eye[a] = pose.target[a] + pose.distance * direction[a];
+  }
+  return view;
+}
+
+CameraView OrbitCamera::view() const { return viewOf(now_, home_.fov_y_deg); }
+
+}  // namespace rill::view

@@ -1,0 +1,42 @@
+// What the simulation says of itself, over the last steps.
+#include <algorithm>
+#include <cstdio>
+
+#include "core/words.hpp"
+#include "view/panels/board.hpp"
+
+namespace rill::view {
+namespace {
+
+void plot(const char* name, const History& history, const char* format) {
+  const std::vector<float>& values = history.values();
+  if (values.empty()) return;
+  char now[48];
+  std::snprintf(now, sizeof now, format, static_cast<double>(values.back()));
+  figureLine(name, "%s", now);
+  const float top = *std::ranges::max_element(values);
+  ImGui::PushID(name);
+  ImGui::PlotLines("##plot", values.data(), static_cast<int>(values.size()), 0, nullptr, 0, top > 0 ? 1.1f * top : 1,
+                   ImVec2(ImGui::GetContentRegionAvail().x, 2.0f * ImGui::GetFontSize()));
+  ImGui::PopID();
+}
+
+}  // namespace
+
+void figurePanel(Board& board) {
+  const Histories& h = board.histories;
+  figureLine("particles", "%s", grouped(board.session.runner().fluid().count()).c_str());
+  plot("step", h.wall_ms, "%.1f ms");
+  plot("substeps a step", h.substeps, "%.0f");
+  plot("iterations a step", h.iterations, "%.0f");
+  plot("compression mean", h.error, "%.3f %%");
+  if (board.stats) {
+    figureLine("compression p99", "%.3f %%", 100 * board.stats->density_error_p99);
+    figureLine("fastest", "%.3g m/s", board.stats->max_speed);
+    figureLine("energy", "%.4g J", board.stats->kinetic_J + board.stats->potential_J);
+    figureLine("outside; not finite", "%llu; %llu", static_cast<unsigned long long>(board.stats->outside),
+               static_cast<unsigned long long>(board.stats->non_finite));
+  }
+}
+
+}  // namespace rill::view

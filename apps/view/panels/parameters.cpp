@@ -1,0 +1,159 @@
+// The scene's keys as fields, from the one table that the parser reads too: name, unit, range, default, help.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "core/words.hpp"
+#include "model/fields.hpp"
+#include "view/panels/board.hpp"
+
+namespace rill::view {
+namespace {
+
+/// As the parser reads it: all digits that matter, no more.
+std::string text(double value) {
+  char digits[64];
+  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+  return {digits, end};
+}
+
+/// One key of the scene, drawn as a field. A change is asked for when the hand has let go of it.
+class KeyField {
+ public:
+  KeyField(Board& board, std::string_view group, const model::Info& info)
+      : board_(board), info_(info), key_(group.empty() ? std::string(info.key) : std::string(group) + "." + std::string(info.key)) {
+    ImGui::PushID(key_.c_str());
+    ImGui::SetNextItemWidth(ImGui::GetWindowContentRegionMax().x * 0.42f);
+  }
+  ~KeyField() {
+    if (ImGui::IsItemHovered()) tell();
+    ImGui::SameLine();
+    const bool live = board_.session.isLive(key_), changed = board_.session.isChanged(key_);
+    std::string name(info_.key);
+    if (!info_.unit.empty()) name += " [" + std::string(info_.unit) + "]";
+    if (!live) name += " *";
+    if (changed) {
+      if (ImGui::SmallButton("x")) board_.requests.reset = key_;
+      if (ImGui::IsItemHovered()) ImGui::SetTooltip("back to what the file says");
+      ImGui::SameLine();
+    }
+    ImGui::TextUnformatted(name.c_str());
+    if (ImGui::IsItemHovered()) tell();
+    ImGui::PopID();
+  }
+  KeyField(const KeyField&) = delete;
+  KeyField& operator=(const KeyField&) = delete;
+
+  void draw(double value) {
+    hold({value});
+    const double low = info_.range.hasLow() ? info_.range.low : -1e9, high = info_.range.hasHigh() ? info_.range.high : 1e9;
+    const bool bounded = info_.range.hasLow() && info_.range.hasHigh();
+    const double speed = bounded ? (high - low) / 300 : std::max(std::abs(value_[0]), 1e-3) / 100;
+    ImGui::DragScalar("##value", ImGuiDataType_Double, value_.data(), static_cast<float>(speed), &low, &high, "%.5g",
+                      ImGuiSliderFlags_AlwaysClamp | (spreads() ? ImGuiSliderFlags_Logarithmic : 0));
+    edited(text(value_[0]));
+  }
+  void draw(uint32_t value) { whole(value); }
+  void draw(uint64_t value) { whole(value); }
+  void draw(const std::optional<double>& value) {
+    bool automatic = !value;
+    if (ImGui::Checkbox("auto", &automatic)) ask(automatic ? "\"auto\"" : text(middle()));
+    if (automatic) return;
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(ImGui::GetWindowContentRegionMax().x * 0.42f - ImGui::GetItemRectSize().x - ImGui::GetStyle().ItemSpacing.x);
+    draw(value.value_or(0));
+  }
+  void draw(const std::string& value) { choice(value); }
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  void draw(const Enum& value) { choice(std::string(info_.words[static_cast<size_t>(value)])); }
+  void draw(const double (&value)[3]) {
+    hold({value[0], value[1], value[2]});
+    ImGui::SetNextItemWidth(ImGui::GetWindowContentRegionMax().x * 0.56f);
+    ImGui::DragScalarN("##value", ImGuiDataType_Double, value_.data(), 3, 0.05f, nullptr, nullptr, "%.4g");
+    edited("[" + text(value_[0]) + ", " + text(value_[1]) + ", " + text(value_[2]) + "]");
+  }
+
+ private:
+  void tell() const {
+    std::string about = key_ + ": " + std::string(info_.help);
+    if (!board_.session.isLive(key_)) about += "\nA change begins the scene anew.";
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
+    ImGui::TextUnformatted(about.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+  }
+  /// Over more than a few decades, or without an end: what matters is the factor.
+  bool spreads() const {
+    return !info_.range.hasHigh() ? info_.range.hasLow() : info_.range.low > 0 && info_.range.high > 100 * info_.range.low;
+  }
+  double middle() const {
+    return info_.range.hasHigh() ? 0.5 * (std::max(info_.range.low, 0.0) + info_.range.high) : info_.unit == "s" ? 0.002 : 0.02;
+  }
+  void whole(uint64_t value) {
+    hold({static_cast<double>(value)});
+    uint64_t number = static_cast<uint64_t>(value_[0]);
+    const uint64_t low = static_cast<uint64_t>(std::max(info_.range.low, 0.0));
+    const uint64_t high = info_.range.hasHigh() ? static_cast<uint64_t>(info_.range.high) : UINT32_MAX;
+    ImGui::DragScalar("##value", ImGuiDataType_U64, &number, std::max(0.1f, static_cast<float>(value) / 100), &low, &high, nullptr,
+                      ImGuiSliderFlags_AlwaysClamp);
+    value_[0] = static_cast<double>(number);
+    edited(std::to_string(number));
+  }
+  void choice(const std::string& value) {
+    if (!ImGui::BeginCombo("##value", value.c_str())) return;
+    for (const std::string_view word : info_.words)
+      if (ImGui::Selectable(std::string(word).c_str(), word == value)) ask(inQuotes(word));
+    ImGui::EndCombo();
+  }
+  /// What is shown and changed: the scene's numbers, or those that a hand is changing.
+  void hold(const std::array<double, 3>& scene) { value_ = board_.held.key == key_ ? board_.held.value : scene; }
+  void edited(std::string json) {
+    if (ImGui::IsItemDeactivatedAfterEdit()) ask(std::move(json));
+    if (ImGui::IsItemActive())
+      board_.held = {key_, value_};
+    else if (board_.held.key == key_)
+      board_.held = {};
+  }
+  void ask(std::string json) { board_.requests.change = Override{key_, std::move(json)}; }
+
+  Board& board_;
+  const model::Info& info_;
+  std::string key_;
+  std::array<double, 3> value_{};
+};
+
+template <class Value>
+inline constexpr bool kDrawn = std::is_same_v<Value, double> || std::is_same_v<Value, uint32_t> || std::is_same_v<Value, uint64_t> ||
+                               std::is_same_v<Value, std::optional<double>> || std::is_same_v<Value, double[3]> || std::is_enum_v<Value>;
+
+template <class Owner>
+void group(Board& board, const char* name, const Owner& owner) {
+  if (!ImGui::TreeNodeEx(name, ImGuiTreeNodeFlags_DefaultOpen | ImGuiTreeNodeFlags_SpanAvailWidth)) return;
+  model::forEachField<Owner>([&](const auto& field) {
+    using Value = typename std::decay_t<decltype(field)>::Value;
+    if constexpr (model::kHasMember<Value> && (kDrawn<Value> || std::is_same_v<Value, std::string>)) {
+      if (std::is_same_v<Value, std::string> && field.info.words.empty()) return;
+      if (field.info.key == "particles") return;  // the spacing says the same
+      KeyField(board, name, field.info).draw(owner.*(field.member));
+    }
+  });
+  ImGui::TreePop();
+}
+
+}  // namespace
+
+void parameterPanel(Board& board) {
+  const Scene& scene = board.session.scene();
+  ImGui::TextDisabled("* begins the scene anew");
+  model::forEachField<Scene>([&](const auto& field) {
+    using Value = typename std::decay_t<decltype(field)>::Value;
+    if constexpr (std::is_same_v<Value, double[3]>) KeyField(board, "", field.info).draw(scene.*(field.member));
+  });
+  group(board, "fluid", scene.fluid);
+  group(board, "solver", scene.solver);
+  group(board, "look", scene.look);
+}
+
+}  // namespace rill::view

@@ -1,0 +1,67 @@
+// The passes of the last step and of the last picture: time, or why there was none.
+#include <cfloat>
+
+#include "view/panels/board.hpp"
+
+namespace rill::view {
+namespace {
+
+void row(Board& board, const std::string& name, double ms, uint32_t runs, bool fresh) {
+  History& history = board.histories.passes[name];
+  if (fresh) history.add(ms);
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(name.c_str());
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s, recorded %u times", name.c_str(), runs);
+  ImGui::TableNextColumn();
+  ImGui::Text("%.2f", ms);
+  ImGui::TableNextColumn();
+  const auto& values = history.values();
+  ImGui::PushID(name.c_str());
+  ImGui::PlotLines("##ms", values.data(), static_cast<int>(values.size()), 0, nullptr, 0, FLT_MAX,
+                   ImVec2(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize()));
+  ImGui::PopID();
+}
+
+void left(std::string_view name, std::string_view reason) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextDisabled("%.*s", static_cast<int>(name.size()), name.data());
+  ImGui::TableNextColumn();
+  ImGui::TextDisabled("-");
+  ImGui::TableNextColumn();
+  ImGui::TextDisabled("%.*s", static_cast<int>(reason.size()), reason.data());
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%.*s", static_cast<int>(reason.size()), reason.data());
+}
+
+bool beginTable(const char* name) {
+  if (!ImGui::BeginTable(name, 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) return false;
+  ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthStretch, 0.6f);
+  ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, 3.2f * ImGui::GetFontSize());
+  ImGui::TableSetupColumn("lately", ImGuiTableColumnFlags_WidthStretch, 0.3f);
+  ImGui::TableHeadersRow();
+  return true;
+}
+
+}  // namespace
+
+void passPanel(Board& board) {
+  const Runner& runner = board.session.runner();
+  const bool fresh = runner.steps() != board.histories.passesOf;
+  board.histories.passesOf = runner.steps();
+  ImGui::TextDisabled("simulation, last step");
+  if (beginTable("simulation")) {
+    for (const offline::PassTime& pass : runner.log().times()) row(board, pass.name, pass.ms, pass.runs, fresh);
+    for (const auto& [name, reason] : runner.log().skipped()) left(name, reason);
+    ImGui::EndTable();
+  }
+  ImGui::TextDisabled("picture");
+  if (beginTable("picture")) {
+    for (const Timing& pass : board.display.pictureTimings()) row(board, std::string(pass.name), pass.ms, pass.runs, fresh);
+    for (const PassReport& pass : board.display.pictureReport())
+      if (!pass.reason.empty()) left(pass.name, pass.reason);
+    ImGui::EndTable();
+  }
+}
+
+}  // namespace rill::view

@@ -1,0 +1,67 @@
+// Which scene, which view, and how it runs.
+#include <cstdio>
+
+#include "rill/offline.hpp"
+#include "view/panels/board.hpp"
+
+namespace rill::view {
+namespace {
+
+template <class Names>
+std::string combo(const char* label, const std::string& chosen, const Names& names) {
+  std::string picked;
+  ImGui::SetNextItemWidth(-80 * ImGui::GetFontSize() / 15);
+  if (!ImGui::BeginCombo(label, chosen.c_str())) return picked;
+  for (const auto& name : names)
+    if (ImGui::Selectable(std::string(name).c_str(), std::string(name) == chosen)) picked = name;
+  ImGui::EndCombo();
+  return picked;
+}
+
+}  // namespace
+
+void scenePanel(Board& board) {
+  Requests& requests = board.requests;
+  if (const std::string picked = combo("scene", board.scene, board.scenes); !picked.empty()) requests.open = picked;
+  if (const std::string picked = combo("view", board.settings.view, offline::Simulation::views()); !picked.empty())
+    board.settings.view = picked;
+
+  if (ImGui::Button(board.settings.paused ? "Go on (P)" : "Pause (P)")) board.settings.paused = !board.settings.paused;
+  ImGui::SameLine();
+  if (ImGui::Button("Step (O)")) requests.oneStep = true;
+  ImGui::SameLine();
+  if (ImGui::Button("Restart (R)")) requests.restart = true;
+  if (ImGui::Button("Save scene")) requests.save = true;
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("with its changes, as a .json file in the current folder");
+  ImGui::SameLine();
+  if (ImGui::Button(board.interface.theme() == Theme::Dark ? "Light" : "Dark"))
+    board.interface.setTheme(board.interface.theme() == Theme::Dark ? Theme::Light : Theme::Dark);
+  ImGui::SameLine();
+  if (ImGui::Button("Help (F1)")) board.settings.help = true;
+
+  constexpr struct {
+    const char* name;
+    double scale;
+  } kScales[] = {{"as fast as needed", 0}, {"100 %", 1}, {"75 %", 0.75}, {"50 %", 0.5}};
+  const char* now = kScales[0].name;
+  for (const auto& row : kScales)
+    if (row.scale == board.settings.scale) now = row.name;
+  ImGui::SetNextItemWidth(-80 * ImGui::GetFontSize() / 15);
+  if (ImGui::BeginCombo("picture", now)) {
+    for (const auto& row : kScales)
+      if (ImGui::Selectable(row.name, row.scale == board.settings.scale)) board.settings.scale = row.scale;
+    ImGui::EndCombo();
+  }
+  ImGui::SetNextItemWidth(-80 * ImGui::GetFontSize() / 15);
+  if (ImGui::BeginCombo("present", std::string(presentModeName(board.display.mode())).c_str())) {
+    for (const VkPresentModeKHR mode : board.display.modes())
+      if (ImGui::Selectable(std::string(presentModeName(mode)).c_str(), mode == board.display.mode())) requests.mode = mode;
+    ImGui::EndCombo();
+  }
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextDisabled("%s", board.device.c_str());
+  if (!board.session.scene().about.empty()) ImGui::TextDisabled("%s", board.session.scene().about.c_str());
+  ImGui::PopTextWrapPos();
+}
+
+}  // namespace rill::view

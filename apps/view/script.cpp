@@ -1,0 +1,160 @@
+#include "view/script.hpp"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+#include "core/words.hpp"
+#include "scene/json_text.hpp"
+#include "view/keys.hpp"
+
+namespace rill::view {
+namespace {
+
+struct Command {
+  std::string_view name, arguments, about;
+  size_t count;  ///< of arguments
+};
+constexpr Command kCommands[] = {{"move", "X Y", "the pointer, pixels from the top left", 2},
+                                 {"press", "left|middle|right", "a button of the mouse", 1},
+                                 {"release", "left|middle|right", "the same", 1},
+                                 {"wheel", "STEPS", "away from you where positive", 1},
+                                 {"key", "NAME", "press and release a key: P, Tab, F1, Enter ...", 1},
+                                 {"type", "TEXT", "without spaces, into the field that has the focus", 1},
+                                 {"drop", "FILE", "a file onto the window", 1},
+                                 {"set", "KEY=VALUE", "a key of the scene, as fluid.viscosity=0.1", 1},
+                                 {"scene", "NAME", "open a scene", 1},
+                                 {"view", "NAME", "show a view", 1},
+                                 {"resize", "WIDTH HEIGHT", "the window", 2},
+                                 {"minimise", "", "the window", 0},
+                                 {"restore", "", "the window", 0},
+                                 {"screenshot", "FILE", "write the window as it is after this frame", 1}};
+
+std::vector<std::string_view> wordsOf(std::string_view line) {
+  std::vector<std::string_view> words;
+  line = line.substr(0, line.find('#'));
+  for (size_t at = 0;;) {
+    at = line.find_first_not_of(" \t\r", at);
+    if (at == std::string_view::npos) return words;
+    const size_t end = std::min(line.find_first_of(" \t\r", at), line.size());
+    words.push_back(line.substr(at, end - at));
+    at = end;
+  }
+}
+
+template <class Number>
+std::optional<Number> number(std::string_view text) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::optional<int> button(std::string_view name) {
+  if (name == "left") return GLFW_MOUSE_BUTTON_LEFT;
+  if (name == "middle") return GLFW_MOUSE_BUTTON_MIDDLE;
+  if (name == "right") return GLFW_MOUSE_BUTTON_RIGHT;
+  return std::nullopt;
+}
+
+/// Appends what a line says; a text of what is wrong where that is nothing.
+std::string read(const std::vector<std::string_view>& words, std::vector<ScriptLine>& lines) {
+  const auto frame = number<uint64_t>(words[0]);
+  if (!frame) return inQuotes(words[0]) + " was found; expected the number of a frame";
+  if (!lines.empty() && *frame < lines.back().frame)
+    return "frame " + std::to_string(*frame) + " comes after frame " + std::to_string(lines.back().frame) + "; expected frames in order";
+  std::vector<std::string_view> names;
+  for (const Command& command : kCommands) names.push_back(command.name);
+  if (words.size() < 2) return "there is no command after the frame";
+  const auto command = std::ranges::find(kCommands, words[1], &Command::name);
+  if (command == std::end(kCommands)) {
+    const std::string_view near = nearestWord(words[1], names);
+    return "there is no command " + inQuotes(words[1]) + (near.empty() ? "" : "; did you mean " + inQuotes(near) + "?");
+  }
+  const auto expected = [&] {
+    return std::string(words[1]) + ": expected \"" + std::string(words[1]) + " " + std::string(command->arguments) + "\"";
+  };
+  if (words.size() != 2 + command->count) return expected();
+  const std::string_view what = words[1], first = words.size() > 2 ? words[2] : std::string_view();
+
+  ScriptLine line;
+  line.frame = *frame;
+  if (what == "move") {
+    const auto x = number<double>(first), y = number<double>(words[3]);
+    if (!x || !y) return expected();
+    line.input = {.kind = InputEvent::Kind::Move, .x = *x, .y = *y};
+  } else if (what == "press" || what == "release") {
+    const auto code = button(first);
+    if (!code) return expected();
+    line.input = {.kind = InputEvent::Kind::Button, .code = *code, .down = what == "press"};
+  } else if (what == "wheel") {
+    const auto steps = number<double>(first);
+    if (!steps) return expected();
+    line.input = {.kind = InputEvent::Kind::Wheel, .y = *steps};
+  } else if (what == "key") {
+    const auto key = keyNamed(first);
+    if (!key) return "there is no key " + inQuotes(first) + " that does anything";
+    line.input = {.kind = InputEvent::Kind::Key, .code = *key, .down = true};
+    lines.push_back(line);
+    line.input.down = false;
+  } else if (what == "type" || what == "drop") {
+    line.input.kind = what == "type" ? InputEvent::Kind::Text : InputEvent::Kind::Drop;
+    line.input.text = first;
+  } else if (what == "set") {
+    auto change = parseOverride(first);
+    if (!change) return change.error().message;
+    line.kind = ScriptLine::Kind::Set;
+    line.change = std::move(*change);
+  } else if (what == "resize") {
+    const auto width = number<uint32_t>(first), height = number<uint32_t>(words[3]);
+    if (!width || !height || *width < 1 || *height < 1 || *width > 8192 || *height > 8192) return expected();
+    line.kind = ScriptLine::Kind::Resize;
+    line.width = *width;
+    line.height = *height;
+  } else {
+    line.kind = what == "scene"      ? ScriptLine::Kind::Scene
+                : what == "view"     ? ScriptLine::Kind::View
+                : what == "minimise" ? ScriptLine::Kind::Minimise
+                : what == "restore"  ? ScriptLine::Kind::Restore
+                                     : ScriptLine::Kind::Screenshot;
+    line.name = first;
+  }
+  lines.push_back(std::move(line));
+  return {};
+}
+
+}  // namespace
+
+Expected<std::vector<ScriptLine>> parseScript(std::string_view text, std::string_view name) {
+  std::vector<ScriptLine> lines;
+  size_t row = 0;
+  while (!text.empty()) {
+    const size_t end = std::min(text.find('\n'), text.size());
+    ++row;
+    if (const auto words = wordsOf(text.substr(0, end)); !words.empty())
+      if (const std::string wrong = read(words, lines); !wrong.empty())
+        return Error{ErrorKind::BadInput, std::string(name) + ":" + std::to_string(row) + ": " + wrong};
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
+
+Expected<std::vector<ScriptLine>> loadScript(const std::filesystem::path& file) {
+  auto text = readWholeFile(file, kMostSceneBytes);
+  if (!text) return text.error();
+  return parseScript(*text, file.string());
+}
+
+std::string scriptHelp() {
+  std::string text;
+  for (const Command& command : kCommands) {
+    const std::string how = std::string(command.name) + (command.arguments.empty() ? "" : " ") + std::string(command.arguments);
+    text += "  " + how + std::string(how.size() < 26 ? 26 - how.size() : 1, ' ') + std::string(command.about) + "\n";
+  }
+  return text;
+}
+
+}  // namespace rill::view

@@ -1,0 +1,31 @@
+#pragma once
+// What hands do, as a text: for tests, and for reports of bugs that others can replay.
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rill/scene_io.hpp"
+#include "view/input.hpp"
+
+namespace rill::view {
+
+struct ScriptLine {
+  enum class Kind { Input, Set, Scene, View, Resize, Minimise, Restore, Screenshot };
+  uint64_t frame = 0;  ///< displayed frame, the first is 0
+  Kind kind = Kind::Input;
+  InputEvent input;
+  Override change;
+  std::string name;                ///< of a scene, a view, a file
+  uint32_t width = 0, height = 0;  ///< of Resize, pixels
+};
+
+/// One command a line, "FRAME COMMAND ...", frames not falling; '#' begins a comment. BadInput with "name:line: ...".
+Expected<std::vector<ScriptLine>> parseScript(std::string_view text, std::string_view name);
+Expected<std::vector<ScriptLine>> loadScript(const std::filesystem::path& file);
+
+/// What a script can say, a line each.
+std::string scriptHelp();
+
+}  // namespace rill::view

@@ -1,0 +1,100 @@
+#include "view/session.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "scene/json_text.hpp"
+#include "scene/overrides.hpp"
+
+namespace rill::view {
+
+Expected<std::unique_ptr<Session>> Session::open(offline::Context& context, const std::filesystem::path& file,
+                                                 std::vector<Override> changes) {
+  std::unique_ptr<Session> made(new Session(context, file));
+  if (auto begun = made->begin(std::move(changes)); !begun) return begun.error();
+  return made;
+}
+
+std::filesystem::file_time_type Session::written() const {
+  std::error_code missing;
+  const auto time = std::filesystem::last_write_time(file_, missing);
+  return missing ? read_ : time;  // one that is being replaced is looked at again later
+}
+
+Expected<void> Session::begin(std::vector<Override> changes) {
+  read_ = written();
+  auto scene = loadScene(file_, changes);
+  if (!scene) return scene.error();
+  auto runner = Runner::create(context_, std::move(*scene));
+  if (!runner) return runner.error();
+  if (auto begun = (*runner)->begin(); !begun) return begun;
+  changes_ = std::move(changes);
+  painter_.reset();
+  runner_ = std::move(*runner);
+  painter_ = std::make_unique<offline::Painter>(runner_->scene(), runner_->start(), 0);
+  return {};
+}
+
+Expected<void> Session::restart() { return begin(changes_); }
+
+bool Session::isLive(std::string_view key) const {
+  constexpr std::string_view kAnew[] = {"fluid.spacing",         "fluid.particles", "fluid.density",
+                                        "fluid.smoothing_ratio", "solver.kernel",   "solver.neighbors"};
+  if (std::ranges::find(kAnew, key) != std::end(kAnew)) return false;
+  if (key == "gravity") return scene().gravity_changes.empty();
+  return key.starts_with("fluid.") || key.starts_with("solver.") || key.starts_with("look.");
+}
+
+Expected<void> Session::apply(std::vector<Override> changes, bool live) {
+  if (!live) return begin(std::move(changes));
+  auto scene = loadScene(file_, changes);
+  if (!scene) return scene.error();
+  if (auto changed = runner_->change(std::move(*scene)); !changed) return changed;
+  changes_ = std::move(changes);
+  painter_ = std::make_unique<offline::Painter>(runner_->scene(), runner_->start(), 0);
+  return {};
+}
+
+Expected<void> Session::change(const Override& change) {
+  std::vector<Override> changes = changes_;
+  std::erase_if(changes, [&](const Override& other) { return other.key == change.key; });
+  changes.push_back(change);
+  return apply(std::move(changes), isLive(change.key));
+}
+
+Expected<void> Session::reset(std::string_view key) {
+  std::vector<Override> changes = changes_;
+  std::erase_if(changes, [&](const Override& other) { return other.key == key; });
+  return apply(std::move(changes), isLive(key));
+}
+
+bool Session::isChanged(std::string_view key) const {
+  return std::ranges::any_of(changes_, [&](const Override& change) { return change.key == key; });
+}
+
+Expected<std::string> Session::text(const std::filesystem::path& folder) const {
+  auto bytes = readWholeFile(file_, kMostSceneBytes);
+  if (!bytes) return bytes.error();
+  auto root = parseJsonText(*bytes, file_.string());
+  if (!root) return root.error();
+  OverrideMarks marks;
+  if (auto applied = applyOverrides(*root, changes_, marks); !applied) return applied.error();
+  if (root->contains("fill"))
+    for (Json& fill : (*root)["fill"])
+      if (fill.contains("particles")) {
+        Json& name = fill["particles"]["file"];
+        std::error_code ignored;
+        const auto whole = std::filesystem::absolute(file_.parent_path() / name.get<std::string>(), ignored);
+        name = std::filesystem::proximate(whole, std::filesystem::absolute(folder, ignored), ignored).string();
+      }
+  return root->dump(2) + "\n";
+}
+
+bool Session::fileChanged(double now_s) {
+  if (now_s - asked_s_ < 0.5) return false;
+  asked_s_ = now_s;
+  return written() != read_;
+}
+
+}  // namespace rill::view

@@ -1,0 +1,26 @@
+#version 460
+// The interface's colour, covered by the font's atlas (a byte a texel), linearly between texels.
+layout(std430, set = 0, binding = 2) readonly buffer Font { uint font[]; };
+layout(push_constant) uniform Push {
+  vec2 clipMin, clipSize;
+  uint firstIndex;
+  uint fontWidth, fontHeight;
+};
+layout(location = 0) in vec2 texel;
+layout(location = 1) in vec4 colour;
+layout(location = 0) out vec4 result;
+
+float coverage(ivec2 at) {
+  const uvec2 inside = uvec2(clamp(at, ivec2(0), ivec2(fontWidth, fontHeight) - 1));
+  const uint index = inside.y * fontWidth + inside.x;
+  return float(font[index >> 2] >> 8 * (index & 3u) & 255u) / 255.0;
+}
+
+void main() {
+  const vec2 corner = floor(texel - 0.5), part = texel - 0.5 - corner;
+  const ivec2 at = ivec2(corner);
+  const float above = mix(coverage(at), coverage(at + ivec2(1, 0)), part.x);
+  const float below = mix(coverage(at + ivec2(0, 1)), coverage(at + ivec2(1, 1)), part.x);
+  const float alpha = colour.a * mix(above, below, part.y);
+  result = vec4(colour.rgb * alpha, alpha);
+}

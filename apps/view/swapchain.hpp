@@ -1,0 +1,93 @@
+#pragma once
+// The images of a window, made anew whenever the window's size or the present mode asks for it.
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "offline/context.hpp"
+
+#define RILL_SWAPCHAIN_INSTANCE_FUNCTIONS(X) \
+  X(DestroySurfaceKHR)                       \
+  X(GetDeviceProcAddr)                       \
+  X(GetPhysicalDeviceSurfaceCapabilitiesKHR) \
+  X(GetPhysicalDeviceSurfaceFormatsKHR)      \
+  X(GetPhysicalDeviceSurfacePresentModesKHR)
+
+#define RILL_SWAPCHAIN_DEVICE_FUNCTIONS(X) \
+  X(AcquireNextImageKHR)                   \
+  X(CmdPipelineBarrier2)                   \
+  X(CreateSemaphore)                       \
+  X(CreateSwapchainKHR)                    \
+  X(DestroySemaphore)                      \
+  X(DestroySwapchainKHR)                   \
+  X(GetSwapchainImagesKHR)                 \
+  X(QueuePresentKHR)                       \
+  X(QueueWaitIdle)
+
+namespace rill::view {
+
+class Swapchain {
+ public:
+  /// An image to draw to, between acquire() and present().
+  struct Target {
+    VkImage image = VK_NULL_HANDLE;
+    uint32_t index = 0;
+    uint32_t width = 0, height = 0;  ///< pixels
+    VkSemaphoreSubmitInfo ready{}, drawn{};
+  };
+
+  /// Takes over `surface`. NoDevice where the device cannot show pictures on it.
+  static Expected<std::unique_ptr<Swapchain>> create(offline::Context& context, VkSurfaceKHR surface);
+  ~Swapchain();
+
+  VkFormat format() const { return format_; }
+  /// For windows of this many pixels, or those that the surface insists on. Waits for what is drawn.
+  Expected<void> make(uint32_t width, uint32_t height);
+  /// None: the window has changed, the swapchain has to be made anew; or it shows nothing.
+  Expected<std::optional<Target>> acquire();
+  /// Once the image has been drawn to as a colour target: makes it ready to be shown. Recorded after the graph.
+  void finish(VkCommandBuffer commands, const Target& target) const;
+  /// False: the swapchain has to be made anew.
+  Expected<bool> present(const Target& target);
+
+  std::span<const VkPresentModeKHR> modes() const { return modes_; }
+  VkPresentModeKHR mode() const { return mode_; }
+  void choose(VkPresentModeKHR mode) { mode_ = mode; }  ///< one of modes(), from the next make() on
+
+ private:
+  Swapchain(offline::Context& context, VkSurfaceKHR surface) : context_(context), surface_(surface) {}
+  Expected<void> load();
+  void destroySemaphores();
+  Expected<VkSemaphore> semaphore();
+
+  offline::Context& context_;
+  VkSurfaceKHR surface_;
+  VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
+  VkFormat format_ = VK_FORMAT_UNDEFINED;
+  VkColorSpaceKHR space_ = VK_COLOR_SPACE_SRGB_NONLINEAR_KHR;
+  std::vector<VkPresentModeKHR> modes_;
+  VkPresentModeKHR mode_ = VK_PRESENT_MODE_FIFO_KHR;
+  uint32_t width_ = 0, height_ = 0;
+  std::vector<VkImage> images_;
+  std::vector<VkSemaphore> drawn_;  ///< one an image: free once the image is acquired again
+  std::vector<VkSemaphore> ready_;  ///< in turn, more than there are submits in flight
+  size_t turn_ = 0;
+
+#define RILL_DECLARE(name) PFN_vk##name name = nullptr;
+  struct {
+    RILL_SWAPCHAIN_INSTANCE_FUNCTIONS(RILL_DECLARE)
+  } vki_;
+  struct {
+    RILL_SWAPCHAIN_DEVICE_FUNCTIONS(RILL_DECLARE)
+  } vk_;
+#undef RILL_DECLARE
+};
+
+/// "fifo", "mailbox", "immediate", "fifo relaxed".
+std::string_view presentModeName(VkPresentModeKHR mode);
+
+/// Command buffers of the viewer's context: two displayed frames, each with a piece of simulation.
+constexpr uint32_t kSubmitsInFlight = 4;
+
+}  // namespace rill::view

@@ -1,0 +1,591 @@
+#include "view/viewer.hpp"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <thread>
+
+#include "core/words.hpp"
+#include "shared/atomic_file.hpp"
+#include "shared/exit_code.hpp"
+#include "shared/png.hpp"
+#include "shared/scene_folders.hpp"
+#include "shared/signals.hpp"
+#include "view/clock.hpp"
+#include "view/display.hpp"
+#include "view/gravity_tilt.hpp"
+#include "view/keys.hpp"
+#include "view/orbit_camera.hpp"
+#include "view/panels/board.hpp"
+#include "view/script.hpp"
+
+namespace rill::view {
+namespace {
+
+namespace fs = std::filesystem;
+using Now = std::chrono::steady_clock;
+
+constexpr double kLeastPiece = 0.012, kMostPiece = 0.1;  // s of simulation a displayed frame
+constexpr double kMeasureEvery = 0.25;                   // s; figures cost a pass over the neighbours
+
+double secondsSince(Now::time_point then) { return std::chrono::duration<double>(Now::now() - then).count(); }
+
+class Viewer {
+ public:
+  explicit Viewer(const Options& options) : options_(options), scenes_(apps::SceneFolders::standard()) {}
+
+  int run() {
+    if (auto ready = open(); !ready) {
+      say(ready.error().message);
+      return apps::exitCodeBeforeRun(ready.error());
+    }
+    const Now::time_point begin = Now::now();
+    if (auto ran = loop(); !ran) {
+      say(ran.error().message);
+      return apps::kFailed;
+    }
+    if (auto told = report(secondsSince(begin)); !told) {
+      say(told.error().message);
+      return apps::kFailed;
+    }
+    return said_ ? apps::kFailed : apps::signalReceived() ? 128 + apps::signalReceived() : apps::kDone;
+  }
+
+ private:
+  Expected<void> open() {
+    sceneNames_ = scenes_.names();
+    auto file = scenes_.find(options_.scene);
+    if (!file) return file.error();
+    if (auto scene = loadScene(*file, options_.overrides); !scene) return scene.error();  // before a window flashes up
+    if (options_.script) {
+      auto script = loadScript(*options_.script);
+      if (!script) return script.error();
+      script_ = std::move(*script);
+      for (const ScriptLine& line : script_)
+        if (auto known = check(line); !known) return known;
+    }
+    auto window = Window::open("rill-view", options_.width, options_.height);
+    if (!window) return window.error();
+    window_ = std::move(*window);
+
+    offline::ContextDesc desc;
+    desc.device = options_.device;
+    desc.validation = options_.validate;
+    desc.framesInFlight = kSubmitsInFlight;
+    desc.instanceExtensions = window_->instanceExtensions();
+    desc.deviceExtensions = {VK_KHR_SWAPCHAIN_EXTENSION_NAME};
+    desc.applicationName = "rill-view";
+    desc.presents = Window::presents;
+    auto context = offline::Context::create(desc);
+    if (!context) {
+      Error error = context.error();
+      if (error.kind == ErrorKind::NoDevice) error.message += "\nrill-capture needs no window: it writes pictures to files";
+      return error;
+    }
+    context_ = std::move(*context);
+    const DeviceInfo& info = context_->device().info();
+    deviceName_ = info.name + ", " + info.driver;
+    interface_ = std::make_unique<Interface>(
+        window_->contentScale(), [this] { return window_->clipboard(); }, [this](const char* text) { window_->setClipboard(text); });
+    auto display = Display::create(*context_, *window_, interface_->fonts());
+    if (!display) return display.error();
+    display_ = std::move(*display);
+    settings_.view = options_.view;
+    return show(*file, options_.overrides);
+  }
+
+  /// Names in a script are judged before it runs.
+  Expected<void> check(const ScriptLine& line) const {
+    if (line.kind == ScriptLine::Kind::Scene)
+      if (auto file = scenes_.find(line.name); !file) return file.error();
+    const auto views = offline::Simulation::views();
+    if (line.kind == ScriptLine::Kind::View && std::ranges::find(views, line.name) == views.end())
+      return Error{ErrorKind::BadInput, "--script: there is no view " + inQuotes(line.name)};
+    return {};
+  }
+
+  /// Opens a scene in place of the present one, which stays where that fails.
+  Expected<void> show(const fs::path& file, std::vector<Override> changes = {}) {
+    auto session = Session::open(*context_, file, std::move(changes));
+    if (!session) return session.error();
+    if (auto idle = context_->wait(); !idle) return idle;
+    session_ = std::move(*session);
+    sceneName_ = session_->scene().name;
+    for (const std::string& name : sceneNames_)
+      if (auto known = scenes_.find(name); known && *known == file) sceneName_ = name;
+    window_->setTitle("Rill: " + sceneName_ + " (" + deviceName_ + ")");
+    layOutWindow(window_->framebuffer());
+    camera_.home(homeView());
+    begun();
+    for (const std::string& warning : session_->runner().warnings()) tell("warning: " + warning);
+    return {};
+  }
+
+  void layOutWindow(Window::Size size) {
+    layout_ = layOut(std::max(size.width, 4u), std::max(size.height, 4u), interface_->scale(), settings_.panels);
+  }
+
+  /// The scene's camera, opened where the picture is narrower than it was meant for, so that nothing is lost at its sides.
+  CameraView homeView() const {
+    constexpr double kMeant = 16.0 / 9;
+    const double aspect = double(layout_.picture.width) / layout_.picture.height;
+    CameraView view = session_->camera(aspect);
+    if (session_->scene().camera && aspect < kMeant) {
+      const double half = view.fov_y_deg * std::numbers::pi / 360;
+      view.fov_y_deg = std::atan(std::tan(half) * kMeant / aspect) * 360 / std::numbers::pi;
+    }
+    return view;
+  }
+
+  /// After anything that begins a simulation at its start.
+  void begun() {
+    histories_ = {};
+    stats_.reset();
+    clock_.restart();
+    scale_.restart();
+    held_ = {};
+    dirty_ = true;
+  }
+
+  Expected<void> loop() {
+    Now::time_point before = Now::now();
+    while (!window_->closing() && !apps::signalReceived() && !(options_.frames && frame_ >= *options_.frames)) {
+      const double passed = secondsSince(before);
+      before = Now::now();
+      now_s_ += passed;
+      const double seconds = options_.lockstep ? Clock::kStep : std::min(passed, 0.25);
+      frameTime_ += 0.1 * (passed - frameTime_);
+      if (auto done = frame(seconds); !done) return done;
+      ++frame_;
+      for (const std::string& message : context_->takeMessages()) {
+        say(message);
+        said_ = true;
+      }
+    }
+    return context_->wait();
+  }
+
+  Expected<void> frame(double seconds) {
+    bool screenshot = options_.screenshot && options_.frames && frame_ + 1 == *options_.frames;
+    std::optional<fs::path> picture = screenshot ? options_.screenshot : std::nullopt;
+    // Nothing moves: wait for a hand rather than draw the same again and again.
+    const bool idle = settings_.paused && !dirty_ && !camera_.moving() && !options_.frames && script_.empty();
+    std::vector<InputEvent> events = window_->events(idle ? 0.1 : 0);
+    if (auto done = replay(events, picture); !done) return done;
+    const Window::Size size = window_->framebuffer();
+    for (const InputEvent& event : events) interface_->feed(event);
+    interface_->begin(seconds, std::max(size.width, 1u), std::max(size.height, 1u));
+    for (const InputEvent& event : events)
+      if (auto done = handle(event); !done) return done;
+    if (asked_) picture = std::exchange(asked_, std::nullopt);
+    if (session_->fileChanged(now_s_))
+      if (auto done = reload(); !done) return done;
+
+    if (auto done = simulate(seconds); !done) return done;
+
+    if (size.width == 0 || size.height == 0) {  // minimised
+      interface_->skip();
+      if (!options_.lockstep) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      return {};
+    }
+    if (auto fits = display_->fit(size); !fits) return fits;
+    if (const Area before = layout_.picture; layOutWindow(size), layout_.picture != before) camera_.reframe(homeView());
+    camera_.update(seconds);
+    if (auto drawn = paint(); !drawn) return drawn;
+    return draw(picture);
+  }
+
+  /// The piece of simulation that belongs to this frame.
+  Expected<void> simulate(double seconds) {
+    Runner& runner = session_->runner();
+    runner.timePasses(settings_.panels);
+    const bool single = std::exchange(oneStep_, false);
+    if (options_.lockstep) {
+      if ((settings_.paused && !single) || frame_ == 0) return {};
+      if (auto ran = runner.step(); !ran) return ran;
+      return finished();
+    }
+    if (!settings_.paused) clock_.passed(seconds);
+    if (single && runner.between()) {
+      if (auto ran = runner.piece(budget()); !ran) return ran;
+      if (runner.between()) return finished();
+    }
+    const Now::time_point begin = Now::now();
+    for (double left = budget(); left > 0; left = budget() - secondsSince(begin)) {
+      if (runner.between()) {
+        if (settings_.paused || !clock_.due()) return {};
+        clock_.begun();
+      }
+      if (auto ran = runner.piece(left); !ran) return ran;
+      if (!runner.between()) continue;
+      clock_.finished();
+      if (auto done = finished(); !done) return done;
+    }
+    return {};
+  }
+
+  /// As much as the picture takes: the window answers, and the fluid moves on.
+  double budget() const { return std::clamp(picture_s_, kLeastPiece, kMostPiece); }
+
+  Expected<void> finished() {
+    const StepFigures& step = session_->runner().last();
+    histories_.substeps.add(step.substeps);
+    histories_.iterations.add(step.iterations);
+    histories_.wall_ms.add(1e3 * step.wall_s);
+    dirty_ = true;
+    const bool density = settings_.view == "density";
+    if (!density && !(settings_.panels && now_s_ - measured_s_ >= kMeasureEvery)) return {};
+    measured_s_ = now_s_;
+    auto stats = session_->runner().measure();
+    if (!stats) return stats.error();
+    stats_ = *stats;
+    histories_.error.add(100 * stats->density_error_mean);
+    return {};
+  }
+
+  Expected<void> paint() {
+    if (const auto took = display_->pictureSeconds()) {
+      picture_s_ = *took;
+      if (settings_.scale == 0 && !options_.lockstep) scale_.drew(*took);
+    }
+    const double scale = settings_.scale > 0 ? settings_.scale : options_.lockstep ? 1 : scale_.scale();
+    const CameraView eye = camera_.view();
+    const bool same = eye.fov_y_deg == painted_.eye.fov_y_deg && std::ranges::equal(eye.eye, painted_.eye.eye) &&
+                      std::ranges::equal(eye.target, painted_.eye.target) && painted_.scale == scale && painted_.view == settings_.view &&
+                      painted_.area == layout_.picture;
+    if (same && !dirty_) return {};
+    if (settings_.view == "density" && painted_.view != "density" && session_->runner().between())
+      if (auto measured = session_->runner().measure(); !measured) return measured.error();
+    auto drawn = display_->paint(*session_, settings_.view, eye, layout_.picture, scale, session_->runner().time_s());
+    if (!drawn) {
+      if (drawn.error().kind != ErrorKind::BadInput || painted_.area.width == 0) return drawn;
+      tell(drawn.error().message);  // the old picture stays
+    }
+    painted_ = {eye, scale, settings_.view, layout_.picture};
+    dirty_ = false;
+    return {};
+  }
+
+  Expected<void> draw(const std::optional<fs::path>& picture) {
+    Board board{*session_, *display_, *interface_, settings_, sceneNames_, sceneName_, deviceName_, histories_, held_, message_};
+    board.layout = layout_;
+    board.stats = stats_;
+    board.framesPerSecond = frameTime_ > 0 ? 1 / frameTime_ : 0;
+    board.speed = clock_.speed();
+    board.pictureScale = painted_.scale;
+    board.picture_s = picture_s_;
+    board.lockstep = options_.lockstep;
+    drawPanels(board);
+    const ImDrawData& lists = interface_->end();
+    offline::Image image;
+    const bool dark = interface_->theme() == Theme::Dark;
+    const ImVec4 behind = dark ? ImVec4(0.09f, 0.1f, 0.12f, 1) : ImVec4(0.86f, 0.88f, 0.9f, 1);
+    if (auto shown = display_->show(lists, behind, picture ? &image : nullptr); !shown) return shown;
+    if (picture && image.width > 0) {
+      if (auto written = apps::writePng(*picture, image); !written)
+        if (auto told = attempt(written, ""); !told) return told;
+    }
+    return serve(board.requests);
+  }
+
+  /// What was asked for in the panels.
+  Expected<void> serve(const Requests& requests) {
+    if (requests.mode) display_->choose(*requests.mode);
+    if (requests.oneStep) oneStepAndPause();
+    if (requests.save) save();
+    if (requests.open)
+      if (auto done = openNamed(requests.open->string()); !done) return done;
+    if (requests.restart)
+      if (auto done = restart(); !done) return done;
+    if (requests.reset) return changed(session_->reset(*requests.reset), *requests.reset);
+    return requests.change ? changed(session_->change(*requests.change), requests.change->key) : Expected<void>();
+  }
+
+  Expected<void> changed(const Expected<void>& change, const std::string& key) {
+    if (change && !session_->isLive(key)) begun();
+    dirty_ = true;
+    return attempt(change, "");
+  }
+
+  Expected<void> restart() {
+    auto done = session_->restart();
+    if (done) begun();
+    return attempt(done, "");
+  }
+
+  /// The file is another one now. A broken one leaves what runs.
+  Expected<void> reload() {
+    auto done = session_->restart();
+    if (done) begun();
+    return attempt(done, session_->file().filename().string() + " has changed and was read again");
+  }
+
+  Expected<void> openNamed(const std::string& name) {
+    auto file = scenes_.find(name);
+    if (!file) return attempt(file.error(), "");
+    return attempt(show(*file), "");
+  }
+
+  Expected<void> tilt(Tilt way) {
+    constexpr double kDegrees = 10;
+    const Scene& scene = session_->scene();
+    if (!session_->isLive("gravity")) {
+      tell("This scene's gravity follows a schedule (gravity_changes)");
+      return {};
+    }
+    const auto g = tilted({scene.gravity[0], scene.gravity[1], scene.gravity[2]}, camera_.view(), way, kDegrees);
+    char text[96];
+    std::snprintf(text, sizeof text, "[%.9g, %.9g, %.9g]", g[0], g[1], g[2]);
+    return changed(session_->change({"gravity", text}), "gravity");
+  }
+
+  void oneStepAndPause() {
+    settings_.paused = true;
+    oneStep_ = true;
+  }
+
+  void save() {
+    auto text = session_->text(fs::current_path());
+    if (!text) return tell(text.error().message);
+    const std::string stem = session_->scene().name + "-changed";
+    fs::path file = stem + ".json";
+    for (int k = 2; fs::exists(file); ++k) file = stem + "-" + std::to_string(k) + ".json";
+    auto written = apps::writeFile(file, *text);
+    tell(written ? "The scene was saved as " + fs::absolute(file).string() : written.error().message);
+  }
+
+  /// An error that leaves something to look at is shown in the window; others end the program.
+  Expected<void> attempt(const Expected<void>& done, const std::string& notice) {
+    if (done) {
+      if (!notice.empty()) tell(notice);
+      return {};
+    }
+    const ErrorKind kind = done.error().kind;
+    if (kind == ErrorKind::DeviceLost || kind == ErrorKind::Failed) return done;
+    tell(done.error().message);
+    return {};
+  }
+  void tell(const std::string& text) { message_ = text; }
+
+  Expected<void> handle(const InputEvent& event) {
+    const Area& area = layout_.picture;
+    const double height = area.height, middle[2] = {area.x + 0.5 * area.width, area.y + 0.5 * area.height};
+    switch (event.kind) {
+      case InputEvent::Kind::Move: {
+        const double right = (event.x - pointer_.x) / height, down = (event.y - pointer_.y) / height;
+        pointer_.x = event.x;
+        pointer_.y = event.y;
+        if (drag_ == Drag::Orbit) camera_.orbit(right, down);
+        if (drag_ == Drag::Pan) camera_.pan(right, down);
+        if (drag_ == Drag::Dolly) camera_.dolly(-20 * down, (grip_.x - middle[0]) / height, (grip_.y - middle[1]) / height);
+        return {};
+      }
+      case InputEvent::Kind::Button:
+        drag_ = Drag::None;
+        if (!event.down || interface_->wantsMouse()) return {};
+        grip_ = pointer_;
+        drag_ = event.code == GLFW_MOUSE_BUTTON_RIGHT                                          ? Drag::Dolly
+                : event.code == GLFW_MOUSE_BUTTON_MIDDLE || (event.modifiers & GLFW_MOD_SHIFT) ? Drag::Pan
+                                                                                               : Drag::Orbit;
+        return {};
+      case InputEvent::Kind::Wheel:
+        if (!interface_->wantsMouse()) camera_.dolly(event.y, (pointer_.x - middle[0]) / height, (pointer_.y - middle[1]) / height);
+        return {};
+      case InputEvent::Kind::Key:
+        if (!event.down || interface_->wantsKeys() || (event.modifiers & GLFW_MOD_CONTROL)) return {};
+        if (event.code == GLFW_KEY_ESCAPE) settings_.help = false;
+        for (const KeyBinding& binding : keyBindings())
+          if (binding.key == event.code) return act(binding.action, event.modifiers & GLFW_MOD_SHIFT);
+        return {};
+      case InputEvent::Kind::Drop:
+        return attempt(show(event.text), "");
+      default:
+        return {};
+    }
+  }
+
+  Expected<void> act(Action action, bool shift) {
+    switch (action) {
+      case Action::Pause:
+        settings_.paused = !settings_.paused;
+        break;
+      case Action::OneStep:
+        oneStepAndPause();
+        break;
+      case Action::Restart:
+        return restart();
+      case Action::PreviousScene:
+        return openNamed(neighbour(sceneNames_, sceneName_, -1));
+      case Action::NextScene:
+        return openNamed(neighbour(sceneNames_, sceneName_, 1));
+      case Action::NextView: {
+        const auto views = offline::Simulation::views();
+        settings_.view = neighbour(std::vector<std::string>(views.begin(), views.end()), settings_.view, shift ? -1 : 1);
+        break;
+      }
+      case Action::Home:
+        camera_.home();
+        break;
+      case Action::Front:
+        camera_.look(AxisView::Front);
+        break;
+      case Action::Back:
+        camera_.look(AxisView::Back);
+        break;
+      case Action::Right:
+        camera_.look(AxisView::Right);
+        break;
+      case Action::Left:
+        camera_.look(AxisView::Left);
+        break;
+      case Action::Top:
+        camera_.look(AxisView::Top);
+        break;
+      case Action::Bottom:
+        camera_.look(AxisView::Bottom);
+        break;
+      case Action::TiltLeft:
+        return tilt(Tilt::Left);
+      case Action::TiltRight:
+        return tilt(Tilt::Right);
+      case Action::TiltAway:
+        return tilt(Tilt::Away);
+      case Action::TiltTowards:
+        return tilt(Tilt::Towards);
+      case Action::Panels:
+        settings_.panels = !settings_.panels;
+        break;
+      case Action::Theme:
+        interface_->setTheme(interface_->theme() == Theme::Dark ? Theme::Light : Theme::Dark);
+        break;
+      case Action::Screenshot: {
+        fs::path file;
+        for (int k = 1; file.empty() || fs::exists(file); ++k) file = "rill-view-" + std::to_string(k) + ".png";
+        asked_ = file;
+        break;
+      }
+      case Action::Help:
+        settings_.help = !settings_.help;
+        break;
+    }
+    return {};
+  }
+
+  /// The name that lies `step` after another in a ring; the first where that is not among them.
+  static std::string neighbour(const std::vector<std::string>& names, const std::string& name, int step) {
+    const auto at = std::ranges::find(names, name);
+    if (at == names.end()) return names.empty() ? name : names.front();
+    const auto count = static_cast<int>(names.size());
+    return names[static_cast<size_t>((static_cast<int>(at - names.begin()) + step + count) % count)];
+  }
+
+  /// What the script says of this frame.
+  Expected<void> replay(std::vector<InputEvent>& events, std::optional<fs::path>& picture) {
+    for (; nextLine_ < script_.size() && script_[nextLine_].frame <= frame_; ++nextLine_) {
+      const ScriptLine& line = script_[nextLine_];
+      Expected<void> done;
+      switch (line.kind) {
+        case ScriptLine::Kind::Input:
+          events.push_back(line.input);
+          break;
+        case ScriptLine::Kind::Set:
+          done = changed(session_->change(line.change), line.change.key);
+          break;
+        case ScriptLine::Kind::Scene:
+          done = openNamed(line.name);
+          break;
+        case ScriptLine::Kind::View:
+          settings_.view = line.name;
+          break;
+        case ScriptLine::Kind::Resize:
+          window_->resize(line.width, line.height);
+          break;
+        case ScriptLine::Kind::Minimise:
+          window_->minimise(true);
+          break;
+        case ScriptLine::Kind::Restore:
+          window_->minimise(false);
+          break;
+        case ScriptLine::Kind::Screenshot:
+          picture = line.name;
+          break;
+      }
+      if (!done) return done;
+    }
+    // A script without --frames ends the program with its last line.
+    if (!script_.empty() && nextLine_ == script_.size() && !options_.frames) window_->close();
+    return {};
+  }
+
+  /// After a run that ends by itself: what it came to.
+  Expected<void> report(double wall_s) {
+    if (!options_.frames && script_.empty()) return {};
+    auto& runner = session_->runner();
+    if (!runner.between())
+      if (auto ended = runner.step(); !ended) return ended;
+    auto hash = runner.hash();
+    if (!hash) return hash.error();
+    char text[256];
+    std::snprintf(text, sizeof text,
+                  "scene       %s\nframes      %llu\nsteps       %llu\ntime_s      %.9g\nwall_s      %.3f\nstate_hash  %016llx\n",
+                  sceneName_.c_str(), static_cast<unsigned long long>(frame_), static_cast<unsigned long long>(runner.steps()),
+                  runner.time_s(), wall_s, static_cast<unsigned long long>(*hash));
+    return apps::writeAll(STDOUT_FILENO, "standard output", text);
+  }
+
+  static void say(const std::string& text) { std::fprintf(stderr, "rill-view: %s\n", text.c_str()); }
+
+  enum class Drag { None, Orbit, Pan, Dolly };
+  struct Place {
+    double x = 0, y = 0;  // pixels
+  };
+  struct Painted {
+    CameraView eye;
+    double scale = 1;
+    std::string view;
+    Area area;
+  };
+
+  const Options& options_;
+  apps::SceneFolders scenes_;
+  std::vector<std::string> sceneNames_;
+  std::vector<ScriptLine> script_;
+  size_t nextLine_ = 0;
+
+  // In the order in which they depend on each other.
+  std::unique_ptr<Window> window_;
+  std::unique_ptr<offline::Context> context_;
+  std::unique_ptr<Interface> interface_;
+  std::unique_ptr<Display> display_;
+  std::unique_ptr<Session> session_;
+
+  std::string deviceName_, sceneName_, message_;
+  Settings settings_;
+  Layout layout_;
+  OrbitCamera camera_{CameraView{}};
+  Clock clock_;
+  PictureScale scale_;
+  Histories histories_;
+  HeldEdit held_;
+  std::optional<FluidStats> stats_;
+  Painted painted_;
+  Place pointer_, grip_;  // the pointer; where it was when it took hold
+  Drag drag_ = Drag::None;
+  bool dirty_ = true;  // the picture
+  bool oneStep_ = false;
+  bool said_ = false;              // by the validation layer
+  std::optional<fs::path> asked_;  // a screenshot
+  uint64_t frame_ = 0;
+  double now_s_ = 0, measured_s_ = -1, picture_s_ = 0, frameTime_ = 0;
+};
+
+}  // namespace
+
+int runViewer(const Options& options) { return Viewer(options).run(); }
+
+}  // namespace rill::view

@@ -1,0 +1,53 @@
+#pragma once
+// A window by GLFW: its surface, its size, what hands do in it.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rill/device.hpp"
+#include "view/input.hpp"
+
+struct GLFWwindow;
+
+namespace rill::view {
+
+class Window {
+ public:
+  struct Size {
+    uint32_t width = 0, height = 0;  ///< pixels; 0 while it is minimised
+  };
+
+  /// One at a time. BadInput where there is no display, pointing to rill-capture.
+  static Expected<std::unique_ptr<Window>> open(const std::string& title, uint32_t width, uint32_t height);
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  std::vector<const char*> instanceExtensions() const;
+  static bool presents(VkInstance instance, VkPhysicalDevice device, uint32_t queueFamily);
+  Expected<VkSurfaceKHR> surface(VkInstance instance);
+
+  /// What happened since the last call; waits up to `seconds` for something to happen.
+  std::vector<InputEvent> events(double seconds);
+  bool closing() const;
+  void close();
+  Size framebuffer() const;
+  float contentScale() const;  ///< of text and buttons: 1 on an ordinary screen
+  void resize(uint32_t width, uint32_t height);
+  void minimise(bool minimised);
+  void setTitle(const std::string& title);
+  std::string clipboard() const;
+  void setClipboard(const char* text);
+
+ private:
+  Window() = default;
+  void listen();
+  void note(InputEvent event) { events_.push_back(std::move(event)); }
+  static Window& of(GLFWwindow* window);
+
+  GLFWwindow* window_ = nullptr;
+  std::vector<InputEvent> events_;
+  std::string title_;
+};
+
+}  // namespace rill::view

@@ -1,0 +1,147 @@
+#include "view/window_pass.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "gpu/shader_library.hpp"
+
+namespace rill {
+std::span<const EmbeddedShader> viewShaders();
+}
+
+namespace rill::view {
+namespace {
+
+static_assert(sizeof(ImDrawVert) == 20, "shaders/ui.vert reads five words a vertex");
+
+struct UiPush {
+  float clipMin[2], clipSize[2];
+  uint32_t firstIndex, fontWidth, fontHeight;
+};
+struct PicturePush {
+  uint32_t size[2];
+  float scale[2];
+  float corner[2];
+  float unused[2];
+  float behind[4];
+};
+
+std::span<const uint32_t> words(std::string_view name) { return std::ranges::find(viewShaders(), name, &EmbeddedShader::name)->words; }
+
+/// Room that does not change with every button, so that the graph's memory plan stays.
+uint64_t room(uint64_t bytes) { return std::max<uint64_t>(std::bit_ceil(bytes), 64 << 10); }
+
+template <class Record>
+BufferRef uploaded(Graph& graph, std::string_view name, const std::vector<Record>& records) {
+  BufferRef buffer = graph.create(name, {room(records.size() * sizeof(Record))});
+  graph.pass("ui upload", [&](Pass& pass) {
+    buffer = pass.write(buffer, Use::CopyTarget, true);
+    return [buffer, bytes = std::as_bytes(std::span(records))](Commands& commands) {
+      constexpr size_t kMost = 64 << 10;
+      for (size_t at = 0; at < bytes.size(); at += kMost)
+        commands.update(buffer, bytes.subspan(at, std::min(kMost, bytes.size() - at)), at);
+    };
+  });
+  return buffer;
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<WindowPass>> WindowPass::create(Device& device, VkFormat target, ImFontAtlas& fonts) {
+  auto made = std::make_unique<WindowPass>();
+  const VkFormat colours[] = {target};
+  const BindingKind storages[] = {BindingKind::Storage, BindingKind::Storage, BindingKind::Storage};
+  GraphicsPipelineDesc ui{.vertex = "view/ui.vert", .fragment = "view/ui.frag", .bindings = storages};
+  ui.pushConstantBytes = sizeof(UiPush);
+  ui.colours = colours;
+  ui.blend = Blend::Premultiplied;
+  ui.vertexWords = words("ui_vertex");
+  ui.fragmentWords = words("ui_fragment");
+  auto uiPipeline = graphicsPipeline(device, ui);
+  if (!uiPipeline) return uiPipeline.error();
+  made->ui_ = *uiPipeline;
+  GraphicsPipelineDesc picture{.vertex = "view/picture.vert", .fragment = "view/picture.frag", .bindings = std::span(storages).first(1)};
+  picture.pushConstantBytes = sizeof(PicturePush);
+  picture.colours = colours;
+  picture.vertexWords = words("picture_vertex");
+  picture.fragmentWords = words("picture_fragment");
+  auto picturePipeline = graphicsPipeline(device, picture);
+  if (!picturePipeline) return picturePipeline.error();
+  made->picture_ = *picturePipeline;
+
+  unsigned char* texels = nullptr;
+  int width = 0, height = 0;
+  fonts.GetTexDataAsAlpha8(&texels, &width, &height);
+  const size_t bytes = static_cast<size_t>(width) * static_cast<size_t>(height);
+  auto font = createBuffer(device, "font", (bytes + 3) / 4 * 4, MemoryKind::Upload);
+  if (!font) return font.error();
+  std::memcpy(font->mapped(), texels, bytes);
+  made->font_ = std::move(*font);
+  made->fontWidth_ = static_cast<uint32_t>(width);
+  made->fontHeight_ = static_cast<uint32_t>(height);
+  return made;
+}
+
+void WindowPass::upload(Graph& graph, const ImDrawData& lists) {
+  vertices_.clear();
+  indices_.clear();
+  parts_.clear();
+  for (int l = 0; l < lists.CmdListsCount; ++l) {
+    const ImDrawList& list = *lists.CmdLists[l];
+    const auto firstVertex = static_cast<uint32_t>(vertices_.size()), firstIndex = static_cast<uint32_t>(indices_.size());
+    vertices_.insert(vertices_.end(), list.VtxBuffer.begin(), list.VtxBuffer.end());
+    indices_.insert(indices_.end(), list.IdxBuffer.begin(), list.IdxBuffer.end());
+    for (const ImDrawCmd& command : list.CmdBuffer) {
+      const auto inside = [](float v, float most) { return static_cast<uint32_t>(std::clamp(v, 0.0f, most)); };
+      const uint32_t x0 = inside(std::floor(command.ClipRect.x), lists.DisplaySize.x), x1 = inside(command.ClipRect.z, lists.DisplaySize.x);
+      const uint32_t y0 = inside(std::floor(command.ClipRect.y), lists.DisplaySize.y), y1 = inside(command.ClipRect.w, lists.DisplaySize.y);
+      if (command.UserCallback || command.ElemCount == 0 || x1 <= x0 || y1 <= y0) continue;
+      const Part part{x0, y0, x1 - x0, y1 - y0, firstIndex + command.IdxOffset, command.ElemCount};
+      for (uint32_t i = 0; i < part.indices; ++i) indices_[part.firstIndex + i] += firstVertex + command.VtxOffset;
+      parts_.push_back(part);
+    }
+  }
+  if (parts_.empty()) return;
+  vertexRef_ = uploaded(graph, "ui vertices", vertices_);
+  indexRef_ = uploaded(graph, "ui indices", indices_);
+  fontRef_ = graph.import("font", {font_.handle(), 0, font_.size(), Use::None, Use::None});
+}
+
+ImageRef WindowPass::draw(Graph& graph, ImageRef target, const ShownPicture& picture, const ImVec4& behind) const {
+  graph.pass("window", [&](Pass& pass) {
+    pass.read(picture.pixels, Use::DrawRead);
+    const VkClearValue clear{.color = {.float32 = {behind.x, behind.y, behind.z, 1}}};
+    target = pass.write(target, Use::ColourTarget, Load::Clear, clear);
+    const Kernel stretched = pass.kernel(picture_, {picture.pixels});
+    Kernel ui;
+    if (!parts_.empty()) {
+      for (const BufferRef buffer : {vertexRef_, indexRef_, fontRef_}) pass.read(buffer, Use::DrawRead);
+      ui = pass.kernel(ui_, {vertexRef_, indexRef_, fontRef_});
+    }
+    const auto over = [](uint32_t a, uint32_t b) { return static_cast<float>(a) / static_cast<float>(b); };
+    const Area area = picture.area;
+    const PicturePush push{{picture.width, picture.height},
+                           {over(picture.width, area.width), over(picture.height, area.height)},
+                           {static_cast<float>(area.x), static_cast<float>(area.y)},
+                           {},
+                           {behind.x, behind.y, behind.z, 1}};
+    return [this, stretched, ui, push, area](Commands& commands) {
+      commands.viewport(area.x, area.y, area.width, area.height);
+      commands.draw(stretched, 3, 1, push);
+      for (const Part& p : parts_) {
+        commands.viewport(p.x, p.y, p.width, p.height);
+        const UiPush uiPush{{static_cast<float>(p.x), static_cast<float>(p.y)},
+                            {static_cast<float>(p.width), static_cast<float>(p.height)},
+                            p.firstIndex,
+                            fontWidth_,
+                            fontHeight_};
+        commands.draw(ui, p.indices, 1, uiPush);
+      }
+    };
+  });
+  return target;
+}
+
+}  // namespace rill::view

@@ -1,0 +1,108 @@
+#include "view/pacing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace rill::view {
+namespace {
+
+constexpr uint32_t kBlock = 6;
+
+/// A step of `substeps` on a machine that takes `cost` a substep; the seconds of its longest piece, and how many there were.
+struct Course {
+  double longest = 0;
+  int pieces = 0;
+};
+Course stepOf(Pacing& pacing, uint32_t substeps, double cost, double budget) {
+  Course run;
+  for (uint32_t left = substeps; left > 0;) {
+    const uint32_t recorded = pacing.next(budget), due = std::min(recorded, left);
+    EXPECT_EQ(recorded % kBlock, 0u);
+    EXPECT_GT(recorded, 0u);
+    pacing.ran(recorded, due, due * cost);
+    left -= due;
+    run.longest = std::max(run.longest, due * cost);
+    ++run.pieces;
+  }
+  pacing.finished(substeps);
+  return run;
+}
+
+TEST(Pacing, PiecesStayWithinTheBudget) {
+  Pacing pacing(kBlock);
+  for (int k = 0; k < 10; ++k) {
+    const Course run = stepOf(pacing, 40, 0.005, 0.05);  // 0.2 s a step
+    EXPECT_LE(run.longest, 0.05 + 1e-9);
+    EXPECT_GE(run.pieces, 5);
+  }
+  EXPECT_NEAR(pacing.cost(), 0.005, 1e-9);
+}
+
+TEST(Pacing, ABlockIsTheLeast) {
+  Pacing pacing(kBlock);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(stepOf(pacing, 12, 0.1, 0.01).longest, 0.6, 1e-9);
+}
+
+TEST(Pacing, AQuickMachineDoesAStepInOnePieceAndRecordsLittleMore) {
+  Pacing pacing(kBlock);
+  stepOf(pacing, 20, 1e-5, 0.05);
+  EXPECT_EQ(pacing.next(0.05), 24u);
+  EXPECT_EQ(stepOf(pacing, 20, 1e-5, 0.05).pieces, 1);
+  // One that needs more than the one before is finished all the same.
+  EXPECT_EQ(stepOf(pacing, 30, 1e-5, 0.05).pieces, 2);
+}
+
+TEST(Pacing, AnUnboundedBudgetIsOnePieceOfWhatIsExpected) {
+  Pacing pacing(kBlock);
+  stepOf(pacing, 18, 0.01, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(pacing.next(std::numeric_limits<double>::infinity()), 18u);
+}
+
+TEST(Pacing, FollowsAMachineThatBecomesSlower) {
+  Pacing pacing(kBlock);
+  for (int k = 0; k < 5; ++k) stepOf(pacing, 48, 0.001, 0.02);
+  for (int k = 0; k < 3; ++k) stepOf(pacing, 48, 0.01, 0.02);
+  EXPECT_LE(stepOf(pacing, 48, 0.01, 0.07).longest, 0.07);
+}
+
+/// Pictures on a machine that takes `fixed` s, and `whole` s more at a scale of 1.
+void draw(PictureScale& scale, double fixed, double whole, int pictures) {
+  for (int k = 0; k < pictures; ++k) scale.drew(fixed + whole * scale.scale() * scale.scale());
+}
+
+TEST(PictureScale, StaysWholeWhereTheWindowAnswers) {
+  PictureScale scale;
+  scale.drew(3);  // shaders are compiled
+  draw(scale, 0.02, 0.08, 300);
+  EXPECT_EQ(scale.scale(), 1);
+}
+
+TEST(PictureScale, GetsSmallerWhereDrawingIsSlowAndDoesNotSwing) {
+  PictureScale scale;
+  draw(scale, 0, 0.3, 20);
+  EXPECT_EQ(scale.scale(), 0.5) << "0.075 s";
+  for (int k = 0; k < 90; ++k) {
+    draw(scale, 0, 0.3, 1);
+    EXPECT_EQ(scale.scale(), 0.5);
+  }
+  draw(scale, 0, 10, 20);
+  EXPECT_EQ(scale.scale(), 0.375) << "the least";
+}
+
+TEST(PictureScale, GetsFinerAgainWhereItWouldBeQuick) {
+  PictureScale scale;
+  draw(scale, 0, 1, 20);
+  EXPECT_LT(scale.scale(), 1);
+  draw(scale, 0, 0.02, 100);
+  EXPECT_EQ(scale.scale(), 1);
+}
+
+TEST(PictureScale, GivesNoPixelsAwayForNothing) {
+  PictureScale scale;
+  draw(scale, 0.5, 0.01, 20);
+  EXPECT_EQ(scale.scale(), 1) << "particles cost the same at any size";
+}
+
+}  // namespace
+}  // namespace rill::view

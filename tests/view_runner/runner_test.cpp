@@ -1,0 +1,171 @@
+// The viewer's simulation on a device, without a window.
+#include "view/runner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "rill/offline.hpp"
+#include "support/gpu_test.hpp"
+#include "support/temporary_folder.hpp"
+#include "view/session.hpp"
+
+namespace rill::view {
+namespace {
+
+constexpr const char* kDam = R"({
+  "rill": "0.1", "domain": {"min": [0, 0, 0], "max": [1, 1, 0.3]}, "fluid": {"spacing": 0.05},
+  "fill": [{"box": {"min": [0, 0, 0], "max": [0.5, 0.5, 0.3]}}]
+})";
+
+class ViewRunnerTest : public test::GpuTest {
+ protected:
+  void SetUp() override {
+    GpuTest::SetUp();
+    file = folder.write("dam.json", kDam);
+  }
+  Scene scene(std::span<const Override> changes = {}) const {
+    auto read = loadScene(file, changes);
+    EXPECT_TRUE(read);
+    return *read;
+  }
+
+  test::TemporaryFolder folder;
+  std::filesystem::path file;
+};
+
+TEST_F(ViewRunnerTest, StepsHaveCapturesBitsHoweverTheyAreCut) {
+  constexpr int kSteps = 8;
+  auto captured = offline::Simulation::open(scene());
+  ASSERT_TRUE(captured) << captured.error().message;
+  for (int k = 0; k < kSteps; ++k) ASSERT_TRUE((*captured)->advance(1.0 / 60));
+  auto stats = (*captured)->stats();
+  ASSERT_TRUE(stats);
+  uint32_t mostPieces = 0;
+  for (const double budget : {0.0, 0.004, 1e9}) {
+    auto runner = Runner::create(context(), scene());
+    ASSERT_TRUE(runner) << runner.error().message;
+    while ((*runner)->steps() < kSteps) {
+      ASSERT_TRUE((*runner)->piece(budget));
+      if (!(*runner)->between()) continue;
+      mostPieces = std::max(mostPieces, (*runner)->last().pieces);
+      ASSERT_TRUE((*runner)->measure()) << "looking changes nothing";
+    }
+    const auto hash = (*runner)->hash();
+    ASSERT_TRUE(hash);
+    EXPECT_EQ(*hash, stats->state_hash) << budget;
+    EXPECT_NEAR((*runner)->time_s(), kSteps / 60.0, 1e-6);
+  }
+  EXPECT_GT(mostPieces, 1u) << "some of them were cut";
+}
+
+TEST_F(ViewRunnerTest, AnEmptySceneRuns) {
+  Scene empty = scene();
+  empty.fill.clear();
+  auto runner = Runner::create(context(), empty);
+  ASSERT_TRUE(runner) << runner.error().message;
+  for (int k = 0; k < 3; ++k) ASSERT_TRUE((*runner)->step());
+  EXPECT_NEAR((*runner)->time_s(), 0.05, 1e-12);
+  EXPECT_TRUE((*runner)->measure());
+}
+
+TEST_F(ViewRunnerTest, ALiveChangeGoesOnFromThePresentInstant) {
+  auto session = Session::open(context(), file);
+  ASSERT_TRUE(session) << session.error().message;
+  Session& s = **session;
+  for (int k = 0; k < 6; ++k) ASSERT_TRUE(s.runner().step());
+  const auto before = s.runner().measure();
+  ASSERT_TRUE(before);
+  ASSERT_TRUE(s.isLive("gravity"));
+  const auto changed = s.change({"gravity", "[4, 0, 0]"});
+  ASSERT_TRUE(changed) << changed.error().message;
+  EXPECT_EQ(s.runner().steps(), 6u);
+  const auto at = s.runner().measure();
+  ASSERT_TRUE(at);
+  EXPECT_NEAR(at->time_s, before->time_s, 1e-6);
+  EXPECT_NEAR(at->kinetic_J, before->kinetic_J, 1e-6 * before->kinetic_J + 1e-9) << "nothing has moved";
+  ASSERT_TRUE(s.runner().step());
+  const auto after = s.runner().measure();
+  ASSERT_TRUE(after);
+  // 75 kg in free fall along x for a step: 5 kg m/s more, but for what the walls take.
+  const double mass = 1000 * 0.05 * 0.05 * 0.05 * 600;
+  const double gained = after->momentum[0] - at->momentum[0], lostDown = after->momentum[1] - at->momentum[1];
+  EXPECT_GT(gained, 0.5 * mass * 4 / 60);
+  EXPECT_GT(lostDown, -0.2 * mass * 9.81 / 60) << "nothing pulls down any more";
+
+  ASSERT_TRUE(s.change({"fluid.viscosity", "20"}));
+  ASSERT_TRUE(s.change({"solver.iterations", "2"}));
+  for (int k = 0; k < 5; ++k) ASSERT_TRUE(s.runner().step());
+  EXPECT_EQ(s.runner().steps(), 12u);
+  EXPECT_EQ(s.scene().fluid.viscosity, 20);
+  const auto end = s.runner().measure();
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->non_finite, 0u);
+  EXPECT_EQ(end->outside, 0u);
+  EXPECT_LT(end->density_error_mean, 0.01);
+}
+
+TEST_F(ViewRunnerTest, ABadChangeChangesNothing) {
+  auto session = Session::open(context(), file);
+  ASSERT_TRUE(session);
+  Session& s = **session;
+  ASSERT_TRUE(s.runner().step());
+  for (const Override& bad :
+       {Override{"fluid.viscosity", "-1"}, {"fluid.spacing", "0"}, {"solver.nonsense", "1"}, {"fluid.spacing", "1e-5"}}) {
+    const auto changed = s.change(bad);
+    ASSERT_FALSE(changed) << bad.key;
+    EXPECT_FALSE(s.isChanged(bad.key));
+    EXPECT_EQ(s.runner().steps(), 1u);
+  }
+  EXPECT_TRUE(s.runner().step());
+}
+
+TEST_F(ViewRunnerTest, OtherChangesBeginAnewAndResetTakesThemBack) {
+  auto session = Session::open(context(), file);
+  ASSERT_TRUE(session);
+  Session& s = **session;
+  ASSERT_TRUE(s.runner().step());
+  EXPECT_FALSE(s.isLive("fluid.spacing"));
+  ASSERT_TRUE(s.change({"fluid.spacing", "0.1"}));
+  EXPECT_EQ(s.runner().steps(), 0u);
+  EXPECT_EQ(s.runner().fluid().count(), 75u);
+  EXPECT_TRUE(s.isChanged("fluid.spacing"));
+  ASSERT_TRUE(s.reset("fluid.spacing"));
+  EXPECT_EQ(s.runner().fluid().count(), 600u);
+  EXPECT_TRUE(s.changes().empty());
+}
+
+TEST_F(ViewRunnerTest, ASavedSceneIsTheSceneWithItsChanges) {
+  auto session = Session::open(context(), file);
+  ASSERT_TRUE(session);
+  ASSERT_TRUE((*session)->change({"fluid.viscosity", "0.25"}));
+  ASSERT_TRUE((*session)->change({"solver.time_step", "\"auto\""}));
+  ASSERT_TRUE((*session)->change({"look.preset", "milk"}));
+  const auto text = (*session)->text(folder.path());
+  ASSERT_TRUE(text) << text.error().message;
+  const auto saved = loadScene(folder.write("saved.json", *text));
+  ASSERT_TRUE(saved) << saved.error().message;
+  EXPECT_EQ(saved->fluid.viscosity, 0.25);
+  EXPECT_EQ(saved->look.preset, "milk");
+  EXPECT_FALSE(saved->solver.time_step);
+  EXPECT_EQ(saved->fluid.spacing, 0.05);
+}
+
+TEST_F(ViewRunnerTest, AChangedFileIsNoticedAndABrokenOneLeavesTheSceneRunning) {
+  auto session = Session::open(context(), file);
+  ASSERT_TRUE(session);
+  Session& s = **session;
+  EXPECT_FALSE(s.fileChanged(1));
+  folder.write("dam.json", "{ broken");
+  std::filesystem::last_write_time(file, std::filesystem::last_write_time(file) + std::chrono::seconds(3));
+  EXPECT_FALSE(s.fileChanged(1.2)) << "not asked more than twice a second";
+  EXPECT_TRUE(s.fileChanged(2));
+  const auto again = s.restart();
+  ASSERT_FALSE(again);
+  EXPECT_NE(again.error().message.find("dam.json"), std::string::npos);
+  EXPECT_FALSE(s.fileChanged(3)) << "said once";
+  EXPECT_TRUE(s.runner().step());
+}
+
+}  // namespace
+}  // namespace rill::view

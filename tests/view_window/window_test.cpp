@@ -1,0 +1,194 @@
+// rill-view from end to end, in a window on a display of its own (Xvfb), with validation.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "support/child_process.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace rill::test {
+namespace {
+
+constexpr const char* kDam = R"({
+  "rill": "0.1", "domain": {"min": [0, 0, 0], "max": [1, 1, 0.3]}, "fluid": {"spacing": 0.05},
+  "fill": [{"box": {"min": [0, 0, 0], "max": [0.5, 0.5, 0.3]}}]
+})";
+
+class ViewWindowTest : public ::testing::Test {
+ protected:
+  void SetUp() override { scene = folder.write("dam.json", kDam).string(); }
+  static std::string program() { return std::string(RILL_BINARY_DIR) + "/apps/view/rill-view"; }
+  std::vector<std::string> command(std::vector<std::string> arguments) const {
+    std::vector<std::string> all{"/usr/bin/xvfb-run", "-a", "-s", "-screen 0 1280x720x24", program()};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    return all;
+  }
+  Outcome view(std::vector<std::string> arguments) const { return Child(command(std::move(arguments)), folder.string()).wait(); }
+  /// With a Vulkan call that fails, see failing_layer.cpp.
+  Outcome viewFailing(const std::string& plan, std::vector<std::string> arguments) const {
+    const Child::Environment failing{
+        {"VK_LAYER_PATH", RILL_FAILING_LAYER_FOLDER}, {"VK_INSTANCE_LAYERS", "VK_LAYER_RILL_failing"}, {"RILL_TEST_FAIL", plan}};
+    return Child(command(std::move(arguments)), folder.string(), failing).wait();
+  }
+  /// The figure after `name` in what a run printed.
+  static std::string figure(const Outcome& outcome, const std::string& name) {
+    std::istringstream words(outcome.out);
+    for (std::string word, value; words >> word >> value;)
+      if (word == name) return value;
+    return {};
+  }
+  std::pair<int, int> sizeOf(const std::string& png) const {
+    const std::string bytes = contentOf(folder / png);
+    if (bytes.size() < 24 || bytes.substr(0, 8) != "\x89PNG\r\n\x1a\n") return {0, 0};
+    const auto number = [&](size_t at) {
+      int value = 0;
+      for (size_t k = 0; k < 4; ++k) value = value << 8 | static_cast<unsigned char>(bytes[at + k]);
+      return value;
+    };
+    return {number(16), number(20)};
+  }
+
+  TemporaryFolder folder;
+  std::string scene;
+};
+
+TEST_F(ViewWindowTest, OpensDrawsAndClosesByItself) {
+  const Outcome outcome = view({scene, "--frames", "5", "--screenshot", "last.png", "--validate"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(figure(outcome, "frames"), "5");
+  EXPECT_EQ(sizeOf("last.png"), std::pair(1280, 720));
+}
+
+TEST_F(ViewWindowTest, InLockstepAFrameIsCaptures) {
+  const Outcome shown = view({scene, "--frames", "7", "--lockstep", "--size", "320x200", "--validate"});
+  ASSERT_EQ(shown.code, 0) << shown.err;
+  const Outcome captured = capture({scene, "--frames", "7", "--no-images", "--quiet", "--stats", "stats.json"}, folder.string());
+  ASSERT_EQ(captured.code, 0) << captured.err;
+  const auto stats = nlohmann::json::parse(contentOf(folder / "stats.json"));
+  EXPECT_EQ(figure(shown, "steps"), "6");
+  EXPECT_EQ(figure(shown, "state_hash"), stats["frames"][6]["state_hash"].get<std::string>());
+}
+
+TEST_F(ViewWindowTest, AScriptGoesThroughAllViewsKeysAndSizes) {
+  std::string script;
+  int frame = 0;
+  for (const char* view : {"final", "particles", "density", "depth", "normals", "thickness"})
+    script += std::to_string(frame++) + " view " + view + "\n";
+  const int first = frame;
+  for (const char* key : {"V", "F1", "F1", "Tab", "Tab", "T", "P", "O", "P", "R", "1", "2", "3", "4", "5", "6", "Home", "Left", "Up"})
+    script += std::to_string(frame++) + " key " + key + "\n";
+  script += std::to_string(frame) + " move 640 300\n" + std::to_string(frame) + " press left\n";
+  script += std::to_string(frame + 1) + " move 700 340\n" + std::to_string(frame + 2) + " release left\n";
+  script += std::to_string(frame + 2) + " wheel 3\n" + std::to_string(frame + 3) + " wheel -2\n";
+  frame += 4;
+  for (const char* size : {"900 500", "200 100", "64 64", "1280 720"}) script += std::to_string(frame += 2) + " resize " + size + "\n";
+  script += std::to_string(frame + 1) + " minimise\n" + std::to_string(frame + 3) + " restore\n";
+  script += std::to_string(frame + 4) + " set fluid.viscosity=0.1\n" + std::to_string(frame + 5) + " set fluid.spacing=0.06\n";
+  script += std::to_string(frame + 6) + " set fluid.viscosity=-3\n";
+  script += std::to_string(frame + 7) + " screenshot end.png\n";
+  folder.write("hands.txt", script);
+  const Outcome outcome = view({scene, "--script", "hands.txt", "--validate"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_GT(std::stoi("0" + figure(outcome, "frames")), first);
+  EXPECT_EQ(sizeOf("end.png"), std::pair(1280, 720));
+}
+
+TEST_F(ViewWindowTest, ReplayedTwiceItEndsInTheSameState) {
+  folder.write("hands.txt", "0 key P\n2 key P\n5 set fluid.viscosity=2\n8 set gravity=[3,-9.81,0]\n14 view depth\n");
+  const Outcome one = view({scene, "--script", "hands.txt", "--size", "320x200"});
+  const Outcome two = view({scene, "--script", "hands.txt", "--size", "400x300", "--view", "particles"});
+  ASSERT_EQ(one.code, 0) << one.err;
+  ASSERT_EQ(two.code, 0) << two.err;
+  EXPECT_EQ(figure(one, "steps"), "13") << "fifteen frames, the first two paused";
+  EXPECT_EQ(figure(one, "state_hash"), figure(two, "state_hash"));
+  EXPECT_EQ(figure(one, "state_hash").size(), 16u);
+}
+
+TEST_F(ViewWindowTest, AClickInAPanelIsThePanels) {
+  // On the button "Pause (P)"; and in the picture, where it pauses nothing.
+  folder.write("click.txt", "1 move 42 97\n1 press left\n2 release left\n9 view final\n");
+  folder.write("beside.txt", "1 move 640 300\n1 press left\n2 release left\n9 view final\n");
+  const Outcome paused = view({scene, "--script", "click.txt"}), running = view({scene, "--script", "beside.txt"});
+  ASSERT_EQ(paused.code, 0) << paused.err;
+  EXPECT_LE(std::stoi("0" + figure(paused, "steps")), 3);
+  EXPECT_EQ(figure(running, "steps"), "9");
+}
+
+TEST_F(ViewWindowTest, TheSceneIsSavedWithItsChanges) {
+  folder.write("save.txt", "1 set fluid.viscosity=0.5\n2 move 49 123\n2 press left\n3 release left\n6 view final\n");
+  const Outcome outcome = view({scene, "--script", "save.txt"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto saved = nlohmann::json::parse(contentOf(folder / "dam-changed.json"));
+  EXPECT_EQ(saved["fluid"]["viscosity"], 0.5);
+  EXPECT_EQ(saved["fluid"]["spacing"], 0.05);
+}
+
+TEST_F(ViewWindowTest, TheWindowsImagesMayGoOutOfDate) {
+  for (const char* plan : {"vkAcquireNextImageKHR 3 -1000001004", "vkQueuePresentKHR 3 -1000001004", "vkQueuePresentKHR 3 1000001003"}) {
+    const Outcome outcome = viewFailing(plan, {scene, "--frames", "8"});
+    EXPECT_EQ(outcome.code, 0) << plan << ": " << outcome.err;
+    EXPECT_EQ(figure(outcome, "frames"), "8");
+  }
+}
+
+TEST_F(ViewWindowTest, ALostDeviceIsTold) {
+  for (const char* plan : {"vkQueueSubmit2 9 -4", "vkWaitSemaphores 6 -4", "vkAcquireNextImageKHR 3 -4", "vkQueuePresentKHR 3 -4"}) {
+    const Outcome outcome = viewFailing(plan, {scene, "--frames", "30"});
+    EXPECT_EQ(outcome.code, 1) << plan;
+    EXPECT_NE(outcome.err.find("lost"), std::string::npos) << plan << ": " << outcome.err;
+  }
+  const Outcome full = viewFailing("vkAllocateMemory 30 -2", {scene, "--frames", "30"});
+  EXPECT_EQ(full.code, 1);
+  EXPECT_NE(full.err.find("memory"), std::string::npos) << full.err;
+}
+
+TEST_F(ViewWindowTest, GoesThroughTheScenesThereAre) {
+  const auto small = [&](const char* name) {
+    std::string text = kDam;
+    folder.write(name, text.replace(text.find("0.05"), 4, "0.1"));
+  };
+  small("a.json");
+  small("b.json");
+  folder.write("broken.json", "{ \"rill\": ");
+  folder.write("hands.txt", "1 key ]\n2 key ]\n3 key ]\n4 key ]\n5 key [\n6 drop b.json\n7 drop missing.json\n8 scene a\n");
+  const Child::Environment environment{{"RILL_SCENES", folder.string()}};
+  const Outcome outcome = Child(command({"a", "--script", "hands.txt", "--validate"}), folder.string(), environment).wait();
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "") << "a broken scene is told in the window";
+  EXPECT_EQ(figure(outcome, "scene"), "a");
+}
+
+TEST_F(ViewWindowTest, ASignalClosesIt) {
+  const std::string xvfb = "/usr/bin/xvfb-run", timeout = "/usr/bin/timeout";
+  const Outcome outcome =
+      Child({xvfb, "-a", timeout, "--preserve-status", "-s", "INT", "5", program(), scene, "--validate"}, folder.string()).wait();
+  EXPECT_EQ(outcome.code, 130) << "as after any Ctrl-C: " << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST_F(ViewWindowTest, BadInputIsToldBeforeAWindowOpens) {
+  const Child::Environment nowhere{{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}};
+  const auto refused = [&](std::vector<std::string> arguments, const std::string& says) {
+    arguments.insert(arguments.begin(), program());
+    const Outcome outcome = Child(arguments, folder.string(), nowhere).wait();
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_NE(outcome.err.find(says), std::string::npos) << outcome.err;
+  };
+  refused({scene}, "rill-capture");
+  refused({"dam-brake"}, "did you mean \"dam-break\"?");
+  refused({scene, "--set", "fluid.viscosity=-1"}, "fluid.viscosity");
+  folder.write("broken.json", "{ \"rill\": ");
+  refused({(folder / "broken.json").string()}, "broken.json:1");
+  folder.write("hands.txt", "0 key P\n1 view nothing\n");
+  refused({scene, "--script", "hands.txt"}, "nothing");
+  refused({scene, "--script", "no-such-file"}, "no-such-file");
+  const Outcome device = view({scene, "--device", "no such device", "--frames", "1"});
+  EXPECT_EQ(device.code, 2);
+  EXPECT_NE(device.err.find("There are:"), std::string::npos) << device.err;
+}
+
+}  // namespace
+}  // namespace rill::test
