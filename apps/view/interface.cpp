@@ -93,6 +93,7 @@ void Interface::setTheme(Theme theme) {
   style.WindowBorderSize = 0;
   style.FrameBorderSize = theme == Theme::Light ? 1.0f : 0.0f;
   style.ItemSpacing = ImVec2(6, 5);
+  style.Colors[ImGuiCol_WindowBg].w = style.Colors[ImGuiCol_PopupBg].w = 1;
   style.ScaleAllSizes(scale_);
   ImGui::GetStyle() = style;
 }

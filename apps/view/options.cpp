@@ -66,8 +66,17 @@ void declare(CLI::App& app, Raw& raw) {
       ->group(run);
   app.set_help_flag("-h,--help", "show this text")->group(run);
   app.set_version_flag("--version", std::string("rill-view ") + RILL_VERSION, "show the version")->group(run);
-  app.footer("Mouse and keys:\n" + keyHelp() + "\nScripts have lines \"FRAME COMMAND\", frames from 0 on, comments after '#':\n" +
-             scriptHelp());
+  app.footer(
+      "Mouse and keys:\n" + keyHelp() + "\nScripts have lines \"FRAME COMMAND\", frames from 0 on, comments after '#':\n" + scriptHelp() +
+      "\nExamples:\n"
+      "  rill-view double-dam --view particles\n"
+      "      two columns run at each other, coloured by speed\n"
+      "  rill-view dam10k --set fluid.viscosity=2\n"
+      "      oil in place of water; the panels change it while it runs\n"
+      "  rill-view dam10k --lockstep --frames 30 --screenshot shot.png\n"
+      "      a picture of the window at 29/60 s; prints the state's hash, which rill-capture's --stats has too\n"
+      "\nExit codes: 0 closed, 1 failed while running, 2 bad usage, bad input or no display, 4 no Vulkan device that can draw to it;\n"
+      "130, 143, 129 after a signal.");
 }
 
 Expected<Options> judged(const Raw& raw, const CLI::App& app) {

@@ -122,7 +122,8 @@ class Viewer {
     layOutWindow(window_->framebuffer());
     camera_.home(homeView());
     begun();
-    for (const std::string& warning : session_->runner().warnings()) tell("warning: " + warning);
+    message_.clear();
+    for (const std::string& warning : session_->runner().warnings()) message_ += (message_.empty() ? "" : "\n") + warning;
     return {};
   }
 

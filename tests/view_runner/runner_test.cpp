@@ -47,6 +47,14 @@ TEST_F(ViewRunnerTest, StepsHaveCapturesBitsHoweverTheyAreCut) {
     ASSERT_TRUE(runner) << runner.error().message;
     while ((*runner)->steps() < kSteps) {
       ASSERT_TRUE((*runner)->piece(budget));
+      Graph graph;
+      const FluidState shown = (*runner)->present(graph);
+      const Ticket ticket = graph.readback(shown.position);
+      run(graph);
+      const auto positions = read<Float4>(graph, ticket);
+      ASSERT_GE(positions.size(), shown.count);
+      for (uint32_t i = 0; i < shown.count; ++i)
+        ASSERT_TRUE(positions[i].x >= 0 && positions[i].x <= 1) << "in the tank, between pieces too";
       if (!(*runner)->between()) continue;
       mostPieces = std::max(mostPieces, (*runner)->last().pieces);
       ASSERT_TRUE((*runner)->measure()) << "looking changes nothing";
@@ -57,6 +65,22 @@ TEST_F(ViewRunnerTest, StepsHaveCapturesBitsHoweverTheyAreCut) {
     EXPECT_NEAR((*runner)->time_s(), kSteps / 60.0, 1e-6);
   }
   EXPECT_GT(mostPieces, 1u) << "some of them were cut";
+}
+
+TEST(ViewContext, ADeviceThatShowsNoPicturesIsNotTaken) {
+  offline::ContextDesc desc;
+  uint32_t asked = 0;
+  desc.presents = [&](VkInstance, VkPhysicalDevice, uint32_t) {
+    ++asked;
+    return false;
+  };
+  const auto none = offline::Context::create(desc);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().kind, ErrorKind::NoDevice);
+  EXPECT_NE(none.error().message.find("shows pictures"), std::string::npos) << none.error().message;
+  EXPECT_GT(asked, 0u);
+  desc.presents = [](VkInstance, VkPhysicalDevice, uint32_t) { return true; };
+  EXPECT_TRUE(offline::Context::create(desc));
 }
 
 TEST_F(ViewRunnerTest, AnEmptySceneRuns) {

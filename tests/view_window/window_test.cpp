@@ -19,8 +19,13 @@ class ViewWindowTest : public ::testing::Test {
  protected:
   void SetUp() override { scene = folder.write("dam.json", kDam).string(); }
   static std::string program() { return std::string(RILL_BINARY_DIR) + "/apps/view/rill-view"; }
+  /// xvfb-run looks for a free display from a number on; two that start from the same one at once take the same.
+  static std::vector<std::string> onADisplay() {
+    return {"/usr/bin/xvfb-run", "-a", "-n", std::to_string(100 + ::getpid() % 20000), "-s", "-screen 0 1280x720x24"};
+  }
   std::vector<std::string> command(std::vector<std::string> arguments) const {
-    std::vector<std::string> all{"/usr/bin/xvfb-run", "-a", "-s", "-screen 0 1280x720x24", program()};
+    std::vector<std::string> all = onADisplay();
+    all.push_back(program());
     all.insert(all.end(), arguments.begin(), arguments.end());
     return all;
   }
@@ -162,9 +167,9 @@ TEST_F(ViewWindowTest, GoesThroughTheScenesThereAre) {
 }
 
 TEST_F(ViewWindowTest, ASignalClosesIt) {
-  const std::string xvfb = "/usr/bin/xvfb-run", timeout = "/usr/bin/timeout";
-  const Outcome outcome =
-      Child({xvfb, "-a", timeout, "--preserve-status", "-s", "INT", "5", program(), scene, "--validate"}, folder.string()).wait();
+  std::vector<std::string> interrupted = onADisplay();
+  interrupted.insert(interrupted.end(), {"/usr/bin/timeout", "--preserve-status", "-s", "INT", "5", program(), scene, "--validate"});
+  const Outcome outcome = Child(interrupted, folder.string()).wait();
   EXPECT_EQ(outcome.code, 130) << "as after any Ctrl-C: " << outcome.err;
   EXPECT_EQ(outcome.err, "");
 }

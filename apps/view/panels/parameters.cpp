@@ -69,8 +69,8 @@ class KeyField {
   void draw(const Enum& value) { choice(std::string(info_.words[static_cast<size_t>(value)])); }
   void draw(const double (&value)[3]) {
     hold({value[0], value[1], value[2]});
-    ImGui::SetNextItemWidth(ImGui::GetWindowContentRegionMax().x * 0.56f);
-    ImGui::DragScalarN("##value", ImGuiDataType_Double, value_.data(), 3, 0.05f, nullptr, nullptr, "%.4g");
+    ImGui::SetNextItemWidth(ImGui::GetWindowContentRegionMax().x * 0.5f);
+    ImGui::DragScalarN("##value", ImGuiDataType_Double, value_.data(), 3, 0.05f, nullptr, nullptr, "%.3g");
     edited("[" + text(value_[0]) + ", " + text(value_[1]) + ", " + text(value_[2]) + "]");
   }
 
