@@ -10,7 +10,7 @@ const float kCover = 0.6;       // sum of what centres add (1 on the ray itself)
 const float kCoverInside = 0.4;  // the same amid many others: a gap, not an edge
 const float kCoverEdgeOn = 0.35;  // weight of a particle whose plane is seen edge on
 const int kLooks = 2;           // more of them, where the first moved the surface
-const float kStill = 0.1;       // spacings of a move after which none is needed
+const float kStill = 0.25;      // spacings of a move after which none is needed
 const float kFirm = 0.5;        // weight of planes from which a look is taken for the surface
 
 struct Blend {
