@@ -19,7 +19,7 @@ constexpr const char* kScene = R"({
 constexpr const char* kNear = R"({
   "rill": "0.1", "domain": {"min": [0, 0, 0], "max": [1, 1, 0.3]}, "fluid": {"spacing": 0.05},
   "fill": [{"box": {"min": [0, 0, 0], "max": [0.5, 0.5, 0.3]}}], "look": {"surface": "narrow_range"},
-  "camera": {"eye": [0.25, 0.25, 1.5], "target": [0.25, 0.25, -40]}
+  "camera": {"eye": [0.25, 0.25, 0.7], "target": [0.25, 0.25, -40]}
 })";
 
 TEST(PictureReport, ExplainTellsWhatAliasingSaves) {
