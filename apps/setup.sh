@@ -16,15 +16,15 @@ build libstb-dev              stb (stb_image.h, stb_image_write.h)
 build libglfw3-dev            GLFW 3.3 or newer
 build libimgui-dev            Dear ImGui 1.86 or newer
 run   libvulkan1              the Vulkan loader
-run   fonts-dejavu-core       DejaVu Sans (the viewer's typeface)
+run   fonts-dejavu-core       DejaVu Sans (typeface of the viewer)
 run   mesa-vulkan-drivers     a Vulkan 1.3 driver (Mesa: lavapipe needs no GPU)
 test  libgtest-dev            GoogleTest
 test  glslang-dev             glslang (library: the debug preset reloads shaders)
 test  binutils                binutils (nm)
-test  ffmpeg              ffmpeg with libx264, and ffprobe (the videos of rill-capture)
+test  ffmpeg                  ffmpeg with libx264, and ffprobe (the videos of rill-capture)
 test  gnuplot-nox             gnuplot (the diagrams of rill-bench)
 test  vulkan-validationlayers the Khronos validation layer
-test  xvfb                    Xvfb (a display for the viewer's windows)
+test  xvfb                    Xvfb (a display for windows of the viewer)
 test  xauth                   xauth (which xvfb-run needs)
 test? chromium-common         SwiftShader (libvk_swiftshader.so with its vk_swiftshader_icd.json)
 '
