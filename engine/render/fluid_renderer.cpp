@@ -134,7 +134,7 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
   const SurfacePush thick = SurfaceStage::thicknessPush(push, fluid, kThicknessStep);
   BufferRef thickness;
   if (look.opaque) {
-    graph.skipped("fluid thickness", "the look is opaque");
+    graph.skipped("fluid thickness towards the eye", "the look is opaque");
     thickness = last.tiles;  // bound, never read
   } else {
     thickness = surface.addThickness(graph, fluid, thick, sceneDepth, &last.counters);

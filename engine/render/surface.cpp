@@ -113,7 +113,7 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
   push.radius = kHardRadius * fluid.spacing;
   push.count = fluid.count;
   const double sampleSide = std::max(metresAPixel(push, focus) * push.step, 1e-6 * fluid.spacing), sampleArea = sampleSide * sampleSide;
-  push.margin = marginSamples(std::min(settings.samples, push.spacing / sampleSide));
+  push.margin = marginSamples(std::min(2 * settings.samples, push.spacing / sampleSide));
   // As many steps as the time takes where the fluid is; nearer to the eye, where samples are smaller, the stable step falls short of it.
   const double area = double{push.spacing} * push.spacing;
   const uint32_t flowSteps =

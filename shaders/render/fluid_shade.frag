@@ -92,7 +92,10 @@ void main() {
       inside = max(inside, thicknessAt(there));
     }
     // What stands in front of the fluid is not seen through it.
-    if (beyond < z) there = middle;
+    if (beyond < z) {
+      there = middle;
+      walked = (min(scene_depth[index], farthest) - z) / sight.z;
+    }
     const float metres = min(inside, walked);
     const vec3 through = exp(-look.absorption.rgb * metres);
     body = sceneBetween(there) * through + look.scatter.rgb * (ambient + vec3(0.5) * (0.3 + 0.7 * lit)) * (1.0 - through);

@@ -16,17 +16,17 @@ RILL_CONSTANT kSurfaceTile = 16;       // pixels a side of the tiles that are co
 RILL_CONSTANT kCellSamples = 4;        // samples a side of a cell of the screen grid
 RILL_CONSTANT kOccluderSamples = 2;    // samples a side of an occlusion cell
 RILL_CONSTANT kMostRectSamples = 192;  // samples a side that one particle is splatted to at most
-RILL_CONSTANT kMarginSamples = 8;     // beyond each side of the picture: as far as a plane is fitted at three samples a spacing, the default
+RILL_CONSTANT kMarginSamples = 8;      // beyond each side of the picture: as far as a plane is fitted at three samples a spacing, the default
 RILL_CONSTANT kMostRows = 48;          // rows of the screen grid that one walk visits at most
 RILL_CONSTANT kMostInRow = 64;         // particles of one row that a walk visits at most
 RILL_CONSTANT kMostInCell = 1024;      // particles of a cell that are put in order
 RILL_CONSTANT kNotSurface = 0xFFFFFFFFu;
 
 // Words of the counter buffer.
-RILL_CONSTANT kSurvivorCount = 0;   // particles that occlusion left
-RILL_CONSTANT kSurfaceCount = 1;    // of them, those that own a part of the picture
-RILL_CONSTANT kSurfaceTileCount = 2;       // tiles that hold fluid
-RILL_CONSTANT kBoundHits = 3;       // invocations in which a bounded loop ran into its bound: something was left out of the picture
+RILL_CONSTANT kSurvivorCount = 0;     // particles that occlusion left
+RILL_CONSTANT kSurfaceCount = 1;      // of them, those that own a part of the picture
+RILL_CONSTANT kSurfaceTileCount = 2;  // tiles that hold fluid
+RILL_CONSTANT kBoundHits = 3;         // invocations in which a bounded loop ran into its bound: something was left out of the picture
 RILL_CONSTANT kSurfaceCounterWords = 4;
 
 // Words of the argument buffer: three a dispatch, four a draw.
