@@ -92,10 +92,6 @@ Expected<void> Workbench::downloadBytes(const Buffer& buffer, std::span<std::byt
   return {};
 }
 
-BufferRef importWhole(Graph& graph, std::string_view name, const Buffer& buffer) {
-  return graph.import(name, {.handle = buffer.handle(), .size = buffer.size()});
-}
-
 Expected<GraphSamples> sampleGraph(Workbench& bench, uint32_t samples, const std::function<void(Graph&)>& declare, WarmUp warmUp) {
   if (warmUp == WarmUp::Needed)
     if (auto first = bench.run(declare); !first) return first.error();

@@ -8,6 +8,7 @@
 
 #include "bench/bench.hpp"
 #include "gpu/resources.hpp"
+#include "graph/import_whole.hpp"
 #include "offline/context.hpp"
 #include "rill/graph.hpp"
 
@@ -61,9 +62,6 @@ class Workbench {
   std::unique_ptr<offline::Context> context_;
   std::unique_ptr<Graph> graph_;
 };
-
-/// A whole buffer in a graph. What is written to it stays there after the graph.
-BufferRef importWhole(Graph& graph, std::string_view name, const Buffer& buffer);
 
 /// Whether one run goes before those that count: a driver may compile shaders in it.
 enum class WarmUp { Needed, Done };

@@ -2,16 +2,15 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <string_view>
-#include <system_error>
 
 #include "capture/video.hpp"
 #include "core/words.hpp"
 #include "rill/offline.hpp"
 #include "shared/atomic_file.hpp"
+#include "shared/option_text.hpp"
 #include "shared/scene_folders.hpp"
 #include "shared/usage.hpp"
 #include "shared/words.hpp"
@@ -19,21 +18,11 @@
 namespace rill::capture {
 namespace {
 
+using apps::badInput, apps::numberIn;
+
 constexpr uint32_t kMaxSide = 8192;            // pixels
 constexpr uint64_t kMaxPixels = 1ull << 25;    // a picture is one buffer of at most 128 MiB
 constexpr uint64_t kMaxParticles = 4'194'304;  // what the solver takes, on any device
-
-Error badInput(std::string_view option, std::string_view given, std::string_view expected) {
-  return Error{ErrorKind::BadInput, std::string(option) + ": " + inQuotes(given) + " was given; expected " + std::string(expected)};
-}
-
-template <class Number>
-std::optional<Number> parse(std::string_view text) {
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (text.empty() || error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 /// Options as text: numbers are read here, so that every version of the command line library gives the same messages.
 struct Raw {
@@ -50,11 +39,6 @@ bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
     return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
   };
   return whole(a) == whole(b);
-}
-
-std::vector<std::string> viewNames() {
-  const auto views = offline::Simulation::views();
-  return {views.begin(), views.end()};
 }
 
 void declare(CLI::App& app, Raw& raw) {
@@ -81,7 +65,7 @@ void declare(CLI::App& app, Raw& raw) {
 
   once("--out", raw.out, "folder of the frames, made where missing (default: out/SCENE)", "DIR", written);
   once("--size", raw.size, "pixels (default: 1280x720)", "WxH", written);
-  once("--view", raw.view, "what is drawn: " + apps::joined(viewNames()) + " (default: final)", "VIEW", written);
+  once("--view", raw.view, "what is drawn: " + apps::viewNames() + " (default: final)", "VIEW", written);
   once("--orbit", raw.orbit, "let the camera go around its target, so many degrees a simulated second", "DEG_PER_S", written);
   once("--video", raw.video, "write the pictures as a video, too (.mp4, .mkv or .mov; needs the program ffmpeg)", "FILE", written);
   app.add_flag("--no-images", raw.noImages, "write no pictures, and without --video draw none")->group(written);
@@ -140,42 +124,33 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
   options.scene = raw.scene;
   if (raw.scene.empty()) return badInput("SCENE", raw.scene, "a scene's name or the path of a .json file");
   if (given("--frames")) {
-    options.frames = parse<uint32_t>(raw.frames);
+    options.frames = numberIn<uint32_t>(raw.frames);
     if (!options.frames || *options.frames < 1 || *options.frames > kMaxFrames)
       return badInput("--frames", raw.frames, "a whole number from 1 to " + std::to_string(kMaxFrames));
   }
   if (given("--fps")) {
-    const auto fps = parse<double>(raw.fps);
+    const auto fps = numberIn<double>(raw.fps);
     if (!fps || !(*fps >= 0.001 && *fps <= 1e6)) return badInput("--fps", raw.fps, "a number from 0.001 to 1000000");
     options.fps = *fps;
     options.fpsGiven = true;
   }
   if (given("--size")) {
-    const size_t x = raw.size.find_first_of("xX");
-    const auto side = [&](std::string_view text) {
-      const auto value = parse<uint32_t>(text);
-      return value && *value >= 1 && *value <= kMaxSide ? value : std::nullopt;
-    };
-    const auto width = x == std::string::npos ? std::nullopt : side(std::string_view(raw.size).substr(0, x));
-    const auto height = x == std::string::npos ? std::nullopt : side(std::string_view(raw.size).substr(x + 1));
-    if (!width || !height || uint64_t{*width} * *height > kMaxPixels)
+    const auto size = apps::pixelSizeIn(raw.size, 1, kMaxSide);
+    if (!size || uint64_t{size->width} * size->height > kMaxPixels)
       return badInput("--size", raw.size,
                       "WIDTHxHEIGHT in pixels, as 1280x720: each from 1 to " + std::to_string(kMaxSide) + ", together at most " +
                           std::to_string(kMaxPixels));
-    options.width = *width;
-    options.height = *height;
+    options.width = size->width;
+    options.height = size->height;
   }
   if (given("--view")) {
-    const std::vector<std::string> views = viewNames();
-    if (std::find(views.begin(), views.end(), raw.view) == views.end())
-      return Error{ErrorKind::BadInput, "--view: there is no view " + inQuotes(raw.view) + apps::didYouMean(raw.view, views) +
-                                            "\nviews: " + apps::joined(views)};
+    if (auto known = apps::checkView(raw.view); !known) return known.error();
     options.view = raw.view;
   }
   if (auto possible = offline::Simulation::checkPicture(options.view, options.width, options.height); !possible)
     return Error{ErrorKind::BadInput, "--size, --view " + options.view + ": " + possible.error().message};
   if (given("--orbit")) {
-    const auto orbit = parse<double>(raw.orbit);
+    const auto orbit = numberIn<double>(raw.orbit);
     if (!orbit || !(std::abs(*orbit) <= 36000)) return badInput("--orbit", raw.orbit, "a number of degrees from -36000 to 36000");
     options.orbit_deg_per_s = *orbit;
   }
@@ -184,7 +159,7 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
     options.exportPly = true;
   }
   if (given("--particles")) {
-    const auto particles = parse<uint64_t>(raw.particles);
+    const auto particles = numberIn<uint64_t>(raw.particles);
     if (!particles || *particles < 1 || *particles > kMaxParticles)
       return badInput("--particles", raw.particles, "a whole number from 1 to " + grouped(kMaxParticles));
   }
@@ -215,7 +190,7 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
         return badInput("--video", raw.video, std::string("another file than that of ") + other);
   }
   if (given("--checkpoint-every")) {
-    const auto seconds = parse<double>(raw.checkpointEvery);
+    const auto seconds = numberIn<double>(raw.checkpointEvery);
     if (!seconds || !(*seconds >= 0 && *seconds <= 1e9))
       return badInput("--checkpoint-every", raw.checkpointEvery, "a number of seconds from 0 (after every frame) to 1000000000");
     if (!options.checkpoint)

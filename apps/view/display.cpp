@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graph/import_whole.hpp"
+
 namespace rill::view {
 
 Expected<std::unique_ptr<Display>> Display::create(offline::Context& context, Window& window, ImFontAtlas& fonts) {
@@ -50,7 +52,7 @@ Expected<void> Display::paint(Session& session, std::string_view view, const Cam
   if (!frame) return frame.error();
   picture_.reset();
   const BufferRef drawn = session.painter().addTo(picture_, session.runner().present(picture_), view, eye, width, height, time_s);
-  BufferRef shown = picture_.import("shown picture", {.handle = shown_.handle(), .size = bytes});
+  BufferRef shown = importWhole(picture_, "shown picture", shown_);
   picture_.pass("show", [&](Pass& pass) {
     pass.read(drawn, Use::CopySource);
     shown = pass.write(shown, Use::CopyTarget, true);
@@ -78,7 +80,7 @@ Expected<void> Display::show(const ImDrawData& lists, const ImVec4& behind, offl
   const Swapchain::Target& target = **acquired;
   if (auto frame = context_.beginFrame(); !frame) return frame.error();
   window_.reset();
-  const ShownPicture picture{window_.import("shown picture", {.handle = shown_.handle(), .size = shown_.size()}), shownWidth_, shownHeight_,
+  const ShownPicture picture{importWhole(window_, "shown picture", shown_), shownWidth_, shownHeight_,
                              area_};
   pass_->upload(window_, lists);
   const ImageDesc desc{swapchain_->format(), target.width, target.height};

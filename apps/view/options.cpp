@@ -2,10 +2,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 
 #include "core/words.hpp"
 #include "rill/offline.hpp"
+#include "shared/option_text.hpp"
 #include "shared/usage.hpp"
 #include "shared/words.hpp"
 #include "view/keys.hpp"
@@ -14,7 +14,9 @@
 namespace rill::view {
 namespace {
 
-constexpr uint32_t kMostSide = 8192;  // pixels
+using apps::badInput, apps::numberIn;
+
+constexpr uint32_t kLeastSide = 64, kMostSide = 8192;  // pixels
 constexpr uint64_t kMostFrames = 1'000'000'000;
 
 /// Options as text: numbers are read here, so that every version of the command line library gives the same messages.
@@ -24,30 +26,13 @@ struct Raw {
   bool lockstep = false, validate = false;
 };
 
-Error badInput(std::string_view option, std::string_view given, std::string_view expected) {
-  return Error{ErrorKind::BadInput, std::string(option) + ": " + inQuotes(given) + " was given; expected " + std::string(expected)};
-}
-
-template <class Number>
-std::optional<Number> number(std::string_view text) {
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (text.empty() || error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-std::vector<std::string> viewNames() {
-  const auto views = offline::Simulation::views();
-  return {views.begin(), views.end()};
-}
-
 void declare(CLI::App& app, Raw& raw) {
   const std::string shown = "What is shown", run = "How it runs";
   app.add_option("SCENE", raw.scene, "a scene's name, or the path of a .json file (default: dam-break)")->type_name("")->group(shown);
   const auto text = [&](const char* name, std::string& value, const std::string& about, const char* type, const std::string& group) {
     app.add_option(name, value, about)->type_name(type)->group(group);
   };
-  text("--view", raw.view, "what is drawn at first: " + apps::joined(viewNames()) + " (default: final)", "VIEW", shown);
+  text("--view", raw.view, "what is drawn at first: " + apps::viewNames() + " (default: final)", "VIEW", shown);
   text("--size", raw.size, "of the window, pixels (default: 1280x720)", "WxH", shown);
   app.add_option("--set", raw.set, "change a key of the scene, as fluid.viscosity=0.1")
       ->type_name("KEY=VALUE")
@@ -87,23 +72,18 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
     options.scene = raw.scene;
   }
   if (given("--size")) {
-    const size_t x = std::min(raw.size.find_first_of("xX"), raw.size.size());
-    const auto width = number<uint32_t>(std::string_view(raw.size).substr(0, x));
-    const auto height = number<uint32_t>(std::string_view(raw.size).substr(std::min(x + 1, raw.size.size())));
-    if (!width || !height || *width < 64 || *height < 64 || *width > kMostSide || *height > kMostSide)
-      return badInput("--size", raw.size, "WIDTHxHEIGHT in pixels, as 1280x720: each from 64 to " + std::to_string(kMostSide));
-    options.width = *width;
-    options.height = *height;
+    const auto size = apps::pixelSizeIn(raw.size, kLeastSide, kMostSide);
+    if (!size)
+      return badInput("--size", raw.size, "WIDTHxHEIGHT in pixels, as 1280x720: each from " + std::to_string(kLeastSide) + " to " + std::to_string(kMostSide));
+    options.width = size->width;
+    options.height = size->height;
   }
   if (given("--view")) {
-    const std::vector<std::string> views = viewNames();
-    if (std::ranges::find(views, raw.view) == views.end())
-      return Error{ErrorKind::BadInput, "--view: there is no view " + inQuotes(raw.view) + apps::didYouMean(raw.view, views) +
-                                            "\nviews: " + apps::joined(views)};
+    if (auto known = apps::checkView(raw.view); !known) return known.error();
     options.view = raw.view;
   }
   if (given("--frames")) {
-    options.frames = number<uint64_t>(raw.frames);
+    options.frames = numberIn<uint64_t>(raw.frames);
     if (!options.frames || *options.frames < 1 || *options.frames > kMostFrames)
       return badInput("--frames", raw.frames, "a whole number from 1 to " + std::to_string(kMostFrames));
   }

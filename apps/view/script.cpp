@@ -4,11 +4,12 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
-#include <charconv>
+#include <cmath>
 #include <optional>
 
 #include "core/words.hpp"
 #include "scene/json_text.hpp"
+#include "shared/option_text.hpp"
 #include "view/keys.hpp"
 
 namespace rill::view {
@@ -45,12 +46,9 @@ std::vector<std::string_view> wordsOf(std::string_view line) {
   }
 }
 
-template <class Number>
-std::optional<Number> number(std::string_view text) {
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
+std::optional<double> finite(std::string_view text) {
+  const auto value = apps::numberIn<double>(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 std::optional<int> button(std::string_view name) {
@@ -62,7 +60,7 @@ std::optional<int> button(std::string_view name) {
 
 /// Appends what a line says; a text of what is wrong where that is nothing.
 std::string read(const std::vector<std::string_view>& words, std::vector<ScriptLine>& lines) {
-  const auto frame = number<uint64_t>(words[0]);
+  const auto frame = apps::numberIn<uint64_t>(words[0]);
   if (!frame) return inQuotes(words[0]) + " was found; expected the number of a frame";
   if (!lines.empty() && *frame < lines.back().frame)
     return "frame " + std::to_string(*frame) + " comes after frame " + std::to_string(lines.back().frame) + "; expected frames in order";
@@ -83,7 +81,7 @@ std::string read(const std::vector<std::string_view>& words, std::vector<ScriptL
   ScriptLine line;
   line.frame = *frame;
   if (what == "move") {
-    const auto x = number<double>(first), y = number<double>(words[3]);
+    const auto x = finite(first), y = finite(words[3]);
     if (!x || !y) return expected();
     line.input = {.kind = InputEvent::Kind::Move, .x = *x, .y = *y};
   } else if (what == "press" || what == "release") {
@@ -91,7 +89,7 @@ std::string read(const std::vector<std::string_view>& words, std::vector<ScriptL
     if (!code) return expected();
     line.input = {.kind = InputEvent::Kind::Button, .code = *code, .down = what == "press"};
   } else if (what == "wheel") {
-    const auto steps = number<double>(first);
+    const auto steps = finite(first);
     if (!steps) return expected();
     line.input = {.kind = InputEvent::Kind::Wheel, .y = *steps};
   } else if (what == "key") {
@@ -109,8 +107,8 @@ std::string read(const std::vector<std::string_view>& words, std::vector<ScriptL
     line.kind = ScriptLine::Kind::Set;
     line.change = std::move(*change);
   } else if (what == "resize") {
-    const auto width = number<uint32_t>(first), height = number<uint32_t>(words[3]);
-    if (!width || !height || *width < 1 || *height < 1 || *width > 8192 || *height > 8192) return expected();
+    const auto width = apps::numberIn<uint32_t>(first), height = apps::numberIn<uint32_t>(words[3]);
+    if (!width || !height || std::min(*width, *height) < 1 || std::max(*width, *height) > 8192) return expected();
     line.kind = ScriptLine::Kind::Resize;
     line.width = *width;
     line.height = *height;

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "fluid/fluid_impl.hpp"
+#include "graph/import_whole.hpp"
 
 namespace rill {
 namespace {
@@ -25,9 +26,7 @@ struct BindingList {
 uint32_t FluidImpl::commandCount() const { return kCommandSort + static_cast<uint32_t>(sort_->groups().size()); }
 
 void FluidImpl::importAll(Graph& graph) {
-  const auto import = [&](std::string_view name, const Buffer& buffer) {
-    return graph.import(name, {.handle = buffer.handle(), .size = buffer.size()});
-  };
+  const auto import = [&](std::string_view name, const Buffer& buffer) { return importWhole(graph, name, buffer); };
   r_.params = import("parameters", buffers_.params);
   r_.control = import("control", buffers_.control);
   r_.sums = import("sums", buffers_.sums);
@@ -481,13 +480,10 @@ FluidState FluidImpl::described() const {
 FluidState FluidImpl::present(Graph& graph) const {
   FluidState state = described();
   if (count == 0) return state;
-  const auto import = [&](std::string_view name, const Buffer& buffer) {
-    return graph.import(name, {.handle = buffer.handle(), .size = buffer.size()});
-  };
-  state.position = import("positions", buffers_.position);
-  state.velocity = import("velocities", buffers_.velocity);
-  state.id = import("ids", buffers_.id);
-  state.control = import("control", buffers_.control);
+  state.position = importWhole(graph, "positions", buffers_.position);
+  state.velocity = importWhole(graph, "velocities", buffers_.velocity);
+  state.id = importWhole(graph, "ids", buffers_.id);
+  state.control = importWhole(graph, "control", buffers_.control);
   return state;
 }
 

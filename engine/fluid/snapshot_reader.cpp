@@ -4,6 +4,7 @@
 
 #include "fluid/fluid_impl.hpp"
 #include "fluid/snapshot.hpp"
+#include "graph/import_whole.hpp"
 
 namespace rill {
 namespace {
@@ -43,7 +44,7 @@ void SnapshotReader::declare(Graph& graph) {
   tickets_.clear();
   const FluidBuffers& buffers = fluid_.buffers();
   const auto read = [&](const Buffer& buffer) {
-    tickets_.push_back(graph.readback(graph.import("state", {.handle = buffer.handle(), .size = buffer.size()})));
+    tickets_.push_back(graph.readback(importWhole(graph, "state", buffer)));
   };
   const uint32_t part = parts_[next_];
   if (part == kSmall) {

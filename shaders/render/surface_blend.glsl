@@ -5,7 +5,6 @@
 
 const float kBlendReach = 1.8;  // spacings, across a plane
 const float kBlendRange = 1.2;  // spacings, along its normal
-const float kCoverReach = 1.2;  // spacings from a ray at which a centre stops covering it
 const float kCover = 0.6;       // sum of what centres add (1 on the ray itself) from which there is fluid
 const float kCoverInside = 0.4;  // the same amid many others: a gap, not an edge
 const float kCoverEdgeOn = 0.35;  // weight of a particle whose plane is seen edge on

@@ -2,7 +2,6 @@
 #include "render/surface_walk.glsl"
 #include "render/surface_edge.glsl"
 
-const float kCoverReach = 1.2;  // spacings from a ray at which a centre stops covering it
 const float kCoverDepth = 1.6;  // spacings before and behind the depth
 const float kCover = 0.7;       // sum of what centres add (1 on the ray itself) from which there is fluid
 

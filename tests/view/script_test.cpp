@@ -42,7 +42,9 @@ TEST(Script, RefusesWhatItDoesNotUnderstandWithItsLine) {
   const struct {
     const char* text;
     const char* says;
-  } rows[] = {{"0 move 1\n", "test:1: move: expected \"move X Y\""},
+  } rows[] = {{"0 move nan 1\n", "expected \"move X Y\""},
+              {"0 wheel inf\n", "expected \"wheel STEPS\""},
+              {"0 move 1\n", "test:1: move: expected \"move X Y\""},
               {"0 key P\nx key P\n", "test:2: \"x\" was found"},
               {"3 key P\n2 key P\n", "test:2: frame 2 comes after frame 3"},
               {"0 prss left\n", "did you mean \"press\"?"},

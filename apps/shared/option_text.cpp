@@ -1,0 +1,40 @@
+#include "shared/option_text.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "core/words.hpp"
+#include "rill/offline.hpp"
+#include "shared/words.hpp"
+
+namespace rill::apps {
+namespace {
+
+std::vector<std::string> views() {
+  const auto all = offline::Simulation::views();
+  return {all.begin(), all.end()};
+}
+
+}  // namespace
+
+std::optional<PixelSize> pixelSizeIn(std::string_view text, uint32_t least, uint32_t most) {
+  const size_t x = text.find_first_of("xX");
+  if (x == std::string_view::npos) return std::nullopt;
+  const auto width = numberIn<uint32_t>(text.substr(0, x)), height = numberIn<uint32_t>(text.substr(x + 1));
+  if (!width || !height || std::min(*width, *height) < least || std::max(*width, *height) > most) return std::nullopt;
+  return PixelSize{*width, *height};
+}
+
+Error badInput(std::string_view option, std::string_view given, std::string_view expected) {
+  return {ErrorKind::BadInput, std::string(option) + ": " + inQuotes(given) + " was given; expected " + std::string(expected)};
+}
+
+std::string viewNames() { return joined(views()); }
+
+Expected<void> checkView(const std::string& name) {
+  const std::vector<std::string> all = views();
+  if (std::find(all.begin(), all.end(), name) != all.end()) return {};
+  return Error{ErrorKind::BadInput, "--view: there is no view " + inQuotes(name) + didYouMean(name, all) + "\nviews: " + joined(all)};
+}
+
+}  // namespace rill::apps
