@@ -63,6 +63,11 @@ class Child {
     return true;
   }
   void signal(int number) const { ::kill(pid_, number); }
+  /// Whether it has ended; it is still to be waited for.
+  bool ended() const {
+    siginfo_t information{};
+    return ::waitid(P_PID, static_cast<id_t>(pid_), &information, WEXITED | WNOHANG | WNOWAIT) != 0 || information.si_pid != 0;
+  }
   /// As a reader that has gone: what is written to standard output from now on meets a closed pipe.
   void closeOut() {
     if (out_ >= 0) ::close(std::exchange(out_, -1));

@@ -1,8 +1,11 @@
 // rill-view from end to end, in a window on a display of its own (Xvfb), with validation.
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <thread>
 
 #include "support/child_process.hpp"
 #include "support/temporary_folder.hpp"
@@ -167,9 +170,16 @@ TEST_F(ViewWindowTest, GoesThroughTheScenesThereAre) {
 }
 
 TEST_F(ViewWindowTest, ASignalClosesIt) {
+  folder.write("hands.txt", "1 screenshot shown.png\n1000000 view final\n");
   std::vector<std::string> interrupted = onADisplay();
-  interrupted.insert(interrupted.end(), {"/usr/bin/timeout", "--preserve-status", "-s", "INT", "5", program(), scene, "--validate"});
-  const Outcome outcome = Child(interrupted, folder.string()).wait();
+  const std::string view = "echo $$ > pid; exec '" + program() + "' '" + scene + "' --script hands.txt --validate";
+  interrupted.insert(interrupted.end(), {"/bin/sh", "-c", view});
+  Child child(interrupted, folder.string());
+  while (!std::filesystem::exists(folder / "shown.png") && !child.ended()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  // To the program alone and once: the second of a kind ends it at once.
+  ASSERT_TRUE(std::filesystem::exists(folder / "shown.png")) << child.wait().err;
+  ::kill(std::stoi(contentOf(folder / "pid")), SIGINT);
+  const Outcome outcome = child.wait();
   EXPECT_EQ(outcome.code, 130) << "as after any Ctrl-C: " << outcome.err;
   EXPECT_EQ(outcome.err, "");
 }
