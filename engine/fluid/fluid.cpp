@@ -262,6 +262,15 @@ const FluidProgress& Fluid::progress() const {
   return impl_->progress;
 }
 
+std::array<double, 3> Fluid::drivenCentre(uint32_t solid) const {
+  const auto& driven = impl_->setup.driven;
+  const auto found = std::find_if(driven.begin(), driven.end(), [solid](const DrivenSolid& d) { return d.solid == solid; });
+  assert(found != driven.end() && "a solid that is driven");
+  std::array<double, 3> centre{};
+  for (size_t a = 0; a < 3; ++a) centre[a] = impl_->origin[a] + found->centre[a];
+  return centre;
+}
+
 uint32_t Fluid::count() const { return impl_->count; }
 uint32_t Fluid::substepsPerBlock() const { return kSubstepsPerBlock; }
 uint32_t Fluid::mostSubsteps() const { return kSubstepsPerBlock * (impl_->setup.params.maxSubsteps + kSettleSubsteps); }

@@ -97,6 +97,7 @@ class FluidImpl {
   BufferRef& refOf(const Buffer& buffer);
   void importAll(Graph& graph);
   void declareUpload(Graph& graph);
+  void declareDrive(Graph& graph, const FluidStep& step);
   void declareBegin(Graph& graph, double advance);
   void declareRebuild(Graph& graph);
   void declareSubstep(Graph& graph, uint32_t parity, bool first);  ///< first of its block
@@ -117,6 +118,7 @@ class FluidImpl {
   bool texel_ = false;
   bool uploaded_ = false;
   bool resumed_ = false;   // from a snapshot
+  float drivenSpeed_ = 0;  // m/s, the fastest driven solid of the advance declared last
   uint32_t recorded_ = 0;  // substeps recorded since the start: parity of the next
   double emptyTime_ = 0;   // simulated time of a fluid without particles, s
   mutable std::deque<Pending> pending_;

@@ -1,6 +1,7 @@
 // One step as graph passes: begin, blocks of (rebuild, substeps), measure. See ARCHITECTURE.md, "A substep".
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstring>
 
 #include "fluid/fluid_impl.hpp"
@@ -111,6 +112,39 @@ void FluidImpl::declareUpload(Graph& graph) {
   });
 }
 
+// Keyframes of the driven solids for an advance: from where the last one was to bring them, towards their targets.
+void FluidImpl::declareDrive(Graph& graph, const FluidStep& step) {
+  struct Keys {
+    uint64_t at;
+    std::array<float, 8> values;  // where it is and when, where it will be and when
+  };
+  std::vector<Keys> keys;
+  drivenSpeed_ = 0;
+  for (DrivenSolid& driven : setup.driven) {
+    std::array<float, 3> from{}, to{};
+    std::copy(std::begin(driven.centre), std::end(driven.centre), from.begin());
+    to = from;
+    for (const SolidTarget& target : step.targets) {
+      double way[3];
+      for (int a = 0; a < 3; ++a) way[a] = target.centre[a] - origin[a] - from[a];
+      const double length = std::hypot(way[0], way[1], way[2]);
+      if (target.solid != driven.solid || !std::isfinite(length)) continue;
+      const double share = length > 0 ? std::min(1.0, driven.fastest * step.advance_s / length) : 0.0;
+      for (int a = 0; a < 3; ++a) to[a] = static_cast<float>(from[a] + share * way[a]);
+      drivenSpeed_ = std::max(drivenSpeed_, static_cast<float>(share * length / step.advance_s));
+    }
+    std::copy(to.begin(), to.end(), driven.centre);
+    keys.push_back({uint64_t{setup.solids[driven.solid].firstKey} * 16,
+                    {from[0], from[1], from[2], 0, to[0], to[1], to[2], static_cast<float>(step.advance_s)}});
+  }
+  graph.pass("drive solids", [&](Pass& pass) {
+    r_.keyframes = pass.write(r_.keyframes, Use::CopyTarget);
+    return [keys = std::move(keys), target = r_.keyframes](Commands& commands) {
+      for (const Keys& k : keys) commands.update(target, std::as_bytes(std::span(k.values)), k.at);
+    };
+  });
+}
+
 void FluidImpl::declareBegin(Graph& graph, double advance) {
   graph.pass("begin", [&](Pass& pass) {
     pass.read(r_.params, Use::ComputeUniform);
@@ -120,7 +154,7 @@ void FluidImpl::declareBegin(Graph& graph, double advance) {
     r_.control = pass.write(r_.control, Use::ComputeWrite);
     r_.commands = pass.write(r_.commands, Use::ComputeWrite);
     const Kernel kernel = pass.kernel(pipes_.begin, {r_.params, r_.control, r_.sums, r_.shapes, r_.commands, r_.gravity});
-    const BeginPush push{static_cast<float>(advance), commandCount()};
+    const BeginPush push{static_cast<float>(advance), commandCount(), advance > 0 ? drivenSpeed_ : 0.0f};
     return [=](Commands& commands) { commands.dispatch(kernel, 1, push); };
   });
   graph.pass("predict", [&](Pass& pass) {
@@ -462,6 +496,7 @@ void FluidImpl::declareSkipped(Graph& graph) {
   if (!setup.near) graph.skipped("walls and solids", "no domain and no solids");
   if (p.solidCount == 0) graph.skipped("collide", "no solids");
   if (!setup.movingSolids) graph.skipped("move solids", "no solid moves");
+  if (setup.driven.empty()) graph.skipped("drive solids", "the host moves none");
   if (p.iterations == 1) graph.skipped("iterate", "one iteration a substep");
   if (setup.viscositySweeps == 0) graph.skipped("viscosity", "viscosity is 0");
   if (p.calmingRate <= 0) graph.skipped("calm", setup.whyNotCalming);
@@ -484,6 +519,7 @@ FluidState FluidImpl::present(Graph& graph) const {
   state.velocity = importWhole(graph, "velocities", buffers_.velocity);
   state.id = importWhole(graph, "ids", buffers_.id);
   state.control = importWhole(graph, "control", buffers_.control);
+  if (!setup.driven.empty()) state.solids = importWhole(graph, "solids", buffers_.solids);
   return state;
 }
 
@@ -511,6 +547,7 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
     }
   }
   uploaded_ = true;
+  if (!step.resume && step.advance_s > 0 && !setup.driven.empty()) declareDrive(graph, step);
   if (!step.resume) declareBegin(graph, std::max(step.advance_s, 0.0));
   const uint32_t blocks = advances ? static_cast<uint32_t>(divideUp(std::max(step.substeps, 1u), kSubstepsPerBlock)) : 0;
   for (uint32_t block = 0; block < blocks; ++block) {
@@ -534,6 +571,7 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   state.velocity = r_.velocity;
   state.id = r_.id;
   state.control = r_.control;
+  if (!setup.driven.empty()) state.solids = r_.solids;
   return state;
 }
 

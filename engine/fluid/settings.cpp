@@ -58,6 +58,24 @@ double fastestSolid(const Scene& scene) {
   return fastest;
 }
 
+double fastestDriven(const Scene& scene) {
+  double fastest = 0;
+  for (const Solid& solid : scene.solids) fastest = std::max(fastest, solid.driven);
+  return fastest;
+}
+
+/// What JSON cannot say, and so has not been checked.
+Expected<void> checkDriven(const Scene& scene) {
+  for (size_t k = 0; k < scene.solids.size(); ++k) {
+    const std::string name = "solids[" + std::to_string(k) + "].driven";
+    const Solid& solid = scene.solids[k];
+    if (!(solid.driven >= 0) || !std::isfinite(solid.driven))
+      return Error{ErrorKind::BadInput, name + " is " + roughNumber(solid.driven) + "; expected a speed in m/s, 0 or more"};
+    if (solid.driven > 0 && !solid.motion.empty()) return Error{ErrorKind::BadInput, name + ": a solid with a motion moves by itself"};
+  }
+  return {};
+}
+
 void appendTable(std::vector<float>& tables, const std::vector<float>& table, uint32_t& offset) {
   offset = static_cast<uint32_t>(tables.size() / 2);
   tables.insert(tables.end(), table.begin(), table.end());
@@ -94,7 +112,14 @@ void addSolids(const Scene& scene, const SmoothingKernel& kernel, const double o
       for (double x : key.translate) setup.keyframes.push_back(f(x));
       setup.keyframes.push_back(f(key.at));
     }
-    setup.movingSolids |= !solid.motion.empty();
+    if (solid.driven > 0) {
+      record.driven = 1;
+      record.keyCount = 2;
+      setup.keyframes.insert(setup.keyframes.end(), 8, 0.0f);
+      setup.driven.push_back({static_cast<uint32_t>(setup.solids.size()), solid.driven, {record.centerX, record.centerY, record.centerZ}});
+      record.baseX = record.baseY = record.baseZ = 0;
+    }
+    setup.movingSolids |= record.keyCount > 0;
     if (pose.sphere) {
       const SphereTable table = makeSphereTable(kernel, pose.half[0]);
       appendTable(setup.tables, table.table, record.tableOffset);
@@ -215,7 +240,8 @@ void setSpeeds(const Scene& scene, const StartFigures& start, FluidParams& p) {
   double room[3];
   const bool closed = scene.domain && scene.domain->open == 0;
   for (int a = 0; a < 3; ++a) room[a] = std::max(start.extent[a], scene.domain ? scene.domain->max[a] - scene.domain->min[a] : 0);
-  const double usual = std::sqrt(2 * headOf(scene, room) + start.fastest * start.fastest) + p.solidSpeed;
+  const double usual =
+      std::sqrt(2 * headOf(scene, room) + start.fastest * start.fastest) + std::max<double>(p.solidSpeed, fastestDriven(scene));
   constexpr double kNone = 1e18;  // m/s: where nothing bounds the way that something falls
   p.warmLimit = f(kWarmLimit * usual * usual);
   p.pushLow = f(kPushLow * usual);
@@ -272,6 +298,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   const double *origin = start.origin, *extent = start.extent;
   const double d = scene.fluid.spacing, h = scene.fluid.smoothing_ratio * d;
   if (!(d > 0)) return Error{ErrorKind::BadInput, "fluid.spacing is not set: give it, or make the particles first"};
+  if (auto possible = checkDriven(scene); !possible) return possible.error();
   FluidSetup setup;
   FluidParams& p = setup.params;
   const SmoothingKernel kernel(scene.solver.kernel, h, d);

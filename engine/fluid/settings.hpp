@@ -15,12 +15,20 @@ namespace rill {
 /// Spacings beyond the support that the list reaches.
 inline constexpr double kListSkin = 0.15;
 
+/// A solid that the host moves.
+struct DrivenSolid {
+  uint32_t solid = 0;
+  double fastest = 0;           ///< m/s
+  float centre[3] = {0, 0, 0};  ///< m, relative to the particles' origin: where it is at the end of the last advance that was declared
+};
+
 struct FluidSetup {
   FluidParams params{};
   GridSize grid;
   std::vector<float> tables;        ///< (value, slope) pairs of wall and ball tables
   std::vector<SolidRecord> solids;  ///< relative to the particles' origin, at time 0
   std::vector<float> keyframes;     ///< translation and time, four floats each
+  std::vector<DrivenSolid> driven;  ///< at the start; their keyframes follow from each advance
   std::vector<float> gravity;       ///< the schedule: value and time, four floats each; the scene's own first
   uint32_t kernel = 0;              ///< specialization constant KERNEL
   uint32_t viscositySweeps = 0;     ///< 0: no viscosity

@@ -111,6 +111,7 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
     solids[k].velocityY = six[4];
     solids[k].velocityZ = six[5];
   }
+  for (DrivenSolid& driven : setup.driven) std::copy_n(s.solids.data() + 6 * driven.solid, 3, driven.centre);
   staging_->add(buffers_.solids, solids.size() * sizeof(SolidRecord), bytesOf(solids));
   staging_->add(buffers_.id, s.id.data(), s.id.size() * 4);
   staging_->add(buffers_.warm, s.warm.data(), s.warm.size() * 4);

@@ -98,7 +98,7 @@ void fillSolids(ParticleScene& out, const Scene& scene) {
                        static_cast<float>(solid.rotation[3])};
     const auto half = [&](int a) { return solid.box ? static_cast<float>(0.5 * (solid.box->max[a] - solid.box->min[a])) : 0.0f; };
     record.half_size = {half(0), half(1), half(2), static_cast<float>(radius)};
-    record.motion = {static_cast<uint32_t>(out.keyframes.size()), static_cast<uint32_t>(solid.motion.size()), 0, 0};
+    record.motion = {static_cast<uint32_t>(out.keyframes.size()), static_cast<uint32_t>(solid.motion.size()), solid.driven > 0, 0};
     for (const Keyframe& key : solid.motion) {
       out.keyframes.push_back({static_cast<float>(key.translate[0]), static_cast<float>(key.translate[1]),
                                static_cast<float>(key.translate[2]), static_cast<float>(key.at)});

@@ -50,7 +50,7 @@ class ParticleViewImpl {
   };
 
   ViewPush pushFor(const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc, double time) const;
-  void addSetup(Graph& graph, Frame& frame);
+  void addSetup(Graph& graph, const FluidState& fluid, Frame& frame);
   void addSurfaces(Graph& graph, Frame& frame);
   void addLightMap(Graph& graph, Frame& frame);
   BufferRef addMasks(Graph& graph, const Frame& frame, bool light);
@@ -146,7 +146,7 @@ ViewPush ParticleViewImpl::pushFor(const FluidState& fluid, const CameraView& ca
   return push;
 }
 
-void ParticleViewImpl::addSetup(Graph& graph, Frame& frame) {
+void ParticleViewImpl::addSetup(Graph& graph, const FluidState& fluid, Frame& frame) {
   frame.scene = buffers_.importScene(graph);
   frame.counters = graph.create("view counters", {kCounterWords * 4});
   frame.edges = graph.create("view edges", {kEdges * sizeof(EdgeRecord)});
@@ -164,7 +164,7 @@ void ParticleViewImpl::addSetup(Graph& graph, Frame& frame) {
     graph.skipped("view poses", "the scene has no solids");
     return;
   }
-  frame.poses = buffers_.addPoses(graph, frame.scene, frame.push);
+  frame.poses = buffers_.addPoses(graph, fluid, frame.scene, frame.push);
 }
 
 /// Which solids may be seen in which tile.
@@ -425,7 +425,7 @@ BufferRef ParticleViewImpl::addTo(Graph& graph, const FluidState& fluid, const C
   frame.pixels = uint64_t{desc.width} * desc.height;
   frame.position = fluid.position;
   frame.velocity = fluid.velocity;
-  addSetup(graph, frame);
+  addSetup(graph, fluid, frame);
   addSurfaces(graph, frame);
   addLightMap(graph, frame);
   if (fluid.count > 0) {

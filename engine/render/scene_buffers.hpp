@@ -2,6 +2,7 @@
 // What of a scene is drawn beside the fluid, on the device.
 #include "gpu/resources.hpp"
 #include "render/particle_scene.hpp"
+#include "rill/fluid.hpp"
 #include "rill/graph.hpp"
 
 namespace rill {
@@ -10,12 +11,12 @@ struct SceneBuffers {
   static Expected<SceneBuffers> create(Device& device, ParticleScene host);
 
   BufferRef importScene(Graph& graph) const;
-  /// PoseRecords of the solids (there are some) at the push's time, seen with its camera.
-  BufferRef addPoses(Graph& graph, BufferRef scene, const particle_view::ViewPush& push) const;
+  /// PoseRecords of the solids (there are some) at the push's time, seen with its camera; of driven ones as `fluid` has them.
+  BufferRef addPoses(Graph& graph, const FluidState& fluid, BufferRef scene, const particle_view::ViewPush& push) const;
 
   ParticleScene host;
   Buffer scene, solids, keyframes;
-  const ComputePipeline* poses = nullptr;
+  const ComputePipeline *poses = nullptr, *drivenPoses = nullptr;
 };
 
 }  // namespace rill

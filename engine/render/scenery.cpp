@@ -160,7 +160,8 @@ SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets 
   if (solids) {
     particle_view::ViewPush push{};
     push.time = static_cast<float>(time_s);
-    poses = buffers_.addPoses(graph, scene, push);
+    for (int a = 0; a < 3; ++a) push.offset[a] = static_cast<float>(fluid.origin[a] - buffers_.host.origin[a]);
+    poses = buffers_.addPoses(graph, fluid, scene, push);
     lightDepth = graph.create("scenery light depth", {kShadowFormat, light.width, light.height});
     graph.pass("scenery shadows", [&](Pass& pass) {
       pass.read(poses, Use::DrawRead);

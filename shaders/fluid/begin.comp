@@ -22,6 +22,7 @@ void main() {
   c.substeps = 0u;
   c.iterations = 0u;
   c.builds = 0u;
+  c.solidSpeed = max(params.solidSpeed, push.drivenSpeed);
   gravityAt(c);
   float acceleration = length(vec3(c.gravityX, c.gravityY, c.gravityZ));
   c.speed = uintBitsToFloat(s.speedMax);
@@ -31,7 +32,7 @@ void main() {
   if (going) {
     c.nextStep = fittedStep(push.advance, c.desiredStep);
     if (c.warmStep <= 0.0) c.warmStep = c.nextStep;
-    if (c.travel + (c.speed + params.solidSpeed + acceleration * c.nextStep) * c.nextStep > params.travelLimit) c.stale = max(c.stale, 1u);
+    if (c.travel + (c.speed + c.solidSpeed + acceleration * c.nextStep) * c.nextStep > params.travelLimit) c.stale = max(c.stale, 1u);
   }
   c.running = going && c.stale == 0u ? 1u : 0u;
   c.again = 0u;

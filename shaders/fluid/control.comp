@@ -54,7 +54,7 @@ void main() {
     c.timeLeft -= c.step;
     c.substeps += 1u;
     addTime(c, c.step);
-    c.travel += (c.speed + params.solidSpeed) * c.step;
+    c.travel += (c.speed + c.solidSpeed) * c.step;
     gravityAt(c);
     float acceleration = length(vec3(c.gravityX, c.gravityY, c.gravityZ));
     c.desiredStep = plannedStep(c, tolerableStep(c, error), cflStep(c.speed, acceleration));
@@ -64,7 +64,7 @@ void main() {
       c.timeLeft = 0.0;
     }
     c.nextStep = c.timeLeft > 0.0 ? fittedStep(c.timeLeft, c.desiredStep) : c.desiredStep;
-    if (c.travel + (c.speed + params.solidSpeed + acceleration * c.nextStep) * c.nextStep > params.travelLimit) c.stale = 1u;
+    if (c.travel + (c.speed + c.solidSpeed + acceleration * c.nextStep) * c.nextStep > params.travelLimit) c.stale = 1u;
   }
 
   c.running = c.timeLeft > 0.0 && c.stale == 0u ? 1u : 0u;

@@ -87,7 +87,7 @@ struct SolidRecord {
   vec4 centre;    // w: radius of a sphere, 0 for a box
   vec4 rotation;  // unit quaternion
   vec4 half_size; // of a box; w: radius of the bounding sphere
-  uvec4 motion;   // first keyframe, number of keyframes
+  uvec4 motion;   // first keyframe, number of keyframes, whether it is driven
 };
 
 // A solid at the frame's time.

@@ -84,7 +84,7 @@ struct FluidParams {
   uint gravityChanges;    // entries of the schedule
   float farLimit;         // m from the origin beyond which a particle is parked
   float nearLimit;        // m from a wall or a solid's surface within which a particle is listed as near
-  float solidSpeed;       // m/s, the fastest solid
+  float solidSpeed;       // m/s, the fastest solid that keyframes move
   float pushLow, pushHigh;  // m/s: what a correction may add to a speed in a substep is held between them
   float speedLimit;       // m/s, of any particle
   float warmLimit;        // m^2/s^2: the warm start is at most this times the step squared
@@ -121,6 +121,7 @@ struct FluidControl {
   float calming;       // XSPH coefficient of the calm pass after this substep; 0: it does not run
   float uncalmed;      // s since the last one
   uint settling;       // substeps left, at most, in which particles that overlap at the start part without gaining speed
+  float solidSpeed;    // m/s, the fastest solid of the advance
 };
 
 // Sums of the passes of one substep; integers, so that their order does not matter.
@@ -150,6 +151,7 @@ struct SolidRecord {
   uint tableNodes;
   float baseX, baseY, baseZ;       // centre before any motion, m
   float tableFirst;                // sphere: signed distance of the table's first node, m
+  uint driven;                     // 1: two keyframes, where it is at the begin and at the end of the advance, with seconds since its begin
 };
 
 struct KeyframeRecord {
@@ -159,6 +161,7 @@ struct KeyframeRecord {
 struct BeginPush {
   float advance;       // s
   uint commands;       // how many
+  float drivenSpeed;   // m/s, the fastest driven solid of the advance
 };
 
 struct ControlPush {

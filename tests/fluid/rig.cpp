@@ -227,7 +227,7 @@ void FluidTest::Run::advance(double seconds, uint32_t piece) {
   bool resume = false;
   do {
     graph_.reset();
-    fluid_->addTo(graph_, {.advance_s = seconds, .resume = resume, .substeps = piece});
+    fluid_->addTo(graph_, {.advance_s = seconds, .resume = resume, .substeps = piece, .targets = targets});
     test_.runGraph(graph_);
     if (HasFatalFailure()) return;
     resume = true;

@@ -93,6 +93,8 @@ class FluidTest : public GpuTest {
     const FluidProgress& progress() const { return fluid_->progress(); }
     Fluid& fluid() { return *fluid_; }
 
+    std::vector<SolidTarget> targets;  ///< of the next advances
+
    private:
     FluidTest& test_;
     double step_;

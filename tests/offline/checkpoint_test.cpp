@@ -59,11 +59,11 @@ TEST(CheckpointFile, ForeignAndNewerFilesAreToldApart) {
   auto newer = offline::encodeCheckpoint(seedCheckpoint());
   newer[8] = std::byte{3};
   seal(newer);
-  EXPECT_NE(refusal(newer).find("a newer Rill, in format 3; this one reads format 2"), std::string::npos) << refusal(newer);
+  EXPECT_NE(refusal(newer).find("a newer Rill, in format 4; this one reads format 3"), std::string::npos) << refusal(newer);
   auto older = offline::encodeCheckpoint(seedCheckpoint());
   older[8] = std::byte{1};
   seal(older);
-  EXPECT_NE(refusal(older).find("an older Rill, in format 1; this one reads format 2"), std::string::npos) << refusal(older);
+  EXPECT_NE(refusal(older).find("an older Rill, in format 2; this one reads format 3"), std::string::npos) << refusal(older);
 }
 
 // With a checksum that holds: lengths are not believed for that.

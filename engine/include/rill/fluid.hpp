@@ -1,5 +1,6 @@
 #pragma once
 // The PBF solver as passes of a render graph. All state lives on the device; time steps, list rebuilds and stops are decided there.
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -51,12 +52,21 @@ struct FluidMemory {
 /// What a Fluid of `particles` particles will need, computed in 64 bits from the numbers alone: before anything is allocated.
 FluidMemory fluidMemory(const Scene& scene, uint64_t particles);
 
+/// Where the host wants a driven solid at the end of an advance.
+struct SolidTarget {
+  uint32_t solid = 0;            ///< of the scene's solids; one that is not driven does not move
+  double centre[3] = {0, 0, 0};  ///< m; not finite: it stays where it is
+};
+
 /// One piece of simulation to declare in a graph.
 struct FluidStep {
   double advance_s = 0;    ///< s of simulated time to go on from where the last completed advance ended; ignored where `resume`
   bool resume = false;     ///< go on with the time that the last step left over (an offline caller records a frame in pieces)
   uint32_t substeps = 64;  ///< the most that this graph records, rounded up to whole blocks of `Fluid::substepsPerBlock()`
   bool stats = false;      ///< measure Stats at the end
+  /// The way of driven solids during the advance: straight, even, at most as fast as each may be. One that is not named stays where it is.
+  /// Read in addTo(); ignored where `resume`, and without particles.
+  std::span<const SolidTarget> targets = {};
 };
 
 /// Where a module finds the particles of this frame: versions of buffers of the same graph. Read them with any Use.
@@ -65,6 +75,7 @@ struct FluidState {
   BufferRef velocity;            ///< vec4 a particle: xyz in m/s, w the density over rest density where the step asked for `stats`, else 1
   BufferRef id;                  ///< uint a particle: its number at birth
   BufferRef control;             ///< FluidControl (shaders/shared/fluid_records.h), read back by offline callers
+  BufferRef solids;              ///< SolidRecord (likewise) each, as they are at present; none where no solid is driven
   uint32_t count = 0;            ///< particles
   float spacing = 0;             ///< m
   double origin[3] = {0, 0, 0};  ///< m
@@ -122,6 +133,9 @@ class Fluid {
   std::optional<FluidStats> stats() const;
   /// How far the last finished frame got with its advance. Known without asking for figures.
   const FluidProgress& progress() const;
+
+  /// Where a driven solid is at the end of the last advance that was declared, m: short of its target where that was too far away.
+  std::array<double, 3> drivenCentre(uint32_t solid) const;
 
   uint32_t count() const;  ///< particles, parked ones too
   /// What FluidStep::substeps is rounded up to whole multiples of.

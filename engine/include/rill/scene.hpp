@@ -87,6 +87,7 @@ struct Solid {
   double friction = 0;                ///< Coulomb coefficient, >= 0
   double restitution = 0;             ///< 0 .. 1
   std::vector<Keyframe> motion;
+  double driven = 0;  ///< m/s, at most so fast: > 0 for a solid that its host moves (FluidStep::targets) and no keyframes do
 };
 
 struct GravityChange {
