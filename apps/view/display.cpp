@@ -80,8 +80,7 @@ Expected<void> Display::show(const ImDrawData& lists, const ImVec4& behind, offl
   const Swapchain::Target& target = **acquired;
   if (auto frame = context_.beginFrame(); !frame) return frame.error();
   window_.reset();
-  const ShownPicture picture{importWhole(window_, "shown picture", shown_), shownWidth_, shownHeight_,
-                             area_};
+  const ShownPicture picture{importWhole(window_, "shown picture", shown_), shownWidth_, shownHeight_, area_};
   pass_->upload(window_, lists);
   const ImageDesc desc{swapchain_->format(), target.width, target.height};
   const ImageRef image = window_.import("window", {target.image, desc, Use::Unknown, Use::ColourTarget});

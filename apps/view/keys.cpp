@@ -15,6 +15,7 @@ constexpr KeyBinding kBindings[] = {{GLFW_KEY_P, "P", Action::Pause, "pause, go 
                                     {GLFW_KEY_LEFT_BRACKET, "[", Action::PreviousScene, "previous scene"},
                                     {GLFW_KEY_RIGHT_BRACKET, "]", Action::NextScene, "next scene"},
                                     {GLFW_KEY_V, "V", Action::NextView, "next view; with Shift the one before"},
+                                    {GLFW_KEY_SPACE, "Space", Action::Throw, "throw a ball of fluid at what is under the pointer"},
                                     {GLFW_KEY_HOME, "Home", Action::Home, "frame the scene"},
                                     {GLFW_KEY_1, "1", Action::Front, "look from the front"},
                                     {GLFW_KEY_2, "2", Action::Back, "from behind"},
@@ -31,9 +32,10 @@ constexpr KeyBinding kBindings[] = {{GLFW_KEY_P, "P", Action::Pause, "pause, go 
                                     {GLFW_KEY_C, "C", Action::Screenshot, "write the window to a PNG file"},
                                     {GLFW_KEY_F1, "F1", Action::Help, "this help"}};
 
-constexpr MouseUse kMouse[] = {{"left drag", "go around the scene"},
+constexpr MouseUse kMouse[] = {{"left drag", "on the fluid: push it; elsewhere, paused, or with Alt: go around the scene"},
+                               {"right drag", "on a solid: move it; elsewhere: nearer and farther"},
+                               {"wheel", "nearer and farther, towards the pointer"},
                                {"middle drag", "move the scene along the picture (or Shift and left drag)"},
-                               {"wheel, right drag", "nearer and farther, towards the pointer"},
                                {"drop a file", "open a scene"}};
 
 struct NamedKey {

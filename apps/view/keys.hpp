@@ -14,6 +14,7 @@ enum class Action {
   PreviousScene,
   NextScene,
   NextView,
+  Throw,
   Home,
   Front,
   Back,

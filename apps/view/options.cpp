@@ -74,7 +74,8 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
   if (given("--size")) {
     const auto size = apps::pixelSizeIn(raw.size, kLeastSide, kMostSide);
     if (!size)
-      return badInput("--size", raw.size, "WIDTHxHEIGHT in pixels, as 1280x720: each from " + std::to_string(kLeastSide) + " to " + std::to_string(kMostSide));
+      return badInput("--size", raw.size,
+                      "WIDTHxHEIGHT in pixels, as 1280x720: each from " + std::to_string(kLeastSide) + " to " + std::to_string(kMostSide));
     options.width = size->width;
     options.height = size->height;
   }

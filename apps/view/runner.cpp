@@ -1,14 +1,14 @@
 #include "view/runner.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <chrono>
-#include <cstddef>
+#include <cmath>
+#include <cstring>
 #include <limits>
 
+#include "fluid/snapshot.hpp"
 #include "offline/readout.hpp"
 #include "offline/state_hash.hpp"
-#include "shared/fluid_records.h"
 #include "sort/key_sort_types.hpp"
 #include "view/clock.hpp"
 
@@ -48,7 +48,7 @@ Expected<void> Runner::piece(double budget_s) {
   }
   const uint32_t most = fluid_->mostSubsteps();
   const uint32_t substeps = std::min(pacing_.next(budget_s), most - recorded_);
-  const FluidStep part{recorded_ == 0 ? Clock::kStep : 0.0, recorded_ > 0, substeps, false};
+  const FluidStep part{recorded_ == 0 ? Clock::kStep : 0.0, recorded_ > 0, substeps, false, targets_};
   if (auto ran = run(graph_, [&](Graph& graph) { static_cast<void>(fluid_->addTo(graph, part)); }); !ran) return ran;
   log_.add(graph_.report(), true);
   log_.add(graph_.timings());
@@ -94,25 +94,109 @@ Expected<uint64_t> Runner::hash() {
   return offline::stateHash(read.positions, read.velocities, read.ids);
 }
 
-Expected<void> Runner::change(Scene scene) {
+Expected<FluidSnapshot> Runner::snapshot() {
   if (!between())
-    if (auto ended = step(); !ended) return ended;
-  if (!(scene.fluid.spacing > 0)) scene.fluid.spacing = scene_.fluid.spacing;  // follows from the fills, which are the same
-  if (auto ready = begin(); !ready) return ready;
+    if (auto ended = step(); !ended) return ended.error();
+  if (auto ready = begin(); !ready) return ready.error();
   SnapshotReader reader(*fluid_);
   for (Graph graph; !reader.done();) {
-    if (auto ran = run(graph, [&](Graph& g) { reader.declare(g); }); !ran) return ran;
-    if (auto taken = reader.take(graph); !taken) return taken;
+    if (auto ran = run(graph, [&](Graph& g) { reader.declare(g); }); !ran) return ran.error();
+    if (auto taken = reader.take(graph); !taken) return taken.error();
   }
-  FluidSnapshot& now = reader.snapshot();
-  if (scene.gravity_changes.empty() && !now.control.empty())  // the device holds the one that is in force
-    for (int a = 0; a < 3; ++a)
-      now.control[offsetof(FluidControl, gravityX) / 4 + a] = std::bit_cast<uint32_t>(static_cast<float>(scene.gravity[a]));
-  auto fluid = Fluid::create(context_.device(), {.scene = &scene, .particles = &start_, .snapshot = &now});
+  return std::move(reader.snapshot());
+}
+
+Expected<void> Runner::goOn(Scene scene, ParticleSet start, const FluidSnapshot& from) {
+  auto fluid = Fluid::create(context_.device(), {.scene = &scene, .particles = &start, .snapshot = count() > 0 ? &from : nullptr});
   if (!fluid) return fluid.error();
   fluid_ = std::move(*fluid);
   scene_ = std::move(scene);
+  start_ = std::move(start);
   return begin();
+}
+
+Expected<void> Runner::change(Scene scene) {
+  auto now = snapshot();
+  if (!now) return now.error();
+  if (!(scene.fluid.spacing > 0)) scene.fluid.spacing = scene_.fluid.spacing;  // follows from the fills, which are the same
+  scene.solids = scene_.solids;
+  // The device holds the one that is in force.
+  if (scene.gravity_changes.empty() && count() > 0) setGravity(*now, scene.gravity);
+  return goOn(std::move(scene), start_, *now);
+}
+
+Expected<void> Runner::changeSolids(std::vector<Solid> solids) {
+  auto now = snapshot();
+  if (!now) return now.error();
+  if (count() > 0) forgetNeighbours(*now);
+  now->solids.clear();
+  for (size_t k = 0; k < solids.size(); ++k) {
+    const SolidPose there = k < scene_.solids.size() ? pose(static_cast<uint32_t>(k)) : solidPose(solids[k], 0);
+    for (size_t a = 0; a < 3; ++a) now->solids.push_back(static_cast<float>(there.centre[a] - start_.origin[a]));
+    for (double v : there.velocity) now->solids.push_back(static_cast<float>(v));
+  }
+  const bool anyMoves = std::ranges::any_of(solids, [](const Solid& solid) { return solid.driven > 0 || !solid.motion.empty(); });
+  if (!anyMoves) now->solids.clear();
+  Scene scene = scene_;
+  scene.solids = std::move(solids);
+  if (auto done = goOn(std::move(scene), start_, *now); !done) return done;
+  targets_.clear();
+  return {};
+}
+
+Expected<uint64_t> Runner::add(const Fill& fill) {
+  auto now = snapshot();
+  if (!now) return now.error();
+  Scene only = scene_;
+  only.fill = {fill};
+  for (uint32_t k = 0; k < only.solids.size(); ++k) {
+    const SolidPose there = pose(k), first = solidPose(scene_.solids[k], 0);
+    only.solids[k].motion = {
+        {0, {there.centre[0] - first.centre[0], there.centre[1] - first.centre[1], there.centre[2] - first.centre[2]}}};
+  }
+  const auto more = makeParticles(only, KeySortDesc::kMaxCount);
+  if (!more) return more.error();
+
+  ParticleSet start = start_;
+  std::vector<Float3> positions;
+  const double apart = 0.9 * scene_.fluid.spacing;
+  for (const Float3& p : more->positions) {
+    const Float3 x{static_cast<float>(p.x + more->origin[0] - start.origin[0]), static_cast<float>(p.y + more->origin[1] - start.origin[1]),
+                   static_cast<float>(p.z + more->origin[2] - start.origin[2])};
+    const bool free = std::ranges::none_of(
+        now->position, [&](const Float3& other) { return std::hypot(other.x - x.x, other.y - x.y, other.z - x.z) < apart; });
+    if (free) positions.push_back(x);
+  }
+  if (positions.empty()) return Error{ErrorKind::BadInput, "There is no room for more fluid there"};
+  const std::vector<Float3> velocities(positions.size(), more->velocities.front());
+  start.positions.insert(start.positions.end(), positions.begin(), positions.end());
+  start.velocities.insert(start.velocities.end(), velocities.begin(), velocities.end());
+  if (count() > 0) append(*now, positions, velocities);
+  if (auto done = goOn(scene_, std::move(start), *now); !done) return done.error();
+  return positions.size();
+}
+
+SolidPose Runner::pose(uint32_t solid) const {
+  SolidPose there = solidPose(scene_.solids[solid], time_s());
+  if (scene_.solids[solid].driven > 0) std::ranges::copy(fluid_->drivenCentre(solid), there.centre);
+  return there;
+}
+
+void Runner::steer(const SolidTarget& target) {
+  std::erase_if(targets_, [&](const SolidTarget& other) { return other.solid == target.solid; });
+  targets_.push_back(target);
+}
+
+Expected<std::vector<Float3>> Runner::positions() {
+  Ticket ticket;
+  if (count() == 0) return std::vector<Float3>{};
+  auto ran = run(measureGraph_, [&](Graph& graph) { ticket = graph.readback(fluid_->present(graph).position); });
+  if (!ran) return ran.error();
+  const auto bytes = measureGraph_.data(ticket);
+  std::vector<Float3> positions(count());
+  for (size_t i = 0; i < positions.size() && (i + 1) * sizeof(Float4) <= bytes.size(); ++i)
+    std::memcpy(&positions[i], bytes.data() + i * sizeof(Float4), sizeof(Float3));
+  return positions;
 }
 
 std::vector<std::string> Runner::warnings() const {

@@ -9,6 +9,7 @@
 #include "offline/pass_log.hpp"
 #include "rill/fluid.hpp"
 #include "rill/scene_io.hpp"
+#include "sph/solid_pose.hpp"
 #include "view/pacing.hpp"
 
 namespace rill::view {
@@ -43,9 +44,23 @@ class Runner {
   /// Between steps: as `state_hash` in rill-capture's figures.
   Expected<uint64_t> hash();
 
-  /// Goes on with other settings from the present instant; a step under way is finished first. `scene` differs in what leaves the particles
-  /// and their neighbourhoods as they are (isLive()); errors as create(), and then nothing has changed.
+  // Goes on from the present instant with something changed; a step under way is finished first. Errors as create(), and then nothing has.
+
+  /// Other settings: those of a scene that differs in what leaves the particles and their neighbourhoods as they are (Session::isLive()).
+  /// Solids stay as they are.
   Expected<void> change(Scene scene);
+  /// Other solids. Those that were there before come first, in the same order, and are where their pose() was.
+  Expected<void> changeSolids(std::vector<Solid> solids);
+  /// More particles, as the fill makes them where there is room: how many. BadInput where there is none.
+  Expected<uint64_t> add(const Fill& fill);
+
+  /// Where a solid is at present, m in the scene's coordinates.
+  SolidPose pose(uint32_t solid) const;
+  /// Where a driven solid is to be at the end of the next step, and of those that follow.
+  void steer(const SolidTarget& target);
+  void letGo() { targets_.clear(); }  ///< of all: they stay where they are
+  /// The particles at present, m relative to start().origin, in the device's order.
+  Expected<std::vector<Float3>> positions();
 
   /// Makes the start known to the device, so that it can be shown before the first step.
   Expected<void> begin();
@@ -65,11 +80,15 @@ class Runner {
   Runner(offline::Context& context, Scene scene) : context_(context), scene_(std::move(scene)) {}
   template <class Declare>
   Expected<void> run(Graph& graph, Declare&& declare);
+  Expected<FluidSnapshot> snapshot();
+  uint32_t count() const { return fluid_->count(); }
+  Expected<void> goOn(Scene scene, ParticleSet start, const FluidSnapshot& from);
 
   offline::Context& context_;
   Scene scene_;
-  ParticleSet start_;
+  ParticleSet start_;  ///< and what was added since
   std::unique_ptr<Fluid> fluid_;
+  std::vector<SolidTarget> targets_;
   Graph graph_, measureGraph_;
   Pacing pacing_{1};
   uint64_t steps_ = 0;

@@ -32,8 +32,22 @@ Expected<void> Session::begin(std::vector<Override> changes) {
   changes_ = std::move(changes);
   painter_.reset();
   runner_ = std::move(*runner);
-  painter_ = std::make_unique<offline::Painter>(runner_->scene(), runner_->start(), 0);
+  paintAnew();
   return {};
+}
+
+void Session::paintAnew() { painter_ = std::make_unique<offline::Painter>(runner_->scene(), runner_->start(), 0); }
+
+Expected<void> Session::changeSolids(std::vector<Solid> solids) {
+  auto changed = runner_->changeSolids(std::move(solids));
+  if (changed) paintAnew();
+  return changed;
+}
+
+Expected<uint64_t> Session::add(const Fill& fill) {
+  auto added = runner_->add(fill);
+  if (added) paintAnew();
+  return added;
 }
 
 Expected<void> Session::restart() { return begin(changes_); }
@@ -52,7 +66,7 @@ Expected<void> Session::apply(std::vector<Override> changes, bool live) {
   if (!scene) return scene.error();
   if (auto changed = runner_->change(std::move(*scene)); !changed) return changed;
   changes_ = std::move(changes);
-  painter_ = std::make_unique<offline::Painter>(runner_->scene(), runner_->start(), 0);
+  paintAnew();
   return {};
 }
 

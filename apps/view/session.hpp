@@ -28,6 +28,11 @@ class Session {
   /// The file's scene with the changes, as JSON; comments are lost. Files that it names are found from `folder` too.
   Expected<std::string> text(const std::filesystem::path& folder) const;
 
+  /// As Runner's, and pictures follow. What hands did to the fluid is not part of the file's scene: restart() forgets it, text() leaves it
+  /// out.
+  Expected<void> changeSolids(std::vector<Solid> solids);
+  Expected<uint64_t> add(const Fill& fill);
+
   /// From the start, with the changes.
   Expected<void> restart();
   /// Whether the file is another than the one that was read (asked at most twice a second of `now_s`).
@@ -45,6 +50,7 @@ class Session {
   Expected<void> begin(std::vector<Override> changes);
   Expected<void> apply(std::vector<Override> changes, bool live);
   std::filesystem::file_time_type written() const;
+  void paintAnew();
 
   offline::Context& context_;
   std::filesystem::path file_;

@@ -16,12 +16,12 @@
 #include "shared/png.hpp"
 #include "shared/scene_folders.hpp"
 #include "shared/signals.hpp"
-#include "view/clock.hpp"
+#include "view/controls.hpp"
 #include "view/display.hpp"
 #include "view/gravity_tilt.hpp"
 #include "view/keys.hpp"
-#include "view/orbit_camera.hpp"
 #include "view/panels/board.hpp"
+#include "view/playback.hpp"
 #include "view/script.hpp"
 
 namespace rill::view {
@@ -120,7 +120,7 @@ class Viewer {
       if (auto known = scenes_.find(name); known && *known == file) sceneName_ = name;
     window_->setTitle("Rill: " + sceneName_ + " (" + deviceName_ + ")");
     layOutWindow(window_->framebuffer());
-    camera_.home(homeView());
+    controls_.camera.home(homeView());
     begun();
     message_.clear();
     for (const std::string& warning : session_->runner().warnings()) message_ += (message_.empty() ? "" : "\n") + warning;
@@ -145,9 +145,8 @@ class Viewer {
 
   /// After anything that begins a simulation at its start.
   void begun() {
-    histories_ = {};
-    stats_.reset();
-    clock_.restart();
+    playback_.restart();
+    controls_.forget();
     scale_.restart();
     held_ = {};
     dirty_ = true;
@@ -175,7 +174,7 @@ class Viewer {
     bool screenshot = options_.screenshot && options_.frames && frame_ + 1 == *options_.frames;
     std::optional<fs::path> picture = screenshot ? options_.screenshot : std::nullopt;
     // Nothing moves: wait for a hand rather than draw the same again and again.
-    const bool idle = settings_.paused && !dirty_ && !camera_.moving() && !options_.frames && script_.empty();
+    const bool idle = settings_.paused && !dirty_ && !controls_.camera.moving() && !options_.frames && script_.empty();
     std::vector<InputEvent> events = window_->events(idle ? 0.1 : 0);
     if (auto done = replay(events, picture); !done) return done;
     const Window::Size size = window_->framebuffer();
@@ -195,57 +194,23 @@ class Viewer {
       return {};
     }
     if (auto fits = display_->fit(size); !fits) return fits;
-    if (const Area before = layout_.picture; layOutWindow(size), layout_.picture != before) camera_.reframe(homeView());
-    camera_.update(seconds);
+    if (const Area before = layout_.picture; layOutWindow(size), layout_.picture != before) controls_.camera.reframe(homeView());
+    controls_.camera.update(seconds);
     if (auto drawn = paint(); !drawn) return drawn;
     return draw(picture);
   }
 
-  /// The piece of simulation that belongs to this frame.
+  /// The piece of simulation that belongs to this frame: as much as the picture takes, so that the window answers and the fluid moves on.
   Expected<void> simulate(double seconds) {
-    Runner& runner = session_->runner();
-    runner.timePasses(settings_.panels);
-    const bool single = std::exchange(oneStep_, false);
-    if (options_.lockstep) {
-      if ((settings_.paused && !single) || frame_ == 0) return {};
-      if (auto ran = runner.step(); !ran) return ran;
-      return finished();
-    }
-    if (!settings_.paused) clock_.passed(seconds);
-    if (single && runner.between()) {
-      if (auto ran = runner.piece(budget()); !ran) return ran;
-      if (runner.between()) return finished();
-    }
-    const Now::time_point begin = Now::now();
-    for (double left = budget(); left > 0; left = budget() - secondsSince(begin)) {
-      if (runner.between()) {
-        if (settings_.paused || !clock_.due()) return {};
-        clock_.begun();
-      }
-      if (auto ran = runner.piece(left); !ran) return ran;
-      if (!runner.between()) continue;
-      clock_.finished();
-      if (auto done = finished(); !done) return done;
-    }
-    return {};
-  }
-
-  /// As much as the picture takes: the window answers, and the fluid moves on.
-  double budget() const { return std::clamp(picture_s_, kLeastPiece, kMostPiece); }
-
-  Expected<void> finished() {
-    const StepFigures& step = session_->runner().last();
-    histories_.substeps.add(step.substeps);
-    histories_.iterations.add(step.iterations);
-    histories_.wall_ms.add(1e3 * step.wall_s);
-    dirty_ = true;
-    const bool density = settings_.view == "density";
-    if (!density && !(settings_.panels && now_s_ - measured_s_ >= kMeasureEvery)) return {};
-    measured_s_ = now_s_;
-    auto stats = session_->runner().measure();
-    if (!stats) return stats.error();
-    stats_ = *stats;
-    histories_.error.add(100 * stats->density_error_mean);
+    session_->runner().timePasses(settings_.panels);
+    Playback::Frame frame{seconds, now_s_, std::clamp(picture_s_, kLeastPiece, kMostPiece), settings_.paused, options_.lockstep, {}};
+    if (settings_.view == "density")
+      frame.measureEvery_s = 0;
+    else if (settings_.panels)
+      frame.measureEvery_s = kMeasureEvery;
+    const auto ended = playback_.advance(session_->runner(), frame);
+    if (!ended) return ended.error();
+    dirty_ |= *ended;
     return {};
   }
 
@@ -255,7 +220,7 @@ class Viewer {
       if (settings_.scale == 0 && !options_.lockstep) scale_.drew(*took);
     }
     const double scale = settings_.scale > 0 ? settings_.scale : options_.lockstep ? 1 : scale_.scale();
-    const CameraView eye = camera_.view();
+    const CameraView eye = controls_.camera.view();
     const bool same = eye.fov_y_deg == painted_.eye.fov_y_deg && std::ranges::equal(eye.eye, painted_.eye.eye) &&
                       std::ranges::equal(eye.target, painted_.eye.target) && painted_.scale == scale && painted_.view == settings_.view &&
                       painted_.area == layout_.picture;
@@ -273,11 +238,11 @@ class Viewer {
   }
 
   Expected<void> draw(const std::optional<fs::path>& picture) {
-    Board board{*session_, *display_, *interface_, settings_, sceneNames_, sceneName_, deviceName_, histories_, held_, message_};
+    Board board{*session_, *display_, *interface_, settings_, sceneNames_, sceneName_, deviceName_, playback_.histories(), held_, message_};
     board.layout = layout_;
-    board.stats = stats_;
+    board.stats = playback_.stats();
     board.framesPerSecond = frameTime_ > 0 ? 1 / frameTime_ : 0;
-    board.speed = clock_.speed();
+    board.speed = playback_.speed();
     board.pictureScale = painted_.scale;
     board.picture_s = picture_s_;
     board.lockstep = options_.lockstep;
@@ -339,7 +304,7 @@ class Viewer {
       tell("This scene's gravity follows a schedule (gravity_changes)");
       return {};
     }
-    const auto g = tilted({scene.gravity[0], scene.gravity[1], scene.gravity[2]}, camera_.view(), way, kDegrees);
+    const auto g = tilted({scene.gravity[0], scene.gravity[1], scene.gravity[2]}, controls_.camera.view(), way, kDegrees);
     char text[96];
     std::snprintf(text, sizeof text, "[%.9g, %.9g, %.9g]", g[0], g[1], g[2]);
     return changed(session_->change({"gravity", text}), "gravity");
@@ -347,7 +312,7 @@ class Viewer {
 
   void oneStepAndPause() {
     settings_.paused = true;
-    oneStep_ = true;
+    playback_.oneStep();
   }
 
   void save() {
@@ -374,29 +339,14 @@ class Viewer {
   void tell(const std::string& text) { message_ = text; }
 
   Expected<void> handle(const InputEvent& event) {
-    const Area& area = layout_.picture;
-    const double height = area.height, middle[2] = {area.x + 0.5 * area.width, area.y + 0.5 * area.height};
     switch (event.kind) {
-      case InputEvent::Kind::Move: {
-        const double right = (event.x - pointer_.x) / height, down = (event.y - pointer_.y) / height;
-        pointer_.x = event.x;
-        pointer_.y = event.y;
-        if (drag_ == Drag::Orbit) camera_.orbit(right, down);
-        if (drag_ == Drag::Pan) camera_.pan(right, down);
-        if (drag_ == Drag::Dolly) camera_.dolly(-20 * down, (grip_.x - middle[0]) / height, (grip_.y - middle[1]) / height);
-        return {};
-      }
+      case InputEvent::Kind::Move:
       case InputEvent::Kind::Button:
-        drag_ = Drag::None;
-        if (!event.down || interface_->wantsMouse()) return {};
-        grip_ = pointer_;
-        drag_ = event.code == GLFW_MOUSE_BUTTON_RIGHT                                          ? Drag::Dolly
-                : event.code == GLFW_MOUSE_BUTTON_MIDDLE || (event.modifiers & GLFW_MOD_SHIFT) ? Drag::Pan
-                                                                                               : Drag::Orbit;
-        return {};
-      case InputEvent::Kind::Wheel:
-        if (!interface_->wantsMouse()) camera_.dolly(event.y, (pointer_.x - middle[0]) / height, (pointer_.y - middle[1]) / height);
-        return {};
+      case InputEvent::Kind::Wheel: {
+        const auto taken = controls_.take(event, layout_.picture, *session_, interface_->wantsMouse(), settings_.paused);
+        if (event.kind == InputEvent::Kind::Button) dirty_ = true;
+        return attempt(taken, "");
+      }
       case InputEvent::Kind::Key:
         if (!event.down || interface_->wantsKeys() || (event.modifiers & GLFW_MOD_CONTROL)) return {};
         if (event.code == GLFW_KEY_ESCAPE) settings_.help = false;
@@ -429,26 +379,32 @@ class Viewer {
         settings_.view = neighbour(std::vector<std::string>(views.begin(), views.end()), settings_.view, shift ? -1 : 1);
         break;
       }
+      case Action::Throw: {
+        const auto thrown = controls_.throwFluid(*session_, layout_.picture);
+        if (!thrown) return attempt(thrown.error(), "");
+        dirty_ = true;
+        break;
+      }
       case Action::Home:
-        camera_.home();
+        controls_.camera.home();
         break;
       case Action::Front:
-        camera_.look(AxisView::Front);
+        controls_.camera.look(AxisView::Front);
         break;
       case Action::Back:
-        camera_.look(AxisView::Back);
+        controls_.camera.look(AxisView::Back);
         break;
       case Action::Right:
-        camera_.look(AxisView::Right);
+        controls_.camera.look(AxisView::Right);
         break;
       case Action::Left:
-        camera_.look(AxisView::Left);
+        controls_.camera.look(AxisView::Left);
         break;
       case Action::Top:
-        camera_.look(AxisView::Top);
+        controls_.camera.look(AxisView::Top);
         break;
       case Action::Bottom:
-        camera_.look(AxisView::Bottom);
+        controls_.camera.look(AxisView::Bottom);
         break;
       case Action::TiltLeft:
         return tilt(Tilt::Left);
@@ -541,10 +497,6 @@ class Viewer {
 
   static void say(const std::string& text) { std::fprintf(stderr, "rill-view: %s\n", text.c_str()); }
 
-  enum class Drag { None, Orbit, Pan, Dolly };
-  struct Place {
-    double x = 0, y = 0;  // pixels
-  };
   struct Painted {
     CameraView eye;
     double scale = 1;
@@ -568,21 +520,16 @@ class Viewer {
   std::string deviceName_, sceneName_, message_;
   Settings settings_;
   Layout layout_;
-  OrbitCamera camera_{CameraView{}};
-  Clock clock_;
+  Controls controls_;
+  Playback playback_;
   PictureScale scale_;
-  Histories histories_;
   HeldEdit held_;
-  std::optional<FluidStats> stats_;
   Painted painted_;
-  Place pointer_, grip_;  // the pointer; where it was when it took hold
-  Drag drag_ = Drag::None;
-  bool dirty_ = true;  // the picture
-  bool oneStep_ = false;
+  bool dirty_ = true;              // the picture
   bool said_ = false;              // by the validation layer
   std::optional<fs::path> asked_;  // a screenshot
   uint64_t frame_ = 0;
-  double now_s_ = 0, measured_s_ = -1, picture_s_ = 0, frameTime_ = 0;
+  double now_s_ = 0, picture_s_ = 0, frameTime_ = 0;
 };
 
 }  // namespace

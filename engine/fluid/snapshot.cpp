@@ -1,6 +1,7 @@
 #include "fluid/snapshot.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstring>
@@ -14,6 +15,13 @@ Record record(std::span<const uint32_t> words) {
   Record r{};
   std::memcpy(&r, words.data(), std::min(words.size_bytes(), sizeof r));
   return r;
+}
+
+template <class Record>
+std::vector<uint32_t> wordsOf(const Record& r) {
+  std::vector<uint32_t> words(sizeof r / 4);
+  std::memcpy(words.data(), &r, sizeof r);
+  return words;
 }
 
 Error wrong(std::string what) { return Error{ErrorKind::BadInput, "the state does not fit the scene: " + std::move(what)}; }
@@ -96,6 +104,43 @@ SnapshotShape snapshotShape(const FluidSetup& setup) {
 }
 
 bool hasNeighbours(const FluidSnapshot& snapshot) { return record<FluidControl>(snapshot.control).stale == 0; }
+
+void forgetNeighbours(FluidSnapshot& s) {
+  auto control = record<FluidControl>(s.control);
+  auto sums = record<FluidSums>(s.sums);
+  control.stale = 1;
+  sums.planeCount = sums.cornerCount = 0;
+  s.control = wordsOf(control);
+  s.sums = wordsOf(sums);
+  s.nearWall.clear();
+  s.nearMore.clear();
+  s.neighbourCount.clear();
+  s.neighbours.clear();
+  s.cell.clear();
+}
+
+void append(FluidSnapshot& s, std::span<const Float3> positions, std::span<const Float3> velocities) {
+  forgetNeighbours(s);
+  auto sums = record<FluidSums>(s.sums);
+  for (size_t k = 0; k < positions.size(); ++k) {
+    s.id.push_back(static_cast<uint32_t>(s.id.size()));
+    s.position.push_back(positions[k]);
+    s.velocity.push_back(velocities[k]);
+    s.push.push_back({});
+    s.warm.push_back(0);
+    const Float3& v = velocities[k];
+    sums.speedMax = std::max(sums.speedMax, std::bit_cast<uint32_t>(std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z)));
+  }
+  s.sums = wordsOf(sums);
+}
+
+void setGravity(FluidSnapshot& s, const double gravity[3]) {
+  auto control = record<FluidControl>(s.control);
+  control.gravityX = static_cast<float>(gravity[0]);
+  control.gravityY = static_cast<float>(gravity[1]);
+  control.gravityZ = static_cast<float>(gravity[2]);
+  s.control = wordsOf(control);
+}
 
 bool walksGrid(const FluidSnapshot& snapshot) { return snapshot.listCapacity == 0 || record<FluidSums>(snapshot.sums).overflow > 0; }
 

@@ -3,8 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,30 +10,10 @@
 #include "view/display.hpp"
 #include "view/interface.hpp"
 #include "view/layout.hpp"
+#include "view/playback.hpp"
 #include "view/session.hpp"
 
 namespace rill::view {
-
-/// The last figures of a kind, one a step.
-class History {
- public:
-  static constexpr size_t kMost = 240;  ///< four seconds of simulated time
-  void add(double value) {
-    if (values_.size() == kMost) values_.erase(values_.begin());
-    values_.push_back(static_cast<float>(value));
-  }
-  void clear() { values_.clear(); }
-  const std::vector<float>& values() const { return values_; }
-
- private:
-  std::vector<float> values_;
-};
-
-struct Histories {
-  History substeps, iterations, wall_ms, error;
-  std::map<std::string, History, std::less<>> passes;
-  uint64_t passesOf = UINT64_MAX;  ///< the step whose times were added last
-};
 
 /// A number of the scene that a hand is changing: the scene gets it when the hand lets go.
 struct HeldEdit {

@@ -1,0 +1,86 @@
+#include "view/pick.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace rill::view {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// Of a ball about `centre`, which lies so relative to the eye.
+std::optional<double> meetsBall(const Vector& centre, const Vector& along, double radius) {
+  const double nearest = dot(centre, along), across = dot(centre, centre) - nearest * nearest;
+  if (across > radius * radius) return std::nullopt;
+  const double distance = nearest - std::sqrt(radius * radius - across);
+  return distance > 0 ? std::optional(distance) : std::nullopt;
+}
+
+std::optional<double> meets(const Ray& ray, const SolidPose& solid) {
+  if (solid.sphere) {
+    Vector centre;
+    for (size_t a = 0; a < 3; ++a) centre[a] = solid.centre[a] - ray.from[a];
+    return meetsBall(centre, ray.along, solid.half[0]);
+  }
+  Ray local;
+  Vector end;
+  const Vector ahead = ray.at(1);
+  toSolid(solid, ray.from.data(), local.from.data());
+  toSolid(solid, ahead.data(), end.data());
+  for (size_t a = 0; a < 3; ++a) local.along[a] = end[a] - local.from[a];
+  const auto distance = entry(local, {-solid.half[0], -solid.half[1], -solid.half[2]}, {solid.half[0], solid.half[1], solid.half[2]});
+  return distance && *distance > 0 ? distance : std::nullopt;
+}
+
+}  // namespace
+
+Ray rayThrough(const CameraView& eye, double right, double down) {
+  const CameraBasis basis = cameraBasis(eye);
+  const double spread = 2 * std::tan(eye.fov_y_deg * std::numbers::pi / 360);
+  Ray ray;
+  for (size_t a = 0; a < 3; ++a) {
+    ray.from[a] = eye.eye[a];
+    ray.along[a] = basis.forward[a] + spread * (right * basis.right[a] - down * basis.up[a]);
+  }
+  const double length = std::sqrt(dot(ray.along, ray.along));
+  for (double& a : ray.along) a /= length;
+  return ray;
+}
+
+std::optional<Picked> pick(const Ray& ray, std::span<const Float3> positions, const double origin[3], double radius,
+                           std::span<const SolidPose> solids) {
+  std::optional<Picked> first;
+  const auto take = [&](std::optional<double> distance, std::optional<uint32_t> solid) {
+    if (distance && (!first || *distance < first->distance)) first = Picked{*distance, solid};
+  };
+  for (const Float3& p : positions)
+    take(meetsBall({p.x + origin[0] - ray.from[0], p.y + origin[1] - ray.from[1], p.z + origin[2] - ray.from[2]}, ray.along, radius), {});
+  for (uint32_t k = 0; k < solids.size(); ++k) take(meets(ray, solids[k]), k);
+  return first;
+}
+
+std::optional<double> entry(const Ray& ray, const Vector& low, const Vector& high) {
+  double first = 0, last = std::numeric_limits<double>::infinity();
+  for (size_t a = 0; a < 3; ++a) {
+    if (ray.along[a] == 0) {
+      if (ray.from[a] < low[a] || ray.from[a] > high[a]) return std::nullopt;
+      continue;
+    }
+    const double one = (low[a] - ray.from[a]) / ray.along[a], other = (high[a] - ray.from[a]) / ray.along[a];
+    first = std::max(first, std::min(one, other));
+    last = std::min(last, std::max(one, other));
+  }
+  return first <= last ? std::optional(first) : std::nullopt;
+}
+
+std::optional<double> meetsPlane(const Ray& ray, const Vector& point, const Vector& normal) {
+  const Vector way{point[0] - ray.from[0], point[1] - ray.from[1], point[2] - ray.from[2]};
+  const double distance = dot(way, normal) / dot(ray.along, normal);
+  return std::isfinite(distance) && distance > 0 ? std::optional(distance) : std::nullopt;
+}
+
+}  // namespace rill::view

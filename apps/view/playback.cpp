@@ -1,0 +1,51 @@
+#include "view/playback.hpp"
+
+#include <chrono>
+#include <utility>
+
+namespace rill::view {
+
+Expected<bool> Playback::advance(Runner& runner, const Frame& frame) {
+  using Now = std::chrono::steady_clock;
+  const bool single = std::exchange(single_, false), first = !std::exchange(begun_, true);
+  if (frame.lockstep) {
+    if ((frame.paused && !single) || first) return false;
+    if (auto ran = runner.step(); !ran) return ran.error();
+    return finished(runner, frame);
+  }
+  if (!frame.paused) clock_.passed(frame.passed_s);
+  bool ended = false;
+  if (single && runner.between()) {
+    if (auto ran = runner.piece(frame.budget_s); !ran) return ran.error();
+    if (runner.between()) return finished(runner, frame);
+  }
+  const Now::time_point begin = Now::now();
+  for (double left = frame.budget_s; left > 0; left = frame.budget_s - std::chrono::duration<double>(Now::now() - begin).count()) {
+    if (runner.between()) {
+      if (frame.paused || !clock_.due()) return ended;
+      clock_.begun();
+    }
+    if (auto ran = runner.piece(left); !ran) return ran.error();
+    if (!runner.between()) continue;
+    clock_.finished();
+    ended = true;
+    if (auto done = finished(runner, frame); !done) return done;
+  }
+  return ended;
+}
+
+Expected<bool> Playback::finished(Runner& runner, const Frame& frame) {
+  const StepFigures& step = runner.last();
+  histories_.substeps.add(step.substeps);
+  histories_.iterations.add(step.iterations);
+  histories_.wall_ms.add(1e3 * step.wall_s);
+  if (!frame.measureEvery_s || frame.now_s - measured_s_ < *frame.measureEvery_s) return true;
+  measured_s_ = frame.now_s;
+  auto stats = runner.measure();
+  if (!stats) return stats.error();
+  stats_ = *stats;
+  histories_.error.add(100 * stats->density_error_mean);
+  return true;
+}
+
+}  // namespace rill::view

@@ -1,0 +1,139 @@
+#include "view/touch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/bounds.hpp"
+
+namespace rill::view {
+namespace {
+
+constexpr double kBall = 0.06;      // of the scene's longest side: radius of the ball that pushes
+constexpr double kLeastBall = 2.5;  // spacings
+constexpr double kThrown = 1.2;     // of that radius: the ball that is thrown
+constexpr double kTouched = 0.75;   // spacings: the balls of a lattice leave no gap from 0.71 on
+
+struct Room {
+  std::array<double, 3> low{}, high{};
+  double longest() const { return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]}); }
+};
+
+/// The domain; without one what the fluid had at the start, and as much around it.
+Room roomOf(const Session& session) {
+  Room room{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}};
+  const auto& domain = session.scene().domain;
+  const Bounds fluid = fluidBounds(session.scene(), session.runner().start());
+  if (!domain && fluid.empty()) return room;
+  for (size_t a = 0; a < 3; ++a) {
+    room.low[a] = domain ? domain->min[a] : fluid.min[a];
+    room.high[a] = domain ? domain->max[a] : fluid.max[a];
+  }
+  if (domain) return room;
+  const double around = room.longest();
+  for (size_t a = 0; a < 3; ++a) {
+    room.low[a] -= around;
+    room.high[a] += around;
+  }
+  return room;
+}
+
+}  // namespace
+
+double Touch::fastest(const Session& session) { return roomOf(session).longest(); }
+
+double Touch::ballRadius(const Session& session) {
+  return std::max(kBall * roomOf(session).longest(), kLeastBall * session.scene().fluid.spacing);
+}
+
+Expected<bool> Touch::grab(Session& session, const CameraView& eye, const Ray& ray, Hold hold) {
+  if (holds())
+    if (auto gone = release(session); !gone) return gone.error();
+  Runner& runner = session.runner();
+  std::vector<Solid> solids = session.scene().solids;
+  std::vector<SolidPose> poses;
+  for (uint32_t k = 0; k < solids.size(); ++k) poses.push_back(runner.pose(k));
+  std::vector<Float3> positions;  // a solid is taken through the fluid that it is seen through
+  if (hold == Hold::Fluid) {
+    auto present = runner.positions();
+    if (!present) return present.error();
+    positions = std::move(*present);
+  }
+  const double spacing = session.scene().fluid.spacing;
+  const auto picked = pick(ray, positions, runner.start().origin, kTouched * spacing, poses);
+  if (!picked || picked->solid.has_value() != (hold == Hold::Solid)) return false;
+
+  point_ = ray.at(picked->distance);
+  std::ranges::copy(cameraBasis(eye).forward, normal_.begin());
+  offset_ = {};
+  const double speed = fastest(session);
+  uint32_t held = static_cast<uint32_t>(solids.size());
+  if (picked->solid) {
+    held = *picked->solid;
+    for (size_t a = 0; a < 3; ++a) offset_[a] = poses[held].centre[a] - point_[a];
+    if (solids[held].driven != speed) {
+      const SolidPose first = solidPose(solids[held], 0);
+      for (size_t a = 0; a < 3; ++a) {
+        const double moved = poses[held].centre[a] - first.centre[a];
+        if (solids[held].sphere) solids[held].sphere->center[a] += moved;
+        if (solids[held].box) {
+          solids[held].box->min[a] += moved;
+          solids[held].box->max[a] += moved;
+        }
+      }
+      solids[held].motion.clear();
+      solids[held].driven = speed;
+      if (auto done = session.changeSolids(std::move(solids)); !done) return done.error();
+    }
+  } else {
+    const double radius = ballRadius(session);
+    const auto before = ray.at(picked->distance - radius - spacing);
+    Solid ball;
+    ball.sphere = SphereShape{{before[0], before[1], before[2]}, radius};
+    ball.driven = speed;
+    solids.push_back(ball);
+    if (auto done = session.changeSolids(std::move(solids)); !done) return done.error();
+  }
+  ball_ = !picked->solid;
+  solid_ = held;
+  drag(session, ray);
+  return true;
+}
+
+void Touch::drag(Session& session, const Ray& ray) {
+  if (!solid_) return;
+  const auto distance = meetsPlane(ray, point_, normal_);
+  if (!distance) return;
+  const auto there = ray.at(*distance);
+  session.runner().steer({*solid_, {there[0] + offset_[0], there[1] + offset_[1], there[2] + offset_[2]}});
+}
+
+Expected<void> Touch::release(Session& session) {
+  if (!solid_) return {};
+  solid_.reset();
+  session.runner().letGo();
+  if (!ball_) return {};
+  std::vector<Solid> solids = session.scene().solids;
+  solids.pop_back();
+  return session.changeSolids(std::move(solids));
+}
+
+Expected<uint64_t> Touch::throwFluid(Session& session, const Ray& ray) {
+  const Room room = roomOf(session);
+  const double spacing = session.scene().fluid.spacing;
+  const double least = std::min({room.high[0] - room.low[0], room.high[1] - room.low[1], room.high[2] - room.low[2]});
+  const double radius = std::min(kThrown * ballRadius(session), 0.5 * least - spacing);
+  const auto enters = entry(ray, room.low, room.high);
+  if (!enters || radius <= 0) return Error{ErrorKind::BadInput, "There is no room for fluid there: point into the tank"};
+  Fill fill;
+  fill.sphere.emplace();
+  fill.sphere->radius = radius;
+  const auto inside = ray.at(*enters + radius);
+  const double speed = fastest(session);
+  for (size_t a = 0; a < 3; ++a) {
+    fill.sphere->center[a] = std::clamp(inside[a], room.low[a] + radius + spacing, room.high[a] - radius - spacing);
+    fill.velocity[a] = speed * ray.along[a];
+  }
+  return session.add(fill);
+}
+
+}  // namespace rill::view

@@ -1,0 +1,72 @@
+// What lies under the pointer, by geometry alone.
+#include "view/pick.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace rill::view {
+namespace {
+
+CameraView ahead() { return {.eye = {0, 0, 5}, .target = {0, 0, 0}, .fov_y_deg = 90}; }
+
+SolidPose box(double x, double half, bool turned = false) {
+  SolidPose pose;
+  pose.centre[0] = x;
+  for (double& h : pose.half) h = half;
+  if (turned) {  // by 45 degrees about y
+    pose.rotation[1] = std::sin(M_PI / 8);
+    pose.rotation[3] = std::cos(M_PI / 8);
+  }
+  return pose;
+}
+
+TEST(ViewPick, TheRayGoesThroughThePlaceInThePicture) {
+  const Ray middle = rayThrough(ahead(), 0, 0), corner = rayThrough(ahead(), 0.5, -0.5);
+  EXPECT_NEAR(middle.along[2], -1, 1e-12);
+  // 90 degrees high: half a height is as far up as ahead.
+  EXPECT_NEAR(corner.along[0], 1 / std::sqrt(3.0), 1e-12);
+  EXPECT_NEAR(corner.along[1], 1 / std::sqrt(3.0), 1e-12);
+  EXPECT_NEAR(corner.at(2)[2], 5 - 2 / std::sqrt(3.0), 1e-12);
+}
+
+TEST(ViewPick, TheNearestIsTaken) {
+  const Ray ray = rayThrough(ahead(), 0, 0);
+  const Float3 balls[] = {{0, 0, -3}, {0.05f, 0, -1}, {0.2f, 0, 0}, {0, 0, 7}};  // the third is beside the ray, the last behind the eye
+  const double origin[3] = {0, 0, 1};
+  const auto fluid = pick(ray, balls, origin, 0.1, {});
+  ASSERT_TRUE(fluid);
+  EXPECT_FALSE(fluid->solid);
+  EXPECT_NEAR(fluid->distance, 5 - std::sqrt(0.1 * 0.1 - 0.05 * 0.05), 1e-6);
+  SolidPose sphere = box(0, 0.5);
+  sphere.sphere = true;
+  const SolidPose solids[] = {box(3, 1), sphere};
+  const auto solid = pick(ray, balls, origin, 0.1, solids);
+  ASSERT_TRUE(solid && solid->solid);
+  EXPECT_EQ(*solid->solid, 1u);
+  EXPECT_NEAR(solid->distance, 4.5, 1e-12);
+  EXPECT_FALSE(pick(ray, {}, origin, 0.1, {}));
+  EXPECT_FALSE(pick(rayThrough(ahead(), -0.4, 0), balls, origin, 0.1, solids));
+}
+
+TEST(ViewPick, ATurnedBoxIsMetAtItsEdge) {
+  const SolidPose straight[] = {box(0, 1)}, turned[] = {box(0, 1, true)};
+  const double origin[3] = {0, 0, 0};
+  const Ray ray = rayThrough(ahead(), 0, 0);
+  EXPECT_NEAR(pick(ray, {}, origin, 0.1, straight)->distance, 4, 1e-12);
+  EXPECT_NEAR(pick(ray, {}, origin, 0.1, turned)->distance, 5 - std::sqrt(2.0), 1e-9);
+}
+
+TEST(ViewPick, BoxesAndPlanesThatAreMissed) {
+  const Ray ray = rayThrough(ahead(), 0, 0);
+  EXPECT_NEAR(entry(ray, {-1, -1, -1}, {1, 1, 1}).value(), 4, 1e-12);
+  EXPECT_EQ(entry(ray, {-9, -9, -9}, {9, 9, 9}).value(), 0) << "from inside";
+  EXPECT_FALSE(entry(ray, {1, 1, -1}, {2, 2, 1}));
+  EXPECT_FALSE(entry(ray, {-1, -1, 6}, {1, 1, 7})) << "behind";
+  EXPECT_NEAR(meetsPlane(ray, {7, 7, 1}, {0, 0, 1}).value(), 4, 1e-12);
+  EXPECT_FALSE(meetsPlane(ray, {0, 0, 9}, {0, 0, 1})) << "behind";
+  EXPECT_FALSE(meetsPlane(ray, {0, 1, 0}, {0, 1, 0})) << "along it";
+}
+
+}  // namespace
+}  // namespace rill::view
