@@ -28,7 +28,8 @@ class Display {
   std::optional<double> pictureSeconds();
   std::span<const Timing> pictureTimings() const { return picture_.timings(); }
   std::span<const PassReport> pictureReport() const { return picture_.report(); }
-  uint64_t transientBytes() const { return picture_.transientBytes() + window_.transientBytes(); }
+  const Graph& pictureGraph() const { return picture_; }
+  const Graph& windowGraph() const { return window_; }
   uint64_t pictureBytes() const { return shown_.size(); }
 
   std::span<const VkPresentModeKHR> modes() const { return swapchain_->modes(); }

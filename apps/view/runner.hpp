@@ -68,7 +68,7 @@ class Runner {
   /// Passes of the last step: runs, and ms where they are timed; and those left out, with the reason.
   const offline::PassLog& log() const { return shown_; }
   void timePasses(bool enabled) { graph_.enableTimings(enabled); }
-  uint64_t transientBytes() const { return graph_.transientBytes(); }
+  const Graph& stepGraph() const { return graph_; }
 
   const Scene& scene() const { return scene_; }
   const ParticleSet& start() const { return start_; }

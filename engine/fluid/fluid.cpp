@@ -156,10 +156,12 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
     auto buffer = createBuffer(device, row.name, row.bytes);
     if (!buffer) return buffer.error();
     *row.buffer = std::move(*buffer);
+    made.push_back({row.name, row.bytes});
   }
   for (const Chunk& c : chunks_) {
     auto list = createBuffer(device, "neighbour list", p.listCapacity == 0 ? 64 : blocks(c.last - c.first) * blockBytes);
     if (!list) return list.error();
+    made.push_back({"neighbour list", list->size()});
     buffers_.lists.push_back(std::move(*list));
   }
   return {};
@@ -275,6 +277,7 @@ uint32_t Fluid::count() const { return impl_->count; }
 uint32_t Fluid::substepsPerBlock() const { return kSubstepsPerBlock; }
 uint32_t Fluid::mostSubsteps() const { return kSubstepsPerBlock * (impl_->setup.params.maxSubsteps + kSettleSubsteps); }
 FluidMemory Fluid::memory() const { return impl_->memory; }
+std::span<const FluidBuffer> Fluid::buffers() const { return impl_->made; }
 std::span<const std::string> Fluid::warnings() const { return impl_->setup.warnings; }
 
 }  // namespace rill

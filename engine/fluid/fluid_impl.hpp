@@ -74,6 +74,7 @@ class FluidImpl {
 
   FluidSetup setup;
   FluidMemory memory;
+  std::vector<FluidBuffer> made;  ///< the buffers, for reports
   uint32_t count = 0;
   double origin[3] = {0, 0, 0};
   mutable std::optional<FluidStats> stats;

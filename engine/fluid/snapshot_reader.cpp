@@ -43,9 +43,7 @@ bool SnapshotReader::done() const { return next_ == parts_.size(); }
 void SnapshotReader::declare(Graph& graph) {
   tickets_.clear();
   const FluidBuffers& buffers = fluid_.buffers();
-  const auto read = [&](const Buffer& buffer) {
-    tickets_.push_back(graph.readback(importWhole(graph, "state", buffer)));
-  };
+  const auto read = [&](const Buffer& buffer) { tickets_.push_back(graph.readback(importWhole(graph, "state", buffer))); };
   const uint32_t part = parts_[next_];
   if (part == kSmall) {
     read(buffers.control);

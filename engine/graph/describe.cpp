@@ -128,4 +128,14 @@ std::string GraphImpl::json() const {
   return out.dump(2);
 }
 
+std::vector<TransientReport> GraphImpl::transients() const {
+  std::vector<TransientReport> all;
+  for (const ResourceData& resource : resources) {
+    if (resource.placement == kNone) continue;
+    const Placement& place = planOf(resource).placements[resource.placement];
+    all.push_back({names[resource.name], resource.isImage, place.heap, place.offset, place.size, place.first, place.last});
+  }
+  return all;
+}
+
 }  // namespace rill

@@ -409,6 +409,7 @@ std::span<const Timing> Graph::timings() const {
 }
 
 std::span<const TransientHeap> Graph::transientHeaps() const { return impl_->heapReports; }
+std::vector<TransientReport> Graph::transients() const { return impl_->transients(); }
 
 uint64_t Graph::transientBytes() const {
   uint64_t bytes = 0;

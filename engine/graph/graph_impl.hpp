@@ -201,6 +201,7 @@ class GraphImpl {
   std::string memoryText(uint32_t resource) const;
   std::string dot() const;
   std::string json() const;
+  std::vector<TransientReport> transients() const;
 
   Names names;
   RecordArena arena;

@@ -46,6 +46,24 @@ TEST_F(Describe, HeapsWithAndWithoutAliasing) {
   EXPECT_EQ(json["heaps"][1]["kind"], "images");
 }
 
+TEST_F(Describe, TransientsThatShareAPlaceDoNotMeet) {
+  declare();
+  const auto all = graph.transients();
+  ASSERT_EQ(all.size(), 4u) << "three buffers, a pyramid";
+  bool shared = false;
+  for (const TransientReport& a : all) {
+    EXPECT_FALSE(a.name.empty());
+    EXPECT_GT(a.bytes, 0u);
+    EXPECT_LE(a.first, a.last);
+    for (const TransientReport& b : all) {
+      if (&a == &b || a.image != b.image || a.heap != b.heap || a.offset + a.bytes <= b.offset || b.offset + b.bytes <= a.offset) continue;
+      shared = true;
+      EXPECT_TRUE(a.last < b.first || b.last < a.first) << a.name << ", " << b.name;
+    }
+  }
+  EXPECT_TRUE(shared);
+}
+
 TEST_F(Describe, DotShowsPlaceAndLifetime) {
   declare();
   const std::string dot = graph.dot();

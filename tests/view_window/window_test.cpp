@@ -115,6 +115,40 @@ TEST_F(ViewWindowTest, ReplayedTwiceItEndsInTheSameState) {
   EXPECT_EQ(figure(one, "state_hash").size(), 16u);
 }
 
+TEST_F(ViewWindowTest, AHandTouchesTheSceneAndAReplayDoesTheSame) {
+  folder.write("solid.json", R"({
+    "rill": "0.1", "domain": {"min": [0, 0, 0], "max": [1, 1, 0.3]}, "fluid": {"spacing": 0.05},
+    "fill": [{"box": {"min": [0, 0, 0], "max": [1, 0.4, 0.3]}}],
+    "solids": [{"box": {"min": [0.4, 0.5, 0.05], "max": [0.6, 0.7, 0.25]}}],
+    "camera": {"eye": [0.5, 0.5, 2.2], "target": [0.5, 0.5, 0], "fov_y_deg": 40}
+  })");
+  // The picture is 320x200 at once, without panels: the water's middle lies below the middle, the box a little above.
+  const std::string still = "0 key Tab\n12 view particles\n";
+  folder.write("still.txt", still);
+  const std::string push = still + "13 move 120 145\n13 press left\n14 move 160 150\n18 move 900 -50\n22 move 100 150\n26 release left\n";
+  const std::string move = still + "27 move 160 80\n27 press right\n28 move 160 150\n40 move 60 140\n44 release right\n";
+  const std::string thrown = still + "45 move 160 60\n45 key Space\n46 key Space\n";
+  folder.write("push.txt", push);
+  folder.write("move.txt", move);
+  folder.write("thrown.txt", thrown);
+  folder.write("anew.txt", still + "50 move 120 145\n50 press left\n52 key R\n53 release left\n");
+  const auto run = [&](const char* script) {
+    return view({(folder / "solid.json").string(), "--script", script, "--size", "320x200", "--lockstep", "--frames", "57", "--validate"});
+  };
+  const Outcome alone = run("still.txt"), again = run("push.txt");
+  for (const char* script : {"push.txt", "move.txt", "thrown.txt"}) {
+    const Outcome touched = run(script);
+    ASSERT_EQ(touched.code, 0) << script << ": " << touched.err;
+    EXPECT_EQ(touched.err, "") << script;
+    EXPECT_EQ(figure(touched, "steps"), figure(alone, "steps")) << script;
+    EXPECT_NE(figure(touched, "state_hash"), figure(alone, "state_hash")) << script << " has done something";
+    if (std::string_view(script) == "push.txt") { EXPECT_EQ(figure(touched, "state_hash"), figure(again, "state_hash")); }
+  }
+  const Outcome anew = run("anew.txt");
+  ASSERT_EQ(anew.code, 0) << anew.err;
+  EXPECT_EQ(figure(anew, "steps"), "4") << "R while the fluid is held; its frame shows the start";
+}
+
 TEST_F(ViewWindowTest, AClickInAPanelIsThePanels) {
   // On the button "Pause (P)"; and in the picture, where it pauses nothing.
   folder.write("click.txt", "1 move 42 97\n1 press left\n2 release left\n9 view final\n");

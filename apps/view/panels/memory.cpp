@@ -1,22 +1,83 @@
-// Device memory, by what it is for.
+// Device memory, by what it is for; opened, buffer by buffer.
+#include <algorithm>
+#include <tuple>
+
 #include "view/panels/board.hpp"
 
 namespace rill::view {
 namespace {
 
-void line(const char* name, uint64_t bytes) { figureLine(name, "%.1f MiB", static_cast<double>(bytes) / (1 << 20)); }
+double mebibytes(uint64_t bytes) { return static_cast<double>(bytes) / (1 << 20); }
+
+/// A line that opens: what it names lies below it.
+bool line(const char* name, uint64_t bytes) {
+  const bool open = ImGui::TreeNodeEx(name, ImGuiTreeNodeFlags_SpanAvailWidth);
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * 0.66f);
+  ImGui::Text("%.1f MiB", mebibytes(bytes));
+  return open;
+}
+
+bool beginTable(const char* name, const char* last) {
+  if (!ImGui::BeginTable(name, 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) return false;
+  ImGui::TableSetupColumn("buffer", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("MiB", ImGuiTableColumnFlags_WidthFixed, 3.2f * ImGui::GetFontSize());
+  ImGui::TableSetupColumn(last, ImGuiTableColumnFlags_WidthFixed, 4.6f * ImGui::GetFontSize());
+  ImGui::TableHeadersRow();
+  return true;
+}
+
+void row(std::string_view name, uint64_t bytes) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(name.data(), name.data() + name.size());
+  ImGui::TableNextColumn();
+  ImGui::Text("%.2f", mebibytes(bytes));
+  ImGui::TableNextColumn();
+}
+
+void fluid(const Runner& runner) {
+  if (line("fluid", runner.fluid().memory().total())) {
+    if (beginTable("fluid's", "")) {
+      for (const FluidBuffer& buffer : runner.fluid().buffers()) row(buffer.name, buffer.bytes);
+      ImGui::EndTable();
+    }
+    ImGui::TreePop();
+  }
+}
+
+/// Transients, those that share a place under each other; passes that repeat (substeps) have one line.
+void transients(const char* name, const Graph& graph) {
+  uint64_t separate = 0;
+  for (const TransientHeap& heap : graph.transientHeaps()) separate += heap.separate;
+  const bool open = line(name, graph.transientBytes());
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("aliased; one after another they would take %.1f MiB", mebibytes(separate));
+  if (!open) return;
+  std::vector<TransientReport> all = graph.transients();
+  const auto place = [](const TransientReport& r) { return std::tuple(r.image, r.heap, r.offset, r.name); };
+  std::ranges::stable_sort(all, {}, place);
+  if (beginTable(name, "at MiB")) {
+    for (size_t k = 0; k < all.size(); ++k) {
+      if (k > 0 && place(all[k]) == place(all[k - 1])) continue;
+      row(all[k].name, all[k].bytes);
+      ImGui::Text("%s%u: %.2f", all[k].image ? "i" : "b", all[k].heap, mebibytes(all[k].offset));
+      if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s %u, from %.2f MiB, passes %u to %u", all[k].image ? "images" : "buffers", all[k].heap,
+                          mebibytes(all[k].offset), all[k].first, all[k].last);
+    }
+    ImGui::EndTable();
+  }
+  ImGui::TreePop();
+}
 
 }  // namespace
 
 void memoryPanel(Board& board) {
   const Runner& runner = board.session.runner();
-  const FluidMemory memory = runner.fluid().memory();
-  line("particles", memory.particle_bytes);
-  line("neighbour list", memory.list_bytes);
-  line("grid, at most", memory.grid_bytes);
-  line("passes, aliased", runner.transientBytes());
-  line("picture's passes, aliased", board.display.transientBytes());
-  line("shown picture", board.display.pictureBytes());
+  fluid(runner);
+  transients("step's passes", runner.stepGraph());
+  transients("picture's passes", board.display.pictureGraph());
+  transients("window's passes", board.display.windowGraph());
+  if (line("shown picture", board.display.pictureBytes())) ImGui::TreePop();
 }
 
 }  // namespace rill::view

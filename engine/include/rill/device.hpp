@@ -22,7 +22,7 @@ struct HostDevice {
   VkInstance instance = VK_NULL_HANDLE;
   VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;
-  uint32_t queueFamily = 0;                                 ///< of the queue that recorded work goes to; compute, and graphics where passes draw
+  uint32_t queueFamily = 0;  ///< of the queue that recorded work goes to; compute, and graphics where passes draw
   PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;  ///< where every Vulkan function is looked up
   uint32_t apiVersion = VK_API_VERSION_1_3;                 ///< that the instance and device were made with
   const VkPhysicalDeviceFeatures2* enabled = nullptr;  ///< features enabled at vkCreateDevice, with their chain (a VkDevice can't be asked)

@@ -49,6 +49,11 @@ struct FluidMemory {
   uint64_t grid_bytes = 0;      ///< cell starts, at most
   uint64_t total() const { return particle_bytes + list_bytes + grid_bytes; }
 };
+/// One of them.
+struct FluidBuffer {
+  const char* name = "";
+  uint64_t bytes = 0;
+};
 /// What a Fluid of `particles` particles will need, computed in 64 bits from the numbers alone: before anything is allocated.
 FluidMemory fluidMemory(const Scene& scene, uint64_t particles);
 
@@ -144,6 +149,7 @@ class Fluid {
   /// them.
   uint32_t mostSubsteps() const;
   FluidMemory memory() const;
+  std::span<const FluidBuffer> buffers() const;  ///< that live as long as it; those of passes are the graph's (Graph::transients)
   /// What the solver cannot follow, each with its figure ("viscosity 50 Pa s needs ..."). Known at creation.
   std::span<const std::string> warnings() const;
 

@@ -41,8 +41,8 @@ struct FluidView {
 
 /// How the surface is found from particles.
 enum class SurfaceMethod : uint8_t {
-  Auto,           ///< Planes: of what `rill-bench render` compares the most accurate over all shapes, at about twice the time of NarrowRange
-  Planes,         ///< a plane fitted around each surface particle, blended
+  Auto,    ///< Planes: of what `rill-bench render` compares the most accurate over all shapes, at about twice the time of NarrowRange
+  Planes,  ///< a plane fitted around each surface particle, blended
   CurvatureFlow,  ///< van der Laan, Green and Sainz 2009: the spheres' depth, moved with its mean curvature
   NarrowRange     ///< Truong and Yuksel 2018: the spheres' depth, filtered over a narrow range of it
 };
@@ -83,9 +83,9 @@ class FluidRenderer {
   static Expected<std::unique_ptr<FluidRenderer>> create(Device& device, const TargetFormats& formats = {});
   ~FluidRenderer();
 
-  /// What the fluid reflects and is lit by from now on, in place of a sky of Rill's own; the sun stays where FluidLook has it. The host draws
-  /// its background itself. Once; not between a graph's declaration and its recording. Errors as create(), BadInput for a picture that
-  /// EnvironmentPicture does not allow, OutOfMemory. The first frames copy it to the device, in a pass of their own.
+  /// What the fluid reflects and is lit by from now on, in place of a sky of Rill's own; the sun stays where FluidLook has it. The host
+  /// draws its background itself. Once; not between a graph's declaration and its recording. Errors as create(), BadInput for a picture
+  /// that EnvironmentPicture does not allow, OutOfMemory. The first frames copy it to the device, in a pass of their own.
   Expected<void> setEnvironment(const EnvironmentPicture& picture);
 
   /// BadInput for a view that cannot be drawn (empty, larger than 8192 a side or 2^24 pixels, a projection that is none). Needs no device.

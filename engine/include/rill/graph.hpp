@@ -11,6 +11,7 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "rill/device.hpp"
 #include "rill/expected.hpp"
@@ -216,6 +217,15 @@ struct TransientHeap {
   uint64_t separate = 0;    ///< that they would take without aliasing, one after another
 };
 
+/// Where a transient lies.
+struct TransientReport {
+  std::string_view name;
+  bool image = false;
+  uint32_t heap = 0;               ///< of its kind
+  uint64_t offset = 0, bytes = 0;  ///< in it
+  uint32_t first = 0, last = 0;    ///< passes, in the order in which they run, between which it lives
+};
+
 /// One frame's graph. Declare, compile(), prepare(), record(); then reset() and declare the next frame: a steady state allocates nothing.
 /// Not thread safe. Execution order is the order of declaration.
 class Graph {
@@ -276,6 +286,7 @@ class Graph {
   std::span<const PassReport> report() const;  ///< of the last compiled frame
   uint64_t transientBytes() const;             ///< of device memory that the last compiled frame's transients take, aliased
   std::span<const TransientHeap> transientHeaps() const;  ///< where these bytes are, and what aliasing saves
+  std::vector<TransientReport> transients() const;        ///< of the last compiled frame, those that a pass uses
 
   /// A timestamp before the first pass and after each. Default true; a software driver takes some 30 us for each.
   void enableTimings(bool enabled);

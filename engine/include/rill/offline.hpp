@@ -67,9 +67,9 @@ struct Stats : FluidStats {
   double front_m = 0;                                  ///< farthest fluid along +x from the domain's minimum
   uint64_t state_hash = 0;                             ///< of positions and velocities in id order
   std::vector<std::pair<std::string, double>> probes;  ///< name and value, m
-  uint64_t picture_bound_hits = 0;                     ///< times that loops of the renderer's shaders ran into their bound, in pictures of it
-  double wall_s = 0;                                   ///< spent since the instant before, simulation alone
-  std::vector<PassTime> pass_ms;                       ///< what was recorded
+  uint64_t picture_bound_hits = 0;  ///< times that loops of the renderer's shaders ran into their bound, in pictures of it
+  double wall_s = 0;                ///< spent since the instant before, simulation alone
+  std::vector<PassTime> pass_ms;    ///< what was recorded
   std::vector<SkippedPass> skipped;
 };
 
@@ -159,8 +159,8 @@ class Player {
   /// As Simulation::render(); before the first show() a scene without fluid.
   Expected<Image> render(const std::string& view, uint32_t width, uint32_t height);
   Expected<void> prepareRender(const std::string& view, uint32_t width, uint32_t height);  ///< as Simulation::prepareRender()
-  std::string pictureDot() const;  ///< passes of the last picture
-  uint64_t boundHits() const;      ///< as Stats::picture_bound_hits, of the last picture
+  std::string pictureDot() const;                                                          ///< passes of the last picture
+  uint64_t boundHits() const;  ///< as Stats::picture_bound_hits, of the last picture
 
   const Scene& scene() const;
   const DeviceInfo& device() const;
