@@ -21,7 +21,7 @@ constexpr uint64_t kMostFrames = 1'000'000'000;
 
 /// Options as text: numbers are read here, so that every version of the command line library gives the same messages.
 struct Raw {
-  std::string scene, device, size, view, frames, screenshot, script;
+  std::string scene, device, size, scale, view, frames, screenshot, script;
   std::vector<std::string> set;
   bool lockstep = false, validate = false;
 };
@@ -34,6 +34,7 @@ void declare(CLI::App& app, Raw& raw) {
   };
   text("--view", raw.view, "what is drawn at first: " + apps::viewNames() + " (default: final)", "VIEW", shown);
   text("--size", raw.size, "of the window, pixels (default: 1280x720)", "WxH", shown);
+  text("--scale", raw.scale, "of text and buttons, 0.5 to 4 (default: what the display asks for)", "FACTOR", shown);
   app.add_option("--set", raw.set, "change a key of the scene, as fluid.viscosity=0.1")
       ->type_name("KEY=VALUE")
       ->group(shown)
@@ -78,6 +79,10 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
                       "WIDTHxHEIGHT in pixels, as 1280x720: each from " + std::to_string(kLeastSide) + " to " + std::to_string(kMostSide));
     options.width = size->width;
     options.height = size->height;
+  }
+  if (given("--scale")) {
+    options.scale = numberIn<float>(raw.scale);
+    if (!options.scale || !(*options.scale >= 0.5f && *options.scale <= 4)) return badInput("--scale", raw.scale, "a number from 0.5 to 4");
   }
   if (given("--view")) {
     if (auto known = apps::checkView(raw.view); !known) return known.error();

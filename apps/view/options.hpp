@@ -15,6 +15,7 @@ struct Options {
   std::string scene = "dam-break";  ///< a name or a path
   std::string device;
   uint32_t width = 1280, height = 720;  ///< of the window, pixels
+  std::optional<float> scale;           ///< of text and buttons; none: the display's
   std::string view = "final";
   std::vector<Override> overrides;  ///< of the scene's keys, in order
   std::optional<uint64_t> frames;   ///< displayed; then it ends by itself

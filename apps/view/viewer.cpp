@@ -21,6 +21,7 @@
 #include "view/gravity_tilt.hpp"
 #include "view/keys.hpp"
 #include "view/panels/board.hpp"
+#include "view/picture.hpp"
 #include "view/playback.hpp"
 #include "view/script.hpp"
 
@@ -91,7 +92,8 @@ class Viewer {
     const DeviceInfo& info = context_->device().info();
     deviceName_ = info.name + ", " + info.driver;
     interface_ = std::make_unique<Interface>(
-        window_->contentScale(), [this] { return window_->clipboard(); }, [this](const char* text) { window_->setClipboard(text); });
+        options_.scale.value_or(window_->contentScale()), [this] { return window_->clipboard(); },
+        [this](const char* text) { window_->setClipboard(text); });
     auto display = Display::create(*context_, *window_, interface_->fonts());
     if (!display) return display.error();
     display_ = std::move(*display);
@@ -147,7 +149,7 @@ class Viewer {
   void begun() {
     playback_.restart();
     controls_.forget();
-    scale_.restart();
+    picture_.restart();
     held_ = {};
     dirty_ = true;
   }
@@ -160,6 +162,7 @@ class Viewer {
       now_s_ += passed;
       const double seconds = options_.lockstep ? Clock::kStep : std::min(passed, 0.25);
       frameTime_ += 0.1 * (passed - frameTime_);
+      if ((options_.frames || !script_.empty()) && frame_ > 0) frames_ms_.push_back(1e3 * passed);
       if (auto done = frame(seconds); !done) return done;
       ++frame_;
       for (const std::string& message : context_->takeMessages()) {
@@ -203,7 +206,8 @@ class Viewer {
   /// The piece of simulation that belongs to this frame: as much as the picture takes, so that the window answers and the fluid moves on.
   Expected<void> simulate(double seconds) {
     session_->runner().timePasses(settings_.panels);
-    Playback::Frame frame{seconds, now_s_, std::clamp(picture_s_, kLeastPiece, kMostPiece), settings_.paused, options_.lockstep, {}};
+    Playback::Frame frame{seconds,           now_s_, std::clamp(picture_.seconds(), kLeastPiece, kMostPiece), settings_.paused,
+                          options_.lockstep, {}};
     if (settings_.view == "density")
       frame.measureEvery_s = 0;
     else if (settings_.panels)
@@ -215,24 +219,10 @@ class Viewer {
   }
 
   Expected<void> paint() {
-    if (const auto took = display_->pictureSeconds()) {
-      picture_s_ = *took;
-      if (settings_.scale == 0 && !options_.lockstep) scale_.drew(*took);
-    }
-    const double scale = settings_.scale > 0 ? settings_.scale : options_.lockstep ? 1 : scale_.scale();
-    const CameraView eye = controls_.camera.view();
-    const bool same = eye.fov_y_deg == painted_.eye.fov_y_deg && std::ranges::equal(eye.eye, painted_.eye.eye) &&
-                      std::ranges::equal(eye.target, painted_.eye.target) && painted_.scale == scale && painted_.view == settings_.view &&
-                      painted_.area == layout_.picture;
-    if (same && !dirty_) return {};
-    if (settings_.view == "density" && painted_.view != "density" && session_->runner().between())
-      if (auto measured = session_->runner().measure(); !measured) return measured.error();
-    auto drawn = display_->paint(*session_, settings_.view, eye, layout_.picture, scale, session_->runner().time_s());
-    if (!drawn) {
-      if (drawn.error().kind != ErrorKind::BadInput || painted_.area.width == 0) return drawn;
-      tell(drawn.error().message);  // the old picture stays
-    }
-    painted_ = {eye, scale, settings_.view, layout_.picture};
+    const double scale = settings_.scale == 0 && options_.lockstep ? 1 : settings_.scale;
+    auto drawn = picture_.paint(*display_, *session_, {settings_.view, controls_.camera.view(), layout_.picture, scale, dirty_});
+    if (!drawn && !(drawn.error().kind == ErrorKind::BadInput && picture_.any())) return drawn;
+    if (!drawn) tell(drawn.error().message);
     dirty_ = false;
     return {};
   }
@@ -243,8 +233,8 @@ class Viewer {
     board.stats = playback_.stats();
     board.framesPerSecond = frameTime_ > 0 ? 1 / frameTime_ : 0;
     board.speed = playback_.speed();
-    board.pictureScale = painted_.scale;
-    board.picture_s = picture_s_;
+    board.pictureScale = picture_.scale();
+    board.picture_s = picture_.seconds();
     board.lockstep = options_.lockstep;
     drawPanels(board);
     const ImDrawData& lists = interface_->end();
@@ -487,22 +477,20 @@ class Viewer {
       if (auto ended = runner.step(); !ended) return ended;
     auto hash = runner.hash();
     if (!hash) return hash.error();
-    char text[256];
+    std::ranges::sort(frames_ms_);
+    const auto frame_ms = [&](double share) {
+      return frames_ms_.empty() ? 1e3 * wall_s : frames_ms_[static_cast<size_t>(share * static_cast<double>(frames_ms_.size() - 1))];
+    };
+    char text[400];
     std::snprintf(text, sizeof text,
-                  "scene       %s\nframes      %llu\nsteps       %llu\ntime_s      %.9g\nwall_s      %.3f\nstate_hash  %016llx\n",
+                  "scene         %s\nframes        %llu\nsteps         %llu\ntime_s        %.9g\nwall_s        %.3f\n"
+                  "frame_ms      %.1f\nframe_ms_p95  %.1f\nstate_hash    %016llx\n",
                   sceneName_.c_str(), static_cast<unsigned long long>(frame_), static_cast<unsigned long long>(runner.steps()),
-                  runner.time_s(), wall_s, static_cast<unsigned long long>(*hash));
+                  runner.time_s(), wall_s, frame_ms(0.5), frame_ms(0.95), static_cast<unsigned long long>(*hash));
     return apps::writeAll(STDOUT_FILENO, "standard output", text);
   }
 
   static void say(const std::string& text) { std::fprintf(stderr, "rill-view: %s\n", text.c_str()); }
-
-  struct Painted {
-    CameraView eye;
-    double scale = 1;
-    std::string view;
-    Area area;
-  };
 
   const Options& options_;
   apps::SceneFolders scenes_;
@@ -522,14 +510,14 @@ class Viewer {
   Layout layout_;
   Controls controls_;
   Playback playback_;
-  PictureScale scale_;
+  Picture picture_;
   HeldEdit held_;
-  Painted painted_;
   bool dirty_ = true;              // the picture
   bool said_ = false;              // by the validation layer
   std::optional<fs::path> asked_;  // a screenshot
   uint64_t frame_ = 0;
-  double now_s_ = 0, picture_s_ = 0, frameTime_ = 0;
+  std::vector<double> frames_ms_;  // of a run that ends by itself
+  double now_s_ = 0, frameTime_ = 0;
 };
 
 }  // namespace

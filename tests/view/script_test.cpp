@@ -114,6 +114,8 @@ TEST(ViewOptions, AreJudgedBeforeAnythingOpens) {
               {{"--size", "1280"}, "WIDTHxHEIGHT"},
               {{"--size", "10x10"}, "from 64"},
               {{"--frames", "0"}, "from 1"},
+              {{"--scale", "0.1"}, "0.5 to 4"},
+              {{"--scale", "nan"}, "0.5 to 4"},
               {{"--set", "x"}, "="},
               {{"--frmaes", "3"}, "--frames"},
               {{"--screenshot", ""}, "name of a file"},

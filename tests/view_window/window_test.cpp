@@ -62,11 +62,14 @@ class ViewWindowTest : public ::testing::Test {
 };
 
 TEST_F(ViewWindowTest, OpensDrawsAndClosesByItself) {
-  const Outcome outcome = view({scene, "--frames", "5", "--screenshot", "last.png", "--validate"});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_EQ(outcome.err, "");
-  EXPECT_EQ(figure(outcome, "frames"), "5");
-  EXPECT_EQ(sizeOf("last.png"), std::pair(1280, 720));
+  for (const char* scale : {"1", "2.5"}) {
+    const Outcome outcome = view({scene, "--frames", "5", "--scale", scale, "--screenshot", "last.png", "--validate"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_EQ(figure(outcome, "frames"), "5");
+    EXPECT_GT(std::stod("0" + figure(outcome, "frame_ms")), 0);
+    EXPECT_EQ(sizeOf("last.png"), std::pair(1280, 720));
+  }
 }
 
 TEST_F(ViewWindowTest, InLockstepAFrameIsCaptures) {

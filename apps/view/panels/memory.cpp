@@ -8,6 +8,7 @@ namespace rill::view {
 namespace {
 
 double mebibytes(uint64_t bytes) { return static_cast<double>(bytes) / (1 << 20); }
+double kibibytes(uint64_t bytes) { return static_cast<double>(bytes) / (1 << 10); }
 
 /// A line that opens: what it names lies below it.
 bool line(const char* name, uint64_t bytes) {
@@ -17,11 +18,12 @@ bool line(const char* name, uint64_t bytes) {
   return open;
 }
 
-bool beginTable(const char* name, const char* last) {
-  if (!ImGui::BeginTable(name, 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) return false;
-  ImGui::TableSetupColumn("buffer", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("MiB", ImGuiTableColumnFlags_WidthFixed, 3.2f * ImGui::GetFontSize());
-  ImGui::TableSetupColumn(last, ImGuiTableColumnFlags_WidthFixed, 4.6f * ImGui::GetFontSize());
+/// `places`: with a column for where things lie.
+bool beginTable(const char* name, bool places) {
+  if (!ImGui::BeginTable(name, places ? 3 : 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) return false;
+  ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("KiB", ImGuiTableColumnFlags_WidthFixed, 3.6f * ImGui::GetFontSize());
+  if (places) ImGui::TableSetupColumn("at KiB", ImGuiTableColumnFlags_WidthFixed, 4.6f * ImGui::GetFontSize());
   ImGui::TableHeadersRow();
   return true;
 }
@@ -31,14 +33,15 @@ void row(std::string_view name, uint64_t bytes) {
   ImGui::TableNextColumn();
   ImGui::TextUnformatted(name.data(), name.data() + name.size());
   ImGui::TableNextColumn();
-  ImGui::Text("%.2f", mebibytes(bytes));
-  ImGui::TableNextColumn();
+  ImGui::Text("%.1f", kibibytes(bytes));
 }
 
 void fluid(const Runner& runner) {
   if (line("fluid", runner.fluid().memory().total())) {
-    if (beginTable("fluid's", "")) {
-      for (const FluidBuffer& buffer : runner.fluid().buffers()) row(buffer.name, buffer.bytes);
+    if (beginTable("fluid's", false)) {
+      std::vector<FluidBuffer> all(runner.fluid().buffers().begin(), runner.fluid().buffers().end());
+      std::ranges::stable_sort(all, std::ranges::greater{}, &FluidBuffer::bytes);
+      for (const FluidBuffer& buffer : all) row(buffer.name, buffer.bytes);
       ImGui::EndTable();
     }
     ImGui::TreePop();
@@ -55,14 +58,15 @@ void transients(const char* name, const Graph& graph) {
   std::vector<TransientReport> all = graph.transients();
   const auto place = [](const TransientReport& r) { return std::tuple(r.image, r.heap, r.offset, r.name); };
   std::ranges::stable_sort(all, {}, place);
-  if (beginTable(name, "at MiB")) {
+  if (beginTable(name, true)) {
     for (size_t k = 0; k < all.size(); ++k) {
       if (k > 0 && place(all[k]) == place(all[k - 1])) continue;
       row(all[k].name, all[k].bytes);
-      ImGui::Text("%s%u: %.2f", all[k].image ? "i" : "b", all[k].heap, mebibytes(all[k].offset));
+      ImGui::TableNextColumn();
+      ImGui::Text("%s%u: %.0f", all[k].image ? "i" : "b", all[k].heap, kibibytes(all[k].offset));
       if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("%s %u, from %.2f MiB, passes %u to %u", all[k].image ? "images" : "buffers", all[k].heap,
-                          mebibytes(all[k].offset), all[k].first, all[k].last);
+        ImGui::SetTooltip("in heap %u of %s, from %.1f KiB on; passes %u to %u", all[k].heap, all[k].image ? "images" : "buffers",
+                          kibibytes(all[k].offset), all[k].first, all[k].last);
     }
     ImGui::EndTable();
   }

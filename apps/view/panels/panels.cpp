@@ -67,7 +67,8 @@ void messageBox(Board& board) {
 
 void figureLine(const char* name, const char* format, ...) {
   ImGui::TextUnformatted(name);
-  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * 0.56f);
+  const float after = ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + ImGui::GetFontSize();
+  ImGui::SameLine(std::max(after, ImGui::GetWindowContentRegionMax().x * 0.56f));
   va_list arguments;
   va_start(arguments, format);
   ImGui::TextV(format, arguments);
