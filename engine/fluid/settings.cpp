@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "core/words.hpp"
@@ -22,6 +21,9 @@ constexpr double kOfJacobiLimit = 0.92;  // and so much of the linear limit, whi
 constexpr double kCalmOfJacobiLimit = 2.0 / 3;
 constexpr double kRegularization = 0.02;  // of the rest lattice's sum |grad C|^2: keeps lone pairs from flying apart
 constexpr double kWarmGain = 0.02;
+// Poly6 with spiky does work in loops, its gradient not being the density's: the more, the less the correction of close pairs shrinks with
+// them, and the longer a pressure lasts. At 1 and 0.02 a wave breaks faster than that feeds it; at 5, and at 0.5, energy grew by a sixth.
+constexpr double kMostRegularizationOfPair = 1, kMostWarmGainOfPair = 0.02;
 // In a fluid at rest, over the square of the column's layers, and at most: its longest wave gains kappa / 2 a substep.
 constexpr double kCalmWarmGain = 1.2, kMostCalmWarmGain = 0.005;
 constexpr double kCalmSubsteps = 10;  // a layer: the mean error that the step follows there; the column's first wave takes about seven
@@ -154,6 +156,14 @@ double xsphRate(double viscosity, const Scene& scene, const SmoothingKernel& ker
   return 2 * viscosity / (scene.fluid.density * kernel.secondMoment());
 }
 
+// `why` asks for substeps of at most `longest` seconds.
+void warnOfDropping(const std::string& why, double longest, FluidSetup& setup) {
+  const double all = longest * setup.params.maxSubsteps;
+  if (all >= 1.0 / 60) return;
+  setup.warnings.push_back(why + " needs substeps of at most " + roughNumber(longest) + " s: " + std::to_string(setup.params.maxSubsteps) +
+                           " of them are " + roughNumber(all) + " s, less than a frame of 1/60 s; time will be dropped");
+}
+
 // XSPH with coefficient c acts like a kinematic viscosity c sigma^2 / (2 dt): so many sweeps, and a step short enough, that none has c
 // above 1.
 void setViscosity(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
@@ -166,15 +176,7 @@ void setViscosity(const Scene& scene, const SmoothingKernel& kernel, FluidSetup&
   p.viscosityRate = f(rate);
   const double most = setup.viscositySweeps / rate;
   p.maxStep = std::min(p.maxStep, f(most));
-  const double frame = 1.0 / 60;
-  if (most * p.maxSubsteps < frame) {
-    char text[200];
-    std::snprintf(
-        text, sizeof text,
-        "viscosity %g Pa s needs substeps of at most %.3g s: %u of them are %.3g s, less than a frame of 1/60 s; time will be dropped",
-        scene.fluid.viscosity, most, p.maxSubsteps, most * p.maxSubsteps);
-    setup.warnings.emplace_back(text);
-  }
+  warnOfDropping("viscosity " + roughNumber(scene.fluid.viscosity) + " Pa s", most, setup);
 }
 
 double strongestGravity(const Scene& scene) {
@@ -203,6 +205,15 @@ double headOf(const Scene& scene, const double extent[3]) {
   return head;
 }
 
+// The regularization that is taken, as a fraction of the rest lattice's D.
+double regularization(const Scene& scene) {
+  const double wanted = scene.solver.regularization.value_or(kRegularization);
+  return scene.solver.kernel == KernelChoice::Poly6Spiky ? std::min(wanted, kMostRegularizationOfPair) : wanted;
+}
+
+// What it takes from a correction at rest, over what the default takes: epsilon stands beside D in what divides it.
+double softness(const Scene& scene) { return (1 + std::max(regularization(scene), kRegularization)) / (1 + kRegularization); }
+
 // The step in which the mean compression of such a column is `error`, over dt^2 g H / d^2. Corrections hold a column up where
 // 2 omega / D grad C = g dt^2, so that it is D d^2 / (4 omega) at rest; in the dam breaks of assets/scenes it is less, 0.06 at h = 2 d.
 double stepOfError(double error, double head, double relaxation, const SmoothingKernel& kernel) {
@@ -225,10 +236,22 @@ void setRelaxation(const Scene& scene, const SmoothingKernel& kernel, FluidSetup
                              " is taken");
 }
 
+// kappa, as much of it as the waves can bear: a wave is fed where its correction is the smaller.
+double warmGain(const Scene& scene, FluidSetup& setup) {
+  const double wanted = scene.solver.warm_start.value_or(scene.solver.iterations == 1 ? kWarmGain : 0.0);
+  const double most = scene.solver.kernel == KernelChoice::Poly6Spiky ? kMostWarmGainOfPair : wanted;
+  const double gain = std::min(wanted, most) / softness(scene);
+  if (scene.solver.warm_start && gain < wanted)
+    setup.warnings.push_back("solver.warm_start " + roughNumber(wanted) +
+                             " gains energy with this kernel and regularization: " + roughNumber(gain) + " is taken");
+  return gain;
+}
+
 // See ARCHITECTURE.md, "Calm water".
-void setGains(const Scene& scene, double head, FluidParams& p) {
+void setGains(const Scene& scene, double head, FluidSetup& setup) {
+  FluidParams& p = setup.params;
   const double layers = head / (std::max(strongestGravity(scene), 1e-20) * scene.fluid.spacing);
-  const double gain = scene.solver.warm_start.value_or(scene.solver.iterations == 1 ? kWarmGain : 0.0);
+  const double gain = warmGain(scene, setup);
   p.roughWarmGain = f(gain);
   p.calmWarmGain = f(scene.solver.warm_start ? gain : std::min(std::min(gain, kMostCalmWarmGain), kCalmWarmGain / (layers * layers)));
   p.roughSpeed = f(kRough * std::sqrt(2 * head));
@@ -254,19 +277,41 @@ void setSpeeds(const Scene& scene, const StartFigures& start, FluidParams& p) {
 void setLongestStep(const Scene& scene, const SmoothingKernel& kernel, double head, FluidSetup& setup) {
   FluidParams& p = setup.params;
   if (head <= 0) return;
-  const double stable = stepOfError(kStableError * p.iterations / (1 + kStableGain * p.roughWarmGain), head, p.roughRelaxation, kernel);
+  const double soft = softness(scene), error = kStableError * p.iterations / (1 + kStableGain * soft * p.roughWarmGain);
+  const double stable = stepOfError(error, head, p.roughRelaxation / soft, kernel);
   if (scene.solver.time_step && *scene.solver.time_step > stable)
     setup.warnings.push_back("solver.time_step " + roughNumber(*scene.solver.time_step) + " s is more than " +
                              std::to_string(p.iterations) + (p.iterations == 1 ? " iteration" : " iterations") +
                              " can hold this fluid's weight in: steps are at most " + roughNumber(stable) + " s");
   p.maxStep = std::min(p.maxStep, f(stable));
+  if (soft > 1) warnOfDropping("solver.regularization " + roughNumber(regularization(scene)), stable, setup);
+}
+
+// In a shorter step the rounding of positions, which are floats, is more speed than a correction may always add.
+double shortestStep(const double room[3], const FluidParams& p) {
+  constexpr double kHalfUlp = 0x1p-24;
+  return p.pushLow > 0 ? kHalfUlp * std::max({room[0], room[1], room[2]}) / p.pushLow : 0;
+}
+
+Expected<void> checkSteps(const Scene& scene, const double room[3], const FluidSetup& setup) {
+  const FluidParams& p = setup.params;
+  const double least = shortestStep(room, p);
+  if (p.maxStep >= least) return {};
+  const bool asked = scene.solver.time_step.value_or(least) < least;
+  const bool viscous = setup.viscositySweeps > 0 && p.viscosityRate * least > setup.viscositySweeps;
+  const std::string key = asked     ? "solver.time_step: steps of "
+                          : viscous ? "fluid.viscosity: " + roughNumber(scene.fluid.viscosity) + " Pa s needs steps of at most "
+                                    : "solver: relaxation and regularization hold this fluid's weight in steps of at most ";
+  return Error{ErrorKind::BadInput, (scene.file.empty() ? "" : scene.file.string() + ": ") + key + roughNumber(p.maxStep) +
+                                        " s, in which the rounding of positions alone is " + roughNumber(least * p.pushLow / p.maxStep) +
+                                        " m/s; expected steps of " + roughNumber(least) + " s or more"};
 }
 
 // The first step: half of what the tolerance allows under a column as high as all particles. Fluid that is released has to find its
 // pressure: the step that it can bear is known only when it has, and what compresses until then springs back.
 double firstStep(const Scene& scene, const SmoothingKernel& kernel, double head, const FluidParams& p) {
   if (scene.solver.tolerance <= 0 || head <= 0) return p.maxStep;
-  return std::min<double>(p.maxStep, 0.5 * stepOfError(scene.solver.tolerance, head, p.calmRelaxation, kernel));
+  return std::min<double>(p.maxStep, 0.5 * stepOfError(scene.solver.tolerance, head, p.calmRelaxation / softness(scene), kernel));
 }
 
 void setGravity(const Scene& scene, FluidSetup& setup) {
@@ -311,7 +356,10 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   p.valueScale = f(kernel.valueScale());
   p.gradientScale = f(setup.kernel == 0 ? kernel.gradientScale() : kernel.gradientScale() / h);
   p.inverseRestGradient = f(1 / kernel.restGradientSum());
-  p.regularization = f(scene.solver.regularization.value_or(kRegularization) * kernel.restGradientSum());
+  p.regularization = f(regularization(scene) * kernel.restGradientSum());
+  if (scene.solver.regularization.value_or(0) > regularization(scene))
+    setup.warnings.push_back("solver.regularization " + roughNumber(*scene.solver.regularization) +
+                             " gains energy with this kernel: " + roughNumber(regularization(scene)) + " is taken");
   setRelaxation(scene, kernel, setup);
   p.warmRelease = f(kWarmRelease);
   p.reach = f(h + kListSkin * d);
@@ -363,12 +411,13 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   setGravity(scene, setup);
   setSpeeds(scene, start, p);
   const double head = headOf(scene, extent);
-  setGains(scene, head, p);
+  setGains(scene, head, setup);
   setLongestStep(scene, kernel, head, setup);
   setup.firstStep = firstStep(scene, kernel, head, p);
 
   double room[3];
   for (int a = 0; a < 3; ++a) room[a] = scene.domain ? scene.domain->max[a] - scene.domain->min[a] : 2 * extent[a];
+  if (auto able = checkSteps(scene, room, setup); !able) return able.error();
   setup.grid = chooseGridSize(p.reach, room, count);
   p.gridBitsX = setup.grid.bits[0];
   p.gridBitsY = setup.grid.bits[1];

@@ -141,7 +141,7 @@ void ReferenceSolver::multipliers(bool firstIteration) {
 
 double ReferenceSolver::tensileTerm(double value, double dt) const {
   if (settings.tensile <= 0) return 0;
-  const double share = value / kernel_.value(settings.tensileRadius * kernel_.h());
+  const double share = std::min(value / kernel_.value(settings.tensileRadius * kernel_.h()), 1.0);
   const double steps = dt * dt * 9.81 / settings.spacing;
   return -settings.tensile * 0.1 / kernel_.restGradientSum() * std::pow(share, settings.tensilePower) * steps;
 }

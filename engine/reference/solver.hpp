@@ -144,8 +144,9 @@ class ReferenceSolver {
   /// B and grad B at a point, with the solids where they are at `t` (s).
   WallSample boundaryAt(const glm::dvec3& x, double t) const;
   /// s_ij of a pair with the kernel's value `value`, m^2, <= 0:
-  ///   s_ij = -k (0.1 / D_rest) (K_ij / K(delta q))^n (dt / dt_ref)^2,  dt_ref = sqrt(d / 9.81 m/s^2),
-  /// so that it is an acceleration of k times a fixed part of g for pairs at delta q, at any spacing and step.
+  ///   s_ij = -k (0.1 / D_rest) min(1, K_ij / K(delta q))^n (dt / dt_ref)^2,  dt_ref = sqrt(d / 9.81 m/s^2),
+  /// so that it is an acceleration of k times a fixed part of g for pairs at delta q or nearer, at any spacing and step. (The paper lets it
+  /// grow for nearer pairs: with delta q beyond the spacing that blows a rest lattice up.)
   double tensileTerm(double value, double dt) const;
   /// c of XSPH over the whole substep, dimensionless: 2 mu dt / (rho0 sigma^2).
   double xsphCoefficient(double viscosity, double dt) const;

@@ -35,6 +35,8 @@ void main() {
   // Particles that overlap at the start part first: position corrections without a step in time give no speed, where a short step would give them all of it.
   if (first && c.settling > 0u) {
     float enough = params.tolerance > 0.0 ? min(params.tolerance, 0.001) : 0.001;
+    // What is left becomes speed in the first step: a small part of what a correction may always add. Rounding leaves 1e-6.
+    if (params.pushLow > 0.0) enough = min(enough, max(0.05 * params.pushLow * c.nextStep / params.spacing, 2.0e-6));
     bool apart = error <= 0.5 * enough && uintBitsToFloat(s.errorMax) <= 20.0 * enough;
     c.settling = apart ? 0u : c.settling - 1u;
     c.step = 0.0;

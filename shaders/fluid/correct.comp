@@ -41,7 +41,7 @@ void visit(vec4 particle) {
   vec3 gradient = gradientShape(distance) * r;
   vec2 both = own + multipliers(particle);
   if (TENSILE != 0u) {
-    both.x -= tensile * pow(kernelShape(distance) * tensileScale, tensilePower);
+    both.x -= tensile * pow(min(kernelShape(distance) * tensileScale, 1.0), tensilePower);
   }
   moved += both.x * gradient;
   pushed += both.y * gradient;

@@ -31,7 +31,7 @@ void visit(vec4 particle) {
   float distance = sqrt(dot(r, r));
   float both = own + multiplier(particle);
   if (TENSILE != 0u) {
-    both -= tensile * pow(kernelShape(distance) * tensileScale, tensilePower);
+    both -= tensile * pow(min(kernelShape(distance) * tensileScale, 1.0), tensilePower);
   }
   moved += both * gradientShape(distance) * r;
 }

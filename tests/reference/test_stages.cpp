@@ -156,6 +156,22 @@ TEST(Tensile, PushesAClumpApartAlikeAtAnyStepAndScale) {
   EXPECT_LT(share, 0.5);
 }
 
+TEST(Tensile, GrowsNoFurtherNearerThanItsReference) {
+  ReferenceSettings s;
+  s.tensile = 0.5;
+  s.tensileRadius = 0.9;
+  ReferenceSolver solver(s, std::vector<glm::dvec3>{{0, 0, 0}});
+  const auto at = [&](double q) { return solver.tensileTerm(solver.kernel().value(q * solver.kernel().h()), 1e-3); };
+  EXPECT_LT(at(0.9), 0);
+  EXPECT_EQ(at(0.5), at(0.9));
+  EXPECT_EQ(at(0), at(0.9));
+  EXPECT_NEAR(
+      at(0.95) / at(0.9),
+      std::pow(solver.kernel().value(0.95 * s.smoothingRatio * s.spacing) / solver.kernel().value(0.9 * s.smoothingRatio * s.spacing),
+               s.tensilePower),
+      1e-12);
+}
+
 /// The rate at which XSPH damps v_x = cos(pi y / L) in a lattice between planes, over nu k^2.
 double decayOverTheory(double ratio, int sweeps) {
   const int layers = 24, wide = 9;

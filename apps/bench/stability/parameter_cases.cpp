@@ -49,6 +49,7 @@ void addExtremes(std::vector<StressCase>& cases, const std::string& owner, Owner
     const double ends[] = {words ? 0 : lowest(field.info.range), words ? double(field.info.words.size() - 1) : highest(field.info.range)};
     for (const double value : ends) {
       Scene scene = dam();
+      if (field.info.key.starts_with("tensile_")) scene.fluid.tensile = 1;  // which they shape
       set(scene.*part, field, value);
       const std::string shown = words ? std::string(field.info.words[static_cast<size_t>(value)]) : number(value, 7);
       StressCase c{.name = owner + "." + std::string(field.info.key) + "=" + shown, .scene = scene};

@@ -1,0 +1,123 @@
+// What is asked for beyond what the method bears: bounded so that no energy comes of it, or refused.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "fluid/rig.hpp"
+#include "fluid/settings.hpp"
+
+namespace rill::test {
+namespace {
+
+// A column that breaks, in steps that the solver chooses.
+Trial dam() {
+  Trial t = trial();
+  setWalls(t, {1, 1, 0.375});
+  t.x = block({6, 10, 6}, t.d());
+  t.step = 1.0 / 60;
+  t.scene.solver.cfl = 0.25;
+  t.scene.solver.tolerance = 0.001;
+  t.scene.solver.relaxation = {};
+  t.scene.solver.warm_start = {};
+  return t;
+}
+
+class BoundsTest : public FluidTest {
+ protected:
+  /// The most energy of `frames` frames over the start's, potential energy from the floor.
+  double mostEnergy(const Trial& t, int frames) {
+    auto run = start(t);
+    const auto energy = [&] {
+      const FluidStats s = run->stats();
+      return s.kinetic_J + s.potential_J;
+    };
+    const double first = energy();
+    double most = 0;
+    for (int frame = 0; frame < frames; ++frame) {
+      run->advance(1.0 / 60);
+      most = std::max(most, energy());
+    }
+    return most / first;
+  }
+};
+
+FluidSetup setupOf(const Scene& scene) {
+  auto setup = makeFluidSetup(scene, {.count = 360, .extent = {0.3, 0.6, 0.3}});
+  if (!setup) throw std::runtime_error(setup.error().message);
+  return *std::move(setup);
+}
+
+bool warned(const FluidSetup& setup, std::string_view start) {
+  return std::ranges::any_of(setup.warnings, [&](const std::string& text) { return text.starts_with(start); });
+}
+
+TEST_F(BoundsTest, SoftFluidGainsNoEnergy) {
+  Trial t = dam();
+  t.scene.solver.regularization = 300;
+  t.scene.solver.warm_start = 0.2;
+  EXPECT_LT(mostEnergy(t, 40), 1.02);
+}
+
+// A correction that is softer by a factor takes steps that are shorter by its root: the column is compressed by as much.
+TEST_F(BoundsTest, SoftFluidTakesShorterSteps) {
+  Scene scene = dam().scene;
+  scene.solver.warm_start = 0.1;
+  const FluidSetup usual = setupOf(scene);
+  scene.solver.regularization = 1;
+  const FluidSetup soft = setupOf(scene);
+  EXPECT_NEAR(soft.params.maxStep / usual.params.maxStep, std::sqrt(1.02 / 2), 1e-3);
+  EXPECT_NEAR(soft.firstStep / usual.firstStep, std::sqrt(1.02 / 2), 1e-3);
+  EXPECT_NEAR(soft.params.roughWarmGain, 0.1 * 1.02 / 2, 1e-6);
+  EXPECT_EQ(usual.params.roughWarmGain, 0.1f);
+  EXPECT_TRUE(warned(soft, "solver.warm_start 0.1 ")) << "a gain that is not taken is said";
+  EXPECT_FALSE(warned(usual, "solver.warm_start"));
+}
+
+TEST_F(BoundsTest, PolySpikyGainsNoEnergy) {
+  Trial t = dam();
+  t.scene.solver.kernel = KernelChoice::Poly6Spiky;
+  t.scene.solver.regularization = 50;
+  t.scene.solver.warm_start = 0.5;
+  const FluidSetup setup = setupOf(t.scene);
+  EXPECT_TRUE(warned(setup, "solver.regularization 50 "));
+  EXPECT_TRUE(warned(setup, "solver.warm_start 0.5 "));
+  EXPECT_LT(mostEnergy(t, 40), 1.02);
+}
+
+TEST_F(BoundsTest, TensileThatReachesBeyondARestLatticeGainsNoEnergy) {
+  Trial t = dam();
+  t.scene.fluid.tensile = 1;
+  t.scene.fluid.tensile_radius = 0.9;
+  EXPECT_LT(mostEnergy(t, 40), 1.02);
+}
+
+// Particles that overlap at the start leave an overlap that a short step must not turn into speed.
+TEST_F(BoundsTest, SettlingGoesAsFarAsAShortStepNeeds) {
+  Trial t = dam();
+  t.x = block({6, 10, 6}, t.d(), {}, 0.4);
+  t.settle = true;
+  t.step = 2e-5;
+  auto run = start(t);
+  run->advance(1e-3);
+  EXPECT_LT(run->snapshot().fastest(), 0.3) << "falling gives 0.01 m/s in that time";
+}
+
+TEST_F(BoundsTest, StepsTooShortForFloatsAreRefused) {
+  Scene scene = dam().scene;
+  scene.solver.time_step = 1e-9;
+  const auto step = makeFluidSetup(scene, {.count = 360, .extent = {0.3, 0.6, 0.3}});
+  ASSERT_FALSE(step);
+  EXPECT_EQ(step.error().kind, ErrorKind::BadInput);
+  EXPECT_TRUE(step.error().message.starts_with("solver.time_step: steps of 1e-09 s, ")) << step.error().message;
+  scene.solver.time_step = 1e-5;
+  EXPECT_TRUE(makeFluidSetup(scene, {.count = 360, .extent = {0.3, 0.6, 0.3}}));
+
+  scene = dam().scene;
+  scene.fluid.viscosity = 1e9;
+  const auto viscous = makeFluidSetup(scene, {.count = 360, .extent = {0.3, 0.6, 0.3}});
+  ASSERT_FALSE(viscous);
+  EXPECT_TRUE(viscous.error().message.starts_with("fluid.viscosity: 1e+09 Pa s needs steps of at most ")) << viscous.error().message;
+}
+
+}  // namespace
+}  // namespace rill::test
