@@ -12,8 +12,12 @@ layout(std430, set = 0, binding = 4) readonly buffer SceneColour { uvec2 scene_c
 layout(std430, set = 0, binding = 5) readonly buffer SceneDepth { float scene_depth[]; };
 layout(location = 0) out vec4 colour;
 
-const float kFarthest = 1e4;  // spacings that a ray is followed
-const int kFollow = 3;        // looks at the scene's depth for where it ends
+const float kFarthest = 1e4;    // spacings that a ray is followed
+const int kFollow = 3;          // looks at the scene's depth for where it ends
+const float kFaces = 2.0;       // spacings around a pixel whose faces bend its light together
+const float kMostFaces = 48.0;  // the same in pixels, at most
+const float kSameWater = 4.0;   // spacings of depth between faces of one piece of water
+const uint kFaceLooks = 12u;    // along a spiral
 
 vec3 sceneAt(ivec2 pixel) {
   const uvec2 packed = scene_colour[uint(pixel.y) * view.width + uint(pixel.x)];
@@ -37,6 +41,21 @@ float thicknessAt(vec2 pixel) {
   const float a = float(thickness[base.y * grid.x + base.x]), b = float(thickness[base.y * grid.x + next.x]);
   const float c = float(thickness[next.y * grid.x + base.x]), d = float(thickness[next.y * grid.x + next.x]);
   return mix(mix(a, b, part.x), mix(c, d, part.x), part.y) * look.finish.z;
+}
+
+// Torn water shows many faces, and light goes through several of them: it is bent by their mean, where one alone would make a lens of each
+// drop. What is smooth has the same normal all around.
+vec3 meanNormal(vec2 middle, float z, vec3 normal) {
+  const float reach = min(kFaces * view.spacing / metresAPixel(z), kMostFaces);
+  vec3 sum = normal;
+  RILL_LOOP for (uint k = 0u; k < kFaceLooks; ++k) {
+    const float angle = 2.3999632 * float(k), far = reach * sqrt((float(k) + 0.5) / float(kFaceLooks));
+    const ivec2 at = clamp(ivec2(middle + far * vec2(cos(angle), sin(angle))), ivec2(0), ivec2(view.width, view.height) - 1);
+    const uvec2 other = surface[uint(at.y) * view.width + uint(at.x)];
+    if (abs(pixelDepth(other) - z) < kSameWater * view.spacing) sum += unpackNormal(other.y);
+  }
+  const float length_ = length(sum);
+  return length_ > 1.0e-3 ? sum / length_ : normal;
 }
 
 // Of unpolarised light that meets the surface at this cosine (Fresnel).
@@ -76,7 +95,10 @@ void main() {
   if (look.scatter.w > 0.0) {
     body = look.scatter.rgb * (ambient + vec3(1.0, 0.95, 0.88) * lit);
   } else {
-    const vec3 bent = refract(sight, normal, 1.0 / look.absorption.w);
+    vec3 faces = meanNormal(middle, z, normal);
+    const float seen = dot(faces, sight);
+    if (seen > -0.02) faces = normalize(faces - (seen + 0.02) * sight);
+    const vec3 bent = refract(sight, faces, 1.0 / look.absorption.w);
     float inside = thicknessAt(middle);
     // Bent inside the fluid, parallel to what it was after it: followed to where the scene's depth says that it ends.
     const float farthest = kFarthest * view.spacing;
