@@ -176,8 +176,8 @@ TEST_F(DepthFilters, AStepOfFlowIsItsFormula) {
       push.smoothing = static_cast<float>(time);
       const Map before = rough(side, 0.25 * kH), after = filtered("render/surface_flow", before, push);
       compare(
-          inPerspective ? "perspective" : "parallel rays", before, after, [&](int x, int y) { return flowed(before, push, x, y, 0.47); },
-          time > 1);
+          inPerspective ? "perspective" : "parallel rays", before, after,
+          [&](int x, int y) { return flowed(before, push, x, y, double{surface::kFlowStable}); }, time > 1);
     }
 }
 
@@ -219,6 +219,7 @@ TEST_F(DepthFilters, FlowLeavesPlanesAndShrinksBalls) {
 // The limit of an explicit step is half of a sample's square: the roughest pattern there is changes by 1 - 2 share / limit a step.
 TEST_F(DepthFilters, FlowIsStableUpToItsLimitAndNotBeyond) {
   const double side = kH / 4, limit = 0.5;
+  EXPECT_LT(double{surface::kFlowStable}, limit);
   const SurfacePush push = pushOf(false, side);
   std::uniform_real_distribution<double> bump(-1, 1);
   const auto roughness = [](const Map& map) {
