@@ -94,14 +94,15 @@ Expected<std::string> Session::text(const std::filesystem::path& folder) const {
   if (!root) return root.error();
   OverrideMarks marks;
   if (auto applied = applyOverrides(*root, changes_, marks); !applied) return applied.error();
-  if (root->contains("fill"))
-    for (Json& fill : (*root)["fill"])
-      if (fill.contains("particles")) {
-        Json& name = fill["particles"]["file"];
-        std::error_code ignored;
-        const auto whole = std::filesystem::absolute(file_.parent_path() / name.get<std::string>(), ignored);
-        name = std::filesystem::proximate(whole, std::filesystem::absolute(folder, ignored), ignored).string();
-      }
+  const auto scene = parseScene(*bytes, file_.string(), file_.parent_path(), changes_);
+  if (!scene) return scene.error();
+  const auto fromFolder = [&](const std::filesystem::path& whole) {
+    std::error_code ignored;
+    return std::filesystem::proximate(whole, std::filesystem::absolute(folder, ignored), ignored).string();
+  };
+  for (size_t k = 0; k < scene->fill.size(); ++k)
+    if (scene->fill[k].particles) (*root)["fill"][k]["particles"]["file"] = fromFolder(*scene->fill[k].particles);
+  if (!scene->look.environment.empty()) (*root)["look"]["environment"] = fromFolder(scene->look.environment);
   return root->dump(2) + "\n";
 }
 

@@ -216,7 +216,9 @@ struct Table<Look> {
   static constexpr std::array one_of = kNoWords;
   static constexpr std::tuple fields{
       Field{Info{.key = "preset", .help = "material", .words = kPresetWords}, &Look::preset},
-      Field{Info{.key = "surface", .help = "surface reconstruction; auto: the one that measured best", .words = kSurfaceWords},
+      Field{Info{.key = "surface",
+                 .help = "surface reconstruction; auto: planes, the most accurate in rill-bench render",
+                 .words = kSurfaceWords},
             &Look::surface},
       Field{Info{.key = "environment",
                  .help =

@@ -19,7 +19,6 @@ constexpr float kHardRadius = 0.9f;            // spacings: spheres that leave n
 constexpr float kThicknessRadius = 1.2f;       // spacings: a disc that overlaps enough to be smooth
 constexpr float kThicknessUnit = 1.0f / 1024;  // spacings
 constexpr uint32_t kMostStep = 16;
-constexpr double kFlowStable = 0.45;  // of a sample's square: a step at the focus
 constexpr uint32_t kMostFlowSteps = 128;
 constexpr uint32_t kNarrowPasses = 2;
 

@@ -294,14 +294,16 @@ bool Reader::value(const Json& json, const std::string& path, const model::Info&
   if (!text(json, path, given)) return false;
   if (given.empty() || given.find('\0') != std::string::npos)
     return fail(path, "found " + inQuotes(given) + ", expected the name of a file");
-  const fs::path file = folder_ / fs::path(given);
+  // As any path of a command line, one that an override gives starts from the current directory.
+  const fs::path said = (marks_.find(path) ? fs::path() : folder_) / fs::path(given);
   std::error_code trouble;
+  const fs::path whole = fs::absolute(said, trouble);
+  const fs::path file = (trouble ? said : whole).lexically_normal();
   const fs::file_status status = fs::status(file, trouble);
   if (!fs::exists(status)) return fail(path, inQuotes(given) + ": no such file (looked for " + file.string() + ")");
   if (!fs::is_regular_file(status))
     return fail(path, inQuotes(given) + ": found something other than a regular file, expected " + std::string(info.help));
-  const fs::path whole = fs::absolute(file, trouble);
-  out = (trouble ? file : whole).lexically_normal();
+  out = file;
   return true;
 }
 

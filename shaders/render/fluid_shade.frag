@@ -24,12 +24,17 @@ vec3 sceneAt(ivec2 pixel) {
   return vec3(unpackHalf2x16(packed.x), unpackHalf2x16(packed.y).x);
 }
 
-vec3 sceneBetween(vec2 pixel) {
+// What stands in front of depth z is not seen: there the pixel that the place lies in counts in its stead.
+vec3 sceneBehind(ivec2 pixel, ivec2 own, float z) {
+  return sceneAt(scene_depth[uint(pixel.y) * view.width + uint(pixel.x)] < z ? own : pixel);
+}
+vec3 sceneBetween(vec2 pixel, float z) {
   const vec2 at = clamp(pixel - 0.5, vec2(0.0), pictureSize() - 1.001);
-  const ivec2 base = ivec2(at);
+  const ivec2 base = ivec2(at), own = ivec2(pixel);
   const ivec2 next = min(base + 1, ivec2(view.width, view.height) - 1);
   const vec2 part = at - vec2(base);
-  return mix(mix(sceneAt(base), sceneAt(ivec2(next.x, base.y)), part.x), mix(sceneAt(ivec2(base.x, next.y)), sceneAt(next), part.x), part.y);
+  return mix(mix(sceneBehind(base, own, z), sceneBehind(ivec2(next.x, base.y), own, z), part.x),
+             mix(sceneBehind(ivec2(base.x, next.y), own, z), sceneBehind(next, own, z), part.x), part.y);
 }
 
 float thicknessAt(vec2 pixel) {
@@ -120,7 +125,7 @@ void main() {
     }
     const float metres = min(inside, walked);
     const vec3 through = exp(-look.absorption.rgb * metres);
-    body = sceneBetween(there) * through + look.scatter.rgb * (ambient + vec3(0.5) * (0.3 + 0.7 * lit)) * (1.0 - through);
+    body = sceneBetween(there, z) * through + look.scatter.rgb * (ambient + vec3(0.5) * (0.3 + 0.7 * lit)) * (1.0 - through);
   }
   const vec3 fluid = mix(body, sky, reflected) + vec3(1.0, 0.95, 0.86) * (reflected * highlight);
   colour = vec4(mix(sceneAt(pixel), fluid, pixelCoverage(own)), 1.0);

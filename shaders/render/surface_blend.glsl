@@ -5,8 +5,7 @@
 
 const float kBlendReach = 1.8;  // spacings, across a plane
 const float kBlendRange = 1.2;  // spacings, along its normal
-const float kCover = 0.6;       // sum of what centres add (1 on the ray itself) from which there is fluid
-const float kCoverInside = 0.4;  // the same amid many others: a gap, not an edge
+const float kCoverInside = 0.4;  // in place of kCoverSlanted amid many others: a gap, not an edge
 const float kCoverEdgeOn = 0.35;  // weight of a particle whose plane is seen edge on
 const int kLooks = 2;           // more of them, where the first moved the surface
 const float kStill = 0.25;      // spacings of a move after which none is needed
@@ -50,14 +49,13 @@ Blend lookFrom(vec2 axis, float depth) {
       height += w * h;
       slope += w * dot(along, n);
       normal += w * n;
-      const float beside = max(1.0 - raySquare(centre[j].xyz, axis) * cover_inverse, 0.0);
       // Where the surface is seen edge on, its particles crowd before the eye.
-      if (within > 0.0) cover += beside * beside * max(abs(dot(n, sight)), kCoverEdgeOn);
+      if (within > 0.0) cover += coverOfCentre(centre[j].xyz, axis, cover_inverse) * max(abs(dot(n, sight)), kCoverEdgeOn);
     }
   }
   Blend blend;
   blend.firm = firm;
-  blend.coverage = coverageAt(cover - mix(kCover, kCoverInside, smoothstep(1.5, 2.8, sum)), depth);
+  blend.coverage = coverageAt(cover - mix(kCoverSlanted, kCoverInside, smoothstep(1.5, 2.8, sum)), depth);
   // At grazing angles the sums say little: no farther than the range allows.
   const float step = slope < -1e-6 ? clamp(height / -slope, -kBlendRange * spacing, kBlendRange * spacing) : 0.0;
   blend.depth = depth + step;

@@ -3,7 +3,6 @@
 #include "render/surface_edge.glsl"
 
 const float kCoverDepth = 1.6;  // spacings before and behind the depth
-const float kCover = 0.7;       // sum of what centres add (1 on the ray itself) from which there is fluid
 
 float coverOf(vec2 axis, float depth) {
   const vec3 x = rayFrom(axis) + depth * rayAlong(axis);
@@ -14,9 +13,8 @@ float coverOf(vec2 axis, float depth) {
     const uvec2 row = rowOf(range, y);
     for (uint j = row.x; j < row.y; ++j) {
       if (abs(centre[j].z - depth) > kCoverDepth * spacing) continue;
-      const float beside = max(1.0 - raySquare(centre[j].xyz, axis) * inverse, 0.0);
-      cover += beside * beside;
+      cover += coverOfCentre(centre[j].xyz, axis, inverse);
     }
   }
-  return coverageAt(cover - kCover, depth);
+  return coverageAt(cover - kCoverBare, depth);
 }

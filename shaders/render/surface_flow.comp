@@ -10,7 +10,7 @@ layout(std430, set = 0, binding = 0) readonly buffer Before { float before[]; };
 layout(std430, set = 0, binding = 1) writeonly buffer After { float after[]; };
 
 const float kEdge = 1.0;   // spacings between samples from which on they are two surfaces
-layout(constant_id = 0) const float kStable = 0.47;  // of the square of a sample's side: explicit steps in two dimensions are stable up to a half of it
+layout(constant_id = 0) const float kStep = kFlowStable;  // of the square of a sample's side; the test of stability tries others
 
 float at(ivec2 p, ivec2 grid) { return before[uint(clamp(p.y, 0, grid.y - 1) * grid.x + clamp(p.x, 0, grid.x - 1))]; }
 
@@ -40,7 +40,7 @@ void main() {
   const float zxy = 0.25 * (value[8] - value[6] - value[2] + value[0]) * scale / length;
   const float square = 1.0 + zx * zx + zy * zy;
   const float twice = ((1.0 + zy * zy) * zxx - 2.0 * zx * zy * zxy + (1.0 + zx * zx) * zyy) / square;
-  const float time = min(view.smoothing, kStable * length * length);
+  const float time = min(view.smoothing, kStep * length * length);
   const float moved = clamp(0.5 * time * twice, -0.25 * view.spacing, 0.25 * view.spacing);
   after[index] = z + moved;
 }

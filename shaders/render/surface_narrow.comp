@@ -11,7 +11,7 @@ layout(std430, set = 0, binding = 1) writeonly buffer After { float after[]; };
 layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };
 layout(constant_id = 0) const uint kVertical = 0u;
 
-const float kReach = 3.0 / 1.3;  // standard deviations
+const float kReach = 2.3076923;  // standard deviations: where the Gaussian is cut, at 0.07 of its peak (three spacings at a sigma of 1.3)
 const float kFront = 2.0;        // spacings in front of this sample: another surface
 const float kBehind = 1.0;       // spacings behind it at most
 const uint kMostTaps = 3u;       // margins of samples

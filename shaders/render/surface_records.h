@@ -7,8 +7,10 @@
 namespace rill::surface {
 using uint = std::uint32_t;
 #define RILL_CONSTANT constexpr uint
+#define RILL_NUMBER constexpr float
 #else
 #define RILL_CONSTANT const uint
+#define RILL_NUMBER const float
 #endif
 
 RILL_CONSTANT kSurfaceGroup = 64;      // invocations of a particle kernel's workgroup
@@ -21,6 +23,7 @@ RILL_CONSTANT kMostRows = 48;          // rows of the screen grid that one walk 
 RILL_CONSTANT kMostInRow = 64;         // particles of one row that a walk visits at most
 RILL_CONSTANT kMostInCell = 1024;      // particles of a cell that are put in order
 RILL_CONSTANT kNotSurface = 0xFFFFFFFFu;
+RILL_NUMBER kFlowStable = 0.45f;  // of a sample's square: a step of the flow at most; explicit ones in two dimensions are stable up to 0.5
 
 // Words of the counter buffer.
 RILL_CONSTANT kSurvivorCount = 0;     // particles that occlusion left
@@ -57,6 +60,7 @@ struct SurfacePush {
 };
 
 #undef RILL_CONSTANT
+#undef RILL_NUMBER
 #ifdef __cplusplus
 static_assert(sizeof(SurfacePush) <= 128);
 }  // namespace rill::surface

@@ -176,8 +176,8 @@ TEST_F(DepthFilters, AStepOfFlowIsItsFormula) {
       push.smoothing = static_cast<float>(time);
       const Map before = rough(side, 0.25 * kH), after = filtered("render/surface_flow", before, push);
       compare(
-          inPerspective ? "perspective" : "parallel rays", before, after, [&](int x, int y) { return flowed(before, push, x, y, 0.47); },
-          time > 1);
+          inPerspective ? "perspective" : "parallel rays", before, after,
+          [&](int x, int y) { return flowed(before, push, x, y, double{surface::kFlowStable}); }, time > 1);
     }
 }
 
@@ -219,6 +219,7 @@ TEST_F(DepthFilters, FlowLeavesPlanesAndShrinksBalls) {
 // The limit of an explicit step is half of a sample's square: the roughest pattern there is changes by 1 - 2 share / limit a step.
 TEST_F(DepthFilters, FlowIsStableUpToItsLimitAndNotBeyond) {
   const double side = kH / 4, limit = 0.5;
+  EXPECT_LT(double{surface::kFlowStable}, limit);
   const SurfacePush push = pushOf(false, side);
   std::uniform_real_distribution<double> bump(-1, 1);
   const auto roughness = [](const Map& map) {
@@ -257,11 +258,11 @@ TEST_F(DepthFilters, FlowIsStableUpToItsLimitAndNotBeyond) {
 // A Gaussian in one direction over pairs of samples: a pair counts where neither is a hole or more before this one than two metres a metre
 // aside; one that lies behind counts as at most a spacing behind, and two metres a metre aside.
 Wanted narrowed(const Map& map, const SurfacePush& push, int x, int y, bool vertical) {
-  constexpr double kReach = 3, kSigma = 1.3, kFront = 2, kBehind = 1, kSlant = 2;
-  const double z = double{map.at(x, y)}, side = sideAt(push, z);
+  constexpr double kReach = 3 / 1.3, kFront = 2, kBehind = 1, kSlant = 2;
+  const double z = double{map.at(x, y)}, side = sideAt(push, z), sigma = double{push.smoothing} * kH;
   const auto linear = [&](double depth) { return push.perspective > 0 ? 1 / depth : depth; };
   Wanted wanted;
-  const double reach = kReach * kH / side;
+  const double reach = kReach * sigma / side;
   if (reach > 1 && reach < 24) wanted.margin = std::abs(reach - std::round(reach));
   const int taps = std::clamp(int(reach), 1, 24);
   double sum = linear(z), weights = 1;
@@ -279,7 +280,7 @@ Wanted narrowed(const Map& map, const SurfacePush& push, int x, int y, bool vert
       pair += linear(std::min(other, farthest));
     }
     if (!counts) continue;
-    const double weight = std::exp(-away * away / (2 * kSigma * kSigma * kH * kH));
+    const double weight = std::exp(-away * away / (2 * sigma * sigma));
     sum += weight * pair;
     weights += 2 * weight;
   }
@@ -290,15 +291,18 @@ Wanted narrowed(const Map& map, const SurfacePush& push, int x, int y, bool vert
 TEST_F(DepthFilters, APassOfTheNarrowRangeIsItsFormula) {
   for (const bool inPerspective : {false, true})
     for (const uint32_t vertical : {0u, 1u})
-      for (const double side : {0.22 * kH, 1.8 * kH, 0.09 * kH}) {  // 13 taps, one, and as many as there may be
-        SurfacePush push = pushOf(inPerspective, side);
-        push.smoothing = 1.3f;  // spacings
-        const uint32_t constants[] = {vertical};
-        const Map before = rough(side, 0.2 * kH), after = filtered("render/surface_narrow", before, push, 1, constants);
-        const std::string name = std::string(vertical ? "down" : "across") + ", samples of " + std::to_string(side);
-        compare(
-            name, before, after, [&](int x, int y) { return narrowed(before, push, x, y, vertical != 0); }, true);
-      }
+      for (const double sigma : {SurfaceSettings{}.narrow_sigma, 1.3})  // spacings: what is shipped, and wider
+        for (const double part : {0.17, 1.4, 0.07}) {                   // of sigma: 13 taps, one, and as many as there may be
+          const double side = part * sigma * kH;
+          SurfacePush push = pushOf(inPerspective, side);
+          push.smoothing = static_cast<float>(sigma);
+          const uint32_t constants[] = {vertical};
+          const Map before = rough(side, 0.2 * kH), after = filtered("render/surface_narrow", before, push, 1, constants);
+          const std::string name =
+              std::string(vertical ? "down" : "across") + ", sigma " + std::to_string(sigma) + ", samples of " + std::to_string(side);
+          compare(
+              name, before, after, [&](int x, int y) { return narrowed(before, push, x, y, vertical != 0); }, true);
+        }
 }
 
 }  // namespace

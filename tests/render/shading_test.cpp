@@ -202,5 +202,34 @@ TEST_F(FlatPool, ShiftsWhatIsBehindAsSnellSays) {
   }
 }
 
+// A solid before the pool, in the middle of the picture: where it is not, all is as without it, though the bent rays end behind it.
+TEST_F(FlatPool, WhatStandsBeforeItIsNotSeenThroughIt) {
+  pool(0.3);
+  for (const double degrees : {0.0, 30.0, 50.0}) {
+    const FluidView view = parallel(degrees * kDegree);
+    Backdrop without;
+    without.pixels.assign(size_t{kAcross} * kDown, {0.2f, 0.4f, 0.6f, 1});
+    without.depths.assign(size_t{kAcross} * kDown, 1);
+    Backdrop with = without;
+    const auto isSolid = [](uint32_t x, uint32_t y) { return x >= 60 && x < 100 && y >= 50 && y < 80; };
+    for (uint32_t y = 0; y < kDown; ++y)
+      for (uint32_t x = 0; x < kAcross; ++x) {
+        if (!isSolid(x, y)) continue;
+        with.pixels[size_t{y} * kAcross + x] = {8, 0, 0, 1};
+        with.depths[size_t{y} * kAcross + x] = 0.02f;  // 2 m from the eye
+      }
+    const auto wanted = drawn(view, clear(), without, {.colour = kFormat}).channels(kFormat);
+    const auto got = drawn(view, clear(), with, {.colour = kFormat}).channels(kFormat);
+    for (uint32_t y = 0; y < kDown; ++y)
+      for (uint32_t x = 0; x < kAcross; ++x) {
+        const size_t i = size_t{y} * kAcross + x;
+        for (size_t c = 0; c < 3; ++c) {
+          const double solid = c == 0 ? 8 : 0;
+          ASSERT_NEAR(got[i][c], isSolid(x, y) ? solid : wanted[i][c], 0.01) << degrees << " degrees at " << x << " " << y;
+        }
+      }
+  }
+}
+
 }  // namespace
 }  // namespace rill::test

@@ -125,19 +125,23 @@ SceneTargets SurfaceOnGpu::hosts(Graph& graph, const TargetFormats& formats, uin
   VkClearValue colour{}, depth{};
   std::copy_n(backdrop.colour.data(), 4, colour.color.float32);
   depth.depthStencil = {backdrop.depth, 0};
-  if (!backdrop.pixels.empty()) {
-    EXPECT_EQ(backdrop.pixels.size(), size_t{width} * height);
-    backdrop_ = upload("backdrop", backdrop.pixels);
-    const BufferRef texels = graph.import("backdrop", importOf(backdrop_));
+  const auto copied = [&](Buffer& held, const auto& values, ImageRef target) {
+    EXPECT_EQ(values.size(), size_t{width} * height);
+    held = upload("backdrop", values);
+    const BufferRef texels = graph.import("backdrop", importOf(held));
     graph.pass("backdrop", [&](Pass& pass) {
       pass.read(texels, Use::CopySource);
-      targets.colour = pass.write(targets.colour, Use::CopyTarget);
-      return [texels, to = targets.colour](Commands& commands) { commands.copy(texels, to); };
+      target = pass.write(target, Use::CopyTarget);
+      return [texels, target](Commands& commands) { commands.copy(texels, target); };
     });
-  }
+    return target;
+  };
+  if (!backdrop.pixels.empty()) targets.colour = copied(backdrop_, backdrop.pixels, targets.colour);
+  if (!backdrop.depths.empty()) targets.depth = copied(backdropDepth_, backdrop.depths, targets.depth);
+  if (!backdrop.pixels.empty() && !backdrop.depths.empty()) return targets;
   graph.pass("clear", [&](Pass& pass) {
     if (backdrop.pixels.empty()) targets.colour = pass.write(targets.colour, Use::ColourTarget, Load::Clear, colour);
-    targets.depth = pass.write(targets.depth, Use::DepthTarget, Load::Clear, depth);
+    if (backdrop.depths.empty()) targets.depth = pass.write(targets.depth, Use::DepthTarget, Load::Clear, depth);
     return [](Commands&) {};
   });
   return targets;

@@ -35,6 +35,7 @@ struct Backdrop {
   std::array<float, 4> colour{0, 0, 0, 1};
   float depth = 0;                           ///< as the target stores it
   std::vector<std::array<float, 4>> pixels;  ///< in place of the colour, of a target of four floats
+  std::vector<float> depths;                 ///< in place of the one depth
 };
 
 struct Drawn {
@@ -84,7 +85,7 @@ class SurfaceOnGpu : public GpuTest {
   /// Anywhere in a box.
   std::vector<Float4> scattered(Vector low, Vector high, uint32_t count);
 
-  Buffer position_, backdrop_;
+  Buffer position_, backdrop_, backdropDepth_;
   uint32_t count_ = 0;
   std::unique_ptr<FluidRenderer> renderer_;
   std::mt19937 random_{7};

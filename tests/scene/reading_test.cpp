@@ -157,6 +157,37 @@ TEST(Overrides, TheFilesOwnErrorsStayTheFiles) {
             "dam.json: fluid.spacing: -1 is out of range; expected a number above 0 (m)");
 }
 
+/// Two pictures and two files of particles of the same names, beside the scene and a folder above it.
+TEST(Overrides, RelativePathsStartFromTheCurrentDirectory) {
+  const Folder above;
+  std::filesystem::create_directory(above.path / "scenes");
+  for (const char* name : {"sky.hdr", "scenes/sky.hdr", "water.ply", "scenes/water.ply"}) above.write(name, "x");
+  above.write("scenes/beside.hdr", "x");
+  const auto file =
+      above.write("scenes/dam.json", with(R"("fill": [{"particles": {"file": "water.ply"}}], "look": {"environment": "sky.hdr"})"));
+  const std::string sky = std::filesystem::relative(above.path / "sky.hdr").string(),
+                    water = std::filesystem::relative(above.path / "water.ply").string();
+  const auto read = [&](std::vector<Override> overrides, const std::string& environment, const std::string& particles) {
+    const auto scene = loadScene(file, overrides);
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_TRUE(std::filesystem::equivalent(scene->look.environment, above.path / environment)) << scene->look.environment;
+    EXPECT_TRUE(std::filesystem::equivalent(*scene->fill[0].particles, above.path / particles)) << *scene->fill[0].particles;
+    EXPECT_TRUE(scene->look.environment.is_absolute() && scene->fill[0].particles->is_absolute());
+  };
+  read({}, "scenes/sky.hdr", "scenes/water.ply");
+  read({{"look.preset", "milk"}, {"fill[0].jitter", "0.1"}}, "scenes/sky.hdr", "scenes/water.ply");
+  read({{"look.environment", sky}}, "sky.hdr", "scenes/water.ply");
+  read({{"fill[0].particles.file", water}}, "scenes/sky.hdr", "water.ply");
+  read({{"fill[0]", R"({"particles": {"file": ")" + water + "\"}}"}, {"look", R"({"environment": ")" + sky + "\"}"}}, "sky.hdr",
+       "water.ply");
+  read({{"look.environment", (above.path / "sky.hdr").string()}}, "sky.hdr", "scenes/water.ply");
+
+  const auto beside = loadScene(file, std::vector<Override>{{"look.environment", "beside.hdr"}});
+  ASSERT_FALSE(beside);
+  EXPECT_EQ(beside.error().message, "--set look.environment: \"beside.hdr\": no such file (looked for " +
+                                        (std::filesystem::current_path() / "beside.hdr").string() + ")");
+}
+
 TEST(Overrides, AreKeyEqualsValue) {
   const auto good = parseOverride("fluid.viscosity=0.1");
   ASSERT_TRUE(good);

@@ -175,6 +175,32 @@ TEST_F(ViewRunnerTest, ASavedSceneIsTheSceneWithItsChanges) {
   EXPECT_EQ(saved->fluid.spacing, 0.05);
 }
 
+TEST_F(ViewRunnerTest, ASavedSceneFindsItsFilesFromWhereItIsSaved) {
+  const test::TemporaryFolder elsewhere;
+  folder.write("sky.hdr", "x");
+  folder.write("water.ply",
+               "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n.5 .5 .1\n");
+  elsewhere.write("other.hdr", "x");
+  const auto named = folder.write("named.json", R"({
+    "rill": "0.1", "domain": {"min": [0, 0, 0], "max": [1, 1, 0.3]}, "fluid": {"spacing": 0.05},
+    "fill": [{"particles": {"file": "water.ply"}}], "look": {"environment": "sky.hdr"}
+  })");
+  auto session = Session::open(context(), named);
+  ASSERT_TRUE(session) << session.error().message;
+  const auto saved = [&] {
+    const auto text = (*session)->text(elsewhere.path());
+    EXPECT_TRUE(text) << text.error().message;
+    const auto scene = loadScene(elsewhere.write("saved.json", *text));
+    EXPECT_TRUE(scene) << scene.error().message;
+    return *scene;
+  };
+  EXPECT_TRUE(std::filesystem::equivalent(saved().look.environment, folder / "sky.hdr"));
+  EXPECT_TRUE(std::filesystem::equivalent(*saved().fill[0].particles, folder / "water.ply"));
+  const auto fromHere = std::filesystem::relative(elsewhere / "other.hdr");
+  ASSERT_TRUE((*session)->change({"look.environment", fromHere.string()}));
+  EXPECT_TRUE(std::filesystem::equivalent(saved().look.environment, elsewhere / "other.hdr"));
+}
+
 TEST_F(ViewRunnerTest, AChangedFileIsNoticedAndABrokenOneLeavesTheSceneRunning) {
   auto session = Session::open(context(), file);
   ASSERT_TRUE(session);

@@ -13,7 +13,7 @@
 namespace rill {
 
 /// `key` is a path as in the file ("fluid.viscosity", "solver.time_step", "fill[0].jitter"), `value` is JSON, or a bare word taken as a
-/// string.
+/// string. A relative path of a file in it is relative to the current directory.
 struct Override {
   std::string key, value;
 };
@@ -24,7 +24,7 @@ Expected<Override> parseOverride(std::string_view text);
 /// Reads, applies the overrides and checks everything. BadInput with one message naming file, line or key path, what was found and what was
 /// expected.
 Expected<Scene> loadScene(const std::filesystem::path& file, std::span<const Override> overrides = {});
-/// The same from text; `name` stands for the file in messages, relative paths are resolved against `folder`.
+/// The same from text; `name` stands for the file in messages, relative paths in the text are resolved against `folder`.
 Expected<Scene> parseScene(std::string_view text, std::string_view name, const std::filesystem::path& folder,
                            std::span<const Override> overrides = {});
 
