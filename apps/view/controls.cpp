@@ -47,7 +47,7 @@ Expected<void> Controls::take(const InputEvent& event, const Area& area, Session
       if (drag_ == Drag::Orbit) camera.orbit(right, down);
       if (drag_ == Drag::Pan) camera.pan(right, down);
       if (drag_ == Drag::Dolly) camera.dolly(-20 * down, grip[0], grip[1]);
-      if (drag_ == Drag::Touch) touch_.drag(session, ray(area));
+      if (drag_ == Drag::Touch) touch_.drag(session, camera.view(), ray(area));
       return {};
     }
     case InputEvent::Kind::Button: {

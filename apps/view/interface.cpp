@@ -44,6 +44,8 @@ constexpr const char* kFonts[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.t
                                   "/usr/share/fonts/truetype/liberation2/LiberationSans-Regular.ttf",
                                   "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf"};
 constexpr float kFontPixels = 15;
+// Latin, Greek, Cyrillic, punctuation, arrows and mathematical signs.
+constexpr ImWchar kLetters[] = {0x20, 0x17f, 0x370, 0x3ff, 0x400, 0x4ff, 0x2010, 0x205e, 0x2190, 0x21ff, 0x2200, 0x22ff, 0};
 
 }  // namespace
 
@@ -68,7 +70,7 @@ Interface::Interface(float scale, std::function<std::string()> paste, std::funct
   std::error_code ignored;
   const auto found = std::ranges::find_if(kFonts, [&](const char* file) { return std::filesystem::is_regular_file(file, ignored); });
   if (found != std::end(kFonts)) {
-    io.Fonts->AddFontFromFileTTF(*found, kFontPixels * scale);
+    io.Fonts->AddFontFromFileTTF(*found, kFontPixels * scale, nullptr, kLetters);
   } else {
     ImFontConfig config;
     config.SizePixels = 13 * scale;
@@ -98,8 +100,38 @@ void Interface::setTheme(Theme theme) {
   ImGui::GetStyle() = style;
 }
 
-void Interface::feed(const InputEvent& event) {
+std::vector<InputEvent> Interface::next() {
+  using Kind = InputEvent::Kind;
+  std::vector<InputEvent> taken;
+  for (; !waiting_.empty(); waiting_.pop_front()) {
+    const InputEvent& event = waiting_.front();
+    const bool later = std::ranges::any_of(taken, [&](const InputEvent& before) {
+      if (event.kind == Kind::Move) return before.kind == Kind::Button;
+      if (event.kind == Kind::Key && before.kind == Kind::Text) return true;
+      return (event.kind == Kind::Button || event.kind == Kind::Key) && before.kind == event.kind && before.code == event.code;
+    });
+    if (later) break;
+    taken.push_back(event);
+  }
+  return taken;
+}
+
+void Interface::tell(const InputEvent& event) {
   ImGuiIO& io = ImGui::GetIO();
+  const auto modify = [&](bool control, bool shift) {
+#if IMGUI_VERSION_NUM >= 18700
+    io.AddKeyEvent(ImGuiMod_Ctrl, control);
+    io.AddKeyEvent(ImGuiMod_Shift, shift);
+#else
+    io.KeyCtrl = control;
+    io.KeyShift = shift;
+#endif
+  };
+  // What X11 says of a modifier's own key is as things were before it.
+  const auto held = [&](int modifier, int left, int right) {
+    const bool own = event.kind == InputEvent::Kind::Key && (event.code == left || event.code == right);
+    return own ? event.down : (event.modifiers & modifier) != 0;
+  };
   switch (event.kind) {
     case InputEvent::Kind::Move:
 #if IMGUI_VERSION_NUM >= 18700
@@ -109,12 +141,12 @@ void Interface::feed(const InputEvent& event) {
 #endif
       break;
     case InputEvent::Kind::Button:
+      modify(event.modifiers & GLFW_MOD_CONTROL, event.modifiers & GLFW_MOD_SHIFT);
       if (event.code < 0 || event.code > 2) break;
 #if IMGUI_VERSION_NUM >= 18700
       io.AddMouseButtonEvent(event.code, event.down);
 #else
-      down_[event.code] = event.down;
-      pressed_[event.code] |= event.down;
+      io.MouseDown[event.code] = event.down;
 #endif
       break;
     case InputEvent::Kind::Wheel:
@@ -126,16 +158,14 @@ void Interface::feed(const InputEvent& event) {
 #endif
       break;
     case InputEvent::Kind::Key: {
-      const bool control = event.modifiers & GLFW_MOD_CONTROL, shift = event.modifiers & GLFW_MOD_SHIFT;
+      modify(held(GLFW_MOD_CONTROL, GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL),
+             held(GLFW_MOD_SHIFT, GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT));
       const auto row = std::ranges::find(kKeys, event.code, &KeyRow::glfw);
+      if (row == std::end(kKeys)) break;
 #if IMGUI_VERSION_NUM >= 18700
-      io.AddKeyEvent(ImGuiMod_Ctrl, control);
-      io.AddKeyEvent(ImGuiMod_Shift, shift);
-      if (row != std::end(kKeys)) io.AddKeyEvent(static_cast<ImGuiKey>(row->imgui), event.down);
+      io.AddKeyEvent(static_cast<ImGuiKey>(row->imgui), event.down);
 #else
-      io.KeyCtrl = control;
-      io.KeyShift = shift;
-      if (row != std::end(kKeys)) io.KeysDown[row->glfw] = event.down;
+      io.KeysDown[row->glfw] = event.down;
 #endif
       break;
     }
@@ -146,7 +176,7 @@ void Interface::feed(const InputEvent& event) {
 #if IMGUI_VERSION_NUM >= 18700
       io.AddFocusEvent(event.down);
 #else
-      if (!event.down) std::ranges::fill(down_, false);
+      if (!event.down) std::ranges::fill(io.MouseDown, false);
 #endif
       break;
     case InputEvent::Kind::Drop:
@@ -154,17 +184,15 @@ void Interface::feed(const InputEvent& event) {
   }
 }
 
-void Interface::begin(double seconds, uint32_t width, uint32_t height) {
+std::vector<InputEvent> Interface::begin(double seconds, uint32_t width, uint32_t height) {
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = ImVec2(static_cast<float>(width), static_cast<float>(height));
   io.DeltaTime = static_cast<float>(std::clamp(seconds, 1e-4, 1.0));
-#if IMGUI_VERSION_NUM < 18700
-  for (int b = 0; b < 3; ++b) {
-    io.MouseDown[b] = down_[b] || pressed_[b];
-    pressed_[b] = false;
-  }
-#endif
+  io.MouseDoubleClickTime = std::max(0.3f, 5 * io.DeltaTime);  // down, up, down, up: a frame each
+  std::vector<InputEvent> taken = next();
+  for (const InputEvent& event : taken) tell(event);
   ImGui::NewFrame();
+  return taken;
 }
 
 const ImDrawData& Interface::end() {

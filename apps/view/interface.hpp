@@ -2,8 +2,10 @@
 // Dear ImGui's context: what hands do goes in, lists to draw come out. Works with the versions of Debian 12 (1.86) and later ones.
 #include <imgui.h>
 
+#include <deque>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "view/input.hpp"
 
@@ -19,8 +21,11 @@ class Interface {
   Interface(const Interface&) = delete;
   Interface& operator=(const Interface&) = delete;
 
-  void feed(const InputEvent& event);
-  void begin(double seconds, uint32_t width, uint32_t height);
+  void feed(const InputEvent& event) { waiting_.push_back(event); }
+  /// Takes what was fed, in order, as far as one displayed frame can show it: a key or a button that has gone down and up again, a
+  /// pointer that moved on after a click, a key after a text waits for the next one. Returns what was taken.
+  std::vector<InputEvent> begin(double seconds, uint32_t width, uint32_t height);
+  bool waiting() const { return !waiting_.empty(); }
   /// The lists are valid until the next begin().
   const ImDrawData& end();
   void skip() { ImGui::EndFrame(); }  ///< in place of end(), where nothing is drawn
@@ -35,11 +40,12 @@ class Interface {
   Theme theme() const { return theme_; }
 
  private:
+  std::vector<InputEvent> next();
+  static void tell(const InputEvent& event);
+
   float scale_;
   Theme theme_ = Theme::Dark;
-#if IMGUI_VERSION_NUM < 18700            // later ones queue what happens in a frame
-  bool pressed_[3] = {}, down_[3] = {};  // a click shorter than a frame is still one
-#endif
+  std::deque<InputEvent> waiting_;
   std::function<std::string()> paste_;
   std::function<void(const char*)> copy_;
   std::string pasted_;

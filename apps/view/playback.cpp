@@ -7,7 +7,9 @@ namespace rill::view {
 
 Expected<bool> Playback::advance(Runner& runner, const Frame& frame) {
   using Now = std::chrono::steady_clock;
-  const bool single = std::exchange(single_, false), first = !std::exchange(begun_, true);
+  const bool first = !std::exchange(begun_, true);
+  const bool single = runner.between() && singles_ > 0;  // a step that is under way ends before
+  if (single) --singles_;
   if (frame.lockstep) {
     if ((frame.paused && !single) || first) return false;
     if (auto ran = runner.step(); !ran) return ran.error();
@@ -15,7 +17,7 @@ Expected<bool> Playback::advance(Runner& runner, const Frame& frame) {
   }
   if (!frame.paused) clock_.passed(frame.passed_s);
   bool ended = false;
-  if (single && runner.between()) {
+  if (single) {
     if (auto ran = runner.piece(frame.budget_s); !ran) return ran.error();
     if (runner.between()) return finished(runner, frame);
   }

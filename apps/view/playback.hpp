@@ -44,7 +44,7 @@ class Playback {
   };
   /// Whether a step came to its end.
   Expected<bool> advance(Runner& runner, const Frame& frame);
-  void oneStep() { single_ = true; }  ///< in the next frame, paused or not
+  void oneStep() { ++singles_; }  ///< one more, in the next frames, paused or not
   /// After anything that begins a simulation at its start.
   void restart() { *this = {}; }
 
@@ -59,7 +59,8 @@ class Playback {
   Histories histories_;
   std::optional<FluidStats> stats_;
   double measured_s_ = -1;
-  bool single_ = false, begun_ = false;
+  uint32_t singles_ = 0;
+  bool begun_ = false;
 };
 
 }  // namespace rill::view

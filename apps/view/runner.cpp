@@ -19,6 +19,7 @@ Expected<std::unique_ptr<Runner>> Runner::create(offline::Context& context, Scen
   auto start = makeParticles(runner->scene_, KeySortDesc::kMaxCount);
   if (!start) return start.error();
   runner->start_ = std::move(*start);
+  runner->firstBounds_ = fluidBounds(runner->scene_, runner->start_);
   auto fluid = Fluid::create(context.device(), {.scene = &runner->scene_, .particles = &runner->start_});
   if (!fluid) return fluid.error();
   runner->fluid_ = std::move(*fluid);
@@ -167,7 +168,7 @@ Expected<uint64_t> Runner::add(const Fill& fill) {
         now->position, [&](const Float3& other) { return std::hypot(other.x - x.x, other.y - x.y, other.z - x.z) < apart; });
     if (free) positions.push_back(x);
   }
-  if (positions.empty()) return Error{ErrorKind::BadInput, "There is no room for more fluid there"};
+  if (4 * positions.size() < more->positions.size()) return Error{ErrorKind::BadInput, "There is no room for more fluid there"};
   const std::vector<Float3> velocities(positions.size(), more->velocities.front());
   start.positions.insert(start.positions.end(), positions.begin(), positions.end());
   start.velocities.insert(start.velocities.end(), velocities.begin(), velocities.end());

@@ -7,6 +7,7 @@
 
 #include "offline/context.hpp"
 #include "offline/pass_log.hpp"
+#include "render/bounds.hpp"
 #include "rill/fluid.hpp"
 #include "rill/scene_io.hpp"
 #include "sph/solid_pose.hpp"
@@ -51,7 +52,7 @@ class Runner {
   Expected<void> change(Scene scene);
   /// Other solids. Those that were there before come first, in the same order, and are where their pose() was.
   Expected<void> changeSolids(std::vector<Solid> solids);
-  /// More particles, as the fill makes them where there is room: how many. BadInput where there is none.
+  /// More particles, as the fill makes them where there is room: how many. BadInput where that is less than a quarter.
   Expected<uint64_t> add(const Fill& fill);
 
   /// Where a solid is at present, m in the scene's coordinates.
@@ -72,6 +73,7 @@ class Runner {
 
   const Scene& scene() const { return scene_; }
   const ParticleSet& start() const { return start_; }
+  const Bounds& firstBounds() const { return firstBounds_; }  ///< of the fluid, before anything was added
   Fluid& fluid() { return *fluid_; }
   const Fluid& fluid() const { return *fluid_; }
   std::vector<std::string> warnings() const;
@@ -87,6 +89,7 @@ class Runner {
   offline::Context& context_;
   Scene scene_;
   ParticleSet start_;  ///< and what was added since
+  Bounds firstBounds_;
   std::unique_ptr<Fluid> fluid_;
   std::vector<SolidTarget> targets_;
   Graph graph_, measureGraph_;

@@ -20,10 +20,10 @@ struct Command {
   size_t count;  ///< of arguments
 };
 constexpr Command kCommands[] = {{"move", "X Y", "the pointer, pixels from the top left", 2},
-                                 {"press", "left|middle|right", "a button of the mouse", 1},
+                                 {"press", "left|middle|right", "a button of the mouse; Alt+left: with a key held", 1},
                                  {"release", "left|middle|right", "the same", 1},
                                  {"wheel", "STEPS", "away from you where positive", 1},
-                                 {"key", "NAME", "press and release a key: P, Tab, F1, Enter ...", 1},
+                                 {"key", "NAME", "press and release a key: P, Tab, F1, Enter, Shift+V ...", 1},
                                  {"type", "TEXT", "without spaces, into the field that has the focus", 1},
                                  {"drop", "FILE", "a file onto the window", 1},
                                  {"set", "KEY=VALUE", "a key of the scene, as fluid.viscosity=0.1", 1},
@@ -58,6 +58,22 @@ std::optional<int> button(std::string_view name) {
   return std::nullopt;
 }
 
+/// Takes "Shift+", "Ctrl+", "Alt+" off a name: what is held with it, as GLFW numbers it.
+int takeModifiers(std::string_view& name) {
+  constexpr std::pair<std::string_view, int> kHeld[] = {{"Shift+", GLFW_MOD_SHIFT}, {"Ctrl+", GLFW_MOD_CONTROL}, {"Alt+", GLFW_MOD_ALT}};
+  int modifiers = 0;
+  for (bool found = true; found;) {
+    found = false;
+    for (const auto& [word, bit] : kHeld)
+      if (name.starts_with(word)) {
+        name.remove_prefix(word.size());
+        modifiers |= bit;
+        found = true;
+      }
+  }
+  return modifiers;
+}
+
 /// Appends what a line says; a text of what is wrong where that is nothing.
 std::string read(const std::vector<std::string_view>& words, std::vector<ScriptLine>& lines) {
   const auto frame = apps::numberIn<uint64_t>(words[0]);
@@ -85,17 +101,21 @@ std::string read(const std::vector<std::string_view>& words, std::vector<ScriptL
     if (!x || !y) return expected();
     line.input = {.kind = InputEvent::Kind::Move, .x = *x, .y = *y};
   } else if (what == "press" || what == "release") {
-    const auto code = button(first);
+    std::string_view name = first;
+    const int modifiers = takeModifiers(name);
+    const auto code = button(name);
     if (!code) return expected();
-    line.input = {.kind = InputEvent::Kind::Button, .code = *code, .down = what == "press"};
+    line.input = {.kind = InputEvent::Kind::Button, .code = *code, .down = what == "press", .modifiers = modifiers};
   } else if (what == "wheel") {
     const auto steps = finite(first);
     if (!steps) return expected();
     line.input = {.kind = InputEvent::Kind::Wheel, .y = *steps};
   } else if (what == "key") {
-    const auto key = keyNamed(first);
-    if (!key) return "there is no key " + inQuotes(first) + " that does anything";
-    line.input = {.kind = InputEvent::Kind::Key, .code = *key, .down = true};
+    std::string_view name = first;
+    const int modifiers = takeModifiers(name);
+    const auto key = keyNamed(name);
+    if (!key) return "there is no key " + inQuotes(name) + " that does anything";
+    line.input = {.kind = InputEvent::Kind::Key, .code = *key, .down = true, .modifiers = modifiers};
     lines.push_back(line);
     line.input.down = false;
   } else if (what == "type" || what == "drop") {

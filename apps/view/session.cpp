@@ -12,19 +12,27 @@ namespace rill::view {
 Expected<std::unique_ptr<Session>> Session::open(offline::Context& context, const std::filesystem::path& file,
                                                  std::vector<Override> changes) {
   std::unique_ptr<Session> made(new Session(context, file));
-  if (auto begun = made->begin(std::move(changes)); !begun) return begun.error();
+  if (auto begun = made->read(std::move(changes)); !begun) return begun.error();
   return made;
 }
 
-std::filesystem::file_time_type Session::written() const {
-  std::error_code missing;
-  const auto time = std::filesystem::last_write_time(file_, missing);
-  return missing ? read_ : time;  // one that is being replaced is looked at again later
+Expected<Scene> Session::parse(std::string_view text, std::span<const Override> changes) const {
+  auto scene = parseScene(text, file().string(), file().parent_path(), changes);
+  if (scene) scene->file = file();
+  return scene;
 }
 
-Expected<void> Session::begin(std::vector<Override> changes) {
-  read_ = written();
-  auto scene = loadScene(file_, changes);
+Expected<void> Session::read(std::vector<Override> changes) {
+  watch_.noted();
+  auto text = readWholeFile(file(), kMostSceneBytes);
+  if (!text) return text.error();
+  if (auto begun = begin(*text, std::move(changes)); !begun) return begun;
+  text_ = std::move(*text);
+  return {};
+}
+
+Expected<void> Session::begin(std::string_view text, std::vector<Override> changes) {
+  auto scene = parse(text, changes);
   if (!scene) return scene.error();
   auto runner = Runner::create(context_, std::move(*scene));
   if (!runner) return runner.error();
@@ -50,7 +58,9 @@ Expected<uint64_t> Session::add(const Fill& fill) {
   return added;
 }
 
-Expected<void> Session::restart() { return begin(changes_); }
+Expected<void> Session::restart() { return begin(text_, changes_); }
+
+Expected<void> Session::reload() { return read(changes_); }
 
 bool Session::isLive(std::string_view key) const {
   constexpr std::string_view kAnew[] = {"fluid.spacing",         "fluid.particles", "fluid.density",
@@ -61,8 +71,8 @@ bool Session::isLive(std::string_view key) const {
 }
 
 Expected<void> Session::apply(std::vector<Override> changes, bool live) {
-  if (!live) return begin(std::move(changes));
-  auto scene = loadScene(file_, changes);
+  if (!live) return begin(text_, std::move(changes));
+  auto scene = parse(text_, changes);
   if (!scene) return scene.error();
   if (auto changed = runner_->change(std::move(*scene)); !changed) return changed;
   changes_ = std::move(changes);
@@ -88,13 +98,11 @@ bool Session::isChanged(std::string_view key) const {
 }
 
 Expected<std::string> Session::text(const std::filesystem::path& folder) const {
-  auto bytes = readWholeFile(file_, kMostSceneBytes);
-  if (!bytes) return bytes.error();
-  auto root = parseJsonText(*bytes, file_.string());
+  auto root = parseJsonText(text_, file().string());
   if (!root) return root.error();
   OverrideMarks marks;
   if (auto applied = applyOverrides(*root, changes_, marks); !applied) return applied.error();
-  const auto scene = parseScene(*bytes, file_.string(), file_.parent_path(), changes_);
+  const auto scene = parse(text_, changes_);
   if (!scene) return scene.error();
   const auto fromFolder = [&](const std::filesystem::path& whole) {
     std::error_code ignored;
@@ -104,12 +112,6 @@ Expected<std::string> Session::text(const std::filesystem::path& folder) const {
     if (scene->fill[k].particles) (*root)["fill"][k]["particles"]["file"] = fromFolder(*scene->fill[k].particles);
   if (!scene->look.environment.empty()) (*root)["look"]["environment"] = fromFolder(scene->look.environment);
   return root->dump(2) + "\n";
-}
-
-bool Session::fileChanged(double now_s) {
-  if (now_s - asked_s_ < 0.5) return false;
-  asked_s_ = now_s;
-  return written() != read_;
 }
 
 }  // namespace rill::view

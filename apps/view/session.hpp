@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "offline/painter.hpp"
+#include "view/file_watch.hpp"
 #include "view/runner.hpp"
 
 namespace rill::view {
@@ -35,9 +36,11 @@ class Session {
 
   /// From the start, with the changes.
   Expected<void> restart();
+  /// The same of what the file says now. A broken file leaves the scene as it was, and what is done to it goes on from the text before.
+  Expected<void> reload();
   /// Whether the file is another than the one that was read (asked at most twice a second of `now_s`).
-  bool fileChanged(double now_s);
-  const std::filesystem::path& file() const { return file_; }
+  bool fileChanged(double now_s) { return watch_.changed(now_s); }
+  const std::filesystem::path& file() const { return watch_.file(); }
 
   Runner& runner() { return *runner_; }
   const Runner& runner() const { return *runner_; }
@@ -46,16 +49,16 @@ class Session {
   CameraView camera(double aspect) const { return sceneCamera(scene(), runner_->start(), aspect); }
 
  private:
-  Session(offline::Context& context, std::filesystem::path file) : context_(context), file_(std::move(file)) {}
-  Expected<void> begin(std::vector<Override> changes);
+  Session(offline::Context& context, std::filesystem::path file) : context_(context), watch_(std::move(file)) {}
+  Expected<Scene> parse(std::string_view text, std::span<const Override> changes) const;
+  Expected<void> read(std::vector<Override> changes);
+  Expected<void> begin(std::string_view text, std::vector<Override> changes);
   Expected<void> apply(std::vector<Override> changes, bool live);
-  std::filesystem::file_time_type written() const;
   void paintAnew();
 
   offline::Context& context_;
-  std::filesystem::path file_;
-  std::filesystem::file_time_type read_{};
-  double asked_s_ = 0;
+  FileWatch watch_;
+  std::string text_;  ///< of the file, as it was read
   std::vector<Override> changes_;
   std::unique_ptr<Runner> runner_;
   std::unique_ptr<offline::Painter> painter_;  // refers to the runner's scene

@@ -22,7 +22,7 @@ struct Room {
 Room roomOf(const Session& session) {
   Room room{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}};
   const auto& domain = session.scene().domain;
-  const Bounds fluid = fluidBounds(session.scene(), session.runner().start());
+  const Bounds& fluid = session.runner().firstBounds();
   if (!domain && fluid.empty()) return room;
   for (size_t a = 0; a < 3; ++a) {
     room.low[a] = domain ? domain->min[a] : fluid.min[a];
@@ -63,7 +63,6 @@ Expected<bool> Touch::grab(Session& session, const CameraView& eye, const Ray& r
   if (!picked || picked->solid.has_value() != (hold == Hold::Solid)) return false;
 
   point_ = ray.at(picked->distance);
-  std::ranges::copy(cameraBasis(eye).forward, normal_.begin());
   offset_ = {};
   const double speed = fastest(session);
   uint32_t held = static_cast<uint32_t>(solids.size());
@@ -95,16 +94,17 @@ Expected<bool> Touch::grab(Session& session, const CameraView& eye, const Ray& r
   }
   ball_ = !picked->solid;
   solid_ = held;
-  drag(session, ray);
+  drag(session, eye, ray);
   return true;
 }
 
-void Touch::drag(Session& session, const Ray& ray) {
+void Touch::drag(Session& session, const CameraView& eye, const Ray& ray) {
   if (!solid_) return;
+  std::ranges::copy(cameraBasis(eye).forward, normal_.begin());
   const auto distance = meetsPlane(ray, point_, normal_);
   if (!distance) return;
-  const auto there = ray.at(*distance);
-  session.runner().steer({*solid_, {there[0] + offset_[0], there[1] + offset_[1], there[2] + offset_[2]}});
+  point_ = ray.at(*distance);
+  session.runner().steer({*solid_, {point_[0] + offset_[0], point_[1] + offset_[1], point_[2] + offset_[2]}});
 }
 
 Expected<void> Touch::release(Session& session) {

@@ -12,8 +12,8 @@ class Touch {
   /// Takes hold of what the ray meets first, where that is of this kind; the scene gets a ball that stands before the fluid's surface, or
   /// its solid becomes one that is driven. False: it is something else.
   Expected<bool> grab(Session& session, const CameraView& eye, const Ray& ray, Hold hold);
-  /// What is held follows the ray, in the plane of the picture in which it was taken, as fast as the hand may be.
-  void drag(Session& session, const Ray& ray);
+  /// What is held follows the ray, in the plane of the picture through where it was last, as fast as the hand may be.
+  void drag(Session& session, const CameraView& eye, const Ray& ray);
   /// The ball is gone; a solid stays where it is.
   Expected<void> release(Session& session);
   bool holds() const { return solid_.has_value(); }

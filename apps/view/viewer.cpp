@@ -32,6 +32,7 @@ namespace fs = std::filesystem;
 using Now = std::chrono::steady_clock;
 
 constexpr double kLeastPiece = 0.012, kMostPiece = 0.1;  // s of simulation a displayed frame
+constexpr double kNotice = 4;                            // s that a notice stays; an error stays until it is closed
 constexpr double kMeasureEvery = 0.25;                   // s; figures cost a pass over the neighbours
 
 double secondsSince(Now::time_point then) { return std::chrono::duration<double>(Now::now() - then).count(); }
@@ -54,6 +55,7 @@ class Viewer {
       say(told.error().message);
       return apps::kFailed;
     }
+    if (broken_ && !said_ && !apps::signalReceived()) return apps::kBadInput;
     return said_ ? apps::kFailed : apps::signalReceived() ? 128 + apps::signalReceived() : apps::kDone;
   }
 
@@ -62,7 +64,9 @@ class Viewer {
     sceneNames_ = scenes_.names();
     auto file = scenes_.find(options_.scene);
     if (!file) return file.error();
-    if (auto scene = loadScene(*file, options_.overrides); !scene) return scene.error();  // before a window flashes up
+    const auto scene = loadScene(*file, options_.overrides);
+    // A broken file waits in the window for who mends it; without such a hand, or a window, it ends the program.
+    if (!scene && (options_.frames || options_.script || loadScene(*file))) return scene.error();
     if (options_.script) {
       auto script = loadScript(*options_.script);
       if (!script) return script.error();
@@ -71,7 +75,7 @@ class Viewer {
         if (auto known = check(line); !known) return known;
     }
     auto window = Window::open("rill-view", options_.width, options_.height);
-    if (!window) return window.error();
+    if (!window) return scene ? window.error() : scene.error();
     window_ = std::move(*window);
 
     offline::ContextDesc desc;
@@ -98,7 +102,18 @@ class Viewer {
     if (!display) return display.error();
     display_ = std::move(*display);
     settings_.view = options_.view;
-    return show(*file, options_.overrides);
+    return scene ? show(*file, options_.overrides) : showBroken(*file, scene.error());
+  }
+
+  /// A scene that cannot be read at the start: its message, and nothing until the file changes or another is chosen.
+  Expected<void> showBroken(const fs::path& file, const Error& error) {
+    say(error.message);
+    const auto empty = scenes_.find("empty");
+    if (!empty) return error;
+    if (auto shown = show(*empty); !shown) return shown;
+    broken_.emplace(file);
+    tell(error.message + "\nThe scene opens once the file is mended.");
+    return {};
   }
 
   /// Names in a script are judged before it runs.
@@ -117,6 +132,7 @@ class Viewer {
     if (!session) return session.error();
     if (auto idle = context_->wait(); !idle) return idle;
     session_ = std::move(*session);
+    broken_.reset();
     sceneName_ = session_->scene().name;
     for (const std::string& name : sceneNames_)
       if (auto known = scenes_.find(name); known && *known == file) sceneName_ = name;
@@ -173,26 +189,37 @@ class Viewer {
     return context_->wait();
   }
 
+  bool endsByItself() const { return options_.frames || !script_.empty(); }
+  /// Of a run that ends by itself.
+  bool last() const { return options_.frames ? frame_ + 1 == *options_.frames : !script_.empty() && nextLine_ == script_.size(); }
+
   Expected<void> frame(double seconds) {
-    bool screenshot = options_.screenshot && options_.frames && frame_ + 1 == *options_.frames;
-    std::optional<fs::path> picture = screenshot ? options_.screenshot : std::nullopt;
+    std::optional<fs::path> picture;
     // Nothing moves: wait for a hand rather than draw the same again and again.
-    const bool idle = settings_.paused && !dirty_ && !controls_.camera.moving() && !options_.frames && script_.empty();
+    const bool idle =
+        settings_.paused && !interface_->waiting() && !dirty_ && !controls_.camera.moving() && !options_.frames && script_.empty();
     std::vector<InputEvent> events = window_->events(idle ? 0.1 : 0);
     if (auto done = replay(events, picture); !done) return done;
+    if (options_.screenshot && last()) picture = options_.screenshot;
     const Window::Size size = window_->framebuffer();
     for (const InputEvent& event : events) interface_->feed(event);
-    interface_->begin(seconds, std::max(size.width, 1u), std::max(size.height, 1u));
-    for (const InputEvent& event : events)
+    for (const InputEvent& event : interface_->begin(seconds, std::max(size.width, 1u), std::max(size.height, 1u)))
       if (auto done = handle(event); !done) return done;
     if (asked_) picture = std::exchange(asked_, std::nullopt);
     if (session_->fileChanged(now_s_))
       if (auto done = reload(); !done) return done;
+    if (broken_ && broken_->changed(now_s_)) {
+      broken_->noted();
+      if (auto done = attempt(show(fs::path(broken_->file()), options_.overrides), ""); !done) return done;
+    }
 
+    if (noticeUntil_s_ && now_s_ > *noticeUntil_s_) tell("");
     if (auto done = simulate(seconds); !done) return done;
 
     if (size.width == 0 || size.height == 0) {  // minimised
       interface_->skip();
+      if (picture && endsByItself())
+        return Error{ErrorKind::BadInput, inQuotes(picture->string()) + " was not written: the window is minimised"};
       if (!options_.lockstep) std::this_thread::sleep_for(std::chrono::milliseconds(10));
       return {};
     }
@@ -241,10 +268,17 @@ class Viewer {
     offline::Image image;
     const bool dark = interface_->theme() == Theme::Dark;
     const ImVec4 behind = dark ? ImVec4(0.09f, 0.1f, 0.12f, 1) : ImVec4(0.86f, 0.88f, 0.9f, 1);
-    if (auto shown = display_->show(lists, behind, picture ? &image : nullptr); !shown) return shown;
-    if (picture && image.width > 0) {
-      if (auto written = apps::writePng(*picture, image); !written)
-        if (auto told = attempt(written, ""); !told) return told;
+    for (int tries = 0; tries < 3; ++tries) {  // the window's images may have gone out of date
+      if (auto fits = display_->fit(window_->framebuffer()); !fits) return fits;
+      if (auto shown = display_->show(lists, behind, picture ? &image : nullptr); !shown) return shown;
+      if (!picture || image.width > 0) break;
+    }
+    if (picture) {
+      const auto written = image.width > 0
+                               ? apps::writePng(*picture, image)
+                               : Error{ErrorKind::BadInput, inQuotes(picture->string()) + " was not written: the window changed its size"};
+      if (!written && endsByItself()) return written;
+      if (auto told = attempt(written, "The window was written to " + fs::absolute(*picture).string()); !told) return told;
     }
     return serve(board.requests);
   }
@@ -276,8 +310,11 @@ class Viewer {
 
   /// The file is another one now. A broken one leaves what runs.
   Expected<void> reload() {
-    auto done = session_->restart();
-    if (done) begun();
+    auto done = session_->reload();
+    if (done) {
+      begun();
+      controls_.camera.reframe(homeView());
+    }
     return attempt(done, session_->file().filename().string() + " has changed and was read again");
   }
 
@@ -292,6 +329,10 @@ class Viewer {
     const Scene& scene = session_->scene();
     if (!session_->isLive("gravity")) {
       tell("This scene's gravity follows a schedule (gravity_changes)");
+      return {};
+    }
+    if (std::ranges::all_of(scene.gravity, [](double a) { return a == 0; })) {
+      tell("There is no gravity to tilt in this scene");
       return {};
     }
     const auto g = tilted({scene.gravity[0], scene.gravity[1], scene.gravity[2]}, controls_.camera.view(), way, kDegrees);
@@ -318,7 +359,9 @@ class Viewer {
   /// An error that leaves something to look at is shown in the window; others end the program.
   Expected<void> attempt(const Expected<void>& done, const std::string& notice) {
     if (done) {
-      if (!notice.empty()) tell(notice);
+      if (notice.empty()) return {};
+      tell(notice);
+      noticeUntil_s_ = now_s_ + kNotice;
       return {};
     }
     const ErrorKind kind = done.error().kind;
@@ -326,7 +369,10 @@ class Viewer {
     tell(done.error().message);
     return {};
   }
-  void tell(const std::string& text) { message_ = text; }
+  void tell(const std::string& text) {
+    message_ = text;
+    noticeUntil_s_.reset();
+  }
 
   Expected<void> handle(const InputEvent& event) {
     switch (event.kind) {
@@ -512,9 +558,11 @@ class Viewer {
   Playback playback_;
   Picture picture_;
   HeldEdit held_;
-  bool dirty_ = true;              // the picture
-  bool said_ = false;              // by the validation layer
-  std::optional<fs::path> asked_;  // a screenshot
+  bool dirty_ = true;  // the picture
+  bool said_ = false;  // by the validation layer
+  std::optional<double> noticeUntil_s_;
+  std::optional<fs::path> asked_;    // a screenshot
+  std::optional<FileWatch> broken_;  // the scene that was asked for, until it or another one opens
   uint64_t frame_ = 0;
   std::vector<double> frames_ms_;  // of a run that ends by itself
   double now_s_ = 0, frameTime_ = 0;

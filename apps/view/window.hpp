@@ -47,6 +47,7 @@ class Window {
 
   GLFWwindow* window_ = nullptr;
   std::vector<InputEvent> events_;
+  bool minimised_ = false;  ///< by minimise()
   std::string title_;
 };
 

@@ -70,7 +70,7 @@ TEST_F(TouchTest, ABallPushesTheFluidAndIsGone) {
   EXPECT_NEAR(in.centre[2], 0.6, 0.04) << "half in, where the pointer is";
   EXPECT_NEAR(in.centre[0], 1.5, 1e-3);
   const double before_x = stats().momentum[0];
-  touch_.drag(session(), at(1.2, 0.2));
+  touch_.drag(session(), eye(), at(1.2, 0.2));
   steps(10);
   EXPECT_NEAR(runner().pose(static_cast<uint32_t>(solids)).centre[0], 1.5 - 10.0 / 60, 1e-3) << "1 m/s at most";
   EXPECT_LT(stats().momentum[0], before_x - 0.5) << "kg m/s: the water is pushed along";
@@ -93,7 +93,7 @@ TEST_F(TouchTest, ASolidFollowsTheHandAndStays) {
   auto held = touch_.grab(session(), eye(), at(there.centre[0] + 0.05, 0.7), Hold::Solid);
   ASSERT_TRUE(held && *held);
   EXPECT_NEAR(runner().pose(0).centre[0], there.centre[0], 1e-5) << "it has not jumped";
-  touch_.drag(session(), at(there.centre[0] + 0.05, 0.3));
+  touch_.drag(session(), eye(), at(there.centre[0] + 0.05, 0.3));
   steps(30);
   EXPECT_NEAR(runner().pose(0).centre[1], 0.3, 1e-4);
   EXPECT_NEAR(runner().pose(0).centre[0], there.centre[0], 1e-4) << "held where it was taken";
@@ -108,7 +108,7 @@ TEST_F(TouchTest, ASolidFollowsTheHandAndStays) {
 TEST_F(TouchTest, IsSeenWhereItIs) {
   auto held = touch_.grab(session(), eye(), at(1.7, 0.65), Hold::Solid);
   ASSERT_TRUE(held && *held);
-  touch_.drag(session(), at(1.5, 0.75));
+  touch_.drag(session(), eye(), at(1.5, 0.75));
   steps(20);
   const SolidPose there = runner().pose(1);
   EXPECT_NEAR(there.centre[0], 1.5, 1e-4);
@@ -182,7 +182,7 @@ TEST_F(TouchTest, WhateverAHandDoesTheFluidHolds) {
         ++throws;
       }
     } else {
-      touch_.drag(session(), ray);
+      touch_.drag(session(), eye(), ray);
     }
     steps(1);
     const FluidStats now = stats();

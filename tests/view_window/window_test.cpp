@@ -85,7 +85,7 @@ TEST_F(ViewWindowTest, InLockstepAFrameIsCaptures) {
 TEST_F(ViewWindowTest, AScriptGoesThroughAllViewsKeysAndSizes) {
   std::string script;
   int frame = 0;
-  for (const char* view : {"final", "particles", "density", "depth", "normals", "thickness"})
+  for (const char* view : {"final", "particles", "density", "speed", "depth", "normals", "thickness"})
     script += std::to_string(frame++) + " view " + view + "\n";
   const int first = frame;
   for (const char* key : {"V", "F1", "F1", "Tab", "Tab", "T", "P", "O", "P", "R", "1", "2", "3", "4", "5", "6", "Home", "Left", "Up"})
@@ -171,6 +171,38 @@ TEST_F(ViewWindowTest, TheSceneIsSavedWithItsChanges) {
   EXPECT_EQ(saved["fluid"]["spacing"], 0.05);
 }
 
+TEST_F(ViewWindowTest, NumbersAreTypedAndDragged) {
+  // The field of fluid.viscosity; "Save scene" is at 49, 123. All within one frame: clicks and keys wait for each other.
+  const std::string save = "move 49 123\n30 press left\n30 release left\n38 view final\n";
+  const struct {
+    const char* hands;
+    double low, high;
+  } rows[] = {{"5 move 84 405\n5 press left\n5 release left\n5 press left\n5 release left\n14 type 8\n14 key Enter\n20 key T\n30 ", 8, 8},
+              {"5 move 84 405\n5 press Ctrl+left\n5 release left\n10 type 0.25\n10 key Enter\n30 ", 0.25, 0.25},
+              {"5 move 84 405\n5 press left\n7 move 134 405\n9 move 234 405\n11 release left\n30 ", 0.2, 50}};
+  for (const auto& row : rows) {
+    std::filesystem::remove(folder / "dam-changed.json");
+    folder.write("hands.txt", row.hands + save);
+    const Outcome outcome = view({scene, "--script", "hands.txt", "--screenshot", "end.png"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(sizeOf("end.png"), std::pair(1280, 720)) << "the last frame of a script, too";
+    ASSERT_TRUE(std::filesystem::exists(folder / "dam-changed.json")) << row.hands;
+    const auto saved = nlohmann::json::parse(contentOf(folder / "dam-changed.json"));
+    ASSERT_TRUE(saved["fluid"].contains("viscosity")) << row.hands;
+    EXPECT_GE(saved["fluid"]["viscosity"].get<double>(), row.low) << row.hands;
+    EXPECT_LE(saved["fluid"]["viscosity"].get<double>(), row.high) << row.hands;
+  }
+}
+
+TEST_F(ViewWindowTest, APictureThatCannotBeWrittenIsAnError) {
+  for (const char* script : {"2 screenshot no-such-folder/a.png\n4 view final\n", "1 minimise\n2 screenshot a.png\n4 restore\n"}) {
+    folder.write("hands.txt", script);
+    const Outcome outcome = view({scene, "--script", "hands.txt"});
+    EXPECT_EQ(outcome.code, 1) << script;
+    EXPECT_NE(outcome.err.find("a.png"), std::string::npos) << outcome.err;
+  }
+}
+
 TEST_F(ViewWindowTest, TheWindowsImagesMayGoOutOfDate) {
   for (const char* plan : {"vkAcquireNextImageKHR 3 -1000001004", "vkQueuePresentKHR 3 -1000001004", "vkQueuePresentKHR 3 1000001003"}) {
     const Outcome outcome = viewFailing(plan, {scene, "--frames", "8"});
@@ -198,7 +230,7 @@ TEST_F(ViewWindowTest, GoesThroughTheScenesThereAre) {
   small("a.json");
   small("b.json");
   folder.write("broken.json", "{ \"rill\": ");
-  folder.write("hands.txt", "1 key ]\n2 key ]\n3 key ]\n4 key ]\n5 key [\n6 drop b.json\n7 drop missing.json\n8 scene a\n");
+  folder.write("hands.txt", "1 key ]\n3 key ]\n5 key ]\n7 key ]\n9 key [\n11 drop b.json\n12 drop missing.json\n14 scene a\n");
   const Child::Environment environment{{"RILL_SCENES", folder.string()}};
   const Outcome outcome = Child(command({"a", "--script", "hands.txt", "--validate"}), folder.string(), environment).wait();
   EXPECT_EQ(outcome.code, 0) << outcome.err;
@@ -219,6 +251,24 @@ TEST_F(ViewWindowTest, ASignalClosesIt) {
   const Outcome outcome = child.wait();
   EXPECT_EQ(outcome.code, 130) << "as after any Ctrl-C: " << outcome.err;
   EXPECT_EQ(outcome.err, "");
+}
+
+TEST_F(ViewWindowTest, ABrokenFileWaitsInTheWindowUntilItIsMended) {
+  folder.write("scene.json", "{ \"rill\": \"0.1\", ");
+  std::vector<std::string> opened = onADisplay();
+  const std::string view = "echo $$ > pid; exec '" + program() + "' scene.json --validate";
+  opened.insert(opened.end(), {"/bin/sh", "-c", view});
+  Child child(opened, folder.string());
+  ASSERT_TRUE(child.waitForMessage("scene.json:1")) << "told in the terminal, too";
+  // A scene that is none before it is one: the message of the second says that the file was read again, and that the window is still there.
+  folder.write("scene.json", "{ \"rill\": \"0.1\", \"fluid\": { \"spacing\": -1 } }");
+  folder.write("scene.json", kDam);
+  while (contentOf(folder / "pid").empty() && !child.ended()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  ASSERT_FALSE(child.ended());
+  ::kill(std::stoi(contentOf(folder / "pid")), SIGTERM);
+  const Outcome outcome = child.wait();
+  EXPECT_EQ(outcome.code, 143) << outcome.err;
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
 }
 
 TEST_F(ViewWindowTest, BadInputIsToldBeforeAWindowOpens) {

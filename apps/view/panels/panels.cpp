@@ -53,9 +53,9 @@ void messageBox(Board& board) {
   const float gap = ImGui::GetFontSize(), width = static_cast<float>(area.width) - 2 * gap;
   ImGui::SetNextWindowPos(ImVec2(static_cast<float>(area.x) + gap, static_cast<float>(area.y) + gap));
   ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, 1e6f));
-  ImGui::Begin(
-      "message", nullptr,
-      ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::Begin("message", nullptr,
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);  // who is typing goes on
   ImGui::PushTextWrapPos(width - gap);
   ImGui::TextUnformatted(board.message.c_str());
   ImGui::PopTextWrapPos();

@@ -47,10 +47,11 @@ class KeyField {
   void draw(double value) {
     hold({value});
     const double low = info_.range.hasLow() ? info_.range.low : -1e9, high = info_.range.hasHigh() ? info_.range.high : 1e9;
-    const bool bounded = info_.range.hasLow() && info_.range.hasHigh();
-    const double speed = bounded ? (high - low) / 300 : std::max(std::abs(value_[0]), 1e-3) / 100;
+    // Over more than a few decades, or without an end, what matters is the factor: a fiftieth of what there is, a pixel.
+    const double part = value_[0] != 0 ? std::abs(value_[0]) : 0.1;
+    const double speed = spreads() ? part / 50 : (high - low) / 300;
     ImGui::DragScalar("##value", ImGuiDataType_Double, value_.data(), static_cast<float>(speed), &low, &high, "%.5g",
-                      ImGuiSliderFlags_AlwaysClamp | (spreads() ? ImGuiSliderFlags_Logarithmic : 0));
+                      ImGuiSliderFlags_AlwaysClamp);
     edited(text(value_[0]));
   }
   void draw(uint32_t value) { whole(value); }
@@ -78,15 +79,15 @@ class KeyField {
   void tell() const {
     std::string about = key_ + ": " + std::string(info_.help);
     if (!board_.session.isLive(key_)) about += "\nA change begins the scene anew.";
+    if (info_.words.empty()) about += "\nDrag it, or double-click to type.";
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
     ImGui::TextUnformatted(about.c_str());
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
   }
-  /// Over more than a few decades, or without an end: what matters is the factor.
   bool spreads() const {
-    return !info_.range.hasHigh() ? info_.range.hasLow() : info_.range.low > 0 && info_.range.high > 100 * info_.range.low;
+    return !(info_.range.hasLow() && info_.range.hasHigh()) || info_.range.high > 100 * std::max(info_.range.low, 0.1);
   }
   double middle() const {
     return info_.range.hasHigh() ? 0.5 * (std::max(info_.range.low, 0.0) + info_.range.high) : info_.unit == "s" ? 0.002 : 0.02;

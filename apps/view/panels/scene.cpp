@@ -18,6 +18,12 @@ std::string combo(const char* label, const std::string& chosen, const Names& nam
   return picked;
 }
 
+/// In the same line, where a button of this text fits into it.
+void beside(const char* button) {
+  const float right = ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + ImGui::CalcTextSize(button).x;
+  if (right + 2 * ImGui::GetStyle().FramePadding.x < ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x) ImGui::SameLine();
+}
+
 }  // namespace
 
 void scenePanel(Board& board) {
@@ -29,25 +35,25 @@ void scenePanel(Board& board) {
   if (ImGui::Button(board.settings.paused ? "Go on (P)" : "Pause (P)")) board.settings.paused = !board.settings.paused;
   ImGui::SameLine();
   if (ImGui::Button("Step (O)")) requests.oneStep = true;
-  ImGui::SameLine();
+  beside("Restart (R)");
   if (ImGui::Button("Restart (R)")) requests.restart = true;
   if (ImGui::Button("Save scene")) requests.save = true;
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("with its changes, as a .json file in the current folder");
   ImGui::SameLine();
   if (ImGui::Button(board.interface.theme() == Theme::Dark ? "Light" : "Dark"))
     board.interface.setTheme(board.interface.theme() == Theme::Dark ? Theme::Light : Theme::Dark);
-  ImGui::SameLine();
+  beside("Help (F1)");
   if (ImGui::Button("Help (F1)")) board.settings.help = true;
 
   constexpr struct {
     const char* name;
     double scale;
-  } kScales[] = {{"as fast as needed", 0}, {"100 %", 1}, {"75 %", 0.75}, {"50 %", 0.5}};
+  } kScales[] = {{"as many as go", 0}, {"100 %", 1}, {"75 %", 0.75}, {"50 %", 0.5}};
   const char* now = kScales[0].name;
   for (const auto& row : kScales)
     if (row.scale == board.settings.scale) now = row.name;
   ImGui::SetNextItemWidth(-80 * ImGui::GetFontSize() / 15);
-  if (ImGui::BeginCombo("picture", now)) {
+  if (ImGui::BeginCombo("pixels", now)) {
     for (const auto& row : kScales)
       if (ImGui::Selectable(row.name, row.scale == board.settings.scale)) board.settings.scale = row.scale;
     ImGui::EndCombo();
