@@ -269,12 +269,12 @@ SurfacePush SurfaceStage::thicknessPush(SurfacePush camera, const FluidState& fl
   return camera;
 }
 
-BufferRef SurfaceStage::addThickness(Graph& graph, const FluidState& fluid, const SurfacePush& push, BufferRef sceneDepth,
-                                     BufferRef* counters) const {
+BufferRef SurfaceStage::addThickness(Graph& graph, const ThicknessNames& names, const FluidState& fluid, const SurfacePush& push,
+                                     BufferRef sceneDepth, BufferRef* counters) const {
   BufferRef own;
-  if (!counters) own = graph.create("fluid thickness counters", {kSurfaceCounterWords * 4});
-  BufferRef thickness = graph.create("fluid thickness", {gridCells(push.width, push.height, push.step) * 4});
-  graph.pass("fluid thickness clear", [&](Pass& pass) {
+  if (!counters) own = graph.create(names.counters, {kSurfaceCounterWords * 4});
+  BufferRef thickness = graph.create(names.pass, {gridCells(push.width, push.height, push.step) * 4});
+  graph.pass(names.clear, [&](Pass& pass) {
     thickness = pass.write(thickness, Use::CopyTarget, true);
     if (!counters) own = pass.write(own, Use::CopyTarget, true);
     return [thickness, counters = own, clear = !counters](Commands& commands) {
@@ -286,10 +286,9 @@ BufferRef SurfaceStage::addThickness(Graph& graph, const FluidState& fluid, cons
   const uint64_t groups = divideUp(fluid.count, kSurfaceGroup);
   BufferRef& counted = counters ? *counters : own;
   if (sceneDepth == BufferRef{})
-    addStep(graph, "fluid thickness", thicknessBare_, {reads(fluid.position), writes(thickness), writes(counted)}, groups, push);
+    addStep(graph, names.pass, thicknessBare_, {reads(fluid.position), writes(thickness), writes(counted)}, groups, push);
   else
-    addStep(graph, "fluid thickness", thickness_, {reads(fluid.position), writes(thickness), writes(counted), reads(sceneDepth)}, groups,
-            push);
+    addStep(graph, names.pass, thickness_, {reads(fluid.position), writes(thickness), writes(counted), reads(sceneDepth)}, groups, push);
   return thickness;
 }
 

@@ -2,6 +2,7 @@
 // From particles to a smooth surface: its depth and normal in every pixel. The methods share all that comes before the smoothing.
 #include <array>
 #include <functional>
+#include <string_view>
 
 #include "gpu/resources.hpp"
 #include "render/surface_records.h"
@@ -34,6 +35,13 @@ struct SurfaceSettings {
   DepthFilter filter = {};    ///< in place of the method's own; for baselines
 };
 
+/// What the passes and buffers of a thickness are called: the eye's and the sun's are told apart by them.
+struct ThicknessNames {
+  std::string_view pass, clear, counters;
+};
+inline constexpr ThicknessNames kFluidThickness{"fluid thickness", "fluid thickness clear", "fluid thickness counters"};
+inline constexpr ThicknessNames kFluidShadow{"fluid shadow", "fluid shadow clear", "fluid shadow counters"};
+
 class SurfaceStage {
  public:
   /// Of 32 bytes a plane: what a buffer holds.
@@ -49,8 +57,8 @@ class SurfaceStage {
   /// Counts of `push.unit` along each sample's ray, a sample every `push.step` pixels: 1 m of fluid measures 1 m.
   /// `sceneDepth`: m a pixel, what lies behind it is not counted; an empty ref: nothing is in the way.
   /// `counters`: those of addTo(), where kBoundHits goes on; null: nobody asks.
-  BufferRef addThickness(Graph& graph, const FluidState& fluid, const surface::SurfacePush& push, BufferRef sceneDepth,
-                         BufferRef* counters) const;
+  BufferRef addThickness(Graph& graph, const ThicknessNames& names, const FluidState& fluid, const surface::SurfacePush& push,
+                         BufferRef sceneDepth, BufferRef* counters) const;
   /// The camera with what addThickness() asks for.
   static surface::SurfacePush thicknessPush(surface::SurfacePush camera, const FluidState& fluid, uint32_t step);
 

@@ -108,7 +108,7 @@ TEST_F(SurfaceOnGpu, AMetreOfFluidMeasuresAMetre) {
     Graph graph;
     const FluidState fluid = state(graph);
     const auto push = SurfaceStage::thicknessPush(renderer().camera(fluid, orthographic(1)), fluid, step);
-    const Ticket ticket = graph.readback(renderer().surface.addThickness(graph, fluid, push, {}, nullptr));
+    const Ticket ticket = graph.readback(renderer().surface.addThickness(graph, kFluidThickness, fluid, push, {}, nullptr));
     run(graph);
     const auto counts = read<uint32_t>(graph, ticket);
     const uint32_t columns = (kWidth + step - 1) / step;
