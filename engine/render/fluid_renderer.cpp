@@ -134,10 +134,10 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
   const SurfacePush thick = SurfaceStage::thicknessPush(push, fluid, kThicknessStep);
   BufferRef thickness;
   if (look.opaque) {
-    graph.skipped("fluid thickness towards the eye", "the look is opaque");
+    graph.skipped(kFluidThickness.pass, "the look is opaque");
     thickness = last.tiles;  // bound, never read
   } else {
-    thickness = surface.addThickness(graph, fluid, thick, sceneDepth, &last.counters);
+    thickness = surface.addThickness(graph, kFluidThickness, fluid, thick, sceneDepth, &last.counters);
   }
   const BufferRef record = addLook(graph, lookRecord(look, thick, environment.get()));
   graph.pass("fluid shade", [&](Pass& pass) {
@@ -172,7 +172,7 @@ BufferRef FluidRendererImpl::addData(Graph& graph, const FluidState& fluid, cons
   last = surface.addTo(graph, fluid, push, method, true, view.focus_m);
   const SurfacePush thick = SurfaceStage::thicknessPush(push, fluid, kThicknessStep);
   BufferRef thickness = last.tiles;  // bound, never read
-  if (what == SurfaceData::Thickness) thickness = surface.addThickness(graph, fluid, thick, {}, &last.counters);
+  if (what == SurfaceData::Thickness) thickness = surface.addThickness(graph, kFluidThickness, fluid, thick, {}, &last.counters);
   addStep(graph, "surface data", data[static_cast<size_t>(what)], {reads(last.pixels), reads(thickness), fresh(picture)},
           divideUp(pixels, kSurfaceGroup), DataPush{thick, full});
   return picture;

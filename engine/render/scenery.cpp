@@ -153,7 +153,7 @@ SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets 
   camera.spacing = fluid.spacing;
   const BufferRef scene = buffers_.importScene(graph);
   const SurfacePush light = SurfaceStage::thicknessPush(lightPush(fluid, fluid.origin), fluid, 1);
-  const BufferRef shadow = stage_.addThickness(graph, fluid, light, {}, nullptr);  // a particle spans five texels at most
+  const BufferRef shadow = stage_.addThickness(graph, kFluidShadow, fluid, light, {}, nullptr);  // a particle spans five texels at most
   const BufferRef record = addLook(graph, lookRecord(look, light, environment_));
   BufferRef poses;
   ImageRef lightDepth;

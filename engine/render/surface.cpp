@@ -104,45 +104,61 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device) {
   return stage;
 }
 
-SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, SurfacePush push, SurfaceMethod method, bool whole, double focus,
-                                   const SurfaceSettings& settings) const {
+SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, SurfacePush camera, SurfaceMethod method, bool whole,
+                                   double focus, const SurfaceSettings& settings) const {
   assert(fluid.count > 0);
   const bool filtered = settings.filter || method == SurfaceMethod::CurvatureFlow || method == SurfaceMethod::NarrowRange;
+  Frame frame = frameOf(fluid, camera, method, focus, settings);
+  addBuffers(graph, fluid, frame, whole);
+  addVisible(graph, fluid, frame);
+  addGrid(graph, fluid, frame);
+  const BufferRef smooth = filtered ? addFiltered(graph, frame, method, settings.filter) : addPlanes(graph, frame);
+  addCompose(graph, frame, filtered ? composeFiltered_ : compose_, smooth, whole);
+  return frame.out;
+}
+
+SurfaceStage::Frame SurfaceStage::frameOf(const FluidState& fluid, SurfacePush push, SurfaceMethod method, double focus,
+                                          const SurfaceSettings& settings) {
   push.spacing = fluid.spacing;
   push.radius = kHardRadius * fluid.spacing;
   push.count = fluid.count;
   const double sampleSide = std::max(metresAPixel(push, focus) * push.step, 1e-6 * fluid.spacing), sampleArea = sampleSide * sampleSide;
   push.margin = marginSamples(std::min(2 * settings.samples, push.spacing / sampleSide));
+  Frame frame;
   // As many steps as the time takes where the fluid is; nearer to the eye, where samples are smaller, the stable step falls short of it.
   const double area = double{push.spacing} * push.spacing;
-  const uint32_t flowSteps =
+  frame.flowSteps =
       std::clamp(static_cast<uint32_t>(std::ceil(settings.flow_time * area / (kFlowStable * sampleArea))), 1u, kMostFlowSteps);
-  push.smoothing = static_cast<float>(method == SurfaceMethod::CurvatureFlow ? settings.flow_time * area / flowSteps
+  push.smoothing = static_cast<float>(method == SurfaceMethod::CurvatureFlow ? settings.flow_time * area / frame.flowSteps
                                       : method == SurfaceMethod::NarrowRange ? settings.narrow_sigma
                                                                              : settings.fit_reach);
-  const uint64_t particles = divideUp(fluid.count, kSurfaceGroup);
   const uint64_t columns = divideUp(push.width, push.step) + 2 * push.margin, rows = divideUp(push.height, push.step) + 2 * push.margin;
-  const uint64_t samples = columns * rows, cells = gridCells(columns, rows, kCellSamples);
-  const uint64_t tiles = gridCells(push.width, push.height, kSurfaceTile);
-  const uint64_t most = fluid.count;  // particles that can be surface
+  frame.samples = columns * rows;
+  frame.occluderCells = gridCells(columns, rows, kOccluderSamples);
+  frame.cells = gridCells(columns, rows, kCellSamples);
+  frame.sampleGroups = gridCells(columns, rows, 8);
+  frame.out.push = push;
+  return frame;
+}
 
-  SurfaceBuffers out;
-  out.push = push;
-  BufferRef occluders = graph.create("surface occluders", {gridCells(columns, rows, kOccluderSamples) * 4});
-  BufferRef depth = graph.create("surface hard depth", {samples * 4});
-  BufferRef start = graph.create("surface cells", {(cells + 1) * 4});
+/// Those of more than one part, and what they hold at first.
+void SurfaceStage::addBuffers(Graph& graph, const FluidState& fluid, Frame& frame, bool whole) {
+  SurfaceBuffers& out = frame.out;
+  frame.occluders = graph.create("surface occluders", {frame.occluderCells * 4});
+  frame.depth = graph.create("surface hard depth", {frame.samples * 4});
+  frame.start = graph.create("surface cells", {(frame.cells + 1) * 4});
   out.counters = graph.create("surface counters", {kSurfaceCounterWords * 4});
   out.arguments = graph.create("surface arguments", {kSurfaceArgumentWords * 4});
-  BufferRef survivors = graph.create("surface survivors", {most * 4}), rank = graph.create("surface ranks", {most * 4});
-  BufferRef arrived = graph.create("surface arrived", {most * 4});
-  BufferRef centre = graph.create("surface centres", {most * 16});
-  out.tiles = graph.create("surface tiles", {tiles * 4});
-  out.pixels = graph.create("surface pixels", {uint64_t{push.width} * push.height * 8});
-
+  frame.survivors = graph.create("surface survivors", {uint64_t{fluid.count} * 4});
+  frame.centre = graph.create("surface centres", {uint64_t{fluid.count} * 16});
+  out.tiles = graph.create("surface tiles", {gridCells(out.push.width, out.push.height, kSurfaceTile) * 4});
+  out.pixels = graph.create("surface pixels", {uint64_t{out.push.width} * out.push.height * 8});
   graph.pass("surface clear", [&](Pass& pass) {
-    for (BufferRef* buffer : {&occluders, &depth, &start, &out.counters}) *buffer = pass.write(*buffer, Use::CopyTarget, true);
+    for (BufferRef* buffer : {&frame.occluders, &frame.depth, &frame.start, &out.counters})
+      *buffer = pass.write(*buffer, Use::CopyTarget, true);
     if (whole) out.pixels = pass.write(out.pixels, Use::CopyTarget, true);
-    return [=, pixels = out.pixels, counters = out.counters](Commands& commands) {
+    return [occluders = frame.occluders, depth = frame.depth, start = frame.start, counters = out.counters, pixels = out.pixels,
+            whole](Commands& commands) {
       commands.fill(occluders, kInfinity);
       commands.fill(depth, kInfinity);
       commands.fill(start, 0);
@@ -150,73 +166,97 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
       if (whole) commands.fill(pixels, kInfinity);
     };
   });
-  const auto arguments = [&] { addStep(graph, "surface arguments", arguments_, {reads(out.counters), fresh(out.arguments)}, 1, push); };
+}
+
+/// Groups of what has been counted so far.
+void SurfaceStage::addArguments(Graph& graph, SurfaceBuffers& out) const {
+  addStep(graph, "surface arguments", arguments_, {reads(out.counters), fresh(out.arguments)}, 1, out.push);
+}
+
+/// Particles that nothing hides, the depth of their spheres, and the tiles that those are seen in.
+void SurfaceStage::addVisible(Graph& graph, const FluidState& fluid, Frame& frame) const {
+  SurfaceBuffers& out = frame.out;
+  const uint64_t particles = divideUp(fluid.count, kSurfaceGroup), tiles = gridCells(out.push.width, out.push.height, kSurfaceTile);
+  addStep(graph, "surface occlude", occlude_, {reads(fluid.position), writes(frame.occluders)}, particles, out.push);
+  addStep(graph, "surface cull", cull_, {reads(fluid.position), reads(frame.occluders), writes(out.counters), fresh(frame.survivors)},
+          particles, out.push);
+  addArguments(graph, out);
+  addStep(graph, "surface splat", splat_, {reads(fluid.position), writes(out.counters), reads(frame.survivors), writes(frame.depth)},
+          StepGroups(out.arguments, kSurvivorArguments), out.push);
+  addStep(graph, "surface tiles", tiles_, {reads(frame.depth), writes(out.counters), fresh(out.tiles)}, divideUp(tiles, kSurfaceGroup),
+          out.push);
+}
+
+/// Those of them that are surface, in the cells of the screen grid and in one order.
+void SurfaceStage::addGrid(Graph& graph, const FluidState& fluid, Frame& frame) const {
+  SurfaceBuffers& out = frame.out;
+  BufferRef rank = graph.create("surface ranks", {uint64_t{fluid.count} * 4});
+  BufferRef arrived = graph.create("surface arrived", {uint64_t{fluid.count} * 4});
   const auto survivorGroups = [&] { return StepGroups(out.arguments, kSurvivorArguments); };
-  const auto surfaceGroups = [&] { return StepGroups(out.arguments, kSurfaceArguments); };
-  addStep(graph, "surface occlude", occlude_, {reads(fluid.position), writes(occluders)}, particles, push);
-  addStep(graph, "surface cull", cull_, {reads(fluid.position), reads(occluders), writes(out.counters), fresh(survivors)}, particles, push);
-  arguments();
-  addStep(graph, "surface splat", splat_, {reads(fluid.position), writes(out.counters), reads(survivors), writes(depth)}, survivorGroups(),
-          push);
-  addStep(graph, "surface tiles", tiles_, {reads(depth), writes(out.counters), fresh(out.tiles)}, divideUp(tiles, kSurfaceGroup), push);
   addStep(graph, "surface pick", pick_,
-          {reads(fluid.position), writes(out.counters), reads(survivors), reads(depth), writes(start), fresh(rank)}, survivorGroups(),
-          push);
-  arguments();
-  auto scan = Scan::create(*device_, static_cast<uint32_t>(cells + 1));
+          {reads(fluid.position), writes(out.counters), reads(frame.survivors), reads(frame.depth), writes(frame.start), fresh(rank)},
+          survivorGroups(), out.push);
+  addArguments(graph, out);
+  auto scan = Scan::create(*device_, static_cast<uint32_t>(frame.cells + 1));
   assert(scan && "its pipelines were made in create()");
-  start = scan->addTo(graph, start);
+  frame.start = scan->addTo(graph, frame.start);
   addStep(graph, "surface scatter", scatter_,
-          {reads(fluid.position), reads(out.counters), reads(survivors), reads(start), reads(rank), fresh(arrived)}, survivorGroups(),
-          push);
-  addStep(graph, "surface order", order_, {reads(fluid.position), writes(out.counters), reads(start), reads(arrived), fresh(centre)},
-          surfaceGroups(), push);
-  Grid grid{push, out.counters, out.arguments, start, centre, depth, {}, samples, gridCells(columns, rows, 8), flowSteps};
-  BufferRef smooth;
-  if (filtered) {
-    smooth = addFiltered(graph, grid, method, settings.filter);
-    out.counters = grid.counters;
-    grid.plane = centre;  // bound, never read
-  } else {
-    grid.plane = graph.create("surface planes", {most * 32});
-    addStep(graph, "surface planes", planes_, {writes(out.counters), reads(start), reads(centre), fresh(grid.plane)}, surfaceGroups(),
-            push);
-    smooth = graph.create("surface samples", {samples * 8});
-    addStep(graph, "surface blend", blend_,
-            {reads(start), reads(centre), reads(grid.plane), reads(depth), fresh(smooth), writes(out.counters)}, grid.sampleGroups, push);
-  }
-  addStep(graph, "surface compose", filtered ? composeFiltered_ : compose_,
-          {reads(start), reads(centre), reads(grid.plane), reads(depth), reads(smooth), writes(out.counters), reads(out.tiles),
-           whole ? writes(out.pixels) : fresh(out.pixels)},
-          StepGroups(out.arguments, kSurfaceTileArguments), push);
-  return out;
+          {reads(fluid.position), reads(out.counters), reads(frame.survivors), reads(frame.start), reads(rank), fresh(arrived)},
+          survivorGroups(), out.push);
+  addStep(graph, "surface order", order_,
+          {reads(fluid.position), writes(out.counters), reads(frame.start), reads(arrived), fresh(frame.centre)},
+          StepGroups(out.arguments, kSurfaceArguments), out.push);
+}
+
+/// A plane a particle, then what they say together.
+BufferRef SurfaceStage::addPlanes(Graph& graph, Frame& frame) const {
+  SurfaceBuffers& out = frame.out;
+  frame.plane = graph.create("surface planes", {uint64_t{out.push.count} * 32});
+  addStep(graph, "surface planes", planes_, {writes(out.counters), reads(frame.start), reads(frame.centre), fresh(frame.plane)},
+          StepGroups(out.arguments, kSurfaceArguments), out.push);
+  BufferRef samples = graph.create("surface samples", {frame.samples * 8});
+  addStep(graph, "surface blend", blend_,
+          {reads(frame.start), reads(frame.centre), reads(frame.plane), reads(frame.depth), fresh(samples), writes(out.counters)},
+          frame.sampleGroups, out.push);
+  return samples;
 }
 
 /// A depth filter in passes from one buffer to another, then normals.
-BufferRef SurfaceStage::addFiltered(Graph& graph, Grid& grid, SurfaceMethod method, const DepthFilter& filter) const {
-  BufferRef from = grid.depth;
-  const auto filtered = [&] { return graph.create("surface filtered", {grid.samples * 4}); };
+BufferRef SurfaceStage::addFiltered(Graph& graph, Frame& frame, SurfaceMethod method, const DepthFilter& filter) const {
+  SurfaceBuffers& out = frame.out;
+  BufferRef from = frame.depth;
+  const auto filtered = [&] { return graph.create("surface filtered", {frame.samples * 4}); };
   if (filter) {
-    from = filter(graph, from, grid.push);
+    from = filter(graph, from, out.push);
   } else if (method == SurfaceMethod::CurvatureFlow) {
-    for (uint32_t k = 0; k < grid.flowSteps; ++k) {
+    for (uint32_t k = 0; k < frame.flowSteps; ++k) {
       BufferRef to = filtered();
-      addStep(graph, "surface flow", flow_, {reads(from), fresh(to)}, grid.sampleGroups, grid.push);
+      addStep(graph, "surface flow", flow_, {reads(from), fresh(to)}, frame.sampleGroups, out.push);
       from = to;
     }
   } else {
     for (uint32_t k = 0; k < kNarrowPasses; ++k)
       for (const ComputePipeline* pipeline : narrow_) {
         BufferRef to = filtered();
-        addStep(graph, "surface narrow range", pipeline, {reads(from), fresh(to), writes(grid.counters)}, grid.sampleGroups, grid.push);
+        addStep(graph, "surface narrow range", pipeline, {reads(from), fresh(to), writes(out.counters)}, frame.sampleGroups, out.push);
         from = to;
       }
   }
-  BufferRef samples = graph.create("surface samples", {grid.samples * 8});
+  BufferRef samples = graph.create("surface samples", {frame.samples * 8});
   addStep(graph, "surface normals", normals_,
-          {reads(grid.start), reads(grid.centre), reads(from), reads(grid.depth), fresh(samples), writes(grid.counters)}, grid.sampleGroups,
-          grid.push);
+          {reads(frame.start), reads(frame.centre), reads(from), reads(frame.depth), fresh(samples), writes(out.counters)},
+          frame.sampleGroups, out.push);
+  frame.plane = frame.centre;  // bound, never read
   return samples;
+}
+
+/// From samples to the pixels of the tiles with fluid.
+void SurfaceStage::addCompose(Graph& graph, Frame& frame, const ComputePipeline* compose, BufferRef samples, bool whole) {
+  SurfaceBuffers& out = frame.out;
+  addStep(graph, "surface compose", compose,
+          {reads(frame.start), reads(frame.centre), reads(frame.plane), reads(frame.depth), reads(samples), writes(out.counters),
+           reads(out.tiles), whole ? writes(out.pixels) : fresh(out.pixels)},
+          StepGroups(out.arguments, kSurfaceTileArguments), out.push);
 }
 
 SurfacePush SurfaceStage::thicknessPush(SurfacePush camera, const FluidState& fluid, uint32_t step) {
@@ -229,12 +269,12 @@ SurfacePush SurfaceStage::thicknessPush(SurfacePush camera, const FluidState& fl
   return camera;
 }
 
-BufferRef SurfaceStage::addThickness(Graph& graph, const FluidState& fluid, const SurfacePush& push, BufferRef sceneDepth,
-                                     BufferRef* counters) const {
+BufferRef SurfaceStage::addThickness(Graph& graph, const ThicknessNames& names, const FluidState& fluid, const SurfacePush& push,
+                                     BufferRef sceneDepth, BufferRef* counters) const {
   BufferRef own;
-  if (!counters) own = graph.create("fluid thickness counters", {kSurfaceCounterWords * 4});
-  BufferRef thickness = graph.create("fluid thickness", {gridCells(push.width, push.height, push.step) * 4});
-  graph.pass("fluid thickness clear", [&](Pass& pass) {
+  if (!counters) own = graph.create(names.counters, {kSurfaceCounterWords * 4});
+  BufferRef thickness = graph.create(names.pass, {gridCells(push.width, push.height, push.step) * 4});
+  graph.pass(names.clear, [&](Pass& pass) {
     thickness = pass.write(thickness, Use::CopyTarget, true);
     if (!counters) own = pass.write(own, Use::CopyTarget, true);
     return [thickness, counters = own, clear = !counters](Commands& commands) {
@@ -246,10 +286,9 @@ BufferRef SurfaceStage::addThickness(Graph& graph, const FluidState& fluid, cons
   const uint64_t groups = divideUp(fluid.count, kSurfaceGroup);
   BufferRef& counted = counters ? *counters : own;
   if (sceneDepth == BufferRef{})
-    addStep(graph, "fluid thickness", thicknessBare_, {reads(fluid.position), writes(thickness), writes(counted)}, groups, push);
+    addStep(graph, names.pass, thicknessBare_, {reads(fluid.position), writes(thickness), writes(counted)}, groups, push);
   else
-    addStep(graph, "fluid thickness", thickness_, {reads(fluid.position), writes(thickness), writes(counted), reads(sceneDepth)}, groups,
-            push);
+    addStep(graph, names.pass, thickness_, {reads(fluid.position), writes(thickness), writes(counted), reads(sceneDepth)}, groups, push);
   return thickness;
 }
 

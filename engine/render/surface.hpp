@@ -2,6 +2,7 @@
 // From particles to a smooth surface: its depth and normal in every pixel. The methods share all that comes before the smoothing.
 #include <array>
 #include <functional>
+#include <string_view>
 
 #include "gpu/resources.hpp"
 #include "render/surface_records.h"
@@ -34,6 +35,13 @@ struct SurfaceSettings {
   DepthFilter filter = {};    ///< in place of the method's own; for baselines
 };
 
+/// What the passes and buffers of a thickness are called: the eye's and the sun's are told apart by them.
+struct ThicknessNames {
+  std::string_view pass, clear, counters;
+};
+inline constexpr ThicknessNames kFluidThickness{"fluid thickness", "fluid thickness clear", "fluid thickness counters"};
+inline constexpr ThicknessNames kFluidShadow{"fluid shadow", "fluid shadow clear", "fluid shadow counters"};
+
 class SurfaceStage {
  public:
   /// Of 32 bytes a plane: what a buffer holds.
@@ -49,22 +57,32 @@ class SurfaceStage {
   /// Counts of `push.unit` along each sample's ray, a sample every `push.step` pixels: 1 m of fluid measures 1 m.
   /// `sceneDepth`: m a pixel, what lies behind it is not counted; an empty ref: nothing is in the way.
   /// `counters`: those of addTo(), where kBoundHits goes on; null: nobody asks.
-  BufferRef addThickness(Graph& graph, const FluidState& fluid, const surface::SurfacePush& push, BufferRef sceneDepth,
-                         BufferRef* counters) const;
+  BufferRef addThickness(Graph& graph, const ThicknessNames& names, const FluidState& fluid, const surface::SurfacePush& push,
+                         BufferRef sceneDepth, BufferRef* counters) const;
   /// The camera with what addThickness() asks for.
   static surface::SurfacePush thicknessPush(surface::SurfacePush camera, const FluidState& fluid, uint32_t step);
 
  private:
-  /// What methods share: the screen grid of surface particles, and the spheres' depth.
-  struct Grid {
-    surface::SurfacePush push;
-    BufferRef counters, arguments, start, centre, depth;
-    BufferRef plane;  ///< of the method that has planes
-    uint64_t samples = 0, sampleGroups = 0;
+  /// A surface in the making: how much there is of everything, and the buffers that more than one part of it works on.
+  struct Frame {
+    SurfaceBuffers out;
+    uint64_t samples = 0, sampleGroups = 0, occluderCells = 0, cells = 0;  ///< of the picture with its margin
     uint32_t flowSteps = 0;
+    BufferRef occluders, depth;  ///< the depth of the spheres
+    BufferRef survivors;         ///< particles that nothing hides
+    BufferRef start, centre;     ///< screen grid of those that are surface
+    BufferRef plane;             ///< of the method that has planes
   };
-  /// From the spheres' depth to samples (depth, normal).
-  BufferRef addFiltered(Graph& graph, Grid& grid, SurfaceMethod method, const DepthFilter& filter) const;
+  static Frame frameOf(const FluidState& fluid, surface::SurfacePush camera, SurfaceMethod method, double focus,
+                       const SurfaceSettings& settings);
+  // Its parts, in the order in which they run. Those of a method make samples (depth, normal) of what the first ones found.
+  static void addBuffers(Graph& graph, const FluidState& fluid, Frame& frame, bool whole);
+  void addArguments(Graph& graph, SurfaceBuffers& out) const;
+  void addVisible(Graph& graph, const FluidState& fluid, Frame& frame) const;
+  void addGrid(Graph& graph, const FluidState& fluid, Frame& frame) const;
+  BufferRef addPlanes(Graph& graph, Frame& frame) const;
+  BufferRef addFiltered(Graph& graph, Frame& frame, SurfaceMethod method, const DepthFilter& filter) const;
+  static void addCompose(Graph& graph, Frame& frame, const ComputePipeline* compose, BufferRef samples, bool whole);
 
   Device* device_ = nullptr;
   const ComputePipeline *occlude_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr, *pick_ = nullptr,

@@ -77,7 +77,7 @@ TEST(RillBench, RenderHoldsMethodsAndSettingsAgainstTheTruth) {
   }
   ASSERT_EQ(errors.size(), 4u);
   EXPECT_GT(errors["planes"][""], 0.1) << "of jittered particles";
-  EXPECT_LT(errors["planes"][""], 2);
+  EXPECT_LT(errors["planes"][""], 1.04) << "0.83 on lavapipe and SwiftShader";
   for (const auto& [method, settings] : errors) {
     EXPECT_GE(settings.size(), 3u) << method;
     for (const auto& [setting, degrees] : settings)
@@ -93,7 +93,7 @@ TEST(RillBench, RenderTellsTheFlickerOfTheSolversOwnFrames) {
   const Json* column = resultOf(report, "resting column");
   ASSERT_NE(column, nullptr);
   EXPECT_GT((*column)["flicker_deg"], 0.001);
-  EXPECT_LT((*column)["flicker_deg"], 2);
+  EXPECT_LT((*column)["flicker_deg"], 0.91) << "0.35 on lavapipe, 0.73 on SwiftShader, whose water moves otherwise";
 }
 
 TEST(RillBench, AnEmptySceneRunsNoPass) {

@@ -157,6 +157,19 @@ TEST_F(CaptureTest, ExplainTellsWhatRanAndWhatDidNot) {
   EXPECT_NE(outcome.out.find("skipped: viscosity is 0"), std::string::npos) << outcome.out;
 }
 
+// Seen through or not, water casts a shadow: a pass of its own name.
+TEST_F(CaptureTest, ThicknessAndShadowAreToldApart) {
+  for (const bool opaque : {false, true}) {
+    const std::string preset = opaque ? "look.preset=clay" : "look.preset=water";
+    ASSERT_EQ(run({"--frames", "1", "--size", "64x36", "--quiet", "--set", preset, "--stats", "s.json", "--out", preset}).code, 0);
+    const Json frame = stats("s.json")["frames"].back();
+    EXPECT_TRUE(frame["pass_ms"].contains("fluid shadow")) << frame;
+    EXPECT_FALSE(frame["skipped"].contains("fluid shadow")) << frame;
+    EXPECT_EQ(frame["pass_ms"].contains("fluid thickness"), !opaque) << frame;
+    EXPECT_EQ(frame["skipped"].value("fluid thickness", ""), opaque ? "the look is opaque" : "") << frame;
+  }
+}
+
 TEST_F(CaptureTest, PassesAreNotTimedWhereThatIsSaid) {
   ASSERT_EQ(run({"--frames", "2", "--no-images", "--stats", "timed.json"}).code, 0);
   EXPECT_GT(stats("timed.json")["frames"][1]["pass_ms"]["density"].get<double>(), 0);

@@ -174,7 +174,7 @@ TEST_F(ParticlesToSamples, ThicknessIsTheSumOfAllDiscs) {
       const FluidState fluid = state(graph);
       const SurfacePush push = SurfaceStage::thicknessPush(pushOf(view, step, count_), fluid, step);
       const BufferRef depth = scene ? graph.import("wall", importOf(wallBuffer)) : BufferRef{};
-      const Ticket ticket = graph.readback(renderer().surface.addThickness(graph, fluid, push, depth, nullptr));
+      const Ticket ticket = graph.readback(renderer().surface.addThickness(graph, kFluidThickness, fluid, push, depth, nullptr));
       run(graph);
       const auto counts = read<uint32_t>(graph, ticket);
       const Samples samples(push);

@@ -44,8 +44,9 @@ TEST_F(SurfaceOnGpu, ATiltedPlaneIsAPlane) {
   const Vector u{across, -normal.x * normal.y / across, -normal.x * normal.z / across};  // and v = normal x u
   const Vector v{normal.y * u.z - normal.z * u.y, normal.z * u.x - normal.x * u.z, normal.x * u.y - normal.y * u.x};
   fill(under({0, 0, at}, normal, u, v, 5));
+  // A quarter above what was measured, as for the ball below: 0.82, 0.75 and 0.62 degrees.
   const std::pair<SurfaceMethod, double> methods[] = {
-      {SurfaceMethod::Planes, 2}, {SurfaceMethod::CurvatureFlow, 2}, {SurfaceMethod::NarrowRange, 1}};
+      {SurfaceMethod::Planes, 1.03}, {SurfaceMethod::CurvatureFlow, 0.94}, {SurfaceMethod::NarrowRange, 0.78}};
   for (const auto& [method, degrees] : methods) {
     const Errors e = compared(surface(perspective(), method), kWidth, kHeight, [&](double x, double y, Pixel& wanted) {
       const Vector ray{x * kTangent * kAspect, y * kTangent, -1};
@@ -54,8 +55,8 @@ TEST_F(SurfaceOnGpu, ATiltedPlaneIsAPlane) {
       return true;
     });
     EXPECT_LT(e.degrees, degrees) << int(method);
-    EXPECT_LT(e.depth, 0.15) << int(method);
-    EXPECT_GT(e.overlap(), 0.99) << int(method);
+    EXPECT_LT(e.depth, 0.032) << int(method);
+    EXPECT_GT(e.overlap(), 0.999) << int(method);
   }
 }
 
@@ -76,16 +77,16 @@ TEST_F(SurfaceOnGpu, ABallIsABallInEitherProjection) {
   const Errors e = compared(surface(perspective(5)), kWidth, kHeight, [&](double x, double y, Pixel& wanted) {
     return hit({0, 0, 0}, {x * kTangent * kAspect, y * kTangent, -1}, wanted);
   });
-  EXPECT_LT(e.degrees, 6);
-  EXPECT_LT(e.depth, 0.4);
-  EXPECT_GT(e.overlap(), 0.95);
+  EXPECT_LT(e.degrees, 1.2);
+  EXPECT_LT(e.depth, 0.15);
+  EXPECT_GT(e.overlap(), 0.98);
   const double half = 1.6;
   const Errors o = compared(surface(orthographic(half)), kWidth, kHeight, [&](double x, double y, Pixel& wanted) {
     return hit({x * half * kAspect, y * half, 0}, {0, 0, -1}, wanted);
   });
-  EXPECT_LT(o.degrees, 6);
-  EXPECT_LT(o.depth, 0.4);
-  EXPECT_GT(o.overlap(), 0.95);
+  EXPECT_LT(o.degrees, 1.2);
+  EXPECT_LT(o.depth, 0.15);
+  EXPECT_GT(o.overlap(), 0.98);
 }
 
 TEST_F(SurfaceOnGpu, AnyDepthConventionSeesTheSame) {
@@ -108,7 +109,7 @@ TEST_F(SurfaceOnGpu, AMetreOfFluidMeasuresAMetre) {
     Graph graph;
     const FluidState fluid = state(graph);
     const auto push = SurfaceStage::thicknessPush(renderer().camera(fluid, orthographic(1)), fluid, step);
-    const Ticket ticket = graph.readback(renderer().surface.addThickness(graph, fluid, push, {}, nullptr));
+    const Ticket ticket = graph.readback(renderer().surface.addThickness(graph, kFluidThickness, fluid, push, {}, nullptr));
     run(graph);
     const auto counts = read<uint32_t>(graph, ticket);
     const uint32_t columns = (kWidth + step - 1) / step;
