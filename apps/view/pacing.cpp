@@ -28,7 +28,7 @@ void Pacing::finished(uint32_t substeps) {
 
 namespace {
 
-constexpr double kTooLong = 0.120, kQuick = 0.060;  // s
+constexpr double kTooLong = 0.060, kQuick = 0.030;  // s
 constexpr double kWorth = 0.8;                      // of the time that a coarser picture may take at most
 constexpr uint32_t kPatience = 20;                  // pictures, before it gets finer again
 constexpr uint32_t kMemory = 100;                   // pictures, after which other levels are tried anew

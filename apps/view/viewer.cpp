@@ -31,7 +31,7 @@ namespace {
 namespace fs = std::filesystem;
 using Now = std::chrono::steady_clock;
 
-constexpr double kLeastPiece = 0.012, kMostPiece = 0.1;  // s of simulation a displayed frame
+constexpr double kLeastPiece = 0.012, kMostPiece = 0.05;  // s of simulation a displayed frame
 constexpr double kNotice = 4;                            // s that a notice stays; an error stays until it is closed
 constexpr double kMeasureEvery = 0.25;                   // s; figures cost a pass over the neighbours
 

@@ -74,16 +74,16 @@ void draw(PictureScale& scale, double fixed, double whole, int pictures) {
 TEST(PictureScale, StaysWholeWhereTheWindowAnswers) {
   PictureScale scale;
   scale.drew(3);  // shaders are compiled
-  draw(scale, 0.02, 0.08, 300);
+  draw(scale, 0.01, 0.04, 300);
   EXPECT_EQ(scale.scale(), 1);
 }
 
 TEST(PictureScale, GetsSmallerWhereDrawingIsSlowAndDoesNotSwing) {
   PictureScale scale;
-  draw(scale, 0, 0.3, 20);
-  EXPECT_EQ(scale.scale(), 0.5) << "0.075 s";
+  draw(scale, 0, 0.15, 20);
+  EXPECT_EQ(scale.scale(), 0.5) << "0.0375 s";
   for (int k = 0; k < 90; ++k) {
-    draw(scale, 0, 0.3, 1);
+    draw(scale, 0, 0.15, 1);
     EXPECT_EQ(scale.scale(), 0.5);
   }
   draw(scale, 0, 10, 20);
