@@ -38,6 +38,7 @@ Expected<bool> Playback::advance(Runner& runner, const Frame& frame) {
 
 Expected<bool> Playback::finished(Runner& runner, const Frame& frame) {
   const StepFigures& step = runner.last();
+  histories_.particles.add(runner.fluid().count());
   histories_.substeps.add(step.substeps);
   histories_.iterations.add(step.iterations);
   histories_.wall_ms.add(1e3 * step.wall_s);

@@ -26,7 +26,7 @@ class History {
 };
 
 struct Histories {
-  History substeps, iterations, wall_ms, error;
+  History particles, substeps, iterations, wall_ms, error;
   std::map<std::string, History, std::less<>> passes;
   uint64_t passesOf = UINT64_MAX;  ///< the step whose times were added last
 };

@@ -183,7 +183,7 @@ TEST_F(ViewWindowTest, NumbersAreTypedAndDragged) {
   for (const auto& row : rows) {
     std::filesystem::remove(folder / "dam-changed.json");
     folder.write("hands.txt", row.hands + save);
-    const Outcome outcome = view({scene, "--script", "hands.txt", "--screenshot", "end.png"});
+    const Outcome outcome = view({scene, "--script", "hands.txt", "--screenshot", "end.png", "--view", "particles"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_EQ(sizeOf("end.png"), std::pair(1280, 720)) << "the last frame of a script, too";
     ASSERT_TRUE(std::filesystem::exists(folder / "dam-changed.json")) << row.hands;
@@ -236,6 +236,16 @@ TEST_F(ViewWindowTest, GoesThroughTheScenesThereAre) {
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "") << "a broken scene is told in the window";
   EXPECT_EQ(figure(outcome, "scene"), "a");
+}
+
+TEST_F(ViewWindowTest, OpensEveryScene) {
+  std::string script;
+  for (int k = 0; k < 11; ++k) script += std::to_string(2 * k + 1) + " key ]\n";
+  folder.write("hands.txt", script + "24 view particles\n");
+  const Outcome outcome = view({"box-and-sphere", "--view", "particles", "--size", "320x200", "--script", "hands.txt", "--validate"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(figure(outcome, "scene"), "box-and-sphere") << "once around";
 }
 
 TEST_F(ViewWindowTest, ASignalClosesIt) {

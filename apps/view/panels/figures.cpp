@@ -8,12 +8,15 @@
 namespace rill::view {
 namespace {
 
+/// `format`: of the line above it with the last figure; none: no line.
 void plot(const char* name, const History& history, const char* format) {
   const std::vector<float>& values = history.values();
   if (values.empty()) return;
-  char now[48];
-  std::snprintf(now, sizeof now, format, static_cast<double>(values.back()));
-  figureLine(name, "%s", now);
+  if (format) {
+    char now[48];
+    std::snprintf(now, sizeof now, format, static_cast<double>(values.back()));
+    figureLine(name, "%s", now);
+  }
   const float top = *std::ranges::max_element(values);
   ImGui::PushID(name);
   ImGui::PlotLines("##plot", values.data(), static_cast<int>(values.size()), 0, nullptr, 0, top > 0 ? 1.1f * top : 1,
@@ -26,6 +29,7 @@ void plot(const char* name, const History& history, const char* format) {
 void figurePanel(Board& board) {
   const Histories& h = board.histories;
   figureLine("particles", "%s", grouped(board.session.runner().fluid().count()).c_str());
+  plot("particles", h.particles, nullptr);
   plot("step", h.wall_ms, "%.1f ms");
   plot("substeps a step", h.substeps, "%.0f");
   plot("iterations a step", h.iterations, "%.0f");

@@ -23,15 +23,11 @@ void row(Board& board, const std::string& name, double ms, uint32_t runs, bool f
   ImGui::PopID();
 }
 
+/// Below the table, where there is room for the reason.
 void left(std::string_view name, std::string_view reason) {
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  ImGui::TextDisabled("%.*s", static_cast<int>(name.size()), name.data());
-  ImGui::TableNextColumn();
-  ImGui::TextDisabled("-");
-  ImGui::TableNextColumn();
-  ImGui::TextDisabled("%.*s", static_cast<int>(reason.size()), reason.data());
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%.*s", static_cast<int>(reason.size()), reason.data());
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextDisabled("%.*s: %.*s", static_cast<int>(name.size()), name.data(), static_cast<int>(reason.size()), reason.data());
+  ImGui::PopTextWrapPos();
 }
 
 bool beginTable(const char* name) {
@@ -52,16 +48,16 @@ void passPanel(Board& board) {
   ImGui::TextDisabled("simulation, last step");
   if (beginTable("simulation")) {
     for (const offline::PassTime& pass : runner.log().times()) row(board, pass.name, pass.ms, pass.runs, fresh);
-    for (const auto& [name, reason] : runner.log().skipped()) left(name, reason);
     ImGui::EndTable();
   }
+  for (const auto& [name, reason] : runner.log().skipped()) left(name, reason);
   ImGui::TextDisabled("picture");
   if (beginTable("picture")) {
     for (const Timing& pass : board.display.pictureTimings()) row(board, std::string(pass.name), pass.ms, pass.runs, fresh);
-    for (const PassReport& pass : board.display.pictureReport())
-      if (!pass.reason.empty()) left(pass.name, pass.reason);
     ImGui::EndTable();
   }
+  for (const PassReport& pass : board.display.pictureReport())
+    if (!pass.reason.empty()) left(pass.name, pass.reason);
 }
 
 }  // namespace rill::view
