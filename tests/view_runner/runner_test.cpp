@@ -210,11 +210,19 @@ TEST_F(ViewRunnerTest, AChangedFileIsNoticedAndABrokenOneLeavesTheSceneRunning) 
   std::filesystem::last_write_time(file, std::filesystem::last_write_time(file) + std::chrono::seconds(3));
   EXPECT_FALSE(s.fileChanged(1.2)) << "not asked more than twice a second";
   EXPECT_TRUE(s.fileChanged(2));
-  const auto again = s.restart();
+  const auto again = s.reload();
   ASSERT_FALSE(again);
   EXPECT_NE(again.error().message.find("dam.json"), std::string::npos);
   EXPECT_FALSE(s.fileChanged(3)) << "said once";
   EXPECT_TRUE(s.runner().step());
+  // What is done to the scene meanwhile goes on from the text that it was read from.
+  EXPECT_TRUE(s.change({"fluid.viscosity", "0.5"}));
+  EXPECT_TRUE(s.restart());
+  EXPECT_EQ(s.scene().fluid.viscosity, 0.5);
+  folder.write("dam.json", std::string(kDam).replace(std::string(kDam).find("0.05"), 4, "0.10"));
+  ASSERT_TRUE(s.reload());
+  EXPECT_EQ(s.scene().fluid.spacing, 0.1);
+  EXPECT_EQ(s.scene().fluid.viscosity, 0.5);
 }
 
 }  // namespace
