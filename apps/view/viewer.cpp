@@ -32,8 +32,8 @@ namespace fs = std::filesystem;
 using Now = std::chrono::steady_clock;
 
 constexpr double kLeastPiece = 0.012, kMostPiece = 0.05;  // s of simulation a displayed frame
-constexpr double kNotice = 4;                            // s that a notice stays; an error stays until it is closed
-constexpr double kMeasureEvery = 0.25;                   // s; figures cost a pass over the neighbours
+constexpr double kNotice = 4;                             // s that a notice stays; an error stays until it is closed
+constexpr double kMeasureEvery = 0.25;                    // s; figures cost a pass over the neighbours
 
 double secondsSince(Now::time_point then) { return std::chrono::duration<double>(Now::now() - then).count(); }
 
@@ -527,7 +527,7 @@ class Viewer {
     const auto frame_ms = [&](double share) {
       return frames_ms_.empty() ? 1e3 * wall_s : frames_ms_[static_cast<size_t>(share * static_cast<double>(frames_ms_.size() - 1))];
     };
-    char text[400];
+    char text[600];  // a file name has up to 255
     std::snprintf(text, sizeof text,
                   "scene         %s\nframes        %llu\nsteps         %llu\ntime_s        %.9g\nwall_s        %.3f\n"
                   "frame_ms      %.1f\nframe_ms_p95  %.1f\nstate_hash    %016llx\n",
