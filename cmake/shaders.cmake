@@ -1,12 +1,16 @@
-# GLSL -> SPIR-V (Vulkan 1.3), checked by spirv-val, embedded as arrays in the library.
+# GLSL -> SPIR-V (Vulkan 1.3), checked by spirv-val where there is one, embedded as arrays in a library.
 #   rill_shader(fluid/density.comp)                                         becomes "fluid/density"
 #   rill_shader(fluid/density.comp AS fluid/density_texel DEFINES LIST_TEXEL) becomes "fluid/density_texel"
 #   rill_shader(gpu/add.comp ROOT ${CMAKE_CURRENT_SOURCE_DIR} GROUP tests)  belongs to a table of its own, not to the library's
 # Every header under shaders/, and beside a shader, is a dependency of every shader: they are few, and a stale one is worse than a rebuild.
-find_program(RILL_GLSLANG glslangValidator REQUIRED)
-find_program(RILL_SPIRV_VAL spirv-val REQUIRED)
+find_program(RILL_GLSLANG glslangValidator)
+find_program(RILL_SPIRV_VAL spirv-val)
+if(NOT RILL_GLSLANG)
+  message(FATAL_ERROR "Rill's shaders are compiled by glslangValidator (Debian: glslang-tools); set RILL_GLSLANG to its path")
+endif()
 set(RILL_SHADER_ROOT ${PROJECT_SOURCE_DIR}/shaders)
 
+# Notes a shader for rill_embed_shaders() of its group.
 function(rill_shader source)
   cmake_parse_arguments(ARG "" "AS;ROOT;GROUP" "DEFINES" ${ARGN})
   string(REGEX REPLACE "\\.[a-z]+$" "" name ${source})
@@ -21,30 +25,11 @@ function(rill_shader source)
   if(ARG_AS)
     set(name ${ARG_AS})
   endif()
-  string(REPLACE "/" "_" symbol ${name})
-  set(spv ${PROJECT_BINARY_DIR}/shaders/${group}/${name}.spv)
-  set(array ${PROJECT_BINARY_DIR}/shaders/${group}/${name}.inc)
-  get_filename_component(folder ${spv} DIRECTORY)
-  file(MAKE_DIRECTORY ${folder})
-  file(GLOB headers CONFIGURE_DEPENDS ${RILL_SHADER_ROOT}/*/*.h ${RILL_SHADER_ROOT}/*/*.glsl ${root}/*.h ${root}/*.glsl)
-  set(defines ${ARG_DEFINES})
-  list(TRANSFORM defines PREPEND -D)
-  add_custom_command(
-    OUTPUT ${spv} ${array}
-    COMMAND ${RILL_GLSLANG} --quiet -V --target-env vulkan1.3 -I${RILL_SHADER_ROOT} ${defines} -o ${spv} ${root}/${source}
-    COMMAND ${RILL_SPIRV_VAL} --target-env vulkan1.3 ${spv}
-    COMMAND ${RILL_GLSLANG} --quiet -V --target-env vulkan1.3 -I${RILL_SHADER_ROOT} ${defines} --vn shader_${symbol} -o ${array} ${root}/${source}
-    DEPENDS ${root}/${source} ${headers}
-    COMMENT "Shader ${name}" VERBATIM)
-  # Rules are known to their own folder alone; a target carries them to whoever embeds the shader.
-  add_custom_target(shader_${group}_${symbol} DEPENDS ${spv} ${array})
-  set_property(GLOBAL APPEND PROPERTY RILL_SHADER_NAMES_${group} ${name})
-  set_property(GLOBAL APPEND PROPERTY RILL_SHADER_FILES_${group} ${array})
-  list(JOIN ARG_DEFINES " " joined)
-  set_property(GLOBAL APPEND PROPERTY RILL_SHADER_RECIPES_${group} "${source}|${joined}")
+  list(JOIN ARG_DEFINES " " defines)
+  set_property(GLOBAL APPEND PROPERTY RILL_SHADERS_${group} "${name}|${root}|${source}|${defines}")
 endfunction()
 
-# Writes the table of a group's shaders declared so far to a C++ file and adds it to `target`, as rill::FUNCTION().
+# Compiles the shaders that a group has so far, writes their table to a C++ file, and adds that to `target`, as rill::FUNCTION().
 #   rill_embed_shaders(rill)    rill_embed_shaders(test_support GROUP tests FUNCTION testShaders)
 function(rill_embed_shaders target)
   cmake_parse_arguments(ARG "" "GROUP;FUNCTION" "" ${ARGN})
@@ -54,19 +39,40 @@ function(rill_embed_shaders target)
     set(group ${ARG_GROUP})
     set(function ${ARG_FUNCTION})
   endif()
-  get_property(names GLOBAL PROPERTY RILL_SHADER_NAMES_${group})
-  get_property(files GLOBAL PROPERTY RILL_SHADER_FILES_${group})
-  get_property(recipes GLOBAL PROPERTY RILL_SHADER_RECIPES_${group})
+  get_property(shaders GLOBAL PROPERTY RILL_SHADERS_${group})
   set(includes "")
   set(rows "")
-  foreach(name file recipe IN ZIP_LISTS names files recipes)
+  set(arrays "")
+  foreach(shader IN LISTS shaders)
+    string(REPLACE "|" ";" parts "${shader}")
+    list(GET parts 0 name)
+    list(GET parts 1 root)
+    list(GET parts 2 source)
+    list(GET parts 3 defines)
     string(REPLACE "/" "_" symbol ${name})
-    string(REGEX REPLACE "\\|.*" "" source "${recipe}")
-    string(REGEX REPLACE "^[^|]*\\|" "" defines "${recipe}")
-    string(APPEND includes "#include \"${file}\"\n")
+    set(spv ${PROJECT_BINARY_DIR}/shaders/${group}/${name}.spv)
+    set(array ${PROJECT_BINARY_DIR}/shaders/${group}/${name}.inc)
+    get_filename_component(folder ${spv} DIRECTORY)
+    file(MAKE_DIRECTORY ${folder})
+    file(GLOB headers CONFIGURE_DEPENDS ${RILL_SHADER_ROOT}/*/*.h ${RILL_SHADER_ROOT}/*/*.glsl ${root}/*.h ${root}/*.glsl)
+    string(REPLACE " " ";" flags "${defines}")
+    list(TRANSFORM flags PREPEND -D)
+    set(check "")
+    if(RILL_SPIRV_VAL)
+      set(check COMMAND ${RILL_SPIRV_VAL} --target-env vulkan1.3 ${spv})
+    endif()
+    add_custom_command(
+      OUTPUT ${spv} ${array}
+      COMMAND ${RILL_GLSLANG} --quiet -V --target-env vulkan1.3 -I${RILL_SHADER_ROOT} ${flags} -o ${spv} ${root}/${source}
+      ${check}
+      COMMAND ${RILL_GLSLANG} --quiet -V --target-env vulkan1.3 -I${RILL_SHADER_ROOT} ${flags} --vn shader_${symbol} -o ${array} ${root}/${source}
+      DEPENDS ${root}/${source} ${headers}
+      COMMENT "Shader ${name}" VERBATIM)
+    list(APPEND arrays ${array})
+    string(APPEND includes "#include \"${array}\"\n")
     string(APPEND rows "    {\"${name}\", \"${source}\", \"${defines}\", shader_${symbol}},\n")
   endforeach()
-  list(LENGTH names count)
+  list(LENGTH shaders count)
   set(table ${PROJECT_BINARY_DIR}/shaders/${group}_shaders.cpp)
   file(CONFIGURE OUTPUT ${table} CONTENT
 "// Generated: SPIR-V, see cmake/shaders.cmake.
@@ -83,11 +89,6 @@ constexpr std::array<EmbeddedShader, @count@> kShaders{{
 std::span<const EmbeddedShader> @function@() { return kShaders; }
 }  // namespace rill
 " @ONLY)
-  set_source_files_properties(${table} PROPERTIES OBJECT_DEPENDS "${files}")
-  target_sources(${target} PRIVATE ${table})
-  list(TRANSFORM names REPLACE "/" "_" OUTPUT_VARIABLE rules)
-  list(TRANSFORM rules PREPEND shader_${group}_)
-  if(rules)
-    add_dependencies(${target} ${rules})
-  endif()
+  set_source_files_properties(${table} PROPERTIES OBJECT_DEPENDS "${arrays}")
+  target_sources(${target} PRIVATE ${table} ${arrays})
 endfunction()

@@ -10,6 +10,7 @@
 
 #include "bench/plot.hpp"
 #include "core/words.hpp"
+#include "rill/version.hpp"
 #include "shared/atomic_file.hpp"
 #include "shared/exit_code.hpp"
 #include "shared/scene_folders.hpp"

@@ -6,6 +6,7 @@
 
 #include "bench/bench.hpp"
 #include "core/words.hpp"
+#include "rill/version.hpp"
 #include "shared/usage.hpp"
 #include "shared/words.hpp"
 

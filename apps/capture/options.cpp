@@ -9,6 +9,7 @@
 #include "capture/video.hpp"
 #include "core/words.hpp"
 #include "rill/offline.hpp"
+#include "rill/version.hpp"
 #include "shared/atomic_file.hpp"
 #include "shared/option_text.hpp"
 #include "shared/scene_folders.hpp"

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/words.hpp"
+#include "rill/version.hpp"
 
 namespace rill::capture {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 
-#include "render/camera.hpp"
+#include "views/camera.hpp"
 
 namespace rill::view {
 

@@ -5,6 +5,7 @@
 
 #include "core/words.hpp"
 #include "rill/offline.hpp"
+#include "rill/version.hpp"
 #include "shared/option_text.hpp"
 #include "shared/usage.hpp"
 #include "shared/words.hpp"

@@ -5,9 +5,9 @@
 #include <optional>
 #include <span>
 
-#include "render/camera.hpp"
 #include "rill/float3.hpp"
 #include "sph/solid_pose.hpp"
+#include "views/camera.hpp"
 
 namespace rill::view {
 

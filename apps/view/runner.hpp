@@ -7,11 +7,11 @@
 
 #include "offline/context.hpp"
 #include "offline/pass_log.hpp"
-#include "render/bounds.hpp"
 #include "rill/fluid.hpp"
 #include "rill/scene_io.hpp"
 #include "sph/solid_pose.hpp"
 #include "view/pacing.hpp"
+#include "views/bounds.hpp"
 
 namespace rill::view {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/bounds.hpp"
+#include "views/bounds.hpp"
 
 namespace rill::view {
 namespace {

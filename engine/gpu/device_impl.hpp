@@ -8,6 +8,7 @@
 #include "gpu/function_table.hpp"
 #include "gpu/pipeline.hpp"
 #include "gpu/resources.hpp"
+#include "gpu/shader_library.hpp"
 
 namespace rill {
 
@@ -62,6 +63,7 @@ class DeviceImpl {
   bool sizedSubgroups = false;  ///< a compute stage can be given a subgroup size
   FrameClock clock;
   RetireQueue retired;
+  ShaderLibrary shaders;
   PipelineStore pipelines;
   MessageCallback message;
   std::unique_ptr<ShaderReload> reload;

@@ -18,8 +18,9 @@ constexpr uint32_t kMaxPushBytes = 128;  // the least that Vulkan guarantees
 std::span<const uint32_t> libraryWords(const DeviceImpl& device, std::string_view name) {
   if (device.reload)
     if (const auto words = device.reload->words(name); !words.empty()) return words;
-  for (const EmbeddedShader& shader : embeddedShaders())
-    if (shader.name == name) return shader.words;
+  for (const auto& table : device.shaders.tables())
+    for (const EmbeddedShader& shader : table)
+      if (shader.name == name) return shader.words;
   return {};
 }
 

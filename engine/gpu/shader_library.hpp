@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace rill {
 
@@ -14,5 +15,19 @@ struct EmbeddedShader {
 };
 
 std::span<const EmbeddedShader> embeddedShaders();
+
+/// The tables in which a device finds shaders by name: the engine's own, and those that modules beside it bring.
+class ShaderLibrary {
+ public:
+  void add(std::span<const EmbeddedShader> table) {
+    for (const auto& known : tables_)
+      if (known.data() == table.data()) return;
+    tables_.push_back(table);
+  }
+  const std::vector<std::span<const EmbeddedShader>>& tables() const { return tables_; }
+
+ private:
+  std::vector<std::span<const EmbeddedShader>> tables_{embeddedShaders()};
+};
 
 }  // namespace rill

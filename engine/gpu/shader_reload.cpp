@@ -20,9 +20,7 @@ std::unique_ptr<ShaderReload> ShaderReload::fromEnvironment() {
   return nullptr;
 }
 
-ShaderReload::ShaderReload(std::filesystem::path folder) : folder_(std::move(folder)), stamps_(look()) {}
-
-std::vector<ShaderReload::Stamp> ShaderReload::look() const {
+ShaderReload::Stamp ShaderReload::newestHeader() const {
   namespace fs = std::filesystem;
   std::error_code failed;  // a file that an editor is just replacing is looked at again next time
   Stamp headers = Stamp::min();
@@ -32,39 +30,34 @@ std::vector<ShaderReload::Stamp> ShaderReload::look() const {
     std::error_code gone;
     if (const Stamp stamp = fs::last_write_time(at->path(), gone); !gone) headers = std::max(headers, stamp);
   }
-  std::vector<Stamp> stamps;
-  for (const EmbeddedShader& shader : embeddedShaders()) {
-    std::error_code gone;
-    const Stamp own = fs::last_write_time(folder_ / shader.source, gone);
-    stamps.push_back(gone ? headers : std::max(own, headers));
-  }
-  return stamps;
+  return headers;
 }
 
 void ShaderReload::poll(DeviceImpl& device) {
 #ifdef RILL_SHADER_RELOAD
-  if (++frames_ % kFramesBetweenLooks != 0) return;
-  const std::vector<Stamp> now = look();
+  if (frames_++ % kFramesBetweenLooks != 0) return;
+  const Stamp headers = newestHeader();
   const auto say = [&](std::string text) {
     if (device.message) device.message(text);
   };
-  for (size_t i = 0; i < now.size(); ++i) {
-    if (now[i] == stamps_[i]) continue;
-    const EmbeddedShader& shader = embeddedShaders()[i];
+  const auto reload = [&](const EmbeddedShader& shader) {
     const std::string name(shader.name);
     auto words = compileShader(folder_, shader.source, shader.defines);
-    if (!words) {
-      say("shader '" + name + "' does not compile, the old one stays:\n" + words.error().message);
-      continue;
-    }
-    if (auto ok = device.pipelines.replace(device, name, *words); !ok) {
-      say("the old one stays: " + ok.error().message);
-      continue;
-    }
+    if (!words) return say("shader '" + name + "' does not compile, the old one stays:\n" + words.error().message);
+    if (auto ok = device.pipelines.replace(device, name, *words); !ok) return say("the old one stays: " + ok.error().message);
     replaced_[name] = std::move(*words);
     say("shader '" + name + "' was reloaded");
-  }
-  stamps_ = now;
+  };
+  for (const auto& table : device.shaders.tables())
+    for (const EmbeddedShader& shader : table) {
+      std::error_code gone;
+      const Stamp own = std::filesystem::last_write_time(folder_ / shader.source, gone);
+      const Stamp now = gone ? headers : std::max(own, headers);
+      const auto [known, first] = stamps_.try_emplace(shader.name, now);
+      if (first || known->second == now) continue;
+      known->second = now;
+      reload(shader);
+    }
 #else
   (void)device;
 #endif

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "rill/expected.hpp"
@@ -19,7 +20,7 @@ class ShaderReload {
  public:
   /// Null where the environment names no folder, or where the library was built without the option.
   static std::unique_ptr<ShaderReload> fromEnvironment();
-  explicit ShaderReload(std::filesystem::path folder);
+  explicit ShaderReload(std::filesystem::path folder) : folder_(std::move(folder)) {}
   /// Recompiles what has changed since the last look, which is taken every few frames. A shader that does not compile
   /// keeps its old version; that, and every success, is told to the device's message callback.
   void poll(DeviceImpl& device);
@@ -28,10 +29,10 @@ class ShaderReload {
 
  private:
   using Stamp = std::filesystem::file_time_type;
-  std::vector<Stamp> look() const;
+  Stamp newestHeader() const;
 
   std::filesystem::path folder_;
-  std::vector<Stamp> stamps_;  ///< of each embedded shader: the newest among its source and all headers
+  std::map<std::string_view, Stamp> stamps_;  ///< by a shader's name: the newest among its source and all headers
   std::map<std::string, std::vector<uint32_t>, std::less<>> replaced_;
   uint32_t frames_ = 0;
 };

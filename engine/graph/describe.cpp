@@ -1,8 +1,7 @@
 // The compiled frame for people (Graphviz) and for tools (JSON).
-#include <nlohmann/json.hpp>
-
 #include "gpu/vulkan_error.hpp"
 #include "graph/graph_impl.hpp"
+#include "graph/json_text.hpp"
 
 namespace rill {
 namespace {
@@ -71,61 +70,69 @@ std::string GraphImpl::dot() const {
 }
 
 std::string GraphImpl::json() const {
-  using Json = nlohmann::ordered_json;
-  const auto barrierJson = [&](const PlannedBarrier& barrier) -> Json {
-    if (barrier.empty()) return nullptr;
-    Json why = Json::array();
-    for (uint32_t i = barrier.causes.first; i < barrier.causes.first + barrier.causes.count; ++i)
-      why.push_back({{"resource", names[resources[causes[i].resource].name]},
-                     {"hazard", hazardName(causes[i].hazard)},
-                     {"use", useRow(causes[i].use).name}});
-    Json layouts = Json::array();
-    for (uint32_t i = barrier.transitions.first; i < barrier.transitions.first + barrier.transitions.count; ++i)
-      layouts.push_back(
-          {{"resource", names[resources[transitions[i].resource].name]}, {"from", transitions[i].from}, {"to", transitions[i].to}});
-    return {{"source_stage", barrier.scope.sourceStage},
-            {"source_access", barrier.scope.sourceAccess},
-            {"target_stage", barrier.scope.targetStage},
-            {"target_access", barrier.scope.targetAccess},
-            {"because", std::move(why)},
-            {"layouts", std::move(layouts)}};
+  JsonText out;
+  const auto nameOf = [&](uint32_t resource) -> std::string_view { return names[resources[resource].name]; };
+  const auto barrierTo = [&](const PlannedBarrier& barrier) {
+    if (barrier.empty()) {
+      out.null();
+      return;
+    }
+    out.begin('{');
+    out.key("source_stage").number(barrier.scope.sourceStage);
+    out.key("source_access").number(barrier.scope.sourceAccess);
+    out.key("target_stage").number(barrier.scope.targetStage);
+    out.key("target_access").number(barrier.scope.targetAccess);
+    out.key("because").begin('[');
+    for (uint32_t i = barrier.causes.first; i < barrier.causes.first + barrier.causes.count; ++i) {
+      out.begin('{').key("resource").text(nameOf(causes[i].resource));
+      out.key("hazard").text(hazardName(causes[i].hazard)).key("use").text(useRow(causes[i].use).name).end('}');
+    }
+    out.end(']').key("layouts").begin('[');
+    for (uint32_t i = barrier.transitions.first; i < barrier.transitions.first + barrier.transitions.count; ++i) {
+      out.begin('{').key("resource").text(nameOf(transitions[i].resource));
+      out.key("from").number(transitions[i].from).key("to").number(transitions[i].to).end('}');
+    }
+    out.end(']').end('}');
   };
-  Json out;
-  out["passes"] = Json::array();
+  out.begin('{').key("passes").begin('[');
   for (const PassData& pass : passes) {
-    Json entry{{"name", names[pass.name]}, {"culled", !pass.alive}};
-    if (!pass.alive) entry["reason"] = pass.reason;
-    Json uses = Json::array();
-    for (uint32_t k = pass.accesses.first; k < pass.accesses.first + pass.accesses.count; ++k)
-      uses.push_back({{"resource", names[resources[accesses[k].resource].name]},
-                      {"use", useRow(accesses[k].use).name},
-                      {"version", accesses[k].version},
-                      {"write", accesses[k].write}});
-    entry["uses"] = std::move(uses);
-    entry["barrier"] = barrierJson(pass.barrier);
-    out["passes"].push_back(std::move(entry));
+    out.begin('{').key("name").text(names[pass.name]).key("culled").boolean(!pass.alive);
+    if (!pass.alive) out.key("reason").text(pass.reason);
+    out.key("uses").begin('[');
+    for (uint32_t k = pass.accesses.first; k < pass.accesses.first + pass.accesses.count; ++k) {
+      const Access& access = accesses[k];
+      out.begin('{').key("resource").text(nameOf(access.resource)).key("use").text(useRow(access.use).name);
+      out.key("version").number(access.version).key("write").boolean(access.write).end('}');
+    }
+    out.end(']').key("barrier");
+    barrierTo(pass.barrier);
+    out.end('}');
   }
-  out["final_barrier"] = barrierJson(finalBarrier);
-  out["resources"] = Json::array();
+  out.end(']').key("final_barrier");
+  barrierTo(finalBarrier);
+  out.key("resources").begin('[');
   for (const ResourceData& resource : resources) {
-    Json entry{{"name", names[resource.name]}, {"bytes", resource.size}, {"imported", resource.imported}};
-    if (resource.isImage)
-      entry["image"] = {{"format", resource.desc.format}, {"width", resource.desc.width}, {"height", resource.desc.height}};
+    out.begin('{').key("name").text(names[resource.name]).key("bytes").number(resource.size).key("imported").boolean(resource.imported);
+    if (resource.isImage) {
+      out.key("image").begin('{').key("format").number(resource.desc.format);
+      out.key("width").number(resource.desc.width).key("height").number(resource.desc.height).end('}');
+    }
     if (resource.placement != kNone) {
       const Placement& place = planOf(resource).placements[resource.placement];
-      entry["memory"] = {{"heap", place.heap}, {"offset", place.offset}, {"first_pass", place.first}, {"last_pass", place.last}};
+      out.key("memory").begin('{').key("heap").number(place.heap).key("offset").number(place.offset);
+      out.key("first_pass").number(place.first).key("last_pass").number(place.last).end('}');
     }
-    out["resources"].push_back(std::move(entry));
+    out.end('}');
   }
-  out["heaps"] = Json::array();
-  for (const TransientHeap& heap : heapReports)
-    out["heaps"].push_back({{"kind", heap.images ? "images" : "buffers"},
-                            {"transients", heap.transients},
-                            {"bytes", heap.bytes},
-                            {"bytes_without_aliasing", heap.separate}});
-  out["skipped"] = Json::array();
-  for (const Skipped& skip : skips) out["skipped"].push_back({{"name", names[skip.name]}, {"reason", skip.reason}});
-  return out.dump(2);
+  out.end(']').key("heaps").begin('[');
+  for (const TransientHeap& heap : heapReports) {
+    out.begin('{').key("kind").text(heap.images ? "images" : "buffers").key("transients").number(heap.transients);
+    out.key("bytes").number(heap.bytes).key("bytes_without_aliasing").number(heap.separate).end('}');
+  }
+  out.end(']').key("skipped").begin('[');
+  for (const Skipped& skip : skips) out.begin('{').key("name").text(names[skip.name]).key("reason").text(skip.reason).end('}');
+  out.end(']').end('}');
+  return out.take();
 }
 
 std::vector<TransientReport> GraphImpl::transients() const {

@@ -110,7 +110,7 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
   auto scenery = Scenery::create(device, scene_, start_, {}, fluid_->impl().environment.get());
   if (!scenery) return scenery.error();
   static constexpr BindingKind kBindings[] = {BindingKind::SampledImage, BindingKind::Storage};
-  auto tonemap = computePipeline(device, {.shader = "render/tonemap", .bindings = kBindings});
+  auto tonemap = computePipeline(device, {.shader = "views/tonemap", .bindings = kBindings});
   if (!tonemap) return tonemap.error();
   tonemap_ = *tonemap;
   scenery_ = std::move(*scenery);

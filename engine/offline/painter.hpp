@@ -4,11 +4,11 @@
 #include <optional>
 #include <string_view>
 
-#include "render/legend.hpp"
-#include "render/particle_view.hpp"
-#include "render/scenery.hpp"
 #include "rill/fluid_renderer.hpp"
 #include "rill/offline.hpp"
+#include "views/legend.hpp"
+#include "views/particle_view.hpp"
+#include "views/scenery.hpp"
 
 namespace rill::offline {
 

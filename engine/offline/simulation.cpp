@@ -11,9 +11,10 @@
 #include "offline/pass_log.hpp"
 #include "offline/probes.hpp"
 #include "offline/readout.hpp"
+#include "offline/simulation_keys.hpp"
 #include "offline/state_hash.hpp"
 #include "rill/offline.hpp"
-#include "scene/simulation_keys.hpp"
+#include "rill/version.hpp"
 #include "sort/key_sort_types.hpp"
 
 namespace rill::offline {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "rill/version.hpp"
+
 namespace rill {
 namespace {
 

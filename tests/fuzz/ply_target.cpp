@@ -3,9 +3,9 @@
 
 #include <string>
 
+#include "fill/ply_reader.hpp"
 #include "fuzz/require.hpp"
 #include "fuzz/targets.hpp"
-#include "scene/ply_reader.hpp"
 
 namespace rill::test {
 

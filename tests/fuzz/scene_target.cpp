@@ -3,8 +3,8 @@
 
 #include "fuzz/require.hpp"
 #include "fuzz/targets.hpp"
+#include "offline/simulation_keys.hpp"
 #include "rill/scene_io.hpp"
-#include "scene/simulation_keys.hpp"
 
 namespace rill::test {
 

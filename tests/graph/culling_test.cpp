@@ -68,8 +68,8 @@ TEST_F(Culling, DotAndJsonShowCulledPassesWithTheReason) {
   (void)write("store", import("out"));
   compile();
   EXPECT_NE(graph.dot().find("make \\\"a\\\"\\nculled: nothing reads 'a'\", style=dashed"), std::string::npos) << graph.dot();
-  EXPECT_NE(graph.json().find("\"reason\": \"nothing reads 'a'\""), std::string::npos) << graph.json();
-  EXPECT_NE(graph.json().find("\"name\": \"store\""), std::string::npos);
+  EXPECT_NE(graph.json().find("\"reason\":\"nothing reads 'a'\""), std::string::npos) << graph.json();
+  EXPECT_NE(graph.json().find("\"name\":\"store\""), std::string::npos);
 }
 
 TEST_F(Culling, AnEmptyFrameCompiles) {

@@ -2,8 +2,8 @@
 #include <random>
 
 #include "render/fluid_renderer_impl.hpp"
-#include "render/scenery.hpp"
 #include "support/gpu_test.hpp"
+#include "views/scenery.hpp"
 
 namespace rill::test {
 namespace {

@@ -1,14 +1,14 @@
 // Cameras and colour maps: no device needed.
-#include "render/camera.hpp"
+#include "views/camera.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "render/colour_map.hpp"
-#include "render/particle_scene.hpp"
-#include "render/particle_view.hpp"
+#include "views/colour_map.hpp"
+#include "views/particle_scene.hpp"
+#include "views/particle_view.hpp"
 
 namespace rill {
 namespace {

@@ -7,9 +7,10 @@
 #include <limits>
 
 #include "render/fluid_renderer_impl.hpp"
-#include "render/scenery.hpp"
+#include "rill/scene_io.hpp"
 #include "support/gpu_test.hpp"
 #include "support/temporary_folder.hpp"
+#include "views/scenery.hpp"
 
 namespace rill::test {
 namespace {

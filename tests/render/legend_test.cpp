@@ -1,4 +1,4 @@
-#include "render/legend.hpp"
+#include "views/legend.hpp"
 
 #include <gtest/gtest.h>
 

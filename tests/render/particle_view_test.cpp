@@ -1,5 +1,5 @@
 // Pictures of particles on a driver, against what geometry says must be in them.
-#include "render/particle_view.hpp"
+#include "views/particle_view.hpp"
 
 #include <algorithm>
 #include <cmath>

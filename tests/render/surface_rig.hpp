@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "render/fluid_renderer_impl.hpp"
-#include "render/scenery.hpp"
 #include "support/gpu_test.hpp"
+#include "views/scenery.hpp"
 
 namespace rill::test {
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "render/surface_rig.hpp"
+#include "views/scene_buffers.hpp"
 
 namespace rill::test {
 namespace {
@@ -28,7 +29,8 @@ class ToneMap : public GpuTest {
   /// The bytes that become of linear colours.
   std::vector<std::array<uint8_t, 4>> mapped(const std::vector<std::array<float, 4>>& colours) {
     static constexpr BindingKind kBindings[] = {BindingKind::SampledImage, BindingKind::Storage};
-    const ComputePipeline* tonemap = pipeline({.shader = "render/tonemap", .bindings = kBindings});
+    bringViewShaders(device());
+    const ComputePipeline* tonemap = pipeline({.shader = "views/tonemap", .bindings = kBindings});
     constexpr uint32_t kRow = 37;  // not a multiple of a workgroup
     const uint32_t rows = uint32_t(colours.size() + kRow - 1) / kRow;
     std::vector<std::array<float, 4>> texels = colours;

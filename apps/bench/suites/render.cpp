@@ -10,7 +10,7 @@
 #include "bench/surface_errors.hpp"
 #include "bench/workbench.hpp"
 #include "render/fluid_renderer_impl.hpp"
-#include "render/scenery.hpp"
+#include "views/scenery.hpp"
 
 namespace rill::bench {
 namespace {

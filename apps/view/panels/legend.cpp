@@ -1,8 +1,8 @@
 // The scale of a view that colours particles.
 #include <cstdio>
 
-#include "render/colour_map.hpp"
 #include "view/panels/board.hpp"
+#include "views/colour_map.hpp"
 
 namespace rill::view {
 

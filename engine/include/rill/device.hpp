@@ -1,8 +1,5 @@
 #pragma once
-#ifndef VK_NO_PROTOTYPES
-#define VK_NO_PROTOTYPES  // the types alone: Rill calls Vulkan through the host's vkGetInstanceProcAddr
-#endif
-#include <vulkan/vulkan.h>
+#include <vulkan/vulkan_core.h>
 
 #include <cstdint>
 #include <functional>
@@ -13,6 +10,7 @@
 #include <vector>
 
 #include "rill/expected.hpp"
+#include "rill/export.hpp"
 
 namespace rill {
 
@@ -40,8 +38,8 @@ struct DeviceRequirements {
 
 /// Adds the features that Rill requires to `requirements`. NoDevice, naming the missing feature or version, where the
 /// physical device lacks one. `getInstanceProcAddr` and `instance` are used for the query alone.
-Expected<void> appendRequired(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance, VkPhysicalDevice physicalDevice,
-                              DeviceRequirements& requirements);
+RILL_API Expected<void> appendRequired(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance, VkPhysicalDevice physicalDevice,
+                                       DeviceRequirements& requirements);
 
 /// The host's frame counters: the frame now being recorded and the last one whose work the device has finished.
 /// They drive all retirement of memory. Both only rise; recording > completed.
@@ -67,7 +65,7 @@ class DeviceImpl;
 
 /// Rill's view of a borrowed device. Every module keeps a reference to it; it outlives them.
 /// Not thread safe: one thread at a time.
-class Device {
+class RILL_API Device {
  public:
   /// BadInput for a null handle, NoDevice where a required feature was not enabled (it is named).
   static Expected<std::unique_ptr<Device>> borrow(const HostDevice& host);

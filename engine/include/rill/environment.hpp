@@ -1,10 +1,10 @@
 #pragma once
 // A picture of what is all around, in place of the sky that a fluid reflects.
 #include <cstdint>
-#include <filesystem>
 #include <vector>
 
 #include "rill/expected.hpp"
+#include "rill/export.hpp"
 
 namespace rill {
 
@@ -16,13 +16,9 @@ struct EnvironmentPicture {
 };
 
 /// VK_FORMAT_E5B9G9R9_UFLOAT_PACK32, nine bits of the largest component. Clamped to 0 .. 32768; what is no number counts as 0.
-uint32_t sharedExponent(float r, float g, float b);
+RILL_API uint32_t sharedExponent(float r, float g, float b);
 
 /// BadInput where the size is not one that EnvironmentPicture allows.
-Expected<void> checkEnvironmentSize(uint64_t width, uint64_t height);
-
-/// Reads a Radiance picture (.hdr), or a PNG or JPEG, which is taken as sRGB. BadInput with one message naming the file, what was found and
-/// what was expected; OutOfMemory, Io.
-Expected<EnvironmentPicture> loadEnvironment(const std::filesystem::path& file);
+RILL_API Expected<void> checkEnvironmentSize(uint64_t width, uint64_t height);
 
 }  // namespace rill

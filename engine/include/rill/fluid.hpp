@@ -10,7 +10,9 @@
 
 #include "rill/device.hpp"
 #include "rill/expected.hpp"
+#include "rill/export.hpp"
 #include "rill/graph.hpp"
+#include "rill/particles.hpp"
 #include "rill/scene.hpp"
 
 namespace rill {
@@ -55,7 +57,7 @@ struct FluidBuffer {
   uint64_t bytes = 0;
 };
 /// What a Fluid of `particles` particles will need, computed in 64 bits from the numbers alone: before anything is allocated.
-FluidMemory fluidMemory(const Scene& scene, uint64_t particles);
+RILL_API FluidMemory fluidMemory(const Scene& scene, uint64_t particles);
 
 /// Where the host wants a driven solid at the end of an advance.
 struct SolidTarget {
@@ -122,7 +124,7 @@ class FluidImpl;
 
 /// A Position Based Fluid on a borrowed device (Macklin and Mueller 2013; ARCHITECTURE.md, "A substep"). Declares passes in a graph of its
 /// host's; lives longer than every command buffer that they were recorded into.
-class Fluid {
+class RILL_API Fluid {
  public:
   /// BadInput for a description that cannot run, TooLarge (with bytes needed and available) where the device cannot hold it: nothing was
   /// allocated then. OutOfMemory where memory ran out.
@@ -163,7 +165,7 @@ class Fluid {
 /// Reads a fluid's state back, in graphs of at most 128 MiB each:
 ///   for (SnapshotReader reader(fluid); !reader.done(); reader.take(graph)) { graph.reset(); reader.declare(graph); ... run it ... }
 /// Before the first, a frame of the fluid with an `advance_s` of 0 has completed; between them nothing else is done with the fluid.
-class SnapshotReader {
+class RILL_API SnapshotReader {
  public:
   explicit SnapshotReader(const Fluid& fluid);
   bool done() const;

@@ -9,6 +9,7 @@
 #include "rill/device.hpp"
 #include "rill/environment.hpp"
 #include "rill/expected.hpp"
+#include "rill/export.hpp"
 #include "rill/float3.hpp"
 #include "rill/fluid.hpp"
 #include "rill/graph.hpp"
@@ -60,10 +61,10 @@ struct FluidLook {
 };
 
 /// The looks that `look.preset` of a scene names: water, milk, ink, clay. Nothing for another name.
-std::optional<FluidLook> fluidLook(std::string_view preset);
+RILL_API std::optional<FluidLook> fluidLook(std::string_view preset);
 /// What `look.surface` of a scene names. Nothing for another name.
-std::optional<SurfaceMethod> surfaceMethod(std::string_view name);
-std::span<const std::string_view> fluidLooks();
+RILL_API std::optional<SurfaceMethod> surfaceMethod(std::string_view name);
+RILL_API std::span<const std::string_view> fluidLooks();
 
 /// What can be read of the surface, exactly: no tone curve, alpha 0 where there is no fluid.
 enum class SurfaceData : uint8_t {
@@ -77,7 +78,7 @@ class FluidRendererImpl;
 /// Draws the fluid of a FluidState: only its position, count, spacing and origin are used, so a host can fill one itself.
 /// Two runs on one driver give the same pixels, unless more than 1,024 surface particles share a cell of four by four samples (counted).
 /// The depth written at a silhouette is the fluid's in every pixel that it touches.
-class FluidRenderer {
+class RILL_API FluidRenderer {
  public:
   /// NoDevice where the host's queue cannot draw; Shader, BadInput for formats that cannot be drawn to.
   static Expected<std::unique_ptr<FluidRenderer>> create(Device& device, const TargetFormats& formats = {});

@@ -15,6 +15,7 @@
 
 #include "rill/device.hpp"
 #include "rill/expected.hpp"
+#include "rill/export.hpp"
 #include "rill/graph_reports.hpp"
 
 namespace rill {
@@ -106,7 +107,7 @@ struct Ticket {
 };
 
 /// Declares one pass: what it reads and writes, and the kernels it dispatches.
-class Pass {
+class RILL_API Pass {
  public:
   /// A buffer may be read in several ways by one pass, but not read and written: a write reads as well.
   void read(BufferRef buffer, Use use);
@@ -140,7 +141,7 @@ class Pass {
 };
 
 /// What a record lambda can do. Nothing here fails. A version of a resource that the pass did not declare is an assert.
-class Commands {
+class RILL_API Commands {
  public:
   /// `groups` workgroups; more than 65,535 are folded into x and y, so the shader takes its group index as
   /// gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x and checks its bound. 0 groups records nothing.
@@ -196,7 +197,7 @@ class Commands {
 
 /// One frame's graph. Declare, compile(), prepare(), record(); then reset() and declare the next frame: a steady state allocates nothing.
 /// Not thread safe. Execution order is the order of declaration.
-class Graph {
+class RILL_API Graph {
  public:
   Graph();
   ~Graph();

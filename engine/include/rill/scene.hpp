@@ -134,17 +134,4 @@ struct Scene {
   Look look;
 };
 
-/// The particles that a scene's fills make, in the order of the fills: what a simulation starts from.
-/// Positions are relative to `origin` (the domain's minimum, or the fluid's centre rounded to whole spacings), so that a scene far from
-/// zero loses no precision.
-struct ParticleSet {
-  double origin[3] = {0, 0, 0};    ///< m
-  std::vector<Float3> positions;   ///< m, relative to origin
-  std::vector<Float3> velocities;  ///< m/s
-  uint64_t left_out_overlap = 0;   ///< nearer than 0.9 spacings to an earlier one
-  uint64_t left_out_solid = 0;     ///< inside a solid
-  uint64_t left_out_domain = 0;    ///< outside the walls
-  std::vector<std::string> warnings;
-};
-
 }  // namespace rill

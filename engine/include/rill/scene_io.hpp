@@ -7,7 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "rill/environment.hpp"
 #include "rill/expected.hpp"
+#include "rill/export.hpp"
+#include "rill/particles.hpp"
 #include "rill/scene.hpp"
 
 namespace rill {
@@ -19,23 +22,22 @@ struct Override {
 };
 
 /// "key=value". BadInput where there is no '=' or no key.
-Expected<Override> parseOverride(std::string_view text);
+RILL_API Expected<Override> parseOverride(std::string_view text);
 
 /// Reads, applies the overrides and checks everything. BadInput with one message naming file, line or key path, what was found and what was
 /// expected.
-Expected<Scene> loadScene(const std::filesystem::path& file, std::span<const Override> overrides = {});
+RILL_API Expected<Scene> loadScene(const std::filesystem::path& file, std::span<const Override> overrides = {});
 /// The same from text; `name` stands for the file in messages, relative paths in the text are resolved against `folder`.
-Expected<Scene> parseScene(std::string_view text, std::string_view name, const std::filesystem::path& folder,
-                           std::span<const Override> overrides = {});
+RILL_API Expected<Scene> parseScene(std::string_view text, std::string_view name, const std::filesystem::path& folder,
+                                    std::span<const Override> overrides = {});
 
-/// The scene's fills as particles (see ParticleSet), PLY files read. The spacing follows from `fluid.particles` where that is given
-/// (`scene.fluid.spacing` is set then). BadInput where a file cannot be read, or a fill was given and no particle is left.
-/// Counts are computed in 64 bits and checked against `maxParticles` before anything is allocated.
-Expected<ParticleSet> makeParticles(Scene& scene, uint64_t maxParticles);
+/// Reads a Radiance picture (.hdr), or a PNG or JPEG, which is taken as sRGB. BadInput with one message naming the file, what was found and
+/// what was expected; OutOfMemory, Io.
+RILL_API Expected<EnvironmentPicture> loadEnvironment(const std::filesystem::path& file);
 
 /// The scene file's JSON Schema (draft-07), made from the same table of fields as the parser.
-std::string sceneSchema();
+RILL_API std::string sceneSchema();
 /// The table of keys, units, ranges and defaults in Markdown, for README.
-std::string sceneKeyTable();
+RILL_API std::string sceneKeyTable();
 
 }  // namespace rill

@@ -1,0 +1,377 @@
+// makeParticles: from fills to what a simulation starts with.
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <new>
+#include <optional>
+
+#include "core/words.hpp"
+#include "fill/lattice.hpp"
+#include "fill/ply_reader.hpp"
+#include "fill/point_hash.hpp"
+#include "fill/solid_test.hpp"
+#include "rill/scene_io.hpp"
+
+namespace rill {
+namespace {
+
+constexpr double kOverlap = 0.9;    // spacings between the fluid of two fills, at least
+constexpr double kTogether = 1e-3;  // spacings: particles of one file that are nearer coincide
+constexpr double kSlack = 1e-4;     // spacings that rounding may put a particle beyond a wall or into a solid
+constexpr size_t kMostWarnings = 20;
+
+/// A fill and what it stands for.
+struct Source {
+  std::optional<PlyFile> file;
+  PlyParticles particles;  ///< of the file, once read
+  Lattice lattice;
+  double count = 0;  ///< before any is left out
+  uint64_t overlap = 0, solid = 0, domain = 0, kept = 0;
+};
+
+std::string nameOf(const Scene& scene) { return scene.file.empty() ? scene.name : scene.file.string(); }
+
+Error refuse(const Scene& scene, const std::string& why) {
+  const std::string name = nameOf(scene);
+  return {ErrorKind::BadInput, (name.empty() ? "" : name + ": ") + why};
+}
+
+std::string countText(double count) { return count < 1e15 ? grouped(static_cast<uint64_t>(count)) : "about " + roughNumber(count); }
+
+/// A number in [-1, 1) that depends on nothing but its arguments (splitmix64's finaliser over a counter).
+double randomAlong(uint64_t seed, uint64_t fill, uint64_t particle, uint64_t axis) {
+  uint64_t h = seed;
+  for (const uint64_t part : {fill, particle, axis}) {
+    h += 0x9E3779B97F4A7C15ULL + part;
+    h = (h ^ (h >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    h = (h ^ (h >> 27)) * 0x94D049BB133111EBULL;
+    h ^= h >> 31;
+  }
+  return static_cast<double>(h >> 11) * 0x1p-52 - 1.0;
+}
+
+/// Around the fluid of all sources; empty boxes have low > high.
+struct Bounds {
+  double low[3] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+                   std::numeric_limits<double>::infinity()};
+  double high[3] = {-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+                    -std::numeric_limits<double>::infinity()};
+
+  bool empty() const { return low[0] > high[0]; }
+  void add(double x, double y, double z) {
+    const double p[3] = {x, y, z};
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], p[axis]);
+      high[axis] = std::max(high[axis], p[axis]);
+    }
+  }
+  bool near(const Bounds& other, double distance) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (low[axis] - other.high[axis] > distance || other.low[axis] - high[axis] > distance) return false;
+    }
+    return !empty() && !other.empty();
+  }
+};
+
+Bounds boundsOf(const Source& source) {
+  Bounds bounds;
+  if (source.file) {
+    for (const Double3& p : source.particles.positions) bounds.add(p.x, p.y, p.z);
+  } else if (source.count > 0) {
+    const Lattice& l = source.lattice;
+    bounds.add(l.first[0], l.first[1], l.first[2]);
+    bounds.add(l.first[0] + (l.along[0] - 1) * l.spacing, l.first[1] + (l.along[1] - 1) * l.spacing,
+               l.first[2] + (l.along[2] - 1) * l.spacing);
+  }
+  return bounds;
+}
+
+/// Whether particles of different sources, or of one file, could be near each other.
+bool mayCrowd(const std::vector<Source>& sources, const std::vector<Bounds>& bounds, double distance) {
+  constexpr size_t kPairsWorthTrying = 64;
+  if (std::any_of(sources.begin(), sources.end(), [](const Source& s) { return s.file.has_value(); })) return true;
+  if (sources.size() > kPairsWorthTrying) return true;
+  for (size_t a = 0; a < sources.size(); ++a) {
+    for (size_t b = 0; b < a; ++b) {
+      if (bounds[a].near(bounds[b], distance)) return true;
+    }
+  }
+  return false;
+}
+
+/// Puts particles one by one, or leaves them out.
+class Placer {
+ public:
+  Placer(const Scene& scene, ParticleSet& out, PointHash* placed)
+      : scene_(scene), out_(out), solids_(scene.solids), placed_(placed), spacing_(scene.fluid.spacing) {}
+
+  /// `p` in the scene's coordinates; `number` counts within the fill.
+  void put(const double (&p)[3], const Float3& velocity, size_t fill, uint64_t number, Source& source) {
+    const double jitter = scene_.fill[fill].jitter * spacing_;
+    double at[3], own[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      own[axis] = p[axis] - out_.origin[axis];
+      at[axis] = jitter > 0 ? p[axis] + jitter * randomAlong(scene_.seed, fill, number, static_cast<uint64_t>(axis)) : p[axis];
+    }
+    if (beyondWall(at)) {
+      ++source.domain;
+    } else if (solids_.inside(at, kSlack * spacing_)) {
+      ++source.solid;
+    } else if (placed_ != nullptr &&
+               placed_->crowded(own, static_cast<uint32_t>(fill), kOverlap * spacing_ * (1 - kSlack), kTogether * spacing_)) {
+      ++source.overlap;
+    } else {
+      if (placed_ != nullptr) placed_->insert(own, static_cast<uint32_t>(fill));
+      ++source.kept;
+      out_.positions.push_back(relative(at));
+      out_.velocities.push_back(velocity);
+    }
+  }
+
+ private:
+  bool closed(int side) const { return (scene_.domain->open >> side & 1) == 0; }
+
+  bool beyondWall(const double (&p)[3]) const {
+    if (!scene_.domain) return false;
+    const double slack = kSlack * spacing_;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (p[axis] < scene_.domain->min[axis] - slack && closed(2 * axis)) return true;
+      if (p[axis] > scene_.domain->max[axis] + slack && closed(2 * axis + 1)) return true;
+    }
+    return false;
+  }
+
+  /// From the origin, and not beyond a closed wall by rounding.
+  Float3 relative(const double (&p)[3]) const {
+    float r[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      r[axis] = static_cast<float>(p[axis] - out_.origin[axis]);
+      if (!scene_.domain) continue;
+      if (closed(2 * axis)) r[axis] = std::max(r[axis], 0.0F);
+      if (closed(2 * axis + 1)) r[axis] = std::min(r[axis], static_cast<float>(scene_.domain->max[axis] - scene_.domain->min[axis]));
+    }
+    return {r[0], r[1], r[2]};
+  }
+
+  const Scene& scene_;
+  ParticleSet& out_;
+  SolidTest solids_;
+  PointHash* placed_;
+  double spacing_;
+};
+
+void placeFill(const Scene& scene, size_t index, Source& source, Placer& placer) {
+  const Fill& fill = scene.fill[index];
+  const Float3 velocity{static_cast<float>(fill.velocity[0]), static_cast<float>(fill.velocity[1]), static_cast<float>(fill.velocity[2])};
+  if (source.file) {
+    const PlyParticles& from = source.particles;
+    for (size_t i = 0; i < from.positions.size(); ++i) {
+      const Float3 own = from.velocities.empty() ? Float3{} : from.velocities[i];
+      placer.put({from.positions[i].x, from.positions[i].y, from.positions[i].z},
+                 {own.x + velocity.x, own.y + velocity.y, own.z + velocity.z}, index, i, source);
+    }
+    return;
+  }
+  const Lattice& lattice = source.lattice;
+  const auto nx = static_cast<uint64_t>(lattice.along[0]), ny = static_cast<uint64_t>(lattice.along[1]),
+             nz = static_cast<uint64_t>(lattice.along[2]);
+  for (uint64_t k = 0; k < nz; ++k) {
+    for (uint64_t j = 0; j < ny; ++j) {
+      uint64_t begin = 0, end = 0;
+      rowOf(lattice, j, k, begin, end);
+      for (uint64_t i = begin; i < end; ++i) {
+        const double p[3] = {lattice.first[0] + static_cast<double>(i) * lattice.spacing,
+                             lattice.first[1] + static_cast<double>(j) * lattice.spacing,
+                             lattice.first[2] + static_cast<double>(k) * lattice.spacing};
+        placer.put(p, velocity, index, (k * ny + j) * nx + i, source);
+      }
+    }
+  }
+}
+
+void warnOf(const Scene& scene, const std::vector<Source>& sources, std::vector<std::string>& warnings) {
+  uint64_t unsaid = 0;
+  const auto say = [&](size_t fill, const std::string& text) {
+    if (warnings.size() >= kMostWarnings) {
+      ++unsaid;
+    } else {
+      warnings.push_back(nameOf(scene) + (nameOf(scene).empty() ? "" : ": ") + "fill[" + std::to_string(fill) + "]: " + text);
+    }
+  };
+  for (size_t i = 0; i < sources.size(); ++i) {
+    const Source& s = sources[i];
+    const std::string of = " of " + countText(s.count) + " particles ";
+    if (s.count < 1) {
+      say(i, s.file ? "yields no particle: the file has none"
+                    : "yields no particle: it is too thin for a spacing of " + roughNumber(scene.fluid.spacing) + " m");
+      continue;
+    }
+    if (s.domain > 0) say(i, grouped(s.domain) + of + "start outside the domain's walls and are left out");
+    if (s.solid > 0) say(i, grouped(s.solid) + of + "start inside a solid and are left out");
+    if (s.overlap > 0)
+      say(i, grouped(s.overlap) + of + (s.file ? "coincide, or are" : "are") +
+                 " nearer than 0.9 spacings to fluid placed before, and are left out");
+    if (s.kept == 0) say(i, "yields no particle: all are left out");
+  }
+  if (unsaid > 0) warnings.push_back("and " + grouped(unsaid) + " warnings more about fills");
+}
+
+/// Positions are 32-bit floats from the origin: say so where that is too coarse for the spacing.
+void warnOfDistance(const Scene& scene, const ParticleSet& set, const Bounds& all, std::vector<std::string>& warnings) {
+  constexpr double kFloatStep = 0x1p-24, kDoubleStep = 0x1p-53, kTooCoarse = 1e-3;
+  if (all.empty()) return;
+  double far = 0, step = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double reach = std::max(std::abs(all.low[axis] - set.origin[axis]), std::abs(all.high[axis] - set.origin[axis]));
+    const double place = std::max(std::abs(all.low[axis]), std::abs(all.high[axis]));
+    far = std::max(far, reach);
+    step = std::max({step, reach * kFloatStep, place * kDoubleStep});
+  }
+  if (step <= kTooCoarse * scene.fluid.spacing) return;
+  warnings.push_back(nameOf(scene) + ": fluid starts " + roughNumber(far) +
+                     " m from the domain's minimum (or the fluid's centre), where positions are rounded to " + roughNumber(step) +
+                     " m, more than a thousandth of the spacing " + roughNumber(scene.fluid.spacing) + " m");
+}
+
+/// Places every source at the scene's spacing.
+Expected<ParticleSet> place(const Scene& scene, std::vector<Source>& sources, uint64_t most) {
+  constexpr double kExactRows = 4e6;  // beyond them there are more points than 32 bits count
+  const double spacing = scene.fluid.spacing;
+  double total = 0;
+  for (size_t i = 0; i < sources.size(); ++i) {
+    Source& s = sources[i];
+    s.overlap = s.solid = s.domain = s.kept = 0;
+    if (!s.file) {
+      s.lattice = latticeOf(scene.fill[i], spacing);
+      s.count = countPoints(s.lattice, kExactRows);
+    }
+    total += s.count;
+  }
+  if (total > static_cast<double>(most)) {
+    return refuse(scene, "fluid.spacing: " + shortNumber(spacing) + " m makes " + countText(total) + " particles; expected at most " +
+                             grouped(most) + ", as a spacing of about " +
+                             roughNumber(spacing * std::cbrt(total / static_cast<double>(most)) * 1.01) + " m gives");
+  }
+  Bounds all;
+  std::vector<Bounds> bounds;
+  for (Source& s : sources) {
+    if (s.file && s.particles.positions.empty()) {
+      auto read = s.file->read();
+      if (!read) return read.error();
+      s.particles = std::move(*read);
+    }
+    const Bounds& own = bounds.emplace_back(boundsOf(s));
+    if (own.empty()) continue;
+    all.add(own.low[0], own.low[1], own.low[2]);
+    all.add(own.high[0], own.high[1], own.high[2]);
+  }
+
+  ParticleSet set;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (scene.domain) {
+      set.origin[axis] = scene.domain->min[axis];
+    } else if (!all.empty()) {
+      set.origin[axis] = std::round(0.5 * (all.low[axis] + all.high[axis]) / spacing) * spacing;
+    }
+  }
+  const auto expected = static_cast<uint64_t>(total);
+  set.positions.reserve(expected);
+  set.velocities.reserve(expected);
+  std::optional<PointHash> placed;
+  if (mayCrowd(sources, bounds, kOverlap * spacing)) placed.emplace(kOverlap * spacing, expected);
+  Placer placer(scene, set, placed ? &*placed : nullptr);
+  for (size_t i = 0; i < sources.size(); ++i) {
+    placeFill(scene, i, sources[i], placer);
+    set.left_out_overlap += sources[i].overlap;
+    set.left_out_solid += sources[i].solid;
+    set.left_out_domain += sources[i].domain;
+  }
+  warnOf(scene, sources, set.warnings);
+  warnOfDistance(scene, set, all, set.warnings);
+  return set;
+}
+
+/// Finds the spacing that makes about scene.fluid.particles particles, those left out not counted, and places them.
+Expected<ParticleSet> placeAbout(Scene& scene, std::vector<Source>& sources, uint64_t most) {
+  const auto wanted = static_cast<double>(scene.fluid.particles);
+  double from_files = 0;
+  for (const Source& s : sources) from_files += s.file ? s.count : 0;
+  const auto say = [&](const std::string& why) { return refuse(scene, "fluid.particles: " + why); };
+  if (scene.fluid.particles > most) return say(grouped(scene.fluid.particles) + " found, expected at most " + grouped(most));
+  if (from_files >= wanted && from_files > 0) {
+    return say(countText(from_files) + " particles come from files already; expected more than that, or fluid.spacing");
+  }
+  ParticleSet best;
+  double best_spacing = 0, best_miss = std::numeric_limits<double>::infinity(), target = wanted - from_files;
+  constexpr int kAttempts = 4;      // what is left out depends on the spacing in turn
+  constexpr double kMostTried = 3;  // times the particles wanted
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    scene.fluid.spacing = spacingFor(scene.fill, target);
+    if (scene.fluid.spacing <= 0)
+      return say("the scene has no box or sphere of fluid from which a spacing follows; expected fluid.spacing");
+    auto set = place(scene, sources, std::max(most, static_cast<uint64_t>(2 * kMostTried * wanted)));
+    if (!set) return set;
+    const auto kept = static_cast<double>(set->positions.size());
+    const bool complete = set->left_out_overlap + set->left_out_solid + set->left_out_domain == 0;
+    const double miss = std::abs(kept - wanted);
+    if (miss < best_miss) {
+      best = std::move(*set);
+      best_spacing = scene.fluid.spacing;
+      best_miss = miss;
+    }
+    const double kept_of_lattices = kept - from_files;
+    if (complete || miss <= 0.005 * wanted || kept_of_lattices <= 0) break;
+    target = std::min(target * (wanted - from_files) / kept_of_lattices, kMostTried * wanted);
+  }
+  scene.fluid.spacing = best_spacing;
+  if (best.positions.size() > most)
+    return say(grouped(best.positions.size()) + " particles come nearest, expected at most " + grouped(most));
+  if (best_miss > 0.05 * wanted) {
+    best.warnings.push_back(nameOf(scene) + ": fluid.particles: " + grouped(best.positions.size()) + " particles instead of " +
+                            grouped(scene.fluid.particles) + ": no spacing comes nearer");
+  }
+  return best;
+}
+
+Expected<ParticleSet> make(Scene& scene, uint64_t maxParticles) {
+  constexpr uint64_t kIds = std::numeric_limits<uint32_t>::max();  // a particle's id has 32 bits, and one value stands for none
+  const uint64_t most = std::min(maxParticles, kIds);
+  std::vector<Source> sources(scene.fill.size());
+  for (size_t i = 0; i < sources.size(); ++i) {
+    if (!scene.fill[i].particles) continue;
+    auto file = PlyFile::open(*scene.fill[i].particles);
+    if (!file) return file.error();
+    sources[i].count = static_cast<double>(file->count());
+    sources[i].file = std::move(*file);
+  }
+  const bool by_count = scene.fluid.particles > 0;
+  if (!by_count && !(scene.fluid.spacing > 0 && std::isfinite(scene.fluid.spacing))) {
+    return refuse(scene, "fluid.spacing: found " + shortNumber(scene.fluid.spacing) + ", expected a number above 0 (m)");
+  }
+  auto set = by_count ? placeAbout(scene, sources, most) : place(scene, sources, most);
+  if (set && set->positions.empty() && !scene.fill.empty()) {
+    return refuse(scene, "fill: no particle is left (" + grouped(set->left_out_domain) + " outside the walls, " +
+                             grouped(set->left_out_solid) + " inside solids); expected at least one. " +
+                             (set->warnings.empty() ? "" : set->warnings.front()));
+  }
+  return set;
+}
+
+}  // namespace
+
+Expected<ParticleSet> makeParticles(Scene& scene, uint64_t maxParticles) {
+  try {
+    return make(scene, maxParticles);
+  } catch (const std::bad_alloc&) {
+    Error error = refuse(scene, "not enough memory for the particles of the scene's fills");
+    error.kind = ErrorKind::OutOfMemory;
+    return error;
+  } catch (const std::exception& trouble) {
+    Error error = refuse(scene, std::string("making particles failed: ") + trouble.what());
+    error.kind = ErrorKind::Failed;
+    return error;
+  }
+}
+
+}  // namespace rill

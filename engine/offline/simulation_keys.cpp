@@ -1,0 +1,120 @@
+#include "offline/simulation_keys.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdio>
+
+#include "core/fnv1a.hpp"
+#include "core/words.hpp"
+#include "model/fields.hpp"
+
+namespace rill {
+namespace {
+
+constexpr std::array<std::string_view, 7> kLeftOut{"title", "about", "duration", "probes", "camera", "look", "fluid.particles"};
+
+class Lister {
+ public:
+  template <class Owner>
+  void list(const std::string& path, const Owner& owner) {
+    model::forEachField<Owner>([&](const auto& field) {
+      using Value = typename std::decay_t<decltype(field)>::Value;
+      if constexpr (model::kHasMember<Value>) {
+        std::string key = (path.empty() ? "" : path + ".") + std::string(field.info.key);
+        if (std::find(kLeftOut.begin(), kLeftOut.end(), key) == kLeftOut.end()) add(field.info, std::move(key), owner.*field.member);
+      }
+    });
+  }
+  SimulationKeys take() { return std::move(keys_); }
+
+ private:
+  void add(const model::Info&, std::string key, double value) { keys_.emplace_back(std::move(key), shortNumber(value)); }
+  void add(const model::Info&, std::string key, uint32_t value) { keys_.emplace_back(std::move(key), std::to_string(value)); }
+  void add(const model::Info&, std::string key, uint64_t value) { keys_.emplace_back(std::move(key), std::to_string(value)); }
+  void add(const model::Info&, std::string key, const std::optional<double>& value) {
+    keys_.emplace_back(std::move(key), value ? shortNumber(*value) : "auto");
+  }
+  void add(const model::Info& info, std::string key, SideMask value) {
+    std::string sides;
+    for (size_t side = 0; side < info.words.size(); ++side)
+      if (value >> side & 1) sides += (sides.empty() ? "" : ",") + std::string(info.words[side]);
+    keys_.emplace_back(std::move(key), "[" + sides + "]");
+  }
+  template <size_t N>
+  void add(const model::Info&, std::string key, const double (&value)[N]) {
+    std::string numbers;
+    for (double number : value) numbers += (numbers.empty() ? "" : ",") + shortNumber(number);
+    keys_.emplace_back(std::move(key), "[" + numbers + "]");
+  }
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  void add(const model::Info& info, std::string key, Enum value) {
+    keys_.emplace_back(std::move(key), std::string(info.words[static_cast<size_t>(value)]));
+  }
+  /// The file's name may change: what was in it is among the particles at the start.
+  void add(const model::Info&, std::string key, const std::optional<std::filesystem::path>& file) {
+    if (file) keys_.emplace_back(std::move(key), "a file");
+  }
+  template <model::Described Struct>
+  void add(const model::Info&, std::string key, const Struct& value) {
+    list(key, value);
+  }
+  template <model::Described Struct>
+  void add(const model::Info&, std::string key, const std::optional<Struct>& value) {
+    if (value) list(key, *value);
+  }
+  template <model::Described Struct>
+  void add(const model::Info&, std::string key, const std::vector<Struct>& values) {
+    for (size_t k = 0; k < values.size(); ++k) list(key + "[" + std::to_string(k) + "]", values[k]);
+  }
+  // Texts and probes: all are left out.
+  void add(const model::Info&, std::string, const std::string&) {}
+  void add(const model::Info&, std::string, const std::filesystem::path&) {}
+  void add(const model::Info&, std::string, const std::optional<std::pair<double, double>>&) {}
+  void add(const model::Info&, std::string, const std::optional<Axis>&) {}
+
+  SimulationKeys keys_;
+};
+
+std::string hashOf(const ParticleSet& start) {
+  Fnv1a hash;
+  for (double v : start.origin) hash.add(std::bit_cast<uint64_t>(v));
+  for (const std::vector<Float3>* vectors : {&start.positions, &start.velocities})
+    for (const Float3& v : *vectors)
+      for (float number : {v.x, v.y, v.z}) hash.add(std::bit_cast<uint32_t>(number));
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash.value()));
+  return text;
+}
+
+const std::string* find(const SimulationKeys& keys, const std::string& key) {
+  const auto found = std::find_if(keys.begin(), keys.end(), [&](const auto& entry) { return entry.first == key; });
+  return found == keys.end() ? nullptr : &found->second;
+}
+
+}  // namespace
+
+SimulationKeys simulationKeys(const Scene& scene, const ParticleSet& start) {
+  Lister lister;
+  lister.list("", scene);
+  SimulationKeys keys = lister.take();
+  keys.emplace_back("start", hashOf(start));
+  return keys;
+}
+
+std::string firstDifference(const SimulationKeys& there, const SimulationKeys& here) {
+  if (there == here) return {};
+  for (const auto& [key, value] : here) {
+    const std::string* other = find(there, key);
+    if (!other) return key + " was not set there and is " + value + " here";
+    if (*other == value) continue;
+    if (key == "start") return "the particles at the start are others (a file of particles has changed, or how Rill fills a shape)";
+    return key + " was " + *other + " there and is " + value + " here";
+  }
+  for (const auto& [key, value] : there)
+    if (!find(here, key)) return key + " was " + value + " there and is not set here";
+  return "its keys come in another order";
+}
+
+}  // namespace rill

@@ -1,0 +1,33 @@
+#pragma once
+#include <algorithm>
+#include <limits>
+
+#include "rill/particles.hpp"
+#include "rill/scene.hpp"
+
+namespace rill {
+
+/// An axis-aligned box, m; empty until something is added.
+struct Bounds {
+  double min[3] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+                   std::numeric_limits<double>::infinity()};
+  double max[3] = {-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+                   -std::numeric_limits<double>::infinity()};
+
+  bool empty() const { return !(min[0] <= max[0]); }
+  void add(const double point[3], double reach = 0) {
+    for (int a = 0; a < 3; ++a) {
+      min[a] = std::min(min[a], point[a] - reach);
+      max[a] = std::max(max[a], point[a] + reach);
+    }
+  }
+};
+
+/// The particles with half a spacing around each; empty without any. Particles that are not finite, or beyond 1e15 m, are left out.
+Bounds fluidBounds(const Scene& scene, const ParticleSet& particles);
+/// Adds the solids' bounding spheres, over all of their keyframes.
+void addSolids(Bounds& bounds, const Scene& scene);
+/// Centre of a solid as described (before its motion), and the radius of the sphere around it, m.
+void solidBall(const Solid& solid, double centre[3], double& radius);
+
+}  // namespace rill

@@ -1,0 +1,175 @@
+#include "views/particle_scene.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "views/bounds.hpp"
+#include "views/colour_map.hpp"
+
+namespace rill {
+namespace {
+
+using particle_view::kColours;
+using particle_view::SceneRecord;
+using particle_view::SolidRecord;
+
+constexpr uint32_t kLightTexels = 512;  // a side at most
+
+/// Directions of the light map: across, across and to the light. The light comes from the front, left and above, so that the usual camera
+/// sees lit sides.
+struct LightFrame {
+  double u[3], v[3], to[3];
+};
+
+LightFrame lightFrame() {
+  double to[3] = {-0.36, 1.0, 0.52};
+  const double size = std::sqrt(to[0] * to[0] + to[1] * to[1] + to[2] * to[2]);
+  for (double& c : to) c /= size;
+  const double across = std::hypot(to[0], to[2]);
+  LightFrame frame{{to[2] / across, 0, -to[0] / across}, {}, {to[0], to[1], to[2]}};
+  frame.v[0] = to[1] * frame.u[2] - to[2] * frame.u[1];
+  frame.v[1] = to[2] * frame.u[0] - to[0] * frame.u[2];
+  frame.v[2] = to[0] * frame.u[1] - to[1] * frame.u[0];
+  return frame;
+}
+
+/// What the light map covers: the fluid and the solids with room to move, inside the domain where there is one.
+Bounds litBounds(const Scene& scene, const ParticleSet& particles) {
+  Bounds bounds = fluidBounds(scene, particles);
+  addSolids(bounds, scene);
+  if (bounds.empty()) {
+    if (!scene.domain) {
+      const double zero[3] = {0, 0, 0};
+      bounds.add(zero, 1);
+      return bounds;
+    }
+    bounds.add(scene.domain->min);
+    bounds.add(scene.domain->max);
+    return bounds;
+  }
+  const double size = std::max({bounds.max[0] - bounds.min[0], bounds.max[1] - bounds.min[1], bounds.max[2] - bounds.min[2]});
+  for (int a = 0; a < 3; ++a) {
+    bounds.min[a] -= 3 * size;
+    bounds.max[a] += 3 * size;
+    if (scene.domain) {
+      bounds.min[a] = std::max(bounds.min[a], std::min(scene.domain->min[a], bounds.max[a]));
+      bounds.max[a] = std::min(bounds.max[a], std::max(scene.domain->max[a], bounds.min[a]));
+    }
+  }
+  return bounds;
+}
+
+void fillLight(SceneRecord& record, const Bounds& bounds, const double origin[3], double spacing) {
+  const LightFrame frame = lightFrame();
+  double low[3] = {1e300, 1e300, 1e300}, high[3] = {-1e300, -1e300, -1e300};
+  for (int corner = 0; corner < 8; ++corner) {
+    double at[3];
+    for (int a = 0; a < 3; ++a) at[a] = ((corner >> a) & 1 ? bounds.max[a] : bounds.min[a]) - origin[a];
+    const double* axes[3] = {frame.u, frame.v, frame.to};
+    for (int k = 0; k < 3; ++k) {
+      const double along = axes[k][0] * at[0] + axes[k][1] * at[1] + axes[k][2] * at[2];
+      low[k] = std::min(low[k], along);
+      high[k] = std::max(high[k], along);
+    }
+  }
+  const double extent = std::max({high[0] - low[0], high[1] - low[1], 1e-6});
+  const double texel = std::max(extent / (kLightTexels - 4), 0.5 * spacing);
+  const auto vec = [](const double v[3], double w) {
+    return Float4{static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), static_cast<float>(w)};
+  };
+  record.light_u = vec(frame.u, low[0] - texel);
+  record.light_v = vec(frame.v, low[1] - texel);
+  record.light_to = vec(frame.to, high[2] + 0.5 * spacing);
+  record.light_texel = {static_cast<float>(texel), static_cast<float>(high[2] - low[2] + spacing), 0, 0};
+  record.counts.y = static_cast<uint32_t>((high[0] - low[0]) / texel) + 4;
+  record.counts.z = static_cast<uint32_t>((high[1] - low[1]) / texel) + 4;
+}
+
+void fillSolids(ParticleScene& out, const Scene& scene) {
+  for (const Solid& solid : scene.solids) {
+    double centre[3], radius = 0;
+    solidBall(solid, centre, radius);
+    SolidRecord record;
+    const auto relative = [&](int a) { return static_cast<float>(centre[a] - out.origin[a]); };
+    record.centre = {relative(0), relative(1), relative(2), solid.sphere ? static_cast<float>(radius) : 0.0f};
+    record.rotation = {static_cast<float>(solid.rotation[0]), static_cast<float>(solid.rotation[1]), static_cast<float>(solid.rotation[2]),
+                       static_cast<float>(solid.rotation[3])};
+    const auto half = [&](int a) { return solid.box ? static_cast<float>(0.5 * (solid.box->max[a] - solid.box->min[a])) : 0.0f; };
+    record.half_size = {half(0), half(1), half(2), static_cast<float>(radius)};
+    record.motion = {static_cast<uint32_t>(out.keyframes.size()), static_cast<uint32_t>(solid.motion.size()), solid.driven > 0, 0};
+    for (const Keyframe& key : solid.motion) {
+      out.keyframes.push_back({static_cast<float>(key.translate[0]), static_cast<float>(key.translate[1]),
+                               static_cast<float>(key.translate[2]), static_cast<float>(key.at)});
+    }
+    out.solids.push_back(record);
+  }
+}
+
+/// The speed of a fall from the fluid's top to the bottom of the tank, or of the start if that is more.
+double fallSpeed(const Scene& scene, const ParticleSet& particles) {
+  const Bounds fluid = fluidBounds(scene, particles);
+  double square = 0;
+  for (const Float3& v : particles.velocities) {
+    const double s = double{v.x} * v.x + double{v.y} * v.y + double{v.z} * v.z;
+    if (std::isfinite(s)) square = std::max(square, s);
+  }
+  if (fluid.empty()) return std::sqrt(square);
+  std::vector<std::array<double, 3>> gravities{{scene.gravity[0], scene.gravity[1], scene.gravity[2]}};
+  for (const GravityChange& change : scene.gravity_changes) gravities.push_back({change.value[0], change.value[1], change.value[2]});
+  for (const auto& gravity : gravities) {
+    // 2 g H, with both in one product: along every axis, from the fluid's far side to the end of the fall.
+    double fall = 0;
+    for (size_t a = 0; a < 3; ++a) {
+      const double from = gravity[a] < 0 ? fluid.max[a] : fluid.min[a];
+      const double end = gravity[a] < 0 ? fluid.min[a] : fluid.max[a];
+      double to = end;
+      if (scene.domain && a == 1) to = gravity[a] < 0 ? std::min(scene.domain->min[a], end) : std::max(scene.domain->max[a], end);
+      fall += gravity[a] * (to - from);
+    }
+    square = std::max(square, 2 * fall);
+  }
+  return std::sqrt(square);
+}
+
+}  // namespace
+
+double roundNicely(double value) {
+  if (!(value > 0) || !std::isfinite(value)) return 1;
+  const double base = std::pow(10.0, std::floor(std::log10(value)));
+  double best = base;
+  for (const double factor : {1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0}) {
+    if (std::abs(factor * base - value) < std::abs(best - value)) best = factor * base;
+  }
+  return best;
+}
+
+ParticleScene particleScene(const Scene& scene, const ParticleSet& particles) {
+  ParticleScene out;
+  std::copy_n(particles.origin, 3, out.origin);
+  SceneRecord& record = out.scene;
+  if (scene.domain) {
+    const Domain& domain = *scene.domain;
+    const auto low = [&](int a) { return static_cast<float>(domain.min[a] - out.origin[a]); };
+    const auto high = [&](int a) { return static_cast<float>(domain.max[a] - out.origin[a]); };
+    const double floor = std::max(domain.max[0] - domain.min[0], domain.max[2] - domain.min[2]);
+    record.domain_min = {low(0), low(1), low(2), 1};
+    record.domain_max = {high(0), high(1), high(2), static_cast<float>(roundNicely(floor / 16))};
+    record.counts.w = ~uint32_t{domain.open} & 0x3Fu;
+  }
+  fillLight(record, litBounds(scene, particles), out.origin, scene.fluid.spacing);
+  fillSolids(out, scene);
+  record.counts.x = static_cast<uint32_t>(out.solids.size());
+  for (uint32_t k = 0; k < kColours; ++k) {
+    const double t = k / (kColours - 1.0);
+    const Float3 speed = mapColour(ParticleColour::Speed, t), compression = mapColour(ParticleColour::Compression, t);
+    record.colours[k] = {speed.x, speed.y, speed.z, 1};
+    record.colours[kColours + k] = {compression.x, compression.y, compression.z, 1};
+  }
+  out.speed_max = roundNicely(fallSpeed(scene, particles));
+  out.compression_max = scene.solver.tolerance > 0 ? roundNicely(std::clamp(10 * scene.solver.tolerance, 0.001, 0.2)) : 0.01;
+  return out;
+}
+
+}  // namespace rill

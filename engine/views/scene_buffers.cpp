@@ -1,0 +1,72 @@
+#include "views/scene_buffers.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "gpu/device_impl.hpp"
+#include "render/compute_step.hpp"
+#include "shared/fluid_records.h"
+#include "sort/dispatches.hpp"
+
+namespace rill {
+
+std::span<const EmbeddedShader> viewsShaders();  // generated
+
+namespace {
+
+using particle_view::kParticleGroup, particle_view::PoseRecord, particle_view::SceneRecord, particle_view::ViewPush;
+
+/// A host-written buffer with the bytes of `data`; at least one element, so that it can be bound.
+template <class T>
+Expected<Buffer> upload(Device& device, std::string_view name, std::span<const T> data) {
+  Expected<Buffer> buffer = createBuffer(device, name, std::max<uint64_t>(data.size_bytes(), sizeof(T)), MemoryKind::Upload);
+  if (!buffer) return buffer;
+  std::memset(buffer->mapped(), 0, buffer->size());
+  if (!data.empty()) std::memcpy(buffer->mapped(), data.data(), data.size_bytes());
+  return buffer;
+}
+
+}  // namespace
+
+void bringViewShaders(Device& device) { device.impl().shaders.add(viewsShaders()); }
+
+Expected<SceneBuffers> SceneBuffers::create(Device& device, ParticleScene host) {
+  bringViewShaders(device);
+  SceneBuffers out;
+  out.host = std::move(host);
+  const auto keep = [](Buffer& target, Expected<Buffer> made) -> Expected<void> {
+    if (!made) return made.error();
+    target = *std::move(made);
+    return {};
+  };
+  if (auto ok = keep(out.scene, upload<SceneRecord>(device, "view: scene", {&out.host.scene, 1})); !ok) return ok.error();
+  if (auto ok = keep(out.solids, upload<particle_view::SolidRecord>(device, "view: solids", out.host.solids)); !ok) return ok.error();
+  if (auto ok = keep(out.keyframes, upload<Float4>(device, "view: keyframes", out.host.keyframes)); !ok) return ok.error();
+  using enum BindingKind;
+  static constexpr BindingKind kBindings[] = {Uniform, Storage, Storage, Storage, Storage};
+  for (const auto& [pipeline, floats] : {std::pair{&out.poses, size_t{0}}, {&out.drivenPoses, sizeof(SolidRecord) / sizeof(float)}}) {
+    const uint32_t constants[] = {static_cast<uint32_t>(floats)};
+    auto made = computePipeline(
+        device, {.shader = "views/particle_poses", .bindings = kBindings, .pushConstantBytes = sizeof(ViewPush), .constants = constants});
+    if (!made) return made.error();
+    *pipeline = *made;
+  }
+  return out;
+}
+
+BufferRef SceneBuffers::importScene(Graph& graph) const {
+  return graph.import("view scene", {scene.handle(), 0, scene.size(), Use::None, Use::None});
+}
+
+BufferRef SceneBuffers::addPoses(Graph& graph, const FluidState& fluid, BufferRef sceneRef, const ViewPush& push) const {
+  const BufferRef solidRecords = graph.import("view solids", {solids.handle(), 0, solids.size(), Use::None, Use::None});
+  const BufferRef keys = graph.import("view keyframes", {keyframes.handle(), 0, keyframes.size(), Use::None, Use::None});
+  BufferRef out = graph.create("view poses", {host.solids.size() * sizeof(PoseRecord)});
+  const bool driven = fluid.solids != BufferRef{};
+  addStep(graph, "view poses", driven ? drivenPoses : poses,
+          {uniform(sceneRef), reads(solidRecords), reads(keys), fresh(out), reads(driven ? fluid.solids : solidRecords)},
+          divideUp(host.solids.size(), kParticleGroup), push);
+  return out;
+}
+
+}  // namespace rill

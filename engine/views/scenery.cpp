@@ -1,0 +1,233 @@
+#include "views/scenery.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/fluid_renderer_impl.hpp"
+#include "render/view_push.hpp"
+
+namespace rill {
+namespace {
+
+using surface::SurfacePush;
+
+constexpr VkFormat kShadowFormat = VK_FORMAT_D32_SFLOAT;
+constexpr uint32_t kEdgeVertices = 6, kEdgeCount = 12, kSolidVertices = 36;
+
+Float3 xyz(const Float4& v) { return {v.x, v.y, v.z}; }
+
+VkClearValue depthClear(float depth) {
+  VkClearValue value{};
+  value.depthStencil = {depth, 0};
+  return value;
+}
+
+}  // namespace
+
+FluidView fluidView(const CameraView& camera, uint32_t width, uint32_t height, double spacing) {
+  const CameraBasis basis = cameraBasis(camera);
+  FluidView view;
+  double distance = 0;
+  const auto set = [](Float4& column, double x, double y, double z) {
+    column = {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), 0};
+  };
+  for (int a = 0; a < 3; ++a) {
+    view.origin[a] = camera.eye[a];
+    distance = std::hypot(distance, camera.target[a] - camera.eye[a]);
+    set(view.view.column[a], basis.right[a], basis.up[a], -basis.forward[a]);
+  }
+  const double focal = 1 / std::tan(0.5 * camera.fov_y_deg * std::numbers::pi / 180);
+  const double near = std::max({0.1 * spacing, 1e-4 * distance, 1e-6});
+  view.projection.column[0] = {static_cast<float>(focal * height / width), 0, 0, 0};
+  view.projection.column[1] = {0, static_cast<float>(-focal), 0, 0};
+  view.projection.column[2] = {0, 0, 0, -1};
+  view.projection.column[3] = {0, 0, static_cast<float>(near), 0};
+  view.width = width;
+  view.height = height;
+  view.focus_m = distance;
+  return view;
+}
+
+Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& scene, const ParticleSet& particles,
+                                                   const TargetFormats& formats, const Environment* environment) {
+  auto out = std::make_unique<Scenery>();
+  out->environment_ = environment;
+  auto buffers = SceneBuffers::create(device, particleScene(scene, particles));
+  if (!buffers) return buffers.error();
+  out->buffers_ = *std::move(buffers);
+  auto stage = SurfaceStage::create(device);
+  if (!stage) return stage.error();
+  out->stage_ = *stage;
+  using enum BindingKind;
+  static constexpr BindingKind kLit[] = {Uniform, Uniform, Storage, SampledImage, Storage};
+  static constexpr BindingKind kBare[] = {Uniform, Uniform, Storage, Storage};  // of the ground without solids
+  static constexpr BindingKind kPoses[] = {Storage};
+  static constexpr BindingKind kEdges[] = {Uniform, Storage};
+  const bool solids = !out->buffers_.host.solids.empty();
+  const std::span<const VkFormat> colour{&formats.colour, 1};
+  struct Wanted {
+    const GraphicsPipeline*& pipeline;
+    GraphicsPipelineDesc desc;
+  };
+  const auto desc = [&](std::string_view vertex, std::string_view fragment, std::span<const BindingKind> bindings) {
+    return GraphicsPipelineDesc{.vertex = vertex,
+                                .fragment = fragment,
+                                .bindings = bindings,
+                                .pushConstantBytes = sizeof(SurfacePush),
+                                .colours = colour,
+                                .depth = formats.depth,
+                                .depthCompare = VK_COMPARE_OP_GREATER,
+                                .depthWrite = true};
+  };
+  constexpr std::string_view kGround[2][2] = {{"views/scenery_ground_fragment", "views/scenery_ground_environment_fragment"},
+                                              {"views/scenery_ground_solids_fragment", "views/scenery_ground_solids_environment_fragment"}};
+  GraphicsPipelineDesc ground = desc("views/scenery_ground_vertex", kGround[solids][environment != nullptr],
+                                     (solids ? std::span<const BindingKind>(kLit).first(environment ? 5 : 4)
+                                             : std::span<const BindingKind>(kBare).first(environment ? 4 : 3)));
+  ground.depthCompare = VK_COMPARE_OP_ALWAYS;
+  GraphicsPipelineDesc edges = desc("views/scenery_edges_vertex", "views/scenery_edges_fragment", std::span(kEdges).first(1));
+  edges.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
+  edges.depthWrite = false;
+  edges.blend = Blend::Premultiplied;
+  GraphicsPipelineDesc over = edges;
+  over.fragment = "views/scenery_edges_over_fluid_fragment";
+  over.bindings = kEdges;
+  std::vector<Wanted> all{{out->ground_, ground}, {out->edges_, edges}, {out->edgesOverFluid_, over}};
+  if (solids) {
+    GraphicsPipelineDesc light = desc("views/scenery_solid_light_vertex", "views/scenery_solid_light_fragment", kPoses);
+    light.colours = {};
+    light.depth = kShadowFormat;
+    light.depthCompare = VK_COMPARE_OP_LESS;
+    all.push_back({out->solid_, desc("views/scenery_solid_vertex",
+                                     environment ? "views/scenery_solid_environment_fragment" : "views/scenery_solid_fragment", kLit)});
+    all.push_back({out->solidLight_, light});
+  }
+  for (const Wanted& wanted : all) {
+    auto made = graphicsPipeline(device, wanted.desc);
+    if (!made) return made.error();
+    wanted.pipeline = *made;
+  }
+  return out;
+}
+
+Float3 Scenery::toSun() const { return xyz(buffers_.host.scene.light_to); }
+
+/// The light map's frame as an orthographic camera, for positions relative to `origin`.
+SurfacePush Scenery::lightPush(const FluidState& fluid, const double origin[3]) const {
+  const particle_view::SceneRecord& scene = buffers_.host.scene;
+  SurfacePush push{};
+  const Float4* axes[2] = {&scene.light_u, &scene.light_v};
+  const auto along = [&](const Float4& axis) {
+    return axis.x * (origin[0] - buffers_.host.origin[0]) + axis.y * (origin[1] - buffers_.host.origin[1]) +
+           axis.z * (origin[2] - buffers_.host.origin[2]);
+  };
+  const uint32_t size[2] = {scene.counts.y, scene.counts.z};
+  for (int r = 0; r < 2; ++r) {
+    const Float4& axis = *axes[r];
+    const float row[4] = {axis.x, axis.y, axis.z, static_cast<float>(along(axis))};
+    std::copy_n(row, 4, push.rows + 4 * r);
+    // Texel k is at axis.w + k texels, and the middle of pixel k.
+    const float texels = static_cast<float>(size[r]);
+    push.scale[r] = 0.5f * scene.light_texel.x * texels;
+    push.shift[r] = 1.0f / texels - 1.0f - axis.w / push.scale[r];
+  }
+  const float depth[4] = {-scene.light_to.x, -scene.light_to.y, -scene.light_to.z,
+                          static_cast<float>(scene.light_to.w - along(scene.light_to))};
+  std::copy_n(depth, 4, push.rows + 8);
+  push.depth_map[0] = 0;
+  push.depth_map[1] = 1 / scene.light_texel.y;
+  push.near_depth = -1e30f;
+  push.width = size[0];
+  push.height = size[1];
+  push.step = 1;
+  push.spacing = fluid.spacing;
+  return push;
+}
+
+SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view, const FluidLook& look,
+                            double time_s, BufferRef texels) const {
+  const bool solids = !buffers_.host.solids.empty();
+  SurfacePush camera = viewPush(view, buffers_.host.origin);
+  camera.spacing = fluid.spacing;
+  const BufferRef scene = buffers_.importScene(graph);
+  const SurfacePush light = SurfaceStage::thicknessPush(lightPush(fluid, fluid.origin), fluid, 1);
+  const BufferRef shadow = stage_.addThickness(graph, kFluidShadow, fluid, light, {}, nullptr);  // a particle spans five texels at most
+  const BufferRef record = addLook(graph, lookRecord(look, light, environment_));
+  BufferRef poses;
+  ImageRef lightDepth;
+  if (solids) {
+    particle_view::ViewPush push{};
+    push.time = static_cast<float>(time_s);
+    for (int a = 0; a < 3; ++a) push.offset[a] = static_cast<float>(fluid.origin[a] - buffers_.host.origin[a]);
+    poses = buffers_.addPoses(graph, fluid, scene, push);
+    lightDepth = graph.create("scenery light depth", {kShadowFormat, light.width, light.height});
+    graph.pass("scenery shadows", [&](Pass& pass) {
+      pass.read(poses, Use::DrawRead);
+      lightDepth = pass.write(lightDepth, Use::DepthTarget, Load::Clear, depthClear(1));
+      const Kernel kernel = pass.kernel(solidLight_, {poses});
+      return [kernel, push = lightPush(fluid, buffers_.host.origin), count = static_cast<uint32_t>(buffers_.host.solids.size())](
+                 Commands& commands) { commands.draw(kernel, kSolidVertices, count, push); };
+    });
+  } else {
+    graph.skipped("scenery solids", "the scene has no solids");
+  }
+  const auto readLight = [&](Pass& pass) {
+    pass.read(scene, Use::DrawUniform);
+    pass.read(record, Use::DrawUniform);
+    pass.read(shadow, Use::DrawRead);
+    if (solids) pass.read(lightDepth, Use::DrawSampled);
+  };
+  graph.pass("scenery ground", [&](Pass& pass) {
+    readLight(pass);
+    targets.colour = pass.write(targets.colour, Use::ColourTarget, Load::Discard);
+    targets.depth = pass.write(targets.depth, Use::DepthTarget, Load::Discard);
+    std::vector<ResourceRef> bound{scene, record, shadow};
+    if (solids) bound.push_back(lightDepth);
+    if (environment_) {
+      pass.read(texels, Use::DrawRead);
+      bound.push_back(texels);
+    }
+    const Kernel kernel = pass.kernel(ground_, bound);
+    return [kernel, camera](Commands& commands) { commands.draw(kernel, 3, 1, camera); };
+  });
+  if (solids) {
+    graph.pass("scenery solids", [&](Pass& pass) {
+      readLight(pass);
+      pass.read(poses, Use::DrawRead);
+      targets.colour = pass.write(targets.colour, Use::ColourTarget);
+      targets.depth = pass.write(targets.depth, Use::DepthTarget);
+      const Kernel kernel = pass.kernel(solid_, {scene, record, shadow, lightDepth, poses});
+      return [kernel, camera, count = static_cast<uint32_t>(buffers_.host.solids.size())](Commands& commands) {
+        commands.draw(kernel, kSolidVertices, count, camera);
+      };
+    });
+  }
+  if (!hasEdges()) return targets;
+  graph.pass("scenery edges", [&](Pass& pass) {
+    pass.read(scene, Use::DrawUniform);
+    targets.colour = pass.write(targets.colour, Use::ColourTarget);
+    targets.depth = pass.write(targets.depth, Use::DepthTarget);
+    const Kernel kernel = pass.kernel(edges_, {scene});
+    return [kernel, camera](Commands& commands) { commands.draw(kernel, kEdgeVertices, kEdgeCount, camera); };
+  });
+  return targets;
+}
+
+SceneTargets Scenery::addEdgesOverFluid(Graph& graph, SceneTargets targets, const FluidView& view, BufferRef pixels) const {
+  if (!hasEdges()) return targets;
+  const BufferRef scene = buffers_.importScene(graph);
+  graph.pass("scenery edges over fluid", [&](Pass& pass) {
+    pass.read(scene, Use::DrawUniform);
+    pass.read(pixels, Use::DrawRead);
+    targets.colour = pass.write(targets.colour, Use::ColourTarget);
+    targets.depth = pass.write(targets.depth, Use::DepthTarget);
+    const Kernel kernel = pass.kernel(edgesOverFluid_, {scene, pixels});
+    return [kernel, camera = viewPush(view, buffers_.host.origin)](Commands& commands) {
+      commands.draw(kernel, kEdgeVertices, kEdgeCount, camera);
+    };
+  });
+  return targets;
+}
+
+}  // namespace rill

@@ -1,0 +1,43 @@
+#pragma once
+// What stands around the fluid: sky, floor, solids and the domain's edges, drawn as graphics passes with shadows of solids and fluid.
+#include <memory>
+
+#include "render/environment.hpp"
+#include "render/surface.hpp"
+#include "rill/fluid_renderer.hpp"
+#include "rill/particles.hpp"
+#include "rill/scene.hpp"
+#include "views/camera.hpp"
+#include "views/scene_buffers.hpp"
+
+namespace rill {
+
+/// A camera as a FluidView: reversed depth without a far plane. `origin` is the eye, so that a scene far from zero loses nothing.
+FluidView fluidView(const CameraView& camera, uint32_t width, uint32_t height, double spacing);
+
+class Scenery {
+ public:
+  /// Scene and particles are not kept; `environment` outlives it, null: the sky of Rill's own.
+  static Expected<std::unique_ptr<Scenery>> create(Device& device, const Scene& scene, const ParticleSet& particles,
+                                                   const TargetFormats& formats, const Environment* environment = nullptr);
+
+  /// Draws all of the targets anew; depth as fluidView() has it. `time_s`: where the solids are. Shadows are those that `look` casts.
+  /// `texels`: of the environment, where there is one.
+  SceneTargets addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view, const FluidLook& look,
+                     double time_s, BufferRef texels = {}) const;
+  /// The edges that lie before the fluid, once it has been drawn: `pixels` are SurfaceBuffers::pixels of the whole picture.
+  SceneTargets addEdgesOverFluid(Graph& graph, SceneTargets targets, const FluidView& view, BufferRef pixels) const;
+
+  Float3 toSun() const;
+
+ private:
+  surface::SurfacePush lightPush(const FluidState& fluid, const double origin[3]) const;
+  bool hasEdges() const { return buffers_.host.scene.domain_min.w > 0; }
+
+  const Environment* environment_ = nullptr;
+  SceneBuffers buffers_;
+  SurfaceStage stage_;
+  const GraphicsPipeline *ground_ = nullptr, *solid_ = nullptr, *solidLight_ = nullptr, *edges_ = nullptr, *edgesOverFluid_ = nullptr;
+};
+
+}  // namespace rill

@@ -1,0 +1,23 @@
+#version 460
+// Dispatch arguments from the numbers of survivors and of tiles. It runs after each has been counted, and writes all of them.
+#extension GL_GOOGLE_include_directive : require
+#include "views/particle_view.glsl"
+
+layout(local_size_x = 1) in;
+layout(std430, set = 0, binding = 0) buffer Counters { uint counters[]; };
+
+void writeArguments(uint at, uint groups) {
+  const uint x = min(groups, 65535u);
+  counters[at] = x;
+  counters[at + 1u] = x == 0u ? 0u : (groups + x - 1u) / x;
+  counters[at + 2u] = x == 0u ? 0u : 1u;
+}
+
+void main() {
+  RILL_LOOP for (uint list = 0u; list < kTileLists; ++list) writeArguments(kTileArguments + 4u * list, counters[kTileCount + list]);
+  const uint small = counters[kSmallCount], large = counters[kLargeCount];
+  const uint tiles = ((view.width + kPixelTile - 1u) / kPixelTile) * ((view.height + kPixelTile - 1u) / kPixelTile);
+  writeArguments(kSmallArguments, (small + kParticleGroup - 1u) / kParticleGroup);
+  writeArguments(kLargeArguments, tiles * ((large + kLargeChunk - 1u) / kLargeChunk));
+  writeArguments(kTintArguments, (small + large + kParticleGroup - 1u) / kParticleGroup);
+}

@@ -1,0 +1,42 @@
+#version 460
+// Lists the particles that may be seen: small ones from the front of the list, large ones in a list of their own.
+#extension GL_GOOGLE_include_directive : require
+#include "views/particle_view.glsl"
+
+layout(local_size_x = 64) in;
+layout(std430, set = 0, binding = 0) readonly buffer Position { vec4 position[]; };
+layout(std430, set = 0, binding = 1) readonly buffer Occluders { uint occluders[]; };
+layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };
+layout(std430, set = 0, binding = 3) writeonly buffer Survivors { uint survivors[]; };  // small ones from the front, large ones from the back
+
+bool hidden(vec3 centre, float radius, ivec4 rect) {
+  const uint columns = (view.width + view.cell - 1u) / view.cell;
+  const uint bits = floatBitsToUint(centre.z - radius);
+  const uvec4 cells = uvec4(rect) / view.cell;
+  if ((cells.z - cells.x + 1u) * (cells.w - cells.y + 1u) > kHiddenCells) return false;
+  for (uint y = cells.y; y <= cells.w; ++y) {
+    for (uint x = cells.x; x <= cells.z; ++x) {
+      if (occluders[y * columns + x] >= bits) return false;
+    }
+  }
+  return true;
+}
+
+void main() {
+  const uint i = groupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
+  if (i >= view.count) return;
+  const vec3 world = particlePoint(position[i].xyz);
+  if (!drawable(world)) return;
+  const vec3 centre = viewPoint(world);
+  const float radius = drawnRadius(centre.z);
+  if (outsideImage(centre, radius)) return;
+  const ivec4 rect = sphereRect(centre, radius);
+  if (rect.z < rect.x || rect.w < rect.y) return;
+  const bool whole = centre.z - radius > view.near_depth;  // not cut by the near plane
+  if (whole && hidden(centre, radius, rect)) return;
+  if (whole && max(rect.z - rect.x, rect.w - rect.y) < int(kSmallRect)) {
+    survivors[atomicAdd(counters[kSmallCount], 1u)] = i;
+  } else {
+    survivors[view.count - 1u - atomicAdd(counters[kLargeCount], 1u)] = i;
+  }
+}

@@ -1,0 +1,41 @@
+#version 460
+// Tiles that hold outlines: shaded pixels blended along them and encoded. A workgroup is a tile of the list.
+// An outline that crosses a pixel says how much of it the owner covers; the rest is the neighbour's beyond the outline.
+#extension GL_GOOGLE_include_directive : require
+#include "views/particle_view.glsl"
+#include "views/particle_tiles.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(std430, set = 0, binding = 0) readonly buffer Counters { uint counters[]; };
+layout(std430, set = 0, binding = 1) readonly buffer Tiles { uint tiles[]; };
+layout(std430, set = 0, binding = 2) readonly buffer Depth { uint depth[]; };
+layout(std430, set = 0, binding = 3) readonly buffer Shaded { uint shaded[]; };
+layout(std430, set = 0, binding = 4) readonly buffer Rims { uint rims[]; };
+layout(std430, set = 0, binding = 5) writeonly buffer Picture { uint picture[]; };
+#include "views/particle_finish.glsl"
+
+uint indexAt(ivec2 pixel) {
+  const ivec2 at = clamp(pixel, ivec2(0), ivec2(view.width, view.height) - 1);
+  return uint(at.y) * view.width + uint(at.x);
+}
+
+void main() {
+  const uint group = groupIndex();
+  if (group >= counters[kTileCount + kTilesOutline]) return;
+  const uint tile = tiles[kTilesOutline * shadeTiles() + group];
+  const ivec2 pixel = ivec2(shadeTileOrigin(tile) + gl_LocalInvocationID.xy);
+  if (pixel.x >= int(view.width) || pixel.y >= int(view.height)) return;
+  const uint index = indexAt(pixel);
+  const uint bits = depth[index];
+
+  vec3 colour = unpackColour(shaded[index]);
+  const uint rim = rims[index];
+  if (rimDistance(rim) < 0.5) colour = mix(unpackColour(shaded[indexAt(pixel + rimStep(rim))]), colour, 0.5 + rimDistance(rim));
+  RILL_LOOP for (uint side = 0u; side < 4u; ++side) {
+    const uint other = indexAt(pixel - rimStep(side));  // whose outline may reach over to here
+    const uint reaching = rims[other];
+    const float reach = rimDistance(reaching) - 0.5;
+    if ((reaching & 3u) == side && reach > 0.0 && reach < 0.5 && depth[other] < bits) colour = mix(colour, unpackColour(shaded[other]), reach);
+  }
+  picture[index] = encoded(colour);
+}

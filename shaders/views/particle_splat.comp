@@ -1,0 +1,38 @@
+#version 460
+// Depth of the small survivors, an invocation a sphere; in the second run, the least index among those whose depth is a pixel's depth.
+// One kernel for both runs, so that both find the very same depths.
+#extension GL_GOOGLE_include_directive : require
+#include "views/particle_view.glsl"
+
+layout(local_size_x = 64) in;
+layout(std430, set = 0, binding = 0) readonly buffer Position { vec4 position[]; };
+layout(std430, set = 0, binding = 1) readonly buffer Counters { uint counters[]; };
+layout(std430, set = 0, binding = 2) readonly buffer Survivors { uint survivors[]; };
+layout(std430, set = 0, binding = 3) buffer Depth { uint depth[]; };
+layout(std430, set = 0, binding = 4) buffer Winner { uint winner[]; };
+
+void main() {
+  const uint k = groupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
+  if (k >= counters[kSmallCount]) return;
+  const uint i = survivors[k];
+  const vec3 centre = viewPoint(particlePoint(position[i].xyz));
+  const float radius = drawnRadius(centre.z);
+  const ivec4 rect = sphereRect(centre, radius);
+  const int pixels = (rect.z - rect.x + 1) * (rect.w - rect.y + 1);  // at most kSmallRect squared
+  ivec2 pixel = rect.xy;
+  for (int n = 0; n < pixels; ++n) {
+    const float t = pixelDepth(centre, radius, pixel);
+    if (t > 0.0) {
+      const uint at = uint(pixel.y) * view.width + uint(pixel.x);
+      const uint bits = floatBitsToUint(t);
+      const uint before = depth[at];
+      if (view.winners == 0u) {
+        if (bits < before) atomicMin(depth[at], bits);
+      } else {
+        if (bits == before) atomicMin(winner[at], i);
+      }
+    }
+    pixel.x += 1;
+    if (pixel.x > rect.z) pixel = ivec2(rect.x, pixel.y + 1);
+  }
+}

@@ -1,0 +1,74 @@
+// Camera, spheres and the light map, for every kernel of the particle view.
+#extension GL_EXT_control_flow_attributes : require
+#include "views/particle_records.h"
+
+// Before loops of a fixed count: a software driver takes seconds to compile them unrolled.
+#define RILL_LOOP [[dont_unroll]]
+
+layout(push_constant) uniform Push { ViewPush view; };
+
+uint groupIndex() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
+
+vec3 eyePoint() { return vec3(view.eye[0], view.eye[1], view.eye[2]); }
+vec3 rightAxis() { return vec3(view.right[0], view.right[1], view.right[2]); }
+vec3 upAxis() { return vec3(view.up[0], view.up[1], view.up[2]); }
+vec3 forwardAxis() { return vec3(view.forward[0], view.forward[1], view.forward[2]); }
+vec3 particlePoint(vec3 stored) { return stored + vec3(view.offset[0], view.offset[1], view.offset[2]); }
+
+// From world to view space: right, up, forward.
+vec3 viewPoint(vec3 world) {
+  const vec3 d = world - eyePoint();
+  return vec3(dot(d, rightAxis()), dot(d, upAxis()), dot(d, forwardAxis()));
+}
+
+// Where a point of the image (pixels from its top left corner) looks: right and up over forward.
+vec2 tangentOf(vec2 pixel) {
+  return vec2(pixel.x - 0.5 * float(view.width), 0.5 * float(view.height) - pixel.y) / view.focal;
+}
+vec2 pixelOf(vec2 tangent) {
+  return vec2(0.5 * float(view.width) + tangent.x * view.focal, 0.5 * float(view.height) - tangent.y * view.focal);
+}
+vec3 rayOf(vec2 tangent) { return forwardAxis() + rightAxis() * tangent.x + upAxis() * tangent.y; }
+
+// By bits: a compiler may assume that there are no NaNs.
+bool drawable(vec3 p) {
+  const uvec3 magnitude = floatBitsToUint(p) & 0x7FFFFFFFu;
+  return all(lessThan(magnitude, uvec3(0x58635FA9u)));  // 1e15 m
+}
+
+// A particle's disc is drawn so wide that it covers a pixel's centre wherever it is.
+float drawnRadius(float depth) { return max(view.radius, 0.71 * depth / view.focal); }
+
+// Depth of the near side of a sphere (view space) along a ray; negative where the ray misses or the hit is nearer than the near plane.
+// Measured from the ray's nearest point to the centre, so that a small sphere far away keeps its precision.
+float sphereDepth(vec3 centre, float radius, vec2 tangent) {
+  precise float inverse = 1.0 / (1.0 + tangent.x * tangent.x + tangent.y * tangent.y);
+  precise float middle = (centre.z + centre.x * tangent.x + centre.y * tangent.y) * inverse;
+  precise vec3 miss = vec3(centre.x - middle * tangent.x, centre.y - middle * tangent.y, centre.z - middle);
+  precise float inside = radius * radius - (miss.x * miss.x + miss.y * miss.y + miss.z * miss.z);
+  if (inside <= 0.0) return -1.0;
+  precise float depth = middle - sqrt(inside * inverse);
+  return depth >= view.near_depth ? depth : -1.0;
+}
+
+// True where no part of the sphere is in front of the near plane and inside the image.
+bool outsideImage(vec3 centre, float radius) {
+  const vec2 corner = 0.5 * vec2(float(view.width), float(view.height)) / view.focal;
+  const vec2 reach = radius * sqrt(1.0 + corner * corner) + corner * centre.z;
+  return centre.z + radius <= view.near_depth || abs(centre.x) >= reach.x || abs(centre.y) >= reach.y;
+}
+
+// Pixels (first and last, inclusive) that a sphere can touch; empty where last < first.
+ivec4 sphereRect(vec3 centre, float radius) {
+  const ivec4 whole = ivec4(0, 0, int(view.width) - 1, int(view.height) - 1);
+  if (centre.z - radius <= view.near_depth) return whole;
+  const float square = (centre.z - radius) * (centre.z + radius);
+  const vec2 spread = radius * sqrt(centre.xy * centre.xy + square);
+  const vec2 low = (centre.xy * centre.z - spread) / square;
+  const vec2 high = (centre.xy * centre.z + spread) / square;
+  const vec2 first = pixelOf(vec2(low.x, high.y)) - 0.52, last = pixelOf(vec2(high.x, low.y)) - 0.48;
+  const vec2 limit = vec2(float(view.width), float(view.height));
+  return ivec4(ivec2(ceil(clamp(first, vec2(0.0), limit))), ivec2(floor(clamp(last, vec2(-1.0), limit - 1.0))));
+}
+
+float pixelDepth(vec3 centre, float radius, ivec2 pixel) { return sphereDepth(centre, radius, tangentOf(vec2(pixel) + 0.5)); }

@@ -1,0 +1,60 @@
+#version 460
+// Sky, and where the domain has a floor the ground that it stands on: a checker inside the domain, plain outside, hazy far away.
+#extension GL_GOOGLE_include_directive : require
+#include "render/surface.glsl"
+#include "views/particle_records.h"
+#include "render/look_records.h"
+
+layout(std140, set = 0, binding = 0) uniform Scene { SceneRecord scene; };
+layout(std140, set = 0, binding = 1) uniform Look { LookRecord look; };
+#include "views/scenery.glsl"
+layout(location = 0) out vec4 colour;
+
+// A checker, averaged over a pixel `width` wide: the integral of a square wave, exactly.
+vec2 waveIntegral(vec2 at) { return 2.0 * abs(fract(at * 0.5) - 0.5); }
+float checker(vec2 at, vec2 width) {
+  const vec2 w = max(width, vec2(1e-4));
+  const vec2 mean = (waveIntegral(at + 0.5 * w) - waveIntegral(at - 0.5 * w)) / w;
+  return 0.5 - 0.5 * mean.x * mean.y;
+}
+
+#ifdef ENVIRONMENT
+vec3 backdrop(vec3 sight) { return skyColour(sight, scene.light_to.xyz); }
+vec3 haze(vec3 sight) { return backdrop(sight); }  // the picture has a ground of its own
+#else
+// Darker than the sky that is reflected, so that reflections are seen against it.
+vec3 backdrop(vec3 sight) { return mix(vec3(0.27, 0.32, 0.39), vec3(0.05, 0.08, 0.14), sqrt(clamp(sight.y, 0.0, 1.0))); }
+vec3 haze(vec3 sight) { return backdrop(normalize(vec3(sight.x, 0.02, sight.z))); }
+#endif
+
+void main() {
+  const vec2 middle = gl_FragCoord.xy - vec2(view.left, view.top), axis = axisOf(middle);
+  const vec3 along = rayAlong(axis);
+  const vec3 from = worldPoint(rayFrom(axis)), ray = worldDirection(along);
+  const vec3 sight = normalize(ray);
+  const vec3 sun = scene.light_to.xyz;
+  colour = vec4(backdrop(sight), 1.0);
+  gl_FragDepth = clamp(view.depth_map[0], 0.0, 1.0);  // as far as a perspective goes
+  if (scene.domain_min.w == 0.0 || (scene.counts.w & 4u) == 0u || ray.y >= 0.0) return;
+  const float z = (scene.domain_min.y - from.y) / ray.y;
+  if (!(z > view.near_depth)) return;
+  const vec3 p = from + z * ray;
+  // How far the hit moves from a pixel to the next.
+  const float pixel = metresAPixel(z);
+  const vec3 across = worldDirection(vec3(pixel, 0.0, 0.0)), upwards = worldDirection(vec3(0.0, pixel, 0.0));
+  const vec2 right = across.xz - ray.xz * (across.y / ray.y), up = upwards.xz - ray.xz * (upwards.y / ray.y);
+  const vec2 width = abs(right) + abs(up);
+  const vec2 extent = scene.domain_max.xz - scene.domain_min.xz;
+  const vec2 inner = p.xz - scene.domain_min.xz;
+  const vec2 beyond = max(max(-inner, inner - extent), vec2(0.0));
+  const float step = scene.domain_max.w;
+  const bool inside = all(equal(beyond, vec2(0.0)));
+  vec3 albedo = vec3(0.22, 0.225, 0.23);
+  if (inside) albedo = mix(vec3(0.34, 0.37, 0.40), vec3(0.70, 0.70, 0.68), checker(inner / step, width / step));
+  const float bias = 2.0 * scene.light_texel.x;
+  const vec3 sunlight = kSun * max(sun.y, 0.0) * pastSolids(p, bias) * throughFluid(p);
+  const vec3 lit = albedo * (0.55 * skyLight(vec3(0.0, 1.0, 0.0)) + 0.75 * sunlight);
+  const float far = length(beyond) / (2.5 * max(max(extent.x, extent.y), 1e-6));
+  colour = vec4(mix(lit, haze(sight), 1.0 - exp(-far * far)), 1.0);
+  gl_FragDepth = clamp(targetDepth(z), 0.0, 1.0);
+}
