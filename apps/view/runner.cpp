@@ -9,14 +9,13 @@
 #include "fluid/snapshot.hpp"
 #include "offline/readout.hpp"
 #include "offline/state_hash.hpp"
-#include "sort/key_sort_types.hpp"
 #include "view/clock.hpp"
 
 namespace rill::view {
 
 Expected<std::unique_ptr<Runner>> Runner::create(offline::Context& context, Scene scene) {
   std::unique_ptr<Runner> runner(new Runner(context, std::move(scene)));
-  auto start = makeParticles(runner->scene_, KeySortDesc::kMaxCount);
+  auto start = makeParticles(runner->scene_);
   if (!start) return start.error();
   runner->start_ = std::move(*start);
   runner->firstBounds_ = fluidBounds(runner->scene_, runner->start_);
@@ -155,7 +154,7 @@ Expected<uint64_t> Runner::add(const Fill& fill) {
     only.solids[k].motion = {
         {0, {there.centre[0] - first.centre[0], there.centre[1] - first.centre[1], there.centre[2] - first.centre[2]}}};
   }
-  const auto more = makeParticles(only, KeySortDesc::kMaxCount);
+  const auto more = makeParticles(only);
   if (!more) return more.error();
 
   ParticleSet start = start_;

@@ -14,6 +14,7 @@ namespace {
 constexpr uint32_t kMostCluster = 32;  // see shaders/fluid/cluster.glsl: a window of candidates has as many
 
 constexpr uint64_t kMaxBuffer = uint64_t{128} << 20;
+static_assert(kMostParticles == KeySortDesc::kMaxCount);
 
 uint64_t listEntries(const Scene& scene) {
   if (scene.solver.neighbors == NeighborChoice::Grid) return 0;
@@ -53,10 +54,10 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   impl->memory = fluidMemory(scene, n);
   const uint64_t available = device.info().deviceLocalBytes;
   const uint64_t largest = (n + 1) * 16;
-  if (impl->memory.total() > available || largest > kMaxBuffer || n > KeySortDesc::kMaxCount)
+  if (impl->memory.total() > available || largest > kMaxBuffer || n > kMostParticles)
     return Error{ErrorKind::TooLarge, std::to_string(n) + " particles need " + mebibytes(impl->memory.total()) + " on the device; \"" +
                                           device.info().name + "\" has " + mebibytes(available) + " and holds at most " +
-                                          std::to_string(KeySortDesc::kMaxCount) +
+                                          std::to_string(kMostParticles) +
                                           " particles: make fluid.spacing larger or fluid.particles smaller"};
   if (particles.velocities.size() != n)
     return Error{ErrorKind::BadInput, "a fluid needs as many velocities as positions: " + std::to_string(particles.velocities.size()) +

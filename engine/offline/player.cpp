@@ -7,12 +7,10 @@
 #include "offline/context.hpp"
 #include "offline/painter.hpp"
 #include "rill/offline.hpp"
-#include "sort/key_sort_types.hpp"
 
 namespace rill::offline {
 namespace {
 
-constexpr uint64_t kMaxParticles = KeySortDesc::kMaxCount;
 
 Error outOfMemory(const char* what) { return {ErrorKind::OutOfMemory, std::string(what) + ": out of memory"}; }
 
@@ -23,7 +21,7 @@ class Player::Impl {
   Impl(Scene scene, double orbit_deg_per_s) : scene_(std::move(scene)), painter_(scene_, start_, orbit_deg_per_s) {}
 
   Expected<void> open(const Options& options) {
-    auto start = makeParticles(scene_, kMaxParticles);
+    auto start = makeParticles(scene_);
     if (!start) return start.error();
     start_ = std::move(*start);
     if (!(scene_.fluid.spacing > 0))
@@ -40,9 +38,9 @@ class Player::Impl {
   }
 
   Expected<void> show(const std::vector<Float3>& positions, const double origin[3], const std::vector<Float3>& velocities, double time_s) {
-    if (positions.size() > kMaxParticles)
+    if (positions.size() > kMostParticles)
       return Error{ErrorKind::TooLarge,
-                   std::to_string(positions.size()) + " particles; at most " + std::to_string(kMaxParticles) + " are possible"};
+                   std::to_string(positions.size()) + " particles; at most " + std::to_string(kMostParticles) + " are possible"};
     if (!velocities.empty() && velocities.size() != positions.size())
       return Error{ErrorKind::BadInput,
                    std::to_string(velocities.size()) + " velocities for " + std::to_string(positions.size()) + " positions"};

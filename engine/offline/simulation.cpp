@@ -15,12 +15,10 @@
 #include "offline/state_hash.hpp"
 #include "rill/offline.hpp"
 #include "rill/version.hpp"
-#include "sort/key_sort_types.hpp"
 
 namespace rill::offline {
 namespace {
 
-constexpr uint64_t kMaxParticles = KeySortDesc::kMaxCount;  // whatever the device
 constexpr uint32_t kFirstPiece = 16;                        // substeps, before anything is known about a scene's need
 
 uint32_t wholeBlocks(uint32_t substeps, uint32_t block) { return (std::max(substeps, 1u) + block - 1) / block * block; }
@@ -41,7 +39,7 @@ class Simulation::Impl {
 
   /// The particles given, or those of the scene's fills.
   Expected<void> place(std::optional<ParticleSet> given) {
-    auto start = given ? Expected<ParticleSet>(std::move(*given)) : makeParticles(scene_, kMaxParticles);
+    auto start = given ? Expected<ParticleSet>(std::move(*given)) : makeParticles(scene_);
     if (!start) return start.error();
     start_ = std::move(*start);
     return {};
@@ -317,9 +315,9 @@ Expected<std::unique_ptr<Simulation>> Simulation::open(const std::filesystem::pa
 Expected<std::unique_ptr<Simulation>> Simulation::make(Scene scene, std::optional<ParticleSet> start, const Options& options,
                                                        const Checkpoint* from) {
   return guarded("opening the scene", [&]() -> Expected<std::unique_ptr<Simulation>> {
-    if (start && start->positions.size() > kMaxParticles)
+    if (start && start->positions.size() > kMostParticles)
       return Error{ErrorKind::TooLarge,
-                   std::to_string(start->positions.size()) + " particles; at most " + std::to_string(kMaxParticles) + " are possible"};
+                   std::to_string(start->positions.size()) + " particles; at most " + std::to_string(kMostParticles) + " are possible"};
     auto impl = std::make_unique<Impl>(std::move(scene), options);
     if (auto placed = impl->place(std::move(start)); !placed) return placed.error();
     if (auto opened = impl->open(from); !opened) return opened.error();

@@ -34,7 +34,7 @@ struct Found {
 Expected<Cloud> cloudOf(uint32_t count) {
   auto scene = tank(count, {{"fill[0].jitter", "0.2"}});
   if (!scene) return scene.error();
-  const auto start = makeParticles(*scene, KeySortDesc::kMaxCount);
+  const auto start = makeParticles(*scene);
   if (!start) return start.error();
   Cloud cloud;
   cloud.push.count = static_cast<uint32_t>(start->positions.size());

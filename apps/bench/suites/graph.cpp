@@ -6,7 +6,6 @@
 #include "bench/workbench.hpp"
 #include "offline/painter.hpp"
 #include "rill/fluid.hpp"
-#include "sort/key_sort_types.hpp"
 
 namespace rill::bench {
 namespace {
@@ -77,7 +76,7 @@ struct DamBreak {
     if (!scene) return scene.error();
     auto made = std::make_unique<DamBreak>();
     made->scene = std::move(*scene);
-    auto start = makeParticles(made->scene, KeySortDesc::kMaxCount);
+    auto start = makeParticles(made->scene);
     if (!start) return start.error();
     made->start = std::move(*start);
     auto fluid = Fluid::create(workbench.device(), {.scene = &made->scene, .particles = &made->start});

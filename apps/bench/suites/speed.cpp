@@ -45,7 +45,7 @@ Expected<std::vector<PassCost>> passCosts(const Bench& bench, Scene scene) {
   if (!workbench) return workbench.error();
   workbench->timePasses(true);
   const double frame_s = frameOf(scene);
-  const auto start = makeParticles(scene, KeySortDesc::kMaxCount);
+  const auto start = makeParticles(scene);
   if (!start) return start.error();
   auto fluid = Fluid::create(workbench->device(), {&scene, &*start});
   if (!fluid) return fluid.error();

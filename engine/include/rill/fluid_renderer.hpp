@@ -23,6 +23,10 @@ struct TargetFormats {
   VkFormat depth = VK_FORMAT_D32_SFLOAT;
 };
 
+/// What the host's images are made for, so that a fluid can be drawn into them.
+inline constexpr VkImageUsageFlags kFluidColourUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+inline constexpr VkImageUsageFlags kFluidDepthUsage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+
 /// What the host has drawn, and what the fluid is drawn into: versions of images of the same graph.
 struct SceneTargets {
   ImageRef colour, depth;

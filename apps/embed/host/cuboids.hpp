@@ -1,0 +1,35 @@
+#pragma once
+// The engine's own scene, drawn in render passes of its own: cuboids, into a colour and a reversed depth buffer.
+#include "camera.hpp"
+#include "engine.hpp"
+
+namespace host {
+
+struct Cuboid {
+  float low[4], high[4], colour[4];
+};
+
+class Cuboids {
+ public:
+  Cuboids(Engine& engine, const Image& colour, const Image& depth);
+  ~Cuboids();
+  Cuboids(const Cuboids&) = delete;
+  Cuboids& operator=(const Cuboids&) = delete;
+
+  /// A render pass that clears both images and draws.
+  void drawFirst(const Frame& frame, const Matrix& clipFromWorld, const Cuboid* cuboids, uint32_t count);
+  /// A render pass over what is there, tested against the depth that is there.
+  void drawOver(const Frame& frame, const Matrix& clipFromWorld, const Cuboid* cuboids, uint32_t count);
+
+ private:
+  VkRenderPass makePass(VkAttachmentLoadOp load, VkImageLayout colour, VkImageLayout depth);
+  void draw(VkRenderPass pass, const Frame& frame, const Matrix& clipFromWorld, const Cuboid* cuboids, uint32_t count);
+  Engine& engine_;
+  const Image &colour_, &depth_;
+  VkRenderPass first_ = VK_NULL_HANDLE, over_ = VK_NULL_HANDLE;
+  VkFramebuffer framebuffer_ = VK_NULL_HANDLE;
+  VkPipelineLayout layout_ = VK_NULL_HANDLE;
+  VkPipeline pipeline_ = VK_NULL_HANDLE;
+};
+
+}  // namespace host

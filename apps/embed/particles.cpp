@@ -1,0 +1,68 @@
+// A game that has a solver of its own, or particles out of a file: Rill draws them, and no solver is made.
+//   particles OUT.ppm
+#include <cmath>
+#include <rill/fluid_renderer.hpp>
+
+#include "borrow.hpp"
+
+namespace {
+
+constexpr uint32_t kWidth = 640, kHeight = 360;
+constexpr float kSpacing = 0.04f;
+
+/// A pool of 2 x 2 m whose surface is a ring of waves; vec4 a particle.
+uint32_t fill(float* to, float time) {
+  uint32_t count = 0;
+  for (float x = kSpacing / 2; x < 2; x += kSpacing)
+    for (float z = kSpacing / 2; z < 2; z += kSpacing) {
+      const float radius = std::hypot(x - 1, z - 1), top = 0.3f + 0.06f * std::sin(12 * radius - 6 * time) * std::exp(-radius);
+      for (float y = top - kSpacing / 2; y > 0; y -= kSpacing, ++count) {
+        const float particle[4] = {x, y, z, 0};
+        std::memcpy(to + 4 * size_t{count}, particle, sizeof particle);
+      }
+    }
+  return count;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  if (count != 2) host::fail("usage: particles OUT.ppm");
+  Lender lender;
+  host::Engine& engine = lender.engine;
+  const auto device = lender.lend();
+  host::Image colour = engine.createImage(VK_FORMAT_R8G8B8A8_SRGB, kWidth, kHeight,
+                                          rill::kFluidColourUsage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+  host::Image depth = engine.createImage(VK_FORMAT_D32_SFLOAT, kWidth, kHeight, rill::kFluidDepthUsage | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+  const auto painter = need(rill::FluidRenderer::create(*device, {colour.format, depth.format}));
+  const rill::FluidView view = lookAt({2.4f, 1.7f, 3.6f}, {1, 0.2f, 1}, kWidth, kHeight);
+
+  // One buffer a frame in flight, written while the device reads the others.
+  host::Buffer positions[3];
+  for (host::Buffer& buffer : positions) buffer = engine.createBuffer(16 * 40'000, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  rill::Graph graph;
+  for (int k = 0; k < 6; ++k) {
+    const host::Frame frame = engine.begin();
+    const host::Buffer& mine = positions[frame.number % 3];
+    rill::FluidState state;
+    state.count = fill(static_cast<float*>(mine.mapped), 0.1f * float(k));
+    state.spacing = kSpacing;
+    engine.clear(frame, colour, {{0.55f, 0.65f, 0.75f, 1}}, depth, 0);
+
+    device->beginFrame({frame.number, frame.completed});
+    graph.reset();
+    state.position = graph.import("positions", {mine.handle, 0, uint64_t{16} * state.count, rill::Use::None, rill::Use::None});
+    const rill::SceneTargets targets{importTarget(graph, "colour", colour, rill::Use::ColourTarget),
+                                     importTarget(graph, "depth", depth, rill::Use::DepthTarget)};
+    (void)painter->addTo(graph, state, targets, view);
+    need(graph.compile());
+    need(graph.prepare(*device));
+    graph.record(frame.commands);
+    engine.end(frame);
+  }
+  engine.wait();
+  engine.save(colour, arguments[1]);
+  for (host::Buffer& buffer : positions) engine.destroy(buffer);
+  engine.destroy(colour);
+  engine.destroy(depth);
+}

@@ -1,0 +1,75 @@
+// A game that draws particles itself: Rill simulates, and the game reads the positions back two frames late, without waiting. Here they
+// become dots in a picture, seen along -z.
+//   positions OUT.ppm
+#include <cstdio>
+#include <rill/fluid.hpp>
+#include <vector>
+
+#include "borrow.hpp"
+
+namespace {
+
+constexpr uint32_t kWidth = 400, kHeight = 200;
+
+struct Position {
+  float x, y, z, unused;  ///< m from FluidState::origin
+};
+
+/// Brighter where more particles are.
+void draw(std::span<const Position> positions, const char* file) {
+  std::vector<unsigned char> grey(kWidth * kHeight);
+  for (const Position& p : positions) {
+    const int x = int(p.x / 2 * kWidth), y = int((1 - p.y) * kHeight);
+    if (x < 0 || y < 0 || x >= int(kWidth) || y >= int(kHeight)) host::fail("a particle is outside of the tank");
+    unsigned char& dot = grey[size_t(y) * kWidth + size_t(x)];
+    dot = static_cast<unsigned char>(dot > 215 ? 255 : dot + 40);
+  }
+  std::FILE* out = std::fopen(file, "wb");
+  if (!out) host::fail("the picture can't be written");
+  std::fprintf(out, "P6\n%u %u\n255\n", kWidth, kHeight);
+  for (const unsigned char g : grey) std::fputc(g, out), std::fputc(g, out), std::fputc(g, out);
+  if (std::fclose(out) != 0) host::fail("the picture can't be written");
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  if (count != 2) host::fail("usage: positions OUT.ppm");
+  Lender lender;
+  const auto device = lender.lend();
+  rill::Scene scene;
+  scene.fluid.spacing = 0.04;
+  scene.domain = rill::Domain{{0, 0, 0}, {2, 1, 1}};
+  scene.fill = {rill::Fill{.box = rill::BoxShape{{0, 0, 0}, {0.8, 0.8, 1}}}};
+  const auto start = need(rill::makeParticles(scene));
+  const auto water = need(rill::Fluid::create(*device, {.scene = &scene, .particles = &start}));
+
+  rill::Graph graph;
+  rill::Ticket tickets[60];
+  std::vector<Position> latest;
+  uint32_t arrived = 0;
+  const auto collect = [&](uint32_t before) {
+    for (; arrived < before; ++arrived) {
+      const std::span<const std::byte> bytes = graph.data(tickets[arrived]);
+      if (bytes.empty()) return;  // still in flight
+      const auto* first = reinterpret_cast<const Position*>(bytes.data());
+      latest.assign(first, first + bytes.size() / sizeof(Position));
+    }
+  };
+  for (uint32_t k = 0; k < std::size(tickets); ++k) {
+    const host::Frame frame = lender.engine.begin();
+    device->beginFrame({frame.number, frame.completed});
+    graph.reset();
+    collect(k);
+    tickets[k] = graph.readback(water->addTo(graph, {.advance_s = 1.0 / 60}).position);
+    need(graph.compile());
+    need(graph.prepare(*device));
+    graph.record(frame.commands);
+    lender.engine.end(frame);
+  }
+  lender.engine.wait();
+  device->beginFrame({std::size(tickets) + 1, std::size(tickets)});
+  collect(std::size(tickets));
+  if (arrived != std::size(tickets) || latest.size() != start.positions.size()) host::fail("positions are missing");
+  draw(latest, arguments[1]);
+}

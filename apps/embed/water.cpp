@@ -1,0 +1,86 @@
+// A game that has a device, frames in flight, a colour and a depth buffer of its own gets water: all that it takes of Rill is here.
+//   water OUT.ppm
+#include <cstring>
+#include <rill/fluid.hpp>
+#include <rill/fluid_renderer.hpp>
+
+#include "host/camera.hpp"
+#include "host/engine.hpp"
+
+namespace {
+
+/// The value, or the end of the program with Rill's message.
+template <class T>
+T need(rill::Expected<T> result) {
+  if (!result) host::fail(result.error().message.c_str());
+  if constexpr (!std::is_void_v<T>) return *std::move(result);
+}
+
+rill::Float4x4 matrix(const host::Matrix& from) {
+  rill::Float4x4 to;
+  std::memcpy(&to, &from, sizeof to);
+  return to;
+}
+
+}  // namespace
+
+int main(int, char** arguments) {
+  // Rill says what it needs before the device is made, and borrows it then.
+  rill::DeviceRequirements needs;
+  host::Engine engine([&](VkInstance instance, VkPhysicalDevice physicalDevice) {
+    need(rill::appendRequired(vkGetInstanceProcAddr, instance, physicalDevice, needs));
+    return needs.chain();
+  });
+  rill::HostDevice lent;
+  lent.instance = engine.instance;
+  lent.physicalDevice = engine.physicalDevice;
+  lent.device = engine.device;
+  lent.queueFamily = engine.queueFamily;
+  lent.getInstanceProcAddr = engine.getInstanceProcAddr;
+  lent.enabled = needs.chain();
+  const auto device = need(rill::Device::borrow(lent));
+
+  // A tank of 2 x 1 x 1 m with water at its left.
+  rill::Scene scene;
+  scene.fluid.spacing = 0.04;
+  scene.domain = rill::Domain{{0, 0, 0}, {2, 1, 1}};
+  scene.fill = {rill::Fill{.box = rill::BoxShape{{0, 0, 0}, {0.8, 0.8, 1}}}};
+  const auto particles = need(rill::makeParticles(scene));
+  const auto water = need(rill::Fluid::create(*device, {.scene = &scene, .particles = &particles}));
+
+  constexpr uint32_t kWidth = 640, kHeight = 360;
+  host::Image colour = engine.createImage(VK_FORMAT_R8G8B8A8_SRGB, kWidth, kHeight,
+                                          rill::kFluidColourUsage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+  host::Image depth = engine.createImage(VK_FORMAT_D32_SFLOAT, kWidth, kHeight, rill::kFluidDepthUsage | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+  const auto painter = need(rill::FluidRenderer::create(*device, {colour.format, depth.format}));
+  rill::FluidView view;
+  view.view = matrix(host::lookAt({2.6f, 1.6f, 3.2f}, {0.9f, 0.3f, 0.5f}));
+  view.projection = matrix(host::perspective(40, float(kWidth) / kHeight, 0.1f));
+  view.width = kWidth;
+  view.height = kHeight;
+  view.focus_m = 3.5;
+
+  rill::Graph graph;
+  for (int k = 0; k < 40; ++k) {
+    const host::Frame frame = engine.begin();
+    engine.clear(frame, colour, {{0.55f, 0.65f, 0.75f, 1}}, depth, 0);
+
+    device->beginFrame({frame.number, frame.completed});
+    graph.reset();
+    rill::SceneTargets targets;
+    targets.colour =
+        graph.import("colour", {colour.handle, {colour.format, kWidth, kHeight}, rill::Use::ColourTarget, rill::Use::ColourTarget});
+    targets.depth = graph.import("depth", {depth.handle, {depth.format, kWidth, kHeight}, rill::Use::DepthTarget, rill::Use::DepthTarget});
+    const rill::FluidState state = water->addTo(graph, {.advance_s = 1.0 / 60});
+    targets = painter->addTo(graph, state, targets, view);
+    need(graph.compile());
+    need(graph.prepare(*device));
+    graph.record(frame.commands);
+
+    engine.end(frame);
+  }
+  engine.wait();
+  engine.save(colour, arguments[1]);
+  engine.destroy(colour);
+  engine.destroy(depth);
+}
