@@ -19,6 +19,8 @@ run   libvulkan1              the Vulkan loader
 run   fonts-dejavu-core       DejaVu Sans (typeface of the viewer)
 run   mesa-vulkan-drivers     a Vulkan 1.3 driver (Mesa: lavapipe needs no GPU)
 test  libgtest-dev            GoogleTest
+test  libvulkan-volk-dev      volk (a host of the tests calls Vulkan through it)
+test  pkgconf                 pkg-config (a host of the tests is built with it)
 test  glslang-dev             glslang (library: the debug preset reloads shaders)
 test  binutils                binutils (nm)
 test  ffmpeg                  ffmpeg with libx264, and ffprobe (the videos of rill-capture)

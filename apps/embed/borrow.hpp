@@ -1,6 +1,5 @@
 #pragma once
 // What water.cpp shows at length, for the other hosts: an engine whose device Rill may borrow, lent.
-#include <cstring>
 #include <memory>
 #include <rill/device.hpp>
 #include <rill/fluid_renderer.hpp>
@@ -40,8 +39,8 @@ inline rill::ImageRef importTarget(rill::Graph& graph, const char* name, const h
 inline rill::FluidView lookAt(const float (&eye)[3], const float (&target)[3], uint32_t width, uint32_t height) {
   const host::Matrix view = host::lookAt(eye, target), projection = host::perspective(40, float(width) / float(height), 0.1f);
   rill::FluidView out;
-  std::memcpy(&out.view, &view, sizeof view);
-  std::memcpy(&out.projection, &projection, sizeof projection);
+  out.view = rill::Float4x4::from(view.m[0]);
+  out.projection = rill::Float4x4::from(projection.m[0]);
   out.width = width;
   out.height = height;
   out.focus_m = std::hypot(eye[0] - target[0], eye[1] - target[1], eye[2] - target[2]);

@@ -1,6 +1,7 @@
 // A game that has a solver of its own, or particles out of a file: Rill draws them, and no solver is made.
 //   particles OUT.ppm
 #include <cmath>
+#include <cstring>
 #include <rill/fluid_renderer.hpp>
 
 #include "borrow.hpp"

@@ -16,12 +16,6 @@ T need(rill::Expected<T> result) {
   if constexpr (!std::is_void_v<T>) return *std::move(result);
 }
 
-rill::Float4x4 matrix(const host::Matrix& from) {
-  rill::Float4x4 to;
-  std::memcpy(&to, &from, sizeof to);
-  return to;
-}
-
 }  // namespace
 
 int main(int, char** arguments) {
@@ -54,8 +48,8 @@ int main(int, char** arguments) {
   host::Image depth = engine.createImage(VK_FORMAT_D32_SFLOAT, kWidth, kHeight, rill::kFluidDepthUsage | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
   const auto painter = need(rill::FluidRenderer::create(*device, {colour.format, depth.format}));
   rill::FluidView view;
-  view.view = matrix(host::lookAt({2.6f, 1.6f, 3.2f}, {0.9f, 0.3f, 0.5f}));
-  view.projection = matrix(host::perspective(40, float(kWidth) / kHeight, 0.1f));
+  view.view = rill::Float4x4::from(host::lookAt({2.6f, 1.6f, 3.2f}, {0.9f, 0.3f, 0.5f}).m[0]);
+  view.projection = rill::Float4x4::from(host::perspective(40, float(kWidth) / kHeight, 0.1f).m[0]);
   view.width = kWidth;
   view.height = kHeight;
   view.focus_m = 3.5;

@@ -32,7 +32,7 @@ TEST(SceneEnvironment, IsBehindEverything) {
   const Outcome without =
       capture({"scene.json", "--frames", "2", "--size", "96x54", "--out", "plain", "--set", "look={}"}, folder.string());
   ASSERT_EQ(without.code, 0) << without.err;
-  const Picture red = readPng(folder / "out/frame_00001.png"), plain = readPng(folder / "plain/frame_00001.png");
+  const Picture red = readPicture(folder / "out/frame_00001.png"), plain = readPicture(folder / "plain/frame_00001.png");
   ASSERT_EQ(red.rgb.size(), 3u * 96 * 54);
   const size_t corner = 0;
   EXPECT_GT(red.rgb[corner], 150);

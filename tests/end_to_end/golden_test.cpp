@@ -42,7 +42,7 @@ TEST_P(GoldenTest, LooksAsItDid) {
   const fs::path golden =
       fs::path(RILL_SOURCE_DIR) / "assets/golden" / (std::string(wanted.view) + "-" + std::to_string(wanted.frame) + ".png");
   if (std::getenv("RILL_UPDATE_GOLDEN")) fs::copy_file(made, golden, fs::copy_options::overwrite_existing);
-  const Picture picture = readPng(made), expected = readPng(golden);
+  const Picture picture = readPicture(made), expected = readPicture(golden);
   ASSERT_FALSE(expected.rgb.empty()) << golden;
   const Distance apart = distance(picture, expected);
   EXPECT_LE(apart.mean, wanted.most.mean);

@@ -30,7 +30,7 @@ TEST(Play, DrawsWhatWasExported) {
     ASSERT_EQ(drawn.code, 0) << drawn.err;
     EXPECT_EQ(drawn.err + drawn.out, "");
     for (const char* name : {"frame_00000.png", "frame_00002.png"}) {
-      const Distance apart = distance(readPng(folder / "run" / name), readPng(folder / "played" / name));
+      const Distance apart = distance(readPicture(folder / "run" / name), readPicture(folder / "played" / name));
       EXPECT_LE(apart.mean, 0.003) << view;
       EXPECT_LE(apart.worst, 0.1) << view;
     }
@@ -62,9 +62,9 @@ TEST(Play, TheCameraGoesAround) {
   const Outcome drawn = capture({scene, "--play", (folder / "in").string(), "--size", "160x90", "--fps", "2", "--orbit", "360", "--out",
                                  (folder / "out").string(), "--quiet"});
   ASSERT_EQ(drawn.code, 0) << drawn.err;
-  const Picture start = readPng(folder / "out/frame_00000.png");
-  EXPECT_LE(distance(start, readPng(folder / "out/frame_00002.png")).mean, 1e-3);
-  EXPECT_GT(distance(start, readPng(folder / "out/frame_00001.png")).mean, 0.002);
+  const Picture start = readPicture(folder / "out/frame_00000.png");
+  EXPECT_LE(distance(start, readPicture(folder / "out/frame_00002.png")).mean, 1e-3);
+  EXPECT_GT(distance(start, readPicture(folder / "out/frame_00001.png")).mean, 0.002);
 }
 
 TEST(Play, RefusesByName) {

@@ -73,8 +73,8 @@ TEST_F(VideoTest, ShowsThePictures) {
   const Outcome decoded = Child({"/usr/bin/env", "ffmpeg", "-v", "error", "-i", "made/here/a.mp4", "seen_%d.png"}, folder.string()).wait();
   ASSERT_EQ(decoded.code, 0) << decoded.err;
   for (int k = 0; k < 3; ++k) {
-    const Picture made = readPng(folder / ("out/frame_0000" + std::to_string(k) + ".png"));
-    const Picture seen = readPng(folder / ("seen_" + std::to_string(k + 1) + ".png"));
+    const Picture made = readPicture(folder / ("out/frame_0000" + std::to_string(k) + ".png"));
+    const Picture seen = readPicture(folder / ("seen_" + std::to_string(k + 1) + ".png"));
     ASSERT_EQ(made.width, 97u);
     ASSERT_EQ(seen.width, 98u);
     ASSERT_EQ(seen.height, 56u);

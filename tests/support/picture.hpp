@@ -1,5 +1,5 @@
 #pragma once
-// Pictures read back from PNG files, and how far apart two of them look.
+// Pictures read back from PNG and PPM files, and how far apart two of them look.
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -11,7 +11,7 @@ struct Picture {
   uint32_t width = 0, height = 0;
   std::vector<uint8_t> rgb;  ///< sRGB, rows from the top; empty where the file is no picture
 };
-Picture readPng(const std::filesystem::path& file);
+Picture readPicture(const std::filesystem::path& file);
 
 struct Distance {
   double mean = 1;   ///< over blocks

@@ -1,5 +1,9 @@
 #pragma once
-// A picture of what is all around, in place of the sky that a fluid reflects.
+// A picture of what is all around, in place of the sky that a fluid reflects. rill/scene_io.hpp reads one from a file.
+//
+//   rill::EnvironmentPicture dusk{4, 2, {}};
+//   dusk.texels.assign(4, rill::sharedExponent(0.9f, 0.5f, 0.3f));  // the upper row, then the lower one
+//   dusk.texels.insert(dusk.texels.end(), 4, rill::sharedExponent(0.1f, 0.1f, 0.12f));
 #include <cstdint>
 #include <vector>
 

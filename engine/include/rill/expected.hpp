@@ -1,4 +1,9 @@
 #pragma once
+// Results that may be errors, in place of exceptions.
+//
+//   rill::Expected<int> answer = rill::Error{rill::ErrorKind::BadInput, "the question was not asked"};
+//   if (!answer) return fail(answer.error().message);
+//   return *answer;
 #include <cassert>
 #include <string>
 #include <utility>

@@ -1,4 +1,8 @@
 #pragma once
+// Plain numbers of public interfaces.
+//
+//   const rill::Float3 up{0, 1, 0};
+//   const rill::Float4x4 view = rill::Float4x4::from(viewMatrix);  // glm::value_ptr(matrix)
 
 namespace rill {
 
@@ -17,6 +21,12 @@ struct Float4 {
 /// A column-major 4 x 4 matrix, 64 bytes.
 struct Float4x4 {
   Float4 column[4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+  /// Of 16 floats, column by column: glm::value_ptr(matrix), &XMFLOAT4X4::m[0][0] of a matrix for row vectors.
+  static Float4x4 from(const float* m) {
+    Float4x4 out;
+    for (Float4& c : out.column) c = {m[0], m[1], m[2], m[3]}, m += 4;
+    return out;
+  }
 };
 
 }  // namespace rill

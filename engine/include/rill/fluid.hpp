@@ -1,5 +1,13 @@
 #pragma once
 // The PBF solver as passes of a render graph. All state lives on the device; time steps, list rebuilds and stops are decided there.
+//
+//   rill::Scene scene;
+//   scene.fluid.spacing = 0.04;
+//   scene.fill = {rill::Fill{.sphere = rill::SphereShape{{0, 1, 0}, 0.3}}};
+//   auto particles = rill::makeParticles(scene);
+//   auto water = rill::Fluid::create(device, {.scene = &scene, .particles = &*particles});
+//   if (!water) return fail(water.error().message);
+//   const rill::FluidState state = (*water)->addTo(graph, {.advance_s = 1.0 / 60});  // every frame
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -76,7 +84,8 @@ struct FluidStep {
   std::span<const SolidTarget> targets = {};
 };
 
-/// Where a module finds the particles of this frame: versions of buffers of the same graph. Read them with any Use.
+/// Where a module finds the particles of this frame: versions of buffers of the same graph. Read them with any Use. A Fluid's buffers have
+/// room for one entry more than `count`, which means nothing.
 struct FluidState {
   BufferRef position;            ///< vec4 a particle: xyz in m relative to `origin`, w unused
   BufferRef velocity;            ///< vec4 a particle: xyz in m/s, w the density over rest density where the step asked for `stats`, else 1

@@ -1,5 +1,12 @@
 #pragma once
 // Screen-space rendering of a fluid's particles into a host's colour and depth, as passes of a render graph.
+//
+//   auto painter = rill::FluidRenderer::create(device, {.colour = VK_FORMAT_R8G8B8A8_SRGB, .depth = VK_FORMAT_D32_SFLOAT});
+//   if (!painter) return fail(painter.error().message);
+//   rill::SceneTargets targets;  // every frame: what has been drawn so far
+//   targets.colour = graph.import("colour", {colourImage, {VK_FORMAT_R8G8B8A8_SRGB, width, height}, rill::Use::ColourTarget});
+//   targets.depth = graph.import("depth", {depthImage, {VK_FORMAT_D32_SFLOAT, width, height}, rill::Use::DepthTarget});
+//   targets = (*painter)->addTo(graph, state, targets, {.width = width, .height = height, .focus_m = 3});
 #include <cstdint>
 #include <memory>
 #include <optional>

@@ -1,5 +1,9 @@
 #pragma once
 // What a render graph tells of a frame: its passes, their times, where transients lie.
+//
+//   for (const rill::Timing& pass : graph.timings()) std::printf("%6.3f ms  %s\n", pass.ms, std::string(pass.name).c_str());
+//   for (const rill::PassReport& pass : graph.report())
+//     if (!pass.reason.empty()) std::printf("skipped: %s\n", std::string(pass.reason).c_str());
 #include <cstdint>
 #include <string_view>
 

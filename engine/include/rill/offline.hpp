@@ -1,5 +1,11 @@
 #pragma once
-// A simulation without a host: owns a device, runs a scene, hands out arrays. No Vulkan in sight.
+// A simulation without a host (of the library rill::offline): owns a device, runs a scene, hands out arrays. No Vulkan in sight.
+//
+//   auto run = rill::offline::Simulation::open("dam-break.json");
+//   if (!run) return fail(run.error().message);
+//   if (auto ok = (*run)->advance(0.5); !ok) return fail(ok.error().message);
+//   auto particles = (*run)->particles();  // positions, velocities, densities, numbers at birth
+//   auto stats = (*run)->stats();
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>

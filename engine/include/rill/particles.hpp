@@ -1,5 +1,11 @@
 #pragma once
 // A scene's fills as particles: what a fluid starts from.
+//
+//   rill::Scene scene;
+//   scene.fluid.spacing = 0.04;
+//   scene.fill = {rill::Fill{.sphere = rill::SphereShape{{0, 1, 0}, 0.3}}};
+//   auto particles = rill::makeParticles(scene);
+//   if (!particles) return fail(particles.error().message);
 #include <cstdint>
 #include <string>
 #include <vector>

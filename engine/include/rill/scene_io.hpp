@@ -1,5 +1,10 @@
 #pragma once
-// Reading a scene file into a Scene, and a Scene into particles. See assets/scenes/scene.schema.json for the format.
+// Reading a scene file into a Scene (of the library rill::scene). See assets/scenes/scene.schema.json for the format.
+//
+//   const rill::Override finer[] = {{"fluid.spacing", "0.02"}};
+//   auto scene = rill::loadScene("dam-break.json", finer);
+//   if (!scene) return fail(scene.error().message);
+//   auto particles = rill::makeParticles(*scene);
 #include <filesystem>
 #include <span>
 #include <string>

@@ -8,6 +8,7 @@
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_ONLY_PNG
+#define STBI_ONLY_PNM
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wunused-but-set-variable"
@@ -29,7 +30,7 @@ std::array<double, 3> meanColour(const Picture& picture, uint32_t x0, uint32_t y
 
 }  // namespace
 
-Picture readPng(const std::filesystem::path& file) {
+Picture readPicture(const std::filesystem::path& file) {
   const std::string bytes = contentOf(file);
   int width = 0, height = 0, channels = 0;
   stbi_uc* pixels =

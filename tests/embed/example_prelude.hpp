@@ -1,0 +1,26 @@
+#pragma once
+// What the guide and the examples in the headers take for granted: the names of a host.
+#include <vulkan/vulkan.h>
+
+#include <cstdio>
+#include <rill/fluid.hpp>
+#include <rill/graph.hpp>
+#include <string_view>
+
+extern VkInstance instance;
+extern VkPhysicalDevice physicalDevice;
+extern VkDevice vkDevice;
+extern VkDeviceCreateInfo deviceInfo;
+extern VkPipelineCache pipelineCache;
+extern VkCommandBuffer commandBuffer;
+extern VkImage colourImage, depthImage;
+extern VkBuffer positionBuffer;
+extern uint32_t queueFamily, width, height, particleCount;
+extern uint64_t frameNumber, lastFinishedFrame;
+extern const float *viewMatrix, *projectionMatrix;
+int fail(std::string_view message);
+
+// Of headers that need a device: what a host has by then.
+extern rill::Device& device;
+extern rill::Graph& graph;
+extern rill::FluidState state;

@@ -1,0 +1,89 @@
+// The code in the guide and in the headers' top comments compiles as it stands there.
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "support/child_process.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace rill::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kHeaders = fs::path(RILL_SOURCE_DIR) / "engine/include/rill";
+
+struct Code {
+  std::string includes, statements;
+  size_t lines = 0;
+  void add(const std::string& line) {
+    (line.starts_with("#include") ? includes : statements) += line + "\n";
+    ++lines;
+  }
+};
+
+/// Blocks of C++ in Markdown, one after another.
+Code codeOfGuide(const fs::path& file) {
+  Code code;
+  std::istringstream text(contentOf(file));
+  bool inside = false;
+  for (std::string line; std::getline(text, line);) {
+    if (line.starts_with("```"))
+      inside = line == "```cpp";
+    else if (inside)
+      code.add(line);
+  }
+  return code;
+}
+
+/// The lines of a header's top comment that are set in by three spaces.
+Code codeOfHeader(const fs::path& file) {
+  Code code;
+  std::istringstream text(contentOf(file));
+  for (std::string line; std::getline(text, line);) {
+    if (line.starts_with("//   "))
+      code.add(line.substr(5));
+    else if (!line.starts_with("//") && line != "#pragma once")
+      break;
+  }
+  return code;
+}
+
+void expectCompiles(const std::string& first, const Code& code) {
+  const TemporaryFolder folder;
+  const std::string source =
+      first + code.includes + "#include \"embed/example_prelude.hpp\"\nint example() {\n" + code.statements + "return 0;\n}\n";
+  const std::string file = folder.write("example.cpp", source).string();
+  const Outcome outcome = Child({RILL_CXX, "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", "-Wno-unused", "-I",
+                                 kHeaders.parent_path().string(), "-I", std::string(RILL_SOURCE_DIR) + "/tests", file})
+                              .wait();
+  EXPECT_EQ(outcome.code, 0) << source << outcome.err;
+}
+
+TEST(Examples, TheGuideCompiles) {
+  const Code code = codeOfGuide(fs::path(RILL_SOURCE_DIR) / "apps/embed/README.md");
+  EXPECT_GT(code.lines, 40u);
+  expectCompiles("", code);
+}
+
+class HeaderExample : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(HeaderExample, Compiles) {
+  const Code code = codeOfHeader(kHeaders / (GetParam() + ".hpp"));
+  EXPECT_GE(code.lines, 1u) << "the header's top comment has no example";
+  EXPECT_LE(code.lines, 12u);
+  expectCompiles("#include <rill/" + GetParam() + ".hpp>\n", code);
+}
+
+/// All public headers but the one that has a single macro.
+std::vector<std::string> headers() {
+  std::vector<std::string> names;
+  for (const std::string& name : TemporaryFolder::namesIn(kHeaders))
+    if (name != "export.hpp") names.push_back(name.substr(0, name.size() - 4));
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Public, HeaderExample, ::testing::ValuesIn(headers()), [](const auto& one) { return one.param; });
+
+}  // namespace
+}  // namespace rill::test

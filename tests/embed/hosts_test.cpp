@@ -1,0 +1,116 @@
+// Hosts that are strangers to Rill, built from the installed package (build_hosts.cmake): each runs clean under the validation layer, and
+// its picture is looked at. RILL_UPDATE_GOLDEN=1 in the environment replaces the pictures that they are held against: look before
+// committing.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "shared/png.hpp"
+#include "support/child_process.hpp"
+#include "support/picture.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace rill::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kOut = fs::path(RILL_BINARY_DIR) / "embed";
+
+/// Every call checked, synchronization too; the layer writes to standard output.
+const Child::Environment kValidation{{"VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation"},
+                                     {"VK_LAYER_ENABLES", "VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT"}};
+
+void expectClean(const Outcome& outcome) {
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(outcome.err, "");
+}
+
+/// The picture that a host makes.
+Picture pictureOf(const std::string& host) {
+  const TemporaryFolder folder;
+  const fs::path program = kOut / (host == "two_fluids" ? "build-hosts" : "build-embed") / host;
+  if (!fs::exists(program)) return {};
+  const std::string file = (folder / "out.ppm").string();
+  expectClean(Child({program.string(), file}, ".", kValidation).wait());
+  return readPicture(file);
+}
+
+struct Case {
+  const char* host;
+  Distance most;  ///< another driver rounds otherwise
+  friend void PrintTo(const Case& one, std::ostream* out) { *out << one.host; }
+};
+
+class Host : public ::testing::TestWithParam<Case> {};
+
+TEST_P(Host, RunsCleanAndItsPictureIsRight) {
+  const Picture picture = pictureOf(GetParam().host);
+  ASSERT_FALSE(picture.rgb.empty());
+  const fs::path golden = fs::path(RILL_SOURCE_DIR) / "assets/golden" / ("embed-" + std::string(GetParam().host) + ".png");
+  if (std::getenv("RILL_UPDATE_GOLDEN")) {
+    std::vector<uint8_t> rgba;
+    for (size_t k = 0; k < picture.rgb.size(); k += 3)
+      rgba.insert(rgba.end(), {picture.rgb[k], picture.rgb[k + 1], picture.rgb[k + 2], 255});
+    ASSERT_TRUE(apps::writePng(golden, {picture.width, picture.height, rgba}));
+  }
+  const Distance apart = distance(picture, readPicture(golden));
+  EXPECT_LE(apart.mean, GetParam().most.mean);
+  EXPECT_LE(apart.worst, GetParam().most.worst);
+}
+
+INSTANTIATE_TEST_SUITE_P(Pictures, Host,
+                         ::testing::Values(Case{"water", {0.02, 0.3}}, Case{"between", {0.02, 0.3}}, Case{"positions", {0.02, 0.3}},
+                                           Case{"particles", {0.01, 0.1}}, Case{"two_fluids", {0.02, 0.3}}),
+                         [](const auto& one) { return std::string(one.param.host); });
+
+/// One game through volk, over the shared library, without exceptions and run-time type information: the same bits as through the loader.
+class SameGame : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(SameGame, DrawsTheSamePixels) {
+  if (!fs::exists(kOut / "build-embed" / GetParam())) GTEST_SKIP() << "volk is not installed";
+  const Picture usual = pictureOf("water"), other = pictureOf(GetParam());
+  ASSERT_FALSE(usual.rgb.empty());
+  EXPECT_TRUE(usual.rgb == other.rgb);
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways, SameGame, ::testing::Values("water_volk", "water_shared", "water_plain"),
+                         [](const auto& one) { return std::string(one.param); });
+
+TEST(WaterBetween, HidesWhatIsDrawnLastWhereItIsNearer) {
+  const Picture picture = pictureOf("between");
+  ASSERT_FALSE(picture.rgb.empty());
+  // The bar lies along x through the whole tank. The water at the left hides it, the air at the right does not.
+  uint32_t left = 0, right = 0;
+  for (uint32_t y = 0; y < picture.height; ++y)
+    for (uint32_t x = 0; x < picture.width; ++x) {
+      const uint8_t* rgb = &picture.rgb[3 * (size_t{y} * picture.width + x)];
+      if (rgb[0] > 120 && rgb[1] < 80 && rgb[2] < 80) ++(x < picture.width / 3 ? left : right);
+    }
+  EXPECT_EQ(left, 0u);
+  EXPECT_GT(right, 100u);
+}
+
+TEST(Package, GivesScenesAndASimulationWithoutAHost) {
+  for (const char* host : {"scenes", "scenes_shared", "researcher"})
+    expectClean(Child({(kOut / "build-hosts" / host).string()}, ".", kValidation).wait());
+}
+
+TEST(Package, HasEverythingInTheUsualPlaces) {
+  for (const char* file : {"include/rill/fluid.hpp", "include/rill/version.hpp", "share/rill/scenes/scene.schema.json",
+                           "share/rill/scenes/dam-break.json", "share/doc/rill/LICENSE"})
+    EXPECT_TRUE(fs::exists(kOut / "rill" / file)) << file;
+  // Nothing in it knows where it was built or first installed.
+  for (const auto& entry : fs::recursive_directory_iterator(kOut / "rill")) {
+    const std::string extension = entry.path().extension().string();
+    if (extension != ".cmake" && extension != ".pc" && extension != ".hpp") continue;
+    const std::string text = contentOf(entry.path());
+    EXPECT_EQ(text.find(RILL_SOURCE_DIR), std::string::npos) << entry.path();
+    EXPECT_EQ(text.find((kOut / "first").string()), std::string::npos) << entry.path();
+  }
+}
+
+}  // namespace
+}  // namespace rill::test

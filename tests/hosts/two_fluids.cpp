@@ -1,0 +1,72 @@
+// Two fluids in one frame, three frames in flight, all of Rill's objects made and destroyed again and again while frames are in flight.
+//   two_fluids OUT.ppm
+#include <rill/fluid.hpp>
+#include <rill/fluid_renderer.hpp>
+
+#include "borrow.hpp"
+
+namespace {
+
+constexpr uint32_t kWidth = 320, kHeight = 180;
+constexpr int kFrames = 200;
+
+/// A drop above a pool, in a tank that begins at `x`.
+std::unique_ptr<rill::Fluid> makeFluid(rill::Device& device, double x, double viscosity) {
+  rill::Scene scene;
+  scene.fluid.spacing = 0.06;
+  scene.fluid.viscosity = viscosity;
+  scene.domain = rill::Domain{{x, 0, 0}, {x + 0.9, 1, 0.9}};
+  scene.fill = {rill::Fill{.box = rill::BoxShape{{x, 0, 0}, {x + 0.9, 0.24, 0.9}}},
+                rill::Fill{.sphere = rill::SphereShape{{x + 0.45, 0.6, 0.45}, 0.2}}};
+  const auto start = need(rill::makeParticles(scene));
+  return need(rill::Fluid::create(device, {.scene = &scene, .particles = &start}));
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  if (count != 2) host::fail("usage: two_fluids OUT.ppm");
+  Lender lender;
+  host::Engine& engine = lender.engine;
+  auto device = lender.lend();
+  host::Image colour = engine.createImage(VK_FORMAT_R8G8B8A8_SRGB, kWidth, kHeight,
+                                          rill::kFluidColourUsage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+  host::Image depth = engine.createImage(VK_FORMAT_D32_SFLOAT, kWidth, kHeight, rill::kFluidDepthUsage | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+  const rill::FluidView view = lookAt({1, 1.3f, 3.4f}, {1, 0.25f, 0.45f}, kWidth, kHeight);
+  rill::FluidLook clay;
+  clay.opaque = true;
+  clay.scatter = {0.5f, 0.2f, 0.1f};
+  {
+    std::unique_ptr<rill::Fluid> left, right;
+    std::unique_ptr<rill::FluidRenderer> painter;
+    auto graph = std::make_unique<rill::Graph>();
+    for (int k = 0; k < kFrames; ++k) {
+      const host::Frame frame = engine.begin();
+      device->beginFrame({frame.number, frame.completed});
+      // What is replaced here was recorded into frames that are still in flight.
+      if (k % 7 == 0) left = makeFluid(*device, 0, 0);
+      if (k % 5 == 0) right = makeFluid(*device, 1.1, 5);
+      if (k % 11 == 0) painter = need(rill::FluidRenderer::create(*device, {colour.format, depth.format}));
+      if (k % 13 == 0) graph = std::make_unique<rill::Graph>();
+      engine.clear(frame, colour, {{0.55f, 0.65f, 0.75f, 1}}, depth, 0);
+
+      graph->reset();
+      rill::SceneTargets targets{importTarget(*graph, "colour", colour, rill::Use::ColourTarget),
+                                 importTarget(*graph, "depth", depth, rill::Use::DepthTarget)};
+      const rill::FluidState a = left->addTo(*graph, {.advance_s = 1.0 / 60, .stats = true});
+      const rill::FluidState b = right->addTo(*graph, {.advance_s = 1.0 / 60});
+      targets = painter->addTo(*graph, a, targets, view);
+      targets = painter->addTo(*graph, b, targets, view, clay);
+      need(graph->compile());
+      need(graph->prepare(*device));
+      graph->record(frame.commands);
+      engine.end(frame);
+      if (left->stats() && left->stats()->non_finite + left->stats()->outside > 0) host::fail("the fluid left its tank");
+    }
+    engine.wait();
+    engine.save(colour, arguments[1]);
+  }
+  device.reset();
+  engine.destroy(colour);
+  engine.destroy(depth);
+}
