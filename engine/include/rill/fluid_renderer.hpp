@@ -23,7 +23,9 @@ struct TargetFormats {
   VkFormat depth = VK_FORMAT_D32_SFLOAT;
 };
 
-/// What the host has drawn, and what the fluid is drawn into: versions of images of the same graph.
+/// What the host has drawn, and what the fluid is drawn into: versions of images of the same graph, of TargetFormats and of one size. Both
+/// have content. They are read with Use::ComputeSampled, and drawn to with Use::ColourTarget and Use::DepthTarget: images of the host's own
+/// are created for SAMPLED and COLOR_ATTACHMENT, or SAMPLED and DEPTH_STENCIL_ATTACHMENT, beside what the host itself does with them.
 struct SceneTargets {
   ImageRef colour, depth;
 };
@@ -75,7 +77,9 @@ enum class SurfaceData : uint8_t {
 
 class FluidRendererImpl;
 
-/// Draws the fluid of a FluidState: only its position, count, spacing and origin are used, so a host can fill one itself.
+/// Draws the fluid of a FluidState: only its position, count, spacing and origin are used, so a host can fill one itself. `position` is read
+/// with Use::ComputeRead: of a host's own it is an import created for STORAGE_BUFFER, of at least `count` times 16 bytes, in the state
+/// that BufferImport::before says.
 /// Two runs on one driver give the same pixels, unless more than 1,024 surface particles share a cell of four by four samples (counted).
 /// The depth written at a silhouette is the fluid's in every pixel that it touches.
 class RILL_API FluidRenderer {
