@@ -77,8 +77,8 @@ enum class SurfaceData : uint8_t {
 
 class FluidRendererImpl;
 
-/// Draws the fluid of a FluidState: only its position, count, spacing and origin are used, so a host can fill one itself. `position` is read
-/// with Use::ComputeRead: of a host's own it is an import created for STORAGE_BUFFER, of at least `count` times 16 bytes, in the state
+/// Draws the fluid of a FluidState: only its position, count, spacing and origin are used, so a host can fill one itself. `position` is
+/// read with Use::ComputeRead: of a host's own it is an import created for STORAGE_BUFFER, of at least `count` times 16 bytes, in the state
 /// that BufferImport::before says.
 /// Two runs on one driver give the same pixels, unless more than 1,024 surface particles share a cell of four by four samples (counted).
 /// The depth written at a silhouette is the fluid's in every pixel that it touches.
