@@ -25,10 +25,10 @@ Expected<Bilateral> Bilateral::create(Device& device) {
   for (const auto& wanted : all) {
     const uint32_t constants[] = {wanted.columns, wanted.rows};
     auto pipeline = computePipeline(device, {.shader = "bilateral",
+                                             .spirv = benchShader("bilateral"),
                                              .bindings = kBindings,
                                              .pushConstantBytes = sizeof(BilateralPush),
-                                             .constants = constants,
-                                             .words = benchShader("bilateral")});
+                                             .constants = constants});
     if (!pipeline) return pipeline.error();
     *wanted.pipeline = *pipeline;
   }

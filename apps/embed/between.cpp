@@ -54,7 +54,7 @@ int main(int count, char** arguments) {
     }
     engine.wait();
   }
-  engine.save(colour, arguments[1]);
+  engine.save(colour, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, arguments[1]);
   engine.destroy(colour);
   engine.destroy(depth);
 }

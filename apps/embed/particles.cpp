@@ -62,7 +62,7 @@ int main(int count, char** arguments) {
     engine.end(frame);
   }
   engine.wait();
-  engine.save(colour, arguments[1]);
+  engine.save(colour, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, arguments[1]);
   for (host::Buffer& buffer : positions) engine.destroy(buffer);
   engine.destroy(colour);
   engine.destroy(depth);

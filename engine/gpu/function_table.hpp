@@ -22,6 +22,7 @@
   X(CmdClearColorImage)               \
   X(CmdCopyBuffer)                    \
   X(CmdCopyBufferToImage)             \
+  X(CmdCopyImage)                     \
   X(CmdCopyImageToBuffer)             \
   X(CmdDispatch)                      \
   X(CmdDispatchIndirect)              \

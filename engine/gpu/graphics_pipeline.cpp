@@ -85,7 +85,7 @@ Expected<const GraphicsPipeline*> PipelineStore::find(DeviceImpl& device, const 
         p->depthCompare == desc.depthCompare && p->depthWrite == desc.depthWrite && p->blend == desc.blend &&
         p->topology == desc.topology && std::ranges::equal(p->set->kinds, desc.bindings) &&
         std::ranges::equal(p->constants, desc.constants) && std::ranges::equal(p->colours, desc.colours) &&
-        std::ranges::equal(p->words, desc.vertexWords) && std::ranges::equal(p->fragmentWords, desc.fragmentWords))
+        std::ranges::equal(p->words, desc.vertexSpirv) && std::ranges::equal(p->fragmentWords, desc.fragmentSpirv))
       return p.get();
 
   if (!device.draws)
@@ -106,16 +106,17 @@ Expected<const GraphicsPipeline*> PipelineStore::find(DeviceImpl& device, const 
     if (lacks(format, drawn)) return refused(format, "a colour");
   if (desc.depth != VK_FORMAT_UNDEFINED && lacks(desc.depth, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT))
     return refused(desc.depth, "a depth");
-  const auto words = [&](std::string_view name, std::span<const uint32_t> own) { return own.empty() ? libraryWords(device, name) : own; };
-  const std::span<const uint32_t> vertex = words(desc.vertex, desc.vertexWords), fragment = words(desc.fragment, desc.fragmentWords);
-  if (vertex.empty()) return shaderError(desc.vertex, "the library contains no such shader");
-  if (fragment.empty() && !desc.fragment.empty()) return shaderError(desc.fragment, "the library contains no such shader");
+  const auto vertex = shaderWords(device, desc.vertex, desc.vertexSpirv);
+  if (!vertex) return vertex.error();
+  const bool shades = !desc.fragment.empty() || !desc.fragmentSpirv.empty();
+  const auto fragment = shades ? shaderWords(device, desc.fragment, desc.fragmentSpirv) : std::span<const uint32_t>();
+  if (!fragment) return fragment.error();
 
   auto pipeline = std::make_unique<GraphicsPipeline>();
   pipeline->shader = desc.vertex;
   pipeline->fragment = desc.fragment;
-  pipeline->words.assign(desc.vertexWords.begin(), desc.vertexWords.end());
-  pipeline->fragmentWords.assign(desc.fragmentWords.begin(), desc.fragmentWords.end());
+  pipeline->words.assign(desc.vertexSpirv.begin(), desc.vertexSpirv.end());
+  pipeline->fragmentWords.assign(desc.fragmentSpirv.begin(), desc.fragmentSpirv.end());
   pipeline->bindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
   pipeline->stages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
   pipeline->colours.assign(desc.colours.begin(), desc.colours.end());
@@ -125,7 +126,7 @@ Expected<const GraphicsPipeline*> PipelineStore::find(DeviceImpl& device, const 
   pipeline->blend = desc.blend;
   pipeline->topology = desc.topology;
   if (auto ok = begin(device, *pipeline, desc.bindings, desc.pushConstantBytes, desc.constants); !ok) return ok.error();
-  auto handle = build(device, *pipeline, vertex, fragment);
+  auto handle = build(device, *pipeline, *vertex, *fragment);
   return keep(device, graphics_, std::move(pipeline), std::move(handle));
 }
 

@@ -28,6 +28,20 @@ Error shaderError(std::string_view shader, std::string what) {
   return {ErrorKind::Shader, "shader '" + std::string(shader) + "': " + std::move(what)};
 }
 
+Expected<std::span<const uint32_t>> shaderWords(const DeviceImpl& device, std::string_view shader, std::span<const uint32_t> spirv) {
+  if (spirv.empty()) {
+    const auto words = libraryWords(device, shader);
+    if (words.empty()) return shaderError(shader, "no SPIR-V was given, and Rill has no shader of that name");
+    return words;
+  }
+  constexpr uint32_t magic = 0x07230203, swapped = 0x03022307;
+  constexpr size_t header = 5;  // words
+  if (spirv[0] == swapped) return shaderError(shader, "its SPIR-V is in the other byte order: it must be in that of this machine");
+  if (spirv[0] != magic || spirv.size() < header)
+    return shaderError(shader, "what was given is no SPIR-V: a module begins with the word 0x07230203 and has a header of five words");
+  return spirv;
+}
+
 Error pipelineError(VkResult result, std::string_view shader) {
   Error error = vulkanError(result, "compiling the pipeline of shader '" + std::string(shader) + "'");
   if (error.kind == ErrorKind::Failed) error.kind = ErrorKind::Shader;
@@ -173,11 +187,11 @@ Expected<const ComputePipeline*> PipelineStore::find(DeviceImpl& device, const C
   for (const auto& p : pipelines_)
     if (p->shader == desc.shader && p->pushBytes == desc.pushConstantBytes && p->requiredSubgroupSize == desc.requiredSubgroupSize &&
         std::ranges::equal(p->set->kinds, desc.bindings) && std::ranges::equal(p->constants, desc.constants) &&
-        std::ranges::equal(p->words, desc.words))
+        std::ranges::equal(p->words, desc.spirv))
       return p.get();
 
-  const std::span<const uint32_t> words = desc.words.empty() ? libraryWords(device, desc.shader) : desc.words;
-  if (words.empty()) return shaderError(desc.shader, "the library contains no such shader");
+  const auto words = shaderWords(device, desc.shader, desc.spirv);
+  if (!words) return words.error();
   const uint32_t size = desc.requiredSubgroupSize;
   const DeviceInfo& info = device.info;
   // Where the driver takes no size, its only one will do.
@@ -189,10 +203,10 @@ Expected<const ComputePipeline*> PipelineStore::find(DeviceImpl& device, const C
 
   auto pipeline = std::make_unique<ComputePipeline>();
   pipeline->shader = desc.shader;
-  pipeline->words.assign(desc.words.begin(), desc.words.end());
+  pipeline->words.assign(desc.spirv.begin(), desc.spirv.end());
   pipeline->requiredSubgroupSize = size;
   if (auto ok = begin(device, *pipeline, desc.bindings, desc.pushConstantBytes, desc.constants); !ok) return ok.error();
-  auto handle = build(device, *pipeline, words);
+  auto handle = build(device, *pipeline, *words);
   return keep(device, pipelines_, std::move(pipeline), std::move(handle));
 }
 

@@ -89,6 +89,8 @@ class PipelineStore {
 /// SPIR-V of the embedded library, or what replaced it; empty where there is none of that name.
 std::span<const uint32_t> libraryWords(const DeviceImpl& device, std::string_view name);
 Error shaderError(std::string_view shader, std::string what);
+/// A caller's own SPIR-V, or the library's where it gave none. Shader where there is neither, or what was given is none.
+Expected<std::span<const uint32_t>> shaderWords(const DeviceImpl& device, std::string_view shader, std::span<const uint32_t> spirv);
 /// A module for as long as a pipeline is being made.
 class ShaderModule {
  public:

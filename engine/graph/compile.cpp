@@ -142,7 +142,7 @@ void GraphImpl::planBarriers() {
   causes.clear();
   transitions.clear();
   for (ResourceData& resource : resources) {
-    resource.state = resource.imported ? HazardState::after(resource.before) : HazardState::nothing();
+    resource.state = resource.imported ? HazardState::after(useRow(resource.before)) : HazardState::nothing();
     resource.layout = useRow(resource.before).layout;
     resource.placed = resource.imported;
   }
@@ -154,18 +154,17 @@ void GraphImpl::planBarriers() {
     seam.passed(scope, seeing);
     for (ResourceData& resource : resources) resource.state.passed(scope, seeing);
   };
-  const auto wait = [&](PlannedBarrier& barrier, uint32_t index, Use use, bool keep) {
+  const auto wait = [&](PlannedBarrier& barrier, uint32_t index, const UseRow& row, bool keep) {
     ResourceData& resource = resources[index];
-    const VkImageLayout layout = useRow(use).layout;
-    if (resource.isImage && resource.layout != layout) {
-      transitions.push_back({index, keep ? resource.layout : VK_IMAGE_LAYOUT_UNDEFINED, layout, {}});
-      resource.state.changeLayout(use, transitions.back().scope);
-      resource.layout = layout;
+    if (resource.isImage && resource.layout != row.layout) {
+      transitions.push_back({index, keep ? resource.layout : VK_IMAGE_LAYOUT_UNDEFINED, row.layout, {}});
+      resource.state.changeLayout(row, transitions.back().scope);
+      resource.layout = row.layout;
       ++barrier.transitions.count;
       return;
     }
-    const Hazard hazard = resource.state.need(use, keep, barrier.scope);
-    if (hazard != Hazard::None) causes.push_back({index, hazard, use}), ++barrier.causes.count;
+    const Hazard hazard = resource.state.need(row, keep, barrier.scope);
+    if (hazard != Hazard::None) causes.push_back({index, hazard, row.name}), ++barrier.causes.count;
   };
   const auto begin = [&](PlannedBarrier& barrier) { barrier = {{}, {uint32_t(causes.size()), 0}, {uint32_t(transitions.size()), 0}}; };
 
@@ -176,7 +175,7 @@ void GraphImpl::planBarriers() {
     const auto uses = std::span(accesses).subspan(pass.accesses.first, pass.accesses.count);
     for (const Access& access : uses) {
       if (!resources[access.resource].placed) waitForMemory(access.resource, seam);
-      wait(pass.barrier, access.resource, access.use, access.keep);
+      wait(pass.barrier, access.resource, useRow(access.use), access.keep);
     }
     if (!pass.barrier.scope.empty()) apply(pass.barrier.scope);
     for (const Access& access : uses) resources[access.resource].state.used(access.use);
@@ -184,7 +183,7 @@ void GraphImpl::planBarriers() {
 
   begin(finalBarrier);
   for (uint32_t i = 0; i < resources.size(); ++i)
-    if (resources[i].imported && resources[i].after != Use::None) wait(finalBarrier, i, resources[i].after, true);
+    if (resources[i].imported && resources[i].after != Use::None) wait(finalBarrier, i, useRow(resources[i].after), true);
   if (!readbacks.empty()) {
     finalBarrier.scope.sourceStage |= useRow(Use::CopyTarget).stage;
     finalBarrier.scope.sourceAccess |= useRow(Use::CopyTarget).write;

@@ -85,7 +85,7 @@ std::string GraphImpl::json() const {
     out.key("because").begin('[');
     for (uint32_t i = barrier.causes.first; i < barrier.causes.first + barrier.causes.count; ++i) {
       out.begin('{').key("resource").text(nameOf(causes[i].resource));
-      out.key("hazard").text(hazardName(causes[i].hazard)).key("use").text(useRow(causes[i].use).name).end('}');
+      out.key("hazard").text(hazardName(causes[i].hazard)).key("use").text(causes[i].use).end('}');
     }
     out.end(']').key("layouts").begin('[');
     for (uint32_t i = barrier.transitions.first; i < barrier.transitions.first + barrier.transitions.count; ++i) {

@@ -53,6 +53,23 @@ const char* kindName(BindingKind kind) {
   }
 }
 
+const char* usageName(VkImageUsageFlags usage) {
+  switch (usage) {
+    case VK_IMAGE_USAGE_STORAGE_BIT:
+      return "VK_IMAGE_USAGE_STORAGE_BIT";
+    case VK_IMAGE_USAGE_SAMPLED_BIT:
+      return "VK_IMAGE_USAGE_SAMPLED_BIT";
+    case VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT:
+      return "VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT";
+    case VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT:
+      return "VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT";
+    case VK_IMAGE_USAGE_TRANSFER_SRC_BIT:
+      return "VK_IMAGE_USAGE_TRANSFER_SRC_BIT";
+    default:
+      return "VK_IMAGE_USAGE_TRANSFER_DST_BIT";
+  }
+}
+
 constexpr uint32_t kMaxImageSide = 32768;  // more than devices offer, and few enough that sizes stay in 64 bits
 
 constexpr ResourceRef kMistake{0, 0, 0};  ///< what a write returns for a mistake that has been reported
@@ -94,6 +111,7 @@ ResourceRef GraphImpl::add(ResourceData resource) {
   const auto mistake = [&](std::string_view what) { fail(std::string(kind) + quoted(resource.name) + std::string(what)); };
   if (resource.isImage) {
     if (resource.desc.format == VK_FORMAT_UNDEFINED) mistake(" has no format");
+    if (resource.desc.format == VK_FORMAT_S8_UINT) mistake(" is of a format with a stencil alone, which no pass can use");
     if (resource.desc.width == 0 || resource.desc.height == 0) mistake(" has no size");
     if (std::max(resource.desc.width, resource.desc.height) > kMaxImageSide)
       mistake(" of " + std::to_string(resource.desc.width) + " x " + std::to_string(resource.desc.height) + " texels: at most " +
@@ -108,16 +126,38 @@ ResourceRef GraphImpl::add(ResourceData resource) {
     if (resource.size > kMaxBufferBytes)
       mistake(" of " + std::to_string(resource.size) + " bytes: at most " + std::to_string(kMaxBufferBytes) + " are possible");
   }
-  if (resource.after == Use::Unknown) fail("import " + quoted(resource.name) + ": Use::Unknown is no state to leave it in");
-  for (Use use : {resource.before, resource.after}) {
-    const bool ofImages = useRow(use).layout != VK_IMAGE_LAYOUT_UNDEFINED;
-    if (use != Use::None && use != Use::Unknown && (resource.isImage ? !ofImages : needsImage(use)))
-      fail("import " + quoted(resource.name) + ": Use::" + useRow(use).name + " is no use of " +
-           (resource.isImage ? "an image" : "a buffer"));
-  }
+  if (resource.imported) checkStates(resource);
   const uint32_t index = uint32_t(resources.size());
   for (resource.level = 0; resource.level < (resource.isImage ? resource.desc.levels : 1); ++resource.level) resources.push_back(resource);
   return {index, 0, epoch};
+}
+
+void GraphImpl::checkStates(const ResourceData& import) {
+  const auto mistake = [&](const std::string& what) { fail("import " + quoted(import.name) + ": " + what); };
+  if (import.after == Use::Unknown) mistake("Use::Unknown is no state to leave it in");
+  for (const ImportState& state : {import.before, import.after}) {
+    const UseRow row = useRow(state);
+    const bool hasLayout = row.layout != VK_IMAGE_LAYOUT_UNDEFINED;
+    if (state.isOwn) {
+      if (import.isImage && !hasLayout) mistake("a state of the host's own needs the image's layout");
+      if (!import.isImage && hasLayout) mistake("a buffer has no layout, and the host's own state names one");
+      if (!row.stage && (row.read | row.write)) mistake("the host's own state has accesses, but no stages that they are made in");
+      continue;
+    }
+    if (state.use != Use::None && state.use != Use::Unknown && (import.isImage ? !hasLayout : needsImage(state.use)))
+      mistake(std::string("Use::") + row.name + " is no use of " + (import.isImage ? "an image" : "a buffer"));
+    else if (import.madeFor != 0 && (row.usage & ~import.madeFor) != 0)
+      mistake(std::string("Use::") + row.name + " is a state of it, but it was created without " + usageName(row.usage));
+  }
+  if (import.after.isOwn && import.after.own.layout == VK_IMAGE_LAYOUT_PREINITIALIZED)
+    mistake("no image can be brought into the layout PREINITIALIZED");
+}
+
+bool GraphImpl::madeFor(uint32_t pass, const ResourceData& resource, Use use) {
+  if (!resource.isImage || resource.madeFor == 0 || (useRow(use).usage & ~resource.madeFor) == 0) return true;
+  fail("pass '" + std::string(names[passes[pass].name]) + "' uses import " + quoted(resource.name) + " with Use::" + useRow(use).name +
+       ", but it was created without " + usageName(useRow(use).usage));
+  return false;
 }
 
 ResourceData* GraphImpl::resolve(ResourceRef ref, bool isImage, uint32_t pass, const char* doing) {
@@ -171,11 +211,11 @@ void GraphImpl::read(uint32_t index, ResourceRef ref, bool isImage, Use use) {
   ResourceData* resource = resolve(ref, isImage, index, "reads");
   if (!resource) return;
   const auto pass = [&] { return "pass '" + std::string(names[passes[index].name]) + "'"; };
-  if (use == Use::None || use == Use::Unknown || use == Use::HostRead || writes(use) ||
-      (isImage ? useRow(use).layout == VK_IMAGE_LAYOUT_UNDEFINED : needsImage(use)))
+  if (outsideOnly(use) || writes(use) || (isImage ? useRow(use).layout == VK_IMAGE_LAYOUT_UNDEFINED : needsImage(use)))
     return fail(pass() + " reads " + quoted(resource->name) + " with Use::" + useRow(use).name + ", which is no way for a pass to read" +
                 (isImage ? " an image" : ""));
   if (!resource->hasContent()) return fail(pass() + " reads " + quoted(resource->name) + ", which no pass has written");
+  if (!madeFor(index, *resource, use)) return;
   const Range range = passes[index].accesses;
   for (uint32_t i = range.first; i < range.first + range.count; ++i) {
     const Access& other = accesses[i];
@@ -195,7 +235,7 @@ ResourceRef GraphImpl::write(uint32_t index, ResourceRef ref, bool isImage, Use 
   ResourceData* resource = resolve(ref, isImage, index, "writes");
   if (!resource) return kMistake;
   const auto pass = [&] { return "pass '" + std::string(names[passes[index].name]) + "'"; };
-  if (use == Use::Unknown || !writes(use) || (isImage ? useRow(use).layout == VK_IMAGE_LAYOUT_UNDEFINED : needsImage(use))) {
+  if (outsideOnly(use) || !writes(use) || (isImage ? useRow(use).layout == VK_IMAGE_LAYOUT_UNDEFINED : needsImage(use))) {
     fail(pass() + " writes " + quoted(resource->name) + " with Use::" + useRow(use).name + ", which is no way for a pass to write" +
          (isImage ? " an image" : ""));
     return kMistake;
@@ -205,6 +245,7 @@ ResourceRef GraphImpl::write(uint32_t index, ResourceRef ref, bool isImage, Use 
          " twice, once to write: declare the write alone (it may read as well), or make two passes");
     return kMistake;
   }
+  if (!madeFor(index, *resource, use)) return kMistake;
   const bool fresh = !resource->hasContent();
   if (fresh && use == Use::ComputeAtomic) {
     fail(pass() + " does atomics on " + quoted(resource->name) + ", whose content is undefined: fill it first");
@@ -362,6 +403,7 @@ ImageRef Graph::import(std::string_view name, const ImageImport& import) {
   resource.after = import.after;
   resource.image = import.handle;
   resource.desc = import.desc;
+  resource.madeFor = import.usage;
   return {impl_->add(resource)};
 }
 

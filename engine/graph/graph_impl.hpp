@@ -62,7 +62,7 @@ struct Transition {
 struct Cause {
   uint32_t resource = 0;
   Hazard hazard = Hazard::None;
-  Use use = Use::None;
+  const char* use = "";
 };
 
 /// The one barrier before a pass, or at the end of the frame.
@@ -89,14 +89,15 @@ struct ResourceData {
   uint32_t name = 0;
   bool imported = false;
   bool isImage = false;
-  bool needed = false;                        ///< while culling: whether a later pass, or somebody outside, wants the content
-  Use before = Use::None, after = Use::None;  ///< of an import
-  uint64_t size = 0;                          ///< bytes; an image's is an estimate until prepare() has asked
-  ImageDesc desc;                             ///< of an image: all of its levels
-  uint32_t level = 0;                         ///< of an image: each is a resource of its own, one after another
-  uint32_t version = 0;                       ///< the latest one
-  uint32_t placement = kNone;                 ///< of a transient that is used; a pyramid's stands at its level 0
-  bool placed = false;                        ///< while planning: it has waited for what its memory held before
+  bool needed = false;         ///< while culling: whether a later pass, or somebody outside, wants the content
+  ImportState before, after;   ///< of an import
+  VkFlags madeFor = 0;         ///< of an import: the usage that its host says it was created for; 0: not said
+  uint64_t size = 0;           ///< bytes; an image's is an estimate until prepare() has asked
+  ImageDesc desc;              ///< of an image: all of its levels
+  uint32_t level = 0;          ///< of an image: each is a resource of its own, one after another
+  uint32_t version = 0;        ///< the latest one
+  uint32_t placement = kNone;  ///< of a transient that is used; a pyramid's stands at its level 0
+  bool placed = false;         ///< while planning: it has waited for what its memory held before
   HazardState state;
   VkImageUsageFlags usage = 0;                       ///< of an image, by the passes that run; a pyramid's stands at its level 0
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  ///< while planning: the image's
@@ -148,6 +149,7 @@ class GraphImpl {
   // graph.cpp
   void reset();
   ResourceRef add(ResourceData resource);
+  void checkStates(const ResourceData& import);
   /// Null, with the frame's error set, for a ref that is stale, consumed or none at all.
   ResourceData* resolve(ResourceRef ref, bool isImage, uint32_t pass, const char* doing);
   void read(uint32_t pass, ResourceRef ref, bool isImage, Use use);
@@ -158,6 +160,10 @@ class GraphImpl {
   void fail(std::string message);
   std::string quoted(uint32_t name) const { return "'" + std::string(names[name]) + "'"; }
   const Access* accessOf(uint32_t pass, uint32_t resource) const;
+  /// What the pass that is being recorded does with this version of a resource; asserted that it does.
+  const Access& recorded(uint32_t pass, ResourceRef ref) const;
+  /// Whether the pass may use the resource so, by what its host has created it for.
+  bool madeFor(uint32_t pass, const ResourceData& resource, Use use);
 
   // compile.cpp
   Expected<void> compile();

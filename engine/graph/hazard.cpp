@@ -1,5 +1,7 @@
 #include "graph/hazard.hpp"
 
+#include <initializer_list>
+
 namespace rill {
 namespace {
 
@@ -45,25 +47,24 @@ const char* hazardName(Hazard hazard) {
   return "";
 }
 
-HazardState HazardState::after(Use last) {
+HazardState HazardState::after(const UseRow& row) {
   HazardState state;
-  if (last == Use::None) return state;
-  const UseRow& row = useRow(last);
-  if (last == Use::Unknown) {
+  if (!row.stage) return state;
+  if (row.use == Use::Unknown) {
     state.writeStage_ = state.readStage_ = row.stage;
     state.writeAccess_ = row.write;
-  } else if (last == Use::HostRead) {  // the host is done, but only it has seen the device's writes
+  } else if (row.use == Use::HostRead) {  // the host is done, but only it has seen the device's writes
     state.writeStage_ = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     state.writeAccess_ = VK_ACCESS_2_MEMORY_WRITE_BIT;
-    state.visible_ = useBit(last);
+    state.visible_ = useBit(row.use);
   } else if (row.write) {
     state.writeStage_ = row.stage;
     state.writeAccess_ = row.write;
-    state.atomic_ = last == Use::ComputeAtomic;
+    state.atomic_ = row.use == Use::ComputeAtomic;
   } else {  // whoever wrote it, this read has seen it, and waiting for the read waits for the write
     state.writeStage_ = state.readStage_ = row.stage;
     state.writeAccess_ = VK_ACCESS_2_MEMORY_WRITE_BIT;
-    state.visible_ = useBit(last);
+    state.visible_ = useBit(row.use);
     state.writeBefore_ = row.stage;
     state.available_ = true;
   }
@@ -80,14 +81,13 @@ HazardState HazardState::seam(bool draws) {
   for (Use use : {Use::ComputeRead, Use::Indirect, Use::CopySource}) state.readStage_ |= useRow(use).stage;
   if (draws) {
     for (Use use : {Use::ColourTarget, Use::DepthTarget}) wrote(use);
-    state.readStage_ |= useRow(Use::DrawRead).stage;
+    state.readStage_ |= useRow(Use::DrawRead).stage | useRow(Use::VertexInput).stage;
   }
   return state;
 }
 
-Hazard HazardState::need(Use use, bool keep, Scope& scope) const {
-  const UseRow& row = useRow(use);
-  const bool sees = (visible_ & useBit(use)) != 0;
+Hazard HazardState::need(const UseRow& row, bool keep, Scope& scope) const {
+  const bool sees = (visible_ & useBit(row.use)) != 0;
   if (!row.write) {
     if (!writeStage_ || sees) return Hazard::None;
     scope.sourceStage |= writeStage_;
@@ -96,11 +96,11 @@ Hazard HazardState::need(Use use, bool keep, Scope& scope) const {
     scope.targetAccess |= row.read;
     return Hazard::ReadAfterWrite;
   }
-  if (atomic_ && use == Use::ComputeAtomic && !readStage_) return Hazard::None;
+  if (atomic_ && row.use == Use::ComputeAtomic && !readStage_) return Hazard::None;
   // Where the reads have waited for the last write, waiting for them is waiting for it, and moves no memory:
   // unless this write also reads and has not seen it.
   const bool reads = keep && row.read != 0;
-  const bool seesOld = sees || (visible_ & readingHalf(use)) != 0;
+  const bool seesOld = sees || (visible_ & readingHalf(row.use)) != 0;
   const bool waitForReads = readStage_ && !stagesCover(readsBefore_, row.stage);
   const bool ordered = available_ && (stagesCover(writeBefore_, row.stage) || (waitForReads && (readStage_ & writeBefore_)));
   const bool waitForWrite = writeStage_ && !sees && (reused_ || !ordered || (reads && !seesOld));
@@ -141,8 +141,7 @@ void HazardState::used(Use use) {
   reused_ = false;
 }
 
-void HazardState::changeLayout(Use use, Scope& scope) {
-  const UseRow& row = useRow(use);
+void HazardState::changeLayout(const UseRow& row, Scope& scope) {
   scope = {writeStage_ | readStage_, writeAccess_, row.stage, row.read | row.write};
   // From here on it is as if the change were a write in the stage that waits for it.
   *this = {};

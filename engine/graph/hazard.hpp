@@ -26,17 +26,17 @@ class HazardState {
  public:
   static HazardState nothing() { return {}; }
   /// After `last`, done before this graph by someone else.
-  static HazardState after(Use last);
+  static HazardState after(const UseRow& last);
   /// A transient's memory at the start of a frame: whatever the frame before did to it, draws included where there may have been any.
   static HazardState seam(bool draws);
 
   /// Adds to `scope` what must be waited for before `use`; `keep`: a write that also needs the old content.
-  Hazard need(Use use, bool keep, Scope& scope) const;
+  Hazard need(const UseRow& row, bool keep, Scope& scope) const;
   /// A barrier was recorded, here or for another resource. `seeing` is usesSeeing(scope).
   void passed(const Scope& scope, uint32_t seeing);
   void used(Use use);
   /// An image changes its layout before `use`, in a barrier of its own: `scope` gets what that must wait for and who sees it.
-  void changeLayout(Use use, Scope& scope);
+  void changeLayout(const UseRow& row, Scope& scope);
   /// The memory was another resource's before: this one must wait for what happened to both.
   void join(const HazardState& other);
 

@@ -95,6 +95,16 @@ void GraphImpl::beginTargets(const PassData& pass, VkCommandBuffer commandBuffer
   device->vk.CmdSetScissor(commandBuffer, 0, 1, &area);
 }
 
+const Access& GraphImpl::recorded(uint32_t pass, ResourceRef ref) const {
+  assert(ref.epoch == epoch && "a ref of another graph or of an earlier frame");
+  const Access* access = accessOf(pass, ref.index);
+  assert(access && "a pass records what it has declared");
+  // Of a write both the version that went in and the one that came out.
+  assert((ref.version == access->version || (access->write && ref.version + 1 == access->version)) &&
+         "another version than the pass declared");
+  return *access;
+}
+
 void Commands::bind(Kernel kernel, std::span<const std::byte> push) {
   [[maybe_unused]] const Range own = graph_.passes[pass_].kernels;
   assert(kernel.index >= own.first && kernel.index < own.first + own.count && "a kernel is dispatched by the pass that declared it");
@@ -121,6 +131,13 @@ Commands::Arguments Commands::argumentsAt(BufferRef arguments, uint64_t offset, 
          "indirect arguments are declared with Use::Indirect");
   assert(offset % 4 == 0 && offset + bytes <= resource.size);
   return {resource.buffer, resource.offset + offset};
+}
+
+void Commands::dispatch(Kernel kernel, Groups groups, std::span<const std::byte> push) {
+  if (groups.x == 0 || groups.y == 0 || groups.z == 0) return;
+  assert(std::max({groups.x, groups.y, groups.z}) <= kMaxGroups);
+  bind(kernel, push);
+  graph_.device->vk.CmdDispatch(commandBuffer_, groups.x, groups.y, groups.z);
 }
 
 void Commands::dispatchIndirect(Kernel kernel, BufferRef arguments, uint64_t offset, std::span<const std::byte> push) {
@@ -193,6 +210,20 @@ void Commands::copyWhole(BufferRef buffer, ImageRef image, uint64_t offset, bool
     vk.CmdCopyImageToBuffer(commandBuffer_, texels.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, bytes.buffer, 1, &region);
 }
 
+void Commands::copy(ImageRef source, ImageRef target) {
+  (void)graph_.recorded(pass_, source);
+  (void)graph_.recorded(pass_, target);
+  const ResourceData &from = graph_.resources[source.index], &to = graph_.resources[target.index];
+  assert(from.width() == to.width() && from.height() == to.height() && "a copy's images are of one size");
+  const auto whole = [](const ResourceData& image) {
+    const VkImageAspectFlags aspect = hasDepth(image.desc.format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+    return VkImageSubresourceLayers{aspect, image.level, 0, 1};
+  };
+  const VkImageCopy region{whole(from), {}, whole(to), {}, {from.width(), from.height(), 1}};
+  graph_.device->vk.CmdCopyImage(commandBuffer_, from.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.image,
+                                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+}
+
 void Commands::clear(ImageRef target, const VkClearColorValue& value) {
   assert(target.epoch == graph_.epoch && graph_.accessOf(pass_, target.index) && "a clear's image is declared by its pass");
   const VkImageSubresourceRange whole{VK_IMAGE_ASPECT_COLOR_BIT, graph_.resources[target.index].level, 1, 0, 1};
@@ -201,5 +232,17 @@ void Commands::clear(ImageRef target, const VkClearColorValue& value) {
 }
 
 VkCommandBuffer Commands::handle() const { return commandBuffer_; }
+
+VkDescriptorBufferInfo Commands::buffer(BufferRef ref) const {
+  (void)graph_.recorded(pass_, ref);
+  const ResourceData& buffer = graph_.resources[ref.index];
+  return {buffer.buffer, buffer.offset, buffer.size};
+}
+
+ImageHandle Commands::image(ImageRef ref) const {
+  const Access& access = graph_.recorded(pass_, ref);
+  const ResourceData& image = graph_.resources[ref.index];
+  return {image.image, image.view, useRow(access.use).layout, image.level};
+}
 
 }  // namespace rill

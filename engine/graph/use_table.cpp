@@ -7,38 +7,52 @@ namespace {
 
 constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 constexpr VkPipelineStageFlags2 kTransfer = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;  // a fill is a clear, a copy a copy: both
-constexpr VkAccessFlags2 kStorageRead = VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
-constexpr VkAccessFlags2 kStorageWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
-
 constexpr VkPipelineStageFlags2 kDraw = VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
 constexpr VkPipelineStageFlags2 kDepth = VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
+constexpr VkPipelineStageFlags2 kAll = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+constexpr VkAccessFlags2 kStorageRead = VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
+constexpr VkAccessFlags2 kStorageWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+constexpr VkAccessFlags2 kSampledRead = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
+constexpr VkAccessFlags2 kUniformRead = VK_ACCESS_2_UNIFORM_READ_BIT;
+constexpr VkAccessFlags2 kVertexRead = VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT;
+constexpr VkAccessFlags2 kColourRead = VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT, kColourWrite = VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
+constexpr VkAccessFlags2 kDepthRead = VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
+                         kDepthWrite = VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
 
-constexpr VkImageLayout kNoImage = VK_IMAGE_LAYOUT_UNDEFINED;
+constexpr VkImageLayout kNoImage = VK_IMAGE_LAYOUT_UNDEFINED, kGeneral = VK_IMAGE_LAYOUT_GENERAL,
+                        kReadOnly = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, kColour = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                        kDepthStencil = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
 
+constexpr VkBufferUsageFlags kStorageBuffer = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, kUniformBuffer = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                             kTexelBuffer = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+                             kVertexBuffer = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+
+// Before it is presented an image waits for nothing but a semaphore, which the submission signals behind all of its commands: the change of
+// layout must lie before that, and none of the presentation's reads needs an access here.
 constexpr std::array<UseRow, kUseCount> kTable{{
-    {Use::None, "None", 0, 0, 0, kNoImage, 0},
-    {Use::ComputeRead, "ComputeRead", kCompute, kStorageRead, 0, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_USAGE_STORAGE_BIT},
-    {Use::ComputeTexel, "ComputeTexel", kCompute, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, 0, kNoImage, 0},
-    {Use::ComputeUniform, "ComputeUniform", kCompute, VK_ACCESS_2_UNIFORM_READ_BIT, 0, kNoImage, 0},
-    {Use::ComputeSampled, "ComputeSampled", kCompute, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, 0, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-     VK_IMAGE_USAGE_SAMPLED_BIT},
-    {Use::ComputeWrite, "ComputeWrite", kCompute, kStorageRead, kStorageWrite, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_USAGE_STORAGE_BIT},
-    {Use::ComputeAtomic, "ComputeAtomic", kCompute, kStorageRead, kStorageWrite, kNoImage, 0},
-    {Use::DrawRead, "DrawRead", kDraw, kStorageRead, 0, kNoImage, 0},
-    {Use::DrawUniform, "DrawUniform", kDraw, VK_ACCESS_2_UNIFORM_READ_BIT, 0, kNoImage, 0},
-    {Use::DrawSampled, "DrawSampled", kDraw, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, 0, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-     VK_IMAGE_USAGE_SAMPLED_BIT},
-    {Use::ColourTarget, "ColourTarget", VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT,
-     VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT},
-    {Use::DepthTarget, "DepthTarget", kDepth, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
-     VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT},
-    {Use::Indirect, "Indirect", VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, 0, kNoImage, 0},
+    {Use::None, "None", 0, 0, 0, kNoImage, 0, 0},
+    {Use::ComputeRead, "ComputeRead", kCompute, kStorageRead, 0, kGeneral, VK_IMAGE_USAGE_STORAGE_BIT, kStorageBuffer},
+    {Use::ComputeTexel, "ComputeTexel", kCompute, kSampledRead, 0, kNoImage, 0, kTexelBuffer},
+    {Use::ComputeUniform, "ComputeUniform", kCompute, kUniformRead, 0, kNoImage, 0, kUniformBuffer},
+    {Use::ComputeSampled, "ComputeSampled", kCompute, kSampledRead, 0, kReadOnly, VK_IMAGE_USAGE_SAMPLED_BIT, 0},
+    {Use::ComputeWrite, "ComputeWrite", kCompute, kStorageRead, kStorageWrite, kGeneral, VK_IMAGE_USAGE_STORAGE_BIT, kStorageBuffer},
+    {Use::ComputeAtomic, "ComputeAtomic", kCompute, kStorageRead, kStorageWrite, kNoImage, 0, kStorageBuffer},
+    {Use::DrawRead, "DrawRead", kDraw, kStorageRead, 0, kNoImage, 0, kStorageBuffer},
+    {Use::DrawUniform, "DrawUniform", kDraw, kUniformRead, 0, kNoImage, 0, kUniformBuffer},
+    {Use::DrawSampled, "DrawSampled", kDraw, kSampledRead, 0, kReadOnly, VK_IMAGE_USAGE_SAMPLED_BIT, 0},
+    {Use::VertexInput, "VertexInput", VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT, kVertexRead, 0, kNoImage, 0, kVertexBuffer},
+    {Use::ColourTarget, "ColourTarget", VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, kColourRead, kColourWrite, kColour,
+     VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, 0},
+    {Use::DepthTarget, "DepthTarget", kDepth, kDepthRead, kDepthWrite, kDepthStencil, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, 0},
+    {Use::Indirect, "Indirect", VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, 0, kNoImage, 0,
+     VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT},
     {Use::CopySource, "CopySource", kTransfer, VK_ACCESS_2_TRANSFER_READ_BIT, 0, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-     VK_IMAGE_USAGE_TRANSFER_SRC_BIT},
+     VK_IMAGE_USAGE_TRANSFER_SRC_BIT, VK_BUFFER_USAGE_TRANSFER_SRC_BIT},
     {Use::CopyTarget, "CopyTarget", kTransfer, 0, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-     VK_IMAGE_USAGE_TRANSFER_DST_BIT},
-    {Use::HostRead, "HostRead", VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT, 0, kNoImage, 0},
-    {Use::Unknown, "Unknown", VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT, kNoImage, 0},
+     VK_IMAGE_USAGE_TRANSFER_DST_BIT, VK_BUFFER_USAGE_TRANSFER_DST_BIT},
+    {Use::HostRead, "HostRead", VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT, 0, kNoImage, 0, 0},
+    {Use::Present, "Present", kAll, 0, 0, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, 0, 0},
+    {Use::Unknown, "Unknown", kAll, VK_ACCESS_2_MEMORY_READ_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT, kNoImage, 0, 0},
 }};
 
 constexpr bool inOrder() {
@@ -48,8 +62,25 @@ constexpr bool inOrder() {
 }
 static_assert(inOrder());
 
+/// All that write, of Vulkan 1.3 and of the extensions that its header knows: a host's own state may be any of them.
+constexpr VkAccessFlags2 kWrites = VK_ACCESS_2_SHADER_WRITE_BIT | kColourWrite | kDepthWrite | VK_ACCESS_2_TRANSFER_WRITE_BIT |
+                                   VK_ACCESS_2_HOST_WRITE_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT | kStorageWrite |
+                                   VK_ACCESS_2_TRANSFORM_FEEDBACK_WRITE_BIT_EXT | VK_ACCESS_2_TRANSFORM_FEEDBACK_COUNTER_WRITE_BIT_EXT |
+                                   VK_ACCESS_2_COMMAND_PREPROCESS_WRITE_BIT_NV | VK_ACCESS_2_ACCELERATION_STRUCTURE_WRITE_BIT_KHR;
+
 }  // namespace
 
 const UseRow& useRow(Use use) { return kTable[size_t(use)]; }
+
+UseRow useRow(const ImportState& state) {
+  if (!state.isOwn) return useRow(state.use);
+  const UseState& own = state.own;
+  return {Use::None, "a state of the host's own", own.stages, own.access & ~kWrites, own.access & kWrites, own.layout, 0, 0};
+}
+
+UseState useState(Use use) {
+  const UseRow& row = useRow(use);
+  return {row.stage, row.read | row.write, row.layout, row.usage, row.bufferUsage};
+}
 
 }  // namespace rill

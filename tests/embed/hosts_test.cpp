@@ -3,6 +3,7 @@
 // committing.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 
@@ -63,7 +64,7 @@ TEST_P(Host, RunsCleanAndItsPictureIsRight) {
 
 INSTANTIATE_TEST_SUITE_P(Pictures, Host,
                          ::testing::Values(Case{"water", {0.02, 0.3}}, Case{"between", {0.02, 0.3}}, Case{"positions", {0.02, 0.3}},
-                                           Case{"particles", {0.01, 0.1}}, Case{"two_fluids", {0.02, 0.3}}),
+                                           Case{"particles", {0.01, 0.1}}, Case{"blur", {0.002, 0.01}}, Case{"two_fluids", {0.02, 0.3}}),
                          [](const auto& one) { return std::string(one.param.host); });
 
 /// One game through volk, over the shared library, without exceptions and run-time type information: the same bits as through the loader.
@@ -91,6 +92,23 @@ TEST(WaterBetween, HidesWhatIsDrawnLastWhereItIsNearer) {
     }
   EXPECT_EQ(left, 0u);
   EXPECT_GT(right, 100u);
+}
+
+TEST(Blur, IsThatOfThePattern) {
+  const Picture picture = pictureOf("blur");
+  ASSERT_EQ(picture.rgb.size(), 3u * 96 * 64);
+  const auto painted = [](int x, int y, int c) {
+    x = std::clamp(x, 0, 95), y = std::clamp(y, 0, 63);
+    const int light[] = {240, 200, 90}, dark[] = {2 * x, 3 * y, 90};
+    return (x / 8 + y / 8) % 2 != 0 ? light[c] : dark[c];
+  };
+  const auto across = [&](int x, int y, int c) { return (painted(x - 1, y, c) + 2 * painted(x, y, c) + painted(x + 1, y, c)) / 4.0; };
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 96; ++x)
+      for (int c = 0; c < 3; ++c) {
+        const double expected = (across(x, std::max(y - 1, 0), c) + 2 * across(x, y, c) + across(x, std::min(y + 1, 63), c)) / 4;
+        ASSERT_NEAR(picture.rgb[size_t(3 * (96 * y + x) + c)], expected, 1.1) << x << ", " << y;
+      }
 }
 
 TEST(Package, GivesScenesAndASimulationWithoutAHost) {

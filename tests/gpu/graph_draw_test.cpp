@@ -19,15 +19,15 @@ class GraphDraw : public GpuTest {
     static constexpr BindingKind kinds[] = {BindingKind::Storage};
     auto made = graphicsPipeline(device(), {.vertex = "draw_vertex",
                                             .fragment = "draw_fragment",
+                                            .vertexSpirv = testShader("draw_vertex"),
+                                            .fragmentSpirv = testShader("draw_fragment"),
                                             .bindings = kinds,
                                             .pushConstantBytes = sizeof(DrawPush),
                                             .colours = {&kColour.format, 1},
                                             .depth = kDepth.format,
                                             .depthCompare = compare,
                                             .depthWrite = true,
-                                            .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP,
-                                            .vertexWords = testShader("draw_vertex"),
-                                            .fragmentWords = testShader("draw_fragment")});
+                                            .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP});
     EXPECT_TRUE(made) << made.error().message;
     return made ? *made : nullptr;
   }
@@ -115,8 +115,8 @@ TEST_F(GraphDraw, ComposesByDepthAndKeepsWhatItDoesNotTouch) {
 TEST_F(GraphDraw, APyramidIsReadLevelByLevel) {
   static constexpr BindingKind kFill[] = {BindingKind::StorageImage}, kHalve[] = {BindingKind::SampledImage, BindingKind::StorageImage};
   const ComputePipeline* fill =
-      pipeline({.shader = "image_fill", .bindings = kFill, .pushConstantBytes = 4, .words = testShader("image_fill")});
-  const ComputePipeline* halve = pipeline({.shader = "image_halve", .bindings = kHalve, .words = testShader("image_halve")});
+      pipeline({.shader = "image_fill", .spirv = testShader("image_fill"), .bindings = kFill, .pushConstantBytes = 4});
+  const ComputePipeline* halve = pipeline({.shader = "image_halve", .spirv = testShader("image_halve"), .bindings = kHalve});
   Graph graph;
   Ticket tickets[2];
   runFrames(graph, 2, [&](int frame) {

@@ -16,7 +16,7 @@ class GraphImages : public GpuTest {
   ImageRef fill(Graph& graph, ImageRef image, float base) {
     static constexpr BindingKind kinds[] = {BindingKind::StorageImage};
     const ComputePipeline* filler =
-        pipeline({.shader = "image_fill", .bindings = kinds, .pushConstantBytes = 4, .words = testShader("image_fill")});
+        pipeline({.shader = "image_fill", .spirv = testShader("image_fill"), .bindings = kinds, .pushConstantBytes = 4});
     graph.pass("fill", [&](Pass& pass) {
       image = pass.write(image, Use::ComputeWrite, Load::Discard);
       const Kernel kernel = pass.kernel(filler, {image});
@@ -26,7 +26,7 @@ class GraphImages : public GpuTest {
   }
   ImageRef add(Graph& graph, ImageRef source, ImageRef own) {
     static constexpr BindingKind kinds[] = {BindingKind::SampledImage, BindingKind::StorageImage, BindingKind::StorageImage};
-    const ComputePipeline* adder = pipeline({.shader = "image_add", .bindings = kinds, .words = testShader("image_add")});
+    const ComputePipeline* adder = pipeline({.shader = "image_add", .spirv = testShader("image_add"), .bindings = kinds});
     ImageRef sum = graph.create("sum", kDesc);
     graph.pass("add", [&](Pass& pass) {
       pass.read(source, Use::ComputeSampled);

@@ -17,9 +17,9 @@ struct AddPush {
 class GraphOnGpu : public GpuTest {
  protected:
   const ComputePipeline* add() {
-    return pipeline({.shader = "add", .bindings = kTwoBuffers, .pushConstantBytes = sizeof(AddPush), .words = testShader("add")});
+    return pipeline({.shader = "add", .spirv = testShader("add"), .bindings = kTwoBuffers, .pushConstantBytes = sizeof(AddPush)});
   }
-  const ComputePipeline* count() { return pipeline({.shader = "count", .bindings = kOneBuffer, .words = testShader("count")}); }
+  const ComputePipeline* count() { return pipeline({.shader = "count", .spirv = testShader("count"), .bindings = kOneBuffer}); }
 
   BufferRef addPass(Graph& graph, std::string_view name, BufferRef source, BufferRef target, uint32_t elements, uint32_t amount) {
     BufferRef out;
@@ -87,7 +87,7 @@ TEST_F(GraphOnGpu, DispatchesWhatTheDeviceDecides) {
   graph.pass("arguments", [&](Pass& pass) {
     arguments = pass.write(arguments, Use::ComputeWrite);
     const Kernel kernel = pass.kernel(
-        pipeline({.shader = "arguments", .bindings = kinds, .pushConstantBytes = 4, .words = testShader("arguments")}), {arguments});
+        pipeline({.shader = "arguments", .spirv = testShader("arguments"), .bindings = kinds, .pushConstantBytes = 4}), {arguments});
     return [=](Commands& commands) { commands.dispatch(kernel, 1, uint32_t(13)); };
   });
   graph.pass("count", [&](Pass& pass) {
@@ -115,7 +115,7 @@ TEST_F(GraphOnGpu, ReadsTexelsOfImportsAndOfTransients) {
   });
   Ticket tickets[2];
   const ComputePipeline* texel =
-      pipeline({.shader = "texel", .bindings = kTexelAndBuffer, .pushConstantBytes = 4, .words = testShader("texel")});
+      pipeline({.shader = "texel", .spirv = testShader("texel"), .bindings = kTexelAndBuffer, .pushConstantBytes = 4});
   for (int i = 0; i < 2; ++i) {
     const BufferRef from = i == 0 ? imported : copy;
     BufferRef sums = graph.create("sums", {400});

@@ -45,7 +45,7 @@ TEST_F(Resources, ABufferOutlivesTheFrameThatWasRecordingWhenItDied) {
 TEST_F(Resources, EqualDescriptionsShareAPipeline) {
   const uint32_t one[] = {1}, two[] = {2};
   const auto make = [&](std::span<const uint32_t> constants) {
-    return pipeline({.shader = "subgroup", .bindings = kOneBuffer, .constants = constants, .words = testShader("subgroup")});
+    return pipeline({.shader = "subgroup", .spirv = testShader("subgroup"), .bindings = kOneBuffer, .constants = constants});
   };
   const auto* first = make(one);
   const size_t count = pipelineCount(device());
@@ -64,10 +64,10 @@ TEST_F(Resources, ConstantsAndSubgroupSizeReachTheShader) {
     graph.pass("subgroup", [&](Pass& pass) {
       out = pass.write(out, Use::ComputeWrite);
       const Kernel kernel = pass.kernel(pipeline({.shader = "subgroup",
+                                                  .spirv = testShader("subgroup"),
                                                   .bindings = kOneBuffer,
                                                   .constants = constants,
-                                                  .requiredSubgroupSize = size,
-                                                  .words = testShader("subgroup")}),
+                                                  .requiredSubgroupSize = size}),
                                         {out});
       return [=](Commands& commands) { commands.dispatch(kernel, 1); };
     });
@@ -84,7 +84,7 @@ TEST_F(Resources, NamesTheShaderThatCannotBeMade) {
   EXPECT_NE(unknown.error().message.find("fluid/nonsense"), std::string::npos);
   const uint32_t tooLarge = device().info().maxSubgroupSize * 2;
   const auto sized = computePipeline(
-      device(), {.shader = "subgroup", .bindings = kOneBuffer, .requiredSubgroupSize = tooLarge, .words = testShader("subgroup")});
+      device(), {.shader = "subgroup", .spirv = testShader("subgroup"), .bindings = kOneBuffer, .requiredSubgroupSize = tooLarge});
   ASSERT_FALSE(sized);
   EXPECT_NE(sized.error().message.find("subgroups of " + std::to_string(tooLarge)), std::string::npos) << sized.error().message;
 }

@@ -40,15 +40,17 @@ class RandomFrames : public GraphTest {
     constexpr Use afters[] = {Use::None, Use::ComputeRead, Use::ComputeWrite, Use::Indirect};
     for (int i = 0; i < 3; ++i) refs.push_back(import("import", befores[pick(7)], afters[pick(4)])), written.push_back(true);
     for (int i = 0; i < 4; ++i) refs.push_back(graph.create("transient", {256 + pick(3) * 256})), written.push_back(false);
-    constexpr Use reads[] = {Use::ComputeRead, Use::ComputeTexel, Use::ComputeUniform, Use::Indirect, Use::CopySource};
+    constexpr Use reads[] = {Use::ComputeRead, Use::ComputeTexel, Use::ComputeUniform, Use::Indirect, Use::CopySource, Use::VertexInput};
     constexpr Use writings[] = {Use::ComputeWrite, Use::CopyTarget, Use::ComputeAtomic};
-    constexpr Use imageStates[] = {Use::None, Use::Unknown, Use::ComputeWrite, Use::ComputeSampled, Use::CopySource, Use::CopyTarget};
+    const ImportState imageStates[] = {
+        Use::None,       Use::Unknown,    Use::ComputeWrite, Use::ComputeSampled,
+        Use::CopySource, Use::CopyTarget, Use::Present,      UseState{kCompute, kSampled, VK_IMAGE_LAYOUT_GENERAL}};
     constexpr Use imageReads[] = {Use::ComputeRead, Use::ComputeSampled, Use::CopySource, Use::DrawSampled};
     std::vector<ImageRef> images;
     std::vector<bool> drawn;
     for (uint64_t i = 0; i < 2; ++i) {
-      const Use before = imageStates[pick(6)];
-      const Use after = pick(2) ? imageStates[2 + pick(4)] : Use::None;
+      const ImportState before = imageStates[pick(8)];
+      const ImportState after = pick(2) ? imageStates[2 + pick(6)] : Use::None;
       images.push_back(graph.import("imported image", {reinterpret_cast<VkImage>(100 + i), {VK_FORMAT_R32_SFLOAT, 16, 16}, before, after}));
       drawn.push_back(before != Use::None && before != Use::Unknown);
     }
@@ -62,7 +64,7 @@ class RandomFrames : public GraphTest {
           if (used[r]) continue;
           used[r] = true;
           if (written[r] && pick(2)) {
-            pass.read(refs[r], reads[pick(5)]);
+            pass.read(refs[r], reads[pick(6)]);
           } else {
             refs[r] = pass.write(refs[r], writings[pick(written[r] ? 3 : 2)], pick(4) == 0);
             written[r] = true;

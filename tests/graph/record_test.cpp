@@ -6,7 +6,7 @@
 namespace rill::test {
 namespace {
 
-constexpr uint32_t kWords[] = {0x07230203};
+constexpr uint32_t kWords[] = {0x07230203, 0x10000, 0, 1, 0};
 
 class Recording : public GraphTest {
  protected:
@@ -18,7 +18,7 @@ class Recording : public GraphTest {
   }
   ~Recording() override { owned.reset(); }
   const ComputePipeline* pipeline(std::string_view name, std::initializer_list<BindingKind> kinds) {
-    auto made = computePipeline(*device, {.shader = name, .bindings = std::span(kinds.begin(), kinds.size()), .words = kWords});
+    auto made = computePipeline(*device, {.shader = name, .spirv = kWords, .bindings = std::span(kinds.begin(), kinds.size())});
     EXPECT_TRUE(made);
     return *made;
   }

@@ -64,7 +64,7 @@ int main(int count, char** arguments) {
       if (left->stats() && left->stats()->non_finite + left->stats()->outside > 0) host::fail("the fluid left its tank");
     }
     engine.wait();
-    engine.save(colour, arguments[1]);
+    engine.save(colour, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, arguments[1]);
   }
   device.reset();
   engine.destroy(colour);

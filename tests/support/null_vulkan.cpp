@@ -199,6 +199,9 @@ void cmdCopyToImage(VkCommandBuffer, VkBuffer, VkImage target, VkImageLayout lay
 void cmdCopyFromImage(VkCommandBuffer, VkImage source, VkImageLayout layout, VkBuffer, uint32_t, const VkBufferImageCopy* region) {
   add(NullCommand::CopyFromImage, id(source), layout, region->imageExtent.width, region->imageExtent.height);
 }
+void cmdCopyImage(VkCommandBuffer, VkImage, VkImageLayout, VkImage target, VkImageLayout layout, uint32_t, const VkImageCopy* region) {
+  add(NullCommand::CopyImage, id(target), layout, region->extent.width, region->extent.height);
+}
 void cmdClearImage(VkCommandBuffer, VkImage target, VkImageLayout layout, const VkClearColorValue*, uint32_t,
                    const VkImageSubresourceRange*) {
   add(NullCommand::ClearImage, id(target), layout);
@@ -227,6 +230,7 @@ PFN_vkVoidFunction lookUp(std::string_view name) {
   RILL_FUNCTION(vkCmdClearColorImage, cmdClearImage)
   RILL_FUNCTION(vkCmdCopyBuffer, cmdCopy)
   RILL_FUNCTION(vkCmdCopyBufferToImage, cmdCopyToImage)
+  RILL_FUNCTION(vkCmdCopyImage, cmdCopyImage)
   RILL_FUNCTION(vkCmdCopyImageToBuffer, cmdCopyFromImage)
   RILL_FUNCTION(vkCmdDispatch, cmdDispatch)
   RILL_FUNCTION(vkCmdDispatchIndirect, cmdDispatchIndirect)

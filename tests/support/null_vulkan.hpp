@@ -17,6 +17,7 @@ struct NullCommand {
     Copy,
     CopyToImage,
     CopyFromImage,
+    CopyImage,
     ClearImage,
     Update,
     BeginRendering,  // colours, load and store of the first target, whether there is depth

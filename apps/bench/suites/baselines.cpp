@@ -55,7 +55,7 @@ Expected<const ComputePipeline*> pipelineOf(Workbench& workbench, std::string_vi
   const std::vector<BindingKind> kinds(bindings, BindingKind::Storage);
   return computePipeline(
       workbench.device(),
-      {.shader = name, .bindings = kinds, .pushConstantBytes = sizeof(CloudPush), .constants = {}, .words = benchShader(name)});
+      {.shader = name, .spirv = benchShader(name), .bindings = kinds, .pushConstantBytes = sizeof(CloudPush), .constants = {}});
 }
 
 /// One pass: what is read, then what is written, in the order of the bindings.

@@ -205,10 +205,10 @@ void Engine::clear(const Frame& frame, const Image& colour, const VkClearColorVa
   change(frame, depth, target, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL);
 }
 
-void Engine::save(const Image& image, const char* file) {
+void Engine::save(const Image& image, VkImageLayout layout, const char* file) {
   Buffer pixels = createBuffer(uint64_t{4} * image.width * image.height, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
   const Frame frame = begin();
-  change(frame, image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+  change(frame, image, layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
   VkBufferImageCopy region{};
   region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
   region.imageExtent = {image.width, image.height, 1};

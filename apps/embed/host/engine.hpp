@@ -54,8 +54,8 @@ class Engine {
   void clear(const Frame& frame, const Image& colour, const VkClearColorValue& sky, const Image& depth, float farthest);
   /// A barrier of everything before it against everything after it, with a change of layout.
   void change(const Frame& frame, const Image& image, VkImageLayout from, VkImageLayout to);
-  /// Writes an R8G8B8A8 image, in COLOR_ATTACHMENT_OPTIMAL, as a PPM file; waits.
-  void save(const Image& image, const char* file);
+  /// Writes an R8G8B8A8 image, which is in this layout, as a PPM file; waits.
+  void save(const Image& image, VkImageLayout layout, const char* file);
 
   VkInstance instance = VK_NULL_HANDLE;
   VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;

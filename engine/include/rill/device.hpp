@@ -63,7 +63,8 @@ using MessageCallback = std::function<void(std::string_view)>;
 
 class DeviceImpl;
 
-/// Rill's view of a borrowed device. Every module keeps a reference to it; it outlives them.
+/// Rill's view of a borrowed device. Every module and every graph that was prepared keeps a reference to it: it outlives them. Pipelines
+/// (rill/pipeline.hpp) live as long as it.
 /// Not thread safe: one thread at a time.
 class RILL_API Device {
  public:

@@ -30,11 +30,12 @@ struct TargetFormats {
   VkFormat depth = VK_FORMAT_D32_SFLOAT;
 };
 
-/// What the host's images are made for, so that a fluid can be drawn into them.
+/// What the host's images are made for, beside what the host itself does with them, so that a fluid can be drawn into them.
 inline constexpr VkImageUsageFlags kFluidColourUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
 inline constexpr VkImageUsageFlags kFluidDepthUsage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
 
-/// What the host has drawn, and what the fluid is drawn into: versions of images of the same graph.
+/// What the host has drawn, and what the fluid is drawn into: versions of images of the same graph, of TargetFormats and of one size. Both
+/// have content. They are read with Use::ComputeSampled, and drawn to with Use::ColourTarget and Use::DepthTarget.
 struct SceneTargets {
   ImageRef colour, depth;
 };
@@ -86,7 +87,9 @@ enum class SurfaceData : uint8_t {
 
 class FluidRendererImpl;
 
-/// Draws the fluid of a FluidState: only its position, count, spacing and origin are used, so a host can fill one itself.
+/// Draws the fluid of a FluidState: only its position, count, spacing and origin are used, so a host can fill one itself. `position` is
+/// read with Use::ComputeRead: of a host's own it is an import created for STORAGE_BUFFER, of at least `count` times 16 bytes, in the state
+/// that BufferImport::before says.
 /// Two runs on one driver give the same pixels, unless more than 1,024 surface particles share a cell of four by four samples (counted).
 /// The depth written at a silhouette is the fluid's in every pixel that it touches.
 class RILL_API FluidRenderer {

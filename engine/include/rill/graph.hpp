@@ -1,6 +1,10 @@
 #pragma once
 // The render graph: passes declared every frame, compiled on the CPU into an order, barriers and a memory plan, and recorded
 // into the host's command buffer. It never submits and never waits.
+//
+// Passes dispatch and draw with pipelines of rill/pipeline.hpp, whose bindings have no samplers: shaders read images by texelFetch. A pass
+// that wants more (filtering, vertex buffers, ray queries) records with the host's own pipelines and descriptor sets: Commands::handle()
+// gives the command buffer, Commands::buffer() and image() the handles. The graph's barriers serve it just so.
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -17,6 +21,7 @@
 #include "rill/expected.hpp"
 #include "rill/export.hpp"
 #include "rill/graph_reports.hpp"
+#include "rill/use.hpp"
 
 namespace rill {
 
@@ -37,41 +42,26 @@ struct ResourceRef {
 struct BufferRef : ResourceRef {};
 struct ImageRef : ResourceRef {};
 
-/// What a pass does with a resource, and in which stage. One table (graph/use_table.cpp) maps it to stage, access and layout.
-enum class Use : uint8_t {
-  None,            ///< no access; as an import's `before`: nothing to wait for (an image: no content), as its `after`: left as it is
-  ComputeRead,     ///< storage buffer or image, read
-  ComputeTexel,    ///< uniform texel buffer, read
-  ComputeUniform,  ///< uniform buffer, read
-  ComputeSampled,  ///< image, read by texelFetch
-  ComputeWrite,    ///< storage buffer or image, read and written
-  ComputeAtomic,   ///< storage buffer, atomics of one kind whose result is unused: they commute with each other, no barrier between
-  DrawRead,        ///< storage buffer, read by vertex and fragment shaders
-  DrawUniform,     ///< uniform buffer, read by vertex and fragment shaders
-  DrawSampled,     ///< image, read by vertex and fragment shaders by texelFetch
-  ColourTarget,    ///< image, drawn to
-  DepthTarget,     ///< image of a depth format, tested and written by draws
-  Indirect,        ///< dispatch or draw arguments
-  CopySource,
-  CopyTarget,
-  HostRead,  ///< read by the host after the frame has completed
-  Unknown    ///< as an import's `before` alone: anything may have happened to it; an image's content is lost
-};
-
 struct BufferDesc {
   uint64_t size = 0;  ///< bytes, 1 .. 128 MiB
 };
 
+/// Memory that outlives the frame: the host's, or what an earlier graph has left. The graph's barriers join it to what lies before and
+/// behind on the same queue, in this submission or in another: it waits for `before`, and `after` sees what it has written. The host adds
+/// no barrier of its own. Work of another queue needs its semaphore (and, in EXCLUSIVE sharing mode, the host's transfer of ownership);
+/// `before` is then a UseState of the stages at which this submission waits for it. What the host's CPU wrote before the submission needs
+/// nothing: Use::None. An import starts as Unknown, which waits for everything and is always right, but loses an image's content. The graph
+/// never asks what a handle was created for: useState(use).bufferUsage of each use that is made of it, `after` included.
 struct BufferImport {
   VkBuffer handle = VK_NULL_HANDLE;
-  uint64_t offset = 0;
-  uint64_t size = 0;          ///< bytes
-  Use before = Use::Unknown;  ///< its last use before this graph
-  Use after = Use::None;      ///< what it must be ready for after this graph; reached even when every pass is culled
+  uint64_t offset = 0;                ///< a multiple of the device's alignments of storage, uniform and texel offsets
+  uint64_t size = 0;                  ///< bytes, 1 .. 128 MiB
+  ImportState before = Use::Unknown;  ///< its last use before this graph
+  ImportState after = Use::None;      ///< what it must be ready for after this graph; reached even when every pass is culled
 };
 
-/// A two-dimensional image. Each level of a pyramid is half as wide and high as the one before, and a version of its own to the graph:
-/// a pass may read one while it writes the next (Graph::level).
+/// A two-dimensional image of one layer, one sample a texel and one plane. Each level of a pyramid is half as wide and high as the one
+/// before, and a version of its own to the graph: a pass may read one while it writes the next (Graph::level).
 struct ImageDesc {
   VkFormat format = VK_FORMAT_UNDEFINED;
   uint32_t width = 0, height = 0;  ///< texels of level 0
@@ -86,11 +76,31 @@ enum class Load : uint8_t {
   Discard  ///< undefined: the pass writes all of it that anyone will read
 };
 
+/// As BufferImport. The graph changes the layout from that of `before` to those of its passes and in the end to that of `after`. A
+/// swapchain's image is imported with `before` Unknown, or Present to draw over what it shows, and `after` Present: the submission waits
+/// for the semaphore of its acquisition at ALL_COMMANDS, or at the first stage that uses it, and signals the one that presenting waits for.
+/// The image is of type 2D, created with one layer and one sample, of `desc`'s format, size and number of levels: a VkImage can't be asked,
+/// so that is the host's to keep. A multisampled or layered image is resolved or copied in a pass of the host's own instead.
 struct ImageImport {
   VkImage handle = VK_NULL_HANDLE;
   ImageDesc desc;
-  Use before = Use::Unknown;  ///< its last use before this graph, in whose layout it is
-  Use after = Use::None;      ///< what it must be ready for after this graph, and in whose layout; reached even when every pass is culled
+  ImportState before = Use::Unknown;  ///< its last use before this graph, in whose layout it is
+  ImportState after = Use::None;  ///< what it must be ready for after this graph, in whose layout; reached even when every pass is culled
+  VkImageUsageFlags usage = 0;    ///< what it was created for; where given, a use that it lacks (useState) is an error of compile()
+};
+
+/// An image on the device, as a pass sees it.
+struct ImageHandle {
+  VkImage image = VK_NULL_HANDLE;
+  /// Of this level alone, of a depth format its depth. Null where the frame only copies the image.
+  VkImageView view = VK_NULL_HANDLE;
+  VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  ///< during this pass: that of the use that it declared
+  uint32_t level = 0;
+};
+
+/// Workgroups of a dispatch in three dimensions, at most 65,535 in each.
+struct Groups {
+  uint32_t x = 1, y = 1, z = 1;
 };
 
 /// Names a binding of a kernel: the version and how the shader sees it follow from the pass's declared use.
@@ -150,6 +160,12 @@ class RILL_API Commands {
   void dispatch(Kernel kernel, uint64_t groups, const Push& push) {
     dispatch(kernel, groups, std::as_bytes(std::span(&push, 1)));
   }
+  /// Workgroups as they are given, nothing folded: gl_WorkGroupID is what the shader expects. A 0 among them records nothing.
+  void dispatch(Kernel kernel, Groups groups, std::span<const std::byte> push = {});
+  template <class Push>
+  void dispatch(Kernel kernel, Groups groups, const Push& push) {
+    dispatch(kernel, groups, std::as_bytes(std::span(&push, 1)));
+  }
   /// Three uint at `offset` bytes of `arguments` (declared with Use::Indirect).
   void dispatchIndirect(Kernel kernel, BufferRef arguments, uint64_t offset, std::span<const std::byte> push = {});
   template <class Push>
@@ -177,8 +193,18 @@ class RILL_API Commands {
   /// The whole image from or to tightly packed rows that start at `offset` bytes of the buffer: a multiple of 4 and of a texel's bytes.
   void copy(BufferRef source, ImageRef target, uint64_t offset = 0);
   void copy(ImageRef source, BufferRef target, uint64_t offset = 0);
+  /// The whole image, to one of the same size and of a format whose texels are as large.
+  void copy(ImageRef source, ImageRef target);
   void clear(ImageRef target, const VkClearColorValue& value);
+
+  /// For commands of the host's own, between those above or in place of them. The pass's barrier has been recorded; in a pass with targets
+  /// rendering has begun, with viewport and scissor set to all of them. Nothing else is bound, and what the host binds lasts to the end of
+  /// the pass at most: dispatch() and draw() bind all that they need. The host ends what it begins (rendering, queries) within the pass.
   VkCommandBuffer handle() const;
+  /// What is behind a ref that this pass declared. Of a transient it is another buffer or image from frame to frame, which the passes of
+  /// this frame's one recording may use: it goes into descriptor sets that no other frame in flight uses, and no command of a later one.
+  VkDescriptorBufferInfo buffer(BufferRef buffer) const;
+  ImageHandle image(ImageRef image) const;
 
  private:
   friend class GraphImpl;

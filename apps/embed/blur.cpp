@@ -1,0 +1,96 @@
+// A game that wants Rill's render graph for passes of its own, and nothing else of Rill: an image is uploaded and blurred in two
+// directions, the first by a pipeline of Rill's, the second by the engine's own, recorded with raw Vulkan.
+//   blur OUT.ppm
+#include <cstring>
+#include <rill/graph.hpp>
+#include <rill/pipeline.hpp>
+
+#include "borrow.hpp"
+#include "host/image_filter.hpp"
+
+namespace {
+
+#include "blur_comp.inc"
+
+constexpr uint32_t kWidth = 96, kHeight = 64;
+constexpr VkFormat kFormat = VK_FORMAT_R8G8B8A8_UNORM;
+
+struct Direction {
+  int32_t x, y;
+};
+
+/// Squares of 8 pixels.
+void paint(unsigned char* rgba) {
+  for (uint32_t y = 0; y < kHeight; ++y)
+    for (uint32_t x = 0; x < kWidth; ++x, rgba += 4) {
+      const bool light = (x / 8 + y / 8) % 2 != 0;
+      const unsigned char texel[] = {static_cast<unsigned char>(light ? 240 : 2 * x), static_cast<unsigned char>(light ? 200 : 3 * y), 90,
+                                     255};
+      std::memcpy(rgba, texel, 4);
+    }
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  if (count != 2) host::fail("usage: blur OUT.ppm");
+  Lender lender;
+  host::Engine& engine = lender.engine;
+  const auto device = lender.lend();
+  host::Image result = engine.createImage(kFormat, kWidth, kHeight, VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+  host::Buffer pixels = engine.createBuffer(4 * kWidth * kHeight, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+  paint(static_cast<unsigned char*>(pixels.mapped));
+  {
+    host::ImageFilter own(engine);
+    // Bindings 0, 1, ... of the shader's set 0.
+    const rill::BindingKind bindings[] = {rill::BindingKind::SampledImage, rill::BindingKind::StorageImage};
+    const rill::ComputePipeline* across = need(rill::computePipeline(
+        *device, {.shader = "blur", .spirv = blur_comp, .bindings = bindings, .pushConstantBytes = sizeof(Direction)}));
+
+    // A frame is declared: what comes in and in which state, what each pass reads and writes. Barriers and memory follow from that.
+    rill::Graph graph;
+    const rill::ImageDesc size{kFormat, kWidth, kHeight};
+    const rill::Groups groups{kWidth / 8, kHeight / 8};
+    const rill::BufferRef painted = graph.import("painted", {.handle = pixels.handle, .size = pixels.size, .before = rill::Use::None});
+    rill::ImageRef out =
+        graph.import("result", {.handle = result.handle, .desc = size, .before = rill::Use::None, .after = rill::Use::CopySource});
+    rill::ImageRef source = graph.create("source", size), half = graph.create("half blurred", size), whole = graph.create("blurred", size);
+    graph.pass("upload", [&](rill::Pass& pass) {
+      pass.read(painted, rill::Use::CopySource);
+      source = pass.write(source, rill::Use::CopyTarget, rill::Load::Discard);
+      return [=](rill::Commands& commands) { commands.copy(painted, source); };
+    });
+    graph.pass("blur across", [&](rill::Pass& pass) {
+      pass.read(source, rill::Use::ComputeSampled);
+      half = pass.write(half, rill::Use::ComputeWrite);
+      const rill::Kernel kernel = pass.kernel(across, {source, half});
+      return [=](rill::Commands& commands) { commands.dispatch(kernel, groups, Direction{1, 0}); };
+    });
+    graph.pass("blur down", [&](rill::Pass& pass) {
+      pass.read(half, rill::Use::ComputeSampled);
+      whole = pass.write(whole, rill::Use::ComputeWrite);
+      return [=, &own](rill::Commands& commands) {  // the same by the engine's own pipeline and descriptor set
+        const rill::ImageHandle from = commands.image(half), to = commands.image(whole);
+        own.run(commands.handle(), {VK_NULL_HANDLE, from.view, from.layout}, {VK_NULL_HANDLE, to.view, to.layout}, {0, 1}, groups.x,
+                groups.y);
+      };
+    });
+    graph.pass("hand out", [&](rill::Pass& pass) {
+      pass.read(whole, rill::Use::CopySource);
+      out = pass.write(out, rill::Use::CopyTarget, rill::Load::Discard);
+      return [=](rill::Commands& commands) { commands.copy(whole, out); };
+    });
+
+    // It is planned, given its memory, and recorded into a command buffer that the game submits.
+    need(graph.compile());
+    const host::Frame frame = engine.begin();
+    device->beginFrame({frame.number, frame.completed});
+    need(graph.prepare(*device));
+    graph.record(frame.commands);
+    engine.end(frame);
+    engine.wait();
+  }
+  engine.save(result, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, arguments[1]);
+  engine.destroy(result);
+  engine.destroy(pixels);
+}

@@ -1,0 +1,27 @@
+#pragma once
+// A compute pipeline of the engine's own, with a descriptor set for two images: blur.comp, as any engine would run it.
+#include "engine.hpp"
+
+namespace host {
+
+class ImageFilter {
+ public:
+  explicit ImageFilter(Engine& engine);
+  ~ImageFilter();
+  ImageFilter(const ImageFilter&) = delete;
+  ImageFilter& operator=(const ImageFilter&) = delete;
+
+  /// Records; the images are in these layouts, and stay in them. Once a frame, for the set is written.
+  void run(VkCommandBuffer commands, VkDescriptorImageInfo from, VkDescriptorImageInfo to, const int32_t (&direction)[2], uint32_t groupsX,
+           uint32_t groupsY);
+
+ private:
+  Engine& engine_;
+  VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
+  VkDescriptorPool pool_ = VK_NULL_HANDLE;
+  VkDescriptorSet set_ = VK_NULL_HANDLE;
+  VkPipelineLayout layout_ = VK_NULL_HANDLE;
+  VkPipeline pipeline_ = VK_NULL_HANDLE;
+};
+
+}  // namespace host

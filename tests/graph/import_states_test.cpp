@@ -1,0 +1,173 @@
+// States in which imports come and go that no pass has: a swapchain's, the host's own; and what an import was created for.
+#include "graph_fixture.hpp"
+
+namespace rill::test {
+namespace {
+
+constexpr ImageDesc kDesc{VK_FORMAT_R8G8B8A8_UNORM, 64, 32};
+constexpr VkPipelineStageFlags2 kFragment = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+constexpr UseState kSampledInGeneral{.stages = kFragment, .access = kSampled, .layout = VK_IMAGE_LAYOUT_GENERAL};
+
+class ImportStates : public GraphTest {
+ protected:
+  ImageRef image(ImportState before, ImportState after, VkImageUsageFlags usage = 0) {
+    return graph.import("image", {reinterpret_cast<VkImage>(uintptr_t(1)), kDesc, before, after, usage});
+  }
+  void draw(ImageRef target, Use use, Load load = Load::Keep) {
+    graph.pass("draw", [&](Pass& pass) {
+      (void)pass.write(target, use, load);
+      return [](Commands&) {};
+    });
+  }
+  void look(ImageRef at, Use use) {
+    graph.pass("look", [&](Pass& pass) {
+      pass.read(at, use);
+      pass.sideEffect();
+      return [](Commands&) {};
+    });
+  }
+  const Transition& only(const PlannedBarrier& barrier) {
+    EXPECT_EQ(barrier.transitions.count, 1u);
+    return graph.impl().transitions[barrier.transitions.first];
+  }
+  const PlannedBarrier& last() { return graph.impl().finalBarrier; }
+  std::string after(auto&& declare) {
+    graph.reset();
+    declare();
+    return mistake();
+  }
+};
+
+TEST_F(ImportStates, ASwapchainsImageIsLeftAsItIsPresented) {
+  draw(image(Use::Unknown, Use::Present), Use::ColourTarget, Load::Discard);
+  compile();
+  const Transition& first = only(graph.impl().passes[0].barrier);
+  EXPECT_EQ(first.from, VK_IMAGE_LAYOUT_UNDEFINED);
+  EXPECT_EQ(first.scope.sourceStage, kAll) << "whatever stage the submission waits in for the image";
+  const Transition& present = only(last());
+  EXPECT_EQ(present.to, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
+  EXPECT_EQ(present.scope, (Scope{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT, kAll, 0}));
+}
+
+TEST_F(ImportStates, WhatWasPresentedIsDrawnOver) {
+  draw(image(Use::Present, Use::Present), Use::ColourTarget);
+  compile();
+  EXPECT_EQ(only(graph.impl().passes[0].barrier).from, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR) << "its content is kept";
+  EXPECT_EQ(only(last()).to, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
+}
+
+TEST_F(ImportStates, TheHostsOwnStatesAreWaitedForAndReached) {
+  look(image(kSampledInGeneral, kSampledInGeneral), Use::ComputeSampled);
+  compile();
+  const Transition& first = only(graph.impl().passes[0].barrier);
+  EXPECT_EQ(first.from, VK_IMAGE_LAYOUT_GENERAL);
+  EXPECT_EQ(first.scope.sourceStage, kFragment);
+  const Transition& final = only(last());
+  EXPECT_EQ(final.to, VK_IMAGE_LAYOUT_GENERAL);
+  EXPECT_EQ(final.scope.targetStage, kFragment);
+  EXPECT_EQ(final.scope.targetAccess, kSampled);
+}
+
+TEST_F(ImportStates, OwnStatesInTheLayoutOfAUseChangeNone) {
+  draw(image(kSampledInGeneral, kSampledInGeneral), Use::ComputeWrite);
+  compile();
+  EXPECT_EQ(graph.impl().passes[0].barrier.transitions.count, 0u);
+  EXPECT_EQ(barrier(0).sourceStage, kFragment) << "it was being read";
+  EXPECT_EQ(barrier(0).targetStage, kCompute);
+  EXPECT_EQ(last().transitions.count, 0u);
+  EXPECT_EQ(last().scope, (Scope{kCompute, kStorageWrite, kFragment, kSampled}));
+}
+
+TEST_F(ImportStates, ABufferGoesToAStageThatNoUseNames) {
+  constexpr UseState build{.stages = VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR, .access = VK_ACCESS_2_SHADER_READ_BIT};
+  constexpr UseState written{.stages = kFragment, .access = VK_ACCESS_2_SHADER_WRITE_BIT | VK_ACCESS_2_SHADER_READ_BIT};
+  (void)write("write", graph.import("positions", {fakeBuffer(9), 0, 64, written, build}));
+  compile();
+  EXPECT_EQ(barrier(0).sourceStage, kFragment);
+  EXPECT_EQ(barrier(0).sourceAccess, VK_ACCESS_2_SHADER_WRITE_BIT) << "reads have nothing to make available";
+  EXPECT_EQ(last().scope, (Scope{kCompute, kStorageWrite, build.stages, build.access}));
+}
+
+TEST_F(ImportStates, NoStagesMeanThatNothingIsWaitedFor) {
+  draw(image(UseState{.layout = VK_IMAGE_LAYOUT_GENERAL}, Use::None), Use::ComputeWrite);
+  (void)graph.import("buffer", {fakeBuffer(9), 0, 64, UseState{}, UseState{}});
+  compile();
+  EXPECT_TRUE(graph.impl().passes[0].barrier.empty());
+  EXPECT_TRUE(last().empty());
+}
+
+TEST_F(ImportStates, VertexInputWaitsForWhatMadeTheVertices) {
+  read("draw", write("make", import("vertices", Use::VertexInput), Use::ComputeWrite, true), Use::VertexInput);
+  compile();
+  EXPECT_EQ(barrier(0), (Scope{VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT, 0, kCompute, 0}));
+  EXPECT_EQ(barrier(1), (Scope{kCompute, kStorageWrite, VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT,
+                               VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT}));
+}
+
+TEST_F(ImportStates, AnOwnStateMakesAPlanOfItsOwn) {
+  const auto plan = [&](ImportState state) {
+    graph.reset();
+    look(image(state, Use::None), Use::ComputeRead);
+    compile();
+  };
+  plan(kSampledInGeneral);
+  const uint64_t plans = graph.impl().plansMade;
+  plan(kSampledInGeneral);
+  EXPECT_EQ(graph.impl().plansMade, plans);
+  UseState other = kSampledInGeneral;
+  other.stages = kTransfer;
+  plan(other);
+  EXPECT_EQ(graph.impl().plansMade, plans + 1);
+  EXPECT_EQ(barrier(0).sourceStage, kTransfer);
+}
+
+TEST_F(ImportStates, UseStateIsWhatTheGraphPlansWith) {
+  const UseState sampled = useState(Use::ComputeSampled);
+  EXPECT_EQ(sampled, (UseState{kCompute, kSampled, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_USAGE_SAMPLED_BIT, 0}));
+  const UseState write = useState(Use::ComputeWrite);
+  EXPECT_EQ(write.access, kStorageRead | kStorageWrite);
+  EXPECT_EQ(write.bufferUsage, VkBufferUsageFlags(VK_BUFFER_USAGE_STORAGE_BUFFER_BIT));
+  EXPECT_EQ(useState(Use::None), UseState{});
+  // The same import, in the state of a Use and in that state spelt out: the same barrier.
+  draw(image(Use::ComputeSampled, Use::None), Use::ComputeWrite);
+  compile();
+  const Transition named = only(graph.impl().passes[0].barrier);
+  graph.reset();
+  draw(image(sampled, Use::None), Use::ComputeWrite);
+  compile();
+  EXPECT_EQ(only(graph.impl().passes[0].barrier).scope, named.scope);
+}
+
+TEST_F(ImportStates, MistakesAreNamed) {
+  EXPECT_EQ(after([&] { (void)image(UseState{.stages = kFragment, .access = kSampled}, Use::None); }),
+            "import 'image': a state of the host's own needs the image's layout");
+  EXPECT_EQ(after([&] { (void)image(UseState{.access = kSampled, .layout = VK_IMAGE_LAYOUT_GENERAL}, Use::None); }),
+            "import 'image': the host's own state has accesses, but no stages that they are made in");
+  EXPECT_EQ(after([&] { (void)image(Use::None, UseState{.layout = VK_IMAGE_LAYOUT_PREINITIALIZED}); }),
+            "import 'image': no image can be brought into the layout PREINITIALIZED");
+  EXPECT_EQ(after([&] {
+              (void)graph.import("buffer", {fakeBuffer(1), 0, 64, kSampledInGeneral});
+            }),
+            "import 'buffer': a buffer has no layout, and the host's own state names one");
+  EXPECT_EQ(after([&] {
+              (void)graph.import("buffer", {fakeBuffer(1), 0, 64, Use::Present});
+            }),
+            "import 'buffer': Use::Present is no use of a buffer");
+  EXPECT_EQ(after([&] { (void)image(Use::VertexInput, Use::None); }), "import 'image': Use::VertexInput is no use of an image");
+  EXPECT_EQ(after([&] { look(image(Use::Present, Use::None), Use::Present); }),
+            "pass 'look' reads 'image' with Use::Present, which is no way for a pass to read an image");
+  EXPECT_EQ(after([&] { look(image(Use::ComputeRead, Use::None, VK_IMAGE_USAGE_STORAGE_BIT), Use::ComputeSampled); }),
+            "pass 'look' uses import 'image' with Use::ComputeSampled, but it was created without VK_IMAGE_USAGE_SAMPLED_BIT");
+  EXPECT_EQ(after([&] { draw(image(Use::Unknown, Use::None, VK_IMAGE_USAGE_SAMPLED_BIT), Use::ColourTarget, Load::Discard); }),
+            "pass 'draw' uses import 'image' with Use::ColourTarget, but it was created without VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT");
+  EXPECT_EQ(after([&] { (void)image(Use::Unknown, Use::CopySource, VK_IMAGE_USAGE_STORAGE_BIT); }),
+            "import 'image': Use::CopySource is a state of it, but it was created without VK_IMAGE_USAGE_TRANSFER_SRC_BIT");
+  EXPECT_EQ(after([&] { draw(image(Use::Unknown, Use::Present, VK_IMAGE_USAGE_STORAGE_BIT), Use::ComputeWrite); }), "compiled");
+  EXPECT_EQ(after([&] {
+              (void)graph.create("stencil", ImageDesc{VK_FORMAT_S8_UINT, 8, 8});
+            }),
+            "image 'stencil' is of a format with a stencil alone, which no pass can use");
+}
+
+}  // namespace
+}  // namespace rill::test
