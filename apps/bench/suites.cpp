@@ -11,6 +11,7 @@ constexpr Suite kSuites[] = {
     {"speed", "what a particle costs, 1,000 to a million of them: in total, in each pass, in bytes; two baselines", runSpeed},
     {"features", "what each feature costs when it is on, that it costs nothing when off, which passes a scene runs", runFeatures},
     {"render", "surfaces from particles against analytic ones: ms against degrees", runRender},
+    {"embed", "what a host pays: its start with and without a pipeline cache of its own, memory", runEmbed},
     {"validation", "published experiments and exact solutions, with an aim and a pass band for each figure", runValidation},
 };
 

@@ -11,5 +11,6 @@ Expected<Report> runSpeed(Bench& bench);
 Expected<Report> runFeatures(Bench& bench);
 Expected<Report> runRender(Bench& bench);
 Expected<Report> runValidation(Bench& bench);
+Expected<Report> runEmbed(Bench& bench);
 
 }  // namespace rill::bench

@@ -5,6 +5,17 @@
 // Passes dispatch and draw with pipelines of rill/pipeline.hpp, whose bindings have no samplers: shaders read images by texelFetch. A pass
 // that wants more (filtering, vertex buffers, ray queries) records with the host's own pipelines and descriptor sets: Commands::handle()
 // gives the command buffer, Commands::buffer() and image() the handles. The graph's barriers serve it just so.
+//
+//   graph.reset();
+//   rill::BufferRef counts = graph.create("counts", {4096});
+//   graph.pass("clear", [&](rill::Pass& pass) {
+//     counts = pass.write(counts, rill::Use::CopyTarget);
+//     return [counts](rill::Commands& commands) { commands.fill(counts, 0); };
+//   });
+//   const rill::Ticket ticket = graph.readback(counts);
+//   if (auto ok = graph.compile(); !ok) return fail(ok.error().message);
+//   if (auto ok = graph.prepare(device); !ok) return fail(ok.error().message);
+//   graph.record(commandBuffer);
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>

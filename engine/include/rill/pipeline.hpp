@@ -3,6 +3,11 @@
 //
 // A pipeline belongs to the Device. It is made once, the first time that it is described, and found again from then on: asking every frame
 // costs a search, so hosts keep the pointer. It stays valid until the Device ends, which destroys it; nobody else does.
+//
+//   const rill::BindingKind bindings[] = {rill::BindingKind::SampledImage, rill::BindingKind::StorageImage};
+//   const uint32_t words[] = {0x07230203};  // and so on: SPIR-V, as glslangValidator --vn writes it
+//   auto blur = rill::computePipeline(device, {.shader = "blur", .spirv = words, .bindings = bindings, .pushConstantBytes = 8});
+//   if (!blur) return fail(blur.error().message);
 #include <cstdint>
 #include <span>
 #include <string_view>

@@ -1,5 +1,11 @@
 #pragma once
 // What is done with a buffer or an image of a render graph, and what that is to Vulkan.
+//
+//   const rill::UseState sampled = rill::useState(rill::Use::DrawSampled);
+//   VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};  // of a host that goes on after the graph
+//   barrier.srcStageMask = sampled.stages;
+//   barrier.srcAccessMask = sampled.access;
+//   barrier.oldLayout = sampled.layout;
 #include <vulkan/vulkan_core.h>
 
 #include <cstdint>
