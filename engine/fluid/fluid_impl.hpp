@@ -117,7 +117,9 @@ class FluidImpl {
   std::vector<Chunk> chunks_;
   mutable std::optional<Staging> staging_;  // the start state, until it has been copied
   bool texel_ = false;
+  DeviceImpl* device_ = nullptr;
   bool uploaded_ = false;
+  std::optional<uint64_t> uploadFrame_;  // into whose commands the upload was recorded
   bool resumed_ = false;   // from a snapshot
   float drivenSpeed_ = 0;  // m/s, the fastest driven solid of the advance declared last
   uint32_t recorded_ = 0;  // substeps recorded since the start: parity of the next

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "fluid/fluid_impl.hpp"
+#include "gpu/device_impl.hpp"
 #include "graph/import_whole.hpp"
 
 namespace rill {
@@ -105,7 +106,8 @@ void FluidImpl::declareUpload(Graph& graph) {
       ref = pass.write(ref, Use::CopyTarget, true);
       cleared.push_back(ref);
     }
-    return [copies = std::move(copies), cleared = std::move(cleared)](Commands& commands) {
+    return [this, copies = std::move(copies), cleared = std::move(cleared)](Commands& commands) {
+      uploadFrame_ = device_->clock.recording;
       for (const Copy& copy : copies) commands.copy(copy.from, copy.to, copy.bytes, copy.at);
       for (BufferRef ref : cleared) commands.fill(ref, 0);
     };
@@ -537,6 +539,10 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
 
   importAll(graph);
   const bool advances = step.resume || step.advance_s > 0;
+  if (staging_ && uploadFrame_ && device_->abandoned(*uploadFrame_)) {
+    uploaded_ = false;
+    uploadFrame_.reset();
+  }
   const bool uploads = !uploaded_;
   if (uploads) {
     declareUpload(graph);
