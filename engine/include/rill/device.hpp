@@ -18,7 +18,8 @@
 //   Errors         An Expected says what went wrong; a graph keeps what was declared wrongly for compile(). No exception leaves a call, but
 //                  std::bad_alloc where host memory has run out. What only wrong code can do is an assert, in builds that have them.
 //   Silence        Nothing is printed, no signal handled, no environment read (but RILL_SHADER_DIR in builds with RILL_SHADER_RELOAD), and
-//                  there is no global state. What is nobody's result goes to the message callback.
+//                  there is no global state but a counter by which graphs tell
+//                  their refs apart. What is nobody's result goes to the message callback.
 #include <vulkan/vulkan_core.h>
 
 #include <cstdint>
