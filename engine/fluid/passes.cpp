@@ -114,6 +114,16 @@ void FluidImpl::declareUpload(Graph& graph) {
   });
 }
 
+void FluidImpl::forgetAbandoned() {
+  if (staging_ && uploadFrame_ && device_->abandoned(*uploadFrame_)) {
+    uploaded_ = false;
+    uploadFrame_.reset();
+  }
+  for (; !drives_.empty() && device_->abandoned(drives_.back().frame); drives_.pop_back())
+    for (size_t k = 0; k < setup.driven.size(); ++k) std::ranges::copy(drives_.back().from[k], setup.driven[k].centre);
+  while (!drives_.empty() && drives_.front().frame <= device_->clock.completed) drives_.pop_front();
+}
+
 // Keyframes of the driven solids for an advance: from where the last one was to bring them, towards their targets.
 void FluidImpl::declareDrive(Graph& graph, const FluidStep& step) {
   struct Keys {
@@ -121,10 +131,13 @@ void FluidImpl::declareDrive(Graph& graph, const FluidStep& step) {
     std::array<float, 8> values;  // where it is and when, where it will be and when
   };
   std::vector<Keys> keys;
+  Drive& drive = drives_.emplace_back();
+  drive.number = ++driveCount_;
   drivenSpeed_ = 0;
   for (DrivenSolid& driven : setup.driven) {
     std::array<float, 3> from{}, to{};
     std::copy(std::begin(driven.centre), std::end(driven.centre), from.begin());
+    drive.from.push_back(from);
     to = from;
     for (const SolidTarget& target : step.targets) {
       double way[3];
@@ -141,7 +154,9 @@ void FluidImpl::declareDrive(Graph& graph, const FluidStep& step) {
   }
   graph.pass("drive solids", [&](Pass& pass) {
     r_.keyframes = pass.write(r_.keyframes, Use::CopyTarget);
-    return [keys = std::move(keys), target = r_.keyframes](Commands& commands) {
+    return [this, number = drive.number, keys = std::move(keys), target = r_.keyframes](Commands& commands) {
+      for (Drive& declared : drives_)
+        if (declared.number == number) declared.frame = device_->clock.recording;
       for (const Keys& k : keys) commands.update(target, std::as_bytes(std::span(k.values)), k.at);
     };
   });
@@ -539,10 +554,7 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
 
   importAll(graph);
   const bool advances = step.resume || step.advance_s > 0;
-  if (staging_ && uploadFrame_ && device_->abandoned(*uploadFrame_)) {
-    uploaded_ = false;
-    uploadFrame_.reset();
-  }
+  forgetAbandoned();
   const bool uploads = !uploaded_;
   if (uploads) {
     declareUpload(graph);

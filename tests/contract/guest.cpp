@@ -5,13 +5,16 @@ namespace {
 
 constexpr uint32_t kWidth = 48, kHeight = 32;
 
-/// A block of 512 particles that falls into a corner of a box.
+/// A block of 512 particles that falls into a corner of a box, and a ball that its host pushes into them.
 Scene tank() {
   Scene scene;
   scene.fluid.spacing = 1.0 / 16;
   scene.domain = Domain{};
   scene.fill.resize(1);
   scene.fill[0].box = BoxShape{{0, 0.25, 0}, {0.5, 0.75, 0.5}};
+  scene.solids.resize(1);
+  scene.solids[0].sphere = SphereShape{{0.66, 0.5, 0.25}, 0.15};
+  scene.solids[0].driven = 2;
   return scene;
 }
 
@@ -90,7 +93,8 @@ Expected<void> Guest::frame(Fate fate, bool told) {
   (void)bits();  // what the last frame read back has been seen: its memory is free for this one
   host_.watch.doing = "declare";
   graph_.reset();
-  const FluidState state = fluid_->addTo(graph_, {.advance_s = 1.0 / 120, .substeps = 12});
+  const SolidTarget target{0, {0.2, 0.5, 0.25}};
+  const FluidState state = fluid_->addTo(graph_, {.advance_s = 1.0 / 120, .substeps = 12, .targets = {&target, 1}});
   tickets_ = {graph_.readback(state.position), graph_.readback(state.velocity)};
   if (draws) tickets_.push_back(readPixels(picture(state)));
   auto ok = graph_.compile();

@@ -61,15 +61,24 @@ TEST_F(Contract, WhatTheHostItselfAskedForStays) {
   EXPECT_TRUE(Device::borrow(lent));
 }
 
-TEST_F(Contract, ADeviceMadeWithoutARequiredFeatureIsRefusedByItsName) {
+TEST(ContractFeatures, ADeviceMadeWithoutARequiredFeatureIsRefusedByItsName) {
   for (const Feature& feature : kFeatures) {
     SCOPED_TRACE(feature.name);
-    HostDevice lent = host().lend();
-    DeviceRequirements less = host().needs;
-    less.vulkan13.*feature.flag = VK_FALSE;
-    lent.enabled = less.chain();
-    expectRefused(lent, ErrorKind::NoDevice, std::string("feature ") + feature.name);
+    const auto host = Host::open(feature.flag);
+    ASSERT_TRUE(host);
+    expectRefused(host->lend(), ErrorKind::NoDevice, std::string("feature ") + feature.name);
+    EXPECT_TRUE(host->watch.alive().empty());
+    for (const std::string& message : host->takeMessages()) ADD_FAILURE() << message;
   }
+}
+
+// Else no message would mean nothing.
+TEST_F(Contract, TheHostHearsItsValidationLayer) {
+  const VkFenceCreateInfo wrong{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, nullptr, 0x80};
+  VkFence fence = VK_NULL_HANDLE;
+  ASSERT_EQ(host().vk.CreateFence(host().device, &wrong, nullptr, &fence), VK_SUCCESS);
+  host().vk.DestroyFence(host().device, fence, nullptr);
+  EXPECT_EQ(host().takeMessages().size(), 1u);
 }
 
 TEST_F(Contract, APhysicalDeviceThatLacksARequiredFeatureIsRefusedByItsName) {
