@@ -88,6 +88,13 @@ class FluidImpl {
     bool uploads;  ///< the start state has been copied once this frame has finished
   };
 
+  /// An advance that moves driven solids, and where they were before it.
+  struct Drive {
+    uint64_t number = 0;
+    uint64_t frame = 0;  ///< into whose commands it was recorded; 0: not yet
+    std::vector<std::array<float, 3>> from;
+  };
+
   Expected<void> makeBuffers(Device& device, bool storageReads);
   Expected<void> makePipelines(Device& device);
   void stageScene();
@@ -99,6 +106,7 @@ class FluidImpl {
   void importAll(Graph& graph);
   void declareUpload(Graph& graph);
   void declareDrive(Graph& graph, const FluidStep& step);
+  void forgetAbandoned();  ///< what has been declared in frames that were given up
   void declareBegin(Graph& graph, double advance);
   void declareRebuild(Graph& graph);
   void declareSubstep(Graph& graph, uint32_t parity, bool first);  ///< first of its block
@@ -117,12 +125,16 @@ class FluidImpl {
   std::vector<Chunk> chunks_;
   mutable std::optional<Staging> staging_;  // the start state, until it has been copied
   bool texel_ = false;
+  DeviceImpl* device_ = nullptr;
   bool uploaded_ = false;
-  bool resumed_ = false;   // from a snapshot
-  float drivenSpeed_ = 0;  // m/s, the fastest driven solid of the advance declared last
-  uint32_t recorded_ = 0;  // substeps recorded since the start: parity of the next
-  double emptyTime_ = 0;   // simulated time of a fluid without particles, s
+  std::optional<uint64_t> uploadFrame_;  // into whose commands the upload was recorded
+  bool resumed_ = false;                 // from a snapshot
+  float drivenSpeed_ = 0;                // m/s, the fastest driven solid of the advance declared last
+  uint32_t recorded_ = 0;                // substeps recorded since the start: parity of the next
+  double emptyTime_ = 0;                 // simulated time of a fluid without particles, s
   mutable std::deque<Pending> pending_;
+  std::deque<Drive> drives_;  // those that the device has not finished
+  uint64_t driveCount_ = 0;
 };
 
 /// Recorded substeps between two places where the list can be rebuilt.

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "fluid/fluid_impl.hpp"
+#include "gpu/device_impl.hpp"
 #include "graph/import_whole.hpp"
 
 namespace rill {
@@ -105,11 +106,22 @@ void FluidImpl::declareUpload(Graph& graph) {
       ref = pass.write(ref, Use::CopyTarget, true);
       cleared.push_back(ref);
     }
-    return [copies = std::move(copies), cleared = std::move(cleared)](Commands& commands) {
+    return [this, copies = std::move(copies), cleared = std::move(cleared)](Commands& commands) {
+      uploadFrame_ = device_->clock.recording;
       for (const Copy& copy : copies) commands.copy(copy.from, copy.to, copy.bytes, copy.at);
       for (BufferRef ref : cleared) commands.fill(ref, 0);
     };
   });
+}
+
+void FluidImpl::forgetAbandoned() {
+  if (staging_ && uploadFrame_ && device_->abandoned(*uploadFrame_)) {
+    uploaded_ = false;
+    uploadFrame_.reset();
+  }
+  for (; !drives_.empty() && device_->abandoned(drives_.back().frame); drives_.pop_back())
+    for (size_t k = 0; k < setup.driven.size(); ++k) std::ranges::copy(drives_.back().from[k], setup.driven[k].centre);
+  while (!drives_.empty() && drives_.front().frame <= device_->clock.completed) drives_.pop_front();
 }
 
 // Keyframes of the driven solids for an advance: from where the last one was to bring them, towards their targets.
@@ -119,10 +131,13 @@ void FluidImpl::declareDrive(Graph& graph, const FluidStep& step) {
     std::array<float, 8> values;  // where it is and when, where it will be and when
   };
   std::vector<Keys> keys;
+  Drive& drive = drives_.emplace_back();
+  drive.number = ++driveCount_;
   drivenSpeed_ = 0;
   for (DrivenSolid& driven : setup.driven) {
     std::array<float, 3> from{}, to{};
     std::copy(std::begin(driven.centre), std::end(driven.centre), from.begin());
+    drive.from.push_back(from);
     to = from;
     for (const SolidTarget& target : step.targets) {
       double way[3];
@@ -139,7 +154,9 @@ void FluidImpl::declareDrive(Graph& graph, const FluidStep& step) {
   }
   graph.pass("drive solids", [&](Pass& pass) {
     r_.keyframes = pass.write(r_.keyframes, Use::CopyTarget);
-    return [keys = std::move(keys), target = r_.keyframes](Commands& commands) {
+    return [this, number = drive.number, keys = std::move(keys), target = r_.keyframes](Commands& commands) {
+      for (Drive& declared : drives_)
+        if (declared.number == number) declared.frame = device_->clock.recording;
       for (const Keys& k : keys) commands.update(target, std::as_bytes(std::span(k.values)), k.at);
     };
   });
@@ -537,6 +554,7 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
 
   importAll(graph);
   const bool advances = step.resume || step.advance_s > 0;
+  forgetAbandoned();
   const bool uploads = !uploaded_;
   if (uploads) {
     declareUpload(graph);

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "gpu/device_impl.hpp"
+#include "gpu/device_memory.hpp"
 #include "gpu/requirements.hpp"
 #include "gpu/shader_reload.hpp"
 #include "gpu/vulkan_error.hpp"
@@ -60,11 +61,13 @@ Expected<std::unique_ptr<Device>> Device::borrow(const HostDevice& host) {
   if (!host.getInstanceProcAddr) return badHost("getInstanceProcAddr is null");
   if (!host.enabled) return badHost("enabled is null: give the VkPhysicalDeviceFeatures2 chain of vkCreateDevice");
   if (host.apiVersion < VK_API_VERSION_1_3) return badHost("apiVersion is below 1.3");
+  if (host.memory && !(host.memory->allocate && host.memory->free)) return badHost("memory lacks allocate or free");
 
   auto impl = std::make_unique<DeviceImpl>();
   impl->handle = host.device;
   impl->cache = host.cache;
   impl->callbacks = host.callbacks;
+  if (host.memory) impl->hooks = *host.memory;
   if (const char* missing = impl->instance.load(host.getInstanceProcAddr, host.instance))
     return Error{ErrorKind::NoDevice, std::string("the Vulkan instance lacks ") + missing};
   if (auto ok = checkDevice(impl->instance, host.physicalDevice); !ok) return ok.error();
@@ -122,7 +125,6 @@ void RetireQueue::collect(DeviceImpl& device, uint64_t completed) {
       RILL_DESTROY(VK_OBJECT_TYPE_BUFFER_VIEW, VkBufferView, DestroyBufferView)
       RILL_DESTROY(VK_OBJECT_TYPE_IMAGE, VkImage, DestroyImage)
       RILL_DESTROY(VK_OBJECT_TYPE_IMAGE_VIEW, VkImageView, DestroyImageView)
-      RILL_DESTROY(VK_OBJECT_TYPE_DEVICE_MEMORY, VkDeviceMemory, FreeMemory)
       RILL_DESTROY(VK_OBJECT_TYPE_DESCRIPTOR_POOL, VkDescriptorPool, DestroyDescriptorPool)
       RILL_DESTROY(VK_OBJECT_TYPE_QUERY_POOL, VkQueryPool, DestroyQueryPool)
       RILL_DESTROY(VK_OBJECT_TYPE_PIPELINE, VkPipeline, DestroyPipeline)
@@ -133,6 +135,11 @@ void RetireQueue::collect(DeviceImpl& device, uint64_t completed) {
     return true;
   };
   std::erase_if(entries_, done);
+  std::erase_if(blocks_, [&](const Block& block) {  // after what lay in them
+    if (block.frame > completed) return false;
+    freeMemory(device, block.block);
+    return true;
+  });
 }
 
 }  // namespace rill

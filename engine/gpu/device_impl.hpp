@@ -9,21 +9,25 @@
 #include "gpu/pipeline.hpp"
 #include "gpu/resources.hpp"
 #include "gpu/shader_library.hpp"
+#include "rill/memory.hpp"
 
 namespace rill {
 
 /// Largest buffer that Rill makes: lavapipe's maxStorageBufferRange, and so the least that has been tried.
 inline constexpr uint64_t kMaxBufferBytes = 128ull * 1024 * 1024;
 
-/// Handles whose last use was recorded in some frame, destroyed once the host says that the frame has completed.
+/// Handles and memory whose last use was recorded in some frame, destroyed once the host says that the frame has completed.
 class RetireQueue {
  public:
   template <class Handle>
   void add(uint64_t frame, VkObjectType type, Handle handle) {
     if (handle != VK_NULL_HANDLE) entries_.push_back({frame, type, reinterpret_cast<uint64_t>(handle)});
   }
+  void add(uint64_t frame, const MemoryBlock& block) {
+    if (block.memory != VK_NULL_HANDLE) blocks_.push_back({frame, block});
+  }
   void collect(DeviceImpl& device, uint64_t completed);
-  size_t size() const { return entries_.size(); }
+  size_t size() const { return entries_.size() + blocks_.size(); }
 
  private:
   struct Entry {
@@ -31,7 +35,12 @@ class RetireQueue {
     VkObjectType type;
     uint64_t handle;
   };
+  struct Block {
+    uint64_t frame;
+    MemoryBlock block;
+  };
   std::vector<Entry> entries_;
+  std::vector<Block> blocks_;
 };
 
 class ShaderReload;
@@ -44,8 +53,6 @@ class DeviceImpl {
   DeviceImpl& operator=(const DeviceImpl&) = delete;
 
   Expected<Buffer> createBuffer(std::string_view name, uint64_t size, MemoryKind kind);
-  /// Nothing where the device has no such memory among the types `allowed`.
-  std::optional<uint32_t> chooseMemoryType(uint32_t allowed, MemoryKind kind) const;
   bool abandoned(uint64_t frame) const;
   void abandon(uint64_t frame);
 
@@ -55,6 +62,7 @@ class DeviceImpl {
   VkDevice handle = VK_NULL_HANDLE;
   VkPipelineCache cache = VK_NULL_HANDLE;
   const VkAllocationCallbacks* callbacks = nullptr;
+  std::optional<MemoryHooks> hooks;  ///< none: memory is allocated from the device itself
   DeviceInfo info;
   VkPhysicalDeviceLimits limits{};
   VkPhysicalDeviceMemoryProperties memory{};

@@ -88,6 +88,12 @@ Expected<void> checkDevice(const InstanceTable& instance, VkPhysicalDevice devic
   return {};
 }
 
+VkPhysicalDeviceFeatures2* DeviceRequirements::chain(void* next) {
+  vulkan13.pNext = next;
+  features.pNext = &vulkan13;
+  return &features;
+}
+
 Expected<void> appendRequired(PFN_vkGetInstanceProcAddr get, VkInstance instance, VkPhysicalDevice device,
                               DeviceRequirements& requirements) {
   InstanceTable table;

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "rill/memory.hpp"
 #include "rill/pipeline.hpp"
 
 namespace rill {
@@ -28,16 +29,15 @@ class Buffer {
   Buffer& operator=(Buffer&&) noexcept;
 
   VkBuffer handle() const { return handle_; }
-  uint64_t size() const { return size_; }        ///< bytes asked for
-  std::byte* mapped() const { return mapped_; }  ///< null for MemoryKind::Device; host-coherent
+  uint64_t size() const { return size_; }                                        ///< bytes asked for
+  std::byte* mapped() const { return static_cast<std::byte*>(memory_.mapped); }  ///< null for MemoryKind::Device; host-coherent
   explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
 
  private:
   friend class DeviceImpl;
   DeviceImpl* device_ = nullptr;
   VkBuffer handle_ = VK_NULL_HANDLE;
-  VkDeviceMemory memory_ = VK_NULL_HANDLE;
-  std::byte* mapped_ = nullptr;
+  MemoryBlock memory_;
   uint64_t size_ = 0;
 };
 

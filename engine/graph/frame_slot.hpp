@@ -8,10 +8,10 @@
 
 namespace rill {
 
-/// Descriptors of each type of kDescriptorTypes.
-constexpr std::array kDescriptorTypes = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
-                                         VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
-                                         VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE};
+/// Descriptors of each type of kDescriptorTypes. Its type is written out: GCC puts one that it deduces among the writable variables.
+inline constexpr std::array<VkDescriptorType, 5> kDescriptorTypes = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                                                                     VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER,
+                                                                     VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE};
 using DescriptorCounts = std::array<uint32_t, kDescriptorTypes.size()>;
 
 struct FrameSlot {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "gpu/device_impl.hpp"
+#include "gpu/device_memory.hpp"
 #include "gpu/vulkan_error.hpp"
 
 namespace rill {
@@ -84,7 +85,7 @@ Expected<VkImageView> makeImageView(DeviceImpl& device, VkImage image, VkFormat 
 
 ImageStore::~ImageStore() {
   for (const Placed& placed : placed_) retire(placed);
-  for (const Heap& heap : heaps_) device_->retired.add(device_->clock.recording, VK_OBJECT_TYPE_DEVICE_MEMORY, heap.memory);
+  for (const Heap& heap : heaps_) device_->retired.add(device_->clock.recording, heap.block);
 }
 
 void ImageStore::retire(const Placed& placed) {
@@ -116,25 +117,24 @@ Expected<bool> ImageStore::learn(DeviceImpl& device, const ImageKind& kind, std:
   return true;
 }
 
-Expected<void> ImageStore::growHeaps(DeviceImpl& device, std::span<const uint64_t> sizes, uint32_t memoryTypes) {
-  if (sizes.empty()) return {};
-  const auto type = device.chooseMemoryType(memoryTypes, MemoryKind::Device);
-  if (!type) return Error{ErrorKind::NoDevice, "device '" + device.info.name + "' has no memory that all images of a frame can lie in"};
+Expected<void> ImageStore::growHeaps(DeviceImpl& device, std::span<const uint64_t> sizes, const ImageNeeds& needs) {
   if (heaps_.size() < sizes.size()) heaps_.resize(sizes.size());
+  const auto suits = [&](const Heap& heap, uint64_t size) {
+    const MemoryBlock& block = heap.block;
+    return block.memory && heap.size >= size && (needs.memoryTypes >> block.memoryType & 1u) && block.offset % needs.alignment == 0;
+  };
   for (uint32_t i = 0; i < sizes.size(); ++i) {
     Heap& heap = heaps_[i];
-    if (heap.memory && heap.size >= sizes[i] && heap.type == *type) continue;
+    if (suits(heap, sizes[i])) continue;
     // Frames in flight may still use the old one, and what lies in it.
     for (const Placed& placed : placed_)
       if (placed.heap == i) retire(placed);
     std::erase_if(placed_, [i](const Placed& placed) { return placed.heap == i; });
-    device.retired.add(device.clock.recording, VK_OBJECT_TYPE_DEVICE_MEMORY, heap.memory);
+    device.retired.add(device.clock.recording, heap.block);
     heap = {};
-    const VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, sizes[i], *type};
-    if (VkResult r = device.vk.AllocateMemory(device.handle, &allocate, device.callbacks, &heap.memory); r != VK_SUCCESS)
-      return vulkanError(r, "allocating " + bytesText(sizes[i]) + " for transient images");
-    heap.size = sizes[i];
-    heap.type = *type;
+    auto block = allocateMemory(device, {sizes[i], needs.alignment, needs.memoryTypes}, MemoryKind::Device, {"transient images"});
+    if (!block) return block.error();
+    heap = {*block, sizes[i]};
   }
   return {};
 }
@@ -150,7 +150,8 @@ Expected<const ImageStore::Handles*> ImageStore::place(DeviceImpl& device, const
   const VkImageCreateInfo create = createInfo(kind);
   if (VkResult r = device.vk.CreateImage(device.handle, &create, device.callbacks, &made.handles.image); r != VK_SUCCESS)
     return vulkanError(r, "creating " + described(kind, name));
-  VkResult bound = device.vk.BindImageMemory(device.handle, made.handles.image, heaps_[heap].memory, offset);
+  VkResult bound =
+      device.vk.BindImageMemory(device.handle, made.handles.image, heaps_[heap].block.memory, heaps_[heap].block.offset + offset);
   if (bound != VK_SUCCESS) {
     retire(made);
     return vulkanError(bound, "binding the memory of " + described(kind, name));

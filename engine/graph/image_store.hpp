@@ -7,6 +7,7 @@
 
 #include "rill/expected.hpp"
 #include "rill/graph.hpp"
+#include "rill/memory.hpp"
 
 namespace rill {
 
@@ -43,8 +44,8 @@ class ImageStore {
   ImageNeeds needs(const ImageKind& kind) const;
   /// Asks the device, once a kind; true where that was news. BadInput, naming the image, where the device cannot make it.
   Expected<bool> learn(DeviceImpl& device, const ImageKind& kind, std::string_view name);
-  /// Heaps of at least these sizes, of a type among `memoryTypes`.
-  Expected<void> growHeaps(DeviceImpl& device, std::span<const uint64_t> sizes, uint32_t memoryTypes);
+  /// Heaps of at least these sizes, that images with the alignment and memory types of `needs` can lie in.
+  Expected<void> growHeaps(DeviceImpl& device, std::span<const uint64_t> sizes, const ImageNeeds& needs);
   /// The image of this kind at this place, made if there is none yet.
   Expected<const Handles*> place(DeviceImpl& device, const ImageKind& kind, uint32_t heap, uint64_t offset, std::string_view name);
   /// Retires what has not been placed since the last sweep.
@@ -56,9 +57,8 @@ class ImageStore {
     ImageNeeds needs;
   };
   struct Heap {
-    VkDeviceMemory memory = VK_NULL_HANDLE;
+    MemoryBlock block;
     uint64_t size = 0;
-    uint32_t type = 0;
   };
   struct Placed {
     ImageKind kind;

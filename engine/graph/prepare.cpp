@@ -132,12 +132,14 @@ Expected<void> GraphImpl::resolveBuffers(DeviceImpl& d) {
 }
 
 Expected<void> GraphImpl::resolveImages(DeviceImpl& d, FrameSlot& target) {
-  uint32_t memoryTypes = ~0u;
+  ImageNeeds all;  // any image may lie in any heap
   for (uint32_t index : plans[1].resources) {
     const ResourceData& image = resources[index];
-    memoryTypes &= images.needs({image.desc, image.usage}).memoryTypes;
+    const ImageNeeds own = images.needs({image.desc, image.usage});
+    all.alignment = std::max(all.alignment, own.alignment);
+    all.memoryTypes &= own.memoryTypes;
   }
-  if (auto ok = images.growHeaps(d, plans[1].heapSizes, memoryTypes); !ok) return ok;
+  if (auto ok = images.growHeaps(d, plans[1].heapSizes, all); !ok) return ok;
   for (size_t r = 0; r < resources.size(); ++r) {
     ResourceData& image = resources[r];
     if (!image.isImage || image.level != 0 || image.usage == 0) continue;

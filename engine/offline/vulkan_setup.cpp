@@ -189,12 +189,11 @@ Expected<void> ContextImpl::chooseDevice(const ContextDesc& desc) {
 Expected<void> ContextImpl::makeDevice(const ContextDesc& desc) {
   DeviceRequirements needs;
   if (auto ok = appendRequired(get, instance, physicalDevice, needs); !ok) return ok;
-  needs.vulkan12.timelineSemaphore = VK_TRUE;  // for this context's own frame clock
-  needs.vulkan12.pNext = &needs.vulkan13;
-  VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &needs.vulkan12, needs.core};
+  VkPhysicalDeviceVulkan12Features own{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+  own.timelineSemaphore = VK_TRUE;  // the frame clock
   const float priority = 1;
   const VkDeviceQueueCreateInfo queueInfo{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, queueFamily, 1, &priority};
-  VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features};
+  VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, needs.chain(&own)};
   create.queueCreateInfoCount = 1;
   create.pQueueCreateInfos = &queueInfo;
   create.enabledExtensionCount = uint32_t(desc.deviceExtensions.size());
@@ -215,8 +214,7 @@ Expected<void> ContextImpl::makeDevice(const ContextDesc& desc) {
   host.device = device;
   host.queueFamily = queueFamily;
   host.getInstanceProcAddr = get;
-  host.enabled = &features;
-  host.extensions = desc.deviceExtensions;
+  host.enabled = &needs.features;
   auto borrowed = Device::borrow(host);
   if (!borrowed) return borrowed.error();
   rill = std::move(*borrowed);

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "gpu/device_impl.hpp"
+#include "gpu/device_memory.hpp"
 #include "support/gpu_test.hpp"
 
 namespace rill::test {
@@ -121,11 +122,9 @@ TEST_F(GraphImages, ImportedOnesStayTheHosts) {
                                             VK_IMAGE_ASPECT_COLOR_BIT};
   VkMemoryRequirements2 needs{VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
   d.vk.GetDeviceImageMemoryRequirements(d.handle, &ask, &needs);
-  VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, needs.memoryRequirements.size,
-                                *d.chooseMemoryType(needs.memoryRequirements.memoryTypeBits, MemoryKind::Device)};
-  VkDeviceMemory memory = VK_NULL_HANDLE;
-  ASSERT_EQ(d.vk.AllocateMemory(d.handle, &allocate, nullptr, &memory), VK_SUCCESS);
-  ASSERT_EQ(d.vk.BindImageMemory(d.handle, image, memory, 0), VK_SUCCESS);
+  const auto memory = allocateMemory(d, needs.memoryRequirements, MemoryKind::Device, {"image 'target'"});
+  ASSERT_TRUE(memory) << memory.error().message;
+  ASSERT_EQ(d.vk.BindImageMemory(d.handle, image, memory->memory, memory->offset), VK_SUCCESS);
   {
     Graph graph;
     (void)fill(graph, graph.import("target", {image, kDesc, Use::Unknown, Use::ComputeSampled}), 5.0f);
@@ -141,7 +140,7 @@ TEST_F(GraphImages, ImportedOnesStayTheHosts) {
   }
   ASSERT_TRUE(context().wait());
   d.vk.DestroyImage(d.handle, image, nullptr);
-  d.vk.FreeMemory(d.handle, memory, nullptr);
+  freeMemory(d, *memory);
 }
 
 TEST_F(GraphImages, AFormatThatTheDeviceLacksIsRefusedByName) {

@@ -115,8 +115,7 @@ TEST_F(Resources, BorrowingTellsWhatTheHostForgot) {
 
   DeviceRequirements needs;
   ASSERT_TRUE(appendRequired(host.getInstanceProcAddr, host.instance, host.physicalDevice, needs));
-  VkPhysicalDeviceFeatures2 enabled{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &needs.vulkan13};
-  host.enabled = &enabled;
+  host.enabled = needs.chain();
   EXPECT_TRUE(Device::borrow(host));
   needs.vulkan13.synchronization2 = VK_FALSE;
   refused = Device::borrow(host);

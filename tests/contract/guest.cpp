@@ -1,0 +1,125 @@
+#include "contract/guest.hpp"
+
+namespace rill::test {
+namespace {
+
+constexpr uint32_t kWidth = 48, kHeight = 32;
+
+/// A block of 512 particles that falls into a corner of a box, and a ball that its host pushes into them.
+Scene tank() {
+  Scene scene;
+  scene.fluid.spacing = 1.0 / 16;
+  scene.domain = Domain{};
+  scene.fill.resize(1);
+  scene.fill[0].box = BoxShape{{0, 0.25, 0}, {0.5, 0.75, 0.5}};
+  scene.solids.resize(1);
+  scene.solids[0].sphere = SphereShape{{0.66, 0.5, 0.25}, 0.15};
+  scene.solids[0].driven = 2;
+  return scene;
+}
+
+/// From 2.5 m before the box, 40 degrees wide.
+FluidView viewOf(const FluidState& fluid) {
+  FluidView view;
+  view.view.column[3] = {-0.5f, -0.5f, -3, 1};
+  constexpr float near = 0.1f, far = 10, zoom = 2.7f;
+  view.projection = {
+      {{zoom * kHeight / kWidth, 0, 0, 0}, {0, -zoom, 0, 0}, {0, 0, far / (near - far), -1}, {0, 0, near * far / (near - far), 0}}};
+  for (int a = 0; a < 3; ++a) view.origin[a] = fluid.origin[a];
+  view.width = kWidth;
+  view.height = kHeight;
+  view.focus_m = 2.5;
+  return view;
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<Guest>> Guest::open(Host& host, const HostDevice& lent, bool draws) {
+  host.watch.doing = "create";
+  std::unique_ptr<Guest> guest(new Guest(host));
+  auto device = Device::borrow(lent);
+  if (!device) return device.error();
+  guest->device_ = *std::move(device);
+  Scene scene = tank();
+  auto particles = makeParticles(scene, 10000);
+  if (!particles) return particles.error();
+  auto fluid = Fluid::create(*guest->device_, {.scene = &scene, .particles = &*particles});
+  if (!fluid) return fluid.error();
+  guest->fluid_ = *std::move(fluid);
+  guest->draws = draws;
+  if (!draws) return guest;
+  auto renderer = FluidRenderer::create(*guest->device_);
+  if (!renderer) return renderer.error();
+  guest->renderer_ = *std::move(renderer);
+  const EnvironmentPicture sky{2, 1, {sharedExponent(0.5f, 0.6f, 0.9f), sharedExponent(0.9f, 0.6f, 0.5f)}};
+  if (auto ok = guest->renderer_->setEnvironment(sky); !ok) return ok.error();
+  return guest;
+}
+
+Guest::~Guest() {
+  host_.watch.doing = "destroy";
+  renderer_.reset();
+  fluid_.reset();
+  graph_.reset();
+  host_.watch.doing = "~Device";
+}
+
+ImageRef Guest::picture(const FluidState& state) {
+  SceneTargets targets{graph_.create("colour", ImageDesc{VK_FORMAT_R16G16B16A16_SFLOAT, kWidth, kHeight}),
+                       graph_.create("depth", ImageDesc{VK_FORMAT_D32_SFLOAT, kWidth, kHeight})};
+  graph_.pass("background", [&](Pass& pass) {
+    VkClearValue blue{}, far{};
+    blue.color = {{0.1f, 0.2f, 0.5f, 1}};
+    far.depthStencil = {1, 0};
+    targets.colour = pass.write(targets.colour, Use::ColourTarget, Load::Clear, blue);
+    targets.depth = pass.write(targets.depth, Use::DepthTarget, Load::Clear, far);
+    return [](Commands&) {};
+  });
+  return renderer_->addTo(graph_, state, targets, viewOf(state)).colour;
+}
+
+Ticket Guest::readPixels(ImageRef colour) {
+  BufferRef pixels = graph_.create("pixels", {uint64_t{kWidth} * kHeight * 8});
+  graph_.pass("read pixels", [&](Pass& pass) {
+    pass.read(colour, Use::CopySource);
+    pixels = pass.write(pixels, Use::CopyTarget);
+    return [=](Commands& commands) { commands.copy(colour, pixels); };
+  });
+  return graph_.readback(pixels);
+}
+
+Expected<void> Guest::frame(Fate fate, bool told) {
+  ++clock.recording;
+  (void)bits();  // what the last frame read back has been seen: its memory is free for this one
+  host_.watch.doing = "declare";
+  graph_.reset();
+  const SolidTarget target{0, {0.2, 0.5, 0.25}};
+  const FluidState state = fluid_->addTo(graph_, {.advance_s = 1.0 / 120, .substeps = 12, .targets = {&target, 1}});
+  tickets_ = {graph_.readback(state.position), graph_.readback(state.velocity)};
+  if (draws) tickets_.push_back(readPixels(picture(state)));
+  auto ok = graph_.compile();
+  host_.watch.doing = "prepare";
+  if (ok) ok = graph_.prepare(*device_);
+  host_.watch.doing = "record";
+  if (!ok) return ok;
+  host_.run([&](VkCommandBuffer commands) { graph_.record(commands); }, fate == Fate::Submitted);
+  if (fate == Fate::Abandoned) device_->abandon(clock.recording);
+  if (told) clock.completed = clock.recording;
+  return {};
+}
+
+std::vector<std::byte> Guest::bits() {
+  if (clock.completed == clock.recording) ++clock.recording;
+  host_.watch.doing = "beginFrame";
+  device_->beginFrame(clock);
+  host_.watch.doing = "read";
+  (void)fluid_->progress();
+  std::vector<std::byte> all;
+  for (const Ticket ticket : tickets_) {
+    const auto bytes = graph_.data(ticket);
+    all.insert(all.end(), bytes.begin(), bytes.end());
+  }
+  return all;
+}
+
+}  // namespace rill::test

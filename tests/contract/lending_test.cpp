@@ -1,0 +1,127 @@
+// What a host has to bring, and what it is told where it did not.
+#include <cstddef>
+#include <cstring>
+
+#include "contract/fixture.hpp"
+
+namespace rill::test {
+namespace {
+
+struct Feature {
+  const char* name;
+  VkBool32 VkPhysicalDeviceVulkan13Features::*flag;
+};
+constexpr Feature kFeatures[] = {
+    {"synchronization2", &VkPhysicalDeviceVulkan13Features::synchronization2},
+    {"dynamicRendering", &VkPhysicalDeviceVulkan13Features::dynamicRendering},
+    {"maintenance4", &VkPhysicalDeviceVulkan13Features::maintenance4},
+    {"subgroupSizeControl", &VkPhysicalDeviceVulkan13Features::subgroupSizeControl},
+    {"computeFullSubgroups", &VkPhysicalDeviceVulkan13Features::computeFullSubgroups},
+};
+
+void expectRefused(const HostDevice& lent, ErrorKind kind, std::string_view part) {
+  const auto refused = Device::borrow(lent);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, kind);
+  EXPECT_NE(refused.error().message.find(part), std::string::npos) << refused.error().message;
+}
+
+TEST_F(Contract, ADeviceWithTheRequiredFeaturesAndNoExtensionIsEnough) {
+  auto made = guest();
+  ASSERT_TRUE(made);
+  frames(*made, 3);
+  EXPECT_FALSE(made->bits().empty());
+}
+
+TEST_F(Contract, TheRequirementsAreTheseFeatures) {
+  DeviceRequirements all;
+  for (const Feature& feature : kFeatures) all.vulkan13.*feature.flag = VK_TRUE;
+  const VkPhysicalDeviceVulkan13Features& asked = host().needs.vulkan13;
+  constexpr size_t first = offsetof(VkPhysicalDeviceVulkan13Features, robustImageAccess);
+  EXPECT_EQ(std::memcmp(reinterpret_cast<const char*>(&asked) + first, reinterpret_cast<const char*>(&all.vulkan13) + first,
+                        offsetof(VkPhysicalDeviceVulkan13Features, maintenance4) + sizeof(VkBool32) - first),
+            0);
+  const VkPhysicalDeviceFeatures none{};
+  EXPECT_EQ(std::memcmp(&host().needs.features.features, &none, sizeof none), 0);
+}
+
+TEST_F(Contract, WhatTheHostItselfAskedForStays) {
+  DeviceRequirements needs;
+  needs.features.features.samplerAnisotropy = needs.vulkan13.inlineUniformBlock = VK_TRUE;
+  ASSERT_TRUE(appendRequired(Watch::getInstanceProcAddr(), host().instance, host().physical, needs));
+  EXPECT_TRUE(needs.features.features.samplerAnisotropy);
+  EXPECT_TRUE(needs.vulkan13.inlineUniformBlock);
+  VkPhysicalDeviceVulkan12Features own{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+  const VkPhysicalDeviceFeatures2* chain = needs.chain(&own);
+  EXPECT_EQ(chain, &needs.features);
+  EXPECT_EQ(chain->pNext, &needs.vulkan13);
+  EXPECT_EQ(needs.vulkan13.pNext, &own);
+  HostDevice lent = host().lend();
+  lent.enabled = chain;
+  EXPECT_TRUE(Device::borrow(lent));
+}
+
+TEST(ContractFeatures, ADeviceMadeWithoutARequiredFeatureIsRefusedByItsName) {
+  for (const Feature& feature : kFeatures) {
+    SCOPED_TRACE(feature.name);
+    const auto host = Host::open(feature.flag);
+    ASSERT_TRUE(host);
+    expectRefused(host->lend(), ErrorKind::NoDevice, std::string("feature ") + feature.name);
+    EXPECT_TRUE(host->watch.alive().empty());
+    for (const std::string& message : host->takeMessages()) ADD_FAILURE() << message;
+  }
+}
+
+// Else no message would mean nothing.
+TEST_F(Contract, TheHostHearsItsValidationLayer) {
+  const VkFenceCreateInfo wrong{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, nullptr, 0x80};
+  VkFence fence = VK_NULL_HANDLE;
+  ASSERT_EQ(host().vk.CreateFence(host().device, &wrong, nullptr, &fence), VK_SUCCESS);
+  host().vk.DestroyFence(host().device, fence, nullptr);
+  EXPECT_EQ(host().takeMessages().size(), 1u);
+}
+
+TEST_F(Contract, APhysicalDeviceThatLacksARequiredFeatureIsRefusedByItsName) {
+  for (const Feature& feature : kFeatures) {
+    SCOPED_TRACE(feature.name);
+    watch().lacks = feature.flag;
+    DeviceRequirements needs;
+    const auto refused = appendRequired(Watch::getInstanceProcAddr(), host().instance, host().physical, needs);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().kind, ErrorKind::NoDevice);
+    EXPECT_NE(refused.error().message.find(feature.name), std::string::npos) << refused.error().message;
+  }
+}
+
+TEST_F(Contract, FeaturesMayBeGivenInTheStructuresThatTheyWerePromotedFrom) {
+  VkPhysicalDeviceSynchronization2Features synchronization{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES, nullptr, VK_TRUE};
+  VkPhysicalDeviceDynamicRenderingFeatures rendering{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES, &synchronization,
+                                                     VK_TRUE};
+  VkPhysicalDeviceMaintenance4Features maintenance{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES, &rendering, VK_TRUE};
+  VkPhysicalDeviceSubgroupSizeControlFeatures sizes{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES, &maintenance, VK_TRUE,
+                                                    VK_TRUE};
+  const VkPhysicalDeviceFeatures2 enabled{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &sizes, {}};
+  HostDevice lent = host().lend();
+  lent.enabled = &enabled;
+  EXPECT_TRUE(Device::borrow(lent));
+}
+
+TEST_F(Contract, WhatTheHostForgotIsNamed) {
+  const auto without = [&](auto member, auto value) {
+    HostDevice lent = host().lend();
+    lent.*member = value;
+    return lent;
+  };
+  const MemoryHooks hooks;
+  expectRefused(without(&HostDevice::instance, VkInstance{}), ErrorKind::BadInput, "instance is null");
+  expectRefused(without(&HostDevice::physicalDevice, VkPhysicalDevice{}), ErrorKind::BadInput, "physicalDevice is null");
+  expectRefused(without(&HostDevice::device, VkDevice{}), ErrorKind::BadInput, "device is null");
+  expectRefused(without(&HostDevice::getInstanceProcAddr, nullptr), ErrorKind::BadInput, "getInstanceProcAddr is null");
+  expectRefused(without(&HostDevice::enabled, nullptr), ErrorKind::BadInput, "enabled is null");
+  expectRefused(without(&HostDevice::apiVersion, VK_API_VERSION_1_2), ErrorKind::BadInput, "apiVersion is below 1.3");
+  expectRefused(without(&HostDevice::queueFamily, 1000u), ErrorKind::BadInput, "no such family");
+  expectRefused(without(&HostDevice::memory, &hooks), ErrorKind::BadInput, "memory lacks allocate or free");
+}
+
+}  // namespace
+}  // namespace rill::test

@@ -1,0 +1,196 @@
+// Device memory from the host's own allocator.
+#include <cstring>
+#include <list>
+#include <optional>
+
+#include "contract/fixture.hpp"
+#include "gpu/resources.hpp"
+
+namespace rill::test {
+namespace {
+
+/// Hands out pieces that lie at odd places of allocations of its own, and knows which are out.
+class Lender {
+ public:
+  explicit Lender(Host& host) : host_(host) { host.vki.GetPhysicalDeviceMemoryProperties(host.physical, &properties_); }
+
+  MemoryHooks hooks() {
+    return {this,
+            [](void* user, const MemoryRequest* request, MemoryBlock* block) { return static_cast<Lender*>(user)->lend(*request, *block); },
+            [](void* user, const MemoryBlock* block) { static_cast<Lender*>(user)->takeBack(*block); }};
+  }
+
+  struct Piece {
+    std::string name;
+    bool images = false, mapped = false;
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    uint64_t bytes = 0;
+    int freed = 0;
+  };
+  std::list<Piece> pieces;
+  size_t out() const {
+    size_t count = 0;
+    for (const Piece& piece : pieces) count += piece.freed == 0;
+    return count;
+  }
+  void (*spoil)(const MemoryRequest&, MemoryBlock&) = nullptr;  ///< what a careless host does
+  VkResult answer = VK_SUCCESS;
+
+ private:
+  VkResult lend(const MemoryRequest& request, MemoryBlock& block) {
+    if (answer != VK_SUCCESS) return answer;
+    const VkMemoryRequirements& needs = request.requirements;
+    Piece piece{request.name, request.images, request.mapped, VK_NULL_HANDLE, needs.size, 0};
+    const auto type = typeFor(needs.memoryTypeBits, request.required | request.preferred, request.required);
+    const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, needs.size + 3 * needs.alignment, type};
+    const VkResult made = host_.vk.AllocateMemory(host_.device, &info, nullptr, &piece.memory);
+    if (made != VK_SUCCESS) return made;
+    block.memory = piece.memory;
+    block.offset = 3 * needs.alignment;
+    block.memoryType = type;
+    if (request.mapped) {
+      void* base = nullptr;
+      if (VkResult r = host_.vk.MapMemory(host_.device, piece.memory, 0, VK_WHOLE_SIZE, 0, &base); r != VK_SUCCESS) return r;
+      block.mapped = static_cast<std::byte*>(base) + block.offset;
+    }
+    pieces.push_back(piece);
+    block.handle = &pieces.back();
+    if (spoil) spoil(request, block);
+    return VK_SUCCESS;
+  }
+  void takeBack(const MemoryBlock& block) {
+    auto& piece = *static_cast<Piece*>(block.handle);
+    if (piece.freed++ == 0) host_.vk.FreeMemory(host_.device, piece.memory, nullptr);
+  }
+  uint32_t typeFor(uint32_t allowed, VkMemoryPropertyFlags best, VkMemoryPropertyFlags least) const {
+    for (const VkMemoryPropertyFlags wanted : {best, least})
+      for (uint32_t i = 0; i < properties_.memoryTypeCount; ++i)
+        if ((allowed >> i & 1u) && (properties_.memoryTypes[i].propertyFlags & wanted) == wanted) return i;
+    return 0;
+  }
+  Host& host_;
+  VkPhysicalDeviceMemoryProperties properties_{};
+};
+
+class ContractMemory : public Contract {
+ protected:
+  void SetUp() override {
+    Contract::SetUp();
+    if (HasFatalFailure()) return;
+    lender_.emplace(host());
+    hooks_ = lender_->hooks();
+  }
+  HostDevice lend() {
+    HostDevice lent = host().lend();
+    lent.memory = &hooks_;
+    return lent;
+  }
+  Lender& lender() { return *lender_; }
+  void expectAllBackOnce() {
+    for (const Lender::Piece& piece : lender().pieces) EXPECT_EQ(piece.freed, 1) << piece.name;
+  }
+
+  MemoryHooks hooks_;
+
+ private:
+  std::optional<Lender> lender_;
+};
+
+TEST_F(ContractMemory, AllMemoryComesFromTheHostsHooks) {
+  std::vector<std::byte> plain, lent;
+  {
+    auto made = guest();
+    ASSERT_TRUE(made);
+    frames(*made, 2);
+    plain = made->bits();
+  }
+  watch().forget();
+  {
+    auto made = guest(lend());
+    ASSERT_TRUE(made);
+    frames(*made, 2);
+    lent = made->bits();
+    bool images = false, buffers = false, mapped = false;
+    for (const Lender::Piece& piece : lender().pieces) {
+      EXPECT_FALSE(piece.name.empty());
+      EXPECT_GT(piece.bytes, 0u);
+      (piece.images ? images : buffers) = true;
+      mapped |= piece.mapped;
+    }
+    EXPECT_TRUE(images && buffers && mapped);
+  }
+  for (const Watch::Call& call : watch().calls()) EXPECT_TRUE(call.name != "vkAllocateMemory" && call.name != "vkFreeMemory") << call.name;
+  expectAllBackOnce();
+  EXPECT_FALSE(lent.empty());
+  EXPECT_TRUE(lent == plain) << "where memory comes from makes no difference";
+}
+
+TEST_F(ContractMemory, ABlockIsFreedOnceItsFrameHasCompletedAndNotBefore) {
+  auto device = Device::borrow(lend());
+  ASSERT_TRUE(device);
+  (*device)->beginFrame({5, 3});
+  {
+    auto buffer = createBuffer(**device, "short-lived", 4096);
+    ASSERT_TRUE(buffer);
+    EXPECT_EQ(lender().out(), 1u);
+  }
+  EXPECT_EQ(lender().out(), 1u) << "frame 5 may use it";
+  (*device)->beginFrame({6, 4});
+  EXPECT_EQ(lender().out(), 1u) << "frame 5 has not completed";
+  (*device)->beginFrame({7, 5});
+  EXPECT_EQ(lender().out(), 0u);
+  expectAllBackOnce();
+}
+
+TEST_F(ContractMemory, TheEndOfTheDeviceFreesWhatIsLeft) {
+  auto device = Device::borrow(lend());
+  ASSERT_TRUE(device);
+  hooks_ = {};  // what it points to was read by borrow() alone
+  { auto buffer = createBuffer(**device, "short-lived", 4096); }
+  EXPECT_EQ(lender().out(), 1u);
+  device->reset();
+  expectAllBackOnce();
+}
+
+TEST_F(ContractMemory, AFrameLikeThoseBeforeItAsksForNoMemory) {
+  auto made = guest(lend());
+  ASSERT_TRUE(made);
+  frames(*made, 4);
+  const size_t before = lender().pieces.size();
+  frames(*made, 6);
+  EXPECT_EQ(lender().pieces.size(), before);
+}
+
+TEST_F(ContractMemory, ABlockThatCannotBeIsRefusedByTheBuffersNameAndFreed) {
+  auto device = Device::borrow(lend());
+  ASSERT_TRUE(device);
+  const struct {
+    void (*spoil)(const MemoryRequest&, MemoryBlock&);
+    const char* said;
+  } table[] = {{[](const MemoryRequest&, MemoryBlock& block) { ++block.offset; }, "is no multiple of"},
+               {[](const MemoryRequest&, MemoryBlock& block) { block.mapped = nullptr; }, "no mapped address"},
+               {[](const MemoryRequest&, MemoryBlock& block) { block.memory = VK_NULL_HANDLE; }, "no VkDeviceMemory"},
+               {[](const MemoryRequest&, MemoryBlock& block) { block.memoryType = 31; }, "not among those allowed"}};
+  for (const auto& row : table) {
+    lender().spoil = row.spoil;
+    const auto refused = createBuffer(**device, "positions", 4096, MemoryKind::Upload);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().kind, ErrorKind::BadInput);
+    EXPECT_NE(refused.error().message.find("buffer 'positions'"), std::string::npos) << refused.error().message;
+    EXPECT_NE(refused.error().message.find(row.said), std::string::npos) << refused.error().message;
+    expectAllBackOnce();
+  }
+}
+
+TEST_F(ContractMemory, WhatTheHostsAllocatorAnswersIsTheError) {
+  auto device = Device::borrow(lend());
+  ASSERT_TRUE(device);
+  lender().answer = VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  const auto refused = createBuffer(**device, "positions", 4096);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, ErrorKind::OutOfMemory);
+  EXPECT_NE(refused.error().message.find("'positions'"), std::string::npos) << refused.error().message;
+}
+
+}  // namespace
+}  // namespace rill::test

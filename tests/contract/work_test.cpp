@@ -1,0 +1,234 @@
+// What Rill does with the handles that it was lent, and what it leaves alone.
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+#include <thread>
+
+#include "contract/fixture.hpp"
+
+namespace rill::test {
+namespace {
+
+/// The host's own allocator of host memory, which counts.
+struct CountingCallbacks {
+  static inline std::atomic<int64_t> alive = 0, total = 0;
+  static constexpr size_t kHeader = 64;
+
+  static void* VKAPI_PTR allocate(void*, size_t size, size_t alignment, VkSystemAllocationScope) {
+    const size_t room = std::max(kHeader, alignment);
+    auto* block = static_cast<std::byte*>(std::aligned_alloc(room, (size + room + room - 1) / room * room));
+    auto* header = reinterpret_cast<size_t*>(block + room) - 2;
+    header[0] = size;
+    header[1] = room;
+    ++alive, ++total;
+    return block + room;
+  }
+  static void VKAPI_PTR release(void*, void* memory) {
+    if (!memory) return;
+    --alive;
+    std::free(static_cast<std::byte*>(memory) - static_cast<size_t*>(memory)[-1]);
+  }
+  static void* VKAPI_PTR reallocate(void* user, void* old, size_t size, size_t alignment, VkSystemAllocationScope scope) {
+    void* block = size ? allocate(user, size, alignment, scope) : nullptr;
+    if (old && block) std::memcpy(block, old, std::min(size, static_cast<size_t*>(old)[-2]));
+    release(user, old);
+    return block;
+  }
+};
+
+TEST_F(Contract, NothingIsSubmittedOrWaitedForAndNoDeviceIsMade) {
+  {
+    auto made = guest();
+    ASSERT_TRUE(made);
+    frames(*made, 2);
+  }
+  const auto lookedUp = watch().lookedUp();
+  EXPECT_TRUE(lookedUp.contains("vkCmdDispatch"));
+  for (const std::string& name : lookedUp)
+    for (const char* never : {"Submit", "Wait", "vkQueue", "vkCreateInstance", "vkCreateDevice", "Fence", "Semaphore", "vkGetDeviceQueue",
+                              "vkEnumerate", "Swapchain", "CommandPool", "CommandBuffer", "vkDestroyDevice", "vkDestroyInstance"})
+      EXPECT_EQ(name.find(never), std::string::npos) << name;
+}
+
+TEST_F(Contract, PipelinesAreMadeWithTheHostsCacheWhichTheHostMaySave) {
+  const VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
+  VkPipelineCache cache = VK_NULL_HANDLE;
+  ASSERT_EQ(host().vk.CreatePipelineCache(host().device, &info, nullptr, &cache), VK_SUCCESS);
+  size_t empty = 0, full = 0;
+  ASSERT_EQ(host().vk.GetPipelineCacheData(host().device, cache, &empty, nullptr), VK_SUCCESS);
+  {
+    HostDevice lent = host().lend();
+    lent.cache = cache;
+    ASSERT_TRUE(guest(lent));
+  }
+  size_t pipelines = 0;
+  for (const Watch::Call& call : watch().calls()) {
+    if (call.name != "vkCreateComputePipelines" && call.name != "vkCreateGraphicsPipelines") continue;
+    EXPECT_EQ(call.cache, cache);
+    ++pipelines;
+  }
+  EXPECT_GT(pipelines, 10u);
+  ASSERT_EQ(host().vk.GetPipelineCacheData(host().device, cache, &full, nullptr), VK_SUCCESS) << "still the host's after ~Device";
+  EXPECT_GE(full, empty);
+  host().vk.DestroyPipelineCache(host().device, cache, nullptr);
+}
+
+TEST_F(Contract, EveryObjectIsMadeAndDestroyedWithTheHostsCallbacks) {
+  CountingCallbacks::alive = CountingCallbacks::total = 0;
+  const VkAllocationCallbacks callbacks{
+      nullptr, &CountingCallbacks::allocate, &CountingCallbacks::reallocate, &CountingCallbacks::release, nullptr, nullptr};
+  {
+    HostDevice lent = host().lend();
+    lent.callbacks = &callbacks;
+    auto made = guest(lent);
+    ASSERT_TRUE(made);
+    frames(*made, 2);
+  }
+  ASSERT_FALSE(watch().calls().empty());
+  for (const Watch::Call& call : watch().calls()) EXPECT_EQ(call.callbacks, &callbacks) << call.name;
+  EXPECT_GT(CountingCallbacks::total, 0);
+  EXPECT_EQ(CountingCallbacks::alive, 0);
+}
+
+TEST_F(Contract, WhatWasMadeIsDestroyedByTheEndOfTheDevice) {
+  {
+    auto made = guest();
+    ASSERT_TRUE(made);
+    frames(*made, 3);
+    EXPECT_FALSE(watch().alive().empty());
+  }
+  for (const auto& [kind, count] : watch().alive()) ADD_FAILURE() << count << " of " << kind << " are left";
+}
+
+TEST_F(Contract, AFrameLikeThoseBeforeItAllocatesNoMemoryAndMakesNothingButViews) {
+  auto made = guest();
+  ASSERT_TRUE(made);
+  frames(*made, 4);
+  watch().forget();
+  const auto before = watch().alive();
+  frames(*made, 8);
+  EXPECT_EQ(watch().made("View"), 0u);
+  for (const Watch::Call& call : watch().calls()) EXPECT_NE(call.name.find("View"), std::string::npos) << call.name;
+  EXPECT_EQ(watch().alive(), before) << "views are destroyed as they are made";
+}
+
+TEST_F(Contract, MemoryIsAllocatedInCallsThatReturnAnExpectedAndFreedInBeginFrameAndTheEndOfTheDevice) {
+  {
+    auto made = guest();
+    ASSERT_TRUE(made);
+    frames(*made, 4);
+  }
+  std::set<std::string> allocates, frees;
+  for (const Watch::Call& call : watch().calls()) {
+    if (call.name == "vkAllocateMemory") allocates.insert(call.during);
+    if (call.name == "vkFreeMemory") frees.insert(call.during);
+  }
+  EXPECT_EQ(allocates, (std::set<std::string>{"create", "prepare"}));
+  EXPECT_EQ(frees, (std::set<std::string>{"beginFrame", "~Device"}));
+}
+
+TEST_F(Contract, FrameClockAloneDecidesWhatIsFreed) {
+  auto made = guest();
+  ASSERT_TRUE(made);
+  frames(*made, 4);
+  const auto memory = [&] { return watch().alive()["DeviceMemory"]; };
+  const int64_t before = memory();
+  made->draws = false;  // images of the picture are not needed any more
+  for (int k = 0; k < 3; ++k) {
+    ASSERT_TRUE(made->frame(Guest::Fate::Submitted, false));
+    EXPECT_GE(memory(), before) << "the clock has told of none of these frames, though they have completed";
+  }
+  const int64_t images = watch().alive()["Image"];
+  EXPECT_GT(images, 0);
+  made->clock.completed = made->clock.recording;
+  (void)made->bits();
+  EXPECT_LT(watch().alive()["Image"], images);
+}
+
+TEST_F(Contract, AnAbandonedFrameIsAsIfItHadNeverBeen) {
+  std::vector<std::byte> plain;
+  {
+    auto made = guest();
+    ASSERT_TRUE(made);
+    frames(*made, 3);
+    plain = made->bits();
+  }
+  ASSERT_FALSE(plain.empty());
+  auto made = guest();
+  ASSERT_TRUE(made);
+  ASSERT_TRUE(made->frame(Guest::Fate::Abandoned)) << "the very one that was to bring the particles";
+  EXPECT_TRUE(made->bits().empty());
+  frames(*made, 1);
+  ASSERT_TRUE(made->frame(Guest::Fate::Abandoned));
+  ASSERT_TRUE(made->frame(Guest::Fate::Abandoned));
+  frames(*made, 2);
+  EXPECT_TRUE(made->bits() == plain);
+}
+
+TEST_F(Contract, NothingIsPrinted) {
+  ::testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStderr();
+  {
+    auto made = Guest::open(host(), host().lend());
+    if (made) (void)(*made)->frame();
+    HostDevice lacking = host().lend();
+    lacking.device = VK_NULL_HANDLE;
+    (void)Device::borrow(lacking);
+  }
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
+}
+
+TEST_F(Contract, AnyThreadMayCallAsLongAsOneDoesAtATime) {
+  std::vector<std::byte> here, there;
+  const auto lived = [&](bool elsewhere) {
+    std::unique_ptr<Guest> made;
+    std::vector<std::byte> bits;
+    const auto onThread = [&](auto&& work) { elsewhere ? std::thread(work).join() : work(); };
+    onThread([&] { made = guest(host().lend(), false); });
+    if (!made) return bits;
+    for (int k = 0; k < 2; ++k) onThread([&] { frames(*made, 1); });
+    onThread([&] { bits = made->bits(); });
+    onThread([&] { made.reset(); });
+    return bits;
+  };
+  here = lived(false);
+  there = lived(true);
+  EXPECT_FALSE(here.empty());
+  EXPECT_TRUE(here == there);
+}
+
+TEST_F(Contract, TwoDevicesOfOneVkDeviceMayBeUsedByTwoThreadsAtOnce) {
+  const VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
+  VkPipelineCache cache = VK_NULL_HANDLE;
+  ASSERT_EQ(host().vk.CreatePipelineCache(host().device, &info, nullptr, &cache), VK_SUCCESS);
+  HostDevice lent = host().lend();
+  lent.cache = cache;
+  std::vector<std::byte> bits[2];
+  const auto live = [&](int k) {
+    auto made = guest(lent, false);
+    if (!made) return;
+    frames(*made, 4);
+    bits[k] = made->bits();
+  };
+  std::thread other(live, 1);
+  live(0);
+  other.join();
+  EXPECT_FALSE(bits[0].empty());
+  EXPECT_TRUE(bits[0] == bits[1]);
+  host().vk.DestroyPipelineCache(host().device, cache, nullptr);
+}
+
+TEST_F(Contract, WhatWasDeclaredWronglyIsAnErrorOfCompile) {
+  Graph graph;
+  const BufferRef nothing = graph.create("nothing", {0});
+  (void)graph.readback(nothing);
+  const auto refused = graph.compile();
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, ErrorKind::BadInput);
+  EXPECT_NE(refused.error().message.find("nothing"), std::string::npos) << refused.error().message;
+}
+
+}  // namespace
+}  // namespace rill::test
