@@ -21,16 +21,16 @@
 // Work: Rill records into the host's command buffers. It never submits, never waits and makes no instance, device or queue. The host tells
 // by FrameClock what has completed; that alone decides when Rill uses memory again or frees it.
 //
-// Allocation: device memory is allocated inside calls that return an Expected, and freed in Device::beginFrame and ~Device. A frame declared
-// like those before it allocates none, and makes nothing but views, which live until their frame has completed. Memory comes from
+// Allocation: device memory is allocated inside calls that return an Expected, and freed in Device::beginFrame and ~Device. A frame
+// declared like those before it allocates none, and makes nothing but views, which live until their frame has completed. Memory comes from
 // HostDevice::memory where there is one, else from vkAllocateMemory.
 //
 // The host's own: each object is made and destroyed with HostDevice::callbacks, each pipeline through HostDevice::cache, which the host may
 // save. Rill destroys nothing that it did not make, and all that it did by the end of ~Device.
 //
 // Threads: a Device and all that was made with it are used by one thread at a time, whichever that is. Rill starts none and calls the host
-// back only from inside a call of the host's. Devices borrowed from one VkDevice know nothing of each other: each may have its own thread, if
-// callbacks, memory and getInstanceProcAddr are safe there, and a shared cache was not made with
+// back only from inside a call of the host's. Devices borrowed from one VkDevice know nothing of each other: each may have its own thread,
+// if callbacks, memory and getInstanceProcAddr are safe there, and a shared cache was not made with
 // VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED_BIT.
 //
 // Errors: an Expected says what went wrong; a graph keeps what was declared wrongly for compile(). No exception leaves a call, but
