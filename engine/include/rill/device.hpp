@@ -8,9 +8,8 @@
 //   Allocation     Device memory is allocated inside calls that return an Expected, and freed in Device::beginFrame and ~Device. A frame
 //                  declared like those before it allocates none, and makes nothing but views, which live until their frame has completed.
 //                  Memory comes from HostDevice::memory where there is one, else from vkAllocateMemory.
-//   The host's own Each object is made and destroyed with HostDevice::callbacks, each pipeline through HostDevice::cache, which the host
-//   may
-//                  save. Rill destroys nothing that it did not make, and all that it did by the end of ~Device.
+//   The host's own Each object is made and destroyed with HostDevice::callbacks, each pipeline through HostDevice::cache, which the
+//                  host may save. Rill destroys nothing that it did not make, and all that it did by the end of ~Device.
 //   Threads        A Device and all that was made with it are used by one thread at a time, whichever that is. Rill starts none and calls
 //                  the host back only from inside a call of the host's. Devices borrowed from one VkDevice know nothing of each other: each
 //                  may have its own thread, if callbacks, memory and getInstanceProcAddr are safe there, and a shared cache was not made
@@ -18,8 +17,8 @@
 //   Errors         An Expected says what went wrong; a graph keeps what was declared wrongly for compile(). No exception leaves a call, but
 //                  std::bad_alloc where host memory has run out. What only wrong code can do is an assert, in builds that have them.
 //   Silence        Nothing is printed, no signal handled, no environment read (but RILL_SHADER_DIR in builds with RILL_SHADER_RELOAD), and
-//                  there is no global state but a counter by which graphs tell
-//                  their refs apart. What is nobody's result goes to the message callback.
+//                  there is no global state but a counter by which graphs tell their refs apart. What is nobody's result goes to the
+//                  message callback.
 #include <vulkan/vulkan_core.h>
 
 #include <cstdint>
