@@ -13,7 +13,7 @@
 //   if (!lent) return fail(lent.error().message);
 //   (*lent)->beginFrame({.recording = frameNumber, .completed = lastFinishedFrame});  // every frame
 //
-// What each side can rely on (tests/contract has a test for each sentence):
+// What each side can rely on (tested in tests/contract, as far as a program can):
 //
 // Needed: Vulkan 1.3, the features that appendRequired() adds, no extension. A queue family that computes; one that draws as well where a
 // FluidRenderer, or a pass with targets, is used.
