@@ -108,6 +108,11 @@ ResourceRef GraphImpl::add(ResourceData resource) {
     if (resource.size > kMaxBufferBytes)
       mistake(" of " + std::to_string(resource.size) + " bytes: at most " + std::to_string(kMaxBufferBytes) + " are possible");
   }
+  for (Use* use : {&resource.before, &resource.after}) {
+    if (isUse(*use)) continue;
+    fail("import " + quoted(resource.name) + ": " + std::to_string(unsigned(*use)) + " is no Use");
+    *use = Use::None;
+  }
   if (resource.after == Use::Unknown) fail("import " + quoted(resource.name) + ": Use::Unknown is no state to leave it in");
   for (Use use : {resource.before, resource.after}) {
     const bool ofImages = useRow(use).layout != VK_IMAGE_LAYOUT_UNDEFINED;
@@ -171,6 +176,8 @@ void GraphImpl::read(uint32_t index, ResourceRef ref, bool isImage, Use use) {
   ResourceData* resource = resolve(ref, isImage, index, "reads");
   if (!resource) return;
   const auto pass = [&] { return "pass '" + std::string(names[passes[index].name]) + "'"; };
+  if (!isUse(use))
+    return fail(pass() + " reads " + quoted(resource->name) + " with " + std::to_string(unsigned(use)) + ", which is no Use");
   if (use == Use::None || use == Use::Unknown || use == Use::HostRead || writes(use) ||
       (isImage ? useRow(use).layout == VK_IMAGE_LAYOUT_UNDEFINED : needsImage(use)))
     return fail(pass() + " reads " + quoted(resource->name) + " with Use::" + useRow(use).name + ", which is no way for a pass to read" +
@@ -195,6 +202,10 @@ ResourceRef GraphImpl::write(uint32_t index, ResourceRef ref, bool isImage, Use 
   ResourceData* resource = resolve(ref, isImage, index, "writes");
   if (!resource) return kMistake;
   const auto pass = [&] { return "pass '" + std::string(names[passes[index].name]) + "'"; };
+  if (!isUse(use)) {
+    fail(pass() + " writes " + quoted(resource->name) + " with " + std::to_string(unsigned(use)) + ", which is no Use");
+    return kMistake;
+  }
   if (use == Use::Unknown || !writes(use) || (isImage ? useRow(use).layout == VK_IMAGE_LAYOUT_UNDEFINED : needsImage(use))) {
     fail(pass() + " writes " + quoted(resource->name) + " with Use::" + useRow(use).name + ", which is no way for a pass to write" +
          (isImage ? " an image" : ""));
@@ -257,13 +268,18 @@ ImageRef Pass::write(ImageRef image, Use use, Load load, const VkClearValue& cle
 }
 void Pass::sideEffect() { graph_.passes[index_].root = true; }
 
+Kernel Pass::noPipeline() {
+  graph_.fail("pass '" + std::string(graph_.names[graph_.passes[index_].name]) + "' declares a kernel without a pipeline (null)");
+  return {};
+}
+
 Kernel Pass::kernel(const ComputePipeline* pipeline, std::span<const ResourceRef> refs) {
-  assert(pipeline);
+  if (!pipeline) return noPipeline();
   return bound(*pipeline, refs);
 }
 
 Kernel Pass::kernel(const GraphicsPipeline* pipeline, std::span<const ResourceRef> refs) {
-  assert(pipeline);
+  if (!pipeline) return noPipeline();
   if (graph_.error) return {};
   std::span<const VkFormat> colours = pipeline->colours;
   VkFormat depth = VK_FORMAT_UNDEFINED;

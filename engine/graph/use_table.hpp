@@ -15,6 +15,8 @@ struct UseRow {
 };
 
 inline constexpr size_t kUseCount = size_t(Use::Unknown) + 1;
+/// Whether a host's value is one of them.
+constexpr bool isUse(Use use) { return size_t(use) < kUseCount; }
 
 const UseRow& useRow(Use use);
 inline bool writes(Use use) { return useRow(use).write != 0; }

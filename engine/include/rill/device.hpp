@@ -31,9 +31,13 @@ struct HostDevice {
 
 /// What Rill needs of a device, to be put into the host's VkDeviceCreateInfo.
 struct DeviceRequirements {
+  DeviceRequirements() {
+    vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+    vulkan13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+  }
   VkPhysicalDeviceFeatures core{};
-  VkPhysicalDeviceVulkan12Features vulkan12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, nullptr};
-  VkPhysicalDeviceVulkan13Features vulkan13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES, nullptr};
+  VkPhysicalDeviceVulkan12Features vulkan12{};
+  VkPhysicalDeviceVulkan13Features vulkan13{};
 };
 
 /// Adds the features that Rill requires to `requirements`. NoDevice, naming the missing feature or version, where the

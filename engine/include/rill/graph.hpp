@@ -134,6 +134,7 @@ class RILL_API Pass {
  private:
   friend class Graph;
   friend class GraphImpl;
+  Kernel noPipeline();
   Kernel bound(const Pipeline& pipeline, std::span<const ResourceRef> bindings);
   Pass(GraphImpl& graph, uint32_t index) : graph_(graph), index_(index) {}
   GraphImpl& graph_;
