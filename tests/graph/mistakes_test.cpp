@@ -130,7 +130,7 @@ TEST_F(Mistakes, BindingsThatDoNotFit) {
             "pass 'sort', shader 'fake': binding 0 is 'other' in a version that the pass neither reads nor writes");
 }
 
-TEST_F(Mistakes, UsesThatAreNone) {
+TEST_F(Mistakes, NumbersThatAreNoUse) {
   const auto after = [&](auto&& declare) {
     graph.reset();
     declare();
