@@ -63,7 +63,7 @@ TEST_F(RendererInput, ViewsThatCheckRefuses) {
   empty.width = 0;
   huge.height = 100'000;
   skewed.view.column[0].y = kNan;
-  none.projection = {};
+  none.projection.column[0].x = 0;
   for (const FluidView* view : {&empty, &huge, &skewed, &none}) {
     const auto checked = FluidRenderer::check(*view);
     ASSERT_FALSE(checked);
