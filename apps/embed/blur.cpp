@@ -51,9 +51,9 @@ int main(int count, char** arguments) {
     rill::Graph graph;
     const rill::ImageDesc size{kFormat, kWidth, kHeight};
     const rill::Groups groups{kWidth / 8, kHeight / 8};
-    const rill::BufferRef painted = graph.import("painted", {.handle = pixels.handle, .size = pixels.size, .before = rill::Use::None});
+    const rill::BufferRef painted = graph.import("painted", {.handle = pixels.handle, .size = pixels.size, .before = rill::Use::Nothing});
     rill::ImageRef out =
-        graph.import("result", {.handle = result.handle, .desc = size, .before = rill::Use::None, .after = rill::Use::CopySource});
+        graph.import("result", {.handle = result.handle, .desc = size, .before = rill::Use::Nothing, .after = rill::Use::CopySource});
     rill::ImageRef source = graph.create("source", size), half = graph.create("half blurred", size), whole = graph.create("blurred", size);
     graph.pass("upload", [&](rill::Pass& pass) {
       pass.read(painted, rill::Use::CopySource);

@@ -52,7 +52,7 @@ int main(int count, char** arguments) {
 
     device->beginFrame({frame.number, frame.completed});
     graph.reset();
-    state.position = graph.import("positions", {mine.handle, 0, uint64_t{16} * state.count, rill::Use::None, rill::Use::None});
+    state.position = graph.import("positions", {mine.handle, 0, uint64_t{16} * state.count, rill::Use::Nothing, rill::Use::Nothing});
     const rill::SceneTargets targets{importTarget(graph, "colour", colour, rill::Use::ColourTarget),
                                      importTarget(graph, "depth", depth, rill::Use::DepthTarget)};
     (void)painter->addTo(graph, state, targets, view);

@@ -106,7 +106,7 @@ void WindowPass::upload(Graph& graph, const ImDrawData& lists) {
   if (parts_.empty()) return;
   vertexRef_ = uploaded(graph, "ui vertices", vertices_);
   indexRef_ = uploaded(graph, "ui indices", indices_);
-  fontRef_ = graph.import("font", {font_.handle(), 0, font_.size(), Use::None, Use::None});
+  fontRef_ = graph.import("font", {font_.handle(), 0, font_.size(), Use::Nothing, Use::Nothing});
 }
 
 ImageRef WindowPass::draw(Graph& graph, ImageRef target, const ShownPicture& picture, const ImVec4& behind) const {

@@ -112,4 +112,15 @@ std::string listInQuotes(std::span<const std::string_view> words) {
   return out;
 }
 
+std::string childPath(std::string_view path, std::string_view key) {
+  const bool plain = !key.empty() && key.size() <= 60 && std::all_of(key.begin(), key.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '$';
+  });
+  std::string out(path);
+  if (!out.empty()) out += '.';
+  return out + (plain ? std::string(key) : inQuotes(key));
+}
+
+std::string entryPath(std::string_view path, size_t index) { return std::string(path) + "[" + std::to_string(index) + "]"; }
+
 }  // namespace rill

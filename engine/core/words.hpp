@@ -26,4 +26,9 @@ std::string roughNumber(double number);
 /// `words` quoted, with commas: "\"a\", \"b\"".
 std::string listInQuotes(std::span<const std::string_view> words);
 
+/// `key` inside `path` as messages write it: "fluid.viscosity". A key that is no plain word is quoted.
+std::string childPath(std::string_view path, std::string_view key);
+/// "fill[2]"
+std::string entryPath(std::string_view path, size_t index);
+
 }  // namespace rill

@@ -335,6 +335,7 @@ Expected<ParticleSet> placeAbout(Scene& scene, std::vector<Source>& sources, uin
 }
 
 Expected<ParticleSet> make(Scene& scene, uint64_t maxParticles) {
+  if (auto possible = checkScene(scene); !possible) return possible.error();
   constexpr uint64_t kIds = std::numeric_limits<uint32_t>::max();  // a particle's id has 32 bits, and one value stands for none
   const uint64_t most = std::min(maxParticles, kIds);
   std::vector<Source> sources(scene.fill.size());
@@ -346,9 +347,6 @@ Expected<ParticleSet> make(Scene& scene, uint64_t maxParticles) {
     sources[i].file = std::move(*file);
   }
   const bool by_count = scene.fluid.particles > 0;
-  if (!by_count && !(scene.fluid.spacing > 0 && std::isfinite(scene.fluid.spacing))) {
-    return refuse(scene, "fluid.spacing: found " + shortNumber(scene.fluid.spacing) + ", expected a number above 0 (m)");
-  }
   auto set = by_count ? placeAbout(scene, sources, most) : place(scene, sources, most);
   if (set && set->positions.empty() && !scene.fill.empty()) {
     return refuse(scene, "fill: no particle is left (" + grouped(set->left_out_domain) + " outside the walls, " +

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
+#include "core/words.hpp"
 #include "fluid/fluid_impl.hpp"
 #include "fluid/snapshot.hpp"
 
@@ -29,6 +31,20 @@ std::string mebibytes(uint64_t bytes) {
   return text;
 }
 
+/// All but the numbers of the particles, each of which may be anything.
+Expected<void> checkGiven(const FluidDesc& desc) {
+  const auto bad = [](std::string what) { return Error{ErrorKind::BadInput, std::move(what)}; };
+  if (!desc.scene) return bad("FluidDesc::scene is null; expected a scene");
+  if (!desc.particles) return bad("FluidDesc::particles is null; expected what makeParticles() makes, or a set of the host's own");
+  const size_t n = desc.particles->positions.size(), velocities = desc.particles->velocities.size();
+  if (velocities != n)
+    return bad("a fluid needs as many velocities as positions: " + std::to_string(velocities) + " for " + std::to_string(n));
+  for (const double v : desc.particles->origin)
+    if (!(std::abs(v) <= std::numeric_limits<float>::max()))
+      return bad("ParticleSet::origin is " + shortNumber(v) + "; expected numbers (m) that a 32-bit float can hold");
+  return checkScene(*desc.scene);
+}
+
 }  // namespace
 
 FluidMemory fluidMemory(const Scene& scene, uint64_t particles) {
@@ -46,7 +62,7 @@ FluidMemory fluidMemory(const Scene& scene, uint64_t particles) {
 }
 
 Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const FluidDesc& desc) {
-  assert(desc.scene && desc.particles);
+  if (auto given = checkGiven(desc); !given) return given.error();
   const Scene& scene = *desc.scene;
   const ParticleSet& particles = *desc.particles;
   const uint64_t n = particles.positions.size();
@@ -60,9 +76,6 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
                                           device.info().name + "\" has " + mebibytes(available) + " and holds at most " +
                                           std::to_string(kMostParticles) +
                                           " particles: make fluid.spacing larger or fluid.particles smaller"};
-  if (particles.velocities.size() != n)
-    return Error{ErrorKind::BadInput, "a fluid needs as many velocities as positions: " + std::to_string(particles.velocities.size()) +
-                                          " for " + std::to_string(n)};
 
   StartFigures start{.count = static_cast<uint32_t>(n)};
   double low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
@@ -269,8 +282,9 @@ const FluidProgress& Fluid::progress() const {
 std::array<double, 3> Fluid::drivenCentre(uint32_t solid) const {
   const auto& driven = impl_->setup.driven;
   const auto found = std::find_if(driven.begin(), driven.end(), [solid](const DrivenSolid& d) { return d.solid == solid; });
-  assert(found != driven.end() && "a solid that is driven");
-  std::array<double, 3> centre{};
+  std::array<double, 3> centre;
+  centre.fill(std::numeric_limits<double>::quiet_NaN());
+  if (found == driven.end()) return centre;
   for (size_t a = 0; a < 3; ++a) centre[a] = impl_->origin[a] + found->centre[a];
   return centre;
 }

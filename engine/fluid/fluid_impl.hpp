@@ -102,6 +102,7 @@ class FluidImpl {
   void stageSnapshot(const FluidSnapshot& snapshot);
   void stageParticles(std::vector<Float3> positions, std::vector<Float3> velocities);
   FluidState described() const;  ///< without buffers
+  bool possible(Graph& graph, const FluidStep& step) const;
   BufferRef& refOf(const Buffer& buffer);
   void importAll(Graph& graph);
   void declareUpload(Graph& graph);

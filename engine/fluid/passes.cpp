@@ -3,9 +3,12 @@
 #include <cassert>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
+#include "core/words.hpp"
 #include "fluid/fluid_impl.hpp"
 #include "gpu/device_impl.hpp"
+#include "graph/graph_impl.hpp"
 #include "graph/import_whole.hpp"
 
 namespace rill {
@@ -92,7 +95,7 @@ void FluidImpl::declareUpload(Graph& graph) {
   graph.pass("upload", [&](Pass& pass) {
     std::vector<BufferRef> sources, cleared;
     for (const Buffer& buffer : staging_->sources()) {
-      sources.push_back(graph.import("start state", {.handle = buffer.handle(), .size = buffer.size(), .before = Use::None}));
+      sources.push_back(graph.import("start state", {.handle = buffer.handle(), .size = buffer.size(), .before = Use::Nothing}));
       pass.read(sources.back(), Use::CopySource);
     }
     std::vector<Copy> copies;
@@ -540,8 +543,25 @@ FluidState FluidImpl::present(Graph& graph) const {
   return state;
 }
 
+/// Whether a host can have meant it; the graph's compile() says what not.
+bool FluidImpl::possible(Graph& graph, const FluidStep& step) const {
+  if (step.resume) return true;
+  const auto mistake = [&](const std::string& what) {
+    graph.impl().fail("FluidStep::" + what);
+    return false;
+  };
+  if (!(step.advance_s >= 0 && step.advance_s <= std::numeric_limits<float>::max()))
+    return mistake("advance_s is " + shortNumber(step.advance_s) + "; expected a finite time of at least 0 (s)");
+  for (size_t k = 0; k < step.targets.size(); ++k)
+    if (step.targets[k].solid >= setup.solids.size())
+      return mistake("targets[" + std::to_string(k) + "].solid is " + std::to_string(step.targets[k].solid) + "; the scene has " +
+                     std::to_string(setup.solids.size()) + (setup.solids.size() == 1 ? " solid" : " solids"));
+  return true;
+}
+
 FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   FluidState state = described();
+  if (!possible(graph, step)) return state;
   if (count == 0) {
     for (const char* name : {"build list", "density", "correct", "measure"}) graph.skipped(name, "no particles");
     if (!step.resume) emptyTime_ += step.advance_s;

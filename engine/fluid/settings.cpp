@@ -66,18 +66,6 @@ double fastestDriven(const Scene& scene) {
   return fastest;
 }
 
-/// What JSON cannot say, and so has not been checked.
-Expected<void> checkDriven(const Scene& scene) {
-  for (size_t k = 0; k < scene.solids.size(); ++k) {
-    const std::string name = "solids[" + std::to_string(k) + "].driven";
-    const Solid& solid = scene.solids[k];
-    if (!(solid.driven >= 0) || !std::isfinite(solid.driven))
-      return Error{ErrorKind::BadInput, name + " is " + roughNumber(solid.driven) + "; expected a speed in m/s, 0 or more"};
-    if (solid.driven > 0 && !solid.motion.empty()) return Error{ErrorKind::BadInput, name + ": a solid with a motion moves by itself"};
-  }
-  return {};
-}
-
 void appendTable(std::vector<float>& tables, const std::vector<float>& table, uint32_t& offset) {
   offset = static_cast<uint32_t>(tables.size() / 2);
   tables.insert(tables.end(), table.begin(), table.end());
@@ -334,16 +322,18 @@ double artificialViscosity(const Scene& scene) {
 }
 
 uint32_t listCapacity(double reachInSpacings) {
-  const double ball = 4.0 / 3.0 * std::numbers::pi * std::pow(reachInSpacings, 3);
+  constexpr double kMostReach = 5;  // spacings: more than any scene has that is allowed
+  const double reach = std::fmin(std::fmax(reachInSpacings, 0), kMostReach);
+  const double ball = 4.0 / 3.0 * std::numbers::pi * std::pow(reach, 3);
   return (static_cast<uint32_t>(std::ceil(1.2 * ball)) + 3u) / 4u * 4u;
 }
 
 Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& start) {
+  if (auto possible = checkScene(scene); !possible) return possible.error();
   const uint32_t count = start.count;
   const double *origin = start.origin, *extent = start.extent;
   const double d = scene.fluid.spacing, h = scene.fluid.smoothing_ratio * d;
   if (!(d > 0)) return Error{ErrorKind::BadInput, "fluid.spacing is not set: give it, or make the particles first"};
-  if (auto possible = checkDriven(scene); !possible) return possible.error();
   FluidSetup setup;
   FluidParams& p = setup.params;
   const SmoothingKernel kernel(scene.solver.kernel, h, d);

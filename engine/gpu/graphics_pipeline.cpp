@@ -101,7 +101,7 @@ Expected<const GraphicsPipeline*> PipelineStore::find(DeviceImpl& device, const 
                                           " cannot draw to it (shader '" + std::string(desc.vertex) + "')"};
   };
   const VkFormatFeatureFlags drawn =
-      VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | (desc.blend == Blend::None ? 0 : VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT);
+      VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | (desc.blend == Blend::Replace ? 0 : VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT);
   for (const VkFormat format : desc.colours)
     if (lacks(format, drawn)) return refused(format, "a colour");
   if (desc.depth != VK_FORMAT_UNDEFINED && lacks(desc.depth, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT))

@@ -46,7 +46,7 @@ struct GraphicsPipeline : Pipeline {
   VkFormat depth = VK_FORMAT_UNDEFINED;
   VkCompareOp depthCompare = VK_COMPARE_OP_ALWAYS;
   bool depthWrite = false;
-  Blend blend = Blend::None;
+  Blend blend = Blend::Replace;
   VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
 };
 

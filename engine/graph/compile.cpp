@@ -183,7 +183,7 @@ void GraphImpl::planBarriers() {
 
   begin(finalBarrier);
   for (uint32_t i = 0; i < resources.size(); ++i)
-    if (resources[i].imported && resources[i].after != Use::None) wait(finalBarrier, i, useRow(resources[i].after), true);
+    if (resources[i].imported && resources[i].after != Use::Nothing) wait(finalBarrier, i, useRow(resources[i].after), true);
   if (!readbacks.empty()) {
     finalBarrier.scope.sourceStage |= useRow(Use::CopyTarget).stage;
     finalBarrier.scope.sourceAccess |= useRow(Use::CopyTarget).write;

@@ -126,6 +126,11 @@ ResourceRef GraphImpl::add(ResourceData resource) {
     if (resource.size > kMaxBufferBytes)
       mistake(" of " + std::to_string(resource.size) + " bytes: at most " + std::to_string(kMaxBufferBytes) + " are possible");
   }
+  for (ImportState* state : {&resource.before, &resource.after}) {
+    if (isUse(state->use)) continue;
+    fail("import " + quoted(resource.name) + ": " + std::to_string(unsigned(state->use)) + " is no Use");
+    state->use = Use::Nothing;
+  }
   if (resource.imported) checkStates(resource);
   const uint32_t index = uint32_t(resources.size());
   for (resource.level = 0; resource.level < (resource.isImage ? resource.desc.levels : 1); ++resource.level) resources.push_back(resource);
@@ -144,7 +149,7 @@ void GraphImpl::checkStates(const ResourceData& import) {
       if (!row.stage && (row.read | row.write)) mistake("the host's own state has accesses, but no stages that they are made in");
       continue;
     }
-    if (state.use != Use::None && state.use != Use::Unknown && (import.isImage ? !hasLayout : needsImage(state.use)))
+    if (state.use != Use::Nothing && state.use != Use::Unknown && (import.isImage ? !hasLayout : needsImage(state.use)))
       mistake(std::string("Use::") + row.name + " is no use of " + (import.isImage ? "an image" : "a buffer"));
     else if (import.madeFor != 0 && (row.usage & ~import.madeFor) != 0)
       mistake(std::string("Use::") + row.name + " is a state of it, but it was created without " + usageName(row.usage));
@@ -211,6 +216,8 @@ void GraphImpl::read(uint32_t index, ResourceRef ref, bool isImage, Use use) {
   ResourceData* resource = resolve(ref, isImage, index, "reads");
   if (!resource) return;
   const auto pass = [&] { return "pass '" + std::string(names[passes[index].name]) + "'"; };
+  if (!isUse(use))
+    return fail(pass() + " reads " + quoted(resource->name) + " with " + std::to_string(unsigned(use)) + ", which is no Use");
   if (outsideOnly(use) || writes(use) || (isImage ? useRow(use).layout == VK_IMAGE_LAYOUT_UNDEFINED : needsImage(use)))
     return fail(pass() + " reads " + quoted(resource->name) + " with Use::" + useRow(use).name + ", which is no way for a pass to read" +
                 (isImage ? " an image" : ""));
@@ -235,6 +242,10 @@ ResourceRef GraphImpl::write(uint32_t index, ResourceRef ref, bool isImage, Use 
   ResourceData* resource = resolve(ref, isImage, index, "writes");
   if (!resource) return kMistake;
   const auto pass = [&] { return "pass '" + std::string(names[passes[index].name]) + "'"; };
+  if (!isUse(use)) {
+    fail(pass() + " writes " + quoted(resource->name) + " with " + std::to_string(unsigned(use)) + ", which is no Use");
+    return kMistake;
+  }
   if (outsideOnly(use) || !writes(use) || (isImage ? useRow(use).layout == VK_IMAGE_LAYOUT_UNDEFINED : needsImage(use))) {
     fail(pass() + " writes " + quoted(resource->name) + " with Use::" + useRow(use).name + ", which is no way for a pass to write" +
          (isImage ? " an image" : ""));
@@ -298,13 +309,18 @@ ImageRef Pass::write(ImageRef image, Use use, Load load, const VkClearValue& cle
 }
 void Pass::sideEffect() { graph_.passes[index_].root = true; }
 
+Kernel Pass::noPipeline() {
+  graph_.fail("pass '" + std::string(graph_.names[graph_.passes[index_].name]) + "' declares a kernel without a pipeline (null)");
+  return {};
+}
+
 Kernel Pass::kernel(const ComputePipeline* pipeline, std::span<const ResourceRef> refs) {
-  assert(pipeline);
+  if (!pipeline) return noPipeline();
   return bound(*pipeline, refs);
 }
 
 Kernel Pass::kernel(const GraphicsPipeline* pipeline, std::span<const ResourceRef> refs) {
-  assert(pipeline);
+  if (!pipeline) return noPipeline();
   if (graph_.error) return {};
   std::span<const VkFormat> colours = pipeline->colours;
   VkFormat depth = VK_FORMAT_UNDEFINED;

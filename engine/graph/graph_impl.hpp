@@ -25,7 +25,7 @@ inline constexpr uint32_t kNone = UINT32_MAX;
 struct Access {
   uint32_t resource = 0;
   uint32_t version = 0;  ///< read, or made by the write
-  Use use = Use::None;
+  Use use = Use::Nothing;
   bool write = false;
   bool keep = false;  ///< a write that also needs the old content
   friend bool operator==(const Access&, const Access&) = default;
@@ -110,7 +110,7 @@ struct ResourceData {
   uint32_t width() const { return std::max(1u, desc.width >> level); }
   uint32_t height() const { return std::max(1u, desc.height >> level); }
   /// Imported in a state that keeps its content, or written by a pass.
-  bool hasContent() const { return version > 0 || (imported && (!isImage || (before != Use::None && before != Use::Unknown))); }
+  bool hasContent() const { return version > 0 || (imported && (!isImage || (before != Use::Nothing && before != Use::Unknown))); }
 };
 
 /// Where the transients of one kind lie.

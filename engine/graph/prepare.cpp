@@ -9,9 +9,10 @@
 namespace rill {
 
 Expected<void> GraphImpl::prepare(Device& owner) {
-  assert(compiled && "Graph::prepare needs a compile() that succeeded");
+  if (!compiled) return Error{ErrorKind::BadInput, "Graph::prepare: the frame has no compile() that succeeded; expected one before it"};
   DeviceImpl& d = owner.impl();
-  assert((!device || device == &d) && "a graph stays on one device");
+  if (device && device != &d)
+    return Error{ErrorKind::BadInput, "Graph::prepare: the graph was prepared for another device before; expected a graph for each"};
   device = &d;
   prepared = planWhole = false;
   collect();

@@ -30,7 +30,7 @@ constexpr VkBufferUsageFlags kStorageBuffer = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT
 // Before it is presented an image waits for nothing but a semaphore, which the submission signals behind all of its commands: the change of
 // layout must lie before that, and none of the presentation's reads needs an access here.
 constexpr std::array<UseRow, kUseCount> kTable{{
-    {Use::None, "None", 0, 0, 0, kNoImage, 0, 0},
+    {Use::Nothing, "Nothing", 0, 0, 0, kNoImage, 0, 0},
     {Use::ComputeRead, "ComputeRead", kCompute, kStorageRead, 0, kGeneral, VK_IMAGE_USAGE_STORAGE_BIT, kStorageBuffer},
     {Use::ComputeTexel, "ComputeTexel", kCompute, kSampledRead, 0, kNoImage, 0, kTexelBuffer},
     {Use::ComputeUniform, "ComputeUniform", kCompute, kUniformRead, 0, kNoImage, 0, kUniformBuffer},
@@ -75,10 +75,11 @@ const UseRow& useRow(Use use) { return kTable[size_t(use)]; }
 UseRow useRow(const ImportState& state) {
   if (!state.isOwn) return useRow(state.use);
   const UseState& own = state.own;
-  return {Use::None, "a state of the host's own", own.stages, own.access & ~kWrites, own.access & kWrites, own.layout, 0, 0};
+  return {Use::Nothing, "a state of the host's own", own.stages, own.access & ~kWrites, own.access & kWrites, own.layout, 0, 0};
 }
 
 UseState useState(Use use) {
+  if (!isUse(use)) return {};
   const UseRow& row = useRow(use);
   return {row.stage, row.read | row.write, row.layout, row.usage, row.bufferUsage};
 }

@@ -18,6 +18,8 @@ struct UseRow {
 };
 
 inline constexpr size_t kUseCount = size_t(Use::Unknown) + 1;
+/// Whether a host's value is one of them.
+constexpr bool isUse(Use use) { return size_t(use) < kUseCount; }
 
 const UseRow& useRow(Use use);
 UseRow useRow(const ImportState& state);
@@ -30,7 +32,7 @@ inline bool isDrawing(Use use) {
 /// What only an image can be used as.
 inline bool needsImage(Use use) { return use == Use::ComputeSampled || use == Use::DrawSampled || use == Use::Present || isTarget(use); }
 /// States of imports, which are nothing that a pass does.
-inline bool outsideOnly(Use use) { return use == Use::None || use == Use::HostRead || use == Use::Present || use == Use::Unknown; }
-inline uint32_t useBit(Use use) { return use == Use::None ? 0 : 1u << uint32_t(use); }
+inline bool outsideOnly(Use use) { return use == Use::Nothing || use == Use::HostRead || use == Use::Present || use == Use::Unknown; }
+inline uint32_t useBit(Use use) { return use == Use::Nothing ? 0 : 1u << uint32_t(use); }
 
 }  // namespace rill

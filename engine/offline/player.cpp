@@ -76,8 +76,8 @@ class Player::Impl {
     fluid.spacing = static_cast<float>(scene_.fluid.spacing);
     std::copy_n(origin_, 3, fluid.origin);
     if (count_ > 0) {
-      fluid.position = graph_.import("played positions", {position_.handle(), 0, position_.size(), Use::None, Use::None});
-      fluid.velocity = graph_.import("played velocities", {velocity_.handle(), 0, velocity_.size(), Use::None, Use::None});
+      fluid.position = graph_.import("played positions", {position_.handle(), 0, position_.size(), Use::Nothing, Use::Nothing});
+      fluid.velocity = graph_.import("played velocities", {velocity_.handle(), 0, velocity_.size(), Use::Nothing, Use::Nothing});
     }
     const PictureTickets tickets = painter_.declare(graph_, fluid, view, width, height, time_s_);
     if (auto ran = context_->run(graph_); !ran) return ran.error();

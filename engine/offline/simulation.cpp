@@ -19,7 +19,7 @@
 namespace rill::offline {
 namespace {
 
-constexpr uint32_t kFirstPiece = 16;                        // substeps, before anything is known about a scene's need
+constexpr uint32_t kFirstPiece = 16;  // substeps, before anything is known about a scene's need
 
 uint32_t wholeBlocks(uint32_t substeps, uint32_t block) { return (std::max(substeps, 1u) + block - 1) / block * block; }
 
@@ -39,6 +39,11 @@ class Simulation::Impl {
 
   /// The particles given, or those of the scene's fills.
   Expected<void> place(std::optional<ParticleSet> given) {
+    if (auto possible = checkScene(scene_); !possible) return possible;
+    constexpr double kShortestFrame = 1e-6;  // s: an advance of many would never end
+    if (!(options_.longestFrame_s >= kShortestFrame))
+      return Error{ErrorKind::BadInput, "Options::longestFrame_s is " + shortNumber(options_.longestFrame_s) + "; expected at least " +
+                                            shortNumber(kShortestFrame) + " (s)"};
     auto start = given ? Expected<ParticleSet>(std::move(*given)) : makeParticles(scene_);
     if (!start) return start.error();
     start_ = std::move(*start);

@@ -62,9 +62,9 @@ BufferRef Environment::addTo(Graph& graph) {
   if (copied_ && device.abandoned(*copied_)) copied_.reset();
   if (copied_ && *copied_ <= device.clock.completed) staging_ = {};
   BufferRef texels =
-      graph.import("environment", {texels_.handle(), 0, texels_.size(), staging_ ? Use::Unknown : Use::CopyTarget, Use::None});
+      graph.import("environment", {texels_.handle(), 0, texels_.size(), staging_ ? Use::Unknown : Use::CopyTarget, Use::Nothing});
   if (!staging_) return texels;
-  const BufferRef from = graph.import("environment on its way", {staging_.handle(), 0, staging_.size(), Use::None, Use::None});
+  const BufferRef from = graph.import("environment on its way", {staging_.handle(), 0, staging_.size(), Use::Nothing, Use::Nothing});
   graph.pass("environment upload", [&](Pass& pass) {
     pass.read(from, Use::CopySource);
     texels = pass.write(texels, Use::CopyTarget, true);

@@ -1,9 +1,9 @@
 #include "rill/fluid_renderer.hpp"
 
-#include <cassert>
 #include <cmath>
 #include <cstring>
 
+#include "core/words.hpp"
 #include "graph/graph_impl.hpp"
 #include "render/compute_step.hpp"
 #include "render/fluid_renderer_impl.hpp"
@@ -40,6 +40,11 @@ BufferRef addLook(Graph& graph, const look::LookRecord& record) {
 }
 
 Expected<void> FluidRendererImpl::create(Device& host, const TargetFormats& targets) {
+  if (targets.colour == VK_FORMAT_UNDEFINED || hasDepth(targets.colour))
+    return Error{ErrorKind::BadInput, "TargetFormats::colour is " + std::to_string(targets.colour) + "; expected a VkFormat of colours"};
+  if (!hasDepth(targets.depth))
+    return Error{ErrorKind::BadInput,
+                 "TargetFormats::depth is " + std::to_string(targets.depth) + "; expected a VkFormat that holds depth"};
   device = &host;
   formats = targets;
   auto stage = SurfaceStage::create(host);
@@ -85,8 +90,31 @@ Expected<void> FluidRendererImpl::setEnvironment(const EnvironmentPicture& pictu
   return makeShade();
 }
 
-/// Whether it can be drawn; the graph's compile() says what not.
-bool FluidRendererImpl::fits(Graph& graph, const FluidState& fluid, const SceneTargets& targets, const FluidView& view) const {
+bool FluidRendererImpl::possible(Graph& graph, const FluidState& fluid, const FluidView& view, SurfaceMethod method) {
+  const auto mistake = [&](std::string what) {
+    graph.impl().fail(std::move(what));
+    return false;
+  };
+  if (auto ok = checkView(view); !ok) return mistake(ok.error().message);
+  if (size_t(method) > size_t(SurfaceMethod::NarrowRange)) return mistake(std::to_string(unsigned(method)) + " is no SurfaceMethod");
+  if (fluid.count == 0) return true;
+  if (fluid.count > SurfaceStage::kMostParticles)
+    return mistake("a fluid of " + std::to_string(fluid.count) + " particles: at most " + std::to_string(SurfaceStage::kMostParticles) +
+                   " can be drawn");
+  if (!(fluid.spacing > 0 && std::isfinite(fluid.spacing)))
+    return mistake("FluidState::spacing is " + shortNumber(fluid.spacing) + "; expected a length above 0 (m)");
+  for (const double v : fluid.origin)
+    if (!std::isfinite(v)) return mistake("FluidState::origin is " + shortNumber(v) + "; expected finite numbers (m)");
+  const auto& resources = graph.impl().resources;
+  const BufferRef position = fluid.position;
+  if (position.index >= resources.size() || resources[position.index].isImage) return true;  // the pass that reads it says so
+  if (const uint64_t bytes = resources[position.index].size; bytes < uint64_t{fluid.count} * 16)
+    return mistake("FluidState::position has " + std::to_string(bytes) + " bytes; expected 16 for each of its " +
+                   std::to_string(fluid.count) + " particles");
+  return true;
+}
+
+bool FluidRendererImpl::within(Graph& graph, const SceneTargets& targets, const FluidView& view) {
   const auto& resources = graph.impl().resources;
   for (const ImageRef target : {targets.colour, targets.depth}) {
     if (target.index >= resources.size() || !resources[target.index].isImage) continue;  // the pass that reads it says so
@@ -97,10 +125,7 @@ bool FluidRendererImpl::fits(Graph& graph, const FluidState& fluid, const SceneT
                       std::to_string(image.width()) + "x" + std::to_string(image.height()));
     return false;
   }
-  if (fluid.count <= SurfaceStage::kMostParticles) return true;
-  graph.impl().fail("a fluid of " + std::to_string(fluid.count) + " particles: at most " + std::to_string(SurfaceStage::kMostParticles) +
-                    " can be drawn");
-  return false;
+  return true;
 }
 
 SurfacePush FluidRendererImpl::camera(const FluidState& fluid, const FluidView& view) const {
@@ -115,7 +140,7 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
     graph.skipped("fluid shade", "there are no particles");
     return targets;
   }
-  if (!fits(graph, fluid, targets, view)) return targets;
+  if (!within(graph, targets, view)) return targets;
   last = surface.addTo(graph, fluid, camera(fluid, view), look.surface, whole, view.focus_m);
   const SurfacePush push = last.push;
   const uint64_t pixels = uint64_t{push.width} * push.height;
@@ -193,14 +218,18 @@ Expected<void> FluidRenderer::check(const FluidView& view) { return checkView(vi
 
 SceneTargets FluidRenderer::addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view,
                                   const FluidLook& look) {
-  assert(check(view));
+  if (!FluidRendererImpl::possible(graph, fluid, view, look.surface)) return targets;
   const bool drawn = impl_->environment && fluid.count > 0;
   return impl_->addTo(graph, fluid, targets, view, look, false, drawn ? impl_->environment->addTo(graph) : BufferRef{});
 }
 
 BufferRef FluidRenderer::addData(Graph& graph, const FluidState& fluid, const FluidView& view, SurfaceData data, float full,
                                  SurfaceMethod method) {
-  assert(check(view));
+  if (!FluidRendererImpl::possible(graph, fluid, view, method)) return {};
+  if (size_t(data) > size_t(SurfaceData::Thickness)) {
+    graph.impl().fail(std::to_string(unsigned(data)) + " is no SurfaceData");
+    return {};
+  }
   return impl_->addData(graph, fluid, view, data, full, method);
 }
 

@@ -18,7 +18,10 @@ static_assert(sizeof(DataPush) <= 128);
 class FluidRendererImpl {
  public:
   Expected<void> create(Device& device, const TargetFormats& formats);
-  bool fits(Graph& graph, const FluidState& fluid, const SceneTargets& targets, const FluidView& view) const;
+  /// Whether a host's view of a state can be drawn, in a method that there is; the graph's compile() says what not.
+  static bool possible(Graph& graph, const FluidState& fluid, const FluidView& view, SurfaceMethod method);
+  /// The same of a viewport in its targets.
+  static bool within(Graph& graph, const SceneTargets& targets, const FluidView& view);
   surface::SurfacePush camera(const FluidState& fluid, const FluidView& view) const;
   Expected<void> setEnvironment(const EnvironmentPicture& picture);
   /// `texels`: of the environment, where there is one.

@@ -109,17 +109,6 @@ void replaceTwin(Json& root, const std::vector<Step>& steps) {
 
 }  // namespace
 
-std::string childPath(std::string_view path, std::string_view key) {
-  const bool plain = !key.empty() && key.size() <= 60 && std::all_of(key.begin(), key.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '$';
-  });
-  std::string out(path);
-  if (!out.empty()) out += '.';
-  return out + (plain ? std::string(key) : inQuotes(key));
-}
-
-std::string entryPath(std::string_view path, size_t index) { return std::string(path) + "[" + std::to_string(index) + "]"; }
-
 const OverrideMarks::Mark* OverrideMarks::find(std::string_view path) const {
   while (!path.empty()) {
     if (const auto found = marks_.find(path); found != marks_.end()) return &found->second;

@@ -10,11 +10,6 @@
 
 namespace rill {
 
-/// `key` inside `path` as messages write it: "fluid.viscosity". A key that is no plain word is quoted.
-std::string childPath(std::string_view path, std::string_view key);
-/// "fill[2]"
-std::string entryPath(std::string_view path, size_t index);
-
 /// Which parts of the JSON come from overrides.
 class OverrideMarks {
  public:

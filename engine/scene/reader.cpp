@@ -1,7 +1,7 @@
 #include "scene/reader.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "rill/version.hpp"
 
@@ -10,8 +10,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string unitText(const model::Info& info) { return info.unit.empty() ? std::string() : " (" + std::string(info.unit) + ")"; }
-
 /// NaN and infinities come as words: JSON has no numbers for them.
 bool saysNotFinite(std::string_view text) {
   std::string word;
@@ -19,11 +17,6 @@ bool saysNotFinite(std::string_view text) {
     if (c != '+' && c != '-') word += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
   }
   return word == "nan" || word == "inf" || word == "infinity";
-}
-
-bool fitsFloat(double value) {
-  if (!std::isfinite(value) || std::abs(value) > std::numeric_limits<float>::max()) return false;
-  return value == 0 || std::abs(value) >= std::numeric_limits<float>::denorm_min();
 }
 
 /// Dotted paths in the scene whose last key is `key`, the first of them; empty where there is none.
@@ -90,33 +83,6 @@ std::string foundText(const Json& json) {
   }
 }
 
-std::string rangeText(const model::Range& range) {
-  std::string text;
-  if (range.hasLow()) text = (range.low_open ? "above " : range.hasHigh() ? "from " : "at least ") + shortNumber(range.low);
-  if (range.hasHigh()) {
-    if (!text.empty()) text += range.low_open ? " and " : " to ";
-    if (range.high_open) {
-      text += "below ";
-    } else if (range.low_open || !range.hasLow()) {
-      text += "at most ";
-    }
-    constexpr double kExact = 9007199254740992.0;  // 2^53; beyond it the only bound is 2^64 - 1
-    text += range.high > kExact ? "18446744073709551615"
-            : range.high >= 1e6 ? std::to_string(static_cast<uint64_t>(range.high))
-                                : shortNumber(range.high);
-  }
-  return text;
-}
-
-std::string expectedNumber(const model::Info& info, bool whole) {
-  const std::string range = rangeText(info.range);
-  return std::string(whole ? "a whole number" : "a number") +
-         (range.empty()              ? ""
-          : range.starts_with("at ") ? " of " + range
-                                     : " " + range) +
-         unitText(info);
-}
-
 bool Reader::fail(const std::string& path, const std::string& text) {
   if (!message_.empty()) return false;
   if (const OverrideMarks::Mark* mark = marks_.find(path)) {
@@ -127,11 +93,20 @@ bool Reader::fail(const std::string& path, const std::string& text) {
   return false;
 }
 
-bool Reader::failAtOneOf(std::initializer_list<std::string> paths, const std::string& text) {
-  for (const std::string& path : paths) {
-    if (marks_.find(path)) return fail(path, text);
+bool Reader::fine(const std::string& path, const model::Verdict& verdict) {
+  if (!verdict) return true;
+  const auto whole = [&](const std::string& key) { return path + (path.empty() || key.starts_with('[') ? "" : ".") + key; };
+  for (const std::string& key : verdict->keys) {
+    if (marks_.find(whole(key))) return fail(whole(key), verdict->text);
   }
-  return fail(*paths.begin(), text);
+  return fail(verdict->keys.empty() ? path : whole(verdict->keys.front()), verdict->text);
+}
+
+/// A file's quaternion may have any length but none.
+void Reader::normalise(Solid& solid) {
+  double length = 0;
+  for (const double part : solid.rotation) length = std::hypot(length, part);
+  for (double& part : solid.rotation) part = length > 0 ? part / length : part;
 }
 
 bool Reader::unknownKey(const std::string& path, const std::string& key, const std::vector<std::string_view>& here) {
@@ -153,11 +128,10 @@ bool Reader::exactlyOne(const Json& json, const std::string& path, std::span<con
   for (const std::string_view key : keys) {
     if (json.contains(std::string(key))) given.push_back(key);
   }
-  if (keys.empty() || given.size() == 1) return true;
-  const std::string expected = "expected exactly one of " + listInQuotes(keys) + "; found ";
-  if (given.empty()) return fail(path, expected + "none");
+  const model::Verdict verdict = model::judgeOneOf(keys, given);
+  if (!verdict || given.empty()) return fine(path, verdict);
   const std::string blamed = marks_.find(childPath(path, given[0])) ? childPath(path, given[0]) : childPath(path, given[1]);
-  return fail(marks_.find(blamed) ? blamed : path, expected + listInQuotes(given));
+  return fail(marks_.find(blamed) ? blamed : path, verdict->text);
 }
 
 bool Reader::version(const Json& root) {
@@ -175,22 +149,21 @@ bool Reader::version(const Json& root) {
 
 bool Reader::number(const Json& json, const std::string& path, const model::Info& info, bool whole, double& out) {
   if (json.is_string() && saysNotFinite(json.get_ref<const std::string&>())) {
-    return fail(path, foundText(json) + ", which is not finite; expected " + expectedNumber(info, whole));
+    return fail(path, foundText(json) + ", which is not finite; expected " + model::expectedNumber(info, whole));
   }
-  if (!json.is_number()) return fail(path, foundText(json) + ", expected " + expectedNumber(info, whole));
+  if (!json.is_number()) return fail(path, foundText(json) + ", expected " + model::expectedNumber(info, whole));
   const double value = json.get<double>();
   if (whole && std::isfinite(value) && value != std::floor(value))
-    return fail(path, foundText(json) + ", expected " + expectedNumber(info, whole));
-  if (!info.range.contains(value))
-    return fail(path, foundText(json).substr(6) + " is out of range; expected " + expectedNumber(info, whole));
-  if (!fitsFloat(value))
-    return fail(path, foundText(json).substr(6) + " is out of range of a 32-bit float; expected " + expectedNumber(info, whole));
+    return fail(path, foundText(json) + ", expected " + model::expectedNumber(info, whole));
+  if (!fine(path, model::judgeNumber(info, value, whole, foundText(json).substr(6)))) return false;
   out = value;
   return true;
 }
 
 bool Reader::numbers(const Json& json, const std::string& path, const model::Info& info, std::string_view shape, std::span<double> out) {
-  const auto expected = [&] { return ", expected " + std::to_string(out.size()) + " numbers " + std::string(shape) + unitText(info); };
+  const auto expected = [&] {
+    return ", expected " + std::to_string(out.size()) + " numbers " + std::string(shape) + model::unitText(info);
+  };
   if (!json.is_array() || json.size() != out.size()) return fail(path, foundText(json) + expected());
   for (size_t i = 0; i < out.size(); ++i) {
     if (!number(json[i], entryPath(path, i), info, false, out[i])) return false;
@@ -213,14 +186,8 @@ bool Reader::text(const Json& json, const std::string& path, std::string& out) {
 bool Reader::word(const Json& json, const std::string& path, const model::Info& info, size_t& out) {
   if (!json.is_string()) return fail(path, foundText(json) + ", expected one of " + listInQuotes(info.words));
   const std::string& given = json.get_ref<const std::string&>();
-  for (size_t i = 0; i < info.words.size(); ++i) {
-    if (info.words[i] != given) continue;
-    out = i;
-    return true;
-  }
-  const std::string_view near = nearestWord(given, info.words);
-  return fail(path, foundText(json) + ", expected one of " + listInQuotes(info.words) +
-                        (near.empty() ? "" : "; did you mean " + inQuotes(near) + "?"));
+  out = static_cast<size_t>(std::ranges::find(info.words, given) - info.words.begin());
+  return fine(path, model::judgeWord(info, given));
 }
 
 bool Reader::value(const Json& json, const std::string& path, const model::Info& info, uint32_t& out) {
@@ -239,7 +206,7 @@ bool Reader::value(const Json& json, const std::string& path, const model::Info&
   } else if (value < kTooLarge) {
     out = static_cast<uint64_t>(value);
   } else {
-    return fail(path, foundText(json).substr(6) + " is out of range; expected " + expectedNumber(info, true));
+    return fail(path, foundText(json).substr(6) + " is out of range; expected " + model::expectedNumber(info, true));
   }
   return true;
 }
@@ -272,7 +239,7 @@ bool Reader::value(const Json& json, const std::string& path, const model::Info&
     return true;
   }
   if (json.is_string() && !saysNotFinite(json.get_ref<const std::string&>())) {
-    return fail(path, foundText(json) + ", expected \"auto\" or " + expectedNumber(info, false));
+    return fail(path, foundText(json) + ", expected \"auto\" or " + model::expectedNumber(info, false));
   }
   return number(json, path, info, false, out.emplace());
 }
@@ -294,8 +261,7 @@ bool Reader::value(const Json& json, const std::string& path, const model::Info&
 bool Reader::value(const Json& json, const std::string& path, const model::Info& info, fs::path& out) {
   std::string given;
   if (!text(json, path, given)) return false;
-  if (given.empty() || given.find('\0') != std::string::npos)
-    return fail(path, "found " + inQuotes(given) + ", expected the name of a file");
+  if (!fine(path, model::judgeFileName(given))) return false;
   // As any path of a command line, one that an override gives starts from the current directory.
   const fs::path said = (marks_.find(path) ? fs::path() : folder_) / fs::path(given);
   std::error_code trouble;

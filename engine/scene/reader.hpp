@@ -6,17 +6,13 @@
 #include <utility>
 
 #include "core/words.hpp"
-#include "model/fields.hpp"
+#include "model/rules.hpp"
 #include "scene/overrides.hpp"
 
 namespace rill {
 
 /// "found an array of 2" and the like, for messages.
 std::string foundText(const Json& json);
-/// "a number above 0 and at most 10 (s)".
-std::string expectedNumber(const model::Info& info, bool whole);
-/// "at least 0", "above 0 and at most 10", "a..b" in words; empty where every number is accepted.
-std::string rangeText(const model::Range& range);
 
 /// Reads one scene. Every function returns false once something was refused; message() says what.
 class Reader {
@@ -40,13 +36,15 @@ class Reader {
     model::forEachField<Owner>([&](const auto& field) {
       if (ok) ok = member(json, path, field, owner);
     });
-    return ok && exactlyOne(json, path, model::Table<Owner>::one_of) && check(path, owner);
+    if constexpr (std::is_same_v<Owner, Solid>) normalise(owner);
+    return ok && exactlyOne(json, path, model::Table<Owner>::one_of) && fine(path, model::judge(owner));
   }
 
  private:
   bool fail(const std::string& path, const std::string& text);
-  /// Blames the override that made one of the paths, or the first path.
-  bool failAtOneOf(std::initializer_list<std::string> paths, const std::string& text);
+  /// Blames the key that an override made among those that may be to blame, or the first.
+  bool fine(const std::string& path, const model::Verdict& verdict);
+  static void normalise(Solid& solid);
   bool unknownKey(const std::string& path, const std::string& key, const std::vector<std::string_view>& here);
   bool exactlyOne(const Json& json, const std::string& path, std::span<const std::string_view> keys);
 
@@ -116,31 +114,13 @@ class Reader {
   template <model::Described Struct>
   bool value(const Json& json, const std::string& path, const model::Info& info, std::vector<Struct>& out) {
     if (!json.is_array()) return fail(path, foundText(json) + ", expected a list of objects");
-    if (info.most > 0 && json.size() > info.most)
-      return fail(path, "found " + grouped(json.size()) + " entries, expected at most " + grouped(info.most));
+    if (!fine(path, model::judgeLength(info, json.size()))) return false;
     out.reserve(json.size());
     for (size_t i = 0; i < json.size(); ++i) {
       if (!object(json[i], entryPath(path, i), out.emplace_back())) return false;
     }
-    return check(path, out);
+    return fine(path, model::judge(out));
   }
-
-  // Rules between keys, in checks.cpp.
-  template <class T>
-  bool check(const std::string&, T&) {
-    return true;
-  }
-  bool check(const std::string& path, BoxShape& box);
-  bool check(const std::string& path, Domain& domain);
-  bool check(const std::string& path, FluidSettings& fluid);
-  bool check(const std::string& path, Solid& solid);
-  bool check(const std::string& path, Camera& camera);
-  bool check(const std::string& path, std::vector<Keyframe>& motion);
-  bool check(const std::string& path, std::vector<GravityChange>& changes);
-  bool check(const std::string& path, std::vector<Probe>& probes);
-  bool minBelowMax(const std::string& path, const double (&min)[3], const double (&max)[3]);
-  template <class Timed>
-  bool risingTimes(const std::string& path, const std::vector<Timed>& entries);
 
   std::string name_;
   const OverrideMarks& marks_;

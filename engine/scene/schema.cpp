@@ -115,7 +115,7 @@ std::string valuesText(const model::Info& info) {
   } else if constexpr (std::is_same_v<T, double> || std::is_same_v<T, uint32_t> || std::is_same_v<T, uint64_t> ||
                        std::is_same_v<T, std::optional<double>> || std::is_array_v<T> ||
                        std::is_same_v<T, std::optional<std::pair<double, double>>>) {
-    text = rangeText(info.range);
+    text = model::rangeText(info.range);
     if (std::is_same_v<T, std::optional<double>>) text = "`auto`, or " + text;
   }
   if (info.most > 0) text = "at most " + grouped(info.most) + " entries";

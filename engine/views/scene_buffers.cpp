@@ -55,12 +55,12 @@ Expected<SceneBuffers> SceneBuffers::create(Device& device, ParticleScene host) 
 }
 
 BufferRef SceneBuffers::importScene(Graph& graph) const {
-  return graph.import("view scene", {scene.handle(), 0, scene.size(), Use::None, Use::None});
+  return graph.import("view scene", {scene.handle(), 0, scene.size(), Use::Nothing, Use::Nothing});
 }
 
 BufferRef SceneBuffers::addPoses(Graph& graph, const FluidState& fluid, BufferRef sceneRef, const ViewPush& push) const {
-  const BufferRef solidRecords = graph.import("view solids", {solids.handle(), 0, solids.size(), Use::None, Use::None});
-  const BufferRef keys = graph.import("view keyframes", {keyframes.handle(), 0, keyframes.size(), Use::None, Use::None});
+  const BufferRef solidRecords = graph.import("view solids", {solids.handle(), 0, solids.size(), Use::Nothing, Use::Nothing});
+  const BufferRef keys = graph.import("view keyframes", {keyframes.handle(), 0, keyframes.size(), Use::Nothing, Use::Nothing});
   BufferRef out = graph.create("view poses", {host.solids.size() * sizeof(PoseRecord)});
   const bool driven = fluid.solids != BufferRef{};
   addStep(graph, "view poses", driven ? drivenPoses : poses,

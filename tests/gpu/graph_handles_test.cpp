@@ -222,7 +222,7 @@ TEST_F(GraphHandles, ImportsKeepTheirContentInStatesOfTheHost) {
   for (const ImportState& state : {ImportState(Use::Present), ImportState(transfer)}) {
     base += 10;
     Graph graph;
-    const ImageImport first{image.handle, kDesc, Use::Unknown, state, usage}, second{image.handle, kDesc, state, Use::None, usage};
+    const ImageImport first{image.handle, kDesc, Use::Unknown, state, usage}, second{image.handle, kDesc, state, Use::Nothing, usage};
     (void)fill(graph, graph.import("image", first), base);
     run(graph);
     graph.reset();

@@ -130,7 +130,7 @@ TEST_F(GraphImages, ImportedOnesStayTheHosts) {
     (void)fill(graph, graph.import("target", {image, kDesc, Use::Unknown, Use::ComputeSampled}), 5.0f);
     run(graph);
     graph.reset();  // the image has kept what the last frame drew, in the layout that it was left in
-    const ImageRef kept = graph.import("target", {image, kDesc, Use::ComputeSampled, Use::None});
+    const ImageRef kept = graph.import("target", {image, kDesc, Use::ComputeSampled, Use::Nothing});
     const ImageRef own = fill(graph, graph.create("own", kDesc), 0.0f);
     const Ticket ticket = readback(graph, add(graph, kept, own));
     run(graph);

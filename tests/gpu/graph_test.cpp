@@ -147,7 +147,7 @@ TEST_F(GraphOnGpu, ThreeFramesInOneCommandBufferShareTheHeap) {
     for (int frame = 0; frame < 3; ++frame) {
       graph.reset();
       const BufferRef in = graph.import("source", importOf(source));
-      BufferRef kept = graph.import("state", importOf(state, frame == 0 ? Use::None : Use::ComputeRead, Use::ComputeRead));
+      BufferRef kept = graph.import("state", importOf(state, frame == 0 ? Use::Nothing : Use::ComputeRead, Use::ComputeRead));
       BufferRef at = frame == 0 ? in : kept;
       for (int i = 0; i < 4; ++i) at = addPass(graph, "add", at, graph.create("step", {20000}), 5000, 1);
       kept = addPass(graph, "store", at, kept, 5000, 1);

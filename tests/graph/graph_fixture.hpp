@@ -22,7 +22,7 @@ constexpr VkAccessFlags2 kStorageRead = VK_ACCESS_2_SHADER_STORAGE_READ_BIT, kSt
 class GraphTest : public ::testing::Test {
  protected:
   static VkBuffer fakeBuffer(uint64_t n) { return reinterpret_cast<VkBuffer>(n); }
-  BufferRef import(std::string_view name, Use before = Use::None, Use after = Use::None) {
+  BufferRef import(std::string_view name, Use before = Use::Nothing, Use after = Use::Nothing) {
     return graph.import(name, {fakeBuffer(++imports_), 0, 1024, before, after});
   }
   BufferRef write(std::string_view pass, BufferRef buffer, Use use = Use::ComputeWrite, bool discard = false) {

@@ -28,7 +28,7 @@ class Handles : public GraphTest {
 };
 
 TEST_F(Handles, BuffersSayWhereTheyLie) {
-  const BufferRef given = graph.import("given", {fakeBuffer(7), 128, 64, Use::None});
+  const BufferRef given = graph.import("given", {fakeBuffer(7), 128, 64, Use::Nothing});
   BufferRef first = graph.create("first", {256}), second = graph.create("second", {512});
   VkDescriptorBufferInfo in{}, a{}, b{};
   graph.pass("look", [&](Pass& pass) {

@@ -115,7 +115,7 @@ TEST_F(Images, MistakesAreNamed) {
   };
   EXPECT_EQ(after([&] { read("look", graph.create("image", kDesc)); }), "pass 'look' reads 'image', which no pass has written");
   EXPECT_EQ(after([&] {
-              read("look", graph.import("image", {fakeImage(1), kDesc, Use::Unknown, Use::None}));
+              read("look", graph.import("image", {fakeImage(1), kDesc, Use::Unknown, Use::Nothing}));
             }),
             "pass 'look' reads 'image', which no pass has written");
   EXPECT_EQ(after([&] { read("look", write("draw", graph.create("image", kDesc)), Use::ComputeUniform); }),
@@ -128,21 +128,21 @@ TEST_F(Images, MistakesAreNamed) {
             }),
             "image 'image' of 1073741824 x 1073741824 texels: at most 32768 a side are possible");
   EXPECT_EQ(after([&] {
-              (void)graph.import("one", {fakeImage(1), kDesc, Use::ComputeSampled, Use::None});
-              (void)graph.import("two", {fakeImage(1), kDesc, Use::ComputeSampled, Use::None});
+              (void)graph.import("one", {fakeImage(1), kDesc, Use::ComputeSampled, Use::Nothing});
+              (void)graph.import("two", {fakeImage(1), kDesc, Use::ComputeSampled, Use::Nothing});
             }),
             "imports 'one' and 'two' overlap in one VkImage: import the memory once");
   EXPECT_EQ(after([&] {
-              (void)write("add", graph.import("image", {fakeImage(1), kDesc, Use::ComputeRead, Use::None}), Use::ComputeAtomic);
+              (void)write("add", graph.import("image", {fakeImage(1), kDesc, Use::ComputeRead, Use::Nothing}), Use::ComputeAtomic);
             }),
             "pass 'add' writes 'image' with Use::ComputeAtomic, which is no way for a pass to write an image");
   EXPECT_EQ(after([&] { (void)graph.create("image", ImageDesc{VK_FORMAT_R32_SFLOAT, 0, 1}); }), "image 'image' has no size");
   EXPECT_EQ(after([&] {
-              (void)graph.import("image", ImageImport{VK_NULL_HANDLE, kDesc, Use::None, Use::None});
+              (void)graph.import("image", ImageImport{VK_NULL_HANDLE, kDesc, Use::Nothing, Use::Nothing});
             }),
             "import 'image' has a null VkImage");
   EXPECT_EQ(after([&] {
-              (void)graph.import("image", {fakeImage(1), kDesc, Use::HostRead, Use::None});
+              (void)graph.import("image", {fakeImage(1), kDesc, Use::HostRead, Use::Nothing});
             }),
             "import 'image': Use::HostRead is no use of an image");
   EXPECT_EQ(after([&] {

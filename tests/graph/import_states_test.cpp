@@ -89,7 +89,7 @@ TEST_F(ImportStates, ABufferGoesToAStageThatNoUseNames) {
 }
 
 TEST_F(ImportStates, NoStagesMeanThatNothingIsWaitedFor) {
-  draw(image(UseState{.layout = VK_IMAGE_LAYOUT_GENERAL}, Use::None), Use::ComputeWrite);
+  draw(image(UseState{.layout = VK_IMAGE_LAYOUT_GENERAL}, Use::Nothing), Use::ComputeWrite);
   (void)graph.import("buffer", {fakeBuffer(9), 0, 64, UseState{}, UseState{}});
   compile();
   EXPECT_TRUE(graph.impl().passes[0].barrier.empty());
@@ -107,7 +107,7 @@ TEST_F(ImportStates, VertexInputWaitsForWhatMadeTheVertices) {
 TEST_F(ImportStates, AnOwnStateMakesAPlanOfItsOwn) {
   const auto plan = [&](ImportState state) {
     graph.reset();
-    look(image(state, Use::None), Use::ComputeRead);
+    look(image(state, Use::Nothing), Use::ComputeRead);
     compile();
   };
   plan(kSampledInGeneral);
@@ -127,23 +127,23 @@ TEST_F(ImportStates, UseStateIsWhatTheGraphPlansWith) {
   const UseState write = useState(Use::ComputeWrite);
   EXPECT_EQ(write.access, kStorageRead | kStorageWrite);
   EXPECT_EQ(write.bufferUsage, VkBufferUsageFlags(VK_BUFFER_USAGE_STORAGE_BUFFER_BIT));
-  EXPECT_EQ(useState(Use::None), UseState{});
+  EXPECT_EQ(useState(Use::Nothing), UseState{});
   // The same import, in the state of a Use and in that state spelt out: the same barrier.
-  draw(image(Use::ComputeSampled, Use::None), Use::ComputeWrite);
+  draw(image(Use::ComputeSampled, Use::Nothing), Use::ComputeWrite);
   compile();
   const Transition named = only(graph.impl().passes[0].barrier);
   graph.reset();
-  draw(image(sampled, Use::None), Use::ComputeWrite);
+  draw(image(sampled, Use::Nothing), Use::ComputeWrite);
   compile();
   EXPECT_EQ(only(graph.impl().passes[0].barrier).scope, named.scope);
 }
 
 TEST_F(ImportStates, MistakesAreNamed) {
-  EXPECT_EQ(after([&] { (void)image(UseState{.stages = kFragment, .access = kSampled}, Use::None); }),
+  EXPECT_EQ(after([&] { (void)image(UseState{.stages = kFragment, .access = kSampled}, Use::Nothing); }),
             "import 'image': a state of the host's own needs the image's layout");
-  EXPECT_EQ(after([&] { (void)image(UseState{.access = kSampled, .layout = VK_IMAGE_LAYOUT_GENERAL}, Use::None); }),
+  EXPECT_EQ(after([&] { (void)image(UseState{.access = kSampled, .layout = VK_IMAGE_LAYOUT_GENERAL}, Use::Nothing); }),
             "import 'image': the host's own state has accesses, but no stages that they are made in");
-  EXPECT_EQ(after([&] { (void)image(Use::None, UseState{.layout = VK_IMAGE_LAYOUT_PREINITIALIZED}); }),
+  EXPECT_EQ(after([&] { (void)image(Use::Nothing, UseState{.layout = VK_IMAGE_LAYOUT_PREINITIALIZED}); }),
             "import 'image': no image can be brought into the layout PREINITIALIZED");
   EXPECT_EQ(after([&] {
               (void)graph.import("buffer", {fakeBuffer(1), 0, 64, kSampledInGeneral});
@@ -153,12 +153,12 @@ TEST_F(ImportStates, MistakesAreNamed) {
               (void)graph.import("buffer", {fakeBuffer(1), 0, 64, Use::Present});
             }),
             "import 'buffer': Use::Present is no use of a buffer");
-  EXPECT_EQ(after([&] { (void)image(Use::VertexInput, Use::None); }), "import 'image': Use::VertexInput is no use of an image");
-  EXPECT_EQ(after([&] { look(image(Use::Present, Use::None), Use::Present); }),
+  EXPECT_EQ(after([&] { (void)image(Use::VertexInput, Use::Nothing); }), "import 'image': Use::VertexInput is no use of an image");
+  EXPECT_EQ(after([&] { look(image(Use::Present, Use::Nothing), Use::Present); }),
             "pass 'look' reads 'image' with Use::Present, which is no way for a pass to read an image");
-  EXPECT_EQ(after([&] { look(image(Use::ComputeRead, Use::None, VK_IMAGE_USAGE_STORAGE_BIT), Use::ComputeSampled); }),
+  EXPECT_EQ(after([&] { look(image(Use::ComputeRead, Use::Nothing, VK_IMAGE_USAGE_STORAGE_BIT), Use::ComputeSampled); }),
             "pass 'look' uses import 'image' with Use::ComputeSampled, but it was created without VK_IMAGE_USAGE_SAMPLED_BIT");
-  EXPECT_EQ(after([&] { draw(image(Use::Unknown, Use::None, VK_IMAGE_USAGE_SAMPLED_BIT), Use::ColourTarget, Load::Discard); }),
+  EXPECT_EQ(after([&] { draw(image(Use::Unknown, Use::Nothing, VK_IMAGE_USAGE_SAMPLED_BIT), Use::ColourTarget, Load::Discard); }),
             "pass 'draw' uses import 'image' with Use::ColourTarget, but it was created without VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT");
   EXPECT_EQ(after([&] { (void)image(Use::Unknown, Use::CopySource, VK_IMAGE_USAGE_STORAGE_BIT); }),
             "import 'image': Use::CopySource is a state of it, but it was created without VK_IMAGE_USAGE_TRANSFER_SRC_BIT");

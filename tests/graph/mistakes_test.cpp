@@ -130,6 +130,34 @@ TEST_F(Mistakes, BindingsThatDoNotFit) {
             "pass 'sort', shader 'fake': binding 0 is 'other' in a version that the pass neither reads nor writes");
 }
 
+TEST_F(Mistakes, NumbersThatAreNoUse) {
+  const auto after = [&](auto&& declare) {
+    graph.reset();
+    declare();
+    return mistake();
+  };
+  EXPECT_EQ(after([&] { (void)import("a", Use(99)); }), "import 'a': 99 is no Use");
+  EXPECT_EQ(after([&] { (void)import("a", Use::Nothing, Use(200)); }), "import 'a': 200 is no Use");
+  EXPECT_EQ(after([&] { read("look", import("a"), Use(99)); }), "pass 'look' reads 'a' with 99, which is no Use");
+  EXPECT_EQ(after([&] { (void)write("change", import("a"), Use(99)); }), "pass 'change' writes 'a' with 99, which is no Use");
+}
+
+TEST_F(Mistakes, AKernelWithoutAPipeline) {
+  const auto declare = [&](auto pipeline) {
+    graph.reset();
+    const BufferRef in = import("in");
+    graph.pass("sort", [&](Pass& pass) {
+      pass.read(in, Use::ComputeRead);
+      (void)pass.kernel(pipeline, {in});
+      return [](Commands&) {};
+    });
+    return mistake();
+  };
+  const std::string expected = "pass 'sort' declares a kernel without a pipeline (null)";
+  EXPECT_EQ(declare(static_cast<const ComputePipeline*>(nullptr)), expected);
+  EXPECT_EQ(declare(static_cast<const GraphicsPipeline*>(nullptr)), expected);
+}
+
 TEST_F(Mistakes, TheFirstOneIsReportedAndResetForgetsIt) {
   const BufferRef bad = write("first", graph.create("a", {64}), Use::Indirect);
   read("second", bad);

@@ -35,24 +35,24 @@ class RandomFrames : public GraphTest {
     const auto pick = [&](uint32_t below) { return uint32_t(random() % below); };
     std::vector<BufferRef> refs;
     std::vector<bool> written;
-    constexpr Use befores[] = {Use::None,       Use::Unknown,       Use::ComputeWrite, Use::ComputeRead,
+    constexpr Use befores[] = {Use::Nothing,       Use::Unknown,       Use::ComputeWrite, Use::ComputeRead,
                                Use::CopyTarget, Use::ComputeAtomic, Use::HostRead};
-    constexpr Use afters[] = {Use::None, Use::ComputeRead, Use::ComputeWrite, Use::Indirect};
+    constexpr Use afters[] = {Use::Nothing, Use::ComputeRead, Use::ComputeWrite, Use::Indirect};
     for (int i = 0; i < 3; ++i) refs.push_back(import("import", befores[pick(7)], afters[pick(4)])), written.push_back(true);
     for (int i = 0; i < 4; ++i) refs.push_back(graph.create("transient", {256 + pick(3) * 256})), written.push_back(false);
     constexpr Use reads[] = {Use::ComputeRead, Use::ComputeTexel, Use::ComputeUniform, Use::Indirect, Use::CopySource, Use::VertexInput};
     constexpr Use writings[] = {Use::ComputeWrite, Use::CopyTarget, Use::ComputeAtomic};
     const ImportState imageStates[] = {
-        Use::None,       Use::Unknown,    Use::ComputeWrite, Use::ComputeSampled,
+        Use::Nothing,       Use::Unknown,    Use::ComputeWrite, Use::ComputeSampled,
         Use::CopySource, Use::CopyTarget, Use::Present,      UseState{kCompute, kSampled, VK_IMAGE_LAYOUT_GENERAL}};
     constexpr Use imageReads[] = {Use::ComputeRead, Use::ComputeSampled, Use::CopySource, Use::DrawSampled};
     std::vector<ImageRef> images;
     std::vector<bool> drawn;
     for (uint64_t i = 0; i < 2; ++i) {
       const ImportState before = imageStates[pick(8)];
-      const ImportState after = pick(2) ? imageStates[2 + pick(6)] : Use::None;
+      const ImportState after = pick(2) ? imageStates[2 + pick(6)] : Use::Nothing;
       images.push_back(graph.import("imported image", {reinterpret_cast<VkImage>(100 + i), {VK_FORMAT_R32_SFLOAT, 16, 16}, before, after}));
-      drawn.push_back(before != Use::None && before != Use::Unknown);
+      drawn.push_back(before != Use::Nothing && before != Use::Unknown);
     }
     for (int i = 0; i < 4; ++i)
       images.push_back(graph.create("image", {VK_FORMAT_R32_SFLOAT, 16, 16 + 16 * pick(2)})), drawn.push_back(false);
@@ -121,7 +121,7 @@ class RandomFrames : public GraphTest {
         }
       if (s + 1 == steps.size() / 2 || s + 1 == steps.size())
         for (size_t r = 0; r < resources.size(); ++r)
-          if (resources[r].imported && resources[r].isImage && resources[r].after != Use::None) {
+          if (resources[r].imported && resources[r].isImage && resources[r].after != Use::Nothing) {
             ASSERT_EQ(layout[r], useRow(resources[r].after).layout) << "seed " << seed;
           }
     }

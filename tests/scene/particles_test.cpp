@@ -271,7 +271,7 @@ TEST(Particles, ANumberNeedsAFillToFollowFrom) {
   EXPECT_EQ(makeParticles(s, kMany).error().message,
             "dam: fluid.particles: the scene has no box or sphere of fluid from which a spacing follows; expected fluid.spacing");
   Scene unset;
-  EXPECT_EQ(makeParticles(unset, kMany).error().message, "fluid.spacing: found 0, expected a number above 0 (m)");
+  EXPECT_EQ(makeParticles(unset, kMany).error().message, "fluid: expected exactly one of \"spacing\", \"particles\"; found none");
 }
 
 }  // namespace

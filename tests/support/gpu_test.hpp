@@ -42,7 +42,7 @@ class GpuTest : public ::testing::Test {
   Buffer buffer(std::string_view name, uint64_t bytes, MemoryKind kind = MemoryKind::Device);
   const ComputePipeline* pipeline(const ComputePipelineDesc& desc);
 
-  static BufferImport importOf(const Buffer& buffer, Use before = Use::None, Use after = Use::None) {
+  static BufferImport importOf(const Buffer& buffer, Use before = Use::Nothing, Use after = Use::Nothing) {
     return {buffer.handle(), 0, buffer.size(), before, after};
   }
   /// The ticket's bytes as a vector of T; empty where it has not arrived.

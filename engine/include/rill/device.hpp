@@ -69,8 +69,12 @@ struct HostDevice {
 
 /// What Rill needs of a device. What the host wants of these two structures itself is set in them, of others chained on.
 struct DeviceRequirements {
-  VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, nullptr, {}};
-  VkPhysicalDeviceVulkan13Features vulkan13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES, nullptr};
+  DeviceRequirements() {
+    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    vulkan13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+  }
+  VkPhysicalDeviceFeatures2 features{};
+  VkPhysicalDeviceVulkan13Features vulkan13{};
 
   /// Links both and `next`, a chain of the host's, for VkDeviceCreateInfo::pNext and HostDevice::enabled. Once more after a copy: links
   /// point into the one that they were made for. `next` has neither of the two, nor what Vulkan 1.3 was put together from.

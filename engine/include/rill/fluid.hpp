@@ -64,7 +64,8 @@ struct FluidBuffer {
   const char* name = "";
   uint64_t bytes = 0;
 };
-/// What a Fluid of `particles` particles will need, computed in 64 bits from the numbers alone: before anything is allocated.
+/// What a Fluid of `particles` particles will need, computed in 64 bits from the numbers alone: before anything is allocated. Of a scene
+/// that checkScene() allows.
 RILL_API FluidMemory fluidMemory(const Scene& scene, uint64_t particles);
 
 /// Where the host wants a driven solid at the end of an advance.
@@ -140,7 +141,8 @@ class RILL_API Fluid {
   static Expected<std::unique_ptr<Fluid>> create(Device& device, const FluidDesc& desc);
   ~Fluid();
 
-  /// Declares the passes of one step. It advances when recorded, not when declared.
+  /// Declares the passes of one step. It advances when recorded, not when declared. A time that is negative or not finite, and a target
+  /// that names no solid of the scene, are errors that the graph's compile() reports: nothing is declared then.
   FluidState addTo(Graph& graph, const FluidStep& step);
   /// The particles as they are, between the pieces of an advance too: declares no pass. After a graph of addTo().
   FluidState present(Graph& graph) const;
@@ -151,6 +153,7 @@ class RILL_API Fluid {
   const FluidProgress& progress() const;
 
   /// Where a driven solid is at the end of the last advance that was declared, m: short of its target where that was too far away.
+  /// No numbers (NaN) for a solid that is not driven.
   std::array<double, 3> drivenCentre(uint32_t solid) const;
 
   uint32_t count() const;  ///< particles, parked ones too

@@ -106,12 +106,12 @@ class RILL_API FluidRenderer {
   /// BadInput for a view that cannot be drawn (empty, larger than 8192 a side or 2^24 pixels, a projection that is none). Needs no device.
   static Expected<void> check(const FluidView& view);
 
-  /// A viewport beyond the targets, or more than 2^22 particles, is an error that the graph's compile() reports.
-  /// Declares the passes that draw the fluid over what is in `targets` and returns their new versions; `view` is one that check() allows.
+  /// Declares the passes that draw the fluid over what is in `targets` and returns their new versions. A view that check() refuses, a
+  /// viewport beyond the targets, more than 2^22 particles or a state that is none is an error that the graph's compile() reports.
   [[nodiscard]] SceneTargets addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view,
                                    const FluidLook& look = {});
 
-  /// width x height pixels, RGBA8, rows from the top. `full`: m at white.
+  /// width x height pixels, RGBA8, rows from the top. `full`: m at white. Errors as of addTo().
   BufferRef addData(Graph& graph, const FluidState& fluid, const FluidView& view, SurfaceData data, float full,
                     SurfaceMethod method = SurfaceMethod::Auto);
 

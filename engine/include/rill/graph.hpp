@@ -61,14 +61,14 @@ struct BufferDesc {
 /// behind on the same queue, in this submission or in another: it waits for `before`, and `after` sees what it has written. The host adds
 /// no barrier of its own. Work of another queue needs its semaphore (and, in EXCLUSIVE sharing mode, the host's transfer of ownership);
 /// `before` is then a UseState of the stages at which this submission waits for it. What the host's CPU wrote before the submission needs
-/// nothing: Use::None. An import starts as Unknown, which waits for everything and is always right, but loses an image's content. The graph
-/// never asks what a handle was created for: useState(use).bufferUsage of each use that is made of it, `after` included.
+/// nothing: Use::Nothing. An import starts as Unknown, which waits for everything and is always right, but loses an image's content. The
+/// graph never asks what a handle was created for: useState(use).bufferUsage of each use that is made of it, `after` included.
 struct BufferImport {
   VkBuffer handle = VK_NULL_HANDLE;
   uint64_t offset = 0;                ///< a multiple of the device's alignments of storage, uniform and texel offsets
   uint64_t size = 0;                  ///< bytes, 1 .. 128 MiB
   ImportState before = Use::Unknown;  ///< its last use before this graph
-  ImportState after = Use::None;      ///< what it must be ready for after this graph; reached even when every pass is culled
+  ImportState after = Use::Nothing;   ///< what it must be ready for after this graph; reached even when every pass is culled
 };
 
 /// A two-dimensional image of one layer, one sample a texel and one plane. Each level of a pyramid is half as wide and high as the one
@@ -96,8 +96,9 @@ struct ImageImport {
   VkImage handle = VK_NULL_HANDLE;
   ImageDesc desc;
   ImportState before = Use::Unknown;  ///< its last use before this graph, in whose layout it is
-  ImportState after = Use::None;  ///< what it must be ready for after this graph, in whose layout; reached even when every pass is culled
-  VkImageUsageFlags usage = 0;    ///< what it was created for; where given, a use that it lacks (useState) is an error of compile()
+  ImportState after =
+      Use::Nothing;             ///< what it must be ready for after this graph, in whose layout; reached even when every pass is culled
+  VkImageUsageFlags usage = 0;  ///< what it was created for; where given, a use that it lacks (useState) is an error of compile()
 };
 
 /// An image on the device, as a pass sees it.
@@ -155,6 +156,7 @@ class RILL_API Pass {
  private:
   friend class Graph;
   friend class GraphImpl;
+  Kernel noPipeline();
   Kernel bound(const Pipeline& pipeline, std::span<const ResourceRef> bindings);
   Pass(GraphImpl& graph, uint32_t index) : graph_(graph), index_(index) {}
   GraphImpl& graph_;

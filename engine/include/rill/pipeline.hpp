@@ -51,7 +51,7 @@ RILL_API Expected<const ComputePipeline*> computePipeline(Device& device, const 
 
 /// What a fragment does to the colour that is there.
 enum class Blend : uint8_t {
-  None,          ///< replaces it
+  Replace,       ///< replaces it
   Premultiplied  ///< colour + (1 - alpha) times it
 };
 
@@ -67,7 +67,7 @@ struct GraphicsPipelineDesc {
   VkFormat depth = VK_FORMAT_UNDEFINED;    ///< of the depth target; undefined: none
   VkCompareOp depthCompare = VK_COMPARE_OP_ALWAYS;
   bool depthWrite = false;
-  Blend blend = Blend::None;  ///< of all colour targets
+  Blend blend = Blend::Replace;  ///< of all colour targets
   VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
 };
 

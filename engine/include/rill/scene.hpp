@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "rill/expected.hpp"
+#include "rill/export.hpp"
 #include "rill/float3.hpp"
 
 namespace rill {
@@ -133,5 +135,10 @@ struct Scene {
   std::optional<Camera> camera;  ///< none: one that frames the domain or the fluid
   Look look;
 };
+
+/// Whether all that a scene says is in range and goes together: the rules that files are read by, for scenes that a host makes in code.
+/// Opens no file. makeParticles() and Fluid::create() call it. BadInput naming the key as in a file ("solids[2].friction"), what was found
+/// and what was expected.
+RILL_API Expected<void> checkScene(const Scene& scene);
 
 }  // namespace rill

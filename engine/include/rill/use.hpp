@@ -16,7 +16,7 @@ namespace rill {
 
 /// What a pass does with a resource, and in which stage. useState() says what each is to Vulkan.
 enum class Use : uint8_t {
-  None,            ///< no access; as an import's `before`: nothing to wait for (an image: no content), as its `after`: left as it is
+  Nothing,         ///< no access; as an import's `before`: nothing to wait for (an image: no content), as its `after`: left as it is
   ComputeRead,     ///< storage buffer or image, read
   ComputeTexel,    ///< uniform texel buffer, read
   ComputeUniform,  ///< uniform buffer, read
@@ -53,9 +53,9 @@ RILL_API UseState useState(Use use);
 /// The state of an import before or after a graph: that of a Use, or one of the host's own where no Use says it (a fragment shader that
 /// samples in the GENERAL layout, a build of an acceleration structure). A UseState's flags of usage are not looked at here.
 struct ImportState {
-  ImportState(Use known = Use::None) : use(known) {}
+  ImportState(Use known = Use::Nothing) : use(known) {}
   ImportState(const UseState& ofTheHost) : isOwn(true), own(ofTheHost) {}
-  Use use = Use::None;
+  Use use = Use::Nothing;
   bool isOwn = false;
   UseState own;
   friend bool operator==(const ImportState&, const ImportState&) = default;

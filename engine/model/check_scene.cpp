@@ -1,0 +1,123 @@
+// checkScene: the table of fields and the rules, over a scene that no reader has seen.
+#include <algorithm>
+
+#include "core/words.hpp"
+#include "model/rules.hpp"
+
+namespace rill {
+namespace {
+
+/// Every function returns false once something was refused; message() says what.
+class Checker {
+ public:
+  const std::string& message() const { return message_; }
+
+  template <class Owner>
+  bool object(const std::string& path, const Owner& owner) {
+    constexpr const auto& one_of = model::Table<Owner>::one_of;
+    std::vector<std::string_view> chosen;
+    bool ok = true;
+    model::forEachField<Owner>([&](const auto& field) {
+      using Value = typename std::remove_cvref_t<decltype(field)>::Value;
+      if constexpr (model::kHasMember<Value>) {
+        const auto& member = owner.*field.member;
+        const bool choice = std::ranges::find(one_of, field.info.key) != one_of.end();
+        if (!ok || (choice && !given(member))) return;
+        if (choice) chosen.push_back(field.info.key);
+        ok = value(childPath(path, field.info.key), field.info, member);
+      }
+    });
+    // The spacing stands beside the number of particles that it follows from, once they are made.
+    if (std::is_same_v<Owner, FluidSettings> && chosen.size() == 2) chosen.pop_back();
+    return ok && fine(path, model::judgeOneOf(one_of, chosen)) && fine(path, model::judge(owner));
+  }
+
+ private:
+  bool fine(const std::string& path, const model::Verdict& verdict) {
+    if (!verdict) return true;
+    std::string where = path;
+    if (!verdict->keys.empty()) {
+      const std::string& key = verdict->keys.front();
+      where += (where.empty() || key.starts_with('[') ? "" : ".") + key;
+    }
+    message_ = where + ": " + verdict->text;
+    return false;
+  }
+
+  /// Of a choice: whether it is made. A number that stands for none is 0.
+  template <class T>
+  static bool given(const T& value) {
+    return value != T{};
+  }
+  template <class T>
+  static bool given(const std::optional<T>& value) {
+    return value.has_value();
+  }
+  template <class T>
+  requires std::is_class_v<T> || std::is_array_v<T>
+  static bool given(const T&) { return true; }
+
+  bool value(const std::string& path, const model::Info& info, double given) {
+    return fine(path, model::judgeNumber(info, given, false, shortNumber(given)));
+  }
+  bool value(const std::string& path, const model::Info& info, uint64_t given) {
+    return fine(path, model::judgeNumber(info, static_cast<double>(given), true, std::to_string(given)));
+  }
+  bool value(const std::string& path, const model::Info& info, uint32_t given) { return value(path, info, uint64_t{given}); }
+  bool value(const std::string& path, const model::Info& info, SideMask given) {
+    if (given >> info.words.size() == 0) return true;
+    return fine(path,
+                model::Fault{"found the bits " + std::to_string(given) + ", expected no others than those of " + listInQuotes(info.words)});
+  }
+  bool value(const std::string& path, const model::Info& info, const std::string& given) {
+    return info.words.empty() || fine(path, model::judgeWord(info, given));
+  }
+  bool value(const std::string&, const model::Info&, const std::filesystem::path&) { return true; }  // may be empty: no file
+  bool value(const std::string& path, const model::Info&, const std::optional<std::filesystem::path>& given) {
+    return !given || fine(childPath(path, "file"), model::judgeFileName(given->string()));
+  }
+  bool value(const std::string& path, const model::Info& info, const std::optional<std::pair<double, double>>& given) {
+    return !given || (value(entryPath(path, 0), info, given->first) && value(entryPath(path, 1), info, given->second));
+  }
+  template <size_t N>
+  bool value(const std::string& path, const model::Info& info, const double (&given)[N]) {
+    for (size_t i = 0; i < N; ++i)
+      if (!value(entryPath(path, i), info, given[i])) return false;
+    return true;
+  }
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  bool value(const std::string& path, const model::Info& info, Enum given) {
+    const auto number = static_cast<size_t>(given);
+    if (number < info.words.size()) return true;
+    return fine(path, model::Fault{"found the number " + std::to_string(number) + ", expected that of one of " + listInQuotes(info.words)});
+  }
+  template <model::Described Struct>
+  bool value(const std::string& path, const model::Info&, const Struct& given) {
+    return object(path, given);
+  }
+  template <class T>
+  bool value(const std::string& path, const model::Info& info, const std::optional<T>& given) {
+    return !given || value(path, info, *given);
+  }
+  template <class T>
+  bool value(const std::string& path, const model::Info& info, const std::vector<T>& given) {
+    if (!fine(path, model::judgeLength(info, given.size()))) return false;
+    for (size_t i = 0; i < given.size(); ++i)
+      if (!object(entryPath(path, i), given[i])) return false;
+    return fine(path, model::judge(given));
+  }
+
+  std::string message_;
+};
+
+}  // namespace
+
+Expected<void> checkScene(const Scene& scene) {
+  Checker checker;
+  if (checker.object("", scene)) return {};
+  const std::string name = scene.file.empty() ? scene.name : scene.file.string();
+  return Error{ErrorKind::BadInput, (name.empty() ? "" : name + ": ") + checker.message()};
+}
+
+}  // namespace rill

@@ -1,0 +1,90 @@
+// What a host may get wrong in calls on a device: each is an error with a message, and the fluid goes on as if it had not been asked.
+#include <cmath>
+#include <limits>
+
+#include "fluid/rig.hpp"
+
+namespace rill::test {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
+
+class FluidInput : public FluidTest {
+ protected:
+  static Trial tank() {
+    Trial t = trial();
+    setWalls(t, {0.5, 0.5, 0.5});
+    t.x = block({4, 4, 4}, t.d());
+    t.scene.solids = {ball({0.4, 0.1, 0.4}, 0.05)};
+    t.scene.solids[0].driven = 1;
+    return t;
+  }
+  std::string refusal(const FluidDesc& desc) {
+    const auto made = Fluid::create(rillDevice(), desc);
+    if (made) return "made";
+    EXPECT_EQ(made.error().kind, ErrorKind::BadInput);
+    return made.error().message;
+  }
+};
+
+TEST_F(FluidInput, DescriptionsThatAreNone) {
+  const Trial t = tank();
+  const ParticleSet particles = t.particles();
+  EXPECT_EQ(refusal({}), "FluidDesc::scene is null; expected a scene");
+  EXPECT_EQ(refusal({.scene = &t.scene}), "FluidDesc::particles is null; expected what makeParticles() makes, or a set of the host's own");
+  ParticleSet few = particles;
+  few.velocities.pop_back();
+  EXPECT_EQ(refusal({.scene = &t.scene, .particles = &few}), "a fluid needs as many velocities as positions: 63 for 64");
+  for (const double bad : {kNan, kInf, 1e300}) {
+    ParticleSet lost = particles;
+    lost.origin[1] = bad;
+    EXPECT_NE(refusal({.scene = &t.scene, .particles = &lost}).find("ParticleSet::origin is "), std::string::npos) << bad;
+  }
+}
+
+TEST_F(FluidInput, ScenesThatCannotBe) {
+  const Trial t = tank();
+  const ParticleSet particles = t.particles();
+  const auto with = [&](auto&& change) {
+    Scene scene = t.scene;
+    change(scene);
+    return refusal({.scene = &scene, .particles = &particles});
+  };
+  EXPECT_EQ(with([](Scene& s) { s.gravity[1] = kNan; }), "gravity[1]: nan is not finite; expected a number (m/s^2)");
+  EXPECT_EQ(with([](Scene& s) { s.solver.iterations = 4'000'000'000; }),
+            "solver.iterations: 4000000000 is out of range; expected a whole number from 1 to 1000");
+  EXPECT_EQ(with([](Scene& s) { s.solids[0].sphere.reset(); }), "solids[0]: expected exactly one of \"box\", \"sphere\"; found none");
+  EXPECT_EQ(with([](Scene& s) { s.fluid.smoothing_ratio = kNan; }),
+            "fluid.smoothing_ratio: nan is not finite; expected a number from 1.2 to 4");
+  EXPECT_EQ(with([](Scene& s) { s.fluid.spacing = 0, s.fluid.particles = 64; }),
+            "fluid.spacing is not set: give it, or make the particles first");
+}
+
+TEST_F(FluidInput, StepsThatCannotBe) {
+  const Trial t = tank();
+  auto run = start(t);
+  run->advance(0.01);
+  const Snapshot before = run->snapshot();
+  const auto mistake = [&](const FluidStep& step) {
+    Graph graph;
+    (void)run->fluid().addTo(graph, step);
+    const auto compiled = graph.compile();
+    if (compiled) return std::string("compiled");
+    EXPECT_EQ(compiled.error().kind, ErrorKind::BadInput);
+    return compiled.error().message;
+  };
+  EXPECT_EQ(mistake({.advance_s = kNan}), "FluidStep::advance_s is nan; expected a finite time of at least 0 (s)");
+  EXPECT_EQ(mistake({.advance_s = -0.1}), "FluidStep::advance_s is -0.1; expected a finite time of at least 0 (s)");
+  EXPECT_EQ(mistake({.advance_s = kInf}), "FluidStep::advance_s is inf; expected a finite time of at least 0 (s)");
+  EXPECT_EQ(mistake({.advance_s = 1e300}), "FluidStep::advance_s is 1e+300; expected a finite time of at least 0 (s)");
+  const SolidTarget nobody[] = {{.solid = 0}, {.solid = 7}};
+  EXPECT_EQ(mistake({.advance_s = 0.01, .targets = nobody}), "FluidStep::targets[1].solid is 7; the scene has 1 solid");
+  for (const double v : run->fluid().drivenCentre(7)) EXPECT_TRUE(std::isnan(v));
+  EXPECT_TRUE(std::isfinite(run->fluid().drivenCentre(0)[0]));
+  EXPECT_EQ(run->snapshot(), before);
+  run->advance(0.01);
+  EXPECT_NE(run->snapshot(), before) << "it goes on";
+}
+
+}  // namespace
+}  // namespace rill::test

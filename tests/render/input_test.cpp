@@ -1,0 +1,104 @@
+// What a host may get wrong when it asks for a picture: the graph's compile() says what, and nothing else happens.
+#include <cmath>
+#include <limits>
+
+#include "render/surface_rig.hpp"
+
+namespace rill::test {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+class RendererInput : public SurfaceOnGpu {
+ protected:
+  /// What compile() says of a picture and, where `data`, of figures.
+  std::string mistake(const FluidState& fluid, const FluidView& view, const FluidLook& look = {}, bool data = false) {
+    auto renderer = FluidRenderer::create(device());
+    if (!renderer) return renderer.error().message;
+    Graph graph;
+    SceneTargets targets{graph.create("colour", ImageDesc{VK_FORMAT_R16G16B16A16_SFLOAT, 64, 48}),
+                         graph.create("depth", ImageDesc{VK_FORMAT_D32_SFLOAT, 64, 48})};
+    FluidState own = fluid;
+    if (own.position.index == 0) own.position = graph.import("positions", {reinterpret_cast<VkBuffer>(uintptr_t{16}), 0, 160});
+    if (data)
+      (void)graph.readback((*renderer)->addData(graph, own, view, what_, 1, look.surface));
+    else
+      targets = (*renderer)->addTo(graph, own, targets, view, look);
+    const auto compiled = graph.compile();
+    if (compiled) return "compiled";
+    EXPECT_EQ(compiled.error().kind, ErrorKind::BadInput);
+    return compiled.error().message;
+  }
+  /// A state whose positions mistake() imports.
+  static FluidState state() {
+    FluidState fluid;
+    fluid.count = 10;
+    fluid.spacing = 0.1f;
+    fluid.position = BufferRef{{0, 0, 0}};
+    return fluid;
+  }
+  SurfaceData what_ = SurfaceData::Normals;
+};
+
+TEST_F(RendererInput, FormatsThatAreNone) {
+  const struct {
+    TargetFormats formats;
+    const char* named;
+  } cases[] = {{{VK_FORMAT_UNDEFINED, VK_FORMAT_D32_SFLOAT}, "TargetFormats::colour is 0;"},
+               {{VK_FORMAT_D32_SFLOAT, VK_FORMAT_D32_SFLOAT}, "TargetFormats::colour is 126;"},
+               {{VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_UNDEFINED}, "TargetFormats::depth is 0;"},
+               {{VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM}, "TargetFormats::depth is 37;"},
+               {{VK_FORMAT_R8G8B8A8_UNORM, VkFormat(123456)}, "TargetFormats::depth is 123456;"}};
+  for (const auto& c : cases) {
+    const auto made = FluidRenderer::create(device(), c.formats);
+    ASSERT_FALSE(made) << c.named;
+    EXPECT_EQ(made.error().kind, ErrorKind::BadInput);
+    EXPECT_TRUE(made.error().message.starts_with(c.named)) << made.error().message;
+  }
+}
+
+TEST_F(RendererInput, ViewsThatCheckRefuses) {
+  const FluidView good = looking({0, 0, 0}, {0, 0, -4}, 64, 48);
+  FluidView empty = good, huge = good, skewed = good, none = good;
+  empty.width = 0;
+  huge.height = 100'000;
+  skewed.view.column[0].y = kNan;
+  none.projection.column[0].x = 0;
+  for (const FluidView* view : {&empty, &huge, &skewed, &none}) {
+    const auto checked = FluidRenderer::check(*view);
+    ASSERT_FALSE(checked);
+    for (const bool data : {false, true}) EXPECT_EQ(mistake(state(), *view, {}, data), checked.error().message);
+  }
+}
+
+TEST_F(RendererInput, StatesThatAreNone) {
+  const FluidView view = looking({0, 0, 0}, {0, 0, -4}, 64, 48);
+  FluidState bad = state();
+  bad.position = {};
+  EXPECT_NE(mistake(bad, view).find("an empty ref"), std::string::npos) << mistake(bad, view);
+  EXPECT_NE(mistake(bad, view, {}, true).find("an empty ref"), std::string::npos);
+  bad = state();
+  bad.count = 11;
+  EXPECT_EQ(mistake(bad, view), "FluidState::position has 160 bytes; expected 16 for each of its 11 particles");
+  bad.count = (4u << 20) + 1;
+  EXPECT_NE(mistake(bad, view, {}, true).find("can be drawn"), std::string::npos);
+  bad = state();
+  bad.spacing = kNan;
+  EXPECT_EQ(mistake(bad, view), "FluidState::spacing is nan; expected a length above 0 (m)");
+  bad.spacing = 0.1f;
+  bad.origin[2] = kNan;
+  EXPECT_EQ(mistake(bad, view), "FluidState::origin is nan; expected finite numbers (m)");
+}
+
+TEST_F(RendererInput, MethodsThatAreNone) {
+  const FluidView view = looking({0, 0, 0}, {0, 0, -4}, 64, 48);
+  FluidLook look;
+  look.surface = SurfaceMethod(9);
+  EXPECT_EQ(mistake(state(), view, look), "9 is no SurfaceMethod");
+  EXPECT_EQ(mistake(state(), view, look, true), "9 is no SurfaceMethod");
+  what_ = SurfaceData(200);
+  EXPECT_EQ(mistake(state(), view, {}, true), "200 is no SurfaceData");
+}
+
+}  // namespace
+}  // namespace rill::test

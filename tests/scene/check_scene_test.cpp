@@ -1,0 +1,141 @@
+// Scenes that a host makes in code: each bad value is refused with the key's name, and none does harm.
+#include <functional>
+#include <limits>
+
+#include "support.hpp"
+#include "tank.hpp"
+
+namespace rill::test {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
+
+/// The message that a scene is refused with; "accepted" where it is not.
+std::string refusalOf(const Scene& scene) {
+  const auto checked = checkScene(scene);
+  if (checked) return "accepted";
+  EXPECT_EQ(checked.error().kind, ErrorKind::BadInput);
+  return checked.error().message;
+}
+
+struct Change {
+  std::function<void(Scene&)> make;
+  std::string message;
+};
+
+TEST(CheckScene, AcceptsWhatIsInRange) {
+  EXPECT_EQ(refusalOf(tank()), "accepted");
+  Scene least;
+  least.fluid.spacing = 1;
+  EXPECT_EQ(refusalOf(least), "accepted");
+  least.fluid.spacing = 0;
+  least.fluid.particles = 100;
+  EXPECT_EQ(refusalOf(least), "accepted");
+  Scene turned = tank();
+  turned.solids[0].rotation[3] = 0.9999;  // rounding of a float's
+  EXPECT_EQ(refusalOf(turned), "accepted");
+}
+
+TEST(CheckScene, TheSpacingMayStandBesideTheNumberThatItFollowsFrom) {
+  Scene scene = tank();
+  scene.fluid.spacing = 0;
+  scene.fluid.particles = 500;
+  const auto first = makeParticles(scene);
+  ASSERT_TRUE(first) << first.error().message;
+  EXPECT_GT(scene.fluid.spacing, 0);
+  EXPECT_EQ(refusalOf(scene), "accepted");
+  const auto second = makeParticles(scene);
+  ASSERT_TRUE(second) << second.error().message;
+  EXPECT_EQ(first->positions.size(), second->positions.size());
+}
+
+TEST(CheckScene, EachBadValueIsNamedWithWhatWasExpected) {
+  const std::vector<Change> changes = {
+      {[](Scene& s) { s.fluid.viscosity = -1; }, "fluid.viscosity: -1 is out of range; expected a number of at least 0 (Pa s)"},
+      {[](Scene& s) { s.fluid.viscosity = kNan; }, "fluid.viscosity: nan is not finite; expected a number of at least 0 (Pa s)"},
+      {[](Scene& s) { s.fluid.density = 0; }, "fluid.density: 0 is out of range; expected a number above 0 (kg/m^3)"},
+      {[](Scene& s) { s.fluid.smoothing_ratio = 40; }, "fluid.smoothing_ratio: 40 is out of range; expected a number from 1.2 to 4"},
+      {[](Scene& s) { s.fluid.spacing = -0.1; }, "fluid.spacing: -0.1 is out of range; expected a number above 0 (m)"},
+      {[](Scene& s) { s.fluid.spacing = kInf; }, "fluid.spacing: inf is not finite; expected a number above 0 (m)"},
+      {[](Scene& s) { s.fluid.spacing = 0; }, "fluid: expected exactly one of \"spacing\", \"particles\"; found none"},
+      {[](Scene& s) { s.fluid.particles = uint64_t{1} << 40; },
+       "fluid.particles: 1099511627776 is out of range; expected a whole number from 1 to 4294967295"},
+      {[](Scene& s) { s.fluid.spacing = 1e-20; },
+       "fluid.spacing: a particle's mass, density x spacing^3, would be 1e-57 kg, which is out of range of a 32-bit float"},
+      {[](Scene& s) { s.gravity[1] = kNan; }, "gravity[1]: nan is not finite; expected a number (m/s^2)"},
+      {[](Scene& s) { s.gravity[2] = -1e300; }, "gravity[2]: -1e+300 is out of range of a 32-bit float; expected a number (m/s^2)"},
+      {[](Scene& s) { s.duration = -1; }, "duration: -1 is out of range; expected a number of at least 0 (s)"},
+      {[](Scene& s) { s.solver.iterations = 0; }, "solver.iterations: 0 is out of range; expected a whole number from 1 to 1000"},
+      {[](Scene& s) { s.solver.iterations = 4'000'000'000; },
+       "solver.iterations: 4000000000 is out of range; expected a whole number from 1 to 1000"},
+      {[](Scene& s) { s.solver.max_substeps = 1'000'000'000; },
+       "solver.max_substeps: 1000000000 is out of range; expected a whole number from 1 to 256"},
+      {[](Scene& s) { s.solver.time_step = 0.0; }, "solver.time_step: 0 is out of range; expected a number above 0 (s)"},
+      {[](Scene& s) { s.solver.relaxation = 3.0; }, "solver.relaxation: 3 is out of range; expected a number above 0 and at most 2"},
+      {[](Scene& s) { s.solver.kernel = KernelChoice(7); },
+       "solver.kernel: found the number 7, expected that of one of \"wendland\", \"poly6_spiky\""},
+      {[](Scene& s) { s.solver.neighbors = NeighborChoice(2); },
+       "solver.neighbors: found the number 2, expected that of one of \"list\", \"grid\""},
+      {[](Scene& s) { std::swap(s.domain->min[1], s.domain->max[1]); },
+       "domain.max[1]: max is 0 and min is 1 along y; expected min below max on every axis"},
+      {[](Scene& s) { s.domain->max[0] = kNan; }, "domain.max[0]: nan is not finite; expected a number (m)"},
+      {[](Scene& s) { s.domain->open = 0x40; },
+       "domain.open: found the bits 64, expected no others than those of \"-x\", \"+x\", \"-y\", \"+y\", \"-z\", \"+z\""},
+      {[](Scene& s) { s.fill[0].box.reset(); }, "fill[0]: expected exactly one of \"box\", \"sphere\", \"particles\"; found none"},
+      {[](Scene& s) { s.fill[1].particles = ""; }, "fill[1].particles.file: found \"\", expected the name of a file"},
+      {[](Scene& s) { s.fill[0].jitter = 7; }, "fill[0].jitter: 7 is out of range; expected a number from 0 to 0.5"},
+      {[](Scene& s) { s.fill[0].velocity[2] = kInf; }, "fill[0].velocity[2]: inf is not finite; expected a number (m/s)"},
+      {[](Scene& s) { s.fill[1].sphere->radius = -2; }, "fill[1].sphere.radius: -2 is out of range; expected a number above 0 (m)"},
+      {[](Scene& s) { s.solids[0].box.reset(); }, "solids[0]: expected exactly one of \"box\", \"sphere\"; found none"},
+      {[](Scene& s) { s.solids[1].box = BoxShape{}; }, "solids[1]: expected exactly one of \"box\", \"sphere\"; found \"box\", \"sphere\""},
+      {[](Scene& s) { s.solids[0].rotation[3] = 0; },
+       "solids[0].rotation: the quaternion has zero length; expected one that turns, [0, 0, 0, 1] for none"},
+      {[](Scene& s) { s.solids[0].rotation[0] = 1; }, "solids[0].rotation: the quaternion's length is 1.414; expected 1"},
+      {[](Scene& s) { s.solids[0].restitution = 1.5; }, "solids[0].restitution: 1.5 is out of range; expected a number from 0 to 1"},
+      {[](Scene& s) { s.solids[0].driven = -1; }, "solids[0].driven: -1 is out of range; expected a speed of at least 0 (m/s)"},
+      {[](Scene& s) { s.solids[0].driven = 1e300; }, "solids[0].driven: 1e+300 is out of range; expected a speed of at least 0 (m/s)"},
+      {[](Scene& s) { s.solids[1].driven = 1; },
+       "solids[1].driven: a solid with a motion moves by itself; expected 0 beside it, or no motion"},
+      {[](Scene& s) { std::swap(s.solids[1].motion[0].at, s.solids[1].motion[1].at); },
+       "solids[1].motion[1].at: 0.5 s does not come after 1 s, the entry before; expected times that rise"},
+      {[](Scene& s) { s.solids.resize(5000, s.solids[0]); }, "solids: found 5,000 entries, expected at most 4,096"},
+      {[](Scene& s) { s.gravity_changes[1].at = 1; },
+       "gravity_changes[1].at: 1 s does not come after 1 s, the entry before; expected times that rise"},
+      {[](Scene& s) { s.gravity_changes[0].value[0] = kNan; }, "gravity_changes[0].value[0]: nan is not finite; expected a number (m/s^2)"},
+      {[](Scene& s) { s.probes[0].name.clear(); }, "probes[0].name: is empty; expected a name"},
+      {[](Scene& s) { s.probes[1].name = "gauge"; }, "probes[1].name: \"gauge\" is the name of probes[0] too; expected each name once"},
+      {[](Scene& s) { s.probes[1].front = Axis(6); },
+       "probes[1].front: found the number 6, expected that of one of \"+x\", \"-x\", \"+y\", \"-y\", \"+z\", \"-z\""},
+      {[](Scene& s) { s.probes[0].level->second = kNan; }, "probes[0].level[1]: nan is not finite; expected a number (m)"},
+      {[](Scene& s) { s.camera->eye[2] = 0; }, "camera.target: eye and target are the same point; expected two"},
+      {[](Scene& s) { s.look.preset = "watr"; },
+       "look.preset: found the text \"watr\", expected one of \"water\", \"milk\", \"ink\", \"clay\"; did you mean \"water\"?"},
+  };
+  for (const Change& change : changes) {
+    Scene scene = tank();
+    change.make(scene);
+    EXPECT_EQ(refusalOf(scene), change.message);
+    const auto made = makeParticles(scene);
+    ASSERT_FALSE(made) << change.message;
+    EXPECT_EQ(made.error().message, change.message);
+  }
+  Scene named = tank();
+  named.name = "tank";
+  named.seed = std::numeric_limits<uint64_t>::max();
+  EXPECT_EQ(refusalOf(named), "accepted");
+  named.solver.cfl = 11;
+  EXPECT_EQ(refusalOf(named), "tank: solver.cfl: 11 is out of range; expected a number above 0 and at most 10");
+}
+
+// What a file may say a host may say, too: both are judged by the same rules.
+TEST(CheckScene, AcceptsWhatTheReaderAccepts) {
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(RILL_SOURCE_DIR) / "assets/scenes")) {
+    if (entry.path().extension() != ".json" || entry.path().filename() == "scene.schema.json") continue;
+    const auto read = loadScene(entry.path());
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(refusalOf(*read), "accepted") << entry.path();
+  }
+}
+
+}  // namespace
+}  // namespace rill::test

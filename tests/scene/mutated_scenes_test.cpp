@@ -1,0 +1,132 @@
+// Scenes whose numbers a host has got wrong at random: whatever they are, they are refused or they run, and both without harm.
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+
+#include "fluid/settings.hpp"
+#include "model/fields.hpp"
+#include "support.hpp"
+#include "tank.hpp"
+
+namespace rill::test {
+namespace {
+
+/// Where the numbers of a scene are.
+class Numbers {
+ public:
+  using Set = std::function<void(double factor, double value)>;  ///< to its own times factor, plus value
+
+  explicit Numbers(Scene& scene) { object(scene); }
+  const std::vector<Set>& all() const { return all_; }
+
+ private:
+  template <class Owner>
+  void object(Owner& owner) {
+    model::forEachField<Owner>([&](const auto& field) {
+      using Value = typename std::remove_cvref_t<decltype(field)>::Value;
+      if constexpr (model::kHasMember<Value>) add(owner.*field.member);
+    });
+    if constexpr (std::is_same_v<Owner, Solid>) add(owner.driven);
+  }
+  void add(double& number) {
+    all_.push_back([&number](double factor, double value) { number = number * factor + value; });
+  }
+  template <class Whole>
+  requires std::is_unsigned_v<Whole> || std::is_enum_v<Whole>
+  void add(Whole& number) {
+    all_.push_back([&number](double factor, double value) {
+      const double wanted = static_cast<double>(number) * factor + value;
+      const bool fits = wanted > -1 && wanted < 255;
+      number = static_cast<Whole>(fits ? static_cast<uint8_t>(wanted) : std::numeric_limits<uint64_t>::max());
+    });
+  }
+  template <size_t N>
+  void add(double (&numbers)[N]) {
+    for (double& number : numbers) add(number);
+  }
+  void add(std::optional<std::pair<double, double>>& pair) {
+    if (!pair) return;
+    add(pair->first);
+    add(pair->second);
+  }
+  void add(std::optional<double>& number) {
+    all_.push_back([&number](double factor, double value) { number = number.value_or(0.01) * factor + value; });
+  }
+  template <class T>
+  void add(std::optional<T>& value) {
+    if (value) add(*value);
+  }
+  template <class T>
+  void add(std::vector<T>& values) {
+    for (T& value : values) add(value);
+  }
+  template <model::Described Struct>
+  void add(Struct& value) {
+    object(value);
+  }
+  void add(std::string&) {}
+  void add(std::filesystem::path&) {}
+
+  std::vector<Set> all_;
+};
+
+StartFigures figuresOf(const ParticleSet& set) {
+  StartFigures start{.count = static_cast<uint32_t>(set.positions.size())};
+  std::copy_n(set.origin, 3, start.origin);
+  for (const Float3& p : set.positions) {
+    const float v[3] = {p.x, p.y, p.z};
+    for (int a = 0; a < 3; ++a) start.extent[a] = std::max<double>(start.extent[a], std::abs(v[a]));
+  }
+  for (const Float3& v : set.velocities) start.fastest = std::max<double>(start.fastest, std::hypot(v.x, v.y, v.z));
+  return start;
+}
+
+TEST(MutatedScenes, AreRefusedOrRun) {
+  constexpr double kInf = std::numeric_limits<double>::infinity(), kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kValues[] = {kNan, kInf, -kInf, 1e300, -1e300, 3e38, -3e38, 1e20, 1e-20, 1e-44, -1e-44, 1, -1, 4, 100, 0};
+  constexpr double kFactors[] = {0, 0, 0, 1, -1, 2, 0.5, 1.1, 0.01, 100, 1e6, 1e-6};
+  std::mt19937 random(20240229);
+  const auto below = [&](size_t count) { return std::uniform_int_distribution<size_t>(0, count - 1)(random); };
+  int refused = 0, ran = 0;
+  for (int round = 0; round < 4000; ++round) {
+    Scene scene = tank();
+    const Numbers numbers(scene);
+    for (size_t changes = 1 + below(3); changes > 0; --changes) {
+      const double factor = kFactors[below(std::size(kFactors))];
+      numbers.all()[below(numbers.all().size())](factor, factor == 0 ? kValues[below(std::size(kValues))] : 0);
+    }
+    const auto checked = checkScene(scene);
+    (void)fluidMemory(scene, 1000);
+    const auto made = makeParticles(scene, 3000);
+    const auto setup = makeFluidSetup(scene, made ? figuresOf(*made) : StartFigures{.count = 100, .extent = {1, 1, 1}});
+    if (!checked) {
+      ++refused;
+      ASSERT_FALSE(made);
+      EXPECT_EQ(made.error().message, checked.error().message);
+      ASSERT_FALSE(setup);
+      EXPECT_EQ(setup.error().message, checked.error().message);
+      continue;
+    }
+    if (!made) {
+      EXPECT_FALSE(made.error().message.empty());
+      continue;
+    }
+    EXPECT_LE(made->positions.size(), 3000u);
+    if (!setup) {
+      EXPECT_EQ(setup.error().kind, ErrorKind::BadInput);
+      EXPECT_FALSE(setup.error().message.empty());
+      continue;
+    }
+    ++ran;
+    EXPECT_LE(setup->grid.cells(), maxGridCells(made->positions.size()));
+    EXPECT_GT(setup->params.maxStep, 0) << round;
+    EXPECT_TRUE(std::isfinite(setup->params.maxStep)) << round;
+    for (const SolidRecord& solid : setup->solids) EXPECT_TRUE(std::isfinite(solid.centerX)) << round;
+  }
+  EXPECT_GT(refused, 1000);
+  EXPECT_GT(ran, 300);
+}
+
+}  // namespace
+}  // namespace rill::test

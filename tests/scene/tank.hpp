@@ -1,0 +1,32 @@
+#pragma once
+// A scene made in code, as a host makes one.
+#include "rill/scene.hpp"
+
+namespace rill::test {
+
+/// A tank at rest with something of everything in it.
+inline Scene tank() {
+  Scene scene;
+  scene.fluid.spacing = 0.1;
+  scene.domain = Domain{{0, 0, 0}, {2, 1, 1}, 0};
+  Fill block, drop;
+  block.box = BoxShape{{0, 0, 0}, {0.5, 0.5, 0.5}};
+  drop.sphere = SphereShape{{1.5, 0.5, 0.5}, 0.3};
+  scene.fill = {block, drop};
+  Solid post, ball;
+  post.box = BoxShape{{0.9, 0, 0.4}, {1, 0.5, 0.6}};
+  ball.sphere = SphereShape{{1, 0.8, 0.5}, 0.1};
+  ball.motion = {Keyframe{0.5, {0, 0, 0}}, Keyframe{1, {0, 0.1, 0}}};
+  scene.solids = {post, ball};
+  scene.gravity_changes = {GravityChange{1, {0, -5, 0}}, GravityChange{2, {0, -9, 0}}};
+  Probe gauge, front;
+  gauge.name = "gauge";
+  gauge.level = std::pair{0.5, 0.5};
+  front.name = "front";
+  front.front = Axis::PlusX;
+  scene.probes = {gauge, front};
+  scene.camera = Camera{};
+  return scene;
+}
+
+}  // namespace rill::test
