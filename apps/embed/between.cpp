@@ -22,7 +22,7 @@ int main(int count, char** arguments) {
     const host::Matrix clip = host::perspective(40, float(kWidth) / kHeight, 0.1f) * host::lookAt(kEye, kTarget);
     const host::Cuboid opaque[] = {{{-3, -0.2f, -2}, {5, 0, 3}, {0.42f, 0.36f, 0.30f}},
                                    {{1.2f, 0, 0.35f}, {1.5f, 0.9f, 0.65f}, {0.5f, 0.5f, 0.52f}}};
-    const host::Cuboid last[] = {{{0.1f, 0.1f, 0.48f}, {1.9f, 0.16f, 0.54f}, {0.8f, 0.1f, 0.08f}}};
+    const host::Cuboid last[] = {{{0.1f, 0.25f, 0.48f}, {1.9f, 0.31f, 0.54f}, {0.8f, 0.1f, 0.08f}}};
 
     // The pillar is in the water's way, too.
     rill::Scene scene;
@@ -36,7 +36,7 @@ int main(int count, char** arguments) {
     const rill::FluidView view = lookAt(kEye, kTarget, kWidth, kHeight);
 
     rill::Graph graph;
-    for (int k = 0; k < 40; ++k) {
+    for (int k = 0; k < 18; ++k) {
       const host::Frame frame = engine.begin();
       own.drawFirst(frame, clip, opaque, 2);
 

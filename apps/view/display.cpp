@@ -83,7 +83,7 @@ Expected<void> Display::show(const ImDrawData& lists, const ImVec4& behind, offl
   const ShownPicture picture{importWhole(window_, "shown picture", shown_), shownWidth_, shownHeight_, area_};
   pass_->upload(window_, lists);
   const ImageDesc desc{swapchain_->format(), target.width, target.height};
-  const ImageRef image = window_.import("window", {target.image, desc, Use::Unknown, Use::ColourTarget});
+  const ImageRef image = window_.import("window", {target.image, desc, Use::Unknown, Use::Present});
   static_cast<void>(pass_->draw(window_, image, picture, behind));
   Ticket ticket;
   if (screenshot) {
@@ -98,10 +98,7 @@ Expected<void> Display::show(const ImDrawData& lists, const ImVec4& behind, offl
   }
   if (auto compiled = window_.compile(); !compiled) return compiled;
   if (auto prepared = window_.prepare(context_.device()); !prepared) return prepared;
-  const auto record = [&](VkCommandBuffer commands) {
-    window_.record(commands);
-    swapchain_->finish(commands, target);
-  };
+  const auto record = [&](VkCommandBuffer commands) { window_.record(commands); };
   if (auto ran = context_.submit(record, {.wait = {&target.ready, 1}, .signal = {&target.drawn, 1}}); !ran) return ran;
   auto presented = swapchain_->present(target);
   if (!presented) return presented.error();

@@ -16,7 +16,6 @@
 
 #define RILL_SWAPCHAIN_DEVICE_FUNCTIONS(X) \
   X(AcquireNextImageKHR)                   \
-  X(CmdPipelineBarrier2)                   \
   X(CreateSemaphore)                       \
   X(CreateSwapchainKHR)                    \
   X(DestroySemaphore)                      \
@@ -46,8 +45,6 @@ class Swapchain {
   Expected<void> make(uint32_t width, uint32_t height);
   /// None: the window has changed, the swapchain has to be made anew; or it shows nothing.
   Expected<std::optional<Target>> acquire();
-  /// Once the image has been drawn to as a colour target: makes it ready to be shown. Recorded after the graph.
-  void finish(VkCommandBuffer commands, const Target& target) const;
   /// False: the swapchain has to be made anew.
   Expected<bool> present(const Target& target);
 

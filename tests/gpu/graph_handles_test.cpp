@@ -1,5 +1,6 @@
 // Passes with the host's own pipelines on a real driver, on transients whose handles the graph tells; synchronization validation listens.
 #include "gpu/device_impl.hpp"
+#include "gpu/device_memory.hpp"
 #include "support/gpu_test.hpp"
 
 namespace rill::test {
@@ -78,20 +79,20 @@ struct OwnImage {
                                               VK_IMAGE_ASPECT_COLOR_BIT};
     VkMemoryRequirements2 needs{VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
     d.vk.GetDeviceImageMemoryRequirements(d.handle, &ask, &needs);
-    const VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, needs.memoryRequirements.size,
-                                        *d.chooseMemoryType(needs.memoryRequirements.memoryTypeBits, MemoryKind::Device)};
-    EXPECT_EQ(d.vk.AllocateMemory(d.handle, &allocate, nullptr, &memory), VK_SUCCESS);
-    EXPECT_EQ(d.vk.BindImageMemory(d.handle, handle, memory, 0), VK_SUCCESS);
+    const auto block = allocateMemory(d, needs.memoryRequirements, MemoryKind::Device, {"image of the host's"});
+    EXPECT_TRUE(block);
+    if (block) memory = *block;
+    EXPECT_EQ(d.vk.BindImageMemory(d.handle, handle, memory.memory, memory.offset), VK_SUCCESS);
   }
   ~OwnImage() {
     d.vk.DestroyImage(d.handle, handle, nullptr);
-    d.vk.FreeMemory(d.handle, memory, nullptr);
+    freeMemory(d, memory);
   }
   OwnImage(const OwnImage&) = delete;
   OwnImage& operator=(const OwnImage&) = delete;
   DeviceImpl& d;
   VkImage handle = VK_NULL_HANDLE;
-  VkDeviceMemory memory = VK_NULL_HANDLE;
+  MemoryBlock memory;
 };
 
 class GraphHandles : public GpuTest {

@@ -141,6 +141,7 @@ Image Engine::createImage(VkFormat format, uint32_t width, uint32_t height, VkIm
   vkGetImageMemoryRequirements(device, image.handle, &needs);
   image.memory = allocate(needs, 0);
   check(vkBindImageMemory(device, image.handle, image.memory, 0), "binding an image");
+  if (!(usage & (VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT))) return image;
   VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
   view.image = image.handle;
   view.viewType = VK_IMAGE_VIEW_TYPE_2D;

@@ -43,9 +43,9 @@ struct SceneTargets {
 /// The host's camera.
 struct FluidView {
   /// World (relative to `origin`) to view space, rigid: the eye looks along -z, y up, right handed, as GLM's lookAt makes it.
-  Float4x4 view;
+  Float4x4 view = {};
   /// View to Vulkan's clip space. Perspective or orthographic, standard or reversed depth, finite or infinite, centred or not.
-  Float4x4 projection;
+  Float4x4 projection = {};
   double origin[3] = {0, 0, 0};         ///< m, in the scene's coordinates
   uint32_t x = 0, y = 0;                ///< of the viewport in the targets, pixels
   uint32_t width = 1280, height = 720;  ///< of the viewport, pixels

@@ -94,7 +94,7 @@ enum class Load : uint8_t {
 /// so that is the host's to keep. A multisampled or layered image is resolved or copied in a pass of the host's own instead.
 struct ImageImport {
   VkImage handle = VK_NULL_HANDLE;
-  ImageDesc desc;
+  ImageDesc desc = {};
   ImportState before = Use::Unknown;  ///< its last use before this graph, in whose layout it is
   ImportState after =
       Use::Nothing;             ///< what it must be ready for after this graph, in whose layout; reached even when every pass is culled

@@ -1,6 +1,13 @@
 #pragma once
 // What a scene is: plain descriptions with units and defaults. No JSON, no Vulkan. assets/scenes/scene.schema.json says the same to
 // editors.
+//
+//   rill::Scene scene;
+//   scene.fluid.spacing = 0.04;
+//   scene.domain = rill::Domain{{0, 0, 0}, {2, 1, 1}};
+//   scene.fill = {rill::Fill{.box = rill::BoxShape{{0, 0, 0}, {0.8, 0.8, 1}}}};
+//   scene.solids = {rill::Solid{.sphere = rill::SphereShape{{1.5, 0.2, 0.5}, 0.2}, .friction = 0.2}};
+//   if (auto ok = rill::checkScene(scene); !ok) return fail(ok.error().message);
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -46,15 +53,15 @@ struct FluidSettings {
 };
 
 struct SolverSettings {
-  std::optional<double> time_step;             ///< s, the longest one, > 0; empty: "auto", as long as cfl and tolerance allow
-  double cfl = 0.25;                           ///< spacings that the fastest particle may move in a substep, > 0 .. 10
-  uint32_t max_substeps = 64;                  ///< a frame of up to 1/60 s, 1 .. 256; time beyond them is dropped and reported
-  uint32_t iterations = 1;                     ///< Jacobi iterations a substep, at most, 1 .. 1000
-  double tolerance = 0.001;                    ///< mean compression to keep under, fraction of rest density, >= 0; 0: always the full count
-  std::optional<double> relaxation;            ///< Jacobi under-relaxation, > 0 .. 2; empty: "auto"
-  std::optional<double> regularization;        ///< epsilon as a fraction of the rest lattice's sum of |grad C|^2, >= 0; empty: "auto"
-  std::optional<double> warm_start;            ///< gain of the integral warm start, 0 .. 0.5; 0: none; empty: "auto"
-  std::optional<double> artificial_viscosity;  ///< of a fluid at rest, over density spacing sqrt(g spacing), 0 .. 0.3; empty: "auto"
+  std::optional<double> time_step = {};       ///< s, the longest one, > 0; empty: "auto", as long as cfl and tolerance allow
+  double cfl = 0.25;                          ///< spacings that the fastest particle may move in a substep, > 0 .. 10
+  uint32_t max_substeps = 64;                 ///< a frame of up to 1/60 s, 1 .. 256; time beyond them is dropped and reported
+  uint32_t iterations = 1;                    ///< Jacobi iterations a substep, at most, 1 .. 1000
+  double tolerance = 0.001;                   ///< mean compression to keep under, fraction of rest density, >= 0; 0: always the full count
+  std::optional<double> relaxation = {};      ///< Jacobi under-relaxation, > 0 .. 2; empty: "auto"
+  std::optional<double> regularization = {};  ///< epsilon as a fraction of the rest lattice's sum of |grad C|^2, >= 0; empty: "auto"
+  std::optional<double> warm_start = {};      ///< gain of the integral warm start, 0 .. 0.5; 0: none; empty: "auto"
+  std::optional<double> artificial_viscosity = {};  ///< of a fluid at rest, over density spacing sqrt(g spacing), 0 .. 0.3; empty: "auto"
   KernelChoice kernel = KernelChoice::Wendland;
   NeighborChoice neighbors = NeighborChoice::List;
 };
@@ -69,11 +76,11 @@ struct SphereShape {
 
 /// Fluid at the start: one of the three.
 struct Fill {
-  std::optional<BoxShape> box;
-  std::optional<SphereShape> sphere;
-  std::optional<std::filesystem::path> particles;  ///< a PLY file, absolute once the scene is read
-  double velocity[3] = {0, 0, 0};                  ///< m/s
-  double jitter = 0;                               ///< fraction of the spacing, 0 .. 0.5
+  std::optional<BoxShape> box = {};
+  std::optional<SphereShape> sphere = {};
+  std::optional<std::filesystem::path> particles = {};  ///< a PLY file, absolute once the scene is read
+  double velocity[3] = {0, 0, 0};                       ///< m/s
+  double jitter = 0;                                    ///< fraction of the spacing, 0 .. 0.5
 };
 
 struct Keyframe {
@@ -83,12 +90,12 @@ struct Keyframe {
 
 /// A solid: one of the two shapes, turned about its centre, moving along keyframes (linear between, held outside).
 struct Solid {
-  std::optional<BoxShape> box;
-  std::optional<SphereShape> sphere;
+  std::optional<BoxShape> box = {};
+  std::optional<SphereShape> sphere = {};
   double rotation[4] = {0, 0, 0, 1};  ///< unit quaternion x y z w
   double friction = 0;                ///< Coulomb coefficient, >= 0
   double restitution = 0;             ///< 0 .. 1
-  std::vector<Keyframe> motion;
+  std::vector<Keyframe> motion = {};
   double driven = 0;  ///< m/s, at most so fast: > 0 for a solid that its host moves (FluidStep::targets) and no keyframes do
 };
 
@@ -101,9 +108,9 @@ enum class Axis : uint8_t { PlusX, MinusX, PlusY, MinusY, PlusZ, MinusZ };
 
 /// One of the two.
 struct Probe {
-  std::string name;
-  std::optional<std::pair<double, double>> level;  ///< x, z (m) of the vertical line
-  std::optional<Axis> front;
+  std::string name = {};
+  std::optional<std::pair<double, double>> level = {};  ///< x, z (m) of the vertical line
+  std::optional<Axis> front = {};
 };
 
 struct Camera {
@@ -114,26 +121,26 @@ struct Camera {
 struct Look {
   std::string preset = "water";
   std::string surface = "auto";
-  std::filesystem::path environment;  ///< a picture of all around, absolute once the scene is read; empty: the sky of Rill's own
+  std::filesystem::path environment = {};  ///< a picture of all around, absolute once the scene is read; empty: the sky of Rill's own
 };
 
 /// A whole scene in SI units, y up, right handed.
 struct Scene {
-  std::filesystem::path file;  ///< where it was read from; empty for one made in memory
-  std::string name;            ///< file name without extension
+  std::filesystem::path file = {};  ///< where it was read from; empty for one made in memory
+  std::string name = {};            ///< file name without extension
   std::string title, about;
   double duration = 3.0;  ///< s
   uint64_t seed = 1;
   double gravity[3] = {0, -9.81, 0};  ///< m/s^2
-  std::vector<GravityChange> gravity_changes;
-  std::optional<Domain> domain;  ///< none: unbounded
-  FluidSettings fluid;
-  SolverSettings solver;
-  std::vector<Fill> fill;
-  std::vector<Solid> solids;
-  std::vector<Probe> probes;
-  std::optional<Camera> camera;  ///< none: one that frames the domain or the fluid
-  Look look;
+  std::vector<GravityChange> gravity_changes = {};
+  std::optional<Domain> domain = {};  ///< none: unbounded
+  FluidSettings fluid = {};
+  SolverSettings solver = {};
+  std::vector<Fill> fill = {};
+  std::vector<Solid> solids = {};
+  std::vector<Probe> probes = {};
+  std::optional<Camera> camera = {};  ///< none: one that frames the domain or the fluid
+  Look look = {};
 };
 
 /// Whether all that a scene says is in range and goes together: the rules that files are read by, for scenes that a host makes in code.

@@ -2,7 +2,8 @@
 // What is done with a buffer or an image of a render graph, and what that is to Vulkan.
 //
 //   const rill::UseState sampled = rill::useState(rill::Use::DrawSampled);
-//   VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};  // of a host that goes on after the graph
+//   VkImageMemoryBarrier2 barrier{};  // of a host that goes on after the graph
+//   barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
 //   barrier.srcStageMask = sampled.stages;
 //   barrier.srcAccessMask = sampled.access;
 //   barrier.oldLayout = sampled.layout;
@@ -57,7 +58,7 @@ struct ImportState {
   ImportState(const UseState& ofTheHost) : isOwn(true), own(ofTheHost) {}
   Use use = Use::Nothing;
   bool isOwn = false;
-  UseState own;
+  UseState own = {};
   friend bool operator==(const ImportState&, const ImportState&) = default;
 };
 
