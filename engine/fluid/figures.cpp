@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "fluid/fluid_impl.hpp"
+#include "graph/graph_impl.hpp"
 
 namespace rill {
 namespace {
@@ -21,8 +22,11 @@ void FluidImpl::poll() const {
   while (!pending_.empty()) {
     FluidControl control;
     FluidSums sums;
-    const auto finished = [&](const Pending& p) { return read(p.graph->data(p.control), control) && read(p.graph->data(p.sums), sums); };
-    // One that was given up, since nobody asked in time, does not stand before those that came after it.
+    const auto finished = [&](const Pending& p) {
+      const auto graph = p.graph.lock();
+      return graph && read(graph->data(p.control), control) && read(graph->data(p.sums), sums);
+    };
+    // One that was given up, since nobody asked in time or its graph has gone, does not stand before those that came after it.
     const auto next = std::find_if(pending_.begin(), pending_.end(), finished);
     if (next == pending_.end()) return;
     for (auto given_up = pending_.begin(); given_up != next; ++given_up)
@@ -37,7 +41,7 @@ void FluidImpl::poll() const {
                 .iterations = control.iterations,
                 .list_builds = control.builds};
     MeasureResult result{};
-    if (pending.measured && read(pending.graph->data(pending.measure), result)) {
+    if (pending.measured && read(pending.graph.lock()->data(pending.measure), result)) {
       const MeasurePartial& m = result.sums;
       const double n = std::max(count - m.parked, 1u), mass = setup.params.particleMass;
       FluidStats s;

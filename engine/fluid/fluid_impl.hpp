@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <deque>
+#include <memory>
 #include <optional>
 
 #include "fluid/settings.hpp"
@@ -82,7 +83,7 @@ class FluidImpl {
 
  private:
   struct Pending {
-    Graph* graph;
+    std::weak_ptr<GraphImpl> graph;
     Ticket control, sums, measure;
     bool measured;
     bool uploads;  ///< the start state has been copied once this frame has finished

@@ -595,7 +595,7 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   if (blocks == 0) declareRebuild(graph);  // runs where there has been none yet
   declareSkipped(graph);
 
-  Pending pending{&graph, {}, {}, {}, false, uploads};
+  Pending pending{graph.impl().watched(), {}, {}, {}, false, uploads};
   if (step.stats)
     declareMeasure(graph, pending);
   else

@@ -145,6 +145,8 @@ class GraphImpl {
  public:
   GraphImpl();
   ~GraphImpl();
+  /// Expires with the graph: for modules that wait for read-backs of one that its host may destroy before.
+  std::weak_ptr<GraphImpl> watched() const { return life_; }
 
   // graph.cpp
   void reset();
@@ -249,6 +251,9 @@ class GraphImpl {
   std::vector<uint64_t> stamps;
   uint64_t timingsFrame = 0;
   uint64_t nextTicket = 1;
+
+ private:
+  std::shared_ptr<GraphImpl> life_{this, [](GraphImpl*) {}};  ///< owns nothing
 };
 
 }  // namespace rill

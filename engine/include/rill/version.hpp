@@ -5,7 +5,7 @@
 //   #if RILL_VERSION_MAJOR == 0 && RILL_VERSION_MINOR < 1
 //   #error "needs Rill 0.1"
 //   #endif
-//   if (rill::version() != std::string_view(RILL_VERSION)) log("the shared library is not the one of these headers");
+//   if (rill::version() != std::string_view(RILL_VERSION)) return fail("the shared library is not the one of these headers");
 #include "rill/export.hpp"
 
 #define RILL_VERSION_MAJOR 0
