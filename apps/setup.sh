@@ -18,6 +18,7 @@ build libimgui-dev            Dear ImGui 1.86 or newer
 run   libvulkan1              the Vulkan loader
 run   fonts-dejavu-core       DejaVu Sans (typeface of the viewer)
 run   mesa-vulkan-drivers     a Vulkan 1.3 driver (Mesa: lavapipe needs no GPU)
+test  clang                   clang (public headers are compiled by it, too)
 test  libgtest-dev            GoogleTest
 test  libvulkan-volk-dev      volk (a host of the tests calls Vulkan through it)
 test  pkgconf                 pkg-config (a host of the tests is built with it)

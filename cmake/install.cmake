@@ -12,7 +12,14 @@ if(RILL_BUILD_OFFLINE)
 endif()
 install(TARGETS ${rill_libraries} EXPORT rill INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT rill NAMESPACE rill:: FILE rillTargets.cmake DESTINATION ${rill_package})
-install(DIRECTORY engine/include/rill DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+set(without "")
+if(NOT RILL_BUILD_SCENE)
+  list(APPEND without PATTERN scene_io.hpp EXCLUDE)
+endif()
+if(NOT RILL_BUILD_OFFLINE)
+  list(APPEND without PATTERN offline.hpp EXCLUDE)
+endif()
+install(DIRECTORY engine/include/rill DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${without})
 
 configure_package_config_file(cmake/rillConfig.cmake.in ${PROJECT_BINARY_DIR}/rillConfig.cmake INSTALL_DESTINATION ${rill_package} PATH_VARS rill_data)
 # Before 1.0 each minor version may change the interface.
@@ -36,4 +43,5 @@ if(RILL_BUILD_SCENE)
 endif()
 
 install(DIRECTORY assets/scenes DESTINATION ${rill_data})
-install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY apps/embed/ DESTINATION ${rill_data}/embed)  # the guide and its games
+install(FILES LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -5,6 +5,7 @@
 #include <rill/fluid_renderer.hpp>
 
 #include "borrow.hpp"
+#include "draw.hpp"
 
 namespace {
 

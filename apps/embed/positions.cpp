@@ -1,8 +1,10 @@
 // A game that draws particles itself: Rill simulates, and the game reads the positions back two frames late, without waiting. Here they
 // become dots in a picture, seen along -z.
 //   positions OUT.ppm
+#include <cstddef>
 #include <cstdio>
 #include <rill/fluid.hpp>
+#include <span>
 #include <vector>
 
 #include "borrow.hpp"

@@ -1,8 +1,8 @@
 // A game that has a device, frames in flight, a colour and a depth buffer of its own gets water: all that it takes of Rill is here.
 //   water OUT.ppm
-#include <cstring>
 #include <rill/fluid.hpp>
 #include <rill/fluid_renderer.hpp>
+#include <type_traits>
 
 #include "host/camera.hpp"
 #include "host/engine.hpp"
@@ -18,7 +18,8 @@ T need(rill::Expected<T> result) {
 
 }  // namespace
 
-int main(int, char** arguments) {
+int main(int count, char** arguments) {
+  if (count != 2) host::fail("usage: water OUT.ppm");
   // Rill says what it needs before the device is made, and borrows it then.
   rill::DeviceRequirements needs;
   host::Engine engine([&](VkInstance instance, VkPhysicalDevice physicalDevice) {
@@ -31,7 +32,7 @@ int main(int, char** arguments) {
   lent.device = engine.device;
   lent.queueFamily = engine.queueFamily;
   lent.getInstanceProcAddr = engine.getInstanceProcAddr;
-  lent.enabled = needs.chain();
+  lent.enabled = &needs.features;
   const auto device = need(rill::Device::borrow(lent));
 
   // A tank of 2 x 1 x 1 m with water at its left.

@@ -69,11 +69,10 @@ Expected<void> checkDevice(const InstanceTable& instance, VkPhysicalDevice devic
     return lacking(name, "it offers Vulkan " + version(properties.properties.apiVersion) + ", 1.3 is needed");
   properties.pNext = &subgroup;
   instance.GetPhysicalDeviceProperties2(device, &properties);
-  constexpr VkSubgroupFeatureFlags operations = VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_VOTE_BIT |
-                                                VK_SUBGROUP_FEATURE_ARITHMETIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT |
-                                                VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
+  constexpr VkSubgroupFeatureFlags operations =
+      VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
   if (!(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) || (subgroup.supportedOperations & operations) != operations)
-    return lacking(name, "it lacks subgroup operations (basic, vote, arithmetic, ballot, shuffle) in compute shaders");
+    return lacking(name, "it lacks subgroup operations (basic, arithmetic, shuffle) in compute shaders");
   if (subgroup.subgroupSize < 4)
     return lacking(name, "its subgroups have " + std::to_string(subgroup.subgroupSize) + " lanes, 4 are needed");
   constexpr std::pair<VkFormat, const char*> formats[] = {{VK_FORMAT_R32G32B32A32_SFLOAT, "R32G32B32A32_SFLOAT"},

@@ -66,6 +66,20 @@ TEST(Examples, TheGuideCompiles) {
   expectCompiles("", code);
 }
 
+TEST(Examples, AGameHasWaterInUnderSixtyLines) {
+  std::istringstream text(contentOf(fs::path(RILL_SOURCE_DIR) / "apps/embed/water.cpp"));
+  size_t lines = 0, ofRill = 0;
+  for (std::string line; std::getline(text, line);) {
+    const size_t first = line.find_first_not_of(" }");
+    if (first == std::string::npos || line.compare(first, 2, "//") == 0) continue;
+    ++lines;
+    // Not the engine's own: its device, images, frames and clear.
+    ofRill += line.find("host::") == std::string::npos && line.find("engine.") == std::string::npos;
+  }
+  EXPECT_GT(lines, 30u);
+  EXPECT_LT(ofRill, 60u);
+}
+
 class HeaderExample : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(HeaderExample, Compiles) {

@@ -9,7 +9,7 @@ shift 2
 rm -rf "$scratch"
 mkdir -p "$scratch"
 headers=$(cd "$include" && ls rill/*.hpp)
-compilers=$(for c in g++ clang++; do command -v $c || true; done)
+compilers=$(for c in g++ clang++; do command -v $c || echo "left out: $c is not installed" >&2; done)
 [ -n "$headers" ] && [ -n "$compilers" ] || { echo "no headers in $include, or neither g++ nor clang++"; exit 1; }
 flags="-std=c++20 -fsyntax-only -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -I$include $*"
 
@@ -23,6 +23,7 @@ has() { echo "#include <$2>" | "$1" $flags -x c++ - 2>/dev/null; }
 list() { for header in $headers; do echo "#include <$header>"; done; }
 
 list >"$scratch/all.cpp"
+cp "$(dirname "$0")/designated.cpp" "$scratch"
 { echo '#define GLM_FORCE_DEPTH_ZERO_TO_ONE'; echo '#define GLM_FORCE_DEFAULT_ALIGNED_GENTYPES'; echo '#include <glm/glm.hpp>'; list; } >"$scratch/glm.cpp"
 { echo '#include <vulkan/vulkan.h>'; list; } >"$scratch/vulkan.cpp"
 { echo '#include <volk.h>'; list; } >"$scratch/volk.cpp"
@@ -38,6 +39,7 @@ for compiler in $compilers; do
   done
   job "$compiler" all -DVK_NO_PROTOTYPES -fno-exceptions -fno-rtti
   job "$compiler" vulkan
+  job "$compiler" designated
   # Words that X11 and Windows take as macros.
   job "$compiler" all -DNone=0L -DBool=int -DStatus=int -DSuccess=0 -DTrue=1 -DFalse=0 -DAlways=2 -DUnsorted=0 -Dnear= -Dfar= -DERROR=0 -DOPAQUE=2 -DIN= -DOUT=
   for other in glm/glm.hpp volk.h; do

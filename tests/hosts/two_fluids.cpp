@@ -4,6 +4,7 @@
 #include <rill/fluid_renderer.hpp>
 
 #include "borrow.hpp"
+#include "draw.hpp"
 
 namespace {
 
@@ -54,14 +55,15 @@ int main(int count, char** arguments) {
       rill::SceneTargets targets{importTarget(*graph, "colour", colour, rill::Use::ColourTarget),
                                  importTarget(*graph, "depth", depth, rill::Use::DepthTarget)};
       const rill::FluidState a = left->addTo(*graph, {.advance_s = 1.0 / 60, .stats = true});
-      const rill::FluidState b = right->addTo(*graph, {.advance_s = 1.0 / 60});
+      const rill::FluidState b = right->addTo(*graph, {.advance_s = 1.0 / 60, .stats = true});
       targets = painter->addTo(*graph, a, targets, view);
       targets = painter->addTo(*graph, b, targets, view, clay);
       need(graph->compile());
       need(graph->prepare(*device));
       graph->record(frame.commands);
       engine.end(frame);
-      if (left->stats() && left->stats()->non_finite + left->stats()->outside > 0) host::fail("the fluid left its tank");
+      for (const rill::Fluid* fluid : {left.get(), right.get()})
+        if (const auto stats = fluid->stats(); stats && stats->non_finite + stats->outside > 0) host::fail("a fluid left its tank");
     }
     engine.wait();
     engine.save(colour, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, arguments[1]);

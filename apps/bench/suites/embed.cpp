@@ -74,6 +74,7 @@ Expected<Start> started(const Bench& bench, const Scene& scene, const ParticleSe
   DeviceRequirements needs;
   if (auto ok = appendRequired((*context)->getInstanceProcAddr(), (*context)->instance(), (*context)->physicalDevice(), needs); !ok)
     return ok.error();
+  (void)needs.chain();  // as the context enabled them
   Start start;
   Watch watch;
   auto device = Device::borrow({.instance = (*context)->instance(),
@@ -81,7 +82,7 @@ Expected<Start> started(const Bench& bench, const Scene& scene, const ParticleSe
                                 .device = (*context)->vkDevice(),
                                 .queueFamily = (*context)->queueFamily(),
                                 .getInstanceProcAddr = (*context)->getInstanceProcAddr(),
-                                .enabled = needs.chain(),
+                                .enabled = &needs.features,
                                 .cache = cache.handle()});
   if (!device) return device.error();
   start.borrow = watch.lap();

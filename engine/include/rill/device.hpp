@@ -15,8 +15,9 @@
 //
 // What each side can rely on (tested in tests/contract, as far as a program can):
 //
-// Needed: Vulkan 1.3, the features that appendRequired() adds, no extension. A queue family that computes; one that draws as well where a
-// FluidRenderer, or a pass with targets, is used.
+// Needed: Vulkan 1.3, those of its features that appendRequired() adds (all mandatory, yet to be enabled), no extension. In compute shaders
+// subgroups of 4 lanes or more with arithmetic and shuffle; uniform texel buffers of R32_UINT, R32G32B32A32_UINT and R32G32B32A32_SFLOAT. A
+// queue family that computes; one that draws as well where a FluidRenderer, or a pass with targets, is used.
 //
 // Work: Rill records into the host's command buffers. It never submits, never waits and makes no instance, device or queue. The host tells
 // by FrameClock what has completed; that alone decides when Rill uses memory again or frees it.
@@ -39,6 +40,9 @@
 // Silence: nothing is printed, no signal handled, no environment read (but RILL_SHADER_DIR in builds with RILL_SHADER_RELOAD), and there is
 // no global state but a counter by which graphs tell their refs apart. What is nobody's result goes to the message callback.
 #include <vulkan/vulkan_core.h>
+#ifndef VK_API_VERSION_1_3
+#error "Rill needs Vulkan's headers of version 1.3.239 or newer"
+#endif
 
 #include <cstdint>
 #include <functional>
@@ -121,8 +125,8 @@ class RILL_API Device {
 
   /// Once before a frame's graph is prepared. What was retired in frames up to clock.completed is freed here.
   void beginFrame(FrameClock clock);
-  /// A recorded command buffer of this frame will not be submitted, nor will those of later frames that are recorded already. What it was
-  /// to upload is uploaded by the next one that is declared, which has a number of its own.
+  /// A recorded command buffer of this frame will not be submitted. Those of later frames that are recorded already will not be either:
+  /// called for each of them. What it was to upload is uploaded by the next one that is declared, which has a number of its own.
   void abandon(uint64_t frame);
 
   const DeviceInfo& info() const;  ///< what was found out when it was borrowed

@@ -26,7 +26,7 @@ enum class ErrorKind {
 /// An error with a message that a user can act on: what was being done, what was found, what was expected.
 struct Error {
   ErrorKind kind = ErrorKind::Failed;
-  std::string message;
+  std::string message = {};
 };
 
 /// A value or an Error. Rill's public functions return it in place of throwing.

@@ -1,5 +1,9 @@
 #pragma once
 // RILL_API marks what the shared library shows; all else in it is hidden.
+#if defined(__cplusplus) && __cplusplus < 202002L && (!defined(_MSVC_LANG) || _MSVC_LANG < 202002L)
+#error "Rill's headers need C++20"
+#endif
+
 #if defined(__GNUC__)
 #define RILL_API __attribute__((visibility("default")))
 #else

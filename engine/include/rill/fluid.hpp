@@ -28,18 +28,18 @@ namespace rill {
 /// All of a fluid's state that the bits of its later steps depend on, between two advances, on the host (ARCHITECTURE.md, "Checkpoints").
 /// What a step writes before it reads it is not among it. Arrays have an entry a particle, in the order of the device.
 struct FluidSnapshot {
-  std::vector<uint32_t> control;                 ///< FluidControl (shaders/shared/fluid_records.h), word by word
-  std::vector<uint32_t> sums;                    ///< FluidSums, word by word
-  std::vector<float> solids;                     ///< centre (m) and velocity (m/s) of each solid, six numbers; empty where none moves
-  std::vector<Float3> position, velocity, push;  ///< m, m/s, m/s^2
-  std::vector<float> warm;                       ///< multipliers of the warm start
-  std::vector<uint32_t> id;
-  std::vector<uint32_t> nearWall, nearMore;  ///< particles near one wall; near several walls or a solid: rising
+  std::vector<uint32_t> control = {};  ///< FluidControl (shaders/shared/fluid_records.h), word by word
+  std::vector<uint32_t> sums = {};     ///< FluidSums, word by word
+  std::vector<float> solids = {};      ///< centre (m) and velocity (m/s) of each solid, six numbers; empty where none moves
+  std::vector<Float3> position = {}, velocity = {}, push = {};  ///< m, m/s, m/s^2
+  std::vector<float> warm = {};                                 ///< multipliers of the warm start
+  std::vector<uint32_t> id = {};
+  std::vector<uint32_t> nearWall = {}, nearMore = {};  ///< particles near one wall; near several walls or a solid: rising
   // The neighbour list, as long as it is not due to be built anew.
-  uint32_t listCapacity = 0;             ///< entries a particle that the list holds
-  std::vector<uint32_t> neighbourCount;  ///< empty where the list is due, or the fluid has none
-  std::vector<uint32_t> neighbours;      ///< of one particle after another; of none that has more than the list holds
-  std::vector<uint32_t> cell;            ///< of the sorted particles, where some walk the grid
+  uint32_t listCapacity = 0;                  ///< entries a particle that the list holds
+  std::vector<uint32_t> neighbourCount = {};  ///< empty where the list is due, or the fluid has none
+  std::vector<uint32_t> neighbours = {};      ///< of one particle after another; of none that has more than the list holds
+  std::vector<uint32_t> cell = {};            ///< of the sorted particles, where some walk the grid
   friend bool operator==(const FluidSnapshot&, const FluidSnapshot&) = default;
 };
 
@@ -88,11 +88,11 @@ struct FluidStep {
 /// Where a module finds the particles of this frame: versions of buffers of the same graph. Read them with any Use. A Fluid's buffers have
 /// room for one entry more than `count`, which means nothing.
 struct FluidState {
-  BufferRef position;            ///< vec4 a particle: xyz in m relative to `origin`, w unused
-  BufferRef velocity;            ///< vec4 a particle: xyz in m/s, w the density over rest density where the step asked for `stats`, else 1
-  BufferRef id;                  ///< uint a particle: its number at birth
-  BufferRef control;             ///< FluidControl (shaders/shared/fluid_records.h), read back by offline callers
-  BufferRef solids;              ///< SolidRecord (likewise) each, as they are at present; none where no solid is driven
+  BufferRef position = {};       ///< vec4 a particle: xyz in m relative to `origin`, w unused
+  BufferRef velocity = {};       ///< vec4 a particle: xyz in m/s, w the density over rest density where the step asked for `stats`, else 1
+  BufferRef id = {};             ///< uint a particle: its number at birth
+  BufferRef control = {};        ///< FluidControl (shaders/shared/fluid_records.h), read back by offline callers
+  BufferRef solids = {};         ///< SolidRecord (likewise) each, as they are at present; none where no solid is driven
   uint32_t count = 0;            ///< particles
   float spacing = 0;             ///< m
   double origin[3] = {0, 0, 0};  ///< m
@@ -190,9 +190,9 @@ class RILL_API SnapshotReader {
   void plan();
   const FluidImpl& fluid_;
   FluidSnapshot snapshot_;
-  std::vector<uint32_t> parts_;  ///< buffers to be read, in this order
+  std::vector<uint32_t> parts_ = {};  ///< buffers to be read, in this order
   size_t next_ = 0;
-  std::vector<Ticket> tickets_;
+  std::vector<Ticket> tickets_ = {};
 };
 
 }  // namespace rill

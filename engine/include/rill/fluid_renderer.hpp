@@ -4,9 +4,13 @@
 //   auto painter = rill::FluidRenderer::create(device, {.colour = VK_FORMAT_R8G8B8A8_SRGB, .depth = VK_FORMAT_D32_SFLOAT});
 //   if (!painter) return fail(painter.error().message);
 //   rill::SceneTargets targets;  // every frame: what has been drawn so far
-//   targets.colour = graph.import("colour", {colourImage, {VK_FORMAT_R8G8B8A8_SRGB, width, height}, rill::Use::ColourTarget});
-//   targets.depth = graph.import("depth", {depthImage, {VK_FORMAT_D32_SFLOAT, width, height}, rill::Use::DepthTarget});
-//   targets = (*painter)->addTo(graph, state, targets, {.width = width, .height = height, .focus_m = 3});
+//   const rill::Use drawn = rill::Use::ColourTarget, tested = rill::Use::DepthTarget;
+//   targets.colour = graph.import("colour", {colourImage, {VK_FORMAT_R8G8B8A8_SRGB, width, height}, drawn, drawn});
+//   targets.depth = graph.import("depth", {depthImage, {VK_FORMAT_D32_SFLOAT, width, height}, tested, tested});
+//   rill::FluidView view{.width = width, .height = height, .focus_m = 3};
+//   view.view = rill::Float4x4::from(viewMatrix);
+//   view.projection = rill::Float4x4::from(projectionMatrix);
+//   targets = (*painter)->addTo(graph, state, targets, view);
 #include <cstdint>
 #include <memory>
 #include <optional>

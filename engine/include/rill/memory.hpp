@@ -1,12 +1,13 @@
 #pragma once
 // How a host hands out device memory from its own allocator (VMA, say), in place of vkAllocateMemory.
 //
-//   rill::MemoryHooks hooks;  // for HostDevice::memory
-//   hooks.allocate = [](void*, const rill::MemoryRequest* request, rill::MemoryBlock* block) -> VkResult {
-//     block->memoryType = 0;  // one of request->requirements.memoryTypeBits; memory, offset and, where request->mapped, mapped as well
-//     return request->requirements.size > 0 ? VK_SUCCESS : VK_ERROR_OUT_OF_DEVICE_MEMORY;
+//   rill::MemoryHooks hooks;  // for HostDevice::memory; memory that Rill maps is left out here
+//   hooks.allocate = [](void*, const rill::MemoryRequest* request, rill::MemoryBlock* block) {
+//     while (!(request->requirements.memoryTypeBits >> block->memoryType & 1)) ++block->memoryType;
+//     const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, request->requirements.size, block->memoryType};
+//     return vkAllocateMemory(vkDevice, &info, nullptr, &block->memory);
 //   };
-//   hooks.free = [](void*, const rill::MemoryBlock*) {};
+//   hooks.free = [](void*, const rill::MemoryBlock* block) { vkFreeMemory(vkDevice, block->memory, nullptr); };
 #include <vulkan/vulkan_core.h>
 
 #include <cstdint>

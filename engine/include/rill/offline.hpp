@@ -25,32 +25,32 @@
 namespace rill::offline {
 
 struct Options {
-  double orbit_deg_per_s = 0;        ///< pictures: how fast the camera goes around its target, counter-clockwise from above
-  std::string device;                ///< part of a name, or an index; empty: the best there is
-  std::vector<Override> overrides;   ///< applied to the scene
-  bool validation = false;           ///< with the validation layer, synchronization included; needs it installed
-  bool passTimes = false;            ///< with Stats::pass_ms; its time stamps cost a tenth to a fifth of a run on lavapipe
-  uint32_t substepsPerSubmit = 0;    ///< 0: chosen; bits never depend on it
-  double longestFrame_s = 1.0 / 60;  ///< s; a longer advance() is made of equal frames, each with the scene's max_substeps of its own
+  double orbit_deg_per_s = 0;            ///< pictures: how fast the camera goes around its target, counter-clockwise from above
+  std::string device = {};               ///< part of a name, or an index; empty: the best there is
+  std::vector<Override> overrides = {};  ///< applied to the scene
+  bool validation = false;               ///< with the validation layer, synchronization included; needs it installed
+  bool passTimes = false;                ///< with Stats::pass_ms; its time stamps cost a tenth to a fifth of a run on lavapipe
+  uint32_t substepsPerSubmit = 0;        ///< 0: chosen; bits never depend on it
+  double longestFrame_s = 1.0 / 60;      ///< s; a longer advance() is made of equal frames, each with the scene's max_substeps of its own
 };
 
 enum class Order { AsStored, ById };
 
 struct Particles {
-  std::vector<Float3> positions;   ///< m, in the scene's coordinates (origin added)
-  std::vector<Float3> velocities;  ///< m/s
-  std::vector<float> densities;    ///< kg/m^3
-  std::vector<uint32_t> ids;       ///< numbers at birth: the order of the scene's fills
+  std::vector<Float3> positions = {};   ///< m, in the scene's coordinates (origin added)
+  std::vector<Float3> velocities = {};  ///< m/s
+  std::vector<float> densities = {};    ///< kg/m^3
+  std::vector<uint32_t> ids = {};       ///< numbers at birth: the order of the scene's fills
 };
 
 /// An image in memory: RGBA, 8 bits a channel, sRGB, rows from the top.
 struct Image {
   uint32_t width = 0, height = 0;
-  std::vector<uint8_t> rgba;
+  std::vector<uint8_t> rgba = {};
 };
 
 struct PassTime {
-  std::string name;
+  std::string name = {};
   double ms = 0;      ///< 0 without Options::passTimes
   uint32_t runs = 0;  ///< times recorded: the device leaves out substeps and rebuilds that are not due, which then cost an empty dispatch
 };
@@ -61,8 +61,8 @@ std::string passTable(std::span<const PassTime> passes, std::span<const SkippedP
 
 /// What the transients of one kind of frame take on the device.
 struct FrameMemory {
-  std::string frame;
-  std::vector<TransientHeap> heaps;
+  std::string frame = {};
+  std::vector<TransientHeap> heaps = {};
 };
 
 /// A table for people: each heap's bytes with and without aliasing.
@@ -70,25 +70,25 @@ std::string memoryTable(std::span<const FrameMemory> frames);
 
 /// Everything `rill-capture --stats` writes about an instant.
 struct Stats : FluidStats {
-  double front_m = 0;                                  ///< farthest fluid along +x from the domain's minimum
-  uint64_t state_hash = 0;                             ///< of positions and velocities in id order
-  std::vector<std::pair<std::string, double>> probes;  ///< name and value, m
-  uint64_t picture_bound_hits = 0;  ///< times that loops of the renderer's shaders ran into their bound, in pictures of it
-  double wall_s = 0;                ///< spent since the instant before, simulation alone
-  std::vector<PassTime> pass_ms;    ///< what was recorded
-  std::vector<SkippedPass> skipped;
+  double front_m = 0;                                       ///< farthest fluid along +x from the domain's minimum
+  uint64_t state_hash = 0;                                  ///< of positions and velocities in id order
+  std::vector<std::pair<std::string, double>> probes = {};  ///< name and value, m
+  uint64_t picture_bound_hits = 0;     ///< times that loops of the renderer's shaders ran into their bound, in pictures of it
+  double wall_s = 0;                   ///< spent since the instant before, simulation alone
+  std::vector<PassTime> pass_ms = {};  ///< what was recorded
+  std::vector<SkippedPass> skipped = {};
 };
 
 /// A simulation between two advances: a run that goes on from it has the bits of one that was never interrupted, on the same driver.
 struct Checkpoint {
-  std::string rill;                                       ///< version that wrote it
-  std::string scene;                                      ///< its name
-  std::string device, driver;                             ///< as in DeviceInfo
-  double time_s = 0;                                      ///< simulated
-  uint64_t frame = 0;                                     ///< for the caller: where in a sequence of frames this is,
-  double fps = 0;                                         ///< and how many of them make a second; 0: in none
-  std::vector<std::pair<std::string, std::string>> keys;  ///< what of the scene decides the simulation; another scene's is refused
-  FluidSnapshot fluid;
+  std::string rill = {};                                       ///< version that wrote it
+  std::string scene = {};                                      ///< its name
+  std::string device, driver;                                  ///< as in DeviceInfo
+  double time_s = 0;                                           ///< simulated
+  uint64_t frame = 0;                                          ///< for the caller: where in a sequence of frames this is,
+  double fps = 0;                                              ///< and how many of them make a second; 0: in none
+  std::vector<std::pair<std::string, std::string>> keys = {};  ///< what of the scene decides the simulation; another scene's is refused
+  FluidSnapshot fluid = {};
   friend bool operator==(const Checkpoint&, const Checkpoint&) = default;
 };
 

@@ -24,13 +24,13 @@ inline constexpr uint64_t kMostParticles = uint64_t{4} << 20;
 /// Positions are relative to `origin` (the domain's minimum, or the fluid's centre rounded to whole spacings), so that a scene far from
 /// zero loses no precision.
 struct ParticleSet {
-  double origin[3] = {0, 0, 0};    ///< m
-  std::vector<Float3> positions;   ///< m, relative to origin
-  std::vector<Float3> velocities;  ///< m/s
-  uint64_t left_out_overlap = 0;   ///< nearer than 0.9 spacings to an earlier one
-  uint64_t left_out_solid = 0;     ///< inside a solid
-  uint64_t left_out_domain = 0;    ///< outside the walls
-  std::vector<std::string> warnings;
+  double origin[3] = {0, 0, 0};         ///< m
+  std::vector<Float3> positions = {};   ///< m, relative to origin
+  std::vector<Float3> velocities = {};  ///< m/s
+  uint64_t left_out_overlap = 0;        ///< nearer than 0.9 spacings to an earlier one
+  uint64_t left_out_solid = 0;          ///< inside a solid
+  uint64_t left_out_domain = 0;         ///< outside the walls
+  std::vector<std::string> warnings = {};
 };
 
 /// The scene's fills as particles (see ParticleSet), PLY files read. The spacing follows from `fluid.particles` where that is given

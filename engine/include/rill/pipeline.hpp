@@ -37,7 +37,7 @@ using SpecializationConstants = std::span<const uint32_t>;
 struct ComputePipelineDesc {
   std::string_view shader;               ///< what messages call it; where no `spirv` is given, the name of a shader of Rill's own
   std::span<const uint32_t> spirv = {};  ///< a SPIR-V module in the machine's byte order; copied
-  std::span<const BindingKind> bindings;
+  std::span<const BindingKind> bindings = {};
   uint32_t pushConstantBytes = 0;          ///< a multiple of 4, at most 128; every dispatch gives as many
   SpecializationConstants constants = {};  ///< at most 32
   uint32_t requiredSubgroupSize = 0;       ///< subgroups are whole then: local_size_x is a multiple of it; 0: the driver's choice
@@ -58,13 +58,13 @@ enum class Blend : uint8_t {
 /// A vertex and a fragment shader for dynamic rendering: no vertex buffers (shaders read storage buffers), nothing culled by winding,
 /// viewport and scissor dynamic.
 struct GraphicsPipelineDesc {
-  std::string_view vertex, fragment;  ///< as ComputePipelineDesc::shader; without a fragment shader only depth is drawn
+  std::string_view vertex = {}, fragment = {};  ///< as ComputePipelineDesc::shader; without a fragment shader only depth is drawn
   std::span<const uint32_t> vertexSpirv = {}, fragmentSpirv = {};
-  std::span<const BindingKind> bindings;   ///< seen by both
-  uint32_t pushConstantBytes = 0;          ///< at most 128, seen by both
-  SpecializationConstants constants = {};  ///< of both
-  std::span<const VkFormat> colours = {};  ///< of the colour targets, in the order that the pass declares them
-  VkFormat depth = VK_FORMAT_UNDEFINED;    ///< of the depth target; undefined: none
+  std::span<const BindingKind> bindings = {};  ///< seen by both
+  uint32_t pushConstantBytes = 0;              ///< at most 128, seen by both
+  SpecializationConstants constants = {};      ///< of both
+  std::span<const VkFormat> colours = {};      ///< of the colour targets, in the order that the pass declares them
+  VkFormat depth = VK_FORMAT_UNDEFINED;        ///< of the depth target; undefined: none
   VkCompareOp depthCompare = VK_COMPARE_OP_ALWAYS;
   bool depthWrite = false;
   Blend blend = Blend::Replace;  ///< of all colour targets

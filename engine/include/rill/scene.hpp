@@ -128,7 +128,7 @@ struct Look {
 struct Scene {
   std::filesystem::path file = {};  ///< where it was read from; empty for one made in memory
   std::string name = {};            ///< file name without extension
-  std::string title, about;
+  std::string title = {}, about = {};
   double duration = 3.0;  ///< s
   uint64_t seed = 1;
   double gravity[3] = {0, -9.81, 0};  ///< m/s^2

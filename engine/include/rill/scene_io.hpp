@@ -23,7 +23,7 @@ namespace rill {
 /// `key` is a path as in the file ("fluid.viscosity", "solver.time_step", "fill[0].jitter"), `value` is JSON, or a bare word taken as a
 /// string. A relative path of a file in it is relative to the current directory.
 struct Override {
-  std::string key, value;
+  std::string key = {}, value = {};
 };
 
 /// "key=value". BadInput where there is no '=' or no key.
