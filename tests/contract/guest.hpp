@@ -18,8 +18,8 @@ class Guest {
   static Expected<std::unique_ptr<Guest>> open(Host& host, const HostDevice& lent, bool draws = true);
   ~Guest();
 
-  /// What a frame is for. An abandoned one is recorded and thrown away.
-  enum class Fate { Submitted, Abandoned };
+  /// What a frame is for. An abandoned one is recorded and thrown away, one thrown away is yet to be abandoned.
+  enum class Fate { Submitted, Abandoned, ThrownAway };
   /// A step of the fluid and its picture. The clock then says that the frame has completed, unless `told` is false.
   Expected<void> frame(Fate fate = Fate::Submitted, bool told = true);
   /// Positions, velocities and picture of the last submitted frame, once the clock has told of it.

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "contract/fixture.hpp"
+#include "rill/fluid_renderer.hpp"
 
 namespace rill::test {
 namespace {
@@ -91,6 +92,38 @@ TEST_F(Contract, APhysicalDeviceThatLacksARequiredFeatureIsRefusedByItsName) {
     EXPECT_EQ(refused.error().kind, ErrorKind::NoDevice);
     EXPECT_NE(refused.error().message.find(feature.name), std::string::npos) << refused.error().message;
   }
+}
+
+TEST_F(Contract, APhysicalDeviceThatLacksSubgroupsOrTexelsIsRefusedByTheirName) {
+  const auto refusal = [&] {
+    DeviceRequirements needs;
+    const auto refused = appendRequired(Watch::getInstanceProcAddr(), host().instance, host().physical, needs);
+    return refused ? std::string("accepted") : refused.error().message;
+  };
+  EXPECT_EQ(refusal(), "accepted");
+  for (const VkSubgroupFeatureFlagBits operation : {VK_SUBGROUP_FEATURE_ARITHMETIC_BIT, VK_SUBGROUP_FEATURE_SHUFFLE_BIT}) {
+    watch().lacksSubgroups = operation;
+    EXPECT_NE(refusal().find("subgroup operations (basic, arithmetic, shuffle)"), std::string::npos) << refusal();
+  }
+  watch().lacksSubgroups = VK_SUBGROUP_FEATURE_VOTE_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT;
+  EXPECT_EQ(refusal(), "accepted") << "no shader uses them";
+  watch().lacksSubgroups = 0;
+  watch().lanes = 2;
+  EXPECT_NE(refusal().find("its subgroups have 2 lanes, 4 are needed"), std::string::npos) << refusal();
+  watch().lanes = 0;
+  watch().lacksTexels = VK_FORMAT_R32_UINT;
+  EXPECT_NE(refusal().find("uniform texel buffers of R32_UINT"), std::string::npos) << refusal();
+}
+
+TEST_F(Contract, AQueueFamilyThatCannotComputeIsRefusedAndOneThatCannotDrawHasNoRenderer) {
+  watch().lacksQueues = VK_QUEUE_COMPUTE_BIT;
+  expectRefused(host().lend(), ErrorKind::BadInput, "its queues cannot compute");
+  watch().lacksQueues = VK_QUEUE_GRAPHICS_BIT;
+  auto device = Device::borrow(host().lend());
+  ASSERT_TRUE(device) << device.error().message;
+  const auto renderer = FluidRenderer::create(**device);
+  ASSERT_FALSE(renderer);
+  EXPECT_EQ(renderer.error().kind, ErrorKind::NoDevice);
 }
 
 TEST_F(Contract, FeaturesMayBeGivenInTheStructuresThatTheyWerePromotedFrom) {

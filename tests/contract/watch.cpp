@@ -81,6 +81,29 @@ VKAPI_ATTR void VKAPI_CALL betweenFeatures(VkPhysicalDevice device, VkPhysicalDe
       reinterpret_cast<VkPhysicalDeviceVulkan13Features*>(next)->*lacks = VK_FALSE;
 }
 
+std::atomic<PFN_vkGetPhysicalDeviceProperties2> realGetPhysicalDeviceProperties2;
+VKAPI_ATTR void VKAPI_CALL betweenProperties(VkPhysicalDevice device, VkPhysicalDeviceProperties2* out) {
+  realOf(realGetPhysicalDeviceProperties2)(device, out);
+  for (auto* next = static_cast<VkBaseOutStructure*>(out->pNext); next; next = next->pNext)
+    if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES) {
+      auto& subgroup = *reinterpret_cast<VkPhysicalDeviceSubgroupProperties*>(next);
+      subgroup.supportedOperations &= ~current.load()->lacksSubgroups;
+      if (const uint32_t lanes = current.load()->lanes) subgroup.subgroupSize = lanes;
+    }
+}
+
+std::atomic<PFN_vkGetPhysicalDeviceFormatProperties> realGetPhysicalDeviceFormatProperties;
+VKAPI_ATTR void VKAPI_CALL betweenFormats(VkPhysicalDevice device, VkFormat format, VkFormatProperties* out) {
+  realOf(realGetPhysicalDeviceFormatProperties)(device, format, out);
+  if (format == current.load()->lacksTexels) out->bufferFeatures = 0;
+}
+
+std::atomic<PFN_vkGetPhysicalDeviceQueueFamilyProperties> realGetPhysicalDeviceQueueFamilyProperties;
+VKAPI_ATTR void VKAPI_CALL betweenQueues(VkPhysicalDevice device, uint32_t* count, VkQueueFamilyProperties* out) {
+  realOf(realGetPhysicalDeviceQueueFamilyProperties)(device, count, out);
+  for (uint32_t i = 0; out && i < *count; ++i) out[i].queueFlags &= ~current.load()->lacksQueues;
+}
+
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL betweenDevice(VkDevice device, const char* name) {
   current.load()->look(name);
   const PFN_vkVoidFunction found = realOf(realGetDeviceProcAddr)(device, name);
@@ -102,10 +125,16 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL betweenInstance(VkInstance instance, co
     realGetDeviceProcAddr = reinterpret_cast<PFN_vkGetDeviceProcAddr>(found);
     return reinterpret_cast<PFN_vkVoidFunction>(&betweenDevice);
   }
-  if (found && std::strcmp(name, "vkGetPhysicalDeviceFeatures2") == 0) {
-    realGetPhysicalDeviceFeatures2 = reinterpret_cast<PFN_vkGetPhysicalDeviceFeatures2>(found);
-    return reinterpret_cast<PFN_vkVoidFunction>(&betweenFeatures);
+#define RILL_INSTEAD(function, between)                         \
+  if (found && std::strcmp(name, "vk" #function) == 0) {        \
+    real##function = reinterpret_cast<PFN_vk##function>(found); \
+    return reinterpret_cast<PFN_vkVoidFunction>(&between);      \
   }
+  RILL_INSTEAD(GetPhysicalDeviceFeatures2, betweenFeatures)
+  RILL_INSTEAD(GetPhysicalDeviceProperties2, betweenProperties)
+  RILL_INSTEAD(GetPhysicalDeviceFormatProperties, betweenFormats)
+  RILL_INSTEAD(GetPhysicalDeviceQueueFamilyProperties, betweenQueues)
+#undef RILL_INSTEAD
   return found;
 }
 

@@ -42,6 +42,11 @@ class Watch {
   std::atomic<const char*> doing = "";  ///< which of Rill's calls the guest is in
   /// The feature that the physical device is to seem to lack.
   VkBool32 VkPhysicalDeviceVulkan13Features::*lacks = nullptr;
+  // What else it is to seem to lack.
+  VkSubgroupFeatureFlags lacksSubgroups = 0;
+  uint32_t lanes = 0;  ///< that a subgroup seems to have; 0: as many as it has
+  VkFormat lacksTexels = VK_FORMAT_UNDEFINED;
+  VkQueueFlags lacksQueues = 0;
 
   // What the functions in between tell.
   void look(const char* name);

@@ -166,6 +166,27 @@ TEST_F(Contract, AnAbandonedFrameIsAsIfItHadNeverBeen) {
   EXPECT_TRUE(made->bits() == plain);
 }
 
+TEST_F(Contract, SeveralRecordedFramesMayBeAbandonedTogether) {
+  std::vector<std::byte> plain;
+  {
+    auto made = guest();
+    ASSERT_TRUE(made);
+    frames(*made, 3);
+    plain = made->bits();
+  }
+  auto made = guest();
+  ASSERT_TRUE(made);
+  frames(*made, 1);
+  std::vector<uint64_t> thrown;
+  for (int k = 0; k < 3; ++k) {
+    ASSERT_TRUE(made->frame(Guest::Fate::ThrownAway, false));
+    thrown.push_back(made->clock.recording);
+  }
+  for (const uint64_t frame : thrown) made->device().abandon(frame);
+  frames(*made, 2);
+  EXPECT_TRUE(made->bits() == plain);
+}
+
 TEST_F(Contract, NothingIsPrinted) {
   ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();
