@@ -130,7 +130,7 @@ void RetireQueue::collect(DeviceImpl& device, uint64_t completed) {
       RILL_DESTROY(VK_OBJECT_TYPE_PIPELINE, VkPipeline, DestroyPipeline)
 #undef RILL_DESTROY
       default:
-        assert(!"an object type that is never retired");
+        assert(false && "an object type that is never retired");
     }
     return true;
   };

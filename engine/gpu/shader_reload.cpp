@@ -9,7 +9,7 @@
 namespace rill {
 namespace {
 
-constexpr uint32_t kFramesBetweenLooks = 16;  // a look takes some 0.2 ms
+[[maybe_unused]] constexpr uint32_t kFramesBetweenLooks = 16;  // a look takes some 0.2 ms
 
 }  // namespace
 

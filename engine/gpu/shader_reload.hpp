@@ -34,7 +34,7 @@ class ShaderReload {
   std::filesystem::path folder_;
   std::map<std::string_view, Stamp> stamps_;  ///< by a shader's name: the newest among its source and all headers
   std::map<std::string, std::vector<uint32_t>, std::less<>> replaced_;
-  uint32_t frames_ = 0;
+  [[maybe_unused]] uint32_t frames_ = 0;  ///< counted where the library reloads
 };
 
 /// Compiles a compute shader of `folder` with glslang. The error is the compiler's text.
