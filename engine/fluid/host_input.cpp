@@ -1,0 +1,88 @@
+// What a frame brings from the host: the start state once, where driven solids are to go; and what is undone where that frame is abandoned.
+#include <algorithm>
+#include <cmath>
+
+#include "fluid/fluid_impl.hpp"
+#include "gpu/device_impl.hpp"
+
+namespace rill {
+
+void FluidImpl::declareUpload(Graph& graph) {
+  struct Copy {
+    BufferRef from, to;
+    uint64_t bytes, at;
+  };
+  graph.pass("upload", [&](Pass& pass) {
+    std::vector<BufferRef> sources, cleared;
+    for (const Buffer& buffer : staging_->sources()) {
+      sources.push_back(graph.import("start state", {.handle = buffer.handle(), .size = buffer.size(), .before = Use::Nothing}));
+      pass.read(sources.back(), Use::CopySource);
+    }
+    std::vector<Copy> copies;
+    for (const Staging::Copy& copy : staging_->copies()) {
+      BufferRef& ref = refOf(*copy.target);
+      ref = pass.write(ref, Use::CopyTarget);
+      copies.push_back({sources[copy.source], ref, copy.bytes, copy.at});
+    }
+    for (const Buffer* buffer : staging_->cleared()) {
+      BufferRef& ref = refOf(*buffer);
+      ref = pass.write(ref, Use::CopyTarget, true);
+      cleared.push_back(ref);
+    }
+    return [this, copies = std::move(copies), cleared = std::move(cleared)](Commands& commands) {
+      uploadFrame_ = device_->clock.recording;
+      for (const Copy& copy : copies) commands.copy(copy.from, copy.to, copy.bytes, copy.at);
+      for (BufferRef ref : cleared) commands.fill(ref, 0);
+    };
+  });
+}
+
+void FluidImpl::forgetAbandoned() {
+  if (staging_ && uploadFrame_ && device_->abandoned(*uploadFrame_)) {
+    uploaded_ = false;
+    uploadFrame_.reset();
+  }
+  for (; !drives_.empty() && device_->abandoned(drives_.back().frame); drives_.pop_back())
+    for (size_t k = 0; k < setup.driven.size(); ++k) std::ranges::copy(drives_.back().from[k], setup.driven[k].centre);
+  while (!drives_.empty() && drives_.front().frame <= device_->clock.completed) drives_.pop_front();
+}
+
+// Keyframes of the driven solids for an advance: from where the last one was to bring them, towards their targets.
+void FluidImpl::declareDrive(Graph& graph, const FluidStep& step) {
+  struct Keys {
+    uint64_t at;
+    std::array<float, 8> values;  // where it is and when, where it will be and when
+  };
+  std::vector<Keys> keys;
+  Drive& drive = drives_.emplace_back();
+  drive.number = ++driveCount_;
+  drivenSpeed_ = 0;
+  for (DrivenSolid& driven : setup.driven) {
+    std::array<float, 3> from{}, to{};
+    std::copy(std::begin(driven.centre), std::end(driven.centre), from.begin());
+    drive.from.push_back(from);
+    to = from;
+    for (const SolidTarget& target : step.targets) {
+      double way[3];
+      for (int a = 0; a < 3; ++a) way[a] = target.centre[a] - origin[a] - from[a];
+      const double length = std::hypot(way[0], way[1], way[2]);
+      if (target.solid != driven.solid || !std::isfinite(length)) continue;
+      const double share = length > 0 ? std::min(1.0, driven.fastest * step.advance_s / length) : 0.0;
+      for (int a = 0; a < 3; ++a) to[a] = static_cast<float>(from[a] + share * way[a]);
+      drivenSpeed_ = std::max(drivenSpeed_, static_cast<float>(share * length / step.advance_s));
+    }
+    std::copy(to.begin(), to.end(), driven.centre);
+    keys.push_back({uint64_t{setup.solids[driven.solid].firstKey} * 16,
+                    {from[0], from[1], from[2], 0, to[0], to[1], to[2], static_cast<float>(step.advance_s)}});
+  }
+  graph.pass("drive solids", [&](Pass& pass) {
+    r_.keyframes = pass.write(r_.keyframes, Use::CopyTarget);
+    return [this, number = drive.number, keys = std::move(keys), target = r_.keyframes](Commands& commands) {
+      for (Drive& declared : drives_)
+        if (declared.number == number) declared.frame = device_->clock.recording;
+      for (const Keys& k : keys) commands.update(target, std::as_bytes(std::span(k.values)), k.at);
+    };
+  });
+}
+
+}  // namespace rill
