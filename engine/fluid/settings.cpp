@@ -9,6 +9,7 @@
 #include "sph/kernel.hpp"
 #include "sph/solid_density.hpp"
 #include "sph/solid_pose.hpp"
+#include "sph/start_pressure.hpp"
 #include "sph/wall.hpp"
 
 namespace rill {
@@ -26,6 +27,8 @@ constexpr double kWarmGain = 0.02;
 constexpr double kMostRegularizationOfPair = 1, kMostWarmGainOfPair = 0.02;
 // In a fluid at rest, over the square of the column's layers, and at most: its longest wave gains kappa / 2 a substep.
 constexpr double kCalmWarmGain = 1.2, kMostCalmWarmGain = 0.005;
+constexpr double kLeastFollowing =
+    0.0009;                           // kappa with which pressure follows a flow (0.001 did); without one the start's would stay for ever
 constexpr double kCalmSubsteps = 10;  // a layer: the mean error that the step follows there; the column's first wave takes about seven
 constexpr double kRough = 0.5;        // the fastest particle's speed over that of falling through all the fluid's height: no longer at rest
 constexpr double kArtificialViscosity = 0.03;  // of a fluid at rest, over density x spacing x sqrt(g spacing)
@@ -38,7 +41,7 @@ constexpr double kStableError = 0.0055, kStableGain = 40;
 constexpr double kErrorOfHead = 0.38;
 constexpr double kTravel = 1.2;         // spacings that the fastest particle may move before the list is rebuilt
 constexpr double kLeastCfl = 0.01;      // spacings a substep
-constexpr double kWarmLimit = 1;        // w is p dt^2 / (2 rho) for a pressure p: four times that of water as high as the room
+constexpr double kWarmLimit = 1;        // w is -p dt^2 / rho for a pressure p: twice that of water as high as the room
 constexpr double kPushLow = 0.06;       // of the usual speed (setSpeeds): a correction may always add as much to a speed
 constexpr double kPushHigh = 0.5;       // and never more
 constexpr double kSpeedLimit = 8;       // of the usual speed: jets at walls reach two or three times that
@@ -193,6 +196,9 @@ double headOf(const Scene& scene, const double extent[3]) {
   return head;
 }
 
+// Of such a column.
+double layersOf(const Scene& scene, double head) { return head / (std::max(strongestGravity(scene), 1e-20) * scene.fluid.spacing); }
+
 // The regularization that is taken, as a fraction of the rest lattice's D.
 double regularization(const Scene& scene) {
   const double wanted = scene.solver.regularization.value_or(kRegularization);
@@ -238,8 +244,7 @@ double warmGain(const Scene& scene, FluidSetup& setup) {
 // See ARCHITECTURE.md, "Calm water".
 void setGains(const Scene& scene, double head, FluidSetup& setup) {
   FluidParams& p = setup.params;
-  const double layers = head / (std::max(strongestGravity(scene), 1e-20) * scene.fluid.spacing);
-  const double gain = warmGain(scene, setup);
+  const double layers = layersOf(scene, head), gain = warmGain(scene, setup);
   p.roughWarmGain = f(gain);
   p.calmWarmGain = f(scene.solver.warm_start ? gain : std::min(std::min(gain, kMostCalmWarmGain), kCalmWarmGain / (layers * layers)));
   p.roughSpeed = f(kRough * std::sqrt(2 * head));
@@ -260,19 +265,34 @@ void setSpeeds(const Scene& scene, const StartFigures& start, FluidParams& p) {
   p.speedLimit = f(closed ? kSpeedLimit * usual : kNone);
 }
 
-// No step is longer than the fluid can bear, whatever is asked for: a column that its weight compresses by too much in a step folds, and
-// springs back with more energy than it had.
+// A column that its weight compresses by too much in a step folds, and springs back with more energy than it had. `head` above 0.
+double bearableStep(const Scene& scene, const SmoothingKernel& kernel, double head, const FluidParams& p) {
+  const double soft = softness(scene), error = kStableError * p.iterations / (1 + kStableGain * soft * p.roughWarmGain);
+  return stepOfError(error, head, p.roughRelaxation / soft, kernel);
+}
+
+// No step is longer than the fluid can bear, whatever is asked for.
 void setLongestStep(const Scene& scene, const SmoothingKernel& kernel, double head, FluidSetup& setup) {
   FluidParams& p = setup.params;
   if (head <= 0) return;
-  const double soft = softness(scene), error = kStableError * p.iterations / (1 + kStableGain * soft * p.roughWarmGain);
-  const double stable = stepOfError(error, head, p.roughRelaxation / soft, kernel);
+  const double stable = bearableStep(scene, kernel, head, p);
   if (scene.solver.time_step && *scene.solver.time_step > stable)
     setup.warnings.push_back("solver.time_step " + roughNumber(*scene.solver.time_step) + " s is more than " +
                              std::to_string(p.iterations) + (p.iterations == 1 ? " iteration" : " iterations") +
                              " can hold this fluid's weight in: steps are at most " + roughNumber(stable) + " s");
   p.maxStep = std::min(p.maxStep, f(stable));
-  if (soft > 1) warnOfDropping("solver.regularization " + roughNumber(regularization(scene)), stable, setup);
+  if (softness(scene) > 1) warnOfDropping("solver.regularization " + roughNumber(regularization(scene)), stable, setup);
+}
+
+// The start's pressure is found for the longest step that the fluid can bear, in which it is farthest from the rounding of positions. Where
+// no pressure is carried from substep to substep, or nothing holds the fluid up, there is none.
+void setStartPressure(const Scene& scene, const SmoothingKernel& kernel, double head, FluidSetup& setup) {
+  FluidParams& p = setup.params;
+  if (head <= 0 || !setup.near || p.roughWarmGain < kLeastFollowing) return;
+  const StartPressure start = startPressure(kernel, p.calmRelaxation, regularization(scene), layersOf(scene, head), kMostPressings);
+  p.pressings = start.iterations;
+  p.pressMomentum = f(start.momentum);
+  p.pressStep = f(bearableStep(scene, kernel, head, p));
 }
 
 // In a shorter step the rounding of positions, which are floats, is more speed than a correction may always add.
@@ -403,6 +423,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   const double head = headOf(scene, extent);
   setGains(scene, head, setup);
   setLongestStep(scene, kernel, head, setup);
+  setStartPressure(scene, kernel, head, setup);
   setup.firstStep = firstStep(scene, kernel, head, p);
 
   double room[3];

@@ -148,7 +148,7 @@ Expected<void> checkSnapshot(const FluidSnapshot& snapshot, const SnapshotShape&
   if (auto right = checkLengths(snapshot, shape); !right) return right;
   const auto control = record<FluidControl>(snapshot.control);
   const auto sums = record<FluidSums>(snapshot.sums);
-  if (control.stale > 1 || control.settling > kSettleSubsteps || control.timeLeft != 0)
+  if (control.stale > 1 || control.settling > kSettleSubsteps || control.pressing > kMostPressings || control.timeLeft != 0)
     return wrong("its control block is not that of an advance's end");
   std::vector<bool> seen(shape.count);
   if (!markNew(seen, snapshot.id)) return wrong("its ids are not 0 to " + std::to_string(shape.count - 1) + ", each once");

@@ -83,6 +83,7 @@ void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
   FluidControl control{};
   control.stale = 2;
   control.speed = fastest;
+  control.momentum = -1;  // no pressing
   control.settling = settle ? kSettleSubsteps : 0;
   control.desiredStep = static_cast<float>(setup.firstStep);
 

@@ -54,11 +54,30 @@ void ReferenceSolver::begin(double dt) {
     for (int a = 0; a < 3 && !placed; ++a) state.position[i][a] = std::isfinite(settings.lo[a]) ? settings.lo[a] : 0;
     park(i);
   }
+  if (pressed_ > 0) return predict(pressed_, dt);
   state.predicted = state.position;
   step_ = 0;
   judgeCalmness();
   density();
   predict(dt, dt);
+}
+
+void ReferenceSolver::press(double dt, double momentum, int iterations) {
+  judgeCalmness();
+  const double omega = std::lerp(settings.relaxation, settings.calmRelaxation, calmness_);
+  std::vector<double> change(size(), 0);
+  state.predicted = state.position;
+  density();
+  for (int iteration = 0; iteration < iterations; ++iteration) {
+    plan(dt, true);
+    density();
+    for (size_t i = 0; i < size(); ++i) {
+      const double before = state.warm[i], onward = std::min(0.0, before + momentum * change[i]);
+      state.warm[i] = std::min(0.0, onward - omega * (densityRatio_[i] - 1) / denominator_[i]);
+      change[i] = state.warm[i] - before;
+    }
+  }
+  pressed_ = dt;
 }
 
 void ReferenceSolver::substep(double dt, double dtNext) {
@@ -224,11 +243,16 @@ void ReferenceSolver::vorticity(double dt) {
 }
 
 void ReferenceSolver::predict(double dt, double dtNext) {
-  const std::vector<SolidPose> solids = poses(time_, dtNext);
   for (double& w : state.warm) w *= (dtNext / dt) * (dtNext / dt);
+  plan(dtNext, false);
+  step_ = dtNext;
+}
+
+void ReferenceSolver::plan(double dt, bool still) {
+  const std::vector<SolidPose> solids = poses(time_, still ? 0 : dt);
   for (size_t i = 0; i < size(); ++i) {
-    glm::dvec3 x =
-        state.position[i] + dtNext * (state.velocity[i] + dtNext * settings.gravity) + state.warm[i] * vec(boundary_[i].gradient);
+    const glm::dvec3 v = still ? glm::dvec3(0) : state.velocity[i];
+    glm::dvec3 x = state.position[i] + dt * (v + dt * settings.gravity) + state.warm[i] * vec(boundary_[i].gradient);
     for (const Pair& pair : pairs(i)) x += (state.warm[i] + state.warm[pair.j]) * pair.gradient;
     if (finite(x)) {
       state.predicted[i] = collide(x, solids);
@@ -236,7 +260,6 @@ void ReferenceSolver::predict(double dt, double dtNext) {
       park(i);
     }
   }
-  step_ = dtNext;
 }
 
 void ReferenceSolver::park(size_t i) {

@@ -103,9 +103,14 @@ class ReferenceSolver {
   /// Particles at rest in the warm start's sense (w = 0), with ids 0, 1, ... and x* = x. `velocities` may be empty: all 0.
   ReferenceSolver(const ReferenceSettings& settings, std::span<const glm::dvec3> positions, std::span<const glm::dvec3> velocities = {});
 
-  /// The first prediction, for a first substep of `dt` (s, > 0). What is not finite is parked here: a position at the lower corner (0 where
-  /// open), a velocity at 0.
+  /// The first prediction, for a first substep of `dt` (s, > 0), with the pressure that press() has found. What is not finite is parked
+  /// here: a position at the lower corner (0 where open), a velocity at 0.
   void begin(double dt);
+
+  /// Before begin(), of finite particles: the pressure that bears the start, w for a step of `dt` (s, > 0), by Jacobi iterations with
+  /// heavy-ball momentum in which nothing moves: x*_i = x_i + g dt^2 + sum_j (w_i + w_j) G_ij + w_i grad B_i, out of solids and walls, then
+  /// w_i = min(0, min(0, w_i + momentum (w_i - w_i of the iteration before)) + delta_i).
+  void press(double dt, double momentum, int iterations);
 
   /// One substep of `dt`, which is the `dtNext` of the call before (or begin's `dt`), with the prediction of one of `dtNext`. s, > 0.
   void substep(double dt, double dtNext);
@@ -157,6 +162,7 @@ class ReferenceSolver {
   std::vector<SolidPose> poses(double t, double dt) const;
   WallSample boundaryOf(const glm::dvec3& x, std::span<const SolidPose> poses) const;
   Pair makePair(uint32_t i, uint32_t j) const;
+  void plan(double dt, bool still);
   void park(size_t i);
   void judgeCalmness();
   void smooth(double coefficient);
@@ -165,7 +171,8 @@ class ReferenceSolver {
   WallTables tables_;
   std::vector<SphereTable> sphereTables_;  ///< as settings.solids; unused for boxes
   double time_ = 0;
-  double step_ = 0;  ///< s: state.predicted is for time_ + step_
+  double step_ = 0;     ///< s: state.predicted is for time_ + step_
+  double pressed_ = 0;  ///< s, the step of press(); 0: not called
   uint64_t parked_ = 0;
   std::vector<uint32_t> first_;
   std::vector<Pair> pairs_;

@@ -31,6 +31,7 @@ void main() {
   bool going = push.advance > 0.0;
   if (going) {
     c.nextStep = fittedStep(push.advance, c.desiredStep);
+    if (c.pressing > 0u) c.nextStep = params.pressStep;  // the advance before ended too soon
     if (c.warmStep <= 0.0) c.warmStep = c.nextStep;
     if (c.travel + (c.speed + c.solidSpeed + acceleration * c.nextStep) * c.nextStep > params.travelLimit) c.stale = max(c.stale, 1u);
   }

@@ -20,7 +20,7 @@ layout(std430, binding = 12) readonly buffer NearBlock { vec4 nearSample[]; };
 
 void predict(uint i, vec3 x, vec3 v) {
   float pushed;
-  vec3 next = outside(predicted(x, v, pushAway[i].xyz), control.settling != 0u ? 0.0 : control.nextStep, pushed);
+  vec3 next = outside(predicted(x, v, pushAway[i].xyz), ahead(), pushed);
   prediction[i] = vec4(next, pushed);
 }
 
@@ -36,7 +36,7 @@ void main() {
   }
   float pushed;
   vec3 x = outside(from, 0.0, pushed);
-  if (control.step == 0.0) {  // settling
+  if (control.step == 0.0) {  // settling or pressing
     position[i] = vec4(x, 0.0);
     predict(i, x, velocity[i].xyz);
     return;

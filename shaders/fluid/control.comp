@@ -42,10 +42,24 @@ void main() {
     c.step = 0.0;
     c.calming = 0.0;
     setGains(c);
+    if (c.settling == 0u && params.pressings > 0u) {
+      c.pressing = params.pressings;
+      c.nextStep = c.warmStep = params.pressStep;
+    }
     c.travel += 0.1 * params.spacing;
     if (c.travel > params.travelLimit) c.stale = 1u;
     again = false;
+  } else if (first && c.pressing > 0u) {
+    // Then the pressure that bears the start's weight is found, in a step of its own: see ARCHITECTURE.md, "The start's pressure".
+    c.pressing -= 1u;
+    c.momentum = c.pressing > 0u && c.iterations > 1u ? params.pressMomentum : 0.0;  // none from what came before this advance
+    c.step = 0.0;
+    c.calming = 0.0;
+    setGains(c);
+    if (c.pressing == 0u) c.nextStep = fittedStep(c.timeLeft, c.desiredStep);
+    again = false;
   } else if (first) {
+    c.momentum = -1.0;
     c.step = c.nextStep;
     c.error = error;
     c.speed = max(uintBitsToFloat(s.speedMax), 0.0);

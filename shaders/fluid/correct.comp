@@ -76,8 +76,8 @@ void main() {
   }
 
   vec3 from = position[i].xyz;
-  vec3 to = insideWalls(here + moved);
-  bool settles = control.step == 0.0;
+  bool presses = control.momentum >= 0.0, still = control.step == 0.0;  // still: no time goes by
+  vec3 to = presses ? from : insideWalls(here + moved);
   // A correction parts particles whatever it takes, but gives no more speed than what can have brought them together: see ARCHITECTURE.md, "Overlaps".
   vec3 gained = to - here;
   float gain = sqrt(dot(gained, gained));
@@ -90,8 +90,8 @@ void main() {
   float far = sqrt(dot(moves, moves));
   if (far > most) { way *= most / far; to = insideWalls(from + moves * (most / far)); }
   way *= min(1.0, min(most, params.speedLimit * control.step) / max(sqrt(dot(way, way)), 1.0e-20));
-  vec3 v = settles ? velocity[i].xyz : way / control.step;  // not (to - from): who starts outside the walls is put inside, and gets no speed for it
-  vec3 away = settles ? vec3(0.0) : pushed / (control.step * control.step);
+  vec3 v = still ? velocity[i].xyz : way / control.step;  // not (to - from): who starts outside the walls is put inside, and gets no speed for it
+  vec3 away = pushed / (control.warmStep * control.warmStep);
   vec3 next = insideWalls(predicted(to, v, away));
   bool finite = isFinite(to) && isFinite(next);
   if (!finite) {
@@ -103,10 +103,15 @@ void main() {
     next = from;
     warm[i] = 0.0;
   }
+  float found = 0.0;
+  if (presses) {  // heavy ball (Polyak 1964): the last change goes on in the next
+    found = warm[i];
+    warm[i] = min(0.0, found + control.momentum * (found - pushAway[i].w));
+  }
   position[i] = vec4(to, 0.0);
   if (CONTACT != 0u) freeVelocity[i] = vec4(velocity[i].xyz + control.step * gravity(), prediction[i].w);
   velocity[i] = vec4(v, 1.0);
-  pushAway[i] = vec4(away, 0.0);
+  pushAway[i] = vec4(away, found);
   prediction[i] = vec4(next, 0.0);
 
   float fastest = subgroupMax(sqrt(dot(v, v)));

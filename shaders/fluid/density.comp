@@ -62,7 +62,8 @@ void main() {
     float ratio = control.nextStep / control.warmStep;
     before = warm[i] * ratio * ratio;  // 0 while particles settle
     after = min(0.0, before + delta);
-    warmNext = min(0.0, before + control.nextWarmGain * (delta > 0.0 ? params.warmRelease : 1.0) * delta);
+    float gain = control.pressing != 0u ? 1.0 : control.nextWarmGain * (delta > 0.0 ? params.warmRelease : 1.0);
+    warmNext = min(0.0, before + gain * delta);
     warmNext = max(warmNext, -params.warmLimit * control.nextStep * control.nextStep);  // fluid without room would wind it up for ever
     if (control.settling != 0u) warmNext = 0.0;
     warm[i] = warmNext;

@@ -16,6 +16,6 @@ void main() {
   vec3 x = position[i].xyz;
   vec3 next = predicted(x, velocity[i].xyz, pushAway[i].xyz);
   float pushed;
-  next = outside(next, control.nextStep, pushed);
+  next = outside(next, ahead(), pushed);
   prediction[i] = vec4(isFinite(next) ? next : x, pushed);
 }

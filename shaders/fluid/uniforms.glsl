@@ -25,6 +25,11 @@ vec3 gravity() { return vec3(control.gravityX, control.gravityY, control.gravity
 
 // The prediction of the next substep, before walls and solids; `away`: the warm start's push, m/s^2.
 vec3 predicted(vec3 x, vec3 v, vec3 away) {
-  return control.settling != 0u ? x : x + control.nextStep * (v + control.nextStep * (gravity() + away));
+  if (control.settling != 0u) return x;
+  if (control.pressing != 0u) v = vec3(0.0);  // the start's pressure bears weight, it does not stop what moves
+  return x + control.nextStep * (v + control.nextStep * (gravity() + away));
 }
+
+// Seconds until then, for solids: while the start is prepared they stand still.
+float ahead() { return control.settling != 0u || control.pressing != 0u ? 0.0 : control.nextStep; }
 #endif

@@ -8,6 +8,7 @@ RILL_CONST uint kFluidGroup = 64u;        // invocations a workgroup of every pe
 RILL_CONST uint kListBlock = 4096u;       // particles a block of the neighbour list: k-major inside a block
 RILL_CONST uint kCellsPerReach = 2u;       // grid cells in x as long as one in y or z
 RILL_CONST uint kSettleSubsteps = 64u;     // at most, before the first substep in time
+RILL_CONST uint kMostPressings = 1024u;    // iterations that find the pressure of the start, at most, after those
 RILL_CONST float kMostCalming = 0.5f;     // XSPH coefficient of a calm pass, at most
 RILL_CONST uint kWindow = 32u;            // candidates that a grid walk looks at together, a bit of a mask each
 // Candidates that the particles of a cluster look at together, at most, in whole windows; more are counted as a bound hit. Lavapipe ends a shader after 65,535
@@ -90,12 +91,15 @@ struct FluidParams {
   float warmLimit;        // m^2/s^2: the warm start is at most this times the step squared
   float boundLowX, boundLowY, boundLowZ;     // m, the domain, open sides too: who is beyond counts as outside
   float boundHighX, boundHighY, boundHighZ;
+  uint pressings;         // iterations that find the pressure of the start (see engine/sph/start_pressure.hpp); 0: it starts without
+  float pressStep;        // s, the step that it is found for
+  float pressMomentum;    // of a multiplier's last change, what is added to the next
   uint fullNeighbours;    // within the support: a particle with as many is inside the fluid
 };
 
 // Decided on the device, substep by substep; read as a uniform block by the passes, written by control.comp and begin.comp.
 struct FluidControl {
-  float step;          // s, of the substep that control.comp has accounted for last; 0: it settled
+  float step;          // s, of the substep that control.comp has accounted for last; 0: it settled or pressed
   float nextStep;      // s, of the one whose prediction is at hand or is about to be made
   float warmStep;      // s, the step that the stored multipliers are expressed for
   float timeLeft;      // s of the advance
@@ -122,6 +126,8 @@ struct FluidControl {
   float uncalmed;      // s since the last one
   uint settling;       // substeps left, at most, in which particles that overlap at the start part without gaining speed
   float solidSpeed;    // m/s, the fastest solid of the advance
+  uint pressing;       // iterations left, after settling, that find the start's pressure: nothing moves
+  float momentum;      // of the one at hand; negative: the substep at hand is none of them
 };
 
 // Sums of the passes of one substep; integers, so that their order does not matter.

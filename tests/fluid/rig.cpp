@@ -176,6 +176,8 @@ double Snapshot::fastest() const {
 }
 
 Oracle::Oracle(const Trial& trial) : trial_(trial), solver_(settingsOf(trial), rounded(trial.x), rounded(trial.v)) {
+  const FluidParams p = setupOf(trial).params;
+  if (trial.settle && p.pressings > 0) solver_.press(p.pressStep, p.pressMomentum, static_cast<int>(p.pressings));
   solver_.begin(trial.step);
 }
 

@@ -57,13 +57,13 @@ TEST(CheckpointFile, ForeignAndNewerFilesAreToldApart) {
   const std::string picture = "\x89PNG\r\n\x1a\n and so on and so on";
   EXPECT_NE(refusal(std::as_bytes(std::span(picture))).find("is no checkpoint of Rill"), std::string::npos);
   auto newer = offline::encodeCheckpoint(seedCheckpoint());
-  newer[8] = std::byte{4};
+  newer[8] = std::byte{5};
   seal(newer);
-  EXPECT_NE(refusal(newer).find("a newer Rill, in format 4; this one reads format 3"), std::string::npos) << refusal(newer);
+  EXPECT_NE(refusal(newer).find("a newer Rill, in format 5; this one reads format 4"), std::string::npos) << refusal(newer);
   auto older = offline::encodeCheckpoint(seedCheckpoint());
-  older[8] = std::byte{2};
+  older[8] = std::byte{3};
   seal(older);
-  EXPECT_NE(refusal(older).find("an older Rill, in format 2; this one reads format 3"), std::string::npos) << refusal(older);
+  EXPECT_NE(refusal(older).find("an older Rill, in format 3; this one reads format 4"), std::string::npos) << refusal(older);
 }
 
 // With a checksum that holds: lengths are not believed for that.

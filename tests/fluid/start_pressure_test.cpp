@@ -1,0 +1,143 @@
+// The pressure that bears the fluid's weight is there when time begins: no wave is released, and nothing else changes.
+#include <glm/geometric.hpp>
+
+#include "fluid/rig.hpp"
+
+namespace rill::test {
+namespace {
+
+constexpr double kGravity = 9.81;
+
+// A column that fills its tank from side to side, at rest; it fits, so that settling finds nothing to do.
+Trial column(int layers) {
+  Trial t = trial();
+  t.settle = true;
+  t.scene.solver.relaxation.reset();
+  t.scene.solver.warm_start.reset();
+  setWalls(t, {6 * t.d(), 1.5 * layers * t.d(), 6 * t.d()});
+  t.x = block({6, layers, 6}, t.d());
+  t.step = 5e-4;
+  return t;
+}
+
+// The same let go at one side.
+Trial dam(int layers) {
+  Trial t = column(layers);
+  setWalls(t, {20 * t.d(), 1.5 * layers * t.d(), 6 * t.d()});
+  return t;
+}
+
+struct StartPressureTest : FluidTest {
+  /// By id, Pa.
+  std::vector<double> pressures(Run& run, const Trial& t) {
+    const FluidSnapshot saved = run.saved();
+    const double step = run.control().warmStep;
+    std::vector<double> p(saved.warm.size());
+    for (size_t i = 0; i < p.size(); ++i) p[saved.id[i]] = -t.scene.fluid.density * double{saved.warm[i]} / (step * step);
+    return p;
+  }
+};
+
+TEST_F(StartPressureTest, IsThatOfTheWaterAbove) {
+  const Trial t = column(30);
+  auto run = start(t);
+  run->substeps(1);
+  const auto p = pressures(*run, t);
+  const double whole = t.scene.fluid.density * kGravity * 30 * t.d();
+  for (size_t i = 0; i < p.size(); ++i) {
+    const double depth = 30 * t.d() - t.x[i].y;
+    // The kernel's gradient on a cubic lattice is nine tenths of the true one, so that it takes a tenth more pressure to bear the same.
+    ASSERT_NEAR(p[i], 1.11 * t.scene.fluid.density * kGravity * depth, 0.04 * whole) << "particle " << i << ", " << depth << " m deep";
+  }
+}
+
+TEST_F(StartPressureTest, HoldsAColumnFromTheFirstSubstep) {
+  Trial t = column(30);
+  const auto fall = [&](bool settle) {
+    t.settle = settle;
+    auto run = start(t);
+    run->substeps(4);
+    const Snapshot after = run->snapshot();
+    return -after.velocitySum().y / static_cast<double>(after.v.size()) / (4 * t.step * kGravity);
+  };
+  EXPECT_NEAR(fall(true), 0, 0.1) << "of a free fall, in the mean";
+  EXPECT_GT(fall(false), 0.5) << "without it the column falls, until a wave from the floor has come up to it";
+}
+
+TEST_F(StartPressureTest, IsThatOfTheReference) {
+  for (Gather gather : kGathers) {
+    Trial t = dam(12);
+    t.gather = gather;
+    SCOPED_TRACE(nameOf(gather));
+    auto run = start(t);
+    run->substeps(1);
+    const auto device = pressures(*run, t);
+    Oracle oracle(t);
+    oracle.advance(1);
+    const double whole = t.scene.fluid.density * kGravity * 12 * t.d();
+    for (size_t i = 0; i < device.size(); ++i) {
+      const double exact = -t.scene.fluid.density * oracle.solver().state.warm[i] / (t.step * t.step);
+      ASSERT_NEAR(device[i], exact, 0.005 * whole) << "particle " << i;
+    }
+  }
+}
+
+TEST_F(StartPressureTest, TheFlowThatFollowsIsThatOfTheReference) { expectEqual(dam(12), 20, 2e-4, 1e-4); }
+
+TEST_F(StartPressureTest, StopsNoOneWhoMoves) {
+  Trial t = column(8);
+  t.v.assign(t.x.size(), glm::dvec3(0, 2, 0));
+  auto run = start(t);
+  run->substeps(1);
+  for (const glm::dvec3& v : run->snapshot().v) ASSERT_NEAR(v.y, 2, 0.04) << "m/s";
+}
+
+TEST_F(StartPressureTest, TakesNoTime) {
+  auto run = start(column(8));
+  run->substeps(2);
+  EXPECT_EQ(run->progress().substeps, 2u);
+  EXPECT_NEAR(run->progress().time_s, 1e-3, 1e-9);
+  EXPECT_EQ(run->progress().time_dropped_s, 0);
+}
+
+// A host records a few substeps a frame, whatever is due.
+TEST_F(StartPressureTest, IsFoundOverSeveralAdvancesAndCheckpoints) {
+  const Trial t = column(12);
+  auto run = start(t);
+  const FluidStep frame{.advance_s = 4 * t.step, .substeps = 12};
+  run->read(frame);
+  EXPECT_GT(run->control().pressing, 0u) << "12 are not enough";
+  EXPECT_GT(run->progress().time_left_s, 0);
+  run->read({.advance_s = 0, .substeps = 12});  // gives the advance up
+  const FluidSnapshot saved = run->saved();
+  auto resumed = start(t, &saved);
+  for (int n = 0; n < 8; ++n) EXPECT_EQ(run->read(frame), resumed->read(frame)) << n;
+  EXPECT_EQ(run->control().pressing, 0u);
+  EXPECT_GT(run->progress().time_s, 0);
+  EXPECT_LT(run->snapshot().fastest(), 0.5 * kGravity * run->progress().time_s) << "and it holds";
+}
+
+TEST_F(StartPressureTest, IsSkippedWhereThereIsNone) {
+  const auto most = [&](const Trial& t) { return start(t)->fluid().mostSubsteps() / kSubstepsPerBlock - t.scene.solver.max_substeps; };
+  const Trial bears = column(8);
+  EXPECT_GT(most(bears), kSettleSubsteps);
+  Trial falls = bears;
+  falls.scene.domain.reset();
+  EXPECT_EQ(most(falls), kSettleSubsteps) << "nothing holds it up";
+  Trial floats = bears;
+  floats.scene.gravity[1] = 0;
+  EXPECT_EQ(most(floats), kSettleSubsteps) << "nothing pulls it down";
+  Trial forgets = bears;
+  forgets.scene.solver.warm_start = 0;
+  EXPECT_EQ(most(forgets), kSettleSubsteps) << "no pressure is carried from substep to substep";
+}
+
+TEST_F(StartPressureTest, DeepWaterTakesABoundedNumber) {
+  Trial t = column(8);
+  t.x.push_back({3 * t.d(), 5000 * t.d(), 3 * t.d()});
+  t.scene.domain->max[1] = 6000 * t.d();
+  EXPECT_LE(start(t)->fluid().mostSubsteps(), kSubstepsPerBlock * (t.scene.solver.max_substeps + kSettleSubsteps + kMostPressings));
+}
+
+}  // namespace
+}  // namespace rill::test
