@@ -12,13 +12,14 @@ namespace rill {
 
 /// One buffer of a step, in the order of the shader's bindings.
 struct StepBuffer {
-  enum class How : uint8_t { Read, Uniform, Write, Fresh };
+  enum class How : uint8_t { Read, Uniform, Texel, Write, Fresh };
   BufferRef ref;
   BufferRef* target = nullptr;  ///< of a write: where the new version goes
   How how = How::Read;
 };
 inline StepBuffer reads(BufferRef buffer) { return {buffer, nullptr, StepBuffer::How::Read}; }
 inline StepBuffer uniform(BufferRef buffer) { return {buffer, nullptr, StepBuffer::How::Uniform}; }
+inline StepBuffer texels(BufferRef buffer) { return {buffer, nullptr, StepBuffer::How::Texel}; }
 inline StepBuffer writes(BufferRef& buffer) { return {buffer, &buffer, StepBuffer::How::Write}; }  ///< keeps what it does not write
 inline StepBuffer fresh(BufferRef& buffer) { return {buffer, &buffer, StepBuffer::How::Fresh}; }   ///< writes all that is read later
 
@@ -45,6 +46,9 @@ void addStep(Graph& graph, std::string_view name, const ComputePipeline* pipelin
           break;
         case StepBuffer::How::Uniform:
           pass.read(buffer.ref, Use::ComputeUniform);
+          break;
+        case StepBuffer::How::Texel:
+          pass.read(buffer.ref, Use::ComputeTexel);
           break;
         case StepBuffer::How::Write:
         case StepBuffer::How::Fresh:

@@ -141,7 +141,8 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
     return targets;
   }
   if (!within(graph, targets, view)) return targets;
-  last = surface.addTo(graph, fluid, camera(fluid, view), look.surface, whole, view.focus_m);
+  // What is seen through the fluid is bent by the faces around a pixel, in tiles without fluid too.
+  last = surface.addTo(graph, fluid, camera(fluid, view), look.surface, whole || !look.opaque, view.focus_m);
   const SurfacePush push = last.push;
   const uint64_t pixels = uint64_t{push.width} * push.height;
   BufferRef sceneColour = graph.create("fluid scene colour", {pixels * 8}), sceneDepth = graph.create("fluid scene depth", {pixels * 4});

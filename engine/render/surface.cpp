@@ -74,10 +74,10 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device) {
       {stage.pick_, "render/surface_pick", 6},
       {stage.scatter_, "render/surface_scatter", 6},
       {stage.order_, "render/surface_order", 5},
-      {stage.planes_, "render/surface_planes", 4},
-      {stage.blend_, "render/surface_blend", 6},
+      {stage.planes_[0], "render/surface_planes", 4},
+      {stage.blend_[0], "render/surface_blend", 6},
       {stage.tiles_, "render/surface_tiles", 3},
-      {stage.compose_, "render/surface_compose", 8},
+      {stage.compose_[0], "render/surface_compose", 8},
       {stage.thickness_, "render/surface_thickness", 4},
       {stage.flow_, "render/surface_flow", 2},
       {stage.normals_, "render/surface_normals", 6},
@@ -87,6 +87,25 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device) {
   for (const auto& row : all) {
     auto made = computePipeline(
         device, {.shader = row.shader, .bindings = std::span(kStorage).first(row.bindings), .pushConstantBytes = sizeof(SurfacePush)});
+    if (!made) return made.error();
+    row.pipeline = *made;
+  }
+  static constexpr BindingKind kTexels[] = {BindingKind::TexelUint, BindingKind::TexelFloat4, BindingKind::TexelFloat4,
+                                            BindingKind::Storage,   BindingKind::Storage,     BindingKind::Storage,
+                                            BindingKind::Storage,   BindingKind::Storage},
+                               kTexelsToPlanes[] = {BindingKind::TexelUint, BindingKind::TexelFloat4, BindingKind::Storage,
+                                                    BindingKind::Storage};
+  const struct {
+    const ComputePipeline*& pipeline;
+    std::string_view shader;
+    std::span<const BindingKind> bindings;
+  } texel[] = {
+      {stage.planes_[1], "render/surface_planes_texel", kTexelsToPlanes},
+      {stage.blend_[1], "render/surface_blend_texel", std::span(kTexels).first(6)},
+      {stage.compose_[1], "render/surface_compose_texel", kTexels},
+  };
+  for (const auto& row : texel) {
+    auto made = computePipeline(device, {.shader = row.shader, .bindings = row.bindings, .pushConstantBytes = sizeof(SurfacePush)});
     if (!made) return made.error();
     row.pipeline = *made;
   }
@@ -109,11 +128,12 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
   assert(fluid.count > 0);
   const bool filtered = settings.filter || method == SurfaceMethod::CurvatureFlow || method == SurfaceMethod::NarrowRange;
   Frame frame = frameOf(fluid, camera, method, focus, settings);
+  frame.texels = !filtered && device_->info().maxTexelBufferElements >= std::max<uint64_t>(2 * uint64_t{fluid.count}, frame.cells + 1);
   addBuffers(graph, fluid, frame, whole);
   addVisible(graph, fluid, frame);
   addGrid(graph, fluid, frame);
   const BufferRef smooth = filtered ? addFiltered(graph, frame, method, settings.filter) : addPlanes(graph, frame);
-  addCompose(graph, frame, filtered ? composeFiltered_ : compose_, smooth, whole);
+  addCompose(graph, frame, filtered ? composeFiltered_ : compose_[frame.texels], smooth, whole);
   return frame.out;
 }
 
@@ -212,11 +232,13 @@ void SurfaceStage::addGrid(Graph& graph, const FluidState& fluid, Frame& frame) 
 BufferRef SurfaceStage::addPlanes(Graph& graph, Frame& frame) const {
   SurfaceBuffers& out = frame.out;
   frame.plane = graph.create("surface planes", {uint64_t{out.push.count} * 32});
-  addStep(graph, "surface planes", planes_, {writes(out.counters), reads(frame.start), reads(frame.centre), fresh(frame.plane)},
+  addStep(graph, "surface planes", planes_[frame.texels],
+          {frame.walks(frame.start), frame.walks(frame.centre), fresh(frame.plane), writes(out.counters)},
           StepGroups(out.arguments, kSurfaceArguments), out.push);
   BufferRef samples = graph.create("surface samples", {frame.samples * 8});
-  addStep(graph, "surface blend", blend_,
-          {reads(frame.start), reads(frame.centre), reads(frame.plane), reads(frame.depth), fresh(samples), writes(out.counters)},
+  addStep(graph, "surface blend", blend_[frame.texels],
+          {frame.walks(frame.start), frame.walks(frame.centre), frame.walks(frame.plane), reads(frame.depth), fresh(samples),
+           writes(out.counters)},
           frame.sampleGroups, out.push);
   return samples;
 }
@@ -254,8 +276,8 @@ BufferRef SurfaceStage::addFiltered(Graph& graph, Frame& frame, SurfaceMethod me
 void SurfaceStage::addCompose(Graph& graph, Frame& frame, const ComputePipeline* compose, BufferRef samples, bool whole) {
   SurfaceBuffers& out = frame.out;
   addStep(graph, "surface compose", compose,
-          {reads(frame.start), reads(frame.centre), reads(frame.plane), reads(frame.depth), reads(samples), writes(out.counters),
-           reads(out.tiles), whole ? writes(out.pixels) : fresh(out.pixels)},
+          {frame.walks(frame.start), frame.walks(frame.centre), frame.walks(frame.plane), reads(frame.depth), reads(samples),
+           writes(out.counters), reads(out.tiles), whole ? writes(out.pixels) : fresh(out.pixels)},
           StepGroups(out.arguments, kSurfaceTileArguments), out.push);
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "gpu/resources.hpp"
+#include "render/compute_step.hpp"
 #include "render/surface_records.h"
 #include "rill/fluid.hpp"
 #include "rill/fluid_renderer.hpp"
@@ -72,6 +73,8 @@ class SurfaceStage {
     BufferRef survivors;         ///< particles that nothing hides
     BufferRef start, centre;     ///< screen grid of those that are surface
     BufferRef plane;             ///< of the method that has planes
+    bool texels = false;         ///< those three are walked over as texel buffers
+    StepBuffer walks(BufferRef buffer) const { return texels ? rill::texels(buffer) : reads(buffer); }
   };
   static Frame frameOf(const FluidState& fluid, surface::SurfacePush camera, SurfaceMethod method, double focus,
                        const SurfaceSettings& settings);
@@ -86,9 +89,9 @@ class SurfaceStage {
 
   Device* device_ = nullptr;
   const ComputePipeline *occlude_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr, *pick_ = nullptr,
-                        *scatter_ = nullptr, *order_ = nullptr, *planes_ = nullptr, *blend_ = nullptr, *tiles_ = nullptr,
-                        *compose_ = nullptr, *composeFiltered_ = nullptr, *flow_ = nullptr, *narrow_[2] = {}, *normals_ = nullptr,
-                        *thickness_ = nullptr, *thicknessBare_ = nullptr;
+                        *scatter_ = nullptr, *order_ = nullptr, *planes_[2] = {}, *blend_[2] = {}, *tiles_ = nullptr, *compose_[2] = {},
+                        *composeFiltered_ = nullptr, *flow_ = nullptr, *narrow_[2] = {}, *normals_ = nullptr, *thickness_ = nullptr,
+                        *thicknessBare_ = nullptr;
 };
 
 /// A pixel of SurfaceBuffers::pixels, as shaders/render/surface.glsl packs it.

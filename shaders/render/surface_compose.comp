@@ -4,11 +4,7 @@
 #include "render/surface.glsl"
 
 layout(local_size_x = kSurfaceTile, local_size_y = kSurfaceTile) in;
-layout(std430, set = 0, binding = 0) readonly buffer Start { uint start[]; };
-layout(std430, set = 0, binding = 1) readonly buffer Centre { vec4 centre[]; };
-#ifndef FILTERED
-layout(std430, set = 0, binding = 2) readonly buffer Plane { vec4 plane[]; };
-#endif
+#include "render/surface_arrays.glsl"
 layout(std430, set = 0, binding = 3) readonly buffer Depth { uint depth[]; };
 layout(std430, set = 0, binding = 4) readonly buffer Samples { uvec2 samples[]; };
 layout(std430, set = 0, binding = 5) buffer Counters { uint counters[]; };

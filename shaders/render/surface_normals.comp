@@ -4,8 +4,7 @@
 #include "render/surface.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(std430, set = 0, binding = 0) readonly buffer Start { uint start[]; };
-layout(std430, set = 0, binding = 1) readonly buffer Centre { vec4 centre[]; };
+#include "render/surface_arrays.glsl"
 layout(std430, set = 0, binding = 2) readonly buffer Filtered { float filtered[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Depth { uint depth[]; };
 layout(std430, set = 0, binding = 4) writeonly buffer Samples { uvec2 samples[]; };  // depth, normal

@@ -6,10 +6,9 @@
 #include "render/surface.glsl"
 
 layout(local_size_x = kSurfaceGroup) in;
-layout(std430, set = 0, binding = 0) buffer Counters { uint counters[]; };
-layout(std430, set = 0, binding = 1) readonly buffer Start { uint start[]; };
-layout(std430, set = 0, binding = 2) readonly buffer Centre { vec4 centre[]; };
-layout(std430, set = 0, binding = 3) writeonly buffer Plane { vec4 plane[]; };
+#include "render/surface_arrays.glsl"
+layout(std430, set = 0, binding = 2) writeonly buffer Plane { vec4 plane[]; };
+layout(std430, set = 0, binding = 3) buffer Counters { uint counters[]; };
 #include "render/surface_walk.glsl"
 
 const float kFewest = 1.5;       // sum of the others' weights below which it is a ball
@@ -49,7 +48,7 @@ Fit fitAround(vec3 own, float inverse, CellRange range, vec3 across) {
   for (int y = range.first.y; y <= range.last.y; ++y) {
     const uvec2 row = rowOf(range, y);
     for (uint j = row.x; j < row.y; ++j) {
-      const vec3 q = (centre[j].xyz - own) * inverse;
+      const vec3 q = (CENTRE(j) - own) * inverse;
       const float inside = max(1.0 - dot(q, q), 0.0);
       const float off = dot(q, across);
       const float near = max(1.0 - off * off, 0.0);
@@ -70,7 +69,7 @@ Fit fitAround(vec3 own, float inverse, CellRange range, vec3 across) {
 void main() {
   const uint k = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
   if (k >= counters[kSurfaceCount]) return;
-  const vec3 own = centre[k].xyz;
+  const vec3 own = CENTRE(k);
   const float spacing = spacingAt(own.z), reach = view.smoothing * spacing, inverse = 1.0 / reach;
   const CellRange range = cellsAround(own, reach);
   Fit fit = fitAround(own, inverse, range, vec3(0.0));

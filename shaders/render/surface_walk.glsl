@@ -1,4 +1,4 @@
-// The cells of the screen grid around a point. Needs `start`.
+// The cells of the screen grid around a point. Needs START.
 bool bound_hit = false;  // a walk has left something out
 
 struct CellRange {
@@ -18,7 +18,7 @@ CellRange cellsAround(vec3 point, float reach) {
 // Surface particles of one row of the range: first, and the one after the last.
 uvec2 rowOf(CellRange range, int y) {
   const uint row = uint(y) * cellGrid().x;
-  const uint begin = start[row + uint(range.first.x)], end = start[row + uint(range.last.x) + 1u];
+  const uint begin = START(row + uint(range.first.x)), end = START(row + uint(range.last.x) + 1u);
   bound_hit = bound_hit || end > begin + kMostInRow;
   return uvec2(begin, min(end, begin + kMostInRow));
 }

@@ -1,8 +1,10 @@
 #include "render/surface_rig.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
+#include <limits>
 
 namespace rill::test {
 namespace {
@@ -97,11 +99,25 @@ FluidRendererImpl& SurfaceOnGpu::renderer() {
   return renderer_->impl();
 }
 
+void SurfaceOnGpu::leaveBehind(Graph& graph, int run) {
+  const float left = run == 0 ? std::numeric_limits<float>::quiet_NaN() : 4.1f;
+  graph.reset();
+  BufferRef buffers = graph.create("left over", {uint64_t{32} << 20});
+  graph.pass("leave", [&](Pass& pass) {
+    buffers = pass.write(buffers, Use::CopyTarget, true);
+    pass.sideEffect();
+    return [buffers, left](Commands& commands) { commands.fill(buffers, std::bit_cast<uint32_t>(left)); };
+  });
+  GpuTest::run(graph);
+  graph.reset();
+}
+
 std::vector<Pixel> SurfaceOnGpu::surface(const FluidView& view, SurfaceMethod method) {
   EXPECT_TRUE(FluidRenderer::check(view));
   std::vector<uint32_t> first;
+  Graph graph;
   for (int run = 0; run < 2; ++run) {
-    Graph graph;
+    leaveBehind(graph, run);
     const FluidState fluid = state(graph);
     SurfaceBuffers found = renderer().surface.addTo(graph, fluid, renderer().camera(fluid, view), method, true, view.focus_m);
     const Ticket ticket = graph.readback(found.pixels);
@@ -156,8 +172,9 @@ Drawn SurfaceOnGpu::drawn(const FluidView& view, const FluidLook& look, const Ba
   EXPECT_TRUE(made) << made.error().message;
   if (!made) return {};
   Drawn first;
+  Graph graph;
   for (int run = 0; run < 2; ++run) {
-    Graph graph;
+    leaveBehind(graph, run);
     const FluidState fluid = state(graph);
     const SceneTargets targets = (*made)->addTo(graph, fluid, hosts(graph, formats, width, height, backdrop), view, look);
     const uint64_t pixels = uint64_t{width} * height;

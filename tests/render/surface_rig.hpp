@@ -68,6 +68,9 @@ class SurfaceOnGpu : public GpuTest {
   /// The surface of the picture, found twice: the same bits.
   std::vector<Pixel> surface(const FluidView& view, SurfaceMethod method = SurfaceMethod::Auto);
 
+  /// Gives a graph transient memory whose content differs from run to run: who reads any before it was written makes another picture.
+  void leaveBehind(Graph& graph, int run);
+
   /// Targets of a size that hold the backdrop.
   SceneTargets hosts(Graph& graph, const TargetFormats& formats, uint32_t width, uint32_t height, const Backdrop& backdrop);
   /// The fluid over a backdrop, drawn twice: the same bits. Targets are as large as the viewport and what is left and above of it, or as
