@@ -45,7 +45,7 @@ std::string plotProgram(std::span<const Plot> plots) {
   out << "set terminal svg noenhanced size " << columns * kWidth << "," << std::max(1, rows) * kHeight
       << " font 'sans,12' background rgb 'white'\n"
       << "set multiplot layout " << std::max(1, rows) << "," << columns << "\n"
-      << "set grid lc rgb '#dddddd'\nset key outside below\nset format '%g'\n";
+      << "set grid lc rgb '#dddddd'\nset key outside below height 1\nset format '%g'\n";
   for (size_t p = 0; p < plots.size(); ++p) {
     const Plot& plot = plots[p];
     out << "set title " << quoted(plot.title) << "\nset xlabel " << quoted(plot.x) << "\nset ylabel " << quoted(plot.y) << "\n";
