@@ -56,8 +56,10 @@ Expected<void> Runner::piece(double budget_s) {
   const double seconds = std::chrono::duration<double>(Now::now() - before).count();
   const FluidProgress& progress = fluid_->progress();
   recorded_ += substeps;
-  pacing_.ran(substeps, progress.substeps - std::min(done_, progress.substeps), seconds);
-  done_ = progress.substeps;
+  // Before time begins substeps prepare the start, and are iterations alone.
+  const uint32_t due = std::max(progress.substeps, progress.iterations / scene_.solver.iterations);
+  pacing_.ran(substeps, due - std::min(done_, due), seconds);
+  done_ = due;
   ++current_.pieces;
   current_.wall_s += seconds;
   if (progress.time_left_s > 0 && recorded_ < most) return {};

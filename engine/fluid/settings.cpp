@@ -27,8 +27,8 @@ constexpr double kWarmGain = 0.02;
 constexpr double kMostRegularizationOfPair = 1, kMostWarmGainOfPair = 0.02;
 // In a fluid at rest, over the square of the column's layers, and at most: its longest wave gains kappa / 2 a substep.
 constexpr double kCalmWarmGain = 1.2, kMostCalmWarmGain = 0.005;
-constexpr double kLeastFollowing =
-    0.0009;                           // kappa with which pressure follows a flow (0.001 did); without one the start's would stay for ever
+// With this kappa pressure still followed a dam's flow; without one the start's would stay for ever.
+constexpr double kLeastFollowing = 0.001;
 constexpr double kCalmSubsteps = 10;  // a layer: the mean error that the step follows there; the column's first wave takes about seven
 constexpr double kRough = 0.5;        // the fastest particle's speed over that of falling through all the fluid's height: no longer at rest
 constexpr double kArtificialViscosity = 0.03;  // of a fluid at rest, over density x spacing x sqrt(g spacing)
@@ -265,9 +265,11 @@ void setSpeeds(const Scene& scene, const StartFigures& start, FluidParams& p) {
   p.speedLimit = f(closed ? kSpeedLimit * usual : kNone);
 }
 
-// A column that its weight compresses by too much in a step folds, and springs back with more energy than it had. `head` above 0.
-double bearableStep(const Scene& scene, const SmoothingKernel& kernel, double head, const FluidParams& p) {
-  const double soft = softness(scene), error = kStableError * p.iterations / (1 + kStableGain * soft * p.roughWarmGain);
+// A column that its weight compresses by too much in a step of so many iterations folds, and springs back with more energy than it had.
+// `head` above 0; `gain`: the warm start's.
+double bearableStep(const Scene& scene, const SmoothingKernel& kernel, double head, uint32_t iterations, double gain,
+                    const FluidParams& p) {
+  const double soft = softness(scene), error = kStableError * iterations / (1 + kStableGain * soft * gain);
   return stepOfError(error, head, p.roughRelaxation / soft, kernel);
 }
 
@@ -275,7 +277,7 @@ double bearableStep(const Scene& scene, const SmoothingKernel& kernel, double he
 void setLongestStep(const Scene& scene, const SmoothingKernel& kernel, double head, FluidSetup& setup) {
   FluidParams& p = setup.params;
   if (head <= 0) return;
-  const double stable = bearableStep(scene, kernel, head, p);
+  const double stable = bearableStep(scene, kernel, head, p.iterations, p.roughWarmGain, p);
   if (scene.solver.time_step && *scene.solver.time_step > stable)
     setup.warnings.push_back("solver.time_step " + roughNumber(*scene.solver.time_step) + " s is more than " +
                              std::to_string(p.iterations) + (p.iterations == 1 ? " iteration" : " iterations") +
@@ -284,15 +286,15 @@ void setLongestStep(const Scene& scene, const SmoothingKernel& kernel, double he
   if (softness(scene) > 1) warnOfDropping("solver.regularization " + roughNumber(regularization(scene)), stable, setup);
 }
 
-// The start's pressure is found for the longest step that the fluid can bear, in which it is farthest from the rounding of positions. Where
-// no pressure is carried from substep to substep, or nothing holds the fluid up, there is none.
+// The start's pressure is found for the longest step in which the defaults bear the fluid: in shorter ones the rounding of positions hides
+// it, in longer ones the column folds. Where no pressure is carried from substep to substep, or nothing holds the fluid up, there is none.
 void setStartPressure(const Scene& scene, const SmoothingKernel& kernel, double head, FluidSetup& setup) {
   FluidParams& p = setup.params;
-  if (head <= 0 || !setup.near || p.roughWarmGain < kLeastFollowing) return;
+  if (head <= 0 || !setup.near || p.roughWarmGain < f(kLeastFollowing)) return;
   const StartPressure start = startPressure(kernel, p.calmRelaxation, regularization(scene), layersOf(scene, head), kMostPressings);
   p.pressings = start.iterations;
   p.pressMomentum = f(start.momentum);
-  p.pressStep = f(bearableStep(scene, kernel, head, p));
+  p.pressStep = f(bearableStep(scene, kernel, head, 1, kWarmGain / softness(scene), p));
 }
 
 // In a shorter step the rounding of positions, which are floats, is more speed than a correction may always add.
@@ -315,8 +317,9 @@ Expected<void> checkSteps(const Scene& scene, const double room[3], const FluidS
                                         " m/s; expected steps of " + roughNumber(least) + " s or more"};
 }
 
-// The first step: half of what the tolerance allows under a column as high as all particles. Fluid that is released has to find its
-// pressure: the step that it can bear is known only when it has, and what compresses until then springs back.
+// The first step: half of what the tolerance allows under a column as high as all particles. Fluid that is released without its pressure
+// compresses, and springs back with what a long step left; with it, a dam's worst particles are a quarter more compressed from the whole
+// step on.
 double firstStep(const Scene& scene, const SmoothingKernel& kernel, double head, const FluidParams& p) {
   if (scene.solver.tolerance <= 0 || head <= 0) return p.maxStep;
   return std::min<double>(p.maxStep, 0.5 * stepOfError(scene.solver.tolerance, head, p.calmRelaxation / softness(scene), kernel));

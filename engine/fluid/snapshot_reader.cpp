@@ -87,7 +87,7 @@ Expected<void> SnapshotReader::take(const Graph& graph) {
       s.velocity = vectors(data[0], n);
       break;
     case kPush:
-      s.push = vectors(data[0], n);
+      s.push = records<Float4>(data[0], n);
       break;
     case kWarm:
       s.warm = records<float>(data[0], n);

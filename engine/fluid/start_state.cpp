@@ -116,7 +116,7 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
   staging_->add(buffers_.solids, solids.size() * sizeof(SolidRecord), bytesOf(solids));
   staging_->add(buffers_.id, s.id.data(), s.id.size() * 4);
   staging_->add(buffers_.warm, s.warm.data(), s.warm.size() * 4);
-  staging_->add(buffers_.pushAway, s.push.size() * 16, quads(s.push, 0.0f));
+  staging_->add(buffers_.pushAway, s.push.size() * 16, bytesOf(s.push));
   if (setup.near) {
     staging_->add(buffers_.nearList, uint64_t{count} * 4, [this, &s](std::byte* to) {
       std::memset(to, 0, size_t{count} * 4);

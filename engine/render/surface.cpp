@@ -128,7 +128,7 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
   assert(fluid.count > 0);
   const bool filtered = settings.filter || method == SurfaceMethod::CurvatureFlow || method == SurfaceMethod::NarrowRange;
   Frame frame = frameOf(fluid, camera, method, focus, settings);
-  frame.texels = !filtered && device_->info().maxTexelBufferElements >= std::max<uint64_t>(2 * uint64_t{fluid.count}, frame.cells + 1);
+  frame.texels = !filtered && !settings.storage_reads && device_->info().maxTexelBufferElements >= std::max<uint64_t>(2 * uint64_t{fluid.count}, frame.cells + 1);
   addBuffers(graph, fluid, frame, whole);
   addVisible(graph, fluid, frame);
   addGrid(graph, fluid, frame);

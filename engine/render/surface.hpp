@@ -29,11 +29,12 @@ using DepthFilter = std::function<BufferRef(Graph&, BufferRef depth, const surfa
 /// How finely the surface is sampled and how far it is smoothed. The defaults are what pictures are made with; `rill-bench render` varies
 /// them.
 struct SurfaceSettings {
-  double samples = 3;         ///< a spacing at the focus, at least: samples are 1, 2, 4 ... pixels wide
-  double fit_reach = 2.5;     ///< planes: how far around a particle its plane is fitted, spacings
-  double flow_time = 1.3;     ///< curvature flow: spacings squared; blurs over about its root
-  double narrow_sigma = 0.8;  ///< narrow range: standard deviation of its Gaussian, spacings
-  DepthFilter filter = {};    ///< in place of the method's own; for baselines
+  double samples = 3;          ///< a spacing at the focus, at least: samples are 1, 2, 4 ... pixels wide
+  double fit_reach = 2.5;      ///< planes: how far around a particle its plane is fitted, spacings
+  double flow_time = 1.3;      ///< curvature flow: spacings squared; blurs over about its root
+  double narrow_sigma = 0.8;   ///< narrow range: standard deviation of its Gaussian, spacings
+  DepthFilter filter = {};     ///< in place of the method's own; for baselines
+  bool storage_reads = false;  ///< walks through storage buffers even where texel buffers would hold enough; the same bits
 };
 
 /// What the passes and buffers of a thickness are called: the eye's and the sun's are told apart by them.

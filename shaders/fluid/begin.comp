@@ -31,9 +31,10 @@ void main() {
   bool going = push.advance > 0.0;
   if (going) {
     c.nextStep = fittedStep(push.advance, c.desiredStep);
-    if (c.pressing > 0u) c.nextStep = params.pressStep;  // the advance before ended too soon
+    if (push.drivenSpeed > 0.0) c.pressing = 0u;  // of an advance that ended too soon: a solid that moves on makes it another start
+    if (c.pressing > 0u) c.nextStep = params.pressStep;
     if (c.warmStep <= 0.0) c.warmStep = c.nextStep;
-    if (c.travel + (c.speed + c.solidSpeed + acceleration * c.nextStep) * c.nextStep > params.travelLimit) c.stale = max(c.stale, 1u);
+    if (c.pressing == 0u && c.travel + (c.speed + c.solidSpeed + acceleration * c.nextStep) * c.nextStep > params.travelLimit) c.stale = max(c.stale, 1u);
   }
   c.running = going && c.stale == 0u ? 1u : 0u;
   c.again = 0u;

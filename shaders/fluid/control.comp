@@ -52,7 +52,8 @@ void main() {
   } else if (first && c.pressing > 0u) {
     // Then the pressure that bears the start's weight is found, in a step of its own: see ARCHITECTURE.md, "The start's pressure".
     c.pressing -= 1u;
-    c.momentum = c.pressing > 0u && c.iterations > 1u ? params.pressMomentum : 0.0;  // none from what came before this advance
+    c.momentum = c.pressing > 0u ? params.pressMomentum : 0.0;
+    c.warmStep = c.nextStep;
     c.step = 0.0;
     c.calming = 0.0;
     setGains(c);

@@ -19,7 +19,7 @@ layout(std430, binding = 8) buffer PositionBlock { vec4 position[]; };
 layout(std430, binding = 9) buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 10) readonly buffer NearBlock { vec4 nearSample[]; };
 layout(std430, binding = 11) buffer PredictionBlock { vec4 prediction[]; };
-layout(std430, binding = 12) buffer PushBlock { vec4 pushAway[]; };
+layout(std430, binding = 12) buffer PushBlock { vec4 pushAway[]; };  // m/s^2; w, while pressing: the multiplier that was found last
 layout(std430, binding = 13) writeonly buffer FreeBlock { vec4 freeVelocity[]; };  // before the solve: what contacts compare with; w: the prediction's
 layout(std430, binding = 14) buffer WarmBlock { float warm[]; };
 

@@ -18,12 +18,12 @@ void place(uint n, vec3 moved, vec3 velocity) {
 
 void drive(uint n) {
   vec4 from = keyframes[solids[n].firstKey], to = keyframes[solids[n].firstKey + 1u];
-  float share = to.w > 0.0 ? clamp((to.w - control.timeLeft + control.nextStep) / to.w, 0.0, 1.0) : 1.0;
+  float share = to.w > 0.0 ? clamp((to.w - control.timeLeft + ahead()) / to.w, 0.0, 1.0) : 1.0;
   place(n, mix(from.xyz, to.xyz, share), to.w > 0.0 ? (to.xyz - from.xyz) / to.w : vec3(0.0));
 }
 
 void follow(uint n) {
-  float time = control.timeHigh + (control.timeLow + control.nextStep);
+  float time = control.timeHigh + (control.timeLow + ahead());
   uint first = solids[n].firstKey, last = first + solids[n].keyCount - 1u;
   vec3 moved = keyframes[first].xyz, velocity = vec3(0.0);
   for (uint k = first; k < last && k < first + 65536u; ++k) {

@@ -119,7 +119,8 @@ std::vector<Pixel> SurfaceOnGpu::surface(const FluidView& view, SurfaceMethod me
   for (int run = 0; run < 2; ++run) {
     leaveBehind(graph, run);
     const FluidState fluid = state(graph);
-    SurfaceBuffers found = renderer().surface.addTo(graph, fluid, renderer().camera(fluid, view), method, true, view.focus_m);
+    SurfaceBuffers found =
+        renderer().surface.addTo(graph, fluid, renderer().camera(fluid, view), method, true, view.focus_m, {.storage_reads = run == 1});
     const Ticket ticket = graph.readback(found.pixels);
     GpuTest::run(graph);
     auto words = read<uint32_t>(graph, ticket);

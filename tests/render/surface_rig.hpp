@@ -65,7 +65,7 @@ class SurfaceOnGpu : public GpuTest {
   /// Of the default formats.
   FluidRendererImpl& renderer();
 
-  /// The surface of the picture, found twice: the same bits.
+  /// The surface of the picture, found twice, through texel and through storage buffers: the same bits.
   std::vector<Pixel> surface(const FluidView& view, SurfaceMethod method = SurfaceMethod::Auto);
 
   /// Gives a graph transient memory whose content differs from run to run: who reads any before it was written makes another picture.

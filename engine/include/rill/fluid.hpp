@@ -28,11 +28,12 @@ namespace rill {
 /// All of a fluid's state that the bits of its later steps depend on, between two advances, on the host (ARCHITECTURE.md, "Checkpoints").
 /// What a step writes before it reads it is not among it. Arrays have an entry a particle, in the order of the device.
 struct FluidSnapshot {
-  std::vector<uint32_t> control = {};  ///< FluidControl (shaders/shared/fluid_records.h), word by word
-  std::vector<uint32_t> sums = {};     ///< FluidSums, word by word
-  std::vector<float> solids = {};      ///< centre (m) and velocity (m/s) of each solid, six numbers; empty where none moves
-  std::vector<Float3> position = {}, velocity = {}, push = {};  ///< m, m/s, m/s^2
-  std::vector<float> warm = {};                                 ///< multipliers of the warm start
+  std::vector<uint32_t> control = {};                ///< FluidControl (shaders/shared/fluid_records.h), word by word
+  std::vector<uint32_t> sums = {};                   ///< FluidSums, word by word
+  std::vector<float> solids = {};                    ///< centre (m) and velocity (m/s) of each solid, six numbers; empty where none moves
+  std::vector<Float3> position = {}, velocity = {};  ///< m, m/s
+  std::vector<Float4> push = {};  ///< m/s^2; w: the multiplier of the last iteration (m^2), while the start's pressure is being found
+  std::vector<float> warm = {};   ///< multipliers of the warm start, m^2
   std::vector<uint32_t> id = {};
   std::vector<uint32_t> nearWall = {}, nearMore = {};  ///< particles near one wall; near several walls or a solid: rising
   // The neighbour list, as long as it is not due to be built anew.
@@ -49,8 +50,8 @@ struct FluidDesc {
   const ParticleSet* particles = nullptr;
   const FluidSnapshot* snapshot = nullptr;  ///< go on from it; of a fluid of the same scene and particles. BadInput where it is none
   /// Before the first substep in time: part particles that overlap at the start (positions move, speeds do not), then find the pressure
-  /// that bears the fluid's weight. Takes substeps of the first advance, or advances, that are recorded: 1 to 64, and about 3 for each
-  /// layer of particles, at most 1,024.
+  /// that bears the fluid's weight. That takes recorded substeps: 1 to 64, and about 3 for each layer of particles, at most 1,024. Where
+  /// the first frames record fewer, the fluid stands still in them and their time is dropped (FluidProgress::time_dropped_s).
   bool settle = true;
   bool storageReads = false;  ///< gather through storage buffers even where texel buffers would hold enough (slower on most CPU drivers)
 };
@@ -106,7 +107,7 @@ struct FluidProgress {
   bool known = false;         ///< a frame has finished
   double time_s = 0;          ///< simulated time
   double time_left_s = 0;     ///< of the advance; 0 when it is complete
-  double time_dropped_s = 0;  ///< of the advance: what did not fit in solver.max_substeps
+  double time_dropped_s = 0;  ///< of the advance: what did not fit in solver.max_substeps, or in what was recorded of the advance before
   uint32_t substeps = 0;      ///< of the advance
   uint32_t iterations = 0;    ///< of the advance, Jacobi iterations of all substeps
   uint32_t list_builds = 0;   ///< of the advance
@@ -162,8 +163,8 @@ class RILL_API Fluid {
   uint32_t count() const;  ///< particles, parked ones too
   /// What FluidStep::substeps is rounded up to whole multiples of.
   uint32_t substepsPerBlock() const;
-  /// Recorded substeps that complete any advance: those that the device leaves out, to rebuild the list or because none is due, are among
-  /// them.
+  /// Recorded substeps that complete any advance, the first one with all that FluidDesc::settle asks for: those that the device leaves out,
+  /// to rebuild the list or because none is due, are among them.
   uint32_t mostSubsteps() const;
   FluidMemory memory() const;
   std::span<const FluidBuffer> buffers() const;  ///< that live as long as it; those of passes are the graph's (Graph::transients)
