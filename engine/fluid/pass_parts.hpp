@@ -23,6 +23,13 @@ struct BindingList {
   std::span<const ResourceRef> span() const { return {refs.data(), size}; }
 };
 
+/// What every pass reads that the device switches on and off.
+inline void readSwitched(Pass& pass, const FluidRefs& r) {
+  pass.read(r.params, Use::ComputeUniform);
+  pass.read(r.control, Use::ComputeUniform);
+  pass.read(r.commands, Use::Indirect);
+}
+
 /// Of a pass over neighbours, the command of the variant that walks.
 constexpr uint32_t walkingCommand(uint32_t command) { return kCommandWalks + (command - kCommandDensity); }
 
@@ -61,14 +68,12 @@ void gatherPass(Graph& graph, FluidRefs& r, bool texel, std::span<const Chunk> c
   });
 }
 
-/// Wall and solid densities at `at` for the particles near them. Those near one wall and those near more are never the same: two dispatches,
-/// one pass.
+/// Wall and solid densities at `at` for the particles near them. Those near one wall and those near more are never the same: two
+/// dispatches, one pass.
 inline void wallPass(Graph& graph, FluidRefs& r, std::string_view name, const WallPipelines& pipelines, BufferRef at, uint32_t planeCommand,
                      uint32_t cornerCommand) {
   graph.pass(name, [&](Pass& pass) {
-    pass.read(r.params, Use::ComputeUniform);
-    pass.read(r.control, Use::ComputeUniform);
-    pass.read(r.commands, Use::Indirect);
+    readSwitched(pass, r);
     for (BufferRef ref : {at, r.nearList, r.sums, r.tables, r.solids}) pass.read(ref, Use::ComputeRead);
     r.nearSample = pass.write(r.nearSample, Use::ComputeWrite);
     const std::initializer_list<ResourceRef> bindings = {r.params, r.control, at, r.nearList, r.sums, r.tables, r.solids, r.nearSample};

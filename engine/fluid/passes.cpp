@@ -83,9 +83,7 @@ void FluidImpl::declareBegin(Graph& graph, double advance) {
     return [=](Commands& commands) { commands.dispatch(kernel, 1, push); };
   });
   graph.pass("predict", [&](Pass& pass) {
-    pass.read(r_.params, Use::ComputeUniform);
-    pass.read(r_.control, Use::ComputeUniform);
-    pass.read(r_.commands, Use::Indirect);
+    readSwitched(pass, r_);
     pass.read(r_.position, Use::ComputeRead);
     pass.read(r_.velocity, Use::ComputeRead);
     pass.read(r_.pushAway, Use::ComputeRead);
@@ -101,9 +99,7 @@ void FluidImpl::declareRebuild(Graph& graph) {
   const uint64_t n = count;
   BufferRef keys = graph.create("cell keys", {n * 4});
   graph.pass("keys", [&](Pass& pass) {
-    pass.read(r_.params, Use::ComputeUniform);
-    pass.read(r_.control, Use::ComputeUniform);
-    pass.read(r_.commands, Use::Indirect);
+    readSwitched(pass, r_);
     pass.read(r_.prediction, Use::ComputeRead);
     keys = pass.write(keys, Use::ComputeWrite, true);
     r_.sums = pass.write(r_.sums, Use::ComputeWrite);
@@ -119,9 +115,7 @@ void FluidImpl::declareRebuild(Graph& graph) {
   BufferRef position = graph.create("sorted positions", {n * 16}), prediction = graph.create("sorted predictions", {n * 16});
   BufferRef velocity = graph.create("sorted velocities", {n * 16}), scalar = graph.create("sorted scalars", {n * 8});
   graph.pass("reorder", [&](Pass& pass) {
-    pass.read(r_.params, Use::ComputeUniform);
-    pass.read(r_.control, Use::ComputeUniform);
-    pass.read(r_.commands, Use::Indirect);
+    readSwitched(pass, r_);
     for (BufferRef ref : {r_.order, r_.position, r_.prediction, r_.velocity, r_.warm, r_.id}) pass.read(ref, Use::ComputeRead);
     for (BufferRef* ref : {&position, &prediction, &velocity, &scalar}) *ref = pass.write(*ref, Use::ComputeWrite, true);
     const Kernel kernel = pass.kernel(pipes_.reorder, {r_.params, r_.control, r_.order, r_.position, r_.prediction, r_.velocity, r_.warm,
@@ -129,9 +123,7 @@ void FluidImpl::declareRebuild(Graph& graph) {
     return [=, arguments = r_.commands](Commands& commands) { commands.dispatchIndirect(kernel, arguments, commandAt(kCommandReorder)); };
   });
   graph.pass("build list", [&](Pass& pass) {
-    pass.read(r_.params, Use::ComputeUniform);
-    pass.read(r_.control, Use::ComputeUniform);
-    pass.read(r_.commands, Use::Indirect);
+    readSwitched(pass, r_);
     pass.read(prediction, texel_ ? Use::ComputeTexel : Use::ComputeRead);
     for (BufferRef ref : {r_.start, position, velocity, scalar, r_.solids}) pass.read(ref, Use::ComputeRead);
     for (BufferRef* ref : {&r_.neighbourCount, &r_.cell, &r_.sums, &r_.position, &r_.prediction, &r_.velocity, &r_.warm, &r_.id,

@@ -9,9 +9,7 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
   const bool calms = first && p.calmingRate > 0;
   if (setup.movingSolids) {
     graph.pass("move solids", [&](Pass& pass) {
-      pass.read(r_.params, Use::ComputeUniform);
-      pass.read(r_.control, Use::ComputeUniform);
-      pass.read(r_.commands, Use::Indirect);
+      readSwitched(pass, r_);
       pass.read(r_.keyframes, Use::ComputeRead);
       r_.solids = pass.write(r_.solids, Use::ComputeWrite);
       const Kernel kernel = pass.kernel(pipes_.pose, {r_.params, r_.control, r_.solids, r_.keyframes});
@@ -69,9 +67,7 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
 
 void FluidImpl::declareCollide(Graph& graph, std::string_view name, const ComputePipeline* pipeline, BufferRef free, uint32_t parity) {
   graph.pass(name, [&](Pass& pass) {
-    pass.read(r_.params, Use::ComputeUniform);
-    pass.read(r_.control, Use::ComputeUniform);
-    pass.read(r_.commands, Use::Indirect);
+    readSwitched(pass, r_);
     for (BufferRef ref : {r_.pushAway, r_.nearList, r_.sums, r_.solids, free, r_.work, r_.warm, r_.nearSample})
       pass.read(ref, Use::ComputeRead);
     for (BufferRef* ref : {&r_.position, &r_.velocity, &r_.prediction}) *ref = pass.write(*ref, Use::ComputeWrite);
@@ -105,9 +101,7 @@ void FluidImpl::declareSweeps(Graph& graph, std::string_view name, uint32_t swee
   r_.velocity = sweeps % 2 == 0 ? from : other;
   if (sweeps % 2 == 0) return;
   graph.pass("keep velocities", [&](Pass& pass) {
-    pass.read(r_.params, Use::ComputeUniform);
-    pass.read(r_.control, Use::ComputeUniform);
-    pass.read(r_.commands, Use::Indirect);
+    readSwitched(pass, r_);
     pass.read(from, Use::ComputeRead);
     r_.velocity = pass.write(r_.velocity, Use::ComputeWrite);
     const Kernel kernel = pass.kernel(pipes_.keep, {r_.params, r_.control, from, r_.velocity});

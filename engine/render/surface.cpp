@@ -60,61 +60,46 @@ uint32_t sampleStep(const SurfacePush& camera, float spacing, double depth, doub
 Expected<SurfaceStage> SurfaceStage::create(Device& device) {
   SurfaceStage stage;
   stage.device_ = &device;
-  static constexpr BindingKind kStorage[] = {BindingKind::Storage, BindingKind::Storage, BindingKind::Storage, BindingKind::Storage,
-                                             BindingKind::Storage, BindingKind::Storage, BindingKind::Storage, BindingKind::Storage};
-  const struct {
-    const ComputePipeline*& pipeline;
-    std::string_view shader;
-    size_t bindings;
-  } all[] = {
-      {stage.occlude_, "render/surface_occlude", 2},
-      {stage.cull_, "render/surface_cull", 4},
-      {stage.arguments_, "render/surface_arguments", 2},
-      {stage.splat_, "render/surface_splat", 4},
-      {stage.pick_, "render/surface_pick", 6},
-      {stage.scatter_, "render/surface_scatter", 6},
-      {stage.order_, "render/surface_order", 5},
-      {stage.planes_[0], "render/surface_planes", 4},
-      {stage.blend_[0], "render/surface_blend", 6},
-      {stage.tiles_, "render/surface_tiles", 3},
-      {stage.compose_[0], "render/surface_compose", 8},
-      {stage.thickness_, "render/surface_thickness", 4},
-      {stage.flow_, "render/surface_flow", 2},
-      {stage.normals_, "render/surface_normals", 6},
-      {stage.composeFiltered_, "render/surface_compose_filtered", 8},
-      {stage.thicknessBare_, "render/surface_thickness_bare", 3},
-  };
-  for (const auto& row : all) {
-    auto made = computePipeline(
-        device, {.shader = row.shader, .bindings = std::span(kStorage).first(row.bindings), .pushConstantBytes = sizeof(SurfacePush)});
-    if (!made) return made.error();
-    row.pipeline = *made;
-  }
-  static constexpr BindingKind kTexels[] = {BindingKind::TexelUint, BindingKind::TexelFloat4, BindingKind::TexelFloat4,
-                                            BindingKind::Storage,   BindingKind::Storage,     BindingKind::Storage,
-                                            BindingKind::Storage,   BindingKind::Storage},
-                               kTexelsToPlanes[] = {BindingKind::TexelUint, BindingKind::TexelFloat4, BindingKind::Storage,
-                                                    BindingKind::Storage};
+  using enum BindingKind;
+  static constexpr BindingKind kStorage[] = {Storage, Storage, Storage, Storage, Storage, Storage, Storage, Storage},
+                               kTexels[] = {TexelUint, TexelFloat4, TexelFloat4, Storage, Storage, Storage, Storage, Storage},
+                               kTexelsToPlanes[] = {TexelUint, TexelFloat4, Storage, Storage};
+  const auto storage = [](size_t bindings) { return std::span(kStorage).first(bindings); };
   const struct {
     const ComputePipeline*& pipeline;
     std::string_view shader;
     std::span<const BindingKind> bindings;
-  } texel[] = {
+  } all[] = {
+      {stage.occlude_, "render/surface_occlude", storage(2)},
+      {stage.cull_, "render/surface_cull", storage(4)},
+      {stage.arguments_, "render/surface_arguments", storage(2)},
+      {stage.splat_, "render/surface_splat", storage(4)},
+      {stage.pick_, "render/surface_pick", storage(6)},
+      {stage.scatter_, "render/surface_scatter", storage(6)},
+      {stage.order_, "render/surface_order", storage(5)},
+      {stage.planes_[0], "render/surface_planes", storage(4)},
+      {stage.blend_[0], "render/surface_blend", storage(6)},
+      {stage.tiles_, "render/surface_tiles", storage(3)},
+      {stage.compose_[0], "render/surface_compose", storage(8)},
+      {stage.thickness_, "render/surface_thickness", storage(4)},
+      {stage.flow_, "render/surface_flow", storage(2)},
+      {stage.normals_, "render/surface_normals", storage(6)},
+      {stage.composeFiltered_, "render/surface_compose_filtered", storage(8)},
+      {stage.thicknessBare_, "render/surface_thickness_bare", storage(3)},
       {stage.planes_[1], "render/surface_planes_texel", kTexelsToPlanes},
       {stage.blend_[1], "render/surface_blend_texel", std::span(kTexels).first(6)},
       {stage.compose_[1], "render/surface_compose_texel", kTexels},
   };
-  for (const auto& row : texel) {
+  for (const auto& row : all) {
     auto made = computePipeline(device, {.shader = row.shader, .bindings = row.bindings, .pushConstantBytes = sizeof(SurfacePush)});
     if (!made) return made.error();
     row.pipeline = *made;
   }
   for (uint32_t vertical = 0; vertical < 2; ++vertical) {
     const uint32_t constants[] = {vertical};
-    auto made = computePipeline(device, {.shader = "render/surface_narrow",
-                                         .bindings = std::span(kStorage).first(3),
-                                         .pushConstantBytes = sizeof(SurfacePush),
-                                         .constants = constants});
+    auto made = computePipeline(
+        device,
+        {.shader = "render/surface_narrow", .bindings = storage(3), .pushConstantBytes = sizeof(SurfacePush), .constants = constants});
     if (!made) return made.error();
     stage.narrow_[vertical] = *made;
   }
@@ -128,7 +113,8 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
   assert(fluid.count > 0);
   const bool filtered = settings.filter || method == SurfaceMethod::CurvatureFlow || method == SurfaceMethod::NarrowRange;
   Frame frame = frameOf(fluid, camera, method, focus, settings);
-  frame.texels = !filtered && !settings.storage_reads && device_->info().maxTexelBufferElements >= std::max<uint64_t>(2 * uint64_t{fluid.count}, frame.cells + 1);
+  frame.texels = !filtered && !settings.storage_reads &&
+                 device_->info().maxTexelBufferElements >= std::max<uint64_t>(2 * uint64_t{fluid.count}, frame.cells + 1);
   addBuffers(graph, fluid, frame, whole);
   addVisible(graph, fluid, frame);
   addGrid(graph, fluid, frame);
