@@ -50,8 +50,8 @@ Expected<void> checkGiven(const FluidDesc& desc) {
 FluidMemory fluidMemory(const Scene& scene, uint64_t particles) {
   FluidMemory memory;
   // position, velocity, prediction, push, work and near sample; warm, id, count, cell, order, near list; and while sorting: three vec4, a
-  // pair, a key.
-  uint64_t each = 6 * 16 + 6 * 4 + (3 * 16 + 8 + 4);
+  // key.
+  uint64_t each = 6 * 16 + 6 * 4 + (3 * 16 + 4);
   if (scene.solver.iterations > 1) each += 4;
   if (scene.fluid.viscosity > 0 || scene.fluid.vorticity > 0) each += 2 * 16;
   if (!scene.solids.empty()) each += 16;
@@ -130,9 +130,11 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
     return Error{ErrorKind::TooLarge, "the neighbour list of " + std::to_string(n) + " particles at this smoothing_ratio needs " +
                                           mebibytes(memory.list_bytes) + ", more than the " + std::to_string(kMaxListChunks) +
                                           " buffers of 128 MiB that are available: make smoothing_ratio smaller"};
-  texel_ = !storageReads && device.info().maxTexelBufferElements >= std::max<uint64_t>(more, uint64_t{chunk} * p.listCapacity / 4);
+  const uint64_t mostTexels = std::max({more, uint64_t{chunk} * p.listCapacity / 4, setup.grid.cells() + 1, uint64_t{setup.tables.size() / 4}});
+  texel_ = !storageReads && device.info().maxTexelBufferElements >= mostTexels;
 
-  auto sort = KeySort::create(device, {.count = count, .keyRange = setup.grid.cells(), .start = true});
+  auto sort =
+      KeySort::create(device, {.count = count, .keyRange = setup.grid.cells(), .start = true, .storageReads = storageReads});
   if (!sort) return sort.error();
   sort_ = std::move(*sort);
 
@@ -163,7 +165,7 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
       {&buffers_.neighbourCount, "neighbour counts", n * 4},
       {&buffers_.cell, "cells", n * 4},
       {&buffers_.order, "sorted order", n * 4},
-      {&buffers_.start, "cell starts", (setup.grid.cells() + 1) * 4},
+      {&buffers_.start, "cell starts", paddedWords(setup.grid.cells() + 1) * 4},
       {&buffers_.nearSample, "wall samples", unless(setup.near, n * 16)},
       {&buffers_.nearList, "particles near walls", unless(setup.near, n * 4)},
   };
@@ -200,20 +202,20 @@ Expected<void> FluidImpl::makePipelines(Device& device) {
     else
       result = pipeline.error();
   };
+  // Arrays that are read: see shaders/shared/arrays.glsl.
+  const BindingKind vectors = texel_ ? TexelFloat4 : Storage, words = texel_ ? TexelUint : Storage, quads = texel_ ? TexelUint4 : Storage;
+  const auto reading = [&](std::string_view shader) { return std::string(shader) + (texel_ ? "_texel" : ""); };
   // A pass that gathers: two uniform blocks, particles, list, counts, cells, cell starts, sums, and its own.
-  const auto gather = [&](GatherPipelines& out, std::string name, std::vector<BindingKind> own, uint32_t push,
+  const auto gather = [&](GatherPipelines& out, std::string_view shader, std::vector<BindingKind> own, uint32_t push,
                           std::vector<uint32_t> constants = {}) {
-    std::vector<BindingKind> bindings = texel_
-                                            ? std::vector{Uniform, Uniform, TexelFloat4, TexelUint4, TexelUint, TexelUint, Storage, Storage}
-                                            : std::vector{Uniform, Uniform, Storage, Storage, Storage, Storage, Storage, Storage};
+    std::vector<BindingKind> bindings{Uniform, Uniform, vectors, quads, words, words, words, Storage};
     bindings.insert(bindings.end(), own.begin(), own.end());
-    if (texel_) name += "_texel";
+    const std::string name = reading(shader);
     constants.insert(constants.begin(), {kernel, cluster, capacity, 0});
     if (capacity > 0) make(out.list, name, bindings, push, constants, whole);
     constants[3] = 1;
     make(out.walk, name, bindings, push, constants, whole);
   };
-  const auto storages = [](size_t n) { return std::vector<BindingKind>(n, Storage); };
   const auto plain = [&](size_t uniforms, size_t n) {
     std::vector<BindingKind> bindings(uniforms, Uniform);
     bindings.insert(bindings.end(), n, Storage);
@@ -223,35 +225,38 @@ Expected<void> FluidImpl::makePipelines(Device& device) {
   make(pipes_.begin, "fluid/begin", plain(1, 5), sizeof(BeginPush));
   make(pipes_.control, "fluid/control", plain(1, 5), sizeof(ControlPush));
   make(pipes_.arm, "fluid/arm", plain(1, 5), 0);
-  make(pipes_.predict, "fluid/predict", plain(2, 5), 0);
-  make(pipes_.keys, "fluid/keys", plain(2, 3), 0);
-  make(pipes_.reorder, "fluid/reorder", plain(2, 10), 0);
-  {
-    std::vector<BindingKind> bindings = plain(2, 17);
-    if (texel_) bindings[2] = TexelFloat4;
-    make(pipes_.build, texel_ ? "fluid/build_texel" : "fluid/build", bindings, sizeof(ChunkPush), {0, cluster, capacity, nearWalls}, whole);
-  }
+  make(pipes_.predict, reading("fluid/predict"), {Uniform, Uniform, vectors, vectors, vectors, Storage, Storage}, 0);
+  make(pipes_.keys, reading("fluid/keys"), {Uniform, Uniform, vectors, Storage, Storage}, 0);
+  make(pipes_.reorder, reading("fluid/reorder"),
+       {Uniform, Uniform, words, vectors, vectors, vectors, words, words, Storage, Storage, Storage}, 0);
+  std::vector<BindingKind> building = plain(2, 16);
+  building[2] = building[8] = building[9] = vectors;
+  building[6] = words;
+  make(pipes_.build, reading("fluid/build"), building, sizeof(ChunkPush), {0, cluster, capacity, nearWalls}, whole);
   if (setup.near) {
-    make(pipes_.walls.plane, "fluid/walls", plain(2, 6), 0, {0, 0, 1});
-    make(pipes_.walls.corner, "fluid/walls", plain(2, 6), 0, {1, p.solidCount > 0, setup.thin ? 2u : 1u});
+    const std::vector<BindingKind> bindings{Uniform, Uniform, vectors, words, Storage, vectors, Storage, Storage};
+    make(pipes_.walls.plane, reading("fluid/walls"), bindings, 0, {0, 0, 1});
+    make(pipes_.walls.corner, reading("fluid/walls"), bindings, 0, {1, p.solidCount > 0, setup.thin ? 2u : 1u});
   }
   if (p.solidCount > 0) make(pipes_.collide, "fluid/collide", plain(2, 11), 0, {0});
   const bool smooths = setup.viscositySweeps > 0 || p.calmingRate > 0;
   if (p.solidCount > 0 && (smooths || p.vorticity > 0)) make(pipes_.collideAgain, "fluid/collide", plain(2, 11), 0, {1});
   if (setup.movingSolids) make(pipes_.pose, "fluid/pose", plain(2, 2), 0);
-  gather(pipes_.density, "fluid/density", storages(4), sizeof(ChunkPush), {nearWalls, p.iterations > 1});
-  gather(pipes_.correct, "fluid/correct", storages(7), sizeof(ChunkPush), {nearWalls, p.tensile > 0, p.solidCount > 0});
-  if (p.iterations > 1) gather(pipes_.iterate, "fluid/iterate", storages(2), sizeof(ChunkPush), {nearWalls, p.tensile > 0});
-  const BindingKind vectors = texel_ ? TexelFloat4 : Storage;
-  if (smooths) gather(pipes_.viscosity, "fluid/viscosity", {vectors, Storage, Storage, Storage, Storage}, sizeof(SweepPush));
+  gather(pipes_.density, "fluid/density", {Storage, Storage, vectors, Storage}, sizeof(ChunkPush), {nearWalls, p.iterations > 1});
+  gather(pipes_.correct, "fluid/correct", {Storage, Storage, vectors, Storage, Storage, Storage, Storage}, sizeof(ChunkPush),
+         {nearWalls, p.tensile > 0, p.solidCount > 0});
+  if (p.iterations > 1)
+    gather(pipes_.iterate, "fluid/iterate", {Storage, vectors}, sizeof(ChunkPush), {nearWalls, p.tensile > 0});
+  if (smooths) gather(pipes_.viscosity, "fluid/viscosity", {vectors, Storage, Storage, vectors, vectors}, sizeof(SweepPush));
   if (setup.viscositySweeps % 2 == 1 || p.calmingRate > 0) make(pipes_.keep, "fluid/keep", plain(2, 2), sizeof(ChunkPush));
   if (p.vorticity > 0) {
     gather(pipes_.curl, "fluid/curl", {vectors, Storage}, sizeof(ChunkPush));
-    gather(pipes_.confine, "fluid/confine", {vectors, Storage, Storage, Storage, Storage}, sizeof(ChunkPush));
+    gather(pipes_.confine, "fluid/confine", {vectors, Storage, Storage, vectors, vectors}, sizeof(ChunkPush));
   }
   make(pipes_.measureKeys, "fluid/measure_keys", plain(2, 2), 0);
-  make(pipes_.measureOrder, "fluid/measure_order", plain(2, 3), 0);
-  make(pipes_.measure, "fluid/measure", plain(2, 7), 0, {kernel, cluster, nearWalls}, whole);
+  make(pipes_.measureOrder, reading("fluid/measure_order"), {Uniform, Uniform, words, vectors, Storage}, 0);
+  make(pipes_.measure, reading("fluid/measure"), {Uniform, Uniform, vectors, words, vectors, Storage, Storage, Storage, Storage}, 0,
+       {kernel, cluster, nearWalls}, whole);
   make(pipes_.reduce, "fluid/measure_reduce", plain(2, 3), 0);
   return result;
 }

@@ -4,7 +4,7 @@
 namespace rill {
 
 // A pass over all particles. Its shader binds, after the two uniform blocks, what is read, what is written anew and what is changed.
-static void plainPass(Graph& graph, FluidRefs& r, std::string_view name, const ComputePipeline* pipeline, uint32_t count,
+static void plainPass(Graph& graph, FluidRefs& r, Use read, std::string_view name, const ComputePipeline* pipeline, uint32_t count,
                       std::initializer_list<BufferRef> reads, std::initializer_list<BufferRef*> writes,
                       std::initializer_list<BufferRef*> changes = {}) {
   graph.pass(name, [&](Pass& pass) {
@@ -13,7 +13,7 @@ static void plainPass(Graph& graph, FluidRefs& r, std::string_view name, const C
     BindingList bindings;
     bindings.add({r.params, r.control});
     for (BufferRef ref : reads) {
-      pass.read(ref, Use::ComputeRead);
+      pass.read(ref, read);
       bindings.add({ref});
     }
     for (BufferRef* ref : writes) {
@@ -30,7 +30,8 @@ static void plainPass(Graph& graph, FluidRefs& r, std::string_view name, const C
 }
 
 void FluidImpl::declareMeasure(Graph& graph, Pending& pending) {
-  if (setup.near) { wallPass(graph, r_, "measure walls", pipes_.walls, r_.position, kCommandMeasurePlane, kCommandMeasureCorner); }
+  const Use read = readUse(texel_);
+  if (setup.near) { wallPass(graph, r_, read, "measure walls", pipes_.walls, r_.position, kCommandMeasurePlane, kCommandMeasureCorner); }
   BufferRef partials = graph.create("partial sums", {divideUp(count, kMeasureGroup) * sizeof(MeasurePartial)});
   BufferRef histogram = graph.create("error histogram", {3 * kMeasureBins * 4});
   graph.pass("clear histogram", [&](Pass& pass) {
@@ -39,11 +40,11 @@ void FluidImpl::declareMeasure(Graph& graph, Pending& pending) {
   });
   BufferRef keys = graph.create("position keys", {uint64_t{count} * 4}),
             ordered = graph.create("ordered positions", {uint64_t{count} * 16});
-  plainPass(graph, r_, "measure keys", pipes_.measureKeys, count, {r_.position}, {&keys});
+  plainPass(graph, r_, Use::ComputeRead, "measure keys", pipes_.measureKeys, count, {r_.position}, {&keys});
   const SortedKeys sorted = sort_->addTo(graph, keys);
-  plainPass(graph, r_, "measure order", pipes_.measureOrder, count, {sorted.order, r_.position}, {&ordered});
-  plainPass(graph, r_, "measure", pipes_.measure, count, {ordered, sorted.start, r_.nearSample}, {&partials},
-            {&r_.sums, &r_.velocity, &histogram});
+  plainPass(graph, r_, read, "measure order", pipes_.measureOrder, count, {sorted.order, r_.position}, {&ordered});
+  plainPass(graph, r_, read, "measure", pipes_.measure, count, {ordered, sorted.start, r_.nearSample}, {&partials},
+            {&r_.sums, &histogram, &r_.velocity});
   BufferRef result = graph.create("figures", {sizeof(MeasureResult)});
   graph.pass("reduce", [&](Pass& pass) {
     pass.read(r_.params, Use::ComputeUniform);

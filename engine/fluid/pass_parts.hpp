@@ -1,6 +1,5 @@
 #pragma once
-// What passes of the fluid have in common: their bindings in the order of the shader, the device's switches, passes over neighbours and
-// walls.
+// What passes of the fluid have in common: bindings in the order of the shader, the device's switches, passes over neighbours and walls.
 #include <array>
 #include <initializer_list>
 #include <span>
@@ -36,14 +35,12 @@ constexpr uint32_t walkingCommand(uint32_t command) { return kCommandWalks + (co
 /// A pass over all chunks that gathers from `particles`: the device switches on one of its two variants. `own(pass, bindings)` declares and
 /// appends its own bindings.
 template <class Push, class Own>
-void gatherPass(Graph& graph, FluidRefs& r, bool texel, std::span<const Chunk> chunks, std::string_view name,
+void gatherPass(Graph& graph, FluidRefs& r, Use read, std::span<const Chunk> chunks, std::string_view name,
                 const GatherPipelines& pipelines, BufferRef particles, uint32_t command, Push push, Own&& own) {
   graph.pass(name, [&](Pass& pass) {
-    const Use use = texel ? Use::ComputeTexel : Use::ComputeRead;
     pass.read(r.params, Use::ComputeUniform);
     pass.read(r.control, Use::ComputeUniform);
-    for (BufferRef ref : {particles, r.neighbourCount, r.cell}) pass.read(ref, use);
-    pass.read(r.start, Use::ComputeRead);
+    for (BufferRef ref : {particles, r.neighbourCount, r.cell, r.start}) pass.read(ref, read);
     pass.read(r.commands, Use::Indirect);
     r.sums = pass.write(r.sums, Use::ComputeAtomic);
     BindingList bindings;
@@ -52,7 +49,7 @@ void gatherPass(Graph& graph, FluidRefs& r, bool texel, std::span<const Chunk> c
     const bool lists = pipelines.list != nullptr;
     std::array<Kernel, kMaxListChunks> list, walk;
     for (size_t c = 0; c < chunks.size(); ++c) {
-      pass.read(r.lists[c], use);
+      pass.read(r.lists[c], read);
       bindings.refs[3] = r.lists[c];
       if (lists) list[c] = pass.kernel(pipelines.list, bindings.span());
       walk[c] = pass.kernel(pipelines.walk, bindings.span());
@@ -70,11 +67,12 @@ void gatherPass(Graph& graph, FluidRefs& r, bool texel, std::span<const Chunk> c
 
 /// Wall and solid densities at `at` for the particles near them. Those near one wall and those near more are never the same: two
 /// dispatches, one pass.
-inline void wallPass(Graph& graph, FluidRefs& r, std::string_view name, const WallPipelines& pipelines, BufferRef at, uint32_t planeCommand,
+inline void wallPass(Graph& graph, FluidRefs& r, Use read, std::string_view name, const WallPipelines& pipelines, BufferRef at, uint32_t planeCommand,
                      uint32_t cornerCommand) {
   graph.pass(name, [&](Pass& pass) {
     readSwitched(pass, r);
-    for (BufferRef ref : {at, r.nearList, r.sums, r.tables, r.solids}) pass.read(ref, Use::ComputeRead);
+    for (BufferRef ref : {at, r.nearList, r.tables}) pass.read(ref, read);
+    for (BufferRef ref : {r.sums, r.solids}) pass.read(ref, Use::ComputeRead);
     r.nearSample = pass.write(r.nearSample, Use::ComputeWrite);
     const std::initializer_list<ResourceRef> bindings = {r.params, r.control, at, r.nearList, r.sums, r.tables, r.solids, r.nearSample};
     const Kernel plane = pass.kernel(pipelines.plane, bindings), corner = pass.kernel(pipelines.corner, bindings);

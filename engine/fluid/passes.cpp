@@ -84,9 +84,7 @@ void FluidImpl::declareBegin(Graph& graph, double advance) {
   });
   graph.pass("predict", [&](Pass& pass) {
     readSwitched(pass, r_);
-    pass.read(r_.position, Use::ComputeRead);
-    pass.read(r_.velocity, Use::ComputeRead);
-    pass.read(r_.pushAway, Use::ComputeRead);
+    for (BufferRef ref : {r_.position, r_.velocity, r_.pushAway}) pass.read(ref, readUse(texel_));
     pass.read(r_.solids, Use::ComputeRead);
     r_.prediction = pass.write(r_.prediction, Use::ComputeWrite);
     const Kernel kernel =
@@ -97,10 +95,11 @@ void FluidImpl::declareBegin(Graph& graph, double advance) {
 
 void FluidImpl::declareRebuild(Graph& graph) {
   const uint64_t n = count;
+  const Use read = readUse(texel_);
   BufferRef keys = graph.create("cell keys", {n * 4});
   graph.pass("keys", [&](Pass& pass) {
     readSwitched(pass, r_);
-    pass.read(r_.prediction, Use::ComputeRead);
+    pass.read(r_.prediction, read);
     keys = pass.write(keys, Use::ComputeWrite, true);
     r_.sums = pass.write(r_.sums, Use::ComputeWrite);
     const Kernel kernel = pass.kernel(pipes_.keys, {r_.params, r_.control, r_.prediction, keys, r_.sums});
@@ -113,19 +112,19 @@ void FluidImpl::declareRebuild(Graph& graph) {
   r_.start = sorted.start;
 
   BufferRef position = graph.create("sorted positions", {n * 16}), prediction = graph.create("sorted predictions", {n * 16});
-  BufferRef velocity = graph.create("sorted velocities", {n * 16}), scalar = graph.create("sorted scalars", {n * 8});
+  BufferRef velocity = graph.create("sorted velocities", {n * 16});
   graph.pass("reorder", [&](Pass& pass) {
     readSwitched(pass, r_);
-    for (BufferRef ref : {r_.order, r_.position, r_.prediction, r_.velocity, r_.warm, r_.id}) pass.read(ref, Use::ComputeRead);
-    for (BufferRef* ref : {&position, &prediction, &velocity, &scalar}) *ref = pass.write(*ref, Use::ComputeWrite, true);
+    for (BufferRef ref : {r_.order, r_.position, r_.prediction, r_.velocity, r_.warm, r_.id}) pass.read(ref, read);
+    for (BufferRef* ref : {&position, &prediction, &velocity}) *ref = pass.write(*ref, Use::ComputeWrite, true);
     const Kernel kernel = pass.kernel(pipes_.reorder, {r_.params, r_.control, r_.order, r_.position, r_.prediction, r_.velocity, r_.warm,
-                                                       r_.id, position, prediction, velocity, scalar});
+                                                       r_.id, position, prediction, velocity});
     return [=, arguments = r_.commands](Commands& commands) { commands.dispatchIndirect(kernel, arguments, commandAt(kCommandReorder)); };
   });
   graph.pass("build list", [&](Pass& pass) {
     readSwitched(pass, r_);
-    pass.read(prediction, texel_ ? Use::ComputeTexel : Use::ComputeRead);
-    for (BufferRef ref : {r_.start, position, velocity, scalar, r_.solids}) pass.read(ref, Use::ComputeRead);
+    for (BufferRef ref : {prediction, r_.start, position, velocity}) pass.read(ref, read);
+    pass.read(r_.solids, Use::ComputeRead);
     for (BufferRef* ref : {&r_.neighbourCount, &r_.cell, &r_.sums, &r_.position, &r_.prediction, &r_.velocity, &r_.warm, &r_.id,
                            &r_.nearSample, &r_.nearList})
       *ref = pass.write(*ref, Use::ComputeWrite);
@@ -134,7 +133,7 @@ void FluidImpl::declareRebuild(Graph& graph) {
       r_.lists[c] = pass.write(r_.lists[c], Use::ComputeWrite);
       kernels[c] = pass.kernel(
           pipes_.build, {r_.params, r_.control, prediction, r_.lists[c], r_.neighbourCount, r_.cell, r_.start, r_.sums, position, velocity,
-                         scalar, r_.position, r_.prediction, r_.velocity, r_.warm, r_.id, r_.nearSample, r_.nearList, r_.solids});
+                         r_.position, r_.prediction, r_.velocity, r_.warm, r_.id, r_.nearSample, r_.nearList, r_.solids});
     }
     return [=, arguments = r_.commands, chunks = std::span<const Chunk>(chunks_)](Commands& commands) {
       for (size_t c = 0; c < chunks.size(); ++c)

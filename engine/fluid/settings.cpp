@@ -69,9 +69,13 @@ double fastestDriven(const Scene& scene) {
   return fastest;
 }
 
+/// Each entry with its successor behind it, so that a shader fetches the two it interpolates between at once.
 void appendTable(std::vector<float>& tables, const std::vector<float>& table, uint32_t& offset) {
-  offset = static_cast<uint32_t>(tables.size() / 2);
-  tables.insert(tables.end(), table.begin(), table.end());
+  offset = static_cast<uint32_t>(tables.size() / 4);
+  for (size_t k = 0; k < table.size(); k += 2) {
+    const size_t next = std::min(k + 2, table.size() - 2);
+    tables.insert(tables.end(), {table[k], table[k + 1], table[next], table[next + 1]});
+  }
 }
 
 void addSolids(const Scene& scene, const SmoothingKernel& kernel, const double origin[3], FluidSetup& setup) {

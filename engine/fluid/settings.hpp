@@ -25,7 +25,7 @@ struct DrivenSolid {
 struct FluidSetup {
   FluidParams params{};
   GridSize grid;
-  std::vector<float> tables;        ///< (value, slope) pairs of wall and ball tables
+  std::vector<float> tables;        ///< wall and ball tables: value and slope, then those of the next entry
   std::vector<SolidRecord> solids;  ///< relative to the particles' origin, at time 0
   std::vector<float> keyframes;     ///< translation and time, four floats each
   std::vector<DrivenSolid> driven;  ///< at the start; their keyframes follow from each advance

@@ -6,6 +6,7 @@ namespace rill {
 void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
   const FluidParams& p = setup.params;
   const std::span<const Chunk> chunks(chunks_);
+  const Use read = readUse(texel_);
   const bool calms = first && p.calmingRate > 0;
   if (setup.movingSolids) {
     graph.pass("move solids", [&](Pass& pass) {
@@ -19,20 +20,20 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
   for (uint32_t iteration = 0; iteration < p.iterations; ++iteration) {
     const bool again = iteration > 0;
     if (again) {
-      gatherPass(graph, r_, texel_, chunks, "iterate", pipes_.iterate, r_.work, kCommandIterate, ChunkPush{0, 0, iteration},
+      gatherPass(graph, r_, read, chunks, "iterate", pipes_.iterate, r_.work, kCommandIterate, ChunkPush{0, 0, iteration},
                  [&](Pass& pass, BindingList& bindings) {
-                   pass.read(r_.nearSample, Use::ComputeRead);
+                   pass.read(r_.nearSample, read);
                    r_.prediction = pass.write(r_.prediction, Use::ComputeWrite);
                    bindings.add({r_.prediction, r_.nearSample});
                  });
     }
     if (setup.near) {
-      wallPass(graph, r_, "walls and solids", pipes_.walls, r_.prediction, again ? kCommandPlaneAgain : kCommandPlane,
+      wallPass(graph, r_, read, "walls and solids", pipes_.walls, r_.prediction, again ? kCommandPlaneAgain : kCommandPlane,
                again ? kCommandCornerAgain : kCommandCorner);
     }
-    gatherPass(graph, r_, texel_, chunks, "density", pipes_.density, r_.prediction, again ? kCommandIterate : kCommandDensity,
+    gatherPass(graph, r_, read, chunks, "density", pipes_.density, r_.prediction, again ? kCommandIterate : kCommandDensity,
                ChunkPush{0, 0, iteration}, [&](Pass& pass, BindingList& bindings) {
-                 pass.read(r_.nearSample, Use::ComputeRead);
+                 pass.read(r_.nearSample, read);
                  for (BufferRef* ref : {&r_.warm, &r_.work, &r_.multiplier}) *ref = pass.write(*ref, Use::ComputeWrite);
                  bindings.add({r_.warm, r_.work, r_.nearSample, r_.multiplier});
                });
@@ -50,9 +51,9 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
   }
   BufferRef free = p.solidCount > 0 ? graph.create("free velocities", {uint64_t{count} * 16}) : BufferRef{};
   gatherPass(
-      graph, r_, texel_, chunks, "correct", pipes_.correct, r_.work, kCommandCorrect + parity, ChunkPush{},
+      graph, r_, read, chunks, "correct", pipes_.correct, r_.work, kCommandCorrect + parity, ChunkPush{},
       [&](Pass& pass, BindingList& bindings) {
-        pass.read(r_.nearSample, Use::ComputeRead);
+        pass.read(r_.nearSample, read);
         for (BufferRef* ref : {&r_.position, &r_.velocity, &r_.prediction, &r_.pushAway, &r_.warm})
           *ref = pass.write(*ref, Use::ComputeWrite);
         if (p.solidCount > 0) free = pass.write(free, Use::ComputeWrite, true);
@@ -81,18 +82,18 @@ void FluidImpl::declareCollide(Graph& graph, std::string_view name, const Comput
 
 // Sweeps of XSPH, there and back between the velocities and a copy.
 void FluidImpl::declareSweeps(Graph& graph, std::string_view name, uint32_t sweeps, uint32_t command, float share) {
-  const Use use = texel_ ? Use::ComputeTexel : Use::ComputeRead;
+  const Use read = readUse(texel_);
   BufferRef from = r_.velocity;
   BufferRef other = graph.create("smoothed velocities", {(uint64_t{count} + 1) * 16});
   for (uint32_t sweep = 0; sweep < sweeps; ++sweep) {
     BufferRef to;
-    gatherPass(graph, r_, texel_, chunks_, name, pipes_.viscosity, r_.work, command, SweepPush{0, 0, share},
+    gatherPass(graph, r_, read, chunks_, name, pipes_.viscosity, r_.work, command, SweepPush{0, 0, share},
                [&](Pass& pass, BindingList& bindings) {
-                 pass.read(from, use);
-                 pass.read(r_.pushAway, Use::ComputeRead);
+                 pass.read(from, read);
+                 pass.read(r_.pushAway, read);
                  to = pass.write(other, Use::ComputeWrite, true);
                  r_.prediction = pass.write(r_.prediction, Use::ComputeWrite);
-                 pass.read(r_.position, Use::ComputeRead);
+                 pass.read(r_.position, read);
                  bindings.add({from, to, r_.prediction, r_.pushAway, r_.position});
                });
     other = from;
@@ -116,7 +117,7 @@ void FluidImpl::declareSweeps(Graph& graph, std::string_view name, uint32_t swee
 // Viscosity, damping of noise and vorticity confinement, where the scene has them.
 void FluidImpl::declareTerms(Graph& graph, uint32_t parity, bool calms) {
   const std::span<const Chunk> chunks(chunks_);
-  const Use use = texel_ ? Use::ComputeTexel : Use::ComputeRead;
+  const Use read = readUse(texel_);
   const uint32_t command = kCommandCorrect + parity;
   const uint64_t bytes = (uint64_t{count} + 1) * 16;
   const uint32_t sweeps = setup.viscositySweeps;
@@ -124,17 +125,17 @@ void FluidImpl::declareTerms(Graph& graph, uint32_t parity, bool calms) {
   if (calms) declareSweeps(graph, "calm", 1, kCommandCalm, 0);
   if (setup.params.vorticity > 0) {
     BufferRef curl = graph.create("curl", {bytes});
-    gatherPass(graph, r_, texel_, chunks, "curl", pipes_.curl, r_.work, command, ChunkPush{}, [&](Pass& pass, BindingList& bindings) {
-      pass.read(r_.velocity, use);
+    gatherPass(graph, r_, read, chunks, "curl", pipes_.curl, r_.work, command, ChunkPush{}, [&](Pass& pass, BindingList& bindings) {
+      pass.read(r_.velocity, read);
       curl = pass.write(curl, Use::ComputeWrite, true);
       bindings.add({r_.velocity, curl});
     });
-    gatherPass(graph, r_, texel_, chunks, "confine", pipes_.confine, r_.work, command, ChunkPush{}, [&](Pass& pass, BindingList& bindings) {
-      pass.read(curl, use);
-      pass.read(r_.pushAway, Use::ComputeRead);
+    gatherPass(graph, r_, read, chunks, "confine", pipes_.confine, r_.work, command, ChunkPush{}, [&](Pass& pass, BindingList& bindings) {
+      pass.read(curl, read);
+      pass.read(r_.pushAway, read);
       r_.velocity = pass.write(r_.velocity, Use::ComputeWrite);
       r_.prediction = pass.write(r_.prediction, Use::ComputeWrite);
-      pass.read(r_.position, Use::ComputeRead);
+      pass.read(r_.position, read);
       bindings.add({curl, r_.velocity, r_.prediction, r_.pushAway, r_.position});
     });
   }

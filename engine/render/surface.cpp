@@ -103,7 +103,6 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device) {
     if (!made) return made.error();
     stage.narrow_[vertical] = *made;
   }
-  // Finds its pipelines among those made now, whatever the picture's size.
   if (auto scan = Scan::create(device, Scan::kMaxCount); !scan) return scan.error();
   return stage;
 }
@@ -152,7 +151,7 @@ void SurfaceStage::addBuffers(Graph& graph, const FluidState& fluid, Frame& fram
   SurfaceBuffers& out = frame.out;
   frame.occluders = graph.create("surface occluders", {frame.occluderCells * 4});
   frame.depth = graph.create("surface hard depth", {frame.samples * 4});
-  frame.start = graph.create("surface cells", {(frame.cells + 1) * 4});
+  frame.start = graph.create("surface cells", {paddedWords(frame.cells + 1) * 4});
   out.counters = graph.create("surface counters", {kSurfaceCounterWords * 4});
   out.arguments = graph.create("surface arguments", {kSurfaceArgumentWords * 4});
   frame.survivors = graph.create("surface survivors", {uint64_t{fluid.count} * 4});

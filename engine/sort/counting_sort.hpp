@@ -11,8 +11,7 @@
 namespace rill {
 
 /// Places inside a bin come from atomics and so in any order; the last step makes them those of a stable sort. It compares an
-/// index with all of its bin, up to kBinLimit; a larger bin is ordered by workgroups of its own, through one bit an index,
-/// in a dispatch that has groups only where there is such a bin.
+/// index with all of its bin, up to kBinLimit; a larger bin is ordered by workgroups of its own, through one bit an index.
 class CountingSort {
  public:
   /// `desc` has been judged by KeySort::create.
@@ -23,11 +22,14 @@ class CountingSort {
 
  private:
   bool binsMayBeOversized() const;
+  uint32_t chunks() const;
   uint64_t clearGroups() const;
   uint64_t countGroups() const;
+  uint64_t oversizedGroups() const;
 
   KeySortDesc desc_;
   Scan scan_;
+  bool texels_ = false;
   const ComputePipeline* clear_ = nullptr;
   const ComputePipeline* count_ = nullptr;
   const ComputePipeline* scatter_ = nullptr;

@@ -17,6 +17,12 @@ GroupCount foldGroups(uint64_t groups);
 
 inline uint64_t divideUp(uint64_t a, uint64_t b) { return (a + b - 1) / b; }
 
+/// Words that an array of `count` needs which is loaded and stored four at a time.
+constexpr uint64_t paddedWords(uint64_t count) { return (count + 3) / 4 * 4; }
+
+/// How a pass uses an array that it reads: see shaders/shared/arrays.glsl.
+constexpr Use readUse(bool texels) { return texels ? Use::ComputeTexel : Use::ComputeRead; }
+
 /// `target`, or a transient of `count` uints where there is none.
 BufferRef targetOr(Graph& graph, BufferRef target, std::string_view name, uint64_t count);
 
@@ -50,7 +56,7 @@ class Dispatches {
  public:
   explicit Dispatches(const Gate* gate) : gate_(gate ? *gate : Gate{}) {}
 
-  /// The next dispatch, which is to be all that `pass` records.
+  /// The next dispatch that `pass` records.
   template <class Push>
   Dispatch<Push> next(Pass& pass, Kernel kernel, uint64_t groups, const Push& push) {
     if (gate_.arguments == BufferRef{}) return {kernel, groups, {}, 0, push};

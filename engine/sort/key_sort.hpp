@@ -25,8 +25,7 @@ class KeySort {
 
   /// Counting or Radix: what Auto chose.
   SortMethod method() const;
-  /// The group counts of its dispatches, in order: what belongs behind a Gate for the sort to run. Dispatches that the sort
-  /// decides on itself are not among them.
+  /// The group counts of its dispatches, in order: what belongs behind a Gate for the sort to run.
   std::vector<GroupCount> groups() const;
 
   /// Declares the passes. `keys` holds desc.count uints, each below desc.keyRange (a larger one harms nothing but the result).

@@ -23,13 +23,14 @@ struct KeySortDesc {
   SortMethod method = SortMethod::Auto;
   bool start = false;  ///< whether SortedKeys::start is made; keyRange at most kMaxStartRange
   bool keys = false;   ///< whether SortedKeys::keys is made
+  bool storageReads = false;  ///< through storage buffers even where texel buffers would hold enough; the same result
 };
 
 /// Where the results go. A ref left out is made as a transient where the result is asked for: behind a gate, give the
 /// buffers that must outlive the frames in which the gate is closed.
 struct SortTargets {
   BufferRef order;  ///< count uints
-  BufferRef start;  ///< keyRange + 1 uints
+  BufferRef start;  ///< paddedWords(keyRange + 1) uints
   BufferRef keys;   ///< count uints
 };
 

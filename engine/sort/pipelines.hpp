@@ -1,9 +1,11 @@
 #pragma once
-// Makes the pipelines of a module, whose bindings are all storage buffers, and keeps the first error.
+// Makes the pipelines of a module, whose bindings are storage buffers and arrays that are read, and keeps the first error.
 #include <array>
 #include <cassert>
 #include <initializer_list>
 #include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 
 #include "gpu/resources.hpp"
@@ -14,15 +16,27 @@ class StoragePipelines {
  public:
   StoragePipelines(Device& device, uint32_t pushConstantBytes) : device_(device), pushConstantBytes_(pushConstantBytes) {}
 
-  /// Null after an error: result() tells which.
+  /// Of a shader whose bindings are all storage buffers. Null after an error: result() tells which.
   const ComputePipeline* make(std::string_view shader, uint32_t bindings, std::initializer_list<uint32_t> constants = {}) {
     constexpr uint32_t kMost = 8;
     static constexpr std::array<BindingKind, kMost> kStorage{};
     static_assert(BindingKind{} == BindingKind::Storage);
     assert(bindings <= kMost);
+    return make(shader, std::span(kStorage).first(bindings), constants);
+  }
+
+  /// Of a shader that reads arrays (shaders/shared/arrays.glsl), with the bindings of its variant with texels; without them, all of those are storage
+  /// buffers.
+  const ComputePipeline* makeReading(std::string shader, bool texels, std::initializer_list<BindingKind> bindings,
+                                     std::initializer_list<uint32_t> constants = {}) {
+    if (texels) return make(shader + "_texel", std::span(bindings.begin(), bindings.size()), constants);
+    return make(shader, static_cast<uint32_t>(bindings.size()), constants);
+  }
+
+  const ComputePipeline* make(std::string_view shader, std::span<const BindingKind> bindings, std::initializer_list<uint32_t> constants) {
     if (error_) return nullptr;
     auto made = computePipeline(device_, {.shader = shader,
-                                          .bindings = std::span(kStorage).first(bindings),
+                                          .bindings = bindings,
                                           .pushConstantBytes = pushConstantBytes_,
                                           .constants = {constants.begin(), constants.size()}});
     if (made) return *made;

@@ -16,7 +16,7 @@ Expected<RadixSort> RadixSort::create(Device& device, const KeySortDesc& desc) {
   sort.passes_ = (keyBits + kRadixBits - 1) / kRadixBits;
   sort.bits_ = (keyBits + sort.passes_ - 1) / sort.passes_;  // evenly: a pass of fewer digits is cheaper
   sort.tiles_ = (desc.count + kRadixTile - 1) / kRadixTile;
-  auto scan = Scan::create(device, sort.tiles_ << sort.bits_);
+  auto scan = Scan::create(device, sort.tiles_ << sort.bits_, desc.storageReads);
   if (!scan) return scan.error();
   sort.scan_ = *scan;
   StoragePipelines pipelines(device, sizeof(RadixPush));
@@ -58,7 +58,7 @@ SortedKeys RadixSort::addTo(Graph& graph, BufferRef keys, const SortTargets& tar
   for (uint32_t p = 0; p < passes_; ++p) {
     const bool first = p == 0, last = p + 1 == passes_;
     const RadixPush push{desc_.count, tiles_, p * bits_, 1u << bits_};
-    BufferRef histogram = graph.create("sort histogram", {(uint64_t{tiles_} << bits_) * sizeof(uint32_t)});
+    BufferRef histogram = graph.create("sort histogram", {paddedWords(uint64_t{tiles_} << bits_) * sizeof(uint32_t)});
     graph.pass("sort/radix count", [&](Pass& pass) {
       pass.read(keys, Use::ComputeRead);
       histogram = pass.write(histogram, Use::ComputeWrite, true);
@@ -89,7 +89,7 @@ SortedKeys RadixSort::addTo(Graph& graph, BufferRef keys, const SortTargets& tar
   }
   BufferRef start;
   if (desc_.start) {
-    start = targetOr(graph, targets.start, "sort start", desc_.keyRange + 1);
+    start = targetOr(graph, targets.start, "sort start", paddedWords(desc_.keyRange + 1));
     graph.pass("sort/start", [&](Pass& pass) {
       pass.read(keys, Use::ComputeRead);
       start = pass.write(start, Use::ComputeWrite, discard(targets.start));

@@ -2,30 +2,36 @@
 
 #include <string>
 
+#include "sort/key_sort_types.hpp"
 #include "sort/pipelines.hpp"
 #include "sort/sort_types.h"
 
 namespace rill {
 namespace {
 
-/// Up to so many values one workgroup is done before two more dispatches have started.
+/// Up to so many values one workgroup is done before another dispatch has started.
 constexpr uint32_t kSingleCount = 8 * kScanTile;
 
 uint32_t tileCount(uint32_t count) { return (count + kScanTile - 1) / kScanTile; }
 
 }  // namespace
 
-Expected<Scan> Scan::create(Device& device, uint32_t count) {
+Expected<Scan> Scan::create(Device& device, uint32_t count, bool storageReads) {
   if (count > kMaxCount)
     return Error{ErrorKind::BadInput, "scan: " + std::to_string(count) + " values, at most " + std::to_string(kMaxCount) + " are possible"};
   Scan scan;
   scan.count_ = count;
   if (count == 0) return scan;
+  using enum BindingKind;
+  scan.texels_ = !storageReads && device.info().maxTexelBufferElements >= paddedWords(count) / 4;
   StoragePipelines pipelines(device, sizeof(ScanPush));
-  scan.single_ = pipelines.make("sort/scan_single", 1);
-  if (count > kSingleCount) {
-    scan.reduce_ = pipelines.make("sort/scan_reduce", 2);
-    scan.apply_ = pipelines.make("sort/scan_apply", 2);
+  for (const bool texels : {!scan.texels_, scan.texels_}) {
+    if (texels != scan.texels_ && count < kMaxCount) continue;
+    scan.pipes_.single = pipelines.make("sort/scan_single", 1);
+    scan.pipes_.reduce = pipelines.makeReading("sort/scan_reduce", texels, {TexelUint4, Storage});
+    for (const bool scanned : {false, true})
+      (scanned ? scan.pipes_.applyScanned : scan.pipes_.apply) =
+          pipelines.makeReading("sort/scan_apply", texels, {Storage, TexelUint}, {scanned});
   }
   if (auto made = pipelines.result(); !made) return made.error();
   return scan;
@@ -33,35 +39,39 @@ Expected<Scan> Scan::create(Device& device, uint32_t count) {
 
 std::vector<GroupCount> Scan::groups() const {
   if (count_ == 0) return {};
-  if (!reduce_) return {foldGroups(1)};
-  return {foldGroups(tileCount(count_)), foldGroups(1), foldGroups(tileCount(count_))};
+  const uint32_t tiles = tileCount(count_);
+  if (count_ <= kSingleCount) return {foldGroups(1)};
+  if (tiles <= kScanSums) return {foldGroups(tiles), foldGroups(tiles)};
+  return {foldGroups(tiles), foldGroups(1), foldGroups(tiles)};
 }
 
 BufferRef Scan::addTo(Graph& graph, BufferRef values, const Gate* gate) const {
   if (count_ == 0) return values;
   Dispatches dispatches(gate);
+  const Use read = readUse(texels_);
   const auto single = [&](std::string_view name, BufferRef& buffer, uint32_t count) {
     graph.pass(name, [&](Pass& pass) {
       buffer = pass.write(buffer, Use::ComputeWrite);
-      return dispatches.next(pass, pass.kernel(single_, {buffer}), 1, ScanPush{count});
+      return dispatches.next(pass, pass.kernel(pipes_.single, {buffer}), 1, ScanPush{count});
     });
   };
-  if (!reduce_) {
+  if (count_ <= kSingleCount) {
     single("sort/scan", values, count_);
     return values;
   }
   const uint32_t tiles = tileCount(count_);
-  BufferRef sums = graph.create("scan tile sums", {tiles * sizeof(uint32_t)});
+  BufferRef sums = graph.create("scan tile sums", {paddedWords(tiles) * sizeof(uint32_t)});
   graph.pass("sort/scan reduce", [&](Pass& pass) {
-    pass.read(values, Use::ComputeRead);
+    pass.read(values, read);
     sums = pass.write(sums, Use::ComputeWrite, true);
-    return dispatches.next(pass, pass.kernel(reduce_, {values, sums}), tiles, ScanPush{count_});
+    return dispatches.next(pass, pass.kernel(pipes_.reduce, {values, sums}), tiles, ScanPush{count_});
   });
-  single("sort/scan tiles", sums, tiles);
+  const bool scanned = tiles > kScanSums;
+  if (scanned) single("sort/scan tiles", sums, tiles);
   graph.pass("sort/scan apply", [&](Pass& pass) {
-    pass.read(sums, Use::ComputeRead);
+    pass.read(sums, read);
     values = pass.write(values, Use::ComputeWrite);
-    return dispatches.next(pass, pass.kernel(apply_, {values, sums}), tiles, ScanPush{count_});
+    return dispatches.next(pass, pass.kernel(scanned ? pipes_.applyScanned : pipes_.apply, {values, sums}), tiles, ScanPush{count_});
   });
   return values;
 }

@@ -16,20 +16,24 @@ class Scan {
   /// Most values: what fits a buffer of 128 MiB.
   static constexpr uint32_t kMaxCount = (128u << 20) / sizeof(uint32_t);
 
-  /// `count` values, 0 .. kMaxCount; BadInput above.
-  static Expected<Scan> create(Device& device, uint32_t count);
+  /// `count` values, 0 .. kMaxCount; BadInput above. With kMaxCount all pipelines are made that any other count needs. `storageReads`: through storage buffers
+  /// even where texel buffers would hold enough; the same result.
+  static Expected<Scan> create(Device& device, uint32_t count, bool storageReads = false);
 
   uint32_t count() const { return count_; }
   /// The group counts of its dispatches, in order.
   std::vector<GroupCount> groups() const;
-  /// Declares the passes and returns the scanned version of `values` (count uints). No values: nothing is declared.
+  /// Declares the passes and returns the scanned version of `values` (paddedWords(count) uints, of which those behind the last
+  /// value come out undefined). No values: nothing is declared.
   BufferRef addTo(Graph& graph, BufferRef values, const Gate* gate = nullptr) const;
 
  private:
   uint32_t count_ = 0;
-  const ComputePipeline* single_ = nullptr;
-  const ComputePipeline* reduce_ = nullptr;
-  const ComputePipeline* apply_ = nullptr;
+  struct Pipelines {
+    const ComputePipeline *single = nullptr, *reduce = nullptr, *apply = nullptr, *applyScanned = nullptr;
+  };
+  Pipelines pipes_;
+  bool texels_ = false;
 };
 
 }  // namespace rill

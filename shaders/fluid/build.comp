@@ -8,35 +8,29 @@
 #include "fluid/uniforms.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/solids.glsl"
+#include "shared/arrays.glsl"
 #include "shared/pair_hash.h"
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 2) const uint LIST_CAPACITY = 0;
 layout(constant_id = 3) const uint NEAR = 0;
 
 layout(push_constant) uniform Push { ChunkPush push; };
-#ifdef TEXEL
-layout(binding = 2) uniform samplerBuffer particleArray;
-#define PARTICLE(j) texelFetch(particleArray, int(j))
-#else
-layout(std430, binding = 2) readonly buffer ParticleBlock { vec4 particleArray[]; };
-#define PARTICLE(j) particleArray[j]
-#endif
+READ_FLOAT4(2, particle)
 layout(std430, binding = 3) writeonly buffer ListBlock { uvec4 list[]; };
 layout(std430, binding = 4) writeonly buffer CountBlock { uint neighbourCount[]; };
 layout(std430, binding = 5) writeonly buffer KeyBlock { uint cell[]; };
-layout(std430, binding = 6) readonly buffer StartBlock { uint cellStart[]; };
+READ_UINT(6, cellStart)
 layout(std430, binding = 7) buffer SumsBlock { FluidSums sums; };
-layout(std430, binding = 8) readonly buffer SortedPositionBlock { vec4 sortedPosition[]; };
-layout(std430, binding = 9) readonly buffer SortedVelocityBlock { vec4 sortedVelocity[]; };
-layout(std430, binding = 10) readonly buffer SortedScalarBlock { uvec2 sortedScalar[]; };
-layout(std430, binding = 11) writeonly buffer PositionBlock { vec4 position[]; };
-layout(std430, binding = 12) writeonly buffer PredictionBlock { vec4 prediction[]; };
-layout(std430, binding = 13) writeonly buffer VelocityBlock { vec4 velocity[]; };
-layout(std430, binding = 14) writeonly buffer WarmBlock { float warm[]; };
-layout(std430, binding = 15) writeonly buffer IdBlock { uint id[]; };
-layout(std430, binding = 16) writeonly buffer NearBlock { vec4 nearSample[]; };
-layout(std430, binding = 17) writeonly buffer NearListBlock { uint nearList[]; };
-layout(std430, binding = 18) readonly buffer SolidBlock { SolidRecord solids[]; };
+READ_FLOAT4(8, sortedPosition)  // w: the id, as a number
+READ_FLOAT4(9, sortedVelocity)  // w: the warm start
+layout(std430, binding = 10) writeonly buffer PositionBlock { vec4 position[]; };
+layout(std430, binding = 11) writeonly buffer PredictionBlock { vec4 prediction[]; };
+layout(std430, binding = 12) writeonly buffer VelocityBlock { vec4 velocity[]; };
+layout(std430, binding = 13) writeonly buffer WarmBlock { float warm[]; };
+layout(std430, binding = 14) writeonly buffer IdBlock { uint id[]; };
+layout(std430, binding = 15) writeonly buffer NearBlock { vec4 nearSample[]; };
+layout(std430, binding = 16) writeonly buffer NearListBlock { uint nearList[]; };
+layout(std430, binding = 17) readonly buffer SolidBlock { SolidRecord solids[]; };
 
 const uint kNone = 0xffffffffu;
 
@@ -93,7 +87,7 @@ void takeTurn(bool mine) { here = mine ? place : vec3(-kParked); }  // from ther
 void candidates(uint first, uint end) {
   uint mask = 0u, twins = 0u;
   for (uint base = first; base < end; base += CLUSTER) {
-    vec3 candidate = PARTICLE(min(base + clusterLane, end - 1u)).xyz;
+    vec3 candidate = particleAt(min(base + clusterLane, end - 1u)).xyz;
     uint near = 0u, same = 0u;
     for (uint lane = 0u; lane < CLUSTER; ++lane) {
       vec3 r = here - SPREAD(candidate, lane);
@@ -117,7 +111,7 @@ void main() {
   uint i = push.first + local;
   bool there = i < push.last;
   if (!there) i = push.last - 1u;
-  vec4 predicted = PARTICLE(i);
+  vec4 predicted = particleAt(i);
   vec3 x = predicted.xyz;
 
   at = (local / kListBlock) * (kListBlock * (LIST_CAPACITY / 4u)) + local % kListBlock;
@@ -135,19 +129,20 @@ void main() {
     if (all > LIST_CAPACITY) atomicAdd(sums.overflow, 1u);
   }
 
-  vec3 from = sortedPosition[i].xyz;
-  uvec2 scalar = sortedScalar[i];
+  vec4 sorted = sortedPositionAt(i), moving = sortedVelocityAt(i);
+  vec3 from = sorted.xyz;
+  uint own = uint(sorted.w);
   if (twin != kNone) {  // coinciding particles have no direction to part in: each takes one from both numbers, opposite for the two
-    uint other = sortedScalar[twin].y;
-    vec3 apart = vec3(pairDirection(scalar.y, other, 0u), pairDirection(scalar.y, other, 1u), pairDirection(scalar.y, other, 2u)) *
+    uint other = uint(sortedPositionAt(twin).w);
+    vec3 apart = vec3(pairDirection(own, other, 0u), pairDirection(own, other, 1u), pairDirection(own, other, 2u)) *
                  (0.02 / 1024.0 * params.spacing);
     x = insideWalls(x + apart);
     from = insideWalls(from + apart);
   }
   position[i] = vec4(from, 0.0);
   prediction[i] = vec4(x, predicted.w);
-  velocity[i] = sortedVelocity[i];
-  warm[i] = uintBitsToFloat(scalar.x);
-  id[i] = scalar.y;
+  velocity[i] = vec4(moving.xyz, 1.0);
+  warm[i] = moving.w;
+  id[i] = own;
   if (NEAR != 0u) listNear(i, x);
 }

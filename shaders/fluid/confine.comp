@@ -10,19 +10,13 @@
 #include "fluid/kernel.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(push_constant) uniform Push { ChunkPush push; };
-#ifdef TEXEL
-layout(binding = 8) uniform samplerBuffer curlArray;
-#define CURL(j) texelFetch(curlArray, int(j))
-#else
-layout(std430, binding = 8) readonly buffer CurlBlock { vec4 curlArray[]; };
-#define CURL(j) curlArray[j]
-#endif
+READ_FLOAT4(8, curl)
 layout(std430, binding = 9) buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 10) writeonly buffer PredictionBlock { vec4 prediction[]; };
-layout(std430, binding = 11) readonly buffer PushBlock { vec4 pushAway[]; };
-layout(std430, binding = 12) readonly buffer PositionBlock { vec4 position[]; };
+READ_FLOAT4(11, pushAway)
+READ_FLOAT4(12, position)
 
-#define COMPANION(j) CURL(j)
+#define COMPANION(j) curlAt(j)
 
 vec3 here;
 vec4 own;
@@ -39,8 +33,8 @@ void main() {
   uint i = push.first + local;
   bool there = i < push.last;
   if (!there) i = params.count;
-  here = PARTICLE(i).xyz;
-  own = CURL(i);
+  here = particleAt(i).xyz;
+  own = curlAt(i);
   visitNeighbours(i, local, there);
   if (!there) return;
   rise *= params.gradientScale;
@@ -49,5 +43,5 @@ void main() {
   vec4 v = velocity[i];
   v.xyz += control.step * params.vorticity * params.support * own.w * cross(direction, own.xyz);
   velocity[i] = v;
-  prediction[i] = vec4(insideWalls(predicted(position[i].xyz, v.xyz, pushAway[i].xyz)), 0.0);
+  prediction[i] = vec4(insideWalls(predicted(positionAt(i).xyz, v.xyz, pushAwayAt(i).xyz)), 0.0);
 }

@@ -17,7 +17,7 @@ layout(constant_id = 6) const uint CONTACT = 0;  // collide.comp follows
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer PositionBlock { vec4 position[]; };
 layout(std430, binding = 9) buffer VelocityBlock { vec4 velocity[]; };
-layout(std430, binding = 10) readonly buffer NearBlock { vec4 nearSample[]; };
+READ_FLOAT4(10, nearSample)
 layout(std430, binding = 11) buffer PredictionBlock { vec4 prediction[]; };
 layout(std430, binding = 12) buffer PushBlock { vec4 pushAway[]; };  // m/s^2; w, while pressing: the multiplier that was found last
 layout(std430, binding = 13) writeonly buffer FreeBlock { vec4 freeVelocity[]; };  // before the solve: what contacts compare with; w: the prediction's
@@ -50,9 +50,9 @@ void visit(vec4 particle) {
 
 // What the prediction moved by. Not as a difference of positions, whose rounding over a step is a random walk of the velocity, where nothing but
 // the step made the prediction.
-vec3 plannedWay(vec3 from, uint i) {
+vec3 plannedWay(vec3 from, vec3 velocity, vec3 push) {
   vec3 difference = here - from;
-  vec3 planned = control.step * (velocity[i].xyz + control.step * (gravity() + pushAway[i].xyz));
+  vec3 planned = control.step * (velocity + control.step * (gravity() + push));
   vec3 rounding = 3.0e-7 * (abs(from) + abs(here));
   return all(lessThanEqual(abs(difference - planned), rounding)) ? planned : difference;
 }
@@ -62,7 +62,7 @@ void main() {
   uint i = push.first + local;
   bool there = i < push.last;
   if (!there) i = params.count;
-  vec4 particle = PARTICLE(i);
+  vec4 particle = particleAt(i);
   here = particle.xyz;
   own = multipliers(particle);
   visitNeighbours(i, local, there);
@@ -70,12 +70,13 @@ void main() {
   moved *= unit * params.gradientScale;
   pushed *= unit * params.gradientScale;
   if (NEAR != 0u) {
-    vec3 wall = unit * nearSample[i].xyz;
+    vec3 wall = unit * nearSampleAt(i).xyz;
     moved += own.x * wall;
     pushed += own.y * wall;
   }
 
-  vec3 from = position[i].xyz;
+  vec3 from = position[i].xyz, before = velocity[i].xyz;
+  vec4 pushedBy = pushAway[i];
   bool presses = control.momentum >= 0.0, still = control.step == 0.0;  // still: no time goes by
   vec3 to = presses ? from : insideWalls(here + moved);
   // A correction parts particles whatever it takes, but gives no more speed than what can have brought them together: see ARCHITECTURE.md, "Overlaps".
@@ -83,14 +84,14 @@ void main() {
   float gain = sqrt(dot(gained, gained));
   float mostGain = control.step * (clamp(0.5 * control.speed, params.pushLow, params.pushHigh) + 4.0 * control.step * sqrt(dot(gravity(), gravity())));
   float kept = min(1.0, mostGain / max(gain, 1.0e-20));
-  vec3 way = (0.5 + 0.5 * kept) * plannedWay(from, i) + gained * kept;  // who overlaps by more has come too fast: that cools, too
+  vec3 way = (0.5 + 0.5 * kept) * plannedWay(from, before, pushedBy.xyz) + gained * kept;  // who overlaps by more has come too fast: that cools, too
   // No more than twice what cfl allows in a substep: the next step shrinks to follow a particle that wants to go faster.
   float most = max(2.0 * params.cfl, 0.02) * params.spacing;
   vec3 moves = to - from;
   float far = sqrt(dot(moves, moves));
   if (far > most) { way *= most / far; to = insideWalls(from + moves * (most / far)); }
   way *= min(1.0, min(most, params.speedLimit * control.step) / max(sqrt(dot(way, way)), 1.0e-20));
-  vec3 v = still ? velocity[i].xyz : way / control.step;  // not (to - from): who starts outside the walls is put inside, and gets no speed for it
+  vec3 v = still ? before : way / control.step;  // not (to - from): who starts outside the walls is put inside, and gets no speed for it
   vec3 away = pushed / (control.warmStep * control.warmStep);
   vec3 next = insideWalls(predicted(to, v, away));
   bool finite = isFinite(to) && isFinite(next);
@@ -106,10 +107,10 @@ void main() {
   float found = 0.0;
   if (presses) {  // heavy ball (Polyak 1964): the last change goes on in the next
     found = warm[i];
-    warm[i] = min(0.0, found + control.momentum * (found - pushAway[i].w));
+    warm[i] = min(0.0, found + control.momentum * (found - pushedBy.w));
   }
   position[i] = vec4(to, 0.0);
-  if (CONTACT != 0u) freeVelocity[i] = vec4(velocity[i].xyz + control.step * gravity(), prediction[i].w);
+  if (CONTACT != 0u) freeVelocity[i] = vec4(before + control.step * gravity(), prediction[i].w);
   velocity[i] = vec4(v, 1.0);
   pushAway[i] = vec4(away, found);
   prediction[i] = vec4(next, 0.0);

@@ -10,17 +10,11 @@
 #include "fluid/kernel.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(push_constant) uniform Push { ChunkPush push; };
-#ifdef TEXEL
-layout(binding = 8) uniform samplerBuffer velocityArray;
-#define VELOCITY(j) texelFetch(velocityArray, int(j))
-#else
-layout(std430, binding = 8) readonly buffer VelocityBlock { vec4 velocityArray[]; };
-#define VELOCITY(j) velocityArray[j]
-#endif
+READ_FLOAT4(8, velocity)
 
 layout(std430, binding = 9) writeonly buffer CurlBlock { vec4 curl[]; };
 
-#define COMPANION(j) VELOCITY(j)
+#define COMPANION(j) velocityAt(j)
 
 vec3 here;
 vec3 own;
@@ -37,8 +31,8 @@ void main() {
   uint i = push.first + local;
   bool there = i < push.last;
   if (!there) i = params.count;
-  here = PARTICLE(i).xyz;
-  own = VELOCITY(i).xyz;
+  here = particleAt(i).xyz;
+  own = velocityAt(i).xyz;
   visitNeighbours(i, local, there);
   if (!there) return;
   turning *= params.gradientScale;

@@ -16,7 +16,7 @@ layout(constant_id = 5) const uint ITERATED = 0;    // more than one iteration a
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer WarmBlock { float warm[]; };
 layout(std430, binding = 9) writeonly buffer WorkBlock { vec4 work[]; };
-layout(std430, binding = 10) readonly buffer NearBlock { vec4 nearSample[]; };
+READ_FLOAT4(10, nearSample)
 layout(std430, binding = 11) buffer MultiplierBlock { float multiplier[]; };
 
 vec3 here;
@@ -40,14 +40,14 @@ void main() {
   uint i = push.first + local;
   bool there = i < push.last;
   if (!there) i = params.count;
-  here = PARTICLE(i).xyz;
+  here = particleAt(i).xyz;
   visitNeighbours(i, local, there);
   if (!there) return;
   rho = params.valueScale * (rho + kernelShape(0.0));
   gradientSum *= params.gradientScale;
   gradientSquares *= params.gradientScale * params.gradientScale;
   if (NEAR != 0u) {
-    vec4 displaced = nearSample[i];
+    vec4 displaced = nearSampleAt(i);
     gradientSum += displaced.xyz;
     rho += displaced.w;
   }

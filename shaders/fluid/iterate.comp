@@ -13,7 +13,7 @@ layout(constant_id = 5) const uint TENSILE = 0;
 
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer PredictionBlock { vec4 prediction[]; };
-layout(std430, binding = 9) readonly buffer NearBlock { vec4 nearSample[]; };
+READ_FLOAT4(9, nearSample)
 
 vec3 here;
 float own;
@@ -42,12 +42,12 @@ void main() {
   uint i = push.first + local;
   bool there = i < push.last;
   if (!there) i = params.count;
-  vec4 particle = PARTICLE(i);
+  vec4 particle = particleAt(i);
   here = particle.xyz;
   own = multiplier(particle);
   visitNeighbours(i, local, there);
   if (!there) return;
   moved *= unit * params.gradientScale;
-  if (NEAR != 0u) moved += unit * own * nearSample[i].xyz;
+  if (NEAR != 0u) moved += unit * own * nearSampleAt(i).xyz;
   prediction[i] = vec4(insideWalls(here + moved), prediction[i].w);
 }

@@ -3,8 +3,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "fluid/grid.glsl"
+#include "shared/arrays.glsl"
 layout(local_size_x = kFluidGroup) in;
-layout(std430, binding = 2) readonly buffer PredictionBlock { vec4 prediction[]; };
+READ_FLOAT4(2, prediction)
 layout(std430, binding = 3) writeonly buffer KeyBlock { uint key[]; };
 layout(std430, binding = 4) buffer SumsBlock { FluidSums sums; };
 
@@ -16,5 +17,5 @@ void main() {
     sums.overflow = 0u;
   }
   if (i >= params.count) return;
-  key[i] = cellKey(cellOf(prediction[i].xyz));
+  key[i] = cellKey(cellOf(predictionAt(i).xyz));
 }

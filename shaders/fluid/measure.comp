@@ -8,16 +8,16 @@
 #include "fluid/uniforms.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
+#include "shared/arrays.glsl"
 layout(local_size_x = kMeasureGroup) in;
 layout(constant_id = 2) const uint NEAR = 0;
-layout(std430, binding = 2) readonly buffer SortedBlock { vec4 sorted[]; };  // w: the particle's place in the solver's arrays
-#define PARTICLE(j) sorted[j]
-layout(std430, binding = 3) readonly buffer StartBlock { uint cellStart[]; };
-layout(std430, binding = 4) readonly buffer NearBlock { vec4 nearSample[]; };
+READ_FLOAT4(2, sorted)  // w: the particle's place in the solver's arrays, as a number
+READ_UINT(3, cellStart)
+READ_FLOAT4(4, nearSample)
 layout(std430, binding = 5) writeonly buffer PartialBlock { MeasurePartial partials[]; };
 layout(std430, binding = 6) buffer SumsBlock { FluidSums sums; };
-layout(std430, binding = 7) buffer VelocityBlock { vec4 velocity[]; };
-layout(std430, binding = 8) buffer HistogramBlock { uint histogram[]; };  // compression; then inside the fluid: above, below rest density
+layout(std430, binding = 7) buffer HistogramBlock { uint histogram[]; };  // compression; then inside the fluid: above, below rest density
+layout(std430, binding = 8) buffer VelocityBlock { vec4 velocity[]; };
 
 vec3 here;
 float rho = 0.0;
@@ -28,7 +28,7 @@ vec3 place;
 void takeTurn(bool mine) { here = mine ? place : vec3(-kParked); }  // from there nothing is near
 void candidates(uint first, uint end) {
   for (uint base = first; base < end; base += CLUSTER) {
-    vec3 candidate = base + clusterLane < end ? PARTICLE(base + clusterLane).xyz : vec3(kParked);
+    vec3 candidate = base + clusterLane < end ? sortedAt(base + clusterLane).xyz : vec3(kParked);
     for (uint lane = 0u; lane < CLUSTER; ++lane) {
       vec3 r = here - SPREAD(candidate, lane);
       float distance = sqrt(dot(r, r));
@@ -50,7 +50,7 @@ void main() {
   uint lane = slot % kMeasureGroup;
   MeasurePartial mine = MeasurePartial(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0u, 0u, 0u);
   bool there = slot < params.count;
-  vec4 particle = there ? sorted[slot] : vec4(0.0);
+  vec4 particle = there ? sortedAt(slot) : vec4(0.0);
   bool parked = particle.x >= kParked * 0.5;
   place = particle.xyz;
   vec3 scaled = scaledPosition(place);
@@ -60,11 +60,11 @@ void main() {
     mine.outside = 1u;
     mine.parked = 1u;
   } else if (there) {
-    uint i = floatBitsToUint(particle.w);
+    uint i = uint(particle.w);
     rho *= params.valueScale;
-    if (NEAR != 0u) rho += nearSample[i].w;
+    if (NEAR != 0u) rho += nearSampleAt(i).w;
     vec3 v = velocity[i].xyz;
-    velocity[i].w = rho;
+    velocity[i] = vec4(v, rho);
     float error = rho - 1.0;
     mine.compression = max(error, 0.0);
     mine.compressionMax = mine.compression;

@@ -2,13 +2,12 @@
 // device dispatches it in place of the other while somebody has to (the code alone, never run, costs the other an eighth of its time on lavapipe).
 // Before it includes this the shader defines `vec3 here`, the particle's place, and `void visit(vec4 particle)`, and binds at 2 the array whose elements are
 // handed over; with COMPANION(j) defined, `void visit(vec4 particle, vec4 companion)`. What is farther than the support, or not there, is visited too.
-// With TEXEL the arrays are uniform texel buffers (twice as fast on lavapipe: a storage load is made lane by lane there), else storage buffers.
 #ifndef RILL_NEIGHBOURS_GLSL
 #define RILL_NEIGHBOURS_GLSL
 layout(constant_id = 2) const uint LIST_CAPACITY = 0;  // entries a particle; 0: no list
 layout(constant_id = 3) const uint WALKS = 0;
 
-layout(std430, binding = 6) readonly buffer StartBlock { uint cellStart[]; };
+READ_UINT(6, cellStart)
 layout(std430, binding = 7) buffer SumsBlock { FluidSums sums; };
 
 vec3 place;
@@ -17,7 +16,7 @@ void takeTurn(bool mine) { here = mine ? place : vec3(-kParked); }  // from ther
 void candidates(uint first, uint end) {
   for (uint base = first; base < end; base += CLUSTER) {
     uint j = base + clusterLane < end ? base + clusterLane : params.count;
-    vec4 particle = PARTICLE(j);
+    vec4 particle = particleAt(j);
 #ifdef COMPANION
     vec4 companion = COMPANION(j);
 #endif
@@ -42,14 +41,14 @@ void candidates(uint first, uint end) {
 
 // Of particle i, where it is `there`, at invocation `local` of its chunk. All lanes of a cluster call this.
 void visitNeighbours(uint i, uint local, bool there) {
-  uint count = LIST_CAPACITY == 0u || !there ? 0u : COUNT_OF(i);
+  uint count = LIST_CAPACITY == 0u || !there ? 0u : countAt(i);
   bool listed = LIST_CAPACITY != 0u && count <= LIST_CAPACITY;
   if (LIST_CAPACITY != 0u) {
     uint at = (local / kListBlock) * (kListBlock * (LIST_CAPACITY / 4u)) + local % kListBlock;
     uint groups = listed ? (count + 3u) / 4u : 0u;
     for (uint k = 0u; k < groups; ++k) {
-      uvec4 js = LIST_AT(at);
-      vec4 x = PARTICLE(js.x), y = PARTICLE(js.y), z = PARTICLE(js.z), w = PARTICLE(js.w);
+      uvec4 js = listAt(at);
+      vec4 x = particleAt(js.x), y = particleAt(js.y), z = particleAt(js.z), w = particleAt(js.w);
       VISIT(js.x, x);
       VISIT(js.y, y);
       VISIT(js.z, z);
@@ -59,7 +58,7 @@ void visitNeighbours(uint i, uint local, bool there) {
   }
   if (WALKS == 0u) return;
   bool walks = there && !listed && here.x != kParked;
-  vec3 home = vec3(cellFromKey(KEY_OF(there ? i : 0u)));
+  vec3 home = vec3(cellFromKey(keyAt(there ? i : 0u)));
   place = here;
   self = i;
   walkGrid(home, home + 1.0, walks, params.reach);

@@ -11,19 +11,13 @@
 #include "fluid/kernel.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(push_constant) uniform Push { SweepPush push; };
-#ifdef TEXEL
-layout(binding = 8) uniform samplerBuffer velocityArray;
-#define VELOCITY(j) texelFetch(velocityArray, int(j))
-#else
-layout(std430, binding = 8) readonly buffer VelocityBlock { vec4 velocityArray[]; };
-#define VELOCITY(j) velocityArray[j]
-#endif
+READ_FLOAT4(8, velocity)
 layout(std430, binding = 9) writeonly buffer SmoothedBlock { vec4 smoothed[]; };
 layout(std430, binding = 10) writeonly buffer PredictionBlock { vec4 prediction[]; };
-layout(std430, binding = 11) readonly buffer PushBlock { vec4 pushAway[]; };
-layout(std430, binding = 12) readonly buffer PositionBlock { vec4 position[]; };
+READ_FLOAT4(11, pushAway)
+READ_FLOAT4(12, position)
 
-#define COMPANION(j) VELOCITY(j)
+#define COMPANION(j) velocityAt(j)
 
 vec3 here;
 vec4 own;
@@ -40,13 +34,13 @@ void main() {
   uint i = push.first + local;
   bool there = i < push.last;
   if (!there) i = params.count;
-  here = PARTICLE(i).xyz;
-  own = VELOCITY(i);
+  here = particleAt(i).xyz;
+  own = velocityAt(i);
   visitNeighbours(i, local, there);
   if (!there) return;
   float coefficient = push.share > 0.0 ? params.viscosityRate * control.step * push.share : control.calming;
   vec3 v = own.xyz + coefficient * params.valueScale * change;
   smoothed[i] = vec4(v, own.w);
   if (i == 0u) smoothed[params.count] = vec4(0.0);  // the dummy neighbour, whose weight of 0 would not do away with a NaN
-  prediction[i] = vec4(insideWalls(predicted(position[i].xyz, v, pushAway[i].xyz)), 0.0);
+  prediction[i] = vec4(insideWalls(predicted(positionAt(i).xyz, v, pushAwayAt(i).xyz)), 0.0);
 }

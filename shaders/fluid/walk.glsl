@@ -1,4 +1,4 @@
-// Walks the grid around a cluster. Before it includes this the shader binds `sums` and the starts of the cells that the particles were sorted by, and defines:
+// Walks the grid around a cluster. Before it includes this the shader binds `sums` and makes cellStartAt(), the starts of the cells that the particles were sorted by, and defines:
 //   void takeTurn(bool mine)               the lanes whose neighbours come next: they are in one row of cells
 //   void candidates(uint first, uint end)  particles of the sorted arrays, 1 to kWindow of them; all lanes of the cluster are here
 #ifndef RILL_WALK_GLSL
@@ -26,8 +26,8 @@ void rowRange(float low, float high, ivec2 row, vec4 gaps, float reach, uint sid
   }
   if (part == 1u && past <= size) return;
   uint base = cellKey(uvec3(0u, uvec2(row + way) & gridMask.yz));
-  begin = cellStart[base + (part == 0u ? first : 0u)];
-  end = cellStart[base + (part == 0u ? min(past, size) : past - size)];
+  begin = cellStartAt(base + (part == 0u ? first : 0u));
+  end = cellStartAt(base + (part == 0u ? min(past, size) : past - size));
 }
 
 // `boxLow` to `boxHigh`: a box in one cell, in cells, that the lane's particle was in when the cells were sorted; `waits`: whether the lane wants neighbours.

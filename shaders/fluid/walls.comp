@@ -4,15 +4,16 @@
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "fluid/solids.glsl"
+#include "shared/arrays.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 0) const uint CORNER = 0;
 layout(constant_id = 1) const uint SOLIDS = 0;
 layout(constant_id = 2) const int SIDES = 2;  // of an axis that can be near at once: 1 where the domain is nowhere thin (an eighth of the corner look-ups)
 
-layout(std430, binding = 2) readonly buffer PredictionBlock { vec4 prediction[]; };
-layout(std430, binding = 3) readonly buffer NearListBlock { uint nearList[]; };
+READ_FLOAT4(2, prediction)
+READ_UINT(3, nearList)
 layout(std430, binding = 4) readonly buffer SumsBlock { FluidSums sums; };
-layout(std430, binding = 5) readonly buffer TableBlock { vec2 tables[]; };
+READ_FLOAT4(5, table)  // value and slope of a node, and of the next one along the first axis
 layout(std430, binding = 6) readonly buffer SolidBlock { SolidRecord solids[]; };
 layout(std430, binding = 7) writeonly buffer NearBlock { vec4 nearSample[]; };
 
@@ -23,11 +24,17 @@ void locate(float s, float step, uint nodes, out uint node, out float weight) {
   weight = clamp(place - float(node), 0.0, 1.0);
 }
 
+// Between node k and the next one.
+vec2 between(uint k, float weight) {
+  vec4 nodes = tableAt(k);
+  return mix(nodes.xy, nodes.zw, weight);
+}
+
 vec2 line(uint offset, uint nodes, float step, float s) {
   uint node;
   float w;
   locate(s, step, nodes, node, w);
-  return mix(tables[offset + node], tables[offset + node + 1u], w);
+  return between(offset + node, w);
 }
 
 // Value and slope by s1.
@@ -37,7 +44,7 @@ vec2 edge(float s1, float s2) {
   locate(s1, params.tableStep, params.tableNodes, a, u);
   locate(s2, params.tableStep, params.tableNodes, b, v);
   uint at = params.tableOffset2 + b * params.tableNodes + a;
-  return mix(mix(tables[at], tables[at + 1u], u), mix(tables[at + params.tableNodes], tables[at + params.tableNodes + 1u], u), v);
+  return mix(between(at, u), between(at + params.tableNodes, u), v);
 }
 
 vec2 corner(float s1, float s2, float s3) {
@@ -47,10 +54,9 @@ vec2 corner(float s1, float s2, float s3) {
   locate(s2, params.cornerStep, n, b, v);
   locate(s3, params.cornerStep, n, c, w);
   uint at = params.tableOffset3 + (c * n + b) * n + a;
-  vec2 low = mix(mix(tables[at], tables[at + 1u], u), mix(tables[at + n], tables[at + n + 1u], u), v);
+  vec2 low = mix(between(at, u), between(at + n, u), v);
   at += n * n;
-  vec2 high = mix(mix(tables[at], tables[at + 1u], u), mix(tables[at + n], tables[at + n + 1u], u), v);
-  return mix(low, high, w);
+  return mix(low, mix(between(at, u), between(at + n, u), v), w);
 }
 
 // Domain walls by inclusion and exclusion over the axes.
@@ -127,8 +133,8 @@ void main() {
   uint n = flatInvocation();
   if (CORNER == 0u) {
     if (n >= sums.planeCount) return;
-    uint i = nearList[n];
-    vec3 x = prediction[i].xyz;
+    uint i = nearListAt(n);
+    vec3 x = predictionAt(i).xyz;
     vec3 low = x - vec3(params.lowX, params.lowY, params.lowZ);
     vec3 high = vec3(params.highX, params.highY, params.highZ) - x;
     vec3 nearest = min(low, high);
@@ -140,8 +146,8 @@ void main() {
     return;
   }
   if (n >= sums.cornerCount) return;
-  uint i = nearList[params.count - 1u - n];
-  vec3 x = prediction[i].xyz;
+  uint i = nearListAt(params.count - 1u - n);
+  vec3 x = predictionAt(i).xyz;
   vec4 displaced = domainWalls(x);
   if (SOLIDS != 0u) {
     for (uint k = 0u; k < params.solidCount; ++k) displaced += solidSample(solids[k], x);

@@ -2,13 +2,7 @@
 // Needs surface_arrays.glsl; planes at binding 2.
 #include "render/surface_walk.glsl"
 #include "render/surface_edge.glsl"
-#ifdef TEXEL
-layout(set = 0, binding = 2) uniform samplerBuffer plane;
-#define PLANE(k) texelFetch(plane, int(k))
-#else
-layout(std430, set = 0, binding = 2) readonly buffer Plane { vec4 plane[]; };
-#define PLANE(k) plane[k]
-#endif
+READ_FLOAT4(2, plane)
 
 const float kBlendReach = 1.8;  // spacings, across a plane
 const float kBlendRange = 1.2;  // spacings, along its normal
@@ -39,8 +33,8 @@ Blend lookFrom(vec2 axis, float depth) {
   for (int y = range.first.y; y <= range.last.y; ++y) {
     const uvec2 row = rowOf(range, y);
     for (uint j = row.x; j < row.y; ++j) {
-      const vec4 anchor = PLANE(2u * j);
-      vec3 n = PLANE(2u * j + 1u).xyz;
+      const vec4 anchor = planeAt(2u * j);
+      vec3 n = planeAt(2u * j + 1u).xyz;
       vec3 d = x - anchor.xyz;
       if (anchor.w > 0.0) {  // a ball: the plane that touches it where the ray passes
         n = d / max(length(d), 1e-3 * spacing);
@@ -57,7 +51,7 @@ Blend lookFrom(vec2 axis, float depth) {
       slope += w * dot(along, n);
       normal += w * n;
       // Where the surface is seen edge on, its particles crowd before the eye.
-      if (within > 0.0) cover += coverOfCentre(CENTRE(j), axis, cover_inverse) * max(abs(dot(n, sight)), kCoverEdgeOn);
+      if (within > 0.0) cover += coverOfCentre(centreAt(j).xyz, axis, cover_inverse) * max(abs(dot(n, sight)), kCoverEdgeOn);
     }
   }
   Blend blend;

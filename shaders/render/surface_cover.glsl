@@ -12,7 +12,7 @@ float coverOf(vec2 axis, float depth) {
   for (int y = range.first.y; y <= range.last.y; ++y) {
     const uvec2 row = rowOf(range, y);
     for (uint j = row.x; j < row.y; ++j) {
-      const vec3 at = CENTRE(j);
+      const vec3 at = centreAt(j).xyz;
       if (abs(at.z - depth) > kCoverDepth * spacing) continue;
       cover += coverOfCentre(at, axis, inverse);
     }

@@ -48,7 +48,7 @@ Fit fitAround(vec3 own, float inverse, CellRange range, vec3 across) {
   for (int y = range.first.y; y <= range.last.y; ++y) {
     const uvec2 row = rowOf(range, y);
     for (uint j = row.x; j < row.y; ++j) {
-      const vec3 q = (CENTRE(j) - own) * inverse;
+      const vec3 q = (centreAt(j).xyz - own) * inverse;
       const float inside = max(1.0 - dot(q, q), 0.0);
       const float off = dot(q, across);
       const float near = max(1.0 - off * off, 0.0);
@@ -69,7 +69,7 @@ Fit fitAround(vec3 own, float inverse, CellRange range, vec3 across) {
 void main() {
   const uint k = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
   if (k >= counters[kSurfaceCount]) return;
-  const vec3 own = CENTRE(k);
+  const vec3 own = centreAt(k).xyz;
   const float spacing = spacingAt(own.z), reach = view.smoothing * spacing, inverse = 1.0 / reach;
   const CellRange range = cellsAround(own, reach);
   Fit fit = fitAround(own, inverse, range, vec3(0.0));

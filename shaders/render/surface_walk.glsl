@@ -18,7 +18,7 @@ CellRange cellsAround(vec3 point, float reach) {
 // Surface particles of one row of the range: first, and the one after the last.
 uvec2 rowOf(CellRange range, int y) {
   const uint row = uint(y) * cellGrid().x;
-  const uint begin = START(row + uint(range.first.x)), end = START(row + uint(range.last.x) + 1u);
+  const uint begin = startAt(row + uint(range.first.x)), end = startAt(row + uint(range.last.x) + 1u);
   bound_hit = bound_hit || end > begin + kMostInRow;
   return uvec2(begin, min(end, begin + kMostInRow));
 }

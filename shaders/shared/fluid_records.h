@@ -72,7 +72,7 @@ struct FluidParams {
   float cornerStep;       // and of the corner table
   uint tableNodes;        // nodes an axis
   uint cornerNodes;
-  uint tableOffset2;      // (value, slope) pairs into the table buffer
+  uint tableOffset2;      // entries into the table buffer
   uint tableOffset3;
   uint tableOffsetFace;
   float viscosityRate;    // XSPH coefficient a second of step, 1/s
@@ -153,7 +153,7 @@ struct SolidRecord {
   float velocityX, velocityY, velocityZ;             // m/s
   float restitution;
   uint firstKey, keyCount;         // motion: entries of the keyframe buffer
-  uint tableOffset;                // sphere: (value, slope) pairs into the table buffer
+  uint tableOffset;                // sphere: entries into the table buffer
   uint tableNodes;
   float baseX, baseY, baseZ;       // centre before any motion, m
   float tableFirst;                // sphere: signed distance of the table's first node, m

@@ -1,18 +1,20 @@
 #version 460
-// Counting sort: bins too large for sort/order_bins. Workgroup (c, b) sets a bit for each index of the b-th listed bin that lies in
-// the c-th chunk of all indices, counts the bin's indices below the chunk, and writes the set bits out in order. Linear in
-// the bin's size for each chunk of 65,536 indices, and no loop is longer than (keys / 256) + 520.
+// Counting sort: bins too large for sort/order_bins. Workgroup c + chunks * k takes listed bins k, k + kOversizedGroups and so on: it sets a bit for each
+// of a bin's indices that lies in the c-th chunk of all indices, counts the bin's indices below the chunk, and writes the set bits out in order. Linear in
+// the bin's size for each chunk of 65,536 indices, and no loop over a bin is longer than (keys / 256) + 520.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
+#include "shared/arrays.glsl"
+#include "shared/dispatch.glsl"
 #include "sort/sort_types.h"
 
 layout(local_size_x = kCountThreads) in;
 layout(push_constant) uniform PushBlock { CountingPush push; };
-layout(set = 0, binding = 0, std430) readonly buffer Start { uint start[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Arrived { uint arrived[]; };
+READ_UINT(0, start)
+READ_UINT(1, arrived)
 layout(set = 0, binding = 2, std430) writeonly buffer Order { uint order[]; };
-layout(set = 0, binding = 3, std430) readonly buffer OversizedBins { uint oversizedBins[]; };
+layout(set = 0, binding = 3, std430) readonly buffer Oversized { uint oversized[]; };  // how many, and their keys
 
 shared uint present[kChunkWords];
 shared uint indicesBelow;
@@ -20,11 +22,9 @@ shared uint indicesBelow;
 #define WORKGROUP_SCAN_THREADS kCountThreads
 #include "sort/workgroup_scan.glsl"
 
-void main() {
-  const uint key = oversizedBins[gl_WorkGroupID.y];
-  const uint begin = start[key];
-  const uint end = start[key + 1u];
-  const uint firstIndex = gl_WorkGroupID.x * kChunkIndices;
+void orderBin(uint key, uint firstIndex) {
+  const uint begin = startAt(key);
+  const uint end = startAt(key + 1u);
 
   for (uint w = gl_LocalInvocationIndex; w < kChunkWords; w += kCountThreads) present[w] = 0u;
   if (gl_LocalInvocationIndex == 0u) indicesBelow = 0u;
@@ -32,7 +32,7 @@ void main() {
 
   uint below = 0u;
   for (uint slot = begin + gl_LocalInvocationIndex; slot < end; slot += kCountThreads) {
-    const uint index = arrived[slot];
+    const uint index = arrivedAt(slot);
     const uint inChunk = index - firstIndex;  // wraps below the chunk, so one comparison tells both sides
     if (inChunk < kChunkIndices) atomicOr(present[inChunk >> 5u], 1u << (inChunk & 31u));
     below += index < firstIndex ? 1u : 0u;
@@ -49,4 +49,11 @@ void main() {
   for (uint w = firstWord; w < firstWord + wordsEach; ++w) {
     for (uint word = present[w]; word != 0u; word &= word - 1u) order[place++] = firstIndex + 32u * w + uint(findLSB(word));
   }
+  barrier();  // the next bin takes the shared words
+}
+
+void main() {
+  const uint group = flatGroup();
+  const uint bins = oversized[0], chunk = group % push.chunks;
+  for (uint b = group / push.chunks; b < bins; b += kOversizedGroups) orderBin(oversized[1u + b], chunk * kChunkIndices);
 }

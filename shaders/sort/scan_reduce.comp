@@ -3,12 +3,13 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
+#include "shared/arrays.glsl"
 #include "shared/dispatch.glsl"
 #include "sort/sort_types.h"
 
 layout(local_size_x = kScanThreads) in;
 layout(push_constant) uniform PushBlock { ScanPush push; };
-layout(set = 0, binding = 0, std430) readonly buffer Values { uint values[]; };
+READ_UINT4(0, values)
 layout(set = 0, binding = 1, std430) writeonly buffer TileSums { uint tileSums[]; };
 
 shared uint tileSum;
@@ -18,9 +19,11 @@ void main() {
   if (gl_LocalInvocationIndex == 0u) tileSum = 0u;
   barrier();
   uint sum = 0u;
-  for (uint j = 0u; j < kScanItems; ++j) {
-    const uint i = tile * kScanTile + j * kScanThreads + gl_LocalInvocationIndex;
-    if (i < push.count) sum += values[i];
+  for (uint j = 0u; j < kScanItems / 4u; ++j) {
+    const uint i = tile * (kScanTile / 4u) + j * kScanThreads + gl_LocalInvocationIndex;
+    if (4u * i >= push.count) break;
+    const uvec4 four = valuesAt(i);
+    sum += four.x + four.y + four.z + four.w;  // what lies behind the last value is behind all that the sum is for
   }
   sum = subgroupAdd(sum);
   if (subgroupElect()) atomicAdd(tileSum, sum);

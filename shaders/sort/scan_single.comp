@@ -7,7 +7,7 @@
 
 layout(local_size_x = kScanThreads) in;
 layout(push_constant) uniform PushBlock { ScanPush push; };
-layout(set = 0, binding = 0, std430) buffer Values { uint values[]; };
+layout(set = 0, binding = 0, std430) buffer Values { uvec4 values[]; };
 
 #define WORKGROUP_SCAN_THREADS kScanThreads
 #include "sort/scan_tile.glsl"

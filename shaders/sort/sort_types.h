@@ -4,10 +4,11 @@
 #include "shared/interop.h"
 RILL_RECORDS_BEGIN
 
-// Scan: a workgroup takes a tile of kScanThreads * kScanItems values.
+// Scan: a workgroup takes a tile of kScanThreads * kScanItems values, which are loaded and stored four at a time.
 RILL_CONST uint kScanThreads = 128u;
 RILL_CONST uint kScanItems = 16u;
 RILL_CONST uint kScanTile = kScanThreads * kScanItems;
+RILL_CONST uint kScanSums = 1024u;  // tiles, at most, whose sums every workgroup adds up for itself
 
 struct ScanPush {
   uint count;  // values
@@ -15,12 +16,13 @@ struct ScanPush {
 
 // Counting sort.
 RILL_CONST uint kCountThreads = 256u;
-RILL_CONST uint kClearItems = 16u;  // counters that one invocation clears
+RILL_CONST uint kClearItems = 4u;  // fours of counters that one invocation clears
 // A particle of a bin of up to so many finds its place by reading the whole bin; larger ones go to sort/order_oversized.
 RILL_CONST uint kBinLimit = 512u;
 // Indices that a workgroup of sort/order_oversized sorts at a time, as one bit each in 8 KiB of shared memory.
 RILL_CONST uint kChunkWords = 2048u;
 RILL_CONST uint kChunkIndices = 32u * kChunkWords;
+RILL_CONST uint kOversizedGroups = 2u;  // a chunk
 
 struct CountingPush {
   uint count;      // keys

@@ -9,7 +9,7 @@
 namespace rill::test {
 
 WordBuffer::WordBuffer(Device& owner, size_t count, uint32_t filling) : count_(count) {
-  auto made = createBuffer(owner, "test words", std::max<size_t>(count, 1) * sizeof(uint32_t), MemoryKind::Readback);
+  auto made = createBuffer(owner, "test words", paddedWords(std::max<size_t>(count, 1)) * sizeof(uint32_t), MemoryKind::Readback);
   if (!made) throw std::runtime_error(made.error().message);
   buffer_ = *std::move(made);
   std::ranges::fill(words(), filling);

@@ -122,7 +122,7 @@ class Searches {
       uint64_t bytes;
     } buffers[] = {{&sorted_, "bench sorted", sizeof(Float4) * uint64_t{cloud_.push.count}},
                    {&order_, "bench order", 4 * uint64_t{cloud_.push.count}},
-                   {&start_, "bench start", 4 * (uint64_t{cloud_.cells()} + 1)},
+                   {&start_, "bench start", 4 * paddedWords(uint64_t{cloud_.cells()} + 1)},
                    {&result_, "bench result", sizeof(Found) * uint64_t{cloud_.push.count}}};
     for (const auto& wanted : buffers) {
       auto made = workbench_.make(wanted.name, wanted.bytes);
