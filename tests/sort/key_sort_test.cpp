@@ -33,12 +33,16 @@ INSTANTIATE_TEST_SUITE_P(, BothSorts, testing::Values(SortMethod::Counting, Sort
 
 void KeySortTest::check(SortMethod method, const Words& keys, uint64_t keyRange) {
   const bool table = keyRange <= 16u << 20;
-  const KeySortDesc desc{static_cast<uint32_t>(keys.size()), keyRange, method, table, true};
-  const Sorted got = sorted(desc, keys), wanted = expected(keys, keyRange, table);
-  const std::string what = std::string(name(method)) + ", " + std::to_string(keys.size()) + " keys below " + std::to_string(keyRange);
-  EXPECT_TRUE(got.order == wanted.order) << what;
-  EXPECT_TRUE(got.keys == wanted.keys) << what;
-  EXPECT_TRUE(got.start == wanted.start) << what;
+  const Sorted wanted = expected(keys, keyRange, table);
+  for (const bool storageReads : {false, true}) {
+    const KeySortDesc desc{static_cast<uint32_t>(keys.size()), keyRange, method, table, true, storageReads};
+    const Sorted got = sorted(desc, keys);
+    const std::string what = std::string(name(method)) + ", " + std::to_string(keys.size()) + " keys below " + std::to_string(keyRange) +
+                             (storageReads ? ", read through storage buffers" : "");
+    EXPECT_TRUE(got.order == wanted.order) << what;
+    EXPECT_TRUE(got.keys == wanted.keys) << what;
+    EXPECT_TRUE(got.start == wanted.start) << what;
+  }
 }
 
 TEST_P(BothSorts, EveryCountAroundTheSizesOfWorkgroupsAndTiles) {

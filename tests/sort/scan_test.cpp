@@ -13,11 +13,11 @@ namespace {
 
 class ScanTest : public SortTest {
  protected:
-  Words scanned(const Words& values);
+  Words scanned(const Words& values, bool storageReads = false);
 };
 
-Words ScanTest::scanned(const Words& values) {
-  auto scan = Scan::create(device(), static_cast<uint32_t>(values.size()));
+Words ScanTest::scanned(const Words& values, bool storageReads) {
+  auto scan = Scan::create(device(), static_cast<uint32_t>(values.size()), storageReads);
   if (!scan) throw std::runtime_error(scan.error().message);
   const WordBuffer inPlace = words(values);
   runGraph([&](Graph& graph) { scan->addTo(graph, inPlace.in(graph, "values")); });
@@ -30,7 +30,7 @@ TEST_F(ScanTest, EveryCountAroundTheSizesOfTiles) {
     Words values(count), wanted(count);
     for (uint32_t& value : values) value = static_cast<uint32_t>(random());  // sums wrap
     std::exclusive_scan(values.begin(), values.end(), wanted.begin(), 0u);
-    EXPECT_TRUE(scanned(values) == wanted) << count;
+    for (const bool storageReads : {false, true}) EXPECT_TRUE(scanned(values, storageReads) == wanted) << count << ", " << storageReads;
   }
 }
 
