@@ -78,16 +78,16 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device) {
       {stage.scatter_, "render/surface_scatter", storage(6)},
       {stage.order_, "render/surface_order", storage(5)},
       {stage.planes_[0], "render/surface_planes", storage(4)},
-      {stage.blend_[0], "render/surface_blend", storage(6)},
-      {stage.tiles_, "render/surface_tiles", storage(3)},
+      {stage.blend_[0], "render/surface_blend", storage(7)},
+      {stage.tiles_, "render/surface_tiles", storage(4)},
       {stage.compose_[0], "render/surface_compose", storage(8)},
       {stage.thickness_, "render/surface_thickness", storage(4)},
-      {stage.flow_, "render/surface_flow", storage(2)},
-      {stage.normals_, "render/surface_normals", storage(6)},
+      {stage.flow_, "render/surface_flow", storage(4)},
+      {stage.normals_, "render/surface_normals", storage(7)},
       {stage.composeFiltered_, "render/surface_compose_filtered", storage(8)},
       {stage.thicknessBare_, "render/surface_thickness_bare", storage(3)},
       {stage.planes_[1], "render/surface_planes_texel", kTexelsToPlanes},
-      {stage.blend_[1], "render/surface_blend_texel", std::span(kTexels).first(6)},
+      {stage.blend_[1], "render/surface_blend_texel", std::span(kTexels).first(7)},
       {stage.compose_[1], "render/surface_compose_texel", kTexels},
   };
   for (const auto& row : all) {
@@ -99,7 +99,7 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device) {
     const uint32_t constants[] = {vertical};
     auto made = computePipeline(
         device,
-        {.shader = "render/surface_narrow", .bindings = storage(3), .pushConstantBytes = sizeof(SurfacePush), .constants = constants});
+        {.shader = "render/surface_narrow", .bindings = storage(4), .pushConstantBytes = sizeof(SurfacePush), .constants = constants});
     if (!made) return made.error();
     stage.narrow_[vertical] = *made;
   }
@@ -114,11 +114,15 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
   Frame frame = frameOf(fluid, camera, method, focus, settings);
   frame.texels = !filtered && !settings.storage_reads &&
                  device_->info().maxTexelBufferElements >= std::max<uint64_t>(2 * uint64_t{fluid.count}, frame.cells + 1);
+  frame.filters = filtered && !settings.filter;
   addBuffers(graph, fluid, frame, whole);
   addVisible(graph, fluid, frame);
   addGrid(graph, fluid, frame);
-  const BufferRef smooth = filtered ? addFiltered(graph, frame, method, settings.filter) : addPlanes(graph, frame);
-  addCompose(graph, frame, filtered ? composeFiltered_ : compose_[frame.texels], smooth, whole);
+  if (filtered)
+    addFiltered(graph, frame, method, settings.filter);
+  else
+    addPlanes(graph, frame);
+  addCompose(graph, frame, filtered ? composeFiltered_ : compose_[frame.texels], whole);
   return frame.out;
 }
 
@@ -141,7 +145,7 @@ SurfaceStage::Frame SurfaceStage::frameOf(const FluidState& fluid, SurfacePush p
   frame.samples = columns * rows;
   frame.occluderCells = gridCells(columns, rows, kOccluderSamples);
   frame.cells = gridCells(columns, rows, kCellSamples);
-  frame.sampleGroups = gridCells(columns, rows, 8);
+  frame.sampleBlocks = gridCells(columns, rows, kSampleBlock);
   frame.out.push = push;
   return frame;
 }
@@ -158,17 +162,23 @@ void SurfaceStage::addBuffers(Graph& graph, const FluidState& fluid, Frame& fram
   frame.centre = graph.create("surface centres", {uint64_t{fluid.count} * 16});
   out.tiles = graph.create("surface tiles", {gridCells(out.push.width, out.push.height, kSurfaceTile) * 4});
   out.pixels = graph.create("surface pixels", {uint64_t{out.push.width} * out.push.height * 8});
+  frame.blocks = graph.create("surface blocks", {frame.sampleBlocks * 4});
+  frame.smooth = graph.create("surface samples", {frame.samples * 8});
+  if (frame.filters)
+    for (BufferRef& buffer : frame.filtered) buffer = graph.create("surface filtered", {frame.samples * 4});
   graph.pass("surface clear", [&](Pass& pass) {
-    for (BufferRef* buffer : {&frame.occluders, &frame.depth, &frame.start, &out.counters})
-      *buffer = pass.write(*buffer, Use::CopyTarget, true);
-    if (whole) out.pixels = pass.write(out.pixels, Use::CopyTarget, true);
-    return [occluders = frame.occluders, depth = frame.depth, start = frame.start, counters = out.counters, pixels = out.pixels,
-            whole](Commands& commands) {
-      commands.fill(occluders, kInfinity);
-      commands.fill(depth, kInfinity);
+    std::array<BufferRef, 6> infinite;
+    size_t count = 0;
+    const auto clear = [&](BufferRef& buffer) { infinite[count++] = buffer = pass.write(buffer, Use::CopyTarget, true); };
+    for (BufferRef* buffer : {&frame.occluders, &frame.depth, &frame.smooth}) clear(*buffer);
+    if (frame.filters)
+      for (BufferRef& buffer : frame.filtered) clear(buffer);
+    if (whole) clear(out.pixels);
+    for (BufferRef* buffer : {&frame.start, &out.counters}) *buffer = pass.write(*buffer, Use::CopyTarget, true);
+    return [infinite, count, start = frame.start, counters = out.counters](Commands& commands) {
+      for (size_t k = 0; k < count; ++k) commands.fill(infinite[k], kInfinity);
       commands.fill(start, 0);
       commands.fill(counters, 0);
-      if (whole) commands.fill(pixels, kInfinity);
     };
   });
 }
@@ -188,8 +198,8 @@ void SurfaceStage::addVisible(Graph& graph, const FluidState& fluid, Frame& fram
   addArguments(graph, out);
   addStep(graph, "surface splat", splat_, {reads(fluid.position), writes(out.counters), reads(frame.survivors), writes(frame.depth)},
           StepGroups(out.arguments, kSurvivorArguments), out.push);
-  addStep(graph, "surface tiles", tiles_, {reads(frame.depth), writes(out.counters), fresh(out.tiles)}, divideUp(tiles, kSurfaceGroup),
-          out.push);
+  addStep(graph, "surface tiles", tiles_, {reads(frame.depth), writes(out.counters), fresh(out.tiles), fresh(frame.blocks)},
+          divideUp(std::max(tiles, frame.sampleBlocks), kSurfaceGroup), out.push);
 }
 
 /// Those of them that are surface, in the cells of the screen grid and in one order.
@@ -214,54 +224,53 @@ void SurfaceStage::addGrid(Graph& graph, const FluidState& fluid, Frame& frame) 
 }
 
 /// A plane a particle, then what they say together.
-BufferRef SurfaceStage::addPlanes(Graph& graph, Frame& frame) const {
+void SurfaceStage::addPlanes(Graph& graph, Frame& frame) const {
   SurfaceBuffers& out = frame.out;
   frame.plane = graph.create("surface planes", {uint64_t{out.push.count} * 32});
   addStep(graph, "surface planes", planes_[frame.texels],
           {frame.walks(frame.start), frame.walks(frame.centre), fresh(frame.plane), writes(out.counters)},
           StepGroups(out.arguments, kSurfaceArguments), out.push);
-  BufferRef samples = graph.create("surface samples", {frame.samples * 8});
   addStep(graph, "surface blend", blend_[frame.texels],
-          {frame.walks(frame.start), frame.walks(frame.centre), frame.walks(frame.plane), reads(frame.depth), fresh(samples),
-           writes(out.counters)},
-          frame.sampleGroups, out.push);
-  return samples;
+          {frame.walks(frame.start), frame.walks(frame.centre), frame.walks(frame.plane), reads(frame.depth), writes(frame.smooth),
+           writes(out.counters), reads(frame.blocks)},
+          StepGroups(out.arguments, kSampleBlockArguments), out.push);
 }
 
 /// A depth filter in passes from one buffer to another, then normals.
-BufferRef SurfaceStage::addFiltered(Graph& graph, Frame& frame, SurfaceMethod method, const DepthFilter& filter) const {
+void SurfaceStage::addFiltered(Graph& graph, Frame& frame, SurfaceMethod method, const DepthFilter& filter) const {
   SurfaceBuffers& out = frame.out;
+  const StepGroups blocks(out.arguments, kSampleBlockArguments);
   BufferRef from = frame.depth;
-  const auto filtered = [&] { return graph.create("surface filtered", {frame.samples * 4}); };
+  uint32_t steps = 0;
   if (filter) {
     from = filter(graph, from, out.push);
   } else if (method == SurfaceMethod::CurvatureFlow) {
     for (uint32_t k = 0; k < frame.flowSteps; ++k) {
-      BufferRef to = filtered();
-      addStep(graph, "surface flow", flow_, {reads(from), fresh(to)}, frame.sampleGroups, out.push);
+      BufferRef& to = frame.filtered[steps++ % 2];
+      addStep(graph, "surface flow", flow_, {reads(from), writes(to), reads(out.counters), reads(frame.blocks)}, blocks, out.push);
       from = to;
     }
   } else {
     for (uint32_t k = 0; k < kNarrowPasses; ++k)
       for (const ComputePipeline* pipeline : narrow_) {
-        BufferRef to = filtered();
-        addStep(graph, "surface narrow range", pipeline, {reads(from), fresh(to), writes(out.counters)}, frame.sampleGroups, out.push);
+        BufferRef& to = frame.filtered[steps++ % 2];
+        addStep(graph, "surface narrow range", pipeline, {reads(from), writes(to), writes(out.counters), reads(frame.blocks)}, blocks,
+                out.push);
         from = to;
       }
   }
-  BufferRef samples = graph.create("surface samples", {frame.samples * 8});
   addStep(graph, "surface normals", normals_,
-          {reads(frame.start), reads(frame.centre), reads(from), reads(frame.depth), fresh(samples), writes(out.counters)},
-          frame.sampleGroups, out.push);
+          {reads(frame.start), reads(frame.centre), reads(from), reads(frame.depth), writes(frame.smooth), writes(out.counters),
+           reads(frame.blocks)},
+          blocks, out.push);
   frame.plane = frame.centre;  // bound, never read
-  return samples;
 }
 
 /// From samples to the pixels of the tiles with fluid.
-void SurfaceStage::addCompose(Graph& graph, Frame& frame, const ComputePipeline* compose, BufferRef samples, bool whole) {
+void SurfaceStage::addCompose(Graph& graph, Frame& frame, const ComputePipeline* compose, bool whole) {
   SurfaceBuffers& out = frame.out;
   addStep(graph, "surface compose", compose,
-          {frame.walks(frame.start), frame.walks(frame.centre), frame.walks(frame.plane), reads(frame.depth), reads(samples),
+          {frame.walks(frame.start), frame.walks(frame.centre), frame.walks(frame.plane), reads(frame.depth), reads(frame.smooth),
            writes(out.counters), reads(out.tiles), whole ? writes(out.pixels) : fresh(out.pixels)},
           StepGroups(out.arguments, kSurfaceTileArguments), out.push);
 }

@@ -68,25 +68,29 @@ class SurfaceStage {
   /// A surface in the making: how much there is of everything, and the buffers that more than one part of it works on.
   struct Frame {
     SurfaceBuffers out;
-    uint64_t samples = 0, sampleGroups = 0, occluderCells = 0, cells = 0;  ///< of the picture with its margin
+    uint64_t samples = 0, sampleBlocks = 0, occluderCells = 0, cells = 0;  ///< of the picture with its margin
     uint32_t flowSteps = 0;
     BufferRef occluders, depth;  ///< the depth of the spheres
     BufferRef survivors;         ///< particles that nothing hides
     BufferRef start, centre;     ///< screen grid of those that are surface
     BufferRef plane;             ///< of the method that has planes
+    BufferRef blocks;            ///< of samples, those that hold fluid
+    BufferRef smooth;            ///< samples of the surface: depth, normal
+    bool filters = false;        ///< by a method of its own
+    std::array<BufferRef, 2> filtered;  ///< which that method goes back and forth between
     bool texels = false;         ///< those three are walked over as texel buffers
     StepBuffer walks(BufferRef buffer) const { return texels ? rill::texels(buffer) : reads(buffer); }
   };
   static Frame frameOf(const FluidState& fluid, surface::SurfacePush camera, SurfaceMethod method, double focus,
                        const SurfaceSettings& settings);
-  // Its parts, in the order in which they run. Those of a method make samples (depth, normal) of what the first ones found.
+  // Its parts, in the order in which they run. Those of a method make samples of what the first ones found.
   static void addBuffers(Graph& graph, const FluidState& fluid, Frame& frame, bool whole);
   void addArguments(Graph& graph, SurfaceBuffers& out) const;
   void addVisible(Graph& graph, const FluidState& fluid, Frame& frame) const;
   void addGrid(Graph& graph, const FluidState& fluid, Frame& frame) const;
-  BufferRef addPlanes(Graph& graph, Frame& frame) const;
-  BufferRef addFiltered(Graph& graph, Frame& frame, SurfaceMethod method, const DepthFilter& filter) const;
-  static void addCompose(Graph& graph, Frame& frame, const ComputePipeline* compose, BufferRef samples, bool whole);
+  void addPlanes(Graph& graph, Frame& frame) const;
+  void addFiltered(Graph& graph, Frame& frame, SurfaceMethod method, const DepthFilter& filter) const;
+  static void addCompose(Graph& graph, Frame& frame, const ComputePipeline* compose, bool whole);
 
   Device* device_ = nullptr;
   const ComputePipeline *occlude_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr, *pick_ = nullptr,

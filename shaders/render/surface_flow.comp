@@ -5,9 +5,11 @@
 #include "render/surface.glsl"
 #include "render/surface_filter.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, set = 0, binding = 0) readonly buffer Before { float before[]; };
 layout(std430, set = 0, binding = 1) writeonly buffer After { float after[]; };
+layout(std430, set = 0, binding = 2) readonly buffer Counters { uint counters[]; };
+#define BLOCKS 3
+#include "render/surface_block.glsl"
 
 const float kEdge = 1.0;   // spacings between samples from which on they are two surfaces
 layout(constant_id = 0) const float kStep = kFlowStable;  // of the square of a sample's side; the test of stability tries others
@@ -16,15 +18,11 @@ float at(ivec2 p, ivec2 grid) { return before[uint(clamp(p.y, 0, grid.y - 1) * g
 
 void main() {
   const ivec2 grid = ivec2(sampleGrid());
-  const int columns = (grid.x + 7) / 8;
-  const ivec2 p = ivec2(int(groupIndex()) % columns, int(groupIndex()) / columns) * 8 + ivec2(gl_LocalInvocationID.xy);
-  if (p.x >= grid.x || p.y >= grid.y) return;
+  ivec2 p;
+  if (!ownSample(p)) return;
   const uint index = uint(p.y * grid.x + p.x);
   const float z = before[index];
-  if (z == infinity()) {
-    after[index] = z;
-    return;
-  }
+  if (z == infinity()) return;
   const float q = toLinear(z), edge = kEdge * view.spacing;
   float side[9];
   for (int k = 0; k < 9; ++k) side[k] = at(p + ivec2(k % 3 - 1, k / 3 - 1), grid);

@@ -5,10 +5,11 @@
 #include "render/surface.glsl"
 #include "render/surface_filter.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, set = 0, binding = 0) readonly buffer Before { float before[]; };
 layout(std430, set = 0, binding = 1) writeonly buffer After { float after[]; };
 layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };
+#define BLOCKS 3
+#include "render/surface_block.glsl"
 layout(constant_id = 0) const uint kVertical = 0u;
 
 const float kReach = 2.3076923;  // standard deviations: where the Gaussian is cut, at 0.07 of its peak (three spacings at a sigma of 1.3)
@@ -18,15 +19,11 @@ const uint kMostTaps = 3u;       // margins of samples
 
 void main() {
   const ivec2 grid = ivec2(sampleGrid());
-  const int columns = (grid.x + 7) / 8;
-  const ivec2 p = ivec2(int(groupIndex()) % columns, int(groupIndex()) / columns) * 8 + ivec2(gl_LocalInvocationID.xy);
-  if (p.x >= grid.x || p.y >= grid.y) return;
+  ivec2 p;
+  if (!ownSample(p)) return;
   const uint index = uint(p.y * grid.x + p.x);
   const float z = before[index];
-  if (z == infinity()) {
-    after[index] = z;
-    return;
-  }
+  if (z == infinity()) return;
   const float length = metresASample(z) / view.spacing;
   const int wanted = max(int(min(kReach * view.smoothing / length, 1e6)), 1), taps = min(wanted, int(kMostTaps * view.margin));
   if (taps < wanted) atomicAdd(counters[kBoundHits], 1u);

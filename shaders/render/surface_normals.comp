@@ -3,12 +3,13 @@
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
 #include "render/surface_arrays.glsl"
 layout(std430, set = 0, binding = 2) readonly buffer Filtered { float filtered[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Depth { uint depth[]; };
 layout(std430, set = 0, binding = 4) writeonly buffer Samples { uvec2 samples[]; };  // depth, normal
 layout(std430, set = 0, binding = 5) buffer Counters { uint counters[]; };
+#define BLOCKS 6
+#include "render/surface_block.glsl"
 #include "render/surface_cover.glsl"
 #include "render/surface_solid.glsl"
 
@@ -39,12 +40,10 @@ vec3 difference(ivec2 p, ivec2 along, ivec2 grid, vec3 own) {
 
 void main() {
   const ivec2 grid = ivec2(sampleGrid());
-  const int columns = (grid.x + 7) / 8;
-  const ivec2 p = ivec2(int(groupIndex()) % columns, int(groupIndex()) / columns) * 8 + ivec2(gl_LocalInvocationID.xy);
-  if (p.x >= grid.x || p.y >= grid.y) return;
+  ivec2 p;
+  if (!ownSample(p)) return;
   const uint index = uint(p.y * grid.x + p.x);
   const float z = filtered[index];
-  samples[index] = uvec2(kInfiniteBits, 0u);
   if (z == infinity()) return;
   const float coverage = coverOf(axisOf(samplePixel(p)), uintBitsToFloat(depth[index]));
   if (bound_hit) atomicAdd(counters[kBoundHits], 1u);

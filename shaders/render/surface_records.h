@@ -15,6 +15,7 @@ using uint = std::uint32_t;
 
 RILL_CONSTANT kSurfaceGroup = 64;      // invocations of a particle kernel's workgroup
 RILL_CONSTANT kSurfaceTile = 16;       // pixels a side of the tiles that are composed and shaded
+RILL_CONSTANT kSampleBlock = 8;        // samples a side of the blocks that are smoothed
 RILL_CONSTANT kCellSamples = 4;        // samples a side of a cell of the screen grid
 RILL_CONSTANT kOccluderSamples = 2;    // samples a side of an occlusion cell
 RILL_CONSTANT kMostRectSamples = 192;  // samples a side that one particle is splatted to at most
@@ -30,7 +31,8 @@ RILL_CONSTANT kSurvivorCount = 0;     // particles that occlusion left
 RILL_CONSTANT kSurfaceCount = 1;      // of them, those that own a part of the picture
 RILL_CONSTANT kSurfaceTileCount = 2;  // tiles that hold fluid
 RILL_CONSTANT kBoundHits = 3;         // invocations in which a bounded loop ran into its bound: something was left out of the picture
-RILL_CONSTANT kSurfaceCounterWords = 4;
+RILL_CONSTANT kSampleBlockCount = 4;  // blocks of samples that hold fluid
+RILL_CONSTANT kSurfaceCounterWords = 5;
 
 // Words of the argument buffer: three a dispatch, four a draw.
 RILL_CONSTANT kSurvivorArguments = 0;
@@ -38,7 +40,8 @@ RILL_CONSTANT kSurfaceArguments = 4;
 RILL_CONSTANT kSurfaceTileArguments = 8;
 RILL_CONSTANT kTileDraw = 12;
 RILL_CONSTANT kPixelArguments = 16;  // over all pixels; no groups where no particle is left
-RILL_CONSTANT kSurfaceArgumentWords = 20;
+RILL_CONSTANT kSampleBlockArguments = 20;
+RILL_CONSTANT kSurfaceArgumentWords = 24;
 
 // Camera and picture. ndc = pixel / size * 2 - 1; a pixel looks along x, y = (ndc - shift) * scale, times z where the view is in perspective.
 struct SurfacePush {

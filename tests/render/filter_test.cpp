@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "render/compute_step.hpp"
 #include "render/surface_rig.hpp"
@@ -70,23 +71,28 @@ class DepthFilters : public SurfaceOnGpu {
 
   Map filtered(std::string_view shader, const Map& before, const SurfacePush& push, uint32_t passes = 1,
                SpecializationConstants constants = {}) {
-    static constexpr BindingKind kStorage[] = {BindingKind::Storage, BindingKind::Storage, BindingKind::Storage};
-    const bool counts = shader == "render/surface_narrow";  // taps that it was not allowed
+    static constexpr BindingKind kStorage[] = {BindingKind::Storage, BindingKind::Storage, BindingKind::Storage, BindingKind::Storage};
     const ComputePipeline* filter = pipeline({.shader = shader,
-                                              .bindings = std::span(kStorage).first(counts ? 3 : 2),
+                                              .bindings = kStorage,
                                               .pushConstantBytes = sizeof(SurfacePush),
                                               .constants = constants});
     const Buffer source = upload("before", before.z);
-    const Buffer zeros = upload("counters", std::vector<uint32_t>(surface::kSurfaceCounterWords));
+    constexpr int kBlock = surface::kSampleBlock;
+    std::vector<uint32_t> all(size_t((before.columns + kBlock - 1) / kBlock) * size_t((before.rows + kBlock - 1) / kBlock)),
+        counts(surface::kSurfaceCounterWords);
+    std::iota(all.begin(), all.end(), 0u);
+    counts[surface::kSampleBlockCount] = uint32_t(all.size());
+    const Buffer list = upload("blocks", all), counted = upload("counters", counts);
     Graph graph;
-    BufferRef from = graph.import("before", importOf(source)), counters = graph.import("counters", importOf(zeros));
-    const uint64_t groups = uint64_t((before.columns + 7) / 8) * uint64_t((before.rows + 7) / 8);
+    BufferRef from = graph.import("before", importOf(source)), counters = graph.import("counters", importOf(counted)),
+              blocks = graph.import("blocks", importOf(list));
     for (uint32_t k = 0; k < passes; ++k) {
       BufferRef to = graph.create("after", {before.z.size() * 4});
-      if (counts)
-        addStep(graph, "filter", filter, {reads(from), fresh(to), writes(counters)}, groups, push);
-      else
-        addStep(graph, "filter", filter, {reads(from), fresh(to)}, groups, push);
+      graph.pass("clear", [&](Pass& pass) {
+        to = pass.write(to, Use::CopyTarget, true);
+        return [to](Commands& commands) { commands.fill(to, std::bit_cast<uint32_t>(kNone)); };
+      });
+      addStep(graph, "filter", filter, {reads(from), writes(to), writes(counters), reads(blocks)}, all.size(), push);
       from = to;
     }
     const Ticket ticket = graph.readback(from);
