@@ -80,15 +80,16 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device) {
       {stage.planes_[0], "render/surface_planes", storage(4)},
       {stage.blend_[0], "render/surface_blend", storage(7)},
       {stage.tiles_, "render/surface_tiles", storage(4)},
-      {stage.compose_[0], "render/surface_compose", storage(8)},
+      {stage.compose_, "render/surface_compose", storage(6)},
+      {stage.edges_[0], "render/surface_edges", storage(8)},
       {stage.thickness_, "render/surface_thickness", storage(4)},
       {stage.flow_, "render/surface_flow", storage(4)},
       {stage.normals_, "render/surface_normals", storage(7)},
-      {stage.composeFiltered_, "render/surface_compose_filtered", storage(8)},
+      {stage.edgesFiltered_, "render/surface_edges_filtered", storage(8)},
       {stage.thicknessBare_, "render/surface_thickness_bare", storage(3)},
       {stage.planes_[1], "render/surface_planes_texel", kTexelsToPlanes},
       {stage.blend_[1], "render/surface_blend_texel", std::span(kTexels).first(7)},
-      {stage.compose_[1], "render/surface_compose_texel", kTexels},
+      {stage.edges_[1], "render/surface_edges_texel", kTexels},
   };
   for (const auto& row : all) {
     auto made = computePipeline(device, {.shader = row.shader, .bindings = row.bindings, .pushConstantBytes = sizeof(SurfacePush)});
@@ -122,7 +123,7 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
     addFiltered(graph, frame, method, settings.filter);
   else
     addPlanes(graph, frame);
-  addCompose(graph, frame, filtered ? composeFiltered_ : compose_[frame.texels], whole);
+  addCompose(graph, frame, filtered ? edgesFiltered_ : edges_[frame.texels], whole);
   return frame.out;
 }
 
@@ -266,13 +267,19 @@ void SurfaceStage::addFiltered(Graph& graph, Frame& frame, SurfaceMethod method,
   frame.plane = frame.centre;  // bound, never read
 }
 
-/// From samples to the pixels of the tiles with fluid.
-void SurfaceStage::addCompose(Graph& graph, Frame& frame, const ComputePipeline* compose, bool whole) {
+/// From samples to the pixels of the tiles with fluid, then those at edges.
+void SurfaceStage::addCompose(Graph& graph, Frame& frame, const ComputePipeline* edges, bool whole) const {
   SurfaceBuffers& out = frame.out;
-  addStep(graph, "surface compose", compose,
-          {frame.walks(frame.start), frame.walks(frame.centre), frame.walks(frame.plane), reads(frame.depth), reads(frame.smooth),
-           writes(out.counters), reads(out.tiles), whole ? writes(out.pixels) : fresh(out.pixels)},
+  BufferRef listed = graph.create("surface edge pixels", {uint64_t{out.push.width} * out.push.height * 4});
+  addStep(graph, "surface compose", compose_,
+          {reads(frame.depth), reads(frame.smooth), writes(out.counters), reads(out.tiles), whole ? writes(out.pixels) : fresh(out.pixels),
+           fresh(listed)},
           StepGroups(out.arguments, kSurfaceTileArguments), out.push);
+  addArguments(graph, out);
+  addStep(graph, "surface edges", edges,
+          {frame.walks(frame.start), frame.walks(frame.centre), frame.walks(frame.plane), reads(frame.depth), reads(frame.smooth),
+           writes(out.counters), reads(listed), writes(out.pixels)},
+          StepGroups(out.arguments, kEdgeArguments), out.push);
 }
 
 SurfacePush SurfaceStage::thicknessPush(SurfacePush camera, const FluidState& fluid, uint32_t step) {

@@ -90,12 +90,12 @@ class SurfaceStage {
   void addGrid(Graph& graph, const FluidState& fluid, Frame& frame) const;
   void addPlanes(Graph& graph, Frame& frame) const;
   void addFiltered(Graph& graph, Frame& frame, SurfaceMethod method, const DepthFilter& filter) const;
-  static void addCompose(Graph& graph, Frame& frame, const ComputePipeline* compose, bool whole);
+  void addCompose(Graph& graph, Frame& frame, const ComputePipeline* edges, bool whole) const;
 
   Device* device_ = nullptr;
   const ComputePipeline *occlude_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr, *pick_ = nullptr,
-                        *scatter_ = nullptr, *order_ = nullptr, *planes_[2] = {}, *blend_[2] = {}, *tiles_ = nullptr, *compose_[2] = {},
-                        *composeFiltered_ = nullptr, *flow_ = nullptr, *narrow_[2] = {}, *normals_ = nullptr, *thickness_ = nullptr,
+                        *scatter_ = nullptr, *order_ = nullptr, *planes_[2] = {}, *blend_[2] = {}, *tiles_ = nullptr, *compose_ = nullptr,
+                        *edges_[2] = {}, *edgesFiltered_ = nullptr, *flow_ = nullptr, *narrow_[2] = {}, *normals_ = nullptr, *thickness_ = nullptr,
                         *thicknessBare_ = nullptr;
 };
 

@@ -18,6 +18,7 @@ void main() {
   groups(kSurvivorArguments, (counters[kSurvivorCount] + kSurfaceGroup - 1u) / kSurfaceGroup);
   groups(kSurfaceArguments, (counters[kSurfaceCount] + kSurfaceGroup - 1u) / kSurfaceGroup);
   groups(kSurfaceTileArguments, counters[kSurfaceTileCount]);
+  groups(kEdgeArguments, (counters[kEdgeCount] + kSurfaceGroup - 1u) / kSurfaceGroup);
   groups(kSampleBlockArguments, counters[kSampleBlockCount]);
   groups(kPixelArguments, counters[kSurvivorCount] == 0u ? 0u : (view.width * view.height + kSurfaceGroup - 1u) / kSurfaceGroup);
   arguments[kTileDraw] = 6u;

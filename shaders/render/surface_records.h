@@ -32,7 +32,8 @@ RILL_CONSTANT kSurfaceCount = 1;      // of them, those that own a part of the p
 RILL_CONSTANT kSurfaceTileCount = 2;  // tiles that hold fluid
 RILL_CONSTANT kBoundHits = 3;         // invocations in which a bounded loop ran into its bound: something was left out of the picture
 RILL_CONSTANT kSampleBlockCount = 4;  // blocks of samples that hold fluid
-RILL_CONSTANT kSurfaceCounterWords = 5;
+RILL_CONSTANT kEdgeCount = 5;         // pixels that have a look of their own
+RILL_CONSTANT kSurfaceCounterWords = 6;
 
 // Words of the argument buffer: three a dispatch, four a draw.
 RILL_CONSTANT kSurvivorArguments = 0;
@@ -41,7 +42,8 @@ RILL_CONSTANT kSurfaceTileArguments = 8;
 RILL_CONSTANT kTileDraw = 12;
 RILL_CONSTANT kPixelArguments = 16;  // over all pixels; no groups where no particle is left
 RILL_CONSTANT kSampleBlockArguments = 20;
-RILL_CONSTANT kSurfaceArgumentWords = 24;
+RILL_CONSTANT kEdgeArguments = 24;
+RILL_CONSTANT kSurfaceArgumentWords = 28;
 
 // Camera and picture. ndc = pixel / size * 2 - 1; a pixel looks along x, y = (ndc - shift) * scale, times z where the view is in perspective.
 struct SurfacePush {

@@ -1,0 +1,32 @@
+// The four samples around a pixel, each with its plane, and whether they lie on one surface. Needs `samples`.
+const float kAgree = 0.35;  // spacings that a sample may lie off the plane through another
+
+struct Corners {
+  vec2 part;  // of the way from the first sample to the last
+  float depths[4];
+  vec3 normals[4], points[4];
+  bool agree;
+};
+
+Corners cornersOf(vec2 middle) {
+  const ivec2 grid = ivec2(sampleGrid());
+  const vec2 at = sampleOf(middle);
+  const ivec2 base = ivec2(floor(at));
+  Corners c;
+  c.part = at - vec2(base);
+  c.agree = true;
+  for (int k = 0; k < 4; ++k) {
+    const ivec2 s = clamp(base + ivec2(k & 1, k >> 1), ivec2(0), grid - 1);
+    const uvec2 stored = samples[uint(s.y * grid.x + s.x)];
+    const vec2 axis = axisOf(samplePixel(s));
+    c.depths[k] = uintBitsToFloat(stored.x);
+    c.normals[k] = unpackNormal(stored.y);
+    c.points[k] = rayFrom(axis) + c.depths[k] * rayAlong(axis);
+    c.agree = c.agree && c.depths[k] < infinity();
+  }
+  for (int k = 1; k < 4 && c.agree; ++k) {
+    const vec3 d = c.points[k] - c.points[0];
+    c.agree = abs(dot(d, c.normals[0])) < kAgree * view.spacing && abs(dot(d, c.normals[k])) < kAgree * view.spacing;
+  }
+  return c;
+}
