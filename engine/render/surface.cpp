@@ -63,7 +63,9 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device) {
   using enum BindingKind;
   static constexpr BindingKind kStorage[] = {Storage, Storage, Storage, Storage, Storage, Storage, Storage, Storage},
                                kTexels[] = {TexelUint, TexelFloat4, TexelFloat4, Storage, Storage, Storage, Storage, Storage},
-                               kTexelsToPlanes[] = {TexelUint, TexelFloat4, Storage, Storage};
+                               kTexelsToPlanes[] = {TexelUint, TexelFloat4, Storage, Storage},
+                               kTexelSamples[] = {TexelUint, Storage, Storage, Storage},
+                               kTexelsToNormals[] = {TexelUint, TexelFloat4, TexelUint, Storage, Storage, Storage, Storage};
   const auto storage = [](size_t bindings) { return std::span(kStorage).first(bindings); };
   const struct {
     const ComputePipeline*& pipeline;
@@ -83,27 +85,32 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device) {
       {stage.compose_, "render/surface_compose", storage(6)},
       {stage.edges_[0], "render/surface_edges", storage(8)},
       {stage.thickness_, "render/surface_thickness", storage(4)},
-      {stage.flow_, "render/surface_flow", storage(4)},
-      {stage.normals_, "render/surface_normals", storage(7)},
-      {stage.edgesFiltered_, "render/surface_edges_filtered", storage(8)},
+      {stage.flow_[0], "render/surface_flow", storage(4)},
+      {stage.normals_[0], "render/surface_normals", storage(7)},
+      {stage.edgesFiltered_[0], "render/surface_edges_filtered", storage(8)},
       {stage.thicknessBare_, "render/surface_thickness_bare", storage(3)},
       {stage.planes_[1], "render/surface_planes_texel", kTexelsToPlanes},
       {stage.blend_[1], "render/surface_blend_texel", std::span(kTexels).first(7)},
       {stage.edges_[1], "render/surface_edges_texel", kTexels},
+      {stage.flow_[1], "render/surface_flow_texel", kTexelSamples},
+      {stage.normals_[1], "render/surface_normals_texel", kTexelsToNormals},
+      {stage.edgesFiltered_[1], "render/surface_edges_filtered_texel", kTexels},
   };
   for (const auto& row : all) {
     auto made = computePipeline(device, {.shader = row.shader, .bindings = row.bindings, .pushConstantBytes = sizeof(SurfacePush)});
     if (!made) return made.error();
     row.pipeline = *made;
   }
-  for (uint32_t vertical = 0; vertical < 2; ++vertical) {
-    const uint32_t constants[] = {vertical};
-    auto made = computePipeline(
-        device,
-        {.shader = "render/surface_narrow", .bindings = storage(4), .pushConstantBytes = sizeof(SurfacePush), .constants = constants});
-    if (!made) return made.error();
-    stage.narrow_[vertical] = *made;
-  }
+  for (const bool texels : {false, true})
+    for (uint32_t vertical = 0; vertical < 2; ++vertical) {
+      const uint32_t constants[] = {vertical};
+      auto made = computePipeline(device, {.shader = texels ? "render/surface_narrow_texel" : "render/surface_narrow",
+                                           .bindings = texels ? std::span<const BindingKind>(kTexelSamples) : storage(4),
+                                           .pushConstantBytes = sizeof(SurfacePush),
+                                           .constants = constants});
+      if (!made) return made.error();
+      stage.narrow_[texels][vertical] = *made;
+    }
   if (auto scan = Scan::create(device, Scan::kMaxCount); !scan) return scan.error();
   return stage;
 }
@@ -113,8 +120,8 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
   assert(fluid.count > 0);
   const bool filtered = settings.filter || method == SurfaceMethod::CurvatureFlow || method == SurfaceMethod::NarrowRange;
   Frame frame = frameOf(fluid, camera, method, focus, settings);
-  frame.texels = !filtered && !settings.storage_reads &&
-                 device_->info().maxTexelBufferElements >= std::max<uint64_t>(2 * uint64_t{fluid.count}, frame.cells + 1);
+  frame.texels = !settings.storage_reads &&
+                 device_->info().maxTexelBufferElements >= std::max({2 * uint64_t{fluid.count}, frame.cells + 1, frame.samples});
   frame.filters = filtered && !settings.filter;
   addBuffers(graph, fluid, frame, whole);
   addVisible(graph, fluid, frame);
@@ -123,7 +130,7 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
     addFiltered(graph, frame, method, settings.filter);
   else
     addPlanes(graph, frame);
-  addCompose(graph, frame, filtered ? edgesFiltered_ : edges_[frame.texels], whole);
+  addCompose(graph, frame, (filtered ? edgesFiltered_ : edges_)[frame.texels], whole);
   return frame.out;
 }
 
@@ -248,20 +255,20 @@ void SurfaceStage::addFiltered(Graph& graph, Frame& frame, SurfaceMethod method,
   } else if (method == SurfaceMethod::CurvatureFlow) {
     for (uint32_t k = 0; k < frame.flowSteps; ++k) {
       BufferRef& to = frame.filtered[steps++ % 2];
-      addStep(graph, "surface flow", flow_, {reads(from), writes(to), reads(out.counters), reads(frame.blocks)}, blocks, out.push);
+      addStep(graph, "surface flow", flow_[frame.texels], {frame.walks(from), writes(to), reads(out.counters), reads(frame.blocks)}, blocks, out.push);
       from = to;
     }
   } else {
     for (uint32_t k = 0; k < kNarrowPasses; ++k)
-      for (const ComputePipeline* pipeline : narrow_) {
+      for (const ComputePipeline* pipeline : narrow_[frame.texels]) {
         BufferRef& to = frame.filtered[steps++ % 2];
-        addStep(graph, "surface narrow range", pipeline, {reads(from), writes(to), writes(out.counters), reads(frame.blocks)}, blocks,
+        addStep(graph, "surface narrow range", pipeline, {frame.walks(from), writes(to), writes(out.counters), reads(frame.blocks)}, blocks,
                 out.push);
         from = to;
       }
   }
-  addStep(graph, "surface normals", normals_,
-          {reads(frame.start), reads(frame.centre), reads(from), reads(frame.depth), writes(frame.smooth), writes(out.counters),
+  addStep(graph, "surface normals", normals_[frame.texels],
+          {frame.walks(frame.start), frame.walks(frame.centre), frame.walks(from), reads(frame.depth), writes(frame.smooth), writes(out.counters),
            reads(frame.blocks)},
           blocks, out.push);
   frame.plane = frame.centre;  // bound, never read

@@ -78,7 +78,7 @@ class SurfaceStage {
     BufferRef smooth;            ///< samples of the surface: depth, normal
     bool filters = false;        ///< by a method of its own
     std::array<BufferRef, 2> filtered;  ///< which that method goes back and forth between
-    bool texels = false;         ///< those three are walked over as texel buffers
+    bool texels = false;         ///< those three, and what a filter reads, are texel buffers
     StepBuffer walks(BufferRef buffer) const { return texels ? rill::texels(buffer) : reads(buffer); }
   };
   static Frame frameOf(const FluidState& fluid, surface::SurfacePush camera, SurfaceMethod method, double focus,
@@ -95,7 +95,7 @@ class SurfaceStage {
   Device* device_ = nullptr;
   const ComputePipeline *occlude_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr, *pick_ = nullptr,
                         *scatter_ = nullptr, *order_ = nullptr, *planes_[2] = {}, *blend_[2] = {}, *tiles_ = nullptr, *compose_ = nullptr,
-                        *edges_[2] = {}, *edgesFiltered_ = nullptr, *flow_ = nullptr, *narrow_[2] = {}, *normals_ = nullptr, *thickness_ = nullptr,
+                        *edges_[2] = {}, *edgesFiltered_[2] = {}, *flow_[2] = {}, *narrow_[2][2] = {}, *normals_[2] = {}, *thickness_ = nullptr,
                         *thicknessBare_ = nullptr;
 };
 

@@ -5,7 +5,8 @@
 #include "render/surface.glsl"
 #include "render/surface_filter.glsl"
 
-layout(std430, set = 0, binding = 0) readonly buffer Before { float before[]; };
+#include "shared/arrays.glsl"
+READ_FLOAT(0, before)
 layout(std430, set = 0, binding = 1) writeonly buffer After { float after[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Counters { uint counters[]; };
 #define BLOCKS 3
@@ -14,14 +15,14 @@ layout(std430, set = 0, binding = 2) readonly buffer Counters { uint counters[];
 const float kEdge = 1.0;   // spacings between samples from which on they are two surfaces
 layout(constant_id = 0) const float kStep = kFlowStable;  // of the square of a sample's side; the test of stability tries others
 
-float at(ivec2 p, ivec2 grid) { return before[uint(clamp(p.y, 0, grid.y - 1) * grid.x + clamp(p.x, 0, grid.x - 1))]; }
+float at(ivec2 p, ivec2 grid) { return beforeAt(uint(clamp(p.y, 0, grid.y - 1) * grid.x + clamp(p.x, 0, grid.x - 1))); }
 
 void main() {
   const ivec2 grid = ivec2(sampleGrid());
   ivec2 p;
   if (!ownSample(p)) return;
   const uint index = uint(p.y * grid.x + p.x);
-  const float z = before[index];
+  const float z = beforeAt(index);
   if (z == infinity()) return;
   const float q = toLinear(z), edge = kEdge * view.spacing;
   float side[9];

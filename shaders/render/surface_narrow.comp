@@ -5,7 +5,8 @@
 #include "render/surface.glsl"
 #include "render/surface_filter.glsl"
 
-layout(std430, set = 0, binding = 0) readonly buffer Before { float before[]; };
+#include "shared/arrays.glsl"
+READ_FLOAT(0, before)
 layout(std430, set = 0, binding = 1) writeonly buffer After { float after[]; };
 layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };
 #define BLOCKS 3
@@ -22,7 +23,7 @@ void main() {
   ivec2 p;
   if (!ownSample(p)) return;
   const uint index = uint(p.y * grid.x + p.x);
-  const float z = before[index];
+  const float z = beforeAt(index);
   if (z == infinity()) return;
   const float length = metresASample(z) / view.spacing;
   const int wanted = max(int(min(kReach * view.smoothing / length, 1e6)), 1), taps = min(wanted, int(kMostTaps * view.margin));
@@ -37,7 +38,7 @@ void main() {
     for (int s = -1; s <= 1; s += 2) {
       const ivec2 there = p + s * k * along;
       const bool inside = all(greaterThanEqual(there, ivec2(0))) && all(lessThan(there, grid));
-      const float other = inside ? before[uint(there.y * grid.x + there.x)] : infinity();
+      const float other = inside ? beforeAt(uint(there.y * grid.x + there.x)) : infinity();
       whole = whole && other > z - kFront * view.spacing * float(k) * length && other < infinity();
       const float slope = float(k) * length;  // a slanted surface lies behind itself
       pair += toLinear(min(other, z + (kBehind + 2.0 * slope) * view.spacing));

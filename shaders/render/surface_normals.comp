@@ -4,7 +4,7 @@
 #include "render/surface.glsl"
 
 #include "render/surface_arrays.glsl"
-layout(std430, set = 0, binding = 2) readonly buffer Filtered { float filtered[]; };
+READ_FLOAT(2, filtered)
 layout(std430, set = 0, binding = 3) readonly buffer Depth { uint depth[]; };
 layout(std430, set = 0, binding = 4) writeonly buffer Samples { uvec2 samples[]; };  // depth, normal
 layout(std430, set = 0, binding = 5) buffer Counters { uint counters[]; };
@@ -17,7 +17,7 @@ const float kInset = 0.3;  // spacings: how far the smoothed spheres of 0.9 spac
 
 vec3 pointAt(ivec2 p, ivec2 grid, out bool there) {
   there = all(greaterThanEqual(p, ivec2(0))) && all(lessThan(p, grid));
-  const float z = there ? filtered[uint(p.y * grid.x + p.x)] : infinity();
+  const float z = there ? filteredAt(uint(p.y * grid.x + p.x)) : infinity();
   there = there && z < infinity();
   const vec2 axis = axisOf(samplePixel(p));
   return rayFrom(axis) + (there ? z : 0.0) * rayAlong(axis);
@@ -43,7 +43,7 @@ void main() {
   ivec2 p;
   if (!ownSample(p)) return;
   const uint index = uint(p.y * grid.x + p.x);
-  const float z = filtered[index];
+  const float z = filteredAt(index);
   if (z == infinity()) return;
   const float coverage = coverOf(axisOf(samplePixel(p)), uintBitsToFloat(depth[index]));
   if (bound_hit) atomicAdd(counters[kBoundHits], 1u);
