@@ -17,6 +17,7 @@ constexpr uint32_t kMostCluster = 32;  // see shaders/fluid/cluster.glsl: a wind
 
 constexpr uint64_t kMaxBuffer = uint64_t{128} << 20;
 static_assert(kMostParticles == KeySortDesc::kMaxCount);
+static_assert(kMostParticles <= 1u << 24);  // sorted particles carry their numbers as floats
 
 uint64_t listEntries(const Scene& scene) {
   if (scene.solver.neighbors == NeighborChoice::Grid) return 0;
@@ -130,11 +131,11 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
     return Error{ErrorKind::TooLarge, "the neighbour list of " + std::to_string(n) + " particles at this smoothing_ratio needs " +
                                           mebibytes(memory.list_bytes) + ", more than the " + std::to_string(kMaxListChunks) +
                                           " buffers of 128 MiB that are available: make smoothing_ratio smaller"};
-  const uint64_t mostTexels = std::max({more, uint64_t{chunk} * p.listCapacity / 4, setup.grid.cells() + 1, uint64_t{setup.tables.size() / 4}});
+  const uint64_t mostTexels =
+      std::max({more, uint64_t{chunk} * p.listCapacity / 4, paddedWords(setup.grid.cells() + 1), uint64_t{setup.tables.size() / 4}});
   texel_ = !storageReads && device.info().maxTexelBufferElements >= mostTexels;
 
-  auto sort =
-      KeySort::create(device, {.count = count, .keyRange = setup.grid.cells(), .start = true, .storageReads = storageReads});
+  auto sort = KeySort::create(device, {.count = count, .keyRange = setup.grid.cells(), .start = true, .storageReads = storageReads});
   if (!sort) return sort.error();
   sort_ = std::move(*sort);
 
@@ -245,8 +246,7 @@ Expected<void> FluidImpl::makePipelines(Device& device) {
   gather(pipes_.density, "fluid/density", {Storage, Storage, vectors, Storage}, sizeof(ChunkPush), {nearWalls, p.iterations > 1});
   gather(pipes_.correct, "fluid/correct", {Storage, Storage, vectors, Storage, Storage, Storage, Storage}, sizeof(ChunkPush),
          {nearWalls, p.tensile > 0, p.solidCount > 0});
-  if (p.iterations > 1)
-    gather(pipes_.iterate, "fluid/iterate", {Storage, vectors}, sizeof(ChunkPush), {nearWalls, p.tensile > 0});
+  if (p.iterations > 1) gather(pipes_.iterate, "fluid/iterate", {Storage, vectors}, sizeof(ChunkPush), {nearWalls, p.tensile > 0});
   if (smooths) gather(pipes_.viscosity, "fluid/viscosity", {vectors, Storage, Storage, vectors, vectors}, sizeof(SweepPush));
   if (setup.viscositySweeps % 2 == 1 || p.calmingRate > 0) make(pipes_.keep, "fluid/keep", plain(2, 2), sizeof(ChunkPush));
   if (p.vorticity > 0) {

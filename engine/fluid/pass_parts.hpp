@@ -67,8 +67,8 @@ void gatherPass(Graph& graph, FluidRefs& r, Use read, std::span<const Chunk> chu
 
 /// Wall and solid densities at `at` for the particles near them. Those near one wall and those near more are never the same: two
 /// dispatches, one pass.
-inline void wallPass(Graph& graph, FluidRefs& r, Use read, std::string_view name, const WallPipelines& pipelines, BufferRef at, uint32_t planeCommand,
-                     uint32_t cornerCommand) {
+inline void wallPass(Graph& graph, FluidRefs& r, Use read, std::string_view name, const WallPipelines& pipelines, BufferRef at,
+                     uint32_t planeCommand, uint32_t cornerCommand) {
   graph.pass(name, [&](Pass& pass) {
     readSwitched(pass, r);
     for (BufferRef ref : {at, r.nearList, r.tables}) pass.read(ref, read);

@@ -111,6 +111,7 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device) {
       if (!made) return made.error();
       stage.narrow_[texels][vertical] = *made;
     }
+  // Those of a picture of any size are found among the pipelines that are made now.
   if (auto scan = Scan::create(device, Scan::kMaxCount); !scan) return scan.error();
   return stage;
 }
@@ -120,8 +121,9 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
   assert(fluid.count > 0);
   const bool filtered = settings.filter || method == SurfaceMethod::CurvatureFlow || method == SurfaceMethod::NarrowRange;
   Frame frame = frameOf(fluid, camera, method, focus, settings);
-  frame.texels = !settings.storage_reads &&
-                 device_->info().maxTexelBufferElements >= std::max({2 * uint64_t{fluid.count}, frame.cells + 1, frame.samples});
+  const uint64_t mostTexels = std::max({2 * uint64_t{fluid.count}, paddedWords(frame.cells + 1), frame.samples});
+  frame.storageReads = settings.storage_reads;
+  frame.texels = !frame.storageReads && device_->info().maxTexelBufferElements >= mostTexels;
   frame.filters = filtered && !settings.filter;
   addBuffers(graph, fluid, frame, whole);
   addVisible(graph, fluid, frame);
@@ -220,7 +222,7 @@ void SurfaceStage::addGrid(Graph& graph, const FluidState& fluid, Frame& frame) 
           {reads(fluid.position), writes(out.counters), reads(frame.survivors), reads(frame.depth), writes(frame.start), fresh(rank)},
           survivorGroups(), out.push);
   addArguments(graph, out);
-  auto scan = Scan::create(*device_, static_cast<uint32_t>(frame.cells + 1));
+  auto scan = Scan::create(*device_, static_cast<uint32_t>(frame.cells + 1), frame.storageReads);
   assert(scan && "its pipelines were made in create()");
   frame.start = scan->addTo(graph, frame.start);
   addStep(graph, "surface scatter", scatter_,
@@ -255,7 +257,8 @@ void SurfaceStage::addFiltered(Graph& graph, Frame& frame, SurfaceMethod method,
   } else if (method == SurfaceMethod::CurvatureFlow) {
     for (uint32_t k = 0; k < frame.flowSteps; ++k) {
       BufferRef& to = frame.filtered[steps++ % 2];
-      addStep(graph, "surface flow", flow_[frame.texels], {frame.walks(from), writes(to), reads(out.counters), reads(frame.blocks)}, blocks, out.push);
+      addStep(graph, "surface flow", flow_[frame.texels], {frame.walks(from), writes(to), reads(out.counters), reads(frame.blocks)}, blocks,
+              out.push);
       from = to;
     }
   } else {
@@ -268,8 +271,8 @@ void SurfaceStage::addFiltered(Graph& graph, Frame& frame, SurfaceMethod method,
       }
   }
   addStep(graph, "surface normals", normals_[frame.texels],
-          {frame.walks(frame.start), frame.walks(frame.centre), frame.walks(from), reads(frame.depth), writes(frame.smooth), writes(out.counters),
-           reads(frame.blocks)},
+          {frame.walks(frame.start), frame.walks(frame.centre), frame.walks(from), reads(frame.depth), writes(frame.smooth),
+           writes(out.counters), reads(frame.blocks)},
           blocks, out.push);
   frame.plane = frame.centre;  // bound, never read
 }

@@ -34,7 +34,7 @@ struct SurfaceSettings {
   double flow_time = 1.3;      ///< curvature flow: spacings squared; blurs over about its root
   double narrow_sigma = 0.8;   ///< narrow range: standard deviation of its Gaussian, spacings
   DepthFilter filter = {};     ///< in place of the method's own; for baselines
-  bool storage_reads = false;  ///< walks through storage buffers even where texel buffers would hold enough; the same bits
+  bool storage_reads = false;  ///< reads through storage buffers even where texel buffers would hold enough; the same bits
 };
 
 /// What the passes and buffers of a thickness are called: the eye's and the sun's are told apart by them.
@@ -70,15 +70,16 @@ class SurfaceStage {
     SurfaceBuffers out;
     uint64_t samples = 0, sampleBlocks = 0, occluderCells = 0, cells = 0;  ///< of the picture with its margin
     uint32_t flowSteps = 0;
-    BufferRef occluders, depth;  ///< the depth of the spheres
-    BufferRef survivors;         ///< particles that nothing hides
-    BufferRef start, centre;     ///< screen grid of those that are surface
-    BufferRef plane;             ///< of the method that has planes
-    BufferRef blocks;            ///< of samples, those that hold fluid
-    BufferRef smooth;            ///< samples of the surface: depth, normal
-    bool filters = false;        ///< by a method of its own
+    BufferRef occluders, depth;         ///< the depth of the spheres
+    BufferRef survivors;                ///< particles that nothing hides
+    BufferRef start, centre;            ///< screen grid of those that are surface
+    BufferRef plane;                    ///< of the method that has planes
+    BufferRef blocks;                   ///< of samples, those that hold fluid
+    BufferRef smooth;                   ///< samples of the surface: depth, normal
+    bool filters = false;               ///< by a method of its own
     std::array<BufferRef, 2> filtered;  ///< which that method goes back and forth between
-    bool texels = false;         ///< those three, and what a filter reads, are texel buffers
+    bool texels = false;                ///< start, centre, plane and what a filter reads are texel buffers
+    bool storageReads = false;          ///< nothing is to be one
     StepBuffer walks(BufferRef buffer) const { return texels ? rill::texels(buffer) : reads(buffer); }
   };
   static Frame frameOf(const FluidState& fluid, surface::SurfacePush camera, SurfaceMethod method, double focus,
@@ -95,8 +96,8 @@ class SurfaceStage {
   Device* device_ = nullptr;
   const ComputePipeline *occlude_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr, *pick_ = nullptr,
                         *scatter_ = nullptr, *order_ = nullptr, *planes_[2] = {}, *blend_[2] = {}, *tiles_ = nullptr, *compose_ = nullptr,
-                        *edges_[2] = {}, *edgesFiltered_[2] = {}, *flow_[2] = {}, *narrow_[2][2] = {}, *normals_[2] = {}, *thickness_ = nullptr,
-                        *thicknessBare_ = nullptr;
+                        *edges_[2] = {}, *edgesFiltered_[2] = {}, *flow_[2] = {}, *narrow_[2][2] = {}, *normals_[2] = {},
+                        *thickness_ = nullptr, *thicknessBare_ = nullptr;
 };
 
 /// A pixel of SurfaceBuffers::pixels, as shaders/render/surface.glsl packs it.

@@ -1,6 +1,7 @@
 #include "sort/counting_sort.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "sort/pipelines.hpp"
 #include "sort/sort_types.h"
@@ -14,9 +15,10 @@ Expected<CountingSort> CountingSort::create(Device& device, const KeySortDesc& d
   if (!scan) return scan.error();
   sort.scan_ = *scan;
   using enum BindingKind;
-  const bool texels = !desc.storageReads && device.info().maxTexelBufferElements >= std::max<uint64_t>(desc.count, desc.keyRange + 1);
+  const bool texels =
+      !desc.storageReads && device.info().maxTexelBufferElements >= std::max<uint64_t>(desc.count, paddedWords(desc.keyRange + 1));
   const uint32_t oversized = sort.binsMayBeOversized() ? 1 : 0;
-  StoragePipelines pipelines(device, sizeof(CountingPush));
+  ModulePipelines pipelines(device, sizeof(CountingPush));
   sort.texels_ = texels;
   sort.clear_ = pipelines.make("sort/clear", 2);
   sort.count_ = pipelines.makeReading("sort/count", texels, {TexelUint, Storage, Storage, Storage}, {oversized});
@@ -32,7 +34,8 @@ bool CountingSort::binsMayBeOversized() const { return desc_.count > kBinLimit; 
 uint32_t CountingSort::chunks() const { return (desc_.count + kChunkIndices - 1) / kChunkIndices; }
 uint64_t CountingSort::clearGroups() const { return divideUp(paddedWords(desc_.keyRange + 1) / 4, kCountThreads * kClearItems); }
 uint64_t CountingSort::countGroups() const { return divideUp(desc_.count, kCountThreads); }
-uint64_t CountingSort::oversizedGroups() const { return uint64_t{chunks()} * kOversizedGroups; }
+uint32_t CountingSort::binGroups() const { return std::min(desc_.count / (kBinLimit + 1), kOversizedGroups); }
+uint64_t CountingSort::oversizedGroups() const { return uint64_t{chunks()} * binGroups(); }
 
 std::vector<GroupCount> CountingSort::groups() const {
   if (desc_.count == 0) return {};
@@ -47,7 +50,7 @@ std::vector<GroupCount> CountingSort::groups() const {
 SortedKeys CountingSort::addTo(Graph& graph, BufferRef keys, const SortTargets& targets, const Gate* gate) const {
   if (desc_.count == 0) return {targets.order, targets.start, targets.keys};
   const uint32_t count = desc_.count;
-  const CountingPush push{count, static_cast<uint32_t>(desc_.keyRange - 1), chunks()};
+  const CountingPush push{count, static_cast<uint32_t>(desc_.keyRange - 1), chunks(), binGroups()};
   const Use read = readUse(texels_);
   Dispatches dispatches(gate);
   // Behind a closed gate a target keeps what it holds; a transient holds nothing.
@@ -85,16 +88,17 @@ SortedKeys CountingSort::addTo(Graph& graph, BufferRef keys, const SortTargets& 
   // Bins of up to kBinLimit and larger ones: two dispatches, which write different places.
   graph.pass("sort/order bins", [&](Pass& pass) {
     for (BufferRef ref : {keys, start, arrived}) pass.read(ref, read);
-    pass.read(oversized, Use::ComputeRead);
+    if (orderOversized_) pass.read(oversized, Use::ComputeRead);
     order = pass.write(order, Use::ComputeWrite, discard(targets.order));
     if (desc_.keys) sortedKeys = pass.write(sortedKeys, Use::ComputeWrite, discard(targets.keys));
     const BufferRef keysOrUnused = desc_.keys ? sortedKeys : order;
     const auto bins = dispatches.next(pass, pass.kernel(orderBins_, {keys, start, arrived, order, keysOrUnused}), countGroups(), push);
-    Dispatch<CountingPush> large;
-    if (orderOversized_) large = dispatches.next(pass, pass.kernel(orderOversized_, {start, arrived, order, oversized}), oversizedGroups(), push);
-    return [bins, large, any = orderOversized_ != nullptr](Commands& commands) {
+    std::optional<Dispatch<CountingPush>> large;
+    if (orderOversized_)
+      large = dispatches.next(pass, pass.kernel(orderOversized_, {start, arrived, order, oversized}), oversizedGroups(), push);
+    return [bins, large](Commands& commands) {
       bins(commands);
-      if (any) large(commands);
+      if (large) (*large)(commands);
     };
   });
   return {order, start, sortedKeys};

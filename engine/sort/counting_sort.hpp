@@ -25,6 +25,7 @@ class CountingSort {
   uint32_t chunks() const;
   uint64_t clearGroups() const;
   uint64_t countGroups() const;
+  uint32_t binGroups() const;
   uint64_t oversizedGroups() const;
 
   KeySortDesc desc_;

@@ -21,8 +21,8 @@ struct KeySortDesc {
   uint32_t count = 0;     ///< keys, 0 .. kMaxCount
   uint64_t keyRange = 0;  ///< keys are below it; 1 .. kMaxKeyRange
   SortMethod method = SortMethod::Auto;
-  bool start = false;  ///< whether SortedKeys::start is made; keyRange at most kMaxStartRange
-  bool keys = false;   ///< whether SortedKeys::keys is made
+  bool start = false;         ///< whether SortedKeys::start is made; keyRange at most kMaxStartRange
+  bool keys = false;          ///< whether SortedKeys::keys is made
   bool storageReads = false;  ///< through storage buffers even where texel buffers would hold enough; the same result
 };
 

@@ -12,9 +12,9 @@
 
 namespace rill {
 
-class StoragePipelines {
+class ModulePipelines {
  public:
-  StoragePipelines(Device& device, uint32_t pushConstantBytes) : device_(device), pushConstantBytes_(pushConstantBytes) {}
+  ModulePipelines(Device& device, uint32_t pushConstantBytes) : device_(device), pushConstantBytes_(pushConstantBytes) {}
 
   /// Of a shader whose bindings are all storage buffers. Null after an error: result() tells which.
   const ComputePipeline* make(std::string_view shader, uint32_t bindings, std::initializer_list<uint32_t> constants = {}) {
@@ -25,14 +25,17 @@ class StoragePipelines {
     return make(shader, std::span(kStorage).first(bindings), constants);
   }
 
-  /// Of a shader that reads arrays (shaders/shared/arrays.glsl), with the bindings of its variant with texels; without them, all of those are storage
-  /// buffers.
+  /// Of a shader that reads arrays (shaders/shared/arrays.glsl), with the bindings of its variant with texels; without them, all of those
+  /// are storage buffers.
   const ComputePipeline* makeReading(std::string shader, bool texels, std::initializer_list<BindingKind> bindings,
                                      std::initializer_list<uint32_t> constants = {}) {
     if (texels) return make(shader + "_texel", std::span(bindings.begin(), bindings.size()), constants);
     return make(shader, static_cast<uint32_t>(bindings.size()), constants);
   }
 
+  Expected<void> result() const { return error_ ? Expected<void>(*error_) : Expected<void>(); }
+
+ private:
   const ComputePipeline* make(std::string_view shader, std::span<const BindingKind> bindings, std::initializer_list<uint32_t> constants) {
     if (error_) return nullptr;
     auto made = computePipeline(device_, {.shader = shader,
@@ -44,9 +47,6 @@ class StoragePipelines {
     return nullptr;
   }
 
-  Expected<void> result() const { return error_ ? Expected<void>(*error_) : Expected<void>(); }
-
- private:
   Device& device_;
   uint32_t pushConstantBytes_;
   std::optional<Error> error_;

@@ -19,13 +19,13 @@ Expected<RadixSort> RadixSort::create(Device& device, const KeySortDesc& desc) {
   auto scan = Scan::create(device, sort.tiles_ << sort.bits_, desc.storageReads);
   if (!scan) return scan.error();
   sort.scan_ = *scan;
-  StoragePipelines pipelines(device, sizeof(RadixPush));
+  ModulePipelines pipelines(device, sizeof(RadixPush));
   sort.count_ = pipelines.make("sort/radix_count", 2);
   for (uint32_t pass = 0; pass < sort.passes_; ++pass)
     sort.scatter_[pass] = pipelines.make("sort/radix_scatter", 5, {pass == 0 ? 1u : 0u, sort.writesKeys(pass) ? 1u : 0u});
   if (auto made = pipelines.result(); !made) return made.error();
   if (desc.start) {
-    StoragePipelines startPipelines(device, sizeof(StartPush));
+    ModulePipelines startPipelines(device, sizeof(StartPush));
     sort.start_ = startPipelines.make("sort/start", 2);
     if (auto made = startPipelines.result(); !made) return made.error();
   }

@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "sort/key_sort_types.hpp"
 #include "sort/pipelines.hpp"
 #include "sort/sort_types.h"
 
@@ -24,15 +23,17 @@ Expected<Scan> Scan::create(Device& device, uint32_t count, bool storageReads) {
   if (count == 0) return scan;
   using enum BindingKind;
   scan.texels_ = !storageReads && device.info().maxTexelBufferElements >= paddedWords(count) / 4;
-  StoragePipelines pipelines(device, sizeof(ScanPush));
-  for (const bool texels : {!scan.texels_, scan.texels_}) {
-    if (texels != scan.texels_ && count < kMaxCount) continue;
-    scan.pipes_.single = pipelines.make("sort/scan_single", 1);
-    scan.pipes_.reduce = pipelines.makeReading("sort/scan_reduce", texels, {TexelUint4, Storage});
-    for (const bool scanned : {false, true})
-      (scanned ? scan.pipes_.applyScanned : scan.pipes_.apply) =
-          pipelines.makeReading("sort/scan_apply", texels, {Storage, TexelUint}, {scanned});
-  }
+  ModulePipelines pipelines(device, sizeof(ScanPush));
+  const auto make = [&](bool texels) {
+    Pipelines made;
+    made.single = pipelines.make("sort/scan_single", 1);
+    made.reduce = pipelines.makeReading("sort/scan_reduce", texels, {TexelUint4, Storage});
+    made.apply = pipelines.makeReading("sort/scan_apply", texels, {Storage, TexelUint}, {0});
+    made.applyScanned = pipelines.makeReading("sort/scan_apply", texels, {Storage, TexelUint}, {1});
+    return made;
+  };
+  scan.pipes_ = make(scan.texels_);
+  if (count == kMaxCount) make(!scan.texels_);  // whether texels hold another count is not known yet
   if (auto made = pipelines.result(); !made) return made.error();
   return scan;
 }

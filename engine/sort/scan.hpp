@@ -16,8 +16,8 @@ class Scan {
   /// Most values: what fits a buffer of 128 MiB.
   static constexpr uint32_t kMaxCount = (128u << 20) / sizeof(uint32_t);
 
-  /// `count` values, 0 .. kMaxCount; BadInput above. With kMaxCount all pipelines are made that any other count needs. `storageReads`: through storage buffers
-  /// even where texel buffers would hold enough; the same result.
+  /// `count` values, 0 .. kMaxCount; BadInput above. With kMaxCount all pipelines are made that any other count needs. `storageReads`:
+  /// through storage buffers even where texel buffers would hold enough; the same result.
   static Expected<Scan> create(Device& device, uint32_t count, bool storageReads = false);
 
   uint32_t count() const { return count_; }

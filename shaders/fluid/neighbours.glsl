@@ -1,6 +1,6 @@
 // Sums over the neighbours of a particle: from its list, or by walking the grid where there is no list or it overflowed. Only the variant WALKS can walk; the
 // device dispatches it in place of the other while somebody has to (the code alone, never run, costs the other an eighth of its time on lavapipe).
-// Before it includes this the shader defines `vec3 here`, the particle's place, and `void visit(vec4 particle)`, and binds at 2 the array whose elements are
+// Before it includes this the shader includes fluid/arrays.glsl, defines `vec3 here`, the particle's place, and `void visit(vec4 particle)`, and binds at 2 the array whose elements are
 // handed over; with COMPANION(j) defined, `void visit(vec4 particle, vec4 companion)`. What is farther than the support, or not there, is visited too.
 #ifndef RILL_NEIGHBOURS_GLSL
 #define RILL_NEIGHBOURS_GLSL

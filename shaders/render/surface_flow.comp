@@ -3,9 +3,9 @@
 // of depth the surface goes on as it is, so that silhouettes neither shrink nor are pulled.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
+#include "shared/arrays.glsl"
 #include "render/surface_filter.glsl"
 
-#include "shared/arrays.glsl"
 READ_FLOAT(0, before)
 layout(std430, set = 0, binding = 1) writeonly buffer After { float after[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Counters { uint counters[]; };

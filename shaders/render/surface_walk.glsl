@@ -1,4 +1,4 @@
-// The cells of the screen grid around a point. Needs START.
+// The cells of the screen grid around a point. Needs surface_arrays.glsl.
 bool bound_hit = false;  // a walk has left something out
 
 struct CellRange {

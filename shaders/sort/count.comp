@@ -12,7 +12,6 @@ layout(push_constant) uniform PushBlock { CountingPush push; };
 READ_UINT(0, key)
 layout(set = 0, binding = 1, std430) buffer Start { uint start[]; };
 layout(set = 0, binding = 2, std430) writeonly buffer Rank { uint rank[]; };
-
 layout(set = 0, binding = 3, std430) buffer Oversized { uint oversized[]; };  // how many, and their keys
 
 void main() {

@@ -22,12 +22,13 @@ RILL_CONST uint kBinLimit = 512u;
 // Indices that a workgroup of sort/order_oversized sorts at a time, as one bit each in 8 KiB of shared memory.
 RILL_CONST uint kChunkWords = 2048u;
 RILL_CONST uint kChunkIndices = 32u * kChunkWords;
-RILL_CONST uint kOversizedGroups = 2u;  // a chunk
+RILL_CONST uint kOversizedGroups = 16u;  // a chunk, at most
 
 struct CountingPush {
   uint count;      // keys
   uint lastKey;    // largest key; a larger one is taken for it, so that a stray key writes nowhere else
   uint chunks;     // of kChunkIndices indices
+  uint binGroups;  // workgroups a chunk that share the oversized bins
 };
 
 // Radix sort: an invocation takes kRadixKeys consecutive keys, a workgroup a tile. There are as many invocations as digits.

@@ -3,7 +3,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "render/compute_step.hpp"
 #include "render/surface_rig.hpp"
@@ -69,20 +68,37 @@ class DepthFilters : public SurfaceOnGpu {
             ((y - int(kMargin) + 0.5) * push.step / push.height * 2 - 1) * double{push.scale[1]} * wide, z};
   }
 
+  /// Through storage buffers over all blocks of samples, and through texel buffers over those alone that hold fluid: the same.
   Map filtered(std::string_view shader, const Map& before, const SurfacePush& push, uint32_t passes = 1,
                SpecializationConstants constants = {}) {
-    static constexpr BindingKind kStorage[] = {BindingKind::Storage, BindingKind::Storage, BindingKind::Storage, BindingKind::Storage};
-    const ComputePipeline* filter = pipeline({.shader = shader,
-                                              .bindings = kStorage,
-                                              .pushConstantBytes = sizeof(SurfacePush),
-                                              .constants = constants});
-    const Buffer source = upload("before", before.z);
+    Map all = filteredIn(shader, BindingKind::Storage, allBlocks(before, false), before, push, passes, constants);
+    const Map some =
+        filteredIn(std::string(shader) + "_texel", BindingKind::TexelUint, allBlocks(before, true), before, push, passes, constants);
+    EXPECT_TRUE(some.z == all.z) << shader;
+    return all;
+  }
+  static std::vector<uint32_t> allBlocks(const Map& map, bool covered) {
     constexpr int kBlock = surface::kSampleBlock;
-    std::vector<uint32_t> all(size_t((before.columns + kBlock - 1) / kBlock) * size_t((before.rows + kBlock - 1) / kBlock)),
-        counts(surface::kSurfaceCounterWords);
-    std::iota(all.begin(), all.end(), 0u);
-    counts[surface::kSampleBlockCount] = uint32_t(all.size());
-    const Buffer list = upload("blocks", all), counted = upload("counters", counts);
+    const int columns = (map.columns + kBlock - 1) / kBlock, rows = (map.rows + kBlock - 1) / kBlock;
+    std::vector<uint32_t> blocks;
+    for (int block = 0; block < columns * rows; ++block) {
+      bool any = !covered;
+      for (int y = block / columns * kBlock; y < std::min((block / columns + 1) * kBlock, map.rows); ++y)
+        for (int x = block % columns * kBlock; x < std::min((block % columns + 1) * kBlock, map.columns); ++x)
+          any = any || map.z[size_t(y * map.columns + x)] != kNone;
+      if (any) blocks.push_back(uint32_t(block));
+    }
+    return blocks;
+  }
+  Map filteredIn(std::string_view shader, BindingKind reading, const std::vector<uint32_t>& listed, const Map& before,
+                 const SurfacePush& push, uint32_t passes, SpecializationConstants constants) {
+    const BindingKind bindings[] = {reading, BindingKind::Storage, BindingKind::Storage, BindingKind::Storage};
+    const ComputePipeline* filter =
+        pipeline({.shader = shader, .bindings = bindings, .pushConstantBytes = sizeof(SurfacePush), .constants = constants});
+    const Buffer source = upload("before", before.z);
+    std::vector<uint32_t> counts(surface::kSurfaceCounterWords);
+    counts[surface::kSampleBlockCount] = uint32_t(listed.size());
+    const Buffer list = upload("blocks", listed.empty() ? std::vector<uint32_t>(1) : listed), counted = upload("counters", counts);
     Graph graph;
     BufferRef from = graph.import("before", importOf(source)), counters = graph.import("counters", importOf(counted)),
               blocks = graph.import("blocks", importOf(list));
@@ -92,7 +108,8 @@ class DepthFilters : public SurfaceOnGpu {
         to = pass.write(to, Use::CopyTarget, true);
         return [to](Commands& commands) { commands.fill(to, std::bit_cast<uint32_t>(kNone)); };
       });
-      addStep(graph, "filter", filter, {reads(from), writes(to), writes(counters), reads(blocks)}, all.size(), push);
+      const StepBuffer source_array = reading == BindingKind::Storage ? reads(from) : texels(from);
+      addStep(graph, "filter", filter, {source_array, writes(to), writes(counters), reads(blocks)}, listed.size(), push);
       from = to;
     }
     const Ticket ticket = graph.readback(from);

@@ -130,7 +130,7 @@ TEST_P(BothSorts, SeveralInOneCommandBuffer) {
 }
 
 TEST_P(BothSorts, AGateOpensAndCloses) {
-  // 5,000 equal keys: the oversized bin's dispatch, which the sort sizes itself, must not run behind the closed gate either.
+  // 5,000 equal keys: the oversized bin's dispatch must not run behind the closed gate either.
   for (const Words& keys : {randomKeys(5000, 3000), Words(5000, 2)}) {
     auto sort = KeySort::create(device(), {5000, 3000, GetParam(), true, true});
     ASSERT_TRUE(sort);

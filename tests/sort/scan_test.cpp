@@ -7,6 +7,7 @@
 #include <random>
 
 #include "sort/rig.hpp"
+#include "sort/sort_types.h"
 
 namespace rill::test {
 namespace {
@@ -26,7 +27,8 @@ Words ScanTest::scanned(const Words& values, bool storageReads) {
 
 TEST_F(ScanTest, EveryCountAroundTheSizesOfTiles) {
   std::mt19937 random(1);
-  for (uint32_t count : {1u, 2u, 63u, 64u, 65u, 127u, 128u, 129u, 2047u, 2048u, 2049u, 16383u, 16384u, 16385u, 100000u, 1000003u}) {
+  for (uint32_t count : {1u, 2u, 63u, 64u, 65u, 127u, 128u, 129u, 2047u, 2048u, 2049u, 16383u, 16384u, 16385u, 100000u, 1000003u,
+                         kScanSums * kScanTile, kScanSums * kScanTile + 1}) {
     Words values(count), wanted(count);
     for (uint32_t& value : values) value = static_cast<uint32_t>(random());  // sums wrap
     std::exclusive_scan(values.begin(), values.end(), wanted.begin(), 0u);
@@ -38,7 +40,7 @@ TEST_F(ScanTest, ScansItsOwnTileSumsInSeveralRounds) {
   // More tiles than one tile has values.
   Words values(5000000, 1), wanted(5000000);
   std::iota(wanted.begin(), wanted.end(), 0u);
-  EXPECT_TRUE(scanned(values) == wanted);
+  for (const bool storageReads : {false, true}) EXPECT_TRUE(scanned(values, storageReads) == wanted) << storageReads;
 }
 
 TEST_F(ScanTest, NothingAndTooMuch) {

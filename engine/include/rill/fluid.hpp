@@ -53,7 +53,8 @@ struct FluidDesc {
   /// that bears the fluid's weight. That takes recorded substeps: 1 to 64, and about 3 for each layer of particles, at most 1,024. Where
   /// the first frames record fewer, the fluid stands still in them and their time is dropped (FluidProgress::time_dropped_s).
   bool settle = true;
-  bool storageReads = false;  ///< gather through storage buffers even where texel buffers would hold enough (slower on most CPU drivers)
+  bool storageReads =
+      false;  ///< read arrays through storage buffers even where texel buffers would hold enough (slower on most CPU drivers)
 };
 
 /// Device memory of a Fluid, in bytes, split as reports show it.
