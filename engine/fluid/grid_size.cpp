@@ -15,14 +15,14 @@ GridSize chooseGridSize(double cell, const double extent[3], uint64_t particles)
   size.cell = cell;
   for (int axis = 0; axis < 3; ++axis) {
     const double edge = axis == 0 ? cell / kCellsPerReach : cell;
-    const double cells = std::clamp(std::ceil(extent[axis] / edge) + 1.0, double(1u << least.bits[axis]), 4096.0);
-    size.bits[axis] = static_cast<uint32_t>(std::ceil(std::log2(cells)));
+    size.size[axis] = static_cast<uint32_t>(std::clamp(std::ceil(extent[axis] / edge) + 1.0, double(least.size[axis]), 4096.0));
   }
   const uint64_t most = maxGridCells(particles);
   while (size.cells() > most) {
-    uint32_t* longest = std::max_element(size.bits, size.bits + 3);
-    if (*longest <= least.bits[longest - size.bits]) break;
-    --*longest;
+    uint32_t* longest = std::max_element(size.size, size.size + 3);
+    const uint32_t smallest = least.size[longest - size.size];
+    if (*longest <= smallest) break;
+    *longest = std::max((*longest + 1) / 2, smallest);
   }
   return size;
 }

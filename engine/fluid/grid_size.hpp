@@ -3,12 +3,12 @@
 
 namespace rill {
 
-/// The wrapped grid: 2^bits cells a dimension. Cell coordinates are taken modulo that, so that particles may be anywhere.
+/// The wrapped grid: cell coordinates are taken modulo its size a dimension, so that particles may be anywhere.
 struct GridSize {
   double cell = 0;               ///< m, in y and z; kCellsPerReach times shorter in x
-  uint32_t bits[3] = {3, 2, 2};  ///< at least these: the cells around a coordinate differ
+  uint32_t size[3] = {8, 4, 4};  ///< at least these: the cells around a coordinate differ
 
-  uint64_t cells() const { return uint64_t{1} << (bits[0] + bits[1] + bits[2]); }
+  uint64_t cells() const { return uint64_t{size[0]} * size[1] * size[2]; }
 };
 
 /// What a grid of so many particles has at most.

@@ -437,9 +437,9 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   for (int a = 0; a < 3; ++a) room[a] = scene.domain ? scene.domain->max[a] - scene.domain->min[a] : 2 * extent[a];
   if (auto able = checkSteps(scene, room, setup); !able) return able.error();
   setup.grid = chooseGridSize(p.reach, room, count);
-  p.gridBitsX = setup.grid.bits[0];
-  p.gridBitsY = setup.grid.bits[1];
-  p.gridBitsZ = setup.grid.bits[2];
+  p.gridSizeX = setup.grid.size[0];
+  p.gridSizeY = setup.grid.size[1];
+  p.gridSizeZ = setup.grid.size[2];
   p.inverseCell = f(1 / setup.grid.cell);
   return setup;
 }

@@ -58,7 +58,7 @@ void visitNeighbours(uint i, uint local, bool there) {
   }
   if (WALKS == 0u) return;
   bool walks = there && !listed && here.x != kParked;
-  vec3 home = vec3(cellFromKey(keyAt(there ? i : 0u)));
+  vec3 home = cellFromKey(keyAt(there ? i : 0u));
   place = here;
   self = i;
   walkGrid(home, home + 1.0, walks, params.reach);

@@ -7,27 +7,26 @@
 
 // Row `side` of 0 .. 8 around the row (y, z) of cells: the particles [begin, end) in it that can be within `reach` (m) of a box in that row, which goes from low
 // to high (in cells) in x and keeps `gaps` (m) from the row's sides at low y, low z, high y, high z. The row is two ranges where it wraps: part 0 and 1.
-void rowRange(float low, float high, ivec2 row, vec4 gaps, float reach, uint side, uint part, out uint begin, out uint end) {
-  ivec2 way = ivec2(side % 3u, side / 3u) - 1;
-  vec2 gap = vec2(way.x < 0 ? gaps.x : (way.x > 0 ? gaps.z : 0.0), way.y < 0 ? gaps.y : (way.y > 0 ? gaps.w : 0.0));
+void rowRange(float low, float high, vec2 row, vec4 gaps, float reach, uint side, uint part, out uint begin, out uint end) {
+  vec2 way = vec2(side % 3u, side / 3u) - 1.0;
+  vec2 gap = vec2(way.x < 0.0 ? gaps.x : (way.x > 0.0 ? gaps.z : 0.0), way.y < 0.0 ? gaps.y : (way.y > 0.0 ? gaps.w : 0.0));
   float left = reach * reach - dot(gap, gap);
   begin = 0u;
   end = 0u;
   if (left < 0.0) return;
   float width = sqrt(left) * inverseCell.x;
   vec2 cells = floor(vec2(low, high));
-  int from = int(cells.x) + int(floor(low - cells.x - width));
-  int to = int(cells.y) + int(floor(high - cells.y + width));
-  uint size = gridMask.x + 1u;
-  uint first = uint(from) & gridMask.x, past = first + uint(to - from) + 1u;
-  if (uint(to - from) >= gridMask.x) {  // all around
-    first = 0u;
-    past = size;
+  float from = cells.x + floor(low - cells.x - width), to = cells.y + floor(high - cells.y + width);
+  vec3 cell = wrapped(vec3(from, row + way));
+  float past = cell.x + (to - from) + 1.0;
+  if (to - from >= gridSize.x - 1.0) {  // all around
+    cell.x = 0.0;
+    past = gridSize.x;
   }
-  if (part == 1u && past <= size) return;
-  uint base = cellKey(uvec3(0u, uvec2(row + way) & gridMask.yz));
-  begin = cellStartAt(base + (part == 0u ? first : 0u));
-  end = cellStartAt(base + (part == 0u ? min(past, size) : past - size));
+  if (part == 1u && past <= gridSize.x) return;
+  uint base = cellKey(vec3(0.0, cell.yz)), size = uint(gridSize.x);
+  begin = cellStartAt(base + (part == 0u ? min(uint(cell.x), size) : 0u));
+  end = cellStartAt(base + min(uint(part == 0u ? past : past - gridSize.x), size));
 }
 
 // `boxLow` to `boxHigh`: a box in one cell, in cells, that the lane's particle was in when the cells were sorted; `waits`: whether the lane wants neighbours.
@@ -47,11 +46,11 @@ void walkGrid(vec3 boxLow, vec3 boxHigh, bool waits, float reach) {
     // Nine rows of cells, in two parts where the grid may wrap: every lane looks one up, then all go through them together. A row's parts follow each other,
     // so that the order in which a particle meets its neighbours does not depend on who is in its cluster.
     vec4 gaps = vec4(low.yz - row, row + 1.0 - high.yz) / inverseCell.yzyz;
-    int first = int(floor(low.x)) - int(kCellsPerReach) - 1, last = int(floor(high.x)) + int(kCellsPerReach) + 1;
-    uint parts = (uint(first) & gridMask.x) + uint(last - first) > gridMask.x ? 2u : 1u;
+    float first = floor(low.x) - float(kCellsPerReach) - 1.0, last = floor(high.x) + float(kCellsPerReach) + 1.0;
+    uint parts = wrapped(vec3(first, row)).x + (last - first) >= gridSize.x ? 2u : 1u;
     for (uint base = 0u; base < 9u * parts; base += CLUSTER) {
       uint at = base + clusterLane, begin = 0u, end = 0u;
-      if (at < 9u * parts) rowRange(low.x, high.x, ivec2(row), gaps, reach, at / parts, at % parts, begin, end);
+      if (at < 9u * parts) rowRange(low.x, high.x, row, gaps, reach, at / parts, at % parts, begin, end);
       for (uint lane = 0u; lane < min(CLUSTER, 9u * parts - base); ++lane) {
         uint from = SPREAD(begin, lane), to = SPREAD(end, lane);
         for (; from < to && walked < kWalkBound; from += kWindow) {

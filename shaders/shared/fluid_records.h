@@ -66,7 +66,7 @@ struct FluidParams {
   float lowX, lowY, lowZ;     // m, walls; -kParked where there is none
   float highX, highY, highZ;  // m; kParked where there is none
   float margin;           // m, how near a centre may come to a wall or a solid: half a spacing
-  uint gridBitsX, gridBitsY, gridBitsZ;  // log2 of the cells a dimension
+  uint gridSizeX, gridSizeY, gridSizeZ;  // cells a dimension
   float inverseCell;      // 1/m, in y and z
   float tableStep;        // m between nodes of the plane and edge tables
   float cornerStep;       // and of the corner table

@@ -71,6 +71,15 @@ TEST_F(SubstepTest, OpenSides) {
   expectEqual(t, 10, kTen, kTen, kAgeing);
 }
 
+// The wrapped grid: rows that are cut where it begins anew, on either side of the origin and many grids away from it.
+TEST_F(SubstepTest, AcrossTheGridsSeams) {
+  Trial t = trial();
+  for (const glm::dvec3 from : {glm::dvec3(-3.3 * t.d()), glm::dvec3(11.3, -7.1, 4.6), glm::dvec3(-9.7, 0.4, -13.2)}) {
+    t.x = block({7, 6, 8}, 0.95 * t.d(), from, 0.05);
+    expectEqual(t, 1, kOne, kOne);
+  }
+}
+
 TEST_F(SubstepTest, Poly6Spiky) {
   Trial t = trial();
   t.scene.solver.kernel = KernelChoice::Poly6Spiky;

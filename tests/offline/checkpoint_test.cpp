@@ -56,14 +56,17 @@ TEST(CheckpointFile, ChangedAnywhereIsRefused) {
 TEST(CheckpointFile, ForeignAndNewerFilesAreToldApart) {
   const std::string picture = "\x89PNG\r\n\x1a\n and so on and so on";
   EXPECT_NE(refusal(std::as_bytes(std::span(picture))).find("is no checkpoint of Rill"), std::string::npos);
-  auto newer = offline::encodeCheckpoint(seedCheckpoint());
-  newer[8] = std::byte{5};
-  seal(newer);
-  EXPECT_NE(refusal(newer).find("a newer Rill, in format 5; this one reads format 4"), std::string::npos) << refusal(newer);
-  auto older = offline::encodeCheckpoint(seedCheckpoint());
-  older[8] = std::byte{3};
-  seal(older);
-  EXPECT_NE(refusal(older).find("an older Rill, in format 3; this one reads format 4"), std::string::npos) << refusal(older);
+  const auto checkpoint = offline::encodeCheckpoint(seedCheckpoint());
+  const int format = std::to_integer<int>(checkpoint[8]);
+  const auto expectRefused = [&](int other, const char* age) {
+    auto bytes = checkpoint;
+    bytes[8] = std::byte(other);
+    seal(bytes);
+    const std::string what = age + (" Rill, in format " + std::to_string(other)) + "; this one reads format " + std::to_string(format);
+    EXPECT_NE(refusal(bytes).find(what), std::string::npos) << refusal(bytes);
+  };
+  expectRefused(format + 1, "a newer");
+  expectRefused(format - 1, "an older");
 }
 
 // With a checksum that holds: lengths are not believed for that.
