@@ -299,6 +299,10 @@ void setStartPressure(const Scene& scene, const SmoothingKernel& kernel, double 
   p.pressings = start.iterations;
   p.pressMomentum = f(start.momentum);
   p.pressStep = f(bearableStep(scene, kernel, head, 1, kWarmGain / softness(scene), p));
+  // A compression e of a column as high as all the fluid would be released within a step, at e times its height over that step: at most a
+  // twentieth of what falling through a spacing gives.
+  const double g = strongestGravity(scene);
+  p.pressError = f(0.05 * std::sqrt(g * scene.fluid.spacing) * p.pressStep * g / head);
 }
 
 // In a shorter step the rounding of positions, which are floats, is more speed than a correction may always add.

@@ -7,7 +7,7 @@ RILL_RECORDS_BEGIN
 RILL_CONST uint kFluidGroup = 64u;        // invocations a workgroup of every per-particle pass
 RILL_CONST uint kListBlock = 4096u;       // particles a block of the neighbour list: k-major inside a block
 RILL_CONST uint kCellsPerReach = 2u;       // grid cells in x as long as one in y or z
-RILL_CONST uint kSettleSubsteps = 64u;     // at most, before the first substep in time
+RILL_CONST uint kSettleSubsteps = 512u;    // at most, before the first substep in time
 RILL_CONST uint kMostPressings = 1024u;    // iterations that find the pressure of the start, at most, after those
 RILL_CONST float kMostCalming = 0.5f;     // XSPH coefficient of a calm pass, at most
 RILL_CONST uint kWindow = 32u;            // candidates that a grid walk looks at together, a bit of a mask each
@@ -94,6 +94,7 @@ struct FluidParams {
   uint pressings;         // iterations that find the pressure of the start (see engine/sph/start_pressure.hpp); 0: it starts without
   float pressStep;        // s, the step that it is found for
   float pressMomentum;    // of a multiplier's last change, what is added to the next
+  float pressError;       // mean compression of the start up to which it is looked for
   uint fullNeighbours;    // within the support: a particle with as many is inside the fluid
 };
 
