@@ -233,8 +233,8 @@ class Capture {
       message("frames: " + folder_->frame(first_, kind).string() +
               (last > first_ ? " to " + folder_->frame(last, kind).filename().string() : ""));
     }
-    if (const uint64_t hits = record_->pictureBoundHits(); hits > 0 && !options_.quiet)
-      message(boundHitsWarning(hits));
+    if (!options_.quiet)
+      for (const std::string& warning : record_->warnings()) message(warning);
     if (!options_.quiet && video_ && video_->finished()) message("video: " + options_.video->string());
     if (!options_.quiet && kept_ > 0)
       message("checkpoint: " + options_.checkpoint->string() + ", frame " + std::to_string(first_ + kept_ - 1));

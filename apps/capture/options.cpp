@@ -58,7 +58,8 @@ void declare(CLI::App& app, Raw& raw) {
   app.add_option("SCENE", raw.scene, "a scene's name, or the path of a .json file")->type_name("")->required()->group(what);
   once("--frames", raw.frames, "frames to write, the start included (default: the scene's duration)", "N", what);
   once("--fps", raw.fps, "frames a simulated second (default: 60)", "F", what);
-  once("--particles", raw.particles, "about so many particles, in place of the scene's spacing", "N", what);
+  once("--particles", raw.particles, "about so many particles (1 to " + grouped(kMaxParticles) + "), in place of the scene's spacing", "N",
+       what);
   once("--resume", raw.resume, "go on from a checkpoint of the same scene; --frames counts the frames of this run", "FILE", what);
   once("--play", raw.play, "simulate nothing: draw the .ply files of a folder, whoever wrote them, in the order of their names", "DIR",
        what);

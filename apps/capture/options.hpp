@@ -24,7 +24,7 @@ struct Options {
   uint32_t width = 1280, height = 720;       ///< pixels
   std::optional<std::filesystem::path> out;  ///< none: out/SCENE
   std::string view = "final";
-  double orbit_deg_per_s = 0;  ///< of the camera around its target
+  double orbit_deg_per_s = 0;                  ///< of the camera around its target
   std::optional<std::filesystem::path> video;  ///< where the pictures go as one file
   std::optional<std::filesystem::path> stats;
   std::optional<std::filesystem::path> graph;  ///< where the last picture's passes go, as Graphviz's dot

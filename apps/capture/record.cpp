@@ -68,7 +68,13 @@ Record::Record(const Scene& scene, const DeviceInfo& device, std::string command
 
 void Record::add(double time_s, offline::Stats stats) { frames_.push_back({time_s, std::move(stats)}); }
 
-double Record::simulatedSeconds() const { return frames_.empty() ? 0 : frames_.back().time_s - start_s_; }
+double Record::droppedSeconds() const {
+  double dropped = 0;
+  for (const apps::Instant& frame : frames_) dropped += frame.stats.time_dropped_s;
+  return dropped;
+}
+
+double Record::simulatedSeconds() const { return frames_.empty() ? 0 : frames_.back().time_s - start_s_ - droppedSeconds(); }
 
 std::vector<std::string> Record::figureNames(const Scene& scene) {
   Record empty(scene, {}, {});
@@ -101,7 +107,7 @@ std::vector<Figure> Record::figures() const {
       {"substeps", of(&Stats::substeps)(sum), ""},
       {"iterations", of(&Stats::iterations)(sum), ""},
       {"list_builds", of(&Stats::list_builds)(sum), ""},
-      {"time_dropped_s", of(&Stats::time_dropped_s)(sum), "s"},
+      {"time_dropped_s", droppedSeconds(), "s"},
       {"density_error_mean", error.mean, ""},
       {"density_error_p99", error.p99, ""},
       {"density_error_max", error.max, ""},
@@ -173,6 +179,24 @@ std::string Record::passTable() const {
           std::ranges::find(skipped, skip.first, &offline::SkippedPass::first) == skipped.end())
         skipped.push_back(skip);
   return offline::passTable(passes, skipped, substeps, builds);
+}
+
+std::vector<std::string> Record::warnings() const {
+  std::vector<std::string> warnings;
+  if (frames_.empty()) return warnings;
+  const offline::Stats& last = frames_.back().stats;
+  if (const double dropped = droppedSeconds(); dropped > 0)
+    warnings.push_back("warning: " + roughNumber(dropped) + " s of " + roughNumber(simulatedSeconds() + dropped) +
+                       " s were dropped: solver.max_substeps of " + std::to_string(scene_->solver.max_substeps) +
+                       " are fewer than the speed, the tolerance or the viscosity asks for");
+  if (last.loop_bound_hits > 0)
+    warnings.push_back("warning: loops over neighbours ran into their bound " + grouped(last.loop_bound_hits) +
+                       " times: there are more particles in one place than a walk looks at");
+  if (last.non_finite > 0)
+    warnings.push_back("warning: " + grouped(last.non_finite) + (last.non_finite == 1 ? " particle is" : " particles are") +
+                       " set aside: their positions or velocities were not finite");
+  if (const uint64_t hits = pictureBoundHits(); hits > 0) warnings.push_back(boundHitsWarning(hits));
+  return warnings;
 }
 
 std::string boundHitsWarning(uint64_t hits) {

@@ -24,8 +24,8 @@ class Record {
   /// In the order of figureNames(). Figures of the density error leave out the first tenth of the frames.
   std::vector<Figure> figures() const;
 
-  /// Of all pictures.
-  uint64_t pictureBoundHits() const;
+  /// What the run left out: time, neighbours, particles, parts of pictures. A line each.
+  std::vector<std::string> warnings() const;
 
   /// One JSON object, ended by a line feed; what is not finite is null.
   std::string json() const;
@@ -34,7 +34,9 @@ class Record {
   std::string passTable() const;
 
  private:
-  double simulatedSeconds() const;  ///< of this run
+  double droppedSeconds() const;    ///< of this run
+  double simulatedSeconds() const;  ///< likewise, without those
+  uint64_t pictureBoundHits() const;
 
   const Scene* scene_;
   DeviceInfo device_;

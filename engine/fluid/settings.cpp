@@ -431,7 +431,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   setCalming(scene, kernel, setup);
   setGravity(scene, setup);
   setSpeeds(scene, start, p);
-  const double head = headOf(scene, extent);
+  const double head = setup.near ? headOf(scene, extent) : 0;  // what nothing can hold bears no column
   setGains(scene, head, setup);
   setLongestStep(scene, kernel, head, setup);
   setStartPressure(scene, kernel, head, setup);

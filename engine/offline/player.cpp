@@ -11,7 +11,6 @@
 namespace rill::offline {
 namespace {
 
-
 Error outOfMemory(const char* what) { return {ErrorKind::OutOfMemory, std::string(what) + ": out of memory"}; }
 
 }  // namespace

@@ -133,15 +133,12 @@ class ReferenceSolver {
 
   size_t size() const { return state.position.size(); }
   double time() const { return time_; }  ///< s, since begin
-  void setTime(double time) { time_ = time; }
   const SmoothingKernel& kernel() const { return kernel_; }
   double mass() const;                         ///< of a particle: rho0 d^3, kg
   uint64_t parked() const { return parked_; }  ///< particles that were not finite, counted each time
 
   std::span<const Pair> pairs(size_t i) const { return std::span(pairs_).subspan(first_[i], first_[i + 1] - first_[i]); }
   std::span<const double> densityRatio() const { return densityRatio_; }  ///< rho/rho0
-  std::span<const double> denominator() const { return denominator_; }    ///< D, 1/m^2
-  std::span<const WallSample> boundary() const { return boundary_; }      ///< B and grad B
   std::span<const double> lambda() const { return lambda_; }              ///< m^2, <= 0
   std::span<const double> lambdaChange() const { return lambdaChange_; }  ///< dlambda, m^2
   std::span<const glm::dvec3> curl() const { return curl_; }              ///< of v, 1/s, of the last vorticity()

@@ -61,7 +61,7 @@ class Reader {
       const auto found = json.find(std::string(field.info.key));
       const std::string here = childPath(path, field.info.key);
       if (found != json.end()) return value(*found, here, field.info, owner.*field.member);
-      if (field.info.required) return fail(here, "missing; " + std::string(field.info.help));
+      if (field.info.required) return fail(here, "missing; it is needed: " + std::string(field.info.help));
     }
     return true;
   }

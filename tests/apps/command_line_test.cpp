@@ -30,10 +30,33 @@ TEST(CommandLine, HelpTeaches) {
     const Outcome outcome = capture({option});
     EXPECT_EQ(outcome.code, 0);
     EXPECT_EQ(outcome.err, "");
-    for (const char* word : {"SCENE",    "--frames",  "--fps",     "--size",      "--out",
-                             "--view",   "--stats",   "--export",  "--particles", "--set",
-                             "--device", "--require", "--explain", "--no-images", "--quiet",
-                             "--help",   "--version", "--no-pass-times", "--checkpoint", "--checkpoint-every", "--resume", "--play", "--orbit", "--video", "Examples:", "Exit codes:", "final, particles, density"})
+    for (const char* word : {"SCENE",
+                             "--frames",
+                             "--fps",
+                             "--size",
+                             "--out",
+                             "--view",
+                             "--stats",
+                             "--export",
+                             "--particles",
+                             "--set",
+                             "--device",
+                             "--require",
+                             "--explain",
+                             "--no-images",
+                             "--quiet",
+                             "--help",
+                             "--version",
+                             "--no-pass-times",
+                             "--checkpoint",
+                             "--checkpoint-every",
+                             "--resume",
+                             "--play",
+                             "--orbit",
+                             "--video",
+                             "Examples:",
+                             "Exit codes:",
+                             "final, particles, density"})
       EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
   }
 }
@@ -81,7 +104,8 @@ TEST(CommandLine, NamesTheOptionAndWhatWasExpected) {
 
 TEST(CommandLine, UnknownNamesGetTheList) {
   expectRefused({"scene.json", "--size", "8192x4096"}, {"--size, --view final", "8192x4096", "16777216"});
-  expectRefused({"scene.json", "--view", "particels"}, {"\"particels\"", "did you mean \"particles\"?", "views: final, particles, density, speed, depth, normals, thickness"});
+  expectRefused({"scene.json", "--view", "particels"},
+                {"\"particels\"", "did you mean \"particles\"?", "views: final, particles, density, speed, depth, normals, thickness"});
   expectRefused({"dam-brake"}, {"\"dam-brake\"", "did you mean \"dam-break\"?", "resting-column", "validation/martin-moyce-1"});
   expectRefused({"scene.json", "--require", "outsid<1"}, {"\"outsid\"", "did you mean \"outside\"?", "density_error_p99", "probes.H1"});
 }

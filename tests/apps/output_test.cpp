@@ -97,7 +97,8 @@ TEST(OutputFolder, AHeldFolderKeepsItsFrames) {
 
 TEST(Progress, SaysWhereItIs) {
   EXPECT_EQ(progressText({"frame", 3, 181, "t 0.033 s  error 0.041 %", 6}), "frame 3/181  t 0.033 s  error 0.041 %  left 5 min 56 s");
-  EXPECT_EQ(progressText({"frame", 181, 181, "t 3.000 s  error 0.050 %", 61.2}), "frame 181/181  t 3.000 s  error 0.050 %  took 1 min 02 s");
+  EXPECT_EQ(progressText({"frame", 181, 181, "t 3.000 s  error 0.050 %", 61.2}),
+            "frame 181/181  t 3.000 s  error 0.050 %  took 1 min 02 s");
 }
 
 TEST(Progress, BarFitsTheTerminal) {

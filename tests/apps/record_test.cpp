@@ -51,6 +51,32 @@ TEST(FrameCount, CountsBothEnds) {
   EXPECT_EQ(frameCount(0.99, 1), 1);
 }
 
+TEST(Record, SaysWhatTheRunLeftOut) {
+  const Scene small = scene();
+  Record whole(small, {}, "");
+  whole.add(0, stats(0.001, 1, 1));
+  whole.add(0.5, stats(0.001, 1, 1));
+  EXPECT_TRUE(whole.warnings().empty());
+  EXPECT_EQ(figure(whole, "simulated_s"), 0.5);
+
+  Record cut(small, {}, "");
+  offline::Stats some = stats(0.001, 1, 1);
+  some.time_dropped_s = 0.125;
+  some.loop_bound_hits = 1234;
+  some.non_finite = 1;
+  some.picture_bound_hits = 7;
+  cut.add(0, stats(0.001, 1, 1));
+  cut.add(0.25, some);
+  cut.add(0.5, some);
+  EXPECT_EQ(figure(cut, "time_dropped_s"), 0.25);
+  EXPECT_EQ(figure(cut, "simulated_s"), 0.25) << "what was dropped was not simulated";
+  const std::vector<std::string> warnings = cut.warnings();
+  ASSERT_EQ(warnings.size(), 4u);
+  for (const auto& [k, what] :
+       {std::pair(0, "0.25 s of 0.5 s were dropped: solver.max_substeps"), {1, "1,234 times"}, {2, "1 particle is"}, {3, "14 times"}})
+    EXPECT_NE(warnings[k].find(what), std::string::npos) << warnings[k];
+}
+
 TEST(Record, LeavesTheFirstTenthOutOfTheError) {
   const Scene small = scene();
   Record record(small, {}, "");

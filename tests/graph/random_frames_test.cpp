@@ -35,7 +35,7 @@ class RandomFrames : public GraphTest {
     const auto pick = [&](uint32_t below) { return uint32_t(random() % below); };
     std::vector<BufferRef> refs;
     std::vector<bool> written;
-    constexpr Use befores[] = {Use::Nothing,       Use::Unknown,       Use::ComputeWrite, Use::ComputeRead,
+    constexpr Use befores[] = {Use::Nothing,    Use::Unknown,       Use::ComputeWrite, Use::ComputeRead,
                                Use::CopyTarget, Use::ComputeAtomic, Use::HostRead};
     constexpr Use afters[] = {Use::Nothing, Use::ComputeRead, Use::ComputeWrite, Use::Indirect};
     for (int i = 0; i < 3; ++i) refs.push_back(import("import", befores[pick(7)], afters[pick(4)])), written.push_back(true);
@@ -43,7 +43,7 @@ class RandomFrames : public GraphTest {
     constexpr Use reads[] = {Use::ComputeRead, Use::ComputeTexel, Use::ComputeUniform, Use::Indirect, Use::CopySource, Use::VertexInput};
     constexpr Use writings[] = {Use::ComputeWrite, Use::CopyTarget, Use::ComputeAtomic};
     const ImportState imageStates[] = {
-        Use::Nothing,       Use::Unknown,    Use::ComputeWrite, Use::ComputeSampled,
+        Use::Nothing,    Use::Unknown,    Use::ComputeWrite, Use::ComputeSampled,
         Use::CopySource, Use::CopyTarget, Use::Present,      UseState{kCompute, kSampled, VK_IMAGE_LAYOUT_GENERAL}};
     constexpr Use imageReads[] = {Use::ComputeRead, Use::ComputeSampled, Use::CopySource, Use::DrawSampled};
     std::vector<ImageRef> images;

@@ -109,7 +109,7 @@ TEST(Refusals, UnknownKeysNameTheNearest) {
 
 TEST(Refusals, WrongTypesAndLengths) {
   expectMessages({
-      {R"({"rill": "0.1"})", ": fluid: missing; the fluid"},
+      {R"({"rill": "0.1"})", ": fluid: missing; it is needed: the fluid"},
       {R"({"rill": "0.1", "fluid": 3})", ": fluid: found 3, expected an object"},
       {R"({"rill": "0.1", "fluid": {}})", ": fluid: expected exactly one of \"spacing\", \"particles\"; found none"},
       {withFluid(R"("spacing": 0.1, "particles": 10)"),
@@ -189,7 +189,7 @@ TEST(Refusals, RulesBetweenKeys) {
        ": fill[0]: expected exactly one of \"box\", \"sphere\", \"particles\"; found \"box\", \"sphere\""},
       {with(R"("solids": [{"friction": 1}])"), ": solids[0]: expected exactly one of \"box\", \"sphere\"; found none"},
       {with(R"("probes": [{"name": "a"}])"), ": probes[0]: expected exactly one of \"level\", \"front\"; found none"},
-      {with(R"("probes": [{"front": "+x"}])"), ": probes[0].name: missing; unique, not empty"},
+      {with(R"("probes": [{"front": "+x"}])"), ": probes[0].name: missing; it is needed: unique, not empty"},
       {with(R"("probes": [{"name": "", "front": "+x"}])"), ": probes[0].name: is empty; expected a name"},
       {with(R"("probes": [{"name": "a", "front": "+x"}, {"name": "a", "front": "+y"}])"),
        ": probes[1].name: \"a\" is the name of probes[0] too; expected each name once"},

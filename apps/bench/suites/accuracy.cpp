@@ -54,8 +54,7 @@ std::vector<Setting> settings(bool quick) {
   all.push_back(named(fixedStep(2, 4, paper, "Macklin and Mueller 2013"), " paper"));
   if (quick) return all;
   for (const int s : {12, 32}) all.push_back(named(fixedStep(s, 1, {{"solver.warm_start", "0"}}, "no warm start"), " cold"));
-  for (const auto& [s, i] : {std::pair{2, 8}, std::pair{8, 2}, std::pair{12, 2}})
-    all.push_back(fixedStep(s, i, {}, "iterations"));
+  for (const auto& [s, i] : {std::pair{2, 8}, std::pair{8, 2}, std::pair{12, 2}}) all.push_back(fixedStep(s, i, {}, "iterations"));
   for (const auto& [s, i] : {std::pair{4, 4}, std::pair{8, 2}})
     all.push_back(named(fixedStep(s, i, paper, "Macklin and Mueller 2013"), " paper"));
   for (const char* ratio : {"1.8", "2.3", "2.5"})
