@@ -317,9 +317,11 @@ Expected<void> checkSteps(const Scene& scene, const double room[3], const FluidS
   if (p.maxStep >= least) return {};
   const bool asked = scene.solver.time_step.value_or(least) < least;
   const bool viscous = setup.viscositySweeps > 0 && p.viscosityRate * least > setup.viscositySweeps;
-  const std::string key = asked     ? "solver.time_step: steps of "
-                          : viscous ? "fluid.viscosity: " + roughNumber(scene.fluid.viscosity) + " Pa s needs steps of at most "
-                                    : "solver: relaxation and regularization hold this fluid's weight in steps of at most ";
+  const std::string key = asked                 ? "solver.time_step: steps of "
+                          : viscous             ? "fluid.viscosity: " + roughNumber(scene.fluid.viscosity) + " Pa s needs steps of at most "
+                          : softness(scene) > 1 ? "solver: relaxation and regularization hold this fluid's weight in steps of at most "
+                                                : "fluid.spacing: in " + roughNumber(std::max({room[0], room[1], room[2]})) +
+                                                      " m of room its particles bear the fluid's weight in steps of at most ";
   return Error{ErrorKind::BadInput, (scene.file.empty() ? "" : scene.file.string() + ": ") + key + roughNumber(p.maxStep) +
                                         " s, in which the rounding of positions alone is " + roughNumber(least * p.pushLow / p.maxStep) +
                                         " m/s; expected steps of " + roughNumber(least) + " s or more"};
@@ -431,7 +433,11 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   setCalming(scene, kernel, setup);
   setGravity(scene, setup);
   setSpeeds(scene, start, p);
-  const double head = setup.near ? headOf(scene, extent) : 0;  // what nothing can hold bears no column
+  // What nothing can hold may be drops far apart: no column is higher than one drop of all of it.
+  double height[3];
+  for (int a = 0; a < 3; ++a)
+    height[a] = setup.near ? extent[a] : std::min(extent[a], 1.5 * std::cbrt(static_cast<double>(count)) * scene.fluid.spacing);
+  const double head = headOf(scene, height);
   setGains(scene, head, setup);
   setLongestStep(scene, kernel, head, setup);
   setStartPressure(scene, kernel, head, setup);

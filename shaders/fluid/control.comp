@@ -42,7 +42,7 @@ void main() {
     c.step = 0.0;
     c.calming = 0.0;
     setGains(c);
-    if (c.settling == 0u && error <= params.pressError) {
+    if (c.settling == 0u && params.pressings > 0u && error <= params.pressError) {
       c.pressing = params.pressings;
       c.nextStep = c.warmStep = params.pressStep;
     }

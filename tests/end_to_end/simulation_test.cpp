@@ -109,6 +109,26 @@ TEST(Simulation, AFillThatDoesNotFitStartsWithoutABang) {
   EXPECT_LT(after->kinetic_J + after->potential_J, 1.02 * before->potential_J) << "it rises by what was too dense";
 }
 
+// Nothing holds them: how far they are apart changes neither their steps nor their fall.
+TEST(Simulation, DropsFarApartFallAsOneDoes) {
+  const auto fall = [](const std::string& fills) {
+    auto scene = parseScene(R"({"rill": "0.1", "fluid": {"spacing": 0.02}, "fill": [)" + fills + "]}", "drops", ".");
+    EXPECT_TRUE(scene);
+    const auto simulation = open({}, *scene);
+    if (!simulation) return offline::Stats{};
+    EXPECT_TRUE(simulation->advance(0.1));
+    const auto stats = simulation->stats();
+    EXPECT_TRUE(stats);
+    return stats ? *stats : offline::Stats{};
+  };
+  const std::string drop = R"({"sphere": {"center": [0, 0, 0], "radius": 0.1}})";
+  const auto one = fall(drop), two = fall(drop + R"(, {"sphere": {"center": [0, 300, 0], "radius": 0.1}})");
+  EXPECT_EQ(two.particles, 2 * one.particles);
+  EXPECT_EQ(two.time_dropped_s, 0);
+  EXPECT_LT(two.substeps, 1.5 * one.substeps) << "one drop of all of it is a quarter higher";
+  EXPECT_NEAR(two.max_speed, 0.981, 0.01);
+}
+
 TEST(Simulation, LongAdvancesAreMadeOfFrames) {
   Options frames;
   frames.longestFrame_s = 1.0 / 60;

@@ -117,6 +117,13 @@ TEST_F(BoundsTest, StepsTooShortForFloatsAreRefused) {
   const auto viscous = makeFluidSetup(scene, {.count = 360, .extent = {0.3, 0.6, 0.3}});
   ASSERT_FALSE(viscous);
   EXPECT_TRUE(viscous.error().message.starts_with("fluid.viscosity: 1e+09 Pa s needs steps of at most ")) << viscous.error().message;
+
+  scene = {};
+  scene.fluid.spacing = 0.01;
+  EXPECT_TRUE(makeFluidSetup(scene, {.count = 8000, .extent = {500, 0.2, 0.2}})) << "two drops far apart";
+  const auto wide = makeFluidSetup(scene, {.count = 8000, .extent = {5000, 0.2, 0.2}});
+  ASSERT_FALSE(wide) << "so far that floats hardly tell places apart";
+  EXPECT_TRUE(wide.error().message.starts_with("fluid.spacing: in 1e+04 m of room ")) << wide.error().message;
 }
 
 }  // namespace
