@@ -22,7 +22,7 @@ test  clang                   clang (public headers are compiled by it, too)
 test  libgtest-dev            GoogleTest
 test  libvulkan-volk-dev      volk (a host of the tests calls Vulkan through it)
 test  pkgconf                 pkg-config (a host of the tests is built with it)
-test  glslang-dev             glslang (library: the debug preset reloads shaders)
+test  glslang-dev             glslang (library: development builds and a test reload shaders)
 test  binutils                binutils (nm)
 test  ffmpeg                  ffmpeg with libx264, and ffprobe (the videos of rill-capture)
 test  gnuplot-nox             gnuplot (the diagrams of rill-bench)
