@@ -74,7 +74,7 @@ double Record::droppedSeconds() const {
   return dropped;
 }
 
-double Record::simulatedSeconds() const { return frames_.empty() ? 0 : frames_.back().time_s - start_s_ - droppedSeconds(); }
+double Record::simulatedSeconds() const { return frames_.empty() ? 0 : std::max(0.0, frames_.back().time_s - start_s_ - droppedSeconds()); }
 
 std::vector<std::string> Record::figureNames(const Scene& scene) {
   Record empty(scene, {}, {});
@@ -187,11 +187,12 @@ std::vector<std::string> Record::warnings() const {
   const offline::Stats& last = frames_.back().stats;
   if (const double dropped = droppedSeconds(); dropped > 0)
     warnings.push_back("warning: " + roughNumber(dropped) + " s of " + roughNumber(simulatedSeconds() + dropped) +
-                       " s were dropped: solver.max_substeps of " + std::to_string(scene_->solver.max_substeps) +
-                       " are fewer than the speed, the tolerance or the viscosity asks for");
+                       " s were dropped: " + std::to_string(scene_->solver.max_substeps) +
+                       " steps an advance (solver.max_substeps) were too few, each as short as the fluid's speed, weight or viscosity or "
+                       "solver.time_step asks for");
   if (last.loop_bound_hits > 0)
     warnings.push_back("warning: loops over neighbours ran into their bound " + grouped(last.loop_bound_hits) +
-                       " times: there are more particles in one place than a walk looks at");
+                       " times since the start: there are more particles in one place than a walk looks at");
   if (last.non_finite > 0)
     warnings.push_back("warning: " + grouped(last.non_finite) + (last.non_finite == 1 ? " particle is" : " particles are") +
                        " set aside: their positions or velocities were not finite");

@@ -189,6 +189,8 @@ void setCalming(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& s
                                                                              : "fluid.viscosity is larger";
 }
 
+double widest(const double room[3]) { return std::max({room[0], room[1], room[2]}); }
+
 // Gravity times the height of a column of all the fluid there is, m^2/s^2.
 double headOf(const Scene& scene, const double extent[3]) {
   double head = 0;
@@ -292,7 +294,7 @@ void setLongestStep(const Scene& scene, const SmoothingKernel& kernel, double he
 
 // The start's pressure is found for the longest step in which the defaults bear the fluid: in shorter ones the rounding of positions hides
 // it, in longer ones the column folds. Where no pressure is carried from substep to substep, or nothing holds the fluid up, there is none.
-void setStartPressure(const Scene& scene, const SmoothingKernel& kernel, double head, FluidSetup& setup) {
+void setStartPressure(const Scene& scene, const SmoothingKernel& kernel, double head, const double room[3], FluidSetup& setup) {
   FluidParams& p = setup.params;
   if (head <= 0 || !setup.near || p.roughWarmGain < f(kLeastFollowing)) return;
   const StartPressure start = startPressure(kernel, p.calmRelaxation, regularization(scene), layersOf(scene, head), kMostPressings);
@@ -302,13 +304,15 @@ void setStartPressure(const Scene& scene, const SmoothingKernel& kernel, double 
   // A compression e of a column as high as all the fluid would be released within a step, at e times its height over that step: at most a
   // twentieth of what falling through a spacing gives.
   const double g = strongestGravity(scene);
-  p.pressError = f(0.05 * std::sqrt(g * scene.fluid.spacing) * p.pressStep * g / head);
+  const double bearable = 0.05 * std::sqrt(g * scene.fluid.spacing) * p.pressStep * g / head;
+  p.pressError =
+      f(std::max({bearable, 2.0e-6, 0x1p-24 * widest(room) / scene.fluid.spacing}));  // not below what rounding leaves of any start
 }
 
 // In a shorter step the rounding of positions, which are floats, is more speed than a correction may always add.
 double shortestStep(const double room[3], const FluidParams& p) {
   constexpr double kHalfUlp = 0x1p-24;
-  return p.pushLow > 0 ? kHalfUlp * std::max({room[0], room[1], room[2]}) / p.pushLow : 0;
+  return p.pushLow > 0 ? kHalfUlp * widest(room) / p.pushLow : 0;
 }
 
 Expected<void> checkSteps(const Scene& scene, const double room[3], const FluidSetup& setup) {
@@ -317,11 +321,10 @@ Expected<void> checkSteps(const Scene& scene, const double room[3], const FluidS
   if (p.maxStep >= least) return {};
   const bool asked = scene.solver.time_step.value_or(least) < least;
   const bool viscous = setup.viscositySweeps > 0 && p.viscosityRate * least > setup.viscositySweeps;
-  const std::string key = asked                 ? "solver.time_step: steps of "
-                          : viscous             ? "fluid.viscosity: " + roughNumber(scene.fluid.viscosity) + " Pa s needs steps of at most "
-                          : softness(scene) > 1 ? "solver: relaxation and regularization hold this fluid's weight in steps of at most "
-                                                : "fluid.spacing: in " + roughNumber(std::max({room[0], room[1], room[2]})) +
-                                                      " m of room its particles bear the fluid's weight in steps of at most ";
+  const std::string key = asked     ? "solver.time_step: steps of "
+                          : viscous ? "fluid.viscosity: " + roughNumber(scene.fluid.viscosity) + " Pa s needs steps of at most "
+                                    : "solver: in " + roughNumber(widest(room)) +
+                                          " m of room this fluid, with its relaxation and regularization, takes steps of at most ";
   return Error{ErrorKind::BadInput, (scene.file.empty() ? "" : scene.file.string() + ": ") + key + roughNumber(p.maxStep) +
                                         " s, in which the rounding of positions alone is " + roughNumber(least * p.pushLow / p.maxStep) +
                                         " m/s; expected steps of " + roughNumber(least) + " s or more"};
@@ -433,6 +436,8 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   setCalming(scene, kernel, setup);
   setGravity(scene, setup);
   setSpeeds(scene, start, p);
+  double room[3];
+  for (int a = 0; a < 3; ++a) room[a] = scene.domain ? scene.domain->max[a] - scene.domain->min[a] : 2 * extent[a];
   // What nothing can hold may be drops far apart: no column is higher than one drop of all of it.
   double height[3];
   for (int a = 0; a < 3; ++a)
@@ -440,11 +445,9 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   const double head = headOf(scene, height);
   setGains(scene, head, setup);
   setLongestStep(scene, kernel, head, setup);
-  setStartPressure(scene, kernel, head, setup);
+  setStartPressure(scene, kernel, head, room, setup);
   setup.firstStep = firstStep(scene, kernel, head, p);
 
-  double room[3];
-  for (int a = 0; a < 3; ++a) room[a] = scene.domain ? scene.domain->max[a] - scene.domain->min[a] : 2 * extent[a];
   if (auto able = checkSteps(scene, room, setup); !able) return able.error();
   setup.grid = chooseGridSize(p.reach, room, count);
   p.gridSizeX = setup.grid.size[0];

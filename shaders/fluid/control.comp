@@ -37,7 +37,8 @@ void main() {
     float enough = params.tolerance > 0.0 ? min(params.tolerance, 0.001) : 0.001;
     // What is left becomes speed in the first step: a small part of what a correction may always add. Rounding leaves 1e-6.
     if (params.pushLow > 0.0) enough = min(enough, max(0.05 * params.pushLow * c.nextStep / params.spacing, 2.0e-6));
-    bool apart = error <= 0.5 * enough && uintBitsToFloat(s.errorMax) <= 20.0 * enough;
+    float rest = params.pressings > 0u ? min(0.5 * enough, params.pressError) : 0.5 * enough;  // so that the start's pressure may be looked for
+    bool apart = error <= rest && uintBitsToFloat(s.errorMax) <= 20.0 * enough;
     c.settling = apart ? 0u : c.settling - 1u;
     c.step = 0.0;
     c.calming = 0.0;

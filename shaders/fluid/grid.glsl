@@ -12,7 +12,7 @@ const float kFarthestCell = 8388608.0;  // from there on a float knows no halves
 // In cells.
 vec3 scaledPosition(vec3 x) { return clamp(x * inverseCell, -kFarthestCell, kFarthestCell); }
 
-// Whole `cell`, at most a few beyond the farthest, modulo the grid's size. In floats, which lavapipe divides eight at a time; exact: only the quotient may be
+// Whole `cell`, at most a few beyond the farthest, modulo the grid's size. In floats, of which lavapipe takes eight at a time; exact: only the quotient may be
 // off, by one.
 vec3 wrapped(vec3 cell) {
   vec3 rest = cell - gridSize * floor(cell * inverseGridSize);

@@ -25,7 +25,7 @@ void rowRange(float low, float high, vec2 row, vec4 gaps, float reach, uint side
   }
   if (part == 1u && past <= gridSize.x) return;
   uint base = cellKey(vec3(0.0, cell.yz)), size = uint(gridSize.x);
-  begin = cellStartAt(base + (part == 0u ? min(uint(cell.x), size) : 0u));
+  begin = cellStartAt(base + (part == 0u ? min(uint(cell.x), size) : 0u));  // at most: of NaN, too
   end = cellStartAt(base + min(uint(part == 0u ? past : past - gridSize.x), size));
 }
 

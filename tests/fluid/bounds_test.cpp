@@ -123,7 +123,7 @@ TEST_F(BoundsTest, StepsTooShortForFloatsAreRefused) {
   EXPECT_TRUE(makeFluidSetup(scene, {.count = 8000, .extent = {500, 0.2, 0.2}})) << "two drops far apart";
   const auto wide = makeFluidSetup(scene, {.count = 8000, .extent = {5000, 0.2, 0.2}});
   ASSERT_FALSE(wide) << "so far that floats hardly tell places apart";
-  EXPECT_TRUE(wide.error().message.starts_with("fluid.spacing: in 1e+04 m of room ")) << wide.error().message;
+  EXPECT_TRUE(wide.error().message.starts_with("solver: in 1e+04 m of room this fluid")) << wide.error().message;
 }
 
 }  // namespace

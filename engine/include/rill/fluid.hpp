@@ -50,8 +50,9 @@ struct FluidDesc {
   const ParticleSet* particles = nullptr;
   const FluidSnapshot* snapshot = nullptr;  ///< go on from it; of a fluid of the same scene and particles. BadInput where it is none
   /// Before the first substep in time: part particles that overlap at the start (positions move, speeds do not), then find the pressure
-  /// that bears the fluid's weight. That takes recorded substeps: 1 to 64, and about 3 for each layer of particles, at most 1,024. Where
-  /// the first frames record fewer, the fluid stands still in them and their time is dropped (FluidProgress::time_dropped_s).
+  /// that bears the fluid's weight, unless they still overlap. That takes recorded substeps: one where nobody overlaps and at most 512
+  /// where some do, and about 3 for each layer of particles, at most 1,024. Where the first frames record fewer, the fluid stands still in
+  /// them and their time is dropped (FluidProgress::time_dropped_s).
   bool settle = true;
   bool storageReads =
       false;  ///< read arrays through storage buffers even where texel buffers would hold enough (slower on most CPU drivers)
