@@ -24,13 +24,13 @@ class Record {
   /// In the order of figureNames(). Figures of the density error leave out the first tenth of the frames.
   std::vector<Figure> figures() const;
 
-  /// What the run left out: time, neighbours, particles, parts of pictures. A line each.
+  /// What the run left out: time, loops at their bound, particles, parts of pictures. A line each.
   std::vector<std::string> warnings() const;
 
   /// One JSON object, ended by a line feed; what is not finite is null.
   std::string json() const;
 
-  /// A table of passes: runs and milliseconds over all frames, or why a pass was skipped.
+  /// A table of passes: how often each was recorded and milliseconds over all frames, or why a pass was skipped.
   std::string passTable() const;
 
  private:
