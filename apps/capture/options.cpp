@@ -85,7 +85,8 @@ void declare(CLI::App& app, Raw& raw) {
       ->group(run);
   once("--device", raw.device, "part of a device's name, or its index", "NAME", run);
   list("--require", raw.require, "exit with 3 unless it holds, as 'outside<1'", "FIGURE<NUMBER", run);
-  app.add_flag("--explain", raw.explain, "list each pass: how often it was recorded and its time, or why it was skipped")->group(run);
+  app.add_flag("--explain", raw.explain, "list each pass: how often it was recorded and ran, and its time, or why it was skipped")
+      ->group(run);
   app.add_flag("--quiet", raw.quiet, "print nothing but errors")->group(run);
   app.set_help_flag("-h,--help", "show this text")->group(run);
   app.set_version_flag("--version", std::string("rill-capture ") + RILL_VERSION, "show the version")->group(run);

@@ -162,23 +162,21 @@ std::string Record::json() const {
 std::string Record::passTable() const {
   std::vector<offline::PassTime> passes;
   std::vector<offline::SkippedPass> skipped;
-  uint64_t substeps = 0, builds = 0;
   for (const apps::Instant& frame : frames_) {
     for (const offline::PassTime& pass : frame.stats.pass_ms) {
       auto found = std::ranges::find(passes, pass.name, &offline::PassTime::name);
       if (found == passes.end()) found = passes.insert(passes.end(), {pass.name});
       found->ms += pass.ms;
       found->runs += pass.runs;
+      found->ran += pass.ran;
     }
-    substeps += frame.stats.substeps;
-    builds += frame.stats.list_builds;
   }
   for (const apps::Instant& frame : frames_)
     for (const offline::SkippedPass& skip : frame.stats.skipped)
       if (std::ranges::find(passes, skip.first, &offline::PassTime::name) == passes.end() &&
           std::ranges::find(skipped, skip.first, &offline::SkippedPass::first) == skipped.end())
         skipped.push_back(skip);
-  return offline::passTable(passes, skipped, substeps, builds);
+  return offline::passTable(passes, skipped);
 }
 
 std::vector<std::string> Record::warnings() const {

@@ -30,7 +30,7 @@ class Record {
   /// One JSON object, ended by a line feed; what is not finite is null.
   std::string json() const;
 
-  /// A table of passes: how often each was recorded and milliseconds over all frames, or why a pass was skipped.
+  /// A table of passes: how often each was recorded and ran, and milliseconds over all frames, or why a pass was skipped.
   std::string passTable() const;
 
  private:

@@ -52,6 +52,7 @@ Expected<void> Runner::piece(double budget_s) {
   if (auto ran = run(graph_, [&](Graph& graph) { static_cast<void>(fluid_->addTo(graph, part)); }); !ran) return ran;
   log_.add(graph_.report(), true);
   log_.add(graph_.timings());
+  log_.add(fluid_->passRuns(), graph_.report());
 
   const double seconds = std::chrono::duration<double>(Now::now() - before).count();
   const FluidProgress& progress = fluid_->progress();

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <utility>
 
 #include "fluid/fluid_impl.hpp"
 #include "graph/graph_impl.hpp"
@@ -18,6 +19,28 @@ bool read(std::span<const std::byte> bytes, Record& record) {
 
 }  // namespace
 
+std::vector<FluidPassRuns> FluidImpl::passRuns() const {
+  const Recorded& recorded = recordedLast_;
+  const uint32_t substeps = ran_.substeps - ranBefore_.substeps, iterations = ran_.iterations - ranBefore_.iterations,
+                 builds = ran_.builds - ranBefore_.builds, calms = ran_.calms - ranBefore_.calms;
+  const uint32_t measures = recorded.sorts - recorded.rebuilds;
+  const uint32_t further = setup.params.iterations - 1;
+  const bool keeps = setup.viscositySweeps % 2 == 1, calm = setup.params.calmingRate > 0;
+  std::vector<FluidPassRuns> all;
+  const auto add = [&](uint32_t ran, uint32_t of, std::initializer_list<std::string_view> names) {
+    for (std::string_view name : names)
+      if (of > 0) all.push_back({name, ran, of});
+  };
+  add(builds, recorded.rebuilds, {"keys", "reorder", "build list"});
+  add(builds + measures, recorded.sorts, {"sort/"});
+  add(iterations, recorded.substeps * setup.params.iterations, {"walls and solids", "density"});
+  add(iterations - substeps, recorded.substeps * further, {"iterate"});
+  add(substeps, recorded.substeps, {"move solids", "correct", "collide", "collide again", "viscosity", "curl", "confine"});
+  add(calms, calm ? recorded.blocks : 0, {"calm"});
+  add((keeps ? substeps : 0) + calms, (keeps ? recorded.substeps : 0) + (calm ? recorded.blocks : 0), {"keep velocities"});
+  return all;
+}
+
 void FluidImpl::poll() const {
   while (!pending_.empty()) {
     FluidControl control;
@@ -33,6 +56,8 @@ void FluidImpl::poll() const {
       if (given_up->uploads) staging_.reset();
     pending_.erase(pending_.begin(), next);
     const Pending& pending = pending_.front();
+    ranBefore_ = std::exchange(ran_, {control.ranSubsteps, control.ranIterations, control.ranBuilds, control.ranCalms});
+    recordedLast_ = pending.recorded;
     progress = {.known = true,
                 .time_s = double{control.timeHigh} + control.timeLow,
                 .time_left_s = control.timeLeft,

@@ -50,9 +50,10 @@ Expected<void> checkGiven(const FluidDesc& desc) {
 
 FluidMemory fluidMemory(const Scene& scene, uint64_t particles) {
   FluidMemory memory;
-  // position, velocity, prediction, push, work and near sample; warm, id, count, cell, order, near list; and while sorting: three vec4, a
-  // key.
-  uint64_t each = 6 * 16 + 6 * 4 + (3 * 16 + 4);
+  // position, velocity, prediction, push, work and near sample; warm, id, count, cell, near list; and while sorting: three vec4, a key,
+  // where keys have arrived, and the order of full cells.
+  uint64_t each = 6 * 16 + 5 * 4 + (3 * 16 + 3 * 4);
+  if (!startsWarm(scene)) each -= 16 + 4;
   if (scene.solver.iterations > 1) each += 4;
   if (scene.fluid.viscosity > 0 || scene.fluid.vorticity > 0) each += 2 * 16;
   if (!scene.solids.empty()) each += 16;
@@ -135,7 +136,8 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
       std::max({more, uint64_t{chunk} * p.listCapacity / 4, paddedWords(setup.grid.cells() + 1), uint64_t{setup.tables.size() / 4}});
   texel_ = !storageReads && device.info().maxTexelBufferElements >= mostTexels;
 
-  auto sort = KeySort::create(device, {.count = count, .keyRange = setup.grid.cells(), .start = true, .storageReads = storageReads});
+  auto sort = KeySort::create(
+      device, {.count = count, .keyRange = setup.grid.cells(), .start = true, .storageReads = storageReads, .openEnds = true});
   if (!sort) return sort.error();
   sort_ = std::move(*sort);
 
@@ -158,14 +160,13 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
       {&buffers_.position, "positions", more * 16},
       {&buffers_.velocity, "velocities", more * 16},
       {&buffers_.prediction, "predictions", more * 16},
-      {&buffers_.pushAway, "warm pushes", n * 16},
+      {&buffers_.pushAway, "warm pushes", unless(setup.warm, n * 16)},
       {&buffers_.work, "multipliers", more * 16},
-      {&buffers_.warm, "warm starts", n * 4},
+      {&buffers_.warm, "warm starts", unless(setup.warm, n * 4)},
       {&buffers_.id, "ids", n * 4},
       {&buffers_.multiplier, "iteration multipliers", unless(p.iterations > 1, n * 4)},
-      {&buffers_.neighbourCount, "neighbour counts", n * 4},
+      {&buffers_.neighbourCount, "neighbour counts", unless(p.listCapacity > 0, n * 4)},
       {&buffers_.cell, "cells", n * 4},
-      {&buffers_.order, "sorted order", n * 4},
       {&buffers_.start, "cell starts", paddedWords(setup.grid.cells() + 1) * 4},
       {&buffers_.nearSample, "wall samples", unless(setup.near, n * 16)},
       {&buffers_.nearList, "particles near walls", unless(setup.near, n * 4)},
@@ -188,7 +189,7 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
 Expected<void> FluidImpl::makePipelines(Device& device) {
   using enum BindingKind;
   const FluidParams& p = setup.params;
-  const uint32_t kernel = setup.kernel, capacity = p.listCapacity, nearWalls = setup.near;
+  const uint32_t kernel = setup.kernel, capacity = p.listCapacity, nearWalls = setup.near, warm = setup.warm;
   // Particles that walk the grid together are a subgroup, of which the shader knows that it is whole.
   const uint32_t whole = std::min(device.info().subgroupSize, kFluidGroup), cluster = std::min(whole, kMostCluster);
   Expected<void> result;
@@ -226,37 +227,40 @@ Expected<void> FluidImpl::makePipelines(Device& device) {
   make(pipes_.begin, "fluid/begin", plain(1, 5), sizeof(BeginPush));
   make(pipes_.control, "fluid/control", plain(1, 5), sizeof(ControlPush));
   make(pipes_.arm, "fluid/arm", plain(1, 5), 0);
-  make(pipes_.predict, reading("fluid/predict"), {Uniform, Uniform, vectors, vectors, vectors, Storage, Storage}, 0);
-  make(pipes_.keys, reading("fluid/keys"), {Uniform, Uniform, vectors, Storage, Storage}, 0);
+  make(pipes_.predict, reading("fluid/predict"), {Uniform, Uniform, vectors, vectors, vectors, Storage, Storage}, 0, {warm});
+  const uint32_t counts = sort_->method() == SortMethod::Counting, oversized = count > kBinLimit;
+  const std::vector<BindingKind> keyed{Uniform, Uniform, vectors, Storage, Storage, Storage, Storage, Storage};
+  make(pipes_.keys, reading("fluid/keys"), keyed, 0, {oversized, counts, 1});
+  make(pipes_.measureKeys, reading("fluid/keys"), keyed, 0, {oversized, counts, 0});
   make(pipes_.reorder, reading("fluid/reorder"),
-       {Uniform, Uniform, words, vectors, vectors, vectors, words, words, Storage, Storage, Storage}, 0);
+       {Uniform, Uniform, words, words, words, words, vectors, vectors, vectors, words, words, Storage, Storage, Storage}, 0, {warm});
   std::vector<BindingKind> building = plain(2, 16);
   building[2] = building[8] = building[9] = vectors;
   building[6] = words;
-  make(pipes_.build, reading("fluid/build"), building, sizeof(ChunkPush), {0, cluster, capacity, nearWalls}, whole);
+  make(pipes_.build, reading("fluid/build"), building, sizeof(ChunkPush), {0, cluster, capacity, nearWalls, warm}, whole);
   if (setup.near) {
     const std::vector<BindingKind> bindings{Uniform, Uniform, vectors, words, Storage, vectors, Storage, Storage};
     make(pipes_.walls.plane, reading("fluid/walls"), bindings, 0, {0, 0, 1});
     make(pipes_.walls.corner, reading("fluid/walls"), bindings, 0, {1, p.solidCount > 0, setup.thin ? 2u : 1u});
   }
-  if (p.solidCount > 0) make(pipes_.collide, "fluid/collide", plain(2, 11), 0, {0});
+  if (p.solidCount > 0) make(pipes_.collide, "fluid/collide", plain(2, 11), 0, {0, warm});
   const bool smooths = setup.viscositySweeps > 0 || p.calmingRate > 0;
-  if (p.solidCount > 0 && (smooths || p.vorticity > 0)) make(pipes_.collideAgain, "fluid/collide", plain(2, 11), 0, {1});
+  if (p.solidCount > 0 && (smooths || p.vorticity > 0)) make(pipes_.collideAgain, "fluid/collide", plain(2, 11), 0, {1, warm});
   if (setup.movingSolids) make(pipes_.pose, "fluid/pose", plain(2, 2), 0);
-  gather(pipes_.density, "fluid/density", {Storage, Storage, vectors, Storage}, sizeof(ChunkPush), {nearWalls, p.iterations > 1});
+  gather(pipes_.density, "fluid/density", {Storage, Storage, vectors, Storage}, sizeof(ChunkPush), {nearWalls, p.iterations > 1, warm});
   gather(pipes_.correct, "fluid/correct", {Storage, Storage, vectors, Storage, Storage, Storage, Storage}, sizeof(ChunkPush),
-         {nearWalls, p.tensile > 0, p.solidCount > 0});
+         {nearWalls, p.tensile > 0, p.solidCount > 0, warm});
   if (p.iterations > 1) gather(pipes_.iterate, "fluid/iterate", {Storage, vectors}, sizeof(ChunkPush), {nearWalls, p.tensile > 0});
-  if (smooths) gather(pipes_.viscosity, "fluid/viscosity", {vectors, Storage, Storage, vectors, vectors}, sizeof(SweepPush));
+  if (smooths) gather(pipes_.viscosity, "fluid/viscosity", {vectors, Storage, Storage, vectors, vectors}, sizeof(SweepPush), {warm});
   if (setup.viscositySweeps % 2 == 1 || p.calmingRate > 0) make(pipes_.keep, "fluid/keep", plain(2, 2), sizeof(ChunkPush));
   if (p.vorticity > 0) {
     gather(pipes_.curl, "fluid/curl", {vectors, Storage}, sizeof(ChunkPush));
-    gather(pipes_.confine, "fluid/confine", {vectors, Storage, Storage, vectors, vectors}, sizeof(ChunkPush));
+    gather(pipes_.confine, "fluid/confine", {vectors, Storage, Storage, vectors, vectors}, sizeof(ChunkPush), {warm});
   }
-  make(pipes_.measureKeys, "fluid/measure_keys", plain(2, 2), 0);
-  make(pipes_.measureOrder, reading("fluid/measure_order"), {Uniform, Uniform, words, vectors, Storage}, 0);
-  make(pipes_.measure, reading("fluid/measure"), {Uniform, Uniform, vectors, words, vectors, Storage, Storage, Storage, Storage}, 0,
+  make(pipes_.measureOrder, reading("fluid/measure_order"), {Uniform, Uniform, words, words, words, words, vectors, Storage}, 0);
+  make(pipes_.measure, reading("fluid/measure"), {Uniform, Uniform, vectors, words, vectors, Storage, Storage, Storage}, 0,
        {kernel, cluster, nearWalls}, whole);
+  make(pipes_.measureSums, reading("fluid/measure_sums"), {Uniform, Uniform, vectors, vectors, Storage}, 0);
   make(pipes_.reduce, "fluid/measure_reduce", plain(2, 3), 0);
   return result;
 }
@@ -282,6 +286,11 @@ std::optional<FluidStats> Fluid::stats() const {
 const FluidProgress& Fluid::progress() const {
   impl_->poll();
   return impl_->progress;
+}
+
+std::vector<FluidPassRuns> Fluid::passRuns() const {
+  impl_->poll();
+  return impl_->passRuns();
 }
 
 std::array<double, 3> Fluid::drivenCentre(uint32_t solid) const {

@@ -25,7 +25,7 @@ struct FluidBuffers {
   Buffer params, control, sums, shapes, commands, gravity, tables, solids, keyframes;
   Buffer position, velocity, prediction, pushAway, work, warm, id;  // vec4 each but the last two
   Buffer multiplier;                                                // where there are several iterations
-  Buffer neighbourCount, cell, order, start, nearSample, nearList;
+  Buffer neighbourCount, cell, start, nearSample, nearList;
   std::vector<Buffer> lists;
 };
 
@@ -46,14 +46,14 @@ struct FluidPipelines {
   WallPipelines walls;
   GatherPipelines density, correct, iterate, viscosity, curl, confine;
   const ComputePipeline* keep = nullptr;
-  const ComputePipeline *measureKeys = nullptr, *measureOrder = nullptr, *measure = nullptr, *reduce = nullptr;
+  const ComputePipeline *measureKeys = nullptr, *measureOrder = nullptr, *measure = nullptr, *measureSums = nullptr, *reduce = nullptr;
 };
 
 /// One frame's versions of the buffers.
 struct FluidRefs {
   BufferRef params, control, sums, shapes, commands, gravity, tables, solids, keyframes;
   BufferRef position, velocity, prediction, pushAway, work, warm, id, multiplier;
-  BufferRef neighbourCount, cell, order, start, nearSample, nearList;
+  BufferRef neighbourCount, cell, start, nearSample, nearList;
   std::array<BufferRef, kMaxListChunks> lists;
 };
 
@@ -69,6 +69,7 @@ class FluidImpl {
   FluidState addTo(Graph& graph, const FluidStep& step);
   FluidState present(Graph& graph) const;
   void poll() const;
+  std::vector<FluidPassRuns> passRuns() const;
   const FluidRefs& refs() const { return r_; }  ///< of the step declared last
   std::span<const Chunk> chunks() const { return chunks_; }
   const FluidBuffers& buffers() const { return buffers_; }
@@ -82,11 +83,22 @@ class FluidImpl {
   mutable FluidProgress progress;
 
  private:
+  /// What a frame recorded of what the device switches on and off.
+  struct Recorded {
+    uint32_t substeps = 0, blocks = 0, rebuilds = 0, sorts = 0;  ///< sorts: with those of figures, which always run
+  };
+
+  /// What the device had run at a frame's end, since the start.
+  struct Ran {
+    uint32_t substeps = 0, iterations = 0, builds = 0, calms = 0;
+  };
+
   struct Pending {
     std::weak_ptr<GraphImpl> graph;
     Ticket control, sums, measure;
     bool measured;
     bool uploads;  ///< the start state has been copied once this frame has finished
+    Recorded recorded;
   };
 
   /// An advance that moves driven solids, and where they were before it.
@@ -110,6 +122,7 @@ class FluidImpl {
   void declareDrive(Graph& graph, const FluidStep& step);
   void forgetAbandoned();  ///< what has been declared in frames that were given up
   void declareBegin(Graph& graph, double advance);
+  Kernel keysKernel(Pass& pass, const ComputePipeline* pipeline, BufferRef places, BufferRef& keys, KeyCounters& counters);
   void declareRebuild(Graph& graph);
   void declareSubstep(Graph& graph, uint32_t parity, bool first);  ///< first of its block
   void declareCollide(Graph& graph, std::string_view name, const ComputePipeline* pipeline, BufferRef free, uint32_t parity);
@@ -135,7 +148,10 @@ class FluidImpl {
   uint32_t recorded_ = 0;                // substeps recorded since the start: parity of the next
   double emptyTime_ = 0;                 // simulated time of a fluid without particles, s
   mutable std::deque<Pending> pending_;
-  std::deque<Drive> drives_;  // those that the device has not finished
+  Recorded recording_;             // by the frame being declared
+  mutable Recorded recordedLast_;  // by the last finished frame
+  mutable Ran ran_, ranBefore_;    // at its end, and at that of the one before
+  std::deque<Drive> drives_;       // those that the device has not finished
   uint64_t driveCount_ = 0;
 };
 

@@ -3,8 +3,8 @@
 
 namespace rill {
 
-// A pass over all particles. Its shader binds, after the two uniform blocks, what is read, what is written anew and what is changed.
-static void plainPass(Graph& graph, FluidRefs& r, Use read, std::string_view name, const ComputePipeline* pipeline, uint32_t count,
+// `groups` workgroups. The shader binds, after the two uniform blocks, what is read, what is written anew and what is changed.
+static void plainPass(Graph& graph, FluidRefs& r, Use read, std::string_view name, const ComputePipeline* pipeline, uint64_t groups,
                       std::initializer_list<BufferRef> reads, std::initializer_list<BufferRef*> writes,
                       std::initializer_list<BufferRef*> changes = {}) {
   graph.pass(name, [&](Pass& pass) {
@@ -25,14 +25,14 @@ static void plainPass(Graph& graph, FluidRefs& r, Use read, std::string_view nam
       bindings.add({*ref});
     }
     const Kernel kernel = pass.kernel(pipeline, bindings.span());
-    return [=, groups = divideUp(count, kFluidGroup)](Commands& commands) { commands.dispatch(kernel, groups); };
+    return [=](Commands& commands) { commands.dispatch(kernel, groups); };
   });
 }
 
 void FluidImpl::declareMeasure(Graph& graph, Pending& pending) {
   const Use read = readUse(texel_);
   if (setup.near) { wallPass(graph, r_, read, "measure walls", pipes_.walls, r_.position, kCommandMeasurePlane, kCommandMeasureCorner); }
-  BufferRef partials = graph.create("partial sums", {divideUp(count, kMeasureGroup) * sizeof(MeasurePartial)});
+  BufferRef partials = graph.create("partial sums", {kMeasurePartials * sizeof(MeasurePartial)});
   BufferRef histogram = graph.create("error histogram", {3 * kMeasureBins * 4});
   graph.pass("clear histogram", [&](Pass& pass) {
     histogram = pass.write(histogram, Use::CopyTarget, true);
@@ -40,11 +40,22 @@ void FluidImpl::declareMeasure(Graph& graph, Pending& pending) {
   });
   BufferRef keys = graph.create("position keys", {uint64_t{count} * 4}),
             ordered = graph.create("ordered positions", {uint64_t{count} * 16});
-  plainPass(graph, r_, Use::ComputeRead, "measure keys", pipes_.measureKeys, count, {r_.position}, {&keys});
-  const SortedKeys sorted = sort_->addTo(graph, keys);
-  plainPass(graph, r_, read, "measure order", pipes_.measureOrder, count, {sorted.order, r_.position}, {&ordered});
-  plainPass(graph, r_, read, "measure", pipes_.measure, count, {ordered, sorted.start, r_.nearSample}, {&partials},
+  const uint64_t all = divideUp(count, kFluidGroup);
+  ++recording_.sorts;
+  KeyCounters counters = sort_->begin(graph);
+  graph.pass("measure keys", [&](Pass& pass) {
+    pass.read(r_.params, Use::ComputeUniform);
+    pass.read(r_.control, Use::ComputeUniform);
+    pass.read(r_.sums, Use::ComputeRead);
+    const Kernel kernel = keysKernel(pass, pipes_.measureKeys, r_.position, keys, counters);
+    return [=](Commands& commands) { commands.dispatch(kernel, all); };
+  });
+  const SortedKeys sorted = sort_->finish(graph, keys, counters);
+  plainPass(graph, r_, read, "measure order", pipes_.measureOrder, all, {keys, sorted.start, sorted.arrived, sorted.order, r_.position},
+            {&ordered});
+  plainPass(graph, r_, read, "measure", pipes_.measure, all, {ordered, sorted.start, r_.nearSample}, {},
             {&r_.sums, &histogram, &r_.velocity});
+  plainPass(graph, r_, read, "measure sums", pipes_.measureSums, kMeasurePartials, {r_.position, r_.velocity}, {&partials});
   BufferRef result = graph.create("figures", {sizeof(MeasureResult)});
   graph.pass("reduce", [&](Pass& pass) {
     pass.read(r_.params, Use::ComputeUniform);

@@ -34,7 +34,6 @@ void FluidImpl::importAll(Graph& graph) {
   r_.multiplier = import("iteration multipliers", buffers_.multiplier);
   r_.neighbourCount = import("neighbour counts", buffers_.neighbourCount);
   r_.cell = import("cells", buffers_.cell);
-  r_.order = import("order", buffers_.order);
   r_.start = import("cell starts", buffers_.start);
   r_.nearSample = import("wall samples", buffers_.nearSample);
   r_.nearList = import("near list", buffers_.nearList);
@@ -82,6 +81,7 @@ void FluidImpl::declareBegin(Graph& graph, double advance) {
     const BeginPush push{static_cast<float>(advance), commandCount(), advance > 0 ? drivenSpeed_ : 0.0f};
     return [=](Commands& commands) { commands.dispatch(kernel, 1, push); };
   });
+  if (advance <= 0) return;
   graph.pass("predict", [&](Pass& pass) {
     readSwitched(pass, r_);
     for (BufferRef ref : {r_.position, r_.velocity, r_.pushAway}) pass.read(ref, readUse(texel_));
@@ -93,32 +93,44 @@ void FluidImpl::declareBegin(Graph& graph, double advance) {
   });
 }
 
+/// Declares what keys.comp reads and writes but its uniform blocks and sums.
+Kernel FluidImpl::keysKernel(Pass& pass, const ComputePipeline* pipeline, BufferRef places, BufferRef& keys, KeyCounters& counters) {
+  pass.read(places, readUse(texel_));
+  keys = pass.write(keys, Use::ComputeWrite, true);
+  if (!counters.counts()) return pass.kernel(pipeline, {r_.params, r_.control, places, keys, r_.sums, keys, keys, keys});  // not used
+  counters.start = pass.write(counters.start, Use::ComputeWrite);
+  counters.rank = pass.write(counters.rank, Use::ComputeWrite, true);
+  counters.oversized = pass.write(counters.oversized, Use::ComputeWrite);
+  return pass.kernel(pipeline, {r_.params, r_.control, places, keys, r_.sums, counters.start, counters.rank, counters.oversized});
+}
+
 void FluidImpl::declareRebuild(Graph& graph) {
+  ++recording_.rebuilds;
+  ++recording_.sorts;
   const uint64_t n = count;
   const Use read = readUse(texel_);
+  const Gate gate{r_.commands, kCommandSort};
+  const SortTargets targets{.order = {}, .start = r_.start, .keys = {}};
+  KeyCounters counters = sort_->begin(graph, targets, &gate);
   BufferRef keys = graph.create("cell keys", {n * 4});
   graph.pass("keys", [&](Pass& pass) {
     readSwitched(pass, r_);
-    pass.read(r_.prediction, read);
-    keys = pass.write(keys, Use::ComputeWrite, true);
     r_.sums = pass.write(r_.sums, Use::ComputeWrite);
-    const Kernel kernel = pass.kernel(pipes_.keys, {r_.params, r_.control, r_.prediction, keys, r_.sums});
+    const Kernel kernel = keysKernel(pass, pipes_.keys, r_.prediction, keys, counters);
     return [=, arguments = r_.commands](Commands& commands) { commands.dispatchIndirect(kernel, arguments, commandAt(kCommandKeys)); };
   });
-
-  const Gate gate{r_.commands, kCommandSort};
-  const SortedKeys sorted = sort_->addTo(graph, keys, {.order = r_.order, .start = r_.start, .keys = {}}, &gate);
-  r_.order = sorted.order;
+  const SortedKeys sorted = sort_->finish(graph, keys, counters, targets, &gate);
   r_.start = sorted.start;
 
   BufferRef position = graph.create("sorted positions", {n * 16}), prediction = graph.create("sorted predictions", {n * 16});
   BufferRef velocity = graph.create("sorted velocities", {n * 16});
   graph.pass("reorder", [&](Pass& pass) {
     readSwitched(pass, r_);
-    for (BufferRef ref : {r_.order, r_.position, r_.prediction, r_.velocity, r_.warm, r_.id}) pass.read(ref, read);
+    for (BufferRef ref : {keys, sorted.start, sorted.arrived, sorted.order, r_.position, r_.prediction, r_.velocity, r_.warm, r_.id})
+      pass.read(ref, read);
     for (BufferRef* ref : {&position, &prediction, &velocity}) *ref = pass.write(*ref, Use::ComputeWrite, true);
-    const Kernel kernel = pass.kernel(pipes_.reorder, {r_.params, r_.control, r_.order, r_.position, r_.prediction, r_.velocity, r_.warm,
-                                                       r_.id, position, prediction, velocity});
+    const Kernel kernel = pass.kernel(pipes_.reorder, {r_.params, r_.control, keys, sorted.start, sorted.arrived, sorted.order, r_.position,
+                                                       r_.prediction, r_.velocity, r_.warm, r_.id, position, prediction, velocity});
     return [=, arguments = r_.commands](Commands& commands) { commands.dispatchIndirect(kernel, arguments, commandAt(kCommandReorder)); };
   });
   graph.pass("build list", [&](Pass& pass) {
@@ -214,6 +226,7 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   }
 
   importAll(graph);
+  recording_ = {};
   const bool advances = step.resume || step.advance_s > 0;
   forgetAbandoned();
   const bool uploads = !uploaded_;
@@ -236,13 +249,14 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   if (blocks == 0) declareRebuild(graph);  // runs where there has been none yet
   declareSkipped(graph);
 
-  Pending pending{graph.impl().watched(), {}, {}, {}, false, uploads};
+  Pending pending{graph.impl().watched(), {}, {}, {}, false, uploads, {}};
   if (step.stats)
     declareMeasure(graph, pending);
   else
     graph.skipped("measure", "no figures asked for");
   pending.control = graph.readback(r_.control);
   pending.sums = graph.readback(r_.sums);
+  pending.recorded = recording_;
   pending_.push_back(pending);
   while (pending_.size() > 8) pending_.pop_front();
 

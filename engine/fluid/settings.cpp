@@ -236,9 +236,11 @@ void setRelaxation(const Scene& scene, const SmoothingKernel& kernel, FluidSetup
                              " is taken");
 }
 
+double wantedWarmGain(const Scene& scene) { return scene.solver.warm_start.value_or(scene.solver.iterations == 1 ? kWarmGain : 0.0); }
+
 // kappa, as much of it as the waves can bear: a wave is fed where its correction is the smaller.
 double warmGain(const Scene& scene, FluidSetup& setup) {
-  const double wanted = scene.solver.warm_start.value_or(scene.solver.iterations == 1 ? kWarmGain : 0.0);
+  const double wanted = wantedWarmGain(scene);
   const double most = scene.solver.kernel == KernelChoice::Poly6Spiky ? kMostWarmGainOfPair : wanted;
   const double gain = std::min(wanted, most) / softness(scene);
   if (scene.solver.warm_start && gain < wanted)
@@ -252,6 +254,7 @@ void setGains(const Scene& scene, double head, FluidSetup& setup) {
   FluidParams& p = setup.params;
   const double layers = layersOf(scene, head), gain = warmGain(scene, setup);
   p.roughWarmGain = f(gain);
+  setup.warm = startsWarm(scene);
   p.calmWarmGain = f(scene.solver.warm_start ? gain : std::min(std::min(gain, kMostCalmWarmGain), kCalmWarmGain / (layers * layers)));
   p.roughSpeed = f(kRough * std::sqrt(2 * head));
   p.calmShare = f(1 / std::max(1.0, kCalmSubsteps * layers));
@@ -356,6 +359,8 @@ double artificialViscosity(const Scene& scene) {
       scene.solver.artificial_viscosity.value_or(kArtificialViscosity) * scene.fluid.density * d * std::sqrt(strongestGravity(scene) * d);
   return std::max(0.0, wanted - scene.fluid.viscosity);
 }
+
+bool startsWarm(const Scene& scene) { return wantedWarmGain(scene) > 0; }
 
 uint32_t listCapacity(double reachInSpacings) {
   constexpr double kMostReach = 5;  // spacings: more than any scene has that is allowed

@@ -38,6 +38,7 @@ struct FluidSetup {
   bool near = false;                ///< walls or solids displace density
   bool thin = false;                ///< walls that face each other can both be near a particle
   bool movingSolids = false;
+  bool warm = false;  ///< there is a warm start: multipliers and pushes are kept
   std::vector<std::string> warnings;
 };
 
@@ -51,6 +52,9 @@ struct StartFigures {
 
 /// BadInput where the scene cannot run.
 Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& start);
+
+/// Whether a scene's substeps start from the multipliers of the ones before.
+bool startsWarm(const Scene& scene);
 
 /// The dynamic viscosity that damps particle noise in a fluid at rest, Pa s; 0 where there is none.
 double artificialViscosity(const Scene& scene);

@@ -41,8 +41,8 @@ Expected<void> checkLengths(const FluidSnapshot& s, const SnapshotShape& shape) 
       {"solids", s.solids.size(), shape.movingSolids ? uint64_t{6} * shape.solidCount : 0},
       {"position", s.position.size(), shape.count},
       {"velocity", s.velocity.size(), shape.count},
-      {"push", s.push.size(), shape.count},
-      {"warm", s.warm.size(), shape.count},
+      {"push", s.push.size(), s.push.empty() ? 0 : shape.count},  // of a fluid without a warm start there are none
+      {"warm", s.warm.size(), s.push.size()},
       {"id", s.id.size(), shape.count},
   };
   for (const auto& row : rows)
@@ -123,13 +123,16 @@ void forgetNeighbours(FluidSnapshot& s) {
 
 void append(FluidSnapshot& s, std::span<const Float3> positions, std::span<const Float3> velocities) {
   forgetNeighbours(s);
+  const bool warm = !s.warm.empty();
   auto sums = record<FluidSums>(s.sums);
   for (size_t k = 0; k < positions.size(); ++k) {
     s.id.push_back(static_cast<uint32_t>(s.id.size()));
     s.position.push_back(positions[k]);
     s.velocity.push_back(velocities[k]);
-    s.push.push_back({});
-    s.warm.push_back(0);
+    if (warm) {
+      s.push.push_back({});
+      s.warm.push_back(0);
+    }
     const Float3& v = velocities[k];
     sums.speedMax = std::max(sums.speedMax, std::bit_cast<uint32_t>(std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z)));
   }

@@ -70,6 +70,7 @@ Expected<void> SnapshotReader::take(const Graph& graph) {
       FluidControl control;
       std::memcpy(&control, data[0].data(), sizeof control);
       control.substeps = control.iterations = control.builds = 0;
+      control.ranSubsteps = control.ranIterations = control.ranBuilds = control.ranCalms = 0;
       control.timeDropped = 0;
       s.control = records<uint32_t>(std::as_bytes(std::span(&control, 1)), sizeof control / 4);
       s.sums = records<uint32_t>(data[1], sizeof(FluidSums) / 4);
@@ -127,7 +128,8 @@ Expected<void> SnapshotReader::take(const Graph& graph) {
 /// What else there is to read follows from the control block.
 void SnapshotReader::plan() {
   snapshot_.listCapacity = fluid_.setup.params.listCapacity;
-  parts_.insert(parts_.end(), {kPosition, kVelocity, kPush, kWarm, kId});
+  parts_.insert(parts_.end(), {kPosition, kVelocity, kId});
+  if (fluid_.setup.warm) parts_.insert(parts_.end(), {kPush, kWarm});
   if (fluid_.setup.near) parts_.push_back(kNear);
   if (!hasNeighbours(snapshot_)) return;
   if (walksGrid(snapshot_)) parts_.push_back(kCells);

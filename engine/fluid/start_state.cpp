@@ -115,8 +115,13 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
   for (DrivenSolid& driven : setup.driven) std::copy_n(s.solids.data() + 6 * driven.solid, 3, driven.centre);
   staging_->add(buffers_.solids, solids.size() * sizeof(SolidRecord), bytesOf(solids));
   staging_->add(buffers_.id, s.id.data(), s.id.size() * 4);
-  staging_->add(buffers_.warm, s.warm.data(), s.warm.size() * 4);
-  staging_->add(buffers_.pushAway, s.push.size() * 16, bytesOf(s.push));
+  if (setup.warm && s.warm.empty()) {
+    staging_->clear(buffers_.warm);
+    staging_->clear(buffers_.pushAway);
+  } else if (setup.warm) {
+    staging_->add(buffers_.warm, s.warm.data(), s.warm.size() * 4);
+    staging_->add(buffers_.pushAway, s.push.size() * 16, bytesOf(s.push));
+  }
   if (setup.near) {
     staging_->add(buffers_.nearList, uint64_t{count} * 4, [this, &s](std::byte* to) {
       std::memset(to, 0, size_t{count} * 4);

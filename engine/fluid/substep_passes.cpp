@@ -8,6 +8,8 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
   const std::span<const Chunk> chunks(chunks_);
   const Use read = readUse(texel_);
   const bool calms = first && p.calmingRate > 0;
+  ++recording_.substeps;
+  if (first) ++recording_.blocks;
   if (setup.movingSolids) {
     graph.pass("move solids", [&](Pass& pass) {
       readSwitched(pass, r_);

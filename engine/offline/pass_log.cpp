@@ -9,7 +9,7 @@ PassLog::Entry& PassLog::entry(std::string_view name) {
   // A few dozen passes: a search costs less than a map.
   const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.name == name; });
   if (found != entries_.end()) return *found;
-  entries_.push_back({std::string(name), 0, 0, {}});
+  entries_.push_back({std::string(name), 0, 0, 0, {}});
   return entries_.back();
 }
 
@@ -18,8 +18,10 @@ void PassLog::add(std::span<const PassReport> report, bool submitted) {
     Entry& known = entry(pass.name);
     if (!pass.reason.empty())
       known.reason = pass.reason;
-    else if (submitted && !pass.culled)
+    else if (submitted && !pass.culled) {
       known.runs += pass.runs;
+      known.ran += pass.runs;
+    }
   }
 }
 
@@ -27,10 +29,21 @@ void PassLog::add(std::span<const Timing> timings) {
   for (const Timing& timing : timings) entry(timing.name).ms += timing.ms;
 }
 
+void PassLog::add(std::span<const FluidPassRuns> passes, std::span<const PassReport> report) {
+  for (const PassReport& pass : report) {
+    const auto switched = [&](const FluidPassRuns& r) {
+      return r.name.ends_with('/') ? pass.name.starts_with(r.name) : pass.name == r.name;
+    };
+    const auto found = std::ranges::find_if(passes, switched);
+    if (found == passes.end() || pass.culled || !pass.reason.empty()) continue;
+    entry(pass.name).ran -= static_cast<uint32_t>(uint64_t{pass.runs} * (found->of - found->ran) / found->of);
+  }
+}
+
 std::vector<PassTime> PassLog::times() const {
   std::vector<PassTime> times;
   for (const Entry& e : entries_)
-    if (e.runs > 0) times.push_back({e.name, e.ms, e.runs});
+    if (e.runs > 0) times.push_back({e.name, e.ms, e.runs, e.ran});
   return times;
 }
 
@@ -41,23 +54,24 @@ std::vector<SkippedPass> PassLog::skipped() const {
   return skipped;
 }
 
-std::string passTable(std::span<const PassTime> passes, std::span<const SkippedPass> skipped, uint64_t substeps, uint64_t listBuilds) {
+std::string passTable(std::span<const PassTime> passes, std::span<const SkippedPass> skipped) {
   char line[256];
-  std::snprintf(line, sizeof line, "%-36s %9s %11s %10s\n", "pass", "recorded", "ms", "us each");
+  std::snprintf(line, sizeof line, "%-36s %9s %9s %11s %10s\n", "pass", "recorded", "ran", "ms", "us a run");
   std::string text = line;
   for (const PassTime& pass : passes) {
-    if (pass.ms > 0)
-      std::snprintf(line, sizeof line, "%-36s %9u %11.3f %10.2f\n", pass.name.c_str(), pass.runs, pass.ms, 1e3 * pass.ms / pass.runs);
+    std::snprintf(line, sizeof line, "%-36s %9u %9u", pass.name.c_str(), pass.runs, pass.ran);
+    text += line;
+    if (pass.ms > 0 && pass.ran > 0)
+      std::snprintf(line, sizeof line, " %11.3f %10.2f\n", pass.ms, 1e3 * pass.ms / pass.ran);
+    else if (pass.ms > 0)
+      std::snprintf(line, sizeof line, " %11.3f %10s\n", pass.ms, "-");
     else  // not timed
-      std::snprintf(line, sizeof line, "%-36s %9u %11s %10s\n", pass.name.c_str(), pass.runs, "-", "-");
+      std::snprintf(line, sizeof line, " %11s %10s\n", "-", "-");
     text += line;
   }
   for (const auto& [name, reason] : skipped)
     text += name + std::string(name.size() < 36 ? 36 - name.size() : 0, ' ') + " skipped: " + reason + "\n";
-  std::snprintf(line, sizeof line,
-                "the device ran %llu substeps and built the neighbour list %llu times; what was recorded beyond that was empty\n",
-                static_cast<unsigned long long>(substeps), static_cast<unsigned long long>(listBuilds));
-  return text + line;
+  return text;
 }
 
 std::string memoryTable(std::span<const FrameMemory> frames) {

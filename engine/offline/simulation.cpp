@@ -186,9 +186,7 @@ class Simulation::Impl {
   const Scene& scene() const { return scene_; }
   const ParticleSet& start() const { return start_; }
   const DeviceInfo& device() const { return context_->device().info(); }
-  std::string explain() const {
-    return passTable(log_.times(), log_.skipped(), advanced_.substeps, advanced_.list_builds) + memoryTable(transientMemory());
-  }
+  std::string explain() const { return passTable(log_.times(), log_.skipped()) + memoryTable(transientMemory()); }
   std::vector<FrameMemory> transientMemory() const {
     std::vector<FrameMemory> all;
     for (const auto& [frame, graph] : {std::pair{"advance", &advanceGraph_}, {"measure", &measureGraph_}, {"picture", &renderGraph_}})
@@ -252,6 +250,7 @@ class Simulation::Impl {
     if (auto ran = context_->submit([&](VkCommandBuffer commands) { graph.record(commands); }); !ran) return ran;
     if (auto waited = context_->wait(); !waited) return waited;
     log_.add(graph.timings());
+    log_.add(fluid_->passRuns(), report);
     return {};
   }
 

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "sort/pipelines.hpp"
-#include "sort/sort_types.h"
 
 namespace rill {
 Expected<CountingSort> CountingSort::create(Device& device, const KeySortDesc& desc) {
@@ -21,10 +20,11 @@ Expected<CountingSort> CountingSort::create(Device& device, const KeySortDesc& d
   ModulePipelines pipelines(device, sizeof(CountingPush));
   sort.texels_ = texels;
   sort.clear_ = pipelines.make("sort/clear", 2);
-  sort.count_ = pipelines.makeReading("sort/count", texels, {TexelUint, Storage, Storage, Storage}, {oversized});
+  if (!desc.openEnds) sort.count_ = pipelines.makeReading("sort/count", texels, {TexelUint, Storage, Storage, Storage}, {oversized});
   sort.scatter_ = pipelines.makeReading("sort/scatter", texels, {TexelUint, TexelUint, TexelUint, Storage});
-  sort.orderBins_ = pipelines.makeReading("sort/order_bins", texels, {TexelUint, TexelUint, TexelUint, Storage, Storage},
-                                          {desc.keys ? 1u : 0u, oversized});
+  if (!desc.openEnds)
+    sort.orderBins_ = pipelines.makeReading("sort/order_bins", texels, {TexelUint, TexelUint, TexelUint, Storage, Storage},
+                                            {desc.keys ? 1u : 0u, oversized});
   if (oversized) sort.orderOversized_ = pipelines.makeReading("sort/order_oversized", texels, {TexelUint, TexelUint, Storage, Storage});
   if (auto made = pipelines.result(); !made) return made.error();
   return sort;
@@ -37,43 +37,57 @@ uint64_t CountingSort::countGroups() const { return divideUp(desc_.count, kCount
 uint32_t CountingSort::binGroups() const { return std::min(desc_.count / (kBinLimit + 1), kOversizedGroups); }
 uint64_t CountingSort::oversizedGroups() const { return uint64_t{chunks()} * binGroups(); }
 
+CountingPush CountingSort::push() const { return {desc_.count, static_cast<uint32_t>(desc_.keyRange - 1), chunks(), binGroups()}; }
+
 std::vector<GroupCount> CountingSort::groups() const {
   if (desc_.count == 0) return {};
-  std::vector<GroupCount> all{foldGroups(clearGroups()), foldGroups(countGroups())};
+  std::vector<GroupCount> all{foldGroups(clearGroups())};
+  if (count_) all.push_back(foldGroups(countGroups()));
   for (const GroupCount& groups : scan_.groups()) all.push_back(groups);
   all.push_back(foldGroups(countGroups()));  // scatter
-  all.push_back(foldGroups(countGroups()));  // order
-  if (binsMayBeOversized()) all.push_back(foldGroups(oversizedGroups()));
+  if (orderBins_) all.push_back(foldGroups(countGroups()));
+  if (orderOversized_) all.push_back(foldGroups(oversizedGroups()));
   return all;
 }
 
+// Behind a closed gate a target keeps what it holds; a transient holds nothing.
+static bool discards(BufferRef target, const Gate* gate) { return !gate || target == BufferRef{}; }
+
 SortedKeys CountingSort::addTo(Graph& graph, BufferRef keys, const SortTargets& targets, const Gate* gate) const {
-  if (desc_.count == 0) return {targets.order, targets.start, targets.keys};
-  const uint32_t count = desc_.count;
-  const CountingPush push{count, static_cast<uint32_t>(desc_.keyRange - 1), chunks(), binGroups()};
-  const Use read = readUse(texels_);
-  Dispatches dispatches(gate);
-  // Behind a closed gate a target keeps what it holds; a transient holds nothing.
-  const auto discard = [&](BufferRef target) { return !gate || target == BufferRef{}; };
-
-  BufferRef start = targetOr(graph, targets.start, "sort start", paddedWords(desc_.keyRange + 1));
-  BufferRef order = targetOr(graph, targets.order, "sort order", count);
-  BufferRef sortedKeys = desc_.keys ? targetOr(graph, targets.keys, "sort keys", count) : BufferRef{};
-  BufferRef arrived = graph.create("sort arrived", {count * sizeof(uint32_t)});
-  BufferRef oversized = graph.create("sort oversized bins", {(count / (kBinLimit + 1) + 2) * sizeof(uint32_t)});
-
-  graph.pass("sort/clear", [&](Pass& pass) {
-    start = pass.write(start, Use::ComputeWrite, discard(targets.start));
-    oversized = pass.write(oversized, Use::ComputeWrite, true);
-    return dispatches.next(pass, pass.kernel(clear_, {start, oversized}), clearGroups(), push);
-  });
+  if (desc_.count == 0) return {targets.order, targets.start, targets.keys, {}};
+  KeyCounters counters = begin(graph, targets, gate);
   graph.pass("sort/count", [&](Pass& pass) {
-    pass.read(keys, read);
-    start = pass.write(start, Use::ComputeWrite);
-    order = pass.write(order, Use::ComputeWrite, discard(targets.order));  // holds the ranks of arrival until the last step
-    oversized = pass.write(oversized, Use::ComputeWrite);
-    return dispatches.next(pass, pass.kernel(count_, {keys, start, order, oversized}), countGroups(), push);
+    Dispatches dispatches(gate, 1);
+    pass.read(keys, readUse(texels_));
+    counters.start = pass.write(counters.start, Use::ComputeWrite);
+    counters.rank = pass.write(counters.rank, Use::ComputeWrite, true);
+    counters.oversized = pass.write(counters.oversized, Use::ComputeWrite);
+    return dispatches.next(pass, pass.kernel(count_, {keys, counters.start, counters.rank, counters.oversized}), countGroups(), push());
   });
+  return finish(graph, keys, counters, targets, gate);
+}
+
+KeyCounters CountingSort::begin(Graph& graph, const SortTargets& targets, const Gate* gate) const {
+  const uint64_t count = desc_.count;
+  if (count == 0) return {};
+  KeyCounters counters{targetOr(graph, targets.start, "sort start", paddedWords(desc_.keyRange + 1)),
+                       graph.create("sort ranks", {count * sizeof(uint32_t)}),
+                       graph.create("sort oversized bins", {(count / (kBinLimit + 1) + 2) * sizeof(uint32_t)})};
+  graph.pass("sort/clear", [&](Pass& pass) {
+    Dispatches dispatches(gate);
+    counters.start = pass.write(counters.start, Use::ComputeWrite, discards(targets.start, gate));
+    counters.oversized = pass.write(counters.oversized, Use::ComputeWrite, true);
+    return dispatches.next(pass, pass.kernel(clear_, {counters.start, counters.oversized}), clearGroups(), push());
+  });
+  return counters;
+}
+
+SortedKeys CountingSort::finish(Graph& graph, BufferRef keys, const KeyCounters& counters, const SortTargets& targets,
+                                const Gate* gate) const {
+  if (desc_.count == 0) return {targets.order, targets.start, targets.keys, {}};
+  const Use read = readUse(texels_);
+  Dispatches dispatches(gate, count_ ? 2 : 1);
+  BufferRef start = counters.start, arrived = graph.create("sort arrived", {desc_.count * sizeof(uint32_t)});
   if (gate) {
     const Gate inner = dispatches.inner(static_cast<uint32_t>(scan_.groups().size()));
     start = scan_.addTo(graph, start, &inner);
@@ -81,27 +95,31 @@ SortedKeys CountingSort::addTo(Graph& graph, BufferRef keys, const SortTargets& 
     start = scan_.addTo(graph, start);
   }
   graph.pass("sort/scatter", [&](Pass& pass) {
-    for (BufferRef ref : {keys, start, order}) pass.read(ref, read);
+    for (BufferRef ref : {keys, start, counters.rank}) pass.read(ref, read);
     arrived = pass.write(arrived, Use::ComputeWrite, true);
-    return dispatches.next(pass, pass.kernel(scatter_, {keys, start, order, arrived}), countGroups(), push);
+    return dispatches.next(pass, pass.kernel(scatter_, {keys, start, counters.rank, arrived}), countGroups(), push());
   });
+  if (!orderBins_ && !orderOversized_) return {arrived, start, {}, arrived};
+  BufferRef order = targetOr(graph, targets.order, "sort order", desc_.count);
+  BufferRef sortedKeys = desc_.keys ? targetOr(graph, targets.keys, "sort keys", desc_.count) : BufferRef{};
   // Bins of up to kBinLimit and larger ones: two dispatches, which write different places.
   graph.pass("sort/order bins", [&](Pass& pass) {
     for (BufferRef ref : {keys, start, arrived}) pass.read(ref, read);
-    if (orderOversized_) pass.read(oversized, Use::ComputeRead);
-    order = pass.write(order, Use::ComputeWrite, discard(targets.order));
-    if (desc_.keys) sortedKeys = pass.write(sortedKeys, Use::ComputeWrite, discard(targets.keys));
+    if (orderOversized_) pass.read(counters.oversized, Use::ComputeRead);
+    order = pass.write(order, Use::ComputeWrite, discards(targets.order, gate));
+    if (desc_.keys) sortedKeys = pass.write(sortedKeys, Use::ComputeWrite, discards(targets.keys, gate));
     const BufferRef keysOrUnused = desc_.keys ? sortedKeys : order;
-    const auto bins = dispatches.next(pass, pass.kernel(orderBins_, {keys, start, arrived, order, keysOrUnused}), countGroups(), push);
-    std::optional<Dispatch<CountingPush>> large;
+    std::optional<Dispatch<CountingPush>> bins, large;
+    if (orderBins_)
+      bins = dispatches.next(pass, pass.kernel(orderBins_, {keys, start, arrived, order, keysOrUnused}), countGroups(), push());
     if (orderOversized_)
-      large = dispatches.next(pass, pass.kernel(orderOversized_, {start, arrived, order, oversized}), oversizedGroups(), push);
+      large = dispatches.next(pass, pass.kernel(orderOversized_, {start, arrived, order, counters.oversized}), oversizedGroups(), push());
     return [bins, large](Commands& commands) {
-      bins(commands);
+      if (bins) (*bins)(commands);
       if (large) (*large)(commands);
     };
   });
-  return {order, start, sortedKeys};
+  return {order, start, sortedKeys, desc_.openEnds ? arrived : BufferRef{}};
 }
 
 }  // namespace rill

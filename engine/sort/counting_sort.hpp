@@ -7,6 +7,7 @@
 #include "sort/dispatches.hpp"
 #include "sort/key_sort_types.hpp"
 #include "sort/scan.hpp"
+#include "sort/sort_types.h"
 
 namespace rill {
 
@@ -19,6 +20,8 @@ class CountingSort {
 
   std::vector<GroupCount> groups() const;
   SortedKeys addTo(Graph& graph, BufferRef keys, const SortTargets& targets, const Gate* gate) const;
+  KeyCounters begin(Graph& graph, const SortTargets& targets, const Gate* gate) const;
+  SortedKeys finish(Graph& graph, BufferRef keys, const KeyCounters& counters, const SortTargets& targets, const Gate* gate) const;
 
  private:
   bool binsMayBeOversized() const;
@@ -26,6 +29,7 @@ class CountingSort {
   uint64_t clearGroups() const;
   uint64_t countGroups() const;
   uint32_t binGroups() const;
+  CountingPush push() const;
   uint64_t oversizedGroups() const;
 
   KeySortDesc desc_;

@@ -54,7 +54,7 @@ struct Dispatch {
 /// Counts a module's dispatches while its passes are declared, so that each finds its command behind the gate.
 class Dispatches {
  public:
-  explicit Dispatches(const Gate* gate) : gate_(gate ? *gate : Gate{}) {}
+  explicit Dispatches(const Gate* gate, uint32_t first = 0) : gate_(gate ? *gate : Gate{}), next_(first) {}
 
   /// The next dispatch that `pass` records.
   template <class Push>
@@ -73,7 +73,7 @@ class Dispatches {
 
  private:
   Gate gate_;
-  uint32_t next_ = 0;
+  uint32_t next_;
 };
 
 }  // namespace rill

@@ -13,6 +13,7 @@ Expected<void> judge(const KeySortDesc& desc) {
     return badInput(std::to_string(desc.count) + " keys, at most " + std::to_string(KeySortDesc::kMaxCount) + " are possible");
   if (desc.keyRange < 1 || desc.keyRange > KeySortDesc::kMaxKeyRange)
     return badInput("a key range of " + std::to_string(desc.keyRange) + ", expected 1 to 2^32");
+  if (desc.keys && desc.openEnds) return badInput("open ends and sorted keys were asked for; expected one of them");
   const bool table = desc.start || desc.method == SortMethod::Counting;
   if (table && desc.keyRange > KeySortDesc::kMaxStartRange)
     return badInput("a table of " + std::to_string(desc.keyRange) + " keys, at most " + std::to_string(KeySortDesc::kMaxStartRange) +
@@ -57,6 +58,18 @@ std::vector<GroupCount> KeySort::groups() const {
 
 SortedKeys KeySort::addTo(Graph& graph, BufferRef keys, const SortTargets& targets, const Gate* gate) const {
   return std::visit([&](const auto& sort) { return sort.addTo(graph, keys, targets, gate); }, sort_);
+}
+
+KeyCounters KeySort::begin(Graph& graph, const SortTargets& targets, const Gate* gate) const {
+  const auto* counting = std::get_if<CountingSort>(&sort_);
+  return counting ? counting->begin(graph, targets, gate) : KeyCounters{};
+}
+
+SortedKeys KeySort::finish(Graph& graph, BufferRef keys, const KeyCounters& counters, const SortTargets& targets, const Gate* gate) const {
+  if (const auto* counting = std::get_if<CountingSort>(&sort_)) return counting->finish(graph, keys, counters, targets, gate);
+  SortedKeys sorted = std::get<RadixSort>(sort_).addTo(graph, keys, targets, gate);
+  sorted.arrived = sorted.order;  // in order, too
+  return sorted;
 }
 
 }  // namespace rill

@@ -32,6 +32,11 @@ class KeySort {
   /// Where the gate's arguments are zero the targets keep their content. No keys: nothing is declared, the targets are returned.
   SortedKeys addTo(Graph& graph, BufferRef keys, const SortTargets& targets = {}, const Gate* gate = nullptr) const;
 
+  /// The same for desc.openEnds: begin(), the caller's pass that makes the keys and writes the counters, finish().
+  KeyCounters begin(Graph& graph, const SortTargets& targets = {}, const Gate* gate = nullptr) const;
+  SortedKeys finish(Graph& graph, BufferRef keys, const KeyCounters& counters, const SortTargets& targets = {},
+                    const Gate* gate = nullptr) const;
+
  private:
   explicit KeySort(std::variant<CountingSort, RadixSort> sort) : sort_(std::move(sort)) {}
   std::variant<CountingSort, RadixSort> sort_;

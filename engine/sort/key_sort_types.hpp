@@ -24,6 +24,9 @@ struct KeySortDesc {
   bool start = false;         ///< whether SortedKeys::start is made; keyRange at most kMaxStartRange
   bool keys = false;          ///< whether SortedKeys::keys is made
   bool storageReads = false;  ///< through storage buffers even where texel buffers would hold enough; the same result
+  /// The ends are the caller's: its pass that makes the keys counts them (shaders/sort/count.glsl), and its pass that moves what is
+  /// sorted finds the places (shaders/sort/place.glsl). Two passes fewer. Without `keys`.
+  bool openEnds = false;
 };
 
 /// Where the results go. A ref left out is made as a transient where the result is asked for: behind a gate, give the
@@ -38,6 +41,15 @@ struct SortedKeys {
   BufferRef order;  ///< order[slot] = index before the sort; equal keys stay in the order they were in
   BufferRef start;  ///< start[k] = first slot of key k, start[keyRange] = count; where asked for
   BufferRef keys;   ///< keys[slot], ascending; where asked for
+  /// arrived[slot] = index before the sort, equal keys in any order; of a sort with open ends. Its `order` holds bins above kBinLimit
+  /// alone.
+  BufferRef arrived;
+};
+
+/// What the pass counts into that makes the keys of a sort with open ends.
+struct KeyCounters {
+  BufferRef start, rank, oversized;
+  bool counts() const { return !(rank == BufferRef{}); }  ///< a radix sort has no counters
 };
 
 }  // namespace rill

@@ -48,7 +48,7 @@ std::vector<GroupCount> RadixSort::groups() const {
 }
 
 SortedKeys RadixSort::addTo(Graph& graph, BufferRef keys, const SortTargets& targets, const Gate* gate) const {
-  if (desc_.count == 0) return {targets.order, targets.start, targets.keys};
+  if (desc_.count == 0) return {targets.order, targets.start, targets.keys, {}};
   Dispatches dispatches(gate);
   // Behind a closed gate a target keeps what it holds; a transient holds nothing.
   const auto discard = [&](BufferRef target) { return !gate || target == BufferRef{}; };
@@ -97,7 +97,7 @@ SortedKeys RadixSort::addTo(Graph& graph, BufferRef keys, const SortTargets& tar
                              StartPush{desc_.count, static_cast<uint32_t>(desc_.keyRange)});
     });
   }
-  return {order, start, desc_.keys ? keys : BufferRef{}};
+  return {order, start, desc_.keys ? keys : BufferRef{}, {}};
 }
 
 }  // namespace rill

@@ -17,6 +17,7 @@ void main() {
   c.stale = c.timeLeft > 0.0 ? 0u : 1u;  // a list of the start state, for figures alone: the first advance makes one of its predictions
   c.travel = 0.0;
   c.builds += 1u;
+  c.ranBuilds += 1u;
   c.running = c.timeLeft > 0.0 ? 1u : 0u;
   control = c;
   FluidSums s = sums;

@@ -13,6 +13,7 @@
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 2) const uint LIST_CAPACITY = 0;
 layout(constant_id = 3) const uint NEAR = 0;
+layout(constant_id = 4) const uint WARM = 1;
 
 layout(push_constant) uniform Push { ChunkPush push; };
 READ_FLOAT4(2, particle)
@@ -142,7 +143,7 @@ void main() {
   position[i] = vec4(from, 0.0);
   prediction[i] = vec4(x, predicted.w);
   velocity[i] = vec4(moving.xyz, 1.0);
-  warm[i] = moving.w;
+  if (WARM != 0u) warm[i] = moving.w;
   id[i] = own;
   if (NEAR != 0u) listNear(i, x);
 }

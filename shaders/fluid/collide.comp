@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 layout(local_size_x = kFluidGroup) in;
+layout(constant_id = 1) const uint WARM = 1;
 layout(constant_id = 0) const uint AGAIN = 0;  // viscosity or vorticity have changed the velocity: the prediction alone
 layout(std430, binding = 2) buffer PositionBlock { vec4 position[]; };
 layout(std430, binding = 3) buffer VelocityBlock { vec4 velocity[]; };
@@ -20,7 +21,7 @@ layout(std430, binding = 12) readonly buffer NearBlock { vec4 nearSample[]; };
 
 void predict(uint i, vec3 x, vec3 v) {
   float pushed;
-  vec3 next = outside(predicted(x, v, pushAway[i].xyz), ahead(), pushed);
+  vec3 next = outside(predicted(x, v, WARM != 0u ? pushAway[i].xyz : vec3(0.0)), ahead(), pushed);
   prediction[i] = vec4(next, pushed);
 }
 
@@ -44,7 +45,7 @@ void main() {
   vec3 v = velocity[i].xyz + (x - from) / control.step;
   // The multiplier in all, never positive: what the warm start had, and the change. `warm` has a share of the change already.
   float change = unpackHalf2x16(floatBitsToUint(work[i].w)).x * (params.inverseRestGradient / kMultiplierScale);
-  float multiplier = min(0.0, warm[i] + (1.0 - control.warmGain) * change);
+  float multiplier = min(0.0, (WARM != 0u ? warm[i] : 0.0) + (1.0 - control.warmGain) * change);
   vec3 given = multiplier * nearSample[i].xyz / control.step + (x - from) / control.step;
   for (uint k = 0u; k < params.solidCount; ++k) {
     if (solids[k].friction <= 0.0 && solids[k].restitution <= 0.0) continue;

@@ -28,6 +28,8 @@ void main() {
   bool converged = params.tolerance > 0.0 && error <= params.tolerance && uintBitsToFloat(s.errorMax) <= 100.0 * params.tolerance;
   bool again = push.iteration + 1u < params.iterations && !converged;
   c.iterations += 1u;
+  c.ranIterations += 1u;
+  if (first) c.ranSubsteps += 1u;
   sums.errorLow = 0u;
   sums.errorHigh = 0u;
   sums.errorMax = 0u;
@@ -85,6 +87,7 @@ void main() {
     if (c.travel + (c.speed + c.solidSpeed + acceleration * c.nextStep) * c.nextStep > params.travelLimit) c.stale = 1u;
   }
 
+  if (first && c.calming > 0.0) c.ranCalms += 1u;
   c.running = c.timeLeft > 0.0 && c.stale == 0u ? 1u : 0u;
   c.again = again ? 1u : 0u;
   switchCommands(push.commands, c, push.parity, s);

@@ -13,6 +13,7 @@ layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 4) const uint NEAR = 0;
 layout(constant_id = 5) const uint TENSILE = 0;
 layout(constant_id = 6) const uint CONTACT = 0;  // collide.comp follows
+layout(constant_id = 7) const uint WARM = 1;     // there is a warm start
 
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer PositionBlock { vec4 position[]; };
@@ -44,7 +45,7 @@ void visit(vec4 particle) {
     both.x -= tensile * pow(min(kernelShape(distance) * tensileScale, 1.0), tensilePower);
   }
   moved += both.x * gradient;
-  pushed += both.y * gradient;
+  if (WARM != 0u) pushed += both.y * gradient;
 }
 #include "fluid/neighbours.glsl"
 
@@ -76,7 +77,7 @@ void main() {
   }
 
   vec3 from = position[i].xyz, before = velocity[i].xyz;
-  vec4 pushedBy = pushAway[i];
+  vec4 pushedBy = WARM != 0u ? pushAway[i] : vec4(0.0);
   bool presses = control.momentum >= 0.0, still = control.step == 0.0;  // still: no time goes by
   vec3 to = presses ? from : insideWalls(here + moved);
   // A correction parts particles whatever it takes, but gives no more speed than what can have brought them together: see ARCHITECTURE.md, "Overlaps".
@@ -102,17 +103,17 @@ void main() {
     v = vec3(0.0);
     away = vec3(0.0);
     next = from;
-    warm[i] = 0.0;
+    if (WARM != 0u) warm[i] = 0.0;
   }
   float found = 0.0;
-  if (presses) {  // heavy ball (Polyak 1964): the last change goes on in the next
+  if (WARM != 0u && presses) {  // heavy ball (Polyak 1964): the last change goes on in the next
     found = warm[i];
     warm[i] = min(0.0, found + control.momentum * (found - pushedBy.w));
   }
   position[i] = vec4(to, 0.0);
   if (CONTACT != 0u) freeVelocity[i] = vec4(before + control.step * gravity(), prediction[i].w);
   velocity[i] = vec4(v, 1.0);
-  pushAway[i] = vec4(away, found);
+  if (WARM != 0u) pushAway[i] = vec4(away, found);
   prediction[i] = vec4(next, 0.0);
 
   float fastest = subgroupMax(sqrt(dot(v, v)));

@@ -12,6 +12,7 @@
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 4) const uint NEAR = 0;        // walls or solids displace density
 layout(constant_id = 5) const uint ITERATED = 0;    // more than one iteration a substep
+layout(constant_id = 6) const uint WARM = 1;        // there is a warm start
 
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer WarmBlock { float warm[]; };
@@ -57,8 +58,11 @@ void main() {
   bool first = push.iteration == 0u;
   float delta = -(first ? control.nextRelaxation : control.relaxation) * constraint / max(stiffness, 1.0e-20);
 
-  float before, after, warmNext;
-  if (first) {
+  float before, after, warmNext = 0.0;
+  if (first && WARM == 0u) {
+    before = 0.0;
+    after = min(0.0, delta);
+  } else if (first) {
     float ratio = control.nextStep / control.warmStep;
     before = warm[i] * ratio * ratio;  // 0 while particles settle
     after = min(0.0, before + delta);
@@ -70,7 +74,7 @@ void main() {
   } else {
     before = multiplier[i];
     after = min(0.0, before + delta);
-    warmNext = warm[i];
+    if (WARM != 0u) warmNext = warm[i];
   }
   if (ITERATED != 0u) multiplier[i] = after;
 

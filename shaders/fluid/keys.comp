@@ -1,21 +1,27 @@
 #version 460
-// The grid cell of each prediction, as a sort key.
+// The grid cell of each place, as a sort key, and how many particles each cell has.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "fluid/grid.glsl"
 #include "shared/arrays.glsl"
+#define COUNTERS 5
+#include "sort/count.glsl"
 layout(local_size_x = kFluidGroup) in;
-READ_FLOAT4(2, prediction)
+layout(constant_id = 1) const uint COUNTS = 0;    // the sort has counters
+layout(constant_id = 2) const uint REBUILDS = 0;  // the list is built after this
+READ_FLOAT4(2, place)
 layout(std430, binding = 3) writeonly buffer KeyBlock { uint key[]; };
 layout(std430, binding = 4) buffer SumsBlock { FluidSums sums; };
 
 void main() {
   uint i = flatInvocation();
-  if (i == 0u) {
+  if (REBUILDS != 0u && i == 0u) {
     sums.planeCount = 0u;
     sums.cornerCount = 0u;
     sums.overflow = 0u;
   }
   if (i >= params.count) return;
-  key[i] = cellKey(cellOf(predictionAt(i).xyz));
+  uint cell = cellKey(cellOf(placeAt(i).xyz));
+  key[i] = cell;
+  if (COUNTS != 0u) countKey(i, cell);
 }

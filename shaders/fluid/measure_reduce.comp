@@ -1,14 +1,16 @@
 #version 460
-// Adds up the partial sums of measure.comp in a fixed order and reads the percentiles off the histograms. One workgroup.
+// Adds up the partial sums of measure_sums.comp in a fixed order and reads the percentiles off the histograms of measure.comp. One workgroup.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
+#include "fluid/partials.glsl"
 layout(local_size_x = 256) in;
 layout(std430, binding = 2) readonly buffer PartialBlock { MeasurePartial partials[]; };
 layout(std430, binding = 3) readonly buffer HistogramBlock { uint histogram[]; };
 layout(std430, binding = 4) writeonly buffer ResultBlock { MeasureResult result; };
 
-shared MeasurePartial rows[256];
+shared MeasurePartial rows[kMeasurePartials];
 shared uint before[256];
+shared uint rank;
 shared float found;
 
 // The middle of a bin.
@@ -25,23 +27,26 @@ float valueAt(bool signed_, uint place) {
   return place < kMeasureBins ? -binValue(kMeasureBins - 1u - place) : binValue(place - kMeasureBins);
 }
 
-// The value at which `rank` entries of the line, and `below` that are in no bin before it, are not yet exceeded.
-float percentile(bool signed_, uint rank, uint below) {
+// The compression that 99 of 100 particles present do not exceed (who is not compressed is in no bin: they come first), or the median of the signed line.
+float percentile(bool signed_, uint present) {
   uint lane = gl_LocalInvocationID.x;
   uint bins = signed_ ? kSignedBins : kMeasureBins;
   uint each = (bins + 255u) / 256u;
   uint sum = 0u;
   for (uint k = lane * each; k < min((lane + 1u) * each, bins); ++k) sum += countAt(signed_, k);
   before[lane] = sum;
-  if (lane == 0u) found = 0.0;
   barrier();
   if (lane == 0u) {
-    uint run = below;
+    uint run = 0u;
     for (uint k = 0u; k < 256u; ++k) {
       uint own = before[k];
       before[k] = run;
       run += own;
     }
+    uint below = signed_ ? 0u : present - run;
+    uint wanted = signed_ ? (run + 1u) / 2u : (present * 99u + 99u) / 100u;
+    rank = wanted > below ? wanted - below : 0u;  // among those in bins
+    found = 0.0;
   }
   barrier();
   uint run = before[lane];
@@ -55,43 +60,22 @@ float percentile(bool signed_, uint rank, uint below) {
     }
   }
   barrier();
-  float value = found;
-  barrier();
-  return value;
-}
-
-MeasurePartial add(MeasurePartial a, MeasurePartial b) {
-  return MeasurePartial(a.compression + b.compression, max(a.compressionMax, b.compressionMax), a.kinetic + b.kinetic, max(a.speedMax, b.speedMax),
-                        a.velocityX + b.velocityX, a.velocityY + b.velocityY, a.velocityZ + b.velocityZ, a.positionX + b.positionX,
-                        a.positionY + b.positionY, a.positionZ + b.positionZ, a.outside + b.outside, a.counted + b.counted, a.parked + b.parked);
+  return found;
 }
 
 void main() {
   uint lane = gl_LocalInvocationID.x;
-  uint groups = (params.count + kMeasureGroup - 1u) / kMeasureGroup;
-  MeasurePartial mine = MeasurePartial(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0u, 0u, 0u);
-  for (uint k = lane; k < groups; k += 256u) mine = add(mine, partials[k]);
-  rows[lane] = mine;
-  for (uint half_ = 128u; half_ > 0u; half_ /= 2u) {
+  if (lane < kMeasurePartials) rows[lane] = partials[lane];
+  barrier();
+  for (uint half_ = kMeasurePartials / 2u; half_ > 0u; half_ /= 2u) {
+    if (lane < half_) rows[lane] = addPartials(rows[lane], rows[lane + half_]);
     barrier();
-    if (lane < half_) rows[lane] = add(rows[lane], rows[lane + half_]);
   }
+  float p99 = percentile(false, params.count - rows[0].parked);
   barrier();
-  MeasurePartial all_ = rows[0];
-  // Particles that are not compressed are in no bin: they come first. The histogram holds the others.
-  uint compressed = 0u;
-  uint each = (kMeasureBins + 255u) / 256u;
-  for (uint k = lane * each; k < min((lane + 1u) * each, kMeasureBins); ++k) compressed += histogram[k];
-  before[lane] = compressed;
-  barrier();
-  uint sum = 0u;
-  for (uint k = 0u; k < 256u; ++k) sum += before[k];
-  barrier();
-  uint present = params.count - all_.parked;
-  float p99 = percentile(false, (present * 99u + 99u) / 100u, present - sum);
-  float median = percentile(true, (all_.counted + 1u) / 2u, 0u);
+  float median = percentile(true, 0u);
   if (lane == 0u) {
-    result.sums = all_;
+    result.sums = rows[0];
     result.compression99 = p99;
     result.signedMedian = median;
   }

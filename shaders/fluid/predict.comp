@@ -8,6 +8,7 @@ layout(std430, binding = 6) readonly buffer SolidBlock { SolidRecord solids[]; }
 layout(local_size_x = kFluidGroup) in;
 READ_FLOAT4(2, position)
 READ_FLOAT4(3, velocity)
+layout(constant_id = 0) const uint WARM = 1;
 READ_FLOAT4(4, pushAway)
 layout(std430, binding = 5) writeonly buffer PredictionBlock { vec4 prediction[]; };
 
@@ -15,7 +16,7 @@ void main() {
   uint i = flatInvocation();
   if (i >= params.count) return;
   vec3 x = positionAt(i).xyz;
-  vec3 next = predicted(x, velocityAt(i).xyz, pushAwayAt(i).xyz);
+  vec3 next = predicted(x, velocityAt(i).xyz, WARM != 0u ? pushAwayAt(i).xyz : vec3(0.0));
   float pushed;
   next = outside(next, ahead(), pushed);
   prediction[i] = vec4(isFinite(next) ? next : x, pushed);

@@ -14,6 +14,7 @@ layout(push_constant) uniform Push { SweepPush push; };
 READ_FLOAT4(8, velocity)
 layout(std430, binding = 9) writeonly buffer SmoothedBlock { vec4 smoothed[]; };
 layout(std430, binding = 10) writeonly buffer PredictionBlock { vec4 prediction[]; };
+layout(constant_id = 4) const uint WARM = 1;
 READ_FLOAT4(11, pushAway)
 READ_FLOAT4(12, position)
 
@@ -42,5 +43,5 @@ void main() {
   vec3 v = own.xyz + coefficient * params.valueScale * change;
   smoothed[i] = vec4(v, own.w);
   if (i == 0u) smoothed[params.count] = vec4(0.0);  // the dummy neighbour, whose weight of 0 would not do away with a NaN
-  prediction[i] = vec4(insideWalls(predicted(positionAt(i).xyz, v, pushAwayAt(i).xyz)), 0.0);
+  prediction[i] = vec4(insideWalls(predicted(positionAt(i).xyz, v, WARM != 0u ? pushAwayAt(i).xyz : vec3(0.0))), 0.0);
 }

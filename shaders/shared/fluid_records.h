@@ -129,6 +129,7 @@ struct FluidControl {
   float solidSpeed;    // m/s, the fastest solid of the advance
   uint pressing;       // iterations left, after settling, that find the start's pressure: nothing moves
   float momentum;      // of the one at hand; negative: the substep at hand is none of them
+  uint ranSubsteps, ranIterations, ranBuilds, ranCalms;  // since the start, those that prepare it too: for the host, which takes differences
 };
 
 // Sums of the passes of one substep; integers, so that their order does not matter.
@@ -178,19 +179,19 @@ struct ControlPush {
   uint calms;          // the calm pass is recorded with this substep
 };
 
-// Sums over one workgroup of measure.comp.
+// Sums over one workgroup of measure_sums.comp.
 struct MeasurePartial {
   float compression, compressionMax;   // fraction of rest density
   float kinetic;                       // sum of v^2
   float speedMax;                      // m/s
   float velocityX, velocityY, velocityZ;
   float positionX, positionY, positionZ;
-  uint outside, counted;               // counted: particles inside the fluid, for the median
+  uint outside;
   uint parked;                         // outside, and in no other figure
 };
 RILL_CONST uint kMeasureFirst = 107u << 9;          // bin 0: |C| = 2^-20, by the top bits of the float
 RILL_CONST uint kMeasureBins = 23u << 9;            // up to 8, 512 bins an octave
-RILL_CONST uint kMeasureGroup = kFluidGroup;
+RILL_CONST uint kMeasurePartials = 32u;               // workgroups that add up
 
 // What measure_reduce.comp finds, for the host.
 struct MeasureResult {

@@ -1,6 +1,5 @@
 #version 460
-// Counting sort: each bin in ascending order of index, which makes the sort stable and its result independent of the order of
-// atomics. An index's place is the number of smaller ones in its bin. Bins above kBinLimit are left to sort/order_oversized.
+// Counting sort: each bin in ascending order of index. Bins above kBinLimit are left to sort/order_oversized.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/arrays.glsl"
 #include "shared/dispatch.glsl"
@@ -14,6 +13,7 @@ layout(push_constant) uniform PushBlock { CountingPush push; };
 READ_UINT(0, key)
 READ_UINT(1, start)
 READ_UINT(2, arrived)
+#include "sort/place.glsl"
 layout(set = 0, binding = 3, std430) writeonly buffer Order { uint order[]; };
 layout(set = 0, binding = 4, std430) writeonly buffer SortedKeys { uint sortedKeys[]; };
 
@@ -26,7 +26,5 @@ void main() {
   const uint end = startAt(key + 1u);
   if (kWriteKeys != 0u) sortedKeys[slot] = key;
   if (kLeaveOversized != 0u && end - begin > kBinLimit) return;
-  uint place = begin;
-  for (uint other = begin; other < end; ++other) place += arrivedAt(other) < index ? 1u : 0u;
-  order[place] = index;
+  order[placeOf(index, begin, end)] = index;
 }

@@ -48,6 +48,38 @@ TEST_P(FluidMemoryTest, IsWhatIsAllocated) {
   EXPECT_GE(double(vulkan.bufferBytes), 0.75 * double(said.total())) << "far more was announced";
 }
 
+TEST(FluidTerms, WhatIsOffHasNoBuffer) {
+  NullVulkan vulkan;
+  auto device = Device::borrow(vulkan.host());
+  ASSERT_TRUE(device);
+  (*device)->beginFrame({1, 0});
+  Scene scene;
+  scene.fluid.spacing = 0.1;
+  ParticleSet particles;
+  particles.positions.resize(1000);
+  particles.velocities.resize(1000);
+  const auto bytesOf = [&](std::string_view name) {
+    auto fluid = Fluid::create(**device, {.scene = &scene, .particles = &particles});
+    EXPECT_TRUE(fluid) << fluid.error().message;
+    uint64_t bytes = 0;
+    for (const FluidBuffer& buffer : (*fluid)->buffers())
+      if (buffer.name == name) bytes += buffer.bytes;
+    EXPECT_GT(bytes, 0u) << name;
+    return bytes;
+  };
+  const auto expectOff = [&](std::string_view name) { EXPECT_LE(bytesOf(name), 64u) << name; };  // a binding must be something
+  for (const char* name : {"iteration multipliers", "wall samples", "particles near walls"}) expectOff(name);
+  for (const char* name : {"warm pushes", "warm starts", "neighbour counts", "neighbour list"}) EXPECT_GE(bytesOf(name), 4000u) << name;
+  scene.solver.warm_start = 0;
+  expectOff("warm pushes");
+  expectOff("warm starts");
+  scene.solver.neighbors = NeighborChoice::Grid;
+  expectOff("neighbour counts");
+  expectOff("neighbour list");
+  scene.solver.iterations = 3;
+  EXPECT_GE(bytesOf("iteration multipliers"), 4000u);
+}
+
 TEST(FluidTooLarge, IsRefusedWithWhatItNeedsAndWhatThereIs) {
   NullVulkan vulkan;
   auto device = Device::borrow(vulkan.host());

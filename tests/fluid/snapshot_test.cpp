@@ -34,7 +34,7 @@ class SnapshotTest : public FluidTest {
   void poison(const Fluid& fluid) {
     const FluidBuffers& b = fluid.impl().buffers();
     std::vector<const Buffer*> all = {&b.position,   &b.velocity,       &b.prediction, &b.pushAway, &b.work,  &b.warm,       &b.id,
-                                      &b.multiplier, &b.neighbourCount, &b.cell,       &b.order,    &b.start, &b.nearSample, &b.nearList};
+                                      &b.multiplier, &b.neighbourCount, &b.cell,       &b.start, &b.nearSample, &b.nearList};
     for (const Buffer& list : b.lists) all.push_back(&list);
     Graph graph;
     graph.pass("poison", [&](Pass& pass) {

@@ -128,6 +128,15 @@ TEST_F(State, FitsItsScene) {
   EXPECT_TRUE(checked) << checked.error().message;
 }
 
+TEST_F(State, MayComeFromAFluidWithoutAWarmStart) {
+  s.push.clear();
+  expectRefused("warm");
+  s.push.clear();
+  s.warm.clear();
+  const auto checked = checkSnapshot(s, seedShape());
+  EXPECT_TRUE(checked) << checked.error().message;
+}
+
 // Every number that a shader finds its way by.
 TEST_F(State, IndicesAreJudged) {
   s.id[1] = s.id[0];

@@ -22,7 +22,25 @@ TEST(PassLog, AddsUpPiecesAndKeepsTheOrder) {
   ASSERT_EQ(skipped.size(), 1u);
   EXPECT_EQ(skipped[0].first, "vorticity");
   EXPECT_EQ(skipped[0].second, "vorticity is 0");
-  EXPECT_NE(passTable(times, skipped, 3, 1).find("skipped: vorticity is 0"), std::string::npos);
+  EXPECT_NE(passTable(times, skipped).find("skipped: vorticity is 0"), std::string::npos);
+}
+
+TEST(PassLog, TellsWhatWasRecordedFromWhatRan) {
+  PassLog log;
+  const PassReport report[] = {
+      {"sort/count", 6, false, ""}, {"sort/scan", 12, false, ""}, {"density", 9, false, ""}, {"begin", 1, false, ""}};
+  const FluidPassRuns switched[] = {{"sort/", 2, 6}, {"density", 0, 9}, {"iterate", 1, 2}};
+  log.add(report, true);
+  log.add(switched, report);
+  const auto times = log.times();
+  ASSERT_EQ(times.size(), 4u) << "what was not in the frame stays out";
+  EXPECT_EQ(times[0].ran, 2u);
+  EXPECT_EQ(times[1].ran, 4u) << "two passes of that name a sort";
+  EXPECT_EQ(times[1].runs, 12u);
+  EXPECT_EQ(times[2].ran, 0u);
+  EXPECT_EQ(times[3].ran, 1u);
+  const std::string table = passTable(times, {});
+  EXPECT_NE(table.find("sort/scan                                   12         4"), std::string::npos) << table;
 }
 
 TEST(PassLog, APassThatRanOnceIsNotSkipped) {

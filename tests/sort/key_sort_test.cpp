@@ -95,6 +95,60 @@ TEST_P(BothSorts, OrderAlone) {
   EXPECT_TRUE(got.order == expected(keys, 500, false).order);
 }
 
+// Who makes the keys counts them, who moves what is sorted finds the places.
+TEST_P(BothSorts, OpenEnds) {
+  struct Push {
+    uint32_t count;
+  };
+  Words large(3000, 5);
+  for (uint32_t i = 0; i < large.size(); ++i)
+    if (i % 3 == 0) large[i] = i % 40;
+  for (const Words& keys : {randomKeys(20000, 4000), randomKeys(100, 9), large}) {
+    const auto count = static_cast<uint32_t>(keys.size());
+    auto sort = KeySort::create(device(), {.count = count, .keyRange = 4000, .method = GetParam(), .start = true, .openEnds = true});
+    ASSERT_TRUE(sort) << sort.error().message;
+    const uint32_t counts = GetParam() == SortMethod::Counting;
+    const BindingKind buffers[5] = {};
+    const uint32_t constants[] = {count > kBinLimit, counts};
+    const auto make = computePipeline(device(), {.shader = "sort_keys",
+                                                 .spirv = testShader("sort_keys"),
+                                                 .bindings = buffers,
+                                                 .pushConstantBytes = sizeof(Push),
+                                                 .constants = constants});
+    const auto move = computePipeline(
+        device(), {.shader = "sort_moved", .spirv = testShader("sort_moved"), .bindings = buffers, .pushConstantBytes = sizeof(Push)});
+    ASSERT_TRUE(make && move);
+    const WordBuffer source = words(keys), start = words(4001), moved = words(count, ~0u);
+    runGraph([&](Graph& graph) {
+      const BufferRef from = source.in(graph, "source");
+      const SortTargets targets{.order = {}, .start = start.in(graph, "start"), .keys = {}};
+      KeyCounters counters = sort->begin(graph, targets);
+      EXPECT_EQ(counters.counts(), counts == 1);
+      BufferRef made = graph.create("keys", {4 * uint64_t{count}});
+      graph.pass("make keys", [&](Pass& pass) {
+        pass.read(from, Use::ComputeRead);
+        made = pass.write(made, Use::ComputeWrite, true);
+        if (counters.counts())
+          for (BufferRef* ref : {&counters.start, &counters.rank, &counters.oversized}) *ref = pass.write(*ref, Use::ComputeWrite);
+        const Kernel kernel = counters.counts() ? pass.kernel(*make, {from, made, counters.start, counters.rank, counters.oversized})
+                                                : pass.kernel(*make, {from, made, made, made, made});
+        return [kernel, count](Commands& commands) { commands.dispatch(kernel, divideUp(count, 64), Push{count}); };
+      });
+      const SortedKeys sorted = sort->finish(graph, made, counters, targets);
+      BufferRef to = moved.in(graph, "moved");
+      graph.pass("move", [&](Pass& pass) {
+        for (BufferRef ref : {made, sorted.start, sorted.arrived, sorted.order}) pass.read(ref, Use::ComputeRead);
+        to = pass.write(to, Use::ComputeWrite, true);
+        const Kernel kernel = pass.kernel(*move, {made, sorted.start, sorted.arrived, sorted.order, to});
+        return [kernel, count](Commands& commands) { commands.dispatch(kernel, divideUp(count, 64), Push{count}); };
+      });
+    });
+    const Sorted wanted = expected(keys, 4000, true);
+    EXPECT_TRUE(moved.copy() == wanted.order) << count;
+    EXPECT_TRUE(start.copy() == wanted.start) << count;
+  }
+}
+
 TEST_P(BothSorts, NoKeysDeclareNothing) {
   auto sort = KeySort::create(device(), {0, 1000, GetParam(), true, true});
   ASSERT_TRUE(sort) << sort.error().message;

@@ -3,11 +3,13 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/inotify.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -62,6 +64,14 @@ class Child {
       if (!readSome()) return false;
     return true;
   }
+  /// Waits until there is a file of that name in the folder; false where the program ends before.
+  bool waitForFile(const std::filesystem::path& file) {
+    const int events = ::inotify_init1(IN_CLOEXEC);
+    ::inotify_add_watch(events, file.parent_path().c_str(), IN_CREATE | IN_MOVED_TO);
+    while (!std::filesystem::exists(file) && readSome(events)) {}
+    ::close(events);
+    return std::filesystem::exists(file);
+  }
   void signal(int number) const { ::kill(pid_, number); }
   /// Whether it has ended; it is still to be waited for.
   bool ended() const {
@@ -83,10 +93,16 @@ class Child {
   }
 
  private:
-  bool readSome() {
-    pollfd ends[2] = {{out_, POLLIN, 0}, {err_, POLLIN, 0}};  // poll passes over -1
+  /// Waits until the program writes or closes one of its outputs, or until there is something to read from `events`. False once both are
+  /// closed.
+  bool readSome(int events = -1) {
+    pollfd ends[3] = {{out_, POLLIN, 0}, {err_, POLLIN, 0}, {events, POLLIN, 0}};  // poll passes over -1
     if (out_ < 0 && err_ < 0) return false;
-    if (::poll(ends, 2, -1) < 0) return errno == EINTR;
+    if (::poll(ends, 3, -1) < 0) return errno == EINTR;
+    if (ends[2].revents != 0) {
+      char passed[4096];
+      if (::read(events, passed, sizeof passed) < 0 && errno != EINTR) return false;
+    }
     const auto take = [](pollfd& end, int& descriptor, std::string& text) {
       if (end.fd < 0 || end.revents == 0) return;
       char buffer[4096];

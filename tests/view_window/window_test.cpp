@@ -1,11 +1,9 @@
 // rill-view from end to end, in a window on a display of its own (Xvfb), with validation.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <thread>
 
 #include "support/child_process.hpp"
 #include "support/temporary_folder.hpp"
@@ -256,9 +254,8 @@ TEST_F(ViewWindowTest, ASignalClosesIt) {
   const std::string view = "echo $$ > pid; exec '" + program() + "' '" + scene + "' --script hands.txt --validate";
   interrupted.insert(interrupted.end(), {"/bin/sh", "-c", view});
   Child child(interrupted, folder.string());
-  while (!std::filesystem::exists(folder / "shown.png") && !child.ended()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  ASSERT_TRUE(child.waitForFile(folder / "shown.png")) << child.wait().err;
   // To the program alone and once: the second of a kind ends it at once.
-  ASSERT_TRUE(std::filesystem::exists(folder / "shown.png")) << child.wait().err;
   ::kill(std::stoi(contentOf(folder / "pid")), SIGINT);
   const Outcome outcome = child.wait();
   EXPECT_EQ(outcome.code, 130) << "as after any Ctrl-C: " << outcome.err;
@@ -275,7 +272,6 @@ TEST_F(ViewWindowTest, ABrokenFileWaitsInTheWindowUntilItIsMended) {
   // A scene that is none before it is one: the message of the second says that the file was read again, and that the window is still there.
   folder.write("scene.json", "{ \"rill\": \"0.1\", \"fluid\": { \"spacing\": -1 } }");
   folder.write("scene.json", kDam);
-  while (contentOf(folder / "pid").empty() && !child.ended()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
   ASSERT_FALSE(child.ended());
   ::kill(std::stoi(contentOf(folder / "pid")), SIGTERM);
   const Outcome outcome = child.wait();

@@ -6,13 +6,13 @@
 namespace rill::view {
 namespace {
 
-void row(Board& board, const std::string& name, double ms, uint32_t runs, bool fresh) {
+void row(Board& board, const std::string& name, double ms, uint32_t runs, uint32_t ran, bool fresh) {
   History& history = board.histories.passes[name];
   if (fresh) history.add(ms);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::TextUnformatted(name.c_str());
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s, recorded %u times", name.c_str(), runs);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s, recorded %u times, ran %u", name.c_str(), runs, ran);
   ImGui::TableNextColumn();
   ImGui::Text("%.2f", ms);
   ImGui::TableNextColumn();
@@ -47,13 +47,13 @@ void passPanel(Board& board) {
   board.histories.passesOf = runner.steps();
   ImGui::TextDisabled("simulation, last step");
   if (beginTable("simulation")) {
-    for (const offline::PassTime& pass : runner.log().times()) row(board, pass.name, pass.ms, pass.runs, fresh);
+    for (const offline::PassTime& pass : runner.log().times()) row(board, pass.name, pass.ms, pass.runs, pass.ran, fresh);
     ImGui::EndTable();
   }
   for (const auto& [name, reason] : runner.log().skipped()) left(name, reason);
   ImGui::TextDisabled("picture");
   if (beginTable("picture")) {
-    for (const Timing& pass : board.display.pictureTimings()) row(board, std::string(pass.name), pass.ms, pass.runs, fresh);
+    for (const Timing& pass : board.display.pictureTimings()) row(board, std::string(pass.name), pass.ms, pass.runs, pass.runs, fresh);
     ImGui::EndTable();
   }
   for (const PassReport& pass : board.display.pictureReport())

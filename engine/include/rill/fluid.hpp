@@ -32,8 +32,9 @@ struct FluidSnapshot {
   std::vector<uint32_t> sums = {};                   ///< FluidSums, word by word
   std::vector<float> solids = {};                    ///< centre (m) and velocity (m/s) of each solid, six numbers; empty where none moves
   std::vector<Float3> position = {}, velocity = {};  ///< m, m/s
+  // Of the warm start; empty without one.
   std::vector<Float4> push = {};  ///< m/s^2; w: the multiplier of the last iteration (m^2), while the start's pressure is being found
-  std::vector<float> warm = {};   ///< multipliers of the warm start, m^2
+  std::vector<float> warm = {};   ///< multipliers, m^2
   std::vector<uint32_t> id = {};
   std::vector<uint32_t> nearWall = {}, nearMore = {};  ///< particles near one wall; near several walls or a solid: rising
   // The neighbour list, as long as it is not due to be built anew.
@@ -136,6 +137,12 @@ struct FluidStats {
   double artificial_viscosity_Pa_s = 0;  ///< what solver.artificial_viscosity adds at present, Pa s: nothing while the fluid is rough
 };
 
+/// Passes that the device switches on and off: of `of` that were recorded under a name, `ran` ran, and the others were empty dispatches.
+struct FluidPassRuns {
+  std::string_view name;  ///< as in PassReport; ending with '/', of all passes whose names begin with it
+  uint32_t ran = 0, of = 0;
+};
+
 class FluidImpl;
 
 /// A Position Based Fluid on a borrowed device (Macklin and Mueller 2013; ARCHITECTURE.md, "A substep"). Declares passes in a graph of its
@@ -157,6 +164,8 @@ class RILL_API Fluid {
   std::optional<FluidStats> stats() const;
   /// How far the last finished frame got with its advance. Known without asking for figures.
   const FluidProgress& progress() const;
+  /// How often passes of the last finished frame ran; those that are not named ran as often as they were recorded.
+  std::vector<FluidPassRuns> passRuns() const;
 
   /// Where a driven solid is at the end of the last advance that was declared, m: short of its target where that was too far away.
   /// No numbers (NaN) for a solid that is not driven.

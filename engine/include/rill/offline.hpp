@@ -52,12 +52,13 @@ struct Image {
 struct PassTime {
   std::string name = {};
   double ms = 0;      ///< 0 without Options::passTimes
-  uint32_t runs = 0;  ///< times recorded: the device leaves out substeps and rebuilds that are not due, which then cost an empty dispatch
+  uint32_t runs = 0;  ///< times recorded
+  uint32_t ran = 0;   ///< of those: the device leaves out substeps and rebuilds that are not due, which then cost an empty dispatch
 };
 using SkippedPass = std::pair<std::string, std::string>;  ///< and the reason
 
-/// A table for people: what was recorded and the time it took, then what was skipped and why.
-std::string passTable(std::span<const PassTime> passes, std::span<const SkippedPass> skipped, uint64_t substeps, uint64_t listBuilds);
+/// A table for people: what was recorded, how often it ran and the time it took, then what was skipped and why.
+std::string passTable(std::span<const PassTime> passes, std::span<const SkippedPass> skipped);
 
 /// What the transients of one kind of frame take on the device.
 struct FrameMemory {

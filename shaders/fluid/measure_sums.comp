@@ -1,0 +1,45 @@
+#version 460
+// Figures of the present instant but those of the histograms: compression, energies, momentum, who is outside. A partial sum a workgroup, in a fixed order.
+#extension GL_GOOGLE_include_directive : require
+#include "fluid/uniforms.glsl"
+#include "fluid/partials.glsl"
+#include "shared/arrays.glsl"
+layout(local_size_x = kFluidGroup) in;
+READ_FLOAT4(2, position)
+READ_FLOAT4(3, velocity)  // w: density over rest density
+layout(std430, binding = 4) writeonly buffer PartialBlock { MeasurePartial partials[]; };
+
+shared MeasurePartial rows[kFluidGroup];
+
+void main() {
+  uint lane = gl_LocalInvocationID.x;
+  vec3 low = vec3(params.boundLowX, params.boundLowY, params.boundLowZ), high = vec3(params.boundHighX, params.boundHighY, params.boundHighZ);
+  float compression = 0.0, compressionMax = 0.0, squares = 0.0, squaresMax = 0.0;
+  vec3 velocities = vec3(0.0), positions = vec3(0.0);
+  uint outside = 0u, parked = 0u;
+  for (uint i = flatInvocation(); i < params.count; i += kMeasurePartials * kFluidGroup) {
+    vec3 x = positionAt(i).xyz;
+    if (x.x >= kParked * 0.5) {
+      outside += 1u;
+      parked += 1u;
+      continue;
+    }
+    vec4 v = velocityAt(i);
+    float error = max(v.w - 1.0, 0.0), square = dot(v.xyz, v.xyz);
+    compression += error;
+    compressionMax = max(compressionMax, error);
+    squares += square;
+    squaresMax = max(squaresMax, square);
+    velocities += v.xyz;
+    positions += x;
+    outside += uint(any(lessThan(x, low)) || any(greaterThan(x, high)));
+  }
+  rows[lane] = MeasurePartial(compression, compressionMax, squares, sqrt(squaresMax), velocities.x, velocities.y, velocities.z, positions.x, positions.y,
+                              positions.z, outside, parked);
+  barrier();
+  for (uint half_ = kFluidGroup / 2u; half_ > 0u; half_ /= 2u) {
+    if (lane < half_) rows[lane] = addPartials(rows[lane], rows[lane + half_]);
+    barrier();
+  }
+  if (lane == 0u) partials[flatGroup()] = rows[0];
+}

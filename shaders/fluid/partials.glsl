@@ -1,0 +1,9 @@
+// Sums of figures over two sets of particles, for both.
+#ifndef RILL_PARTIALS_GLSL
+#define RILL_PARTIALS_GLSL
+MeasurePartial addPartials(MeasurePartial a, MeasurePartial b) {
+  return MeasurePartial(a.compression + b.compression, max(a.compressionMax, b.compressionMax), a.kinetic + b.kinetic, max(a.speedMax, b.speedMax),
+                        a.velocityX + b.velocityX, a.velocityY + b.velocityY, a.velocityZ + b.velocityZ, a.positionX + b.positionX,
+                        a.positionY + b.positionY, a.positionZ + b.positionZ, a.outside + b.outside, a.parked + b.parked);
+}
+#endif

@@ -1,0 +1,16 @@
+// key[i] = source[i], counted for a sort with open ends.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define COUNTERS 2
+#include "sort/count.glsl"
+layout(local_size_x = 64) in;
+layout(constant_id = 1) const uint COUNTS = 0;
+layout(binding = 0) readonly buffer Source { uint source[]; };
+layout(binding = 1) writeonly buffer Keys { uint key[]; };
+layout(push_constant) uniform Push { uint count; };
+void main() {
+  const uint i = gl_GlobalInvocationID.x;
+  if (i >= count) return;
+  key[i] = source[i];
+  if (COUNTS != 0u) countKey(i, source[i]);
+}
