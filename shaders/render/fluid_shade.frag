@@ -57,7 +57,9 @@ vec3 meanNormal(vec2 middle, float z, vec3 normal) {
     const float angle = 2.3999632 * float(k), far = reach * sqrt((float(k) + 0.5) / float(kFaceLooks));
     const ivec2 at = clamp(ivec2(middle + far * vec2(cos(angle), sin(angle))), ivec2(0), ivec2(view.width, view.height) - 1);
     const uvec2 other = surface[uint(at.y) * view.width + uint(at.x)];
-    if (abs(pixelDepth(other) - z) < kSameWater * view.spacing) sum += unpackNormal(other.y);
+    if (abs(pixelDepth(other) - z) >= kSameWater * view.spacing) continue;
+    const vec3 face = unpackNormal(other.y);
+    sum += clamp(2.0 * dot(face, normal), 0.0, 1.0) * face;
   }
   const float length_ = length(sum);
   return length_ > 1.0e-3 ? sum / length_ : normal;
