@@ -1,4 +1,6 @@
 // The passes of the figures: density on a grid of its own, sums, the median and the worst hundredth.
+#include <algorithm>
+
 #include "fluid/pass_parts.hpp"
 
 namespace rill {
@@ -55,7 +57,8 @@ void FluidImpl::declareMeasure(Graph& graph, Pending& pending) {
             {&ordered});
   plainPass(graph, r_, read, "measure", pipes_.measure, all, {ordered, sorted.start, r_.nearSample}, {},
             {&r_.sums, &histogram, &r_.velocity});
-  plainPass(graph, r_, read, "measure sums", pipes_.measureSums, kMeasurePartials, {r_.position, r_.velocity}, {&partials});
+  plainPass(graph, r_, read, "measure sums", pipes_.measureSums,
+            std::min<uint64_t>(divideUp(count, kMeasureShare * kFluidGroup), kMeasurePartials), {r_.position, r_.velocity}, {&partials});
   BufferRef result = graph.create("figures", {sizeof(MeasureResult)});
   graph.pass("reduce", [&](Pass& pass) {
     pass.read(r_.params, Use::ComputeUniform);

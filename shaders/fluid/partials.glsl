@@ -1,6 +1,9 @@
 // Sums of figures over two sets of particles, for both.
 #ifndef RILL_PARTIALS_GLSL
 #define RILL_PARTIALS_GLSL
+// Workgroups that add up: few, since the end of each, in shared memory, costs lavapipe 23 us.
+uint partialCount() { return min((params.count + kMeasureShare * kFluidGroup - 1u) / (kMeasureShare * kFluidGroup), kMeasurePartials); }
+
 MeasurePartial addPartials(MeasurePartial a, MeasurePartial b) {
   return MeasurePartial(a.compression + b.compression, max(a.compressionMax, b.compressionMax), a.kinetic + b.kinetic, max(a.speedMax, b.speedMax),
                         a.velocityX + b.velocityX, a.velocityY + b.velocityY, a.velocityZ + b.velocityZ, a.positionX + b.positionX,

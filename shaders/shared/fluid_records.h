@@ -191,7 +191,8 @@ struct MeasurePartial {
 };
 RILL_CONST uint kMeasureFirst = 107u << 9;          // bin 0: |C| = 2^-20, by the top bits of the float
 RILL_CONST uint kMeasureBins = 23u << 9;            // up to 8, 512 bins an octave
-RILL_CONST uint kMeasurePartials = 32u;               // workgroups that add up
+RILL_CONST uint kMeasurePartials = 32u;               // workgroups that add up, at most
+RILL_CONST uint kMeasureShare = 64u;                  // particles of an invocation, while there are fewer
 
 // What measure_reduce.comp finds, for the host.
 struct MeasureResult {
