@@ -25,7 +25,7 @@ struct KeySortDesc {
   bool keys = false;          ///< whether SortedKeys::keys is made
   bool storageReads = false;  ///< through storage buffers even where texel buffers would hold enough; the same result
   /// The ends are the caller's: its pass that makes the keys counts them (shaders/sort/count.glsl), and its pass that moves what is
-  /// sorted finds the places (shaders/sort/place.glsl). Two passes fewer. Without `keys`.
+  /// sorted finds the places (shaders/sort/place.glsl). Neither is a pass of the sort's then. Without `keys`.
   bool openEnds = false;
 };
 
