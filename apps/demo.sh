@@ -31,14 +31,16 @@ done
 build_release OFF rill-capture
 
 out=out/dam-break
+pictures=yes
 args=("$@")
 for ((i = 0; i < $#; i++)); do
   case ${args[i]} in
     --out=*) out=${args[i]#--out=} ;;
     --out) out=${args[i + 1]:-$out} ;;
+    --no-images) pictures=no ;;
   esac
 done
 
 phase "Simulating and drawing dam-break"
 build/release/apps/capture/rill-capture dam-break "$@"
-phase "The pictures are in $out"
+if [ $pictures = yes ]; then phase "The pictures are in $out"; else phase "Done"; fi

@@ -113,6 +113,7 @@ Expected<RunFigures> runScene(const Bench& bench, const SceneRun& run) {
       if (found == figures.passes.end()) found = figures.passes.insert(figures.passes.end(), {pass.name});
       found->ms += pass.ms;
       found->runs += pass.runs;
+      found->ran += pass.ran;
     }
     figures.instants.push_back({time, std::move(*stats)});
     figures.simulated_s = time;

@@ -16,11 +16,33 @@
 #include "core/words.hpp"
 
 namespace rill {
+
+/// What a file's head describes.
+namespace ply {
+
+enum class Scalar : uint8_t { I8, U8, I16, U16, I32, U32, F32, F64 };
+
+struct Property {
+  std::string name;
+  Scalar type = Scalar::F32;
+  std::optional<Scalar> count;  ///< of a list: the type of its length
+};
+
+struct Element {
+  std::string name;
+  uint64_t count = 0;
+  std::vector<Property> properties;
+};
+
+enum class Format : uint8_t { Ascii, Little, Big };
+
+}  // namespace ply
+
 namespace {
 
 namespace fs = std::filesystem;
+using ply::Element, ply::Format, ply::Property, ply::Scalar;
 
-enum class Scalar : uint8_t { I8, U8, I16, U16, I32, U32, F32, F64 };
 constexpr std::array<size_t, 8> kScalarBytes{1, 1, 2, 2, 4, 4, 4, 8};
 
 std::optional<Scalar> scalarNamed(std::string_view name) {
@@ -39,20 +61,6 @@ std::optional<Scalar> scalarNamed(std::string_view name) {
 }
 
 size_t bytesOf(Scalar type) { return kScalarBytes[static_cast<size_t>(type)]; }
-
-struct Property {
-  std::string name;
-  Scalar type = Scalar::F32;
-  std::optional<Scalar> count;  ///< of a list: the type of its length
-};
-
-struct Element {
-  std::string name;
-  uint64_t count = 0;
-  std::vector<Property> properties;
-};
-
-enum class Format : uint8_t { Ascii, Little, Big };
 
 /// The least bytes that one element takes in the file.
 uint64_t leastBytes(const Element& element, Format format) {

@@ -20,24 +20,34 @@ bool read(std::span<const std::byte> bytes, Record& record) {
 }  // namespace
 
 std::vector<FluidPassRuns> FluidImpl::passRuns() const {
-  const Recorded& recorded = recordedLast_;
-  const uint32_t substeps = ran_.substeps - ranBefore_.substeps, iterations = ran_.iterations - ranBefore_.iterations,
-                 builds = ran_.builds - ranBefore_.builds, calms = ran_.calms - ranBefore_.calms;
-  const uint32_t measures = recorded.sorts - recorded.rebuilds;
-  const uint32_t further = setup.params.iterations - 1;
-  const bool keeps = setup.viscositySweeps % 2 == 1, calm = setup.params.calmingRate > 0;
+  const FluidParams& p = setup.params;
+  const uint32_t substeps = recordedLast_.substeps - recordedBefore_.substeps, blocks = recordedLast_.blocks - recordedBefore_.blocks;
+  const uint32_t rebuilds = recordedLast_.rebuilds - recordedBefore_.rebuilds, sorts = recordedLast_.sorts - recordedBefore_.sorts;
+  const uint32_t ran = ran_.substeps - ranBefore_.substeps, iterations = ran_.iterations - ranBefore_.iterations;
+  const uint32_t builds = ran_.builds - ranBefore_.builds, calms = ran_.calms - ranBefore_.calms;
+  const bool smooths = setup.viscositySweeps > 0, swirls = p.vorticity > 0, keeps = setup.viscositySweeps % 2 == 1,
+             calm = p.calmingRate > 0;
   std::vector<FluidPassRuns> all;
-  const auto add = [&](uint32_t ran, uint32_t of, std::initializer_list<std::string_view> names) {
+  const auto add = [&](bool declared, uint32_t did, uint32_t of, std::initializer_list<std::string_view> names) {
     for (std::string_view name : names)
-      if (of > 0) all.push_back({name, ran, of});
+      if (declared && of > 0) all.push_back({name, did, of});
   };
-  add(builds, recorded.rebuilds, {"keys", "reorder", "build list"});
-  add(builds + measures, recorded.sorts, {"sort/"});
-  add(iterations, recorded.substeps * setup.params.iterations, {"walls and solids", "density"});
-  add(iterations - substeps, recorded.substeps * further, {"iterate"});
-  add(substeps, recorded.substeps, {"move solids", "correct", "collide", "collide again", "viscosity", "curl", "confine"});
-  add(calms, calm ? recorded.blocks : 0, {"calm"});
-  add((keeps ? substeps : 0) + calms, (keeps ? recorded.substeps : 0) + (calm ? recorded.blocks : 0), {"keep velocities"});
+  add(true, builds, rebuilds, {"keys", "reorder", "build list"});
+  add(true, builds + (sorts - rebuilds), sorts, {"sort/"});
+  add(setup.near, iterations, substeps * p.iterations, {"walls and solids"});
+  add(true, iterations, substeps * p.iterations, {"density"});
+  add(true, iterations - ran, substeps * (p.iterations - 1), {"iterate"});
+  add(true, ran, substeps, {"correct"});
+  add(setup.movingSolids, ran, substeps, {"move solids"});
+  add(p.solidCount > 0, ran, substeps, {"collide"});
+  if (smooths || swirls)
+    add(p.solidCount > 0, ran, substeps, {"collide again"});
+  else
+    add(p.solidCount > 0 && calm, ran_.calmable - ranBefore_.calmable, blocks, {"collide again"});
+  add(smooths, ran, substeps, {"viscosity"});
+  add(swirls, ran, substeps, {"curl", "confine"});
+  add(calm, calms, blocks, {"calm"});
+  add(keeps || calm, (keeps ? ran : 0) + calms, (keeps ? substeps : 0) + (calm ? blocks : 0), {"keep velocities"});
   return all;
 }
 
@@ -56,8 +66,9 @@ void FluidImpl::poll() const {
       if (given_up->uploads) staging_.reset();
     pending_.erase(pending_.begin(), next);
     const Pending& pending = pending_.front();
-    ranBefore_ = std::exchange(ran_, {control.ranSubsteps, control.ranIterations, control.ranBuilds, control.ranCalms});
-    recordedLast_ = pending.recorded;
+    ranBefore_ =
+        std::exchange(ran_, {control.ranSubsteps, control.ranIterations, control.ranBuilds, control.ranCalmable, control.ranCalms});
+    recordedBefore_ = std::exchange(recordedLast_, pending.recorded);
     progress = {.known = true,
                 .time_s = double{control.timeHigh} + control.timeLow,
                 .time_left_s = control.timeLeft,

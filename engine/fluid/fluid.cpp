@@ -54,6 +54,7 @@ FluidMemory fluidMemory(const Scene& scene, uint64_t particles) {
   // where keys have arrived, and the order of full cells.
   uint64_t each = 6 * 16 + 5 * 4 + (3 * 16 + 3 * 4);
   if (!startsWarm(scene)) each -= 16 + 4;
+  if (scene.solver.neighbors == NeighborChoice::Grid) each -= 4;
   if (scene.solver.iterations > 1) each += 4;
   if (scene.fluid.viscosity > 0 || scene.fluid.vorticity > 0) each += 2 * 16;
   if (!scene.solids.empty()) each += 16;
@@ -228,7 +229,7 @@ Expected<void> FluidImpl::makePipelines(Device& device) {
   make(pipes_.control, "fluid/control", plain(1, 5), sizeof(ControlPush));
   make(pipes_.arm, "fluid/arm", plain(1, 5), 0);
   make(pipes_.predict, reading("fluid/predict"), {Uniform, Uniform, vectors, vectors, vectors, Storage, Storage}, 0, {warm});
-  const uint32_t counts = sort_->method() == SortMethod::Counting, oversized = count > kBinLimit;
+  const auto [oversized, counts] = sort_->counterConstants();
   const std::vector<BindingKind> keyed{Uniform, Uniform, vectors, Storage, Storage, Storage, Storage, Storage};
   make(pipes_.keys, reading("fluid/keys"), keyed, 0, {oversized, counts, 1});
   make(pipes_.measureKeys, reading("fluid/keys"), keyed, 0, {oversized, counts, 0});

@@ -83,14 +83,14 @@ class FluidImpl {
   mutable FluidProgress progress;
 
  private:
-  /// What a frame recorded of what the device switches on and off.
+  /// What was recorded, since the start, of what the device switches on and off.
   struct Recorded {
     uint32_t substeps = 0, blocks = 0, rebuilds = 0, sorts = 0;  ///< sorts: with those of figures, which always run
   };
 
-  /// What the device had run at a frame's end, since the start.
+  /// What of it the device ran.
   struct Ran {
-    uint32_t substeps = 0, iterations = 0, builds = 0, calms = 0;
+    uint32_t substeps = 0, iterations = 0, builds = 0, calmable = 0, calms = 0;
   };
 
   struct Pending {
@@ -145,13 +145,12 @@ class FluidImpl {
   std::optional<uint64_t> uploadFrame_;  // into whose commands the upload was recorded
   bool resumed_ = false;                 // from a snapshot
   float drivenSpeed_ = 0;                // m/s, the fastest driven solid of the advance declared last
-  uint32_t recorded_ = 0;                // substeps recorded since the start: parity of the next
   double emptyTime_ = 0;                 // simulated time of a fluid without particles, s
   mutable std::deque<Pending> pending_;
-  Recorded recording_;             // by the frame being declared
-  mutable Recorded recordedLast_;  // by the last finished frame
-  mutable Ran ran_, ranBefore_;    // at its end, and at that of the one before
-  std::deque<Drive> drives_;       // those that the device has not finished
+  Recorded recording_;                              // by all frames that were declared
+  mutable Recorded recordedLast_, recordedBefore_;  // at the end of the last finished frame, and of the one before
+  mutable Ran ran_, ranBefore_;                     // likewise
+  std::deque<Drive> drives_;                        // those that the device has not finished
   uint64_t driveCount_ = 0;
 };
 

@@ -226,7 +226,6 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   }
 
   importAll(graph);
-  recording_ = {};
   const bool advances = step.resume || step.advance_s > 0;
   forgetAbandoned();
   const bool uploads = !uploaded_;
@@ -244,7 +243,7 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   const uint32_t blocks = advances ? static_cast<uint32_t>(divideUp(std::max(step.substeps, 1u), kSubstepsPerBlock)) : 0;
   for (uint32_t block = 0; block < blocks; ++block) {
     declareRebuild(graph);
-    for (uint32_t k = 0; k < kSubstepsPerBlock; ++k) declareSubstep(graph, recorded_++ & 1u, k == 0);
+    for (uint32_t k = 0; k < kSubstepsPerBlock; ++k) declareSubstep(graph, recording_.substeps & 1u, k == 0);
   }
   if (blocks == 0) declareRebuild(graph);  // runs where there has been none yet
   declareSkipped(graph);

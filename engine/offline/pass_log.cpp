@@ -36,7 +36,7 @@ void PassLog::add(std::span<const FluidPassRuns> passes, std::span<const PassRep
     };
     const auto found = std::ranges::find_if(passes, switched);
     if (found == passes.end() || pass.culled || !pass.reason.empty()) continue;
-    entry(pass.name).ran -= static_cast<uint32_t>(uint64_t{pass.runs} * (found->of - found->ran) / found->of);
+    entry(pass.name).ran -= static_cast<uint32_t>(uint64_t{pass.runs} * (found->of - std::min(found->ran, found->of)) / found->of);
   }
 }
 

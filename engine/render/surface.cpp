@@ -222,7 +222,8 @@ void SurfaceStage::addGrid(Graph& graph, const FluidState& fluid, Frame& frame) 
           {reads(fluid.position), writes(out.counters), reads(frame.survivors), reads(frame.depth), writes(frame.start), fresh(rank)},
           survivorGroups(), out.push);
   addArguments(graph, out);
-  auto scan = Scan::create(*device_, static_cast<uint32_t>(frame.cells + 1), frame.storageReads);
+  auto scan = Scan::create(*device_, static_cast<uint32_t>(frame.cells + 1), frame.storageReads,
+                           {"surface scan", "surface scan reduce", "surface scan tiles", "surface scan apply"});
   assert(scan && "its pipelines were made in create()");
   frame.start = scan->addTo(graph, frame.start);
   addStep(graph, "surface scatter", scatter_,

@@ -20,7 +20,7 @@ Expected<CountingSort> CountingSort::create(Device& device, const KeySortDesc& d
   ModulePipelines pipelines(device, sizeof(CountingPush));
   sort.texels_ = texels;
   sort.clear_ = pipelines.make("sort/clear", 2);
-  if (!desc.openEnds) sort.count_ = pipelines.makeReading("sort/count", texels, {TexelUint, Storage, Storage, Storage}, {oversized});
+  if (!desc.openEnds) sort.count_ = pipelines.makeReading("sort/count", texels, {TexelUint, Storage, Storage, Storage}, {oversized, 1});
   sort.scatter_ = pipelines.makeReading("sort/scatter", texels, {TexelUint, TexelUint, TexelUint, Storage});
   if (!desc.openEnds)
     sort.orderBins_ = pipelines.makeReading("sort/order_bins", texels, {TexelUint, TexelUint, TexelUint, Storage, Storage},
@@ -104,7 +104,8 @@ SortedKeys CountingSort::finish(Graph& graph, BufferRef keys, const KeyCounters&
   BufferRef sortedKeys = desc_.keys ? targetOr(graph, targets.keys, "sort keys", desc_.count) : BufferRef{};
   // Bins of up to kBinLimit and larger ones: two dispatches, which write different places.
   graph.pass("sort/order bins", [&](Pass& pass) {
-    for (BufferRef ref : {keys, start, arrived}) pass.read(ref, read);
+    if (orderBins_) pass.read(keys, read);
+    for (BufferRef ref : {start, arrived}) pass.read(ref, read);
     if (orderOversized_) pass.read(counters.oversized, Use::ComputeRead);
     order = pass.write(order, Use::ComputeWrite, discards(targets.order, gate));
     if (desc_.keys) sortedKeys = pass.write(sortedKeys, Use::ComputeWrite, discards(targets.keys, gate));

@@ -1,7 +1,10 @@
 #include "sort/key_sort.hpp"
 
+#include <cassert>
 #include <string>
 #include <utility>
+
+#include "sort/sort_types.h"
 
 namespace rill {
 namespace {
@@ -43,11 +46,11 @@ Expected<KeySort> KeySort::create(Device& device, const KeySortDesc& desc) {
   if (chooseSortMethod(desc) == SortMethod::Counting) {
     auto sort = CountingSort::create(device, desc);
     if (!sort) return sort.error();
-    return KeySort(*std::move(sort));
+    return KeySort(*std::move(sort), desc);
   }
   auto sort = RadixSort::create(device, desc);
   if (!sort) return sort.error();
-  return KeySort(*std::move(sort));
+  return KeySort(*std::move(sort), desc);
 }
 
 SortMethod KeySort::method() const { return std::holds_alternative<CountingSort>(sort_) ? SortMethod::Counting : SortMethod::Radix; }
@@ -56,16 +59,21 @@ std::vector<GroupCount> KeySort::groups() const {
   return std::visit([](const auto& sort) { return sort.groups(); }, sort_);
 }
 
+std::array<uint32_t, 2> KeySort::counterConstants() const { return {desc_.count > kBinLimit, method() == SortMethod::Counting}; }
+
 SortedKeys KeySort::addTo(Graph& graph, BufferRef keys, const SortTargets& targets, const Gate* gate) const {
+  assert(!desc_.openEnds);
   return std::visit([&](const auto& sort) { return sort.addTo(graph, keys, targets, gate); }, sort_);
 }
 
 KeyCounters KeySort::begin(Graph& graph, const SortTargets& targets, const Gate* gate) const {
+  assert(desc_.openEnds);
   const auto* counting = std::get_if<CountingSort>(&sort_);
   return counting ? counting->begin(graph, targets, gate) : KeyCounters{};
 }
 
 SortedKeys KeySort::finish(Graph& graph, BufferRef keys, const KeyCounters& counters, const SortTargets& targets, const Gate* gate) const {
+  assert(desc_.openEnds);
   if (const auto* counting = std::get_if<CountingSort>(&sort_)) return counting->finish(graph, keys, counters, targets, gate);
   SortedKeys sorted = std::get<RadixSort>(sort_).addTo(graph, keys, targets, gate);
   sorted.arrived = sorted.order;  // in order, too

@@ -1,5 +1,6 @@
 #pragma once
 // Sorts integer keys on the device, as graph passes: a counting sort where keys are dense, a radix sort where they are not.
+#include <array>
 #include <cstdint>
 #include <variant>
 #include <vector>
@@ -32,13 +33,16 @@ class KeySort {
   /// Where the gate's arguments are zero the targets keep their content. No keys: nothing is declared, the targets are returned.
   SortedKeys addTo(Graph& graph, BufferRef keys, const SortTargets& targets = {}, const Gate* gate = nullptr) const;
 
+  /// Of a shader that includes shaders/sort/count.glsl.
+  std::array<uint32_t, 2> counterConstants() const;
   /// The same for desc.openEnds: begin(), the caller's pass that makes the keys and writes the counters, finish().
   KeyCounters begin(Graph& graph, const SortTargets& targets = {}, const Gate* gate = nullptr) const;
   SortedKeys finish(Graph& graph, BufferRef keys, const KeyCounters& counters, const SortTargets& targets = {},
                     const Gate* gate = nullptr) const;
 
  private:
-  explicit KeySort(std::variant<CountingSort, RadixSort> sort) : sort_(std::move(sort)) {}
+  KeySort(std::variant<CountingSort, RadixSort> sort, const KeySortDesc& desc) : desc_(desc), sort_(std::move(sort)) {}
+  KeySortDesc desc_;
   std::variant<CountingSort, RadixSort> sort_;
 };
 

@@ -15,11 +15,12 @@ uint32_t tileCount(uint32_t count) { return (count + kScanTile - 1) / kScanTile;
 
 }  // namespace
 
-Expected<Scan> Scan::create(Device& device, uint32_t count, bool storageReads) {
+Expected<Scan> Scan::create(Device& device, uint32_t count, bool storageReads, const ScanNames& names) {
   if (count > kMaxCount)
     return Error{ErrorKind::BadInput, "scan: " + std::to_string(count) + " values, at most " + std::to_string(kMaxCount) + " are possible"};
   Scan scan;
   scan.count_ = count;
+  scan.names_ = names;
   if (count == 0) return scan;
   using enum BindingKind;
   scan.texels_ = !storageReads && device.info().maxTexelBufferElements >= paddedWords(count) / 4;
@@ -57,19 +58,19 @@ BufferRef Scan::addTo(Graph& graph, BufferRef values, const Gate* gate) const {
     });
   };
   if (count_ <= kSingleCount) {
-    single("sort/scan", values, count_);
+    single(names_.single, values, count_);
     return values;
   }
   const uint32_t tiles = tileCount(count_);
   BufferRef sums = graph.create("scan tile sums", {paddedWords(tiles) * sizeof(uint32_t)});
-  graph.pass("sort/scan reduce", [&](Pass& pass) {
+  graph.pass(names_.reduce, [&](Pass& pass) {
     pass.read(values, read);
     sums = pass.write(sums, Use::ComputeWrite, true);
     return dispatches.next(pass, pass.kernel(pipes_.reduce, {values, sums}), tiles, ScanPush{count_});
   });
   const bool scanned = tiles > kScanSums;
-  if (scanned) single("sort/scan tiles", sums, tiles);
-  graph.pass("sort/scan apply", [&](Pass& pass) {
+  if (scanned) single(names_.tiles, sums, tiles);
+  graph.pass(names_.apply, [&](Pass& pass) {
     pass.read(sums, read);
     values = pass.write(values, Use::ComputeWrite);
     return dispatches.next(pass, pass.kernel(scanned ? pipes_.applyScanned : pipes_.apply, {values, sums}), tiles, ScanPush{count_});

@@ -1,6 +1,7 @@
 #pragma once
 // Exclusive prefix sum, as graph passes.
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "gpu/resources.hpp"
@@ -10,6 +11,11 @@
 
 namespace rill {
 
+/// What a scan's passes are called; string literals.
+struct ScanNames {
+  std::string_view single = "sort/scan", reduce = "sort/scan reduce", tiles = "sort/scan tiles", apply = "sort/scan apply";
+};
+
 /// values[k] becomes the sum of values[0 .. k-1], modulo 2^32, in place. Reduce, then scan: no workgroup waits for another.
 class Scan {
  public:
@@ -18,7 +24,7 @@ class Scan {
 
   /// `count` values, 0 .. kMaxCount; BadInput above. With kMaxCount all pipelines are made that any other count needs. `storageReads`:
   /// through storage buffers even where texel buffers would hold enough; the same result.
-  static Expected<Scan> create(Device& device, uint32_t count, bool storageReads = false);
+  static Expected<Scan> create(Device& device, uint32_t count, bool storageReads = false, const ScanNames& names = {});
 
   uint32_t count() const { return count_; }
   /// The group counts of its dispatches, in order.
@@ -29,6 +35,7 @@ class Scan {
 
  private:
   uint32_t count_ = 0;
+  ScanNames names_;
   struct Pipelines {
     const ComputePipeline *single = nullptr, *reduce = nullptr, *apply = nullptr, *applyScanned = nullptr;
   };

@@ -44,7 +44,7 @@ Expected<SceneBuffers> SceneBuffers::create(Device& device, ParticleScene host) 
   if (auto ok = keep(out.keyframes, upload<Float4>(device, "view: keyframes", out.host.keyframes)); !ok) return ok.error();
   using enum BindingKind;
   static constexpr BindingKind kBindings[] = {Uniform, Storage, Storage, Storage, Storage};
-  for (const auto& [pipeline, floats] : {std::pair{&out.poses, size_t{0}}, {&out.drivenPoses, sizeof(SolidRecord) / sizeof(float)}}) {
+  for (const auto& [pipeline, floats] : {std::pair{&out.poses, size_t{0}}, {&out.drivenPoses, sizeof(rill::SolidRecord) / sizeof(float)}}) {
     const uint32_t constants[] = {static_cast<uint32_t>(floats)};
     auto made = computePipeline(
         device, {.shader = "views/particle_poses", .bindings = kBindings, .pushConstantBytes = sizeof(ViewPush), .constants = constants});

@@ -30,6 +30,7 @@ void main() {
   c.iterations += 1u;
   c.ranIterations += 1u;
   if (first) c.ranSubsteps += 1u;
+  if (first && push.calms != 0u) c.ranCalmable += 1u;
   sums.errorLow = 0u;
   sums.errorHigh = 0u;
   sums.errorMax = 0u;

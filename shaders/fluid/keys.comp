@@ -7,7 +7,6 @@
 #define COUNTERS 5
 #include "sort/count.glsl"
 layout(local_size_x = kFluidGroup) in;
-layout(constant_id = 1) const uint COUNTS = 0;    // the sort has counters
 layout(constant_id = 2) const uint REBUILDS = 0;  // the list is built after this
 READ_FLOAT4(2, place)
 layout(std430, binding = 3) writeonly buffer KeyBlock { uint key[]; };
@@ -23,5 +22,5 @@ void main() {
   if (i >= params.count) return;
   uint cell = cellKey(cellOf(placeAt(i).xyz));
   key[i] = cell;
-  if (COUNTS != 0u) countKey(i, cell);
+  countKey(i, cell);
 }

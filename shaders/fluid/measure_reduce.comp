@@ -65,9 +65,10 @@ float percentile(bool signed_, uint present) {
 
 void main() {
   uint lane = gl_LocalInvocationID.x;
-  rows[lane % kMeasurePartials] = MeasurePartial(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0u, 0u);
-  barrier();
-  if (lane < partialCount()) rows[lane] = partials[lane];
+  if (lane < kMeasurePartials) {
+    if (lane < partialCount()) rows[lane] = partials[lane];
+    else rows[lane] = MeasurePartial(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0u, 0u);
+  }
   barrier();
   for (uint half_ = kMeasurePartials / 2u; half_ > 0u; half_ /= 2u) {
     if (lane < half_) rows[lane] = addPartials(rows[lane], rows[lane + half_]);

@@ -1,4 +1,4 @@
-// Sums of figures over two sets of particles, for both.
+// Adding up the figures of several sets of particles.
 #ifndef RILL_PARTIALS_GLSL
 #define RILL_PARTIALS_GLSL
 // Workgroups that add up: few, since the end of each, in shared memory, costs lavapipe 23 us.

@@ -129,7 +129,8 @@ struct FluidControl {
   float solidSpeed;    // m/s, the fastest solid of the advance
   uint pressing;       // iterations left, after settling, that find the start's pressure: nothing moves
   float momentum;      // of the one at hand; negative: the substep at hand is none of them
-  uint ranSubsteps, ranIterations, ranBuilds, ranCalms;  // since the start, those that prepare it too: for the host, which takes differences
+  // Since the start, what prepares it too: for the host, which takes differences. Of the substeps, those with which a calm pass was recorded; of these, those that it ran in.
+  uint ranSubsteps, ranIterations, ranBuilds, ranCalmable, ranCalms;
 };
 
 // Sums of the passes of one substep; integers, so that their order does not matter.

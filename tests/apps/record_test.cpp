@@ -31,7 +31,7 @@ offline::Stats stats(double error, double kinetic, double potential) {
   made.state_hash = 0xabc;
   made.wall_s = 0.5;
   made.probes = {{"H1", 0.25}};
-  made.pass_ms = {{"density", 1.5, 4}};
+  made.pass_ms = {{"density", 1.5, 4, 3}};
   made.skipped = {{"vorticity", "vorticity is 0"}};
   return made;
 }
@@ -165,7 +165,7 @@ TEST(Record, TellsWhichPassesRan) {
   record.add(0, stats(0, 1, 1));
   record.add(1, stats(0, 1, 1));
   const std::string table = record.passTable();
-  EXPECT_NE(table.find("density                                      8       3.000     375.00"), std::string::npos) << table;
+  EXPECT_NE(table.find("density                                      8         6       3.000     500.00"), std::string::npos) << table;
   EXPECT_NE(table.find("skipped: vorticity is 0"), std::string::npos) << table;
 }
 

@@ -12,7 +12,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace rill::test {
-namespace {
+namespace capture_test {
 
 using Json = nlohmann::json;
 
@@ -280,5 +280,5 @@ TEST_F(CaptureTest, DroppedTimeIsReported) {
   EXPECT_EQ(json["frames"][12]["substeps"], 2);
 }
 
-}  // namespace
+}  // namespace capture_test
 }  // namespace rill::test

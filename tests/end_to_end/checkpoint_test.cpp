@@ -8,7 +8,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace rill::test {
-namespace {
+namespace checkpoint_test {
 
 using Json = nlohmann::json;
 
@@ -218,5 +218,5 @@ TEST_F(CheckpointTest, AsALibrary) {
   EXPECT_NE((*warned)->warnings()[0].find("another driver"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace checkpoint_test
 }  // namespace rill::test

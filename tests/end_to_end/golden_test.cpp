@@ -9,7 +9,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace rill::test {
-namespace {
+namespace golden_test {
 
 namespace fs = std::filesystem;
 
@@ -68,5 +68,5 @@ TEST(PictureDistance, SeesAMissingShapeAndForgivesAPixel) {
   EXPECT_EQ(distance(grey, Picture{}).mean, 1);
 }
 
-}  // namespace
+}  // namespace golden_test
 }  // namespace rill::test

@@ -10,7 +10,7 @@
 #include "rill/offline.hpp"
 
 namespace rill::offline {
-namespace {
+namespace simulation_test {
 
 Scene dam() {
   auto scene = parseScene(R"({
@@ -267,5 +267,5 @@ TEST(Simulation, IsCleanUnderValidation) {
   for (const std::string& message : simulation->takeValidationMessages()) ADD_FAILURE() << message;
 }
 
-}  // namespace
+}  // namespace simulation_test
 }  // namespace rill::offline

@@ -7,7 +7,7 @@
 #include "fluid/settings.hpp"
 
 namespace rill::test {
-namespace {
+namespace bounds_test {
 
 // A column that breaks, in steps that the solver chooses.
 Trial dam() {
@@ -126,5 +126,5 @@ TEST_F(BoundsTest, StepsTooShortForFloatsAreRefused) {
   EXPECT_TRUE(wide.error().message.starts_with("solver: in 1e+04 m of room this fluid")) << wide.error().message;
 }
 
-}  // namespace
+}  // namespace bounds_test
 }  // namespace rill::test

@@ -6,7 +6,7 @@
 #include "fluid/rig.hpp"
 
 namespace rill::test {
-namespace {
+namespace broken_test {
 
 // Takes out every particle of `broken`, which is not finite.
 Trial without(const Trial& t, const std::vector<size_t>& broken) {
@@ -122,5 +122,5 @@ TEST_F(BrokenTest, AllOfThem) {
   EXPECT_TRUE(run->measured().finite());
 }
 
-}  // namespace
+}  // namespace broken_test
 }  // namespace rill::test

@@ -4,7 +4,7 @@
 #include "rig.hpp"
 
 namespace rill::test {
-namespace {
+namespace chunks_test {
 
 using Chunks = FluidTest;
 
@@ -35,5 +35,5 @@ TEST_F(Chunks, TwoListsGiveWhatTheGridGives) {
   EXPECT_GT(moved, 0.02) << "nothing to compare";
 }
 
-}  // namespace
+}  // namespace chunks_test
 }  // namespace rill::test

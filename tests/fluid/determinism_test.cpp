@@ -5,7 +5,7 @@
 #include "offline/readout.hpp"
 
 namespace rill::test {
-namespace {
+namespace determinism_test {
 
 // A small dam break with a choice of its own steps: they depend on every particle, and lists are rebuilt at times that depend on the
 // fastest.
@@ -137,5 +137,5 @@ TEST_F(DeterminismTest, OrderOfTheParticlesIsRounding) {
     for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(one.x[i][axis], other.x[n - 1 - i][axis], 1e-4 * t.d()) << i;
 }
 
-}  // namespace
+}  // namespace determinism_test
 }  // namespace rill::test

@@ -8,7 +8,7 @@
 #include "shared/fluid_records.h"
 
 namespace rill::test {
-namespace {
+namespace driven_test {
 
 constexpr double kFrame = 1.0 / 60;
 
@@ -170,5 +170,5 @@ TEST_F(DrivenTest, BadOnesAreRefused) {
   EXPECT_NE(made.error().message.find("motion"), std::string::npos) << made.error().message;
 }
 
-}  // namespace
+}  // namespace driven_test
 }  // namespace rill::test

@@ -6,7 +6,7 @@
 #include "shared/fluid_records.h"
 
 namespace rill {
-namespace {
+namespace grid_size_test {
 
 constexpr double kCell = 0.125;
 
@@ -44,5 +44,5 @@ TEST(GridSizeTest, WrapsWhatHasMoreCellsThanParticlesNeed) {
   }
 }
 
-}  // namespace
+}  // namespace grid_size_test
 }  // namespace rill

@@ -5,7 +5,7 @@
 #include "fluid/rig.hpp"
 
 namespace rill::test {
-namespace {
+namespace input_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
 
@@ -86,5 +86,5 @@ TEST_F(FluidInput, StepsThatCannotBe) {
   EXPECT_NE(run->snapshot(), before) << "it goes on";
 }
 
-}  // namespace
+}  // namespace input_test
 }  // namespace rill::test

@@ -6,7 +6,7 @@
 #include "support/null_vulkan.hpp"
 
 namespace rill::test {
-namespace {
+namespace memory_test {
 
 struct Case {
   const char* name;
@@ -115,5 +115,5 @@ INSTANTIATE_TEST_SUITE_P(Scenes, FluidMemoryTest,
                                            Case{"SeveralLists", 700000, [](Scene& s) { s.domain.reset(); }}),
                          [](const auto& c) { return c.param.name; });
 
-}  // namespace
+}  // namespace memory_test
 }  // namespace rill::test

@@ -7,7 +7,7 @@
 #include "fluid/rig.hpp"
 
 namespace rill::test {
-namespace {
+namespace momentum_test {
 
 class MomentumTest : public FluidTest {
  protected:
@@ -66,5 +66,5 @@ TEST_F(MomentumTest, OtherKernel) {
   expectKept(t, 5);
 }
 
-}  // namespace
+}  // namespace momentum_test
 }  // namespace rill::test

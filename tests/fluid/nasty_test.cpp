@@ -6,9 +6,10 @@
 #include <limits>
 
 #include "fluid/rig.hpp"
+#include "sort/sort_types.h"
 
 namespace rill::test {
-namespace {
+namespace nasty_test {
 
 using NastyTest = FluidTest;
 
@@ -31,10 +32,59 @@ double nearestPair(const std::vector<glm::dvec3>& x) {
   return least;
 }
 
+bool eachIdOnce(const FluidSnapshot& s) {
+  std::vector<bool> seen(s.id.size());
+  for (uint32_t id : s.id) {
+    if (id >= seen.size() || seen[id]) return false;
+    seen[id] = true;
+  }
+  return true;
+}
+
 double speeds(const Snapshot& s) {
   double sum = 0;
   for (const glm::dvec3& v : s.v) sum += glm::length(v);
   return sum;
+}
+
+// A cell with more particles than the sort looks through for each: it is put in order in another way.
+TEST_F(NastyTest, ACellOfThousands) {
+  Trial t = trial();
+  t.x = cloud(3000, 0.4 * t.d(), 7, {0.01, 0.01, 0.01});
+  for (const glm::dvec3& x : block({6, 6, 6}, t.d(), {0.5, 0, 0})) t.x.push_back(x);
+  ASSERT_GT(t.x.size(), size_t{5} * kBinLimit);
+  Snapshot first;
+  for (Gather gather : kGathers) {
+    SCOPED_TRACE(nameOf(gather));
+    t.gather = gather;
+    auto run = start(t), again = start(t);
+    run->substeps(3);
+    again->substeps(3);
+    const Snapshot s = run->snapshot();
+    EXPECT_TRUE(s.finite());
+    EXPECT_EQ(s, again->snapshot());
+    EXPECT_TRUE(eachIdOnce(run->saved()));
+    EXPECT_EQ(run->stats().non_finite, 0u);
+  }
+}
+
+// So many particles a cell that the fluid's sort is the one by digits.
+TEST_F(NastyTest, FullCellsAreSortedByDigits) {
+  Trial t = trial();
+  t.x = cloud(6000, 4 * t.d(), 11);
+  for (Gather gather : kGathers) {
+    SCOPED_TRACE(nameOf(gather));
+    t.gather = gather;
+    auto run = start(t), again = start(t);
+    const FluidSetup& setup = run->fluid().impl().setup;
+    ASSERT_EQ(chooseSortMethod({.count = setup.params.count, .keyRange = setup.grid.cells(), .start = true}), SortMethod::Radix);
+    run->substeps(3);
+    again->substeps(3);
+    EXPECT_TRUE(run->snapshot().finite());
+    EXPECT_EQ(run->snapshot(), again->snapshot());
+    EXPECT_TRUE(eachIdOnce(run->saved()));
+    EXPECT_EQ(run->stats().non_finite, 0u);
+  }
 }
 
 // All numbers are sums of few powers of two: nothing is rounded, and symplectic Euler's parabola x0 + n dt v + n (n + 1) / 2 dt^2 g is met
@@ -355,5 +405,5 @@ TEST_F(NastyTest, DomainForOneParticle) {
   EXPECT_LT(s.fastest(), 1e-3);
 }
 
-}  // namespace
+}  // namespace nasty_test
 }  // namespace rill::test

@@ -4,7 +4,7 @@
 #include "fluid/rig.hpp"
 
 namespace rill::test {
-namespace {
+namespace settle_test {
 
 using SettleTest = FluidTest;
 
@@ -49,5 +49,5 @@ TEST_F(SettleTest, ALatticeAtRestIsLeftAlone) {
   for (size_t i = 0; i < t.x.size(); ++i) ASSERT_LT(glm::length(after.x[i] - t.x[i]), 1e-4 * t.d()) << i;
 }
 
-}  // namespace
+}  // namespace settle_test
 }  // namespace rill::test

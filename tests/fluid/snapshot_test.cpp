@@ -6,7 +6,7 @@
 #include "fluid/rig.hpp"
 
 namespace rill::test {
-namespace {
+namespace snapshot_test {
 
 constexpr double kFrame = 1.0 / 60;
 
@@ -33,8 +33,8 @@ class SnapshotTest : public FluidTest {
   /// Fills all that a snapshot does not bring with numbers that make no sense: what reads it before it is written stands out.
   void poison(const Fluid& fluid) {
     const FluidBuffers& b = fluid.impl().buffers();
-    std::vector<const Buffer*> all = {&b.position,   &b.velocity,       &b.prediction, &b.pushAway, &b.work,  &b.warm,       &b.id,
-                                      &b.multiplier, &b.neighbourCount, &b.cell,       &b.start, &b.nearSample, &b.nearList};
+    std::vector<const Buffer*> all = {&b.position,   &b.velocity,       &b.prediction, &b.pushAway, &b.work,       &b.warm,    &b.id,
+                                      &b.multiplier, &b.neighbourCount, &b.cell,       &b.start,    &b.nearSample, &b.nearList};
     for (const Buffer& list : b.lists) all.push_back(&list);
     Graph graph;
     graph.pass("poison", [&](Pass& pass) {
@@ -164,5 +164,5 @@ TEST_F(SnapshotTest, OfAnotherFluidIsRefused) {
   EXPECT_NE(made.error().message.find("position has 252 entries; expected 251"), std::string::npos) << made.error().message;
 }
 
-}  // namespace
+}  // namespace snapshot_test
 }  // namespace rill::test

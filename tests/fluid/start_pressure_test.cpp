@@ -5,7 +5,7 @@
 #include "fluid/rig.hpp"
 
 namespace rill::test {
-namespace {
+namespace start_pressure_test {
 
 constexpr double kGravity = 9.81;
 
@@ -202,5 +202,5 @@ TEST_F(StartPressureTest, DeepWaterTakesABoundedNumber) {
   EXPECT_LE(start(t)->fluid().mostSubsteps(), kSubstepsPerBlock * (t.scene.solver.max_substeps + kSettleSubsteps + kMostPressings));
 }
 
-}  // namespace
+}  // namespace start_pressure_test
 }  // namespace rill::test

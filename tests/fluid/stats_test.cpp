@@ -6,7 +6,7 @@
 #include "fluid/rig.hpp"
 
 namespace rill::test {
-namespace {
+namespace stats_test {
 
 // What the figures should be.
 struct Sums {
@@ -157,5 +157,5 @@ TEST_F(StatsTest, PercentileOfAFewBadOnes) {
   EXPECT_GT(run->stats().density_error_p99, 0.1);
 }
 
-}  // namespace
+}  // namespace stats_test
 }  // namespace rill::test

@@ -5,7 +5,7 @@
 #include "fluid/rig.hpp"
 
 namespace rill::test {
-namespace {
+namespace step_control_test {
 
 // A column in a corner of a tank, with the solver's own choice of steps.
 Trial dam(glm::ivec3 count, glm::dvec3 tank) {
@@ -226,5 +226,5 @@ TEST_F(StepControlTest, PistonPushesWithoutPenetration) {
   EXPECT_GT(centre, face + 0.25 + 2 * t.d());
 }
 
-}  // namespace
+}  // namespace step_control_test
 }  // namespace rill::test

@@ -3,7 +3,7 @@
 #include "fluid/rig.hpp"
 
 namespace rill::test {
-namespace {
+namespace substep_test {
 
 using SubstepTest = FluidTest;
 
@@ -318,5 +318,5 @@ TEST_F(SubstepTest, SolidWithViscosity) {
   expectEqual(t, 10, kTen, kTen);
 }
 
-}  // namespace
+}  // namespace substep_test
 }  // namespace rill::test

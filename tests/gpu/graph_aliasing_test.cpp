@@ -4,7 +4,7 @@
 #include "support/gpu_test.hpp"
 
 namespace rill::test {
-namespace {
+namespace graph_aliasing_test {
 
 constexpr uint32_t kWords = 4096, kFrames = 3;
 constexpr ImageDesc kDesc{VK_FORMAT_R32_UINT, 64, 64};
@@ -176,5 +176,5 @@ TEST_F(Aliasing, AnImageThatDoesNotWaitForTheOneBeforeItIsReported) {
   EXPECT_TRUE(namesHazard(messages));
 }
 
-}  // namespace
+}  // namespace graph_aliasing_test
 }  // namespace rill::test

@@ -3,7 +3,7 @@
 #include "support/gpu_test.hpp"
 
 namespace rill::test {
-namespace {
+namespace graph_draw_test {
 
 constexpr uint32_t kWidth = 64, kHeight = 48;
 constexpr ImageDesc kColour{VK_FORMAT_R32_SFLOAT, kWidth, kHeight}, kDepth{VK_FORMAT_D32_SFLOAT, kWidth, kHeight};
@@ -169,5 +169,5 @@ TEST_F(GraphDraw, ReadbacksMayTakeSeveralBuffers) {
   }
 }
 
-}  // namespace
+}  // namespace graph_draw_test
 }  // namespace rill::test

@@ -4,10 +4,10 @@
 #include "support/gpu_test.hpp"
 
 namespace rill::test {
-namespace {
+namespace graph_handles_test {
 
-constexpr uint32_t kWidth = 100, kHeight = 40;
-constexpr ImageDesc kDesc{VK_FORMAT_R32_SFLOAT, kWidth, kHeight};
+constexpr uint32_t kShotWidth = 100, kShotHeight = 40;
+constexpr ImageDesc kDesc{VK_FORMAT_R32_SFLOAT, kShotWidth, kShotHeight};
 
 /// A compute pipeline and a descriptor set of the host's own: image_halve, which reads one image and writes one of half its size.
 struct OwnPipeline {
@@ -108,12 +108,12 @@ class GraphHandles : public GpuTest {
     graph.pass("fill", [&](Pass& pass) {
       image = pass.write(image, Use::ComputeWrite, load);
       const Kernel kernel = pass.kernel(filler, {image});
-      return [=](Commands& commands) { commands.dispatch(kernel, (kWidth * kHeight + 63) / 64, base); };
+      return [=](Commands& commands) { commands.dispatch(kernel, (kShotWidth * kShotHeight + 63) / 64, base); };
     });
     return image;
   }
   Ticket readback(Graph& graph, ImageRef image) {
-    BufferRef bytes = graph.create("texels", {kWidth * kHeight * 4});
+    BufferRef bytes = graph.create("texels", {kShotWidth * kShotHeight * 4});
     graph.pass("copy", [&](Pass& pass) {
       pass.read(image, Use::CopySource);
       bytes = pass.write(bytes, Use::CopyTarget);
@@ -121,7 +121,7 @@ class GraphHandles : public GpuTest {
     });
     return graph.readback(bytes);
   }
-  static float filled(float base, uint32_t i) { return base + float(i % kWidth) + 1000.0f * float(i / kWidth); }
+  static float filled(float base, uint32_t i) { return base + float(i % kShotWidth) + 1000.0f * float(i / kShotWidth); }
 
   DeviceImpl* d = nullptr;
 };
@@ -129,7 +129,7 @@ class GraphHandles : public GpuTest {
 // Between two passes of Rill's pipelines, so that barriers and bindings on both sides are tried.
 TEST_F(GraphHandles, AnOwnPipelineRunsOnTransients) {
   const OwnPipeline own(*d);
-  constexpr uint32_t width = kWidth / 2, height = kHeight / 2;
+  constexpr uint32_t width = kShotWidth / 2, height = kShotHeight / 2;
   Graph graph;
   const ImageRef full = fill(graph, graph.create("full", kDesc), 3.0f);
   ImageRef half = graph.create("half", ImageDesc{kDesc.format, width, height});
@@ -168,7 +168,7 @@ TEST_F(GraphHandles, AnOwnPipelineRunsOnTransients) {
 TEST_F(GraphHandles, TransientsAreUsedByRawCommands) {
   Graph graph;
   ImageRef image = graph.create("image", kDesc);
-  BufferRef bytes = graph.create("bytes", {kWidth * kHeight * 4}), ahead = graph.create("ahead", {256});
+  BufferRef bytes = graph.create("bytes", {kShotWidth * kShotHeight * 4}), ahead = graph.create("ahead", {256});
   graph.pass("clear", [&](Pass& pass) {
     image = pass.write(image, Use::CopyTarget);
     ahead = pass.write(ahead, Use::CopyTarget);
@@ -187,13 +187,13 @@ TEST_F(GraphHandles, TransientsAreUsedByRawCommands) {
     return [=, this](Commands& commands) {
       const ImageHandle from = commands.image(image);
       const VkDescriptorBufferInfo to = commands.buffer(bytes);
-      const VkBufferImageCopy region{to.offset, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, from.level, 0, 1}, {}, {kWidth, kHeight, 1}};
+      const VkBufferImageCopy region{to.offset, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, from.level, 0, 1}, {}, {kShotWidth, kShotHeight, 1}};
       d->vk.CmdCopyImageToBuffer(commands.handle(), from.image, from.layout, to.buffer, 1, &region);
     };
   });
   const Ticket ticket = graph.readback(bytes), other = graph.readback(ahead);
   run(graph);
-  EXPECT_EQ(read<float>(graph, ticket), std::vector<float>(kWidth * kHeight, 0.5f));
+  EXPECT_EQ(read<float>(graph, ticket), std::vector<float>(kShotWidth * kShotHeight, 0.5f));
   EXPECT_EQ(read<uint32_t>(graph, other), std::vector<uint32_t>(64, 1u)) << "no byte of another transient was touched";
 }
 
@@ -209,7 +209,7 @@ TEST_F(GraphHandles, ImagesAreCopiedToImages) {
   const Ticket ticket = readback(graph, second);
   run(graph);
   const auto result = read<float>(graph, ticket);
-  ASSERT_EQ(result.size(), size_t{kWidth} * kHeight);
+  ASSERT_EQ(result.size(), size_t{kShotWidth} * kShotHeight);
   for (uint32_t i = 0; i < result.size(); ++i) ASSERT_EQ(result[i], filled(7.0f, i)) << "texel " << i;
 }
 
@@ -230,11 +230,11 @@ TEST_F(GraphHandles, ImportsKeepTheirContentInStatesOfTheHost) {
     const Ticket ticket = readback(graph, graph.import("image", second));
     run(graph);
     const auto result = read<float>(graph, ticket);
-    ASSERT_EQ(result.size(), size_t{kWidth} * kHeight);
+    ASSERT_EQ(result.size(), size_t{kShotWidth} * kShotHeight);
     for (uint32_t i = 0; i < result.size(); ++i) ASSERT_EQ(result[i], filled(base, i)) << "texel " << i;
     ASSERT_TRUE(context().wait());
   }
 }
 
-}  // namespace
+}  // namespace graph_handles_test
 }  // namespace rill::test

@@ -7,7 +7,7 @@
 #include "support/gpu_test.hpp"
 
 namespace rill::test {
-namespace {
+namespace graph_image_test {
 
 constexpr uint32_t kWidth = 100, kHeight = 40;
 constexpr ImageDesc kDesc{VK_FORMAT_R32_SFLOAT, kWidth, kHeight};
@@ -176,5 +176,5 @@ TEST_F(GraphImages, ValidationIsListening) {
   EXPECT_FALSE(context().takeMessages().empty());
 }
 
-}  // namespace
+}  // namespace graph_image_test
 }  // namespace rill::test

@@ -4,7 +4,7 @@
 #include "support/gpu_test.hpp"
 
 namespace rill::test {
-namespace {
+namespace graph_runs_test {
 
 constexpr BindingKind kTwoBuffers[] = {BindingKind::Storage, BindingKind::Storage};
 constexpr BindingKind kOneBuffer[] = {BindingKind::Storage};
@@ -231,5 +231,5 @@ TEST_F(GraphOnGpu, AnAbandonedFrameDeliversNothing) {
   EXPECT_TRUE(graph.timings().empty());
 }
 
-}  // namespace
+}  // namespace graph_runs_test
 }  // namespace rill::test

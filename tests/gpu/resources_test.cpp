@@ -5,7 +5,7 @@
 #include "support/gpu_test.hpp"
 
 namespace rill::test {
-namespace {
+namespace resources_test {
 
 using Resources = GpuTest;
 constexpr BindingKind kOneBuffer[] = {BindingKind::Storage};
@@ -124,5 +124,5 @@ TEST_F(Resources, BorrowingTellsWhatTheHostForgot) {
   EXPECT_NE(refused.error().message.find("synchronization2"), std::string::npos) << refused.error().message;
 }
 
-}  // namespace
+}  // namespace resources_test
 }  // namespace rill::test

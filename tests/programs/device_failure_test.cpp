@@ -9,7 +9,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace rill::test {
-namespace {
+namespace device_failure_test {
 
 constexpr const char* kDrop = R"({
   "rill": "0.1", "duration": 1,
@@ -75,5 +75,5 @@ TEST_F(FailingLayer, ThatFailsNothingChangesNothing) {
   EXPECT_TRUE(std::filesystem::exists(folder / "stats.json"));
 }
 
-}  // namespace
+}  // namespace device_failure_test
 }  // namespace rill::test

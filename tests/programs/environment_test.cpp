@@ -7,7 +7,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace rill::test {
-namespace {
+namespace environment_test {
 
 constexpr const char* kScene = R"({
   "rill": "0.1", "domain": {"min": [0, 0, 0], "max": [1, 0.6, 0.4], "open": ["-y"]}, "fluid": {"spacing": 0.05},
@@ -91,5 +91,5 @@ TEST(SceneEnvironment, IsDrawnWithoutAWord) {
   }
 }
 
-}  // namespace
+}  // namespace environment_test
 }  // namespace rill::test

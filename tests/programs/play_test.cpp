@@ -9,7 +9,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace rill::test {
-namespace {
+namespace play_test {
 
 constexpr const char* kScene = R"({
   "rill": "0.1", "domain": {"min": [0, 0, 0], "max": [1.6, 0.8, 0.4]}, "fluid": {"spacing": 0.05},
@@ -111,5 +111,5 @@ TEST(Play, LibraryDrawsEveryViewWithoutAWord) {
   for (const std::string& text : (*player)->takeValidationMessages()) ADD_FAILURE() << text;
 }
 
-}  // namespace
+}  // namespace play_test
 }  // namespace rill::test

@@ -10,7 +10,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace rill::test {
-namespace {
+namespace video_test {
 
 using Json = nlohmann::json;
 
@@ -174,5 +174,5 @@ TEST_F(VideoTest, TheProgramIsFedRawPictures) {
   EXPECT_EQ(contentOf(folder / "a.mp4"), "done\n");
 }
 
-}  // namespace
+}  // namespace video_test
 }  // namespace rill::test

@@ -8,7 +8,7 @@
 namespace rill::reference {
 namespace {
 
-constexpr double kSpacing = 0.05, kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kTankSpacing = 0.05, kNaN = std::numeric_limits<double>::quiet_NaN();
 
 void run(ReferenceSolver& solver, double dt, int steps) {
   solver.begin(dt);
@@ -26,16 +26,17 @@ TEST(Solver, AFullBoxWithoutGravityDoesNotMove) {
   for (const KernelChoice kernel : {KernelChoice::Wendland, KernelChoice::Poly6Spiky}) {
     for (const bool tabulated : {false, true}) {
       for (const double ratio : {1.2, 2.0, 2.7}) {
-        ReferenceSettings s = tank(kSpacing, kSpacing * glm::dvec3(5, 4, 1));
+        ReferenceSettings s = tank(kTankSpacing, kTankSpacing * glm::dvec3(5, 4, 1));
         s.gravity = glm::dvec3(0);
         s.kernel = kernel;
         s.smoothingRatio = ratio;
         s.tabulated = tabulated;
         s.relaxation = 0.3;
-        const std::vector<glm::dvec3> x = lattice(5, 4, 1, kSpacing);
+        const std::vector<glm::dvec3> x = lattice(5, 4, 1, kTankSpacing);
         ReferenceSolver solver(s, x);
         run(solver, 2e-3, 30);
-        for (size_t i = 0; i < x.size(); ++i) EXPECT_LT(glm::length(solver.state.position[i] - x[i]), (tabulated ? 1e-4 : 1e-9) * kSpacing);
+        for (size_t i = 0; i < x.size(); ++i)
+          EXPECT_LT(glm::length(solver.state.position[i] - x[i]), (tabulated ? 1e-4 : 1e-9) * kTankSpacing);
       }
     }
   }
@@ -43,8 +44,8 @@ TEST(Solver, AFullBoxWithoutGravityDoesNotMove) {
 
 TEST(Solver, ADropFallsFreely) {
   ReferenceSettings s;
-  s.spacing = kSpacing;
-  const std::vector<glm::dvec3> x = lattice(5, 5, 5, kSpacing);
+  s.spacing = kTankSpacing;
+  const std::vector<glm::dvec3> x = lattice(5, 5, 5, kTankSpacing);
   ReferenceSolver solver(s, x);
   const double dt = 2e-3;
   const int steps = 200;
@@ -58,10 +59,10 @@ TEST(Solver, ADropFallsFreely) {
 
 TEST(Solver, AStillColumnRests) {
   const int layers = 8;
-  ReferenceSettings s = tank(kSpacing, kSpacing * glm::dvec3(6, 3 * layers, 6));
+  ReferenceSettings s = tank(kTankSpacing, kTankSpacing * glm::dvec3(6, 3 * layers, 6));
   s.relaxation = 0.5;
   s.warmStart = 0.01;
-  ReferenceSolver solver(s, lattice(6, layers, 6, kSpacing));
+  ReferenceSolver solver(s, lattice(6, layers, 6, kTankSpacing));
   const double height = centreOfMass(solver).y;
   run(solver, 1.0 / 960, 960);
   EXPECT_LT(rmsSpeed(solver), 0.05);
@@ -72,11 +73,11 @@ TEST(Solver, AStillColumnRests) {
 
 TEST(Solver, ADamBreakStaysInsideKeepsItsParticlesAndGainsNoEnergy) {
   for (const bool tabulated : {true, false}) {
-    ReferenceSettings s = tank(kSpacing, kSpacing * glm::dvec3(24, 24, 6));
+    ReferenceSettings s = tank(kTankSpacing, kTankSpacing * glm::dvec3(24, 24, 6));
     s.tabulated = tabulated;
     s.relaxation = 0.7;
     s.warmStart = 0.1;
-    ReferenceSolver solver(s, lattice(9, 12, 6, kSpacing));
+    ReferenceSolver solver(s, lattice(9, 12, 6, kTankSpacing));
     const double start = energy(solver), dt = 1.0 / 960;
     solver.begin(dt);
     double highest = 0, error = 0;
@@ -87,21 +88,21 @@ TEST(Solver, ADamBreakStaysInsideKeepsItsParticlesAndGainsNoEnergy) {
       error += compression(solver) / steps;
       for (const glm::dvec3& x : solver.state.position) {
         for (int a = 0; a < 3; ++a) {
-          ASSERT_GE(x[a], s.lo[a] + 0.5 * kSpacing);
-          ASSERT_LE(x[a], s.hi[a] - 0.5 * kSpacing);
+          ASSERT_GE(x[a], s.lo[a] + 0.5 * kTankSpacing);
+          ASSERT_LE(x[a], s.hi[a] - 0.5 * kTankSpacing);
         }
       }
     }
     EXPECT_LT(highest / start, 1.002);
     EXPECT_LT(error, 0.002);
     EXPECT_EQ(solver.parked(), 0u);
-    if (tabulated) { EXPECT_GT(centreOfMass(solver).x, 1.4 * 4.5 * kSpacing); }
+    if (tabulated) { EXPECT_GT(centreOfMass(solver).x, 1.4 * 4.5 * kTankSpacing); }
   }
 }
 
 TEST(Solver, CoincidentParticlesSeparate) {
   ReferenceSettings s;
-  s.spacing = kSpacing;
+  s.spacing = kTankSpacing;
   s.gravity = glm::dvec3(0);
   ReferenceSolver lone(s, std::vector<glm::dvec3>(2, glm::dvec3(0.1)));
   run(lone, 1e-3, 20);
@@ -115,8 +116,8 @@ TEST(Solver, CoincidentParticlesSeparate) {
 }
 
 TEST(Solver, WhatIsNotFiniteIsParkedAndHarmsNobody) {
-  ReferenceSettings s = tank(kSpacing, kSpacing * glm::dvec3(6, 12, 6));
-  std::vector<glm::dvec3> x = lattice(6, 6, 6, kSpacing), v(x.size(), glm::dvec3(0));
+  ReferenceSettings s = tank(kTankSpacing, kTankSpacing * glm::dvec3(6, 12, 6));
+  std::vector<glm::dvec3> x = lattice(6, 6, 6, kTankSpacing), v(x.size(), glm::dvec3(0));
   x[3].y = kNaN;
   v[100].z = std::numeric_limits<double>::infinity();
   ReferenceSolver solver(s, x, v);
@@ -134,27 +135,27 @@ TEST(Solver, WhatIsNotFiniteIsParkedAndHarmsNobody) {
 }
 
 TEST(Solver, NoParticlesIsNoProblem) {
-  ReferenceSolver solver(tank(kSpacing, glm::dvec3(1)), {});
+  ReferenceSolver solver(tank(kTankSpacing, glm::dvec3(1)), {});
   run(solver, 1e-3, 3);
   EXPECT_EQ(solver.size(), 0u);
 }
 
 TEST(Solver, SpeedIsBounded) {
   ReferenceSettings s;
-  s.spacing = kSpacing;
+  s.spacing = kTankSpacing;
   s.speedLimit = 4;
-  ReferenceSolver solver(s, randomCloud(200, 2 * kSpacing, 4));
+  ReferenceSolver solver(s, randomCloud(200, 2 * kTankSpacing, 4));
   run(solver, 1e-3, 3);
   for (const glm::dvec3& v : solver.state.velocity) EXPECT_LE(glm::length(v), 4 * (1 + 1e-12));
 }
 
 TEST(Solver, FarFromTheOriginAndWithAnUnevenStepItIsTheSameFlow) {
-  ReferenceSettings s = tank(kSpacing, kSpacing * glm::dvec3(12, 12, 4));
+  ReferenceSettings s = tank(kTankSpacing, kTankSpacing * glm::dvec3(12, 12, 4));
   ReferenceSettings far = s;
   const glm::dvec3 away = {1000, -500, 250};
   far.lo += away;
   far.hi += away;
-  std::vector<glm::dvec3> x = lattice(5, 6, 4, kSpacing);
+  std::vector<glm::dvec3> x = lattice(5, 6, 4, kTankSpacing);
   ReferenceSolver here(s, x);
   for (glm::dvec3& p : x) p += away;
   ReferenceSolver there(far, x);
@@ -171,9 +172,9 @@ TEST(Solver, FarFromTheOriginAndWithAnUnevenStepItIsTheSameFlow) {
 TEST(Solver, VorticityConfinementFeedsADamBreakWithoutBlowingUp) {
   double kinetic[2];
   for (const bool on : {false, true}) {
-    ReferenceSettings s = tank(kSpacing, kSpacing * glm::dvec3(24, 24, 4));
+    ReferenceSettings s = tank(kTankSpacing, kTankSpacing * glm::dvec3(24, 24, 4));
     s.vorticity = on ? 1 : 0;
-    ReferenceSolver solver(s, lattice(9, 12, 4, kSpacing));
+    ReferenceSolver solver(s, lattice(9, 12, 4, kTankSpacing));
     const double start = energy(solver), dt = 1.0 / 960;
     solver.begin(dt);
     double highest = 0;

@@ -9,18 +9,18 @@
 namespace rill::reference {
 namespace {
 
-constexpr double kSpacing = 0.05, kStep = 1e-3;
+constexpr double kStageSpacing = 0.05, kStageStep = 1e-3;
 
 ReferenceSettings freeSpace() {
   ReferenceSettings s;
-  s.spacing = kSpacing;
+  s.spacing = kStageSpacing;
   s.gravity = glm::dvec3(0);
   return s;
 }
 
 /// A cloud at about twice the rest density, with a coincident pair.
 ReferenceSolver crowded(const ReferenceSettings& settings, unsigned seed = 5) {
-  std::vector<glm::dvec3> x = randomCloud(300, 5.3 * kSpacing, seed);
+  std::vector<glm::dvec3> x = randomCloud(300, 5.3 * kStageSpacing, seed);
   x[17] = x[200];
   std::vector<glm::dvec3> v = randomCloud(300, 2, seed + 1, glm::dvec3(-1));
   return ReferenceSolver(settings, x, v);
@@ -63,8 +63,8 @@ TEST(Correction, KeepsMomentumToRoundOff) {
     s.viscosity = 1;
     ReferenceSolver solver = crowded(s);
     const glm::dvec3 before = meanVelocity(solver);
-    solver.begin(kStep);
-    for (int step = 0; step < 5; ++step) solver.substep(kStep, kStep);
+    solver.begin(kStageStep);
+    for (int step = 0; step < 5; ++step) solver.substep(kStageStep, kStageStep);
     EXPECT_LT(glm::length(meanVelocity(solver) - before), 1e-11 * rmsSpeed(solver));
     EXPECT_GT(rmsSpeed(solver), 5);  // it flew apart
     EXPECT_EQ(solver.parked(), 0u);
@@ -74,15 +74,15 @@ TEST(Correction, KeepsMomentumToRoundOff) {
 TEST(Multipliers, NeverPullAndMoreIterationsLeaveLessCompression) {
   double last = 1e9;
   for (const int iterations : {1, 2, 4, 8}) {
-    ReferenceSettings s = tank(kSpacing, kSpacing * glm::dvec3(6, 9, 6));
+    ReferenceSettings s = tank(kStageSpacing, kStageSpacing * glm::dvec3(6, 9, 6));
     s.gravity = glm::dvec3(0);
     s.iterations = iterations;
-    std::vector<glm::dvec3> x = lattice(6, 6, 6, kSpacing);
-    const std::vector<glm::dvec3> jitter = randomCloud(x.size(), 0.4 * kSpacing, 9, glm::dvec3(-0.2 * kSpacing));
+    std::vector<glm::dvec3> x = lattice(6, 6, 6, kStageSpacing);
+    const std::vector<glm::dvec3> jitter = randomCloud(x.size(), 0.4 * kStageSpacing, 9, glm::dvec3(-0.2 * kStageSpacing));
     for (size_t i = 0; i < x.size(); ++i) x[i] += jitter[i];
     ReferenceSolver solver(s, x);
-    solver.begin(kStep);
-    solver.substep(kStep, kStep);
+    solver.begin(kStageStep);
+    solver.substep(kStageStep, kStageStep);
     for (const double lambda : solver.lambda()) EXPECT_LE(lambda, 0);
     for (const double w : solver.state.warm) EXPECT_LE(w, 0);
     solver.density();
@@ -125,10 +125,10 @@ TEST(Prediction, AppliesTheWarmStartScaledByTheSquareOfTheStep) {
   ReferenceSolver solver = crowded(s);
   std::fill(solver.state.warm.begin(), solver.state.warm.end(), -1e-5);
   solver.density();
-  solver.predict(kStep, 2 * kStep);
+  solver.predict(kStageStep, 2 * kStageStep);
   for (size_t i = 0; i < solver.size(); ++i) {
     EXPECT_NEAR(solver.state.warm[i], -4e-5, 1e-18);
-    glm::dvec3 x = solver.state.position[i] + 2 * kStep * solver.state.velocity[i];
+    glm::dvec3 x = solver.state.position[i] + 2 * kStageStep * solver.state.velocity[i];
     for (const auto& pair : solver.pairs(i)) x -= 8e-5 * pair.gradient;
     EXPECT_LT(glm::length(solver.state.predicted[i] - x), 1e-14);
   }
@@ -179,17 +179,17 @@ double decayOverTheory(double ratio, int sweeps) {
   s.smoothingRatio = ratio;
   s.viscosity = 2;
   s.viscositySweeps = sweeps;
-  ReferenceSolver solver(s, lattice(wide, layers, wide, kSpacing));
-  const double wave = std::numbers::pi / (layers * kSpacing), nu = s.viscosity / s.density, dt = 0.02;
+  ReferenceSolver solver(s, lattice(wide, layers, wide, kStageSpacing));
+  const double wave = std::numbers::pi / (layers * kStageSpacing), nu = s.viscosity / s.density, dt = 0.02;
   // Refresh the field every step from the middle column, so that the block's sides, which lack neighbours, are not felt.
   std::vector<double> column(layers);
-  for (int j = 0; j < layers; ++j) column[j] = std::cos(wave * (j + 0.5) * kSpacing);
+  for (int j = 0; j < layers; ++j) column[j] = std::cos(wave * (j + 0.5) * kStageSpacing);
   const auto middle = [&](int j) { return static_cast<size_t>((wide / 2 * layers + j) * wide + wide / 2); };
   solver.density();
   const int steps = 100;
   const auto amplitude = [&] {
     double sum = 0;
-    for (int j = 0; j < layers; ++j) sum += column[j] * std::cos(wave * (j + 0.5) * kSpacing) * 2 / layers;
+    for (int j = 0; j < layers; ++j) sum += column[j] * std::cos(wave * (j + 0.5) * kStageSpacing) * 2 / layers;
     return sum;
   };
   const double start = amplitude();
@@ -216,7 +216,7 @@ TEST(Viscosity, KeepsMomentumAndLosesEnergy) {
   solver.density();
   const glm::dvec3 before = meanVelocity(solver);
   const double kinetic = energy(solver);
-  solver.viscosity(kStep);
+  solver.viscosity(kStageStep);
   EXPECT_LT(glm::length(meanVelocity(solver) - before), 1e-14);
   EXPECT_LT(energy(solver), kinetic);
 }
@@ -225,25 +225,25 @@ TEST(Vorticity, MeasuresTheCurlOfASolidRotationAndFeedsAVortex) {
   ReferenceSettings s = freeSpace();
   s.vorticity = 0.3;
   const glm::dvec3 spin = {0, 3, 0};
-  ReferenceSolver solver(s, lattice(16, 8, 16, kSpacing, kSpacing * glm::dvec3(-8, -4, -8)));
+  ReferenceSolver solver(s, lattice(16, 8, 16, kStageSpacing, kStageSpacing * glm::dvec3(-8, -4, -8)));
   solver.density();
   for (size_t i = 0; i < solver.size(); ++i) solver.state.velocity[i] = glm::cross(spin, solver.state.position[i]);
-  solver.vorticity(kStep);
+  solver.vorticity(kStageStep);
   for (size_t i = 0; i < solver.size(); ++i) {
     const glm::dvec3 x = glm::abs(solver.state.position[i]);
-    if (x.x < 5.6 * kSpacing && x.y < 1.6 * kSpacing && x.z < 5.6 * kSpacing) { EXPECT_NEAR(solver.curl()[i].y, 6, 0.6); }
+    if (x.x < 5.6 * kStageSpacing && x.y < 1.6 * kStageSpacing && x.z < 5.6 * kStageSpacing) { EXPECT_NEAR(solver.curl()[i].y, 6, 0.6); }
   }
   // A vortex that fades outward: away from the core the push is along the flow.
   for (size_t i = 0; i < solver.size(); ++i) {
     const glm::dvec3 x = solver.state.position[i];
-    solver.state.velocity[i] = glm::cross(spin, x) * std::exp(-(x.x * x.x + x.z * x.z) / (9 * kSpacing * kSpacing));
+    solver.state.velocity[i] = glm::cross(spin, x) * std::exp(-(x.x * x.x + x.z * x.z) / (9 * kStageSpacing * kStageSpacing));
   }
   const std::vector<glm::dvec3> v = solver.state.velocity;
-  solver.vorticity(kStep);
+  solver.vorticity(kStageStep);
   double gain = 0;
   for (size_t i = 0; i < solver.size(); ++i) {
     const glm::dvec3 x = glm::abs(solver.state.position[i]);
-    if (x.y > 1.6 * kSpacing || std::hypot(x.x, x.z) > 4 * kSpacing) continue;
+    if (x.y > 1.6 * kStageSpacing || std::hypot(x.x, x.z) > 4 * kStageSpacing) continue;
     gain += glm::dot(solver.state.velocity[i] - v[i], v[i]);
   }
   EXPECT_GT(gain, 0);

@@ -9,10 +9,10 @@
 namespace rill::test {
 namespace {
 
-using Colour = std::array<double, 3>;
+using Light = std::array<double, 3>;
 
 // Khronos PBR Neutral Tone Mapper, specification of May 2024, equations (1) to (6).
-Colour neutral(Colour c) {
+Light neutral(Light c) {
   constexpr double f90 = 0.04, ks = 0.8 - f90, kd = 0.15;
   const double x = std::min({c[0], c[1], c[2]});
   const double f = x <= 2 * f90 ? x - x * x / (4 * f90) : f90;
@@ -68,7 +68,7 @@ TEST_F(ToneMap, IsItsFormula) {
         for (int b = 0; b <= 8; ++b) colours.push_back({scale * float(r) / 8, scale * float(g) / 8, scale * float(b) / 8, 1});
   const auto got = mapped(colours);
   for (size_t i = 0; i < colours.size(); ++i) {
-    const Colour wanted = neutral({double{colours[i][0]}, double{colours[i][1]}, double{colours[i][2]}});
+    const Light wanted = neutral({double{colours[i][0]}, double{colours[i][1]}, double{colours[i][2]}});
     for (size_t c = 0; c < 3; ++c)
       ASSERT_NEAR(got[i][c], 255 * encodedSrgb(std::clamp(wanted[c], 0.0, 1.0)), 0.5 + 0.1 + 0.02)  // sRGB's power is a polynomial there
           << colours[i][0] << " " << colours[i][1] << " " << colours[i][2] << ", channel " << c;

@@ -83,8 +83,8 @@ StartFigures figuresOf(const ParticleSet& set) {
 }
 
 TEST(MutatedScenes, AreRefusedOrRun) {
-  constexpr double kInf = std::numeric_limits<double>::infinity(), kNan = std::numeric_limits<double>::quiet_NaN();
-  constexpr double kValues[] = {kNan, kInf, -kInf, 1e300, -1e300, 3e38, -3e38, 1e20, 1e-20, 1e-44, -1e-44, 1, -1, 4, 100, 0};
+  constexpr double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kValues[] = {nan, inf, -inf, 1e300, -1e300, 3e38, -3e38, 1e20, 1e-20, 1e-44, -1e-44, 1, -1, 4, 100, 0};
   constexpr double kFactors[] = {0, 0, 0, 1, -1, 2, 0.5, 1.1, 0.01, 100, 1e6, 1e-6};
   std::mt19937 random(20240229);
   const auto below = [&](size_t count) { return std::uniform_int_distribution<size_t>(0, count - 1)(random); };

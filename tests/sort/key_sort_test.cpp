@@ -109,7 +109,7 @@ TEST_P(BothSorts, OpenEnds) {
     ASSERT_TRUE(sort) << sort.error().message;
     const uint32_t counts = GetParam() == SortMethod::Counting;
     const BindingKind buffers[5] = {};
-    const uint32_t constants[] = {count > kBinLimit, counts};
+    const auto constants = sort->counterConstants();
     const auto make = computePipeline(device(), {.shader = "sort_keys",
                                                  .spirv = testShader("sort_keys"),
                                                  .bindings = buffers,

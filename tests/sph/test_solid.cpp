@@ -12,29 +12,31 @@ namespace {
 
 using namespace rill;
 
-constexpr double kSpacing = 0.02;
+constexpr double kSolidSpacing = 0.02;
 
 class SolidTest : public testing::TestWithParam<std::tuple<KernelChoice, double>> {
  protected:
-  SmoothingKernel kernel() const { return SmoothingKernel(std::get<0>(GetParam()), std::get<1>(GetParam()) * kSpacing, kSpacing); }
+  SmoothingKernel kernel() const {
+    return SmoothingKernel(std::get<0>(GetParam()), std::get<1>(GetParam()) * kSolidSpacing, kSolidSpacing);
+  }
 };
 
 TEST_P(SolidTest, ALargeBallIsAWall) {
   const SmoothingKernel k = kernel();
   for (int i = 0; i <= 20; ++i) {
-    const double s = kSpacing / 2 + (wallReach(k) - kSpacing / 2) * i / 20;
-    const LineSample plane = exactPlane(k, s), ball = exactSphere(k, 1e5 * kSpacing, s);
+    const double s = kSolidSpacing / 2 + (wallReach(k) - kSolidSpacing / 2) * i / 20;
+    const LineSample plane = exactPlane(k, s), ball = exactSphere(k, 1e5 * kSolidSpacing, s);
     EXPECT_NEAR(ball.value, plane.value, 1e-4);
-    EXPECT_NEAR(ball.slope * kSpacing, plane.slope * kSpacing, 1e-4);
+    EXPECT_NEAR(ball.slope * kSolidSpacing, plane.slope * kSolidSpacing, 1e-4);
   }
 }
 
 TEST_P(SolidTest, ABallDisplacesLessThanAWallAndTheSmallerTheLess) {
   const SmoothingKernel k = kernel();
-  const double s = kSpacing / 2;
+  const double s = kSolidSpacing / 2;
   double last = exactPlane(k, s).value;
   for (const double R : {100.0, 10.0, 3.0, 1.0, 0.5, 0.1, 0.01}) {
-    const LineSample ball = exactSphere(k, R * kSpacing, s);
+    const LineSample ball = exactSphere(k, R * kSolidSpacing, s);
     EXPECT_LT(ball.value, last);
     EXPECT_GT(ball.value, 0);
     EXPECT_LT(ball.slope, 0);
@@ -47,13 +49,13 @@ TEST_P(SolidTest, BallTablesFollowTheFormula) {
   const SmoothingKernel k = kernel();
   const double bound = std::get<1>(GetParam()) < 2 ? 5e-3 : 1e-3;
   for (const double R : {0.2, 0.7, 2.0, 5.5, 40.0}) {
-    const SphereTable table = makeSphereTable(k, R * kSpacing);
+    const SphereTable table = makeSphereTable(k, R * kSolidSpacing);
     for (int i = 0; i <= 200; ++i) {
       const double s = table.first + (1.1 * wallReach(k) - table.first) * i / 200;
-      const LineSample exact = exactSphere(k, R * kSpacing, s), linear = table.sample(s);
-      EXPECT_NEAR(exact.value, linear.value, bound) << "R/d " << R << " s/d " << s / kSpacing;
-      if (s > table.first + kSpacing / 8) {
-        EXPECT_NEAR(exact.slope * kSpacing, linear.slope * kSpacing, 5 * bound) << "R/d " << R << " s/d " << s / kSpacing;
+      const LineSample exact = exactSphere(k, R * kSolidSpacing, s), linear = table.sample(s);
+      EXPECT_NEAR(exact.value, linear.value, bound) << "R/d " << R << " s/d " << s / kSolidSpacing;
+      if (s > table.first + kSolidSpacing / 8) {
+        EXPECT_NEAR(exact.slope * kSolidSpacing, linear.slope * kSolidSpacing, 5 * bound) << "R/d " << R << " s/d " << s / kSolidSpacing;
       }
     }
     EXPECT_EQ(table.sample(1.2 * k.h()).value, 0);
@@ -66,15 +68,15 @@ TEST_P(SolidTest, AThickBoxFaceIsAWallAndAThinPlateIsLess) {
   const WallTables tables = makeWallTables(k);
   const double wide = 10 * k.h();
   for (int i = 0; i <= 20; ++i) {
-    const double s = kSpacing / 2 + (wallReach(k) - kSpacing / 2) * i / 20;
+    const double s = kSolidSpacing / 2 + (wallReach(k) - kSolidSpacing / 2) * i / 20;
     const LineSample plane = exactPlane(k, s);
     double last = plane.value;
-    for (const double thickness : {2 * k.h(), 1.5 * kSpacing, kSpacing, 0.3 * kSpacing}) {
-      const double half[3] = {wide, wide, thickness / 2}, at[3] = {0.1 * kSpacing, -0.2 * kSpacing, -(s + thickness / 2)};
+    for (const double thickness : {2 * k.h(), 1.5 * kSolidSpacing, kSolidSpacing, 0.3 * kSolidSpacing}) {
+      const double half[3] = {wide, wide, thickness / 2}, at[3] = {0.1 * kSolidSpacing, -0.2 * kSolidSpacing, -(s + thickness / 2)};
       const WallSample box = boxSample(k, at, half);
       if (thickness > k.h()) {
         EXPECT_NEAR(box.value, plane.value, 1e-12);
-        EXPECT_NEAR(box.gradient[2], -plane.slope, 1e-9 / kSpacing);
+        EXPECT_NEAR(box.gradient[2], -plane.slope, 1e-9 / kSolidSpacing);
         EXPECT_NEAR(boxSample(tables, at, half).value, tables.samplePlane(s).value, 1e-6);
       }
       EXPECT_LE(box.value, last + 1e-12);
@@ -88,26 +90,26 @@ TEST_P(SolidTest, AThickBoxFaceIsAWallAndAThinPlateIsLess) {
 // A plate as thick as a layer of the lattice, half a spacing from both neighbours, stands for that layer.
 TEST_P(SolidTest, APlateOfOneSpacingIsOneLayer) {
   const SmoothingKernel k = kernel();
-  const double half[3] = {10 * k.h(), 10 * k.h(), kSpacing / 2}, at[3] = {0, 0, kSpacing};
+  const double half[3] = {10 * k.h(), 10 * k.h(), kSolidSpacing / 2}, at[3] = {0, 0, kSolidSpacing};
   double layer = 0;
   for (int i = -5; i <= 5; ++i)
-    for (int j = -5; j <= 5; ++j) layer += k.value(kSpacing * std::sqrt(i * i + j * j + 1.0));
+    for (int j = -5; j <= 5; ++j) layer += k.value(kSolidSpacing * std::sqrt(i * i + j * j + 1.0));
   EXPECT_NEAR(boxSample(k, at, half).value, layer, 1e-12);
 }
 
 TEST(WendlandBox, GradientIsTheDerivativeOfTheValue) {
-  const SmoothingKernel k(KernelChoice::Wendland, 2 * kSpacing, kSpacing);
+  const SmoothingKernel k(KernelChoice::Wendland, 2 * kSolidSpacing, kSolidSpacing);
   std::mt19937 random(3);
-  std::uniform_real_distribution<double> place(-4 * kSpacing, 4 * kSpacing), size(0.2 * kSpacing, 2 * kSpacing);
+  std::uniform_real_distribution<double> place(-4 * kSolidSpacing, 4 * kSolidSpacing), size(0.2 * kSolidSpacing, 2 * kSolidSpacing);
   for (int sample = 0; sample < 300; ++sample) {
     const double at[3] = {place(random), place(random), place(random)}, half[3] = {size(random), size(random), size(random)};
     const WallSample box = boxSample(k, at, half);
     for (int a = 0; a < 3; ++a) {
-      const double step = 1e-6 * kSpacing;
+      const double step = 1e-6 * kSolidSpacing;
       double low[3] = {at[0], at[1], at[2]}, high[3] = {at[0], at[1], at[2]};
       low[a] -= step, high[a] += step;
       const double slope = (boxSample(k, high, half).value - boxSample(k, low, half).value) / (2 * step);
-      EXPECT_NEAR(box.gradient[a] * kSpacing, slope * kSpacing, 1e-4);
+      EXPECT_NEAR(box.gradient[a] * kSolidSpacing, slope * kSolidSpacing, 1e-4);
     }
   }
 }

@@ -16,11 +16,11 @@ using rill::SmoothingKernel;
 using rill::WallSample;
 using rill::WallTables;
 
-constexpr double kSpacing = 0.02, kFar = std::numeric_limits<double>::infinity();
+constexpr double kWallSpacing = 0.02, kFar = std::numeric_limits<double>::infinity();
 
 class WallTest : public testing::TestWithParam<std::tuple<KernelChoice, double>> {
  protected:
-  SmoothingKernel kernel() const { return SmoothingKernel(std::get<0>(GetParam()), std::get<1>(GetParam()) * kSpacing, kSpacing); }
+  SmoothingKernel kernel() const { return SmoothingKernel(std::get<0>(GetParam()), std::get<1>(GetParam()) * kWallSpacing, kWallSpacing); }
   double ratio() const { return std::get<1>(GetParam()); }
 };
 
@@ -96,7 +96,7 @@ TEST_P(WallTest, TablesFollowTheSums) {
     const WallSample exact = rill::exactWall(k, lo, hi), table = tables.sample(lo, hi);
     const double crowd = sample % 4 == 0 ? 4 : 1;  // both walls of an axis near: more terms
     EXPECT_NEAR(exact.value, table.value, crowd * bound);
-    for (int a = 0; a < 3; ++a) EXPECT_NEAR(exact.gradient[a] * kSpacing, table.gradient[a] * kSpacing, crowd * 4 * bound);
+    for (int a = 0; a < 3; ++a) EXPECT_NEAR(exact.gradient[a] * kWallSpacing, table.gradient[a] * kWallSpacing, crowd * 4 * bound);
   }
 }
 
@@ -112,22 +112,22 @@ TEST_P(WallTest, FadesAndGrowsTowardTheWall) {
     const double lo[3] = {kFar, s, kFar}, hi[3] = {kFar, kFar, kFar};
     const WallSample low = rill::exactWall(k, lo, hi), high = rill::exactWall(k, hi, lo);
     EXPECT_NEAR(low.value, near.value, 1e-14);
-    EXPECT_NEAR(low.gradient[1], near.slope, 1e-12 / kSpacing);
-    EXPECT_NEAR(high.gradient[1], -near.slope, 1e-12 / kSpacing);
+    EXPECT_NEAR(low.gradient[1], near.slope, 1e-12 / kWallSpacing);
+    EXPECT_NEAR(high.gradient[1], -near.slope, 1e-12 / kWallSpacing);
     EXPECT_EQ(low.gradient[0], 0);
   }
   for (const double s : {reach, 1.01 * reach, 50.0, kFar}) {
     EXPECT_EQ(rill::exactPlane(k, s).value, 0);
     EXPECT_NEAR(tables.samplePlane(s).value, 0, 1e-5);
   }
-  const LineSample inside = rill::exactPlane(k, -0.3 * kSpacing), surface = rill::exactPlane(k, 0);
+  const LineSample inside = rill::exactPlane(k, -0.3 * kWallSpacing), surface = rill::exactPlane(k, 0);
   EXPECT_EQ(inside.value, surface.value);
 }
 
 TEST_P(WallTest, HalfSpaceIsContinuousMonotoneAndThePlaneFromHalfASpacingOn) {
   const SmoothingKernel k = kernel();
   const WallTables tables = rill::makeWallTables(k);
-  const double reach = rill::wallReach(k), step = 1e-6 * kSpacing;
+  const double reach = rill::wallReach(k), step = 1e-6 * kWallSpacing;
   EXPECT_NEAR(rill::halfSpace(k, 0).value, 0.5, 1e-14);
   double last = 1;
   for (int i = -100; i <= 100; ++i) {
@@ -138,8 +138,8 @@ TEST_P(WallTest, HalfSpaceIsContinuousMonotoneAndThePlaneFromHalfASpacingOn) {
     EXPECT_NEAR(f.value + rill::halfSpace(k, -s).value, 1, 1e-14);
     EXPECT_NEAR(rill::halfSpace(k, s + step).value, rill::halfSpace(k, s - step).value, 1e-5);
     EXPECT_NEAR(f.value, tables.sampleFace(s).value, ratio() < 2 ? 5e-3 : 1e-3);
-    EXPECT_NEAR(f.slope * kSpacing, tables.sampleFace(s).slope * kSpacing, ratio() < 2 ? 1.5e-2 : 3e-3);
-    if (s >= kSpacing / 2) { EXPECT_EQ(f.value, rill::exactPlane(k, s).value); }
+    EXPECT_NEAR(f.slope * kWallSpacing, tables.sampleFace(s).slope * kWallSpacing, ratio() < 2 ? 1.5e-2 : 3e-3);
+    if (s >= kWallSpacing / 2) { EXPECT_EQ(f.value, rill::exactPlane(k, s).value); }
   }
 }
 
@@ -150,14 +150,14 @@ INSTANTIATE_TEST_SUITE_P(All, WallTest,
 TEST(WendlandWall, GradientIsTheDerivativeOfTheValue) {
   std::mt19937 random(11);
   for (const double ratio : {1.2, 2.0, 3.0}) {
-    const SmoothingKernel k(KernelChoice::Wendland, ratio * kSpacing, kSpacing);
-    std::uniform_real_distribution<double> distance(0.01 * kSpacing, k.h());
+    const SmoothingKernel k(KernelChoice::Wendland, ratio * kWallSpacing, kWallSpacing);
+    std::uniform_real_distribution<double> distance(0.01 * kWallSpacing, k.h());
     for (int sample = 0; sample < 50; ++sample) {
       double lo[3], hi[3];
       for (int a = 0; a < 3; ++a) lo[a] = distance(random), hi[a] = sample % 2 ? distance(random) : kFar;
       const WallSample at = rill::exactWall(k, lo, hi);
       for (int a = 0; a < 3; ++a) {
-        const double step = 1e-5 * kSpacing;
+        const double step = 1e-5 * kWallSpacing;
         double value[2];
         for (int side = 0; side < 2; ++side) {
           double l[3] = {lo[0], lo[1], lo[2]}, u[3] = {hi[0], hi[1], hi[2]};
@@ -165,14 +165,14 @@ TEST(WendlandWall, GradientIsTheDerivativeOfTheValue) {
           l[a] += move, u[a] -= move;
           value[side] = rill::exactWall(k, l, u).value;
         }
-        EXPECT_NEAR(at.gradient[a] * kSpacing, (value[1] - value[0]) / (2 * step) * kSpacing, 1e-6);
+        EXPECT_NEAR(at.gradient[a] * kWallSpacing, (value[1] - value[0]) / (2 * step) * kWallSpacing, 1e-6);
       }
     }
   }
 }
 
 TEST(WallTables, StaySmallAtTheWidestKernel) {
-  const WallTables t = rill::makeWallTables(SmoothingKernel(KernelChoice::Wendland, 4 * kSpacing, kSpacing));
+  const WallTables t = rill::makeWallTables(SmoothingKernel(KernelChoice::Wendland, 4 * kWallSpacing, kWallSpacing));
   const size_t bytes = sizeof(float) * (t.plane.size() + t.face.size() + t.edge.size() + t.corner.size());
   EXPECT_LT(bytes, 300u << 10);
   EXPECT_EQ(t.edge.size(), size_t(2) * t.nodes * t.nodes);

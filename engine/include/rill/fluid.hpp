@@ -137,9 +137,10 @@ struct FluidStats {
   double artificial_viscosity_Pa_s = 0;  ///< what solver.artificial_viscosity adds at present, Pa s: nothing while the fluid is rough
 };
 
-/// Passes that the device switches on and off: of `of` that were recorded under a name, `ran` ran, and the others were empty dispatches.
+/// A pass that the device switches on and off: of `of` times that it was recorded it was due `ran` times, and the others were empty
+/// dispatches.
 struct FluidPassRuns {
-  std::string_view name;  ///< as in PassReport; ending with '/', of all passes whose names begin with it
+  std::string_view name;  ///< as in PassReport; ending with '/', of each pass whose name begins with it
   uint32_t ran = 0, of = 0;
 };
 
@@ -164,7 +165,8 @@ class RILL_API Fluid {
   std::optional<FluidStats> stats() const;
   /// How far the last finished frame got with its advance. Known without asking for figures.
   const FluidProgress& progress() const;
-  /// How often passes of the last finished frame ran; those that are not named ran as often as they were recorded.
+  /// How often passes ran from the end of the last but one frame that is known to have finished to that of the last; those that are not
+  /// named ran as often as they were recorded.
   std::vector<FluidPassRuns> passRuns() const;
 
   /// Where a driven solid is at the end of the last advance that was declared, m: short of its target where that was too far away.

@@ -4,7 +4,6 @@
 #define COUNTERS 2
 #include "sort/count.glsl"
 layout(local_size_x = 64) in;
-layout(constant_id = 1) const uint COUNTS = 0;
 layout(binding = 0) readonly buffer Source { uint source[]; };
 layout(binding = 1) writeonly buffer Keys { uint key[]; };
 layout(push_constant) uniform Push { uint count; };
@@ -12,5 +11,5 @@ void main() {
   const uint i = gl_GlobalInvocationID.x;
   if (i >= count) return;
   key[i] = source[i];
-  if (COUNTS != 0u) countKey(i, source[i]);
+  countKey(i, source[i]);
 }

@@ -8,7 +8,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace rill::test {
-namespace {
+namespace report_test {
 
 constexpr const char* kScene = R"({
   "rill": "0.1", "domain": {"min": [0, 0, 0], "max": [1, 1, 0.3]}, "fluid": {"spacing": 0.05},
@@ -38,6 +38,27 @@ TEST(PictureReport, ExplainTellsWhatAliasingSaves) {
     EXPECT_LE(aliased, separate) << kind;
     if (std::string(kind) == "\npicture, buffers ") { EXPECT_LT(aliased, 0.8 * separate) << run.out; }
   }
+}
+
+// The renderer scans in a pass of its own, beside a sort of the fluid's that has nothing to do.
+TEST(PictureReport, ExplainTellsHowOftenAPassRan) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.json", kScene).string();
+  const Outcome run = capture({scene, "--frames", "3", "--size", "160x90", "--explain", "--quiet"}, folder.string());
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto row = [&](const std::string& pass) {
+    const size_t at = run.out.find("\n" + pass + " ");
+    EXPECT_NE(at, std::string::npos) << pass << run.out;
+    std::pair<unsigned, unsigned> counts;
+    EXPECT_EQ(std::sscanf(run.out.c_str() + at + pass.size() + 1, "%u %u", &counts.first, &counts.second), 2) << pass;
+    return counts;
+  };
+  const auto scan = row("surface scan"), correct = row("correct"), control = row("control");
+  EXPECT_GE(scan.first, 3u);
+  EXPECT_EQ(scan.second, scan.first);
+  EXPECT_GT(correct.second, 0u);
+  EXPECT_LT(correct.second, correct.first) << "blocks are recorded whole";
+  EXPECT_EQ(control.second, control.first);
 }
 
 TEST(PictureReport, TheGraphIsWritten) {
@@ -75,5 +96,5 @@ TEST(PictureReport, WhatAPictureLacksIsCountedAndSaid) {
   EXPECT_NE(whole.out.find("picture_bound_hits       0\n"), std::string::npos) << whole.out;
 }
 
-}  // namespace
+}  // namespace report_test
 }  // namespace rill::test
