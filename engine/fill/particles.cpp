@@ -30,12 +30,13 @@ struct Source {
   uint64_t overlap = 0, solid = 0, domain = 0, kept = 0;
 };
 
-std::string nameOf(const Scene& scene) { return scene.file.empty() ? scene.name : scene.file.string(); }
-
-Error refuse(const Scene& scene, const std::string& why) {
-  const std::string name = nameOf(scene);
-  return {ErrorKind::BadInput, (name.empty() ? "" : name + ": ") + why};
+/// What a message begins with: the scene's file, or its name.
+std::string prefixOf(const Scene& scene) {
+  const std::string name = scene.file.empty() ? scene.name : scene.file.string();
+  return name.empty() ? "" : name + ": ";
 }
+
+Error refuse(const Scene& scene, const std::string& why) { return {ErrorKind::BadInput, prefixOf(scene) + why}; }
 
 std::string countText(double count) { return count < 1e15 ? grouped(static_cast<uint64_t>(count)) : "about " + roughNumber(count); }
 
@@ -196,7 +197,7 @@ void warnOf(const Scene& scene, const std::vector<Source>& sources, std::vector<
     if (warnings.size() >= kMostWarnings) {
       ++unsaid;
     } else {
-      warnings.push_back(nameOf(scene) + (nameOf(scene).empty() ? "" : ": ") + "fill[" + std::to_string(fill) + "]: " + text);
+      warnings.push_back(prefixOf(scene) + "fill[" + std::to_string(fill) + "]: " + text);
     }
   };
   for (size_t i = 0; i < sources.size(); ++i) {
@@ -229,7 +230,7 @@ void warnOfDistance(const Scene& scene, const ParticleSet& set, const Bounds& al
     step = std::max({step, reach * kFloatStep, place * kDoubleStep});
   }
   if (step <= kTooCoarse * scene.fluid.spacing) return;
-  warnings.push_back(nameOf(scene) + ": fluid starts " + roughNumber(far) +
+  warnings.push_back(prefixOf(scene) + "fluid starts " + roughNumber(far) +
                      " m from the domain's minimum (or the fluid's centre), where positions are rounded to " + roughNumber(step) +
                      " m, more than a thousandth of the spacing " + roughNumber(scene.fluid.spacing) + " m");
 }
@@ -328,7 +329,7 @@ Expected<ParticleSet> placeAbout(Scene& scene, std::vector<Source>& sources, uin
   if (best.positions.size() > most)
     return say(grouped(best.positions.size()) + " particles come nearest, expected at most " + grouped(most));
   if (best_miss > 0.05 * wanted) {
-    best.warnings.push_back(nameOf(scene) + ": fluid.particles: " + grouped(best.positions.size()) + " particles instead of " +
+    best.warnings.push_back(prefixOf(scene) + "fluid.particles: " + grouped(best.positions.size()) + " particles instead of " +
                             grouped(scene.fluid.particles) + ": no spacing comes nearer");
   }
   return best;
@@ -350,8 +351,8 @@ Expected<ParticleSet> make(Scene& scene, uint64_t maxParticles) {
   auto set = by_count ? placeAbout(scene, sources, most) : place(scene, sources, most);
   if (set && set->positions.empty() && !scene.fill.empty()) {
     return refuse(scene, "fill: no particle is left (" + grouped(set->left_out_domain) + " outside the walls, " +
-                             grouped(set->left_out_solid) + " inside solids); expected at least one. " +
-                             (set->warnings.empty() ? "" : set->warnings.front()));
+                             grouped(set->left_out_solid) + " inside solids); expected at least one" +
+                             (set->warnings.empty() ? "" : ". " + set->warnings.front().substr(prefixOf(scene).size())));
   }
   return set;
 }

@@ -6,6 +6,8 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #include "fluid/uniforms.glsl"
+#define WARM_CONSTANT 4
+#include "fluid/warm.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/solids.glsl"
 #include "shared/arrays.glsl"
@@ -13,7 +15,6 @@
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 2) const uint LIST_CAPACITY = 0;
 layout(constant_id = 3) const uint NEAR = 0;
-layout(constant_id = 4) const uint WARM = 1;
 
 layout(push_constant) uniform Push { ChunkPush push; };
 READ_FLOAT4(2, particle)

@@ -3,8 +3,9 @@
 // the solid. A solid's impulse is what its own displaced density and the projection gave, so that friction feels the weight of the column above.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
+#define WARM_CONSTANT 1
+#include "fluid/warm.glsl"
 layout(local_size_x = kFluidGroup) in;
-layout(constant_id = 1) const uint WARM = 1;
 layout(constant_id = 0) const uint AGAIN = 0;  // viscosity or vorticity have changed the velocity: the prediction alone
 layout(std430, binding = 2) buffer PositionBlock { vec4 position[]; };
 layout(std430, binding = 3) buffer VelocityBlock { vec4 velocity[]; };
@@ -21,7 +22,7 @@ layout(std430, binding = 12) readonly buffer NearBlock { vec4 nearSample[]; };
 
 void predict(uint i, vec3 x, vec3 v) {
   float pushed;
-  vec3 next = outside(predicted(x, v, WARM != 0u ? pushAway[i].xyz : vec3(0.0)), ahead(), pushed);
+  vec3 next = outside(predicted(x, v, KEPT_PUSH(pushAway[i])), ahead(), pushed);
   prediction[i] = vec4(next, pushed);
 }
 

@@ -5,6 +5,8 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #include "fluid/uniforms.glsl"
+#define WARM_CONSTANT 4
+#include "fluid/warm.glsl"
 #include "fluid/arrays.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
@@ -13,7 +15,6 @@ layout(push_constant) uniform Push { ChunkPush push; };
 READ_FLOAT4(8, curl)
 layout(std430, binding = 9) buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 10) writeonly buffer PredictionBlock { vec4 prediction[]; };
-layout(constant_id = 4) const uint WARM = 1;
 READ_FLOAT4(11, pushAway)
 READ_FLOAT4(12, position)
 
@@ -44,5 +45,5 @@ void main() {
   vec4 v = velocity[i];
   v.xyz += control.step * params.vorticity * params.support * own.w * cross(direction, own.xyz);
   velocity[i] = v;
-  prediction[i] = vec4(insideWalls(predicted(positionAt(i).xyz, v.xyz, WARM != 0u ? pushAwayAt(i).xyz : vec3(0.0))), 0.0);
+  prediction[i] = vec4(insideWalls(predicted(positionAt(i).xyz, v.xyz, KEPT_PUSH(pushAwayAt(i)))), 0.0);
 }

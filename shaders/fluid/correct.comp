@@ -6,6 +6,8 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "fluid/uniforms.glsl"
+#define WARM_CONSTANT 7
+#include "fluid/warm.glsl"
 #include "fluid/arrays.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
@@ -13,7 +15,6 @@ layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 4) const uint NEAR = 0;
 layout(constant_id = 5) const uint TENSILE = 0;
 layout(constant_id = 6) const uint CONTACT = 0;  // collide.comp follows
-layout(constant_id = 7) const uint WARM = 1;     // there is a warm start
 
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer PositionBlock { vec4 position[]; };

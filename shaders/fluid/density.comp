@@ -6,13 +6,14 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "fluid/uniforms.glsl"
+#define WARM_CONSTANT 6
+#include "fluid/warm.glsl"
 #include "fluid/arrays.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 4) const uint NEAR = 0;        // walls or solids displace density
 layout(constant_id = 5) const uint ITERATED = 0;    // more than one iteration a substep
-layout(constant_id = 6) const uint WARM = 1;        // there is a warm start
 
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer WarmBlock { float warm[]; };

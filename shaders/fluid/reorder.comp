@@ -3,12 +3,13 @@
 // there are fewer particles than a float counts exactly) and the warm start. build.comp copies them back.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
+#define WARM_CONSTANT 0
+#include "fluid/warm.glsl"
 #include "fluid/arrivals.glsl"
 layout(local_size_x = kFluidGroup) in;
 READ_FLOAT4(6, position)
 READ_FLOAT4(7, prediction)
 READ_FLOAT4(8, velocity)
-layout(constant_id = 0) const uint WARM = 1;
 READ_FLOAT(9, warm)
 READ_UINT(10, id)
 layout(std430, binding = 11) writeonly buffer SortedPositionBlock { vec4 sortedPosition[]; };

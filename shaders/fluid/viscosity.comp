@@ -6,6 +6,8 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #include "fluid/uniforms.glsl"
+#define WARM_CONSTANT 4
+#include "fluid/warm.glsl"
 #include "fluid/arrays.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
@@ -14,7 +16,6 @@ layout(push_constant) uniform Push { SweepPush push; };
 READ_FLOAT4(8, velocity)
 layout(std430, binding = 9) writeonly buffer SmoothedBlock { vec4 smoothed[]; };
 layout(std430, binding = 10) writeonly buffer PredictionBlock { vec4 prediction[]; };
-layout(constant_id = 4) const uint WARM = 1;
 READ_FLOAT4(11, pushAway)
 READ_FLOAT4(12, position)
 
@@ -43,5 +44,5 @@ void main() {
   vec3 v = own.xyz + coefficient * params.valueScale * change;
   smoothed[i] = vec4(v, own.w);
   if (i == 0u) smoothed[params.count] = vec4(0.0);  // the dummy neighbour, whose weight of 0 would not do away with a NaN
-  prediction[i] = vec4(insideWalls(predicted(positionAt(i).xyz, v, WARM != 0u ? pushAwayAt(i).xyz : vec3(0.0))), 0.0);
+  prediction[i] = vec4(insideWalls(predicted(positionAt(i).xyz, v, KEPT_PUSH(pushAwayAt(i)))), 0.0);
 }

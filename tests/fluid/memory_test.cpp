@@ -16,50 +16,52 @@ struct Case {
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
-class FluidMemoryTest : public ::testing::TestWithParam<Case> {};
+/// A device of which nothing is needed but that memory is counted.
+class CountedMemory : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto borrowed = Device::borrow(vulkan.host());
+    ASSERT_TRUE(borrowed);
+    device = std::move(*borrowed);
+    device->beginFrame({1, 0});
+    scene.fluid.spacing = 0.1;
+  }
+  NullVulkan vulkan;
+  std::unique_ptr<Device> device;
+  Scene scene;
+  ParticleSet particles;
+};
+
+class FluidMemoryTest : public CountedMemory, public ::testing::WithParamInterface<Case> {};
 
 TEST_P(FluidMemoryTest, IsWhatIsAllocated) {
-  NullVulkan vulkan;
-  auto device = Device::borrow(vulkan.host());
-  ASSERT_TRUE(device);
-  (*device)->beginFrame({1, 0});
-  Scene scene;
-  scene.fluid.spacing = 0.1;
   scene.domain = Domain{};
   scene.domain->max[0] = scene.domain->max[1] = scene.domain->max[2] = 100;
   GetParam().change(scene);
-  ParticleSet particles;
   const uint32_t n = GetParam().count;
   for (uint32_t i = 0; i < n; ++i)
     particles.positions.push_back({float(i % 100) * 0.1f, float(i / 100 % 100) * 0.1f, float(i / 10000) * 0.1f});
   particles.velocities.resize(n);
 
-  auto fluid = Fluid::create(**device, {.scene = &scene, .particles = &particles});
+  auto fluid = Fluid::create(*device, {.scene = &scene, .particles = &particles});
   ASSERT_TRUE(fluid) << fluid.error().message;
   const FluidMemory said = (*fluid)->memory();
   EXPECT_EQ(said.total(), fluidMemory(scene, n).total());
   Graph graph;
   (void)(*fluid)->addTo(graph, {.advance_s = 0.01});
   ASSERT_TRUE(graph.compile());
-  ASSERT_TRUE(graph.prepare(**device));
+  ASSERT_TRUE(graph.prepare(*device));
   // Not counted: the start state on its way to the device, tables, parameters, read-backs; half a MiB at most.
   const double upload = double(n) * (2 * 16 + 4), others = 512 * 1024;
   EXPECT_LE(double(vulkan.bufferBytes), double(said.total()) + upload + others) << "less was announced than was allocated";
   EXPECT_GE(double(vulkan.bufferBytes), 0.75 * double(said.total())) << "far more was announced";
 }
 
-TEST(FluidTerms, WhatIsOffHasNoBuffer) {
-  NullVulkan vulkan;
-  auto device = Device::borrow(vulkan.host());
-  ASSERT_TRUE(device);
-  (*device)->beginFrame({1, 0});
-  Scene scene;
-  scene.fluid.spacing = 0.1;
-  ParticleSet particles;
+TEST_F(CountedMemory, WhatIsOffHasNoBuffer) {
   particles.positions.resize(1000);
   particles.velocities.resize(1000);
   const auto bytesOf = [&](std::string_view name) {
-    auto fluid = Fluid::create(**device, {.scene = &scene, .particles = &particles});
+    auto fluid = Fluid::create(*device, {.scene = &scene, .particles = &particles});
     EXPECT_TRUE(fluid) << fluid.error().message;
     uint64_t bytes = 0;
     for (const FluidBuffer& buffer : (*fluid)->buffers())
@@ -80,18 +82,12 @@ TEST(FluidTerms, WhatIsOffHasNoBuffer) {
   EXPECT_GE(bytesOf("iteration multipliers"), 4000u);
 }
 
-TEST(FluidTooLarge, IsRefusedWithWhatItNeedsAndWhatThereIs) {
-  NullVulkan vulkan;
-  auto device = Device::borrow(vulkan.host());
-  ASSERT_TRUE(device);
-  Scene scene;
-  scene.fluid.spacing = 0.1;
-  ParticleSet particles;
+TEST_F(CountedMemory, TooLargeIsRefusedWithWhatItNeedsAndWhatThereIs) {
   const auto refusal = [&](size_t n) {
     particles.positions.assign(n, {});
     particles.velocities.assign(n, {});
     const size_t before = vulkan.buffersCreated;
-    auto fluid = Fluid::create(**device, {.scene = &scene, .particles = &particles});
+    auto fluid = Fluid::create(*device, {.scene = &scene, .particles = &particles});
     EXPECT_FALSE(fluid);
     EXPECT_EQ(vulkan.buffersCreated, before) << "nothing is allocated";
     return fluid ? Error{} : fluid.error();
