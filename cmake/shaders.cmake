@@ -1,14 +1,16 @@
-# GLSL -> SPIR-V (Vulkan 1.3), checked by spirv-val where there is one, embedded as arrays in a library.
+# GLSL -> SPIR-V (Vulkan 1.3), optimized by spirv-opt and checked by spirv-val where there are such, embedded as arrays in a library.
 #   rill_shader(fluid/density.comp)                                         becomes "fluid/density"
 #   rill_shader(fluid/density.comp AS fluid/density_texel DEFINES LIST_TEXEL) becomes "fluid/density_texel"
 #   rill_shader(gpu/add.comp ROOT ${CMAKE_CURRENT_SOURCE_DIR} GROUP tests)  belongs to a table of its own, not to the library's
 # Every header under shaders/, and beside a shader, is a dependency of every shader: they are few, and a stale one is worse than a rebuild.
 find_program(RILL_GLSLANG glslangValidator)
 find_program(RILL_SPIRV_VAL spirv-val)
+find_program(RILL_SPIRV_OPT spirv-opt)  # a driver that compiles by a fixed effort per instruction starts in three quarters of the time
 if(NOT RILL_GLSLANG)
   message(FATAL_ERROR "Rill's shaders are compiled by glslangValidator (Debian: glslang-tools); set RILL_GLSLANG to its path")
 endif()
 set(RILL_SHADER_ROOT ${PROJECT_SOURCE_DIR}/shaders)
+set(RILL_WORDS_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/spirv_words.cmake)
 
 # Notes a shader for rill_embed_shaders() of its group.
 function(rill_shader source)
@@ -57,6 +59,10 @@ function(rill_embed_shaders target)
     file(GLOB headers CONFIGURE_DEPENDS ${RILL_SHADER_ROOT}/*/*.h ${RILL_SHADER_ROOT}/*/*.glsl ${root}/*.h ${root}/*.glsl)
     string(REPLACE " " ";" flags "${defines}")
     list(TRANSFORM flags PREPEND -D)
+    set(optimize "")
+    if(RILL_SPIRV_OPT AND NOT CMAKE_BUILD_TYPE STREQUAL "Debug")  # there names are worth more
+      set(optimize COMMAND ${RILL_SPIRV_OPT} --target-env=vulkan1.3 -O --strip-debug ${spv} -o ${spv})
+    endif()
     set(check "")
     if(RILL_SPIRV_VAL)
       set(check COMMAND ${RILL_SPIRV_VAL} --target-env vulkan1.3 ${spv})
@@ -64,9 +70,10 @@ function(rill_embed_shaders target)
     add_custom_command(
       OUTPUT ${spv} ${array}
       COMMAND ${RILL_GLSLANG} --quiet -V --target-env vulkan1.3 -I${RILL_SHADER_ROOT} ${flags} -o ${spv} ${root}/${source}
+      ${optimize}
       ${check}
-      COMMAND ${RILL_GLSLANG} --quiet -V --target-env vulkan1.3 -I${RILL_SHADER_ROOT} ${flags} --vn shader_${symbol} -o ${array} ${root}/${source}
-      DEPENDS ${root}/${source} ${headers}
+      COMMAND ${CMAKE_COMMAND} -DSPIRV=${spv} -DNAME=shader_${symbol} -DOUT=${array} -P ${RILL_WORDS_SCRIPT}
+      DEPENDS ${root}/${source} ${headers} ${RILL_WORDS_SCRIPT}
       COMMENT "Shader ${name}" VERBATIM)
     list(APPEND arrays ${array})
     string(APPEND includes "#include \"${array}\"\n")

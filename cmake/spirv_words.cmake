@@ -1,0 +1,5 @@
+# A SPIR-V file as a C++ array of its words.
+#   cmake -DSPIRV=density.spv -DNAME=shader_density -DOUT=density.inc -P spirv_words.cmake
+file(READ ${SPIRV} bytes HEX)
+string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1," words "${bytes}")
+file(WRITE ${OUT} "constexpr uint32_t ${NAME}[] = {${words}};\n")
