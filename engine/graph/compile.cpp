@@ -124,27 +124,46 @@ void GraphImpl::reportHeaps() {
   }
 }
 
-/// The memory's earlier users, in this frame and the one before, are what a new transient waits for.
+/// A resource's state after the barriers so far. It is brought up to date where it is looked at, not at each barrier: there may be
+/// thousands of both.
+HazardState& GraphImpl::stateNow(ResourceData& resource) {
+  for (; resource.barriersSeen < barriersPassed.size(); ++resource.barriersSeen) {
+    const PassedBarrier& barrier = barriersPassed[resource.barriersSeen];
+    resource.state.passed(barrier.scope, barrier.seeing);
+  }
+  return resource.state;
+}
+
+/// The memory's last users, in this frame and the one before, are what a new transient waits for.
 void GraphImpl::waitForMemory(uint32_t index, const HazardState& seam) {
   ResourceData& resource = resources[index];
-  const TransientPlan& plan = planOf(resource);
-  const Placement& own = plan.placements[memoryOf(index).placement];
+  TransientPlan& plan = planOf(resource);
+  const uint32_t placement = memoryOf(index).placement;
+  const Placement& own = plan.placements[placement];
   resource.placed = true;
-  resource.state.join(seam);
-  for (size_t k = 0; k < plan.placements.size(); ++k) {
-    if (plan.placements[k].last >= own.first || !sharesMemory(plan.placements[k], own)) continue;
-    const uint32_t first = plan.resources[k];
-    for (uint32_t l = 0; l < (resource.isImage ? resources[first].desc.levels : 1); ++l) resource.state.join(resources[first + l].state);
+  HazardState& state = stateNow(resource);
+  state.join(seam);
+  for (const uint32_t tenant : plan.tenants) {
+    if (tenant == placement || !sharesMemory(plan.placements[tenant], own)) continue;
+    const uint32_t first = plan.resources[tenant];
+    for (uint32_t l = 0; l < (resource.isImage ? resources[first].desc.levels : 1); ++l) state.join(stateNow(resources[first + l]));
   }
+  // Whoever comes later waits for this one, and so for those that it covers: but levels of a pyramid wait one by one.
+  const bool whole = !resource.isImage || resource.desc.levels == 1;
+  std::erase_if(plan.tenants, [&](uint32_t tenant) { return tenant == placement || (whole && covers(own, plan.placements[tenant])); });
+  plan.tenants.push_back(placement);
 }
 
 void GraphImpl::planBarriers() {
   causes.clear();
   transitions.clear();
+  barriersPassed.clear();
+  for (TransientPlan& plan : plans) plan.tenants.clear();
   for (ResourceData& resource : resources) {
     resource.state = resource.imported ? HazardState::after(useRow(resource.before)) : HazardState::nothing();
     resource.layout = useRow(resource.before).layout;
     resource.placed = resource.imported;
+    resource.barriersSeen = 0;
   }
   // Other frames' use of the heaps: a state of its own, so that the frame's first barrier on them serves all transients.
   HazardState seam = HazardState::seam(draws);
@@ -152,18 +171,18 @@ void GraphImpl::planBarriers() {
   const auto apply = [&](const Scope& scope) {
     const uint32_t seeing = usesSeeing(scope);
     seam.passed(scope, seeing);
-    for (ResourceData& resource : resources) resource.state.passed(scope, seeing);
+    barriersPassed.push_back({scope, seeing});
   };
   const auto wait = [&](PlannedBarrier& barrier, uint32_t index, const UseRow& row, bool keep) {
     ResourceData& resource = resources[index];
     if (resource.isImage && resource.layout != row.layout) {
       transitions.push_back({index, keep ? resource.layout : VK_IMAGE_LAYOUT_UNDEFINED, row.layout, {}});
-      resource.state.changeLayout(row, transitions.back().scope);
+      stateNow(resource).changeLayout(row, transitions.back().scope);
       resource.layout = row.layout;
       ++barrier.transitions.count;
       return;
     }
-    const Hazard hazard = resource.state.need(row, keep, barrier.scope);
+    const Hazard hazard = stateNow(resource).need(row, keep, barrier.scope);
     if (hazard != Hazard::None) causes.push_back({index, hazard, row.name}), ++barrier.causes.count;
   };
   const auto begin = [&](PlannedBarrier& barrier) { barrier = {{}, {uint32_t(causes.size()), 0}, {uint32_t(transitions.size()), 0}}; };
@@ -178,7 +197,7 @@ void GraphImpl::planBarriers() {
       wait(pass.barrier, access.resource, useRow(access.use), access.keep);
     }
     if (!pass.barrier.scope.empty()) apply(pass.barrier.scope);
-    for (const Access& access : uses) resources[access.resource].state.used(access.use);
+    for (const Access& access : uses) stateNow(resources[access.resource]).used(access.use);
   }
 
   begin(finalBarrier);

@@ -98,7 +98,8 @@ struct ResourceData {
   uint32_t version = 0;        ///< the latest one
   uint32_t placement = kNone;  ///< of a transient that is used; a pyramid's stands at its level 0
   bool placed = false;         ///< while planning: it has waited for what its memory held before
-  HazardState state;
+  HazardState state;           ///< after the first `barriersSeen`, see stateNow()
+  uint32_t barriersSeen = 0;
   VkImageUsageFlags usage = 0;                       ///< of an image, by the passes that run; a pyramid's stands at its level 0
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  ///< while planning: the image's
   VkBuffer buffer = VK_NULL_HANDLE;                  ///< a transient's is resolved by prepare()
@@ -113,10 +114,16 @@ struct ResourceData {
   bool hasContent() const { return version > 0 || (imported && (!isImage || (before != Use::Nothing && before != Use::Unknown))); }
 };
 
+struct PassedBarrier {
+  Scope scope;
+  uint32_t seeing = 0;  ///< usesSeeing(scope)
+};
+
 /// Where the transients of one kind lie.
 struct TransientPlan {
   std::vector<Placement> placements;
   std::vector<uint32_t> resources;  ///< of each placement
+  std::vector<uint32_t> tenants;    ///< while planning: placements that a later one may have to wait for
   std::vector<uint64_t> heapSizes;
 };
 
@@ -177,6 +184,7 @@ class GraphImpl {
   /// Where what concerns a resource's memory stands: level 0 of a pyramid, else itself.
   ResourceData& memoryOf(uint32_t resource) { return resources[resource - resources[resource].level]; }
   const ResourceData& memoryOf(uint32_t resource) const { return resources[resource - resources[resource].level]; }
+  HazardState& stateNow(ResourceData& resource);
   void waitForMemory(uint32_t resource, const HazardState& seam);
   void planBarriers();
   void makeReport();
@@ -232,8 +240,9 @@ class GraphImpl {
   TransientPlan plans[2];  ///< of buffers, of images
   std::vector<TransientHeap> heapReports;
   PlannedFrame before;
-  bool planWhole = false;  ///< of this frame: nothing has failed since compile()
-  uint64_t plansMade = 0;  ///< how often a plan could not be taken over
+  bool planWhole = false;                     ///< of this frame: nothing has failed since compile()
+  uint64_t plansMade = 0;                     ///< how often a plan could not be taken over
+  std::vector<PassedBarrier> barriersPassed;  ///< while planning
   std::vector<Cause> causes;
   std::vector<Transition> transitions;
   std::vector<VkImageMemoryBarrier2> imageBarriers;  ///< of `transitions`, made by prepare()

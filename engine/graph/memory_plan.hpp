@@ -35,4 +35,8 @@ inline bool sharesMemory(const Placement& a, const Placement& b) {
   return a.heap == b.heap && a.offset < b.offset + b.size && b.offset < a.offset + a.size;
 }
 
+inline bool covers(const Placement& a, const Placement& b) {
+  return a.heap == b.heap && a.offset <= b.offset && b.offset + b.size <= a.offset + a.size;
+}
+
 }  // namespace rill
