@@ -305,9 +305,9 @@ std::array<double, 3> Fluid::drivenCentre(uint32_t solid) const {
 }
 
 uint32_t Fluid::count() const { return impl_->count; }
-uint32_t Fluid::substepsPerBlock() const { return kSubstepsPerBlock; }
+uint32_t Fluid::substepsPerBlock() const { return impl_->setup.substepsPerBlock; }
 uint32_t Fluid::mostSubsteps() const {
-  return kSubstepsPerBlock * (impl_->setup.params.maxSubsteps + kSettleSubsteps + impl_->setup.params.pressings);
+  return substepsPerBlock() * (impl_->setup.params.maxSubsteps + kSettleSubsteps + impl_->setup.params.pressings);
 }
 FluidMemory Fluid::memory() const { return impl_->memory; }
 std::span<const FluidBuffer> Fluid::buffers() const { return impl_->made; }

@@ -154,7 +154,4 @@ class FluidImpl {
   uint64_t driveCount_ = 0;
 };
 
-/// Recorded substeps between two places where the list can be rebuilt.
-constexpr uint32_t kSubstepsPerBlock = 6;
-
 }  // namespace rill

@@ -240,10 +240,10 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   uploaded_ = true;
   if (!step.resume && step.advance_s > 0 && !setup.driven.empty()) declareDrive(graph, step);
   if (!step.resume) declareBegin(graph, std::max(step.advance_s, 0.0));
-  const uint32_t blocks = advances ? static_cast<uint32_t>(divideUp(std::max(step.substeps, 1u), kSubstepsPerBlock)) : 0;
+  const uint32_t blocks = advances ? static_cast<uint32_t>(divideUp(std::max(step.substeps, 1u), setup.substepsPerBlock)) : 0;
   for (uint32_t block = 0; block < blocks; ++block) {
     declareRebuild(graph);
-    for (uint32_t k = 0; k < kSubstepsPerBlock; ++k) declareSubstep(graph, recording_.substeps & 1u, k == 0);
+    for (uint32_t k = 0; k < setup.substepsPerBlock; ++k) declareSubstep(graph, recording_.substeps & 1u, k == 0);
   }
   if (blocks == 0) declareRebuild(graph);  // runs where there has been none yet
   declareSkipped(graph);

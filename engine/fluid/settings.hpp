@@ -32,6 +32,7 @@ struct FluidSetup {
   std::vector<float> gravity;       ///< the schedule: value and time, four floats each; the scene's own first
   uint32_t kernel = 0;              ///< specialization constant KERNEL
   uint32_t viscositySweeps = 0;     ///< 0: no viscosity
+  uint32_t substepsPerBlock = 1;    ///< recorded between two places where the list can be rebuilt
   double artificialViscosity = 0;   ///< Pa s, of a fluid at rest
   std::string whyNotCalming;        ///< where that is 0
   double firstStep = 0;             ///< s

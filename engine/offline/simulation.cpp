@@ -89,7 +89,7 @@ class Simulation::Impl {
       advanced_.list_builds += done.list_builds;
       // What the recorded maximum had no room for is dropped by the next advance, whoever counts it.
       advanced_.time_dropped_s += std::max(done.time_dropped_s, done.time_left_s);
-      if (done.substeps > 0) expected_ = done.substeps;
+      if (done.substeps > 0) expected_ = std::max(done.substeps, done.list_builds * fluid_->substepsPerBlock());
     }
     time_s_ += seconds;
     return {};

@@ -65,7 +65,7 @@ reference::ReferenceSettings settingsOf(const Trial& trial) {
   s.calmRelaxation = setup.params.calmRelaxation;
   s.calmWarmStart = setup.params.calmWarmGain;
   s.calmViscosity = setup.artificialViscosity;
-  s.calmEvery = trial.stepwise ? 1 : kSubstepsPerBlock;
+  s.calmEvery = trial.stepwise ? 1 : static_cast<int>(setup.substepsPerBlock);
   s.pushLow = setup.params.pushLow;
   s.pushHigh = setup.params.pushHigh;
   return s;

@@ -181,7 +181,10 @@ TEST_F(StartPressureTest, GoesOnFromACheckpoint) {
 }
 
 TEST_F(StartPressureTest, IsSkippedWhereThereIsNone) {
-  const auto most = [&](const Trial& t) { return start(t)->fluid().mostSubsteps() / kSubstepsPerBlock - t.scene.solver.max_substeps; };
+  const auto most = [&](const Trial& t) {
+    const auto run = start(t);
+    return run->fluid().mostSubsteps() / run->fluid().substepsPerBlock() - t.scene.solver.max_substeps;
+  };
   const Trial bears = column(8);
   EXPECT_GT(most(bears), kSettleSubsteps);
   Trial falls = bears;
@@ -199,7 +202,8 @@ TEST_F(StartPressureTest, DeepWaterTakesABoundedNumber) {
   Trial t = column(8);
   t.x.push_back({3 * t.d(), 5000 * t.d(), 3 * t.d()});
   t.scene.domain->max[1] = 6000 * t.d();
-  EXPECT_LE(start(t)->fluid().mostSubsteps(), kSubstepsPerBlock * (t.scene.solver.max_substeps + kSettleSubsteps + kMostPressings));
+  const auto run = start(t);
+  EXPECT_LE(run->fluid().mostSubsteps(), run->fluid().substepsPerBlock() * (t.scene.solver.max_substeps + kSettleSubsteps + kMostPressings));
 }
 
 }  // namespace start_pressure_test
