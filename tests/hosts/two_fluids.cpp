@@ -9,7 +9,7 @@
 namespace {
 
 constexpr uint32_t kWidth = 320, kHeight = 180;
-constexpr int kFrames = 200;
+constexpr int kFrames = 110;
 
 /// A drop above a pool, in a tank that begins at `x`.
 std::unique_ptr<rill::Fluid> makeFluid(rill::Device& device, double x, double viscosity) {
