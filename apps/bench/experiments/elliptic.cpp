@@ -9,9 +9,9 @@
 namespace rill::bench {
 namespace {
 
-constexpr double kRadius = 1;                   // m
-constexpr double kRate = 1;                     // A0, 1/s
-constexpr int kAcross[kLevels] = {10, 16, 24};  // spacings in the radius
+constexpr double kRadius = 1;                       // m
+constexpr double kRate = 1;                         // A0, 1/s
+constexpr int kDropAcross[kLevels] = {10, 16, 24};  // spacings in the radius
 constexpr int kThick = 4;
 
 Cloud disc(double spacing) {
@@ -42,7 +42,7 @@ std::pair<double, double> semiAxes(const Cloud& cloud) {
 }
 
 Expected<Outcome> drop(const Bench& bench, unsigned level) {
-  const double spacing = kRadius / kAcross[level];
+  const double spacing = kRadius / kDropAcross[level];
   const auto points = publishedCurve("elliptic_drop");
   if (!points) return points.error();
   const auto start = StartFile::write(disc(spacing));
@@ -75,7 +75,7 @@ Expected<Outcome> drop(const Bench& bench, unsigned level) {
   outcome.figures.push_back(plainFigure("energy, peak", outcome.run.energy.ratio - 1));
   outcome.curves["long_axis"] = curveJson(longAxis);
   outcome.curves["short_axis"] = curveJson(shortAxis);
-  outcome.overlays.push_back({"elliptic", {"R / d = " + std::to_string(kAcross[level]), Series::Style::Lines, longAxis, {}}});
+  outcome.overlays.push_back({"elliptic", {"R / d = " + std::to_string(kDropAcross[level]), Series::Style::Lines, longAxis, {}}});
   return outcome;
 }
 
@@ -85,7 +85,7 @@ std::vector<Experiment> ellipticExperiments() {
   std::vector<Experiment> all;
   for (unsigned level = 0; level < kLevels; ++level)
     all.push_back(
-        {"elliptic-drop", level, level < 2, kRadius / kAcross[level], [level](const Bench& bench) { return drop(bench, level); }});
+        {"elliptic-drop", level, level < 2, kRadius / kDropAcross[level], [level](const Bench& bench) { return drop(bench, level); }});
   return all;
 }
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double kLength = 1;                  // m
 constexpr double kDepths[] = {0.25, 0.5, 1};   // m, those of sloshing_first_mode.csv
 constexpr int kAlong[kLevels] = {20, 28, 40};  // spacings; multiples of 4, so that each depth holds whole ones
-constexpr int kThick = 4;                      // spacings in z, between frictionless walls
+constexpr int kTankThick = 4;                  // spacings in z, between frictionless walls
 constexpr double kPeriods = 5.3;               // long enough for ten crossings
 constexpr double kWide = 2.3;                  // smoothing ratio of a second run, at the middle depth
 
@@ -25,7 +25,7 @@ Cloud wave(double depth, double spacing) {
   cloud.spacing = spacing;
   for (int i = 0; (i + 0.5) * spacing < kLength; ++i)
     for (int j = 0; (j + 0.5) * spacing < depth; ++j)
-      for (int l = 0; l < kThick; ++l) {
+      for (int l = 0; l < kTankThick; ++l) {
         const double x = (i + 0.5) * spacing, y = (j + 0.5) * spacing, z = (l + 0.5) * spacing, scale = amplitude / std::sinh(k * depth);
         cloud.position.push_back({x - scale * std::sin(k * x) * std::cosh(k * y), y + scale * std::cos(k * x) * std::sinh(k * y), z});
         cloud.velocity.push_back({0, 0, 0});
@@ -37,7 +37,7 @@ Expected<Outcome> slosh(const Bench& bench, double depth, unsigned level, double
   const double spacing = kLength / kAlong[level];
   const auto start = StartFile::write(wave(depth, spacing));
   if (!start) return start.error();
-  Scene scene = boxScene(spacing, {0, 0, 0}, {kLength, 2 * depth, kThick * spacing});
+  Scene scene = boxScene(spacing, {0, 0, 0}, {kLength, 2 * depth, kTankThick * spacing});
   scene.fluid.smoothing_ratio = smoothingRatio;
   scene.fill.push_back(start->fill());
   const double expected = sloshPeriod(kLength, depth, -scene.gravity[1]);

@@ -9,7 +9,7 @@
 namespace rill::bench {
 namespace {
 
-Scene dam() {
+Scene smallDam() {
   Scene scene = tankScene(0.05, {0.3, 0.5, 0.3}, {0.8, 0.8, 0.3});
   scene.fluid.vorticity = scene.fluid.tensile = 0;
   return scene;
@@ -48,7 +48,7 @@ void addExtremes(std::vector<StressCase>& cases, const std::string& owner, Owner
     const bool words = !field.info.words.empty();
     const double ends[] = {words ? 0 : lowest(field.info.range), words ? double(field.info.words.size() - 1) : highest(field.info.range)};
     for (const double value : ends) {
-      Scene scene = dam();
+      Scene scene = smallDam();
       if (field.info.key.starts_with("tensile_")) scene.fluid.tensile = 1;  // which they shape
       set(scene.*part, field, value);
       const std::string shown = words ? std::string(field.info.words[static_cast<size_t>(value)]) : number(value, 7);

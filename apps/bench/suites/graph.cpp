@@ -8,6 +8,7 @@
 #include "rill/fluid.hpp"
 
 namespace rill::bench {
+namespace graph_suite {
 namespace {
 
 constexpr double kMostCompile_us = 50;  ///< that the 40 passes may take to compile once their plan is known
@@ -98,9 +99,7 @@ struct DamBreak {
   offline::Painter painter{scene, start, 0};
 };
 
-}  // namespace
-
-Expected<Report> runGraph(Bench& bench) {
+Expected<Report> runAll(Bench& bench) {
   auto workbench = Workbench::open(bench);
   if (!workbench) return workbench.error();
   auto damBreak = DamBreak::open(*workbench);
@@ -172,5 +171,10 @@ Expected<Report> runGraph(Bench& bench) {
   report.tables.push_back(std::move(table));
   return report;
 }
+
+}  // namespace
+}  // namespace graph_suite
+
+Expected<Report> runGraph(Bench& bench) { return graph_suite::runAll(bench); }
 
 }  // namespace rill::bench

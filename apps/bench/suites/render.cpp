@@ -19,7 +19,7 @@ constexpr double kFov = 40;         // degrees
 constexpr double kRadius = 0.75;    // spacings: of the spheres by which pictures are named
 constexpr double kTravel = 0.25;    // spacings that the moving wave travels a frame
 constexpr double kTravelling = 18;  // spacings: its length
-constexpr double kFrame_s = 1.0 / 60;
+constexpr double kFlickerFrame_s = 1.0 / 60;
 constexpr double kPixelsAPart = 2e5;  // of progress
 
 constexpr const char* kAsItIs = "settings as they are";
@@ -302,7 +302,7 @@ class Render {
     if (!simulation) return simulation.error();
     std::vector<Points> points;
     for (int k = 0; k < frames() && !bench_.stopped(); ++k) {
-      if (auto ran = (*simulation)->advance(k == 0 ? recorded.from_s : kFrame_s); !ran) return ran.error();
+      if (auto ran = (*simulation)->advance(k == 0 ? recorded.from_s : kFlickerFrame_s); !ran) return ran.error();
       const auto particles = (*simulation)->particles();
       if (!particles) return particles.error();
       std::vector<Float4> positions;

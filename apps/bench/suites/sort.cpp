@@ -10,6 +10,7 @@
 #include "sort/key_sort.hpp"
 
 namespace rill::bench {
+namespace sort_suite {
 namespace {
 
 using Keys = std::vector<uint32_t>;
@@ -116,9 +117,7 @@ std::string cell(const Samples& samples) {
   return number(ms, ms >= 1000 ? 4 : 3);
 }
 
-}  // namespace
-
-Expected<Report> runSort(Bench& bench) {
+Expected<Report> runAll(Bench& bench) {
   auto workbench = Workbench::open(bench);
   if (!workbench) return workbench.error();
   const std::vector<uint32_t> counts =
@@ -202,5 +201,10 @@ Expected<Report> runSort(Bench& bench) {
   report.tables.push_back(std::move(table));
   return report;
 }
+
+}  // namespace
+}  // namespace sort_suite
+
+Expected<Report> runSort(Bench& bench) { return sort_suite::runAll(bench); }
 
 }  // namespace rill::bench

@@ -12,6 +12,7 @@
 #include "sort/key_sort.hpp"
 
 namespace rill::bench {
+namespace speed_suite {
 namespace {
 
 constexpr int kFrames = 3;  // measured; one more goes before them, in which shaders are compiled
@@ -220,9 +221,7 @@ std::vector<Plot> plots(const std::vector<Case>& cases) {
   return {total, passes};
 }
 
-}  // namespace
-
-Expected<Report> runSpeed(Bench& bench) {
+Expected<Report> runAll(Bench& bench) {
   std::vector<uint32_t> counts = bench.quick() ? std::vector<uint32_t>{1000, 10'000, 50'000, 100'000}
                                                : std::vector<uint32_t>{1000, 10'000, 50'000, 100'000, 200'000, 500'000, 1'000'000};
   std::erase_if(counts, [&](uint32_t count) { return !bench.wanted("particles-" + countName(count)); });
@@ -247,5 +246,10 @@ Expected<Report> runSpeed(Bench& bench) {
   if (auto ran = baselines.run(bench, report); !ran) return ran.error();
   return report;
 }
+
+}  // namespace
+}  // namespace speed_suite
+
+Expected<Report> runSpeed(Bench& bench) { return speed_suite::runAll(bench); }
 
 }  // namespace rill::bench
