@@ -8,7 +8,7 @@ build cmake                   CMake 3.25 or newer
 build ninja-build             Ninja
 build libvulkan-dev           Vulkan headers 1.3.239 or newer
 build glslang-tools           glslang (glslangValidator)
-build spirv-tools             SPIRV-Tools (spirv-val)
+build spirv-tools             SPIRV-Tools (spirv-opt, spirv-val)
 build libglm-dev              GLM
 build nlohmann-json3-dev      nlohmann/json 3.11 or newer
 build libcli11-dev            CLI11

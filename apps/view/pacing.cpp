@@ -8,7 +8,7 @@ uint32_t Pacing::next(double budget_s) const {
   if (!(cost_ > 0)) return block_;  // the first says what one costs
   const double fits = std::clamp(budget_s / cost_, 0.0, 1e6);
   const uint32_t affordable = std::max(static_cast<uint32_t>(fits) / block_ * block_, block_);
-  // Substeps that are not due cost empty dispatches: the first step gets as much again as it has had, a step that needs more than the one
+  // Substeps that are not due cost empty dispatches: the pieces of the first step double, a step that needs more than the one
   // before another block.
   const uint32_t needed = expected_ == 0 ? wholeBlocks(done_ + 1) : expected_ > done_ ? wholeBlocks(expected_ - done_) : block_;
   return std::min(affordable, needed);

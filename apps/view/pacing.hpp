@@ -11,7 +11,8 @@ class Pacing {
  public:
   explicit Pacing(uint32_t block) : block_(block) {}
 
-  /// Substeps of the next piece, whole blocks: what the budget allows, and at most what the step is expected to need still.
+  /// Substeps of the next piece, whole blocks: what the budget allows, and at most what the step is expected to need still; the first
+  /// step's double.
   uint32_t next(double budget_s) const;
   /// A piece was simulated: substeps recorded, those of them that were due, and how long it took.
   void ran(uint32_t recorded, uint32_t due, double seconds);

@@ -41,7 +41,7 @@ constexpr double kStableError = 0.0055, kStableGain = 40;
 constexpr double kErrorOfHead = 0.38;
 constexpr double kTravel = 1.2;         // spacings that the fastest particle may move before the list is rebuilt
 constexpr double kLeastCfl = 0.01;      // spacings a substep
-constexpr double kLongestBlock = 6;     // substeps
+constexpr uint32_t kLongestBlock = 6;   // substeps
 constexpr double kWarmLimit = 1;        // w is -p dt^2 / rho for a pressure p: twice that of water as high as the room
 constexpr double kPushLow = 0.06;       // of the usual speed (setSpeeds): a correction may always add as much to a speed
 constexpr double kPushHigh = 0.5;       // and never more
@@ -52,9 +52,12 @@ float f(double value) { return static_cast<float>(value); }
 
 double length(const double v[3]) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
-/// As many as a list lives for where the step is the longest that the CFL condition allows, and one more: it is shorter as a rule.
-uint32_t substepsPerBlock(double cfl) {
-  return static_cast<uint32_t>(std::min(std::ceil(kTravel / std::max(cfl, kLeastCfl)) + 1, kLongestBlock));
+/// As many as a list lives for where the step is the longest that the CFL condition allows, and one more: it is shorter as a rule. Where
+/// something else bounds the step, a list may live for long.
+uint32_t substepsPerBlock(const SolverSettings& solver) {
+  if (solver.time_step || solver.cfl > kTravel) return kLongestBlock;
+  const double lives = std::ceil(kTravel / std::max(solver.cfl, kLeastCfl)) + 1;
+  return lives < kLongestBlock ? static_cast<uint32_t>(lives) : kLongestBlock;
 }
 
 double fastestSolid(const Scene& scene) {
@@ -401,7 +404,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   p.warmRelease = f(kWarmRelease);
   p.reach = f(h + kListSkin * d);
   p.travelLimit = f(kTravel * d);
-  setup.substepsPerBlock = substepsPerBlock(scene.solver.cfl);
+  setup.substepsPerBlock = substepsPerBlock(scene.solver);
   p.listCapacity = scene.solver.neighbors == NeighborChoice::List ? listCapacity((h + kListSkin * d) / d) : 0u;
   p.cfl = f(std::max(scene.solver.cfl, kLeastCfl));
   if (scene.solver.cfl < kLeastCfl)

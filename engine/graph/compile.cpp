@@ -141,7 +141,8 @@ void GraphImpl::waitForMemory(uint32_t index, const HazardState& seam) {
   const uint32_t placement = memoryOf(index).placement;
   const Placement& own = plan.placements[placement];
   resource.placed = true;
-  HazardState& state = stateNow(resource);
+  resource.barriersSeen = static_cast<uint32_t>(barriersPassed.size());  // nothing has happened to it yet
+  HazardState& state = resource.state;
   state.join(seam);
   for (const uint32_t tenant : plan.tenants) {
     if (tenant == placement || !sharesMemory(plan.placements[tenant], own)) continue;

@@ -1,8 +1,12 @@
 // How rill-capture ends and what it leaves behind: exit codes, streams, folders, signals.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/file.h>
-#include <sys/stat.h>
+#include <unistd.h>
 
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "support/child_process.hpp"

@@ -53,6 +53,14 @@ TEST(Pacing, AQuickMachineDoesAStepInOnePieceAndRecordsLittleMore) {
   EXPECT_EQ(stepOf(pacing, 30, 1e-5, 0.05).pieces, 2);
 }
 
+TEST(Pacing, PiecesOfTheFirstStepDouble) {
+  Pacing pacing(kBlock);
+  for (const uint32_t piece : {kBlock, 2 * kBlock, 4 * kBlock, 8 * kBlock}) {
+    EXPECT_EQ(pacing.next(std::numeric_limits<double>::infinity()), piece);
+    pacing.ran(piece, piece, 0.001 * piece);
+  }
+}
+
 TEST(Pacing, AnUnboundedBudgetIsOnePieceOfWhatIsExpected) {
   Pacing pacing(kBlock);
   stepOf(pacing, 18, 0.01, std::numeric_limits<double>::infinity());
