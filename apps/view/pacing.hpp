@@ -10,6 +10,8 @@ namespace rill::view {
 class Pacing {
  public:
   explicit Pacing(uint32_t block) : block_(block) {}
+  /// The fluid's settings have changed, and with them the length of its blocks.
+  void setBlock(uint32_t block) { block_ = block; }
 
   /// Substeps of the next piece, whole blocks: what the budget allows, and at most what the step is expected to need still; the first
   /// step's double.

@@ -113,6 +113,7 @@ Expected<void> Runner::goOn(Scene scene, ParticleSet start, const FluidSnapshot&
   auto fluid = Fluid::create(context_.device(), {.scene = &scene, .particles = &start, .snapshot = count() > 0 ? &from : nullptr});
   if (!fluid) return fluid.error();
   fluid_ = std::move(*fluid);
+  pacing_.setBlock(std::max(1u, fluid_->substepsPerBlock()));
   scene_ = std::move(scene);
   start_ = std::move(start);
   return begin();

@@ -3,38 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <filesystem>
 #include <set>
 
-#include "support/child_process.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/whole_png.hpp"
+#include "support/small_dam.hpp"
 
 namespace rill::test {
 namespace capture_test {
 
-using Json = nlohmann::json;
-
-constexpr const char* kDam = R"({
-  "rill": "0.1", "title": "A small dam break", "duration": 0.5,
-  "domain": {"min": [0, 0, 0], "max": [1, 1, 0.3]},
-  "fluid": {"spacing": 0.05},
-  "fill": [{"box": {"min": [0, 0, 0], "max": [0.5, 0.5, 0.3]}}],
-  "probes": [{"name": "H1", "level": [0.25, 0.15]}, {"name": "front", "front": "+x"}]
-})";
-
-class CaptureTest : public ::testing::Test {
- protected:
-  void SetUp() override { scene = folder.write("dam.json", kDam).string(); }
-  Outcome run(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), scene);
-    return capture(arguments, folder.string());
-  }
-  Json stats(const std::string& name) const { return Json::parse(contentOf(folder / name)); }
-
-  TemporaryFolder folder;
-  std::string scene;
-};
+using CaptureTest = SmallDam;
 
 TEST_F(CaptureTest, ADamBreakIsSound) {
   const Outcome outcome = run({"--fps", "40", "--no-images", "--stats", "stats.json", "--require", "outside<1", "non_finite<1"});

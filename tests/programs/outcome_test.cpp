@@ -7,34 +7,13 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
-#include "support/child_process.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/whole_png.hpp"
+#include "support/small_dam.hpp"
 
 namespace rill::test {
 namespace outcome_test {
 
-using Json = nlohmann::json;
-
-class OutcomeTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    scene = folder
-                .write("dam.json", R"({"rill": "0.1", "duration": 0.5, "domain": {"min": [0, 0, 0], "max": [1, 1, 0.3]},
-                  "fluid": {"spacing": 0.05}, "fill": [{"box": {"min": [0, 0, 0], "max": [0.5, 0.5, 0.3]}}]})")
-                .string();
-  }
-  Outcome run(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), scene);
-    return capture(arguments, folder.string());
-  }
-  Json stats(const std::string& name) const { return Json::parse(contentOf(folder / name)); }
-
-  TemporaryFolder folder;
-  std::string scene;
-};
+using OutcomeTest = SmallDam;
 
 TEST_F(OutcomeTest, EarlierFramesAreRemoved) {
   std::filesystem::create_directories(folder / "out/dam");

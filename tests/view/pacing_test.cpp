@@ -61,6 +61,13 @@ TEST(Pacing, PiecesOfTheFirstStepDouble) {
   }
 }
 
+TEST(Pacing, BlocksMayChange) {
+  Pacing pacing(kBlock);
+  stepOf(pacing, 18, 1e-5, 0.05);
+  pacing.setBlock(4);
+  EXPECT_EQ(pacing.next(0.05), 20u);
+}
+
 TEST(Pacing, AnUnboundedBudgetIsOnePieceOfWhatIsExpected) {
   Pacing pacing(kBlock);
   stepOf(pacing, 18, 0.01, std::numeric_limits<double>::infinity());

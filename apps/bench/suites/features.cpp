@@ -14,8 +14,8 @@ using offline::PassTime;
 using offline::Simulation;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kStep_s = 0.01;  // of twelve steps: two whole blocks, so that none is recorded for nothing
-constexpr int kWarmUp = 2;        // frames in which shaders are compiled and the first guess of substeps is off
+constexpr double kFeatureFrame_s = 0.01;  // of twelve steps: two whole blocks, so that none is recorded for nothing
+constexpr int kWarmUp = 2;                // frames in which shaders are compiled and the first guess of substeps is off
 
 using Overrides = std::vector<Override>;
 
@@ -107,7 +107,7 @@ Expected<void> runTogether(const Bench& bench, std::vector<Lane>& lanes, int fra
   for (int frame = 0; frame < kWarmUp + frames && !bench.stopped(); ++frame) {
     double base = 0;
     for (size_t k = 0; k < lanes.size(); ++k) {
-      const auto ms = lanes[k].frame(kStep_s);
+      const auto ms = lanes[k].frame(kFeatureFrame_s);
       if (!ms) return ms.error();
       if (k == 0) base = *ms;
       auto stats = lanes[k].stats();
