@@ -68,7 +68,7 @@ void store() {
 
 // Particles base + k for the bits k of `mask`.
 void listNeighbours(uint base, uint mask) {
-  while (mask != 0u) {
+  if (mask != 0u) do {
     for (uint k = 0u; k < 4u; ++k) {
       if (holds != k || mask == 0u) continue;
       held[k] = base + findLSB(mask);
@@ -76,7 +76,7 @@ void listNeighbours(uint base, uint mask) {
       holds = k + 1u;
     }
     if (holds == 4u) store();
-  }
+  } while (mask != 0u);
 }
 
 uint self;
@@ -88,7 +88,8 @@ float twinSquared = 1.0e-6 * params.support * params.support;
 void takeTurn(bool mine) { here = mine ? place : vec3(-kParked); }  // from there nothing is near
 void candidates(uint first, uint end) {
   uint mask = 0u, twins = 0u;
-  for (uint base = first; base < end; base += CLUSTER) {
+  uint base = first;
+  do {
     vec3 candidate = particleAt(min(base + clusterLane, end - 1u)).xyz;
     uint near = 0u, same = 0u;
     for (uint lane = 0u; lane < CLUSTER; ++lane) {
@@ -99,7 +100,8 @@ void candidates(uint first, uint end) {
     }
     mask |= near << (base - first);
     twins |= same << (base - first);
-  }
+    base += CLUSTER;
+  } while (base < end);
   if (end - first < kWindow) mask &= (1u << (end - first)) - 1u;
   if (self - first < kWindow) mask &= ~(1u << (self - first));
   twins &= mask;

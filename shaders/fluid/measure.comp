@@ -25,7 +25,8 @@ float support = params.support;
 vec3 place;
 void takeTurn(bool mine) { here = mine ? place : vec3(-kParked); }  // from there nothing is near
 void candidates(uint first, uint end) {
-  for (uint base = first; base < end; base += CLUSTER) {
+  uint base = first;
+  do {
     vec3 candidate = base + clusterLane < end ? sortedAt(base + clusterLane).xyz : vec3(kParked);
     for (uint lane = 0u; lane < CLUSTER; ++lane) {
       vec3 r = here - SPREAD(candidate, lane);
@@ -33,7 +34,8 @@ void candidates(uint first, uint end) {
       rho += kernelShape(distance);
       inside += uint(distance < support);
     }
-  }
+    base += CLUSTER;
+  } while (base < end);
 }
 #include "fluid/walk.glsl"
 

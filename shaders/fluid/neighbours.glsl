@@ -14,7 +14,8 @@ vec3 place;
 uint self;
 void takeTurn(bool mine) { here = mine ? place : vec3(-kParked); }  // from there nothing is near
 void candidates(uint first, uint end) {
-  for (uint base = first; base < end; base += CLUSTER) {
+  uint base = first;
+  do {
     uint j = base + clusterLane < end ? base + clusterLane : params.count;
     vec4 particle = particleAt(j);
 #ifdef COMPANION
@@ -29,7 +30,8 @@ void candidates(uint first, uint end) {
       visit(other);
 #endif
     }
-  }
+    base += CLUSTER;
+  } while (base < end);
 }
 #include "fluid/walk.glsl"
 
@@ -46,7 +48,8 @@ void visitNeighbours(uint i, uint local, bool there) {
   if (LIST_CAPACITY != 0u) {
     uint at = (local / kListBlock) * (kListBlock * (LIST_CAPACITY / 4u)) + local % kListBlock;
     uint groups = listed ? (count + 3u) / 4u : 0u;
-    for (uint k = 0u; k < groups; ++k) {
+    uint k = 0u;
+    if (groups != 0u) do {
       uvec4 js = listAt(at);
       vec4 x = particleAt(js.x), y = particleAt(js.y), z = particleAt(js.z), w = particleAt(js.w);
       VISIT(js.x, x);
@@ -54,7 +57,7 @@ void visitNeighbours(uint i, uint local, bool there) {
       VISIT(js.z, z);
       VISIT(js.w, w);
       at += kListBlock;
-    }
+    } while (++k < groups);
   }
   if (WALKS == 0u) return;
   bool walks = there && !listed && here.x != kParked;

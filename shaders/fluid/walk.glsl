@@ -34,9 +34,8 @@ void rowRange(float low, float high, vec2 row, vec4 gaps, float reach, uint side
 void walkGrid(vec3 boxLow, vec3 boxHigh, bool waits, float reach) {
   vec2 cell = floor(boxLow.yz);
   uint walked = 0u;
-  for (uint turn = 0u; turn < CLUSTER; ++turn) {
-    uint leader = clusterMin(waits ? clusterLane : CLUSTER);
-    if (leader == CLUSTER) break;
+  uint leader = clusterMin(waits ? clusterLane : CLUSTER);
+  if (leader < CLUSTER) do {
     vec2 row = SPREAD(cell, leader);
     bool mine = waits && (cell == row || clusterLane == leader);  // the leader at least, whatever NaN compares like
     if (mine) waits = false;
@@ -48,18 +47,23 @@ void walkGrid(vec3 boxLow, vec3 boxHigh, bool waits, float reach) {
     vec4 gaps = vec4(low.yz - row, row + 1.0 - high.yz) / inverseCell.yzyz;
     float first = floor(low.x) - float(kCellsPerReach) - 1.0, last = floor(high.x) + float(kCellsPerReach) + 1.0;
     uint parts = wrapped(vec3(first, row)).x + (last - first) >= gridSize.x ? 2u : 1u;
-    for (uint base = 0u; base < 9u * parts; base += CLUSTER) {
+    uint base = 0u;
+    do {
       uint at = base + clusterLane, begin = 0u, end = 0u;
       if (at < 9u * parts) rowRange(low.x, high.x, row, gaps, reach, at / parts, at % parts, begin, end);
-      for (uint lane = 0u; lane < min(CLUSTER, 9u * parts - base); ++lane) {
+      uint lane = 0u, rows = min(CLUSTER, 9u * parts - base);
+      do {
         uint from = SPREAD(begin, lane), to = SPREAD(end, lane);
-        for (; from < to && walked < kWalkBound; from += kWindow) {
+        if (from < to && walked < kWalkBound) do {
           candidates(from, min(to, from + kWindow));
           walked += kWindow;
-        }
-      }
-    }
-  }
+          from += kWindow;
+        } while (from < to && walked < kWalkBound);
+      } while (++lane < rows);
+      base += CLUSTER;
+    } while (base < 9u * parts);
+    leader = clusterMin(waits ? clusterLane : CLUSTER);  // another: each turn serves its leader at least
+  } while (leader < CLUSTER);
   if (walked >= kWalkBound && clusterLane == 0u) atomicAdd(sums.boundHits, 1u);
 }
 #endif

@@ -7,7 +7,10 @@
 
 uint placeOf(uint index, uint begin, uint end) {
   uint place = begin;
-  for (uint other = begin; other < end; ++other) place += arrivedAt(other) < index ? 1u : 0u;
+  uint other = begin;
+  if (other < end) do {
+    place += arrivedAt(other) < index ? 1u : 0u;
+  } while (++other < end);
   return place;
 }
 #endif
