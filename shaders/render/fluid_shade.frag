@@ -114,11 +114,12 @@ void main() {
     float beyond = scene_depth[index];
     for (int turn = 0; turn < kFollow; ++turn) {
       const vec3 at = point + bent * min(walked, inside) + sight * max(walked - inside, 0.0);
-      if (!(at.z > view.near_depth)) break;
-      there = clamp(pixelOf(at), vec2(0.0), pictureSize() - 1.0);
-      beyond = scene_depth[uint(there.y) * view.width + uint(there.x)];
-      walked = max(walked + (min(beyond, farthest) - at.z) / max(walked < inside ? bent.z : sight.z, 0.1), 0.0);
-      inside = max(inside, thicknessAt(there));
+      if (at.z > view.near_depth) {
+        there = clamp(pixelOf(at), vec2(0.0), pictureSize() - 1.0);
+        beyond = scene_depth[uint(there.y) * view.width + uint(there.x)];
+        walked = max(walked + (min(beyond, farthest) - at.z) / max(walked < inside ? bent.z : sight.z, 0.1), 0.0);
+        inside = max(inside, thicknessAt(there));
+      }
     }
     // What stands in front of the fluid is not seen through it.
     if (beyond < z) {

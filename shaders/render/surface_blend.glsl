@@ -30,9 +30,11 @@ Blend lookFrom(vec2 axis, float depth) {
   const float cover_inverse = 1.0 / (kCoverReach * kCoverReach * spacing * spacing);
   float height = 0.0, slope = 0.0, cover = 0.0, sum = 0.0, firm = 0.0;
   vec3 normal = vec3(0.0);
-  for (int y = range.first.y; y <= range.last.y; ++y) {
+  int y = range.first.y;
+  do {
     const uvec2 row = rowOf(range, y);
-    for (uint j = row.x; j < row.y; ++j) {
+    uint j = row.x;
+    if (j < row.y) do {
       const vec4 anchor = planeAt(2u * j);
       vec3 n = planeAt(2u * j + 1u).xyz;
       vec3 d = x - anchor.xyz;
@@ -52,8 +54,8 @@ Blend lookFrom(vec2 axis, float depth) {
       normal += w * n;
       // Where the surface is seen edge on, its particles crowd before the eye.
       if (within > 0.0) cover += coverOfCentre(centreAt(j).xyz, axis, cover_inverse) * max(abs(dot(n, sight)), kCoverEdgeOn);
-    }
-  }
+    } while (++j < row.y);
+  } while (++y <= range.last.y);
   Blend blend;
   blend.firm = firm;
   blend.coverage = coverageAt(cover - mix(kCoverSlanted, kCoverInside, smoothstep(1.5, 2.8, sum)), depth);
@@ -70,12 +72,17 @@ Blend blendAt(vec2 axis, float depth) {
   Blend blend = lookFrom(axis, depth);
   const float still = kStill * spacingAt(depth);
   float from = depth;
-  for (int turn = 0; turn < kLooks && blend.firm > kFirm && abs(blend.depth - from) > still; ++turn) {
+  int turn = 0;  // no break in this loop: behind one, lavapipe (Mesa 22.3) mixes up what lanes have found
+  bool moves = blend.firm > kFirm && abs(blend.depth - from) > still;
+  if (moves) do {
     const Blend next = lookFrom(axis, blend.depth);
-    if (next.firm <= kFirm) break;
-    from = blend.depth;
-    blend.depth = next.depth;
-    blend.normal = next.normal;
-  }
+    moves = next.firm > kFirm;
+    if (moves) {
+      from = blend.depth;
+      blend.depth = next.depth;
+      blend.normal = next.normal;
+      moves = abs(blend.depth - from) > still;
+    }
+  } while (++turn < kLooks && moves);
   return blend;
 }

@@ -9,13 +9,15 @@ float coverOf(vec2 axis, float depth) {
   const float spacing = spacingAt(depth), reach = kCoverReach * spacing, inverse = 1.0 / (reach * reach);
   const CellRange range = cellsAround(x, reach);
   float cover = 0.0;
-  for (int y = range.first.y; y <= range.last.y; ++y) {
+  int y = range.first.y;
+  do {
     const uvec2 row = rowOf(range, y);
-    for (uint j = row.x; j < row.y; ++j) {
+    uint j = row.x;
+    if (j < row.y) do {
       const vec3 at = centreAt(j).xyz;
       if (abs(at.z - depth) > kCoverDepth * spacing) continue;
       cover += coverOfCentre(at, axis, inverse);
-    }
-  }
+    } while (++j < row.y);
+  } while (++y <= range.last.y);
   return coverageAt(cover - kCoverBare, depth);
 }

@@ -31,7 +31,8 @@ void main() {
   // By numbers: of a constant vector chosen by a specialization constant lavapipe (Mesa 22.3) takes the same one always.
   const ivec2 along = ivec2(1 - int(kVertical), int(kVertical));
   float sum = toLinear(z), weights = 1.0;
-  for (int k = 1; k <= taps; ++k) {
+  int k = 1;
+  if (k <= taps) do {
     // Both sides or none: what is missing on one side would tilt the surface.
     float pair = 0.0;
     bool whole = true;
@@ -47,6 +48,6 @@ void main() {
     const float w = whole ? exp(-0.5 * off * off) : 0.0;
     sum += w * pair;
     weights += 2.0 * w;
-  }
+  } while (++k <= taps);
   after[index] = toDepth(sum / weights);
 }
