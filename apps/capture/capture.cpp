@@ -41,7 +41,7 @@ class Capture {
     wanted.orbit_deg_per_s = options_.orbit_deg_per_s;
     wanted.passTimes = options_.passTimes && (options_.stats || options_.explain);
     auto simulation = resumed_ ? offline::Simulation::resume(scene_, *resumed_, wanted) : offline::Simulation::open(scene_, wanted);
-    if (!simulation) return refuse(simulation.error());
+    if (!simulation) return refuse(resumed_ ? aboutCheckpoint(simulation.error()) : simulation.error());
     simulation_ = std::move(*simulation);
     if (resumed_) resumed_->fluid = {};  // the device has it
     if (draws())
@@ -249,6 +249,11 @@ class Capture {
   }
 
   static Error aboutResume(const Error& error) { return {error.kind, "--resume: " + error.message}; }
+  /// Of a file that was read whole: what the scene, or the device, says of it.
+  Error aboutCheckpoint(const Error& error) const {
+    return error.kind == ErrorKind::BadInput ? aboutResume({error.kind, inQuotes(options_.resume->string()) + ": " + error.message})
+                                             : error;
+  }
   int refuse(const Error& error) const {
     message(error.message);
     return apps::exitCodeBeforeRun(error);

@@ -9,6 +9,7 @@
 #include "core/words.hpp"
 #include "fluid/fluid_impl.hpp"
 #include "fluid/snapshot.hpp"
+#include "gpu/texel_reads.hpp"
 
 namespace rill {
 namespace {
@@ -135,7 +136,7 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
                                           " buffers of 128 MiB that are available: make smoothing_ratio smaller"};
   const uint64_t mostTexels =
       std::max({more, uint64_t{chunk} * p.listCapacity / 4, paddedWords(setup.grid.cells() + 1), uint64_t{setup.tables.size() / 4}});
-  texel_ = !storageReads && device.info().maxTexelBufferElements >= mostTexels;
+  texel_ = !storageReads && readsTexels(device, mostTexels);
 
   auto sort = KeySort::create(
       device, {.count = count, .keyRange = setup.grid.cells(), .start = true, .storageReads = storageReads, .openEnds = true});

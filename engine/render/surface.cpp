@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "gpu/texel_reads.hpp"
 #include "render/compute_step.hpp"
 #include "sort/dispatches.hpp"
 
@@ -123,7 +124,7 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
   Frame frame = frameOf(fluid, camera, method, focus, settings);
   const uint64_t mostTexels = std::max({2 * uint64_t{fluid.count}, paddedWords(frame.cells + 1), frame.samples});
   frame.storageReads = settings.storage_reads;
-  frame.texels = !frame.storageReads && device_->info().maxTexelBufferElements >= mostTexels;
+  frame.texels = !frame.storageReads && readsTexels(*device_, mostTexels);
   frame.filters = filtered && !settings.filter;
   addBuffers(graph, fluid, frame, whole);
   addVisible(graph, fluid, frame);

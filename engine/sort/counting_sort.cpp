@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "gpu/texel_reads.hpp"
 #include "sort/pipelines.hpp"
 
 namespace rill {
@@ -14,8 +15,7 @@ Expected<CountingSort> CountingSort::create(Device& device, const KeySortDesc& d
   if (!scan) return scan.error();
   sort.scan_ = *scan;
   using enum BindingKind;
-  const bool texels =
-      !desc.storageReads && device.info().maxTexelBufferElements >= std::max<uint64_t>(desc.count, paddedWords(desc.keyRange + 1));
+  const bool texels = !desc.storageReads && readsTexels(device, std::max<uint64_t>(desc.count, paddedWords(desc.keyRange + 1)));
   const uint32_t oversized = sort.binsMayBeOversized() ? 1 : 0;
   ModulePipelines pipelines(device, sizeof(CountingPush));
   sort.texels_ = texels;

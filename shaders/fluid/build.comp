@@ -11,6 +11,7 @@
 #include "fluid/cluster.glsl"
 #include "fluid/solids.glsl"
 #include "shared/arrays.glsl"
+#include "shared/loops.glsl"
 #include "shared/pair_hash.h"
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 2) const uint LIST_CAPACITY = 0;
@@ -68,7 +69,7 @@ void store() {
 
 // Particles base + k for the bits k of `mask`.
 void listNeighbours(uint base, uint mask) {
-  if (mask != 0u) do {
+  LOOP_WHILE (mask != 0u) {
     for (uint k = 0u; k < 4u; ++k) {
       if (holds != k || mask == 0u) continue;
       held[k] = base + findLSB(mask);
@@ -76,7 +77,7 @@ void listNeighbours(uint base, uint mask) {
       holds = k + 1u;
     }
     if (holds == 4u) store();
-  } while (mask != 0u);
+  } LOOP_END(mask != 0u);
 }
 
 uint self;
@@ -89,7 +90,7 @@ void takeTurn(bool mine) { here = mine ? place : vec3(-kParked); }  // from ther
 void candidates(uint first, uint end) {
   uint mask = 0u, twins = 0u;
   uint base = first;
-  do {
+  LOOP_WHILE (base < end) {
     vec3 candidate = particleAt(min(base + clusterLane, end - 1u)).xyz;
     uint near = 0u, same = 0u;
     for (uint lane = 0u; lane < CLUSTER; ++lane) {
@@ -101,7 +102,7 @@ void candidates(uint first, uint end) {
     mask |= near << (base - first);
     twins |= same << (base - first);
     base += CLUSTER;
-  } while (base < end);
+  } LOOP_END(base < end);
   if (end - first < kWindow) mask &= (1u << (end - first)) - 1u;
   if (self - first < kWindow) mask &= ~(1u << (self - first));
   twins &= mask;

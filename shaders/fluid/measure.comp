@@ -8,6 +8,7 @@
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
 #include "shared/arrays.glsl"
+#include "shared/loops.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 2) const uint NEAR = 0;
 READ_FLOAT4(2, sorted)  // w: the particle's place in the solver's arrays, as a number
@@ -26,7 +27,7 @@ vec3 place;
 void takeTurn(bool mine) { here = mine ? place : vec3(-kParked); }  // from there nothing is near
 void candidates(uint first, uint end) {
   uint base = first;
-  do {
+  LOOP_WHILE (base < end) {
     vec3 candidate = base + clusterLane < end ? sortedAt(base + clusterLane).xyz : vec3(kParked);
     for (uint lane = 0u; lane < CLUSTER; ++lane) {
       vec3 r = here - SPREAD(candidate, lane);
@@ -35,7 +36,7 @@ void candidates(uint first, uint end) {
       inside += uint(distance < support);
     }
     base += CLUSTER;
-  } while (base < end);
+  } LOOP_END(base < end);
 }
 #include "fluid/walk.glsl"
 

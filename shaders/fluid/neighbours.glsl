@@ -4,6 +4,7 @@
 // handed over; with COMPANION(j) defined, `void visit(vec4 particle, vec4 companion)`. What is farther than the support, or not there, is visited too.
 #ifndef RILL_NEIGHBOURS_GLSL
 #define RILL_NEIGHBOURS_GLSL
+#include "shared/loops.glsl"
 layout(constant_id = 2) const uint LIST_CAPACITY = 0;  // entries a particle; 0: no list
 layout(constant_id = 3) const uint WALKS = 0;
 
@@ -15,7 +16,7 @@ uint self;
 void takeTurn(bool mine) { here = mine ? place : vec3(-kParked); }  // from there nothing is near
 void candidates(uint first, uint end) {
   uint base = first;
-  do {
+  LOOP_WHILE (base < end) {
     uint j = base + clusterLane < end ? base + clusterLane : params.count;
     vec4 particle = particleAt(j);
 #ifdef COMPANION
@@ -31,7 +32,7 @@ void candidates(uint first, uint end) {
 #endif
     }
     base += CLUSTER;
-  } while (base < end);
+  } LOOP_END(base < end);
 }
 #include "fluid/walk.glsl"
 
@@ -49,7 +50,7 @@ void visitNeighbours(uint i, uint local, bool there) {
     uint at = (local / kListBlock) * (kListBlock * (LIST_CAPACITY / 4u)) + local % kListBlock;
     uint groups = listed ? (count + 3u) / 4u : 0u;
     uint k = 0u;
-    if (groups != 0u) do {
+    LOOP_WHILE (k < groups) {
       uvec4 js = listAt(at);
       vec4 x = particleAt(js.x), y = particleAt(js.y), z = particleAt(js.z), w = particleAt(js.w);
       VISIT(js.x, x);
@@ -57,7 +58,8 @@ void visitNeighbours(uint i, uint local, bool there) {
       VISIT(js.z, z);
       VISIT(js.w, w);
       at += kListBlock;
-    } while (++k < groups);
+      ++k;
+    } LOOP_END(k < groups);
   }
   if (WALKS == 0u) return;
   bool walks = there && !listed && here.x != kParked;

@@ -4,6 +4,7 @@
 #ifndef RILL_WALK_GLSL
 #define RILL_WALK_GLSL
 #include "fluid/grid.glsl"
+#include "shared/loops.glsl"
 
 // Row `side` of 0 .. 8 around the row (y, z) of cells: the particles [begin, end) in it that can be within `reach` (m) of a box in that row, which goes from low
 // to high (in cells) in x and keeps `gaps` (m) from the row's sides at low y, low z, high y, high z. The row is two ranges where it wraps: part 0 and 1.
@@ -35,7 +36,7 @@ void walkGrid(vec3 boxLow, vec3 boxHigh, bool waits, float reach) {
   vec2 cell = floor(boxLow.yz);
   uint walked = 0u;
   uint leader = clusterMin(waits ? clusterLane : CLUSTER);
-  if (leader < CLUSTER) do {
+  LOOP_WHILE (leader < CLUSTER) {
     vec2 row = SPREAD(cell, leader);
     bool mine = waits && (cell == row || clusterLane == leader);  // the leader at least, whatever NaN compares like
     if (mine) waits = false;
@@ -48,22 +49,23 @@ void walkGrid(vec3 boxLow, vec3 boxHigh, bool waits, float reach) {
     float first = floor(low.x) - float(kCellsPerReach) - 1.0, last = floor(high.x) + float(kCellsPerReach) + 1.0;
     uint parts = wrapped(vec3(first, row)).x + (last - first) >= gridSize.x ? 2u : 1u;
     uint base = 0u;
-    do {
+    LOOP_WHILE (base < 9u * parts) {
       uint at = base + clusterLane, begin = 0u, end = 0u;
       if (at < 9u * parts) rowRange(low.x, high.x, row, gaps, reach, at / parts, at % parts, begin, end);
       uint lane = 0u, rows = min(CLUSTER, 9u * parts - base);
-      do {
+      LOOP_WHILE (lane < rows) {
         uint from = SPREAD(begin, lane), to = SPREAD(end, lane);
-        if (from < to && walked < kWalkBound) do {
+        LOOP_WHILE (from < to && walked < kWalkBound) {
           candidates(from, min(to, from + kWindow));
           walked += kWindow;
           from += kWindow;
-        } while (from < to && walked < kWalkBound);
-      } while (++lane < rows);
+        } LOOP_END(from < to && walked < kWalkBound);
+        ++lane;
+      } LOOP_END(lane < rows);
       base += CLUSTER;
-    } while (base < 9u * parts);
+    } LOOP_END(base < 9u * parts);
     leader = clusterMin(waits ? clusterLane : CLUSTER);  // another: each turn serves its leader at least
-  } while (leader < CLUSTER);
+  } LOOP_END(leader < CLUSTER);
   if (walked >= kWalkBound && clusterLane == 0u) atomicAdd(sums.boundHits, 1u);
 }
 #endif

@@ -1,15 +1,12 @@
 // Of the spheres in the samples around a pixel, the nearest and the farthest depth; both as they came in where there is none. Needs `depth`.
 void depthsAround(ivec2 own, inout float nearest, inout float farthest) {
   const ivec2 grid = ivec2(sampleGrid());
-  int y = max(own.y - 1, 0);
-  do {
-    int x = max(own.x - 1, 0);
-    do {
+  for (int y = max(own.y - 1, 0); y <= min(own.y + 1, grid.y - 1); ++y)
+    for (int x = max(own.x - 1, 0); x <= min(own.x + 1, grid.x - 1); ++x) {
       const float hard = uintBitsToFloat(depth[uint(y * grid.x + x)]);
       nearest = min(nearest, hard);
       if (hard < infinity()) farthest = max(farthest, hard);
-    } while (++x <= min(own.x + 1, grid.x - 1));
-  } while (++y <= min(own.y + 1, grid.y - 1));
+    }
 }
 
 // The sample that a pixel lies in.

@@ -31,10 +31,10 @@ Blend lookFrom(vec2 axis, float depth) {
   float height = 0.0, slope = 0.0, cover = 0.0, sum = 0.0, firm = 0.0;
   vec3 normal = vec3(0.0);
   int y = range.first.y;
-  do {
+  LOOP_WHILE (y <= range.last.y) {
     const uvec2 row = rowOf(range, y);
     uint j = row.x;
-    if (j < row.y) do {
+    LOOP_WHILE (j < row.y) {
       const vec4 anchor = planeAt(2u * j);
       vec3 n = planeAt(2u * j + 1u).xyz;
       vec3 d = x - anchor.xyz;
@@ -54,8 +54,10 @@ Blend lookFrom(vec2 axis, float depth) {
       normal += w * n;
       // Where the surface is seen edge on, its particles crowd before the eye.
       if (within > 0.0) cover += coverOfCentre(centreAt(j).xyz, axis, cover_inverse) * max(abs(dot(n, sight)), kCoverEdgeOn);
-    } while (++j < row.y);
-  } while (++y <= range.last.y);
+      ++j;
+    } LOOP_END(j < row.y);
+    ++y;
+  } LOOP_END(y <= range.last.y);
   Blend blend;
   blend.firm = firm;
   blend.coverage = coverageAt(cover - mix(kCoverSlanted, kCoverInside, smoothstep(1.5, 2.8, sum)), depth);
@@ -74,15 +76,15 @@ Blend blendAt(vec2 axis, float depth) {
   float from = depth;
   int turn = 0;  // no break in this loop: behind one, lavapipe (Mesa 22.3) mixes up what lanes have found
   bool moves = blend.firm > kFirm && abs(blend.depth - from) > still;
-  if (moves) do {
+  LOOP_WHILE (moves) {
     const Blend next = lookFrom(axis, blend.depth);
     moves = next.firm > kFirm;
     if (moves) {
       from = blend.depth;
       blend.depth = next.depth;
       blend.normal = next.normal;
-      moves = abs(blend.depth - from) > still;
+      moves = ++turn < kLooks && abs(blend.depth - from) > still;
     }
-  } while (++turn < kLooks && moves);
+  } LOOP_END(moves);
   return blend;
 }

@@ -10,14 +10,15 @@ float coverOf(vec2 axis, float depth) {
   const CellRange range = cellsAround(x, reach);
   float cover = 0.0;
   int y = range.first.y;
-  do {
+  LOOP_WHILE (y <= range.last.y) {
     const uvec2 row = rowOf(range, y);
     uint j = row.x;
-    if (j < row.y) do {
+    LOOP_WHILE (j < row.y) {
       const vec3 at = centreAt(j).xyz;
-      if (abs(at.z - depth) > kCoverDepth * spacing) continue;
-      cover += coverOfCentre(at, axis, inverse);
-    } while (++j < row.y);
-  } while (++y <= range.last.y);
+      if (abs(at.z - depth) <= kCoverDepth * spacing) cover += coverOfCentre(at, axis, inverse);
+      ++j;
+    } LOOP_END(j < row.y);
+    ++y;
+  } LOOP_END(y <= range.last.y);
   return coverageAt(cover - kCoverBare, depth);
 }

@@ -17,13 +17,9 @@ bool hidden(vec3 centre, float radius) {
   const ivec2 first = clamp(ivec2(floor(extent.xy)), ivec2(0), cells - 1), last = clamp(ivec2(floor(extent.zw)), ivec2(0), cells - 1);
   if (any(greaterThan(last - first, ivec2(int(kMostRectSamples))))) return false;
   const uint bits = floatBitsToUint(centre.z - radius);
-  int y = first.y;
-  do {
-    int x = first.x;
-    do {
+  for (int y = first.y; y <= last.y; ++y)
+    for (int x = first.x; x <= last.x; ++x)
       if (occluders[uint(y * cells.x + x)] >= bits) return false;
-    } while (++x <= last.x);
-  } while (++y <= last.y);
   return true;
 }
 

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 #include "shared/arrays.glsl"
+#include "shared/loops.glsl"
 #include "render/surface_filter.glsl"
 
 READ_FLOAT(0, before)
@@ -32,7 +33,7 @@ void main() {
   const ivec2 along = ivec2(1 - int(kVertical), int(kVertical));
   float sum = toLinear(z), weights = 1.0;
   int k = 1;
-  if (k <= taps) do {
+  LOOP_WHILE (k <= taps) {
     // Both sides or none: what is missing on one side would tilt the surface.
     float pair = 0.0;
     bool whole = true;
@@ -48,6 +49,7 @@ void main() {
     const float w = whole ? exp(-0.5 * off * off) : 0.0;
     sum += w * pair;
     weights += 2.0 * w;
-  } while (++k <= taps);
+    ++k;
+  } LOOP_END(k <= taps);
   after[index] = toDepth(sum / weights);
 }

@@ -22,12 +22,9 @@ void main() {
   const ivec2 last = min(ivec2(floor(clamp((middle + side) / cell, vec2(-1e6), vec2(1e6)))) - 1, cells - 1);
   const ivec2 most = min(last, first + int(kMostRectSamples) - 1);
   const uint bits = floatBitsToUint(centre.z);
-  int y = first.y;
-  if (first.x <= most.x && y <= most.y) do {
-    int x = first.x;
-    do {
+  for (int y = first.y; y <= most.y; ++y)
+    for (int x = first.x; x <= most.x; ++x) {
       const uint at = uint(y * cells.x + x);
       if (bits < occluders[at]) atomicMin(occluders[at], bits);
-    } while (++x <= most.x);
-  } while (++y <= most.y);
+    }
 }

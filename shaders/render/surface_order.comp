@@ -18,10 +18,8 @@ void main() {
   const ivec2 cell = cellOf(pixelOf(at));
   const uint key = uint(cell.y) * cellGrid().x + uint(cell.x);
   const uint begin = start[key], end = start[key + 1u];
-  uint place = begin, other = begin;
-  do {
-    place += arrived[other] < i ? 1u : 0u;
-  } while (++other < min(end, begin + kMostInCell));
+  uint place = begin;
+  for (uint other = begin; other < min(end, begin + kMostInCell); ++other) place += arrived[other] < i ? 1u : 0u;
   if (end - begin > kMostInCell) {  // particles upon each other: in the order of arrival
     place = slot;
     if (slot == begin) atomicAdd(counters[kBoundHits], 1u);

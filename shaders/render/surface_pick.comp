@@ -24,16 +24,13 @@ void main() {
   const uint columns = sampleGrid().x;
   const float slack = 1e-3 * view.spacing;
   uint inside = 0u, owned = 0u;
-  int y = rect.y;
-  if (rect.x <= rect.z && y <= rect.w) do {
-    int x = rect.x;
-    do {
+  for (int y = rect.y; y <= rect.w; ++y)
+    for (int x = rect.x; x <= rect.z; ++x) {
       const float t = sphereDepth(centre, radius, axisOf(samplePixel(ivec2(x, y))));
       if (t <= view.near_depth) continue;
       ++inside;
       if (t <= uintBitsToFloat(depth[uint(y) * columns + uint(x)]) + slack) ++owned;
-    } while (++x <= rect.z);
-  } while (++y <= rect.w);
+    }
   uint place = kNotSurface;
   if (owned > 0u && float(owned) >= kOwnedShare * float(inside)) {
     const ivec2 cell = cellOf(pixelOf(centre));

@@ -46,10 +46,10 @@ struct Fit {
 Fit fitAround(vec3 own, float inverse, CellRange range, vec3 across) {
   Fit fit = Fit(0.0, vec3(0.0), vec3(0.0), vec3(0.0));
   int y = range.first.y;
-  do {
+  LOOP_WHILE (y <= range.last.y) {
     const uvec2 row = rowOf(range, y);
     uint j = row.x;
-    if (j < row.y) do {
+    LOOP_WHILE (j < row.y) {
       const vec3 q = (centreAt(j).xyz - own) * inverse;
       const float inside = max(1.0 - dot(q, q), 0.0);
       const float off = dot(q, across);
@@ -59,8 +59,10 @@ Fit fitAround(vec3 own, float inverse, CellRange range, vec3 across) {
       fit.mean += w * q;
       fit.square += w * q * q;
       fit.mixed += w * q.xyz * q.yzx;
-    } while (++j < row.y);
-  } while (++y <= range.last.y);
+      ++j;
+    } LOOP_END(j < row.y);
+    ++y;
+  } LOOP_END(y <= range.last.y);
   fit.sum = max(fit.sum, 1e-6);  // of a crowded row only the first are seen, and the particle itself may not be among them
   fit.mean /= fit.sum;
   fit.square = fit.square / fit.sum - fit.mean * fit.mean;

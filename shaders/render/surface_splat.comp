@@ -18,15 +18,12 @@ void main() {
   const ivec4 rect = sampleRect(centre, radius, cut);
   if (cut) atomicAdd(counters[kBoundHits], 1u);
   const uint columns = sampleGrid().x;
-  int y = rect.y;
-  if (rect.x <= rect.z && y <= rect.w) do {
-    int x = rect.x;
-    do {
+  for (int y = rect.y; y <= rect.w; ++y)
+    for (int x = rect.x; x <= rect.z; ++x) {
       const float t = sphereDepth(centre, radius, axisOf(samplePixel(ivec2(x, y))));
       if (t <= view.near_depth) continue;
       const uint at = uint(y) * columns + uint(x);
       const uint bits = floatBitsToUint(t);
       if (bits < depth[at]) atomicMin(depth[at], bits);
-    } while (++x <= rect.z);
-  } while (++y <= rect.w);
+    }
 }

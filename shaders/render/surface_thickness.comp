@@ -51,12 +51,9 @@ void main() {
   bool cut;
   const ivec4 rect = sampleRect(centre, radius, cut);
   if (cut) atomicAdd(counters[kBoundHits], 1u);
-  int y = rect.y;
-  if (rect.x <= rect.z && y <= rect.w) do {
-    int x = rect.x;
-    do {
+  for (int y = rect.y; y <= rect.w; ++y)
+    for (int x = rect.x; x <= rect.z; ++x) {
       const float inside = 1.0 - raySquare(centre, axisOf(samplePixel(ivec2(x, y)))) / (radius * radius);
       if (inside > 0.0) add(ivec2(x, y), centre.z, peak * inside * inside);
-    } while (++x <= rect.z);
-  } while (++y <= rect.w);
+    }
 }

@@ -13,13 +13,8 @@ layout(std430, set = 0, binding = 3) writeonly buffer Blocks { uint blocks[]; };
 bool anyCovered(ivec2 first, ivec2 last) {
   const uint columns = sampleGrid().x;
   bool any_covered = false;
-  int y = first.y;
-  do {
-    int x = first.x;
-    do {
-      any_covered = depth[uint(y) * columns + uint(x)] != kInfiniteBits;
-    } while (++x <= last.x && !any_covered);
-  } while (++y <= last.y && !any_covered);
+  for (int y = first.y; y <= last.y && !any_covered; ++y)
+    for (int x = first.x; x <= last.x && !any_covered; ++x) any_covered = depth[uint(y) * columns + uint(x)] != kInfiniteBits;
   return any_covered;
 }
 

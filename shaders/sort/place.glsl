@@ -4,13 +4,15 @@
 #ifndef RILL_PLACE_GLSL
 #define RILL_PLACE_GLSL
 #include "sort/sort_types.h"
+#include "shared/loops.glsl"
 
 uint placeOf(uint index, uint begin, uint end) {
   uint place = begin;
   uint other = begin;
-  if (other < end) do {
+  LOOP_WHILE (other < end) {
     place += arrivedAt(other) < index ? 1u : 0u;
-  } while (++other < end);
+    ++other;
+  } LOOP_END(other < end);
   return place;
 }
 #endif

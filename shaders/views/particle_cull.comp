@@ -14,13 +14,11 @@ bool hidden(vec3 centre, float radius, ivec4 rect) {
   const uint bits = floatBitsToUint(centre.z - radius);
   const uvec4 cells = uvec4(rect) / view.cell;
   if ((cells.z - cells.x + 1u) * (cells.w - cells.y + 1u) > kHiddenCells) return false;
-  uint y = cells.y;
-  do {
-    uint x = cells.x;
-    do {
+  for (uint y = cells.y; y <= cells.w; ++y) {
+    for (uint x = cells.x; x <= cells.z; ++x) {
       if (occluders[y * columns + x] >= bits) return false;
-    } while (++x <= cells.z);
-  } while (++y <= cells.w);
+    }
+  }
   return true;
 }
 

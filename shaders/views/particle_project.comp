@@ -16,14 +16,12 @@ void markLight(vec3 world) {
   const vec2 limit = vec2(scene.counts.yz);
   const ivec2 first = ivec2(ceil(clamp(at - reach, vec2(0.0), limit))), last = ivec2(floor(clamp(at + reach, vec2(-1.0), limit - 1.0)));
   const uint bits = floatBitsToUint(max(lightDepth(world), 0.0));
-  int y = first.y;
-  if (first.x <= last.x && y <= last.y) do {
-    int x = first.x;
-    do {
+  for (int y = first.y; y <= last.y; ++y) {
+    for (int x = first.x; x <= last.x; ++x) {
       const uint texel = uint(y) * scene.counts.y + uint(x);
       if (bits < light_map[texel]) atomicMin(light_map[texel], bits);
-    } while (++x <= last.x);
-  } while (++y <= last.y);
+    }
+  }
 }
 
 void markCells(vec3 centre, float radius) {
@@ -43,14 +41,12 @@ void markCells(vec3 centre, float radius) {
   const ivec2 centre_cell = (first + last) / 2;
   first = max(max(first, centre_cell - int(kOccluderCells) / 2), ivec2(0));
   last = min(last, centre_cell + int(kOccluderCells) / 2);
-  int y = first.y;
-  if (first.x <= last.x && y <= last.y) do {
-    int x = first.x;
-    do {
+  for (int y = first.y; y <= last.y; ++y) {
+    for (int x = first.x; x <= last.x; ++x) {
       const uint index = uint(y * cells.x + x);
       if (bits < occluders[index]) atomicMin(occluders[index], bits);
-    } while (++x <= last.x);
-  } while (++y <= last.y);
+    }
+  }
 }
 
 void main() {

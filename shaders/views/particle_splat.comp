@@ -20,8 +20,7 @@ void main() {
   const ivec4 rect = sphereRect(centre, radius);
   const int pixels = (rect.z - rect.x + 1) * (rect.w - rect.y + 1);  // at most kSmallRect squared
   ivec2 pixel = rect.xy;
-  int n = 0;
-  if (n < pixels) do {
+  for (int n = 0; n < pixels; ++n) {
     const float t = pixelDepth(centre, radius, pixel);
     if (t > 0.0) {
       const uint at = uint(pixel.y) * view.width + uint(pixel.x);
@@ -35,5 +34,5 @@ void main() {
     }
     pixel.x += 1;
     if (pixel.x > rect.z) pixel = ivec2(rect.x, pixel.y + 1);
-  } while (++n < pixels);
+  }
 }

@@ -47,14 +47,13 @@ void main() {
       }
     }
     barrier();
-    uint n = 0u;
-    if (n < sphere_count) do {
+    for (uint n = 0u; n < sphere_count; ++n) {
       const float t = pixelDepth(spheres[n].xyz, spheres[n].w, ivec2(pixel));
       if (t > 0.0) {
         best = min(best, floatBitsToUint(t));
         if (floatBitsToUint(t) == before) owner = min(owner, indices[n]);
       }
-    } while (++n < sphere_count);
+    }
   }
   if (!inside) return;
   if (view.winners == 0u) {

@@ -1,0 +1,16 @@
+#pragma once
+#include <cstdint>
+
+#include "rill/device.hpp"
+
+namespace rill {
+
+/// Whether kernels read arrays of up to `elements` elements through uniform texel buffers on this device (shaders/shared/arrays.glsl), or
+/// through storage buffers. A device that allows no more texels than every device must (65,536; Vulkan 1.3, "Required Limits") is not asked
+/// to: SwiftShader, which reads storage buffers as fast, and whose loops are others.
+inline bool readsTexels(const Device& device, uint64_t elements) {
+  const uint64_t limit = device.info().maxTexelBufferElements;
+  return limit > 65536 && elements <= limit;
+}
+
+}  // namespace rill
