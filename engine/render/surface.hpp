@@ -34,7 +34,7 @@ struct SurfaceSettings {
   double flow_time = 1.3;      ///< curvature flow: spacings squared; blurs over about its root
   double narrow_sigma = 0.8;   ///< narrow range: standard deviation of its Gaussian, spacings
   DepthFilter filter = {};     ///< in place of the method's own; for baselines
-  bool storage_reads = false;  ///< reads through storage buffers even where texel buffers would hold enough; the same bits
+  bool storage_reads = false;  ///< reads through storage buffers even where texel buffers would do; the same bits
 };
 
 /// What the passes and buffers of a thickness are called: the eye's and the sun's are told apart by them.

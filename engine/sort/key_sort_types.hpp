@@ -23,7 +23,7 @@ struct KeySortDesc {
   SortMethod method = SortMethod::Auto;
   bool start = false;         ///< whether SortedKeys::start is made; keyRange at most kMaxStartRange
   bool keys = false;          ///< whether SortedKeys::keys is made
-  bool storageReads = false;  ///< through storage buffers even where texel buffers would hold enough; the same result
+  bool storageReads = false;  ///< through storage buffers even where texel buffers would do; the same result
   /// The ends are the caller's: its pass that makes the keys counts them (shaders/sort/count.glsl), and its pass that moves what is
   /// sorted finds the places (shaders/sort/place.glsl). Neither is a pass of the sort's then. Without `keys`.
   bool openEnds = false;

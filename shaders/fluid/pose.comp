@@ -26,15 +26,11 @@ void follow(uint n) {
   float time = control.timeHigh + (control.timeLow + ahead());
   uint first = solids[n].firstKey, last = first + solids[n].keyCount - 1u;
   vec3 moved = keyframes[first].xyz, velocity = vec3(0.0);
-  for (uint k = first; k < last && k < first + 65536u; ++k) {
+  for (uint k = first; k < last && k < first + 65536u && keyframes[k].w <= time; ++k) {
     vec4 a = keyframes[k], b = keyframes[k + 1u];
-    if (time < a.w) break;
-    if (time < b.w) {
-      velocity = (b.xyz - a.xyz) / (b.w - a.w);
-      moved = a.xyz + velocity * (time - a.w);
-      break;
-    }
-    moved = b.xyz;
+    bool within = time < b.w;
+    velocity = within ? (b.xyz - a.xyz) / (b.w - a.w) : vec3(0.0);
+    moved = within ? a.xyz + velocity * (time - a.w) : b.xyz;
   }
   place(n, moved, velocity);
 }

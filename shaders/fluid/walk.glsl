@@ -35,8 +35,8 @@ void rowRange(float low, float high, vec2 row, vec4 gaps, float reach, uint side
 void walkGrid(vec3 boxLow, vec3 boxHigh, bool waits, float reach) {
   vec2 cell = floor(boxLow.yz);
   uint walked = 0u;
-  uint leader = clusterMin(waits ? clusterLane : CLUSTER);
-  LOOP_WHILE (leader < CLUSTER) {
+  uint leader = clusterMin(waits ? clusterLane : CLUSTER), turn = 0u;
+  LOOP_WHILE (leader < CLUSTER && turn < CLUSTER) {
     vec2 row = SPREAD(cell, leader);
     bool mine = waits && (cell == row || clusterLane == leader);  // the leader at least, whatever NaN compares like
     if (mine) waits = false;
@@ -64,8 +64,9 @@ void walkGrid(vec3 boxLow, vec3 boxHigh, bool waits, float reach) {
       } LOOP_END(lane < rows);
       base += CLUSTER;
     } LOOP_END(base < 9u * parts);
-    leader = clusterMin(waits ? clusterLane : CLUSTER);  // another: each turn serves its leader at least
-  } LOOP_END(leader < CLUSTER);
+    leader = clusterMin(waits ? clusterLane : CLUSTER);
+    ++turn;
+  } LOOP_END(leader < CLUSTER && turn < CLUSTER);
   if (walked >= kWalkBound && clusterLane == 0u) atomicAdd(sums.boundHits, 1u);
 }
 #endif

@@ -1,6 +1,11 @@
-// LOOP_WHILE (more) { ... } LOOP_END(more); is while (more) { ... }, for loops that lanes leave after different numbers of steps. No `continue` in them.
-// Lavapipe goes through the body of a loop that is left at its top once more, for nobody. SwiftShader loses values behind one that is left at its end; it runs the
-// variants without TEXEL (gpu/texel_reads.hpp).
+// Loops that lanes leave after different numbers of steps:
+//   LOOP_WHILE (more) {
+//     ...
+//     ++k;
+//   } LOOP_END(more);
+// is while (more) { ... }. The condition is written twice, the same both times. The step stands in the body, at its end, so that `continue` would skip it: there is none.
+// With TEXEL (the kernels that lavapipe runs) such a loop is tested at its end, since lavapipe goes through the body of one that is tested at its top once more when no lane is left.
+// Without it (what SwiftShader runs, see gpu/texel_reads.hpp) it is tested at its top: SwiftShader makes mistakes in some of those that are not. See ARCHITECTURE.md, "What lavapipe taught".
 #ifndef RILL_LOOPS_GLSL
 #define RILL_LOOPS_GLSL
 #ifdef TEXEL

@@ -21,8 +21,7 @@ void main() {
   uint sum = 0u;
   for (uint j = 0u; j < kScanItems / 4u; ++j) {
     const uint i = tile * (kScanTile / 4u) + j * kScanThreads + gl_LocalInvocationIndex;
-    if (4u * i >= push.count) break;
-    const uvec4 four = valuesAt(i);
+    const uvec4 four = 4u * i < push.count ? valuesAt(i) : uvec4(0u);
     sum += four.x + four.y + four.z + four.w;  // what lies behind the last value is behind all that the sum is for
   }
   sum = subgroupAdd(sum);

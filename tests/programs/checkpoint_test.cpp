@@ -146,7 +146,7 @@ TEST_F(CheckpointTest, AFullDiskIsAnErrorThatIsTold) {
 TEST_F(CheckpointTest, OtherScenesAreRefusedByTheKey) {
   figures({"--frames", "2", "--checkpoint", "run.rill"});
   expectRefused({"--resume", "run.rill", "--set", "fluid.viscosity=1"},
-                {"--resume: 'run.rill': ", "another scene", "fluid.viscosity was 0 there and is 1 here"});
+                {"--resume: \"run.rill\": ", "another scene", "fluid.viscosity was 0 there and is 1 here"});
   expectRefused({"--resume", "run.rill", "--set", "seed=7"}, {"seed was 1 there and is 7 here"});
   expectRefused({"--resume", "run.rill", "--set", "solids[0].friction=0"}, {"solids[0].friction was 0.2 there and is 0 here"});
   expectRefused({"--resume", "run.rill", "--set", "gravity_changes=[]"}, {"gravity_changes[0].at was 0.05 there and is not set here"});

@@ -55,8 +55,7 @@ struct FluidDesc {
   /// where some do, and about 3 for each layer of particles, at most 1,024. Where the first frames record fewer, the fluid stands still in
   /// them and their time is dropped (FluidProgress::time_dropped_s).
   bool settle = true;
-  bool storageReads =
-      false;  ///< read arrays through storage buffers even where texel buffers would hold enough (slower on most CPU drivers)
+  bool storageReads = false;  ///< read arrays through storage buffers even where texel buffers would do (slower on most CPU drivers)
 };
 
 /// Device memory of a Fluid, in bytes, split as reports show it.
