@@ -1,6 +1,7 @@
 // The smooth surface along a ray: where the weighted sum of the planes' heights is zero (implicit moving least squares, Kolluri 2005).
 // Needs surface_arrays.glsl; planes at binding 2.
 #include "render/surface_walk.glsl"
+#include "shared/loops.glsl"
 #include "render/surface_edge.glsl"
 READ_FLOAT4(2, plane)
 
@@ -74,7 +75,7 @@ Blend blendAt(vec2 axis, float depth) {
   Blend blend = lookFrom(axis, depth);
   const float still = kStill * spacingAt(depth);
   float from = depth;
-  int turn = 0;  // no break in this loop: behind one, lavapipe (Mesa 22.3) mixes up what lanes have found
+  int turn = 0;  // one exit, no break: see ARCHITECTURE.md, "What lavapipe taught"
   bool moves = blend.firm > kFirm && abs(blend.depth - from) > still;
   LOOP_WHILE (moves) {
     const Blend next = lookFrom(axis, blend.depth);

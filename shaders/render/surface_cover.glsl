@@ -9,16 +9,13 @@ float coverOf(vec2 axis, float depth) {
   const float spacing = spacingAt(depth), reach = kCoverReach * spacing, inverse = 1.0 / (reach * reach);
   const CellRange range = cellsAround(x, reach);
   float cover = 0.0;
-  int y = range.first.y;
-  LOOP_WHILE (y <= range.last.y) {
+  for (int y = range.first.y; y <= range.last.y; ++y) {
     const uvec2 row = rowOf(range, y);
-    uint j = row.x;
-    LOOP_WHILE (j < row.y) {
+    for (uint j = row.x; j < row.y; ++j) {
       const vec3 at = centreAt(j).xyz;
-      if (abs(at.z - depth) <= kCoverDepth * spacing) cover += coverOfCentre(at, axis, inverse);
-      ++j;
-    } LOOP_END(j < row.y);
-    ++y;
-  } LOOP_END(y <= range.last.y);
+      if (abs(at.z - depth) > kCoverDepth * spacing) continue;
+      cover += coverOfCentre(at, axis, inverse);
+    }
+  }
   return coverageAt(cover - kCoverBare, depth);
 }

@@ -4,7 +4,6 @@
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 #include "shared/arrays.glsl"
-#include "shared/loops.glsl"
 #include "render/surface_filter.glsl"
 
 READ_FLOAT(0, before)
@@ -32,8 +31,7 @@ void main() {
   // By numbers: of a constant vector chosen by a specialization constant lavapipe (Mesa 22.3) takes the same one always.
   const ivec2 along = ivec2(1 - int(kVertical), int(kVertical));
   float sum = toLinear(z), weights = 1.0;
-  int k = 1;
-  LOOP_WHILE (k <= taps) {
+  for (int k = 1; k <= taps; ++k) {
     // Both sides or none: what is missing on one side would tilt the surface.
     float pair = 0.0;
     bool whole = true;
@@ -49,7 +47,6 @@ void main() {
     const float w = whole ? exp(-0.5 * off * off) : 0.0;
     sum += w * pair;
     weights += 2.0 * w;
-    ++k;
-  } LOOP_END(k <= taps);
+  }
   after[index] = toDepth(sum / weights);
 }

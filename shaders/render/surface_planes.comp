@@ -45,11 +45,9 @@ struct Fit {
 // units at which others stop to count; zero: all do.
 Fit fitAround(vec3 own, float inverse, CellRange range, vec3 across) {
   Fit fit = Fit(0.0, vec3(0.0), vec3(0.0), vec3(0.0));
-  int y = range.first.y;
-  LOOP_WHILE (y <= range.last.y) {
+  for (int y = range.first.y; y <= range.last.y; ++y) {
     const uvec2 row = rowOf(range, y);
-    uint j = row.x;
-    LOOP_WHILE (j < row.y) {
+    for (uint j = row.x; j < row.y; ++j) {
       const vec3 q = (centreAt(j).xyz - own) * inverse;
       const float inside = max(1.0 - dot(q, q), 0.0);
       const float off = dot(q, across);
@@ -59,10 +57,8 @@ Fit fitAround(vec3 own, float inverse, CellRange range, vec3 across) {
       fit.mean += w * q;
       fit.square += w * q * q;
       fit.mixed += w * q.xyz * q.yzx;
-      ++j;
-    } LOOP_END(j < row.y);
-    ++y;
-  } LOOP_END(y <= range.last.y);
+    }
+  }
   fit.sum = max(fit.sum, 1e-6);  // of a crowded row only the first are seen, and the particle itself may not be among them
   fit.mean /= fit.sum;
   fit.square = fit.square / fit.sum - fit.mean * fit.mean;

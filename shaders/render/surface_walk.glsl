@@ -1,5 +1,4 @@
 // The cells of the screen grid around a point. Needs surface_arrays.glsl.
-#include "shared/loops.glsl"
 bool bound_hit = false;  // a walk has left something out
 
 struct CellRange {

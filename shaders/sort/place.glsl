@@ -4,15 +4,10 @@
 #ifndef RILL_PLACE_GLSL
 #define RILL_PLACE_GLSL
 #include "sort/sort_types.h"
-#include "shared/loops.glsl"
 
 uint placeOf(uint index, uint begin, uint end) {
   uint place = begin;
-  uint other = begin;
-  LOOP_WHILE (other < end) {
-    place += arrivedAt(other) < index ? 1u : 0u;
-    ++other;
-  } LOOP_END(other < end);
+  for (uint other = begin; other < end; ++other) place += arrivedAt(other) < index ? 1u : 0u;
   return place;
 }
 #endif
