@@ -51,9 +51,9 @@ Expected<void> checkGiven(const FluidDesc& desc) {
 
 FluidMemory fluidMemory(const Scene& scene, uint64_t particles) {
   FluidMemory memory;
-  // position, velocity, prediction, push, work and near sample; warm, id, count, cell, near list; and while sorting: three vec4, a key,
-  // where keys have arrived, and the order of full cells.
-  uint64_t each = 6 * 16 + 5 * 4 + (3 * 16 + 3 * 4);
+  // position, velocity, prediction, push, work and two of the near sample; warm, id, count, cell, near list; and while sorting: three vec4,
+  // a key, where keys have arrived, and the order of full cells.
+  uint64_t each = 7 * 16 + 5 * 4 + (3 * 16 + 3 * 4);
   if (!startsWarm(scene)) each -= 16 + 4;
   if (scene.solver.neighbors == NeighborChoice::Grid) each -= 4;
   if (scene.solver.iterations > 1) each += 4;
@@ -74,7 +74,7 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   impl->device_ = &device.impl();
   impl->memory = fluidMemory(scene, n);
   const uint64_t available = device.info().deviceLocalBytes;
-  const uint64_t largest = (n + 1) * 16;
+  const uint64_t largest = std::max((n + 1) * 16, n * 32);  // positions, say, with their dummy; what walls do
   if (impl->memory.total() > available || largest > kMaxBuffer || n > kMostParticles)
     return Error{ErrorKind::TooLarge, std::to_string(n) + " particles need " + mebibytes(impl->memory.total()) + " on the device; \"" +
                                           device.info().name + "\" has " + mebibytes(available) + " and holds at most " +
@@ -134,8 +134,8 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
     return Error{ErrorKind::TooLarge, "the neighbour list of " + std::to_string(n) + " particles at this smoothing_ratio needs " +
                                           mebibytes(memory.list_bytes) + ", more than the " + std::to_string(kMaxListChunks) +
                                           " buffers of 128 MiB that are available: make smoothing_ratio smaller"};
-  const uint64_t mostTexels =
-      std::max({more, uint64_t{chunk} * p.listCapacity / 4, paddedWords(setup.grid.cells() + 1), uint64_t{setup.tables.size() / 4}});
+  const uint64_t mostTexels = std::max({more, 2 * uint64_t{n}, uint64_t{chunk} * p.listCapacity / 4, paddedWords(setup.grid.cells() + 1),
+                                        uint64_t{setup.tables.size() / 4}});
   texel_ = !storageReads && readsTexels(device, mostTexels);
 
   auto sort = KeySort::create(
@@ -170,7 +170,7 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
       {&buffers_.neighbourCount, "neighbour counts", unless(p.listCapacity > 0, n * 4)},
       {&buffers_.cell, "cells", n * 4},
       {&buffers_.start, "cell starts", paddedWords(setup.grid.cells() + 1) * 4},
-      {&buffers_.nearSample, "wall samples", unless(setup.near, n * 16)},
+      {&buffers_.nearSample, "wall samples", unless(setup.near, n * 32)},
       {&buffers_.nearList, "particles near walls", unless(setup.near, n * 4)},
   };
   for (const auto& row : table) {

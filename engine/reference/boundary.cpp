@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "reference/solver.hpp"
+#include "shared/fluid_records.h"
 
 namespace rill::reference {
 
@@ -26,23 +27,34 @@ WallSample ReferenceSolver::boundaryOf(const glm::dvec3& x, std::span<const Soli
   const double at[3] = {x.x, x.y, x.z};
   for (size_t n = 0; n < solids.size(); ++n) {
     const SolidPose& pose = solids[n];
-    double gradient[3];
+    double gradient[3], value;
     if (pose.sphere) {
       const SurfacePoint surface = solidSurface(pose, at);
       const LineSample ball =
           settings.tabulated ? sphereTables_[n].sample(surface.distance) : exactSphere(kernel_, pose.half[0], surface.distance);
-      sum.value += ball.value;
+      value = ball.value;
       for (int a = 0; a < 3; ++a) gradient[a] = ball.slope * surface.normal[a];
     } else {
       double local[3];
       toSolid(pose, at, local);
       const WallSample box = settings.tabulated ? boxSample(tables_, local, pose.half) : boxSample(kernel_, local, pose.half);
-      sum.value += box.value;
+      value = box.value;
       fromSolid(pose, box.gradient, gradient);
     }
-    for (int a = 0; a < 3; ++a) sum.gradient[a] += gradient[a];
+    const double squared = gradient[0] * gradient[0] + gradient[1] * gradient[1] + gradient[2] * gradient[2];
+    sum.value += value;
+    for (int a = 0; a < 3; ++a) {
+      sum.gradient[a] += gradient[a];
+      if (squared > 0) sum.beside[a] += value * (1 - gradient[a] * gradient[a] / squared);
+    }
   }
   return sum;
+}
+
+glm::dvec3 ReferenceSolver::pushShare(size_t i) const {
+  glm::dvec3 share;
+  for (int a = 0; a < 3; ++a) share[a] = 1 - std::min<double>(boundary_[i].beside[a], kMostBeside);
+  return share;
 }
 
 /// Moves a centre to half a spacing off every surface it is nearer to: solids in their order, walls last, so that nothing ends outside.
@@ -63,7 +75,7 @@ glm::dvec3 ReferenceSolver::collide(glm::dvec3 x, std::span<const SolidPose> sol
 }
 
 /// The velocity after touching solids with restitution e and Coulomb friction mu, relative to the solid's own velocity. With u = v_old + g
-/// dt - v_solid, the velocity before the solve, and f = sum_j (lambda_i + lambda_j) G_ij / dt, what the neighbours' pressure gave:
+/// dt - v_solid, the velocity before the solve, and f = 1/b_i sum_j (lambda_i + lambda_j) G_ij / dt, what the neighbours' pressure gave:
 ///   v_n >= -e u_n where u_n < 0;   the tangential part loses at most mu max(0, v_n - u_n - f_n), all the impulse that the solid itself
 ///   gave.
 /// Without f a layer would feel its own weight alone, not that of the column above: the clamp of the positions carries most of it.
@@ -84,7 +96,7 @@ glm::dvec3 ReferenceSolver::contact(size_t i, glm::dvec3 v, double dt, std::span
     if (before < 0 && pose.restitution > 0) normal = std::max(normal, -pose.restitution * before);
     glm::dvec3 pressure(0);
     for (const Pair& pair : pairs(i)) pressure += (lambda_[i] + lambda_[pair.j]) / dt * pair.gradient;
-    const double impulse = std::max(0.0, normal - before - glm::dot(pressure, n));
+    const double impulse = std::max(0.0, normal - before - glm::dot(pressure / pushShare(i), n));
     const double slip = glm::length(tangential);
     if (slip > 0) tangential *= std::max(0.0, 1 - pose.friction * impulse / slip);
     v = solid + normal * n + tangential;

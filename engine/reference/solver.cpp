@@ -138,7 +138,9 @@ void ReferenceSolver::density() {
       squares += glm::dot(pairs_.back().gradient, pairs_.back().gradient);
     }
     densityRatio_[i] = ratio;
-    denominator_[i] = std::max(glm::dot(sum, sum) + squares + settings.regularization * rest, kLeastDenominator * rest);
+    const glm::dvec3 share = pushShare(i);
+    const double all = glm::dot(sum, sum / share) + squares / std::min({share.x, share.y, share.z});
+    denominator_[i] = std::max(all + settings.regularization * rest, kLeastDenominator * rest);
   }
 }
 
@@ -168,12 +170,12 @@ double ReferenceSolver::tensileTerm(double value, double dt) const {
 void ReferenceSolver::correction(double dt) {
   const std::vector<SolidPose> solids = poses(time_, dt);
   for (size_t i = 0; i < size(); ++i) {
-    glm::dvec3 move = lambdaChange_[i] * vec(boundary_[i].gradient);
+    glm::dvec3 push(0), apart(0);
     for (const Pair& pair : pairs(i)) {
-      move += (lambdaChange_[i] + lambdaChange_[pair.j] + tensileTerm(pair.value, dt)) * pair.gradient;
-      move += kCoincidentDistance * kernel_.h() * pair.apart;
+      push += (lambdaChange_[i] + lambdaChange_[pair.j] + tensileTerm(pair.value, dt)) * pair.gradient;
+      apart += kCoincidentDistance * kernel_.h() * pair.apart;
     }
-    const glm::dvec3 moved = state.predicted[i] + move;
+    const glm::dvec3 moved = state.predicted[i] + push / pushShare(i) + lambdaChange_[i] * vec(boundary_[i].gradient) + apart;
     gained_[i] = glm::dvec3(0);
     if (finite(moved)) {
       walled_[i] = collide(moved, {});
@@ -252,8 +254,9 @@ void ReferenceSolver::plan(double dt, bool still) {
   const std::vector<SolidPose> solids = poses(time_, still ? 0 : dt);
   for (size_t i = 0; i < size(); ++i) {
     const glm::dvec3 v = still ? glm::dvec3(0) : state.velocity[i];
-    glm::dvec3 x = state.position[i] + dt * (v + dt * settings.gravity) + state.warm[i] * vec(boundary_[i].gradient);
-    for (const Pair& pair : pairs(i)) x += (state.warm[i] + state.warm[pair.j]) * pair.gradient;
+    glm::dvec3 x = state.position[i] + dt * (v + dt * settings.gravity) + state.warm[i] * vec(boundary_[i].gradient), push(0);
+    for (const Pair& pair : pairs(i)) push += (state.warm[i] + state.warm[pair.j]) * pair.gradient;
+    x += push / pushShare(i);
     if (finite(x)) {
       state.predicted[i] = collide(x, solids);
     } else {

@@ -107,7 +107,10 @@ WallSample exactWall(const SmoothingKernel& kernel, const double lo[3], const do
     const double sign = walls == 2 ? -1 : 1;
     const WallSample term = sumOver(kernel, axes, ghost);
     sum.value += sign * term.value;
-    for (int a = 0; a < 3; ++a) sum.gradient[a] += sign * term.gradient[a];
+    for (size_t a = 0; a < 3; ++a) {
+      sum.gradient[a] += sign * term.gradient[a];
+      if (!ghost[a]) sum.beside[a] += sign * term.value;
+    }
   }
   return sum;
 }
@@ -208,9 +211,12 @@ WallSample WallTables::sample(const double lo[3], const double hi[3]) const {
       const LineSample one = samplePlane(w.s);
       sum.value += one.value;
       sum.gradient[a] += w.side * one.slope;
+      sum.beside[b] += one.value;
+      sum.beside[c] += one.value;
       for (const Wall& v : walls[b]) {
         const LineSample byFirst = sampleEdge(w.s, v.s);
         sum.value -= byFirst.value;
+        sum.beside[c] -= byFirst.value;
         sum.gradient[a] -= w.side * byFirst.slope;
         sum.gradient[b] -= v.side * sampleEdge(v.s, w.s).slope;
         for (const Wall& u : walls[c]) {

@@ -18,6 +18,10 @@ namespace rill {
 struct WallSample {
   double value = 0;                ///< to rho_i / rho0, dimensionless
   double gradient[3] = {0, 0, 0};  ///< 1/m, d value / d x_i, summed with the gradient kernel: it points toward the wall
+  /// On each axis, the part of `value` that lies beside the particle, behind what is parallel to the axis, 0 to 1. The push of the fluid
+  /// along the axis lacks it: of a pressure that changes linearly, sum_j (lambda_i + lambda_j) grad K_ij gives a share of 1 - beside (by
+  /// partial integration, of the continuous kernel; on the rest lattice at h = 2d 0.873 for 0.876 at a wall, 0.756 for 0.765 in an edge).
+  double beside[3] = {0, 0, 0};
 };
 
 /// A value that depends on one distance.

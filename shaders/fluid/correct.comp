@@ -11,6 +11,7 @@
 #include "fluid/arrays.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
+#include "fluid/near.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 4) const uint NEAR = 0;
 layout(constant_id = 5) const uint TENSILE = 0;
@@ -19,7 +20,7 @@ layout(constant_id = 6) const uint CONTACT = 0;  // collide.comp follows
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer PositionBlock { vec4 position[]; };
 layout(std430, binding = 9) buffer VelocityBlock { vec4 velocity[]; };
-READ_FLOAT4(10, nearSample)
+READ_NEAR(10)
 layout(std430, binding = 11) buffer PredictionBlock { vec4 prediction[]; };
 layout(std430, binding = 12) buffer PushBlock { vec4 pushAway[]; };  // m/s^2; w, while pressing: the multiplier that was found last
 layout(std430, binding = 13) writeonly buffer FreeBlock { vec4 freeVelocity[]; };  // before the solve: what contacts compare with; w: the prediction's
@@ -72,9 +73,12 @@ void main() {
   moved *= unit * params.gradientScale;
   pushed *= unit * params.gradientScale;
   if (NEAR != 0u) {
-    vec3 wall = unit * nearSampleAt(i).xyz;
-    moved += own.x * wall;
-    pushed += own.y * wall;
+    vec4 displaced = displacedAt(i);
+    if (displaced.w > 0.0) {  // what is behind a wall does not push along it: see ARCHITECTURE.md, "Walls and solids"
+      vec3 share = pushShareAt(i), wall = unit * displaced.xyz;
+      moved = moved / share + own.x * wall;
+      pushed = pushed / share + own.y * wall;
+    }
   }
 
   vec3 from = position[i].xyz, before = velocity[i].xyz;

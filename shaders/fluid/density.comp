@@ -11,6 +11,7 @@
 #include "fluid/arrays.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
+#include "fluid/near.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 4) const uint NEAR = 0;        // walls or solids displace density
 layout(constant_id = 5) const uint ITERATED = 0;    // more than one iteration a substep
@@ -18,7 +19,7 @@ layout(constant_id = 5) const uint ITERATED = 0;    // more than one iteration a
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer WarmBlock { float warm[]; };
 layout(std430, binding = 9) writeonly buffer WorkBlock { vec4 work[]; };
-READ_FLOAT4(10, nearSample)
+READ_NEAR(10)
 layout(std430, binding = 11) buffer MultiplierBlock { float multiplier[]; };
 
 vec3 here;
@@ -48,14 +49,18 @@ void main() {
   rho = params.valueScale * (rho + kernelShape(0.0));
   gradientSum *= params.gradientScale;
   gradientSquares *= params.gradientScale * params.gradientScale;
+  float stiffness = dot(gradientSum, gradientSum) + gradientSquares;
   if (NEAR != 0u) {
-    vec4 displaced = nearSampleAt(i);
-    gradientSum += displaced.xyz;
+    vec4 displaced = displacedAt(i);
     rho += displaced.w;
+    if (displaced.w > 0.0) {  // corrections are larger along walls: correct.comp
+      vec3 gradient = gradientSum + displaced.xyz, share = pushShareAt(i);
+      stiffness = dot(gradient, gradient / share) + gradientSquares / min(share.x, min(share.y, share.z));
+    }
   }
 
   float constraint = here.x == kParked ? -1.0 : rho - 1.0;  // who is parked meets all others there: no density of the fluid's
-  float stiffness = dot(gradientSum, gradientSum) + gradientSquares + params.regularization;
+  stiffness += params.regularization;
   bool first = push.iteration == 0u;
   float delta = -(first ? control.nextRelaxation : control.relaxation) * constraint / max(stiffness, 1.0e-20);
 

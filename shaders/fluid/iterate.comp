@@ -7,13 +7,14 @@
 #include "fluid/arrays.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
+#include "fluid/near.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 4) const uint NEAR = 0;
 layout(constant_id = 5) const uint TENSILE = 0;
 
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer PredictionBlock { vec4 prediction[]; };
-READ_FLOAT4(9, nearSample)
+READ_NEAR(9)
 
 vec3 here;
 float own;
@@ -48,6 +49,6 @@ void main() {
   visitNeighbours(i, local, there);
   if (!there) return;
   moved *= unit * params.gradientScale;
-  if (NEAR != 0u) moved += unit * own * nearSampleAt(i).xyz;
+  if (NEAR != 0u) moved = moved / pushShareAt(i) + unit * own * displacedAt(i).xyz;
   prediction[i] = vec4(insideWalls(here + moved), prediction[i].w);
 }

@@ -7,13 +7,13 @@
 #include "fluid/uniforms.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
-#include "shared/arrays.glsl"
+#include "fluid/near.glsl"
 #include "shared/loops.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 2) const uint NEAR = 0;
 READ_FLOAT4(2, sorted)  // w: the particle's place in the solver's arrays, as a number
 READ_UINT(3, cellStart)
-READ_FLOAT4(4, nearSample)
+READ_NEAR(4)
 layout(std430, binding = 5) buffer SumsBlock { FluidSums sums; };
 layout(std430, binding = 6) buffer HistogramBlock { uint histogram[]; };  // compression; then inside the fluid: above, below rest density
 layout(std430, binding = 7) buffer VelocityBlock { vec4 velocity[]; };    // w: density over rest density
@@ -55,7 +55,7 @@ void main() {
   if (!there) return;
   uint i = uint(particle.w);
   rho *= params.valueScale;
-  if (NEAR != 0u) rho += nearSampleAt(i).w;
+  if (NEAR != 0u) rho += displacedAt(i).w;
   velocity[i].w = rho;
   float error = rho - 1.0;
   if (error > 0.0) atomicAdd(histogram[binOf(error)], 1u);

@@ -1,5 +1,6 @@
 #version 460
-// The density that walls and solids displace near a particle, and its gradient, from the tables of engine/sph/wall.hpp: nearSample = (gradient, value).
+// The density that walls and solids displace near a particle, and its gradient, from the tables of engine/sph/wall.hpp: nearSample = (gradient, value),
+// (what is beside the particle along x, y and z: WallSample's `beside`).
 // CORNER 0 handles particles near one wall alone, CORNER 1 those near several walls or a solid.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
@@ -60,7 +61,7 @@ vec2 corner(float s1, float s2, float s3) {
 }
 
 // Domain walls by inclusion and exclusion over the axes.
-vec4 domainWalls(vec3 x) {
+vec4 domainWalls(vec3 x, out vec3 beside) {
   vec3 low = x - vec3(params.lowX, params.lowY, params.lowZ), high = vec3(params.highX, params.highY, params.highZ) - x;
   float s[3][2], d[3][2];  // distance to a wall, and the sign of its normal
   for (int a = 0; a < 3; ++a) {
@@ -71,20 +72,24 @@ vec4 domainWalls(vec3 x) {
   }
   float value = 0.0;
   vec3 gradient = vec3(0.0);
+  beside = vec3(0.0);
   float reach = params.tableStep * float(params.tableNodes - 1u);
   for (int a = 0; a < 3; ++a) {
-    int b = (a + 1) % 3;
+    int b = (a + 1) % 3, c = (a + 2) % 3;
     for (int i = 0; i < SIDES; ++i) {
       if (s[a][i] >= reach) continue;
       float di = d[a][i];
       vec2 one = line(0u, params.tableNodes, params.tableStep, s[a][i]);
       value += one.x;
+      beside[b] += one.x;
+      beside[c] += one.x;
       gradient[a] += di * one.y;
       for (int j = 0; j < SIDES; ++j) {
         if (s[b][j] >= reach) continue;
         float dj = d[b][j];
         vec2 two = edge(s[a][i], s[b][j]);
         value -= two.x;
+        beside[c] -= two.x;
         gradient[a] -= di * two.y;
         gradient[b] -= dj * edge(s[b][j], s[a][i]).y;
         if (a != 0) continue;
@@ -129,6 +134,11 @@ vec4 solidSample(SolidRecord s, vec3 x) {
   return vec4(toWorld(s, gradient), slab.x * slab.y * slab.z);
 }
 
+void store(uint i, vec4 displaced, vec3 beside) {
+  nearSample[2u * i] = displaced;
+  nearSample[2u * i + 1u] = vec4(min(beside, vec3(kMostBeside)), 0.0);
+}
+
 void main() {
   uint n = flatInvocation();
   if (CORNER == 0u) {
@@ -142,15 +152,20 @@ void main() {
     vec3 axis = s == nearest.x ? vec3(1, 0, 0) : (s == nearest.y ? vec3(0, 1, 0) : vec3(0, 0, 1));
     vec2 f = line(0u, params.tableNodes, params.tableStep, s);
     float sign = dot(axis, low) <= dot(axis, high) ? 1.0 : -1.0;
-    nearSample[i] = vec4(sign * f.y * axis, f.x);
+    store(i, vec4(sign * f.y * axis, f.x), f.x * (1.0 - axis));
     return;
   }
   if (n >= sums.cornerCount) return;
   uint i = nearListAt(params.count - 1u - n);
   vec3 x = predictionAt(i).xyz;
-  vec4 displaced = domainWalls(x);
+  vec3 beside;
+  vec4 displaced = domainWalls(x, beside);
   if (SOLIDS != 0u) {
-    for (uint k = 0u; k < params.solidCount; ++k) displaced += solidSample(solids[k], x);
+    for (uint k = 0u; k < params.solidCount; ++k) {
+      vec4 solid = solidSample(solids[k], x);
+      displaced += solid;
+      beside += solid.w * (1.0 - solid.xyz * solid.xyz / max(dot(solid.xyz, solid.xyz), 1.0e-20));
+    }
   }
-  nearSample[i] = displaced;
+  store(i, displaced, beside);
 }

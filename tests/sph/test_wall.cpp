@@ -96,7 +96,10 @@ TEST_P(WallTest, TablesFollowTheSums) {
     const WallSample exact = rill::exactWall(k, lo, hi), table = tables.sample(lo, hi);
     const double crowd = sample % 4 == 0 ? 4 : 1;  // both walls of an axis near: more terms
     EXPECT_NEAR(exact.value, table.value, crowd * bound);
-    for (int a = 0; a < 3; ++a) EXPECT_NEAR(exact.gradient[a] * kWallSpacing, table.gradient[a] * kWallSpacing, crowd * 4 * bound);
+    for (int a = 0; a < 3; ++a) {
+      EXPECT_NEAR(exact.gradient[a] * kWallSpacing, table.gradient[a] * kWallSpacing, crowd * 4 * bound);
+      EXPECT_NEAR(exact.beside[a], table.beside[a], crowd * bound);
+    }
   }
 }
 
@@ -115,6 +118,8 @@ TEST_P(WallTest, FadesAndGrowsTowardTheWall) {
     EXPECT_NEAR(low.gradient[1], near.slope, 1e-12 / kWallSpacing);
     EXPECT_NEAR(high.gradient[1], -near.slope, 1e-12 / kWallSpacing);
     EXPECT_EQ(low.gradient[0], 0);
+    EXPECT_EQ(low.beside[1], 0) << "a wall across the axis is not beside it";
+    EXPECT_NEAR(low.beside[0], near.value, 1e-14);
   }
   for (const double s : {reach, 1.01 * reach, 50.0, kFar}) {
     EXPECT_EQ(rill::exactPlane(k, s).value, 0);
@@ -168,6 +173,34 @@ TEST(WendlandWall, GradientIsTheDerivativeOfTheValue) {
         EXPECT_NEAR(at.gradient[a] * kWallSpacing, (value[1] - value[0]) / (2 * step) * kWallSpacing, 1e-6);
       }
     }
+  }
+}
+
+// What of a push along z, by a pressure that falls linearly in z, the lattice beside a wall, in an edge or between two plates still gives.
+TEST(WendlandWall, APushAlongWallsLacksWhatIsBesideIt) {
+  for (const double ratio : {2.0, 2.3, 3.0, 4.0}) {
+    const SmoothingKernel k(KernelChoice::Wendland, ratio * kWallSpacing, kWallSpacing);
+    const auto push = [&](int columns, int rows) {
+      double sum = 0;
+      for (int x = -4; x <= 4; ++x)
+        for (int y = -4; y <= 4; ++y)
+          for (int z = -4; z <= 4; ++z)
+            if (x >= 0 && y >= 0 && x < columns && y < rows)
+              sum -= k.gradientOverR(kWallSpacing * std::sqrt(double(x * x + y * y + z * z))) * z * z;
+      return sum;
+    };
+    double whole = 0;
+    for (int x = -4; x <= 4; ++x)
+      for (int y = -4; y <= 4; ++y)
+        for (int z = -4; z <= 4; ++z) whole -= k.gradientOverR(kWallSpacing * std::sqrt(double(x * x + y * y + z * z))) * z * z;
+    const double near = kWallSpacing / 2;
+    const auto beside = [&](double lowY, double highX) {
+      const double lo[3] = {near, lowY, kFar}, hi[3] = {highX, kFar, kFar};
+      return rill::exactWall(k, lo, hi).beside[2];
+    };
+    EXPECT_NEAR(push(9, 9) / whole, 1 - beside(near, kFar), 0.02) << "in an edge, h = " << ratio << " d";
+    EXPECT_NEAR(push(1, 9) / whole, 1 - beside(near, near), 0.03) << "in the edge of a gap one layer wide, h = " << ratio << " d";
+    EXPECT_LT(push(9, 9) / whole, 0.8) << "so that there is something to make up for";
   }
 }
 
