@@ -74,7 +74,7 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   impl->device_ = &device.impl();
   impl->memory = fluidMemory(scene, n);
   const uint64_t available = device.info().deviceLocalBytes;
-  const uint64_t largest = std::max((n + 1) * 16, n * 32);  // positions, say, with their dummy; what walls do
+  const uint64_t largest = std::max((n + 1) * 16, n * 32);  // positions, with the dummy; wall samples
   if (impl->memory.total() > available || largest > kMaxBuffer || n > kMostParticles)
     return Error{ErrorKind::TooLarge, std::to_string(n) + " particles need " + mebibytes(impl->memory.total()) + " on the device; \"" +
                                           device.info().name + "\" has " + mebibytes(available) + " and holds at most " +

@@ -90,7 +90,7 @@ struct Table<SolverSettings> {
           &SolverSettings::tolerance},
       Field{Info{.key = "relaxation",
                  .range = aboveTo(0, 2),
-                 .help = "Jacobi under-relaxation; auto: 0.7 in a flow, 0.51 in a fluid at rest (at the default kernel)"},
+                 .help = "Jacobi under-relaxation; auto: 0.7 in a flow, 0.46 in a fluid at rest (at the default kernel)"},
             &SolverSettings::relaxation},
       Field{Info{.key = "regularization",
                  .range = atLeast(0),

@@ -51,10 +51,10 @@ WallSample ReferenceSolver::boundaryOf(const glm::dvec3& x, std::span<const Soli
   return sum;
 }
 
-glm::dvec3 ReferenceSolver::pushShare(size_t i) const {
-  glm::dvec3 share;
-  for (int a = 0; a < 3; ++a) share[a] = 1 - std::min<double>(boundary_[i].beside[a], kMostBeside);
-  return share;
+glm::dvec3 ReferenceSolver::alongWalls(size_t i) const {
+  glm::dvec3 along;
+  for (int a = 0; a < 3; ++a) along[a] = 1 / (1 - std::min<double>(boundary_[i].beside[a], kMostBeside));
+  return along;
 }
 
 /// Moves a centre to half a spacing off every surface it is nearer to: solids in their order, walls last, so that nothing ends outside.
@@ -75,7 +75,7 @@ glm::dvec3 ReferenceSolver::collide(glm::dvec3 x, std::span<const SolidPose> sol
 }
 
 /// The velocity after touching solids with restitution e and Coulomb friction mu, relative to the solid's own velocity. With u = v_old + g
-/// dt - v_solid, the velocity before the solve, and f = 1/b_i sum_j (lambda_i + lambda_j) G_ij / dt, what the neighbours' pressure gave:
+/// dt - v_solid, the velocity before the solve, and f = a_i sum_j (lambda_i + lambda_j) G_ij / dt, what the neighbours' pressure gave:
 ///   v_n >= -e u_n where u_n < 0;   the tangential part loses at most mu max(0, v_n - u_n - f_n), all the impulse that the solid itself
 ///   gave.
 /// Without f a layer would feel its own weight alone, not that of the column above: the clamp of the positions carries most of it.
@@ -96,7 +96,7 @@ glm::dvec3 ReferenceSolver::contact(size_t i, glm::dvec3 v, double dt, std::span
     if (before < 0 && pose.restitution > 0) normal = std::max(normal, -pose.restitution * before);
     glm::dvec3 pressure(0);
     for (const Pair& pair : pairs(i)) pressure += (lambda_[i] + lambda_[pair.j]) / dt * pair.gradient;
-    const double impulse = std::max(0.0, normal - before - glm::dot(pressure / pushShare(i), n));
+    const double impulse = std::max(0.0, normal - before - glm::dot(alongWalls(i) * pressure, n));
     const double slip = glm::length(tangential);
     if (slip > 0) tangential *= std::max(0.0, 1 - pose.friction * impulse / slip);
     v = solid + normal * n + tangential;

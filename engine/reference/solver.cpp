@@ -138,8 +138,8 @@ void ReferenceSolver::density() {
       squares += glm::dot(pairs_.back().gradient, pairs_.back().gradient);
     }
     densityRatio_[i] = ratio;
-    const glm::dvec3 share = pushShare(i);
-    const double all = glm::dot(sum, sum / share) + squares / std::min({share.x, share.y, share.z});
+    const glm::dvec3 along = alongWalls(i);
+    const double all = glm::dot(sum, along * sum) + squares * (along.x + along.y + along.z) / 3;
     denominator_[i] = std::max(all + settings.regularization * rest, kLeastDenominator * rest);
   }
 }
@@ -175,7 +175,7 @@ void ReferenceSolver::correction(double dt) {
       push += (lambdaChange_[i] + lambdaChange_[pair.j] + tensileTerm(pair.value, dt)) * pair.gradient;
       apart += kCoincidentDistance * kernel_.h() * pair.apart;
     }
-    const glm::dvec3 moved = state.predicted[i] + push / pushShare(i) + lambdaChange_[i] * vec(boundary_[i].gradient) + apart;
+    const glm::dvec3 moved = state.predicted[i] + alongWalls(i) * push + lambdaChange_[i] * vec(boundary_[i].gradient) + apart;
     gained_[i] = glm::dvec3(0);
     if (finite(moved)) {
       walled_[i] = collide(moved, {});
@@ -256,7 +256,7 @@ void ReferenceSolver::plan(double dt, bool still) {
     const glm::dvec3 v = still ? glm::dvec3(0) : state.velocity[i];
     glm::dvec3 x = state.position[i] + dt * (v + dt * settings.gravity) + state.warm[i] * vec(boundary_[i].gradient), push(0);
     for (const Pair& pair : pairs(i)) push += (state.warm[i] + state.warm[pair.j]) * pair.gradient;
-    x += push / pushShare(i);
+    x += alongWalls(i) * push;
     if (finite(x)) {
       state.predicted[i] = collide(x, solids);
     } else {

@@ -3,18 +3,17 @@
 // oracle of the shaders and the documentation of the method. Speed comes after readability.
 //
 // A substep of dt. Notation: K = d^3 W as in sph/kernel.hpp, G_ij = grad_i K(x*_i - x*_j), B_i = what walls and solids add to the density,
-// grad B_i its gradient, and b_i the part of the neighbours' push that is there, axis by axis: 1 - WallSample::beside. Vectors are divided
-// by it axis by axis.
+// grad B_i its gradient, a_i what makes up, axis by axis, for what is beside the particle: 1 / (1 - min(WallSample::beside, kMostBeside)).
 //   density       rho_i/rho0 = K(0) + sum_j K_ij + B_i,   C_i = rho_i/rho0 - 1,
-//                 D_i = g . g/b_i + sum_j |G_ij|^2 / least b_i + eps D_rest with g = sum_j G_ij + grad B_i
+//                 D_i = g . a_i g + mean(a_i) sum_j |G_ij|^2 + eps D_rest with g = sum_j G_ij + grad B_i
 //   multipliers   delta_i = -omega C_i / D_i,   lambda_i = min(0, lambda_i + delta_i), starting from w_i; the change is dlambda_i.
 //                 In the first iteration w_i = min(0, w_i + kappa delta_i): a slow integral, so that a fluid at rest carries its pressure
 //                 from substep to substep
-//   correction    x*_i += 1/b_i sum_j (dlambda_i + dlambda_j + s_ij) G_ij + dlambda_i grad B_i, then out of solids and walls
+//   correction    x*_i += a_i sum_j (dlambda_i + dlambda_j + s_ij) G_ij + dlambda_i grad B_i, then out of solids and walls
 //   velocities    v = (x* - x) / dt, contact with solids, |v| <= the limit, x = x*
 //   viscosity     XSPH, with more of it where the fluid is at rest;  vorticity   confinement
 //   predict       w_i *= (dt_next/dt)^2,
-//                 x*_i = x_i + dt_next (v_i + g dt_next) + 1/b_i sum_j (w_i + w_j) G_ij + w_i grad B_i, then out of solids and walls
+//                 x*_i = x_i + dt_next (v_i + g dt_next) + a_i sum_j (w_i + w_j) G_ij + w_i grad B_i, then out of solids and walls
 // Density to correction repeat for every iteration.
 // The pairs of the last density evaluation (its neighbours, K_ij and G_ij) serve all stages up to the next one.
 #include <cstdint>
@@ -109,7 +108,7 @@ class ReferenceSolver {
   void begin(double dt);
 
   /// Before begin(), of finite particles: the pressure that bears the start, w for a step of `dt` (s, > 0), by Jacobi iterations with
-  /// heavy-ball momentum in which nothing moves: x*_i = x_i + g dt^2 + 1/b_i sum_j (w_i + w_j) G_ij + w_i grad B_i, out of solids and
+  /// heavy-ball momentum in which nothing moves: x*_i = x_i + g dt^2 + a_i sum_j (w_i + w_j) G_ij + w_i grad B_i, out of solids and
   /// walls, then w_i = min(0, min(0, w_i + momentum (w_i - w_i of the iteration before)) + delta_i).
   void press(double dt, double momentum, int iterations);
 
@@ -159,7 +158,7 @@ class ReferenceSolver {
   glm::dvec3 contact(size_t i, glm::dvec3 v, double dt, std::span<const SolidPose> poses) const;
   std::vector<SolidPose> poses(double t, double dt) const;
   WallSample boundaryOf(const glm::dvec3& x, std::span<const SolidPose> poses) const;
-  glm::dvec3 pushShare(size_t i) const;  ///< b_i
+  glm::dvec3 alongWalls(size_t i) const;  ///< a_i
   Pair makePair(uint32_t i, uint32_t j) const;
   void plan(double dt, bool still);
   void park(size_t i);

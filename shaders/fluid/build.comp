@@ -10,7 +10,7 @@
 #include "fluid/warm.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/solids.glsl"
-#include "shared/arrays.glsl"
+#include "fluid/near.glsl"
 #include "shared/loops.glsl"
 #include "shared/pair_hash.h"
 layout(local_size_x = kFluidGroup) in;
@@ -48,8 +48,8 @@ void listNear(uint i, vec3 x) {
     vec3 normal;
     if (surfaceDistance(solids[s], toLocal(solids[s], x), normal) < params.nearLimit) solid = true;
   }
-  nearSample[2u * i] = vec4(0.0);
-  nearSample[2u * i + 1u] = vec4(0.0);
+  nearSample[NEAR_DISPLACED(i)] = vec4(0.0);
+  nearSample[NEAR_ALONG(i)] = vec4(0.0);
   if (x.x == kParked) return;
   if (solid || walls > 1u) nearList[params.count - 1u - atomicAdd(sums.cornerCount, 1u)] = i;
   else if (walls == 1u) nearList[atomicAdd(sums.planeCount, 1u)] = i;

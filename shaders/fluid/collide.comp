@@ -5,6 +5,7 @@
 #include "fluid/uniforms.glsl"
 #define WARM_CONSTANT 1
 #include "fluid/warm.glsl"
+#include "fluid/near.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 0) const uint AGAIN = 0;  // viscosity or vorticity have changed the velocity: the prediction alone
 layout(std430, binding = 2) buffer PositionBlock { vec4 position[]; };
@@ -47,7 +48,7 @@ void main() {
   // The multiplier in all, never positive: what the warm start had, and the change. `warm` has a share of the change already.
   float change = unpackHalf2x16(floatBitsToUint(work[i].w)).x * (params.inverseRestGradient / kMultiplierScale);
   float multiplier = min(0.0, (WARM != 0u ? warm[i] : 0.0) + (1.0 - control.warmGain) * change);
-  vec3 given = multiplier * nearSample[2u * i].xyz / control.step + (x - from) / control.step;
+  vec3 given = multiplier * nearSample[NEAR_DISPLACED(i)].xyz / control.step + (x - from) / control.step;
   for (uint k = 0u; k < params.solidCount; ++k) {
     if (solids[k].friction <= 0.0 && solids[k].restitution <= 0.0) continue;
     vec3 normal;

@@ -73,12 +73,9 @@ void main() {
   moved *= unit * params.gradientScale;
   pushed *= unit * params.gradientScale;
   if (NEAR != 0u) {
-    vec4 displaced = displacedAt(i);
-    if (displaced.w > 0.0) {  // what is behind a wall does not push along it: see ARCHITECTURE.md, "Walls and solids"
-      vec3 share = pushShareAt(i), wall = unit * displaced.xyz;
-      moved = moved / share + own.x * wall;
-      pushed = pushed / share + own.y * wall;
-    }
+    vec3 wall = unit * displacedAt(i).xyz, along = alongWallsAt(i);  // see ARCHITECTURE.md, "Walls and solids"
+    moved = along * moved + own.x * wall;
+    pushed = along * pushed + own.y * wall;
   }
 
   vec3 from = position[i].xyz, before = velocity[i].xyz;

@@ -49,18 +49,16 @@ void main() {
   rho = params.valueScale * (rho + kernelShape(0.0));
   gradientSum *= params.gradientScale;
   gradientSquares *= params.gradientScale * params.gradientScale;
-  float stiffness = dot(gradientSum, gradientSum) + gradientSquares;
+  vec3 along = vec3(1.0);
   if (NEAR != 0u) {
     vec4 displaced = displacedAt(i);
+    gradientSum += displaced.xyz;
     rho += displaced.w;
-    if (displaced.w > 0.0) {  // corrections are larger along walls: correct.comp
-      vec3 gradient = gradientSum + displaced.xyz, share = pushShareAt(i);
-      stiffness = dot(gradient, gradient / share) + gradientSquares / min(share.x, min(share.y, share.z));
-    }
+    along = alongWallsAt(i);
   }
 
   float constraint = here.x == kParked ? -1.0 : rho - 1.0;  // who is parked meets all others there: no density of the fluid's
-  stiffness += params.regularization;
+  float stiffness = dot(gradientSum, along * gradientSum) + gradientSquares * (along.x + along.y + along.z) / 3.0 + params.regularization;
   bool first = push.iteration == 0u;
   float delta = -(first ? control.nextRelaxation : control.relaxation) * constraint / max(stiffness, 1.0e-20);
 

@@ -49,6 +49,6 @@ void main() {
   visitNeighbours(i, local, there);
   if (!there) return;
   moved *= unit * params.gradientScale;
-  if (NEAR != 0u) moved = moved / pushShareAt(i) + unit * own * displacedAt(i).xyz;
+  if (NEAR != 0u) moved = alongWallsAt(i) * moved + unit * own * displacedAt(i).xyz;
   prediction[i] = vec4(insideWalls(here + moved), prediction[i].w);
 }

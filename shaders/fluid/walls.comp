@@ -1,11 +1,11 @@
 #version 460
-// The density that walls and solids displace near a particle, and its gradient, from the tables of engine/sph/wall.hpp: nearSample = (gradient, value),
-// (what is beside the particle along x, y and z: WallSample's `beside`).
+// The density that walls and solids displace near a particle, and its gradient, from the tables of engine/sph/wall.hpp, and how much they add to
+// the push along them, from what is beside the particle (WallSample's `beside`).
 // CORNER 0 handles particles near one wall alone, CORNER 1 those near several walls or a solid.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "fluid/solids.glsl"
-#include "shared/arrays.glsl"
+#include "fluid/near.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 0) const uint CORNER = 0;
 layout(constant_id = 1) const uint SOLIDS = 0;
@@ -135,8 +135,9 @@ vec4 solidSample(SolidRecord s, vec3 x) {
 }
 
 void store(uint i, vec4 displaced, vec3 beside) {
-  nearSample[2u * i] = displaced;
-  nearSample[2u * i + 1u] = vec4(min(beside, vec3(kMostBeside)), 0.0);
+  beside = min(beside, vec3(kMostBeside));
+  nearSample[NEAR_DISPLACED(i)] = displaced;
+  nearSample[NEAR_ALONG(i)] = vec4(beside / (1.0 - beside), 0.0);
 }
 
 void main() {
@@ -164,7 +165,8 @@ void main() {
     for (uint k = 0u; k < params.solidCount; ++k) {
       vec4 solid = solidSample(solids[k], x);
       displaced += solid;
-      beside += solid.w * (1.0 - solid.xyz * solid.xyz / max(dot(solid.xyz, solid.xyz), 1.0e-20));
+      float steep = dot(solid.xyz, solid.xyz);
+      if (steep > 0.0) beside += solid.w * (1.0 - solid.xyz * solid.xyz / steep);
     }
   }
   store(i, displaced, beside);

@@ -10,7 +10,7 @@ RILL_CONST uint kCellsPerReach = 2u;       // grid cells in x as long as one in 
 RILL_CONST uint kSettleSubsteps = 512u;    // at most, before the first substep in time
 RILL_CONST uint kMostPressings = 1024u;    // iterations that find the pressure of the start, at most, after those
 RILL_CONST float kMostCalming = 0.5f;     // XSPH coefficient of a calm pass, at most
-RILL_CONST float kMostBeside = 0.4f;       // of what is behind walls, at most: more gains energy where the kernel is as wide as the room
+RILL_CONST float kMostBeside = 0.4f;       // of the kernel, behind walls: at most so much is made up for. See ARCHITECTURE.md, "Walls and solids"
 RILL_CONST uint kWindow = 32u;            // candidates that a grid walk looks at together, a bit of a mask each
 // Candidates that the particles of a cluster look at together, at most, in whole windows; more are counted as a bound hit. Lavapipe ends a shader after 65,535
 // steps of its loops: a window takes about 20 where a cluster is 4, so that 1,024 windows leave room for the loops around them.

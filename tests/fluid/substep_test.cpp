@@ -275,6 +275,22 @@ TEST_F(SubstepTest, FlowsOverABall) {
   expectEqual(t, 10, kTen, kTen);
 }
 
+// A wall, a ball and a turned box at once, with a support so wide that what is beside a particle meets its bound.
+TEST_F(SubstepTest, WideSupportBetweenSolidsInTwoIterations) {
+  Trial t = trial();
+  t.scene.fluid.smoothing_ratio = 3;
+  t.scene.solver.relaxation = 0.25;
+  t.scene.solver.iterations = 2;
+  setWalls(t, {1, 1, 0.25 + 7 * t.d()});
+  t.scene.solids = {ball({0.5, 0.2, 0.5}, 0.2), slab({0.75, 0.35, 0.2}, {0.95, 0.6, 0.8})};
+  t.scene.solids[1].rotation[2] = 0.6;
+  t.scene.solids[1].rotation[3] = 0.8;
+  t.x = block({7, 4, 7}, t.d(), {0.25, 0.405, 0.25}, 0.05);
+  t.v.assign(t.x.size(), {0.5, -3, 0});
+  expectEqual(t, 1, kOne, kOne);
+  expectEqual(t, 10, kTen, kTen);
+}
+
 TEST_F(SubstepTest, RubsAndBounces) {
   Trial t = trial();
   setWalls(t, {1, 1, 1});

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <numbers>
 
 #include "reference/cloud.hpp"
 
@@ -57,6 +58,33 @@ TEST(Boundary, ADomainThinnerThanASpacingHoldsItsMiddle) {
   solver.begin(kStep);
   for (int step = 0; step < 10; ++step) solver.substep(kStep, kStep);
   EXPECT_NEAR(solver.state.position[0].z, 0.2 * kSpacing, 1e-15);
+}
+
+// A solid is beside what moves along its face, and not beside what moves across it.
+TEST(Boundary, ASolidIsBesideWhatMovesAlongIt) {
+  const auto at = [](const Solid& solid, const glm::dvec3& x) {
+    return ReferenceSolver(over(solid), std::vector<glm::dvec3>{x}).boundaryAt(x, 0);
+  };
+  const WallSample floor = at(plate(0, 0), {0, kSpacing / 2, 0});
+  EXPECT_GT(floor.value, 0.1);
+  EXPECT_NEAR(floor.beside[0], floor.value, 1e-12);
+  EXPECT_NEAR(floor.beside[1], 0, 1e-12);
+  EXPECT_NEAR(floor.beside[2], floor.value, 1e-12);
+  Solid turned = plate(0, 0);  // by 45 degrees: its face is x + y = 7.07 m, half of it beside either axis
+  turned.box = BoxShape{{-5, -5, -5}, {5, 5, 5}};
+  turned.rotation[2] = std::sin(std::numbers::pi / 8);
+  turned.rotation[3] = std::cos(std::numbers::pi / 8);
+  const double out = (5 + kSpacing / 2) / std::numbers::sqrt2;
+  const WallSample slope = at(turned, {out, out, 0});
+  EXPECT_NEAR(slope.value, floor.value, 1e-6);
+  EXPECT_NEAR(slope.beside[0], slope.value / 2, 1e-6);
+  EXPECT_NEAR(slope.beside[1], slope.value / 2, 1e-6);
+  EXPECT_NEAR(slope.beside[2], slope.value, 1e-6);
+  Solid ball;
+  ball.sphere = SphereShape{{0, 0, 0}, 4 * kSpacing};
+  const WallSample pole = at(ball, {0, 0, 4.5 * kSpacing});
+  EXPECT_NEAR(pole.beside[0], pole.value, 1e-12);
+  EXPECT_NEAR(pole.beside[2], 0, 1e-12);
 }
 
 TEST(Boundary, AnOpenSideLetsParticlesOut) {

@@ -68,7 +68,7 @@ std::vector<Setting> settings(bool quick) {
 
 /// What SPlisHSPlasH 2.16 took on dam50k, two threads of a like machine, with its own kernel: seconds a simulated second, mean compression.
 Series peer() {
-  return {"SPlisHSPlasH 2.16, 2 threads of a like machine, own kernel",
+  return {"SPlisHSPlasH 2.16",
           Series::Style::Points,
           {{36, 0.0011}, {39, 0.0016}, {84, 0.00012}, {52, 0.0012}, {26, 0.0043}},
           {"DFSPH loose", "DFSPH loose", "DFSPH", "PBF 5 iterations", "PBF 5 iterations"}};
@@ -214,15 +214,12 @@ class Accuracy {
                  "), first tenth left out. trajectory: rms distance of centre of\n"
                  "mass, front and energies from " +
                  std::to_string(c.seeds) + " runs of " + std::to_string(c.convergedSteps) +
-                 " substeps a frame, over first extent and energy; those runs are " + percent(chance) + " apart by chance.";
+                 " substeps a frame, over first extent and energy; those runs are " + percent(chance) + " apart by chance." +
+                 (c.withPeer ? "\nSPlisHSPlasH 2.16, on the plot: on dam50k with two threads of a like machine, in its own kernel." : "");
     report_.tables.push_back(std::move(table));
 
-    Plot first{c.name + ": density error",
-               "wall seconds a simulated second",
-               "mean compression (solver's kernel, h = 2 d if not said)",
-               true,
-               true,
-               {}};
+    Plot first{
+        c.name + ": density error", "wall seconds a simulated second", "mean compression (kernel of h = 2 d if not said)", true, true, {}};
     Plot second{c.name + ": trajectory error", "wall seconds a simulated second", "rms distance from converged runs", true, true, {}};
     std::vector<std::string> families;
     for (const Measured& m : measured)
