@@ -125,7 +125,8 @@ std::vector<StressCase> forceCases() {
     cases.push_back(std::move(c));
   }
   for (const bool full : {false, true}) {
-    Scene small = tankScene(0.05, {0.2, 0.2, 0.2}, {0.4, 0.4, 0.2});
+    // The long one has time to come to rest, the short one is at rest: a slosh gives energy to the lattice and takes it back.
+    Scene small = tankScene(0.05, full ? Point{0.2, 0.2, 0.2} : Point{0.4, 0.1, 0.2}, {0.4, 0.4, 0.2});
     const int substeps = full ? 100000 : 5000;
     small.solver.time_step = 1.0 / 3840;
     small.solver.tolerance = 0;
