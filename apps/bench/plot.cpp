@@ -26,6 +26,13 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
+std::string yAxis(const std::vector<std::string>& rows) {
+  if (rows.empty()) return "set yrange [*:*]\nset ytics autofreq\n";
+  std::string tics;
+  for (size_t row = 0; row < rows.size(); ++row) tics += (row ? ", " : "") + quoted(rows[row]) + " " + std::to_string(row + 1);
+  return "set yrange [" + std::to_string(rows.size()) + ".5:0.5]\nset ytics (" + tics + ")\n";
+}
+
 bool drawable(const Plot& plot, const std::pair<double, double>& point) {
   return std::isfinite(point.first) && std::isfinite(point.second) && (!plot.logX || point.first > 0) && (!plot.logY || point.second > 0);
 }
@@ -50,6 +57,7 @@ std::string plotProgram(std::span<const Plot> plots) {
     const Plot& plot = plots[p];
     out << "set title " << quoted(plot.title) << "\nset xlabel " << quoted(plot.x) << "\nset ylabel " << quoted(plot.y) << "\n";
     out << (plot.logX ? "set logscale x\n" : "unset logscale x\n") << (plot.logY ? "set logscale y\n" : "unset logscale y\n");
+    out << yAxis(plot.rows);
     std::string curves;
     for (size_t s = 0; s < plot.series.size(); ++s) {
       const Series& series = plot.series[s];

@@ -34,6 +34,7 @@ struct Plot {
   std::string title, x, y;
   bool logX = false, logY = false;
   std::vector<Series> series;
+  std::vector<std::string> rows = {};  ///< names of y = 1, 2, ..., drawn from the top down; empty: y is a number
 };
 
 /// What a suite found.

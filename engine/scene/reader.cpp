@@ -116,7 +116,7 @@ bool Reader::unknownKey(const std::string& path, const std::string& key, const s
   if (!near.empty()) {
     text += "did you mean " + inQuotes(near) + "?";
   } else if (!other.empty()) {
-    text += "did you mean " + inQuotes(other) + "?";
+    text += "did you mean " + inQuotes(other) + (other.find('.') == std::string::npos ? ", at the top of the scene?" : "?");
   } else {
     text += "expected one of " + listInQuotes(here);
   }

@@ -97,6 +97,14 @@ TEST(PlotProgram, LeavesOutWhatAnAxisCannotShow) {
   EXPECT_NE(program.find("set multiplot next"), std::string::npos) << "its place stays empty: " << program;
 }
 
+TEST(PlotProgram, NamesRowsFromTheTopDownAndInThatDiagramAlone) {
+  std::vector<Plot> plots(2, plotOf({{1, 1}}));
+  plots[0].rows = {"first", "it's the second"};
+  const std::string program = plotProgram(plots);
+  EXPECT_NE(program.find("set yrange [2.5:0.5]\nset ytics ('first' 1, 'it''s the second' 2)"), std::string::npos) << program;
+  EXPECT_LT(program.find("set ytics ('first'"), program.find("set ytics autofreq")) << program;
+}
+
 TEST(PlotProgram, SetsDiagramsSideBySide) {
   const std::vector<Plot> plots(3, plotOf({{1, 1}}));
   EXPECT_NE(plotProgram(plots).find("layout 2,2"), std::string::npos);

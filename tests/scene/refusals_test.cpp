@@ -100,6 +100,7 @@ TEST(Refusals, UnknownKeysNameTheNearest) {
       {with(R"("Gravity": [0, 0, 0])"), ": Gravity: unknown key; did you mean \"gravity\"?"},
       {with(R"("viscosity": 1)"), ": viscosity: unknown key; did you mean \"fluid.viscosity\"?"},
       {with(R"("solver": {"jitter": 1})"), ": solver.jitter: unknown key; did you mean \"fill[].jitter\"?"},
+      {with(R"("fill": [{"seed": 1}])"), ": fill[0].seed: unknown key; did you mean \"seed\", at the top of the scene?"},
       {with(R"("fill": [{"box": {"min": [0, 0, 0], "mx": [1, 1, 1]}}])"), ": fill[0].box.mx: unknown key; did you mean \"max\"?"},
       {with(R"("look": {"zzzzzz": 1})"), ": look.zzzzzz: unknown key; expected one of \"preset\", \"surface\", \"environment\""},
       {with(R"("look": {"a.b\nc": 1})"), ": look.\"a.b\\u000ac\": unknown key; expected one of \"preset\", \"surface\", \"environment\""},

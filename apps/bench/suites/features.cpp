@@ -224,8 +224,8 @@ Expected<void> costs(Bench& bench, const std::vector<Feature>& wanted, Report& r
       "zero; it then has the base's passes and bits, or the suite fails. list builds: more than the base's, in all frames measured; what\n"
       "changes how the water moves (a solid that it hits) changes how often the list is built, and that is in its cost."};
   Plot plot{"A feature's cost, and that of having it off",
-            "feature, in the table's order",
             "time over that of the scene without it",
+            "",
             false,
             false,
             {{"on", Series::Style::Points, {}, {}}, {"off", Series::Style::Points, {}, {}}}};
@@ -248,14 +248,14 @@ Expected<void> costs(Bench& bench, const std::vector<Feature>& wanted, Report& r
                                  passChanges(on.end.pass_ms, base.end.pass_ms)};
     Json json{{"case", name}, {"base", samplesJson(base)}, {"on", samplesJson(on)}};
     const double place = double(table.rows.size() + 1);
-    plot.series[0].points.emplace_back(place, median(on.ratio));
-    plot.series[0].labels.push_back(name);
+    plot.rows.push_back(name);
+    plot.series[0].points.emplace_back(median(on.ratio), place);
     if (off) {
       holdZero(name, *off, base, report);
       row[5] = number(median(off->ratio));
       row[6] = fastest(*off, base);
       json["off"] = samplesJson(*off);
-      plot.series[1].points.emplace_back(place, median(off->ratio));
+      plot.series[1].points.emplace_back(median(off->ratio), place);
     }
     table.rows.push_back(std::move(row));
     report.results.push_back(std::move(json));
