@@ -43,7 +43,7 @@ std::vector<FluidPassRuns> FluidImpl::passRuns() const {
   if (smooths || swirls)
     add(p.solidCount > 0, ran, substeps, {"collide again"});
   else
-    add(p.solidCount > 0 && calm, ran_.calmable - ranBefore_.calmable, blocks, {"collide again"});
+    add(p.solidCount > 0 && calm, ran_.blocks - ranBefore_.blocks, blocks, {"collide again"});
   add(smooths, ran, substeps, {"viscosity"});
   add(swirls, ran, substeps, {"curl", "confine"});
   add(calm, calms, blocks, {"calm"});
@@ -66,8 +66,7 @@ void FluidImpl::poll() const {
       if (given_up->uploads) staging_.reset();
     pending_.erase(pending_.begin(), next);
     const Pending& pending = pending_.front();
-    ranBefore_ =
-        std::exchange(ran_, {control.ranSubsteps, control.ranIterations, control.ranBuilds, control.ranCalmable, control.ranCalms});
+    ranBefore_ = std::exchange(ran_, {control.ranSubsteps, control.ranIterations, control.ranBuilds, control.ranBlocks, control.ranCalms});
     recordedBefore_ = std::exchange(recordedLast_, pending.recorded);
     progress = {.known = true,
                 .time_s = double{control.timeHigh} + control.timeLow,

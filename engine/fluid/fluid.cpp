@@ -250,9 +250,13 @@ Expected<void> FluidImpl::makePipelines(Device& device) {
   if (p.solidCount > 0 && (smooths || p.vorticity > 0)) make(pipes_.collideAgain, "fluid/collide", plain(2, 11), 0, {1, warm});
   if (setup.movingSolids) make(pipes_.pose, "fluid/pose", plain(2, 2), 0);
   gather(pipes_.density, "fluid/density", {Storage, Storage, vectors, Storage}, sizeof(ChunkPush), {nearWalls, p.iterations > 1, warm});
-  gather(pipes_.correct, "fluid/correct", {Storage, Storage, vectors, Storage, Storage, Storage, Storage}, sizeof(ChunkPush),
-         {nearWalls, p.tensile > 0, p.solidCount > 0, warm});
-  if (p.iterations > 1) gather(pipes_.iterate, "fluid/iterate", {Storage, vectors}, sizeof(ChunkPush), {nearWalls, p.tensile > 0});
+  const auto correct = [&](GatherPipelines& pipelines, bool parts) {
+    gather(pipelines, "fluid/correct", {Storage, Storage, vectors, Storage, Storage, Storage, Storage}, sizeof(ChunkPush),
+           {nearWalls, parts, p.solidCount > 0, warm});
+  };
+  correct(pipes_.correct, false);
+  if (p.tensileRate > 0) correct(pipes_.correctAndPart, true);
+  if (p.iterations > 1) gather(pipes_.iterate, "fluid/iterate", {Storage, vectors}, sizeof(ChunkPush), {nearWalls});
   if (smooths) gather(pipes_.viscosity, "fluid/viscosity", {vectors, Storage, Storage, vectors, vectors}, sizeof(SweepPush), {warm});
   if (setup.viscositySweeps % 2 == 1 || p.calmingRate > 0) make(pipes_.keep, "fluid/keep", plain(2, 2), sizeof(ChunkPush));
   if (p.vorticity > 0) {

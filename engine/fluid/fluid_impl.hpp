@@ -44,7 +44,7 @@ struct FluidPipelines {
                         *build = nullptr;
   const ComputePipeline *collide = nullptr, *collideAgain = nullptr, *pose = nullptr;
   WallPipelines walls;
-  GatherPipelines density, correct, iterate, viscosity, curl, confine;
+  GatherPipelines density, correct, correctAndPart, iterate, viscosity, curl, confine;
   const ComputePipeline* keep = nullptr;
   const ComputePipeline *measureKeys = nullptr, *measureOrder = nullptr, *measure = nullptr, *measureSums = nullptr, *reduce = nullptr;
 };
@@ -90,7 +90,7 @@ class FluidImpl {
 
   /// What of it the device ran.
   struct Ran {
-    uint32_t substeps = 0, iterations = 0, builds = 0, calmable = 0, calms = 0;
+    uint32_t substeps = 0, iterations = 0, builds = 0, blocks = 0, calms = 0;
   };
 
   struct Pending {

@@ -174,7 +174,7 @@ void FluidImpl::declareSkipped(Graph& graph) {
   if (setup.viscositySweeps == 0) graph.skipped("viscosity", "viscosity is 0");
   if (p.calmingRate <= 0) graph.skipped("calm", setup.whyNotCalming);
   if (p.vorticity <= 0) graph.skipped("curl, confine", "vorticity is 0");
-  if (p.tensile <= 0) graph.skipped("tensile term", "tensile is 0");
+  if (p.tensileRate <= 0) graph.skipped("tensile term", setup.whyNotTensile);
 }
 
 FluidState FluidImpl::described() const {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/words.hpp"
+#include "sph/artificial_pressure.hpp"
 #include "sph/jacobi_limit.hpp"
 #include "sph/kernel.hpp"
 #include "sph/solid_density.hpp"
@@ -422,11 +423,18 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   p.solidSpeed = f(fastestSolid(scene));
   p.vorticity = f(scene.fluid.vorticity);
   if (scene.fluid.tensile > 0) {
-    // s_corr as a multiplier: a tenth of the rest multiplier's scale, growing with the step as the pressure's does, against gravity over
-    // one spacing.
-    p.tensile = f(scene.fluid.tensile * 0.1 / kernel.restGradientSum() * 9.81 / d);
-    p.tensilePower = f(scene.fluid.tensile_power);
-    p.tensileInverse = f(1 / kernel.value(scene.fluid.tensile_radius * h));
+    const ArtificialPressure pressure(kernel, scene.fluid.tensile, scene.fluid.tensile_radius, scene.fluid.tensile_power);
+    if (pressure.rate > 0) {
+      p.tensileRate = f(pressure.rate);
+      p.tensileMost = f(pressure.most);
+      p.tensilePower = f(pressure.power);
+      p.tensileInverse = f(pressure.inverse);
+      p.tensileAtRest = f(pressure.atRest);
+    } else {
+      setup.whyNotTensile = "tensile_radius reaches neighbours at rest";
+      setup.warnings.push_back("fluid.tensile does nothing: it ends at 0.95 spacings, and tensile_radius is " +
+                               roughNumber(scene.fluid.tensile_radius * scene.fluid.smoothing_ratio) + " of them");
+    }
   }
   p.fullNeighbours = static_cast<uint32_t>(0.8 * 4.0 / 3.0 * std::numbers::pi * std::pow(h / d, 3));
 

@@ -70,7 +70,7 @@ Expected<void> SnapshotReader::take(const Graph& graph) {
       FluidControl control;
       std::memcpy(&control, data[0].data(), sizeof control);
       control.substeps = control.iterations = control.builds = 0;
-      control.ranSubsteps = control.ranIterations = control.ranBuilds = control.ranCalmable = control.ranCalms = 0;
+      control.ranSubsteps = control.ranIterations = control.ranBuilds = control.ranBlocks = control.ranCalms = 0;
       control.timeDropped = 0;
       s.control = records<uint32_t>(std::as_bytes(std::span(&control, 1)), sizeof control / 4);
       s.sums = records<uint32_t>(data[1], sizeof(FluidSums) / 4);

@@ -47,14 +47,14 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
       r_.sums = pass.write(r_.sums, Use::ComputeWrite);
       r_.commands = pass.write(r_.commands, Use::ComputeWrite);
       const Kernel kernel = pass.kernel(pipes_.control, {r_.params, r_.control, r_.sums, r_.shapes, r_.commands, r_.gravity});
-      const ControlPush push{iteration, parity, commandCount(), calms};
+      const ControlPush push{iteration, parity, commandCount(), first};
       return [=](Commands& commands) { commands.dispatch(kernel, 1, push); };
     });
   }
   BufferRef free = p.solidCount > 0 ? graph.create("free velocities", {uint64_t{count} * 16}) : BufferRef{};
+  const GatherPipelines& correct = first && p.tensileRate > 0 ? pipes_.correctAndPart : pipes_.correct;
   gatherPass(
-      graph, r_, read, chunks, "correct", pipes_.correct, r_.work, kCommandCorrect + parity, ChunkPush{},
-      [&](Pass& pass, BindingList& bindings) {
+      graph, r_, read, chunks, "correct", correct, r_.work, kCommandCorrect + parity, ChunkPush{}, [&](Pass& pass, BindingList& bindings) {
         pass.read(r_.nearSample, read);
         for (BufferRef* ref : {&r_.position, &r_.velocity, &r_.prediction, &r_.pushAway, &r_.warm})
           *ref = pass.write(*ref, Use::ComputeWrite);

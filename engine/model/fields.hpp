@@ -56,7 +56,7 @@ struct Table<FluidSettings> {
             &FluidSettings::vorticity},
       Field{Info{.key = "tensile",
                  .range = between(0, 1),
-                 .help = "artificial pressure (s_corr), strength: keeps sparse particles from clumping"},
+                 .help = "artificial pressure (s_corr), strength: keeps particles from clumping where the fluid is sparse; 0: none"},
             &FluidSettings::tensile},
       Field{
           Info{.key = "tensile_radius", .range = inside(0, 1), .help = "artificial pressure, reference distance over the smoothing length"},

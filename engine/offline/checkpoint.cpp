@@ -23,7 +23,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie in memory");
 
 constexpr std::string_view kMagic = "RILLCKPT";
-constexpr uint32_t kFormat = 6;
+constexpr uint32_t kFormat = 7;
 constexpr uint64_t kHeadBytes = 24, kRowBytes = 16, kChecksumBytes = 8;
 
 /// The state's arrays in the order of the file, each with the name of its section: calls visit(name, array).

@@ -21,7 +21,9 @@ glm::dvec3 vec(const double v[3]) { return {v[0], v[1], v[2]}; }
 }  // namespace
 
 ReferenceSolver::ReferenceSolver(const ReferenceSettings& s, std::span<const glm::dvec3> positions, std::span<const glm::dvec3> velocities)
-    : settings(s), kernel_(s.kernel, s.smoothingRatio * s.spacing, s.spacing) {
+    : settings(s),
+      kernel_(s.kernel, s.smoothingRatio * s.spacing, s.spacing),
+      artificial_(kernel_, s.tensile, s.tensileRadius, s.tensilePower) {
   assert(velocities.empty() || velocities.size() == positions.size());
   const size_t count = positions.size();
   state.position.assign(positions.begin(), positions.end());
@@ -81,18 +83,20 @@ void ReferenceSolver::press(double dt, double momentum, int iterations) {
 }
 
 void ReferenceSolver::substep(double dt, double dtNext) {
+  const bool first = substeps_++ % settings.substepsPerBlock == 0;
+  blockTime_ += dt;
+  const double push = std::min(artificial_.rate * blockTime_, artificial_.most / blockTime_) * dt;
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
     density();
     multipliers(iteration == 0);
-    correction(dt);
+    correction(dt, first && iteration + 1 == settings.iterations ? push : 0);
   }
   judgeCalmness();
   velocities(dt);
   if (settings.viscosity > 0) viscosity(dt);
-  uncalmed_ += dt;
-  if (substeps_++ % settings.calmEvery == 0) {
-    if (settings.calmViscosity > 0) calm(uncalmed_);
-    uncalmed_ = 0;
+  if (first) {
+    if (settings.calmViscosity > 0) calm(blockTime_);
+    blockTime_ = 0;
   }
   if (settings.vorticity > 0) vorticity(dt);
   predict(dt, dtNext);
@@ -160,22 +164,19 @@ void ReferenceSolver::multipliers(bool firstIteration) {
   }
 }
 
-double ReferenceSolver::tensileTerm(double value, double dt) const {
-  if (settings.tensile <= 0) return 0;
-  const double share = std::min(value / kernel_.value(settings.tensileRadius * kernel_.h()), 1.0);
-  const double steps = dt * dt * 9.81 / settings.spacing;
-  return -settings.tensile * 0.1 / kernel_.restGradientSum() * std::pow(share, settings.tensilePower) * steps;
+double ReferenceSolver::tensileTerm(double value, double push) const {
+  return push == 0 ? 0 : -push / kernel_.restGradientSum() * artificial_.share(value);
 }
 
-void ReferenceSolver::correction(double dt) {
+void ReferenceSolver::correction(double dt, double push) {
   const std::vector<SolidPose> solids = poses(time_, dt);
   for (size_t i = 0; i < size(); ++i) {
-    glm::dvec3 push(0), apart(0);
+    glm::dvec3 sum(0), apart(0);
     for (const Pair& pair : pairs(i)) {
-      push += (lambdaChange_[i] + lambdaChange_[pair.j] + tensileTerm(pair.value, dt)) * pair.gradient;
+      sum += (lambdaChange_[i] + lambdaChange_[pair.j] + tensileTerm(pair.value, push)) * pair.gradient;
       apart += kCoincidentDistance * kernel_.h() * pair.apart;
     }
-    const glm::dvec3 moved = state.predicted[i] + alongWalls(i) * push + lambdaChange_[i] * vec(boundary_[i].gradient) + apart;
+    const glm::dvec3 moved = state.predicted[i] + alongWalls(i) * sum + lambdaChange_[i] * vec(boundary_[i].gradient) + apart;
     gained_[i] = glm::dvec3(0);
     if (finite(moved)) {
       walled_[i] = collide(moved, {});

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "rill/scene.hpp"
+#include "sph/artificial_pressure.hpp"
 #include "sph/kernel.hpp"
 #include "sph/solid_density.hpp"
 #include "sph/solid_pose.hpp"
@@ -65,11 +66,11 @@ struct ReferenceSettings {
   double calmRelaxation = 0;  ///< omega of a fluid at rest, likewise; between them by the fourth power of the speed
   double calmWarmStart = 0;   ///< kappa of a fluid at rest
   double calmViscosity = 0;   ///< mu of a fluid at rest, Pa s, on top of `viscosity`; none at roughSpeed
-  int calmEvery = 1;          ///< substeps from one use of it to the next
+  int substepsPerBlock = 1;   ///< substeps from one use of it, and of the artificial pressure, to the next
 
-  double tensile = 0;          ///< strength of the artificial pressure, 0 .. 1
-  double tensileRadius = 0.2;  ///< delta q / h
-  double tensilePower = 4;     ///< n
+  double tensile = 0;           ///< strength of the artificial pressure, 0 .. 1: see sph/artificial_pressure.hpp
+  double tensileRadius = 0.25;  ///< delta q / h
+  double tensilePower = 16;     ///< n
 
   double viscosity = 0;                                         ///< mu, Pa s
   int viscositySweeps = 1;                                      ///< n: XSPH sweeps a substep, each with c/n, which has to be below 1
@@ -116,12 +117,12 @@ class ReferenceSolver {
   void substep(double dt, double dtNext);
 
   /// The substep's parts, in its order: each reads `state` and what the parts before it left.
-  void density();                         ///< neighbours of x*, pairs, rho, B, D
-  void multipliers(bool firstIteration);  ///< lambda, dlambda; w in the first iteration
-  void correction(double dt);             ///< x*
-  void velocities(double dt);             ///< v, x; time goes on by dt
-  void viscosity(double dt);              ///< v: v_i += c/n sum_j K_ij (v_j - v_i), n times; symmetric, so it keeps momentum
-  void calm(double dt);                   ///< v: the same once, with the viscosity that a fluid at rest has on top
+  void density();                           ///< neighbours of x*, pairs, rho, B, D
+  void multipliers(bool firstIteration);    ///< lambda, dlambda; w in the first iteration
+  void correction(double dt, double push);  ///< x*; `push`: the artificial pressure, over 1 / D
+  void velocities(double dt);               ///< v, x; time goes on by dt
+  void viscosity(double dt);                ///< v: v_i += c/n sum_j K_ij (v_j - v_i), n times; symmetric, so it keeps momentum
+  void calm(double dt);                     ///< v: the same once, with the viscosity that a fluid at rest has on top
   /// v += dt eps_v h |omega| (N x omega), with the curl omega_i = sum_j G_ij x (v_j - v_i), eta_i = sum_j G_ij (|omega_j| - |omega_i|) and
   /// N = eta / (|eta| + 0.001 |omega| / h). An acceleration needs eps_v h |omega|^2 for a dimensionless eps_v: a vortex is fed at the rate
   /// at which it turns, and slow water is left alone.
@@ -145,11 +146,9 @@ class ReferenceSolver {
 
   /// B and grad B at a point, with the solids where they are at `t` (s).
   WallSample boundaryAt(const glm::dvec3& x, double t) const;
-  /// s_ij of a pair with the kernel's value `value`, m^2, <= 0:
-  ///   s_ij = -k (0.1 / D_rest) min(1, K_ij / K(delta q))^n (dt / dt_ref)^2,  dt_ref = sqrt(d / 9.81 m/s^2),
-  /// so that it is an acceleration of k times a fixed part of g for pairs at delta q or nearer, at any spacing and step. (The paper lets it
-  /// grow for nearer pairs: with delta q beyond the spacing that blows a rest lattice up.)
-  double tensileTerm(double value, double dt) const;
+  /// s_corr of a pair with the kernel's value `value`, m^2, <= 0, where the artificial pressure is `push` over 1 / D: see
+  /// sph/artificial_pressure.hpp.
+  double tensileTerm(double value, double push) const;
   /// c of XSPH over the whole substep, dimensionless: 2 mu dt / (rho0 sigma^2).
   double xsphCoefficient(double viscosity, double dt) const;
 
@@ -166,6 +165,7 @@ class ReferenceSolver {
   void smooth(double coefficient);
 
   SmoothingKernel kernel_;
+  ArtificialPressure artificial_;
   WallTables tables_;
   std::vector<SphereTable> sphereTables_;  ///< as settings.solids; unused for boxes
   double time_ = 0;
@@ -177,7 +177,7 @@ class ReferenceSolver {
   std::vector<double> densityRatio_, denominator_, delta_, lambda_, lambdaChange_;
   std::vector<WallSample> boundary_;
   std::vector<glm::dvec3> curl_;
-  double uncalmed_ = 0;             ///< s since the last calm()
+  double blockTime_ = 0;            ///< s since the last substep that was the first of its block
   int substeps_ = 0;                ///< since the start
   double calmness_ = 0;             ///< 1: at rest, 0: at roughSpeed or faster
   double fastest_ = 0;              ///< m/s, at the start or in the last velocities()

@@ -11,14 +11,4 @@ void setGains(inout FluidControl c) {
   c.nextRelaxation = mix(params.roughRelaxation, params.calmRelaxation, c.settling > 0u ? 0.0 : c.calmness);  // without time corrections are no speeds
   c.nextWarmGain = mix(params.roughWarmGain, params.calmWarmGain, c.calmness);
 }
-
-// Noise is damped now and then, by as much as the time since then asks for: `calms` says that the pass is there.
-void planCalming(inout FluidControl c, bool calms) {
-  c.calming = 0.0;
-  if (params.calmingRate <= 0.0) return;
-  c.uncalmed += c.step;
-  if (!calms) return;
-  c.calming = min(params.calmingRate * c.calmness * c.uncalmed, kMostCalming);
-  c.uncalmed = 0.0;
-}
 #endif

@@ -30,7 +30,7 @@ void main() {
   c.iterations += 1u;
   c.ranIterations += 1u;
   if (first) c.ranSubsteps += 1u;
-  if (first && push.calms != 0u) c.ranCalmable += 1u;
+  if (first && push.blockStart != 0u) c.ranBlocks += 1u;
   sums.errorLow = 0u;
   sums.errorHigh = 0u;
   sums.errorMax = 0u;
@@ -45,6 +45,7 @@ void main() {
     c.settling = apart ? 0u : c.settling - 1u;
     c.step = 0.0;
     c.calming = 0.0;
+    c.parting = 0.0;
     setGains(c);
     if (c.settling == 0u && params.pressings > 0u && error <= params.pressError) {
       c.pressing = params.pressings;
@@ -60,6 +61,7 @@ void main() {
     c.warmStep = c.nextStep;
     c.step = 0.0;
     c.calming = 0.0;
+    c.parting = 0.0;
     setGains(c);
     if (c.pressing == 0u) c.nextStep = fittedStep(c.timeLeft, c.desiredStep);
     again = false;
@@ -70,7 +72,7 @@ void main() {
     c.speed = max(uintBitsToFloat(s.speedMax), 0.0);
     sums.speedMax = 0u;
     setGains(c);
-    planCalming(c, push.calms != 0u);
+    planBlock(c, push.blockStart != 0u);
     c.warmStep = c.step;
     c.timeLeft -= c.step;
     c.substeps += 1u;

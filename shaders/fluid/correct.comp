@@ -14,7 +14,7 @@
 #include "fluid/near.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 4) const uint NEAR = 0;
-layout(constant_id = 5) const uint TENSILE = 0;
+layout(constant_id = 5) const uint TENSILE = 0;  // the first substep of a block has the artificial pressure
 layout(constant_id = 6) const uint CONTACT = 0;  // collide.comp follows
 
 layout(push_constant) uniform Push { ChunkPush push; };
@@ -32,9 +32,10 @@ vec3 moved = vec3(0.0);       // m, once scaled
 vec3 pushed = vec3(0.0);      // m, once scaled
 
 float unit = params.inverseRestGradient / kMultiplierScale;  // m^2, of the multipliers
-float tensile = params.tensile * control.step * control.step / unit;
+float tensile = control.parting * kMultiplierScale;
 float tensileScale = params.valueScale * params.tensileInverse;
 float tensilePower = params.tensilePower;
+float tensileAtRest = params.tensileAtRest;
 
 vec2 multipliers(vec4 particle) { return unpackHalf2x16(floatBitsToUint(particle.w)); }
 
@@ -44,7 +45,7 @@ void visit(vec4 particle) {
   vec3 gradient = gradientShape(distance) * r;
   vec2 both = own + multipliers(particle);
   if (TENSILE != 0u) {
-    both.x -= tensile * pow(min(kernelShape(distance) * tensileScale, 1.0), tensilePower);
+    both.x -= tensile * max(pow(min(kernelShape(distance) * tensileScale, 1.0), tensilePower) - tensileAtRest, 0.0);
   }
   moved += both.x * gradient;
   if (WARM != 0u) pushed += both.y * gradient;

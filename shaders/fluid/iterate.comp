@@ -10,7 +10,6 @@
 #include "fluid/near.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 4) const uint NEAR = 0;
-layout(constant_id = 5) const uint TENSILE = 0;
 
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer PredictionBlock { vec4 prediction[]; };
@@ -21,20 +20,12 @@ float own;
 vec3 moved = vec3(0.0);
 
 float unit = params.inverseRestGradient / kMultiplierScale;  // m^2, of the multipliers
-float tensile = params.tensile * control.step * control.step / unit;
-float tensileScale = params.valueScale * params.tensileInverse;
-float tensilePower = params.tensilePower;
 
 float multiplier(vec4 particle) { return unpackHalf2x16(floatBitsToUint(particle.w)).x; }
 
 void visit(vec4 particle) {
   vec3 r = here - particle.xyz;
-  float distance = sqrt(dot(r, r));
-  float both = own + multiplier(particle);
-  if (TENSILE != 0u) {
-    both -= tensile * pow(min(kernelShape(distance) * tensileScale, 1.0), tensilePower);
-  }
-  moved += both * gradientShape(distance) * r;
+  moved += (own + multiplier(particle)) * gradientShape(sqrt(dot(r, r))) * r;
 }
 #include "fluid/neighbours.glsl"
 

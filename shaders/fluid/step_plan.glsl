@@ -1,4 +1,5 @@
-// How long the next substep is: as long as the CFL bound and the tolerance allow, fitted to what is left of the advance.
+// How long the next substep is: as long as the CFL bound and the tolerance allow, fitted to what is left of the advance. And what the first substep of a
+// block does for all of it.
 #ifndef RILL_STEP_PLAN_GLSL
 #define RILL_STEP_PLAN_GLSL
 // The step in which the fastest particle, going on accelerating, moves no farther than cfl allows: speed t + acceleration t^2 = reach.
@@ -27,5 +28,16 @@ float plannedStep(FluidControl c, float tolerable, float cflBound) {
 // The advance's rest in equal substeps of about `wanted` seconds: a piece may be a quarter longer, so that the end of an advance never asks for a sliver.
 float fittedStep(float rest, float wanted) {
   return rest / max(ceil(rest / wanted - 0.25), 1.0);
+}
+
+// Noise is damped, and pairs are parted by the artificial pressure, in the first substep of a block, by as much as the time since the last one asks for.
+void planBlock(inout FluidControl c, bool blockStart) {
+  c.calming = 0.0;
+  c.parting = 0.0;
+  c.blockTime += c.step;
+  if (!blockStart) return;
+  c.calming = min(params.calmingRate * c.calmness * c.blockTime, kMostCalming);
+  c.parting = min(params.tensileRate * c.blockTime, params.tensileMost / c.blockTime) * c.step;
+  c.blockTime = 0.0;
 }
 #endif

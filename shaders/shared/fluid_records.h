@@ -79,9 +79,11 @@ struct FluidParams {
   float viscosityRate;    // XSPH coefficient a second of step, 1/s
   float calmingRate;      // the same, of the noise's damping in a fluid at rest
   float vorticity;        // dimensionless
-  float tensile;          // s_corr's strength, m^2 / s^2: times the step squared
+  float tensileRate;      // artificial pressure, 1/s^2: times the square of the time since the last one it is a multiplier over 1 / D of the rest lattice
+  float tensileMost;      // and at most this
   float tensilePower;     // n
   float tensileInverse;   // 1 / K(delta q)
+  float tensileAtRest;    // share of neighbours at rest, which is taken off: see engine/sph/artificial_pressure.hpp
   float particleMass;     // kg
   uint gravityChanges;    // entries of the schedule
   float farLimit;         // m from the origin beyond which a particle is parked
@@ -125,13 +127,14 @@ struct FluidControl {
   float errorRate;     // mean compression over the step's square, 1/s^2; in calm fluid a mean over many steps
   float calmness;      // 1: at rest, 0: at roughSpeed or faster
   float calming;       // XSPH coefficient of the calm pass after this substep; 0: it does not run
-  float uncalmed;      // s since the last one
+  float parting;       // artificial pressure of this substep, over 1 / D of the rest lattice; 0 in all but the first of a block
+  float blockTime;     // s since the last substep that was the first of its block
   uint settling;       // substeps left, at most, in which particles that overlap at the start part without gaining speed
   float solidSpeed;    // m/s, the fastest solid of the advance
   uint pressing;       // iterations left, after settling, that find the start's pressure: nothing moves
   float momentum;      // of the one at hand; negative: the substep at hand is none of them
-  // Since the start, what prepares it too: for the host, which takes differences. Of the substeps, those with which a calm pass was recorded; of these, those that it ran in.
-  uint ranSubsteps, ranIterations, ranBuilds, ranCalmable, ranCalms;
+  // Since the start, what prepares it too: for the host, which takes differences. Of the substeps, the first ones of their blocks; of these, those that the calm pass ran in.
+  uint ranSubsteps, ranIterations, ranBuilds, ranBlocks, ranCalms;
 };
 
 // Sums of the passes of one substep; integers, so that their order does not matter.
@@ -178,7 +181,7 @@ struct ControlPush {
   uint iteration;      // 0 is the first
   uint parity;         // of the recorded substep
   uint commands;       // how many
-  uint calms;          // the calm pass is recorded with this substep
+  uint blockStart;     // the substep is recorded as the first of its block
 };
 
 // Sums over one workgroup of measure_sums.comp.

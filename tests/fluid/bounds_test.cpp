@@ -17,6 +17,7 @@ Trial dam() {
   t.step = 1.0 / 60;
   t.scene.solver.cfl = 0.25;
   t.scene.solver.tolerance = 0.001;
+  t.scene.fluid.tensile = FluidSettings{}.tensile;
   t.scene.solver.relaxation = {};
   t.scene.solver.warm_start = {};
   return t;
@@ -84,11 +85,52 @@ TEST_F(BoundsTest, PolySpikyGainsNoEnergy) {
   EXPECT_LT(mostEnergy(t, 40), 1.02);
 }
 
-TEST_F(BoundsTest, TensileThatReachesBeyondARestLatticeGainsNoEnergy) {
+TEST_F(BoundsTest, StrongTensileGainsNoEnergy) {
   Trial t = dam();
   t.scene.fluid.tensile = 1;
-  t.scene.fluid.tensile_radius = 0.9;
+  for (const double radius : {0.25, 0.46}) {  // half a spacing, and nearly one
+    t.scene.fluid.tensile_radius = radius;
+    EXPECT_LT(mostEnergy(t, 40), 1.02) << radius;
+  }
+  t.scene.solver.kernel = KernelChoice::Poly6Spiky;
+  t.scene.fluid.tensile_radius = 0.25;
   EXPECT_LT(mostEnergy(t, 40), 1.02);
+}
+
+TEST_F(BoundsTest, TensileThatReachesALatticeAtRestIsOffAndSaysSo) {
+  Scene scene = dam().scene;
+  EXPECT_GT(setupOf(scene).params.tensileRate, 0);
+  EXPECT_FALSE(warned(setupOf(scene), "fluid.tensile"));
+  for (const double radius : {0.48, 0.9, 1 - 1e-12}) {
+    scene.fluid.tensile_radius = radius;
+    EXPECT_EQ(setupOf(scene).params.tensileRate, 0) << radius;
+    EXPECT_TRUE(warned(setupOf(scene), "fluid.tensile does nothing")) << radius;
+  }
+}
+
+TEST_F(BoundsTest, TensileKeepsASplashFromClumping) {
+  // Share of particles whose nearest neighbour is nearer than half a spacing, mean over a splash.
+  const auto clumped = [&](double strength) {
+    Trial t = dam();
+    t.scene.fluid.tensile = strength;
+    auto run = start(t);
+    double clumps = 0, all = 0;
+    for (int frame = 0; frame < 60; ++frame) {
+      run->advance(1.0 / 60);
+      const std::vector<glm::dvec3> x = run->snapshot().x;
+      for (size_t i = 0; i < x.size(); ++i) {
+        double nearest = 1e9;
+        for (size_t j = 0; j < x.size(); ++j)
+          if (j != i) nearest = std::min(nearest, glm::length(x[i] - x[j]));
+        clumps += nearest < 0.5 * t.d();
+        ++all;
+      }
+    }
+    return clumps / all;
+  };
+  const double without = clumped(0), with = clumped(FluidSettings{}.tensile);
+  EXPECT_GT(without, 0.005) << "nothing to keep apart";
+  EXPECT_LT(with, 0.5 * without);
 }
 
 // Particles that overlap at the start leave an overlap that a short step must not turn into speed.

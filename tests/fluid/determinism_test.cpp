@@ -17,6 +17,7 @@ Trial dam() {
   t.step = 1.0 / 60;
   t.scene.solver.cfl = 0.25;
   t.scene.solver.tolerance = 0.005;
+  t.scene.fluid.tensile = FluidSettings{}.tensile;
   return t;
 }
 

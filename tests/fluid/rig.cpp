@@ -65,7 +65,7 @@ reference::ReferenceSettings settingsOf(const Trial& trial) {
   s.calmRelaxation = setup.params.calmRelaxation;
   s.calmWarmStart = setup.params.calmWarmGain;
   s.calmViscosity = setup.artificialViscosity;
-  s.calmEvery = trial.stepwise ? 1 : static_cast<int>(setup.substepsPerBlock);
+  s.substepsPerBlock = trial.stepwise ? 1 : static_cast<int>(setup.substepsPerBlock);
   s.pushLow = setup.params.pushLow;
   s.pushHigh = setup.params.pushHigh;
   return s;
@@ -102,6 +102,7 @@ Trial trial() {
   Trial t;
   t.scene.fluid.spacing = 1.0 / 16;
   t.scene.solver.tolerance = 0;
+  t.scene.fluid.tensile = 0;
   t.scene.solver.cfl = 10;
   t.scene.solver.max_substeps = 256;
   t.scene.solver.relaxation = 0.7;

@@ -213,6 +213,7 @@ TEST_F(SubstepTest, Tensile) {
   Trial t = trial();
   t.scene.fluid.tensile = 1;
   t.step = 4e-3;
+  t.stepwise = true;
   setWalls(t, {1, 1, 1});
   t.x = block({6, 7, 6}, t.d(), {}, 0.2);
   expectEqual(t, 1, kOne, kOne);
@@ -223,9 +224,20 @@ TEST_F(SubstepTest, ThreeIterations) {
   Trial t = trial();
   t.scene.solver.iterations = 3;
   t.scene.fluid.tensile = 0.5;
+  t.stepwise = true;
   t.x = block({6, 7, 6}, t.d(), {}, 0.15);
   expectEqual(t, 1, kOne, kOne);
   expectEqual(t, 10, kTen, kTen, kAgeing);
+}
+
+// As the calm pass: by as much as the time since the last block's first substep asks for.
+TEST_F(SubstepTest, TensileOnceABlock) {
+  Trial t = calmed();
+  t.scene.fluid.tensile = 1;
+  t.stepwise = false;
+  t.scene.fluid.tensile_radius = 0.3;
+  t.x = block({6, 7, 6}, t.d(), {}, 0.2);
+  expectEqual(t, 8, kTen, kTen, kAgeing);
 }
 
 TEST_F(SubstepTest, ThreeIterationsAtWalls) {

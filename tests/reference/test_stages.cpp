@@ -152,24 +152,50 @@ TEST(Tensile, PushesAClumpApartAlikeAtAnyStepAndScale) {
   const double share = push(0.05, 1e-3);
   EXPECT_NEAR(push(0.05, 4e-3), share, 1e-9);
   EXPECT_NEAR(push(0.0005, 1e-4), share, 1e-9);
-  EXPECT_GT(share, 0.005);
-  EXPECT_LT(share, 0.5);
+  EXPECT_NEAR(share, 14.35, 0.1) << "half of strength 1";
 }
 
-TEST(Tensile, GrowsNoFurtherNearerThanItsReference) {
+TEST(Tensile, MakesUpInTheFirstSubstepOfABlockForTheOthers) {
+  const double d = 0.05, r = 0.4 * d, dt = 2e-4;
+  const auto speed = [&](int block) {
+    ReferenceSettings s;
+    s.spacing = d;
+    s.tensile = 0.1;
+    s.gravity = glm::dvec3(0);
+    s.substepsPerBlock = block;
+    ReferenceSolver solver(s, std::vector<glm::dvec3>{{0, 0, 0}, {r, 0, 0}});
+    solver.begin(dt);
+    for (int step = 0; step < 7; ++step) solver.substep(dt, dt);  // 1 + 3 + 3: the first block has no time to make up for
+    return solver.state.velocity[1].x;
+  };
+  EXPECT_GT(speed(1), 0.02);
+  EXPECT_NEAR(speed(3), speed(1), 0.01 * speed(1));
+}
+
+TEST(Tensile, IsATwentiethOfASpacingInAStepAtMost) {
+  ReferenceSettings s;
+  s.spacing = 0.05;
+  s.tensile = 0.1;
+  s.gravity = glm::dvec3(0);
+  ReferenceSolver solver(s, std::vector<glm::dvec3>{{0, 0, 0}, {0.02, 0, 0}});
+  solver.begin(1);
+  solver.substep(1, 1);
+  EXPECT_NEAR(solver.state.position[1].x, 0.02 + 0.05 * s.spacing, 0.005 * s.spacing);
+}
+
+TEST(Tensile, GrowsNoFurtherNearerThanItsReferenceAndEndsWhereNeighboursRest) {
   ReferenceSettings s;
   s.tensile = 0.5;
-  s.tensileRadius = 0.9;
+  s.tensileRadius = 0.3;
   ReferenceSolver solver(s, std::vector<glm::dvec3>{{0, 0, 0}});
-  const auto at = [&](double q) { return solver.tensileTerm(solver.kernel().value(q * solver.kernel().h()), 1e-3); };
-  EXPECT_LT(at(0.9), 0);
-  EXPECT_EQ(at(0.5), at(0.9));
-  EXPECT_EQ(at(0), at(0.9));
-  EXPECT_NEAR(
-      at(0.95) / at(0.9),
-      std::pow(solver.kernel().value(0.95 * s.smoothingRatio * s.spacing) / solver.kernel().value(0.9 * s.smoothingRatio * s.spacing),
-               s.tensilePower),
-      1e-12);
+  const auto kernel = [&](double q) { return solver.kernel().value(q * solver.kernel().h()); };
+  const auto at = [&](double q) { return solver.tensileTerm(kernel(q), 1e-3); };
+  EXPECT_LT(at(0.3), 0);
+  EXPECT_EQ(at(0.1), at(0.3));
+  EXPECT_EQ(at(0), at(0.3));
+  const double rest = std::pow(kernel(0.475) / kernel(0.3), s.tensilePower);  // 0.95 spacings
+  EXPECT_NEAR(at(0.35) / at(0.3), (std::pow(kernel(0.35) / kernel(0.3), s.tensilePower) - rest) / (1 - rest), 1e-12);
+  EXPECT_EQ(at(0.5), 0);
 }
 
 /// The rate at which XSPH damps v_x = cos(pi y / L) in a lattice between planes, over nu k^2.

@@ -11,7 +11,7 @@ namespace {
 
 Scene smallDam() {
   Scene scene = tankScene(0.05, {0.3, 0.5, 0.3}, {0.8, 0.8, 0.3});
-  scene.fluid.vorticity = scene.fluid.tensile = 0;
+  scene.fluid.vorticity = 0;
   return scene;
 }
 

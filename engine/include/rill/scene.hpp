@@ -47,9 +47,9 @@ struct FluidSettings {
   double smoothing_ratio = 2.0;  ///< smoothing length (kernel support) over spacing, 1.2 .. 4
   double viscosity = 0;          ///< dynamic, Pa s, >= 0
   double vorticity = 0;          ///< vorticity confinement, 0 .. 1
-  double tensile = 0;            ///< artificial pressure s_corr: strength, 0 .. 1
-  double tensile_radius = 0.2;   ///< delta q over the smoothing length, 0 .. 1 exclusive
-  double tensile_power = 4;      ///< n, 1 .. 16
+  double tensile = 0.2;          ///< artificial pressure s_corr: strength, 0 .. 1
+  double tensile_radius = 0.25;  ///< delta q over the smoothing length, 0 .. 1 exclusive
+  double tensile_power = 16;     ///< n, 1 .. 16
 };
 
 struct SolverSettings {
