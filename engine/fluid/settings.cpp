@@ -432,8 +432,8 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
       p.tensileAtRest = f(pressure.atRest);
     } else {
       setup.whyNotTensile = "tensile_radius reaches neighbours at rest";
-      setup.warnings.push_back("fluid.tensile does nothing: it ends at 0.95 spacings, and tensile_radius is " +
-                               roughNumber(scene.fluid.tensile_radius * scene.fluid.smoothing_ratio) + " of them");
+      setup.warnings.push_back("fluid.tensile does nothing: it leaves pairs from 0.95 spacings on alone, and tensile_radius is " +
+                               roughNumber(scene.fluid.tensile_radius * scene.fluid.smoothing_ratio) + " spacings");
     }
   }
   p.fullNeighbours = static_cast<uint32_t>(0.8 * 4.0 / 3.0 * std::numbers::pi * std::pow(h / d, 3));

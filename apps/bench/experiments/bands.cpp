@@ -57,7 +57,7 @@ constexpr Band kBands[] = {
     {"free-fall", "way", kNone, {0.005, 0.004, 0.003}, "%", ""},  // steps of explicit first order: half a step's fall
     {"free-fall", "speed", kNone, {0.001, 0.001, 0.004}, "%", ""},
     {"free-drop", "momentum, drift", kNone, {1e-5, 1e-5, 1e-5}, "%", ""},
-    {"free-drop", "angular momentum, drift", kNone, {0.01, 0.006, 0.004}, "%", ""},
+    {"free-drop", "angular momentum, drift", kNone, {0.008, 0.004, 0.004}, "%", ""},
     {"free-drop", "energy, peak", kNone, {kShown, kShown, kShown}, "%", ""},
     {"torricelli", "speed over Torricelli's", kNone, {0.08, 0.06, 0.05}, "%", ""},
     {"torricelli", "contraction", kNone, {0.12, 0.11, 0.1}, "%", ""},
