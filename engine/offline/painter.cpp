@@ -10,7 +10,6 @@
 #include "gpu/resources.hpp"
 #include "render/fluid_renderer_impl.hpp"
 #include "render/view_push.hpp"
-#include "sort/dispatches.hpp"
 
 namespace rill::offline {
 namespace {
@@ -109,10 +108,9 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
   }
   auto scenery = Scenery::create(device, scene_, start_, {}, fluid_->impl().environment.get());
   if (!scenery) return scenery.error();
-  static constexpr BindingKind kBindings[] = {BindingKind::SampledImage, BindingKind::Storage};
-  auto tonemap = computePipeline(device, {.shader = "views/tonemap", .bindings = kBindings});
-  if (!tonemap) return tonemap.error();
-  tonemap_ = *tonemap;
+  auto finish = Finish::create(device);
+  if (!finish) return finish.error();
+  finish_ = *finish;
   scenery_ = std::move(*scenery);
   look_.to_sun = scenery_->toSun();
   return {};
@@ -149,14 +147,7 @@ BufferRef Painter::addTo(Graph& graph, const FluidState& fluid, std::string_view
   targets = scenery_->addTo(graph, fluid, targets, seen, look_, time_s, environment);
   targets = renderer.addTo(graph, fluid, targets, seen, look_, true, environment);
   if (fluid.count > 0) targets = scenery_->addEdgesOverFluid(graph, targets, seen, renderer.last.pixels);
-  BufferRef picture = graph.create("picture", {uint64_t{width} * height * 4});
-  graph.pass("picture tone", [&](Pass& pass) {
-    pass.read(targets.colour, Use::ComputeSampled);
-    picture = pass.write(picture, Use::ComputeWrite, true);
-    const Kernel kernel = pass.kernel(tonemap_, {targets.colour, picture});
-    return [kernel, groups = divideUp(uint64_t{width} * height, 64)](Commands& commands) { commands.dispatch(kernel, groups); };
-  });
-  return picture;
+  return finish_.addTo(graph, targets.colour, width, height);
 }
 
 void Painter::finish(Image& image, std::string_view name, double time_s) const {

@@ -6,6 +6,7 @@
 
 #include "rill/fluid_renderer.hpp"
 #include "rill/offline.hpp"
+#include "views/finish.hpp"
 #include "views/legend.hpp"
 #include "views/particle_view.hpp"
 #include "views/scenery.hpp"
@@ -53,7 +54,7 @@ class Painter {
   std::unique_ptr<ParticleView> particles_;
   std::unique_ptr<FluidRenderer> fluid_;
   std::unique_ptr<Scenery> scenery_;
-  const ComputePipeline* tonemap_ = nullptr;
+  Finish finish_;
   FluidLook look_;
 };
 

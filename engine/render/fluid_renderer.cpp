@@ -21,7 +21,7 @@ look::LookRecord lookRecord(const FluidLook& look, const SurfacePush& thickness,
   const Float3& s = look.to_sun;
   const float size = std::sqrt(s.x * s.x + s.y * s.y + s.z * s.z);
   record.light = size > 0 ? Float4{s.x / size, s.y / size, s.z / size, look.sun} : Float4{0, 1, 0, look.sun};
-  record.finish = {look.highlight, static_cast<float>(thickness.step), thickness.unit, 0};
+  record.finish = {look.highlight, static_cast<float>(thickness.step), thickness.unit, look.aeration};
   if (environment) {
     const Float3 above = environment->above(), below = environment->below();
     record.above = {above.x, above.y, above.z, static_cast<float>(environment->width())};
@@ -50,6 +50,9 @@ Expected<void> FluidRendererImpl::create(Device& host, const TargetFormats& targ
   auto stage = SurfaceStage::create(host);
   if (!stage) return stage.error();
   surface = *stage;
+  auto mean = MeanFaces::create(host);
+  if (!mean) return mean.error();
+  faces = *mean;
   using enum BindingKind;
   static constexpr BindingKind kScene[] = {SampledImage, SampledImage, Storage, Storage};
   static constexpr BindingKind kData[] = {Storage, Storage, Storage};
@@ -68,11 +71,11 @@ Expected<void> FluidRendererImpl::create(Device& host, const TargetFormats& targ
 
 Expected<void> FluidRendererImpl::makeShade() {
   using enum BindingKind;
-  static constexpr BindingKind kShade[] = {Uniform, Storage, Storage, Storage, Storage, Storage, Storage};
+  static constexpr BindingKind kShade[] = {Uniform, Storage, Storage, Storage, Storage, Storage, Storage, Storage};
   auto drawn =
       graphicsPipeline(*device, {.vertex = "render/fluid_shade_vertex",
                                  .fragment = environment ? "render/fluid_shade_environment_fragment" : "render/fluid_shade_fragment",
-                                 .bindings = std::span(kShade).first(environment ? 7 : 6),
+                                 .bindings = std::span(kShade).first(environment ? 8 : 7),
                                  .pushConstantBytes = sizeof(SurfacePush),
                                  .colours = {&formats.colour, 1},
                                  .depth = formats.depth,
@@ -141,8 +144,7 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
     return targets;
   }
   if (!within(graph, targets, view)) return targets;
-  // What is seen through the fluid is bent by the faces around a pixel, in tiles without fluid too.
-  last = surface.addTo(graph, fluid, camera(fluid, view), look.surface, whole || !look.opaque, view.focus_m);
+  last = surface.addTo(graph, fluid, camera(fluid, view), look.surface, whole, view.focus_m);
   const SurfacePush push = last.push;
   const uint64_t pixels = uint64_t{push.width} * push.height;
   BufferRef sceneColour = graph.create("fluid scene colour", {pixels * 8}), sceneDepth = graph.create("fluid scene depth", {pixels * 4});
@@ -158,18 +160,20 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
     };
   });
   const SurfacePush thick = SurfaceStage::thicknessPush(push, fluid, kThicknessStep);
-  BufferRef thickness;
+  BufferRef thickness, bending;
   if (look.opaque) {
     graph.skipped(kFluidThickness.pass, "the look is opaque");
-    thickness = last.tiles;  // bound, never read
+    graph.skipped("surface faces", "the look is opaque");
+    thickness = bending = last.tiles;  // bound, never read
   } else {
+    bending = faces.addTo(graph, last);
     thickness = surface.addThickness(graph, kFluidThickness, fluid, thick, sceneDepth, &last.counters);
   }
   const BufferRef record = addLook(graph, lookRecord(look, thick, environment.get()));
   graph.pass("fluid shade", [&](Pass& pass) {
     pass.read(record, Use::DrawUniform);
-    const ResourceRef bound[] = {record, last.tiles, last.pixels, thickness, sceneColour, sceneDepth, texels};
-    const size_t count = environment ? 7 : 6;
+    const ResourceRef bound[] = {record, last.tiles, last.pixels, thickness, sceneColour, sceneDepth, bending, texels};
+    const size_t count = environment ? 8 : 7;
     for (size_t k = 1; k < count; ++k) pass.read(BufferRef{bound[k]}, Use::DrawRead);
     pass.read(last.arguments, Use::Indirect);
     targets.colour = pass.write(targets.colour, Use::ColourTarget);

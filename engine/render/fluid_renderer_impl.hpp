@@ -2,6 +2,7 @@
 // What is behind rill::FluidRenderer.
 #include "render/environment.hpp"
 #include "render/look_records.h"
+#include "render/mean_faces.hpp"
 #include "render/surface.hpp"
 #include "rill/fluid_renderer.hpp"
 
@@ -33,6 +34,7 @@ class FluidRendererImpl {
   TargetFormats formats;
   std::unique_ptr<Environment> environment;  ///< none: the sky of Rill's own
   SurfaceStage surface;
+  MeanFaces faces;
   SurfaceBuffers last;  ///< of the frame that is being declared
   const ComputePipeline *scene = nullptr, *data[3] = {};
   const GraphicsPipeline* shade = nullptr;

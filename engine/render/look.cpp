@@ -29,11 +29,13 @@ std::optional<FluidLook> fluidLook(std::string_view preset) {
     look.absorption = {55, 60, 75};
     look.scatter = {0.84f, 0.82f, 0.76f};
     look.refraction_index = 1.35f;
+    look.aeration = 0;
     return look;
   }
   if (preset == kNames[2]) {
     look.absorption = {60, 42, 16};
     look.scatter = {0.004f, 0.008f, 0.03f};
+    look.aeration = 0;
     return look;
   }
   if (preset == kNames[3]) {

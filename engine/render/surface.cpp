@@ -15,7 +15,6 @@ namespace {
 
 using namespace surface;
 
-constexpr uint32_t kInfinity = 0x7F800000u;    // bits of the float
 constexpr float kHardRadius = 0.9f;            // spacings: spheres that leave no gap between surface particles
 constexpr float kThicknessRadius = 1.2f;       // spacings: a disc that overlaps enough to be smooth
 constexpr float kThicknessUnit = 1.0f / 1024;  // spacings
@@ -122,7 +121,7 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
   assert(fluid.count > 0);
   const bool filtered = settings.filter || method == SurfaceMethod::CurvatureFlow || method == SurfaceMethod::NarrowRange;
   Frame frame = frameOf(fluid, camera, method, focus, settings);
-  const uint64_t mostTexels = std::max({2 * uint64_t{fluid.count}, paddedWords(frame.cells + 1), frame.samples});
+  const uint64_t mostTexels = std::max({2 * uint64_t{fluid.count}, paddedWords(frame.cells + 1), frame.out.sampleCount});
   frame.storageReads = settings.storage_reads;
   frame.texels = !frame.storageReads && readsTexels(*device_, mostTexels);
   frame.filters = filtered && !settings.filter;
@@ -153,7 +152,7 @@ SurfaceStage::Frame SurfaceStage::frameOf(const FluidState& fluid, SurfacePush p
                                       : method == SurfaceMethod::NarrowRange ? settings.narrow_sigma
                                                                              : settings.fit_reach);
   const uint64_t columns = divideUp(push.width, push.step) + 2 * push.margin, rows = divideUp(push.height, push.step) + 2 * push.margin;
-  frame.samples = columns * rows;
+  frame.out.sampleCount = columns * rows;
   frame.occluderCells = gridCells(columns, rows, kOccluderSamples);
   frame.cells = gridCells(columns, rows, kCellSamples);
   frame.sampleBlocks = gridCells(columns, rows, kSampleBlock);
@@ -165,7 +164,7 @@ SurfaceStage::Frame SurfaceStage::frameOf(const FluidState& fluid, SurfacePush p
 void SurfaceStage::addBuffers(Graph& graph, const FluidState& fluid, Frame& frame, bool whole) {
   SurfaceBuffers& out = frame.out;
   frame.occluders = graph.create("surface occluders", {frame.occluderCells * 4});
-  frame.depth = graph.create("surface hard depth", {frame.samples * 4});
+  frame.depth = graph.create("surface hard depth", {out.sampleCount * 4});
   frame.start = graph.create("surface cells", {paddedWords(frame.cells + 1) * 4});
   out.counters = graph.create("surface counters", {kSurfaceCounterWords * 4});
   out.arguments = graph.create("surface arguments", {kSurfaceArgumentWords * 4});
@@ -173,21 +172,21 @@ void SurfaceStage::addBuffers(Graph& graph, const FluidState& fluid, Frame& fram
   frame.centre = graph.create("surface centres", {uint64_t{fluid.count} * 16});
   out.tiles = graph.create("surface tiles", {gridCells(out.push.width, out.push.height, kSurfaceTile) * 4});
   out.pixels = graph.create("surface pixels", {uint64_t{out.push.width} * out.push.height * 8});
-  frame.blocks = graph.create("surface blocks", {frame.sampleBlocks * 4});
-  frame.smooth = graph.create("surface samples", {frame.samples * 8});
+  out.blocks = graph.create("surface blocks", {frame.sampleBlocks * 4});
+  out.samples = graph.create("surface samples", {out.sampleCount * 8});
   if (frame.filters)
-    for (BufferRef& buffer : frame.filtered) buffer = graph.create("surface filtered", {frame.samples * 4});
+    for (BufferRef& buffer : frame.filtered) buffer = graph.create("surface filtered", {out.sampleCount * 4});
   graph.pass("surface clear", [&](Pass& pass) {
     std::array<BufferRef, 6> infinite;
     size_t count = 0;
     const auto clear = [&](BufferRef& buffer) { infinite[count++] = buffer = pass.write(buffer, Use::CopyTarget, true); };
-    for (BufferRef* buffer : {&frame.occluders, &frame.depth, &frame.smooth}) clear(*buffer);
+    for (BufferRef* buffer : {&frame.occluders, &frame.depth, &out.samples}) clear(*buffer);
     if (frame.filters)
       for (BufferRef& buffer : frame.filtered) clear(buffer);
     if (whole) clear(out.pixels);
     for (BufferRef* buffer : {&frame.start, &out.counters}) *buffer = pass.write(*buffer, Use::CopyTarget, true);
     return [infinite, count, start = frame.start, counters = out.counters](Commands& commands) {
-      for (size_t k = 0; k < count; ++k) commands.fill(infinite[k], kInfinity);
+      for (size_t k = 0; k < count; ++k) commands.fill(infinite[k], kInfiniteBits);
       commands.fill(start, 0);
       commands.fill(counters, 0);
     };
@@ -209,7 +208,7 @@ void SurfaceStage::addVisible(Graph& graph, const FluidState& fluid, Frame& fram
   addArguments(graph, out);
   addStep(graph, "surface splat", splat_, {reads(fluid.position), writes(out.counters), reads(frame.survivors), writes(frame.depth)},
           StepGroups(out.arguments, kSurvivorArguments), out.push);
-  addStep(graph, "surface tiles", tiles_, {reads(frame.depth), writes(out.counters), fresh(out.tiles), fresh(frame.blocks)},
+  addStep(graph, "surface tiles", tiles_, {reads(frame.depth), writes(out.counters), fresh(out.tiles), fresh(out.blocks)},
           divideUp(std::max(tiles, frame.sampleBlocks), kSurfaceGroup), out.push);
 }
 
@@ -243,8 +242,8 @@ void SurfaceStage::addPlanes(Graph& graph, Frame& frame) const {
           {frame.walks(frame.start), frame.walks(frame.centre), fresh(frame.plane), writes(out.counters)},
           StepGroups(out.arguments, kSurfaceArguments), out.push);
   addStep(graph, "surface blend", blend_[frame.texels],
-          {frame.walks(frame.start), frame.walks(frame.centre), frame.walks(frame.plane), reads(frame.depth), writes(frame.smooth),
-           writes(out.counters), reads(frame.blocks)},
+          {frame.walks(frame.start), frame.walks(frame.centre), frame.walks(frame.plane), reads(frame.depth), writes(out.samples),
+           writes(out.counters), reads(out.blocks)},
           StepGroups(out.arguments, kSampleBlockArguments), out.push);
 }
 
@@ -259,7 +258,7 @@ void SurfaceStage::addFiltered(Graph& graph, Frame& frame, SurfaceMethod method,
   } else if (method == SurfaceMethod::CurvatureFlow) {
     for (uint32_t k = 0; k < frame.flowSteps; ++k) {
       BufferRef& to = frame.filtered[steps++ % 2];
-      addStep(graph, "surface flow", flow_[frame.texels], {frame.walks(from), writes(to), reads(out.counters), reads(frame.blocks)}, blocks,
+      addStep(graph, "surface flow", flow_[frame.texels], {frame.walks(from), writes(to), reads(out.counters), reads(out.blocks)}, blocks,
               out.push);
       from = to;
     }
@@ -267,14 +266,14 @@ void SurfaceStage::addFiltered(Graph& graph, Frame& frame, SurfaceMethod method,
     for (uint32_t k = 0; k < kNarrowPasses; ++k)
       for (const ComputePipeline* pipeline : narrow_[frame.texels]) {
         BufferRef& to = frame.filtered[steps++ % 2];
-        addStep(graph, "surface narrow range", pipeline, {frame.walks(from), writes(to), writes(out.counters), reads(frame.blocks)}, blocks,
+        addStep(graph, "surface narrow range", pipeline, {frame.walks(from), writes(to), writes(out.counters), reads(out.blocks)}, blocks,
                 out.push);
         from = to;
       }
   }
   addStep(graph, "surface normals", normals_[frame.texels],
-          {frame.walks(frame.start), frame.walks(frame.centre), frame.walks(from), reads(frame.depth), writes(frame.smooth),
-           writes(out.counters), reads(frame.blocks)},
+          {frame.walks(frame.start), frame.walks(frame.centre), frame.walks(from), reads(frame.depth), writes(out.samples),
+           writes(out.counters), reads(out.blocks)},
           blocks, out.push);
   frame.plane = frame.centre;  // bound, never read
 }
@@ -284,12 +283,12 @@ void SurfaceStage::addCompose(Graph& graph, Frame& frame, const ComputePipeline*
   SurfaceBuffers& out = frame.out;
   BufferRef listed = graph.create("surface edge pixels", {uint64_t{out.push.width} * out.push.height * 4});
   addStep(graph, "surface compose", compose_,
-          {reads(frame.depth), reads(frame.smooth), writes(out.counters), reads(out.tiles), whole ? writes(out.pixels) : fresh(out.pixels),
+          {reads(frame.depth), reads(out.samples), writes(out.counters), reads(out.tiles), whole ? writes(out.pixels) : fresh(out.pixels),
            fresh(listed)},
           StepGroups(out.arguments, kSurfaceTileArguments), out.push);
   addArguments(graph, out);
   addStep(graph, "surface edges", edges,
-          {frame.walks(frame.start), frame.walks(frame.centre), frame.walks(frame.plane), reads(frame.depth), reads(frame.smooth),
+          {frame.walks(frame.start), frame.walks(frame.centre), frame.walks(frame.plane), reads(frame.depth), reads(out.samples),
            writes(out.counters), reads(listed), writes(out.pixels)},
           StepGroups(out.arguments, kEdgeArguments), out.push);
 }

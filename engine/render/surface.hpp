@@ -18,8 +18,11 @@ namespace rill {
 struct SurfaceBuffers {
   BufferRef pixels;     ///< two words a pixel, as unpackPixel() reads them
   BufferRef tiles;      ///< numbers of the tiles that hold fluid, in any order
+  BufferRef samples;    ///< two words a sample, depth and normal: packNormal(); infinite where there is no fluid
+  BufferRef blocks;     ///< numbers of the blocks of samples that hold fluid, in any order
   BufferRef counters;   ///< kSurvivorCount ...
   BufferRef arguments;  ///< kSurfaceTileArguments, kTileDraw, kPixelArguments
+  uint64_t sampleCount = 0;
   surface::SurfacePush push;
 };
 
@@ -68,14 +71,12 @@ class SurfaceStage {
   /// A surface in the making: how much there is of everything, and the buffers that more than one part of it works on.
   struct Frame {
     SurfaceBuffers out;
-    uint64_t samples = 0, sampleBlocks = 0, occluderCells = 0, cells = 0;  ///< of the picture with its margin
+    uint64_t sampleBlocks = 0, occluderCells = 0, cells = 0;  ///< of the picture with its margin
     uint32_t flowSteps = 0;
     BufferRef occluders, depth;         ///< the depth of the spheres
     BufferRef survivors;                ///< particles that nothing hides
     BufferRef start, centre;            ///< screen grid of those that are surface
     BufferRef plane;                    ///< of the method that has planes
-    BufferRef blocks;                   ///< of samples, those that hold fluid
-    BufferRef smooth;                   ///< samples of the surface: depth, normal
     bool filters = false;               ///< by a method of its own
     std::array<BufferRef, 2> filtered;  ///< which that method goes back and forth between
     bool texels = false;                ///< start, centre, plane and what a filter reads are texel buffers

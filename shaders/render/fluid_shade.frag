@@ -10,14 +10,19 @@ layout(std430, set = 0, binding = 2) readonly buffer Surface { uvec2 surface[]; 
 layout(std430, set = 0, binding = 3) readonly buffer Thickness { uint thickness[]; };
 layout(std430, set = 0, binding = 4) readonly buffer SceneColour { uvec2 scene_colour[]; };
 layout(std430, set = 0, binding = 5) readonly buffer SceneDepth { float scene_depth[]; };
+layout(std430, set = 0, binding = 6) readonly buffer Faces { uvec2 faces[]; };  // a sample: depth, mean normal
 layout(location = 0) out vec4 colour;
+#include "render/surface_mean.glsl"
 
 const float kFarthest = 1e4;    // spacings that a ray is followed
 const int kFollow = 3;          // looks at the scene's depth for where it ends
-const float kFaces = 2.0;       // spacings around a pixel whose faces bend its light together
-const float kMostFaces = 48.0;  // the same in pixels, at most
 const float kSameWater = 4.0;   // spacings of depth between faces of one piece of water
-const uint kFaceLooks = 12u;    // along a spiral
+const float kEdgeOn = -0.02;    // cosine to the line of sight beyond which a face would not be seen
+// Lengths of the mean of the faces around: a lone ball has 0.1, a straight silhouette a half, an even surface 1.
+const vec2 kDrop = vec2(0.2, 0.7);  // from a drop to a surface
+const vec2 kTorn = vec2(0.1, 0.5);  // from white to clear
+const vec2 kPast = vec2(0.5, 0.9);  // cosines between the line of sight and what is mirrored, from before the face to past it
+const vec3 kSunlight = vec3(1.0, 0.95, 0.88);
 
 vec3 sceneAt(ivec2 pixel) {
   const uvec2 packed = scene_colour[uint(pixel.y) * view.width + uint(pixel.x)];
@@ -49,20 +54,24 @@ float thicknessAt(vec2 pixel) {
 }
 
 // Torn water shows many faces, and light goes through several of them: it is bent by their mean, where one alone would make a lens of each
-// drop. What is smooth has the same normal all around.
+// drop. What is smooth has the same normal all around, and a mean as long.
 vec3 meanNormal(vec2 middle, float z, vec3 normal) {
-  const float reach = min(kFaces * view.spacing / metresAPixel(z), kMostFaces);
-  vec3 sum = normal;
-  RILL_LOOP for (uint k = 0u; k < kFaceLooks; ++k) {
-    const float angle = 2.3999632 * float(k), far = reach * sqrt((float(k) + 0.5) / float(kFaceLooks));
-    const ivec2 at = clamp(ivec2(middle + far * vec2(cos(angle), sin(angle))), ivec2(0), ivec2(view.width, view.height) - 1);
-    const uvec2 other = surface[uint(at.y) * view.width + uint(at.x)];
-    if (abs(pixelDepth(other) - z) >= kSameWater * view.spacing) continue;
-    const vec3 face = unpackNormal(other.y);
-    sum += clamp(2.0 * dot(face, normal), 0.0, 1.0) * face;
+  const ivec2 grid = ivec2(sampleGrid());
+  const vec2 at = sampleOf(middle);
+  const ivec2 base = ivec2(floor(at));
+  const vec2 part = at - vec2(base);
+  vec3 sum = vec3(0.0);
+  float weights = 0.0;
+  for (int k = 0; k < 4; ++k) {
+    const ivec2 corner = ivec2(k & 1, k >> 1), s = clamp(base + corner, ivec2(0), grid - 1);
+    const uvec2 stored = faces[uint(s.y * grid.x + s.x)];
+    const vec2 share = mix(1.0 - part, part, vec2(corner));
+    const float behind = (uintBitsToFloat(stored.x) - z) / (kSameWater * view.spacing);
+    const float w = share.x * share.y * max(1.0 - behind * behind, 0.0);
+    if (w > 0.0) sum += w * unpackMean(stored.y);
+    weights += w;
   }
-  const float length_ = length(sum);
-  return length_ > 1.0e-3 ? sum / length_ : normal;
+  return weights > 1e-3 ? sum / weights : 0.1 * normal;
 }
 
 // Of unpolarised light that meets the surface at this cosine (Fresnel).
@@ -74,63 +83,78 @@ float fresnel(float cosine, float index) {
   return 0.5 * (s * s + p * p);
 }
 
+// What a pixel of a fluid that light goes through sends to the eye, before its own reflection.
+struct Seen {
+  vec3 body;
+  vec3 beside;  // share of the scene's light that comes through where this surface does not cover the pixel
+};
+
+Seen seenThrough(ivec2 pixel, vec3 point, vec3 sight, vec3 normal, vec3 scattered) {
+  const uint index = uint(pixel.y) * view.width + uint(pixel.x);
+  const vec2 middle = vec2(pixel) + 0.5;
+  const float z = point.z;
+  const vec3 mean = meanNormal(middle, z, normal);
+  const float alike = length(mean);
+  vec3 face = alike > 1e-3 ? mean / alike : normal;
+  const float seen = dot(face, sight);
+  if (seen > kEdgeOn) face = normalize(face - (seen - kEdgeOn) * sight);
+  // A drop bends light within itself alone, not in all the fluid behind it.
+  const vec3 bent = normalize(mix(sight, refract(sight, face, 1.0 / look.absorption.w), smoothstep(kDrop.x, kDrop.y, alike)));
+  float inside = thicknessAt(middle);
+  const vec3 beside = exp(-look.absorption.rgb * inside);
+  // Torn fluid is full of air and sends back white light from all sides.
+  const float white = look.finish.w * (1.0 - smoothstep(kTorn.x, kTorn.y, alike)) * (1.0 - exp(-inside / view.spacing));
+  // Bent inside the fluid, parallel to what it was after it: followed to where the scene's depth says that it ends.
+  const float farthest = kFarthest * view.spacing;
+  float walked = (min(scene_depth[index], farthest) - z) / sight.z;
+  vec2 there = middle;
+  float beyond = scene_depth[index];
+  for (int turn = 0; turn < kFollow; ++turn) {
+    const vec3 at = point + bent * min(walked, inside) + sight * max(walked - inside, 0.0);
+    if (at.z > view.near_depth) {
+      there = clamp(pixelOf(at), vec2(0.0), pictureSize() - 1.0);
+      beyond = scene_depth[uint(there.y) * view.width + uint(there.x)];
+      walked = max(walked + (min(beyond, farthest) - at.z) / max(walked < inside ? bent.z : sight.z, 0.1), 0.0);
+      inside = max(inside, thicknessAt(there));
+    }
+  }
+  // What stands in front of the fluid is not seen through it.
+  if (beyond < z) {
+    there = middle;
+    walked = (min(scene_depth[index], farthest) - z) / sight.z;
+  }
+  const vec3 through = exp(-look.absorption.rgb * min(inside, walked));
+  const vec3 body = sceneBetween(there, z) * through + look.scatter.rgb * scattered * (1.0 - through);
+  return Seen(mix(body, skyLight(vec3(0.0, 1.0, 0.0)) + 0.5 * kSunlight, white), beside);
+}
+
 void main() {
   const ivec2 pixel = ivec2(gl_FragCoord.xy) - ivec2(view.left, view.top);
   const uint index = uint(pixel.y) * view.width + uint(pixel.x);
   const uvec2 own = surface[index];
   const float z = pixelDepth(own);
   if (!(z < scene_depth[index]) || isinf(z)) discard;
-  const vec2 middle = vec2(pixel) + 0.5, axis = axisOf(middle);
-  const vec3 along = rayAlong(axis);
-  const vec3 point = rayFrom(axis) + z * along;
-  const vec3 sight = normalize(along);
+  const vec2 axis = axisOf(vec2(pixel) + 0.5);
+  const vec3 along = rayAlong(axis), sight = normalize(along);
   vec3 normal = unpackNormal(own.y);
   // A normal that looks away at a silhouette is turned until it is seen edge on.
   const float facing = dot(normal, sight);
-  if (facing > -0.02) normal = normalize(normal - (facing + 0.02) * sight);
+  if (facing > kEdgeOn) normal = normalize(normal - (facing - kEdgeOn) * sight);
   const float cosine = clamp(-dot(normal, sight), 0.0, 1.0);
-  const vec3 world_normal = worldDirection(normal), world_sight = worldDirection(sight);
-  const vec3 sun = look.light.xyz;
+  const vec3 world_normal = worldDirection(normal), sun = look.light.xyz;
   const float lit = max(dot(world_normal, sun), 0.0);
   const vec3 ambient = skyLight(world_normal);
   const float reflected = fresnel(cosine, look.absorption.w);
-  const vec3 mirrored = reflect(world_sight, world_normal);
-  const vec3 sky = skyColour(mirrored, sun);
+  const vec3 world_sight = worldDirection(sight), mirrored = reflect(world_sight, world_normal);
   const float highlight = pow(max(dot(mirrored, sun), 0.0), look.finish.x) * look.light.w;
-
-  vec3 body;
-  if (look.scatter.w > 0.0) {
-    body = look.scatter.rgb * (ambient + vec3(1.0, 0.95, 0.88) * lit);
-  } else {
-    vec3 faces = meanNormal(middle, z, normal);
-    const float seen = dot(faces, sight);
-    if (seen > -0.02) faces = normalize(faces - (seen + 0.02) * sight);
-    const vec3 bent = refract(sight, faces, 1.0 / look.absorption.w);
-    float inside = thicknessAt(middle);
-    // Bent inside the fluid, parallel to what it was after it: followed to where the scene's depth says that it ends.
-    const float farthest = kFarthest * view.spacing;
-    float walked = (min(scene_depth[index], farthest) - z) / sight.z;
-    vec2 there = middle;
-    float beyond = scene_depth[index];
-    for (int turn = 0; turn < kFollow; ++turn) {
-      const vec3 at = point + bent * min(walked, inside) + sight * max(walked - inside, 0.0);
-      if (at.z > view.near_depth) {
-        there = clamp(pixelOf(at), vec2(0.0), pictureSize() - 1.0);
-        beyond = scene_depth[uint(there.y) * view.width + uint(there.x)];
-        walked = max(walked + (min(beyond, farthest) - at.z) / max(walked < inside ? bent.z : sight.z, 0.1), 0.0);
-        inside = max(inside, thicknessAt(there));
-      }
-    }
-    // What stands in front of the fluid is not seen through it.
-    if (beyond < z) {
-      there = middle;
-      walked = (min(scene_depth[index], farthest) - z) / sight.z;
-    }
-    const float metres = min(inside, walked);
-    const vec3 through = exp(-look.absorption.rgb * metres);
-    body = sceneBetween(there, z) * through + look.scatter.rgb * (ambient + vec3(0.5) * (0.3 + 0.7 * lit)) * (1.0 - through);
-  }
-  const vec3 fluid = mix(body, sky, reflected) + vec3(1.0, 0.95, 0.86) * (reflected * highlight);
-  colour = vec4(mix(sceneAt(pixel), fluid, pixelCoverage(own)), 1.0);
+  const Seen seen = look.scatter.w > 0.0
+                        ? Seen(look.scatter.rgb * (ambient + kSunlight * lit), vec3(1.0))
+                        : seenThrough(pixel, rayFrom(axis) + z * along, sight, normal, ambient + vec3(0.5) * (0.3 + 0.7 * lit));
+  // A face seen nearly edge on that mirrors no sky mirrors what stands behind it.
+  const vec3 behind = sceneAt(pixel) * seen.beside;
+  const float past = smoothstep(kPast.x, kPast.y, dot(mirrored, world_sight)) * (1.0 - smoothstep(0.0, 0.1, mirrored.y));
+  const vec3 mirror = mix(skyColour(mirrored, sun), behind, past);
+  const vec3 fluid = mix(seen.body, mirror, reflected) + vec3(1.0, 0.95, 0.86) * (reflected * highlight);
+  colour = vec4(mix(behind, fluid, pixelCoverage(own)), 1.0);
   gl_FragDepth = targetDepth(z);
 }

@@ -28,7 +28,7 @@ vec3 skyLight(vec3 normal) { return mix(look.below.rgb, look.above.rgb, 0.5 + 0.
 // A gradient, a bright band near the horizon, a wide soft light around the sun.
 const vec3 kZenith = vec3(0.16, 0.30, 0.58);
 const vec3 kHorizon = vec3(0.62, 0.74, 0.88);
-const vec3 kGround = vec3(0.20, 0.20, 0.21);
+const vec3 kGround = vec3(0.09, 0.13, 0.16);
 
 vec3 skyColour(vec3 direction, vec3 sun) {
   const float up = direction.y;

@@ -15,7 +15,6 @@ layout(push_constant) uniform Push {
 
 #define groupIndex() (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x)  // of kernels alone
 
-const uint kInfiniteBits = 0x7F800000u;
 float infinity() { return uintBitsToFloat(kInfiniteBits); }
 
 // By bits: a compiler may assume that there are no NaNs.

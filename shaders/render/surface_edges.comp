@@ -36,7 +36,7 @@ Look lookAt(vec2 middle, ivec2 own, float nearest, float farthest) {
     if (look.coverage < 0.5) hard = farthest;
     look.coverage = max(look.coverage, behind) >= 0.5 ? 1.0 : behind;
   }
-  if (look.coverage < 1.0 && solidAround(own)) look.coverage = 1.0;
+  if (look.coverage < 1.0) look.coverage = max(look.coverage, solidCoverage(middle));
   if (look.coverage <= 0.0) return look;
   const Corners c = cornersOf(middle);
   float best = 1e30;
@@ -61,10 +61,12 @@ Look lookAt(vec2 middle, ivec2 own, float nearest, float farthest) {
     if (coverage < 0.5) blend = behind;
     coverage = max(coverage, behind.coverage) >= 0.5 ? 1.0 : behind.coverage;
   }
-  if (coverage < 0.5 && solidAround(own)) {
-    blend = blendAt(axis, uintBitsToFloat(depth[uint(own.y) * sampleGrid().x + uint(own.x)]));
-    coverage = 1.0;
+  const float solid = coverage < 1.0 ? solidCoverage(middle) : 0.0;
+  if (coverage < 0.5 && solid > 0.0) {
+    const float hard = uintBitsToFloat(depth[uint(own.y) * sampleGrid().x + uint(own.x)]);
+    blend = blendAt(axis, hard < infinity() ? hard : nearest);
   }
+  coverage = max(coverage, solid);
   return Look(blend.depth, coverage, blend.normal);
 }
 #endif

@@ -23,6 +23,7 @@ RILL_CONSTANT kMarginSamples = 8;      // beyond each side of the picture: as fa
 RILL_CONSTANT kMostRows = 48;          // rows of the screen grid that one walk visits at most
 RILL_CONSTANT kMostInRow = 64;         // particles of one row that a walk visits at most
 RILL_CONSTANT kMostInCell = 1024;      // particles of a cell that are put in order
+RILL_CONSTANT kInfiniteBits = 0x7F800000u;  // bits of the float: there is no fluid
 RILL_CONSTANT kNotSurface = 0xFFFFFFFFu;
 RILL_NUMBER kFlowStable = 0.45f;  // of a sample's square: a step of the flow at most; explicit ones in two dimensions are stable up to 0.5
 

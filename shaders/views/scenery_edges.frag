@@ -16,5 +16,5 @@ void main() {
 #endif
   const float cover = clamp(half_width + 0.5 - abs(across), 0.0, 1.0) * 0.55;
   if (cover <= 0.0) discard;
-  colour = vec4(vec3(0.10, 0.12, 0.14) * cover, cover);
+  colour = vec4(vec3(0.42, 0.50, 0.58) * cover, cover);
 }

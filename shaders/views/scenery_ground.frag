@@ -23,7 +23,7 @@ vec3 backdrop(vec3 sight) { return skyColour(sight, scene.light_to.xyz); }
 vec3 haze(vec3 sight) { return backdrop(sight); }  // the picture has a ground of its own
 #else
 // Darker than the sky that is reflected, so that reflections are seen against it.
-vec3 backdrop(vec3 sight) { return mix(vec3(0.27, 0.32, 0.39), vec3(0.05, 0.08, 0.14), sqrt(clamp(sight.y, 0.0, 1.0))); }
+vec3 backdrop(vec3 sight) { return mix(vec3(0.085, 0.115, 0.155), vec3(0.015, 0.024, 0.045), sqrt(clamp(sight.y, 0.0, 1.0))); }
 vec3 haze(vec3 sight) { return backdrop(normalize(vec3(sight.x, 0.02, sight.z))); }
 #endif
 
@@ -49,12 +49,12 @@ void main() {
   const vec2 beyond = max(max(-inner, inner - extent), vec2(0.0));
   const float step = scene.domain_max.w;
   const bool inside = all(equal(beyond, vec2(0.0)));
-  vec3 albedo = vec3(0.22, 0.225, 0.23);
+  vec3 albedo = vec3(0.17, 0.19, 0.215);
   if (inside) albedo = mix(vec3(0.34, 0.37, 0.40), vec3(0.70, 0.70, 0.68), checker(inner / step, width / step));
   const float bias = 2.0 * scene.light_texel.x;
   const vec3 sunlight = kSun * max(sun.y, 0.0) * pastSolids(p, bias) * throughFluid(p);
   const vec3 lit = albedo * (0.55 * skyLight(vec3(0.0, 1.0, 0.0)) + 0.75 * sunlight);
-  const float far = length(beyond) / (2.5 * max(max(extent.x, extent.y), 1e-6));
+  const float far = length(beyond) / (1.4 * max(max(extent.x, extent.y), 1e-6));
   colour = vec4(mix(lit, haze(sight), 1.0 - exp(-far * far)), 1.0);
   gl_FragDepth = clamp(targetDepth(z), 0.0, 1.0);
 }

@@ -26,7 +26,7 @@ double smooth(double from, double to, double x) {
 
 /// The sky of shaders/render/sky.glsl; `up` is y.
 double sky(int channel, Vector direction, Vector sun) {
-  constexpr double zenith[] = {0.16, 0.30, 0.58}, horizon[] = {0.62, 0.74, 0.88}, ground[] = {0.20, 0.20, 0.21};
+  constexpr double zenith[] = {0.16, 0.30, 0.58}, horizon[] = {0.62, 0.74, 0.88}, ground[] = {0.09, 0.13, 0.16};
   constexpr double lampColour[] = {1, 0.97, 0.92}, glow[] = {1, 0.93, 0.82};
   const double up = std::clamp(direction.y, 0.0, 1.0), high = std::pow(up, 0.55), over = smooth(-0.08, 0.04, direction.y);
   const double above = horizon[channel] + (zenith[channel] - horizon[channel]) * high;
@@ -203,6 +203,24 @@ TEST_F(FlatPool, ShiftsWhatIsBehindAsSnellSays) {
 }
 
 // A solid before the pool, in the middle of the picture: where it is not, all is as without it, though the bent rays end behind it.
+// White light from torn fluid: drops have it, a pool's middle has none of it.
+TEST_F(FlatPool, TornFluidIsWhiteAndEvenFluidIsNot) {
+  FluidLook none = clear(), white = clear();
+  none.aeration = 0;
+  white.aeration = 0.5f;
+  pool(0.6);
+  const auto middle = [](const std::vector<Colour>& picture) { return picture[kDown / 2 * kAcross + kAcross / 2]; };
+  const FluidView above = parallel(0.3);
+  EXPECT_EQ(middle(seen(above, white, {0, 0, 0, 1})), middle(seen(above, none, {0, 0, 0, 1})));
+  fill({{0, 0, 0, 0}});
+  const FluidView near = orthographic(0.1, eye(0.3));  // a drop in the middle, a third of the picture high
+  const Colour dark = middle(seen(near, none, {0, 0, 0, 1})), light = middle(seen(near, white, {0, 0, 0, 1}));
+  for (size_t c = 0; c < 3; ++c) {
+    EXPECT_GT(light[c], dark[c] + 0.1);
+    EXPECT_LT(light[c], dark[c] + 0.6);
+  }
+}
+
 TEST_F(FlatPool, WhatStandsBeforeItIsNotSeenThroughIt) {
   pool(0.3);
   for (const double degrees : {0.0, 30.0, 50.0}) {

@@ -73,6 +73,7 @@ struct FluidLook {
   float refraction_index = 1.333f;        ///< above 1
   float highlight = 900;                  ///< exponent of the sun's reflection
   float sun = 18;                         ///< radiance of the sun's reflection over the sky's
+  float aeration = 0.3f;                  ///< how white torn fluid is, spray and breaking crests: 0 (none) to 1
   Float3 to_sun{-0.30f, 0.84f, 0.45f};    ///< direction, of any length
 };
 

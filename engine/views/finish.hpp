@@ -1,0 +1,21 @@
+#pragma once
+// From linear light to a picture: tone curve, sRGB, and edges without stairs.
+#include "gpu/resources.hpp"
+#include "rill/graph.hpp"
+
+namespace rill {
+
+class Finish {
+ public:
+  /// The device knows the shaders of engine/views.
+  static Expected<Finish> create(Device& device);
+
+  /// `colour`: linear light, width x height. RGBA8 in sRGB, rows from the top.
+  BufferRef addTo(Graph& graph, ImageRef colour, uint32_t width, uint32_t height) const;
+
+ private:
+  Device* device_ = nullptr;
+  const ComputePipeline *tone_ = nullptr, *antialias_[2] = {};  // the second reads texels
+};
+
+}  // namespace rill
