@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "render/compute_step.hpp"
-#include "render/surface_rig.hpp"
+#include "render/surface_reference.hpp"
 #include "render/view_push.hpp"
 
 namespace rill::test {
@@ -13,43 +13,6 @@ namespace {
 using surface::SurfacePush;
 
 constexpr double kNothing = std::numeric_limits<double>::infinity();
-
-/// A camera's samples in double precision: x and y across, z the depth, as SurfacePush has them.
-struct Samples {
-  explicit Samples(const SurfacePush& camera)
-      : push(camera),
-        columns(int((push.width + push.step - 1) / push.step + 2 * push.margin)),
-        rows(int((push.height + push.step - 1) / push.step + 2 * push.margin)) {}
-
-  Vector seen(const Float4& p) const {
-    double v[3];
-    for (int r = 0; r < 3; ++r) {
-      const float* row = push.rows + 4 * r;
-      v[r] = double{row[0]} * double{p.x} + double{row[1]} * double{p.y} + double{row[2]} * double{p.z} + double{row[3]};
-    }
-    return {v[0], v[1], v[2]};
-  }
-  /// Of the ray through a sample's middle: where it begins, and a step along it that is one deeper.
-  struct Ray {
-    Vector from, along;
-  };
-  Ray ray(int x, int y) const {
-    const auto axis = [&](int at, uint32_t pixels, int a) {
-      const double middle = (at - int(push.margin) + 0.5) * push.step;
-      return (middle / pixels * 2 - 1 - double{push.shift[a]}) * double{push.scale[a]};
-    };
-    const Vector across{axis(x, push.width, 0), axis(y, push.height, 1), 0};
-    if (push.perspective > 0) return {{0, 0, 0}, across + Vector{0, 0, 1}};
-    return {across, {0, 0, 1}};
-  }
-  /// m that a sample is wide at a depth.
-  double side(double depth) const {
-    return std::abs(double{push.scale[1]}) * 2 / push.height * push.step * (push.perspective > 0 ? depth : 1);
-  }
-
-  SurfacePush push;
-  int columns, rows;
-};
 
 class ParticlesToSamples : public SurfaceOnGpu {
  protected:

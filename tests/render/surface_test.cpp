@@ -35,7 +35,7 @@ Errors compared(const std::vector<Pixel>& pixels, uint32_t width, uint32_t heigh
   return e;
 }
 
-const double kTangent = std::tan(22.5 * kDegree), kAspect = 320.0 / 240;
+const double kHalfUp = std::tan(22.5 * kDegree), kAspect = 320.0 / 240;
 
 TEST_F(SurfaceOnGpu, ATiltedPlaneIsAPlane) {
   const Vector normal{0.3 / std::sqrt(1.34), 0.5 / std::sqrt(1.34), 1 / std::sqrt(1.34)};  // of the fluid, in the world; z towards the eye
@@ -49,7 +49,7 @@ TEST_F(SurfaceOnGpu, ATiltedPlaneIsAPlane) {
       {SurfaceMethod::Planes, 1.03}, {SurfaceMethod::CurvatureFlow, 0.94}, {SurfaceMethod::NarrowRange, 0.78}};
   for (const auto& [method, degrees] : methods) {
     const Errors e = compared(surface(perspective(), method), kWidth, kHeight, [&](double x, double y, Pixel& wanted) {
-      const Vector ray{x * kTangent * kAspect, y * kTangent, -1};
+      const Vector ray{x * kHalfUp * kAspect, y * kHalfUp, -1};
       wanted.depth = float(dot({0, 0, at}, normal) / dot(ray, normal));
       wanted.normal = {normal.x, normal.y, -normal.z};
       return true;
@@ -75,7 +75,7 @@ TEST_F(SurfaceOnGpu, ABallIsABallInEitherProjection) {
     return true;
   };
   const Errors e = compared(surface(perspective(5)), kWidth, kHeight, [&](double x, double y, Pixel& wanted) {
-    return hit({0, 0, 0}, {x * kTangent * kAspect, y * kTangent, -1}, wanted);
+    return hit({0, 0, 0}, {x * kHalfUp * kAspect, y * kHalfUp, -1}, wanted);
   });
   EXPECT_LT(e.degrees, 1.2);
   EXPECT_LT(e.depth, 0.15);

@@ -1,0 +1,112 @@
+// Edges of a finished picture: stairs become what an edge would cover, everything else stays.
+#include <algorithm>
+#include <cmath>
+
+#include "support/gpu_test.hpp"
+#include "views/antialias_record.h"
+#include "views/scene_buffers.hpp"
+
+namespace rill::test {
+namespace {
+
+using namespace antialias;
+using Grey = std::vector<std::vector<double>>;  ///< rows of 0 to 1
+
+class Antialias : public GpuTest {
+ protected:
+  static constexpr uint32_t kWidth = 53, kHeight = 37;  // not multiples of a workgroup
+
+  static uint32_t packed(double r, double g, double b) {
+    const auto byte = [](double v) { return uint32_t(std::lround(v * 255)); };
+    return byte(r) | byte(g) << 8 | byte(b) << 16 | 0xFF000000u;
+  }
+  /// Through texels and through a storage buffer: the same.
+  std::vector<uint32_t> smoothed(const std::vector<uint32_t>& picture, uint32_t width) {
+    const uint32_t height = uint32_t(picture.size() / width);
+    bringViewShaders(device());
+    std::vector<uint32_t> first;
+    for (const bool texels : {false, true}) {
+      if (texels && device().info().maxTexelBufferElements < picture.size()) continue;
+      const BindingKind bindings[] = {texels ? BindingKind::TexelUint : BindingKind::Storage, BindingKind::Storage};
+      const ComputePipeline* antialias = pipeline({.shader = texels ? "views/antialias_texel" : "views/antialias",
+                                                   .bindings = bindings,
+                                                   .pushConstantBytes = sizeof(AntialiasPush)});
+      const Buffer source = upload("picture", picture);
+      Graph graph;
+      const BufferRef before = graph.import("picture", importOf(source));
+      BufferRef after = graph.create("smoothed", {picture.size() * 4});
+      graph.pass("edges", [&](Pass& pass) {
+        pass.read(before, texels ? Use::ComputeTexel : Use::ComputeRead);
+        after = pass.write(after, Use::ComputeWrite, true);
+        const Kernel kernel = pass.kernel(antialias, {before, after});
+        const Groups groups{(width + kAntialiasGroup - 1) / kAntialiasGroup, (height + kAntialiasGroup - 1) / kAntialiasGroup, 1};
+        return [=](Commands& commands) { commands.dispatch(kernel, groups, AntialiasPush{width, height}); };
+      });
+      const Ticket ticket = graph.readback(after);
+      run(graph);
+      auto words = read<uint32_t>(graph, ticket);
+      if (!texels)
+        first = std::move(words);
+      else
+        EXPECT_EQ(words, first);
+    }
+    return first;
+  }
+  static std::vector<uint32_t> grey(const Grey& rows) {
+    std::vector<uint32_t> out;
+    for (const auto& row : rows)
+      for (const double v : row) out.push_back(packed(v, v, v));
+    return out;
+  }
+};
+
+TEST_F(Antialias, LeavesAloneWhatHasNoStairs) {
+  Grey flat(kHeight, std::vector<double>(kWidth, 0.4)), ramp = flat, across = flat, down = flat;
+  for (uint32_t y = 0; y < kHeight; ++y)
+    for (uint32_t x = 0; x < kWidth; ++x) {
+      ramp[y][x] = 0.2 + 0.01 * x + 0.004 * y;
+      across[y][x] = x < 20 ? 0.1 : 0.8;
+      down[y][x] = y < 20 ? 0.9 : 0.2;
+    }
+  for (const Grey* picture : {&flat, &ramp}) EXPECT_EQ(smoothed(grey(*picture), kWidth), grey(*picture));
+  // A straight edge along the rows keeps its place; beside it light may change by what is left of "unlike all around" (a fortieth).
+  for (const Grey* picture : {&across, &down}) {
+    const auto before = grey(*picture), after = smoothed(before, kWidth);
+    for (size_t i = 0; i < before.size(); ++i) ASSERT_NEAR(int(after[i] & 0xFF), int(before[i] & 0xFF), 12) << i;
+  }
+}
+
+TEST_F(Antialias, StairsBecomeWhatTheEdgeCovers) {
+  for (const double slope : {0.12, 0.3, 0.7, 1.4, 4.0}) {
+    Grey stairs(kHeight, std::vector<double>(kWidth)), covered = stairs;
+    for (uint32_t y = 0; y < kHeight; ++y)
+      for (uint32_t x = 0; x < kWidth; ++x) {
+        const auto inside = [&](double px, double py) { return py - 18.3 < slope * (px - 26.1); };
+        int sum = 0;
+        for (int k = 0; k < 256; ++k) sum += inside(x + (k % 16 + 0.5) / 16, y + (k / 16 + 0.5) / 16);
+        covered[y][x] = 0.1 + 0.8 * sum / 256;
+        stairs[y][x] = inside(x + 0.5, y + 0.5) ? 0.9 : 0.1;
+      }
+    const auto before = grey(stairs), after = smoothed(before, kWidth);
+    double was = 0, is = 0;
+    for (uint32_t y = 1; y + 1 < kHeight; ++y)
+      for (uint32_t x = 1; x + 1 < kWidth; ++x) {
+        const uint32_t i = y * kWidth + x;
+        was += std::pow((before[i] & 0xFF) / 255.0 - covered[y][x], 2);
+        is += std::pow((after[i] & 0xFF) / 255.0 - covered[y][x], 2);
+      }
+    EXPECT_LT(is, 0.4 * was) << slope;
+  }
+}
+
+TEST_F(Antialias, KeepsColoursAndSizes) {
+  // Red beside green of the same light has no contrast; one pixel alone has nobody beside it.
+  std::vector<uint32_t> two;
+  for (uint32_t i = 0; i < kWidth * kHeight; ++i) two.push_back(i % kWidth < 26 ? packed(0.6, 0, 0) : packed(0, 0.6 * 0.299 / 0.587, 0));
+  EXPECT_EQ(smoothed(two, kWidth), two);
+  const std::vector<uint32_t> one{packed(0.3, 0.6, 0.9)};
+  EXPECT_EQ(smoothed(one, 1), one);
+}
+
+}  // namespace
+}  // namespace rill::test

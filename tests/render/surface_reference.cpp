@@ -1,0 +1,283 @@
+#include "render/surface_reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rill::test {
+
+Samples::Samples(const surface::SurfacePush& camera)
+    : push(camera),
+      columns(int((push.width + push.step - 1) / push.step + 2 * push.margin)),
+      rows(int((push.height + push.step - 1) / push.step + 2 * push.margin)) {}
+
+Vector Samples::seen(const Float4& p) const {
+  double v[3];
+  for (int r = 0; r < 3; ++r) {
+    const float* row = push.rows + 4 * r;
+    v[r] = double{row[0]} * double{p.x} + double{row[1]} * double{p.y} + double{row[2]} * double{p.z} + double{row[3]};
+  }
+  return {v[0], v[1], v[2]};
+}
+
+Samples::Ray Samples::ray(double x, double y) const {
+  const auto axis = [&](double at, uint32_t pixels, int a) {
+    return (at / pixels * 2 - 1 - double{push.shift[a]}) * double{push.scale[a]};
+  };
+  const Vector across{axis(x, push.width, 0), axis(y, push.height, 1), 0};
+  if (push.perspective > 0) return {{0, 0, 0}, across + Vector{0, 0, 1}};
+  return {across, {0, 0, 1}};
+}
+
+double Samples::side(double depth) const {
+  return std::abs(double{push.scale[1]}) * 2 / push.height * push.step * (push.perspective > 0 ? depth : 1);
+}
+
+namespace {
+
+/// Eigenvalues of a symmetric matrix, rising, and the direction of the least: turned until nothing is left beside the diagonal (Jacobi).
+void eigen(double m[3][3], double values[3], Vector& least) {
+  double turned[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (int sweep = 0; sweep < 50; ++sweep)
+    for (int p = 0; p < 2; ++p)
+      for (int q = p + 1; q < 3; ++q) {
+        if (std::abs(m[p][q]) < 1e-300) continue;
+        const double theta = 0.5 * std::atan2(2 * m[p][q], m[q][q] - m[p][p]), c = std::cos(theta), s = std::sin(theta);
+        for (int k = 0; k < 3; ++k) {
+          const double a = m[k][p], b = m[k][q];
+          m[k][p] = c * a - s * b;
+          m[k][q] = s * a + c * b;
+        }
+        for (int k = 0; k < 3; ++k) {
+          const double a = m[p][k], b = m[q][k];
+          m[p][k] = c * a - s * b;
+          m[q][k] = s * a + c * b;
+        }
+        for (auto& row : turned) {
+          const double a = row[p], b = row[q];
+          row[p] = c * a - s * b;
+          row[q] = s * a + c * b;
+        }
+      }
+  int order[3] = {0, 1, 2};
+  std::sort(order, order + 3, [&](int a, int b) { return m[a][a] < m[b][b]; });
+  for (int k = 0; k < 3; ++k) values[k] = m[order[k]][order[k]];
+  least = {turned[0][order[0]], turned[1][order[0]], turned[2][order[0]]};
+}
+
+double smoothstep(double low, double high, double x) {
+  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+}  // namespace
+
+SurfaceReference::SurfaceReference(const surface::SurfacePush& push, const std::vector<Float4>& positions) : samples_(push) {
+  std::vector<Vector> centres;
+  for (const Float4& p : positions) {
+    const Vector centre = samples_.seen(p);
+    if (centre.z - hardRadius(centre.z) > double{push.near_depth}) centres.push_back(centre);
+  }
+  hard_.assign(size_t(samples_.columns) * size_t(samples_.rows), kNone);
+  for (int y = 0; y < samples_.rows; ++y)
+    for (int x = 0; x < samples_.columns; ++x)
+      for (const Vector& centre : centres) {
+        const double t = sphere(centre, hardRadius(centre.z), samples_.ray(x, y));
+        if (t > double{push.near_depth}) hard_[samples_.index(x, y)] = std::min(hard_[samples_.index(x, y)], t);
+      }
+  const std::vector<Vector> surface = picked(centres);
+  for (const Vector& own : surface) planes_.push_back(plane(surface, own));
+  smooth_.resize(hard_.size());
+  for (int y = 0; y < samples_.rows; ++y)
+    for (int x = 0; x < samples_.columns; ++x) {
+      const double hard = hard_[samples_.index(x, y)];
+      if (hard == kNone) continue;
+      const Look found = look(samples_.ray(x, y), hard);
+      if (found.coverage >= 0.5 || solid(x, y) >= 0.9683) smooth_[samples_.index(x, y)] = {found.depth, found.normal};
+    }
+}
+
+double SurfaceReference::spacingAt(double z) const { return std::max(double{samples_.push.spacing}, 1.2 * samples_.side(z)); }
+double SurfaceReference::hardRadius(double z) const { return std::max(double{samples_.push.radius}, 0.71 * samples_.side(z)); }
+
+double SurfaceReference::sphere(const Vector& centre, double radius, const Samples::Ray& ray) const {
+  const Vector to = centre - ray.from;
+  const double a = dot(ray.along, ray.along), b = dot(to, ray.along), c = dot(to, to) - radius * radius;
+  return b * b - a * c > 0 ? (b - std::sqrt(b * b - a * c)) / a : -1;
+}
+
+/// Those that own at least three hundredths of the samples that they cover.
+std::vector<Vector> SurfaceReference::picked(const std::vector<Vector>& centres) const {
+  std::vector<Vector> out;
+  for (const Vector& centre : centres) {
+    int inside = 0, owned = 0;
+    for (int y = 0; y < samples_.rows; ++y)
+      for (int x = 0; x < samples_.columns; ++x) {
+        const double t = sphere(centre, hardRadius(centre.z), samples_.ray(x, y));
+        if (!(t > double{samples_.push.near_depth})) continue;
+        ++inside;
+        owned += t <= hard_[samples_.index(x, y)] + 1e-3 * double{samples_.push.spacing};
+      }
+    if (owned > 0 && owned >= 0.03 * inside) out.push_back(centre);
+  }
+  return out;
+}
+
+/// Principal directions of what lies within reach, weighted by (1 - distance^2)^2; `across`: a normal, from whose plane others count to 0.9
+/// spacings.
+SurfaceReference::Fit SurfaceReference::fit(const std::vector<Vector>& centres, const Vector& own, double reach,
+                                            const Vector* across) const {
+  Fit out;
+  double square[3][3] = {};
+  for (const Vector& other : centres) {
+    const Vector q = (other - own) * (1 / reach);
+    double w = std::pow(std::max(1 - dot(q, q), 0.0), 2);
+    if (across) w *= std::pow(std::max(1 - std::pow(dot(q, *across) * double{samples_.push.smoothing} / 0.9, 2), 0.0), 2);
+    out.sum += w;
+    out.mean = out.mean + q * w;
+    const double v[3] = {q.x, q.y, q.z};
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) square[i][j] += w * v[i] * v[j];
+  }
+  out.mean = out.mean * (1 / out.sum);
+  const double m[3] = {out.mean.x, out.mean.y, out.mean.z};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) square[i][j] = square[i][j] / out.sum - m[i] * m[j];
+  eigen(square, out.values, out.least);
+  return out;
+}
+
+SurfaceReference::Plane SurfaceReference::plane(const std::vector<Vector>& centres, const Vector& own) const {
+  const double reach = double{samples_.push.smoothing} * spacingAt(own.z);
+  const Vector towards = samples_.push.perspective > 0 ? unit(own) : Vector{0, 0, 1};
+  Fit found = fit(centres, own, reach, nullptr);
+  Vector normal = found.least;
+  if (dot(normal, towards) > 0) normal = normal * -1;
+  if (found.values[0] > 0.04 * found.values[1]) {
+    normal = unit(normal - towards * 0.4);
+    for (int turn = 0; turn < 2; ++turn) {
+      found = fit(centres, own, reach, &normal);
+      normal = found.least;
+    }
+  }
+  if (dot(normal, towards) > 0) normal = normal * -1;
+  if (found.sum - 1 < 1.5 || found.values[0] > 0.6 * found.values[1]) return {own, own, {}, true};
+  return {own, own + normal * (dot(found.mean, normal) * reach + 0.5 * double{samples_.push.spacing}), normal, false};
+}
+
+SurfaceReference::Look SurfaceReference::lookFrom(const Samples::Ray& ray, double depth) const {
+  const double spacing = spacingAt(depth), range = 1.2 * spacing;
+  const Vector x = ray.at(depth), sight = unit(ray.along);
+  double height = 0, slope = 0, cover = 0, sum = 0, firm = 0;
+  Vector normal;
+  for (const Plane& plane : planes_) {
+    Vector d = x - plane.anchor, n = plane.normal;
+    if (plane.ball) {
+      n = d * (1 / std::max(std::sqrt(dot(d, d)), 1e-3 * spacing));
+      d = d - n * (0.5 * spacing);
+    }
+    const double h = dot(d, n), across = std::max(1 - (dot(d, d) - h * h) / std::pow(1.8 * spacing, 2), 0.0);
+    const double within = std::max(1 - h * h / (range * range), 0.0), w = std::pow(across, 3) * within * within;
+    sum += w;
+    firm += plane.ball ? -w : w;
+    height += w * h;
+    slope += w * dot(ray.along, n);
+    normal = normal + n * w;
+    if (within <= 0) continue;
+    const Vector to = plane.centre - ray.from, miss = to - ray.along * (dot(to, ray.along) / dot(ray.along, ray.along));
+    const double beside = std::max(1 - dot(miss, miss) / std::pow(1.2 * spacing, 2), 0.0);
+    cover += beside * beside * std::max(std::abs(dot(n, sight)), 0.35);
+  }
+  Look out;
+  const double threshold = 0.6 + (0.4 - 0.6) * smoothstep(1.5, 2.8, sum), pixel = samples_.side(depth) / samples_.push.step;
+  out.coverage = std::clamp(0.5 + (cover - threshold) * spacing / (1.25 * pixel), 0.0, 1.0);
+  out.firm = firm;
+  out.depth = depth + (slope < -1e-6 ? std::clamp(-height / slope, -range, range) : 0);
+  const double size = std::sqrt(dot(normal, normal));
+  out.normal = size > 1e-6 ? normal * (1 / size) : sight * -1;
+  return out;
+}
+
+/// Again from what was found, at most twice, while planes outweigh balls and it moves by more than a quarter of a spacing.
+SurfaceReference::Look SurfaceReference::look(const Samples::Ray& ray, double depth) const {
+  const double still = 0.25 * spacingAt(depth);
+  Look out = lookFrom(ray, depth);
+  if (out.firm <= 0.5) return out;
+  for (int turn = 0; turn < 2 && std::abs(out.depth - depth) > still; ++turn) {
+    const Look next = lookFrom(ray, out.depth);
+    if (next.firm <= 0.5) break;
+    depth = out.depth;
+    out.depth = next.depth;
+    out.normal = next.normal;
+  }
+  return out;
+}
+
+double SurfaceReference::solid(double x, double y) const {
+  const int left = int(std::floor(x)), top = int(std::floor(y));
+  if (!samples_.has(left - 2, top - 2) || !samples_.has(left + 3, top + 3)) return 0;
+  double covered = 0;
+  for (int v = top - 2; v <= top + 3; ++v)
+    for (int u = left - 2; u <= left + 3; ++u) {
+      const double wx = std::min(1.0, 3 - std::abs(u - x)), wy = std::min(1.0, 3 - std::abs(v - y));
+      if (hard_[samples_.index(u, v)] != kNone) covered += wx * wy;
+    }
+  return covered / 25;
+}
+
+SurfaceReference::Place SurfaceReference::pixel(uint32_t x, uint32_t y) const {
+  const surface::SurfacePush& push = samples_.push;
+  const double spacing = double{push.spacing}, atX = (x + 0.5) / push.step - 0.5 + push.margin,
+               atY = (y + 0.5) / push.step - 0.5 + push.margin;
+  const int left = int(std::floor(atX)), top = int(std::floor(atY));
+  const double partX = atX - left, partY = atY - top;
+  struct Corner {
+    Place place;
+    Vector point;
+    double weight;
+  } corners[4];
+  bool agree = true;
+  for (int k = 0; k < 4; ++k) {
+    const int u = std::clamp(left + (k & 1), 0, samples_.columns - 1), v = std::clamp(top + (k >> 1), 0, samples_.rows - 1);
+    const Place place = smooth_[samples_.index(u, v)];
+    agree = agree && place.depth != kNone;
+    corners[k] = {place, agree ? samples_.ray(u, v).at(place.depth) : Vector{}, (k & 1 ? partX : 1 - partX) * (k >> 1 ? partY : 1 - partY)};
+  }
+  for (int k = 1; k < 4 && agree; ++k) {
+    const Vector d = corners[k].point - corners[0].point;
+    agree = std::abs(dot(d, corners[0].place.normal)) < 0.35 * spacing && std::abs(dot(d, corners[k].place.normal)) < 0.35 * spacing;
+  }
+  if (agree) {
+    double sum = 0;
+    Vector normal;
+    for (const Corner& corner : corners) {
+      sum += corner.weight * (push.perspective > 0 ? 1 / corner.place.depth : corner.place.depth);
+      normal = normal + corner.place.normal * corner.weight;
+    }
+    return {push.perspective > 0 ? 1 / sum : sum, unit(normal)};
+  }
+  const int ownX = int(x / push.step + push.margin), ownY = int(y / push.step + push.margin);
+  double nearest = kNone, farthest = 0;
+  for (int v = ownY - 1; v <= ownY + 1; ++v)
+    for (int u = ownX - 1; u <= ownX + 1; ++u) {
+      const double hard = samples_.has(u, v) ? hard_[samples_.index(u, v)] : kNone;
+      if (hard == kNone) continue;
+      nearest = std::min(nearest, hard);
+      farthest = std::max(farthest, hard);
+    }
+  if (nearest == kNone) return {};
+  const Samples::Ray ray = samples_.ray(x + 0.5, y + 0.5);
+  Look found = look(ray, nearest);
+  double coverage = found.coverage;
+  if (coverage < 1 && farthest > nearest + 0.5 * spacing) {
+    const Look behind = look(ray, farthest);
+    if (coverage < 0.5) found = behind;
+    coverage = std::max(coverage, behind.coverage) >= 0.5 ? 1 : behind.coverage;
+  }
+  const double filled = std::clamp(0.5 + (solid(atX, atY) - 0.9683) * 5 * push.step, 0.0, 1.0);
+  if (coverage < 0.5 && filled > 0)
+    found = look(ray, std::isfinite(hard_[samples_.index(ownX, ownY)]) ? hard_[samples_.index(ownX, ownY)] : nearest);
+  if (std::max(coverage, filled) < 0.5 || !(found.depth > double{push.near_depth})) return {};
+  return {found.depth, found.normal};
+}
+
+}  // namespace rill::test

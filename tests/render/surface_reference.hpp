@@ -1,0 +1,82 @@
+#pragma once
+// The planes' surface in double precision, from every particle at every ray, without grid, lists or culling: the oracle of the passes from
+// hard depth to pixels.
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "render/surface.hpp"
+#include "render/surface_rig.hpp"
+
+namespace rill::test {
+
+/// A camera's samples in double precision: x and y across, z the depth, as SurfacePush has them.
+struct Samples {
+  explicit Samples(const surface::SurfacePush& camera);
+
+  /// View space of a position as it is stored.
+  Vector seen(const Float4& p) const;
+  /// Of the ray through a place of the picture, pixels: where it begins, and a step along it that is one deeper.
+  struct Ray {
+    Vector from, along;
+    Vector at(double depth) const { return from + along * depth; }
+  };
+  Ray ray(double x, double y) const;
+  Ray ray(int x, int y) const { return ray((x - int(push.margin) + 0.5) * push.step, (y - int(push.margin) + 0.5) * push.step); }
+  /// m that a sample is wide at a depth.
+  double side(double depth) const;
+  bool has(int x, int y) const { return x >= 0 && y >= 0 && x < columns && y < rows; }
+  size_t index(int x, int y) const { return size_t(y) * size_t(columns) + size_t(x); }
+
+  surface::SurfacePush push;
+  int columns, rows;
+};
+
+class SurfaceReference {
+ public:
+  static constexpr double kNone = std::numeric_limits<double>::infinity();
+  struct Place {
+    double depth = kNone;
+    Vector normal;  ///< in view space
+  };
+
+  SurfaceReference(const surface::SurfacePush& push, const std::vector<Float4>& positions);
+
+  const Samples& samples() const { return samples_; }
+  const std::vector<double>& hard() const { return hard_; }  ///< depth of the nearest sphere, a sample
+  size_t surfaceParticles() const { return planes_.size(); }
+  const std::vector<Place>& smooth() const { return smooth_; }  ///< a sample
+  Place pixel(uint32_t x, uint32_t y) const;
+
+ private:
+  struct Plane {
+    Vector centre, anchor, normal;
+    bool ball = false;
+  };
+  struct Fit {
+    double sum = 0;
+    Vector mean;
+    double values[3];
+    Vector least;
+  };
+  struct Look {
+    double depth, coverage, firm;
+    Vector normal;
+  };
+  double spacingAt(double z) const;
+  double hardRadius(double z) const;
+  double sphere(const Vector& centre, double radius, const Samples::Ray& ray) const;
+  std::vector<Vector> picked(const std::vector<Vector>& centres) const;
+  Fit fit(const std::vector<Vector>& centres, const Vector& own, double reach, const Vector* across) const;
+  Plane plane(const std::vector<Vector>& centres, const Vector& own) const;
+  Look lookFrom(const Samples::Ray& ray, double depth) const;
+  Look look(const Samples::Ray& ray, double depth) const;
+  double solid(double x, double y) const;  ///< share of the samples around that are covered; whole numbers are samples
+
+  Samples samples_;
+  std::vector<double> hard_;
+  std::vector<Plane> planes_;
+  std::vector<Place> smooth_;
+};
+
+}  // namespace rill::test
