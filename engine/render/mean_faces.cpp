@@ -1,5 +1,7 @@
 #include "render/mean_faces.hpp"
 
+#include "render/compute_step.hpp"
+
 namespace rill {
 
 Expected<MeanFaces> MeanFaces::create(Device& device) {

@@ -1,6 +1,7 @@
 #pragma once
 // Which way the surface faces in the mean over two spacings: what bends the light that goes through torn water.
-#include "render/surface.hpp"
+#include "gpu/resources.hpp"
+#include "render/surface_buffers.hpp"
 
 namespace rill {
 

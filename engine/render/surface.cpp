@@ -19,7 +19,6 @@ constexpr float kHardRadius = 0.9f;            // spacings: spheres that leave n
 constexpr float kThicknessRadius = 1.2f;       // spacings: a disc that overlaps enough to be smooth
 constexpr float kThicknessUnit = 1.0f / 1024;  // spacings
 constexpr uint32_t kMostStep = 16;
-constexpr uint32_t kMostFlowSteps = 128;
 constexpr uint32_t kNarrowPasses = 2;
 
 static_assert(kMarginSamples % kCellSamples == 0);
@@ -85,14 +84,12 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device) {
       {stage.compose_, "render/surface_compose", storage(6)},
       {stage.edges_[0], "render/surface_edges", storage(8)},
       {stage.thickness_, "render/surface_thickness", storage(4)},
-      {stage.flow_[0], "render/surface_flow", storage(4)},
       {stage.normals_[0], "render/surface_normals", storage(7)},
       {stage.edgesFiltered_[0], "render/surface_edges_filtered", storage(8)},
       {stage.thicknessBare_, "render/surface_thickness_bare", storage(3)},
       {stage.planes_[1], "render/surface_planes_texel", kTexelsToPlanes},
       {stage.blend_[1], "render/surface_blend_texel", std::span(kTexels).first(7)},
       {stage.edges_[1], "render/surface_edges_texel", kTexels},
-      {stage.flow_[1], "render/surface_flow_texel", kTexelSamples},
       {stage.normals_[1], "render/surface_normals_texel", kTexelsToNormals},
       {stage.edgesFiltered_[1], "render/surface_edges_filtered_texel", kTexels},
   };
@@ -111,6 +108,9 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device) {
       if (!made) return made.error();
       stage.narrow_[texels][vertical] = *made;
     }
+  auto flow = CurvatureFlow::create(device);
+  if (!flow) return flow.error();
+  stage.flow_ = *flow;
   // Those of a picture of any size are found among the pipelines that are made now.
   if (auto scan = Scan::create(device, Scan::kMaxCount); !scan) return scan.error();
   return stage;
@@ -124,12 +124,12 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
   const uint64_t mostTexels = std::max({2 * uint64_t{fluid.count}, paddedWords(frame.cells + 1), frame.out.sampleCount});
   frame.storageReads = settings.storage_reads;
   frame.texels = !frame.storageReads && readsTexels(*device_, mostTexels);
-  frame.filters = filtered && !settings.filter;
+  frame.narrows = method == SurfaceMethod::NarrowRange && !settings.filter;
   addBuffers(graph, fluid, frame, whole);
   addVisible(graph, fluid, frame);
   addGrid(graph, fluid, frame);
   if (filtered)
-    addFiltered(graph, frame, method, settings.filter);
+    addFiltered(graph, frame, settings);
   else
     addPlanes(graph, frame);
   addCompose(graph, frame, (filtered ? edgesFiltered_ : edges_)[frame.texels], whole);
@@ -141,16 +141,11 @@ SurfaceStage::Frame SurfaceStage::frameOf(const FluidState& fluid, SurfacePush p
   push.spacing = fluid.spacing;
   push.radius = kHardRadius * fluid.spacing;
   push.count = fluid.count;
-  const double sampleSide = std::max(metresAPixel(push, focus) * push.step, 1e-6 * fluid.spacing), sampleArea = sampleSide * sampleSide;
+  const double sampleSide = std::max(metresAPixel(push, focus) * push.step, 1e-6 * fluid.spacing);
   push.margin = marginSamples(std::min(2 * settings.samples, push.spacing / sampleSide));
   Frame frame;
-  // As many steps as the time takes where the fluid is; nearer to the eye, where samples are smaller, the stable step falls short of it.
-  const double area = double{push.spacing} * push.spacing;
-  frame.flowSteps =
-      std::clamp(static_cast<uint32_t>(std::ceil(settings.flow_time * area / (kFlowStable * sampleArea))), 1u, kMostFlowSteps);
-  push.smoothing = static_cast<float>(method == SurfaceMethod::CurvatureFlow ? settings.flow_time * area / frame.flowSteps
-                                      : method == SurfaceMethod::NarrowRange ? settings.narrow_sigma
-                                                                             : settings.fit_reach);
+  push.smoothing = static_cast<float>(method == SurfaceMethod::NarrowRange ? settings.narrow_sigma : settings.fit_reach);
+  frame.sampleSide = sampleSide;
   const uint64_t columns = divideUp(push.width, push.step) + 2 * push.margin, rows = divideUp(push.height, push.step) + 2 * push.margin;
   frame.out.sampleCount = columns * rows;
   frame.occluderCells = gridCells(columns, rows, kOccluderSamples);
@@ -174,14 +169,14 @@ void SurfaceStage::addBuffers(Graph& graph, const FluidState& fluid, Frame& fram
   out.pixels = graph.create("surface pixels", {uint64_t{out.push.width} * out.push.height * 8});
   out.blocks = graph.create("surface blocks", {frame.sampleBlocks * 4});
   out.samples = graph.create("surface samples", {out.sampleCount * 8});
-  if (frame.filters)
+  if (frame.narrows)
     for (BufferRef& buffer : frame.filtered) buffer = graph.create("surface filtered", {out.sampleCount * 4});
   graph.pass("surface clear", [&](Pass& pass) {
     std::array<BufferRef, 6> infinite;
     size_t count = 0;
     const auto clear = [&](BufferRef& buffer) { infinite[count++] = buffer = pass.write(buffer, Use::CopyTarget, true); };
     for (BufferRef* buffer : {&frame.occluders, &frame.depth, &out.samples}) clear(*buffer);
-    if (frame.filters)
+    if (frame.narrows)
       for (BufferRef& buffer : frame.filtered) clear(buffer);
     if (whole) clear(out.pixels);
     for (BufferRef* buffer : {&frame.start, &out.counters}) *buffer = pass.write(*buffer, Use::CopyTarget, true);
@@ -247,22 +242,17 @@ void SurfaceStage::addPlanes(Graph& graph, Frame& frame) const {
           StepGroups(out.arguments, kSampleBlockArguments), out.push);
 }
 
-/// A depth filter in passes from one buffer to another, then normals.
-void SurfaceStage::addFiltered(Graph& graph, Frame& frame, SurfaceMethod method, const DepthFilter& filter) const {
+/// A smooth depth, then normals.
+void SurfaceStage::addFiltered(Graph& graph, Frame& frame, const SurfaceSettings& settings) const {
   SurfaceBuffers& out = frame.out;
   const StepGroups blocks(out.arguments, kSampleBlockArguments);
   BufferRef from = frame.depth;
-  uint32_t steps = 0;
-  if (filter) {
-    from = filter(graph, from, out.push);
-  } else if (method == SurfaceMethod::CurvatureFlow) {
-    for (uint32_t k = 0; k < frame.flowSteps; ++k) {
-      BufferRef& to = frame.filtered[steps++ % 2];
-      addStep(graph, "surface flow", flow_[frame.texels], {frame.walks(from), writes(to), reads(out.counters), reads(out.blocks)}, blocks,
-              out.push);
-      from = to;
-    }
+  if (settings.filter) {
+    from = settings.filter(graph, from, out.push);
+  } else if (!frame.narrows) {
+    from = flow_.addTo(graph, from, out, frame.sampleSide, settings.flow_time, settings.flow_levels, frame.texels);
   } else {
+    uint32_t steps = 0;
     for (uint32_t k = 0; k < kNarrowPasses; ++k)
       for (const ComputePipeline* pipeline : narrow_[frame.texels]) {
         BufferRef& to = frame.filtered[steps++ % 2];

@@ -6,25 +6,14 @@
 
 #include "gpu/resources.hpp"
 #include "render/compute_step.hpp"
-#include "render/surface_records.h"
+#include "render/curvature_flow.hpp"
+#include "render/surface_buffers.hpp"
 #include "rill/fluid.hpp"
 #include "rill/fluid_renderer.hpp"
 #include "rill/graph.hpp"
 #include "sort/scan.hpp"
 
 namespace rill {
-
-/// What a surface is handed on as. Only pixels of the listed tiles are written, unless it was asked for as a whole.
-struct SurfaceBuffers {
-  BufferRef pixels;     ///< two words a pixel, as unpackPixel() reads them
-  BufferRef tiles;      ///< numbers of the tiles that hold fluid, in any order
-  BufferRef samples;    ///< two words a sample, depth and normal: packNormal(); infinite where there is no fluid
-  BufferRef blocks;     ///< numbers of the blocks of samples that hold fluid, in any order
-  BufferRef counters;   ///< kSurvivorCount ...
-  BufferRef arguments;  ///< kSurfaceTileArguments, kTileDraw, kPixelArguments
-  uint64_t sampleCount = 0;
-  surface::SurfacePush push;
-};
 
 /// From the spheres' depth, a float a sample, to a smooth one.
 using DepthFilter = std::function<BufferRef(Graph&, BufferRef depth, const surface::SurfacePush&)>;
@@ -34,7 +23,8 @@ using DepthFilter = std::function<BufferRef(Graph&, BufferRef depth, const surfa
 struct SurfaceSettings {
   double samples = 3;          ///< a spacing at the focus, at least: samples are 1, 2, 4 ... pixels wide
   double fit_reach = 2.5;      ///< planes: how far around a particle its plane is fitted, spacings
-  double flow_time = 1.3;      ///< curvature flow: spacings squared; blurs over about its root
+  double flow_time = 0.9;      ///< curvature flow: spacings squared; blurs over about its root
+  uint32_t flow_levels = 2;    ///< curvature flow: of the pyramid above the samples, at most
   double narrow_sigma = 0.8;   ///< narrow range: standard deviation of its Gaussian, spacings
   DepthFilter filter = {};     ///< in place of the method's own; for baselines
   bool storage_reads = false;  ///< reads through storage buffers even where texel buffers would do; the same bits
@@ -72,15 +62,15 @@ class SurfaceStage {
   struct Frame {
     SurfaceBuffers out;
     uint64_t sampleBlocks = 0, occluderCells = 0, cells = 0;  ///< of the picture with its margin
-    uint32_t flowSteps = 0;
-    BufferRef occluders, depth;         ///< the depth of the spheres
-    BufferRef survivors;                ///< particles that nothing hides
-    BufferRef start, centre;            ///< screen grid of those that are surface
-    BufferRef plane;                    ///< of the method that has planes
-    bool filters = false;               ///< by a method of its own
-    std::array<BufferRef, 2> filtered;  ///< which that method goes back and forth between
-    bool texels = false;                ///< start, centre, plane and what a filter reads are texel buffers
-    bool storageReads = false;          ///< nothing is to be one
+    double sampleSide = 0;                                    ///< m, at the focus
+    BufferRef occluders, depth;                               ///< the depth of the spheres
+    BufferRef survivors;                                      ///< particles that nothing hides
+    BufferRef start, centre;                                  ///< screen grid of those that are surface
+    BufferRef plane;                                          ///< of the method that has planes
+    bool narrows = false;                                     ///< by the narrow-range filter
+    std::array<BufferRef, 2> filtered;                        ///< which that goes back and forth between
+    bool texels = false;                                      ///< start, centre, plane and what a filter reads are texel buffers
+    bool storageReads = false;                                ///< nothing is to be one
     StepBuffer walks(BufferRef buffer) const { return texels ? rill::texels(buffer) : reads(buffer); }
   };
   static Frame frameOf(const FluidState& fluid, surface::SurfacePush camera, SurfaceMethod method, double focus,
@@ -91,14 +81,15 @@ class SurfaceStage {
   void addVisible(Graph& graph, const FluidState& fluid, Frame& frame) const;
   void addGrid(Graph& graph, const FluidState& fluid, Frame& frame) const;
   void addPlanes(Graph& graph, Frame& frame) const;
-  void addFiltered(Graph& graph, Frame& frame, SurfaceMethod method, const DepthFilter& filter) const;
+  void addFiltered(Graph& graph, Frame& frame, const SurfaceSettings& settings) const;
   void addCompose(Graph& graph, Frame& frame, const ComputePipeline* edges, bool whole) const;
 
   Device* device_ = nullptr;
+  CurvatureFlow flow_;
   const ComputePipeline *occlude_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr, *pick_ = nullptr,
                         *scatter_ = nullptr, *order_ = nullptr, *planes_[2] = {}, *blend_[2] = {}, *tiles_ = nullptr, *compose_ = nullptr,
-                        *edges_[2] = {}, *edgesFiltered_[2] = {}, *flow_[2] = {}, *narrow_[2][2] = {}, *normals_[2] = {},
-                        *thickness_ = nullptr, *thicknessBare_ = nullptr;
+                        *edges_[2] = {}, *edgesFiltered_[2] = {}, *narrow_[2][2] = {}, *normals_[2] = {}, *thickness_ = nullptr,
+                        *thicknessBare_ = nullptr;
 };
 
 /// A pixel of SurfaceBuffers::pixels, as shaders/render/surface.glsl packs it.

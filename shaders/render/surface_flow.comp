@@ -10,9 +10,10 @@ READ_FLOAT(0, before)
 layout(std430, set = 0, binding = 1) writeonly buffer After { float after[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Counters { uint counters[]; };
 #define BLOCKS 3
+#define LEVELS
 #include "render/surface_block.glsl"
+#include "render/surface_level.glsl"
 
-const float kEdge = 1.0;   // spacings between samples from which on they are two surfaces
 layout(constant_id = 0) const float kStep = kFlowStable;  // of the square of a sample's side; the test of stability tries others
 
 float at(ivec2 p, ivec2 grid) { return beforeAt(uint(clamp(p.y, 0, grid.y - 1) * grid.x + clamp(p.x, 0, grid.x - 1))); }
@@ -24,7 +25,7 @@ void main() {
   const uint index = uint(p.y * grid.x + p.x);
   const float z = beforeAt(index);
   if (z == infinity()) return;
-  const float q = toLinear(z), edge = kEdge * view.spacing;
+  const float q = toLinear(z), edge = edgeAt(z);
   float side[9];
   for (int k = 0; k < 9; ++k) side[k] = at(p + ivec2(k % 3 - 1, k / 3 - 1), grid);
   float value[9];

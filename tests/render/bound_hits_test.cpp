@@ -8,7 +8,7 @@
 namespace rill::test {
 namespace {
 
-constexpr float kSpacing = 0.1f;
+constexpr float kApart = 0.1f;
 
 class BoundHits : public GpuTest {
  protected:
@@ -27,9 +27,9 @@ class BoundHits : public GpuTest {
     Graph graph;
     FluidState fluid;
     fluid.count = uint32_t(positions.size());
-    fluid.spacing = kSpacing;
+    fluid.spacing = kApart;
     fluid.position = graph.import("position", importOf(position));
-    (void)graph.readback(renderer_->addData(graph, fluid, fluidView(camera, 320, 240, kSpacing), data, 1, method));
+    (void)graph.readback(renderer_->addData(graph, fluid, fluidView(camera, 320, 240, kApart), data, 1, method));
     const Ticket counters = graph.readback(renderer_->impl().last.counters);
     run(graph);
     const auto words = read<uint32_t>(graph, counters);
@@ -39,13 +39,13 @@ class BoundHits : public GpuTest {
   /// A jittered block, its near side so far away.
   static std::vector<Float4> water(float metres) {
     std::mt19937 random(1);
-    std::uniform_real_distribution<float> wobble(-0.2f * kSpacing, 0.2f * kSpacing);
+    std::uniform_real_distribution<float> wobble(-0.2f * kApart, 0.2f * kApart);
     std::vector<Float4> out;
     for (int z = 0; z < 8; ++z)
       for (int y = -10; y < 10; ++y)
         for (int x = -10; x < 10; ++x)
-          out.push_back({float(x) * kSpacing + wobble(random), float(y) * kSpacing + wobble(random),
-                         -metres - float(z) * kSpacing + wobble(random), 0});
+          out.push_back({float(x) * kApart + wobble(random), float(y) * kApart + wobble(random),
+                         -metres - float(z) * kApart + wobble(random), 0});
     return out;
   }
   std::unique_ptr<FluidRenderer> renderer_;

@@ -31,7 +31,10 @@ std::vector<SurfaceWay> surfaceWays(const Bilateral& bilateral, bool quick) {
   vary(all, planes, "n", samples, {1.5, 6});
   vary(all, planes, "reach", reach, {1.8, 3.5});
   vary(all, flow, "n", samples, {1.5});
-  vary(all, flow, "time", time, {0.6, 2.6});
+  vary(all, flow, "time", time, {0.5, 1.8});
+  all.push_back(flow);
+  all.back().setting = "no pyramid";
+  all.back().settings.flow_levels = 0;
   vary(all, narrow, "n", samples, {6});
   vary(all, narrow, "sigma", sigma, {0.5, 1.3});
   all.push_back(filtered("sigma 2.2", {.sigma = 2.2}));
@@ -39,7 +42,7 @@ std::vector<SurfaceWay> surfaceWays(const Bilateral& bilateral, bool quick) {
   if (quick) return all;
   vary(all, narrow, "n", samples, {12});  // every pixel, at spheres of 10
   vary(all, planes, "reach", reach, {2.1, 3});
-  vary(all, flow, "time", time, {0.3, 0.9, 2, 4});
+  vary(all, flow, "time", time, {0.3, 0.7, 1.3, 3});
   vary(all, narrow, "sigma", sigma, {1, 2.2});
   all.push_back(filtered("n 6", {}, 6));
   all.push_back(filtered("sigma 0.8", {.sigma = 0.8}));

@@ -1,0 +1,116 @@
+#include "render/curvature_flow.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "render/compute_step.hpp"
+
+namespace rill {
+namespace {
+
+using namespace surface;
+
+constexpr double kCoarsest = 0.7;     // spacings: how wide samples are at most
+constexpr uint32_t kPolish = 4;       // steps of a finer level
+constexpr uint32_t kMostSteps = 128;  // of the coarsest
+
+/// One level of the pyramid.
+struct Level {
+  SurfacePush push;
+  uint32_t steps = 0;  ///< that the whole time takes
+  BufferRef start, to[2];
+};
+
+}  // namespace
+
+Expected<CurvatureFlow> CurvatureFlow::create(Device& device) {
+  using enum BindingKind;
+  static constexpr BindingKind kStorage[] = {Storage, Storage, Storage, Storage, Storage, Storage};
+  static constexpr BindingKind kOne[] = {TexelUint, Storage, Storage, Storage};
+  static constexpr BindingKind kThree[] = {TexelUint, TexelUint, TexelUint, Storage, Storage, Storage};
+  CurvatureFlow out;
+  for (uint32_t level = 0; level <= kMostLevels; ++level)
+    for (const bool texels : {false, true}) {
+      const struct {
+        const ComputePipeline*& pipeline;
+        std::string_view shader;
+        std::span<const BindingKind> bindings;
+      } all[] = {{out.flow_[level][texels], texels ? "render/surface_flow_texel" : "render/surface_flow",
+                  texels ? std::span<const BindingKind>(kOne) : std::span(kStorage).first(4)},
+                 {out.down_[level][texels], texels ? "render/surface_flow_down_texel" : "render/surface_flow_down",
+                  texels ? std::span<const BindingKind>(kOne) : std::span(kStorage).first(4)},
+                 {out.up_[level][texels], texels ? "render/surface_flow_up_texel" : "render/surface_flow_up",
+                  texels ? std::span<const BindingKind>(kThree) : std::span<const BindingKind>(kStorage)}};
+      const uint32_t constants[] = {std::bit_cast<uint32_t>(kFlowStable), kSampleBlock >> level};
+      for (const auto& row : all) {
+        auto made = computePipeline(
+            device, {.shader = row.shader, .bindings = row.bindings, .pushConstantBytes = sizeof(SurfacePush), .constants = constants});
+        if (!made) return made.error();
+        row.pipeline = *made;
+      }
+    }
+  return out;
+}
+
+BufferRef CurvatureFlow::addTo(Graph& graph, BufferRef depth, const SurfaceBuffers& surface, double side, double time, uint32_t mostLevels,
+                               bool texels) const {
+  const double spacing = double{surface.push.spacing};
+  uint32_t coarsest = 0;
+  while (coarsest < std::min(mostLevels, kMostLevels) && side * (2 << coarsest) <= kCoarsest * spacing) ++coarsest;
+  Level levels[kMostLevels + 1];
+  for (uint32_t l = 0; l <= coarsest; ++l) {
+    Level& level = levels[l];
+    level.push = surface.push;
+    level.push.step <<= l;
+    level.push.margin >>= l;
+    const double area = std::pow(side * (1 << l), 2);
+    const double wanted = time * spacing * spacing;
+    level.steps = std::clamp(static_cast<uint32_t>(std::ceil(wanted / (kFlowStable * area))), 1u, kMostSteps);
+    level.push.smoothing = static_cast<float>(wanted / level.steps);
+    const uint64_t columns = (level.push.width + level.push.step - 1) / level.push.step + 2 * level.push.margin;
+    const uint64_t rows = (level.push.height + level.push.step - 1) / level.push.step + 2 * level.push.margin;
+    level.start = l == 0 ? depth : graph.create("surface flow coarse", {columns * rows * 4});
+    for (BufferRef& buffer : level.to) buffer = graph.create("surface flow", {columns * rows * 4});
+  }
+  graph.pass("surface flow clear", [&](Pass& pass) {
+    BufferRef cleared[3 * (kMostLevels + 1)];
+    size_t count = 0;
+    for (uint32_t l = 0; l <= coarsest; ++l) {
+      if (l > 0) cleared[count++] = levels[l].start = pass.write(levels[l].start, Use::CopyTarget, true);
+      for (BufferRef& buffer : levels[l].to) cleared[count++] = buffer = pass.write(buffer, Use::CopyTarget, true);
+    }
+    return [all = std::to_array(cleared), count](Commands& commands) {
+      for (size_t k = 0; k < count; ++k) commands.fill(all[k], kInfiniteBits);
+    };
+  });
+  const StepGroups blocks(surface.arguments, kSampleBlockArguments);
+  const auto array = [&](BufferRef buffer) { return texels ? rill::texels(buffer) : reads(buffer); };
+  for (uint32_t l = 1; l <= coarsest; ++l)
+    addStep(graph, "surface flow down", down_[l][texels],
+            {array(levels[l - 1].start), writes(levels[l].start), reads(surface.counters), reads(surface.blocks)}, blocks, levels[l].push);
+  BufferRef from;
+  for (uint32_t l = coarsest + 1; l-- > 0;) {
+    Level& level = levels[l];
+    uint32_t turn = 0;
+    if (l == coarsest) {
+      from = level.start;
+    } else {
+      addStep(graph, "surface flow up", up_[l][texels],
+              {array(level.start), array(levels[l + 1].start), array(from), writes(level.to[0]), reads(surface.counters),
+               reads(surface.blocks)},
+              blocks, level.push);
+      from = level.to[0];
+      turn = 1;
+    }
+    for (uint32_t k = 0; k < (l == coarsest ? level.steps : std::min(level.steps, kPolish)); ++k) {
+      BufferRef& to = level.to[turn++ % 2];
+      addStep(graph, "surface flow", flow_[l][texels], {array(from), writes(to), reads(surface.counters), reads(surface.blocks)}, blocks,
+              level.push);
+      from = to;
+    }
+  }
+  return from;
+}
+
+}  // namespace rill

@@ -1,0 +1,25 @@
+#pragma once
+// Screen-space curvature flow (van der Laan, Green and Sainz 2009), from coarse to fine: long waves are smoothed where samples are few and
+// steps are long.
+#include "gpu/resources.hpp"
+#include "render/surface_buffers.hpp"
+
+namespace rill {
+
+class CurvatureFlow {
+ public:
+  static constexpr uint32_t kMostLevels = 2;  ///< above the samples: a margin is a whole number of cells, of four samples
+
+  static Expected<CurvatureFlow> create(Device& device);
+
+  /// A smooth depth from that of the spheres, a float a sample. `side`: m that a sample is wide at the focus. `time`: spacings squared;
+  /// blurs over about its root. Nearer to the eye, where samples are smaller, the stable step falls short of it. `mostLevels`: of the
+  /// pyramid above the samples. `texels`: it is read as texel buffers.
+  BufferRef addTo(Graph& graph, BufferRef depth, const SurfaceBuffers& surface, double side, double time, uint32_t mostLevels,
+                  bool texels) const;
+
+ private:
+  const ComputePipeline *flow_[kMostLevels + 1][2] = {}, *down_[kMostLevels + 1][2] = {}, *up_[kMostLevels + 1][2] = {};
+};
+
+}  // namespace rill
