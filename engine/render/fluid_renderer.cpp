@@ -71,11 +71,11 @@ Expected<void> FluidRendererImpl::create(Device& host, const TargetFormats& targ
 
 Expected<void> FluidRendererImpl::makeShade() {
   using enum BindingKind;
-  static constexpr BindingKind kShade[] = {Uniform, Storage, Storage, Storage, Storage, Storage, Storage, Storage};
+  static constexpr BindingKind kShade[] = {Uniform, Storage, Storage, Storage, Storage, Storage, Storage, Storage, Storage};
   auto drawn =
       graphicsPipeline(*device, {.vertex = "render/fluid_shade_vertex",
                                  .fragment = environment ? "render/fluid_shade_environment_fragment" : "render/fluid_shade_fragment",
-                                 .bindings = std::span(kShade).first(environment ? 8 : 7),
+                                 .bindings = std::span(kShade).first(environment ? 9 : 8),
                                  .pushConstantBytes = sizeof(SurfacePush),
                                  .colours = {&formats.colour, 1},
                                  .depth = formats.depth,
@@ -114,6 +114,16 @@ bool FluidRendererImpl::possible(Graph& graph, const FluidState& fluid, const Fl
   if (const uint64_t bytes = resources[position.index].size; bytes < uint64_t{fluid.count} * 16)
     return mistake("FluidState::position has " + std::to_string(bytes) + " bytes; expected 16 for each of its " +
                    std::to_string(fluid.count) + " particles");
+  return true;
+}
+
+bool FluidRendererImpl::possible(Graph& graph, const FluidLook& look) {
+  const auto refused = [&](const char* what, float value, const char* expected) {
+    graph.impl().fail("FluidLook::" + std::string(what) + " is " + shortNumber(double{value}) + "; expected " + expected);
+    return false;
+  };
+  if (!(look.refraction_index >= 1 && look.refraction_index <= 10)) return refused("refraction_index", look.refraction_index, "1 to 10");
+  if (!(look.aeration >= 0 && look.aeration <= 1)) return refused("aeration", look.aeration, "0 to 1");
   return true;
 }
 
@@ -160,20 +170,20 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
     };
   });
   const SurfacePush thick = SurfaceStage::thicknessPush(push, fluid, kThicknessStep);
-  BufferRef thickness, bending;
+  BufferRef thickness, bend;
   if (look.opaque) {
     graph.skipped(kFluidThickness.pass, "the look is opaque");
     graph.skipped("surface faces", "the look is opaque");
-    thickness = bending = last.tiles;  // bound, never read
+    thickness = bend = last.tiles;  // bound, never read
   } else {
-    bending = faces.addTo(graph, last);
+    bend = faces.addTo(graph, last);
     thickness = surface.addThickness(graph, kFluidThickness, fluid, thick, sceneDepth, &last.counters);
   }
   const BufferRef record = addLook(graph, lookRecord(look, thick, environment.get()));
   graph.pass("fluid shade", [&](Pass& pass) {
     pass.read(record, Use::DrawUniform);
-    const ResourceRef bound[] = {record, last.tiles, last.pixels, thickness, sceneColour, sceneDepth, bending, texels};
-    const size_t count = environment ? 8 : 7;
+    const ResourceRef bound[] = {record, last.tiles, last.pixels, thickness, sceneColour, sceneDepth, bend, last.samples, texels};
+    const size_t count = environment ? 9 : 8;
     for (size_t k = 1; k < count; ++k) pass.read(BufferRef{bound[k]}, Use::DrawRead);
     pass.read(last.arguments, Use::Indirect);
     targets.colour = pass.write(targets.colour, Use::ColourTarget);
@@ -223,7 +233,7 @@ Expected<void> FluidRenderer::check(const FluidView& view) { return checkView(vi
 
 SceneTargets FluidRenderer::addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view,
                                   const FluidLook& look) {
-  if (!FluidRendererImpl::possible(graph, fluid, view, look.surface)) return targets;
+  if (!FluidRendererImpl::possible(graph, fluid, view, look.surface) || !FluidRendererImpl::possible(graph, look)) return targets;
   const bool drawn = impl_->environment && fluid.count > 0;
   return impl_->addTo(graph, fluid, targets, view, look, false, drawn ? impl_->environment->addTo(graph) : BufferRef{});
 }

@@ -19,6 +19,8 @@ static_assert(sizeof(DataPush) <= 128);
 class FluidRendererImpl {
  public:
   Expected<void> create(Device& device, const TargetFormats& formats);
+  /// Whether a host's look can be drawn; the graph's compile() says why not.
+  static bool possible(Graph& graph, const FluidLook& look);
   /// Whether a host's view of a state can be drawn, in a method that there is; the graph's compile() says what not.
   static bool possible(Graph& graph, const FluidState& fluid, const FluidView& view, SurfaceMethod method);
   /// The same of a viewport in its targets.

@@ -43,6 +43,7 @@ std::optional<FluidLook> fluidLook(std::string_view preset) {
     look.scatter = {0.52f, 0.30f, 0.20f};
     look.refraction_index = 1.3f;
     look.highlight = 12;
+    look.aeration = 0;
     look.sun = 1;
     return look;
   }

@@ -6,7 +6,7 @@ namespace rill {
 
 Expected<MeanFaces> MeanFaces::create(Device& device) {
   using enum BindingKind;
-  static constexpr BindingKind kBindings[] = {Storage, Storage, Storage, Storage};
+  static constexpr BindingKind kBindings[] = {Storage, Storage, Storage, Storage, Storage};
   MeanFaces out;
   for (uint32_t vertical = 0; vertical < 2; ++vertical) {
     const uint32_t constants[] = {vertical};
@@ -21,23 +21,16 @@ Expected<MeanFaces> MeanFaces::create(Device& device) {
 }
 
 BufferRef MeanFaces::addTo(Graph& graph, const SurfaceBuffers& surface) const {
-  BufferRef faces[2];
-  for (BufferRef& buffer : faces) buffer = graph.create("surface faces", {surface.sampleCount * 8});
-  graph.pass("surface faces clear", [&](Pass& pass) {
-    for (BufferRef& buffer : faces) buffer = pass.write(buffer, Use::CopyTarget, true);
-    return [first = faces[0], second = faces[1]](Commands& commands) {
-      commands.fill(first, surface::kInfiniteBits);
-      commands.fill(second, surface::kInfiniteBits);
-    };
-  });
+  BufferRef means[2];
+  for (BufferRef& buffer : means) buffer = graph.create("surface faces", {surface.sampleCount * 4});
   const StepGroups blocks(surface.arguments, surface::kSampleBlockArguments);
-  BufferRef from = surface.samples;
+  BufferRef before = surface.samples;  // the first dimension has none: bound, never read
   for (int k = 0; k < 2; ++k) {
-    addStep(graph, "surface faces", along_[k], {reads(from), writes(faces[k]), reads(surface.counters), reads(surface.blocks)}, blocks,
-            surface.push);
-    from = faces[k];
+    addStep(graph, "surface faces", along_[k],
+            {reads(surface.samples), reads(before), fresh(means[k]), reads(surface.counters), reads(surface.blocks)}, blocks, surface.push);
+    before = means[k];
   }
-  return from;
+  return before;
 }
 
 }  // namespace rill

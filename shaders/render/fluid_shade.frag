@@ -10,13 +10,13 @@ layout(std430, set = 0, binding = 2) readonly buffer Surface { uvec2 surface[]; 
 layout(std430, set = 0, binding = 3) readonly buffer Thickness { uint thickness[]; };
 layout(std430, set = 0, binding = 4) readonly buffer SceneColour { uvec2 scene_colour[]; };
 layout(std430, set = 0, binding = 5) readonly buffer SceneDepth { float scene_depth[]; };
-layout(std430, set = 0, binding = 6) readonly buffer Faces { uvec2 faces[]; };  // a sample: depth, mean normal
+layout(std430, set = 0, binding = 6) readonly buffer Faces { uint faces[]; };  // mean normal, a sample that holds fluid
+layout(std430, set = 0, binding = 7) readonly buffer Samples { uvec2 samples[]; };  // depth, normal
 layout(location = 0) out vec4 colour;
 #include "render/surface_mean.glsl"
 
 const float kFarthest = 1e4;    // spacings that a ray is followed
 const int kFollow = 3;          // looks at the scene's depth for where it ends
-const float kSameWater = 4.0;   // spacings of depth between faces of one piece of water
 const float kEdgeOn = -0.02;    // cosine to the line of sight beyond which a face would not be seen
 // Lengths of the mean of the faces around: a lone ball has 0.1, a straight silhouette a half, an even surface 1.
 const vec2 kDrop = vec2(0.2, 0.7);  // from a drop to a surface
@@ -54,24 +54,24 @@ float thicknessAt(vec2 pixel) {
 }
 
 // Torn water shows many faces, and light goes through several of them: it is bent by their mean, where one alone would make a lens of each
-// drop. What is smooth has the same normal all around, and a mean as long.
-vec3 meanNormal(vec2 middle, float z, vec3 normal) {
+// drop. What is smooth has the same normal all around, and a mean as long. No sample of this water: a drop.
+vec3 meanNormal(vec2 middle, float z, vec3 normal, vec3 sight) {
   const ivec2 grid = ivec2(sampleGrid());
   const vec2 at = sampleOf(middle);
   const ivec2 base = ivec2(floor(at));
   const vec2 part = at - vec2(base);
+  const float change = changeOf(spacingAt(z), metresAPixel(z) * float(view.step), normal, sight);
   vec3 sum = vec3(0.0);
   float weights = 0.0;
   for (int k = 0; k < 4; ++k) {
     const ivec2 corner = ivec2(k & 1, k >> 1), s = clamp(base + corner, ivec2(0), grid - 1);
-    const uvec2 stored = faces[uint(s.y * grid.x + s.x)];
+    const uint there = uint(s.y * grid.x + s.x);
     const vec2 share = mix(1.0 - part, part, vec2(corner));
-    const float behind = (uintBitsToFloat(stored.x) - z) / (kSameWater * view.spacing);
-    const float w = share.x * share.y * max(1.0 - behind * behind, 0.0);
-    if (w > 0.0) sum += w * unpackMean(stored.y);
+    const float w = share.x * share.y * sameWater(uintBitsToFloat(samples[there].x) - z, change);
+    if (w > 0.0) sum += w * unpackMean(faces[there]);
     weights += w;
   }
-  return weights > 1e-3 ? sum / weights : 0.1 * normal;
+  return weights > 1e-3 ? sum / weights : kDrop.x * normal;
 }
 
 // Of unpolarised light that meets the surface at this cosine (Fresnel).
@@ -83,25 +83,19 @@ float fresnel(float cosine, float index) {
   return 0.5 * (s * s + p * p);
 }
 
-// What a pixel of a fluid that light goes through sends to the eye, before its own reflection.
-struct Seen {
-  vec3 body;
-  vec3 beside;  // share of the scene's light that comes through where this surface does not cover the pixel
-};
-
-Seen seenThrough(ivec2 pixel, vec3 point, vec3 sight, vec3 normal, vec3 scattered) {
+// What a fluid that light goes through sends to the eye before its own reflection. `scattered`: light that falls on it.
+vec3 seenThrough(ivec2 pixel, vec3 point, vec3 sight, vec3 normal, vec3 scattered) {
   const uint index = uint(pixel.y) * view.width + uint(pixel.x);
   const vec2 middle = vec2(pixel) + 0.5;
   const float z = point.z;
-  const vec3 mean = meanNormal(middle, z, normal);
+  const vec3 mean = meanNormal(middle, z, normal, sight);
   const float alike = length(mean);
   vec3 face = alike > 1e-3 ? mean / alike : normal;
-  const float seen = dot(face, sight);
-  if (seen > kEdgeOn) face = normalize(face - (seen - kEdgeOn) * sight);
-  // A drop bends light within itself alone, not in all the fluid behind it.
+  const float facing = dot(face, sight);
+  if (facing > kEdgeOn) face = normalize(face - (facing - kEdgeOn) * sight);
+  // A drop does not bend light: all the fluid behind it would bend as it does.
   const vec3 bent = normalize(mix(sight, refract(sight, face, 1.0 / look.absorption.w), smoothstep(kDrop.x, kDrop.y, alike)));
   float inside = thicknessAt(middle);
-  const vec3 beside = exp(-look.absorption.rgb * inside);
   // Torn fluid is full of air and sends back white light from all sides.
   const float white = look.finish.w * (1.0 - smoothstep(kTorn.x, kTorn.y, alike)) * (1.0 - exp(-inside / view.spacing));
   // Bent inside the fluid, parallel to what it was after it: followed to where the scene's depth says that it ends.
@@ -125,7 +119,15 @@ Seen seenThrough(ivec2 pixel, vec3 point, vec3 sight, vec3 normal, vec3 scattere
   }
   const vec3 through = exp(-look.absorption.rgb * min(inside, walked));
   const vec3 body = sceneBetween(there, z) * through + look.scatter.rgb * scattered * (1.0 - through);
-  return Seen(mix(body, skyLight(vec3(0.0, 1.0, 0.0)) + 0.5 * kSunlight, white), beside);
+  return mix(body, skyLight(vec3(0.0, 1.0, 0.0)) + 0.5 * kSunlight, white);
+}
+
+// A face seen nearly edge on that mirrors no sky mirrors what stands behind it.
+vec3 mirrorOf(ivec2 pixel, vec3 sight, vec3 mirrored) {
+  const vec3 sky = skyColour(mirrored, look.light.xyz);
+  const float past = smoothstep(kPast.x, kPast.y, dot(mirrored, sight)) * (1.0 - skyShare(mirrored));
+  if (past <= 0.0) return sky;
+  return mix(sky, sceneAt(pixel) * exp(-look.absorption.rgb * thicknessAt(vec2(pixel) + 0.5)), past);
 }
 
 void main() {
@@ -141,20 +143,21 @@ void main() {
   const float facing = dot(normal, sight);
   if (facing > kEdgeOn) normal = normalize(normal - (facing - kEdgeOn) * sight);
   const float cosine = clamp(-dot(normal, sight), 0.0, 1.0);
-  const vec3 world_normal = worldDirection(normal), sun = look.light.xyz;
+  const vec3 world_normal = worldDirection(normal), world_sight = worldDirection(sight), mirrored = reflect(world_sight, world_normal);
+  const vec3 sun = look.light.xyz;
   const float lit = max(dot(world_normal, sun), 0.0);
   const vec3 ambient = skyLight(world_normal);
   const float reflected = fresnel(cosine, look.absorption.w);
-  const vec3 world_sight = worldDirection(sight), mirrored = reflect(world_sight, world_normal);
   const float highlight = pow(max(dot(mirrored, sun), 0.0), look.finish.x) * look.light.w;
-  const Seen seen = look.scatter.w > 0.0
-                        ? Seen(look.scatter.rgb * (ambient + kSunlight * lit), vec3(1.0))
-                        : seenThrough(pixel, rayFrom(axis) + z * along, sight, normal, ambient + vec3(0.5) * (0.3 + 0.7 * lit));
-  // A face seen nearly edge on that mirrors no sky mirrors what stands behind it.
-  const vec3 behind = sceneAt(pixel) * seen.beside;
-  const float past = smoothstep(kPast.x, kPast.y, dot(mirrored, world_sight)) * (1.0 - smoothstep(0.0, 0.1, mirrored.y));
-  const vec3 mirror = mix(skyColour(mirrored, sun), behind, past);
-  const vec3 fluid = mix(seen.body, mirror, reflected) + vec3(1.0, 0.95, 0.86) * (reflected * highlight);
-  colour = vec4(mix(behind, fluid, pixelCoverage(own)), 1.0);
+  vec3 body, mirror;
+  if (look.scatter.w > 0.0) {
+    body = look.scatter.rgb * (ambient + kSunlight * lit);
+    mirror = skyColour(mirrored, sun);
+  } else {
+    body = seenThrough(pixel, rayFrom(axis) + z * along, sight, normal, ambient + vec3(0.5) * (0.3 + 0.7 * lit));
+    mirror = mirrorOf(pixel, world_sight, mirrored);
+  }
+  const vec3 fluid = mix(body, mirror, reflected) + vec3(1.0, 0.95, 0.86) * (reflected * highlight);
+  colour = vec4(mix(sceneAt(pixel), fluid, pixelCoverage(own)), 1.0);
   gl_FragDepth = targetDepth(z);
 }

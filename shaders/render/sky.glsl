@@ -22,6 +22,8 @@ vec3 skyColour(vec3 direction, vec3 sun) {
   return mix(upper, lower, part.y);
 }
 
+float skyShare(vec3 direction) { return 1.0; }  // the picture is of all around
+
 vec3 skyLight(vec3 normal) { return mix(look.below.rgb, look.above.rgb, 0.5 + 0.5 * normal.y); }
 
 #else
@@ -30,10 +32,12 @@ const vec3 kZenith = vec3(0.16, 0.30, 0.58);
 const vec3 kHorizon = vec3(0.62, 0.74, 0.88);
 const vec3 kGround = vec3(0.09, 0.13, 0.16);
 
+float skyShare(vec3 direction) { return smoothstep(-0.08, 0.04, direction.y); }  // the rest is ground
+
 vec3 skyColour(vec3 direction, vec3 sun) {
   const float up = direction.y;
   const vec3 above = mix(kHorizon, kZenith, pow(clamp(up, 0.0, 1.0), 0.55));
-  const vec3 base = mix(kGround, above, smoothstep(-0.08, 0.04, up));
+  const vec3 base = mix(kGround, above, skyShare(direction));
   const float near_sun = max(dot(direction, sun), 0.0);
   // A wide soft light overhead: its edges show how a surface curves.
   const vec2 at = direction.xz / max(up, 1e-3) - vec2(-0.35, -0.55);

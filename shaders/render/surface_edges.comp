@@ -62,7 +62,7 @@ Look lookAt(vec2 middle, ivec2 own, float nearest, float farthest) {
     coverage = max(coverage, behind.coverage) >= 0.5 ? 1.0 : behind.coverage;
   }
   const float solid = coverage < 1.0 ? solidCoverage(middle) : 0.0;
-  if (coverage < 0.5 && solid > 0.0) {
+  if (coverage < 0.5 && solid > coverage) {
     const float hard = uintBitsToFloat(depth[uint(own.y) * sampleGrid().x + uint(own.x)]);
     blend = blendAt(axis, hard < infinity() ? hard : nearest);
   }

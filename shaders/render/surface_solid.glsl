@@ -1,10 +1,22 @@
 // Whether the spheres leave no gap around a place: then there is fluid, whatever the particles nearest to the ray say. Needs `depth`.
 
-const float kSolid = 0.9683;  // share of the samples within two and a half that spheres cover; none that straight edges have exactly
+bool solidAround(ivec2 at) {
+  const ivec2 grid = ivec2(sampleGrid());
+  if (any(lessThan(at, ivec2(2))) || any(greaterThanEqual(at, grid - 2))) return false;
+  for (int y = at.y - 2; y <= at.y + 2; ++y)
+    for (int x = at.x - 2; x <= at.x + 2; ++x)
+      if (depth[uint(y * grid.x + x)] == kInfiniteBits) return false;
+  return true;
+}
 
-// That share around a place among the samples (whole numbers are samples); none at the margin's end.
-float solidShare(vec2 at) {
-  const ivec2 grid = ivec2(sampleGrid()), base = ivec2(floor(at));
+const float kSolid = 0.9683;  // share of half a pixel's coverage; none that straight edges have exactly
+
+// The same between samples, as a pixel's coverage by fluid: from the share of what lies within two and a half samples that spheres cover. At a straight edge it
+// changes by a fifth a sample, so that the coverage is as wide as a pixel, and 1 where all is covered.
+float solidCoverage(vec2 middle) {
+  const ivec2 grid = ivec2(sampleGrid());
+  const vec2 at = sampleOf(middle);
+  const ivec2 base = ivec2(floor(at));
   if (any(lessThan(base, ivec2(2))) || any(greaterThanEqual(base, grid - 3))) return 0.0;
   const vec2 part = at - vec2(base);
   float covered = 0.0;
@@ -15,10 +27,6 @@ float solidShare(vec2 at) {
       if (depth[uint((base.y + y) * grid.x + base.x + x)] != kInfiniteBits) covered += wx * wy;
     }
   }
-  return covered / 25.0;
+  const float slope = max(5.0 * float(view.step), 0.5 / (1.0 - kSolid));
+  return clamp(0.5 + (covered / 25.0 - kSolid) * slope, 0.0, 1.0);
 }
-
-bool solidAround(ivec2 at) { return solidShare(vec2(at)) >= kSolid; }
-
-// As a pixel's coverage: at a straight edge the share changes by a fifth a sample.
-float solidCoverage(vec2 middle) { return clamp(0.5 + (solidShare(sampleOf(middle)) - kSolid) * 5.0 * float(view.step), 0.0, 1.0); }

@@ -44,8 +44,8 @@ class BoundHits : public GpuTest {
     for (int z = 0; z < 8; ++z)
       for (int y = -10; y < 10; ++y)
         for (int x = -10; x < 10; ++x)
-          out.push_back({float(x) * kApart + wobble(random), float(y) * kApart + wobble(random),
-                         -metres - float(z) * kApart + wobble(random), 0});
+          out.push_back(
+              {float(x) * kApart + wobble(random), float(y) * kApart + wobble(random), -metres - float(z) * kApart + wobble(random), 0});
     return out;
   }
   std::unique_ptr<FluidRenderer> renderer_;

@@ -96,6 +96,12 @@ TEST_F(RendererInput, MethodsThatAreNone) {
   look.surface = SurfaceMethod(9);
   EXPECT_EQ(mistake(state(), view, look), "9 is no SurfaceMethod");
   EXPECT_EQ(mistake(state(), view, look, true), "9 is no SurfaceMethod");
+  look = {};
+  look.refraction_index = 0.5f;
+  EXPECT_EQ(mistake(state(), view, look), "FluidLook::refraction_index is 0.5; expected 1 to 10");
+  look = {};
+  look.aeration = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(mistake(state(), view, look), "FluidLook::aeration is nan; expected 0 to 1");
   what_ = SurfaceData(200);
   EXPECT_EQ(mistake(state(), view, {}, true), "200 is no SurfaceData");
 }

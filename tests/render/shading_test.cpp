@@ -202,7 +202,42 @@ TEST_F(FlatPool, ShiftsWhatIsBehindAsSnellSays) {
   }
 }
 
-// A solid before the pool, in the middle of the picture: where it is not, all is as without it, though the bent rays end behind it.
+// A ball's lower rim, seen edge on, mirrors what is behind it where light goes through the fluid, and nothing of it where not.
+TEST_F(FlatPool, OpaqueFluidShowsNothingOfWhatIsBehind) {
+  fill(shells({0, 0, 0}, 0.5));
+  FluidLook look = clear();
+  look.opaque = true;
+  look.scatter = {0.5f, 0.5f, 0.5f};
+  const FluidView view = orthographic(0.7, eye(1.5));
+  const auto black = seen(view, look, {0, 0, 0, 1}), bright = seen(view, look, {9, 9, 9, 1});
+  size_t fluid = 0, mixed = 0;
+  for (size_t i = 0; i < black.size(); ++i) {
+    if (bright[i][0] > 8.99) continue;  // none there
+    if (std::abs(bright[i][0] - black[i][0]) < 1e-6)
+      ++fluid;
+    else
+      ++mixed;  // a silhouette's pixel, which the fluid covers in part
+  }
+  EXPECT_GT(fluid, 4000u);
+  EXPECT_LT(mixed, fluid / 15);
+}
+
+// A lone drop lies straight before what is behind it.
+TEST_F(FlatPool, ADropDoesNotBendLight) {
+  fill({{0, 0, 0, 0}});
+  const FluidView view = orthographic(0.1, eye(0.3));
+  Backdrop ramp;
+  for (uint32_t k = 0; k < kAcross * kDown; ++k) ramp.pixels.push_back({float(k % kAcross), float(k / kAcross), 0, 1});
+  ramp.depths.assign(size_t{kAcross} * kDown, 1.0f);
+  FluidLook look = clear();
+  look.aeration = 0;
+  const auto picture = drawn(view, look, ramp, {.colour = kFormat}).channels(kFormat);
+  const Colour& middle = picture[kDown / 2 * kAcross + kAcross / 2];
+  const double through = 1 - fresnel(0, double{look.refraction_index});
+  EXPECT_NEAR(middle[0] / through, kAcross / 2, 1.5);
+  EXPECT_NEAR(middle[1] / through, kDown / 2, 1.5);
+}
+
 // White light from torn fluid: drops have it, a pool's middle has none of it.
 TEST_F(FlatPool, TornFluidIsWhiteAndEvenFluidIsNot) {
   FluidLook none = clear(), white = clear();
@@ -221,6 +256,7 @@ TEST_F(FlatPool, TornFluidIsWhiteAndEvenFluidIsNot) {
   }
 }
 
+// A solid before the pool, in the middle of the picture: where it is not, all is as without it, though the bent rays end behind it.
 TEST_F(FlatPool, WhatStandsBeforeItIsNotSeenThroughIt) {
   pool(0.3);
   for (const double degrees : {0.0, 30.0, 50.0}) {

@@ -92,7 +92,7 @@ SurfaceReference::SurfaceReference(const surface::SurfacePush& push, const std::
       const double hard = hard_[samples_.index(x, y)];
       if (hard == kNone) continue;
       const Look found = look(samples_.ray(x, y), hard);
-      if (found.coverage >= 0.5 || solid(x, y) >= 0.9683) smooth_[samples_.index(x, y)] = {found.depth, found.normal};
+      if (found.coverage >= 0.5 || closed(x, y)) smooth_[samples_.index(x, y)] = {found.depth, found.normal};
     }
 }
 
@@ -212,7 +212,15 @@ SurfaceReference::Look SurfaceReference::look(const Samples::Ray& ray, double de
   return out;
 }
 
-double SurfaceReference::solid(double x, double y) const {
+bool SurfaceReference::closed(int x, int y) const {
+  if (!samples_.has(x - 2, y - 2) || !samples_.has(x + 2, y + 2)) return false;
+  bool all = true;
+  for (int k = 0; k < 25; ++k) all = all && hard_[samples_.index(x - 2 + k % 5, y - 2 + k / 5)] != kNone;
+  return all;
+}
+
+/// Of the square of two and a half samples to each side what spheres cover.
+double SurfaceReference::share(double x, double y) const {
   const int left = int(std::floor(x)), top = int(std::floor(y));
   if (!samples_.has(left - 2, top - 2) || !samples_.has(left + 3, top + 3)) return 0;
   double covered = 0;
@@ -224,7 +232,7 @@ double SurfaceReference::solid(double x, double y) const {
   return covered / 25;
 }
 
-SurfaceReference::Place SurfaceReference::pixel(uint32_t x, uint32_t y) const {
+SurfaceReference::Pixel SurfaceReference::pixel(uint32_t x, uint32_t y) const {
   const surface::SurfacePush& push = samples_.push;
   const double spacing = double{push.spacing}, atX = (x + 0.5) / push.step - 0.5 + push.margin,
                atY = (y + 0.5) / push.step - 0.5 + push.margin;
@@ -253,7 +261,7 @@ SurfaceReference::Place SurfaceReference::pixel(uint32_t x, uint32_t y) const {
       sum += corner.weight * (push.perspective > 0 ? 1 / corner.place.depth : corner.place.depth);
       normal = normal + corner.place.normal * corner.weight;
     }
-    return {push.perspective > 0 ? 1 / sum : sum, unit(normal)};
+    return {{push.perspective > 0 ? 1 / sum : sum, unit(normal)}, 1};
   }
   const int ownX = int(x / push.step + push.margin), ownY = int(y / push.step + push.margin);
   double nearest = kNone, farthest = 0;
@@ -273,11 +281,14 @@ SurfaceReference::Place SurfaceReference::pixel(uint32_t x, uint32_t y) const {
     if (coverage < 0.5) found = behind;
     coverage = std::max(coverage, behind.coverage) >= 0.5 ? 1 : behind.coverage;
   }
-  const double filled = std::clamp(0.5 + (solid(atX, atY) - 0.9683) * 5 * push.step, 0.0, 1.0);
-  if (coverage < 0.5 && filled > 0)
-    found = look(ray, std::isfinite(hard_[samples_.index(ownX, ownY)]) ? hard_[samples_.index(ownX, ownY)] : nearest);
-  if (std::max(coverage, filled) < 0.5 || !(found.depth > double{push.near_depth})) return {};
-  return {found.depth, found.normal};
+  const double filled = std::clamp(0.5 + (share(atX, atY) - 0.9683) * std::max(5.0 * push.step, 0.5 / (1 - 0.9683)), 0.0, 1.0);
+  if (coverage < 0.5 && filled > coverage) {
+    const double own = hard_[samples_.index(ownX, ownY)];
+    found = look(ray, std::isfinite(own) ? own : nearest);
+  }
+  coverage = std::max(coverage, filled);
+  if (!(found.depth > double{push.near_depth})) return {};
+  return {{found.depth, found.normal}, coverage};
 }
 
 }  // namespace rill::test

@@ -2,7 +2,6 @@
 // The planes' surface in double precision, from every particle at every ray, without grid, lists or culling: the oracle of the passes from
 // hard depth to pixels.
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include "render/surface.hpp"
@@ -46,7 +45,13 @@ class SurfaceReference {
   const std::vector<double>& hard() const { return hard_; }  ///< depth of the nearest sphere, a sample
   size_t surfaceParticles() const { return planes_.size(); }
   const std::vector<Place>& smooth() const { return smooth_; }  ///< a sample
-  Place pixel(uint32_t x, uint32_t y) const;
+  /// What is seen in a pixel, and how much of it that covers; where that is less than a half, too.
+  struct Pixel {
+    Place place;
+    double coverage = 0;
+  };
+  Pixel pixel(uint32_t x, uint32_t y) const;
+  bool closed(int x, int y) const;  ///< spheres leave no gap for two samples around this one
 
  private:
   struct Plane {
@@ -71,7 +76,7 @@ class SurfaceReference {
   Plane plane(const std::vector<Vector>& centres, const Vector& own) const;
   Look lookFrom(const Samples::Ray& ray, double depth) const;
   Look look(const Samples::Ray& ray, double depth) const;
-  double solid(double x, double y) const;  ///< share of the samples around that are covered; whole numbers are samples
+  double share(double x, double y) const;  ///< share of the samples around that are covered; whole numbers are samples
 
   Samples samples_;
   std::vector<double> hard_;

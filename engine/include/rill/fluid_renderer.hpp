@@ -70,11 +70,11 @@ struct FluidLook {
   Float3 absorption{2.6f, 0.75f, 0.40f};  ///< 1/m, Beer and Lambert
   Float3 scatter{0.02f, 0.13f, 0.19f};    ///< what its inside sends back where it is thick, of white light; of an opaque fluid its colour
   bool opaque = false;                    ///< nothing is seen through it, and no thickness is made
-  float refraction_index = 1.333f;        ///< above 1
+  float refraction_index = 1.333f;        ///< 1 to 10
   float highlight = 900;                  ///< exponent of the sun's reflection
   float sun = 18;                         ///< radiance of the sun's reflection over the sky's
-  float aeration = 0.3f;                  ///< how white torn fluid is, spray and breaking crests: 0 (none) to 1
   Float3 to_sun{-0.30f, 0.84f, 0.45f};    ///< direction, of any length
+  float aeration = 0.3f;                  ///< how white torn fluid is, spray and breaking crests: 0 (none) to 1; of one that is not opaque
 };
 
 /// The looks that `look.preset` of a scene names: water, milk, ink, clay. Nothing for another name.
