@@ -36,14 +36,16 @@ Expected<CurvatureFlow> CurvatureFlow::create(Device& device) {
         const ComputePipeline*& pipeline;
         std::string_view shader;
         std::span<const BindingKind> bindings;
+        bool used = true;
       } all[] = {{out.flow_[level][texels], texels ? "render/surface_flow_texel" : "render/surface_flow",
                   texels ? std::span<const BindingKind>(kOne) : std::span(kStorage).first(4)},
                  {out.down_[level][texels], texels ? "render/surface_flow_down_texel" : "render/surface_flow_down",
-                  texels ? std::span<const BindingKind>(kOne) : std::span(kStorage).first(4)},
+                  texels ? std::span<const BindingKind>(kOne) : std::span(kStorage).first(4), level > 0},
                  {out.up_[level][texels], texels ? "render/surface_flow_up_texel" : "render/surface_flow_up",
-                  texels ? std::span<const BindingKind>(kThree) : std::span<const BindingKind>(kStorage)}};
+                  texels ? std::span<const BindingKind>(kThree) : std::span<const BindingKind>(kStorage), level < kMostLevels}};
       const uint32_t constants[] = {std::bit_cast<uint32_t>(kFlowStable), kSampleBlock >> level};
       for (const auto& row : all) {
+        if (!row.used) continue;
         auto made = computePipeline(
             device, {.shader = row.shader, .bindings = row.bindings, .pushConstantBytes = sizeof(SurfacePush), .constants = constants});
         if (!made) return made.error();

@@ -6,6 +6,7 @@
 
 namespace rill {
 
+/// The flow's kernels, on every level that a pyramid may have.
 class CurvatureFlow {
  public:
   static constexpr uint32_t kMostLevels = 2;  ///< above the samples: a margin is a whole number of cells, of four samples

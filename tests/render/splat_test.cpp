@@ -12,7 +12,7 @@ namespace {
 
 using surface::SurfacePush;
 
-constexpr double kNothing = std::numeric_limits<double>::infinity();
+constexpr double kNothing = SurfaceReference::kNone;
 
 class ParticlesToSamples : public SurfaceOnGpu {
  protected:
