@@ -71,7 +71,8 @@ double smoothstep(double low, double high, double x) {
 
 }  // namespace
 
-SurfaceReference::SurfaceReference(const surface::SurfacePush& push, const std::vector<Float4>& positions) : samples_(push) {
+SurfaceReference::SurfaceReference(const surface::SurfacePush& push, const std::vector<Float4>& positions, By by)
+    : samples_(push), by_(by) {
   std::vector<Vector> centres;
   for (const Float4& p : positions) {
     const Vector centre = samples_.seen(p);
@@ -84,13 +85,18 @@ SurfaceReference::SurfaceReference(const surface::SurfacePush& push, const std::
         const double t = sphere(centre, hardRadius(centre.z), samples_.ray(x, y));
         if (t > double{push.near_depth}) hard_[samples_.index(x, y)] = std::min(hard_[samples_.index(x, y)], t);
       }
-  const std::vector<Vector> surface = picked(centres);
-  for (const Vector& own : surface) planes_.push_back(plane(surface, own));
+  centres_ = picked(centres);
+  if (by == By::Planes)
+    for (const Vector& own : centres_) planes_.push_back(plane(centres_, own));
   smooth_.resize(hard_.size());
   for (int y = 0; y < samples_.rows; ++y)
     for (int x = 0; x < samples_.columns; ++x) {
       const double hard = hard_[samples_.index(x, y)];
       if (hard == kNone) continue;
+      if (by == By::Depth) {
+        if (cover(samples_.ray(x, y), hard) >= 0.5 || closed(x, y)) smooth_[samples_.index(x, y)] = sampleOfDepth(x, y);
+        continue;
+      }
       const Look found = look(samples_.ray(x, y), hard);
       if (found.coverage >= 0.5 || closed(x, y)) smooth_[samples_.index(x, y)] = {found.depth, found.normal};
     }
@@ -232,23 +238,101 @@ double SurfaceReference::share(double x, double y) const {
   return covered / 25;
 }
 
+/// A pixel's coverage from the centres that lie up to 1.6 spacings nearer or farther.
+double SurfaceReference::cover(const Samples::Ray& ray, double depth) const {
+  const double spacing = spacingAt(depth);
+  double sum = 0;
+  for (const Vector& centre : centres_) {
+    if (std::abs(centre.z - depth) > 1.6 * spacing) continue;
+    const Vector to = centre - ray.from, miss = to - ray.along * (dot(to, ray.along) / dot(ray.along, ray.along));
+    sum += std::pow(std::max(1 - dot(miss, miss) / std::pow(1.2 * spacing, 2), 0.0), 2);
+  }
+  return std::clamp(0.5 + (sum - 0.7) * spacing / (1.25 * samples_.side(depth) / samples_.push.step), 0.0, 1.0);
+}
+
+/// From a sample to the next in a direction: over both of its neighbours where they bend by less than half a spacing, else to the one
+/// nearer in depth.
+Vector SurfaceReference::difference(int x, int y, int dx, int dy) const {
+  const auto depth = [&](int u, int v) { return samples_.has(u, v) ? hard_[samples_.index(u, v)] : kNone; };
+  const auto point = [&](int u, int v) { return samples_.ray(u, v).at(depth(u, v)); };
+  const bool before = depth(x - dx, y - dy) != kNone, after = depth(x + dx, y + dy) != kNone;
+  const Vector own = point(x, y), back = before ? own - point(x - dx, y - dy) : Vector{},
+               on = after ? point(x + dx, y + dy) - own : Vector{};
+  if (before && after) {
+    if (std::abs(back.z - on.z) < 0.5 * double{samples_.push.spacing}) return back + on;
+    return std::abs(back.z) < std::abs(on.z) ? back : on;
+  }
+  if (before) return back;
+  if (after) return on;
+  return Vector{double(dx), double(dy), 0} * samples_.side(own.z);
+}
+
+SurfaceReference::Place SurfaceReference::sampleOfDepth(int x, int y) const {
+  const Vector a = difference(x, y, 1, 0), b = difference(x, y, 0, 1);
+  const Samples::Ray ray = samples_.ray(x, y);
+  const double depth = hard_[samples_.index(x, y)];
+  const Vector towards = samples_.push.perspective > 0 ? ray.at(depth) : Vector{0, 0, 1};
+  Vector normal{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  normal = dot(normal, normal) > 0 ? unit(normal) : unit(towards) * -1;
+  if (dot(normal, towards) > 0) normal = normal * -1;
+  // The spheres lie three tenths of a spacing above the surface, along its normal.
+  const double inset = std::min(0.3 / std::max(-dot(ray.along, normal), 0.1), 0.9) * double{samples_.push.spacing};
+  return {depth + inset, normal};
+}
+
+SurfaceReference::Look SurfaceReference::lookByPlanes(const Samples::Ray& ray, double nearest, double farthest, double own,
+                                                      double filled) const {
+  Look found = look(ray, nearest);
+  double coverage = found.coverage;
+  if (coverage < 1 && farthest > nearest + 0.5 * double{samples_.push.spacing}) {
+    const Look behind = look(ray, farthest);
+    if (coverage < 0.5) found = behind;
+    coverage = std::max(coverage, behind.coverage) >= 0.5 ? 1 : behind.coverage;
+  }
+  if (coverage < 0.5 && filled > coverage) found = look(ray, std::isfinite(own) ? own : nearest);
+  found.coverage = std::max(coverage, filled);
+  return found;
+}
+
+/// On the plane of that of the four samples which is nearest, a spacing of depth counted as two samples.
+SurfaceReference::Look SurfaceReference::lookByDepth(const Samples::Ray& ray, double nearest, double farthest, const Corner (&corners)[4],
+                                                     double filled) const {
+  const double spacing = double{samples_.push.spacing};
+  Look found;
+  double hard = nearest, best = kNone;
+  found.coverage = cover(ray, nearest);
+  if (found.coverage < 1 && farthest > nearest + 0.5 * spacing) {
+    const double behind = cover(ray, farthest);
+    if (found.coverage < 0.5) hard = farthest;
+    found.coverage = std::max(found.coverage, behind) >= 0.5 ? 1 : behind;
+  }
+  found.coverage = std::max(found.coverage, filled);
+  for (const Corner& corner : corners) {
+    const double badness = corner.square + 4 * std::abs(corner.place.depth - hard) / spacing;
+    if (corner.place.depth == kNone || badness >= best) continue;
+    best = badness;
+    found.normal = corner.place.normal;
+    const double slope = dot(ray.along, found.normal), height = dot(corner.point - ray.from, found.normal), depth = corner.place.depth;
+    found.depth =
+        slope < -0.05 * std::sqrt(dot(ray.along, ray.along)) ? std::clamp(height / slope, depth - spacing, depth + spacing) : depth;
+  }
+  return found;
+}
+
 SurfaceReference::Pixel SurfaceReference::pixel(uint32_t x, uint32_t y) const {
   const surface::SurfacePush& push = samples_.push;
   const double spacing = double{push.spacing}, atX = (x + 0.5) / push.step - 0.5 + push.margin,
                atY = (y + 0.5) / push.step - 0.5 + push.margin;
   const int left = int(std::floor(atX)), top = int(std::floor(atY));
-  const double partX = atX - left, partY = atY - top;
-  struct Corner {
-    Place place;
-    Vector point;
-    double weight;
-  } corners[4];
+  Corner corners[4];
   bool agree = true;
   for (int k = 0; k < 4; ++k) {
     const int u = std::clamp(left + (k & 1), 0, samples_.columns - 1), v = std::clamp(top + (k >> 1), 0, samples_.rows - 1);
+    const double offX = std::abs(atX - left - (k & 1)), offY = std::abs(atY - top - (k >> 1));
     const Place place = smooth_[samples_.index(u, v)];
-    agree = agree && place.depth != kNone;
-    corners[k] = {place, agree ? samples_.ray(u, v).at(place.depth) : Vector{}, (k & 1 ? partX : 1 - partX) * (k >> 1 ? partY : 1 - partY)};
+    const bool there = place.depth != kNone;
+    agree = agree && there;
+    corners[k] = {place, there ? samples_.ray(u, v).at(place.depth) : Vector{}, (1 - offX) * (1 - offY), offX * offX + offY * offY};
   }
   for (int k = 1; k < 4 && agree; ++k) {
     const Vector d = corners[k].point - corners[0].point;
@@ -274,21 +358,11 @@ SurfaceReference::Pixel SurfaceReference::pixel(uint32_t x, uint32_t y) const {
     }
   if (nearest == kNone) return {};
   const Samples::Ray ray = samples_.ray(x + 0.5, y + 0.5);
-  Look found = look(ray, nearest);
-  double coverage = found.coverage;
-  if (coverage < 1 && farthest > nearest + 0.5 * spacing) {
-    const Look behind = look(ray, farthest);
-    if (coverage < 0.5) found = behind;
-    coverage = std::max(coverage, behind.coverage) >= 0.5 ? 1 : behind.coverage;
-  }
   const double filled = std::clamp(0.5 + (share(atX, atY) - 0.9683) * std::max(5.0 * push.step, 0.5 / (1 - 0.9683)), 0.0, 1.0);
-  if (coverage < 0.5 && filled > coverage) {
-    const double own = hard_[samples_.index(ownX, ownY)];
-    found = look(ray, std::isfinite(own) ? own : nearest);
-  }
-  coverage = std::max(coverage, filled);
-  if (!(found.depth > double{push.near_depth})) return {};
-  return {{found.depth, found.normal}, coverage};
+  const Look found = by_ == By::Planes ? lookByPlanes(ray, nearest, farthest, hard_[samples_.index(ownX, ownY)], filled)
+                                       : lookByDepth(ray, nearest, farthest, corners, filled);
+  if (!(found.depth > double{push.near_depth}) || found.depth == kNone) return {};
+  return {{found.depth, found.normal}, found.coverage};
 }
 
 }  // namespace rill::test

@@ -1,5 +1,5 @@
 #pragma once
-// The planes' surface in double precision, from every particle at every ray, without grid, lists or culling: the oracle of the passes from
+// The surface in double precision, from every particle at every ray, without grid, lists or culling: the oracle of the passes from
 // hard depth to pixels.
 #include <limits>
 #include <vector>
@@ -39,11 +39,12 @@ class SurfaceReference {
     Vector normal;  ///< in view space
   };
 
-  SurfaceReference(const surface::SurfacePush& push, const std::vector<Float4>& positions);
+  enum class By { Planes, Depth };  ///< Depth: of a filter that leaves the spheres' depth as it is
+  SurfaceReference(const surface::SurfacePush& push, const std::vector<Float4>& positions, By by);
 
   const Samples& samples() const { return samples_; }
   const std::vector<double>& hard() const { return hard_; }  ///< depth of the nearest sphere, a sample
-  size_t surfaceParticles() const { return planes_.size(); }
+  size_t surfaceParticles() const { return centres_.size(); }
   const std::vector<Place>& smooth() const { return smooth_; }  ///< a sample
   /// What is seen in a pixel, and how much of it that covers; where that is less than a half, too.
   struct Pixel {
@@ -65,8 +66,14 @@ class SurfaceReference {
     Vector least;
   };
   struct Look {
-    double depth, coverage, firm;
+    double depth = kNone, coverage = 0, firm = 0;
     Vector normal;
+  };
+  /// One of the four samples around a pixel.
+  struct Corner {
+    Place place;
+    Vector point;
+    double weight = 0, square = 0;  ///< in the mean; of the distance, samples
   };
   double spacingAt(double z) const;
   double hardRadius(double z) const;
@@ -76,10 +83,17 @@ class SurfaceReference {
   Plane plane(const std::vector<Vector>& centres, const Vector& own) const;
   Look lookFrom(const Samples::Ray& ray, double depth) const;
   Look look(const Samples::Ray& ray, double depth) const;
+  double cover(const Samples::Ray& ray, double depth) const;
+  Place sampleOfDepth(int x, int y) const;
+  Vector difference(int x, int y, int dx, int dy) const;
+  Look lookByPlanes(const Samples::Ray& ray, double nearest, double farthest, double own, double filled) const;
+  Look lookByDepth(const Samples::Ray& ray, double nearest, double farthest, const Corner (&corners)[4], double filled) const;
   double share(double x, double y) const;  ///< share of the samples around that are covered; whole numbers are samples
 
   Samples samples_;
   std::vector<double> hard_;
+  By by_;
+  std::vector<Vector> centres_;  ///< of surface particles
   std::vector<Plane> planes_;
   std::vector<Place> smooth_;
 };
