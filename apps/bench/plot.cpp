@@ -1,6 +1,7 @@
 // Drawing is gnuplot's: we write its program and its data, and take what it prints.
 #include "bench/plot.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -37,6 +38,14 @@ bool drawable(const Plot& plot, const std::pair<double, double>& point) {
   return std::isfinite(point.first) && std::isfinite(point.second) && (!plot.logX || point.first > 0) && (!plot.logY || point.second > 0);
 }
 
+/// 1, 2 and 5 of each decade: where fewer than two whole ones are shown, powers of ten alone say little.
+std::string logTics() {
+  std::string tics;
+  for (int decade = -6; decade <= 6; ++decade)
+    for (const char* digit : {"1", "2", "5"}) tics += (tics.empty() ? "(" : ", ") + std::string(digit) + "e" + std::to_string(decade);
+  return tics + ")";
+}
+
 }  // namespace
 
 Expected<void> checkPlotter() {
@@ -56,8 +65,14 @@ std::string plotProgram(std::span<const Plot> plots) {
   for (size_t p = 0; p < plots.size(); ++p) {
     const Plot& plot = plots[p];
     out << "set title " << quoted(plot.title) << "\nset xlabel " << quoted(plot.x) << "\nset ylabel " << quoted(plot.y) << "\n";
+    // Labelled points need the room; whole decades around them would leave them a corner.
+    const bool labelled = std::ranges::any_of(plot.series, [](const Series& one) { return !one.labels.empty(); });
+    out << (labelled ? "set autoscale fix\nset offsets graph 0.06, graph 0.16, graph 0.08, graph 0.08\n"
+                     : "set autoscale\nset offsets 0,0,0,0\n");
+    out << "set xtics " << (labelled && plot.logX ? logTics() : "autofreq") << "\n";
     out << (plot.logX ? "set logscale x\n" : "unset logscale x\n") << (plot.logY ? "set logscale y\n" : "unset logscale y\n");
     out << yAxis(plot.rows);
+    if (labelled && plot.logY) out << "set ytics " << logTics() << "\n";
     std::string curves;
     for (size_t s = 0; s < plot.series.size(); ++s) {
       const Series& series = plot.series[s];
