@@ -70,10 +70,9 @@ BufferRef CurvatureFlow::addTo(Graph& graph, BufferRef depth, const SurfaceBuffe
     const double wanted = time * spacing * spacing;
     level.steps = std::clamp(static_cast<uint32_t>(std::ceil(wanted / (kFlowStable * area))), 1u, kMostSteps);
     level.push.smoothing = static_cast<float>(wanted / level.steps);
-    const uint64_t columns = (level.push.width + level.push.step - 1) / level.push.step + 2 * level.push.margin;
-    const uint64_t rows = (level.push.height + level.push.step - 1) / level.push.step + 2 * level.push.margin;
-    level.start = l == 0 ? depth : graph.create("surface flow coarse", {columns * rows * 4});
-    for (BufferRef& buffer : level.to) buffer = graph.create("surface flow", {columns * rows * 4});
+    const uint64_t bytes = sampleCount(level.push) * 4;
+    level.start = l == 0 ? depth : graph.create("surface flow coarse", {bytes});
+    for (BufferRef& buffer : level.to) buffer = graph.create("surface flow", {bytes});
   }
   graph.pass("surface flow clear", [&](Pass& pass) {
     BufferRef cleared[3 * (kMostLevels + 1)];

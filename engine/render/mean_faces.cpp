@@ -22,7 +22,7 @@ Expected<MeanFaces> MeanFaces::create(Device& device) {
 
 BufferRef MeanFaces::addTo(Graph& graph, const SurfaceBuffers& surface) const {
   BufferRef means[2];
-  for (BufferRef& buffer : means) buffer = graph.create("surface faces", {surface.sampleCount * 4});
+  for (BufferRef& buffer : means) buffer = graph.create("surface faces", {sampleCount(surface.push) * 4});
   const StepGroups blocks(surface.arguments, surface::kSampleBlockArguments);
   BufferRef before = surface.samples;  // the first dimension has none: bound, never read
   for (int k = 0; k < 2; ++k) {

@@ -121,7 +121,7 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
   assert(fluid.count > 0);
   const bool filtered = settings.filter || method == SurfaceMethod::CurvatureFlow || method == SurfaceMethod::NarrowRange;
   Frame frame = frameOf(fluid, camera, method, focus, settings);
-  const uint64_t mostTexels = std::max({2 * uint64_t{fluid.count}, paddedWords(frame.cells + 1), frame.out.sampleCount});
+  const uint64_t mostTexels = std::max({2 * uint64_t{fluid.count}, paddedWords(frame.cells + 1), sampleCount(frame.out.push)});
   frame.storageReads = settings.storage_reads;
   frame.texels = !frame.storageReads && readsTexels(*device_, mostTexels);
   frame.narrows = method == SurfaceMethod::NarrowRange && !settings.filter;
@@ -146,8 +146,7 @@ SurfaceStage::Frame SurfaceStage::frameOf(const FluidState& fluid, SurfacePush p
   Frame frame;
   push.smoothing = static_cast<float>(method == SurfaceMethod::NarrowRange ? settings.narrow_sigma : settings.fit_reach);
   frame.sampleSide = sampleSide;
-  const uint64_t columns = divideUp(push.width, push.step) + 2 * push.margin, rows = divideUp(push.height, push.step) + 2 * push.margin;
-  frame.out.sampleCount = columns * rows;
+  const uint64_t columns = sampleColumns(push), rows = sampleRows(push);
   frame.occluderCells = gridCells(columns, rows, kOccluderSamples);
   frame.cells = gridCells(columns, rows, kCellSamples);
   frame.sampleBlocks = gridCells(columns, rows, kSampleBlock);
@@ -159,7 +158,7 @@ SurfaceStage::Frame SurfaceStage::frameOf(const FluidState& fluid, SurfacePush p
 void SurfaceStage::addBuffers(Graph& graph, const FluidState& fluid, Frame& frame, bool whole) {
   SurfaceBuffers& out = frame.out;
   frame.occluders = graph.create("surface occluders", {frame.occluderCells * 4});
-  frame.depth = graph.create("surface hard depth", {out.sampleCount * 4});
+  frame.depth = graph.create("surface hard depth", {sampleCount(out.push) * 4});
   frame.start = graph.create("surface cells", {paddedWords(frame.cells + 1) * 4});
   out.counters = graph.create("surface counters", {kSurfaceCounterWords * 4});
   out.arguments = graph.create("surface arguments", {kSurfaceArgumentWords * 4});
@@ -168,9 +167,9 @@ void SurfaceStage::addBuffers(Graph& graph, const FluidState& fluid, Frame& fram
   out.tiles = graph.create("surface tiles", {gridCells(out.push.width, out.push.height, kSurfaceTile) * 4});
   out.pixels = graph.create("surface pixels", {uint64_t{out.push.width} * out.push.height * 8});
   out.blocks = graph.create("surface blocks", {frame.sampleBlocks * 4});
-  out.samples = graph.create("surface samples", {out.sampleCount * 8});
+  out.samples = graph.create("surface samples", {sampleCount(out.push) * 8});
   if (frame.narrows)
-    for (BufferRef& buffer : frame.filtered) buffer = graph.create("surface filtered", {out.sampleCount * 4});
+    for (BufferRef& buffer : frame.filtered) buffer = graph.create("surface filtered", {sampleCount(out.push) * 4});
   graph.pass("surface clear", [&](Pass& pass) {
     std::array<BufferRef, 6> infinite;
     size_t count = 0;

@@ -1,19 +1,24 @@
 #pragma once
 #include "render/surface_records.h"
 #include "rill/graph.hpp"
+#include "sort/dispatches.hpp"
 
 namespace rill {
 
 /// What a surface is handed on as. Only pixels of the listed tiles are written, unless it was asked for as a whole.
 struct SurfaceBuffers {
-  BufferRef pixels;          ///< two words a pixel, as unpackPixel() reads them
-  BufferRef tiles;           ///< numbers of the tiles that hold fluid, in any order
-  BufferRef samples;         ///< two words a sample, depth and normal: packNormal(); infinite where there is no fluid
-  BufferRef blocks;          ///< numbers of the blocks of samples that hold fluid, in any order
-  BufferRef counters;        ///< kSurvivorCount ...
-  BufferRef arguments;       ///< kSurfaceTileArguments, kTileDraw, kPixelArguments
-  uint64_t sampleCount = 0;  ///< of the picture with its margin
+  BufferRef pixels;     ///< two words a pixel, as unpackPixel() reads them
+  BufferRef tiles;      ///< numbers of the tiles that hold fluid, in any order
+  BufferRef samples;    ///< two words a sample, depth and normal: packNormal(); infinite where there is no fluid
+  BufferRef blocks;     ///< numbers of the blocks of samples that hold fluid, in any order
+  BufferRef counters;   ///< kSurvivorCount ...
+  BufferRef arguments;  ///< kSurfaceTileArguments, kTileDraw, kPixelArguments
   surface::SurfacePush push;
 };
+
+/// Samples a row and rows of them, of the picture with its margin: sampleGrid() of the shaders.
+inline uint64_t sampleColumns(const surface::SurfacePush& push) { return divideUp(push.width, push.step) + 2 * uint64_t{push.margin}; }
+inline uint64_t sampleRows(const surface::SurfacePush& push) { return divideUp(push.height, push.step) + 2 * uint64_t{push.margin}; }
+inline uint64_t sampleCount(const surface::SurfacePush& push) { return sampleColumns(push) * sampleRows(push); }
 
 }  // namespace rill

@@ -135,7 +135,6 @@ class FlowPyramid : public SurfaceOnGpu {
     surface.blocks = graph.import("blocks", importOf(blocks));
     surface.counters = graph.import("counters", importOf(counters));
     surface.arguments = graph.import("arguments", importOf(arguments));
-    surface.sampleCount = level.map.z.size();
     surface.push = level.push;
     const Ticket ticket =
         graph.readback(flow->addTo(graph, graph.import("depth", importOf(depth)), surface, side, time, mostLevels, asTexels));
