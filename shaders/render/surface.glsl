@@ -37,7 +37,9 @@ vec3 worldDirection(vec3 v) {
 vec3 worldPoint(vec3 v) { return worldDirection(v - vec3(view.rows[3], view.rows[7], view.rows[11])); }
 
 vec2 pictureSize() { return vec2(float(view.width), float(view.height)); }
-float widening(float z) { return view.perspective > 0.0 ? z : 1.0; }  // how a pixel's extent grows with depth
+// How a pixel's extent grows with depth. What lies before the near plane is put where it would be on it.
+float widening(float z) { return view.perspective > 0.0 ? max(z, view.near_depth) : 1.0; }
+float nearestDrawn() { return view.near_depth * 1.000001 + 1e-6 * view.spacing; }  // just beyond the near plane
 vec2 axisOf(vec2 pixel) {
   return (pixel / pictureSize() * 2.0 - 1.0 - vec2(view.shift[0], view.shift[1])) * vec2(view.scale[0], view.scale[1]);
 }
@@ -51,15 +53,15 @@ float metresAPixel(float z) { return abs(view.scale[1]) * 2.0 / float(view.heigh
 vec3 rayFrom(vec2 axis) { return view.perspective > 0.0 ? vec3(0.0) : vec3(axis, 0.0); }
 vec3 rayAlong(vec2 axis) { return view.perspective > 0.0 ? vec3(axis, 1.0) : vec3(0.0, 0.0, 1.0); }
 
-// Depth of the near side of a sphere along a ray; negative where it misses. Measured from the ray's nearest point to the centre, so that a
-// small sphere far away keeps its precision.
+// Depth of the near side of a sphere along a ray, or of the near plane where that cuts it; negative where it misses or lies before the near plane. Measured from the ray's
+// nearest point to the centre, so that a small sphere far away keeps its precision.
 float sphereDepth(vec3 centre, float radius, vec2 axis) {
   const vec3 from = rayFrom(axis), along = rayAlong(axis);
   const float inverse = 1.0 / dot(along, along);
   const float middle = dot(centre - from, along) * inverse;
   const vec3 miss = centre - from - middle * along;
-  const float inside = radius * radius - dot(miss, miss);
-  return inside > 0.0 ? middle - sqrt(inside * inverse) : -1.0;
+  const float inside = radius * radius - dot(miss, miss), half_chord = sqrt(max(inside, 0.0) * inverse), nearest = nearestDrawn();
+  return inside > 0.0 && middle + half_chord > nearest ? max(middle - half_chord, nearest) : -1.0;
 }
 
 // Square of a point's distance to a ray.
@@ -69,10 +71,27 @@ float raySquare(vec3 point, vec2 axis) {
   return dot(miss, miss);
 }
 
-// Pixels between which a sphere is seen; its whole must be in front of the near plane.
+// Between which axes a sphere is seen that the near plane cuts: on each the tangents that touch it beyond that plane, and the ends of the plane's own section
+// (Mara and McGuire 2013).
+void cutExtent(vec3 centre, float radius, out vec2 low, out vec2 high) {
+  const vec2 from_eye = centre.xy * centre.xy + centre.z * centre.z, tangent = sqrt(max(from_eye - radius * radius, 0.0));
+  const vec2 high_z = tangent * centre.z - centre.xy * radius, low_z = tangent * centre.z + centre.xy * radius;
+  const vec2 beyond = view.near_depth * from_eye;  // where a tangent touches, its depth is one of those times tangent / from_eye
+  const float off = view.near_depth - centre.z, section = sqrt(max(radius * radius - off * off, 0.0));
+  high = (centre.xy + section) / view.near_depth;
+  low = (centre.xy - section) / view.near_depth;
+  for (int k = 0; k < 2; ++k) {
+    if (tangent[k] * high_z[k] > beyond[k]) high[k] = max(high[k], (tangent[k] * centre[k] + centre.z * radius) / high_z[k]);
+    if (tangent[k] * low_z[k] > beyond[k]) low[k] = min(low[k], (tangent[k] * centre[k] - centre.z * radius) / low_z[k]);
+  }
+}
+
+// Pixels between which a sphere is seen.
 vec4 sphereExtent(vec3 centre, float radius) {
   vec2 low = centre.xy - radius, high = centre.xy + radius;
-  if (view.perspective > 0.0) {
+  if (view.perspective > 0.0 && centre.z - radius <= view.near_depth) {
+    cutExtent(centre, radius, low, high);
+  } else if (view.perspective > 0.0) {
     const float square = (centre.z - radius) * (centre.z + radius);
     const vec2 spread = radius * sqrt(centre.xy * centre.xy + square);
     low = (centre.xy * centre.z - spread) / square;
@@ -82,9 +101,9 @@ vec4 sphereExtent(vec3 centre, float radius) {
   return vec4(min(a, b), max(a, b));
 }
 
-// In front of the near plane as a whole, and inside the picture with this margin (pixels) as a part.
+// Beyond the near plane and inside the picture with this margin (pixels), as a part at least.
 bool shownWithin(vec3 centre, float radius, float margin) {
-  if (!(centre.z - radius > view.near_depth)) return false;
+  if (!(centre.z + radius > nearestDrawn())) return false;
   const vec4 extent = sphereExtent(centre, radius);
   return all(greaterThanEqual(extent.zw, vec2(-margin))) && all(lessThanEqual(extent.xy, pictureSize() + margin));
 }
@@ -126,7 +145,7 @@ float depthOfTarget(float stored) {
 
 // Where a point of view space is drawn, in clip space.
 vec4 clipPoint(vec3 v) {
-  const float w = widening(v.z);
+  const float w = view.perspective > 0.0 ? v.z : 1.0;
   const float depth = view.perspective > 0.0 ? view.depth_map[0] * v.z + view.depth_map[1] : targetDepth(v.z);
   return vec4(v.xy / vec2(view.scale[0], view.scale[1]) + w * vec2(view.shift[0], view.shift[1]), depth, w);
 }
@@ -150,8 +169,11 @@ vec3 unpackNormal(uint packed) {
 // A pixel of the surface: depth and normal, and how much of it is fluid. Where that is less than half, the depth's sign is set: it reads as no fluid
 // to all but those who draw edges.
 uvec2 packPixel(float z, vec3 normal, float coverage) {
-  if (coverage <= 0.0 || !(z > view.near_depth)) return uvec2(kInfiniteBits, 0u);
+  if (coverage <= 0.0 || !(z < infinity())) return uvec2(kInfiniteBits, 0u);
+  z = max(z, nearestDrawn());
   return uvec2(floatBitsToUint(coverage < 0.5 ? -z : z), packNormal(normal) | uint(coverage * 15.0 + 0.5) << 28);
 }
 float pixelDepth(uvec2 pixel) { return abs(uintBitsToFloat(pixel.x)); }
 float pixelCoverage(uvec2 pixel) { return float(pixel.y >> 28) / 15.0; }
+// What the near plane cuts is seen in it, and faces the eye: depth and normal as samples are stored.
+uvec2 cutSample(vec2 axis) { return uvec2(floatBitsToUint(nearestDrawn()), packNormal(-normalize(rayAlong(axis)))); }

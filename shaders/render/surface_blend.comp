@@ -18,7 +18,12 @@ void main() {
   const uint index = uint(at.y) * sampleGrid().x + uint(at.x);
   const float hard = uintBitsToFloat(depth[index]);
   if (hard == infinity()) return;
-  const Blend blend = blendAt(axisOf(samplePixel(at)), hard);
+  const vec2 axis = axisOf(samplePixel(at));
+  if (hard <= nearestDrawn() && solidAround(at)) {  // amid what the near plane cuts
+    samples[index] = cutSample(axis);
+    return;
+  }
+  const Blend blend = blendAt(axis, hard);
   samples[index] = blend.coverage >= 0.5 || solidAround(at) ? uvec2(floatBitsToUint(blend.depth), packNormal(blend.normal)) : uvec2(kInfiniteBits, 0u);
   if (bound_hit) atomicAdd(counters[kBoundHits], 1u);
 }

@@ -73,10 +73,12 @@ Blend lookFrom(vec2 axis, float depth) {
 // At a grazing angle the spheres' depth lies far off the surface, and jumps from one to the next: looked at again from what was found.
 Blend blendAt(vec2 axis, float depth) {
   Blend blend = lookFrom(axis, depth);
+  const bool cut = depth <= nearestDrawn();  // by the near plane, which is seen then
+  if (cut) blend.normal = -normalize(rayAlong(axis));
   const float still = kStill * spacingAt(depth);
   float from = depth;
   int turn = 0;  // one exit, no break: see ARCHITECTURE.md, "What lavapipe taught"
-  bool moves = blend.firm > kFirm && abs(blend.depth - from) > still;
+  bool moves = !cut && blend.firm > kFirm && abs(blend.depth - from) > still;
   LOOP_WHILE (moves) {
     const Blend next = lookFrom(axis, blend.depth);
     moves = next.firm > kFirm;
@@ -87,5 +89,6 @@ Blend blendAt(vec2 axis, float depth) {
       moves = ++turn < kLooks && abs(blend.depth - from) > still;
     }
   } LOOP_END(moves);
+  blend.depth = cut ? nearestDrawn() : max(blend.depth, nearestDrawn());
   return blend;
 }

@@ -45,9 +45,17 @@ void main() {
   const uint index = uint(p.y * grid.x + p.x);
   const float z = filteredAt(index);
   if (z == infinity()) return;
-  const float coverage = coverOf(axisOf(samplePixel(p)), uintBitsToFloat(depth[index]));
-  if (bound_hit) atomicAdd(counters[kBoundHits], 1u);
-  if (coverage < 0.5 && !solidAround(p)) return;
+  const float hard = uintBitsToFloat(depth[index]);
+  const vec2 axis = axisOf(samplePixel(p));
+  if (!solidAround(p)) {
+    const float coverage = coverOf(axis, hard);
+    if (bound_hit) atomicAdd(counters[kBoundHits], 1u);
+    if (coverage < 0.5) return;
+  }
+  if (hard <= nearestDrawn()) {
+    samples[index] = cutSample(axis);
+    return;
+  }
   bool there;
   const vec3 own = pointAt(p, grid, there);
   vec3 normal = cross(difference(p, ivec2(1, 0), grid, own), difference(p, ivec2(0, 1), grid, own));
@@ -56,7 +64,7 @@ void main() {
   const float size = length(normal);
   normal = size > 0.0 ? normal / size : -normalize(towards);
   // The spheres reach beyond where the fluid ends.
-  const float slope = dot(rayAlong(axisOf(samplePixel(p))), normal);
+  const float slope = dot(rayAlong(axis), normal);
   const float inset = min(kInset / max(-slope, 0.1), 3.0 * kInset) * view.spacing;
-  samples[index] = uvec2(floatBitsToUint(z + inset), packNormal(normal));
+  samples[index] = uvec2(floatBitsToUint(max(z + inset, nearestDrawn())), packNormal(normal));
 }

@@ -12,7 +12,7 @@ void main() {
   if (i >= view.count || !drawable(position[i].xyz)) return;
   const vec3 centre = viewPoint(position[i].xyz);
   const float radius = hardRadius(centre.z);
-  if (!shown(centre, radius)) return;
+  if (!(centre.z > view.near_depth) || !shown(centre, radius)) return;
   // A square inside the silhouette, which is at least as large as the section through the centre.
   const vec2 middle = sampleOf(pixelOf(centre)) + 0.5;
   const float side = 0.7 * radius / metresAPixel(centre.z) / float(view.step);

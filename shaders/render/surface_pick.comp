@@ -27,7 +27,7 @@ void main() {
   for (int y = rect.y; y <= rect.w; ++y)
     for (int x = rect.x; x <= rect.z; ++x) {
       const float t = sphereDepth(centre, radius, axisOf(samplePixel(ivec2(x, y))));
-      if (t <= view.near_depth) continue;
+      if (t < 0.0) continue;
       ++inside;
       if (t <= uintBitsToFloat(depth[uint(y) * columns + uint(x)]) + slack) ++owned;
     }

@@ -21,7 +21,7 @@ void main() {
   for (int y = rect.y; y <= rect.w; ++y)
     for (int x = rect.x; x <= rect.z; ++x) {
       const float t = sphereDepth(centre, radius, axisOf(samplePixel(ivec2(x, y))));
-      if (t <= view.near_depth) continue;
+      if (t < 0.0) continue;
       const uint at = uint(y) * columns + uint(x);
       const uint bits = floatBitsToUint(t);
       if (bits < depth[at]) atomicMin(depth[at], bits);

@@ -32,7 +32,7 @@ void main() {
   if (i >= view.count || !drawable(position[i].xyz)) return;
   const vec3 centre = viewPoint(position[i].xyz);
   const float radius = view.radius;
-  if (!shownWithin(centre, radius, float(view.step))) return;  // a sample gets its share of what is beside the picture, too
+  if (!(centre.z > view.near_depth) || !shownWithin(centre, radius, float(view.step))) return;  // a sample gets its share of what is beside the picture, too
   const float volume = view.spacing * view.spacing * view.spacing;
   const float side = metresAPixel(centre.z) * float(view.step);
   if (radius < 1.5 * side) {  // too small for its disc to be sampled: shared among the four samples around

@@ -62,31 +62,40 @@ TEST_F(NastyViews, OnePixelAndAVeryWideRow) {
   EXPECT_GT(scannedAll(wide), 4u * 1400);
 }
 
-// Spheres that the near plane cuts are left out, and leave no trace in what is drawn of the others.
+// A row that comes through the near plane fills less and less of the picture, and none of it when it lies before that plane.
 TEST_F(NastyViews, ParticlesOnTheNearPlane) {
   const FluidView view = looking({0, 0, 0}, {0, 0, -4}, 96, 72);
   const float near = nearOf(view), beyond = std::nextafter(near, 1.0f), before = std::nextafter(near, 0.0f);
-  const auto rows = [](std::initializer_list<float> depths) {
-    std::vector<Float4> cloud;
-    for (const float z : depths)
-      for (int k = -2; k <= 2; ++k) cloud.push_back({0.02f * float(k), 0.01f * float(k), -z, 0});
-    return cloud;
-  };
-  const std::vector<Float4> cut = rows({near, beyond, before, near + 0.05f});
-  std::vector<Float4> whole = rows({near + 0.09f, near + 0.1f});
-  fill(cut);
-  for (const SurfaceMethod method : kMethods) {
+  const auto seen = [&](float depth, SurfaceMethod method) {
+    std::vector<Float4> row;
+    for (int k = -2; k <= 2; ++k) row.push_back({0.02f * float(k), 0.01f * float(k), -depth, 0});
+    fill(row);
     FluidLook look;
     look.surface = method;
-    EXPECT_EQ(scanned(view, look), 0u) << int(method);
+    return scanned(view, look);
+  };
+  for (const SurfaceMethod method : kMethods) {
+    const size_t on = seen(near, method);
+    EXPECT_GT(on, 96u * 72 / 3) << int(method);
+    for (const float depth : {beyond, before}) EXPECT_NEAR(double(seen(depth, method)), double(on), 20) << int(method);
+    EXPECT_GT(seen(near + 0.05f, method), 96u * 72 / 3) << int(method);
+    EXPECT_GT(seen(near + 0.091f, method), 96u * 72 / 4) << int(method);
+    EXPECT_EQ(seen(near - 0.091f, method), 0u) << int(method);
+    EXPECT_EQ(seen(-0.5f, method), 0u) << int(method);
   }
-  whole.push_back({0.45f, 0, -1, 0});
-  fill(whole);
-  const size_t seen = scannedAll(view);
-  EXPECT_GT(seen, 96u * 72 / 4);
-  whole.insert(whole.begin() + 3, cut.begin(), cut.end());
-  fill(whole);
-  EXPECT_EQ(scannedAll(view), seen);
+}
+
+// From inside it is cut open: the near plane is seen all over, and faces the eye.
+TEST_F(NastyViews, TheNearPlaneInsideTheFluid) {
+  fill(block({-0.6, -0.6, -0.6}, {0.6, 0.6, 0.6}));
+  const FluidView view = looking({0.03, 0.02, 0}, {0, 0, -1}, 96, 72);
+  for (const SurfaceMethod method : kMethods) {
+    const auto pixels = surface(view, method);
+    for (size_t i = 0; i < pixels.size(); ++i) {
+      ASSERT_NEAR(pixels[i].depth, nearOf(view), 1e-5f) << int(method) << " " << i;
+      ASSERT_LT(pixels[i].normal.z, -0.8) << int(method) << " " << i;
+    }
+  }
 }
 
 TEST_F(NastyViews, ParticlesThatAreNoNumbers) {

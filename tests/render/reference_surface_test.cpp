@@ -86,8 +86,8 @@ class ReferenceSurface : public SurfaceOnGpu, public testing::WithParamInterface
         const uint32_t fifteenths = (words[0] & 0x7FFFFFFF) == surface::kInfiniteBits ? 0 : words[1] >> 28;
         pixelsOff.off += std::abs(fifteenths / 15.0 - coverage) > 0.05;
         // Amid closed samples there is nothing but fluid.
-        const int left = int((x + 0.5) / found.push.step - 0.5) + int(found.push.margin),
-                  top = int((y + 0.5) / found.push.step - 0.5) + int(found.push.margin);
+        const auto before = [&](uint32_t pixel) { return int(std::floor((pixel + 0.5) / found.push.step - 0.5)) + int(found.push.margin); };
+        const int left = before(x), top = before(y);
         if (wanted.closed(left, top) && wanted.closed(left + 1, top) && wanted.closed(left, top + 1) && wanted.closed(left + 1, top + 1)) {
           ++closed;
           EXPECT_EQ(fifteenths, 15u) << name << " " << x << " " << y;
@@ -141,6 +141,15 @@ TEST_P(ReferenceSurface, NearTheEye) {
   const auto drops = scattered({-0.3, -0.3, -1.0}, {0.3, 0.3, 0.1}, 12);
   all.insert(all.end(), drops.begin(), drops.end());
   compare("near", all, looking({0, 0, 0}, {0, 0, -1.2}, 90, 70), 3, 1500);
+}
+
+TEST_P(ReferenceSurface, CutByTheNearPlane) {
+  // A slab that the eye is in, and drops beside and before it.
+  auto all = block({-0.8, -0.4, -1.2}, {0.8, 0, 0.3});
+  const auto drops = scattered({-0.4, 0.15, -0.6}, {0.4, 0.4, 0.1}, 12);
+  all.insert(all.end(), drops.begin(), drops.end());
+  compare("cut", all, looking({0, 0.05, 0}, {0, 0, -1.2}, 80, 60), 3, 1500);
+  compare("cut, parallel", all, orthographic(0.5, looking({0, 0.1, 0}, {0, 0, -4}, 72, 56)), 3, 1500);
 }
 
 // Most tiles are empty, and some hold the rim of a drop alone.

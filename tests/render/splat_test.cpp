@@ -64,18 +64,17 @@ class ParticlesToSamples : public SurfaceOnGpu {
     return {read<float>(graph, depthTicket), counts.at(surface::kSurvivorCount)};
   }
 
-  /// The nearest sphere on a sample's ray, of those that lie wholly before the near plane. `grown`: of their radius.
+  /// The nearest sphere on a sample's ray, or the near plane where it cuts one. `grown`: of their radius.
   static double nearest(const Samples& samples, const std::vector<Vector>& centres, int x, int y, double grown) {
     const Samples::Ray ray = samples.ray(x, y);
     double best = kNothing;
     for (const Vector& centre : centres) {
       const double radius = std::max(double{samples.push.radius}, 0.71 * samples.side(centre.z));
-      if (!(centre.z - radius > double{samples.push.near_depth})) continue;
       const Vector to = centre - ray.from;
       const double a = dot(ray.along, ray.along), b = dot(to, ray.along), c = dot(to, to) - radius * radius * grown * grown;
       if (b * b - a * c <= 0) continue;
-      const double depth = (b - std::sqrt(b * b - a * c)) / a;
-      if (depth > double{samples.push.near_depth}) best = std::min(best, depth);
+      const double half = std::sqrt(b * b - a * c) / a;
+      if (b / a + half > samples.nearest()) best = std::min(best, std::max(b / a - half, samples.nearest()));
     }
     return best;
   }
@@ -154,7 +153,7 @@ TEST_F(ParticlesToSamples, ThicknessIsTheSumOfAllDiscs) {
       };
       for (const Float4& p : particles) {
         const Vector centre = samples.seen(p);
-        if (!(centre.z - radius > double{push.near_depth})) continue;
+        if (!(centre.z > double{push.near_depth})) continue;
         const double side = samples.side(centre.z);
         if (radius < 1.5 * side) {  // shared among the four samples around
           const double wide = push.perspective > 0 ? centre.z : 1;

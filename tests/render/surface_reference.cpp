@@ -32,6 +32,8 @@ double Samples::side(double depth) const {
   return std::abs(double{push.scale[1]}) * 2 / push.height * push.step * (push.perspective > 0 ? depth : 1);
 }
 
+double Samples::nearest() const { return double{push.near_depth} * 1.000001 + 1e-6 * double{push.spacing}; }
+
 namespace {
 
 /// Eigenvalues of a symmetric matrix, rising, and the direction of the least: turned until nothing is left beside the diagonal (Jacobi).
@@ -76,14 +78,14 @@ SurfaceReference::SurfaceReference(const surface::SurfacePush& push, const std::
   std::vector<Vector> centres;
   for (const Float4& p : positions) {
     const Vector centre = samples_.seen(p);
-    if (centre.z - hardRadius(centre.z) > double{push.near_depth}) centres.push_back(centre);
+    if (centre.z + hardRadius(centre.z) > double{push.near_depth}) centres.push_back(centre);
   }
   hard_.assign(size_t(samples_.columns) * size_t(samples_.rows), kNone);
   for (int y = 0; y < samples_.rows; ++y)
     for (int x = 0; x < samples_.columns; ++x)
       for (const Vector& centre : centres) {
         const double t = sphere(centre, hardRadius(centre.z), samples_.ray(x, y));
-        if (t > double{push.near_depth}) hard_[samples_.index(x, y)] = std::min(hard_[samples_.index(x, y)], t);
+        if (t >= 0) hard_[samples_.index(x, y)] = std::min(hard_[samples_.index(x, y)], t);
       }
   centres_ = picked(centres);
   if (by == By::Planes)
@@ -108,7 +110,9 @@ double SurfaceReference::hardRadius(double z) const { return std::max(double{sam
 double SurfaceReference::sphere(const Vector& centre, double radius, const Samples::Ray& ray) const {
   const Vector to = centre - ray.from;
   const double a = dot(ray.along, ray.along), b = dot(to, ray.along), c = dot(to, to) - radius * radius;
-  return b * b - a * c > 0 ? (b - std::sqrt(b * b - a * c)) / a : -1;
+  if (b * b - a * c <= 0) return -1;
+  const double half = std::sqrt(b * b - a * c) / a;
+  return b / a + half > samples_.nearest() ? std::max(b / a - half, samples_.nearest()) : -1;
 }
 
 /// Those that own at least three hundredths of the samples that they cover.
@@ -119,7 +123,7 @@ std::vector<Vector> SurfaceReference::picked(const std::vector<Vector>& centres)
     for (int y = 0; y < samples_.rows; ++y)
       for (int x = 0; x < samples_.columns; ++x) {
         const double t = sphere(centre, hardRadius(centre.z), samples_.ray(x, y));
-        if (!(t > double{samples_.push.near_depth})) continue;
+        if (t < 0) continue;
         ++inside;
         owned += t <= hard_[samples_.index(x, y)] + 1e-3 * double{samples_.push.spacing};
       }
@@ -207,14 +211,19 @@ SurfaceReference::Look SurfaceReference::lookFrom(const Samples::Ray& ray, doubl
 SurfaceReference::Look SurfaceReference::look(const Samples::Ray& ray, double depth) const {
   const double still = 0.25 * spacingAt(depth);
   Look out = lookFrom(ray, depth);
-  if (out.firm <= 0.5) return out;
-  for (int turn = 0; turn < 2 && std::abs(out.depth - depth) > still; ++turn) {
+  if (depth <= samples_.nearest()) {  // the near plane itself is seen where it cuts
+    out.depth = depth;
+    out.normal = unit(ray.along) * -1;
+    return out;
+  }
+  for (int turn = 0; turn < 2 && out.firm > 0.5 && std::abs(out.depth - depth) > still; ++turn) {
     const Look next = lookFrom(ray, out.depth);
     if (next.firm <= 0.5) break;
     depth = out.depth;
     out.depth = next.depth;
     out.normal = next.normal;
   }
+  out.depth = std::max(out.depth, samples_.nearest());
   return out;
 }
 
@@ -271,13 +280,14 @@ SurfaceReference::Place SurfaceReference::sampleOfDepth(int x, int y) const {
   const Vector a = difference(x, y, 1, 0), b = difference(x, y, 0, 1);
   const Samples::Ray ray = samples_.ray(x, y);
   const double depth = hard_[samples_.index(x, y)];
+  if (depth <= samples_.nearest()) return {depth, unit(ray.along) * -1};  // the near plane itself is seen where it cuts
   const Vector towards = samples_.push.perspective > 0 ? ray.at(depth) : Vector{0, 0, 1};
   Vector normal{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
   normal = dot(normal, normal) > 0 ? unit(normal) : unit(towards) * -1;
   if (dot(normal, towards) > 0) normal = normal * -1;
   // The spheres lie three tenths of a spacing above the surface, along its normal.
   const double inset = std::min(0.3 / std::max(-dot(ray.along, normal), 0.1), 0.9) * double{samples_.push.spacing};
-  return {depth + inset, normal};
+  return {std::max(depth + inset, samples_.nearest()), normal};
 }
 
 SurfaceReference::Look SurfaceReference::lookByPlanes(const Samples::Ray& ray, double nearest, double farthest, double own,
@@ -361,8 +371,8 @@ SurfaceReference::Pixel SurfaceReference::pixel(uint32_t x, uint32_t y) const {
   const double filled = std::clamp(0.5 + (share(atX, atY) - 0.9683) * std::max(5.0 * push.step, 0.5 / (1 - 0.9683)), 0.0, 1.0);
   const Look found = by_ == By::Planes ? lookByPlanes(ray, nearest, farthest, hard_[samples_.index(ownX, ownY)], filled)
                                        : lookByDepth(ray, nearest, farthest, corners, filled);
-  if (!(found.depth > double{push.near_depth}) || found.depth == kNone) return {};
-  return {{found.depth, found.normal}, found.coverage};
+  if (found.depth == kNone) return {};
+  return {{std::max(found.depth, samples_.nearest()), found.normal}, found.coverage};
 }
 
 }  // namespace rill::test

@@ -24,6 +24,7 @@ struct Samples {
   Ray ray(int x, int y) const { return ray((x - int(push.margin) + 0.5) * push.step, (y - int(push.margin) + 0.5) * push.step); }
   /// m that a sample is wide at a depth.
   double side(double depth) const;
+  double nearest() const;  ///< depth of what the near plane cuts
   bool has(int x, int y) const { return x >= 0 && y >= 0 && x < columns && y < rows; }
   size_t index(int x, int y) const { return size_t(y) * size_t(columns) + size_t(x); }
 
