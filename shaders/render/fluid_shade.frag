@@ -53,25 +53,34 @@ float thicknessAt(vec2 pixel) {
   return mix(mix(a, b, part.x), mix(c, d, part.x), part.y) * look.finish.z;
 }
 
+struct Around {
+  vec3 mean;    // unit vector: of those of this water
+  float alike;  // how much those around have in common, of whatever water: a tenth in spray, 1 where all is even
+};
+
 // Torn water shows many faces, and light goes through several of them: it is bent by their mean, where one alone would make a lens of each
-// drop. What is smooth has the same normal all around, and a mean as long. No sample of this water: a drop.
-vec3 meanNormal(vec2 middle, float z, vec3 normal, vec3 sight) {
+// drop. What is smooth has the same normal all around.
+Around facesAround(vec2 middle, float z, vec3 normal, vec3 sight) {
   const ivec2 grid = ivec2(sampleGrid());
   const vec2 at = sampleOf(middle);
   const ivec2 base = ivec2(floor(at));
   const vec2 part = at - vec2(base);
   const float change = changeOf(spacingAt(z), metresAPixel(z) * float(view.step), normal, sight);
   vec3 sum = vec3(0.0);
-  float weights = 0.0;
+  float lengths = 0.0, weights = 0.0;
   for (int k = 0; k < 4; ++k) {
     const ivec2 corner = ivec2(k & 1, k >> 1), s = clamp(base + corner, ivec2(0), grid - 1);
     const uint there = uint(s.y * grid.x + s.x);
+    const float depth = uintBitsToFloat(samples[there].x);
+    if (depth == infinity()) continue;
+    const vec3 mean = unpackMean(faces[there]);
     const vec2 share = mix(1.0 - part, part, vec2(corner));
-    const float w = share.x * share.y * sameWater(uintBitsToFloat(samples[there].x) - z, change);
-    if (w > 0.0) sum += w * unpackMean(faces[there]);
-    weights += w;
+    sum += share.x * share.y * sameWater(depth - z, change) * mean;
+    lengths += share.x * share.y * length(mean);
+    weights += share.x * share.y;
   }
-  return weights > 1e-3 ? sum / weights : kDrop.x * normal;
+  const float size = length(sum);
+  return Around(size > 1e-4 ? sum / size : normal, weights > 1e-4 ? lengths / weights : kDrop.x);
 }
 
 // Of unpolarised light that meets the surface at this cosine (Fresnel).
@@ -84,20 +93,18 @@ float fresnel(float cosine, float index) {
 }
 
 // What a fluid that light goes through sends to the eye before its own reflection. `scattered`: light that falls on it.
-vec3 seenThrough(ivec2 pixel, vec3 point, vec3 sight, vec3 normal, vec3 scattered) {
+vec3 seenThrough(ivec2 pixel, vec3 point, vec3 sight, Around around, vec3 scattered) {
   const uint index = uint(pixel.y) * view.width + uint(pixel.x);
   const vec2 middle = vec2(pixel) + 0.5;
   const float z = point.z;
-  const vec3 mean = meanNormal(middle, z, normal, sight);
-  const float alike = length(mean);
-  vec3 face = alike > 1e-3 ? mean / alike : normal;
+  vec3 face = around.mean;
   const float facing = dot(face, sight);
   if (facing > kEdgeOn) face = normalize(face - (facing - kEdgeOn) * sight);
   // A drop does not bend light: all the fluid behind it would bend as it does.
-  const vec3 bent = normalize(mix(sight, refract(sight, face, 1.0 / look.absorption.w), smoothstep(kDrop.x, kDrop.y, alike)));
+  const vec3 bent = normalize(mix(sight, refract(sight, face, 1.0 / look.absorption.w), smoothstep(kDrop.x, kDrop.y, around.alike)));
   float inside = thicknessAt(middle);
   // Torn fluid is full of air and sends back white light from all sides.
-  const float white = look.finish.w * (1.0 - smoothstep(kTorn.x, kTorn.y, alike)) * (1.0 - exp(-inside / view.spacing));
+  const float white = look.finish.w * (1.0 - smoothstep(kTorn.x, kTorn.y, around.alike)) * (1.0 - exp(-inside / view.spacing));
   // Bent inside the fluid, parallel to what it was after it: followed to where the scene's depth says that it ends.
   const float farthest = kFarthest * view.spacing;
   float walked = (min(scene_depth[index], farthest) - z) / sight.z;
@@ -119,7 +126,8 @@ vec3 seenThrough(ivec2 pixel, vec3 point, vec3 sight, vec3 normal, vec3 scattere
   }
   const vec3 through = exp(-look.absorption.rgb * min(inside, walked));
   const vec3 body = sceneBetween(there, z) * through + look.scatter.rgb * scattered * (1.0 - through);
-  return mix(body, skyLight(vec3(0.0, 1.0, 0.0)) + 0.5 * kSunlight, white);
+  const float turned = 0.5 + 0.5 * dot(worldDirection(around.mean), look.light.xyz);  // light goes around in it: none of it is dark
+  return mix(body, skyLight(vec3(0.0, 1.0, 0.0)) + kSunlight * turned * turned, white);
 }
 
 // A face seen nearly edge on that mirrors no sky mirrors what stands behind it.
@@ -147,14 +155,16 @@ void main() {
   const vec3 sun = look.light.xyz;
   const float lit = max(dot(world_normal, sun), 0.0);
   const vec3 ambient = skyLight(world_normal);
-  const float reflected = fresnel(cosine, look.absorption.w);
+  float reflected = fresnel(cosine, look.absorption.w);
   const float highlight = pow(max(dot(mirrored, sun), 0.0), look.finish.x) * look.light.w;
   vec3 body, mirror;
   if (look.scatter.w > 0.0) {
     body = look.scatter.rgb * (ambient + kSunlight * lit);
     mirror = skyColour(mirrored, sun);
   } else {
-    body = seenThrough(pixel, rayFrom(axis) + z * along, sight, normal, ambient + vec3(0.5) * (0.3 + 0.7 * lit));
+    const Around around = facesAround(vec2(pixel) + 0.5, z, normal, sight);
+    reflected *= smoothstep(kDrop.x, kDrop.y, around.alike);  // spray would glitter pixel by pixel
+    body = seenThrough(pixel, rayFrom(axis) + z * along, sight, around, ambient + vec3(0.5) * (0.3 + 0.7 * lit));
     mirror = mirrorOf(pixel, world_sight, mirrored);
   }
   const vec3 fluid = mix(body, mirror, reflected) + vec3(1.0, 0.95, 0.86) * (reflected * highlight);

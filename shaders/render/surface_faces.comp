@@ -13,7 +13,6 @@ layout(std430, set = 0, binding = 3) readonly buffer Counters { uint counters[];
 layout(constant_id = 0) const uint kVertical = 0u;
 
 const float kReach = 2.0;  // spacings
-const int kTaps = 6;       // a side; where samples lie closer than that, every second or third one is looked at
 
 vec3 faceAt(uint index, uvec2 stored) { return kVertical == 1u ? unpackMean(before[index]) : unpackNormal(stored.y); }
 
@@ -25,23 +24,21 @@ void main() {
   const uvec2 own = samples[index];
   if (own.x == kInfiniteBits) return;
   const float z = uintBitsToFloat(own.x), spacing = spacingAt(z);
-  const float length = max(metresAPixel(z) * float(view.step) / spacing, 1e-3);  // of a sample's side, spacings
-  const int stride = int(max(kReach / (length * float(kTaps)) + 0.5, 1.0));
-  const ivec2 along = ivec2(1 - int(kVertical), int(kVertical)) * stride;
-  const float apart = length * float(stride);
+  const Taps taps = tapsOver(kReach, z);
+  const ivec2 along = ivec2(1 - int(kVertical), int(kVertical)) * taps.stride;
   const vec3 sight = normalize(rayAlong(axisOf(samplePixel(p))));
   const vec3 normal = unpackNormal(own.y);
   vec3 sum = faceAt(index, own);
   float weights = 1.0;
   RILL_LOOP for (int k = 1; k <= kTaps; ++k) {
-    const float off = float(k) * apart / kReach, inside = max(1.0 - off * off, 0.0);
+    const float inside = tapWeight(taps, k), across = float(k) * taps.apart * kReach * spacing;
     RILL_LOOP for (int s = -1; s <= 1; s += 2) {
       const ivec2 there = p + s * k * along;
       if (any(lessThan(there, ivec2(0))) || any(greaterThanEqual(there, grid))) continue;
       const uint at = uint(there.y * grid.x + there.x);
       const uvec2 other = samples[at];
-      const float w = inside * inside * sameWater(uintBitsToFloat(other.x) - z, changeOf(spacing, float(k) * apart * spacing, normal, sight));
-      weights += inside * inside;
+      const float w = inside * sameWater(uintBitsToFloat(other.x) - z, changeOf(spacing, across, normal, sight));
+      weights += inside;
       if (w > 0.0) sum += w * faceAt(at, other);
     }
   }

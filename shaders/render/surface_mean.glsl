@@ -1,4 +1,4 @@
-// Means of normals: how they are stored, and what counts as one piece of water.
+// Means of normals: how they are stored, what counts as one piece of water, and what they are taken over.
 
 const float kSameWater = 4.0;  // times what depth may change by between faces of one piece of water
 
@@ -19,4 +19,20 @@ float changeOf(float spacing, float across, vec3 normal, vec3 sight) { return sp
 float sameWater(float behind, float change) {
   const float off = behind / (kSameWater * change);
   return max(1.0 - off * off, 0.0);
+}
+
+// Samples that a mean over some spacings looks at on each side: kTaps at most, and where they lie closer than that, every second or third one.
+const int kTaps = 6;
+struct Taps {
+  int stride;
+  float apart;  // of the reach
+};
+Taps tapsOver(float spacings, float z) {
+  const float side = max(metresAPixel(z) * float(view.step) / (spacings * spacingAt(z)), 1e-3);
+  const int stride = int(max(1.0 / (side * float(kTaps)) + 0.5, 1.0));
+  return Taps(stride, side * float(stride));
+}
+float tapWeight(Taps taps, int k) {
+  const float off = float(k) * taps.apart, inside = max(1.0 - off * off, 0.0);
+  return inside * inside;
 }
