@@ -1,11 +1,13 @@
 // Surfaces from particles against the truth, and what they cost: methods and settings over shapes of known depth and normal.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <numbers>
 
 #include "bench/pareto.hpp"
 #include "bench/suites/suites.hpp"
+#include "bench/suites/surface_aims.hpp"
 #include "bench/suites/surface_ways.hpp"
 #include "bench/surface_errors.hpp"
 #include "bench/workbench.hpp"
@@ -113,12 +115,12 @@ class Render {
     if (!bilateral) return bilateral.error();
     ways_ = surfaceWays(*bilateral, bench_.quick());
     errors_.title = "Surfaces against the truth: ms of the whole chain, errors in degrees";
-    errors_.columns = {"picture", "shape", "method", "particles", "ms", "mean", "p95", "edge", "depth d", "IoU", "anew"};
+    errors_.columns = {"picture", "shape", "method", "particles", "ms", "smoothing", "mean", "p95", "edge", "depth d", "IoU", "anew"};
     errors_.note =
-        "r: pixels of a sphere of 0.75 spacings. ms: occlusion, splat, fit, blend, composition; the median. mean, p95: of the angle to "
-        "the\n"
-        "true normal, 1.5 spacings away from edges; edge: mean nearer to them. depth: rms in spacings. IoU: of silhouettes. anew: mean\n"
-        "change of the normal where particles are jittered anew.";
+        "r: pixels of a sphere of 0.75 spacings. ms: occlusion, splat, fit, blend, composition; the median. smoothing: without what comes\n"
+        "before the depth of spheres, passes timed one by one. mean, p95: of the angle to the true normal, 1.5 spacings away from edges;\n"
+        "edge: mean nearer to them. depth: rms in spacings. IoU: of silhouettes. anew: mean change of the normal where particles are\n"
+        "jittered anew.";
     const std::vector<Picture> all = pictures(bench_.quick());
     size_t parts = 0;
     for (const Picture& p : all) {
@@ -133,6 +135,8 @@ class Render {
       if (auto ok = flickerOfWave(p); !ok) return ok.error();
     for (const Recorded& r : recordings())
       if (auto ok = flickerOfRun(r); !ok) return ok.error();
+    if (Table aims = judgedSurfaces(figures_, report_.failures); !aims.rows.empty())
+      report_.tables.insert(report_.tables.begin(), std::move(aims));
     if (!errors_.rows.empty()) report_.tables.insert(report_.tables.begin(), std::move(errors_));
     return std::move(report_);
   }
@@ -215,21 +219,38 @@ class Render {
     return drawn;
   }
 
+  void declareToTime(Graph& graph, const Points& points, const SurfaceWay& way, const FluidView& view) {
+    const SurfaceBuffers found = declare(graph, points, way, view, false);
+    graph.pass("look", [&](Pass& pass) {
+      pass.read(found.pixels, Use::CopySource);
+      pass.sideEffect();
+      return [](Commands&) {};
+    });
+  }
+
   /// Once its shaders have run.
   Expected<std::vector<double>> time(const Points& points, const SurfaceWay& way, const FluidView& view) {
     auto taken = sampleGraph(
-        *workbench_, samples(),
-        [&](Graph& graph) {
-          const SurfaceBuffers found = declare(graph, points, way, view, false);
-          graph.pass("look", [&](Pass& pass) {
-            pass.read(found.pixels, Use::CopySource);
-            pass.sideEffect();
-            return [](Commands&) {};
-          });
-        },
-        WarmUp::Done);
+        *workbench_, samples(), [&](Graph& graph) { declareToTime(graph, points, way, view); }, WarmUp::Done);
     if (!taken) return taken.error();
     return std::move(taken->run_ms);
+  }
+
+  /// Of smoothing with normals: all passes but those up to the depth of spheres. In runs of their own, since timing passes slows them.
+  Expected<std::vector<double>> timeSmoothing(const Points& points, const SurfaceWay& way, const FluidView& view) {
+    static constexpr std::array kBefore{"surface clear", "surface occlude", "surface cull", "surface splat", "surface tiles"};
+    std::vector<double> taken;
+    workbench_->timePasses(true);
+    for (uint32_t k = 0; k < samples(); ++k) {
+      const auto ran = workbench_->run([&](Graph& graph) { declareToTime(graph, points, way, view); });
+      if (!ran) return ran.error();
+      double ms = 0;
+      for (const Timing& timing : workbench_->passTimes())
+        if (std::ranges::find(kBefore, timing.name) == kBefore.end()) ms += timing.ms;
+      taken.push_back(ms);
+    }
+    workbench_->timePasses(false);
+    return taken;
   }
 
   /// A picture of each shape, in each way.
@@ -260,8 +281,13 @@ class Render {
           if (!other) return other.error();
           const double change = errorChange(truth, *drawn, truth, *other);
           json["jittered_anew_deg"] = change;
+          const auto smoothing = timeSmoothing(*points, *way, view);
+          if (!smoothing) return smoothing.error();
+          json["smoothing_ms"] = sampled(*smoothing);
+          figures_.push_back({picture.name, shape->name(), way->family, median(*ms), median(*smoothing), e.mean, e.p95, e.edge, e.overlap});
           errors_.rows.push_back({picture.name, shape->name(), way->family, std::to_string(points->count), number(median(*ms)),
-                                  number(e.mean), number(e.p95), number(e.edge), number(e.depth), number(e.overlap, 4), number(change)});
+                                  number(median(*smoothing)), number(e.mean), number(e.p95), number(e.edge), number(e.depth),
+                                  number(e.overlap, 4), number(change)});
         }
         report_.results.push_back(std::move(json));
         if (smooth(*shape)) add(sums, way, median(*ms), e.mean, e.p95);
@@ -388,6 +414,7 @@ class Render {
   std::unique_ptr<FluidRenderer> renderer_;
   std::vector<SurfaceWay> ways_;
   Table errors_;
+  std::vector<SurfaceFigures> figures_;
   Report report_;
 };
 
