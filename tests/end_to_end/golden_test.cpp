@@ -24,8 +24,11 @@ struct Case {
   const char* view;
   int frame;
   Distance most;  ///< another driver rounds otherwise, and a later solver flows a little otherwise
+  const char* set = "look.preset=water";
 
-  friend void PrintTo(const Case& one, std::ostream* out) { *out << one.view << one.frame; }
+  bool plain() const { return std::string_view(set) == "look.preset=water"; }
+  std::string look() const { return plain() ? "" : std::string(set).substr(std::string_view(set).find('=') + 1); }
+  friend void PrintTo(const Case& one, std::ostream* out) { *out << one.view << one.frame << one.look(); }
 };
 
 class GoldenTest : public ::testing::TestWithParam<Case> {};
@@ -35,12 +38,13 @@ TEST_P(GoldenTest, LooksAsItDid) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("golden.json", kScene).string();
   const std::string frames = std::to_string(wanted.frame + 1);
-  const Outcome outcome =
-      capture({scene, "--frames", frames, "--fps", "20", "--view", wanted.view, "--size", "320x180", "--out", folder.string(), "--quiet"});
+  const Outcome outcome = capture({scene, "--frames", frames, "--fps", "20", "--view", wanted.view, "--size", "320x180", "--set",
+                                   wanted.set, "--out", folder.string(), "--quiet"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const fs::path made = folder / ("frame_0000" + std::to_string(wanted.frame) + ".png");
   const fs::path golden =
-      fs::path(RILL_SOURCE_DIR) / "assets/golden" / (std::string(wanted.view) + "-" + std::to_string(wanted.frame) + ".png");
+      fs::path(RILL_SOURCE_DIR) / "assets/golden" /
+      (std::string(wanted.view) + "-" + std::to_string(wanted.frame) + (wanted.plain() ? "" : "-" + wanted.look()) + ".png");
   if (std::getenv("RILL_UPDATE_GOLDEN")) fs::copy_file(made, golden, fs::copy_options::overwrite_existing);
   const Picture picture = readPicture(made), expected = readPicture(golden);
   ASSERT_FALSE(expected.rgb.empty()) << golden;
@@ -53,8 +57,13 @@ INSTANTIATE_TEST_SUITE_P(Views, GoldenTest,
                          ::testing::Values(Case{"particles", 0, {0.005, 0.05}}, Case{"particles", 6, {0.02, 0.25}},
                                            Case{"density", 0, {0.005, 0.05}}, Case{"density", 6, {0.03, 0.35}},
                                            Case{"speed", 6, {0.03, 0.35}}, Case{"final", 0, {0.01, 0.08}}, Case{"final", 6, {0.02, 0.3}},
-                                           Case{"normals", 0, {0.03, 0.4}}),
-                         [](const auto& one) { return std::string(one.param.view) + std::to_string(one.param.frame); });
+                                           Case{"final", 6, {0.02, 0.3}, "look.preset=milk"},
+                                           Case{"final", 6, {0.02, 0.3}, "look.preset=ink"},
+                                           Case{"final", 6, {0.02, 0.3}, "look.preset=clay"},
+                                           Case{"final", 6, {0.02, 0.3}, "look.surface=curvature_flow"},
+                                           Case{"final", 6, {0.02, 0.3}, "look.surface=narrow_range"}, Case{"normals", 0, {0.03, 0.4}},
+                                           Case{"depth", 0, {0.005, 0.05}}, Case{"thickness", 6, {0.02, 0.2}}),
+                         [](const auto& one) { return std::string(one.param.view) + std::to_string(one.param.frame) + one.param.look(); });
 
 TEST(PictureDistance, SeesAMissingShapeAndForgivesAPixel) {
   Picture grey{40, 20, std::vector<uint8_t>(3 * 40 * 20, 128)};
