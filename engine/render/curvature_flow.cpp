@@ -46,8 +46,10 @@ Expected<CurvatureFlow> CurvatureFlow::create(Device& device) {
       const uint32_t constants[] = {std::bit_cast<uint32_t>(kFlowStable), kSampleBlock >> level};
       for (const auto& row : all) {
         if (!row.used) continue;
+        const size_t bytes = &row.pipeline == &out.flow_[level][texels] ? sizeof(FlowPush) : sizeof(SurfacePush);
         auto made = computePipeline(
-            device, {.shader = row.shader, .bindings = row.bindings, .pushConstantBytes = sizeof(SurfacePush), .constants = constants});
+            device,
+            {.shader = row.shader, .bindings = row.bindings, .pushConstantBytes = static_cast<uint32_t>(bytes), .constants = constants});
         if (!made) return made.error();
         row.pipeline = *made;
       }
@@ -69,7 +71,7 @@ BufferRef CurvatureFlow::addTo(Graph& graph, BufferRef depth, const SurfaceBuffe
     const double area = std::pow(side * (1 << l), 2);
     const double wanted = time * spacing * spacing;
     level.steps = std::clamp(static_cast<uint32_t>(std::ceil(wanted / (kFlowStable * area))), 1u, kMostSteps);
-    level.push.smoothing = static_cast<float>(wanted / level.steps);
+    level.push.smoothing = static_cast<float>(wanted);
     const uint64_t bytes = sampleCount(level.push) * 4;
     level.start = l == 0 ? depth : graph.create("surface flow coarse", {bytes});
     for (BufferRef& buffer : level.to) buffer = graph.create("surface flow", {bytes});
@@ -107,7 +109,7 @@ BufferRef CurvatureFlow::addTo(Graph& graph, BufferRef depth, const SurfaceBuffe
     for (uint32_t k = 0; k < (l == coarsest ? level.steps : std::min(level.steps, kPolish)); ++k) {
       BufferRef& to = level.to[turn++ % 2];
       addStep(graph, "surface flow", flow_[l][texels], {array(from), writes(to), reads(surface.counters), reads(surface.blocks)}, blocks,
-              level.push);
+              FlowPush{level.push, k});
       from = to;
     }
   }

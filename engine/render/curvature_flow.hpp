@@ -6,6 +6,13 @@
 
 namespace rill {
 
+/// What a step of the flow is told.
+struct FlowPush {
+  surface::SurfacePush view;
+  uint32_t turn = 0;  ///< which of the steps it is
+};
+static_assert(sizeof(FlowPush) <= 128);
+
 /// The flow's kernels, on every level that a pyramid may have.
 class CurvatureFlow {
  public:
@@ -14,8 +21,9 @@ class CurvatureFlow {
   static Expected<CurvatureFlow> create(Device& device);
 
   /// A smooth depth from that of the spheres, a float a sample. `side`: m that a sample is wide at the focus. `time`: spacings squared;
-  /// blurs over about its root. Nearer to the eye, where samples are smaller, the stable step falls short of it. `mostLevels`: of the
-  /// pyramid above the samples. `texels`: it is read as texel buffers.
+  /// blurs over about its root. As many steps are recorded as that takes at the focus: nearer to the eye, where samples are smaller, the
+  /// stable ones fall short of it; farther away a sample takes fewer of them. `mostLevels`: of the pyramid above the samples. `texels`: it
+  /// is read as texel buffers.
   BufferRef addTo(Graph& graph, BufferRef depth, const SurfaceBuffers& surface, double side, double time, uint32_t mostLevels,
                   bool texels) const;
 

@@ -1,7 +1,9 @@
 #version 460
 // One step of screen-space curvature flow (van der Laan, Green and Sainz 2009): depth moves with the surface's mean curvature. Beyond an edge
-// of depth the surface goes on as it is, so that silhouettes neither shrink nor are pulled.
+// of depth the surface goes on as it is, so that silhouettes neither shrink nor are pulled. Each sample takes as many steps as it needs: far away, where samples are wide and
+// steps are long, it soon has had its time.
 #extension GL_GOOGLE_include_directive : require
+#define RILL_PUSH_MORE uint turn;  // which step this is
 #include "render/surface.glsl"
 #include "shared/arrays.glsl"
 #include "render/surface_filter.glsl"
@@ -25,6 +27,11 @@ void main() {
   const uint index = uint(p.y * grid.x + p.x);
   const float z = beforeAt(index);
   if (z == infinity()) return;
+  const float length = metresASample(z), steps = max(ceil(view.smoothing / (kStep * length * length)), 1.0);
+  if (float(turn) >= steps) {
+    after[index] = z;
+    return;
+  }
   const float q = toLinear(z), edge = edgeAt(z);
   float side[9];
   for (int k = 0; k < 9; ++k) side[k] = at(p + ivec2(k % 3 - 1, k / 3 - 1), grid);
@@ -34,13 +41,12 @@ void main() {
     const bool same = abs(side[k] - z) < edge, other = abs(side[8 - k] - z) < edge;
     value[k] = same ? toLinear(side[k]) : (other ? 2.0 * q - toLinear(side[8 - k]) : q);
   }
-  const float length = metresASample(z), scale = depthPerLinear(z) / length;
+  const float scale = depthPerLinear(z) / length;
   const float zx = 0.5 * (value[5] - value[3]) * scale, zy = 0.5 * (value[7] - value[1]) * scale;
   const float zxx = (value[5] - 2.0 * q + value[3]) * scale / length, zyy = (value[7] - 2.0 * q + value[1]) * scale / length;
   const float zxy = 0.25 * (value[8] - value[6] - value[2] + value[0]) * scale / length;
   const float square = 1.0 + zx * zx + zy * zy;
   const float twice = ((1.0 + zy * zy) * zxx - 2.0 * zx * zy * zxy + (1.0 + zx * zx) * zyy) / square;
-  const float time = min(view.smoothing, kStep * length * length);
-  const float moved = clamp(0.5 * time * twice, -0.25 * view.spacing, 0.25 * view.spacing);
+  const float moved = clamp(0.5 * view.smoothing / steps * twice, -0.25 * view.spacing, 0.25 * view.spacing);
   after[index] = z + moved;
 }

@@ -62,7 +62,7 @@ struct SurfacePush {
   uint margin;         // samples beyond each side of the picture, so that the surface does not end there; whole cells
   float radius;        // m; of a particle's sphere in the hard depth
   float unit;          // m; of a count of the thickness buffer
-  float smoothing;     // planes: spacings that they are fitted over; narrow range: spacings, sigma; curvature flow: m^2 that a step goes on by
+  float smoothing;     // planes: spacings that they are fitted over; narrow range: spacings, sigma; curvature flow: m^2, all of its time
 };
 
 #undef RILL_CONSTANT

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "render/compute_step.hpp"
+#include "render/curvature_flow.hpp"
 #include "render/flow_reference.hpp"
 #include "render/view_push.hpp"
 
@@ -68,7 +69,7 @@ class DepthFilters : public SurfaceOnGpu {
                  const SurfacePush& push, uint32_t passes, SpecializationConstants constants) {
     const BindingKind bindings[] = {reading, BindingKind::Storage, BindingKind::Storage, BindingKind::Storage};
     const ComputePipeline* filter =
-        pipeline({.shader = shader, .bindings = bindings, .pushConstantBytes = sizeof(SurfacePush), .constants = constants});
+        pipeline({.shader = shader, .bindings = bindings, .pushConstantBytes = sizeof(FlowPush), .constants = constants});
     const Buffer source = upload("before", before.z);
     std::vector<uint32_t> counts(surface::kSurfaceCounterWords);
     counts[surface::kSampleBlockCount] = uint32_t(listed.size());
@@ -83,7 +84,7 @@ class DepthFilters : public SurfaceOnGpu {
         return [to](Commands& commands) { commands.fill(to, std::bit_cast<uint32_t>(kNone)); };
       });
       const StepBuffer source_array = reading == BindingKind::Storage ? reads(from) : texels(from);
-      addStep(graph, "filter", filter, {source_array, writes(to), writes(counters), reads(blocks)}, listed.size(), push);
+      addStep(graph, "filter", filter, {source_array, writes(to), writes(counters), reads(blocks)}, listed.size(), FlowPush{push});
       from = to;
     }
     const Ticket ticket = graph.readback(from);

@@ -50,7 +50,7 @@ Level flowing(Level level, int steps, double time) {
     const Map before = level.map;
     for (int y = 0; y < before.rows; ++y)
       for (int x = 0; x < before.columns; ++x)
-        if (before.at(x, y) != kNone) level.map.at(x, y) = float(flowed(before, level.push, x, y, double{surface::kFlowStable}).z);
+        if (before.at(x, y) != kNone) level.map.at(x, y) = float(flowed(before, level.push, x, y, double{surface::kFlowStable}, k).z);
   }
   return level;
 }
@@ -156,11 +156,11 @@ TEST_F(FlowPyramid, IsItsFormulaLevelByLevel) {
       const double side = one.sideInSpacings * kH, time = one.time * kH * kH;
       std::vector<Level> levels{scene(inPerspective, side)};
       for (uint32_t l = 0; l < one.levels; ++l) levels.push_back(coarser(levels.back()));
-      Level wanted = flowing(levels.back(), one.coarsestSteps, time / one.coarsestSteps);
+      Level wanted = flowing(levels.back(), one.coarsestSteps, time);
       for (uint32_t l = one.levels; l-- > 0;) {
         const double area = std::pow(side * (1 << l), 2);
         const int all = int(std::ceil(time / (double{surface::kFlowStable} * area)));
-        wanted = flowing(finer(levels[l], levels[l + 1], wanted), std::min(all, 4), time / all);
+        wanted = flowing(finer(levels[l], levels[l + 1], wanted), std::min(all, 4), time);
       }
       const Map got = onDevice(levels[0], side, one.time, one.mostLevels, false);
       EXPECT_TRUE(onDevice(levels[0], side, one.time, one.mostLevels, true).z == got.z) << "texels";

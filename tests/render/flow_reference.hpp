@@ -40,7 +40,9 @@ inline double edgeAt(const surface::SurfacePush& push, double z) { return std::m
 
 // Depth as a function of both directions across, moved by half the mean curvature of its graph: dz/dt = (trace H - g.H.g / (1 + g.g)) / 2
 // with its gradient g and second derivatives H. Differences are taken of 1 / z in perspective, of which -z^2 makes differences of z.
-inline Wanted flowed(const Map& map, const surface::SurfacePush& push, int x, int y, double share) {
+// The whole time is shared among as many equal steps as it takes of `share` of a sample's square at most; `turn` is one of them, or past
+// the last.
+inline Wanted flowed(const Map& map, const surface::SurfacePush& push, int x, int y, double share, int turn = 0) {
   const double z = double{map.at(x, y)}, side = sideAt(push, z), edge = edgeAt(push, z);
   const auto linear = [&](double depth) { return push.perspective > 0 ? 1 / depth : depth; };
   Wanted wanted;
@@ -66,7 +68,7 @@ inline Wanted flowed(const Map& map, const surface::SurfacePush& push, int x, in
   for (int i = 0; i < 2; ++i)
     for (int j = 0; j < 2; ++j) along += g[i] * hessian[i][j] * g[j];
   const double rate = 0.5 * (hessian[0][0] + hessian[1][1] - along / (1 + g[0] * g[0] + g[1] * g[1]));
-  const double time = std::min(double{push.smoothing}, share * side * side);
+  const double steps = std::ceil(double{push.smoothing} / (share * side * side)), time = turn < steps ? double{push.smoothing} / steps : 0;
   wanted.cut = std::abs(time * rate) > 0.25 * kH;
   wanted.z = z + std::clamp(time * rate, -0.25 * kH, 0.25 * kH);
   return wanted;
