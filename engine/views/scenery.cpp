@@ -152,7 +152,11 @@ SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets 
   camera.spacing = fluid.spacing;
   const BufferRef scene = buffers_.importScene(graph);
   const SurfacePush light = SurfaceStage::thicknessPush(lightPush(fluid, fluid.origin), fluid, 1);
-  const BufferRef shadow = stage_.addThickness(graph, kFluidShadow, fluid, light, {}, nullptr);  // a particle spans five texels at most
+  const bool shaded = solids || hasGround();
+  if (!shaded) graph.skipped(kFluidShadow.pass, "there is nothing that it falls on");
+  const BufferRef shadow =
+      shaded ? stage_.addThickness(graph, kFluidShadow, fluid, light, {}, nullptr)  // a particle spans five texels at most
+             : scene;                                                               // bound, never read
   const BufferRef record = addLook(graph, lookRecord(look, light, environment_));
   BufferRef poses;
   ImageRef lightDepth;

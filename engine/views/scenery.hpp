@@ -32,6 +32,7 @@ class Scenery {
 
  private:
   surface::SurfacePush lightPush(const FluidState& fluid, const double origin[3]) const;
+  bool hasGround() const { return hasEdges() && (buffers_.host.scene.counts.w & 4u) != 0; }  // a floor that is closed
   bool hasEdges() const { return buffers_.host.scene.domain_min.w > 0; }
 
   const Environment* environment_ = nullptr;

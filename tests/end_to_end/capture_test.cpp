@@ -95,6 +95,14 @@ TEST_F(CaptureTest, ThicknessAndShadowAreToldApart) {
   }
 }
 
+TEST_F(CaptureTest, WithoutAFloorThereIsNoShadow) {
+  ASSERT_EQ(run({"--frames", "1", "--size", "64x36", "--quiet", "--set", R"(domain.open=["-y"])", "--stats", "s.json"}).code, 0);
+  const Json frame = stats("s.json")["frames"].back();
+  EXPECT_FALSE(frame["pass_ms"].contains("fluid shadow")) << frame;
+  EXPECT_EQ(frame["skipped"].value("fluid shadow", ""), "there is nothing that it falls on") << frame;
+  EXPECT_TRUE(frame["pass_ms"].contains("fluid shade")) << frame;
+}
+
 TEST_F(CaptureTest, PassesAreNotTimedWhereThatIsSaid) {
   ASSERT_EQ(run({"--frames", "2", "--no-images", "--stats", "timed.json"}).code, 0);
   EXPECT_GT(stats("timed.json")["frames"][1]["pass_ms"]["density"].get<double>(), 0);
