@@ -20,6 +20,7 @@ const int kFollow = 3;          // looks at the scene's depth for where it ends
 const float kEdgeOn = -0.02;    // cosine to the line of sight beyond which a face would not be seen
 // Lengths of the mean of the faces around: a lone ball has 0.1, a straight silhouette a half, an even surface 1.
 const vec2 kDrop = vec2(0.2, 0.7);  // from a drop to a surface
+const vec2 kEven = vec2(0.6, 0.9);  // to one that mirrors the sun
 const vec2 kTorn = vec2(0.1, 0.5);  // from white to clear
 const vec2 kPast = vec2(0.5, 0.9);  // cosines between the line of sight and what is mirrored, from before the face to past it
 const vec3 kSunlight = vec3(1.0, 0.95, 0.88);
@@ -156,7 +157,7 @@ void main() {
   const float lit = max(dot(world_normal, sun), 0.0);
   const vec3 ambient = skyLight(world_normal);
   float reflected = fresnel(cosine, look.absorption.w);
-  const float highlight = pow(max(dot(mirrored, sun), 0.0), look.finish.x) * look.light.w;
+  float highlight = pow(max(dot(mirrored, sun), 0.0), look.finish.x) * look.light.w;
   vec3 body, mirror;
   if (look.scatter.w > 0.0) {
     body = look.scatter.rgb * (ambient + kSunlight * lit);
@@ -164,6 +165,7 @@ void main() {
   } else {
     const Around around = facesAround(vec2(pixel) + 0.5, z, normal, sight);
     reflected *= smoothstep(kDrop.x, kDrop.y, around.alike);  // spray would glitter pixel by pixel
+    highlight *= smoothstep(kEven.x, kEven.y, around.alike);
     body = seenThrough(pixel, rayFrom(axis) + z * along, sight, around, ambient + vec3(0.5) * (0.3 + 0.7 * lit));
     mirror = mirrorOf(pixel, world_sight, mirrored);
   }

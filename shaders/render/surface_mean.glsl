@@ -22,7 +22,7 @@ float sameWater(float behind, float change) {
 }
 
 // Samples that a mean over some spacings looks at on each side: kTaps at most, and where they lie closer than that, every second or third one.
-const int kTaps = 6;
+const int kTaps = 12;
 struct Taps {
   int stride;
   float apart;  // of the reach

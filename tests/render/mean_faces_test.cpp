@@ -29,11 +29,11 @@ std::vector<Vector> blurred(const Samples& samples, const std::vector<Face>& fac
       const Face& own = faces[samples.index(x, y)];
       if (own.depth == SurfaceReference::kNone) continue;
       const double spacing = std::max(double{kSpacing}, 1.2 * samples.side(own.depth)), side = samples.side(own.depth) / spacing;
-      const int stride = std::max(int(2 / (6 * side) + 0.5), 1);
+      const int stride = std::max(int(2 / (12 * side) + 0.5), 1);
       const double slant = 1 / std::max(-dot(own.normal, unit(samples.ray(x, y).along)), 0.04);
       double weights = 1;
       Vector& sum = after[samples.index(x, y)];
-      for (int k = -6; k <= 6; ++k) {
+      for (int k = -12; k <= 12; ++k) {
         const int u = vertical ? x : x + k * stride, v = vertical ? y + k * stride : y;
         if (k == 0 || !samples.has(u, v)) continue;
         const double off = std::abs(k) * stride * side, inside = std::pow(std::max(1 - off * off / 4, 0.0), 2);
@@ -56,9 +56,9 @@ std::vector<Vector> torn(const Samples& samples, const std::vector<Face>& faces,
       const double depth = faces[samples.index(x, y)].depth;
       if (depth == SurfaceReference::kNone) continue;
       const double side = samples.side(depth) / std::max(double{kSpacing}, 1.2 * samples.side(depth)) / 1.5;  // of the reach
-      const int stride = std::max(int(1 / (6 * side) + 0.5), 1);
+      const int stride = std::max(int(1 / (12 * side) + 0.5), 1);
       double sum = 0, weights = 0;
-      for (int k = -6; k <= 6; ++k) {
+      for (int k = -12; k <= 12; ++k) {
         const int u = vertical ? x : x + k * stride, v = vertical ? y + k * stride : y;
         if (!samples.has(u, v) || faces[samples.index(u, v)].depth == SurfaceReference::kNone) continue;
         const double inside = std::pow(std::max(1 - std::pow(k * stride * side, 2), 0.0), 2);
