@@ -60,6 +60,28 @@ TEST_F(SurfaceOnGpu, ATiltedPlaneIsAPlane) {
   }
 }
 
+// From 5 to 40 pixels a spacing the same particles have the same roughness, at any size of the picture: all reaches are lengths in the
+// world.
+TEST_F(SurfaceOnGpu, LooksTheSameFromNearAndFar) {
+  fill(under({0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 4));
+  for (const SurfaceMethod method : {SurfaceMethod::Planes, SurfaceMethod::CurvatureFlow, SurfaceMethod::NarrowRange}) {
+    double least = 1e9, most = 0;
+    for (const auto& [distance, height] : {std::pair{6.0, 240u}, {3.0, 240u}, {1.5, 240u}, {0.75, 240u}, {3.0, 480u}, {3.0, 120u}}) {
+      const FluidView view = looking({0, 0, distance}, {0, 0, 0}, height * 4 / 3, height);
+      const Errors e = compared(surface(view, method), view.width, view.height, [&](double, double, Pixel& wanted) {
+        wanted.depth = float(distance);
+        wanted.normal = {0, 0, -1};
+        return true;
+      });
+      EXPECT_GT(e.overlap(), 0.999) << int(method) << " " << distance;
+      least = std::min(least, e.degrees);
+      most = std::max(most, e.degrees);
+    }
+    EXPECT_LT(most, 1.1) << int(method);
+    EXPECT_LT(most, 1.4 * least) << int(method);
+  }
+}
+
 TEST_F(SurfaceOnGpu, ABallIsABallInEitherProjection) {
   const Vector centre{0.2, -0.1, -5};
   const double radius = 1;
