@@ -20,6 +20,7 @@ const int kFollow = 3;          // looks at the scene's depth for where it ends
 const float kEdgeOn = -0.02;    // cosine to the line of sight beyond which a face would not be seen
 // Lengths of the mean of the faces around: a lone ball has 0.1, a straight silhouette a half, an even surface 1.
 const vec2 kDrop = vec2(0.2, 0.7);  // from a drop to a surface
+const vec2 kMirror = vec2(0.2, 0.5);  // to one that mirrors
 const vec2 kEven = vec2(0.6, 0.9);  // to one that mirrors the sun
 const vec2 kTorn = vec2(0.1, 0.5);  // from white to clear
 const vec2 kPast = vec2(0.5, 0.9);  // cosines between the line of sight and what is mirrored, from before the face to past it
@@ -101,8 +102,9 @@ vec3 seenThrough(ivec2 pixel, vec3 point, vec3 sight, Around around, vec3 scatte
   vec3 face = around.mean;
   const float facing = dot(face, sight);
   if (facing > kEdgeOn) face = normalize(face - (facing - kEdgeOn) * sight);
-  // A drop does not bend light: all the fluid behind it would bend as it does.
-  const vec3 bent = normalize(mix(sight, refract(sight, face, 1.0 / look.absorption.w), smoothstep(kDrop.x, kDrop.y, around.alike)));
+  // A drop does not bend light: all the fluid behind it would bend as it does. Nor does the near plane, where the eye is in the fluid.
+  const float bends = z <= nearestDrawn() ? 0.0 : smoothstep(kDrop.x, kDrop.y, around.alike);
+  const vec3 bent = normalize(mix(sight, refract(sight, face, 1.0 / look.absorption.w), bends));
   float inside = thicknessAt(middle);
   // Torn fluid is full of air and sends back white light from all sides.
   const float white = look.finish.w * (1.0 - smoothstep(kTorn.x, kTorn.y, around.alike)) * (1.0 - exp(-inside / view.spacing));
@@ -164,7 +166,8 @@ void main() {
     mirror = skyColour(mirrored, sun);
   } else {
     const Around around = facesAround(vec2(pixel) + 0.5, z, normal, sight);
-    reflected *= smoothstep(kDrop.x, kDrop.y, around.alike);  // spray would glitter pixel by pixel
+    // Spray would glitter pixel by pixel. A straight silhouette mirrors in full.
+    reflected *= z <= nearestDrawn() ? 0.0 : smoothstep(kMirror.x, kMirror.y, around.alike);
     highlight *= smoothstep(kEven.x, kEven.y, around.alike);
     body = seenThrough(pixel, rayFrom(axis) + z * along, sight, around, ambient + vec3(0.5) * (0.3 + 0.7 * lit));
     mirror = mirrorOf(pixel, world_sight, mirrored);

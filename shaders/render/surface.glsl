@@ -114,16 +114,11 @@ uvec2 sampleGrid() { return (uvec2(view.width, view.height) + view.step - 1u) / 
 vec2 samplePixel(ivec2 at) { return (vec2(at - int(view.margin)) + 0.5) * float(view.step); }
 // Where among the samples a pixel lies; whole numbers are samples.
 vec2 sampleOf(vec2 pixel) { return pixel / float(view.step) - 0.5 + float(view.margin); }
-// First and last sample whose middle a sphere may cover, both included; empty where last < first. Bounded around the middle.
-ivec4 sampleRect(vec3 centre, float radius, out bool cut) {
+// First and last sample whose middle a sphere may cover, both included; empty where last < first.
+ivec4 sampleRect(vec3 centre, float radius) {
   const vec4 pixels = clamp(sphereExtent(centre, radius), vec4(-1e6), vec4(1e6));
   const vec4 extent = vec4(sampleOf(pixels.xy), sampleOf(pixels.zw));
-  const ivec2 grid = ivec2(sampleGrid());
-  ivec4 rect = ivec4(max(ivec2(ceil(extent.xy)), ivec2(0)), min(ivec2(floor(extent.zw)), grid - 1));
-  const ivec2 middle = (rect.xy + rect.zw) / 2;
-  const ivec4 bounded = ivec4(max(rect.xy, middle - int(kMostRectSamples) / 2), min(rect.zw, middle + int(kMostRectSamples) / 2 - 1));
-  cut = bounded != rect;
-  return bounded;
+  return ivec4(max(ivec2(ceil(extent.xy)), ivec2(0)), min(ivec2(floor(extent.zw)), ivec2(sampleGrid()) - 1));
 }
 
 // Where particles are smaller than samples, spheres and lengths are those of a sample: far away the fluid is a coarser one.

@@ -15,8 +15,8 @@ bool hidden(vec3 centre, float radius) {
   const vec4 pixels = clamp(sphereExtent(centre, radius), vec4(-1e6), vec4(1e6));
   const vec4 extent = (vec4(sampleOf(pixels.xy), sampleOf(pixels.zw)) + 0.5) / cell;
   const ivec2 first = clamp(ivec2(floor(extent.xy)), ivec2(0), cells - 1), last = clamp(ivec2(floor(extent.zw)), ivec2(0), cells - 1);
-  if (any(greaterThan(last - first, ivec2(int(kMostRectSamples))))) return false;
-  const uint bits = floatBitsToUint(max(centre.z - radius, 0.0));
+  if (any(greaterThan(last - first, ivec2(int(kMostCells))))) return false;
+  const uint bits = floatBitsToUint(max(centre.z - radius, view.near_depth));
   for (int y = first.y; y <= last.y; ++y)
     for (int x = first.x; x <= last.x; ++x)
       if (occluders[uint(y * cells.x + x)] >= bits) return false;

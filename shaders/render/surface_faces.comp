@@ -24,6 +24,10 @@ void main() {
   const uvec2 own = samples[index];
   if (own.x == kInfiniteBits) return;
   const float z = uintBitsToFloat(own.x), spacing = spacingAt(z);
+  if (z <= nearestDrawn()) {  // cut by the near plane: what the eye looks through, not a face
+    after[index] = packMean(unpackNormal(own.y));
+    return;
+  }
   const Taps taps = tapsOver(kReach, z);
   const ivec2 along = ivec2(1 - int(kVertical), int(kVertical)) * taps.stride;
   const vec3 sight = normalize(rayAlong(axisOf(samplePixel(p))));

@@ -20,7 +20,7 @@ void main() {
   const ivec2 cells = ivec2((sampleGrid() + kOccluderSamples - 1u) / kOccluderSamples);
   const ivec2 first = max(ivec2(ceil(clamp((middle - side) / cell, vec2(-1e6), vec2(1e6)))), ivec2(0));
   const ivec2 last = min(ivec2(floor(clamp((middle + side) / cell, vec2(-1e6), vec2(1e6)))) - 1, cells - 1);
-  const ivec2 most = min(last, first + int(kMostRectSamples) - 1);
+  const ivec2 most = min(last, first + int(kMostCells) - 1);
   const uint bits = floatBitsToUint(centre.z);
   for (int y = first.y; y <= most.y; ++y)
     for (int x = first.x; x <= most.x; ++x) {

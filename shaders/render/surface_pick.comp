@@ -13,26 +13,31 @@ layout(std430, set = 0, binding = 5) writeonly buffer Rank { uint rank[]; };
 
 const float kOwnedShare = 0.03;  // of a disc: less is a neighbour's rim showing through
 
+shared uint inside[kSurfaceGroup], owned[kSurfaceGroup];  // samples of each invocation's disc; of them those that no other sphere covers
+uint visited = 0u, own = 0u;
+
+void visit(vec3 centre, float radius, ivec2 p) {
+  const float t = sphereDepth(centre, radius, axisOf(samplePixel(p)));
+  if (t < 0.0) return;
+  ++visited;
+  if (t <= uintBitsToFloat(depth[uint(p.y) * sampleGrid().x + uint(p.x)]) + 1e-3 * view.spacing) ++own;
+}
+void visitedAll(uint owner) {
+  if (visited > 0u) atomicAdd(inside[owner], visited);
+  if (own > 0u) atomicAdd(owned[owner], own);
+  visited = own = 0u;
+}
+#include "render/surface_spread.glsl"
+
 void main() {
-  const uint k = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
-  if (k >= counters[kSurvivorCount]) return;
-  const vec3 centre = viewPoint(position[survivors[k]].xyz);
-  const float radius = hardRadius(centre.z);
-  bool cut;
-  const ivec4 rect = sampleRect(centre, radius, cut);
-  if (cut) atomicAdd(counters[kBoundHits], 1u);
-  const uint columns = sampleGrid().x;
-  const float slack = 1e-3 * view.spacing;
-  uint inside = 0u, owned = 0u;
-  for (int y = rect.y; y <= rect.w; ++y)
-    for (int x = rect.x; x <= rect.z; ++x) {
-      const float t = sphereDepth(centre, radius, axisOf(samplePixel(ivec2(x, y))));
-      if (t < 0.0) continue;
-      ++inside;
-      if (t <= uintBitsToFloat(depth[uint(y) * columns + uint(x)]) + slack) ++owned;
-    }
+  const uint self = gl_LocalInvocationIndex, k = groupIndex() * kSurfaceGroup + self;
+  inside[self] = owned[self] = 0u;
+  const bool live = k < counters[kSurvivorCount];
+  const vec3 centre = live ? viewPoint(position[survivors[k]].xyz) : vec3(0.0);
+  spread(live, centre, hardRadius(centre.z));
+  if (!live) return;
   uint place = kNotSurface;
-  if (owned > 0u && float(owned) >= kOwnedShare * float(inside)) {
+  if (owned[self] > 0u && float(owned[self]) >= kOwnedShare * float(inside[self])) {
     const ivec2 cell = cellOf(pixelOf(centre));
     place = atomicAdd(cells[uint(cell.y) * cellGrid().x + uint(cell.x)], 1u);
     atomicAdd(counters[kSurfaceCount], 1u);

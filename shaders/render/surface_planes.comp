@@ -1,7 +1,7 @@
 #version 460
 // A plane for every surface particle: the weighted principal directions of the surface particles around it, raised to where the fluid ends.
 // Where they do not lie in one plane, those off the plane are left out and the rest is fitted again: a crease stays one.
-// One with too few of them around it, or around which they do not spread in a plane, is a ball.
+// One with too few of them around it, or around which they do not spread in a plane, is a ball; so is one that the near plane cuts.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 
@@ -70,6 +70,11 @@ void main() {
   const uint k = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
   if (k >= counters[kSurfaceCount]) return;
   const vec3 own = centreAt(k).xyz;
+  if (own.z - 0.5 * view.spacing <= view.near_depth) {  // cut by the near plane: a ball, whose neighbours would be all over the picture
+    plane[2u * k] = vec4(own, 1.0);
+    plane[2u * k + 1u] = vec4(0.0);
+    return;
+  }
   const float spacing = spacingAt(own.z), reach = view.smoothing * spacing, inverse = 1.0 / reach;
   const CellRange range = cellsAround(own, reach);
   Fit fit = fitAround(own, inverse, range, vec3(0.0));

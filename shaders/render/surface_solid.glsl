@@ -1,10 +1,9 @@
 // Whether the spheres leave no gap around a place: then there is fluid, whatever the particles nearest to the ray say. Needs `depth`.
 
 bool solidAround(ivec2 at) {
-  const ivec2 grid = ivec2(sampleGrid());
-  if (any(lessThan(at, ivec2(2))) || any(greaterThanEqual(at, grid - 2))) return false;
-  for (int y = at.y - 2; y <= at.y + 2; ++y)
-    for (int x = at.x - 2; x <= at.x + 2; ++x)
+  const ivec2 grid = ivec2(sampleGrid()), first = max(at - 2, ivec2(0)), last = min(at + 2, grid - 1);
+  for (int y = first.y; y <= last.y; ++y)
+    for (int x = first.x; x <= last.x; ++x)
       if (depth[uint(y * grid.x + x)] == kInfiniteBits) return false;
   return true;
 }

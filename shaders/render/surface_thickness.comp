@@ -27,33 +27,35 @@ void add(ivec2 at, float z, float metres) {
   if (amount > 0u) atomicAdd(thickness[uint(at.y * grid.x + at.x)], amount);
 }
 
+// (1 - r^2 / R^2)^2 has the integral pi R^2 / 3 over its disc.
+void visit(vec3 centre, float radius, ivec2 at) {
+  const float inside = 1.0 - raySquare(centre, axisOf(samplePixel(at))) / (radius * radius);
+  const float peak = view.spacing * view.spacing * view.spacing * 3.0 / (3.14159265 * radius * radius);
+  if (inside > 0.0) add(at, centre.z, peak * inside * inside);
+}
+void visitedAll(uint owner) {}
+#include "render/surface_spread.glsl"
+
+// Too small for its disc to be sampled: shared among the four samples around.
+void addSmall(vec3 centre, float side) {
+  const vec2 at = sampleOf(pixelOf(centre));
+  const ivec2 base = ivec2(floor(at));
+  const vec2 part = at - vec2(base);
+  const float all = view.spacing * view.spacing * view.spacing / (side * side);
+  add(base, centre.z, all * (1.0 - part.x) * (1.0 - part.y));
+  add(base + ivec2(1, 0), centre.z, all * part.x * (1.0 - part.y));
+  add(base + ivec2(0, 1), centre.z, all * (1.0 - part.x) * part.y);
+  add(base + ivec2(1, 1), centre.z, all * part.x * part.y);
+}
+
 void main() {
   const uint i = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
-  if (i >= view.count || !drawable(position[i].xyz)) return;
-  const vec3 centre = viewPoint(position[i].xyz);
-  const float radius = view.radius;
-  if (!(centre.z > view.near_depth) || !shownWithin(centre, radius, float(view.step))) return;  // a sample gets its share of what is beside the picture, too
-  const float volume = view.spacing * view.spacing * view.spacing;
+  bool live = i < view.count && drawable(position[i].xyz);
+  const vec3 centre = live ? viewPoint(position[i].xyz) : vec3(0.0);
+  // A sample gets its share of what is beside the picture, too.
+  live = live && centre.z > view.near_depth && shownWithin(centre, view.radius, float(view.step));
   const float side = metresAPixel(centre.z) * float(view.step);
-  if (radius < 1.5 * side) {  // too small for its disc to be sampled: shared among the four samples around
-    const vec2 at = sampleOf(pixelOf(centre));
-    const ivec2 base = ivec2(floor(at));
-    const vec2 part = at - vec2(base);
-    const float all = volume / (side * side);
-    add(base, centre.z, all * (1.0 - part.x) * (1.0 - part.y));
-    add(base + ivec2(1, 0), centre.z, all * part.x * (1.0 - part.y));
-    add(base + ivec2(0, 1), centre.z, all * (1.0 - part.x) * part.y);
-    add(base + ivec2(1, 1), centre.z, all * part.x * part.y);
-    return;
-  }
-  // (1 - r^2 / R^2)^2 has the integral pi R^2 / 3 over its disc.
-  const float peak = volume * 3.0 / (3.14159265 * radius * radius);
-  bool cut;
-  const ivec4 rect = sampleRect(centre, radius, cut);
-  if (cut) atomicAdd(counters[kBoundHits], 1u);
-  for (int y = rect.y; y <= rect.w; ++y)
-    for (int x = rect.x; x <= rect.z; ++x) {
-      const float inside = 1.0 - raySquare(centre, axisOf(samplePixel(ivec2(x, y)))) / (radius * radius);
-      if (inside > 0.0) add(ivec2(x, y), centre.z, peak * inside * inside);
-    }
+  const bool small = view.radius < 1.5 * side;
+  if (live && small) addSmall(centre, side);
+  spread(live && !small, centre, view.radius);
 }

@@ -22,7 +22,12 @@ void main() {
   const uint index = uint(p.y * grid.x + p.x);
   const uvec2 own = samples[index];
   if (own.x == kInfiniteBits) return;
-  const Taps taps = tapsOver(kReach, uintBitsToFloat(own.x));
+  const float z = uintBitsToFloat(own.x);
+  if (z <= nearestDrawn()) {
+    after[index] = before[index];
+    return;
+  }
+  const Taps taps = tapsOver(kReach, z);
   const ivec2 along = ivec2(1 - int(kVertical), int(kVertical)) * taps.stride;
   const vec3 mean = unpackMean(before[index]);
   const float size = length(mean);

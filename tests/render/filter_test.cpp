@@ -84,7 +84,7 @@ class DepthFilters : public SurfaceOnGpu {
         return [to](Commands& commands) { commands.fill(to, std::bit_cast<uint32_t>(kNone)); };
       });
       const StepBuffer source_array = reading == BindingKind::Storage ? reads(from) : texels(from);
-      addStep(graph, "filter", filter, {source_array, writes(to), writes(counters), reads(blocks)}, listed.size(), FlowPush{push});
+      addStep(graph, "filter", filter, {source_array, writes(to), writes(counters), reads(blocks)}, listed.size(), FlowPush{push, k});
       from = to;
     }
     const Ticket ticket = graph.readback(from);

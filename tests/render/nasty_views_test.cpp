@@ -98,6 +98,25 @@ TEST_F(NastyViews, TheNearPlaneInsideTheFluid) {
   }
 }
 
+// One sphere covers more samples than a driver's loop may have turns (65,535 on lavapipe), and light comes through as it is.
+TEST_F(NastyViews, ALargePictureFromWithin) {
+  fill(block({0, 0, 0}, {4, 3, 2.5}, 0));
+  const FluidView view = looking({0.6667, 0.6667, 1.3333}, {10, 0.6667, 1.3333}, 400, 240);
+  const VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
+  for (const SurfaceMethod method : kMethods) {
+    const auto pixels = surface(view, method);
+    for (size_t i = 0; i < pixels.size(); ++i) ASSERT_NEAR(pixels[i].depth, nearOf(view), 1e-5f) << int(method) << " " << i;
+    FluidLook look;
+    look.surface = method;
+    look.absorption = look.scatter = {0, 0, 0};
+    Backdrop ramp;
+    for (uint32_t k = 0; k < view.width * view.height; ++k) ramp.pixels.push_back({float(k % view.width), float(k / view.width), 0, 1});
+    const auto seen = drawn(view, look, ramp, {.colour = format}).channels(format);
+    for (size_t i = 0; i < seen.size(); ++i)
+      for (size_t c = 0; c < 2; ++c) ASSERT_NEAR(seen[i][c], double(ramp.pixels[i][c]), 0.6) << int(method) << " " << i;
+  }
+}
+
 TEST_F(NastyViews, ParticlesThatAreNoNumbers) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   const FluidView view = looking({0, 0, 0}, {0, 0, -4}, 96, 72);

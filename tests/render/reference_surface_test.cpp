@@ -149,6 +149,7 @@ TEST_P(ReferenceSurface, CutByTheNearPlane) {
   const auto drops = scattered({-0.4, 0.15, -0.6}, {0.4, 0.4, 0.1}, 12);
   all.insert(all.end(), drops.begin(), drops.end());
   compare("cut", all, looking({0, 0.05, 0}, {0, 0, -1.2}, 80, 60), 3, 1500);
+  compare("inside", block({0, 0, 0}, {1.4, 1.4, 2.4}, 0), looking({0.6667, 0.6667, 1.3333}, {9.6, 0.6667, 1.3333}, 96, 54), 3, 1500);
   compare("cut, parallel", all, orthographic(0.5, looking({0, 0.1, 0}, {0, 0, -4}, 72, 56)), 3, 1500);
 }
 

@@ -92,6 +92,7 @@ TEST_F(ParticlesToSamples, EachSampleHoldsTheNearestSphere) {
       {eye, 1, 60, {-1.5, -1.2, -3}, {1.5, 1.2, -0.2}, false},      // far apart, some at the near plane, some beside the picture
       {eye, 1, 600, {-0.2, -0.2, -1.2}, {0.4, 0.4, -0.4}, true},    // a crowd
       {eye, 1, 1500, {-0.2, -0.1, -0.5}, {0.4, 0.4, -0.25}, true},  // a dense one, whose front is all that is seen
+      {eye, 1, 60, {-0.3, -0.2, -0.1}, {0.5, 0.6, 0.7}, false},     // around the eye, cut by the near plane
       {eye, 2, 3000, {-2, -1.5, -5}, {2, 1.5, -1}, false},
       {eye, 1, 3000, {-40, -40, -90}, {40, 40, -30}, false},  // smaller than samples: drawn as large as one
       {orthographic(0.3, eye), 1, 800, {-0.2, -0.05, -4}, {0.4, 0.4, 0}, true},

@@ -159,6 +159,7 @@ SurfaceReference::Fit SurfaceReference::fit(const std::vector<Vector>& centres, 
 SurfaceReference::Plane SurfaceReference::plane(const std::vector<Vector>& centres, const Vector& own) const {
   const double reach = double{samples_.push.smoothing} * spacingAt(own.z);
   const Vector towards = samples_.push.perspective > 0 ? unit(own) : Vector{0, 0, 1};
+  if (own.z - 0.5 * double{samples_.push.spacing} <= double{samples_.push.near_depth}) return {own, own, {}, true};
   Fit found = fit(centres, own, reach, nullptr);
   Vector normal = found.least;
   if (dot(normal, towards) > 0) normal = normal * -1;
@@ -228,10 +229,10 @@ SurfaceReference::Look SurfaceReference::look(const Samples::Ray& ray, double de
 }
 
 bool SurfaceReference::closed(int x, int y) const {
-  if (!samples_.has(x - 2, y - 2) || !samples_.has(x + 2, y + 2)) return false;
-  bool all = true;
-  for (int k = 0; k < 25; ++k) all = all && hard_[samples_.index(x - 2 + k % 5, y - 2 + k / 5)] != kNone;
-  return all;
+  for (int v = y - 2; v <= y + 2; ++v)
+    for (int u = x - 2; u <= x + 2; ++u)
+      if (samples_.has(u, v) && hard_[samples_.index(u, v)] == kNone) return false;
+  return true;
 }
 
 /// Of the square of two and a half samples to each side what spheres cover.

@@ -135,7 +135,7 @@ class Render {
       if (auto ok = flickerOfWave(p); !ok) return ok.error();
     for (const Recorded& r : recordings())
       if (auto ok = flickerOfRun(r); !ok) return ok.error();
-    if (Table aims = judgedSurfaces(figures_, report_.failures); !aims.rows.empty())
+    if (Table aims = judgedSurfaces(figures_, bench_.options().only.empty() && !bench_.stopped(), report_.failures); !aims.rows.empty())
       report_.tables.insert(report_.tables.begin(), std::move(aims));
     if (!errors_.rows.empty()) report_.tables.insert(report_.tables.begin(), std::move(errors_));
     return std::move(report_);
@@ -299,7 +299,7 @@ class Render {
 
   /// One jitter of particles on a wave that travels: what changes in the error of the normal from frame to frame.
   Expected<void> flickerOfWave(const Picture& picture) {
-    const std::string name = "moving wave, " + picture.name;
+    const std::string name = std::string(kMovingWave) + ", " + picture.name;
     const auto ways = wanted(name);
     if (ways.empty()) return {};
     const Eye& eye = picture.eye;
@@ -360,6 +360,13 @@ class Render {
       }
       double mean = 0;
       for (const double c : changes) mean += c / double(changes.size());
+      if (way->standard() && name.starts_with(kMovingWave)) {
+        SurfaceFigures figures;
+        figures.shape = kMovingWave;
+        figures.method = way->family;
+        figures.flicker = mean;
+        figures_.push_back(figures);
+      }
       report_.results.push_back({{"case", name},
                                  {"method", way->family},
                                  {"setting", way->setting},
