@@ -12,7 +12,7 @@ using CostError = std::pair<double, double>;
 /// Indices, by rising cost, of the points that no other point beats in both.
 std::vector<size_t> paretoFront(std::span<const CostError> points);
 
-/// The cost at `error` on the curve through `points`, a line between neighbours where both axes are logarithmic; NaN outside it.
+/// The cost at `error` on the curve through `points`, a line between neighbors where both axes are logarithmic; NaN outside it.
 double costAtError(std::span<const CostError> points, double error);
 
 }  // namespace rill::bench

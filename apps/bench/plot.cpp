@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kWidth = 720, kHeight = 480;  // of one diagram
-constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999933"};
+constexpr const char* kColors[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999933"};
 
 /// A gnuplot string in single quotes.
 std::string quoted(const std::string& text) {
@@ -65,14 +65,14 @@ std::string plotProgram(std::span<const Plot> plots) {
   for (size_t p = 0; p < plots.size(); ++p) {
     const Plot& plot = plots[p];
     out << "set title " << quoted(plot.title) << "\nset xlabel " << quoted(plot.x) << "\nset ylabel " << quoted(plot.y) << "\n";
-    // Labelled points need the room; whole decades around them would leave them a corner.
-    const bool labelled = std::ranges::any_of(plot.series, [](const Series& one) { return !one.labels.empty(); });
-    out << (labelled ? "set autoscale fix\nset offsets graph 0.06, graph 0.16, graph 0.08, graph 0.08\n"
-                     : "set autoscale\nset offsets 0,0,0,0\n");
-    out << "set xtics " << (labelled && plot.logX ? logTics() : "autofreq") << "\n";
+    // Labeled points need the room; whole decades around them would leave them a corner.
+    const bool labeled = std::ranges::any_of(plot.series, [](const Series& one) { return !one.labels.empty(); });
+    out << (labeled ? "set autoscale fix\nset offsets graph 0.06, graph 0.16, graph 0.08, graph 0.08\n"
+                    : "set autoscale\nset offsets 0,0,0,0\n");
+    out << "set xtics " << (labeled && plot.logX ? logTics() : "autofreq") << "\n";
     out << (plot.logX ? "set logscale x\n" : "unset logscale x\n") << (plot.logY ? "set logscale y\n" : "unset logscale y\n");
     out << yAxis(plot.rows);
-    if (labelled && plot.logY) out << "set ytics " << logTics() << "\n";
+    if (labeled && plot.logY) out << "set ytics " << logTics() << "\n";
     std::string curves;
     for (size_t s = 0; s < plot.series.size(); ++s) {
       const Series& series = plot.series[s];
@@ -89,13 +89,13 @@ std::string plotProgram(std::span<const Plot> plots) {
       }
       out << "EOD\n";
       if (drawn == 0) continue;
-      const std::string colour = kColours[s % std::size(kColours)];
+      const std::string color = kColors[s % std::size(kColors)];
       const char* with = series.style == Series::Style::Points ? "points" : series.style == Series::Style::Lines ? "lines" : "linespoints";
       curves += (curves.empty() ? "plot " : ", ") + block + " using 1:2 with " + with + " pt " + std::to_string(s % 13 + 4) +
-                (series.emphasised ? " ps 2" : "") + " lw 1.5 lc rgb '" + colour + "' " +
+                (series.emphasized ? " ps 2" : "") + " lw 1.5 lc rgb '" + color + "' " +
                 (series.name.empty() ? std::string("notitle") : "title " + quoted(series.name));
       if (!series.labels.empty())
-        curves += ", " + block + " using 1:2:3 with labels offset 0.6,0.6 left font ',9' tc rgb '" + colour + "' notitle";
+        curves += ", " + block + " using 1:2:3 with labels offset 0.6,0.6 left font ',9' tc rgb '" + color + "' notitle";
     }
     out << (curves.empty() ? std::string("set multiplot next") : curves) << "\n";
   }

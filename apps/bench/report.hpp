@@ -26,7 +26,7 @@ struct Series {
   Style style = Style::Both;
   std::vector<std::pair<double, double>> points;
   std::vector<std::string> labels;  ///< beside the points; may be empty
-  bool emphasised = false;          ///< larger points
+  bool emphasized = false;          ///< larger points
 };
 
 /// One diagram. Points that are not finite, or not positive on a logarithmic axis, are drawn on the axis' far edge by whoever fills it.

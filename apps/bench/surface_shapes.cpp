@@ -12,12 +12,12 @@ constexpr int kLayers = 3;           // that a renderer can see
 constexpr double kSteepness = 0.05;  // amplitude of a wave over its length
 constexpr double kTilt = 1.2;        // slope of what is seen at 50 degrees
 
-/// A surface whose depth is a function of x alone: a tilted plane, waves. They may have travelled: then particles ride on them, and do not
+/// A surface whose depth is a function of x alone: a tilted plane, waves. They may have traveled: then particles ride on them, and do not
 /// travel.
 class Relief : public Shape {
  public:
   Relief(std::string name, double distance, double tangentX, double tangentY, double slope, double amplitude, double length,
-         double travelled = 0)
+         double traveled = 0)
       : name_(std::move(name)),
         distance_(distance),
         tangentX_(tangentX),
@@ -25,7 +25,7 @@ class Relief : public Shape {
         slope_(slope),
         amplitude_(amplitude),
         wave_(2 * std::numbers::pi / length),
-        travelled_(travelled) {}
+        traveled_(traveled) {}
 
   std::string name() const override { return name_; }
 
@@ -49,7 +49,7 @@ class Relief : public Shape {
     const double width = farthest * tangentX_ + 4, height = farthest * tangentY_ + 4;
     for (int layer = 0; layer < kLayers; ++layer)
       for (double x = -width; x < width;) {
-        const double r = riseOf(x), size = std::sqrt(1 + r * r);  // before it travelled: particles stay the same ones
+        const double r = riseOf(x), size = std::sqrt(1 + r * r);  // before it traveled: particles stay the same ones
         for (double y = -height; y < height; y += 1) {
           const double u = along(random), h = layer + 0.5 + across(random);
           const double at = x + u / size;
@@ -62,12 +62,12 @@ class Relief : public Shape {
   }
 
  private:
-  double depth(double x) const { return distance_ + slope_ * x + amplitude_ * std::sin(wave_ * (x - travelled_)); }
-  double rise(double x) const { return riseOf(x - travelled_); }
+  double depth(double x) const { return distance_ + slope_ * x + amplitude_ * std::sin(wave_ * (x - traveled_)); }
+  double rise(double x) const { return riseOf(x - traveled_); }
   double riseOf(double x) const { return slope_ + amplitude_ * wave_ * std::cos(wave_ * x); }
 
   std::string name_;
-  double distance_, tangentX_, tangentY_, slope_, amplitude_, wave_, travelled_;
+  double distance_, tangentX_, tangentY_, slope_, amplitude_, wave_, traveled_;
 };
 
 class Balls : public Shape {
@@ -218,8 +218,8 @@ std::vector<std::unique_ptr<Shape>> tiltedShapes(double distance, double tangent
   return all;
 }
 
-std::unique_ptr<Shape> travelledWave(double distance, double tangentX, double tangentY, double length, double travelled) {
-  return std::make_unique<Relief>("moving wave", distance, tangentX, tangentY, 0, kSteepness * length, length, travelled);
+std::unique_ptr<Shape> traveledWave(double distance, double tangentX, double tangentY, double length, double traveled) {
+  return std::make_unique<Relief>("moving wave", distance, tangentX, tangentY, 0, kSteepness * length, length, traveled);
 }
 
 }  // namespace rill::bench

@@ -36,7 +36,7 @@ class Shape {
 std::vector<std::unique_ptr<Shape>> shapes(double distance, double tangentX, double tangentY);
 /// A plane and waves that lean away at 50 degrees, for fields of view up to 1 / 1.8 of half a picture's width.
 std::vector<std::unique_ptr<Shape>> tiltedShapes(double distance, double tangentX, double tangentY);
-/// A wave that has moved on by `travelled` spacings, with the same particles in the same order: they ride up and down on it.
-std::unique_ptr<Shape> travelledWave(double distance, double tangentX, double tangentY, double length, double travelled);
+/// A wave that has moved on by `traveled` spacings, with the same particles in the same order: they ride up and down on it.
+std::unique_ptr<Shape> traveledWave(double distance, double tangentX, double tangentY, double length, double traveled);
 
 }  // namespace rill::bench

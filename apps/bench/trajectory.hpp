@@ -7,10 +7,10 @@
 
 namespace rill::bench {
 
-/// What a run does as a whole, at each of its instants, without dimension: centre of mass and front over the fluid's first extent, energies
+/// What a run does as a whole, at each of its instants, without dimension: center of mass and front over the fluid's first extent, energies
 /// over the energy at the start.
 struct Trajectory {
-  static constexpr size_t kQuantities = 6;  ///< centre x, y, z; front; kinetic; potential
+  static constexpr size_t kQuantities = 6;  ///< center x, y, z; front; kinetic; potential
   std::vector<std::array<double, kQuantities>> at;
 };
 

@@ -43,12 +43,12 @@ Json frameJson(double time_s, const offline::Stats& stats) {
   frame["kinetic_J"] = stats.kinetic_J;
   frame["potential_J"] = stats.potential_J;
   frame["momentum"] = stats.momentum;
-  frame["centre_of_mass"] = stats.centre_of_mass;
+  frame["centre_of_mass"] = stats.center_of_mass;
   frame["front_m"] = stats.front_m;
   frame["max_speed"] = stats.max_speed;
   frame["non_finite"] = stats.non_finite;
   frame["outside"] = stats.outside;
-  frame["neighbour_overflow"] = stats.neighbour_overflow;
+  frame["neighbour_overflow"] = stats.neighbor_overflow;
   frame["loop_bound_hits"] = stats.loop_bound_hits;
   frame["picture_bound_hits"] = stats.picture_bound_hits;
   frame["list_builds"] = stats.list_builds;
@@ -120,7 +120,7 @@ std::vector<Figure> Record::figures() const {
       {"artificial_viscosity", last.artificial_viscosity_Pa_s, "Pa s"},
       {"outside", of(&Stats::outside)(largest), ""},
       {"non_finite", of(&Stats::non_finite)(largest), ""},
-      {"neighbour_overflow", of(&Stats::neighbour_overflow)(largest), ""},
+      {"neighbour_overflow", of(&Stats::neighbor_overflow)(largest), ""},
       {"loop_bound_hits", of(&Stats::loop_bound_hits)(largest), ""},
       {"picture_bound_hits", double(pictureBoundHits()), ""},
   };
@@ -189,7 +189,7 @@ std::vector<std::string> Record::warnings() const {
                        " steps an advance (solver.max_substeps) were too few, each as short as the fluid's speed, weight or viscosity or "
                        "solver.time_step asks for");
   if (last.loop_bound_hits > 0)
-    warnings.push_back("warning: loops over neighbours ran into their bound " + grouped(last.loop_bound_hits) +
+    warnings.push_back("warning: loops over neighbors ran into their bound " + grouped(last.loop_bound_hits) +
                        " times since the start: there are more particles in one place than a walk looks at");
   if (last.non_finite > 0)
     warnings.push_back("warning: " + grouped(last.non_finite) + (last.non_finite == 1 ? " particle is" : " particles are") +

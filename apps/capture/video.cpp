@@ -33,7 +33,7 @@ std::vector<std::string> encoderArguments(const fs::path& part, const Format& fo
           // What comes: pixels of four bytes, the last one ignored.
           "-f", "rawvideo", "-pixel_format", "rgb0", "-video_size", std::to_string(width) + "x" + std::to_string(height), "-framerate",
           shortNumber(fps), "-i", "pipe:0",
-          // What goes. Players take what is untagged for one of several colour spaces.
+          // What goes. Players take what is untagged for one of several color spaces.
           "-vf", filters, "-c:v", "libx264", "-crf", "18", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",
           "-color_range", "tv", "-f", format.muxer, "file:" + part.string()};
 }

@@ -15,11 +15,11 @@ int main(int count, char** arguments) {
   Lender lender;
   host::Engine& engine = lender.engine;
   const auto device = lender.lend();
-  host::Image colour =
-      engine.createImage(VK_FORMAT_R8G8B8A8_SRGB, kWidth, kHeight, rill::kFluidColourUsage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+  host::Image color =
+      engine.createImage(VK_FORMAT_R8G8B8A8_SRGB, kWidth, kHeight, rill::kFluidColorUsage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
   host::Image depth = engine.createImage(VK_FORMAT_D32_SFLOAT, kWidth, kHeight, rill::kFluidDepthUsage);
   {
-    host::Cuboids own(engine, colour, depth);
+    host::Cuboids own(engine, color, depth);
     const host::Matrix clip = host::perspective(40, float(kWidth) / kHeight, 0.1f) * host::lookAt(kEye, kTarget);
     const host::Cuboid opaque[] = {{{-3, -0.2f, -2}, {5, 0, 3}, {0.42f, 0.36f, 0.30f}},
                                    {{1.2f, 0, 0.35f}, {1.5f, 0.9f, 0.65f}, {0.5f, 0.5f, 0.52f}}};
@@ -33,7 +33,7 @@ int main(int count, char** arguments) {
     scene.solids = {rill::Solid{.box = rill::BoxShape{{1.2, 0, 0.35}, {1.5, 0.9, 0.65}}}};
     const auto start = need(rill::makeParticles(scene));
     const auto water = need(rill::Fluid::create(*device, {.scene = &scene, .particles = &start}));
-    const auto painter = need(rill::FluidRenderer::create(*device, {colour.format, depth.format}));
+    const auto painter = need(rill::FluidRenderer::create(*device, {color.format, depth.format}));
     const rill::FluidView view = lookAt(kEye, kTarget, kWidth, kHeight);
 
     rill::Graph graph;
@@ -43,7 +43,7 @@ int main(int count, char** arguments) {
 
       device->beginFrame({frame.number, frame.completed});
       graph.reset();
-      const rill::SceneTargets targets{importTarget(graph, "colour", colour, rill::Use::ColourTarget),
+      const rill::SceneTargets targets{importTarget(graph, "color", color, rill::Use::ColorTarget),
                                        importTarget(graph, "depth", depth, rill::Use::DepthTarget)};
       (void)painter->addTo(graph, water->addTo(graph, {.advance_s = 1.0 / 60}), targets, view);
       need(graph.compile());
@@ -55,7 +55,7 @@ int main(int count, char** arguments) {
     }
     engine.wait();
   }
-  engine.save(colour, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, arguments[1]);
-  engine.destroy(colour);
+  engine.save(color, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, arguments[1]);
+  engine.destroy(color);
   engine.destroy(depth);
 }

@@ -33,10 +33,10 @@ int main(int count, char** arguments) {
   Lender lender;
   host::Engine& engine = lender.engine;
   const auto device = lender.lend();
-  host::Image colour = engine.createImage(VK_FORMAT_R8G8B8A8_SRGB, kWidth, kHeight,
-                                          rill::kFluidColourUsage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+  host::Image color = engine.createImage(VK_FORMAT_R8G8B8A8_SRGB, kWidth, kHeight,
+                                         rill::kFluidColorUsage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
   host::Image depth = engine.createImage(VK_FORMAT_D32_SFLOAT, kWidth, kHeight, rill::kFluidDepthUsage | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
-  const auto painter = need(rill::FluidRenderer::create(*device, {colour.format, depth.format}));
+  const auto painter = need(rill::FluidRenderer::create(*device, {color.format, depth.format}));
   const rill::FluidView view = lookAt({2.4f, 1.7f, 3.6f}, {1, 0.2f, 1}, kWidth, kHeight);
 
   // One buffer a frame in flight, written while the device reads the others.
@@ -49,12 +49,12 @@ int main(int count, char** arguments) {
     rill::FluidState state;
     state.count = fill(static_cast<float*>(mine.mapped), 0.1f * float(k));
     state.spacing = kSpacing;
-    engine.clear(frame, colour, {{0.55f, 0.65f, 0.75f, 1}}, depth, 0);
+    engine.clear(frame, color, {{0.55f, 0.65f, 0.75f, 1}}, depth, 0);
 
     device->beginFrame({frame.number, frame.completed});
     graph.reset();
     state.position = graph.import("positions", {mine.handle, 0, uint64_t{16} * state.count, rill::Use::Nothing, rill::Use::Nothing});
-    const rill::SceneTargets targets{importTarget(graph, "colour", colour, rill::Use::ColourTarget),
+    const rill::SceneTargets targets{importTarget(graph, "color", color, rill::Use::ColorTarget),
                                      importTarget(graph, "depth", depth, rill::Use::DepthTarget)};
     (void)painter->addTo(graph, state, targets, view);
     need(graph.compile());
@@ -63,8 +63,8 @@ int main(int count, char** arguments) {
     engine.end(frame);
   }
   engine.wait();
-  engine.save(colour, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, arguments[1]);
+  engine.save(color, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, arguments[1]);
   for (host::Buffer& buffer : positions) engine.destroy(buffer);
-  engine.destroy(colour);
+  engine.destroy(color);
   engine.destroy(depth);
 }

@@ -19,17 +19,17 @@ struct Position {
 
 /// Brighter where more particles are.
 void draw(std::span<const Position> positions, const char* file) {
-  std::vector<unsigned char> grey(kWidth * kHeight);
+  std::vector<unsigned char> gray(kWidth * kHeight);
   for (const Position& p : positions) {
     const int x = int(p.x / 2 * kWidth), y = int((1 - p.y) * kHeight);
     if (x < 0 || y < 0 || x >= int(kWidth) || y >= int(kHeight)) host::fail("a particle is outside of the tank");
-    unsigned char& dot = grey[size_t(y) * kWidth + size_t(x)];
+    unsigned char& dot = gray[size_t(y) * kWidth + size_t(x)];
     dot = static_cast<unsigned char>(dot > 215 ? 255 : dot + 40);
   }
   std::FILE* out = std::fopen(file, "wb");
   if (!out) host::fail("the picture can't be written");
   std::fprintf(out, "P6\n%u %u\n255\n", kWidth, kHeight);
-  for (const unsigned char g : grey) std::fputc(g, out), std::fputc(g, out), std::fputc(g, out);
+  for (const unsigned char g : gray) std::fputc(g, out), std::fputc(g, out), std::fputc(g, out);
   if (std::fclose(out) != 0) host::fail("the picture can't be written");
 }
 

@@ -1,4 +1,4 @@
-// A game that has a device, frames in flight, a colour and a depth buffer of its own gets water: all that it takes of Rill is here.
+// A game that has a device, frames in flight, a color and a depth buffer of its own gets water: all that it takes of Rill is here.
 //   water OUT.ppm
 #include <rill/fluid.hpp>
 #include <rill/fluid_renderer.hpp>
@@ -44,10 +44,10 @@ int main(int count, char** arguments) {
   const auto water = need(rill::Fluid::create(*device, {.scene = &scene, .particles = &particles}));
 
   constexpr uint32_t kWidth = 640, kHeight = 360;
-  host::Image colour = engine.createImage(VK_FORMAT_R8G8B8A8_SRGB, kWidth, kHeight,
-                                          rill::kFluidColourUsage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+  host::Image color = engine.createImage(VK_FORMAT_R8G8B8A8_SRGB, kWidth, kHeight,
+                                         rill::kFluidColorUsage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
   host::Image depth = engine.createImage(VK_FORMAT_D32_SFLOAT, kWidth, kHeight, rill::kFluidDepthUsage | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
-  const auto painter = need(rill::FluidRenderer::create(*device, {colour.format, depth.format}));
+  const auto painter = need(rill::FluidRenderer::create(*device, {color.format, depth.format}));
   rill::FluidView view;
   view.view = rill::Float4x4::from(host::lookAt({2.6f, 1.6f, 3.2f}, {0.9f, 0.3f, 0.5f}).m[0]);
   view.projection = rill::Float4x4::from(host::perspective(40, float(kWidth) / kHeight, 0.1f).m[0]);
@@ -58,13 +58,12 @@ int main(int count, char** arguments) {
   rill::Graph graph;
   for (int k = 0; k < 40; ++k) {
     const host::Frame frame = engine.begin();
-    engine.clear(frame, colour, {{0.55f, 0.65f, 0.75f, 1}}, depth, 0);
+    engine.clear(frame, color, {{0.55f, 0.65f, 0.75f, 1}}, depth, 0);
 
     device->beginFrame({frame.number, frame.completed});
     graph.reset();
     rill::SceneTargets targets;
-    targets.colour =
-        graph.import("colour", {colour.handle, {colour.format, kWidth, kHeight}, rill::Use::ColourTarget, rill::Use::ColourTarget});
+    targets.color = graph.import("color", {color.handle, {color.format, kWidth, kHeight}, rill::Use::ColorTarget, rill::Use::ColorTarget});
     targets.depth = graph.import("depth", {depth.handle, {depth.format, kWidth, kHeight}, rill::Use::DepthTarget, rill::Use::DepthTarget});
     const rill::FluidState state = water->addTo(graph, {.advance_s = 1.0 / 60});
     targets = painter->addTo(graph, state, targets, view);
@@ -75,7 +74,7 @@ int main(int count, char** arguments) {
     engine.end(frame);
   }
   engine.wait();
-  engine.save(colour, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, arguments[1]);
-  engine.destroy(colour);
+  engine.save(color, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, arguments[1]);
+  engine.destroy(color);
   engine.destroy(depth);
 }

@@ -20,7 +20,7 @@ namespace rill::apps {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr size_t kMostWords = 600;  // bytes of what a program said that a message repeats
+constexpr size_t kMaxWords = 600;  // bytes of what a program said that a message repeats
 
 Error cannotStart(const std::string& name, int code) {
   return Error{ErrorKind::Io, "can't start " + name + ": " + std::generic_category().message(code)};
@@ -98,8 +98,8 @@ Expected<void> FedProgram::finish() {
 std::string FedProgram::lastWords() const {
   struct stat info {};
   if (::fstat(said_.get(), &info) != 0) return {};
-  const off_t from = std::max<off_t>(info.st_size - static_cast<off_t>(kMostWords), 0);
-  std::string words(kMostWords, '\0');
+  const off_t from = std::max<off_t>(info.st_size - static_cast<off_t>(kMaxWords), 0);
+  std::string words(kMaxWords, '\0');
   const ssize_t count = ::pread(said_.get(), words.data(), words.size(), from);
   words.resize(count > 0 ? static_cast<size_t>(count) : 0);
   while (!words.empty() && (words.back() == '\n' || words.back() == '\r')) words.pop_back();

@@ -17,8 +17,8 @@ namespace {
 
 using apps::badInput, apps::numberIn;
 
-constexpr uint32_t kLeastSide = 64, kMostSide = 8192;  // pixels
-constexpr uint64_t kMostFrames = 1'000'000'000;
+constexpr uint32_t kLeastSide = 64, kMaxSide = 8192;  // pixels
+constexpr uint64_t kMaxFrames = 1'000'000'000;
 
 /// Options as text: numbers are read here, so that every version of the command line library gives the same messages.
 struct Raw {
@@ -57,7 +57,7 @@ void declare(CLI::App& app, Raw& raw) {
       "Mouse and keys:\n" + keyHelp() + "\nScripts have lines \"FRAME COMMAND\", frames from 0 on, comments after '#':\n" + scriptHelp() +
       "\nExamples:\n"
       "  rill-view double-dam --view particles\n"
-      "      two columns run at each other, coloured by speed\n"
+      "      two columns run at each other, colored by speed\n"
       "  rill-view dam10k --set fluid.viscosity=2\n"
       "      oil in place of water; the panels change it while it runs\n"
       "  rill-view dam10k --lockstep --frames 30 --screenshot shot.png\n"
@@ -74,10 +74,10 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
     options.scene = raw.scene;
   }
   if (given("--size")) {
-    const auto size = apps::pixelSizeIn(raw.size, kLeastSide, kMostSide);
+    const auto size = apps::pixelSizeIn(raw.size, kLeastSide, kMaxSide);
     if (!size)
       return badInput("--size", raw.size,
-                      "WIDTHxHEIGHT in pixels, as 1280x720: each from " + std::to_string(kLeastSide) + " to " + std::to_string(kMostSide));
+                      "WIDTHxHEIGHT in pixels, as 1280x720: each from " + std::to_string(kLeastSide) + " to " + std::to_string(kMaxSide));
     options.width = size->width;
     options.height = size->height;
   }
@@ -91,8 +91,8 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
   }
   if (given("--frames")) {
     options.frames = numberIn<uint64_t>(raw.frames);
-    if (!options.frames || *options.frames < 1 || *options.frames > kMostFrames)
-      return badInput("--frames", raw.frames, "a whole number from 1 to " + std::to_string(kMostFrames));
+    if (!options.frames || *options.frames < 1 || *options.frames > kMaxFrames)
+      return badInput("--frames", raw.frames, "a whole number from 1 to " + std::to_string(kMaxFrames));
   }
   if (given("--device") && raw.device.empty()) return badInput("--device", raw.device, "part of a device's name, or its index");
   options.device = raw.device;

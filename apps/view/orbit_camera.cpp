@@ -56,17 +56,17 @@ void OrbitCamera::orbit(double right, double down) {
   goal_.pitch = std::clamp(goal_.pitch + kPi * down, -kPole, kPole);
 }
 
-double OrbitCamera::metresAHeight() const { return 2 * goal_.distance * std::tan(home_.fov_y_deg * kPi / 360); }
+double OrbitCamera::metersAHeight() const { return 2 * goal_.distance * std::tan(home_.fov_y_deg * kPi / 360); }
 
 void OrbitCamera::pan(double right, double down) {
   const CameraBasis basis = cameraBasis(viewOf(goal_, home_.fov_y_deg));
-  for (int a = 0; a < 3; ++a) goal_.target[a] -= metresAHeight() * (right * basis.right[a] - down * basis.up[a]);
+  for (int a = 0; a < 3; ++a) goal_.target[a] -= metersAHeight() * (right * basis.right[a] - down * basis.up[a]);
 }
 
 void OrbitCamera::dolly(double steps, double right, double down) {
   const double wanted = std::clamp(goal_.distance * std::pow(kWheel, steps), kNearest, kFarthest), left = wanted / goal_.distance;
   const CameraBasis basis = cameraBasis(viewOf(goal_, home_.fov_y_deg));
-  for (int a = 0; a < 3; ++a) goal_.target[a] += (1 - left) * metresAHeight() * (right * basis.right[a] - down * basis.up[a]);
+  for (int a = 0; a < 3; ++a) goal_.target[a] += (1 - left) * metersAHeight() * (right * basis.right[a] - down * basis.up[a]);
   goal_.distance = wanted;
 }
 

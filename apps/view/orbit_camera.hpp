@@ -38,7 +38,7 @@ class OrbitCamera {
   static Pose pose(const CameraView& view);
   void takeShortWay();  ///< of two ways around
   static CameraView viewOf(const Pose& pose, double fov_y_deg);
-  double metresAHeight() const;  // at the target's depth
+  double metersAHeight() const;  // at the target's depth
 
   CameraView home_;
   Pose goal_, now_;

@@ -12,9 +12,9 @@ using Vector = std::array<double, 3>;
 
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// Of a ball about `centre`, which lies so relative to the eye.
-std::optional<double> meetsBall(const Vector& centre, const Vector& along, double radius) {
-  const double nearest = dot(centre, along), across = dot(centre, centre) - nearest * nearest;
+/// Of a ball about `center`, which lies so relative to the eye.
+std::optional<double> meetsBall(const Vector& center, const Vector& along, double radius) {
+  const double nearest = dot(center, along), across = dot(center, center) - nearest * nearest;
   if (across > radius * radius) return std::nullopt;
   const double distance = nearest - std::sqrt(radius * radius - across);
   return distance > 0 ? std::optional(distance) : std::nullopt;
@@ -22,9 +22,9 @@ std::optional<double> meetsBall(const Vector& centre, const Vector& along, doubl
 
 std::optional<double> meets(const Ray& ray, const SolidPose& solid) {
   if (solid.sphere) {
-    Vector centre;
-    for (size_t a = 0; a < 3; ++a) centre[a] = solid.centre[a] - ray.from[a];
-    return meetsBall(centre, ray.along, solid.half[0]);
+    Vector center;
+    for (size_t a = 0; a < 3; ++a) center[a] = solid.center[a] - ray.from[a];
+    return meetsBall(center, ray.along, solid.half[0]);
   }
   Ray local;
   Vector end;

@@ -13,9 +13,9 @@ namespace rill::view {
 /// The last figures of a kind, one a step.
 class History {
  public:
-  static constexpr size_t kMost = 240;  ///< four seconds of simulated time
+  static constexpr size_t kMaxEntries = 240;  ///< four seconds of simulated time
   void add(double value) {
-    if (values_.size() == kMost) values_.erase(values_.begin());
+    if (values_.size() == kMaxEntries) values_.erase(values_.begin());
     values_.push_back(static_cast<float>(value));
   }
   void clear() { values_.clear(); }

@@ -46,7 +46,7 @@ Expected<void> Runner::piece(double budget_s) {
     current_ = {};
     log_.clear();
   }
-  const uint32_t most = fluid_->mostSubsteps();
+  const uint32_t most = fluid_->substepsToComplete();
   const uint32_t substeps = std::min(pacing_.next(budget_s), most - recorded_);
   const FluidStep part{recorded_ == 0 ? Clock::kStep : 0.0, recorded_ > 0, substeps, false, targets_};
   if (auto ran = run(graph_, [&](Graph& graph) { static_cast<void>(fluid_->addTo(graph, part)); }); !ran) return ran;
@@ -132,11 +132,11 @@ Expected<void> Runner::change(Scene scene) {
 Expected<void> Runner::changeSolids(std::vector<Solid> solids) {
   auto now = snapshot();
   if (!now) return now.error();
-  if (count() > 0) forgetNeighbours(*now);
+  if (count() > 0) forgetNeighbors(*now);
   now->solids.clear();
   for (size_t k = 0; k < solids.size(); ++k) {
     const SolidPose there = k < scene_.solids.size() ? pose(static_cast<uint32_t>(k)) : solidPose(solids[k], 0);
-    for (size_t a = 0; a < 3; ++a) now->solids.push_back(static_cast<float>(there.centre[a] - start_.origin[a]));
+    for (size_t a = 0; a < 3; ++a) now->solids.push_back(static_cast<float>(there.center[a] - start_.origin[a]));
     for (double v : there.velocity) now->solids.push_back(static_cast<float>(v));
   }
   const bool anyMoves = std::ranges::any_of(solids, [](const Solid& solid) { return solid.driven > 0 || !solid.motion.empty(); });
@@ -156,7 +156,7 @@ Expected<uint64_t> Runner::add(const Fill& fill) {
   for (uint32_t k = 0; k < only.solids.size(); ++k) {
     const SolidPose there = pose(k), first = solidPose(scene_.solids[k], 0);
     only.solids[k].motion = {
-        {0, {there.centre[0] - first.centre[0], there.centre[1] - first.centre[1], there.centre[2] - first.centre[2]}}};
+        {0, {there.center[0] - first.center[0], there.center[1] - first.center[1], there.center[2] - first.center[2]}}};
   }
   const auto more = makeParticles(only);
   if (!more) return more.error();
@@ -182,7 +182,7 @@ Expected<uint64_t> Runner::add(const Fill& fill) {
 
 SolidPose Runner::pose(uint32_t solid) const {
   SolidPose there = solidPose(scene_.solids[solid], time_s());
-  if (scene_.solids[solid].driven > 0) std::ranges::copy(fluid_->drivenCentre(solid), there.centre);
+  if (scene_.solids[solid].driven > 0) std::ranges::copy(fluid_->drivenCenter(solid), there.center);
   return there;
 }
 

@@ -47,7 +47,7 @@ class Runner {
 
   // Goes on from the present instant with something changed; a step under way is finished first. Errors as create(), and then nothing has.
 
-  /// Other settings: those of a scene that differs in what leaves the particles and their neighbourhoods as they are (Session::isLive()).
+  /// Other settings: those of a scene that differs in what leaves the particles and their neighborhoods as they are (Session::isLive()).
   /// Solids stay as they are.
   Expected<void> change(Scene scene);
   /// Other solids. Those that were there before come first, in the same order, and are where their pose() was.

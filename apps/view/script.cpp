@@ -30,7 +30,7 @@ constexpr Command kCommands[] = {{"move", "X Y", "the pointer, pixels from the t
                                  {"scene", "NAME", "open a scene", 1},
                                  {"view", "NAME", "show a view", 1},
                                  {"resize", "WIDTH HEIGHT", "the window", 2},
-                                 {"minimise", "", "the window", 0},
+                                 {"minimize", "", "the window", 0},
                                  {"restore", "", "the window", 0},
                                  {"screenshot", "FILE", "write the window as it is after this frame", 1}};
 
@@ -135,7 +135,7 @@ std::string read(const std::vector<std::string_view>& words, std::vector<ScriptL
   } else {
     line.kind = what == "scene"      ? ScriptLine::Kind::Scene
                 : what == "view"     ? ScriptLine::Kind::View
-                : what == "minimise" ? ScriptLine::Kind::Minimise
+                : what == "minimize" ? ScriptLine::Kind::Minimize
                 : what == "restore"  ? ScriptLine::Kind::Restore
                                      : ScriptLine::Kind::Screenshot;
     line.name = first;
@@ -161,7 +161,7 @@ Expected<std::vector<ScriptLine>> parseScript(std::string_view text, std::string
 }
 
 Expected<std::vector<ScriptLine>> loadScript(const std::filesystem::path& file) {
-  auto text = readWholeFile(file, kMostSceneBytes);
+  auto text = readWholeFile(file, kMaxSceneBytes);
   if (!text) return text.error();
   return parseScript(*text, file.string());
 }

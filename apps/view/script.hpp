@@ -12,7 +12,7 @@
 namespace rill::view {
 
 struct ScriptLine {
-  enum class Kind { Input, Set, Scene, View, Resize, Minimise, Restore, Screenshot };
+  enum class Kind { Input, Set, Scene, View, Resize, Minimize, Restore, Screenshot };
   uint64_t frame = 0;  ///< displayed frame, the first is 0
   Kind kind = Kind::Input;
   InputEvent input;

@@ -24,7 +24,7 @@ Expected<Scene> Session::parse(std::string_view text, std::span<const Override> 
 
 Expected<void> Session::read(std::vector<Override> changes) {
   watch_.noted();
-  auto text = readWholeFile(file(), kMostSceneBytes);
+  auto text = readWholeFile(file(), kMaxSceneBytes);
   if (!text) return text.error();
   if (auto begun = begin(*text, std::move(changes)); !begun) return begun;
   text_ = std::move(*text);

@@ -68,11 +68,11 @@ Expected<bool> Touch::grab(Session& session, const CameraView& eye, const Ray& r
   uint32_t held = static_cast<uint32_t>(solids.size());
   if (picked->solid) {
     held = *picked->solid;
-    for (size_t a = 0; a < 3; ++a) offset_[a] = poses[held].centre[a] - point_[a];
+    for (size_t a = 0; a < 3; ++a) offset_[a] = poses[held].center[a] - point_[a];
     if (solids[held].driven != speed) {
       const SolidPose first = solidPose(solids[held], 0);
       for (size_t a = 0; a < 3; ++a) {
-        const double moved = poses[held].centre[a] - first.centre[a];
+        const double moved = poses[held].center[a] - first.center[a];
         if (solids[held].sphere) solids[held].sphere->center[a] += moved;
         if (solids[held].box) {
           solids[held].box->min[a] += moved;

@@ -30,7 +30,7 @@ class Touch {
  private:
   std::optional<uint32_t> solid_;
   bool ball_ = false;                                    // of its own
-  std::array<double, 3> point_{}, normal_{}, offset_{};  // of the plane; from where the ray meets it to the solid's centre
+  std::array<double, 3> point_{}, normal_{}, offset_{};  // of the plane; from where the ray meets it to the solid's center
 };
 
 }  // namespace rill::view

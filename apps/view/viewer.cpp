@@ -31,9 +31,9 @@ namespace {
 namespace fs = std::filesystem;
 using Now = std::chrono::steady_clock;
 
-constexpr double kLeastPiece = 0.012, kMostPiece = 0.05;  // s of simulation a displayed frame
-constexpr double kNotice = 4;                             // s that a notice stays; an error stays until it is closed
-constexpr double kMeasureEvery = 0.25;                    // s; figures cost a pass over the neighbours
+constexpr double kLeastPiece = 0.012, kMaxPiece = 0.05;  // s of simulation a displayed frame
+constexpr double kNotice = 4;                            // s that a notice stays; an error stays until it is closed
+constexpr double kMeasureEvery = 0.25;                   // s; figures cost a pass over the neighbors
 
 double secondsSince(Now::time_point then) { return std::chrono::duration<double>(Now::now() - then).count(); }
 
@@ -216,10 +216,10 @@ class Viewer {
     if (noticeUntil_s_ && now_s_ > *noticeUntil_s_) tell("");
     if (auto done = simulate(seconds); !done) return done;
 
-    if (size.width == 0 || size.height == 0) {  // minimised
+    if (size.width == 0 || size.height == 0) {  // minimized
       interface_->skip();
       if (picture && endsByItself())
-        return Error{ErrorKind::BadInput, inQuotes(picture->string()) + " was not written: the window is minimised"};
+        return Error{ErrorKind::BadInput, inQuotes(picture->string()) + " was not written: the window is minimized"};
       if (!options_.lockstep) std::this_thread::sleep_for(std::chrono::milliseconds(10));
       return {};
     }
@@ -233,8 +233,7 @@ class Viewer {
   /// The piece of simulation that belongs to this frame: as much as the picture takes, so that the window answers and the fluid moves on.
   Expected<void> simulate(double seconds) {
     session_->runner().timePasses(settings_.panels);
-    Playback::Frame frame{seconds,           now_s_, std::clamp(picture_.seconds(), kLeastPiece, kMostPiece), settings_.paused,
-                          options_.lockstep, {}};
+    Playback::Frame frame{seconds, now_s_, std::clamp(picture_.seconds(), kLeastPiece, kMaxPiece), settings_.paused, options_.lockstep, {}};
     if (settings_.view == "density")
       frame.measureEvery_s = 0;
     else if (settings_.panels)
@@ -407,12 +406,12 @@ class Viewer {
       case Action::Restart:
         return restart();
       case Action::PreviousScene:
-        return openNamed(neighbour(sceneNames_, sceneName_, -1));
+        return openNamed(neighbor(sceneNames_, sceneName_, -1));
       case Action::NextScene:
-        return openNamed(neighbour(sceneNames_, sceneName_, 1));
+        return openNamed(neighbor(sceneNames_, sceneName_, 1));
       case Action::NextView: {
         const auto views = offline::Simulation::views();
-        settings_.view = neighbour(std::vector<std::string>(views.begin(), views.end()), settings_.view, shift ? -1 : 1);
+        settings_.view = neighbor(std::vector<std::string>(views.begin(), views.end()), settings_.view, shift ? -1 : 1);
         break;
       }
       case Action::Throw: {
@@ -470,7 +469,7 @@ class Viewer {
   }
 
   /// The name that lies `step` after another in a ring; the first where that is not among them.
-  static std::string neighbour(const std::vector<std::string>& names, const std::string& name, int step) {
+  static std::string neighbor(const std::vector<std::string>& names, const std::string& name, int step) {
     const auto at = std::ranges::find(names, name);
     if (at == names.end()) return names.empty() ? name : names.front();
     const auto count = static_cast<int>(names.size());
@@ -498,11 +497,11 @@ class Viewer {
         case ScriptLine::Kind::Resize:
           window_->resize(line.width, line.height);
           break;
-        case ScriptLine::Kind::Minimise:
-          window_->minimise(true);
+        case ScriptLine::Kind::Minimize:
+          window_->minimize(true);
           break;
         case ScriptLine::Kind::Restore:
-          window_->minimise(false);
+          window_->minimize(false);
           break;
         case ScriptLine::Kind::Screenshot:
           picture = line.name;

@@ -106,7 +106,7 @@ void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
 Window::Size Window::framebuffer() const {
   int width = 0, height = 0;
   glfwGetFramebufferSize(window_, &width, &height);
-  if (minimised_ || glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE) return {};
+  if (minimized_ || glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE) return {};
   return {static_cast<uint32_t>(std::max(width, 0)), static_cast<uint32_t>(std::max(height, 0))};
 }
 
@@ -118,9 +118,9 @@ float Window::contentScale() const {
 
 void Window::resize(uint32_t width, uint32_t height) { glfwSetWindowSize(window_, static_cast<int>(width), static_cast<int>(height)); }
 
-void Window::minimise(bool minimised) {
-  minimised_ = minimised;  // a display without a window manager leaves it where it is
-  if (minimised)
+void Window::minimize(bool minimized) {
+  minimized_ = minimized;  // a display without a window manager leaves it where it is
+  if (minimized)
     glfwIconifyWindow(window_);
   else
     glfwRestoreWindow(window_);

@@ -14,7 +14,7 @@ namespace rill::view {
 class Window {
  public:
   struct Size {
-    uint32_t width = 0, height = 0;  ///< pixels; 0 while it is minimised
+    uint32_t width = 0, height = 0;  ///< pixels; 0 while it is minimized
   };
 
   /// One at a time. BadInput where there is no display, pointing to rill-capture.
@@ -34,7 +34,7 @@ class Window {
   Size framebuffer() const;
   float contentScale() const;  ///< of text and buttons: 1 on an ordinary screen
   void resize(uint32_t width, uint32_t height);
-  void minimise(bool minimised);
+  void minimize(bool minimized);
   void setTitle(const std::string& title);
   std::string clipboard() const;
   void setClipboard(const char* text);
@@ -47,7 +47,7 @@ class Window {
 
   GLFWwindow* window_ = nullptr;
   std::vector<InputEvent> events_;
-  bool minimised_ = false;  ///< by minimise()
+  bool minimized_ = false;  ///< by minimize()
   std::string title_;
 };
 

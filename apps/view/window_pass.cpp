@@ -39,9 +39,9 @@ BufferRef uploaded(Graph& graph, std::string_view name, const std::vector<Record
   graph.pass("ui upload", [&](Pass& pass) {
     buffer = pass.write(buffer, Use::CopyTarget, true);
     return [buffer, bytes = std::as_bytes(std::span(records))](Commands& commands) {
-      constexpr size_t kMost = 64 << 10;
-      for (size_t at = 0; at < bytes.size(); at += kMost)
-        commands.update(buffer, bytes.subspan(at, std::min(kMost, bytes.size() - at)), at);
+      constexpr size_t kMaxEntries = 64 << 10;
+      for (size_t at = 0; at < bytes.size(); at += kMaxEntries)
+        commands.update(buffer, bytes.subspan(at, std::min(kMaxEntries, bytes.size() - at)), at);
     };
   });
   return buffer;
@@ -51,11 +51,11 @@ BufferRef uploaded(Graph& graph, std::string_view name, const std::vector<Record
 
 Expected<std::unique_ptr<WindowPass>> WindowPass::create(Device& device, VkFormat target, ImFontAtlas& fonts) {
   auto made = std::make_unique<WindowPass>();
-  const VkFormat colours[] = {target};
+  const VkFormat colors[] = {target};
   const BindingKind storages[] = {BindingKind::Storage, BindingKind::Storage, BindingKind::Storage};
   GraphicsPipelineDesc ui{.vertex = "view/ui.vert", .fragment = "view/ui.frag", .bindings = storages};
   ui.pushConstantBytes = sizeof(UiPush);
-  ui.colours = colours;
+  ui.colors = colors;
   ui.blend = Blend::Premultiplied;
   ui.vertexSpirv = words("ui_vertex");
   ui.fragmentSpirv = words("ui_fragment");
@@ -64,7 +64,7 @@ Expected<std::unique_ptr<WindowPass>> WindowPass::create(Device& device, VkForma
   made->ui_ = *uiPipeline;
   GraphicsPipelineDesc picture{.vertex = "view/picture.vert", .fragment = "view/picture.frag", .bindings = std::span(storages).first(1)};
   picture.pushConstantBytes = sizeof(PicturePush);
-  picture.colours = colours;
+  picture.colors = colors;
   picture.vertexSpirv = words("picture_vertex");
   picture.fragmentSpirv = words("picture_fragment");
   auto picturePipeline = graphicsPipeline(device, picture);
@@ -113,7 +113,7 @@ ImageRef WindowPass::draw(Graph& graph, ImageRef target, const ShownPicture& pic
   graph.pass("window", [&](Pass& pass) {
     pass.read(picture.pixels, Use::DrawRead);
     const VkClearValue clear{.color = {.float32 = {behind.x, behind.y, behind.z, 1}}};
-    target = pass.write(target, Use::ColourTarget, Load::Clear, clear);
+    target = pass.write(target, Use::ColorTarget, Load::Clear, clear);
     const Kernel stretched = pass.kernel(picture_, {picture.pixels});
     Kernel ui;
     if (!parts_.empty()) {

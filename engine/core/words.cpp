@@ -18,7 +18,7 @@ std::string lowered(std::string_view text) {
   return out;
 }
 
-/// Edits that turn a into b; a swap of neighbours is one (optimal string alignment).
+/// Edits that turn a into b; a swap of neighbors is one (optimal string alignment).
 size_t editDistance(std::string_view a, std::string_view b) {
   std::vector<size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
   for (size_t j = 0; j <= b.size(); ++j) above[j] = j;
@@ -58,11 +58,11 @@ std::string_view nearestWord(std::string_view word, std::span<const std::string_
 }
 
 std::string inQuotes(std::string_view text) {
-  constexpr size_t kMost = 60;
+  constexpr size_t kMaxEntries = 60;
   std::string out = "\"";
   size_t end = text.size();
-  if (end > kMost) {
-    end = kMost;
+  if (end > kMaxEntries) {
+    end = kMaxEntries;
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
   }
   for (const char c : text.substr(0, end)) {

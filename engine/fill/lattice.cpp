@@ -69,7 +69,7 @@ void rowOf(const Lattice& lattice, uint64_t j, uint64_t k, uint64_t& begin, uint
   begin = 0;
   end = static_cast<uint64_t>(n);
   if (lattice.radius < 0) return;
-  // In spacings from the centre; a point on the sphere is inside in spite of rounding.
+  // In spacings from the center; a point on the sphere is inside in spite of rounding.
   const double y = static_cast<double>(j) - 0.5 * (lattice.along[1] - 1), z = static_cast<double>(k) - 0.5 * (lattice.along[2] - 1);
   const double radius = lattice.radius / lattice.spacing * (1 + 1e-12);
   const double left = radius * radius - y * y - z * z;
@@ -77,9 +77,9 @@ void rowOf(const Lattice& lattice, uint64_t j, uint64_t k, uint64_t& begin, uint
     end = 0;
     return;
   }
-  const double reach = std::sqrt(left), centre = 0.5 * (n - 1);
-  begin = static_cast<uint64_t>(std::max(0.0, std::ceil(centre - reach)));
-  end = static_cast<uint64_t>(std::clamp(std::floor(centre + reach) + 1, 0.0, n));
+  const double reach = std::sqrt(left), center = 0.5 * (n - 1);
+  begin = static_cast<uint64_t>(std::max(0.0, std::ceil(center - reach)));
+  end = static_cast<uint64_t>(std::clamp(std::floor(center + reach) + 1, 0.0, n));
   end = std::max(begin, end);
 }
 
@@ -122,11 +122,11 @@ double spacingFor(std::span<const Fill> fills, double target) {
   for (int i = -steps; i <= steps; ++i) consider(middle * std::exp2(static_cast<double>(i) / steps));
   // And the spacings that fit a side of a box exactly.
   constexpr size_t kFillsToFit = 8;
-  constexpr double kMostAlong = 2000;
+  constexpr double kMaxAlong = 2000;
   for (const Fill& fill : fills.first(std::min(fills.size(), kFillsToFit))) {
     for (int axis = 0; fill.box && axis < 3; ++axis) {
       const double length = fill.box->max[axis] - fill.box->min[axis];
-      const double last = std::min(2 * length / middle, kMostAlong);
+      const double last = std::min(2 * length / middle, kMaxAlong);
       for (double n = std::max(1.0, std::floor(0.5 * length / middle)); n <= last; ++n) consider(length / n);
     }
   }

@@ -12,7 +12,7 @@ struct Lattice {
   double first[3] = {0, 0, 0};  ///< m, in the scene's coordinates
   double along[3] = {0, 0, 0};  ///< points an axis: whole numbers, kept as doubles since a scene may ask for more than 64 bits hold
   double spacing = 0;           ///< m
-  double radius = -1;           ///< m, of a sphere about the lattice's centre; negative: a box
+  double radius = -1;           ///< m, of a sphere about the lattice's center; negative: a box
 
   double boxCount() const { return along[0] * along[1] * along[2]; }
 };

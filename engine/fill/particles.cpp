@@ -19,7 +19,7 @@ namespace {
 constexpr double kOverlap = 0.9;    // spacings between the fluid of two fills, at least
 constexpr double kTogether = 1e-3;  // spacings: particles of one file that are nearer coincide
 constexpr double kSlack = 1e-4;     // spacings that rounding may put a particle beyond a wall or into a solid
-constexpr size_t kMostWarnings = 20;
+constexpr size_t kMaxWarnings = 20;
 
 /// A fill and what it stands for.
 struct Source {
@@ -40,7 +40,7 @@ Error refuse(const Scene& scene, const std::string& why) { return {ErrorKind::Ba
 
 std::string countText(double count) { return count < 1e15 ? grouped(static_cast<uint64_t>(count)) : "about " + roughNumber(count); }
 
-/// A number in [-1, 1) that depends on nothing but its arguments (splitmix64's finaliser over a counter).
+/// A number in [-1, 1) that depends on nothing but its arguments (splitmix64's finalizer over a counter).
 double randomAlong(uint64_t seed, uint64_t fill, uint64_t particle, uint64_t axis) {
   uint64_t h = seed;
   for (const uint64_t part : {fill, particle, axis}) {
@@ -194,7 +194,7 @@ void placeFill(const Scene& scene, size_t index, Source& source, Placer& placer)
 void warnOf(const Scene& scene, const std::vector<Source>& sources, std::vector<std::string>& warnings) {
   uint64_t unsaid = 0;
   const auto say = [&](size_t fill, const std::string& text) {
-    if (warnings.size() >= kMostWarnings) {
+    if (warnings.size() >= kMaxWarnings) {
       ++unsaid;
     } else {
       warnings.push_back(prefixOf(scene) + "fill[" + std::to_string(fill) + "]: " + text);
@@ -231,7 +231,7 @@ void warnOfDistance(const Scene& scene, const ParticleSet& set, const Bounds& al
   }
   if (step <= kTooCoarse * scene.fluid.spacing) return;
   warnings.push_back(prefixOf(scene) + "fluid starts " + roughNumber(far) +
-                     " m from the domain's minimum (or the fluid's centre), where positions are rounded to " + roughNumber(step) +
+                     " m from the domain's minimum (or the fluid's center), where positions are rounded to " + roughNumber(step) +
                      " m, more than a thousandth of the spacing " + roughNumber(scene.fluid.spacing) + " m");
 }
 
@@ -305,13 +305,13 @@ Expected<ParticleSet> placeAbout(Scene& scene, std::vector<Source>& sources, uin
   }
   ParticleSet best;
   double best_spacing = 0, best_miss = std::numeric_limits<double>::infinity(), target = wanted - from_files;
-  constexpr int kAttempts = 4;      // what is left out depends on the spacing in turn
-  constexpr double kMostTried = 3;  // times the particles wanted
+  constexpr int kAttempts = 4;     // what is left out depends on the spacing in turn
+  constexpr double kMaxTried = 3;  // times the particles wanted
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     scene.fluid.spacing = spacingFor(scene.fill, target);
     if (scene.fluid.spacing <= 0)
       return say("the scene has no box or sphere of fluid from which a spacing follows; expected fluid.spacing");
-    auto set = place(scene, sources, std::max(most, static_cast<uint64_t>(2 * kMostTried * wanted)));
+    auto set = place(scene, sources, std::max(most, static_cast<uint64_t>(2 * kMaxTried * wanted)));
     if (!set) return set;
     const auto kept = static_cast<double>(set->positions.size());
     const bool complete = set->left_out_overlap + set->left_out_solid + set->left_out_domain == 0;
@@ -323,7 +323,7 @@ Expected<ParticleSet> placeAbout(Scene& scene, std::vector<Source>& sources, uin
     }
     const double kept_of_lattices = kept - from_files;
     if (complete || miss <= 0.005 * wanted || kept_of_lattices <= 0) break;
-    target = std::min(target * (wanted - from_files) / kept_of_lattices, kMostTried * wanted);
+    target = std::min(target * (wanted - from_files) / kept_of_lattices, kMaxTried * wanted);
   }
   scene.fluid.spacing = best_spacing;
   if (best.positions.size() > most)

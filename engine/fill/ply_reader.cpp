@@ -224,15 +224,15 @@ Expected<void> PlyFile::Header::parseLine(const std::string& line, bool& vertex_
 }
 
 Expected<void> PlyFile::Header::parse(std::ifstream& in) {
-  constexpr size_t kMostBytes = 1 << 20;  // of a header
+  constexpr size_t kMaxBytes = 1 << 20;  // of a header
   std::string line;
   bool vertex_done = false, format_seen = false, first = true;
   for (;;) {
     line.clear();
     char c = 0;
-    while (in.get(c) && c != '\n' && ++body <= kMostBytes) line += c;
+    while (in.get(c) && c != '\n' && ++body <= kMaxBytes) line += c;
     ++body;
-    if (body > kMostBytes || !in)
+    if (body > kMaxBytes || !in)
       return refuse(first ? "does not begin with \"ply\"; expected a PLY file" : "the header has no end; expected a line end_header");
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (first) {

@@ -96,12 +96,12 @@ void FluidImpl::poll() const {
       for (int a = 0; a < 3; ++a) {
         s.potential_J -= mass * gravity[a] * sum[a];
         s.momentum[a] = mass * velocity[a];
-        s.centre_of_mass[a] = sum[a] / n;
+        s.center_of_mass[a] = sum[a] / n;
       }
       s.max_speed = m.speedMax;
       s.non_finite = sums.nonFinite;
       s.outside = m.outside;
-      s.neighbour_overflow = sums.overflow;
+      s.neighbor_overflow = sums.overflow;
       s.loop_bound_hits = sums.boundHits;
       s.list_builds = control.builds;
       s.artificial_viscosity_Pa_s = setup.artificialViscosity * control.calmness;

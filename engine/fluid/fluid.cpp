@@ -14,11 +14,11 @@
 namespace rill {
 namespace {
 
-constexpr uint32_t kMostCluster = 32;  // see shaders/fluid/cluster.glsl: a window of candidates has as many
+constexpr uint32_t kMaxCluster = 32;  // see shaders/fluid/cluster.glsl: a window of candidates has as many
 
 constexpr uint64_t kMaxBuffer = uint64_t{128} << 20;
-static_assert(kMostParticles == KeySortDesc::kMaxCount);
-static_assert(kMostParticles <= 1u << 24);  // sorted particles carry their numbers as floats
+static_assert(kMaxParticles == KeySortDesc::kMaxCount);
+static_assert(kMaxParticles <= 1u << 24);  // sorted particles carry their numbers as floats
 
 uint64_t listEntries(const Scene& scene) {
   if (scene.solver.neighbors == NeighborChoice::Grid) return 0;
@@ -75,10 +75,10 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   impl->memory = fluidMemory(scene, n);
   const uint64_t available = device.info().deviceLocalBytes;
   const uint64_t largest = std::max((n + 1) * 16, n * 32);  // positions, with the dummy; wall samples
-  if (impl->memory.total() > available || largest > kMaxBuffer || n > kMostParticles)
+  if (impl->memory.total() > available || largest > kMaxBuffer || n > kMaxParticles)
     return Error{ErrorKind::TooLarge, std::to_string(n) + " particles need " + mebibytes(impl->memory.total()) + " on the device; \"" +
                                           device.info().name + "\" has " + mebibytes(available) + " and holds at most " +
-                                          std::to_string(kMostParticles) +
+                                          std::to_string(kMaxParticles) +
                                           " particles: make fluid.spacing larger or fluid.particles smaller"};
 
   StartFigures start{.count = static_cast<uint32_t>(n)};
@@ -131,12 +131,12 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
   setup.params.chunkParticles = chunk;
   for (uint32_t first = 0; first < count; first += chunk) chunks_.push_back({first, std::min(count, first + chunk)});
   if (chunks_.size() > kMaxListChunks)
-    return Error{ErrorKind::TooLarge, "the neighbour list of " + std::to_string(n) + " particles at this smoothing_ratio needs " +
+    return Error{ErrorKind::TooLarge, "the neighbor list of " + std::to_string(n) + " particles at this smoothing_ratio needs " +
                                           mebibytes(memory.list_bytes) + ", more than the " + std::to_string(kMaxListChunks) +
                                           " buffers of 128 MiB that are available: make smoothing_ratio smaller"};
-  const uint64_t mostTexels = std::max({more, 2 * uint64_t{n}, uint64_t{chunk} * p.listCapacity / 4, paddedWords(setup.grid.cells() + 1),
-                                        uint64_t{setup.tables.size() / 4}});
-  texel_ = !storageReads && readsTexels(device, mostTexels);
+  const uint64_t maxTexels = std::max({more, 2 * uint64_t{n}, uint64_t{chunk} * p.listCapacity / 4, paddedWords(setup.grid.cells() + 1),
+                                       uint64_t{setup.tables.size() / 4}});
+  texel_ = !storageReads && readsTexels(device, maxTexels);
 
   auto sort = KeySort::create(
       device, {.count = count, .keyRange = setup.grid.cells(), .start = true, .storageReads = storageReads, .openEnds = true});
@@ -167,7 +167,7 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
       {&buffers_.warm, "warm starts", unless(setup.warm, n * 4)},
       {&buffers_.id, "ids", n * 4},
       {&buffers_.multiplier, "iteration multipliers", unless(p.iterations > 1, n * 4)},
-      {&buffers_.neighbourCount, "neighbour counts", unless(p.listCapacity > 0, n * 4)},
+      {&buffers_.neighborCount, "neighbor counts", unless(p.listCapacity > 0, n * 4)},
       {&buffers_.cell, "cells", n * 4},
       {&buffers_.start, "cell starts", paddedWords(setup.grid.cells() + 1) * 4},
       {&buffers_.nearSample, "wall samples", unless(setup.near, n * 32)},
@@ -180,9 +180,9 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
     made.push_back({row.name, row.bytes});
   }
   for (const Chunk& c : chunks_) {
-    auto list = createBuffer(device, "neighbour list", p.listCapacity == 0 ? 64 : blocks(c.last - c.first) * blockBytes);
+    auto list = createBuffer(device, "neighbor list", p.listCapacity == 0 ? 64 : blocks(c.last - c.first) * blockBytes);
     if (!list) return list.error();
-    made.push_back({"neighbour list", list->size()});
+    made.push_back({"neighbor list", list->size()});
     buffers_.lists.push_back(std::move(*list));
   }
   return {};
@@ -193,7 +193,7 @@ Expected<void> FluidImpl::makePipelines(Device& device) {
   const FluidParams& p = setup.params;
   const uint32_t kernel = setup.kernel, capacity = p.listCapacity, nearWalls = setup.near, warm = setup.warm;
   // Particles that walk the grid together are a subgroup, of which the shader knows that it is whole.
-  const uint32_t whole = std::min(device.info().subgroupSize, kFluidGroup), cluster = std::min(whole, kMostCluster);
+  const uint32_t whole = std::min(device.info().subgroupSize, kFluidGroup), cluster = std::min(whole, kMaxCluster);
   Expected<void> result;
   const auto make = [&](const ComputePipeline*& out, std::string_view shader, std::vector<BindingKind> bindings, uint32_t push,
                         std::vector<uint32_t> constants = {}, uint32_t subgroup = 0) {
@@ -299,19 +299,19 @@ std::vector<FluidPassRuns> Fluid::passRuns() const {
   return impl_->passRuns();
 }
 
-std::array<double, 3> Fluid::drivenCentre(uint32_t solid) const {
+std::array<double, 3> Fluid::drivenCenter(uint32_t solid) const {
   const auto& driven = impl_->setup.driven;
   const auto found = std::find_if(driven.begin(), driven.end(), [solid](const DrivenSolid& d) { return d.solid == solid; });
-  std::array<double, 3> centre;
-  centre.fill(std::numeric_limits<double>::quiet_NaN());
-  if (found == driven.end()) return centre;
-  for (size_t a = 0; a < 3; ++a) centre[a] = impl_->origin[a] + found->centre[a];
-  return centre;
+  std::array<double, 3> center;
+  center.fill(std::numeric_limits<double>::quiet_NaN());
+  if (found == driven.end()) return center;
+  for (size_t a = 0; a < 3; ++a) center[a] = impl_->origin[a] + found->center[a];
+  return center;
 }
 
 uint32_t Fluid::count() const { return impl_->count; }
 uint32_t Fluid::substepsPerBlock() const { return impl_->setup.substepsPerBlock; }
-uint32_t Fluid::mostSubsteps() const {
+uint32_t Fluid::substepsToComplete() const {
   return substepsPerBlock() * (impl_->setup.params.maxSubsteps + kSettleSubsteps + impl_->setup.params.pressings);
 }
 FluidMemory Fluid::memory() const { return impl_->memory; }

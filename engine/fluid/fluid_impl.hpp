@@ -20,12 +20,12 @@ inline float speedOf(const Float3& v) { return std::sqrt(v.x * v.x + v.y * v.y +
 
 constexpr uint32_t kMaxListChunks = 16;
 
-/// Device buffers that live as long as the fluid. Arrays of `count` + 1 entries end with the dummy neighbour that pads lists.
+/// Device buffers that live as long as the fluid. Arrays of `count` + 1 entries end with the dummy neighbor that pads lists.
 struct FluidBuffers {
   Buffer params, control, sums, shapes, commands, gravity, tables, solids, keyframes;
   Buffer position, velocity, prediction, pushAway, work, warm, id;  // vec4 each but the last two
   Buffer multiplier;                                                // where there are several iterations
-  Buffer neighbourCount, cell, start, nearSample, nearList;
+  Buffer neighborCount, cell, start, nearSample, nearList;
   std::vector<Buffer> lists;
 };
 
@@ -34,7 +34,7 @@ struct WallPipelines {
   const ComputePipeline *plane = nullptr, *corner = nullptr;
 };
 
-/// A pass over the neighbours: from the list, and the variant that can walk the grid as well. No list variant where there is no list.
+/// A pass over the neighbors: from the list, and the variant that can walk the grid as well. No list variant where there is no list.
 struct GatherPipelines {
   const ComputePipeline *list = nullptr, *walk = nullptr;
 };
@@ -53,7 +53,7 @@ struct FluidPipelines {
 struct FluidRefs {
   BufferRef params, control, sums, shapes, commands, gravity, tables, solids, keyframes;
   BufferRef position, velocity, prediction, pushAway, work, warm, id, multiplier;
-  BufferRef neighbourCount, cell, start, nearSample, nearList;
+  BufferRef neighborCount, cell, start, nearSample, nearList;
   std::array<BufferRef, kMaxListChunks> lists;
 };
 

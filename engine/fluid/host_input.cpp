@@ -43,7 +43,7 @@ void FluidImpl::forgetAbandoned() {
     uploadFrame_.reset();
   }
   for (; !drives_.empty() && device_->abandoned(drives_.back().frame); drives_.pop_back())
-    for (size_t k = 0; k < setup.driven.size(); ++k) std::ranges::copy(drives_.back().from[k], setup.driven[k].centre);
+    for (size_t k = 0; k < setup.driven.size(); ++k) std::ranges::copy(drives_.back().from[k], setup.driven[k].center);
   while (!drives_.empty() && drives_.front().frame <= device_->clock.completed) drives_.pop_front();
 }
 
@@ -59,19 +59,19 @@ void FluidImpl::declareDrive(Graph& graph, const FluidStep& step) {
   drivenSpeed_ = 0;
   for (DrivenSolid& driven : setup.driven) {
     std::array<float, 3> from{}, to{};
-    std::copy(std::begin(driven.centre), std::end(driven.centre), from.begin());
+    std::copy(std::begin(driven.center), std::end(driven.center), from.begin());
     drive.from.push_back(from);
     to = from;
     for (const SolidTarget& target : step.targets) {
       double way[3];
-      for (int a = 0; a < 3; ++a) way[a] = target.centre[a] - origin[a] - from[a];
+      for (int a = 0; a < 3; ++a) way[a] = target.center[a] - origin[a] - from[a];
       const double length = std::hypot(way[0], way[1], way[2]);
       if (target.solid != driven.solid || !std::isfinite(length)) continue;
       const double share = length > 0 ? std::min(1.0, driven.fastest * step.advance_s / length) : 0.0;
       for (int a = 0; a < 3; ++a) to[a] = static_cast<float>(from[a] + share * way[a]);
       drivenSpeed_ = std::max(drivenSpeed_, static_cast<float>(share * length / step.advance_s));
     }
-    std::copy(to.begin(), to.end(), driven.centre);
+    std::copy(to.begin(), to.end(), driven.center);
     keys.push_back({uint64_t{setup.solids[driven.solid].firstKey} * 16,
                     {from[0], from[1], from[2], 0, to[0], to[1], to[2], static_cast<float>(step.advance_s)}});
   }

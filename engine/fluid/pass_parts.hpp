@@ -1,5 +1,5 @@
 #pragma once
-// What passes of the fluid have in common: bindings in the order of the shader, the device's switches, passes over neighbours and walls.
+// What passes of the fluid have in common: bindings in the order of the shader, the device's switches, passes over neighbors and walls.
 #include <array>
 #include <initializer_list>
 #include <span>
@@ -29,7 +29,7 @@ inline void readSwitched(Pass& pass, const FluidRefs& r) {
   pass.read(r.commands, Use::Indirect);
 }
 
-/// Of a pass over neighbours, the command of the variant that walks.
+/// Of a pass over neighbors, the command of the variant that walks.
 constexpr uint32_t walkingCommand(uint32_t command) { return kCommandWalks + (command - kCommandDensity); }
 
 /// A pass over all chunks that gathers from `particles`: the device switches on one of its two variants. `own(pass, bindings)` declares and
@@ -40,11 +40,11 @@ void gatherPass(Graph& graph, FluidRefs& r, Use read, std::span<const Chunk> chu
   graph.pass(name, [&](Pass& pass) {
     pass.read(r.params, Use::ComputeUniform);
     pass.read(r.control, Use::ComputeUniform);
-    for (BufferRef ref : {particles, r.neighbourCount, r.cell, r.start}) pass.read(ref, read);
+    for (BufferRef ref : {particles, r.neighborCount, r.cell, r.start}) pass.read(ref, read);
     pass.read(r.commands, Use::Indirect);
     r.sums = pass.write(r.sums, Use::ComputeAtomic);
     BindingList bindings;
-    bindings.add({r.params, r.control, particles, {}, r.neighbourCount, r.cell, r.start, r.sums});
+    bindings.add({r.params, r.control, particles, {}, r.neighborCount, r.cell, r.start, r.sums});
     own(pass, bindings);
     const bool lists = pipelines.list != nullptr;
     std::array<Kernel, kMaxListChunks> list, walk;

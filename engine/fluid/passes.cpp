@@ -32,12 +32,12 @@ void FluidImpl::importAll(Graph& graph) {
   r_.warm = import("warm starts", buffers_.warm);
   r_.id = import("ids", buffers_.id);
   r_.multiplier = import("iteration multipliers", buffers_.multiplier);
-  r_.neighbourCount = import("neighbour counts", buffers_.neighbourCount);
+  r_.neighborCount = import("neighbor counts", buffers_.neighborCount);
   r_.cell = import("cells", buffers_.cell);
   r_.start = import("cell starts", buffers_.start);
   r_.nearSample = import("wall samples", buffers_.nearSample);
   r_.nearList = import("near list", buffers_.nearList);
-  for (size_t c = 0; c < chunks_.size(); ++c) r_.lists[c] = import("neighbour list", buffers_.lists[c]);
+  for (size_t c = 0; c < chunks_.size(); ++c) r_.lists[c] = import("neighbor list", buffers_.lists[c]);
 }
 
 BufferRef& FluidImpl::refOf(const Buffer& buffer) {
@@ -58,7 +58,7 @@ BufferRef& FluidImpl::refOf(const Buffer& buffer) {
                                                         {&buffers_.warm, &r_.warm},
                                                         {&buffers_.id, &r_.id},
                                                         {&buffers_.cell, &r_.cell},
-                                                        {&buffers_.neighbourCount, &r_.neighbourCount},
+                                                        {&buffers_.neighborCount, &r_.neighborCount},
                                                         {&buffers_.start, &r_.start},
                                                         {&buffers_.nearList, &r_.nearList},
                                                         {&buffers_.nearSample, &r_.nearSample}};
@@ -137,14 +137,14 @@ void FluidImpl::declareRebuild(Graph& graph) {
     readSwitched(pass, r_);
     for (BufferRef ref : {prediction, r_.start, position, velocity}) pass.read(ref, read);
     pass.read(r_.solids, Use::ComputeRead);
-    for (BufferRef* ref : {&r_.neighbourCount, &r_.cell, &r_.sums, &r_.position, &r_.prediction, &r_.velocity, &r_.warm, &r_.id,
+    for (BufferRef* ref : {&r_.neighborCount, &r_.cell, &r_.sums, &r_.position, &r_.prediction, &r_.velocity, &r_.warm, &r_.id,
                            &r_.nearSample, &r_.nearList})
       *ref = pass.write(*ref, Use::ComputeWrite);
     std::array<Kernel, kMaxListChunks> kernels;
     for (uint32_t c = 0; c < chunkCount(); ++c) {
       r_.lists[c] = pass.write(r_.lists[c], Use::ComputeWrite);
       kernels[c] = pass.kernel(
-          pipes_.build, {r_.params, r_.control, prediction, r_.lists[c], r_.neighbourCount, r_.cell, r_.start, r_.sums, position, velocity,
+          pipes_.build, {r_.params, r_.control, prediction, r_.lists[c], r_.neighborCount, r_.cell, r_.start, r_.sums, position, velocity,
                          r_.position, r_.prediction, r_.velocity, r_.warm, r_.id, r_.nearSample, r_.nearList, r_.solids});
     }
     return [=, arguments = r_.commands, chunks = std::span<const Chunk>(chunks_)](Commands& commands) {

@@ -26,9 +26,9 @@ constexpr double kRegularization = 0.02;  // of the rest lattice's sum |grad C|^
 constexpr double kWarmGain = 0.02;
 // Poly6 with spiky does work in loops, its gradient not being the density's: the more, the less the correction of close pairs shrinks with
 // them, and the longer a pressure lasts. At 1 and 0.02 a wave breaks faster than that feeds it; at 5, and at 0.5, energy grew by a sixth.
-constexpr double kMostRegularizationOfPair = 1, kMostWarmGainOfPair = 0.02;
+constexpr double kMaxRegularizationOfPair = 1, kMaxWarmGainOfPair = 0.02;
 // In a fluid at rest, over the square of the column's layers, and at most: its longest wave gains kappa / 2 a substep.
-constexpr double kCalmWarmGain = 1.2, kMostCalmWarmGain = 0.005;
+constexpr double kCalmWarmGain = 1.2, kMaxCalmWarmGain = 0.005;
 // With this kappa pressure still followed a dam's flow; without one the start's would stay for ever.
 constexpr double kLeastFollowing = 0.001;
 constexpr double kCalmSubsteps = 10;  // a layer: the mean error that the step follows there; the column's first wave takes about seven
@@ -96,12 +96,12 @@ void addSolids(const Scene& scene, const SmoothingKernel& kernel, const double o
     record.shape = pose.sphere ? 1u : 0u;
     double translation[3];
     solidTranslation(solid, 0.0, translation);
-    record.centerX = f(pose.centre[0] - origin[0]);
-    record.centerY = f(pose.centre[1] - origin[1]);
-    record.centerZ = f(pose.centre[2] - origin[2]);
-    record.baseX = f(pose.centre[0] - translation[0] - origin[0]);
-    record.baseY = f(pose.centre[1] - translation[1] - origin[1]);
-    record.baseZ = f(pose.centre[2] - translation[2] - origin[2]);
+    record.centerX = f(pose.center[0] - origin[0]);
+    record.centerY = f(pose.center[1] - origin[1]);
+    record.centerZ = f(pose.center[2] - origin[2]);
+    record.baseX = f(pose.center[0] - translation[0] - origin[0]);
+    record.baseY = f(pose.center[1] - translation[1] - origin[1]);
+    record.baseZ = f(pose.center[2] - translation[2] - origin[2]);
     record.velocityX = f(pose.velocity[0]);
     record.velocityY = f(pose.velocity[1]);
     record.velocityZ = f(pose.velocity[2]);
@@ -219,7 +219,7 @@ double layersOf(const Scene& scene, double head) { return head / (std::max(stron
 // The regularization that is taken, as a fraction of the rest lattice's D.
 double regularization(const Scene& scene) {
   const double wanted = scene.solver.regularization.value_or(kRegularization);
-  return scene.solver.kernel == KernelChoice::Poly6Spiky ? std::min(wanted, kMostRegularizationOfPair) : wanted;
+  return scene.solver.kernel == KernelChoice::Poly6Spiky ? std::min(wanted, kMaxRegularizationOfPair) : wanted;
 }
 
 // What it takes from a correction at rest, over what the default takes: epsilon stands beside D in what divides it.
@@ -252,7 +252,7 @@ double wantedWarmGain(const Scene& scene) { return scene.solver.warm_start.value
 // kappa, as much of it as the waves can bear: a wave is fed where its correction is the smaller.
 double warmGain(const Scene& scene, FluidSetup& setup) {
   const double wanted = wantedWarmGain(scene);
-  const double most = scene.solver.kernel == KernelChoice::Poly6Spiky ? kMostWarmGainOfPair : wanted;
+  const double most = scene.solver.kernel == KernelChoice::Poly6Spiky ? kMaxWarmGainOfPair : wanted;
   const double gain = std::min(wanted, most) / softness(scene);
   if (scene.solver.warm_start && gain < wanted)
     setup.warnings.push_back("solver.warm_start " + roughNumber(wanted) +
@@ -266,7 +266,7 @@ void setGains(const Scene& scene, double head, FluidSetup& setup) {
   const double layers = layersOf(scene, head), gain = warmGain(scene, setup);
   p.roughWarmGain = f(gain);
   setup.warm = startsWarm(scene);
-  p.calmWarmGain = f(scene.solver.warm_start ? gain : std::min(std::min(gain, kMostCalmWarmGain), kCalmWarmGain / (layers * layers)));
+  p.calmWarmGain = f(scene.solver.warm_start ? gain : std::min(std::min(gain, kMaxCalmWarmGain), kCalmWarmGain / (layers * layers)));
   p.roughSpeed = f(kRough * std::sqrt(2 * head));
   p.calmShare = f(1 / std::max(1.0, kCalmSubsteps * layers));
 }
@@ -311,7 +311,7 @@ void setLongestStep(const Scene& scene, const SmoothingKernel& kernel, double he
 void setStartPressure(const Scene& scene, const SmoothingKernel& kernel, double head, const double room[3], FluidSetup& setup) {
   FluidParams& p = setup.params;
   if (head <= 0 || !setup.near || p.roughWarmGain < f(kLeastFollowing)) return;
-  const StartPressure start = startPressure(kernel, p.calmRelaxation, regularization(scene), layersOf(scene, head), kMostPressings);
+  const StartPressure start = startPressure(kernel, p.calmRelaxation, regularization(scene), layersOf(scene, head), kMaxPressings);
   p.pressings = start.iterations;
   p.pressMomentum = f(start.momentum);
   p.pressStep = f(bearableStep(scene, kernel, head, 1, kWarmGain / softness(scene), p));
@@ -374,8 +374,8 @@ double artificialViscosity(const Scene& scene) {
 bool startsWarm(const Scene& scene) { return wantedWarmGain(scene) > 0; }
 
 uint32_t listCapacity(double reachInSpacings) {
-  constexpr double kMostReach = 5;  // spacings: more than any scene has that is allowed
-  const double reach = std::fmin(std::fmax(reachInSpacings, 0), kMostReach);
+  constexpr double kMaxReach = 5;  // spacings: more than any scene has that is allowed
+  const double reach = std::fmin(std::fmax(reachInSpacings, 0), kMaxReach);
   const double ball = 4.0 / 3.0 * std::numbers::pi * std::pow(reach, 3);
   return (static_cast<uint32_t>(std::ceil(1.2 * ball)) + 3u) / 4u * 4u;
 }
@@ -431,12 +431,12 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
       p.tensileInverse = f(pressure.inverse);
       p.tensileAtRest = f(pressure.atRest);
     } else {
-      setup.whyNotTensile = "tensile_radius reaches neighbours at rest";
+      setup.whyNotTensile = "tensile_radius reaches neighbors at rest";
       setup.warnings.push_back("fluid.tensile does nothing: it leaves pairs from 0.95 spacings on alone, and tensile_radius is " +
                                roughNumber(scene.fluid.tensile_radius * scene.fluid.smoothing_ratio) + " spacings");
     }
   }
-  p.fullNeighbours = static_cast<uint32_t>(0.8 * 4.0 / 3.0 * std::numbers::pi * std::pow(h / d, 3));
+  p.fullNeighbors = static_cast<uint32_t>(0.8 * 4.0 / 3.0 * std::numbers::pi * std::pow(h / d, 3));
 
   setWalls(scene, origin, p);
   setup.near = scene.domain.has_value() || !scene.solids.empty();

@@ -19,7 +19,7 @@ inline constexpr double kListSkin = 0.15;
 struct DrivenSolid {
   uint32_t solid = 0;
   double fastest = 0;           ///< m/s
-  float centre[3] = {0, 0, 0};  ///< m, relative to the particles' origin: where it is at the end of the last advance that was declared
+  float center[3] = {0, 0, 0};  ///< m, relative to the particles' origin: where it is at the end of the last advance that was declared
 };
 
 struct FluidSetup {
@@ -61,7 +61,7 @@ bool startsWarm(const Scene& scene);
 /// The dynamic viscosity that damps particle noise in a fluid at rest, Pa s; 0 where there is none.
 double artificialViscosity(const Scene& scene);
 
-/// Neighbours that the list holds a particle, a multiple of 4: what a lattice compressed by a fifth puts within the reach.
+/// Neighbors that the list holds a particle, a multiple of 4: what a lattice compressed by a fifth puts within the reach.
 uint32_t listCapacity(double reachInSpacings);
 
 }  // namespace rill

@@ -69,22 +69,22 @@ Expected<void> checkNear(const FluidSnapshot& s, const FluidSums& sums, const Sn
   return {};
 }
 
-Expected<void> checkNeighbours(const FluidSnapshot& s, const FluidSums& sums, const SnapshotShape& shape) {
-  const bool alive = hasNeighbours(s), lists = alive && shape.listCapacity > 0;
+Expected<void> checkNeighbors(const FluidSnapshot& s, const FluidSums& sums, const SnapshotShape& shape) {
+  const bool alive = hasNeighbors(s), lists = alive && shape.listCapacity > 0;
   if (s.listCapacity != shape.listCapacity)
-    return wrong("its neighbour lists hold " + std::to_string(s.listCapacity) + " entries; expected " + std::to_string(shape.listCapacity));
-  if (auto right = checkLength("neighbour counts", s.neighbourCount.size(), lists ? shape.count : 0); !right) return right;
+    return wrong("its neighbor lists hold " + std::to_string(s.listCapacity) + " entries; expected " + std::to_string(shape.listCapacity));
+  if (auto right = checkLength("neighbor counts", s.neighborCount.size(), lists ? shape.count : 0); !right) return right;
   uint64_t entries = 0, overflow = 0;
-  for (uint32_t n : s.neighbourCount) {
+  for (uint32_t n : s.neighborCount) {
     if (n <= shape.listCapacity)
       entries += n;
     else
       ++overflow;
   }
-  if (auto right = checkLength("neighbours", s.neighbours.size(), entries); !right) return right;
-  if (lists && overflow != sums.overflow) return wrong("its neighbour counts do not add up");
-  if (std::any_of(s.neighbours.begin(), s.neighbours.end(), [&](uint32_t j) { return j >= shape.count; }))
-    return wrong("a neighbour is no particle");
+  if (auto right = checkLength("neighbors", s.neighbors.size(), entries); !right) return right;
+  if (lists && overflow != sums.overflow) return wrong("its neighbor counts do not add up");
+  if (std::any_of(s.neighbors.begin(), s.neighbors.end(), [&](uint32_t j) { return j >= shape.count; }))
+    return wrong("a neighbor is no particle");
 
   if (auto right = checkLength("cells", s.cell.size(), alive && walksGrid(s) ? shape.count : 0); !right) return right;
   if (!std::is_sorted(s.cell.begin(), s.cell.end()) || (!s.cell.empty() && s.cell.back() >= shape.cells))
@@ -104,9 +104,9 @@ SnapshotShape snapshotShape(const FluidSetup& setup) {
           setup.near,         setup.movingSolids};
 }
 
-bool hasNeighbours(const FluidSnapshot& snapshot) { return record<FluidControl>(snapshot.control).stale == 0; }
+bool hasNeighbors(const FluidSnapshot& snapshot) { return record<FluidControl>(snapshot.control).stale == 0; }
 
-void forgetNeighbours(FluidSnapshot& s) {
+void forgetNeighbors(FluidSnapshot& s) {
   auto control = record<FluidControl>(s.control);
   auto sums = record<FluidSums>(s.sums);
   control.stale = 1;
@@ -116,13 +116,13 @@ void forgetNeighbours(FluidSnapshot& s) {
   s.sums = wordsOf(sums);
   s.nearWall.clear();
   s.nearMore.clear();
-  s.neighbourCount.clear();
-  s.neighbours.clear();
+  s.neighborCount.clear();
+  s.neighbors.clear();
   s.cell.clear();
 }
 
 void append(FluidSnapshot& s, std::span<const Float3> positions, std::span<const Float3> velocities) {
-  forgetNeighbours(s);
+  forgetNeighbors(s);
   const bool warm = !s.warm.empty();
   auto sums = record<FluidSums>(s.sums);
   for (size_t k = 0; k < positions.size(); ++k) {
@@ -158,30 +158,30 @@ Expected<void> checkSnapshot(const FluidSnapshot& snapshot, const SnapshotShape&
   std::vector<bool> seen(shape.count);
   if (!markNew(seen, snapshot.id)) return wrong("its ids are not 0 to " + std::to_string(shape.count - 1) + ", each once");
   if (auto right = checkNear(snapshot, sums, shape); !right) return right;
-  return checkNeighbours(snapshot, sums, shape);
+  return checkNeighbors(snapshot, sums, shape);
 }
 
 void layOutList(const FluidSnapshot& snapshot, uint32_t first, uint32_t last, std::span<uint32_t> out) {
-  const auto count = static_cast<uint32_t>(snapshot.neighbourCount.size());
+  const auto count = static_cast<uint32_t>(snapshot.neighborCount.size());
   const uint32_t capacity = snapshot.listCapacity;
-  const auto listed = [&](uint32_t i) { return snapshot.neighbourCount[i] <= capacity ? snapshot.neighbourCount[i] : 0; };
+  const auto listed = [&](uint32_t i) { return snapshot.neighborCount[i] <= capacity ? snapshot.neighborCount[i] : 0; };
   uint64_t from = 0;
   for (uint32_t i = 0; i < first; ++i) from += listed(i);
   for (uint32_t i = first; i < last; ++i) {
     const uint64_t at = firstEntry(i - first, capacity);
     const uint32_t n = listed(i);
     for (uint32_t k = 0; k < (n + 3) / 4 * 4; ++k)
-      out[at + uint64_t{k / 4} * kListBlock * 4 + k % 4] = k < n ? snapshot.neighbours[from + k] : count;
+      out[at + uint64_t{k / 4} * kListBlock * 4 + k % 4] = k < n ? snapshot.neighbors[from + k] : count;
     from += n;
   }
 }
 
 void gatherList(FluidSnapshot& snapshot, uint32_t first, uint32_t last, std::span<const uint32_t> list) {
   for (uint32_t i = first; i < last; ++i) {
-    const uint32_t n = snapshot.neighbourCount[i];
+    const uint32_t n = snapshot.neighborCount[i];
     if (n > snapshot.listCapacity) continue;
     const uint64_t at = firstEntry(i - first, snapshot.listCapacity);
-    for (uint32_t k = 0; k < n; ++k) snapshot.neighbours.push_back(list[at + uint64_t{k / 4} * kListBlock * 4 + k % 4]);
+    for (uint32_t k = 0; k < n; ++k) snapshot.neighbors.push_back(list[at + uint64_t{k / 4} * kListBlock * 4 + k % 4]);
   }
 }
 

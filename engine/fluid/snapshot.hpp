@@ -22,13 +22,13 @@ SnapshotShape snapshotShape(const FluidSetup& setup);
 Expected<void> checkSnapshot(const FluidSnapshot& snapshot, const SnapshotShape& shape);
 
 /// Whether the snapshot has a list (or, where the fluid has none, a grid) that is not due to be built anew.
-bool hasNeighbours(const FluidSnapshot& snapshot);
+bool hasNeighbors(const FluidSnapshot& snapshot);
 /// Whether some particle walks the grid that the list was made with.
 bool walksGrid(const FluidSnapshot& snapshot);
 
-/// The neighbours are due to be found anew before the next substep: after a change of what is near whom.
-void forgetNeighbours(FluidSnapshot& snapshot);
-/// Particles that were not there before, with the next ids. Neighbours are forgotten.
+/// The neighbors are due to be found anew before the next substep: after a change of what is near whom.
+void forgetNeighbors(FluidSnapshot& snapshot);
+/// Particles that were not there before, with the next ids. Neighbors are forgotten.
 void append(FluidSnapshot& snapshot, std::span<const Float3> positions, std::span<const Float3> velocities);
 /// Gravity from the present instant on, m/s^2, where no schedule changes it.
 void setGravity(FluidSnapshot& snapshot, const double gravity[3]);
@@ -36,7 +36,7 @@ void setGravity(FluidSnapshot& snapshot, const double gravity[3]);
 /// The list of particles [first, last) as the device holds it: k-major in blocks of kListBlock particles, four entries at a time, the last
 /// of a particle's filled up with `count`. `out` has room for whole blocks and is written where it will be read.
 void layOutList(const FluidSnapshot& snapshot, uint32_t first, uint32_t last, std::span<uint32_t> out);
-/// The other way: appends the neighbours of particles [first, last) to the snapshot, which has their counts.
+/// The other way: appends the neighbors of particles [first, last) to the snapshot, which has their counts.
 void gatherList(FluidSnapshot& snapshot, uint32_t first, uint32_t last, std::span<const uint32_t> list);
 
 /// Where the particles of each cell begin, one more at the end: what the sort gave.

@@ -51,8 +51,8 @@ void SnapshotReader::declare(Graph& graph) {
     read(buffers.solids);
     return;
   }
-  const Buffer* const single[] = {nullptr,     &buffers.position, &buffers.velocity,       &buffers.pushAway, &buffers.warm,
-                                  &buffers.id, &buffers.nearList, &buffers.neighbourCount, &buffers.cell};
+  const Buffer* const single[] = {nullptr,     &buffers.position, &buffers.velocity,      &buffers.pushAway, &buffers.warm,
+                                  &buffers.id, &buffers.nearList, &buffers.neighborCount, &buffers.cell};
   read(part < kLists ? *single[part] : buffers.lists[part - kLists]);
 }
 
@@ -108,10 +108,10 @@ Expected<void> SnapshotReader::take(const Graph& graph) {
       break;
     }
     case kCounts: {
-      s.neighbourCount = records<uint32_t>(data[0], n);
+      s.neighborCount = records<uint32_t>(data[0], n);
       uint64_t entries = 0;
-      for (uint32_t k : s.neighbourCount) entries += k <= s.listCapacity ? k : 0;
-      s.neighbours.reserve(entries);
+      for (uint32_t k : s.neighborCount) entries += k <= s.listCapacity ? k : 0;
+      s.neighbors.reserve(entries);
       break;
     }
     case kCells:
@@ -131,7 +131,7 @@ void SnapshotReader::plan() {
   parts_.insert(parts_.end(), {kPosition, kVelocity, kId});
   if (fluid_.setup.warm) parts_.insert(parts_.end(), {kPush, kWarm});
   if (fluid_.setup.near) parts_.push_back(kNear);
-  if (!hasNeighbours(snapshot_)) return;
+  if (!hasNeighbors(snapshot_)) return;
   if (walksGrid(snapshot_)) parts_.push_back(kCells);
   if (snapshot_.listCapacity == 0) return;
   parts_.push_back(kCounts);

@@ -56,7 +56,7 @@ void FluidImpl::stageParticles(std::vector<Float3> positions, std::vector<Float3
   const Float4 dummy{kParked, kParked, kParked, 0.0f};
   staging_->add(buffers_.position, buffers_.position.size(), quads(std::move(positions), 0.0f, dummy));
   staging_->add(buffers_.velocity, buffers_.velocity.size(), quads(std::move(velocities), 1.0f, Float4{0, 0, 0, 1}));
-  // Predictions start as the positions; they and `work` end with the dummy neighbour.
+  // Predictions start as the positions; they and `work` end with the dummy neighbor.
   staging_->addSame(buffers_.prediction, buffers_.position);
   staging_->addSame(buffers_.work, buffers_.position);
 }
@@ -112,7 +112,7 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
     solids[k].velocityY = six[4];
     solids[k].velocityZ = six[5];
   }
-  for (DrivenSolid& driven : setup.driven) std::copy_n(s.solids.data() + 6 * driven.solid, 3, driven.centre);
+  for (DrivenSolid& driven : setup.driven) std::copy_n(s.solids.data() + 6 * driven.solid, 3, driven.center);
   staging_->add(buffers_.solids, solids.size() * sizeof(SolidRecord), bytesOf(solids));
   staging_->add(buffers_.id, s.id.data(), s.id.size() * 4);
   if (setup.warm && s.warm.empty()) {
@@ -130,14 +130,14 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
     });
     staging_->clear(buffers_.nearSample);  // of those near nothing; the others' are looked up before they are used
   }
-  if (!hasNeighbours(s)) return;
+  if (!hasNeighbors(s)) return;
   if (!s.cell.empty()) {
     staging_->add(buffers_.cell, s.cell.data(), s.cell.size() * 4);
     std::vector<uint32_t> start(setup.grid.cells() + 1);
     cellStarts(s.cell, start);
     staging_->add(buffers_.start, start.size() * 4, bytesOf(start));
   }
-  staging_->add(buffers_.neighbourCount, s.neighbourCount.data(), s.neighbourCount.size() * 4);
+  staging_->add(buffers_.neighborCount, s.neighborCount.data(), s.neighborCount.size() * 4);
   if (s.listCapacity == 0) return;
   for (size_t c = 0; c < chunks_.size(); ++c)
     staging_->add(buffers_.lists[c], buffers_.lists[c].size(), [this, &s, c, bytes = buffers_.lists[c].size()](std::byte* to) {

@@ -48,7 +48,7 @@ Expected<VkPipeline> PipelineStore::build(DeviceImpl& device, const GraphicsPipe
   attachment.blendEnable = pipeline.blend == Blend::Premultiplied;
   attachment.srcColorBlendFactor = attachment.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
   attachment.dstColorBlendFactor = attachment.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
-  const std::vector<VkPipelineColorBlendAttachmentState> attachments(pipeline.colours.size(), attachment);
+  const std::vector<VkPipelineColorBlendAttachmentState> attachments(pipeline.colors.size(), attachment);
   VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
   blend.attachmentCount = uint32_t(attachments.size());
   blend.pAttachments = attachments.data();
@@ -57,8 +57,8 @@ Expected<VkPipeline> PipelineStore::build(DeviceImpl& device, const GraphicsPipe
   dynamic.dynamicStateCount = 2;
   dynamic.pDynamicStates = states;
   VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
-  rendering.colorAttachmentCount = uint32_t(pipeline.colours.size());
-  rendering.pColorAttachmentFormats = pipeline.colours.data();
+  rendering.colorAttachmentCount = uint32_t(pipeline.colors.size());
+  rendering.pColorAttachmentFormats = pipeline.colors.data();
   rendering.depthAttachmentFormat = pipeline.depth;
 
   VkGraphicsPipelineCreateInfo create{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &rendering};
@@ -84,7 +84,7 @@ Expected<const GraphicsPipeline*> PipelineStore::find(DeviceImpl& device, const 
     if (p->shader == desc.vertex && p->fragment == desc.fragment && p->pushBytes == desc.pushConstantBytes && p->depth == desc.depth &&
         p->depthCompare == desc.depthCompare && p->depthWrite == desc.depthWrite && p->blend == desc.blend &&
         p->topology == desc.topology && std::ranges::equal(p->set->kinds, desc.bindings) &&
-        std::ranges::equal(p->constants, desc.constants) && std::ranges::equal(p->colours, desc.colours) &&
+        std::ranges::equal(p->constants, desc.constants) && std::ranges::equal(p->colors, desc.colors) &&
         std::ranges::equal(p->words, desc.vertexSpirv) && std::ranges::equal(p->fragmentWords, desc.fragmentSpirv))
       return p.get();
 
@@ -102,8 +102,8 @@ Expected<const GraphicsPipeline*> PipelineStore::find(DeviceImpl& device, const 
   };
   const VkFormatFeatureFlags drawn =
       VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | (desc.blend == Blend::Replace ? 0 : VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT);
-  for (const VkFormat format : desc.colours)
-    if (lacks(format, drawn)) return refused(format, "a colour");
+  for (const VkFormat format : desc.colors)
+    if (lacks(format, drawn)) return refused(format, "a color");
   if (desc.depth != VK_FORMAT_UNDEFINED && lacks(desc.depth, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT))
     return refused(desc.depth, "a depth");
   const auto vertex = shaderWords(device, desc.vertex, desc.vertexSpirv);
@@ -119,7 +119,7 @@ Expected<const GraphicsPipeline*> PipelineStore::find(DeviceImpl& device, const 
   pipeline->fragmentWords.assign(desc.fragmentSpirv.begin(), desc.fragmentSpirv.end());
   pipeline->bindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
   pipeline->stages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
-  pipeline->colours.assign(desc.colours.begin(), desc.colours.end());
+  pipeline->colors.assign(desc.colors.begin(), desc.colors.end());
   pipeline->depth = desc.depth;
   pipeline->depthCompare = desc.depthCompare;
   pipeline->depthWrite = desc.depthWrite;

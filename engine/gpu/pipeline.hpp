@@ -42,7 +42,7 @@ struct ComputePipeline : Pipeline {
 struct GraphicsPipeline : Pipeline {
   std::string fragment;
   std::vector<uint32_t> fragmentWords;
-  std::vector<VkFormat> colours;
+  std::vector<VkFormat> colors;
   VkFormat depth = VK_FORMAT_UNDEFINED;
   VkCompareOp depthCompare = VK_COMPARE_OP_ALWAYS;
   bool depthWrite = false;

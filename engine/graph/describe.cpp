@@ -34,7 +34,7 @@ std::string GraphImpl::memoryText(uint32_t index) const {
          bytesText(place.offset) + "\\npasses " + std::to_string(place.first) + " to " + std::to_string(place.last);
 }
 
-// Passes from the top in the order in which they run, resources beside the first pass that uses them. Blue: written; grey: read.
+// Passes from the top in the order in which they run, resources beside the first pass that uses them. Blue: written; gray: read.
 std::string GraphImpl::dot() const {
   std::string out =
       "digraph frame {\n"

@@ -322,7 +322,7 @@ Kernel Pass::kernel(const ComputePipeline* pipeline, std::span<const ResourceRef
 Kernel Pass::kernel(const GraphicsPipeline* pipeline, std::span<const ResourceRef> refs) {
   if (!pipeline) return noPipeline();
   if (graph_.error) return {};
-  std::span<const VkFormat> colours = pipeline->colours;
+  std::span<const VkFormat> colors = pipeline->colors;
   VkFormat depth = VK_FORMAT_UNDEFINED;
   bool fitting = true;
   const Range range = graph_.passes[index_].targets;
@@ -331,11 +331,11 @@ Kernel Pass::kernel(const GraphicsPipeline* pipeline, std::span<const ResourceRe
     if (hasDepth(format)) {
       depth = format;
     } else {
-      fitting = fitting && !colours.empty() && colours.front() == format;
-      colours = colours.subspan(colours.empty() ? 0 : 1);
+      fitting = fitting && !colors.empty() && colors.front() == format;
+      colors = colors.subspan(colors.empty() ? 0 : 1);
     }
   }
-  if (!fitting || !colours.empty() || depth != pipeline->depth) {
+  if (!fitting || !colors.empty() || depth != pipeline->depth) {
     graph_.fail("pass '" + std::string(graph_.names[graph_.passes[index_].name]) + "', shader '" + pipeline->shader +
                 "': its pipeline was made for targets of other formats, or another number of them, than the pass draws to");
     return {};

@@ -35,7 +35,7 @@ struct Range {
   uint32_t first = 0, count = 0;
 };
 
-inline constexpr size_t kMaxTargets = 8;  ///< of a pass, the depth among them; Vulkan guarantees four colours
+inline constexpr size_t kMaxTargets = 8;  ///< of a pass, the depth among them; Vulkan guarantees four colors
 
 /// An image that a pass draws to.
 struct Target {

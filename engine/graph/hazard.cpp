@@ -80,7 +80,7 @@ HazardState HazardState::seam(bool draws) {
   for (Use use : {Use::ComputeWrite, Use::CopyTarget}) wrote(use);
   for (Use use : {Use::ComputeRead, Use::Indirect, Use::CopySource}) state.readStage_ |= useRow(use).stage;
   if (draws) {
-    for (Use use : {Use::ColourTarget, Use::DepthTarget}) wrote(use);
+    for (Use use : {Use::ColorTarget, Use::DepthTarget}) wrote(use);
     state.readStage_ |= useRow(Use::DrawRead).stage | useRow(Use::VertexInput).stage;
   }
   return state;

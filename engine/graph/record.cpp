@@ -65,7 +65,7 @@ void GraphImpl::beginTargets(const PassData& pass, VkCommandBuffer commandBuffer
   constexpr VkAttachmentLoadOp loads[] = {VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_LOAD_OP_CLEAR, VK_ATTACHMENT_LOAD_OP_DONT_CARE};
   static_assert(size_t(Load::Keep) == 0 && size_t(Load::Clear) == 1 && size_t(Load::Discard) == 2);
   std::array<VkRenderingAttachmentInfo, kMaxTargets> infos;
-  uint32_t colours = 0;
+  uint32_t colors = 0;
   const VkRenderingAttachmentInfo* depth = nullptr;
   VkRect2D area{};
   for (uint32_t t = 0; t < pass.targets.count; ++t) {
@@ -73,11 +73,11 @@ void GraphImpl::beginTargets(const PassData& pass, VkCommandBuffer commandBuffer
     const ResourceData& image = resources[target.resource];
     area.extent = {image.width(), image.height()};
     const bool isDepth = hasDepth(image.desc.format);
-    // Colours from the front, depth in the last place.
-    VkRenderingAttachmentInfo& info = infos[isDepth ? infos.size() - 1 : colours++];
+    // Colors from the front, depth in the last place.
+    VkRenderingAttachmentInfo& info = infos[isDepth ? infos.size() - 1 : colors++];
     info = {VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     info.imageView = image.view;
-    info.imageLayout = useRow(isDepth ? Use::DepthTarget : Use::ColourTarget).layout;
+    info.imageLayout = useRow(isDepth ? Use::DepthTarget : Use::ColorTarget).layout;
     info.loadOp = loads[size_t(target.load)];
     info.storeOp = target.store ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE;
     info.clearValue = target.clear;
@@ -86,7 +86,7 @@ void GraphImpl::beginTargets(const PassData& pass, VkCommandBuffer commandBuffer
   VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
   rendering.renderArea = area;
   rendering.layerCount = 1;
-  rendering.colorAttachmentCount = colours;
+  rendering.colorAttachmentCount = colors;
   rendering.pColorAttachments = infos.data();
   rendering.pDepthAttachment = depth;
   device->vk.CmdBeginRendering(commandBuffer, &rendering);

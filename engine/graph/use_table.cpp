@@ -15,12 +15,12 @@ constexpr VkAccessFlags2 kStorageWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
 constexpr VkAccessFlags2 kSampledRead = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
 constexpr VkAccessFlags2 kUniformRead = VK_ACCESS_2_UNIFORM_READ_BIT;
 constexpr VkAccessFlags2 kVertexRead = VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT;
-constexpr VkAccessFlags2 kColourRead = VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT, kColourWrite = VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
+constexpr VkAccessFlags2 kColorRead = VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT, kColorWrite = VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
 constexpr VkAccessFlags2 kDepthRead = VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
                          kDepthWrite = VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
 
 constexpr VkImageLayout kNoImage = VK_IMAGE_LAYOUT_UNDEFINED, kGeneral = VK_IMAGE_LAYOUT_GENERAL,
-                        kReadOnly = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, kColour = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                        kReadOnly = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, kColor = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                         kDepthStencil = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
 
 constexpr VkBufferUsageFlags kStorageBuffer = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, kUniformBuffer = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
@@ -41,7 +41,7 @@ constexpr std::array<UseRow, kUseCount> kTable{{
     {Use::DrawUniform, "DrawUniform", kDraw, kUniformRead, 0, kNoImage, 0, kUniformBuffer},
     {Use::DrawSampled, "DrawSampled", kDraw, kSampledRead, 0, kReadOnly, VK_IMAGE_USAGE_SAMPLED_BIT, 0},
     {Use::VertexInput, "VertexInput", VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT, kVertexRead, 0, kNoImage, 0, kVertexBuffer},
-    {Use::ColourTarget, "ColourTarget", VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, kColourRead, kColourWrite, kColour,
+    {Use::ColorTarget, "ColorTarget", VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, kColorRead, kColorWrite, kColor,
      VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, 0},
     {Use::DepthTarget, "DepthTarget", kDepth, kDepthRead, kDepthWrite, kDepthStencil, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, 0},
     {Use::Indirect, "Indirect", VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, 0, kNoImage, 0,
@@ -63,7 +63,7 @@ constexpr bool inOrder() {
 static_assert(inOrder());
 
 /// All that write, of Vulkan 1.3 and of the extensions that its header knows: a host's own state may be any of them.
-constexpr VkAccessFlags2 kWrites = VK_ACCESS_2_SHADER_WRITE_BIT | kColourWrite | kDepthWrite | VK_ACCESS_2_TRANSFER_WRITE_BIT |
+constexpr VkAccessFlags2 kWrites = VK_ACCESS_2_SHADER_WRITE_BIT | kColorWrite | kDepthWrite | VK_ACCESS_2_TRANSFER_WRITE_BIT |
                                    VK_ACCESS_2_HOST_WRITE_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT | kStorageWrite |
                                    VK_ACCESS_2_TRANSFORM_FEEDBACK_WRITE_BIT_EXT | VK_ACCESS_2_TRANSFORM_FEEDBACK_COUNTER_WRITE_BIT_EXT |
                                    VK_ACCESS_2_COMMAND_PREPROCESS_WRITE_BIT_NV | VK_ACCESS_2_ACCELERATION_STRUCTURE_WRITE_BIT_KHR;

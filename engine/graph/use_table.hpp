@@ -24,7 +24,7 @@ constexpr bool isUse(Use use) { return size_t(use) < kUseCount; }
 const UseRow& useRow(Use use);
 UseRow useRow(const ImportState& state);
 inline bool writes(Use use) { return useRow(use).write != 0; }
-inline bool isTarget(Use use) { return use == Use::ColourTarget || use == Use::DepthTarget; }
+inline bool isTarget(Use use) { return use == Use::ColorTarget || use == Use::DepthTarget; }
 /// Uses that need a queue with graphics.
 inline bool isDrawing(Use use) {
   return use == Use::DrawRead || use == Use::DrawUniform || use == Use::DrawSampled || use == Use::VertexInput || isTarget(use);

@@ -29,7 +29,7 @@ constexpr Range between(double low, double high) { return {.low = low, .high = h
 constexpr Range aboveTo(double low, double high) { return {.low = low, .high = high, .low_open = true}; }
 constexpr Range inside(double low, double high) { return {.low = low, .high = high, .low_open = true, .high_open = true}; }
 
-/// What is known of a key besides its C++ member. The default is the member's initialiser in rill/scene.hpp.
+/// What is known of a key besides its C++ member. The default is the member's initializer in rill/scene.hpp.
 struct Info {
   std::string_view key;
   std::string_view unit = {};  ///< empty: a pure number, or not a number
@@ -55,7 +55,7 @@ struct Anything {};
 /// The version key. It is judged before all others. Its Field has no member.
 struct Version {};
 
-/// The description of a struct; fields.hpp specialises it with
+/// The description of a struct; fields.hpp specializes it with
 ///   static constexpr std::string_view about;     one line
 ///   static constexpr std::tuple fields;          of Field
 ///   static constexpr std::array<std::string_view, N> one_of;   exactly one of these keys is given; N may be 0

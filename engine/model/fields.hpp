@@ -1,6 +1,6 @@
 #pragma once
 // The one table of what a scene's keys mean. The parser, the JSON Schema, --set and the README's table are made from it, and a
-// panel of sliders can be: forEachField<FluidSettings>(...). Defaults are the initialisers in rill/scene.hpp.
+// panel of sliders can be: forEachField<FluidSettings>(...). Defaults are the initializers in rill/scene.hpp.
 #include <array>
 #include <filesystem>
 
@@ -111,7 +111,7 @@ struct Table<SolverSettings> {
                  .words = kKernelWords},
             &SolverSettings::kernel},
       Field{Info{.key = "neighbors",
-                 .help = "list: a neighbour list kept for several substeps; grid: walk the grid in every pass",
+                 .help = "list: a neighbor list kept for several substeps; grid: walk the grid in every pass",
                  .words = kNeighborWords},
             &SolverSettings::neighbors}};
 };
@@ -147,7 +147,7 @@ struct Table<Fill> {
   static constexpr std::array<std::string_view, 3> one_of{"box", "sphere", "particles"};
   static constexpr std::tuple fields{
       Field{Info{.key = "box", .help = "round((max - min) / spacing) particles an axis, the first half a spacing inside min"}, &Fill::box},
-      Field{Info{.key = "sphere", .help = "the lattice points inside it, the lattice centred on its centre"}, &Fill::sphere},
+      Field{Info{.key = "sphere", .help = "the lattice points inside it, the lattice centered on its center"}, &Fill::sphere},
       Field{Info{.key = "particles", .help = "positions from a file, and velocities where it has them"}, &Fill::particles},
       Field{Info{.key = "velocity", .unit = "m/s", .help = "at the start; added to a file's velocities"}, &Fill::velocity},
       Field{Info{.key = "jitter",
@@ -171,8 +171,8 @@ struct Table<Solid> {
   static constexpr std::array<std::string_view, 2> one_of{"box", "sphere"};
   static constexpr std::tuple fields{
       Field{Info{.key = "box", .help = "its corners before it is turned"}, &Solid::box},
-      Field{Info{.key = "sphere", .help = "its centre and radius"}, &Solid::sphere},
-      Field{Info{.key = "rotation", .help = "quaternion [x, y, z, w] about its centre, as in glTF; normalised when read"},
+      Field{Info{.key = "sphere", .help = "its center and radius"}, &Solid::sphere},
+      Field{Info{.key = "rotation", .help = "quaternion [x, y, z, w] about its center, as in glTF; normalized when read"},
             &Solid::rotation},
       Field{Info{.key = "friction", .range = atLeast(0), .help = "Coulomb coefficient"}, &Solid::friction},
       Field{Info{.key = "restitution", .range = between(0, 1), .help = "share of the normal speed that a bounce keeps"},

@@ -39,8 +39,8 @@ void forEachArray(Snapshot& s, Visit&& visit) {
   visit("id", s.id);
   visit("nearwall", s.nearWall);
   visit("nearmore", s.nearMore);
-  visit("nbrcount", s.neighbourCount);
-  visit("nbrs", s.neighbours);
+  visit("nbrcount", s.neighborCount);
+  visit("nbrs", s.neighbors);
   visit("cell", s.cell);
 }
 constexpr size_t kSections = 14;  // the one about the run first

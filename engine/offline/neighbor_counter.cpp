@@ -29,7 +29,7 @@ NeighborCounter::NeighborCounter(std::span<const Float3> points, double radius) 
 uint32_t NeighborCounter::count(uint32_t index, uint32_t enough) const {
   Cell home;
   if (!cellOf(points_[index], home)) return 0;
-  const Float3 centre = points_[index];
+  const Float3 center = points_[index];
   uint32_t found = 0;
   for (int64_t z = -1; z <= 1; ++z)
     for (int64_t y = -1; y <= 1; ++y)
@@ -41,8 +41,8 @@ uint32_t NeighborCounter::count(uint32_t index, uint32_t enough) const {
           Cell theirs;
           // Two of the 27 cells may share a bucket: without this a point would be counted twice.
           if (other == index || !cellOf(points_[other], theirs) || theirs != cell) continue;
-          const double dx = double(points_[other].x) - centre.x, dy = double(points_[other].y) - centre.y,
-                       dz = double(points_[other].z) - centre.z;
+          const double dx = double(points_[other].x) - center.x, dy = double(points_[other].y) - center.y,
+                       dz = double(points_[other].z) - center.z;
           if (dx * dx + dy * dy + dz * dz <= radius_ * radius_ && ++found >= enough) return found;
         }
       }

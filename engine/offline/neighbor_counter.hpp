@@ -9,7 +9,7 @@
 namespace rill::offline {
 
 /// Counts points near one of them, on the host. A hash grid with cells of the radius: cost follows the points, not the room they span.
-/// Points with a coordinate that is not finite are nobody's neighbour.
+/// Points with a coordinate that is not finite are nobody's neighbor.
 class NeighborCounter {
  public:
   /// Keeps the span: `points` outlives the counter. `radius` > 0, m.

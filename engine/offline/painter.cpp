@@ -19,14 +19,14 @@ enum class Kind { Final, Particles, Data };
 struct View {
   std::string_view name;
   Kind kind;
-  ParticleColour colour = ParticleColour::Speed;
+  ParticleColor color = ParticleColor::Speed;
   bool unlit = false;
   SurfaceData data = SurfaceData::Normals;
 };
 constexpr View kViews[] = {{"final", Kind::Final},
-                           {"particles", Kind::Particles, ParticleColour::Speed},
-                           {"density", Kind::Particles, ParticleColour::Compression},
-                           {"speed", Kind::Particles, ParticleColour::Speed, true},
+                           {"particles", Kind::Particles, ParticleColor::Speed},
+                           {"density", Kind::Particles, ParticleColor::Compression},
+                           {"speed", Kind::Particles, ParticleColor::Speed, true},
                            {"depth", Kind::Data, {}, {}, SurfaceData::Depth},
                            {"normals", Kind::Data, {}, {}, SurfaceData::Normals},
                            {"thickness", Kind::Data, {}, {}, SurfaceData::Thickness}};
@@ -130,7 +130,7 @@ BufferRef Painter::addTo(Graph& graph, const FluidState& fluid, std::string_view
     ParticleViewDesc desc;
     desc.width = width;
     desc.height = height;
-    desc.colour = view.colour;
+    desc.color = view.color;
     desc.unlit = view.unlit;
     return particles_->addTo(graph, fluid, eye, desc, time_s);
   }
@@ -140,14 +140,14 @@ BufferRef Painter::addTo(Graph& graph, const FluidState& fluid, std::string_view
     return fluid_->addData(graph, fluid, seen, view.data, static_cast<float>(full), look_.surface);
   }
   const TargetFormats formats;
-  SceneTargets targets{graph.create("picture colour", {formats.colour, width, height}),
+  SceneTargets targets{graph.create("picture color", {formats.color, width, height}),
                        graph.create("picture depth", {formats.depth, width, height})};
   FluidRendererImpl& renderer = fluid_->impl();
   const BufferRef environment = renderer.environment ? renderer.environment->addTo(graph) : BufferRef{};
   targets = scenery_->addTo(graph, fluid, targets, seen, look_, time_s, environment);
   targets = renderer.addTo(graph, fluid, targets, seen, look_, true, environment);
   if (fluid.count > 0) targets = scenery_->addEdgesOverFluid(graph, targets, seen, renderer.last.pixels);
-  return finish_.addTo(graph, targets.colour, width, height);
+  return finish_.addTo(graph, targets.color, width, height);
 }
 
 void Painter::finish(Image& image, std::string_view name, double time_s) const {
@@ -157,7 +157,7 @@ void Painter::finish(Image& image, std::string_view name, double time_s) const {
 std::optional<LegendDesc> Painter::legend(std::string_view name, double time_s) const {
   const View& view = *find(name);
   if (view.kind != Kind::Particles || !particles_) return std::nullopt;
-  return LegendDesc{view.colour, particles_->scaleMax(view.colour), time_s};
+  return LegendDesc{view.color, particles_->scaleMax(view.color), time_s};
 }
 
 }  // namespace rill::offline

@@ -38,7 +38,7 @@ class Painter {
                   double time_s);
   /// The same from the scene's camera, read back.
   PictureTickets declare(Graph& graph, const FluidState& fluid, std::string_view view, uint32_t width, uint32_t height, double time_s);
-  /// The scale of what a view colours particles by; none for the other views, or before prepare().
+  /// The scale of what a view colors particles by; none for the other views, or before prepare().
   std::optional<LegendDesc> legend(std::string_view view, double time_s) const;
   /// What is drawn on the finished picture by the host.
   void finish(Image& image, std::string_view view, double time_s) const;

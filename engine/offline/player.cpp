@@ -37,9 +37,9 @@ class Player::Impl {
   }
 
   Expected<void> show(const std::vector<Float3>& positions, const double origin[3], const std::vector<Float3>& velocities, double time_s) {
-    if (positions.size() > kMostParticles)
+    if (positions.size() > kMaxParticles)
       return Error{ErrorKind::TooLarge,
-                   std::to_string(positions.size()) + " particles; at most " + std::to_string(kMostParticles) + " are possible"};
+                   std::to_string(positions.size()) + " particles; at most " + std::to_string(kMaxParticles) + " are possible"};
     if (!velocities.empty() && velocities.size() != positions.size())
       return Error{ErrorKind::BadInput,
                    std::to_string(velocities.size()) + " velocities for " + std::to_string(positions.size()) + " positions"};

@@ -21,7 +21,7 @@ class ProbeReader {
   /// the floor in bins of 1.5 spacings until one is empty; the highest below that plus half a spacing; 0 where dry.
   double level(double x, double z) const;
 
-  /// The farthest particle along the axis with at least five neighbours within the smoothing length, plus half a spacing the same way. 0
+  /// The farthest particle along the axis with at least five neighbors within the smoothing length, plus half a spacing the same way. 0
   /// where there is none.
   double front(Axis axis) const;
 

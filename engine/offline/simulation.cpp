@@ -257,7 +257,7 @@ class Simulation::Impl {
   /// One advance of the solver, recorded in pieces until no time is left.
   Expected<void> advanceFrame(double seconds) {
     const uint32_t block = std::max(1u, fluid_->substepsPerBlock());
-    const uint32_t most = fluid_->mostSubsteps();
+    const uint32_t most = fluid_->substepsToComplete();
     const uint32_t guess = wholeBlocks(expected_, block);
     for (uint32_t recorded = 0; recorded < most;) {
       // The first piece is what the frame before took; what it leaves is done in pieces a quarter of that.
@@ -319,9 +319,9 @@ Expected<std::unique_ptr<Simulation>> Simulation::open(const std::filesystem::pa
 Expected<std::unique_ptr<Simulation>> Simulation::make(Scene scene, std::optional<ParticleSet> start, const Options& options,
                                                        const Checkpoint* from) {
   return guarded("opening the scene", [&]() -> Expected<std::unique_ptr<Simulation>> {
-    if (start && start->positions.size() > kMostParticles)
+    if (start && start->positions.size() > kMaxParticles)
       return Error{ErrorKind::TooLarge,
-                   std::to_string(start->positions.size()) + " particles; at most " + std::to_string(kMostParticles) + " are possible"};
+                   std::to_string(start->positions.size()) + " particles; at most " + std::to_string(kMaxParticles) + " are possible"};
     auto impl = std::make_unique<Impl>(std::move(scene), options);
     if (auto placed = impl->place(std::move(start)); !placed) return placed.error();
     if (auto opened = impl->open(from); !opened) return opened.error();

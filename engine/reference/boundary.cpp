@@ -12,7 +12,7 @@ std::vector<SolidPose> ReferenceSolver::poses(double t, double dt) const {
   std::vector<SolidPose> all;
   for (const Solid& solid : settings.solids) {
     SolidPose pose = dt > 0 ? solidPose(solid, t, dt) : solidPose(solid, t);
-    for (int a = 0; a < 3; ++a) pose.centre[a] -= settings.origin[a];
+    for (int a = 0; a < 3; ++a) pose.center[a] -= settings.origin[a];
     all.push_back(pose);
   }
   return all;
@@ -53,11 +53,11 @@ WallSample ReferenceSolver::boundaryOf(const glm::dvec3& x, std::span<const Soli
 
 glm::dvec3 ReferenceSolver::alongWalls(size_t i) const {
   glm::dvec3 along;
-  for (int a = 0; a < 3; ++a) along[a] = 1 / (1 - std::min<double>(boundary_[i].beside[a], kMostBeside));
+  for (int a = 0; a < 3; ++a) along[a] = 1 / (1 - std::min<double>(boundary_[i].beside[a], kMaxBeside));
   return along;
 }
 
-/// Moves a centre to half a spacing off every surface it is nearer to: solids in their order, walls last, so that nothing ends outside.
+/// Moves a center to half a spacing off every surface it is nearer to: solids in their order, walls last, so that nothing ends outside.
 /// Between walls nearer than a spacing it goes to the middle.
 glm::dvec3 ReferenceSolver::collide(glm::dvec3 x, std::span<const SolidPose> solids) const {
   const double keep = settings.spacing / 2;
@@ -75,7 +75,7 @@ glm::dvec3 ReferenceSolver::collide(glm::dvec3 x, std::span<const SolidPose> sol
 }
 
 /// The velocity after touching solids with restitution e and Coulomb friction mu, relative to the solid's own velocity. With u = v_old + g
-/// dt - v_solid, the velocity before the solve, and f = a_i sum_j (lambda_i + lambda_j) G_ij / dt, what the neighbours' pressure gave:
+/// dt - v_solid, the velocity before the solve, and f = a_i sum_j (lambda_i + lambda_j) G_ij / dt, what the neighbors' pressure gave:
 ///   v_n >= -e u_n where u_n < 0;   the tangential part loses at most mu max(0, v_n - u_n - f_n), all the impulse that the solid itself
 ///   gave.
 /// Without f a layer would feel its own weight alone, not that of the column above: the clamp of the positions carries most of it.

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
-#include "reference/neighbours.hpp"
+#include "reference/neighbors.hpp"
 #include "shared/fluid_records.h"
 #include "shared/pair_hash.h"
 
@@ -123,7 +123,7 @@ ReferenceSolver::Pair ReferenceSolver::makePair(uint32_t i, uint32_t j) const {
 }
 
 void ReferenceSolver::density() {
-  const Neighbours found = findNeighbours(state.predicted, kernel_.h());
+  const Neighbors found = findNeighbors(state.predicted, kernel_.h());
   const std::vector<SolidPose> solids = poses(time_, step_);
   first_ = found.first;
   pairs_.clear();
@@ -190,11 +190,11 @@ void ReferenceSolver::correction(double dt, double push) {
 
 void ReferenceSolver::velocities(double dt) {
   const std::vector<SolidPose> solids = poses(time_, dt);
-  const double mostGain = dt * (std::clamp(0.5 * fastest_, settings.pushLow, settings.pushHigh) + 4 * dt * glm::length(settings.gravity));
+  const double maxGain = dt * (std::clamp(0.5 * fastest_, settings.pushLow, settings.pushHigh) + 4 * dt * glm::length(settings.gravity));
   fastest_ = 0;  // before solids, as the shaders have it
   for (size_t i = 0; i < size(); ++i) {
     const double gain = glm::length(gained_[i]);
-    const double lost = gain > mostGain ? 1 - mostGain / gain : 0;
+    const double lost = gain > maxGain ? 1 - maxGain / gain : 0;
     const glm::dvec3 excess = lost * (gained_[i] + 0.5 * (walled_[i] - gained_[i] - state.position[i]));
     if (finite(walled_[i])) fastest_ = std::max(fastest_, glm::length(walled_[i] - state.position[i] - excess) / dt);
     glm::dvec3 v = contact(i, (state.predicted[i] - state.position[i] - excess) / dt, dt, solids);
@@ -220,7 +220,7 @@ void ReferenceSolver::viscosity(double dt) {
   for (int sweep = 0; sweep < settings.viscositySweeps; ++sweep) smooth(c);
 }
 
-void ReferenceSolver::calm(double dt) { smooth(std::min(xsphCoefficient(calmness_ * settings.calmViscosity, dt), double{kMostCalming})); }
+void ReferenceSolver::calm(double dt) { smooth(std::min(xsphCoefficient(calmness_ * settings.calmViscosity, dt), double{kMaxCalming})); }
 
 void ReferenceSolver::smooth(double coefficient) {
   const std::vector<glm::dvec3> v = state.velocity;

@@ -3,7 +3,7 @@
 // oracle of the shaders and the documentation of the method. Speed comes after readability.
 //
 // A substep of dt. Notation: K = d^3 W as in sph/kernel.hpp, G_ij = grad_i K(x*_i - x*_j), B_i = what walls and solids add to the density,
-// grad B_i its gradient, a_i what makes up, axis by axis, for what is beside the particle: 1 / (1 - min(WallSample::beside, kMostBeside)).
+// grad B_i its gradient, a_i what makes up, axis by axis, for what is beside the particle: 1 / (1 - min(WallSample::beside, kMaxBeside)).
 //   density       rho_i/rho0 = K(0) + sum_j K_ij + B_i,   C_i = rho_i/rho0 - 1,
 //                 D_i = g . a_i g + mean(a_i) sum_j |G_ij|^2 + eps D_rest with g = sum_j G_ij + grad B_i
 //   multipliers   delta_i = -omega C_i / D_i,   lambda_i = min(0, lambda_i + delta_i), starting from w_i; the change is dlambda_i.
@@ -15,7 +15,7 @@
 //   predict       w_i *= (dt_next/dt)^2,
 //                 x*_i = x_i + dt_next (v_i + g dt_next) + a_i sum_j (w_i + w_j) G_ij + w_i grad B_i, then out of solids and walls
 // Density to correction repeat for every iteration.
-// The pairs of the last density evaluation (its neighbours, K_ij and G_ij) serve all stages up to the next one.
+// The pairs of the last density evaluation (its neighbors, K_ij and G_ij) serve all stages up to the next one.
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <limits>
@@ -36,7 +36,7 @@ namespace rill::reference {
 /// density.
 inline constexpr double kCoincidentDistance = 1e-3, kCoincidentGradient = 0.05;
 
-/// A particle whose centre is within this many spacings of a solid's surface touches it (0.5 is where centres are held).
+/// A particle whose center is within this many spacings of a solid's surface touches it (0.5 is where centers are held).
 inline constexpr double kContactDistance = 0.55;
 
 /// D_i is at least this share of D_rest, so that eps = 0 does not divide a lone particle by 0.
@@ -84,7 +84,7 @@ struct ReferenceSettings {
 
 class ReferenceSolver {
  public:
-  /// A neighbour j of particle i, of the last density evaluation.
+  /// A neighbor j of particle i, of the last density evaluation.
   struct Pair {
     uint32_t j = 0;
     double value = 0;                 ///< K_ij
@@ -117,7 +117,7 @@ class ReferenceSolver {
   void substep(double dt, double dtNext);
 
   /// The substep's parts, in its order: each reads `state` and what the parts before it left.
-  void density();                           ///< neighbours of x*, pairs, rho, B, D
+  void density();                           ///< neighbors of x*, pairs, rho, B, D
   void multipliers(bool firstIteration);    ///< lambda, dlambda; w in the first iteration
   void correction(double dt, double push);  ///< x*; `push`: the artificial pressure, over 1 / D
   void velocities(double dt);               ///< v, x; time goes on by dt

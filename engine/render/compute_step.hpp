@@ -36,8 +36,8 @@ template <class Push>
 void addStep(Graph& graph, std::string_view name, const ComputePipeline* pipeline, std::initializer_list<StepBuffer> buffers,
              const StepGroups& groups, const Push& push) {
   graph.pass(name, [&](Pass& pass) {
-    constexpr size_t kMost = 16;
-    ResourceRef bound[kMost];
+    constexpr size_t kMaxEntries = 16;
+    ResourceRef bound[kMaxEntries];
     size_t count = 0;
     for (const StepBuffer& buffer : buffers) {
       switch (buffer.how) {

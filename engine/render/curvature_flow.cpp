@@ -11,9 +11,9 @@ namespace {
 
 using namespace surface;
 
-constexpr double kCoarsest = 0.7;     // spacings: how wide samples are at most
-constexpr uint32_t kPolish = 4;       // steps of a finer level
-constexpr uint32_t kMostSteps = 128;  // of the coarsest
+constexpr double kCoarsest = 0.7;    // spacings: how wide samples are at most
+constexpr uint32_t kPolish = 4;      // steps of a finer level
+constexpr uint32_t kMaxSteps = 128;  // of the coarsest
 
 /// One level of the pyramid.
 struct Level {
@@ -30,7 +30,7 @@ Expected<CurvatureFlow> CurvatureFlow::create(Device& device) {
   static constexpr BindingKind kOne[] = {TexelUint, Storage, Storage, Storage};
   static constexpr BindingKind kThree[] = {TexelUint, TexelUint, TexelUint, Storage, Storage, Storage};
   CurvatureFlow out;
-  for (uint32_t level = 0; level <= kMostLevels; ++level)
+  for (uint32_t level = 0; level <= kMaxLevels; ++level)
     for (const bool texels : {false, true}) {
       const struct {
         const ComputePipeline*& pipeline;
@@ -42,7 +42,7 @@ Expected<CurvatureFlow> CurvatureFlow::create(Device& device) {
                  {out.down_[level][texels], texels ? "render/surface_flow_down_texel" : "render/surface_flow_down",
                   texels ? std::span<const BindingKind>(kOne) : std::span(kStorage).first(4), level > 0},
                  {out.up_[level][texels], texels ? "render/surface_flow_up_texel" : "render/surface_flow_up",
-                  texels ? std::span<const BindingKind>(kThree) : std::span<const BindingKind>(kStorage), level < kMostLevels}};
+                  texels ? std::span<const BindingKind>(kThree) : std::span<const BindingKind>(kStorage), level < kMaxLevels}};
       const uint32_t constants[] = {std::bit_cast<uint32_t>(kFlowStable), kSampleBlock >> level};
       for (const auto& row : all) {
         if (!row.used) continue;
@@ -57,12 +57,12 @@ Expected<CurvatureFlow> CurvatureFlow::create(Device& device) {
   return out;
 }
 
-BufferRef CurvatureFlow::addTo(Graph& graph, BufferRef depth, const SurfaceBuffers& surface, double side, double time, uint32_t mostLevels,
+BufferRef CurvatureFlow::addTo(Graph& graph, BufferRef depth, const SurfaceBuffers& surface, double side, double time, uint32_t maxLevels,
                                bool texels) const {
   const double spacing = double{surface.push.spacing};
   uint32_t coarsest = 0;
-  while (coarsest < std::min(mostLevels, kMostLevels) && side * (2 << coarsest) <= kCoarsest * spacing) ++coarsest;
-  Level levels[kMostLevels + 1];
+  while (coarsest < std::min(maxLevels, kMaxLevels) && side * (2 << coarsest) <= kCoarsest * spacing) ++coarsest;
+  Level levels[kMaxLevels + 1];
   for (uint32_t l = 0; l <= coarsest; ++l) {
     Level& level = levels[l];
     level.push = surface.push;
@@ -70,14 +70,14 @@ BufferRef CurvatureFlow::addTo(Graph& graph, BufferRef depth, const SurfaceBuffe
     level.push.margin >>= l;
     const double area = std::pow(side * (1 << l), 2);
     const double wanted = time * spacing * spacing;
-    level.steps = std::clamp(static_cast<uint32_t>(std::ceil(wanted / (kFlowStable * area))), 1u, kMostSteps);
+    level.steps = std::clamp(static_cast<uint32_t>(std::ceil(wanted / (kFlowStable * area))), 1u, kMaxSteps);
     level.push.smoothing = static_cast<float>(wanted);
     const uint64_t bytes = sampleCount(level.push) * 4;
     level.start = l == 0 ? depth : graph.create("surface flow coarse", {bytes});
     for (BufferRef& buffer : level.to) buffer = graph.create("surface flow", {bytes});
   }
   graph.pass("surface flow clear", [&](Pass& pass) {
-    BufferRef cleared[3 * (kMostLevels + 1)];
+    BufferRef cleared[3 * (kMaxLevels + 1)];
     size_t count = 0;
     for (uint32_t l = 0; l <= coarsest; ++l) {
       if (l > 0) cleared[count++] = levels[l].start = pass.write(levels[l].start, Use::CopyTarget, true);

@@ -8,12 +8,12 @@ namespace rill {
 namespace {
 
 constexpr uint32_t kMaxWidth = 8192;
-constexpr float kMostRadiance = 32768;  // of half of what a 16-bit float holds: reflections add up
+constexpr float kMaxRadiance = 32768;  // of half of what a 16-bit float holds: reflections add up
 
 }  // namespace
 
 uint32_t sharedExponent(float r, float g, float b) {
-  const auto bounded = [](float c) { return c > 0 ? std::min(c, kMostRadiance) : 0.0f; };
+  const auto bounded = [](float c) { return c > 0 ? std::min(c, kMaxRadiance) : 0.0f; };
   const float rgb[3] = {bounded(r), bounded(g), bounded(b)};
   const float largest = std::max({rgb[0], rgb[1], rgb[2]});
   // A component is its nine bits times 2^(exponent - 24).

@@ -40,8 +40,8 @@ BufferRef addLook(Graph& graph, const look::LookRecord& record) {
 }
 
 Expected<void> FluidRendererImpl::create(Device& host, const TargetFormats& targets) {
-  if (targets.colour == VK_FORMAT_UNDEFINED || hasDepth(targets.colour))
-    return Error{ErrorKind::BadInput, "TargetFormats::colour is " + std::to_string(targets.colour) + "; expected a VkFormat of colours"};
+  if (targets.color == VK_FORMAT_UNDEFINED || hasDepth(targets.color))
+    return Error{ErrorKind::BadInput, "TargetFormats::color is " + std::to_string(targets.color) + "; expected a VkFormat of colors"};
   if (!hasDepth(targets.depth))
     return Error{ErrorKind::BadInput,
                  "TargetFormats::depth is " + std::to_string(targets.depth) + "; expected a VkFormat that holds depth"};
@@ -77,7 +77,7 @@ Expected<void> FluidRendererImpl::makeShade() {
                                  .fragment = environment ? "render/fluid_shade_environment_fragment" : "render/fluid_shade_fragment",
                                  .bindings = std::span(kShade).first(environment ? 9 : 8),
                                  .pushConstantBytes = sizeof(SurfacePush),
-                                 .colours = {&formats.colour, 1},
+                                 .colors = {&formats.color, 1},
                                  .depth = formats.depth,
                                  .depthCompare = VK_COMPARE_OP_ALWAYS,  // the shader compares in m
                                  .depthWrite = true});
@@ -101,8 +101,8 @@ bool FluidRendererImpl::possible(Graph& graph, const FluidState& fluid, const Fl
   if (auto ok = checkView(view); !ok) return mistake(ok.error().message);
   if (size_t(method) > size_t(SurfaceMethod::NarrowRange)) return mistake(std::to_string(unsigned(method)) + " is no SurfaceMethod");
   if (fluid.count == 0) return true;
-  if (fluid.count > SurfaceStage::kMostParticles)
-    return mistake("a fluid of " + std::to_string(fluid.count) + " particles: at most " + std::to_string(SurfaceStage::kMostParticles) +
+  if (fluid.count > SurfaceStage::kMaxParticles)
+    return mistake("a fluid of " + std::to_string(fluid.count) + " particles: at most " + std::to_string(SurfaceStage::kMaxParticles) +
                    " can be drawn");
   if (!(fluid.spacing > 0 && std::isfinite(fluid.spacing)))
     return mistake("FluidState::spacing is " + shortNumber(fluid.spacing) + "; expected a length above 0 (m)");
@@ -129,7 +129,7 @@ bool FluidRendererImpl::possible(Graph& graph, const FluidLook& look) {
 
 bool FluidRendererImpl::within(Graph& graph, const SceneTargets& targets, const FluidView& view) {
   const auto& resources = graph.impl().resources;
-  for (const ImageRef target : {targets.colour, targets.depth}) {
+  for (const ImageRef target : {targets.color, targets.depth}) {
     if (target.index >= resources.size() || !resources[target.index].isImage) continue;  // the pass that reads it says so
     const ResourceData& image = resources[target.index];
     if (uint64_t{view.x} + view.width <= image.width() && uint64_t{view.y} + view.height <= image.height()) continue;
@@ -157,14 +157,14 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
   last = surface.addTo(graph, fluid, camera(fluid, view), look.surface, whole, view.focus_m);
   const SurfacePush push = last.push;
   const uint64_t pixels = uint64_t{push.width} * push.height;
-  BufferRef sceneColour = graph.create("fluid scene colour", {pixels * 8}), sceneDepth = graph.create("fluid scene depth", {pixels * 4});
+  BufferRef sceneColor = graph.create("fluid scene color", {pixels * 8}), sceneDepth = graph.create("fluid scene depth", {pixels * 4});
   graph.pass("fluid scene", [&](Pass& pass) {
-    pass.read(targets.colour, Use::ComputeSampled);
+    pass.read(targets.color, Use::ComputeSampled);
     pass.read(targets.depth, Use::ComputeSampled);
     pass.read(last.arguments, Use::Indirect);
-    sceneColour = pass.write(sceneColour, Use::ComputeWrite, true);
+    sceneColor = pass.write(sceneColor, Use::ComputeWrite, true);
     sceneDepth = pass.write(sceneDepth, Use::ComputeWrite, true);
-    const Kernel kernel = pass.kernel(scene, {targets.colour, targets.depth, sceneColour, sceneDepth});
+    const Kernel kernel = pass.kernel(scene, {targets.color, targets.depth, sceneColor, sceneDepth});
     return [kernel, push, arguments = last.arguments](Commands& commands) {
       commands.dispatchIndirect(kernel, arguments, kPixelArguments * 4, push);
     };
@@ -182,11 +182,11 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
   const BufferRef record = addLook(graph, lookRecord(look, thick, environment.get()));
   graph.pass("fluid shade", [&](Pass& pass) {
     pass.read(record, Use::DrawUniform);
-    const ResourceRef bound[] = {record, last.tiles, last.pixels, thickness, sceneColour, sceneDepth, bend, last.samples, texels};
+    const ResourceRef bound[] = {record, last.tiles, last.pixels, thickness, sceneColor, sceneDepth, bend, last.samples, texels};
     const size_t count = environment ? 9 : 8;
     for (size_t k = 1; k < count; ++k) pass.read(BufferRef{bound[k]}, Use::DrawRead);
     pass.read(last.arguments, Use::Indirect);
-    targets.colour = pass.write(targets.colour, Use::ColourTarget);
+    targets.color = pass.write(targets.color, Use::ColorTarget);
     targets.depth = pass.write(targets.depth, Use::DepthTarget);
     const Kernel kernel = pass.kernel(shade, std::span(bound).first(count));
     return [kernel, push, arguments = last.arguments](Commands& commands) {

@@ -18,14 +18,14 @@ using namespace surface;
 constexpr float kHardRadius = 0.9f;            // spacings: spheres that leave no gap between surface particles
 constexpr float kThicknessRadius = 1.2f;       // spacings: a disc that overlaps enough to be smooth
 constexpr float kThicknessUnit = 1.0f / 1024;  // spacings
-constexpr uint32_t kMostStep = 16;
+constexpr uint32_t kMaxStep = 16;
 constexpr uint32_t kNarrowPasses = 2;
 
 static_assert(kMarginSamples % kCellSamples == 0);
 
 uint64_t gridCells(uint64_t width, uint64_t height, uint32_t side) { return divideUp(width, side) * divideUp(height, side); }
 
-double metresAPixel(const SurfacePush& camera, double depth) {
+double metersAPixel(const SurfacePush& camera, double depth) {
   return std::abs(double{camera.scale[1]}) * 2 / camera.height * (camera.perspective > 0 ? depth : 1.0);
 }
 
@@ -51,9 +51,9 @@ SurfacePixel unpackPixel(const uint32_t* words) {
 }
 
 uint32_t sampleStep(const SurfacePush& camera, float spacing, double depth, double samples) {
-  const double metres = metresAPixel(camera, depth);
-  const double pixels = spacing / std::max(metres, 1e-30) / samples;  // of the widest sample
-  return pixels >= kMostStep ? kMostStep : std::bit_floor(static_cast<uint32_t>(std::max(pixels, 1.0)));
+  const double meters = metersAPixel(camera, depth);
+  const double pixels = spacing / std::max(meters, 1e-30) / samples;  // of the widest sample
+  return pixels >= kMaxStep ? kMaxStep : std::bit_floor(static_cast<uint32_t>(std::max(pixels, 1.0)));
 }
 
 Expected<SurfaceStage> SurfaceStage::create(Device& device) {
@@ -121,9 +121,9 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
   assert(fluid.count > 0);
   const bool filtered = settings.filter || method == SurfaceMethod::CurvatureFlow || method == SurfaceMethod::NarrowRange;
   Frame frame = frameOf(fluid, camera, method, focus, settings);
-  const uint64_t mostTexels = std::max({2 * uint64_t{fluid.count}, paddedWords(frame.cells + 1), sampleCount(frame.out.push)});
+  const uint64_t maxTexels = std::max({2 * uint64_t{fluid.count}, paddedWords(frame.cells + 1), sampleCount(frame.out.push)});
   frame.storageReads = settings.storage_reads;
-  frame.texels = !frame.storageReads && readsTexels(*device_, mostTexels);
+  frame.texels = !frame.storageReads && readsTexels(*device_, maxTexels);
   frame.narrows = method == SurfaceMethod::NarrowRange && !settings.filter;
   addBuffers(graph, fluid, frame, whole);
   addVisible(graph, fluid, frame);
@@ -141,7 +141,7 @@ SurfaceStage::Frame SurfaceStage::frameOf(const FluidState& fluid, SurfacePush p
   push.spacing = fluid.spacing;
   push.radius = kHardRadius * fluid.spacing;
   push.count = fluid.count;
-  const double sampleSide = std::max(metresAPixel(push, focus) * push.step, 1e-6 * fluid.spacing);
+  const double sampleSide = std::max(metersAPixel(push, focus) * push.step, 1e-6 * fluid.spacing);
   push.margin = marginSamples(std::min(2 * settings.samples, push.spacing / sampleSide));
   Frame frame;
   push.smoothing = static_cast<float>(method == SurfaceMethod::NarrowRange ? settings.narrow_sigma : settings.fit_reach);
@@ -163,7 +163,7 @@ void SurfaceStage::addBuffers(Graph& graph, const FluidState& fluid, Frame& fram
   out.counters = graph.create("surface counters", {kSurfaceCounterWords * 4});
   out.arguments = graph.create("surface arguments", {kSurfaceArgumentWords * 4});
   frame.survivors = graph.create("surface survivors", {uint64_t{fluid.count} * 4});
-  frame.centre = graph.create("surface centres", {uint64_t{fluid.count} * 16});
+  frame.center = graph.create("surface centers", {uint64_t{fluid.count} * 16});
   out.tiles = graph.create("surface tiles", {gridCells(out.push.width, out.push.height, kSurfaceTile) * 4});
   out.pixels = graph.create("surface pixels", {uint64_t{out.push.width} * out.push.height * 8});
   out.blocks = graph.create("surface blocks", {frame.sampleBlocks * 4});
@@ -224,7 +224,7 @@ void SurfaceStage::addGrid(Graph& graph, const FluidState& fluid, Frame& frame) 
           {reads(fluid.position), reads(out.counters), reads(frame.survivors), reads(frame.start), reads(rank), fresh(arrived)},
           survivorGroups(), out.push);
   addStep(graph, "surface order", order_,
-          {reads(fluid.position), writes(out.counters), reads(frame.start), reads(arrived), fresh(frame.centre)},
+          {reads(fluid.position), writes(out.counters), reads(frame.start), reads(arrived), fresh(frame.center)},
           StepGroups(out.arguments, kSurfaceArguments), out.push);
 }
 
@@ -233,10 +233,10 @@ void SurfaceStage::addPlanes(Graph& graph, Frame& frame) const {
   SurfaceBuffers& out = frame.out;
   frame.plane = graph.create("surface planes", {uint64_t{out.push.count} * 32});
   addStep(graph, "surface planes", planes_[frame.texels],
-          {frame.walks(frame.start), frame.walks(frame.centre), fresh(frame.plane), writes(out.counters)},
+          {frame.walks(frame.start), frame.walks(frame.center), fresh(frame.plane), writes(out.counters)},
           StepGroups(out.arguments, kSurfaceArguments), out.push);
   addStep(graph, "surface blend", blend_[frame.texels],
-          {frame.walks(frame.start), frame.walks(frame.centre), frame.walks(frame.plane), reads(frame.depth), writes(out.samples),
+          {frame.walks(frame.start), frame.walks(frame.center), frame.walks(frame.plane), reads(frame.depth), writes(out.samples),
            writes(out.counters), reads(out.blocks)},
           StepGroups(out.arguments, kSampleBlockArguments), out.push);
 }
@@ -261,10 +261,10 @@ void SurfaceStage::addFiltered(Graph& graph, Frame& frame, const SurfaceSettings
       }
   }
   addStep(graph, "surface normals", normals_[frame.texels],
-          {frame.walks(frame.start), frame.walks(frame.centre), frame.walks(from), reads(frame.depth), writes(out.samples),
+          {frame.walks(frame.start), frame.walks(frame.center), frame.walks(from), reads(frame.depth), writes(out.samples),
            writes(out.counters), reads(out.blocks)},
           blocks, out.push);
-  frame.plane = frame.centre;  // bound, never read
+  frame.plane = frame.center;  // bound, never read
 }
 
 /// From samples to the pixels of the tiles with fluid, then those at edges.
@@ -277,7 +277,7 @@ void SurfaceStage::addCompose(Graph& graph, Frame& frame, const ComputePipeline*
           StepGroups(out.arguments, kSurfaceTileArguments), out.push);
   addArguments(graph, out);
   addStep(graph, "surface edges", edges,
-          {frame.walks(frame.start), frame.walks(frame.centre), frame.walks(frame.plane), reads(frame.depth), reads(out.samples),
+          {frame.walks(frame.start), frame.walks(frame.center), frame.walks(frame.plane), reads(frame.depth), reads(out.samples),
            writes(out.counters), reads(listed), writes(out.pixels)},
           StepGroups(out.arguments, kEdgeArguments), out.push);
 }

@@ -40,7 +40,7 @@ inline constexpr ThicknessNames kFluidShadow{"fluid shadow", "fluid shadow clear
 class SurfaceStage {
  public:
   /// Of 32 bytes a plane: what a buffer holds.
-  static constexpr uint32_t kMostParticles = (128u << 20) / 32;
+  static constexpr uint32_t kMaxParticles = (128u << 20) / 32;
 
   static Expected<SurfaceStage> create(Device& device);
 
@@ -65,11 +65,11 @@ class SurfaceStage {
     double sampleSide = 0;                                    ///< m, at the focus
     BufferRef occluders, depth;                               ///< the depth of the spheres
     BufferRef survivors;                                      ///< particles that nothing hides
-    BufferRef start, centre;                                  ///< screen grid of those that are surface
+    BufferRef start, center;                                  ///< screen grid of those that are surface
     BufferRef plane;                                          ///< of the method that has planes
     bool narrows = false;                                     ///< by the narrow-range filter
     std::array<BufferRef, 2> filtered;                        ///< which that goes back and forth between
-    bool texels = false;                                      ///< start, centre, plane and what a filter reads are texel buffers
+    bool texels = false;                                      ///< start, center, plane and what a filter reads are texel buffers
     bool storageReads = false;                                ///< nothing is to be one
     StepBuffer walks(BufferRef buffer) const { return texels ? rill::texels(buffer) : reads(buffer); }
   };

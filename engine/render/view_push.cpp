@@ -50,7 +50,7 @@ Expected<void> checkView(const FluidView& view) {
   if (!(view.focus_m > 0) || !std::isfinite(view.focus_m)) return bad("focus_m must be a distance above 0");
   const Float4x4& p = view.projection;
   for (const auto& [row, column] : {std::pair{0, 1}, std::pair{1, 0}, std::pair{2, 0}, std::pair{2, 1}, std::pair{3, 0}, std::pair{3, 1}})
-    if (at(p, row, column) != 0) return bad("the projection shears: only a centred or shifted one is possible");
+    if (at(p, row, column) != 0) return bad("the projection shears: only a centered or shifted one is possible");
   const double w = at(p, 3, 2), constant = at(p, 3, 3);
   const bool perspective = w != 0 && constant == 0, orthographic = w == 0 && constant != 0;
   if (!(perspective || orthographic) || at(p, 0, 0) == 0 || at(p, 1, 1) == 0)

@@ -22,7 +22,7 @@
 namespace rill {
 namespace {
 
-constexpr uint64_t kMostFileBytes = uint64_t{256} << 20;  // more than any such picture takes
+constexpr uint64_t kMaxFileBytes = uint64_t{256} << 20;  // more than any such picture takes
 
 /// Memory of stb_image.
 template <class T>
@@ -80,7 +80,7 @@ Expected<EnvironmentPicture> decoded(std::string_view bytes) {
 
 Expected<EnvironmentPicture> loadEnvironment(const std::filesystem::path& file) {
   try {
-    const auto bytes = readWholeFile(file, kMostFileBytes);
+    const auto bytes = readWholeFile(file, kMaxFileBytes);
     if (!bytes) return bytes.error();
     auto picture = decoded(*bytes);
     if (picture) return picture;

@@ -17,7 +17,7 @@ inline OrderedJson tidyNumber(double number) {
   return number;
 }
 
-/// What a key has when it is not given; null where it has no default. `value` is the member's initialiser.
+/// What a key has when it is not given; null where it has no default. `value` is the member's initializer.
 inline OrderedJson defaultJson(const model::Info& info, double value) {
   return info.range.contains(value) ? tidyNumber(value) : OrderedJson();
 }

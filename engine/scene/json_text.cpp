@@ -184,7 +184,7 @@ class Builder : public nlohmann::json_sax<Json> {
     return true;
   }
   bool open(Json container) {
-    if (open_.size() >= kMostJsonDepth) return fail(offset() - 1, "nested deeper than " + std::to_string(kMostJsonDepth) + " levels");
+    if (open_.size() >= kMaxJsonDepth) return fail(offset() - 1, "nested deeper than " + std::to_string(kMaxJsonDepth) + " levels");
     open_.push_back(place(std::move(container)));
     return true;
   }
@@ -226,8 +226,8 @@ class Builder : public nlohmann::json_sax<Json> {
   }
 
   static std::string clipped(const std::string& text) {
-    constexpr size_t kMost = 200, kKept = 90;
-    if (text.size() <= kMost) return text;
+    constexpr size_t kMaxEntries = 200, kKept = 90;
+    if (text.size() <= kMaxEntries) return text;
     const auto continues = [&](size_t i) { return (static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80U; };
     size_t head = kKept, tail = text.size() - kKept;
     while (head > 0 && continues(head)) --head;

@@ -12,9 +12,9 @@ namespace rill {
 using Json = nlohmann::json;
 
 /// The most bytes that a scene file may have.
-inline constexpr uint64_t kMostSceneBytes = 16ULL << 20;
+inline constexpr uint64_t kMaxSceneBytes = 16ULL << 20;
 /// The most levels of [ and { inside each other.
-inline constexpr size_t kMostJsonDepth = 256;
+inline constexpr size_t kMaxJsonDepth = 256;
 
 /// The bytes of a regular file of at most `most` bytes. BadInput (missing, not a regular file, too large, not readable) or Io.
 Expected<std::string> readWholeFile(const std::filesystem::path& file, uint64_t most);

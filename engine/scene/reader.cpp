@@ -39,13 +39,13 @@ std::string elsewhere(std::string_view key, const std::string& path) {
 
 /// Numbers of "MAJOR.MINOR[.PATCH]", each cut at a billion; empty where the text is none.
 std::vector<uint32_t> versionNumbers(std::string_view text) {
-  constexpr uint32_t kMost = 1'000'000'000;
+  constexpr uint32_t kMaxEntries = 1'000'000'000;
   std::vector<uint32_t> numbers;
   bool digit = false;
   for (const char c : text) {
     if (c >= '0' && c <= '9') {
       if (!digit) numbers.push_back(0);
-      numbers.back() = numbers.back() >= kMost / 10 ? kMost : numbers.back() * 10 + static_cast<uint32_t>(c - '0');
+      numbers.back() = numbers.back() >= kMaxEntries / 10 ? kMaxEntries : numbers.back() * 10 + static_cast<uint32_t>(c - '0');
       digit = true;
     } else if (c == '.' && digit) {
       digit = false;
@@ -103,7 +103,7 @@ bool Reader::fine(const std::string& path, const model::Verdict& verdict) {
 }
 
 /// A file's quaternion may have any length but none.
-void Reader::normalise(Solid& solid) {
+void Reader::normalize(Solid& solid) {
   double length = 0;
   for (const double part : solid.rotation) length = std::hypot(length, part);
   for (double& part : solid.rotation) part = length > 0 ? part / length : part;

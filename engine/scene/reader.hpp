@@ -36,7 +36,7 @@ class Reader {
     model::forEachField<Owner>([&](const auto& field) {
       if (ok) ok = member(json, path, field, owner);
     });
-    if constexpr (std::is_same_v<Owner, Solid>) normalise(owner);
+    if constexpr (std::is_same_v<Owner, Solid>) normalize(owner);
     return ok && exactlyOne(json, path, model::Table<Owner>::one_of) && fine(path, model::judge(owner));
   }
 
@@ -44,7 +44,7 @@ class Reader {
   bool fail(const std::string& path, const std::string& text);
   /// Blames the key that an override made among those that may be to blame, or the first.
   bool fine(const std::string& path, const model::Verdict& verdict);
-  static void normalise(Solid& solid);
+  static void normalize(Solid& solid);
   bool unknownKey(const std::string& path, const std::string& key, const std::vector<std::string_view>& here);
   bool exactlyOne(const Json& json, const std::string& path, std::span<const std::string_view> keys);
 

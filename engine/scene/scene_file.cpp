@@ -45,7 +45,7 @@ Expected<Scene> parseScene(std::string_view text, std::string_view name, const s
 Expected<Scene> loadScene(const std::filesystem::path& file, std::span<const Override> overrides) {
   const std::string name = file.string();
   return guarded(name, [&]() -> Expected<Scene> {
-    const auto text = readWholeFile(file, kMostSceneBytes);
+    const auto text = readWholeFile(file, kMaxSceneBytes);
     if (!text) return text.error();
     auto scene = readScene(*text, name, file.parent_path(), overrides);
     if (scene) scene->file = file;

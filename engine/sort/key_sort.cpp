@@ -34,10 +34,10 @@ SortMethod chooseSortMethod(const KeySortDesc& desc) {
   // Large bins take long to order, and radix has few digits then; sparse keys leave many counters to clear and to scan.
   // A table of starts costs both methods a time that rises with the key range, radix more: 1/16: 17 / 46.
   // Counting has become a third cheaper since (clearing and scanning most), which moves no choice that the fluid makes.
-  constexpr uint64_t kMostKeysAValue = 16;
-  constexpr uint64_t kMostValuesAKey = 6;
-  const bool smallBins = desc.count <= kMostKeysAValue * desc.keyRange;
-  const bool dense = desc.start || desc.keyRange <= kMostValuesAKey * desc.count;
+  constexpr uint64_t kMaxKeysAValue = 16;
+  constexpr uint64_t kMaxValuesAKey = 6;
+  const bool smallBins = desc.count <= kMaxKeysAValue * desc.keyRange;
+  const bool dense = desc.start || desc.keyRange <= kMaxValuesAKey * desc.count;
   return smallBins && dense ? SortMethod::Counting : SortMethod::Radix;
 }
 

@@ -18,10 +18,10 @@ class ModulePipelines {
 
   /// Of a shader whose bindings are all storage buffers. Null after an error: result() tells which.
   const ComputePipeline* make(std::string_view shader, uint32_t bindings, std::initializer_list<uint32_t> constants = {}) {
-    constexpr uint32_t kMost = 8;
-    static constexpr std::array<BindingKind, kMost> kStorage{};
+    constexpr uint32_t kMaxEntries = 8;
+    static constexpr std::array<BindingKind, kMaxEntries> kStorage{};
     static_assert(BindingKind{} == BindingKind::Storage);
-    assert(bindings <= kMost);
+    assert(bindings <= kMaxEntries);
     return make(shader, std::span(kStorage).first(bindings), constants);
   }
 

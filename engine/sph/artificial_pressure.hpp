@@ -15,10 +15,10 @@ struct ArtificialPressure {
   /// `strength`: 0 .. 1; `radius`: delta q / h, 0 .. 1 exclusive; `power`: n, >= 1.
   ArtificialPressure(const SmoothingKernel& kernel, double strength, double radius, double power);
 
-  /// Of a pair whose kernel value is K: min(1, K / K(delta q))^n less what it is for neighbours at rest, 0 .. 1. They are not touched.
+  /// Of a pair whose kernel value is K: min(1, K / K(delta q))^n less what it is for neighbors at rest, 0 .. 1. They are not touched.
   double share(double value) const;
 
-  double rate;     ///< 1/s^2; 0 where delta q is as far as neighbours at rest, who leave nothing to push
+  double rate;     ///< 1/s^2; 0 where delta q is as far as neighbors at rest, who leave nothing to push
   double most;     ///< dimensionless: what parts each of a pair by a twentieth of a spacing
   double inverse;  ///< 1 / K(delta q)
   double power;    ///< n

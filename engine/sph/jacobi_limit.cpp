@@ -10,10 +10,10 @@
 namespace rill {
 
 double jacobiLimit(const SmoothingKernel& kernel) {
-  struct Neighbour {
+  struct Neighbor {
     glm::dvec3 at, moves, feels;  // what a correction moves by, and what density feels of a move: not the same for poly6 with spiky
   };
-  std::vector<Neighbour> neighbours;
+  std::vector<Neighbor> neighbors;
   const double h = kernel.h(), d = kernel.spacing();
   const int reach = static_cast<int>(std::ceil(h / d));
   for (int i = -reach; i <= reach; ++i)
@@ -23,7 +23,7 @@ double jacobiLimit(const SmoothingKernel& kernel) {
         const double r = glm::length(at), step = 1e-5 * h;
         if (r == 0 || r >= h) continue;
         const double slope = (kernel.value(r + step) - kernel.value(r - step)) / (2 * step);
-        neighbours.push_back({at, kernel.gradientOverR(r) * at, slope / r * at});
+        neighbors.push_back({at, kernel.gradientOverR(r) * at, slope / r * at});
       }
   // By symmetry a sixth of an octant holds all waves.
   constexpr int kNodes = 12;
@@ -33,7 +33,7 @@ double jacobiLimit(const SmoothingKernel& kernel) {
       for (int c = 0; c <= b; ++c) {
         const glm::dvec3 wave = glm::dvec3(a, b, c) * (std::numbers::pi / (kNodes * d));
         glm::dvec3 moves(0), feels(0);
-        for (const Neighbour& n : neighbours) {
+        for (const Neighbor& n : neighbors) {
           const double phase = std::sin(glm::dot(wave, n.at));
           moves += phase * n.moves;
           feels += phase * n.feels;

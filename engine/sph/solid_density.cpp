@@ -61,7 +61,7 @@ WallSample boxOf(const Share& share, const double local[3], const double half[3]
 
 LineSample exactSphere(const SmoothingKernel& kernel, double R, double s) {
   if (s >= wallReach(kernel)) return {};
-  // The centre itself is a kink (the distance to it): stay just off it.
+  // The center itself is a kink (the distance to it): stay just off it.
   const double at = std::max(s, -R * (1 - 1e-6)), step = 1e-5 * std::min(R, kernel.spacing());
   const LineSample f = halfSpace(kernel, at);
   const double ratio = ballOverHalfSpace(kernel, R, at);

@@ -29,7 +29,7 @@ struct SphereTable {
 /// `R`: radius, m, > 0. One table serves all balls of that radius.
 SphereTable makeSphereTable(const SmoothingKernel& kernel, double R);
 
-/// An axis-aligned box centred on 0 with half extents `half` (m), seen from `local` (m, in the box' frame). The product over the axes of
+/// An axis-aligned box centered on 0 with half extents `half` (m), seen from `local` (m, in the box' frame). The product over the axes of
 /// the slab's share
 ///   P_a = clamp(F(|x_a| - half_a) - F(|x_a| + half_a), 0, 1),  dP_a/dx_a = sign(x_a) (F'(|x_a| - half_a) - F'(|x_a| + half_a)).
 /// From d/2 on, a thick and wide box' face is the plane wall; a thin plate displaces what it holds. The gradient is in the box' frame;

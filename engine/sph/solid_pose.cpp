@@ -17,14 +17,14 @@ void turn(const double q[4], double sign, const double v[3], double out[3]) {
 
 SolidPose poseAt(const Solid& solid, double t) {
   SolidPose pose;
-  solidTranslation(solid, t, pose.centre);
+  solidTranslation(solid, t, pose.center);
   pose.sphere = solid.sphere.has_value();
   for (int a = 0; a < 3; ++a) {
     if (pose.sphere) {
-      pose.centre[a] += solid.sphere->center[a];
+      pose.center[a] += solid.sphere->center[a];
       pose.half[a] = solid.sphere->radius;
     } else if (solid.box) {
-      pose.centre[a] += (solid.box->min[a] + solid.box->max[a]) / 2;
+      pose.center[a] += (solid.box->min[a] + solid.box->max[a]) / 2;
       pose.half[a] = (solid.box->max[a] - solid.box->min[a]) / 2;
     }
   }
@@ -78,7 +78,7 @@ SolidPose solidPose(const Solid& solid, double t, double dt) {
 }
 
 void toSolid(const SolidPose& pose, const double x[3], double local[3]) {
-  const double offset[3] = {x[0] - pose.centre[0], x[1] - pose.centre[1], x[2] - pose.centre[2]};
+  const double offset[3] = {x[0] - pose.center[0], x[1] - pose.center[1], x[2] - pose.center[2]};
   turn(pose.rotation, -1, offset, local);
 }
 

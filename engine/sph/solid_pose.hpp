@@ -4,10 +4,10 @@
 
 namespace rill {
 
-/// A solid at an instant, in scene coordinates or relative to any origin that the caller takes off `centre`.
+/// A solid at an instant, in scene coordinates or relative to any origin that the caller takes off `center`.
 struct SolidPose {
   bool sphere = false;                ///< else a box
-  double centre[3] = {0, 0, 0};       ///< m
+  double center[3] = {0, 0, 0};       ///< m
   double half[3] = {0, 0, 0};         ///< m, half extents of a box; the radius in each of a sphere
   double rotation[4] = {0, 0, 0, 1};  ///< unit quaternion x y z w, from the solid's frame to the scene's
   double velocity[3] = {0, 0, 0};     ///< m/s
@@ -25,7 +25,7 @@ SolidPose solidPose(const Solid& solid, double t);
 /// The pose at `t + dt` with the mean velocity over [t, t + dt]: consistent with positions over a step that spans a keyframe. dt > 0.
 SolidPose solidPose(const Solid& solid, double t, double dt);
 
-/// `x` (m, in the frame of `pose.centre`) seen from the solid's frame, and back for directions.
+/// `x` (m, in the frame of `pose.center`) seen from the solid's frame, and back for directions.
 void toSolid(const SolidPose& pose, const double x[3], double local[3]);
 void fromSolid(const SolidPose& pose, const double localDirection[3], double direction[3]);
 
@@ -35,14 +35,14 @@ struct SurfacePoint {
   double normal[3] = {0, 1, 0};  ///< unit, outward
 };
 
-/// Of a ball about 0: at its very centre the normal is +y.
+/// Of a ball about 0: at its very center the normal is +y.
 SurfacePoint sphereSurface(const double local[3], double radius);
 
 /// Of a box about 0, in its frame. Outside: to the nearest point of the box, so that an edge is round. Inside: the face of least depth, the
 /// first of x, y, z among equals, the positive side where the coordinate is not negative.
 SurfacePoint boxSurface(const double local[3], const double half[3]);
 
-/// Of the solid, from `x` in the frame of `pose.centre`; the normal in that frame.
+/// Of the solid, from `x` in the frame of `pose.center`; the normal in that frame.
 SurfacePoint solidSurface(const SolidPose& pose, const double x[3]);
 
 }  // namespace rill

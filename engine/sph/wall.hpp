@@ -43,7 +43,7 @@ LineSample exactPlane(const SmoothingKernel& kernel, double s);
 /// F(s): the share of the density that a half-space at signed distance s displaces, 1 deep inside it. What solids are made of.
 ///   F(s) = G1(s) + (1/2 - G1(0)) (1 - 2s/d)^2 for 0 <= s < d/2,   G1(s) for s >= d/2,   1 - F(-s) for s < 0.
 /// Lattice sums give G1(0) = 0.486 at h = 2d (0.30 at 1.2d); the second term closes that step at s = 0 and is 0, with its slope, at d/2 and
-/// beyond, where centres are.
+/// beyond, where centers are.
 LineSample halfSpace(const SmoothingKernel& kernel, double s);
 
 /// The same sums on nodes, as the shaders interpolate them. Every odd multiple of d/2 is a node, so that a rest lattice stays exact.

@@ -14,15 +14,15 @@ Bounds fluidBounds(const Scene& scene, const ParticleSet& particles) {
   return bounds;
 }
 
-void solidBall(const Solid& solid, double centre[3], double& radius) {
+void solidBall(const Solid& solid, double center[3], double& radius) {
   radius = solid.sphere ? solid.sphere->radius : 0;
   double square = 0;
   for (int a = 0; a < 3; ++a) {
     if (solid.box) {
-      centre[a] = 0.5 * (solid.box->min[a] + solid.box->max[a]);
+      center[a] = 0.5 * (solid.box->min[a] + solid.box->max[a]);
       square += 0.25 * (solid.box->max[a] - solid.box->min[a]) * (solid.box->max[a] - solid.box->min[a]);
     } else {
-      centre[a] = solid.sphere ? solid.sphere->center[a] : 0;
+      center[a] = solid.sphere ? solid.sphere->center[a] : 0;
     }
   }
   if (solid.box) radius = std::sqrt(square);
@@ -30,11 +30,11 @@ void solidBall(const Solid& solid, double centre[3], double& radius) {
 
 void addSolids(Bounds& bounds, const Scene& scene) {
   for (const Solid& solid : scene.solids) {
-    double centre[3], radius = 0;
-    solidBall(solid, centre, radius);
-    if (solid.motion.empty()) bounds.add(centre, radius);
+    double center[3], radius = 0;
+    solidBall(solid, center, radius);
+    if (solid.motion.empty()) bounds.add(center, radius);
     for (const Keyframe& key : solid.motion) {
-      const double moved[3] = {centre[0] + key.translate[0], centre[1] + key.translate[1], centre[2] + key.translate[2]};
+      const double moved[3] = {center[0] + key.translate[0], center[1] + key.translate[1], center[2] + key.translate[2]};
       bounds.add(moved, radius);
     }
   }

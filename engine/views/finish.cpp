@@ -27,13 +27,13 @@ Expected<Finish> Finish::create(Device& device) {
   return out;
 }
 
-BufferRef Finish::addTo(Graph& graph, ImageRef colour, uint32_t width, uint32_t height) const {
+BufferRef Finish::addTo(Graph& graph, ImageRef color, uint32_t width, uint32_t height) const {
   const uint64_t pixels = uint64_t{width} * height;
   BufferRef stairs = graph.create("picture before smoothing", {pixels * 4}), picture = graph.create("picture", {pixels * 4});
   graph.pass("picture tone", [&](Pass& pass) {
-    pass.read(colour, Use::ComputeSampled);
+    pass.read(color, Use::ComputeSampled);
     stairs = pass.write(stairs, Use::ComputeWrite, true);
-    const Kernel kernel = pass.kernel(tone_, {colour, stairs});
+    const Kernel kernel = pass.kernel(tone_, {color, stairs});
     return [kernel, groups = divideUp(pixels, 64)](Commands& commands) { commands.dispatch(kernel, groups); };
   });
   graph.pass("picture edges", [&](Pass& pass) {

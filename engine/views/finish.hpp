@@ -10,8 +10,8 @@ class Finish {
   /// The device knows the shaders of engine/views.
   static Expected<Finish> create(Device& device);
 
-  /// `colour`: linear light, width x height. RGBA8 in sRGB, rows from the top.
-  BufferRef addTo(Graph& graph, ImageRef colour, uint32_t width, uint32_t height) const;
+  /// `color`: linear light, width x height. RGBA8 in sRGB, rows from the top.
+  BufferRef addTo(Graph& graph, ImageRef color, uint32_t width, uint32_t height) const;
 
  private:
   Device* device_ = nullptr;

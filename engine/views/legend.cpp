@@ -24,19 +24,19 @@ struct Canvas {
   int width, height;
 
   /// Blends a rectangle, clipped to the picture.
-  void fill(int x0, int y0, int x1, int y1, const uint8_t colour[3], double alpha) {
+  void fill(int x0, int y0, int x1, int y1, const uint8_t color[3], double alpha) {
     for (int y = std::max(y0, 0); y < std::min(y1, height); ++y) {
       for (int x = std::max(x0, 0); x < std::min(x1, width); ++x) {
         uint8_t* pixel = &rgba[4 * (static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x))];
-        for (int c = 0; c < 3; ++c) pixel[c] = static_cast<uint8_t>(std::lround(pixel[c] + alpha * (colour[c] - pixel[c])));
+        for (int c = 0; c < 3; ++c) pixel[c] = static_cast<uint8_t>(std::lround(pixel[c] + alpha * (color[c] - pixel[c])));
       }
     }
   }
 
-  void text(int x, int y, int scale, const std::string& words, const uint8_t colour[3]) {
+  void text(int x, int y, int scale, const std::string& words, const uint8_t color[3]) {
     struct Vertex {
       float x, y, z;
-      uint8_t colour[4];
+      uint8_t color[4];
     };
     std::vector<Vertex> vertices(words.size() * 24 + 64);
     std::string copy = words;
@@ -44,7 +44,7 @@ struct Canvas {
     for (int q = 0; q < quads; ++q) {
       const Vertex &a = vertices[static_cast<size_t>(4 * q)], &b = vertices[static_cast<size_t>(4 * q + 2)];
       fill(x + static_cast<int>(a.x) * scale, y + static_cast<int>(a.y) * scale, x + static_cast<int>(b.x) * scale,
-           y + static_cast<int>(b.y) * scale, colour, 1);
+           y + static_cast<int>(b.y) * scale, color, 1);
     }
   }
 };
@@ -78,7 +78,7 @@ void drawLegend(std::span<uint8_t> rgba, uint32_t width, uint32_t height, const 
   Canvas canvas{rgba, static_cast<int>(width), static_cast<int>(height)};
   const int scale = std::max(1, static_cast<int>(std::lround(height / 400.0)));
   const int line = 8 * scale, pad = 6 * scale, margin = 8 * scale, thick = 7 * scale;
-  const bool compression = legend.colour == ParticleColour::Compression;
+  const bool compression = legend.color == ParticleColor::Compression;
   const std::string title = compression ? "compression  %" : "speed  m/s";
   char caption[48] = "";
   if (legend.time_s) std::snprintf(caption, sizeof caption, "t = %.2f s", *legend.time_s);
@@ -97,9 +97,9 @@ void drawLegend(std::span<uint8_t> rgba, uint32_t width, uint32_t height, const 
   if (words <= bar) canvas.text(x + bar - textWidth(caption, scale), y, scale, caption, kInk);
   y += line + 4 * scale;
   for (int k = 0; k < bar; ++k) {
-    const Float3 c = mapColour(legend.colour, (k + 0.5) / bar);
-    const uint8_t colour[3] = {srgbByte(c.x), srgbByte(c.y), srgbByte(c.z)};
-    canvas.fill(x + k, y, x + k + 1, y + thick, colour, 1);
+    const Float3 c = mapColor(legend.color, (k + 0.5) / bar);
+    const uint8_t color[3] = {srgbByte(c.x), srgbByte(c.y), srgbByte(c.z)};
+    canvas.fill(x + k, y, x + k + 1, y + thick, color, 1);
   }
   const int frame = std::max(1, scale / 2);
   canvas.fill(x - frame, y - frame, x + bar + frame, y, kInk, 0.8);

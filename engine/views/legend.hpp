@@ -3,18 +3,18 @@
 #include <optional>
 #include <span>
 
-#include "views/colour_map.hpp"
+#include "views/color_map.hpp"
 
 namespace rill {
 
 /// What a picture's legend says.
 struct LegendDesc {
-  ParticleColour colour = ParticleColour::Speed;
+  ParticleColor color = ParticleColor::Speed;
   double max = 1;                ///< the value at the map's end: m/s, or density over rest density - 1
   std::optional<double> time_s;  ///< caption "t = 0.50 s"; none: no caption
 };
 
-/// Draws a colour bar with ticks, a title and the time into the bottom left corner of a picture: width x height RGBA8 sRGB pixels, rows
+/// Draws a color bar with ticks, a title and the time into the bottom left corner of a picture: width x height RGBA8 sRGB pixels, rows
 /// from the top. Its size follows the picture's height; a picture that is too small for it, so that it would cover the fluid, gets none.
 void drawLegend(std::span<uint8_t> rgba, uint32_t width, uint32_t height, const LegendDesc& legend);
 

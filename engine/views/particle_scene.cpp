@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "views/bounds.hpp"
-#include "views/colour_map.hpp"
+#include "views/color_map.hpp"
 
 namespace rill {
 namespace {
 
-using particle_view::kColours;
+using particle_view::kColors;
 using particle_view::SceneRecord;
 using particle_view::SolidRecord;
 
@@ -89,11 +89,11 @@ void fillLight(SceneRecord& record, const Bounds& bounds, const double origin[3]
 
 void fillSolids(ParticleScene& out, const Scene& scene) {
   for (const Solid& solid : scene.solids) {
-    double centre[3], radius = 0;
-    solidBall(solid, centre, radius);
+    double center[3], radius = 0;
+    solidBall(solid, center, radius);
     SolidRecord record;
-    const auto relative = [&](int a) { return static_cast<float>(centre[a] - out.origin[a]); };
-    record.centre = {relative(0), relative(1), relative(2), solid.sphere ? static_cast<float>(radius) : 0.0f};
+    const auto relative = [&](int a) { return static_cast<float>(center[a] - out.origin[a]); };
+    record.center = {relative(0), relative(1), relative(2), solid.sphere ? static_cast<float>(radius) : 0.0f};
     record.rotation = {static_cast<float>(solid.rotation[0]), static_cast<float>(solid.rotation[1]), static_cast<float>(solid.rotation[2]),
                        static_cast<float>(solid.rotation[3])};
     const auto half = [&](int a) { return solid.box ? static_cast<float>(0.5 * (solid.box->max[a] - solid.box->min[a])) : 0.0f; };
@@ -161,11 +161,11 @@ ParticleScene particleScene(const Scene& scene, const ParticleSet& particles) {
   fillLight(record, litBounds(scene, particles), out.origin, scene.fluid.spacing);
   fillSolids(out, scene);
   record.counts.x = static_cast<uint32_t>(out.solids.size());
-  for (uint32_t k = 0; k < kColours; ++k) {
-    const double t = k / (kColours - 1.0);
-    const Float3 speed = mapColour(ParticleColour::Speed, t), compression = mapColour(ParticleColour::Compression, t);
-    record.colours[k] = {speed.x, speed.y, speed.z, 1};
-    record.colours[kColours + k] = {compression.x, compression.y, compression.z, 1};
+  for (uint32_t k = 0; k < kColors; ++k) {
+    const double t = k / (kColors - 1.0);
+    const Float3 speed = mapColor(ParticleColor::Speed, t), compression = mapColor(ParticleColor::Compression, t);
+    record.colors[k] = {speed.x, speed.y, speed.z, 1};
+    record.colors[kColors + k] = {compression.x, compression.y, compression.z, 1};
   }
   out.speed_max = roundNicely(fallSpeed(scene, particles));
   out.compression_max = scene.solver.tolerance > 0 ? roundNicely(std::clamp(10 * scene.solver.tolerance, 0.001, 0.2)) : 0.01;

@@ -139,7 +139,7 @@ ViewPush ParticleViewImpl::pushFor(const FluidState& fluid, const CameraView& ca
   // A cell can be covered only by a sphere that is several cells wide at the usual distance.
   const double pixels = distance > 0 ? push.radius * focal / distance : 0;
   push.cell = pixels < 10 ? 2 : 4;
-  push.compression = desc.colour == ParticleColour::Compression ? 1 : 0;
+  push.compression = desc.color == ParticleColor::Compression ? 1 : 0;
   push.unlit = desc.unlit ? 1 : 0;
   const double scale = desc.scale_max > 0 ? desc.scale_max : (push.compression ? scene_.compression_max : scene_.speed_max);
   push.scale = static_cast<float>(1 / scale);
@@ -466,8 +466,8 @@ BufferRef ParticleView::addTo(Graph& graph, const FluidState& fluid, const Camer
   return impl_->addTo(graph, fluid, camera, desc, time_s);
 }
 
-double ParticleView::scaleMax(ParticleColour colour) const {
-  return colour == ParticleColour::Speed ? impl_->scene_.speed_max : impl_->scene_.compression_max;
+double ParticleView::scaleMax(ParticleColor color) const {
+  return color == ParticleColor::Speed ? impl_->scene_.speed_max : impl_->scene_.compression_max;
 }
 
 }  // namespace rill

@@ -10,7 +10,7 @@
 #include "rill/particles.hpp"
 #include "rill/scene.hpp"
 #include "views/camera.hpp"
-#include "views/colour_map.hpp"
+#include "views/color_map.hpp"
 
 namespace rill {
 
@@ -18,11 +18,11 @@ namespace rill {
 struct ParticleViewDesc {
   uint32_t width = 1280;  ///< pixels, 1 .. 8192
   uint32_t height = 720;  ///< pixels, 1 .. 8192; width x height is at most 2^25
-  ParticleColour colour = ParticleColour::Speed;
-  /// A particle's pixels have the map's colour of its value, to be read off the legend: nothing is lit or casts a shadow, and what is
-  /// around the particles is darker than any colour of a map.
+  ParticleColor color = ParticleColor::Speed;
+  /// A particle's pixels have the map's color of its value, to be read off the legend: nothing is lit or casts a shadow, and what is
+  /// around the particles is darker than any color of a map.
   bool unlit = false;
-  double scale_max = 0;  ///< value at the colour map's end (m/s, or fraction of rest density); 0: ParticleView::scaleMax(colour)
+  double scale_max = 0;  ///< value at the color map's end (m/s, or fraction of rest density); 0: ParticleView::scaleMax(color)
 };
 
 class ParticleViewImpl;
@@ -31,7 +31,7 @@ class ParticleViewImpl;
 /// Nothing depends on the order of execution: two runs on one driver give the same bytes.
 class ParticleView {
  public:
-  /// Copies the domain, the solids and the light's frame to the device. `particles` is the start: it fixes the colour scales, and its
+  /// Copies the domain, the solids and the light's frame to the device. `particles` is the start: it fixes the color scales, and its
   /// origin. Scene and particles are not kept.
   static Expected<std::unique_ptr<ParticleView>> create(Device& device, const Scene& scene, const ParticleSet& particles);
   ~ParticleView();
@@ -44,9 +44,9 @@ class ParticleView {
   /// `time_s`: simulated time, where the solids are. With no particles, the state's buffers are not looked at.
   BufferRef addTo(Graph& graph, const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc, double time_s);
 
-  /// The value at a colour map's end, fixed by the scene so that colours do not flicker: for speed, sqrt(2 g H) of the fall from the
+  /// The value at a color map's end, fixed by the scene so that colors do not flicker: for speed, sqrt(2 g H) of the fall from the
   /// fluid's top at the start to the tank's floor, for compression ten times the solver's tolerance, each rounded to a handsome number.
-  double scaleMax(ParticleColour colour) const;
+  double scaleMax(ParticleColor color) const;
 
  private:
   explicit ParticleView(std::unique_ptr<ParticleViewImpl>);

@@ -65,7 +65,7 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
   static constexpr BindingKind kPoses[] = {Storage};
   static constexpr BindingKind kEdges[] = {Uniform, Storage};
   const bool solids = !out->buffers_.host.solids.empty();
-  const std::span<const VkFormat> colour{&formats.colour, 1};
+  const std::span<const VkFormat> color{&formats.color, 1};
   struct Wanted {
     const GraphicsPipeline*& pipeline;
     GraphicsPipelineDesc desc;
@@ -75,7 +75,7 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
                                 .fragment = fragment,
                                 .bindings = bindings,
                                 .pushConstantBytes = sizeof(SurfacePush),
-                                .colours = colour,
+                                .colors = color,
                                 .depth = formats.depth,
                                 .depthCompare = VK_COMPARE_OP_GREATER,
                                 .depthWrite = true};
@@ -96,7 +96,7 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
   std::vector<Wanted> all{{out->ground_, ground}, {out->edges_, edges}, {out->edgesOverFluid_, over}};
   if (solids) {
     GraphicsPipelineDesc light = desc("views/scenery_solid_light_vertex", "views/scenery_solid_light_fragment", kPoses);
-    light.colours = {};
+    light.colors = {};
     light.depth = kShadowFormat;
     light.depthCompare = VK_COMPARE_OP_LESS;
     all.push_back({out->solid_, desc("views/scenery_solid_vertex",
@@ -184,7 +184,7 @@ SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets 
   };
   graph.pass("scenery ground", [&](Pass& pass) {
     readLight(pass);
-    targets.colour = pass.write(targets.colour, Use::ColourTarget, Load::Discard);
+    targets.color = pass.write(targets.color, Use::ColorTarget, Load::Discard);
     targets.depth = pass.write(targets.depth, Use::DepthTarget, Load::Discard);
     std::vector<ResourceRef> bound{scene, record, shadow};
     if (solids) bound.push_back(lightDepth);
@@ -199,7 +199,7 @@ SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets 
     graph.pass("scenery solids", [&](Pass& pass) {
       readLight(pass);
       pass.read(poses, Use::DrawRead);
-      targets.colour = pass.write(targets.colour, Use::ColourTarget);
+      targets.color = pass.write(targets.color, Use::ColorTarget);
       targets.depth = pass.write(targets.depth, Use::DepthTarget);
       const Kernel kernel = pass.kernel(solid_, {scene, record, shadow, lightDepth, poses});
       return [kernel, camera, count = static_cast<uint32_t>(buffers_.host.solids.size())](Commands& commands) {
@@ -210,7 +210,7 @@ SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets 
   if (!hasEdges()) return targets;
   graph.pass("scenery edges", [&](Pass& pass) {
     pass.read(scene, Use::DrawUniform);
-    targets.colour = pass.write(targets.colour, Use::ColourTarget);
+    targets.color = pass.write(targets.color, Use::ColorTarget);
     targets.depth = pass.write(targets.depth, Use::DepthTarget);
     const Kernel kernel = pass.kernel(edges_, {scene});
     return [kernel, camera](Commands& commands) { commands.draw(kernel, kEdgeVertices, kEdgeCount, camera); };
@@ -224,7 +224,7 @@ SceneTargets Scenery::addEdgesOverFluid(Graph& graph, SceneTargets targets, cons
   graph.pass("scenery edges over fluid", [&](Pass& pass) {
     pass.read(scene, Use::DrawUniform);
     pass.read(pixels, Use::DrawRead);
-    targets.colour = pass.write(targets.colour, Use::ColourTarget);
+    targets.color = pass.write(targets.color, Use::ColorTarget);
     targets.depth = pass.write(targets.depth, Use::DepthTarget);
     const Kernel kernel = pass.kernel(edgesOverFluid_, {scene, pixels});
     return [kernel, camera = viewPush(view, buffers_.host.origin)](Commands& commands) {

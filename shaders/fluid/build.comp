@@ -1,6 +1,6 @@
 #version 460
-// The neighbour list of the sorted particles (those nearer than support plus skin), and the sorted arrays copied back in place.
-// A particle's true neighbour count is kept: one with more than the list holds walks the grid in every pass, and is counted.
+// The neighbor list of the sorted particles (those nearer than support plus skin), and the sorted arrays copied back in place.
+// A particle's true neighbor count is kept: one with more than the list holds walks the grid in every pass, and is counted.
 // Gathers from the sorted predictions.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
@@ -20,7 +20,7 @@ layout(constant_id = 3) const uint NEAR = 0;
 layout(push_constant) uniform Push { ChunkPush push; };
 READ_FLOAT4(2, particle)
 layout(std430, binding = 3) writeonly buffer ListBlock { uvec4 list[]; };
-layout(std430, binding = 4) writeonly buffer CountBlock { uint neighbourCount[]; };
+layout(std430, binding = 4) writeonly buffer CountBlock { uint neighborCount[]; };
 layout(std430, binding = 5) writeonly buffer KeyBlock { uint cell[]; };
 READ_UINT(6, cellStart)
 layout(std430, binding = 7) buffer SumsBlock { FluidSums sums; };
@@ -55,7 +55,7 @@ void listNear(uint i, vec3 x) {
   else if (walls == 1u) nearList[atomicAdd(sums.planeCount, 1u)] = i;
 }
 
-// Neighbours are stored four at a time: lavapipe stores lane by lane, and the more that a store holds, the fewer lanes wait for each other.
+// Neighbors are stored four at a time: lavapipe stores lane by lane, and the more that a store holds, the fewer lanes wait for each other.
 uvec4 held;
 uint holds = 0u;
 uint count = 0u;
@@ -69,7 +69,7 @@ void store() {
 }
 
 // Particles base + k for the bits k of `mask`.
-void listNeighbours(uint base, uint mask) {
+void listNeighbors(uint base, uint mask) {
   LOOP_WHILE (mask != 0u) {
     for (uint k = 0u; k < 4u; ++k) {
       if (holds != k || mask == 0u) continue;
@@ -108,7 +108,7 @@ void candidates(uint first, uint end) {
   if (self - first < kWindow) mask &= ~(1u << (self - first));
   twins &= mask;
   if (twins != 0u) twin = first + findMSB(twins);
-  if (LIST_CAPACITY != 0u) listNeighbours(first, mask);
+  if (LIST_CAPACITY != 0u) listNeighbors(first, mask);
 }
 #include "fluid/walk.glsl"
 
@@ -131,7 +131,7 @@ void main() {
     uint all = count + holds;
     for (uint k = 1u; k < 4u; ++k) held[k] = holds <= k ? params.count : held[k];
     if (holds != 0u) store();
-    neighbourCount[i] = all;
+    neighborCount[i] = all;
     if (all > LIST_CAPACITY) atomicAdd(sums.overflow, 1u);
   }
 

@@ -1,5 +1,5 @@
 #version 460
-// Solids at the end of a substep: centres are kept half a spacing off their surfaces, then contact with restitution and Coulomb friction relative to
+// Solids at the end of a substep: centers are kept half a spacing off their surfaces, then contact with restitution and Coulomb friction relative to
 // the solid. A solid's impulse is what its own displaced density and the projection gave, so that friction feels the weight of the column above.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"

@@ -28,7 +28,7 @@ void visit(vec4 particle, vec4 companion) {
   vec3 r = here - particle.xyz;
   rise += (companion.w - own.w) * gradientShape(sqrt(dot(r, r))) * r;
 }
-#include "fluid/neighbours.glsl"
+#include "fluid/neighbors.glsl"
 
 void main() {
   uint local = clusterInvocation();
@@ -37,7 +37,7 @@ void main() {
   if (!there) i = params.count;
   here = particleAt(i).xyz;
   own = curlAt(i);
-  visitNeighbours(i, local, there);
+  visitNeighbors(i, local, there);
   if (!there) return;
   rise *= params.gradientScale;
   // Below a thousandth of the spin a smoothing length its change is noise.

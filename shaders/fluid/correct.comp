@@ -1,5 +1,5 @@
 #version 460
-// Ends a substep in one loop over the neighbours: position correction (Macklin and Mueller 2013, equations 12 to 14), walls, velocity, and the
+// Ends a substep in one loop over the neighbors: position correction (Macklin and Mueller 2013, equations 12 to 14), walls, velocity, and the
 // prediction of the next substep with the warm start's push. Gathers from `work`: the prediction, and the two multipliers as halves.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
@@ -50,7 +50,7 @@ void visit(vec4 particle) {
   moved += both.x * gradient;
   if (WARM != 0u) pushed += both.y * gradient;
 }
-#include "fluid/neighbours.glsl"
+#include "fluid/neighbors.glsl"
 
 // What the prediction moved by. Not as a difference of positions, whose rounding over a step is a random walk of the velocity, where nothing but
 // the step made the prediction.
@@ -69,7 +69,7 @@ void main() {
   vec4 particle = particleAt(i);
   here = particle.xyz;
   own = multipliers(particle);
-  visitNeighbours(i, local, there);
+  visitNeighbors(i, local, there);
   if (!there) return;
   moved *= unit * params.gradientScale;
   pushed *= unit * params.gradientScale;
@@ -86,8 +86,8 @@ void main() {
   // A correction parts particles whatever it takes, but gives no more speed than what can have brought them together: see ARCHITECTURE.md, "Overlaps".
   vec3 gained = to - here;
   float gain = sqrt(dot(gained, gained));
-  float mostGain = control.step * (clamp(0.5 * control.speed, params.pushLow, params.pushHigh) + 4.0 * control.step * sqrt(dot(gravity(), gravity())));
-  float kept = min(1.0, mostGain / max(gain, 1.0e-20));
+  float maxGain = control.step * (clamp(0.5 * control.speed, params.pushLow, params.pushHigh) + 4.0 * control.step * sqrt(dot(gravity(), gravity())));
+  float kept = min(1.0, maxGain / max(gain, 1.0e-20));
   vec3 way = (0.5 + 0.5 * kept) * plannedWay(from, before, pushedBy.xyz) + gained * kept;  // who overlaps by more has come too fast: that cools, too
   // No more than twice what cfl allows in a substep: the next step shrinks to follow a particle that wants to go faster.
   float most = max(2.0 * params.cfl, 0.02) * params.spacing;

@@ -24,7 +24,7 @@ void visit(vec4 particle, vec4 companion) {
   vec3 r = here - particle.xyz;
   turning += cross(gradientShape(sqrt(dot(r, r))) * r, companion.xyz - own);
 }
-#include "fluid/neighbours.glsl"
+#include "fluid/neighbors.glsl"
 
 void main() {
   uint local = clusterInvocation();
@@ -33,9 +33,9 @@ void main() {
   if (!there) i = params.count;
   here = particleAt(i).xyz;
   own = velocityAt(i).xyz;
-  visitNeighbours(i, local, there);
+  visitNeighbors(i, local, there);
   if (!there) return;
   turning *= params.gradientScale;
   curl[i] = vec4(turning, length(turning));
-  if (i == 0u) curl[params.count] = vec4(0.0);  // the dummy neighbour, whose weight of 0 would not do away with a NaN
+  if (i == 0u) curl[params.count] = vec4(0.0);  // the dummy neighbor, whose weight of 0 would not do away with a NaN
 }

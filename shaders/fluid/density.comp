@@ -36,7 +36,7 @@ void visit(vec4 particle) {
   gradientSum += gradient * r;
   gradientSquares += gradient * gradient * squared;
 }
-#include "fluid/neighbours.glsl"
+#include "fluid/neighbors.glsl"
 
 void main() {
   uint local = clusterInvocation();
@@ -44,7 +44,7 @@ void main() {
   bool there = i < push.last;
   if (!there) i = params.count;
   here = particleAt(i).xyz;
-  visitNeighbours(i, local, there);
+  visitNeighbors(i, local, there);
   if (!there) return;
   rho = params.valueScale * (rho + kernelShape(0.0));
   gradientSum *= params.gradientScale;

@@ -27,7 +27,7 @@ void visit(vec4 particle) {
   vec3 r = here - particle.xyz;
   moved += (own + multiplier(particle)) * gradientShape(sqrt(dot(r, r))) * r;
 }
-#include "fluid/neighbours.glsl"
+#include "fluid/neighbors.glsl"
 
 void main() {
   uint local = clusterInvocation();
@@ -37,7 +37,7 @@ void main() {
   vec4 particle = particleAt(i);
   here = particle.xyz;
   own = multiplier(particle);
-  visitNeighbours(i, local, there);
+  visitNeighbors(i, local, there);
   if (!there) return;
   moved *= unit * params.gradientScale;
   if (NEAR != 0u) moved = alongWallsAt(i) * moved + unit * own * displacedAt(i).xyz;

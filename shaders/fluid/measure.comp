@@ -1,6 +1,6 @@
 #version 460
 // Density at the positions of the present instant (walls included), and histograms of its error for the percentiles. Walks a grid of its own, made of
-// the positions: no neighbour that the solver's list has missed is missed here.
+// the positions: no neighbor that the solver's list has missed is missed here.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
@@ -59,5 +59,5 @@ void main() {
   velocity[i].w = rho;
   float error = rho - 1.0;
   if (error > 0.0) atomicAdd(histogram[binOf(error)], 1u);
-  if (inside > params.fullNeighbours) atomicAdd(histogram[(error > 0.0 ? kMeasureBins : 2u * kMeasureBins) + binOf(abs(error))], 1u);
+  if (inside > params.fullNeighbors) atomicAdd(histogram[(error > 0.0 ? kMeasureBins : 2u * kMeasureBins) + binOf(abs(error))], 1u);
 }

@@ -3,7 +3,7 @@
 #define RILL_NEAR_GLSL
 #include "shared/arrays.glsl"
 #define NEAR_DISPLACED(i) (2u * (i))         // density that they displace: gradient; w: value
-#define NEAR_ALONG(i) (2u * (i) + 1u)        // by how much more than the neighbours' push along each axis must be: 0 for no more
+#define NEAR_ALONG(i) (2u * (i) + 1u)        // by how much more than the neighbors' push along each axis must be: 0 for no more
 #define READ_NEAR(BINDING) \
   READ_FLOAT4(BINDING, nearSample) \
   vec4 displacedAt(uint i) { return nearSampleAt(NEAR_DISPLACED(i)); } \

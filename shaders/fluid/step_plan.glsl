@@ -36,7 +36,7 @@ void planBlock(inout FluidControl c, bool blockStart) {
   c.parting = 0.0;
   c.blockTime += c.step;
   if (!blockStart) return;
-  c.calming = min(params.calmingRate * c.calmness * c.blockTime, kMostCalming);
+  c.calming = min(params.calmingRate * c.calmness * c.blockTime, kMaxCalming);
   c.parting = min(params.tensileRate * c.blockTime, params.tensileMost / c.blockTime) * c.step;
   c.blockTime = 0.0;
 }

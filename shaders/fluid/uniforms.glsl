@@ -6,7 +6,7 @@
 layout(binding = 0) uniform ParamsBlock { FluidParams params; };
 layout(binding = 1) uniform ControlBlock { FluidControl control; };
 
-// Keeps a centre half a spacing off the domain's walls. NaN goes through, and so does a parked particle.
+// Keeps a center half a spacing off the domain's walls. NaN goes through, and so does a parked particle.
 vec3 insideWalls(vec3 x) {
   if (x.x == kParked) return x;
   vec3 low = vec3(params.lowX, params.lowY, params.lowZ) + params.margin;

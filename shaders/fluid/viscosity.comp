@@ -29,7 +29,7 @@ void visit(vec4 particle, vec4 companion) {
   vec3 r = here - particle.xyz;
   change += kernelShape(sqrt(dot(r, r))) * (companion.xyz - own.xyz);
 }
-#include "fluid/neighbours.glsl"
+#include "fluid/neighbors.glsl"
 
 void main() {
   uint local = clusterInvocation();
@@ -38,11 +38,11 @@ void main() {
   if (!there) i = params.count;
   here = particleAt(i).xyz;
   own = velocityAt(i);
-  visitNeighbours(i, local, there);
+  visitNeighbors(i, local, there);
   if (!there) return;
   float coefficient = push.share > 0.0 ? params.viscosityRate * control.step * push.share : control.calming;
   vec3 v = own.xyz + coefficient * params.valueScale * change;
   smoothed[i] = vec4(v, own.w);
-  if (i == 0u) smoothed[params.count] = vec4(0.0);  // the dummy neighbour, whose weight of 0 would not do away with a NaN
+  if (i == 0u) smoothed[params.count] = vec4(0.0);  // the dummy neighbor, whose weight of 0 would not do away with a NaN
   prediction[i] = vec4(insideWalls(predicted(positionAt(i).xyz, v, KEPT_PUSH(pushAwayAt(i)))), 0.0);
 }

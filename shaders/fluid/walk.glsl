@@ -1,5 +1,5 @@
 // Walks the grid around a cluster. Before it includes this the shader binds `sums` and makes cellStartAt(), the starts of the cells that the particles were sorted by, and defines:
-//   void takeTurn(bool mine)               the lanes whose neighbours come next: they are in one row of cells
+//   void takeTurn(bool mine)               the lanes whose neighbors come next: they are in one row of cells
 //   void candidates(uint first, uint end)  particles of the sorted arrays, 1 to kWindow of them; all lanes of the cluster are here
 #ifndef RILL_WALK_GLSL
 #define RILL_WALK_GLSL
@@ -30,7 +30,7 @@ void rowRange(float low, float high, vec2 row, vec4 gaps, float reach, uint side
   end = cellStartAt(base + min(uint(part == 0u ? past : past - gridSize.x), size));
 }
 
-// `boxLow` to `boxHigh`: a box in one cell, in cells, that the lane's particle was in when the cells were sorted; `waits`: whether the lane wants neighbours.
+// `boxLow` to `boxHigh`: a box in one cell, in cells, that the lane's particle was in when the cells were sorted; `waits`: whether the lane wants neighbors.
 // `reach` (m): at most a cell's edge in y.
 void walkGrid(vec3 boxLow, vec3 boxHigh, bool waits, float reach) {
   vec2 cell = floor(boxLow.yz);
@@ -44,7 +44,7 @@ void walkGrid(vec3 boxLow, vec3 boxHigh, bool waits, float reach) {
     takeTurn(mine);
 
     // Nine rows of cells, in two parts where the grid may wrap: every lane looks one up, then all go through them together. A row's parts follow each other,
-    // so that the order in which a particle meets its neighbours does not depend on who is in its cluster.
+    // so that the order in which a particle meets its neighbors does not depend on who is in its cluster.
     vec4 gaps = vec4(low.yz - row, row + 1.0 - high.yz) / inverseCell.yzyz;
     float first = floor(low.x) - float(kCellsPerReach) - 1.0, last = floor(high.x) + float(kCellsPerReach) + 1.0;
     uint parts = wrapped(vec3(first, row)).x + (last - first) >= gridSize.x ? 2u : 1u;

@@ -135,7 +135,7 @@ vec4 solidSample(SolidRecord s, vec3 x) {
 }
 
 void store(uint i, vec4 displaced, vec3 beside) {
-  beside = min(beside, vec3(kMostBeside));
+  beside = min(beside, vec3(kMaxBeside));
   nearSample[NEAR_DISPLACED(i)] = displaced;
   nearSample[NEAR_ALONG(i)] = vec4(beside / (1.0 - beside), 0.0);
 }

@@ -8,7 +8,7 @@ layout(local_size_x = kSurfaceGroup) in;
 layout(std430, set = 0, binding = 0) readonly buffer Surface { uvec2 surface[]; };
 layout(std430, set = 0, binding = 1) readonly buffer Thickness { uint thickness[]; };
 layout(std430, set = 0, binding = 2) writeonly buffer Picture { uint picture[]; };
-layout(constant_id = 0) const uint kWhat = 0u;  // 0: the normal in the world, n / 2 + 1/2; 1: depth, 2: thickness, grey from 0 to `full`
+layout(constant_id = 0) const uint kWhat = 0u;  // 0: the normal in the world, n / 2 + 1/2; 1: depth, 2: thickness, gray from 0 to `full`
 
 uint bytes(vec3 c) {
   const uvec3 b = uvec3(clamp(c, 0.0, 1.0) * 255.0 + 0.5);

@@ -8,11 +8,11 @@ layout(std140, set = 0, binding = 0) uniform Look { LookRecord look; };
 #include "render/sky.glsl"
 layout(std430, set = 0, binding = 2) readonly buffer Surface { uvec2 surface[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Thickness { uint thickness[]; };
-layout(std430, set = 0, binding = 4) readonly buffer SceneColour { uvec2 scene_colour[]; };
+layout(std430, set = 0, binding = 4) readonly buffer SceneColor { uvec2 scene_color[]; };
 layout(std430, set = 0, binding = 5) readonly buffer SceneDepth { float scene_depth[]; };
 layout(std430, set = 0, binding = 6) readonly buffer Faces { uint faces[]; };  // mean normal, a sample that holds fluid
 layout(std430, set = 0, binding = 7) readonly buffer Samples { uvec2 samples[]; };  // depth, normal
-layout(location = 0) out vec4 colour;
+layout(location = 0) out vec4 color;
 #include "render/surface_mean.glsl"
 
 const float kFarthest = 1e4;    // spacings that a ray is followed
@@ -27,7 +27,7 @@ const vec2 kPast = vec2(0.5, 0.9);  // cosines between the line of sight and wha
 const vec3 kSunlight = vec3(1.0, 0.95, 0.88);
 
 vec3 sceneAt(ivec2 pixel) {
-  const uvec2 packed = scene_colour[uint(pixel.y) * view.width + uint(pixel.x)];
+  const uvec2 packed = scene_color[uint(pixel.y) * view.width + uint(pixel.x)];
   return vec3(unpackHalf2x16(packed.x), unpackHalf2x16(packed.y).x);
 }
 
@@ -67,7 +67,7 @@ Around facesAround(vec2 middle, float z, vec3 normal, vec3 sight) {
   const vec2 at = sampleOf(middle);
   const ivec2 base = ivec2(floor(at));
   const vec2 part = at - vec2(base);
-  const float change = changeOf(spacingAt(z), metresAPixel(z) * float(view.step), normal, sight);
+  const float change = changeOf(spacingAt(z), metersAPixel(z) * float(view.step), normal, sight);
   vec3 sum = vec3(0.0);
   float lengths = 0.0, weights = 0.0;
   for (int k = 0; k < 4; ++k) {
@@ -85,7 +85,7 @@ Around facesAround(vec2 middle, float z, vec3 normal, vec3 sight) {
   return Around(size > 1e-4 ? sum / size : normal, weights > 1e-4 ? lengths / weights : kDrop.x);
 }
 
-// Of unpolarised light that meets the surface at this cosine (Fresnel).
+// Of unpolarized light that meets the surface at this cosine (Fresnel).
 float fresnel(float cosine, float index) {
   const float sine = sqrt(max(1.0 - cosine * cosine, 0.0)) / index;
   const float inner = sqrt(max(1.0 - sine * sine, 0.0));
@@ -135,7 +135,7 @@ vec3 seenThrough(ivec2 pixel, vec3 point, vec3 sight, Around around, vec3 scatte
 
 // A face seen nearly edge on that mirrors no sky mirrors what stands behind it.
 vec3 mirrorOf(ivec2 pixel, vec3 sight, vec3 mirrored) {
-  const vec3 sky = skyColour(mirrored, look.light.xyz);
+  const vec3 sky = skyColor(mirrored, look.light.xyz);
   const float past = smoothstep(kPast.x, kPast.y, dot(mirrored, sight)) * (1.0 - skyShare(mirrored));
   if (past <= 0.0) return sky;
   return mix(sky, sceneAt(pixel) * exp(-look.absorption.rgb * thicknessAt(vec2(pixel) + 0.5)), past);
@@ -163,7 +163,7 @@ void main() {
   vec3 body, mirror;
   if (look.scatter.w > 0.0) {
     body = look.scatter.rgb * (ambient + kSunlight * lit);
-    mirror = skyColour(mirrored, sun);
+    mirror = skyColor(mirrored, sun);
   } else {
     const Around around = facesAround(vec2(pixel) + 0.5, z, normal, sight);
     // Spray would glitter pixel by pixel. A straight silhouette mirrors in full.
@@ -173,6 +173,6 @@ void main() {
     mirror = mirrorOf(pixel, world_sight, mirrored);
   }
   const vec3 fluid = mix(body, mirror, reflected) + vec3(1.0, 0.95, 0.86) * (reflected * highlight);
-  colour = vec4(mix(sceneAt(pixel), fluid, pixelCoverage(own)), 1.0);
+  color = vec4(mix(sceneAt(pixel), fluid, pixelCoverage(own)), 1.0);
   gl_FragDepth = targetDepth(z);
 }

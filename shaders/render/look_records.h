@@ -1,4 +1,4 @@
-// How a fluid looks, as shaders read it. Colours are linear RGB; directions are in the world.
+// How a fluid looks, as shaders read it. Colors are linear RGB; directions are in the world.
 #ifndef RILL_RENDER_LOOK_RECORDS_H
 #define RILL_RENDER_LOOK_RECORDS_H
 

@@ -9,7 +9,7 @@ vec3 environmentTexel(ivec2 at, ivec2 size) {
 }
 
 // Rows from straight up to straight down, the middle column towards -z; between four texels, around the back, too.
-vec3 skyColour(vec3 direction, vec3 sun) {
+vec3 skyColor(vec3 direction, vec3 sun) {
   const ivec2 size = ivec2(look.above.w, look.below.w);
   const vec2 flat_on = dot(direction.xz, direction.xz) > 1e-20 ? direction.xz : vec2(0.0, -1.0);
   const vec2 turn = vec2(atan(flat_on.x, -flat_on.y) * 0.15915494 + 0.5, acos(clamp(direction.y, -1.0, 1.0)) * 0.31830989);
@@ -34,7 +34,7 @@ const vec3 kGround = vec3(0.09, 0.13, 0.16);
 
 float skyShare(vec3 direction) { return smoothstep(-0.08, 0.04, direction.y); }  // the rest is ground
 
-vec3 skyColour(vec3 direction, vec3 sun) {
+vec3 skyColor(vec3 direction, vec3 sun) {
   const float up = direction.y;
   const vec3 above = mix(kHorizon, kZenith, pow(clamp(up, 0.0, 1.0), 0.55));
   const vec3 base = mix(kGround, above, skyShare(direction));

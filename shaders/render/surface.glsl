@@ -47,19 +47,19 @@ vec2 pixelOfAxis(vec2 axis) {
   return (axis / vec2(view.scale[0], view.scale[1]) + vec2(view.shift[0], view.shift[1]) + 1.0) * 0.5 * pictureSize();
 }
 vec2 pixelOf(vec3 p) { return pixelOfAxis(p.xy / widening(p.z)); }
-float metresAPixel(float z) { return abs(view.scale[1]) * 2.0 / float(view.height) * widening(z); }
+float metersAPixel(float z) { return abs(view.scale[1]) * 2.0 / float(view.height) * widening(z); }
 
 // A pixel's ray: from + z * along is the point at depth z.
 vec3 rayFrom(vec2 axis) { return view.perspective > 0.0 ? vec3(0.0) : vec3(axis, 0.0); }
 vec3 rayAlong(vec2 axis) { return view.perspective > 0.0 ? vec3(axis, 1.0) : vec3(0.0, 0.0, 1.0); }
 
 // Depth of the near side of a sphere along a ray, or of the near plane where that cuts it; negative where it misses or lies before the near plane. Measured from the ray's
-// nearest point to the centre, so that a small sphere far away keeps its precision.
-float sphereDepth(vec3 centre, float radius, vec2 axis) {
+// nearest point to the center, so that a small sphere far away keeps its precision.
+float sphereDepth(vec3 center, float radius, vec2 axis) {
   const vec3 from = rayFrom(axis), along = rayAlong(axis);
   const float inverse = 1.0 / dot(along, along);
-  const float middle = dot(centre - from, along) * inverse;
-  const vec3 miss = centre - from - middle * along;
+  const float middle = dot(center - from, along) * inverse;
+  const vec3 miss = center - from - middle * along;
   const float inside = radius * radius - dot(miss, miss), half_chord = sqrt(max(inside, 0.0) * inverse), nearest = nearestDrawn();
   return inside > 0.0 && middle + half_chord > nearest ? max(middle - half_chord, nearest) : -1.0;
 }
@@ -73,41 +73,41 @@ float raySquare(vec3 point, vec2 axis) {
 
 // Between which axes a sphere is seen that the near plane cuts: on each the tangents that touch it beyond that plane, and the ends of the plane's own section
 // (Mara and McGuire 2013).
-void cutExtent(vec3 centre, float radius, out vec2 low, out vec2 high) {
-  const vec2 from_eye = centre.xy * centre.xy + centre.z * centre.z, tangent = sqrt(max(from_eye - radius * radius, 0.0));
-  const vec2 high_z = tangent * centre.z - centre.xy * radius, low_z = tangent * centre.z + centre.xy * radius;
+void cutExtent(vec3 center, float radius, out vec2 low, out vec2 high) {
+  const vec2 from_eye = center.xy * center.xy + center.z * center.z, tangent = sqrt(max(from_eye - radius * radius, 0.0));
+  const vec2 high_z = tangent * center.z - center.xy * radius, low_z = tangent * center.z + center.xy * radius;
   const vec2 beyond = view.near_depth * from_eye;  // where a tangent touches, its depth is one of those times tangent / from_eye
-  const float off = view.near_depth - centre.z, section = sqrt(max(radius * radius - off * off, 0.0));
-  high = (centre.xy + section) / view.near_depth;
-  low = (centre.xy - section) / view.near_depth;
+  const float off = view.near_depth - center.z, section = sqrt(max(radius * radius - off * off, 0.0));
+  high = (center.xy + section) / view.near_depth;
+  low = (center.xy - section) / view.near_depth;
   for (int k = 0; k < 2; ++k) {
-    if (tangent[k] * high_z[k] > beyond[k]) high[k] = max(high[k], (tangent[k] * centre[k] + centre.z * radius) / high_z[k]);
-    if (tangent[k] * low_z[k] > beyond[k]) low[k] = min(low[k], (tangent[k] * centre[k] - centre.z * radius) / low_z[k]);
+    if (tangent[k] * high_z[k] > beyond[k]) high[k] = max(high[k], (tangent[k] * center[k] + center.z * radius) / high_z[k]);
+    if (tangent[k] * low_z[k] > beyond[k]) low[k] = min(low[k], (tangent[k] * center[k] - center.z * radius) / low_z[k]);
   }
 }
 
 // Pixels between which a sphere is seen.
-vec4 sphereExtent(vec3 centre, float radius) {
-  vec2 low = centre.xy - radius, high = centre.xy + radius;
-  if (view.perspective > 0.0 && centre.z - radius <= view.near_depth) {
-    cutExtent(centre, radius, low, high);
+vec4 sphereExtent(vec3 center, float radius) {
+  vec2 low = center.xy - radius, high = center.xy + radius;
+  if (view.perspective > 0.0 && center.z - radius <= view.near_depth) {
+    cutExtent(center, radius, low, high);
   } else if (view.perspective > 0.0) {
-    const float square = (centre.z - radius) * (centre.z + radius);
-    const vec2 spread = radius * sqrt(centre.xy * centre.xy + square);
-    low = (centre.xy * centre.z - spread) / square;
-    high = (centre.xy * centre.z + spread) / square;
+    const float square = (center.z - radius) * (center.z + radius);
+    const vec2 spread = radius * sqrt(center.xy * center.xy + square);
+    low = (center.xy * center.z - spread) / square;
+    high = (center.xy * center.z + spread) / square;
   }
   const vec2 a = pixelOfAxis(low), b = pixelOfAxis(high);
   return vec4(min(a, b), max(a, b));
 }
 
 // Beyond the near plane and inside the picture with this margin (pixels), as a part at least.
-bool shownWithin(vec3 centre, float radius, float margin) {
-  if (!(centre.z + radius > nearestDrawn())) return false;
-  const vec4 extent = sphereExtent(centre, radius);
+bool shownWithin(vec3 center, float radius, float margin) {
+  if (!(center.z + radius > nearestDrawn())) return false;
+  const vec4 extent = sphereExtent(center, radius);
   return all(greaterThanEqual(extent.zw, vec2(-margin))) && all(lessThanEqual(extent.xy, pictureSize() + margin));
 }
-bool shown(vec3 centre, float radius) { return shownWithin(centre, radius, float(view.margin * view.step)); }
+bool shown(vec3 center, float radius) { return shownWithin(center, radius, float(view.margin * view.step)); }
 
 // Samples: one a square of view.step pixels, at its middle, the first ones in the margin.
 uvec2 sampleGrid() { return (uvec2(view.width, view.height) + view.step - 1u) / view.step + 2u * view.margin; }
@@ -115,15 +115,15 @@ vec2 samplePixel(ivec2 at) { return (vec2(at - int(view.margin)) + 0.5) * float(
 // Where among the samples a pixel lies; whole numbers are samples.
 vec2 sampleOf(vec2 pixel) { return pixel / float(view.step) - 0.5 + float(view.margin); }
 // First and last sample whose middle a sphere may cover, both included; empty where last < first.
-ivec4 sampleRect(vec3 centre, float radius) {
-  const vec4 pixels = clamp(sphereExtent(centre, radius), vec4(-1e6), vec4(1e6));
+ivec4 sampleRect(vec3 center, float radius) {
+  const vec4 pixels = clamp(sphereExtent(center, radius), vec4(-1e6), vec4(1e6));
   const vec4 extent = vec4(sampleOf(pixels.xy), sampleOf(pixels.zw));
   return ivec4(max(ivec2(ceil(extent.xy)), ivec2(0)), min(ivec2(floor(extent.zw)), ivec2(sampleGrid()) - 1));
 }
 
 // Where particles are smaller than samples, spheres and lengths are those of a sample: far away the fluid is a coarser one.
-float hardRadius(float z) { return max(view.radius, 0.71 * metresAPixel(z) * float(view.step)); }
-float spacingAt(float z) { return max(view.spacing, 1.2 * metresAPixel(z) * float(view.step)); }
+float hardRadius(float z) { return max(view.radius, 0.71 * metersAPixel(z) * float(view.step)); }
+float spacingAt(float z) { return max(view.spacing, 1.2 * metersAPixel(z) * float(view.step)); }
 
 // The screen grid: cells of kCellSamples samples a side; what lies beyond the picture counts for the nearest cell.
 uvec2 cellGrid() { return (sampleGrid() + kCellSamples - 1u) / kCellSamples; }

@@ -54,7 +54,7 @@ Blend lookFrom(vec2 axis, float depth) {
       slope += w * dot(along, n);
       normal += w * n;
       // Where the surface is seen edge on, its particles crowd before the eye.
-      if (within > 0.0) cover += coverOfCentre(centreAt(j).xyz, axis, cover_inverse) * max(abs(dot(n, sight)), kCoverEdgeOn);
+      if (within > 0.0) cover += coverOfCenter(centerAt(j).xyz, axis, cover_inverse) * max(abs(dot(n, sight)), kCoverEdgeOn);
       ++j;
     } LOOP_END(j < row.y);
     ++y;

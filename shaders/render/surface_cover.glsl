@@ -1,4 +1,4 @@
-// How much of the pixel around a ray is fluid near a depth, from the centres alone. Needs surface_arrays.glsl.
+// How much of the pixel around a ray is fluid near a depth, from the centers alone. Needs surface_arrays.glsl.
 #include "render/surface_walk.glsl"
 #include "render/surface_edge.glsl"
 
@@ -12,9 +12,9 @@ float coverOf(vec2 axis, float depth) {
   for (int y = range.first.y; y <= range.last.y; ++y) {
     const uvec2 row = rowOf(range, y);
     for (uint j = row.x; j < row.y; ++j) {
-      const vec3 at = centreAt(j).xyz;
+      const vec3 at = centerAt(j).xyz;
       if (abs(at.z - depth) > kCoverDepth * spacing) continue;
-      cover += coverOfCentre(at, axis, inverse);
+      cover += coverOfCenter(at, axis, inverse);
     }
   }
   return coverageAt(cover - kCoverBare, depth);

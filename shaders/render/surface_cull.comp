@@ -9,14 +9,14 @@ layout(std430, set = 0, binding = 1) readonly buffer Occluders { uint occluders[
 layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 3) writeonly buffer Survivors { uint survivors[]; };
 
-bool hidden(vec3 centre, float radius) {
+bool hidden(vec3 center, float radius) {
   const float cell = float(kOccluderSamples);
   const ivec2 cells = ivec2((sampleGrid() + kOccluderSamples - 1u) / kOccluderSamples);
-  const vec4 pixels = clamp(sphereExtent(centre, radius), vec4(-1e6), vec4(1e6));
+  const vec4 pixels = clamp(sphereExtent(center, radius), vec4(-1e6), vec4(1e6));
   const vec4 extent = (vec4(sampleOf(pixels.xy), sampleOf(pixels.zw)) + 0.5) / cell;
   const ivec2 first = clamp(ivec2(floor(extent.xy)), ivec2(0), cells - 1), last = clamp(ivec2(floor(extent.zw)), ivec2(0), cells - 1);
-  if (any(greaterThan(last - first, ivec2(int(kMostCells))))) return false;
-  const uint bits = floatBitsToUint(max(centre.z - radius, view.near_depth));
+  if (any(greaterThan(last - first, ivec2(int(kMaxCells))))) return false;
+  const uint bits = floatBitsToUint(max(center.z - radius, view.near_depth));
   for (int y = first.y; y <= last.y; ++y)
     for (int x = first.x; x <= last.x; ++x)
       if (occluders[uint(y * cells.x + x)] >= bits) return false;
@@ -26,8 +26,8 @@ bool hidden(vec3 centre, float radius) {
 void main() {
   const uint i = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
   if (i >= view.count || !drawable(position[i].xyz)) return;
-  const vec3 centre = viewPoint(position[i].xyz);
-  const float radius = hardRadius(centre.z);
-  if (!shown(centre, radius) || hidden(centre, radius)) return;
+  const vec3 center = viewPoint(position[i].xyz);
+  const float radius = hardRadius(center.z);
+  if (!shown(center, radius) || hidden(center, radius)) return;
   survivors[atomicAdd(counters[kSurvivorCount], 1u)] = i;
 }

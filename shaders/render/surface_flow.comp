@@ -27,7 +27,7 @@ void main() {
   const uint index = uint(p.y * grid.x + p.x);
   const float z = beforeAt(index);
   if (z == infinity()) return;
-  const float length = metresASample(z), steps = max(ceil(view.smoothing / (kStep * length * length)), 1.0);
+  const float length = metersASample(z), steps = max(ceil(view.smoothing / (kStep * length * length)), 1.0);
   if (float(turn) >= steps) {
     after[index] = z;
     return;
@@ -36,7 +36,7 @@ void main() {
   float side[9];
   for (int k = 0; k < 9; ++k) side[k] = at(p + ivec2(k % 3 - 1, k / 3 - 1), grid);
   float value[9];
-  // A neighbour on another surface is replaced by what its opposite says, or by this sample.
+  // A neighbor on another surface is replaced by what its opposite says, or by this sample.
   for (int k = 0; k < 9; ++k) {
     const bool same = abs(side[k] - z) < edge, other = abs(side[8 - k] - z) < edge;
     value[k] = same ? toLinear(side[k]) : (other ? 2.0 * q - toLinear(side[8 - k]) : q);

@@ -10,5 +10,5 @@ ivec2 coarserGrid() {
   const uint step = view.step * 2u;
   return ivec2((uvec2(view.width, view.height) + step - 1u) / step + view.margin);
 }
-// m between neighbouring samples from which on they are two surfaces: a slant of 73 degrees.
-float edgeAt(float z) { return max(view.spacing, 3.3 * metresASample(z)); }
+// m between neighboring samples from which on they are two surfaces: a slant of 73 degrees.
+float edgeAt(float z) { return max(view.spacing, 3.3 * metersASample(z)); }

@@ -28,7 +28,7 @@ struct Taps {
   float apart;  // of the reach
 };
 Taps tapsOver(float spacings, float z) {
-  const float side = max(metresAPixel(z) * float(view.step) / (spacings * spacingAt(z)), 1e-3);
+  const float side = max(metersAPixel(z) * float(view.step) / (spacings * spacingAt(z)), 1e-3);
   const int stride = int(max(1.0 / (side * float(kTaps)) + 0.5, 1.0));
   return Taps(stride, side * float(stride));
 }

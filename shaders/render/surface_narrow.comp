@@ -16,7 +16,7 @@ layout(constant_id = 0) const uint kVertical = 0u;
 const float kReach = 2.3076923;  // standard deviations: where the Gaussian is cut, at 0.07 of its peak (three spacings at a sigma of 1.3)
 const float kFront = 2.0;        // spacings in front of this sample: another surface
 const float kBehind = 1.0;       // spacings behind it at most
-const uint kMostTaps = 3u;       // margins of samples
+const uint kMaxTaps = 3u;       // margins of samples
 
 void main() {
   const ivec2 grid = ivec2(sampleGrid());
@@ -25,8 +25,8 @@ void main() {
   const uint index = uint(p.y * grid.x + p.x);
   const float z = beforeAt(index);
   if (z == infinity()) return;
-  const float length = metresASample(z) / view.spacing;
-  const int wanted = max(int(min(kReach * view.smoothing / length, 1e6)), 1), taps = min(wanted, int(kMostTaps * view.margin));
+  const float length = metersASample(z) / view.spacing;
+  const int wanted = max(int(min(kReach * view.smoothing / length, 1e6)), 1), taps = min(wanted, int(kMaxTaps * view.margin));
   if (taps < wanted) atomicAdd(counters[kBoundHits], 1u);
   // By numbers: of a constant vector chosen by a specialization constant lavapipe (Mesa 22.3) takes the same one always.
   const ivec2 along = ivec2(1 - int(kVertical), int(kVertical));

@@ -1,5 +1,5 @@
 #version 460
-// Normals of a filtered depth: differences to the nearer one of the two neighbours across, so that none reaches over an edge.
+// Normals of a filtered depth: differences to the nearer one of the two neighbors across, so that none reaches over an edge.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 
@@ -13,7 +13,7 @@ layout(std430, set = 0, binding = 5) buffer Counters { uint counters[]; };
 #include "render/surface_cover.glsl"
 #include "render/surface_solid.glsl"
 
-const float kInset = 0.3;  // spacings: how far the smoothed spheres of 0.9 spacings lie above the surface, half a spacing above the centres
+const float kInset = 0.3;  // spacings: how far the smoothed spheres of 0.9 spacings lie above the surface, half a spacing above the centers
 
 vec3 pointAt(ivec2 p, ivec2 grid, out bool there) {
   there = all(greaterThanEqual(p, ivec2(0))) && all(lessThan(p, grid));
@@ -34,7 +34,7 @@ vec3 difference(ivec2 p, ivec2 along, ivec2 grid, vec3 own) {
   }
   if (before_there) return before;
   if (after_there) return after;
-  const float length = metresAPixel(own.z) * float(view.step);
+  const float length = metersAPixel(own.z) * float(view.step);
   return vec3(vec2(along), 0.0) * length;
 }
 

@@ -1,5 +1,5 @@
 #version 460
-// Every particle marks the occlusion cells that its sphere covers wholly, with the depth of its centre: nothing behind that is seen there.
+// Every particle marks the occlusion cells that its sphere covers wholly, with the depth of its center: nothing behind that is seen there.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 
@@ -10,18 +10,18 @@ layout(std430, set = 0, binding = 1) buffer Occluders { uint occluders[]; };
 void main() {
   const uint i = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
   if (i >= view.count || !drawable(position[i].xyz)) return;
-  const vec3 centre = viewPoint(position[i].xyz);
-  const float radius = hardRadius(centre.z);
-  if (!(centre.z > view.near_depth) || !shown(centre, radius)) return;
-  // A square inside the silhouette, which is at least as large as the section through the centre.
-  const vec2 middle = sampleOf(pixelOf(centre)) + 0.5;
-  const float side = 0.7 * radius / metresAPixel(centre.z) / float(view.step);
+  const vec3 center = viewPoint(position[i].xyz);
+  const float radius = hardRadius(center.z);
+  if (!(center.z > view.near_depth) || !shown(center, radius)) return;
+  // A square inside the silhouette, which is at least as large as the section through the center.
+  const vec2 middle = sampleOf(pixelOf(center)) + 0.5;
+  const float side = 0.7 * radius / metersAPixel(center.z) / float(view.step);
   const float cell = float(kOccluderSamples);
   const ivec2 cells = ivec2((sampleGrid() + kOccluderSamples - 1u) / kOccluderSamples);
   const ivec2 first = max(ivec2(ceil(clamp((middle - side) / cell, vec2(-1e6), vec2(1e6)))), ivec2(0));
   const ivec2 last = min(ivec2(floor(clamp((middle + side) / cell, vec2(-1e6), vec2(1e6)))) - 1, cells - 1);
-  const ivec2 most = min(last, first + int(kMostCells) - 1);
-  const uint bits = floatBitsToUint(centre.z);
+  const ivec2 most = min(last, first + int(kMaxCells) - 1);
+  const uint bits = floatBitsToUint(center.z);
   for (int y = first.y; y <= most.y; ++y)
     for (int x = first.x; x <= most.x; ++x) {
       const uint at = uint(y * cells.x + x);

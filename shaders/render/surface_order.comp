@@ -1,5 +1,5 @@
 #version 460
-// Each cell in ascending order of particle, so that sums over it do not depend on the order of arrival; centres in view space.
+// Each cell in ascending order of particle, so that sums over it do not depend on the order of arrival; centers in view space.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 
@@ -8,7 +8,7 @@ layout(std430, set = 0, binding = 0) readonly buffer Position { vec4 position[];
 layout(std430, set = 0, binding = 1) buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Start { uint start[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Arrived { uint arrived[]; };
-layout(std430, set = 0, binding = 4) writeonly buffer Centre { vec4 centre[]; };
+layout(std430, set = 0, binding = 4) writeonly buffer Center { vec4 center[]; };
 
 void main() {
   const uint slot = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
@@ -19,10 +19,10 @@ void main() {
   const uint key = uint(cell.y) * cellGrid().x + uint(cell.x);
   const uint begin = start[key], end = start[key + 1u];
   uint place = begin;
-  for (uint other = begin; other < min(end, begin + kMostInCell); ++other) place += arrived[other] < i ? 1u : 0u;
-  if (end - begin > kMostInCell) {  // particles upon each other: in the order of arrival
+  for (uint other = begin; other < min(end, begin + kMaxInCell); ++other) place += arrived[other] < i ? 1u : 0u;
+  if (end - begin > kMaxInCell) {  // particles upon each other: in the order of arrival
     place = slot;
     if (slot == begin) atomicAdd(counters[kBoundHits], 1u);
   }
-  centre[place] = vec4(at, 0.0);
+  center[place] = vec4(at, 0.0);
 }

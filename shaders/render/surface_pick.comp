@@ -11,13 +11,13 @@ layout(std430, set = 0, binding = 3) readonly buffer Depth { uint depth[]; };
 layout(std430, set = 0, binding = 4) buffer Cells { uint cells[]; };
 layout(std430, set = 0, binding = 5) writeonly buffer Rank { uint rank[]; };
 
-const float kOwnedShare = 0.03;  // of a disc: less is a neighbour's rim showing through
+const float kOwnedShare = 0.03;  // of a disc: less is a neighbor's rim showing through
 
 shared uint inside[kSurfaceGroup], owned[kSurfaceGroup];  // samples of each invocation's disc; of them those that no other sphere covers
 uint visited = 0u, own = 0u;
 
-void visit(vec3 centre, float radius, ivec2 p) {
-  const float t = sphereDepth(centre, radius, axisOf(samplePixel(p)));
+void visit(vec3 center, float radius, ivec2 p) {
+  const float t = sphereDepth(center, radius, axisOf(samplePixel(p)));
   if (t < 0.0) return;
   ++visited;
   if (t <= uintBitsToFloat(depth[uint(p.y) * sampleGrid().x + uint(p.x)]) + 1e-3 * view.spacing) ++own;
@@ -33,12 +33,12 @@ void main() {
   const uint self = gl_LocalInvocationIndex, k = groupIndex() * kSurfaceGroup + self;
   inside[self] = owned[self] = 0u;
   const bool live = k < counters[kSurvivorCount];
-  const vec3 centre = live ? viewPoint(position[survivors[k]].xyz) : vec3(0.0);
-  spread(live, centre, hardRadius(centre.z));
+  const vec3 center = live ? viewPoint(position[survivors[k]].xyz) : vec3(0.0);
+  spread(live, center, hardRadius(center.z));
   if (!live) return;
   uint place = kNotSurface;
   if (owned[self] > 0u && float(owned[self]) >= kOwnedShare * float(inside[self])) {
-    const ivec2 cell = cellOf(pixelOf(centre));
+    const ivec2 cell = cellOf(pixelOf(center));
     place = atomicAdd(cells[uint(cell.y) * cellGrid().x + uint(cell.x)], 1u);
     atomicAdd(counters[kSurfaceCount], 1u);
   }

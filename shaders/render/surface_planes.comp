@@ -41,14 +41,14 @@ struct Fit {
   vec3 mean, square, mixed;
 };
 
-// Weighted moments of the centres around one, in units of the reach. `across`: the normal of a plane through it, over the distance in these
+// Weighted moments of the centers around one, in units of the reach. `across`: the normal of a plane through it, over the distance in these
 // units at which others stop to count; zero: all do.
 Fit fitAround(vec3 own, float inverse, CellRange range, vec3 across) {
   Fit fit = Fit(0.0, vec3(0.0), vec3(0.0), vec3(0.0));
   for (int y = range.first.y; y <= range.last.y; ++y) {
     const uvec2 row = rowOf(range, y);
     for (uint j = row.x; j < row.y; ++j) {
-      const vec3 q = (centreAt(j).xyz - own) * inverse;
+      const vec3 q = (centerAt(j).xyz - own) * inverse;
       const float inside = max(1.0 - dot(q, q), 0.0);
       const float off = dot(q, across);
       const float near = max(1.0 - off * off, 0.0);
@@ -69,8 +69,8 @@ Fit fitAround(vec3 own, float inverse, CellRange range, vec3 across) {
 void main() {
   const uint k = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
   if (k >= counters[kSurfaceCount]) return;
-  const vec3 own = centreAt(k).xyz;
-  if (own.z - 0.5 * view.spacing <= view.near_depth) {  // cut by the near plane: a ball, whose neighbours would be all over the picture
+  const vec3 own = centerAt(k).xyz;
+  if (own.z - 0.5 * view.spacing <= view.near_depth) {  // cut by the near plane: a ball, whose neighbors would be all over the picture
     plane[2u * k] = vec4(own, 1.0);
     plane[2u * k + 1u] = vec4(0.0);
     return;

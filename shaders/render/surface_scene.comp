@@ -1,20 +1,20 @@
 #version 460
-// What the host has drawn so far: its colour (linear) and its depth in m, for refraction, and so that the fluid can write both anew.
+// What the host has drawn so far: its color (linear) and its depth in m, for refraction, and so that the fluid can write both anew.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "render/surface.glsl"
 
 layout(local_size_x = kSurfaceGroup) in;
-layout(set = 0, binding = 0) uniform texture2D host_colour;
+layout(set = 0, binding = 0) uniform texture2D host_color;
 layout(set = 0, binding = 1) uniform texture2D host_depth;
-layout(std430, set = 0, binding = 2) writeonly buffer SceneColour { uvec2 scene_colour[]; };  // a pixel: four halves
+layout(std430, set = 0, binding = 2) writeonly buffer SceneColor { uvec2 scene_color[]; };  // a pixel: four halves
 layout(std430, set = 0, binding = 3) writeonly buffer SceneDepth { float scene_depth[]; };
 
 void main() {
   const uint index = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
   if (index >= view.width * view.height) return;
   const ivec2 pixel = ivec2(index % view.width + view.left, index / view.width + view.top);
-  const vec4 colour = min(texelFetch(host_colour, pixel, 0), vec4(65504.0));
-  scene_colour[index] = uvec2(packHalf2x16(colour.rg), packHalf2x16(colour.ba));
+  const vec4 color = min(texelFetch(host_color, pixel, 0), vec4(65504.0));
+  scene_color[index] = uvec2(packHalf2x16(color.rg), packHalf2x16(color.ba));
   scene_depth[index] = depthOfTarget(texelFetch(host_depth, pixel, 0).r);
 }

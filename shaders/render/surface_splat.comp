@@ -9,8 +9,8 @@ layout(std430, set = 0, binding = 1) buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Survivors { uint survivors[]; };
 layout(std430, set = 0, binding = 3) buffer Depth { uint depth[]; };
 
-void visit(vec3 centre, float radius, ivec2 p) {
-  const float t = sphereDepth(centre, radius, axisOf(samplePixel(p)));
+void visit(vec3 center, float radius, ivec2 p) {
+  const float t = sphereDepth(center, radius, axisOf(samplePixel(p)));
   if (t < 0.0) return;
   const uint at = uint(p.y) * sampleGrid().x + uint(p.x);
   const uint bits = floatBitsToUint(t);
@@ -22,6 +22,6 @@ void visitedAll(uint owner) {}
 void main() {
   const uint k = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
   const bool live = k < counters[kSurvivorCount];
-  const vec3 centre = live ? viewPoint(position[survivors[k]].xyz) : vec3(0.0);
-  spread(live, centre, hardRadius(centre.z));
+  const vec3 center = live ? viewPoint(position[survivors[k]].xyz) : vec3(0.0);
+  spread(live, center, hardRadius(center.z));
 }

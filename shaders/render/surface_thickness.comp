@@ -20,42 +20,42 @@ bool behindScene(ivec2 at, float z) {
 #endif
 }
 
-void add(ivec2 at, float z, float metres) {
+void add(ivec2 at, float z, float meters) {
   const ivec2 grid = ivec2(sampleGrid());
   if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, grid)) || behindScene(at, z)) return;
-  const uint amount = uint(metres / view.unit + 0.5);
+  const uint amount = uint(meters / view.unit + 0.5);
   if (amount > 0u) atomicAdd(thickness[uint(at.y * grid.x + at.x)], amount);
 }
 
 // (1 - r^2 / R^2)^2 has the integral pi R^2 / 3 over its disc.
-void visit(vec3 centre, float radius, ivec2 at) {
-  const float inside = 1.0 - raySquare(centre, axisOf(samplePixel(at))) / (radius * radius);
+void visit(vec3 center, float radius, ivec2 at) {
+  const float inside = 1.0 - raySquare(center, axisOf(samplePixel(at))) / (radius * radius);
   const float peak = view.spacing * view.spacing * view.spacing * 3.0 / (3.14159265 * radius * radius);
-  if (inside > 0.0) add(at, centre.z, peak * inside * inside);
+  if (inside > 0.0) add(at, center.z, peak * inside * inside);
 }
 void visitedAll(uint owner) {}
 #include "render/surface_spread.glsl"
 
 // Too small for its disc to be sampled: shared among the four samples around.
-void addSmall(vec3 centre, float side) {
-  const vec2 at = sampleOf(pixelOf(centre));
+void addSmall(vec3 center, float side) {
+  const vec2 at = sampleOf(pixelOf(center));
   const ivec2 base = ivec2(floor(at));
   const vec2 part = at - vec2(base);
   const float all = view.spacing * view.spacing * view.spacing / (side * side);
-  add(base, centre.z, all * (1.0 - part.x) * (1.0 - part.y));
-  add(base + ivec2(1, 0), centre.z, all * part.x * (1.0 - part.y));
-  add(base + ivec2(0, 1), centre.z, all * (1.0 - part.x) * part.y);
-  add(base + ivec2(1, 1), centre.z, all * part.x * part.y);
+  add(base, center.z, all * (1.0 - part.x) * (1.0 - part.y));
+  add(base + ivec2(1, 0), center.z, all * part.x * (1.0 - part.y));
+  add(base + ivec2(0, 1), center.z, all * (1.0 - part.x) * part.y);
+  add(base + ivec2(1, 1), center.z, all * part.x * part.y);
 }
 
 void main() {
   const uint i = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
   bool live = i < view.count && drawable(position[i].xyz);
-  const vec3 centre = live ? viewPoint(position[i].xyz) : vec3(0.0);
+  const vec3 center = live ? viewPoint(position[i].xyz) : vec3(0.0);
   // A sample gets its share of what is beside the picture, too.
-  live = live && centre.z > view.near_depth && shownWithin(centre, view.radius, float(view.step));
-  const float side = metresAPixel(centre.z) * float(view.step);
+  live = live && center.z > view.near_depth && shownWithin(center, view.radius, float(view.step));
+  const float side = metersAPixel(center.z) * float(view.step);
   const bool small = view.radius < 1.5 * side;
-  if (live && small) addSmall(centre, side);
-  spread(live && !small, centre, view.radius);
+  if (live && small) addSmall(center, side);
+  spread(live && !small, center, view.radius);
 }

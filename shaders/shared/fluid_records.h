@@ -5,22 +5,22 @@
 RILL_RECORDS_BEGIN
 
 RILL_CONST uint kFluidGroup = 64u;        // invocations a workgroup of every per-particle pass
-RILL_CONST uint kListBlock = 4096u;       // particles a block of the neighbour list: k-major inside a block
+RILL_CONST uint kListBlock = 4096u;       // particles a block of the neighbor list: k-major inside a block
 RILL_CONST uint kCellsPerReach = 2u;       // grid cells in x as long as one in y or z
 RILL_CONST uint kSettleSubsteps = 512u;    // at most, before the first substep in time
-RILL_CONST uint kMostPressings = 1024u;    // iterations that find the pressure of the start, at most, after those
-RILL_CONST float kMostCalming = 0.5f;     // XSPH coefficient of a calm pass, at most
-RILL_CONST float kMostBeside = 0.4f;       // of the kernel, behind walls: at most so much is made up for. See ARCHITECTURE.md, "Walls and solids"
+RILL_CONST uint kMaxPressings = 1024u;    // iterations that find the pressure of the start, at most, after those
+RILL_CONST float kMaxCalming = 0.5f;     // XSPH coefficient of a calm pass, at most
+RILL_CONST float kMaxBeside = 0.4f;       // of the kernel, behind walls: at most so much is made up for. See ARCHITECTURE.md, "Walls and solids"
 RILL_CONST uint kWindow = 32u;            // candidates that a grid walk looks at together, a bit of a mask each
 // Candidates that the particles of a cluster look at together, at most, in whole windows; more are counted as a bound hit. Lavapipe ends a shader after 65,535
 // steps of its loops: a window takes about 20 where a cluster is 4, so that 1,024 windows leave room for the loops around them.
 RILL_CONST uint kWalkBound = 32768u;
-RILL_CONST float kParked = 1.0e9f;        // m: where the dummy neighbour sits that pads the list
+RILL_CONST float kParked = 1.0e9f;        // m: where the dummy neighbor sits that pads the list
 RILL_CONST float kMultiplierScale = 1024.0f;  // multipliers travel as halves in units of 1 / (restGradient * this)
 
 // Dispatch commands that the device switches on and off.
 RILL_CONST uint kCommandPredict = 0u;
-RILL_CONST uint kCommandDensity = 1u;         // the passes over neighbours: 1 to 5
+RILL_CONST uint kCommandDensity = 1u;         // the passes over neighbors: 1 to 5
 RILL_CONST uint kCommandCorrect = 2u;         // two of them, by the parity of the substep recorded
 RILL_CONST uint kCommandIterate = 4u;
 RILL_CONST uint kCommandCalm = 5u;
@@ -35,14 +35,14 @@ RILL_CONST uint kCommandMeasurePlane = 14u;   // the same particles as Plane and
 RILL_CONST uint kCommandMeasureCorner = 15u;
 RILL_CONST uint kCommandPlaneAgain = 16u;     // and in every further iteration
 RILL_CONST uint kCommandCornerAgain = 17u;
-RILL_CONST uint kCommandWalks = 18u;          // the passes over neighbours once more, in this order: where a list overflowed or there is none
+RILL_CONST uint kCommandWalks = 18u;          // the passes over neighbors once more, in this order: where a list overflowed or there is none
 RILL_CONST uint kCommandSort = 23u;           // the sort's own follow
 RILL_CONST uint kMaxCommands = 64u;
 
 // Constant over a run; a uniform block.
 struct FluidParams {
   uint count;             // particles
-  uint listCapacity;      // neighbours that the list holds a particle, a multiple of 4; 0: no list
+  uint listCapacity;      // neighbors that the list holds a particle, a multiple of 4; 0: no list
   uint chunkParticles;    // particles a list buffer, a multiple of kListBlock
   uint solidCount;
   float spacing;          // m
@@ -66,7 +66,7 @@ struct FluidParams {
   uint iterations;        // Jacobi iterations a substep, at most
   float lowX, lowY, lowZ;     // m, walls; -kParked where there is none
   float highX, highY, highZ;  // m; kParked where there is none
-  float margin;           // m, how near a centre may come to a wall or a solid: half a spacing
+  float margin;           // m, how near a center may come to a wall or a solid: half a spacing
   uint gridSizeX, gridSizeY, gridSizeZ;  // cells a dimension
   float inverseCell;      // 1/m, in y and z
   float tableStep;        // m between nodes of the plane and edge tables
@@ -83,7 +83,7 @@ struct FluidParams {
   float tensileMost;      // and at most this
   float tensilePower;     // n
   float tensileInverse;   // 1 / K(delta q)
-  float tensileAtRest;    // share of neighbours at rest, which is taken off: see engine/sph/artificial_pressure.hpp
+  float tensileAtRest;    // share of neighbors at rest, which is taken off: see engine/sph/artificial_pressure.hpp
   float particleMass;     // kg
   uint gravityChanges;    // entries of the schedule
   float farLimit;         // m from the origin beyond which a particle is parked
@@ -98,7 +98,7 @@ struct FluidParams {
   float pressStep;        // s, the step that it is found for
   float pressMomentum;    // of a multiplier's last change, what is added to the next
   float pressError;       // mean compression of the start up to which it is looked for
-  uint fullNeighbours;    // within the support: a particle with as many is inside the fluid
+  uint fullNeighbors;    // within the support: a particle with as many is inside the fluid
 };
 
 // Decided on the device, substep by substep; read as a uniform block by the passes, written by control.comp and begin.comp.
@@ -143,7 +143,7 @@ struct FluidSums {
   uint errorMax;             // bits of the largest compression
   uint speedMax;             // bits of the largest speed
   uint nonFinite;            // particles parked since the start
-  uint overflow;             // particles with more neighbours than the list holds, at the last build
+  uint overflow;             // particles with more neighbors than the list holds, at the last build
   uint boundHits;            // loops cut at their bound since the start
   uint planeCount;           // particles near one wall, at the last build
   uint cornerCount;          // particles near several walls or a solid, at the last build
@@ -162,7 +162,7 @@ struct SolidRecord {
   uint firstKey, keyCount;         // motion: entries of the keyframe buffer
   uint tableOffset;                // sphere: entries into the table buffer
   uint tableNodes;
-  float baseX, baseY, baseZ;       // centre before any motion, m
+  float baseX, baseY, baseZ;       // center before any motion, m
   float tableFirst;                // sphere: signed distance of the table's first node, m
   uint driven;                     // 1: two keyframes, where it is at the begin and at the end of the advance, with seconds since its begin
 };

@@ -14,7 +14,7 @@ namespace rill::shared {
 #define RILL_PAIR_FUNCTION
 #endif
 
-/// A permutation of 32 bits: the finaliser of MurmurHash3 (Appleby).
+/// A permutation of 32 bits: the finalizer of MurmurHash3 (Appleby).
 RILL_PAIR_FUNCTION RILL_PAIR_UINT pairMix(RILL_PAIR_UINT x) {
   x ^= x >> 16u;
   x *= 0x85ebca6bu;
@@ -31,7 +31,7 @@ RILL_PAIR_FUNCTION RILL_PAIR_UINT pairHash(RILL_PAIR_UINT idI, RILL_PAIR_UINT id
   return pairMix(lower ^ pairMix(upper + 0x9e3779b9u));
 }
 
-/// Component `axis` (0, 1, 2) of the direction from j to i, not normalised: odd, so never zero, within -1023 .. 1023. It changes sign when i and j are exchanged.
+/// Component `axis` (0, 1, 2) of the direction from j to i, not normalized: odd, so never zero, within -1023 .. 1023. It changes sign when i and j are exchanged.
 RILL_PAIR_FUNCTION RILL_PAIR_INT pairDirection(RILL_PAIR_UINT idI, RILL_PAIR_UINT idJ, RILL_PAIR_UINT axis) {
   RILL_PAIR_INT component = 2 * RILL_PAIR_INT((pairHash(idI, idJ) >> (10u * axis)) & 1023u) - 1023;
   return idI < idJ ? component : -component;

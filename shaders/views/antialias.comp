@@ -1,6 +1,6 @@
 #version 460
 // Smooths the stairs that are left in a finished picture: edges of fluid before fluid, of solids, of what is seen bent. Where light changes sharply across a row of pixels,
-// the row is followed to both of its ends, and the pixel takes as much of its neighbour across as an edge between those ends would cover (Lottes 2009, FXAA).
+// the row is followed to both of its ends, and the pixel takes as much of its neighbor across as an edge between those ends would cover (Lottes 2009, FXAA).
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shared/arrays.glsl"
@@ -18,8 +18,8 @@ uint pixelAt(ivec2 p) {
   p = clamp(p, ivec2(0), ivec2(push.width, push.height) - 1);
   return sourceAt(uint(p.y) * push.width + uint(p.x));
 }
-vec3 colourOf(uint pixel) { return vec3(pixel & 0xFFu, (pixel >> 8) & 0xFFu, (pixel >> 16) & 0xFFu) / 255.0; }
-float lumaOf(uint pixel) { return dot(colourOf(pixel), vec3(0.299, 0.587, 0.114)); }
+vec3 colorOf(uint pixel) { return vec3(pixel & 0xFFu, (pixel >> 8) & 0xFFu, (pixel >> 16) & 0xFFu) / 255.0; }
+float lumaOf(uint pixel) { return dot(colorOf(pixel), vec3(0.299, 0.587, 0.114)); }
 float lumaAt(ivec2 p) { return lumaOf(pixelAt(p)); }
 
 // How far to a side (-1, 1) the edge goes on: to where the mean of both rows is no longer that of the edge. `off`: by how much it differs there.
@@ -63,7 +63,7 @@ void main() {
   const bool cut = nearer < kFarthest && (off < 0.0) != (c < edge);
   const float share = cut ? max(0.5 - (float(nearer) - 0.5) / float(before + after - 1), 0.0) : 0.0;
   // Light is about the square of what is stored.
-  const vec3 mine = colourOf(own), its = colourOf(pixelAt(p + across));
+  const vec3 mine = colorOf(own), its = colorOf(pixelAt(p + across));
   const uvec3 bytes = uvec3(sqrt(mix(mine * mine, its * its, share)) * 255.0 + 0.5);
   smoothed[index] = share > 0.0 ? bytes.r | bytes.g << 8 | bytes.b << 16 | 0xFF000000u : own;
 }

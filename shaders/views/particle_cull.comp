@@ -9,9 +9,9 @@ layout(std430, set = 0, binding = 1) readonly buffer Occluders { uint occluders[
 layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 3) writeonly buffer Survivors { uint survivors[]; };  // small ones from the front, large ones from the back
 
-bool hidden(vec3 centre, float radius, ivec4 rect) {
+bool hidden(vec3 center, float radius, ivec4 rect) {
   const uint columns = (view.width + view.cell - 1u) / view.cell;
-  const uint bits = floatBitsToUint(centre.z - radius);
+  const uint bits = floatBitsToUint(center.z - radius);
   const uvec4 cells = uvec4(rect) / view.cell;
   if ((cells.z - cells.x + 1u) * (cells.w - cells.y + 1u) > kHiddenCells) return false;
   for (uint y = cells.y; y <= cells.w; ++y) {
@@ -27,13 +27,13 @@ void main() {
   if (i >= view.count) return;
   const vec3 world = particlePoint(position[i].xyz);
   if (!drawable(world)) return;
-  const vec3 centre = viewPoint(world);
-  const float radius = drawnRadius(centre.z);
-  if (outsideImage(centre, radius)) return;
-  const ivec4 rect = sphereRect(centre, radius);
+  const vec3 center = viewPoint(world);
+  const float radius = drawnRadius(center.z);
+  if (outsideImage(center, radius)) return;
+  const ivec4 rect = sphereRect(center, radius);
   if (rect.z < rect.x || rect.w < rect.y) return;
-  const bool whole = centre.z - radius > view.near_depth;  // not cut by the near plane
-  if (whole && hidden(centre, radius, rect)) return;
+  const bool whole = center.z - radius > view.near_depth;  // not cut by the near plane
+  if (whole && hidden(center, radius, rect)) return;
   if (whole && max(rect.z - rect.x, rect.w - rect.y) < int(kSmallRect)) {
     survivors[atomicAdd(counters[kSmallCount], 1u)] = i;
   } else {

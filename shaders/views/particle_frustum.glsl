@@ -13,7 +13,7 @@ uint solidWords() { return (scene.counts.x + 31u) / 32u; }
 bool meetsTile(PoseRecord pose, uvec2 tile) {
   const vec2 low = vec2(tile * kPixelTile), high = low + float(kPixelTile);
 #ifdef LIGHT
-  const vec2 at = lightTexel(pose.centre.xyz);
+  const vec2 at = lightTexel(pose.center.xyz);
   const float reach = pose.view.w / scene.light_texel.x + 1.0;
   return all(greaterThan(at + reach, low)) && all(lessThan(at - reach, high));
 #else

@@ -7,7 +7,7 @@ layout(local_size_x = 64) in;
 layout(std140, set = 0, binding = 0) uniform Scene { SceneRecord scene; };
 layout(std430, set = 0, binding = 1) readonly buffer Solids { SolidRecord solids[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Keyframes { vec4 keyframes[]; };  // xyz: translation, w: time
-layout(constant_id = 0) const uint FLUID_SOLID_FLOATS = 0;  // of the fluid's record of a solid, whose centre comes first; 0: none is driven
+layout(constant_id = 0) const uint FLUID_SOLID_FLOATS = 0;  // of the fluid's record of a solid, whose center comes first; 0: none is driven
 layout(std430, set = 0, binding = 4) readonly buffer FluidSolids { float fluidSolids[]; };
 layout(std430, set = 0, binding = 3) writeonly buffer Poses { PoseRecord poses[]; };
 
@@ -30,16 +30,16 @@ void main() {
   const uint i = groupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
   if (i >= scene.counts.x) return;
   const SolidRecord solid = solids[i];
-  vec3 centre = solid.centre.xyz + translation(solid.motion.x, solid.motion.y);
+  vec3 center = solid.center.xyz + translation(solid.motion.x, solid.motion.y);
   if (FLUID_SOLID_FLOATS > 0u && solid.motion.z != 0u) {
     const uint at = i * FLUID_SOLID_FLOATS;
-    centre = vec3(fluidSolids[at], fluidSolids[at + 1u], fluidSolids[at + 2u]) + vec3(view.offset[0], view.offset[1], view.offset[2]);
+    center = vec3(fluidSolids[at], fluidSolids[at + 1u], fluidSolids[at + 2u]) + vec3(view.offset[0], view.offset[1], view.offset[2]);
   }
   PoseRecord pose;
-  pose.centre = vec4(centre, solid.centre.w);
+  pose.center = vec4(center, solid.center.w);
   pose.axis_x = vec4(turned(solid.rotation, vec3(1.0, 0.0, 0.0)), solid.half_size.x);
   pose.axis_y = vec4(turned(solid.rotation, vec3(0.0, 1.0, 0.0)), solid.half_size.y);
   pose.axis_z = vec4(turned(solid.rotation, vec3(0.0, 0.0, 1.0)), solid.half_size.z);
-  pose.view = vec4(viewPoint(centre), solid.half_size.w);
+  pose.view = vec4(viewPoint(center), solid.half_size.w);
   poses[i] = pose;
 }

@@ -24,12 +24,12 @@ void markLight(vec3 world) {
   }
 }
 
-void markCells(vec3 centre, float radius) {
-  const vec2 middle = centre.xy / centre.z;
-  const float side = 0.66 * radius / centre.z;
+void markCells(vec3 center, float radius) {
+  const vec2 middle = center.xy / center.z;
+  const float side = 0.66 * radius / center.z;
   // Where a sphere is no deeper than some depth is convex on the screen: its depth over a rectangle is largest at a corner.
-  const vec4 corners = vec4(sphereDepth(centre, radius, middle + vec2(-side, -side)), sphereDepth(centre, radius, middle + vec2(side, -side)),
-                            sphereDepth(centre, radius, middle + vec2(-side, side)), sphereDepth(centre, radius, middle + vec2(side, side)));
+  const vec4 corners = vec4(sphereDepth(center, radius, middle + vec2(-side, -side)), sphereDepth(center, radius, middle + vec2(side, -side)),
+                            sphereDepth(center, radius, middle + vec2(-side, side)), sphereDepth(center, radius, middle + vec2(side, side)));
   if (min(min(corners.x, corners.y), min(corners.z, corners.w)) < 0.0) return;
   const uint bits = floatBitsToUint(max(max(corners.x, corners.y), max(corners.z, corners.w)));
   const vec2 limit = vec2(float(view.width), float(view.height));
@@ -38,9 +38,9 @@ void markCells(vec3 centre, float radius) {
   const float cell = float(view.cell);
   const ivec2 cells = ivec2((uvec2(view.width, view.height) + view.cell - 1u) / view.cell);
   ivec2 first = ivec2(ceil((low - 0.5) / cell)), last = min(ivec2(floor((high + 0.5) / cell)) - 1, cells - 1);
-  const ivec2 centre_cell = (first + last) / 2;
-  first = max(max(first, centre_cell - int(kOccluderCells) / 2), ivec2(0));
-  last = min(last, centre_cell + int(kOccluderCells) / 2);
+  const ivec2 center_cell = (first + last) / 2;
+  first = max(max(first, center_cell - int(kOccluderCells) / 2), ivec2(0));
+  last = min(last, center_cell + int(kOccluderCells) / 2);
   for (int y = first.y; y <= last.y; ++y) {
     for (int x = first.x; x <= last.x; ++x) {
       const uint index = uint(y * cells.x + x);
@@ -55,8 +55,8 @@ void main() {
   const vec3 world = particlePoint(position[i].xyz);
   if (!drawable(world)) return;
   markLight(world);
-  const vec3 centre = viewPoint(world);
-  const float radius = drawnRadius(centre.z);
-  if (outsideImage(centre, radius) || centre.z - radius <= view.near_depth) return;
-  markCells(centre, radius);
+  const vec3 center = viewPoint(world);
+  const float radius = drawnRadius(center.z);
+  if (outsideImage(center, radius) || center.z - radius <= view.near_depth) return;
+  markCells(center, radius);
 }

@@ -22,7 +22,7 @@ RILL_CONSTANT kSmallRect = 64;         // pixels: a sphere up to this wide and h
 RILL_CONSTANT kLargeChunk = 4096;      // large spheres that one workgroup looks at
 RILL_CONSTANT kHiddenCells = 16384;    // occlusion cells that are looked at for one sphere at most
 RILL_CONSTANT kOccluderCells = 128;    // occlusion cells a side that one sphere covers at most
-RILL_CONSTANT kColours = 64;           // entries of a colour map
+RILL_CONSTANT kColors = 64;           // entries of a color map
 RILL_CONSTANT kEdges = 12;             // of a box
 
 // Who owns a pixel: a particle's index, or one of these.
@@ -64,10 +64,10 @@ struct ViewPush {
   uint width;        // pixels
   uint height;
   uint cell;         // pixels a side of an occlusion cell
-  uint compression;  // 0: coloured by speed, 1: by compression
-  float scale;       // 1 / the value at the colour map's end
+  uint compression;  // 0: colored by speed, 1: by compression
+  float scale;       // 1 / the value at the color map's end
   uint winners;      // 0: splat depths, 1: splat indices
-  uint unlit;        // 1: a particle's pixels have its colour as it is, and what is around them is darker than any colour map
+  uint unlit;        // 1: a particle's pixels have its color as it is, and what is around them is darker than any color map
 };
 
 // What stays the same over a view's life.
@@ -75,16 +75,16 @@ struct SceneRecord {
   vec4 domain_min;   // w: 1 where there is a domain
   vec4 domain_max;   // w: spacing of the floor's grid lines
   uvec4 counts;      // solids, light map width, light map height, closed sides (bits -x +x -y +y -z +z)
-  vec4 light_u;      // axis; w: coordinate of the light map's first texel centre
+  vec4 light_u;      // axis; w: coordinate of the light map's first texel center
   vec4 light_v;
   vec4 light_to;     // direction to the light; w: coordinate of the plane that light depth counts from
   vec4 light_texel;  // x: size of a texel, y: how far light depths reach
-  vec4 colours[2 * kColours];  // linear RGB: by speed, by compression
+  vec4 colors[2 * kColors];  // linear RGB: by speed, by compression
 };
 
 // A solid as the scene describes it.
 struct SolidRecord {
-  vec4 centre;    // w: radius of a sphere, 0 for a box
+  vec4 center;    // w: radius of a sphere, 0 for a box
   vec4 rotation;  // unit quaternion
   vec4 half_size; // of a box; w: radius of the bounding sphere
   uvec4 motion;   // first keyframe, number of keyframes, whether it is driven
@@ -92,11 +92,11 @@ struct SolidRecord {
 
 // A solid at the frame's time.
 struct PoseRecord {
-  vec4 centre;  // w: radius of a sphere, 0 for a box
+  vec4 center;  // w: radius of a sphere, 0 for a box
   vec4 axis_x;  // unit; w: half size along it
   vec4 axis_y;
   vec4 axis_z;
-  vec4 view;    // centre in view space; w: radius of the bounding sphere
+  vec4 view;    // center in view space; w: radius of the bounding sphere
 };
 
 // An edge of the domain on the screen: |line.x x + line.y y + line.z| is the distance in pixels.

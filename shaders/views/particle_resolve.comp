@@ -1,6 +1,6 @@
 #version 460
 // Tiles that hold outlines: shaded pixels blended along them and encoded. A workgroup is a tile of the list.
-// An outline that crosses a pixel says how much of it the owner covers; the rest is the neighbour's beyond the outline.
+// An outline that crosses a pixel says how much of it the owner covers; the rest is the neighbor's beyond the outline.
 #extension GL_GOOGLE_include_directive : require
 #include "views/particle_view.glsl"
 #include "views/particle_tiles.glsl"
@@ -28,14 +28,14 @@ void main() {
   const uint index = indexAt(pixel);
   const uint bits = depth[index];
 
-  vec3 colour = unpackColour(shaded[index]);
+  vec3 color = unpackColor(shaded[index]);
   const uint rim = rims[index];
-  if (rimDistance(rim) < 0.5) colour = mix(unpackColour(shaded[indexAt(pixel + rimStep(rim))]), colour, 0.5 + rimDistance(rim));
+  if (rimDistance(rim) < 0.5) color = mix(unpackColor(shaded[indexAt(pixel + rimStep(rim))]), color, 0.5 + rimDistance(rim));
   RILL_LOOP for (uint side = 0u; side < 4u; ++side) {
     const uint other = indexAt(pixel - rimStep(side));  // whose outline may reach over to here
     const uint reaching = rims[other];
     const float reach = rimDistance(reaching) - 0.5;
-    if ((reaching & 3u) == side && reach > 0.0 && reach < 0.5 && depth[other] < bits) colour = mix(colour, unpackColour(shaded[other]), reach);
+    if ((reaching & 3u) == side && reach > 0.0 && reach < 0.5 && depth[other] < bits) color = mix(color, unpackColor(shaded[other]), reach);
   }
-  picture[index] = encoded(colour);
+  picture[index] = encoded(color);
 }

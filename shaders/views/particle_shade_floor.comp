@@ -54,8 +54,8 @@ vec3 shadeFloor(vec3 ray) {
   const vec2 rim = min(inner, extent - inner) / (0.06 * max(min(extent.x, extent.y), step));
   const float corner = (1.0 - 0.12 * exp(-max(rim.x, 0.0))) * (1.0 - 0.12 * exp(-max(rim.y, 0.0)));
   const float light = floorLight(vec3(at.x, scene.domain_min.y, at.y));
-  const vec3 colour = kFloor * mix(1.0, 0.72, grid);
-  return colour * corner * (kSky * mix(0.55, 1.0, light) + kKey * (max(scene.light_to.y, 0.0) * light));
+  const vec3 color = kFloor * mix(1.0, 0.72, grid);
+  return color * corner * (kSky * mix(0.55, 1.0, light) + kKey * (max(scene.light_to.y, 0.0) * light));
 }
 
 void main() {
@@ -67,8 +67,8 @@ void main() {
   if (winner[index] != kFloorId) return;
   const vec2 middle = vec2(pixel) + 0.5;
   const vec3 ray = rayOf(tangentOf(middle));
-  const uint packed = packColour(shadeFloor(ray));
+  const uint packed = packColor(shadeFloor(ray));
   shaded[index] = packed;
   rims[index] = kNoRim;
-  picture[index] = encoded(unpackColour(packed));  // unpacked again: the same colour in a tile with outlines and in one without
+  picture[index] = encoded(unpackColor(packed));  // unpacked again: the same color in a tile with outlines and in one without
 }

@@ -25,10 +25,10 @@ void main() {
   if (id >= kSolidBase) return;
 
   const vec2 tangent = tangentOf(vec2(pixel) + 0.5);
-  const vec3 centre = viewPoint(particlePoint(position[id].xyz));
-  const float radius = drawnRadius(centre.z);
-  const float t = sphereDepth(centre, radius, tangent);
-  const vec3 local = (vec3(tangent, 1.0) * t - centre) / radius;
+  const vec3 center = viewPoint(particlePoint(position[id].xyz));
+  const float radius = drawnRadius(center.z);
+  const float t = sphereDepth(center, radius, tangent);
+  const vec3 local = (vec3(tangent, 1.0) * t - center) / radius;
   const vec3 normal = normalize(rightAxis() * local.x + upAxis() * local.y + forwardAxis() * local.z);
   const uvec2 packed = tint[id];
   const vec3 root = vec3(unpackUnorm2x16(packed.x), float(packed.y & 0xFFFFu) / 65535.0);
@@ -43,6 +43,6 @@ void main() {
   glint *= glint;
   glint *= glint;
   const vec3 lit = ambient(normal) * mix(0.35, 1.0, open) + kKey * (diffuse * mix(0.25, 1.0, light) * mix(0.7, 1.0, open));
-  shaded[index] = packColour(view.unlit != 0u ? root * root : root * root * lit + kKey * (0.10 * glint * light));
-  rims[index] = sphereRim(centre, radius, tangent);
+  shaded[index] = packColor(view.unlit != 0u ? root * root : root * root * lit + kKey * (0.10 * glint * light));
+  rims[index] = sphereRim(center, radius, tangent);
 }

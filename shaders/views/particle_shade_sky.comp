@@ -20,7 +20,7 @@ const vec3 kWall = vec3(0.30, 0.42, 0.52);
 vec3 background(float y) { return mix(vec3(0.78, 0.80, 0.82), vec3(0.50, 0.52, 0.55), smoothstep(0.0, 1.0, y / float(view.height))); }
 
 // The closed wall through which the ray leaves the domain tints what is behind it.
-vec3 overWalls(vec3 colour, vec3 ray) {
+vec3 overWalls(vec3 color, vec3 ray) {
   const vec3 eye = eyePoint();
   const vec3 step = vec3(ray.x < 0.0 ? -1.0 : 1.0, ray.y < 0.0 ? -1.0 : 1.0, ray.z < 0.0 ? -1.0 : 1.0) * max(abs(ray), vec3(1e-12));
   const vec3 a = (scene.domain_min.xyz - eye) / step, b = (scene.domain_max.xyz - eye) / step;
@@ -29,7 +29,7 @@ vec3 overWalls(vec3 colour, vec3 ray) {
   const uint side = out_at == leave.x ? (ray.x < 0.0 ? 0u : 1u) : (out_at == leave.y ? (ray.y < 0.0 ? 2u : 3u) : (ray.z < 0.0 ? 4u : 5u));
   const bool tinted = scene.domain_min.w > 0.0 && out_at > in_at && side != 2u && (scene.counts.w & (1u << side)) != 0u;
   const float height = clamp((eye.y + out_at * ray.y - scene.domain_min.y) / (scene.domain_max.y - scene.domain_min.y), 0.0, 1.0);
-  return tinted ? mix(colour, kWall, mix(0.26, 0.10, height)) : colour;
+  return tinted ? mix(color, kWall, mix(0.26, 0.10, height)) : color;
 }
 
 void main() {
@@ -41,8 +41,8 @@ void main() {
   if (winner[index] != kNobody) return;
   const vec2 middle = vec2(pixel) + 0.5;
   const vec3 ray = rayOf(tangentOf(middle));
-  const uint packed = packColour(view.unlit != 0u ? kPlain : overWalls(background(middle.y), ray));
+  const uint packed = packColor(view.unlit != 0u ? kPlain : overWalls(background(middle.y), ray));
   shaded[index] = packed;
   rims[index] = kNoRim;
-  picture[index] = encoded(unpackColour(packed));  // unpacked again: the same colour in a tile with outlines and in one without
+  picture[index] = encoded(unpackColor(packed));  // unpacked again: the same color in a tile with outlines and in one without
 }

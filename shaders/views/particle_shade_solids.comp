@@ -19,7 +19,7 @@ layout(std430, set = 0, binding = 7) writeonly buffer Rims { uint rims[]; };
 #include "views/particle_solids.glsl"
 
 const vec3 kSolid = vec3(0.62, 0.50, 0.36);      // sand, against the blues of speed
-const vec3 kSolidGrey = vec3(0.36, 0.40, 0.44);  // against the warm colours of compression
+const vec3 kSolidGray = vec3(0.36, 0.40, 0.44);  // against the warm colors of compression
 
 // Whether a box is seen through a point of the image; spheres have a rim of their own.
 bool seesBox(PoseRecord pose, vec2 pixel) {
@@ -27,7 +27,7 @@ bool seesBox(PoseRecord pose, vec2 pixel) {
   return solidHit(pose, eyePoint(), rayOf(tangentOf(pixel)), normal) >= view.near_depth;
 }
 
-// The rim of a box: the nearest of four neighbouring points that miss it, and by bisection where.
+// The rim of a box: the nearest of four neighboring points that miss it, and by bisection where.
 uint boxRim(PoseRecord pose, vec2 pixel) {
   uint best = kNoRim;
   RILL_LOOP for (uint side = 0u; side < 4u; ++side) {
@@ -69,6 +69,6 @@ void main() {
     if (solidHit(pose, eye, rayOf(tangentOf(middle + offset)), facing) < view.near_depth) facing = normal;
     lit += 0.25 * (ambient(facing) * open + kKey * (max(dot(facing, scene.light_to.xyz), 0.0) * light));
   }
-  shaded[index] = packColour(view.unlit != 0u ? kPlainSolid * min(lit.g, 1.0) : (view.compression != 0u ? kSolidGrey : kSolid) * lit);
-  rims[index] = pose.centre.w > 0.0 ? sphereRim(pose.view.xyz, pose.centre.w, tangentOf(middle)) : boxRim(pose, middle);
+  shaded[index] = packColor(view.unlit != 0u ? kPlainSolid * min(lit.g, 1.0) : (view.compression != 0u ? kSolidGray : kSolid) * lit);
+  rims[index] = pose.center.w > 0.0 ? sphereRim(pose.view.xyz, pose.center.w, tangentOf(middle)) : boxRim(pose, middle);
 }

@@ -2,16 +2,16 @@
 
 // Distance along the ray, in lengths of `direction`, to where it enters the solid, and the outward normal; negative for a miss.
 float solidHit(PoseRecord pose, vec3 from, vec3 direction, out vec3 normal) {
-  const vec3 d = from - pose.centre.xyz;
+  const vec3 d = from - pose.center.xyz;
   normal = vec3(0.0, 1.0, 0.0);
-  if (pose.centre.w > 0.0) {
+  if (pose.center.w > 0.0) {
     const float inverse = 1.0 / dot(direction, direction);
     const float middle = -dot(d, direction) * inverse;
     const vec3 miss = d + middle * direction;
-    const float inside = pose.centre.w * pose.centre.w - dot(miss, miss);
+    const float inside = pose.center.w * pose.center.w - dot(miss, miss);
     if (inside <= 0.0) return -1.0;
     const float t = middle - sqrt(inside * inverse);
-    normal = (d + t * direction) / pose.centre.w;
+    normal = (d + t * direction) / pose.center.w;
     return t;
   }
   const vec3 size = vec3(pose.axis_x.w, pose.axis_y.w, pose.axis_z.w);

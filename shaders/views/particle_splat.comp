@@ -15,13 +15,13 @@ void main() {
   const uint k = groupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
   if (k >= counters[kSmallCount]) return;
   const uint i = survivors[k];
-  const vec3 centre = viewPoint(particlePoint(position[i].xyz));
-  const float radius = drawnRadius(centre.z);
-  const ivec4 rect = sphereRect(centre, radius);
+  const vec3 center = viewPoint(particlePoint(position[i].xyz));
+  const float radius = drawnRadius(center.z);
+  const ivec4 rect = sphereRect(center, radius);
   const int pixels = (rect.z - rect.x + 1) * (rect.w - rect.y + 1);  // at most kSmallRect squared
   ivec2 pixel = rect.xy;
   for (int n = 0; n < pixels; ++n) {
-    const float t = pixelDepth(centre, radius, pixel);
+    const float t = pixelDepth(center, radius, pixel);
     if (t > 0.0) {
       const uint at = uint(pixel.y) * view.width + uint(pixel.x);
       const uint bits = floatBitsToUint(t);

@@ -35,14 +35,14 @@ void main() {
     const uint k = base + gl_LocalInvocationIndex;
     if (k < last) {
       const uint i = survivors[view.count - 1u - k];
-      const vec3 centre = viewPoint(particlePoint(position[i].xyz));
-      const float radius = drawnRadius(centre.z);
-      const ivec4 rect = sphereRect(centre, radius);
+      const vec3 center = viewPoint(particlePoint(position[i].xyz));
+      const float radius = drawnRadius(center.z);
+      const ivec4 rect = sphereRect(center, radius);
       const ivec2 low = ivec2(tile), high = low + int(kPixelTile) - 1;
-      const bool shown = floatBitsToUint(max(centre.z - radius, 0.0)) <= tile_depth;
+      const bool shown = floatBitsToUint(max(center.z - radius, 0.0)) <= tile_depth;
       if (shown && rect.x <= high.x && rect.z >= low.x && rect.y <= high.y && rect.w >= low.y) {
         const uint slot = atomicAdd(sphere_count, 1u);
-        spheres[slot] = vec4(centre, radius);
+        spheres[slot] = vec4(center, radius);
         indices[slot] = i;
       }
     }

@@ -6,16 +6,16 @@ uvec2 shadeTileOrigin(uint tile) { return uvec2(tile % shadeColumns(), tile / sh
 float edgeHalfWidth() { return max(0.55, float(view.height) / 1600.0); }
 
 // Linear RGB in 0 .. 1 as 11, 11 and 10 bits of its root.
-uint packColour(vec3 colour) {
-  const uvec3 c = uvec3(sqrt(clamp(colour, 0.0, 1.0)) * vec3(2047.0, 2047.0, 1023.0) + 0.5);
+uint packColor(vec3 color) {
+  const uvec3 c = uvec3(sqrt(clamp(color, 0.0, 1.0)) * vec3(2047.0, 2047.0, 1023.0) + 0.5);
   return c.r | c.g << 11 | c.b << 22;
 }
-vec3 unpackColour(uint packed) {
+vec3 unpackColor(uint packed) {
   const vec3 root = vec3(float(packed & 0x7FFu) / 2047.0, float((packed >> 11) & 0x7FFu) / 2047.0, float(packed >> 22) / 1023.0);
   return root * root;
 }
 
-// A rim: where the owner's outline is nearest along x or y, if that is less than a pixel from the pixel's centre.
+// A rim: where the owner's outline is nearest along x or y, if that is less than a pixel from the pixel's center.
 // Bits 0 and 1: towards +x, -x, +y (down), -y; above them the distance in 1/4096 pixel. The distances from 1 on mean no rim.
 const uint kNoRim = 4096u << 2;
 uint packRim(uint side, float distance) { return side | uint(clamp(distance, 0.0, 1.0) * 4096.0) << 2; }
@@ -26,9 +26,9 @@ ivec2 rimStep(uint rim) {
 }
 
 // The rim of a sphere (view space) at a ray that hits it.
-uint sphereRim(vec3 centre, float radius, vec2 tangent) {
-  const float middle = dot(centre, vec3(tangent, 1.0)) / (1.0 + dot(tangent, tangent));
-  const vec3 miss = centre - middle * vec3(tangent, 1.0);
+uint sphereRim(vec3 center, float radius, vec2 tangent) {
+  const float middle = dot(center, vec3(tangent, 1.0)) / (1.0 + dot(tangent, tangent));
+  const vec3 miss = center - middle * vec3(tangent, 1.0);
   const float off = length(miss);
   const bool across = abs(miss.x) >= abs(miss.y);
   const float slope = middle * max(abs(miss.x), abs(miss.y));  // of off^2 / 2 along that axis

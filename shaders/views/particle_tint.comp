@@ -1,5 +1,5 @@
 #version 460
-// Colour, ambient occlusion and shadow of every particle that may be seen, once a particle.
+// Color, ambient occlusion and shadow of every particle that may be seen, once a particle.
 #extension GL_GOOGLE_include_directive : require
 #include "views/particle_view.glsl"
 
@@ -15,12 +15,12 @@ layout(std430, set = 0, binding = 7) writeonly buffer Tint { uvec2 tint[]; };
 #define LIGHT_MAP_READ
 #include "views/particle_light.glsl"
 
-vec3 particleColour(vec4 v) {
+vec3 particleColor(vec4 v) {
   float value = (view.compression != 0u ? v.w - 1.0 : length(v.xyz)) * view.scale;
   if ((floatBitsToUint(value) & 0x7F800000u) == 0x7F800000u) value = 0.0;
-  const float at = clamp(value, 0.0, 1.0) * float(kColours - 1u);
-  const uint entry = min(uint(at), kColours - 2u) + view.compression * kColours;
-  return mix(scene.colours[entry].rgb, scene.colours[entry + 1u].rgb, at - floor(min(at, float(kColours - 2u))));
+  const float at = clamp(value, 0.0, 1.0) * float(kColors - 1u);
+  const uint entry = min(uint(at), kColors - 2u) + view.compression * kColors;
+  return mix(scene.colors[entry].rgb, scene.colors[entry + 1u].rgb, at - floor(min(at, float(kColors - 2u))));
 }
 
 float depthAround(vec2 pixel, float low, float high) {
@@ -28,18 +28,18 @@ float depthAround(vec2 pixel, float low, float high) {
   return clamp(uintBitsToFloat(depth[uint(at.y) * view.width + uint(at.x)]), low, high);
 }
 
-// How deep the particle lies in a hollow of the picture: opposite neighbours that are both nearer than it.
-float openness(vec3 centre, float radius) {
-  const vec2 middle = pixelOf(centre.xy / centre.z);
-  const float reach = radius / centre.z * view.focal;
-  const float low = centre.z - 6.0 * radius, high = centre.z + 3.0 * radius;
+// How deep the particle lies in a hollow of the picture: opposite neighbors that are both nearer than it.
+float openness(vec3 center, float radius) {
+  const vec2 middle = pixelOf(center.xy / center.z);
+  const float reach = radius / center.z * view.focal;
+  const float low = center.z - 6.0 * radius, high = center.z + 3.0 * radius;
   float sum = 0.0;
   RILL_LOOP for (int ring = 0; ring < 2; ++ring) {
     RILL_LOOP for (int k = 0; k < 4; ++k) {
       const float angle = 0.7853982 * (float(k) + 0.5 * float(ring));
       const vec2 offset = reach * (ring == 0 ? 2.0 : 4.0) * vec2(cos(angle), sin(angle));
       const float pair = 0.5 * (depthAround(middle + offset, low, high) + depthAround(middle - offset, low, high));
-      sum += clamp((centre.z - 0.6 * radius - pair) / (3.0 * radius), 0.0, 1.0);
+      sum += clamp((center.z - 0.6 * radius - pair) / (3.0 * radius), 0.0, 1.0);
     }
   }
   return 1.0 - sum / 8.0;
@@ -51,14 +51,14 @@ void main() {
   if (k >= small + counters[kLargeCount]) return;
   const uint i = k < small ? survivors[k] : survivors[view.count - 1u - (k - small)];
   const vec3 world = particlePoint(position[i].xyz);
-  const vec3 root = sqrt(particleColour(velocity[i]));
+  const vec3 root = sqrt(particleColor(velocity[i]));
   if (view.unlit != 0u) {
     tint[i] = uvec2(packUnorm2x16(root.rg), uint(root.b * 65535.0 + 0.5));
     return;
   }
-  const vec3 centre = viewPoint(world);
-  const float radius = drawnRadius(centre.z);
-  const float open = centre.z > radius ? openness(centre, radius) : 1.0;
+  const vec3 center = viewPoint(world);
+  const float radius = drawnRadius(center.z);
+  const float open = center.z > radius ? openness(center, radius) : 1.0;
   const float light = lightVisibility(world, 5.0 * view.radius);
   tint[i] = uvec2(packUnorm2x16(root.rg), uint(root.b * 65535.0 + 0.5) | uint(open * 255.0 + 0.5) << 16 | uint(light * 255.0 + 0.5) << 24);
 }

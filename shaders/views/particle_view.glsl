@@ -36,15 +36,15 @@ bool drawable(vec3 p) {
   return all(lessThan(magnitude, uvec3(0x58635FA9u)));  // 1e15 m
 }
 
-// A particle's disc is drawn so wide that it covers a pixel's centre wherever it is.
+// A particle's disc is drawn so wide that it covers a pixel's center wherever it is.
 float drawnRadius(float depth) { return max(view.radius, 0.71 * depth / view.focal); }
 
 // Depth of the near side of a sphere (view space) along a ray; negative where the ray misses or the hit is nearer than the near plane.
-// Measured from the ray's nearest point to the centre, so that a small sphere far away keeps its precision.
-float sphereDepth(vec3 centre, float radius, vec2 tangent) {
+// Measured from the ray's nearest point to the center, so that a small sphere far away keeps its precision.
+float sphereDepth(vec3 center, float radius, vec2 tangent) {
   precise float inverse = 1.0 / (1.0 + tangent.x * tangent.x + tangent.y * tangent.y);
-  precise float middle = (centre.z + centre.x * tangent.x + centre.y * tangent.y) * inverse;
-  precise vec3 miss = vec3(centre.x - middle * tangent.x, centre.y - middle * tangent.y, centre.z - middle);
+  precise float middle = (center.z + center.x * tangent.x + center.y * tangent.y) * inverse;
+  precise vec3 miss = vec3(center.x - middle * tangent.x, center.y - middle * tangent.y, center.z - middle);
   precise float inside = radius * radius - (miss.x * miss.x + miss.y * miss.y + miss.z * miss.z);
   if (inside <= 0.0) return -1.0;
   precise float depth = middle - sqrt(inside * inverse);
@@ -52,23 +52,23 @@ float sphereDepth(vec3 centre, float radius, vec2 tangent) {
 }
 
 // True where no part of the sphere is in front of the near plane and inside the image.
-bool outsideImage(vec3 centre, float radius) {
+bool outsideImage(vec3 center, float radius) {
   const vec2 corner = 0.5 * vec2(float(view.width), float(view.height)) / view.focal;
-  const vec2 reach = radius * sqrt(1.0 + corner * corner) + corner * centre.z;
-  return centre.z + radius <= view.near_depth || abs(centre.x) >= reach.x || abs(centre.y) >= reach.y;
+  const vec2 reach = radius * sqrt(1.0 + corner * corner) + corner * center.z;
+  return center.z + radius <= view.near_depth || abs(center.x) >= reach.x || abs(center.y) >= reach.y;
 }
 
 // Pixels (first and last, inclusive) that a sphere can touch; empty where last < first.
-ivec4 sphereRect(vec3 centre, float radius) {
+ivec4 sphereRect(vec3 center, float radius) {
   const ivec4 whole = ivec4(0, 0, int(view.width) - 1, int(view.height) - 1);
-  if (centre.z - radius <= view.near_depth) return whole;
-  const float square = (centre.z - radius) * (centre.z + radius);
-  const vec2 spread = radius * sqrt(centre.xy * centre.xy + square);
-  const vec2 low = (centre.xy * centre.z - spread) / square;
-  const vec2 high = (centre.xy * centre.z + spread) / square;
+  if (center.z - radius <= view.near_depth) return whole;
+  const float square = (center.z - radius) * (center.z + radius);
+  const vec2 spread = radius * sqrt(center.xy * center.xy + square);
+  const vec2 low = (center.xy * center.z - spread) / square;
+  const vec2 high = (center.xy * center.z + spread) / square;
   const vec2 first = pixelOf(vec2(low.x, high.y)) - 0.52, last = pixelOf(vec2(high.x, low.y)) - 0.48;
   const vec2 limit = vec2(float(view.width), float(view.height));
   return ivec4(ivec2(ceil(clamp(first, vec2(0.0), limit))), ivec2(floor(clamp(last, vec2(-1.0), limit - 1.0))));
 }
 
-float pixelDepth(vec3 centre, float radius, ivec2 pixel) { return sphereDepth(centre, radius, tangentOf(vec2(pixel) + 0.5)); }
+float pixelDepth(vec3 center, float radius, ivec2 pixel) { return sphereDepth(center, radius, tangentOf(vec2(pixel) + 0.5)); }

@@ -23,15 +23,15 @@ vec3 throughFluid(vec3 p) {
   const ivec2 base = ivec2(floor(at));
   const vec2 part = at - floor(at);
   // Twice as wide as a texel is: the disc of the sun blurs the edge.
-  float metres = 0.0;
+  float meters = 0.0;
   RILL_LOOP for (int y = -1; y <= 2; ++y)
     RILL_LOOP for (int x = -1; x <= 2; ++x) {
       const float wx = x == -1 ? 1.0 - part.x : (x == 2 ? part.x : 1.0), wy = y == -1 ? 1.0 - part.y : (y == 2 ? part.y : 1.0);
-      metres += wx * wy * fluidThickness(base + ivec2(x, y));
+      meters += wx * wy * fluidThickness(base + ivec2(x, y));
     }
-  metres /= 9.0;
-  const float spread = 1.0 - exp(-metres / (2.0 * view.spacing));  // what the surface bends away
-  return look.scatter.w > 0.0 ? vec3(1.0 - spread) : exp(-look.absorption.rgb * metres) * (1.0 - 0.45 * spread);
+  meters /= 9.0;
+  const float spread = 1.0 - exp(-meters / (2.0 * view.spacing));  // what the surface bends away
+  return look.scatter.w > 0.0 ? vec3(1.0 - spread) : exp(-look.absorption.rgb * meters) * (1.0 - 0.45 * spread);
 }
 
 // How much of the sun the solids let through, over nine texels.

@@ -7,7 +7,7 @@ layout(std430, set = 0, binding = 1) readonly buffer Surface { uvec2 surface[]; 
 #endif
 layout(location = 0) in float across;
 layout(location = 1) flat in float half_width;
-layout(location = 0) out vec4 colour;
+layout(location = 0) out vec4 color;
 
 void main() {
 #ifdef OVER_FLUID
@@ -16,5 +16,5 @@ void main() {
 #endif
   const float cover = clamp(half_width + 0.5 - abs(across), 0.0, 1.0) * 0.55;
   if (cover <= 0.0) discard;
-  colour = vec4(vec3(0.42, 0.50, 0.58) * cover, cover);
+  color = vec4(vec3(0.42, 0.50, 0.58) * cover, cover);
 }

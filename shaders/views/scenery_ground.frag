@@ -8,7 +8,7 @@
 layout(std140, set = 0, binding = 0) uniform Scene { SceneRecord scene; };
 layout(std140, set = 0, binding = 1) uniform Look { LookRecord look; };
 #include "views/scenery.glsl"
-layout(location = 0) out vec4 colour;
+layout(location = 0) out vec4 color;
 
 // A checker, averaged over a pixel `width` wide: the integral of a square wave, exactly.
 vec2 waveIntegral(vec2 at) { return 2.0 * abs(fract(at * 0.5) - 0.5); }
@@ -19,7 +19,7 @@ float checker(vec2 at, vec2 width) {
 }
 
 #ifdef ENVIRONMENT
-vec3 backdrop(vec3 sight) { return skyColour(sight, scene.light_to.xyz); }
+vec3 backdrop(vec3 sight) { return skyColor(sight, scene.light_to.xyz); }
 vec3 haze(vec3 sight) { return backdrop(sight); }  // the picture has a ground of its own
 #else
 // Darker than the sky that is reflected, so that reflections are seen against it.
@@ -33,14 +33,14 @@ void main() {
   const vec3 from = worldPoint(rayFrom(axis)), ray = worldDirection(along);
   const vec3 sight = normalize(ray);
   const vec3 sun = scene.light_to.xyz;
-  colour = vec4(backdrop(sight), 1.0);
+  color = vec4(backdrop(sight), 1.0);
   gl_FragDepth = clamp(view.depth_map[0], 0.0, 1.0);  // as far as a perspective goes
   if (scene.domain_min.w == 0.0 || (scene.counts.w & 4u) == 0u || ray.y >= 0.0) return;
   const float z = (scene.domain_min.y - from.y) / ray.y;
   if (!(z > view.near_depth)) return;
   const vec3 p = from + z * ray;
   // How far the hit moves from a pixel to the next.
-  const float pixel = metresAPixel(z);
+  const float pixel = metersAPixel(z);
   const vec3 across = worldDirection(vec3(pixel, 0.0, 0.0)), upwards = worldDirection(vec3(0.0, pixel, 0.0));
   const vec2 right = across.xz - ray.xz * (across.y / ray.y), up = upwards.xz - ray.xz * (upwards.y / ray.y);
   const vec2 width = abs(right) + abs(up);
@@ -55,6 +55,6 @@ void main() {
   const vec3 sunlight = kSun * max(sun.y, 0.0) * pastSolids(p, bias) * throughFluid(p);
   const vec3 lit = albedo * (0.55 * skyLight(vec3(0.0, 1.0, 0.0)) + 0.75 * sunlight);
   const float far = length(beyond) / (1.4 * max(max(extent.x, extent.y), 1e-6));
-  colour = vec4(mix(lit, haze(sight), 1.0 - exp(-far * far)), 1.0);
+  color = vec4(mix(lit, haze(sight), 1.0 - exp(-far * far)), 1.0);
   gl_FragDepth = clamp(targetDepth(z), 0.0, 1.0);
 }

@@ -12,7 +12,7 @@ layout(std140, set = 0, binding = 0) uniform Scene { SceneRecord scene; };
 layout(std140, set = 0, binding = 1) uniform Look { LookRecord look; };
 layout(std430, set = 0, binding = 4) readonly buffer Poses { PoseRecord poses[]; };
 #include "views/scenery.glsl"
-layout(location = 0) out vec4 colour;
+layout(location = 0) out vec4 color;
 #endif
 #include "views/particle_solids.glsl"
 layout(location = 0) flat in uint solid;
@@ -30,6 +30,6 @@ void main() {
   const float bias = scene.light_texel.x * (1.0 + 2.0 * sqrt(max(1.0 - facing * facing, 0.0)) / max(facing, 0.1));
   const vec3 sunlight = kSun * facing * pastSolids(p, bias) * throughFluid(p);
   const vec3 albedo = vec3(0.66, 0.50, 0.36);
-  colour = vec4(albedo * (0.55 * skyLight(normal) + 0.85 * sunlight), 1.0);
+  color = vec4(albedo * (0.55 * skyLight(normal) + 0.85 * sunlight), 1.0);
 #endif
 }

@@ -30,6 +30,6 @@ void main() {
   const ivec2 size = textureSize(hdr, 0);
   const uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
   if (index >= uint(size.x) * uint(size.y)) return;
-  const vec3 colour = texelFetch(hdr, ivec2(index % uint(size.x), index / uint(size.x)), 0).rgb;
-  picture[index] = encoded(neutral(bounded(colour)));
+  const vec3 color = texelFetch(hdr, ivec2(index % uint(size.x), index / uint(size.x)), 0).rgb;
+  picture[index] = encoded(neutral(bounded(color)));
 }

@@ -29,7 +29,7 @@ TEST(Pareto, CostBetweenPointsIsALineOfLogarithms) {
 
 apps::Instant instant(double x, double kinetic) {
   apps::Instant instant;
-  instant.stats.centre_of_mass[0] = x;
+  instant.stats.center_of_mass[0] = x;
   instant.stats.kinetic_J = kinetic;
   return instant;
 }

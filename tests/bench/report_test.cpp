@@ -74,10 +74,10 @@ TEST(PlotProgram, HoldsTheDataAndTheNamesQuoted) {
   EXPECT_NE(program.find("set logscale x"), std::string::npos) << program;
 }
 
-TEST(PlotProgram, WhatIsEmphasisedIsLarger) {
+TEST(PlotProgram, WhatIsEmphasizedIsLarger) {
   Plot plot = plotOf({{1, 2}});
   EXPECT_EQ(plotProgram(std::span(&plot, 1)).find(" ps 2"), std::string::npos);
-  plot.series[0].emphasised = true;
+  plot.series[0].emphasized = true;
   EXPECT_NE(plotProgram(std::span(&plot, 1)).find(" ps 2"), std::string::npos);
 }
 

@@ -21,7 +21,7 @@ double dot(const Vector& a, const double* b) { return a[0] * b[0] + a[1] * b[1] 
 std::vector<std::unique_ptr<Shape>> everyShape() {
   auto all = shapes(kEye.distance, kEye.tangentX, kEye.tangentY);
   for (auto& tilted : tiltedShapes(kEye.distance, kEye.tangentX, kEye.tangentY)) all.push_back(std::move(tilted));
-  all.push_back(travelledWave(kEye.distance, kEye.tangentX, kEye.tangentY, 18, 3.7));
+  all.push_back(traveledWave(kEye.distance, kEye.tangentX, kEye.tangentY, 18, 3.7));
   return all;
 }
 
@@ -72,7 +72,7 @@ TEST(SurfaceShapes, ParticlesLieUnderTheSurfaceFromHalfASpacingOn) {
 }
 
 TEST(SurfaceShapes, AWaveTravelsAndItsParticlesRideOnIt) {
-  const auto wave = [](double travelled) { return travelledWave(kEye.distance, kEye.tangentX, kEye.tangentY, 18, travelled); };
+  const auto wave = [](double traveled) { return traveledWave(kEye.distance, kEye.tangentX, kEye.tangentY, 18, traveled); };
   const auto before = wave(0)->particles({}, 1), after = wave(0.25)->particles({}, 1), round = wave(18)->particles({}, 1);
   ASSERT_EQ(before.size(), after.size());
   double most = 0, drift = 0;
@@ -128,8 +128,8 @@ TEST(SurfaceErrors, SilhouettesCountWhatIsMissingAndTooMuch) {
 
 TEST(SurfaceErrors, FlickerLeavesTrueMotionOut) {
   const double degree = std::acos(-1.0) / 180;
-  const auto at = [](double travelled) {
-    return trueSurface(*travelledWave(kEye.distance, kEye.tangentX, kEye.tangentY, 18, travelled), kEye);
+  const auto at = [](double traveled) {
+    return trueSurface(*traveledWave(kEye.distance, kEye.tangentX, kEye.tangentY, 18, traveled), kEye);
   };
   const TrueSurface before = at(0), after = at(2);
   EXPECT_GT(normalChange(drawnOf(before, 0), drawnOf(after, 0), 10), 1) << "the wave has moved";

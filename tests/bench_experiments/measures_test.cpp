@@ -25,17 +25,17 @@ Cloud lattice(int x, int y, int z, double stretch = 1) {
 
 Walls noWalls() { return {}; }
 
-TEST(NeighbourGrid, FindsWhatABruteSearchFinds) {
+TEST(NeighborGrid, FindsWhatABruteSearchFinds) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> anywhere(-1, 1);
   std::vector<Point> points;
   for (int i = 0; i < 500; ++i) points.push_back({anywhere(random), anywhere(random), anywhere(random)});
-  const NeighbourGrid grid(points, 0.3);
-  for (const Point& centre : points) {
+  const NeighborGrid grid(points, 0.3);
+  for (const Point& center : points) {
     size_t found = 0, expected = 0;
-    grid.within(centre, 0.3, [&](size_t, double) { ++found; });
+    grid.within(center, 0.3, [&](size_t, double) { ++found; });
     for (const Point& other : points)
-      if (std::hypot(other[0] - centre[0], other[1] - centre[1], other[2] - centre[2]) <= 0.3) ++expected;
+      if (std::hypot(other[0] - center[0], other[1] - center[1], other[2] - center[2]) <= 0.3) ++expected;
     EXPECT_EQ(found, expected);
   }
 }
@@ -109,10 +109,10 @@ TEST(Measures, HeightAtTheWallEndsAtTheFirstGap) {
 
 TEST(Measures, SpinIsThatOfARotationAndNotOfAFlight) {
   Cloud cloud = lattice(6, 6, 6);
-  const Point centre = meanPosition(cloud);
+  const Point center = meanPosition(cloud);
   double moment = 0;
   for (size_t i = 0; i < cloud.size(); ++i) {
-    const double x = cloud.position[i][0] - centre[0], y = cloud.position[i][1] - centre[1];
+    const double x = cloud.position[i][0] - center[0], y = cloud.position[i][1] - center[1];
     cloud.velocity[i] = {5 - 2 * y, 2 * x, 1};
     moment += (x * x + y * y) / double(cloud.size());
   }

@@ -65,25 +65,25 @@ Guest::~Guest() {
 }
 
 ImageRef Guest::picture(const FluidState& state) {
-  SceneTargets targets{graph_.create("colour", ImageDesc{VK_FORMAT_R16G16B16A16_SFLOAT, kWidth, kHeight}),
+  SceneTargets targets{graph_.create("color", ImageDesc{VK_FORMAT_R16G16B16A16_SFLOAT, kWidth, kHeight}),
                        graph_.create("depth", ImageDesc{VK_FORMAT_D32_SFLOAT, kWidth, kHeight})};
   graph_.pass("background", [&](Pass& pass) {
     VkClearValue blue{}, far{};
     blue.color = {{0.1f, 0.2f, 0.5f, 1}};
     far.depthStencil = {1, 0};
-    targets.colour = pass.write(targets.colour, Use::ColourTarget, Load::Clear, blue);
+    targets.color = pass.write(targets.color, Use::ColorTarget, Load::Clear, blue);
     targets.depth = pass.write(targets.depth, Use::DepthTarget, Load::Clear, far);
     return [](Commands&) {};
   });
-  return renderer_->addTo(graph_, state, targets, viewOf(state)).colour;
+  return renderer_->addTo(graph_, state, targets, viewOf(state)).color;
 }
 
-Ticket Guest::readPixels(ImageRef colour) {
+Ticket Guest::readPixels(ImageRef color) {
   BufferRef pixels = graph_.create("pixels", {uint64_t{kWidth} * kHeight * 8});
   graph_.pass("read pixels", [&](Pass& pass) {
-    pass.read(colour, Use::CopySource);
+    pass.read(color, Use::CopySource);
     pixels = pass.write(pixels, Use::CopyTarget);
-    return [=](Commands& commands) { commands.copy(colour, pixels); };
+    return [=](Commands& commands) { commands.copy(color, pixels); };
   });
   return graph_.readback(pixels);
 }

@@ -32,7 +32,7 @@ class Guest {
  private:
   explicit Guest(Host& host) : host_(host) {}
   ImageRef picture(const FluidState& state);
-  Ticket readPixels(ImageRef colour);
+  Ticket readPixels(ImageRef color);
 
   Host& host_;
   std::unique_ptr<Device> device_;

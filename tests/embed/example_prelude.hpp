@@ -13,7 +13,7 @@ extern VkDevice vkDevice;
 extern VkDeviceCreateInfo deviceInfo;
 extern VkPipelineCache pipelineCache;
 extern VkCommandBuffer commandBuffer;
-extern VkImage colourImage, depthImage;
+extern VkImage colorImage, depthImage;
 extern VkBuffer positionBuffer;
 extern uint32_t queueFamily, width, height, particleCount;
 extern uint64_t frameNumber, lastFinishedFrame;

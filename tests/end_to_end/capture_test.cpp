@@ -38,7 +38,7 @@ TEST_F(CaptureTest, ADamBreakIsSound) {
   EXPECT_LE(highest, 1.002 * start);
   EXPECT_NEAR(json["energy"]["ratio"].get<double>(), highest / start, 1e-6);
   EXPECT_LT(json["density_error"]["mean"].get<double>(), 0.001);
-  EXPECT_GT(json["frames"].back()["front_m"].get<double>(), 0.8) << "the front has travelled";
+  EXPECT_GT(json["frames"].back()["front_m"].get<double>(), 0.8) << "the front has traveled";
   EXPECT_NEAR(json["frames"][0]["front_m"].get<double>(), 0.5, 1e-4);
   EXPECT_NEAR(json["frames"][0]["probes"]["front"].get<double>(), 0.5, 1e-4);
   EXPECT_NEAR(json["frames"][0]["probes"]["H1"].get<double>(), 0.5, 1e-4);

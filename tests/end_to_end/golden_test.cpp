@@ -70,15 +70,15 @@ INSTANTIATE_TEST_SUITE_P(Views, GoldenTest,
                          [](const auto& one) { return std::string(one.param.view) + std::to_string(one.param.frame) + one.param.look(); });
 
 TEST(PictureDistance, SeesAMissingShapeAndForgivesAPixel) {
-  Picture grey{40, 20, std::vector<uint8_t>(3 * 40 * 20, 128)};
-  EXPECT_EQ(distance(grey, grey).worst, 0);
-  Picture shape = grey, moved = grey;
+  Picture gray{40, 20, std::vector<uint8_t>(3 * 40 * 20, 128)};
+  EXPECT_EQ(distance(gray, gray).worst, 0);
+  Picture shape = gray, moved = gray;
   for (size_t y = 2; y < 8; ++y)
     for (size_t x = 2; x < 8; ++x)
       for (size_t c = 0; c < 3; ++c) shape.rgb[3 * (40 * y + x) + c] = moved.rgb[3 * (40 * y + x + 1) + c] = 255;
-  EXPECT_GT(distance(grey, shape).worst, 0.15);
+  EXPECT_GT(distance(gray, shape).worst, 0.15);
   EXPECT_EQ(distance(shape, moved).worst, 0);
-  EXPECT_EQ(distance(grey, Picture{}).mean, 1);
+  EXPECT_EQ(distance(gray, Picture{}).mean, 1);
 }
 
 }  // namespace golden_test

@@ -26,7 +26,7 @@ Trial dam() {
 class BoundsTest : public FluidTest {
  protected:
   /// The most energy of `frames` frames over the start's, potential energy from the floor.
-  double mostEnergy(const Trial& t, int frames) {
+  double maxEnergy(const Trial& t, int frames) {
     auto run = start(t);
     const auto energy = [&] {
       const FluidStats s = run->stats();
@@ -56,7 +56,7 @@ TEST_F(BoundsTest, SoftFluidGainsNoEnergy) {
   Trial t = dam();
   t.scene.solver.regularization = 300;
   t.scene.solver.warm_start = 0.2;
-  EXPECT_LT(mostEnergy(t, 40), 1.02);
+  EXPECT_LT(maxEnergy(t, 40), 1.02);
 }
 
 // A correction that is softer by a factor takes steps that are shorter by its root: the column is compressed by as much.
@@ -82,7 +82,7 @@ TEST_F(BoundsTest, PolySpikyGainsNoEnergy) {
   const FluidSetup setup = setupOf(t.scene);
   EXPECT_TRUE(warned(setup, "solver.regularization 50 "));
   EXPECT_TRUE(warned(setup, "solver.warm_start 0.5 "));
-  EXPECT_LT(mostEnergy(t, 40), 1.02);
+  EXPECT_LT(maxEnergy(t, 40), 1.02);
 }
 
 TEST_F(BoundsTest, StrongTensileGainsNoEnergy) {
@@ -90,11 +90,11 @@ TEST_F(BoundsTest, StrongTensileGainsNoEnergy) {
   t.scene.fluid.tensile = 1;
   for (const double radius : {0.25, 0.46}) {  // half a spacing, and nearly one
     t.scene.fluid.tensile_radius = radius;
-    EXPECT_LT(mostEnergy(t, 40), 1.02) << radius;
+    EXPECT_LT(maxEnergy(t, 40), 1.02) << radius;
   }
   t.scene.solver.kernel = KernelChoice::Poly6Spiky;
   t.scene.fluid.tensile_radius = 0.25;
-  EXPECT_LT(mostEnergy(t, 40), 1.02);
+  EXPECT_LT(maxEnergy(t, 40), 1.02);
 }
 
 TEST_F(BoundsTest, TensileThatReachesALatticeAtRestIsOffAndSaysSo) {
@@ -109,7 +109,7 @@ TEST_F(BoundsTest, TensileThatReachesALatticeAtRestIsOffAndSaysSo) {
 }
 
 TEST_F(BoundsTest, TensileKeepsASplashFromClumping) {
-  // Share of particles whose nearest neighbour is nearer than half a spacing, mean over a splash.
+  // Share of particles whose nearest neighbor is nearer than half a spacing, mean over a splash.
   const auto clumped = [&](double strength) {
     Trial t = dam();
     t.scene.fluid.tensile = strength;

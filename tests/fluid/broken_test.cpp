@@ -93,7 +93,7 @@ TEST_F(BrokenTest, TheFiguresDoNotNotice) {
   EXPECT_EQ(a.density_signed_median, b.density_signed_median);
   EXPECT_EQ(a.max_speed, b.max_speed);
   EXPECT_NEAR(a.kinetic_J, b.kinetic_J, 1e-5 * b.kinetic_J);
-  for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(a.centre_of_mass[axis], b.centre_of_mass[axis], 1e-6) << axis;
+  for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(a.center_of_mass[axis], b.center_of_mass[axis], 1e-6) << axis;
 }
 
 TEST_F(BrokenTest, TheStepDoesNotNotice) {
@@ -118,7 +118,7 @@ TEST_F(BrokenTest, AllOfThem) {
   const FluidStats stats = run->stats();
   EXPECT_EQ(stats.non_finite, t.x.size());
   EXPECT_EQ(stats.density_error_mean, 0);
-  EXPECT_TRUE(std::isfinite(stats.centre_of_mass[0]));
+  EXPECT_TRUE(std::isfinite(stats.center_of_mass[0]));
   EXPECT_TRUE(run->measured().finite());
 }
 

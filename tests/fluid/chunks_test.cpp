@@ -1,4 +1,4 @@
-// A neighbour list too long for one buffer of 128 MiB.
+// A neighbor list too long for one buffer of 128 MiB.
 #include <glm/geometric.hpp>
 
 #include "rig.hpp"

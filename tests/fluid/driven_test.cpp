@@ -70,19 +70,19 @@ TEST_F(DrivenTest, GoesNoFasterThanItMay) {
   auto run = start(t);
   run->targets = {target(0, 0.75, 100, 0.1875)};
   run->advance(0.02);
-  const auto centre = run->fluid().drivenCentre(0);
-  EXPECT_NEAR(centre[1], 0.2 + 5 * 0.02, 1e-6);
+  const auto center = run->fluid().drivenCenter(0);
+  EXPECT_NEAR(center[1], 0.2 + 5 * 0.02, 1e-6);
   const auto records = solidsOf(run->fluid());
   ASSERT_EQ(records.size(), 1u);
-  EXPECT_NEAR(records[0].centerY, centre[1], 1e-6) << "the device has it there too";
+  EXPECT_NEAR(records[0].centerY, center[1], 1e-6) << "the device has it there too";
   EXPECT_NEAR(records[0].velocityY, 5, 1e-4);
   run->targets.clear();
   run->advance(0.02);
-  EXPECT_EQ(run->fluid().drivenCentre(0), centre) << "who is not named stays";
+  EXPECT_EQ(run->fluid().drivenCenter(0), center) << "who is not named stays";
   EXPECT_EQ(solidsOf(run->fluid())[0].velocityY, 0);
   run->targets = {target(0, std::numeric_limits<double>::quiet_NaN(), 0, 0)};
   run->advance(0.02);
-  EXPECT_EQ(run->fluid().drivenCentre(0), centre) << "nor does one whose target is no place";
+  EXPECT_EQ(run->fluid().drivenCenter(0), center) << "nor does one whose target is no place";
 }
 
 TEST_F(DrivenTest, OnlyWhoIsDrivenMoves) {
@@ -120,7 +120,7 @@ TEST_F(DrivenTest, GoesOnFromASnapshot) {
   straight->advance(kFrame);
   const FluidSnapshot saved = straight->saved();
   auto resumed = start(t, &saved);
-  EXPECT_EQ(resumed->fluid().drivenCentre(0), straight->fluid().drivenCentre(0));
+  EXPECT_EQ(resumed->fluid().drivenCenter(0), straight->fluid().drivenCenter(0));
   straight->advance(kFrame);
   resumed->targets = straight->targets;
   resumed->advance(kFrame);

@@ -27,7 +27,7 @@ TEST(GridSizeTest, CoversTheRoomWithoutARowMeetingItself) {
   }
 }
 
-TEST(GridSizeTest, IsNeverSoSmallThatNeighbouringCellsAreOne) {
+TEST(GridSizeTest, IsNeverSoSmallThatNeighboringCellsAreOne) {
   const GridSize grid = sized(0, 0, 1e-6, 1);
   EXPECT_GE(grid.size[0], 2 * kCellsPerReach + 3);
   EXPECT_GE(grid.size[1], 3u);

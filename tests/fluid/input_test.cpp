@@ -79,8 +79,8 @@ TEST_F(FluidInput, StepsThatCannotBe) {
   EXPECT_EQ(mistake({.advance_s = 1e300}), "FluidStep::advance_s is 1e+300; expected a finite time of at least 0 (s)");
   const SolidTarget nobody[] = {{.solid = 0}, {.solid = 7}};
   EXPECT_EQ(mistake({.advance_s = 0.01, .targets = nobody}), "FluidStep::targets[1].solid is 7; the scene has 1 solid");
-  for (const double v : run->fluid().drivenCentre(7)) EXPECT_TRUE(std::isnan(v));
-  EXPECT_TRUE(std::isfinite(run->fluid().drivenCentre(0)[0]));
+  for (const double v : run->fluid().drivenCenter(7)) EXPECT_TRUE(std::isnan(v));
+  EXPECT_TRUE(std::isfinite(run->fluid().drivenCenter(0)[0]));
   EXPECT_EQ(run->snapshot(), before);
   run->advance(0.01);
   EXPECT_NE(run->snapshot(), before) << "it goes on";

@@ -71,13 +71,13 @@ TEST_F(CountedMemory, WhatIsOffHasNoBuffer) {
   };
   const auto expectOff = [&](std::string_view name) { EXPECT_LE(bytesOf(name), 64u) << name; };  // a binding must be something
   for (const char* name : {"iteration multipliers", "wall samples", "particles near walls"}) expectOff(name);
-  for (const char* name : {"warm pushes", "warm starts", "neighbour counts", "neighbour list"}) EXPECT_GE(bytesOf(name), 4000u) << name;
+  for (const char* name : {"warm pushes", "warm starts", "neighbor counts", "neighbor list"}) EXPECT_GE(bytesOf(name), 4000u) << name;
   scene.solver.warm_start = 0;
   expectOff("warm pushes");
   expectOff("warm starts");
   scene.solver.neighbors = NeighborChoice::Grid;
-  expectOff("neighbour counts");
-  expectOff("neighbour list");
+  expectOff("neighbor counts");
+  expectOff("neighbor list");
   scene.solver.iterations = 3;
   EXPECT_GE(bytesOf("iteration multipliers"), 4000u);
 }

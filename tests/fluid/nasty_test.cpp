@@ -198,11 +198,11 @@ TEST_F(NastyTest, FullListsWalkTheGrid) {
   t.v = cloud(400, 1.0, 8, glm::dvec3(-0.5));
   auto listed = start(t);
   listed->substeps(1);
-  EXPECT_GT(listed->stats().neighbour_overflow, 0u);
+  EXPECT_GT(listed->stats().neighbor_overflow, 0u);
   t.gather = Gather::Grid;
   auto walked = start(t);
   walked->substeps(1);
-  EXPECT_EQ(walked->stats().neighbour_overflow, 0u);
+  EXPECT_EQ(walked->stats().neighbor_overflow, 0u);
   const Snapshot a = listed->snapshot(), b = walked->snapshot();
   for (size_t i = 0; i < a.x.size(); ++i) EXPECT_LT(glm::length(a.x[i] - b.x[i]), 2e-4 * t.d()) << i;
   t.gather = Gather::Texel;
@@ -210,7 +210,7 @@ TEST_F(NastyTest, FullListsWalkTheGrid) {
 }
 
 // Lists that overflow at first and fit once the fluid has spread: the device switches between the two variants of every pass over
-// neighbours.
+// neighbors.
 TEST_F(NastyTest, ListsThatOverflowForAWhile) {
   Trial t = trial();
   setWalls(t, {1, 1, 1});
@@ -222,7 +222,7 @@ TEST_F(NastyTest, ListsThatOverflowForAWhile) {
   const auto after = [&](int substeps, uint32_t piece, uint64_t& overflow) {
     auto run = start(t);
     run->substeps(substeps, piece);
-    overflow = run->stats().neighbour_overflow;
+    overflow = run->stats().neighbor_overflow;
     return run->snapshot();
   };
   constexpr int kLong = 60;
@@ -292,7 +292,7 @@ TEST_F(NastyTest, FarFromTheOriginIsLikeNear) {
     auto run = start(t);
     run->substeps(20);
     const FluidStats stats = run->stats();
-    for (int a = 0; a < 3; ++a) EXPECT_NEAR(stats.centre_of_mass[a] - origin, 0.2, 0.2);
+    for (int a = 0; a < 3; ++a) EXPECT_NEAR(stats.center_of_mass[a] - origin, 0.2, 0.2);
     return run->snapshot();
   };
   const Snapshot near = finish(0), far = finish(1048576);
@@ -370,7 +370,7 @@ TEST_F(NastyTest, OutsideAWallAtTheStart) {
   }
 }
 
-// Walls nearer to each other than a spacing leave each centre one place on that axis.
+// Walls nearer to each other than a spacing leave each center one place on that axis.
 TEST_F(NastyTest, VeryThinDomain) {
   for (double thickness : {0.3, 0.7, 1.0, 1.5}) {
     SCOPED_TRACE(thickness);

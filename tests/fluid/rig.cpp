@@ -122,9 +122,9 @@ void setWalls(Trial& trial, glm::dvec3 size, SideMask open) {
   trial.scene.domain = domain;
 }
 
-Solid ball(glm::dvec3 centre, double radius) {
+Solid ball(glm::dvec3 center, double radius) {
   Solid solid;
-  solid.sphere = SphereShape{{centre.x, centre.y, centre.z}, radius};
+  solid.sphere = SphereShape{{center.x, center.y, center.z}, radius};
   return solid;
 }
 

@@ -12,7 +12,7 @@
 
 namespace rill::test {
 
-/// The three ways to gather neighbours.
+/// The three ways to gather neighbors.
 enum class Gather { Texel, Storage, Grid };
 inline constexpr Gather kGathers[] = {Gather::Texel, Gather::Storage, Gather::Grid};
 const char* nameOf(Gather gather);
@@ -38,7 +38,7 @@ Trial trial();
 /// Walls from 0 to `size`.
 void setWalls(Trial& trial, glm::dvec3 size, SideMask open = 0);
 
-Solid ball(glm::dvec3 centre, double radius);
+Solid ball(glm::dvec3 center, double radius);
 Solid slab(glm::dvec3 low, glm::dvec3 high);
 
 /// Points of a lattice, the first half a spacing from `from`, each moved by up to `jitter` spacings an axis.
@@ -111,7 +111,7 @@ class FluidTest : public GpuTest {
 
   /// After `substeps` of both solvers.
   Difference difference(const Trial& trial, int substeps);
-  /// For every way to gather neighbours: none above the limits (spacings). `ageing` is added for the list, in which pairs that have come
+  /// For every way to gather neighbors: none above the limits (spacings). `ageing` is added for the list, in which pairs that have come
   /// nearer by more than its skin since it was built are missing: fragments that fly apart at several spacings in ten substeps.
   void expectEqual(Trial trial, int substeps, double position, double velocity, double ageing = 0);
 };

@@ -33,8 +33,8 @@ class SnapshotTest : public FluidTest {
   /// Fills all that a snapshot does not bring with numbers that make no sense: what reads it before it is written stands out.
   void poison(const Fluid& fluid) {
     const FluidBuffers& b = fluid.impl().buffers();
-    std::vector<const Buffer*> all = {&b.position,   &b.velocity,       &b.prediction, &b.pushAway, &b.work,       &b.warm,    &b.id,
-                                      &b.multiplier, &b.neighbourCount, &b.cell,       &b.start,    &b.nearSample, &b.nearList};
+    std::vector<const Buffer*> all = {&b.position,   &b.velocity,      &b.prediction, &b.pushAway, &b.work,       &b.warm,    &b.id,
+                                      &b.multiplier, &b.neighborCount, &b.cell,       &b.start,    &b.nearSample, &b.nearList};
     for (const Buffer& list : b.lists) all.push_back(&list);
     Graph graph;
     graph.pass("poison", [&](Pass& pass) {
@@ -55,7 +55,7 @@ class SnapshotTest : public FluidTest {
     EXPECT_EQ(a.solids, b.solids);
     EXPECT_TRUE(a.position == b.position && a.velocity == b.velocity && a.push == b.push && a.warm == b.warm && a.id == b.id);
     EXPECT_TRUE(a.nearWall == b.nearWall && a.nearMore == b.nearMore);
-    EXPECT_TRUE(a.neighbourCount == b.neighbourCount && a.neighbours == b.neighbours && a.cell == b.cell);
+    EXPECT_TRUE(a.neighborCount == b.neighborCount && a.neighbors == b.neighbors && a.cell == b.cell);
     EXPECT_EQ(a, b) << "nothing is lost on the way";
   }
 
@@ -71,8 +71,8 @@ class SnapshotTest : public FluidTest {
     for (size_t n = 0; n < 3; ++n) {
       SCOPED_TRACE("after " + std::to_string(n) + " frames");
       const FluidSnapshot saved = looked->saved();
-      alive_ += hasNeighbours(saved) ? 1 : 0;
-      walks_ += hasNeighbours(saved) && walksGrid(saved) ? 1 : 0;
+      alive_ += hasNeighbors(saved) ? 1 : 0;
+      walks_ += hasNeighbors(saved) && walksGrid(saved) ? 1 : 0;
       auto resumed = start(t, &saved);
       poison(resumed->fluid());
       expectEqual(resumed->saved(), saved);

@@ -46,7 +46,7 @@ TEST_F(StartPressureTest, IsThatOfTheWaterAbove) {
   run->substeps(1);
   const auto p = pressures(*run, t);
   const SmoothingKernel kernel(KernelChoice::Wendland, 2 * t.d(), t.d());
-  double push = 0;  // of a pressure that falls by 1 a metre, on the cubic lattice: 0.95, so that it takes more to bear the same
+  double push = 0;  // of a pressure that falls by 1 a meter, on the cubic lattice: 0.95, so that it takes more to bear the same
   for (int x = -1; x <= 1; ++x)
     for (int y = -1; y <= 1; ++y)
       for (int z = -1; z <= 1; ++z) push -= kernel.gradientOverR(t.d() * std::sqrt(double(x * x + y * y + z * z))) * y * y * t.d() * t.d();
@@ -59,7 +59,7 @@ TEST_F(StartPressureTest, IsThatOfTheWaterAbove) {
   for (int x = 0; x < 6; ++x)
     for (int z = 0; z < 6; ++z) {
       const double rises = (low[x][z] - high[x][z]) / (14 * t.d()) / (t.scene.fluid.density * kGravity);
-      EXPECT_NEAR(rises * push, 1, 0.02) << "column " << x << ", " << z << ": metres of water a metre";
+      EXPECT_NEAR(rises * push, 1, 0.02) << "column " << x << ", " << z << ": meters of water a meter";
     }
 }
 
@@ -194,7 +194,7 @@ TEST_F(StartPressureTest, GoesOnFromACheckpoint) {
 TEST_F(StartPressureTest, IsSkippedWhereThereIsNone) {
   const auto most = [&](const Trial& t) {
     const auto run = start(t);
-    return run->fluid().mostSubsteps() / run->fluid().substepsPerBlock() - t.scene.solver.max_substeps;
+    return run->fluid().substepsToComplete() / run->fluid().substepsPerBlock() - t.scene.solver.max_substeps;
   };
   const Trial bears = column(8);
   EXPECT_GT(most(bears), kSettleSubsteps);
@@ -214,8 +214,8 @@ TEST_F(StartPressureTest, DeepWaterTakesABoundedNumber) {
   t.x.push_back({3 * t.d(), 5000 * t.d(), 3 * t.d()});
   t.scene.domain->max[1] = 6000 * t.d();
   const auto run = start(t);
-  EXPECT_LE(run->fluid().mostSubsteps(),
-            run->fluid().substepsPerBlock() * (t.scene.solver.max_substeps + kSettleSubsteps + kMostPressings));
+  EXPECT_LE(run->fluid().substepsToComplete(),
+            run->fluid().substepsPerBlock() * (t.scene.solver.max_substeps + kSettleSubsteps + kMaxPressings));
 }
 
 }  // namespace start_pressure_test

@@ -13,7 +13,7 @@ struct Sums {
   std::vector<double> density;
   double mean = 0, p99 = 0, max = 0, median = 0;
   double kinetic = 0, potential = 0, fastest = 0;
-  glm::dvec3 momentum = glm::dvec3(0), centre = glm::dvec3(0);
+  glm::dvec3 momentum = glm::dvec3(0), center = glm::dvec3(0);
 };
 
 class StatsTest : public FluidTest {
@@ -27,22 +27,22 @@ class StatsTest : public FluidTest {
     std::vector<double> compression, inside;
     for (size_t i = 0; i < s.x.size(); ++i) {
       double rho = oracle.solver().boundaryAt(s.x[i], 0).value;
-      int neighbours = -1;
+      int neighbors = -1;
       for (const glm::dvec3& other : s.x) {
         const double distance = glm::length(s.x[i] - other);
         rho += kernel.value(distance);
-        neighbours += distance < kernel.h();
+        neighbors += distance < kernel.h();
       }
       sums.density.push_back(rho);
       compression.push_back(std::max(rho - 1, 0.0));
-      if (neighbours >= full) inside.push_back(rho - 1);
+      if (neighbors >= full) inside.push_back(rho - 1);
       sums.mean += compression.back() / n;
       sums.kinetic += 0.5 * mass * glm::dot(s.v[i], s.v[i]);
       sums.momentum += mass * s.v[i];
       for (int a = 0; a < 3; ++a) {
         const double place = s.x[i][a] + t.origin[a];
         sums.potential -= mass * t.scene.gravity[a] * place;
-        sums.centre[a] += place / n;
+        sums.center[a] += place / n;
       }
     }
     std::sort(compression.begin(), compression.end());
@@ -70,7 +70,7 @@ class StatsTest : public FluidTest {
     EXPECT_NEAR(stats.potential_J, sums.potential, 1e-5 * mass * 9.81 + 1e-7 * std::abs(sums.potential));
     for (int a = 0; a < 3; ++a) {
       EXPECT_NEAR(stats.momentum[a], sums.momentum[a], 1e-5 * mass * sums.fastest) << a;
-      EXPECT_NEAR(stats.centre_of_mass[a], sums.centre[a], 1e-6) << a;
+      EXPECT_NEAR(stats.center_of_mass[a], sums.center[a], 1e-6) << a;
     }
     EXPECT_NEAR(stats.max_speed, sums.fastest, 1e-6 * sums.fastest);
   }
@@ -115,7 +115,7 @@ TEST_F(StatsTest, AroundSolids) {
   expectLike(t, *start(t));
 }
 
-// The walls stand in for the lattice beyond them: every particle with a full neighbourhood of fluid and walls has the rest density, those
+// The walls stand in for the lattice beyond them: every particle with a full neighborhood of fluid and walls has the rest density, those
 // at the free faces less.
 TEST_F(StatsTest, RestLatticeInACorner) {
   Trial t = trial();
@@ -138,7 +138,7 @@ TEST_F(StatsTest, RestLatticeInACorner) {
   }
   EXPECT_EQ(corner.kinetic_J, 0);
   EXPECT_EQ(corner.max_speed, 0);
-  EXPECT_NEAR(corner.centre_of_mass[1], 3 * t.d(), 1e-6);
+  EXPECT_NEAR(corner.center_of_mass[1], 3 * t.d(), 1e-6);
 }
 
 // 0.1 of 300: the 99th percentile leaves out the three that are worst.

@@ -211,19 +211,19 @@ TEST_F(StepControlTest, PistonPushesWithoutPenetration) {
   piston.motion = {{0, {0, 0, 0}}, {0.25, {0.25, 0, 0}}, {0.4, {0.25, 0, 0}}};
   t.scene.solids = {piston};
   auto run = start(t);
-  double centre = 0;
+  double center = 0;
   for (int frame = 1; frame <= 20; ++frame) {
     run->advance(1.0 / 60, 12);
     const Snapshot s = run->snapshot();
     ASSERT_TRUE(s.finite());
     const double time = run->progress().time_s, at = face + std::min(time, 0.25);
-    centre = 0;
+    center = 0;
     for (size_t i = 0; i < s.x.size(); ++i) {
       EXPECT_GE(s.x[i].x, at + 0.5 * t.d() - 1e-3 * t.d()) << i << " at " << time;
-      centre += s.x[i].x / double(s.x.size());
+      center += s.x[i].x / double(s.x.size());
     }
   }
-  EXPECT_GT(centre, face + 0.25 + 2 * t.d());
+  EXPECT_GT(center, face + 0.25 + 2 * t.d());
 }
 
 }  // namespace step_control_test

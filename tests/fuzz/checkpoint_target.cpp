@@ -9,7 +9,7 @@ namespace {
 
 /// What a fluid of this shape does with it before the device sees it.
 void use(const FluidSnapshot& snapshot, const SnapshotShape& shape) {
-  if (!checkSnapshot(snapshot, shape) || !hasNeighbours(snapshot)) return;
+  if (!checkSnapshot(snapshot, shape) || !hasNeighbors(snapshot)) return;
   std::vector<uint32_t> list(size_t{kListBlock} * shape.listCapacity, shape.count);
   layOutList(snapshot, 0, shape.count, list);
   for (uint32_t entry : list) RILL_REQUIRE(entry <= shape.count);

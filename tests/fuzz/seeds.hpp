@@ -40,7 +40,7 @@ inline std::vector<std::string> checkpointSeeds() {
   offline::Checkpoint walking = seedCheckpoint(), nothing;
   FluidSnapshot& s = walking.fluid;  // no list at hand
   s.control[offsetof(FluidControl, stale) / 4] = 1;
-  for (auto* array : {&s.neighbourCount, &s.neighbours, &s.cell}) array->clear();
+  for (auto* array : {&s.neighborCount, &s.neighbors, &s.cell}) array->clear();
   for (const offline::Checkpoint& c : {seedCheckpoint(), walking, nothing}) {
     const auto bytes = offline::encodeCheckpoint(c);
     seeds.emplace_back(reinterpret_cast<const char*>(bytes.data()), bytes.size());

@@ -6,7 +6,7 @@ namespace rill::test {
 namespace graph_draw_test {
 
 constexpr uint32_t kWidth = 64, kHeight = 48;
-constexpr ImageDesc kColour{VK_FORMAT_R32_SFLOAT, kWidth, kHeight}, kDepth{VK_FORMAT_D32_SFLOAT, kWidth, kHeight};
+constexpr ImageDesc kColor{VK_FORMAT_R32_SFLOAT, kWidth, kHeight}, kDepth{VK_FORMAT_D32_SFLOAT, kWidth, kHeight};
 
 struct DrawPush {
   float rect[4];
@@ -23,7 +23,7 @@ class GraphDraw : public GpuTest {
                                             .fragmentSpirv = testShader("draw_fragment"),
                                             .bindings = kinds,
                                             .pushConstantBytes = sizeof(DrawPush),
-                                            .colours = {&kColour.format, 1},
+                                            .colors = {&kColor.format, 1},
                                             .depth = kDepth.format,
                                             .depthCompare = compare,
                                             .depthWrite = true,
@@ -71,12 +71,12 @@ TEST_F(GraphDraw, ComposesByDepthAndKeepsWhatItDoesNotTouch) {
   Ticket tickets[3], depths[3];
   runFrames(graph, 3, [&](int frame) {
     const BufferRef added = graph.import("added", importOf(addedBuffer)), indirect = graph.import("arguments", importOf(arguments));
-    ImageRef colour = graph.create("colour", kColour), depth = graph.create("depth", kDepth);
+    ImageRef color = graph.create("color", kColor), depth = graph.create("depth", kDepth);
     graph.pass("draw", [&](Pass& pass) {
       pass.read(added, Use::DrawRead);
       VkClearValue far{};
       far.depthStencil = {1, 0};
-      colour = pass.write(colour, Use::ColourTarget, Load::Discard);
+      color = pass.write(color, Use::ColorTarget, Load::Discard);
       depth = pass.write(depth, Use::DepthTarget, Load::Clear, far);
       const Kernel kernel = pass.kernel(less, {added});
       return [=](Commands& commands) {
@@ -88,7 +88,7 @@ TEST_F(GraphDraw, ComposesByDepthAndKeepsWhatItDoesNotTouch) {
     graph.pass("over", [&](Pass& pass) {
       pass.read(added, Use::DrawRead);
       pass.read(indirect, Use::Indirect);
-      colour = pass.write(colour, Use::ColourTarget);
+      color = pass.write(color, Use::ColorTarget);
       depth = pass.write(depth, Use::DepthTarget);
       const Kernel kernel = pass.kernel(less, {added});
       return [=](Commands& commands) {
@@ -96,17 +96,17 @@ TEST_F(GraphDraw, ComposesByDepthAndKeepsWhatItDoesNotTouch) {
         commands.drawIndirect(kernel, indirect, 16, DrawPush{{-1, -1, 1, 1}, 0.375f, 1000.0f});
       };
     });
-    tickets[frame] = readback(graph, colour, kWidth, kHeight);
+    tickets[frame] = readback(graph, color, kWidth, kHeight);
     depths[frame] = readback(graph, depth, kWidth, kHeight);
   });
   for (int frame = 0; frame < 3; ++frame) {
-    const auto colour = read<float>(graph, tickets[frame]), depth = read<float>(graph, depths[frame]);
-    ASSERT_EQ(colour.size(), size_t{kWidth} * kHeight);
+    const auto color = read<float>(graph, tickets[frame]), depth = read<float>(graph, depths[frame]);
+    ASSERT_EQ(color.size(), size_t{kWidth} * kHeight);
     for (uint32_t y = 0; y < kHeight; ++y)
       for (uint32_t x = 0; x < kWidth; ++x) {
         const bool right = x >= kWidth / 2, upper = y < kHeight / 2;
         const float value = right ? 10.0f : upper ? 1000.0f : 100.0f;
-        EXPECT_EQ(colour[y * kWidth + x], value + addedHere[x]) << x << " " << y;
+        EXPECT_EQ(color[y * kWidth + x], value + addedHere[x]) << x << " " << y;
         EXPECT_NEAR(depth[y * kWidth + x], right ? 0.25f : upper ? 0.375f : 0.5f, 1e-6);
       }
   }

@@ -8,7 +8,7 @@ namespace {
 
 class Describe : public GraphTest {
  protected:
-  /// Three buffers of 1000 bytes, of which no two but neighbours live together; a culled pass; a pyramid that is drawn and read.
+  /// Three buffers of 1000 bytes, of which no two but neighbors live together; a culled pass; a pyramid that is drawn and read.
   void declare() {
     BufferRef at = write("make", graph.create("first", {1000}));
     at = readWrite("second pass", at, Use::ComputeRead, graph.create("second", {1000}));

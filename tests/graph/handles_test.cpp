@@ -126,10 +126,10 @@ TEST_F(Handles, WhatIsNoSpirvIsRefusedByName) {
   EXPECT_EQ(refusal(other), "shader 'the host's': its SPIR-V is in the other byte order: it must be in that of this machine");
   EXPECT_EQ(refusal({}), "shader 'the host's': no SPIR-V was given, and Rill has no shader of that name");
   EXPECT_EQ(refusal(kSpirv), "made");
-  const VkFormat colour = VK_FORMAT_R8G8B8A8_UNORM;
+  const VkFormat color = VK_FORMAT_R8G8B8A8_UNORM;
   const auto drawn = graphicsPipeline(
       *device,
-      {.vertex = "quad", .fragment = "fill", .vertexSpirv = kSpirv, .fragmentSpirv = text, .bindings = kinds, .colours = {&colour, 1}});
+      {.vertex = "quad", .fragment = "fill", .vertexSpirv = kSpirv, .fragmentSpirv = text, .bindings = kinds, .colors = {&color, 1}});
   ASSERT_FALSE(drawn);
   EXPECT_NE(drawn.error().message.find("shader 'fill': what was given is no SPIR-V"), std::string::npos) << drawn.error().message;
 }

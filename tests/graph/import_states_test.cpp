@@ -39,7 +39,7 @@ class ImportStates : public GraphTest {
 };
 
 TEST_F(ImportStates, ASwapchainsImageIsLeftAsItIsPresented) {
-  draw(image(Use::Unknown, Use::Present), Use::ColourTarget, Load::Discard);
+  draw(image(Use::Unknown, Use::Present), Use::ColorTarget, Load::Discard);
   compile();
   const Transition& first = only(graph.impl().passes[0].barrier);
   EXPECT_EQ(first.from, VK_IMAGE_LAYOUT_UNDEFINED);
@@ -50,7 +50,7 @@ TEST_F(ImportStates, ASwapchainsImageIsLeftAsItIsPresented) {
 }
 
 TEST_F(ImportStates, WhatWasPresentedIsDrawnOver) {
-  draw(image(Use::Present, Use::Present), Use::ColourTarget);
+  draw(image(Use::Present, Use::Present), Use::ColorTarget);
   compile();
   EXPECT_EQ(only(graph.impl().passes[0].barrier).from, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR) << "its content is kept";
   EXPECT_EQ(only(last()).to, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
@@ -158,8 +158,8 @@ TEST_F(ImportStates, MistakesAreNamed) {
             "pass 'look' reads 'image' with Use::Present, which is no way for a pass to read an image");
   EXPECT_EQ(after([&] { look(image(Use::ComputeRead, Use::Nothing, VK_IMAGE_USAGE_STORAGE_BIT), Use::ComputeSampled); }),
             "pass 'look' uses import 'image' with Use::ComputeSampled, but it was created without VK_IMAGE_USAGE_SAMPLED_BIT");
-  EXPECT_EQ(after([&] { draw(image(Use::Unknown, Use::Nothing, VK_IMAGE_USAGE_SAMPLED_BIT), Use::ColourTarget, Load::Discard); }),
-            "pass 'draw' uses import 'image' with Use::ColourTarget, but it was created without VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT");
+  EXPECT_EQ(after([&] { draw(image(Use::Unknown, Use::Nothing, VK_IMAGE_USAGE_SAMPLED_BIT), Use::ColorTarget, Load::Discard); }),
+            "pass 'draw' uses import 'image' with Use::ColorTarget, but it was created without VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT");
   EXPECT_EQ(after([&] { (void)image(Use::Unknown, Use::CopySource, VK_IMAGE_USAGE_STORAGE_BIT); }),
             "import 'image': Use::CopySource is a state of it, but it was created without VK_IMAGE_USAGE_TRANSFER_SRC_BIT");
   EXPECT_EQ(after([&] { draw(image(Use::Unknown, Use::Present, VK_IMAGE_USAGE_STORAGE_BIT), Use::ComputeWrite); }), "compiled");

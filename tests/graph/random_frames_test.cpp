@@ -84,10 +84,10 @@ class RandomFrames : public GraphTest {
           if (drawn[r] && pick(2)) {
             pass.read(images[r], imageReads[pick(4)]);
           } else {
-            constexpr Use imageWritings[] = {Use::ComputeWrite, Use::CopyTarget, Use::ColourTarget};
+            constexpr Use imageWritings[] = {Use::ComputeWrite, Use::CopyTarget, Use::ColorTarget};
             const Use use = imageWritings[pick(target ? 2 : 3)];  // targets of one pass are of one size: one of them
-            target |= use == Use::ColourTarget;
-            const bool discard = pick(4) == 0 || (use == Use::ColourTarget && !drawn[r]);
+            target |= use == Use::ColorTarget;
+            const bool discard = pick(4) == 0 || (use == Use::ColorTarget && !drawn[r]);
             images[r] = pass.write(images[r], use, discard ? Load::Discard : Load::Keep);
             drawn[r] = true;
           }

@@ -4,13 +4,13 @@
 namespace rill::test {
 namespace {
 
-constexpr ImageDesc kColour{VK_FORMAT_R16G16B16A16_SFLOAT, 64, 32}, kDepth{VK_FORMAT_D32_SFLOAT, 64, 32};
+constexpr ImageDesc kColor{VK_FORMAT_R16G16B16A16_SFLOAT, 64, 32}, kDepth{VK_FORMAT_D32_SFLOAT, 64, 32};
 
 class Targets : public GraphTest {
  protected:
-  void draw(std::string_view name, ImageRef& colour, ImageRef& depth, Load load) {
+  void draw(std::string_view name, ImageRef& color, ImageRef& depth, Load load) {
     graph.pass(name, [&](Pass& p) {
-      colour = p.write(colour, Use::ColourTarget, load);
+      color = p.write(color, Use::ColorTarget, load);
       depth = p.write(depth, Use::DepthTarget, load);
       return [](Commands&) {};
     });
@@ -32,10 +32,10 @@ class Targets : public GraphTest {
 };
 
 TEST_F(Targets, OnlyWhatIsWantedLaterIsStored) {
-  ImageRef colour = graph.create("colour", kColour), depth = graph.create("depth", kDepth);
-  draw("opaque", colour, depth, Load::Clear);
-  draw("more", colour, depth, Load::Keep);
-  look("look", colour);
+  ImageRef color = graph.create("color", kColor), depth = graph.create("depth", kDepth);
+  draw("opaque", color, depth, Load::Clear);
+  draw("more", color, depth, Load::Keep);
+  look("look", color);
   compile();
   EXPECT_EQ(target(0, 0).load, Load::Clear);
   EXPECT_TRUE(target(0, 0).store) << "the second pass keeps it";
@@ -45,11 +45,11 @@ TEST_F(Targets, OnlyWhatIsWantedLaterIsStored) {
 }
 
 TEST_F(Targets, WhatIsDiscardedLaterIsNotStored) {
-  ImageRef colour = graph.create("colour", kColour), depth = graph.create("depth", kDepth);
-  draw("opaque", colour, depth, Load::Clear);
-  look("look", colour);
-  draw("again", colour, depth, Load::Discard);
-  look("look again", colour);
+  ImageRef color = graph.create("color", kColor), depth = graph.create("depth", kDepth);
+  draw("opaque", color, depth, Load::Clear);
+  look("look", color);
+  draw("again", color, depth, Load::Discard);
+  look("look again", color);
   look("depth", depth);
   compile();
   EXPECT_FALSE(target(0, 1).store);
@@ -57,8 +57,8 @@ TEST_F(Targets, WhatIsDiscardedLaterIsNotStored) {
 }
 
 TEST_F(Targets, LayoutsAndStagesAreThoseOfAttachments) {
-  ImageRef colour = graph.create("colour", kColour), depth = graph.create("depth", kDepth);
-  draw("draw", colour, depth, Load::Clear);
+  ImageRef color = graph.create("color", kColor), depth = graph.create("depth", kDepth);
+  draw("draw", color, depth, Load::Clear);
   look("look", depth, Use::DrawSampled);
   compile();
   const PlannedBarrier& first = graph.impl().passes[0].barrier;
@@ -132,30 +132,30 @@ TEST_F(Targets, ALevelThatNobodyReadsLeavesNoPass) {
 
 TEST_F(Targets, MistakesAreNamed) {
   EXPECT_EQ(after([&] {
-              ImageRef colour = graph.create("colour", kColour), depth = graph.create("depth", kDepth);
-              draw("draw", colour, depth, Load::Keep);
+              ImageRef color = graph.create("color", kColor), depth = graph.create("depth", kDepth);
+              draw("draw", color, depth, Load::Keep);
             }),
-            "pass 'draw' draws to 'colour' and keeps what is there, but no pass has written it: clear or discard it");
+            "pass 'draw' draws to 'color' and keeps what is there, but no pass has written it: clear or discard it");
   EXPECT_EQ(after([&] {
-              ImageRef colour = graph.create("colour", kColour), depth = graph.create("depth", ImageDesc{VK_FORMAT_D32_SFLOAT, 64, 64});
-              draw("draw", colour, depth, Load::Clear);
+              ImageRef color = graph.create("color", kColor), depth = graph.create("depth", ImageDesc{VK_FORMAT_D32_SFLOAT, 64, 64});
+              draw("draw", color, depth, Load::Clear);
             }),
-            "pass 'draw' draws to 'depth' and to 'colour', which is of another size");
+            "pass 'draw' draws to 'depth' and to 'color', which is of another size");
   EXPECT_EQ(after([&] {
-              ImageRef colour = graph.create("colour", kColour), depth = graph.create("depth", kColour);
-              draw("draw", colour, depth, Load::Clear);
+              ImageRef color = graph.create("color", kColor), depth = graph.create("depth", kColor);
+              draw("draw", color, depth, Load::Clear);
             }),
             "pass 'draw' draws to 'depth' with Use::DepthTarget, but its format holds no depth");
   EXPECT_EQ(after([&] {
               graph.pass("draw", [&](Pass& p) {
-                (void)p.write(graph.create("image", kColour), Use::ComputeWrite, Load::Clear);
+                (void)p.write(graph.create("image", kColor), Use::ComputeWrite, Load::Clear);
                 return [](Commands&) {};
               });
             }),
             "pass 'draw' writes 'image' with Use::ComputeWrite and Load::Clear: only what is drawn to is cleared so");
-  EXPECT_EQ(after([&] { (void)write("draw", graph.create("buffer", {256}), Use::ColourTarget); }),
-            "pass 'draw' writes 'buffer' with Use::ColourTarget, which is no way for a pass to write");
-  EXPECT_EQ(after([&] { (void)graph.level(graph.create("image", kColour), 1); }), "level 1 of image 'image' was asked for: it has 1");
+  EXPECT_EQ(after([&] { (void)write("draw", graph.create("buffer", {256}), Use::ColorTarget); }),
+            "pass 'draw' writes 'buffer' with Use::ColorTarget, which is no way for a pass to write");
+  EXPECT_EQ(after([&] { (void)graph.level(graph.create("image", kColor), 1); }), "level 1 of image 'image' was asked for: it has 1");
   EXPECT_EQ(after([&] {
               (void)graph.create("image", ImageDesc{VK_FORMAT_R32_SFLOAT, 4, 4, 4});
             }),
@@ -165,11 +165,11 @@ TEST_F(Targets, MistakesAreNamed) {
   pipeline.shader = "fake";
   pipeline.set = &set;
   pipeline.bindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
-  pipeline.colours = {VK_FORMAT_R8G8B8A8_UNORM};
+  pipeline.colors = {VK_FORMAT_R8G8B8A8_UNORM};
   EXPECT_EQ(
       after([&] {
         graph.pass("draw", [&](Pass& p) {
-          (void)p.write(graph.create("image", kColour), Use::ColourTarget, Load::Clear);
+          (void)p.write(graph.create("image", kColor), Use::ColorTarget, Load::Clear);
           (void)p.kernel(&pipeline, {});
           return [](Commands&) {};
         });

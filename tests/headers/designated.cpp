@@ -18,7 +18,7 @@ void describe() {
   (void)rill::SolidTarget{.solid = 1};
   (void)rill::FluidView{.width = 640};
   (void)rill::FluidLook{.opaque = true};
-  (void)rill::TargetFormats{.colour = VK_FORMAT_R8G8B8A8_SRGB};
+  (void)rill::TargetFormats{.color = VK_FORMAT_R8G8B8A8_SRGB};
   (void)rill::EnvironmentPicture{.width = 4};
   (void)rill::Fill{.jitter = 0.1};
   (void)rill::Solid{.friction = 0.1};

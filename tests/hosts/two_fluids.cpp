@@ -30,8 +30,8 @@ int main(int count, char** arguments) {
   Lender lender;
   host::Engine& engine = lender.engine;
   auto device = lender.lend();
-  host::Image colour = engine.createImage(VK_FORMAT_R8G8B8A8_SRGB, kWidth, kHeight,
-                                          rill::kFluidColourUsage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+  host::Image color = engine.createImage(VK_FORMAT_R8G8B8A8_SRGB, kWidth, kHeight,
+                                         rill::kFluidColorUsage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
   host::Image depth = engine.createImage(VK_FORMAT_D32_SFLOAT, kWidth, kHeight, rill::kFluidDepthUsage | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
   const rill::FluidView view = lookAt({1, 1.3f, 3.4f}, {1, 0.25f, 0.45f}, kWidth, kHeight);
   rill::FluidLook clay;
@@ -47,12 +47,12 @@ int main(int count, char** arguments) {
       // What is replaced here was recorded into frames that are still in flight.
       if (k % 7 == 0) left = makeFluid(*device, 0, 0);
       if (k % 5 == 0) right = makeFluid(*device, 1.1, 5);
-      if (k % 11 == 0) painter = need(rill::FluidRenderer::create(*device, {colour.format, depth.format}));
+      if (k % 11 == 0) painter = need(rill::FluidRenderer::create(*device, {color.format, depth.format}));
       if (k % 13 == 0) graph = std::make_unique<rill::Graph>();
-      engine.clear(frame, colour, {{0.55f, 0.65f, 0.75f, 1}}, depth, 0);
+      engine.clear(frame, color, {{0.55f, 0.65f, 0.75f, 1}}, depth, 0);
 
       graph->reset();
-      rill::SceneTargets targets{importTarget(*graph, "colour", colour, rill::Use::ColourTarget),
+      rill::SceneTargets targets{importTarget(*graph, "color", color, rill::Use::ColorTarget),
                                  importTarget(*graph, "depth", depth, rill::Use::DepthTarget)};
       const rill::FluidState a = left->addTo(*graph, {.advance_s = 1.0 / 60, .stats = true});
       const rill::FluidState b = right->addTo(*graph, {.advance_s = 1.0 / 60, .stats = true});
@@ -66,9 +66,9 @@ int main(int count, char** arguments) {
         if (const auto stats = fluid->stats(); stats && stats->non_finite + stats->outside > 0) host::fail("a fluid left its tank");
     }
     engine.wait();
-    engine.save(colour, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, arguments[1]);
+    engine.save(color, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, arguments[1]);
   }
   device.reset();
-  engine.destroy(colour);
+  engine.destroy(color);
   engine.destroy(depth);
 }

@@ -149,14 +149,14 @@ TEST_F(State, IndicesAreJudged) {
   expectRefused("near walls");
   s.nearMore[0] = s.nearWall[0];
   expectRefused("near walls");
-  s.neighbours[0] = seedShape().count;
-  expectRefused("a neighbour is no particle");
-  s.neighbours.pop_back();
-  expectRefused("neighbours has");
-  s.neighbourCount[0] = seedShape().listCapacity + 1;
-  expectRefused("neighbours has");
-  s.neighbourCount.pop_back();
-  expectRefused("neighbour counts has");
+  s.neighbors[0] = seedShape().count;
+  expectRefused("a neighbor is no particle");
+  s.neighbors.pop_back();
+  expectRefused("neighbors has");
+  s.neighborCount[0] = seedShape().listCapacity + 1;
+  expectRefused("neighbors has");
+  s.neighborCount.pop_back();
+  expectRefused("neighbor counts has");
   s.cell.back() = static_cast<uint32_t>(seedShape().cells);
   expectRefused("cells");
   s.cell.front() = s.cell.back() + 1;
@@ -184,15 +184,15 @@ TEST(List, IsLaidOutInBlocksAndBack) {
   s.listCapacity = 8;
   const uint32_t count = 3 * kListBlock + 17;
   for (uint32_t i = 0; i < count; ++i) {
-    s.neighbourCount.push_back(i % 11);  // some of them more than the list holds
-    for (uint32_t k = 0; k < i % 11 && i % 11 <= 8; ++k) s.neighbours.push_back((i * 7 + k) % count);
+    s.neighborCount.push_back(i % 11);  // some of them more than the list holds
+    for (uint32_t k = 0; k < i % 11 && i % 11 <= 8; ++k) s.neighbors.push_back((i * 7 + k) % count);
   }
   FluidSnapshot back = s;
-  back.neighbours.clear();
+  back.neighbors.clear();
   for (const auto& [first, last] : {std::pair{0u, 2 * kListBlock}, std::pair{2 * kListBlock, count}}) {
     std::vector<uint32_t> list(8 * kListBlock * 2, 0xdead);
     layOutList(s, first, last, list);
-    if (first == 0) {  // particle 4097's fifth neighbour, its last: block 1, second group, filled up
+    if (first == 0) {  // particle 4097's fifth neighbor, its last: block 1, second group, filled up
       const size_t at = ((kListBlock * 2 + 1) + kListBlock) * 4;
       EXPECT_EQ(list[at], (4097u * 7 + 4) % count);
       EXPECT_EQ(list[at + 1], count);

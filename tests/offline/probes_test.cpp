@@ -50,7 +50,7 @@ TEST(Front, IgnoresALoneDropAndGroupsOfFive) {
   points.push_back({3.5f, 0.1f, 0.1f});
   EXPECT_NEAR(front(tank(), points, Axis::PlusX), 1.0, 1e-6);
   for (int i = 0; i < 4; ++i) points.push_back({3.5f, 0.1f + 0.01f * float(i + 1), 0.1f});
-  EXPECT_NEAR(front(tank(), points, Axis::PlusX), 1.0, 1e-6) << "five particles have four neighbours each";
+  EXPECT_NEAR(front(tank(), points, Axis::PlusX), 1.0, 1e-6) << "five particles have four neighbors each";
   points.push_back({3.45f, 0.1f, 0.1f});
   EXPECT_NEAR(front(tank(), points, Axis::PlusX), 3.55, 1e-6);
 }

@@ -15,7 +15,7 @@ constexpr const char* kScene = R"({
   "camera": {"eye": [1.6, 0.8, 1.6], "target": [0.4, 0.2, 0.2]}, "look": {"environment": "skies/sky.hdr"}
 })";
 
-/// One colour all around: the same four bytes for each of 8 x 4 pixels.
+/// One color all around: the same four bytes for each of 8 x 4 pixels.
 std::string radiance(const std::string& rgbe) {
   std::string text = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n";
   for (int k = 0; k < 32; ++k) text += rgbe;

@@ -85,7 +85,7 @@ TEST_F(VideoTest, ShowsThePictures) {
       for (size_t c = 0; c < 3; ++c) border += std::abs(int(seen.rgb[(y * 98 + 97) * 3 + c]) - int(made.rgb[(y * 97 + 96) * 3 + c]));
     }
     const Distance apart = distance(made, cut);
-    EXPECT_LE(apart.mean, 0.01) << "the colours are those of the picture";
+    EXPECT_LE(apart.mean, 0.01) << "the colors are those of the picture";
     EXPECT_LE(apart.worst, 0.04);
     EXPECT_LE(border / (55 * 3), 12) << "the added column repeats the last";
   }

@@ -35,7 +35,7 @@ inline glm::dvec3 meanVelocity(const ReferenceSolver& solver) {
   return sum / double(solver.size());
 }
 
-inline glm::dvec3 centreOfMass(const ReferenceSolver& solver) {
+inline glm::dvec3 centerOfMass(const ReferenceSolver& solver) {
   glm::dvec3 sum(0);
   for (const glm::dvec3& x : solver.state.position) sum += x;
   return sum / double(solver.size());

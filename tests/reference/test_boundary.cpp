@@ -26,7 +26,7 @@ ReferenceSettings over(const Solid& solid) {
   return s;
 }
 
-TEST(Boundary, CentresStayHalfASpacingOffEverything) {
+TEST(Boundary, CentersStayHalfASpacingOffEverything) {
   for (const bool tabulated : {false, true}) {
     ReferenceSettings s = tank(kSpacing, kSpacing * glm::dvec3(12, 16, 5));
     s.tabulated = tabulated;
@@ -48,7 +48,7 @@ TEST(Boundary, CentresStayHalfASpacingOffEverything) {
     }
     EXPECT_LT(deepest, 1e-12);
     EXPECT_EQ(solver.parked(), 0u);
-    EXPECT_GT(centreOfMass(solver).x, 2.2 * kSpacing);
+    EXPECT_GT(centerOfMass(solver).x, 2.2 * kSpacing);
   }
 }
 

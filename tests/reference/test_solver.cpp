@@ -63,18 +63,18 @@ TEST(Solver, AStillColumnRests) {
   s.relaxation = 0.5;
   s.warmStart = 0.01;
   ReferenceSolver solver(s, lattice(6, layers, 6, kTankSpacing));
-  const double height = centreOfMass(solver).y;
+  const double height = centerOfMass(solver).y;
   run(solver, 1.0 / 960, 960);
   EXPECT_LT(rmsSpeed(solver), 0.05);
-  EXPECT_NEAR(centreOfMass(solver).y / height, 1, 0.01);
+  EXPECT_NEAR(centerOfMass(solver).y / height, 1, 0.01);
   EXPECT_LT(compression(solver), 0.002);
   EXPECT_EQ(solver.parked(), 0u);
 }
 
-// The pressure of a column at rest bears its particles everywhere alike: at walls and in edges, where a part of their neighbours is behind
+// The pressure of a column at rest bears its particles everywhere alike: at walls and in edges, where a part of their neighbors is behind
 // a wall and does not push along it, as in the middle. Without WallSample::beside they fell there at up to 0.18 g, and at 0.26 g for h =
 // 2.5 d.
-double mostFallOfAPressedColumn(ReferenceSettings s, int layers) {
+double maxFallOfPressurizedColumn(ReferenceSettings s, int layers) {
   s.relaxation = 0.4;
   ReferenceSolver solver(s, lattice(6, layers, 6, kTankSpacing));
   const double dt = 1e-3, g = 9.81;
@@ -95,7 +95,8 @@ TEST(Solver, AColumnsPressureBearsItAtWallsToo) {
       ReferenceSettings s = tank(kTankSpacing, kTankSpacing * glm::dvec3(6, 2 * layers, 6));
       s.smoothingRatio = ratio;
       s.tabulated = tabulated;
-      EXPECT_LT(mostFallOfAPressedColumn(s, layers), 0.045) << "of a free fall, h = " << ratio << " d" << (tabulated ? ", tabulated" : "");
+      EXPECT_LT(maxFallOfPressurizedColumn(s, layers), 0.045)
+          << "of a free fall, h = " << ratio << " d" << (tabulated ? ", tabulated" : "");
     }
   }
 }
@@ -125,7 +126,7 @@ TEST(Solver, ADamBreakStaysInsideKeepsItsParticlesAndGainsNoEnergy) {
     EXPECT_LT(highest / start, 1.002);
     EXPECT_LT(error, 0.002);
     EXPECT_EQ(solver.parked(), 0u);
-    if (tabulated) { EXPECT_GT(centreOfMass(solver).x, 1.4 * 4.5 * kTankSpacing); }
+    if (tabulated) { EXPECT_GT(centerOfMass(solver).x, 1.4 * 4.5 * kTankSpacing); }
   }
 }
 

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "reference/cloud.hpp"
-#include "reference/neighbours.hpp"
+#include "reference/neighbors.hpp"
 
 namespace rill::reference {
 namespace {
@@ -26,15 +26,15 @@ ReferenceSolver crowded(const ReferenceSettings& settings, unsigned seed = 5) {
   return ReferenceSolver(settings, x, v);
 }
 
-TEST(Neighbours, TheGridFindsWhatEveryPairGives) {
+TEST(Neighbors, TheGridFindsWhatEveryPairGives) {
   for (const glm::dvec3 from : {glm::dvec3(0), glm::dvec3(-0.3, -0.9, -0.1), glm::dvec3(1e5, -2e5, 3e4)}) {
     const std::vector<glm::dvec3> x = randomCloud(900, 0.8, 3, from);
-    const Neighbours grid = findNeighbours(x, 0.1), all = findNeighboursBruteForce(x, 0.1);
+    const Neighbors grid = findNeighbors(x, 0.1), all = findNeighborsBruteForce(x, 0.1);
     EXPECT_EQ(grid.first, all.first);
     EXPECT_EQ(grid.j, all.j);
     EXPECT_GT(grid.j.size(), 3000u);
   }
-  EXPECT_EQ(findNeighbours({}, 0.1).first.size(), 1u);
+  EXPECT_EQ(findNeighbors({}, 0.1).first.size(), 1u);
 }
 
 TEST(Pairs, AreAntisymmetricEvenWhereTheyCoincide) {
@@ -183,7 +183,7 @@ TEST(Tensile, IsATwentiethOfASpacingInAStepAtMost) {
   EXPECT_NEAR(solver.state.position[1].x, 0.02 + 0.05 * s.spacing, 0.005 * s.spacing);
 }
 
-TEST(Tensile, GrowsNoFurtherNearerThanItsReferenceAndEndsWhereNeighboursRest) {
+TEST(Tensile, GrowsNoFurtherNearerThanItsReferenceAndEndsWhereNeighborsRest) {
   ReferenceSettings s;
   s.tensile = 0.5;
   s.tensileRadius = 0.3;
@@ -207,7 +207,7 @@ double decayOverTheory(double ratio, int sweeps) {
   s.viscositySweeps = sweeps;
   ReferenceSolver solver(s, lattice(wide, layers, wide, kStageSpacing));
   const double wave = std::numbers::pi / (layers * kStageSpacing), nu = s.viscosity / s.density, dt = 0.02;
-  // Refresh the field every step from the middle column, so that the block's sides, which lack neighbours, are not felt.
+  // Refresh the field every step from the middle column, so that the block's sides, which lack neighbors, are not felt.
   std::vector<double> column(layers);
   for (int j = 0; j < layers; ++j) column[j] = std::cos(wave * (j + 0.5) * kStageSpacing);
   const auto middle = [&](int j) { return static_cast<size_t>((wide / 2 * layers + j) * wide + wide / 2); };

@@ -10,7 +10,7 @@ namespace rill::test {
 namespace {
 
 using namespace antialias;
-using Grey = std::vector<std::vector<double>>;  ///< rows of 0 to 1
+using Gray = std::vector<std::vector<double>>;  ///< rows of 0 to 1
 
 class Antialias : public GpuTest {
  protected:
@@ -52,7 +52,7 @@ class Antialias : public GpuTest {
     }
     return first;
   }
-  static std::vector<uint32_t> grey(const Grey& rows) {
+  static std::vector<uint32_t> gray(const Gray& rows) {
     std::vector<uint32_t> out;
     for (const auto& row : rows)
       for (const double v : row) out.push_back(packed(v, v, v));
@@ -61,22 +61,22 @@ class Antialias : public GpuTest {
 };
 
 TEST_F(Antialias, LeavesAloneWhatHasNoStairs) {
-  Grey flat(kHeight, std::vector<double>(kWidth, 0.4)), ramp = flat, across = flat, down = flat;
+  Gray flat(kHeight, std::vector<double>(kWidth, 0.4)), ramp = flat, across = flat, down = flat;
   for (uint32_t y = 0; y < kHeight; ++y)
     for (uint32_t x = 0; x < kWidth; ++x) {
       ramp[y][x] = 0.2 + 0.01 * x + 0.004 * y;
       across[y][x] = x < 20 ? 0.1 : 0.8;
       down[y][x] = y < 20 ? 0.9 : 0.2;
     }
-  Grey row = flat, column = flat;  // as thin as a pixel
+  Gray row = flat, column = flat;  // as thin as a pixel
   for (uint32_t x = 0; x < kWidth; ++x) row[9][x] = 0.9;
   for (uint32_t y = 0; y < kHeight; ++y) column[y][30] = 0.9;
-  for (const Grey* picture : {&flat, &ramp, &across, &down, &row, &column}) EXPECT_EQ(smoothed(grey(*picture), kWidth), grey(*picture));
+  for (const Gray* picture : {&flat, &ramp, &across, &down, &row, &column}) EXPECT_EQ(smoothed(gray(*picture), kWidth), gray(*picture));
 }
 
 TEST_F(Antialias, StairsBecomeWhatTheEdgeCovers) {
   for (const double slope : {0.12, 0.3, 0.7, 1.4, 4.0}) {
-    Grey stairs(kHeight, std::vector<double>(kWidth)), covered = stairs;
+    Gray stairs(kHeight, std::vector<double>(kWidth)), covered = stairs;
     for (uint32_t y = 0; y < kHeight; ++y)
       for (uint32_t x = 0; x < kWidth; ++x) {
         const auto inside = [&](double px, double py) { return py - 18.3 < slope * (px - 26.1); };
@@ -85,7 +85,7 @@ TEST_F(Antialias, StairsBecomeWhatTheEdgeCovers) {
         covered[y][x] = std::sqrt(0.1 * 0.1 + (0.9 * 0.9 - 0.1 * 0.1) * sum / 256);  // of light, the square of what is stored
         stairs[y][x] = inside(x + 0.5, y + 0.5) ? 0.9 : 0.1;
       }
-    const auto before = grey(stairs), after = smoothed(before, kWidth);
+    const auto before = gray(stairs), after = smoothed(before, kWidth);
     double was = 0, is = 0;
     for (uint32_t y = 1; y + 1 < kHeight; ++y)
       for (uint32_t x = 1; x + 1 < kWidth; ++x) {
@@ -112,7 +112,7 @@ TEST_F(Antialias, RowsAreAsColumns) {
   EXPECT_EQ(smoothed(transposed(picture), kSide), transposed(after));
 }
 
-TEST_F(Antialias, KeepsColoursAndSizes) {
+TEST_F(Antialias, KeepsColorsAndSizes) {
   // Red beside green of the same light has no contrast; one pixel alone has nobody beside it.
   std::vector<uint32_t> two;
   for (uint32_t i = 0; i < kWidth * kHeight; ++i) two.push_back(i % kWidth < 26 ? packed(0.6, 0, 0) : packed(0, 0.6 * 0.299 / 0.587, 0));

@@ -37,7 +37,7 @@ class BoundHits : public GpuTest {
     return words.empty() ? 0 : words[surface::kBoundHits];
   }
   /// A jittered block, its near side so far away.
-  static std::vector<Float4> water(float metres) {
+  static std::vector<Float4> water(float meters) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> wobble(-0.2f * kApart, 0.2f * kApart);
     std::vector<Float4> out;
@@ -45,7 +45,7 @@ class BoundHits : public GpuTest {
       for (int y = -10; y < 10; ++y)
         for (int x = -10; x < 10; ++x)
           out.push_back(
-              {float(x) * kApart + wobble(random), float(y) * kApart + wobble(random), -metres - float(z) * kApart + wobble(random), 0});
+              {float(x) * kApart + wobble(random), float(y) * kApart + wobble(random), -meters - float(z) * kApart + wobble(random), 0});
     return out;
   }
   std::unique_ptr<FluidRenderer> renderer_;

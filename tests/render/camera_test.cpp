@@ -1,4 +1,4 @@
-// Cameras and colour maps: no device needed.
+// Cameras and color maps: no device needed.
 #include "views/camera.hpp"
 
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "views/colour_map.hpp"
+#include "views/color_map.hpp"
 #include "views/particle_scene.hpp"
 #include "views/particle_view.hpp"
 
@@ -74,13 +74,13 @@ TEST(Camera, SceneWithoutOneFramesTheDomainOrTheFluid) {
   EXPECT_TRUE(std::isfinite(sceneCamera(scene, {}, 1).eye[0]));
 }
 
-TEST(ColourMap, LightnessIsMonotonicAndInGamut) {
-  for (const ParticleColour colour : {ParticleColour::Speed, ParticleColour::Compression}) {
+TEST(ColorMap, LightnessIsMonotonicAndInGamut) {
+  for (const ParticleColor color : {ParticleColor::Speed, ParticleColor::Compression}) {
     double before = -1;
     for (int k = 0; k <= 100; ++k) {
-      const Float3 c = mapColour(colour, k / 100.0);
+      const Float3 c = mapColor(color, k / 100.0);
       const double luminance = 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
-      if (k > 0) { EXPECT_GT((luminance - before) * (colour == ParticleColour::Speed ? 1 : -1), 0) << k; }
+      if (k > 0) { EXPECT_GT((luminance - before) * (color == ParticleColor::Speed ? 1 : -1), 0) << k; }
       before = luminance;
     }
   }

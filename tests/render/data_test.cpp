@@ -49,7 +49,7 @@ TEST_F(SurfaceAsData, NormalsAreThoseOfTheWorld) {
   EXPECT_GT(there, 500);
 }
 
-TEST_F(SurfaceAsData, DepthIsGreyUpToFull) {
+TEST_F(SurfaceAsData, DepthIsGrayUpToFull) {
   const FluidView view = side();
   const auto pixels = surface(view);
   for (const float full : {5.0f, 3.0f}) {  // the second is nearer than some of it
@@ -62,8 +62,8 @@ TEST_F(SurfaceAsData, DepthIsGreyUpToFull) {
   }
 }
 
-// A slab of known depth in metres, seen from the front.
-TEST_F(SurfaceAsData, ThicknessIsInMetres) {
+// A slab of known depth in meters, seen from the front.
+TEST_F(SurfaceAsData, ThicknessIsInMeters) {
   fill(block({-2, -2, -4.6}, {2, 2, -4}, 0));
   const auto bytes = data(orthographic(0.5), SurfaceData::Thickness, 1);
   double sum = 0, count = 0;

@@ -22,12 +22,12 @@ Rgb unpacked(uint32_t texel) {
   return {(texel & 511) * scale, (texel >> 9 & 511) * scale, (texel >> 18 & 511) * scale};
 }
 
-/// `colour` of (column, row).
-EnvironmentPicture picture(uint32_t width, const std::function<Rgb(uint32_t, uint32_t)>& colour) {
+/// `color` of (column, row).
+EnvironmentPicture picture(uint32_t width, const std::function<Rgb(uint32_t, uint32_t)>& color) {
   EnvironmentPicture out{width, width / 2, {}};
   for (uint32_t y = 0; y < out.height; ++y)
     for (uint32_t x = 0; x < width; ++x) {
-      const Rgb c = colour(x, y);
+      const Rgb c = color(x, y);
       out.texels.push_back(sharedExponent(float(c[0]), float(c[1]), float(c[2])));
     }
   return out;
@@ -42,7 +42,7 @@ std::string radiance(int width, int height, const std::string& rgbe, int pixels)
 
 /// Big-endian, as PNG has its numbers.
 std::string word(uint32_t value) { return {char(value >> 24), char(value >> 16), char(value >> 8), char(value)}; }
-/// A PNG whose pixels all have one colour. Its checksums are none: stb_image looks at none.
+/// A PNG whose pixels all have one color. Its checksums are none: stb_image looks at none.
 std::string png(uint32_t width, uint32_t height, const std::string& rgb) {
   std::string rows;
   for (uint32_t y = 0; y < height; ++y) {
@@ -121,7 +121,7 @@ class EnvironmentOnGpu : public GpuTest {
     ASSERT_TRUE(set) << set.error().message;
     scenery_ = {};
   }
-  /// Linear colours of the scene's surroundings with the fluid, and whether the environment was copied for it.
+  /// Linear colors of the scene's surroundings with the fluid, and whether the environment was copied for it.
   std::vector<Rgb> draw(const CameraView& camera, const FluidLook& look = {}) {
     if (!scenery_) {
       auto made = Scenery::create(device(), scene_, start_, {}, renderer_->impl().environment.get());
@@ -143,19 +143,18 @@ class EnvironmentOnGpu : public GpuTest {
     }
     const FluidView view = fluidView(camera, kWidth, kHeight, kSpacing);
     const TargetFormats formats;
-    SceneTargets targets{graph.create("colour", {formats.colour, kWidth, kHeight}),
-                         graph.create("depth", {formats.depth, kWidth, kHeight})};
+    SceneTargets targets{graph.create("color", {formats.color, kWidth, kHeight}), graph.create("depth", {formats.depth, kWidth, kHeight})};
     FluidRendererImpl& renderer = renderer_->impl();
     const BufferRef texels = renderer.environment ? renderer.environment->addTo(graph) : BufferRef{};
     targets = scenery_->addTo(graph, fluid, targets, view, look, 0, texels);
     targets = renderer.addTo(graph, fluid, targets, view, look, true, texels);
-    BufferRef colours = graph.create("colours", {uint64_t{kWidth} * kHeight * 8});
+    BufferRef colors = graph.create("colors", {uint64_t{kWidth} * kHeight * 8});
     graph.pass("copy", [&](Pass& pass) {
-      pass.read(targets.colour, Use::CopySource);
-      colours = pass.write(colours, Use::CopyTarget);
-      return [=](Commands& commands) { commands.copy(targets.colour, colours); };
+      pass.read(targets.color, Use::CopySource);
+      colors = pass.write(colors, Use::CopyTarget);
+      return [=](Commands& commands) { commands.copy(targets.color, colors); };
     });
-    const Ticket ticket = graph.readback(colours);
+    const Ticket ticket = graph.readback(colors);
     run(graph);
     copied_ = false;
     for (const PassReport& pass : graph.report()) copied_ = copied_ || pass.name == "environment upload";
@@ -189,7 +188,7 @@ class EnvironmentOnGpu : public GpuTest {
   bool copied_ = false;
 };
 
-TEST_F(EnvironmentOnGpu, OneColourIsTheBackgroundExactly) {
+TEST_F(EnvironmentOnGpu, OneColorIsTheBackgroundExactly) {
   use(picture(16, [](uint32_t, uint32_t) { return Rgb{0.25, 0.5, 1.5}; }));
   for (const auto& camera : {looking(0, 0, -1), looking(0.01, 1, 0), looking(0.3, -1, 1)})
     for (const Rgb& c : draw(camera)) ASSERT_EQ(c, (Rgb{0.25, 0.5, 1.5}));

@@ -19,7 +19,7 @@ class DepthFilters : public SurfaceOnGpu {
   static constexpr int kColumns = 45, kRows = 37;  // not multiples of a workgroup
   static constexpr uint32_t kStep = 2, kMargin = surface::kMarginSamples;
 
-  /// Of a picture whose samples are `side` m wide, in perspective four metres away.
+  /// Of a picture whose samples are `side` m wide, in perspective four meters away.
   static SurfacePush pushOf(bool inPerspective, double side) {
     const FluidView eye = looking({0, 0, 0}, {0, 0, -4}, (kColumns - 2 * kMargin) * kStep, (kRows - 2 * kMargin) * kStep);
     const double half = 0.5 * side * (kRows - 2 * kMargin);
@@ -219,8 +219,8 @@ TEST_F(DepthFilters, FlowIsStableUpToItsLimitAndNotBeyond) {
   EXPECT_GT(flow(map, 4, 2.05 * limit), 50 * roughness(map));   // 3.1^4 = 92
 }
 
-// A Gaussian in one direction over pairs of samples: a pair counts where neither is a hole or more before this one than two metres a metre
-// aside; one that lies behind counts as at most a spacing behind, and two metres a metre aside.
+// A Gaussian in one direction over pairs of samples: a pair counts where neither is a hole or more before this one than two meters a meter
+// aside; one that lies behind counts as at most a spacing behind, and two meters a meter aside.
 Wanted narrowed(const Map& map, const SurfacePush& push, int x, int y, bool vertical) {
   constexpr double kReach = 3 / 1.3, kFront = 2, kBehind = 1, kSlant = 2;
   const double z = double{map.at(x, y)}, side = sideAt(push, z), sigma = double{push.smoothing} * kH;

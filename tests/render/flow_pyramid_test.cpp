@@ -85,7 +85,7 @@ class FlowPyramid : public SurfaceOnGpu {
  protected:
   static constexpr uint32_t kAcross = 67, kDown = 45, kMargin = surface::kMarginSamples;  // not whole blocks on any level
 
-  /// Of samples `side` m wide four metres away; two surfaces, one a band before the other, and holes.
+  /// Of samples `side` m wide four meters away; two surfaces, one a band before the other, and holes.
   Level scene(bool inPerspective, double side) {
     const double half = 0.5 * side * kDown, origin[3] = {0, 0, 0};
     const FluidView eye = looking({0, 0, 0}, {0, 0, -4}, kAcross, kDown);
@@ -110,7 +110,7 @@ class FlowPyramid : public SurfaceOnGpu {
     return {push, map};
   }
 
-  Map onDevice(const Level& level, double side, double time, uint32_t mostLevels, bool asTexels) {
+  Map onDevice(const Level& level, double side, double time, uint32_t maxLevels, bool asTexels) {
     auto flow = CurvatureFlow::create(device());
     EXPECT_TRUE(flow);
     constexpr int kBlock = surface::kSampleBlock;
@@ -137,7 +137,7 @@ class FlowPyramid : public SurfaceOnGpu {
     surface.arguments = graph.import("arguments", importOf(arguments));
     surface.push = level.push;
     const Ticket ticket =
-        graph.readback(flow->addTo(graph, graph.import("depth", importOf(depth)), surface, side, time, mostLevels, asTexels));
+        graph.readback(flow->addTo(graph, graph.import("depth", importOf(depth)), surface, side, time, maxLevels, asTexels));
     run(graph);
     Map out = level.map;
     out.z = read<float>(graph, ticket);
@@ -148,7 +148,7 @@ class FlowPyramid : public SurfaceOnGpu {
 TEST_F(FlowPyramid, IsItsFormulaLevelByLevel) {
   const struct {
     double sideInSpacings, time;
-    uint32_t mostLevels, levels;
+    uint32_t maxLevels, levels;
     int coarsestSteps;
   } cases[] = {{0.3, 0.9, 2, 1, 6}, {0.15, 0.9, 2, 2, 6}, {0.15, 0.9, 1, 1, 23}, {0.3, 0.9, 0, 0, 23}, {0.5, 0.5, 2, 0, 5}};
   for (const bool inPerspective : {false, true})
@@ -162,8 +162,8 @@ TEST_F(FlowPyramid, IsItsFormulaLevelByLevel) {
         const int all = int(std::ceil(time / (double{surface::kFlowStable} * area)));
         wanted = flowing(finer(levels[l], levels[l + 1], wanted), std::min(all, 4), time);
       }
-      const Map got = onDevice(levels[0], side, one.time, one.mostLevels, false);
-      EXPECT_TRUE(onDevice(levels[0], side, one.time, one.mostLevels, true).z == got.z) << "texels";
+      const Map got = onDevice(levels[0], side, one.time, one.maxLevels, false);
+      EXPECT_TRUE(onDevice(levels[0], side, one.time, one.maxLevels, true).z == got.z) << "texels";
       int there = 0, off = 0, early = 0;  // early: on the coarsest level its time is over before the last step
       for (const float z : levels.back().map.z)
         if (z != kNone)

@@ -35,7 +35,7 @@ inline double sideAt(const surface::SurfacePush& push, double z) {
   return std::abs(double{push.scale[1]}) * 2 / push.height * push.step * (push.perspective > 0 ? z : 1);
 }
 
-/// m of depth between neighbouring samples from which on they are two surfaces.
+/// m of depth between neighboring samples from which on they are two surfaces.
 inline double edgeAt(const surface::SurfacePush& push, double z) { return std::max(kH, 3.3 * sideAt(push, z)); }
 
 // Depth as a function of both directions across, moved by half the mean curvature of its graph: dz/dt = (trace H - g.H.g / (1 + g.g)) / 2
@@ -46,7 +46,7 @@ inline Wanted flowed(const Map& map, const surface::SurfacePush& push, int x, in
   const double z = double{map.at(x, y)}, side = sideAt(push, z), edge = edgeAt(push, z);
   const auto linear = [&](double depth) { return push.perspective > 0 ? 1 / depth : depth; };
   Wanted wanted;
-  const auto neighbour = [&](int dx, int dy) {
+  const auto neighbor = [&](int dx, int dy) {
     return double{map.at(std::clamp(x + dx, 0, map.columns - 1), std::clamp(y + dy, 0, map.rows - 1))};
   };
   const auto sees = [&](double other) {
@@ -54,15 +54,15 @@ inline Wanted flowed(const Map& map, const surface::SurfacePush& push, int x, in
     return std::abs(other - z) < edge;
   };
   const auto value = [&](int dx, int dy) {
-    const double there = neighbour(dx, dy), opposite = neighbour(-dx, -dy);
+    const double there = neighbor(dx, dy), opposite = neighbor(-dx, -dy);
     if (sees(there)) return linear(there);
     return sees(opposite) ? 2 * linear(z) - linear(opposite) : linear(z);
   };
-  const double metres = push.perspective > 0 ? -z * z : 1;
-  const auto slope = [&](int dx, int dy) { return metres * (value(dx, dy) - value(-dx, -dy)) / (2 * side); };
-  const auto bend = [&](int dx, int dy) { return metres * (value(dx, dy) - 2 * linear(z) + value(-dx, -dy)) / (side * side); };
+  const double meters = push.perspective > 0 ? -z * z : 1;
+  const auto slope = [&](int dx, int dy) { return meters * (value(dx, dy) - value(-dx, -dy)) / (2 * side); };
+  const auto bend = [&](int dx, int dy) { return meters * (value(dx, dy) - 2 * linear(z) + value(-dx, -dy)) / (side * side); };
   const double g[2] = {slope(1, 0), slope(0, 1)};
-  const double mixed = metres * (value(1, 1) - value(-1, 1) - value(1, -1) + value(-1, -1)) / (4 * side * side);
+  const double mixed = meters * (value(1, 1) - value(-1, 1) - value(1, -1) + value(-1, -1)) / (4 * side * side);
   const double hessian[2][2] = {{bend(1, 0), mixed}, {mixed, bend(0, 1)}};
   double along = 0;
   for (int i = 0; i < 2; ++i)

@@ -16,7 +16,7 @@ class RendererInput : public SurfaceOnGpu {
     auto renderer = FluidRenderer::create(device());
     if (!renderer) return renderer.error().message;
     Graph graph;
-    SceneTargets targets{graph.create("colour", ImageDesc{VK_FORMAT_R16G16B16A16_SFLOAT, 64, 48}),
+    SceneTargets targets{graph.create("color", ImageDesc{VK_FORMAT_R16G16B16A16_SFLOAT, 64, 48}),
                          graph.create("depth", ImageDesc{VK_FORMAT_D32_SFLOAT, 64, 48})};
     FluidState own = fluid;
     if (own.position.index == 0) own.position = graph.import("positions", {reinterpret_cast<VkBuffer>(uintptr_t{16}), 0, 160});
@@ -44,8 +44,8 @@ TEST_F(RendererInput, FormatsThatAreNone) {
   const struct {
     TargetFormats formats;
     const char* named;
-  } cases[] = {{{VK_FORMAT_UNDEFINED, VK_FORMAT_D32_SFLOAT}, "TargetFormats::colour is 0;"},
-               {{VK_FORMAT_D32_SFLOAT, VK_FORMAT_D32_SFLOAT}, "TargetFormats::colour is 126;"},
+  } cases[] = {{{VK_FORMAT_UNDEFINED, VK_FORMAT_D32_SFLOAT}, "TargetFormats::color is 0;"},
+               {{VK_FORMAT_D32_SFLOAT, VK_FORMAT_D32_SFLOAT}, "TargetFormats::color is 126;"},
                {{VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_UNDEFINED}, "TargetFormats::depth is 0;"},
                {{VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM}, "TargetFormats::depth is 37;"},
                {{VK_FORMAT_R8G8B8A8_UNORM, VkFormat(123456)}, "TargetFormats::depth is 123456;"}};

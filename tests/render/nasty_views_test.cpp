@@ -16,8 +16,8 @@ class NastyViews : public SurfaceOnGpu {
   size_t scanned(const FluidView& view, const FluidLook& look) {
     const VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
     Backdrop backdrop;
-    backdrop.colour = {0.25f, 0.5f, 0.75f, 1};
-    const Drawn got = drawn(view, look, backdrop, {.colour = format});
+    backdrop.color = {0.25f, 0.5f, 0.75f, 1};
+    const Drawn got = drawn(view, look, backdrop, {.color = format});
     size_t fluid = 0;
     for (const float depth : got.depth) {
       EXPECT_TRUE(depth >= 0 && depth <= 1) << depth;
@@ -111,7 +111,7 @@ TEST_F(NastyViews, ALargePictureFromWithin) {
     look.absorption = look.scatter = {0, 0, 0};
     Backdrop ramp;
     for (uint32_t k = 0; k < view.width * view.height; ++k) ramp.pixels.push_back({float(k % view.width), float(k / view.width), 0, 1});
-    const auto seen = drawn(view, look, ramp, {.colour = format}).channels(format);
+    const auto seen = drawn(view, look, ramp, {.color = format}).channels(format);
     for (size_t i = 0; i < seen.size(); ++i)
       for (size_t c = 0; c < 2; ++c) ASSERT_NEAR(seen[i][c], double(ramp.pixels[i][c]), 0.6) << int(method) << " " << i;
   }

@@ -40,7 +40,7 @@ class ParticleViewOnGpu : public GpuTest {
 
   /// The picture, taken twice in one command buffer, where synchronization validation sees both: they must be the same.
   Picture take(const std::vector<Particle>& particles, uint32_t width, uint32_t height, double time = 0,
-               ParticleColour colour = ParticleColour::Speed, bool unlit = false) {
+               ParticleColor color = ParticleColor::Speed, bool unlit = false) {
     ParticleSet start;
     std::copy_n(origin_, 3, start.origin);
     std::vector<Float4> positions, velocities;
@@ -69,7 +69,7 @@ class ParticleViewOnGpu : public GpuTest {
       state.velocity = graph.import("velocity", importOf(velocity));
     }
     Ticket tickets[2];
-    for (Ticket& ticket : tickets) ticket = graph.readback((*view)->addTo(graph, state, camera_, {width, height, colour, unlit}, time));
+    for (Ticket& ticket : tickets) ticket = graph.readback((*view)->addTo(graph, state, camera_, {width, height, color, unlit}, time));
     run(graph);
     picture.pixels = read<uint32_t>(graph, tickets[0]);
     EXPECT_EQ(picture.pixels.size(), size_t{width} * height);
@@ -84,7 +84,7 @@ class ParticleViewOnGpu : public GpuTest {
     return count;
   }
 
-  /// How far inside a sphere's outline the ray of a pixel runs, as a fraction of its radius: 1 through the centre, negative outside.
+  /// How far inside a sphere's outline the ray of a pixel runs, as a fraction of its radius: 1 through the center, negative outside.
   static double inside(const Particle& p, double radius, double x, double y, uint32_t width, uint32_t height) {
     const double focal = 0.5 * height / kTangent;
     const double d[3] = {(x - 0.5 * width) / focal, (0.5 * height - y) / focal, -1};
@@ -291,7 +291,7 @@ TEST_F(ParticleViewOnGpu, ManySolidsOfBothKinds) {
   // More than one word of a tile's mask; each sphere is where it must be.
   constexpr uint32_t kWidth = 256, kHeight = 128;
   const Picture empty = take({}, kWidth, kHeight);
-  std::vector<std::pair<double, double>> centres;
+  std::vector<std::pair<double, double>> centers;
   for (int k = 0; k < 100; ++k) {
     Solid solid;
     const double x = 0.8 * (k % 20 - 9.5), y = 0.8 * (k / 20 - 2);
@@ -300,11 +300,11 @@ TEST_F(ParticleViewOnGpu, ManySolidsOfBothKinds) {
     else
       solid.box = BoxShape{{x - 0.12, y - 0.12, -10.1}, {x + 0.12, y + 0.12, -9.9}};
     scene_.solids.push_back(solid);
-    centres.emplace_back(x, y);
+    centers.emplace_back(x, y);
   }
   const Picture picture = take({}, kWidth, kHeight);
   const double scale = 0.5 * kHeight / kTangent / 10;
-  for (const auto& [x, y] : centres) {
+  for (const auto& [x, y] : centers) {
     const double px = 0.5 * kWidth + x * scale, py = 0.5 * kHeight - y * scale;
     EXPECT_NE(picture.at(static_cast<uint32_t>(px), static_cast<uint32_t>(py)),
               empty.at(static_cast<uint32_t>(px), static_cast<uint32_t>(py)));
@@ -331,14 +331,14 @@ TEST_F(ParticleViewOnGpu, FarFromTheOriginTheSamePicture) {
   EXPECT_EQ(difference(take(particles, kSize, kSize), here), 0u);
 }
 
-TEST_F(ParticleViewOnGpu, ColoursSpeedAndCompression) {
+TEST_F(ParticleViewOnGpu, ColorsSpeedAndCompression) {
   constexpr uint32_t kSize = 64;
   const uint32_t middle = kSize / 2;
   const auto channel = [&](const Picture& picture, int k) { return static_cast<int>((picture.at(middle, middle) >> (8 * k)) & 255); };
   const Picture slow = take({{0, 0, -4, 0, 0, 0, 1}}, kSize, kSize), fast = take({{0, 0, -4, 0, 1, 0, 1}}, kSize, kSize);
   EXPECT_GT(channel(fast, 0), channel(slow, 0) + 60);
   EXPECT_GT(channel(slow, 2), 2 * channel(slow, 0)) << "rest is blue";
-  const auto compression = ParticleColour::Compression;
+  const auto compression = ParticleColor::Compression;
   const Picture loose = take({{0, 0, -4, 9, 0, 0, 0.5f}}, kSize, kSize, 0, compression),
                 rest = take({{0, 0, -4, 0, 0, 0, 1}}, kSize, kSize, 0, compression);
   const Picture dense = take({{0, 0, -4, 0, 0, 0, 1.5f}}, kSize, kSize, 0, compression);
@@ -348,24 +348,24 @@ TEST_F(ParticleViewOnGpu, ColoursSpeedAndCompression) {
   EXPECT_EQ(difference(take({{0, 0, -4, nan, 0, 0, nan}}, kSize, kSize, 0, compression), rest), 0u);
 }
 
-// Unlit, every pixel of a particle has the map's own colour of its value, wherever the light is and whatever lies before it; all else is
+// Unlit, every pixel of a particle has the map's own color of its value, wherever the light is and whatever lies before it; all else is
 // darker than the map.
-TEST_F(ParticleViewOnGpu, UnlitColoursAreThoseOfTheMap) {
+TEST_F(ParticleViewOnGpu, UnlitColorsAreThoseOfTheMap) {
   constexpr uint32_t kSize = 96;
   scene_.domain = Domain{{-3, -0.6, -7}, {3, 2, -1}, 0};
   scene_.solids.push_back(Solid{{}, SphereShape{{1.4, 0.2, -5}, 0.7}});
-  for (const auto colour : {ParticleColour::Speed, ParticleColour::Compression}) {
+  for (const auto color : {ParticleColor::Speed, ParticleColor::Compression}) {
     double darkest = 1;
     for (int k = 0; k <= 16; ++k) {
-      const Float3 c = mapColour(colour, k / 16.0);
+      const Float3 c = mapColor(color, k / 16.0);
       darkest = std::min(darkest, 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z);
     }
     for (const double t : {0.0, 0.3, 0.77, 1.0}) {
       // The scale's end: see scaleMax(); a scene without gravity has the start's fastest, none here, and so 1 m/s.
-      const float value = static_cast<float>(t * (colour == ParticleColour::Speed ? 1 : 0.01));
+      const float value = static_cast<float>(t * (color == ParticleColor::Speed ? 1 : 0.01));
       const Particle near{0, 0, -4, 0, value, 0, 1 + value}, aside{-0.9f, 0.3f, -4.6f, 0, value, 0, 1 + value};
-      const Picture picture = take({near, aside}, kSize, kSize, 0, colour, true);
-      const Float3 wanted = mapColour(colour, t);
+      const Picture picture = take({near, aside}, kSize, kSize, 0, color, true);
+      const Float3 wanted = mapColor(color, t);
       size_t own = 0, mixed = 0;
       for (const uint32_t pixel : picture.pixels) {
         const int r = pixel & 255, g = (pixel >> 8) & 255, b = (pixel >> 16) & 255;

@@ -24,7 +24,7 @@ struct Difference {
     const double angle = std::acos(std::clamp(dot(normal, wanted.normal), -1.0, 1.0));
     off += !(std::abs(depth - wanted.depth) < 1e-3 * spacing) || !(angle < 0.1 * kDegree);
   }
-  /// `share`: one in so many may be off. Decisions by thresholds fall otherwise in floats where a sum lies on one, and their neighbours
+  /// `share`: one in so many may be off. Decisions by thresholds fall otherwise in floats where a sum lies on one, and their neighbors
   /// follow.
   void expect(const std::string& what, int least, int share) const {
     EXPECT_GT(there, least) << what;

@@ -9,9 +9,9 @@ namespace rill::test {
 namespace {
 
 constexpr VkFormat kFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-using Colour = std::array<double, 4>;  // linear; the fourth is 1
+using Color = std::array<double, 4>;  // linear; the fourth is 1
 
-/// Of unpolarised light that meets a surface at an angle (rad) to its normal: Fresnel's equations in the angles, by Snell's law.
+/// Of unpolarized light that meets a surface at an angle (rad) to its normal: Fresnel's equations in the angles, by Snell's law.
 double fresnel(double angle, double index) {
   if (angle < 1e-6) return std::pow((index - 1) / (index + 1), 2);
   const double inner = std::asin(std::sin(angle) / index);
@@ -27,13 +27,13 @@ double smooth(double from, double to, double x) {
 /// The sky of shaders/render/sky.glsl; `up` is y.
 double sky(int channel, Vector direction, Vector sun) {
   constexpr double zenith[] = {0.16, 0.30, 0.58}, horizon[] = {0.62, 0.74, 0.88}, ground[] = {0.09, 0.13, 0.16};
-  constexpr double lampColour[] = {1, 0.97, 0.92}, glow[] = {1, 0.93, 0.82};
+  constexpr double lampColor[] = {1, 0.97, 0.92}, glow[] = {1, 0.93, 0.82};
   const double up = std::clamp(direction.y, 0.0, 1.0), high = std::pow(up, 0.55), over = smooth(-0.08, 0.04, direction.y);
   const double above = horizon[channel] + (zenith[channel] - horizon[channel]) * high;
   const double base = ground[channel] + (above - ground[channel]) * over;
   const double x = std::abs(direction.x / direction.y + 0.35), z = std::abs(direction.z / direction.y + 0.55);
   const double lamp = up > 0.05 ? (1 - smooth(0.2, 1.5, x)) * (1 - smooth(0.1, 1.0, z)) * 0.9 : 0;
-  return base + lampColour[channel] * lamp + glow[channel] * 0.5 * std::pow(std::max(dot(direction, sun), 0.0), 24);
+  return base + lampColor[channel] * lamp + glow[channel] * 0.5 * std::pow(std::max(dot(direction, sun), 0.0), 24);
 }
 
 class FlatPool : public SurfaceOnGpu {
@@ -57,23 +57,23 @@ class FlatPool : public SurfaceOnGpu {
     look.to_sun = {0, -1, 0};  // from below: no glow around it in what the pool mirrors
     return look;
   }
-  std::vector<Colour> seen(const FluidView& view, const FluidLook& look, std::array<float, 4> behind) {
+  std::vector<Color> seen(const FluidView& view, const FluidLook& look, std::array<float, 4> behind) {
     Backdrop backdrop;
-    backdrop.colour = behind;
+    backdrop.color = behind;
     backdrop.depth = view.projection.column[2].w == 0 ? 1.0f : 0.0f;  // as far as there is
-    return drawn(view, look, backdrop, {.colour = kFormat}).channels(kFormat);
+    return drawn(view, look, backdrop, {.color = kFormat}).channels(kFormat);
   }
   /// What of the light behind comes through, whatever is mirrored: the difference that a white backdrop makes.
-  std::vector<Colour> through(const FluidView& view, const FluidLook& look) {
+  std::vector<Color> through(const FluidView& view, const FluidLook& look) {
     auto white = seen(view, look, {1, 1, 1, 1});
     const auto black = seen(view, look, {0, 0, 0, 1});
     for (size_t i = 0; i < white.size(); ++i)
       for (size_t c = 0; c < 3; ++c) white[i][c] -= black.at(i)[c];
     return white;
   }
-  static Colour mean(const std::vector<Colour>& pixels) {
-    Colour sum{};
-    for (const Colour& pixel : pixels)
+  static Color mean(const std::vector<Color>& pixels) {
+    Color sum{};
+    for (const Color& pixel : pixels)
       for (size_t c = 0; c < 4; ++c) sum[c] += pixel[c] / double(pixels.size());
     return sum;
   }
@@ -107,8 +107,8 @@ TEST_F(FlatPool, LetsThroughWhatItDoesNotMirror) {
   }
 }
 
-// Absorption is a metre's: twice as deep a pool lets through the square, and a slanted ray goes through more of it.
-TEST_F(FlatPool, AbsorbsByTheMetre) {
+// Absorption is a meter's: twice as deep a pool lets through the square, and a slanted ray goes through more of it.
+TEST_F(FlatPool, AbsorbsByTheMeter) {
   FluidLook look = clear();
   look.absorption = {2.5f, 0.8f, 0.2f};
   const double rates[] = {2.5, 0.8, 0.2};
@@ -116,12 +116,12 @@ TEST_F(FlatPool, AbsorbsByTheMetre) {
     for (const double angle : {0.0, 40 * kDegree}) {
       pool(depth);
       const auto light = through(parallel(angle), look);
-      const Colour whole = mean(light);
-      const double metres = depth / std::cos(angle), left = 1 - fresnel(angle, double{look.refraction_index});
+      const Color whole = mean(light);
+      const double meters = depth / std::cos(angle), left = 1 - fresnel(angle, double{look.refraction_index});
       for (size_t c = 0; c < 3; ++c) {
-        EXPECT_NEAR(std::log(whole[c] / left) / -rates[c], metres, 0.02 * metres + 0.002 / rates[c]) << depth << " m, channel " << c;
-        for (const Colour& pixel : light)
-          ASSERT_NEAR(pixel[c] / left, std::exp(-rates[c] * metres), 0.12 * rates[c] * metres * std::exp(-rates[c] * metres) + 0.005);
+        EXPECT_NEAR(std::log(whole[c] / left) / -rates[c], meters, 0.02 * meters + 0.002 / rates[c]) << depth << " m, channel " << c;
+        for (const Color& pixel : light)
+          ASSERT_NEAR(pixel[c] / left, std::exp(-rates[c] * meters), 0.12 * rates[c] * meters * std::exp(-rates[c] * meters) + 0.005);
       }
     }
 }
@@ -129,7 +129,7 @@ TEST_F(FlatPool, AbsorbsByTheMetre) {
 TEST_F(FlatPool, IsTheWholeFormulaAtAnyAngle) {
   pool(0.4);
   for (const double degrees : {0.0, 20.0, 45.0, 65.0}) {
-    const double angle = degrees * kDegree, metres = 0.4 / std::cos(angle);
+    const double angle = degrees * kDegree, meters = 0.4 / std::cos(angle);
     const Vector sight = sightOf(angle), mirrored{sight.x, -sight.y, sight.z};
     for (const bool sunny : {false, true}) {
       FluidLook look = clear();
@@ -143,19 +143,19 @@ TEST_F(FlatPool, IsTheWholeFormulaAtAnyAngle) {
       const double rates[] = {1.2, 0.5, 0.1}, behind[] = {0.7, 0.4, 0.9}, white[] = {1, 0.95, 0.86};
       const double part = fresnel(angle, double{look.refraction_index});
       const auto pixels = seen(parallel(angle), look, {0.7f, 0.4f, 0.9f, 1});
-      const Colour whole = mean(pixels);
+      const Color whole = mean(pixels);
       for (int c = 0; c < 3; ++c) {
         const double mirror = sky(c, mirrored, sun) + (sunny ? 3 * white[c] : 0);
-        const double wanted = part * mirror + (1 - part) * std::exp(-rates[c] * metres) * behind[c];
+        const double wanted = part * mirror + (1 - part) * std::exp(-rates[c] * meters) * behind[c];
         EXPECT_NEAR(whole[size_t(c)], wanted, 0.01 * wanted) << degrees << " degrees, channel " << c << (sunny ? ", in the sun" : "");
-        for (const Colour& pixel : pixels) ASSERT_NEAR(pixel[size_t(c)], wanted, 0.07 * wanted) << degrees << " degrees, channel " << c;
+        for (const Color& pixel : pixels) ASSERT_NEAR(pixel[size_t(c)], wanted, 0.07 * wanted) << degrees << " degrees, channel " << c;
       }
     }
   }
 }
 
-// An opaque pool has a colour of its own and mirrors the sky; nothing behind it is seen.
-TEST_F(FlatPool, OpaqueIsItsColourUnderTheSky) {
+// An opaque pool has a color of its own and mirrors the sky; nothing behind it is seen.
+TEST_F(FlatPool, OpaqueIsItsColorUnderTheSky) {
   pool(0.2);
   for (const double degrees : {0.0, 60.0}) {
     const double angle = degrees * kDegree, part = fresnel(angle, 1.5);
@@ -171,12 +171,12 @@ TEST_F(FlatPool, OpaqueIsItsColourUnderTheSky) {
       const double horizon[] = {0.62, 0.74, 0.88}, zenith[] = {0.16, 0.30, 0.58};
       const double ambient = horizon[c] + 0.4 * (zenith[c] - horizon[c]);  // all of the upper half, of a surface that lies flat
       const double wanted = part * sky(c, mirrored, sun) + (1 - part) * own[c] * (ambient + direct[c] * sun.y);
-      for (const Colour& pixel : pixels) ASSERT_NEAR(pixel[size_t(c)], wanted, 0.01 * wanted) << degrees << " degrees, channel " << c;
+      for (const Color& pixel : pixels) ASSERT_NEAR(pixel[size_t(c)], wanted, 0.01 * wanted) << degrees << " degrees, channel " << c;
     }
   }
 }
 
-// Behind a pool of thickness t along the ray, the picture is shifted as a ray that Snell's law has bent is after t metres.
+// Behind a pool of thickness t along the ray, the picture is shifted as a ray that Snell's law has bent is after t meters.
 TEST_F(FlatPool, ShiftsWhatIsBehindAsSnellSays) {
   pool(0.3);
   for (const double degrees : {0.0, 30.0, 50.0}) {
@@ -187,12 +187,12 @@ TEST_F(FlatPool, ShiftsWhatIsBehindAsSnellSays) {
     black.depth = ramp.depth = 1;
     for (uint32_t y = 0; y < kDown; ++y)
       for (uint32_t x = 0; x < kAcross; ++x) ramp.pixels.push_back({float(x) + 0.5f, float(y) + 0.5f, 0, 1});
-    const auto dark = drawn(view, look, black, {.colour = kFormat}).channels(kFormat);
-    const auto light = drawn(view, look, ramp, {.colour = kFormat}).channels(kFormat);
+    const auto dark = drawn(view, look, black, {.color = kFormat}).channels(kFormat);
+    const auto light = drawn(view, look, ramp, {.color = kFormat}).channels(kFormat);
     const double inner = std::asin(std::sin(angle) / double{look.refraction_index});
-    const double metres = 0.3 / std::cos(angle), pixel = 1.0 / kDown;
+    const double meters = 0.3 / std::cos(angle), pixel = 1.0 / kDown;
     // Bent towards the normal, it comes out nearer to the eye's side than it went in: down the picture.
-    const double shift = std::sin(angle - inner) * metres / pixel, left = 1 - fresnel(angle, double{look.refraction_index});
+    const double shift = std::sin(angle - inner) * meters / pixel, left = 1 - fresnel(angle, double{look.refraction_index});
     for (uint32_t y = 30; y < kDown - 30; ++y)
       for (uint32_t x = 30; x < kAcross - 30; ++x) {
         const size_t i = size_t{y} * kAcross + x;
@@ -231,8 +231,8 @@ TEST_F(FlatPool, ADropDoesNotBendLight) {
   ramp.depths.assign(size_t{kAcross} * kDown, 1.0f);
   FluidLook look = clear();
   look.aeration = 0;
-  const auto picture = drawn(view, look, ramp, {.colour = kFormat}).channels(kFormat);
-  const Colour& middle = picture[kDown / 2 * kAcross + kAcross / 2];
+  const auto picture = drawn(view, look, ramp, {.color = kFormat}).channels(kFormat);
+  const Color& middle = picture[kDown / 2 * kAcross + kAcross / 2];
   EXPECT_NEAR(middle[0], kAcross / 2, 0.6);
   EXPECT_NEAR(middle[1], kDown / 2, 0.6);
 }
@@ -255,12 +255,12 @@ TEST_F(FlatPool, TornFluidIsWhiteAndEvenFluidIsNot) {
   none.aeration = 0;
   white.aeration = 0.5f;
   pool(0.6);
-  const auto middle = [](const std::vector<Colour>& picture) { return picture[kDown / 2 * kAcross + kAcross / 2]; };
+  const auto middle = [](const std::vector<Color>& picture) { return picture[kDown / 2 * kAcross + kAcross / 2]; };
   const FluidView above = parallel(0.3);
   EXPECT_EQ(middle(seen(above, white, {0, 0, 0, 1})), middle(seen(above, none, {0, 0, 0, 1})));
   fill({{0, 0, 0, 0}});
   const FluidView near = orthographic(0.1, eye(0.3));  // a drop in the middle, a third of the picture high
-  const Colour dark = middle(seen(near, none, {0, 0, 0, 1})), light = middle(seen(near, white, {0, 0, 0, 1}));
+  const Color dark = middle(seen(near, none, {0, 0, 0, 1})), light = middle(seen(near, white, {0, 0, 0, 1}));
   for (size_t c = 0; c < 3; ++c) {
     EXPECT_GT(light[c], dark[c] + 0.1);
     EXPECT_LT(light[c], dark[c] + 0.6);
@@ -283,8 +283,8 @@ TEST_F(FlatPool, WhatStandsBeforeItIsNotSeenThroughIt) {
         with.pixels[size_t{y} * kAcross + x] = {8, 0, 0, 1};
         with.depths[size_t{y} * kAcross + x] = 0.02f;  // 2 m from the eye
       }
-    const auto wanted = drawn(view, clear(), without, {.colour = kFormat}).channels(kFormat);
-    const auto got = drawn(view, clear(), with, {.colour = kFormat}).channels(kFormat);
+    const auto wanted = drawn(view, clear(), without, {.color = kFormat}).channels(kFormat);
+    const auto got = drawn(view, clear(), with, {.color = kFormat}).channels(kFormat);
     for (uint32_t y = 0; y < kDown; ++y)
       for (uint32_t x = 0; x < kAcross; ++x) {
         const size_t i = size_t{y} * kAcross + x;

@@ -65,12 +65,12 @@ class ParticlesToSamples : public SurfaceOnGpu {
   }
 
   /// The nearest sphere on a sample's ray, or the near plane where it cuts one. `grown`: of their radius.
-  static double nearest(const Samples& samples, const std::vector<Vector>& centres, int x, int y, double grown) {
+  static double nearest(const Samples& samples, const std::vector<Vector>& centers, int x, int y, double grown) {
     const Samples::Ray ray = samples.ray(x, y);
     double best = kNothing;
-    for (const Vector& centre : centres) {
-      const double radius = std::max(double{samples.push.radius}, 0.71 * samples.side(centre.z));
-      const Vector to = centre - ray.from;
+    for (const Vector& center : centers) {
+      const double radius = std::max(double{samples.push.radius}, 0.71 * samples.side(center.z));
+      const Vector to = center - ray.from;
       const double a = dot(ray.along, ray.along), b = dot(to, ray.along), c = dot(to, to) - radius * radius * grown * grown;
       if (b * b - a * c <= 0) continue;
       const double half = std::sqrt(b * b - a * c) / a;
@@ -103,8 +103,8 @@ TEST_F(ParticlesToSamples, EachSampleHoldsTheNearestSphere) {
     fill(particles);
     const SurfacePush push = pushOf(one.view, one.step, count_);
     const Samples samples(push);
-    std::vector<Vector> centres;
-    for (const Float4& p : particles) centres.push_back(samples.seen(p));
+    std::vector<Vector> centers;
+    for (const Float4& p : particles) centers.push_back(samples.seen(p));
     const Splatted got = splatted(push);
     ASSERT_EQ(got.depth.size(), size_t(samples.columns) * size_t(samples.rows));
     if (one.hides) { EXPECT_LT(got.survivors, count_ * 9 / 10) << "hardly any is left out, all are in the picture"; }
@@ -112,7 +112,7 @@ TEST_F(ParticlesToSamples, EachSampleHoldsTheNearestSphere) {
     for (int y = 0; y < samples.rows; ++y)
       for (int x = 0; x < samples.columns; ++x) {
         // At a rim the square root makes much of the last bits: between spheres a little smaller and a little larger.
-        const double nearer = nearest(samples, centres, x, y, 1 + 1e-4), farther = nearest(samples, centres, x, y, 1 - 1e-4);
+        const double nearer = nearest(samples, centers, x, y, 1 + 1e-4), farther = nearest(samples, centers, x, y, 1 - 1e-4);
         const double depth = double{got.depth[size_t(y) * size_t(samples.columns) + size_t(x)]};
         const double slack = 2e-6 * (std::isfinite(depth) ? depth : 0);
         ASSERT_GE(depth, nearer - slack) << x << " " << y << " of step " << one.step;
@@ -144,38 +144,38 @@ TEST_F(ParticlesToSamples, ThicknessIsTheSumOfAllDiscs) {
       ASSERT_EQ(counts.size(), size_t(samples.columns) * size_t(samples.rows));
       std::vector<double> wanted(counts.size()), terms(counts.size());
       const double radius = double{push.radius}, volume = std::pow(double{kSpacing}, 3);
-      const auto add = [&](int x, int y, double z, double metres) {
+      const auto add = [&](int x, int y, double z, double meters) {
         if (x < 0 || y < 0 || x >= samples.columns || y >= samples.rows) return;
         const auto pixel = [&](int at, uint32_t size) { return std::min(size_t((at + 0.5) * step), size_t(size) - 1); };
         if (scene && z > double{wall[pixel(y, 48) * 64 + pixel(x, 64)]}) return;
         const size_t at = size_t(y) * size_t(samples.columns) + size_t(x);
-        wanted[at] += metres;
-        terms[at] += metres > 0 ? 1 : 0;
+        wanted[at] += meters;
+        terms[at] += meters > 0 ? 1 : 0;
       };
       for (const Float4& p : particles) {
-        const Vector centre = samples.seen(p);
-        if (!(centre.z > double{push.near_depth})) continue;
-        const double side = samples.side(centre.z);
+        const Vector center = samples.seen(p);
+        if (!(center.z > double{push.near_depth})) continue;
+        const double side = samples.side(center.z);
         if (radius < 1.5 * side) {  // shared among the four samples around
-          const double wide = push.perspective > 0 ? centre.z : 1;
+          const double wide = push.perspective > 0 ? center.z : 1;
           const auto sample = [&](double across, int a, uint32_t size) {
             return ((across / wide / double{push.scale[a]} + double{push.shift[a]} + 1) * 0.5 * size) / step - 0.5;
           };
-          const double x = sample(centre.x, 0, push.width), y = sample(centre.y, 1, push.height);
+          const double x = sample(center.x, 0, push.width), y = sample(center.y, 1, push.height);
           const double left = std::floor(x), top = std::floor(y);
           for (int k = 0; k < 4; ++k) {
             const double px = k & 1 ? x - left : 1 - (x - left), py = k & 2 ? y - top : 1 - (y - top);
-            add(int(left) + (k & 1), int(top) + (k >> 1), centre.z, volume / (side * side) * px * py);
+            add(int(left) + (k & 1), int(top) + (k >> 1), center.z, volume / (side * side) * px * py);
           }
           continue;
         }
         for (int y = 0; y < samples.rows; ++y)
           for (int x = 0; x < samples.columns; ++x) {
             const Samples::Ray ray = samples.ray(x, y);
-            const Vector to = centre - ray.from;
+            const Vector to = center - ray.from;
             const double along = dot(to, ray.along), square = dot(to, to) - along * along / dot(ray.along, ray.along);
             const double inside = 1 - square / (radius * radius);
-            if (inside > 0) add(x, y, centre.z, 3 * volume / (std::numbers::pi * radius * radius) * inside * inside);
+            if (inside > 0) add(x, y, center.z, 3 * volume / (std::numbers::pi * radius * radius) * inside * inside);
           }
       }
       double thickest = 0;

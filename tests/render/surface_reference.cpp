@@ -75,21 +75,21 @@ double smoothstep(double low, double high, double x) {
 
 SurfaceReference::SurfaceReference(const surface::SurfacePush& push, const std::vector<Float4>& positions, By by)
     : samples_(push), by_(by) {
-  std::vector<Vector> centres;
+  std::vector<Vector> centers;
   for (const Float4& p : positions) {
-    const Vector centre = samples_.seen(p);
-    if (centre.z + hardRadius(centre.z) > double{push.near_depth}) centres.push_back(centre);
+    const Vector center = samples_.seen(p);
+    if (center.z + hardRadius(center.z) > double{push.near_depth}) centers.push_back(center);
   }
   hard_.assign(size_t(samples_.columns) * size_t(samples_.rows), kNone);
   for (int y = 0; y < samples_.rows; ++y)
     for (int x = 0; x < samples_.columns; ++x)
-      for (const Vector& centre : centres) {
-        const double t = sphere(centre, hardRadius(centre.z), samples_.ray(x, y));
+      for (const Vector& center : centers) {
+        const double t = sphere(center, hardRadius(center.z), samples_.ray(x, y));
         if (t >= 0) hard_[samples_.index(x, y)] = std::min(hard_[samples_.index(x, y)], t);
       }
-  centres_ = picked(centres);
+  centers_ = picked(centers);
   if (by == By::Planes)
-    for (const Vector& own : centres_) planes_.push_back(plane(centres_, own));
+    for (const Vector& own : centers_) planes_.push_back(plane(centers_, own));
   smooth_.resize(hard_.size());
   for (int y = 0; y < samples_.rows; ++y)
     for (int x = 0; x < samples_.columns; ++x) {
@@ -107,8 +107,8 @@ SurfaceReference::SurfaceReference(const surface::SurfacePush& push, const std::
 double SurfaceReference::spacingAt(double z) const { return std::max(double{samples_.push.spacing}, 1.2 * samples_.side(z)); }
 double SurfaceReference::hardRadius(double z) const { return std::max(double{samples_.push.radius}, 0.71 * samples_.side(z)); }
 
-double SurfaceReference::sphere(const Vector& centre, double radius, const Samples::Ray& ray) const {
-  const Vector to = centre - ray.from;
+double SurfaceReference::sphere(const Vector& center, double radius, const Samples::Ray& ray) const {
+  const Vector to = center - ray.from;
   const double a = dot(ray.along, ray.along), b = dot(to, ray.along), c = dot(to, to) - radius * radius;
   if (b * b - a * c <= 0) return -1;
   const double half = std::sqrt(b * b - a * c) / a;
@@ -116,29 +116,29 @@ double SurfaceReference::sphere(const Vector& centre, double radius, const Sampl
 }
 
 /// Those that own at least three hundredths of the samples that they cover.
-std::vector<Vector> SurfaceReference::picked(const std::vector<Vector>& centres) const {
+std::vector<Vector> SurfaceReference::picked(const std::vector<Vector>& centers) const {
   std::vector<Vector> out;
-  for (const Vector& centre : centres) {
+  for (const Vector& center : centers) {
     int inside = 0, owned = 0;
     for (int y = 0; y < samples_.rows; ++y)
       for (int x = 0; x < samples_.columns; ++x) {
-        const double t = sphere(centre, hardRadius(centre.z), samples_.ray(x, y));
+        const double t = sphere(center, hardRadius(center.z), samples_.ray(x, y));
         if (t < 0) continue;
         ++inside;
         owned += t <= hard_[samples_.index(x, y)] + 1e-3 * double{samples_.push.spacing};
       }
-    if (owned > 0 && owned >= 0.03 * inside) out.push_back(centre);
+    if (owned > 0 && owned >= 0.03 * inside) out.push_back(center);
   }
   return out;
 }
 
 /// Principal directions of what lies within reach, weighted by (1 - distance^2)^2; `across`: a normal, from whose plane others count to 0.9
 /// spacings.
-SurfaceReference::Fit SurfaceReference::fit(const std::vector<Vector>& centres, const Vector& own, double reach,
+SurfaceReference::Fit SurfaceReference::fit(const std::vector<Vector>& centers, const Vector& own, double reach,
                                             const Vector* across) const {
   Fit out;
   double square[3][3] = {};
-  for (const Vector& other : centres) {
+  for (const Vector& other : centers) {
     const Vector q = (other - own) * (1 / reach);
     double w = std::pow(std::max(1 - dot(q, q), 0.0), 2);
     if (across) w *= std::pow(std::max(1 - std::pow(dot(q, *across) * double{samples_.push.smoothing} / 0.9, 2), 0.0), 2);
@@ -156,17 +156,17 @@ SurfaceReference::Fit SurfaceReference::fit(const std::vector<Vector>& centres, 
   return out;
 }
 
-SurfaceReference::Plane SurfaceReference::plane(const std::vector<Vector>& centres, const Vector& own) const {
+SurfaceReference::Plane SurfaceReference::plane(const std::vector<Vector>& centers, const Vector& own) const {
   const double reach = double{samples_.push.smoothing} * spacingAt(own.z);
   const Vector towards = samples_.push.perspective > 0 ? unit(own) : Vector{0, 0, 1};
   if (own.z - 0.5 * double{samples_.push.spacing} <= double{samples_.push.near_depth}) return {own, own, {}, true};
-  Fit found = fit(centres, own, reach, nullptr);
+  Fit found = fit(centers, own, reach, nullptr);
   Vector normal = found.least;
   if (dot(normal, towards) > 0) normal = normal * -1;
   if (found.values[0] > 0.04 * found.values[1]) {
     normal = unit(normal - towards * 0.4);
     for (int turn = 0; turn < 2; ++turn) {
-      found = fit(centres, own, reach, &normal);
+      found = fit(centers, own, reach, &normal);
       normal = found.least;
     }
   }
@@ -194,7 +194,7 @@ SurfaceReference::Look SurfaceReference::lookFrom(const Samples::Ray& ray, doubl
     slope += w * dot(ray.along, n);
     normal = normal + n * w;
     if (within <= 0) continue;
-    const Vector to = plane.centre - ray.from, miss = to - ray.along * (dot(to, ray.along) / dot(ray.along, ray.along));
+    const Vector to = plane.center - ray.from, miss = to - ray.along * (dot(to, ray.along) / dot(ray.along, ray.along));
     const double beside = std::max(1 - dot(miss, miss) / std::pow(1.2 * spacing, 2), 0.0);
     cover += beside * beside * std::max(std::abs(dot(n, sight)), 0.35);
   }
@@ -248,19 +248,19 @@ double SurfaceReference::share(double x, double y) const {
   return covered / 25;
 }
 
-/// A pixel's coverage from the centres that lie up to 1.6 spacings nearer or farther.
+/// A pixel's coverage from the centers that lie up to 1.6 spacings nearer or farther.
 double SurfaceReference::cover(const Samples::Ray& ray, double depth) const {
   const double spacing = spacingAt(depth);
   double sum = 0;
-  for (const Vector& centre : centres_) {
-    if (std::abs(centre.z - depth) > 1.6 * spacing) continue;
-    const Vector to = centre - ray.from, miss = to - ray.along * (dot(to, ray.along) / dot(ray.along, ray.along));
+  for (const Vector& center : centers_) {
+    if (std::abs(center.z - depth) > 1.6 * spacing) continue;
+    const Vector to = center - ray.from, miss = to - ray.along * (dot(to, ray.along) / dot(ray.along, ray.along));
     sum += std::pow(std::max(1 - dot(miss, miss) / std::pow(1.2 * spacing, 2), 0.0), 2);
   }
   return std::clamp(0.5 + (sum - 0.7) * spacing / (1.25 * samples_.side(depth) / samples_.push.step), 0.0, 1.0);
 }
 
-/// From a sample to the next in a direction: over both of its neighbours where they bend by less than half a spacing, else to the one
+/// From a sample to the next in a direction: over both of its neighbors where they bend by less than half a spacing, else to the one
 /// nearer in depth.
 Vector SurfaceReference::difference(int x, int y, int dx, int dy) const {
   const auto depth = [&](int u, int v) { return samples_.has(u, v) ? hard_[samples_.index(u, v)] : kNone; };

@@ -45,7 +45,7 @@ class SurfaceReference {
 
   const Samples& samples() const { return samples_; }
   const std::vector<double>& hard() const { return hard_; }  ///< depth of the nearest sphere, a sample
-  size_t surfaceParticles() const { return centres_.size(); }
+  size_t surfaceParticles() const { return centers_.size(); }
   const std::vector<Place>& smooth() const { return smooth_; }  ///< a sample
   /// What is seen in a pixel, and how much of it that covers; where that is less than a half, too.
   struct Pixel {
@@ -57,7 +57,7 @@ class SurfaceReference {
 
  private:
   struct Plane {
-    Vector centre, anchor, normal;
+    Vector center, anchor, normal;
     bool ball = false;
   };
   struct Fit {
@@ -78,10 +78,10 @@ class SurfaceReference {
   };
   double spacingAt(double z) const;
   double hardRadius(double z) const;
-  double sphere(const Vector& centre, double radius, const Samples::Ray& ray) const;
-  std::vector<Vector> picked(const std::vector<Vector>& centres) const;
-  Fit fit(const std::vector<Vector>& centres, const Vector& own, double reach, const Vector* across) const;
-  Plane plane(const std::vector<Vector>& centres, const Vector& own) const;
+  double sphere(const Vector& center, double radius, const Samples::Ray& ray) const;
+  std::vector<Vector> picked(const std::vector<Vector>& centers) const;
+  Fit fit(const std::vector<Vector>& centers, const Vector& own, double reach, const Vector* across) const;
+  Plane plane(const std::vector<Vector>& centers, const Vector& own) const;
   Look lookFrom(const Samples::Ray& ray, double depth) const;
   Look look(const Samples::Ray& ray, double depth) const;
   double cover(const Samples::Ray& ray, double depth) const;
@@ -94,7 +94,7 @@ class SurfaceReference {
   Samples samples_;
   std::vector<double> hard_;
   By by_;
-  std::vector<Vector> centres_;  ///< of surface particles
+  std::vector<Vector> centers_;  ///< of surface particles
   std::vector<Plane> planes_;
   std::vector<Place> smooth_;
 };

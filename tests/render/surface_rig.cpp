@@ -32,10 +32,10 @@ double encodedSrgb(double linear) { return linear <= 0.0031308 ? 12.92 * linear 
 
 std::vector<std::array<double, 4>> Drawn::channels(VkFormat format) const {
   const uint32_t bytes = texelBytes(format);
-  std::vector<std::array<double, 4>> out(colour.size() / bytes);
+  std::vector<std::array<double, 4>> out(color.size() / bytes);
   for (size_t i = 0; i < out.size(); ++i)
     for (size_t c = 0; c < 4; ++c) {
-      const std::byte* at = colour.data() + i * bytes + c * (bytes / 4);
+      const std::byte* at = color.data() + i * bytes + c * (bytes / 4);
       double& value = out[i][c];
       if (bytes == 16) {
         float single;
@@ -138,9 +138,9 @@ std::vector<Pixel> SurfaceOnGpu::surface(const FluidView& view, SurfaceMethod me
 }
 
 SceneTargets SurfaceOnGpu::hosts(Graph& graph, const TargetFormats& formats, uint32_t width, uint32_t height, const Backdrop& backdrop) {
-  SceneTargets targets{graph.create("colour", {formats.colour, width, height}), graph.create("depth", {formats.depth, width, height})};
-  VkClearValue colour{}, depth{};
-  std::copy_n(backdrop.colour.data(), 4, colour.color.float32);
+  SceneTargets targets{graph.create("color", {formats.color, width, height}), graph.create("depth", {formats.depth, width, height})};
+  VkClearValue color{}, depth{};
+  std::copy_n(backdrop.color.data(), 4, color.color.float32);
   depth.depthStencil = {backdrop.depth, 0};
   const auto copied = [&](Buffer& held, const auto& values, ImageRef target) {
     EXPECT_EQ(values.size(), size_t{width} * height);
@@ -153,11 +153,11 @@ SceneTargets SurfaceOnGpu::hosts(Graph& graph, const TargetFormats& formats, uin
     });
     return target;
   };
-  if (!backdrop.pixels.empty()) targets.colour = copied(backdrop_, backdrop.pixels, targets.colour);
+  if (!backdrop.pixels.empty()) targets.color = copied(backdrop_, backdrop.pixels, targets.color);
   if (!backdrop.depths.empty()) targets.depth = copied(backdropDepth_, backdrop.depths, targets.depth);
   if (!backdrop.pixels.empty() && !backdrop.depths.empty()) return targets;
   graph.pass("clear", [&](Pass& pass) {
-    if (backdrop.pixels.empty()) targets.colour = pass.write(targets.colour, Use::ColourTarget, Load::Clear, colour);
+    if (backdrop.pixels.empty()) targets.color = pass.write(targets.color, Use::ColorTarget, Load::Clear, color);
     if (backdrop.depths.empty()) targets.depth = pass.write(targets.depth, Use::DepthTarget, Load::Clear, depth);
     return [](Commands&) {};
   });
@@ -179,26 +179,26 @@ Drawn SurfaceOnGpu::drawn(const FluidView& view, const FluidLook& look, const Ba
     const FluidState fluid = state(graph);
     const SceneTargets targets = (*made)->addTo(graph, fluid, hosts(graph, formats, width, height, backdrop), view, look);
     const uint64_t pixels = uint64_t{width} * height;
-    BufferRef colour = graph.create("colour texels", {pixels * texelBytes(formats.colour)});
+    BufferRef color = graph.create("color texels", {pixels * texelBytes(formats.color)});
     BufferRef depth = graph.create("depth texels", {pixels * 4});
     graph.pass("copy", [&](Pass& pass) {
-      pass.read(targets.colour, Use::CopySource);
+      pass.read(targets.color, Use::CopySource);
       pass.read(targets.depth, Use::CopySource);
-      colour = pass.write(colour, Use::CopyTarget);
+      color = pass.write(color, Use::CopyTarget);
       depth = pass.write(depth, Use::CopyTarget);
       return [=](Commands& commands) {
-        commands.copy(targets.colour, colour);
+        commands.copy(targets.color, color);
         commands.copy(targets.depth, depth);
       };
     });
-    const Ticket colourTicket = graph.readback(colour), depthTicket = graph.readback(depth);
+    const Ticket colorTicket = graph.readback(color), depthTicket = graph.readback(depth);
     GpuTest::run(graph);
-    Drawn out{read<std::byte>(graph, colourTicket), read<float>(graph, depthTicket)};
-    EXPECT_EQ(out.colour.size(), pixels * texelBytes(formats.colour));
+    Drawn out{read<std::byte>(graph, colorTicket), read<float>(graph, depthTicket)};
+    EXPECT_EQ(out.color.size(), pixels * texelBytes(formats.color));
     if (run == 0) {
       first = std::move(out);
     } else {
-      EXPECT_TRUE(first.colour == out.colour) << "two runs, two pictures";
+      EXPECT_TRUE(first.color == out.color) << "two runs, two pictures";
       EXPECT_TRUE(std::memcmp(first.depth.data(), out.depth.data(), out.depth.size() * 4) == 0) << "two runs, two depths";
     }
   }
@@ -228,15 +228,15 @@ std::vector<Float4> SurfaceOnGpu::under(Vector point, Vector normal, Vector u, V
   return out;
 }
 
-std::vector<Float4> SurfaceOnGpu::shells(Vector centre, double radius) {
+std::vector<Float4> SurfaceOnGpu::shells(Vector center, double radius) {
   std::uniform_real_distribution<double> wobble(-0.1 * kSpacing, 0.1 * kSpacing);
   std::vector<Float4> out;
   for (double r = radius - 0.5 * kSpacing; r > 0; r -= kSpacing) {
     const int count = std::max(1, int(4 * std::numbers::pi * r * r / (kSpacing * kSpacing)));
     for (int k = 0; k < count; ++k) {
       const double z = 1 - (2 * k + 1.0) / count, angle = 2.399963 * k, s = std::sqrt(1 - z * z);
-      out.push_back({float(centre.x + r * s * std::cos(angle) + wobble(random_)),
-                     float(centre.y + r * s * std::sin(angle) + wobble(random_)), float(centre.z + r * z + wobble(random_)), 0});
+      out.push_back({float(center.x + r * s * std::cos(angle) + wobble(random_)),
+                     float(center.y + r * s * std::sin(angle) + wobble(random_)), float(center.z + r * z + wobble(random_)), 0});
     }
   }
   return out;

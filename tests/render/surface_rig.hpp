@@ -32,14 +32,14 @@ struct Pixel {
 
 /// What a host has drawn before the fluid.
 struct Backdrop {
-  std::array<float, 4> colour{0, 0, 0, 1};
+  std::array<float, 4> color{0, 0, 0, 1};
   float depth = 0;                           ///< as the target stores it
-  std::vector<std::array<float, 4>> pixels;  ///< in place of the colour, of a target of four floats
+  std::vector<std::array<float, 4>> pixels;  ///< in place of the color, of a target of four floats
   std::vector<float> depths;                 ///< in place of the one depth
 };
 
 struct Drawn {
-  std::vector<std::byte> colour;  ///< texels of the target's format
+  std::vector<std::byte> color;  ///< texels of the target's format
   std::vector<float> depth;
   /// Four channels a texel, as a shader would read them; of the formats that the tests draw to.
   std::vector<std::array<double, 4>> channels(VkFormat format) const;
@@ -84,7 +84,7 @@ class SurfaceOnGpu : public GpuTest {
   /// across.
   std::vector<Float4> under(Vector point, Vector normal, Vector u, Vector v, double extent);
   /// Shells in a ball: spirals of as many particles as have the density of rest.
-  std::vector<Float4> shells(Vector centre, double radius);
+  std::vector<Float4> shells(Vector center, double radius);
   /// Anywhere in a box.
   std::vector<Float4> scattered(Vector low, Vector high, uint32_t count);
 

@@ -83,15 +83,15 @@ TEST_F(SurfaceOnGpu, LooksTheSameFromNearAndFar) {
 }
 
 TEST_F(SurfaceOnGpu, ABallIsABallInEitherProjection) {
-  const Vector centre{0.2, -0.1, -5};
+  const Vector center{0.2, -0.1, -5};
   const double radius = 1;
-  fill(shells(centre, radius));
+  fill(shells(center, radius));
   const auto hit = [&](Vector from, Vector ray, Pixel& wanted) {
-    const Vector d = centre - from;
+    const Vector d = center - from;
     const double a = dot(ray, ray), b = dot(d, ray), c = dot(d, d) - radius * radius, under = b * b - a * c;
     if (under <= 0) return false;
     const double t = (b - std::sqrt(under)) / a;
-    const Vector n = (from - centre) * (1 / radius), along = ray * (t / radius);
+    const Vector n = (from - center) * (1 / radius), along = ray * (t / radius);
     wanted.depth = float(t);
     wanted.normal = {n.x + along.x, n.y + along.y, -(n.z + along.z)};
     return true;
@@ -138,9 +138,9 @@ TEST_F(SurfaceOnGpu, AMetreOfFluidMeasuresAMetre) {
     double sum = 0, count = 0;
     for (uint32_t y = 1; y + 1 < kHeight / step; ++y)
       for (uint32_t x = 1; x + 1 < kWidth / step; ++x) {
-        const double metres = double(counts[y * columns + x]) * push.unit;
-        EXPECT_NEAR(metres, 1, 0.15);
-        sum += metres;
+        const double meters = double(counts[y * columns + x]) * push.unit;
+        EXPECT_NEAR(meters, 1, 0.15);
+        sum += meters;
         ++count;
       }
     EXPECT_NEAR(sum / count, 1, 0.01);

@@ -32,10 +32,10 @@ class FluidInTargets : public SurfaceOnGpu {
 TEST_F(FluidInTargets, AnSrgbTargetHoldsTheLinearPicture) {
   fillSmall();
   Backdrop backdrop;
-  backdrop.colour = {1, 0, 1, 1};  // the same in every format
+  backdrop.color = {1, 0, 1, 1};  // the same in every format
   const FluidView view = small();
   const VkFormat hdr = VK_FORMAT_R32G32B32A32_SFLOAT;
-  const auto wanted = drawn(view, {}, backdrop, {.colour = hdr}).channels(hdr);
+  const auto wanted = drawn(view, {}, backdrop, {.color = hdr}).channels(hdr);
   size_t fluid = 0, between = 0;
   for (const auto& pixel : wanted) {
     fluid += pixel[1] > 0 ? 1 : 0;
@@ -46,7 +46,7 @@ TEST_F(FluidInTargets, AnSrgbTargetHoldsTheLinearPicture) {
   EXPECT_GT(between, fluid / 2) << "of black and white every curve is the same";
   for (const VkFormat format : {VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R8G8B8A8_SRGB}) {
     const bool srgb = format == VK_FORMAT_R8G8B8A8_SRGB, bytes = format != VK_FORMAT_R16G16B16A16_SFLOAT;
-    const auto got = drawn(view, {}, backdrop, {.colour = format}).channels(format);
+    const auto got = drawn(view, {}, backdrop, {.color = format}).channels(format);
     ASSERT_EQ(got.size(), wanted.size());
     for (size_t i = 0; i < got.size(); ++i)
       for (size_t c = 0; c < 4; ++c) {
@@ -84,8 +84,8 @@ TEST_F(FluidInTargets, AnyDepthConventionDrawsTheSamePicture) {
         elsewhere += (wanted.depth[i] == 0) != (got.depth[i] == backdrop.depth) ? 1 : 0;
         continue;
       }
-      const double metres = near / double{wanted.depth[i]};
-      const double part = far / (far - kNear) * (1 - kNear / metres);  // 0 at the near plane, 1 at the far one
+      const double meters = near / double{wanted.depth[i]};
+      const double part = far / (far - kNear) * (1 - kNear / meters);  // 0 at the near plane, 1 at the far one
       elsewhere += std::abs(double{got.depth[i]} - (reversed ? 1 - part : part)) > 1e-5 ? 1 : 0;
     }
     EXPECT_LT(elsewhere, wanted.depth.size() / 500) << reversed << far;
@@ -97,7 +97,7 @@ TEST_F(FluidInTargets, ParallelRaysSeeTheFluidWhereItIs) {
   const double half = 1.2, pixel = 2 * half / kSmallHeight;
   for (const bool reversed : {false, true}) {
     Backdrop backdrop;
-    backdrop.colour = {1, 0, 1, 1};
+    backdrop.color = {1, 0, 1, 1};
     backdrop.depth = reversed ? 0.0f : 1.0f;
     FluidView view = orthographic(half, small());
     if (reversed) {
@@ -105,7 +105,7 @@ TEST_F(FluidInTargets, ParallelRaysSeeTheFluidWhereItIs) {
       view.projection.column[3].z = 1;
     }
     const Drawn got = drawn(view, {}, backdrop);
-    const auto colours = got.channels(VK_FORMAT_R16G16B16A16_SFLOAT);
+    const auto colors = got.channels(VK_FORMAT_R16G16B16A16_SFLOAT);
     for (uint32_t y = 0; y < kSmallHeight; ++y)
       for (uint32_t x = 0; x < kSmall; ++x) {
         const size_t i = size_t{y} * kSmall + x;
@@ -113,10 +113,10 @@ TEST_F(FluidInTargets, ParallelRaysSeeTheFluidWhereItIs) {
         if (across < 0.8 - kSpacing && up < 0.7 - kSpacing) {
           const double part = reversed ? 1 - double{got.depth[i]} : double{got.depth[i]};
           ASSERT_NEAR(part * 100, 4, 0.5 * kSpacing) << x << " " << y;
-          ASSERT_GT(colours[i][1], 0.01) << x << " " << y;
+          ASSERT_GT(colors[i][1], 0.01) << x << " " << y;
         } else if (across > 0.8 + kSpacing || up > 0.7 + kSpacing) {
           ASSERT_EQ(got.depth[i], backdrop.depth) << x << " " << y;
-          ASSERT_EQ(colours[i], (std::array<double, 4>{1, 0, 1, 1})) << x << " " << y;
+          ASSERT_EQ(colors[i], (std::array<double, 4>{1, 0, 1, 1})) << x << " " << y;
         }
       }
   }
@@ -137,21 +137,21 @@ TEST_F(FluidInTargets, OnlyTheViewportIsDrawnTo) {
     own.pixels.clear();
     for (uint32_t y = 0; y < kSmallHeight; ++y)
       for (uint32_t x = 0; x < kSmall; ++x) own.pixels.push_back(around.pixels[(size_t{top} + y) * kTarget + left + x]);
-    const Drawn wanted = drawn(whole, {}, own, {.colour = format});
+    const Drawn wanted = drawn(whole, {}, own, {.color = format});
     FluidView view = whole;
     view.x = left;
     view.y = top;
-    const Drawn got = drawn(view, {}, around, {.colour = format}, kTarget, kTargetHeight);
+    const Drawn got = drawn(view, {}, around, {.color = format}, kTarget, kTargetHeight);
     size_t fluid = 0;
     for (uint32_t y = 0; y < kTargetHeight; ++y)
       for (uint32_t x = 0; x < kTarget; ++x) {
         const size_t i = size_t{y} * kTarget + x;
         const bool inside = x >= left && x < left + kSmall && y >= top && y < top + kSmallHeight;
         const size_t j = inside ? (size_t{y} - top) * kSmall + (x - left) : 0;
-        const void* colour = inside ? static_cast<const void*>(&wanted.colour[16 * j]) : around.pixels[i].data();
+        const void* color = inside ? static_cast<const void*>(&wanted.color[16 * j]) : around.pixels[i].data();
         fluid += got.depth[i] > 0 ? 1 : 0;
         ASSERT_EQ(got.depth[i], inside ? wanted.depth[j] : 0) << x << " " << y;
-        ASSERT_EQ(std::memcmp(&got.colour[16 * i], colour, 16), 0) << x << " " << y << (inside ? " inside" : " outside");
+        ASSERT_EQ(std::memcmp(&got.color[16 * i], color, 16), 0) << x << " " << y << (inside ? " inside" : " outside");
       }
     EXPECT_GT(fluid, size_t{kSmall} * kSmallHeight / 10);
   }
@@ -175,7 +175,7 @@ TEST_F(FluidInTargets, FluidAndSceneHideEachOther) {
   look.scatter = {0, 0, 1};
   for (const double wall : {3.0, 6.0}) {  // before the fluid, behind it
     Backdrop backdrop;
-    backdrop.colour = {1, 0, 0, 1};
+    backdrop.color = {1, 0, 0, 1};
     backdrop.depth = static_cast<float>(near / wall);
     const Drawn got = drawn(view, look, backdrop);
     const size_t middle = size_t{kSmallHeight} / 2 * kSmall + kSmall / 2;
@@ -190,9 +190,9 @@ TEST_F(FluidInTargets, WithoutParticlesNothingRuns) {
   fill({});
   Graph graph;
   const TargetFormats formats;
-  const SceneTargets targets{graph.create("colour", {formats.colour, 8, 8}), graph.create("depth", {formats.depth, 8, 8})};
+  const SceneTargets targets{graph.create("color", {formats.color, 8, 8}), graph.create("depth", {formats.depth, 8, 8})};
   const SceneTargets after = renderer().addTo(graph, state(graph), targets, perspective(), {}, false);
-  EXPECT_EQ(after.colour, targets.colour);
+  EXPECT_EQ(after.color, targets.color);
   EXPECT_EQ(after.depth, targets.depth);
   ASSERT_TRUE(graph.compile());
   for (const PassReport& report : graph.report()) EXPECT_EQ(report.runs, 0u) << report.name;

@@ -26,14 +26,14 @@ Light neutral(Light c) {
 
 class ToneMap : public GpuTest {
  protected:
-  /// The bytes that become of linear colours.
-  std::vector<std::array<uint8_t, 4>> mapped(const std::vector<std::array<float, 4>>& colours) {
+  /// The bytes that become of linear colors.
+  std::vector<std::array<uint8_t, 4>> mapped(const std::vector<std::array<float, 4>>& colors) {
     static constexpr BindingKind kBindings[] = {BindingKind::SampledImage, BindingKind::Storage};
     bringViewShaders(device());
     const ComputePipeline* tonemap = pipeline({.shader = "views/tonemap", .bindings = kBindings});
     constexpr uint32_t kRow = 37;  // not a multiple of a workgroup
-    const uint32_t rows = uint32_t(colours.size() + kRow - 1) / kRow;
-    std::vector<std::array<float, 4>> texels = colours;
+    const uint32_t rows = uint32_t(colors.size() + kRow - 1) / kRow;
+    std::vector<std::array<float, 4>> texels = colors;
     texels.resize(size_t{kRow} * rows);
     const Buffer source = upload("texels", texels);
     Graph graph;
@@ -55,36 +55,36 @@ class ToneMap : public GpuTest {
     run(graph);
     auto bytes = read<std::array<uint8_t, 4>>(graph, ticket);
     EXPECT_EQ(bytes.size(), texels.size());
-    bytes.resize(colours.size());
+    bytes.resize(colors.size());
     return bytes;
   }
 };
 
 TEST_F(ToneMap, IsItsFormula) {
-  std::vector<std::array<float, 4>> colours;
+  std::vector<std::array<float, 4>> colors;
   for (const float scale : {1.0f, 0.05f, 0.003f, 8.0f, 1000.0f, 60000.0f})  // all branches of both curves
     for (int r = 0; r <= 8; ++r)
       for (int g = 0; g <= 8; ++g)
-        for (int b = 0; b <= 8; ++b) colours.push_back({scale * float(r) / 8, scale * float(g) / 8, scale * float(b) / 8, 1});
-  const auto got = mapped(colours);
-  for (size_t i = 0; i < colours.size(); ++i) {
-    const Light wanted = neutral({double{colours[i][0]}, double{colours[i][1]}, double{colours[i][2]}});
+        for (int b = 0; b <= 8; ++b) colors.push_back({scale * float(r) / 8, scale * float(g) / 8, scale * float(b) / 8, 1});
+  const auto got = mapped(colors);
+  for (size_t i = 0; i < colors.size(); ++i) {
+    const Light wanted = neutral({double{colors[i][0]}, double{colors[i][1]}, double{colors[i][2]}});
     for (size_t c = 0; c < 3; ++c)
       ASSERT_NEAR(got[i][c], 255 * encodedSrgb(std::clamp(wanted[c], 0.0, 1.0)), 0.5 + 0.1 + 0.02)  // sRGB's power is a polynomial there
-          << colours[i][0] << " " << colours[i][1] << " " << colours[i][2] << ", channel " << c;
+          << colors[i][0] << " " << colors[i][1] << " " << colors[i][2] << ", channel " << c;
     ASSERT_EQ(got[i][3], 255);
   }
 }
 
 TEST_F(ToneMap, MoreLightIsNeverDarkerAndBlackStaysBlack) {
-  std::vector<std::array<float, 4>> greys{{0, 0, 0, 0}};
-  for (double light = 1e-4; light < 65504; light *= 1.002) greys.push_back({float(light), float(light), float(light), 1});
-  const auto got = mapped(greys);
+  std::vector<std::array<float, 4>> grays{{0, 0, 0, 0}};
+  for (double light = 1e-4; light < 65504; light *= 1.002) grays.push_back({float(light), float(light), float(light), 1});
+  const auto got = mapped(grays);
   EXPECT_EQ(got.front(), (std::array<uint8_t, 4>{0, 0, 0, 255}));
   EXPECT_EQ(got.back(), (std::array<uint8_t, 4>{255, 255, 255, 255}));
   for (size_t i = 1; i < got.size(); ++i) {
-    ASSERT_GE(got[i][0], got[i - 1][0]) << greys[i][0];
-    ASSERT_TRUE(got[i][0] == got[i][1] && got[i][1] == got[i][2]) << "grey stays grey, " << greys[i][0];
+    ASSERT_GE(got[i][0], got[i - 1][0]) << grays[i][0];
+    ASSERT_TRUE(got[i][0] == got[i][1] && got[i][1] == got[i][2]) << "gray stays gray, " << grays[i][0];
   }
 }
 

@@ -33,7 +33,7 @@ TEST(Particles, CountsAreRoundedPerAxis) {
   EXPECT_EQ(count("[1, 1, 1]"), 1000U);
 }
 
-TEST(Particles, ASphereIsCentredOnItsCentre) {
+TEST(Particles, ASphereIsCenteredOnItsCenter) {
   const ParticleSet one = particles(with(R"("domain": {}, "fill": [{"sphere": {"center": [0.5, 0.5, 0.5], "radius": 0.04}}])"));
   ASSERT_EQ(one.positions.size(), 1U);
   EXPECT_EQ(one.positions[0], (Float3{0.5F, 0.5F, 0.5F}));
@@ -73,7 +73,7 @@ TEST(Particles, JitterComesFromTheSeedAndKeepsWithinItsBounds) {
 TEST(Particles, JitterDoesNotDependOnOtherEntriesOrLosesParticles) {
   const ParticleSet both = particles(with(
       R"("domain": {"max": [2, 1, 1]}, "fill": [{"box": {}, "jitter": 0.5}, {"box": {"min": [1, 0, 0], "max": [2, 1, 1]}, "jitter": 0.5}])"));
-  EXPECT_EQ(both.positions.size(), 2000U);  // neighbours across the seam may be near: they were not on the lattice
+  EXPECT_EQ(both.positions.size(), 2000U);  // neighbors across the seam may be near: they were not on the lattice
   const ParticleSet alone = particles(with(R"("domain": {"max": [2, 1, 1]}, "fill": [{"box": {}, "jitter": 0.5}])"));
   EXPECT_TRUE(std::equal(alone.positions.begin(), alone.positions.end(), both.positions.begin()));
 }

@@ -57,7 +57,7 @@ TEST(Reading, EveryKey) {
   EXPECT_EQ(s.look.surface, "planes");
 }
 
-TEST(Reading, QuaternionsAreNormalised) {
+TEST(Reading, QuaternionsAreNormalized) {
   const Scene s = scene(with(R"("solids": [{"box": {}, "rotation": [1e30, 0, 0, 1e30]}, {"box": {}, "rotation": [1e-30, 0, 0, 1e-30]}])"));
   for (const Solid& solid : s.solids) {
     EXPECT_NEAR(solid.rotation[0], std::sqrt(0.5), 1e-12);

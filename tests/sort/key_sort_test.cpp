@@ -72,7 +72,7 @@ TEST_P(BothSorts, KeysThatAreSortedReversedOrFew) {
 TEST_P(BothSorts, HundredThousandEqualKeysStayInOrder) { check(GetParam(), Words(100000, 77), 1000); }
 
 TEST_P(BothSorts, BinsOnBothSidesOfTheLimit) {
-  // Neighbouring bins of limit - 1, limit, limit + 1 and several chunks, their keys spread over all indices.
+  // Neighboring bins of limit - 1, limit, limit + 1 and several chunks, their keys spread over all indices.
   Words keys;
   const uint32_t sizes[] = {kBinLimit - 1, kBinLimit, kBinLimit + 1, kChunkIndices + 1, 3, kBinLimit + 100, 1};
   for (uint32_t bin = 0; bin < std::size(sizes); ++bin) keys.insert(keys.end(), sizes[bin], bin);

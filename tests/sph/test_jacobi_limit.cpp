@@ -31,7 +31,7 @@ double growth(const SmoothingKernel& kernel, double omega, int n) {
       for (int y = 0; y < n; ++y)
         for (int x = 0; x < n; ++x) {
           glm::dvec3 sum(0);
-          // offsets point from the neighbour here: grad_i K(x_i - x_j)
+          // offsets point from the neighbor here: grad_i K(x_i - x_j)
           for (const glm::ivec3& o : offsets) sum += (c[index({x, y, z})] + c[index(glm::ivec3(x, y, z) - o)]) * gradient(o);
           move[index({x, y, z})] = -omega / kernel.restGradientSum() * sum;
         }

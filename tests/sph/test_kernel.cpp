@@ -34,7 +34,7 @@ TEST_P(KernelTest, RestLatticeMeasuresRestDensity) {
   EXPECT_NEAR(gradients / k.restGradientSum(), 1, 1e-12);
 }
 
-// In the continuum the integral of K over space is d^3 to within the lattice's discretisation error, which vanishes as h/d grows.
+// In the continuum the integral of K over space is d^3 to within the lattice's discretization error, which vanishes as h/d grows.
 TEST_P(KernelTest, IntegratesToAParticlesVolume) {
   const SmoothingKernel k = kernel();
   const int n = 20000;
@@ -97,7 +97,7 @@ TEST(WendlandKernel, GradientIsTheDerivativeOfTheValue) {
   }
 }
 
-TEST(SpikyGradient, IsTheDerivativeOfItsOwnNormalisedKernel) {
+TEST(SpikyGradient, IsTheDerivativeOfItsOwnNormalizedKernel) {
   const double h = 2 * kSpacing;
   const SmoothingKernel k(KernelChoice::Poly6Spiky, h, kSpacing);
   const auto spiky = [&](double r) { return std::pow(kSpacing, 3) * 15 / (std::numbers::pi * std::pow(h, 6)) * std::pow(h - r, 3); };

@@ -87,7 +87,7 @@ TEST_P(SolidTest, AThickBoxFaceIsAWallAndAThinPlateIsLess) {
   }
 }
 
-// A plate as thick as a layer of the lattice, half a spacing from both neighbours, stands for that layer.
+// A plate as thick as a layer of the lattice, half a spacing from both neighbors, stands for that layer.
 TEST_P(SolidTest, APlateOfOneSpacingIsOneLayer) {
   const SmoothingKernel k = kernel();
   const double half[3] = {10 * k.h(), 10 * k.h(), kSolidSpacing / 2}, at[3] = {0, 0, kSolidSpacing};
@@ -117,32 +117,32 @@ TEST(WendlandBox, GradientIsTheDerivativeOfTheValue) {
 TEST(SolidPose, FollowsItsKeyframes) {
   Solid solid;
   solid.sphere = SphereShape{{1, 2, 3}, 0.5};
-  EXPECT_EQ(solidPose(solid, 5).centre[0], 1);
+  EXPECT_EQ(solidPose(solid, 5).center[0], 1);
   EXPECT_EQ(solidPose(solid, 5).velocity[0], 0);
   solid.motion = {{1, {1, 0, 0}}, {3, {5, 0, 0}}, {4, {5, -2, 0}}};
-  EXPECT_DOUBLE_EQ(solidPose(solid, 0).centre[0], 2);
+  EXPECT_DOUBLE_EQ(solidPose(solid, 0).center[0], 2);
   EXPECT_DOUBLE_EQ(solidPose(solid, 0).velocity[0], 0);
-  EXPECT_DOUBLE_EQ(solidPose(solid, 2).centre[0], 4);
+  EXPECT_DOUBLE_EQ(solidPose(solid, 2).center[0], 4);
   EXPECT_DOUBLE_EQ(solidPose(solid, 2).velocity[0], 2);
   EXPECT_DOUBLE_EQ(solidPose(solid, 3).velocity[0], 0);
   EXPECT_DOUBLE_EQ(solidPose(solid, 3).velocity[1], -2);
-  EXPECT_DOUBLE_EQ(solidPose(solid, 3.5).centre[1], 1);
-  EXPECT_DOUBLE_EQ(solidPose(solid, 9).centre[1], 0);
+  EXPECT_DOUBLE_EQ(solidPose(solid, 3.5).center[1], 1);
+  EXPECT_DOUBLE_EQ(solidPose(solid, 9).center[1], 0);
   EXPECT_DOUBLE_EQ(solidPose(solid, 9).velocity[1], 0);
   const SolidPose step = solidPose(solid, 2.5, 1.0);  // half a second at 2 m/s in x, half at -2 in y
   EXPECT_DOUBLE_EQ(step.velocity[0], 1);
   EXPECT_DOUBLE_EQ(step.velocity[1], -1);
-  EXPECT_DOUBLE_EQ(step.centre[1], 1);
+  EXPECT_DOUBLE_EQ(step.center[1], 1);
 }
 
 TEST(SolidPose, SurfacesOfBallsAndTurnedBoxes) {
   Solid ball;
   ball.sphere = SphereShape{{1, 0, 0}, 0.5};
-  const double above[3] = {1, 2, 0}, centre[3] = {1, 0, 0};
+  const double above[3] = {1, 2, 0}, center[3] = {1, 0, 0};
   EXPECT_DOUBLE_EQ(solidSurface(solidPose(ball, 0), above).distance, 1.5);
   EXPECT_DOUBLE_EQ(solidSurface(solidPose(ball, 0), above).normal[1], 1);
-  EXPECT_DOUBLE_EQ(solidSurface(solidPose(ball, 0), centre).distance, -0.5);
-  EXPECT_DOUBLE_EQ(solidSurface(solidPose(ball, 0), centre).normal[1], 1);
+  EXPECT_DOUBLE_EQ(solidSurface(solidPose(ball, 0), center).distance, -0.5);
+  EXPECT_DOUBLE_EQ(solidSurface(solidPose(ball, 0), center).normal[1], 1);
 
   Solid box;
   box.box = BoxShape{{-2, -1, -1}, {2, 1, 1}};

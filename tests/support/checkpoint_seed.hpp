@@ -14,7 +14,7 @@ inline SnapshotShape seedShape() {
   return {.count = 6, .solidCount = 1, .listCapacity = 4, .cells = 256, .near = true, .movingSolids = true};
 }
 
-/// Six particles: one near a wall, two near more, one of them with more neighbours than its list holds.
+/// Six particles: one near a wall, two near more, one of them with more neighbors than its list holds.
 inline offline::Checkpoint seedCheckpoint() {
   offline::Checkpoint c;
   c.rill = "0.1.0";
@@ -52,8 +52,8 @@ inline offline::Checkpoint seedCheckpoint() {
   s.nearWall = {2};
   s.nearMore = {0, 5};
   s.listCapacity = 4;
-  s.neighbourCount = {1, 2, 0, 4, 9, 1};
-  s.neighbours = {1, 0, 3, 0, 1, 2, 5, 3};
+  s.neighborCount = {1, 2, 0, 4, 9, 1};
+  s.neighbors = {1, 0, 3, 0, 1, 2, 5, 3};
   return c;
 }
 

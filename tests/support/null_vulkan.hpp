@@ -20,7 +20,7 @@ struct NullCommand {
     CopyImage,
     ClearImage,
     Update,
-    BeginRendering,  // colours, load and store of the first target, whether there is depth
+    BeginRendering,  // colors, load and store of the first target, whether there is depth
     EndRendering,
     Draw,
     DrawIndirect,

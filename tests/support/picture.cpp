@@ -18,7 +18,7 @@
 namespace rill::test {
 namespace {
 
-std::array<double, 3> meanColour(const Picture& picture, uint32_t x0, uint32_t y0, uint32_t block) {
+std::array<double, 3> meanColor(const Picture& picture, uint32_t x0, uint32_t y0, uint32_t block) {
   std::array<double, 3> sum{};
   const uint32_t x1 = std::min(x0 + block, picture.width), y1 = std::min(y0 + block, picture.height);
   for (uint32_t y = y0; y < y1; ++y)
@@ -48,7 +48,7 @@ Distance distance(const Picture& a, const Picture& b, uint32_t block) {
   uint32_t blocks = 0;
   for (uint32_t y = 0; y < a.height; y += block)
     for (uint32_t x = 0; x < a.width; x += block, ++blocks) {
-      const auto p = meanColour(a, x, y, block), q = meanColour(b, x, y, block);
+      const auto p = meanColor(a, x, y, block), q = meanColor(b, x, y, block);
       const double apart = std::sqrt(((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) + (p[2] - q[2]) * (p[2] - q[2])) / 3);
       result.mean += apart;
       result.worst = std::max(result.worst, apart);

@@ -17,7 +17,7 @@ struct Distance {
   double mean = 1;   ///< over blocks
   double worst = 1;  ///< of one block
 };
-/// Distances of the mean colours of blocks of `block` pixels, 0 (equal) to 1 (black and white): a particle that sits a pixel aside does not
+/// Distances of the mean colors of blocks of `block` pixels, 0 (equal) to 1 (black and white): a particle that sits a pixel aside does not
 /// count, a shape that is missing does. Pictures of different sizes are 1 apart.
 Distance distance(const Picture& a, const Picture& b, uint32_t block = 10);
 

@@ -44,9 +44,9 @@ std::array<double, 2> seen(const CameraView& view, const std::array<double, 3>& 
 /// The point at the target's depth that is seen there.
 std::array<double, 3> pointAt(const CameraView& view, double right, double down) {
   const CameraBasis basis = cameraBasis(view);
-  const double metres = 2 * distanceOf(view) * std::tan(view.fov_y_deg * std::numbers::pi / 360);
+  const double meters = 2 * distanceOf(view) * std::tan(view.fov_y_deg * std::numbers::pi / 360);
   std::array<double, 3> point{};
-  for (int a = 0; a < 3; ++a) point[a] = view.target[a] + metres * (right * basis.right[a] - down * basis.up[a]);
+  for (int a = 0; a < 3; ++a) point[a] = view.target[a] + meters * (right * basis.right[a] - down * basis.up[a]);
   return point;
 }
 

@@ -12,7 +12,7 @@ CameraView ahead() { return {.eye = {0, 0, 5}, .target = {0, 0, 0}, .fov_y_deg =
 
 SolidPose box(double x, double half, bool turned = false) {
   SolidPose pose;
-  pose.centre[0] = x;
+  pose.center[0] = x;
   for (double& h : pose.half) h = half;
   if (turned) {  // by 45 degrees about y
     pose.rotation[1] = std::sin(M_PI / 8);

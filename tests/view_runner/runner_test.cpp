@@ -41,7 +41,7 @@ TEST_F(ViewRunnerTest, StepsHaveCapturesBitsHoweverTheyAreCut) {
   for (int k = 0; k < kSteps; ++k) ASSERT_TRUE((*captured)->advance(1.0 / 60));
   auto stats = (*captured)->stats();
   ASSERT_TRUE(stats);
-  uint32_t mostPieces = 0;
+  uint32_t maxPieces = 0;
   for (const double budget : {0.0, 0.004, 1e9}) {
     auto runner = Runner::create(context(), scene());
     ASSERT_TRUE(runner) << runner.error().message;
@@ -56,7 +56,7 @@ TEST_F(ViewRunnerTest, StepsHaveCapturesBitsHoweverTheyAreCut) {
       for (uint32_t i = 0; i < shown.count; ++i)
         ASSERT_TRUE(positions[i].x >= 0 && positions[i].x <= 1) << "in the tank, between pieces too";
       if (!(*runner)->between()) continue;
-      mostPieces = std::max(mostPieces, (*runner)->last().pieces);
+      maxPieces = std::max(maxPieces, (*runner)->last().pieces);
       ASSERT_TRUE((*runner)->measure()) << "looking changes nothing";
     }
     const auto hash = (*runner)->hash();
@@ -64,7 +64,7 @@ TEST_F(ViewRunnerTest, StepsHaveCapturesBitsHoweverTheyAreCut) {
     EXPECT_EQ(*hash, stats->state_hash) << budget;
     EXPECT_NEAR((*runner)->time_s(), kSteps / 60.0, 1e-6);
   }
-  EXPECT_GT(mostPieces, 1u) << "some of them were cut";
+  EXPECT_GT(maxPieces, 1u) << "some of them were cut";
 }
 
 TEST(ViewContext, ADeviceThatShowsNoPicturesIsNotTaken) {

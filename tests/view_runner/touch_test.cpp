@@ -64,18 +64,18 @@ TEST_F(TouchTest, ABallPushesTheFluidAndIsGone) {
   EXPECT_EQ(session().scene().solids.size(), solids + 1);
   const SolidPose stands = runner().pose(static_cast<uint32_t>(solids));
   EXPECT_TRUE(stands.sphere);
-  EXPECT_GT(stands.centre[2] - stands.half[0], 0.6 - 0.05) << "before the surface";
+  EXPECT_GT(stands.center[2] - stands.half[0], 0.6 - 0.05) << "before the surface";
   steps(10);
   const SolidPose in = runner().pose(static_cast<uint32_t>(solids));
-  EXPECT_NEAR(in.centre[2], 0.6, 0.04) << "half in, where the pointer is";
-  EXPECT_NEAR(in.centre[0], 1.5, 1e-3);
+  EXPECT_NEAR(in.center[2], 0.6, 0.04) << "half in, where the pointer is";
+  EXPECT_NEAR(in.center[0], 1.5, 1e-3);
   const double before_x = stats().momentum[0];
   touch_.drag(session(), eye(), at(1.2, 0.2));
   steps(10);
-  EXPECT_NEAR(runner().pose(static_cast<uint32_t>(solids)).centre[0], 1.5 - 10.0 / 60, 1e-3) << "1 m/s at most";
+  EXPECT_NEAR(runner().pose(static_cast<uint32_t>(solids)).center[0], 1.5 - 10.0 / 60, 1e-3) << "1 m/s at most";
   EXPECT_LT(stats().momentum[0], before_x - 0.5) << "kg m/s: the water is pushed along";
   steps(10);
-  EXPECT_NEAR(runner().pose(static_cast<uint32_t>(solids)).centre[0], 1.2, 1e-3);
+  EXPECT_NEAR(runner().pose(static_cast<uint32_t>(solids)).center[0], 1.2, 1e-3);
   ASSERT_TRUE(touch_.release(session()));
   EXPECT_FALSE(touch_.holds());
   EXPECT_EQ(session().scene().solids.size(), solids);
@@ -89,19 +89,19 @@ TEST_F(TouchTest, ABallPushesTheFluidAndIsGone) {
 TEST_F(TouchTest, ASolidFollowsTheHandAndStays) {
   steps(5);
   const SolidPose there = runner().pose(0);
-  EXPECT_NEAR(there.centre[0], 1.2 + 0.3 * 6 / 60, 1e-5) << "its keyframes have moved it";
-  auto held = touch_.grab(session(), eye(), at(there.centre[0] + 0.05, 0.7), Hold::Solid);
+  EXPECT_NEAR(there.center[0], 1.2 + 0.3 * 6 / 60, 1e-5) << "its keyframes have moved it";
+  auto held = touch_.grab(session(), eye(), at(there.center[0] + 0.05, 0.7), Hold::Solid);
   ASSERT_TRUE(held && *held);
-  EXPECT_NEAR(runner().pose(0).centre[0], there.centre[0], 1e-5) << "it has not jumped";
-  touch_.drag(session(), eye(), at(there.centre[0] + 0.05, 0.3));
+  EXPECT_NEAR(runner().pose(0).center[0], there.center[0], 1e-5) << "it has not jumped";
+  touch_.drag(session(), eye(), at(there.center[0] + 0.05, 0.3));
   steps(30);
-  EXPECT_NEAR(runner().pose(0).centre[1], 0.3, 1e-4);
-  EXPECT_NEAR(runner().pose(0).centre[0], there.centre[0], 1e-4) << "held where it was taken";
+  EXPECT_NEAR(runner().pose(0).center[1], 0.3, 1e-4);
+  EXPECT_NEAR(runner().pose(0).center[0], there.center[0], 1e-4) << "held where it was taken";
   ASSERT_TRUE(touch_.release(session()));
   steps(3);
-  EXPECT_NEAR(runner().pose(0).centre[1], 0.3, 1e-4);
+  EXPECT_NEAR(runner().pose(0).center[1], 0.3, 1e-4);
   ASSERT_TRUE(session().change({"fluid.viscosity", "1"}));
-  EXPECT_NEAR(runner().pose(0).centre[1], 0.3, 1e-4) << "a live change leaves it there";
+  EXPECT_NEAR(runner().pose(0).center[1], 0.3, 1e-4) << "a live change leaves it there";
   EXPECT_EQ(stats().outside, 0u);
 }
 
@@ -111,11 +111,11 @@ TEST_F(TouchTest, IsSeenWhereItIs) {
   touch_.drag(session(), eye(), at(1.5, 0.75));
   steps(20);
   const SolidPose there = runner().pose(1);
-  EXPECT_NEAR(there.centre[0], 1.5, 1e-4);
+  EXPECT_NEAR(there.center[0], 1.5, 1e-4);
   Scene still = session().scene();
   for (size_t a = 0; a < 3; ++a) {
-    still.solids[1].box->min[a] = there.centre[a] - there.half[a];
-    still.solids[1].box->max[a] = there.centre[a] + there.half[a];
+    still.solids[1].box->min[a] = there.center[a] - there.half[a];
+    still.solids[1].box->max[a] = there.center[a] + there.half[a];
   }
   still.solids[1].driven = 0;
   const ParticleSet start = runner().start();

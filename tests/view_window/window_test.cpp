@@ -95,7 +95,7 @@ TEST_F(ViewWindowTest, AScriptGoesThroughAllViewsKeysAndSizes) {
   script += std::to_string(frame + 2) + " wheel 3\n" + std::to_string(frame + 3) + " wheel -2\n";
   frame += 4;
   for (const char* size : {"900 500", "200 100", "64 64", "1280 720"}) script += std::to_string(frame += 2) + " resize " + size + "\n";
-  script += std::to_string(frame + 1) + " minimise\n" + std::to_string(frame + 3) + " restore\n";
+  script += std::to_string(frame + 1) + " minimize\n" + std::to_string(frame + 3) + " restore\n";
   script += std::to_string(frame + 4) + " set fluid.viscosity=0.1\n" + std::to_string(frame + 5) + " set fluid.spacing=0.06\n";
   script += std::to_string(frame + 6) + " set fluid.viscosity=-3\n";
   script += std::to_string(frame + 7) + " screenshot end.png\n";
@@ -195,7 +195,7 @@ TEST_F(ViewWindowTest, NumbersAreTypedAndDragged) {
 }
 
 TEST_F(ViewWindowTest, APictureThatCannotBeWrittenIsAnError) {
-  for (const char* script : {"2 screenshot no-such-folder/a.png\n4 view final\n", "1 minimise\n2 screenshot a.png\n4 restore\n"}) {
+  for (const char* script : {"2 screenshot no-such-folder/a.png\n4 view final\n", "1 minimize\n2 screenshot a.png\n4 restore\n"}) {
     folder.write("hands.txt", script);
     const Outcome outcome = view({scene, "--script", "hands.txt"});
     EXPECT_EQ(outcome.code, 1) << script;

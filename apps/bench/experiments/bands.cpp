@@ -28,7 +28,7 @@ constexpr Band kBands[] = {
     {"still-tank", "rms speed, 2 s", 0.02, {0.03, 0.025, 0.02}, "m/s", kUnrest},
     {"still-tank", "rms speed, 6 s", 0.02, {0.01, 0.007, 0.005}, "m/s", kUnrest},
     {"still-tank", "level", 0.01, {0.015, 0.01, 0.01}, "%", "the highest particles of a disordered surface lie lower than a lattice's"},
-    {"still-tank", "twice the centre of mass", 0.01, {0.005, 0.005, 0.005}, "%", ""},
+    {"still-tank", "twice the center of mass", 0.01, {0.005, 0.005, 0.005}, "%", ""},
     {"still-tank", "pressure", kNone, {0.03, 0.01, 0.01}, "%", ""},
     {"still-tank", "floor's load, rms", kNone, {0.001, 0.003, 0.002}, "%", ""},
     {"still-tank", "energy, end", kNone, {0.005, 0.005, 0.005}, "%", ""},

@@ -31,11 +31,11 @@ Cloud disc(double spacing) {
 
 /// Semi-axes of the ellipse with the same second moments: every particle counts, no outline is needed.
 std::pair<double, double> semiAxes(const Cloud& cloud) {
-  const Point centre = meanPosition(cloud);
+  const Point center = meanPosition(cloud);
   double xx = 0, yy = 0;
   for (const Point& point : cloud.position) {
-    xx += (point[0] - centre[0]) * (point[0] - centre[0]);
-    yy += (point[1] - centre[1]) * (point[1] - centre[1]);
+    xx += (point[0] - center[0]) * (point[0] - center[0]);
+    yy += (point[1] - center[1]) * (point[1] - center[1]);
   }
   const double n = double(cloud.size());
   return {2 * std::sqrt(xx / n), 2 * std::sqrt(yy / n)};

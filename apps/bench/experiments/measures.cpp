@@ -47,7 +47,7 @@ Cloud cloudOf(const offline::Particles& particles, double spacing_m) {
   return cloud;
 }
 
-NeighbourGrid::NeighbourGrid(std::span<const Point> points, double reach_m) : points_(points), cell_(reach_m), order_(points.size()) {
+NeighborGrid::NeighborGrid(std::span<const Point> points, double reach_m) : points_(points), cell_(reach_m), order_(points.size()) {
   std::iota(order_.begin(), order_.end(), size_t{0});
   std::vector<uint64_t> keys;
   for (const Point& point : points) keys.push_back(keyOf(cellOf(point)));
@@ -58,21 +58,21 @@ NeighbourGrid::NeighbourGrid(std::span<const Point> points, double reach_m) : po
   }
 }
 
-NeighbourGrid::Cell NeighbourGrid::cellOf(const Point& point) const {
+NeighborGrid::Cell NeighborGrid::cellOf(const Point& point) const {
   Cell cell;
   for (size_t axis = 0; axis < 3; ++axis) cell[axis] = static_cast<int64_t>(std::floor(point[axis] / cell_));
   return cell;
 }
 
 // 21 bits an axis. Cells that share a key are told apart by the distance test.
-uint64_t NeighbourGrid::keyOf(const Cell& cell) {
+uint64_t NeighborGrid::keyOf(const Cell& cell) {
   uint64_t key = 0;
   for (const int64_t index : cell) key = key << 21 | (static_cast<uint64_t>(index) & 0x1FFFFF);
   return key;
 }
 
-void NeighbourGrid::within(const Point& centre, double radius_m, const std::function<void(size_t, double)>& visit) const {
-  const Cell middle = cellOf(centre);
+void NeighborGrid::within(const Point& center, double radius_m, const std::function<void(size_t, double)>& visit) const {
+  const Cell middle = cellOf(center);
   for (int64_t x = -1; x <= 1; ++x)
     for (int64_t y = -1; y <= 1; ++y)
       for (int64_t z = -1; z <= 1; ++z) {
@@ -81,15 +81,15 @@ void NeighbourGrid::within(const Point& centre, double radius_m, const std::func
         for (size_t k = found->second.first; k < found->second.second; ++k) {
           const Point& other = points_[order_[k]];
           double squared = 0;
-          for (size_t axis = 0; axis < 3; ++axis) squared += (other[axis] - centre[axis]) * (other[axis] - centre[axis]);
+          for (size_t axis = 0; axis < 3; ++axis) squared += (other[axis] - center[axis]) * (other[axis] - center[axis]);
           if (squared <= radius_m * radius_m) visit(order_[k], squared);
         }
       }
 }
 
-bool NeighbourGrid::anyWithin(const Point& centre, double radius_m) const {
+bool NeighborGrid::anyWithin(const Point& center, double radius_m) const {
   bool any = false;
-  within(centre, radius_m, [&](size_t, double) { any = true; });
+  within(center, radius_m, [&](size_t, double) { any = true; });
   return any;
 }
 
@@ -106,7 +106,7 @@ Walls wallsOf(const Scene& scene) {
 
 std::vector<size_t> deepBulk(const Cloud& cloud, const Walls& walls, double reach_m) {
   const double gap = kVoid * cloud.spacing;
-  const NeighbourGrid grid(cloud.position, gap);
+  const NeighborGrid grid(cloud.position, gap);
   const auto offWalls = [&](const Point& point) {
     for (size_t axis = 0; axis < 3; ++axis) {
       if (walls.closed >> (2 * axis) & 1 && point[axis] - walls.min[axis] < reach_m) return false;
@@ -133,7 +133,7 @@ std::vector<size_t> deepBulk(const Cloud& cloud, const Walls& walls, double reac
 
 std::vector<double> wideDensity(const Cloud& cloud, std::span<const size_t> of, double support_m) {
   const double rest = latticeSum(support_m / cloud.spacing);
-  const NeighbourGrid grid(cloud.position, support_m);
+  const NeighborGrid grid(cloud.position, support_m);
   std::vector<double> density;
   for (const size_t i : of) {
     double sum = 0;
@@ -169,7 +169,7 @@ BulkDensity bulkDensity(const Cloud& cloud, const Walls& walls, double solver_su
 
 double clumpedShare(const Cloud& cloud) {
   const double near = 0.5 * cloud.spacing;
-  const NeighbourGrid grid(cloud.position, cloud.spacing);
+  const NeighborGrid grid(cloud.position, cloud.spacing);
   size_t clumped = 0;
   for (const Point& point : cloud.position) {
     size_t others = 0;
@@ -181,7 +181,7 @@ double clumpedShare(const Cloud& cloud) {
 
 double surfaceLevel(const Cloud& cloud, double floor_m, double min_x_m, double max_x_m) {
   const double reach = 2 * cloud.spacing;
-  const NeighbourGrid grid(cloud.position, reach);
+  const NeighborGrid grid(cloud.position, reach);
   std::vector<double> heights;
   for (const Point& point : cloud.position) {
     if (point[0] < min_x_m || point[0] > max_x_m) continue;
@@ -199,7 +199,7 @@ double surfaceLevel(const Cloud& cloud, double floor_m, double min_x_m, double m
 }
 
 double frontAlongX(const Cloud& cloud) {
-  const NeighbourGrid grid(cloud.position, 2 * cloud.spacing);
+  const NeighborGrid grid(cloud.position, 2 * cloud.spacing);
   std::vector<size_t> order(cloud.size());
   std::iota(order.begin(), order.end(), size_t{0});
   std::ranges::sort(order, std::greater{}, [&](size_t i) { return cloud.position[i][0]; });
@@ -243,11 +243,11 @@ Point meanPosition(const Cloud& cloud) { return mean(cloud.position); }
 Point meanVelocity(const Cloud& cloud) { return mean(cloud.velocity); }
 
 Point meanSpin(const Cloud& cloud) {
-  const Point centre = meanPosition(cloud);
+  const Point center = meanPosition(cloud);
   Point sum{};
   for (size_t i = 0; i < cloud.size(); ++i) {
     Point arm;
-    for (size_t axis = 0; axis < 3; ++axis) arm[axis] = cloud.position[i][axis] - centre[axis];
+    for (size_t axis = 0; axis < 3; ++axis) arm[axis] = cloud.position[i][axis] - center[axis];
     const Point& v = cloud.velocity[i];
     sum[0] += arm[1] * v[2] - arm[2] * v[1];
     sum[1] += arm[2] * v[0] - arm[0] * v[2];

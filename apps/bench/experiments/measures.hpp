@@ -24,13 +24,13 @@ struct Cloud {
 Cloud cloudOf(const offline::Particles& particles, double spacing_m);
 
 /// Who is within a radius of a point.
-class NeighbourGrid {
+class NeighborGrid {
  public:
   /// `points` outlives the grid; no search goes beyond `reach_m`.
-  NeighbourGrid(std::span<const Point> points, double reach_m);
-  /// Calls `visit(index, squared distance in m^2)` for every point within `radius_m` (<= reach) of `centre`, one at the centre too.
-  void within(const Point& centre, double radius_m, const std::function<void(size_t, double)>& visit) const;
-  bool anyWithin(const Point& centre, double radius_m) const;
+  NeighborGrid(std::span<const Point> points, double reach_m);
+  /// Calls `visit(index, squared distance in m^2)` for every point within `radius_m` (<= reach) of `center`, one at the center too.
+  void within(const Point& center, double radius_m, const std::function<void(size_t, double)>& visit) const;
+  bool anyWithin(const Point& center, double radius_m) const;
 
  private:
   using Cell = std::array<int64_t, 3>;
@@ -66,11 +66,11 @@ struct BulkDensity {
 };
 BulkDensity bulkDensity(const Cloud& cloud, const Walls& walls, double solver_support_m);
 
-/// Share of particles whose nearest neighbour is nearer than half a spacing.
+/// Share of particles whose nearest neighbor is nearer than half a spacing.
 double clumpedShare(const Cloud& cloud);
 
 /// Mean height of the free surface over the floor at `floor_m`: of the particles within `min` and `max` in x that have nobody above them
-/// (in a cone of 37 degrees around the vertical, two spacings long), centre plus half a spacing. Heights under half of the highest are
+/// (in a cone of 37 degrees around the vertical, two spacings long), center plus half a spacing. Heights under half of the highest are
 /// no surface but a void, and left out. NaN without particles.
 double surfaceLevel(const Cloud& cloud, double floor_m, double min_x_m, double max_x_m);
 

@@ -48,13 +48,13 @@ Expected<Outcome> slosh(const Bench& bench, double depth, unsigned level, double
   outcome.run = std::move(*run);
   Curve sway, drawn;
   for (const apps::Instant& instant : outcome.run.instants)
-    sway.emplace_back(instant.time_s, instant.stats.centre_of_mass[0] - kLength / 2);
+    sway.emplace_back(instant.time_s, instant.stats.center_of_mass[0] - kLength / 2);
   for (const auto& [time, x] : sway) drawn.emplace_back(time / expected, x / sway.front().second);
   const Oscillation found = oscillation(sway, 0);
   outcome.figures.push_back(relativeFigure("period", found.period, expected));
   outcome.figures.push_back({"damping a period", found.decrement, 0, found.decrement});
   outcome.figures.push_back(plainFigure("energy, peak", outcome.run.energy.ratio - 1));
-  outcome.curves["centre_of_mass_x"] = curveJson(sway);
+  outcome.curves["center_of_mass_x"] = curveJson(sway);
   outcome.curves["peaks"] = curveJson(found.peaks);
   outcome.overlays.push_back(
       {"slosh",

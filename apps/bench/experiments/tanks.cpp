@@ -55,7 +55,7 @@ Expected<Outcome> stillTank(const Bench& bench, unsigned level) {
         const double area = kSide * kSide, rest = double(cloud.size()) * std::pow(spacing, 3) / area;
         const double surface = surfaceLevel(cloud, 0, 0, kSide);
         outcome.figures.push_back(relativeFigure("level", surface, rest));
-        outcome.figures.push_back(relativeFigure("twice the centre of mass", 2 * meanPosition(cloud)[1], rest));
+        outcome.figures.push_back(relativeFigure("twice the center of mass", 2 * meanPosition(cloud)[1], rest));
         double worst = 0;
         for (const double share : {0.0, 0.25, 0.5, 0.75}) {
           const double held = support.pressure(cloud, time, share * rest, scene, area),

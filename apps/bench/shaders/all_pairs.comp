@@ -16,5 +16,5 @@ void main() {
   if (push.first > 0u) found = Found(result[i].x, uint(result[i].y));
   const vec3 here = position[i].xyz;
   for (uint j = push.first; j < push.last; ++j) meet(found, here, position[j].xyz, push.radius);
-  result[i] = vec2(found.density, found.neighbours);
+  result[i] = vec2(found.density, found.neighbors);
 }

@@ -13,7 +13,7 @@ layout(constant_id = 0) const int kColumns = 1;  // 1: over columns of samples, 
 layout(constant_id = 1) const int kRows = 1;
 
 const float kReach = 2.3;  // standard deviations
-const int kMostReach = 64;  // samples
+const int kMaxReach = 64;  // samples
 
 void main() {
   const ivec2 grid = ivec2(sampleGrid());
@@ -26,8 +26,8 @@ void main() {
     after[index] = z;
     return;
   }
-  const float length = metresASample(z) / view.spacing;
-  const int reach = clamp(int(kReach * view.smoothing / length), 1, kMostReach);
+  const float length = metersASample(z) / view.spacing;
+  const int reach = clamp(int(kReach * view.smoothing / length), 1, kMaxReach);
   const ivec2 far = reach * ivec2(kColumns, kRows);
   float sum = 0.0, weights = 0.0;
   for (int y = max(p.y - far.y, 0); y <= min(p.y + far.y, grid.y - 1); ++y)

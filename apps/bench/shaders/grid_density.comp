@@ -35,5 +35,5 @@ void main() {
     const uint end = start[cellKey(ivec3(min(cell.x + 1, cells().x - 1), cell.yz)) + 1u];
     for (uint j = begin; j < end; ++j) meet(found, here, POSITION(j), push.radius);
   }
-  result[i] = vec2(found.density, found.neighbours);
+  result[i] = vec2(found.density, found.neighbors);
 }

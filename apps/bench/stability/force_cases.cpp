@@ -13,7 +13,7 @@ Scene dam(double d = 0.05) { return tankScene(d, {8 * d, 12 * d, 6 * d}, {20 * d
 
 StressCase make(std::string name, std::string asserts, Scene scene) {
   StressCase c{.name = std::move(name), .asserts = std::move(asserts), .scene = std::move(scene)};
-  c.mostSpeed = usualSpeed(c.scene);
+  c.maxSpeed = usualSpeed(c.scene);
   return c;
 }
 
@@ -52,7 +52,7 @@ std::vector<StressCase> forceCases() {
     ball.velocity[1] = -0.1;
     drop.fill.push_back(ball);
     StressCase c = make("weightless-10-s", "momentum is kept to 1e-5", drop);
-    c.mostSpeed = 1;
+    c.maxSpeed = 1;
     c.duration_s = 10;
     c.frame_s = 0.1;
     c.own = [](const StressOutcome& o) {
@@ -117,7 +117,7 @@ std::vector<StressCase> forceCases() {
     StressCase c = make("crushed-to-80-percent", "let go, it slows to 2 m/s", crush);
     c.worked = true;
     c.duration_s = 1.5;
-    c.mostSpeed = 60;
+    c.maxSpeed = 60;
     c.own = [](const StressOutcome& o) {
       const double speed = o.run.instants.back().stats.max_speed;
       return speed > 2 ? "it still moves at " + number(speed) + " m/s" : std::string();
@@ -158,7 +158,7 @@ std::vector<StressCase> sizeCases() {
     const Scene tank = tankScene(0.05, {0, 0, 0}, {length, across, across});
     StressCase c{.name = "count-" + std::to_string(count), .asserts = "", .scene = tank};
     c.start = placed(line(count));
-    c.mostSpeed = usualSpeed(tank);
+    c.maxSpeed = usualSpeed(tank);
     c.duration_s = full ? 1.0 / 240 : 1.0 / 60;
     c.frame_s = c.duration_s;
     c.full = full;

@@ -54,7 +54,7 @@ void addExtremes(std::vector<StressCase>& cases, const std::string& owner, Owner
       const std::string shown = words ? std::string(field.info.words[static_cast<size_t>(value)]) : number(value, 7);
       StressCase c{.name = owner + "." + std::string(field.info.key) + "=" + shown, .scene = scene};
       c.duration_s = scene.solver.iterations > 100 ? 0.05 : 0.25;
-      c.mostSpeed = usualSpeed(scene);
+      c.maxSpeed = usualSpeed(scene);
       c.mayRefuse = true;
       cases.push_back(std::move(c));
     }
@@ -117,8 +117,8 @@ std::vector<StressCase> randomCases(uint64_t first, uint64_t count) {
     c.frame_s = c.duration_s / 12;
     c.worked = std::ranges::any_of(scene.solids, [](const Solid& s) { return !s.motion.empty(); });
     // Overlaps at the start (jitter, a solid on the fluid) part, and lift it.
-    c.mostEnergy = scene.fill[0].jitter > 0 || solids > 0 ? 1.2 : 1.02;
-    c.mostSpeed = usualSpeed(scene, 4 * std::sqrt(10 * d) + (c.worked ? 40 * d : 0));
+    c.maxEnergy = scene.fill[0].jitter > 0 || solids > 0 ? 1.2 : 1.02;
+    c.maxSpeed = usualSpeed(scene, 4 * std::sqrt(10 * d) + (c.worked ? 40 * d : 0));
     c.mayRefuse = true;
     cases.push_back(std::move(c));
   }

@@ -31,7 +31,7 @@ double apart(const Float3& a, const Float3& b) { return std::hypot(double(a.x) -
 
 StressCase make(std::string name, std::string asserts, Scene scene, std::optional<ParticleSet> start, double speed = 0) {
   StressCase c{.name = std::move(name), .asserts = std::move(asserts), .scene = std::move(scene), .start = std::move(start)};
-  c.mostSpeed = usualSpeed(c.scene, speed);
+  c.maxSpeed = usualSpeed(c.scene, speed);
   return c;
 }
 
@@ -43,8 +43,8 @@ std::vector<StressCase> startCases() {
     Scene open = weightless(room());
     open.domain.reset();
     StressCase c = make("coincident-pair", "they part, with no momentum", open, placed({{0, 0, 0}, {0, 0, 0}}));
-    c.mostSpeed = 1;
-    c.mostEnergy = std::numeric_limits<double>::infinity();
+    c.maxSpeed = 1;
+    c.maxEnergy = std::numeric_limits<double>::infinity();
     c.own = [](const StressOutcome& o) {
       const double distance = apart(o.particles.positions[0], o.particles.positions[1]);
       if (distance < 0.01 * kSpacing) return "they are " + number(distance / kSpacing) + " d apart";
@@ -56,8 +56,8 @@ std::vector<StressCase> startCases() {
   }
   {
     StressCase c = make("thousand-coincident", "they spread", weightless(room()), placed(std::vector<Float3>(1000, {0.5f, 0.5f, 0.5f})));
-    c.mostSpeed = 20;
-    c.mostEnergy = std::numeric_limits<double>::infinity();
+    c.maxSpeed = 20;
+    c.maxEnergy = std::numeric_limits<double>::infinity();
     c.own = [](const StressOutcome& o) {
       double farthest = 0;
       for (const Float3& p : o.particles.positions) farthest = std::max(farthest, apart(p, {0.5f, 0.5f, 0.5f}));
@@ -69,7 +69,7 @@ std::vector<StressCase> startCases() {
     Scene open = room();
     open.domain.reset();
     StressCase c = make("single-particle", "it falls by the formula, to 1e-3", open, placed({{0, 0, 0}}, {1, 2, 0}));
-    c.mostSpeed = 20;
+    c.maxSpeed = 20;
     c.own = [](const StressOutcome& o) {
       const double t = o.run.simulated_s;
       const Float3& p = o.particles.positions[0];
@@ -85,7 +85,7 @@ std::vector<StressCase> startCases() {
     open.domain.reset();
     const auto h = static_cast<float>(2 * kSpacing);
     StressCase c = make("two-at-h", "nothing moves", open, placed({{0, 0, 0}, {h, 0, 0}}));
-    c.mostSpeed = 1e-9;
+    c.maxSpeed = 1e-9;
     cases.push_back(std::move(c));
   }
   {
@@ -103,20 +103,20 @@ std::vector<StressCase> startCases() {
   {
     const double near = kSpacing / std::cbrt(100.0);
     StressCase c = make("compressed-100", "", weightless(room()), placed(lattice(10, 10, 10, near, {0.4f, 0.4f, 0.4f})));
-    c.mostSpeed = 20;
-    c.mostEnergy = std::numeric_limits<double>::infinity();
+    c.maxSpeed = 20;
+    c.maxEnergy = std::numeric_limits<double>::infinity();
     cases.push_back(std::move(c));
   }
   {
     StressCase c = make("outside-the-walls", "they are put inside, and get no speed for it", weightless(room()),
                         placed(lattice(8, 8, 8, kSpacing, {0.9f, -0.2f, 0.3f})));
-    c.mostSpeed = 0.1;
-    c.mostEnergy = std::numeric_limits<double>::infinity();
+    c.maxSpeed = 0.1;
+    c.maxEnergy = std::numeric_limits<double>::infinity();
     cases.push_back(std::move(c));
   }
   {
-    StressCase c = make("far-outside", "a kilometre off", room(), placed(lattice(4, 4, 4, kSpacing, {1000.0f, -1000.0f, 3.0f})));
-    c.mostEnergy = std::numeric_limits<double>::infinity();
+    StressCase c = make("far-outside", "a kilometer off", room(), placed(lattice(4, 4, 4, kSpacing, {1000.0f, -1000.0f, 3.0f})));
+    c.maxEnergy = std::numeric_limits<double>::infinity();
     cases.push_back(std::move(c));
   }
   {
@@ -139,24 +139,24 @@ std::vector<StressCase> startCases() {
     }
     overlapping.fill.push_back(second);
     StressCase c = make("overlapping-fills", "", overlapping, {});
-    c.mostEnergy = 1.1;  // what they part by lifts them
+    c.maxEnergy = 1.1;  // what they part by lifts them
     cases.push_back(std::move(c));
   }
   {
     StressCase c = make("list-overflow", "lists overflow, and that is counted", room(),
                         placed(lattice(12, 12, 12, 0.4 * kSpacing, {0.1f, 0.05f, 0.1f})));
-    c.mostSpeed = 20;
-    c.mostEnergy = std::numeric_limits<double>::infinity();
+    c.maxSpeed = 20;
+    c.maxEnergy = std::numeric_limits<double>::infinity();
     c.own = [](const StressOutcome& o) {
-      return o.run.instants.front().stats.neighbour_overflow > 0 ? std::string() : std::string("no overflow was counted");
+      return o.run.instants.front().stats.neighbor_overflow > 0 ? std::string() : std::string("no overflow was counted");
     };
     cases.push_back(std::move(c));
   }
   cases.push_back(make("one-cell", "", tankScene(kSpacing, {0.1, 0.1, 0.1}, {0.1, 0.2, 0.1}), {}));
   {
     StressCase c = make("all-in-one-cell", "", weightless(room()), placed(lattice(4, 4, 4, 0.2 * kSpacing, {0.5f, 0.5f, 0.5f})));
-    c.mostSpeed = 20;
-    c.mostEnergy = std::numeric_limits<double>::infinity();
+    c.maxSpeed = 20;
+    c.maxEnergy = std::numeric_limits<double>::infinity();
     cases.push_back(std::move(c));
   }
   {
@@ -179,7 +179,7 @@ std::vector<StressCase> startCases() {
     filled.solids.push_back(obstacle);
     StressCase c = make("solid-fills-the-tank", "", filled, {});
     c.mayRefuse = true;
-    c.mostEnergy = std::numeric_limits<double>::infinity();
+    c.maxEnergy = std::numeric_limits<double>::infinity();
     cases.push_back(std::move(c));
   }
   return cases;

@@ -25,9 +25,9 @@ struct StressCase {
   double duration_s = 0.5;
   double frame_s = 1.0 / 60;
   uint64_t parked = 0;        ///< particles that are not numbers at the start
-  double mostSpeed = 0;       ///< m/s
+  double maxSpeed = 0;        ///< m/s
   bool worked = false;        ///< solids or a changing gravity do work on it: energy is not held against the start's
-  double mostEnergy = 1.02;   ///< over the start's
+  double maxEnergy = 1.02;    ///< over the start's
   bool mayRefuse = false;     ///< a clear refusal will do
   std::optional<Scene> like;  ///< a scene for 0.5 s, of which this is the same at another size or place: errors and energy agree
   bool twice = false;         ///< run again: the same bits, and no drift of the energy

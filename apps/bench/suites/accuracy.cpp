@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kFrame_s = 1.0 / 60;
 constexpr double kBlownUp = 0.3;      // mean compression from which a run counts as blown up: it is drawn there
-constexpr double kMostEnergy = 1.5;   // and the energy, over the start's
+constexpr double kMaxEnergy = 1.5;    // and the energy, over the start's
 constexpr double kFarTrajectory = 1;  // where a run that blew up is drawn on the trajectory plot
 
 struct Setting {
@@ -162,7 +162,7 @@ class Accuracy {
       if (m.wall.empty()) break;
       m.trajectory = distance(trajectoryOf(m.run.instants, length, energy), converged);
       m.blownUp =
-          !(m.run.density.mean < kBlownUp) || !(m.run.energy.ratio < kMostEnergy) || m.run.non_finite > 0 || !std::isfinite(m.trajectory);
+          !(m.run.density.mean < kBlownUp) || !(m.run.energy.ratio < kMaxEnergy) || m.run.non_finite > 0 || !std::isfinite(m.trajectory);
       measured.push_back(std::move(m));
     }
     tell(c, measured, chance);
@@ -211,7 +211,7 @@ class Accuracy {
       report_.results.push_back(std::move(json));
     }
     table.note = "mean, p99, max: compression alone, in the solver's kernel (" + kernel +
-                 "), first tenth left out. trajectory: rms distance of centre of\n"
+                 "), first tenth left out. trajectory: rms distance of center of\n"
                  "mass, front and energies from " +
                  std::to_string(c.seeds) + " runs of " + std::to_string(c.convergedSteps) +
                  " substeps a frame, over first extent and energy; those runs are " + percent(chance) + " apart by chance." +

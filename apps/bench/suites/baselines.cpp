@@ -28,7 +28,7 @@ struct Cloud {
 
 /// Of a particle: the sum that a density pass makes, and how many it summed over, itself included.
 struct Found {
-  float density, neighbours;
+  float density, neighbors;
 };
 
 Expected<Cloud> cloudOf(uint32_t count) {
@@ -85,8 +85,8 @@ struct Result {
 double difference(const std::vector<Found>& a, const std::vector<Found>& b) {
   double worst = a.size() == b.size() ? 0 : std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-    worst = std::max(worst, a[i].neighbours != b[i].neighbours ? std::numeric_limits<double>::infinity()
-                                                               : std::abs(double(a[i].density) - b[i].density) / a[i].density);
+    worst = std::max(worst, a[i].neighbors != b[i].neighbors ? std::numeric_limits<double>::infinity()
+                                                             : std::abs(double(a[i].density) - b[i].density) / a[i].density);
   return worst;
 }
 
@@ -227,10 +227,10 @@ size_t Baselines::parts(const Bench& bench) const {
 }
 
 Expected<void> Baselines::run(Bench& bench, Report& report) const {
-  Table search{"Neighbour search, a density pass: naive all-pairs against the grid, ms",
-               {"particles", "neighbours", "all pairs", "grid: sort", "grid: search", "all pairs over grid"},
+  Table search{"Neighbor search, a density pass: naive all-pairs against the grid, ms",
+               {"particles", "neighbors", "all pairs", "grid: sort", "grid: search", "all pairs over grid"},
                {},
-               "Over the grid: its sort included. Both are the bench's own, without a list, and find the same neighbours."};
+               "Over the grid: its sort included. Both are the bench's own, without a list, and find the same neighbors."};
   Table layout{"Layout, the same search by the grid: one struct of " + std::to_string(4 * kStructFloats) +
                    " bytes a particle against separate arrays, ms",
                {"particles", "one struct", "arrays", "struct over arrays"},
@@ -253,21 +253,21 @@ Expected<void> Baselines::run(Bench& bench, Report& report) const {
     if (!grid) return grid.error();
     if (!structs) return structs.error();
 
-    double neighbours = 0;
-    for (const Found& found : grid->found) neighbours += (found.neighbours - 1.0) / double(grid->found.size());
+    double neighbors = 0;
+    for (const Found& found : grid->found) neighbors += (found.neighbors - 1.0) / double(grid->found.size());
     if (const double apart = difference(pairs->found, grid->found); !(apart <= 1e-4))
       report.failures.push_back(name + ": all pairs and the grid differ by " + roughNumber(apart) +
                                 " (infinite: in a count); expected at most 1e-4");
     if (const double apart = difference(structs->found, grid->found); !(apart == 0))
       report.failures.push_back(name + ": structs and arrays differ by " + roughNumber(apart) + " (infinite: in a count); expected 0");
     const double byGrid = build->middle() + grid->middle();
-    search.rows.push_back({grouped(cloud->push.count), number(neighbours), number(pairs->middle()), number(build->middle()),
+    search.rows.push_back({grouped(cloud->push.count), number(neighbors), number(pairs->middle()), number(build->middle()),
                            number(grid->middle()), number(pairs->middle() / byGrid)});
     layout.rows.push_back(
         {grouped(cloud->push.count), number(structs->middle()), number(grid->middle()), number(structs->middle() / grid->middle())});
     report.results.push_back({{"case", name},
                               {"particles", cloud->push.count},
-                              {"neighbours", neighbours},
+                              {"neighbors", neighbors},
                               {"all_pairs_ms", bench::sampled(pairs->samples.run_ms)},
                               {"grid_sort_ms", bench::sampled(build->samples.run_ms)},
                               {"grid_search_ms", bench::sampled(grid->samples.run_ms)},

@@ -13,7 +13,7 @@ namespace rill::bench {
 namespace {
 
 constexpr uint32_t kWidth = 1280, kHeight = 720;
-constexpr VkFormat kColour = VK_FORMAT_R16G16B16A16_SFLOAT, kDepth = VK_FORMAT_D32_SFLOAT;
+constexpr VkFormat kColor = VK_FORMAT_R16G16B16A16_SFLOAT, kDepth = VK_FORMAT_D32_SFLOAT;
 
 /// A pipeline cache as a host keeps it: loaded at its start, saved at its end.
 class HostCache {
@@ -90,7 +90,7 @@ Expected<Start> started(const Bench& bench, const Scene& scene, const ParticleSe
     auto fluid = Fluid::create(**device, {.scene = &scene, .particles = &particles});
     if (!fluid) return fluid.error();
     start.fluid = watch.lap();
-    auto renderer = FluidRenderer::create(**device, {kColour, kDepth});
+    auto renderer = FluidRenderer::create(**device, {kColor, kDepth});
     if (!renderer) return renderer.error();
     start.renderer = watch.lap();
 
@@ -98,9 +98,9 @@ Expected<Start> started(const Bench& bench, const Scene& scene, const ParticleSe
     if (!frame) return frame.error();
     (*device)->beginFrame(*frame);
     Graph graph;
-    SceneTargets targets{graph.create("colour", {kColour, kWidth, kHeight}), graph.create("depth", {kDepth, kWidth, kHeight})};
+    SceneTargets targets{graph.create("color", {kColor, kWidth, kHeight}), graph.create("depth", {kDepth, kWidth, kHeight})};
     graph.pass("background", [&](Pass& pass) {
-      targets.colour = pass.write(targets.colour, Use::ColourTarget, Load::Clear);
+      targets.color = pass.write(targets.color, Use::ColorTarget, Load::Clear);
       targets.depth = pass.write(targets.depth, Use::DepthTarget, Load::Clear);
       return [](Commands&) {};
     });
@@ -110,7 +110,7 @@ Expected<Start> started(const Bench& bench, const Scene& scene, const ParticleSe
     view.focus_m = 3;
     targets = (*renderer)->addTo(graph, (*fluid)->addTo(graph, {.advance_s = 1.0 / 60}), targets, view);
     graph.pass("shown", [&](Pass& pass) {
-      pass.read(targets.colour, Use::ComputeSampled);
+      pass.read(targets.color, Use::ComputeSampled);
       pass.sideEffect();
       return [](Commands&) {};
     });

@@ -11,8 +11,8 @@ namespace rill::bench {
 namespace graph_suite {
 namespace {
 
-constexpr double kMostCompile_us = 50;  ///< that the 40 passes may take to compile once their plan is known
-constexpr double kMostFrame_us = 100;   ///< that 20 passes may take the host: compiled, prepared and recorded
+constexpr double kMaxCompile_us = 50;  ///< that the 40 passes may take to compile once their plan is known
+constexpr double kMaxFrame_us = 100;   ///< that 20 passes may take the host: compiled, prepared and recorded
 constexpr uint32_t kPasses[] = {5, 10, 20, 40};
 constexpr uint32_t kSubsteps = 18;
 
@@ -159,12 +159,12 @@ Expected<Report> runAll(Bench& bench) {
                               {"record_us", sampled(known->record_us)},
                               {"allocations", known->graph_allocations},
                               {"declare_allocations", known->declare_allocations}});
-    if (passes <= kPasses[std::size(kPasses) - 1] && compile > kMostCompile_us)
+    if (passes <= kPasses[std::size(kPasses) - 1] && compile > kMaxCompile_us)
       report.failures.push_back(c.name + ": " + number(compile) + " us to compile a frame whose plan is known, above " +
-                                number(kMostCompile_us));
-    if (passes <= 20 && together > kMostFrame_us)
+                                number(kMaxCompile_us));
+    if (passes <= 20 && together > kMaxFrame_us)
       report.failures.push_back(c.name + ": " + number(together) + " us to compile, prepare and record a frame of " +
-                                std::to_string(passes) + " passes, above " + number(kMostFrame_us));
+                                std::to_string(passes) + " passes, above " + number(kMaxFrame_us));
     if (known->graph_allocations > 0)
       report.failures.push_back(c.name + ": the graph allocated " + std::to_string(known->graph_allocations) + " times in a frame");
   }

@@ -17,10 +17,10 @@
 namespace rill::bench {
 namespace {
 
-constexpr double kFov = 40;         // degrees
-constexpr double kRadius = 0.75;    // spacings: of the spheres by which pictures are named
-constexpr double kTravel = 0.25;    // spacings that the moving wave travels a frame
-constexpr double kTravelling = 18;  // spacings: its length
+constexpr double kFov = 40;        // degrees
+constexpr double kRadius = 0.75;   // spacings: of the spheres by which pictures are named
+constexpr double kTravel = 0.25;   // spacings that the moving wave travels a frame
+constexpr double kTraveling = 18;  // spacings: its length
 constexpr double kFlickerFrame_s = 1.0 / 60;
 constexpr double kPixelsAPart = 2e5;  // of progress
 
@@ -306,7 +306,7 @@ class Render {
     std::vector<Points> points;
     std::vector<TrueSurface> truth;
     for (int k = 0; k < frames() && !bench_.stopped(); ++k) {
-      const auto wave = travelledWave(eye.distance, eye.tangentX, eye.tangentY, kTravelling, kTravel * k);
+      const auto wave = traveledWave(eye.distance, eye.tangentX, eye.tangentY, kTraveling, kTravel * k);
       auto uploaded = upload(*wave, picture.jitter, 1);
       if (!uploaded) return uploaded.error();
       points.push_back(std::move(*uploaded));

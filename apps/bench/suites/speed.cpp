@@ -56,7 +56,7 @@ Expected<std::vector<PassCost>> passCosts(const Bench& bench, Scene scene) {
   for (int frame = 0; frame <= kFrames && !bench.stopped(); ++frame) {
     std::vector<std::pair<std::string, double>> ms;
     FluidStep step{frame_s, false, expected, false};
-    for (uint32_t recorded = 0; recorded < (*fluid)->mostSubsteps();) {
+    for (uint32_t recorded = 0; recorded < (*fluid)->substepsToComplete();) {
       step.resume = recorded > 0;
       if (auto ran = workbench->run([&](Graph& graph) { (void)(*fluid)->addTo(graph, step); }); !ran) return ran.error();
       for (const Timing& timing : workbench->passTimes()) {

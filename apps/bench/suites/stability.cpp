@@ -22,14 +22,14 @@ std::string judged(const StressCase& c, const StressOutcome& o, uint64_t particl
       return "a figure is no number" + at;
     // Frame 0 is the start as it was placed.
     if (instant.time_s > 0 && s.outside > c.parked) return std::to_string(s.outside) + " outside" + at;
-    if (!(s.max_speed <= c.mostSpeed)) return number(s.max_speed) + " m/s" + at + ", at most " + number(c.mostSpeed) + " expected";
+    if (!(s.max_speed <= c.maxSpeed)) return number(s.max_speed) + " m/s" + at + ", at most " + number(c.maxSpeed) + " expected";
   }
   for (size_t k = 0; k < o.particles.positions.size(); ++k) {
     const Float3 &p = o.particles.positions[k], &v = o.particles.velocities[k];
     if (!std::isfinite(p.x + p.y + p.z + v.x + v.y + v.z)) return "particle " + std::to_string(k) + " is no number";
   }
-  if (!c.worked && !(run.energy.ratio <= c.mostEnergy) && std::isfinite(c.mostEnergy))
-    return "energy rose to " + number(run.energy.ratio, 5) + " of the start's, " + number(c.mostEnergy, 4) + " expected";
+  if (!c.worked && !(run.energy.ratio <= c.maxEnergy) && std::isfinite(c.maxEnergy))
+    return "energy rose to " + number(run.energy.ratio, 5) + " of the start's, " + number(c.maxEnergy, 4) + " expected";
   if (!run.messages.empty()) return "validation: " + run.messages.front();
   return c.own ? c.own(o) : std::string();
 }

@@ -21,7 +21,7 @@ constexpr Diagram kDiagrams[] = {
     {"column-2-front", "Martin & Moyce, column 2a high: front", "T = t sqrt(2g/a)", "x / a", "martin_moyce_n2_2_front"},
     {"column-2-height", "Martin & Moyce, column 2a high: height at the wall", "t sqrt(g/a)", "h / 2a", "martin_moyce_n2_2_height"},
     {"elliptic", "Elliptic drop: long axis", "A0 t", "b / R", "elliptic_drop"},
-    {"slosh", "Slosh: the centre of mass", "t over the theory's period", "x over its start", nullptr},
+    {"slosh", "Slosh: the center of mass", "t over the theory's period", "x over its start", nullptr},
     {"unrest", "A still tank, 1 m deep: rms speed", "s", "m/s", nullptr},
     {"jet", "Torricelli's jet", "s", "speed over sqrt(2 g head)", nullptr},
 };
@@ -147,7 +147,7 @@ constexpr const char* kNote =
     "2 d, plus d/2. Level: particles with nobody above, plus d/2, against N d^3 over the floor. Bulk density: mean signed error, in a "
     "kernel of twice\n"
     "the solver's support on which the rest lattice reads 1, of particles farther than it from walls and surface. Clumped: nearest "
-    "neighbour\n"
+    "neighbor\n"
     "under d/2. Pressure: the solver hands out none; it is what held up the particles above a plane from 4 to 6 s, by their momentum, at "
     "four\n"
     "depths, against rho g depth: it shows that weight is carried, not what the multipliers are.";

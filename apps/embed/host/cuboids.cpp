@@ -16,19 +16,19 @@ struct Push {
 
 }  // namespace
 
-VkRenderPass Cuboids::makePass(VkAttachmentLoadOp load, VkImageLayout colour, VkImageLayout depth) {
-  const VkImageLayout colourTarget = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+VkRenderPass Cuboids::makePass(VkAttachmentLoadOp load, VkImageLayout color, VkImageLayout depth) {
+  const VkImageLayout colorTarget = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                       depthTarget = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
   const VkAttachmentStoreOp store = VK_ATTACHMENT_STORE_OP_STORE;
-  const VkAttachmentDescription attachments[] = {{0, colour_.format, VK_SAMPLE_COUNT_1_BIT, load, store, VK_ATTACHMENT_LOAD_OP_DONT_CARE,
-                                                  VK_ATTACHMENT_STORE_OP_DONT_CARE, colour, colourTarget},
+  const VkAttachmentDescription attachments[] = {{0, color_.format, VK_SAMPLE_COUNT_1_BIT, load, store, VK_ATTACHMENT_LOAD_OP_DONT_CARE,
+                                                  VK_ATTACHMENT_STORE_OP_DONT_CARE, color, colorTarget},
                                                  {0, depth_.format, VK_SAMPLE_COUNT_1_BIT, load, store, VK_ATTACHMENT_LOAD_OP_DONT_CARE,
                                                   VK_ATTACHMENT_STORE_OP_DONT_CARE, depth, depthTarget}};
-  const VkAttachmentReference colourReference{0, colourTarget}, depthReference{1, depthTarget};
+  const VkAttachmentReference colorReference{0, colorTarget}, depthReference{1, depthTarget};
   VkSubpassDescription subpass{};
   subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
   subpass.colorAttachmentCount = 1;
-  subpass.pColorAttachments = &colourReference;
+  subpass.pColorAttachments = &colorReference;
   subpass.pDepthStencilAttachment = &depthReference;
   // What drew to the images before, the frame before among it.
   const VkPipelineStageFlags stages = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT |
@@ -53,16 +53,16 @@ VkRenderPass Cuboids::makePass(VkAttachmentLoadOp load, VkImageLayout colour, Vk
   return pass;
 }
 
-Cuboids::Cuboids(Engine& engine, const Image& colour, const Image& depth) : engine_(engine), colour_(colour), depth_(depth) {
+Cuboids::Cuboids(Engine& engine, const Image& color, const Image& depth) : engine_(engine), color_(color), depth_(depth) {
   first_ = makePass(VK_ATTACHMENT_LOAD_OP_CLEAR, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_UNDEFINED);
   over_ = makePass(VK_ATTACHMENT_LOAD_OP_LOAD, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL);
-  const VkImageView views[] = {colour.view, depth.view};
+  const VkImageView views[] = {color.view, depth.view};
   VkFramebufferCreateInfo framebuffer{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};
   framebuffer.renderPass = first_;
   framebuffer.attachmentCount = 2;
   framebuffer.pAttachments = views;
-  framebuffer.width = colour.width;
-  framebuffer.height = colour.height;
+  framebuffer.width = color.width;
+  framebuffer.height = color.height;
   framebuffer.layers = 1;
   check(vkCreateFramebuffer(engine.device, &framebuffer, nullptr, &framebuffer_), "creating a framebuffer");
 
@@ -90,8 +90,8 @@ Cuboids::Cuboids(Engine& engine, const Image& colour, const Image& depth) : engi
   const VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
   VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
   assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-  const VkViewport area{0, 0, float(colour.width), float(colour.height), 0, 1};
-  const VkRect2D scissor{{0, 0}, {colour.width, colour.height}};
+  const VkViewport area{0, 0, float(color.width), float(color.height), 0, 1};
+  const VkRect2D scissor{{0, 0}, {color.width, color.height}};
   VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
   viewport.viewportCount = viewport.scissorCount = 1;
   viewport.pViewports = &area;
@@ -147,7 +147,7 @@ void Cuboids::draw(VkRenderPass pass, const Frame& frame, const Matrix& clipFrom
   VkRenderPassBeginInfo begin{VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO};
   begin.renderPass = pass;
   begin.framebuffer = framebuffer_;
-  begin.renderArea.extent = {colour_.width, colour_.height};
+  begin.renderArea.extent = {color_.width, color_.height};
   begin.clearValueCount = 2;
   begin.pClearValues = clear;
   vkCmdBeginRenderPass(frame.commands, &begin, VK_SUBPASS_CONTENTS_INLINE);

@@ -1,17 +1,17 @@
 #pragma once
-// The engine's own scene, drawn in render passes of its own: cuboids, into a colour and a reversed depth buffer.
+// The engine's own scene, drawn in render passes of its own: cuboids, into a color and a reversed depth buffer.
 #include "camera.hpp"
 #include "engine.hpp"
 
 namespace host {
 
 struct Cuboid {
-  float low[4], high[4], colour[4];
+  float low[4], high[4], color[4];
 };
 
 class Cuboids {
  public:
-  Cuboids(Engine& engine, const Image& colour, const Image& depth);
+  Cuboids(Engine& engine, const Image& color, const Image& depth);
   ~Cuboids();
   Cuboids(const Cuboids&) = delete;
   Cuboids& operator=(const Cuboids&) = delete;
@@ -22,10 +22,10 @@ class Cuboids {
   void drawOver(const Frame& frame, const Matrix& clipFromWorld, const Cuboid* cuboids, uint32_t count);
 
  private:
-  VkRenderPass makePass(VkAttachmentLoadOp load, VkImageLayout colour, VkImageLayout depth);
+  VkRenderPass makePass(VkAttachmentLoadOp load, VkImageLayout color, VkImageLayout depth);
   void draw(VkRenderPass pass, const Frame& frame, const Matrix& clipFromWorld, const Cuboid* cuboids, uint32_t count);
   Engine& engine_;
-  const Image &colour_, &depth_;
+  const Image &color_, &depth_;
   VkRenderPass first_ = VK_NULL_HANDLE, over_ = VK_NULL_HANDLE;
   VkFramebuffer framebuffer_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;

@@ -194,15 +194,15 @@ void Engine::change(const Frame& frame, const Image& image, VkImageLayout from, 
                        &barrier);
 }
 
-void Engine::clear(const Frame& frame, const Image& colour, const VkClearColorValue& sky, const Image& depth, float farthest) {
+void Engine::clear(const Frame& frame, const Image& color, const VkClearColorValue& sky, const Image& depth, float farthest) {
   const VkImageLayout target = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
-  const VkImageSubresourceRange colours{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}, depths{VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, 1};
-  change(frame, colour, VK_IMAGE_LAYOUT_UNDEFINED, target);
+  const VkImageSubresourceRange colors{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}, depths{VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, 1};
+  change(frame, color, VK_IMAGE_LAYOUT_UNDEFINED, target);
   change(frame, depth, VK_IMAGE_LAYOUT_UNDEFINED, target);
-  vkCmdClearColorImage(frame.commands, colour.handle, target, &sky, 1, &colours);
+  vkCmdClearColorImage(frame.commands, color.handle, target, &sky, 1, &colors);
   const VkClearDepthStencilValue value{farthest, 0};
   vkCmdClearDepthStencilImage(frame.commands, depth.handle, target, &value, 1, &depths);
-  change(frame, colour, target, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+  change(frame, color, target, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
   change(frame, depth, target, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL);
 }
 

@@ -51,7 +51,7 @@ class Engine {
   void destroy(Buffer& buffer);
 
   /// Records: both cleared, in layouts COLOR_ATTACHMENT_OPTIMAL and DEPTH_STENCIL_ATTACHMENT_OPTIMAL.
-  void clear(const Frame& frame, const Image& colour, const VkClearColorValue& sky, const Image& depth, float farthest);
+  void clear(const Frame& frame, const Image& color, const VkClearColorValue& sky, const Image& depth, float farthest);
   /// A barrier of everything before it against everything after it, with a change of layout.
   void change(const Frame& frame, const Image& image, VkImageLayout from, VkImageLayout to);
   /// Writes an R8G8B8A8 image, which is in this layout, as a PPM file; waits.

@@ -1,5 +1,5 @@
 #version 450
 layout(location = 0) in vec3 shade;
-layout(location = 0) out vec4 colour;
+layout(location = 0) out vec4 color;
 
-void main() { colour = vec4(shade, 1); }
+void main() { color = vec4(shade, 1); }

@@ -3,7 +3,7 @@
 layout(push_constant) uniform Push {
   mat4 clip_from_world;
   vec4 low, high;
-  vec4 colour;
+  vec4 color;
 };
 layout(location = 0) out vec3 shade;
 
@@ -17,6 +17,6 @@ void main() {
   unit[(axis + 2) % 3] = float(at.y);
   vec3 normal = vec3(0);
   normal[axis] = float(side % 2 * 2 - 1);
-  shade = colour.rgb * (0.55 + 0.45 * max(dot(normal, normalize(vec3(-0.3, 0.84, 0.45))), 0.0));
+  shade = color.rgb * (0.55 + 0.45 * max(dot(normal, normalize(vec3(-0.3, 0.84, 0.45))), 0.0));
   gl_Position = clip_from_world * vec4(mix(low.xyz, high.xyz, unit), 1);
 }

@@ -1,8 +1,8 @@
-// The scale of a view that colours particles.
+// The scale of a view that colors particles.
 #include <cstdio>
 
 #include "view/panels/board.hpp"
-#include "views/colour_map.hpp"
+#include "views/color_map.hpp"
 
 namespace rill::view {
 
@@ -16,13 +16,13 @@ void legendOverlay(Board& board) {
   ImGui::Begin("legend", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoInputs |
                    ImGuiWindowFlags_AlwaysAutoResize);
-  const bool speed = legend->colour == ParticleColour::Speed;
+  const bool speed = legend->color == ParticleColor::Speed;
   ImGui::TextUnformatted(speed ? "speed, m/s" : "compression, %");
   const float width = 12 * em, height = 0.7f * em;
   const ImVec2 at = ImGui::GetCursorScreenPos();
   constexpr int kBands = 64;
   for (int k = 0; k < kBands; ++k) {
-    const Float3 c = mapColour(legend->colour, (k + 0.5) / kBands);
+    const Float3 c = mapColor(legend->color, (k + 0.5) / kBands);
     const auto edge = [&](int band) { return at.x + width * static_cast<float>(band) / kBands; };
     ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(edge(k), at.y), ImVec2(edge(k + 1), at.y + height),
                                               IM_COL32(srgbByte(c.x), srgbByte(c.y), srgbByte(c.z), 255));

@@ -1,5 +1,5 @@
 #version 460
-// The interface's colour, covered by the font's atlas (a byte a texel), linearly between texels.
+// The interface's color, covered by the font's atlas (a byte a texel), linearly between texels.
 layout(std430, set = 0, binding = 2) readonly buffer Font { uint font[]; };
 layout(push_constant) uniform Push {
   vec2 clipMin, clipSize;
@@ -7,7 +7,7 @@ layout(push_constant) uniform Push {
   uint fontWidth, fontHeight;
 };
 layout(location = 0) in vec2 texel;
-layout(location = 1) in vec4 colour;
+layout(location = 1) in vec4 color;
 layout(location = 0) out vec4 result;
 
 float coverage(ivec2 at) {
@@ -21,6 +21,6 @@ void main() {
   const ivec2 at = ivec2(corner);
   const float above = mix(coverage(at), coverage(at + ivec2(1, 0)), part.x);
   const float below = mix(coverage(at + ivec2(0, 1)), coverage(at + ivec2(1, 1)), part.x);
-  const float alpha = colour.a * mix(above, below, part.y);
-  result = vec4(colour.rgb * alpha, alpha);
+  const float alpha = color.a * mix(above, below, part.y);
+  result = vec4(color.rgb * alpha, alpha);
 }

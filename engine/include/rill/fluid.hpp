@@ -30,18 +30,18 @@ namespace rill {
 struct FluidSnapshot {
   std::vector<uint32_t> control = {};                ///< FluidControl (shaders/shared/fluid_records.h), word by word
   std::vector<uint32_t> sums = {};                   ///< FluidSums, word by word
-  std::vector<float> solids = {};                    ///< centre (m) and velocity (m/s) of each solid, six numbers; empty where none moves
+  std::vector<float> solids = {};                    ///< center (m) and velocity (m/s) of each solid, six numbers; empty where none moves
   std::vector<Float3> position = {}, velocity = {};  ///< m, m/s
   // Of the warm start; empty without one.
   std::vector<Float4> push = {};  ///< m/s^2; w: the multiplier of the last iteration (m^2), while the start's pressure is being found
   std::vector<float> warm = {};   ///< multipliers, m^2
   std::vector<uint32_t> id = {};
   std::vector<uint32_t> nearWall = {}, nearMore = {};  ///< particles near one wall; near several walls or a solid: rising
-  // The neighbour list, as long as it is not due to be built anew.
-  uint32_t listCapacity = 0;                  ///< entries a particle that the list holds
-  std::vector<uint32_t> neighbourCount = {};  ///< empty where the list is due, or the fluid has none
-  std::vector<uint32_t> neighbours = {};      ///< of one particle after another; of none that has more than the list holds
-  std::vector<uint32_t> cell = {};            ///< of the sorted particles, where some walk the grid
+  // The neighbor list, as long as it is not due to be built anew.
+  uint32_t listCapacity = 0;                 ///< entries a particle that the list holds
+  std::vector<uint32_t> neighborCount = {};  ///< empty where the list is due, or the fluid has none
+  std::vector<uint32_t> neighbors = {};      ///< of one particle after another; of none that has more than the list holds
+  std::vector<uint32_t> cell = {};           ///< of the sorted particles, where some walk the grid
   friend bool operator==(const FluidSnapshot&, const FluidSnapshot&) = default;
 };
 
@@ -61,7 +61,7 @@ struct FluidDesc {
 /// Device memory of a Fluid, in bytes, split as reports show it.
 struct FluidMemory {
   uint64_t particle_bytes = 0;  ///< all per-particle arrays, without the list
-  uint64_t list_bytes = 0;      ///< the neighbour list; 0 with solver.neighbors "grid"
+  uint64_t list_bytes = 0;      ///< the neighbor list; 0 with solver.neighbors "grid"
   uint64_t grid_bytes = 0;      ///< cell starts, at most
   uint64_t total() const { return particle_bytes + list_bytes + grid_bytes; }
 };
@@ -77,7 +77,7 @@ RILL_API FluidMemory fluidMemory(const Scene& scene, uint64_t particles);
 /// Where the host wants a driven solid at the end of an advance.
 struct SolidTarget {
   uint32_t solid = 0;            ///< of the scene's solids; one that is not driven does not move
-  double centre[3] = {0, 0, 0};  ///< m; not finite: it stays where it is
+  double center[3] = {0, 0, 0};  ///< m; not finite: it stays where it is
 };
 
 /// One piece of simulation to declare in a graph.
@@ -123,14 +123,14 @@ struct FluidStats {
   uint32_t iterations = 0;    ///< Jacobi iterations of the last advance, all substeps added up
   double time_dropped_s = 0;  ///< of the last advance
   double density_error_mean = 0, density_error_p99 = 0, density_error_max = 0;  ///< compression only, fraction of rest density
-  double density_signed_median = 0;  ///< of rho / rho0 - 1 over particles with a full neighbourhood
+  double density_signed_median = 0;  ///< of rho / rho0 - 1 over particles with a full neighborhood
   double kinetic_J = 0, potential_J = 0;
   double momentum[3] = {0, 0, 0};        ///< kg m/s
-  double centre_of_mass[3] = {0, 0, 0};  ///< m
+  double center_of_mass[3] = {0, 0, 0};  ///< m
   double max_speed = 0;                  ///< m/s
   uint64_t non_finite = 0;               ///< particles parked since the start
-  uint64_t outside = 0;                  ///< centres beyond a closed wall, or gone through an open side
-  uint64_t neighbour_overflow = 0;       ///< particles whose list was full at the last build: they walk the grid
+  uint64_t outside = 0;                  ///< centers beyond a closed wall, or gone through an open side
+  uint64_t neighbor_overflow = 0;        ///< particles whose list was full at the last build: they walk the grid
   uint64_t loop_bound_hits = 0;          ///< times a bounded shader loop ran into its bound since the start
   uint32_t list_builds = 0;              ///< of the last advance
   double artificial_viscosity_Pa_s = 0;  ///< what solver.artificial_viscosity adds at present, Pa s: nothing while the fluid is rough
@@ -170,14 +170,14 @@ class RILL_API Fluid {
 
   /// Where a driven solid is at the end of the last advance that was declared, m: short of its target where that was too far away.
   /// No numbers (NaN) for a solid that is not driven.
-  std::array<double, 3> drivenCentre(uint32_t solid) const;
+  std::array<double, 3> drivenCenter(uint32_t solid) const;
 
   uint32_t count() const;  ///< particles, parked ones too
   /// What FluidStep::substeps is rounded up to whole multiples of.
   uint32_t substepsPerBlock() const;
   /// Recorded substeps that complete any advance, the first one with all that FluidDesc::settle asks for: those that the device leaves out,
   /// to rebuild the list or because none is due, are among them.
-  uint32_t mostSubsteps() const;
+  uint32_t substepsToComplete() const;
   FluidMemory memory() const;
   std::span<const FluidBuffer> buffers() const;  ///< that live as long as it; those of passes are the graph's (Graph::transients)
   /// What the solver cannot follow, each with its figure ("viscosity 50 Pa s needs ..."). Known at creation.

@@ -1,11 +1,11 @@
 #pragma once
-// Screen-space rendering of a fluid's particles into a host's colour and depth, as passes of a render graph.
+// Screen-space rendering of a fluid's particles into a host's color and depth, as passes of a render graph.
 //
-//   auto painter = rill::FluidRenderer::create(device, {.colour = VK_FORMAT_R8G8B8A8_SRGB, .depth = VK_FORMAT_D32_SFLOAT});
+//   auto painter = rill::FluidRenderer::create(device, {.color = VK_FORMAT_R8G8B8A8_SRGB, .depth = VK_FORMAT_D32_SFLOAT});
 //   if (!painter) return fail(painter.error().message);
 //   rill::SceneTargets targets;  // every frame: what has been drawn so far
-//   const rill::Use drawn = rill::Use::ColourTarget, tested = rill::Use::DepthTarget;
-//   targets.colour = graph.import("colour", {colourImage, {VK_FORMAT_R8G8B8A8_SRGB, width, height}, drawn, drawn});
+//   const rill::Use drawn = rill::Use::ColorTarget, tested = rill::Use::DepthTarget;
+//   targets.color = graph.import("color", {colorImage, {VK_FORMAT_R8G8B8A8_SRGB, width, height}, drawn, drawn});
 //   targets.depth = graph.import("depth", {depthImage, {VK_FORMAT_D32_SFLOAT, width, height}, tested, tested});
 //   rill::FluidView view{.width = width, .height = height, .focus_m = 3};
 //   view.view = rill::Float4x4::from(viewMatrix);
@@ -30,25 +30,25 @@ namespace rill {
 
 /// Formats of the images that a FluidRenderer draws to: pipelines are made for them.
 struct TargetFormats {
-  VkFormat colour = VK_FORMAT_R16G16B16A16_SFLOAT;  ///< linear values are written: a UNORM format gets no curve, an SRGB one its own
+  VkFormat color = VK_FORMAT_R16G16B16A16_SFLOAT;  ///< linear values are written: a UNORM format gets no curve, an SRGB one its own
   VkFormat depth = VK_FORMAT_D32_SFLOAT;
 };
 
 /// What the host's images are made for, beside what the host itself does with them, so that a fluid can be drawn into them.
-inline constexpr VkImageUsageFlags kFluidColourUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+inline constexpr VkImageUsageFlags kFluidColorUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
 inline constexpr VkImageUsageFlags kFluidDepthUsage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
 
 /// What the host has drawn, and what the fluid is drawn into: versions of images of the same graph, of TargetFormats and of one size. Both
-/// have content. They are read with Use::ComputeSampled, and drawn to with Use::ColourTarget and Use::DepthTarget.
+/// have content. They are read with Use::ComputeSampled, and drawn to with Use::ColorTarget and Use::DepthTarget.
 struct SceneTargets {
-  ImageRef colour, depth;
+  ImageRef color, depth;
 };
 
 /// The host's camera.
 struct FluidView {
   /// World (relative to `origin`) to view space, rigid: the eye looks along -z, y up, right handed, as GLM's lookAt makes it.
   Float4x4 view = {};
-  /// View to Vulkan's clip space. Perspective or orthographic, standard or reversed depth, finite or infinite, centred or not.
+  /// View to Vulkan's clip space. Perspective or orthographic, standard or reversed depth, finite or infinite, centered or not.
   Float4x4 projection = {};
   double origin[3] = {0, 0, 0};         ///< m, in the scene's coordinates
   uint32_t x = 0, y = 0;                ///< of the viewport in the targets, pixels
@@ -64,11 +64,11 @@ enum class SurfaceMethod : uint8_t {
   NarrowRange     ///< Truong and Yuksel 2018: the spheres' depth, filtered over a narrow range of it
 };
 
-/// What the fluid is made of, to the eye. Colours are linear RGB.
+/// What the fluid is made of, to the eye. Colors are linear RGB.
 struct FluidLook {
   SurfaceMethod surface = SurfaceMethod::Auto;
   Float3 absorption{2.6f, 0.75f, 0.40f};  ///< 1/m, Beer and Lambert
-  Float3 scatter{0.02f, 0.13f, 0.19f};    ///< what its inside sends back where it is thick, of white light; of an opaque fluid its colour
+  Float3 scatter{0.02f, 0.13f, 0.19f};    ///< what its inside sends back where it is thick, of white light; of an opaque fluid its color
   bool opaque = false;                    ///< nothing is seen through it, and no thickness is made
   float refraction_index = 1.333f;        ///< 1 to 10
   float highlight = 900;                  ///< exponent of the sun's reflection
@@ -86,8 +86,8 @@ RILL_API std::span<const std::string_view> fluidLooks();
 /// What can be read of the surface, exactly: no tone curve, alpha 0 where there is no fluid.
 enum class SurfaceData : uint8_t {
   Normals,   ///< n / 2 + 1/2, in the world
-  Depth,     ///< distance along the view direction over `full`, grey
-  Thickness  ///< of the fluid along the ray over `full`, grey
+  Depth,     ///< distance along the view direction over `full`, gray
+  Thickness  ///< of the fluid along the ray over `full`, gray
 };
 
 class FluidRendererImpl;

@@ -69,7 +69,7 @@ class RILL_API Pass {
   /// Consumes `buffer` and returns the version that this pass makes. The old content is kept unless `discard`; a new
   /// transient has none to keep (so atomics on one are an error: fill it first).
   [[nodiscard]] BufferRef write(BufferRef buffer, Use use, bool discard = false);
-  /// Targets (ColourTarget, DepthTarget) are what the pass draws to, colours in the order of these calls; all are of one size, and a pass
+  /// Targets (ColorTarget, DepthTarget) are what the pass draws to, colors in the order of these calls; all are of one size, and a pass
   /// with targets only draws. Keep of an image that has no content is an error there.
   [[nodiscard]] ImageRef write(ImageRef image, Use use, Load load = Load::Keep, const VkClearValue& clear = {});
   /// The pass matters even if nobody reads what it writes.

@@ -3,9 +3,9 @@
 //
 //   const rill::ImageDesc half{VK_FORMAT_R16G16B16A16_SFLOAT, width / 2, height / 2};
 //   const rill::ImageRef own = graph.create("half", half);
-//   const rill::ImageRef lent = graph.import("colour", {.handle = colourImage,
+//   const rill::ImageRef lent = graph.import("color", {.handle = colorImage,
 //                                                       .desc = {VK_FORMAT_R8G8B8A8_SRGB, width, height},
-//                                                       .before = rill::Use::ColourTarget,
+//                                                       .before = rill::Use::ColorTarget,
 //                                                       .after = rill::Use::Present});
 #include <vulkan/vulkan_core.h>
 

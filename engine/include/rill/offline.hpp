@@ -159,7 +159,7 @@ class Player {
   static Expected<std::unique_ptr<Player>> open(Scene scene, const Options& options = {});
   ~Player();
 
-  /// What is drawn from now on: positions in m, relative to `origin`; velocities in m/s (they colour the view `particles`), or none at all.
+  /// What is drawn from now on: positions in m, relative to `origin`; velocities in m/s (they color the view `particles`), or none at all.
   /// `time_s`: where moving solids are. BadInput for as many velocities as there are not positions, TooLarge, OutOfMemory.
   Expected<void> show(const std::vector<Float3>& positions, const double origin[3], const std::vector<Float3>& velocities = {},
                       double time_s = 0);

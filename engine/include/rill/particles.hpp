@@ -18,10 +18,10 @@
 namespace rill {
 
 /// Of one Fluid.
-inline constexpr uint64_t kMostParticles = uint64_t{4} << 20;
+inline constexpr uint64_t kMaxParticles = uint64_t{4} << 20;
 
 /// The particles that a scene's fills make, in the order of the fills: what a simulation starts from.
-/// Positions are relative to `origin` (the domain's minimum, or the fluid's centre rounded to whole spacings), so that a scene far from
+/// Positions are relative to `origin` (the domain's minimum, or the fluid's center rounded to whole spacings), so that a scene far from
 /// zero loses no precision.
 struct ParticleSet {
   double origin[3] = {0, 0, 0};         ///< m
@@ -36,6 +36,6 @@ struct ParticleSet {
 /// The scene's fills as particles (see ParticleSet), PLY files read. The spacing follows from `fluid.particles` where that is given
 /// (`scene.fluid.spacing` is set then). BadInput where a file cannot be read, or a fill was given and no particle is left.
 /// Counts are computed in 64 bits and checked against `maxParticles` before anything is allocated.
-RILL_API Expected<ParticleSet> makeParticles(Scene& scene, uint64_t maxParticles = kMostParticles);
+RILL_API Expected<ParticleSet> makeParticles(Scene& scene, uint64_t maxParticles = kMaxParticles);
 
 }  // namespace rill

@@ -49,10 +49,10 @@ struct ComputePipeline;
 /// SPIR-V, the driver refuses it, or more is asked for than the device has; OutOfMemory.
 RILL_API Expected<const ComputePipeline*> computePipeline(Device& device, const ComputePipelineDesc& desc);
 
-/// What a fragment does to the colour that is there.
+/// What a fragment does to the color that is there.
 enum class Blend : uint8_t {
   Replace,       ///< replaces it
-  Premultiplied  ///< colour + (1 - alpha) times it
+  Premultiplied  ///< color + (1 - alpha) times it
 };
 
 /// A vertex and a fragment shader for dynamic rendering: no vertex buffers (shaders read storage buffers), nothing culled by winding,
@@ -63,11 +63,11 @@ struct GraphicsPipelineDesc {
   std::span<const BindingKind> bindings = {};  ///< seen by both
   uint32_t pushConstantBytes = 0;              ///< at most 128, seen by both
   SpecializationConstants constants = {};      ///< of both
-  std::span<const VkFormat> colours = {};      ///< of the colour targets, in the order that the pass declares them
+  std::span<const VkFormat> colors = {};       ///< of the color targets, in the order that the pass declares them
   VkFormat depth = VK_FORMAT_UNDEFINED;        ///< of the depth target; undefined: none
   VkCompareOp depthCompare = VK_COMPARE_OP_ALWAYS;
   bool depthWrite = false;
-  Blend blend = Blend::Replace;  ///< of all colour targets
+  Blend blend = Blend::Replace;  ///< of all color targets
   VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
 };
 

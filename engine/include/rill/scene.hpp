@@ -36,7 +36,7 @@ enum class KernelChoice : uint8_t {
 };
 
 enum class NeighborChoice : uint8_t {
-  List,  ///< a neighbour list with a skin, kept for several substeps
+  List,  ///< a neighbor list with a skin, kept for several substeps
   Grid   ///< walk the grid in every pass
 };
 
@@ -88,7 +88,7 @@ struct Keyframe {
   double translate[3] = {0, 0, 0};
 };  ///< s; m
 
-/// A solid: one of the two shapes, turned about its centre, moving along keyframes (linear between, held outside).
+/// A solid: one of the two shapes, turned about its center, moving along keyframes (linear between, held outside).
 struct Solid {
   std::optional<BoxShape> box = {};
   std::optional<SphereShape> sphere = {};

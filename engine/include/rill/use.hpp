@@ -28,7 +28,7 @@ enum class Use : uint8_t {
   DrawUniform,     ///< uniform buffer, read by vertex and fragment shaders
   DrawSampled,     ///< image, read by vertex and fragment shaders; as ComputeSampled
   VertexInput,     ///< vertex or index buffer of draws that the host records itself (Commands::handle)
-  ColourTarget,    ///< image, drawn to
+  ColorTarget,     ///< image, drawn to
   DepthTarget,     ///< image of a depth format, tested and written by draws
   Indirect,        ///< dispatch or draw arguments
   CopySource,

@@ -2,5 +2,5 @@
 #version 460
 layout(push_constant) uniform Push { vec4 rect; float depth; float value; };
 layout(std430, set = 0, binding = 0) readonly buffer Added { float added[]; };
-layout(location = 0) out float colour;
-void main() { colour = value + added[uint(gl_FragCoord.x)]; }
+layout(location = 0) out float color;
+void main() { color = value + added[uint(gl_FragCoord.x)]; }

@@ -10,6 +10,6 @@ void main() {
   const int i = int(gl_GlobalInvocationID.x);
   const ivec2 at = ivec2(i % size.x, i / size.x);
   if (at.y >= size.y) return;
-  const float neighbour = texelFetch(source, ivec2(min(at.x + 1, size.x - 1), at.y), 0).x;
-  imageStore(target, at, vec4(neighbour + imageLoad(own, at).x));
+  const float neighbor = texelFetch(source, ivec2(min(at.x + 1, size.x - 1), at.y), 0).x;
+  imageStore(target, at, vec4(neighbor + imageLoad(own, at).x));
 }

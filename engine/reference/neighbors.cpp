@@ -1,4 +1,4 @@
-#include "reference/neighbours.hpp"
+#include "reference/neighbors.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,8 +31,8 @@ bool within(const glm::dvec3& a, const glm::dvec3& b, double h) {
 
 }  // namespace
 
-Neighbours findNeighboursBruteForce(std::span<const glm::dvec3> x, double h) {
-  Neighbours found;
+Neighbors findNeighborsBruteForce(std::span<const glm::dvec3> x, double h) {
+  Neighbors found;
   found.first.push_back(0);
   for (uint32_t i = 0; i < x.size(); ++i) {
     for (uint32_t j = 0; j < x.size(); ++j)
@@ -42,11 +42,11 @@ Neighbours findNeighboursBruteForce(std::span<const glm::dvec3> x, double h) {
   return found;
 }
 
-Neighbours findNeighbours(std::span<const glm::dvec3> x, double h) {
-  if (x.size() <= kBruteForceUpTo) return findNeighboursBruteForce(x, h);
+Neighbors findNeighbors(std::span<const glm::dvec3> x, double h) {
+  if (x.size() <= kBruteForceUpTo) return findNeighborsBruteForce(x, h);
   std::unordered_map<uint64_t, std::vector<uint32_t>> cells;
   for (uint32_t i = 0; i < x.size(); ++i) cells[keyOf(cellOf(x[i], h))].push_back(i);
-  Neighbours found;
+  Neighbors found;
   found.first.push_back(0);
   for (uint32_t i = 0; i < x.size(); ++i) {
     const Cell home = cellOf(x[i], h);

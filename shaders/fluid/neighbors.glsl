@@ -1,9 +1,9 @@
-// Sums over the neighbours of a particle: from its list, or by walking the grid where there is no list or it overflowed. Only the variant WALKS can walk; the
+// Sums over the neighbors of a particle: from its list, or by walking the grid where there is no list or it overflowed. Only the variant WALKS can walk; the
 // device dispatches it in place of the other while somebody has to (the code alone, never run, costs the other an eighth of its time on lavapipe).
 // Before it includes this the shader includes fluid/arrays.glsl, defines `vec3 here`, the particle's place, and `void visit(vec4 particle)`, and binds at 2 the array whose elements are
 // handed over; with COMPANION(j) defined, `void visit(vec4 particle, vec4 companion)`. What is farther than the support, or not there, is visited too.
-#ifndef RILL_NEIGHBOURS_GLSL
-#define RILL_NEIGHBOURS_GLSL
+#ifndef RILL_NEIGHBORS_GLSL
+#define RILL_NEIGHBORS_GLSL
 #include "shared/loops.glsl"
 layout(constant_id = 2) const uint LIST_CAPACITY = 0;  // entries a particle; 0: no list
 layout(constant_id = 3) const uint WALKS = 0;
@@ -43,7 +43,7 @@ void candidates(uint first, uint end) {
 #endif
 
 // Of particle i, where it is `there`, at invocation `local` of its chunk. All lanes of a cluster call this.
-void visitNeighbours(uint i, uint local, bool there) {
+void visitNeighbors(uint i, uint local, bool there) {
   uint count = LIST_CAPACITY == 0u || !there ? 0u : countAt(i);
   bool listed = LIST_CAPACITY != 0u && count <= LIST_CAPACITY;
   if (LIST_CAPACITY != 0u) {

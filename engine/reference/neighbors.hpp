@@ -7,8 +7,8 @@
 
 namespace rill::reference {
 
-/// Neighbours of particle i, itself left out, in rising order: j[first[i]] .. j[first[i + 1] - 1]. Nothing is truncated.
-struct Neighbours {
+/// Neighbors of particle i, itself left out, in rising order: j[first[i]] .. j[first[i + 1] - 1]. Nothing is truncated.
+struct Neighbors {
   std::vector<uint32_t> first;
   std::vector<uint32_t> j;
 
@@ -16,9 +16,9 @@ struct Neighbours {
 };
 
 /// All pairs with |x_i - x_j| < h (m, > 0). Positions are finite.
-Neighbours findNeighbours(std::span<const glm::dvec3> x, double h);
+Neighbors findNeighbors(std::span<const glm::dvec3> x, double h);
 
 /// The same by looking at every pair: the oracle of the grid.
-Neighbours findNeighboursBruteForce(std::span<const glm::dvec3> x, double h);
+Neighbors findNeighborsBruteForce(std::span<const glm::dvec3> x, double h);
 
 }  // namespace rill::reference

@@ -1,4 +1,4 @@
-#include "views/colour_map.hpp"
+#include "views/color_map.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +22,8 @@ constexpr Map kCompression = {0.90, 0.28, {{0.035, 95}, {0.125, 78}, {0.165, 52}
 
 }  // namespace
 
-Float3 mapColour(ParticleColour colour, double t) {
-  const Map& map = colour == ParticleColour::Speed ? kSpeed : kCompression;
+Float3 mapColor(ParticleColor color, double t) {
+  const Map& map = color == ParticleColor::Speed ? kSpeed : kCompression;
   t = std::clamp(t, 0.0, 1.0);
   const int k = std::min(static_cast<int>(t * 5), 4);
   const double part = t * 5 - k;
