@@ -26,7 +26,7 @@ std::vector<FluidPassRuns> FluidImpl::passRuns() const {
   const uint32_t ran = ran_.substeps - ranBefore_.substeps, iterations = ran_.iterations - ranBefore_.iterations;
   const uint32_t builds = ran_.builds - ranBefore_.builds, calms = ran_.calms - ranBefore_.calms;
   const bool smooths = setup.viscositySweeps > 0, swirls = p.vorticity > 0, keeps = setup.viscositySweeps % 2 == 1,
-             calm = p.calmingRate > 0;
+             calm = p.noiseDampingRate > 0;
   std::vector<FluidPassRuns> all;
   const auto add = [&](bool declared, uint32_t did, uint32_t of, std::initializer_list<std::string_view> names) {
     for (std::string_view name : names)
@@ -41,13 +41,13 @@ std::vector<FluidPassRuns> FluidImpl::passRuns() const {
   add(setup.movingSolids, ran, substeps, {"move solids"});
   add(p.solidCount > 0, ran, substeps, {"collide"});
   if (smooths || swirls)
-    add(p.solidCount > 0, ran, substeps, {"collide again"});
+    add(p.solidCount > 0, ran, substeps, {"predict after terms"});
   else
-    add(p.solidCount > 0 && calm, ran_.blocks - ranBefore_.blocks, blocks, {"collide again"});
+    add(p.solidCount > 0 && calm, ran_.blocks - ranBefore_.blocks, blocks, {"predict after terms"});
   add(smooths, ran, substeps, {"viscosity"});
   add(swirls, ran, substeps, {"curl", "confine"});
-  add(calm, calms, blocks, {"calm"});
-  add(keeps || calm, (keeps ? ran : 0) + calms, (keeps ? substeps : 0) + (calm ? blocks : 0), {"keep velocities"});
+  add(calm, calms, blocks, {"noise damping"});
+  add(keeps || calm, (keeps ? ran : 0) + calms, (keeps ? substeps : 0) + (calm ? blocks : 0), {"copy velocities"});
   return all;
 }
 
@@ -59,14 +59,15 @@ void FluidImpl::poll() const {
       const auto graph = p.graph.lock();
       return graph && read(graph->data(p.control), control) && read(graph->data(p.sums), sums);
     };
-    // One that was given up, since nobody asked in time or its graph has gone, does not stand before those that came after it.
+    // A frame whose results were not read in time, or whose graph is gone, does not block later ones.
     const auto next = std::find_if(pending_.begin(), pending_.end(), finished);
     if (next == pending_.end()) return;
     for (auto given_up = pending_.begin(); given_up != next; ++given_up)
       if (given_up->uploads) staging_.reset();
     pending_.erase(pending_.begin(), next);
     const Pending& pending = pending_.front();
-    ranBefore_ = std::exchange(ran_, {control.ranSubsteps, control.ranIterations, control.ranBuilds, control.ranBlocks, control.ranCalms});
+    ranBefore_ = std::exchange(ran_, {control.executedSubsteps, control.executedIterations, control.executedBuilds, control.executedBlocks,
+                                      control.executedNoiseDampings});
     recordedBefore_ = std::exchange(recordedLast_, pending.recorded);
     progress = {.known = true,
                 .time_s = double{control.timeHigh} + control.timeLow,
@@ -78,7 +79,7 @@ void FluidImpl::poll() const {
     MeasureResult result{};
     if (pending.measured && read(pending.graph.lock()->data(pending.measure), result)) {
       const MeasurePartial& m = result.sums;
-      const double n = std::max(count - m.parked, 1u), mass = setup.params.particleMass;
+      const double n = std::max(count - m.inactive, 1u), mass = setup.params.particleMass;
       FluidStats s;
       s.time_s = progress.time_s;
       s.particles = count;
@@ -104,7 +105,7 @@ void FluidImpl::poll() const {
       s.neighbor_overflow = sums.overflow;
       s.loop_bound_hits = sums.boundHits;
       s.list_builds = control.builds;
-      s.artificial_viscosity_Pa_s = setup.artificialViscosity * control.calmness;
+      s.artificial_viscosity_Pa_s = setup.artificialViscosity * control.restFraction;
       stats = s;
     }
     if (pending.uploads) staging_.reset();

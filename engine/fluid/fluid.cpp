@@ -144,7 +144,7 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
   sort_ = std::move(*sort);
 
   // 64 bytes stand for what this scene has no use for: a binding must be something.
-  const auto unless = [](bool used, uint64_t bytes) { return used ? bytes : uint64_t{64}; };
+  const auto bytesIf = [](bool used, uint64_t bytes) { return used ? bytes : uint64_t{64}; };
   const struct {
     Buffer* buffer;
     const char* name;
@@ -162,16 +162,16 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
       {&buffers_.position, "positions", more * 16},
       {&buffers_.velocity, "velocities", more * 16},
       {&buffers_.prediction, "predictions", more * 16},
-      {&buffers_.pushAway, "warm pushes", unless(setup.warm, n * 16)},
+      {&buffers_.warmAcceleration, "warm pushes", bytesIf(setup.warm, n * 16)},
       {&buffers_.work, "multipliers", more * 16},
-      {&buffers_.warm, "warm starts", unless(setup.warm, n * 4)},
+      {&buffers_.warm, "warm starts", bytesIf(setup.warm, n * 4)},
       {&buffers_.id, "ids", n * 4},
-      {&buffers_.multiplier, "iteration multipliers", unless(p.iterations > 1, n * 4)},
-      {&buffers_.neighborCount, "neighbor counts", unless(p.listCapacity > 0, n * 4)},
+      {&buffers_.multiplier, "iteration multipliers", bytesIf(p.iterations > 1, n * 4)},
+      {&buffers_.neighborCount, "neighbor counts", bytesIf(p.listCapacity > 0, n * 4)},
       {&buffers_.cell, "cells", n * 4},
       {&buffers_.start, "cell starts", paddedWords(setup.grid.cells() + 1) * 4},
-      {&buffers_.nearSample, "wall samples", unless(setup.near, n * 32)},
-      {&buffers_.nearList, "particles near walls", unless(setup.near, n * 4)},
+      {&buffers_.nearSample, "wall samples", bytesIf(setup.near, n * 32)},
+      {&buffers_.nearList, "particles near walls", bytesIf(setup.near, n * 4)},
   };
   for (const auto& row : table) {
     auto buffer = createBuffer(device, row.name, row.bytes);
@@ -228,7 +228,7 @@ Expected<void> FluidImpl::makePipelines(Device& device) {
 
   make(pipes_.begin, "fluid/begin", plain(1, 5), sizeof(BeginPush));
   make(pipes_.control, "fluid/control", plain(1, 5), sizeof(ControlPush));
-  make(pipes_.arm, "fluid/arm", plain(1, 5), 0);
+  make(pipes_.finishRebuild, "fluid/finish_rebuild", plain(1, 5), 0);
   make(pipes_.predict, reading("fluid/predict"), {Uniform, Uniform, vectors, vectors, vectors, Storage, Storage}, 0, {warm});
   const auto [oversized, counts] = sort_->counterConstants();
   const std::vector<BindingKind> keyed{Uniform, Uniform, vectors, Storage, Storage, Storage, Storage, Storage};
@@ -246,8 +246,8 @@ Expected<void> FluidImpl::makePipelines(Device& device) {
     make(pipes_.walls.corner, reading("fluid/walls"), bindings, 0, {1, p.solidCount > 0, setup.thin ? 2u : 1u});
   }
   if (p.solidCount > 0) make(pipes_.collide, "fluid/collide", plain(2, 11), 0, {0, warm});
-  const bool smooths = setup.viscositySweeps > 0 || p.calmingRate > 0;
-  if (p.solidCount > 0 && (smooths || p.vorticity > 0)) make(pipes_.collideAgain, "fluid/collide", plain(2, 11), 0, {1, warm});
+  const bool smooths = setup.viscositySweeps > 0 || p.noiseDampingRate > 0;
+  if (p.solidCount > 0 && (smooths || p.vorticity > 0)) make(pipes_.predictAfterTerms, "fluid/collide", plain(2, 11), 0, {1, warm});
   if (setup.movingSolids) make(pipes_.pose, "fluid/pose", plain(2, 2), 0);
   gather(pipes_.density, "fluid/density", {Storage, Storage, vectors, Storage}, sizeof(ChunkPush), {nearWalls, p.iterations > 1, warm});
   const auto correct = [&](GatherPipelines& pipelines, bool parts) {
@@ -255,10 +255,11 @@ Expected<void> FluidImpl::makePipelines(Device& device) {
            {nearWalls, parts, p.solidCount > 0, warm});
   };
   correct(pipes_.correct, false);
-  if (p.tensileRate > 0) correct(pipes_.correctAndPart, true);
+  if (p.tensileRate > 0) correct(pipes_.correctWithArtificialPressure, true);
   if (p.iterations > 1) gather(pipes_.iterate, "fluid/iterate", {Storage, vectors}, sizeof(ChunkPush), {nearWalls});
   if (smooths) gather(pipes_.viscosity, "fluid/viscosity", {vectors, Storage, Storage, vectors, vectors}, sizeof(SweepPush), {warm});
-  if (setup.viscositySweeps % 2 == 1 || p.calmingRate > 0) make(pipes_.keep, "fluid/keep", plain(2, 2), sizeof(ChunkPush));
+  if (setup.viscositySweeps % 2 == 1 || p.noiseDampingRate > 0)
+    make(pipes_.copyVelocity, "fluid/copy_velocity", plain(2, 2), sizeof(ChunkPush));
   if (p.vorticity > 0) {
     gather(pipes_.curl, "fluid/curl", {vectors, Storage}, sizeof(ChunkPush));
     gather(pipes_.confine, "fluid/confine", {vectors, Storage, Storage, vectors, vectors}, sizeof(ChunkPush), {warm});
@@ -312,7 +313,7 @@ std::array<double, 3> Fluid::drivenCenter(uint32_t solid) const {
 uint32_t Fluid::count() const { return impl_->count; }
 uint32_t Fluid::substepsPerBlock() const { return impl_->setup.substepsPerBlock; }
 uint32_t Fluid::substepsToComplete() const {
-  return substepsPerBlock() * (impl_->setup.params.maxSubsteps + kSettleSubsteps + impl_->setup.params.pressings);
+  return substepsPerBlock() * (impl_->setup.params.maxSubsteps + kSettleSubsteps + impl_->setup.params.initialPressureIterations);
 }
 FluidMemory Fluid::memory() const { return impl_->memory; }
 std::span<const FluidBuffer> Fluid::buffers() const { return impl_->made; }

@@ -23,8 +23,8 @@ constexpr uint32_t kMaxListChunks = 16;
 /// Device buffers that live as long as the fluid. Arrays of `count` + 1 entries end with the dummy neighbor that pads lists.
 struct FluidBuffers {
   Buffer params, control, sums, shapes, commands, gravity, tables, solids, keyframes;
-  Buffer position, velocity, prediction, pushAway, work, warm, id;  // vec4 each but the last two
-  Buffer multiplier;                                                // where there are several iterations
+  Buffer position, velocity, prediction, warmAcceleration, work, warm, id;  // vec4 each but the last two
+  Buffer multiplier;                                                        // where there are several iterations
   Buffer neighborCount, cell, start, nearSample, nearList;
   std::vector<Buffer> lists;
 };
@@ -40,19 +40,19 @@ struct GatherPipelines {
 };
 
 struct FluidPipelines {
-  const ComputePipeline *begin = nullptr, *control = nullptr, *arm = nullptr, *predict = nullptr, *keys = nullptr, *reorder = nullptr,
-                        *build = nullptr;
-  const ComputePipeline *collide = nullptr, *collideAgain = nullptr, *pose = nullptr;
+  const ComputePipeline *begin = nullptr, *control = nullptr, *finishRebuild = nullptr, *predict = nullptr, *keys = nullptr,
+                        *reorder = nullptr, *build = nullptr;
+  const ComputePipeline *collide = nullptr, *predictAfterTerms = nullptr, *pose = nullptr;
   WallPipelines walls;
-  GatherPipelines density, correct, correctAndPart, iterate, viscosity, curl, confine;
-  const ComputePipeline* keep = nullptr;
+  GatherPipelines density, correct, correctWithArtificialPressure, iterate, viscosity, curl, confine;
+  const ComputePipeline* copyVelocity = nullptr;
   const ComputePipeline *measureKeys = nullptr, *measureOrder = nullptr, *measure = nullptr, *measureSums = nullptr, *reduce = nullptr;
 };
 
 /// One frame's versions of the buffers.
 struct FluidRefs {
   BufferRef params, control, sums, shapes, commands, gravity, tables, solids, keyframes;
-  BufferRef position, velocity, prediction, pushAway, work, warm, id, multiplier;
+  BufferRef position, velocity, prediction, warmAcceleration, work, warm, id, multiplier;
   BufferRef neighborCount, cell, start, nearSample, nearList;
   std::array<BufferRef, kMaxListChunks> lists;
 };
@@ -116,7 +116,7 @@ class FluidImpl {
   void stageParticles(std::vector<Float3> positions, std::vector<Float3> velocities);
   FluidState described() const;  ///< without buffers
   bool possible(Graph& graph, const FluidStep& step) const;
-  BufferRef& refOf(const Buffer& buffer);
+  BufferRef& versionOf(const Buffer& buffer);
   void importAll(Graph& graph);
   void declareUpload(Graph& graph);
   void declareDrive(Graph& graph, const FluidStep& step);

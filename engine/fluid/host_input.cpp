@@ -20,12 +20,12 @@ void FluidImpl::declareUpload(Graph& graph) {
     }
     std::vector<Copy> copies;
     for (const Staging::Copy& copy : staging_->copies()) {
-      BufferRef& ref = refOf(*copy.target);
+      BufferRef& ref = versionOf(*copy.target);
       ref = pass.write(ref, Use::CopyTarget);
       copies.push_back({sources[copy.source], ref, copy.bytes, copy.at});
     }
     for (const Buffer* buffer : staging_->cleared()) {
-      BufferRef& ref = refOf(*buffer);
+      BufferRef& ref = versionOf(*buffer);
       ref = pass.write(ref, Use::CopyTarget, true);
       cleared.push_back(ref);
     }

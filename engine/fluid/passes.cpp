@@ -27,7 +27,7 @@ void FluidImpl::importAll(Graph& graph) {
   r_.position = import("positions", buffers_.position);
   r_.velocity = import("velocities", buffers_.velocity);
   r_.prediction = import("predictions", buffers_.prediction);
-  r_.pushAway = import("warm pushes", buffers_.pushAway);
+  r_.warmAcceleration = import("warm pushes", buffers_.warmAcceleration);
   r_.work = import("multipliers", buffers_.work);
   r_.warm = import("warm starts", buffers_.warm);
   r_.id = import("ids", buffers_.id);
@@ -40,7 +40,7 @@ void FluidImpl::importAll(Graph& graph) {
   for (size_t c = 0; c < chunks_.size(); ++c) r_.lists[c] = import("neighbor list", buffers_.lists[c]);
 }
 
-BufferRef& FluidImpl::refOf(const Buffer& buffer) {
+BufferRef& FluidImpl::versionOf(const Buffer& buffer) {
   const std::pair<const Buffer*, BufferRef*> pairs[] = {{&buffers_.params, &r_.params},
                                                         {&buffers_.control, &r_.control},
                                                         {&buffers_.sums, &r_.sums},
@@ -53,7 +53,7 @@ BufferRef& FluidImpl::refOf(const Buffer& buffer) {
                                                         {&buffers_.position, &r_.position},
                                                         {&buffers_.velocity, &r_.velocity},
                                                         {&buffers_.prediction, &r_.prediction},
-                                                        {&buffers_.pushAway, &r_.pushAway},
+                                                        {&buffers_.warmAcceleration, &r_.warmAcceleration},
                                                         {&buffers_.work, &r_.work},
                                                         {&buffers_.warm, &r_.warm},
                                                         {&buffers_.id, &r_.id},
@@ -84,11 +84,11 @@ void FluidImpl::declareBegin(Graph& graph, double advance) {
   if (advance <= 0) return;
   graph.pass("predict", [&](Pass& pass) {
     readSwitched(pass, r_);
-    for (BufferRef ref : {r_.position, r_.velocity, r_.pushAway}) pass.read(ref, readUse(texel_));
+    for (BufferRef ref : {r_.position, r_.velocity, r_.warmAcceleration}) pass.read(ref, readUse(texel_));
     pass.read(r_.solids, Use::ComputeRead);
     r_.prediction = pass.write(r_.prediction, Use::ComputeWrite);
     const Kernel kernel =
-        pass.kernel(pipes_.predict, {r_.params, r_.control, r_.position, r_.velocity, r_.pushAway, r_.prediction, r_.solids});
+        pass.kernel(pipes_.predict, {r_.params, r_.control, r_.position, r_.velocity, r_.warmAcceleration, r_.prediction, r_.solids});
     return [=, arguments = r_.commands](Commands& commands) { commands.dispatchIndirect(kernel, arguments, commandAt(kCommandPredict)); };
   });
 }
@@ -152,14 +152,14 @@ void FluidImpl::declareRebuild(Graph& graph) {
         commands.dispatchIndirect(kernels[c], arguments, commandAt(kCommandBuild), ChunkPush{chunks[c].first, chunks[c].last, 0});
     };
   });
-  graph.pass("arm", [&](Pass& pass) {
+  graph.pass("finish rebuild", [&](Pass& pass) {
     pass.read(r_.params, Use::ComputeUniform);
     pass.read(r_.sums, Use::ComputeRead);
     pass.read(r_.shapes, Use::ComputeRead);
     pass.read(r_.gravity, Use::ComputeRead);
     r_.control = pass.write(r_.control, Use::ComputeWrite);
     r_.commands = pass.write(r_.commands, Use::ComputeWrite);
-    const Kernel kernel = pass.kernel(pipes_.arm, {r_.params, r_.control, r_.sums, r_.shapes, r_.commands, r_.gravity});
+    const Kernel kernel = pass.kernel(pipes_.finishRebuild, {r_.params, r_.control, r_.sums, r_.shapes, r_.commands, r_.gravity});
     return [=](Commands& commands) { commands.dispatch(kernel, 1); };
   });
 }
@@ -172,9 +172,9 @@ void FluidImpl::declareSkipped(Graph& graph) {
   if (setup.driven.empty()) graph.skipped("drive solids", "the host moves none");
   if (p.iterations == 1) graph.skipped("iterate", "one iteration a substep");
   if (setup.viscositySweeps == 0) graph.skipped("viscosity", "viscosity is 0");
-  if (p.calmingRate <= 0) graph.skipped("calm", setup.whyNotCalming);
+  if (p.noiseDampingRate <= 0) graph.skipped("noise damping", setup.whyNoNoiseDamping);
   if (p.vorticity <= 0) graph.skipped("curl, confine", "vorticity is 0");
-  if (p.tensileRate <= 0) graph.skipped("tensile term", setup.whyNotTensile);
+  if (p.tensileRate <= 0) graph.skipped("tensile term", setup.whyNoArtificialPressure);
 }
 
 FluidState FluidImpl::described() const {
@@ -199,15 +199,15 @@ FluidState FluidImpl::present(Graph& graph) const {
 /// Whether a host can have meant it; the graph's compile() says what not.
 bool FluidImpl::possible(Graph& graph, const FluidStep& step) const {
   if (step.resume) return true;
-  const auto mistake = [&](const std::string& what) {
+  const auto invalid = [&](const std::string& what) {
     graph.impl().fail("FluidStep::" + what);
     return false;
   };
   if (!(step.advance_s >= 0 && step.advance_s <= std::numeric_limits<float>::max()))
-    return mistake("advance_s is " + shortNumber(step.advance_s) + "; expected a finite time of at least 0 (s)");
+    return invalid("advance_s is " + shortNumber(step.advance_s) + "; expected a finite time of at least 0 (s)");
   for (size_t k = 0; k < step.targets.size(); ++k)
     if (step.targets[k].solid >= setup.solids.size())
-      return mistake("targets[" + std::to_string(k) + "].solid is " + std::to_string(step.targets[k].solid) + "; the scene has " +
+      return invalid("targets[" + std::to_string(k) + "].solid is " + std::to_string(step.targets[k].solid) + "; the scene has " +
                      std::to_string(setup.solids.size()) + (setup.solids.size() == 1 ? " solid" : " solids"));
   return true;
 }

@@ -22,11 +22,11 @@ constexpr double kOfJacobiLimit = 0.92;  // and so much of the linear limit, whi
 // And in a fluid at rest: a correction is a speed in the next substep, which the shortest wave of a lattice bears up to 2/3; the pressure
 // of a column in long steps takes a part of that (at 2/3 30 layers boil, at 0.62 they do not).
 constexpr double kCalmOfJacobiLimit = 0.6;
-constexpr double kRegularization = 0.02;  // of the rest lattice's sum |grad C|^2: keeps lone pairs from flying apart
+constexpr double kRegularization = 0.02;  // of the rest lattice's sum |grad C|^2: bounds the correction of isolated pairs
 constexpr double kWarmGain = 0.02;
 // Poly6 with spiky does work in loops, its gradient not being the density's: the more, the less the correction of close pairs shrinks with
 // them, and the longer a pressure lasts. At 1 and 0.02 a wave breaks faster than that feeds it; at 5, and at 0.5, energy grew by a sixth.
-constexpr double kMaxRegularizationOfPair = 1, kMaxWarmGainOfPair = 0.02;
+constexpr double kMaxRegularizationPoly6Spiky = 1, kMaxWarmGainPoly6Spiky = 0.02;
 // In a fluid at rest, over the square of the column's layers, and at most: its longest wave gains kappa / 2 a substep.
 constexpr double kCalmWarmGain = 1.2, kMaxCalmWarmGain = 0.005;
 // With this kappa pressure still followed a dam's flow; without one the start's would stay for ever.
@@ -145,14 +145,14 @@ void setWalls(const Scene& scene, const double origin[3], FluidParams& p) {
   float* boundHigh[3] = {&p.boundHighX, &p.boundHighY, &p.boundHighZ};
   double margin = 0.5 * scene.fluid.spacing;
   for (int a = 0; a < 3; ++a) {
-    *low[a] = *boundLow[a] = -kParked;
-    *high[a] = *boundHigh[a] = kParked;
+    *low[a] = *boundLow[a] = -kNoWall;
+    *high[a] = *boundHigh[a] = kNoWall;
     if (!scene.domain) continue;
     *boundLow[a] = f(scene.domain->min[a] - origin[a]);
     *boundHigh[a] = f(scene.domain->max[a] - origin[a]);
     if (!(scene.domain->open & (1u << (2 * a)))) *low[a] = *boundLow[a];
     if (!(scene.domain->open & (2u << (2 * a)))) *high[a] = *boundHigh[a];
-    if (*low[a] > -kParked && *high[a] < kParked) margin = std::min(margin, 0.5 * (scene.domain->max[a] - scene.domain->min[a]));
+    if (*low[a] > -kNoWall && *high[a] < kNoWall) margin = std::min(margin, 0.5 * (scene.domain->max[a] - scene.domain->min[a]));
   }
   p.margin = f(margin);
 }
@@ -193,11 +193,11 @@ double strongestGravity(const Scene& scene) {
 
 void setCalming(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
   setup.artificialViscosity = artificialViscosity(scene);
-  setup.params.calmingRate = f(xsphRate(setup.artificialViscosity, scene, kernel));
+  setup.params.noiseDampingRate = f(xsphRate(setup.artificialViscosity, scene, kernel));
   if (setup.artificialViscosity > 0) return;
-  setup.whyNotCalming = strongestGravity(scene) == 0                         ? "no gravity"
-                        : scene.solver.artificial_viscosity.value_or(1) == 0 ? "artificial viscosity is 0"
-                                                                             : "fluid.viscosity is larger";
+  setup.whyNoNoiseDamping = strongestGravity(scene) == 0                         ? "no gravity"
+                            : scene.solver.artificial_viscosity.value_or(1) == 0 ? "artificial viscosity is 0"
+                                                                                 : "fluid.viscosity is larger";
 }
 
 double widest(const double room[3]) { return std::max({room[0], room[1], room[2]}); }
@@ -219,7 +219,7 @@ double layersOf(const Scene& scene, double head) { return head / (std::max(stron
 // The regularization that is taken, as a fraction of the rest lattice's D.
 double regularization(const Scene& scene) {
   const double wanted = scene.solver.regularization.value_or(kRegularization);
-  return scene.solver.kernel == KernelChoice::Poly6Spiky ? std::min(wanted, kMaxRegularizationOfPair) : wanted;
+  return scene.solver.kernel == KernelChoice::Poly6Spiky ? std::min(wanted, kMaxRegularizationPoly6Spiky) : wanted;
 }
 
 // What it takes from a correction at rest, over what the default takes: epsilon stands beside D in what divides it.
@@ -240,8 +240,9 @@ double stepOfError(double error, double head, double relaxation, const Smoothing
 void setRelaxation(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
   const double most = jacobiLimit(kernel), limit = kOfJacobiLimit * most,
                wanted = scene.solver.relaxation.value_or(std::min(kRelaxation, limit));
-  setup.params.roughRelaxation = f(std::min(wanted, limit));
-  setup.params.calmRelaxation = scene.solver.relaxation ? setup.params.roughRelaxation : f(std::min(wanted, kCalmOfJacobiLimit * most));
+  setup.params.relaxationInMotion = f(std::min(wanted, limit));
+  setup.params.relaxationAtRest =
+      scene.solver.relaxation ? setup.params.relaxationInMotion : f(std::min(wanted, kCalmOfJacobiLimit * most));
   if (wanted > limit)
     setup.warnings.push_back("solver.relaxation " + roughNumber(wanted) + " does not converge with this kernel: " + roughNumber(limit) +
                              " is taken");
@@ -252,7 +253,7 @@ double wantedWarmGain(const Scene& scene) { return scene.solver.warm_start.value
 // kappa, as much of it as the waves can bear: a wave is fed where its correction is the smaller.
 double warmGain(const Scene& scene, FluidSetup& setup) {
   const double wanted = wantedWarmGain(scene);
-  const double most = scene.solver.kernel == KernelChoice::Poly6Spiky ? kMaxWarmGainOfPair : wanted;
+  const double most = scene.solver.kernel == KernelChoice::Poly6Spiky ? kMaxWarmGainPoly6Spiky : wanted;
   const double gain = std::min(wanted, most) / softness(scene);
   if (scene.solver.warm_start && gain < wanted)
     setup.warnings.push_back("solver.warm_start " + roughNumber(wanted) +
@@ -264,11 +265,11 @@ double warmGain(const Scene& scene, FluidSetup& setup) {
 void setGains(const Scene& scene, double head, FluidSetup& setup) {
   FluidParams& p = setup.params;
   const double layers = layersOf(scene, head), gain = warmGain(scene, setup);
-  p.roughWarmGain = f(gain);
+  p.warmGainInMotion = f(gain);
   setup.warm = startsWarm(scene);
-  p.calmWarmGain = f(scene.solver.warm_start ? gain : std::min(std::min(gain, kMaxCalmWarmGain), kCalmWarmGain / (layers * layers)));
-  p.roughSpeed = f(kRough * std::sqrt(2 * head));
-  p.calmShare = f(1 / std::max(1.0, kCalmSubsteps * layers));
+  p.warmGainAtRest = f(scene.solver.warm_start ? gain : std::min(std::min(gain, kMaxCalmWarmGain), kCalmWarmGain / (layers * layers)));
+  p.motionSpeed = f(kRough * std::sqrt(2 * head));
+  p.errorRateShareAtRest = f(1 / std::max(1.0, kCalmSubsteps * layers));
 }
 
 // Speeds that flow can have: what falling through all the room gives, what it started with, what solids push it with.
@@ -290,14 +291,14 @@ void setSpeeds(const Scene& scene, const StartFigures& start, FluidParams& p) {
 double bearableStep(const Scene& scene, const SmoothingKernel& kernel, double head, uint32_t iterations, double gain,
                     const FluidParams& p) {
   const double soft = softness(scene), error = kStableError * iterations / (1 + kStableGain * soft * gain);
-  return stepOfError(error, head, p.roughRelaxation / soft, kernel);
+  return stepOfError(error, head, p.relaxationInMotion / soft, kernel);
 }
 
 // No step is longer than the fluid can bear, whatever is asked for.
 void setLongestStep(const Scene& scene, const SmoothingKernel& kernel, double head, FluidSetup& setup) {
   FluidParams& p = setup.params;
   if (head <= 0) return;
-  const double stable = bearableStep(scene, kernel, head, p.iterations, p.roughWarmGain, p);
+  const double stable = bearableStep(scene, kernel, head, p.iterations, p.warmGainInMotion, p);
   if (scene.solver.time_step && *scene.solver.time_step > stable)
     setup.warnings.push_back("solver.time_step " + roughNumber(*scene.solver.time_step) + " s is more than " +
                              std::to_string(p.iterations) + (p.iterations == 1 ? " iteration" : " iterations") +
@@ -310,16 +311,17 @@ void setLongestStep(const Scene& scene, const SmoothingKernel& kernel, double he
 // it, in longer ones the column folds. Where no pressure is carried from substep to substep, or nothing holds the fluid up, there is none.
 void setStartPressure(const Scene& scene, const SmoothingKernel& kernel, double head, const double room[3], FluidSetup& setup) {
   FluidParams& p = setup.params;
-  if (head <= 0 || !setup.near || p.roughWarmGain < f(kLeastFollowing)) return;
-  const StartPressure start = startPressure(kernel, p.calmRelaxation, regularization(scene), layersOf(scene, head), kMaxPressings);
-  p.pressings = start.iterations;
-  p.pressMomentum = f(start.momentum);
-  p.pressStep = f(bearableStep(scene, kernel, head, 1, kWarmGain / softness(scene), p));
+  if (head <= 0 || !setup.near || p.warmGainInMotion < f(kLeastFollowing)) return;
+  const StartPressure start =
+      startPressure(kernel, p.relaxationAtRest, regularization(scene), layersOf(scene, head), kMaxInitialPressureIterations);
+  p.initialPressureIterations = start.iterations;
+  p.initialPressureMomentum = f(start.momentum);
+  p.initialPressureStep = f(bearableStep(scene, kernel, head, 1, kWarmGain / softness(scene), p));
   // A compression e of a column as high as all the fluid would be released within a step, at e times its height over that step: at most a
   // twentieth of what falling through a spacing gives.
   const double g = strongestGravity(scene);
-  const double bearable = 0.05 * std::sqrt(g * scene.fluid.spacing) * p.pressStep * g / head;
-  p.pressError =
+  const double bearable = 0.05 * std::sqrt(g * scene.fluid.spacing) * p.initialPressureStep * g / head;
+  p.initialPressureErrorLimit =
       f(std::max({bearable, 2.0e-6, 0x1p-24 * widest(room) / scene.fluid.spacing}));  // not below what rounding leaves of any start
 }
 
@@ -349,7 +351,7 @@ Expected<void> checkSteps(const Scene& scene, const double room[3], const FluidS
 // step on.
 double firstStep(const Scene& scene, const SmoothingKernel& kernel, double head, const FluidParams& p) {
   if (scene.solver.tolerance <= 0 || head <= 0) return p.maxStep;
-  return std::min<double>(p.maxStep, 0.5 * stepOfError(scene.solver.tolerance, head, p.calmRelaxation / softness(scene), kernel));
+  return std::min<double>(p.maxStep, 0.5 * stepOfError(scene.solver.tolerance, head, p.relaxationAtRest / softness(scene), kernel));
 }
 
 void setGravity(const Scene& scene, FluidSetup& setup) {
@@ -426,12 +428,12 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
     const ArtificialPressure pressure(kernel, scene.fluid.tensile, scene.fluid.tensile_radius, scene.fluid.tensile_power);
     if (pressure.rate > 0) {
       p.tensileRate = f(pressure.rate);
-      p.tensileMost = f(pressure.most);
+      p.tensileLimit = f(pressure.most);
       p.tensilePower = f(pressure.power);
       p.tensileInverse = f(pressure.inverse);
       p.tensileAtRest = f(pressure.atRest);
     } else {
-      setup.whyNotTensile = "tensile_radius reaches neighbors at rest";
+      setup.whyNoArtificialPressure = "tensile_radius reaches neighbors at rest";
       setup.warnings.push_back("fluid.tensile does nothing: it leaves pairs from 0.95 spacings on alone, and tensile_radius is " +
                                roughNumber(scene.fluid.tensile_radius * scene.fluid.smoothing_ratio) + " spacings");
     }

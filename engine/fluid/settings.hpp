@@ -25,20 +25,20 @@ struct DrivenSolid {
 struct FluidSetup {
   FluidParams params{};
   GridSize grid;
-  std::vector<float> tables;                   ///< wall and ball tables: value and slope, then those of the next entry
-  std::vector<SolidRecord> solids;             ///< relative to the particles' origin, at time 0
-  std::vector<float> keyframes;                ///< translation and time, four floats each
-  std::vector<DrivenSolid> driven;             ///< at the start; their keyframes follow from each advance
-  std::vector<float> gravity;                  ///< the schedule: value and time, four floats each; the scene's own first
-  uint32_t kernel = 0;                         ///< specialization constant KERNEL
-  uint32_t viscositySweeps = 0;                ///< 0: no viscosity
-  uint32_t substepsPerBlock = 1;               ///< recorded between two places where the list can be rebuilt
-  double artificialViscosity = 0;              ///< Pa s, of a fluid at rest
-  std::string whyNotCalming;                   ///< where that is 0
-  std::string whyNotTensile = "tensile is 0";  ///< where there is no artificial pressure
-  double firstStep = 0;                        ///< s
-  bool near = false;                           ///< walls or solids displace density
-  bool thin = false;                           ///< walls that face each other can both be near a particle
+  std::vector<float> tables;                             ///< wall and ball tables: value and slope, then those of the next entry
+  std::vector<SolidRecord> solids;                       ///< relative to the particles' origin, at time 0
+  std::vector<float> keyframes;                          ///< translation and time, four floats each
+  std::vector<DrivenSolid> driven;                       ///< at the start; their keyframes follow from each advance
+  std::vector<float> gravity;                            ///< the schedule: value and time, four floats each; the scene's own first
+  uint32_t kernel = 0;                                   ///< specialization constant KERNEL
+  uint32_t viscositySweeps = 0;                          ///< 0: no viscosity
+  uint32_t substepsPerBlock = 1;                         ///< recorded between two places where the list can be rebuilt
+  double artificialViscosity = 0;                        ///< Pa s, of a fluid at rest
+  std::string whyNoNoiseDamping;                         ///< where that is 0
+  std::string whyNoArtificialPressure = "tensile is 0";  ///< where there is no artificial pressure
+  double firstStep = 0;                                  ///< s
+  bool near = false;                                     ///< walls or solids displace density
+  bool thin = false;                                     ///< walls that face each other can both be near a particle
   bool movingSolids = false;
   bool warm = false;  ///< there is a warm start: multipliers and pushes are kept
   std::vector<std::string> warnings;

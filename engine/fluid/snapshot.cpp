@@ -100,8 +100,9 @@ uint64_t firstEntry(uint32_t local, uint32_t capacity) {
 }  // namespace
 
 SnapshotShape snapshotShape(const FluidSetup& setup) {
-  return {setup.params.count, setup.params.solidCount, setup.params.listCapacity, setup.grid.cells(), setup.params.pressings,
-          setup.near,         setup.movingSolids};
+  return {
+      setup.params.count, setup.params.solidCount, setup.params.listCapacity, setup.grid.cells(), setup.params.initialPressureIterations,
+      setup.near,         setup.movingSolids};
 }
 
 bool hasNeighbors(const FluidSnapshot& snapshot) { return record<FluidControl>(snapshot.control).stale == 0; }
@@ -110,7 +111,7 @@ void forgetNeighbors(FluidSnapshot& s) {
   auto control = record<FluidControl>(s.control);
   auto sums = record<FluidSums>(s.sums);
   control.stale = 1;
-  control.pressing = 0;  // what it goes by is not put in a new order: the pressure found so far has to do
+  control.initialPressure = 0;  // what it goes by is not put in a new order: the pressure found so far has to do
   sums.planeCount = sums.cornerCount = 0;
   s.control = wordsOf(control);
   s.sums = wordsOf(sums);
@@ -153,7 +154,8 @@ Expected<void> checkSnapshot(const FluidSnapshot& snapshot, const SnapshotShape&
   if (auto right = checkLengths(snapshot, shape); !right) return right;
   const auto control = record<FluidControl>(snapshot.control);
   const auto sums = record<FluidSums>(snapshot.sums);
-  if (control.stale > 1 || control.settling > kSettleSubsteps || control.pressing > shape.pressings || control.timeLeft != 0)
+  if (control.stale > 1 || control.settling > kSettleSubsteps || control.initialPressure > shape.initialPressureIterations ||
+      control.timeLeft != 0)
     return wrong("its control block is not that of an advance's end");
   std::vector<bool> seen(shape.count);
   if (!markNew(seen, snapshot.id)) return wrong("its ids are not 0 to " + std::to_string(shape.count - 1) + ", each once");

@@ -13,7 +13,7 @@ struct SnapshotShape {
   uint32_t solidCount = 0;
   uint32_t listCapacity = 0;
   uint64_t cells = 0;                       ///< of the grid
-  uint32_t pressings = 0;                   ///< FluidParams::pressings
+  uint32_t initialPressureIterations = 0;   ///< FluidParams::initialPressureIterations
   bool near = false, movingSolids = false;  ///< as in FluidSetup
 };
 SnapshotShape snapshotShape(const FluidSetup& setup);

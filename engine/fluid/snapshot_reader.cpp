@@ -51,8 +51,9 @@ void SnapshotReader::declare(Graph& graph) {
     read(buffers.solids);
     return;
   }
-  const Buffer* const single[] = {nullptr,     &buffers.position, &buffers.velocity,      &buffers.pushAway, &buffers.warm,
-                                  &buffers.id, &buffers.nearList, &buffers.neighborCount, &buffers.cell};
+  const Buffer* const single[] = {nullptr,       &buffers.position, &buffers.velocity, &buffers.warmAcceleration,
+                                  &buffers.warm, &buffers.id,       &buffers.nearList, &buffers.neighborCount,
+                                  &buffers.cell};
   read(part < kLists ? *single[part] : buffers.lists[part - kLists]);
 }
 
@@ -70,7 +71,8 @@ Expected<void> SnapshotReader::take(const Graph& graph) {
       FluidControl control;
       std::memcpy(&control, data[0].data(), sizeof control);
       control.substeps = control.iterations = control.builds = 0;
-      control.ranSubsteps = control.ranIterations = control.ranBuilds = control.ranBlocks = control.ranCalms = 0;
+      control.executedSubsteps = control.executedIterations = control.executedBuilds = control.executedBlocks =
+          control.executedNoiseDampings = 0;
       control.timeDropped = 0;
       s.control = records<uint32_t>(std::as_bytes(std::span(&control, 1)), sizeof control / 4);
       s.sums = records<uint32_t>(data[1], sizeof(FluidSums) / 4);

@@ -37,7 +37,8 @@ void FluidImpl::stageScene() {
   const GroupCount all = foldGroups(divideUp(count, kFluidGroup));
   const GroupCount chunk = foldGroups(chunks_.front().groups());
   for (uint32_t k : {kCommandPredict, kCommandKeys, kCommandReorder}) shape(k, all);
-  for (uint32_t k : {kCommandDensity, kCommandCorrect, kCommandCorrect + 1, kCommandIterate, kCommandCalm, kCommandBuild}) shape(k, chunk);
+  for (uint32_t k : {kCommandDensity, kCommandCorrect, kCommandCorrect + 1, kCommandIterate, kCommandNoiseDamping, kCommandBuild})
+    shape(k, chunk);
   for (uint32_t k = kCommandWalks; k < kCommandSort; ++k) shape(k, chunk);
   shape(kCommandPose, {1, 1, 1});
   uint32_t next = kCommandSort;
@@ -53,7 +54,7 @@ void FluidImpl::stageScene() {
 }
 
 void FluidImpl::stageParticles(std::vector<Float3> positions, std::vector<Float3> velocities) {
-  const Float4 dummy{kParked, kParked, kParked, 0.0f};
+  const Float4 dummy{kInactivePosition, kInactivePosition, kInactivePosition, 0.0f};
   staging_->add(buffers_.position, buffers_.position.size(), quads(std::move(positions), 0.0f, dummy));
   staging_->add(buffers_.velocity, buffers_.velocity.size(), quads(std::move(velocities), 1.0f, Float4{0, 0, 0, 1}));
   // Predictions start as the positions; they and `work` end with the dummy neighbor.
@@ -72,7 +73,7 @@ void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
     const bool good = finite(x) && std::isfinite(speed);  // a speed that overflows would make every step 0
     if (!good) {
       ++sums.nonFinite;
-      x = {kParked, kParked, kParked};
+      x = {kInactivePosition, kInactivePosition, kInactivePosition};
       v = {};
     }
     if (good) fastest = std::max(fastest, speed);
@@ -83,7 +84,7 @@ void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
   FluidControl control{};
   control.stale = 2;
   control.speed = fastest;
-  control.momentum = -1;  // no pressing
+  control.momentum = -1;  // not an iteration of the initial pressure
   control.settling = settle ? kSettleSubsteps : 0;
   control.desiredStep = static_cast<float>(setup.firstStep);
 
@@ -93,7 +94,7 @@ void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
   staging_->add(buffers_.solids, setup.solids.data(), setup.solids.size() * sizeof(SolidRecord));
   staging_->add(buffers_.id, id.size() * 4, bytesOf(id));
   staging_->clear(buffers_.warm);
-  staging_->clear(buffers_.pushAway);
+  staging_->clear(buffers_.warmAcceleration);
 }
 
 // `snapshot` has been checked; it lives until the staging is made.
@@ -117,10 +118,10 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
   staging_->add(buffers_.id, s.id.data(), s.id.size() * 4);
   if (setup.warm && s.warm.empty()) {
     staging_->clear(buffers_.warm);
-    staging_->clear(buffers_.pushAway);
+    staging_->clear(buffers_.warmAcceleration);
   } else if (setup.warm) {
     staging_->add(buffers_.warm, s.warm.data(), s.warm.size() * 4);
-    staging_->add(buffers_.pushAway, s.push.size() * 16, bytesOf(s.push));
+    staging_->add(buffers_.warmAcceleration, s.push.size() * 16, bytesOf(s.push));
   }
   if (setup.near) {
     staging_->add(buffers_.nearList, uint64_t{count} * 4, [this, &s](std::byte* to) {

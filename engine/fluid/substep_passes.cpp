@@ -7,7 +7,7 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
   const FluidParams& p = setup.params;
   const std::span<const Chunk> chunks(chunks_);
   const Use read = readUse(texel_);
-  const bool calms = first && p.calmingRate > 0;
+  const bool calms = first && p.noiseDampingRate > 0;
   ++recording_.substeps;
   if (first) ++recording_.blocks;
   if (setup.movingSolids) {
@@ -52,30 +52,31 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
     });
   }
   BufferRef free = p.solidCount > 0 ? graph.create("free velocities", {uint64_t{count} * 16}) : BufferRef{};
-  const GatherPipelines& correct = first && p.tensileRate > 0 ? pipes_.correctAndPart : pipes_.correct;
+  const GatherPipelines& correct = first && p.tensileRate > 0 ? pipes_.correctWithArtificialPressure : pipes_.correct;
   gatherPass(
       graph, r_, read, chunks, "correct", correct, r_.work, kCommandCorrect + parity, ChunkPush{}, [&](Pass& pass, BindingList& bindings) {
         pass.read(r_.nearSample, read);
-        for (BufferRef* ref : {&r_.position, &r_.velocity, &r_.prediction, &r_.pushAway, &r_.warm})
+        for (BufferRef* ref : {&r_.position, &r_.velocity, &r_.prediction, &r_.warmAcceleration, &r_.warm})
           *ref = pass.write(*ref, Use::ComputeWrite);
         if (p.solidCount > 0) free = pass.write(free, Use::ComputeWrite, true);
-        bindings.add({r_.position, r_.velocity, r_.nearSample, r_.prediction, r_.pushAway, p.solidCount > 0 ? free : r_.velocity, r_.warm});
+        bindings.add(
+            {r_.position, r_.velocity, r_.nearSample, r_.prediction, r_.warmAcceleration, p.solidCount > 0 ? free : r_.velocity, r_.warm});
       });
   if (p.solidCount > 0) declareCollide(graph, "collide", pipes_.collide, free, parity);
   declareTerms(graph, parity, calms);
   // Those have predicted anew, with walls but without solids.
   if (p.solidCount > 0 && (setup.viscositySweeps > 0 || calms || p.vorticity > 0))
-    declareCollide(graph, "collide again", pipes_.collideAgain, free, parity);
+    declareCollide(graph, "predict after terms", pipes_.predictAfterTerms, free, parity);
 }
 
 void FluidImpl::declareCollide(Graph& graph, std::string_view name, const ComputePipeline* pipeline, BufferRef free, uint32_t parity) {
   graph.pass(name, [&](Pass& pass) {
     readSwitched(pass, r_);
-    for (BufferRef ref : {r_.pushAway, r_.nearList, r_.sums, r_.solids, free, r_.work, r_.warm, r_.nearSample})
+    for (BufferRef ref : {r_.warmAcceleration, r_.nearList, r_.sums, r_.solids, free, r_.work, r_.warm, r_.nearSample})
       pass.read(ref, Use::ComputeRead);
     for (BufferRef* ref : {&r_.position, &r_.velocity, &r_.prediction}) *ref = pass.write(*ref, Use::ComputeWrite);
-    const Kernel kernel = pass.kernel(pipeline, {r_.params, r_.control, r_.position, r_.velocity, r_.prediction, r_.pushAway, r_.nearList,
-                                                 r_.sums, r_.solids, free, r_.work, r_.warm, r_.nearSample});
+    const Kernel kernel = pass.kernel(pipeline, {r_.params, r_.control, r_.position, r_.velocity, r_.prediction, r_.warmAcceleration,
+                                                 r_.nearList, r_.sums, r_.solids, free, r_.work, r_.warm, r_.nearSample});
     return [=, arguments = r_.commands](Commands& commands) {
       commands.dispatchIndirect(kernel, arguments, commandAt(kCommandCollide + parity));
     };
@@ -92,22 +93,22 @@ void FluidImpl::declareSweeps(Graph& graph, std::string_view name, uint32_t swee
     gatherPass(graph, r_, read, chunks_, name, pipes_.viscosity, r_.work, command, SweepPush{0, 0, share},
                [&](Pass& pass, BindingList& bindings) {
                  pass.read(from, read);
-                 pass.read(r_.pushAway, read);
+                 pass.read(r_.warmAcceleration, read);
                  to = pass.write(other, Use::ComputeWrite, true);
                  r_.prediction = pass.write(r_.prediction, Use::ComputeWrite);
                  pass.read(r_.position, read);
-                 bindings.add({from, to, r_.prediction, r_.pushAway, r_.position});
+                 bindings.add({from, to, r_.prediction, r_.warmAcceleration, r_.position});
                });
     other = from;
     from = to;
   }
   r_.velocity = sweeps % 2 == 0 ? from : other;
   if (sweeps % 2 == 0) return;
-  graph.pass("keep velocities", [&](Pass& pass) {
+  graph.pass("copy velocities", [&](Pass& pass) {
     readSwitched(pass, r_);
     pass.read(from, Use::ComputeRead);
     r_.velocity = pass.write(r_.velocity, Use::ComputeWrite);
-    const Kernel kernel = pass.kernel(pipes_.keep, {r_.params, r_.control, from, r_.velocity});
+    const Kernel kernel = pass.kernel(pipes_.copyVelocity, {r_.params, r_.control, from, r_.velocity});
     return [=, arguments = r_.commands, chunks = std::span<const Chunk>(chunks_)](Commands& commands) {
       for (const Chunk& c : chunks)
         for (uint32_t either : {command, walkingCommand(command)})
@@ -124,7 +125,7 @@ void FluidImpl::declareTerms(Graph& graph, uint32_t parity, bool calms) {
   const uint64_t bytes = (uint64_t{count} + 1) * 16;
   const uint32_t sweeps = setup.viscositySweeps;
   if (sweeps > 0) declareSweeps(graph, "viscosity", sweeps, command, 1.0f / float(sweeps));
-  if (calms) declareSweeps(graph, "calm", 1, kCommandCalm, 0);
+  if (calms) declareSweeps(graph, "noise damping", 1, kCommandNoiseDamping, 0);
   if (setup.params.vorticity > 0) {
     BufferRef curl = graph.create("curl", {bytes});
     gatherPass(graph, r_, read, chunks, "curl", pipes_.curl, r_.work, command, ChunkPush{}, [&](Pass& pass, BindingList& bindings) {
@@ -134,11 +135,11 @@ void FluidImpl::declareTerms(Graph& graph, uint32_t parity, bool calms) {
     });
     gatherPass(graph, r_, read, chunks, "confine", pipes_.confine, r_.work, command, ChunkPush{}, [&](Pass& pass, BindingList& bindings) {
       pass.read(curl, read);
-      pass.read(r_.pushAway, read);
+      pass.read(r_.warmAcceleration, read);
       r_.velocity = pass.write(r_.velocity, Use::ComputeWrite);
       r_.prediction = pass.write(r_.prediction, Use::ComputeWrite);
       pass.read(r_.position, read);
-      bindings.add({curl, r_.velocity, r_.prediction, r_.pushAway, r_.position});
+      bindings.add({curl, r_.velocity, r_.prediction, r_.warmAcceleration, r_.position});
     });
   }
 }

@@ -53,7 +53,7 @@ WallSample ReferenceSolver::boundaryOf(const glm::dvec3& x, std::span<const Soli
 
 glm::dvec3 ReferenceSolver::alongWalls(size_t i) const {
   glm::dvec3 along;
-  for (int a = 0; a < 3; ++a) along[a] = 1 / (1 - std::min<double>(boundary_[i].beside[a], kMaxBeside));
+  for (int a = 0; a < 3; ++a) along[a] = 1 / (1 - std::min<double>(boundary_[i].beside[a], kMaxWallCoverage));
   return along;
 }
 

@@ -220,7 +220,7 @@ void ReferenceSolver::viscosity(double dt) {
   for (int sweep = 0; sweep < settings.viscositySweeps; ++sweep) smooth(c);
 }
 
-void ReferenceSolver::calm(double dt) { smooth(std::min(xsphCoefficient(calmness_ * settings.calmViscosity, dt), double{kMaxCalming})); }
+void ReferenceSolver::calm(double dt) { smooth(std::min(xsphCoefficient(calmness_ * settings.calmViscosity, dt), double{kMaxNoiseDamping})); }
 
 void ReferenceSolver::smooth(double coefficient) {
   const std::vector<glm::dvec3> v = state.velocity;

@@ -3,7 +3,7 @@
 // oracle of the shaders and the documentation of the method. Speed comes after readability.
 //
 // A substep of dt. Notation: K = d^3 W as in sph/kernel.hpp, G_ij = grad_i K(x*_i - x*_j), B_i = what walls and solids add to the density,
-// grad B_i its gradient, a_i what makes up, axis by axis, for what is beside the particle: 1 / (1 - min(WallSample::beside, kMaxBeside)).
+// grad B_i its gradient, a_i what makes up, axis by axis, for what is beside the particle: 1 / (1 - min(WallSample::beside, kMaxWallCoverage)).
 //   density       rho_i/rho0 = K(0) + sum_j K_ij + B_i,   C_i = rho_i/rho0 - 1,
 //                 D_i = g . a_i g + mean(a_i) sum_j |G_ij|^2 + eps D_rest with g = sum_j G_ij + grad B_i
 //   multipliers   delta_i = -omega C_i / D_i,   lambda_i = min(0, lambda_i + delta_i), starting from w_i; the change is dlambda_i.

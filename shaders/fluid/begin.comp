@@ -10,9 +10,9 @@ layout(std430, binding = 2) readonly buffer SumsBlock { FluidSums sums; };
 layout(std430, binding = 3) readonly buffer ShapeBlock { uint shapes[]; };
 layout(std430, binding = 4) buffer CommandBlock { uint commands[]; };
 layout(std430, binding = 5) readonly buffer GravityBlock { vec4 gravityChanges[]; };
-#include "fluid/calmness.glsl"
+#include "fluid/gains.glsl"
 #include "fluid/step_plan.glsl"
-#include "fluid/switches.glsl"
+#include "fluid/dispatch_commands.glsl"
 
 void main() {
   FluidControl c = control;
@@ -31,10 +31,10 @@ void main() {
   bool going = push.advance > 0.0;
   if (going) {
     c.nextStep = fittedStep(push.advance, c.desiredStep);
-    if (push.drivenSpeed > 0.0) c.pressing = 0u;  // of an advance that ended too soon: a solid that moves on makes it another start
-    if (c.pressing > 0u) c.nextStep = params.pressStep;
+    if (push.drivenSpeed > 0.0) c.initialPressure = 0u;  // the last advance was cut short; once a solid moves, the initial pressure no longer fits
+    if (c.initialPressure > 0u) c.nextStep = params.initialPressureStep;
     if (c.warmStep <= 0.0) c.warmStep = c.nextStep;
-    if (c.pressing == 0u && c.travel + (c.speed + c.solidSpeed + acceleration * c.nextStep) * c.nextStep > params.travelLimit) c.stale = max(c.stale, 1u);
+    if (c.initialPressure == 0u && c.travel + (c.speed + c.solidSpeed + acceleration * c.nextStep) * c.nextStep > params.travelLimit) c.stale = max(c.stale, 1u);
   }
   c.running = going && c.stale == 0u ? 1u : 0u;
   c.again = 0u;

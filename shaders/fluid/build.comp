@@ -7,10 +7,10 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 #include "fluid/uniforms.glsl"
 #define WARM_CONSTANT 4
-#include "fluid/warm.glsl"
+#include "fluid/warm_start.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/solids.glsl"
-#include "fluid/near.glsl"
+#include "fluid/wall_samples.glsl"
 #include "shared/loops.glsl"
 #include "shared/pair_hash.h"
 layout(local_size_x = kFluidGroup) in;
@@ -49,13 +49,13 @@ void listNear(uint i, vec3 x) {
     if (surfaceDistance(solids[s], toLocal(solids[s], x), normal) < params.nearLimit) solid = true;
   }
   nearSample[NEAR_DISPLACED(i)] = vec4(0.0);
-  nearSample[NEAR_ALONG(i)] = vec4(0.0);
-  if (x.x == kParked) return;
+  nearSample[NEAR_TANGENTIAL(i)] = vec4(0.0);
+  if (!isActive(x)) return;
   if (solid || walls > 1u) nearList[params.count - 1u - atomicAdd(sums.cornerCount, 1u)] = i;
   else if (walls == 1u) nearList[atomicAdd(sums.planeCount, 1u)] = i;
 }
 
-// Neighbors are stored four at a time: lavapipe stores lane by lane, and the more that a store holds, the fewer lanes wait for each other.
+// Neighbors are stored four at a time: lavapipe stores lane by lane, so fewer and wider stores are faster.
 uvec4 held;
 uint holds = 0u;
 uint count = 0u;
@@ -83,13 +83,13 @@ void listNeighbors(uint base, uint mask) {
 
 uint self;
 vec3 place, here;
-uint twin = kNone;
+uint coincident = kNone;
 float reachSquared = params.reach * params.reach;
-float twinSquared = 1.0e-6 * params.support * params.support;
+float coincidentSquared = 1.0e-6 * params.support * params.support;
 
-void takeTurn(bool mine) { here = mine ? place : vec3(-kParked); }  // from there nothing is near
+void takeTurn(bool mine) { here = mine ? place : vec3(-kInactivePosition); }  // from there nothing is near
 void candidates(uint first, uint end) {
-  uint mask = 0u, twins = 0u;
+  uint mask = 0u, coincidents = 0u;
   uint base = first;
   LOOP_WHILE (base < end) {
     vec3 candidate = particleAt(min(base + clusterLane, end - 1u)).xyz;
@@ -98,16 +98,16 @@ void candidates(uint first, uint end) {
       vec3 r = here - SPREAD(candidate, lane);
       float squared = dot(r, r);
       near |= uint(squared < reachSquared) << lane;
-      same |= uint(squared < twinSquared) << lane;
+      same |= uint(squared < coincidentSquared) << lane;
     }
     mask |= near << (base - first);
-    twins |= same << (base - first);
+    coincidents |= same << (base - first);
     base += CLUSTER;
   } LOOP_END(base < end);
   if (end - first < kWindow) mask &= (1u << (end - first)) - 1u;
   if (self - first < kWindow) mask &= ~(1u << (self - first));
-  twins &= mask;
-  if (twins != 0u) twin = first + findMSB(twins);
+  coincidents &= mask;
+  if (coincidents != 0u) coincident = first + findMSB(coincidents);
   if (LIST_CAPACITY != 0u) listNeighbors(first, mask);
 }
 #include "fluid/walk.glsl"
@@ -115,8 +115,8 @@ void candidates(uint first, uint end) {
 void main() {
   uint local = clusterInvocation();
   uint i = push.first + local;
-  bool there = i < push.last;
-  if (!there) i = push.last - 1u;
+  bool inRange = i < push.last;
+  if (!inRange) i = push.last - 1u;
   vec4 predicted = particleAt(i);
   vec3 x = predicted.xyz;
 
@@ -124,8 +124,8 @@ void main() {
   place = x;
   self = i;
   vec3 scaled = scaledPosition(x);
-  walkGrid(scaled, scaled, there && x.x != kParked, params.reach);
-  if (!there) return;
+  walkGrid(scaled, scaled, inRange && isActive(x), params.reach);
+  if (!inRange) return;
   cell[i] = cellKey(cellOf(x));
   if (LIST_CAPACITY != 0u) {
     uint all = count + holds;
@@ -138,8 +138,8 @@ void main() {
   vec4 sorted = sortedPositionAt(i), moving = sortedVelocityAt(i);
   vec3 from = sorted.xyz;
   uint own = uint(sorted.w);
-  if (twin != kNone) {  // coinciding particles have no direction to part in: each takes one from both numbers, opposite for the two
-    uint other = uint(sortedPositionAt(twin).w);
+  if (coincident != kNone) {  // coincident particles: a direction from both ids, opposite for the two
+    uint other = uint(sortedPositionAt(coincident).w);
     vec3 apart = vec3(pairDirection(own, other, 0u), pairDirection(own, other, 1u), pairDirection(own, other, 2u)) *
                  (0.02 / 1024.0 * params.spacing);
     x = insideWalls(x + apart);

@@ -4,14 +4,14 @@
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #define WARM_CONSTANT 1
-#include "fluid/warm.glsl"
-#include "fluid/near.glsl"
+#include "fluid/warm_start.glsl"
+#include "fluid/wall_samples.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 0) const uint AGAIN = 0;  // viscosity or vorticity have changed the velocity: the prediction alone
 layout(std430, binding = 2) buffer PositionBlock { vec4 position[]; };
 layout(std430, binding = 3) buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 4) buffer PredictionBlock { vec4 prediction[]; };
-layout(std430, binding = 5) readonly buffer PushBlock { vec4 pushAway[]; };
+layout(std430, binding = 5) readonly buffer WarmAccelerationBlock { vec4 warmAcceleration[]; };
 layout(std430, binding = 6) readonly buffer NearListBlock { uint nearList[]; };
 layout(std430, binding = 7) readonly buffer SumsBlock { FluidSums sums; };
 layout(std430, binding = 8) readonly buffer SolidBlock { SolidRecord solids[]; };
@@ -23,7 +23,7 @@ layout(std430, binding = 12) readonly buffer NearBlock { vec4 nearSample[]; };
 
 void predict(uint i, vec3 x, vec3 v) {
   float pushed;
-  vec3 next = outside(predicted(x, v, KEPT_PUSH(pushAway[i])), ahead(), pushed);
+  vec3 next = outside(predicted(x, v, KEPT_WARM_ACCELERATION(warmAcceleration[i])), ahead(), pushed);
   prediction[i] = vec4(next, pushed);
 }
 
@@ -32,14 +32,14 @@ void main() {
   if (n >= sums.cornerCount) return;
   uint i = nearList[params.count - 1u - n];
   vec3 from = position[i].xyz;
-  if (from.x >= kParked * 0.5) return;
+  if (!isActive(from)) return;
   if (AGAIN != 0u) {
     predict(i, from, velocity[i].xyz);
     return;
   }
   float pushed;
   vec3 x = outside(from, 0.0, pushed);
-  if (control.step == 0.0) {  // settling or pressing
+  if (control.step == 0.0) {  // settling, or finding the initial pressure
     position[i] = vec4(x, 0.0);
     predict(i, x, velocity[i].xyz);
     return;

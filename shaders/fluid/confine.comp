@@ -6,7 +6,7 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 #include "fluid/uniforms.glsl"
 #define WARM_CONSTANT 4
-#include "fluid/warm.glsl"
+#include "fluid/warm_start.glsl"
 #include "fluid/arrays.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
@@ -15,7 +15,7 @@ layout(push_constant) uniform Push { ChunkPush push; };
 READ_FLOAT4(8, curl)
 layout(std430, binding = 9) buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 10) writeonly buffer PredictionBlock { vec4 prediction[]; };
-READ_FLOAT4(11, pushAway)
+READ_FLOAT4(11, warmAcceleration)
 READ_FLOAT4(12, position)
 
 #define COMPANION(j) curlAt(j)
@@ -33,17 +33,17 @@ void visit(vec4 particle, vec4 companion) {
 void main() {
   uint local = clusterInvocation();
   uint i = push.first + local;
-  bool there = i < push.last;
-  if (!there) i = params.count;
+  bool inRange = i < push.last;
+  if (!inRange) i = params.count;
   here = particleAt(i).xyz;
   own = curlAt(i);
-  visitNeighbors(i, local, there);
-  if (!there) return;
+  visitNeighbors(i, local, inRange);
+  if (!inRange) return;
   rise *= params.gradientScale;
   // Below a thousandth of the spin a smoothing length its change is noise.
   vec3 direction = rise / (length(rise) + 0.001 * own.w * params.inverseSupport + 1.0e-20);
   vec4 v = velocity[i];
   v.xyz += control.step * params.vorticity * params.support * own.w * cross(direction, own.xyz);
   velocity[i] = v;
-  prediction[i] = vec4(insideWalls(predicted(positionAt(i).xyz, v.xyz, KEPT_PUSH(pushAwayAt(i)))), 0.0);
+  prediction[i] = vec4(insideWalls(predicted(positionAt(i).xyz, v.xyz, KEPT_WARM_ACCELERATION(warmAccelerationAt(i)))), 0.0);
 }

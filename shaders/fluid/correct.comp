@@ -7,11 +7,11 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "fluid/uniforms.glsl"
 #define WARM_CONSTANT 7
-#include "fluid/warm.glsl"
+#include "fluid/warm_start.glsl"
 #include "fluid/arrays.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
-#include "fluid/near.glsl"
+#include "fluid/wall_samples.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 4) const uint NEAR = 0;
 layout(constant_id = 5) const uint TENSILE = 0;  // the first substep of a block has the artificial pressure
@@ -22,7 +22,7 @@ layout(std430, binding = 8) buffer PositionBlock { vec4 position[]; };
 layout(std430, binding = 9) buffer VelocityBlock { vec4 velocity[]; };
 READ_NEAR(10)
 layout(std430, binding = 11) buffer PredictionBlock { vec4 prediction[]; };
-layout(std430, binding = 12) buffer PushBlock { vec4 pushAway[]; };  // m/s^2; w, while pressing: the multiplier that was found last
+layout(std430, binding = 12) buffer WarmAccelerationBlock { vec4 warmAcceleration[]; };  // m/s^2; w, in the initial-pressure phase: the last multiplier
 layout(std430, binding = 13) writeonly buffer FreeBlock { vec4 freeVelocity[]; };  // before the solve: what contacts compare with; w: the prediction's
 layout(std430, binding = 14) buffer WarmBlock { float warm[]; };
 
@@ -32,7 +32,7 @@ vec3 moved = vec3(0.0);       // m, once scaled
 vec3 pushed = vec3(0.0);      // m, once scaled
 
 float unit = params.inverseRestGradient / kMultiplierScale;  // m^2, of the multipliers
-float tensile = control.parting * kMultiplierScale;
+float tensile = control.artificialPressure * kMultiplierScale;
 float tensileScale = params.valueScale * params.tensileInverse;
 float tensilePower = params.tensilePower;
 float tensileAtRest = params.tensileAtRest;
@@ -52,9 +52,9 @@ void visit(vec4 particle) {
 }
 #include "fluid/neighbors.glsl"
 
-// What the prediction moved by. Not as a difference of positions, whose rounding over a step is a random walk of the velocity, where nothing but
-// the step made the prediction.
-vec3 plannedWay(vec3 from, vec3 velocity, vec3 push) {
+// Displacement from the start of the substep to its prediction. Computed from the velocity where nothing else changed the prediction:
+// the rounding of a difference of positions would make a random walk of the velocity.
+vec3 predictedDisplacement(vec3 from, vec3 velocity, vec3 push) {
   vec3 difference = here - from;
   vec3 planned = control.step * (velocity + control.step * (gravity() + push));
   vec3 rounding = 3.0e-7 * (abs(from) + abs(here));
@@ -64,43 +64,43 @@ vec3 plannedWay(vec3 from, vec3 velocity, vec3 push) {
 void main() {
   uint local = clusterInvocation();
   uint i = push.first + local;
-  bool there = i < push.last;
-  if (!there) i = params.count;
+  bool inRange = i < push.last;
+  if (!inRange) i = params.count;
   vec4 particle = particleAt(i);
   here = particle.xyz;
   own = multipliers(particle);
-  visitNeighbors(i, local, there);
-  if (!there) return;
+  visitNeighbors(i, local, inRange);
+  if (!inRange) return;
   moved *= unit * params.gradientScale;
   pushed *= unit * params.gradientScale;
   if (NEAR != 0u) {
-    vec3 wall = unit * displacedAt(i).xyz, along = alongWallsAt(i);  // see ARCHITECTURE.md, "Walls and solids"
+    vec3 wall = unit * displacedAt(i).xyz, along = tangentialScaleAt(i);  // see ARCHITECTURE.md, "Walls and solids"
     moved = along * moved + own.x * wall;
     pushed = along * pushed + own.y * wall;
   }
 
   vec3 from = position[i].xyz, before = velocity[i].xyz;
-  vec4 pushedBy = WARM != 0u ? pushAway[i] : vec4(0.0);
-  bool presses = control.momentum >= 0.0, still = control.step == 0.0;  // still: no time goes by
+  vec4 pushedBy = WARM != 0u ? warmAcceleration[i] : vec4(0.0);
+  bool presses = control.momentum >= 0.0, still = control.step == 0.0;  // no time passes
   vec3 to = presses ? from : insideWalls(here + moved);
-  // A correction parts particles whatever it takes, but gives no more speed than what can have brought them together: see ARCHITECTURE.md, "Overlaps".
+  // A correction separates particles in full, but adds no more speed than can have brought them together: see ARCHITECTURE.md, "Overlaps".
   vec3 gained = to - here;
   float gain = sqrt(dot(gained, gained));
   float maxGain = control.step * (clamp(0.5 * control.speed, params.pushLow, params.pushHigh) + 4.0 * control.step * sqrt(dot(gravity(), gravity())));
   float kept = min(1.0, maxGain / max(gain, 1.0e-20));
-  vec3 way = (0.5 + 0.5 * kept) * plannedWay(from, before, pushedBy.xyz) + gained * kept;  // who overlaps by more has come too fast: that cools, too
-  // No more than twice what cfl allows in a substep: the next step shrinks to follow a particle that wants to go faster.
+  vec3 way = (0.5 + 0.5 * kept) * predictedDisplacement(from, before, pushedBy.xyz) + gained * kept;  // clamping deep overlaps also dissipates energy
+  // At most twice the distance that cfl allows: the next step shrinks to follow a faster particle.
   float most = max(2.0 * params.cfl, 0.02) * params.spacing;
   vec3 moves = to - from;
   float far = sqrt(dot(moves, moves));
   if (far > most) { way *= most / far; to = insideWalls(from + moves * (most / far)); }
   way *= min(1.0, min(most, params.speedLimit * control.step) / max(sqrt(dot(way, way)), 1.0e-20));
-  vec3 v = still ? before : way / control.step;  // not (to - from): who starts outside the walls is put inside, and gets no speed for it
+  vec3 v = still ? before : way / control.step;  // not (to - from): a particle that starts outside the walls is moved inside without a change of velocity
   vec3 away = pushed / (control.warmStep * control.warmStep);
   vec3 next = insideWalls(predicted(to, v, away));
   bool finite = isFinite(to) && isFinite(next);
   if (!finite) {
-    bool gone = isFinite(here) || from.x >= kParked * 0.5;   // left through an open side, or parked before
+    bool gone = isFinite(here) || !isActive(from);  // left through an open side, or inactive before
     if (!gone) { atomicAdd(sums.nonFinite, 1u); }
     to = from;
     v = vec3(0.0);
@@ -116,7 +116,7 @@ void main() {
   position[i] = vec4(to, 0.0);
   if (CONTACT != 0u) freeVelocity[i] = vec4(before + control.step * gravity(), prediction[i].w);
   velocity[i] = vec4(v, 1.0);
-  if (WARM != 0u) pushAway[i] = vec4(away, found);
+  if (WARM != 0u) warmAcceleration[i] = vec4(away, found);
   prediction[i] = vec4(next, 0.0);
 
   float fastest = subgroupMax(sqrt(dot(v, v)));

@@ -7,11 +7,11 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "fluid/uniforms.glsl"
 #define WARM_CONSTANT 6
-#include "fluid/warm.glsl"
+#include "fluid/warm_start.glsl"
 #include "fluid/arrays.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
-#include "fluid/near.glsl"
+#include "fluid/wall_samples.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 4) const uint NEAR = 0;        // walls or solids displace density
 layout(constant_id = 5) const uint ITERATED = 0;    // more than one iteration a substep
@@ -41,11 +41,11 @@ void visit(vec4 particle) {
 void main() {
   uint local = clusterInvocation();
   uint i = push.first + local;
-  bool there = i < push.last;
-  if (!there) i = params.count;
+  bool inRange = i < push.last;
+  if (!inRange) i = params.count;
   here = particleAt(i).xyz;
-  visitNeighbors(i, local, there);
-  if (!there) return;
+  visitNeighbors(i, local, inRange);
+  if (!inRange) return;
   rho = params.valueScale * (rho + kernelShape(0.0));
   gradientSum *= params.gradientScale;
   gradientSquares *= params.gradientScale * params.gradientScale;
@@ -54,10 +54,10 @@ void main() {
     vec4 displaced = displacedAt(i);
     gradientSum += displaced.xyz;
     rho += displaced.w;
-    along = alongWallsAt(i);
+    along = tangentialScaleAt(i);
   }
 
-  float constraint = here.x == kParked ? -1.0 : rho - 1.0;  // who is parked meets all others there: no density of the fluid's
+  float constraint = isActive(here) ? rho - 1.0 : -1.0;  // inactive particles coincide; exclude them from the error
   float stiffness = dot(gradientSum, along * gradientSum) + gradientSquares * (along.x + along.y + along.z) / 3.0 + params.regularization;
   bool first = push.iteration == 0u;
   float delta = -(first ? control.nextRelaxation : control.relaxation) * constraint / max(stiffness, 1.0e-20);
@@ -70,9 +70,9 @@ void main() {
     float ratio = control.nextStep / control.warmStep;
     before = warm[i] * ratio * ratio;  // 0 while particles settle
     after = min(0.0, before + delta);
-    float gain = control.pressing != 0u ? 1.0 : control.nextWarmGain * (delta > 0.0 ? params.warmRelease : 1.0);
+    float gain = control.initialPressure != 0u ? 1.0 : control.nextWarmGain * (delta > 0.0 ? params.warmRelease : 1.0);
     warmNext = min(0.0, before + gain * delta);
-    warmNext = max(warmNext, -params.warmLimit * control.nextStep * control.nextStep);  // fluid without room would wind it up for ever
+    warmNext = max(warmNext, -params.warmLimit * control.nextStep * control.nextStep);  // bounded: in fluid without room it would grow without limit
     if (control.settling != 0u) warmNext = 0.0;
     warm[i] = warmNext;
   } else {

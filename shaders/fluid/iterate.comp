@@ -7,7 +7,7 @@
 #include "fluid/arrays.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
-#include "fluid/near.glsl"
+#include "fluid/wall_samples.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 4) const uint NEAR = 0;
 
@@ -32,14 +32,14 @@ void visit(vec4 particle) {
 void main() {
   uint local = clusterInvocation();
   uint i = push.first + local;
-  bool there = i < push.last;
-  if (!there) i = params.count;
+  bool inRange = i < push.last;
+  if (!inRange) i = params.count;
   vec4 particle = particleAt(i);
   here = particle.xyz;
   own = multiplier(particle);
-  visitNeighbors(i, local, there);
-  if (!there) return;
+  visitNeighbors(i, local, inRange);
+  if (!inRange) return;
   moved *= unit * params.gradientScale;
-  if (NEAR != 0u) moved = alongWallsAt(i) * moved + unit * own * displacedAt(i).xyz;
+  if (NEAR != 0u) moved = tangentialScaleAt(i) * moved + unit * own * displacedAt(i).xyz;
   prediction[i] = vec4(insideWalls(here + moved), prediction[i].w);
 }

@@ -7,7 +7,7 @@
 #include "fluid/uniforms.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
-#include "fluid/near.glsl"
+#include "fluid/wall_samples.glsl"
 #include "shared/loops.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 2) const uint NEAR = 0;
@@ -24,11 +24,11 @@ uint inside = 0u;
 float support = params.support;
 
 vec3 place;
-void takeTurn(bool mine) { here = mine ? place : vec3(-kParked); }  // from there nothing is near
+void takeTurn(bool mine) { here = mine ? place : vec3(-kInactivePosition); }  // from there nothing is near
 void candidates(uint first, uint end) {
   uint base = first;
   LOOP_WHILE (base < end) {
-    vec3 candidate = base + clusterLane < end ? sortedAt(base + clusterLane).xyz : vec3(kParked);
+    vec3 candidate = base + clusterLane < end ? sortedAt(base + clusterLane).xyz : vec3(kInactivePosition);
     for (uint lane = 0u; lane < CLUSTER; ++lane) {
       vec3 r = here - SPREAD(candidate, lane);
       float distance = sqrt(dot(r, r));
@@ -46,13 +46,13 @@ uint binOf(float size) {
 
 void main() {
   uint slot = clusterInvocation();
-  bool there = slot < params.count;
-  vec4 particle = there ? sortedAt(slot) : vec4(kParked);
-  there = there && particle.x < kParked * 0.5;
+  bool inRange = slot < params.count;
+  vec4 particle = inRange ? sortedAt(slot) : vec4(kInactivePosition);
+  inRange = inRange && isActive(particle.xyz);
   place = particle.xyz;
   vec3 scaled = scaledPosition(place);
-  walkGrid(scaled, scaled, there, support);
-  if (!there) return;
+  walkGrid(scaled, scaled, inRange, support);
+  if (!inRange) return;
   uint i = uint(particle.w);
   rho *= params.valueScale;
   if (NEAR != 0u) rho += displacedAt(i).w;

@@ -2,7 +2,7 @@
 // The positions in the order of their cells, each with its place in the solver's arrays, as a number.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
-#include "fluid/arrivals.glsl"
+#include "fluid/sorted_places.glsl"
 layout(local_size_x = kFluidGroup) in;
 READ_FLOAT4(6, position)
 layout(std430, binding = 7) writeonly buffer SortedBlock { vec4 sorted[]; };

@@ -27,7 +27,7 @@ float valueAt(bool signed_, uint place) {
   return place < kMeasureBins ? -binValue(kMeasureBins - 1u - place) : binValue(place - kMeasureBins);
 }
 
-// The compression that 99 of 100 particles present do not exceed (who is not compressed is in no bin: they come first), or the median of the signed line.
+// The 99th percentile of compression over active particles (those not compressed are in no bin and come first), or the median of the signed error.
 float percentile(bool signed_, uint present) {
   uint lane = gl_LocalInvocationID.x;
   uint bins = signed_ ? kSignedBins : kMeasureBins;
@@ -74,7 +74,7 @@ void main() {
     if (lane < half_) rows[lane] = addPartials(rows[lane], rows[lane + half_]);
     barrier();
   }
-  float p99 = percentile(false, params.count - rows[0].parked);
+  float p99 = percentile(false, params.count - rows[0].inactive);
   barrier();
   float median = percentile(true, 0u);
   if (lane == 0u) {

@@ -1,5 +1,6 @@
 #version 460
-// Figures of the present instant but those of the histograms: compression, energies, momentum, who is outside. A partial sum a workgroup, in a fixed order.
+// Figures of the present instant except percentiles: compression, energies, momentum, particles outside. One partial sum a workgroup, in a fixed
+// order.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "fluid/partials.glsl"
@@ -16,12 +17,12 @@ void main() {
   vec3 low = vec3(params.boundLowX, params.boundLowY, params.boundLowZ), high = vec3(params.boundHighX, params.boundHighY, params.boundHighZ);
   float compression = 0.0, compressionMax = 0.0, squares = 0.0, squaresMax = 0.0;
   vec3 velocities = vec3(0.0), positions = vec3(0.0);
-  uint outside = 0u, parked = 0u;
+  uint outside = 0u, inactive = 0u;
   for (uint i = flatInvocation(); i < params.count; i += partialCount() * kFluidGroup) {
     vec3 x = positionAt(i).xyz;
-    if (x.x >= kParked * 0.5) {
+    if (!isActive(x)) {
       outside += 1u;
-      parked += 1u;
+      inactive += 1u;
       continue;
     }
     vec4 v = velocityAt(i);
@@ -35,7 +36,7 @@ void main() {
     outside += uint(any(lessThan(x, low)) || any(greaterThan(x, high)));
   }
   rows[lane] = MeasurePartial(compression, compressionMax, squares, sqrt(squaresMax), velocities.x, velocities.y, velocities.z, positions.x, positions.y,
-                              positions.z, outside, parked);
+                              positions.z, outside, inactive);
   barrier();
   for (uint half_ = kFluidGroup / 2u; half_ > 0u; half_ /= 2u) {
     if (lane < half_) rows[lane] = addPartials(rows[lane], rows[lane + half_]);

@@ -1,7 +1,7 @@
 // Sums over the neighbors of a particle: from its list, or by walking the grid where there is no list or it overflowed. Only the variant WALKS can walk; the
-// device dispatches it in place of the other while somebody has to (the code alone, never run, costs the other an eighth of its time on lavapipe).
+// device dispatches it in place of the other while a list is full (the unused code costs an eighth of the time on lavapipe).
 // Before it includes this the shader includes fluid/arrays.glsl, defines `vec3 here`, the particle's place, and `void visit(vec4 particle)`, and binds at 2 the array whose elements are
-// handed over; with COMPANION(j) defined, `void visit(vec4 particle, vec4 companion)`. What is farther than the support, or not there, is visited too.
+// handed over; with COMPANION(j) defined, `void visit(vec4 particle, vec4 companion)`. Particles beyond the support and dummies are visited too.
 #ifndef RILL_NEIGHBORS_GLSL
 #define RILL_NEIGHBORS_GLSL
 #include "shared/loops.glsl"
@@ -13,7 +13,7 @@ layout(std430, binding = 7) buffer SumsBlock { FluidSums sums; };
 
 vec3 place;
 uint self;
-void takeTurn(bool mine) { here = mine ? place : vec3(-kParked); }  // from there nothing is near
+void takeTurn(bool mine) { here = mine ? place : vec3(-kInactivePosition); }  // from there nothing is near
 void candidates(uint first, uint end) {
   uint base = first;
   LOOP_WHILE (base < end) {
@@ -24,7 +24,7 @@ void candidates(uint first, uint end) {
 #endif
     for (uint lane = 0u; lane < CLUSTER; ++lane) {
       vec4 other = SPREAD(particle, lane);
-      if (base + lane == self) other.xyz = vec3(kParked);
+      if (base + lane == self) other.xyz = vec3(kInactivePosition);
 #ifdef COMPANION
       visit(other, SPREAD(companion, lane));
 #else
@@ -42,9 +42,9 @@ void candidates(uint first, uint end) {
 #define VISIT(j, particle) visit(particle)
 #endif
 
-// Of particle i, where it is `there`, at invocation `local` of its chunk. All lanes of a cluster call this.
-void visitNeighbors(uint i, uint local, bool there) {
-  uint count = LIST_CAPACITY == 0u || !there ? 0u : countAt(i);
+// Visits the neighbors of particle i, if `inRange`, at invocation `local` of its chunk. All lanes of a cluster call this.
+void visitNeighbors(uint i, uint local, bool inRange) {
+  uint count = LIST_CAPACITY == 0u || !inRange ? 0u : countAt(i);
   bool listed = LIST_CAPACITY != 0u && count <= LIST_CAPACITY;
   if (LIST_CAPACITY != 0u) {
     uint at = (local / kListBlock) * (kListBlock * (LIST_CAPACITY / 4u)) + local % kListBlock;
@@ -62,8 +62,8 @@ void visitNeighbors(uint i, uint local, bool there) {
     } LOOP_END(k < groups);
   }
   if (WALKS == 0u) return;
-  bool walks = there && !listed && here.x != kParked;
-  vec3 home = cellFromKey(keyAt(there ? i : 0u));
+  bool walks = inRange && !listed && isActive(here);
+  vec3 home = cellFromKey(keyAt(inRange ? i : 0u));
   place = here;
   self = i;
   walkGrid(home, home + 1.0, walks, params.reach);

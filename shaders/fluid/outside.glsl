@@ -1,4 +1,4 @@
-// Keeping centers off solids. Needs `params` and the storage array `solids`.
+// Projects centers out of solids. Needs `params` and the storage array `solids`.
 #ifndef RILL_OUTSIDE_GLSL
 #define RILL_OUTSIDE_GLSL
 #include "fluid/solids.glsl"

@@ -1,11 +1,11 @@
 #version 460
-// Moves the particles into the order of their cells, without the w of their positions and velocities, which nobody needs: in their place go the id (as a number:
-// there are fewer particles than a float counts exactly) and the warm start. build.comp copies them back.
+// Moves the particles into the order of their cells. The unused w of positions and velocities carry the id (as a number: kMaxParticles is below 2^24) and
+// the warm-start multiplier. build.comp copies them back.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #define WARM_CONSTANT 0
-#include "fluid/warm.glsl"
-#include "fluid/arrivals.glsl"
+#include "fluid/warm_start.glsl"
+#include "fluid/sorted_places.glsl"
 layout(local_size_x = kFluidGroup) in;
 READ_FLOAT4(6, position)
 READ_FLOAT4(7, prediction)

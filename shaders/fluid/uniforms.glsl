@@ -6,9 +6,12 @@
 layout(binding = 0) uniform ParamsBlock { FluidParams params; };
 layout(binding = 1) uniform ControlBlock { FluidControl control; };
 
-// Keeps a center half a spacing off the domain's walls. NaN goes through, and so does a parked particle.
+// Particles that left the simulation wait at kInactivePosition, with the dummy neighbor that pads the lists.
+bool isActive(vec3 x) { return !(x.x >= 0.5 * kInactivePosition); }
+
+// Keeps a center half a spacing off the domain's walls. NaN and inactive particles are returned unchanged.
 vec3 insideWalls(vec3 x) {
-  if (x.x == kParked) return x;
+  if (!isActive(x)) return x;
   vec3 low = vec3(params.lowX, params.lowY, params.lowZ) + params.margin;
   vec3 high = vec3(params.highX, params.highY, params.highZ) - params.margin;
   return vec3(x.x < low.x ? low.x : (x.x > high.x ? high.x : x.x),
@@ -23,13 +26,13 @@ bool isFinite(vec3 x) {
 
 vec3 gravity() { return vec3(control.gravityX, control.gravityY, control.gravityZ); }
 
-// The prediction of the next substep, before walls and solids; `away`: the warm start's push, m/s^2.
+// The prediction of the next substep, before walls and solids; `away`: acceleration of the warm start, m/s^2.
 vec3 predicted(vec3 x, vec3 v, vec3 away) {
   if (control.settling != 0u) return x;
-  if (control.pressing != 0u) v = vec3(0.0);  // the start's pressure bears weight, it does not stop what moves
+  if (control.initialPressure != 0u) v = vec3(0.0);  // the initial pressure balances weight, not motion
   return x + control.nextStep * (v + control.nextStep * (gravity() + away));
 }
 
-// Seconds until then, for solids: while the start is prepared they stand still.
-float ahead() { return control.settling != 0u || control.pressing != 0u ? 0.0 : control.nextStep; }
+// Seconds from now to the predicted instant, for the pose of solids, which do not move before the first substep in time.
+float ahead() { return control.settling != 0u || control.initialPressure != 0u ? 0.0 : control.nextStep; }
 #endif

@@ -7,7 +7,7 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 #include "fluid/uniforms.glsl"
 #define WARM_CONSTANT 4
-#include "fluid/warm.glsl"
+#include "fluid/warm_start.glsl"
 #include "fluid/arrays.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
@@ -16,7 +16,7 @@ layout(push_constant) uniform Push { SweepPush push; };
 READ_FLOAT4(8, velocity)
 layout(std430, binding = 9) writeonly buffer SmoothedBlock { vec4 smoothed[]; };
 layout(std430, binding = 10) writeonly buffer PredictionBlock { vec4 prediction[]; };
-READ_FLOAT4(11, pushAway)
+READ_FLOAT4(11, warmAcceleration)
 READ_FLOAT4(12, position)
 
 #define COMPANION(j) velocityAt(j)
@@ -34,15 +34,15 @@ void visit(vec4 particle, vec4 companion) {
 void main() {
   uint local = clusterInvocation();
   uint i = push.first + local;
-  bool there = i < push.last;
-  if (!there) i = params.count;
+  bool inRange = i < push.last;
+  if (!inRange) i = params.count;
   here = particleAt(i).xyz;
   own = velocityAt(i);
-  visitNeighbors(i, local, there);
-  if (!there) return;
-  float coefficient = push.share > 0.0 ? params.viscosityRate * control.step * push.share : control.calming;
+  visitNeighbors(i, local, inRange);
+  if (!inRange) return;
+  float coefficient = push.share > 0.0 ? params.viscosityRate * control.step * push.share : control.noiseDamping;
   vec3 v = own.xyz + coefficient * params.valueScale * change;
   smoothed[i] = vec4(v, own.w);
   if (i == 0u) smoothed[params.count] = vec4(0.0);  // the dummy neighbor, whose weight of 0 would not do away with a NaN
-  prediction[i] = vec4(insideWalls(predicted(positionAt(i).xyz, v, KEPT_PUSH(pushAwayAt(i)))), 0.0);
+  prediction[i] = vec4(insideWalls(predicted(positionAt(i).xyz, v, KEPT_WARM_ACCELERATION(warmAccelerationAt(i)))), 0.0);
 }

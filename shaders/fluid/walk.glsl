@@ -30,7 +30,7 @@ void rowRange(float low, float high, vec2 row, vec4 gaps, float reach, uint side
   end = cellStartAt(base + min(uint(part == 0u ? past : past - gridSize.x), size));
 }
 
-// `boxLow` to `boxHigh`: a box in one cell, in cells, that the lane's particle was in when the cells were sorted; `waits`: whether the lane wants neighbors.
+// `boxLow` to `boxHigh`: a box in one cell, in cells, that held the lane's particle when the cells were sorted; `waits`: whether the lane still has to visit its neighbors.
 // `reach` (m): at most a cell's edge in y.
 void walkGrid(vec3 boxLow, vec3 boxHigh, bool waits, float reach) {
   vec2 cell = floor(boxLow.yz);
@@ -44,7 +44,7 @@ void walkGrid(vec3 boxLow, vec3 boxHigh, bool waits, float reach) {
     takeTurn(mine);
 
     // Nine rows of cells, in two parts where the grid may wrap: every lane looks one up, then all go through them together. A row's parts follow each other,
-    // so that the order in which a particle meets its neighbors does not depend on who is in its cluster.
+    // so that the order of a particle's neighbors does not depend on the other particles of its cluster.
     vec4 gaps = vec4(low.yz - row, row + 1.0 - high.yz) / inverseCell.yzyz;
     float first = floor(low.x) - float(kCellsPerReach) - 1.0, last = floor(high.x) + float(kCellsPerReach) + 1.0;
     uint parts = wrapped(vec3(first, row)).x + (last - first) >= gridSize.x ? 2u : 1u;

@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "fluid/solids.glsl"
-#include "fluid/near.glsl"
+#include "fluid/wall_samples.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 0) const uint CORNER = 0;
 layout(constant_id = 1) const uint SOLIDS = 0;
@@ -135,9 +135,9 @@ vec4 solidSample(SolidRecord s, vec3 x) {
 }
 
 void store(uint i, vec4 displaced, vec3 beside) {
-  beside = min(beside, vec3(kMaxBeside));
+  beside = min(beside, vec3(kMaxWallCoverage));
   nearSample[NEAR_DISPLACED(i)] = displaced;
-  nearSample[NEAR_ALONG(i)] = vec4(beside / (1.0 - beside), 0.0);
+  nearSample[NEAR_TANGENTIAL(i)] = vec4(beside / (1.0 - beside), 0.0);
 }
 
 void main() {

@@ -8,14 +8,15 @@ RILL_CONST uint kFluidGroup = 64u;        // invocations a workgroup of every pe
 RILL_CONST uint kListBlock = 4096u;       // particles a block of the neighbor list: k-major inside a block
 RILL_CONST uint kCellsPerReach = 2u;       // grid cells in x as long as one in y or z
 RILL_CONST uint kSettleSubsteps = 512u;    // at most, before the first substep in time
-RILL_CONST uint kMaxPressings = 1024u;    // iterations that find the pressure of the start, at most, after those
-RILL_CONST float kMaxCalming = 0.5f;     // XSPH coefficient of a calm pass, at most
-RILL_CONST float kMaxBeside = 0.4f;       // of the kernel, behind walls: at most so much is made up for. See ARCHITECTURE.md, "Walls and solids"
+RILL_CONST uint kMaxInitialPressureIterations = 1024u;    // iterations of the initial pressure, at most, after settling
+RILL_CONST float kMaxNoiseDamping = 0.5f;     // XSPH coefficient of a noise damping pass, at most
+RILL_CONST float kMaxWallCoverage = 0.4f;       // share of the kernel behind walls that the tangential scale makes up for, at most. See ARCHITECTURE.md, "Walls and solids"
 RILL_CONST uint kWindow = 32u;            // candidates that a grid walk looks at together, a bit of a mask each
 // Candidates that the particles of a cluster look at together, at most, in whole windows; more are counted as a bound hit. Lavapipe ends a shader after 65,535
 // steps of its loops: a window takes about 20 where a cluster is 4, so that 1,024 windows leave room for the loops around them.
 RILL_CONST uint kWalkBound = 32768u;
-RILL_CONST float kParked = 1.0e9f;        // m: where the dummy neighbor sits that pads the list
+RILL_CONST float kInactivePosition = 1.0e9f;        // m: position of inactive particles and of the dummy neighbor that pads the list
+RILL_CONST float kNoWall = 1.0e9f;        // m, a coordinate
 RILL_CONST float kMultiplierScale = 1024.0f;  // multipliers travel as halves in units of 1 / (restGradient * this)
 
 // Dispatch commands that the device switches on and off.
@@ -23,7 +24,7 @@ RILL_CONST uint kCommandPredict = 0u;
 RILL_CONST uint kCommandDensity = 1u;         // the passes over neighbors: 1 to 5
 RILL_CONST uint kCommandCorrect = 2u;         // two of them, by the parity of the substep recorded
 RILL_CONST uint kCommandIterate = 4u;
-RILL_CONST uint kCommandCalm = 5u;
+RILL_CONST uint kCommandNoiseDamping = 5u;
 RILL_CONST uint kCommandPose = 6u;            // one group, with the density pass
 RILL_CONST uint kCommandKeys = 7u;            // the rebuild
 RILL_CONST uint kCommandReorder = 8u;
@@ -52,10 +53,10 @@ struct FluidParams {
   float gradientScale;    // of its gradient's polynomial, negative, 1/m^2 (see kernel.glsl)
   float inverseRestGradient;  // 1 / sum |grad K|^2 of the rest lattice, m^2
   float regularization;   // epsilon times sum |grad K|^2 of the rest lattice, 1/m^2
-  float calmRelaxation, roughRelaxation;  // omega of a fluid at rest, and of one that moves at roughSpeed (see calmness.glsl)
-  float calmWarmGain, roughWarmGain;      // kappa, likewise
-  float roughSpeed;       // m/s; 0: never calm
-  float calmShare;        // of a substep in the mean error that the step follows in a fluid at rest
+  float relaxationAtRest, relaxationInMotion;  // omega of a fluid at rest, and of one that moves at motionSpeed (see restFraction.glsl)
+  float warmGainAtRest, warmGainInMotion;      // kappa, likewise
+  float motionSpeed;       // m/s; 0: never at rest
+  float errorRateShareAtRest;        // of a substep in the mean error that the step follows in a fluid at rest
   float warmRelease;      // times kappa where density is below rest density
   float reach;            // m, support plus skin: the list holds what was nearer when it was built
   float travelLimit;      // m that the fastest particle may move before the list is rebuilt
@@ -64,8 +65,8 @@ struct FluidParams {
   float tolerance;        // mean compression aimed for; 0: none
   uint maxSubsteps;       // an advance
   uint iterations;        // Jacobi iterations a substep, at most
-  float lowX, lowY, lowZ;     // m, walls; -kParked where there is none
-  float highX, highY, highZ;  // m; kParked where there is none
+  float lowX, lowY, lowZ;     // m, walls; -kNoWall where there is none
+  float highX, highY, highZ;  // m; kNoWall where there is none
   float margin;           // m, how near a center may come to a wall or a solid: half a spacing
   uint gridSizeX, gridSizeY, gridSizeZ;  // cells a dimension
   float inverseCell;      // 1/m, in y and z
@@ -77,27 +78,27 @@ struct FluidParams {
   uint tableOffset3;
   uint tableOffsetFace;
   float viscosityRate;    // XSPH coefficient a second of step, 1/s
-  float calmingRate;      // the same, of the noise's damping in a fluid at rest
+  float noiseDampingRate;      // the same, of the noise's damping in a fluid at rest
   float vorticity;        // dimensionless
   float tensileRate;      // artificial pressure, 1/s^2: times the square of the time since the last one it is a multiplier over 1 / D of the rest lattice
-  float tensileMost;      // and at most this
+  float tensileLimit;      // and at most this
   float tensilePower;     // n
   float tensileInverse;   // 1 / K(delta q)
   float tensileAtRest;    // share of neighbors at rest, which is taken off: see engine/sph/artificial_pressure.hpp
   float particleMass;     // kg
   uint gravityChanges;    // entries of the schedule
-  float farLimit;         // m from the origin beyond which a particle is parked
+  float farLimit;         // m from the origin beyond which a particle becomes inactive
   float nearLimit;        // m from a wall or a solid's surface within which a particle is listed as near
   float solidSpeed;       // m/s, the fastest solid that keyframes move
   float pushLow, pushHigh;  // m/s: what a correction may add to a speed in a substep is held between them
   float speedLimit;       // m/s, of any particle
   float warmLimit;        // m^2/s^2: the warm start is at most this times the step squared
-  float boundLowX, boundLowY, boundLowZ;     // m, the domain, open sides too: who is beyond counts as outside
+  float boundLowX, boundLowY, boundLowZ;     // m, the domain, open sides too: particles beyond it count as outside
   float boundHighX, boundHighY, boundHighZ;
-  uint pressings;         // iterations that find the pressure of the start (see engine/sph/start_pressure.hpp); 0: it starts without
-  float pressStep;        // s, the step that it is found for
-  float pressMomentum;    // of a multiplier's last change, what is added to the next
-  float pressError;       // mean compression of the start up to which it is looked for
+  uint initialPressureIterations;         // iterations that find the pressure of the start (see engine/sph/start_pressure.hpp); 0: it starts without
+  float initialPressureStep;        // s, the step that it is found for
+  float initialPressureMomentum;    // of a multiplier's last change, what is added to the next
+  float initialPressureErrorLimit;       // mean compression of the start up to which it is looked for
   uint fullNeighbors;    // within the support: a particle with as many is inside the fluid
 };
 
@@ -124,17 +125,17 @@ struct FluidControl {
   uint again;          // so does the next iteration
   float relaxation, nextRelaxation;  // omega of this substep, and of the next, whose density pass comes before control.comp
   float warmGain, nextWarmGain;      // kappa, likewise
-  float errorRate;     // mean compression over the step's square, 1/s^2; in calm fluid a mean over many steps
-  float calmness;      // 1: at rest, 0: at roughSpeed or faster
-  float calming;       // XSPH coefficient of the calm pass after this substep; 0: it does not run
-  float parting;       // artificial pressure of this substep, over 1 / D of the rest lattice; 0 in all but the first of a block
+  float errorRate;     // mean compression over the step's square, 1/s^2; in fluid at rest a mean over many steps
+  float restFraction;      // 1: at rest, 0: at motionSpeed or faster
+  float noiseDamping;       // XSPH coefficient of the noise damping pass after this substep; 0: it does not run
+  float artificialPressure;       // artificial pressure of this substep, over 1 / D of the rest lattice; 0 in all but the first of a block
   float blockTime;     // s since the last substep that was the first of its block
   uint settling;       // substeps left, at most, in which particles that overlap at the start part without gaining speed
   float solidSpeed;    // m/s, the fastest solid of the advance
-  uint pressing;       // iterations left, after settling, that find the start's pressure: nothing moves
+  uint initialPressure;       // iterations of the initial pressure left, after settling; nothing moves
   float momentum;      // of the one at hand; negative: the substep at hand is none of them
-  // Since the start, what prepares it too: for the host, which takes differences. Of the substeps, the first ones of their blocks; of these, those that the calm pass ran in.
-  uint ranSubsteps, ranIterations, ranBuilds, ranBlocks, ranCalms;
+  // Since the start, what prepares it too: for the host, which takes differences. Of the substeps, the first ones of their blocks; of these, those that the noise damping pass ran in.
+  uint executedSubsteps, executedIterations, executedBuilds, executedBlocks, executedNoiseDampings;
 };
 
 // Sums of the passes of one substep; integers, so that their order does not matter.
@@ -142,7 +143,7 @@ struct FluidSums {
   uint errorLow, errorHigh;  // 64-bit sum of compression in units of kErrorUnit
   uint errorMax;             // bits of the largest compression
   uint speedMax;             // bits of the largest speed
-  uint nonFinite;            // particles parked since the start
+  uint nonFinite;            // particles that became inactive since the start
   uint overflow;             // particles with more neighbors than the list holds, at the last build
   uint boundHits;            // loops cut at their bound since the start
   uint planeCount;           // particles near one wall, at the last build
@@ -192,7 +193,7 @@ struct MeasurePartial {
   float velocityX, velocityY, velocityZ;
   float positionX, positionY, positionZ;
   uint outside;
-  uint parked;                         // outside, and in no other figure
+  uint inactive;                         // outside, and in no other figure
 };
 RILL_CONST uint kMeasureFirst = 107u << 9;          // bin 0: |C| = 2^-20, by the top bits of the float
 RILL_CONST uint kMeasureBins = 23u << 9;            // up to 8, 512 bins an octave
@@ -207,7 +208,7 @@ struct MeasureResult {
 
 struct SweepPush {
   uint first, last;    // as in ChunkPush
-  float share;         // 1 / sweeps; 0: the calm pass
+  float share;         // 1 / sweeps; 0: the noise damping pass
 };
 
 struct ChunkPush {

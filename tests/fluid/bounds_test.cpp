@@ -68,8 +68,8 @@ TEST_F(BoundsTest, SoftFluidTakesShorterSteps) {
   const FluidSetup soft = setupOf(scene);
   EXPECT_NEAR(soft.params.maxStep / usual.params.maxStep, std::sqrt(1.02 / 2), 1e-3);
   EXPECT_NEAR(soft.firstStep / usual.firstStep, std::sqrt(1.02 / 2), 1e-3);
-  EXPECT_NEAR(soft.params.roughWarmGain, 0.1 * 1.02 / 2, 1e-6);
-  EXPECT_EQ(usual.params.roughWarmGain, 0.1f);
+  EXPECT_NEAR(soft.params.warmGainInMotion, 0.1 * 1.02 / 2, 1e-6);
+  EXPECT_EQ(usual.params.warmGainInMotion, 0.1f);
   EXPECT_TRUE(warned(soft, "solver.warm_start 0.1 ")) << "a gain that is not taken is said";
   EXPECT_FALSE(warned(usual, "solver.warm_start"));
 }

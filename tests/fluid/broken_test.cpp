@@ -1,4 +1,4 @@
-// Particles that are not numbers: parked, counted, and never noticed by the others.
+// Particles that are not numbers: inactive, counted, and never noticed by the others.
 #include <algorithm>
 #include <cmath>
 #include <limits>

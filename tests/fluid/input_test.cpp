@@ -65,7 +65,7 @@ TEST_F(FluidInput, StepsThatCannotBe) {
   auto run = start(t);
   run->advance(0.01);
   const Snapshot before = run->snapshot();
-  const auto mistake = [&](const FluidStep& step) {
+  const auto invalid = [&](const FluidStep& step) {
     Graph graph;
     (void)run->fluid().addTo(graph, step);
     const auto compiled = graph.compile();
@@ -73,12 +73,12 @@ TEST_F(FluidInput, StepsThatCannotBe) {
     EXPECT_EQ(compiled.error().kind, ErrorKind::BadInput);
     return compiled.error().message;
   };
-  EXPECT_EQ(mistake({.advance_s = kNan}), "FluidStep::advance_s is nan; expected a finite time of at least 0 (s)");
-  EXPECT_EQ(mistake({.advance_s = -0.1}), "FluidStep::advance_s is -0.1; expected a finite time of at least 0 (s)");
-  EXPECT_EQ(mistake({.advance_s = kInf}), "FluidStep::advance_s is inf; expected a finite time of at least 0 (s)");
-  EXPECT_EQ(mistake({.advance_s = 1e300}), "FluidStep::advance_s is 1e+300; expected a finite time of at least 0 (s)");
+  EXPECT_EQ(invalid({.advance_s = kNan}), "FluidStep::advance_s is nan; expected a finite time of at least 0 (s)");
+  EXPECT_EQ(invalid({.advance_s = -0.1}), "FluidStep::advance_s is -0.1; expected a finite time of at least 0 (s)");
+  EXPECT_EQ(invalid({.advance_s = kInf}), "FluidStep::advance_s is inf; expected a finite time of at least 0 (s)");
+  EXPECT_EQ(invalid({.advance_s = 1e300}), "FluidStep::advance_s is 1e+300; expected a finite time of at least 0 (s)");
   const SolidTarget nobody[] = {{.solid = 0}, {.solid = 7}};
-  EXPECT_EQ(mistake({.advance_s = 0.01, .targets = nobody}), "FluidStep::targets[1].solid is 7; the scene has 1 solid");
+  EXPECT_EQ(invalid({.advance_s = 0.01, .targets = nobody}), "FluidStep::targets[1].solid is 7; the scene has 1 solid");
   for (const double v : run->fluid().drivenCenter(7)) EXPECT_TRUE(std::isnan(v));
   EXPECT_TRUE(std::isfinite(run->fluid().drivenCenter(0)[0]));
   EXPECT_EQ(run->snapshot(), before);

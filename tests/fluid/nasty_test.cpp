@@ -240,9 +240,9 @@ TEST_F(NastyTest, ListsThatOverflowForAWhile) {
   for (size_t i = 0; i < listed.x.size(); ++i) EXPECT_LT(glm::length(listed.x[i] - walked.x[i]), 1e-3 * t.d()) << i;
 }
 
-// More particles in one cell than a walk looks at: it ends, and says so. They are parked (a start that is not finite), which puts them all
-// into the first cell of the wrapped grid but lets none of them walk: one cluster alone has the long way, so that this is quick on every
-// driver.
+// More particles in one cell than a walk looks at: it ends, and says so. They are inactive (a start that is not finite), which puts them
+// all into the first cell of the wrapped grid but lets none of them walk: one cluster alone has the long way, so that this is quick on
+// every driver.
 TEST_F(NastyTest, AWalkIsBoundedAndSaysSo) {
   Trial t = trial();
   t.scene.gravity[1] = 0;

@@ -51,9 +51,9 @@ reference::ReferenceSettings settingsOf(const Trial& trial) {
   s.solids = scene.solids;
   s.tabulated = true;
   s.iterations = static_cast<int>(scene.solver.iterations);
-  s.relaxation = setup.params.roughRelaxation;
+  s.relaxation = setup.params.relaxationInMotion;
   s.regularization = scene.solver.regularization.value();
-  s.warmStart = setup.params.roughWarmGain;
+  s.warmStart = setup.params.warmGainInMotion;
   s.tensile = scene.fluid.tensile;
   s.tensileRadius = scene.fluid.tensile_radius;
   s.tensilePower = scene.fluid.tensile_power;
@@ -61,9 +61,9 @@ reference::ReferenceSettings settingsOf(const Trial& trial) {
   s.viscositySweeps = scene.fluid.viscosity > 0 ? static_cast<int>(setup.viscositySweeps) : 1;
   s.vorticity = scene.fluid.vorticity;
   s.warmLimit = setup.params.warmLimit;
-  s.roughSpeed = setup.params.roughSpeed;
-  s.calmRelaxation = setup.params.calmRelaxation;
-  s.calmWarmStart = setup.params.calmWarmGain;
+  s.motionSpeed = setup.params.motionSpeed;
+  s.relaxationAtRest = setup.params.relaxationAtRest;
+  s.calmWarmStart = setup.params.warmGainAtRest;
   s.calmViscosity = setup.artificialViscosity;
   s.substepsPerBlock = trial.stepwise ? 1 : static_cast<int>(setup.substepsPerBlock);
   s.pushLow = setup.params.pushLow;
@@ -178,7 +178,8 @@ double Snapshot::fastest() const {
 
 Oracle::Oracle(const Trial& trial) : trial_(trial), solver_(settingsOf(trial), rounded(trial.x), rounded(trial.v)) {
   const FluidParams p = setupOf(trial).params;
-  if (trial.settle && p.pressings > 0) solver_.press(p.pressStep, p.pressMomentum, static_cast<int>(p.pressings));
+  if (trial.settle && p.initialPressureIterations > 0)
+    solver_.press(p.initialPressureStep, p.initialPressureMomentum, static_cast<int>(p.initialPressureIterations));
   solver_.begin(trial.step);
 }
 

@@ -25,7 +25,7 @@ struct Trial {
   double step = 1e-3;            ///< s
   Gather gather = Gather::Texel;
   bool settle = false;    ///< the oracle finds the start's pressure, but parts nobody: what settles should fit its room
-  bool stepwise = false;  ///< each substep is an advance of its own: the calm pass then runs in every one
+  bool stepwise = false;  ///< each substep is an advance of its own: the noise damping pass then runs in every one
 
   double d() const { return scene.fluid.spacing; }
   Scene timedScene() const;  ///< with the step as its longest one

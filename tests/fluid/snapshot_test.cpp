@@ -33,8 +33,9 @@ class SnapshotTest : public FluidTest {
   /// Fills all that a snapshot does not bring with numbers that make no sense: what reads it before it is written stands out.
   void poison(const Fluid& fluid) {
     const FluidBuffers& b = fluid.impl().buffers();
-    std::vector<const Buffer*> all = {&b.position,   &b.velocity,      &b.prediction, &b.pushAway, &b.work,       &b.warm,    &b.id,
-                                      &b.multiplier, &b.neighborCount, &b.cell,       &b.start,    &b.nearSample, &b.nearList};
+    std::vector<const Buffer*> all = {&b.position, &b.velocity,   &b.prediction, &b.warmAcceleration, &b.work,
+                                      &b.warm,     &b.id,         &b.multiplier, &b.neighborCount,    &b.cell,
+                                      &b.start,    &b.nearSample, &b.nearList};
     for (const Buffer& list : b.lists) all.push_back(&list);
     Graph graph;
     graph.pass("poison", [&](Pass& pass) {

@@ -230,7 +230,7 @@ TEST_F(SubstepTest, ThreeIterations) {
   expectEqual(t, 10, kTen, kTen, kAgeing);
 }
 
-// As the calm pass: by as much as the time since the last block's first substep asks for.
+// As the noise damping pass: by as much as the time since the last block's first substep asks for.
 TEST_F(SubstepTest, TensileOnceABlock) {
   Trial t = calmed();
   t.scene.fluid.tensile = 1;

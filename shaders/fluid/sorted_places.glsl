@@ -1,7 +1,7 @@
 // Bindings 2 to 5 of the passes that move particles into the order of their cells: what the sort gave. A slot of the sorted arrays is taken for one particle, which
 // belongs into another slot of the same cell.
-#ifndef RILL_ARRIVALS_GLSL
-#define RILL_ARRIVALS_GLSL
+#ifndef RILL_SORTED_PLACES_GLSL
+#define RILL_SORTED_PLACES_GLSL
 #include "shared/arrays.glsl"
 READ_UINT(2, key)
 READ_UINT(3, start)

@@ -1,6 +1,6 @@
-// What begin.comp, arm.comp and control.comp share: switching a dispatch command, simulated time, gravity's schedule.
-#ifndef RILL_SWITCHES_GLSL
-#define RILL_SWITCHES_GLSL
+// Shared by begin.comp, finish_rebuild.comp and control.comp: enabling dispatch commands, simulated time, the gravity schedule.
+#ifndef RILL_DISPATCH_COMMANDS_GLSL
+#define RILL_DISPATCH_COMMANDS_GLSL
 // `shapes` holds the group counts of each command, `commands` what the device dispatches.
 void switchCommand(uint k, bool on, FluidSums s) {
   uvec3 groups = uvec3(shapes[3u * k], shapes[3u * k + 1u], shapes[3u * k + 2u]);
@@ -16,25 +16,25 @@ void switchCommand(uint k, bool on, FluidSums s) {
 }
 
 // Which commands run, once the control block is settled. `parity`: of the substep whose density pass has just run; 2: none has.
-bool commandRuns(uint k, FluidControl c, uint parity, FluidSums s) {
+bool shouldRun(uint k, FluidControl c, uint parity, FluidSums s) {
   bool walks = k >= kCommandWalks && k < kCommandSort;
   if (walks) k = k - kCommandWalks + kCommandDensity;
-  bool gathers = k >= kCommandDensity && k <= kCommandCalm;
+  bool gathers = k >= kCommandDensity && k <= kCommandNoiseDamping;
   if (gathers && walks != (params.listCapacity == 0u || s.overflow > 0u)) return false;
   bool rebuild = c.stale == 2u || (c.stale == 1u && c.timeLeft > 0.0);
   if (k == kCommandDensity || k == kCommandPose || k == kCommandPlane || k == kCommandCorner) return c.running != 0u;
   if (k == kCommandCorrect || k == kCommandCollide) return parity == 0u;
   if (k == kCommandCorrect + 1u || k == kCommandCollide + 1u) return parity == 1u;
-  if (k == kCommandCalm) return parity != 2u && c.calming > 0.0;
+  if (k == kCommandNoiseDamping) return parity != 2u && c.noiseDamping > 0.0;
   if (k == kCommandIterate || k == kCommandPlaneAgain || k == kCommandCornerAgain) return c.again != 0u;
   if (k == kCommandMeasurePlane || k == kCommandMeasureCorner) return true;
   if (k == kCommandPredict) return parity == 2u && c.timeLeft > 0.0;
   return rebuild;
 }
 
-// One invocation does it all: a workgroup that has to meet at a barrier costs lavapipe more.
+// In one invocation: a barrier costs lavapipe more than the loop.
 void switchCommands(uint count, FluidControl c, uint parity, FluidSums s) {
-  for (uint k = 0u; k < count; ++k) switchCommand(k, commandRuns(k, c, parity, s), s);
+  for (uint k = 0u; k < count; ++k) switchCommand(k, shouldRun(k, c, parity, s), s);
 }
 
 // Adds to the two-float sum (Knuth's TwoSum).
@@ -45,7 +45,7 @@ void addTime(inout FluidControl c, float step) {
   c.timeLow = rest;
 }
 
-// Gravity from the schedule's last entry that is due; entry 0 is the scene's own, due at once.
+// Gravity from the last schedule entry up to the present time; entry 0 is the scene's own, at time 0.
 void gravityAt(inout FluidControl c) {
   for (uint n = 0u; n < params.gravityChanges && c.gravityIndex < params.gravityChanges; ++n) {
     vec4 change = gravityChanges[c.gravityIndex];

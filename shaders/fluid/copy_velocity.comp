@@ -1,5 +1,5 @@
 #version 460
-// Takes over the velocities of an odd number of viscosity sweeps.
+// Copies the velocities back after an odd number of viscosity sweeps.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 layout(local_size_x = kFluidGroup) in;

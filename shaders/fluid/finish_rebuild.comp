@@ -1,5 +1,5 @@
 #version 460
-// After a list build: the list is fresh, the substeps of the block may run.
+// After a list build: enables the substeps of the block.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/fluid_records.h"
 layout(local_size_x = 1) in;
@@ -9,7 +9,7 @@ layout(std430, binding = 2) readonly buffer SumsBlock { FluidSums sums; };
 layout(std430, binding = 3) readonly buffer ShapeBlock { uint shapes[]; };
 layout(std430, binding = 4) buffer CommandBlock { uint commands[]; };
 layout(std430, binding = 5) readonly buffer GravityBlock { vec4 gravityChanges[]; };
-#include "fluid/switches.glsl"
+#include "fluid/dispatch_commands.glsl"
 
 void main() {
   FluidControl c = control;
@@ -17,7 +17,7 @@ void main() {
   c.stale = c.timeLeft > 0.0 ? 0u : 1u;  // a list of the start state, for figures alone: the first advance makes one of its predictions
   c.travel = 0.0;
   c.builds += 1u;
-  c.ranBuilds += 1u;
+  c.executedBuilds += 1u;
   c.running = c.timeLeft > 0.0 ? 1u : 0u;
   control = c;
   FluidSums s = sums;
