@@ -14,8 +14,8 @@ struct GridSize {
 /// What a grid of so many particles has at most.
 uint64_t maxGridCells(uint64_t particles);
 
-/// Dimensions that cover `extent` (m) where that takes at most about four cells a particle, else wrapped, the longest dimension halved first.
-/// Clearing and scanning cost a cell what a sort costs a particle, so more cells than that buy nothing.
+/// Dimensions that cover `extent` (m) where that takes at most about four cells a particle, else wrapped, the longest dimension halved
+/// first. Clearing and scanning cost a cell what a sort costs a particle, so more cells than that buy nothing.
 GridSize chooseGridSize(double cell, const double extent[3], uint64_t particles);
 
 }  // namespace rill
