@@ -19,6 +19,8 @@ run   libvulkan1              the Vulkan loader
 run   fonts-dejavu-core       DejaVu Sans (typeface of the viewer)
 run   mesa-vulkan-drivers     a Vulkan 1.3 driver (Mesa: lavapipe needs no GPU)
 test  clang                   clang (public headers are compiled by it, too)
+test  git                     git (the files that the checks of format look at)
+test  doxygen                 Doxygen 1.9 or newer (the pages of the public headers)
 test  libgtest-dev            GoogleTest
 test  libvulkan-volk-dev      volk (a host of the tests calls Vulkan through it)
 test  pkgconf                 pkg-config (a host of the tests is built with it)
@@ -29,6 +31,8 @@ test  gnuplot-nox             gnuplot (the diagrams of rill-bench)
 test  vulkan-validationlayers the Khronos validation layer
 test  xvfb                    Xvfb (a display for windows of the viewer)
 test  xauth                   xauth (which xvfb-run needs)
+test? clang-format-14         clang-format 14 (later ones break lines elsewhere)
+test? clang-tidy-14           clang-tidy 14
 test? chromium-common         SwiftShader (libvk_swiftshader.so with its vk_swiftshader_icd.json)
 '
 

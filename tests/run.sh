@@ -3,6 +3,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . apps/setup.sh
+. tests/format/tools.sh
 
 usage() {
   cat <<'END'
@@ -79,6 +80,9 @@ if [ -n "$swiftshader" ]; then
 else
   results+=("SwiftShader: this system has no package of it (chromium-common), so not tested")
 fi
+for tool in clang-format clang-tidy; do
+  [ -n "$(clang_tool $tool)" ] || results+=("$tool: version $clang_version is not installed, so its test was skipped")
+done
 [ $long = no ] || run_tests "lavapipe, long tests" "$lavapipe" $none -L '^long$' "$@"
 
 phase "Results"

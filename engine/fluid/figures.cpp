@@ -53,8 +53,8 @@ std::vector<FluidPassRuns> FluidImpl::passRuns() const {
 
 void FluidImpl::poll() const {
   while (!pending_.empty()) {
-    FluidControl control;
-    FluidSums sums;
+    FluidControl control{};
+    FluidSums sums{};
     const auto finished = [&](const Pending& p) {
       const auto graph = p.graph.lock();
       return graph && read(graph->data(p.control), control) && read(graph->data(p.sums), sums);

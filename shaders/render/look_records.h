@@ -15,7 +15,9 @@ struct LookRecord {
   vec4 absorption;  // 1/m; w: index of refraction
   vec4 scatter;     // what the fluid's inside sends back where it is thick; w: 1 where it is opaque
   vec4 light;       // direction to the sun; w: its radiance over the sky's
-  vec4 finish;      // x: exponent of the sun's highlight, y: pixels a side of the thickness buffer's samples, z: m of its counts, w: how white torn fluid is
+  // x: exponent of the sun's highlight, y: pixels a side of the thickness buffer's samples, z: m of
+  // its counts, w: how white torn fluid is
+  vec4 finish;
   vec4 above;       // light of the environment on what looks up; w: its width in texels, 0: there is none
   vec4 below;       // and on what looks down; w: its height
 };

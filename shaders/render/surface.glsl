@@ -53,8 +53,9 @@ float metersAPixel(float z) { return abs(view.scale[1]) * 2.0 / float(view.heigh
 vec3 rayFrom(vec2 axis) { return view.perspective > 0.0 ? vec3(0.0) : vec3(axis, 0.0); }
 vec3 rayAlong(vec2 axis) { return view.perspective > 0.0 ? vec3(axis, 1.0) : vec3(0.0, 0.0, 1.0); }
 
-// Depth of the near side of a sphere along a ray, or of the near plane where that cuts it; negative where it misses or lies before the near plane. Measured from the ray's
-// nearest point to the center, so that a small sphere far away keeps its precision.
+// Depth of the near side of a sphere along a ray, or of the near plane where that cuts it; negative
+// where it misses or lies before the near plane. Measured from the ray's nearest point to the
+// center, so that a small sphere far away keeps its precision.
 float sphereDepth(vec3 center, float radius, vec2 axis) {
   const vec3 from = rayFrom(axis), along = rayAlong(axis);
   const float inverse = 1.0 / dot(along, along);
@@ -71,8 +72,8 @@ float raySquare(vec3 point, vec2 axis) {
   return dot(miss, miss);
 }
 
-// Between which axes a sphere is seen that the near plane cuts: on each the tangents that touch it beyond that plane, and the ends of the plane's own section
-// (Mara and McGuire 2013).
+// Between which axes a sphere is seen that the near plane cuts: on each the tangents that touch it
+// beyond that plane, and the ends of the plane's own section (Mara and McGuire 2013).
 void cutExtent(vec3 center, float radius, out vec2 low, out vec2 high) {
   const vec2 from_eye = center.xy * center.xy + center.z * center.z, tangent = sqrt(max(from_eye - radius * radius, 0.0));
   const vec2 high_z = tangent * center.z - center.xy * radius, low_z = tangent * center.z + center.xy * radius;
@@ -161,8 +162,8 @@ vec3 unpackNormal(uint packed) {
   return normalize(n);
 }
 
-// A pixel of the surface: depth and normal, and how much of it is fluid. Where that is less than half, the depth's sign is set: it reads as no fluid
-// to all but those who draw edges.
+// A pixel of the surface: depth and normal, and how much of it is fluid. Where that is less than
+// half, the depth's sign is set: it reads as no fluid to all but those who draw edges.
 uvec2 packPixel(float z, vec3 normal, float coverage) {
   if (coverage <= 0.0 || !(z < infinity())) return uvec2(kInfiniteBits, 0u);
   z = max(z, nearestDrawn());

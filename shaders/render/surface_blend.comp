@@ -24,6 +24,8 @@ void main() {
     return;
   }
   const Blend blend = blendAt(axis, hard);
-  samples[index] = blend.coverage >= 0.5 || solidAround(at) ? uvec2(floatBitsToUint(blend.depth), packNormal(blend.normal)) : uvec2(kInfiniteBits, 0u);
+  samples[index] = blend.coverage >= 0.5 || solidAround(at)
+                       ? uvec2(floatBitsToUint(blend.depth), packNormal(blend.normal))
+                       : uvec2(kInfiniteBits, 0u);
   if (bound_hit) atomicAdd(counters[kBoundHits], 1u);
 }

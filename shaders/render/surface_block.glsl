@@ -1,6 +1,7 @@
-// Kernels over samples run where there is fluid alone: a workgroup takes one of the listed blocks of kSampleBlock x kSampleBlock samples. Outside of those samples
-// stay as they were cleared. Define BLOCKS, the list's binding, before including; needs `counters`. With LEVELS a block has half as many samples a side on each
-// coarser level of a pyramid.
+// Kernels over samples run where there is fluid alone: a workgroup takes one of the listed blocks
+// of kSampleBlock x kSampleBlock samples. Outside of those samples stay as they were cleared.
+// Define BLOCKS, the list's binding, before including; needs `counters`. With LEVELS a block has
+// half as many samples a side on each coarser level of a pyramid.
 #ifdef LEVELS
 layout(local_size_x = kSampleBlock, local_size_y = kSampleBlock, local_size_x_id = 1, local_size_y_id = 1) in;
 layout(constant_id = 1) const uint kBlock = kSampleBlock;

@@ -1,6 +1,7 @@
 #version 460
-// The surface of the pixels of the tiles with fluid: between four samples that lie on one surface it is what they say. Where they do not, and there is fluid around,
-// the pixel is listed for surface_edges.comp: few are, and those few lie apart.
+// The surface of the pixels of the tiles with fluid: between four samples that lie on one surface
+// it is what they say. Where they do not, and there is fluid around, the pixel is listed for
+// surface_edges.comp: few are, and those few lie apart.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 
@@ -23,7 +24,8 @@ void main() {
   const uint index = pixel.y * view.width + pixel.x;
   const Corners c = cornersOf(vec2(pixel) + 0.5);
   if (c.agree) {
-    const vec4 weight = vec4((1.0 - c.part.x) * (1.0 - c.part.y), c.part.x * (1.0 - c.part.y), (1.0 - c.part.x) * c.part.y, c.part.x * c.part.y);
+    const vec4 weight = vec4((1.0 - c.part.x) * (1.0 - c.part.y), c.part.x * (1.0 - c.part.y), (1.0 - c.part.x) * c.part.y,
+                             c.part.x * c.part.y);
     // In perspective it is the inverse of depth that is linear across a plane.
     const vec4 each = vec4(c.depths[0], c.depths[1], c.depths[2], c.depths[3]);
     const float z = view.perspective > 0.0 ? 1.0 / dot(weight, 1.0 / each) : dot(weight, each);

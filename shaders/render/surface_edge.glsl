@@ -3,8 +3,9 @@
 const float kCoverReach = 1.2;  // spacings from a ray at which a center stops covering it
 // Of the sum, over a spacing across an edge: 1.22 at the rim of a ball, 1.28 at that of a half-plane with a particle a square spacing.
 const float kCoverSlope = 1.25;
-// Sums from which there is fluid. With planes each center is weighted by its plane's slant, in the loop that sums their heights (surface_blend.glsl);
-// the filters have no planes and sum in a loop of their own (surface_cover.glsl). So there are two loops, and two thresholds.
+// Sums from which there is fluid. With planes each center is weighted by its plane's slant, in the
+// loop that sums their heights (surface_blend.glsl); the filters have no planes and sum in a loop
+// of their own (surface_cover.glsl). So there are two loops, and two thresholds.
 const float kCoverSlanted = 0.6;
 const float kCoverBare = 0.7;
 

@@ -1,6 +1,7 @@
 #version 460
-// The listed pixels, whose samples do not lie on one surface: each has a look of its own. With FILTERED, where the samples come from a depth filter, that look tells
-// how much of the pixel is fluid, and the surface is a sample's.
+// The listed pixels, whose samples do not lie on one surface: each has a look of its own. With
+// FILTERED, where the samples come from a depth filter, that look tells how much of the pixel is
+// fluid, and the surface is a sample's.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 
@@ -47,7 +48,9 @@ Look lookAt(vec2 middle, ivec2 own, float nearest, float farthest) {
     best = badness;
     look.normal = c.normals[k];
     const float slope = dot(rayAlong(axis), look.normal), height = dot(c.points[k] - rayFrom(axis), look.normal);
-    look.z = slope < -0.05 * length(rayAlong(axis)) ? clamp(height / slope, c.depths[k] - view.spacing, c.depths[k] + view.spacing) : c.depths[k];
+    look.z = slope < -0.05 * length(rayAlong(axis))
+                 ? clamp(height / slope, c.depths[k] - view.spacing, c.depths[k] + view.spacing)
+                 : c.depths[k];
   }
   return look;
 }
@@ -56,7 +59,8 @@ Look lookAt(vec2 middle, ivec2 own, float nearest, float farthest) {
   const vec2 axis = axisOf(middle);
   Blend blend = blendAt(axis, nearest);
   float coverage = blend.coverage;
-  if (coverage < 1.0 && farthest > nearest + 0.5 * view.spacing) {  // an edge before other fluid is one without a pixel of what is behind both
+  // an edge before other fluid is one without a pixel of what is behind both
+  if (coverage < 1.0 && farthest > nearest + 0.5 * view.spacing) {
     const Blend behind = blendAt(axis, farthest);
     if (coverage < 0.5) blend = behind;
     coverage = max(coverage, behind.coverage) >= 0.5 ? 1.0 : behind.coverage;

@@ -1,7 +1,8 @@
 #version 460
-// One step of screen-space curvature flow (van der Laan, Green and Sainz 2009): depth moves with the surface's mean curvature. Beyond an edge
-// of depth the surface goes on as it is, so that silhouettes neither shrink nor are pulled. Each sample takes as many steps as it needs: far
-// away, where samples are wide and steps are long, it soon has had its time.
+// One step of screen-space curvature flow (van der Laan, Green and Sainz 2009): depth moves with
+// the surface's mean curvature. Beyond an edge of depth the surface goes on as it is, so that
+// silhouettes neither shrink nor are pulled. Each sample takes as many steps as it needs: far away,
+// where samples are wide and steps are long, it soon has had its time.
 #extension GL_GOOGLE_include_directive : require
 #define RILL_PUSH_MORE uint turn;  // which step this is
 #include "render/surface.glsl"

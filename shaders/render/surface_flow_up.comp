@@ -1,6 +1,7 @@
 #version 460
-// From a level of the flow's pyramid to the finer one: what the four samples around say where they lie on this surface. At an edge, by how much the flow has moved
-// those that do: a mean of one side alone would lean.
+// From a level of the flow's pyramid to the finer one: what the four samples around say where they
+// lie on this surface. At an edge, by how much the flow has moved those that do: a mean of one side
+// alone would lean.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 #include "shared/arrays.glsl"

@@ -12,8 +12,9 @@ vec3 unpackMean(uint packed) {
   return vec3(q) / vec3(1023.0, 1023.0, 511.0);
 }
 
-// What depth may change by to a face `across` m away, m: a spacing, and a quarter of what this face's own slant makes of the way. That is enough for even water seen at
-// five degrees; with all of it torn water, whose faces are slanted anyhow, would be even, too.
+// What depth may change by to a face `across` m away, m: a spacing, and a quarter of what this
+// face's own slant makes of the way. That is enough for even water seen at five degrees; with all
+// of it torn water, whose faces are slanted anyhow, would be even, too.
 float changeOf(float spacing, float across, vec3 normal, vec3 sight) { return spacing + 0.25 * across / max(-dot(normal, sight), 0.04); }
 // From 1 at the same depth to 0 at kSameWater times `change` (m), and where there is no fluid (infinite).
 float sameWater(float behind, float change) {
@@ -21,7 +22,8 @@ float sameWater(float behind, float change) {
   return max(1.0 - off * off, 0.0);
 }
 
-// Samples that a mean over some spacings looks at on each side: kTaps at most, and where they lie closer than that, every second or third one.
+// Samples that a mean over some spacings looks at on each side: kTaps at most, and where they lie
+// closer than that, every second or third one.
 const int kTaps = 12;
 struct Taps {
   int stride;

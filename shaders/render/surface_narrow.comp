@@ -1,6 +1,6 @@
 #version 460
-// The narrow-range filter (Truong and Yuksel 2018), one dimension of it: a Gaussian over samples, of which those far in front are left out and those
-// far behind count as just behind.
+// The narrow-range filter (Truong and Yuksel 2018), one dimension of it: a Gaussian over samples,
+// of which those far in front are left out and those far behind count as just behind.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 #include "shared/arrays.glsl"

@@ -15,7 +15,9 @@ const float kFewest = 1.5;       // sum of the others' weights below which it is
 const float kFlattest = 0.6;     // least over middle eigenvalue above which it is one
 const float kCrease = 0.04;      // the same ratio above which two faces may meet here, and it is fitted again to its own
 const int kRefits = 2;         // times
-const float kToEye = 0.4;        // that the first plane leans to the eye: on a crease a particle is of the face that is seen, in every frame
+// that the first plane leans to the eye: on a crease a particle is of the face that is seen, in
+// every frame
+const float kToEye = 0.4;
 const float kSameFace = 0.9;     // spacings off the last plane within which others count then
 
 // The eigenvector of the least eigenvalue of a symmetric matrix (a b c; b d e; c e f), and the three eigenvalues, rising.

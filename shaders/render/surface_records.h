@@ -19,7 +19,9 @@ RILL_CONSTANT kSampleBlock = 8;        // samples a side of the blocks that are 
 RILL_CONSTANT kCellSamples = 4;        // samples a side of a cell of the screen grid
 RILL_CONSTANT kOccluderSamples = 2;    // samples a side of an occlusion cell
 RILL_CONSTANT kMaxCells = 160;         // cells a side that one particle hides, or is hidden by, at most
-RILL_CONSTANT kMarginSamples = 8;      // beyond each side of the picture: as far as a plane is fitted at three samples a spacing, the default
+// beyond each side of the picture: as far as a plane is fitted at three samples a spacing, the
+// default
+RILL_CONSTANT kMarginSamples = 8;
 RILL_CONSTANT kMaxRows = 48;          // rows of the screen grid that one walk visits at most
 RILL_CONSTANT kMaxInRow = 64;         // particles of one row that a walk visits at most
 RILL_CONSTANT kMaxInCell = 1024;      // particles of a cell that are put in order
@@ -46,7 +48,8 @@ RILL_CONSTANT kSampleBlockArguments = 20;
 RILL_CONSTANT kEdgeArguments = 24;
 RILL_CONSTANT kSurfaceArgumentWords = 28;
 
-// Camera and picture. ndc = pixel / size * 2 - 1; a pixel looks along x, y = (ndc - shift) * scale, times z where the view is in perspective.
+// Camera and picture. ndc = pixel / size * 2 - 1; a pixel looks along x, y = (ndc - shift) * scale,
+// times z where the view is in perspective.
 struct SurfacePush {
   float rows[12];      // to view space from positions as they are stored: three rows of four
   float scale[2];

@@ -10,8 +10,9 @@ bool solidAround(ivec2 at) {
 
 const float kSolid = 0.9683;  // share of half a pixel's coverage; none that straight edges have exactly
 
-// The same between samples, as a pixel's coverage by fluid: from the share of what lies within two and a half samples that spheres cover. At a straight edge it
-// changes by a fifth a sample, so that the coverage is as wide as a pixel, and 1 where all is covered.
+// The same between samples, as a pixel's coverage by fluid: from the share of what lies within two
+// and a half samples that spheres cover. At a straight edge it changes by a fifth a sample, so that
+// the coverage is as wide as a pixel, and 1 where all is covered.
 float solidCoverage(vec2 middle) {
   const ivec2 grid = ivec2(sampleGrid());
   const vec2 at = sampleOf(middle);

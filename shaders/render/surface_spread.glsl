@@ -1,6 +1,8 @@
-// Each invocation of a particle kernel visits the samples that its sphere may cover. The whole workgroup visits those of a sphere that covers many: near the eye one
-// fills the picture, and lavapipe ends a loop after 65,535 turns. Before including, define visit(center, radius, at), and visitedAll(owner) for what is to be done with what
-// an invocation found of another one's sphere; needs `counters`.
+// Each invocation of a particle kernel visits the samples that its sphere may cover. The whole
+// workgroup visits those of a sphere that covers many: near the eye one fills the picture, and
+// lavapipe ends a loop after 65,535 turns. Before including, define visit(center, radius, at), and
+// visitedAll(owner) for what is to be done with what an invocation found of another one's sphere;
+// needs `counters`.
 
 const int kOwnSamples = 1024;   // that an invocation visits by itself at most
 const int kMaxVisits = 60000;  // of one invocation for all large spheres of its workgroup

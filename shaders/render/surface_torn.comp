@@ -1,6 +1,7 @@
 #version 460
-// How torn the water is: lengths of mean normals, smoothed over a spacing and a half of all the fluid that is seen to each side, whatever its depth, one dimension of it. So it
-// changes from place to place, not from drop to drop. Directions stay.
+// How torn the water is: lengths of mean normals, smoothed over a spacing and a half of all the
+// fluid that is seen to each side, whatever its depth, one dimension of it. So it changes from
+// place to place, not from drop to drop. Directions stay.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 

@@ -1,15 +1,21 @@
-// Arrays that a shader reads: READ_FLOAT4(binding, particle) makes particleAt(k). With TEXEL they are uniform texel buffers (lavapipe loads a storage buffer lane
-// by lane, at three times the price), else storage buffers, for devices whose texel limits are small.
+// Arrays that a shader reads: READ_FLOAT4(binding, particle) makes particleAt(k). With TEXEL they
+// are uniform texel buffers (lavapipe loads a storage buffer lane by lane, at three times the
+// price), else storage buffers, for devices whose texel limits are small.
 #ifndef RILL_ARRAYS_GLSL
 #define RILL_ARRAYS_GLSL
 #ifdef TEXEL
 #define RILL_TEXELS(BINDING, NAME, SAMPLER) layout(set = 0, binding = BINDING) uniform SAMPLER NAME##Texels;
-#define READ_FLOAT4(BINDING, NAME) RILL_TEXELS(BINDING, NAME, samplerBuffer) vec4 NAME##At(uint k) { return texelFetch(NAME##Texels, int(k)); }
-#define READ_UINT(BINDING, NAME) RILL_TEXELS(BINDING, NAME, usamplerBuffer) uint NAME##At(uint k) { return texelFetch(NAME##Texels, int(k)).x; }
-#define READ_UINT4(BINDING, NAME) RILL_TEXELS(BINDING, NAME, usamplerBuffer) uvec4 NAME##At(uint k) { return texelFetch(NAME##Texels, int(k)); }
-#define READ_FLOAT(BINDING, NAME) RILL_TEXELS(BINDING, NAME, usamplerBuffer) float NAME##At(uint k) { return uintBitsToFloat(texelFetch(NAME##Texels, int(k)).x); }
+#define READ_FLOAT4(BINDING, NAME) RILL_TEXELS(BINDING, NAME, samplerBuffer) \
+  vec4 NAME##At(uint k) { return texelFetch(NAME##Texels, int(k)); }
+#define READ_UINT(BINDING, NAME) RILL_TEXELS(BINDING, NAME, usamplerBuffer) \
+  uint NAME##At(uint k) { return texelFetch(NAME##Texels, int(k)).x; }
+#define READ_UINT4(BINDING, NAME) RILL_TEXELS(BINDING, NAME, usamplerBuffer) \
+  uvec4 NAME##At(uint k) { return texelFetch(NAME##Texels, int(k)); }
+#define READ_FLOAT(BINDING, NAME) RILL_TEXELS(BINDING, NAME, usamplerBuffer) \
+  float NAME##At(uint k) { return uintBitsToFloat(texelFetch(NAME##Texels, int(k)).x); }
 #else
-#define RILL_STORAGE(BINDING, NAME, TYPE) layout(std430, set = 0, binding = BINDING) readonly buffer NAME##Block { TYPE NAME##Array[]; }; TYPE NAME##At(uint k) { return NAME##Array[k]; }
+#define RILL_STORAGE(BINDING, NAME, TYPE) layout(std430, set = 0, binding = BINDING) readonly buffer NAME##Block { TYPE NAME##Array[]; }; \
+  TYPE NAME##At(uint k) { return NAME##Array[k]; }
 #define READ_FLOAT4(BINDING, NAME) RILL_STORAGE(BINDING, NAME, vec4)
 #define READ_UINT(BINDING, NAME) RILL_STORAGE(BINDING, NAME, uint)
 #define READ_UINT4(BINDING, NAME) RILL_STORAGE(BINDING, NAME, uvec4)

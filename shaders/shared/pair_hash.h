@@ -1,4 +1,5 @@
-// A direction for two particles that (nearly) coincide, from their ids alone. Included by C++ and GLSL: integers only, so both agree to the last bit.
+// A direction for two particles that (nearly) coincide, from their ids alone. Included by C++ and
+// GLSL: integers only, so both agree to the last bit.
 #ifndef RILL_SHADERS_SHARED_PAIR_HASH_H
 #define RILL_SHADERS_SHARED_PAIR_HASH_H
 
@@ -31,7 +32,8 @@ RILL_PAIR_FUNCTION RILL_PAIR_UINT pairHash(RILL_PAIR_UINT idI, RILL_PAIR_UINT id
   return pairMix(lower ^ pairMix(upper + 0x9e3779b9u));
 }
 
-/// Component `axis` (0, 1, 2) of the direction from j to i, not normalized: odd, so never zero, within -1023 .. 1023. It changes sign when i and j are exchanged.
+/// Component `axis` (0, 1, 2) of the direction from j to i, not normalized: odd, so never zero,
+/// within -1023 .. 1023. It changes sign when i and j are exchanged.
 RILL_PAIR_FUNCTION RILL_PAIR_INT pairDirection(RILL_PAIR_UINT idI, RILL_PAIR_UINT idJ, RILL_PAIR_UINT axis) {
   RILL_PAIR_INT component = 2 * RILL_PAIR_INT((pairHash(idI, idJ) >> (10u * axis)) & 1023u) - 1023;
   return idI < idJ ? component : -component;

@@ -1,5 +1,6 @@
-// Counting sort: how many keys of each value, and each one's rank of arrival among its equals. Who makes a bin oversized lists it. The shader defines
-// COUNTERS, the first of three bindings; constants 0 and 1 are KeySort::counterConstants().
+// Counting sort: how many keys of each value, and each one's rank of arrival among its equals. Who
+// makes a bin oversized lists it. The shader defines COUNTERS, the first of three bindings;
+// constants 0 and 1 are KeySort::counterConstants().
 #ifndef RILL_COUNT_GLSL
 #define RILL_COUNT_GLSL
 #include "sort/sort_types.h"

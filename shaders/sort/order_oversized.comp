@@ -1,8 +1,9 @@
 #version 460
-// Counting sort: bins too large for sort/order_bins. Workgroup c + chunks * k takes listed bins k, k + binGroups and so on: it sets a bit for each
-// of a bin's indices that lies in the c-th chunk of all indices, counts the bin's indices below the chunk, and writes the set bits out in order. Linear in
-// the bin's size for each chunk of 65,536 indices, and no loop over a bin is longer than (keys / 256) + 520;
-// the bins are at most keys / 513, and share the keys.
+// Counting sort: bins too large for sort/order_bins. Workgroup c + chunks * k takes listed bins k,
+// k + binGroups and so on: it sets a bit for each of a bin's indices that lies in the c-th chunk of
+// all indices, counts the bin's indices below the chunk, and writes the set bits out in order.
+// Linear in the bin's size for each chunk of 65,536 indices, and no loop over a bin is longer than
+// (keys / 256) + 520; the bins are at most keys / 513, and share the keys.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require

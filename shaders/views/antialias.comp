@@ -1,6 +1,8 @@
 #version 460
-// Smooths the stairs that are left in a finished picture: edges of fluid before fluid, of solids, of what is seen bent. Where light changes sharply across a row of pixels,
-// the row is followed to both of its ends, and the pixel takes as much of its neighbor across as an edge between those ends would cover (Lottes 2009, FXAA).
+// Smooths the stairs that are left in a finished picture: edges of fluid before fluid, of solids,
+// of what is seen bent. Where light changes sharply across a row of pixels, the row is followed to
+// both of its ends, and the pixel takes as much of its neighbor across as an edge between those
+// ends would cover (Lottes 2009, FXAA).
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shared/arrays.glsl"
@@ -22,7 +24,8 @@ vec3 colorOf(uint pixel) { return vec3(pixel & 0xFFu, (pixel >> 8) & 0xFFu, (pix
 float lumaOf(uint pixel) { return dot(colorOf(pixel), vec3(0.299, 0.587, 0.114)); }
 float lumaAt(ivec2 p) { return lumaOf(pixelAt(p)); }
 
-// How far to a side (-1, 1) the edge goes on: to where the mean of both rows is no longer that of the edge. `off`: by how much it differs there.
+// How far to a side (-1, 1) the edge goes on: to where the mean of both rows is no longer that of
+// the edge. `off`: by how much it differs there.
 int endOf(ivec2 p, ivec2 along, ivec2 across, int side, float edge, float least, out float off) {
   off = 0.0;
   int end = 1;

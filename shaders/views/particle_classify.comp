@@ -21,7 +21,8 @@ void main() {
   for (int y = max(first.y - 1, 0); y <= min(last.y + 1, limit.y); ++y) {
     for (int x = max(first.x - 1, 0); x <= min(last.x + 1, limit.x); ++x) {
       const uint owner = winner[uint(y) * view.width + uint(x)];
-      const uint kind = 1u << (owner < kSolidBase ? kTilesFluid : (owner == kNobody ? kTilesSky : (owner == kFloorId ? kTilesFloor : kTilesSolid)));
+      const uint kind = 1u << (owner < kSolidBase ? kTilesFluid
+                                                  : (owner == kNobody ? kTilesSky : (owner == kFloorId ? kTilesFloor : kTilesSolid)));
       around |= kind;
       if (x >= first.x && x <= last.x && y >= first.y && y <= last.y) kinds |= kind;
     }
@@ -32,7 +33,8 @@ void main() {
   RILL_LOOP for (uint k = 0u; k < kEdges; ++k) {
     const EdgeRecord edge = edges[k];
     const float along = dot(edge.along.xy, middle);
-    if (edge.line.w > 0.0 && abs(dot(edge.line.xy, middle) + edge.line.z) < reach && along > edge.along.z - reach && along < edge.along.w + reach) {
+    if (edge.line.w > 0.0 && abs(dot(edge.line.xy, middle) + edge.line.z) < reach &&
+        along > edge.along.z - reach && along < edge.along.w + reach) {
       kinds |= 1u << kTilesEdge;
     }
   }

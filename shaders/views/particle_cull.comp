@@ -7,7 +7,8 @@ layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 0) readonly buffer Position { vec4 position[]; };
 layout(std430, set = 0, binding = 1) readonly buffer Occluders { uint occluders[]; };
 layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };
-layout(std430, set = 0, binding = 3) writeonly buffer Survivors { uint survivors[]; };  // small ones from the front, large ones from the back
+// small ones from the front, large ones from the back
+layout(std430, set = 0, binding = 3) writeonly buffer Survivors { uint survivors[]; };
 
 bool hidden(vec3 center, float radius, ivec4 rect) {
   const uint columns = (view.width + view.cell - 1u) / view.cell;

@@ -28,8 +28,10 @@ void markCells(vec3 center, float radius) {
   const vec2 middle = center.xy / center.z;
   const float side = 0.66 * radius / center.z;
   // Where a sphere is no deeper than some depth is convex on the screen: its depth over a rectangle is largest at a corner.
-  const vec4 corners = vec4(sphereDepth(center, radius, middle + vec2(-side, -side)), sphereDepth(center, radius, middle + vec2(side, -side)),
-                            sphereDepth(center, radius, middle + vec2(-side, side)), sphereDepth(center, radius, middle + vec2(side, side)));
+  const vec4 corners = vec4(sphereDepth(center, radius, middle + vec2(-side, -side)),
+                            sphereDepth(center, radius, middle + vec2(side, -side)),
+                            sphereDepth(center, radius, middle + vec2(-side, side)),
+                            sphereDepth(center, radius, middle + vec2(side, side)));
   if (min(min(corners.x, corners.y), min(corners.z, corners.w)) < 0.0) return;
   const uint bits = floatBitsToUint(max(max(corners.x, corners.y), max(corners.z, corners.w)));
   const vec2 limit = vec2(float(view.width), float(view.height));

@@ -1,5 +1,6 @@
 #version 460
-// Shades what nobody owns: the background, seen through the tank's walls. A workgroup is a tile of the list. Where no outline is near, this is the picture.
+// Shades what nobody owns: the background, seen through the tank's walls. A workgroup is a tile of
+// the list. Where no outline is near, this is the picture.
 #extension GL_GOOGLE_include_directive : require
 #include "views/particle_view.glsl"
 #include "views/particle_tiles.glsl"

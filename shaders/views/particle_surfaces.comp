@@ -1,5 +1,6 @@
 #version 460
-// The nearest floor or solid of every pixel; with LIGHT, the nearest solid of every texel of the light map; with BARE, for scenes without solids.
+// The nearest floor or solid of every pixel; with LIGHT, the nearest solid of every texel of the
+// light map; with BARE, for scenes without solids.
 #extension GL_GOOGLE_include_directive : require
 #include "views/particle_view.glsl"
 

@@ -11,10 +11,12 @@ layout(location = 1) flat out float half_width;
 void main() {
   const int axis = gl_InstanceIndex / 4, which = gl_InstanceIndex % 4;
   vec3 low = vec3(0.0), high = vec3(0.0);
-  const vec3 choice = axis == 0 ? vec3(0.0, which & 1, which >> 1) : (axis == 1 ? vec3(which & 1, 0.0, which >> 1) : vec3(which & 1, which >> 1, 0.0));
+  const vec3 choice = axis == 0 ? vec3(0.0, which & 1, which >> 1)
+                                : (axis == 1 ? vec3(which & 1, 0.0, which >> 1) : vec3(which & 1, which >> 1, 0.0));
   low = choice;
   high = choice + (axis == 0 ? vec3(1.0, 0.0, 0.0) : (axis == 1 ? vec3(0.0, 1.0, 0.0) : vec3(0.0, 0.0, 1.0)));
-  vec3 a = viewPoint(mix(scene.domain_min.xyz, scene.domain_max.xyz, low)), b = viewPoint(mix(scene.domain_min.xyz, scene.domain_max.xyz, high));
+  vec3 a = viewPoint(mix(scene.domain_min.xyz, scene.domain_max.xyz, low));
+  vec3 b = viewPoint(mix(scene.domain_min.xyz, scene.domain_max.xyz, high));
   // The part in front of the eye.
   const float near = max(view.near_depth, 1e-3 * abs(b.z - a.z));
   if (a.z < near && b.z < near) {

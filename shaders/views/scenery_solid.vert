@@ -20,6 +20,7 @@ void main() {
   const float side = (face & 1) == 0 ? -1.0 : 1.0, a = (corner & 1) == 0 ? -1.0 : 1.0, b = (corner & 2) == 0 ? -1.0 : 1.0;
   const vec3 unit = face < 2 ? vec3(side, a, b) : (face < 4 ? vec3(a, side, b) : vec3(a, b, side));
   const vec3 size = pose.center.w > 0.0 ? vec3(pose.center.w) : vec3(pose.axis_x.w, pose.axis_y.w, pose.axis_z.w);
-  const vec3 p = pose.center.xyz + unit.x * size.x * pose.axis_x.xyz + unit.y * size.y * pose.axis_y.xyz + unit.z * size.z * pose.axis_z.xyz;
+  const vec3 p = pose.center.xyz + unit.x * size.x * pose.axis_x.xyz + unit.y * size.y * pose.axis_y.xyz +
+                 unit.z * size.z * pose.axis_z.xyz;
   gl_Position = clipPoint(viewPoint(p));
 }

@@ -1,5 +1,6 @@
 #version 460
-// From linear light to RGBA8 in sRGB: up to 0.8 less 0.04 where there is as much, above that compressed towards white (Khronos' PBR Neutral).
+// From linear light to RGBA8 in sRGB: up to 0.8 less 0.04 where there is as much, above that
+// compressed towards white (Khronos' PBR Neutral).
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "views/particle_finish.glsl"

@@ -72,8 +72,7 @@ TEST(Record, SaysWhatTheRunLeftOut) {
   EXPECT_EQ(figure(cut, "simulated_s"), 0.25) << "what was dropped was not simulated";
   const std::vector<std::string> warnings = cut.warnings();
   ASSERT_EQ(warnings.size(), 4u);
-  for (const auto& [k, what] :
-       {std::pair(0, "0.25 s of 0.5 s were dropped: "), {1, "1,234 times"}, {2, "1 particle is"}, {3, "14 times"}})
+  for (const auto& [k, what] : {std::pair(0, "0.25 s of 0.5 s were dropped: "), {1, "1,234 times"}, {2, "1 particle is"}, {3, "14 times"}})
     EXPECT_NE(warnings[k].find(what), std::string::npos) << warnings[k];
 }
 

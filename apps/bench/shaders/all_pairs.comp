@@ -1,4 +1,5 @@
-// Naive search: every particle against those of [first, last), added to what the ranges before gave. A range keeps the loop short: a driver may bound it.
+// Naive search: every particle against those of [first, last), added to what the ranges before
+// gave. A range keeps the loop short: a driver may bound it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "cloud.h"

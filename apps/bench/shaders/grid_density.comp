@@ -1,4 +1,5 @@
-// Search by the grid: the nine rows of three cells around a particle. STRUCT: all that belongs to a particle lies together, in place of an array of positions.
+// Search by the grid: the nine rows of three cells around a particle. STRUCT: all that belongs to a
+// particle lies together, in place of an array of positions.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "cloud.h"

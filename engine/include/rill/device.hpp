@@ -97,6 +97,7 @@ struct FrameClock {
   uint64_t completed = 0;
 };
 
+/// Properties of the device in use.
 struct DeviceInfo {
   std::string name;                    ///< as the driver reports it
   std::string driver;                  ///< driver name and version

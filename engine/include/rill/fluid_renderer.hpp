@@ -36,6 +36,7 @@ struct TargetFormats {
 
 /// What the host's images are made for, beside what the host itself does with them, so that a fluid can be drawn into them.
 inline constexpr VkImageUsageFlags kFluidColorUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+/// The same for the depth image.
 inline constexpr VkImageUsageFlags kFluidDepthUsage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
 
 /// What the host has drawn, and what the fluid is drawn into: versions of images of the same graph, of TargetFormats and of one size. Both
@@ -81,6 +82,7 @@ struct FluidLook {
 RILL_API std::optional<FluidLook> fluidLook(std::string_view preset);
 /// What `look.surface` of a scene names. Nothing for another name.
 RILL_API std::optional<SurfaceMethod> surfaceMethod(std::string_view name);
+/// Names of all looks.
 RILL_API std::span<const std::string_view> fluidLooks();
 
 /// What can be read of the surface, exactly: no tone curve, alpha 0 where there is no fluid.

@@ -26,6 +26,7 @@ struct ResourceRef {
 struct BufferRef : ResourceRef {};
 struct ImageRef : ResourceRef {};
 
+/// A buffer of the graph.
 struct BufferDesc {
   uint64_t size = 0;  ///< bytes, 1 .. 128 MiB
 };

@@ -24,6 +24,7 @@
 
 namespace rill::offline {
 
+/// Settings of a simulation that are no part of its scene.
 struct Options {
   double orbit_deg_per_s = 0;            ///< pictures: how fast the camera goes around its target, counter-clockwise from above
   std::string device = {};               ///< part of a name, or an index; empty: the best there is
@@ -34,8 +35,10 @@ struct Options {
   double longestFrame_s = 1.0 / 60;      ///< s; a longer advance() is made of equal frames, each with the scene's max_substeps of its own
 };
 
+/// The order in which particles are read back.
 enum class Order { AsStored, ById };
 
+/// Particles as read back from the device.
 struct Particles {
   std::vector<Float3> positions = {};   ///< m, in the scene's coordinates (origin added)
   std::vector<Float3> velocities = {};  ///< m/s
@@ -49,6 +52,7 @@ struct Image {
   std::vector<uint8_t> rgba = {};
 };
 
+/// Runs and time of one pass of the graph.
 struct PassTime {
   std::string name = {};
   double ms = 0;      ///< 0 without Options::passTimes

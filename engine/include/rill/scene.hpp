@@ -30,16 +30,19 @@ struct Domain {
   SideMask open = 0;          ///< sides without a wall: what leaves goes on and is counted as outside
 };
 
+/// The smoothing kernel.
 enum class KernelChoice : uint8_t {
   Wendland,   ///< Wendland C2 for W and its gradient: consistent, does not pump energy
   Poly6Spiky  ///< poly6 density with spiky gradient: Macklin and Mueller 2013, the paper's pair
 };
 
+/// How a pass finds the neighbors of a particle.
 enum class NeighborChoice : uint8_t {
   List,  ///< a neighbor list with a skin, kept for several substeps
   Grid   ///< walk the grid in every pass
 };
 
+/// The fluid and its particles.
 struct FluidSettings {
   double spacing = 0;            ///< m, > 0; 0 where `particles` gives it
   uint64_t particles = 0;        ///< aim for this many particles; 0 where `spacing` is given
@@ -52,6 +55,7 @@ struct FluidSettings {
   double tensile_power = 16;     ///< n, 1 .. 16
 };
 
+/// Accuracy and stability of the solver, at the cost of time.
 struct SolverSettings {
   std::optional<double> time_step = {};       ///< s, the longest one, > 0; empty: "auto", as long as cfl and tolerance allow
   double cfl = 0.25;                          ///< spacings that the fastest particle may move in a substep, > 0 .. 10
@@ -66,9 +70,11 @@ struct SolverSettings {
   NeighborChoice neighbors = NeighborChoice::List;
 };
 
+/// An axis-aligned box.
 struct BoxShape {
   double min[3] = {0, 0, 0}, max[3] = {1, 1, 1};  ///< m, corners, max above min
 };
+/// A sphere.
 struct SphereShape {
   double center[3] = {0, 0, 0};  ///< m
   double radius = 1;             ///< m, > 0
@@ -104,6 +110,7 @@ struct GravityChange {
   double value[3] = {0, 0, 0};
 };  ///< s; m/s^2
 
+/// A direction along an axis, or against it.
 enum class Axis : uint8_t { PlusX, MinusX, PlusY, MinusY, PlusZ, MinusZ };
 
 /// One of the two.
@@ -113,11 +120,13 @@ struct Probe {
   std::optional<Axis> front = {};
 };
 
+/// The camera of the pictures.
 struct Camera {
   double eye[3] = {0, 0, 1}, target[3] = {0, 0, 0};  ///< m, different points
   double fov_y_deg = 40;                             ///< degrees, vertical, > 0 .. < 180
 };
 
+/// Appearance of the fluid and its surroundings in pictures.
 struct Look {
   std::string preset = "water";
   std::string surface = "auto";
