@@ -15,34 +15,34 @@
 
 namespace rill::apps {
 
-/// The program of this name in the folders of PATH; nothing where there is none that may be run.
+/// Finds an executable file of this name in the folders of PATH.
 std::optional<std::filesystem::path> findProgram(std::string_view name);
 
-/// A program that runs beside this one and reads what it is fed from its standard input. What it says is kept for messages. It is in a
-/// process group of its own: a terminal's Ctrl-C does not reach it, so that it ends when its input does.
-class FedProgram {
+/// A child process whose standard input is written by this one. Its output is kept for error messages. It runs in a
+/// process group of its own, so that Ctrl-C in a terminal does not end it before its input ends.
+class PipedProcess {
  public:
-  /// No shell is between. Io where it can't be started.
-  static Expected<FedProgram> start(const std::filesystem::path& program, std::span<const std::string> arguments);
-  FedProgram(FedProgram&& other) noexcept
-      : name_(std::move(other.name_)), id_(std::exchange(other.id_, -1)), input_(std::move(other.input_)), said_(std::move(other.said_)) {}
-  FedProgram& operator=(FedProgram&&) = delete;
-  /// Ends its input and waits for it.
-  ~FedProgram();
+  /// Starts the program without a shell. Io where that fails.
+  static Expected<PipedProcess> start(const std::filesystem::path& program, std::span<const std::string> arguments);
+  PipedProcess(PipedProcess&& other) noexcept
+      : name_(std::move(other.name_)), id_(std::exchange(other.id_, -1)), input_(std::move(other.input_)), log_(std::move(other.log_)) {}
+  PipedProcess& operator=(PipedProcess&&) = delete;
+  /// Closes its standard input and waits for it to exit.
+  ~PipedProcess();
 
-  /// Waits until all of `bytes` are taken. Io where the program has gone: finish() says why.
-  Expected<void> feed(std::span<const std::byte> bytes);
-  /// Ends its input and waits for it. Io with its last words where it failed.
+  /// Blocks until all of `bytes` are written. Io where the process has exited; finish() returns the reason.
+  Expected<void> write(std::span<const std::byte> bytes);
+  /// Closes its standard input and waits for it to exit. Io with the end of its output where it failed.
   Expected<void> finish();
 
  private:
-  FedProgram(std::string name, pid_t id, Descriptor input, Descriptor said)
-      : name_(std::move(name)), id_(id), input_(std::move(input)), said_(std::move(said)) {}
-  std::string lastWords() const;
+  PipedProcess(std::string name, pid_t id, Descriptor input, Descriptor log)
+      : name_(std::move(name)), id_(id), input_(std::move(input)), log_(std::move(log)) {}
+  std::string lastOutput() const;
 
   std::string name_;
   pid_t id_;
-  Descriptor input_, said_;
+  Descriptor input_, log_;
 };
 
 }  // namespace rill::apps
