@@ -80,14 +80,14 @@ TEST(PictureReport, WhatAPictureLacksIsCountedAndSaid) {
       capture({scene, "--frames", "1", "--size", "320x180", "--stats", "lost.json", "--export", "ply", "--out", "frames"}, folder.string());
   ASSERT_EQ(lost.code, 0) << lost.err;
   EXPECT_GT(nlohmann::json::parse(contentOf(folder / "lost.json"))["frames"][0]["picture_bound_hits"].get<int>(), 0);
-  EXPECT_NE(lost.err.find("warning: loops of the renderer's shaders ran into their bounds"), std::string::npos) << lost.err;
+  EXPECT_NE(lost.err.find("warning: loops of the renderer's shaders reached their limit"), std::string::npos) << lost.err;
   EXPECT_EQ(lost.out.find("picture_bound_hits       0"), std::string::npos) << lost.out;
 
   const Outcome played =
       capture({scene, "--play", "frames", "--size", "320x180", "--out", "played", "--graph", "played.dot"}, folder.string());
   ASSERT_EQ(played.code, 0) << played.err;
   EXPECT_NE(contentOf(folder / "played.dot").find("  surface splat\""), std::string::npos);
-  EXPECT_NE(played.err.find("warning: loops of the renderer's shaders ran into their bounds"), std::string::npos) << played.err;
+  EXPECT_NE(played.err.find("warning: loops of the renderer's shaders reached their limit"), std::string::npos) << played.err;
 
   const std::string water = folder.write("water.json", kScene).string();
   const Outcome whole = capture({water, "--frames", "3", "--size", "160x90", "--stats", "whole.json"}, folder.string());
