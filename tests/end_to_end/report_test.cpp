@@ -1,4 +1,4 @@
-// What rill-capture says of a picture: its passes, the memory that they share, what its shaders left out.
+// Reports of rill-capture about an image: passes, transient memory, loops that reached their limit.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -22,7 +22,7 @@ constexpr const char* kNear = R"({
   "camera": {"eye": [0.25, 0.25, 0.7], "target": [0.25, 0.25, -40]}
 })";
 
-TEST(PictureReport, ExplainTellsWhatAliasingSaves) {
+TEST(PictureReport, ExplainReportsAliasing) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("scene.json", kScene).string();
   const Outcome run = capture({scene, "--frames", "2", "--size", "160x90", "--explain", "--quiet"}, folder.string());
@@ -61,7 +61,7 @@ TEST(PictureReport, ExplainTellsHowOftenAPassRan) {
   EXPECT_EQ(control.second, control.first);
 }
 
-TEST(PictureReport, TheGraphIsWritten) {
+TEST(PictureReport, WritesGraph) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("scene.json", kScene).string();
   ASSERT_EQ(capture({scene, "--frames", "2", "--size", "160x90", "--graph", "picture.dot", "--quiet"}, folder.string()).code, 0);
@@ -73,7 +73,7 @@ TEST(PictureReport, TheGraphIsWritten) {
   EXPECT_NE(advance.find("  density\""), std::string::npos);
 }
 
-TEST(PictureReport, WhatAPictureLacksIsCountedAndSaid) {
+TEST(PictureReport, ReachedLimitsAreCountedAndReported) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("scene.json", kNear).string();
   const Outcome lost =
