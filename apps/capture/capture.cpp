@@ -18,6 +18,7 @@
 #include "rill/offline.hpp"
 #include "shared/atomic_file.hpp"
 #include "shared/exit_code.hpp"
+#include "shared/message.hpp"
 #include "shared/ply.hpp"
 #include "shared/png.hpp"
 #include "shared/progress.hpp"
@@ -35,20 +36,20 @@ class Capture {
 
   int run() {
     if (const auto scene = readScene(); !scene) return refuse(scene.error());
-    if (const auto places = checkPlaces(); !places) return refuse(places.error());
-    offline::Options wanted;
-    wanted.device = options_.device;
-    wanted.orbit_deg_per_s = options_.orbit_deg_per_s;
-    wanted.passTimes = options_.passTimes && (options_.stats || options_.explain);
-    auto simulation = resumed_ ? offline::Simulation::resume(scene_, *resumed_, wanted) : offline::Simulation::open(scene_, wanted);
+    if (const auto outputs = checkOutputs(); !outputs) return refuse(outputs.error());
+    offline::Options settings;
+    settings.device = options_.device;
+    settings.orbit_deg_per_s = options_.orbit_deg_per_s;
+    settings.passTimes = options_.passTimes && (options_.stats || options_.explain);
+    auto simulation = resumed_ ? offline::Simulation::resume(scene_, *resumed_, settings) : offline::Simulation::open(scene_, settings);
     if (!simulation) return refuse(resumed_ ? aboutCheckpoint(simulation.error()) : simulation.error());
     simulation_ = std::move(*simulation);
-    if (resumed_) resumed_->fluid = {};  // the device has it
-    if (draws())
+    if (resumed_) resumed_->fluid = {};  // uploaded to the device
+    if (rendersImages())
       if (const auto ready = simulation_->prepareRender(options_.view, options_.width, options_.height); !ready)
         return refuse(ready.error());
     if (const int signal = apps::signalReceived()) return 128 + signal;
-    if (const auto made = makePlaces(); !made) return refuse(made.error());
+    if (const auto made = createOutputs(); !made) return refuse(made.error());
     announce();
 
     record_ = std::make_unique<Record>(simulation_->scene(), simulation_->device(), options_.command, first_ > 0 ? (first_ - 1) / fps_ : 0);
@@ -57,8 +58,8 @@ class Capture {
     int code = apps::kDone;
     if (!ran) code = fail(ran.error());
     if (ran)
-      if (const auto kept = keepCheckpoint(); !kept) code = fail(kept.error());
-    // After a failure, too: the figures of the frames so far are whole, and so is their video.
+      if (const auto written = writeCheckpoint(); !written) code = fail(written.error());
+    // After a failure, too: the figures and the video of the frames so far are complete.
     if (video_)
       if (const auto finished = video_->finish(); !finished) code = fail(finished.error());
     if (const auto written = writeStats(); !written) code = fail(written.error());
@@ -66,11 +67,11 @@ class Capture {
     if (const auto reported = report(); !reported) code = fail(reported.error());
     if (code != apps::kDone) return code;
     if (const int signal = apps::signalReceived(); signal && record_->frames() < frames_) return 128 + signal;
-    return judge();
+    return checkRequirements();
   }
 
  private:
-  bool draws() const { return options_.images || options_.video; }
+  bool rendersImages() const { return options_.images || options_.video; }
   bool writesFrames() const { return options_.images || options_.exportPly; }
 
   Expected<void> readScene() {
@@ -84,36 +85,37 @@ class Capture {
     const double frames = options_.frames ? double(*options_.frames) : frameCount(scene_.duration, fps_) - first_;
     if (frames < 1)
       return Error{ErrorKind::BadInput, "--resume: the checkpoint is of frame " + std::to_string(first_ - 1) +
-                                            ", and the scene's duration ends there or before; give --frames"};
+                                            ", at or after the end of the scene's duration; expected --frames"};
     if (first_ + frames > kMaxFrames)
       return Error{ErrorKind::BadInput, "the scene's duration takes more than " + std::to_string(kMaxFrames) + " frames at " +
-                                            std::to_string(fps_) + " a second; give --frames or another --fps"};
+                                            shortNumber(fps_) + " frames/s; expected --frames or a lower --fps"};
     frames_ = static_cast<uint32_t>(frames);
-    // A scene's name may hold a folder ("validation/x"); a path's folders are the user's, not ours.
+    // A scene's name may contain a folder ("validation/x"), which is kept; the folders of a path are not.
     const bool byName = fs::path(options_.scene) != *file;
     out_ = options_.out ? *options_.out : fs::path("out") / (byName ? fs::path(options_.scene) : fs::path(scene_.name));
     return {};
   }
 
-  /// The checkpoint to go on from, and what follows from it: the number of the first frame, and the rate of frames.
+  /// Reads the checkpoint of --resume, which gives the number of the first frame and the frame rate.
   Expected<void> readResumed() {
     fps_ = options_.fps;
     if (!options_.resume) return {};
     auto read = offline::loadCheckpoint(*options_.resume);
     if (!read) return aboutResume(read.error());
     if (!(read->fps > 0) || read->frame >= kMaxFrames)
-      return aboutResume({ErrorKind::BadInput, inQuotes(options_.resume->string()) + " is of no capture: it has no frame to go on from"});
+      return aboutResume({ErrorKind::BadInput, inQuotes(options_.resume->string()) +
+                                                   ": found a checkpoint without a frame number, expected one that rill-capture wrote"});
     if (options_.fpsGiven && options_.fps != read->fps)
       return Error{ErrorKind::BadInput, "--fps: " + shortNumber(options_.fps) + " was given; expected " + shortNumber(read->fps) +
-                                            ", with which the checkpoint was written"};
+                                            ", the frame rate of the checkpoint"};
     fps_ = read->fps;
     first_ = static_cast<uint32_t>(read->frame + 1);
     resumed_ = std::move(*read);
     return {};
   }
 
-  /// Whether all can be written, before a device is opened and before anything is made.
-  Expected<void> checkPlaces() const {
+  /// Checks that all outputs can be written, before a device is opened and before anything is created.
+  Expected<void> checkOutputs() const {
     if (options_.stats)
       if (auto place = apps::checkFilePlace("--stats", *options_.stats); !place) return place;
     if (options_.graph)
@@ -121,11 +123,11 @@ class Capture {
     if (options_.checkpoint)
       if (auto place = apps::checkFilePlace("--checkpoint", *options_.checkpoint); !place) return place;
     if (options_.video)
-      if (auto possible = Video::check(*options_.video); !possible) return possible;
+      if (auto valid = Video::check(*options_.video); !valid) return valid;
     return writesFrames() ? apps::checkFolderPlace("--out", out_) : Expected<void>();
   }
 
-  Expected<void> makePlaces() {
+  Expected<void> createOutputs() {
     for (const auto& [option, file] :
          {std::pair{"--stats", &options_.stats}, std::pair{"--graph", &options_.graph}, std::pair{"--checkpoint", &options_.checkpoint}})
       if (*file && !apps::isSpecialFile(**file) && (*file)->has_parent_path())
@@ -147,14 +149,14 @@ class Capture {
     if (options_.quiet) return;
     for (const std::string& warning : simulation_->warnings()) message("warning: " + warning);
     message(scene_.name + ": " + grouped(simulation_->start().positions.size()) + " particles, " + grouped(frames_) +
-            (frames_ == 1 ? " frame, " : " frames, ") + (resumed_ ? "from " + std::to_string(first_) + " on, " : "") +
+            (frames_ == 1 ? " frame, " : " frames, ") + (resumed_ ? "resumed at " + std::to_string(first_) + ", " : "") +
             simulation_->device().name);
   }
 
   Expected<void> runFrames() {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point begin = Clock::now();
-    Clock::time_point kept = begin;
+    Clock::time_point lastCheckpoint = begin;
     for (uint32_t k = 0; k < frames_ && !apps::signalReceived(); ++k) {
       const uint32_t number = first_ + k;
       if (number > 0)
@@ -168,27 +170,28 @@ class Capture {
       char about[64];
       std::snprintf(about, sizeof about, "t %.3f s  error %.3f %%", time_s, 100 * error);
       progress_.show({"frame", k + 1, frames_, about, std::chrono::duration<double>(Clock::now() - begin).count()});
-      if (options_.checkpointEvery_s && std::chrono::duration<double>(Clock::now() - kept).count() >= *options_.checkpointEvery_s) {
-        if (auto written = keepCheckpoint(); !written) return written;
-        kept = Clock::now();
+      if (options_.checkpointEvery_s &&
+          std::chrono::duration<double>(Clock::now() - lastCheckpoint).count() >= *options_.checkpointEvery_s) {
+        if (auto written = writeCheckpoint(); !written) return written;
+        lastCheckpoint = Clock::now();
       }
     }
     return {};
   }
 
-  /// Of the last frame, where one was asked for and is not there yet.
-  Expected<void> keepCheckpoint() {
+  /// Writes a checkpoint of the last frame, where --checkpoint asks for one and it is not written yet.
+  Expected<void> writeCheckpoint() {
     const auto frames = static_cast<uint32_t>(record_->frames());
-    if (!options_.checkpoint || frames == kept_) return {};
+    if (!options_.checkpoint || frames == checkpointed_) return {};
     auto taken = simulation_->checkpoint(first_ + frames - 1, fps_);
     if (!taken) return taken.error();
     if (auto written = apps::writeFile(*options_.checkpoint, offline::encodeCheckpoint(*taken)); !written) return written;
-    kept_ = frames;
+    checkpointed_ = frames;
     return {};
   }
 
   Expected<void> writeFrame(uint32_t k, double time_s) {
-    if (draws()) {
+    if (rendersImages()) {
       auto image = simulation_->render(options_.view, options_.width, options_.height);
       if (!image) return image.error();
       if (options_.images)
@@ -209,11 +212,12 @@ class Capture {
     return apps::writeFile(*options_.graph, options_.images ? simulation_->pictureDot() : simulation_->graphDot());
   }
 
-  /// The table of passes where it was asked for, and the figures. On standard output, which is left to the JSON where that goes there.
+  /// Prints the table of passes (--explain) and the figures: on standard output, or on standard error where the JSON of
+  /// --stats goes to standard output.
   Expected<void> report() const {
-    const bool taken = options_.stats && apps::isStandardOutput(*options_.stats);
+    const bool jsonOnStdout = options_.stats && apps::isStandardOutput(*options_.stats);
     std::string text = options_.explain ? record_->passTable() + offline::memoryTable(simulation_->transientMemory()) : "";
-    if (!options_.quiet && record_->frames() > 0 && !taken) {
+    if (!options_.quiet && record_->frames() > 0 && !jsonOnStdout) {
       if (!text.empty()) text += "\n";
       for (const Figure& figure : record_->figures()) {
         char line[128];
@@ -236,20 +240,19 @@ class Capture {
     if (!options_.quiet)
       for (const std::string& warning : record_->warnings()) message(warning);
     if (!options_.quiet && video_ && video_->finished()) message("video: " + options_.video->string());
-    if (!options_.quiet && kept_ > 0)
-      message("checkpoint: " + options_.checkpoint->string() + ", frame " + std::to_string(first_ + kept_ - 1));
-    return text.empty() ? Expected<void>()
-                        : apps::writeAll(taken ? STDERR_FILENO : STDOUT_FILENO, taken ? "standard error" : "standard output", text);
+    if (!options_.quiet && checkpointed_ > 0)
+      message("checkpoint: " + options_.checkpoint->string() + ", frame " + std::to_string(first_ + checkpointed_ - 1));
+    return text.empty() ? Expected<void>() : apps::writeStream(jsonOnStdout ? STDERR_FILENO : STDOUT_FILENO, apps::printable(text));
   }
 
-  int judge() const {
-    const std::vector<std::string> broken = failures(options_.requirements, record_->figures());
-    for (const std::string& text : broken) message(text);
-    return broken.empty() ? apps::kDone : apps::kRequireFailed;
+  int checkRequirements() const {
+    const std::vector<std::string> failed = failures(options_.requirements, record_->figures());
+    for (const std::string& text : failed) message(text);
+    return failed.empty() ? apps::kDone : apps::kRequireFailed;
   }
 
   static Error aboutResume(const Error& error) { return {error.kind, "--resume: " + error.message}; }
-  /// Of a file that was read whole: what the scene, or the device, says of it.
+  /// Adds the file name to an error about a checkpoint that does not fit the scene or the device.
   Error aboutCheckpoint(const Error& error) const {
     return error.kind == ErrorKind::BadInput ? aboutResume({error.kind, inQuotes(options_.resume->string()) + ": " + error.message})
                                              : error;
@@ -262,16 +265,16 @@ class Capture {
     message(error.message);
     return apps::kFailed;
   }
-  void message(const std::string& text) const { std::fprintf(stderr, "rill-capture: %s\n", text.c_str()); }
+  void message(const std::string& text) const { apps::printMessage("rill-capture", text); }
 
   const Options& options_;
   Scene scene_;
   fs::path out_;
   uint32_t frames_ = 0;  // of this run
-  uint32_t first_ = 0;   // number of the first
+  uint32_t first_ = 0;   // number of the first one
   double fps_ = 60;
   std::optional<offline::Checkpoint> resumed_;
-  uint32_t kept_ = 0;  // frames of this run as of the last checkpoint
+  uint32_t checkpointed_ = 0;  // frames of this run at the last checkpoint
   apps::Progress progress_;
   std::unique_ptr<offline::Simulation> simulation_;
   std::unique_ptr<OutputFolder> folder_;
@@ -282,7 +285,7 @@ class Capture {
 }  // namespace
 
 double frameCount(double duration_s, double fps) {
-  // 0.3 s at 60 fps is a hair off 18 frames in binary: a frame that is late by a millionth of one is written.
+  // 0.3 * 60 is slightly below 18 in binary: a millionth of a frame of tolerance keeps frame 18.
   return std::floor(duration_s * fps + 1e-6) + 1;
 }
 

@@ -3,10 +3,10 @@
 
 namespace rill::capture {
 
-/// Runs the scene and writes what was asked for. Returns the program's exit code; messages are on standard error by then.
+/// Runs the scene, writes the outputs, prints messages to standard error. Returns the exit code.
 int runCapture(const Options& options);
 
-/// Frames that a scene's duration takes, its start and its last instant included: 2 s at 50 fps are 101. Not bounded by kMaxFrames.
+/// Frames of a duration, including its first and its last instant: 101 for 2 s at 50 frames/s. Not limited to kMaxFrames.
 double frameCount(double duration_s, double fps);
 
 }  // namespace rill::capture

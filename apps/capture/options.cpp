@@ -22,10 +22,10 @@ namespace {
 using apps::badInput, apps::numberIn;
 
 constexpr uint32_t kMaxSide = 8192;            // pixels
-constexpr uint64_t kMaxPixels = 1ull << 25;    // a picture is one buffer of at most 128 MiB
-constexpr uint64_t kMaxParticles = 4'194'304;  // what the solver takes, on any device
+constexpr uint64_t kMaxPixels = 1ull << 25;    // an image is one buffer of at most 128 MiB
+constexpr uint64_t kMaxParticles = 4'194'304;  // limit of the solver
 
-/// Options as text: numbers are read here, so that every version of the command line library gives the same messages.
+/// Options as text: numbers are parsed here, so that messages do not depend on the version of CLI11.
 struct Raw {
   std::string scene, frames, fps, size, out, view, video, stats, exportAs, particles, device, checkpoint, checkpointEvery, resume, play,
       orbit, graph;
@@ -33,7 +33,7 @@ struct Raw {
   bool explain = false, noImages = false, noPassTimes = false, quiet = false;
 };
 
-/// Whether they will be, where none is there yet.
+/// True where both name the same file, which need not exist.
 bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code ignored;
   const auto whole = [&](const std::filesystem::path& path) {
@@ -54,49 +54,46 @@ void declare(CLI::App& app, Raw& raw) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->expected(1);
   };
-  const std::string what = "What is simulated", written = "What is written", run = "How it runs";
-  app.add_option("SCENE", raw.scene, "a scene's name, or the path of a .json file")->type_name("")->required()->group(what);
-  once("--frames", raw.frames, "frames to write, the start included (default: the scene's duration)", "N", what);
-  once("--fps", raw.fps, "frames a simulated second (default: 60)", "F", what);
-  once("--particles", raw.particles, "about so many particles (1 to " + grouped(kMaxParticles) + "), in place of the scene's spacing", "N",
+  const std::string what = "Scene", written = "Output", run = "Run";
+  app.add_option("SCENE", raw.scene, "name of a scene, or path of a .json file")->type_name("")->required()->group(what);
+  once("--frames", raw.frames, "number of frames, including the start (default: the scene's duration)", "N", what);
+  once("--fps", raw.fps, "frames per simulated second (default: 60)", "F", what);
+  once("--particles", raw.particles, "approximate number of particles (1 to " + grouped(kMaxParticles) + "); replaces fluid.spacing", "N",
        what);
-  once("--resume", raw.resume, "go on from a checkpoint of the same scene; --frames counts the frames of this run", "FILE", what);
-  once("--play", raw.play, "simulate nothing: draw the .ply files of a folder, whoever wrote them, in the order of their names", "DIR",
-       what);
-  list("--set", raw.set, "change a key of the scene, as fluid.viscosity=0.1", "KEY=VALUE", what);
+  once("--resume", raw.resume, "continue from a checkpoint of the same scene; --frames counts the frames of this run", "FILE", what);
+  once("--play", raw.play, "draw the .ply files of a folder in order of their names, instead of simulating", "DIR", what);
+  list("--set", raw.set, "override a key of the scene, for example fluid.viscosity=0.1", "KEY=VALUE", what);
 
-  once("--out", raw.out, "folder of the frames, made where missing (default: out/SCENE)", "DIR", written);
-  once("--size", raw.size, "pixels (default: 1280x720)", "WxH", written);
-  once("--view", raw.view, "what is drawn: " + apps::viewNames() + " (default: final)", "VIEW", written);
-  once("--orbit", raw.orbit, "let the camera go around its target, so many degrees a simulated second", "DEG_PER_S", written);
-  once("--video", raw.video, "write the pictures as a video, too (.mp4, .mkv or .mov; needs the program ffmpeg)", "FILE", written);
-  app.add_flag("--no-images", raw.noImages, "write no pictures, and without --video draw none")->group(written);
-  once("--export", raw.exportAs, "write the particles of each frame: ply", "FORMAT", written);
-  once("--stats", raw.stats, "write all figures as JSON; - is standard output", "FILE", written);
+  once("--out", raw.out, "folder for the frames, created if missing (default: out/SCENE)", "DIR", written);
+  once("--size", raw.size, "image size in pixels (default: 1280x720)", "WxH", written);
+  once("--view", raw.view, "view to draw: " + apps::viewNames() + " (default: final)", "VIEW", written);
+  once("--orbit", raw.orbit, "rotate the camera about its target, in degrees per simulated second", "DEG_PER_S", written);
+  once("--video", raw.video, "also write the images as a video (.mp4, .mkv or .mov; needs the program ffmpeg)", "FILE", written);
+  app.add_flag("--no-images", raw.noImages, "write no image files; without --video render none")->group(written);
+  once("--export", raw.exportAs, "write the particles of each frame; FORMAT is ply", "FORMAT", written);
+  once("--stats", raw.stats, "write all figures of all frames as JSON; - is standard output", "FILE", written);
 
-  once("--graph", raw.graph, "write the passes of the last picture for Graphviz's dot (without pictures: those of the last advance)",
+  once("--graph", raw.graph, "write the render graph of the last image (without images: of the last simulation step) for Graphviz",
        "FILE.dot", written);
-  once("--checkpoint", raw.checkpoint, "write all that a later run needs to go on, at the end and on Ctrl-C", "FILE", written);
-  once("--checkpoint-every", raw.checkpointEvery, "and after a frame that ends so many seconds (wall time) after the last one", "SECONDS",
+  once("--checkpoint", raw.checkpoint, "write the state that --resume continues from, at the end and on Ctrl-C", "FILE", written);
+  once("--checkpoint-every", raw.checkpointEvery, "also write it every SECONDS of wall time, after the frame in progress", "SECONDS",
        written);
 
-  app.add_flag("--no-pass-times", raw.noPassTimes,
-               "do not time passes for --stats and --explain: on a software device that takes a tenth of the run or more")
+  app.add_flag("--no-pass-times", raw.noPassTimes, "do not time passes for --stats and --explain, which slows down software devices")
       ->group(run);
   once("--device", raw.device, "part of a device's name, or its index", "NAME", run);
-  list("--require", raw.require, "exit with 3 unless it holds, as 'outside<1'", "FIGURE<NUMBER", run);
-  app.add_flag("--explain", raw.explain, "list each pass: how often it was recorded and ran, and its time, or why it was skipped")
-      ->group(run);
+  list("--require", raw.require, "exit with 3 unless it holds, for example 'outside<1'", "FIGURE<NUMBER", run);
+  app.add_flag("--explain", raw.explain, "list all passes: how often recorded and run, time, or the reason why skipped")->group(run);
   app.add_flag("--quiet", raw.quiet, "print nothing but errors")->group(run);
   app.set_help_flag("-h,--help", "show this text")->group(run);
   app.set_version_flag("--version", std::string("rill-capture ") + RILL_VERSION, "show the version")->group(run);
 }
 
-/// "--set a=1 b=2" as "--set a=1 --set b=2": what looks like one more value is one, whatever stands after it is not.
-std::vector<std::string> spreadLists(int count, const char* const* arguments) {
-  std::vector<std::string> spread;
+/// Expands "--set a=1 b=2" to "--set a=1 --set b=2": an argument of the same form is another value of the list.
+std::vector<std::string> expandLists(int count, const char* const* arguments) {
+  std::vector<std::string> expanded;
   std::string list;    // the list option that the last argument belongs to
-  bool value = false;  // the next argument is its value in any case
+  bool value = false;  // the next argument is its value whatever its form
   for (int i = 1; i < count; ++i) {
     const std::string_view argument = arguments[i];
     const bool option = argument.starts_with('-');
@@ -109,19 +106,19 @@ std::vector<std::string> spreadLists(int count, const char* const* arguments) {
       list.clear();
     } else {
       const size_t sign = argument.find_first_of(list == "--set" ? "=" : "<>");
-      // A key has no '/': a path that holds a '=' is still a scene.
+      // Keys contain no '/': a path that contains a '=' is the scene.
       const bool another = sign != std::string_view::npos && sign > 0 && argument.substr(0, sign).find('/') == std::string_view::npos;
       if (another)
-        spread.push_back(list);
+        expanded.push_back(list);
       else
         list.clear();
     }
-    spread.emplace_back(argument);
+    expanded.emplace_back(argument);
   }
-  return spread;
+  return expanded;
 }
 
-Expected<Options> judged(const Raw& raw, const CLI::App& app) {
+Expected<Options> validated(const Raw& raw, const CLI::App& app) {
   const auto given = [&](const char* name) { return app.count(name) > 0; };
   Options options;
   options.scene = raw.scene;
@@ -196,8 +193,7 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
     const auto seconds = numberIn<double>(raw.checkpointEvery);
     if (!seconds || !(*seconds >= 0 && *seconds <= 1e9))
       return badInput("--checkpoint-every", raw.checkpointEvery, "a number of seconds from 0 (after every frame) to 1000000000");
-    if (!options.checkpoint)
-      return Error{ErrorKind::BadInput, "--checkpoint-every: there is no --checkpoint; expected --checkpoint FILE beside it"};
+    if (!options.checkpoint) return Error{ErrorKind::BadInput, "--checkpoint-every: needs --checkpoint; expected --checkpoint FILE"};
     options.checkpointEvery_s = *seconds;
   }
   if (given("--resume")) {
@@ -207,11 +203,13 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
   if (given("--play")) {
     if (raw.play.empty()) return badInput("--play", raw.play, "a folder of .ply files");
     options.play = raw.play;
-    // What a run alone has.
+    // Options that need a simulation.
     for (const char* other : {"--stats", "--export", "--checkpoint", "--resume", "--require", "--explain", "--particles"})
-      if (given(other)) return Error{ErrorKind::BadInput, std::string(other) + ": --play simulates nothing; expected one of the two"};
+      if (given(other))
+        return Error{ErrorKind::BadInput,
+                     std::string(other) + ": not possible with --play, which does not simulate; expected one of the two"};
     if (raw.noImages && !options.video)
-      return Error{ErrorKind::BadInput, "--no-images: nothing is left to do of --play; expected --video FILE beside it"};
+      return Error{ErrorKind::BadInput, "--no-images: with --play there is nothing to write; expected --video FILE"};
   }
   if (given("--device") && raw.device.empty()) return badInput("--device", raw.device, "part of a device's name, or its index");
   options.device = raw.device;
@@ -238,34 +236,35 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
 Expected<apps::CommandLine<Options>> parseCommandLine(int count, const char* const* arguments) {
   Raw raw;
   CLI::App app(
-      "Runs a fluid scene without a window and writes pictures, particles and figures.\n"
-      "Frame k is the instant k/fps after the start; frame 0 is the start itself.");
+      "Simulates a fluid scene without a window and writes images, particles and figures.\n"
+      "Frame 0 is the start of the scene, frame k the instant k/fps seconds later.");
   app.name("rill-capture");
   app.get_formatter()->column_width(30);
   declare(app, raw);
   app.footer("Scenes: " + apps::joined(apps::SceneFolders::standard().names()) +
              "\n\nExamples:\n"
              "  rill-capture dam-break\n"
-             "      pictures of a dam break in out/dam-break, progress on the terminal\n"
+             "      writes images of a dam break to out/dam-break\n"
              "  rill-capture dam-break --no-images --stats run.json --set fluid.viscosity=0.1 --particles 10000\n"
-             "      the same with a tenth of a pascal second and 10,000 particles: figures alone, frame by frame\n"
+             "      writes figures only, with a viscosity of 0.1 Pa s and about 10,000 particles\n"
              "  rill-capture resting-column --frames 61 --no-images --quiet --require 'density_error_mean<0.001' 'outside<1'\n"
-             "      a check for a script: exit code 0 where both hold, 3 where one does not\n"
+             "      a check for scripts: exits with 0 where both requirements hold, else with 3\n"
              "  rill-capture dam-break --checkpoint run.rill --checkpoint-every 600\n"
              "  rill-capture dam-break --resume run.rill\n"
-             "      a long run that may be interrupted, and the rest of it: the same bits as in one go\n"
+             "      a long run that is interrupted and resumed; the result is the same as without the interruption\n"
              "  rill-capture dam-break --no-images --video dam.mp4\n"
-             "      a video alone; on Ctrl-C it holds the frames so far\n"
+             "      writes only a video; after Ctrl-C it contains the frames so far\n"
              "  rill-capture dam-break --play frames --view final\n"
-             "      pictures of frames/*.ply, with the camera, solids and look of dam-break\n"
-             "\nExit codes: 0 done, 1 failed while running, 2 bad usage or input, 3 a --require did not hold,\n"
-             "4 no usable Vulkan device; 130, 143, 129 after a signal (the frame in hand is finished first).");
-  std::vector<std::string> spread = spreadLists(count, arguments);
-  std::reverse(spread.begin(), spread.end());  // the order in which the library takes a vector
-  auto asked = apps::parsed(app, "rill-capture " RILL_VERSION, [&] { app.parse(spread); });
-  if (!asked) return asked.error();
-  if (!asked->empty()) return apps::CommandLine<Options>{std::nullopt, std::move(*asked)};
-  auto options = judged(raw, app);
+             "      draws frames/*.ply with the camera, solids and appearance of dam-break\n"
+             "\nExit codes: 0 success, 1 error while running, 2 bad usage or input, 3 a --require does not hold,\n"
+             "4 no usable Vulkan device; 130, 143 or 129 after SIGINT, SIGTERM or SIGHUP, once the frame in progress is written.\n"
+             "A standard output or standard error that is closed is not an error.");
+  std::vector<std::string> expanded = expandLists(count, arguments);
+  std::reverse(expanded.begin(), expanded.end());  // CLI11 parses a vector from its end
+  auto text = apps::parsed(app, "rill-capture " RILL_VERSION, [&] { app.parse(expanded); });
+  if (!text) return text.error();
+  if (!text->empty()) return apps::CommandLine<Options>{std::nullopt, std::move(*text)};
+  auto options = validated(raw, app);
   if (!options) return options.error();
   options->command = apps::commandText("rill-capture", count, arguments);
   return apps::CommandLine<Options>{std::move(*options), {}};

@@ -12,36 +12,36 @@
 
 namespace rill::capture {
 
-/// The most frames that a capture writes.
+/// Maximum number of frames of a capture.
 constexpr uint32_t kMaxFrames = 10'000'000;
 
-/// What a command line asks for. Judged as far as that is possible without the scene.
+/// The options of a command line, validated as far as that is possible without the scene.
 struct Options {
   std::string scene;                         ///< a name or a path
   std::optional<uint32_t> frames;            ///< none: the scene's duration
-  double fps = 60;                           ///< frames a simulated second
-  bool fpsGiven = false;                     ///< else a checkpoint's own are taken where a run goes on from one
+  double fps = 60;                           ///< frames per simulated second
+  bool fpsGiven = false;                     ///< otherwise --resume uses the frame rate of the checkpoint
   uint32_t width = 1280, height = 720;       ///< pixels
   std::optional<std::filesystem::path> out;  ///< none: out/SCENE
   std::string view = "final";
-  double orbit_deg_per_s = 0;                  ///< of the camera around its target
-  std::optional<std::filesystem::path> video;  ///< where the pictures go as one file
+  double orbit_deg_per_s = 0;                  ///< rotation of the camera about its target
+  std::optional<std::filesystem::path> video;  ///< video file of the images
   std::optional<std::filesystem::path> stats;
-  std::optional<std::filesystem::path> graph;  ///< where the last picture's passes go, as Graphviz's dot
+  std::optional<std::filesystem::path> graph;  ///< passes of the last image, in Graphviz's dot language
   bool exportPly = false;
-  std::optional<std::filesystem::path> checkpoint;  ///< where to
+  std::optional<std::filesystem::path> checkpoint;  ///< file to write
   std::optional<double> checkpointEvery_s;          ///< wall time
-  std::optional<std::filesystem::path> resume;      ///< where from
-  std::optional<std::filesystem::path> play;        ///< a folder of PLY files to draw in place of simulating
-  std::vector<Override> overrides;                  ///< of the scene's keys, in order; --particles is the last one
+  std::optional<std::filesystem::path> resume;      ///< checkpoint to resume from
+  std::optional<std::filesystem::path> play;        ///< folder of PLY files to draw instead of simulating
+  std::vector<Override> overrides;                  ///< of scene keys, in order; --particles is the last one
   std::string device;
   std::vector<Requirement> requirements;
   bool explain = false, images = true, quiet = false;
-  bool passTimes = true;  ///< where --stats or --explain would show them
-  std::string command;    ///< the command line, quoted where a shell needs it
+  bool passTimes = true;  ///< for --stats and --explain
+  std::string command;    ///< the command line, quoted for a shell
 };
 
-/// BadInput with a message that names the option, what was given and what was expected.
+/// BadInput with the option, what was given and what was expected.
 Expected<apps::CommandLine<Options>> parseCommandLine(int count, const char* const* arguments);
 
 }  // namespace rill::capture

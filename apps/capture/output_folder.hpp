@@ -7,11 +7,11 @@
 
 namespace rill::capture {
 
-/// The folder that frames go to, held for this capture alone.
+/// The folder that frames are written to, locked for this capture.
 class OutputFolder {
  public:
-  /// Makes the folder, takes it, and removes the frames of an earlier capture, unless this one goes on from it (`keep`): frame_NNNNN.png
-  /// and .ply, and in any case parts of such files. Nothing else is touched.
+  /// Creates and locks the folder. Removes part files of frames, and unless `keep` (for --resume) the frames of an earlier
+  /// capture, frame_NNNNN.png and .ply. Other files stay.
   static Expected<OutputFolder> prepare(const std::filesystem::path& folder, bool keep = false);
 
   /// DIR/frame_00042.EXTENSION

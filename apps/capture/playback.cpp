@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,6 +16,7 @@
 #include "rill/offline.hpp"
 #include "shared/atomic_file.hpp"
 #include "shared/exit_code.hpp"
+#include "shared/message.hpp"
 #include "shared/png.hpp"
 #include "shared/progress.hpp"
 #include "shared/scene_folders.hpp"
@@ -26,9 +26,9 @@ namespace rill::capture {
 namespace fs = std::filesystem;
 namespace {
 
-void message(const std::string& text) { std::fprintf(stderr, "rill-capture: %s\n", text.c_str()); }
+void message(const std::string& text) { apps::printMessage("rill-capture", text); }
 
-/// DIR/*.ply in the order of their names.
+/// DIR/*.ply in order of their names.
 Expected<std::vector<fs::path>> filesIn(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> files;
@@ -36,17 +36,17 @@ Expected<std::vector<fs::path>> filesIn(const fs::path& folder) {
     if (at->path().extension() == ".ply") files.push_back(at->path());
   if (error) return Error{ErrorKind::BadInput, "--play: cannot read the folder " + inQuotes(folder.string()) + ": " + error.message()};
   if (files.empty())
-    return Error{ErrorKind::BadInput, "--play: " + inQuotes(folder.string()) + " holds no .ply file; expected a folder of frames"};
+    return Error{ErrorKind::BadInput, "--play: " + inQuotes(folder.string()) + " contains no .ply file; expected a folder of frames"};
   std::sort(files.begin(), files.end());
   return files;
 }
 
-/// One frame's particles, relative to the first one so that a fluid far from zero keeps its precision.
+/// Shows the particles of a file, relative to the first one to keep precision far from the origin.
 Expected<void> show(offline::Player& player, const fs::path& file, double time_s) {
   auto opened = PlyFile::open(file);
-  if (!opened) return opened.error();
+  if (!opened) return Error{opened.error().kind, "--play: " + opened.error().message};
   auto particles = opened->read();
-  if (!particles) return particles.error();
+  if (!particles) return Error{particles.error().kind, "--play: " + particles.error().message};
   double origin[3] = {0, 0, 0};
   if (!particles->positions.empty()) {
     const Double3& first = particles->positions.front();
@@ -77,18 +77,18 @@ int runPlayback(const Options& options) {
   const fs::path out = options.out ? *options.out : fs::path("out") / (byName ? fs::path(options.scene) : fs::path(scene->name));
   std::error_code ignored;
   if (options.images && fs::equivalent(out, *options.play, ignored))
-    return refuse({ErrorKind::BadInput, "--out: " + inQuotes(out.string()) + " is the folder that --play reads; expected another"});
+    return refuse({ErrorKind::BadInput, "--out: " + inQuotes(out.string()) + " is the folder that --play reads; expected another folder"});
   if (options.images)
     if (auto place = apps::checkFolderPlace("--out", out); !place) return refuse(place.error());
   if (options.graph)
     if (auto place = apps::checkFilePlace("--graph", *options.graph); !place) return refuse(place.error());
   if (options.video)
-    if (auto possible = Video::check(*options.video); !possible) return refuse(possible.error());
+    if (auto valid = Video::check(*options.video); !valid) return refuse(valid.error());
 
-  offline::Options wanted;
-  wanted.device = options.device;
-  wanted.orbit_deg_per_s = options.orbit_deg_per_s;
-  auto player = offline::Player::open(*std::move(scene), wanted);
+  offline::Options settings;
+  settings.device = options.device;
+  settings.orbit_deg_per_s = options.orbit_deg_per_s;
+  auto player = offline::Player::open(*std::move(scene), settings);
   if (!player) return refuse(player.error());
   if (auto ready = (*player)->prepareRender(options.view, options.width, options.height); !ready) return refuse(ready.error());
   std::optional<OutputFolder> folder;
@@ -131,10 +131,10 @@ int runPlayback(const Options& options) {
       break;
     }
     const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    progress.show({"frame", done + 1, count, (*files)[done].filename().string(), spent});
+    progress.show({"frame", done + 1, count, apps::printable((*files)[done].filename().string()), spent});
   }
   progress.clear();
-  if (video)  // after a failure, too: that of the frames so far is whole
+  if (video)  // after a failure, too: the video of the frames so far is complete
     if (auto finished = video->finish(); !finished) {
       message(finished.error().message);
       code = apps::kFailed;

@@ -3,7 +3,7 @@
 
 namespace rill::capture {
 
-/// --play: pictures of particles from files, without simulating; the program's exit code.
+/// --play: draws particles from files without simulating. Returns the exit code.
 int runPlayback(const Options& options);
 
 }  // namespace rill::capture

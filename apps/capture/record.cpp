@@ -21,7 +21,7 @@ std::string hexadecimal(uint64_t value) {
   return text;
 }
 
-/// One line: a list of frames stays readable, and grep finds a frame.
+/// JSON on one line, so that grep finds a frame.
 std::string oneLine(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 Json frameJson(double time_s, const offline::Stats& stats) {
@@ -186,20 +186,20 @@ std::vector<std::string> Record::warnings() const {
   if (const double dropped = droppedSeconds(); dropped > 0)
     warnings.push_back("warning: " + roughNumber(dropped) + " s of " + roughNumber(simulatedSeconds() + dropped) +
                        " s were dropped: " + std::to_string(scene_->solver.max_substeps) +
-                       " steps an advance (solver.max_substeps) were too few, each as short as the fluid's speed, weight or viscosity or "
-                       "solver.time_step asks for");
+                       " substeps per frame (solver.max_substeps) are too few for the time step that the fluid's speed, weight and "
+                       "viscosity and solver.time_step allow");
   if (last.loop_bound_hits > 0)
-    warnings.push_back("warning: loops over neighbors ran into their bound " + grouped(last.loop_bound_hits) +
-                       " times since the start: there are more particles in one place than a walk looks at");
+    warnings.push_back("warning: neighbor loops reached their limit " + grouped(last.loop_bound_hits) +
+                       " times since the start: some particles have too many neighbors");
   if (last.non_finite > 0)
     warnings.push_back("warning: " + grouped(last.non_finite) + (last.non_finite == 1 ? " particle is" : " particles are") +
-                       " set aside: their positions or velocities were not finite");
+                       " inactive: the position or velocity was not finite");
   if (const uint64_t hits = pictureBoundHits(); hits > 0) warnings.push_back(boundHitsWarning(hits));
   return warnings;
 }
 
 std::string boundHitsWarning(uint64_t hits) {
-  return "warning: loops of the renderer's shaders ran into their bounds " + grouped(hits) + " times: pictures lack something there";
+  return "warning: loops of the renderer's shaders reached their limit " + grouped(hits) + " times: images are incomplete there";
 }
 
 }  // namespace rill::capture

@@ -9,33 +9,33 @@
 
 namespace rill::capture {
 
-/// What a capture has measured so far: the object that --stats writes, the figures that --require judges, the passes that --explain lists.
+/// The measurements of a capture: for the JSON of --stats, the figures of --require and the passes of --explain.
 class Record {
  public:
-  /// `command` is the command line, as one would type it again; `start_s` the simulated time at which this run began.
+  /// `command`: the command line, quoted for a shell; `start_s`: simulated time at the start of this run.
   Record(const Scene& scene, const DeviceInfo& device, std::string command, double start_s = 0);
 
-  /// Frames in order; `time_s` is the frame's instant.
+  /// Adds the next frame, at the simulated time `time_s`.
   void add(double time_s, offline::Stats stats);
   size_t frames() const { return frames_.size(); }
 
-  /// Names of all figures of a scene, known before anything runs.
+  /// Names of all figures of a scene; does not need a run.
   static std::vector<std::string> figureNames(const Scene& scene);
-  /// In the order of figureNames(). Figures of the density error leave out the first tenth of the frames.
+  /// In the order of figureNames(). Figures of the density error exclude the first tenth of the frames.
   std::vector<Figure> figures() const;
 
-  /// What the run left out: time, loops at their bound, particles, parts of pictures. A line each.
+  /// One line each for dropped time, loops that reached their limit, inactive particles and incomplete images.
   std::vector<std::string> warnings() const;
 
-  /// One JSON object, ended by a line feed; what is not finite is null.
+  /// One JSON object and a line feed; numbers that are not finite are null.
   std::string json() const;
 
-  /// A table of passes: how often each was recorded and ran, and milliseconds over all frames, or why a pass was skipped.
+  /// A table of passes: how often recorded and run, milliseconds over all frames, or the reason why skipped.
   std::string passTable() const;
 
  private:
   double droppedSeconds() const;    ///< of this run
-  double simulatedSeconds() const;  ///< likewise, without those
+  double simulatedSeconds() const;  ///< of this run, without dropped time
   uint64_t pictureBoundHits() const;
 
   const Scene* scene_;
@@ -45,7 +45,7 @@ class Record {
   std::vector<apps::Instant> frames_;
 };
 
-/// What is said where pictures lost something to a bound.
+/// The warning about images that are incomplete because loops reached their limit.
 std::string boundHitsWarning(uint64_t hits);
 
 }  // namespace rill::capture

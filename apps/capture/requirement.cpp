@@ -34,9 +34,10 @@ bool Requirement::holds(double value) const {
 }
 
 Expected<Requirement> parseRequirement(std::string_view text) {
-  const Error malformed{ErrorKind::BadInput,
-                        "--require: " + inQuotes(text) +
-                            " was given; expected FIGURE<NUMBER (or <=, >, >=), in a shell's quotes, as 'density_error_mean<0.001'"};
+  const Error malformed{
+      ErrorKind::BadInput,
+      "--require: " + inQuotes(text) +
+          " was given; expected FIGURE<NUMBER (or <=, >, >=), quoted for the shell, for example 'density_error_mean<0.001'"};
   const size_t sign = text.find_first_of("<>");
   if (sign == std::string_view::npos) return malformed;
   Requirement requirement;
@@ -55,7 +56,7 @@ Expected<Requirement> parseRequirement(std::string_view text) {
 Expected<void> checkFigures(std::span<const Requirement> requirements, std::span<const std::string> known) {
   for (const Requirement& requirement : requirements) {
     if (std::find(known.begin(), known.end(), requirement.figure) != known.end()) continue;
-    return Error{ErrorKind::BadInput, "--require: there is no figure " + inQuotes(requirement.figure) +
+    return Error{ErrorKind::BadInput, "--require: unknown figure " + inQuotes(requirement.figure) +
                                           apps::didYouMean(requirement.figure, known) + "\nfigures: " + apps::joined(known)};
   }
   return {};

@@ -8,11 +8,11 @@
 
 namespace rill::capture {
 
-/// A figure of a whole run that the summary prints and --require can judge.
+/// A figure of a whole run, printed in the summary and tested by --require.
 struct Figure {
   std::string name;
-  double value = 0;       ///< NaN where the run has no such figure
-  std::string_view unit;  ///< empty where it is a count or a fraction
+  double value = 0;       ///< NaN where undefined for this run
+  std::string_view unit;  ///< empty for counts and ratios
 };
 
 /// "density_error_mean<0.001": a condition on a figure.
@@ -23,13 +23,13 @@ struct Requirement {
   Comparison comparison = Comparison::Less;
   double limit = 0;
 
-  bool holds(double value) const;  ///< never for NaN
+  bool holds(double value) const;  ///< false for NaN
 };
 
-/// BadInput, saying what was expected, for what is no FIGURE<NUMBER.
+/// BadInput, with what was expected, for text that is not FIGURE<NUMBER.
 Expected<Requirement> parseRequirement(std::string_view text);
 
-/// BadInput with the list of figures and the nearest one for the first requirement on an unknown figure.
+/// BadInput for the first requirement on an unknown figure, with the nearest name and the list of figures.
 Expected<void> checkFigures(std::span<const Requirement> requirements, std::span<const std::string> known);
 
 /// One message for each requirement that does not hold.

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Format {
-  const char *ending, *muxer;  // the file's name; what ffmpeg calls it
+  const char *ending, *muxer;  // of the file name; the name of ffmpeg's muxer
 };
 constexpr Format kFormats[] = {{".mp4", "mp4"}, {".mkv", "matroska"}, {".mov", "mov"}};
 
@@ -28,12 +28,12 @@ std::vector<std::string> encoderArguments(const fs::path& part, const Format& fo
     filters = "pad=" + std::to_string(width + width % 2) + ":" + std::to_string(height + height % 2) +
               ",fillborders=right=" + std::to_string(width % 2) + ":bottom=" + std::to_string(height % 2) + ":mode=smear,";
   filters += "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p";
-  // -xerror: or a disk that is full at the last bytes is a success.
+  // Without -xerror a disk that is full at the last bytes counts as success.
   return {"-nostdin", "-hide_banner", "-loglevel", "error", "-xerror", "-y",
-          // What comes: pixels of four bytes, the last one ignored.
+          // Input: pixels of four bytes, the last one ignored.
           "-f", "rawvideo", "-pixel_format", "rgb0", "-video_size", std::to_string(width) + "x" + std::to_string(height), "-framerate",
           shortNumber(fps), "-i", "pipe:0",
-          // What goes. Players take what is untagged for one of several color spaces.
+          // Output. Players guess the color space of a video without tags.
           "-vf", filters, "-c:v", "libx264", "-crf", "18", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",
           "-color_range", "tv", "-f", format.muxer, "file:" + part.string()};
 }
@@ -46,43 +46,44 @@ bool isVideoName(const fs::path& file) { return formatOf(file) != nullptr; }
 
 Expected<void> Video::check(const fs::path& file) {
   if (apps::isSpecialFile(file))
-    return Error{ErrorKind::BadInput, "--video: " + inQuotes(file.string()) + " is no ordinary file; expected one that can be replaced"};
+    return Error{ErrorKind::BadInput, "--video: " + inQuotes(file.string()) + " is a device, pipe or stream; expected a regular file"};
   if (auto place = apps::checkFilePlace("--video", file); !place) return place;
   if (apps::findProgram("ffmpeg")) return {};
   return Error{ErrorKind::BadInput, "--video: needs the program ffmpeg, which is not on PATH (Debian and Ubuntu: apt-get install ffmpeg)"};
 }
 
 Expected<Video> Video::start(const fs::path& file, uint32_t width, uint32_t height, double fps) {
-  if (auto possible = check(file); !possible) return possible.error();
+  if (auto valid = check(file); !valid) return valid.error();
   if (file.has_parent_path())
     if (auto made = apps::makeFolder("--video", file.parent_path()); !made) return made.error();
   auto part = apps::PartFile::create(file);
   if (!part) return aboutVideo(part.error());
-  auto encoder = apps::FedProgram::start(*apps::findProgram("ffmpeg"), encoderArguments(part->path(), *formatOf(file), width, height, fps));
+  auto encoder =
+      apps::PipedProcess::start(*apps::findProgram("ffmpeg"), encoderArguments(part->path(), *formatOf(file), width, height, fps));
   if (!encoder) return aboutVideo(encoder.error());
   return Video(*std::move(part), *std::move(encoder));
 }
 
 Expected<void> Video::add(const offline::Image& image) {
-  if (const auto fed = encoder_->feed(std::as_bytes(std::span(image.rgba))); !fed) {
-    const auto why = ended();
-    return why ? aboutVideo(fed.error()) : why;
+  if (const auto written = encoder_->write(std::as_bytes(std::span(image.rgba))); !written) {
+    const auto exited = finishEncoder();
+    return exited ? aboutVideo(written.error()) : exited;
   }
-  ++pictures_;
+  ++frames_;
   return {};
 }
 
 Expected<void> Video::finish() {
-  if (!encoder_ || pictures_ == 0) return {};
-  if (auto done = ended(); !done) return done;
+  if (!encoder_ || frames_ == 0) return {};
+  if (auto done = finishEncoder(); !done) return done;
   std::error_code failed;
   if (fs::file_size(part_.path(), failed) == 0 || failed) return Error{ErrorKind::Io, "--video: ffmpeg wrote nothing"};
-  if (auto kept = part_.commit(); !kept) return aboutVideo(kept.error());
+  if (auto committed = part_.commit(); !committed) return aboutVideo(committed.error());
   finished_ = true;
   return {};
 }
 
-Expected<void> Video::ended() {
+Expected<void> Video::finishEncoder() {
   const auto done = encoder_->finish();
   encoder_.reset();
   return done ? done : Expected<void>(aboutVideo(done.error()));

@@ -1,6 +1,6 @@
-// A game that wants Rill's render graph for passes of its own, and nothing else of Rill: an image is uploaded and blurred in two
-// directions, the first by a pipeline of Rill's, the second by the engine's own, recorded with raw Vulkan.
-//   blur OUT.ppm
+// Uses only Rill's render graph: uploads an image and blurs it in two directions. The first pass uses a pipeline of Rill's,
+// the second one records plain Vulkan commands with a pipeline of the game's own.
+// Usage: blur OUT.ppm
 #include <cstring>
 #include <rill/graph.hpp>
 #include <rill/pipeline.hpp>
@@ -19,8 +19,8 @@ struct Direction {
   int32_t x, y;
 };
 
-/// Squares of 8 pixels.
-void paint(unsigned char* rgba) {
+/// Writes a checkerboard with squares of 8 pixels.
+void writeCheckerboard(unsigned char* rgba) {
   for (uint32_t y = 0; y < kHeight; ++y)
     for (uint32_t x = 0; x < kWidth; ++x, rgba += 4) {
       const bool light = (x / 8 + y / 8) % 2 != 0;
@@ -39,15 +39,16 @@ int main(int count, char** arguments) {
   const auto device = lender.lend();
   host::Image result = engine.createImage(kFormat, kWidth, kHeight, VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
   host::Buffer pixels = engine.createBuffer(4 * kWidth * kHeight, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
-  paint(static_cast<unsigned char*>(pixels.mapped));
+  writeCheckerboard(static_cast<unsigned char*>(pixels.mapped));
   {
-    host::ImageFilter own(engine);
-    // Bindings 0, 1, ... of the shader's set 0.
+    host::ImageFilter filter(engine);
+    // Bindings 0, 1, ... of descriptor set 0.
     const rill::BindingKind bindings[] = {rill::BindingKind::SampledImage, rill::BindingKind::StorageImage};
     const rill::ComputePipeline* across = need(rill::computePipeline(
         *device, {.shader = "blur", .spirv = blur_comp, .bindings = bindings, .pushConstantBytes = sizeof(Direction)}));
 
-    // A frame is declared: what comes in and in which state, what each pass reads and writes. Barriers and memory follow from that.
+    // Declare the frame: imported resources with their states, and what each pass reads and writes. The graph derives
+    // barriers and memory from that.
     rill::Graph graph;
     const rill::ImageDesc size{kFormat, kWidth, kHeight};
     const rill::Groups groups{kWidth / 8, kHeight / 8};
@@ -69,19 +70,19 @@ int main(int count, char** arguments) {
     graph.pass("blur down", [&](rill::Pass& pass) {
       pass.read(half, rill::Use::ComputeSampled);
       whole = pass.write(whole, rill::Use::ComputeWrite);
-      return [=, &own](rill::Commands& commands) {  // the same by the engine's own pipeline and descriptor set
+      return [=, &filter](rill::Commands& commands) {  // the game's own pipeline and descriptor set
         const rill::ImageHandle from = commands.image(half), to = commands.image(whole);
-        own.run(commands.handle(), {VK_NULL_HANDLE, from.view, from.layout}, {VK_NULL_HANDLE, to.view, to.layout}, {0, 1}, groups.x,
-                groups.y);
+        filter.run(commands.handle(), {VK_NULL_HANDLE, from.view, from.layout}, {VK_NULL_HANDLE, to.view, to.layout}, {0, 1}, groups.x,
+                   groups.y);
       };
     });
-    graph.pass("hand out", [&](rill::Pass& pass) {
+    graph.pass("copy result", [&](rill::Pass& pass) {
       pass.read(whole, rill::Use::CopySource);
       out = pass.write(out, rill::Use::CopyTarget, rill::Load::Discard);
       return [=](rill::Commands& commands) { commands.copy(whole, out); };
     });
 
-    // It is planned, given its memory, and recorded into a command buffer that the game submits.
+    // Compile the graph, allocate its memory, record it into a command buffer that the game submits.
     need(graph.compile());
     const host::Frame frame = engine.begin();
     device->beginFrame({frame.number, frame.completed});

@@ -1,12 +1,12 @@
 #pragma once
-// What water.cpp shows at length, for the other hosts: an engine whose device Rill may borrow, lent.
+// The device setup of water.cpp, for the other programs: an engine with a device that Rill can borrow.
 #include <memory>
 #include <rill/device.hpp>
 #include <type_traits>
 
 #include "host/engine.hpp"
 
-/// The value, or the end of the program with Rill's message.
+/// Returns the value, or prints Rill's error message and exits.
 template <class T>
 T need(rill::Expected<T> result) {
   if (!result) host::fail(result.error().message.c_str());

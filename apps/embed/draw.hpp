@@ -1,5 +1,5 @@
 #pragma once
-// What hosts that draw a fluid have in common: their images in a graph, their camera as Rill takes it.
+// Helpers of the programs that render: importing images into a graph, and the camera as a FluidView.
 #include <cmath>
 #include <rill/fluid_renderer.hpp>
 
@@ -10,7 +10,7 @@ inline rill::ImageRef importTarget(rill::Graph& graph, const char* name, const h
   return graph.import(name, {image.handle, {image.format, image.width, image.height}, use, use});
 }
 
-/// A view of the whole picture, reversed depth.
+/// A view of the whole image, with reversed depth.
 inline rill::FluidView lookAt(const float (&eye)[3], const float (&target)[3], uint32_t width, uint32_t height) {
   const host::Matrix view = host::lookAt(eye, target), projection = host::perspective(40, float(width) / float(height), 0.1f);
   rill::FluidView out;

@@ -1,5 +1,5 @@
-// A game that has a device, frames in flight, a color and a depth buffer of its own gets water: all that it takes of Rill is here.
-//   water OUT.ppm
+// Adds a simulated and rendered fluid to a game that has its own Vulkan device, frames in flight, color and depth buffer.
+// Usage: water OUT.ppm
 #include <rill/fluid.hpp>
 #include <rill/fluid_renderer.hpp>
 #include <type_traits>
@@ -9,7 +9,7 @@
 
 namespace {
 
-/// The value, or the end of the program with Rill's message.
+/// Returns the value, or prints Rill's error message and exits.
 template <class T>
 T need(rill::Expected<T> result) {
   if (!result) host::fail(result.error().message.c_str());
@@ -20,22 +20,22 @@ T need(rill::Expected<T> result) {
 
 int main(int count, char** arguments) {
   if (count != 2) host::fail("usage: water OUT.ppm");
-  // Rill says what it needs before the device is made, and borrows it then.
+  // 1. Device: query what Rill requires, create the device with it, let Rill borrow the device.
   rill::DeviceRequirements needs;
   host::Engine engine([&](VkInstance instance, VkPhysicalDevice physicalDevice) {
     need(rill::appendRequired(vkGetInstanceProcAddr, instance, physicalDevice, needs));
     return needs.chain();
   });
-  rill::HostDevice lent;
-  lent.instance = engine.instance;
-  lent.physicalDevice = engine.physicalDevice;
-  lent.device = engine.device;
-  lent.queueFamily = engine.queueFamily;
-  lent.getInstanceProcAddr = engine.getInstanceProcAddr;
-  lent.enabled = &needs.features;
-  const auto device = need(rill::Device::borrow(lent));
+  rill::HostDevice hostDevice;
+  hostDevice.instance = engine.instance;
+  hostDevice.physicalDevice = engine.physicalDevice;
+  hostDevice.device = engine.device;
+  hostDevice.queueFamily = engine.queueFamily;
+  hostDevice.getInstanceProcAddr = engine.getInstanceProcAddr;
+  hostDevice.enabled = &needs.features;
+  const auto device = need(rill::Device::borrow(hostDevice));
 
-  // A tank of 2 x 1 x 1 m with water at its left.
+  // 2. Scene: a tank of 2 x 1 x 1 m with water on the left.
   rill::Scene scene;
   scene.fluid.spacing = 0.04;
   scene.domain = rill::Domain{{0, 0, 0}, {2, 1, 1}};
@@ -43,11 +43,12 @@ int main(int count, char** arguments) {
   const auto particles = need(rill::makeParticles(scene));
   const auto water = need(rill::Fluid::create(*device, {.scene = &scene, .particles = &particles}));
 
+  // 3. Renderer: draws into the game's color and depth buffer.
   constexpr uint32_t kWidth = 640, kHeight = 360;
   host::Image color = engine.createImage(VK_FORMAT_R8G8B8A8_SRGB, kWidth, kHeight,
                                          rill::kFluidColorUsage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
   host::Image depth = engine.createImage(VK_FORMAT_D32_SFLOAT, kWidth, kHeight, rill::kFluidDepthUsage | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
-  const auto painter = need(rill::FluidRenderer::create(*device, {color.format, depth.format}));
+  const auto renderer = need(rill::FluidRenderer::create(*device, {color.format, depth.format}));
   rill::FluidView view;
   view.view = rill::Float4x4::from(host::lookAt({2.6f, 1.6f, 3.2f}, {0.9f, 0.3f, 0.5f}).m[0]);
   view.projection = rill::Float4x4::from(host::perspective(40, float(kWidth) / kHeight, 0.1f).m[0]);
@@ -55,6 +56,7 @@ int main(int count, char** arguments) {
   view.height = kHeight;
   view.focus_m = 3.5;
 
+  // 4. Frames: declare Rill's passes in a graph and record it into the game's command buffer.
   rill::Graph graph;
   for (int k = 0; k < 40; ++k) {
     const host::Frame frame = engine.begin();
@@ -66,7 +68,7 @@ int main(int count, char** arguments) {
     targets.color = graph.import("color", {color.handle, {color.format, kWidth, kHeight}, rill::Use::ColorTarget, rill::Use::ColorTarget});
     targets.depth = graph.import("depth", {depth.handle, {depth.format, kWidth, kHeight}, rill::Use::DepthTarget, rill::Use::DepthTarget});
     const rill::FluidState state = water->addTo(graph, {.advance_s = 1.0 / 60});
-    targets = painter->addTo(graph, state, targets, view);
+    targets = renderer->addTo(graph, state, targets, view);
     need(graph.compile());
     need(graph.prepare(*device));
     graph.record(frame.commands);

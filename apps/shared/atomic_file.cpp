@@ -20,8 +20,20 @@ Error ioError(std::string_view name, std::string_view what, int code) {
   return Error{ErrorKind::Io, "can't " + std::string(what) + " " + std::string(name) + ": " + reason(code)};
 }
 
-/// 1 or 2 for the names of a standard stream, else -1. They are written through the open descriptor: opening /dev/stdout again
-/// would start over at offset 0 of a redirected file, and fails for a socket.
+/// Writes all bytes; the value of errno where that fails, else 0.
+int writeBytes(int descriptor, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written >= 0)
+      bytes = bytes.subspan(static_cast<size_t>(written));
+    else if (errno != EINTR)
+      return errno;
+  }
+  return 0;
+}
+
+/// 1 or 2 for the names of a standard stream, else -1. They are written through the open descriptor: opening
+/// /dev/stdout again would write at offset 0 of a redirected file, and fails for a socket.
 int standardStream(const fs::path& file) {
   if (file == "-") return STDOUT_FILENO;  // "./-" is a file
   const std::string name = file.lexically_normal().string();
@@ -30,9 +42,9 @@ int standardStream(const fs::path& file) {
   return -1;
 }
 
-bool below(const fs::path& file, std::string_view root) { return file.string().starts_with(root); }
+bool isBelow(const fs::path& file, std::string_view root) { return file.string().starts_with(root); }
 
-/// The file that is to be replaced: what a chain of links ends at, even where nothing is there yet.
+/// The file to replace: the end of a chain of links, whether it exists or not.
 fs::path followLinks(fs::path file) {
   std::error_code ignored;
   for (int depth = 0; depth < 40 && fs::is_symlink(file, ignored); ++depth) {
@@ -48,7 +60,7 @@ fs::path folderOf(const fs::path& file) {
   return folder.empty() ? fs::path(".") : folder;
 }
 
-/// The nearest folder above that exists, or what stands in its place.
+/// The nearest existing folder above `path`, or the file that is there in place of one.
 fs::path existingAncestor(fs::path path) {
   std::error_code ignored;
   while (!fs::exists(path, ignored)) {
@@ -65,21 +77,14 @@ fs::path existingAncestor(fs::path path) {
 bool isStandardOutput(const fs::path& file) { return standardStream(file) == STDOUT_FILENO; }
 
 bool isSpecialFile(const fs::path& file) {
-  if (standardStream(file) >= 0 || below(file, "/dev/") || below(file, "/proc/")) return true;
+  if (standardStream(file) >= 0 || isBelow(file, "/dev/") || isBelow(file, "/proc/")) return true;
   struct stat info {};
   return ::stat(file.c_str(), &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
 }
 
 Expected<void> writeAll(int descriptor, std::string_view name, std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-    if (written < 0) {
-      if (errno == EINTR) continue;
-      return ioError(name, "write", errno);
-    }
-    bytes = bytes.subspan(static_cast<size_t>(written));
-  }
-  return {};
+  const int error = writeBytes(descriptor, bytes);
+  return error == 0 ? Expected<void>() : ioError(name, "write", error);
 }
 
 Expected<void> writeAll(int descriptor, std::string_view name, std::string_view text) {
@@ -90,13 +95,13 @@ Expected<PartFile> PartFile::create(const fs::path& file) {
   const fs::path target = followLinks(file);
   const fs::path part = folderOf(target) / ("." + target.filename().string() + "." + std::to_string(::getpid()) + ".part");
   int opened = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (opened < 0 && errno == EEXIST) {  // left by a killed program that had this process's number
+  if (opened < 0 && errno == EEXIST) {  // left by a killed process that had the same id
     ::unlink(part.c_str());
     opened = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   }
   if (opened < 0) return ioError(file.string(), "write", errno);
   struct stat before {};
-  if (::stat(target.c_str(), &before) == 0 && ::fchmod(opened, before.st_mode & 07777) != 0) { /* its mode stays the default one */
+  if (::stat(target.c_str(), &before) == 0 && ::fchmod(opened, before.st_mode & 07777) != 0) { /* keep the default mode */
   }
   return PartFile(file.string(), target, part, Descriptor(opened));
 }
@@ -106,7 +111,7 @@ PartFile::~PartFile() {
 }
 
 Expected<void> PartFile::commit() {
-  // A full disk may show only here; a file system that can't sync (EINVAL) has done what it can.
+  // A full disk may be reported only here. EINVAL: the file system does not support sync.
   if (::fsync(descriptor_.get()) != 0 && errno != EINVAL && errno != ENOSYS) return ioError(name_, "write", errno);
   if (descriptor_.close() != 0 && errno != EINTR) return ioError(name_, "write", errno);
   if (::rename(path_.c_str(), target_.c_str()) != 0) return ioError(name_, "write", errno);
@@ -114,10 +119,27 @@ Expected<void> PartFile::commit() {
   return {};
 }
 
+Expected<void> writeStream(int stream, std::span<const std::byte> bytes) {
+  const int error = writeBytes(stream, bytes);
+  if (error == 0 || error == EPIPE || error == EBADF) return {};
+  return ioError(stream == STDOUT_FILENO ? "standard output" : "standard error", "write", error);
+}
+
+Expected<void> writeStream(int stream, std::string_view text) {
+  return writeStream(stream, std::as_bytes(std::span(text.data(), text.size())));
+}
+
+void reserveStandardStreams() {
+  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
+    if (::fcntl(stream, F_GETFD) >= 0 || errno != EBADF) continue;
+    // Opened in the opposite mode, so that reading or writing still fails with EBADF.
+    if (::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) return;
+  }
+}
+
 Expected<void> writeFile(const fs::path& file, std::span<const std::byte> bytes) {
   const std::string name = file.string();
-  if (const int stream = standardStream(file); stream >= 0)
-    return writeAll(stream, stream == STDOUT_FILENO ? "standard output" : "standard error", bytes);
+  if (const int stream = standardStream(file); stream >= 0) return writeStream(stream, bytes);
   if (!isSpecialFile(file)) {
     auto part = PartFile::create(file);
     if (!part) return part.error();
@@ -138,8 +160,13 @@ Expected<void> writeFile(const fs::path& file, std::string_view text) {
 Expected<void> checkFilePlace(std::string_view option, const fs::path& file) {
   const std::string prefix = std::string(option) + ": ";
   std::error_code ignored;
-  if (file.empty()) return Error{ErrorKind::BadInput, prefix + "expected the name of a file"};
-  if (standardStream(file) >= 0) return {};
+  if (file.empty()) return Error{ErrorKind::BadInput, prefix + "found an empty name, expected the name of a file"};
+  if (const int stream = standardStream(file); stream >= 0) {
+    const int mode = ::fcntl(stream, F_GETFL);
+    if (mode >= 0 && (mode & O_ACCMODE) != O_RDONLY) return {};
+    return Error{ErrorKind::BadInput, prefix + (stream == STDOUT_FILENO ? "standard output" : "standard error") +
+                                          " is closed; expected one that can be written, or the name of a file"};
+  }
   if (fs::is_directory(file, ignored) || !file.has_filename())
     return Error{ErrorKind::BadInput, prefix + inQuotes(file.string()) + " is a folder; expected the name of a file"};
   if (fs::exists(file, ignored)) {
@@ -147,7 +174,7 @@ Expected<void> checkFilePlace(std::string_view option, const fs::path& file) {
       return Error{ErrorKind::BadInput, prefix + "can't write " + inQuotes(file.string()) + ": " + reason(errno)};
     if (isSpecialFile(file)) return {};
   } else if (isSpecialFile(file)) {
-    return Error{ErrorKind::BadInput, prefix + "there is no " + inQuotes(file.string())};
+    return Error{ErrorKind::BadInput, prefix + inQuotes(file.string()) + ": no such file"};
   }
   return checkFolderPlace(option, folderOf(followLinks(file)));
 }
@@ -155,7 +182,7 @@ Expected<void> checkFilePlace(std::string_view option, const fs::path& file) {
 Expected<void> checkFolderPlace(std::string_view option, const fs::path& folder) {
   const std::string prefix = std::string(option) + ": ";
   std::error_code ignored;
-  if (folder.empty()) return Error{ErrorKind::BadInput, prefix + "expected the name of a folder"};
+  if (folder.empty()) return Error{ErrorKind::BadInput, prefix + "found an empty name, expected the name of a folder"};
   const fs::path nearest = existingAncestor(folder);
   if (!fs::is_directory(nearest, ignored))
     return Error{ErrorKind::BadInput, prefix + inQuotes(nearest.string()) + " is a file; expected a folder"};
@@ -167,10 +194,10 @@ Expected<void> checkFolderPlace(std::string_view option, const fs::path& folder)
 Expected<void> makeFolder(std::string_view option, const fs::path& folder) {
   std::error_code failed;
   fs::create_directories(folder, failed);
-  // A trailing slash makes create_directories answer false for a folder that it made: only the folder's presence counts.
+  // With a trailing slash create_directories() returns false for a folder that it created: check that the folder exists.
   std::error_code ignored;
   if (fs::is_directory(folder, ignored)) return {};
-  return Error{ErrorKind::BadInput, std::string(option) + ": can't make the folder " + inQuotes(folder.string()) + ": " +
+  return Error{ErrorKind::BadInput, std::string(option) + ": can't create the folder " + inQuotes(folder.string()) + ": " +
                                         (failed ? failed.message() : "unknown reason")};
 }
 

@@ -5,7 +5,7 @@
 
 namespace rill::apps {
 
-/// An open file descriptor that closes itself; -1: none.
+/// Owns a file descriptor; -1: none.
 class Descriptor {
  public:
   explicit Descriptor(int value = -1) : value_(value) {}
@@ -16,7 +16,7 @@ class Descriptor {
     return *this;
   }
   int get() const { return value_; }
-  /// What close() says, where one was open.
+  /// The result of close(2); 0 where none was open.
   int close() {
     const int value = std::exchange(value_, -1);
     return value >= 0 ? ::close(value) : 0;

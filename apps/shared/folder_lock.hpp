@@ -7,11 +7,11 @@
 
 namespace rill::apps {
 
-/// Holds a folder for one program at a time, as long as it lives. The lock is on the folder itself: nothing is left in it, and it ends with
-/// the process.
+/// An exclusive lock on a folder, for the lifetime of the object. The lock is on the folder itself: it needs no lock file
+/// and ends with the process.
 class FolderLock {
  public:
-  /// BadInput where another program holds it. A file system that knows no locks is used without one.
+  /// BadInput where another process holds it. A file system without locks is used without one.
   static Expected<FolderLock> take(const std::filesystem::path& folder);
 
  private:

@@ -34,7 +34,7 @@ std::string viewNames() { return joined(views()); }
 Expected<void> checkView(const std::string& name) {
   const std::vector<std::string> all = views();
   if (std::find(all.begin(), all.end(), name) != all.end()) return {};
-  return Error{ErrorKind::BadInput, "--view: there is no view " + inQuotes(name) + didYouMean(name, all) + "\nviews: " + joined(all)};
+  return Error{ErrorKind::BadInput, "--view: unknown view " + inQuotes(name) + didYouMean(name, all) + "\nviews: " + joined(all)};
 }
 
 }  // namespace rill::apps

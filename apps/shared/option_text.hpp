@@ -1,5 +1,5 @@
 #pragma once
-// Values of command lines and scripts, read from text.
+// Parses values of command lines and scripts.
 #include <charconv>
 #include <cstdint>
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace rill::apps {
 
-/// The whole text as a number. Nothing: it is none, there is more, or it is beyond what the type holds.
+/// The whole text as a number; nullopt for anything else, or where the type cannot hold it.
 template <class Number>
 std::optional<Number> numberIn(std::string_view text) {
   Number value{};
@@ -23,15 +23,15 @@ std::optional<Number> numberIn(std::string_view text) {
 struct PixelSize {
   uint32_t width = 0, height = 0;
 };
-/// "WIDTHxHEIGHT", each side from `least` to `most`. Nothing for another text.
+/// "WIDTHxHEIGHT", each side from `least` to `most`; nullopt for anything else.
 std::optional<PixelSize> pixelSizeIn(std::string_view text, uint32_t least, uint32_t most);
 
-/// `option` was given as `given`, where something else was expected.
+/// "OPTION: "GIVEN" was given; expected EXPECTED".
 Error badInput(std::string_view option, std::string_view given, std::string_view expected);
 
-/// Names of the views for a help text.
+/// The names of the views, for help texts.
 std::string viewNames();
-/// BadInput with the list of views where `name` is none.
+/// BadInput with the list of views where `name` is not one.
 Expected<void> checkView(const std::string& name);
 
 }  // namespace rill::apps

@@ -19,7 +19,7 @@ struct Vertex {
   uint32_t id;
 };
 static_assert(sizeof(Vertex) == 32);
-static_assert(std::endian::native == std::endian::little, "the records are written as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "the records are written as they are in memory");
 
 std::string shortest(double value) {
   char text[32];

@@ -11,7 +11,7 @@ namespace rill::apps {
 /// Particles as binary little-endian PLY: float x y z vx vy vz density, uint id a vertex, and the time in seconds in a comment.
 std::vector<std::byte> encodePly(const offline::Particles& particles, double time_s);
 
-/// Writes that, whole or not at all. Io, naming the file.
+/// Writes that to a file, atomically. Io, with the name of the file.
 Expected<void> writePly(const std::filesystem::path& file, const offline::Particles& particles, double time_s);
 
 }  // namespace rill::apps

@@ -33,7 +33,7 @@ Expected<void> writePng(const std::filesystem::path& file, const offline::Image&
     const auto* first = static_cast<const std::byte*>(bytes);
     static_cast<std::vector<std::byte>*>(target)->insert(static_cast<std::vector<std::byte>*>(target)->end(), first, first + size);
   };
-  stbi_write_force_png_filter = 1;  // trying all five filters on each row takes half as long again, for the same size
+  stbi_write_force_png_filter = 1;  // trying all five filters is slower and saves nothing: docs/notes/programs.md
   const int width = static_cast<int>(image.width), height = static_cast<int>(image.height);
   if (!stbi_write_png_to_func(append, &png, width, height, channels, data, width * channels))
     return Error{ErrorKind::OutOfMemory, "can't encode " + file.string() + ": out of memory"};

@@ -6,7 +6,7 @@
 
 namespace rill::apps {
 
-/// Writes an image as a PNG, whole or not at all; without an alpha channel where it is opaque everywhere. Io, naming the file.
+/// Writes an image as PNG, atomically; without an alpha channel where all pixels are opaque. Io, with the name of the file.
 Expected<void> writePng(const std::filesystem::path& file, const offline::Image& image);
 
 }  // namespace rill::apps

@@ -28,7 +28,7 @@ int terminalColumns() {
 }
 
 void toStandardError(std::string_view text) {
-  // Nobody is left to tell when this fails.
+  // A failure to write progress is ignored.
   if (::write(STDERR_FILENO, text.data(), text.size()) < 0) return;
 }
 
@@ -61,7 +61,7 @@ std::string progressBar(const ProgressState& state, int columns) {
     const int full = static_cast<int>(part * cells);
     line = "[" + std::string(static_cast<size_t>(full), '#') + std::string(static_cast<size_t>(cells - full), '.') + "] " + text;
   }
-  // One column is left free: writing the last one makes some terminals wrap.
+  // Some terminals wrap after the last column: leave it empty.
   return line.substr(0, static_cast<size_t>(std::max(1, columns - 1)));
 }
 

@@ -5,29 +5,29 @@
 
 namespace rill::apps {
 
-/// How far counted work is.
+/// The progress of work that is counted.
 struct ProgressState {
-  std::string_view unit;  ///< what is counted, "frame"
+  std::string_view unit;  ///< of counting, "frame"
   uint32_t done = 0, total = 0;
-  std::string about;     ///< of what is at hand, "t 0.033 s"
-  double elapsed_s = 0;  ///< wall time since the first was begun
+  std::string about;     ///< details of the last unit, "t 0.033 s"
+  double elapsed_s = 0;  ///< wall time since the start
 };
 
 /// "1 h 02 min", "3 min 05 s", "12 s".
 std::string formatDuration(double seconds);
-/// Wall time left if those to come cost what those done have cost in the mean.
+/// Estimated wall time left, from the mean time per unit so far.
 double secondsLeft(const ProgressState& state);
-/// One line of text: how many, about what, time left.
+/// One line of text: count, details, time left.
 std::string progressText(const ProgressState& state);
-/// The same behind a bar, at most `columns` wide.
+/// The same after a bar, at most `columns` wide.
 std::string progressBar(const ProgressState& state, int columns);
 
-/// Shows progress on standard error: a bar that is redrawn on a terminal, else a line now and then (each tenth of the way, or after ten
-/// seconds of silence).
+/// Shows progress on standard error: on a terminal a bar that is redrawn, else a line at each tenth of the work and at
+/// least every ten seconds.
 class Progress {
  public:
   enum class Style { Quiet, Lines, Bar };
-  /// Bar where standard error is a terminal that can move its cursor, else lines.
+  /// Bar where standard error is a terminal with cursor control, else Lines.
   static Style styleForTerminal();
 
   explicit Progress(Style style) : style_(style) {}
@@ -36,7 +36,7 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void show(const ProgressState& state);
-  /// Takes the bar off the screen, so that a message can be written; show() draws it again.
+  /// Erases the bar so that a message can be written; show() draws it again.
   void clear();
 
  private:

@@ -7,8 +7,8 @@
 namespace rill::apps {
 namespace {
 
-/// Potential energy of all the fluid in the domain's lowest corner, J: from there potential energy is counted, so that the ratio of
-/// energies does not depend on where the scene's zero lies.
+/// Potential energy of all fluid at the domain's lowest corner, J. Energies are measured from there, so that their ratio
+/// does not depend on the scene's origin.
 double lowestPotential(const Scene& scene, double mass) {
   if (!scene.domain) return 0;
   double least = 0;

@@ -6,21 +6,21 @@
 
 namespace rill::apps {
 
-/// The figures of a run at one time.
+/// The figures of a run at one instant.
 struct Instant {
   double time_s = 0;
   offline::Stats stats;
 };
 
-/// Kinetic and potential energy, summed.
+/// Kinetic plus potential energy.
 struct EnergyFigures {
   double start_J = 0, max_J = 0, end_J = 0;
-  double ratio = 1;      ///< max over start, potential energy counted from the domain's lowest corner; NaN where the start has none
+  double ratio = 1;      ///< max over start, with potential energy measured from the domain's lowest corner; NaN where the start is 0
   double end_ratio = 1;  ///< end over start, likewise
 };
 EnergyFigures energyFigures(const Scene& scene, std::span<const Instant> run);
 
-/// Compression over the run without its first tenth: the mean of means, the worst of the others, the median of medians.
+/// Density error over the run without its first tenth: mean of means, maximum of p99 and max, median of medians.
 struct DensityFigures {
   double mean = 0, p99 = 0, max = 0, signed_median = 0;
 };

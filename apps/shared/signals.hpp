@@ -2,11 +2,11 @@
 
 namespace rill::apps {
 
-/// SIGINT, SIGTERM and SIGHUP are noted from now on, for the program to end at a good place; the second of a kind ends it at once.
-/// A hang-up that was already ignored (nohup) stays so. SIGPIPE is ignored: writing to a closed pipe is an error like others.
+/// From now on SIGINT, SIGTERM and SIGHUP are recorded, so that the program can finish the current frame and exit; a second
+/// one of a kind ends it at once. SIGHUP stays ignored where it was (nohup). SIGPIPE is ignored: write() returns EPIPE.
 void installSignals();
 
-/// The first signal that was noted, or 0.
+/// The number of the first recorded signal, or 0.
 int signalReceived();
 
 }  // namespace rill::apps

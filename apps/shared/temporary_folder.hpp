@@ -10,14 +10,14 @@
 
 namespace rill::apps {
 
-/// A folder of one's own, removed with all that is in it at its end.
+/// A temporary folder that is removed with its content by the destructor.
 class TemporaryFolder {
  public:
-  /// Io, naming the place, where none can be made.
+  /// Io, with the path, where it cannot be created.
   static Expected<TemporaryFolder> make() {
     std::error_code failed;
     std::string pattern = (std::filesystem::temp_directory_path(failed) / ("rill-" + std::string(6, 'X'))).string();
-    if (failed || ::mkdtemp(pattern.data()) == nullptr) return Error{ErrorKind::Io, "making a temporary folder as " + pattern + " failed"};
+    if (failed || ::mkdtemp(pattern.data()) == nullptr) return Error{ErrorKind::Io, "can't create a temporary folder " + pattern};
     return TemporaryFolder(pattern);
   }
   TemporaryFolder(TemporaryFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}

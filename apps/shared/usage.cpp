@@ -13,8 +13,8 @@ std::string usageMessage(const CLI::App& app, const CLI::ParseError& error) {
     for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
   for (std::string extra : app.remaining()) {
     if (const size_t equals = extra.find('='); extra.starts_with("--") && equals != std::string::npos) extra.resize(equals);
-    if (extra.starts_with("-")) return "there is no option " + inQuotes(extra) + didYouMean(extra, known);
-    return inQuotes(extra) + " is one argument too many";
+    if (extra.starts_with("-")) return "unknown option " + inQuotes(extra) + didYouMean(extra, known);
+    return "unexpected argument " + inQuotes(extra);
   }
   return error.what();
 }

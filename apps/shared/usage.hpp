@@ -1,5 +1,5 @@
 #pragma once
-// What the command lines share. Needs CLI11.
+// Command line parsing with CLI11, for all programs.
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace rill::apps {
 
-/// Calls `parse`, which has `app` parse. Empty, or the text that --help or --version asks for; BadInput with the library's own message, and
-/// the nearest option for one that it does not know. `version`: "rill-capture 0.1.0".
+/// Calls `parse`, which runs `app`. Returns the text of --help or --version, or an empty string. BadInput with the
+/// library's message, or the nearest option name where an option is unknown. `version`: "rill-capture 0.1.0".
 Expected<std::string> parsed(CLI::App& app, const std::string& version, const std::function<void()>& parse);
 
-/// The command as one would type it in a shell.
+/// The command line, quoted for a shell.
 std::string commandText(std::string_view program, int count, const char* const* arguments);
 
 }  // namespace rill::apps

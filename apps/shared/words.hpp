@@ -5,7 +5,7 @@
 
 namespace rill::apps {
 
-/// "; did you mean "x"?" for the known word that `word` is most likely a typo of, or nothing.
+/// "; did you mean "x"?" with the known word that `word` is most likely a typo of; empty where none is near.
 std::string didYouMean(std::string_view word, std::span<const std::string> known);
 
 /// "a, b, c"

@@ -3,32 +3,32 @@
 
 namespace rill::view {
 
-/// Simulated time follows real time in steps of one length. What the machine has not simulated when the next step is due is not caught up
-/// with: time then goes slower, and speed() says by how much.
+/// Makes simulated time follow real time in fixed steps. A machine that is too slow does not catch up: simulated time then
+/// runs slower, by the factor speed().
 class Clock {
  public:
-  /// s; the steps of rill-capture at 60 frames a second.
+  /// s; the step of rill-capture at 60 frames/s.
   static constexpr double kStep = 1.0 / 60;
 
-  /// Real time went by while the simulation was to run.
-  void passed(double real_s);
-  /// Whether a step is to begin now.
-  bool due() const { return owed_ >= kStep; }
-  /// A step has begun.
-  void begun() { owed_ -= kStep; }
-  /// A step was simulated to its end.
-  void finished();
-  /// Forgets what is owed and what was measured: after a pause, another scene.
+  /// Adds real time during which the simulation was not paused.
+  void addRealTime(double real_s);
+  /// True where the next step is due.
+  bool due() const { return pending_ >= kStep; }
+  /// Call at the start of a step.
+  void beginStep() { pending_ -= kStep; }
+  /// Call at the end of a step.
+  void endStep();
+  /// Resets the clock: after a pause, for another scene.
   void restart() { *this = {}; }
 
-  /// Simulated over real time, over about the last second; 1 as long as nothing is known.
+  /// Simulated over real time in about the last second; 1 until enough is measured.
   double speed() const;
-  /// Whether that differs from real time by what a person would see.
+  /// True where the simulation is visibly slower than real time.
   bool slow() const { return speed() < 0.95; }
 
  private:
-  double owed_ = 0;                  // s
-  double real_ = 0, simulated_ = 0;  // s, fading with a time constant of a second
+  double pending_ = 0;               // s of real time that no step covers yet
+  double real_ = 0, simulated_ = 0;  // s, with exponential decay over a second
 };
 
 }  // namespace rill::view

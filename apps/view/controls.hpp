@@ -1,5 +1,5 @@
 #pragma once
-// The mouse over the picture: a camera that it moves, and a hand in the scene.
+// Mouse input over the image: moves the camera, interacts with the fluid and the solids.
 #include <functional>
 
 #include "view/input.hpp"
@@ -13,24 +13,24 @@ class Controls {
  public:
   OrbitCamera camera{CameraView{}};
 
-  /// Moves, buttons and the wheel, over the picture's area; other events are not for it. `panels`: the mouse is over them.
-  /// `still`: nothing moves, so that there is nothing to push.
-  Expected<void> take(const InputEvent& event, const Area& area, Session& session, bool panels, bool still);
-  /// After the scene began anew.
-  void forget();
-  /// Fluid thrown at what is under the pointer.
+  /// Handles pointer, button and wheel events in the image's area and ignores others. `overPanels`: the pointer is over a
+  /// panel. `paused`: fluid and solids cannot be moved.
+  Expected<void> handle(const InputEvent& event, const Area& area, Session& session, bool overPanels, bool paused);
+  /// Call after the scene was restarted.
+  void reset();
+  /// Throws fluid at what is under the pointer.
   Expected<uint64_t> throwFluid(Session& session, const Area& area) const { return Touch::throwFluid(session, ray(area)); }
 
  private:
   enum class Drag { None, Orbit, Pan, Dolly, Touch };
-  struct Place {
+  struct Position {
     double x = 0, y = 0;  // pixels
   };
-  Expected<void> press(const InputEvent& event, const Area& area, Session& session, bool still);
+  Expected<void> press(const InputEvent& event, const Area& area, Session& session, bool paused);
   Ray ray(const Area& area) const;  // through the pointer
 
   Touch touch_;
-  Place pointer_, grip_;  // the pointer; where it was when it took hold
+  Position pointer_, grabbed_;  // now; when the button was pressed
   Drag drag_ = Drag::None;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// What is on the screen: a picture of the scene, drawn anew when it has changed, and the panels over it, drawn for every frame.
+// Draws the window: the image of the scene, rendered when it changes, and the panels over it, rendered in every frame.
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,15 +16,15 @@ class Display {
  public:
   static Expected<std::unique_ptr<Display>> create(offline::Context& context, Window& window, ImFontAtlas& fonts);
 
-  /// Makes the window's images anew where its size, or the present mode, has changed.
+  /// Recreates the swapchain where the window's size or the present mode has changed.
   Expected<void> fit(Window::Size size);
-  /// Draws the scene for an area of the window, at `scale` of its pixels a side. BadInput where that view cannot be drawn from there: the
-  /// old picture stays.
+  /// Renders the scene for an area of the window, at `scale` times its resolution per side. BadInput where the view cannot
+  /// be drawn from this camera; the previous image stays.
   Expected<void> paint(Session& session, std::string_view view, const CameraView& eye, const Area& area, double scale, double time_s);
-  /// Draws the window and shows it; its content goes to `screenshot`, too, where one is asked for.
+  /// Draws and presents the window; copies its content to `screenshot` unless that is null.
   Expected<void> show(const ImDrawData& lists, const ImVec4& behind, offline::Image* screenshot);
 
-  /// Device time of the last picture, once it is known: then it is known once.
+  /// Device time of the last image, returned once after it was measured.
   std::optional<double> pictureSeconds();
   std::span<const Timing> pictureTimings() const { return picture_.timings(); }
   std::span<const PassReport> pictureReport() const { return picture_.report(); }
@@ -43,12 +43,12 @@ class Display {
   std::unique_ptr<Swapchain> swapchain_;
   std::unique_ptr<WindowPass> pass_;
   Graph picture_, window_;
-  Buffer shown_;  ///< the picture
+  Buffer shown_;  ///< the image of the scene
   uint32_t shownWidth_ = 0, shownHeight_ = 0;
   Area area_;
   Window::Size size_;
-  bool stale_ = true;               ///< the swapchain
-  std::optional<uint64_t> timing_;  ///< frame of the picture whose time is to be told
+  bool stale_ = true;               ///< the swapchain must be recreated
+  std::optional<uint64_t> timing_;  ///< frame of the image whose time is not returned yet
 };
 
 }  // namespace rill::view

@@ -1,5 +1,5 @@
 #pragma once
-// Whether a file was written anew.
+// Detects that a file was modified.
 #include <filesystem>
 #include <system_error>
 
@@ -7,15 +7,15 @@ namespace rill::view {
 
 class FileWatch {
  public:
-  explicit FileWatch(std::filesystem::path file) : file_(std::move(file)) { noted(); }
+  explicit FileWatch(std::filesystem::path file) : file_(std::move(file)) { acknowledge(); }
   const std::filesystem::path& file() const { return file_; }
-  /// What there is now is known.
-  void noted() { read_ = written(); }
-  /// Whether there is another than the one that is known (asked at most twice a second of `now_s`). One that is gone, as while it is being
-  /// replaced, is looked at again later.
+  /// Marks the current version as seen.
+  void acknowledge() { read_ = written(); }
+  /// True where the file has changed since acknowledge(); checked at most twice per second of `now_s`. A missing file, as
+  /// while it is being replaced, counts as unchanged.
   bool changed(double now_s) {
-    if (now_s - asked_s_ < 0.5) return false;
-    asked_s_ = now_s;
+    if (now_s - checked_s_ < 0.5) return false;
+    checked_s_ = now_s;
     return written() != read_;
   }
 
@@ -28,7 +28,7 @@ class FileWatch {
 
   std::filesystem::path file_;
   std::filesystem::file_time_type read_{};
-  double asked_s_ = 0;
+  double checked_s_ = 0;
 };
 
 }  // namespace rill::view

@@ -5,11 +5,11 @@
 
 namespace rill::view {
 
-/// Where gravity is tilted to, as one sees it in the picture.
+/// Direction of a tilt of gravity, as seen in the image.
 enum class Tilt { Left, Right, Away, Towards };
 
-/// Gravity turned by `degrees` over the horizontal direction of the picture, as long as before. Turned as far as it goes, it lies
-/// along it. No gravity stays none.
+/// Gravity rotated by `degrees` towards the horizontal direction `tilt` of the image, at most until it is parallel to it.
+/// Its magnitude is kept.
 std::array<double, 3> tilted(const std::array<double, 3>& gravity, const CameraView& eye, Tilt tilt, double degrees);
 
 }  // namespace rill::view

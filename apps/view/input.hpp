@@ -3,16 +3,16 @@
 
 namespace rill::view {
 
-/// Something that a hand did, from the window or from a script. Keys, buttons and modifiers are numbered as GLFW does.
+/// An input event from the window or a script. Keys, buttons and modifiers have GLFW's numbers.
 struct InputEvent {
   enum class Kind {
-    Move,    ///< the pointer is at x, y (pixels of the framebuffer, from the top left)
-    Button,  ///< `code` went down or up
-    Wheel,   ///< by x, y notches
-    Key,     ///< `code` went down or up
-    Text,    ///< was typed, UTF-8
+    Move,    ///< the pointer moved to x, y (pixels of the framebuffer, from the top left)
+    Button,  ///< `code` was pressed or released
+    Wheel,   ///< scrolled by x, y notches
+    Key,     ///< `code` was pressed or released
+    Text,    ///< typed text, UTF-8
     Drop,    ///< a file of this path was dropped onto the window
-    Focus    ///< came (down) or went
+    Focus    ///< gained (down) or lost
   };
   Kind kind = Kind::Move;
   double x = 0, y = 0;

@@ -20,7 +20,7 @@ struct KeyRow {
   int glfw;
   int imgui;
 };
-// Those that edit text and move through it; all others are the viewer's own.
+// Keys of text fields; all others are handled by the viewer.
 constexpr KeyRow kKeys[] = {{GLFW_KEY_TAB, ImGuiKey_Tab},
                             {GLFW_KEY_LEFT, ImGuiKey_LeftArrow},
                             {GLFW_KEY_RIGHT, ImGuiKey_RightArrow},
@@ -39,7 +39,7 @@ constexpr KeyRow kKeys[] = {{GLFW_KEY_TAB, ImGuiKey_Tab},
                             {GLFW_KEY_X, ImGuiKey_X},
                             {GLFW_KEY_Z, ImGuiKey_Z}};
 
-// A typeface that is read more easily than the one built in, where the system has it (Debian: fonts-dejavu-core).
+// Fonts that are more legible than the built-in one, if installed (Debian: fonts-dejavu-core).
 constexpr const char* kFonts[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
                                   "/usr/share/fonts/truetype/liberation2/LiberationSans-Regular.ttf",
                                   "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf"};
@@ -54,7 +54,7 @@ Interface::Interface(float scale, std::function<std::string()> paste, std::funct
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = io.LogFilename = nullptr;  // nothing is written beside the program
+  io.IniFilename = io.LogFilename = nullptr;  // write no files
   io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
 #if IMGUI_VERSION_NUM < 18700
   for (const KeyRow& row : kKeys) io.KeyMap[row.imgui] = row.glfw;
@@ -116,7 +116,7 @@ std::vector<InputEvent> Interface::next() {
   return taken;
 }
 
-void Interface::tell(const InputEvent& event) {
+void Interface::send(const InputEvent& event) {
   ImGuiIO& io = ImGui::GetIO();
   const auto modify = [&](bool control, bool shift) {
 #if IMGUI_VERSION_NUM >= 18700
@@ -127,7 +127,7 @@ void Interface::tell(const InputEvent& event) {
     io.KeyShift = shift;
 #endif
   };
-  // What X11 says of a modifier's own key is as things were before it.
+  // On X11 the event of a modifier key has the modifiers from before it.
   const auto held = [&](int modifier, int left, int right) {
     const bool own = event.kind == InputEvent::Kind::Key && (event.code == left || event.code == right);
     return own ? event.down : (event.modifiers & modifier) != 0;
@@ -188,9 +188,9 @@ std::vector<InputEvent> Interface::begin(double seconds, uint32_t width, uint32_
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = ImVec2(static_cast<float>(width), static_cast<float>(height));
   io.DeltaTime = static_cast<float>(std::clamp(seconds, 1e-4, 1.0));
-  io.MouseDoubleClickTime = std::max(0.3f, 5 * io.DeltaTime);  // down, up, down, up: a frame each
+  io.MouseDoubleClickTime = std::max(0.3f, 5 * io.DeltaTime);  // press, release, press, release: one frame each
   std::vector<InputEvent> taken = next();
-  for (const InputEvent& event : taken) tell(event);
+  for (const InputEvent& event : taken) send(event);
   ImGui::NewFrame();
   return taken;
 }

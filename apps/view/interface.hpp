@@ -1,5 +1,5 @@
 #pragma once
-// Dear ImGui's context: what hands do goes in, lists to draw come out. Works with the versions of Debian 12 (1.86) and later ones.
+// Dear ImGui: takes input events, returns draw lists. Works with version 1.86 (Debian 12) and later.
 #include <imgui.h>
 
 #include <deque>
@@ -15,22 +15,22 @@ enum class Theme { Dark, Light };
 
 class Interface {
  public:
-  /// `scale`: of text and buttons. Clipboard functions outlive it.
+  /// `scale`: of text and buttons. `paste`, `copy`: clipboard access.
   Interface(float scale, std::function<std::string()> paste, std::function<void(const char*)> copy);
   ~Interface();
   Interface(const Interface&) = delete;
   Interface& operator=(const Interface&) = delete;
 
-  void feed(const InputEvent& event) { waiting_.push_back(event); }
-  /// Takes what was fed, in order, as far as one displayed frame can show it: a key or a button that has gone down and up again, a
-  /// pointer that moved on after a click, a key after a text waits for the next one. Returns what was taken.
+  void addEvent(const InputEvent& event) { waiting_.push_back(event); }
+  /// Starts a frame with the queued events, in order, and returns them. Events that Dear ImGui cannot process in one frame
+  /// wait for the next one: press and release of a key or button, a move after a click, a key after text.
   std::vector<InputEvent> begin(double seconds, uint32_t width, uint32_t height);
   bool waiting() const { return !waiting_.empty(); }
-  /// The lists are valid until the next begin().
+  /// Returns the draw lists, valid until the next begin().
   const ImDrawData& end();
-  void skip() { ImGui::EndFrame(); }  ///< in place of end(), where nothing is drawn
+  void skip() { ImGui::EndFrame(); }  ///< instead of end(), where nothing is drawn
 
-  // After begin(): where the pointer is now.
+  // Valid after begin().
   bool wantsMouse() const { return ImGui::GetIO().WantCaptureMouse; }
   bool wantsKeys() const { return ImGui::GetIO().WantTextInput; }
   ImFontAtlas& fonts() { return *ImGui::GetIO().Fonts; }
@@ -41,7 +41,7 @@ class Interface {
 
  private:
   std::vector<InputEvent> next();
-  static void tell(const InputEvent& event);
+  static void send(const InputEvent& event);
 
   float scale_;
   Theme theme_ = Theme::Dark;

@@ -1,5 +1,5 @@
 #pragma once
-// What the keys do: one table for the window, the help, `--help` and scripts.
+// Key bindings: one table for the window, the help overlay, --help and scripts.
 #include <optional>
 #include <span>
 #include <string>
@@ -33,23 +33,23 @@ enum class Action {
 };
 
 struct KeyBinding {
-  int key;                ///< as GLFW numbers it
-  std::string_view name;  ///< what stands on it; what scripts call it
+  int key;                ///< GLFW key
+  std::string_view name;  ///< label of the key, and its name in scripts
   Action action;
   std::string_view about;
 };
 std::span<const KeyBinding> keyBindings();
 
-/// What hands do with the mouse, for the help.
+/// Uses of the mouse, for the help.
 struct MouseUse {
   std::string_view how, about;
 };
 std::span<const MouseUse> mouseUses();
 
-/// Both as lines of text.
+/// Mouse uses and key bindings, one per line.
 std::string keyHelp();
 
-/// The key of a name in a script, upper or lower case; also those that panels alone use (Enter, Escape ...).
+/// The key of a name in a script, case-insensitive; includes keys of text fields (Enter, Escape, ...).
 std::optional<int> keyNamed(std::string_view name);
 
 }  // namespace rill::view

@@ -17,10 +17,10 @@ namespace {
 
 using apps::badInput, apps::numberIn;
 
-constexpr uint32_t kLeastSide = 64, kMaxSide = 8192;  // pixels
+constexpr uint32_t kMinSide = 64, kMaxSide = 8192;  // pixels
 constexpr uint64_t kMaxFrames = 1'000'000'000;
 
-/// Options as text: numbers are read here, so that every version of the command line library gives the same messages.
+/// Options as text: numbers are parsed here, so that messages do not depend on the version of CLI11.
 struct Raw {
   std::string scene, device, size, scale, view, frames, screenshot, script;
   std::vector<std::string> set;
@@ -28,45 +28,44 @@ struct Raw {
 };
 
 void declare(CLI::App& app, Raw& raw) {
-  const std::string shown = "What is shown", run = "How it runs";
-  app.add_option("SCENE", raw.scene, "a scene's name, or the path of a .json file (default: dam-break)")->type_name("")->group(shown);
+  const std::string shown = "Scene", run = "Run";
+  app.add_option("SCENE", raw.scene, "name of a scene, or path of a .json file (default: dam-break)")->type_name("")->group(shown);
   const auto text = [&](const char* name, std::string& value, const std::string& about, const char* type, const std::string& group) {
     app.add_option(name, value, about)->type_name(type)->group(group);
   };
-  text("--view", raw.view, "what is drawn at first: " + apps::viewNames() + " (default: final)", "VIEW", shown);
-  text("--size", raw.size, "of the window, pixels (default: 1280x720)", "WxH", shown);
-  text("--scale", raw.scale, "of text and buttons, 0.5 to 4 (default: what the display asks for)", "FACTOR", shown);
-  app.add_option("--set", raw.set, "change a key of the scene, as fluid.viscosity=0.1")
+  text("--view", raw.view, "initial view: " + apps::viewNames() + " (default: final)", "VIEW", shown);
+  text("--size", raw.size, "size of the window in pixels (default: 1280x720)", "WxH", shown);
+  text("--scale", raw.scale, "scale of text and buttons, 0.5 to 4 (default: that of the display)", "FACTOR", shown);
+  app.add_option("--set", raw.set, "override a key of the scene, for example fluid.viscosity=0.1")
       ->type_name("KEY=VALUE")
       ->group(shown)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->expected(1);
   text("--device", raw.device, "part of a device's name, or its index", "NAME", run);
-  text("--frames", raw.frames, "close the window after so many displayed frames", "N", run);
-  text("--screenshot", raw.screenshot, "write the window's last frame, panels and all, as PNG", "FILE", run);
-  text("--script", raw.script, "replay what hands do from a file, in lockstep (commands below)", "FILE", run);
+  text("--frames", raw.frames, "close the window after N displayed frames", "N", run);
+  text("--screenshot", raw.screenshot, "write the last frame of the window, including the panels, as PNG", "FILE", run);
+  text("--script", raw.script, "replay input from a file, in lockstep (commands below)", "FILE", run);
   app.add_flag("--lockstep", raw.lockstep,
-               "a step of 1/60 s for each displayed frame, however long it takes: frame k then shows what frame k of rill-capture shows")
+               "simulate exactly one step of 1/60 s per displayed frame: frame k shows the same state as frame k of rill-capture")
       ->group(run);
-  app.add_flag("--validate", raw.validate, "check every Vulkan call with the Khronos layer, and exit with 1 if it says anything")
-      ->group(run);
+  app.add_flag("--validate", raw.validate, "enable the Khronos validation layer, and exit with 1 if it reports anything")->group(run);
   app.set_help_flag("-h,--help", "show this text")->group(run);
   app.set_version_flag("--version", std::string("rill-view ") + RILL_VERSION, "show the version")->group(run);
-  app.footer(
-      "Mouse and keys:\n" + keyHelp() + "\nScripts have lines \"FRAME COMMAND\", frames from 0 on, comments after '#':\n" + scriptHelp() +
-      "\nExamples:\n"
-      "  rill-view double-dam --view particles\n"
-      "      two columns run at each other, colored by speed\n"
-      "  rill-view dam10k --set fluid.viscosity=2\n"
-      "      oil in place of water; the panels change it while it runs\n"
-      "  rill-view dam10k --lockstep --frames 30 --screenshot shot.png\n"
-      "      a picture of the window at 29/60 s; prints the state's hash, which rill-capture's --stats has too\n"
-      "\nExit codes: 0 closed, 1 failed while running, 2 bad usage, bad input or no display, 4 no Vulkan device that can draw to it;\n"
-      "130, 143, 129 after a signal.");
+  app.footer("Mouse and keys:\n" + keyHelp() +
+             "\nLines of a script are \"FRAME COMMAND\", with frames from 0; '#' starts a comment. Commands:\n" + scriptHelp() +
+             "\nExamples:\n"
+             "  rill-view double-dam --view particles\n"
+             "      two columns of water collapse; particles are colored by speed\n"
+             "  rill-view dam10k --set fluid.viscosity=2\n"
+             "      a viscous fluid; the panels change its parameters while it runs\n"
+             "  rill-view dam10k --lockstep --frames 30 --screenshot shot.png\n"
+             "      writes the window at 29/60 s and prints the hash of the state, as in --stats of rill-capture\n"
+             "\nExit codes: 0 success, 1 error while running, 2 bad usage, bad input or no display, 4 no Vulkan device that can present;\n"
+             "130, 143 or 129 after SIGINT, SIGTERM or SIGHUP.");
 }
 
-Expected<Options> judged(const Raw& raw, const CLI::App& app) {
+Expected<Options> validated(const Raw& raw, const CLI::App& app) {
   const auto given = [&](const char* name) { return app.count(name) > 0; };
   Options options;
   if (given("SCENE")) {
@@ -74,10 +73,10 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
     options.scene = raw.scene;
   }
   if (given("--size")) {
-    const auto size = apps::pixelSizeIn(raw.size, kLeastSide, kMaxSide);
+    const auto size = apps::pixelSizeIn(raw.size, kMinSide, kMaxSide);
     if (!size)
       return badInput("--size", raw.size,
-                      "WIDTHxHEIGHT in pixels, as 1280x720: each from " + std::to_string(kLeastSide) + " to " + std::to_string(kMaxSide));
+                      "WIDTHxHEIGHT in pixels, as 1280x720: each from " + std::to_string(kMinSide) + " to " + std::to_string(kMaxSide));
     options.width = size->width;
     options.height = size->height;
   }
@@ -119,7 +118,7 @@ Expected<Options> judged(const Raw& raw, const CLI::App& app) {
 
 Expected<apps::CommandLine<Options>> parseCommandLine(int count, const char* const* arguments) {
   Raw raw;
-  CLI::App app("A window on a scene: see it run, go around it, tune it.", "rill-view");
+  CLI::App app("Simulates a fluid scene in a window, with a camera, parameters and figures.", "rill-view");
   declare(app, raw);
   auto text = apps::parsed(app, std::string("rill-view ") + RILL_VERSION, [&] { app.parse(count, arguments); });
   if (!text) return text.error();
@@ -128,7 +127,7 @@ Expected<apps::CommandLine<Options>> parseCommandLine(int count, const char* con
     line.text = std::move(*text);
     return line;
   }
-  auto options = judged(raw, app);
+  auto options = validated(raw, app);
   if (!options) return options.error();
   line.options = std::move(*options);
   return line;

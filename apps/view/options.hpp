@@ -10,22 +10,22 @@
 
 namespace rill::view {
 
-/// What a command line asks for. Judged as far as that is possible without the scene.
+/// The options of a command line, validated as far as that is possible without the scene.
 struct Options {
   std::string scene = "dam-break";  ///< a name or a path
   std::string device;
   uint32_t width = 1280, height = 720;  ///< of the window, pixels
   std::optional<float> scale;           ///< of text and buttons; none: the display's
   std::string view = "final";
-  std::vector<Override> overrides;  ///< of the scene's keys, in order
-  std::optional<uint64_t> frames;   ///< displayed; then it ends by itself
+  std::vector<Override> overrides;  ///< of scene keys, in order
+  std::optional<uint64_t> frames;   ///< displayed frames after which the program ends
   std::optional<std::filesystem::path> screenshot;
   std::optional<std::filesystem::path> script;
-  bool lockstep = false;  ///< a step a displayed frame, however long it takes
+  bool lockstep = false;  ///< one step per displayed frame, however long it takes
   bool validate = false;
 };
 
-/// BadInput with a message that names the option, what was given and what was expected.
+/// BadInput with the option, what was given and what was expected.
 Expected<apps::CommandLine<Options>> parseCommandLine(int count, const char* const* arguments);
 
 }  // namespace rill::view

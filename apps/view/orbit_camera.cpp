@@ -8,9 +8,9 @@ namespace rill::view {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kPole = 0.5 * kPi - 1e-3;          // the eye stays off the vertical, where there is no right and left
-constexpr double kTime = 0.06;                      // s, in which 63 % of a way is gone
-constexpr double kWheel = 0.88;                     // of the distance that is left after a step of the wheel
+constexpr double kPole = 0.5 * kPi - 1e-3;          // keeps the eye off the vertical, where yaw is undefined
+constexpr double kTimeConstant = 0.06;              // s; time constant of the motion
+constexpr double kWheelFactor = 0.88;               // factor of the distance per step of the wheel
 constexpr double kNearest = 1e-4, kFarthest = 1e6;  // m
 
 }  // namespace
@@ -36,15 +36,15 @@ OrbitCamera::Pose OrbitCamera::pose(const CameraView& view) {
 
 void OrbitCamera::home() {
   goal_ = pose(home_);
-  takeShortWay();
+  unwrapYaw();
 }
 
-void OrbitCamera::takeShortWay() { now_.yaw += 2 * kPi * std::round((goal_.yaw - now_.yaw) / (2 * kPi)); }
+void OrbitCamera::unwrapYaw() { now_.yaw += 2 * kPi * std::round((goal_.yaw - now_.yaw) / (2 * kPi)); }
 
 void OrbitCamera::reframe(const CameraView& view) {
   const bool atHome = goal_.target == pose(home_).target && goal_.distance == pose(home_).distance;
   home_ = view;
-  if (atHome) {  // nobody has moved it: it stays framed
+  if (atHome) {  // not moved by input: keep the scene framed
     goal_.target = pose(home_).target;
     goal_.distance = pose(home_).distance;
     settle();
@@ -56,18 +56,19 @@ void OrbitCamera::orbit(double right, double down) {
   goal_.pitch = std::clamp(goal_.pitch + kPi * down, -kPole, kPole);
 }
 
-double OrbitCamera::metersAHeight() const { return 2 * goal_.distance * std::tan(home_.fov_y_deg * kPi / 360); }
+double OrbitCamera::metersPerHeight() const { return 2 * goal_.distance * std::tan(home_.fov_y_deg * kPi / 360); }
 
 void OrbitCamera::pan(double right, double down) {
   const CameraBasis basis = cameraBasis(viewOf(goal_, home_.fov_y_deg));
-  for (int a = 0; a < 3; ++a) goal_.target[a] -= metersAHeight() * (right * basis.right[a] - down * basis.up[a]);
+  for (int a = 0; a < 3; ++a) goal_.target[a] -= metersPerHeight() * (right * basis.right[a] - down * basis.up[a]);
 }
 
 void OrbitCamera::dolly(double steps, double right, double down) {
-  const double wanted = std::clamp(goal_.distance * std::pow(kWheel, steps), kNearest, kFarthest), left = wanted / goal_.distance;
+  const double distance = std::clamp(goal_.distance * std::pow(kWheelFactor, steps), kNearest, kFarthest),
+               ratio = distance / goal_.distance;
   const CameraBasis basis = cameraBasis(viewOf(goal_, home_.fov_y_deg));
-  for (int a = 0; a < 3; ++a) goal_.target[a] += (1 - left) * metersAHeight() * (right * basis.right[a] - down * basis.up[a]);
-  goal_.distance = wanted;
+  for (int a = 0; a < 3; ++a) goal_.target[a] += (1 - ratio) * metersPerHeight() * (right * basis.right[a] - down * basis.up[a]);
+  goal_.distance = distance;
 }
 
 void OrbitCamera::look(AxisView axis) {
@@ -91,24 +92,24 @@ void OrbitCamera::look(AxisView axis) {
       goal_.yaw = 0, goal_.pitch = -kPole;
       break;
   }
-  takeShortWay();
+  unwrapYaw();
 }
 
 void OrbitCamera::update(double seconds) {
   if (!moving()) return settle();
-  const double gone = 1 - std::exp(-std::max(seconds, 0.0) / kTime);
-  // Target and distance go by the same share, so that what a dolly aims at stays under the pointer all the way.
-  for (int a = 0; a < 3; ++a) now_.target[a] += gone * (goal_.target[a] - now_.target[a]);
-  now_.distance += gone * (goal_.distance - now_.distance);
-  now_.yaw += gone * (goal_.yaw - now_.yaw);
-  now_.pitch += gone * (goal_.pitch - now_.pitch);
+  const double fraction = 1 - std::exp(-std::max(seconds, 0.0) / kTimeConstant);
+  // Target and distance move by the same fraction, so that the point of a dolly stays under the pointer.
+  for (int a = 0; a < 3; ++a) now_.target[a] += fraction * (goal_.target[a] - now_.target[a]);
+  now_.distance += fraction * (goal_.distance - now_.distance);
+  now_.yaw += fraction * (goal_.yaw - now_.yaw);
+  now_.pitch += fraction * (goal_.pitch - now_.pitch);
 }
 
 bool OrbitCamera::moving() const {
-  constexpr double kSeen = 1e-4;  // radians, or of the distance: a tenth of a pixel
-  double way = std::abs(goal_.distance - now_.distance);
-  for (int a = 0; a < 3; ++a) way = std::max(way, std::abs(goal_.target[a] - now_.target[a]));
-  return way > kSeen * goal_.distance || std::abs(goal_.yaw - now_.yaw) > kSeen || std::abs(goal_.pitch - now_.pitch) > kSeen;
+  constexpr double kVisible = 1e-4;  // radians, or relative to the distance: a tenth of a pixel
+  double offset = std::abs(goal_.distance - now_.distance);
+  for (int a = 0; a < 3; ++a) offset = std::max(offset, std::abs(goal_.target[a] - now_.target[a]));
+  return offset > kVisible * goal_.distance || std::abs(goal_.yaw - now_.yaw) > kVisible || std::abs(goal_.pitch - now_.pitch) > kVisible;
 }
 
 CameraView OrbitCamera::viewOf(const Pose& pose, double fov_y_deg) {

@@ -7,38 +7,38 @@ namespace rill::view {
 
 enum class AxisView { Front, Back, Right, Left, Top, Bottom };
 
-/// A camera that goes around a point, y up. Hands move where it is to go; where it is follows smoothly, at any frame rate. It never turns
-/// over its poles. Lengths on the picture are in its heights, so that a hand does the same in a window of any size.
+/// A camera that orbits a target, y up. Input moves its goal, and the camera follows smoothly at any frame rate. It does not
+/// rotate past the poles. Lengths in the image are in image heights, so that input does not depend on the window's size.
 class OrbitCamera {
  public:
   explicit OrbitCamera(const CameraView& home);
 
-  /// The pointer was dragged by so much, right and down: one height is half a turn.
+  /// Rotates by a drag of the pointer, right and down: one image height is half a turn.
   void orbit(double right, double down);
-  /// What lies at the target's depth follows the pointer.
+  /// Moves the target so that points at its depth follow the pointer.
   void pan(double right, double down);
-  /// Nearer by `steps` of the wheel (farther where negative), towards what lies at the target's depth under the pointer, which is so far
-  /// right of the picture's middle and below it.
+  /// Moves nearer by `steps` of the wheel (farther if negative), towards the point at the target's depth under the pointer,
+  /// which is `right` and `down` of the image's center.
   void dolly(double steps, double right, double down);
-  void home();                           ///< back to the start
-  void home(const CameraView& view);     ///< to another scene's, at once
-  void reframe(const CameraView& view);  ///< what home() goes back to, and the field of view, in a picture of another shape
-  void look(AxisView axis);              ///< along an axis, at the same target and distance
-  void update(double seconds);           ///< goes on towards where hands have moved it
-  void settle() { now_ = goal_; }        ///< is there at once
-  bool moving() const;                   ///< whether update() would still change the picture
+  void home();                           ///< back to the home view
+  void home(const CameraView& view);     ///< sets the home view and goes there at once
+  void reframe(const CameraView& view);  ///< changes the home view and the field of view
+  void look(AxisView axis);              ///< looks along an axis, with the same target and distance
+  void update(double seconds);           ///< moves towards the goal
+  void settle() { now_ = goal_; }        ///< moves to the goal at once
+  bool moving() const;                   ///< true where update() would change the image
   CameraView view() const;
 
  private:
   struct Pose {
     std::array<double, 3> target{};  // m
     double distance = 1;             // m
-    double yaw = 0, pitch = 0;       // radians; 0: looking along -z. pitch: up, of the eye over the target
+    double yaw = 0, pitch = 0;       // radians; yaw 0 looks along -z, pitch is the elevation of the eye
   };
   static Pose pose(const CameraView& view);
-  void takeShortWay();  ///< of two ways around
+  void unwrapYaw();  ///< chooses the shorter direction of rotation
   static CameraView viewOf(const Pose& pose, double fov_y_deg);
-  double metersAHeight() const;  // at the target's depth
+  double metersPerHeight() const;  // of the image, at the target's depth
 
   CameraView home_;
   Pose goal_, now_;

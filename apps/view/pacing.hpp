@@ -5,23 +5,23 @@
 
 namespace rill::view {
 
-/// How much of a step a displayed frame simulates, so that the window answers while a step takes long: a piece of as many substeps as fit
-/// into a budget of time, by what the last pieces took. The device cannot split a block of substeps, which is the least.
+/// Splits steps into pieces of as many substeps as fit into a time budget, by the measured cost of earlier pieces, so that
+/// the window stays responsive during long steps. The minimum is one block of substeps.
 class Pacing {
  public:
   explicit Pacing(uint32_t block) : block_(block) {}
-  /// The fluid's settings have changed, and with them the length of its blocks.
+  /// Call where a change of settings changes the length of a block.
   void setBlock(uint32_t block) { block_ = block; }
 
-  /// Substeps of the next piece, whole blocks: what the budget allows, and at most what the step is expected to need still; the first
-  /// step's double.
+  /// Substeps of the next piece, a multiple of the block: limited by the budget and by the expected rest of the step. In the
+  /// first step each piece is twice as long as the one before.
   uint32_t next(double budget_s) const;
-  /// A piece was simulated: substeps recorded, those of them that were due, and how long it took.
-  void ran(uint32_t recorded, uint32_t due, double seconds);
-  /// A step came to its end after so many substeps, all its pieces added up.
-  void finished(uint32_t substeps);
+  /// Call after a piece, with its substeps recorded and executed and its duration.
+  void addPiece(uint32_t recorded, uint32_t executed, double seconds);
+  /// Call after a step, with its total number of substeps.
+  void endStep(uint32_t substeps);
 
-  /// s a substep, of late; 0: not known yet.
+  /// Recent cost of a substep, s; 0: unknown.
   double cost() const { return cost_; }
 
  private:
@@ -29,29 +29,29 @@ class Pacing {
 
   uint32_t block_;
   double cost_ = 0;
-  uint32_t expected_ = 0;  // substeps of a step, by the last one; 0: not known yet
-  uint32_t done_ = 0;      // of the step under way
+  uint32_t expected_ = 0;  // substeps of the last step; 0: unknown
+  uint32_t done_ = 0;      // of the current step
 };
 
-/// How fine the picture is where drawing it takes so long that the window would not answer: it is drawn smaller and stretched, as far as
-/// that makes it quicker (what is done for each particle costs the same at any size).
+/// Resolution scale of the image: where rendering is slow, the image is rendered smaller and stretched, as long as that
+/// saves time (the cost per particle does not depend on the resolution).
 class PictureScale {
  public:
-  /// A picture of this scale took so long on the device.
-  void drew(double seconds);
-  double scale() const { return kScales[level_]; }  ///< pixels of the picture over pixels of the window, a side
+  /// Adds the device time of an image at the current scale.
+  void addImage(double seconds);
+  double scale() const { return kScales[level_]; }  ///< image over window resolution, per side
   void restart() { *this = {}; }
 
  private:
   static constexpr std::array kScales{1.0, 0.75, 0.5, 0.375};
 
-  void go(size_t level);
+  void setLevel(size_t level);
 
   size_t level_ = 0;
-  uint32_t ignored_ = 2;                         // pictures: the first ones compile shaders, and find their memory
-  uint32_t calm_ = 0;                            // pictures in a row that would have been quick enough a level finer
-  uint32_t age_ = 0;                             // pictures since other levels were forgotten
-  std::array<double, kScales.size()> took_s_{};  // of late, by level; 0: not known
+  uint32_t ignored_ = 2;                         // images to ignore: the first ones compile shaders and allocate memory
+  uint32_t fastInRow_ = 0;                       // consecutive images that are fast enough for the next finer level
+  uint32_t age_ = 0;                             // images since the times of all levels were reset
+  std::array<double, kScales.size()> took_s_{};  // recent time by level; 0: unknown
 };
 
 }  // namespace rill::view

@@ -12,19 +12,19 @@ using Vector = std::array<double, 3>;
 
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// Of a ball about `center`, which lies so relative to the eye.
-std::optional<double> meetsBall(const Vector& center, const Vector& along, double radius) {
+/// `center`: of the sphere, relative to the ray's origin.
+std::optional<double> hitSphere(const Vector& center, const Vector& along, double radius) {
   const double nearest = dot(center, along), across = dot(center, center) - nearest * nearest;
   if (across > radius * radius) return std::nullopt;
   const double distance = nearest - std::sqrt(radius * radius - across);
   return distance > 0 ? std::optional(distance) : std::nullopt;
 }
 
-std::optional<double> meets(const Ray& ray, const SolidPose& solid) {
+std::optional<double> hitSolid(const Ray& ray, const SolidPose& solid) {
   if (solid.sphere) {
     Vector center;
     for (size_t a = 0; a < 3; ++a) center[a] = solid.center[a] - ray.from[a];
-    return meetsBall(center, ray.along, solid.half[0]);
+    return hitSphere(center, ray.along, solid.half[0]);
   }
   Ray local;
   Vector end;
@@ -58,8 +58,8 @@ std::optional<Picked> pick(const Ray& ray, std::span<const Float3> positions, co
     if (distance && (!first || *distance < first->distance)) first = Picked{*distance, solid};
   };
   for (const Float3& p : positions)
-    take(meetsBall({p.x + origin[0] - ray.from[0], p.y + origin[1] - ray.from[1], p.z + origin[2] - ray.from[2]}, ray.along, radius), {});
-  for (uint32_t k = 0; k < solids.size(); ++k) take(meets(ray, solids[k]), k);
+    take(hitSphere({p.x + origin[0] - ray.from[0], p.y + origin[1] - ray.from[1], p.z + origin[2] - ray.from[2]}, ray.along, radius), {});
+  for (uint32_t k = 0; k < solids.size(); ++k) take(hitSolid(ray, solids[k]), k);
   return first;
 }
 
@@ -77,9 +77,9 @@ std::optional<double> entry(const Ray& ray, const Vector& low, const Vector& hig
   return first <= last ? std::optional(first) : std::nullopt;
 }
 
-std::optional<double> meetsPlane(const Ray& ray, const Vector& point, const Vector& normal) {
-  const Vector way{point[0] - ray.from[0], point[1] - ray.from[1], point[2] - ray.from[2]};
-  const double distance = dot(way, normal) / dot(ray.along, normal);
+std::optional<double> hitPlane(const Ray& ray, const Vector& point, const Vector& normal) {
+  const Vector offset{point[0] - ray.from[0], point[1] - ray.from[1], point[2] - ray.from[2]};
+  const double distance = dot(offset, normal) / dot(ray.along, normal);
   return std::isfinite(distance) && distance > 0 ? std::optional(distance) : std::nullopt;
 }
 

@@ -4,25 +4,26 @@
 
 namespace rill::view {
 
-bool Picture::shows(const Wish& wish, double scale) const {
-  return wish.eye.fov_y_deg == eye_.fov_y_deg && std::ranges::equal(wish.eye.eye, eye_.eye) &&
-         std::ranges::equal(wish.eye.target, eye_.target) && scale == scale_ && wish.view == view_ && wish.area == area_;
+bool Picture::shows(const Request& request, double scale) const {
+  return request.eye.fov_y_deg == eye_.fov_y_deg && std::ranges::equal(request.eye.eye, eye_.eye) &&
+         std::ranges::equal(request.eye.target, eye_.target) && scale == scale_ && request.view == view_ && request.area == area_;
 }
 
-Expected<void> Picture::paint(Display& display, Session& session, const Wish& wish) {
+Expected<void> Picture::paint(Display& display, Session& session, const Request& request) {
   if (const auto took = display.pictureSeconds()) {
     took_s_ = *took;
-    if (wish.scale == 0) auto_.drew(*took);
+    if (request.scale == 0) auto_.addImage(*took);
   }
-  const double scale = wish.scale > 0 ? wish.scale : auto_.scale();
-  if (!wish.changed && shows(wish, scale)) return {};
-  if (wish.view == "density" && view_ != "density" && session.runner().between())  // what it shows is measured after each step
+  const double scale = request.scale > 0 ? request.scale : auto_.scale();
+  if (!request.changed && shows(request, scale)) return {};
+  if (request.view == "density" && view_ != "density" &&
+      session.runner().betweenSteps())  // the view shows a density that is only measured for it
     if (auto measured = session.runner().measure(); !measured) return measured.error();
-  auto drawn = display.paint(session, wish.view, wish.eye, wish.area, scale, session.runner().time_s());
+  auto drawn = display.paint(session, request.view, request.eye, request.area, scale, session.runner().time_s());
   if (!drawn && (drawn.error().kind != ErrorKind::BadInput || !any())) return drawn;
-  eye_ = wish.eye;
-  view_ = wish.view;
-  area_ = wish.area;
+  eye_ = request.eye;
+  view_ = request.view;
+  area_ = request.area;
   scale_ = scale;
   return drawn;
 }

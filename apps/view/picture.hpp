@@ -1,5 +1,5 @@
 #pragma once
-// The picture of the scene in the window, drawn anew where something of it has changed.
+// The image of the scene in the window, drawn again when something changes.
 #include <string>
 
 #include "view/display.hpp"
@@ -9,25 +9,25 @@ namespace rill::view {
 
 class Picture {
  public:
-  /// What it is to show.
-  struct Wish {
+  /// What to draw.
+  struct Request {
     std::string view;
     CameraView eye;
     Area area;
-    double scale = 0;      ///< pixels of it over pixels of the window, a side; 0: as the machine allows
-    bool changed = false;  ///< the scene
+    double scale = 0;      ///< image over window resolution, per side; 0: automatic
+    bool changed = false;  ///< the scene has changed
   };
-  /// BadInput where that cannot be drawn from there: the old picture stays, where there is one.
-  Expected<void> paint(Display& display, Session& session, const Wish& wish);
-  /// After a scene began: what was learnt of its cost is forgotten.
+  /// BadInput where the view cannot be drawn from this camera; the previous image stays.
+  Expected<void> paint(Display& display, Session& session, const Request& request);
+  /// Call after a restart: resets the automatic scale.
   void restart() { auto_.restart(); }
 
   bool any() const { return area_.width > 0; }
   double scale() const { return scale_; }
-  double seconds() const { return took_s_; }  ///< device time of the last one that is known
+  double seconds() const { return took_s_; }  ///< device time of the last measured image
 
  private:
-  bool shows(const Wish& wish, double scale) const;
+  bool shows(const Request& request, double scale) const;
 
   PictureScale auto_;
   CameraView eye_;

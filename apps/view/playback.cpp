@@ -7,29 +7,29 @@ namespace rill::view {
 
 Expected<bool> Playback::advance(Runner& runner, const Frame& frame) {
   using Now = std::chrono::steady_clock;
-  const bool first = !std::exchange(begun_, true);
-  const bool single = runner.between() && singles_ > 0;  // a step that is under way ends before
+  const bool first = !std::exchange(started_, true);
+  const bool single = runner.betweenSteps() && singles_ > 0;  // after the step in progress
   if (single) --singles_;
   if (frame.lockstep) {
     if ((frame.paused && !single) || first) return false;
     if (auto ran = runner.step(); !ran) return ran.error();
     return finished(runner, frame);
   }
-  if (!frame.paused) clock_.passed(frame.passed_s);
+  if (!frame.paused) clock_.addRealTime(frame.passed_s);
   bool ended = false;
   if (single) {
-    if (auto ran = runner.piece(frame.budget_s); !ran) return ran.error();
-    if (runner.between()) return finished(runner, frame);
+    if (auto ran = runner.advancePiece(frame.budget_s); !ran) return ran.error();
+    if (runner.betweenSteps()) return finished(runner, frame);
   }
   const Now::time_point begin = Now::now();
   for (double left = frame.budget_s; left > 0; left = frame.budget_s - std::chrono::duration<double>(Now::now() - begin).count()) {
-    if (runner.between()) {
+    if (runner.betweenSteps()) {
       if (frame.paused || !clock_.due()) return ended;
-      clock_.begun();
+      clock_.beginStep();
     }
-    if (auto ran = runner.piece(left); !ran) return ran.error();
-    if (!runner.between()) continue;
-    clock_.finished();
+    if (auto ran = runner.advancePiece(left); !ran) return ran.error();
+    if (!runner.betweenSteps()) continue;
+    clock_.endStep();
     ended = true;
     if (auto done = finished(runner, frame); !done) return done;
   }

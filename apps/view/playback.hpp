@@ -1,5 +1,5 @@
 #pragma once
-// What of a scene is simulated for a displayed frame, and the figures that are kept of it.
+// Simulates for a displayed frame, and keeps the history of figures for the plots.
 #include <map>
 #include <optional>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace rill::view {
 
-/// The last figures of a kind, one a step.
+/// The last values of a figure, one per step.
 class History {
  public:
   static constexpr size_t kMaxEntries = 240;  ///< four seconds of simulated time
@@ -28,24 +28,24 @@ class History {
 struct Histories {
   History particles, substeps, iterations, wall_ms, error;
   std::map<std::string, History, std::less<>> passes;
-  uint64_t passesOf = UINT64_MAX;  ///< the step whose times were added last
+  uint64_t passesOf = UINT64_MAX;  ///< the last step whose times were added
 };
 
 class Playback {
  public:
-  /// A displayed frame.
+  /// Parameters of a displayed frame.
   struct Frame {
     double passed_s = 0;  ///< real time since the last one
     double now_s = 0;     ///< real time
-    double budget_s = 0;  ///< real time that simulation may take
+    double budget_s = 0;  ///< real time available for simulation
     bool paused = false;
-    bool lockstep = false;                 ///< one step a frame, whatever that takes, but for the first
-    std::optional<double> measureEvery_s;  ///< figures of the fluid are wanted, so often
+    bool lockstep = false;                 ///< one step per frame except the first, however long it takes
+    std::optional<double> measureEvery_s;  ///< interval between measurements of the fluid, if any
   };
-  /// Whether a step came to its end.
+  /// Simulates for a frame. True where a step was completed.
   Expected<bool> advance(Runner& runner, const Frame& frame);
-  void oneStep() { ++singles_; }  ///< one more, in the next frames, paused or not
-  /// After anything that begins a simulation at its start.
+  void oneStep() { ++singles_; }  ///< requests a step in the next frames, even when paused
+  /// Call after a simulation was started from the beginning.
   void restart() { *this = {}; }
 
   Histories& histories() { return histories_; }
@@ -60,7 +60,7 @@ class Playback {
   std::optional<FluidStats> stats_;
   double measured_s_ = -1;
   uint32_t singles_ = 0;
-  bool begun_ = false;
+  bool started_ = false;
 };
 
 }  // namespace rill::view

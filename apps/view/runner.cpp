@@ -38,9 +38,9 @@ Expected<void> Runner::begin() {
   return run(measureGraph_, [&](Graph& graph) { static_cast<void>(fluid_->addTo(graph, {})); });
 }
 
-Expected<void> Runner::piece(double budget_s) {
+Expected<void> Runner::advancePiece(double budget_s) {
   using Now = std::chrono::steady_clock;
-  if (auto idle = context_.wait(); !idle) return idle;  // what was drawn before is not part of the piece
+  if (auto idle = context_.wait(); !idle) return idle;  // rendering is not part of the measured time
   const Now::time_point before = Now::now();
   if (recorded_ == 0) {
     current_ = {};
@@ -57,15 +57,15 @@ Expected<void> Runner::piece(double budget_s) {
   const double seconds = std::chrono::duration<double>(Now::now() - before).count();
   const FluidProgress& progress = fluid_->progress();
   recorded_ += substeps;
-  // Before time begins substeps prepare the start, and are iterations alone.
+  // During settling, substeps consist of iterations only.
   const uint32_t due = std::max(progress.substeps, progress.iterations / scene_.solver.iterations);
-  pacing_.ran(substeps, due - std::min(done_, due), seconds);
+  pacing_.addPiece(substeps, due - std::min(done_, due), seconds);
   done_ = due;
   ++current_.pieces;
   current_.wall_s += seconds;
   if (progress.time_left_s > 0 && recorded_ < most) return {};
 
-  pacing_.finished(progress.substeps);
+  pacing_.endStep(progress.substeps);
   current_.substeps = progress.substeps;
   current_.iterations = progress.iterations;
   current_.time_dropped_s = std::max(progress.time_dropped_s, progress.time_left_s);
@@ -78,8 +78,8 @@ Expected<void> Runner::piece(double budget_s) {
 
 Expected<void> Runner::step() {
   do {
-    if (auto ran = piece(std::numeric_limits<double>::infinity()); !ran) return ran;
-  } while (!between());
+    if (auto ran = advancePiece(std::numeric_limits<double>::infinity()); !ran) return ran;
+  } while (!betweenSteps());
   return {};
 }
 
@@ -98,7 +98,7 @@ Expected<uint64_t> Runner::hash() {
 }
 
 Expected<FluidSnapshot> Runner::snapshot() {
-  if (!between())
+  if (!betweenSteps())
     if (auto ended = step(); !ended) return ended.error();
   if (auto ready = begin(); !ready) return ready.error();
   SnapshotReader reader(*fluid_);
@@ -109,7 +109,7 @@ Expected<FluidSnapshot> Runner::snapshot() {
   return std::move(reader.snapshot());
 }
 
-Expected<void> Runner::goOn(Scene scene, ParticleSet start, const FluidSnapshot& from) {
+Expected<void> Runner::continueFrom(Scene scene, ParticleSet start, const FluidSnapshot& from) {
   auto fluid = Fluid::create(context_.device(), {.scene = &scene, .particles = &start, .snapshot = count() > 0 ? &from : nullptr});
   if (!fluid) return fluid.error();
   fluid_ = std::move(*fluid);
@@ -122,11 +122,11 @@ Expected<void> Runner::goOn(Scene scene, ParticleSet start, const FluidSnapshot&
 Expected<void> Runner::change(Scene scene) {
   auto now = snapshot();
   if (!now) return now.error();
-  if (!(scene.fluid.spacing > 0)) scene.fluid.spacing = scene_.fluid.spacing;  // follows from the fills, which are the same
+  if (!(scene.fluid.spacing > 0)) scene.fluid.spacing = scene_.fluid.spacing;  // derived from the fills, which are unchanged
   scene.solids = scene_.solids;
-  // The device holds the one that is in force.
+  // The snapshot contains the current gravity.
   if (scene.gravity_changes.empty() && count() > 0) setGravity(*now, scene.gravity);
-  return goOn(std::move(scene), start_, *now);
+  return continueFrom(std::move(scene), start_, *now);
 }
 
 Expected<void> Runner::changeSolids(std::vector<Solid> solids) {
@@ -143,7 +143,7 @@ Expected<void> Runner::changeSolids(std::vector<Solid> solids) {
   if (!anyMoves) now->solids.clear();
   Scene scene = scene_;
   scene.solids = std::move(solids);
-  if (auto done = goOn(std::move(scene), start_, *now); !done) return done;
+  if (auto done = continueFrom(std::move(scene), start_, *now); !done) return done;
   targets_.clear();
   return {};
 }
@@ -176,7 +176,7 @@ Expected<uint64_t> Runner::add(const Fill& fill) {
   start.positions.insert(start.positions.end(), positions.begin(), positions.end());
   start.velocities.insert(start.velocities.end(), velocities.begin(), velocities.end());
   if (count() > 0) append(*now, positions, velocities);
-  if (auto done = goOn(scene_, std::move(start), *now); !done) return done.error();
+  if (auto done = continueFrom(scene_, std::move(start), *now); !done) return done.error();
   return positions.size();
 }
 
@@ -186,7 +186,7 @@ SolidPose Runner::pose(uint32_t solid) const {
   return there;
 }
 
-void Runner::steer(const SolidTarget& target) {
+void Runner::setTarget(const SolidTarget& target) {
   std::erase_if(targets_, [&](const SolidTarget& other) { return other.solid == target.solid; });
   targets_.push_back(target);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A scene's fluid, run in steps of rill-capture's length, each in pieces that bound how long the window has to wait.
+// Simulates a scene in steps of the length that rill-capture uses, split into pieces so that the window stays responsive.
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,65 +15,65 @@
 
 namespace rill::view {
 
-/// What a step was, once it is over.
+/// Figures of a completed step.
 struct StepFigures {
   uint32_t substeps = 0, iterations = 0, pieces = 0;
   double time_dropped_s = 0;
   double wall_s = 0;  ///< of its pieces
 };
 
-/// After N steps the state has the bits of `rill-capture --fps 60` in frame N, however they were cut into pieces: a piece ends before the
-/// next one begins, since only then is it known whether the step is over.
+/// After N steps the state is bitwise equal to frame N of `rill-capture --fps 60`, however the steps are split. Each piece
+/// is waited for, as only then it is known whether the step is complete.
 class Runner {
  public:
   /// BadInput, TooLarge, OutOfMemory as Fluid::create. The context outlives it.
   static Expected<std::unique_ptr<Runner>> create(offline::Context& context, Scene scene);
 
-  /// Begins a step, or goes on with the one under way, by as much as about `budget_s` of real time allows, and waits for it.
-  Expected<void> piece(double budget_s);
-  /// A step to its end, or the rest of the one under way.
+  /// Starts a step or continues the current one for about `budget_s` of real time, and waits for the device.
+  Expected<void> advancePiece(double budget_s);
+  /// Completes the current step, or simulates a whole one.
   Expected<void> step();
-  bool between() const { return recorded_ == 0; }  ///< no step is under way
+  bool betweenSteps() const { return recorded_ == 0; }
 
   uint64_t steps() const { return steps_; }  ///< finished
   double time_s() const { return fluid_->progress().known ? fluid_->progress().time_s : 0; }
   const StepFigures& last() const { return last_; }
   const Pacing& pacing() const { return pacing_; }
 
-  /// Between steps: figures of this instant, with the density that the view `density` shows. No later bit depends on it.
+  /// Only between steps: measures figures, and the density for the view `density`. Does not change later results.
   Expected<FluidStats> measure();
-  /// Between steps: as `state_hash` in rill-capture's figures.
+  /// Only between steps: the `state_hash` of rill-capture's figures.
   Expected<uint64_t> hash();
 
-  // Goes on from the present instant with something changed; a step under way is finished first. Errors as create(), and then nothing has.
+  // These continue from the current state with a change; the current step is completed first. Errors as create(); then
+  // nothing is changed.
 
-  /// Other settings: those of a scene that differs in what leaves the particles and their neighborhoods as they are (Session::isLive()).
-  /// Solids stay as they are.
+  /// Applies the settings of a scene that differs only in keys for which Session::isLive() is true. Solids stay as they are.
   Expected<void> change(Scene scene);
-  /// Other solids. Those that were there before come first, in the same order, and are where their pose() was.
+  /// Replaces the solids. Existing ones come first, in the same order, and keep their pose().
   Expected<void> changeSolids(std::vector<Solid> solids);
-  /// More particles, as the fill makes them where there is room: how many. BadInput where that is less than a quarter.
+  /// Adds the particles of a fill where there is room, and returns their number. BadInput where less than a quarter fit.
   Expected<uint64_t> add(const Fill& fill);
 
-  /// Where a solid is at present, m in the scene's coordinates.
+  /// Current pose of a solid, m in scene coordinates.
   SolidPose pose(uint32_t solid) const;
-  /// Where a driven solid is to be at the end of the next step, and of those that follow.
-  void steer(const SolidTarget& target);
-  void letGo() { targets_.clear(); }  ///< of all: they stay where they are
-  /// The particles at present, m relative to start().origin, in the device's order.
+  /// Sets the target of a driven solid for the next step and those that follow.
+  void setTarget(const SolidTarget& target);
+  void clearTargets() { targets_.clear(); }  ///< driven solids then stay where they are
+  /// Current positions, m relative to start().origin, in the order of the device.
   Expected<std::vector<Float3>> positions();
 
-  /// Makes the start known to the device, so that it can be shown before the first step.
+  /// Uploads the initial state, so that it can be drawn before the first step.
   Expected<void> begin();
   FluidState present(Graph& graph) const { return fluid_->present(graph); }
-  /// Passes of the last step: runs, and ms where they are timed; and those left out, with the reason.
+  /// Passes of the last step: runs, milliseconds if timed, and skipped passes with the reason.
   const offline::PassLog& log() const { return shown_; }
   void timePasses(bool enabled) { graph_.enableTimings(enabled); }
   const Graph& stepGraph() const { return graph_; }
 
   const Scene& scene() const { return scene_; }
   const ParticleSet& start() const { return start_; }
-  const Bounds& firstBounds() const { return firstBounds_; }  ///< of the fluid, before anything was added
+  const Bounds& firstBounds() const { return firstBounds_; }  ///< of the fluid at the start
   Fluid& fluid() { return *fluid_; }
   const Fluid& fluid() const { return *fluid_; }
   std::vector<std::string> warnings() const;
@@ -84,19 +84,19 @@ class Runner {
   Expected<void> run(Graph& graph, Declare&& declare);
   Expected<FluidSnapshot> snapshot();
   uint32_t count() const { return fluid_->count(); }
-  Expected<void> goOn(Scene scene, ParticleSet start, const FluidSnapshot& from);
+  Expected<void> continueFrom(Scene scene, ParticleSet start, const FluidSnapshot& from);
 
   offline::Context& context_;
   Scene scene_;
-  ParticleSet start_;  ///< and what was added since
+  ParticleSet start_;  ///< including particles that were added
   Bounds firstBounds_;
   std::unique_ptr<Fluid> fluid_;
   std::vector<SolidTarget> targets_;
   Graph graph_, measureGraph_;
   Pacing pacing_{1};
   uint64_t steps_ = 0;
-  uint32_t recorded_ = 0;  ///< substeps of the step under way
-  uint32_t done_ = 0;      ///< of them, those that were due
+  uint32_t recorded_ = 0;  ///< substeps recorded in the current step
+  uint32_t done_ = 0;      ///< of them, those that were executed
   StepFigures current_, last_;
   offline::PassLog log_, shown_;
 };

@@ -19,20 +19,20 @@ struct Command {
   std::string_view name, arguments, about;
   size_t count;  ///< of arguments
 };
-constexpr Command kCommands[] = {{"move", "X Y", "the pointer, pixels from the top left", 2},
-                                 {"press", "left|middle|right", "a button of the mouse; Alt+left: with a key held", 1},
-                                 {"release", "left|middle|right", "the same", 1},
-                                 {"wheel", "STEPS", "away from you where positive", 1},
+constexpr Command kCommands[] = {{"move", "X Y", "move the pointer, in pixels from the top left", 2},
+                                 {"press", "left|middle|right", "press a mouse button; Alt+left: with a modifier key", 1},
+                                 {"release", "left|middle|right", "release it", 1},
+                                 {"wheel", "STEPS", "turn the wheel; positive is away from you", 1},
                                  {"key", "NAME", "press and release a key: P, Tab, F1, Enter, Shift+V ...", 1},
-                                 {"type", "TEXT", "without spaces, into the field that has the focus", 1},
-                                 {"drop", "FILE", "a file onto the window", 1},
-                                 {"set", "KEY=VALUE", "a key of the scene, as fluid.viscosity=0.1", 1},
+                                 {"type", "TEXT", "type text without spaces into the focused field", 1},
+                                 {"drop", "FILE", "drop a file onto the window", 1},
+                                 {"set", "KEY=VALUE", "override a key of the scene, for example fluid.viscosity=0.1", 1},
                                  {"scene", "NAME", "open a scene", 1},
                                  {"view", "NAME", "show a view", 1},
-                                 {"resize", "WIDTH HEIGHT", "the window", 2},
-                                 {"minimize", "", "the window", 0},
-                                 {"restore", "", "the window", 0},
-                                 {"screenshot", "FILE", "write the window as it is after this frame", 1}};
+                                 {"resize", "WIDTH HEIGHT", "resize the window, in pixels", 2},
+                                 {"minimize", "", "minimize the window", 0},
+                                 {"restore", "", "restore the window", 0},
+                                 {"screenshot", "FILE", "write the window after this frame as PNG", 1}};
 
 std::vector<std::string_view> wordsOf(std::string_view line) {
   std::vector<std::string_view> words;
@@ -58,7 +58,7 @@ std::optional<int> button(std::string_view name) {
   return std::nullopt;
 }
 
-/// Takes "Shift+", "Ctrl+", "Alt+" off a name: what is held with it, as GLFW numbers it.
+/// Removes the prefixes "Shift+", "Ctrl+", "Alt+" of a name; returns them as GLFW modifiers.
 int takeModifiers(std::string_view& name) {
   constexpr std::pair<std::string_view, int> kHeld[] = {{"Shift+", GLFW_MOD_SHIFT}, {"Ctrl+", GLFW_MOD_CONTROL}, {"Alt+", GLFW_MOD_ALT}};
   int modifiers = 0;
@@ -74,19 +74,19 @@ int takeModifiers(std::string_view& name) {
   return modifiers;
 }
 
-/// Appends what a line says; a text of what is wrong where that is nothing.
-std::string read(const std::vector<std::string_view>& words, std::vector<ScriptLine>& lines) {
+/// Parses a line and appends it to `lines`; returns an error message, or an empty string.
+std::string parseLine(const std::vector<std::string_view>& words, std::vector<ScriptLine>& lines) {
   const auto frame = apps::numberIn<uint64_t>(words[0]);
   if (!frame) return inQuotes(words[0]) + " was found; expected the number of a frame";
   if (!lines.empty() && *frame < lines.back().frame)
-    return "frame " + std::to_string(*frame) + " comes after frame " + std::to_string(lines.back().frame) + "; expected frames in order";
+    return "frame " + std::to_string(*frame) + " comes after frame " + std::to_string(lines.back().frame) + "; expected ascending frames";
   std::vector<std::string_view> names;
   for (const Command& command : kCommands) names.push_back(command.name);
-  if (words.size() < 2) return "there is no command after the frame";
+  if (words.size() < 2) return "no command after the frame number";
   const auto command = std::ranges::find(kCommands, words[1], &Command::name);
   if (command == std::end(kCommands)) {
     const std::string_view near = nearestWord(words[1], names);
-    return "there is no command " + inQuotes(words[1]) + (near.empty() ? "" : "; did you mean " + inQuotes(near) + "?");
+    return "unknown command " + inQuotes(words[1]) + (near.empty() ? "" : "; did you mean " + inQuotes(near) + "?");
   }
   const auto expected = [&] {
     return std::string(words[1]) + ": expected \"" + std::string(words[1]) + " " + std::string(command->arguments) + "\"";
@@ -114,7 +114,7 @@ std::string read(const std::vector<std::string_view>& words, std::vector<ScriptL
     std::string_view name = first;
     const int modifiers = takeModifiers(name);
     const auto key = keyNamed(name);
-    if (!key) return "there is no key " + inQuotes(name) + " that does anything";
+    if (!key) return "unknown key " + inQuotes(name);
     line.input = {.kind = InputEvent::Kind::Key, .code = *key, .down = true, .modifiers = modifiers};
     lines.push_back(line);
     line.input.down = false;
@@ -153,8 +153,8 @@ Expected<std::vector<ScriptLine>> parseScript(std::string_view text, std::string
     const size_t end = std::min(text.find('\n'), text.size());
     ++row;
     if (const auto words = wordsOf(text.substr(0, end)); !words.empty())
-      if (const std::string wrong = read(words, lines); !wrong.empty())
-        return Error{ErrorKind::BadInput, std::string(name) + ":" + std::to_string(row) + ": " + wrong};
+      if (const std::string error = parseLine(words, lines); !error.empty())
+        return Error{ErrorKind::BadInput, std::string(name) + ":" + std::to_string(row) + ": " + error};
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return lines;

@@ -1,5 +1,5 @@
 #pragma once
-// What hands do, as a text: for tests, and for reports of bugs that others can replay.
+// Input scripts for rill-view: for tests and for reproducible bug reports.
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -13,7 +13,7 @@ namespace rill::view {
 
 struct ScriptLine {
   enum class Kind { Input, Set, Scene, View, Resize, Minimize, Restore, Screenshot };
-  uint64_t frame = 0;  ///< displayed frame, the first is 0
+  uint64_t frame = 0;  ///< displayed frame, from 0
   Kind kind = Kind::Input;
   InputEvent input;
   Override change;
@@ -21,11 +21,11 @@ struct ScriptLine {
   uint32_t width = 0, height = 0;  ///< of Resize, pixels
 };
 
-/// One command a line, "FRAME COMMAND ...", frames not falling; '#' begins a comment. BadInput with "name:line: ...".
+/// One command per line, "FRAME COMMAND ...", in order of frames; '#' starts a comment. BadInput as "name:line: ...".
 Expected<std::vector<ScriptLine>> parseScript(std::string_view text, std::string_view name);
 Expected<std::vector<ScriptLine>> loadScript(const std::filesystem::path& file);
 
-/// What a script can say, a line each.
+/// Help on all commands, one per line.
 std::string scriptHelp();
 
 }  // namespace rill::view

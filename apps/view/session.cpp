@@ -12,7 +12,7 @@ namespace rill::view {
 Expected<std::unique_ptr<Session>> Session::open(offline::Context& context, const std::filesystem::path& file,
                                                  std::vector<Override> changes) {
   std::unique_ptr<Session> made(new Session(context, file));
-  if (auto begun = made->read(std::move(changes)); !begun) return begun.error();
+  if (auto started = made->read(std::move(changes)); !started) return started.error();
   return made;
 }
 
@@ -23,10 +23,10 @@ Expected<Scene> Session::parse(std::string_view text, std::span<const Override> 
 }
 
 Expected<void> Session::read(std::vector<Override> changes) {
-  watch_.noted();
+  watch_.acknowledge();
   auto text = readWholeFile(file(), kMaxSceneBytes);
   if (!text) return text.error();
-  if (auto begun = begin(*text, std::move(changes)); !begun) return begun;
+  if (auto started = begin(*text, std::move(changes)); !started) return started;
   text_ = std::move(*text);
   return {};
 }
@@ -36,25 +36,25 @@ Expected<void> Session::begin(std::string_view text, std::vector<Override> chang
   if (!scene) return scene.error();
   auto runner = Runner::create(context_, std::move(*scene));
   if (!runner) return runner.error();
-  if (auto begun = (*runner)->begin(); !begun) return begun;
+  if (auto started = (*runner)->begin(); !started) return started;
   changes_ = std::move(changes);
   painter_.reset();
   runner_ = std::move(*runner);
-  paintAnew();
+  resetPainter();
   return {};
 }
 
-void Session::paintAnew() { painter_ = std::make_unique<offline::Painter>(runner_->scene(), runner_->start(), 0); }
+void Session::resetPainter() { painter_ = std::make_unique<offline::Painter>(runner_->scene(), runner_->start(), 0); }
 
 Expected<void> Session::changeSolids(std::vector<Solid> solids) {
   auto changed = runner_->changeSolids(std::move(solids));
-  if (changed) paintAnew();
+  if (changed) resetPainter();
   return changed;
 }
 
 Expected<uint64_t> Session::add(const Fill& fill) {
   auto added = runner_->add(fill);
-  if (added) paintAnew();
+  if (added) resetPainter();
   return added;
 }
 
@@ -63,9 +63,9 @@ Expected<void> Session::restart() { return begin(text_, changes_); }
 Expected<void> Session::reload() { return read(changes_); }
 
 bool Session::isLive(std::string_view key) const {
-  constexpr std::string_view kAnew[] = {"fluid.spacing",         "fluid.particles", "fluid.density",
-                                        "fluid.smoothing_ratio", "solver.kernel",   "solver.neighbors"};
-  if (std::ranges::find(kAnew, key) != std::end(kAnew)) return false;
+  constexpr std::string_view kNeedsRestart[] = {"fluid.spacing",         "fluid.particles", "fluid.density",
+                                                "fluid.smoothing_ratio", "solver.kernel",   "solver.neighbors"};
+  if (std::ranges::find(kNeedsRestart, key) != std::end(kNeedsRestart)) return false;
   if (key == "gravity") return scene().gravity_changes.empty();
   return key.starts_with("fluid.") || key.starts_with("solver.") || key.starts_with("look.");
 }
@@ -76,7 +76,7 @@ Expected<void> Session::apply(std::vector<Override> changes, bool live) {
   if (!scene) return scene.error();
   if (auto changed = runner_->change(std::move(*scene)); !changed) return changed;
   changes_ = std::move(changes);
-  paintAnew();
+  resetPainter();
   return {};
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The scene that is shown: its file, the changes made to it, its running simulation and the pictures of it.
+// The open scene: its file, changes made to it, the simulation and the renderer.
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -14,31 +14,30 @@ namespace rill::view {
 
 class Session {
  public:
-  /// Reads, judges and starts a scene; errors as loadScene() and Fluid::create(). The context outlives it.
+  /// Reads, validates and starts a scene; errors as loadScene() and Fluid::create(). The context outlives it.
   static Expected<std::unique_ptr<Session>> open(offline::Context& context, const std::filesystem::path& file,
                                                  std::vector<Override> changes = {});
 
-  /// Whether a key can change while the scene goes on; others begin it anew.
+  /// True for keys that can change while the simulation continues; others restart it.
   bool isLive(std::string_view key) const;
-  /// Sets a key of the scene, as --set of rill-capture does. After an error nothing has changed.
+  /// Overrides a key of the scene like --set. After an error nothing is changed.
   Expected<void> change(const Override& change);
-  /// Back to what the file says.
+  /// Restores the value of the file.
   Expected<void> reset(std::string_view key);
   bool isChanged(std::string_view key) const;
   const std::vector<Override>& changes() const { return changes_; }
-  /// The file's scene with the changes, as JSON; comments are lost. Files that it names are found from `folder` too.
+  /// The scene with its changes, as JSON without comments. Paths in it are relative to `folder`.
   Expected<std::string> text(const std::filesystem::path& folder) const;
 
-  /// As Runner's, and pictures follow. What hands did to the fluid is not part of the file's scene: restart() forgets it, text() leaves it
-  /// out.
+  /// As in Runner. These changes are not part of the scene file: restart() drops them and text() omits them.
   Expected<void> changeSolids(std::vector<Solid> solids);
   Expected<uint64_t> add(const Fill& fill);
 
-  /// From the start, with the changes.
+  /// Restarts with the changes.
   Expected<void> restart();
-  /// The same of what the file says now. A broken file leaves the scene as it was, and what is done to it goes on from the text before.
+  /// Reads the file again and restarts. Where it is invalid the scene and its text stay as they are.
   Expected<void> reload();
-  /// Whether the file is another than the one that was read (asked at most twice a second of `now_s`).
+  /// True where the file was modified since it was read; checked at most twice per second of `now_s`.
   bool fileChanged(double now_s) { return watch_.changed(now_s); }
   const std::filesystem::path& file() const { return watch_.file(); }
 
@@ -54,7 +53,7 @@ class Session {
   Expected<void> read(std::vector<Override> changes);
   Expected<void> begin(std::string_view text, std::vector<Override> changes);
   Expected<void> apply(std::vector<Override> changes, bool live);
-  void paintAnew();
+  void resetPainter();
 
   offline::Context& context_;
   FileWatch watch_;

@@ -7,7 +7,7 @@
 namespace rill::view {
 namespace {
 
-constexpr uint64_t kPatience = 1'000'000'000;  // ns: a compositor that shows nothing gives no image back, the window stays alive
+constexpr uint64_t kAcquireTimeout = 1'000'000'000;  // ns; the compositor returns no images of an invisible window
 
 VkSemaphoreSubmitInfo submitInfo(VkSemaphore semaphore, VkPipelineStageFlags2 stages) {
   VkSemaphoreSubmitInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
@@ -39,16 +39,16 @@ Expected<std::unique_ptr<Swapchain>> Swapchain::create(offline::Context& context
   const VkPhysicalDevice device = context.physicalDevice();
   uint32_t count = 0;
   if (VkResult r = made->vki_.GetPhysicalDeviceSurfaceFormatsKHR(device, surface, &count, nullptr); r != VK_SUCCESS)
-    return vulkanError(r, "asking for the window's formats");
+    return vulkanError(r, "querying the window's formats");
   std::vector<VkSurfaceFormatKHR> formats(count);
   (void)made->vki_.GetPhysicalDeviceSurfaceFormatsKHR(device, surface, &count, formats.data());
-  // Pictures are sRGB bytes already.
+  // Images are already in sRGB: a UNORM format shows them unchanged.
   const auto bytes = std::ranges::find_if(formats, [](const VkSurfaceFormatKHR& f) {
     return (f.format == VK_FORMAT_B8G8R8A8_UNORM || f.format == VK_FORMAT_R8G8B8A8_UNORM) &&
            f.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR;
   });
   if (bytes == formats.end())
-    return Error{ErrorKind::NoDevice, "the window takes no pictures of 8-bit sRGB (B8G8R8A8_UNORM or R8G8B8A8_UNORM)"};
+    return Error{ErrorKind::NoDevice, "the window supports no 8-bit sRGB format; expected B8G8R8A8_UNORM or R8G8B8A8_UNORM"};
   made->format_ = bytes->format;
   made->space_ = bytes->colorSpace;
   (void)made->vki_.GetPhysicalDeviceSurfacePresentModesKHR(device, surface, &count, nullptr);
@@ -87,7 +87,7 @@ Expected<VkSemaphore> Swapchain::semaphore() {
 }
 
 Swapchain::~Swapchain() {
-  if (vk_.QueueWaitIdle) (void)vk_.QueueWaitIdle(context_.queue());  // a lost device is torn down all the same
+  if (vk_.QueueWaitIdle) (void)vk_.QueueWaitIdle(context_.queue());  // also for a lost device
   for (const VkSemaphore ready : ready_) vk_.DestroySemaphore(context_.vkDevice(), ready, nullptr);
   destroySemaphores();
   if (swapchain_) vk_.DestroySwapchainKHR(context_.vkDevice(), swapchain_, nullptr);
@@ -103,7 +103,7 @@ Expected<void> Swapchain::make(uint32_t width, uint32_t height) {
   if (VkResult r = vk_.QueueWaitIdle(context_.queue()); r != VK_SUCCESS) return vulkanError(r, "waiting for the window's last frame");
   VkSurfaceCapabilitiesKHR can{};
   if (VkResult r = vki_.GetPhysicalDeviceSurfaceCapabilitiesKHR(context_.physicalDevice(), surface_, &can); r != VK_SUCCESS)
-    return vulkanError(r, "asking for the window's size");
+    return vulkanError(r, "querying the window's size");
   if (can.currentExtent.width != UINT32_MAX) {
     width = can.currentExtent.width;
     height = can.currentExtent.height;
@@ -136,7 +136,8 @@ Expected<void> Swapchain::make(uint32_t width, uint32_t height) {
   if (old) vk_.DestroySwapchainKHR(context_.vkDevice(), old, nullptr);
   destroySemaphores();
   images_.clear();
-  if (r != VK_SUCCESS) return vulkanError(r, "making the images of a window of " + std::to_string(width) + "x" + std::to_string(height));
+  if (r != VK_SUCCESS)
+    return vulkanError(r, "creating the swapchain of a window of " + std::to_string(width) + "x" + std::to_string(height));
   if (!swapchain_) return {};
   uint32_t count = 0;
   (void)vk_.GetSwapchainImagesKHR(context_.vkDevice(), swapchain_, &count, nullptr);
@@ -155,7 +156,7 @@ Expected<std::optional<Swapchain::Target>> Swapchain::acquire() {
   if (!swapchain_) return std::optional<Target>();
   Target target;
   const VkSemaphore ready = ready_[turn_];
-  const VkResult r = vk_.AcquireNextImageKHR(context_.vkDevice(), swapchain_, kPatience, ready, VK_NULL_HANDLE, &target.index);
+  const VkResult r = vk_.AcquireNextImageKHR(context_.vkDevice(), swapchain_, kAcquireTimeout, ready, VK_NULL_HANDLE, &target.index);
   if (r == VK_ERROR_OUT_OF_DATE_KHR || r == VK_TIMEOUT || r == VK_NOT_READY) return std::optional<Target>();
   if (r != VK_SUCCESS && r != VK_SUBOPTIMAL_KHR) return vulkanError(r, "getting an image of the window");
   turn_ = (turn_ + 1) % ready_.size();

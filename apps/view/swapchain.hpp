@@ -1,5 +1,5 @@
 #pragma once
-// The images of a window, made anew whenever the window's size or the present mode asks for it.
+// The swapchain of a window, recreated when the window's size or the present mode changes.
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -28,7 +28,7 @@ namespace rill::view {
 
 class Swapchain {
  public:
-  /// An image to draw to, between acquire() and present().
+  /// A swapchain image between acquire() and present().
   struct Target {
     VkImage image = VK_NULL_HANDLE;
     uint32_t index = 0;
@@ -36,21 +36,21 @@ class Swapchain {
     VkSemaphoreSubmitInfo ready{}, drawn{};
   };
 
-  /// Takes over `surface`. NoDevice where the device cannot show pictures on it.
+  /// Takes ownership of `surface`. NoDevice where the device cannot present to it.
   static Expected<std::unique_ptr<Swapchain>> create(offline::Context& context, VkSurfaceKHR surface);
   ~Swapchain();
 
   VkFormat format() const { return format_; }
-  /// For windows of this many pixels, or those that the surface insists on. Waits for what is drawn.
+  /// Creates the images, in this size or the one that the surface requires. Waits for the queue.
   Expected<void> make(uint32_t width, uint32_t height);
-  /// None: the window has changed, the swapchain has to be made anew; or it shows nothing.
+  /// nullopt where the swapchain must be recreated, or the window is not visible.
   Expected<std::optional<Target>> acquire();
-  /// False: the swapchain has to be made anew.
+  /// False where the swapchain must be recreated.
   Expected<bool> present(const Target& target);
 
   std::span<const VkPresentModeKHR> modes() const { return modes_; }
   VkPresentModeKHR mode() const { return mode_; }
-  void choose(VkPresentModeKHR mode) { mode_ = mode; }  ///< one of modes(), from the next make() on
+  void choose(VkPresentModeKHR mode) { mode_ = mode; }  ///< one of modes(); used from the next make() on
 
  private:
   Swapchain(offline::Context& context, VkSurfaceKHR surface) : context_(context), surface_(surface) {}
@@ -67,8 +67,8 @@ class Swapchain {
   VkPresentModeKHR mode_ = VK_PRESENT_MODE_FIFO_KHR;
   uint32_t width_ = 0, height_ = 0;
   std::vector<VkImage> images_;
-  std::vector<VkSemaphore> drawn_;  ///< one an image: free once the image is acquired again
-  std::vector<VkSemaphore> ready_;  ///< in turn, more than there are submits in flight
+  std::vector<VkSemaphore> drawn_;  ///< one per image: reusable once the image is acquired again
+  std::vector<VkSemaphore> ready_;  ///< used in turn; more than there are submits in flight
   size_t turn_ = 0;
 
 #define RILL_DECLARE(name) PFN_vk##name name = nullptr;
@@ -84,7 +84,7 @@ class Swapchain {
 /// "fifo", "mailbox", "immediate", "fifo relaxed".
 std::string_view presentModeName(VkPresentModeKHR mode);
 
-/// Command buffers of the viewer's context: two displayed frames, each with a piece of simulation.
+/// Command buffers of the viewer's context: two displayed frames, each with a piece of a step.
 constexpr uint32_t kSubmitsInFlight = 4;
 
 }  // namespace rill::view

@@ -8,19 +8,19 @@
 namespace rill::view {
 namespace {
 
-constexpr double kBall = 0.06;      // of the scene's longest side: radius of the ball that pushes
-constexpr double kLeastBall = 2.5;  // spacings
-constexpr double kThrown = 1.2;     // of that radius: the ball that is thrown
-constexpr double kTouched = 0.75;   // spacings: the balls of a lattice leave no gap from 0.71 on
+constexpr double kBall = 0.06;        // radius of the pushing ball, of the scene's longest side
+constexpr double kMinBall = 2.5;      // spacings
+constexpr double kThrown = 1.2;       // radius of thrown balls, of that radius
+constexpr double kPickRadius = 0.75;  // spacings: above 0.71 the spheres of a lattice leave no gap
 
-struct Room {
+struct Box {
   std::array<double, 3> low{}, high{};
   double longest() const { return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]}); }
 };
 
-/// The domain; without one what the fluid had at the start, and as much around it.
-Room roomOf(const Session& session) {
-  Room room{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}};
+/// The domain, or the bounds of the fluid at the start, extended by their longest side.
+Box boxOf(const Session& session) {
+  Box room{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}};
   const auto& domain = session.scene().domain;
   const Bounds& fluid = session.runner().firstBounds();
   if (!domain && fluid.empty()) return room;
@@ -39,32 +39,32 @@ Room roomOf(const Session& session) {
 
 }  // namespace
 
-double Touch::fastest(const Session& session) { return roomOf(session).longest(); }
+double Touch::maxSpeed(const Session& session) { return boxOf(session).longest(); }
 
 double Touch::ballRadius(const Session& session) {
-  return std::max(kBall * roomOf(session).longest(), kLeastBall * session.scene().fluid.spacing);
+  return std::max(kBall * boxOf(session).longest(), kMinBall * session.scene().fluid.spacing);
 }
 
 Expected<bool> Touch::grab(Session& session, const CameraView& eye, const Ray& ray, Hold hold) {
   if (holds())
-    if (auto gone = release(session); !gone) return gone.error();
+    if (auto released = release(session); !released) return released.error();
   Runner& runner = session.runner();
   std::vector<Solid> solids = session.scene().solids;
   std::vector<SolidPose> poses;
   for (uint32_t k = 0; k < solids.size(); ++k) poses.push_back(runner.pose(k));
-  std::vector<Float3> positions;  // a solid is taken through the fluid that it is seen through
+  std::vector<Float3> positions;  // a solid can be grabbed through fluid
   if (hold == Hold::Fluid) {
     auto present = runner.positions();
     if (!present) return present.error();
     positions = std::move(*present);
   }
   const double spacing = session.scene().fluid.spacing;
-  const auto picked = pick(ray, positions, runner.start().origin, kTouched * spacing, poses);
+  const auto picked = pick(ray, positions, runner.start().origin, kPickRadius * spacing, poses);
   if (!picked || picked->solid.has_value() != (hold == Hold::Solid)) return false;
 
   point_ = ray.at(picked->distance);
   offset_ = {};
-  const double speed = fastest(session);
+  const double speed = maxSpeed(session);
   uint32_t held = static_cast<uint32_t>(solids.size());
   if (picked->solid) {
     held = *picked->solid;
@@ -101,16 +101,16 @@ Expected<bool> Touch::grab(Session& session, const CameraView& eye, const Ray& r
 void Touch::drag(Session& session, const CameraView& eye, const Ray& ray) {
   if (!solid_) return;
   std::ranges::copy(cameraBasis(eye).forward, normal_.begin());
-  const auto distance = meetsPlane(ray, point_, normal_);
+  const auto distance = hitPlane(ray, point_, normal_);
   if (!distance) return;
   point_ = ray.at(*distance);
-  session.runner().steer({*solid_, {point_[0] + offset_[0], point_[1] + offset_[1], point_[2] + offset_[2]}});
+  session.runner().setTarget({*solid_, {point_[0] + offset_[0], point_[1] + offset_[1], point_[2] + offset_[2]}});
 }
 
 Expected<void> Touch::release(Session& session) {
   if (!solid_) return {};
   solid_.reset();
-  session.runner().letGo();
+  session.runner().clearTargets();
   if (!ball_) return {};
   std::vector<Solid> solids = session.scene().solids;
   solids.pop_back();
@@ -118,17 +118,17 @@ Expected<void> Touch::release(Session& session) {
 }
 
 Expected<uint64_t> Touch::throwFluid(Session& session, const Ray& ray) {
-  const Room room = roomOf(session);
+  const Box room = boxOf(session);
   const double spacing = session.scene().fluid.spacing;
   const double least = std::min({room.high[0] - room.low[0], room.high[1] - room.low[1], room.high[2] - room.low[2]});
   const double radius = std::min(kThrown * ballRadius(session), 0.5 * least - spacing);
   const auto enters = entry(ray, room.low, room.high);
-  if (!enters || radius <= 0) return Error{ErrorKind::BadInput, "There is no room for fluid there: point into the tank"};
+  if (!enters || radius <= 0) return Error{ErrorKind::BadInput, "There is no room for fluid there; point into the tank"};
   Fill fill;
   fill.sphere.emplace();
   fill.sphere->radius = radius;
   const auto inside = ray.at(*enters + radius);
-  const double speed = fastest(session);
+  const double speed = maxSpeed(session);
   for (size_t a = 0; a < 3; ++a) {
     fill.sphere->center[a] = std::clamp(inside[a], room.low[a] + radius + spacing, room.high[a] - radius - spacing);
     fill.velocity[a] = speed * ray.along[a];

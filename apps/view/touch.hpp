@@ -1,5 +1,5 @@
 #pragma once
-// A hand in the scene: it pushes the fluid with a ball, moves solids, throws fluid.
+// Mouse interaction with the scene: pushing fluid with a ball, moving solids, throwing fluid.
 #include "view/pick.hpp"
 #include "view/session.hpp"
 
@@ -9,28 +9,29 @@ enum class Hold { Fluid, Solid };
 
 class Touch {
  public:
-  /// Takes hold of what the ray meets first, where that is of this kind; the scene gets a ball that stands before the fluid's surface, or
-  /// its solid becomes one that is driven. False: it is something else.
+  /// Grabs the first hit of the ray, if it is of the kind `hold`: adds a ball in front of the fluid's surface, or makes the
+  /// solid a driven one. False for a hit of another kind.
   Expected<bool> grab(Session& session, const CameraView& eye, const Ray& ray, Hold hold);
-  /// What is held follows the ray, in the plane of the picture through where it was last, as fast as the hand may be.
+  /// Moves the grabbed solid or ball to the ray, in the plane parallel to the image through its last position, at most at
+  /// maxSpeed().
   void drag(Session& session, const CameraView& eye, const Ray& ray);
-  /// The ball is gone; a solid stays where it is.
+  /// Removes the ball; a solid stays where it is.
   Expected<void> release(Session& session);
   bool holds() const { return solid_.has_value(); }
-  /// After the scene began anew.
-  void forget() { solid_.reset(); }
+  /// Call after the scene was restarted.
+  void reset() { solid_.reset(); }
 
-  /// A ball of fluid comes in where the ray enters the scene, and flies along it. BadInput where there is no room.
+  /// Adds a ball of fluid where the ray enters the scene, moving along the ray. BadInput where there is no room.
   static Expected<uint64_t> throwFluid(Session& session, const Ray& ray);
 
-  /// m/s: through the scene in a second.
-  static double fastest(const Session& session);
+  /// m/s: the scene's longest side per second.
+  static double maxSpeed(const Session& session);
   static double ballRadius(const Session& session);  ///< m
 
  private:
   std::optional<uint32_t> solid_;
-  bool ball_ = false;                                    // of its own
-  std::array<double, 3> point_{}, normal_{}, offset_{};  // of the plane; from where the ray meets it to the solid's center
+  bool ball_ = false;                                    // a ball is grabbed
+  std::array<double, 3> point_{}, normal_{}, offset_{};  // of the drag plane; from its point to the solid's center
 };
 
 }  // namespace rill::view

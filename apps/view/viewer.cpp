@@ -13,6 +13,7 @@
 #include "core/words.hpp"
 #include "shared/atomic_file.hpp"
 #include "shared/exit_code.hpp"
+#include "shared/message.hpp"
 #include "shared/png.hpp"
 #include "shared/scene_folders.hpp"
 #include "shared/signals.hpp"
@@ -31,9 +32,9 @@ namespace {
 namespace fs = std::filesystem;
 using Now = std::chrono::steady_clock;
 
-constexpr double kLeastPiece = 0.012, kMaxPiece = 0.05;  // s of simulation a displayed frame
-constexpr double kNotice = 4;                            // s that a notice stays; an error stays until it is closed
-constexpr double kMeasureEvery = 0.25;                   // s; figures cost a pass over the neighbors
+constexpr double kMinPiece = 0.012, kMaxPiece = 0.05;  // s of simulation per displayed frame
+constexpr double kNotice = 4;                          // s that a notice is shown; an error is shown until it is closed
+constexpr double kMeasureEvery = 0.25;                 // s; measuring costs a pass over all neighbors
 
 double secondsSince(Now::time_point then) { return std::chrono::duration<double>(Now::now() - then).count(); }
 
@@ -43,20 +44,20 @@ class Viewer {
 
   int run() {
     if (auto ready = open(); !ready) {
-      say(ready.error().message);
+      logError(ready.error().message);
       return apps::exitCodeBeforeRun(ready.error());
     }
     const Now::time_point begin = Now::now();
     if (auto ran = loop(); !ran) {
-      say(ran.error().message);
+      logError(ran.error().message);
       return apps::kFailed;
     }
-    if (auto told = report(secondsSince(begin)); !told) {
-      say(told.error().message);
+    if (auto printed = printSummary(secondsSince(begin)); !printed) {
+      logError(printed.error().message);
       return apps::kFailed;
     }
-    if (broken_ && !said_ && !apps::signalReceived()) return apps::kBadInput;
-    return said_ ? apps::kFailed : apps::signalReceived() ? 128 + apps::signalReceived() : apps::kDone;
+    if (invalidFile_ && !sawValidationMessage_ && !apps::signalReceived()) return apps::kBadInput;
+    return sawValidationMessage_ ? apps::kFailed : apps::signalReceived() ? 128 + apps::signalReceived() : apps::kDone;
   }
 
  private:
@@ -65,14 +66,14 @@ class Viewer {
     auto file = scenes_.find(options_.scene);
     if (!file) return file.error();
     const auto scene = loadScene(*file, options_.overrides);
-    // A broken file waits in the window for who mends it; without such a hand, or a window, it ends the program.
+    // An invalid file is an error where nobody can fix it while the window waits: with --frames, a script, invalid --set.
     if (!scene && (options_.frames || options_.script || loadScene(*file))) return scene.error();
     if (options_.script) {
       auto script = loadScript(*options_.script);
       if (!script) return script.error();
       script_ = std::move(*script);
       for (const ScriptLine& line : script_)
-        if (auto known = check(line); !known) return known;
+        if (auto valid = validate(line); !valid) return valid;
     }
     auto window = Window::open("rill-view", options_.width, options_.height);
     if (!window) return scene ? window.error() : scene.error();
@@ -89,7 +90,7 @@ class Viewer {
     auto context = offline::Context::create(desc);
     if (!context) {
       Error error = context.error();
-      if (error.kind == ErrorKind::NoDevice) error.message += "\nrill-capture needs no window: it writes pictures to files";
+      if (error.kind == ErrorKind::NoDevice) error.message += "\nrill-capture needs no window: it writes images to files";
       return error;
     }
     context_ = std::move(*context);
@@ -102,44 +103,44 @@ class Viewer {
     if (!display) return display.error();
     display_ = std::move(*display);
     settings_.view = options_.view;
-    return scene ? show(*file, options_.overrides) : showBroken(*file, scene.error());
+    return scene ? openScene(*file, options_.overrides) : waitForValidFile(*file, scene.error());
   }
 
-  /// A scene that cannot be read at the start: its message, and nothing until the file changes or another is chosen.
-  Expected<void> showBroken(const fs::path& file, const Error& error) {
-    say(error.message);
+  /// Shows the error about a scene that is invalid at the start, until the file changes or another scene is opened.
+  Expected<void> waitForValidFile(const fs::path& file, const Error& error) {
+    logError(error.message);
     const auto empty = scenes_.find("empty");
     if (!empty) return error;
-    if (auto shown = show(*empty); !shown) return shown;
-    broken_.emplace(file);
-    tell(error.message + "\nThe scene opens once the file is mended.");
+    if (auto opened = openScene(*empty); !opened) return opened;
+    invalidFile_.emplace(file);
+    showMessage(error.message + "\nThe scene opens as soon as the file is valid.");
     return {};
   }
 
-  /// Names in a script are judged before it runs.
-  Expected<void> check(const ScriptLine& line) const {
+  /// Checks the names in a script before it runs.
+  Expected<void> validate(const ScriptLine& line) const {
     if (line.kind == ScriptLine::Kind::Scene)
       if (auto file = scenes_.find(line.name); !file) return file.error();
     const auto views = offline::Simulation::views();
     if (line.kind == ScriptLine::Kind::View && std::ranges::find(views, line.name) == views.end())
-      return Error{ErrorKind::BadInput, "--script: there is no view " + inQuotes(line.name)};
+      return Error{ErrorKind::BadInput, "--script: unknown view " + inQuotes(line.name)};
     return {};
   }
 
-  /// Opens a scene in place of the present one, which stays where that fails.
-  Expected<void> show(const fs::path& file, std::vector<Override> changes = {}) {
+  /// Opens a scene; the current one stays where that fails.
+  Expected<void> openScene(const fs::path& file, std::vector<Override> changes = {}) {
     auto session = Session::open(*context_, file, std::move(changes));
     if (!session) return session.error();
     if (auto idle = context_->wait(); !idle) return idle;
     session_ = std::move(*session);
-    broken_.reset();
+    invalidFile_.reset();
     sceneName_ = session_->scene().name;
     for (const std::string& name : sceneNames_)
       if (auto known = scenes_.find(name); known && *known == file) sceneName_ = name;
     window_->setTitle("Rill: " + sceneName_ + " (" + deviceName_ + ")");
     layOutWindow(window_->framebuffer());
     controls_.camera.home(homeView());
-    begun();
+    onRestart();
     message_.clear();
     for (const std::string& warning : session_->runner().warnings()) message_ += (message_.empty() ? "" : "\n") + warning;
     return {};
@@ -149,22 +150,22 @@ class Viewer {
     layout_ = layOut(std::max(size.width, 4u), std::max(size.height, 4u), interface_->scale(), settings_.panels);
   }
 
-  /// The scene's camera, opened where the picture is narrower than it was meant for, so that nothing is lost at its sides.
+  /// The scene's camera. Its field of view grows in an image narrower than 16:9, so that nothing is cut off at the sides.
   CameraView homeView() const {
-    constexpr double kMeant = 16.0 / 9;
+    constexpr double kIntendedAspect = 16.0 / 9;
     const double aspect = double(layout_.picture.width) / layout_.picture.height;
     CameraView view = session_->camera(aspect);
-    if (session_->scene().camera && aspect < kMeant) {
+    if (session_->scene().camera && aspect < kIntendedAspect) {
       const double half = view.fov_y_deg * std::numbers::pi / 360;
-      view.fov_y_deg = std::atan(std::tan(half) * kMeant / aspect) * 360 / std::numbers::pi;
+      view.fov_y_deg = std::atan(std::tan(half) * kIntendedAspect / aspect) * 360 / std::numbers::pi;
     }
     return view;
   }
 
-  /// After anything that begins a simulation at its start.
-  void begun() {
+  /// Resets what depends on the simulation, after it was started from the beginning.
+  void onRestart() {
     playback_.restart();
-    controls_.forget();
+    controls_.reset();
     picture_.restart();
     held_ = {};
     dirty_ = true;
@@ -182,44 +183,44 @@ class Viewer {
       if (auto done = frame(seconds); !done) return done;
       ++frame_;
       for (const std::string& message : context_->takeMessages()) {
-        say(message);
-        said_ = true;
+        logError(message);
+        sawValidationMessage_ = true;
       }
     }
     return context_->wait();
   }
 
-  bool endsByItself() const { return options_.frames || !script_.empty(); }
-  /// Of a run that ends by itself.
-  bool last() const { return options_.frames ? frame_ + 1 == *options_.frames : !script_.empty() && nextLine_ == script_.size(); }
+  bool isBounded() const { return options_.frames || !script_.empty(); }
+  /// True in the last frame of a run with --frames or a script.
+  bool isLastFrame() const { return options_.frames ? frame_ + 1 == *options_.frames : !script_.empty() && nextLine_ == script_.size(); }
 
   Expected<void> frame(double seconds) {
     std::optional<fs::path> picture;
-    // Nothing moves: wait for a hand rather than draw the same again and again.
+    // Nothing changes: wait for input instead of drawing the same frame again.
     const bool idle =
         settings_.paused && !interface_->waiting() && !dirty_ && !controls_.camera.moving() && !options_.frames && script_.empty();
     std::vector<InputEvent> events = window_->events(idle ? 0.1 : 0);
     if (auto done = replay(events, picture); !done) return done;
-    if (options_.screenshot && last()) picture = options_.screenshot;
+    if (options_.screenshot && isLastFrame()) picture = options_.screenshot;
     const Window::Size size = window_->framebuffer();
-    for (const InputEvent& event : events) interface_->feed(event);
+    for (const InputEvent& event : events) interface_->addEvent(event);
     for (const InputEvent& event : interface_->begin(seconds, std::max(size.width, 1u), std::max(size.height, 1u)))
       if (auto done = handle(event); !done) return done;
-    if (asked_) picture = std::exchange(asked_, std::nullopt);
+    if (screenshot_) picture = std::exchange(screenshot_, std::nullopt);
     if (session_->fileChanged(now_s_))
       if (auto done = reload(); !done) return done;
-    if (broken_ && broken_->changed(now_s_)) {
-      broken_->noted();
-      if (auto done = attempt(show(fs::path(broken_->file()), options_.overrides), ""); !done) return done;
+    if (invalidFile_ && invalidFile_->changed(now_s_)) {
+      invalidFile_->acknowledge();
+      if (auto done = report(openScene(fs::path(invalidFile_->file()), options_.overrides), ""); !done) return done;
     }
 
-    if (noticeUntil_s_ && now_s_ > *noticeUntil_s_) tell("");
+    if (noticeUntil_s_ && now_s_ > *noticeUntil_s_) showMessage("");
     if (auto done = simulate(seconds); !done) return done;
 
     if (size.width == 0 || size.height == 0) {  // minimized
       interface_->skip();
-      if (picture && endsByItself())
-        return Error{ErrorKind::BadInput, inQuotes(picture->string()) + " was not written: the window is minimized"};
+      if (picture && isBounded())
+        return Error{ErrorKind::BadInput, inQuotes(picture->string()) + ": not written, because the window is minimized"};
       if (!options_.lockstep) std::this_thread::sleep_for(std::chrono::milliseconds(10));
       return {};
     }
@@ -230,10 +231,10 @@ class Viewer {
     return draw(picture);
   }
 
-  /// The piece of simulation that belongs to this frame: as much as the picture takes, so that the window answers and the fluid moves on.
+  /// Simulates for this frame, about as long as the image takes to render, so that the window stays responsive.
   Expected<void> simulate(double seconds) {
     session_->runner().timePasses(settings_.panels);
-    Playback::Frame frame{seconds, now_s_, std::clamp(picture_.seconds(), kLeastPiece, kMaxPiece), settings_.paused, options_.lockstep, {}};
+    Playback::Frame frame{seconds, now_s_, std::clamp(picture_.seconds(), kMinPiece, kMaxPiece), settings_.paused, options_.lockstep, {}};
     if (settings_.view == "density")
       frame.measureEvery_s = 0;
     else if (settings_.panels)
@@ -248,7 +249,7 @@ class Viewer {
     const double scale = settings_.scale == 0 && options_.lockstep ? 1 : settings_.scale;
     auto drawn = picture_.paint(*display_, *session_, {settings_.view, controls_.camera.view(), layout_.picture, scale, dirty_});
     if (!drawn && !(drawn.error().kind == ErrorKind::BadInput && picture_.any())) return drawn;
-    if (!drawn) tell(drawn.error().message);
+    if (!drawn) showMessage(drawn.error().message);
     dirty_ = false;
     return {};
   }
@@ -267,7 +268,7 @@ class Viewer {
     offline::Image image;
     const bool dark = interface_->theme() == Theme::Dark;
     const ImVec4 behind = dark ? ImVec4(0.09f, 0.1f, 0.12f, 1) : ImVec4(0.86f, 0.88f, 0.9f, 1);
-    for (int tries = 0; tries < 3; ++tries) {  // the window's images may have gone out of date
+    for (int tries = 0; tries < 3; ++tries) {  // the swapchain may be out of date
       if (auto fits = display_->fit(window_->framebuffer()); !fits) return fits;
       if (auto shown = display_->show(lists, behind, picture ? &image : nullptr); !shown) return shown;
       if (!picture || image.width > 0) break;
@@ -275,15 +276,15 @@ class Viewer {
     if (picture) {
       const auto written = image.width > 0
                                ? apps::writePng(*picture, image)
-                               : Error{ErrorKind::BadInput, inQuotes(picture->string()) + " was not written: the window changed its size"};
-      if (!written && endsByItself()) return written;
-      if (auto told = attempt(written, "The window was written to " + fs::absolute(*picture).string()); !told) return told;
+                               : Error{ErrorKind::BadInput, inQuotes(picture->string()) + ": not written, because the window was resized"};
+      if (!written && isBounded()) return written;
+      if (auto reported = report(written, "The window was written to " + fs::absolute(*picture).string()); !reported) return reported;
     }
-    return serve(board.requests);
+    return handle(board.requests);
   }
 
-  /// What was asked for in the panels.
-  Expected<void> serve(const Requests& requests) {
+  /// Carries out the requests of the panels.
+  Expected<void> handle(const Requests& requests) {
     if (requests.mode) display_->choose(*requests.mode);
     if (requests.oneStep) oneStepAndPause();
     if (requests.save) save();
@@ -291,53 +292,54 @@ class Viewer {
       if (auto done = openNamed(requests.open->string()); !done) return done;
     if (requests.restart)
       if (auto done = restart(); !done) return done;
-    if (requests.reset) return changed(session_->reset(*requests.reset), *requests.reset);
-    return requests.change ? changed(session_->change(*requests.change), requests.change->key) : Expected<void>();
+    if (requests.reset) return applied(session_->reset(*requests.reset), *requests.reset);
+    return requests.change ? applied(session_->change(*requests.change), requests.change->key) : Expected<void>();
   }
 
-  Expected<void> changed(const Expected<void>& change, const std::string& key) {
-    if (change && !session_->isLive(key)) begun();
+  /// After a change of a key of the scene: redraws, resets after a restart, reports an error.
+  Expected<void> applied(const Expected<void>& change, const std::string& key) {
+    if (change && !session_->isLive(key)) onRestart();
     dirty_ = true;
-    return attempt(change, "");
+    return report(change, "");
   }
 
   Expected<void> restart() {
     auto done = session_->restart();
-    if (done) begun();
-    return attempt(done, "");
+    if (done) onRestart();
+    return report(done, "");
   }
 
-  /// The file is another one now. A broken one leaves what runs.
+  /// Reads the changed file again. Where it is invalid the current scene continues.
   Expected<void> reload() {
     auto done = session_->reload();
     if (done) {
-      begun();
+      onRestart();
       controls_.camera.reframe(homeView());
     }
-    return attempt(done, session_->file().filename().string() + " has changed and was read again");
+    return report(done, session_->file().filename().string() + " has changed and was reloaded");
   }
 
   Expected<void> openNamed(const std::string& name) {
     auto file = scenes_.find(name);
-    if (!file) return attempt(file.error(), "");
-    return attempt(show(*file), "");
+    if (!file) return report(file.error(), "");
+    return report(openScene(*file), "");
   }
 
-  Expected<void> tilt(Tilt way) {
+  Expected<void> tilt(Tilt direction) {
     constexpr double kDegrees = 10;
     const Scene& scene = session_->scene();
     if (!session_->isLive("gravity")) {
-      tell("This scene's gravity follows a schedule (gravity_changes)");
+      showMessage("The scene sets its gravity by gravity_changes; it cannot be tilted");
       return {};
     }
     if (std::ranges::all_of(scene.gravity, [](double a) { return a == 0; })) {
-      tell("There is no gravity to tilt in this scene");
+      showMessage("The scene has no gravity to tilt");
       return {};
     }
-    const auto g = tilted({scene.gravity[0], scene.gravity[1], scene.gravity[2]}, controls_.camera.view(), way, kDegrees);
+    const auto g = tilted({scene.gravity[0], scene.gravity[1], scene.gravity[2]}, controls_.camera.view(), direction, kDegrees);
     char text[96];
     std::snprintf(text, sizeof text, "[%.9g, %.9g, %.9g]", g[0], g[1], g[2]);
-    return changed(session_->change({"gravity", text}), "gravity");
+    return applied(session_->change({"gravity", text}), "gravity");
   }
 
   void oneStepAndPause() {
@@ -347,29 +349,29 @@ class Viewer {
 
   void save() {
     auto text = session_->text(fs::current_path());
-    if (!text) return tell(text.error().message);
+    if (!text) return showMessage(text.error().message);
     const std::string stem = session_->scene().name + "-changed";
     fs::path file = stem + ".json";
     for (int k = 2; fs::exists(file); ++k) file = stem + "-" + std::to_string(k) + ".json";
     auto written = apps::writeFile(file, *text);
-    tell(written ? "The scene was saved as " + fs::absolute(file).string() : written.error().message);
+    showMessage(written ? "The scene was saved as " + fs::absolute(file).string() : written.error().message);
   }
 
-  /// An error that leaves something to look at is shown in the window; others end the program.
-  Expected<void> attempt(const Expected<void>& done, const std::string& notice) {
+  /// Shows `notice`, or the error in the window. Returns errors of the device, which end the program.
+  Expected<void> report(const Expected<void>& done, const std::string& notice) {
     if (done) {
       if (notice.empty()) return {};
-      tell(notice);
+      showMessage(notice);
       noticeUntil_s_ = now_s_ + kNotice;
       return {};
     }
     const ErrorKind kind = done.error().kind;
     if (kind == ErrorKind::DeviceLost || kind == ErrorKind::Failed) return done;
-    tell(done.error().message);
+    showMessage(done.error().message);
     return {};
   }
-  void tell(const std::string& text) {
-    message_ = text;
+  void showMessage(const std::string& text) {
+    message_ = apps::printable(text);
     noticeUntil_s_.reset();
   }
 
@@ -378,24 +380,24 @@ class Viewer {
       case InputEvent::Kind::Move:
       case InputEvent::Kind::Button:
       case InputEvent::Kind::Wheel: {
-        const auto taken = controls_.take(event, layout_.picture, *session_, interface_->wantsMouse(), settings_.paused);
+        const auto handled = controls_.handle(event, layout_.picture, *session_, interface_->wantsMouse(), settings_.paused);
         if (event.kind == InputEvent::Kind::Button) dirty_ = true;
-        return attempt(taken, "");
+        return report(handled, "");
       }
       case InputEvent::Kind::Key:
         if (!event.down || interface_->wantsKeys() || (event.modifiers & GLFW_MOD_CONTROL)) return {};
         if (event.code == GLFW_KEY_ESCAPE) settings_.help = false;
         for (const KeyBinding& binding : keyBindings())
-          if (binding.key == event.code) return act(binding.action, event.modifiers & GLFW_MOD_SHIFT);
+          if (binding.key == event.code) return perform(binding.action, event.modifiers & GLFW_MOD_SHIFT);
         return {};
       case InputEvent::Kind::Drop:
-        return attempt(show(event.text), "");
+        return report(openScene(event.text), "");
       default:
         return {};
     }
   }
 
-  Expected<void> act(Action action, bool shift) {
+  Expected<void> perform(Action action, bool shift) {
     switch (action) {
       case Action::Pause:
         settings_.paused = !settings_.paused;
@@ -406,17 +408,17 @@ class Viewer {
       case Action::Restart:
         return restart();
       case Action::PreviousScene:
-        return openNamed(neighbor(sceneNames_, sceneName_, -1));
+        return openNamed(cycled(sceneNames_, sceneName_, -1));
       case Action::NextScene:
-        return openNamed(neighbor(sceneNames_, sceneName_, 1));
+        return openNamed(cycled(sceneNames_, sceneName_, 1));
       case Action::NextView: {
         const auto views = offline::Simulation::views();
-        settings_.view = neighbor(std::vector<std::string>(views.begin(), views.end()), settings_.view, shift ? -1 : 1);
+        settings_.view = cycled(std::vector<std::string>(views.begin(), views.end()), settings_.view, shift ? -1 : 1);
         break;
       }
       case Action::Throw: {
         const auto thrown = controls_.throwFluid(*session_, layout_.picture);
-        if (!thrown) return attempt(thrown.error(), "");
+        if (!thrown) return report(thrown.error(), "");
         dirty_ = true;
         break;
       }
@@ -458,7 +460,7 @@ class Viewer {
       case Action::Screenshot: {
         fs::path file;
         for (int k = 1; file.empty() || fs::exists(file); ++k) file = "rill-view-" + std::to_string(k) + ".png";
-        asked_ = file;
+        screenshot_ = file;
         break;
       }
       case Action::Help:
@@ -468,15 +470,15 @@ class Viewer {
     return {};
   }
 
-  /// The name that lies `step` after another in a ring; the first where that is not among them.
-  static std::string neighbor(const std::vector<std::string>& names, const std::string& name, int step) {
+  /// The name `step` places after `name`, cyclic; the first one where `name` is not in the list.
+  static std::string cycled(const std::vector<std::string>& names, const std::string& name, int step) {
     const auto at = std::ranges::find(names, name);
     if (at == names.end()) return names.empty() ? name : names.front();
     const auto count = static_cast<int>(names.size());
     return names[static_cast<size_t>((static_cast<int>(at - names.begin()) + step + count) % count)];
   }
 
-  /// What the script says of this frame.
+  /// Executes the script's commands for this frame.
   Expected<void> replay(std::vector<InputEvent>& events, std::optional<fs::path>& picture) {
     for (; nextLine_ < script_.size() && script_[nextLine_].frame <= frame_; ++nextLine_) {
       const ScriptLine& line = script_[nextLine_];
@@ -486,7 +488,7 @@ class Viewer {
           events.push_back(line.input);
           break;
         case ScriptLine::Kind::Set:
-          done = changed(session_->change(line.change), line.change.key);
+          done = applied(session_->change(line.change), line.change.key);
           break;
         case ScriptLine::Kind::Scene:
           done = openNamed(line.name);
@@ -509,16 +511,16 @@ class Viewer {
       }
       if (!done) return done;
     }
-    // A script without --frames ends the program with its last line.
+    // Without --frames the program ends after the last line of the script.
     if (!script_.empty() && nextLine_ == script_.size() && !options_.frames) window_->close();
     return {};
   }
 
-  /// After a run that ends by itself: what it came to.
-  Expected<void> report(double wall_s) {
+  /// Prints a summary of a run with --frames or a script.
+  Expected<void> printSummary(double wall_s) {
     if (!options_.frames && script_.empty()) return {};
     auto& runner = session_->runner();
-    if (!runner.between())
+    if (!runner.betweenSteps())
       if (auto ended = runner.step(); !ended) return ended;
     auto hash = runner.hash();
     if (!hash) return hash.error();
@@ -532,10 +534,10 @@ class Viewer {
                   "frame_ms      %.1f\nframe_ms_p95  %.1f\nstate_hash    %016llx\n",
                   sceneName_.c_str(), static_cast<unsigned long long>(frame_), static_cast<unsigned long long>(runner.steps()),
                   runner.time_s(), wall_s, frame_ms(0.5), frame_ms(0.95), static_cast<unsigned long long>(*hash));
-    return apps::writeAll(STDOUT_FILENO, "standard output", text);
+    return apps::writeStream(STDOUT_FILENO, apps::printable(text));
   }
 
-  static void say(const std::string& text) { std::fprintf(stderr, "rill-view: %s\n", text.c_str()); }
+  static void logError(const std::string& text) { apps::printMessage("rill-view", text); }
 
   const Options& options_;
   apps::SceneFolders scenes_;
@@ -543,7 +545,7 @@ class Viewer {
   std::vector<ScriptLine> script_;
   size_t nextLine_ = 0;
 
-  // In the order in which they depend on each other.
+  // In the order of their dependencies.
   std::unique_ptr<Window> window_;
   std::unique_ptr<offline::Context> context_;
   std::unique_ptr<Interface> interface_;
@@ -557,13 +559,13 @@ class Viewer {
   Playback playback_;
   Picture picture_;
   HeldEdit held_;
-  bool dirty_ = true;  // the picture
-  bool said_ = false;  // by the validation layer
+  bool dirty_ = true;  // the image must be drawn again
+  bool sawValidationMessage_ = false;
   std::optional<double> noticeUntil_s_;
-  std::optional<fs::path> asked_;    // a screenshot
-  std::optional<FileWatch> broken_;  // the scene that was asked for, until it or another one opens
+  std::optional<fs::path> screenshot_;    // to write after this frame
+  std::optional<FileWatch> invalidFile_;  // the requested scene, until it or another one is opened
   uint64_t frame_ = 0;
-  std::vector<double> frames_ms_;  // of a run that ends by itself
+  std::vector<double> frames_ms_;  // of a bounded run
   double now_s_ = 0, frameTime_ = 0;
 };
 

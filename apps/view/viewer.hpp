@@ -3,7 +3,7 @@
 
 namespace rill::view {
 
-/// Opens the window and shows it until it is closed; the exit code.
+/// Opens the window and runs until it is closed. Returns the exit code.
 int runViewer(const Options& options);
 
 }  // namespace rill::view

@@ -1,6 +1,6 @@
 #include "view/window.hpp"
 
-#include <vulkan/vulkan.h>  // before GLFW, which then declares what needs it
+#include <vulkan/vulkan.h>  // before GLFW, which then declares its Vulkan functions
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -29,15 +29,16 @@ std::string utf8(unsigned code) {
 
 Expected<std::unique_ptr<Window>> Window::open(const std::string& title, uint32_t width, uint32_t height) {
   if (glfwInit() != GLFW_TRUE)
-    return Error{ErrorKind::BadInput, "there is no display to open a window on (" + lastError() +
-                                          "). Expected DISPLAY or WAYLAND_DISPLAY to name one; without one use rill-capture, which "
-                                          "writes pictures to files"};
+    return Error{ErrorKind::BadInput, "no display to open a window on (" + lastError() +
+                                          "); expected DISPLAY or WAYLAND_DISPLAY to name one. Without a display use rill-capture, "
+                                          "which writes images to files"};
   std::unique_ptr<Window> made(new Window);
   if (glfwVulkanSupported() != GLFW_TRUE)
-    return Error{ErrorKind::NoDevice, "no Vulkan loader and driver that can draw to a window (Debian: libvulkan1 and mesa-vulkan-drivers)"};
+    return Error{ErrorKind::NoDevice,
+                 "found no Vulkan loader and driver that can draw to a window (Debian: libvulkan1 and mesa-vulkan-drivers)"};
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
   made->window_ = glfwCreateWindow(static_cast<int>(width), static_cast<int>(height), title.c_str(), nullptr, nullptr);
-  if (!made->window_) return Error{ErrorKind::BadInput, "no window could be opened: " + lastError()};
+  if (!made->window_) return Error{ErrorKind::BadInput, "cannot open a window: " + lastError()};
   made->title_ = title;
   made->listen();
   return made;
@@ -55,24 +56,24 @@ void Window::listen() {
   glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
     int width = 0, height = 0;
     glfwGetWindowSize(w, &width, &height);
-    const Size pixels = of(w).framebuffer();  // a pointer's place is in the units of the window
+    const Size pixels = of(w).framebuffer();  // positions are in window units
     if (width <= 0 || height <= 0) return;
-    of(w).note({.kind = InputEvent::Kind::Move, .x = x * pixels.width / width, .y = y * pixels.height / height});
+    of(w).push({.kind = InputEvent::Kind::Move, .x = x * pixels.width / width, .y = y * pixels.height / height});
   });
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int modifiers) {
-    of(w).note({.kind = InputEvent::Kind::Button, .code = button, .down = action == GLFW_PRESS, .modifiers = modifiers});
+    of(w).push({.kind = InputEvent::Kind::Button, .code = button, .down = action == GLFW_PRESS, .modifiers = modifiers});
   });
-  glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) { of(w).note({.kind = InputEvent::Kind::Wheel, .x = x, .y = y}); });
+  glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) { of(w).push({.kind = InputEvent::Kind::Wheel, .x = x, .y = y}); });
   glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int modifiers) {
     if (action != GLFW_REPEAT)
-      of(w).note({.kind = InputEvent::Kind::Key, .code = key, .down = action == GLFW_PRESS, .modifiers = modifiers});
+      of(w).push({.kind = InputEvent::Kind::Key, .code = key, .down = action == GLFW_PRESS, .modifiers = modifiers});
   });
-  glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned code) { of(w).note({.kind = InputEvent::Kind::Text, .text = utf8(code)}); });
+  glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned code) { of(w).push({.kind = InputEvent::Kind::Text, .text = utf8(code)}); });
   glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
-    if (count > 0) of(w).note({.kind = InputEvent::Kind::Drop, .text = paths[0]});
+    if (count > 0) of(w).push({.kind = InputEvent::Kind::Drop, .text = paths[0]});
   });
   glfwSetWindowFocusCallback(
-      window_, [](GLFWwindow* w, int focused) { of(w).note({.kind = InputEvent::Kind::Focus, .down = focused == GLFW_TRUE}); });
+      window_, [](GLFWwindow* w, int focused) { of(w).push({.kind = InputEvent::Kind::Focus, .down = focused == GLFW_TRUE}); });
 }
 
 std::vector<const char*> Window::instanceExtensions() const {
@@ -88,7 +89,7 @@ bool Window::presents(VkInstance instance, VkPhysicalDevice device, uint32_t que
 Expected<VkSurfaceKHR> Window::surface(VkInstance instance) {
   VkSurfaceKHR surface = VK_NULL_HANDLE;
   if (glfwCreateWindowSurface(instance, window_, nullptr, &surface) != VK_SUCCESS)
-    return Error{ErrorKind::NoDevice, "the window takes no pictures of Vulkan: " + lastError()};
+    return Error{ErrorKind::NoDevice, "cannot create a Vulkan surface for the window: " + lastError()};
   return surface;
 }
 
@@ -119,7 +120,7 @@ float Window::contentScale() const {
 void Window::resize(uint32_t width, uint32_t height) { glfwSetWindowSize(window_, static_cast<int>(width), static_cast<int>(height)); }
 
 void Window::minimize(bool minimized) {
-  minimized_ = minimized;  // a display without a window manager leaves it where it is
+  minimized_ = minimized;  // without a window manager the window stays visible
   if (minimized)
     glfwIconifyWindow(window_);
   else

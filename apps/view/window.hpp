@@ -1,5 +1,5 @@
 #pragma once
-// A window by GLFW: its surface, its size, what hands do in it.
+// A GLFW window: surface, size, input events.
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,7 +17,7 @@ class Window {
     uint32_t width = 0, height = 0;  ///< pixels; 0 while it is minimized
   };
 
-  /// One at a time. BadInput where there is no display, pointing to rill-capture.
+  /// Only one at a time. BadInput where there is no display.
   static Expected<std::unique_ptr<Window>> open(const std::string& title, uint32_t width, uint32_t height);
   ~Window();
   Window(const Window&) = delete;
@@ -27,12 +27,12 @@ class Window {
   static bool presents(VkInstance instance, VkPhysicalDevice device, uint32_t queueFamily);
   Expected<VkSurfaceKHR> surface(VkInstance instance);
 
-  /// What happened since the last call; waits up to `seconds` for something to happen.
+  /// Events since the last call; waits up to `seconds` for one.
   std::vector<InputEvent> events(double seconds);
   bool closing() const;
   void close();
   Size framebuffer() const;
-  float contentScale() const;  ///< of text and buttons: 1 on an ordinary screen
+  float contentScale() const;  ///< scale of text and buttons; 1 at standard resolution
   void resize(uint32_t width, uint32_t height);
   void minimize(bool minimized);
   void setTitle(const std::string& title);
@@ -42,12 +42,12 @@ class Window {
  private:
   Window() = default;
   void listen();
-  void note(InputEvent event) { events_.push_back(std::move(event)); }
+  void push(InputEvent event) { events_.push_back(std::move(event)); }
   static Window& of(GLFWwindow* window);
 
   GLFWwindow* window_ = nullptr;
   std::vector<InputEvent> events_;
-  bool minimized_ = false;  ///< by minimize()
+  bool minimized_ = false;  ///< set by minimize()
   std::string title_;
 };
 

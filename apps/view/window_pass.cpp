@@ -30,18 +30,18 @@ struct PicturePush {
 
 std::span<const uint32_t> words(std::string_view name) { return std::ranges::find(viewShaders(), name, &EmbeddedShader::name)->words; }
 
-/// Room that does not change with every button, so that the graph's memory plan stays.
-uint64_t room(uint64_t bytes) { return std::max<uint64_t>(std::bit_ceil(bytes), 64 << 10); }
+/// Rounds up to a power of two, so that the graph's memory plan rarely changes.
+uint64_t roundedSize(uint64_t bytes) { return std::max<uint64_t>(std::bit_ceil(bytes), 64 << 10); }
 
 template <class Record>
 BufferRef uploaded(Graph& graph, std::string_view name, const std::vector<Record>& records) {
-  BufferRef buffer = graph.create(name, {room(records.size() * sizeof(Record))});
+  BufferRef buffer = graph.create(name, {roundedSize(records.size() * sizeof(Record))});
   graph.pass("ui upload", [&](Pass& pass) {
     buffer = pass.write(buffer, Use::CopyTarget, true);
     return [buffer, bytes = std::as_bytes(std::span(records))](Commands& commands) {
-      constexpr size_t kMaxEntries = 64 << 10;
-      for (size_t at = 0; at < bytes.size(); at += kMaxEntries)
-        commands.update(buffer, bytes.subspan(at, std::min(kMaxEntries, bytes.size() - at)), at);
+      constexpr size_t kMaxUpdate = 64 << 10;  // bytes
+      for (size_t at = 0; at < bytes.size(); at += kMaxUpdate)
+        commands.update(buffer, bytes.subspan(at, std::min(kMaxUpdate, bytes.size() - at)), at);
     };
   });
   return buffer;
@@ -94,9 +94,11 @@ void WindowPass::upload(Graph& graph, const ImDrawData& lists) {
     vertices_.insert(vertices_.end(), list.VtxBuffer.begin(), list.VtxBuffer.end());
     indices_.insert(indices_.end(), list.IdxBuffer.begin(), list.IdxBuffer.end());
     for (const ImDrawCmd& command : list.CmdBuffer) {
-      const auto inside = [](float v, float most) { return static_cast<uint32_t>(std::clamp(v, 0.0f, most)); };
-      const uint32_t x0 = inside(std::floor(command.ClipRect.x), lists.DisplaySize.x), x1 = inside(command.ClipRect.z, lists.DisplaySize.x);
-      const uint32_t y0 = inside(std::floor(command.ClipRect.y), lists.DisplaySize.y), y1 = inside(command.ClipRect.w, lists.DisplaySize.y);
+      const auto clamped = [](float v, float most) { return static_cast<uint32_t>(std::clamp(v, 0.0f, most)); };
+      const uint32_t x0 = clamped(std::floor(command.ClipRect.x), lists.DisplaySize.x),
+                     x1 = clamped(command.ClipRect.z, lists.DisplaySize.x);
+      const uint32_t y0 = clamped(std::floor(command.ClipRect.y), lists.DisplaySize.y),
+                     y1 = clamped(command.ClipRect.w, lists.DisplaySize.y);
       if (command.UserCallback || command.ElemCount == 0 || x1 <= x0 || y1 <= y0) continue;
       const Part part{x0, y0, x1 - x0, y1 - y0, firstIndex + command.IdxOffset, command.ElemCount};
       for (uint32_t i = 0; i < part.indices; ++i) indices_[part.firstIndex + i] += firstVertex + command.VtxOffset;

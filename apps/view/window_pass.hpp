@@ -1,5 +1,5 @@
 #pragma once
-// What the window shows, as passes of our own graph: a picture stretched over an area of it, and Dear ImGui's draw lists over that.
+// Passes that draw the window: the image of the scene stretched over an area, and Dear ImGui's draw lists over it.
 #include <imgui.h>
 
 #include <memory>
@@ -11,26 +11,26 @@
 
 namespace rill::view {
 
-/// A picture of RGBA8 words in sRGB, rows from the top.
+/// An RGBA8 image in sRGB, rows from the top.
 struct ShownPicture {
   BufferRef pixels;
   uint32_t width = 0, height = 0;
-  Area area;  ///< of the window, over which it is stretched
+  Area area;  ///< of the window that it fills
 };
 
 class WindowPass {
  public:
-  /// `target`: the format of the images that are drawn to, of linear bytes (UNORM). `fonts` has been built; its texture is copied.
+  /// `target`: the format of the window's images (UNORM). `fonts` must be built; its texture is copied.
   static Expected<std::unique_ptr<WindowPass>> create(Device& device, VkFormat target, ImFontAtlas& fonts);
 
-  /// Brings the lists to the device, once a frame. They are kept until the graph has been recorded.
+  /// Uploads the draw lists, once per frame. They are kept until the graph is recorded.
   void upload(Graph& graph, const ImDrawData& lists);
-  /// Draws all of `target`; `behind` is what there is where the picture is not, or is transparent.
+  /// Draws all of `target`, with the background color `behind`.
   ImageRef draw(Graph& graph, ImageRef target, const ShownPicture& picture, const ImVec4& behind) const;
 
  private:
   struct Part {
-    uint32_t x, y, width, height;  ///< pixels that it may draw to
+    uint32_t x, y, width, height;  ///< clip rectangle, pixels
     uint32_t firstIndex, indices;
   };
 

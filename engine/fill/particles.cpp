@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/words.hpp"
+#include "fill/host_memory.hpp"
 #include "fill/lattice.hpp"
 #include "fill/ply_reader.hpp"
 #include "fill/point_hash.hpp"
@@ -235,8 +236,27 @@ void warnOfDistance(const Scene& scene, const ParticleSet& set, const Bounds& al
                      " m, more than a thousandth of the spacing " + roughNumber(scene.fluid.spacing) + " m");
 }
 
+/// An error about the file of a fill, with the scene and the key that name it.
+Error aboutFile(const Scene& scene, size_t fill, const Error& error) {
+  return {error.kind, prefixOf(scene) + entryPath("fill", fill) + ".particles.file: " + error.message};
+}
+
+/// The host has not enough memory for the particles of these sources.
+Error outOfMemory(const Scene& scene, const std::vector<Source>& sources) {
+  double count = 0, bytes = 0;
+  for (const Source& s : sources) {
+    count += s.count;
+    bytes += s.count * (2 * sizeof(Float3) + (s.file ? sizeof(Double3) : 0));
+  }
+  const auto mebibytes = [](double b) { return roughNumber(b / (1 << 20)) + " MiB"; };
+  const uint64_t available = availableHostBytes();
+  return {ErrorKind::OutOfMemory, prefixOf(scene) + "not enough memory for the " + countText(count) +
+                                      " particles of the scene's fills: they need at least " + mebibytes(bytes) +
+                                      (available > 0 ? ", at most " + mebibytes(static_cast<double>(available)) + " are available" : "")};
+}
+
 /// Places every source at the scene's spacing.
-Expected<ParticleSet> place(const Scene& scene, std::vector<Source>& sources, uint64_t most) {
+Expected<ParticleSet> placeAll(const Scene& scene, std::vector<Source>& sources, uint64_t most) {
   constexpr double kExactRows = 4e6;  // beyond them there are more points than 32 bits count
   const double spacing = scene.fluid.spacing;
   double total = 0;
@@ -256,10 +276,11 @@ Expected<ParticleSet> place(const Scene& scene, std::vector<Source>& sources, ui
   }
   Bounds all;
   std::vector<Bounds> bounds;
-  for (Source& s : sources) {
+  for (size_t i = 0; i < sources.size(); ++i) {
+    Source& s = sources[i];
     if (s.file && s.particles.positions.empty()) {
       auto read = s.file->read();
-      if (!read) return read.error();
+      if (!read) return aboutFile(scene, i, read.error());
       s.particles = std::move(*read);
     }
     const Bounds& own = bounds.emplace_back(boundsOf(s));
@@ -291,6 +312,12 @@ Expected<ParticleSet> place(const Scene& scene, std::vector<Source>& sources, ui
   warnOf(scene, sources, set.warnings);
   warnOfDistance(scene, set, all, set.warnings);
   return set;
+}
+
+Expected<ParticleSet> place(const Scene& scene, std::vector<Source>& sources, uint64_t most) {
+  try {
+    return placeAll(scene, sources, most);
+  } catch (const std::bad_alloc&) { return outOfMemory(scene, sources); }
 }
 
 /// Finds the spacing that makes about scene.fluid.particles particles, those left out not counted, and places them.
@@ -343,7 +370,7 @@ Expected<ParticleSet> make(Scene& scene, uint64_t maxParticles) {
   for (size_t i = 0; i < sources.size(); ++i) {
     if (!scene.fill[i].particles) continue;
     auto file = PlyFile::open(*scene.fill[i].particles);
-    if (!file) return file.error();
+    if (!file) return aboutFile(scene, i, file.error());
     sources[i].count = static_cast<double>(file->count());
     sources[i].file = std::move(*file);
   }

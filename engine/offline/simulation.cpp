@@ -50,6 +50,16 @@ class Simulation::Impl {
     return {};
   }
 
+  /// An allocation failed on the device: adds what the fluid needs in all, and what the device has.
+  Error withMemoryNeeded(Error error) const {
+    const auto mebibytes = [](uint64_t bytes) { return grouped(bytes >> 20) + " MiB"; };
+    const DeviceInfo& device = context_->device().info();
+    error.message += "\n" + grouped(start_.positions.size()) + " particles need " +
+                     mebibytes(fluidMemory(scene_, start_.positions.size()).total()) + " on the device; " + inQuotes(device.name) +
+                     " has " + mebibytes(device.deviceLocalBytes);
+    return error;
+  }
+
   /// `from`: the checkpoint that it goes on from, or null.
   Expected<void> open(const Checkpoint* from) {
     if (from)
@@ -63,7 +73,7 @@ class Simulation::Impl {
     if (!context) return context.error();
     context_ = std::move(*context);
     auto fluid = Fluid::create(context_->device(), {.scene = &scene_, .particles = &start_, .snapshot = from ? &from->fluid : nullptr});
-    if (!fluid) return fluid.error();
+    if (!fluid) return fluid.error().kind == ErrorKind::OutOfMemory ? withMemoryNeeded(fluid.error()) : fluid.error();
     fluid_ = std::move(*fluid);
     if (from) {
       time_s_ = from->time_s;

@@ -16,7 +16,7 @@ using test::contentOf;
 using test::TemporaryFolder;
 namespace fs = std::filesystem;
 
-TEST(WriteFile, WritesAndReplacesWithoutLeavingParts) {
+TEST(WriteFile, ReplacesFileAndLeavesNoPartFile) {
   const TemporaryFolder folder;
   ASSERT_TRUE(writeFile(folder / "a.json", "first"));
   ASSERT_TRUE(writeFile(folder / "a.json", "second, longer"));
@@ -24,7 +24,7 @@ TEST(WriteFile, WritesAndReplacesWithoutLeavingParts) {
   EXPECT_EQ(folder.names(), std::vector<std::string>{"a.json"});
 }
 
-TEST(WriteFile, ReadersHoldTheOldContentUntilTheNewIsWhole) {
+TEST(WriteFile, OpenReaderKeepsOldContent) {
   const TemporaryFolder folder;
   folder.write("a", "old");
   std::ifstream reader(folder / "a");
@@ -34,7 +34,7 @@ TEST(WriteFile, ReadersHoldTheOldContentUntilTheNewIsWhole) {
   EXPECT_EQ(text, "old");
 }
 
-TEST(WriteFile, FollowsALinkAndKeepsTheMode) {
+TEST(WriteFile, FollowsLinkAndKeepsMode) {
   const TemporaryFolder folder;
   folder.write("target", "old");
   ASSERT_EQ(::chmod((folder / "target").c_str(), 0640), 0);
@@ -47,7 +47,7 @@ TEST(WriteFile, FollowsALinkAndKeepsTheMode) {
   EXPECT_EQ(info.st_mode & 0777, 0640u);
 }
 
-TEST(WriteFile, AFullDiskIsAnErrorThatNamesTheFile) {
+TEST(WriteFile, FullDiskReportsFileAndReason) {
   const auto written = writeFile("/dev/full", "text");
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().kind, ErrorKind::Io);
@@ -56,13 +56,13 @@ TEST(WriteFile, AFullDiskIsAnErrorThatNamesTheFile) {
   EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
-TEST(WriteFile, AMissingFolderIsAnErrorAndNothingIsLeft) {
+TEST(WriteFile, FailsInMissingFolder) {
   const TemporaryFolder folder;
   EXPECT_FALSE(writeFile(folder / "none/a", "text"));
   EXPECT_TRUE(folder.names().empty());
 }
 
-TEST(WriteFile, WritesAPipeInPlace) {
+TEST(WriteFile, WritesPipeInPlace) {
   const TemporaryFolder folder;
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
   std::string read;
@@ -73,7 +73,7 @@ TEST(WriteFile, WritesAPipeInPlace) {
   EXPECT_TRUE(fs::is_fifo(folder / "pipe"));
 }
 
-TEST(SpecialFile, StreamsAndDevicesAre) {
+TEST(SpecialFile, RecognizesStreamsAndDevices) {
   for (const char* name : {"-", "/dev/stdout", "/dev/null", "/dev/full", "/proc/self/fd/1", "/dev/../dev/stdout"})
     EXPECT_TRUE(isSpecialFile(name)) << name;
   for (const char* name : {"a.json", "/tmp/a", "./-"}) EXPECT_FALSE(isSpecialFile(name)) << name;
@@ -82,7 +82,7 @@ TEST(SpecialFile, StreamsAndDevicesAre) {
   EXPECT_FALSE(isStandardOutput("/dev/stderr"));
 }
 
-TEST(CheckPlace, RefusesWhatCannotBeWritten) {
+TEST(CheckPlace, RejectsUnwritablePaths) {
   const TemporaryFolder folder;
   folder.write("file", "");
   const auto message = [](const Expected<void>& result) { return result ? std::string() : result.error().message; };
@@ -92,13 +92,13 @@ TEST(CheckPlace, RefusesWhatCannotBeWritten) {
   EXPECT_EQ(message(checkFilePlace("--stats", "-")), "");
   EXPECT_NE(message(checkFilePlace("--stats", folder.path())).find("is a folder"), std::string::npos);
   EXPECT_NE(message(checkFilePlace("--stats", folder / "file/x.json")).find("is a file"), std::string::npos);
-  EXPECT_NE(message(checkFilePlace("--stats", "/dev/rill-none")).find("there is no"), std::string::npos);
+  EXPECT_NE(message(checkFilePlace("--stats", "/dev/rill-none")).find("no such file"), std::string::npos);
   EXPECT_EQ(message(checkFolderPlace("--out", folder / "x/y")), "");
   EXPECT_NE(message(checkFolderPlace("--out", folder / "file")).find("--out"), std::string::npos);
-  EXPECT_EQ(folder.names(), std::vector<std::string>{"file"}) << "judging makes nothing";
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"file"}) << "checking creates nothing";
 }
 
-TEST(MakeFolder, MakesThoseAboveAndTakesATrailingSlash) {
+TEST(MakeFolder, CreatesParentsAndAcceptsTrailingSlash) {
   const TemporaryFolder folder;
   EXPECT_TRUE(makeFolder("--out", folder / "a/b/"));
   EXPECT_TRUE(makeFolder("--out", folder / "a/b"));
@@ -106,7 +106,7 @@ TEST(MakeFolder, MakesThoseAboveAndTakesATrailingSlash) {
   EXPECT_FALSE(makeFolder("--out", folder / "file/b"));
 }
 
-TEST(PartFile, TakesItsPlaceOnlyWhenItIsCommitted) {
+TEST(PartFile, ReplacesTargetOnlyOnCommit) {
   const TemporaryFolder folder;
   folder.write("a", "old");
   {
@@ -116,7 +116,7 @@ TEST(PartFile, TakesItsPlaceOnlyWhenItIsCommitted) {
     EXPECT_EQ(contentOf(part->path()), "new");
     EXPECT_EQ(contentOf(folder / "a"), "old");
   }
-  EXPECT_EQ(folder.names(), std::vector<std::string>{"a"}) << "what is not committed is removed";
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"a"}) << "removed without commit()";
   auto part = PartFile::create(folder / "a");
   ASSERT_TRUE(part);
   std::string_view target;
@@ -128,7 +128,7 @@ TEST(PartFile, TakesItsPlaceOnlyWhenItIsCommitted) {
   EXPECT_EQ(folder.names(), std::vector<std::string>{"a"});
 }
 
-TEST(PartFile, IsKnownByItsName) {
+TEST(PartFile, IsRecognizedByName) {
   std::string_view target;
   ASSERT_TRUE(isPartFile(".frame_00001.png.4711.part", target));
   EXPECT_EQ(target, "frame_00001.png");
@@ -136,7 +136,7 @@ TEST(PartFile, IsKnownByItsName) {
     EXPECT_FALSE(isPartFile(name, target)) << name;
 }
 
-TEST(FolderLock, IsForOneAtATime) {
+TEST(FolderLock, IsExclusive) {
   const TemporaryFolder folder;
   {
     auto first = FolderLock::take(folder.path());
@@ -146,7 +146,7 @@ TEST(FolderLock, IsForOneAtATime) {
     EXPECT_NE(second.error().message.find("another capture is writing"), std::string::npos);
   }
   EXPECT_TRUE(FolderLock::take(folder.path()));
-  EXPECT_TRUE(folder.names().empty()) << "the lock leaves nothing";
+  EXPECT_TRUE(folder.names().empty()) << "no lock file";
 }
 
 }  // namespace

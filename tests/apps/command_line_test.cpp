@@ -1,4 +1,4 @@
-// What rill-capture says to bad input: all of it is judged before a device is opened, so nothing here needs Vulkan.
+// Errors of rill-capture about bad input. Input is validated before a device is opened: no test here needs Vulkan.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 constexpr const char* kScene = R"({"rill": "0.1", "fluid": {"spacing": 0.1}, "domain": {"min": [0,0,0], "max": [1,1,1]},
   "fill": [{"box": {"min": [0,0,0], "max": [0.5,0.5,0.5]}}], "probes": [{"name": "H1", "level": [0.2, 0.2]}]})";
 
-/// Bad input: exit code 2, `words` in the message, nothing on standard output, nothing left in the folder.
+/// Expects exit code 2, `words` in the message, no control characters, nothing on standard output, no new files.
 void expectRefused(const std::vector<std::string>& arguments, const std::vector<std::string>& words) {
   const TemporaryFolder folder;
   folder.write("scene.json", kScene);
@@ -22,10 +22,12 @@ void expectRefused(const std::vector<std::string>& arguments, const std::vector<
   EXPECT_EQ(outcome.out, "");
   EXPECT_TRUE(outcome.err.starts_with("rill-capture: ")) << outcome.err;
   for (const std::string& word : words) EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " is not in: " << outcome.err;
+  for (const char c : outcome.err) EXPECT_TRUE(c == '\n' || (c >= ' ' && c <= '~')) << "raw byte in: " << outcome.err;
+  EXPECT_LT(outcome.err.size(), 2000u);
   EXPECT_EQ(folder.names(), std::vector<std::string>{"scene.json"}) << "nothing is written";
 }
 
-TEST(CommandLine, HelpTeaches) {
+TEST(CommandLine, HelpListsOptionsAndExamples) {
   for (const char* option : {"--help", "-h"}) {
     const Outcome outcome = capture({option});
     EXPECT_EQ(outcome.code, 0);
@@ -68,13 +70,13 @@ TEST(CommandLine, VersionIsOneLine) {
   EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 1);
 }
 
-TEST(CommandLine, HelpIntoAClosedPipeOrAFullDiskFails) {
+TEST(CommandLine, HelpReportsFullDisk) {
   const Outcome full = capture({"--help"}, ".", {}, "/dev/full");
   EXPECT_EQ(full.code, 1);
   EXPECT_NE(full.err.find("No space left"), std::string::npos) << full.err;
 }
 
-TEST(CommandLine, NamesTheOptionAndWhatWasExpected) {
+TEST(CommandLine, ErrorsNameOptionAndExpectedValue) {
   expectRefused({}, {"SCENE"});
   expectRefused({"scene.json", "--frmes", "3"}, {"\"--frmes\"", "did you mean \"--frames\"?", "--help"});
   expectRefused({"scene.json", "--frames"}, {"--frames"});
@@ -98,11 +100,11 @@ TEST(CommandLine, NamesTheOptionAndWhatWasExpected) {
   expectRefused({"scene.json", "--video", "./a.mp4", "--stats", "a.mp4"}, {"--video", "another file than that of --stats"});
   expectRefused({"scene.json", "--video", "./a.mp4", "--checkpoint", "a.mp4"}, {"--video", "another file than that of --checkpoint"});
   expectRefused({"scene.json", "--resume", ""}, {"--resume", "a file that --checkpoint wrote"});
-  expectRefused({"scene.json", "other.json"}, {"\"other.json\"", "one argument too many"});
+  expectRefused({"scene.json", "other.json"}, {"\"other.json\"", "unexpected argument"});
   expectRefused({"scene.json", "--frames", "2", "--frames", "3"}, {"--frames"});
 }
 
-TEST(CommandLine, UnknownNamesGetTheList) {
+TEST(CommandLine, UnknownNamesListKnownOnes) {
   expectRefused({"scene.json", "--size", "8192x4096"}, {"--size, --view final", "8192x4096", "16777216"});
   expectRefused({"scene.json", "--view", "particels"},
                 {"\"particels\"", "did you mean \"particles\"?", "views: final, particles, density, speed, depth, normals, thickness"});
@@ -110,12 +112,12 @@ TEST(CommandLine, UnknownNamesGetTheList) {
   expectRefused({"scene.json", "--require", "outsid<1"}, {"\"outsid\"", "did you mean \"outside\"?", "density_error_p99", "probes.H1"});
 }
 
-TEST(CommandLine, RequirementsAreReadBeforeAnythingRuns) {
+TEST(CommandLine, RejectsMalformedRequirements) {
   for (const char* bad : {"outside", "outside=1", "<1", "outside<one"})
     expectRefused({"scene.json", "--require", bad}, {"--require", "expected FIGURE<NUMBER"});
 }
 
-TEST(CommandLine, ScenesAreJudgedBeforeADeviceIsOpened) {
+TEST(CommandLine, RejectsInvalidScenesWithoutDevice) {
   expectRefused({"missing.json"}, {"missing.json"});
   expectRefused({"scene.json", "--set", "fluid.viscosty=1"}, {"fluid.viscosty", "\"viscosity\""});
   expectRefused({"scene.json", "--set", "fluid.spacing=-1"}, {"fluid.spacing"});
@@ -124,7 +126,7 @@ TEST(CommandLine, ScenesAreJudgedBeforeADeviceIsOpened) {
   expectRefused({"scene.json", "--set", "duration=1e9"}, {"frames"});
 }
 
-TEST(CommandLine, PlacesAreJudgedBeforeADeviceIsOpened) {
+TEST(CommandLine, RejectsUnwritableOutputsWithoutDevice) {
   expectRefused({"scene.json", "--out", "scene.json"}, {"--out", "is a file; expected a folder"});
   expectRefused({"scene.json", "--out", "scene.json/deeper"}, {"--out", "is a file"});
   expectRefused({"scene.json", "--stats", "."}, {"--stats", "is a folder"});
@@ -137,12 +139,88 @@ TEST(CommandLine, PlacesAreJudgedBeforeADeviceIsOpened) {
   expectRefused({"scene.json", "--resume", "scene.json"}, {"--resume", "is no checkpoint"});
 }
 
+TEST(CommandLine, MessagesContainNoControlCharacters) {
+  const std::string escape = "\x1b[31m";
+  expectRefused({escape + ".json"}, {"\\u001b[31m.json"});
+  expectRefused({escape}, {"\\u001b[31m"});
+  expectRefused({std::string("\xff\x9b") + ".json"}, {"\\xff\\x9b.json"});
+  expectRefused({"scene.json", "--set", "fluid." + escape + "=1"}, {"\\u001b[31m"});
+  expectRefused({"scene.json", "--out", "scene.json/" + escape}, {"--out"});
+  expectRefused({"scene.json", "--view", escape}, {"--view"});
+  expectRefused({"scene.json", "--" + escape}, {"unknown option"});
+}
+
+/// A scene file of this content: exit code 2, a short message of printable ASCII that contains `word`.
+void expectSceneRefused(const std::string& content, const std::string& word) {
+  const TemporaryFolder folder;
+  folder.write("bad.json", content);
+  const Outcome outcome = capture({"bad.json"}, folder.string());
+  EXPECT_EQ(outcome.code, 2) << outcome.err;
+  EXPECT_NE(outcome.err.find("bad.json"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
+  for (const char c : outcome.err) EXPECT_TRUE(c == '\n' || (c >= ' ' && c <= '~')) << "raw byte in: " << outcome.err;
+  EXPECT_LT(outcome.err.size(), 500u) << outcome.err;
+}
+
+TEST(CommandLine, ErrorsAboutScenesDoNotPrintTheirContent) {
+  expectSceneRefused(contentOf(std::string(RILL_BINARY_DIR) + "/apps/capture/rill-capture").substr(0, 100'000), "UTF-8");
+  expectSceneRefused(R"({"rill": "0.1", "a\u001b[31m\nb": 1})", R"("a\u001b[31m\u000ab": unknown key)");
+  expectSceneRefused(R"({"rill": "0.1", ")" + std::string(5000, 'x') + R"(": 1})", "xxx...\": unknown key");
+  expectSceneRefused(R"({"rill": "0.1\u001b[31m"})", R"(rill: found "0.1\u001b[31m")");
+  expectSceneRefused("{\"rill\": \x1b[31m}", "broken JSON");
+}
+
+/// Expects that a scene with these bytes as its PLY file is rejected with the scene, the key, the file and `word`.
+void expectPlyRefused(const std::string& content, const std::string& word) {
+  const TemporaryFolder folder;
+  folder.write("water.ply", content);
+  folder.write("scene.json", R"({"rill": "0.1", "fluid": {"spacing": 0.1}, "domain": {"min": [0,0,0], "max": [1,1,1]},
+    "fill": [{"box": {"min": [0,0,0], "max": [0.5,0.5,0.5]}}, {"particles": {"file": "water.ply"}}]})");
+  const Outcome outcome = capture({"scene.json"}, folder.string());
+  EXPECT_EQ(outcome.code, 2) << outcome.err;
+  for (const std::string& part : {std::string("scene.json: fill[1].particles.file: "), std::string("water.ply: "), word})
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << part << " is not in: " << outcome.err;
+  for (const char c : outcome.err) EXPECT_TRUE(c == '\n' || (c >= ' ' && c <= '~')) << "raw byte in: " << outcome.err;
+  EXPECT_LT(outcome.err.size(), 500u) << outcome.err;
+}
+
+TEST(CommandLine, ErrorsAboutPlyFilesNameSceneAndKey) {
+  const std::string header = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+  expectPlyRefused("ply\n", "expected a line end_header");
+  expectPlyRefused("\x89PNG\r\n\x1a\n", "expected a PLY file");
+  expectPlyRefused(header + "0 0\n", "expected a whole file");
+  expectPlyRefused(header + "0 0 0\n0 0 \x1b[31mred\n", R"(vertex 1, property "z": found "\u001b[31mred", expected a number)");
+  expectPlyRefused(header + "0 0 0\n0 0 nan\n", "vertex 1: the position is nan along z; expected a finite number");
+}
+
+// The limit is below what 4 million particles and the program itself need.
+TEST(CommandLine, TooLittleMemoryReportsBytes) {
+  const TemporaryFolder folder;
+  folder.write("scene.json", kScene);
+  const std::string program = std::string(RILL_BINARY_DIR) + "/apps/capture/rill-capture";
+  const Outcome outcome =
+      Child({"/bin/sh", "-c", "ulimit -v 100000 && exec " + program + " scene.json --particles 4000000"}, folder.string()).wait();
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  EXPECT_NE(outcome.err.find("scene.json: not enough memory for the "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("they need at least 9"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("at most 97.66 MiB are available"), std::string::npos) << outcome.err;
+}
+
+TEST(CommandLine, ClosedStandardOutputForStatsIsRejected) {
+  const TemporaryFolder folder;
+  folder.write("scene.json", kScene);
+  const std::string program = std::string(RILL_BINARY_DIR) + "/apps/capture/rill-capture";
+  const Outcome outcome = Child({"/bin/sh", "-c", "exec " + program + " scene.json --stats - >&-"}, folder.string()).wait();
+  EXPECT_EQ(outcome.code, 2) << outcome.err;
+  EXPECT_NE(outcome.err.find("--stats: standard output is closed"), std::string::npos) << outcome.err;
+}
+
 Expected<rill::apps::CommandLine<capture::Options>> parsed(std::vector<const char*> arguments) {
   arguments.insert(arguments.begin(), "rill-capture");
   return rill::capture::parseCommandLine(static_cast<int>(arguments.size()), arguments.data());
 }
 
-TEST(Options, ListsTakeSeveralValuesAndLeaveTheScene) {
+TEST(Options, ListOptionsDoNotConsumeScene) {
   for (const auto& arguments :
        {std::vector{"dam-break", "--set", "a=1", "b=2", "--require", "outside<1", "non_finite<1", "--quiet"},
         std::vector{"--set", "a=1", "b=2", "--require", "outside<1", "non_finite<1", "--quiet", "dam-break"},
@@ -158,7 +236,7 @@ TEST(Options, ListsTakeSeveralValuesAndLeaveTheScene) {
   }
 }
 
-TEST(Options, DefaultsAreTheDocumentedOnes) {
+TEST(Options, DefaultsMatchHelp) {
   const auto line = parsed({"dam-break"});
   ASSERT_TRUE(line);
   EXPECT_FALSE(line->options->frames);
@@ -170,7 +248,7 @@ TEST(Options, DefaultsAreTheDocumentedOnes) {
   EXPECT_FALSE(line->options->out);
 }
 
-TEST(Options, ParticlesReplaceTheSpacing) {
+TEST(Options, ParticlesOverrideSpacing) {
   const auto line = parsed({"dam-break", "--particles", "5000", "--set", "seed=2"});
   ASSERT_TRUE(line);
   ASSERT_EQ(line->options->overrides.size(), 2u);
@@ -178,7 +256,7 @@ TEST(Options, ParticlesReplaceTheSpacing) {
   EXPECT_EQ(line->options->overrides.back().value, "5000");
 }
 
-TEST(Options, TheCommandCanBeTypedAgain) {
+TEST(Options, CommandIsQuotedForShell) {
   const auto line = parsed({"my scene.json", "--require", "outside<1", "--size=64x32"});
   ASSERT_TRUE(line);
   EXPECT_EQ(line->options->command, "rill-capture 'my scene.json' --require 'outside<1' --size=64x32");

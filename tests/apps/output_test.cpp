@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "capture/output_folder.hpp"
+#include "shared/message.hpp"
 #include "shared/ply.hpp"
 #include "shared/png.hpp"
 #include "shared/progress.hpp"
@@ -24,7 +25,7 @@ namespace {
 using test::contentOf;
 using test::TemporaryFolder;
 
-TEST(Ply, IsWhatTheFormatSays) {
+TEST(Ply, EncodesBinaryLittleEndian) {
   offline::Particles particles;
   particles.positions = {{1, 2, 3}, {4, 5, 6}};
   particles.velocities = {{-1, 0, 0.5f}, {0, 0, 0}};
@@ -47,14 +48,14 @@ TEST(Ply, IsWhatTheFormatSays) {
   EXPECT_EQ(id, 4000000000u);
 }
 
-TEST(Ply, OfNoParticlesIsAHeader) {
+TEST(Ply, EncodesHeaderWithoutParticles) {
   const auto bytes = encodePly({}, 1.0 / 3);
   const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   EXPECT_NE(text.find("comment time 0.3333333333333333\n"), std::string::npos);
   EXPECT_TRUE(text.ends_with("end_header\n"));
 }
 
-TEST(Png, ComesBackAsItWas) {
+TEST(Png, RoundTrips) {
   const TemporaryFolder folder;
   for (const bool opaque : {true, false}) {
     offline::Image image{5, 3, std::vector<uint8_t>(5 * 3 * 4)};
@@ -72,7 +73,7 @@ TEST(Png, ComesBackAsItWas) {
   }
 }
 
-TEST(OutputFolder, RemovesEarlierFramesAndNothingElse) {
+TEST(OutputFolder, RemovesOnlyEarlierFrames) {
   const TemporaryFolder folder;
   for (const char* name : {"frame_00000.png", "frame_00012.ply", "frame_123456.png", ".frame_00003.png.99.part", "frame_0001.png",
                            "frame_00001.jpg", "frame_0000x.png", "notes.txt", ".notes.txt.99.part"})
@@ -83,10 +84,10 @@ TEST(OutputFolder, RemovesEarlierFramesAndNothingElse) {
             (std::vector<std::string>{".notes.txt.99.part", "frame_00001.jpg", "frame_0000x.png", "frame_0001.png", "notes.txt"}));
   EXPECT_EQ(prepared->frame(42, "png").filename(), "frame_00042.png");
   EXPECT_EQ(prepared->frame(1234567, "ply").filename(), "frame_1234567.ply");
-  EXPECT_FALSE(capture::OutputFolder::prepare(folder.path())) << "held";
+  EXPECT_FALSE(capture::OutputFolder::prepare(folder.path())) << "locked";
 }
 
-TEST(OutputFolder, AHeldFolderKeepsItsFrames) {
+TEST(OutputFolder, LockedFolderKeepsItsFrames) {
   const TemporaryFolder folder;
   auto first = capture::OutputFolder::prepare(folder.path());
   ASSERT_TRUE(first);
@@ -95,13 +96,13 @@ TEST(OutputFolder, AHeldFolderKeepsItsFrames) {
   EXPECT_EQ(folder.names(), std::vector<std::string>{"frame_00000.png"});
 }
 
-TEST(Progress, SaysWhereItIs) {
+TEST(Progress, TextHasCountDetailsAndTime) {
   EXPECT_EQ(progressText({"frame", 3, 181, "t 0.033 s  error 0.041 %", 6}), "frame 3/181  t 0.033 s  error 0.041 %  left 5 min 56 s");
   EXPECT_EQ(progressText({"frame", 181, 181, "t 3.000 s  error 0.050 %", 61.2}),
             "frame 181/181  t 3.000 s  error 0.050 %  took 1 min 02 s");
 }
 
-TEST(Progress, BarFitsTheTerminal) {
+TEST(Progress, BarFitsTerminal) {
   const ProgressState half{"frame", 50, 100, "t 0.800 s  error 0.100 %", 30};
   const std::string bar = progressBar(half, 120);
   EXPECT_EQ(bar.substr(0, 27), "[############............] ");
@@ -109,7 +110,7 @@ TEST(Progress, BarFitsTheTerminal) {
   for (const int columns : {1, 10, 40, 60, 79, 80, 200}) EXPECT_LT(int(progressBar(half, columns).size()), std::max(columns, 2)) << columns;
 }
 
-TEST(Progress, DurationsAreReadable) {
+TEST(Progress, FormatsDurations) {
   EXPECT_EQ(formatDuration(0), "0 s");
   EXPECT_EQ(formatDuration(59.2), "1 min 00 s");
   EXPECT_EQ(formatDuration(3725), "1 h 02 min");
@@ -117,7 +118,18 @@ TEST(Progress, DurationsAreReadable) {
   EXPECT_EQ(formatDuration(std::nan("")), "?");
 }
 
-TEST(SceneFolders, FindsByNameAndListsForATypo) {
+TEST(Printable, EscapesControlCharactersAndInvalidUtf8) {
+  EXPECT_EQ(printable("plain text,\nwith lines"), "plain text,\nwith lines");
+  EXPECT_EQ(printable("m\xC3\xB6glich \xE2\x82\xAC \xF0\x9F\x8C\x8A"), "m\xC3\xB6glich \xE2\x82\xAC \xF0\x9F\x8C\x8A");
+  EXPECT_EQ(printable("\x1b[31m\r\x7f"), "\\u001b[31m\\u000d\\u007f");
+  EXPECT_EQ(printable("\xC2\x9B"), "\\u009b") << "C1 control character";
+  EXPECT_EQ(printable("\xff\x9b"), "\\xff\\x9b");
+  EXPECT_EQ(printable("\xE2\x82"), "\\xe2\\x82") << "cut short";
+  EXPECT_EQ(printable("\xC0\x80"), "\\xc0\\x80") << "overlong";
+  EXPECT_EQ(printable("\xED\xA0\x80"), "\\xed\\xa0\\x80") << "surrogate";
+}
+
+TEST(SceneFolders, FindsByNameAndSuggestsNearest) {
   const TemporaryFolder first, second;
   std::filesystem::create_directories(second / "validation");
   first.write("dam-break.json", "{}");

@@ -43,15 +43,15 @@ double figure(const Record& record, const std::string& name) {
   return NAN;
 }
 
-TEST(FrameCount, CountsBothEnds) {
+TEST(FrameCount, IncludesFirstAndLastInstant) {
   EXPECT_EQ(frameCount(2, 50), 101);
   EXPECT_EQ(frameCount(3, 60), 181);
   EXPECT_EQ(frameCount(0, 60), 1);
-  EXPECT_EQ(frameCount(0.3, 60), 19) << "0.3 * 60 is a hair under 18";
+  EXPECT_EQ(frameCount(0.3, 60), 19) << "0.3 * 60 is slightly below 18";
   EXPECT_EQ(frameCount(0.99, 1), 1);
 }
 
-TEST(Record, SaysWhatTheRunLeftOut) {
+TEST(Record, WarnsAboutDroppedTimeAndLimits) {
   const Scene small = scene();
   Record whole(small, {}, "");
   whole.add(0, stats(0.001, 1, 1));
@@ -69,14 +69,14 @@ TEST(Record, SaysWhatTheRunLeftOut) {
   cut.add(0.25, some);
   cut.add(0.5, some);
   EXPECT_EQ(figure(cut, "time_dropped_s"), 0.25);
-  EXPECT_EQ(figure(cut, "simulated_s"), 0.25) << "what was dropped was not simulated";
+  EXPECT_EQ(figure(cut, "simulated_s"), 0.25) << "dropped time is not simulated";
   const std::vector<std::string> warnings = cut.warnings();
   ASSERT_EQ(warnings.size(), 4u);
   for (const auto& [k, what] : {std::pair(0, "0.25 s of 0.5 s were dropped: "), {1, "1,234 times"}, {2, "1 particle is"}, {3, "14 times"}})
     EXPECT_NE(warnings[k].find(what), std::string::npos) << warnings[k];
 }
 
-TEST(Record, LeavesTheFirstTenthOutOfTheError) {
+TEST(Record, DensityErrorExcludesFirstTenth) {
   const Scene small = scene();
   Record record(small, {}, "");
   for (int k = 0; k < 10; ++k) record.add(k / 10.0, stats(k == 0 ? 9.0 : 0.001 * k, 1, 1));
@@ -85,10 +85,10 @@ TEST(Record, LeavesTheFirstTenthOutOfTheError) {
   EXPECT_NEAR(figure(record, "density_error_max"), 0.027, 1e-12);
   Record one(small, {}, "");
   one.add(0, stats(0.5, 1, 1));
-  EXPECT_EQ(figure(one, "density_error_mean"), 0.5) << "a single frame is not left out";
+  EXPECT_EQ(figure(one, "density_error_mean"), 0.5) << "a single frame is included";
 }
 
-TEST(Record, CountsEnergyFromTheLowestCorner) {
+TEST(Record, EnergyIsMeasuredFromLowestCorner) {
   Scene high = scene();
   high.domain = Domain{{0, -10, 0}, {1, -9, 1}, 0};
   const double mass = 100 * 1000 * 0.001, floor = mass * 9.81 * -10;
@@ -98,10 +98,10 @@ TEST(Record, CountsEnergyFromTheLowestCorner) {
   EXPECT_NEAR(figure(record, "energy_ratio"), 1.01, 1e-9);
   Record resting(high, {}, "");
   resting.add(0, stats(0, 0, floor));
-  EXPECT_EQ(figure(resting, "energy_ratio"), 1) << "no energy, none gained";
+  EXPECT_EQ(figure(resting, "energy_ratio"), 1) << "no energy at the start";
 }
 
-TEST(Record, WritesTheAgreedJson) {
+TEST(Record, WritesDocumentedJsonKeys) {
   const Scene small = scene();
   DeviceInfo device;
   device.name = "llvmpipe";
@@ -152,13 +152,13 @@ TEST(Record, WritesTheAgreedJson) {
   EXPECT_TRUE(json["frames"][1]["max_speed"].is_null());
 }
 
-TEST(Record, OfNoFramesIsWhole) {
+TEST(Record, WritesValidJsonWithoutFrames) {
   const Scene small = scene();
   const auto json = nlohmann::json::parse(Record(small, {}, "").json());
   EXPECT_TRUE(json["frames"].empty());
 }
 
-TEST(Record, TellsWhichPassesRan) {
+TEST(Record, PassTableListsRunsAndSkips) {
   const Scene small = scene();
   Record record(small, {}, "");
   record.add(0, stats(0, 1, 1));
@@ -168,7 +168,7 @@ TEST(Record, TellsWhichPassesRan) {
   EXPECT_NE(table.find("skipped: vorticity is 0"), std::string::npos) << table;
 }
 
-TEST(Requirement, ReadsAllComparisons) {
+TEST(Requirement, ParsesAllComparisons) {
   EXPECT_TRUE(parseRequirement("outside<1")->holds(0));
   EXPECT_FALSE(parseRequirement("outside<1")->holds(1));
   EXPECT_TRUE(parseRequirement("outside <= 1")->holds(1));
@@ -179,7 +179,7 @@ TEST(Requirement, ReadsAllComparisons) {
     EXPECT_FALSE(parseRequirement(text)) << text;
 }
 
-TEST(Requirement, UnknownFiguresGetTheList) {
+TEST(Requirement, UnknownFigureSuggestsNearest) {
   const std::vector<Requirement> wanted = {*parseRequirement("density_eror_mean<1")};
   const auto known = checkFigures(wanted, Record::figureNames(scene()));
   ASSERT_FALSE(known);
@@ -188,7 +188,7 @@ TEST(Requirement, UnknownFiguresGetTheList) {
   EXPECT_TRUE(checkFigures(std::vector<Requirement>{*parseRequirement("probes.H1>0")}, Record::figureNames(scene())));
 }
 
-TEST(Requirement, SaysWhatTheFigureIs) {
+TEST(Requirement, FailureReportsValue) {
   const std::vector<Figure> figures = {{"outside", 3, ""}, {"energy_ratio", NAN, ""}};
   const std::vector<Requirement> wanted = {*parseRequirement("outside<1"), *parseRequirement("outside<4"),
                                            *parseRequirement("energy_ratio<2")};

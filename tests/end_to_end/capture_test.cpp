@@ -1,4 +1,4 @@
-// rill-capture from end to end, as a user runs it, on whatever driver the environment selects.
+// rill-capture end to end, on the driver that the environment selects.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace capture_test {
 
 using CaptureTest = SmallDam;
 
-TEST_F(CaptureTest, ADamBreakIsSound) {
+TEST_F(CaptureTest, DamBreakIsPlausible) {
   const Outcome outcome = run({"--fps", "40", "--no-images", "--stats", "stats.json", "--require", "outside<1", "non_finite<1"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const Json json = stats("stats.json");
@@ -45,7 +45,7 @@ TEST_F(CaptureTest, ADamBreakIsSound) {
   EXPECT_EQ(json["frames"][0]["potential_J"].get<double>() > 0, true) << "gravity is known at the start";
 }
 
-TEST_F(CaptureTest, TwoRunsAgreeToTheLastBit) {
+TEST_F(CaptureTest, RunsAreBitwiseEqual) {
   ASSERT_EQ(run({"--frames", "6", "--fps", "20", "--no-images", "--stats", "a.json"}).code, 0);
   ASSERT_EQ(run({"--frames", "6", "--fps", "20", "--out", "pictures", "--size", "64x36", "--stats", "b.json"}).code, 0);
   Json a = stats("a.json"), b = stats("b.json");
@@ -59,7 +59,7 @@ TEST_F(CaptureTest, TwoRunsAgreeToTheLastBit) {
   EXPECT_EQ(hashes.size(), 6u) << "the state changes from frame to frame";
 }
 
-TEST_F(CaptureTest, WritesPicturesParticlesAndFigures) {
+TEST_F(CaptureTest, WritesImagesParticlesAndFigures) {
   ASSERT_EQ(capture({scene, "--frames", "3", "--size", "96x54", "--out", "made/here", "--export", "ply", "--stats", "also/made/s.json"},
                     folder.string())
                 .code,
@@ -75,15 +75,15 @@ TEST_F(CaptureTest, WritesPicturesParticlesAndFigures) {
   EXPECT_EQ(stats("also/made/s.json")["frames"].size(), 3u);
 }
 
-TEST_F(CaptureTest, ExplainTellsWhatRanAndWhatDidNot) {
+TEST_F(CaptureTest, ExplainListsRunAndSkippedPasses) {
   const Outcome outcome = run({"--frames", "2", "--no-images", "--explain"});
   EXPECT_EQ(outcome.code, 0);
   EXPECT_NE(outcome.out.find("density "), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("skipped: viscosity is 0"), std::string::npos) << outcome.out;
 }
 
-// Seen through or not, water casts a shadow: a pass of its own name.
-TEST_F(CaptureTest, ThicknessAndShadowAreToldApart) {
+// Transparent and opaque fluids cast a shadow, in a pass of its own.
+TEST_F(CaptureTest, ThicknessAndShadowAreSeparatePasses) {
   for (const bool opaque : {false, true}) {
     const std::string preset = opaque ? "look.preset=clay" : "look.preset=water";
     ASSERT_EQ(run({"--frames", "1", "--size", "64x36", "--quiet", "--set", preset, "--stats", "s.json", "--out", preset}).code, 0);
@@ -95,7 +95,7 @@ TEST_F(CaptureTest, ThicknessAndShadowAreToldApart) {
   }
 }
 
-TEST_F(CaptureTest, WithoutAFloorThereIsNoShadow) {
+TEST_F(CaptureTest, NoShadowWithoutFloor) {
   ASSERT_EQ(run({"--frames", "1", "--size", "64x36", "--quiet", "--set", R"(domain.open=["-y"])", "--stats", "s.json"}).code, 0);
   const Json frame = stats("s.json")["frames"].back();
   EXPECT_FALSE(frame["pass_ms"].contains("fluid shadow")) << frame;
@@ -103,7 +103,7 @@ TEST_F(CaptureTest, WithoutAFloorThereIsNoShadow) {
   EXPECT_TRUE(frame["pass_ms"].contains("fluid shade")) << frame;
 }
 
-TEST_F(CaptureTest, PassesAreNotTimedWhereThatIsSaid) {
+TEST_F(CaptureTest, NoPassTimesOmitsTimes) {
   ASSERT_EQ(run({"--frames", "2", "--no-images", "--stats", "timed.json"}).code, 0);
   EXPECT_GT(stats("timed.json")["frames"][1]["pass_ms"]["density"].get<double>(), 0);
   const Outcome outcome = run({"--frames", "2", "--no-images", "--no-pass-times", "--explain", "--stats", "plain.json"});
@@ -112,7 +112,7 @@ TEST_F(CaptureTest, PassesAreNotTimedWhereThatIsSaid) {
   EXPECT_NE(outcome.out.find("density "), std::string::npos) << "what ran is told all the same: " << outcome.out;
 }
 
-TEST_F(CaptureTest, AnEmptySceneIsDrawn) {
+TEST_F(CaptureTest, RendersEmptyScene) {
   const std::string empty =
       folder.write("none.json", R"({"rill": "0.1", "fluid": {"spacing": 0.1}, "domain": {"min": [0,0,0], "max": [1,1,1]}})").string();
   const Outcome outcome = capture({empty, "--frames", "3", "--size", "64x36", "--export", "ply", "--stats", "s.json"}, folder.string());

@@ -1,5 +1,5 @@
-// Pictures against those that were looked at and found right (assets/golden). RILL_UPDATE_GOLDEN=1 in the environment replaces them: look
-// before committing.
+// Compares images with reviewed ones (assets/golden). RILL_UPDATE_GOLDEN=1 in the environment replaces them: review the
+// new images before committing.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -23,7 +23,7 @@ constexpr const char* kScene = R"({
 struct Case {
   const char* view;
   int frame;
-  Distance most;  ///< another driver rounds otherwise, and a later solver flows a little otherwise
+  Distance most;  ///< drivers round differently
   const char* set = "look.preset=water";
 
   bool plain() const { return std::string_view(set) == "look.preset=water"; }
@@ -33,7 +33,7 @@ struct Case {
 
 class GoldenTest : public ::testing::TestWithParam<Case> {};
 
-TEST_P(GoldenTest, LooksAsItDid) {
+TEST_P(GoldenTest, MatchesGoldenImage) {
   const Case& wanted = GetParam();
   const TemporaryFolder folder;
   const std::string scene = folder.write("golden.json", kScene).string();
@@ -51,7 +51,7 @@ TEST_P(GoldenTest, LooksAsItDid) {
   const Distance apart = distance(picture, expected);
   EXPECT_LE(apart.mean, wanted.most.mean);
   EXPECT_LE(apart.worst, wanted.most.worst);
-  if (!wanted.plain()) {  // of the look's own kind
+  if (!wanted.plain()) {  // clearly different from the default look
     const fs::path plain = golden.parent_path() / (std::string(wanted.view) + "-" + std::to_string(wanted.frame) + ".png");
     EXPECT_LT(2 * apart.mean, distance(picture, readPicture(plain)).mean);
   }
@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(Views, GoldenTest,
                                            Case{"depth", 0, {0.005, 0.05}}, Case{"thickness", 6, {0.02, 0.2}}),
                          [](const auto& one) { return std::string(one.param.view) + std::to_string(one.param.frame) + one.param.look(); });
 
-TEST(PictureDistance, SeesAMissingShapeAndForgivesAPixel) {
+TEST(PictureDistance, DetectsMissingShapeAndToleratesOnePixel) {
   Picture gray{40, 20, std::vector<uint8_t>(3 * 40 * 20, 128)};
   EXPECT_EQ(distance(gray, gray).worst, 0);
   Picture shape = gray, moved = gray;

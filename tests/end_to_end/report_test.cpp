@@ -1,4 +1,4 @@
-// What rill-capture says of a picture: its passes, the memory that they share, what its shaders left out.
+// Reports of rill-capture about an image: passes, transient memory, loops that reached their limit.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -22,7 +22,7 @@ constexpr const char* kNear = R"({
   "camera": {"eye": [0.25, 0.25, 0.7], "target": [0.25, 0.25, -40]}
 })";
 
-TEST(PictureReport, ExplainTellsWhatAliasingSaves) {
+TEST(PictureReport, ExplainReportsAliasing) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("scene.json", kScene).string();
   const Outcome run = capture({scene, "--frames", "2", "--size", "160x90", "--explain", "--quiet"}, folder.string());
@@ -61,7 +61,7 @@ TEST(PictureReport, ExplainTellsHowOftenAPassRan) {
   EXPECT_EQ(control.second, control.first);
 }
 
-TEST(PictureReport, TheGraphIsWritten) {
+TEST(PictureReport, WritesGraph) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("scene.json", kScene).string();
   ASSERT_EQ(capture({scene, "--frames", "2", "--size", "160x90", "--graph", "picture.dot", "--quiet"}, folder.string()).code, 0);
@@ -73,21 +73,21 @@ TEST(PictureReport, TheGraphIsWritten) {
   EXPECT_NE(advance.find("  density\""), std::string::npos);
 }
 
-TEST(PictureReport, WhatAPictureLacksIsCountedAndSaid) {
+TEST(PictureReport, ReachedLimitsAreCountedAndReported) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("scene.json", kNear).string();
   const Outcome lost =
       capture({scene, "--frames", "1", "--size", "320x180", "--stats", "lost.json", "--export", "ply", "--out", "frames"}, folder.string());
   ASSERT_EQ(lost.code, 0) << lost.err;
   EXPECT_GT(nlohmann::json::parse(contentOf(folder / "lost.json"))["frames"][0]["picture_bound_hits"].get<int>(), 0);
-  EXPECT_NE(lost.err.find("warning: loops of the renderer's shaders ran into their bounds"), std::string::npos) << lost.err;
+  EXPECT_NE(lost.err.find("warning: loops of the renderer's shaders reached their limit"), std::string::npos) << lost.err;
   EXPECT_EQ(lost.out.find("picture_bound_hits       0"), std::string::npos) << lost.out;
 
   const Outcome played =
       capture({scene, "--play", "frames", "--size", "320x180", "--out", "played", "--graph", "played.dot"}, folder.string());
   ASSERT_EQ(played.code, 0) << played.err;
   EXPECT_NE(contentOf(folder / "played.dot").find("  surface splat\""), std::string::npos);
-  EXPECT_NE(played.err.find("warning: loops of the renderer's shaders ran into their bounds"), std::string::npos) << played.err;
+  EXPECT_NE(played.err.find("warning: loops of the renderer's shaders reached their limit"), std::string::npos) << played.err;
 
   const std::string water = folder.write("water.json", kScene).string();
   const Outcome whole = capture({water, "--frames", "3", "--size", "160x90", "--stats", "whole.json"}, folder.string());

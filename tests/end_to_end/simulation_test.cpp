@@ -1,4 +1,4 @@
-// rill::offline as a researcher uses it.
+// rill::offline as a library.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ uint64_t hashAfter(const Options& options, int frames) {
   return stats ? stats->state_hash : 0;
 }
 
-TEST(Simulation, NoBitDependsOnThePieces) {
+TEST(Simulation, ResultDoesNotDependOnSubmitSize) {
   Options options;
   const uint64_t chosen = hashAfter(options, 12);
   for (const uint32_t piece : {1u, 7u, 64u}) {
@@ -49,7 +49,7 @@ TEST(Simulation, NoBitDependsOnThePieces) {
   }
 }
 
-TEST(Simulation, LookingChangesNothing) {
+TEST(Simulation, MeasuringDoesNotChangeResult) {
   const auto looked = open(), left = open();
   ASSERT_TRUE(looked && left);
   for (int k = 0; k < 8; ++k) {
@@ -62,8 +62,8 @@ TEST(Simulation, LookingChangesNothing) {
   EXPECT_EQ(looked->stats()->state_hash, left->stats()->state_hash);
 }
 
-/// rms speed of a tank, 16 layers deep, that has stood for two seconds, m/s.
-double unrest(std::optional<double> artificialViscosity) {
+/// RMS speed in a tank, 16 layers deep, after two seconds at rest, m/s.
+double restingSpeed(std::optional<double> artificialViscosity) {
   auto scene = parseScene(R"({
     "rill": "0.1", "domain": {"min": [0, 0, 0], "max": [0.4, 1.2, 0.4]}, "fluid": {"spacing": 0.05},
     "fill": [{"box": {"min": [0, 0, 0], "max": [0.4, 0.8, 0.4]}}]})",
@@ -81,16 +81,16 @@ double unrest(std::optional<double> artificialViscosity) {
   return std::sqrt(2 * stats->kinetic_J / (1000 * 0.4 * 0.8 * 0.4));
 }
 
-TEST(Simulation, WaterAtRestComesToRest) {
-  const double still = unrest({}), undamped = unrest(0.0);
+TEST(Simulation, WaterAtRestStaysAtRest) {
+  const double still = restingSpeed({}), undamped = restingSpeed(0.0);
   EXPECT_LT(still, 0.04);
   EXPECT_LT(still, undamped);
   EXPECT_LT(undamped, 0.12) << "0.13 with the gains of a flow";
 }
 
-// A fill that no whole number of spacings fits: its last layer starts inside the one before. What it takes to part them is no speed, and no
-// pressure.
-TEST(Simulation, AFillThatDoesNotFitStartsWithoutABang) {
+// A fill that is not a multiple of the spacing: its last layer overlaps the one before. Separating them must not add speed
+// or pressure.
+TEST(Simulation, OverlappingFillsStartWithoutBurst) {
   const auto scene = parseScene(R"({
     "rill": "0.1", "domain": {"min": [0, 0, 0], "max": [1.4, 1.6, 0.5]}, "fluid": {"spacing": 0.0523},
     "fill": [{"box": {"min": [0, 0, 0], "max": [0.7, 1.2, 0.5]}}]})",
@@ -109,8 +109,8 @@ TEST(Simulation, AFillThatDoesNotFitStartsWithoutABang) {
   EXPECT_LT(after->kinetic_J + after->potential_J, 1.02 * before->potential_J) << "it rises by what was too dense";
 }
 
-// Nothing holds them: how far they are apart changes neither their steps nor their fall.
-TEST(Simulation, DropsFarApartFallAsOneDoes) {
+// In free fall the distance between drops changes neither the substeps nor the speed.
+TEST(Simulation, DistantDropsFallLikeOne) {
   const auto fall = [](const std::string& fills) {
     auto scene = parseScene(R"({"rill": "0.1", "fluid": {"spacing": 0.02}, "fill": [)" + fills + "]}", "drops", ".");
     EXPECT_TRUE(scene);
@@ -129,7 +129,7 @@ TEST(Simulation, DropsFarApartFallAsOneDoes) {
   EXPECT_NEAR(two.max_speed, 0.981, 0.01);
 }
 
-TEST(Simulation, LongAdvancesAreMadeOfFrames) {
+TEST(Simulation, LongAdvancesAreSplitIntoFrames) {
   Options frames;
   frames.longestFrame_s = 1.0 / 60;
   const auto once = open(frames), often = open(frames);
@@ -145,7 +145,7 @@ TEST(Simulation, LongAdvancesAreMadeOfFrames) {
   EXPECT_NEAR(a->time_s, 0.2, 1e-6);
 }
 
-TEST(Simulation, HandsOutParticles) {
+TEST(Simulation, ReturnsParticles) {
   const auto simulation = open();
   ASSERT_TRUE(simulation);
   const auto start = simulation->particles();
@@ -182,7 +182,7 @@ TEST(Simulation, AddsTheOrigin) {
   EXPECT_NEAR(moved->particles()->positions[0].x, 512 + near->particles()->positions[0].x, 1e-4);
 }
 
-TEST(Simulation, StatsAreThoseOfTheInstant) {
+TEST(Simulation, StatsAreOfCurrentInstant) {
   Options options;
   options.passTimes = true;
   const auto simulation = open(options);
@@ -200,7 +200,7 @@ TEST(Simulation, StatsAreThoseOfTheInstant) {
   EXPECT_NE(simulation->graphDot().find("digraph"), std::string::npos);
 }
 
-TEST(Simulation, PassesAreTimedWhereThatIsAskedFor) {
+TEST(Simulation, PassTimesAreOptional) {
   const auto simulation = open();
   ASSERT_TRUE(simulation);
   ASSERT_TRUE(simulation->advance(1.0 / 60));
@@ -216,7 +216,7 @@ TEST(Simulation, PassesAreTimedWhereThatIsAskedFor) {
   EXPECT_EQ(hashAfter({}, 3), hashAfter(timed, 3));
 }
 
-TEST(Simulation, RefusesWhatMakesNoSense) {
+TEST(Simulation, RejectsInvalidArguments) {
   const auto simulation = open();
   ASSERT_TRUE(simulation);
   EXPECT_FALSE(simulation->advance(-1));
@@ -227,8 +227,8 @@ TEST(Simulation, RefusesWhatMakesNoSense) {
   EXPECT_FALSE(Simulation::open(std::filesystem::path("missing.json")));
 }
 
-// A step in which its weight folds a column up gives it energy from nowhere: none is taken, whatever is asked for.
-TEST(Simulation, StepsAreNoLongerThanTheFluidCanBear) {
+// A time step in which a column collapses under its weight adds energy; the solver must not take one.
+TEST(Simulation, TimeStepIsLimitedByFluid) {
   Scene tall;
   tall.fluid.spacing = 0.05;
   tall.domain = Domain{{0, 0, 0}, {0.6, 3, 0.2}};

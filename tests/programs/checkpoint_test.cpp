@@ -1,4 +1,4 @@
-// rill-capture --checkpoint and --resume: a run in pieces is the run in one go.
+// rill-capture --checkpoint and --resume: a resumed run equals one without interruption.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -30,7 +30,7 @@ class CheckpointTest : public ::testing::Test {
     arguments.insert(arguments.begin(), "dam.json");
     return capture(arguments, folder.string());
   }
-  /// A run of figures alone.
+  /// A run without images.
   void figures(std::vector<std::string> arguments, const std::vector<std::string>& settings = {}) {
     for (const char* more : {"--no-images", "--no-pass-times", "--quiet"}) arguments.emplace_back(more);
     for (const std::string& setting : settings) arguments.insert(arguments.end(), {"--set", setting});
@@ -58,7 +58,7 @@ class CheckpointTest : public ::testing::Test {
   TemporaryFolder folder;
 };
 
-TEST_F(CheckpointTest, FourAndFourFramesAreEight) {
+TEST_F(CheckpointTest, ResumedRunEqualsUninterruptedRun) {
   const std::vector<std::vector<std::string>> scenes = {
       {},
       {"solver.neighbors=grid"},
@@ -66,35 +66,35 @@ TEST_F(CheckpointTest, FourAndFourFramesAreEight) {
       {"solver.kernel=poly6_spiky", "domain.open=[\"+x\"]"},
   };
   for (const auto& settings : scenes) {
-    SCOPED_TRACE(settings.empty() ? "as it is" : settings.front());
+    SCOPED_TRACE(settings.empty() ? "defaults" : settings.front());
     figures({"--frames", "8", "--stats", "whole.json"}, settings);
     figures({"--frames", "4", "--checkpoint", "run.rill", "--stats", "first.json"}, settings);
     figures({"--frames", "4", "--resume", "run.rill", "--stats", "rest.json"}, settings);
     auto whole = frames("whole.json"), pieces = frames("first.json");
     const auto rest = frames("rest.json");
     pieces.insert(pieces.end(), rest.begin(), rest.end());
-    EXPECT_EQ(pieces, whole) << "every figure and time, to the last bit";
+    EXPECT_EQ(pieces, whole) << "all figures and times, bitwise";
   }
 }
 
-TEST_F(CheckpointTest, FromTheStartAndFromEveryFrame) {
+TEST_F(CheckpointTest, ResumesFromEveryFrame) {
   figures({"--frames", "4", "--stats", "whole.json"});
   const auto whole = frames("whole.json");
   figures({"--frames", "1", "--checkpoint", "run.rill"});
-  for (size_t k = 1; k < 4; ++k) {  // each goes on from the one before, in the same file
+  for (size_t k = 1; k < 4; ++k) {  // each resumes from the one before, in the same file
     figures({"--frames", "1", "--resume", "run.rill", "--checkpoint", "run.rill", "--stats", "one.json"});
     EXPECT_EQ(frames("one.json"), std::vector<Json>{whole[k]}) << k;
   }
 }
 
-TEST_F(CheckpointTest, WritingThemChangesNothing) {
+TEST_F(CheckpointTest, WritingDoesNotChangeResults) {
   figures({"--frames", "6", "--stats", "without.json"});
   figures({"--frames", "6", "--stats", "with.json", "--checkpoint", "made/run.rill", "--checkpoint-every", "0"});
   EXPECT_EQ(frames("with.json"), frames("without.json"));
-  EXPECT_EQ(TemporaryFolder::namesIn(folder / "made"), std::vector<std::string>{"run.rill"}) << "and no part is left";
+  EXPECT_EQ(TemporaryFolder::namesIn(folder / "made"), std::vector<std::string>{"run.rill"}) << "no part file is left";
 }
 
-TEST_F(CheckpointTest, PicturesGoOnBesideTheEarlierOnes) {
+TEST_F(CheckpointTest, ResumedRunKeepsEarlierImages) {
   ASSERT_EQ(run({"--frames", "4", "--size", "64x36", "--out", "whole", "--quiet"}).code, 0);
   ASSERT_EQ(run({"--frames", "2", "--size", "64x36", "--out", "pieces", "--quiet", "--checkpoint", "run.rill"}).code, 0);
   const Outcome rest = run({"--frames", "2", "--size", "64x36", "--out", "pieces", "--resume", "run.rill"});
@@ -105,17 +105,17 @@ TEST_F(CheckpointTest, PicturesGoOnBesideTheEarlierOnes) {
   for (const std::string& name : names) EXPECT_EQ(contentOf(folder / "whole" / name), contentOf(folder / "pieces" / name)) << name;
 }
 
-TEST_F(CheckpointTest, TheSceneSDurationIsWhatIsLeft) {
-  figures({"--frames", "5", "--fps", "40", "--checkpoint", "run.rill"});  // all of it
+TEST_F(CheckpointTest, ResumedRunEndsAtSceneDuration) {
+  figures({"--frames", "5", "--fps", "40", "--checkpoint", "run.rill"});  // the whole duration
   expectRefused({"--resume", "run.rill"}, {"--resume", "frame 4", "--frames"});
   figures({"--frames", "3", "--fps", "40", "--checkpoint", "run.rill"});
   figures({"--resume", "run.rill", "--stats", "rest.json"});
   const auto rest = frames("rest.json");
-  ASSERT_EQ(rest.size(), 2u) << "at the checkpoint's own frames a second";
+  ASSERT_EQ(rest.size(), 2u) << "at the frame rate of the checkpoint";
   EXPECT_EQ(rest.back()["time_s"], 0.1);
 }
 
-TEST_F(CheckpointTest, ASignalLeavesAWholeOne) {
+TEST_F(CheckpointTest, SignalLeavesValidCheckpoint) {
   for (const auto& [signal, code] : {std::pair(SIGINT, 130), std::pair(SIGTERM, 143)}) {
     Child child({std::string(RILL_BINARY_DIR) + "/apps/capture/rill-capture", "dam.json", "--frames", "100000", "--fps", "200",
                  "--no-images", "--no-pass-times", "--stats", "cut.json", "--checkpoint", "run.rill"},
@@ -135,15 +135,15 @@ TEST_F(CheckpointTest, ASignalLeavesAWholeOne) {
   }
 }
 
-TEST_F(CheckpointTest, AFullDiskIsAnErrorThatIsTold) {
+TEST_F(CheckpointTest, FullDiskIsReported) {
   const Outcome outcome = run({"--frames", "2", "--no-images", "--stats", "s.json", "--checkpoint", "/dev/full"});
   EXPECT_EQ(outcome.code, 1);
   EXPECT_NE(outcome.err.find("No space left"), std::string::npos) << outcome.err;
-  EXPECT_EQ(outcome.err.find("checkpoint: /dev/full"), std::string::npos) << "not said to be there: " << outcome.err;
-  EXPECT_EQ(frames("s.json").size(), 2u) << "figures are written all the same";
+  EXPECT_EQ(outcome.err.find("checkpoint: /dev/full"), std::string::npos) << "not reported as written: " << outcome.err;
+  EXPECT_EQ(frames("s.json").size(), 2u) << "figures are still written";
 }
 
-TEST_F(CheckpointTest, OtherScenesAreRefusedByTheKey) {
+TEST_F(CheckpointTest, RejectsOtherScenesWithKey) {
   figures({"--frames", "2", "--checkpoint", "run.rill"});
   expectRefused({"--resume", "run.rill", "--set", "fluid.viscosity=1"},
                 {"--resume: \"run.rill\": ", "another scene", "fluid.viscosity was 0 there and is 1 here"});
@@ -154,7 +154,7 @@ TEST_F(CheckpointTest, OtherScenesAreRefusedByTheKey) {
   figures({"--frames", "1", "--resume", "run.rill"}, {"title=Another", "duration=9"});
 }
 
-TEST_F(CheckpointTest, FilesThatAreNoneAreRefused) {
+TEST_F(CheckpointTest, RejectsInvalidFiles) {
   figures({"--frames", "2", "--checkpoint", "run.rill"});
   const std::string whole = contentOf(folder / "run.rill");
   std::string changed = whole;
@@ -168,7 +168,7 @@ TEST_F(CheckpointTest, FilesThatAreNoneAreRefused) {
   expectRefused({"--resume", "."}, {"--resume", "is no file"});
 }
 
-TEST_F(CheckpointTest, AChangedFileOfParticlesIsNoticed) {
+TEST_F(CheckpointTest, RejectsChangedParticleFile) {
   const auto ply = [](double x) {
     return "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n0.5 0.5 0.5\n" +
            std::to_string(x) + " 0.7 0.7\n";
@@ -181,14 +181,14 @@ TEST_F(CheckpointTest, AChangedFileOfParticlesIsNoticed) {
   expectRefused({"--frames", "1", "--resume", "run.rill"}, {"the particles at the start are others"});
 }
 
-TEST_F(CheckpointTest, EmptyScenesGoOnToo) {
+TEST_F(CheckpointTest, ResumesEmptyScenes) {
   folder.write("dam.json", R"({"rill": "0.1", "fluid": {"spacing": 0.1}, "domain": {}})");
   figures({"--frames", "2", "--checkpoint", "run.rill"});
   figures({"--frames", "1", "--resume", "run.rill", "--stats", "rest.json"});
   EXPECT_EQ(frames("rest.json")[0]["time_s"], 2.0 / 60);
 }
 
-TEST_F(CheckpointTest, AsALibrary) {
+TEST_F(CheckpointTest, ResumesInLibrary) {
   auto scene = loadScene(folder / "dam.json");
   ASSERT_TRUE(scene);
   auto whole = offline::Simulation::open(*scene);

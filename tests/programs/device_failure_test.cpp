@@ -1,5 +1,5 @@
-// A device that is lost, memory that runs out, a shader that the driver refuses: the tool says what it was doing, exits with 1, and leaves
-// whole files. tests/failing_layer makes the calls fail.
+// A lost device, exhausted memory, a shader that the driver rejects: rill-capture reports the operation, exits with 1 and
+// leaves complete files. tests/failing_layer makes the calls fail.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -20,9 +20,9 @@ constexpr const char* kDrop = R"({
 
 struct Failure {
   const char* name;
-  const char* plan;     ///< function, which call, what it returns
+  const char* plan;     ///< function, number of the call, result
   const char* message;  ///< a regular expression
-  bool whileRunning;    ///< frames have begun: the figures so far are written
+  bool whileRunning;    ///< after the first frame: the figures so far are written
 };
 
 void PrintTo(const Failure& failure, std::ostream* out) { *out << failure.plan; }
@@ -40,7 +40,7 @@ class FailingLayer : public ::testing::Test {
 
 class DeviceFailure : public FailingLayer, public ::testing::WithParamInterface<Failure> {};
 
-TEST_P(DeviceFailure, IsToldAndLeavesWholeFiles) {
+TEST_P(DeviceFailure, IsReportedAndLeavesCompleteFiles) {
   const Outcome outcome = run(GetParam().plan);
   EXPECT_EQ(outcome.code, 1) << outcome.err;
   EXPECT_TRUE(std::regex_search(outcome.err, std::regex(GetParam().message))) << outcome.err;
@@ -57,6 +57,13 @@ TEST_P(DeviceFailure, IsToldAndLeavesWholeFiles) {
   }
 }
 
+TEST_F(FailingLayer, DeviceMemoryErrorReportsBytes) {
+  const Outcome outcome = run("vkAllocateMemory 5 -2");
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  EXPECT_TRUE(std::regex_search(outcome.err, std::regex("125 particles need [0-9,]+ MiB on the device; \".*\" has [0-9,]+ MiB")))
+      << outcome.err;
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Calls, DeviceFailure,
     ::testing::Values(
@@ -68,8 +75,8 @@ INSTANTIATE_TEST_SUITE_P(
         Failure{"Pipeline", "vkCreateComputePipelines 3 -3", "compiling the pipeline of shader '.*VK_ERROR_INITIALIZATION_FAILED", false}),
     [](const auto& failure) { return failure.param.name; });
 
-// The layer itself is harmless: a call that never comes fails nothing.
-TEST_F(FailingLayer, ThatFailsNothingChangesNothing) {
+// The layer itself changes nothing: the call that would fail never comes.
+TEST_F(FailingLayer, HasNoEffectWithoutFailure) {
   const Outcome outcome = run("vkQueueSubmit2 1000000 -4");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_TRUE(std::filesystem::exists(folder / "stats.json"));

@@ -1,4 +1,4 @@
-// look.environment of a scene, as a user meets it.
+// look.environment in rill-capture.
 #include <gtest/gtest.h>
 
 #include "rill/offline.hpp"
@@ -15,14 +15,14 @@ constexpr const char* kScene = R"({
   "camera": {"eye": [1.6, 0.8, 1.6], "target": [0.4, 0.2, 0.2]}, "look": {"environment": "skies/sky.hdr"}
 })";
 
-/// One color all around: the same four bytes for each of 8 x 4 pixels.
+/// A Radiance image of 8 x 4 pixels of one color.
 std::string radiance(const std::string& rgbe) {
   std::string text = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n";
   for (int k = 0; k < 32; ++k) text += rgbe;
   return text;
 }
 
-TEST(SceneEnvironment, IsBehindEverything) {
+TEST(SceneEnvironment, FillsBackground) {
   const TemporaryFolder folder;
   folder.write("scene.json", kScene);
   std::filesystem::create_directory(folder / "skies");
@@ -37,14 +37,14 @@ TEST(SceneEnvironment, IsBehindEverything) {
   const size_t corner = 0;
   EXPECT_GT(red.rgb[corner], 150);
   EXPECT_LT(red.rgb[corner + 1], 80);
-  EXPECT_GT(plain.rgb[corner + 2], plain.rgb[corner]) << "the sky of Rill's own is blue";
+  EXPECT_GT(plain.rgb[corner + 2], plain.rgb[corner]) << "the default sky is blue";
   EXPECT_GT(distance(red, plain).mean, 0.1);
 }
 
-TEST(SceneEnvironment, BadFilesAreRefusedByName) {
+TEST(SceneEnvironment, RejectsBadFilesWithName) {
   const TemporaryFolder folder;
   folder.write("scene.json", kScene);
-  const auto said = [&](const std::vector<std::string>& more = {}) {
+  const auto errorOf = [&](const std::vector<std::string>& more = {}) {
     std::vector<std::string> arguments{"scene.json", "--frames", "1", "--size", "64x36", "--out", "out"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Outcome outcome = capture(arguments, folder.string());
@@ -52,24 +52,24 @@ TEST(SceneEnvironment, BadFilesAreRefusedByName) {
     EXPECT_FALSE(std::filesystem::exists(folder / "out")) << "nothing is written";
     return outcome.err;
   };
-  EXPECT_NE(said().find("scene.json: look.environment: \"skies/sky.hdr\": no such file"), std::string::npos) << said();
+  EXPECT_NE(errorOf().find("scene.json: look.environment: \"skies/sky.hdr\": no such file"), std::string::npos) << errorOf();
   std::filesystem::create_directory(folder / "skies");
-  EXPECT_NE(said({"--set", "look.environment=skies"}).find("expected an equirectangular picture"), std::string::npos);
-  EXPECT_NE(said({"--set", "look.environment="}).find("expected the name of a file"), std::string::npos);
+  EXPECT_NE(errorOf({"--set", "look.environment=skies"}).find("expected an equirectangular picture"), std::string::npos);
+  EXPECT_NE(errorOf({"--set", "look.environment="}).find("expected the name of a file"), std::string::npos);
   folder.write("skies/sky.hdr", "no picture at all");
-  const std::string text = said();
+  const std::string text = errorOf();
   EXPECT_NE(text.find("scene.json: look.environment: "), std::string::npos) << text;
   EXPECT_NE(text.find("sky.hdr: is no picture; expected a .hdr, .png or .jpg file"), std::string::npos) << text;
   folder.write("skies/sky.hdr", radiance("abcd").substr(0, 100));
-  EXPECT_NE(said().find("sky.hdr: ends before its last pixel"), std::string::npos);
+  EXPECT_NE(errorOf().find("sky.hdr: ends before its last pixel"), std::string::npos);
   folder.write("square.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\nabcdabcdabcdabcd");
-  EXPECT_NE(said({"--set", "look.environment=square.hdr"}).find("found 2x2 pixels; expected twice as wide as high"), std::string::npos);
-  // Where no picture is drawn, none is read.
+  EXPECT_NE(errorOf({"--set", "look.environment=square.hdr"}).find("found 2x2 pixels; expected twice as wide as high"), std::string::npos);
+  // Without images the environment is not read.
   EXPECT_EQ(capture({"scene.json", "--frames", "1", "--no-images", "--quiet"}, folder.string()).code, 0);
 }
 
-// The whole of it with validation listening: solids, no solids, pictures of several frames.
-TEST(SceneEnvironment, IsDrawnWithoutAWord) {
+// With the validation layer: with and without solids, several frames.
+TEST(SceneEnvironment, RendersCleanUnderValidation) {
   const TemporaryFolder folder;
   for (const bool solids : {true, false}) {
     Scene scene;

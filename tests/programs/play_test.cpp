@@ -1,4 +1,4 @@
-// Frames that somebody else simulated.
+// rill-capture --play: draws particles from files.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -18,7 +18,7 @@ constexpr const char* kScene = R"({
 
 void write(const std::filesystem::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
 
-TEST(Play, DrawsWhatWasExported) {
+TEST(Play, DrawsExportedFrames) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("scene.json", kScene).string();
   for (const char* view : {"final", "particles"}) {
@@ -37,7 +37,7 @@ TEST(Play, DrawsWhatWasExported) {
   }
 }
 
-TEST(Play, TakesPositionsAloneInAnyForm) {
+TEST(Play, AcceptsPositionsOnly) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("scene.json", kScene).string();
   std::filesystem::create_directories(folder / "in");
@@ -50,8 +50,8 @@ TEST(Play, TakesPositionsAloneInAnyForm) {
   EXPECT_TRUE(std::filesystem::exists(folder / "out/frame_00001.png"));
 }
 
-// A camera that has gone all around sees the same again, and something else on the way.
-TEST(Play, TheCameraGoesAround) {
+// After a full turn the image is the same again, and different in between.
+TEST(Play, CameraOrbits) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("scene.json", kScene).string();
   std::filesystem::create_directories(folder / "in");
@@ -67,11 +67,11 @@ TEST(Play, TheCameraGoesAround) {
   EXPECT_GT(distance(start, readPicture(folder / "out/frame_00001.png")).mean, 0.002);
 }
 
-TEST(Play, RefusesByName) {
+TEST(Play, ErrorsNameFolderAndFile) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("scene.json", kScene).string();
   std::filesystem::create_directories(folder / "in");
-  const auto said = [&](std::vector<std::string> more) {
+  const auto errorOf = [&](std::vector<std::string> more) {
     std::vector<std::string> arguments{scene, "--size", "64x36", "--out", (folder / "out").string(), "--quiet"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Outcome outcome = capture(arguments);
@@ -79,16 +79,16 @@ TEST(Play, RefusesByName) {
     return outcome.err;
   };
   const std::string in = (folder / "in").string();
-  EXPECT_NE(said({"--play", in}).find("holds no .ply file"), std::string::npos);
-  EXPECT_NE(said({"--play", (folder / "nowhere").string()}).find("cannot read the folder"), std::string::npos);
-  EXPECT_NE(said({"--play", in, "--stats", "-"}).find("--stats: --play simulates nothing"), std::string::npos);
+  EXPECT_NE(errorOf({"--play", in}).find("contains no .ply file"), std::string::npos);
+  EXPECT_NE(errorOf({"--play", (folder / "nowhere").string()}).find("cannot read the folder"), std::string::npos);
+  EXPECT_NE(errorOf({"--play", in, "--stats", "-"}).find("--stats: not possible with --play"), std::string::npos);
   write(folder / "in/broken.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nend_header\n0\n");
-  EXPECT_NE(said({"--play", in}).find("broken.ply"), std::string::npos);
+  EXPECT_NE(errorOf({"--play", in}).find("broken.ply"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(folder / "out/frame_00000.png"));
 }
 
-// The same as a library, with validation listening.
-TEST(Play, LibraryDrawsEveryViewWithoutAWord) {
+// The same in the library, with the validation layer.
+TEST(Play, LibraryDrawsEveryViewCleanUnderValidation) {
   Scene scene;
   scene.fluid.spacing = 0.1;
   scene.camera = Camera{{0, 0, 4}, {0, 0, 0}, 40};

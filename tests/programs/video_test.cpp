@@ -1,4 +1,4 @@
-// rill-capture --video: what ffprobe says of the file, and what is there when something goes wrong.
+// rill-capture --video: the file as ffprobe reads it, and failures of ffmpeg.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -27,7 +27,7 @@ class VideoTest : public ::testing::Test {
     arguments.insert(arguments.begin(), {"scene.json", "--size", "97x55", "--fps", "20"});
     return capture(arguments, folder.string(), environment);
   }
-  /// What ffprobe says of the only stream, and of the format. Reads all of it.
+  /// The output of ffprobe, which decodes all frames.
   Json probe(const std::string& name) const {
     const Outcome outcome =
         Child({"/usr/bin/env", "ffprobe", "-v", "error", "-count_frames", "-show_streams", "-show_format", "-of", "json", name},
@@ -36,8 +36,8 @@ class VideoTest : public ::testing::Test {
     EXPECT_EQ(outcome.err, "");
     return Json::parse(outcome.out, nullptr, false);
   }
-  /// An `ffmpeg` of ours comes first on PATH.
-  Child::Environment standIn(const std::string& script) const {
+  /// Puts a script named ffmpeg first on PATH.
+  Child::Environment fakeFfmpeg(const std::string& script) const {
     std::filesystem::create_directory(folder / "bin");
     const auto file = folder.write("bin/ffmpeg", "#!/bin/sh\n" + script);
     ::chmod(file.c_str(), 0755);
@@ -47,7 +47,7 @@ class VideoTest : public ::testing::Test {
   TemporaryFolder folder;
 };
 
-TEST_F(VideoTest, HoldsEveryFrameAndNothingElseIsWritten) {
+TEST_F(VideoTest, ContainsAllFrames) {
   for (const auto& [name, format] : {std::pair("a.mp4", "mp4"), std::pair("a.mkv", "matroska"), std::pair("it's $(new) %d.mov", "mov")}) {
     const Outcome outcome = run({"--frames", "5", "--no-images", "--video", name});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
@@ -57,7 +57,7 @@ TEST_F(VideoTest, HoldsEveryFrameAndNothingElseIsWritten) {
     const Json& stream = json["streams"][0];
     EXPECT_EQ(stream["codec_name"], "h264");
     EXPECT_EQ(stream["pix_fmt"], "yuv420p");
-    EXPECT_EQ(stream["width"], 98) << "even";
+    EXPECT_EQ(stream["width"], 98) << "padded to even";
     EXPECT_EQ(stream["height"], 56);
     EXPECT_EQ(stream["r_frame_rate"], "20/1");
     EXPECT_EQ(stream["nb_read_frames"], "5");
@@ -68,7 +68,7 @@ TEST_F(VideoTest, HoldsEveryFrameAndNothingElseIsWritten) {
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.mkv", "a.mp4", "it's $(new) %d.mov", "scene.json"}));
 }
 
-TEST_F(VideoTest, ShowsThePictures) {
+TEST_F(VideoTest, FramesMatchImages) {
   ASSERT_EQ(run({"--frames", "3", "--out", "out", "--video", "made/here/a.mp4"}).code, 0);
   const Outcome decoded = Child({"/usr/bin/env", "ffmpeg", "-v", "error", "-i", "made/here/a.mp4", "seen_%d.png"}, folder.string()).wait();
   ASSERT_EQ(decoded.code, 0) << decoded.err;
@@ -78,20 +78,20 @@ TEST_F(VideoTest, ShowsThePictures) {
     ASSERT_EQ(made.width, 97u);
     ASSERT_EQ(seen.width, 98u);
     ASSERT_EQ(seen.height, 56u);
-    Picture cut = made;  // without what was added
+    Picture cut = made;  // without the padding
     double border = 0;
     for (uint32_t y = 0; y < 55; ++y) {
       for (size_t i = 0; i < 97 * 3; ++i) cut.rgb[y * 97 * 3 + i] = seen.rgb[y * 98 * 3 + i];
       for (size_t c = 0; c < 3; ++c) border += std::abs(int(seen.rgb[(y * 98 + 97) * 3 + c]) - int(made.rgb[(y * 97 + 96) * 3 + c]));
     }
     const Distance apart = distance(made, cut);
-    EXPECT_LE(apart.mean, 0.01) << "the colors are those of the picture";
+    EXPECT_LE(apart.mean, 0.01) << "the colors match the image";
     EXPECT_LE(apart.worst, 0.04);
     EXPECT_LE(border / (55 * 3), 12) << "the added column repeats the last";
   }
 }
 
-TEST_F(VideoTest, ASignalLeavesAWholeVideo) {
+TEST_F(VideoTest, SignalLeavesCompleteVideo) {
   Child child({std::string(RILL_BINARY_DIR) + "/apps/capture/rill-capture", "scene.json", "--frames", "100000", "--fps", "200", "--size",
                "64x36", "--no-images", "--video", "a.mp4", "--stats", "a.json"},
               folder.string());
@@ -105,12 +105,12 @@ TEST_F(VideoTest, ASignalLeavesAWholeVideo) {
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.json", "a.mp4", "scene.json"}));
 }
 
-TEST_F(VideoTest, PlaysToo) {
+TEST_F(VideoTest, WorksWithPlay) {
   ASSERT_EQ(run({"--frames", "3", "--no-images", "--export", "ply", "--out", "in"}).code, 0);
   ASSERT_EQ(run({"--play", "in", "--no-images", "--video", "a.mp4"}).code, 0);
   EXPECT_EQ(probe("a.mp4")["streams"][0]["nb_read_frames"], "3");
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.mp4", "in", "scene.json"}));
-  // What fails on the way leaves what there was until then.
+  // After an error the video of the frames so far remains.
   folder.write("in/frame_00002.ply", "ply\n");
   const Outcome broken = run({"--play", "in", "--no-images", "--video", "a.mp4"});
   EXPECT_EQ(broken.code, 2);
@@ -121,7 +121,7 @@ TEST_F(VideoTest, PlaysToo) {
   EXPECT_NE(nothing.err.find("expected --video FILE"), std::string::npos) << nothing.err;
 }
 
-TEST_F(VideoTest, WithoutTheProgramNothingIsRun) {
+TEST_F(VideoTest, MissingFfmpegExitsBeforeRun) {
   std::filesystem::create_directory(folder / "bin");
   const Outcome outcome = run({"--frames", "2", "--video", "a.mp4", "--stats", "a.json"}, {{"PATH", (folder / "bin").string()}});
   EXPECT_EQ(outcome.code, 2);
@@ -130,7 +130,7 @@ TEST_F(VideoTest, WithoutTheProgramNothingIsRun) {
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"bin", "scene.json"}));
 }
 
-TEST_F(VideoTest, AProgramThatFailsIsToldWithItsLastWords) {
+TEST_F(VideoTest, FfmpegFailureReportsItsOutput) {
   folder.write("a.mp4", "of an earlier run");
   struct Case {
     const char* script;
@@ -139,32 +139,32 @@ TEST_F(VideoTest, AProgramThatFailsIsToldWithItsLastWords) {
   const Case cases[] = {
       {"head -c 20000 >/dev/null; echo 'frame 1: No space left on device' >&2; exit 7\n",
        {"--video: ffmpeg failed with exit code 7", "No space left on device"}},
-      {"head -c 20000 >/dev/null; kill -9 $$\n", {"--video: ffmpeg was ended: Killed"}},
+      {"head -c 20000 >/dev/null; kill -9 $$\n", {"--video: ffmpeg was killed: Killed"}},
       {"cat >/dev/null; echo 'the trailer could not be written' >&2; exit 1\n", {"exit code 1", "the trailer could not"}},
       {"exit 0\n", {"--video: can't write to ffmpeg"}},
       {"cat >/dev/null\n", {"--video: ffmpeg wrote nothing"}},
   };
   for (const Case& failing : cases) {
-    const Outcome outcome = run({"--frames", "20", "--no-images", "--video", "a.mp4"}, standIn(failing.script));
+    const Outcome outcome = run({"--frames", "20", "--no-images", "--video", "a.mp4"}, fakeFfmpeg(failing.script));
     EXPECT_EQ(outcome.code, 1) << failing.script;
     for (const char* word : failing.words) EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " is not in: " << outcome.err;
     EXPECT_EQ(contentOf(folder / "a.mp4"), "of an earlier run");
-    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.mp4", "bin", "scene.json"})) << "no part is left";
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.mp4", "bin", "scene.json"})) << "no part file is left";
   }
 }
 
-// As on a full disk, which shows only when the last bytes are written.
-TEST_F(VideoTest, AVideoThatDoesNotFitIsNoVideo) {
-  const auto environment = standIn("trap '' XFSZ; ulimit -f 2; PATH=${PATH#*:}; exec ffmpeg \"$@\"\n");
+// Like a full disk, which is reported only when the last bytes are written.
+TEST_F(VideoTest, FullDiskLeavesNoVideo) {
+  const auto environment = fakeFfmpeg("trap '' XFSZ; ulimit -f 2; PATH=${PATH#*:}; exec ffmpeg \"$@\"\n");
   const Outcome outcome = run({"--frames", "20", "--no-images", "--video", "a.mp4"}, environment);
   EXPECT_EQ(outcome.code, 1);
   EXPECT_NE(outcome.err.find("File too large"), std::string::npos) << outcome.err;
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"bin", "scene.json"}));
 }
 
-// The program sees the pictures as they are, and reads no terminal.
-TEST_F(VideoTest, TheProgramIsFedRawPictures) {
-  const auto environment = standIn("printf '%s\\n' \"$@\" >words; cat >pictures; for last; do :; done; echo done >\"${last#file:}\"\n");
+// ffmpeg gets uncompressed frames and does not read the terminal.
+TEST_F(VideoTest, FfmpegReceivesRawFrames) {
+  const auto environment = fakeFfmpeg("printf '%s\\n' \"$@\" >words; cat >pictures; for last; do :; done; echo done >\"${last#file:}\"\n");
   const Outcome outcome = run({"--frames", "2", "--no-images", "--video", "a.mp4"}, environment);
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(contentOf(folder / "pictures").size(), 2u * 97 * 55 * 4);

@@ -19,7 +19,7 @@ CameraView from(double x, double y, double z) {
 
 double length(const std::array<double, 3>& v) { return std::hypot(v[0], v[1], v[2]); }
 
-TEST(GravityTilt, GoesWhereThePictureShowsIt) {
+TEST(GravityTilt, FollowsImageDirections) {
   const CameraView front = from(0, 1, 3), right = from(3, 1, 0);
   EXPECT_GT(tilted(kDown, front, Tilt::Right, 10)[0], 1.6);
   EXPECT_LT(tilted(kDown, front, Tilt::Left, 10)[0], -1.6);
@@ -29,7 +29,7 @@ TEST(GravityTilt, GoesWhereThePictureShowsIt) {
   EXPECT_LT(tilted(kDown, right, Tilt::Away, 10)[0], -1.6);
 }
 
-TEST(GravityTilt, KeepsItsLengthComesBackAndStopsAtTheHorizontal) {
+TEST(GravityTilt, KeepsMagnitudeAndStopsAtHorizontal) {
   const CameraView eye = from(1, 2, 3);
   auto g = kDown;
   for (int k = 0; k < 4; ++k) g = tilted(g, eye, Tilt::Left, 10);

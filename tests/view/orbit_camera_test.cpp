@@ -50,7 +50,7 @@ std::array<double, 3> pointAt(const CameraView& view, double right, double down)
   return point;
 }
 
-TEST(OrbitCamera, BeginsAtHomeAndComesBackToIt) {
+TEST(OrbitCamera, ReturnsToHomeView) {
   OrbitCamera camera(someView());
   expectNear(camera.view(), someView(), 1e-12);
   EXPECT_FALSE(camera.moving());
@@ -65,7 +65,7 @@ TEST(OrbitCamera, BeginsAtHomeAndComesBackToIt) {
   expectNear(camera.view(), someView(), 1e-12);
 }
 
-TEST(OrbitCamera, IsWhereItGoesAtAnyFrameRate) {
+TEST(OrbitCamera, MotionDoesNotDependOnFrameRate) {
   OrbitCamera fast(someView()), slow(someView());
   for (OrbitCamera* camera : {&fast, &slow}) {
     camera->orbit(0.3, 0.2);
@@ -79,7 +79,7 @@ TEST(OrbitCamera, IsWhereItGoesAtAnyFrameRate) {
   EXPECT_FALSE(fast.moving()) << "it arrives";
 }
 
-TEST(OrbitCamera, DoesNotTurnOverItsPoles) {
+TEST(OrbitCamera, DoesNotPassPoles) {
   OrbitCamera camera(someView());
   for (int k = 0; k < 50; ++k) {
     camera.orbit(0.05, 0.2);
@@ -90,7 +90,7 @@ TEST(OrbitCamera, DoesNotTurnOverItsPoles) {
   EXPECT_GT(camera.view().eye[1] - camera.view().target[1], 0.99 * distanceOf(camera.view())) << "it got to the top";
 }
 
-TEST(OrbitCamera, WhatIsUnderThePointerStaysThereWhileItComesNearer) {
+TEST(OrbitCamera, DollyKeepsPointUnderPointer) {
   OrbitCamera camera(someView());
   const auto point = pointAt(camera.view(), 0.4, -0.25);
   const double before = distanceOf(camera.view());
@@ -104,7 +104,7 @@ TEST(OrbitCamera, WhatIsUnderThePointerStaysThereWhileItComesNearer) {
   EXPECT_LT(distanceOf(camera.view()), 0.5 * before);
 }
 
-TEST(OrbitCamera, PanMovesWhatIsAtTheTargetsDepthWithThePointer) {
+TEST(OrbitCamera, PanFollowsPointerAtTargetDepth) {
   OrbitCamera camera(someView());
   const auto point = pointAt(camera.view(), 0, 0);
   camera.pan(0.3, -0.2);
@@ -129,7 +129,7 @@ TEST(OrbitCamera, LooksAlongAxes) {
   }
 }
 
-TEST(OrbitCamera, GoesTheShortWayAround) {
+TEST(OrbitCamera, RotatesInShorterDirection) {
   OrbitCamera camera(someView());
   camera.look(AxisView::Back);
   camera.settle();
@@ -140,7 +140,7 @@ TEST(OrbitCamera, GoesTheShortWayAround) {
   EXPECT_GT(camera.view().eye[2] - camera.view().target[2], 0.99 * distanceOf(camera.view()));
 }
 
-TEST(OrbitCamera, ANewFrameKeepsWhatAHandHasChosen) {
+TEST(OrbitCamera, ReframeKeepsMovedCamera) {
   CameraView wide = someView();
   wide.fov_y_deg = 60;
   OrbitCamera untouched(someView()), moved(someView());

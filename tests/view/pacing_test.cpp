@@ -20,16 +20,16 @@ Course stepOf(Pacing& pacing, uint32_t substeps, double cost, double budget) {
     const uint32_t recorded = pacing.next(budget), due = std::min(recorded, left);
     EXPECT_EQ(recorded % kBlock, 0u);
     EXPECT_GT(recorded, 0u);
-    pacing.ran(recorded, due, due * cost);
+    pacing.addPiece(recorded, due, due * cost);
     left -= due;
     run.longest = std::max(run.longest, due * cost);
     ++run.pieces;
   }
-  pacing.finished(substeps);
+  pacing.endStep(substeps);
   return run;
 }
 
-TEST(Pacing, PiecesStayWithinTheBudget) {
+TEST(Pacing, PiecesStayWithinBudget) {
   Pacing pacing(kBlock);
   for (int k = 0; k < 10; ++k) {
     const Course run = stepOf(pacing, 40, 0.005, 0.05);  // 0.2 s a step
@@ -39,42 +39,42 @@ TEST(Pacing, PiecesStayWithinTheBudget) {
   EXPECT_NEAR(pacing.cost(), 0.005, 1e-9);
 }
 
-TEST(Pacing, ABlockIsTheLeast) {
+TEST(Pacing, MinimumIsOneBlock) {
   Pacing pacing(kBlock);
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(stepOf(pacing, 12, 0.1, 0.01).longest, 0.6, 1e-9);
 }
 
-TEST(Pacing, AQuickMachineDoesAStepInOnePieceAndRecordsLittleMore) {
+TEST(Pacing, FastMachineNeedsOnePiecePerStep) {
   Pacing pacing(kBlock);
   stepOf(pacing, 20, 1e-5, 0.05);
   EXPECT_EQ(pacing.next(0.05), 24u);
   EXPECT_EQ(stepOf(pacing, 20, 1e-5, 0.05).pieces, 1);
-  // One that needs more than the one before is finished all the same.
+  // One that needs more than the one before is endStep all the same.
   EXPECT_EQ(stepOf(pacing, 30, 1e-5, 0.05).pieces, 2);
 }
 
-TEST(Pacing, PiecesOfTheFirstStepDouble) {
+TEST(Pacing, PiecesOfFirstStepDouble) {
   Pacing pacing(kBlock);
   for (const uint32_t piece : {kBlock, 2 * kBlock, 4 * kBlock, 8 * kBlock}) {
     EXPECT_EQ(pacing.next(std::numeric_limits<double>::infinity()), piece);
-    pacing.ran(piece, piece, 0.001 * piece);
+    pacing.addPiece(piece, piece, 0.001 * piece);
   }
 }
 
-TEST(Pacing, BlocksMayChange) {
+TEST(Pacing, BlockSizeMayChange) {
   Pacing pacing(kBlock);
   stepOf(pacing, 18, 1e-5, 0.05);
   pacing.setBlock(4);
   EXPECT_EQ(pacing.next(0.05), 20u);
 }
 
-TEST(Pacing, AnUnboundedBudgetIsOnePieceOfWhatIsExpected) {
+TEST(Pacing, UnboundedBudgetIsOneExpectedStep) {
   Pacing pacing(kBlock);
   stepOf(pacing, 18, 0.01, std::numeric_limits<double>::infinity());
   EXPECT_EQ(pacing.next(std::numeric_limits<double>::infinity()), 18u);
 }
 
-TEST(Pacing, FollowsAMachineThatBecomesSlower) {
+TEST(Pacing, AdaptsToSlowerMachine) {
   Pacing pacing(kBlock);
   for (int k = 0; k < 5; ++k) stepOf(pacing, 48, 0.001, 0.02);
   for (int k = 0; k < 3; ++k) stepOf(pacing, 48, 0.01, 0.02);
@@ -83,17 +83,17 @@ TEST(Pacing, FollowsAMachineThatBecomesSlower) {
 
 /// Pictures on a machine that takes `fixed` s, and `whole` s more at a scale of 1.
 void draw(PictureScale& scale, double fixed, double whole, int pictures) {
-  for (int k = 0; k < pictures; ++k) scale.drew(fixed + whole * scale.scale() * scale.scale());
+  for (int k = 0; k < pictures; ++k) scale.addImage(fixed + whole * scale.scale() * scale.scale());
 }
 
-TEST(PictureScale, StaysWholeWhereTheWindowAnswers) {
+TEST(PictureScale, KeepsFullResolutionWhenFast) {
   PictureScale scale;
-  scale.drew(3);  // shaders are compiled
+  scale.addImage(3);  // shaders are compiled
   draw(scale, 0.01, 0.04, 300);
   EXPECT_EQ(scale.scale(), 1);
 }
 
-TEST(PictureScale, GetsSmallerWhereDrawingIsSlowAndDoesNotSwing) {
+TEST(PictureScale, LowersResolutionWhenSlowWithoutOscillation) {
   PictureScale scale;
   draw(scale, 0, 0.15, 20);
   EXPECT_EQ(scale.scale(), 0.5) << "0.0375 s";
@@ -105,7 +105,7 @@ TEST(PictureScale, GetsSmallerWhereDrawingIsSlowAndDoesNotSwing) {
   EXPECT_EQ(scale.scale(), 0.375) << "the least";
 }
 
-TEST(PictureScale, GetsFinerAgainWhereItWouldBeQuick) {
+TEST(PictureScale, RaisesResolutionWhenFastAgain) {
   PictureScale scale;
   draw(scale, 0, 1, 20);
   EXPECT_LT(scale.scale(), 1);
@@ -113,7 +113,7 @@ TEST(PictureScale, GetsFinerAgainWhereItWouldBeQuick) {
   EXPECT_EQ(scale.scale(), 1);
 }
 
-TEST(PictureScale, GivesNoPixelsAwayForNothing) {
+TEST(PictureScale, KeepsResolutionWhenLoweringDoesNotHelp) {
   PictureScale scale;
   draw(scale, 0.5, 0.01, 20);
   EXPECT_EQ(scale.scale(), 1) << "particles cost the same at any size";

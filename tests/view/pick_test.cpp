@@ -21,7 +21,7 @@ SolidPose box(double x, double half, bool turned = false) {
   return pose;
 }
 
-TEST(ViewPick, TheRayGoesThroughThePlaceInThePicture) {
+TEST(ViewPick, RayPassesThroughImagePoint) {
   const Ray middle = rayThrough(ahead(), 0, 0), corner = rayThrough(ahead(), 0.5, -0.5);
   EXPECT_NEAR(middle.along[2], -1, 1e-12);
   // 90 degrees high: half a height is as far up as ahead.
@@ -30,7 +30,7 @@ TEST(ViewPick, TheRayGoesThroughThePlaceInThePicture) {
   EXPECT_NEAR(corner.at(2)[2], 5 - 2 / std::sqrt(3.0), 1e-12);
 }
 
-TEST(ViewPick, TheNearestIsTaken) {
+TEST(ViewPick, ReturnsNearestHit) {
   const Ray ray = rayThrough(ahead(), 0, 0);
   const Float3 balls[] = {{0, 0, -3}, {0.05f, 0, -1}, {0.2f, 0, 0}, {0, 0, 7}};  // the third is beside the ray, the last behind the eye
   const double origin[3] = {0, 0, 1};
@@ -49,7 +49,7 @@ TEST(ViewPick, TheNearestIsTaken) {
   EXPECT_FALSE(pick(rayThrough(ahead(), -0.4, 0), balls, origin, 0.1, solids));
 }
 
-TEST(ViewPick, ATurnedBoxIsMetAtItsEdge) {
+TEST(ViewPick, HitsRotatedBoxAtEdge) {
   const SolidPose straight[] = {box(0, 1)}, turned[] = {box(0, 1, true)};
   const double origin[3] = {0, 0, 0};
   const Ray ray = rayThrough(ahead(), 0, 0);
@@ -57,15 +57,15 @@ TEST(ViewPick, ATurnedBoxIsMetAtItsEdge) {
   EXPECT_NEAR(pick(ray, {}, origin, 0.1, turned)->distance, 5 - std::sqrt(2.0), 1e-9);
 }
 
-TEST(ViewPick, BoxesAndPlanesThatAreMissed) {
+TEST(ViewPick, MissesBoxesAndPlanes) {
   const Ray ray = rayThrough(ahead(), 0, 0);
   EXPECT_NEAR(entry(ray, {-1, -1, -1}, {1, 1, 1}).value(), 4, 1e-12);
   EXPECT_EQ(entry(ray, {-9, -9, -9}, {9, 9, 9}).value(), 0) << "from inside";
   EXPECT_FALSE(entry(ray, {1, 1, -1}, {2, 2, 1}));
   EXPECT_FALSE(entry(ray, {-1, -1, 6}, {1, 1, 7})) << "behind";
-  EXPECT_NEAR(meetsPlane(ray, {7, 7, 1}, {0, 0, 1}).value(), 4, 1e-12);
-  EXPECT_FALSE(meetsPlane(ray, {0, 0, 9}, {0, 0, 1})) << "behind";
-  EXPECT_FALSE(meetsPlane(ray, {0, 1, 0}, {0, 1, 0})) << "along it";
+  EXPECT_NEAR(hitPlane(ray, {7, 7, 1}, {0, 0, 1}).value(), 4, 1e-12);
+  EXPECT_FALSE(hitPlane(ray, {0, 0, 9}, {0, 0, 1})) << "behind";
+  EXPECT_FALSE(hitPlane(ray, {0, 1, 0}, {0, 1, 0})) << "along it";
 }
 
 }  // namespace

@@ -14,7 +14,7 @@
 namespace rill::view {
 namespace {
 
-TEST(Script, SaysWhatHandsDo) {
+TEST(Script, ParsesCommands) {
   const auto lines = parseScript(
       "# a drag\n"
       "0 move 100 50.5\n\n"
@@ -38,7 +38,7 @@ TEST(Script, SaysWhatHandsDo) {
   EXPECT_EQ((*lines)[6].name, "a.png");
 }
 
-TEST(Script, RefusesWhatItDoesNotUnderstandWithItsLine) {
+TEST(Script, ErrorsNameLineAndExpectation) {
   const struct {
     const char* text;
     const char* says;
@@ -49,7 +49,7 @@ TEST(Script, RefusesWhatItDoesNotUnderstandWithItsLine) {
               {"3 key P\n2 key P\n", "test:2: frame 2 comes after frame 3"},
               {"0 prss left\n", "did you mean \"press\"?"},
               {"0 press up\n", "expected \"press left|middle|right\""},
-              {"0 key Q7\n", "no key \"Q7\""},
+              {"0 key Q7\n", "unknown key \"Q7\""},
               {"0 set fluid.viscosity\n", "="},
               {"0 resize 0 10\n", "expected \"resize WIDTH HEIGHT\""},
               {"5\n", "no command"}};
@@ -61,7 +61,7 @@ TEST(Script, RefusesWhatItDoesNotUnderstandWithItsLine) {
   }
 }
 
-TEST(Keys, EachDoesOneThingAndHelpAndReadmeSaySo) {
+TEST(Keys, BindingsAreUniqueAndDocumented) {
   std::ifstream file(RILL_SOURCE_DIR "/README.md");
   const std::string readme((std::istreambuf_iterator<char>(file)), {});
   const std::string help = keyHelp();
@@ -78,7 +78,7 @@ TEST(Keys, EachDoesOneThingAndHelpAndReadmeSaySo) {
     EXPECT_NE(readme.find("| " + std::string(use.how) + " | " + std::string(use.about) + " |"), std::string::npos) << use.how;
 }
 
-TEST(Layout, NothingCoversAnythingElse) {
+TEST(Layout, AreasDoNotOverlap) {
   for (const uint32_t width : {16u, 320u, 800u, 1280u, 3840u})
     for (const uint32_t height : {16u, 200u, 720u, 2160u})
       for (const float scale : {1.0f, 2.0f}) {
@@ -96,13 +96,13 @@ TEST(Layout, NothingCoversAnythingElse) {
             EXPECT_TRUE(apart || &a == &b);
           }
         }
-        EXPECT_EQ(covered, uint64_t{width} * height) << "and all of the window is used";
+        EXPECT_EQ(covered, uint64_t{width} * height) << "the whole window is covered";
         const Area alone = layOut(width, height, scale, false).picture;
         EXPECT_EQ(alone, (Area{0, 0, width, height}));
       }
 }
 
-TEST(ViewOptions, AreJudgedBeforeAnythingOpens) {
+TEST(ViewOptions, RejectsInvalidOptions) {
   const auto parse = [](std::vector<const char*> arguments) {
     arguments.insert(arguments.begin(), "rill-view");
     return parseCommandLine(static_cast<int>(arguments.size()), arguments.data());
@@ -120,7 +120,7 @@ TEST(ViewOptions, AreJudgedBeforeAnythingOpens) {
               {{"--frmaes", "3"}, "--frames"},
               {{"--screenshot", ""}, "name of a file"},
               {{"--device", ""}, "index"},
-              {{"a", "b"}, "one argument too many"}};
+              {{"a", "b"}, "unexpected argument"}};
   for (const auto& row : rows) {
     const auto line = parse(row.arguments);
     ASSERT_FALSE(line) << row.arguments[0];

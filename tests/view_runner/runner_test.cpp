@@ -1,4 +1,4 @@
-// The viewer's simulation on a device, without a window.
+// The simulation of the viewer, without a window.
 #include "view/runner.hpp"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ class ViewRunnerTest : public test::GpuTest {
   std::filesystem::path file;
 };
 
-TEST_F(ViewRunnerTest, StepsHaveCapturesBitsHoweverTheyAreCut) {
+TEST_F(ViewRunnerTest, StepsEqualCaptureBitwise) {
   constexpr int kSteps = 8;
   auto captured = offline::Simulation::open(scene());
   ASSERT_TRUE(captured) << captured.error().message;
@@ -46,7 +46,7 @@ TEST_F(ViewRunnerTest, StepsHaveCapturesBitsHoweverTheyAreCut) {
     auto runner = Runner::create(context(), scene());
     ASSERT_TRUE(runner) << runner.error().message;
     while ((*runner)->steps() < kSteps) {
-      ASSERT_TRUE((*runner)->piece(budget));
+      ASSERT_TRUE((*runner)->advancePiece(budget));
       Graph graph;
       const FluidState shown = (*runner)->present(graph);
       const Ticket ticket = graph.readback(shown.position);
@@ -55,7 +55,7 @@ TEST_F(ViewRunnerTest, StepsHaveCapturesBitsHoweverTheyAreCut) {
       ASSERT_GE(positions.size(), shown.count);
       for (uint32_t i = 0; i < shown.count; ++i)
         ASSERT_TRUE(positions[i].x >= 0 && positions[i].x <= 1) << "in the tank, between pieces too";
-      if (!(*runner)->between()) continue;
+      if (!(*runner)->betweenSteps()) continue;
       maxPieces = std::max(maxPieces, (*runner)->last().pieces);
       ASSERT_TRUE((*runner)->measure()) << "looking changes nothing";
     }
@@ -67,7 +67,7 @@ TEST_F(ViewRunnerTest, StepsHaveCapturesBitsHoweverTheyAreCut) {
   EXPECT_GT(maxPieces, 1u) << "some of them were cut";
 }
 
-TEST(ViewContext, ADeviceThatShowsNoPicturesIsNotTaken) {
+TEST(ViewContext, RejectsDeviceWithoutPresentation) {
   offline::ContextDesc desc;
   uint32_t asked = 0;
   desc.presents = [&](VkInstance, VkPhysicalDevice, uint32_t) {
@@ -83,7 +83,7 @@ TEST(ViewContext, ADeviceThatShowsNoPicturesIsNotTaken) {
   EXPECT_TRUE(offline::Context::create(desc));
 }
 
-TEST_F(ViewRunnerTest, AnEmptySceneRuns) {
+TEST_F(ViewRunnerTest, RunsEmptyScene) {
   Scene empty = scene();
   empty.fill.clear();
   auto runner = Runner::create(context(), empty);
@@ -93,7 +93,7 @@ TEST_F(ViewRunnerTest, AnEmptySceneRuns) {
   EXPECT_TRUE((*runner)->measure());
 }
 
-TEST_F(ViewRunnerTest, ALiveChangeGoesOnFromThePresentInstant) {
+TEST_F(ViewRunnerTest, LiveChangeContinuesFromCurrentState) {
   auto session = Session::open(context(), file);
   ASSERT_TRUE(session) << session.error().message;
   Session& s = **session;
@@ -129,7 +129,7 @@ TEST_F(ViewRunnerTest, ALiveChangeGoesOnFromThePresentInstant) {
   EXPECT_LT(end->density_error_mean, 0.01);
 }
 
-TEST_F(ViewRunnerTest, ABadChangeChangesNothing) {
+TEST_F(ViewRunnerTest, InvalidChangeHasNoEffect) {
   auto session = Session::open(context(), file);
   ASSERT_TRUE(session);
   Session& s = **session;
@@ -144,7 +144,7 @@ TEST_F(ViewRunnerTest, ABadChangeChangesNothing) {
   EXPECT_TRUE(s.runner().step());
 }
 
-TEST_F(ViewRunnerTest, OtherChangesBeginAnewAndResetTakesThemBack) {
+TEST_F(ViewRunnerTest, OtherChangesRestartAndResetRestores) {
   auto session = Session::open(context(), file);
   ASSERT_TRUE(session);
   Session& s = **session;
@@ -159,7 +159,7 @@ TEST_F(ViewRunnerTest, OtherChangesBeginAnewAndResetTakesThemBack) {
   EXPECT_TRUE(s.changes().empty());
 }
 
-TEST_F(ViewRunnerTest, ASavedSceneIsTheSceneWithItsChanges) {
+TEST_F(ViewRunnerTest, SavedSceneContainsChanges) {
   auto session = Session::open(context(), file);
   ASSERT_TRUE(session);
   ASSERT_TRUE((*session)->change({"fluid.viscosity", "0.25"}));
@@ -175,7 +175,7 @@ TEST_F(ViewRunnerTest, ASavedSceneIsTheSceneWithItsChanges) {
   EXPECT_EQ(saved->fluid.spacing, 0.05);
 }
 
-TEST_F(ViewRunnerTest, ASavedSceneFindsItsFilesFromWhereItIsSaved) {
+TEST_F(ViewRunnerTest, SavedSceneHasRelativePaths) {
   const test::TemporaryFolder elsewhere;
   folder.write("sky.hdr", "x");
   folder.write("water.ply",
@@ -201,7 +201,7 @@ TEST_F(ViewRunnerTest, ASavedSceneFindsItsFilesFromWhereItIsSaved) {
   EXPECT_TRUE(std::filesystem::equivalent(saved().look.environment, elsewhere / "other.hdr"));
 }
 
-TEST_F(ViewRunnerTest, AChangedFileIsNoticedAndABrokenOneLeavesTheSceneRunning) {
+TEST_F(ViewRunnerTest, ReloadsChangedFileAndKeepsSceneWhenInvalid) {
   auto session = Session::open(context(), file);
   ASSERT_TRUE(session);
   Session& s = **session;

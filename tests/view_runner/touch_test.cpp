@@ -1,4 +1,4 @@
-// A hand in the viewer's scene, without a window.
+// Mouse interaction of the viewer, without a window.
 #include "view/touch.hpp"
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ class TouchTest : public test::GpuTest {
   Touch touch_;
 };
 
-TEST_F(TouchTest, ABallPushesTheFluidAndIsGone) {
+TEST_F(TouchTest, BallPushesFluidAndIsRemoved) {
   const size_t solids = session().scene().solids.size();
   const uint64_t before = runner().steps();
   const auto held = touch_.grab(session(), eye(), at(1.5, 0.2), Hold::Fluid);
@@ -86,7 +86,7 @@ TEST_F(TouchTest, ABallPushesTheFluidAndIsGone) {
   EXPECT_EQ(session().scene().solids[0].motion.size(), 2u);
 }
 
-TEST_F(TouchTest, ASolidFollowsTheHandAndStays) {
+TEST_F(TouchTest, SolidFollowsPointerAndStays) {
   steps(5);
   const SolidPose there = runner().pose(0);
   EXPECT_NEAR(there.center[0], 1.2 + 0.3 * 6 / 60, 1e-5) << "its keyframes have moved it";
@@ -105,7 +105,7 @@ TEST_F(TouchTest, ASolidFollowsTheHandAndStays) {
   EXPECT_EQ(stats().outside, 0u);
 }
 
-TEST_F(TouchTest, IsSeenWhereItIs) {
+TEST_F(TouchTest, DrivenSolidIsDrawnAtItsPose) {
   auto held = touch_.grab(session(), eye(), at(1.7, 0.65), Hold::Solid);
   ASSERT_TRUE(held && *held);
   touch_.drag(session(), eye(), at(1.5, 0.75));
@@ -137,7 +137,7 @@ TEST_F(TouchTest, IsSeenWhereItIs) {
   }
 }
 
-TEST_F(TouchTest, WhatIsSomethingElseIsNotTaken) {
+TEST_F(TouchTest, IgnoresOtherKindsOfHits) {
   for (const auto& [ray, hold] : {std::pair{at(1.7, 0.65), Hold::Fluid}, {at(1.5, 0.2), Hold::Solid}, {at(1.5, 0.95), Hold::Fluid}}) {
     const auto held = touch_.grab(session(), eye(), ray, hold);
     ASSERT_TRUE(held);
@@ -147,13 +147,13 @@ TEST_F(TouchTest, WhatIsSomethingElseIsNotTaken) {
   EXPECT_EQ(session().scene().solids.size(), 2u);
 }
 
-TEST_F(TouchTest, ThrownFluidComesInWhereThereIsRoom) {
+TEST_F(TouchTest, ThrownFluidIsAddedWhereThereIsRoom) {
   const uint64_t before = stats().particles;
   const auto thrown = Touch::throwFluid(session(), at(1.5, 0.8));
   ASSERT_TRUE(thrown) << thrown.error().message;
   EXPECT_GT(*thrown, 50u);
   EXPECT_EQ(stats().particles, before + *thrown);
-  EXPECT_GT(stats().max_speed, 0.9 * Touch::fastest(session()));
+  EXPECT_GT(stats().max_speed, 0.9 * Touch::maxSpeed(session()));
   EXPECT_LT(stats().density_error_mean, 0.01) << "none over another";
   steps(20);
   EXPECT_EQ(stats().non_finite + stats().outside, 0u);
@@ -164,7 +164,7 @@ TEST_F(TouchTest, ThrownFluidComesInWhereThereIsRoom) {
   EXPECT_EQ(missed.error().kind, ErrorKind::BadInput);
 }
 
-TEST_F(TouchTest, WhateverAHandDoesTheFluidHolds) {
+TEST_F(TouchTest, RandomInteractionStaysStable) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> x(0.7, 2.3), y(-0.2, 0.8), chance(0, 1);
   uint64_t particles = stats().particles, grabs = 0, throws = 0;

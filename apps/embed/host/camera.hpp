@@ -1,5 +1,5 @@
 #pragma once
-// The maths that every engine has: column-major matrices of a camera.
+// Column-major camera matrices.
 #include <cmath>
 
 namespace host {
@@ -8,7 +8,7 @@ struct Matrix {
   float m[4][4] = {};  ///< column, row
 };
 
-/// World to view: the eye looks along -z, y up.
+/// World to view space: the camera looks along -z, y is up.
 inline Matrix lookAt(const float (&eye)[3], const float (&target)[3]) {
   float f[3], r[3], u[3], length = 0;
   for (int a = 0; a < 3; ++a) length = std::hypot(length, f[a] = target[a] - eye[a]);
@@ -25,7 +25,7 @@ inline Matrix lookAt(const float (&eye)[3], const float (&target)[3]) {
   return out;
 }
 
-/// View to Vulkan's clip space, depth reversed: 1 at `nearest`, 0 infinitely far away.
+/// View to Vulkan's clip space with reversed depth: 1 at `nearest`, 0 at infinity.
 inline Matrix perspective(float fov_y_deg, float aspect, float nearest) {
   const float scale = 1 / std::tan(fov_y_deg * 3.14159265f / 360);
   Matrix out;

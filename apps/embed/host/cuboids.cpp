@@ -30,7 +30,7 @@ VkRenderPass Cuboids::makePass(VkAttachmentLoadOp load, VkImageLayout color, VkI
   subpass.colorAttachmentCount = 1;
   subpass.pColorAttachments = &colorReference;
   subpass.pDepthStencilAttachment = &depthReference;
-  // What drew to the images before, the frame before among it.
+  // Waits for earlier passes on the images, including the previous frame.
   const VkPipelineStageFlags stages = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT |
                                       VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
   const VkAccessFlags writes = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
@@ -143,7 +143,7 @@ void Cuboids::drawOver(const Frame& frame, const Matrix& clipFromWorld, const Cu
 void Cuboids::draw(VkRenderPass pass, const Frame& frame, const Matrix& clipFromWorld, const Cuboid* cuboids, uint32_t count) {
   VkClearValue clear[2] = {};
   clear[0].color = {{0.55f, 0.65f, 0.75f, 1}};
-  clear[1].depthStencil = {0, 0};  // infinitely far
+  clear[1].depthStencil = {0, 0};  // infinity
   VkRenderPassBeginInfo begin{VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO};
   begin.renderPass = pass;
   begin.framebuffer = framebuffer_;

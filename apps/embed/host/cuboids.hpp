@@ -1,5 +1,5 @@
 #pragma once
-// The engine's own scene, drawn in render passes of its own: cuboids, into a color and a reversed depth buffer.
+// Draws cuboids in render passes, into a color and a reversed depth buffer.
 #include "camera.hpp"
 #include "engine.hpp"
 
@@ -16,9 +16,9 @@ class Cuboids {
   Cuboids(const Cuboids&) = delete;
   Cuboids& operator=(const Cuboids&) = delete;
 
-  /// A render pass that clears both images and draws.
+  /// Draws in a render pass that clears both images.
   void drawFirst(const Frame& frame, const Matrix& clipFromWorld, const Cuboid* cuboids, uint32_t count);
-  /// A render pass over what is there, tested against the depth that is there.
+  /// Draws in a render pass that loads both images, with depth test.
   void drawOver(const Frame& frame, const Matrix& clipFromWorld, const Cuboid* cuboids, uint32_t count);
 
  private:

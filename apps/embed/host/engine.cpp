@@ -41,7 +41,7 @@ Engine::Engine(const std::function<const void*(VkInstance, VkPhysicalDevice)>& f
   std::vector<VkQueueFamilyProperties> family(families);
   vkGetPhysicalDeviceQueueFamilyProperties(physicalDevice, &families, family.data());
   while (queueFamily < families && !(family[queueFamily].queueFlags & VK_QUEUE_GRAPHICS_BIT)) ++queueFamily;
-  if (queueFamily == families) fail("no queue that draws");
+  if (queueFamily == families) fail("no graphics queue family");
 
   const float priority = 1;
   VkDeviceQueueCreateInfo queueInfo{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
@@ -124,7 +124,7 @@ VkDeviceMemory Engine::allocate(const VkMemoryRequirements& needs, VkMemoryPrope
     check(vkAllocateMemory(device, &info, nullptr, &made), "allocating memory");
     return made;
   }
-  fail("no such memory");
+  fail("no suitable memory type");
 }
 
 Image Engine::createImage(VkFormat format, uint32_t width, uint32_t height, VkImageUsageFlags usage) {
@@ -217,11 +217,11 @@ void Engine::save(const Image& image, VkImageLayout layout, const char* file) {
   end(frame);
   wait();
   std::FILE* out = std::fopen(file, "wb");
-  if (!out) fail("the picture can't be written");
+  if (!out) fail("cannot write the image");
   std::fprintf(out, "P6\n%u %u\n255\n", image.width, image.height);
   const auto* texel = static_cast<const unsigned char*>(pixels.mapped);
   for (uint64_t k = 0; k < uint64_t{image.width} * image.height; ++k) std::fwrite(texel + 4 * k, 1, 3, out);
-  if (std::fclose(out) != 0) fail("the picture can't be written");
+  if (std::fclose(out) != 0) fail("cannot write the image");
   destroy(pixels);
 }
 

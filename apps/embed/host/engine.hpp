@@ -1,6 +1,6 @@
 #pragma once
-// A small engine, as a stranger to Rill might have one: a device, three frames in flight, images, buffers, a picture file. It knows nothing
-// of Rill. With HOST_VOLK it calls Vulkan through volk, else through the loader's prototypes. A failure prints and ends the program.
+// A small engine that does not know Rill: a device, three frames in flight, images, buffers, an image file. It calls Vulkan
+// through volk with HOST_VOLK, else through the loader. Errors are printed and end the program.
 #ifdef HOST_VOLK
 #include <volk.h>
 #else
@@ -29,32 +29,32 @@ struct Buffer {
 
 struct Frame {
   VkCommandBuffer commands = VK_NULL_HANDLE;
-  uint64_t number = 0;     ///< of this frame, from 1
-  uint64_t completed = 0;  ///< the last one that the device has finished
+  uint64_t number = 0;     ///< number of this frame, from 1
+  uint64_t completed = 0;  ///< the last frame that the device has finished
 };
 
 class Engine {
  public:
-  /// `features(instance, physicalDevice)` returns the chain for VkDeviceCreateInfo::pNext: what the modules of the game need.
+  /// `features(instance, physicalDevice)` returns the chain for VkDeviceCreateInfo::pNext: the features that the game's modules need.
   explicit Engine(const std::function<const void*(VkInstance, VkPhysicalDevice)>& features);
   ~Engine();
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
-  Frame begin();           ///< waits until one of three command buffers is free, begins it
+  Frame begin();           ///< waits for a free command buffer (of three) and begins it
   void end(const Frame&);  ///< submits it
-  void wait();             ///< for all that was submitted
+  void wait();             ///< for all submitted frames
 
   Image createImage(VkFormat format, uint32_t width, uint32_t height, VkImageUsageFlags usage);
   Buffer createBuffer(uint64_t size, VkBufferUsageFlags usage);  ///< mapped
   void destroy(Image& image);
   void destroy(Buffer& buffer);
 
-  /// Records: both cleared, in layouts COLOR_ATTACHMENT_OPTIMAL and DEPTH_STENCIL_ATTACHMENT_OPTIMAL.
+  /// Records clears of both images, which end in the layouts COLOR_ATTACHMENT_OPTIMAL and DEPTH_STENCIL_ATTACHMENT_OPTIMAL.
   void clear(const Frame& frame, const Image& color, const VkClearColorValue& sky, const Image& depth, float farthest);
-  /// A barrier of everything before it against everything after it, with a change of layout.
+  /// Records a full barrier with a layout transition.
   void change(const Frame& frame, const Image& image, VkImageLayout from, VkImageLayout to);
-  /// Writes an R8G8B8A8 image, which is in this layout, as a PPM file; waits.
+  /// Writes an R8G8B8A8 image, which is in `layout`, to a PPM file. Waits for the device.
   void save(const Image& image, VkImageLayout layout, const char* file);
 
   VkInstance instance = VK_NULL_HANDLE;

@@ -1,5 +1,5 @@
 #pragma once
-// A compute pipeline of the engine's own, with a descriptor set for two images: blur.comp, as any engine would run it.
+// A compute pipeline for blur.comp with a descriptor set for two images, in plain Vulkan.
 #include "engine.hpp"
 
 namespace host {
@@ -11,7 +11,7 @@ class ImageFilter {
   ImageFilter(const ImageFilter&) = delete;
   ImageFilter& operator=(const ImageFilter&) = delete;
 
-  /// Records; the images are in these layouts, and stay in them. Once a frame, for the set is written.
+  /// Records a dispatch. The images stay in the given layouts. Once per frame, as it updates the descriptor set.
   void run(VkCommandBuffer commands, VkDescriptorImageInfo from, VkDescriptorImageInfo to, const int32_t (&direction)[2], uint32_t groupsX,
            uint32_t groupsY);
 

@@ -1,4 +1,4 @@
-// One direction of a blur: target(p) = (source(p - step) + 2 source(p) + source(p + step)) / 4, the image repeated at its edges.
+// One direction of a blur: target(p) = (source(p - step) + 2 source(p) + source(p + step)) / 4, clamped at the edges.
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 layout(local_size_x = 8, local_size_y = 8) in;

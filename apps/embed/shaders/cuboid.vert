@@ -1,5 +1,5 @@
 #version 450
-// A cuboid of 36 vertices without a vertex buffer.
+// A cuboid of 36 vertices, computed from the vertex index.
 layout(push_constant) uniform Push {
   mat4 clip_from_world;
   vec4 low, high;

@@ -1,5 +1,5 @@
 #pragma once
-// What the panels show, and what hands ask for in them. The viewer reads the requests between two frames.
+// Data that the panels show, and requests that they make. The viewer handles the requests between two frames.
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -15,20 +15,20 @@
 
 namespace rill::view {
 
-/// A number of the scene that a hand is changing: the scene gets it when the hand lets go.
+/// A number that is being dragged; it is applied to the scene when the drag ends.
 struct HeldEdit {
   std::string key;
   std::array<double, 3> value{};
 };
 
-/// What is chosen, by hands or by the command line.
+/// Settings of the window.
 struct Settings {
   std::string view = "final";
   bool paused = false, panels = true, help = false;
-  double scale = 0;  ///< of the picture; 0: as the machine allows
+  double scale = 0;  ///< resolution of the image; 0: automatic
 };
 
-/// What was asked for in this frame.
+/// Requests of this frame.
 struct Requests {
   std::optional<Override> change;
   std::optional<std::string> reset;  ///< key
@@ -47,7 +47,7 @@ struct Board {
   const std::string& device;               ///< name and driver
   Histories& histories;
   HeldEdit& held;
-  std::string& message;  ///< an error or a notice, until a hand closes it
+  std::string& message;  ///< an error or a notice, until it is closed
   Layout layout;
   std::optional<FluidStats> stats;
   double framesPerSecond = 0;
@@ -58,7 +58,7 @@ struct Board {
   Requests requests;
 };
 
-/// Draws all panels that are to be seen, none over another.
+/// Draws all visible panels.
 void drawPanels(Board& board);
 
 void scenePanel(Board& board);
@@ -69,7 +69,7 @@ void memoryPanel(Board& board);
 void helpOverlay(Board& board);
 void legendOverlay(Board& board);
 
-/// A line of name and figure, the figures under each other.
+/// A line with a name and a value; values are aligned.
 void figureLine(const char* name, const char* format, ...) IM_FMTARGS(2);
 
 }  // namespace rill::view

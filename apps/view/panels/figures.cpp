@@ -1,4 +1,4 @@
-// What the simulation says of itself, over the last steps.
+// Figures of the simulation over the last steps.
 #include <algorithm>
 #include <cstdio>
 
@@ -8,7 +8,7 @@
 namespace rill::view {
 namespace {
 
-/// `format`: of the line above it with the last figure; none: no line.
+/// `format`: of a line with the last value above the plot; null: no line.
 void plot(const char* name, const History& history, const char* format) {
   const std::vector<float>& values = history.values();
   if (values.empty()) return;
@@ -36,7 +36,7 @@ void figurePanel(Board& board) {
   plot("compression mean", h.error, "%.3f %%");
   if (board.stats) {
     figureLine("compression p99", "%.3f %%", 100 * board.stats->density_error_p99);
-    figureLine("fastest", "%.3g m/s", board.stats->max_speed);
+    figureLine("max speed", "%.3g m/s", board.stats->max_speed);
     figureLine("energy", "%.4g J", board.stats->kinetic_J + board.stats->potential_J);
     figureLine("outside; not finite", "%llu; %llu", static_cast<unsigned long long>(board.stats->outside),
                static_cast<unsigned long long>(board.stats->non_finite));

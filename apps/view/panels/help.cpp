@@ -1,4 +1,4 @@
-// What the mouse and the keys do.
+// The help overlay: mouse uses and key bindings.
 #include "view/keys.hpp"
 #include "view/panels/board.hpp"
 

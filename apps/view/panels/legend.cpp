@@ -1,4 +1,4 @@
-// The scale of a view that colors particles.
+// The legend of views that color particles.
 #include <cstdio>
 
 #include "view/panels/board.hpp"
@@ -8,7 +8,7 @@ namespace rill::view {
 
 void legendOverlay(Board& board) {
   const auto legend = board.session.painter().legend(board.settings.view, board.session.runner().time_s());
-  if (!legend || board.settings.help) return;  // the help lies over it
+  if (!legend || board.settings.help) return;  // the help covers it
   const float em = ImGui::GetFontSize();
   const Area& area = board.layout.picture;
   ImGui::SetNextWindowPos(ImVec2(static_cast<float>(area.x) + 0.6f * em, static_cast<float>(area.y + area.height) - 0.6f * em), 0,

@@ -1,4 +1,4 @@
-// Device memory, by what it is for; opened, buffer by buffer.
+// Device memory by purpose, with a list of buffers for each.
 #include <algorithm>
 #include <tuple>
 
@@ -10,7 +10,7 @@ namespace {
 double mebibytes(uint64_t bytes) { return static_cast<double>(bytes) / (1 << 20); }
 double kibibytes(uint64_t bytes) { return static_cast<double>(bytes) / (1 << 10); }
 
-/// A line that opens: what it names lies below it.
+/// A tree node with a size; true where it is open.
 bool line(const char* name, uint64_t bytes) {
   const bool open = ImGui::TreeNodeEx(name, ImGuiTreeNodeFlags_SpanAvailWidth);
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * 0.66f);
@@ -18,7 +18,7 @@ bool line(const char* name, uint64_t bytes) {
   return open;
 }
 
-/// `places`: with a column for where things lie.
+/// `places`: with a column for offsets.
 bool beginTable(const char* name, bool places) {
   if (!ImGui::BeginTable(name, places ? 3 : 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) return false;
   ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
@@ -48,12 +48,12 @@ void fluid(const Runner& runner) {
   }
 }
 
-/// Transients, those that share a place under each other; passes that repeat (substeps) have one line.
+/// Transient resources, sorted by offset, so that aliased ones are adjacent; those of repeated passes have one line.
 void transients(const char* name, const Graph& graph) {
   uint64_t separate = 0;
   for (const TransientHeap& heap : graph.transientHeaps()) separate += heap.separate;
   const bool open = line(name, graph.transientBytes());
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("aliased; one after another they would take %.1f MiB", mebibytes(separate));
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("with aliasing; without it %.1f MiB", mebibytes(separate));
   if (!open) return;
   std::vector<TransientReport> all = graph.transients();
   const auto place = [](const TransientReport& r) { return std::tuple(r.image, r.heap, r.offset, r.name); };

@@ -1,4 +1,4 @@
-// Where the panels are: a column at each side, a line at the bottom.
+// Lays out the panels: a column at each side, a status line at the bottom.
 #include <algorithm>
 #include <cstdarg>
 
@@ -55,7 +55,7 @@ void messageBox(Board& board) {
   ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, 1e6f));
   ImGui::Begin("message", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);  // who is typing goes on
+                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);  // keeps the focus of a text field
   ImGui::PushTextWrapPos(width - gap);
   ImGui::TextUnformatted(board.message.c_str());
   ImGui::PopTextWrapPos();

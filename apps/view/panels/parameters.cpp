@@ -1,4 +1,4 @@
-// The scene's keys as fields, from the one table that the parser reads too: name, unit, range, default, help.
+// Fields for the keys of the scene, from the parser's table: name, unit, range, default, help.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -10,14 +10,14 @@
 namespace rill::view {
 namespace {
 
-/// As the parser reads it: all digits that matter, no more.
+/// The shortest text that the parser reads as the same number.
 std::string text(double value) {
   char digits[64];
   const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
   return {digits, end};
 }
 
-/// One key of the scene, drawn as a field. A change is asked for when the hand has let go of it.
+/// A field for a key of the scene. A change is requested when the drag ends.
 class KeyField {
  public:
   KeyField(Board& board, std::string_view group, const model::Info& info)
@@ -26,7 +26,7 @@ class KeyField {
     ImGui::SetNextItemWidth(ImGui::GetWindowContentRegionMax().x * 0.42f);
   }
   ~KeyField() {
-    if (ImGui::IsItemHovered()) tell();
+    if (ImGui::IsItemHovered()) showTooltip();
     ImGui::SameLine();
     const bool live = board_.session.isLive(key_), changed = board_.session.isChanged(key_);
     std::string name(info_.key);
@@ -34,11 +34,11 @@ class KeyField {
     if (!live) name += " *";
     if (changed) {
       if (ImGui::SmallButton("x")) board_.requests.reset = key_;
-      if (ImGui::IsItemHovered()) ImGui::SetTooltip("back to what the file says");
+      if (ImGui::IsItemHovered()) ImGui::SetTooltip("restore the value of the file");
       ImGui::SameLine();
     }
     ImGui::TextUnformatted(name.c_str());
-    if (ImGui::IsItemHovered()) tell();
+    if (ImGui::IsItemHovered()) showTooltip();
     ImGui::PopID();
   }
   KeyField(const KeyField&) = delete;
@@ -47,9 +47,9 @@ class KeyField {
   void draw(double value) {
     hold({value});
     const double low = info_.range.hasLow() ? info_.range.low : -1e9, high = info_.range.hasHigh() ? info_.range.high : 1e9;
-    // Over more than a few decades, or without an end, what matters is the factor: a fiftieth of what there is, a pixel.
+    // A wide or unbounded range changes by a fiftieth of the value per pixel.
     const double part = value_[0] != 0 ? std::abs(value_[0]) : 0.1;
-    const double speed = spreads() ? part / 50 : (high - low) / 300;
+    const double speed = isWideRange() ? part / 50 : (high - low) / 300;
     ImGui::DragScalar("##value", ImGuiDataType_Double, value_.data(), static_cast<float>(speed), &low, &high, "%.5g",
                       ImGuiSliderFlags_AlwaysClamp);
     edited(text(value_[0]));
@@ -58,7 +58,7 @@ class KeyField {
   void draw(uint64_t value) { whole(value); }
   void draw(const std::optional<double>& value) {
     bool automatic = !value;
-    if (ImGui::Checkbox("auto", &automatic)) ask(automatic ? "\"auto\"" : text(middle()));
+    if (ImGui::Checkbox("auto", &automatic)) request(automatic ? "\"auto\"" : text(middle()));
     if (automatic) return;
     ImGui::SameLine();
     ImGui::SetNextItemWidth(ImGui::GetWindowContentRegionMax().x * 0.42f - ImGui::GetItemRectSize().x - ImGui::GetStyle().ItemSpacing.x);
@@ -76,9 +76,9 @@ class KeyField {
   }
 
  private:
-  void tell() const {
+  void showTooltip() const {
     std::string about = key_ + ": " + std::string(info_.help);
-    if (!board_.session.isLive(key_)) about += "\nA change begins the scene anew.";
+    if (!board_.session.isLive(key_)) about += "\nA change restarts the scene.";
     if (info_.words.empty()) about += "\nDrag it, or double-click to type.";
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
@@ -86,7 +86,7 @@ class KeyField {
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
   }
-  bool spreads() const {
+  bool isWideRange() const {
     return !(info_.range.hasLow() && info_.range.hasHigh()) || info_.range.high > 100 * std::max(info_.range.low, 0.1);
   }
   double middle() const {
@@ -105,19 +105,19 @@ class KeyField {
   void choice(const std::string& value) {
     if (!ImGui::BeginCombo("##value", value.c_str())) return;
     for (const std::string_view word : info_.words)
-      if (ImGui::Selectable(std::string(word).c_str(), word == value)) ask(inQuotes(word));
+      if (ImGui::Selectable(std::string(word).c_str(), word == value)) request(inQuotes(word));
     ImGui::EndCombo();
   }
-  /// What is shown and changed: the scene's numbers, or those that a hand is changing.
+  /// Shows the numbers of the scene, or those that are being dragged.
   void hold(const std::array<double, 3>& scene) { value_ = board_.held.key == key_ ? board_.held.value : scene; }
   void edited(std::string json) {
-    if (ImGui::IsItemDeactivatedAfterEdit()) ask(std::move(json));
+    if (ImGui::IsItemDeactivatedAfterEdit()) request(std::move(json));
     if (ImGui::IsItemActive())
       board_.held = {key_, value_};
     else if (board_.held.key == key_)
       board_.held = {};
   }
-  void ask(std::string json) { board_.requests.change = Override{key_, std::move(json)}; }
+  void request(std::string json) { board_.requests.change = Override{key_, std::move(json)}; }
 
   Board& board_;
   const model::Info& info_;
@@ -136,7 +136,7 @@ void group(Board& board, const char* name, const Owner& owner) {
     using Value = typename std::decay_t<decltype(field)>::Value;
     if constexpr (model::kHasMember<Value> && (kDrawn<Value> || std::is_same_v<Value, std::string>)) {
       if (std::is_same_v<Value, std::string> && field.info.words.empty()) return;
-      if (field.info.key == "particles") return;  // the spacing says the same
+      if (field.info.key == "particles") return;  // given by the spacing
       KeyField(board, name, field.info).draw(owner.*(field.member));
     }
   });
@@ -147,7 +147,7 @@ void group(Board& board, const char* name, const Owner& owner) {
 
 void parameterPanel(Board& board) {
   const Scene& scene = board.session.scene();
-  ImGui::TextDisabled("* begins the scene anew");
+  ImGui::TextDisabled("* restarts the scene");
   model::forEachField<Scene>([&](const auto& field) {
     using Value = typename std::decay_t<decltype(field)>::Value;
     if constexpr (std::is_same_v<Value, double[3]>) KeyField(board, "", field.info).draw(scene.*(field.member));

@@ -1,4 +1,4 @@
-// The passes of the last step and of the last picture: time, or why there was none.
+// Passes of the last step and the last image: time, or the reason why skipped.
 #include <cfloat>
 
 #include "view/panels/board.hpp"
@@ -6,13 +6,13 @@
 namespace rill::view {
 namespace {
 
-void row(Board& board, const std::string& name, double ms, uint32_t runs, uint32_t ran, bool fresh) {
+void row(Board& board, const std::string& name, double ms, uint32_t recorded, uint32_t executed, bool isNew) {
   History& history = board.histories.passes[name];
-  if (fresh) history.add(ms);
+  if (isNew) history.add(ms);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::TextUnformatted(name.c_str());
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s, recorded %u times, ran %u", name.c_str(), runs, ran);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s, recorded %u times, executed %u times", name.c_str(), recorded, executed);
   ImGui::TableNextColumn();
   ImGui::Text("%.2f", ms);
   ImGui::TableNextColumn();
@@ -23,8 +23,8 @@ void row(Board& board, const std::string& name, double ms, uint32_t runs, uint32
   ImGui::PopID();
 }
 
-/// Below the table, where there is room for the reason.
-void left(std::string_view name, std::string_view reason) {
+/// A line below the table: the reason is too long for a column.
+void skippedLine(std::string_view name, std::string_view reason) {
   ImGui::PushTextWrapPos(0);
   ImGui::TextDisabled("%.*s: %.*s", static_cast<int>(name.size()), name.data(), static_cast<int>(reason.size()), reason.data());
   ImGui::PopTextWrapPos();
@@ -34,7 +34,7 @@ bool beginTable(const char* name) {
   if (!ImGui::BeginTable(name, 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) return false;
   ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthStretch, 0.6f);
   ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, 3.2f * ImGui::GetFontSize());
-  ImGui::TableSetupColumn("lately", ImGuiTableColumnFlags_WidthStretch, 0.3f);
+  ImGui::TableSetupColumn("history", ImGuiTableColumnFlags_WidthStretch, 0.3f);
   ImGui::TableHeadersRow();
   return true;
 }
@@ -43,21 +43,21 @@ bool beginTable(const char* name) {
 
 void passPanel(Board& board) {
   const Runner& runner = board.session.runner();
-  const bool fresh = runner.steps() != board.histories.passesOf;
+  const bool isNew = runner.steps() != board.histories.passesOf;
   board.histories.passesOf = runner.steps();
   ImGui::TextDisabled("simulation, last step");
   if (beginTable("simulation")) {
-    for (const offline::PassTime& pass : runner.log().times()) row(board, pass.name, pass.ms, pass.runs, pass.ran, fresh);
+    for (const offline::PassTime& pass : runner.log().times()) row(board, pass.name, pass.ms, pass.runs, pass.ran, isNew);
     ImGui::EndTable();
   }
-  for (const auto& [name, reason] : runner.log().skipped()) left(name, reason);
+  for (const auto& [name, reason] : runner.log().skipped()) skippedLine(name, reason);
   ImGui::TextDisabled("picture");
   if (beginTable("picture")) {
-    for (const Timing& pass : board.display.pictureTimings()) row(board, std::string(pass.name), pass.ms, pass.runs, pass.runs, fresh);
+    for (const Timing& pass : board.display.pictureTimings()) row(board, std::string(pass.name), pass.ms, pass.runs, pass.runs, isNew);
     ImGui::EndTable();
   }
   for (const PassReport& pass : board.display.pictureReport())
-    if (!pass.reason.empty()) left(pass.name, pass.reason);
+    if (!pass.reason.empty()) skippedLine(pass.name, pass.reason);
 }
 
 }  // namespace rill::view

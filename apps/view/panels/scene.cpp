@@ -1,4 +1,4 @@
-// Which scene, which view, and how it runs.
+// Selection of scene and view, and playback.
 #include <cstdio>
 
 #include "rill/offline.hpp"
@@ -18,8 +18,8 @@ std::string combo(const char* label, const std::string& chosen, const Names& nam
   return picked;
 }
 
-/// In the same line, where a button of this text fits into it.
-void beside(const char* button) {
+/// Continues the line if a button with this text fits.
+void sameLineIfFits(const char* button) {
   const float right = ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + ImGui::CalcTextSize(button).x;
   if (right + 2 * ImGui::GetStyle().FramePadding.x < ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x) ImGui::SameLine();
 }
@@ -32,28 +32,28 @@ void scenePanel(Board& board) {
   if (const std::string picked = combo("view", board.settings.view, offline::Simulation::views()); !picked.empty())
     board.settings.view = picked;
 
-  if (ImGui::Button(board.settings.paused ? "Go on (P)" : "Pause (P)")) board.settings.paused = !board.settings.paused;
+  if (ImGui::Button(board.settings.paused ? "Continue (P)" : "Pause (P)")) board.settings.paused = !board.settings.paused;
   ImGui::SameLine();
   if (ImGui::Button("Step (O)")) requests.oneStep = true;
-  beside("Restart (R)");
+  sameLineIfFits("Restart (R)");
   if (ImGui::Button("Restart (R)")) requests.restart = true;
   if (ImGui::Button("Save scene")) requests.save = true;
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("with its changes, as a .json file in the current folder");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("saves the scene with its changes to a .json file in the current folder");
   ImGui::SameLine();
   if (ImGui::Button(board.interface.theme() == Theme::Dark ? "Light" : "Dark"))
     board.interface.setTheme(board.interface.theme() == Theme::Dark ? Theme::Light : Theme::Dark);
-  beside("Help (F1)");
+  sameLineIfFits("Help (F1)");
   if (ImGui::Button("Help (F1)")) board.settings.help = true;
 
   constexpr struct {
     const char* name;
     double scale;
-  } kScales[] = {{"as many as go", 0}, {"100 %", 1}, {"75 %", 0.75}, {"50 %", 0.5}};
+  } kScales[] = {{"automatic", 0}, {"100 %", 1}, {"75 %", 0.75}, {"50 %", 0.5}};
   const char* now = kScales[0].name;
   for (const auto& row : kScales)
     if (row.scale == board.settings.scale) now = row.name;
   ImGui::SetNextItemWidth(-80 * ImGui::GetFontSize() / 15);
-  if (ImGui::BeginCombo("pixels", now)) {
+  if (ImGui::BeginCombo("resolution", now)) {
     for (const auto& row : kScales)
       if (ImGui::Selectable(row.name, row.scale == board.settings.scale)) board.settings.scale = row.scale;
     ImGui::EndCombo();

@@ -1,9 +1,9 @@
 #version 460
-// A picture of RGBA8 words, stretched over an area of the window; where it is transparent, what lies behind it.
+// Draws an RGBA8 image over an area of the window, with bilinear scaling, blended over a background color.
 layout(std430, set = 0, binding = 0) readonly buffer Picture { uint picture[]; };
 layout(push_constant) uniform Push {
-  uvec2 size;    // pixels of the picture
-  vec2 scale;    // of them a pixel of the window
+  uvec2 size;    // of the image, pixels
+  vec2 scale;    // image pixels per window pixel
   vec2 corner;   // of the area in the window, pixels
   vec4 behind;
 };

@@ -1,5 +1,5 @@
 #version 460
-// The interface's color, covered by the font's atlas (a byte a texel), linearly between texels.
+// The vertex color times the coverage from the font atlas (one byte per texel), with bilinear filtering.
 layout(std430, set = 0, binding = 2) readonly buffer Font { uint font[]; };
 layout(push_constant) uniform Push {
   vec2 clipMin, clipSize;

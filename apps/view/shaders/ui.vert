@@ -1,9 +1,9 @@
 #version 460
-// Vertices of the user interface as Dear ImGui lays them out: position, texel in the font's atlas, color; five words each.
+// Vertices in Dear ImGui's format: position, font atlas coordinates, color; five words each.
 layout(std430, set = 0, binding = 0) readonly buffer Vertices { uint vertices[]; };
 layout(std430, set = 0, binding = 1) readonly buffer Indices { uint indices[]; };
 layout(push_constant) uniform Push {
-  vec2 clipMin, clipSize;  // pixels of the rectangle that is drawn to
+  vec2 clipMin, clipSize;  // of the clip rectangle, pixels
   uint firstIndex;
   uint fontWidth, fontHeight;
 };

@@ -1,4 +1,4 @@
-#include "shared/fed_program.hpp"
+#include "shared/piped_process.hpp"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -20,7 +20,7 @@ namespace rill::apps {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr size_t kMaxWords = 600;  // bytes of what a program said that a message repeats
+constexpr size_t kMaxOutputBytes = 600;  // bytes of a process's output that a message repeats
 
 Error cannotStart(const std::string& name, int code) {
   return Error{ErrorKind::Io, "can't start " + name + ": " + std::generic_category().message(code)};
@@ -41,47 +41,47 @@ std::optional<fs::path> findProgram(std::string_view name) {
   return std::nullopt;
 }
 
-Expected<FedProgram> FedProgram::start(const fs::path& program, std::span<const std::string> arguments) {
+Expected<PipedProcess> PipedProcess::start(const fs::path& program, std::span<const std::string> arguments) {
   const std::string name = program.filename().string();
   int ends[2] = {-1, -1};
   if (::pipe2(ends, O_CLOEXEC) != 0) return cannotStart(name, errno);
   Descriptor output(ends[0]), input(ends[1]);
-  // A file, not a pipe: nobody has to read it while the program is fed.
-  Descriptor said(::memfd_create("said", MFD_CLOEXEC));
-  if (said.get() < 0) return cannotStart(name, errno);
+  // A file, not a pipe: nobody has to read it while the process runs.
+  Descriptor log(::memfd_create("log", MFD_CLOEXEC));
+  if (log.get() < 0) return cannotStart(name, errno);
 
-  std::vector<char*> words{const_cast<char*>(program.c_str())};
-  for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
-  words.push_back(nullptr);
+  std::vector<char*> argv{const_cast<char*>(program.c_str())};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
 
   posix_spawn_file_actions_t files;
   ::posix_spawn_file_actions_init(&files);
   ::posix_spawn_file_actions_adddup2(&files, output.get(), STDIN_FILENO);
-  ::posix_spawn_file_actions_adddup2(&files, said.get(), STDOUT_FILENO);
-  ::posix_spawn_file_actions_adddup2(&files, said.get(), STDERR_FILENO);
+  ::posix_spawn_file_actions_adddup2(&files, log.get(), STDOUT_FILENO);
+  ::posix_spawn_file_actions_adddup2(&files, log.get(), STDERR_FILENO);
   posix_spawnattr_t attributes;
   ::posix_spawnattr_init(&attributes);
-  sigset_t ours;
-  sigemptyset(&ours);
-  sigaddset(&ours, SIGPIPE);  // ignored here
-  ::posix_spawnattr_setsigdefault(&attributes, &ours);
+  sigset_t defaults;
+  sigemptyset(&defaults);
+  sigaddset(&defaults, SIGPIPE);  // ignored in this process
+  ::posix_spawnattr_setsigdefault(&attributes, &defaults);
   ::posix_spawnattr_setpgroup(&attributes, 0);
   ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
   pid_t id = -1;
-  const int failed = ::posix_spawn(&id, program.c_str(), &files, &attributes, words.data(), environ);
+  const int failed = ::posix_spawn(&id, program.c_str(), &files, &attributes, argv.data(), environ);
   ::posix_spawnattr_destroy(&attributes);
   ::posix_spawn_file_actions_destroy(&files);
   if (failed != 0) return cannotStart(name, failed);
-  return FedProgram(name, id, std::move(input), std::move(said));
+  return PipedProcess(name, id, std::move(input), std::move(log));
 }
 
-FedProgram::~FedProgram() {
+PipedProcess::~PipedProcess() {
   if (id_ > 0) (void)finish();
 }
 
-Expected<void> FedProgram::feed(std::span<const std::byte> bytes) { return writeAll(input_.get(), "to " + name_, bytes); }
+Expected<void> PipedProcess::write(std::span<const std::byte> bytes) { return writeAll(input_.get(), "to " + name_, bytes); }
 
-Expected<void> FedProgram::finish() {
+Expected<void> PipedProcess::finish() {
   input_.close();
   int status = 0;
   pid_t ended = -1;
@@ -89,24 +89,25 @@ Expected<void> FedProgram::finish() {
   while (ended < 0 && errno == EINTR);
   id_ = -1;
   if (ended > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
-  const std::string how = ended > 0 && WIFSIGNALED(status) ? std::string("was ended: ") + ::strsignal(WTERMSIG(status))
+  const std::string how = ended > 0 && WIFSIGNALED(status) ? std::string("was killed: ") + ::strsignal(WTERMSIG(status))
                                                            : "failed with exit code " + std::to_string(WEXITSTATUS(status));
-  const std::string words = lastWords();
-  return Error{ErrorKind::Io, name_ + " " + how + (words.empty() ? "" : "\n" + words)};
+  const std::string output = lastOutput();
+  return Error{ErrorKind::Io, name_ + " " + how + (output.empty() ? "" : "\n" + output)};
 }
 
-std::string FedProgram::lastWords() const {
+std::string PipedProcess::lastOutput() const {
   struct stat info {};
-  if (::fstat(said_.get(), &info) != 0) return {};
-  const off_t from = std::max<off_t>(info.st_size - static_cast<off_t>(kMaxWords), 0);
-  std::string words(kMaxWords, '\0');
-  const ssize_t count = ::pread(said_.get(), words.data(), words.size(), from);
-  words.resize(count > 0 ? static_cast<size_t>(count) : 0);
-  while (!words.empty() && (words.back() == '\n' || words.back() == '\r')) words.pop_back();
-  if (const size_t line = words.find('\n'); from > 0 && line != std::string::npos) words.erase(0, line + 1);  // whole lines
-  for (char& c : words)
+  if (::fstat(log_.get(), &info) != 0) return {};
+  const off_t from = std::max<off_t>(info.st_size - static_cast<off_t>(kMaxOutputBytes), 0);
+  std::string output(kMaxOutputBytes, '\0');
+  const ssize_t count = ::pread(log_.get(), output.data(), output.size(), from);
+  output.resize(count > 0 ? static_cast<size_t>(count) : 0);
+  while (!output.empty() && (output.back() == '\n' || output.back() == '\r')) output.pop_back();
+  if (const size_t line = output.find('\n'); from > 0 && line != std::string::npos)
+    output.erase(0, line + 1);  // drop the incomplete first line
+  for (char& c : output)
     if (static_cast<unsigned char>(c) < 32 && c != '\n') c = ' ';
-  return words;
+  return output;
 }
 
 }  // namespace rill::apps

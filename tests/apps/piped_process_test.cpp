@@ -1,4 +1,4 @@
-#include "shared/fed_program.hpp"
+#include "shared/piped_process.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,30 +12,30 @@ using test::TemporaryFolder;
 
 std::span<const std::byte> bytesOf(std::string_view text) { return std::as_bytes(std::span(text.data(), text.size())); }
 
-Expected<FedProgram> shell(const std::string& script) {
+Expected<PipedProcess> shell(const std::string& script) {
   const std::string arguments[] = {"-c", script};
-  return FedProgram::start("/bin/sh", arguments);
+  return PipedProcess::start("/bin/sh", arguments);
 }
 
-TEST(FindProgram, LooksThroughPath) {
+TEST(FindProgram, SearchesPath) {
   const auto found = findProgram("sh");
   ASSERT_TRUE(found);
   EXPECT_TRUE(found->is_absolute());
   EXPECT_FALSE(findProgram("no-such-program-of-rill"));
 }
 
-TEST(FedProgram, ReadsAllAndEndsWithItsInput) {
+TEST(PipedProcess, ReceivesAllBytesAndExitsAtEndOfInput) {
   const TemporaryFolder folder;
   auto program = shell("cat >'" + (folder / "copy").string() + "'");
   ASSERT_TRUE(program) << program.error().message;
   const std::string text(1 << 20, 'x');
-  ASSERT_TRUE(program->feed(bytesOf(text)));
-  ASSERT_TRUE(program->feed(bytesOf("end")));
+  ASSERT_TRUE(program->write(bytesOf(text)));
+  ASSERT_TRUE(program->write(bytesOf("end")));
   ASSERT_TRUE(program->finish());
   EXPECT_EQ(contentOf(folder / "copy"), text + "end");
 }
 
-TEST(FedProgram, ItsLastWordsAreKeptHoweverMuchItSays) {
+TEST(PipedProcess, FailureReportsEndOfOutput) {
   auto program = shell("i=0; while [ $i -lt 20000 ]; do echo \"line $i of much\"; i=$((i+1)); done; echo 'the reason' >&2; exit 3");
   ASSERT_TRUE(program);
   const auto done = program->finish();
@@ -45,8 +45,8 @@ TEST(FedProgram, ItsLastWordsAreKeptHoweverMuchItSays) {
   EXPECT_LT(done.error().message.size(), 700u);
 }
 
-TEST(FedProgram, OneThatCannotBeStartedIsAnError) {
-  const auto program = FedProgram::start("/no/such/program", {});
+TEST(PipedProcess, ReportsProgramThatCannotBeStarted) {
+  const auto program = PipedProcess::start("/no/such/program", {});
   ASSERT_FALSE(program);
   EXPECT_EQ(program.error().kind, ErrorKind::Io);
   EXPECT_NE(program.error().message.find("can't start program: No such file"), std::string::npos) << program.error().message;
