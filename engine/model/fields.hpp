@@ -1,5 +1,5 @@
 #pragma once
-// The one table of what a scene's keys mean. The parser, the JSON Schema, --set and the README's table are made from it, and a
+// The one table of what a scene's keys mean. The parser, the JSON Schema, --set and docs/scene-format.md are made from it, and a
 // panel of sliders can be: forEachField<FluidSettings>(...). Defaults are the initializers in rill/scene.hpp.
 #include <array>
 #include <filesystem>

@@ -1,4 +1,4 @@
-// The JSON Schema and the Markdown table of the scene's keys, both from model/fields.hpp.
+// The JSON Schema and the Markdown tables of the scene's keys, both from model/fields.hpp.
 #include "core/words.hpp"
 #include "rill/scene_io.hpp"
 #include "scene/field_json.hpp"
@@ -98,7 +98,7 @@ OrderedJson objectSchema() {
   return schema;
 }
 
-// The table of keys.
+// The tables of keys.
 
 std::string code(std::string_view text) {
   std::string out("`");
@@ -106,42 +106,91 @@ std::string code(std::string_view text) {
   return out += '`';
 }
 
-/// The range of one key in words, for people.
-template <class T>
-std::string valuesText(const model::Info& info) {
-  std::string text;
-  if (!info.words.empty()) {
-    for (const std::string_view word : info.words) (text += text.empty() ? "" : ", ") += code(word);
-  } else if constexpr (std::is_same_v<T, double> || std::is_same_v<T, uint32_t> || std::is_same_v<T, uint64_t> ||
-                       std::is_same_v<T, std::optional<double>> || std::is_array_v<T> ||
-                       std::is_same_v<T, std::optional<std::pair<double, double>>>) {
-    text = model::rangeText(info.range);
-    if (std::is_same_v<T, std::optional<double>>) text = "`auto`, or " + text;
-  }
-  if (info.most > 0) text = "at most " + grouped(info.most) + " entries";
-  return text;
+/// A cell's text: a bar would end the cell.
+std::string inCell(std::string_view text) {
+  std::string out;
+  for (const char c : text) (out += c == '|' ? "\\" : "") += c;
+  return out;
 }
 
+std::string withRange(std::string_view type, const model::Range& range) {
+  const std::string text = model::rangeText(range);
+  return std::string(type) + (text.empty() ? "" : ", " + text);
+}
+
+/// The type and the range of one key's value, for people.
+template <class T>
+std::string valuesText(const model::Info& info) {
+  std::string words;
+  for (const std::string_view word : info.words) (words += words.empty() ? "" : ", ") += code(word);
+  if constexpr (std::is_same_v<T, model::Anything>) {
+    return "anything";
+  } else if constexpr (std::is_same_v<T, model::Version>) {
+    return "`\"MAJOR.MINOR\"` or `\"MAJOR.MINOR.PATCH\"`";
+  } else if constexpr (std::is_same_v<T, double>) {
+    return withRange("number", info.range);
+  } else if constexpr (std::is_same_v<T, uint32_t> || std::is_same_v<T, uint64_t>) {
+    return withRange("whole number", info.range);
+  } else if constexpr (std::is_same_v<T, std::optional<double>>) {
+    return "`\"auto\"`, or " + withRange("number", info.range);
+  } else if constexpr (std::is_same_v<T, std::optional<std::pair<double, double>>>) {
+    return withRange("2 numbers", info.range);
+  } else if constexpr (std::is_array_v<T>) {
+    return withRange(std::to_string(std::extent_v<T>) + " numbers", info.range);
+  } else if constexpr (std::is_same_v<T, SideMask>) {
+    return "list of " + words;
+  } else if constexpr (model::kIsList<T>) {
+    return std::string("list of objects") + (info.most > 0 ? ", at most " + grouped(info.most) : "");
+  } else if constexpr (model::Described<typename model::Inner<T>::Type> || std::is_same_v<T, std::optional<std::filesystem::path>>) {
+    return "object";
+  } else {
+    return words.empty() ? "text" : words;
+  }
+}
+
+/// The keys of one kind of object, and the places in a scene that have such an object.
+struct KeySection {
+  std::string_view about;
+  std::vector<std::string> paths;
+  std::string text;
+};
+
+/// Adds the section of the object at `path`, and those of the objects inside it; an object that is described already gets one more path.
 template <class Owner>
-void addRows(const std::string& path, std::string& out) {
+void addSection(const std::string& path, std::vector<KeySection>& out) {
+  for (KeySection& known : out) {
+    if (known.about != model::Table<Owner>::about) continue;
+    known.paths.push_back(path);
+    return;
+  }
+  std::string text(model::Table<Owner>::about);
+  text += '.';
+  std::string choice;
+  for (const std::string_view key : model::Table<Owner>::one_of) (choice += choice.empty() ? "" : ", ") += code(key);
+  if (!choice.empty()) text += " Exactly one of " + choice + " is given.";
+  text += "\n\n| key | unit | value | default | meaning |\n| --- | --- | --- | --- | --- |\n";
   model::forEachField<Owner>([&](const auto& field) {
     using T = typename std::remove_cvref_t<decltype(field)>::Value;
-    using Inner = typename model::Inner<T>::Type;
-    const std::string here = (path.empty() ? "" : path + ".") + std::string(field.info.key) + (model::kIsList<T> ? "[]" : "");
     std::string fallback = field.info.required ? "required" : "";
     if constexpr (model::kHasMember<T>) {
       const Owner defaults{};
       const OrderedJson value = defaultJson(field.info, defaults.*field.member);
       if (!value.is_null() && !field.info.required) fallback = code(value.dump());
     }
-    const std::string cells[] = {code(here), std::string(field.info.unit), valuesText<T>(field.info), fallback,
+    const std::string cells[] = {code(field.info.key), std::string(field.info.unit), valuesText<T>(field.info), fallback,
                                  std::string(field.info.help)};
-    for (const std::string& cell : cells) (out += "| ") += cell + ' ';
-    out += "|\n";
+    for (const std::string& cell : cells) (text += "| ") += inCell(cell) + (cell.empty() ? "" : " ");
+    text += "|\n";
+  });
+  out.push_back({model::Table<Owner>::about, {path}, std::move(text)});
+  model::forEachField<Owner>([&](const auto& field) {
+    using T = typename std::remove_cvref_t<decltype(field)>::Value;
+    using Inner = typename model::Inner<T>::Type;
+    const std::string inside = (path.empty() ? "" : path + ".") + std::string(field.info.key) + (model::kIsList<T> ? "[]" : "");
     if constexpr (std::is_same_v<T, std::optional<std::filesystem::path>>) {
-      addRows<model::FileName>(here, out);
+      addSection<model::FileName>(inside, out);
     } else if constexpr (!std::is_void_v<Inner>) {
-      addRows<Inner>(here, out);
+      addSection<Inner>(inside, out);
     }
   });
 }
@@ -154,9 +203,15 @@ std::string sceneSchema() {
   return schema.dump(1) + "\n";
 }
 
-std::string sceneKeyTable() {
-  std::string out = "| key | unit | values | default | what |\n| --- | --- | --- | --- | --- |\n";
-  addRows<Scene>("", out);
+std::string sceneKeyTables() {
+  std::vector<KeySection> sections;
+  addSection<Scene>("", sections);
+  std::string out;
+  for (const KeySection& section : sections) {
+    std::string title;
+    for (const std::string& path : section.paths) (title += title.empty() ? "" : ", ") += path.empty() ? "Top level" : code(path);
+    out += (out.empty() ? "### " : "\n### ") + title + "\n\n" + section.text;
+  }
   return out;
 }
 

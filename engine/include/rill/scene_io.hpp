@@ -42,7 +42,7 @@ RILL_API Expected<EnvironmentPicture> loadEnvironment(const std::filesystem::pat
 
 /// The scene file's JSON Schema (draft-07), made from the same table of fields as the parser.
 RILL_API std::string sceneSchema();
-/// The table of keys, units, ranges and defaults in Markdown, for README.
-RILL_API std::string sceneKeyTable();
+/// Keys, units, ranges and defaults in Markdown, a table for each kind of object: the generated part of docs/scene-format.md.
+RILL_API std::string sceneKeyTables();
 
 }  // namespace rill
