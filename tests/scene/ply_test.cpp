@@ -40,7 +40,7 @@ class Ply : public ::testing::Test {
 const std::string kAscii =
     "ply\nformat ascii 1.0\ncomment time 0.25\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
 
-TEST_F(Ply, Ascii) {
+TEST_F(Ply, ReadsAscii) {
   const auto set = load(kAscii + "1 2 3\n4.5 +5 6e0");
   ASSERT_TRUE(set) << set.error().message;
   ASSERT_EQ(set->positions.size(), 2U);
@@ -48,7 +48,7 @@ TEST_F(Ply, Ascii) {
   EXPECT_EQ(set->velocities[1], (Float3{0, 0, 1}));
 }
 
-TEST_F(Ply, BinaryOfBothOrdersWithMoreThanNeeded) {
+TEST_F(Ply, ReadsBothByteOrdersAndSkipsOtherProperties) {
   for (const bool big : {false, true}) {
     std::string bytes = std::string("ply\r\nformat ") + (big ? "binary_big_endian" : "binary_little_endian") +
                         " 1.0\r\nobj_info x\r\nelement face 2\r\nproperty list uchar int vertex_indices\r\nproperty uchar tag\r\n"
@@ -75,7 +75,7 @@ TEST_F(Ply, BinaryOfBothOrdersWithMoreThanNeeded) {
   }
 }
 
-TEST_F(Ply, LargeFilesAreReadWhole) {
+TEST_F(Ply, ReadsLargeFiles) {
   std::string bytes =
       "ply\nformat binary_little_endian 1.0\nelement vertex 27000\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
   for (int i = 0; i < 27000; ++i) {
@@ -87,7 +87,7 @@ TEST_F(Ply, LargeFilesAreReadWhole) {
   EXPECT_FLOAT_EQ(set->positions[26999].z, 2.95F);
 }
 
-TEST_F(Ply, ASettledStateKeepsParticlesThatAreNearButNotThoseThatCoincide) {
+TEST_F(Ply, KeepsCloseButDropsCoincidentParticles) {
   const std::string five = "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
   const auto set = load(five + "1 1 1\n1.06 1 1\n1.06 1 1\n2 2 2\n2 2 2.00001\n");
   ASSERT_TRUE(set);
@@ -98,7 +98,7 @@ TEST_F(Ply, ASettledStateKeepsParticlesThatAreNearButNotThoseThatCoincide) {
       << set->warnings[0];
 }
 
-TEST_F(Ply, Refusals) {
+TEST_F(Ply, RejectsInvalidFiles) {
   const std::string head = "ply\nformat ascii 1.0\n", xyz = "property float x\nproperty float y\nproperty float z\n";
   EXPECT_EQ(message(""), "p.ply: does not begin with \"ply\"; expected a PLY file");
   EXPECT_EQ(message("solid\n"), "p.ply: begins with \"solid\"; expected a PLY file, whose first line is \"ply\"");
@@ -135,7 +135,7 @@ TEST_F(Ply, Refusals) {
             "p.ply: vertex 1: the position is inf along z; expected a finite number that a 32-bit float can hold");
 }
 
-TEST_F(Ply, HugeCountsAreCheckedAgainstTheFile) {
+TEST_F(Ply, ChecksCountsAgainstFileSize) {
   const std::string xyz = "property float x\nproperty float y\nproperty float z\nend_header\n";
   EXPECT_EQ(message("ply\nformat binary_little_endian 1.0\nelement vertex 1000000000000\n" + xyz + std::string(120, '\0')),
             "p.ply: the header promises 1,000,000,000,000 of \"vertex\", at least 12 bytes each, but only 120 bytes are left; expected a "
@@ -150,20 +150,20 @@ TEST_F(Ply, HugeCountsAreCheckedAgainstTheFile) {
             "p.ply: face 0, property \"v\": found the end of the file, expected a number");
 }
 
-TEST_F(Ply, VelocitiesMustBeFinite) {
+TEST_F(Ply, RejectsNonFiniteVelocities) {
   const std::string file =
       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nproperty float vx\nproperty float "
       "vy\nproperty float vz\nend_header\n1 2 3 4 -inf 6\n";
   EXPECT_EQ(message(file), "p.ply: vertex 0: the velocity is -inf along y; expected a finite number that a 32-bit float can hold");
 }
 
-TEST_F(Ply, NoParticles) {
+TEST_F(Ply, RejectsFileWithoutParticles) {
   const auto set = load("ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n");
   ASSERT_FALSE(set);
   EXPECT_NE(set.error().message.find("yields no particle: the file has none"), std::string::npos) << set.error().message;
 }
 
-TEST_F(Ply, FileParticlesCountTowardsTheNumberAskedFor) {
+TEST_F(Ply, FileParticlesCountTowardRequestedNumber) {
   std::string bytes = "ply\nformat ascii 1.0\nelement vertex 1000\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
   for (int i = 0; i < 1000; ++i) bytes += "9 " + std::to_string(0.01 * i) + " 9\n";
   const std::string with_box = R"({"rill": "0.1", "fluid": {"particles": 9000}, "fill": [{"particles": {"file": "p.ply"}}, {"box": {}}]})";
@@ -172,7 +172,7 @@ TEST_F(Ply, FileParticlesCountTowardsTheNumberAskedFor) {
   EXPECT_NEAR(static_cast<double>(set->positions.size()), 9000, 100);
 }
 
-TEST_F(Ply, DamagedFilesAreReadOrRefused) {
+TEST_F(Ply, HandlesCorruptedFiles) {
   std::string bytes =
       "ply\nformat binary_little_endian 1.0\nelement a 1\nproperty list uchar short l\nelement vertex 3\nproperty float x\nproperty float "
       "y\nproperty float z\nend_header\n";
