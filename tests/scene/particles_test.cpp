@@ -84,7 +84,7 @@ TEST(Particles, LeavesOutAndReportsOverlaps) {
   EXPECT_EQ(set.left_out_overlap, 500U);
   EXPECT_GE(set.positions.size(), 1500U);
   ASSERT_EQ(set.warnings.size(), 1U);
-  EXPECT_EQ(set.warnings[0], "dam: fill[1]: 500 of 1,000 particles are nearer than 0.9 spacings to fluid placed before, and are left out");
+  EXPECT_EQ(set.warnings[0], "dam: fill[1]: 500 of 1,000 particles are closer than 0.9 spacings to earlier fills, and are left out");
   for (size_t i = 0; i < set.positions.size(); ++i) {
     for (size_t j = 0; j < i; ++j) ASSERT_GE(distance(set.positions[i], set.positions[j]), 0.0899);
   }
@@ -187,11 +187,10 @@ TEST(Particles, ReportsEmptyFills) {
   const ParticleSet set =
       particles(with(R"("domain": {}, "fill": [{"box": {}}, {"box": {"max": [1, 0.04, 1]}}, {"sphere": {"radius": 0.02}}, {"box": {}}])"));
   ASSERT_EQ(set.warnings.size(), 4U);
-  EXPECT_EQ(set.warnings[0], "dam: fill[1]: yields no particle: it is too thin for a spacing of 0.1 m");
-  EXPECT_EQ(set.warnings[1], "dam: fill[2]: yields no particle: it is too thin for a spacing of 0.1 m");
-  EXPECT_EQ(set.warnings[2],
-            "dam: fill[3]: 1,000 of 1,000 particles are nearer than 0.9 spacings to fluid placed before, and are left out");
-  EXPECT_EQ(set.warnings[3], "dam: fill[3]: yields no particle: all are left out");
+  EXPECT_EQ(set.warnings[0], "dam: fill[1]: yields no particles: it is too thin for a spacing of 0.1 m");
+  EXPECT_EQ(set.warnings[1], "dam: fill[2]: yields no particles: it is too thin for a spacing of 0.1 m");
+  EXPECT_EQ(set.warnings[2], "dam: fill[3]: 1,000 of 1,000 particles are closer than 0.9 spacings to earlier fills, and are left out");
+  EXPECT_EQ(set.warnings[3], "dam: fill[3]: yields no particles: all are left out");
 }
 
 TEST(Particles, FailsIfFillsYieldNoParticle) {
@@ -203,9 +202,9 @@ TEST(Particles, FailsIfFillsYieldNoParticle) {
   const auto refused = makeParticles(outside, kMany);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, ErrorKind::BadInput);
-  EXPECT_EQ(
-      refused.error().message.rfind("dam: fill: no particle is left (1,000 outside the walls, 0 inside solids); expected at least one.", 0),
-      0U)
+  EXPECT_EQ(refused.error().message.rfind(
+                "dam: fill: no particles are left (1,000 outside the walls, 0 inside solids); expected at least one.", 0),
+            0U)
       << refused.error().message;
 }
 
@@ -215,8 +214,9 @@ TEST(Particles, RejectsTooManyParticlesBeforeAllocation) {
     const auto result = makeParticles(s, most);
     return result ? "made " + std::to_string(result->positions.size()) : result.error().message;
   };
-  EXPECT_EQ(message("0.002", R"({"box": {"max": [1, 0.8, 0.5]}})", 33'554'432),
-            "dam: fluid.spacing: 0.002 m makes 50,000,000 particles; expected at most 33,554,432, as a spacing of about 0.002307 m gives");
+  EXPECT_EQ(
+      message("0.002", R"({"box": {"max": [1, 0.8, 0.5]}})", 33'554'432),
+      "dam: fluid.spacing: 0.002 m makes 50,000,000 particles; expected at most 33,554,432, which a spacing of about 0.002307 m gives");
   EXPECT_EQ(message("0.1", R"({"box": {"max": [1, 1, 1]}})", 999)
                 .rfind("dam: fluid.spacing: 0.1 m makes 1,000 particles; expected at most 999", 0),
             0U);
@@ -228,7 +228,7 @@ TEST(Particles, RejectsTooManyParticlesBeforeAllocation) {
       message("1e-7", R"({"sphere": {"radius": 1e6}})", kMany).rfind("dam: fluid.spacing: 1e-07 m makes about 4.189e+39 particles", 0), 0U);
   EXPECT_NE(message("0.0004", R"({"box": {"max": [1, 1, 1]}})", ~0ULL).find("expected at most 4,294,967,295"), std::string::npos);
   Scene asked = scene(with(R"("fill": [{"box": {}}])"), {{"fluid.particles", "50000000"}});
-  EXPECT_EQ(makeParticles(asked, 1'000'000).error().message, "dam: fluid.particles: 50,000,000 found, expected at most 1,000,000");
+  EXPECT_EQ(makeParticles(asked, 1'000'000).error().message, "dam: fluid.particles: found 50,000,000, expected at most 1,000,000");
 }
 
 TEST(Particles, ComputesSpacingFromParticleCount) {
@@ -269,7 +269,7 @@ TEST(Particles, WarnsIfParticleCountIsMissed) {
 TEST(Particles, ParticleCountRequiresAFill) {
   Scene s = scene(R"({"rill": "0.1", "fluid": {"particles": 100}})");
   EXPECT_EQ(makeParticles(s, kMany).error().message,
-            "dam: fluid.particles: the scene has no box or sphere of fluid from which a spacing follows; expected fluid.spacing");
+            "dam: fluid.particles: no fill is a box or a sphere, so the spacing cannot be computed; expected fluid.spacing instead");
   Scene unset;
   EXPECT_EQ(makeParticles(unset, kMany).error().message, "fluid: expected exactly one of \"spacing\", \"particles\"; found none");
 }

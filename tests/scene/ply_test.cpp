@@ -94,7 +94,7 @@ TEST_F(Ply, KeepsCloseButDropsCoincidentParticles) {
   EXPECT_EQ(set->positions.size(), 3U);
   EXPECT_EQ(set->left_out_overlap, 2U);
   ASSERT_EQ(set->warnings.size(), 1U);
-  EXPECT_NE(set->warnings[0].find("fill[0]: 2 of 5 particles coincide, or are nearer than 0.9 spacings"), std::string::npos)
+  EXPECT_NE(set->warnings[0].find("fill[0]: 2 of 5 particles coincide, or are closer than 0.9 spacings"), std::string::npos)
       << set->warnings[0];
 }
 
@@ -111,20 +111,20 @@ TEST_F(Ply, RejectsInvalidFiles) {
   EXPECT_EQ(message(head + "element vertex -1\nend_header\n"),
             "p.ply: the header line \"element vertex -1\" has no count; expected element NAME COUNT");
   EXPECT_EQ(message(head + "element vertex 1\nproperty real x\nend_header\n"),
-            "p.ply: the header line \"property real x\" is not understood; expected property TYPE NAME with a type such as float or uint");
-  EXPECT_EQ(message(head + "property float x\nend_header\n"), "p.ply: the header line \"property float x\" stands before any element");
+            "p.ply: the header line \"property real x\" is invalid; expected property TYPE NAME with a type such as float or uint");
+  EXPECT_EQ(message(head + "property float x\nend_header\n"), "p.ply: the header line \"property float x\" comes before any element");
   EXPECT_EQ(message(head + "vertices 3\nend_header\n"),
-            "p.ply: the header line \"vertices 3\" is not understood; expected format, element, property, comment or end_header");
+            "p.ply: the header line \"vertices 3\" is invalid; expected format, element, property, comment or end_header");
   EXPECT_EQ(message(head + "element face 1\nproperty float x\nend_header\n1\n"),
             "p.ply: the header has no vertex element; expected one with x, y and z");
   EXPECT_EQ(message(head + "element vertex 1\nproperty float x\nproperty float y\nend_header\n1 2\n"),
             "p.ply: the vertices have no property \"z\"; expected x, y and z");
   EXPECT_EQ(message(head + "element vertex 1\n" + xyz + "property float x\nend_header\n1 2 3 4\n"),
-            "p.ply: the vertex property \"x\" is there twice; expected it once");
+            "p.ply: the vertex property \"x\" is declared twice; expected it once");
   EXPECT_EQ(message(head + "element vertex 1\nproperty list int float x\nend_header\n1 2\n"),
             "p.ply: the vertex property \"x\" is a list; expected a number");
   EXPECT_EQ(message(kAscii + "1 2 3\n4 5"),
-            "p.ply: the header promises 2 of \"vertex\", at least 6 bytes each, but only 10 bytes are left; expected a whole file");
+            "p.ply: the header declares 2 of \"vertex\", at least 6 bytes each, but only 10 bytes follow; expected a complete file");
   EXPECT_EQ(message(kAscii + "1 2 3.000\n4 5"), "p.ply: vertex 1, property \"z\": found the end of the file, expected a number");
   EXPECT_EQ(message(kAscii + "1 2 3\n4 five 6\n"), "p.ply: vertex 1, property \"y\": found \"five\", expected a number");
   EXPECT_EQ(message(kAscii + "1 2 3\n4 nan 6\n"),
@@ -138,9 +138,9 @@ TEST_F(Ply, RejectsInvalidFiles) {
 TEST_F(Ply, ChecksCountsAgainstFileSize) {
   const std::string xyz = "property float x\nproperty float y\nproperty float z\nend_header\n";
   EXPECT_EQ(message("ply\nformat binary_little_endian 1.0\nelement vertex 1000000000000\n" + xyz + std::string(120, '\0')),
-            "p.ply: the header promises 1,000,000,000,000 of \"vertex\", at least 12 bytes each, but only 120 bytes are left; expected a "
-            "whole file");
-  EXPECT_EQ(message("ply\nformat binary_little_endian 1.0\nelement vertex 18446744073709551615\n" + xyz).find("p.ply: the header promises"),
+            "p.ply: the header declares 1,000,000,000,000 of \"vertex\", at least 12 bytes each, but only 120 bytes follow; expected a "
+            "complete file");
+  EXPECT_EQ(message("ply\nformat binary_little_endian 1.0\nelement vertex 18446744073709551615\n" + xyz).find("p.ply: the header declares"),
             0U);
   EXPECT_EQ(message("ply\nformat binary_little_endian 1.0\nelement vertex 18446744073709551616\n" + xyz).find("p.ply: the header line"),
             0U);
@@ -160,7 +160,7 @@ TEST_F(Ply, RejectsNonFiniteVelocities) {
 TEST_F(Ply, RejectsFileWithoutParticles) {
   const auto set = load("ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n");
   ASSERT_FALSE(set);
-  EXPECT_NE(set.error().message.find("yields no particle: the file has none"), std::string::npos) << set.error().message;
+  EXPECT_NE(set.error().message.find("yields no particles: the file has none"), std::string::npos) << set.error().message;
 }
 
 TEST_F(Ply, FileParticlesCountTowardRequestedNumber) {
