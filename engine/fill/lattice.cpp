@@ -8,7 +8,7 @@
 namespace rill {
 namespace {
 
-/// round(), where 0.15 / 0.1 is one and a half although its double is a little less.
+/// round() that takes 0.15 / 0.1 as 1.5, although the quotient of the doubles is slightly less.
 double roundedCount(double length, double spacing) {
   const double ratio = length / spacing;
   return std::floor(ratio * (1 + 1e-12) + 0.5 + 1e-9);
@@ -23,8 +23,8 @@ double volumeOf(const Fill& fill) {
   return fill.sphere ? 4.0 / 3.0 * std::numbers::pi * std::pow(fill.sphere->radius, 3) : 0.0;
 }
 
-/// How far the lattices are from fitting their boxes, in spacings: 0 to 0.5, of the worst side.
-double worstMisfit(std::span<const Fill> fills, double spacing) {
+/// Largest difference between a box side and a whole number of spacings, in spacings: 0 to 0.5.
+double maxMisfit(std::span<const Fill> fills, double spacing) {
   double worst = 0;
   for (const Fill& fill : fills) {
     for (int axis = 0; fill.box && axis < 3; ++axis) {
@@ -36,7 +36,7 @@ double worstMisfit(std::span<const Fill> fills, double spacing) {
 }
 
 double totalPoints(std::span<const Fill> fills, double spacing) {
-  const double exact_rows = std::min(4096.0, 40000.0 / static_cast<double>(fills.size()));  // a search asks thousands of times
+  const double exact_rows = std::min(4096.0, 40000.0 / static_cast<double>(fills.size()));  // the search evaluates thousands of spacings
   double total = 0;
   for (const Fill& fill : fills) {
     if (fill.box || fill.sphere) total += countPoints(latticeOf(fill, spacing), exact_rows);
@@ -51,26 +51,26 @@ Lattice latticeOf(const Fill& fill, double spacing) {
   lattice.spacing = spacing;
   if (fill.box) {
     for (int axis = 0; axis < 3; ++axis) {
-      lattice.along[axis] = roundedCount(fill.box->max[axis] - fill.box->min[axis], spacing);
+      lattice.size[axis] = roundedCount(fill.box->max[axis] - fill.box->min[axis], spacing);
       lattice.first[axis] = fill.box->min[axis] + 0.5 * spacing;
     }
   } else if (fill.sphere) {
     lattice.radius = fill.sphere->radius;
     for (int axis = 0; axis < 3; ++axis) {
-      lattice.along[axis] = roundedCount(2 * fill.sphere->radius, spacing);
-      lattice.first[axis] = fill.sphere->center[axis] - 0.5 * (lattice.along[axis] - 1) * spacing;
+      lattice.size[axis] = roundedCount(2 * fill.sphere->radius, spacing);
+      lattice.first[axis] = fill.sphere->center[axis] - 0.5 * (lattice.size[axis] - 1) * spacing;
     }
   }
   return lattice;
 }
 
 void rowOf(const Lattice& lattice, uint64_t j, uint64_t k, uint64_t& begin, uint64_t& end) {
-  const double n = lattice.along[0];
+  const double n = lattice.size[0];
   begin = 0;
   end = static_cast<uint64_t>(n);
   if (lattice.radius < 0) return;
-  // In spacings from the center; a point on the sphere is inside in spite of rounding.
-  const double y = static_cast<double>(j) - 0.5 * (lattice.along[1] - 1), z = static_cast<double>(k) - 0.5 * (lattice.along[2] - 1);
+  // In spacings from the center. The tolerance keeps points on the sphere inside despite rounding.
+  const double y = static_cast<double>(j) - 0.5 * (lattice.size[1] - 1), z = static_cast<double>(k) - 0.5 * (lattice.size[2] - 1);
   const double radius = lattice.radius / lattice.spacing * (1 + 1e-12);
   const double left = radius * radius - y * y - z * z;
   if (left < 0) {
@@ -85,11 +85,11 @@ void rowOf(const Lattice& lattice, uint64_t j, uint64_t k, uint64_t& begin, uint
 
 double countPoints(const Lattice& lattice, double exactRows) {
   if (lattice.radius < 0) return lattice.boxCount();
-  const double rows = lattice.along[1] * lattice.along[2];
+  const double rows = lattice.size[1] * lattice.size[2];
   if (!(rows <= exactRows)) return 4.0 / 3.0 * std::numbers::pi * std::pow(lattice.radius / lattice.spacing, 3);
   uint64_t count = 0;
-  for (uint64_t k = 0; k < static_cast<uint64_t>(lattice.along[2]); ++k) {
-    for (uint64_t j = 0; j < static_cast<uint64_t>(lattice.along[1]); ++j) {
+  for (uint64_t k = 0; k < static_cast<uint64_t>(lattice.size[2]); ++k) {
+    for (uint64_t j = 0; j < static_cast<uint64_t>(lattice.size[1]); ++j) {
       uint64_t begin = 0, end = 0;
       rowOf(lattice, j, k, begin, end);
       count += end - begin;
@@ -105,28 +105,28 @@ double spacingFor(std::span<const Fill> fills, double target) {
   const double middle = std::cbrt(volume / target);
   double best = middle, best_cost = std::numeric_limits<double>::infinity();
   const auto consider = [&](double spacing) {
-    // A lattice that is half a spacing too wide or narrow for its box starts with a crushed or a missing layer at a wall: rather
-    // have up to two per cent more or fewer particles.
+    // A lattice that misses its box by half a spacing starts with a compressed or missing layer at a wall, which is worse than 2 %
+    // more or fewer particles.
     constexpr double kCostOfMisfit = 0.04, kCostOfVolume = 0.01;
     const double count = totalPoints(fills, spacing);
     if (!(count > 0)) return;
-    const double cost = std::abs(count - target) / target + kCostOfMisfit * worstMisfit(fills, spacing) +
+    const double cost = std::abs(count - target) / target + kCostOfMisfit * maxMisfit(fills, spacing) +
                         kCostOfVolume * std::abs(std::log(count * spacing * spacing * spacing / volume));
     if (cost >= best_cost) return;
     best = spacing;
     best_cost = cost;
   };
-  // The count is a staircase in the spacing, and with spheres not even a falling one: look at all of it around the spacing that
-  // the volume suggests. Thin fills (a layer or two) can be off by up to a factor of two there.
+  // The count is a step function of the spacing, and not monotone for spheres: scan a range around the spacing given by the volume,
+  // which is off by up to a factor of two for fills of one or two layers.
   const int steps = fills.size() <= 1000 ? 1200 : 100;
   for (int i = -steps; i <= steps; ++i) consider(middle * std::exp2(static_cast<double>(i) / steps));
-  // And the spacings that fit a side of a box exactly.
+  // Also try the spacings that fit a side of a box exactly.
   constexpr size_t kFillsToFit = 8;
-  constexpr double kMaxAlong = 2000;
+  constexpr double kMaxPerAxis = 2000;
   for (const Fill& fill : fills.first(std::min(fills.size(), kFillsToFit))) {
     for (int axis = 0; fill.box && axis < 3; ++axis) {
       const double length = fill.box->max[axis] - fill.box->min[axis];
-      const double last = std::min(2 * length / middle, kMaxAlong);
+      const double last = std::min(2 * length / middle, kMaxPerAxis);
       for (double n = std::max(1.0, std::floor(0.5 * length / middle)); n <= last; ++n) consider(length / n);
     }
   }

@@ -1,4 +1,4 @@
-// makeParticles: from fills to what a simulation starts with.
+// makeParticles(): turns the fills of a scene into particles.
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -17,32 +17,32 @@
 namespace rill {
 namespace {
 
-constexpr double kOverlap = 0.9;    // spacings between the fluid of two fills, at least
-constexpr double kTogether = 1e-3;  // spacings: particles of one file that are nearer coincide
-constexpr double kSlack = 1e-4;     // spacings that rounding may put a particle beyond a wall or into a solid
+constexpr double kOverlap = 0.9;      // spacings: smallest distance between particles of two fills
+constexpr double kCoincident = 1e-3;  // spacings: closer particles of one file are coincident
+constexpr double kSlack = 1e-4;       // spacings: rounding tolerance at walls and solids
 constexpr size_t kMaxWarnings = 20;
 
-/// A fill and what it stands for.
+/// A fill and the particles that it describes.
 struct Source {
   std::optional<PlyFile> file;
-  PlyParticles particles;  ///< of the file, once read
+  PlyParticles particles;  ///< of the file; empty until it is read
   Lattice lattice;
-  double count = 0;  ///< before any is left out
+  double count = 0;  ///< including those left out later
   uint64_t overlap = 0, solid = 0, domain = 0, kept = 0;
 };
 
-/// What a message begins with: the scene's file, or its name.
+/// Prefix of messages: the file or name of the scene.
 std::string prefixOf(const Scene& scene) {
   const std::string name = scene.file.empty() ? scene.name : scene.file.string();
   return name.empty() ? "" : name + ": ";
 }
 
-Error refuse(const Scene& scene, const std::string& why) { return {ErrorKind::BadInput, prefixOf(scene) + why}; }
+Error badInput(const Scene& scene, const std::string& why) { return {ErrorKind::BadInput, prefixOf(scene) + why}; }
 
 std::string countText(double count) { return count < 1e15 ? grouped(static_cast<uint64_t>(count)) : "about " + roughNumber(count); }
 
-/// A number in [-1, 1) that depends on nothing but its arguments (splitmix64's finalizer over a counter).
-double randomAlong(uint64_t seed, uint64_t fill, uint64_t particle, uint64_t axis) {
+/// A deterministic pseudorandom number in [-1, 1): the finalizer of splitmix64 (Steele et al. 2014) over its arguments.
+double randomSigned(uint64_t seed, uint64_t fill, uint64_t particle, uint64_t axis) {
   uint64_t h = seed;
   for (const uint64_t part : {fill, particle, axis}) {
     h += 0x9E3779B97F4A7C15ULL + part;
@@ -53,7 +53,7 @@ double randomAlong(uint64_t seed, uint64_t fill, uint64_t particle, uint64_t axi
   return static_cast<double>(h >> 11) * 0x1p-52 - 1.0;
 }
 
-/// Around the fluid of all sources; empty boxes have low > high.
+/// Axis-aligned bounds of particles; empty if low > high.
 struct Bounds {
   double low[3] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
                    std::numeric_limits<double>::infinity()};
@@ -83,17 +83,17 @@ Bounds boundsOf(const Source& source) {
   } else if (source.count > 0) {
     const Lattice& l = source.lattice;
     bounds.add(l.first[0], l.first[1], l.first[2]);
-    bounds.add(l.first[0] + (l.along[0] - 1) * l.spacing, l.first[1] + (l.along[1] - 1) * l.spacing,
-               l.first[2] + (l.along[2] - 1) * l.spacing);
+    bounds.add(l.first[0] + (l.size[0] - 1) * l.spacing, l.first[1] + (l.size[1] - 1) * l.spacing,
+               l.first[2] + (l.size[2] - 1) * l.spacing);
   }
   return bounds;
 }
 
-/// Whether particles of different sources, or of one file, could be near each other.
-bool mayCrowd(const std::vector<Source>& sources, const std::vector<Bounds>& bounds, double distance) {
-  constexpr size_t kPairsWorthTrying = 64;
+/// Whether particles of different fills, or of one file, may be closer than allowed. Conservative.
+bool mayOverlap(const std::vector<Source>& sources, const std::vector<Bounds>& bounds, double distance) {
+  constexpr size_t kMaxPairTests = 64;
   if (std::any_of(sources.begin(), sources.end(), [](const Source& s) { return s.file.has_value(); })) return true;
-  if (sources.size() > kPairsWorthTrying) return true;
+  if (sources.size() > kMaxPairTests) return true;
   for (size_t a = 0; a < sources.size(); ++a) {
     for (size_t b = 0; b < a; ++b) {
       if (bounds[a].near(bounds[b], distance)) return true;
@@ -102,29 +102,29 @@ bool mayCrowd(const std::vector<Source>& sources, const std::vector<Bounds>& bou
   return false;
 }
 
-/// Puts particles one by one, or leaves them out.
+/// Adds particles to a set, leaving out those outside the domain, inside solids, or overlapping others.
 class Placer {
  public:
   Placer(const Scene& scene, ParticleSet& out, PointHash* placed)
       : scene_(scene), out_(out), solids_(scene.solids), placed_(placed), spacing_(scene.fluid.spacing) {}
 
-  /// `p` in the scene's coordinates; `number` counts within the fill.
-  void put(const double (&p)[3], const Float3& velocity, size_t fill, uint64_t number, Source& source) {
+  /// `p`: position in scene coordinates, m. `number`: index within the fill.
+  void add(const double (&p)[3], const Float3& velocity, size_t fill, uint64_t number, Source& source) {
     const double jitter = scene_.fill[fill].jitter * spacing_;
-    double at[3], own[3];
+    double at[3], lattice[3];
     for (int axis = 0; axis < 3; ++axis) {
-      own[axis] = p[axis] - out_.origin[axis];
-      at[axis] = jitter > 0 ? p[axis] + jitter * randomAlong(scene_.seed, fill, number, static_cast<uint64_t>(axis)) : p[axis];
+      lattice[axis] = p[axis] - out_.origin[axis];
+      at[axis] = jitter > 0 ? p[axis] + jitter * randomSigned(scene_.seed, fill, number, static_cast<uint64_t>(axis)) : p[axis];
     }
     if (beyondWall(at)) {
       ++source.domain;
     } else if (solids_.inside(at, kSlack * spacing_)) {
       ++source.solid;
     } else if (placed_ != nullptr &&
-               placed_->crowded(own, static_cast<uint32_t>(fill), kOverlap * spacing_ * (1 - kSlack), kTogether * spacing_)) {
+               placed_->overlaps(lattice, static_cast<uint32_t>(fill), kOverlap * spacing_ * (1 - kSlack), kCoincident * spacing_)) {
       ++source.overlap;
     } else {
-      if (placed_ != nullptr) placed_->insert(own, static_cast<uint32_t>(fill));
+      if (placed_ != nullptr) placed_->insert(lattice, static_cast<uint32_t>(fill));
       ++source.kept;
       out_.positions.push_back(relative(at));
       out_.velocities.push_back(velocity);
@@ -144,7 +144,7 @@ class Placer {
     return false;
   }
 
-  /// From the origin, and not beyond a closed wall by rounding.
+  /// Position relative to the origin, clamped to closed walls against rounding.
   Float3 relative(const double (&p)[3]) const {
     float r[3];
     for (int axis = 0; axis < 3; ++axis) {
@@ -170,14 +170,14 @@ void placeFill(const Scene& scene, size_t index, Source& source, Placer& placer)
     const PlyParticles& from = source.particles;
     for (size_t i = 0; i < from.positions.size(); ++i) {
       const Float3 own = from.velocities.empty() ? Float3{} : from.velocities[i];
-      placer.put({from.positions[i].x, from.positions[i].y, from.positions[i].z},
+      placer.add({from.positions[i].x, from.positions[i].y, from.positions[i].z},
                  {own.x + velocity.x, own.y + velocity.y, own.z + velocity.z}, index, i, source);
     }
     return;
   }
   const Lattice& lattice = source.lattice;
-  const auto nx = static_cast<uint64_t>(lattice.along[0]), ny = static_cast<uint64_t>(lattice.along[1]),
-             nz = static_cast<uint64_t>(lattice.along[2]);
+  const auto nx = static_cast<uint64_t>(lattice.size[0]), ny = static_cast<uint64_t>(lattice.size[1]),
+             nz = static_cast<uint64_t>(lattice.size[2]);
   for (uint64_t k = 0; k < nz; ++k) {
     for (uint64_t j = 0; j < ny; ++j) {
       uint64_t begin = 0, end = 0;
@@ -186,17 +186,17 @@ void placeFill(const Scene& scene, size_t index, Source& source, Placer& placer)
         const double p[3] = {lattice.first[0] + static_cast<double>(i) * lattice.spacing,
                              lattice.first[1] + static_cast<double>(j) * lattice.spacing,
                              lattice.first[2] + static_cast<double>(k) * lattice.spacing};
-        placer.put(p, velocity, index, (k * ny + j) * nx + i, source);
+        placer.add(p, velocity, index, (k * ny + j) * nx + i, source);
       }
     }
   }
 }
 
-void warnOf(const Scene& scene, const std::vector<Source>& sources, std::vector<std::string>& warnings) {
-  uint64_t unsaid = 0;
-  const auto say = [&](size_t fill, const std::string& text) {
+void addFillWarnings(const Scene& scene, const std::vector<Source>& sources, std::vector<std::string>& warnings) {
+  uint64_t suppressed = 0;
+  const auto warn = [&](size_t fill, const std::string& text) {
     if (warnings.size() >= kMaxWarnings) {
-      ++unsaid;
+      ++suppressed;
     } else {
       warnings.push_back(prefixOf(scene) + "fill[" + std::to_string(fill) + "]: " + text);
     }
@@ -205,22 +205,22 @@ void warnOf(const Scene& scene, const std::vector<Source>& sources, std::vector<
     const Source& s = sources[i];
     const std::string of = " of " + countText(s.count) + " particles ";
     if (s.count < 1) {
-      say(i, s.file ? "yields no particle: the file has none"
-                    : "yields no particle: it is too thin for a spacing of " + roughNumber(scene.fluid.spacing) + " m");
+      warn(i, s.file ? "yields no particles: the file has none"
+                     : "yields no particles: it is too thin for a spacing of " + roughNumber(scene.fluid.spacing) + " m");
       continue;
     }
-    if (s.domain > 0) say(i, grouped(s.domain) + of + "start outside the domain's walls and are left out");
-    if (s.solid > 0) say(i, grouped(s.solid) + of + "start inside a solid and are left out");
+    if (s.domain > 0) warn(i, grouped(s.domain) + of + "start outside the domain's walls and are left out");
+    if (s.solid > 0) warn(i, grouped(s.solid) + of + "start inside a solid and are left out");
     if (s.overlap > 0)
-      say(i, grouped(s.overlap) + of + (s.file ? "coincide, or are" : "are") +
-                 " nearer than 0.9 spacings to fluid placed before, and are left out");
-    if (s.kept == 0) say(i, "yields no particle: all are left out");
+      warn(i, grouped(s.overlap) + of + (s.file ? "coincide, or are" : "are") +
+                  " closer than 0.9 spacings to earlier fills, and are left out");
+    if (s.kept == 0) warn(i, "yields no particles: all are left out");
   }
-  if (unsaid > 0) warnings.push_back("and " + grouped(unsaid) + " warnings more about fills");
+  if (suppressed > 0) warnings.push_back("and " + grouped(suppressed) + " more warnings about fills");
 }
 
-/// Positions are 32-bit floats from the origin: say so where that is too coarse for the spacing.
-void warnOfDistance(const Scene& scene, const ParticleSet& set, const Bounds& all, std::vector<std::string>& warnings) {
+/// Warns if 32-bit positions relative to the origin are too coarse for the spacing.
+void addPrecisionWarning(const Scene& scene, const ParticleSet& set, const Bounds& all, std::vector<std::string>& warnings) {
   constexpr double kFloatStep = 0x1p-24, kDoubleStep = 0x1p-53, kTooCoarse = 1e-3;
   if (all.empty()) return;
   double far = 0, step = 0;
@@ -232,8 +232,8 @@ void warnOfDistance(const Scene& scene, const ParticleSet& set, const Bounds& al
   }
   if (step <= kTooCoarse * scene.fluid.spacing) return;
   warnings.push_back(prefixOf(scene) + "fluid starts " + roughNumber(far) +
-                     " m from the domain's minimum (or the fluid's center), where positions are rounded to " + roughNumber(step) +
-                     " m, more than a thousandth of the spacing " + roughNumber(scene.fluid.spacing) + " m");
+                     " m from the domain's minimum (or the fluid's center), where positions are rounded to multiples of " +
+                     roughNumber(step) + " m, more than a thousandth of the spacing " + roughNumber(scene.fluid.spacing) + " m");
 }
 
 /// An error about the file of a fill, with the scene and the key that name it.
@@ -256,8 +256,8 @@ Error outOfMemory(const Scene& scene, const std::vector<Source>& sources) {
 }
 
 /// Places every source at the scene's spacing.
-Expected<ParticleSet> placeAll(const Scene& scene, std::vector<Source>& sources, uint64_t most) {
-  constexpr double kExactRows = 4e6;  // beyond them there are more points than 32 bits count
+Expected<ParticleSet> place(const Scene& scene, std::vector<Source>& sources, uint64_t maxParticles) {
+  constexpr double kExactRows = 4e6;  // with more rows there are more points than 32 bits count
   const double spacing = scene.fluid.spacing;
   double total = 0;
   for (size_t i = 0; i < sources.size(); ++i) {
@@ -269,10 +269,10 @@ Expected<ParticleSet> placeAll(const Scene& scene, std::vector<Source>& sources,
     }
     total += s.count;
   }
-  if (total > static_cast<double>(most)) {
-    return refuse(scene, "fluid.spacing: " + shortNumber(spacing) + " m makes " + countText(total) + " particles; expected at most " +
-                             grouped(most) + ", as a spacing of about " +
-                             roughNumber(spacing * std::cbrt(total / static_cast<double>(most)) * 1.01) + " m gives");
+  if (total > static_cast<double>(maxParticles)) {
+    return badInput(scene, "fluid.spacing: " + shortNumber(spacing) + " m makes " + countText(total) + " particles; expected at most " +
+                               grouped(maxParticles) + ", which a spacing of about " +
+                               roughNumber(spacing * std::cbrt(total / static_cast<double>(maxParticles)) * 1.01) + " m gives");
   }
   Bounds all;
   std::vector<Bounds> bounds;
@@ -301,7 +301,7 @@ Expected<ParticleSet> placeAll(const Scene& scene, std::vector<Source>& sources,
   set.positions.reserve(expected);
   set.velocities.reserve(expected);
   std::optional<PointHash> placed;
-  if (mayCrowd(sources, bounds, kOverlap * spacing)) placed.emplace(kOverlap * spacing, expected);
+  if (mayOverlap(sources, bounds, kOverlap * spacing)) placed.emplace(kOverlap * spacing, expected);
   Placer placer(scene, set, placed ? &*placed : nullptr);
   for (size_t i = 0; i < sources.size(); ++i) {
     placeFill(scene, i, sources[i], placer);
@@ -309,36 +309,31 @@ Expected<ParticleSet> placeAll(const Scene& scene, std::vector<Source>& sources,
     set.left_out_solid += sources[i].solid;
     set.left_out_domain += sources[i].domain;
   }
-  warnOf(scene, sources, set.warnings);
-  warnOfDistance(scene, set, all, set.warnings);
+  addFillWarnings(scene, sources, set.warnings);
+  addPrecisionWarning(scene, set, all, set.warnings);
   return set;
 }
 
-Expected<ParticleSet> place(const Scene& scene, std::vector<Source>& sources, uint64_t most) {
-  try {
-    return placeAll(scene, sources, most);
-  } catch (const std::bad_alloc&) { return outOfMemory(scene, sources); }
-}
-
-/// Finds the spacing that makes about scene.fluid.particles particles, those left out not counted, and places them.
-Expected<ParticleSet> placeAbout(Scene& scene, std::vector<Source>& sources, uint64_t most) {
+/// Finds the spacing that makes about scene.fluid.particles particles, not counting those left out, and places them.
+Expected<ParticleSet> placeByCount(Scene& scene, std::vector<Source>& sources, uint64_t maxParticles) {
   const auto wanted = static_cast<double>(scene.fluid.particles);
   double from_files = 0;
   for (const Source& s : sources) from_files += s.file ? s.count : 0;
-  const auto say = [&](const std::string& why) { return refuse(scene, "fluid.particles: " + why); };
-  if (scene.fluid.particles > most) return say(grouped(scene.fluid.particles) + " found, expected at most " + grouped(most));
+  const auto bad = [&](const std::string& why) { return badInput(scene, "fluid.particles: " + why); };
+  if (scene.fluid.particles > maxParticles)
+    return bad("found " + grouped(scene.fluid.particles) + ", expected at most " + grouped(maxParticles));
   if (from_files >= wanted && from_files > 0) {
-    return say(countText(from_files) + " particles come from files already; expected more than that, or fluid.spacing");
+    return bad("files already contain " + countText(from_files) + " particles; expected a larger number, or fluid.spacing instead");
   }
   ParticleSet best;
   double best_spacing = 0, best_miss = std::numeric_limits<double>::infinity(), target = wanted - from_files;
-  constexpr int kAttempts = 4;     // what is left out depends on the spacing in turn
-  constexpr double kMaxTried = 3;  // times the particles wanted
+  constexpr int kAttempts = 4;     // the number left out depends on the spacing
+  constexpr double kMaxTried = 3;  // largest count tried, over the count wanted
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     scene.fluid.spacing = spacingFor(scene.fill, target);
     if (scene.fluid.spacing <= 0)
-      return say("the scene has no box or sphere of fluid from which a spacing follows; expected fluid.spacing");
-    auto set = place(scene, sources, std::max(most, static_cast<uint64_t>(2 * kMaxTried * wanted)));
+      return bad("no fill is a box or a sphere, so the spacing cannot be computed; expected fluid.spacing instead");
+    auto set = place(scene, sources, std::max(maxParticles, static_cast<uint64_t>(2 * kMaxTried * wanted)));
     if (!set) return set;
     const auto kept = static_cast<double>(set->positions.size());
     const bool complete = set->left_out_overlap + set->left_out_solid + set->left_out_domain == 0;
@@ -353,19 +348,19 @@ Expected<ParticleSet> placeAbout(Scene& scene, std::vector<Source>& sources, uin
     target = std::min(target * (wanted - from_files) / kept_of_lattices, kMaxTried * wanted);
   }
   scene.fluid.spacing = best_spacing;
-  if (best.positions.size() > most)
-    return say(grouped(best.positions.size()) + " particles come nearest, expected at most " + grouped(most));
+  if (best.positions.size() > maxParticles)
+    return bad("the closest spacing makes " + grouped(best.positions.size()) + " particles; expected at most " + grouped(maxParticles));
   if (best_miss > 0.05 * wanted) {
     best.warnings.push_back(prefixOf(scene) + "fluid.particles: " + grouped(best.positions.size()) + " particles instead of " +
-                            grouped(scene.fluid.particles) + ": no spacing comes nearer");
+                            grouped(scene.fluid.particles) + ": no spacing gives a closer count");
   }
   return best;
 }
 
 Expected<ParticleSet> make(Scene& scene, uint64_t maxParticles) {
   if (auto possible = checkScene(scene); !possible) return possible.error();
-  constexpr uint64_t kIds = std::numeric_limits<uint32_t>::max();  // a particle's id has 32 bits, and one value stands for none
-  const uint64_t most = std::min(maxParticles, kIds);
+  constexpr uint64_t kIds = std::numeric_limits<uint32_t>::max();  // ids have 32 bits, and one value marks "no particle"
+  const uint64_t limit = std::min(maxParticles, kIds);
   std::vector<Source> sources(scene.fill.size());
   for (size_t i = 0; i < sources.size(); ++i) {
     if (!scene.fill[i].particles) continue;
@@ -375,11 +370,11 @@ Expected<ParticleSet> make(Scene& scene, uint64_t maxParticles) {
     sources[i].file = std::move(*file);
   }
   const bool by_count = scene.fluid.particles > 0;
-  auto set = by_count ? placeAbout(scene, sources, most) : place(scene, sources, most);
+  auto set = by_count ? placeByCount(scene, sources, limit) : place(scene, sources, limit);
   if (set && set->positions.empty() && !scene.fill.empty()) {
-    return refuse(scene, "fill: no particle is left (" + grouped(set->left_out_domain) + " outside the walls, " +
-                             grouped(set->left_out_solid) + " inside solids); expected at least one" +
-                             (set->warnings.empty() ? "" : ". " + set->warnings.front().substr(prefixOf(scene).size())));
+    return badInput(scene, "fill: no particles are left (" + grouped(set->left_out_domain) + " outside the walls, " +
+                               grouped(set->left_out_solid) + " inside solids); expected at least one" +
+                               (set->warnings.empty() ? "" : ". " + set->warnings.front().substr(prefixOf(scene).size())));
   }
   return set;
 }
@@ -390,11 +385,11 @@ Expected<ParticleSet> makeParticles(Scene& scene, uint64_t maxParticles) {
   try {
     return make(scene, maxParticles);
   } catch (const std::bad_alloc&) {
-    Error error = refuse(scene, "not enough memory for the particles of the scene's fills");
+    Error error = badInput(scene, "not enough memory for the particles of the scene's fills");
     error.kind = ErrorKind::OutOfMemory;
     return error;
   } catch (const std::exception& trouble) {
-    Error error = refuse(scene, std::string("making particles failed: ") + trouble.what());
+    Error error = badInput(scene, std::string("making particles failed: ") + trouble.what());
     error.kind = ErrorKind::Failed;
     return error;
   }

@@ -17,7 +17,7 @@
 
 namespace rill {
 
-/// What a file's head describes.
+/// Contents of a PLY header.
 namespace ply {
 
 enum class Scalar : uint8_t { I8, U8, I16, U16, I32, U32, F32, F64 };
@@ -25,7 +25,7 @@ enum class Scalar : uint8_t { I8, U8, I16, U16, I32, U32, F32, F64 };
 struct Property {
   std::string name;
   Scalar type = Scalar::F32;
-  std::optional<Scalar> count;  ///< of a list: the type of its length
+  std::optional<Scalar> count;  ///< type of the length, for lists
 };
 
 struct Element {
@@ -62,13 +62,13 @@ std::optional<Scalar> scalarNamed(std::string_view name) {
 
 size_t bytesOf(Scalar type) { return kScalarBytes[static_cast<size_t>(type)]; }
 
-/// The least bytes that one element takes in the file.
-uint64_t leastBytes(const Element& element, Format format) {
+/// Smallest size of an element in the file, in bytes.
+uint64_t minBytes(const Element& element, Format format) {
   uint64_t bytes = 0;
   for (const Property& property : element.properties) {
     bytes += format == Format::Ascii ? 2
              : property.count        ? bytesOf(*property.count)
-                                     : bytesOf(property.type);  // ascii: a digit and a separator
+                                     : bytesOf(property.type);  // ASCII: a digit and a separator
   }
   return bytes;
 }
@@ -103,13 +103,13 @@ double decode(const char* bytes, Scalar type, bool swap) {
   return 0;
 }
 
-/// The numbers of a PLY body, one after another.
+/// Reads the numbers of a PLY body in order.
 class Body {
  public:
   Body(std::ifstream& in, Format format)
       : in_(in), format_(format), swap_((format == Format::Little) != (std::endian::native == std::endian::little)) {}
 
-  /// False at the end of the file, or at a word that is no number (see word()).
+  /// False at the end of the file, or at a word that is not a number (see word()).
   bool next(Scalar type, double& out) {
     if (format_ == Format::Ascii) return nextWord(out);
     const size_t size = bytesOf(type);
@@ -118,7 +118,7 @@ class Body {
     at_ += size;
     return true;
   }
-  /// What stands where a number was expected; empty at the end of the file.
+  /// The last word read; empty at the end of the file.
   const std::string& word() const { return word_; }
 
  private:
@@ -131,7 +131,7 @@ class Body {
     return end_ >= wanted;
   }
   bool nextWord(double& out) {
-    constexpr size_t kLongest = 512;  // of a number; longer words are no numbers
+    constexpr size_t kLongest = 512;  // longer words are not numbers
     const auto space = [](char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; };
     word_.clear();
     for (;;) {
@@ -165,14 +165,14 @@ struct PlyFile::Header {
   fs::path file;
   Format format = Format::Ascii;
   std::vector<Element> elements;                      ///< up to and with "vertex"
-  uint64_t body = 0;                                  ///< where the numbers begin, bytes
-  std::array<int, 6> column{-1, -1, -1, -1, -1, -1};  ///< of x y z vx vy vz among the vertex's properties
+  uint64_t body = 0;                                  ///< offset of the body, bytes
+  std::array<int, 6> column{-1, -1, -1, -1, -1, -1};  ///< index of x y z vx vy vz among the properties of a vertex; -1: missing
 
   bool hasVelocity() const { return column[3] >= 0 && column[4] >= 0 && column[5] >= 0; }
-  Error refuse(const std::string& why) const { return {ErrorKind::BadInput, file.string() + ": " + why}; }
+  Error badInput(const std::string& why) const { return {ErrorKind::BadInput, file.string() + ": " + why}; }
   Expected<void> parse(std::ifstream& in);
   Expected<void> parseLine(const std::string& line, bool& vertex_done, bool& format_seen);
-  Expected<void> judge(uint64_t fileBytes);
+  Expected<void> validate(uint64_t fileBytes);
 };
 
 Expected<void> PlyFile::Header::parseLine(const std::string& line, bool& vertex_done, bool& format_seen) {
@@ -188,8 +188,8 @@ Expected<void> PlyFile::Header::parseLine(const std::string& line, bool& vertex_
     else if (a == "binary_big_endian")
       format = Format::Big;
     else
-      return refuse("the format is " + inQuotes(a) + "; expected ascii, binary_little_endian or binary_big_endian");
-    if (b != "1.0") return refuse("the format's version is " + inQuotes(b) + "; expected 1.0");
+      return badInput("the format is " + inQuotes(a) + "; expected ascii, binary_little_endian or binary_big_endian");
+    if (b != "1.0") return badInput("the format's version is " + inQuotes(b) + "; expected 1.0");
     format_seen = true;
     return {};
   }
@@ -199,28 +199,27 @@ Expected<void> PlyFile::Header::parseLine(const std::string& line, bool& vertex_
     Element element{a, 0, {}};
     const auto read = std::from_chars(b.data(), b.data() + b.size(), element.count);
     if (a.empty() || b.empty() || read.ec != std::errc() || read.ptr != b.data() + b.size()) {
-      return refuse("the header line " + inQuotes(line) + " has no count; expected element NAME COUNT");
+      return badInput("the header line " + inQuotes(line) + " has no count; expected element NAME COUNT");
     }
     elements.push_back(std::move(element));
     return {};
   }
   if (keyword == "property") {
     if (vertex_done) return {};
-    if (elements.empty()) return refuse("the header line " + inQuotes(line) + " stands before any element");
+    if (elements.empty()) return badInput("the header line " + inQuotes(line) + " comes before any element");
     Property property;
     std::optional<Scalar> type = scalarNamed(a == "list" ? c : a), count;
     if (a == "list") count = scalarNamed(b);
     property.name = a == "list" ? d : b;
     if (!type || (a == "list" && !count) || property.name.empty()) {
-      return refuse("the header line " + inQuotes(line) +
-                    " is not understood; expected property TYPE NAME with a type such as float or uint");
+      return badInput("the header line " + inQuotes(line) + " is invalid; expected property TYPE NAME with a type such as float or uint");
     }
     property.type = *type;
     property.count = count;
     elements.back().properties.push_back(std::move(property));
     return {};
   }
-  return refuse("the header line " + inQuotes(line) + " is not understood; expected format, element, property, comment or end_header");
+  return badInput("the header line " + inQuotes(line) + " is invalid; expected format, element, property, comment or end_header");
 }
 
 Expected<void> PlyFile::Header::parse(std::ifstream& in) {
@@ -233,43 +232,44 @@ Expected<void> PlyFile::Header::parse(std::ifstream& in) {
     while (in.get(c) && c != '\n' && ++body <= kMaxBytes) line += c;
     ++body;
     if (body > kMaxBytes || !in)
-      return refuse(first ? "does not begin with \"ply\"; expected a PLY file" : "the header has no end; expected a line end_header");
+      return badInput(first ? "does not begin with \"ply\"; expected a PLY file" : "the header has no end; expected a line end_header");
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (first) {
-      if (line != "ply") return refuse("begins with " + inQuotes(line) + "; expected a PLY file, whose first line is \"ply\"");
+      if (line != "ply") return badInput("begins with " + inQuotes(line) + "; expected a PLY file, whose first line is \"ply\"");
       first = false;
       continue;
     }
     if (line == "end_header") break;
     if (auto ok = parseLine(line, vertex_done, format_seen); !ok) return ok;
   }
-  if (!format_seen) return refuse("the header has no format line; expected format ascii, binary_little_endian or binary_big_endian 1.0");
+  if (!format_seen) return badInput("the header has no format line; expected format ascii, binary_little_endian or binary_big_endian 1.0");
   return {};
 }
 
-Expected<void> PlyFile::Header::judge(uint64_t fileBytes) {
-  if (elements.empty() || elements.back().name != "vertex") return refuse("the header has no vertex element; expected one with x, y and z");
+Expected<void> PlyFile::Header::validate(uint64_t fileBytes) {
+  if (elements.empty() || elements.back().name != "vertex")
+    return badInput("the header has no vertex element; expected one with x, y and z");
   constexpr std::array<std::string_view, 6> kNames{"x", "y", "z", "vx", "vy", "vz"};
   const Element& vertex = elements.back();
   for (size_t i = 0; i < vertex.properties.size(); ++i) {
     for (size_t k = 0; k < kNames.size(); ++k) {
       if (vertex.properties[i].name != kNames[k]) continue;
-      if (vertex.properties[i].count) return refuse("the vertex property " + inQuotes(kNames[k]) + " is a list; expected a number");
-      if (column[k] >= 0) return refuse("the vertex property " + inQuotes(kNames[k]) + " is there twice; expected it once");
+      if (vertex.properties[i].count) return badInput("the vertex property " + inQuotes(kNames[k]) + " is a list; expected a number");
+      if (column[k] >= 0) return badInput("the vertex property " + inQuotes(kNames[k]) + " is declared twice; expected it once");
       column[k] = static_cast<int>(i);
     }
   }
   for (size_t k = 0; k < 3; ++k) {
-    if (column[k] < 0) return refuse("the vertices have no property " + inQuotes(kNames[k]) + "; expected x, y and z");
+    if (column[k] < 0) return badInput("the vertices have no property " + inQuotes(kNames[k]) + "; expected x, y and z");
   }
   uint64_t left = fileBytes - std::min(fileBytes, body);
   if (format == Format::Ascii) ++left;  // the last number needs no separator
   for (const Element& element : elements) {
-    const uint64_t each = leastBytes(element, format);
+    const uint64_t each = minBytes(element, format);
     if (each == 0) continue;
     if (element.count > left / each) {
-      return refuse("the header promises " + grouped(element.count) + " of " + inQuotes(element.name) + ", at least " + grouped(each) +
-                    " bytes each, but only " + grouped(left) + " bytes are left; expected a whole file");
+      return badInput("the header declares " + grouped(element.count) + " of " + inQuotes(element.name) + ", at least " + grouped(each) +
+                      " bytes each, but only " + grouped(left) + " bytes follow; expected a complete file");
     }
     left -= element.count * each;
   }
@@ -288,13 +288,13 @@ Expected<PlyFile> PlyFile::open(const fs::path& file) {
   header->file = file;
   std::error_code trouble;
   const fs::file_status status = fs::status(file, trouble);
-  if (!fs::exists(status)) return header->refuse("no such file");
-  if (!fs::is_regular_file(status)) return header->refuse("found something other than a regular file; expected a PLY file");
+  if (!fs::exists(status)) return header->badInput("no such file");
+  if (!fs::is_regular_file(status)) return header->badInput("not a regular file; expected a PLY file");
   const uint64_t size = fs::file_size(file, trouble);
   std::ifstream in(file, std::ios::binary);
-  if (!in || trouble) return header->refuse("cannot be opened; expected a PLY file that can be read");
+  if (!in || trouble) return header->badInput("cannot be opened; expected a readable PLY file");
   if (auto ok = header->parse(in); !ok) return ok.error();
-  if (auto ok = header->judge(size); !ok) return ok.error();
+  if (auto ok = header->validate(size); !ok) return ok.error();
   return PlyFile(std::move(header));
 }
 
@@ -302,7 +302,7 @@ Expected<PlyParticles> PlyFile::read() const {
   const Header& header = *header_;
   std::ifstream in(header.file, std::ios::binary);
   in.seekg(static_cast<std::streamoff>(header.body));
-  if (!in) return header.refuse("cannot be read");
+  if (!in) return header.badInput("cannot be read");
   Body body(in, header.format);
   PlyParticles out;
   std::vector<double> row;
@@ -318,21 +318,21 @@ Expected<PlyParticles> PlyFile::read() const {
         bool ok = body.next(property.count.value_or(property.type), row[p]);
         if (ok && property.count) {
           const double length = row[p];
-          if (!(length >= 0)) return header.refuse(element.name + " " + grouped(i) + " has a list of negative length");
+          if (!(length >= 0)) return header.badInput(element.name + " " + grouped(i) + " has a list of negative length");
           double skipped = 0;
           for (double k = 0; ok && k < length; ++k) ok = body.next(property.type, skipped);
         }
         if (!ok) {
-          return header.refuse(element.name + " " + grouped(i) + ", property " + inQuotes(property.name) + ": found " +
-                               (body.word().empty() ? "the end of the file" : inQuotes(body.word())) + ", expected a number");
+          return header.badInput(element.name + " " + grouped(i) + ", property " + inQuotes(property.name) + ": found " +
+                                 (body.word().empty() ? "the end of the file" : inQuotes(body.word())) + ", expected a number");
         }
       }
       if (!vertex) continue;
       const auto at = [&](size_t k) { return row[static_cast<size_t>(header.column[k])]; };
       for (size_t k = 0; k < (header.hasVelocity() ? 6U : 3U); ++k) {
         if (!fitsFloat(at(k))) {
-          return header.refuse("vertex " + grouped(i) + ": " + (k < 3 ? "the position" : "the velocity") + " is " + shortNumber(at(k)) +
-                               " along " + "xyz"[k % 3] + "; expected a finite number that a 32-bit float can hold");
+          return header.badInput("vertex " + grouped(i) + ": " + (k < 3 ? "the position" : "the velocity") + " is " + shortNumber(at(k)) +
+                                 " along " + "xyz"[k % 3] + "; expected a finite number that a 32-bit float can hold");
         }
       }
       out.positions.push_back({at(0), at(1), at(2)});

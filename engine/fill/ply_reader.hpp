@@ -1,5 +1,5 @@
 #pragma once
-// Particles from a PLY file: ascii or binary of either byte order. x y z, and vx vy vz where it has them; all else is skipped.
+// Reads particles from PLY files, ASCII or binary of either byte order: x y z, and vx vy vz if present. Other properties are skipped.
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -16,10 +16,10 @@ struct Double3 {
 
 struct PlyParticles {
   std::vector<Double3> positions;  ///< m
-  std::vector<Float3> velocities;  ///< m/s; empty where the file has none
+  std::vector<Float3> velocities;  ///< m/s; empty if the file has none
 };
 
-/// A PLY file whose header was read and found to fit the file's size: a count can be trusted before memory is asked for.
+/// A PLY file with a valid header whose counts fit the size of the file, so that memory may be allocated by them.
 class PlyFile {
  public:
   /// BadInput naming the file, what was found and what was expected.
@@ -28,8 +28,8 @@ class PlyFile {
   PlyFile& operator=(PlyFile&&) noexcept;
   ~PlyFile();
 
-  uint64_t count() const;
-  /// Every position and velocity is finite and fits a 32-bit float.
+  uint64_t count() const;  ///< of vertices
+  /// Every position (m) and velocity (m/s) is finite and fits a 32-bit float. BadInput naming the vertex otherwise.
   Expected<PlyParticles> read() const;
 
  private:

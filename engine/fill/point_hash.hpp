@@ -1,5 +1,5 @@
 #pragma once
-// Points by place, to find whether one is near another.
+// Spatial hash that finds whether points are close to each other.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -9,10 +9,10 @@
 
 namespace rill {
 
-/// Points in a hash of cells. Its answers do not depend on the order of insertion.
+/// Points hashed by cell. Results do not depend on the order of insertion.
 class PointHash {
  public:
-  /// `reach` is the largest distance that will be asked for; `expected` points are made room for.
+  /// `reach`: largest query distance, > 0. `expected`: number of points to reserve.
   PointHash(double reach, uint64_t expected) : cell_(2 * reach), heads_(std::bit_ceil(std::max<uint64_t>(16, expected)), kNone) {
     points_.reserve(expected);
   }
@@ -25,9 +25,9 @@ class PointHash {
     head = static_cast<uint32_t>(points_.size() - 1);
   }
 
-  /// True where a point of another group is nearer than `apart` to p, or one of the same group nearer than `together`.
-  bool crowded(const double (&p)[3], uint32_t group, double apart, double together) const {
-    // Cells are two reaches wide, so that the nearer half of p's cell and the cell beyond it hold every point in reach.
+  /// Whether a point of another group is closer than `otherGroup` to p, or one of the same group closer than `sameGroup`.
+  bool overlaps(const double (&p)[3], uint32_t group, double otherGroup, double sameGroup) const {
+    // Cells are two reaches wide: the cell of p and its neighbor on the closer side cover the reach on each axis.
     int64_t low[3];
     for (int axis = 0; axis < 3; ++axis) low[axis] = index(p[axis] / cell_ - 0.5);
     for (int corner = 0; corner < 8; ++corner) {
@@ -35,7 +35,7 @@ class PointHash {
            i = points_[i].next) {
         const Point& other = points_[i];
         const double x = other.at[0] - p[0], y = other.at[1] - p[1], z = other.at[2] - p[2];
-        const double limit = other.group == group ? together : apart;
+        const double limit = other.group == group ? sameGroup : otherGroup;
         if (x * x + y * y + z * z < limit * limit) return true;
       }
     }
@@ -49,7 +49,7 @@ class PointHash {
     uint32_t group, next;
   };
 
-  /// Cells too far away to count share the last one.
+  /// Cells beyond the range of the index share the outermost one.
   static int64_t index(double cells) {
     constexpr double kFarthest = 1e15;
     return static_cast<int64_t>(std::floor(std::clamp(cells, -kFarthest, kFarthest)));

@@ -9,7 +9,7 @@ namespace rill {
 SolidTest::Body SolidTest::bodyOf(const Solid& solid) {
   Body body{};
   const double* moved =
-      solid.motion.empty() ? nullptr : solid.motion.front().translate;  // held before the first keyframe, which is not before 0
+      solid.motion.empty() ? nullptr : solid.motion.front().translate;  // constant before the first keyframe, whose time is >= 0
   body.radius = solid.sphere ? solid.sphere->radius : -1;
   for (int axis = 0; axis < 3; ++axis) {
     if (solid.sphere) {
@@ -35,7 +35,7 @@ SolidTest::Body SolidTest::bodyOf(const Solid& solid) {
   return body;
 }
 
-bool SolidTest::Body::holds(const double (&p)[3], double margin) const {
+bool SolidTest::Body::contains(const double (&p)[3], double margin) const {
   const double d[3] = {p[0] - center[0], p[1] - center[1], p[2] - center[2]};
   if (radius >= 0) return radius > margin && d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < (radius - margin) * (radius - margin);
   for (int own = 0; own < 3; ++own) {
@@ -82,7 +82,7 @@ bool SolidTest::inside(const double (&p)[3], double margin) const {
     if (!(p[axis] > low_[axis] && p[axis] < high_[axis])) return false;
   }
   const auto& near = inCell_[(cellAlong(2, p[2]) * cells_ + cellAlong(1, p[1])) * cells_ + cellAlong(0, p[0])];
-  return std::any_of(near.begin(), near.end(), [&](uint32_t i) { return bodies_[i].holds(p, margin); });
+  return std::any_of(near.begin(), near.end(), [&](uint32_t i) { return bodies_[i].contains(p, margin); });
 }
 
 }  // namespace rill

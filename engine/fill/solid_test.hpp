@@ -1,5 +1,5 @@
 #pragma once
-// Whether a point is inside a solid at the start.
+// Tests whether points are inside solids at time 0.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -8,29 +8,29 @@
 
 namespace rill {
 
-/// The scene's solids where they are at t = 0, in coarse cells so that thousands of them cost a point little.
+/// The solids of a scene at t = 0, in a coarse grid so that a query stays cheap with thousands of them.
 class SolidTest {
  public:
   explicit SolidTest(std::span<const Solid> solids);
 
-  /// True where p (m, in the scene's coordinates) is deeper than `margin` (m) inside one of the solids.
+  /// Whether p (m, scene coordinates) is deeper than `margin` (m) inside a solid.
   bool inside(const double (&p)[3], double margin) const;
 
  private:
   struct Body {
     double center[3];
-    double half[3];      ///< of a box, before it is turned
-    double axes[3][3];   ///< a box's own axes in the scene's coordinates
-    double radius = -1;  ///< of a sphere; negative: a box
-    double extent[3];    ///< half the size of what encloses it along the scene's axes
-    bool holds(const double (&p)[3], double margin) const;
+    double half[3];      ///< half extents of a box, in its own frame
+    double axes[3][3];   ///< axes of a box in scene coordinates
+    double radius = -1;  ///< radius of a sphere; negative: a box
+    double extent[3];    ///< half extents of the axis-aligned bounds
+    bool contains(const double (&p)[3], double margin) const;
   };
   static Body bodyOf(const Solid& solid);
   size_t cellAlong(int axis, double x) const;
 
   std::vector<Body> bodies_;
   size_t cells_ = 1;                                 // along each axis
-  double low_[3] = {0, 0, 0}, high_[3] = {0, 0, 0};  // around all bodies
+  double low_[3] = {0, 0, 0}, high_[3] = {0, 0, 0};  // bounds of all bodies
   std::vector<std::vector<uint32_t>> inCell_;
 };
 

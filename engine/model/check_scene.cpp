@@ -1,4 +1,4 @@
-// checkScene: the table of fields and the rules, over a scene that no reader has seen.
+// checkScene(): the field table and the rules, applied to a scene that was made in code.
 #include <algorithm>
 
 #include "core/words.hpp"
@@ -7,7 +7,7 @@
 namespace rill {
 namespace {
 
-/// Every function returns false once something was refused; message() says what.
+/// Every function returns false after the first error; message() describes it.
 class Checker {
  public:
   const std::string& message() const { return message_; }
@@ -27,24 +27,24 @@ class Checker {
         ok = value(childPath(path, field.info.key), field.info, member);
       }
     });
-    // The spacing stands beside the number of particles that it follows from, once they are made.
+    // makeParticles() sets `spacing` beside `particles`, so both are given afterwards.
     if (std::is_same_v<Owner, FluidSettings> && chosen.size() == 2) chosen.pop_back();
-    return ok && fine(path, model::judgeOneOf(one_of, chosen)) && fine(path, model::judge(owner));
+    return ok && accept(path, model::checkOneOf(one_of, chosen)) && accept(path, model::checkRules(owner));
   }
 
  private:
-  bool fine(const std::string& path, const model::Verdict& verdict) {
-    if (!verdict) return true;
+  bool accept(const std::string& path, const model::CheckResult& result) {
+    if (!result) return true;
     std::string where = path;
-    if (!verdict->keys.empty()) {
-      const std::string& key = verdict->keys.front();
+    if (!result->keys.empty()) {
+      const std::string& key = result->keys.front();
       where += (where.empty() || key.starts_with('[') ? "" : ".") + key;
     }
-    message_ = where + ": " + verdict->text;
+    message_ = where + ": " + result->text;
     return false;
   }
 
-  /// Of a choice: whether it is made. A number that stands for none is 0.
+  /// Whether an alternative of `one_of` is given. A number is 0 if it is not.
   template <class T>
   static bool given(const T& value) {
     return value != T{};
@@ -58,23 +58,23 @@ class Checker {
   static bool given(const T&) { return true; }
 
   bool value(const std::string& path, const model::Info& info, double given) {
-    return fine(path, model::judgeNumber(info, given, false, shortNumber(given)));
+    return accept(path, model::checkNumber(info, given, false, shortNumber(given)));
   }
   bool value(const std::string& path, const model::Info& info, uint64_t given) {
-    return fine(path, model::judgeNumber(info, static_cast<double>(given), true, std::to_string(given)));
+    return accept(path, model::checkNumber(info, static_cast<double>(given), true, std::to_string(given)));
   }
   bool value(const std::string& path, const model::Info& info, uint32_t given) { return value(path, info, uint64_t{given}); }
   bool value(const std::string& path, const model::Info& info, SideMask given) {
     if (given >> info.words.size() == 0) return true;
-    return fine(path,
-                model::Fault{"found the bits " + std::to_string(given) + ", expected no others than those of " + listInQuotes(info.words)});
+    return accept(path,
+                  model::Fault{"invalid bit mask " + std::to_string(given) + "; expected only the bits of " + listInQuotes(info.words)});
   }
   bool value(const std::string& path, const model::Info& info, const std::string& given) {
-    return info.words.empty() || fine(path, model::judgeWord(info, given));
+    return info.words.empty() || accept(path, model::checkChoice(info, given));
   }
-  bool value(const std::string&, const model::Info&, const std::filesystem::path&) { return true; }  // may be empty: no file
+  bool value(const std::string&, const model::Info&, const std::filesystem::path&) { return true; }  // empty: no file
   bool value(const std::string& path, const model::Info&, const std::optional<std::filesystem::path>& given) {
-    return !given || fine(childPath(path, "file"), model::judgeFileName(given->string()));
+    return !given || accept(childPath(path, "file"), model::checkFileName(given->string()));
   }
   bool value(const std::string& path, const model::Info& info, const std::optional<std::pair<double, double>>& given) {
     return !given || (value(entryPath(path, 0), info, given->first) && value(entryPath(path, 1), info, given->second));
@@ -90,7 +90,8 @@ class Checker {
   bool value(const std::string& path, const model::Info& info, Enum given) {
     const auto number = static_cast<size_t>(given);
     if (number < info.words.size()) return true;
-    return fine(path, model::Fault{"found the number " + std::to_string(number) + ", expected that of one of " + listInQuotes(info.words)});
+    return accept(path,
+                  model::Fault{"invalid enum value " + std::to_string(number) + "; expected the value of " + listInQuotes(info.words)});
   }
   template <model::Described Struct>
   bool value(const std::string& path, const model::Info&, const Struct& given) {
@@ -102,10 +103,10 @@ class Checker {
   }
   template <class T>
   bool value(const std::string& path, const model::Info& info, const std::vector<T>& given) {
-    if (!fine(path, model::judgeLength(info, given.size()))) return false;
+    if (!accept(path, model::checkLength(info, given.size()))) return false;
     for (size_t i = 0; i < given.size(); ++i)
       if (!object(entryPath(path, i), given[i])) return false;
-    return fine(path, model::judge(given));
+    return accept(path, model::checkRules(given));
   }
 
   std::string message_;

@@ -1,5 +1,5 @@
 #pragma once
-// How one key of a scene is described. The descriptions themselves are in fields.hpp.
+// Types that describe one scene key. The descriptions are in fields.hpp.
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace rill::model {
 
-/// The numbers that a key accepts. Every one must also fit a 32-bit float.
+/// The interval of numbers that a key accepts. Each number must also be representable as a 32-bit float.
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -29,18 +29,18 @@ constexpr Range between(double low, double high) { return {.low = low, .high = h
 constexpr Range aboveTo(double low, double high) { return {.low = low, .high = high, .low_open = true}; }
 constexpr Range inside(double low, double high) { return {.low = low, .high = high, .low_open = true, .high_open = true}; }
 
-/// What is known of a key besides its C++ member. The default is the member's initializer in rill/scene.hpp.
+/// Metadata of a key. Its default is the initializer of the C++ member in rill/scene.hpp.
 struct Info {
   std::string_view key;
-  std::string_view unit = {};  ///< empty: a pure number, or not a number
-  Range range = {};            ///< of a number; of each number of an array
+  std::string_view unit = {};  ///< empty: dimensionless, or not a number
+  Range range = {};            ///< of a number, or of each number in an array
   std::string_view help;
-  std::span<const std::string_view> words = {};  ///< the words that a choice accepts, in the order of its enum or bits
-  bool required = false;                         ///< has no default
-  size_t most = 0;                               ///< entries of a list, at most; 0: as many as you like
+  std::span<const std::string_view> words = {};  ///< accepted values of an enum or bit mask, in its order
+  bool required = false;                         ///< the key must be given
+  size_t most = 0;                               ///< largest number of entries of a list; 0: unlimited
 };
 
-/// A key and the member of Owner that it sets. Arrays, optionals, lists and described structs are read by the member's type.
+/// A key and the member of Owner that it sets. The type of the member selects how the value is read.
 template <class Owner, class T>
 struct Field {
   using Value = T;
@@ -50,15 +50,15 @@ struct Field {
 template <class Owner, class T>
 Field(Info, T Owner::*) -> Field<Owner, T>;
 
-/// A key that is accepted and ignored. Its Field has no member.
-struct Anything {};
-/// The version key. It is judged before all others. Its Field has no member.
+/// Type of a key that is accepted and ignored. Its Field has no member.
+struct Ignored {};
+/// Type of the version key, which is checked before all others. Its Field has no member.
 struct Version {};
 
 /// The description of a struct; fields.hpp specializes it with
-///   static constexpr std::string_view about;     one line
-///   static constexpr std::tuple fields;          of Field
-///   static constexpr std::array<std::string_view, N> one_of;   exactly one of these keys is given; N may be 0
+///   static constexpr std::string_view about;     description in one line
+///   static constexpr std::tuple fields;          of Field, in the order of the documentation
+///   static constexpr std::array<std::string_view, N> one_of;   exactly one of these keys must be given; N may be 0
 template <class Owner>
 struct Table;
 
@@ -68,9 +68,9 @@ concept Described = requires {
 };
 
 template <class T>
-inline constexpr bool kHasMember = !std::is_same_v<T, Anything> && !std::is_same_v<T, Version>;
+inline constexpr bool kHasMember = !std::is_same_v<T, Ignored> && !std::is_same_v<T, Version>;
 
-/// Calls visit(field) for each key of Owner in the order of the table.
+/// Calls visit(field) for each key of Owner, in the order of the table.
 template <class Owner, class Visit>
 constexpr void forEachField(Visit&& visit) {
   std::apply([&](const auto&... field) { (visit(field), ...); }, Table<Owner>::fields);
@@ -84,7 +84,7 @@ std::vector<std::string_view> keysOf() {
   return keys;
 }
 
-/// The struct inside std::optional<S>, std::vector<S> or S itself; void where there is none that is described.
+/// The described struct S in S, std::optional<S> or std::vector<S>; void for other types.
 template <class T>
 struct Inner {
   using Type = std::conditional_t<Described<T>, T, void>;

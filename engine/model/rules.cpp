@@ -15,7 +15,7 @@ bool fitsFloat(double value) {
   return value == 0 || std::abs(value) >= std::numeric_limits<float>::denorm_min();
 }
 
-Verdict minBelowMax(const double (&min)[3], const double (&max)[3]) {
+CheckResult minBelowMax(const double (&min)[3], const double (&max)[3]) {
   for (size_t axis = 0; axis < 3; ++axis) {
     if (min[axis] < max[axis]) continue;
     return Fault{"max is " + shortNumber(max[axis]) + " and min is " + shortNumber(min[axis]) + " along " + "xyz"[axis] +
@@ -26,11 +26,11 @@ Verdict minBelowMax(const double (&min)[3], const double (&max)[3]) {
 }
 
 template <class Timed>
-Verdict risingTimes(const std::vector<Timed>& entries) {
+CheckResult increasingTimes(const std::vector<Timed>& entries) {
   for (size_t i = 1; i < entries.size(); ++i) {
     if (entries[i].at > entries[i - 1].at) continue;
-    return Fault{shortNumber(entries[i].at) + " s does not come after " + shortNumber(entries[i - 1].at) +
-                     " s, the entry before; expected times that rise",
+    return Fault{"found " + shortNumber(entries[i].at) + " s after " + shortNumber(entries[i - 1].at) +
+                     " s in the previous entry, expected increasing times",
                  {childPath(entryPath("", i), "at"), childPath(entryPath("", i - 1), "at")}};
   }
   return {};
@@ -50,7 +50,7 @@ std::string rangeText(const Range& range) {
     } else if (range.low_open || !range.hasLow()) {
       text += "at most ";
     }
-    constexpr double kExact = 9007199254740992.0;  // 2^53; beyond it the only bound is 2^64 - 1
+    constexpr double kExact = 9007199254740992.0;  // 2^53; the only larger bound is 2^64 - 1
     text += range.high > kExact ? "18446744073709551615"
             : range.high >= 1e6 ? std::to_string(static_cast<uint64_t>(range.high))
                                 : shortNumber(range.high);
@@ -67,7 +67,7 @@ std::string expectedNumber(const Info& info, bool whole) {
          unitText(info);
 }
 
-Verdict judgeNumber(const Info& info, double value, bool whole, std::string_view found) {
+CheckResult checkNumber(const Info& info, double value, bool whole, std::string_view found) {
   const auto fault = [&](std::string_view what) { return Fault{std::string(found) + std::string(what) + expectedNumber(info, whole)}; };
   if (!std::isfinite(value)) return fault(" is not finite; expected ");
   if (!info.range.contains(value)) return fault(" is out of range; expected ");
@@ -75,71 +75,72 @@ Verdict judgeNumber(const Info& info, double value, bool whole, std::string_view
   return {};
 }
 
-Verdict judgeWord(const Info& info, std::string_view given) {
+CheckResult checkChoice(const Info& info, std::string_view given) {
   if (std::ranges::find(info.words, given) != info.words.end()) return {};
-  const std::string_view near = nearestWord(given, info.words);
-  return Fault{"found the text " + inQuotes(given) + ", expected one of " + listInQuotes(info.words) +
-               (near.empty() ? "" : "; did you mean " + inQuotes(near) + "?")};
+  const std::string_view suggestion = nearestWord(given, info.words);
+  return Fault{"found the string " + inQuotes(given) + ", expected one of " + listInQuotes(info.words) +
+               (suggestion.empty() ? "" : "; did you mean " + inQuotes(suggestion) + "?")};
 }
 
-Verdict judgeFileName(std::string_view given) {
+CheckResult checkFileName(std::string_view given) {
   if (!given.empty() && given.find('\0') == std::string_view::npos) return {};
-  return Fault{"found " + inQuotes(given) + ", expected the name of a file"};
+  return Fault{"found " + inQuotes(given) + ", expected a file name"};
 }
 
-Verdict judgeLength(const Info& info, size_t entries) {
+CheckResult checkLength(const Info& info, size_t entries) {
   if (info.most == 0 || entries <= info.most) return {};
   return Fault{"found " + grouped(entries) + " entries, expected at most " + grouped(info.most)};
 }
 
-Verdict judgeOneOf(std::span<const std::string_view> keys, std::span<const std::string_view> given) {
+CheckResult checkOneOf(std::span<const std::string_view> keys, std::span<const std::string_view> given) {
   if (keys.empty() || given.size() == 1) return {};
   return Fault{"expected exactly one of " + listInQuotes(keys) + "; found " + (given.empty() ? "none" : listInQuotes(given))};
 }
 
-Verdict judge(const BoxShape& box) { return minBelowMax(box.min, box.max); }
-Verdict judge(const Domain& domain) { return minBelowMax(domain.min, domain.max); }
+CheckResult checkRules(const BoxShape& box) { return minBelowMax(box.min, box.max); }
+CheckResult checkRules(const Domain& domain) { return minBelowMax(domain.min, domain.max); }
 
-Verdict judge(const FluidSettings& fluid) {
+CheckResult checkRules(const FluidSettings& fluid) {
   if (fluid.spacing <= 0) return {};
   const double mass = fluid.density * fluid.spacing * fluid.spacing * fluid.spacing;
   if (mass >= std::numeric_limits<float>::min() && mass <= std::numeric_limits<float>::max()) return {};
-  return Fault{"a particle's mass, density x spacing^3, would be " + roughNumber(mass) + " kg, which is out of range of a 32-bit float",
+  return Fault{"the mass of a particle, density x spacing^3, is " + roughNumber(mass) + " kg; expected a mass that fits a 32-bit float",
                {"spacing", "density"}};
 }
 
-Verdict judge(const Solid& solid) {
+CheckResult checkRules(const Solid& solid) {
   double length = 0;
   for (const double part : solid.rotation) length = std::hypot(length, part);
-  if (!(length > 0)) return Fault{"the quaternion has zero length; expected one that turns, [0, 0, 0, 1] for none", {"rotation"}};
-  constexpr double kRounding = 1e-3;  // of quaternions that a host multiplies as floats
-  if (std::abs(length - 1) > kRounding) return Fault{"the quaternion's length is " + roughNumber(length) + "; expected 1", {"rotation"}};
-  // A host's alone: JSON has no key for it.
+  if (!(length > 0))
+    return Fault{"the quaternion has zero length; expected a non-zero quaternion, [0, 0, 0, 1] for no rotation", {"rotation"}};
+  constexpr double kTolerance = 1e-3;  // rounding in products of float quaternions
+  if (std::abs(length - 1) > kTolerance) return Fault{"the quaternion's length is " + roughNumber(length) + "; expected 1", {"rotation"}};
+  // Set by hosts only: JSON has no key for it.
   if (!(solid.driven >= 0) || !fitsFloat(solid.driven))
     return Fault{shortNumber(solid.driven) + " is out of range; expected a speed of at least 0 (m/s)", {"driven"}};
   if (solid.driven > 0 && !solid.motion.empty())
-    return Fault{"a solid with a motion moves by itself; expected 0 beside it, or no motion", {"driven"}};
+    return Fault{"found " + shortNumber(solid.driven) + " for a solid with keyframes; expected 0, or a solid without motion", {"driven"}};
   return {};
 }
 
-Verdict judge(const Camera& camera) {
+CheckResult checkRules(const Camera& camera) {
   for (size_t axis = 0; axis < 3; ++axis) {
     if (static_cast<float>(camera.eye[axis]) != static_cast<float>(camera.target[axis])) return {};
   }
-  return Fault{"eye and target are the same point; expected two", {"target", "eye"}};
+  return Fault{"eye and target are the same point; expected two different points", {"target", "eye"}};
 }
 
-Verdict judge(const std::vector<Keyframe>& motion) { return risingTimes(motion); }
-Verdict judge(const std::vector<GravityChange>& changes) { return risingTimes(changes); }
+CheckResult checkRules(const std::vector<Keyframe>& motion) { return increasingTimes(motion); }
+CheckResult checkRules(const std::vector<GravityChange>& changes) { return increasingTimes(changes); }
 
-Verdict judge(const std::vector<Probe>& probes) {
+CheckResult checkRules(const std::vector<Probe>& probes) {
   std::unordered_map<std::string_view, size_t> seen;
   for (size_t i = 0; i < probes.size(); ++i) {
     const std::string here = childPath(entryPath("", i), "name");
-    if (probes[i].name.empty()) return Fault{"is empty; expected a name", {here}};
+    if (probes[i].name.empty()) return Fault{"found an empty name, expected a unique name", {here}};
     const auto [first, fresh] = seen.emplace(probes[i].name, i);
     if (!fresh)
-      return Fault{inQuotes(probes[i].name) + " is the name of " + entryPath("probes", first->second) + " too; expected each name once",
+      return Fault{inQuotes(probes[i].name) + " is also the name of " + entryPath("probes", first->second) + "; expected unique names",
                    {here}};
   }
   return {};

@@ -1,5 +1,5 @@
 #pragma once
-// The defaults of the table's keys as JSON, for the schema and the table of keys.
+// Default values of the keys as JSON, for the schema and the key table.
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -10,14 +10,14 @@ namespace rill {
 
 using OrderedJson = nlohmann::ordered_json;
 
-/// 3 rather than 3.0 where the number is whole.
+/// An integer if the number is whole, so that it prints as 3 and not 3.0.
 inline OrderedJson tidyNumber(double number) {
   constexpr double kExact = 9007199254740992.0;  // 2^53
   if (number == std::floor(number) && std::abs(number) <= kExact) return static_cast<int64_t>(number);
   return number;
 }
 
-/// What a key has when it is not given; null where it has no default. `value` is the member's initializer.
+/// The default of a key; null if it has none. `value` is the member's initializer.
 inline OrderedJson defaultJson(const model::Info& info, double value) {
   return info.range.contains(value) ? tidyNumber(value) : OrderedJson();
 }
@@ -50,7 +50,7 @@ template <class T>
 OrderedJson defaultJson(const model::Info&, const std::vector<T>&) {
   return OrderedJson::array();
 }
-/// Files, structs and optional ones: no default of their own; their keys have theirs.
+/// Files, structs and optional structs have no default of their own.
 template <class T>
 OrderedJson defaultJson(const model::Info&, const T&) {
   return {};

@@ -27,11 +27,11 @@ std::string_view kindOf(const fs::file_status& status) {
     case fs::file_type::block:
       return "a device";
     default:
-      return "something else";
+      return "a special file";
   }
 }
 
-/// "3:14" of a byte in `text`, both from 1; the column counts characters.
+/// "line:column" of a byte in `text`, both from 1. The column counts characters.
 std::string lineAndColumn(std::string_view text, size_t at) {
   size_t line = 1, column = 1;
   for (size_t i = 0; i < std::min(at, text.size()); ++i) {
@@ -45,7 +45,7 @@ std::string lineAndColumn(std::string_view text, size_t at) {
   return std::to_string(line) + ":" + std::to_string(column);
 }
 
-/// The name of an encoding that is not UTF-8, by its BOM or by the zero bytes around an ASCII first character. Empty: none of them.
+/// The name of an encoding other than UTF-8, by its BOM or by the zero bytes around an ASCII first character; else empty.
 std::string_view foreignEncoding(std::string_view text) {
   const auto starts = [&](std::string_view bytes) { return text.substr(0, bytes.size()) == bytes; };
   using namespace std::string_view_literals;
@@ -62,7 +62,7 @@ std::string_view foreignEncoding(std::string_view text) {
   return {};
 }
 
-/// Where the first byte that is not part of valid UTF-8 stands; text.size() where all is.
+/// Offset of the first byte that is not valid UTF-8; text.size() if all are.
 size_t firstInvalidUtf8(std::string_view text) {
   const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
   for (size_t i = 0; i < text.size();) {
@@ -85,7 +85,7 @@ size_t firstInvalidUtf8(std::string_view text) {
   return text.size();
 }
 
-/// Reads bytes for nlohmann's lexer and lets others see how far it has got.
+/// Input iterator for nlohmann's lexer that publishes its position.
 class Cursor {
  public:
   using iterator_category = std::input_iterator_tag;
@@ -112,14 +112,14 @@ class Cursor {
   const char** reached_;
 };
 
-/// Builds the value from the parser's events and stops at the first thing to refuse.
+/// Builds the value from the parser's events and stops at the first error.
 class Builder : public nlohmann::json_sax<Json> {
  public:
   Builder(std::string_view text, std::string_view name) : text_(text), name_(name) {}
 
-  const char* reached = nullptr;  ///< how far the lexer has read
+  const char* reached = nullptr;  ///< position of the lexer
   Json root;
-  std::string message;  ///< empty while all is well
+  std::string message;  ///< empty without an error
 
   bool null() override { return add(nullptr); }
   bool boolean(bool value) override { return add(value); }
@@ -145,20 +145,20 @@ class Builder : public nlohmann::json_sax<Json> {
     constexpr int kOutOfRange = 406;
     if (error.id == kOutOfRange)
       return fail(at, "the number " + clipped(std::string(text_.substr(at, position - at))) +
-                          " is out of range; expected one that a 32-bit float can hold");
+                          " is out of range; expected a number that fits a 32-bit float");
     std::string what = error.what();
     const size_t column = what.find("column ");
     const size_t colon = column == std::string::npos ? column : what.find(": ", column);
     if (colon != std::string::npos) what.erase(0, colon + 2);
-    constexpr std::string_view kTheirs = "syntax error ";
-    if (what.starts_with(kTheirs)) what.erase(0, kTheirs.size());
-    constexpr std::string_view kRead = "; last read: '";  // repeats much of the line
+    constexpr std::string_view kPrefix = "syntax error ";
+    if (what.starts_with(kPrefix)) what.erase(0, kPrefix.size());
+    constexpr std::string_view kRead = "; last read: '";  // repeats most of the line
     if (const size_t read = what.find(kRead); read != std::string::npos) {
       const size_t expected = what.rfind("'; expected ");
       what.erase(read, expected == std::string::npos || expected < read ? std::string::npos : expected + 1 - read);
     }
     if (trailingComma(at)) what = std::string("trailing comma before ") + text_[at];
-    return fail(at, "broken JSON: " + clipped(what));
+    return fail(at, "invalid JSON: " + clipped(what));
   }
 
  private:
@@ -195,7 +195,7 @@ class Builder : public nlohmann::json_sax<Json> {
 
   size_t offset() const { return static_cast<size_t>(reached - text_.data()); }
 
-  /// Where the word or number starts that has a letter at `at`; `at` itself for anything else.
+  /// Start of the word or number that contains `at`; `at` itself outside of one.
   size_t startOfToken(size_t at) const {
     const auto part = [&](size_t i) {
       const char c = text_[i];
@@ -226,8 +226,8 @@ class Builder : public nlohmann::json_sax<Json> {
   }
 
   static std::string clipped(const std::string& text) {
-    constexpr size_t kMaxEntries = 200, kKept = 90;
-    if (text.size() <= kMaxEntries) return text;
+    constexpr size_t kMaxLength = 200, kKept = 90;
+    if (text.size() <= kMaxLength) return text;
     const auto continues = [&](size_t i) { return (static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80U; };
     size_t head = kKept, tail = text.size() - kKept;
     while (head > 0 && continues(head)) --head;
@@ -236,39 +236,39 @@ class Builder : public nlohmann::json_sax<Json> {
   }
 
   std::string_view text_, name_;
-  std::vector<Json*> open_;  // the containers around the place where the parser is
-  Json* slot_ = nullptr;     // of the key just read
+  std::vector<Json*> open_;  // open containers, outermost first
+  Json* slot_ = nullptr;     // value of the last key
 };
 
 }  // namespace
 
-Expected<std::string> readWholeFile(const fs::path& file, uint64_t most) {
-  const auto refuse = [&](const std::string& why) { return Error{ErrorKind::BadInput, file.string() + ": " + why}; };
+Expected<std::string> readWholeFile(const fs::path& file, uint64_t maxBytes) {
+  const auto badInput = [&](const std::string& why) { return Error{ErrorKind::BadInput, file.string() + ": " + why}; };
   std::error_code trouble;
   const fs::file_status status = fs::status(file, trouble);
-  if (status.type() == fs::file_type::not_found) return refuse("no such file");
-  if (status.type() == fs::file_type::none) return refuse("cannot be looked at: " + trouble.message());
-  if (!fs::is_regular_file(status)) return refuse("is " + std::string(kindOf(status)) + "; expected a regular file");
+  if (status.type() == fs::file_type::not_found) return badInput("no such file");
+  if (status.type() == fs::file_type::none) return badInput("cannot be read: " + trouble.message());
+  if (!fs::is_regular_file(status)) return badInput("found " + std::string(kindOf(status)) + ", expected a regular file");
   errno = 0;
   std::ifstream in(file, std::ios::binary);
-  if (!in) return refuse(std::string("cannot be opened: ") + std::strerror(errno));
+  if (!in) return badInput(std::string("cannot be opened: ") + std::strerror(errno));
   const uint64_t size = fs::file_size(file, trouble);
-  if (!trouble && size > most) return refuse(grouped(size) + " bytes; expected at most " + grouped(most));
+  if (!trouble && size > maxBytes) return badInput(grouped(size) + " bytes; expected at most " + grouped(maxBytes));
   std::string text;
   text.reserve(trouble ? 0 : size);
   char block[1 << 14];
   while (in.read(block, sizeof block), in.gcount() > 0) {
     text.append(block, static_cast<size_t>(in.gcount()));
-    if (text.size() > most) return refuse("more than " + grouped(most) + " bytes");
+    if (text.size() > maxBytes) return badInput("more than " + grouped(maxBytes) + " bytes; expected at most that");
   }
   if (in.bad()) return Error{ErrorKind::Io, file.string() + ": reading failed: " + std::strerror(errno)};
   return text;
 }
 
 Expected<Json> parseJsonText(std::string_view text, std::string_view name) {
-  const auto refuse = [&](const std::string& why) { return Error{ErrorKind::BadInput, std::string(name) + ": " + why}; };
+  const auto badInput = [&](const std::string& why) { return Error{ErrorKind::BadInput, std::string(name) + ": " + why}; };
   if (const std::string_view encoding = foreignEncoding(text); !encoding.empty())
-    return refuse("is " + std::string(encoding) + "; expected UTF-8");
+    return badInput("the encoding is " + std::string(encoding) + "; expected UTF-8");
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   if (const size_t at = firstInvalidUtf8(text); at < text.size()) {
     char byte[8];
@@ -276,7 +276,7 @@ Expected<Json> parseJsonText(std::string_view text, std::string_view name) {
     return Error{ErrorKind::BadInput,
                  std::string(name) + ":" + lineAndColumn(text, at) + ": the byte " + byte + " is not valid UTF-8; expected UTF-8"};
   }
-  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) return refuse("is empty; expected a JSON object");
+  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) return badInput("empty file; expected a JSON object");
   Builder builder(text, name);
   builder.reached = text.data();
   const Cursor begin(text.data(), &builder.reached), end(text.data() + text.size(), &builder.reached);

@@ -1,5 +1,5 @@
 #pragma once
-// From bytes to a JSON value: encodings, comments, duplicate keys and depth are judged here, with line and column.
+// Parses bytes to a JSON value. Checks encoding, duplicate keys and nesting depth, and reports errors with line and column.
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -11,15 +11,15 @@ namespace rill {
 
 using Json = nlohmann::json;
 
-/// The most bytes that a scene file may have.
+/// Largest size of a scene file in bytes.
 inline constexpr uint64_t kMaxSceneBytes = 16ULL << 20;
-/// The most levels of [ and { inside each other.
+/// Largest nesting depth of arrays and objects.
 inline constexpr size_t kMaxJsonDepth = 256;
 
-/// The bytes of a regular file of at most `most` bytes. BadInput (missing, not a regular file, too large, not readable) or Io.
-Expected<std::string> readWholeFile(const std::filesystem::path& file, uint64_t most);
+/// Reads a regular file of at most `maxBytes` bytes. BadInput (missing, not a regular file, too large, not readable) or Io.
+Expected<std::string> readWholeFile(const std::filesystem::path& file, uint64_t maxBytes);
 
-/// `text` as JSON with comments. A BOM is skipped. BadInput with "name:line:column: what, expected what".
+/// `text` as JSON with comments. A BOM is skipped. BadInput with "name:line:column: found; expected".
 Expected<Json> parseJsonText(std::string_view text, std::string_view name);
 
 }  // namespace rill

@@ -17,11 +17,11 @@ struct Step {
   std::optional<size_t> index;
 };
 
-Error refuse(const Override& change, const std::string& why) { return {ErrorKind::BadInput, "--set " + change.key + ": " + why}; }
+Error invalidOverride(const Override& change, const std::string& why) { return {ErrorKind::BadInput, "--set " + change.key + ": " + why}; }
 
 Expected<std::vector<Step>> stepsOf(const Override& change) {
   const auto malformed = [&](const std::string& what) {
-    return refuse(change, what + "; expected a key path such as fluid.viscosity or fill[0].jitter");
+    return invalidOverride(change, what + "; expected a key path such as fluid.viscosity or fill[0].jitter");
   };
   std::vector<Step> steps;
   std::string_view rest = change.key;
@@ -48,13 +48,13 @@ Expected<std::vector<Step>> stepsOf(const Override& change) {
       steps.push_back({{}, index});
       rest.remove_prefix(end + 1);
     } else {
-      return malformed(inQuotes(rest) + " follows an index");
+      return malformed("unexpected " + inQuotes(rest) + " after an index");
     }
   }
   return steps;
 }
 
-/// JSON, or a bare word taken as a string.
+/// The value as JSON, or as a string if it is a bare word.
 Expected<Json> valueOf(const Override& change) {
   const size_t first = change.value.find_first_not_of(" \t\r\n");
   const char start = first == std::string::npos ? '\0' : change.value[first];
@@ -69,24 +69,25 @@ Expected<Json> valueOf(const Override& change) {
 
 std::string nameOf(const std::string& path) { return path.empty() ? std::string("the scene") : path; }
 
-/// The place that `steps` lead to, made where it is missing.
+/// The value at the path `steps`, created if it is missing.
 Expected<Json*> walk(Json& root, const Override& change, const std::vector<Step>& steps, OverrideMarks& marks, std::string& path) {
   Json* node = &root;
   for (size_t i = 0; i < steps.size(); ++i) {
     const Step& step = steps[i];
     bool fresh = false;
     if (step.index) {
-      if (!node->is_array()) return refuse(change, nameOf(path) + " is not a list; expected a key without an index");
+      if (!node->is_array()) return invalidOverride(change, nameOf(path) + " is not a list; expected a key without an index");
       if (*step.index > node->size()) {
-        return refuse(change, nameOf(path) + " has " + grouped(node->size()) + (node->size() == 1 ? " entry" : " entries") +
-                                  " in the scene; expected an index of at most " + grouped(node->size()) + " (one more adds an entry)");
+        return invalidOverride(change, nameOf(path) + " has " + grouped(node->size()) + (node->size() == 1 ? " entry" : " entries") +
+                                           " in the scene; expected an index of at most " + grouped(node->size()) +
+                                           " (one more adds an entry)");
       }
       fresh = *step.index == node->size();
       if (fresh) node->push_back(nullptr);
       node = &(*node)[*step.index];
       path = entryPath(path, *step.index);
     } else {
-      if (!node->is_object()) return refuse(change, nameOf(path) + " has no keys inside it; expected a key path that the scene has");
+      if (!node->is_object()) return invalidOverride(change, nameOf(path) + " is not an object; expected a key path of the scene");
       const auto [entry, made] = node->emplace(step.key, nullptr);
       fresh = made;
       node = &*entry;
@@ -100,8 +101,8 @@ Expected<Json*> walk(Json& root, const Override& change, const std::vector<Step>
   return node;
 }
 
-/// Spacing and particles say the same thing twice: setting one takes the other away.
-void replaceTwin(Json& root, const std::vector<Step>& steps) {
+/// `spacing` and `particles` are alternatives: setting one removes the other.
+void removeAlternative(Json& root, const std::vector<Step>& steps) {
   if (steps.size() != 2 || steps[0].key != "fluid") return;
   if (steps[1].key == "spacing") root["fluid"].erase("particles");
   if (steps[1].key == "particles") root["fluid"].erase("spacing");
@@ -143,7 +144,7 @@ Expected<void> applyOverrides(Json& root, std::span<const Override> overrides, O
     if (!place) return place.error();
     **place = std::move(*value);
     marks.set(path, {change.key, change.value});
-    replaceTwin(root, *steps);
+    removeAlternative(root, *steps);
   }
   return {};
 }

@@ -1,5 +1,5 @@
 #pragma once
-// `--set KEY=VALUE`: changes to a scene's JSON before it is judged, and who to blame in messages afterwards.
+// `--set KEY=VALUE`: changes a scene's JSON before it is validated, and records which values messages must attribute to an override.
 #include <map>
 #include <span>
 #include <string>
@@ -10,26 +10,26 @@
 
 namespace rill {
 
-/// Which parts of the JSON come from overrides.
+/// The parts of the JSON that overrides have set.
 class OverrideMarks {
  public:
   struct Mark {
     std::string key;   ///< as given to --set
-    std::string text;  ///< the value as given; empty on objects and lists made on the way to it
+    std::string text;  ///< the value as given; empty for parent objects and lists that were created for it
   };
 
   void set(const std::string& path, Mark mark) { marks_[path] = std::move(mark); }
-  /// The override that made `path` or the nearest thing around it; null where the file did.
+  /// The override that set `path` or its nearest ancestor; null if the value comes from the file.
   const Mark* find(std::string_view path) const;
-  /// The override whose value stands at exactly this path.
+  /// The override that set exactly this path, or null.
   const Mark* valueAt(const std::string& path) const;
 
  private:
   std::map<std::string, Mark, std::less<>> marks_;
 };
 
-/// Applies one override after another to `root`. BadInput naming the override for a key path that leads nowhere or a broken value.
-/// Whether a key is known and a value is right is judged later, with the rest of the scene.
+/// Applies the overrides to `root` in order. BadInput naming the override for a malformed key path or value.
+/// Unknown keys and invalid values are found later, when the scene is read.
 Expected<void> applyOverrides(Json& root, std::span<const Override> overrides, OverrideMarks& marks);
 
 }  // namespace rill

@@ -10,8 +10,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// NaN and infinities come as words: JSON has no numbers for them.
-bool saysNotFinite(std::string_view text) {
+/// Whether a string spells NaN or an infinity, for which JSON has no numbers.
+bool isNonFiniteWord(std::string_view text) {
   std::string word;
   for (const char c : text) {
     if (c != '+' && c != '-') word += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
@@ -19,9 +19,9 @@ bool saysNotFinite(std::string_view text) {
   return word == "nan" || word == "inf" || word == "infinity";
 }
 
-/// Dotted paths in the scene whose last key is `key`, the first of them; empty where there is none.
+/// The first dotted path in the scene whose last key is `key`; empty if there is none.
 template <class Owner>
-std::string elsewhere(std::string_view key, const std::string& path) {
+std::string pathOfKey(std::string_view key, const std::string& path) {
   std::string found;
   model::forEachField<Owner>([&](const auto& field) {
     using Value = typename std::remove_cvref_t<decltype(field)>::Value;
@@ -31,21 +31,21 @@ std::string elsewhere(std::string_view key, const std::string& path) {
     if (field.info.key == key) {
       found = here;
     } else if constexpr (!std::is_void_v<Inner>) {
-      found = elsewhere<Inner>(key, model::kIsList<Value> ? here + "[]" : here);
+      found = pathOfKey<Inner>(key, model::kIsList<Value> ? here + "[]" : here);
     }
   });
   return found;
 }
 
-/// Numbers of "MAJOR.MINOR[.PATCH]", each cut at a billion; empty where the text is none.
+/// The numbers of "MAJOR.MINOR[.PATCH]", each clamped to a billion; empty for other text.
 std::vector<uint32_t> versionNumbers(std::string_view text) {
-  constexpr uint32_t kMaxEntries = 1'000'000'000;
+  constexpr uint32_t kMaxNumber = 1'000'000'000;
   std::vector<uint32_t> numbers;
   bool digit = false;
   for (const char c : text) {
     if (c >= '0' && c <= '9') {
       if (!digit) numbers.push_back(0);
-      numbers.back() = numbers.back() >= kMaxEntries / 10 ? kMaxEntries : numbers.back() * 10 + static_cast<uint32_t>(c - '0');
+      numbers.back() = numbers.back() >= kMaxNumber / 10 ? kMaxNumber : numbers.back() * 10 + static_cast<uint32_t>(c - '0');
       digit = true;
     } else if (c == '.' && digit) {
       digit = false;
@@ -67,9 +67,9 @@ std::string foundText(const Json& json) {
     case Json::value_t::boolean:
       return json.get<bool>() ? "found true" : "found false";
     case Json::value_t::string:
-      return "found the text " + inQuotes(json.get_ref<const std::string&>());
+      return "found the string " + inQuotes(json.get_ref<const std::string&>());
     case Json::value_t::array:
-      return json.size() == 1 ? "found an array of 1" : "found an array of " + grouped(json.size());
+      return "found an array of length " + grouped(json.size());
     case Json::value_t::object:
       return "found an object";
     case Json::value_t::number_unsigned:
@@ -79,7 +79,7 @@ std::string foundText(const Json& json) {
     case Json::value_t::number_float:
       return "found " + shortNumber(json.get<double>());
     default:
-      return "found something else";
+      return "found a value of unknown type";
   }
 }
 
@@ -93,32 +93,32 @@ bool Reader::fail(const std::string& path, const std::string& text) {
   return false;
 }
 
-bool Reader::fine(const std::string& path, const model::Verdict& verdict) {
-  if (!verdict) return true;
+bool Reader::accept(const std::string& path, const model::CheckResult& result) {
+  if (!result) return true;
   const auto whole = [&](const std::string& key) { return path + (path.empty() || key.starts_with('[') ? "" : ".") + key; };
-  for (const std::string& key : verdict->keys) {
-    if (marks_.find(whole(key))) return fail(whole(key), verdict->text);
+  for (const std::string& key : result->keys) {
+    if (marks_.find(whole(key))) return fail(whole(key), result->text);
   }
-  return fail(verdict->keys.empty() ? path : whole(verdict->keys.front()), verdict->text);
+  return fail(result->keys.empty() ? path : whole(result->keys.front()), result->text);
 }
 
-/// A file's quaternion may have any length but none.
+/// Files may hold quaternions of any non-zero length.
 void Reader::normalize(Solid& solid) {
   double length = 0;
   for (const double part : solid.rotation) length = std::hypot(length, part);
   for (double& part : solid.rotation) part = length > 0 ? part / length : part;
 }
 
-bool Reader::unknownKey(const std::string& path, const std::string& key, const std::vector<std::string_view>& here) {
+bool Reader::unknownKey(const std::string& path, const std::string& key, const std::vector<std::string_view>& keys) {
   std::string text = "unknown key; ";
-  const std::string_view near = nearestWord(key, here);
-  const std::string other = near.empty() ? elsewhere<Scene>(key, "") : std::string();
-  if (!near.empty()) {
-    text += "did you mean " + inQuotes(near) + "?";
+  const std::string_view suggestion = nearestWord(key, keys);
+  const std::string other = suggestion.empty() ? pathOfKey<Scene>(key, "") : std::string();
+  if (!suggestion.empty()) {
+    text += "did you mean " + inQuotes(suggestion) + "?";
   } else if (!other.empty()) {
     text += "did you mean " + inQuotes(other) + (other.find('.') == std::string::npos ? ", at the top of the scene?" : "?");
   } else {
-    text += "expected one of " + listInQuotes(here);
+    text += "expected one of " + listInQuotes(keys);
   }
   return fail(childPath(path, key), text);
 }
@@ -128,16 +128,16 @@ bool Reader::exactlyOne(const Json& json, const std::string& path, std::span<con
   for (const std::string_view key : keys) {
     if (json.contains(std::string(key))) given.push_back(key);
   }
-  const model::Verdict verdict = model::judgeOneOf(keys, given);
-  if (!verdict || given.empty()) return fine(path, verdict);
-  const std::string blamed = marks_.find(childPath(path, given[0])) ? childPath(path, given[0]) : childPath(path, given[1]);
-  return fail(marks_.find(blamed) ? blamed : path, verdict->text);
+  const model::CheckResult result = model::checkOneOf(keys, given);
+  if (!result || given.empty()) return accept(path, result);
+  const std::string reported = marks_.find(childPath(path, given[0])) ? childPath(path, given[0]) : childPath(path, given[1]);
+  return fail(marks_.find(reported) ? reported : path, result->text);
 }
 
 bool Reader::version(const Json& root) {
   const std::string path = "rill";
   const auto found = root.find(path);
-  const std::string expected = "expected the oldest Rill that reads the scene, as in \"0.1\"";
+  const std::string expected = "expected the minimum Rill version, for example \"0.1\"";
   if (found == root.end()) return fail(path, "missing; " + expected);
   std::string given;
   if (!text(*found, path, given)) return false;
@@ -148,14 +148,14 @@ bool Reader::version(const Json& root) {
 }
 
 bool Reader::number(const Json& json, const std::string& path, const model::Info& info, bool whole, double& out) {
-  if (json.is_string() && saysNotFinite(json.get_ref<const std::string&>())) {
+  if (json.is_string() && isNonFiniteWord(json.get_ref<const std::string&>())) {
     return fail(path, foundText(json) + ", which is not finite; expected " + model::expectedNumber(info, whole));
   }
   if (!json.is_number()) return fail(path, foundText(json) + ", expected " + model::expectedNumber(info, whole));
   const double value = json.get<double>();
   if (whole && std::isfinite(value) && value != std::floor(value))
     return fail(path, foundText(json) + ", expected " + model::expectedNumber(info, whole));
-  if (!fine(path, model::judgeNumber(info, value, whole, foundText(json).substr(6)))) return false;
+  if (!accept(path, model::checkNumber(info, value, whole, foundText(json).substr(6)))) return false;
   out = value;
   return true;
 }
@@ -176,9 +176,9 @@ bool Reader::text(const Json& json, const std::string& path, std::string& out) {
   if (json.is_string()) {
     out = json.get<std::string>();
   } else if (mark != nullptr) {
-    out = mark->text;  // --set title=2024: where a text is expected every value is one
+    out = mark->text;  // --set title=2024: any override value is accepted as a string
   } else {
-    return fail(path, foundText(json) + ", expected a text");
+    return fail(path, foundText(json) + ", expected a string");
   }
   return true;
 }
@@ -187,7 +187,7 @@ bool Reader::word(const Json& json, const std::string& path, const model::Info& 
   if (!json.is_string()) return fail(path, foundText(json) + ", expected one of " + listInQuotes(info.words));
   const std::string& given = json.get_ref<const std::string&>();
   out = static_cast<size_t>(std::ranges::find(info.words, given) - info.words.begin());
-  return fine(path, model::judgeWord(info, given));
+  return accept(path, model::checkChoice(info, given));
 }
 
 bool Reader::value(const Json& json, const std::string& path, const model::Info& info, uint32_t& out) {
@@ -200,7 +200,7 @@ bool Reader::value(const Json& json, const std::string& path, const model::Info&
 bool Reader::value(const Json& json, const std::string& path, const model::Info& info, uint64_t& out) {
   double value = 0;
   if (!number(json, path, info, true, value)) return false;
-  constexpr double kTooLarge = 18446744073709551616.0;  // 2^64, which the range's bound is rounded to
+  constexpr double kTooLarge = 18446744073709551616.0;  // 2^64: the bound 2^64 - 1 as a double
   if (json.is_number_unsigned()) {
     out = json.get<uint64_t>();
   } else if (value < kTooLarge) {
@@ -226,8 +226,7 @@ bool Reader::value(const Json& json, const std::string& path, const model::Info&
     size_t side = 0;
     if (!word(json[i], entryPath(path, i), info, side)) return false;
     const auto bit = static_cast<SideMask>(1U << side);
-    if ((out & bit) != 0)
-      return fail(entryPath(path, i), "found " + inQuotes(info.words[side]) + " a second time; expected each side once");
+    if ((out & bit) != 0) return fail(entryPath(path, i), "duplicate side " + inQuotes(info.words[side]) + "; expected each side once");
     out = static_cast<SideMask>(out | bit);
   }
   return true;
@@ -238,7 +237,7 @@ bool Reader::value(const Json& json, const std::string& path, const model::Info&
     out.reset();
     return true;
   }
-  if (json.is_string() && !saysNotFinite(json.get_ref<const std::string&>())) {
+  if (json.is_string() && !isNonFiniteWord(json.get_ref<const std::string&>())) {
     return fail(path, foundText(json) + ", expected \"auto\" or " + model::expectedNumber(info, false));
   }
   return number(json, path, info, false, out.emplace());
@@ -258,19 +257,18 @@ bool Reader::value(const Json& json, const std::string& path, const model::Info&
   return true;
 }
 
-bool Reader::value(const Json& json, const std::string& path, const model::Info& info, fs::path& out) {
+bool Reader::value(const Json& json, const std::string& path, const model::Info&, fs::path& out) {
   std::string given;
   if (!text(json, path, given)) return false;
-  if (!fine(path, model::judgeFileName(given))) return false;
-  // As any path of a command line, one that an override gives starts from the current directory.
-  const fs::path said = (marks_.find(path) ? fs::path() : folder_) / fs::path(given);
+  if (!accept(path, model::checkFileName(given))) return false;
+  // Paths in overrides are relative to the current directory, like other paths on a command line.
+  const fs::path given_path = (marks_.find(path) ? fs::path() : folder_) / fs::path(given);
   std::error_code trouble;
-  const fs::path whole = fs::absolute(said, trouble);
-  const fs::path file = (trouble ? said : whole).lexically_normal();
+  const fs::path whole = fs::absolute(given_path, trouble);
+  const fs::path file = (trouble ? given_path : whole).lexically_normal();
   const fs::file_status status = fs::status(file, trouble);
   if (!fs::exists(status)) return fail(path, inQuotes(given) + ": no such file (looked for " + file.string() + ")");
-  if (!fs::is_regular_file(status))
-    return fail(path, inQuotes(given) + ": found something other than a regular file, expected " + std::string(info.help));
+  if (!fs::is_regular_file(status)) return fail(path, inQuotes(given) + ": not a regular file; expected a file");
   out = file;
   return true;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// JSON into the structs of a Scene, driven by the table in model/fields.hpp. The first thing to refuse ends the reading.
+// Reads JSON into the structs of a Scene by the table in model/fields.hpp. Reading stops at the first error.
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -11,10 +11,10 @@
 
 namespace rill {
 
-/// "found an array of 2" and the like, for messages.
+/// The JSON value as messages show it: "found an array of length 2".
 std::string foundText(const Json& json);
 
-/// Reads one scene. Every function returns false once something was refused; message() says what.
+/// Reads one scene. Every function returns false after the first error; message() describes it.
 class Reader {
  public:
   Reader(std::string_view name, const OverrideMarks& marks, std::filesystem::path folder)
@@ -22,10 +22,10 @@ class Reader {
 
   const std::string& message() const { return message_; }
 
-  /// The version key alone: a scene that is too new is refused by that and by nothing else.
+  /// Checks the version key alone, so that a newer scene is rejected for its version and not for an unknown key.
   bool version(const Json& root);
 
-  /// A JSON object into `owner`: unknown keys, then each key's own rules, then the rules between keys.
+  /// Reads a JSON object into `owner`. Checks unknown keys, then each value, then the rules between keys.
   template <class Owner>
   bool object(const Json& json, const std::string& path, Owner& owner) {
     if (!json.is_object()) return fail(path, foundText(json) + ", expected an object");
@@ -37,15 +37,15 @@ class Reader {
       if (ok) ok = member(json, path, field, owner);
     });
     if constexpr (std::is_same_v<Owner, Solid>) normalize(owner);
-    return ok && exactlyOne(json, path, model::Table<Owner>::one_of) && fine(path, model::judge(owner));
+    return ok && exactlyOne(json, path, model::Table<Owner>::one_of) && accept(path, model::checkRules(owner));
   }
 
  private:
   bool fail(const std::string& path, const std::string& text);
-  /// Blames the key that an override made among those that may be to blame, or the first.
-  bool fine(const std::string& path, const model::Verdict& verdict);
+  /// On a fault, reports the first candidate key that an override has set, else the first candidate.
+  bool accept(const std::string& path, const model::CheckResult& result);
   static void normalize(Solid& solid);
-  bool unknownKey(const std::string& path, const std::string& key, const std::vector<std::string_view>& here);
+  bool unknownKey(const std::string& path, const std::string& key, const std::vector<std::string_view>& keys);
   bool exactlyOne(const Json& json, const std::string& path, std::span<const std::string_view> keys);
 
   template <class Owner>
@@ -61,12 +61,12 @@ class Reader {
       const auto found = json.find(std::string(field.info.key));
       const std::string here = childPath(path, field.info.key);
       if (found != json.end()) return value(*found, here, field.info, owner.*field.member);
-      if (field.info.required) return fail(here, "missing; it is needed: " + std::string(field.info.help));
+      if (field.info.required) return fail(here, "required key is missing: " + std::string(field.info.help));
     }
     return true;
   }
 
-  // A value by the type of the member that it sets.
+  // Readers of a value, selected by the type of the member that it sets.
   bool number(const Json& json, const std::string& path, const model::Info& info, bool whole, double& out);
   bool numbers(const Json& json, const std::string& path, const model::Info& info, std::string_view shape, std::span<double> out);
   bool word(const Json& json, const std::string& path, const model::Info& info, size_t& out);
@@ -114,12 +114,12 @@ class Reader {
   template <model::Described Struct>
   bool value(const Json& json, const std::string& path, const model::Info& info, std::vector<Struct>& out) {
     if (!json.is_array()) return fail(path, foundText(json) + ", expected a list of objects");
-    if (!fine(path, model::judgeLength(info, json.size()))) return false;
+    if (!accept(path, model::checkLength(info, json.size()))) return false;
     out.reserve(json.size());
     for (size_t i = 0; i < json.size(); ++i) {
       if (!object(json[i], entryPath(path, i), out.emplace_back())) return false;
     }
-    return fine(path, model::judge(out));
+    return accept(path, model::checkRules(out));
   }
 
   std::string name_;

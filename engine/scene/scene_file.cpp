@@ -1,4 +1,4 @@
-// loadScene and parseScene: text, overrides, version, keys, in this order.
+// loadScene() and parseScene(): parse the text, apply overrides, check the version, read the keys.
 #include <exception>
 #include <new>
 
@@ -25,7 +25,7 @@ Expected<Scene> readScene(std::string_view text, std::string_view name, const st
   return scene;
 }
 
-/// Nothing throws out of the library; what could is memory, in the JSON library and in ours.
+/// Turns exceptions of `work` into errors: nothing may throw out of the library.
 template <class Work>
 Expected<Scene> guarded(std::string_view name, Work&& work) {
   try {

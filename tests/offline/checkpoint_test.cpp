@@ -18,7 +18,7 @@ std::string refusal(std::span<const std::byte> bytes) {
   return read.error().message;
 }
 
-TEST(CheckpointFile, ComesBackAsItWas) {
+TEST(CheckpointFile, RoundTrips) {
   const Checkpoint c = seedCheckpoint();
   const auto bytes = offline::encodeCheckpoint(c);
   const auto read = offline::decodeCheckpoint(bytes, "run.rill");
@@ -31,7 +31,7 @@ TEST(CheckpointFile, ComesBackAsItWas) {
   EXPECT_EQ(*empty, nothing);
 }
 
-TEST(CheckpointFile, CutShortAnywhereIsRefused) {
+TEST(CheckpointFile, RejectsTruncationAnywhere) {
   const auto bytes = offline::encodeCheckpoint(seedCheckpoint());
   for (size_t size = 1; size < bytes.size(); ++size) {
     const std::string why = refusal(std::span(bytes).first(size));
@@ -43,7 +43,7 @@ TEST(CheckpointFile, CutShortAnywhereIsRefused) {
   EXPECT_NE(refusal(longer).find("1 bytes more"), std::string::npos) << refusal(longer);
 }
 
-TEST(CheckpointFile, ChangedAnywhereIsRefused) {
+TEST(CheckpointFile, RejectsAnyFlippedBit) {
   auto bytes = offline::encodeCheckpoint(seedCheckpoint());
   for (size_t at = 0; at < bytes.size(); ++at)
     for (int bit = 0; bit < 8; ++bit) {
@@ -53,7 +53,7 @@ TEST(CheckpointFile, ChangedAnywhereIsRefused) {
     }
 }
 
-TEST(CheckpointFile, ForeignAndNewerFilesAreToldApart) {
+TEST(CheckpointFile, DistinguishesForeignAndNewerFiles) {
   const std::string picture = "\x89PNG\r\n\x1a\n and so on and so on";
   EXPECT_NE(refusal(std::as_bytes(std::span(picture))).find("is no checkpoint of Rill"), std::string::npos);
   const auto checkpoint = offline::encodeCheckpoint(seedCheckpoint());
@@ -70,7 +70,7 @@ TEST(CheckpointFile, ForeignAndNewerFilesAreToldApart) {
 }
 
 // With a checksum that holds: lengths are not believed for that.
-TEST(CheckpointFile, LengthsThatDoNotFitAreRefused) {
+TEST(CheckpointFile, RejectsInvalidLengths) {
   const auto whole = offline::encodeCheckpoint(seedCheckpoint());
   for (uint64_t wrong : {uint64_t{1}, uint64_t{1} << 40, ~uint64_t{0}, ~uint64_t{7}, uint64_t{1} << 63}) {
     for (size_t row = 0; row < 14; ++row) {
@@ -89,13 +89,13 @@ TEST(CheckpointFile, LengthsThatDoNotFitAreRefused) {
   }
 }
 
-TEST(CheckpointFile, KeysThatNoSceneHasAreRefused) {
+TEST(CheckpointFile, RejectsUnprintableKeys) {
   Checkpoint c = seedCheckpoint();
   c.keys[0].second = "\x1b[2J";
   EXPECT_NE(refusal(offline::encodeCheckpoint(c)).find("is damaged"), std::string::npos) << "they would reach a terminal";
 }
 
-TEST(CheckpointFile, IsReadFromDisk) {
+TEST(CheckpointFile, LoadsFromDisk) {
   const TemporaryFolder folder;
   const auto bytes = offline::encodeCheckpoint(seedCheckpoint());
   const auto file = folder.write("run.rill", std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
@@ -112,7 +112,7 @@ TEST(CheckpointFile, IsReadFromDisk) {
   EXPECT_NE(offline::loadCheckpoint(film).error().message.find("no checkpoint"), std::string::npos);
 }
 
-class State : public ::testing::Test {
+class SnapshotCheck : public ::testing::Test {
  protected:
   void expectRefused(const char* words) {
     const auto checked = checkSnapshot(s, seedShape());
@@ -123,12 +123,12 @@ class State : public ::testing::Test {
   FluidSnapshot s = seedCheckpoint().fluid;
 };
 
-TEST_F(State, FitsItsScene) {
+TEST_F(SnapshotCheck, AcceptsMatchingScene) {
   const auto checked = checkSnapshot(s, seedShape());
   EXPECT_TRUE(checked) << checked.error().message;
 }
 
-TEST_F(State, MayComeFromAFluidWithoutAWarmStart) {
+TEST_F(SnapshotCheck, AcceptsSnapshotWithoutWarmStart) {
   s.push.clear();
   expectRefused("warm");
   s.push.clear();
@@ -138,7 +138,7 @@ TEST_F(State, MayComeFromAFluidWithoutAWarmStart) {
 }
 
 // Every number that a shader finds its way by.
-TEST_F(State, IndicesAreJudged) {
+TEST_F(SnapshotCheck, RejectsInvalidIndices) {
   s.id[1] = s.id[0];
   expectRefused("ids");
   s.id[1] = seedShape().count;
@@ -179,7 +179,7 @@ TEST_F(State, IndicesAreJudged) {
   expectRefused("solids has");
 }
 
-TEST(List, IsLaidOutInBlocksAndBack) {
+TEST(SnapshotNeighborList, RoundTripsThroughBlockLayout) {
   FluidSnapshot s;
   s.listCapacity = 8;
   const uint32_t count = 3 * kListBlock + 17;
@@ -202,7 +202,7 @@ TEST(List, IsLaidOutInBlocksAndBack) {
   EXPECT_EQ(back, s);
 }
 
-TEST(Cells, StartWhereTheyDid) {
+TEST(SnapshotCells, RecoverTheirStarts) {
   std::vector<uint32_t> start(7);
   cellStarts(std::vector<uint32_t>{1, 1, 4}, start);
   EXPECT_EQ(start, (std::vector<uint32_t>{0, 0, 2, 2, 2, 3, 3}));

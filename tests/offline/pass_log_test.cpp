@@ -5,7 +5,7 @@
 namespace rill::offline {
 namespace {
 
-TEST(PassLog, AddsUpPiecesAndKeepsTheOrder) {
+TEST(PassLog, SumsPiecesInOrder) {
   PassLog log;
   const PassReport report[] = {{"density", 4, false, ""}, {"vorticity", 0, true, "vorticity is 0"}};
   const Timing timings[] = {{"density", 2.0, 4}};
@@ -25,7 +25,7 @@ TEST(PassLog, AddsUpPiecesAndKeepsTheOrder) {
   EXPECT_NE(passTable(times, skipped).find("skipped: vorticity is 0"), std::string::npos);
 }
 
-TEST(PassLog, TellsWhatWasRecordedFromWhatRan) {
+TEST(PassLog, DistinguishesRecordedFromExecuted) {
   PassLog log;
   const PassReport report[] = {
       {"sort/count", 6, false, ""}, {"sort/scan", 12, false, ""}, {"density", 9, false, ""}, {"begin", 1, false, ""}};
@@ -43,7 +43,7 @@ TEST(PassLog, TellsWhatWasRecordedFromWhatRan) {
   EXPECT_NE(table.find("sort/scan                                   12         4"), std::string::npos) << table;
 }
 
-TEST(PassLog, APassThatRanOnceIsNotSkipped) {
+TEST(PassLog, ExecutedPassIsNotSkipped) {
   PassLog log;
   const PassReport without[] = {{"stats", 0, false, "nobody asked"}}, with[] = {{"stats", 1, false, ""}};
   log.add(without, true);
@@ -55,7 +55,7 @@ TEST(PassLog, APassThatRanOnceIsNotSkipped) {
   EXPECT_TRUE(log.times().empty());
 }
 
-TEST(PassLog, AGraphThatWasNotSubmittedRanNothing) {
+TEST(PassLog, IgnoresUnsubmittedGraph) {
   PassLog log;
   const PassReport report[] = {{"density", 1, false, ""}};
   log.add(report, false);

@@ -37,7 +37,7 @@ double level(const Scene& scene, const std::vector<Float3>& points, double x, do
   return ProbeReader(scene, points, origin).level(x, z);
 }
 
-TEST(Front, IsTheFillsFace) {
+TEST(Front, MatchesFillFace) {
   const auto points = block(10, 6, 5);
   EXPECT_NEAR(front(tank(), points, Axis::PlusX), 1.0, 1e-6);
   EXPECT_NEAR(front(tank(), points, Axis::PlusY), 0.6, 1e-6);
@@ -45,7 +45,7 @@ TEST(Front, IsTheFillsFace) {
   EXPECT_NEAR(front(tank(), points, Axis::MinusX), 0.0, 1e-6);
 }
 
-TEST(Front, IgnoresALoneDropAndGroupsOfFive) {
+TEST(Front, IgnoresIsolatedParticles) {
   auto points = block(10, 6, 5);
   points.push_back({3.5f, 0.1f, 0.1f});
   EXPECT_NEAR(front(tank(), points, Axis::PlusX), 1.0, 1e-6);
@@ -55,7 +55,7 @@ TEST(Front, IgnoresALoneDropAndGroupsOfFive) {
   EXPECT_NEAR(front(tank(), points, Axis::PlusX), 3.55, 1e-6);
 }
 
-TEST(Front, IsRelativeToTheDomainAndKnowsTheOrigin) {
+TEST(Front, IsRelativeToDomain) {
   Scene scene = tank();
   scene.domain = Domain{{100, -5, 7}, {104, -3, 8}, 0};
   EXPECT_NEAR(front(scene, block(10, 6, 5), Axis::PlusX, {100, -5, 7}), 1.0, 1e-6);
@@ -71,7 +71,7 @@ TEST(Front, IsZeroWithoutFluid) {
   EXPECT_EQ(front(tank(), std::vector<Float3>(9, Float3{nan, nan, nan}), Axis::PlusX), 0);
 }
 
-TEST(Level, IsTheColumnsHeight) {
+TEST(Level, MatchesColumnHeight) {
   const auto points = block(10, 6, 5);
   EXPECT_NEAR(level(tank(), points, 0.5, 0.25), 0.6, 1e-6);
   EXPECT_EQ(level(tank(), points, 3.0, 0.25), 0) << "dry";
@@ -86,25 +86,25 @@ TEST(Level, StopsAtTheFirstEmptyBin) {
   EXPECT_EQ(level(tank(), splash, 0.5, 0.25), 0) << "nothing on the floor";
 }
 
-TEST(Level, LooksNoFartherThanOneSpacing) {
+TEST(Level, UsesParticlesWithinOneSpacing) {
   const std::vector<Float3> points = {{0.5f, 0.05f, 0.25f}, {0.59f, 0.15f, 0.25f}, {0.61f, 0.2f, 0.25f}};
   EXPECT_NEAR(level(tank(), points, 0.5, 0.25), 0.2, 1e-6);
 }
 
-TEST(Level, TakesSceneCoordinates) {
+TEST(Level, UsesSceneCoordinates) {
   Scene scene = tank();
   scene.domain = Domain{{100, -5, 7}, {104, -3, 8}, 0};
   EXPECT_NEAR(level(scene, block(10, 6, 5), 100.5, 7.25, {100, -5, 7}), 0.6, 1e-6);
 }
 
-TEST(Probe, MeasuresWhatItNames) {
+TEST(Probe, MeasuresSelectedQuantity) {
   const auto points = block(10, 6, 5);
   const ProbeReader reader(tank(), points, {0, 0, 0});
   EXPECT_NEAR(reader.measure({"H", std::pair(0.5, 0.25), std::nullopt}), 0.6, 1e-6);
   EXPECT_NEAR(reader.measure({"F", std::nullopt, Axis::PlusX}), 1.0, 1e-6);
 }
 
-TEST(NeighborCounter, AgreesWithTryingAllPairs) {
+TEST(NeighborCounter, AgreesWithBruteForce) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> anywhere(-0.7f, 0.7f);
   std::vector<Float3> points;

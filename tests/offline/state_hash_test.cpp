@@ -11,7 +11,7 @@ const std::vector<Float3> kPositions = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
 const std::vector<Float3> kVelocities = {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}};
 const std::vector<uint32_t> kIds = {0, 1, 2};
 
-TEST(StateHash, OfNothingIsTheOffsetBasis) { EXPECT_EQ(stateHash({}, {}, {}), 0xcbf29ce484222325ull); }
+TEST(StateHash, EmptyStateHashesToOffsetBasis) { EXPECT_EQ(stateHash({}, {}, {}), 0xcbf29ce484222325ull); }
 
 TEST(StateHash, IsFnv1aOverTheBytes) {
   // Six zero floats: 24 times a multiplication by the prime.
@@ -21,12 +21,12 @@ TEST(StateHash, IsFnv1aOverTheBytes) {
   EXPECT_EQ(stateHash(zero, zero, std::vector<uint32_t>{0}), expected);
 }
 
-TEST(StateHash, DoesNotDependOnTheStorageOrder) {
+TEST(StateHash, IsIndependentOfStorageOrder) {
   const std::vector<Float3> p = {kPositions[2], kPositions[0], kPositions[1]}, v = {kVelocities[2], kVelocities[0], kVelocities[1]};
   EXPECT_EQ(stateHash(p, v, std::vector<uint32_t>{2, 0, 1}), stateHash(kPositions, kVelocities, kIds));
 }
 
-TEST(StateHash, SeesEachBit) {
+TEST(StateHash, DependsOnEveryBit) {
   const uint64_t base = stateHash(kPositions, kVelocities, kIds);
   auto positions = kPositions;
   positions[1].y = 5.0000005f;

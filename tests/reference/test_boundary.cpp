@@ -26,7 +26,7 @@ ReferenceSettings over(const Solid& solid) {
   return s;
 }
 
-TEST(Boundary, CentersStayHalfASpacingOffEverything) {
+TEST(Boundary, KeepsCentersHalfASpacingFromSurfaces) {
   for (const bool tabulated : {false, true}) {
     ReferenceSettings s = tank(kSpacing, kSpacing * glm::dvec3(12, 16, 5));
     s.tabulated = tabulated;
@@ -52,7 +52,7 @@ TEST(Boundary, CentersStayHalfASpacingOffEverything) {
   }
 }
 
-TEST(Boundary, ADomainThinnerThanASpacingHoldsItsMiddle) {
+TEST(Boundary, ThinDomainKeepsParticlesInItsMiddle) {
   ReferenceSettings s = tank(kSpacing, {1, 1, 0.4 * kSpacing});
   ReferenceSolver solver(s, std::vector<glm::dvec3>{{0.5, 0.5, 0.9}});
   solver.begin(kStep);
@@ -61,7 +61,7 @@ TEST(Boundary, ADomainThinnerThanASpacingHoldsItsMiddle) {
 }
 
 // A solid is beside what moves along its face, and not beside what moves across it.
-TEST(Boundary, ASolidIsBesideWhatMovesAlongIt) {
+TEST(Boundary, SolidCoversDirectionsAlongItsSurface) {
   const auto at = [](const Solid& solid, const glm::dvec3& x) {
     return ReferenceSolver(over(solid), std::vector<glm::dvec3>{x}).boundaryAt(x, 0);
   };
@@ -87,7 +87,7 @@ TEST(Boundary, ASolidIsBesideWhatMovesAlongIt) {
   EXPECT_NEAR(pole.beside[2], 0, 1e-12);
 }
 
-TEST(Boundary, AnOpenSideLetsParticlesOut) {
+TEST(Boundary, OpenSideLetsParticlesLeave) {
   ReferenceSettings s = tank(kSpacing, {1, 1, 1});
   s.hi.x = std::numeric_limits<double>::infinity();
   s.gravity = glm::dvec3(0);
@@ -97,7 +97,7 @@ TEST(Boundary, AnOpenSideLetsParticlesOut) {
   EXPECT_NEAR(solver.state.position[0].x, 1.9, 1e-9);
 }
 
-TEST(Contact, AParticleBouncesWithTheSolidsRestitution) {
+TEST(Contact, BounceMatchesRestitution) {
   for (const double e : {0.0, 0.3, 0.8, 1.0}) {
     ReferenceSolver solver(over(plate(0, e)), std::vector<glm::dvec3>{{0, 0.325, 0}});
     solver.begin(kStep);
@@ -112,7 +112,7 @@ TEST(Contact, AParticleBouncesWithTheSolidsRestitution) {
   }
 }
 
-TEST(Contact, FrictionSlowsASlidingParticleByMuG) {
+TEST(Contact, FrictionDeceleratesByMuG) {
   const double mu = 0.25;
   ReferenceSolver solver(over(plate(mu, 0)), std::vector<glm::dvec3>{{0, kSpacing / 2, 0}}, std::vector<glm::dvec3>{{2, 0, 0}});
   solver.begin(kStep);
@@ -122,7 +122,7 @@ TEST(Contact, FrictionSlowsASlidingParticleByMuG) {
   EXPECT_NEAR(solver.state.velocity[0].x, 0, 1e-12);
 }
 
-TEST(Contact, FrictionFollowsTheMovingSolid) {
+TEST(Contact, FrictionAcceleratesToSpeedOfMovingSolid) {
   Solid belt = plate(0.5, 0);
   belt.motion = {{0, {0, 0, 0}}, {10, {10, 0, 0}}};
   ReferenceSolver solver(over(belt), std::vector<glm::dvec3>{{0, kSpacing / 2, 0}});
@@ -133,7 +133,7 @@ TEST(Contact, FrictionFollowsTheMovingSolid) {
 }
 
 // A column's whole weight is felt under it: the momentum that a fast belt under a settled column gives in a substep is mu M g dt.
-TEST(Contact, FrictionFeelsThePressureAbove) {
+TEST(Contact, FrictionIncludesWeightOfColumn) {
   for (const int layers : {1, 3, 8}) {
     const int wide = 6;
     ReferenceSettings s = tank(kSpacing, kSpacing * glm::dvec3(wide, 40, wide));
@@ -161,7 +161,7 @@ TEST(Contact, FrictionFeelsThePressureAbove) {
   }
 }
 
-TEST(Boundary, AMovingBallPushesParticlesAside) {
+TEST(Boundary, MovingSphereDisplacesParticles) {
   Solid ball;
   ball.sphere = SphereShape{{-0.5, 0, 0}, 0.2};
   ball.motion = {{0, {0, 0, 0}}, {1, {1, 0, 0}}};
@@ -179,7 +179,7 @@ TEST(Boundary, AMovingBallPushesParticlesAside) {
   EXPECT_GT(glm::length(solver.state.position[0] - glm::dvec3(-3, 0.01, 0)), 0.1);
 }
 
-TEST(Boundary, TablesAndSumsGiveTheSameFlow) {
+TEST(Boundary, TablesAndLatticeSumsGiveSameFlow) {
   std::vector<glm::dvec3> at[2];
   for (const bool tabulated : {false, true}) {
     ReferenceSettings s = tank(kSpacing, kSpacing * glm::dvec3(10, 10, 4));

@@ -22,7 +22,7 @@ double leastDistance(const ReferenceSolver& solver) {
   return least;
 }
 
-TEST(Solver, AFullBoxWithoutGravityDoesNotMove) {
+TEST(ReferenceSolver, FullBoxWithoutGravityStaysAtRest) {
   for (const KernelChoice kernel : {KernelChoice::Wendland, KernelChoice::Poly6Spiky}) {
     for (const bool tabulated : {false, true}) {
       for (const double ratio : {1.2, 2.0, 2.7}) {
@@ -42,7 +42,7 @@ TEST(Solver, AFullBoxWithoutGravityDoesNotMove) {
   }
 }
 
-TEST(Solver, ADropFallsFreely) {
+TEST(ReferenceSolver, DropFallsFreely) {
   ReferenceSettings s;
   s.spacing = kTankSpacing;
   const std::vector<glm::dvec3> x = lattice(5, 5, 5, kTankSpacing);
@@ -57,7 +57,7 @@ TEST(Solver, ADropFallsFreely) {
   }
 }
 
-TEST(Solver, AStillColumnRests) {
+TEST(ReferenceSolver, ColumnStaysAtRest) {
   const int layers = 8;
   ReferenceSettings s = tank(kTankSpacing, kTankSpacing * glm::dvec3(6, 3 * layers, 6));
   s.relaxation = 0.5;
@@ -88,7 +88,7 @@ double maxFallOfPressurizedColumn(ReferenceSettings s, int layers) {
   return most;
 }
 
-TEST(Solver, AColumnsPressureBearsItAtWallsToo) {
+TEST(ReferenceSolver, InitialPressureSupportsColumnAtWalls) {
   const int layers = 16;
   for (const bool tabulated : {false, true}) {
     for (const double ratio : {2.0, 2.5}) {
@@ -101,7 +101,7 @@ TEST(Solver, AColumnsPressureBearsItAtWallsToo) {
   }
 }
 
-TEST(Solver, ADamBreakStaysInsideKeepsItsParticlesAndGainsNoEnergy) {
+TEST(ReferenceSolver, DamBreakStaysInsideAndGainsNoEnergy) {
   for (const bool tabulated : {true, false}) {
     ReferenceSettings s = tank(kTankSpacing, kTankSpacing * glm::dvec3(24, 24, 6));
     s.tabulated = tabulated;
@@ -130,7 +130,7 @@ TEST(Solver, ADamBreakStaysInsideKeepsItsParticlesAndGainsNoEnergy) {
   }
 }
 
-TEST(Solver, CoincidentParticlesSeparate) {
+TEST(ReferenceSolver, CoincidentParticlesSeparate) {
   ReferenceSettings s;
   s.spacing = kTankSpacing;
   s.gravity = glm::dvec3(0);
@@ -145,7 +145,7 @@ TEST(Solver, CoincidentParticlesSeparate) {
   EXPECT_EQ(pile.parked(), 0u);
 }
 
-TEST(Solver, WhatIsNotFiniteIsParkedAndHarmsNobody) {
+TEST(ReferenceSolver, DeactivatesNonFiniteParticles) {
   ReferenceSettings s = tank(kTankSpacing, kTankSpacing * glm::dvec3(6, 12, 6));
   std::vector<glm::dvec3> x = lattice(6, 6, 6, kTankSpacing), v(x.size(), glm::dvec3(0));
   x[3].y = kNaN;
@@ -164,13 +164,13 @@ TEST(Solver, WhatIsNotFiniteIsParkedAndHarmsNobody) {
   EXPECT_LT(rmsSpeed(solver), 3);
 }
 
-TEST(Solver, NoParticlesIsNoProblem) {
+TEST(ReferenceSolver, HandlesZeroParticles) {
   ReferenceSolver solver(tank(kTankSpacing, glm::dvec3(1)), {});
   run(solver, 1e-3, 3);
   EXPECT_EQ(solver.size(), 0u);
 }
 
-TEST(Solver, SpeedIsBounded) {
+TEST(ReferenceSolver, LimitsSpeed) {
   ReferenceSettings s;
   s.spacing = kTankSpacing;
   s.speedLimit = 4;
@@ -179,7 +179,7 @@ TEST(Solver, SpeedIsBounded) {
   for (const glm::dvec3& v : solver.state.velocity) EXPECT_LE(glm::length(v), 4 * (1 + 1e-12));
 }
 
-TEST(Solver, FarFromTheOriginAndWithAnUnevenStepItIsTheSameFlow) {
+TEST(ReferenceSolver, IsTranslationInvariantWithVaryingSteps) {
   ReferenceSettings s = tank(kTankSpacing, kTankSpacing * glm::dvec3(12, 12, 4));
   ReferenceSettings far = s;
   const glm::dvec3 away = {1000, -500, 250};
@@ -199,7 +199,7 @@ TEST(Solver, FarFromTheOriginAndWithAnUnevenStepItIsTheSameFlow) {
   for (size_t i = 0; i < here.size(); ++i) EXPECT_LT(glm::length(there.state.position[i] - away - here.state.position[i]), 1e-7);
 }
 
-TEST(Solver, VorticityConfinementFeedsADamBreakWithoutBlowingUp) {
+TEST(ReferenceSolver, VorticityConfinementStaysStable) {
   double kinetic[2];
   for (const bool on : {false, true}) {
     ReferenceSettings s = tank(kTankSpacing, kTankSpacing * glm::dvec3(24, 24, 4));

@@ -26,7 +26,7 @@ ReferenceSolver crowded(const ReferenceSettings& settings, unsigned seed = 5) {
   return ReferenceSolver(settings, x, v);
 }
 
-TEST(Neighbors, TheGridFindsWhatEveryPairGives) {
+TEST(Neighbors, GridMatchesBruteForce) {
   for (const glm::dvec3 from : {glm::dvec3(0), glm::dvec3(-0.3, -0.9, -0.1), glm::dvec3(1e5, -2e5, 3e4)}) {
     const std::vector<glm::dvec3> x = randomCloud(900, 0.8, 3, from);
     const Neighbors grid = findNeighbors(x, 0.1), all = findNeighborsBruteForce(x, 0.1);
@@ -37,7 +37,7 @@ TEST(Neighbors, TheGridFindsWhatEveryPairGives) {
   EXPECT_EQ(findNeighbors({}, 0.1).first.size(), 1u);
 }
 
-TEST(Pairs, AreAntisymmetricEvenWhereTheyCoincide) {
+TEST(Pairs, AreAntisymmetricIncludingCoincidentPairs) {
   ReferenceSolver solver = crowded(freeSpace());
   solver.density();
   int coincident = 0;
@@ -54,7 +54,7 @@ TEST(Pairs, AreAntisymmetricEvenWhereTheyCoincide) {
   EXPECT_EQ(coincident, 2);
 }
 
-TEST(Correction, KeepsMomentumToRoundOff) {
+TEST(Correction, ConservesMomentum) {
   for (const KernelChoice kernel : {KernelChoice::Wendland, KernelChoice::Poly6Spiky}) {
     ReferenceSettings s = freeSpace();
     s.kernel = kernel;
@@ -71,7 +71,7 @@ TEST(Correction, KeepsMomentumToRoundOff) {
   }
 }
 
-TEST(Multipliers, NeverPullAndMoreIterationsLeaveLessCompression) {
+TEST(Multipliers, AreNonPositiveAndReduceCompressionWithIterations) {
   double last = 1e9;
   for (const int iterations : {1, 2, 4, 8}) {
     ReferenceSettings s = tank(kStageSpacing, kStageSpacing * glm::dvec3(6, 9, 6));
@@ -91,7 +91,7 @@ TEST(Multipliers, NeverPullAndMoreIterationsLeaveLessCompression) {
   }
 }
 
-TEST(Multipliers, FollowTheirFormula) {
+TEST(Multipliers, MatchFormula) {
   ReferenceSettings s = freeSpace();
   s.relaxation = 0.6;
   s.warmStart = 0.2;
@@ -120,7 +120,7 @@ TEST(Multipliers, FollowTheirFormula) {
   }
 }
 
-TEST(Prediction, AppliesTheWarmStartScaledByTheSquareOfTheStep) {
+TEST(Prediction, ScalesWarmStartBySquaredStep) {
   ReferenceSettings s = freeSpace();
   ReferenceSolver solver = crowded(s);
   std::fill(solver.state.warm.begin(), solver.state.warm.end(), -1e-5);
@@ -134,7 +134,7 @@ TEST(Prediction, AppliesTheWarmStartScaledByTheSquareOfTheStep) {
   }
 }
 
-TEST(Tensile, PushesAClumpApartAlikeAtAnyStepAndScale) {
+TEST(ArtificialPressureStage, AccelerationIsIndependentOfStepAndScale) {
   // The acceleration of a pair at delta q apart, over g.
   const auto push = [](double d, double dt) {
     ReferenceSettings s;
@@ -155,7 +155,7 @@ TEST(Tensile, PushesAClumpApartAlikeAtAnyStepAndScale) {
   EXPECT_NEAR(share, 14.35, 0.1) << "half of strength 1";
 }
 
-TEST(Tensile, MakesUpInTheFirstSubstepOfABlockForTheOthers) {
+TEST(ArtificialPressureStage, AppliesWholeBlockInItsFirstSubstep) {
   const double d = 0.05, r = 0.4 * d, dt = 2e-4;
   const auto speed = [&](int block) {
     ReferenceSettings s;
@@ -172,7 +172,7 @@ TEST(Tensile, MakesUpInTheFirstSubstepOfABlockForTheOthers) {
   EXPECT_NEAR(speed(3), speed(1), 0.01 * speed(1));
 }
 
-TEST(Tensile, IsATwentiethOfASpacingInAStepAtMost) {
+TEST(ArtificialPressureStage, LimitsDisplacementToATwentiethOfASpacing) {
   ReferenceSettings s;
   s.spacing = 0.05;
   s.tensile = 0.1;
@@ -183,7 +183,7 @@ TEST(Tensile, IsATwentiethOfASpacingInAStepAtMost) {
   EXPECT_NEAR(solver.state.position[1].x, 0.02 + 0.05 * s.spacing, 0.005 * s.spacing);
 }
 
-TEST(Tensile, GrowsNoFurtherNearerThanItsReferenceAndEndsWhereNeighborsRest) {
+TEST(ArtificialPressureStage, IsConstantBelowReferenceAndZeroAtRest) {
   ReferenceSettings s;
   s.tensile = 0.5;
   s.tensileRadius = 0.3;
@@ -227,14 +227,14 @@ double decayOverTheory(double ratio, int sweeps) {
   return std::log(start / amplitude()) / (nu * wave * wave * dt * steps);
 }
 
-TEST(Viscosity, AShearWaveDecaysAtTheGivenViscosity) {
+TEST(Viscosity, ShearWaveDecaysAtGivenViscosity) {
   EXPECT_NEAR(decayOverTheory(1.5, 1), 1, 0.03);
   EXPECT_NEAR(decayOverTheory(2, 1), 1, 0.03);
   EXPECT_NEAR(decayOverTheory(3, 1), 1, 0.06);
   EXPECT_NEAR(decayOverTheory(2, 2), 1, 0.03);
 }
 
-TEST(Viscosity, KeepsMomentumAndLosesEnergy) {
+TEST(Viscosity, ConservesMomentumAndDissipatesEnergy) {
   ReferenceSettings s = freeSpace();
   s.viscosity = 50;
   s.viscositySweeps = 4;
@@ -247,7 +247,7 @@ TEST(Viscosity, KeepsMomentumAndLosesEnergy) {
   EXPECT_LT(energy(solver), kinetic);
 }
 
-TEST(Vorticity, MeasuresTheCurlOfASolidRotationAndFeedsAVortex) {
+TEST(Vorticity, MeasuresCurlAndAcceleratesVortex) {
   ReferenceSettings s = freeSpace();
   s.vorticity = 0.3;
   const glm::dvec3 spin = {0, 3, 0};

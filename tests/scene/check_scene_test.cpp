@@ -23,7 +23,7 @@ struct Change {
   std::string message;
 };
 
-TEST(CheckScene, AcceptsWhatIsInRange) {
+TEST(CheckScene, AcceptsValidScenes) {
   EXPECT_EQ(refusalOf(tank()), "accepted");
   Scene least;
   least.fluid.spacing = 1;
@@ -36,7 +36,7 @@ TEST(CheckScene, AcceptsWhatIsInRange) {
   EXPECT_EQ(refusalOf(turned), "accepted");
 }
 
-TEST(CheckScene, TheSpacingMayStandBesideTheNumberThatItFollowsFrom) {
+TEST(CheckScene, AcceptsSpacingComputedFromParticles) {
   Scene scene = tank();
   scene.fluid.spacing = 0;
   scene.fluid.particles = 500;
@@ -49,7 +49,7 @@ TEST(CheckScene, TheSpacingMayStandBesideTheNumberThatItFollowsFrom) {
   EXPECT_EQ(first->positions.size(), second->positions.size());
 }
 
-TEST(CheckScene, EachBadValueIsNamedWithWhatWasExpected) {
+TEST(CheckScene, RejectsInvalidValuesNamingKeyAndExpectation) {
   const std::vector<Change> changes = {
       {[](Scene& s) { s.fluid.viscosity = -1; }, "fluid.viscosity: -1 is out of range; expected a number of at least 0 (Pa s)"},
       {[](Scene& s) { s.fluid.viscosity = kNan; }, "fluid.viscosity: nan is not finite; expected a number of at least 0 (Pa s)"},
@@ -61,7 +61,7 @@ TEST(CheckScene, EachBadValueIsNamedWithWhatWasExpected) {
       {[](Scene& s) { s.fluid.particles = uint64_t{1} << 40; },
        "fluid.particles: 1099511627776 is out of range; expected a whole number from 1 to 4294967295"},
       {[](Scene& s) { s.fluid.spacing = 1e-20; },
-       "fluid.spacing: a particle's mass, density x spacing^3, would be 1e-57 kg, which is out of range of a 32-bit float"},
+       "fluid.spacing: the mass of a particle, density x spacing^3, is 1e-57 kg; expected a mass that fits a 32-bit float"},
       {[](Scene& s) { s.gravity[1] = kNan; }, "gravity[1]: nan is not finite; expected a number (m/s^2)"},
       {[](Scene& s) { s.gravity[2] = -1e300; }, "gravity[2]: -1e+300 is out of range of a 32-bit float; expected a number (m/s^2)"},
       {[](Scene& s) { s.duration = -1; }, "duration: -1 is out of range; expected a number of at least 0 (s)"},
@@ -73,43 +73,43 @@ TEST(CheckScene, EachBadValueIsNamedWithWhatWasExpected) {
       {[](Scene& s) { s.solver.time_step = 0.0; }, "solver.time_step: 0 is out of range; expected a number above 0 (s)"},
       {[](Scene& s) { s.solver.relaxation = 3.0; }, "solver.relaxation: 3 is out of range; expected a number above 0 and at most 2"},
       {[](Scene& s) { s.solver.kernel = KernelChoice(7); },
-       "solver.kernel: found the number 7, expected that of one of \"wendland\", \"poly6_spiky\""},
+       "solver.kernel: invalid enum value 7; expected the value of \"wendland\", \"poly6_spiky\""},
       {[](Scene& s) { s.solver.neighbors = NeighborChoice(2); },
-       "solver.neighbors: found the number 2, expected that of one of \"list\", \"grid\""},
+       "solver.neighbors: invalid enum value 2; expected the value of \"list\", \"grid\""},
       {[](Scene& s) { std::swap(s.domain->min[1], s.domain->max[1]); },
        "domain.max[1]: max is 0 and min is 1 along y; expected min below max on every axis"},
       {[](Scene& s) { s.domain->max[0] = kNan; }, "domain.max[0]: nan is not finite; expected a number (m)"},
       {[](Scene& s) { s.domain->open = 0x40; },
-       "domain.open: found the bits 64, expected no others than those of \"-x\", \"+x\", \"-y\", \"+y\", \"-z\", \"+z\""},
+       "domain.open: invalid bit mask 64; expected only the bits of \"-x\", \"+x\", \"-y\", \"+y\", \"-z\", \"+z\""},
       {[](Scene& s) { s.fill[0].box.reset(); }, "fill[0]: expected exactly one of \"box\", \"sphere\", \"particles\"; found none"},
-      {[](Scene& s) { s.fill[1].particles = ""; }, "fill[1].particles.file: found \"\", expected the name of a file"},
+      {[](Scene& s) { s.fill[1].particles = ""; }, "fill[1].particles.file: found \"\", expected a file name"},
       {[](Scene& s) { s.fill[0].jitter = 7; }, "fill[0].jitter: 7 is out of range; expected a number from 0 to 0.5"},
       {[](Scene& s) { s.fill[0].velocity[2] = kInf; }, "fill[0].velocity[2]: inf is not finite; expected a number (m/s)"},
       {[](Scene& s) { s.fill[1].sphere->radius = -2; }, "fill[1].sphere.radius: -2 is out of range; expected a number above 0 (m)"},
       {[](Scene& s) { s.solids[0].box.reset(); }, "solids[0]: expected exactly one of \"box\", \"sphere\"; found none"},
       {[](Scene& s) { s.solids[1].box = BoxShape{}; }, "solids[1]: expected exactly one of \"box\", \"sphere\"; found \"box\", \"sphere\""},
       {[](Scene& s) { s.solids[0].rotation[3] = 0; },
-       "solids[0].rotation: the quaternion has zero length; expected one that turns, [0, 0, 0, 1] for none"},
+       "solids[0].rotation: the quaternion has zero length; expected a non-zero quaternion, [0, 0, 0, 1] for no rotation"},
       {[](Scene& s) { s.solids[0].rotation[0] = 1; }, "solids[0].rotation: the quaternion's length is 1.414; expected 1"},
       {[](Scene& s) { s.solids[0].restitution = 1.5; }, "solids[0].restitution: 1.5 is out of range; expected a number from 0 to 1"},
       {[](Scene& s) { s.solids[0].driven = -1; }, "solids[0].driven: -1 is out of range; expected a speed of at least 0 (m/s)"},
       {[](Scene& s) { s.solids[0].driven = 1e300; }, "solids[0].driven: 1e+300 is out of range; expected a speed of at least 0 (m/s)"},
       {[](Scene& s) { s.solids[1].driven = 1; },
-       "solids[1].driven: a solid with a motion moves by itself; expected 0 beside it, or no motion"},
+       "solids[1].driven: found 1 for a solid with keyframes; expected 0, or a solid without motion"},
       {[](Scene& s) { std::swap(s.solids[1].motion[0].at, s.solids[1].motion[1].at); },
-       "solids[1].motion[1].at: 0.5 s does not come after 1 s, the entry before; expected times that rise"},
+       "solids[1].motion[1].at: found 0.5 s after 1 s in the previous entry, expected increasing times"},
       {[](Scene& s) { s.solids.resize(5000, s.solids[0]); }, "solids: found 5,000 entries, expected at most 4,096"},
       {[](Scene& s) { s.gravity_changes[1].at = 1; },
-       "gravity_changes[1].at: 1 s does not come after 1 s, the entry before; expected times that rise"},
+       "gravity_changes[1].at: found 1 s after 1 s in the previous entry, expected increasing times"},
       {[](Scene& s) { s.gravity_changes[0].value[0] = kNan; }, "gravity_changes[0].value[0]: nan is not finite; expected a number (m/s^2)"},
-      {[](Scene& s) { s.probes[0].name.clear(); }, "probes[0].name: is empty; expected a name"},
-      {[](Scene& s) { s.probes[1].name = "gauge"; }, "probes[1].name: \"gauge\" is the name of probes[0] too; expected each name once"},
+      {[](Scene& s) { s.probes[0].name.clear(); }, "probes[0].name: found an empty name, expected a unique name"},
+      {[](Scene& s) { s.probes[1].name = "gauge"; }, "probes[1].name: \"gauge\" is also the name of probes[0]; expected unique names"},
       {[](Scene& s) { s.probes[1].front = Axis(6); },
-       "probes[1].front: found the number 6, expected that of one of \"+x\", \"-x\", \"+y\", \"-y\", \"+z\", \"-z\""},
+       "probes[1].front: invalid enum value 6; expected the value of \"+x\", \"-x\", \"+y\", \"-y\", \"+z\", \"-z\""},
       {[](Scene& s) { s.probes[0].level->second = kNan; }, "probes[0].level[1]: nan is not finite; expected a number (m)"},
-      {[](Scene& s) { s.camera->eye[2] = 0; }, "camera.target: eye and target are the same point; expected two"},
+      {[](Scene& s) { s.camera->eye[2] = 0; }, "camera.target: eye and target are the same point; expected two different points"},
       {[](Scene& s) { s.look.preset = "watr"; },
-       "look.preset: found the text \"watr\", expected one of \"water\", \"milk\", \"ink\", \"clay\"; did you mean \"water\"?"},
+       "look.preset: found the string \"watr\", expected one of \"water\", \"milk\", \"ink\", \"clay\"; did you mean \"water\"?"},
   };
   for (const Change& change : changes) {
     Scene scene = tank();
@@ -128,7 +128,7 @@ TEST(CheckScene, EachBadValueIsNamedWithWhatWasExpected) {
 }
 
 // What a file may say a host may say, too: both are judged by the same rules.
-TEST(CheckScene, AcceptsWhatTheReaderAccepts) {
+TEST(CheckScene, AcceptsEveryShippedScene) {
   for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(RILL_SOURCE_DIR) / "assets/scenes")) {
     if (entry.path().extension() != ".json" || entry.path().filename() == "scene.schema.json") continue;
     const auto read = loadScene(entry.path());

@@ -82,7 +82,7 @@ StartFigures figuresOf(const ParticleSet& set) {
   return start;
 }
 
-TEST(MutatedScenes, AreRefusedOrRun) {
+TEST(MutatedScenes, AreRejectedOrRun) {
   constexpr double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kValues[] = {nan, inf, -inf, 1e300, -1e300, 3e38, -3e38, 1e20, 1e-20, 1e-44, -1e-44, 1, -1, 4, 100, 0};
   constexpr double kFactors[] = {0, 0, 0, 1, -1, 2, 0.5, 1.1, 0.01, 100, 1e6, 1e-6};

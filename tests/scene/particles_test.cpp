@@ -13,7 +13,7 @@ std::string withSpacing(const std::string& spacing, const std::string& more) {
   return R"({"rill": "0.1", "fluid": {"spacing": )" + spacing + "}, " + more + "}";
 }
 
-TEST(Particles, ABoxIsALatticeHalfASpacingInside) {
+TEST(Particles, PlacesBoxLatticeHalfASpacingInside) {
   const ParticleSet set = particles(
       with(R"("domain": {"max": [1, 1, 1]}, "fill": [{"box": {"min": [0, 0, 0], "max": [0.3, 0.2, 0.1]}, "velocity": [1, 2, 3]}])"));
   ASSERT_EQ(set.positions.size(), 6U);
@@ -25,7 +25,7 @@ TEST(Particles, ABoxIsALatticeHalfASpacingInside) {
   EXPECT_TRUE(set.warnings.empty());
 }
 
-TEST(Particles, CountsAreRoundedPerAxis) {
+TEST(Particles, RoundsCountsPerAxis) {
   const auto count = [](const std::string& max) { return particles(with(R"("fill": [{"box": {"max": )" + max + "}}]")).positions.size(); };
   EXPECT_EQ(count("[0.14, 0.1, 0.1]"), 1U);
   EXPECT_EQ(count("[0.16, 0.1, 0.1]"), 2U);
@@ -33,7 +33,7 @@ TEST(Particles, CountsAreRoundedPerAxis) {
   EXPECT_EQ(count("[1, 1, 1]"), 1000U);
 }
 
-TEST(Particles, ASphereIsCenteredOnItsCenter) {
+TEST(Particles, CentersLatticeOnSphere) {
   const ParticleSet one = particles(with(R"("domain": {}, "fill": [{"sphere": {"center": [0.5, 0.5, 0.5], "radius": 0.04}}])"));
   ASSERT_EQ(one.positions.size(), 1U);
   EXPECT_EQ(one.positions[0], (Float3{0.5F, 0.5F, 0.5F}));
@@ -50,7 +50,7 @@ TEST(Particles, ASphereIsCenteredOnItsCenter) {
   EXPECT_NEAR(mean, 1, 1e-6);
 }
 
-TEST(Particles, JitterComesFromTheSeedAndKeepsWithinItsBounds) {
+TEST(Particles, JitterIsSeededAndBounded) {
   const std::string text = R"("domain": {}, "fill": [{"box": {}, "jitter": 0.5}], "seed": )";
   const ParticleSet a = particles(with(text + "1")), again = particles(with(text + "1")), b = particles(with(text + "2"));
   const ParticleSet calm = particles(with(R"("domain": {}, "fill": [{"box": {}}])"));
@@ -70,7 +70,7 @@ TEST(Particles, JitterComesFromTheSeedAndKeepsWithinItsBounds) {
   EXPECT_NEAR(sum / 1000, 0, 0.003);
 }
 
-TEST(Particles, JitterDoesNotDependOnOtherEntriesOrLosesParticles) {
+TEST(Particles, JitterIsIndependentOfOtherFillsAndLosesNoParticles) {
   const ParticleSet both = particles(with(
       R"("domain": {"max": [2, 1, 1]}, "fill": [{"box": {}, "jitter": 0.5}, {"box": {"min": [1, 0, 0], "max": [2, 1, 1]}, "jitter": 0.5}])"));
   EXPECT_EQ(both.positions.size(), 2000U);  // neighbors across the seam may be near: they were not on the lattice
@@ -78,20 +78,20 @@ TEST(Particles, JitterDoesNotDependOnOtherEntriesOrLosesParticles) {
   EXPECT_TRUE(std::equal(alone.positions.begin(), alone.positions.end(), both.positions.begin()));
 }
 
-TEST(Particles, OverlapsAreLeftOutCountedAndNamed) {
+TEST(Particles, LeavesOutAndReportsOverlaps) {
   const ParticleSet set = particles(with(
       R"("fill": [{"box": {}}, {"box": {"min": [0.5, 0, 0], "max": [1.5, 1, 1]}}, {"sphere": {"center": [5, 5, 5], "radius": 0.2}}])"));
   EXPECT_EQ(set.left_out_overlap, 500U);
   EXPECT_GE(set.positions.size(), 1500U);
   ASSERT_EQ(set.warnings.size(), 1U);
-  EXPECT_EQ(set.warnings[0], "dam: fill[1]: 500 of 1,000 particles are nearer than 0.9 spacings to fluid placed before, and are left out");
+  EXPECT_EQ(set.warnings[0], "dam: fill[1]: 500 of 1,000 particles are closer than 0.9 spacings to earlier fills, and are left out");
   for (size_t i = 0; i < set.positions.size(); ++i) {
     for (size_t j = 0; j < i; ++j) ASSERT_GE(distance(set.positions[i], set.positions[j]), 0.0899);
   }
 }
 
 /// The hash of cells gives what comparing all pairs gives, also across cell borders and at negative places.
-TEST(Particles, OverlapsAreThoseOfAllPairs) {
+TEST(Particles, OverlapsMatchAllPairsSearch) {
   const ParticleSet set = particles(with(
       R"("fill": [{"sphere": {"center": [0.03, -0.01, 0.02], "radius": 0.5}}, {"sphere": {"center": [-0.4, 0.21, 0.1], "radius": 0.5}}])"));
   const ParticleSet a = particles(
@@ -106,7 +106,7 @@ TEST(Particles, OverlapsAreThoseOfAllPairs) {
   EXPECT_EQ(set.positions.size(), a.positions.size() + b.positions.size() - near);
 }
 
-TEST(Particles, InsideSolidsAreLeftOut) {
+TEST(Particles, LeavesOutParticlesInsideSolids) {
   const std::string fill = R"("fill": [{"box": {"min": [0, 0, 0], "max": [1, 1, 1]}}], )";
   const auto left = [&](const std::string& solid) { return particles(with(fill + "\"solids\": [" + solid + "]")).left_out_solid; };
   EXPECT_EQ(left(R"({"box": {"min": [0, 0, 0], "max": [0.5, 0.5, 0.5]}})"), 125U);
@@ -124,7 +124,7 @@ TEST(Particles, InsideSolidsAreLeftOut) {
   EXPECT_EQ(set.warnings[0], "dam: fill[0]: 125 of 1,000 particles start inside a solid and are left out");
 }
 
-TEST(Particles, ManySolidsAreAllSeen) {
+TEST(Particles, TestsEverySolid) {
   std::string solids;
   for (int i = 0; i < 1000; ++i) {
     solids += (i ? "," : "") + std::string(R"({"sphere": {"radius": 0.01, "center": [)") + std::to_string(0.05 + 0.1 * (i % 10)) + "," +
@@ -135,7 +135,7 @@ TEST(Particles, ManySolidsAreAllSeen) {
   EXPECT_EQ(set.positions.size(), 100U);
 }
 
-TEST(Particles, BeyondClosedWallsAreLeftOutAndOpenSidesKept) {
+TEST(Particles, LeavesOutParticlesBeyondClosedWallsOnly) {
   const std::string fill = R"("fill": [{"box": {"min": [-0.2, 0, 0], "max": [0.8, 1.2, 1]}}])";
   const ParticleSet closed = particles(with(R"("domain": {}, )" + fill));
   EXPECT_EQ(closed.positions.size(), 800U);
@@ -148,7 +148,7 @@ TEST(Particles, BeyondClosedWallsAreLeftOutAndOpenSidesKept) {
   EXPECT_LT(open.positions[0].x, 0);
 }
 
-TEST(Particles, AFullTankLosesNothingToRounding) {
+TEST(Particles, KeepsFullTankDespiteRounding) {
   for (const std::string spacing : {"0.1", "0.05", "0.03", "0.07", "0.023", "0.3"}) {
     const ParticleSet set = particles(withSpacing(
         spacing,
@@ -159,7 +159,7 @@ TEST(Particles, AFullTankLosesNothingToRounding) {
   }
 }
 
-TEST(Particles, FarFromTheOriginIsTheSame) {
+TEST(Particles, IsTranslationInvariant) {
   const ParticleSet near = particles(with(R"("domain": {}, "fill": [{"box": {"max": [0.5, 0.5, 0.5]}, "jitter": 0.2}])"));
   const ParticleSet far = particles(with(
       R"("domain": {"min": [4096, -8192, 1024], "max": [4097, -8191, 1025]}, "fill": [{"box": {"min": [4096, -8192, 1024], "max": [4096.5, -8191.5, 1024.5]}, "jitter": 0.2}])"));
@@ -168,7 +168,7 @@ TEST(Particles, FarFromTheOriginIsTheSame) {
   for (size_t i = 0; i < near.positions.size(); ++i) ASSERT_LT(distance(near.positions[i], far.positions[i]), 1e-7);
 }
 
-TEST(Particles, WithoutADomainTheOriginIsInTheFluidAtWholeSpacings) {
+TEST(Particles, PlacesOriginAtWholeSpacingsWithoutDomain) {
   const ParticleSet set = particles(with(R"("fill": [{"box": {"min": [10, 20, 30], "max": [10.5, 20.7, 30.3]}}])"));
   for (const double o : set.origin) EXPECT_NEAR(o / 0.1, std::round(o / 0.1), 1e-9);
   EXPECT_NEAR(set.origin[0], 10.25, 0.051);
@@ -176,25 +176,24 @@ TEST(Particles, WithoutADomainTheOriginIsInTheFluidAtWholeSpacings) {
   EXPECT_NEAR(set.positions[0].z + set.origin[2], 30.05, 1e-6);
 }
 
-TEST(Particles, FarFromTheDomainWarnsOfCoarseFloats) {
+TEST(Particles, WarnsOfCoarseFloatsFarFromDomain) {
   const ParticleSet set = particles(withSpacing(
       "0.01", R"("domain": {"max": [1, 1, 1], "open": ["+x"]}, "fill": [{"box": {"min": [5000, 0, 0], "max": [5000.1, 0.1, 0.1]}}])"));
   ASSERT_EQ(set.warnings.size(), 1U);
   EXPECT_NE(set.warnings[0].find("5000 m from the domain's minimum"), std::string::npos) << set.warnings[0];
 }
 
-TEST(Particles, FillsThatYieldNothingAreNamed) {
+TEST(Particles, ReportsEmptyFills) {
   const ParticleSet set =
       particles(with(R"("domain": {}, "fill": [{"box": {}}, {"box": {"max": [1, 0.04, 1]}}, {"sphere": {"radius": 0.02}}, {"box": {}}])"));
   ASSERT_EQ(set.warnings.size(), 4U);
-  EXPECT_EQ(set.warnings[0], "dam: fill[1]: yields no particle: it is too thin for a spacing of 0.1 m");
-  EXPECT_EQ(set.warnings[1], "dam: fill[2]: yields no particle: it is too thin for a spacing of 0.1 m");
-  EXPECT_EQ(set.warnings[2],
-            "dam: fill[3]: 1,000 of 1,000 particles are nearer than 0.9 spacings to fluid placed before, and are left out");
-  EXPECT_EQ(set.warnings[3], "dam: fill[3]: yields no particle: all are left out");
+  EXPECT_EQ(set.warnings[0], "dam: fill[1]: yields no particles: it is too thin for a spacing of 0.1 m");
+  EXPECT_EQ(set.warnings[1], "dam: fill[2]: yields no particles: it is too thin for a spacing of 0.1 m");
+  EXPECT_EQ(set.warnings[2], "dam: fill[3]: 1,000 of 1,000 particles are closer than 0.9 spacings to earlier fills, and are left out");
+  EXPECT_EQ(set.warnings[3], "dam: fill[3]: yields no particles: all are left out");
 }
 
-TEST(Particles, NoneLeftIsAnErrorOnlyWithAFill) {
+TEST(Particles, FailsIfFillsYieldNoParticle) {
   Scene empty = scene(with(R"("domain": {})"));
   const auto none = makeParticles(empty, kMany);
   ASSERT_TRUE(none);
@@ -203,20 +202,21 @@ TEST(Particles, NoneLeftIsAnErrorOnlyWithAFill) {
   const auto refused = makeParticles(outside, kMany);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, ErrorKind::BadInput);
-  EXPECT_EQ(
-      refused.error().message.rfind("dam: fill: no particle is left (1,000 outside the walls, 0 inside solids); expected at least one.", 0),
-      0U)
+  EXPECT_EQ(refused.error().message.rfind(
+                "dam: fill: no particles are left (1,000 outside the walls, 0 inside solids); expected at least one.", 0),
+            0U)
       << refused.error().message;
 }
 
-TEST(Particles, TooManyAreRefusedBeforeAnyIsMade) {
+TEST(Particles, RejectsTooManyParticlesBeforeAllocation) {
   const auto message = [](const std::string& spacing, const std::string& fill, uint64_t most) {
     Scene s = scene(withSpacing(spacing, "\"fill\": [" + fill + "]"));
     const auto result = makeParticles(s, most);
     return result ? "made " + std::to_string(result->positions.size()) : result.error().message;
   };
-  EXPECT_EQ(message("0.002", R"({"box": {"max": [1, 0.8, 0.5]}})", 33'554'432),
-            "dam: fluid.spacing: 0.002 m makes 50,000,000 particles; expected at most 33,554,432, as a spacing of about 0.002307 m gives");
+  EXPECT_EQ(
+      message("0.002", R"({"box": {"max": [1, 0.8, 0.5]}})", 33'554'432),
+      "dam: fluid.spacing: 0.002 m makes 50,000,000 particles; expected at most 33,554,432, which a spacing of about 0.002307 m gives");
   EXPECT_EQ(message("0.1", R"({"box": {"max": [1, 1, 1]}})", 999)
                 .rfind("dam: fluid.spacing: 0.1 m makes 1,000 particles; expected at most 999", 0),
             0U);
@@ -228,10 +228,10 @@ TEST(Particles, TooManyAreRefusedBeforeAnyIsMade) {
       message("1e-7", R"({"sphere": {"radius": 1e6}})", kMany).rfind("dam: fluid.spacing: 1e-07 m makes about 4.189e+39 particles", 0), 0U);
   EXPECT_NE(message("0.0004", R"({"box": {"max": [1, 1, 1]}})", ~0ULL).find("expected at most 4,294,967,295"), std::string::npos);
   Scene asked = scene(with(R"("fill": [{"box": {}}])"), {{"fluid.particles", "50000000"}});
-  EXPECT_EQ(makeParticles(asked, 1'000'000).error().message, "dam: fluid.particles: 50,000,000 found, expected at most 1,000,000");
+  EXPECT_EQ(makeParticles(asked, 1'000'000).error().message, "dam: fluid.particles: found 50,000,000, expected at most 1,000,000");
 }
 
-TEST(Particles, SpacingFollowsFromTheNumberOfParticles) {
+TEST(Particles, ComputesSpacingFromParticleCount) {
   const std::string fills[] = {R"({"box": {"max": [1, 1, 1]}})", R"({"box": {"max": [0.6, 0.45, 0.375]}})",
                                R"({"sphere": {"radius": 0.3}})",
                                R"({"box": {"max": [2, 0.1, 1]}}, {"sphere": {"center": [1, 1, 0.5], "radius": 0.2}})"};
@@ -253,23 +253,23 @@ TEST(Particles, SpacingFollowsFromTheNumberOfParticles) {
   EXPECT_NEAR(cube.fluid.spacing, 0.05, 1e-12);  // the lattice that fits the box, not any other with as many particles
 }
 
-TEST(Particles, TheNumberCountsThoseThatAreKept) {
+TEST(Particles, ParticleCountExcludesLeftOutParticles) {
   Scene s = scene(
       R"({"rill": "0.1", "domain": {}, "fluid": {"particles": 20000}, "fill": [{"box": {"min": [-1, 0, 0]}}, {"box": {"max": [0.5, 1, 1]}}]})");
   EXPECT_NEAR(static_cast<double>(particles(s).positions.size()), 20000, 1000);
 }
 
-TEST(Particles, ANumberThatIsMissedByFarIsSaid) {
+TEST(Particles, WarnsIfParticleCountIsMissed) {
   Scene s = scene(R"({"rill": "0.1", "domain": {}, "fluid": {"particles": 1000}, "fill": [{"box": {"min": [-19, 0, 0]}}]})");
   const ParticleSet set = particles(s);
   ASSERT_EQ(set.warnings.size(), 2U);
   EXPECT_NE(set.warnings[1].find("particles instead of 1,000"), std::string::npos) << set.warnings[1];
 }
 
-TEST(Particles, ANumberNeedsAFillToFollowFrom) {
+TEST(Particles, ParticleCountRequiresAFill) {
   Scene s = scene(R"({"rill": "0.1", "fluid": {"particles": 100}})");
   EXPECT_EQ(makeParticles(s, kMany).error().message,
-            "dam: fluid.particles: the scene has no box or sphere of fluid from which a spacing follows; expected fluid.spacing");
+            "dam: fluid.particles: no fill is a box or a sphere, so the spacing cannot be computed; expected fluid.spacing instead");
   Scene unset;
   EXPECT_EQ(makeParticles(unset, kMany).error().message, "fluid: expected exactly one of \"spacing\", \"particles\"; found none");
 }

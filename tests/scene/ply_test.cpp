@@ -40,7 +40,7 @@ class Ply : public ::testing::Test {
 const std::string kAscii =
     "ply\nformat ascii 1.0\ncomment time 0.25\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
 
-TEST_F(Ply, Ascii) {
+TEST_F(Ply, ReadsAscii) {
   const auto set = load(kAscii + "1 2 3\n4.5 +5 6e0");
   ASSERT_TRUE(set) << set.error().message;
   ASSERT_EQ(set->positions.size(), 2U);
@@ -48,7 +48,7 @@ TEST_F(Ply, Ascii) {
   EXPECT_EQ(set->velocities[1], (Float3{0, 0, 1}));
 }
 
-TEST_F(Ply, BinaryOfBothOrdersWithMoreThanNeeded) {
+TEST_F(Ply, ReadsBothByteOrdersAndSkipsOtherProperties) {
   for (const bool big : {false, true}) {
     std::string bytes = std::string("ply\r\nformat ") + (big ? "binary_big_endian" : "binary_little_endian") +
                         " 1.0\r\nobj_info x\r\nelement face 2\r\nproperty list uchar int vertex_indices\r\nproperty uchar tag\r\n"
@@ -75,7 +75,7 @@ TEST_F(Ply, BinaryOfBothOrdersWithMoreThanNeeded) {
   }
 }
 
-TEST_F(Ply, LargeFilesAreReadWhole) {
+TEST_F(Ply, ReadsLargeFiles) {
   std::string bytes =
       "ply\nformat binary_little_endian 1.0\nelement vertex 27000\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
   for (int i = 0; i < 27000; ++i) {
@@ -87,18 +87,18 @@ TEST_F(Ply, LargeFilesAreReadWhole) {
   EXPECT_FLOAT_EQ(set->positions[26999].z, 2.95F);
 }
 
-TEST_F(Ply, ASettledStateKeepsParticlesThatAreNearButNotThoseThatCoincide) {
+TEST_F(Ply, KeepsCloseButDropsCoincidentParticles) {
   const std::string five = "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
   const auto set = load(five + "1 1 1\n1.06 1 1\n1.06 1 1\n2 2 2\n2 2 2.00001\n");
   ASSERT_TRUE(set);
   EXPECT_EQ(set->positions.size(), 3U);
   EXPECT_EQ(set->left_out_overlap, 2U);
   ASSERT_EQ(set->warnings.size(), 1U);
-  EXPECT_NE(set->warnings[0].find("fill[0]: 2 of 5 particles coincide, or are nearer than 0.9 spacings"), std::string::npos)
+  EXPECT_NE(set->warnings[0].find("fill[0]: 2 of 5 particles coincide, or are closer than 0.9 spacings"), std::string::npos)
       << set->warnings[0];
 }
 
-TEST_F(Ply, Refusals) {
+TEST_F(Ply, RejectsInvalidFiles) {
   const std::string head = "ply\nformat ascii 1.0\n", xyz = "property float x\nproperty float y\nproperty float z\n";
   EXPECT_EQ(message(""), "p.ply: does not begin with \"ply\"; expected a PLY file");
   EXPECT_EQ(message("solid\n"), "p.ply: begins with \"solid\"; expected a PLY file, whose first line is \"ply\"");
@@ -111,20 +111,20 @@ TEST_F(Ply, Refusals) {
   EXPECT_EQ(message(head + "element vertex -1\nend_header\n"),
             "p.ply: the header line \"element vertex -1\" has no count; expected element NAME COUNT");
   EXPECT_EQ(message(head + "element vertex 1\nproperty real x\nend_header\n"),
-            "p.ply: the header line \"property real x\" is not understood; expected property TYPE NAME with a type such as float or uint");
-  EXPECT_EQ(message(head + "property float x\nend_header\n"), "p.ply: the header line \"property float x\" stands before any element");
+            "p.ply: the header line \"property real x\" is invalid; expected property TYPE NAME with a type such as float or uint");
+  EXPECT_EQ(message(head + "property float x\nend_header\n"), "p.ply: the header line \"property float x\" comes before any element");
   EXPECT_EQ(message(head + "vertices 3\nend_header\n"),
-            "p.ply: the header line \"vertices 3\" is not understood; expected format, element, property, comment or end_header");
+            "p.ply: the header line \"vertices 3\" is invalid; expected format, element, property, comment or end_header");
   EXPECT_EQ(message(head + "element face 1\nproperty float x\nend_header\n1\n"),
             "p.ply: the header has no vertex element; expected one with x, y and z");
   EXPECT_EQ(message(head + "element vertex 1\nproperty float x\nproperty float y\nend_header\n1 2\n"),
             "p.ply: the vertices have no property \"z\"; expected x, y and z");
   EXPECT_EQ(message(head + "element vertex 1\n" + xyz + "property float x\nend_header\n1 2 3 4\n"),
-            "p.ply: the vertex property \"x\" is there twice; expected it once");
+            "p.ply: the vertex property \"x\" is declared twice; expected it once");
   EXPECT_EQ(message(head + "element vertex 1\nproperty list int float x\nend_header\n1 2\n"),
             "p.ply: the vertex property \"x\" is a list; expected a number");
   EXPECT_EQ(message(kAscii + "1 2 3\n4 5"),
-            "p.ply: the header promises 2 of \"vertex\", at least 6 bytes each, but only 10 bytes are left; expected a whole file");
+            "p.ply: the header declares 2 of \"vertex\", at least 6 bytes each, but only 10 bytes follow; expected a complete file");
   EXPECT_EQ(message(kAscii + "1 2 3.000\n4 5"), "p.ply: vertex 1, property \"z\": found the end of the file, expected a number");
   EXPECT_EQ(message(kAscii + "1 2 3\n4 five 6\n"), "p.ply: vertex 1, property \"y\": found \"five\", expected a number");
   EXPECT_EQ(message(kAscii + "1 2 3\n4 nan 6\n"),
@@ -135,12 +135,12 @@ TEST_F(Ply, Refusals) {
             "p.ply: vertex 1: the position is inf along z; expected a finite number that a 32-bit float can hold");
 }
 
-TEST_F(Ply, HugeCountsAreCheckedAgainstTheFile) {
+TEST_F(Ply, ChecksCountsAgainstFileSize) {
   const std::string xyz = "property float x\nproperty float y\nproperty float z\nend_header\n";
   EXPECT_EQ(message("ply\nformat binary_little_endian 1.0\nelement vertex 1000000000000\n" + xyz + std::string(120, '\0')),
-            "p.ply: the header promises 1,000,000,000,000 of \"vertex\", at least 12 bytes each, but only 120 bytes are left; expected a "
-            "whole file");
-  EXPECT_EQ(message("ply\nformat binary_little_endian 1.0\nelement vertex 18446744073709551615\n" + xyz).find("p.ply: the header promises"),
+            "p.ply: the header declares 1,000,000,000,000 of \"vertex\", at least 12 bytes each, but only 120 bytes follow; expected a "
+            "complete file");
+  EXPECT_EQ(message("ply\nformat binary_little_endian 1.0\nelement vertex 18446744073709551615\n" + xyz).find("p.ply: the header declares"),
             0U);
   EXPECT_EQ(message("ply\nformat binary_little_endian 1.0\nelement vertex 18446744073709551616\n" + xyz).find("p.ply: the header line"),
             0U);
@@ -150,20 +150,20 @@ TEST_F(Ply, HugeCountsAreCheckedAgainstTheFile) {
             "p.ply: face 0, property \"v\": found the end of the file, expected a number");
 }
 
-TEST_F(Ply, VelocitiesMustBeFinite) {
+TEST_F(Ply, RejectsNonFiniteVelocities) {
   const std::string file =
       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nproperty float vx\nproperty float "
       "vy\nproperty float vz\nend_header\n1 2 3 4 -inf 6\n";
   EXPECT_EQ(message(file), "p.ply: vertex 0: the velocity is -inf along y; expected a finite number that a 32-bit float can hold");
 }
 
-TEST_F(Ply, NoParticles) {
+TEST_F(Ply, RejectsFileWithoutParticles) {
   const auto set = load("ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n");
   ASSERT_FALSE(set);
-  EXPECT_NE(set.error().message.find("yields no particle: the file has none"), std::string::npos) << set.error().message;
+  EXPECT_NE(set.error().message.find("yields no particles: the file has none"), std::string::npos) << set.error().message;
 }
 
-TEST_F(Ply, FileParticlesCountTowardsTheNumberAskedFor) {
+TEST_F(Ply, FileParticlesCountTowardRequestedNumber) {
   std::string bytes = "ply\nformat ascii 1.0\nelement vertex 1000\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
   for (int i = 0; i < 1000; ++i) bytes += "9 " + std::to_string(0.01 * i) + " 9\n";
   const std::string with_box = R"({"rill": "0.1", "fluid": {"particles": 9000}, "fill": [{"particles": {"file": "p.ply"}}, {"box": {}}]})";
@@ -172,7 +172,7 @@ TEST_F(Ply, FileParticlesCountTowardsTheNumberAskedFor) {
   EXPECT_NEAR(static_cast<double>(set->positions.size()), 9000, 100);
 }
 
-TEST_F(Ply, DamagedFilesAreReadOrRefused) {
+TEST_F(Ply, HandlesCorruptedFiles) {
   std::string bytes =
       "ply\nformat binary_little_endian 1.0\nelement a 1\nproperty list uchar short l\nelement vertex 3\nproperty float x\nproperty float "
       "y\nproperty float z\nend_header\n";

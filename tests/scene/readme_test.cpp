@@ -15,9 +15,11 @@ std::string readme() {
   return text.str();
 }
 
-TEST(Readme, HasNoPlaceLeftToFill) { EXPECT_EQ(readme().find('@'), std::string::npos); }
+TEST(Readme, HasTheTableOfKeys) { EXPECT_NE(readme().find(sceneKeyTable()), std::string::npos) << "paste this:\n" << sceneKeyTable(); }
 
-TEST(Readme, ItsSceneIsAccepted) {
+TEST(Readme, HasNoPlaceholders) { EXPECT_EQ(readme().find('@'), std::string::npos); }
+
+TEST(Readme, ExampleSceneIsValid) {
   const std::string text = readme();
   const size_t begin = text.find("```json\n"), end = text.find("```", begin + 8);
   ASSERT_NE(end, std::string::npos);

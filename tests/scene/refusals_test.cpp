@@ -13,29 +13,29 @@ void expectMessages(const std::vector<Case>& cases) {
   for (const Case& c : cases) EXPECT_EQ(refusal(c.text), "dam.json" + c.message) << c.text;
 }
 
-TEST(Refusals, BrokenJsonNamesLineAndColumn) {
+TEST(SceneErrors, ReportsLineAndColumnOfInvalidJson) {
   expectMessages({
-      {"", ": is empty; expected a JSON object"},
-      {" \n ", ": is empty; expected a JSON object"},
-      {"[1]", ": found an array of 1, expected an object { ... }"},
+      {"", ": empty file; expected a JSON object"},
+      {" \n ", ": empty file; expected a JSON object"},
+      {"[1]", ": found an array of length 1, expected an object { ... }"},
       {"3", ": found 3, expected an object { ... }"},
-      {"{\n  \"rill\": \"0.1\",\n}", ":3:1: broken JSON: trailing comma before }"},
-      {"{\"gravity\": [0, 1, ]}", ":1:20: broken JSON: trailing comma before ]"},
-      {"{\n\"rill\" 1}", ":2:8: broken JSON: while parsing object separator - unexpected number literal; expected ':'"},
+      {"{\n  \"rill\": \"0.1\",\n}", ":3:1: invalid JSON: trailing comma before }"},
+      {"{\"gravity\": [0, 1, ]}", ":1:20: invalid JSON: trailing comma before ]"},
+      {"{\n\"rill\" 1}", ":2:8: invalid JSON: while parsing object separator - unexpected number literal; expected ':'"},
   });
-  EXPECT_NE(refusal("{\"rill\": \"0.1\"").find("dam.json:1:15: broken JSON: while parsing object - unexpected end of input"),
+  EXPECT_NE(refusal("{\"rill\": \"0.1\"").find("dam.json:1:15: invalid JSON: while parsing object - unexpected end of input"),
             std::string::npos)
       << refusal("{\"rill\": \"0.1\"");
-  EXPECT_NE(refusal("{} {}").find("dam.json:1:4: broken JSON"), std::string::npos);
-  EXPECT_NE(refusal("{\"rill\": NaN}").find("dam.json:1:10: broken JSON"), std::string::npos) << refusal("{\"rill\": NaN}");
+  EXPECT_NE(refusal("{} {}").find("dam.json:1:4: invalid JSON"), std::string::npos);
+  EXPECT_NE(refusal("{\"rill\": NaN}").find("dam.json:1:10: invalid JSON"), std::string::npos) << refusal("{\"rill\": NaN}");
   EXPECT_NE(refusal("{\"rill\": -Infinity}").find("dam.json:1:1"), std::string::npos);
-  EXPECT_NE(refusal("{\"rill\": 0x10}").find("broken JSON"), std::string::npos);
-  EXPECT_NE(refusal("{'rill': 1}").find("broken JSON"), std::string::npos);
-  EXPECT_NE(refusal("{ /* no end }").find("broken JSON"), std::string::npos);
+  EXPECT_NE(refusal("{\"rill\": 0x10}").find("invalid JSON"), std::string::npos);
+  EXPECT_NE(refusal("{'rill': 1}").find("invalid JSON"), std::string::npos);
+  EXPECT_NE(refusal("{ /* no end }").find("invalid JSON"), std::string::npos);
   EXPECT_LT(refusal("{\"rill\": \"" + std::string(100000, 'a')).size(), 600U);
 }
 
-TEST(Refusals, DuplicateKeysAreFoundAtAnyDepth) {
+TEST(SceneErrors, RejectsDuplicateKeysAtAnyDepth) {
   expectMessages({
       {"{\"rill\": \"0.1\",\n \"rill\": \"0.1\"}", ":2:2: duplicate key \"rill\"; expected each key once in an object"},
       {"{\"extras\": [{\"a\": {\"b\": 1, \"b\": 2}}]}", ":1:28: duplicate key \"b\"; expected each key once in an object"},
@@ -44,24 +44,24 @@ TEST(Refusals, DuplicateKeysAreFoundAtAnyDepth) {
   });
 }
 
-TEST(Refusals, DeepNestingDoesNotCrash) {
+TEST(SceneErrors, RejectsDeepNesting) {
   const std::string deep = "{\"extras\": " + std::string(1'000'000, '[');
   EXPECT_EQ(refusal(deep), "dam.json:1:267: nested deeper than 256 levels");
   const std::string fits = with("\"extras\": " + std::string(255, '[') + std::string(255, ']'));
   EXPECT_EQ(refusal(fits), "accepted");
 }
 
-TEST(Refusals, OtherEncodingsByName) {
+TEST(SceneErrors, NamesUnsupportedEncodings) {
   using namespace std::string_literals;
   expectMessages({
-      {"\xFF\xFE{\0"s, ": is UTF-16, little-endian; expected UTF-8"},
-      {"\xFE\xFF\0{"s, ": is UTF-16, big-endian; expected UTF-8"},
-      {"\xFF\xFE\0\0{\0\0\0"s, ": is UTF-32, little-endian; expected UTF-8"},
-      {"\0\0\xFE\xFF\0\0\0{"s, ": is UTF-32, big-endian; expected UTF-8"},
-      {"{\0\"\0"s, ": is UTF-16, little-endian; expected UTF-8"},
-      {"\0{\0\""s, ": is UTF-16, big-endian; expected UTF-8"},
-      {"{\0\0\0"s, ": is UTF-32, little-endian; expected UTF-8"},
-      {"\0\0\0{"s, ": is UTF-32, big-endian; expected UTF-8"},
+      {"\xFF\xFE{\0"s, ": the encoding is UTF-16, little-endian; expected UTF-8"},
+      {"\xFE\xFF\0{"s, ": the encoding is UTF-16, big-endian; expected UTF-8"},
+      {"\xFF\xFE\0\0{\0\0\0"s, ": the encoding is UTF-32, little-endian; expected UTF-8"},
+      {"\0\0\xFE\xFF\0\0\0{"s, ": the encoding is UTF-32, big-endian; expected UTF-8"},
+      {"{\0\"\0"s, ": the encoding is UTF-16, little-endian; expected UTF-8"},
+      {"\0{\0\""s, ": the encoding is UTF-16, big-endian; expected UTF-8"},
+      {"{\0\0\0"s, ": the encoding is UTF-32, little-endian; expected UTF-8"},
+      {"\0\0\0{"s, ": the encoding is UTF-32, big-endian; expected UTF-8"},
       {"{\n\"title\": \"caf\xE9\"}", ":2:14: the byte 0xE9 is not valid UTF-8; expected UTF-8"},
       {"{ // \xC0\x80\n}", ":1:6: the byte 0xC0 is not valid UTF-8; expected UTF-8"},
       {"{ // \xED\xA0\x80\n}", ":1:6: the byte 0xED is not valid UTF-8; expected UTF-8"},
@@ -73,12 +73,12 @@ TEST(Refusals, OtherEncodingsByName) {
             "accepted");
 }
 
-TEST(Refusals, Version) {
+TEST(SceneErrors, RejectsInvalidAndNewerVersions) {
   const auto version = [](const std::string& value) { return R"({"rill": )" + value + R"(, "unknown": 1, "fluid": {"spacing": 0.1}})"; };
-  const std::string expected = "expected the oldest Rill that reads the scene, as in \"0.1\"";
+  const std::string expected = "expected the minimum Rill version, for example \"0.1\"";
   expectMessages({
       {R"({"fluid": {"spacing": 0.1}})", ": rill: missing; " + expected},
-      {version("0.1"), ": rill: found 0.1, expected a text"},
+      {version("0.1"), ": rill: found 0.1, expected a string"},
       {version(R"("")"), ": rill: found \"\", " + expected},
       {version(R"("1")"), ": rill: found \"1\", " + expected},
       {version(R"("0.1.")"), ": rill: found \"0.1.\", " + expected},
@@ -94,7 +94,7 @@ TEST(Refusals, Version) {
     EXPECT_EQ(refusal(R"({"rill": ")" + value + R"(", "fluid": {"spacing": 1}})"), "accepted") << value;
 }
 
-TEST(Refusals, UnknownKeysNameTheNearest) {
+TEST(SceneErrors, SuggestsNearestKeyForUnknownKeys) {
   expectMessages({
       {withFluid(R"("spacing": 0.1, "viscosty": 1)"), ": fluid.viscosty: unknown key; did you mean \"viscosity\"?"},
       {with(R"("Gravity": [0, 0, 0])"), ": Gravity: unknown key; did you mean \"gravity\"?"},
@@ -108,22 +108,22 @@ TEST(Refusals, UnknownKeysNameTheNearest) {
   EXPECT_EQ(refusal(with(R"("extras": {"anything": [1, {"goes": null}]}, "$schema": "scene.schema.json")")), "accepted");
 }
 
-TEST(Refusals, WrongTypesAndLengths) {
+TEST(SceneErrors, RejectsWrongTypesAndLengths) {
   expectMessages({
-      {R"({"rill": "0.1"})", ": fluid: missing; it is needed: the fluid"},
+      {R"({"rill": "0.1"})", ": fluid: required key is missing: material and resolution of the fluid"},
       {R"({"rill": "0.1", "fluid": 3})", ": fluid: found 3, expected an object"},
       {R"({"rill": "0.1", "fluid": {}})", ": fluid: expected exactly one of \"spacing\", \"particles\"; found none"},
       {withFluid(R"("spacing": 0.1, "particles": 10)"),
        ": fluid: expected exactly one of \"spacing\", \"particles\"; found \"spacing\", \"particles\""},
-      {withFluid(R"("spacing": "wide")"), ": fluid.spacing: found the text \"wide\", expected a number above 0 (m)"},
+      {withFluid(R"("spacing": "wide")"), ": fluid.spacing: found the string \"wide\", expected a number above 0 (m)"},
       {withFluid(R"("spacing": true)"), ": fluid.spacing: found true, expected a number above 0 (m)"},
       {withFluid(R"("spacing": null)"), ": fluid.spacing: found null, expected a number above 0 (m)"},
-      {withFluid(R"("spacing": "NaN")"), ": fluid.spacing: found the text \"NaN\", which is not finite; expected a number above 0 (m)"},
+      {withFluid(R"("spacing": "NaN")"), ": fluid.spacing: found the string \"NaN\", which is not finite; expected a number above 0 (m)"},
       {withFluid(R"("particles": 10.5)"), ": fluid.particles: found 10.5, expected a whole number from 1 to 4294967295"},
-      {with(R"("gravity": [0, 1])"), ": gravity: found an array of 2, expected 3 numbers [x, y, z] (m/s^2)"},
+      {with(R"("gravity": [0, 1])"), ": gravity: found an array of length 2, expected 3 numbers [x, y, z] (m/s^2)"},
       {with(R"("gravity": -9.81)"), ": gravity: found -9.81, expected 3 numbers [x, y, z] (m/s^2)"},
-      {with(R"("gravity": [0, "down", 0])"), ": gravity[1]: found the text \"down\", expected a number (m/s^2)"},
-      {with(R"("title": 7)"), ": title: found 7, expected a text"},
+      {with(R"("gravity": [0, "down", 0])"), ": gravity[1]: found the string \"down\", expected a number (m/s^2)"},
+      {with(R"("title": 7)"), ": title: found 7, expected a string"},
       {with(R"("seed": -1)"), ": seed: -1 is out of range; expected a whole number from 0 to 18446744073709551615"},
       {with(R"("seed": 1.5)"), ": seed: found 1.5, expected a whole number from 0 to 18446744073709551615"},
       {with(R"("seed": 18446744073709551616)"),
@@ -131,22 +131,24 @@ TEST(Refusals, WrongTypesAndLengths) {
       {with(R"("fill": {})"), ": fill: found an object, expected a list of objects"},
       {with(R"("fill": [3])"), ": fill[0]: found 3, expected an object"},
       {with(R"("domain": {"open": "+y"})"),
-       ": domain.open: found the text \"+y\", expected a list of sides: \"-x\", \"+x\", \"-y\", \"+y\", \"-z\", \"+z\""},
+       ": domain.open: found the string \"+y\", expected a list of sides: \"-x\", \"+x\", \"-y\", \"+y\", \"-z\", \"+z\""},
       {with(R"("domain": {"open": ["y"]})"),
-       ": domain.open[0]: found the text \"y\", expected one of \"-x\", \"+x\", \"-y\", \"+y\", \"-z\", \"+z\""},
-      {with(R"("domain": {"open": ["+y", "+y"]})"), ": domain.open[1]: found \"+y\" a second time; expected each side once"},
+       ": domain.open[0]: found the string \"y\", expected one of \"-x\", \"+x\", \"-y\", \"+y\", \"-z\", \"+z\""},
+      {with(R"("domain": {"open": ["+y", "+y"]})"), ": domain.open[1]: duplicate side \"+y\"; expected each side once"},
       {with(R"("solver": {"time_step": "atuo"})"),
-       ": solver.time_step: found the text \"atuo\", expected \"auto\" or a number above 0 (s)"},
+       ": solver.time_step: found the string \"atuo\", expected \"auto\" or a number above 0 (s)"},
       {with(R"("solver": {"kernel": "wendlnd"})"),
-       ": solver.kernel: found the text \"wendlnd\", expected one of \"wendland\", \"poly6_spiky\"; did you mean \"wendland\"?"},
+       ": solver.kernel: found the string \"wendlnd\", expected one of \"wendland\", \"poly6_spiky\"; did you mean \"wendland\"?"},
       {with(R"("look": {"surface": "plane"})"),
-       ": look.surface: found the text \"plane\", expected one of \"auto\", \"planes\", \"curvature_flow\", \"narrow_range\"; did you mean "
+       ": look.surface: found the string \"plane\", expected one of \"auto\", \"planes\", \"curvature_flow\", \"narrow_range\"; did you "
+       "mean "
        "\"planes\"?"},
-      {with(R"("probes": [{"name": "p", "level": [1, 2, 3]}])"), ": probes[0].level: found an array of 3, expected 2 numbers [x, z] (m)"},
+      {with(R"("probes": [{"name": "p", "level": [1, 2, 3]}])"),
+       ": probes[0].level: found an array of length 3, expected 2 numbers [x, z] (m)"},
   });
 }
 
-TEST(Refusals, NumbersOutOfRange) {
+TEST(SceneErrors, RejectsNumbersOutOfRange) {
   const auto solver = [](const std::string& keys) { return with(R"("solver": {)" + keys + "}"); };
   const auto solid = [](const std::string& keys) { return with(R"("solids": [{"sphere": {"radius": 1}, )" + keys + "}]"); };
   expectMessages({
@@ -154,9 +156,9 @@ TEST(Refusals, NumbersOutOfRange) {
       {withFluid(R"("spacing": -1)"), ": fluid.spacing: -1 is out of range; expected a number above 0 (m)"},
       {withFluid(R"("spacing": 1e39)"), ": fluid.spacing: 1e+39 is out of range of a 32-bit float; expected a number above 0 (m)"},
       {withFluid(R"("spacing": 1e-50)"), ": fluid.spacing: 1e-50 is out of range of a 32-bit float; expected a number above 0 (m)"},
-      {withFluid(R"("spacing": 1e999)"), ":1:38: the number 1e999 is out of range; expected one that a 32-bit float can hold"},
+      {withFluid(R"("spacing": 1e999)"), ":1:38: the number 1e999 is out of range; expected a number that fits a 32-bit float"},
       {withFluid(R"("spacing": 1e-20)"),
-       ": fluid.spacing: a particle's mass, density x spacing^3, would be 1e-57 kg, which is out of range of a 32-bit float"},
+       ": fluid.spacing: the mass of a particle, density x spacing^3, is 1e-57 kg; expected a mass that fits a 32-bit float"},
       {withFluid(R"("particles": 0)"), ": fluid.particles: 0 is out of range; expected a whole number from 1 to 4294967295"},
       {withFluid(R"("spacing": 1, "smoothing_ratio": 1.1)"),
        ": fluid.smoothing_ratio: 1.1 is out of range; expected a number from 1.2 to 4"},
@@ -178,7 +180,7 @@ TEST(Refusals, NumbersOutOfRange) {
   });
 }
 
-TEST(Refusals, RulesBetweenKeys) {
+TEST(SceneErrors, ChecksRulesBetweenKeys) {
   const std::string order = "; expected min below max on every axis";
   expectMessages({
       {with(R"("domain": {"min": [0, 2, 0]})"), ": domain.max[1]: max is 1 and min is 2 along y" + order},
@@ -190,18 +192,19 @@ TEST(Refusals, RulesBetweenKeys) {
        ": fill[0]: expected exactly one of \"box\", \"sphere\", \"particles\"; found \"box\", \"sphere\""},
       {with(R"("solids": [{"friction": 1}])"), ": solids[0]: expected exactly one of \"box\", \"sphere\"; found none"},
       {with(R"("probes": [{"name": "a"}])"), ": probes[0]: expected exactly one of \"level\", \"front\"; found none"},
-      {with(R"("probes": [{"front": "+x"}])"), ": probes[0].name: missing; it is needed: unique, not empty"},
-      {with(R"("probes": [{"name": "", "front": "+x"}])"), ": probes[0].name: is empty; expected a name"},
+      {with(R"("probes": [{"front": "+x"}])"), ": probes[0].name: required key is missing: name in the statistics; unique, not empty"},
+      {with(R"("probes": [{"name": "", "front": "+x"}])"), ": probes[0].name: found an empty name, expected a unique name"},
       {with(R"("probes": [{"name": "a", "front": "+x"}, {"name": "a", "front": "+y"}])"),
-       ": probes[1].name: \"a\" is the name of probes[0] too; expected each name once"},
-      {with(R"("camera": {"eye": [1, 2, 3], "target": [1, 2, 3]})"), ": camera.target: eye and target are the same point; expected two"},
+       ": probes[1].name: \"a\" is also the name of probes[0]; expected unique names"},
+      {with(R"("camera": {"eye": [1, 2, 3], "target": [1, 2, 3]})"),
+       ": camera.target: eye and target are the same point; expected two different points"},
       {with(R"("solids": [{"box": {}, "rotation": [0, 0, 0, 0]}])"),
-       ": solids[0].rotation: the quaternion has zero length; expected one that turns, [0, 0, 0, 1] for none"},
+       ": solids[0].rotation: the quaternion has zero length; expected a non-zero quaternion, [0, 0, 0, 1] for no rotation"},
       {with(R"("gravity_changes": [{"at": 1}, {"at": 1}])"),
-       ": gravity_changes[1].at: 1 s does not come after 1 s, the entry before; expected times that rise"},
+       ": gravity_changes[1].at: found 1 s after 1 s in the previous entry, expected increasing times"},
       {with(R"("gravity_changes": [{"at": -1}])"), ": gravity_changes[0].at: -1 is out of range; expected a number of at least 0 (s)"},
       {with(R"("solids": [{"sphere": {}, "motion": [{"at": 2}, {"at": 1}]}])"),
-       ": solids[0].motion[1].at: 1 s does not come after 2 s, the entry before; expected times that rise"},
+       ": solids[0].motion[1].at: found 1 s after 2 s in the previous entry, expected increasing times"},
   });
   std::string solids;
   for (int i = 0; i < 4096; ++i) solids += R"({"sphere": {}},)";
@@ -209,17 +212,17 @@ TEST(Refusals, RulesBetweenKeys) {
   EXPECT_EQ(refusal(with("\"solids\": [" + solids + "{\"sphere\": {}}]")), "dam.json: solids: found 4,097 entries, expected at most 4,096");
 }
 
-TEST(Refusals, FilesThatAreNoScenes) {
+TEST(SceneErrors, RejectsFilesThatAreNotScenes) {
   const Folder folder;
   const auto load = [](const std::filesystem::path& file) {
     const auto result = loadScene(file);
     return result ? std::string("accepted") : result.error().message;
   };
   EXPECT_EQ(load(folder.path / "absent.json"), (folder.path / "absent.json").string() + ": no such file");
-  EXPECT_EQ(load(folder.path), folder.path.string() + ": is a directory; expected a regular file");
+  EXPECT_EQ(load(folder.path), folder.path.string() + ": found a directory, expected a regular file");
   const auto pipe = folder.path / "pipe.json";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_EQ(load(pipe), pipe.string() + ": is a pipe; expected a regular file");
+  EXPECT_EQ(load(pipe), pipe.string() + ": found a pipe, expected a regular file");
   EXPECT_EQ(load("/dev/zero"), "/dev/zero: is a device; expected a regular file");
   const auto large = folder.write("large.json", with("\"about\": \"" + std::string(16 << 20, 'x') + "\""));
   EXPECT_NE(load(large).find("bytes; expected at most 16,777,216"), std::string::npos) << load(large);
@@ -232,7 +235,7 @@ TEST(Refusals, FilesThatAreNoScenes) {
   EXPECT_EQ(load(broken).rfind(broken.string() + ":1:", 0), 0U) << load(broken);
 }
 
-TEST(Refusals, AFileOfParticlesMustBeThere) {
+TEST(SceneErrors, RejectsMissingParticleFile) {
   const Folder folder;
   const std::string text = with(R"("fill": [{"particles": {"file": "settled.ply"}}])");
   const auto missing = parseScene(text, "dam.json", folder.path);
@@ -243,9 +246,9 @@ TEST(Refusals, AFileOfParticlesMustBeThere) {
   const auto there = parseScene(text, "dam.json", folder.path);
   ASSERT_TRUE(there);
   EXPECT_TRUE(there->fill[0].particles->is_absolute());
-  EXPECT_NE(refusal(with(R"("fill": [{"particles": {"file": ""}}])")).find("expected the name of a file"), std::string::npos);
-  EXPECT_NE(refusal(with(R"("fill": [{"particles": {}}])")).find("fill[0].particles.file: missing"), std::string::npos);
-  EXPECT_NE(refusal(with(R"("fill": [{"particles": {"file": "."}}])")).find("expected a PLY file"), std::string::npos);
+  EXPECT_NE(refusal(with(R"("fill": [{"particles": {"file": ""}}])")).find("expected a file name"), std::string::npos);
+  EXPECT_NE(refusal(with(R"("fill": [{"particles": {}}])")).find("fill[0].particles.file: required key is missing"), std::string::npos);
+  EXPECT_NE(refusal(with(R"("fill": [{"particles": {"file": "."}}])")).find("not a regular file; expected a file"), std::string::npos);
 }
 
 }  // namespace

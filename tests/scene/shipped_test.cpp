@@ -20,7 +20,7 @@ const std::map<std::string, size_t> kCounts{{"box-and-sphere", 30000},
                                             {"validation/martin-moyce-1", 6912},
                                             {"validation/martin-moyce-2", 8000}};
 
-TEST(Shipped, EveryScenesParticlesAreAsExpected) {
+TEST(Shipped, HaveExpectedParticleCounts) {
   size_t seen = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(kScenes)) {
     const std::string file = entry.path().lexically_relative(kScenes).replace_extension().string();
@@ -40,7 +40,7 @@ TEST(Shipped, EveryScenesParticlesAreAsExpected) {
   EXPECT_EQ(seen, kCounts.size());
 }
 
-TEST(Shipped, Dam50kIsTheTankThatFiguresAreGivenFor) {
+TEST(Shipped, Dam50kKeepsItsBenchmarkSetup) {
   const auto s = loadScene(kScenes / "dam50k.json");
   ASSERT_TRUE(s);
   EXPECT_EQ(s->fluid.spacing, 0.05);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr KernelChoice kKernels[] = {KernelChoice::Wendland, KernelChoice::Poly6Spiky};
 
-TEST(ArtificialPressure, IsAlikeInAllKernelsAndScales) {
+TEST(ArtificialPressure, IsInvariantUnderKernelAndScale) {
   for (const KernelChoice choice : kKernels)
     for (const double ratio : {1.2, 1.5, 2.0, 2.3, 3.0})
       for (const double d : {0.001, 0.05, 3.0}) {
@@ -26,7 +26,7 @@ TEST(ArtificialPressure, IsAlikeInAllKernelsAndScales) {
       }
 }
 
-TEST(ArtificialPressure, PushesWhoIsNearAndLeavesARestLatticeAlone) {
+TEST(ArtificialPressure, ActsOnClosePairsButNotOnRestLattice) {
   const double d = 0.1;
   for (const KernelChoice choice : kKernels)
     for (const double ratio : {1.2, 2.0, 4.0})

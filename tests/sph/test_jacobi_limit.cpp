@@ -53,7 +53,7 @@ double growth(const SmoothingKernel& kernel, double omega, int n) {
   return factor;
 }
 
-TEST(JacobiLimit, DividesWhatConvergesFromWhatDoesNot) {
+TEST(JacobiLimit, SeparatesConvergenceFromDivergence) {
   for (const double ratio : {1.5, 2.0, 2.5}) {
     const SmoothingKernel kernel(KernelChoice::Wendland, ratio * 0.1, 0.1);
     const double limit = jacobiLimit(kernel);
@@ -62,7 +62,7 @@ TEST(JacobiLimit, DividesWhatConvergesFromWhatDoesNot) {
   }
 }
 
-TEST(JacobiLimit, DoesNotDependOnTheScale) {
+TEST(JacobiLimit, IsScaleInvariant) {
   for (const KernelChoice choice : {KernelChoice::Wendland, KernelChoice::Poly6Spiky})
     EXPECT_NEAR(jacobiLimit({choice, 2e-4, 1e-4}), jacobiLimit({choice, 200, 100}), 1e-6);
 }

@@ -18,7 +18,7 @@ class KernelTest : public testing::TestWithParam<std::tuple<KernelChoice, double
   SmoothingKernel kernel() const { return SmoothingKernel(std::get<0>(GetParam()), std::get<1>(GetParam()) * kSpacing, kSpacing); }
 };
 
-TEST_P(KernelTest, RestLatticeMeasuresRestDensity) {
+TEST_P(KernelTest, RestLatticeHasRestDensity) {
   const SmoothingKernel k = kernel();
   double sum = 0, moment = 0, gradients = 0;
   for (int i = -5; i <= 5; ++i)
@@ -35,7 +35,7 @@ TEST_P(KernelTest, RestLatticeMeasuresRestDensity) {
 }
 
 // In the continuum the integral of K over space is d^3 to within the lattice's discretization error, which vanishes as h/d grows.
-TEST_P(KernelTest, IntegratesToAParticlesVolume) {
+TEST_P(KernelTest, IntegratesToParticleVolume) {
   const SmoothingKernel k = kernel();
   const int n = 20000;
   double sum = 0;
@@ -59,7 +59,7 @@ TEST_P(KernelTest, FallsToZeroAtTheSupport) {
   EXPECT_EQ(k.gradientOverR(2 * k.h()), 0);
 }
 
-TEST_P(KernelTest, WhatShadersComputeFromTheScales) {
+TEST_P(KernelTest, ScalesReproduceKernel) {
   const SmoothingKernel k = kernel();
   for (int i = 1; i < 20; ++i) {
     const double q = i / 20.0, r = q * k.h(), t = 1 - q;
@@ -73,7 +73,7 @@ TEST_P(KernelTest, WhatShadersComputeFromTheScales) {
   }
 }
 
-TEST_P(KernelTest, DoesNotDependOnScale) {
+TEST_P(KernelTest, IsScaleInvariant) {
   const SmoothingKernel k = kernel();
   const SmoothingKernel large(k.choice(), 100 * k.h(), 100 * kSpacing);
   EXPECT_NEAR(large.value(0.3 * large.h()), k.value(0.3 * k.h()), 1e-14);

@@ -21,7 +21,7 @@ class SolidTest : public testing::TestWithParam<std::tuple<KernelChoice, double>
   }
 };
 
-TEST_P(SolidTest, ALargeBallIsAWall) {
+TEST_P(SolidTest, LargeSphereMatchesWall) {
   const SmoothingKernel k = kernel();
   for (int i = 0; i <= 20; ++i) {
     const double s = kSolidSpacing / 2 + (wallReach(k) - kSolidSpacing / 2) * i / 20;
@@ -31,7 +31,7 @@ TEST_P(SolidTest, ALargeBallIsAWall) {
   }
 }
 
-TEST_P(SolidTest, ABallDisplacesLessThanAWallAndTheSmallerTheLess) {
+TEST_P(SolidTest, SmallerSpheresDisplaceLess) {
   const SmoothingKernel k = kernel();
   const double s = kSolidSpacing / 2;
   double last = exactPlane(k, s).value;
@@ -45,7 +45,7 @@ TEST_P(SolidTest, ABallDisplacesLessThanAWallAndTheSmallerTheLess) {
   EXPECT_LT(last, 1e-4);
 }
 
-TEST_P(SolidTest, BallTablesFollowTheFormula) {
+TEST_P(SolidTest, SphereTableMatchesFormula) {
   const SmoothingKernel k = kernel();
   const double bound = std::get<1>(GetParam()) < 2 ? 5e-3 : 1e-3;
   for (const double R : {0.2, 0.7, 2.0, 5.5, 40.0}) {
@@ -63,7 +63,7 @@ TEST_P(SolidTest, BallTablesFollowTheFormula) {
   }
 }
 
-TEST_P(SolidTest, AThickBoxFaceIsAWallAndAThinPlateIsLess) {
+TEST_P(SolidTest, ThickBoxMatchesWallAndThinPlateDisplacesLess) {
   const SmoothingKernel k = kernel();
   const WallTables tables = makeWallTables(k);
   const double wide = 10 * k.h();
@@ -88,7 +88,7 @@ TEST_P(SolidTest, AThickBoxFaceIsAWallAndAThinPlateIsLess) {
 }
 
 // A plate as thick as a layer of the lattice, half a spacing from both neighbors, stands for that layer.
-TEST_P(SolidTest, APlateOfOneSpacingIsOneLayer) {
+TEST_P(SolidTest, PlateOfOneSpacingMatchesOneLayer) {
   const SmoothingKernel k = kernel();
   const double half[3] = {10 * k.h(), 10 * k.h(), kSolidSpacing / 2}, at[3] = {0, 0, kSolidSpacing};
   double layer = 0;
@@ -114,7 +114,7 @@ TEST(WendlandBox, GradientIsTheDerivativeOfTheValue) {
   }
 }
 
-TEST(SolidPose, FollowsItsKeyframes) {
+TEST(SolidPose, InterpolatesKeyframes) {
   Solid solid;
   solid.sphere = SphereShape{{1, 2, 3}, 0.5};
   EXPECT_EQ(solidPose(solid, 5).center[0], 1);
@@ -135,7 +135,7 @@ TEST(SolidPose, FollowsItsKeyframes) {
   EXPECT_DOUBLE_EQ(step.center[1], 1);
 }
 
-TEST(SolidPose, SurfacesOfBallsAndTurnedBoxes) {
+TEST(SolidPose, ComputesSurfaceOfSpheresAndRotatedBoxes) {
   Solid ball;
   ball.sphere = SphereShape{{1, 0, 0}, 0.5};
   const double above[3] = {1, 2, 0}, center[3] = {1, 0, 0};
@@ -158,7 +158,7 @@ TEST(SolidPose, SurfacesOfBallsAndTurnedBoxes) {
   EXPECT_NEAR(solidSurface(pose, corner).normal[1], 0.8, 1e-12);
 }
 
-TEST(PairHash, IsAntisymmetricNeverZeroAndSpread) {
+TEST(PairHash, IsAntisymmetricNonZeroAndUniform) {
   double mean[3] = {0, 0, 0};
   int count = 0;
   for (uint32_t i = 0; i < 60; ++i) {

@@ -63,7 +63,7 @@ Rest restLattice(const SmoothingKernel& k, const int (&layers)[3], const Wall& w
   return worst;
 }
 
-TEST_P(WallTest, RestLatticeMeasuresRestDensityEverywhere) {
+TEST_P(WallTest, RestLatticeHasRestDensityEverywhere) {
   const SmoothingKernel k = kernel();
   const WallTables tables = rill::makeWallTables(k);
   const int boxes[][3] = {{10, 0, 0}, {10, 10, 0}, {6, 6, 6}, {10, 9, 10}, {1, 0, 0},
@@ -79,7 +79,7 @@ TEST_P(WallTest, RestLatticeMeasuresRestDensityEverywhere) {
   }
 }
 
-TEST_P(WallTest, TablesFollowTheSums) {
+TEST_P(WallTest, TablesMatchLatticeSums) {
   const SmoothingKernel k = kernel();
   const WallTables tables = rill::makeWallTables(k);
   std::mt19937 random(7);
@@ -103,7 +103,7 @@ TEST_P(WallTest, TablesFollowTheSums) {
   }
 }
 
-TEST_P(WallTest, FadesAndGrowsTowardTheWall) {
+TEST_P(WallTest, IncreasesTowardWall) {
   const SmoothingKernel k = kernel();
   const WallTables tables = rill::makeWallTables(k);
   const double reach = rill::wallReach(k);
@@ -129,7 +129,7 @@ TEST_P(WallTest, FadesAndGrowsTowardTheWall) {
   EXPECT_EQ(inside.value, surface.value);
 }
 
-TEST_P(WallTest, HalfSpaceIsContinuousMonotoneAndThePlaneFromHalfASpacingOn) {
+TEST_P(WallTest, HalfSpaceIsContinuousMonotoneAndMatchesPlane) {
   const SmoothingKernel k = kernel();
   const WallTables tables = rill::makeWallTables(k);
   const double reach = rill::wallReach(k), step = 1e-6 * kWallSpacing;
@@ -177,7 +177,7 @@ TEST(WendlandWall, GradientIsTheDerivativeOfTheValue) {
 }
 
 // What of a push along z, by a pressure that falls linearly in z, the lattice beside a wall, in an edge or between two plates still gives.
-TEST(WendlandWall, APushAlongWallsLacksWhatIsBesideIt) {
+TEST(WendlandWall, PressureForceAlongWallIsReducedByCoverage) {
   for (const double ratio : {2.0, 2.3, 3.0, 4.0}) {
     const SmoothingKernel k(KernelChoice::Wendland, ratio * kWallSpacing, kWallSpacing);
     const auto push = [&](int columns, int rows) {

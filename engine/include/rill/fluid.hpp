@@ -1,5 +1,6 @@
 #pragma once
-// The PBF solver as passes of a render graph. All state lives on the device; time steps, list rebuilds and stops are decided there.
+// Position Based Fluids (Macklin and Mueller 2013) as passes of a render graph. Create a Fluid from a scene and its particles, add its
+// passes to the graph of every frame, and read the particles from the returned FluidState.
 //
 //   rill::Scene scene;
 //   scene.fluid.spacing = 0.04;
@@ -8,6 +9,8 @@
 //   auto water = rill::Fluid::create(device, {.scene = &scene, .particles = &*particles});
 //   if (!water) return fail(water.error().message);
 //   const rill::FluidState state = (*water)->addTo(graph, {.advance_s = 1.0 / 60});  // every frame
+//
+// All state is on the device, which also chooses time steps and list rebuilds; addTo() records the largest number of substeps needed.
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -25,188 +28,182 @@
 
 namespace rill {
 
-/// All of a fluid's state that the bits of its later steps depend on, between two advances, on the host (ARCHITECTURE.md, "Checkpoints").
-/// What a step writes before it reads it is not among it. Arrays have an entry a particle, in the order of the device.
+/// The persistent state of a fluid between two advances, on the host: everything that later steps depend on, bit by bit (ARCHITECTURE.md,
+/// "Checkpoints"). Only for checkpoints. Arrays have one entry per particle, in the order of the device.
 struct FluidSnapshot {
-  std::vector<uint32_t> control = {};                ///< FluidControl (shaders/shared/fluid_records.h), word by word
-  std::vector<uint32_t> sums = {};                   ///< FluidSums, word by word
-  std::vector<float> solids = {};                    ///< center (m) and velocity (m/s) of each solid, six numbers; empty where none moves
+  std::vector<uint32_t> control = {};  ///< FluidControl (shaders/shared/fluid_records.h), word by word
+  std::vector<uint32_t> sums = {};     ///< FluidSums, word by word
+  std::vector<float> solids = {};      ///< center (m) and velocity (m/s) of each solid, six numbers each; empty if no solid moves
   std::vector<Float3> position = {}, velocity = {};  ///< m, m/s
-  // Of the warm start; empty without one.
-  std::vector<Float4> push = {};  ///< m/s^2; w: the multiplier of the last iteration (m^2), while the start's pressure is being found
+  // Warm start; empty without one.
+  std::vector<Float4> push = {};  ///< warm-start acceleration, m/s^2; w: last multiplier (m^2) while the initial pressure is solved for
   std::vector<float> warm = {};   ///< multipliers, m^2
   std::vector<uint32_t> id = {};
-  std::vector<uint32_t> nearWall = {}, nearMore = {};  ///< particles near one wall; near several walls or a solid: rising
-  // The neighbor list, as long as it is not due to be built anew.
-  uint32_t listCapacity = 0;                 ///< entries a particle that the list holds
-  std::vector<uint32_t> neighborCount = {};  ///< empty where the list is due, or the fluid has none
-  std::vector<uint32_t> neighbors = {};      ///< of one particle after another; of none that has more than the list holds
-  std::vector<uint32_t> cell = {};           ///< of the sorted particles, where some walk the grid
+  std::vector<uint32_t> nearWall = {}, nearMore = {};  ///< indices of particles near one wall; near several walls or a solid; increasing
+  // Neighbor list; empty if the next step rebuilds it.
+  uint32_t listCapacity = 0;                 ///< capacity of the list, entries per particle
+  std::vector<uint32_t> neighborCount = {};  ///< neighbors of each particle; empty without a valid list
+  std::vector<uint32_t> neighbors = {};      ///< concatenated by particle; without those of particles that exceed the capacity
+  std::vector<uint32_t> cell = {};           ///< cell of each sorted particle, if some particles search the grid
   friend bool operator==(const FluidSnapshot&, const FluidSnapshot&) = default;
 };
 
-/// What a Fluid is made from. All are read in create() and not kept.
+/// Parameters of Fluid::create(). Pointers are not kept.
 struct FluidDesc {
-  const Scene* scene = nullptr;  ///< settings, domain, solids, gravity; fluid.spacing > 0
-  const ParticleSet* particles = nullptr;
-  const FluidSnapshot* snapshot = nullptr;  ///< go on from it; of a fluid of the same scene and particles. BadInput where it is none
-  /// Before the first substep in time: part particles that overlap at the start (positions move, speeds do not), then find the pressure
-  /// that bears the fluid's weight, unless they still overlap. That takes recorded substeps: one where nobody overlaps and at most 512
-  /// where some do, and about 3 for each layer of particles, at most 1,024. Where the first frames record fewer, the fluid stands still in
-  /// them and their time is dropped (FluidProgress::time_dropped_s).
+  const Scene* scene = nullptr;             ///< required; settings, domain, solids, gravity; fluid.spacing > 0
+  const ParticleSet* particles = nullptr;   ///< required; see makeParticles()
+  const FluidSnapshot* snapshot = nullptr;  ///< optional: state to continue from, of the same scene and particles; BadInput otherwise
+  /// Before simulated time starts: separate overlapping particles without changing velocities (settling), then solve for the initial
+  /// hydrostatic pressure. Settling takes 1 recorded substep without overlaps and at most 512 with them; the pressure takes about 3 per
+  /// layer of particles, at most 1,024. Frames that record fewer do not advance, and drop their time (FluidProgress::time_dropped_s).
   bool settle = true;
-  bool storageReads = false;  ///< read arrays through storage buffers even where texel buffers would do (slower on most CPU drivers)
+  bool storageReads = false;  ///< never use texel buffers to read arrays (slower on most CPU drivers)
 };
 
-/// Device memory of a Fluid, in bytes, split as reports show it.
+/// Device memory of a Fluid, bytes.
 struct FluidMemory {
-  uint64_t particle_bytes = 0;  ///< all per-particle arrays, without the list
+  uint64_t particle_bytes = 0;  ///< per-particle arrays without the neighbor list
   uint64_t list_bytes = 0;      ///< the neighbor list; 0 with solver.neighbors "grid"
-  uint64_t grid_bytes = 0;      ///< cell starts, at most
+  uint64_t grid_bytes = 0;      ///< start of each grid cell, upper bound
   uint64_t total() const { return particle_bytes + list_bytes + grid_bytes; }
 };
-/// One of them.
+/// A buffer of a Fluid.
 struct FluidBuffer {
   const char* name = "";
   uint64_t bytes = 0;
 };
-/// What a Fluid of `particles` particles will need, computed in 64 bits from the numbers alone: before anything is allocated. Of a scene
-/// that checkScene() allows.
+/// The memory that a Fluid of `particles` particles needs, without allocating it. `scene` must pass checkScene().
 RILL_API FluidMemory fluidMemory(const Scene& scene, uint64_t particles);
 
-/// Where the host wants a driven solid at the end of an advance.
+/// Target position of a driven solid at the end of an advance.
 struct SolidTarget {
-  uint32_t solid = 0;            ///< of the scene's solids; one that is not driven does not move
-  double center[3] = {0, 0, 0};  ///< m; not finite: it stays where it is
+  uint32_t solid = 0;            ///< index into Scene::solids; a solid with `driven` 0 does not move
+  double center[3] = {0, 0, 0};  ///< m; not finite: the solid does not move
 };
 
-/// One piece of simulation to declare in a graph.
+/// Parameters of Fluid::addTo().
 struct FluidStep {
-  double advance_s = 0;    ///< s of simulated time to go on from where the last completed advance ended; ignored where `resume`
-  bool resume = false;     ///< go on with the time that the last step left over (an offline caller records a frame in pieces)
-  uint32_t substeps = 64;  ///< the most that this graph records, rounded up to whole blocks of `Fluid::substepsPerBlock()`
-  bool stats = false;      ///< measure Stats at the end
-  /// The way of driven solids during the advance: straight, even, at most as fast as each may be. One that is not named stays where it is.
-  /// Read in addTo(); ignored where `resume`, and without particles.
+  double advance_s = 0;    ///< simulated time to advance by, s, >= 0; ignored with `resume`
+  bool resume = false;     ///< continue an advance that the last graph did not complete, as offline callers do
+  uint32_t substeps = 64;  ///< largest number to record, rounded up to multiples of Fluid::substepsPerBlock()
+  bool stats = false;      ///< measure FluidStats at the end
+  /// Targets of driven solids. Each moves in a straight line at constant speed, at most Solid::driven; solids without a target rest.
+  /// Not kept after addTo(). Ignored with `resume`, and without particles.
   std::span<const SolidTarget> targets = {};
 };
 
-/// Where a module finds the particles of this frame: versions of buffers of the same graph. Read them with any Use. A Fluid's buffers have
-/// room for one entry more than `count`, which means nothing.
+/// The particles of a frame, as buffers of its graph. Read them with any Use. Buffers may have one unused entry after `count`.
 struct FluidState {
-  BufferRef position = {};       ///< vec4 a particle: xyz in m relative to `origin`, w unused
-  BufferRef velocity = {};       ///< vec4 a particle: xyz in m/s, w the density over rest density where the step asked for `stats`, else 1
-  BufferRef id = {};             ///< uint a particle: its number at birth
-  BufferRef control = {};        ///< FluidControl (shaders/shared/fluid_records.h), read back by offline callers
-  BufferRef solids = {};         ///< SolidRecord (likewise) each, as they are at present; none where no solid is driven
+  BufferRef position = {};       ///< vec4 per particle: xyz in m relative to `origin`; w unused
+  BufferRef velocity = {};       ///< vec4 per particle: xyz in m/s; w: density over rest density with FluidStep::stats, else 1
+  BufferRef id = {};             ///< uint per particle: its index in the initial ParticleSet
+  BufferRef control = {};        ///< FluidControl (shaders/shared/fluid_records.h)
+  BufferRef solids = {};         ///< SolidRecord (same header) per solid, at the present time; null if no solid is driven
   uint32_t count = 0;            ///< particles
   float spacing = 0;             ///< m
   double origin[3] = {0, 0, 0};  ///< m
 };
 
-/// How far an advance has got.
+/// Progress of an advance.
 struct FluidProgress {
-  bool known = false;         ///< a frame has finished
+  bool known = false;         ///< whether a frame has finished
   double time_s = 0;          ///< simulated time
-  double time_left_s = 0;     ///< of the advance; 0 when it is complete
-  double time_dropped_s = 0;  ///< of the advance: what did not fit in solver.max_substeps, or in what was recorded of the advance before
-  uint32_t substeps = 0;      ///< of the advance
-  uint32_t iterations = 0;    ///< of the advance, Jacobi iterations of all substeps
-  uint32_t list_builds = 0;   ///< of the advance
+  double time_left_s = 0;     ///< remaining time of the advance; 0 once it is complete
+  double time_dropped_s = 0;  ///< time of the advance that exceeded solver.max_substeps or the recorded substeps
+  uint32_t substeps = 0;      ///< in the advance
+  uint32_t iterations = 0;    ///< Jacobi iterations in the advance, summed over substeps
+  uint32_t list_builds = 0;   ///< neighbor list builds in the advance
 };
 
-/// Figures of one instant, measured on the device with sums in a fixed order.
+/// Statistics at one time. Sums are evaluated in a fixed order, so they are deterministic.
 struct FluidStats {
   double time_s = 0;  ///< simulated time
   uint64_t particles = 0;
-  uint32_t substeps = 0;      ///< of the last advance
-  uint32_t iterations = 0;    ///< Jacobi iterations of the last advance, all substeps added up
-  double time_dropped_s = 0;  ///< of the last advance
-  double density_error_mean = 0, density_error_p99 = 0, density_error_max = 0;  ///< compression only, fraction of rest density
-  double density_signed_median = 0;  ///< of rho / rho0 - 1 over particles with a full neighborhood
+  uint32_t substeps = 0;      ///< in the last advance
+  uint32_t iterations = 0;    ///< Jacobi iterations in the last advance, summed over substeps
+  double time_dropped_s = 0;  ///< in the last advance
+  double density_error_mean = 0, density_error_p99 = 0, density_error_max = 0;  ///< max(rho / rho0 - 1, 0)
+  double density_signed_median = 0;  ///< median of rho / rho0 - 1 over particles with a full neighborhood
   double kinetic_J = 0, potential_J = 0;
   double momentum[3] = {0, 0, 0};        ///< kg m/s
   double center_of_mass[3] = {0, 0, 0};  ///< m
   double max_speed = 0;                  ///< m/s
-  uint64_t non_finite = 0;               ///< particles parked since the start
-  uint64_t outside = 0;                  ///< centers beyond a closed wall, or gone through an open side
-  uint64_t neighbor_overflow = 0;        ///< particles whose list was full at the last build: they walk the grid
-  uint64_t loop_bound_hits = 0;          ///< times a bounded shader loop ran into its bound since the start
-  uint32_t list_builds = 0;              ///< of the last advance
-  double artificial_viscosity_Pa_s = 0;  ///< what solver.artificial_viscosity adds at present, Pa s: nothing while the fluid is rough
+  uint64_t non_finite = 0;               ///< particles made inactive since the start because a value was not finite
+  uint64_t outside = 0;                  ///< particles beyond a closed wall, or that left through an open side
+  uint64_t neighbor_overflow = 0;        ///< particles that exceeded the list capacity at the last build and search the grid instead
+  uint64_t loop_bound_hits = 0;          ///< times that a shader loop reached its iteration limit since the start
+  uint32_t list_builds = 0;              ///< neighbor list builds in the last advance
+  double artificial_viscosity_Pa_s = 0;  ///< viscosity that solver.artificial_viscosity adds now, Pa s; 0 in fast motion
 };
 
-/// A pass that the device switches on and off: of `of` times that it was recorded it was due `ran` times, and the others were empty
-/// dispatches.
+/// Executions of a pass that the device can skip: it was recorded `of` times and executed `ran` times; the others were empty dispatches.
 struct FluidPassRuns {
-  std::string_view name;  ///< as in PassReport; ending with '/', of each pass whose name begins with it
-  uint32_t ran = 0, of = 0;
+  std::string_view name;     ///< as in PassReport; a name that ends with '/' stands for all passes with that prefix
+  uint32_t ran = 0, of = 0;  ///< executed; recorded
 };
 
 class FluidImpl;
 
-/// A Position Based Fluid on a borrowed device (Macklin and Mueller 2013; ARCHITECTURE.md, "A substep"). Declares passes in a graph of its
-/// host's; lives longer than every command buffer that they were recorded into.
+/// A fluid on a borrowed device. It must outlive the execution of every command buffer that its passes were recorded into.
+/// Method: Macklin and Mueller 2013; ARCHITECTURE.md, "A substep".
 class RILL_API Fluid {
  public:
-  /// BadInput for a description that cannot run, TooLarge (with bytes needed and available) where the device cannot hold it: nothing was
-  /// allocated then. OutOfMemory where memory ran out.
+  /// BadInput for an invalid description; TooLarge, naming the bytes needed and available, before anything is allocated; OutOfMemory.
   static Expected<std::unique_ptr<Fluid>> create(Device& device, const FluidDesc& desc);
   ~Fluid();
 
-  /// Declares the passes of one step. It advances when recorded, not when declared. A time that is negative or not finite, and a target
-  /// that names no solid of the scene, are errors that the graph's compile() reports: nothing is declared then.
+  /// Adds the passes of one step; the fluid advances when the graph is recorded and executed. A negative or non-finite time and an
+  /// invalid solid index are reported by the graph's compile(); no pass is added then.
   FluidState addTo(Graph& graph, const FluidStep& step);
-  /// The particles as they are, between the pieces of an advance too: declares no pass. After a graph of addTo().
+  /// The current particles, also between the pieces of an advance. Adds no pass. Requires an earlier graph with addTo().
   FluidState present(Graph& graph) const;
 
-  /// Of the last finished frame that asked for them.
+  /// Statistics of the last finished frame that had FluidStep::stats.
   std::optional<FluidStats> stats() const;
-  /// How far the last finished frame got with its advance. Known without asking for figures.
+  /// Progress after the last finished frame. Does not need FluidStep::stats.
   const FluidProgress& progress() const;
-  /// How often passes ran from the end of the last but one frame that is known to have finished to that of the last; those that are not
-  /// named ran as often as they were recorded.
+  /// Executions of passes between the two last frames known to have finished. Passes that are not listed always execute.
   std::vector<FluidPassRuns> passRuns() const;
 
-  /// Where a driven solid is at the end of the last advance that was declared, m: short of its target where that was too far away.
-  /// No numbers (NaN) for a solid that is not driven.
+  /// Center of a driven solid at the end of the last declared advance, m. Its target, or on the way to it at Solid::driven.
+  /// NaN for a solid that is not driven.
   std::array<double, 3> drivenCenter(uint32_t solid) const;
 
-  uint32_t count() const;  ///< particles, parked ones too
-  /// What FluidStep::substeps is rounded up to whole multiples of.
+  uint32_t count() const;  ///< particles, including inactive ones
+  /// Number of substeps between neighbor list rebuilds; FluidStep::substeps is rounded up to multiples of it.
   uint32_t substepsPerBlock() const;
-  /// Recorded substeps that complete any advance, the first one with all that FluidDesc::settle asks for: those that the device leaves out,
-  /// to rebuild the list or because none is due, are among them.
+  /// Number of recorded substeps that completes any advance, including the first with FluidDesc::settle. Includes substeps that the
+  /// device skips.
   uint32_t substepsToComplete() const;
   FluidMemory memory() const;
-  std::span<const FluidBuffer> buffers() const;  ///< that live as long as it; those of passes are the graph's (Graph::transients)
-  /// What the solver cannot follow, each with its figure ("viscosity 50 Pa s needs ..."). Known at creation.
+  std::span<const FluidBuffer> buffers() const;  ///< persistent buffers; Graph::transients has the temporary ones
+  /// Settings that the solver cannot honor, with numbers ("viscosity 50 Pa s needs ..."). Fixed at creation.
   std::span<const std::string> warnings() const;
 
-  const FluidImpl& impl() const { return *impl_; }  ///< engine/fluid and its tests; not for hosts
+  const FluidImpl& impl() const { return *impl_; }  ///< internal: engine/fluid and its tests
 
  private:
   explicit Fluid(std::unique_ptr<FluidImpl>);
   std::unique_ptr<FluidImpl> impl_;
 };
 
-/// Reads a fluid's state back, in graphs of at most 128 MiB each:
+/// Reads the state of a fluid back for a checkpoint, in graphs of at most 128 MiB each:
 ///   for (SnapshotReader reader(fluid); !reader.done(); reader.take(graph)) { graph.reset(); reader.declare(graph); ... run it ... }
-/// Before the first, a frame of the fluid with an `advance_s` of 0 has completed; between them nothing else is done with the fluid.
+/// Requires that a frame with `advance_s` = 0 has completed. Do not use the fluid otherwise until done().
 class RILL_API SnapshotReader {
  public:
   explicit SnapshotReader(const Fluid& fluid);
-  bool done() const;
-  void declare(Graph& graph);
-  /// Failed where the graph's frame has not completed.
+  bool done() const;           ///< whether everything has been read
+  void declare(Graph& graph);  ///< adds the next read-backs to a graph
+  /// Collects the data of a completed frame. Failed if it has not completed.
   Expected<void> take(const Graph& graph);
-  FluidSnapshot& snapshot() { return snapshot_; }  ///< once done()
+  FluidSnapshot& snapshot() { return snapshot_; }  ///< valid once done()
 
  private:
   void plan();
   const FluidImpl& fluid_;
   FluidSnapshot snapshot_;
-  std::vector<uint32_t> parts_ = {};  ///< buffers to be read, in this order
+  std::vector<uint32_t> parts_ = {};  ///< indices of the buffers to read, in order
   size_t next_ = 0;
   std::vector<Ticket> tickets_ = {};
 };

@@ -1,10 +1,10 @@
 #pragma once
-// A simulation without a host (of the library rill::offline): owns a device, runs a scene, hands out arrays. No Vulkan in sight.
+// Simulation without a host application (library rill::offline): opens a device, runs a scene and returns arrays. Needs no Vulkan code.
 //
 //   auto run = rill::offline::Simulation::open("dam-break.json");
 //   if (!run) return fail(run.error().message);
 //   if (auto ok = (*run)->advance(0.5); !ok) return fail(ok.error().message);
-//   auto particles = (*run)->particles();  // positions, velocities, densities, numbers at birth
+//   auto particles = (*run)->particles();  // positions, velocities, densities, ids
 //   auto stats = (*run)->stats();
 #include <cstddef>
 #include <cstdint>
@@ -24,129 +24,129 @@
 
 namespace rill::offline {
 
-/// Settings of a simulation that are no part of its scene.
+/// Options of Simulation and Player.
 struct Options {
-  double orbit_deg_per_s = 0;            ///< pictures: how fast the camera goes around its target, counter-clockwise from above
-  std::string device = {};               ///< part of a name, or an index; empty: the best there is
+  double orbit_deg_per_s = 0;            ///< angular speed of the camera around its target, counter-clockwise seen from above
+  std::string device = {};               ///< part of a name, or an index; empty: the most capable device
   std::vector<Override> overrides = {};  ///< applied to the scene
-  bool validation = false;               ///< with the validation layer, synchronization included; needs it installed
-  bool passTimes = false;                ///< with Stats::pass_ms; its time stamps cost a tenth to a fifth of a run on lavapipe
-  uint32_t substepsPerSubmit = 0;        ///< 0: chosen; bits never depend on it
-  double longestFrame_s = 1.0 / 60;      ///< s; a longer advance() is made of equal frames, each with the scene's max_substeps of its own
+  bool validation = false;               ///< enable the validation layer with synchronization validation; it must be installed
+  bool passTimes = false;                ///< measure Stats::pass_ms; costs time, on CPU drivers up to a fifth of the run
+  uint32_t substepsPerSubmit = 0;        ///< 0: automatic; results do not depend on it
+  double longestFrame_s = 1.0 / 60;      ///< s, >= 1e-6; longer advances are split into equal frames, each with max_substeps
 };
 
-/// The order in which particles are read back.
+/// Order of particles in arrays: that of the device, or by id.
 enum class Order { AsStored, ById };
 
-/// Particles as read back from the device.
+/// Particles at one time.
 struct Particles {
-  std::vector<Float3> positions = {};   ///< m, in the scene's coordinates (origin added)
+  std::vector<Float3> positions = {};   ///< m, scene coordinates
   std::vector<Float3> velocities = {};  ///< m/s
   std::vector<float> densities = {};    ///< kg/m^3
-  std::vector<uint32_t> ids = {};       ///< numbers at birth: the order of the scene's fills
+  std::vector<uint32_t> ids = {};       ///< index in the initial particles: the order of the fills
 };
 
-/// An image in memory: RGBA, 8 bits a channel, sRGB, rows from the top.
+/// An image: RGBA, 8 bits per channel, sRGB, top row first.
 struct Image {
   uint32_t width = 0, height = 0;
   std::vector<uint8_t> rgba = {};
 };
 
-/// Runs and time of one pass of the graph.
+/// Executions and time of a pass.
 struct PassTime {
   std::string name = {};
   double ms = 0;      ///< 0 without Options::passTimes
-  uint32_t runs = 0;  ///< times recorded
-  uint32_t ran = 0;   ///< of those: the device leaves out substeps and rebuilds that are not due, which then cost an empty dispatch
+  uint32_t runs = 0;  ///< number of times recorded
+  uint32_t ran = 0;   ///< number of times executed; the device skips the others, which are empty dispatches
 };
-using SkippedPass = std::pair<std::string, std::string>;  ///< and the reason
+using SkippedPass = std::pair<std::string, std::string>;  ///< name of a pass and the reason why it was skipped
 
-/// A table for people: what was recorded, how often it ran and the time it took, then what was skipped and why.
+/// A text table of passes: recorded, executed, time; then the skipped passes with reasons.
 std::string passTable(std::span<const PassTime> passes, std::span<const SkippedPass> skipped);
 
-/// What the transients of one kind of frame take on the device.
+/// Temporary device memory of a kind of frame.
 struct FrameMemory {
   std::string frame = {};
   std::vector<TransientHeap> heaps = {};
 };
 
-/// A table for people: each heap's bytes with and without aliasing.
+/// A text table of the heaps with and without aliasing.
 std::string memoryTable(std::span<const FrameMemory> frames);
 
-/// Everything `rill-capture --stats` writes about an instant.
+/// Statistics at one time, as written by `rill-capture --stats`.
 struct Stats : FluidStats {
-  double front_m = 0;                                       ///< farthest fluid along +x from the domain's minimum
-  uint64_t state_hash = 0;                                  ///< of positions and velocities in id order
+  double front_m = 0;                                       ///< farthest fluid along +x, relative to the domain's minimum, m
+  uint64_t state_hash = 0;                                  ///< FNV-1a of positions and velocities in id order
   std::vector<std::pair<std::string, double>> probes = {};  ///< name and value, m
-  uint64_t picture_bound_hits = 0;     ///< times that loops of the renderer's shaders ran into their bound, in pictures of it
-  double wall_s = 0;                   ///< spent since the instant before, simulation alone
-  std::vector<PassTime> pass_ms = {};  ///< what was recorded
+  uint64_t picture_bound_hits = 0;     ///< times that shader loops of the renderer reached their limit in pictures at this time
+  double wall_s = 0;                   ///< wall-clock time of the last advance()
+  std::vector<PassTime> pass_ms = {};  ///< recorded passes of the last advance
   std::vector<SkippedPass> skipped = {};
 };
 
-/// A simulation between two advances: a run that goes on from it has the bits of one that was never interrupted, on the same driver.
+/// A simulation between two advances. A run resumed from it is bitwise identical to an uninterrupted run on the same driver.
 struct Checkpoint {
-  std::string rill = {};                                       ///< version that wrote it
-  std::string scene = {};                                      ///< its name
+  std::string rill = {};                                       ///< Rill version that wrote it
+  std::string scene = {};                                      ///< name of the scene
   std::string device, driver;                                  ///< as in DeviceInfo
-  double time_s = 0;                                           ///< simulated
-  uint64_t frame = 0;                                          ///< for the caller: where in a sequence of frames this is,
-  double fps = 0;                                              ///< and how many of them make a second; 0: in none
-  std::vector<std::pair<std::string, std::string>> keys = {};  ///< what of the scene decides the simulation; another scene's is refused
+  double time_s = 0;                                           ///< simulated time
+  uint64_t frame = 0;                                          ///< for the caller: index in a sequence of frames
+  double fps = 0;                                              ///< for the caller: frames per second; 0: no sequence
+  std::vector<std::pair<std::string, std::string>> keys = {};  ///< scene keys that affect the simulation; resume() requires them to match
   FluidSnapshot fluid = {};
   friend bool operator==(const Checkpoint&, const Checkpoint&) = default;
 };
 
-/// The bytes of a checkpoint's file: versioned, with a checksum (the format is described in engine/offline/checkpoint.cpp).
+/// Encodes a checkpoint file, with version and checksum (format: engine/offline/checkpoint.cpp).
 std::vector<std::byte> encodeCheckpoint(const Checkpoint& checkpoint);
-/// `name` stands for the file in messages. BadInput for bytes that are no checkpoint, of a newer format, cut short, or changed anywhere.
+/// Decodes a checkpoint file. `name` is the file name in messages. BadInput for other data, another format version, and truncated or
+/// corrupted files.
 Expected<Checkpoint> decodeCheckpoint(std::span<const std::byte> bytes, std::string_view name);
-/// The same from a file. OutOfMemory, too.
+/// Loads a checkpoint file. BadInput as decodeCheckpoint(); OutOfMemory.
 Expected<Checkpoint> loadCheckpoint(const std::filesystem::path& file);
 
-/// One scene on a device of its own. Not for several threads at once.
+/// A simulation of one scene on its own device. Not thread-safe.
 class Simulation {
  public:
-  /// `scene` is a path to a scene file. BadInput, NoDevice, TooLarge (with bytes needed and available), OutOfMemory.
+  /// Opens a scene file. BadInput, NoDevice, TooLarge (naming bytes needed and available), OutOfMemory.
   static Expected<std::unique_ptr<Simulation>> open(const std::filesystem::path& scene, const Options& options = {});
-  /// A scene that was read before, with its overrides applied (those of `options` are not). The scene is judged before a device is opened.
+  /// Opens a loaded scene; Options::overrides are not applied. The scene is validated before a device is opened.
   static Expected<std::unique_ptr<Simulation>> open(Scene scene, const Options& options = {});
-  /// With particles of the caller's own in place of the scene's fills, taken as they are: they may overlap, lie outside, or not be numbers.
-  /// `fluid.spacing` is given. BadInput for as many velocities as there are not positions, or no spacing.
+  /// Opens a scene with the given particles instead of its fills. They are not checked: they may overlap, be outside or not finite.
+  /// BadInput without `fluid.spacing`, or if the numbers of positions and velocities differ.
   static Expected<std::unique_ptr<Simulation>> open(Scene scene, ParticleSet start, const Options& options = {});
-  /// Goes on from a checkpoint of the same scene. BadInput, naming the first key that differs, for one of another scene, judged before a
-  /// device is opened; a device, a driver or a Rill other than the checkpoint's is among warnings(). Other errors as open().
+  /// Continues from a checkpoint of the same scene. BadInput, naming the first key that differs, for another scene; checked before a
+  /// device is opened. Another device, driver or Rill version adds to warnings(). Other errors as open().
   static Expected<std::unique_ptr<Simulation>> resume(Scene scene, const Checkpoint& checkpoint, const Options& options = {});
   ~Simulation();
 
-  /// Runs `seconds` of simulated time on (>= 0), waits for it. One advance of the solver up to Options::longestFrame_s: substeps divide it
-  /// evenly at its end. Figures of an advance (substeps, time dropped) are added up over the frames of a longer one. BadInput for a time
-  /// that is not finite or negative; DeviceLost, OutOfMemory or Failed, saying what was being done.
+  /// Advances by `seconds` of simulated time (finite, >= 0) and waits for the device. Longer times are split into frames of at most
+  /// Options::longestFrame_s; statistics of the advance are summed over them. BadInput for an invalid time; DeviceLost, OutOfMemory or
+  /// Failed, naming the operation.
   Expected<void> advance(double seconds);
-  double time() const;  ///< s
-  /// Of the present instant. Errors as advance().
+  double time() const;  ///< simulated time, s
+  /// The particles at the current time. Errors as advance().
   Expected<Particles> particles(Order order = Order::ById);
-  Expected<Stats> stats();  ///< of the present instant, measured when first asked for; errors as advance()
-  /// Of the present instant; no later bit depends on whether one was taken. Errors as advance().
+  Expected<Stats> stats();  ///< statistics at the current time, measured at the first call; errors as advance()
+  /// A checkpoint at the current time. Does not affect later results. Errors as advance().
   Expected<Checkpoint> checkpoint(uint64_t frame = 0, double fps = 0);
-  /// Renders the present instant. `view` is one of views(); sizes in pixels. BadInput for another view or a size that the device cannot
-  /// draw.
+  /// Renders the current time. `view`: one of views(). `width`, `height`: pixels. BadInput for another view or an unsupported size.
   Expected<Image> render(const std::string& view, uint32_t width, uint32_t height);
-  /// What render() needs before the first picture: BadInput already here for what it would refuse, the environment's file among it.
+  /// Creates what render() needs, so that its BadInput errors, such as an invalid environment map, are found early. Optional.
   Expected<void> prepareRender(const std::string& view, uint32_t width, uint32_t height);
-  static std::span<const std::string_view> views();
-  /// BadInput where render() would refuse this view or size. Needs no device.
+  static std::span<const std::string_view> views();  ///< names of the views
+  /// BadInput if render() would reject this view or size. Needs no device.
   static Expected<void> checkPicture(const std::string& view, uint32_t width, uint32_t height);
 
   const Scene& scene() const;
-  const ParticleSet& start() const;  ///< as placed: counts of particles left out
+  const ParticleSet& start() const;  ///< the initial particles, with the numbers left out
   const DeviceInfo& device() const;
   std::vector<std::string> warnings() const;
-  std::string explain() const;                        ///< each pass of the last advance: ran, how often, ms; or skipped and why
+  std::string explain() const;                        ///< passTable() and memoryTable() of the last advance
   std::vector<FrameMemory> transientMemory() const;   ///< of the last frame of each kind: advance, measure, picture
-  std::string graphDot() const;                       ///< of the last advance
-  std::string pictureDot() const;                     ///< of the last picture
-  std::vector<std::string> takeValidationMessages();  ///< since the last call; none without Options::validation
+  std::string graphDot() const;                       ///< Graphviz graph of the last advance
+  std::string pictureDot() const;                     ///< Graphviz graph of the last picture
+  std::vector<std::string> takeValidationMessages();  ///< new messages since the last call; empty without Options::validation
 
  private:
   class Impl;
@@ -156,26 +156,26 @@ class Simulation {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Pictures of particles that somebody else simulated, with a scene's camera, solids and look. Not for several threads at once.
+/// Renders given particles with a scene's camera, solids and look. Not thread-safe.
 class Player {
  public:
-  /// BadInput for a scene without a spacing; errors as Simulation::open(). Of `options` the device and validation count.
+  /// BadInput for a scene without a spacing; other errors as Simulation::open(). Uses Options::device, validation and orbit_deg_per_s.
   static Expected<std::unique_ptr<Player>> open(Scene scene, const Options& options = {});
   ~Player();
 
-  /// What is drawn from now on: positions in m, relative to `origin`; velocities in m/s (they color the view `particles`), or none at all.
-  /// `time_s`: where moving solids are. BadInput for as many velocities as there are not positions, TooLarge, OutOfMemory.
+  /// Sets the particles to draw. `positions`: m, relative to `origin`. `velocities`: m/s, for the color of some views; may be empty.
+  /// `time_s`: time of moving solids, s. BadInput if the numbers of positions and velocities differ; TooLarge, OutOfMemory.
   Expected<void> show(const std::vector<Float3>& positions, const double origin[3], const std::vector<Float3>& velocities = {},
                       double time_s = 0);
-  /// As Simulation::render(); before the first show() a scene without fluid.
+  /// As Simulation::render(). Without fluid before the first show().
   Expected<Image> render(const std::string& view, uint32_t width, uint32_t height);
   Expected<void> prepareRender(const std::string& view, uint32_t width, uint32_t height);  ///< as Simulation::prepareRender()
-  std::string pictureDot() const;                                                          ///< passes of the last picture
-  uint64_t boundHits() const;  ///< as Stats::picture_bound_hits, of the last picture
+  std::string pictureDot() const;                                                          ///< Graphviz graph of the last picture
+  uint64_t boundHits() const;  ///< Stats::picture_bound_hits of the last picture
 
   const Scene& scene() const;
   const DeviceInfo& device() const;
-  std::vector<std::string> takeValidationMessages();
+  std::vector<std::string> takeValidationMessages();  ///< as Simulation::takeValidationMessages()
 
  private:
   class Impl;

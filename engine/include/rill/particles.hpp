@@ -1,5 +1,5 @@
 #pragma once
-// A scene's fills as particles: what a fluid starts from.
+// Initial particles, made from the fills of a scene.
 //
 //   rill::Scene scene;
 //   scene.fluid.spacing = 0.04;
@@ -17,25 +17,24 @@
 
 namespace rill {
 
-/// Of one Fluid.
+/// Largest number of particles of a Fluid.
 inline constexpr uint64_t kMaxParticles = uint64_t{4} << 20;
 
-/// The particles that a scene's fills make, in the order of the fills: what a simulation starts from.
-/// Positions are relative to `origin` (the domain's minimum, or the fluid's center rounded to whole spacings), so that a scene far from
-/// zero loses no precision.
+/// Initial particles of a simulation, in the order of the fills. Positions are relative to `origin` (the domain's minimum, or the
+/// fluid's center rounded to whole spacings), so that precision does not depend on the location of the scene.
 struct ParticleSet {
-  double origin[3] = {0, 0, 0};         ///< m
+  double origin[3] = {0, 0, 0};         ///< m, scene coordinates
   std::vector<Float3> positions = {};   ///< m, relative to origin
   std::vector<Float3> velocities = {};  ///< m/s
-  uint64_t left_out_overlap = 0;        ///< nearer than 0.9 spacings to an earlier one
-  uint64_t left_out_solid = 0;          ///< inside a solid
-  uint64_t left_out_domain = 0;         ///< outside the walls
+  uint64_t left_out_overlap = 0;        ///< closer than 0.9 spacings to a particle of an earlier fill
+  uint64_t left_out_solid = 0;          ///< number left out inside solids
+  uint64_t left_out_domain = 0;         ///< number left out beyond walls
   std::vector<std::string> warnings = {};
 };
 
-/// The scene's fills as particles (see ParticleSet), PLY files read. The spacing follows from `fluid.particles` where that is given
-/// (`scene.fluid.spacing` is set then). BadInput where a file cannot be read, or a fill was given and no particle is left.
-/// Counts are computed in 64 bits and checked against `maxParticles` before anything is allocated.
+/// Makes the particles of the scene's fills and reads their PLY files. If `fluid.particles` is given, computes the spacing and stores it in
+/// `scene.fluid.spacing`. Counts are checked against `maxParticles` before anything is allocated. BadInput if the scene is invalid, a file
+/// cannot be read, there are too many particles, or fills are given and no particles are left; OutOfMemory.
 RILL_API Expected<ParticleSet> makeParticles(Scene& scene, uint64_t maxParticles = kMaxParticles);
 
 }  // namespace rill

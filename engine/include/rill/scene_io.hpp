@@ -1,5 +1,5 @@
 #pragma once
-// Reading a scene file into a Scene (of the library rill::scene). See assets/scenes/scene.schema.json for the format.
+// Reads scene files (library rill::scene). The format is described by assets/scenes/scene.schema.json.
 //
 //   const rill::Override finer[] = {{"fluid.spacing", "0.02"}};
 //   auto scene = rill::loadScene("dam-break.json", finer);
@@ -20,29 +20,29 @@
 
 namespace rill {
 
-/// `key` is a path as in the file ("fluid.viscosity", "solver.time_step", "fill[0].jitter"), `value` is JSON, or a bare word taken as a
-/// string. A relative path of a file in it is relative to the current directory.
+/// Sets one value of a scene file. `key` is a path ("fluid.viscosity", "fill[0].jitter"), `value` is JSON or a bare word, which is read as
+/// a string. File names in `value` are relative to the current directory.
 struct Override {
   std::string key = {}, value = {};
 };
 
-/// "key=value". BadInput where there is no '=' or no key.
+/// Parses "key=value". BadInput without '=' or key.
 RILL_API Expected<Override> parseOverride(std::string_view text);
 
-/// Reads, applies the overrides and checks everything. BadInput with one message naming file, line or key path, what was found and what was
-/// expected.
+/// Loads a scene file, applies the overrides and validates the result. BadInput with one message that names the file, the line or key path,
+/// what was found and what was expected; OutOfMemory, Io.
 RILL_API Expected<Scene> loadScene(const std::filesystem::path& file, std::span<const Override> overrides = {});
-/// The same from text; `name` stands for the file in messages, relative paths in the text are resolved against `folder`.
+/// Parses a scene from text. `name` is the file name in messages; relative paths in the text are resolved against `folder`.
 RILL_API Expected<Scene> parseScene(std::string_view text, std::string_view name, const std::filesystem::path& folder,
                                     std::span<const Override> overrides = {});
 
-/// Reads a Radiance picture (.hdr), or a PNG or JPEG, which is taken as sRGB. BadInput with one message naming the file, what was found and
+/// Loads an environment map: Radiance (.hdr), or PNG or JPEG in sRGB. BadInput with one message that names the file, what was found and
 /// what was expected; OutOfMemory, Io.
 RILL_API Expected<EnvironmentPicture> loadEnvironment(const std::filesystem::path& file);
 
-/// The scene file's JSON Schema (draft-07), made from the same table of fields as the parser.
+/// The JSON Schema (draft-07) of scene files, generated from the parser's field table.
 RILL_API std::string sceneSchema();
-/// Keys, units, ranges and defaults in Markdown, a table for each kind of object: the generated part of docs/scene-format.md.
-RILL_API std::string sceneKeyTables();
+/// A Markdown table of all keys with units, ranges, defaults and help, for the documentation.
+RILL_API std::string sceneKeyTable();
 
 }  // namespace rill
