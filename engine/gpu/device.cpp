@@ -78,7 +78,7 @@ Expected<std::unique_ptr<Device>> Device::borrow(const HostDevice& host) {
   const int64_t bits = timestampBits(*impl, host, can);
   if (bits < 0) return badHost("queueFamily: the device has no such family");
   if (!(can & VK_QUEUE_COMPUTE_BIT)) return badHost("queueFamily: its queues cannot compute");
-  impl->draws = (can & VK_QUEUE_GRAPHICS_BIT) != 0;
+  impl->hasGraphics = (can & VK_QUEUE_GRAPHICS_BIT) != 0;
   impl->timestampMask = bits == 0 ? 0 : bits >= 64 ? ~0ull : (1ull << bits) - 1;
   describe(*impl, host);
   impl->reload = ShaderReload::fromEnvironment();

@@ -67,7 +67,7 @@ class DeviceImpl {
   VkPhysicalDeviceLimits limits{};
   VkPhysicalDeviceMemoryProperties memory{};
   uint64_t timestampMask = 0;   ///< valid bits of the queue's timestamps; 0: it has none
-  bool draws = false;           ///< the host's queue has graphics
+  bool hasGraphics = false;           ///< the host's queue has graphics
   bool sizedSubgroups = false;  ///< a compute stage can be given a subgroup size
   FrameClock clock;
   RetireQueue retired;

@@ -88,7 +88,7 @@ Expected<const GraphicsPipeline*> PipelineStore::find(DeviceImpl& device, const 
         std::ranges::equal(p->words, desc.vertexSpirv) && std::ranges::equal(p->fragmentWords, desc.fragmentSpirv))
       return p.get();
 
-  if (!device.draws)
+  if (!device.hasGraphics)
     return Error{ErrorKind::NoDevice, "the queue family that Rill was given on '" + device.info.name + "' cannot draw: shader '" +
                                           std::string(desc.vertex) + "' needs one with graphics"};
   const auto lacks = [&](VkFormat format, VkFormatFeatureFlags feature) {

@@ -66,7 +66,7 @@ class Aliasing : public GpuTest {
       BufferRef out = graph.import("out", importOf(result));
       (this->*declare)(graph, out, 0);
       run(graph);
-      graph.impl().before.valid = graph.impl().planWhole = false;
+      graph.impl().previousPlan.valid = graph.impl().planComplete = false;
     }
     const auto submitted = context().submit([&](VkCommandBuffer commands) {
       for (uint32_t frame = 0; frame < kFrames; ++frame) {
@@ -83,7 +83,7 @@ class Aliasing : public GpuTest {
         }
         ASSERT_TRUE(ok) << ok.error().message;
         graph.record(commands);
-        graph.impl().planWhole = false;  // the next frame has a plan of its own to spoil
+        graph.impl().planComplete = false;  // the next frame has a plan of its own to spoil
       }
     });
     EXPECT_TRUE(submitted);
@@ -129,14 +129,14 @@ void expectOnePlace(const GraphImpl& graph, bool images) {
   EXPECT_TRUE(sharesMemory(placements[0], placements[1]));
 }
 
-TEST_F(Aliasing, OneAfterTheOtherIsCleanAndRight) {
+TEST_F(Aliasing, UnmodifiedPlansAreCleanAndCorrect) {
   for (const Declare declare : {&Aliasing::declareBuffers, &Aliasing::declareTogether, &Aliasing::declareImages}) {
     EXPECT_EQ(go(declare, leave), std::vector<std::string>{});
     EXPECT_EQ(wrong, 0u);
   }
 }
 
-TEST_F(Aliasing, AReuseThatDoesNotWaitIsReported) {
+TEST_F(Aliasing, ReportsMissingWaitOnReuse) {
   const auto messages = go(&Aliasing::declareBuffers, [](GraphImpl& graph, uint32_t) {
     expectOnePlace(graph, false);
     ASSERT_FALSE(graph.passes[2].barrier.empty()) << "b waits for a";
@@ -145,7 +145,7 @@ TEST_F(Aliasing, AReuseThatDoesNotWaitIsReported) {
   EXPECT_TRUE(namesHazard(messages));
 }
 
-TEST_F(Aliasing, AFrameThatDoesNotWaitForTheOneBeforeIsReported) {
+TEST_F(Aliasing, ReportsMissingWaitForPreviousFrame) {
   const auto messages = go(&Aliasing::declareBuffers, [](GraphImpl& graph, uint32_t frame) {
     ASSERT_FALSE(graph.passes[0].barrier.empty()) << "a waits for the frame before";
     if (frame > 0) graph.passes[0].barrier = {};
@@ -153,7 +153,7 @@ TEST_F(Aliasing, AFrameThatDoesNotWaitForTheOneBeforeIsReported) {
   EXPECT_TRUE(namesHazard(messages));
 }
 
-TEST_F(Aliasing, LifetimesThatOverlapInOnePlaceAreReportedAndSpoilWhatComesOut) {
+TEST_F(Aliasing, ReportsOverlappingLifetimesAndCorruptsResults) {
   const auto messages = go(&Aliasing::declareTogether, [](GraphImpl& graph, uint32_t) {
     auto& placements = graph.plans[0].placements;
     ASSERT_GE(placements.size(), 2u);
@@ -164,7 +164,7 @@ TEST_F(Aliasing, LifetimesThatOverlapInOnePlaceAreReportedAndSpoilWhatComesOut) 
   EXPECT_GT(wrong, 0u);
 }
 
-TEST_F(Aliasing, AnImageThatDoesNotWaitForTheOneBeforeItIsReported) {
+TEST_F(Aliasing, ReportsMissingImageTransitionWait) {
   const auto messages = go(&Aliasing::declareImages, [](GraphImpl& graph, uint32_t) {
     expectOnePlace(graph, true);
     const Range changes = graph.passes[2].barrier.transitions;

@@ -60,7 +60,7 @@ class GraphDraw : public GpuTest {
 
 // A far rectangle over all, a near one over the right half, one in between that the near one hides; then the result is drawn over by a
 // second pass that keeps both targets, its arguments on the device. Three frames in one command buffer.
-TEST_F(GraphDraw, ComposesByDepthAndKeepsWhatItDoesNotTouch) {
+TEST_F(GraphDraw, DepthTestAndLoadKeepCompose) {
   const GraphicsPipeline* less = drawing(VK_COMPARE_OP_LESS);
   ASSERT_TRUE(less);
   std::vector<float> addedHere(kWidth);
@@ -112,7 +112,7 @@ TEST_F(GraphDraw, ComposesByDepthAndKeepsWhatItDoesNotTouch) {
   }
 }
 
-TEST_F(GraphDraw, APyramidIsReadLevelByLevel) {
+TEST_F(GraphDraw, ReadsMipLevelsOneByOne) {
   static constexpr BindingKind kFill[] = {BindingKind::StorageImage}, kHalve[] = {BindingKind::SampledImage, BindingKind::StorageImage};
   const ComputePipeline* fill =
       pipeline({.shader = "image_fill", .spirv = testShader("image_fill"), .bindings = kFill, .pushConstantBytes = 4});
@@ -149,7 +149,7 @@ TEST_F(GraphDraw, APyramidIsReadLevelByLevel) {
 }
 
 // Read-backs that together are more than one buffer may be.
-TEST_F(GraphDraw, ReadbacksMayTakeSeveralBuffers) {
+TEST_F(GraphDraw, ReadbacksSpanSeveralBuffers) {
   constexpr uint64_t kBytes = 80ull << 20;
   Graph graph;
   BufferRef buffers[2] = {graph.create("one", {kBytes}), graph.create("two", {kBytes})};

@@ -127,7 +127,7 @@ class GraphHandles : public GpuTest {
 };
 
 // Between two passes of Rill's pipelines, so that barriers and bindings on both sides are tried.
-TEST_F(GraphHandles, AnOwnPipelineRunsOnTransients) {
+TEST_F(GraphHandles, HostPipelineUsesTransients) {
   const OwnPipeline own(*d);
   constexpr uint32_t width = kShotWidth / 2, height = kShotHeight / 2;
   Graph graph;
@@ -165,7 +165,7 @@ TEST_F(GraphHandles, AnOwnPipelineRunsOnTransients) {
   }
 }
 
-TEST_F(GraphHandles, TransientsAreUsedByRawCommands) {
+TEST_F(GraphHandles, RawCommandsUseTransients) {
   Graph graph;
   ImageRef image = graph.create("image", kDesc);
   BufferRef bytes = graph.create("bytes", {kShotWidth * kShotHeight * 4}), ahead = graph.create("ahead", {256});
@@ -197,7 +197,7 @@ TEST_F(GraphHandles, TransientsAreUsedByRawCommands) {
   EXPECT_EQ(read<uint32_t>(graph, other), std::vector<uint32_t>(64, 1u)) << "no byte of another transient was touched";
 }
 
-TEST_F(GraphHandles, ImagesAreCopiedToImages) {
+TEST_F(GraphHandles, CopiesImageToImage) {
   Graph graph;
   const ImageRef first = fill(graph, graph.create("first", kDesc), 7.0f);
   ImageRef second = graph.create("second", kDesc);
@@ -214,7 +214,7 @@ TEST_F(GraphHandles, ImagesAreCopiedToImages) {
 }
 
 // One frame leaves an image in a state that no pass has, the next takes it up from there: validation sees both layouts.
-TEST_F(GraphHandles, ImportsKeepTheirContentInStatesOfTheHost) {
+TEST_F(GraphHandles, ImportsKeepContentInCustomStates) {
   const VkImageUsageFlags usage = useState(Use::ComputeWrite).imageUsage | useState(Use::CopySource).imageUsage;
   const OwnImage image(*d, kDesc, usage);
   const UseState transfer{

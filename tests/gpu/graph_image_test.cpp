@@ -52,7 +52,7 @@ class GraphImages : public GpuTest {
 
 // Twenty images of which no more than three live at a time, in three frames of one command buffer: what a later image does to the memory
 // must wait for the earlier ones, in its own frame and in the one before.
-TEST_F(GraphImages, AliasSafelyThroughThreeFrames) {
+TEST_F(GraphImages, AliasSafelyAcrossFrames) {
   Graph graph;
   Ticket tickets[3];
   auto submitted = context().submit([&](VkCommandBuffer commandBuffer) {
@@ -107,7 +107,7 @@ TEST_F(GraphImages, AreCopiedAndCleared) {
   EXPECT_EQ(read<float>(graph, second), std::vector<float>(kWidth * kHeight, 0.25f));
 }
 
-TEST_F(GraphImages, ImportedOnesStayTheHosts) {
+TEST_F(GraphImages, ImportsKeepContentBetweenFrames) {
   DeviceImpl& d = device().impl();
   VkImageCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
   create.imageType = VK_IMAGE_TYPE_2D;
@@ -143,7 +143,7 @@ TEST_F(GraphImages, ImportedOnesStayTheHosts) {
   freeMemory(d, *memory);
 }
 
-TEST_F(GraphImages, AFormatThatTheDeviceLacksIsRefusedByName) {
+TEST_F(GraphImages, RejectsUnsupportedFormatByName) {
   Graph graph;
   ImageRef image = graph.create("odd", ImageDesc{VK_FORMAT_R8G8B8_SSCALED, 8, 8});
   graph.pass("draw", [&](Pass& pass) {
@@ -157,12 +157,12 @@ TEST_F(GraphImages, AFormatThatTheDeviceLacksIsRefusedByName) {
   ASSERT_FALSE(ok);
   EXPECT_EQ(ok.error().kind, ErrorKind::BadInput);
   EXPECT_NE(ok.error().message.find("image 'odd' of 8 x 8 texels"), std::string::npos) << ok.error().message;
-  EXPECT_NE(ok.error().message.find("has no storage images of that format"), std::string::npos) << ok.error().message;
+  EXPECT_NE(ok.error().message.find("does not support storage images of this format"), std::string::npos) << ok.error().message;
   ASSERT_TRUE(context().submit([](VkCommandBuffer) {}));
 }
 
 // Shows that the others would notice: an image used in another layout than the graph was told.
-TEST_F(GraphImages, ValidationIsListening) {
+TEST_F(GraphImages, ValidationReportsHazards) {
   Graph graph;
   ImageRef image = fill(graph, graph.create("image", kDesc), 0.0f);
   BufferRef bytes = graph.create("texels", {kWidth * kHeight * 4});

@@ -26,7 +26,7 @@ class Describe : public GraphTest {
   }
 };
 
-TEST_F(Describe, HeapsWithAndWithoutAliasing) {
+TEST_F(Describe, ReportsHeapSizesWithAndWithoutAliasing) {
   declare();
   const auto heaps = graph.transientHeaps();
   ASSERT_EQ(heaps.size(), 2u);
@@ -46,7 +46,7 @@ TEST_F(Describe, HeapsWithAndWithoutAliasing) {
   EXPECT_EQ(json["heaps"][1]["kind"], "images");
 }
 
-TEST_F(Describe, TransientsThatShareAPlaceDoNotMeet) {
+TEST_F(Describe, AliasedTransientsHaveDisjointLifetimes) {
   declare();
   const auto all = graph.transients();
   ASSERT_EQ(all.size(), 4u) << "three buffers, a pyramid";
@@ -64,14 +64,14 @@ TEST_F(Describe, TransientsThatShareAPlaceDoNotMeet) {
   EXPECT_TRUE(shared);
 }
 
-TEST_F(Describe, DotShowsPlaceAndLifetime) {
+TEST_F(Describe, DotShowsPlacementAndLifetime) {
   declare();
   const std::string dot = graph.dot();
   for (const char* wanted :
        {"label=\"first\\n1000 bytes in heap 0 from 0 bytes\\npasses 0 to 1\"",
         "label=\"second\\n1000 bytes in heap 0 from 1024 bytes\\npasses 1 to 2\"",
         "label=\"third\\n1000 bytes in heap 0 from 0 bytes\\npasses 2 to 3\"", "4  idle\\nculled: nothing reads 'nobody's'\", style=dashed",
-        "label=\"nobody's\\nno pass that runs uses it\"", "label=\"picture, level 0\\n16 x 8, format 100\\n",
+        "label=\"nobody's\\nunused\"", "label=\"picture, level 0\\n16 x 8, format 100\\n",
         "label=\"picture, level 1\\n8 x 4, format 100\\n", "passes 5 to 5\""})
     EXPECT_NE(dot.find(wanted), std::string::npos) << wanted << "\n" << dot;
 }

@@ -52,7 +52,7 @@ class GraphTest : public ::testing::Test {
     ASSERT_TRUE(ok) << ok.error().message;
   }
   /// The message that compile() fails with.
-  std::string mistake() {
+  std::string compileError() {
     const auto ok = graph.compile();
     if (ok) return "compiled";
     EXPECT_EQ(ok.error().kind, ErrorKind::BadInput);

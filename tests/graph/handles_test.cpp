@@ -27,7 +27,7 @@ class Handles : public GraphTest {
   std::unique_ptr<Device> device;
 };
 
-TEST_F(Handles, BuffersSayWhereTheyLie) {
+TEST_F(Handles, BufferReturnsHandleOffsetAndRange) {
   const BufferRef given = graph.import("given", {fakeBuffer(7), 128, 64, Use::Nothing});
   BufferRef first = graph.create("first", {256}), second = graph.create("second", {512});
   VkDescriptorBufferInfo in{}, a{}, b{};
@@ -52,7 +52,7 @@ TEST_F(Handles, BuffersSayWhereTheyLie) {
 }
 
 // Nothing is bound to a kernel: what the image is made for, and that it has views, follows from the uses alone.
-TEST_F(Handles, ImagesHaveWhatTheirUsesImply) {
+TEST_F(Handles, ImageUsageAndViewsFollowFromUses) {
   ImageRef image = graph.create("image", {VK_FORMAT_R32_SFLOAT, 64, 32, 2}), copied = graph.create("copied", kDesc);
   ImageRef second = graph.level(image, 1);
   ImageHandle written{}, read{}, other{}, bare{};
@@ -88,7 +88,7 @@ TEST_F(Handles, ImagesHaveWhatTheirUsesImply) {
   EXPECT_EQ(graph.impl().resources[image.index].usage, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
 }
 
-TEST_F(Handles, GroupsAreNotFolded) {
+TEST_F(Handles, ThreeDimensionalDispatchIsNotFolded) {
   constexpr BindingKind kinds[] = {BindingKind::Storage};
   auto made = computePipeline(*device, {.shader = "host", .spirv = kSpirv, .bindings = kinds, .pushConstantBytes = 4});
   ASSERT_TRUE(made);
@@ -109,7 +109,7 @@ TEST_F(Handles, GroupsAreNotFolded) {
   EXPECT_EQ(sizes, (std::vector<std::array<uint64_t, 3>>{{13, 8, 1}, {2, 3, 4}}));
 }
 
-TEST_F(Handles, WhatIsNoSpirvIsRefusedByName) {
+TEST_F(Handles, RejectsInvalidSpirvByName) {
   constexpr BindingKind kinds[] = {BindingKind::Storage};
   const auto refusal = [&](std::span<const uint32_t> spirv) {
     const auto made = computePipeline(*device, {.shader = "the host's", .spirv = spirv, .bindings = kinds});

@@ -211,7 +211,7 @@ class RandomFrames : public GraphTest {
   static bool sameFrame(const Event& a, const Event& b, size_t steps) { return (a.step < steps / 2) == (b.step < steps / 2); }
 };
 
-TEST_F(RandomFrames, EveryConflictIsOrdered) {
+TEST_F(RandomFrames, SynchronizesEveryConflict) {
   size_t covered = 0, frames = 0;
   for (uint32_t seed = 0; seed < 3000; ++seed) {
     std::mt19937 random(seed);
@@ -223,7 +223,7 @@ TEST_F(RandomFrames, EveryConflictIsOrdered) {
       for (const Placement& a : plan.placements)
         for (const Placement& b : plan.placements)
           if (&a < &b && a.first <= b.last && b.first <= a.last) { ASSERT_FALSE(sharesMemory(a, b)) << "seed " << seed; }
-    const size_t placed = g.plans[0].placements.size(), waitedFor = g.plans[0].tenants.size();
+    const size_t placed = g.plans[0].placements.size(), waitedFor = g.plans[0].aliasCandidates.size();
     frames += waitedFor > 1 && waitedFor < placed;
     covered += placed - waitedFor;
     std::vector<Step> steps;
@@ -251,7 +251,7 @@ TEST_F(RandomFrames, EveryConflictIsOrdered) {
 }
 
 // A frame that is declared again has the plan that it had, and any other a plan of its own: what these plans must hold is tested above.
-TEST_F(RandomFrames, AnEqualFrameTakesOverThePlanAndNoOtherDoes) {
+TEST_F(RandomFrames, OnlyEqualFramesReuseThePlan) {
   for (uint32_t seed = 0; seed < 200; ++seed) {
     std::string planned;
     for (int time = 0; time < 3; ++time) {
