@@ -96,7 +96,7 @@ class ContractMemory : public Contract {
   std::optional<Lender> lender_;
 };
 
-TEST_F(ContractMemory, AllMemoryComesFromTheHostsHooks) {
+TEST_F(ContractMemory, AllocatesAllMemoryThroughHooks) {
   std::vector<std::byte> plain, lent;
   {
     auto made = guest();
@@ -125,7 +125,7 @@ TEST_F(ContractMemory, AllMemoryComesFromTheHostsHooks) {
   EXPECT_TRUE(lent == plain) << "where memory comes from makes no difference";
 }
 
-TEST_F(ContractMemory, ABlockIsFreedOnceItsFrameHasCompletedAndNotBefore) {
+TEST_F(ContractMemory, FreesBlocksOnlyAfterTheirFrame) {
   auto device = Device::borrow(lend());
   ASSERT_TRUE(device);
   (*device)->beginFrame({5, 3});
@@ -142,7 +142,7 @@ TEST_F(ContractMemory, ABlockIsFreedOnceItsFrameHasCompletedAndNotBefore) {
   expectAllBackOnce();
 }
 
-TEST_F(ContractMemory, TheEndOfTheDeviceFreesWhatIsLeft) {
+TEST_F(ContractMemory, DeviceDestructorFreesRemainingBlocks) {
   auto device = Device::borrow(lend());
   ASSERT_TRUE(device);
   hooks_ = {};  // what it points to was read by borrow() alone
@@ -152,7 +152,7 @@ TEST_F(ContractMemory, TheEndOfTheDeviceFreesWhatIsLeft) {
   expectAllBackOnce();
 }
 
-TEST_F(ContractMemory, AFrameLikeThoseBeforeItAsksForNoMemory) {
+TEST_F(ContractMemory, RepeatedFrameAllocatesNoMemory) {
   auto made = guest(lend());
   ASSERT_TRUE(made);
   frames(*made, 4);
@@ -161,16 +161,16 @@ TEST_F(ContractMemory, AFrameLikeThoseBeforeItAsksForNoMemory) {
   EXPECT_EQ(lender().pieces.size(), before);
 }
 
-TEST_F(ContractMemory, ABlockThatCannotBeIsRefusedByTheBuffersNameAndFreed) {
+TEST_F(ContractMemory, RejectsAndFreesInvalidBlocks) {
   auto device = Device::borrow(lend());
   ASSERT_TRUE(device);
   const struct {
     void (*spoil)(const MemoryRequest&, MemoryBlock&);
     const char* said;
-  } table[] = {{[](const MemoryRequest&, MemoryBlock& block) { ++block.offset; }, "is no multiple of"},
+  } table[] = {{[](const MemoryRequest&, MemoryBlock& block) { ++block.offset; }, "not a multiple of"},
                {[](const MemoryRequest&, MemoryBlock& block) { block.mapped = nullptr; }, "no mapped address"},
                {[](const MemoryRequest&, MemoryBlock& block) { block.memory = VK_NULL_HANDLE; }, "no VkDeviceMemory"},
-               {[](const MemoryRequest&, MemoryBlock& block) { block.memoryType = 31; }, "not among those allowed"}};
+               {[](const MemoryRequest&, MemoryBlock& block) { block.memoryType = 31; }, "not an allowed type"}};
   for (const auto& row : table) {
     lender().spoil = row.spoil;
     const auto refused = createBuffer(**device, "positions", 4096, MemoryKind::Upload);
@@ -182,7 +182,7 @@ TEST_F(ContractMemory, ABlockThatCannotBeIsRefusedByTheBuffersNameAndFreed) {
   }
 }
 
-TEST_F(ContractMemory, WhatTheHostsAllocatorAnswersIsTheError) {
+TEST_F(ContractMemory, ReturnsAllocatorError) {
   auto device = Device::borrow(lend());
   ASSERT_TRUE(device);
   lender().answer = VK_ERROR_OUT_OF_DEVICE_MEMORY;

@@ -37,7 +37,7 @@ struct CountingCallbacks {
   }
 };
 
-TEST_F(Contract, NothingIsSubmittedOrWaitedForAndNoDeviceIsMade) {
+TEST_F(Contract, NeverSubmitsWaitsOrCreatesDevices) {
   {
     auto made = guest();
     ASSERT_TRUE(made);
@@ -51,7 +51,7 @@ TEST_F(Contract, NothingIsSubmittedOrWaitedForAndNoDeviceIsMade) {
       EXPECT_EQ(name.find(never), std::string::npos) << name;
 }
 
-TEST_F(Contract, PipelinesAreMadeWithTheHostsCacheWhichTheHostMaySave) {
+TEST_F(Contract, CreatesPipelinesThroughHostCache) {
   const VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
   VkPipelineCache cache = VK_NULL_HANDLE;
   ASSERT_EQ(host().vk.CreatePipelineCache(host().device, &info, nullptr, &cache), VK_SUCCESS);
@@ -74,7 +74,7 @@ TEST_F(Contract, PipelinesAreMadeWithTheHostsCacheWhichTheHostMaySave) {
   host().vk.DestroyPipelineCache(host().device, cache, nullptr);
 }
 
-TEST_F(Contract, EveryObjectIsMadeAndDestroyedWithTheHostsCallbacks) {
+TEST_F(Contract, UsesHostCallbacksForEveryObject) {
   CountingCallbacks::alive = CountingCallbacks::total = 0;
   const VkAllocationCallbacks callbacks{
       nullptr, &CountingCallbacks::allocate, &CountingCallbacks::reallocate, &CountingCallbacks::release, nullptr, nullptr};
@@ -91,7 +91,7 @@ TEST_F(Contract, EveryObjectIsMadeAndDestroyedWithTheHostsCallbacks) {
   EXPECT_EQ(CountingCallbacks::alive, 0);
 }
 
-TEST_F(Contract, WhatWasMadeIsDestroyedByTheEndOfTheDevice) {
+TEST_F(Contract, DestroysEverythingByDeviceDestruction) {
   {
     auto made = guest();
     ASSERT_TRUE(made);
@@ -101,7 +101,7 @@ TEST_F(Contract, WhatWasMadeIsDestroyedByTheEndOfTheDevice) {
   for (const auto& [kind, count] : watch().alive()) ADD_FAILURE() << count << " of " << kind << " are left";
 }
 
-TEST_F(Contract, AFrameLikeThoseBeforeItAllocatesNoMemoryAndMakesNothingButViews) {
+TEST_F(Contract, RepeatedFrameCreatesOnlyViews) {
   auto made = guest();
   ASSERT_TRUE(made);
   frames(*made, 4);
@@ -113,7 +113,7 @@ TEST_F(Contract, AFrameLikeThoseBeforeItAllocatesNoMemoryAndMakesNothingButViews
   EXPECT_EQ(watch().alive(), before) << "views are destroyed as they are made";
 }
 
-TEST_F(Contract, MemoryIsAllocatedInCallsThatReturnAnExpectedAndFreedInBeginFrameAndTheEndOfTheDevice) {
+TEST_F(Contract, AllocatesAndFreesOnlyInDocumentedCalls) {
   {
     auto made = guest();
     ASSERT_TRUE(made);
@@ -128,7 +128,7 @@ TEST_F(Contract, MemoryIsAllocatedInCallsThatReturnAnExpectedAndFreedInBeginFram
   EXPECT_EQ(frees, (std::set<std::string>{"beginFrame", "~Device"}));
 }
 
-TEST_F(Contract, FrameClockAloneDecidesWhatIsFreed) {
+TEST_F(Contract, OnlyFrameClockTriggersFrees) {
   auto made = guest();
   ASSERT_TRUE(made);
   frames(*made, 4);
@@ -146,7 +146,7 @@ TEST_F(Contract, FrameClockAloneDecidesWhatIsFreed) {
   EXPECT_LT(watch().alive()["Image"], images);
 }
 
-TEST_F(Contract, AnAbandonedFrameIsAsIfItHadNeverBeen) {
+TEST_F(Contract, AbandonedFrameHasNoEffect) {
   std::vector<std::byte> plain;
   {
     auto made = guest();
@@ -166,7 +166,7 @@ TEST_F(Contract, AnAbandonedFrameIsAsIfItHadNeverBeen) {
   EXPECT_TRUE(made->bits() == plain);
 }
 
-TEST_F(Contract, SeveralRecordedFramesMayBeAbandonedTogether) {
+TEST_F(Contract, AbandonsSeveralRecordedFrames) {
   std::vector<std::byte> plain;
   {
     auto made = guest();
@@ -187,7 +187,7 @@ TEST_F(Contract, SeveralRecordedFramesMayBeAbandonedTogether) {
   EXPECT_TRUE(made->bits() == plain);
 }
 
-TEST_F(Contract, NothingIsPrinted) {
+TEST_F(Contract, PrintsNothing) {
   ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();
   {
@@ -201,7 +201,7 @@ TEST_F(Contract, NothingIsPrinted) {
   EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
 }
 
-TEST_F(Contract, AnyThreadMayCallAsLongAsOneDoesAtATime) {
+TEST_F(Contract, AnyThreadMayCallOneAtATime) {
   std::vector<std::byte> here, there;
   const auto lived = [&](bool elsewhere) {
     std::unique_ptr<Guest> made;
@@ -220,7 +220,7 @@ TEST_F(Contract, AnyThreadMayCallAsLongAsOneDoesAtATime) {
   EXPECT_TRUE(here == there);
 }
 
-TEST_F(Contract, TwoDevicesOfOneVkDeviceMayBeUsedByTwoThreadsAtOnce) {
+TEST_F(Contract, TwoThreadsUseTwoDevicesOfOneVkDevice) {
   const VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
   VkPipelineCache cache = VK_NULL_HANDLE;
   ASSERT_EQ(host().vk.CreatePipelineCache(host().device, &info, nullptr, &cache), VK_SUCCESS);
@@ -241,7 +241,7 @@ TEST_F(Contract, TwoDevicesOfOneVkDeviceMayBeUsedByTwoThreadsAtOnce) {
   host().vk.DestroyPipelineCache(host().device, cache, nullptr);
 }
 
-TEST_F(Contract, WhatWasDeclaredWronglyIsAnErrorOfCompile) {
+TEST_F(Contract, CompileReportsDeclarationErrors) {
   Graph graph;
   const BufferRef nothing = graph.create("nothing", {0});
   (void)graph.readback(nothing);

@@ -120,18 +120,18 @@ TEST_F(Handles, RejectsInvalidSpirvByName) {
   constexpr uint32_t text[] = {0x65762322, 0x6f697372, 0x3634206e, 0x0a300000, 0}, other[] = {0x03022307, 0x100, 0, 0x1000000, 0};
   constexpr uint32_t cut[] = {0x07230203, 0x10000};
   const std::string none =
-      "shader 'the host's': what was given is no SPIR-V: a module begins with the word 0x07230203 and has a header of five words";
+      "shader 'the host's': invalid SPIR-V; expected the magic number 0x07230203 and a header of five words";
   EXPECT_EQ(refusal(text), none);
   EXPECT_EQ(refusal(cut), none);
-  EXPECT_EQ(refusal(other), "shader 'the host's': its SPIR-V is in the other byte order: it must be in that of this machine");
-  EXPECT_EQ(refusal({}), "shader 'the host's': no SPIR-V was given, and Rill has no shader of that name");
+  EXPECT_EQ(refusal(other), "shader 'the host's': the SPIR-V has the wrong byte order; expected that of this machine");
+  EXPECT_EQ(refusal({}), "shader 'the host's': no SPIR-V given, and no embedded shader has this name");
   EXPECT_EQ(refusal(kSpirv), "made");
   const VkFormat color = VK_FORMAT_R8G8B8A8_UNORM;
   const auto drawn = graphicsPipeline(
       *device,
       {.vertex = "quad", .fragment = "fill", .vertexSpirv = kSpirv, .fragmentSpirv = text, .bindings = kinds, .colors = {&color, 1}});
   ASSERT_FALSE(drawn);
-  EXPECT_NE(drawn.error().message.find("shader 'fill': what was given is no SPIR-V"), std::string::npos) << drawn.error().message;
+  EXPECT_NE(drawn.error().message.find("shader 'fill': invalid SPIR-V"), std::string::npos) << drawn.error().message;
 }
 
 }  // namespace

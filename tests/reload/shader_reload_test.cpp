@@ -1,4 +1,4 @@
-// What a development build (RILL_SHADER_RELOAD) adds: a changed shader replaces the running one, a broken one does not.
+// Shader reloading in development builds (RILL_SHADER_RELOAD).
 #include <unistd.h>
 
 #include <chrono>
@@ -24,14 +24,14 @@ class ShaderReloading : public ::testing::Test {
     ASSERT_TRUE(made) << made.error().message;
     context_ = std::move(*made);
     context_->device().setMessageCallback([this](std::string_view text) { said_ += text; });
-    ASSERT_TRUE(context_->submit([](VkCommandBuffer) {}));  // the first look, which tells what is new from then on
+    ASSERT_TRUE(context_->submit([](VkCommandBuffer) {}));  // the first poll records the initial file times
   }
   void TearDown() override {
     unsetenv("RILL_SHADER_DIR");
     context_.reset();
     fs::remove_all(folder_);
   }
-  /// Appends to a shader's file, dated so that the change is seen whatever the file system's clock resolves.
+  /// Appends to a shader file, with a time in the future so that coarse file times still differ.
   void append(const std::string& file, const std::string& text) {
     std::ofstream(folder_ / file, std::ios::app) << text;
     fs::last_write_time(folder_ / file, fs::file_time_type::clock::now() + std::chrono::seconds(++changes_));
@@ -52,11 +52,11 @@ class ShaderReloading : public ::testing::Test {
   int changes_ = 0;
 };
 
-TEST_F(ShaderReloading, ReplacesWhatChangedAndKeepsWhatBroke) {
+TEST_F(ShaderReloading, ReplacesChangedShaderKeepsOldOnError) {
   const ComputePipeline* pipeline = make();
   ASSERT_NE(pipeline, nullptr);
   const VkPipeline first = pipeline->handle;
-  append("sort/clear.comp", "\n// a remark\n");
+  append("sort/clear.comp", "\n// a comment\n");
   EXPECT_EQ(said_, "shader 'sort/clear' was reloaded");
   const VkPipeline second = pipeline->handle;
   EXPECT_NE(second, first);
@@ -64,12 +64,12 @@ TEST_F(ShaderReloading, ReplacesWhatChangedAndKeepsWhatBroke) {
 
   said_.clear();
   append("sort/clear.comp", "nonsense\n");
-  EXPECT_NE(said_.find("shader 'sort/clear' does not compile, the old one stays:"), std::string::npos) << said_;
+  EXPECT_NE(said_.find("shader 'sort/clear' does not compile, keeping the old version:"), std::string::npos) << said_;
   EXPECT_NE(said_.find("sort/clear.comp:"), std::string::npos) << said_;
   EXPECT_EQ(pipeline->handle, second);
 }
 
-TEST_F(ShaderReloading, AChangedHeaderReloadsEveryShader) {
+TEST_F(ShaderReloading, ChangedHeaderReloadsAllShaders) {
   append("sort/sort_types.h", "\n");
   size_t reloaded = 0;
   for (size_t at = said_.find("was reloaded"); at != std::string::npos; at = said_.find("was reloaded", at + 1)) ++reloaded;
