@@ -1,4 +1,4 @@
-// Drawing through the graph on a real driver, with synchronization validation listening.
+// Drawing through the graph on a real driver, with synchronization validation.
 #include "gpu/device_impl.hpp"
 #include "support/gpu_test.hpp"
 
@@ -31,7 +31,7 @@ class GraphDraw : public GpuTest {
     EXPECT_TRUE(made) << made.error().message;
     return made ? *made : nullptr;
   }
-  /// Several frames of one graph in one command buffer, where synchronization validation sees all.
+  /// Several frames of one graph in one command buffer, so that synchronization validation covers all.
   template <class Declare>
   void runFrames(Graph& graph, int count, Declare&& declare) {
     auto submitted = context().submit([&](VkCommandBuffer commandBuffer) {
@@ -58,8 +58,8 @@ class GraphDraw : public GpuTest {
   }
 };
 
-// A far rectangle over all, a near one over the right half, one in between that the near one hides; then the result is drawn over by a
-// second pass that keeps both targets, its arguments on the device. Three frames in one command buffer.
+// A far rectangle over everything, a near one over the right half, and one in between; then a second pass with
+// Load::Keep and indirect arguments. Three frames in one command buffer.
 TEST_F(GraphDraw, DepthTestAndLoadKeepCompose) {
   const GraphicsPipeline* less = drawing(VK_COMPARE_OP_LESS);
   ASSERT_TRUE(less);
@@ -148,7 +148,7 @@ TEST_F(GraphDraw, ReadsMipLevelsOneByOne) {
   }
 }
 
-// Read-backs that together are more than one buffer may be.
+// Read-backs that together exceed the largest buffer.
 TEST_F(GraphDraw, ReadbacksSpanSeveralBuffers) {
   constexpr uint64_t kBytes = 80ull << 20;
   Graph graph;

@@ -1,4 +1,4 @@
-// Passes with the host's own pipelines on a real driver, on transients whose handles the graph tells; synchronization validation listens.
+// Passes with the host's own pipelines on transients, on a real driver with synchronization validation.
 #include "gpu/device_impl.hpp"
 #include "gpu/device_memory.hpp"
 #include "support/gpu_test.hpp"
@@ -126,7 +126,7 @@ class GraphHandles : public GpuTest {
   DeviceImpl* d = nullptr;
 };
 
-// Between two passes of Rill's pipelines, so that barriers and bindings on both sides are tried.
+// Between two passes with Rill's pipelines, to check barriers and bindings on both sides.
 TEST_F(GraphHandles, HostPipelineUsesTransients) {
   const OwnPipeline own(*d);
   constexpr uint32_t width = kShotWidth / 2, height = kShotHeight / 2;
@@ -213,7 +213,7 @@ TEST_F(GraphHandles, CopiesImageToImage) {
   for (uint32_t i = 0; i < result.size(); ++i) ASSERT_EQ(result[i], filled(7.0f, i)) << "texel " << i;
 }
 
-// One frame leaves an image in a state that no pass has, the next takes it up from there: validation sees both layouts.
+// One frame leaves an image in a state that no pass has and the next one continues from there.
 TEST_F(GraphHandles, ImportsKeepContentInCustomStates) {
   const VkImageUsageFlags usage = useState(Use::ComputeWrite).imageUsage | useState(Use::CopySource).imageUsage;
   const OwnImage image(*d, kDesc, usage);

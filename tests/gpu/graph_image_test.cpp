@@ -1,4 +1,4 @@
-// Images on a real driver, with synchronization validation listening.
+// Images on a real driver, with synchronization validation.
 #include <cmath>
 #include <numeric>
 
@@ -50,8 +50,8 @@ class GraphImages : public GpuTest {
   static float filled(float base, uint32_t x, uint32_t y) { return base + float(x) + 1000.0f * float(y); }
 };
 
-// Twenty images of which no more than three live at a time, in three frames of one command buffer: what a later image does to the memory
-// must wait for the earlier ones, in its own frame and in the one before.
+// Twenty images with at most three live at a time, in three frames of one command buffer: later images must
+// wait for earlier users of their memory, in this frame and the previous one.
 TEST_F(GraphImages, AliasSafelyAcrossFrames) {
   Graph graph;
   Ticket tickets[3];
@@ -65,7 +65,7 @@ TEST_F(GraphImages, AliasSafelyAcrossFrames) {
       auto ok = graph.compile();
       if (ok) ok = graph.prepare(device());
       ASSERT_TRUE(ok) << ok.error().message;
-      EXPECT_LT(graph.transientBytes(), 6u * kWidth * kHeight * 4) << "three images and the buffer, with what alignment takes";
+      EXPECT_LT(graph.transientBytes(), 6u * kWidth * kHeight * 4) << "three images, the buffer and alignment";
       graph.record(commandBuffer);
     }
   });
@@ -129,7 +129,7 @@ TEST_F(GraphImages, ImportsKeepContentBetweenFrames) {
     Graph graph;
     (void)fill(graph, graph.import("target", {image, kDesc, Use::Unknown, Use::ComputeSampled}), 5.0f);
     run(graph);
-    graph.reset();  // the image has kept what the last frame drew, in the layout that it was left in
+    graph.reset();  // the image keeps the last frame's content and layout
     const ImageRef kept = graph.import("target", {image, kDesc, Use::ComputeSampled, Use::Nothing});
     const ImageRef own = fill(graph, graph.create("own", kDesc), 0.0f);
     const Ticket ticket = readback(graph, add(graph, kept, own));
@@ -161,7 +161,7 @@ TEST_F(GraphImages, RejectsUnsupportedFormatByName) {
   ASSERT_TRUE(context().submit([](VkCommandBuffer) {}));
 }
 
-// Shows that the others would notice: an image used in another layout than the graph was told.
+// Proves that validation is active: the image is used in a layout that was not declared.
 TEST_F(GraphImages, ValidationReportsHazards) {
   Graph graph;
   ImageRef image = fill(graph, graph.create("image", kDesc), 0.0f);

@@ -1,4 +1,4 @@
-// Buffers, pipelines and the context that tests and apps open.
+// Buffers, pipelines and the offline context.
 #include <bit>
 
 #include "gpu/device_impl.hpp"

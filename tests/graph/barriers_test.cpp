@@ -1,4 +1,4 @@
-// The barriers of small frames, written out.
+// The exact barriers of small frames.
 #include "graph_fixture.hpp"
 
 namespace rill::test {
@@ -16,7 +16,7 @@ TEST_F(Barriers, ReadAfterWriteNeedsMemoryBarrierReadAfterReadNone) {
   EXPECT_EQ(barrier(0), kNoBarrier);
   EXPECT_EQ(barrier(1), (Scope{kCompute, kStorageWrite, kCompute, kStorageRead}));
   EXPECT_EQ(barrier(2), kNoBarrier);
-  EXPECT_EQ(barrier(3), (Scope{kCompute, kStorageWrite, kCompute, kSampled})) << "another kind of read has not seen the write";
+  EXPECT_EQ(barrier(3), (Scope{kCompute, kStorageWrite, kCompute, kSampled})) << "the write is not visible to another kind of read";
 }
 
 TEST_F(Barriers, WriteAfterReadNeedsExecutionBarrierOnly) {
@@ -70,7 +70,7 @@ TEST_F(Barriers, BarrierServesAllCoveredResources) {
   read("read b", b);
   compile();
   EXPECT_EQ(barrier(2), (Scope{kCompute, kStorageWrite, kCompute, kStorageRead}));
-  EXPECT_EQ(barrier(3), kNoBarrier) << "the barrier before 'read a' has waited for 'make b' too";
+  EXPECT_EQ(barrier(3), kNoBarrier) << "the barrier before 'read a' also covers 'make b'";
 }
 
 TEST_F(Barriers, PassHasOneBarrierForAllResources) {

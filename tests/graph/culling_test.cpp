@@ -1,4 +1,4 @@
-// Which passes run, and what the graph says of those that don't.
+// Culling of passes, and its reports.
 #include "graph_fixture.hpp"
 
 namespace rill::test {

@@ -1,4 +1,4 @@
-// DeclarationErrors in a declaration are errors in release builds too, with the pass and the resource in the message.
+// Declaration errors are reported in release builds too, with pass and resource in the message.
 #include "graph_fixture.hpp"
 
 namespace rill::test {

@@ -1,4 +1,4 @@
-// What the graph says of a frame: memory with and without aliasing, places, lifetimes.
+// Reports of the graph: memory with and without aliasing, placements, lifetimes.
 #include <nlohmann/json.hpp>
 
 #include "graph_fixture.hpp"
@@ -8,7 +8,7 @@ namespace {
 
 class Describe : public GraphTest {
  protected:
-  /// Three buffers of 1000 bytes, of which no two but neighbors live together; a culled pass; a pyramid that is drawn and read.
+  /// Three buffers of 1000 bytes of which only consecutive ones overlap in lifetime; a culled pass; an image with two levels.
   void declare() {
     BufferRef at = write("make", graph.create("first", {1000}));
     at = readWrite("second pass", at, Use::ComputeRead, graph.create("second", {1000}));
@@ -35,7 +35,7 @@ TEST_F(Describe, ReportsHeapSizesWithAndWithoutAliasing) {
   EXPECT_EQ(heaps[0].bytes, 1024u + 1000);
   EXPECT_EQ(heaps[0].separate, 2 * 1024u + 1000);
   EXPECT_TRUE(heaps[1].images);
-  EXPECT_EQ(heaps[1].transients, 1u) << "a pyramid lies in one place";
+  EXPECT_EQ(heaps[1].transients, 1u) << "an image with mip levels has one placement";
   EXPECT_EQ(heaps[1].bytes, heaps[1].separate);
   EXPECT_EQ(graph.transientBytes(), heaps[0].bytes + heaps[1].bytes);
   const auto json = nlohmann::json::parse(graph.json());
@@ -49,7 +49,7 @@ TEST_F(Describe, ReportsHeapSizesWithAndWithoutAliasing) {
 TEST_F(Describe, AliasedTransientsHaveDisjointLifetimes) {
   declare();
   const auto all = graph.transients();
-  ASSERT_EQ(all.size(), 4u) << "three buffers, a pyramid";
+  ASSERT_EQ(all.size(), 4u) << "three buffers, one image";
   bool shared = false;
   for (const TransientReport& a : all) {
     EXPECT_FALSE(a.name.empty());

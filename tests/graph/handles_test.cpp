@@ -1,4 +1,4 @@
-// What a pass that records with the host's own pipelines gets to see: handles, layouts, workgroups as they are given.
+// Handles, layouts and dispatch sizes in passes that record with the host's own pipelines.
 #include "graph_fixture.hpp"
 #include "support/null_vulkan.hpp"
 
@@ -47,11 +47,11 @@ TEST_F(Handles, BufferReturnsHandleOffsetAndRange) {
   EXPECT_EQ(in.offset, 128u);
   EXPECT_EQ(in.range, 64u);
   EXPECT_NE(a.buffer, VkBuffer(VK_NULL_HANDLE));
-  EXPECT_EQ(a.buffer, b.buffer) << "of one heap";
+  EXPECT_EQ(a.buffer, b.buffer) << "same heap";
   EXPECT_TRUE(a.offset + a.range <= b.offset || b.offset + b.range <= a.offset);
 }
 
-// Nothing is bound to a kernel: what the image is made for, and that it has views, follows from the uses alone.
+// Without kernels, usage flags and views follow from the declared uses alone.
 TEST_F(Handles, ImageUsageAndViewsFollowFromUses) {
   ImageRef image = graph.create("image", {VK_FORMAT_R32_SFLOAT, 64, 32, 2}), copied = graph.create("copied", kDesc);
   ImageRef second = graph.level(image, 1);
@@ -83,7 +83,7 @@ TEST_F(Handles, ImageUsageAndViewsFollowFromUses) {
   EXPECT_EQ(other.image, written.image);
   EXPECT_NE(other.view, written.view);
   EXPECT_EQ(other.level, 1u);
-  EXPECT_EQ(bare.view, VkImageView(VK_NULL_HANDLE)) << "nobody looks at it";
+  EXPECT_EQ(bare.view, VkImageView(VK_NULL_HANDLE)) << "copies need no view";
   EXPECT_EQ(bare.layout, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
   EXPECT_EQ(graph.impl().resources[image.index].usage, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
 }
@@ -119,8 +119,7 @@ TEST_F(Handles, RejectsInvalidSpirvByName) {
   };
   constexpr uint32_t text[] = {0x65762322, 0x6f697372, 0x3634206e, 0x0a300000, 0}, other[] = {0x03022307, 0x100, 0, 0x1000000, 0};
   constexpr uint32_t cut[] = {0x07230203, 0x10000};
-  const std::string none =
-      "shader 'the host's': invalid SPIR-V; expected the magic number 0x07230203 and a header of five words";
+  const std::string none = "shader 'the host's': invalid SPIR-V; expected the magic number 0x07230203 and a header of five words";
   EXPECT_EQ(refusal(text), none);
   EXPECT_EQ(refusal(cut), none);
   EXPECT_EQ(refusal(other), "shader 'the host's': the SPIR-V has the wrong byte order; expected that of this machine");

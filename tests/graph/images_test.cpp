@@ -1,4 +1,4 @@
-// Images in the plan: layouts, memory, mistakes; and what prepare() makes of them on a device that only remembers.
+// Images in the plan: layouts, memory, errors; and prepare() on a device that only records calls.
 #include <algorithm>
 
 #include "bench/count_allocations.hpp"
@@ -52,12 +52,12 @@ TEST_F(Images, LayoutsFollowUses) {
   EXPECT_EQ(changes(planned(0)), (Changes{{kUndefined, kTarget}}));
   EXPECT_EQ(changes(planned(1)), (Changes{{kTarget, kGeneral}}));
   EXPECT_EQ(changes(planned(2)), (Changes{{kGeneral, kSampledLayout}}));
-  EXPECT_TRUE(planned(3).empty()) << "a second read in the same layout waits for nothing";
-  EXPECT_EQ(changes(planned(4)), (Changes{{kUndefined, kGeneral}})) << "what is discarded need not be kept through the change";
+  EXPECT_TRUE(planned(3).empty()) << "a second read in the same layout needs no barrier";
+  EXPECT_EQ(changes(planned(4)), (Changes{{kUndefined, kGeneral}})) << "discarded content need not be preserved";
   EXPECT_EQ(changes(planned(5)), (Changes{{kGeneral, kSource}}));
   EXPECT_EQ(change(1), (Scope{kTransfer, kTransferWrite, kCompute, kStorageRead | kStorageWrite}));
   EXPECT_EQ(change(2), (Scope{kCompute, kStorageWrite, kCompute, kSampled}));
-  for (size_t pass = 0; pass < 6; ++pass) EXPECT_TRUE(planned(pass).scope.empty()) << "the change of layout is all there is to wait for";
+  for (size_t pass = 0; pass < 6; ++pass) EXPECT_TRUE(planned(pass).scope.empty()) << "the layout transition is the only dependency";
 }
 
 TEST_F(Images, EqualLayoutsUseMemoryBarriers) {
@@ -102,8 +102,8 @@ TEST_F(Images, AliasImagesButNotBuffers) {
   const auto& plan = graph.impl().plans[1];
   ASSERT_EQ(plan.placements.size(), 3u);
   ASSERT_EQ(plan.heapSizes.size(), 1u);
-  EXPECT_EQ(plan.heapSizes[0], 16ull * 64 * 32) << "an estimate, before a device was asked";
-  // The first waits for the frame before, the second for the first one's readers.
+  EXPECT_EQ(plan.heapSizes[0], 16ull * 64 * 32) << "an estimate, before the device is queried";
+  // The first waits for the previous frame, the second for the first one's readers.
   EXPECT_EQ(change(3).sourceStage & kCompute, kCompute);
 }
 
@@ -211,7 +211,7 @@ class ImagesOnNullDevice : public Images {
 
 TEST_F(ImagesOnNullDevice, AreCreatedOnceWithQueriedSizes) {
   ASSERT_TRUE(frame(4, 64));
-  EXPECT_EQ(vulkan.imagesCreated, 1u) << "four that follow each other are one image";
+  EXPECT_EQ(vulkan.imagesCreated, 1u) << "four with disjoint lifetimes share one image";
   EXPECT_EQ(graph.impl().plans[1].heapSizes[0], 64u * 64 * 4) << "not the estimate";
   EXPECT_EQ(vulkan.count(NullCommand::ClearImage), 4u);
   EXPECT_EQ(vulkan.count(NullCommand::CopyFromImage), 4u);
@@ -224,11 +224,11 @@ TEST_F(ImagesOnNullDevice, AreCreatedOnceWithQueriedSizes) {
     EXPECT_EQ(b.image, image);
     EXPECT_EQ(b.oldLayout, k % 2 ? kTarget : kUndefined);
     EXPECT_EQ(b.newLayout, k % 2 ? kSource : kTarget);
-    EXPECT_EQ(b.srcAccessMask & kTransferWrite, kTransferWrite) << "even the first waits, for the frame before";
+    EXPECT_EQ(b.srcAccessMask & kTransferWrite, kTransferWrite) << "the first waits for the previous frame";
   }
   for (int i = 0; i < 8; ++i) ASSERT_TRUE(frame(4, 64));
   EXPECT_EQ(vulkan.imagesCreated, 1u);
-  ASSERT_TRUE(frame(4, 128));  // grows the heap, and makes another image in it
+  ASSERT_TRUE(frame(4, 128));  // grows the heap and creates another image in it
   EXPECT_EQ(vulkan.imagesCreated, 2u);
 }
 

@@ -1,4 +1,4 @@
-// States in which imports come and go that no pass has: a swapchain's, the host's own; and what an import was created for.
+// Import states that no pass has (swapchain images, custom states), and usage flags of imports.
 #include "graph_fixture.hpp"
 
 namespace rill::test {
@@ -43,7 +43,7 @@ TEST_F(ImportStates, SwapchainImageEndsInPresentLayout) {
   compile();
   const Transition& first = only(graph.impl().passes[0].barrier);
   EXPECT_EQ(first.from, VK_IMAGE_LAYOUT_UNDEFINED);
-  EXPECT_EQ(first.scope.sourceStage, kAll) << "whatever stage the submission waits in for the image";
+  EXPECT_EQ(first.scope.sourceStage, kAll) << "covers any stage at which the submission waits for the image";
   const Transition& present = only(last());
   EXPECT_EQ(present.to, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
   EXPECT_EQ(present.scope, (Scope{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT, kAll, 0}));
@@ -72,7 +72,7 @@ TEST_F(ImportStates, CustomStateWithEqualLayoutNeedsNoTransition) {
   draw(image(kSampledInGeneral, kSampledInGeneral), Use::ComputeWrite);
   compile();
   EXPECT_EQ(graph.impl().passes[0].barrier.transitions.count, 0u);
-  EXPECT_EQ(barrier(0).sourceStage, kFragment) << "it was being read";
+  EXPECT_EQ(barrier(0).sourceStage, kFragment) << "the stage that read it";
   EXPECT_EQ(barrier(0).targetStage, kCompute);
   EXPECT_EQ(last().transitions.count, 0u);
   EXPECT_EQ(last().scope, (Scope{kCompute, kStorageWrite, kFragment, kSampled}));
@@ -84,7 +84,7 @@ TEST_F(ImportStates, BufferReachesCustomStage) {
   (void)write("write", graph.import("positions", {fakeBuffer(9), 0, 64, written, build}));
   compile();
   EXPECT_EQ(barrier(0).sourceStage, kFragment);
-  EXPECT_EQ(barrier(0).sourceAccess, VK_ACCESS_2_SHADER_WRITE_BIT) << "reads have nothing to make available";
+  EXPECT_EQ(barrier(0).sourceAccess, VK_ACCESS_2_SHADER_WRITE_BIT) << "reads need no availability operation";
   EXPECT_EQ(last().scope, (Scope{kCompute, kStorageWrite, build.stages, build.access}));
 }
 
@@ -128,7 +128,7 @@ TEST_F(ImportStates, UseStateMatchesPlannedBarriers) {
   EXPECT_EQ(write.access, kStorageRead | kStorageWrite);
   EXPECT_EQ(write.bufferUsage, VkBufferUsageFlags(VK_BUFFER_USAGE_STORAGE_BUFFER_BIT));
   EXPECT_EQ(useState(Use::Nothing), UseState{});
-  // The same import, in the state of a Use and in that state spelt out: the same barrier.
+  // A Use and the equal custom state give the same barrier.
   draw(image(Use::ComputeSampled, Use::Nothing), Use::ComputeWrite);
   compile();
   const Transition named = only(graph.impl().passes[0].barrier);

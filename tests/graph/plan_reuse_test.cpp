@@ -1,4 +1,4 @@
-// Whatever a plan depends on makes a new one when it changes.
+// Every change that a plan depends on leads to a new plan.
 #include <functional>
 #include <vector>
 

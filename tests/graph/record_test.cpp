@@ -1,4 +1,4 @@
-// prepare() and record() against a device that only remembers.
+// prepare() and record() on a device that only records calls.
 #include "bench/count_allocations.hpp"
 #include "graph_fixture.hpp"
 #include "support/null_vulkan.hpp"
@@ -38,7 +38,7 @@ class Recording : public GraphTest {
     BufferRef list = graph.import("list", {fakeBuffer(2), 0, 4096, Use::ComputeWrite, Use::ComputeWrite});
     for (int i = 0; i < 100; ++i) {
       BufferRef scratch = graph.create("scratch of both, with a long name", {scratchBytes});
-      const std::array<uint64_t, 20> much{};  // what a record lambda may carry
+      const std::array<uint64_t, 20> much{};  // a large capture
       graph.pass("first of the two, with a long name", [&](Pass& pass) {
         pass.read(list, Use::ComputeTexel);
         scratch = pass.write(scratch, Use::ComputeWrite);
@@ -63,7 +63,7 @@ class Recording : public GraphTest {
 TEST_F(Recording, SteadyStateAllocatesNothing) {
   const auto* update = pipeline("update", {BindingKind::Storage, BindingKind::Storage});
   const auto* texel = pipeline("texel", {BindingKind::TexelFloat4, BindingKind::Storage});
-  for (const uint64_t other : {1024, 768}) {  // frames whose plan is taken over, frames that are each planned
+  for (const uint64_t other : {1024, 768}) {  // frames that reuse the plan, then frames that need a new plan each
     const auto wholeFrame = [&](int i) {
       frame();
       graph.reset();
@@ -71,7 +71,7 @@ TEST_F(Recording, SteadyStateAllocatesNothing) {
       declareLargeFrame(update, texel, i % 2 == 0 ? 1024 : other);
       return bool(go()) && graph.timings().size() <= 3;
     };
-    for (int i = 0; i < 20; ++i) ASSERT_TRUE(wholeFrame(i));  // until forgotten read-backs have been given up
+    for (int i = 0; i < 20; ++i) ASSERT_TRUE(wholeFrame(i));  // until forgotten read-backs expire
     const int64_t live = vulkan.liveObjects;
     const uint64_t plans = graph.impl().plansMade;
     bench::startCounting();
@@ -81,7 +81,7 @@ TEST_F(Recording, SteadyStateAllocatesNothing) {
     EXPECT_TRUE(fine);
     EXPECT_EQ(allocations, 0u);
     EXPECT_EQ(graph.impl().plansMade - plans, other == 1024 ? 0u : 40u);
-    EXPECT_EQ(vulkan.liveObjects, live) << "every frame destroys the views that it made";
+    EXPECT_EQ(vulkan.liveObjects, live) << "every frame destroys the views that it created";
   }
 }
 
@@ -170,7 +170,7 @@ TEST_F(Recording, OutOfMemoryNamesBufferAndRetrySucceeds) {
   ok = go();
   EXPECT_TRUE(ok);
   for (int i = 0; i < 3; ++i) frame();
-  EXPECT_EQ(vulkan.liveObjects, live + 3) << "the heap, its memory and a query pool; the failed buffer is gone";
+  EXPECT_EQ(vulkan.liveObjects, live + 3) << "the heap, its memory and a query pool; the failed buffer was destroyed";
 }
 
 TEST_F(Recording, OutgrownHeapsOutliveTheirFrames) {

@@ -1,4 +1,4 @@
-// Images that passes draw to, and pyramids.
+// Render targets and mip levels.
 #include "graph_fixture.hpp"
 
 namespace rill::test {
@@ -41,7 +41,7 @@ TEST_F(Targets, StoresOnlyTargetsUsedLater) {
   EXPECT_TRUE(target(0, 0).store) << "the second pass keeps it";
   EXPECT_TRUE(target(0, 1).store);
   EXPECT_TRUE(target(1, 0).store);
-  EXPECT_FALSE(target(1, 1).store) << "nobody reads the depth after it";
+  EXPECT_FALSE(target(1, 1).store) << "nothing reads the depth afterwards";
 }
 
 TEST_F(Targets, DoesNotStoreTargetsDiscardedLater) {
@@ -99,7 +99,7 @@ TEST_F(Targets, MipLevelIsReadWhileNextIsWritten) {
   look("look at the first", levels[0]);
   compile();
   const auto& plan = graph.impl().plans[1];
-  ASSERT_EQ(plan.placements.size(), 1u) << "one image, one place";
+  ASSERT_EQ(plan.placements.size(), 1u) << "one image, one placement";
   EXPECT_EQ(plan.placements[0].first, 0u);
   EXPECT_EQ(plan.placements[0].last, 4u);
   for (uint32_t pass = 1; pass < 3; ++pass) {
@@ -108,7 +108,7 @@ TEST_F(Targets, MipLevelIsReadWhileNextIsWritten) {
     EXPECT_EQ(graph.impl().resources[graph.impl().transitions[barrier.transitions.first].resource].level, pass - 1);
     EXPECT_EQ(graph.impl().resources[graph.impl().transitions[barrier.transitions.first + 1].resource].level, pass);
   }
-  EXPECT_EQ(graph.impl().passes[4].barrier.transitions.count, 0u) << "it still is as the second pass has read it";
+  EXPECT_EQ(graph.impl().passes[4].barrier.transitions.count, 0u) << "still in the layout that the second pass used";
   EXPECT_EQ(graph.impl().resources[levels[2].index].width(), 10u);
   EXPECT_EQ(graph.impl().resources[levels[2].index].height(), 5u);
 }
