@@ -23,7 +23,7 @@ class ShaderReloading : public ::testing::Test {
     auto made = offline::Context::create();
     ASSERT_TRUE(made) << made.error().message;
     context_ = std::move(*made);
-    context_->device().setMessageCallback([this](std::string_view text) { said_ += text; });
+    context_->device().setMessageCallback([this](std::string_view text) { messages_ += text; });
     ASSERT_TRUE(context_->submit([](VkCommandBuffer) {}));  // the first poll records the initial file times
   }
   void TearDown() override {
@@ -48,7 +48,7 @@ class ShaderReloading : public ::testing::Test {
 
   fs::path folder_;
   std::unique_ptr<offline::Context> context_;
-  std::string said_;
+  std::string messages_;
   int changes_ = 0;
 };
 
@@ -57,24 +57,24 @@ TEST_F(ShaderReloading, ReplacesChangedShaderKeepsOldOnError) {
   ASSERT_NE(pipeline, nullptr);
   const VkPipeline first = pipeline->handle;
   append("sort/clear.comp", "\n// a comment\n");
-  EXPECT_EQ(said_, "shader 'sort/clear' was reloaded");
+  EXPECT_EQ(messages_, "shader 'sort/clear' was reloaded");
   const VkPipeline second = pipeline->handle;
   EXPECT_NE(second, first);
   EXPECT_EQ(make(), pipeline);
 
-  said_.clear();
+  messages_.clear();
   append("sort/clear.comp", "nonsense\n");
-  EXPECT_NE(said_.find("shader 'sort/clear' does not compile, keeping the old version:"), std::string::npos) << said_;
-  EXPECT_NE(said_.find("sort/clear.comp:"), std::string::npos) << said_;
+  EXPECT_NE(messages_.find("shader 'sort/clear' does not compile, keeping the old version:"), std::string::npos) << messages_;
+  EXPECT_NE(messages_.find("sort/clear.comp:"), std::string::npos) << messages_;
   EXPECT_EQ(pipeline->handle, second);
 }
 
 TEST_F(ShaderReloading, ChangedHeaderReloadsAllShaders) {
   append("sort/sort_types.h", "\n");
   size_t reloaded = 0;
-  for (size_t at = said_.find("was reloaded"); at != std::string::npos; at = said_.find("was reloaded", at + 1)) ++reloaded;
+  for (size_t at = messages_.find("was reloaded"); at != std::string::npos; at = messages_.find("was reloaded", at + 1)) ++reloaded;
   EXPECT_GT(reloaded, 10u);
-  EXPECT_EQ(said_.find("does not compile"), std::string::npos) << said_;
+  EXPECT_EQ(messages_.find("does not compile"), std::string::npos) << messages_;
 }
 
 }  // namespace
