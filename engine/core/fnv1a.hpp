@@ -5,14 +5,14 @@
 
 namespace rill {
 
-/// 64-bit FNV-1a. Whatever single byte is changed, the hash is another.
+/// 64-bit FNV-1a. Changing any single byte changes the hash.
 class Fnv1a {
  public:
   void add(std::byte byte) { hash_ = (hash_ ^ std::to_integer<uint64_t>(byte)) * 0x100000001b3ull; }
   void add(std::span<const std::byte> bytes) {
     for (std::byte byte : bytes) add(byte);
   }
-  /// Lowest byte first, whatever the machine.
+  /// Least significant byte first, independent of the machine's byte order.
   void add(uint32_t bits) {
     for (int k = 0; k < 4; ++k) add(static_cast<std::byte>(bits >> 8 * k));
   }

@@ -18,7 +18,7 @@ std::string lowered(std::string_view text) {
   return out;
 }
 
-/// Edits that turn a into b; a swap of neighbors is one (optimal string alignment).
+/// Edit distance between a and b, with adjacent transpositions (optimal string alignment).
 size_t editDistance(std::string_view a, std::string_view b) {
   std::vector<size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
   for (size_t j = 0; j <= b.size(); ++j) above[j] = j;
@@ -37,11 +37,11 @@ size_t editDistance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string_view nearestWord(std::string_view word, std::span<const std::string_view> known) {
-  constexpr size_t kLongest = 64;  // nobody mistypes a word longer than this, and the distance costs its square
-  if (word.empty() || word.size() > kLongest) return {};
+  constexpr size_t kMaxWordLength = 64;  // bounds the quadratic cost of the distance
+  if (word.empty() || word.size() > kMaxWordLength) return {};
   const std::string wanted = lowered(word);
   std::string_view best;
-  size_t best_distance = kLongest;
+  size_t best_distance = kMaxWordLength;
   for (const std::string_view candidate : known) {
     const std::string other = lowered(candidate);
     size_t distance = editDistance(wanted, other);
@@ -58,11 +58,11 @@ std::string_view nearestWord(std::string_view word, std::span<const std::string_
 }
 
 std::string inQuotes(std::string_view text) {
-  constexpr size_t kMaxEntries = 60;
+  constexpr size_t kMaxBytes = 60;
   std::string out = "\"";
   size_t end = text.size();
-  if (end > kMaxEntries) {
-    end = kMaxEntries;
+  if (end > kMaxBytes) {
+    end = kMaxBytes;
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
   }
   for (const char c : text.substr(0, end)) {

@@ -40,13 +40,13 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
 Expected<Buffer> DeviceImpl::createBuffer(std::string_view name, uint64_t size, MemoryKind kind) {
   const std::string quoted = "'" + std::string(name) + "'";
   if (size == 0 || size > info.maxStorageBufferBytes)
-    return Error{ErrorKind::BadInput, "buffer " + quoted + " of " + bytesText(size) + ": 1 byte to " +
-                                          bytesText(info.maxStorageBufferBytes) + " are possible on " + info.name};
-  Buffer buffer;  // what has been made so far is retired by its destructor where a later step fails
+    return Error{ErrorKind::BadInput, "buffer " + quoted + " of " + bytesText(size) + "; " + info.name + " supports 1 byte to " +
+                                          bytesText(info.maxStorageBufferBytes)};
+  Buffer buffer;  // its destructor retires the handles if a later step fails
   buffer.device_ = this;
   buffer.size_ = size;
   VkBufferCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
-  create.size = (size + 15) & ~15ull;  // whole texels, and whole words for vkCmdFillBuffer
+  create.size = (size + 15) & ~15ull;  // multiple of a texel, and of a word for vkCmdFillBuffer
   create.usage = kUsage;
   if (VkResult r = vk.CreateBuffer(handle, &create, callbacks, &buffer.handle_); r != VK_SUCCESS)
     return vulkanError(r, "creating buffer " + quoted + " of " + bytesText(size));

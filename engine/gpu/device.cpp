@@ -14,7 +14,7 @@ std::string versionText(uint32_t v) {
          std::to_string(VK_API_VERSION_PATCH(v));
 }
 
-Error badHost(const char* what) { return {ErrorKind::BadInput, std::string("Device::borrow: HostDevice::") + what}; }
+Error invalidHost(const std::string& what) { return {ErrorKind::BadInput, "Device::borrow: HostDevice::" + what}; }
 
 void describe(DeviceImpl& impl, const HostDevice& host) {
   VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES, nullptr};
@@ -25,7 +25,7 @@ void describe(DeviceImpl& impl, const HostDevice& host) {
   impl.instance.GetPhysicalDeviceMemoryProperties(host.physicalDevice, &impl.memory);
   impl.physical = host.physicalDevice;
   impl.limits = properties.properties.limits;
-  impl.sizedSubgroups = (sizes.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
+  impl.canSetSubgroupSize = (sizes.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
 
   DeviceInfo& info = impl.info;
   info.name = properties.properties.deviceName;
@@ -41,27 +41,27 @@ void describe(DeviceImpl& impl, const HostDevice& host) {
   info.maxSubgroupSize = sizes.maxSubgroupSize;
 }
 
-/// The mask of valid timestamp bits of the host's queue family, or -1 where the device has no such family.
-int64_t timestampBits(const DeviceImpl& impl, const HostDevice& host, VkQueueFlags& can) {
+/// The number of valid timestamp bits of the host's queue family, or -1 if the device has no such family.
+int64_t timestampBits(const DeviceImpl& impl, const HostDevice& host, VkQueueFlags& queueFlags) {
   uint32_t count = 0;
   impl.instance.GetPhysicalDeviceQueueFamilyProperties(host.physicalDevice, &count, nullptr);
   if (host.queueFamily >= count) return -1;
   std::vector<VkQueueFamilyProperties> families(count);
   impl.instance.GetPhysicalDeviceQueueFamilyProperties(host.physicalDevice, &count, families.data());
-  can = families[host.queueFamily].queueFlags;
+  queueFlags = families[host.queueFamily].queueFlags;
   return families[host.queueFamily].timestampValidBits;
 }
 
 }  // namespace
 
 Expected<std::unique_ptr<Device>> Device::borrow(const HostDevice& host) {
-  if (!host.instance) return badHost("instance is null");
-  if (!host.physicalDevice) return badHost("physicalDevice is null");
-  if (!host.device) return badHost("device is null");
-  if (!host.getInstanceProcAddr) return badHost("getInstanceProcAddr is null");
-  if (!host.enabled) return badHost("enabled is null: give the VkPhysicalDeviceFeatures2 chain of vkCreateDevice");
-  if (host.apiVersion < VK_API_VERSION_1_3) return badHost("apiVersion is below 1.3");
-  if (host.memory && !(host.memory->allocate && host.memory->free)) return badHost("memory lacks allocate or free");
+  if (!host.instance) return invalidHost("instance is null");
+  if (!host.physicalDevice) return invalidHost("physicalDevice is null");
+  if (!host.device) return invalidHost("device is null");
+  if (!host.getInstanceProcAddr) return invalidHost("getInstanceProcAddr is null");
+  if (!host.enabled) return invalidHost("enabled is null; expected the VkPhysicalDeviceFeatures2 chain passed to vkCreateDevice");
+  if (host.apiVersion < VK_API_VERSION_1_3) return invalidHost("apiVersion is " + versionText(host.apiVersion) + "; expected 1.3 or newer");
+  if (host.memory && !(host.memory->allocate && host.memory->free)) return invalidHost("memory: allocate or free is null");
 
   auto impl = std::make_unique<DeviceImpl>();
   impl->handle = host.device;
@@ -69,16 +69,17 @@ Expected<std::unique_ptr<Device>> Device::borrow(const HostDevice& host) {
   impl->callbacks = host.callbacks;
   if (host.memory) impl->hooks = *host.memory;
   if (const char* missing = impl->instance.load(host.getInstanceProcAddr, host.instance))
-    return Error{ErrorKind::NoDevice, std::string("the Vulkan instance lacks ") + missing};
+    return Error{ErrorKind::NoDevice, std::string("Vulkan instance function not found: ") + missing};
   if (auto ok = checkDevice(impl->instance, host.physicalDevice); !ok) return ok.error();
   if (auto ok = checkEnabled(*host.enabled); !ok) return ok.error();
   if (const char* missing = impl->vk.load(impl->instance.GetDeviceProcAddr, host.device))
-    return Error{ErrorKind::NoDevice, std::string("the Vulkan device lacks ") + missing};
-  VkQueueFlags can = 0;
-  const int64_t bits = timestampBits(*impl, host, can);
-  if (bits < 0) return badHost("queueFamily: the device has no such family");
-  if (!(can & VK_QUEUE_COMPUTE_BIT)) return badHost("queueFamily: its queues cannot compute");
-  impl->draws = (can & VK_QUEUE_GRAPHICS_BIT) != 0;
+    return Error{ErrorKind::NoDevice, std::string("Vulkan device function not found: ") + missing};
+  VkQueueFlags queueFlags = 0;
+  const int64_t bits = timestampBits(*impl, host, queueFlags);
+  if (bits < 0) return invalidHost("queueFamily is " + std::to_string(host.queueFamily) + "; the device has no such family");
+  if (!(queueFlags & VK_QUEUE_COMPUTE_BIT))
+    return invalidHost("queueFamily is " + std::to_string(host.queueFamily) + "; expected a family with compute");
+  impl->hasGraphics = (queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0;
   impl->timestampMask = bits == 0 ? 0 : bits >= 64 ? ~0ull : (1ull << bits) - 1;
   describe(*impl, host);
   impl->reload = ShaderReload::fromEnvironment();
@@ -103,7 +104,7 @@ void Device::setMessageCallback(MessageCallback callback) { impl_->message = std
 DeviceImpl::DeviceImpl() = default;
 
 DeviceImpl::~DeviceImpl() {
-  if (!vk.DestroyBuffer) return;  // borrow() failed before the table was loaded
+  if (!vk.DestroyBuffer) return;  // borrow() failed before loading the function table
   retired.collect(*this, UINT64_MAX);
   pipelines.destroy(*this);
 }
@@ -130,12 +131,12 @@ void RetireQueue::collect(DeviceImpl& device, uint64_t completed) {
       RILL_DESTROY(VK_OBJECT_TYPE_PIPELINE, VkPipeline, DestroyPipeline)
 #undef RILL_DESTROY
       default:
-        assert(false && "an object type that is never retired");
+        assert(false && "unsupported object type");
     }
     return true;
   };
   std::erase_if(entries_, done);
-  std::erase_if(blocks_, [&](const Block& block) {  // after what lay in them
+  std::erase_if(blocks_, [&](const Block& block) {  // after the objects bound to them
     if (block.frame > completed) return false;
     freeMemory(device, block.block);
     return true;

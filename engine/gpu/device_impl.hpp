@@ -1,5 +1,5 @@
 #pragma once
-// What is behind rill::Device: the function tables, limits, the store of pipelines and what waits to be destroyed.
+// Implementation of rill::Device: function tables, limits, pipeline cache and the retire queue.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -13,10 +13,10 @@
 
 namespace rill {
 
-/// Largest buffer that Rill makes: lavapipe's maxStorageBufferRange, and so the least that has been tried.
+/// Largest buffer that Rill creates, in bytes: lavapipe's maxStorageBufferRange, the smallest limit tested.
 inline constexpr uint64_t kMaxBufferBytes = 128ull * 1024 * 1024;
 
-/// Handles and memory whose last use was recorded in some frame, destroyed once the host says that the frame has completed.
+/// Handles and memory, destroyed once the frame that last used them has completed.
 class RetireQueue {
  public:
   template <class Handle>
@@ -62,13 +62,13 @@ class DeviceImpl {
   VkDevice handle = VK_NULL_HANDLE;
   VkPipelineCache cache = VK_NULL_HANDLE;
   const VkAllocationCallbacks* callbacks = nullptr;
-  std::optional<MemoryHooks> hooks;  ///< none: memory is allocated from the device itself
+  std::optional<MemoryHooks> hooks;  ///< empty: memory comes from vkAllocateMemory
   DeviceInfo info;
   VkPhysicalDeviceLimits limits{};
   VkPhysicalDeviceMemoryProperties memory{};
-  uint64_t timestampMask = 0;   ///< valid bits of the queue's timestamps; 0: it has none
-  bool draws = false;           ///< the host's queue has graphics
-  bool sizedSubgroups = false;  ///< a compute stage can be given a subgroup size
+  uint64_t timestampMask = 0;       ///< valid bits of the queue's timestamps; 0: not supported
+  bool hasGraphics = false;         ///< the host's queue has graphics
+  bool canSetSubgroupSize = false;  ///< compute pipelines can require a subgroup size
   FrameClock clock;
   RetireQueue retired;
   ShaderLibrary shaders;
@@ -77,7 +77,7 @@ class DeviceImpl {
   std::unique_ptr<ShaderReload> reload;
 
  private:
-  std::array<uint64_t, 64> abandoned_{};  ///< the latest ones; older ones have long been looked at
+  std::array<uint64_t, 64> abandoned_{};  ///< ring of the most recent ones; older frames are no longer queried
   size_t abandonedCount_ = 0;
 };
 

@@ -20,7 +20,7 @@ Properties propertiesOf(MemoryKind kind) {
     case MemoryKind::Upload:
       return {mapped, 0};
     case MemoryKind::Readback:
-      return {mapped, VK_MEMORY_PROPERTY_HOST_CACHED_BIT};  // reading uncached memory is slower by an order of magnitude
+      return {mapped, VK_MEMORY_PROPERTY_HOST_CACHED_BIT};  // uncached reads are ten times slower
   }
   return {0, 0};
 }
@@ -37,58 +37,58 @@ std::optional<uint32_t> chooseType(const DeviceImpl& device, uint32_t allowed, M
   return findType(device.memory, allowed, required);
 }
 
-Expected<MemoryBlock> allocateOwn(DeviceImpl& device, const VkMemoryRequirements& needs, MemoryKind kind, const MemoryUser& user,
-                                  uint32_t type) {
+Expected<MemoryBlock> allocateFromDevice(DeviceImpl& device, const VkMemoryRequirements& needs, MemoryKind kind, const MemoryOwner& owner,
+                                         uint32_t type) {
   MemoryBlock block;
   block.memoryType = type;
   VkMemoryDedicatedAllocateInfo dedicated{VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO};
-  dedicated.buffer = user.buffer;
-  const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, user.buffer ? &dedicated : nullptr, needs.size, type};
+  dedicated.buffer = owner.buffer;
+  const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, owner.buffer ? &dedicated : nullptr, needs.size, type};
   if (VkResult r = device.vk.AllocateMemory(device.handle, &info, device.callbacks, &block.memory); r != VK_SUCCESS)
-    return vulkanError(r, "allocating " + bytesText(needs.size) + " for " + user.said());
+    return vulkanError(r, "allocating " + bytesText(needs.size) + " for " + owner.description());
   if (kind == MemoryKind::Device) return block;
   if (VkResult r = device.vk.MapMemory(device.handle, block.memory, 0, VK_WHOLE_SIZE, 0, &block.mapped); r != VK_SUCCESS) {
     freeMemory(device, block);
-    return vulkanError(r, "mapping " + user.said());
+    return vulkanError(r, "mapping " + owner.description());
   }
   return block;
 }
 
-/// What is wrong with a block of the host's; empty: nothing.
-std::string wrongWith(const DeviceImpl& device, const MemoryBlock& block, const MemoryRequest& request) {
+/// Why a block returned by the host is invalid; empty if it is valid.
+std::string blockError(const DeviceImpl& device, const MemoryBlock& block, const MemoryRequest& request) {
   const VkMemoryRequirements& needs = request.requirements;
   if (!block.memory) return "no VkDeviceMemory";
   if (block.offset % needs.alignment != 0)
-    return "offset " + std::to_string(block.offset) + ", which is no multiple of " + std::to_string(needs.alignment);
+    return "offset " + std::to_string(block.offset) + ", not a multiple of " + std::to_string(needs.alignment);
   if (block.memoryType >= device.memory.memoryTypeCount || !(needs.memoryTypeBits >> block.memoryType & 1u))
-    return "memory type " + std::to_string(block.memoryType) + ", which is not among those allowed";
+    return "memory type " + std::to_string(block.memoryType) + ", not an allowed type";
   if ((device.memory.memoryTypes[block.memoryType].propertyFlags & request.required) != request.required)
     return "memory type " + std::to_string(block.memoryType) + ", which is not host visible and coherent";
   if (request.mapped && !block.mapped) return "no mapped address";
   return {};
 }
 
-Expected<MemoryBlock> allocateFromHost(DeviceImpl& device, const VkMemoryRequirements& needs, MemoryKind kind, const MemoryUser& user) {
+Expected<MemoryBlock> allocateFromHost(DeviceImpl& device, const VkMemoryRequirements& needs, MemoryKind kind, const MemoryOwner& owner) {
   const auto [required, preferred] = propertiesOf(kind);
-  const MemoryRequest request{needs, required, preferred, kind != MemoryKind::Device, !user.buffer, user.name.c_str()};
+  const MemoryRequest request{needs, required, preferred, kind != MemoryKind::Device, !owner.buffer, owner.name.c_str()};
   MemoryBlock block;
-  const std::string doing = "allocating " + bytesText(needs.size) + " for " + user.said();
+  const std::string action = "allocating " + bytesText(needs.size) + " for " + owner.description();
   if (VkResult r = device.hooks->allocate(device.hooks->user, &request, &block); r != VK_SUCCESS)
-    return vulkanError(r, doing + " with the host's MemoryHooks");
-  if (const std::string wrong = wrongWith(device, block, request); !wrong.empty()) {
+    return vulkanError(r, action + " with the host's MemoryHooks");
+  if (const std::string error = blockError(device, block, request); !error.empty()) {
     freeMemory(device, block);
-    return Error{ErrorKind::BadInput, doing + ": the host's MemoryHooks::allocate gave " + wrong};
+    return Error{ErrorKind::BadInput, action + ": the host's MemoryHooks::allocate returned " + error};
   }
-  if (!request.mapped) block.mapped = nullptr;  // a host may keep all its memory mapped
+  if (!request.mapped) block.mapped = nullptr;  // hosts may keep all memory mapped
   return block;
 }
 
 }  // namespace
 
-Expected<MemoryBlock> allocateMemory(DeviceImpl& device, const VkMemoryRequirements& needs, MemoryKind kind, const MemoryUser& user) {
+Expected<MemoryBlock> allocateMemory(DeviceImpl& device, const VkMemoryRequirements& needs, MemoryKind kind, const MemoryOwner& owner) {
   const auto type = chooseType(device, needs.memoryTypeBits, kind);
-  if (!type) return Error{ErrorKind::NoDevice, "device '" + device.info.name + "' has no memory type for " + user.said()};
-  return device.hooks ? allocateFromHost(device, needs, kind, user) : allocateOwn(device, needs, kind, user, *type);
+  if (!type) return Error{ErrorKind::NoDevice, "device '" + device.info.name + "' has no memory type for " + owner.description()};
+  return device.hooks ? allocateFromHost(device, needs, kind, owner) : allocateFromDevice(device, needs, kind, owner, *type);
 }
 
 void freeMemory(const DeviceImpl& device, const MemoryBlock& block) {

@@ -1,5 +1,5 @@
 #pragma once
-// Blocks of device memory, from the host's hooks where it has lent some, else an allocation each.
+// Allocation of device memory, through the host's hooks if set, otherwise one vkAllocateMemory per block.
 #include <string>
 
 #include "gpu/resources.hpp"
@@ -9,18 +9,19 @@ namespace rill {
 
 class DeviceImpl;
 
-/// Whom a block is for.
-struct MemoryUser {
-  std::string name;                  ///< of the buffer, or of the images together
-  VkBuffer buffer = VK_NULL_HANDLE;  ///< the only one that will lie in it; null: images
-  std::string said() const { return buffer ? "buffer '" + name + "'" : name; }
+/// What a block is used for.
+struct MemoryOwner {
+  std::string name;                  ///< of the buffer or the group of images
+  VkBuffer buffer = VK_NULL_HANDLE;  ///< the one buffer bound to the block; null: images
+  std::string description() const { return buffer ? "buffer '" + name + "'" : name; }
 };
 
-/// Mapped unless `kind` is Device. NoDevice where no memory type will do, OutOfMemory; BadInput for a block of the host's that is not what
-/// was asked for. All name the user.
-Expected<MemoryBlock> allocateMemory(DeviceImpl& device, const VkMemoryRequirements& requirements, MemoryKind kind, const MemoryUser& user);
+/// Mapped unless `kind` is Device. Fails with NoDevice if no memory type is suitable, with OutOfMemory, and
+/// with BadInput if the host's hooks return an invalid block. Messages name the owner.
+Expected<MemoryBlock> allocateMemory(DeviceImpl& device, const VkMemoryRequirements& requirements, MemoryKind kind,
+                                     const MemoryOwner& owner);
 
-/// At once. What lies in it has been destroyed.
+/// Frees immediately. Objects bound to the block must already be destroyed.
 void freeMemory(const DeviceImpl& device, const MemoryBlock& block);
 
 }  // namespace rill

@@ -1,6 +1,6 @@
 #pragma once
-// The Vulkan functions that Rill calls, as private tables: the library defines and needs no vk* symbol, so it goes into any
-// host, whether that uses the loader's prototypes, volk or a table of its own.
+// The Vulkan functions that Rill calls, as private tables. The library neither defines nor imports vk*
+// symbols, so it works with hosts that use the loader's prototypes, volk or their own tables.
 #include "rill/device.hpp"
 
 #define RILL_INSTANCE_FUNCTIONS(X)     \
@@ -71,12 +71,12 @@ namespace rill {
 #define RILL_DECLARE(name) PFN_vk##name name = nullptr;
 struct InstanceTable {
   RILL_INSTANCE_FUNCTIONS(RILL_DECLARE)
-  /// Null, or the name of a function that the loader does not have.
+  /// Null on success, else the name of a function that the loader does not provide.
   const char* load(PFN_vkGetInstanceProcAddr get, VkInstance instance);
 };
 struct DeviceTable {
   RILL_DEVICE_FUNCTIONS(RILL_DECLARE)
-  /// Null, or the name of a function that the driver does not have.
+  /// Null on success, else the name of a function that the driver does not provide.
   const char* load(PFN_vkGetDeviceProcAddr get, VkDevice device);
 };
 #undef RILL_DECLARE

@@ -1,4 +1,4 @@
-// Pipelines that draw, for dynamic rendering.
+// Graphics pipelines for dynamic rendering.
 #include <algorithm>
 #include <optional>
 
@@ -21,7 +21,7 @@ Expected<VkPipeline> PipelineStore::build(DeviceImpl& device, const GraphicsPipe
   auto vertexModule = ShaderModule::make(device, pipeline.shader, vertex);
   if (!vertexModule) return vertexModule.error();
   std::vector<VkPipelineShaderStageCreateInfo> stages{stage(VK_SHADER_STAGE_VERTEX_BIT, *vertexModule)};
-  std::optional<ShaderModule> fragmentModule;  // depth alone needs none
+  std::optional<ShaderModule> fragmentModule;  // not needed for depth-only drawing
   if (!fragment.empty()) {
     auto made = ShaderModule::make(device, pipeline.fragment, fragment);
     if (!made) return made.error();
@@ -40,7 +40,7 @@ Expected<VkPipeline> PipelineStore::build(DeviceImpl& device, const GraphicsPipe
   VkPipelineMultisampleStateCreateInfo samples{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
   samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
   VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
-  depth.depthTestEnable = pipeline.depth != VK_FORMAT_UNDEFINED;  // a write needs the test, which may be ALWAYS
+  depth.depthTestEnable = pipeline.depth != VK_FORMAT_UNDEFINED;  // depth writes require the test, possibly with ALWAYS
   depth.depthWriteEnable = pipeline.depthWrite;
   depth.depthCompareOp = pipeline.depthCompare;
   VkPipelineColorBlendAttachmentState attachment{};
@@ -88,28 +88,28 @@ Expected<const GraphicsPipeline*> PipelineStore::find(DeviceImpl& device, const 
         std::ranges::equal(p->words, desc.vertexSpirv) && std::ranges::equal(p->fragmentWords, desc.fragmentSpirv))
       return p.get();
 
-  if (!device.draws)
-    return Error{ErrorKind::NoDevice, "the queue family that Rill was given on '" + device.info.name + "' cannot draw: shader '" +
-                                          std::string(desc.vertex) + "' needs one with graphics"};
-  const auto lacks = [&](VkFormat format, VkFormatFeatureFlags feature) {
+  if (!device.hasGraphics)
+    return Error{ErrorKind::NoDevice,
+                 "the queue family on '" + device.info.name + "' has no graphics, needed by shader '" + std::string(desc.vertex) + "'"};
+  const auto lacksFeature = [&](VkFormat format, VkFormatFeatureFlags feature) {
     VkFormatProperties properties{};
     device.instance.GetPhysicalDeviceFormatProperties(device.physical, format, &properties);
     return (properties.optimalTilingFeatures & feature) != feature;
   };
-  const auto refused = [&](VkFormat format, const char* what) {
+  const auto formatError = [&](VkFormat format, const char* what) {
     return Error{ErrorKind::BadInput, std::string(what) + " target of format " + std::to_string(format) + ": " + device.info.name +
-                                          " cannot draw to it (shader '" + std::string(desc.vertex) + "')"};
+                                          " does not support it (shader '" + std::string(desc.vertex) + "')"};
   };
-  const VkFormatFeatureFlags drawn =
+  const VkFormatFeatureFlags colorFeatures =
       VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | (desc.blend == Blend::Replace ? 0 : VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT);
   for (const VkFormat format : desc.colors)
-    if (lacks(format, drawn)) return refused(format, "a color");
-  if (desc.depth != VK_FORMAT_UNDEFINED && lacks(desc.depth, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT))
-    return refused(desc.depth, "a depth");
-  const auto vertex = shaderWords(device, desc.vertex, desc.vertexSpirv);
+    if (lacksFeature(format, colorFeatures)) return formatError(format, "a color");
+  if (desc.depth != VK_FORMAT_UNDEFINED && lacksFeature(desc.depth, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT))
+    return formatError(desc.depth, "a depth");
+  const auto vertex = resolveSpirv(device, desc.vertex, desc.vertexSpirv);
   if (!vertex) return vertex.error();
-  const bool shades = !desc.fragment.empty() || !desc.fragmentSpirv.empty();
-  const auto fragment = shades ? shaderWords(device, desc.fragment, desc.fragmentSpirv) : std::span<const uint32_t>();
+  const bool hasFragment = !desc.fragment.empty() || !desc.fragmentSpirv.empty();
+  const auto fragment = hasFragment ? resolveSpirv(device, desc.fragment, desc.fragmentSpirv) : std::span<const uint32_t>();
   if (!fragment) return fragment.error();
 
   auto pipeline = std::make_unique<GraphicsPipeline>();

@@ -11,11 +11,11 @@ namespace rill {
 namespace {
 
 constexpr size_t kMaxConstants = 32;
-constexpr uint32_t kMaxPushBytes = 128;  // the least that Vulkan guarantees
+constexpr uint32_t kMaxPushBytes = 128;  // guaranteed by Vulkan
 
 }  // namespace
 
-std::span<const uint32_t> libraryWords(const DeviceImpl& device, std::string_view name) {
+std::span<const uint32_t> embeddedSpirv(const DeviceImpl& device, std::string_view name) {
   if (device.reload)
     if (const auto words = device.reload->words(name); !words.empty()) return words;
   for (const auto& table : device.shaders.tables())
@@ -28,17 +28,17 @@ Error shaderError(std::string_view shader, std::string what) {
   return {ErrorKind::Shader, "shader '" + std::string(shader) + "': " + std::move(what)};
 }
 
-Expected<std::span<const uint32_t>> shaderWords(const DeviceImpl& device, std::string_view shader, std::span<const uint32_t> spirv) {
+Expected<std::span<const uint32_t>> resolveSpirv(const DeviceImpl& device, std::string_view shader, std::span<const uint32_t> spirv) {
   if (spirv.empty()) {
-    const auto words = libraryWords(device, shader);
-    if (words.empty()) return shaderError(shader, "no SPIR-V was given, and Rill has no shader of that name");
+    const auto words = embeddedSpirv(device, shader);
+    if (words.empty()) return shaderError(shader, "no SPIR-V given, and no embedded shader has this name");
     return words;
   }
   constexpr uint32_t magic = 0x07230203, swapped = 0x03022307;
   constexpr size_t header = 5;  // words
-  if (spirv[0] == swapped) return shaderError(shader, "its SPIR-V is in the other byte order: it must be in that of this machine");
+  if (spirv[0] == swapped) return shaderError(shader, "the SPIR-V has the wrong byte order; expected that of this machine");
   if (spirv[0] != magic || spirv.size() < header)
-    return shaderError(shader, "what was given is no SPIR-V: a module begins with the word 0x07230203 and has a header of five words");
+    return shaderError(shader, "invalid SPIR-V; expected the magic number 0x07230203 and a header of five words");
   return spirv;
 }
 
@@ -112,15 +112,15 @@ Expected<const SetLayout*> PipelineStore::setLayout(DeviceImpl& device, std::spa
   const struct {
     VkDescriptorType type;
     const char* name;
-    uint32_t most;
+    uint32_t max;
   } limits[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, "storage buffers", device.limits.maxPerStageDescriptorStorageBuffers},
                 {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, "storage images", device.limits.maxPerStageDescriptorStorageImages},
                 {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, "sampled images", device.limits.maxPerStageDescriptorSampledImages}};
   for (const auto& limit : limits) {
     const auto used = std::ranges::count(kinds, limit.type, descriptorType);
-    if (uint64_t(used) > limit.most)
-      return shaderError(shader, "needs " + std::to_string(used) + " " + limit.name + ", " + device.info.name + " binds at most " +
-                                     std::to_string(limit.most));
+    if (uint64_t(used) > limit.max)
+      return shaderError(shader, "needs " + std::to_string(used) + " " + limit.name + "; " + device.info.name + " binds at most " +
+                                     std::to_string(limit.max));
   }
   std::vector<VkDescriptorSetLayoutBinding> bindings(kinds.size());
   for (uint32_t i = 0; i < kinds.size(); ++i) bindings[i] = {i, descriptorType(kinds[i]), 1, stages, nullptr};
@@ -139,9 +139,10 @@ Expected<const SetLayout*> PipelineStore::setLayout(DeviceImpl& device, std::spa
 Expected<void> PipelineStore::begin(DeviceImpl& device, Pipeline& pipeline, std::span<const BindingKind> bindings, uint32_t pushBytes,
                                     SpecializationConstants constants) {
   if (pushBytes > kMaxPushBytes || pushBytes % 4 != 0)
-    return shaderError(pipeline.shader, std::to_string(pushBytes) + " bytes of push constants: a multiple of 4 up to 128 is possible");
+    return shaderError(pipeline.shader, std::to_string(pushBytes) + " bytes of push constants; expected a multiple of 4, at most 128");
   if (constants.size() > kMaxConstants)
-    return shaderError(pipeline.shader, "more than " + std::to_string(kMaxConstants) + " specialization constants");
+    return shaderError(pipeline.shader,
+                       std::to_string(constants.size()) + " specialization constants; expected at most " + std::to_string(kMaxConstants));
   auto set = setLayout(device, bindings, pipeline.stages, pipeline.shader);
   if (!set) return set.error();
   pipeline.set = *set;
@@ -163,8 +164,9 @@ Expected<VkPipeline> PipelineStore::build(DeviceImpl& device, const ComputePipel
   auto module = ShaderModule::make(device, pipeline.shader, words);
   if (!module) return module.error();
   const Constants constants(pipeline.constants);
-  VkPipelineShaderStageRequiredSubgroupSizeCreateInfo sized{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO};
-  sized.requiredSubgroupSize = pipeline.requiredSubgroupSize;
+  VkPipelineShaderStageRequiredSubgroupSizeCreateInfo subgroupSize{
+      VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO};
+  subgroupSize.requiredSubgroupSize = pipeline.requiredSubgroupSize;
 
   VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
   create.stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
@@ -174,7 +176,7 @@ Expected<VkPipeline> PipelineStore::build(DeviceImpl& device, const ComputePipel
   create.stage.pSpecializationInfo = constants.info();
   if (pipeline.requiredSubgroupSize != 0) {
     create.stage.flags = VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
-    if (device.sizedSubgroups) create.stage.pNext = &sized;
+    if (device.canSetSubgroupSize) create.stage.pNext = &subgroupSize;
   }
   create.layout = pipeline.layout;
   VkPipeline handle = VK_NULL_HANDLE;
@@ -190,15 +192,16 @@ Expected<const ComputePipeline*> PipelineStore::find(DeviceImpl& device, const C
         std::ranges::equal(p->words, desc.spirv))
       return p.get();
 
-  const auto words = shaderWords(device, desc.shader, desc.spirv);
+  const auto words = resolveSpirv(device, desc.shader, desc.spirv);
   if (!words) return words.error();
   const uint32_t size = desc.requiredSubgroupSize;
   const DeviceInfo& info = device.info;
-  // Where the driver takes no size, its only one will do.
-  const bool possible = device.sizedSubgroups ? size >= info.minSubgroupSize && size <= info.maxSubgroupSize && (size & (size - 1)) == 0
-                                              : size == info.subgroupSize && info.minSubgroupSize == info.maxSubgroupSize;
-  if (size != 0 && !possible)
-    return shaderError(desc.shader, "needs subgroups of " + std::to_string(size) + ", " + info.name + " has " +
+  // Without subgroup size control, only the device's single size is supported.
+  const bool supported = device.canSetSubgroupSize
+                             ? size >= info.minSubgroupSize && size <= info.maxSubgroupSize && (size & (size - 1)) == 0
+                             : size == info.subgroupSize && info.minSubgroupSize == info.maxSubgroupSize;
+  if (size != 0 && !supported)
+    return shaderError(desc.shader, "needs subgroups of " + std::to_string(size) + "; " + info.name + " supports " +
                                         std::to_string(info.minSubgroupSize) + " to " + std::to_string(info.maxSubgroupSize));
 
   auto pipeline = std::make_unique<ComputePipeline>();
@@ -211,7 +214,7 @@ Expected<const ComputePipeline*> PipelineStore::find(DeviceImpl& device, const C
 }
 
 Expected<void> PipelineStore::replace(DeviceImpl& device, std::string_view shader, std::span<const uint32_t> words) {
-  const auto exchange = [&](Pipeline& pipeline, VkPipeline handle) {
+  const auto swapHandle = [&](Pipeline& pipeline, VkPipeline handle) {
     device.retired.add(device.clock.recording, VK_OBJECT_TYPE_PIPELINE, pipeline.handle);
     pipeline.handle = handle;
   };
@@ -219,17 +222,19 @@ Expected<void> PipelineStore::replace(DeviceImpl& device, std::string_view shade
     if (pipeline->shader != shader || !pipeline->words.empty()) continue;
     auto handle = build(device, *pipeline, words);
     if (!handle) return handle.error();
-    exchange(*pipeline, *handle);
+    swapHandle(*pipeline, *handle);
   }
   for (const auto& pipeline : graphics_) {
     const bool vertex = pipeline->shader == shader && pipeline->words.empty();
     const bool fragment = pipeline->fragment == shader && pipeline->fragmentWords.empty();
     if (!vertex && !fragment) continue;
-    const auto other = [&](std::string_view name, std::span<const uint32_t> own) { return own.empty() ? libraryWords(device, name) : own; };
-    auto handle = build(device, *pipeline, vertex ? words : other(pipeline->shader, pipeline->words),
-                        fragment ? words : other(pipeline->fragment, pipeline->fragmentWords));
+    const auto spirvOf = [&](std::string_view name, std::span<const uint32_t> own) {
+      return own.empty() ? embeddedSpirv(device, name) : own;
+    };
+    auto handle = build(device, *pipeline, vertex ? words : spirvOf(pipeline->shader, pipeline->words),
+                        fragment ? words : spirvOf(pipeline->fragment, pipeline->fragmentWords));
     if (!handle) return handle.error();
-    exchange(*pipeline, *handle);
+    swapHandle(*pipeline, *handle);
   }
   return {};
 }
@@ -239,12 +244,12 @@ void PipelineStore::destroyLayout(DeviceImpl& device, const Pipeline& pipeline) 
 }
 
 void PipelineStore::destroy(DeviceImpl& device) {
-  const auto end = [&](const Pipeline& pipeline) {
+  const auto destroyOne = [&](const Pipeline& pipeline) {
     device.vk.DestroyPipeline(device.handle, pipeline.handle, device.callbacks);
     destroyLayout(device, pipeline);
   };
-  for (const auto& pipeline : pipelines_) end(*pipeline);
-  for (const auto& pipeline : graphics_) end(*pipeline);
+  for (const auto& pipeline : pipelines_) destroyOne(*pipeline);
+  for (const auto& pipeline : graphics_) destroyOne(*pipeline);
   for (const auto& layout : layouts_) device.vk.DestroyDescriptorSetLayout(device.handle, layout->handle, device.callbacks);
   pipelines_.clear();
   graphics_.clear();

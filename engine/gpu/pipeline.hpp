@@ -1,5 +1,5 @@
 #pragma once
-// What pipelines are made of, and the device's store of them. pipeline.cpp: what all share, and compute; graphics_pipeline.cpp: the rest.
+// Pipelines and the device's cache of them. pipeline.cpp: shared parts and compute; graphics_pipeline.cpp: graphics.
 #include <array>
 #include <memory>
 #include <string>
@@ -18,17 +18,17 @@ struct SetLayout {
 };
 
 VkDescriptorType descriptorType(BindingKind kind);
-/// VK_FORMAT_UNDEFINED for what is not a texel buffer.
+/// VK_FORMAT_UNDEFINED if `kind` is not a texel buffer.
 VkFormat texelFormat(BindingKind kind);
-/// Bytes of a texel; 0 for what is not a texel buffer.
+/// Bytes per texel; 0 if `kind` is not a texel buffer.
 uint32_t texelBytes(BindingKind kind);
 
 struct Pipeline {
-  std::string shader;  ///< its name in messages; of a graphics pipeline the vertex shader's
+  std::string shader;  ///< name for messages; for graphics pipelines the vertex shader's
   const SetLayout* set = nullptr;
   uint32_t pushBytes = 0;
   std::vector<uint32_t> constants;
-  std::vector<uint32_t> words;  ///< SPIR-V of a caller's own; empty: the embedded library's
+  std::vector<uint32_t> words;  ///< SPIR-V given by the caller; empty: an embedded shader
   VkPipelineBindPoint bindPoint = VK_PIPELINE_BIND_POINT_COMPUTE;
   VkShaderStageFlags stages = VK_SHADER_STAGE_COMPUTE_BIT;
   VkPipelineLayout layout = VK_NULL_HANDLE;
@@ -54,7 +54,7 @@ class PipelineStore {
  public:
   Expected<const ComputePipeline*> find(DeviceImpl& device, const ComputePipelineDesc& desc);
   Expected<const GraphicsPipeline*> find(DeviceImpl& device, const GraphicsPipelineDesc& desc);
-  /// Makes every pipeline of `shader` from new SPIR-V; the old one is kept where that fails.
+  /// Rebuilds every pipeline of `shader` from new SPIR-V; on failure the old pipeline is kept.
   Expected<void> replace(DeviceImpl& device, std::string_view shader, std::span<const uint32_t> words);
   size_t size() const { return pipelines_.size() + graphics_.size(); }
   void destroy(DeviceImpl& device);
@@ -62,10 +62,10 @@ class PipelineStore {
  private:
   Expected<const SetLayout*> setLayout(DeviceImpl& device, std::span<const BindingKind> kinds, VkShaderStageFlags stages,
                                        std::string_view shader);
-  /// Set layout, pipeline layout, constants. Shader where more is asked for than there can be.
+  /// Creates the layouts and stores the constants. Fails with Shader if a limit is exceeded.
   Expected<void> begin(DeviceImpl& device, Pipeline& pipeline, std::span<const BindingKind> bindings, uint32_t pushBytes,
                        SpecializationConstants constants);
-  /// Keeps a pipeline that was begun, with the handle that was built for it, or undoes it.
+  /// Stores a pipeline with the handle built for it, or destroys its layout if the build failed.
   template <class Made>
   Expected<const Made*> keep(DeviceImpl& device, std::vector<std::unique_ptr<Made>>& all, std::unique_ptr<Made> pipeline,
                              Expected<VkPipeline> handle) {
@@ -86,12 +86,13 @@ class PipelineStore {
   std::vector<std::unique_ptr<GraphicsPipeline>> graphics_;
 };
 
-/// SPIR-V of the embedded library, or what replaced it; empty where there is none of that name.
-std::span<const uint32_t> libraryWords(const DeviceImpl& device, std::string_view name);
+/// SPIR-V of an embedded shader, or its reloaded version; empty if there is no shader of that name.
+std::span<const uint32_t> embeddedSpirv(const DeviceImpl& device, std::string_view name);
 Error shaderError(std::string_view shader, std::string what);
-/// A caller's own SPIR-V, or the library's where it gave none. Shader where there is neither, or what was given is none.
-Expected<std::span<const uint32_t>> shaderWords(const DeviceImpl& device, std::string_view shader, std::span<const uint32_t> spirv);
-/// A module for as long as a pipeline is being made.
+/// The caller's SPIR-V, or an embedded shader's if none was given. Fails with Shader if there is neither or
+/// the SPIR-V header is invalid.
+Expected<std::span<const uint32_t>> resolveSpirv(const DeviceImpl& device, std::string_view shader, std::span<const uint32_t> spirv);
+/// A shader module, alive while a pipeline is created.
 class ShaderModule {
  public:
   static Expected<ShaderModule> make(DeviceImpl& device, std::string_view shader, std::span<const uint32_t> words);
@@ -115,7 +116,7 @@ class Constants {
   std::array<VkSpecializationMapEntry, 32> entries_;
   VkSpecializationInfo info_;
 };
-/// What vkCreate*Pipelines returned, said with the shader's name.
+/// An error of vkCreate*Pipelines, with the shader's name.
 Error pipelineError(VkResult result, std::string_view shader);
 
 }  // namespace rill

@@ -1,4 +1,4 @@
-// What Rill needs of a device, and the two places where that is judged: before vkCreateDevice and at Device::borrow.
+// Device requirements, checked before vkCreateDevice (appendRequired) and in Device::borrow.
 #include "gpu/requirements.hpp"
 
 #include "gpu/function_table.hpp"
@@ -11,7 +11,7 @@ struct Feature {
   VkBool32 VkPhysicalDeviceVulkan13Features::*flag;
 };
 
-// All mandatory in Vulkan 1.3; a host must still enable them. maintenance4: workgroup sizes from specialization constants.
+// Mandatory in Vulkan 1.3, but hosts must enable them. maintenance4: workgroup sizes from specialization constants.
 constexpr Feature kFeatures[] = {
     {"synchronization2", &VkPhysicalDeviceVulkan13Features::synchronization2},
     {"dynamicRendering", &VkPhysicalDeviceVulkan13Features::dynamicRendering},
@@ -22,8 +22,8 @@ constexpr Feature kFeatures[] = {
 
 std::string version(uint32_t v) { return std::to_string(VK_API_VERSION_MAJOR(v)) + "." + std::to_string(VK_API_VERSION_MINOR(v)); }
 
-/// The 1.3 features in a chain, whether given as the 1.3 structure or as the ones it was promoted from.
-VkPhysicalDeviceVulkan13Features collect(const VkPhysicalDeviceFeatures2& enabled) {
+/// The 1.3 features enabled in a chain, in the 1.3 structure or in the structures promoted into it.
+VkPhysicalDeviceVulkan13Features collectFeatures(const VkPhysicalDeviceFeatures2& enabled) {
   VkPhysicalDeviceVulkan13Features found{};
   for (auto* next = static_cast<const VkBaseInStructure*>(enabled.pNext); next; next = next->pNext) {
     switch (next->sType) {
@@ -54,7 +54,7 @@ VkPhysicalDeviceVulkan13Features collect(const VkPhysicalDeviceFeatures2& enable
   return found;
 }
 
-Error lacking(const char* device, std::string what) {
+Error unsupported(const char* device, std::string what) {
   return {ErrorKind::NoDevice, std::string("device '") + device + "' cannot run Rill: " + std::move(what)};
 }
 
@@ -66,15 +66,15 @@ Expected<void> checkDevice(const InstanceTable& instance, VkPhysicalDevice devic
   instance.GetPhysicalDeviceProperties2(device, &properties);
   const char* name = properties.properties.deviceName;
   if (properties.properties.apiVersion < VK_API_VERSION_1_3)
-    return lacking(name, "it offers Vulkan " + version(properties.properties.apiVersion) + ", 1.3 is needed");
+    return unsupported(name, "Vulkan version " + version(properties.properties.apiVersion) + "; expected 1.3 or newer");
   properties.pNext = &subgroup;
   instance.GetPhysicalDeviceProperties2(device, &properties);
   constexpr VkSubgroupFeatureFlags operations =
       VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
   if (!(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) || (subgroup.supportedOperations & operations) != operations)
-    return lacking(name, "it lacks subgroup operations (basic, arithmetic, shuffle) in compute shaders");
+    return unsupported(name, "missing subgroup operations (basic, arithmetic, shuffle) in compute shaders");
   if (subgroup.subgroupSize < 4)
-    return lacking(name, "its subgroups have " + std::to_string(subgroup.subgroupSize) + " lanes, 4 are needed");
+    return unsupported(name, "subgroup size " + std::to_string(subgroup.subgroupSize) + "; expected at least 4");
   constexpr std::pair<VkFormat, const char*> formats[] = {{VK_FORMAT_R32G32B32A32_SFLOAT, "R32G32B32A32_SFLOAT"},
                                                           {VK_FORMAT_R32G32B32A32_UINT, "R32G32B32A32_UINT"},
                                                           {VK_FORMAT_R32_UINT, "R32_UINT"}};
@@ -82,7 +82,7 @@ Expected<void> checkDevice(const InstanceTable& instance, VkPhysicalDevice devic
     VkFormatProperties support{};
     instance.GetPhysicalDeviceFormatProperties(device, format, &support);
     if (!(support.bufferFeatures & VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT))
-      return lacking(name, std::string("it lacks uniform texel buffers of ") + text);
+      return unsupported(name, std::string("missing uniform texel buffers of ") + text);
   }
   return {};
 }
@@ -96,10 +96,11 @@ VkPhysicalDeviceFeatures2* DeviceRequirements::chain(void* next) {
 Expected<void> appendRequired(PFN_vkGetInstanceProcAddr get, VkInstance instance, VkPhysicalDevice device,
                               DeviceRequirements& requirements) {
   InstanceTable table;
-  if (!get || !instance || !device) return Error{ErrorKind::BadInput, "appendRequired: a null handle or function was given"};
+  if (!get || !instance || !device)
+    return Error{ErrorKind::BadInput, "appendRequired: getInstanceProcAddr, instance or physicalDevice is null"};
   if (const char* missing = table.load(get, instance))
     return Error{ErrorKind::NoDevice,
-                 std::string("the Vulkan loader lacks ") + missing + ": was the instance made for Vulkan 1.1 or later?"};
+                 std::string("Vulkan instance function not found: ") + missing + "; expected an instance of Vulkan 1.1 or newer"};
   if (auto ok = checkDevice(table, device); !ok) return ok;
   VkPhysicalDeviceVulkan13Features vulkan13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES, nullptr};
   VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &vulkan13};
@@ -107,18 +108,18 @@ Expected<void> appendRequired(PFN_vkGetInstanceProcAddr get, VkInstance instance
   VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, nullptr};
   table.GetPhysicalDeviceProperties2(device, &properties);
   for (const Feature& feature : kFeatures) {
-    if (!(vulkan13.*feature.flag)) return lacking(properties.properties.deviceName, std::string("it lacks the feature ") + feature.name);
+    if (!(vulkan13.*feature.flag)) return unsupported(properties.properties.deviceName, std::string("missing feature ") + feature.name);
     requirements.vulkan13.*feature.flag = VK_TRUE;
   }
   return {};
 }
 
 Expected<void> checkEnabled(const VkPhysicalDeviceFeatures2& enabled) {
-  const VkPhysicalDeviceVulkan13Features found = collect(enabled);
+  const VkPhysicalDeviceVulkan13Features found = collectFeatures(enabled);
   for (const Feature& feature : kFeatures)
     if (!(found.*feature.flag))
-      return Error{ErrorKind::NoDevice, std::string("the VkDevice was made without the feature ") + feature.name +
-                                            ", which Rill needs (rill::appendRequired lists all of them)"};
+      return Error{ErrorKind::NoDevice, std::string("the VkDevice was created without the required feature ") + feature.name +
+                                            " (rill::appendRequired adds all required features)"};
   return {};
 }
 

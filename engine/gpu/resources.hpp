@@ -1,5 +1,5 @@
 #pragma once
-// Device memory, owned by the engine's modules and retired by the host's frame clock.
+// Buffers owned by the engine's modules, retired according to the host's frame clock.
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -16,11 +16,12 @@ namespace rill {
 enum class MemoryKind : uint8_t {
   Device,   ///< device-local
   Upload,   ///< mapped, written by the host
-  Readback  ///< mapped, cached where there is such memory, read by the host
+  Readback  ///< mapped, preferably cached, read by the host
 };
 
-/// A buffer with memory of its own. Moving is cheap; the destructor hands the handles to the device, which frees them
-/// when the frame that was recording then has completed. Usable as storage, texel, uniform, indirect and copy source or target.
+/// A buffer with its own memory. The destructor retires the handles; the device frees them once the frame
+/// being recorded at that time has completed. Usable as storage, texel, uniform, vertex, index and indirect
+/// buffer and for copies.
 class Buffer {
  public:
   Buffer() = default;
@@ -29,7 +30,7 @@ class Buffer {
   Buffer& operator=(Buffer&&) noexcept;
 
   VkBuffer handle() const { return handle_; }
-  uint64_t size() const { return size_; }                                        ///< bytes asked for
+  uint64_t size() const { return size_; }                                        ///< requested bytes
   std::byte* mapped() const { return static_cast<std::byte*>(memory_.mapped); }  ///< null for MemoryKind::Device; host-coherent
   explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
 
@@ -41,10 +42,10 @@ class Buffer {
   uint64_t size_ = 0;
 };
 
-/// `size` bytes (1 .. 128 MiB; larger or 0 is BadInput), content undefined. OutOfMemory names `name` and the size.
+/// `size`: 1 byte to 128 MiB, otherwise BadInput. The content is undefined. Errors name `name` and the size.
 Expected<Buffer> createBuffer(Device& device, std::string_view name, uint64_t size, MemoryKind kind = MemoryKind::Device);
 
-/// How many pipelines the device holds (a test bounds it).
+/// The number of cached pipelines, for tests.
 size_t pipelineCount(const Device& device);
 
 }  // namespace rill

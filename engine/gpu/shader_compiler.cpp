@@ -1,4 +1,4 @@
-// GLSL to SPIR-V at run time, for ShaderReload alone: built only with the option RILL_SHADER_RELOAD.
+// Compiles GLSL to SPIR-V at run time, for ShaderReload; built only with the option RILL_SHADER_RELOAD.
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
@@ -18,7 +18,7 @@ bool readFile(const std::filesystem::path& path, std::string& text) {
   return bool(in);
 }
 
-/// "sort/scan.glsl" is found from the folder's root, like in the build.
+/// Resolves includes relative to the shader root, as in the build.
 class Includer : public glslang::TShader::Includer {
  public:
   explicit Includer(const std::filesystem::path& folder) : folder_(folder) {}
@@ -39,7 +39,7 @@ class Includer : public glslang::TShader::Includer {
   const std::filesystem::path& folder_;
 };
 
-/// "TEXEL WIDTH=4" to lines of #define.
+/// Converts "TEXEL WIDTH=4" to #define lines.
 std::string preamble(std::string_view defines) {
   std::string out = "#extension GL_GOOGLE_include_directive : require\n";
   while (!defines.empty()) {
@@ -61,7 +61,7 @@ std::string preamble(std::string_view defines) {
 
 Expected<std::vector<uint32_t>> compileShader(const std::filesystem::path& folder, std::string_view source, std::string_view defines) {
   static const bool initialized = glslang::InitializeProcess();
-  if (!initialized) return Error{ErrorKind::Shader, "glslang could not be started"};
+  if (!initialized) return Error{ErrorKind::Shader, "glslang initialization failed"};
   const std::string name(source), definitions = preamble(defines);
   std::string text;
   if (!readFile(folder / source, text)) return Error{ErrorKind::Shader, "cannot read " + (folder / source).string()};

@@ -16,7 +16,7 @@ struct EmbeddedShader {
 
 std::span<const EmbeddedShader> embeddedShaders();
 
-/// The tables in which a device finds shaders by name: the engine's own, and those that modules beside it bring.
+/// The tables in which a device looks up shaders: those of the engine and of additional modules.
 class ShaderLibrary {
  public:
   void add(std::span<const EmbeddedShader> table) {

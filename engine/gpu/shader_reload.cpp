@@ -9,7 +9,7 @@
 namespace rill {
 namespace {
 
-[[maybe_unused]] constexpr uint32_t kFramesBetweenLooks = 16;  // a look takes some 0.2 ms
+[[maybe_unused]] constexpr uint32_t kFramesBetweenPolls = 16;  // a poll takes about 0.2 ms
 
 }  // namespace
 
@@ -22,37 +22,37 @@ std::unique_ptr<ShaderReload> ShaderReload::fromEnvironment() {
 
 ShaderReload::Stamp ShaderReload::newestHeader() const {
   namespace fs = std::filesystem;
-  std::error_code failed;  // a file that an editor is just replacing is looked at again next time
+  std::error_code failed;  // ignored: a file that an editor is replacing is read at the next poll
   Stamp headers = Stamp::min();
   for (fs::recursive_directory_iterator at(folder_, failed), end; !failed && at != end; at.increment(failed)) {
     const fs::path extension = at->path().extension();
     if (extension != ".h" && extension != ".glsl") continue;
-    std::error_code gone;
-    if (const Stamp stamp = fs::last_write_time(at->path(), gone); !gone) headers = std::max(headers, stamp);
+    std::error_code missing;
+    if (const Stamp stamp = fs::last_write_time(at->path(), missing); !missing) headers = std::max(headers, stamp);
   }
   return headers;
 }
 
 void ShaderReload::poll(DeviceImpl& device) {
 #ifdef RILL_SHADER_RELOAD
-  if (frames_++ % kFramesBetweenLooks != 0) return;
+  if (frames_++ % kFramesBetweenPolls != 0) return;
   const Stamp headers = newestHeader();
-  const auto say = [&](std::string text) {
+  const auto report = [&](std::string text) {
     if (device.message) device.message(text);
   };
   const auto reload = [&](const EmbeddedShader& shader) {
     const std::string name(shader.name);
     auto words = compileShader(folder_, shader.source, shader.defines);
-    if (!words) return say("shader '" + name + "' does not compile, the old one stays:\n" + words.error().message);
-    if (auto ok = device.pipelines.replace(device, name, *words); !ok) return say("the old one stays: " + ok.error().message);
+    if (!words) return report("shader '" + name + "' does not compile, keeping the old version:\n" + words.error().message);
+    if (auto ok = device.pipelines.replace(device, name, *words); !ok) return report("keeping the old version: " + ok.error().message);
     replaced_[name] = std::move(*words);
-    say("shader '" + name + "' was reloaded");
+    report("shader '" + name + "' was reloaded");
   };
   for (const auto& table : device.shaders.tables())
     for (const EmbeddedShader& shader : table) {
-      std::error_code gone;
-      const Stamp own = std::filesystem::last_write_time(folder_ / shader.source, gone);
-      const Stamp now = gone ? headers : std::max(own, headers);
+      std::error_code missing;
+      const Stamp own = std::filesystem::last_write_time(folder_ / shader.source, missing);
+      const Stamp now = missing ? headers : std::max(own, headers);
       const auto [known, first] = stamps_.try_emplace(shader.name, now);
       if (first || known->second == now) continue;
       known->second = now;

@@ -1,5 +1,5 @@
 #pragma once
-// Development only (CMake option RILL_SHADER_RELOAD): shaders that change under RILL_SHADER_DIR replace the running ones.
+// Development only (CMake option RILL_SHADER_RELOAD): recompiles shaders that change under RILL_SHADER_DIR.
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -18,13 +18,13 @@ class DeviceImpl;
 
 class ShaderReload {
  public:
-  /// Null where the environment names no folder, or where the library was built without the option.
+  /// Null if RILL_SHADER_DIR is not set or the library was built without the option.
   static std::unique_ptr<ShaderReload> fromEnvironment();
   explicit ShaderReload(std::filesystem::path folder) : folder_(std::move(folder)) {}
-  /// Recompiles what has changed since the last look, which is taken every few frames. A shader that does not compile
-  /// keeps its old version; that, and every success, is told to the device's message callback.
+  /// Every few frames, recompiles the shaders that changed. A shader that fails to compile keeps its old
+  /// version. Successes and failures go to the device's message callback.
   void poll(DeviceImpl& device);
-  /// The words that replace the embedded ones of `name`; empty where it has not changed.
+  /// The reloaded SPIR-V of `name`; empty if it has not changed.
   std::span<const uint32_t> words(std::string_view name) const;
 
  private:
@@ -32,12 +32,12 @@ class ShaderReload {
   Stamp newestHeader() const;
 
   std::filesystem::path folder_;
-  std::map<std::string_view, Stamp> stamps_;  ///< by a shader's name: the newest among its source and all headers
+  std::map<std::string_view, Stamp> stamps_;  ///< shader name -> newest time of its source and all headers
   std::map<std::string, std::vector<uint32_t>, std::less<>> replaced_;
-  [[maybe_unused]] uint32_t frames_ = 0;  ///< counted where the library reloads
+  [[maybe_unused]] uint32_t frames_ = 0;  ///< only used with RILL_SHADER_RELOAD
 };
 
-/// Compiles a compute shader of `folder` with glslang. The error is the compiler's text.
+/// Compiles a shader of `folder` with glslang. The error message is the compiler's log.
 Expected<std::vector<uint32_t>> compileShader(const std::filesystem::path& folder, std::string_view source, std::string_view defines);
 
 }  // namespace rill

@@ -5,9 +5,9 @@
 
 namespace rill {
 
-/// Whether kernels read arrays of up to `elements` elements through uniform texel buffers on this device (shaders/shared/arrays.glsl), or
-/// through storage buffers. One that allows no more texels than every device must (65,536; Vulkan 1.3, "Required Limits") reads storage
-/// buffers, however few its elements are: SwiftShader, which makes mistakes in loops of the other kernels (shaders/shared/loops.glsl).
+/// Whether kernels read arrays of up to `elements` elements through uniform texel buffers
+/// (shaders/shared/arrays.glsl) instead of storage buffers. Devices with only the guaranteed minimum of
+/// 65,536 texels use storage buffers: SwiftShader miscompiles the texel variant (shaders/shared/loops.glsl).
 inline bool readsTexels(const Device& device, uint64_t elements) {
   const uint64_t limit = device.info().maxTexelBufferElements;
   return limit > 65536 && elements <= limit;

@@ -32,7 +32,7 @@ std::string_view resultName(VkResult result) {
   }
 }
 
-Error vulkanError(VkResult result, std::string_view doing) {
+Error vulkanError(VkResult result, std::string_view operation) {
   ErrorKind kind = ErrorKind::Failed;
   std::string_view what = "failed";
   switch (result) {
@@ -55,7 +55,7 @@ Error vulkanError(VkResult result, std::string_view doing) {
     default:
       break;
   }
-  std::string message(doing);
+  std::string message(operation);
   message.append(": ").append(what).append(" (").append(resultName(result)).append(", ").append(std::to_string(result)).append(")");
   return {kind, std::move(message)};
 }

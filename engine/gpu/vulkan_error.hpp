@@ -1,5 +1,5 @@
 #pragma once
-// From a VkResult to an Error that says what was being done.
+// Converts a VkResult to an Error that names the failed operation.
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -12,7 +12,7 @@ namespace rill {
 std::string_view resultName(VkResult result);
 
 /// "allocating 12.0 MiB for 'positions': out of device memory (VK_ERROR_OUT_OF_DEVICE_MEMORY)".
-Error vulkanError(VkResult result, std::string_view doing);
+Error vulkanError(VkResult result, std::string_view operation);
 
 /// "12.0 MiB"
 std::string bytesText(uint64_t bytes);

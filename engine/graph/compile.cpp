@@ -1,4 +1,4 @@
-// From a declared frame to a plan: which passes run, where transients lie, what each pass waits for. Touches no GPU.
+// Compiles a declared frame into a plan: culling, placement of transients, barriers. Uses no device.
 #include <algorithm>
 
 #include "graph/graph_impl.hpp"
@@ -6,7 +6,7 @@
 namespace rill {
 namespace {
 
-constexpr uint64_t kImageHeapBytes = 256ull << 20;  // an image that is larger has a heap as large as itself
+constexpr uint64_t kImageHeapBytes = 256ull << 20;  // a larger image raises the limit to its own size
 
 }  // namespace
 
@@ -15,38 +15,38 @@ Expected<void> GraphImpl::checkImports() const {
     const ResourceData& a = resources[i];
     if (!a.imported) continue;
     if (a.isImage ? !a.image : !a.buffer)
-      return Error{ErrorKind::BadInput, "import " + quoted(a.name) + " has a null " + (a.isImage ? "VkImage" : "VkBuffer")};
+      return Error{ErrorKind::BadInput, "import " + quoted(a.name) + ": null handle, expected a " + (a.isImage ? "VkImage" : "VkBuffer")};
     for (size_t k = 0; k < i; ++k) {
       const ResourceData& b = resources[k];
       if (!b.imported || a.isImage != b.isImage || i - a.level == k - b.level) continue;
-      if (!a.isImage && a.version == 0 && b.version == 0) continue;  // a read, too, changes an image's layout
+      if (!a.isImage && a.version == 0 && b.version == 0) continue;  // images overlap even when only read: reads change the layout
       const bool overlap =
           a.isImage ? a.image == b.image : a.buffer == b.buffer && a.offset < b.offset + b.size && b.offset < a.offset + a.size;
       if (overlap)
-        return Error{ErrorKind::BadInput, "imports " + quoted(b.name) + " and " + quoted(a.name) + " overlap in one " +
-                                              (a.isImage ? "VkImage" : "VkBuffer and one is written") + ": import the memory once"};
+        return Error{ErrorKind::BadInput, "imports " + quoted(b.name) + " and " + quoted(a.name) + " overlap in the same " +
+                                              (a.isImage ? "VkImage" : "VkBuffer and one is written") + "; import the memory once"};
     }
   }
   return {};
 }
 
 Expected<void> GraphImpl::compile() {
-  compiled = prepared = planWhole = false;
+  compiled = prepared = planComplete = false;
   if (error) return *error;
   if (auto ok = checkImports(); !ok) return ok;
   if (!reusePlan()) {
-    before.valid = false;
+    previousPlan.valid = false;
     ++plansMade;
     cull();
     placeTransients();
     planBarriers();
   }
   makeReport();
-  compiled = planWhole = true;
+  compiled = planComplete = true;
   return {};
 }
 
-// Backwards: declaration is in order of execution, so when a pass is reached it is known whether anyone wants what it writes.
+// In reverse execution order, so that all later readers of a pass's results are known when it is visited.
 void GraphImpl::cull() {
   for (ResourceData& resource : resources) resource.needed = resource.imported;
   for (size_t i = passes.size(); i-- > 0;) {
@@ -87,7 +87,7 @@ void GraphImpl::placeTransients() {
     for (uint32_t k = range.first; k < range.first + range.count; ++k) {
       ResourceData& resource = memoryOf(accesses[k].resource);
       resource.usage |= useRow(accesses[k].use).usage;
-      draws |= isDrawing(accesses[k].use);
+      usesGraphics |= isGraphicsUse(accesses[k].use);
       if (resource.imported) continue;
       TransientPlan& plan = planOf(resource);
       if (resource.placement == kNone) {
@@ -101,7 +101,7 @@ void GraphImpl::placeTransients() {
   uint64_t largest = 0;
   for (size_t k = 0; k < plans[1].placements.size(); ++k) {
     ResourceData& image = resources[plans[1].resources[k]];
-    const ImageNeeds needs = images.needs({image.desc, image.usage});
+    const ImageRequirements needs = images.requirements({image.desc, image.usage});
     image.size = plans[1].placements[k].size = needs.size;
     plans[1].placements[k].alignment = needs.alignment;
     largest = std::max(largest, needs.size);
@@ -124,66 +124,67 @@ void GraphImpl::reportHeaps() {
   }
 }
 
-/// A resource's state after the barriers so far. It is brought up to date where it is looked at, not at each barrier: there may be
-/// thousands of both.
-HazardState& GraphImpl::stateNow(ResourceData& resource) {
-  for (; resource.barriersSeen < barriersPassed.size(); ++resource.barriersSeen) {
-    const PassedBarrier& barrier = barriersPassed[resource.barriersSeen];
-    resource.state.passed(barrier.scope, barrier.seeing);
+/// A resource's state after all barriers so far. Barriers are applied lazily, when a resource is used:
+/// there may be thousands of both.
+HazardState& GraphImpl::currentState(ResourceData& resource) {
+  for (; resource.barriersApplied < appliedBarriers.size(); ++resource.barriersApplied) {
+    const AppliedBarrier& barrier = appliedBarriers[resource.barriersApplied];
+    resource.state.applyBarrier(barrier.scope, barrier.visibleUses);
   }
   return resource.state;
 }
 
-/// The memory's last users, in this frame and the one before, are what a new transient waits for.
-void GraphImpl::waitForMemory(uint32_t index, const HazardState& seam) {
+/// A new transient waits for the last users of its memory, in this frame and the previous one.
+void GraphImpl::waitForAliasedMemory(uint32_t index, const HazardState& previousFrame) {
   ResourceData& resource = resources[index];
   TransientPlan& plan = planOf(resource);
   const uint32_t placement = memoryOf(index).placement;
   const Placement& own = plan.placements[placement];
   resource.placed = true;
-  resource.barriersSeen = static_cast<uint32_t>(barriersPassed.size());  // nothing has happened to it yet
+  resource.barriersApplied = static_cast<uint32_t>(appliedBarriers.size());  // earlier barriers do not concern it
   HazardState& state = resource.state;
-  state.join(seam);
-  for (const uint32_t tenant : plan.tenants) {
-    if (tenant == placement || !sharesMemory(plan.placements[tenant], own)) continue;
-    const uint32_t first = plan.resources[tenant];
-    for (uint32_t l = 0; l < (resource.isImage ? resources[first].desc.levels : 1); ++l) state.join(stateNow(resources[first + l]));
+  state.merge(previousFrame);
+  for (const uint32_t candidate : plan.aliasCandidates) {
+    if (candidate == placement || !sharesMemory(plan.placements[candidate], own)) continue;
+    const uint32_t first = plan.resources[candidate];
+    for (uint32_t l = 0; l < (resource.isImage ? resources[first].desc.levels : 1); ++l) state.merge(currentState(resources[first + l]));
   }
-  // Whoever comes later waits for this one, and so for those that it covers: but levels of a pyramid wait one by one.
+  // Later transients wait for this one, and thereby for those that it covers. Mip levels are tracked one by one.
   const bool whole = !resource.isImage || resource.desc.levels == 1;
-  std::erase_if(plan.tenants, [&](uint32_t tenant) { return tenant == placement || (whole && covers(own, plan.placements[tenant])); });
-  plan.tenants.push_back(placement);
+  std::erase_if(plan.aliasCandidates,
+                [&](uint32_t candidate) { return candidate == placement || (whole && covers(own, plan.placements[candidate])); });
+  plan.aliasCandidates.push_back(placement);
 }
 
 void GraphImpl::planBarriers() {
   causes.clear();
   transitions.clear();
-  barriersPassed.clear();
-  for (TransientPlan& plan : plans) plan.tenants.clear();
+  appliedBarriers.clear();
+  for (TransientPlan& plan : plans) plan.aliasCandidates.clear();
   for (ResourceData& resource : resources) {
-    resource.state = resource.imported ? HazardState::after(useRow(resource.before)) : HazardState::nothing();
+    resource.state = resource.imported ? HazardState::after(useRow(resource.before)) : HazardState::untouched();
     resource.layout = useRow(resource.before).layout;
     resource.placed = resource.imported;
-    resource.barriersSeen = 0;
+    resource.barriersApplied = 0;
   }
-  // Other frames' use of the heaps: a state of its own, so that the frame's first barrier on them serves all transients.
-  HazardState seam = HazardState::seam(draws);
+  // One shared state for the previous frame's use of the heaps, so that one barrier serves all transients.
+  HazardState previousFrame = HazardState::previousFrame(usesGraphics);
 
   const auto apply = [&](const Scope& scope) {
-    const uint32_t seeing = usesSeeing(scope);
-    seam.passed(scope, seeing);
-    barriersPassed.push_back({scope, seeing});
+    const uint32_t visibleUses = usesMadeVisible(scope);
+    previousFrame.applyBarrier(scope, visibleUses);
+    appliedBarriers.push_back({scope, visibleUses});
   };
   const auto wait = [&](PlannedBarrier& barrier, uint32_t index, const UseRow& row, bool keep) {
     ResourceData& resource = resources[index];
     if (resource.isImage && resource.layout != row.layout) {
       transitions.push_back({index, keep ? resource.layout : VK_IMAGE_LAYOUT_UNDEFINED, row.layout, {}});
-      stateNow(resource).changeLayout(row, transitions.back().scope);
+      currentState(resource).changeLayout(row, transitions.back().scope);
       resource.layout = row.layout;
       ++barrier.transitions.count;
       return;
     }
-    const Hazard hazard = stateNow(resource).need(row, keep, barrier.scope);
+    const Hazard hazard = currentState(resource).addDependency(row, keep, barrier.scope);
     if (hazard != Hazard::None) causes.push_back({index, hazard, row.name}), ++barrier.causes.count;
   };
   const auto begin = [&](PlannedBarrier& barrier) { barrier = {{}, {uint32_t(causes.size()), 0}, {uint32_t(transitions.size()), 0}}; };
@@ -194,11 +195,11 @@ void GraphImpl::planBarriers() {
     if (!pass.alive) continue;
     const auto uses = std::span(accesses).subspan(pass.accesses.first, pass.accesses.count);
     for (const Access& access : uses) {
-      if (!resources[access.resource].placed) waitForMemory(access.resource, seam);
+      if (!resources[access.resource].placed) waitForAliasedMemory(access.resource, previousFrame);
       wait(pass.barrier, access.resource, useRow(access.use), access.keep);
     }
     if (!pass.barrier.scope.empty()) apply(pass.barrier.scope);
-    for (const Access& access : uses) stateNow(resources[access.resource]).used(access.use);
+    for (const Access& access : uses) currentState(resources[access.resource]).applyUse(access.use);
   }
 
   begin(finalBarrier);
@@ -214,13 +215,13 @@ void GraphImpl::planBarriers() {
 
 void GraphImpl::makeReport() {
   reports.clear();
-  rowOfName.assign(names.size(), kNone);
+  rowByName.assign(names.size(), kNone);
   const auto row = [&](uint32_t name) -> PassReport& {
-    if (rowOfName[name] == kNone) {
-      rowOfName[name] = uint32_t(reports.size());
+    if (rowByName[name] == kNone) {
+      rowByName[name] = uint32_t(reports.size());
       reports.push_back({names[name], 0, false, {}});
     }
-    return reports[rowOfName[name]];
+    return reports[rowByName[name]];
   };
   for (const PassData& pass : passes) {
     PassReport& report = row(pass.name);

@@ -1,4 +1,4 @@
-// The compiled frame for people (Graphviz) and for tools (JSON).
+// Export of the compiled frame as Graphviz and as JSON.
 #include "gpu/vulkan_error.hpp"
 #include "graph/graph_impl.hpp"
 #include "graph/json_text.hpp"
@@ -23,18 +23,18 @@ std::string sizeText(const ResourceData& resource) {
 
 }  // namespace
 
-/// Bytes, place and lifetime; of an import its bytes, where they are known.
-std::string GraphImpl::memoryText(uint32_t index) const {
+/// Size, placement and lifetime; for imported buffers the size only.
+std::string GraphImpl::memoryLabel(uint32_t index) const {
   const ResourceData& resource = resources[index];
   if (resource.imported) return resource.isImage ? "imported" : bytesText(resource.size) + ", imported";
   const uint32_t placement = memoryOf(index).placement;
-  if (placement == kNone) return "no pass that runs uses it";
+  if (placement == kNone) return "unused";
   const Placement& place = planOf(resource).placements[placement];
   return bytesText(place.size) + " in " + (resource.isImage ? "image heap " : "heap ") + std::to_string(place.heap) + " from " +
          bytesText(place.offset) + "\\npasses " + std::to_string(place.first) + " to " + std::to_string(place.last);
 }
 
-// Passes from the top in the order in which they run, resources beside the first pass that uses them. Blue: written; gray: read.
+// Passes from top to bottom in execution order, resources beside the first pass that uses them. Blue edges: writes; gray: reads.
 std::string GraphImpl::dot() const {
   std::string out =
       "digraph frame {\n"
@@ -58,7 +58,7 @@ std::string GraphImpl::dot() const {
         drawn[access.resource] = true;
         beside += "; " + other + " [shape=" + (resource.imported ? "box3d" : "box") + ", fontsize=8, label=\"" +
                   escaped(names[resource.name]) + (resource.desc.levels > 1 ? ", level " + std::to_string(resource.level) : "") + "\\n" +
-                  sizeText(resource) + memoryText(access.resource) + "\"]";
+                  sizeText(resource) + memoryLabel(access.resource) + "\"]";
       }
       out += "  " + (access.write ? node + " -> " + other : other + " -> " + node) + " [constraint=false, color=\"" +
              (access.write ? "#2f6fab" : "#999999") + "\", tooltip=\"" + useRow(access.use).name + ", version " +

@@ -5,8 +5,8 @@
 namespace rill {
 namespace {
 
-// A read-back that nobody has asked for by then is given up, so that a forgotten ticket does not hold memory for ever.
-constexpr uint64_t kPatienceFrames = 16;
+// A read-back not queried for this many frames is dropped, so that a forgotten ticket does not hold memory forever.
+constexpr uint64_t kReadbackTimeoutFrames = 16;
 
 }  // namespace
 
@@ -19,7 +19,7 @@ FrameSlot::~FrameSlot() {
 
 bool FrameSlot::reusable(const FrameClock& clock) const {
   if (frame > clock.completed) return false;
-  return deliveries.empty() || clock.completed - frame >= kPatienceFrames || device.abandoned(frame);
+  return pendingReadbacks.empty() || clock.completed - frame >= kReadbackTimeoutFrames || device.abandoned(frame);
 }
 
 void FrameSlot::recycle() {
@@ -27,7 +27,7 @@ void FrameSlot::recycle() {
   for (VkImageView view : imageViews) device.vk.DestroyImageView(device.handle, view, device.callbacks);
   views.clear();
   imageViews.clear();
-  deliveries.clear();
+  pendingReadbacks.clear();
   timedNames.clear();
   timingsPending = false;
   if (pool) device.vk.ResetDescriptorPool(device.handle, pool, 0);

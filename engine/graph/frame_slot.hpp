@@ -1,5 +1,5 @@
 #pragma once
-// What one frame in flight holds on the device. A slot is used again once the host's clock says that its frame has completed.
+// Device objects of one frame in flight. A slot is reused once its frame has completed.
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace rill {
 
-/// Descriptors of each type of kDescriptorTypes. Its type is written out: GCC puts one that it deduces among the writable variables.
+/// The type is explicit because GCC places a std::array with deduced arguments in writable memory.
 inline constexpr std::array<VkDescriptorType, 5> kDescriptorTypes = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
                                                                      VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER,
                                                                      VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE};
@@ -21,11 +21,11 @@ struct FrameSlot {
     VkFormat format;
     VkBufferView handle;
   };
-  struct Delivery {
+  struct PendingReadback {
     uint64_t ticket;
     uint32_t buffer;  ///< of FrameSlot::readbacks
     uint64_t offset, size;
-    bool seen = false;
+    bool returned = false;
   };
 
   explicit FrameSlot(DeviceImpl& owner) : device(owner) {}
@@ -33,32 +33,32 @@ struct FrameSlot {
   FrameSlot(const FrameSlot&) = delete;
   FrameSlot& operator=(const FrameSlot&) = delete;
 
-  /// Its frame has completed and nobody can still want its read-backs.
+  /// Whether the frame has completed and its read-backs were abandoned or have timed out.
   bool reusable(const FrameClock& clock) const;
-  /// Forgets the last frame; what it held on the device stays for the next one where it can.
+  /// Clears the last frame, keeping device objects that the next one can reuse.
   void recycle();
 
   DeviceImpl& device;
   uint64_t frame = 0;
-  // Views live for one frame: handle values of imported buffers recur, so no view can be found again by its buffer.
+  // Views live for one frame: handle values of imported buffers may be reused, so views cannot be cached by buffer.
   std::vector<View> views;
   std::vector<VkImageView> imageViews;  ///< of imported images
   VkDescriptorPool pool = VK_NULL_HANDLE;
-  uint32_t poolSets = 0;  ///< what the pool was made for
+  uint32_t poolSets = 0;  ///< capacity of the pool
   DescriptorCounts poolCounts{};
   VkQueryPool queries = VK_NULL_HANDLE;
   uint32_t queryCapacity = 0;
-  std::vector<uint32_t> timedNames;  ///< the pass between each two timestamps
+  std::vector<uint32_t> timedNames;  ///< names of the passes between consecutive timestamps
   bool timingsPending = false;
-  std::vector<Buffer> readbacks;  ///< none of them larger than a buffer may be
-  std::vector<Delivery> deliveries;
+  std::vector<Buffer> readbacks;  ///< each at most kMaxBufferBytes
+  std::vector<PendingReadback> pendingReadbacks;
 };
 
-/// Kernels with equal layouts and equal buffers share a descriptor set: which kernel stands for each.
-struct SetSharing {
-  std::vector<uint32_t> table;      ///< open addressing: kernel indices
-  std::vector<uint32_t> standsFor;  ///< one a kernel
-  std::vector<uint32_t> unique;     ///< kernels that need a set of their own
+/// Kernels with equal layouts and equal resources share a descriptor set.
+struct SetDeduplication {
+  std::vector<uint32_t> table;           ///< open addressing: kernel indices
+  std::vector<uint32_t> representative;  ///< per kernel: the kernel whose set it shares
+  std::vector<uint32_t> unique;          ///< kernels that need a set of their own
   std::vector<VkDescriptorSetLayout> layouts;
   std::vector<VkDescriptorSet> sets;
   std::vector<VkWriteDescriptorSet> writes;

@@ -1,4 +1,4 @@
-// Declaring a frame: refs are checked here, the first mistake is kept for compile() to report.
+// Declaration of a frame. Refs are checked here; compile() reports the first error.
 #include "rill/graph.hpp"
 
 #include <algorithm>
@@ -11,14 +11,14 @@
 namespace rill {
 namespace {
 
-/// Unique over all graphs, so that another graph's ref is as stale as last frame's.
+/// Unique over all graphs, so that refs of other graphs are detected like refs of earlier frames.
 uint32_t nextEpoch() {
   static std::atomic<uint32_t> epoch{0};
   return ++epoch;
 }
 
-/// Whether a binding of this kind can see a resource that was declared with this use.
-bool fits(BindingKind kind, bool isImage, Use use, bool draws) {
+/// Whether a resource declared with this use can be bound as this kind.
+bool kindMatchesUse(BindingKind kind, bool isImage, Use use, bool draws) {
   if (isImage != (kind == BindingKind::StorageImage || kind == BindingKind::SampledImage)) return false;
   switch (kind) {
     case BindingKind::Storage:
@@ -70,9 +70,9 @@ const char* usageName(VkImageUsageFlags usage) {
   }
 }
 
-constexpr uint32_t kMaxImageSide = 32768;  // more than devices offer, and few enough that sizes stay in 64 bits
+constexpr uint32_t kMaxImageSide = 32768;  // above any device limit, and sizes in bytes still fit in 64 bits
 
-constexpr ResourceRef kMistake{0, 0, 0};  ///< what a write returns for a mistake that has been reported
+constexpr ResourceRef kInvalidRef{0, 0, 0};  ///< returned by a write whose error has been reported; causes no further errors
 
 }  // namespace
 
@@ -82,7 +82,8 @@ GraphImpl::~GraphImpl() { reset(); }
 void GraphImpl::reset() {
   collect();
   for (const auto& s : slots)
-    if (device && s->frame <= device->clock.completed) std::erase_if(s->deliveries, [](const FrameSlot::Delivery& d) { return d.seen; });
+    if (device && s->frame <= device->clock.completed)
+      std::erase_if(s->pendingReadbacks, [](const FrameSlot::PendingReadback& d) { return d.returned; });
   for (PassData& pass : passes)
     if (pass.record && pass.destroy) pass.destroy(pass.record);
   arena.rewind();
@@ -108,27 +109,27 @@ void GraphImpl::fail(std::string message) {
 ResourceRef GraphImpl::add(ResourceData resource) {
   compiled = prepared = false;
   const std::string_view kind = resource.kind();
-  const auto mistake = [&](std::string_view what) { fail(std::string(kind) + quoted(resource.name) + std::string(what)); };
+  const auto reject = [&](std::string_view what) { fail(std::string(kind) + quoted(resource.name) + std::string(what)); };
   if (resource.isImage) {
-    if (resource.desc.format == VK_FORMAT_UNDEFINED) mistake(" has no format");
-    if (resource.desc.format == VK_FORMAT_S8_UINT) mistake(" is of a format with a stencil alone, which no pass can use");
-    if (resource.desc.width == 0 || resource.desc.height == 0) mistake(" has no size");
+    if (resource.desc.format == VK_FORMAT_UNDEFINED) reject(" has no format");
+    if (resource.desc.format == VK_FORMAT_S8_UINT) reject(": stencil-only formats are not supported");
+    if (resource.desc.width == 0 || resource.desc.height == 0) reject(": size is 0");
     if (std::max(resource.desc.width, resource.desc.height) > kMaxImageSide)
-      mistake(" of " + std::to_string(resource.desc.width) + " x " + std::to_string(resource.desc.height) + " texels: at most " +
-              std::to_string(kMaxImageSide) + " a side are possible");
-    const uint32_t most = uint32_t(std::bit_width(std::max({resource.desc.width, resource.desc.height, 1u})));
-    if (resource.desc.levels == 0 || resource.desc.levels > most) {
-      mistake(" has " + std::to_string(resource.desc.levels) + " levels: 1 to " + std::to_string(most) + " are possible at its size");
+      reject(" of " + std::to_string(resource.desc.width) + " x " + std::to_string(resource.desc.height) +
+             " texels; expected at maxLevels " + std::to_string(kMaxImageSide) + " per side");
+    const uint32_t maxLevels = uint32_t(std::bit_width(std::max({resource.desc.width, resource.desc.height, 1u})));
+    if (resource.desc.levels == 0 || resource.desc.levels > maxLevels) {
+      reject(" has " + std::to_string(resource.desc.levels) + " levels; expected 1 to " + std::to_string(maxLevels));
       resource.desc.levels = 1;
     }
   } else {
-    if (resource.size == 0) mistake(" has no size");
+    if (resource.size == 0) reject(": size is 0");
     if (resource.size > kMaxBufferBytes)
-      mistake(" of " + std::to_string(resource.size) + " bytes: at most " + std::to_string(kMaxBufferBytes) + " are possible");
+      reject(" of " + std::to_string(resource.size) + " bytes: at maxLevels " + std::to_string(kMaxBufferBytes) + " are possible");
   }
   for (ImportState* state : {&resource.before, &resource.after}) {
     if (isUse(state->use)) continue;
-    fail("import " + quoted(resource.name) + ": " + std::to_string(unsigned(state->use)) + " is no Use");
+    fail("import " + quoted(resource.name) + ": invalid Use value " + std::to_string(unsigned(state->use)));
     state->use = Use::Nothing;
   }
   if (resource.imported) checkStates(resource);
@@ -138,50 +139,50 @@ ResourceRef GraphImpl::add(ResourceData resource) {
 }
 
 void GraphImpl::checkStates(const ResourceData& import) {
-  const auto mistake = [&](const std::string& what) { fail("import " + quoted(import.name) + ": " + what); };
-  if (import.after == Use::Unknown) mistake("Use::Unknown is no state to leave it in");
+  const auto reject = [&](const std::string& what) { fail("import " + quoted(import.name) + ": " + what); };
+  if (import.after == Use::Unknown) reject("Use::Unknown is not a valid final state");
   for (const ImportState& state : {import.before, import.after}) {
     const UseRow row = useRow(state);
     const bool hasLayout = row.layout != VK_IMAGE_LAYOUT_UNDEFINED;
-    if (state.isOwn) {
-      if (import.isImage && !hasLayout) mistake("a state of the host's own needs the image's layout");
-      if (!import.isImage && hasLayout) mistake("a buffer has no layout, and the host's own state names one");
-      if (!row.stage && (row.read | row.write)) mistake("the host's own state has accesses, but no stages that they are made in");
+    if (state.isCustom) {
+      if (import.isImage && !hasLayout) reject("a custom state of an image needs a layout");
+      if (!import.isImage && hasLayout) reject("a custom state of a buffer must not have a layout");
+      if (!row.stage && (row.read | row.write)) reject("the custom state has accesses but no stages");
       continue;
     }
-    if (state.use != Use::Nothing && state.use != Use::Unknown && (import.isImage ? !hasLayout : needsImage(state.use)))
-      mistake(std::string("Use::") + row.name + " is no use of " + (import.isImage ? "an image" : "a buffer"));
-    else if (import.madeFor != 0 && (row.usage & ~import.madeFor) != 0)
-      mistake(std::string("Use::") + row.name + " is a state of it, but it was created without " + usageName(row.usage));
+    if (state.use != Use::Nothing && state.use != Use::Unknown && (import.isImage ? !hasLayout : isImageOnly(state.use)))
+      reject(std::string("Use::") + row.name + " is not a use of " + (import.isImage ? "an image" : "a buffer"));
+    else if (import.createdUsage != 0 && (row.usage & ~import.createdUsage) != 0)
+      reject(std::string("Use::") + row.name + " is one of its states, but it was created without " + usageName(row.usage));
   }
-  if (import.after.isOwn && import.after.own.layout == VK_IMAGE_LAYOUT_PREINITIALIZED)
-    mistake("no image can be brought into the layout PREINITIALIZED");
+  if (import.after.isCustom && import.after.custom.layout == VK_IMAGE_LAYOUT_PREINITIALIZED)
+    reject("VK_IMAGE_LAYOUT_PREINITIALIZED is not a valid final layout");
 }
 
-bool GraphImpl::madeFor(uint32_t pass, const ResourceData& resource, Use use) {
-  if (!resource.isImage || resource.madeFor == 0 || (useRow(use).usage & ~resource.madeFor) == 0) return true;
+bool GraphImpl::checkUsage(uint32_t pass, const ResourceData& resource, Use use) {
+  if (!resource.isImage || resource.createdUsage == 0 || (useRow(use).usage & ~resource.createdUsage) == 0) return true;
   fail("pass '" + std::string(names[passes[pass].name]) + "' uses import " + quoted(resource.name) + " with Use::" + useRow(use).name +
        ", but it was created without " + usageName(useRow(use).usage));
   return false;
 }
 
-ResourceData* GraphImpl::resolve(ResourceRef ref, bool isImage, uint32_t pass, const char* doing) {
-  if (ref == kMistake) return nullptr;
+ResourceData* GraphImpl::resolve(ResourceRef ref, bool isImage, uint32_t pass, const char* verb) {
+  if (ref == kInvalidRef) return nullptr;
   const std::string_view passName = names[passes[pass].name];
   const char* kind = isImage ? " an image" : " a buffer";
   if (ref.index == kNone) {
-    fail("pass '" + std::string(passName) + "' " + doing + kind + " that was never made (an empty ref)");
+    fail("pass '" + std::string(passName) + "' " + verb + kind + " through an empty ref");
     return nullptr;
   }
   if (ref.epoch != epoch || ref.index >= resources.size() || resources[ref.index].isImage != isImage) {
-    fail("pass '" + std::string(passName) + "' " + doing + kind +
-         " of another graph or of an earlier frame: refs do not outlive Graph::reset()");
+    fail("pass '" + std::string(passName) + "' " + verb + kind +
+         " through a ref of another graph or an earlier frame; refs are valid until Graph::reset()");
     return nullptr;
   }
   ResourceData& resource = resources[ref.index];
   if (ref.version != resource.version) {
-    fail("pass '" + std::string(passName) + "' " + doing + " version " + std::to_string(ref.version) + " of " + quoted(resource.name) +
-         ", which a later write consumed: the latest is version " + std::to_string(resource.version));
+    fail("pass '" + std::string(passName) + "' " + verb + " version " + std::to_string(ref.version) + " of " + quoted(resource.name) +
+         ", which a later write consumed; expected version " + std::to_string(resource.version));
     return nullptr;
   }
   return &resource;
@@ -207,7 +208,7 @@ const Access* GraphImpl::accessOf(uint32_t pass, uint32_t resource) const {
 
 void GraphImpl::addAccess(uint32_t pass, Access access) {
   compiled = prepared = false;
-  assert(pass + 1 == passes.size() && "a pass declares its accesses inside its own set-up");
+  assert(pass + 1 == passes.size() && "accesses must be declared during the pass's own setup");
   accesses.push_back(access);
   ++passes[pass].accesses.count;
 }
@@ -216,60 +217,60 @@ void GraphImpl::read(uint32_t index, ResourceRef ref, bool isImage, Use use) {
   ResourceData* resource = resolve(ref, isImage, index, "reads");
   if (!resource) return;
   const auto pass = [&] { return "pass '" + std::string(names[passes[index].name]) + "'"; };
-  if (!isUse(use))
-    return fail(pass() + " reads " + quoted(resource->name) + " with " + std::to_string(unsigned(use)) + ", which is no Use");
-  if (outsideOnly(use) || writes(use) || (isImage ? useRow(use).layout == VK_IMAGE_LAYOUT_UNDEFINED : needsImage(use)))
-    return fail(pass() + " reads " + quoted(resource->name) + " with Use::" + useRow(use).name + ", which is no way for a pass to read" +
+  if (!isUse(use)) return fail(pass() + " reads " + quoted(resource->name) + " with invalid Use value " + std::to_string(unsigned(use)));
+  if (isImportOnly(use) || writes(use) || (isImage ? useRow(use).layout == VK_IMAGE_LAYOUT_UNDEFINED : isImageOnly(use)))
+    return fail(pass() + " reads " + quoted(resource->name) + " with Use::" + useRow(use).name + ", which is not a read use" +
                 (isImage ? " an image" : ""));
-  if (!resource->hasContent()) return fail(pass() + " reads " + quoted(resource->name) + ", which no pass has written");
-  if (!madeFor(index, *resource, use)) return;
+  if (!resource->hasContent())
+    return fail(pass() + " reads " + quoted(resource->name) + ", whose content is undefined; write it in an earlier pass");
+  if (!checkUsage(index, *resource, use)) return;
   const Range range = passes[index].accesses;
   for (uint32_t i = range.first; i < range.first + range.count; ++i) {
     const Access& other = accesses[i];
     if (other.resource != ref.index) continue;
     if (other.write)
       return fail(pass() + " reads and writes " + quoted(resource->name) +
-                  ": declare the write alone (it may read as well), or make two passes");
+                  "; declare only the write (it may read as well), or use two passes");
     if (other.use == use) return;
     if (isImage && useRow(other.use).layout != useRow(use).layout)
       return fail(pass() + " reads " + quoted(resource->name) + " with Use::" + useRow(other.use).name + " and Use::" + useRow(use).name +
-                  ", which need different layouts: make two passes");
+                  ", which need different layouts; use two passes");
   }
   addAccess(index, {ref.index, ref.version, use, false, true});
 }
 
 ResourceRef GraphImpl::write(uint32_t index, ResourceRef ref, bool isImage, Use use, Load load) {
   ResourceData* resource = resolve(ref, isImage, index, "writes");
-  if (!resource) return kMistake;
+  if (!resource) return kInvalidRef;
   const auto pass = [&] { return "pass '" + std::string(names[passes[index].name]) + "'"; };
   if (!isUse(use)) {
-    fail(pass() + " writes " + quoted(resource->name) + " with " + std::to_string(unsigned(use)) + ", which is no Use");
-    return kMistake;
+    fail(pass() + " writes " + quoted(resource->name) + " with invalid Use value " + std::to_string(unsigned(use)));
+    return kInvalidRef;
   }
-  if (outsideOnly(use) || !writes(use) || (isImage ? useRow(use).layout == VK_IMAGE_LAYOUT_UNDEFINED : needsImage(use))) {
-    fail(pass() + " writes " + quoted(resource->name) + " with Use::" + useRow(use).name + ", which is no way for a pass to write" +
+  if (isImportOnly(use) || !writes(use) || (isImage ? useRow(use).layout == VK_IMAGE_LAYOUT_UNDEFINED : isImageOnly(use))) {
+    fail(pass() + " writes " + quoted(resource->name) + " with Use::" + useRow(use).name + ", which is not a write use" +
          (isImage ? " an image" : ""));
-    return kMistake;
+    return kInvalidRef;
   }
   if (accessOf(index, ref.index)) {
     fail(pass() + " uses " + quoted(resource->name) +
-         " twice, once to write: declare the write alone (it may read as well), or make two passes");
-    return kMistake;
+         " more than once, including a write; declare only the write (it may read as well), or use two passes");
+    return kInvalidRef;
   }
-  if (!madeFor(index, *resource, use)) return kMistake;
+  if (!checkUsage(index, *resource, use)) return kInvalidRef;
   const bool fresh = !resource->hasContent();
   if (fresh && use == Use::ComputeAtomic) {
-    fail(pass() + " does atomics on " + quoted(resource->name) + ", whose content is undefined: fill it first");
-    return kMistake;
+    fail(pass() + " uses atomics on " + quoted(resource->name) + ", whose content is undefined; fill it first");
+    return kInvalidRef;
   }
   if (load == Load::Clear && !isTarget(use)) {
-    fail(pass() + " writes " + quoted(resource->name) + " with Use::" + useRow(use).name +
-         " and Load::Clear: only what is drawn to is cleared so");
-    return kMistake;
+    fail(pass() + " writes " + quoted(resource->name) + " with Use::" + useRow(use).name + " and Load::Clear; only targets can be cleared");
+    return kInvalidRef;
   }
   if (fresh && load == Load::Keep && isTarget(use)) {
-    fail(pass() + " draws to " + quoted(resource->name) + " and keeps what is there, but no pass has written it: clear or discard it");
-    return kMistake;
+    fail(pass() + " draws to " + quoted(resource->name) +
+         " with Load::Keep, but its content is undefined; use Load::Clear or Load::Discard");
+    return kInvalidRef;
   }
   addAccess(index, {ref.index, ++resource->version, use, true, load == Load::Keep && !fresh});
   return {ref.index, resource->version, epoch};
@@ -278,21 +279,22 @@ ResourceRef GraphImpl::write(uint32_t index, ResourceRef ref, bool isImage, Use 
 void GraphImpl::addTarget(uint32_t index, ResourceRef ref, Load load, const VkClearValue& clear) {
   PassData& pass = passes[index];
   const ResourceData& image = resources[ref.index];
-  const auto mistake = [&](const std::string& what) {
+  const auto reject = [&](const std::string& what) {
     fail("pass '" + std::string(names[pass.name]) + "' draws to " + quoted(image.name) + what);
   };
   const bool isDepth = hasDepth(image.desc.format);
   const Access& access = accesses.back();
   if (isDepth != (access.use == Use::DepthTarget))
-    return mistake(std::string(" with Use::") + useRow(access.use).name + ", but its format " +
-                   (isDepth ? "holds depth" : "holds no depth"));
+    return reject(std::string(" with Use::") + useRow(access.use).name + ", but its format " +
+                  (isDepth ? "is a depth format" : "has no depth aspect"));
   for (uint32_t t = pass.targets.first; t < targets.size(); ++t) {
     const ResourceData& other = resources[targets[t].resource];
     if (other.width() != image.width() || other.height() != image.height())
-      return mistake(" and to " + quoted(other.name) + ", which is of another size");
-    if (isDepth && hasDepth(other.desc.format)) return mistake(" and to " + quoted(other.name) + ": one depth target is possible");
+      return reject(" and to " + quoted(other.name) + ", which has a different size");
+    if (isDepth && hasDepth(other.desc.format))
+      return reject(" and to " + quoted(other.name) + ": a pass has at maxLevels one depth target");
   }
-  if (pass.targets.count == kMaxTargets) return mistake(": more than eight targets");
+  if (pass.targets.count == kMaxTargets) return reject(": more than 8 targets");
   targets.push_back({ref.index, load, true, clear});
   ++pass.targets.count;
 }
@@ -304,75 +306,73 @@ BufferRef Pass::write(BufferRef buffer, Use use, bool discard) {
 }
 ImageRef Pass::write(ImageRef image, Use use, Load load, const VkClearValue& clear) {
   const ImageRef written{graph_.write(index_, image, true, use, load)};
-  if (written != kMistake && isTarget(use)) graph_.addTarget(index_, written, load, clear);
+  if (written != kInvalidRef && isTarget(use)) graph_.addTarget(index_, written, load, clear);
   return written;
 }
 void Pass::sideEffect() { graph_.passes[index_].root = true; }
 
-Kernel Pass::noPipeline() {
-  graph_.fail("pass '" + std::string(graph_.names[graph_.passes[index_].name]) + "' declares a kernel without a pipeline (null)");
+Kernel Pass::missingPipeline() {
+  graph_.fail("pass '" + std::string(graph_.names[graph_.passes[index_].name]) + "' declares a kernel with a null pipeline");
   return {};
 }
 
 Kernel Pass::kernel(const ComputePipeline* pipeline, std::span<const ResourceRef> refs) {
-  if (!pipeline) return noPipeline();
-  return bound(*pipeline, refs);
+  if (!pipeline) return missingPipeline();
+  return bindKernel(*pipeline, refs);
 }
 
 Kernel Pass::kernel(const GraphicsPipeline* pipeline, std::span<const ResourceRef> refs) {
-  if (!pipeline) return noPipeline();
+  if (!pipeline) return missingPipeline();
   if (graph_.error) return {};
   std::span<const VkFormat> colors = pipeline->colors;
   VkFormat depth = VK_FORMAT_UNDEFINED;
-  bool fitting = true;
+  bool matches = true;
   const Range range = graph_.passes[index_].targets;
   for (uint32_t t = range.first; t < range.first + range.count; ++t) {
     const VkFormat format = graph_.resources[graph_.targets[t].resource].desc.format;
     if (hasDepth(format)) {
       depth = format;
     } else {
-      fitting = fitting && !colors.empty() && colors.front() == format;
+      matches = matches && !colors.empty() && colors.front() == format;
       colors = colors.subspan(colors.empty() ? 0 : 1);
     }
   }
-  if (!fitting || !colors.empty() || depth != pipeline->depth) {
+  if (!matches || !colors.empty() || depth != pipeline->depth) {
     graph_.fail("pass '" + std::string(graph_.names[graph_.passes[index_].name]) + "', shader '" + pipeline->shader +
-                "': its pipeline was made for targets of other formats, or another number of them, than the pass draws to");
+                "': its target formats differ from the targets of the pass");
     return {};
   }
-  return bound(*pipeline, refs);
+  return bindKernel(*pipeline, refs);
 }
 
-Kernel Pass::bound(const Pipeline& pipeline, std::span<const ResourceRef> refs) {
+Kernel Pass::bindKernel(const Pipeline& pipeline, std::span<const ResourceRef> refs) {
   const std::string_view pass = graph_.names[graph_.passes[index_].name];
-  const auto mistake = [&](std::string message) {
+  const auto reject = [&](std::string message) {
     graph_.fail("pass '" + std::string(pass) + "', shader '" + pipeline.shader + "': " + std::move(message));
     return Kernel{};
   };
   const std::vector<BindingKind>& kinds = pipeline.set->kinds;
-  if (refs.size() != kinds.size())
-    return mistake(std::to_string(refs.size()) + " resources were given for its " + std::to_string(kinds.size()) + " bindings");
+  if (refs.size() != kinds.size()) return reject(std::to_string(refs.size()) + " resources; expected " + std::to_string(kinds.size()));
   const uint32_t first = uint32_t(graph_.bindings.size());
   for (size_t i = 0; i < refs.size(); ++i) {
-    if (refs[i] == kMistake) return {};
-    bool declared = false, fitting = false;
+    if (refs[i] == kInvalidRef) return {};
+    bool declared = false, matches = false;
     const Range range = graph_.passes[index_].accesses;
-    for (uint32_t k = range.first; k < range.first + range.count && !fitting; ++k) {
+    for (uint32_t k = range.first; k < range.first + range.count && !matches; ++k) {
       const Access& access = graph_.accesses[k];
-      // A write may be bound by the ref that went in or by the one that came out.
+      // A written resource may be bound through the consumed ref or the returned one.
       if (refs[i].epoch != graph_.epoch || access.resource != refs[i].index) continue;
       if (access.version != refs[i].version && !(access.write && access.version == refs[i].version + 1)) continue;
       declared = true;
-      fitting =
-          fits(kinds[i], graph_.resources[access.resource].isImage, access.use, pipeline.bindPoint == VK_PIPELINE_BIND_POINT_GRAPHICS);
+      matches = kindMatchesUse(kinds[i], graph_.resources[access.resource].isImage, access.use,
+                               pipeline.bindPoint == VK_PIPELINE_BIND_POINT_GRAPHICS);
     }
     const auto name = [&] {
       return refs[i].index < graph_.resources.size() ? graph_.quoted(graph_.resources[refs[i].index].name) : "an empty ref";
     };
-    if (!declared)
-      return mistake("binding " + std::to_string(i) + " is " + name() + " in a version that the pass neither reads nor writes");
-    if (!fitting)
-      return mistake("binding " + std::to_string(i) + " is " + kindName(kinds[i]) + ", which no declared use of " + name() + " is");
+    if (!declared) return reject("binding " + std::to_string(i) + " is " + name() + " in a version that the pass does not declare");
+    if (!matches)
+      return reject("binding " + std::to_string(i) + " is " + kindName(kinds[i]) + ", which matches no declared use of " + name());
     graph_.bindings.push_back(refs[i].index);
   }
   graph_.kernels.push_back({&pipeline, {first, uint32_t(refs.size())}, VK_NULL_HANDLE});
@@ -419,22 +419,22 @@ ImageRef Graph::import(std::string_view name, const ImageImport& import) {
   resource.after = import.after;
   resource.image = import.handle;
   resource.desc = import.desc;
-  resource.madeFor = import.usage;
+  resource.createdUsage = import.usage;
   return {impl_->add(resource)};
 }
 
 ImageRef Graph::level(ImageRef image, uint32_t k) {
   GraphImpl& graph = *impl_;
-  if (image == kMistake) return image;
+  if (image == kInvalidRef) return image;
   if (image.epoch != graph.epoch || image.index >= graph.resources.size() || !graph.resources[image.index].isImage) {
-    graph.fail("a level of an image of another graph or of an earlier frame was asked for");
-    return {kMistake};
+    graph.fail("Graph::level: ref of another graph or an earlier frame");
+    return {kInvalidRef};
   }
   const ResourceData& resource = graph.memoryOf(image.index);
   if (k >= resource.desc.levels) {
-    graph.fail("level " + std::to_string(k) + " of image " + graph.quoted(resource.name) + " was asked for: it has " +
+    graph.fail("level " + std::to_string(k) + " of image " + graph.quoted(resource.name) + " requested, but it has " +
                std::to_string(resource.desc.levels));
-    return {kMistake};
+    return {kInvalidRef};
   }
   return {{image.index - graph.resources[image.index].level + k, 0, graph.epoch}};
 }
@@ -443,7 +443,7 @@ void Graph::skipped(std::string_view name, std::string_view reason) { impl_->ski
 
 Ticket Graph::readback(BufferRef buffer) {
   GraphImpl& graph = *impl_;
-  const bool append = !graph.passes.empty() && graph.passes.back().readback;  // read-backs in a row are one pass
+  const bool append = !graph.passes.empty() && graph.passes.back().readback;  // consecutive read-backs share one pass
   const uint32_t pass = append ? uint32_t(graph.passes.size() - 1) : graph.beginPass("readback");
   graph.passes[pass].readback = graph.passes[pass].root = true;
   const Ticket ticket{graph.nextTicket++};
@@ -459,7 +459,7 @@ void Graph::record(VkCommandBuffer commandBuffer) { impl_->record(commandBuffer)
 std::string Graph::dot() const { return impl_->dot(); }
 std::string Graph::json() const { return impl_->json(); }
 std::span<const PassReport> Graph::report() const { return impl_->reports; }
-void Graph::enableTimings(bool enabled) { impl_->timed = enabled; }
+void Graph::enableTimings(bool enabled) { impl_->timingsEnabled = enabled; }
 
 std::span<const Timing> Graph::timings() const {
   impl_->collect();

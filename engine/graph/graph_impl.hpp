@@ -1,7 +1,7 @@
 #pragma once
-// What is behind rill::Graph. One frame's declaration and plan are flat arrays that keep their capacity from frame to frame.
-//   graph.cpp declares, compile.cpp culls and plans, plan_reuse.cpp takes over the plan of an equal frame, prepare.cpp gets what the device
-//   must give, record.cpp records, describe.cpp writes it all down.
+// Implementation of rill::Graph. Declaration and plan are flat arrays that keep their capacity between frames.
+//   graph.cpp declares; compile.cpp culls and plans; plan_reuse.cpp reuses the plan of an equal frame;
+//   prepare.cpp creates device objects; record.cpp records; describe.cpp exports.
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -24,7 +24,7 @@ inline constexpr uint32_t kNone = UINT32_MAX;
 
 struct Access {
   uint32_t resource = 0;
-  uint32_t version = 0;  ///< read, or made by the write
+  uint32_t version = 0;  ///< the version read, or produced by the write
   Use use = Use::Nothing;
   bool write = false;
   bool keep = false;  ///< a write that also needs the old content
@@ -35,13 +35,13 @@ struct Range {
   uint32_t first = 0, count = 0;
 };
 
-inline constexpr size_t kMaxTargets = 8;  ///< of a pass, the depth among them; Vulkan guarantees four colors
+inline constexpr size_t kMaxTargets = 8;  ///< per pass, including depth; Vulkan guarantees four color attachments
 
 /// An image that a pass draws to.
 struct Target {
   uint32_t resource = 0;
   Load load = Load::Keep;
-  bool store = true;  ///< somebody wants what is drawn
+  bool store = true;  ///< the content is used later
   VkClearValue clear{};
 };
 
@@ -51,14 +51,14 @@ struct KernelData {
   VkDescriptorSet set = VK_NULL_HANDLE;
 };
 
-/// A change of an image's layout, part of a pass's barrier.
+/// A layout transition, part of a pass's barrier.
 struct Transition {
   uint32_t resource = 0;
   VkImageLayout from = VK_IMAGE_LAYOUT_UNDEFINED, to = VK_IMAGE_LAYOUT_UNDEFINED;
   Scope scope;
 };
 
-/// Why a pass waits.
+/// The reason for a dependency of a pass.
 struct Cause {
   uint32_t resource = 0;
   Hazard hazard = Hazard::None;
@@ -79,7 +79,7 @@ struct PassData {
   void (*invoke)(void*, Commands&) = nullptr;
   void (*destroy)(void*) = nullptr;
   bool root = false;
-  bool readback = false;  ///< made by Graph::readback
+  bool readback = false;  ///< declared by Graph::readback
   bool alive = false;
   std::string_view reason;  ///< why it was culled
   PlannedBarrier barrier;
@@ -89,20 +89,20 @@ struct ResourceData {
   uint32_t name = 0;
   bool imported = false;
   bool isImage = false;
-  bool needed = false;         ///< while culling: whether a later pass, or somebody outside, wants the content
+  bool needed = false;         ///< during culling: the content is used by a later pass or after the graph
   ImportState before, after;   ///< of an import
-  VkFlags madeFor = 0;         ///< of an import: the usage that its host says it was created for; 0: not said
-  uint64_t size = 0;           ///< bytes; an image's is an estimate until prepare() has asked
+  VkFlags createdUsage = 0;    ///< of an import: usage flags at creation; 0: unknown
+  uint64_t size = 0;           ///< bytes; for images an estimate until prepare() has queried the device
   ImageDesc desc;              ///< of an image: all of its levels
-  uint32_t level = 0;          ///< of an image: each is a resource of its own, one after another
-  uint32_t version = 0;        ///< the latest one
-  uint32_t placement = kNone;  ///< of a transient that is used; a pyramid's stands at its level 0
-  bool placed = false;         ///< while planning: it has waited for what its memory held before
-  HazardState state;           ///< after the first `barriersSeen`, see stateNow()
-  uint32_t barriersSeen = 0;
-  VkImageUsageFlags usage = 0;                       ///< of an image, by the passes that run; a pyramid's stands at its level 0
-  VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  ///< while planning: the image's
-  VkBuffer buffer = VK_NULL_HANDLE;                  ///< a transient's is resolved by prepare()
+  uint32_t level = 0;          ///< of an image: levels are consecutive resources
+  uint32_t version = 0;        ///< latest version
+  uint32_t placement = kNone;  ///< of a used transient; for images stored at level 0
+  bool placed = false;         ///< during planning: it depends on the previous users of its memory
+  HazardState state;           ///< after the first `barriersApplied`, see currentState()
+  uint32_t barriersApplied = 0;
+  VkImageUsageFlags usage = 0;                       ///< of an image, from its uses in executed passes; stored at level 0
+  VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  ///< during planning: current layout
+  VkBuffer buffer = VK_NULL_HANDLE;                  ///< transients: set by prepare()
   uint64_t offset = 0;
   VkImage image = VK_NULL_HANDLE;
   VkImageView view = VK_NULL_HANDLE;
@@ -110,20 +110,20 @@ struct ResourceData {
   const char* kind() const { return isImage ? "image " : "buffer "; }
   uint32_t width() const { return std::max(1u, desc.width >> level); }
   uint32_t height() const { return std::max(1u, desc.height >> level); }
-  /// Imported in a state that keeps its content, or written by a pass.
+  /// Whether the content is defined: imported in a state that keeps it, or written by a pass.
   bool hasContent() const { return version > 0 || (imported && (!isImage || (before != Use::Nothing && before != Use::Unknown))); }
 };
 
-struct PassedBarrier {
+struct AppliedBarrier {
   Scope scope;
-  uint32_t seeing = 0;  ///< usesSeeing(scope)
+  uint32_t visibleUses = 0;  ///< usesMadeVisible(scope)
 };
 
-/// Where the transients of one kind lie.
+/// Placement of the transients of one kind (buffers or images).
 struct TransientPlan {
   std::vector<Placement> placements;
-  std::vector<uint32_t> resources;  ///< of each placement
-  std::vector<uint32_t> tenants;    ///< while planning: placements that a later one may have to wait for
+  std::vector<uint32_t> resources;        ///< of each placement
+  std::vector<uint32_t> aliasCandidates;  ///< during planning: placements that a later one may have to wait for
   std::vector<uint64_t> heapSizes;
 };
 
@@ -134,7 +134,7 @@ struct Readback {
   uint64_t offset = 0, size = 0;  ///< in it
 };
 
-/// The frame whose plan the graph holds, as it was declared and planned.
+/// The last completely planned frame, for comparison and reuse.
 struct PlannedFrame {
   bool valid = false;
   std::vector<PassData> passes;
@@ -152,15 +152,15 @@ class GraphImpl {
  public:
   GraphImpl();
   ~GraphImpl();
-  /// Expires with the graph: for modules that wait for read-backs of one that its host may destroy before.
+  /// Expires with the graph. For modules that wait for read-backs of a graph which the host may destroy.
   std::weak_ptr<GraphImpl> watched() const { return life_; }
 
   // graph.cpp
   void reset();
   ResourceRef add(ResourceData resource);
   void checkStates(const ResourceData& import);
-  /// Null, with the frame's error set, for a ref that is stale, consumed or none at all.
-  ResourceData* resolve(ResourceRef ref, bool isImage, uint32_t pass, const char* doing);
+  /// Null, with the frame's error set, if the ref is empty, stale or consumed.
+  ResourceData* resolve(ResourceRef ref, bool isImage, uint32_t pass, const char* verb);
   void read(uint32_t pass, ResourceRef ref, bool isImage, Use use);
   ResourceRef write(uint32_t pass, ResourceRef ref, bool isImage, Use use, Load load);
   void addTarget(uint32_t pass, ResourceRef ref, Load load, const VkClearValue& clear);
@@ -169,10 +169,10 @@ class GraphImpl {
   void fail(std::string message);
   std::string quoted(uint32_t name) const { return "'" + std::string(names[name]) + "'"; }
   const Access* accessOf(uint32_t pass, uint32_t resource) const;
-  /// What the pass that is being recorded does with this version of a resource; asserted that it does.
-  const Access& recorded(uint32_t pass, ResourceRef ref) const;
-  /// Whether the pass may use the resource so, by what its host has created it for.
-  bool madeFor(uint32_t pass, const ResourceData& resource, Use use);
+  /// The access that the pass declared for this version of a resource; asserts that there is one.
+  const Access& declaredAccess(uint32_t pass, ResourceRef ref) const;
+  /// Whether an import's usage flags allow this use; sets the frame's error if not.
+  bool checkUsage(uint32_t pass, const ResourceData& resource, Use use);
 
   // compile.cpp
   Expected<void> compile();
@@ -181,19 +181,19 @@ class GraphImpl {
   void reportHeaps();
   TransientPlan& planOf(const ResourceData& resource) { return plans[resource.isImage]; }
   const TransientPlan& planOf(const ResourceData& resource) const { return plans[resource.isImage]; }
-  /// Where what concerns a resource's memory stands: level 0 of a pyramid, else itself.
+  /// The resource that holds placement and usage: level 0 of an image with mip levels, otherwise itself.
   ResourceData& memoryOf(uint32_t resource) { return resources[resource - resources[resource].level]; }
   const ResourceData& memoryOf(uint32_t resource) const { return resources[resource - resources[resource].level]; }
-  HazardState& stateNow(ResourceData& resource);
-  void waitForMemory(uint32_t resource, const HazardState& seam);
+  HazardState& currentState(ResourceData& resource);
+  void waitForAliasedMemory(uint32_t resource, const HazardState& previousFrame);
   void planBarriers();
   void makeReport();
   Expected<void> checkImports() const;
 
   // plan_reuse.cpp
-  /// At the end of a frame: its plan may serve the next one.
+  /// Saves the plan at the end of a frame.
   void keepPlan();
-  /// Whether the frame is declared like the one before; it then has that one's plan.
+  /// Copies the previous frame's plan if the declarations are equal; false if they differ.
   bool reusePlan();
 
   // prepare.cpp
@@ -201,11 +201,11 @@ class GraphImpl {
   Expected<void> growHeaps(DeviceImpl& device);
   Expected<void> resolveBuffers(DeviceImpl& device);
   Expected<void> placeReadbacks(DeviceImpl& device, FrameSlot& slot);
-  Expected<void> learnImages(DeviceImpl& device);
+  Expected<void> queryImageRequirements(DeviceImpl& device);
   Expected<void> resolveImages(DeviceImpl& device, FrameSlot& slot);
-  void shareSets();
-  Expected<void> makeSets(DeviceImpl& device, FrameSlot& slot);
-  /// Timings and read-backs of frames that have completed since the last look.
+  void deduplicateSets();
+  Expected<void> allocateSets(DeviceImpl& device, FrameSlot& slot);
+  /// Updates the timings from the newest completed frame.
   void collect();
   std::span<const std::byte> data(Ticket ticket);
 
@@ -214,7 +214,7 @@ class GraphImpl {
   void beginTargets(const PassData& pass, VkCommandBuffer commandBuffer) const;
 
   // describe.cpp
-  std::string memoryText(uint32_t resource) const;
+  std::string memoryLabel(uint32_t resource) const;
   std::string dot() const;
   std::string json() const;
   std::vector<TransientReport> transients() const;
@@ -222,10 +222,10 @@ class GraphImpl {
   Names names;
   RecordArena arena;
   uint32_t epoch = 0;
-  std::optional<Error> error;  ///< the first mistake in the declaration
+  std::optional<Error> error;  ///< the first declaration error
   bool compiled = false, prepared = false;
-  bool timed = true;
-  bool draws = false;  ///< some frame so far has drawn
+  bool timingsEnabled = true;
+  bool usesGraphics = false;  ///< a frame so far declared a graphics use
 
   std::vector<PassData> passes;
   std::vector<ResourceData> resources;
@@ -239,23 +239,23 @@ class GraphImpl {
   MemoryPlanner planner;
   TransientPlan plans[2];  ///< of buffers, of images
   std::vector<TransientHeap> heapReports;
-  PlannedFrame before;
-  bool planWhole = false;                     ///< of this frame: nothing has failed since compile()
-  uint64_t plansMade = 0;                     ///< how often a plan could not be taken over
-  std::vector<PassedBarrier> barriersPassed;  ///< while planning
+  PlannedFrame previousPlan;
+  bool planComplete = false;                    ///< compile(), and prepare() if called, succeeded for this frame
+  uint64_t plansMade = 0;                       ///< number of plans that were not reused
+  std::vector<AppliedBarrier> appliedBarriers;  ///< during planning
   std::vector<Cause> causes;
   std::vector<Transition> transitions;
   std::vector<VkImageMemoryBarrier2> imageBarriers;  ///< of `transitions`, made by prepare()
   PlannedBarrier finalBarrier;
   std::vector<PassReport> reports;
-  std::vector<uint32_t> rowOfName;  ///< scratch: where a name stands in a list
+  std::vector<uint32_t> rowByName;  ///< scratch: name id -> row of a report
 
   DeviceImpl* device = nullptr;
   std::vector<Buffer> heaps;
   ImageStore images;
   std::vector<std::unique_ptr<FrameSlot>> slots;
   FrameSlot* slot = nullptr;  ///< of the prepared frame
-  SetSharing sharing;
+  SetDeduplication setDedup;
   std::vector<Timing> timings;
   std::vector<uint64_t> stamps;
   uint64_t timingsFrame = 0;

@@ -19,12 +19,12 @@ bool accessesCover(VkAccessFlags2 have, VkAccessFlags2 need) {
   return (need & ~have) == 0;
 }
 
-/// What a write's reading half is, seen as a use of its own.
-uint32_t readingHalf(Use use) { return use == Use::ComputeWrite || use == Use::ComputeAtomic ? useBit(Use::ComputeRead) : 0; }
+/// The bit of the read use that a read-write use implies.
+uint32_t readPart(Use use) { return use == Use::ComputeWrite || use == Use::ComputeAtomic ? useBit(Use::ComputeRead) : 0; }
 
 }  // namespace
 
-uint32_t usesSeeing(const Scope& scope) {
+uint32_t usesMadeVisible(const Scope& scope) {
   uint32_t bits = 0;
   for (size_t i = 1; i < kUseCount; ++i) {
     const UseRow& row = useRow(Use(i));
@@ -53,7 +53,7 @@ HazardState HazardState::after(const UseRow& row) {
   if (row.use == Use::Unknown) {
     state.writeStage_ = state.readStage_ = row.stage;
     state.writeAccess_ = row.write;
-  } else if (row.use == Use::HostRead) {  // the host is done, but only it has seen the device's writes
+  } else if (row.use == Use::HostRead) {  // the host has finished, but the writes are visible only to the host
     state.writeStage_ = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     state.writeAccess_ = VK_ACCESS_2_MEMORY_WRITE_BIT;
     state.visible_ = useBit(row.use);
@@ -61,17 +61,17 @@ HazardState HazardState::after(const UseRow& row) {
     state.writeStage_ = row.stage;
     state.writeAccess_ = row.write;
     state.atomic_ = row.use == Use::ComputeAtomic;
-  } else {  // whoever wrote it, this read has seen it, and waiting for the read waits for the write
+  } else {  // the read has seen the earlier write, so waiting for the read is enough
     state.writeStage_ = state.readStage_ = row.stage;
     state.writeAccess_ = VK_ACCESS_2_MEMORY_WRITE_BIT;
     state.visible_ = useBit(row.use);
-    state.writeBefore_ = row.stage;
+    state.stagesAfterWrite_ = row.stage;
     state.available_ = true;
   }
   return state;
 }
 
-HazardState HazardState::seam(bool draws) {
+HazardState HazardState::previousFrame(bool usesGraphics) {
   HazardState state;
   const auto wrote = [&](Use use) {
     state.writeStage_ |= useRow(use).stage;
@@ -79,17 +79,17 @@ HazardState HazardState::seam(bool draws) {
   };
   for (Use use : {Use::ComputeWrite, Use::CopyTarget}) wrote(use);
   for (Use use : {Use::ComputeRead, Use::Indirect, Use::CopySource}) state.readStage_ |= useRow(use).stage;
-  if (draws) {
+  if (usesGraphics) {
     for (Use use : {Use::ColorTarget, Use::DepthTarget}) wrote(use);
     state.readStage_ |= useRow(Use::DrawRead).stage | useRow(Use::VertexInput).stage;
   }
   return state;
 }
 
-Hazard HazardState::need(const UseRow& row, bool keep, Scope& scope) const {
-  const bool sees = (visible_ & useBit(row.use)) != 0;
+Hazard HazardState::addDependency(const UseRow& row, bool keep, Scope& scope) const {
+  const bool isVisible = (visible_ & useBit(row.use)) != 0;
   if (!row.write) {
-    if (!writeStage_ || sees) return Hazard::None;
+    if (!writeStage_ || isVisible) return Hazard::None;
     scope.sourceStage |= writeStage_;
     scope.sourceAccess |= writeAccess_;
     scope.targetStage |= row.stage;
@@ -97,13 +97,13 @@ Hazard HazardState::need(const UseRow& row, bool keep, Scope& scope) const {
     return Hazard::ReadAfterWrite;
   }
   if (atomic_ && row.use == Use::ComputeAtomic && !readStage_) return Hazard::None;
-  // Where the reads have waited for the last write, waiting for them is waiting for it, and moves no memory:
-  // unless this write also reads and has not seen it.
+  // If the reads waited for the last write, an execution dependency on them is enough, unless this use also
+  // reads and the last write is not visible to it.
   const bool reads = keep && row.read != 0;
-  const bool seesOld = sees || (visible_ & readingHalf(row.use)) != 0;
-  const bool waitForReads = readStage_ && !stagesCover(readsBefore_, row.stage);
-  const bool ordered = available_ && (stagesCover(writeBefore_, row.stage) || (waitForReads && (readStage_ & writeBefore_)));
-  const bool waitForWrite = writeStage_ && !sees && (reused_ || !ordered || (reads && !seesOld));
+  const bool seesOldContent = isVisible || (visible_ & readPart(row.use)) != 0;
+  const bool waitForReads = readStage_ && !stagesCover(stagesAfterReads_, row.stage);
+  const bool ordered = available_ && (stagesCover(stagesAfterWrite_, row.stage) || (waitForReads && (readStage_ & stagesAfterWrite_)));
+  const bool waitForWrite = writeStage_ && !isVisible && (aliased_ || !ordered || (reads && !seesOldContent));
   if (!waitForWrite && !waitForReads) return Hazard::None;
   scope.targetStage |= row.stage;
   if (waitForReads) scope.sourceStage |= readStage_;
@@ -114,61 +114,61 @@ Hazard HazardState::need(const UseRow& row, bool keep, Scope& scope) const {
   return Hazard::WriteAfterWrite;
 }
 
-void HazardState::passed(const Scope& scope, uint32_t seeing) {
+void HazardState::applyBarrier(const Scope& scope, uint32_t visibleUses) {
   if (writeStage_ && stagesCover(scope.sourceStage, writeStage_) && accessesCover(scope.sourceAccess, writeAccess_)) {
     available_ = true;
-    visible_ |= seeing;
-    writeBefore_ |= scope.targetStage;
-  } else if (available_ && (scope.sourceStage & writeBefore_)) {
-    writeBefore_ |= scope.targetStage;
+    visible_ |= visibleUses;
+    stagesAfterWrite_ |= scope.targetStage;
+  } else if (available_ && (scope.sourceStage & stagesAfterWrite_)) {
+    stagesAfterWrite_ |= scope.targetStage;
   }
-  if (readStage_ && stagesCover(scope.sourceStage, readStage_)) readsBefore_ |= scope.targetStage;
+  if (readStage_ && stagesCover(scope.sourceStage, readStage_)) stagesAfterReads_ |= scope.targetStage;
 }
 
-void HazardState::used(Use use) {
+void HazardState::applyUse(Use use) {
   const UseRow& row = useRow(use);
   if (!row.write) {
     readStage_ |= row.stage;
-    readsBefore_ = 0;
+    stagesAfterReads_ = 0;
     return;
   }
   writeStage_ = row.stage;
   writeAccess_ = row.write;
-  readStage_ = readsBefore_ = writeBefore_ = 0;
+  readStage_ = stagesAfterReads_ = stagesAfterWrite_ = 0;
   visible_ = 0;
   available_ = false;
   atomic_ = use == Use::ComputeAtomic;
-  reused_ = false;
+  aliased_ = false;
 }
 
 void HazardState::changeLayout(const UseRow& row, Scope& scope) {
   scope = {writeStage_ | readStage_, writeAccess_, row.stage, row.read | row.write};
-  // From here on it is as if the change were a write in the stage that waits for it.
+  // From here on the transition counts as a write in the stage that waits for it.
   *this = {};
-  writeStage_ = writeBefore_ = row.stage;
+  writeStage_ = stagesAfterWrite_ = row.stage;
   writeAccess_ = VK_ACCESS_2_MEMORY_WRITE_BIT;
-  visible_ = usesSeeing(scope);
+  visible_ = usesMadeVisible(scope);
   available_ = true;
 }
 
-void HazardState::join(const HazardState& other) {
+void HazardState::merge(const HazardState& other) {
   if (!other.writeStage_ && !other.readStage_) return;
   if (!writeStage_ && !readStage_) {
     *this = other;
     atomic_ = false;  // another resource's atomics do not commute with this one's
-    reused_ = true;
+    aliased_ = true;
     return;
   }
   constexpr VkPipelineStageFlags2 all = ~VkPipelineStageFlags2(0);
-  readsBefore_ = (readStage_ ? readsBefore_ : all) & (other.readStage_ ? other.readsBefore_ : all);
-  writeBefore_ = (writeStage_ ? writeBefore_ : all) & (other.writeStage_ ? other.writeBefore_ : all);
+  stagesAfterReads_ = (readStage_ ? stagesAfterReads_ : all) & (other.readStage_ ? other.stagesAfterReads_ : all);
+  stagesAfterWrite_ = (writeStage_ ? stagesAfterWrite_ : all) & (other.writeStage_ ? other.stagesAfterWrite_ : all);
   writeStage_ |= other.writeStage_;
   writeAccess_ |= other.writeAccess_;
   readStage_ |= other.readStage_;
   visible_ &= other.visible_;
   available_ = available_ && other.available_;
   atomic_ = false;
-  reused_ = true;
+  aliased_ = true;
 }
 
 }  // namespace rill

@@ -1,8 +1,8 @@
 #pragma once
-// What has happened to one resource so far, and which barrier its next use needs. Knows no graph.
+// Tracks the accesses to one resource and computes the barrier that its next use needs. Independent of the graph.
 //
-// Barriers are global memory barriers, so one that is recorded for a resource serves every other whose last writer it
-// covers: passed() tells the others, and they then need none of their own.
+// Barriers are global memory barriers, so a barrier recorded for one resource also serves all others whose
+// last writer it covers: applyBarrier() updates their states, and they need no barrier of their own.
 #include "graph/use_table.hpp"
 
 namespace rill {
@@ -16,40 +16,41 @@ struct Scope {
   friend bool operator==(const Scope&, const Scope&) = default;
 };
 
-/// Bits of the uses that a barrier with this target makes a write visible to.
-uint32_t usesSeeing(const Scope& scope);
+/// Bits of the uses to which a barrier with this target scope makes writes visible.
+uint32_t usesMadeVisible(const Scope& scope);
 
 enum class Hazard : uint8_t { None, ReadAfterWrite, WriteAfterRead, WriteAfterWrite };
 const char* hazardName(Hazard hazard);
 
 class HazardState {
  public:
-  static HazardState nothing() { return {}; }
-  /// After `last`, done before this graph by someone else.
+  static HazardState untouched() { return {}; }
+  /// The state after `last`, an access by the host or an earlier graph.
   static HazardState after(const UseRow& last);
-  /// A transient's memory at the start of a frame: whatever the frame before did to it, draws included where there may have been any.
-  static HazardState seam(bool draws);
+  /// A transient's memory at the start of a frame: any access by the previous frame, including graphics
+  /// stages if `usesGraphics`.
+  static HazardState previousFrame(bool usesGraphics);
 
-  /// Adds to `scope` what must be waited for before `use`; `keep`: a write that also needs the old content.
-  Hazard need(const UseRow& row, bool keep, Scope& scope) const;
-  /// A barrier was recorded, here or for another resource. `seeing` is usesSeeing(scope).
-  void passed(const Scope& scope, uint32_t seeing);
-  void used(Use use);
-  /// An image changes its layout before `use`, in a barrier of its own: `scope` gets what that must wait for and who sees it.
+  /// Adds to `scope` the dependencies of the use `row`. `keep`: a write that also needs the old content.
+  Hazard addDependency(const UseRow& row, bool keep, Scope& scope) const;
+  /// Updates the state after a barrier recorded for any resource. `visibleUses` is usesMadeVisible(scope).
+  void applyBarrier(const Scope& scope, uint32_t visibleUses);
+  void applyUse(Use use);
+  /// A layout transition before the use `row`, in an image barrier of its own, whose scope is returned in `scope`.
   void changeLayout(const UseRow& row, Scope& scope);
-  /// The memory was another resource's before: this one must wait for what happened to both.
-  void join(const HazardState& other);
+  /// Adds the state of a resource that used the same memory before: dependencies of both apply.
+  void merge(const HazardState& other);
 
  private:
   VkPipelineStageFlags2 writeStage_ = 0;
   VkAccessFlags2 writeAccess_ = 0;
-  VkPipelineStageFlags2 readStage_ = 0;    ///< of the reads since the last write
-  VkPipelineStageFlags2 readsBefore_ = 0;  ///< stages that already wait for all of these reads
-  VkPipelineStageFlags2 writeBefore_ = 0;  ///< stages that already wait for the last write, directly or through other stages
-  uint32_t visible_ = 0;                   ///< bits of the uses that see the last write
-  bool available_ = false;                 ///< some barrier has waited for the last write
-  bool atomic_ = false;                    ///< the last write was ComputeAtomic
-  bool reused_ = false;                    ///< the memory was another resource's: of its bytes some were written and never read
+  VkPipelineStageFlags2 readStage_ = 0;         ///< of the reads since the last write
+  VkPipelineStageFlags2 stagesAfterReads_ = 0;  ///< stages that already wait for all of these reads
+  VkPipelineStageFlags2 stagesAfterWrite_ = 0;  ///< stages that already wait for the last write, directly or through other stages
+  uint32_t visible_ = 0;                        ///< bits of the uses to which the last write is visible
+  bool available_ = false;                      ///< a barrier has made the last write available
+  bool atomic_ = false;                         ///< the last write was ComputeAtomic
+  bool aliased_ = false;  ///< the memory belonged to another resource, which may have written bytes that were never read
 };
 
 }  // namespace rill

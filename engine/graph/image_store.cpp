@@ -10,7 +10,7 @@
 namespace rill {
 namespace {
 
-std::string described(const ImageKind& kind, std::string_view name) {
+std::string imageText(const ImageKind& kind, std::string_view name) {
   return "image '" + std::string(name) + "' of " + std::to_string(kind.desc.width) + " x " + std::to_string(kind.desc.height) +
          " texels of format " + std::to_string(kind.desc.format);
 }
@@ -29,8 +29,8 @@ VkImageCreateInfo createInfo(const ImageKind& kind) {
   return create;
 }
 
-/// What of `usage` this device cannot do with images of this format; null: nothing.
-const char* lacking(DeviceImpl& device, const ImageKind& kind) {
+/// The first usage that the device does not support for this format; null: all are supported.
+const char* unsupportedUsage(DeviceImpl& device, const ImageKind& kind) {
   VkFormatProperties properties{};
   device.instance.GetPhysicalDeviceFormatProperties(device.physical, kind.desc.format, &properties);
   constexpr struct {
@@ -93,20 +93,20 @@ void ImageStore::retire(const Placed& placed) {
   device_->retired.add(device_->clock.recording, VK_OBJECT_TYPE_IMAGE, placed.handles.image);
 }
 
-ImageNeeds ImageStore::needs(const ImageKind& kind) const {
+ImageRequirements ImageStore::requirements(const ImageKind& kind) const {
   const auto found = std::ranges::find(known_, kind, &Known::kind);
   return found != known_.end() ? found->needs
-                               : ImageNeeds{(kind.desc.levels > 1 ? 24ull : 16ull) * kind.desc.width * kind.desc.height, 256};
+                               : ImageRequirements{(kind.desc.levels > 1 ? 24ull : 16ull) * kind.desc.width * kind.desc.height, 256};
 }
 
-Expected<bool> ImageStore::learn(DeviceImpl& device, const ImageKind& kind, std::string_view name) {
+Expected<bool> ImageStore::query(DeviceImpl& device, const ImageKind& kind, std::string_view name) {
   device_ = &device;
   if (std::ranges::find(known_, kind, &Known::kind) != known_.end()) return false;
-  if (const char* what = lacking(device, kind))
-    return Error{ErrorKind::BadInput, described(kind, name) + ": " + device.info.name + " has no " + what + " of that format"};
+  if (const char* what = unsupportedUsage(device, kind))
+    return Error{ErrorKind::BadInput, imageText(kind, name) + ": " + device.info.name + " does not support " + what + " of this format"};
   if (std::max(kind.desc.width, kind.desc.height) > device.limits.maxImageDimension2D)
-    return Error{ErrorKind::BadInput, described(kind, name) + ": " + device.info.name + " allows " +
-                                          std::to_string(device.limits.maxImageDimension2D) + " a side"};
+    return Error{ErrorKind::BadInput, imageText(kind, name) + ": " + device.info.name + " allows at most " +
+                                          std::to_string(device.limits.maxImageDimension2D) + " per side"};
   const VkImageCreateInfo create = createInfo(kind);
   const VkDeviceImageMemoryRequirements ask{VK_STRUCTURE_TYPE_DEVICE_IMAGE_MEMORY_REQUIREMENTS, nullptr, &create,
                                             VK_IMAGE_ASPECT_COLOR_BIT};
@@ -117,16 +117,16 @@ Expected<bool> ImageStore::learn(DeviceImpl& device, const ImageKind& kind, std:
   return true;
 }
 
-Expected<void> ImageStore::growHeaps(DeviceImpl& device, std::span<const uint64_t> sizes, const ImageNeeds& needs) {
+Expected<void> ImageStore::growHeaps(DeviceImpl& device, std::span<const uint64_t> sizes, const ImageRequirements& needs) {
   if (heaps_.size() < sizes.size()) heaps_.resize(sizes.size());
-  const auto suits = [&](const Heap& heap, uint64_t size) {
+  const auto isSuitable = [&](const Heap& heap, uint64_t size) {
     const MemoryBlock& block = heap.block;
     return block.memory && heap.size >= size && (needs.memoryTypes >> block.memoryType & 1u) && block.offset % needs.alignment == 0;
   };
   for (uint32_t i = 0; i < sizes.size(); ++i) {
     Heap& heap = heaps_[i];
-    if (suits(heap, sizes[i])) continue;
-    // Frames in flight may still use the old one, and what lies in it.
+    if (isSuitable(heap, sizes[i])) continue;
+    // Frames in flight may still use the old heap and its images.
     for (const Placed& placed : placed_)
       if (placed.heap == i) retire(placed);
     std::erase_if(placed_, [i](const Placed& placed) { return placed.heap == i; });
@@ -149,14 +149,14 @@ Expected<const ImageStore::Handles*> ImageStore::place(DeviceImpl& device, const
   Placed made{kind, heap, offset, {}};
   const VkImageCreateInfo create = createInfo(kind);
   if (VkResult r = device.vk.CreateImage(device.handle, &create, device.callbacks, &made.handles.image); r != VK_SUCCESS)
-    return vulkanError(r, "creating " + described(kind, name));
+    return vulkanError(r, "creating " + imageText(kind, name));
   VkResult bound =
       device.vk.BindImageMemory(device.handle, made.handles.image, heaps_[heap].block.memory, heaps_[heap].block.offset + offset);
   if (bound != VK_SUCCESS) {
     retire(made);
-    return vulkanError(bound, "binding the memory of " + described(kind, name));
+    return vulkanError(bound, "binding the memory of " + imageText(kind, name));
   }
-  if (kind.usage & kViewedUsage) {
+  if (kind.usage & kViewUsage) {
     for (uint32_t level = 0; level < kind.desc.levels; ++level) {
       auto view = makeImageView(device, made.handles.image, kind.desc.format, level, name);
       if (!view) {
@@ -170,7 +170,7 @@ Expected<const ImageStore::Handles*> ImageStore::place(DeviceImpl& device, const
   return &placed_.back().handles;
 }
 
-void ImageStore::sweep() {
+void ImageStore::retireUnused() {
   for (const Placed& placed : placed_)
     if (!placed.used) retire(placed);
   std::erase_if(placed_, [](const Placed& placed) { return !placed.used; });

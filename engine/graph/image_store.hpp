@@ -1,5 +1,5 @@
 #pragma once
-// Transient images on the device: what they take of memory, the heaps that they lie in, and their handles, kept from frame to frame.
+// Transient images on the device: their memory requirements, heaps and handles, kept from frame to frame.
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -19,20 +19,20 @@ struct ImageKind {
   friend bool operator==(const ImageKind&, const ImageKind&) = default;
 };
 
-struct ImageNeeds {
+struct ImageRequirements {
   uint64_t size = 0, alignment = 1;
   uint32_t memoryTypes = ~0u;
 };
 
-/// Uses that see an image through a view.
-inline constexpr VkImageUsageFlags kViewedUsage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
-                                                  VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+/// Usages that access an image through a view.
+inline constexpr VkImageUsageFlags kViewUsage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                                                VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
 
 class ImageStore {
  public:
   struct Handles {
     VkImage image = VK_NULL_HANDLE;
-    std::vector<VkImageView> views;  ///< one a level; empty where no use needs them
+    std::vector<VkImageView> views;  ///< one per mip level; empty if no use needs views
   };
 
   ImageStore() = default;
@@ -40,21 +40,22 @@ class ImageStore {
   ImageStore(const ImageStore&) = delete;
   ImageStore& operator=(const ImageStore&) = delete;
 
-  /// What the device said of this kind; before it was asked, 16 bytes a texel.
-  ImageNeeds needs(const ImageKind& kind) const;
-  /// Asks the device, once a kind; true where that was news. BadInput, naming the image, where the device cannot make it.
-  Expected<bool> learn(DeviceImpl& device, const ImageKind& kind, std::string_view name);
-  /// Heaps of at least these sizes, that images with the alignment and memory types of `needs` can lie in.
-  Expected<void> growHeaps(DeviceImpl& device, std::span<const uint64_t> sizes, const ImageNeeds& needs);
-  /// The image of this kind at this place, made if there is none yet.
+  /// The queried requirements; before query(), an estimate of 16 bytes per texel (24 with mip levels).
+  ImageRequirements requirements(const ImageKind& kind) const;
+  /// Queries the device once per kind; true if the kind is new. BadInput, naming the image, if the device
+  /// does not support it.
+  Expected<bool> query(DeviceImpl& device, const ImageKind& kind, std::string_view name);
+  /// Grows the heaps to at least these sizes, with the alignment and memory types of `needs`.
+  Expected<void> growHeaps(DeviceImpl& device, std::span<const uint64_t> sizes, const ImageRequirements& needs);
+  /// Returns the image of this kind at this placement, created on first use.
   Expected<const Handles*> place(DeviceImpl& device, const ImageKind& kind, uint32_t heap, uint64_t offset, std::string_view name);
-  /// Retires what has not been placed since the last sweep.
-  void sweep();
+  /// Retires images that have not been placed since the last call.
+  void retireUnused();
 
  private:
   struct Known {
     ImageKind kind;
-    ImageNeeds needs;
+    ImageRequirements needs;
   };
   struct Heap {
     MemoryBlock block;
@@ -75,11 +76,11 @@ class ImageStore {
   std::vector<Placed> placed_;
 };
 
-/// A view of one level; of a depth format its depth alone.
+/// A view of one mip level; for depth formats, of the depth aspect only.
 Expected<VkImageView> makeImageView(DeviceImpl& device, VkImage image, VkFormat format, uint32_t level, std::string_view name);
 
 bool hasDepth(VkFormat format);
-/// All that an image of this format has: what barriers name.
+/// All aspects of the format, as barriers need them.
 VkImageAspectFlags aspectsOf(VkFormat format);
 
 }  // namespace rill

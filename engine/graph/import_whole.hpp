@@ -1,5 +1,5 @@
 #pragma once
-// A buffer of the engine's own in a graph.
+// Import of the engine's own buffers into a graph.
 #include <string_view>
 
 #include "gpu/resources.hpp"
@@ -7,7 +7,7 @@
 
 namespace rill {
 
-/// All of it. What is written to it stays there after the graph.
+/// Imports the whole buffer. Its content persists after the graph.
 inline BufferRef importWhole(Graph& graph, std::string_view name, const Buffer& buffer) {
   return graph.import(name, {.handle = buffer.handle(), .size = buffer.size()});
 }

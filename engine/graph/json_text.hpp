@@ -1,5 +1,5 @@
 #pragma once
-// JSON as it is written: the engine proper does without the library that reads scenes, so that a host gets none of it.
+// A minimal JSON writer, so that the engine library does not depend on nlohmann_json.
 #include <cstdint>
 #include <string>
 #include <string_view>

@@ -25,7 +25,7 @@ void MemoryPlanner::plan(std::span<Placement> placements, uint64_t limit, std::v
     item.heap = 0;
     item.offset = 0;
     for (const Taken& taken : taken_) {
-      while (item.heap < taken.heap) {  // the rest of this heap is free: enough, or on to the next
+      while (item.heap < taken.heap) {  // use the free end of this heap if it is large enough, else try the next heap
         if (item.offset + item.size <= limit) break;
         ++item.heap, item.offset = 0;
       }

@@ -1,16 +1,16 @@
 #pragma once
-// Where transients lie: those whose lifetimes do not meet share memory. Knows no graph and no Vulkan.
+// Placement of transients: those with disjoint lifetimes may share memory. Independent of the graph and of Vulkan.
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace rill {
 
-/// Vulkan allows no device to ask for more than 256 for storage, uniform and texel buffers alike.
+/// Upper limit that Vulkan sets for the storage, uniform and texel buffer offset alignments, in bytes.
 inline constexpr uint64_t kTransientAlignment = 256;
 
 struct Placement {
-  uint32_t first = 0, last = 0;  ///< passes that use it, both included
+  uint32_t first = 0, last = 0;  ///< first and last pass that uses it (inclusive)
   uint64_t size = 0;
   uint64_t alignment = kTransientAlignment;
   uint32_t heap = 0;    ///< out
@@ -19,7 +19,8 @@ struct Placement {
 
 class MemoryPlanner {
  public:
-  /// First fit in order of first use; `heaps` gets the size of each. No heap exceeds `limit`, and no placement may.
+  /// First fit in order of first use; returns the heap sizes in `heaps`. No heap exceeds `limit` bytes; each
+  /// placement must be 1 .. `limit` bytes large.
   void plan(std::span<Placement> placements, uint64_t limit, std::vector<uint64_t>& heaps);
 
  private:

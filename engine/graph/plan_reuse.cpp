@@ -1,4 +1,4 @@
-// A frame that is declared like the one before needs no new plan: what compile() found then is taken over.
+// A frame declared like the previous one reuses its plan.
 #include <algorithm>
 #include <functional>
 
@@ -13,7 +13,7 @@ bool same(const PassData& a, const PassData& b) {
   return a.name == b.name && a.root == b.root && a.readback == b.readback && same(a.accesses, b.accesses) && same(a.targets, b.targets);
 }
 
-/// But for handles, which no plan depends on, and for what an image takes of memory, which is found.
+/// Ignores handles, which plans do not depend on, and image sizes, which are results of planning.
 bool same(const ResourceData& a, const ResourceData& b) {
   return a.name == b.name && a.imported == b.imported && a.isImage == b.isImage && a.before == b.before && a.after == b.after &&
          a.level == b.level && (a.isImage ? a.desc == b.desc : a.size == b.size);
@@ -27,32 +27,32 @@ bool equal(const std::vector<T>& a, const std::vector<T>& b, Equal&& equals) {
 }  // namespace
 
 void GraphImpl::keepPlan() {
-  if (!compiled || !planWhole) return;
-  std::swap(passes, before.passes);
-  std::swap(resources, before.resources);
-  std::swap(accesses, before.accesses);
-  std::swap(targets, before.targets);
-  before.valid = true;
-  planWhole = false;
+  if (!compiled || !planComplete) return;
+  std::swap(passes, previousPlan.passes);
+  std::swap(resources, previousPlan.resources);
+  std::swap(accesses, previousPlan.accesses);
+  std::swap(targets, previousPlan.targets);
+  previousPlan.valid = true;
+  planComplete = false;
 }
 
 bool GraphImpl::reusePlan() {
   const auto sameTarget = [](const Target& a, const Target& b) { return a.resource == b.resource; };
-  if (!before.valid || !equal(passes, before.passes, [](const auto& a, const auto& b) { return same(a, b); }) ||
-      !equal(resources, before.resources, [](const auto& a, const auto& b) { return same(a, b); }) ||
-      !equal(accesses, before.accesses, std::equal_to<>()) || !equal(targets, before.targets, sameTarget))
+  if (!previousPlan.valid || !equal(passes, previousPlan.passes, [](const auto& a, const auto& b) { return same(a, b); }) ||
+      !equal(resources, previousPlan.resources, [](const auto& a, const auto& b) { return same(a, b); }) ||
+      !equal(accesses, previousPlan.accesses, std::equal_to<>()) || !equal(targets, previousPlan.targets, sameTarget))
     return false;
   for (size_t i = 0; i < passes.size(); ++i) {
-    passes[i].alive = before.passes[i].alive;
-    passes[i].reason = before.passes[i].reason;
-    passes[i].barrier = before.passes[i].barrier;
+    passes[i].alive = previousPlan.passes[i].alive;
+    passes[i].reason = previousPlan.passes[i].reason;
+    passes[i].barrier = previousPlan.passes[i].barrier;
   }
   for (size_t i = 0; i < resources.size(); ++i) {
-    resources[i].placement = before.resources[i].placement;
-    resources[i].usage = before.resources[i].usage;
-    resources[i].size = before.resources[i].size;
+    resources[i].placement = previousPlan.resources[i].placement;
+    resources[i].usage = previousPlan.resources[i].usage;
+    resources[i].size = previousPlan.resources[i].size;
   }
-  for (size_t i = 0; i < targets.size(); ++i) targets[i].store = before.targets[i].store;
+  for (size_t i = 0; i < targets.size(); ++i) targets[i].store = previousPlan.targets[i].store;
   return true;
 }
 

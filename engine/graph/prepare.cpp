@@ -1,4 +1,4 @@
-// Everything of a frame that can fail: the transients' memory, descriptor sets, query pools; and what comes back from the device.
+// Everything in a frame that can fail: transient memory, descriptor sets, query pools. Also collects timings and read-backs.
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -9,16 +9,16 @@
 namespace rill {
 
 Expected<void> GraphImpl::prepare(Device& owner) {
-  if (!compiled) return Error{ErrorKind::BadInput, "Graph::prepare: the frame has no compile() that succeeded; expected one before it"};
+  if (!compiled) return Error{ErrorKind::BadInput, "Graph::prepare: call compile() successfully before prepare()"};
   DeviceImpl& d = owner.impl();
   if (device && device != &d)
-    return Error{ErrorKind::BadInput, "Graph::prepare: the graph was prepared for another device before; expected a graph for each"};
+    return Error{ErrorKind::BadInput, "Graph::prepare: the graph was prepared with another device; use one graph per device"};
   device = &d;
-  prepared = planWhole = false;
+  prepared = planComplete = false;
   collect();
-  if (draws && !d.draws)
-    return Error{ErrorKind::NoDevice, "the frame draws, but the queue family that Rill was given on '" + d.info.name + "' has no graphics"};
-  if (auto ok = learnImages(d); !ok) return ok;
+  if (usesGraphics && !d.hasGraphics)
+    return Error{ErrorKind::NoDevice, "the frame uses graphics, but the queue family on '" + d.info.name + "' has none"};
+  if (auto ok = queryImageRequirements(d); !ok) return ok;
   if (auto ok = growHeaps(d); !ok) return ok;
   if (auto ok = resolveBuffers(d); !ok) return ok;
 
@@ -32,12 +32,12 @@ Expected<void> GraphImpl::prepare(Device& owner) {
   slot->frame = d.clock.recording;
   if (auto ok = resolveImages(d, *slot); !ok) return ok;
 
-  shareSets();
-  if (auto ok = makeSets(d, *slot); !ok) return ok;
+  deduplicateSets();
+  if (auto ok = allocateSets(d, *slot); !ok) return ok;
 
   if (auto ok = placeReadbacks(d, *slot); !ok) return ok;
 
-  if (timed && d.timestampMask) {
+  if (timingsEnabled && d.timestampMask) {
     for (const PassData& pass : passes)
       if (pass.alive) slot->timedNames.push_back(pass.name);
     const uint32_t needed = uint32_t(slot->timedNames.size()) + 1;
@@ -53,11 +53,11 @@ Expected<void> GraphImpl::prepare(Device& owner) {
       slot->queryCapacity = create.queryCount;
     }
   }
-  prepared = planWhole = true;
+  prepared = planComplete = true;
   return {};
 }
 
-/// One buffer after another, each filled as far as a buffer may be.
+/// Packs the read-backs into buffers of at most kMaxBufferBytes.
 Expected<void> GraphImpl::placeReadbacks(DeviceImpl& d, FrameSlot& target) {
   uint32_t buffer = 0;
   uint64_t bytes = 0;
@@ -79,22 +79,22 @@ Expected<void> GraphImpl::placeReadbacks(DeviceImpl& d, FrameSlot& target) {
     readback.buffer = buffer;
     readback.offset = bytes;
     bytes += size;
-    target.deliveries.push_back({readback.ticket, buffer, readback.offset, readback.size});
+    target.pendingReadbacks.push_back({readback.ticket, buffer, readback.offset, readback.size});
   }
   return bytes > 0 ? finish() : Expected<void>{};
 }
 
-Expected<void> GraphImpl::learnImages(DeviceImpl& d) {
-  bool news = false;
+Expected<void> GraphImpl::queryImageRequirements(DeviceImpl& d) {
+  bool changed = false;
   for (uint32_t index : plans[1].resources) {
     const ResourceData& image = resources[index];
-    auto learned = images.learn(d, {image.desc, image.usage}, names[image.name]);
-    if (!learned) return learned.error();
-    if (!*learned) continue;
-    news = true;
-    before.valid = false;  // planned by an estimate
+    auto queried = images.query(d, {image.desc, image.usage}, names[image.name]);
+    if (!queried) return queried.error();
+    if (!*queried) continue;
+    changed = true;
+    previousPlan.valid = false;  // it was based on an estimate
   }
-  if (news) {
+  if (changed) {
     placeTransients();
     planBarriers();
   }
@@ -109,7 +109,7 @@ Expected<void> GraphImpl::growHeaps(DeviceImpl& d) {
     constexpr uint64_t step = 64 * 1024;
     auto heap = d.createBuffer("transients", std::min((heapSizes[i] + step - 1) / step * step, kMaxBufferBytes), MemoryKind::Device);
     if (!heap) return heap.error();
-    heaps[i] = std::move(*heap);  // the old one is retired by the clock: frames in flight may still use it
+    heaps[i] = std::move(*heap);  // the old heap is retired, since frames in flight may still use it
   }
   return {};
 }
@@ -121,8 +121,8 @@ Expected<void> GraphImpl::resolveBuffers(DeviceImpl& d) {
     if (resource.isImage) continue;
     if (resource.imported) {
       if (resource.offset % alignment != 0)
-        return Error{ErrorKind::BadInput, "import " + quoted(resource.name) + " lies at offset " + std::to_string(resource.offset) +
-                                              ", which is no multiple of this device's " + std::to_string(alignment)};
+        return Error{ErrorKind::BadInput, "import " + quoted(resource.name) + ": offset " + std::to_string(resource.offset) +
+                                              " is not a multiple of " + std::to_string(alignment)};
     } else if (resource.placement != kNone) {
       const Placement& place = plans[0].placements[resource.placement];
       resource.buffer = heaps[place.heap].handle();
@@ -133,10 +133,10 @@ Expected<void> GraphImpl::resolveBuffers(DeviceImpl& d) {
 }
 
 Expected<void> GraphImpl::resolveImages(DeviceImpl& d, FrameSlot& target) {
-  ImageNeeds all;  // any image may lie in any heap
+  ImageRequirements all;  // combined, since any image may be placed in any heap
   for (uint32_t index : plans[1].resources) {
     const ResourceData& image = resources[index];
-    const ImageNeeds own = images.needs({image.desc, image.usage});
+    const ImageRequirements own = images.requirements({image.desc, image.usage});
     all.alignment = std::max(all.alignment, own.alignment);
     all.memoryTypes &= own.memoryTypes;
   }
@@ -153,7 +153,7 @@ Expected<void> GraphImpl::resolveImages(DeviceImpl& d, FrameSlot& target) {
         level.image = (*made)->image;
         if (!(*made)->views.empty()) level.view = (*made)->views[level.level];
       }
-    } else if (image.usage & kViewedUsage) {
+    } else if (image.usage & kViewUsage) {
       for (ResourceData& level : levels) {
         auto view = makeImageView(d, image.image, image.desc.format, level.level, names[image.name]);
         if (!view) return view.error();
@@ -161,7 +161,7 @@ Expected<void> GraphImpl::resolveImages(DeviceImpl& d, FrameSlot& target) {
       }
     }
   }
-  images.sweep();
+  images.retireUnused();
   imageBarriers.clear();
   for (const Transition& t : transitions)
     imageBarriers.push_back({VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
@@ -179,10 +179,10 @@ Expected<void> GraphImpl::resolveImages(DeviceImpl& d, FrameSlot& target) {
   return {};
 }
 
-void GraphImpl::shareSets() {
-  SetSharing& s = sharing;
+void GraphImpl::deduplicateSets() {
+  SetDeduplication& s = setDedup;
   s.unique.clear();
-  s.standsFor.resize(kernels.size());
+  s.representative.resize(kernels.size());
   s.table.assign(std::bit_ceil(kernels.size() * 2 + 1), kNone);
   const auto key = [&](uint32_t k) { return std::span(bindings).subspan(kernels[k].bindings.first, kernels[k].bindings.count); };
   for (const PassData& pass : passes) {
@@ -196,11 +196,11 @@ void GraphImpl::shareSets() {
         if (other == kNone) {
           s.table[at] = k;
           s.unique.push_back(k);
-          s.standsFor[k] = k;
+          s.representative[k] = k;
           break;
         }
         if (kernels[other].pipeline->set == kernels[k].pipeline->set && std::ranges::equal(key(other), key(k))) {
-          s.standsFor[k] = other;
+          s.representative[k] = other;
           break;
         }
       }
@@ -210,7 +210,7 @@ void GraphImpl::shareSets() {
 
 namespace {
 
-Expected<void> makePool(DeviceImpl& d, FrameSlot& slot, uint32_t sets, const DescriptorCounts& counts) {
+Expected<void> ensurePool(DeviceImpl& d, FrameSlot& slot, uint32_t sets, const DescriptorCounts& counts) {
   bool enough = sets <= slot.poolSets;
   for (size_t t = 0; t < counts.size(); ++t) enough = enough && counts[t] <= slot.poolCounts[t];
   if (enough) return {};
@@ -236,8 +236,8 @@ Expected<void> makePool(DeviceImpl& d, FrameSlot& slot, uint32_t sets, const Des
 
 }  // namespace
 
-Expected<void> GraphImpl::makeSets(DeviceImpl& d, FrameSlot& target) {
-  SetSharing& s = sharing;
+Expected<void> GraphImpl::allocateSets(DeviceImpl& d, FrameSlot& target) {
+  SetDeduplication& s = setDedup;
   DescriptorCounts counts{};
   s.layouts.clear();
   for (uint32_t k : s.unique) {
@@ -246,7 +246,7 @@ Expected<void> GraphImpl::makeSets(DeviceImpl& d, FrameSlot& target) {
       ++counts[size_t(std::ranges::find(kDescriptorTypes, descriptorType(kind)) - kDescriptorTypes.begin())];
   }
   if (s.unique.empty()) return {};
-  if (auto ok = makePool(d, target, uint32_t(s.unique.size()), counts); !ok) return ok;
+  if (auto ok = ensurePool(d, target, uint32_t(s.unique.size()), counts); !ok) return ok;
   s.sets.resize(s.unique.size());
   VkDescriptorSetAllocateInfo allocate{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO, nullptr, target.pool, uint32_t(s.unique.size()),
                                        s.layouts.data()};
@@ -257,7 +257,7 @@ Expected<void> GraphImpl::makeSets(DeviceImpl& d, FrameSlot& target) {
   s.buffers.clear();
   s.views.clear();
   s.images.clear();
-  s.buffers.reserve(counts[0] + counts[1]);  // the writes point into these three, in the order of kDescriptorTypes
+  s.buffers.reserve(counts[0] + counts[1]);  // the writes point into these vectors, so they must not reallocate
   s.views.reserve(counts[2]);
   s.images.reserve(counts[3] + counts[4]);
   for (size_t u = 0; u < s.unique.size(); ++u) {
@@ -276,16 +276,16 @@ Expected<void> GraphImpl::makeSets(DeviceImpl& d, FrameSlot& target) {
       } else if (bytes == 0) {
         const uint64_t limit = kind == BindingKind::Uniform ? d.limits.maxUniformBufferRange : d.limits.maxStorageBufferRange;
         if (resource.size > limit)
-          return Error{ErrorKind::BadInput, "buffer " + quoted(resource.name) + " of " + std::to_string(resource.size) +
-                                                " bytes: " + d.info.name + " binds at most " + std::to_string(limit)};
+          return Error{ErrorKind::BadInput, "buffer " + quoted(resource.name) + " of " + std::to_string(resource.size) + " bytes; " +
+                                                d.info.name + " binds at most " + std::to_string(limit)};
         s.buffers.push_back({resource.buffer, resource.offset, resource.size});
         write.pBufferInfo = &s.buffers.back();
       } else {
         const uint64_t size = resource.size / bytes * bytes;
         if (size == 0 || size / bytes > d.limits.maxTexelBufferElements)
           return Error{ErrorKind::BadInput, "texel buffer " + quoted(resource.name) + " of " + std::to_string(resource.size / bytes) +
-                                                " texels: 1 to " + std::to_string(d.limits.maxTexelBufferElements) + " are possible on " +
-                                                d.info.name};
+                                                " texels; " + d.info.name + " supports 1 to " +
+                                                std::to_string(d.limits.maxTexelBufferElements)};
         const VkFormat format = texelFormat(kind);
         auto view = std::ranges::find_if(target.views, [&](const FrameSlot::View& v) {
           return v.buffer == resource.buffer && v.offset == resource.offset && v.size == size && v.format == format;
@@ -308,7 +308,8 @@ Expected<void> GraphImpl::makeSets(DeviceImpl& d, FrameSlot& target) {
   d.vk.UpdateDescriptorSets(d.handle, uint32_t(s.writes.size()), s.writes.data(), 0, nullptr);
   for (const PassData& pass : passes)
     if (pass.alive)
-      for (uint32_t k = pass.kernels.first; k < pass.kernels.first + pass.kernels.count; ++k) kernels[k].set = kernels[s.standsFor[k]].set;
+      for (uint32_t k = pass.kernels.first; k < pass.kernels.first + pass.kernels.count; ++k)
+        kernels[k].set = kernels[s.representative[k]].set;
   return {};
 }
 
@@ -328,12 +329,12 @@ void GraphImpl::collect() {
   stamps.resize(count + 1);
   const VkResult got = device->vk.GetQueryPoolResults(device->handle, newest->queries, 0, count + 1, stamps.size() * sizeof(uint64_t),
                                                       stamps.data(), sizeof(uint64_t), VK_QUERY_RESULT_64_BIT);
-  if (got != VK_SUCCESS) return;  // the host was wrong about the frame: no figures are better than wrong ones
+  if (got != VK_SUCCESS) return;  // the frame has not completed, despite the host's clock
   timingsFrame = newest->frame;
   timings.clear();
-  rowOfName.assign(names.size(), kNone);
+  rowByName.assign(names.size(), kNone);
   for (uint32_t i = 0; i < count; ++i) {
-    uint32_t& row = rowOfName[newest->timedNames[i]];
+    uint32_t& row = rowByName[newest->timedNames[i]];
     if (row == kNone) {
       row = uint32_t(timings.size());
       timings.push_back({names[newest->timedNames[i]], 0, 0});
@@ -346,11 +347,11 @@ void GraphImpl::collect() {
 
 std::span<const std::byte> GraphImpl::data(Ticket ticket) {
   for (const auto& s : slots)
-    for (FrameSlot::Delivery& delivery : s->deliveries)
-      if (delivery.ticket == ticket.id) {
+    for (FrameSlot::PendingReadback& pending : s->pendingReadbacks)
+      if (pending.ticket == ticket.id) {
         if (s->frame > device->clock.completed || device->abandoned(s->frame)) return {};
-        delivery.seen = true;
-        return {s->readbacks[delivery.buffer].mapped() + delivery.offset, delivery.size};
+        pending.returned = true;
+        return {s->readbacks[pending.buffer].mapped() + pending.offset, pending.size};
       }
   return {};
 }

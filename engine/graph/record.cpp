@@ -1,4 +1,4 @@
-// Playing the plan into the host's command buffer. Nothing here fails or allocates.
+// Records the plan into the host's command buffer. Nothing here fails or allocates.
 #include <algorithm>
 #include <cassert>
 
@@ -7,7 +7,7 @@
 namespace rill {
 namespace {
 
-// A dimension's limit: the least that Vulkan guarantees, on every device, so that folding is the same everywhere.
+// The limit per dimension that Vulkan guarantees; used on every device so that folding is the same everywhere.
 constexpr uint64_t kMaxGroups = 65535;
 
 void recordBarrier(const DeviceTable& vk, VkCommandBuffer commandBuffer, const PlannedBarrier& planned,
@@ -27,9 +27,9 @@ void recordBarrier(const DeviceTable& vk, VkCommandBuffer commandBuffer, const P
 }  // namespace
 
 void GraphImpl::record(VkCommandBuffer commandBuffer) {
-  assert(prepared && "Graph::record needs a prepare() that succeeded, once a record()");
+  assert(prepared && "call prepare() successfully before each record()");
   if (!prepared) return;
-  prepared = false;  // its descriptor sets and queries are this recording's alone
+  prepared = false;  // descriptor sets and queries serve one recording only
   const DeviceTable& vk = device->vk;
   const bool stamp = !slot->timedNames.empty();
   if (stamp) vk.CmdResetQueryPool(commandBuffer, slot->queries, 0, uint32_t(slot->timedNames.size()) + 1);
@@ -73,7 +73,7 @@ void GraphImpl::beginTargets(const PassData& pass, VkCommandBuffer commandBuffer
     const ResourceData& image = resources[target.resource];
     area.extent = {image.width(), image.height()};
     const bool isDepth = hasDepth(image.desc.format);
-    // Colors from the front, depth in the last place.
+    // Colors from the front, depth in the last element.
     VkRenderingAttachmentInfo& info = infos[isDepth ? infos.size() - 1 : colors++];
     info = {VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     info.imageView = image.view;
@@ -95,22 +95,22 @@ void GraphImpl::beginTargets(const PassData& pass, VkCommandBuffer commandBuffer
   device->vk.CmdSetScissor(commandBuffer, 0, 1, &area);
 }
 
-const Access& GraphImpl::recorded(uint32_t pass, ResourceRef ref) const {
-  assert(ref.epoch == epoch && "a ref of another graph or of an earlier frame");
+const Access& GraphImpl::declaredAccess(uint32_t pass, ResourceRef ref) const {
+  assert(ref.epoch == epoch && "ref of another graph or an earlier frame");
   const Access* access = accessOf(pass, ref.index);
-  assert(access && "a pass records what it has declared");
-  // Of a write both the version that went in and the one that came out.
+  assert(access && "the pass did not declare this resource");
+  // For a write, both the consumed and the returned version are valid.
   assert((ref.version == access->version || (access->write && ref.version + 1 == access->version)) &&
-         "another version than the pass declared");
+         "the pass declared another version of this resource");
   return *access;
 }
 
 void Commands::bind(Kernel kernel, std::span<const std::byte> push) {
   [[maybe_unused]] const Range own = graph_.passes[pass_].kernels;
-  assert(kernel.index >= own.first && kernel.index < own.first + own.count && "a kernel is dispatched by the pass that declared it");
+  assert(kernel.index >= own.first && kernel.index < own.first + own.count && "the kernel belongs to another pass");
   const KernelData& data = graph_.kernels[kernel.index];
   const Pipeline& pipeline = *data.pipeline;
-  assert(push.size() == pipeline.pushBytes && "push constants of another size than the pipeline was made for");
+  assert(push.size() == pipeline.pushBytes && "size of the push constants differs from the pipeline's");
   const DeviceTable& vk = graph_.device->vk;
   vk.CmdBindPipeline(commandBuffer_, pipeline.bindPoint, pipeline.handle);
   if (data.bindings.count != 0) vk.CmdBindDescriptorSets(commandBuffer_, pipeline.bindPoint, pipeline.layout, 0, 1, &data.set, 0, nullptr);
@@ -127,8 +127,7 @@ void Commands::dispatch(Kernel kernel, uint64_t groups, std::span<const std::byt
 
 Commands::Arguments Commands::argumentsAt(BufferRef arguments, uint64_t offset, [[maybe_unused]] uint64_t bytes) const {
   const ResourceData& resource = graph_.resources[arguments.index];
-  assert(arguments.epoch == graph_.epoch && graph_.accessOf(pass_, arguments.index) &&
-         "indirect arguments are declared with Use::Indirect");
+  assert(arguments.epoch == graph_.epoch && graph_.accessOf(pass_, arguments.index) && "declare indirect arguments with Use::Indirect");
   assert(offset % 4 == 0 && offset + bytes <= resource.size);
   return {resource.buffer, resource.offset + offset};
 }
@@ -167,7 +166,7 @@ void Commands::viewport(uint32_t x, uint32_t y, uint32_t width, uint32_t height)
 
 void Commands::copy(BufferRef source, BufferRef target, uint64_t bytes, uint64_t sourceOffset, uint64_t targetOffset) {
   assert(source.epoch == graph_.epoch && target.epoch == graph_.epoch);
-  assert(graph_.accessOf(pass_, source.index) && graph_.accessOf(pass_, target.index) && "a copy's buffers are declared by its pass");
+  assert(graph_.accessOf(pass_, source.index) && graph_.accessOf(pass_, target.index) && "the pass did not declare the copied buffers");
   const ResourceData& from = graph_.resources[source.index];
   const ResourceData& to = graph_.resources[target.index];
   assert(sourceOffset + bytes <= from.size && targetOffset + bytes <= to.size);
@@ -177,17 +176,17 @@ void Commands::copy(BufferRef source, BufferRef target, uint64_t bytes, uint64_t
 }
 
 void Commands::update(BufferRef target, std::span<const std::byte> bytes, uint64_t offset) {
-  assert(target.epoch == graph_.epoch && graph_.accessOf(pass_, target.index) && "an update's buffer is declared by its pass");
+  assert(target.epoch == graph_.epoch && graph_.accessOf(pass_, target.index) && "the pass did not declare the updated buffer");
   const ResourceData& to = graph_.resources[target.index];
   assert(offset % 4 == 0 && bytes.size() % 4 == 0 && bytes.size() <= 65536 && offset + bytes.size() <= to.size);
   graph_.device->vk.CmdUpdateBuffer(commandBuffer_, to.buffer, to.offset + offset, bytes.size(), bytes.data());
 }
 
 void Commands::fill(BufferRef target, uint32_t value, uint64_t offset, uint64_t bytes) {
-  assert(target.epoch == graph_.epoch && graph_.accessOf(pass_, target.index) && "a fill's buffer is declared by its pass");
+  assert(target.epoch == graph_.epoch && graph_.accessOf(pass_, target.index) && "the pass did not declare the filled buffer");
   const ResourceData& to = graph_.resources[target.index];
   assert(offset % 4 == 0 && offset <= to.size);
-  // Whole words: a size that is no multiple of 4 is filled short of its last bytes, never beyond them.
+  // Rounded down to whole words: up to 3 trailing bytes are not filled.
   const uint64_t size = std::min(bytes, to.size - offset) & ~3ull;
   if (size != 0) graph_.device->vk.CmdFillBuffer(commandBuffer_, to.buffer, to.offset + offset, size, value);
 }
@@ -198,7 +197,7 @@ void Commands::copy(ImageRef source, BufferRef target, uint64_t offset) { copyWh
 void Commands::copyWhole(BufferRef buffer, ImageRef image, uint64_t offset, bool toImage) {
   assert(buffer.epoch == graph_.epoch && image.epoch == graph_.epoch);
   assert(graph_.accessOf(pass_, buffer.index) && graph_.accessOf(pass_, image.index) &&
-         "a copy's buffer and image are declared by its pass");
+         "the pass did not declare the copied buffer and image");
   const ResourceData &bytes = graph_.resources[buffer.index], &texels = graph_.resources[image.index];
   const VkImageAspectFlags aspect = hasDepth(texels.desc.format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
   const VkBufferImageCopy region{bytes.offset + offset,        0,         0,
@@ -211,10 +210,10 @@ void Commands::copyWhole(BufferRef buffer, ImageRef image, uint64_t offset, bool
 }
 
 void Commands::copy(ImageRef source, ImageRef target) {
-  (void)graph_.recorded(pass_, source);
-  (void)graph_.recorded(pass_, target);
+  (void)graph_.declaredAccess(pass_, source);
+  (void)graph_.declaredAccess(pass_, target);
   const ResourceData &from = graph_.resources[source.index], &to = graph_.resources[target.index];
-  assert(from.width() == to.width() && from.height() == to.height() && "a copy's images are of one size");
+  assert(from.width() == to.width() && from.height() == to.height() && "the copied images differ in size");
   const auto whole = [](const ResourceData& image) {
     const VkImageAspectFlags aspect = hasDepth(image.desc.format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
     return VkImageSubresourceLayers{aspect, image.level, 0, 1};
@@ -225,7 +224,7 @@ void Commands::copy(ImageRef source, ImageRef target) {
 }
 
 void Commands::clear(ImageRef target, const VkClearColorValue& value) {
-  assert(target.epoch == graph_.epoch && graph_.accessOf(pass_, target.index) && "a clear's image is declared by its pass");
+  assert(target.epoch == graph_.epoch && graph_.accessOf(pass_, target.index) && "the pass did not declare the cleared image");
   const VkImageSubresourceRange whole{VK_IMAGE_ASPECT_COLOR_BIT, graph_.resources[target.index].level, 1, 0, 1};
   graph_.device->vk.CmdClearColorImage(commandBuffer_, graph_.resources[target.index].image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &value,
                                        1, &whole);
@@ -234,13 +233,13 @@ void Commands::clear(ImageRef target, const VkClearColorValue& value) {
 VkCommandBuffer Commands::handle() const { return commandBuffer_; }
 
 VkDescriptorBufferInfo Commands::buffer(BufferRef ref) const {
-  (void)graph_.recorded(pass_, ref);
+  (void)graph_.declaredAccess(pass_, ref);
   const ResourceData& buffer = graph_.resources[ref.index];
   return {buffer.buffer, buffer.offset, buffer.size};
 }
 
 ImageHandle Commands::image(ImageRef ref) const {
-  const Access& access = graph_.recorded(pass_, ref);
+  const Access& access = graph_.declaredAccess(pass_, ref);
   const ResourceData& image = graph_.resources[ref.index];
   return {image.image, image.view, useRow(access.use).layout, image.level};
 }

@@ -6,7 +6,7 @@
 
 namespace rill {
 
-/// Memory for the callables of one frame. Blocks do not move and are used again after rewind().
+/// Memory for the callables of one frame. Blocks never move and are reused after rewind().
 class RecordArena {
  public:
   void* allocate(size_t bytes, size_t alignment) {

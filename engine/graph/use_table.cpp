@@ -6,7 +6,7 @@ namespace rill {
 namespace {
 
 constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-constexpr VkPipelineStageFlags2 kTransfer = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;  // a fill is a clear, a copy a copy: both
+constexpr VkPipelineStageFlags2 kTransfer = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;  // covers both copies and fills (clears)
 constexpr VkPipelineStageFlags2 kDraw = VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
 constexpr VkPipelineStageFlags2 kDepth = VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
 constexpr VkPipelineStageFlags2 kAll = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
@@ -27,8 +27,8 @@ constexpr VkBufferUsageFlags kStorageBuffer = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT
                              kTexelBuffer = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
                              kVertexBuffer = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
 
-// Before it is presented an image waits for nothing but a semaphore, which the submission signals behind all of its commands: the change of
-// layout must lie before that, and none of the presentation's reads needs an access here.
+// Present: the submission's semaphore orders presentation after all commands and makes memory visible, so
+// the transition needs no target access.
 constexpr std::array<UseRow, kUseCount> kTable{{
     {Use::Nothing, "Nothing", 0, 0, 0, kNoImage, 0, 0},
     {Use::ComputeRead, "ComputeRead", kCompute, kStorageRead, 0, kGeneral, VK_IMAGE_USAGE_STORAGE_BIT, kStorageBuffer},
@@ -62,7 +62,7 @@ constexpr bool inOrder() {
 }
 static_assert(inOrder());
 
-/// All that write, of Vulkan 1.3 and of the extensions that its header knows: a host's own state may be any of them.
+/// All write accesses of Vulkan 1.3 and known extensions: a custom state may contain any of them.
 constexpr VkAccessFlags2 kWrites = VK_ACCESS_2_SHADER_WRITE_BIT | kColorWrite | kDepthWrite | VK_ACCESS_2_TRANSFER_WRITE_BIT |
                                    VK_ACCESS_2_HOST_WRITE_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT | kStorageWrite |
                                    VK_ACCESS_2_TRANSFORM_FEEDBACK_WRITE_BIT_EXT | VK_ACCESS_2_TRANSFORM_FEEDBACK_COUNTER_WRITE_BIT_EXT |
@@ -73,9 +73,9 @@ constexpr VkAccessFlags2 kWrites = VK_ACCESS_2_SHADER_WRITE_BIT | kColorWrite | 
 const UseRow& useRow(Use use) { return kTable[size_t(use)]; }
 
 UseRow useRow(const ImportState& state) {
-  if (!state.isOwn) return useRow(state.use);
-  const UseState& own = state.own;
-  return {Use::Nothing, "a state of the host's own", own.stages, own.access & ~kWrites, own.access & kWrites, own.layout, 0, 0};
+  if (!state.isCustom) return useRow(state.use);
+  const UseState& custom = state.custom;
+  return {Use::Nothing, "custom state", custom.stages, custom.access & ~kWrites, custom.access & kWrites, custom.layout, 0, 0};
 }
 
 UseState useState(Use use) {

@@ -50,7 +50,7 @@ std::vector<GroupCount> CountingSort::groups() const {
   return all;
 }
 
-// Behind a closed gate a target keeps what it holds; a transient holds nothing.
+// A target must keep its content if the gate skips the dispatches; a transient has none.
 static bool discards(BufferRef target, const Gate* gate) { return !gate || target == BufferRef{}; }
 
 SortedKeys CountingSort::addTo(Graph& graph, BufferRef keys, const SortTargets& targets, const Gate* gate) const {
@@ -102,7 +102,7 @@ SortedKeys CountingSort::finish(Graph& graph, BufferRef keys, const KeyCounters&
   if (!orderBins_ && !orderOversized_) return {arrived, start, {}, arrived};
   BufferRef order = targetOr(graph, targets.order, "sort order", desc_.count);
   BufferRef sortedKeys = desc_.keys ? targetOr(graph, targets.keys, "sort keys", desc_.count) : BufferRef{};
-  // Bins of up to kBinLimit and larger ones: two dispatches, which write different places.
+  // One dispatch for bins up to kBinLimit, one for larger bins; they write disjoint ranges.
   graph.pass("sort/order bins", [&](Pass& pass) {
     if (orderBins_) pass.read(keys, read);
     for (BufferRef ref : {start, arrived}) pass.read(ref, read);

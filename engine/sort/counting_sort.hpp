@@ -1,5 +1,5 @@
 #pragma once
-// Counting sort: count the keys of each value, scan the counts, scatter, then put each bin into the order of old indices.
+// Counting sort: count keys, scan the counts, scatter, then sort each bin by original index.
 #include <vector>
 
 #include "rill/device.hpp"
@@ -11,11 +11,11 @@
 
 namespace rill {
 
-/// Places inside a bin come from atomics and so in any order; the last step makes them those of a stable sort. It compares an
-/// index with all of its bin, up to kBinLimit; a larger bin is ordered by workgroups of its own, through one bit an index.
+/// Atomics assign slots within a bin in nondeterministic order; the last step restores stable order. Up to
+/// kBinLimit it compares an index with all of its bin; larger bins use a bit mask per chunk of indices.
 class CountingSort {
  public:
-  /// `desc` has been judged by KeySort::create.
+  /// KeySort::create has validated `desc`.
   static Expected<CountingSort> create(Device& device, const KeySortDesc& desc);
 
   std::vector<GroupCount> groups() const;

@@ -3,9 +3,9 @@
 namespace rill {
 
 GroupCount foldGroups(uint64_t groups) {
-  constexpr uint64_t kMaxEntries = 65535;
+  constexpr uint64_t kMaxGroupsPerDimension = 65535;
   if (groups == 0) return {0, 0, 0};
-  const uint64_t y = (groups + kMaxEntries - 1) / kMaxEntries;
+  const uint64_t y = (groups + kMaxGroupsPerDimension - 1) / kMaxGroupsPerDimension;
   return {static_cast<uint32_t>((groups + y - 1) / y), static_cast<uint32_t>(y), 1};
 }
 

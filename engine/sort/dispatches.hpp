@@ -1,5 +1,5 @@
 #pragma once
-// The dispatches of a module, one after another, recorded as they are or through arguments that the device decides on.
+// The sequence of dispatches of a module, recorded directly or with indirect arguments.
 #include <array>
 #include <cstdint>
 #include <string_view>
@@ -17,29 +17,29 @@ GroupCount foldGroups(uint64_t groups);
 
 inline uint64_t divideUp(uint64_t a, uint64_t b) { return (a + b - 1) / b; }
 
-/// Words that an array of `count` needs which is loaded and stored four at a time.
+/// The size in words of an array of `count` words that is accessed four words at a time.
 constexpr uint64_t paddedWords(uint64_t count) { return (count + 3) / 4 * 4; }
 
-/// How a pass uses an array that it reads: see shaders/shared/arrays.glsl.
+/// The use of an array read through shaders/shared/arrays.glsl.
 constexpr Use readUse(bool texels) { return texels ? Use::ComputeTexel : Use::ComputeRead; }
 
-/// `target`, or a transient of `count` uints where there is none.
+/// `target`, or a new transient of `count` uints if `target` is empty.
 BufferRef targetOr(Graph& graph, BufferRef target, std::string_view name, uint64_t count);
 
-/// Dispatch arguments decided on the device, for a module that runs in some frames alone. The module's dispatch k is read at
-/// byte (firstCommand + k) * sizeof(VkDispatchIndirectCommand) of `arguments`: whoever writes them puts the module's groups()
-/// there, or zeros.
+/// Indirect dispatch arguments for a module that the device enables or skips per frame. Dispatch k reads
+/// byte (firstCommand + k) * sizeof(VkDispatchIndirectCommand) of `arguments`, which holds the module's
+/// groups(), or zeros to skip it.
 struct Gate {
   BufferRef arguments;
   uint32_t firstCommand = 0;
 };
 
-/// Records one dispatch, direct or through a gate: what the set-up of a pass returns.
+/// Records one dispatch, direct or indirect. Returned by the setup of a pass.
 template <class Push>
 struct Dispatch {
   Kernel kernel;
   uint64_t groups = 0;
-  BufferRef arguments;  ///< none: `groups` are dispatched
+  BufferRef arguments;  ///< empty: dispatches `groups` directly
   uint64_t offset = 0;
   Push push;
 
@@ -51,7 +51,7 @@ struct Dispatch {
   }
 };
 
-/// Counts a module's dispatches while its passes are declared, so that each finds its command behind the gate.
+/// Assigns consecutive indirect commands to a module's dispatches while its passes are declared.
 class Dispatches {
  public:
   explicit Dispatches(const Gate* gate, uint32_t first = 0) : gate_(gate ? *gate : Gate{}), next_(first) {}
@@ -64,7 +64,7 @@ class Dispatches {
     return {kernel, groups, gate_.arguments, (gate_.firstCommand + uint64_t{next_++}) * sizeof(VkDispatchIndirectCommand), push};
   }
 
-  /// The gate for a module within this one, which takes `count` commands.
+  /// The gate of a nested module with `count` commands.
   Gate inner(uint32_t count) {
     const Gate gate{gate_.arguments, gate_.firstCommand + next_};
     next_ += count;

@@ -1,5 +1,5 @@
 #pragma once
-// Sorts integer keys on the device, as graph passes: a counting sort where keys are dense, a radix sort where they are not.
+// Sorts integer keys on the device as graph passes: counting sort for dense keys, radix sort for sparse keys.
 #include <array>
 #include <cstdint>
 #include <variant>
@@ -15,27 +15,28 @@
 
 namespace rill {
 
-/// A stable sort of keys that are on the device. Its result is the same whatever the order in which the device runs things.
+/// A stable sort of keys on the device. The result is deterministic.
 ///
 ///     auto sort = KeySort::create(device, {.count = n, .keyRange = cells, .start = true});
 ///     const SortedKeys sorted = sort->addTo(graph, keys);
 class KeySort {
  public:
-  /// BadInput, saying what was asked for and what is possible, for a count or a key range out of bounds.
+  /// Fails with BadInput if the count or the key range is out of bounds.
   static Expected<KeySort> create(Device& device, const KeySortDesc& desc);
 
-  /// Counting or Radix: what Auto chose.
+  /// The chosen method, Counting or Radix.
   SortMethod method() const;
-  /// The group counts of its dispatches, in order: what belongs behind a Gate for the sort to run.
+  /// The group counts of its dispatches, in order: the contents of the Gate's arguments if the sort runs.
   std::vector<GroupCount> groups() const;
 
-  /// Declares the passes. `keys` holds desc.count uints, each below desc.keyRange (a larger one harms nothing but the result).
-  /// Where the gate's arguments are zero the targets keep their content. No keys: nothing is declared, the targets are returned.
+  /// Declares the passes. `keys` holds desc.count uints below desc.keyRange; larger ones only affect the
+  /// result. If the gate's arguments are zero the targets keep their content. With a count of 0 nothing is
+  /// declared and the targets are returned.
   SortedKeys addTo(Graph& graph, BufferRef keys, const SortTargets& targets = {}, const Gate* gate = nullptr) const;
 
-  /// Of a shader that includes shaders/sort/count.glsl.
+  /// Specialization constants 0 and 1 of a shader that includes shaders/sort/count.glsl.
   std::array<uint32_t, 2> counterConstants() const;
-  /// The same for desc.openEnds: begin(), the caller's pass that makes the keys and writes the counters, finish().
+  /// With desc.openEnds: call begin(), declare the pass that writes keys and counters, then call finish().
   KeyCounters begin(Graph& graph, const SortTargets& targets = {}, const Gate* gate = nullptr) const;
   SortedKeys finish(Graph& graph, BufferRef keys, const KeyCounters& counters, const SortTargets& targets = {},
                     const Gate* gate = nullptr) const;
@@ -46,7 +47,7 @@ class KeySort {
   std::variant<CountingSort, RadixSort> sort_;
 };
 
-/// The method that is taken: desc.method, or the one that Auto stands for.
+/// desc.method, or the method that Auto selects for this description.
 SortMethod chooseSortMethod(const KeySortDesc& desc);
 
 }  // namespace rill

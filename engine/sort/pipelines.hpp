@@ -1,5 +1,5 @@
 #pragma once
-// Makes the pipelines of a module, whose bindings are storage buffers and arrays that are read, and keeps the first error.
+// Creates the pipelines of a module and keeps the first error.
 #include <array>
 #include <cassert>
 #include <initializer_list>
@@ -16,17 +16,17 @@ class ModulePipelines {
  public:
   ModulePipelines(Device& device, uint32_t pushConstantBytes) : device_(device), pushConstantBytes_(pushConstantBytes) {}
 
-  /// Of a shader whose bindings are all storage buffers. Null after an error: result() tells which.
+  /// For a shader whose bindings are all storage buffers. Null after an error; see result().
   const ComputePipeline* make(std::string_view shader, uint32_t bindings, std::initializer_list<uint32_t> constants = {}) {
-    constexpr uint32_t kMaxEntries = 8;
-    static constexpr std::array<BindingKind, kMaxEntries> kStorage{};
+    constexpr uint32_t kMaxBindings = 8;
+    static constexpr std::array<BindingKind, kMaxBindings> kStorage{};
     static_assert(BindingKind{} == BindingKind::Storage);
-    assert(bindings <= kMaxEntries);
+    assert(bindings <= kMaxBindings);
     return make(shader, std::span(kStorage).first(bindings), constants);
   }
 
-  /// Of a shader that reads arrays (shaders/shared/arrays.glsl), with the bindings of its variant with texels; without them, all of those
-  /// are storage buffers.
+  /// For a shader that uses shaders/shared/arrays.glsl. `bindings` are those of the texel variant; without
+  /// `texels` all of them are storage buffers.
   const ComputePipeline* makeReading(std::string shader, bool texels, std::initializer_list<BindingKind> bindings,
                                      std::initializer_list<uint32_t> constants = {}) {
     if (texels) return make(shader + "_texel", std::span(bindings.begin(), bindings.size()), constants);

@@ -11,10 +11,10 @@ Expected<RadixSort> RadixSort::create(Device& device, const KeySortDesc& desc) {
   RadixSort sort;
   sort.desc_ = desc;
   if (desc.count == 0) return sort;
-  // A range of one key still takes a pass: it is what writes the order.
+  // Even a range of one key needs a pass, to write the order.
   const uint32_t keyBits = std::max(1u, static_cast<uint32_t>(std::bit_width(desc.keyRange - 1)));
   sort.passes_ = (keyBits + kRadixBits - 1) / kRadixBits;
-  sort.bits_ = (keyBits + sort.passes_ - 1) / sort.passes_;  // evenly: a pass of fewer digits is cheaper
+  sort.bits_ = (keyBits + sort.passes_ - 1) / sort.passes_;  // evenly, since fewer digit values make a pass cheaper
   sort.tiles_ = (desc.count + kRadixTile - 1) / kRadixTile;
   auto scan = Scan::create(device, sort.tiles_ << sort.bits_, desc.storageReads);
   if (!scan) return scan.error();
@@ -50,10 +50,10 @@ std::vector<GroupCount> RadixSort::groups() const {
 SortedKeys RadixSort::addTo(Graph& graph, BufferRef keys, const SortTargets& targets, const Gate* gate) const {
   if (desc_.count == 0) return {targets.order, targets.start, targets.keys, {}};
   Dispatches dispatches(gate);
-  // Behind a closed gate a target keeps what it holds; a transient holds nothing.
+  // A target must keep its content if the gate skips the dispatches; a transient has none.
   const auto discard = [&](BufferRef target) { return !gate || target == BufferRef{}; };
 
-  // Each pass makes buffers of its own: the graph's memory plan turns them into two that take turns.
+  // Each pass creates its own transients; aliasing reduces them to two alternating buffers.
   BufferRef order;
   for (uint32_t p = 0; p < passes_; ++p) {
     const bool first = p == 0, last = p + 1 == passes_;
@@ -80,7 +80,7 @@ SortedKeys RadixSort::addTo(Graph& graph, BufferRef keys, const SortTargets& tar
       pass.read(histogram, Use::ComputeRead);
       orderOut = pass.write(orderOut, Use::ComputeWrite, discard(orderTarget));
       if (writesKeys(p)) keysOut = pass.write(keysOut, Use::ComputeWrite, discard(keysTarget));
-      // A binding that the variant does not use takes a buffer that is there anyway.
+      // Bindings that this variant does not use get an arbitrary declared buffer.
       const BufferRef orderOrUnused = first ? keys : order, keysOrUnused = writesKeys(p) ? keysOut : orderOut;
       return dispatches.next(pass, pass.kernel(scatter_[p], {keys, orderOrUnused, histogram, keysOrUnused, orderOut}), tiles_, push);
     });

@@ -1,5 +1,5 @@
 #pragma once
-// Radix sort, least significant digit first, of as many digits as the keys' range has bits for.
+// LSD radix sort; the number of passes follows from the key range.
 #include <array>
 #include <vector>
 
@@ -11,14 +11,14 @@
 
 namespace rill {
 
-/// A pass counts each tile's digits, scans the counts over digits and tiles, and scatters keys and indices. Reduce, then scan:
-/// no workgroup waits for another, and there are no atomics.
+/// Each pass counts the digits per tile, scans the counts over digits and tiles, and scatters keys and
+/// indices. Reduce-then-scan: no workgroup waits for another, and there are no atomics.
 class RadixSort {
  public:
-  /// `desc` has been judged by KeySort::create.
+  /// KeySort::create has validated `desc`.
   static Expected<RadixSort> create(Device& device, const KeySortDesc& desc);
 
-  /// Passes over the keys, 1 .. 6.
+  /// Number of passes over the keys, 1 .. 6.
   uint32_t passes() const { return passes_; }
   std::vector<GroupCount> groups() const;
   SortedKeys addTo(Graph& graph, BufferRef keys, const SortTargets& targets, const Gate* gate) const;
@@ -29,11 +29,11 @@ class RadixSort {
 
   KeySortDesc desc_;
   uint32_t passes_ = 0;
-  uint32_t bits_ = 0;  // of a digit
+  uint32_t bits_ = 0;  // per digit
   uint32_t tiles_ = 0;
   Scan scan_;
   const ComputePipeline* count_ = nullptr;
-  std::array<const ComputePipeline*, 6> scatter_{};  // of each pass
+  std::array<const ComputePipeline*, 6> scatter_{};  // per pass
   const ComputePipeline* start_ = nullptr;
 };
 

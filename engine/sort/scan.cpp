@@ -9,7 +9,7 @@
 namespace rill {
 namespace {
 
-/// Up to so many values one workgroup is done before another dispatch has started.
+/// Up to this many values, one workgroup is faster than two dispatches.
 constexpr uint32_t kSingleCount = 8 * kScanTile;
 
 uint32_t tileCount(uint32_t count) { return (count + kScanTile - 1) / kScanTile; }
@@ -18,7 +18,7 @@ uint32_t tileCount(uint32_t count) { return (count + kScanTile - 1) / kScanTile;
 
 Expected<Scan> Scan::create(Device& device, uint32_t count, bool storageReads, const ScanNames& names) {
   if (count > kMaxCount)
-    return Error{ErrorKind::BadInput, "scan: " + std::to_string(count) + " values, at most " + std::to_string(kMaxCount) + " are possible"};
+    return Error{ErrorKind::BadInput, "scan: " + std::to_string(count) + " values; expected at most " + std::to_string(kMaxCount)};
   Scan scan;
   scan.count_ = count;
   scan.names_ = names;
@@ -34,8 +34,8 @@ Expected<Scan> Scan::create(Device& device, uint32_t count, bool storageReads, c
     made.applyScanned = pipelines.makeReading("sort/scan_apply", texels, {Storage, TexelUint}, {1});
     return made;
   };
-  scan.pipes_ = make(scan.texels_);
-  if (count == kMaxCount) make(!scan.texels_);  // whether texels hold another count is not known yet
+  scan.pipelines_ = make(scan.texels_);
+  if (count == kMaxCount) make(!scan.texels_);  // smaller counts may use the other variant
   if (auto made = pipelines.result(); !made) return made.error();
   return scan;
 }
@@ -55,7 +55,7 @@ BufferRef Scan::addTo(Graph& graph, BufferRef values, const Gate* gate) const {
   const auto single = [&](std::string_view name, BufferRef& buffer, uint32_t count) {
     graph.pass(name, [&](Pass& pass) {
       buffer = pass.write(buffer, Use::ComputeWrite);
-      return dispatches.next(pass, pass.kernel(pipes_.single, {buffer}), 1, ScanPush{count});
+      return dispatches.next(pass, pass.kernel(pipelines_.single, {buffer}), 1, ScanPush{count});
     });
   };
   if (count_ <= kSingleCount) {
@@ -67,14 +67,15 @@ BufferRef Scan::addTo(Graph& graph, BufferRef values, const Gate* gate) const {
   graph.pass(names_.reduce, [&](Pass& pass) {
     pass.read(values, read);
     sums = pass.write(sums, Use::ComputeWrite, true);
-    return dispatches.next(pass, pass.kernel(pipes_.reduce, {values, sums}), tiles, ScanPush{count_});
+    return dispatches.next(pass, pass.kernel(pipelines_.reduce, {values, sums}), tiles, ScanPush{count_});
   });
   const bool scanned = tiles > kScanSums;
   if (scanned) single(names_.tiles, sums, tiles);
   graph.pass(names_.apply, [&](Pass& pass) {
     pass.read(sums, read);
     values = pass.write(values, Use::ComputeWrite);
-    return dispatches.next(pass, pass.kernel(scanned ? pipes_.applyScanned : pipes_.apply, {values, sums}), tiles, ScanPush{count_});
+    return dispatches.next(pass, pass.kernel(scanned ? pipelines_.applyScanned : pipelines_.apply, {values, sums}), tiles,
+                           ScanPush{count_});
   });
   return values;
 }

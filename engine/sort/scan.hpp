@@ -11,26 +11,27 @@
 
 namespace rill {
 
-/// What a scan's passes are called; string literals.
+/// Names of a scan's passes; string literals.
 struct ScanNames {
   std::string_view single = "sort/scan", reduce = "sort/scan reduce", tiles = "sort/scan tiles", apply = "sort/scan apply";
 };
 
-/// values[k] becomes the sum of values[0 .. k-1], modulo 2^32, in place. Reduce, then scan: no workgroup waits for another.
+/// Replaces values[k] by the sum of values[0 .. k-1] modulo 2^32, in place. Reduce-then-scan: no workgroup
+/// waits for another.
 class Scan {
  public:
-  /// Most values: what fits a buffer of 128 MiB.
+  /// The number of values that fit in a buffer of 128 MiB.
   static constexpr uint32_t kMaxCount = (128u << 20) / sizeof(uint32_t);
 
-  /// `count` values, 0 .. kMaxCount; BadInput above. With kMaxCount all pipelines are made that any other count needs. `storageReads`:
-  /// through storage buffers even where texel buffers would hold enough; the same result.
+  /// `count`: 0 .. kMaxCount values, otherwise BadInput. kMaxCount creates the pipelines for every count.
+  /// `storageReads`: read through storage buffers instead of texel buffers; same result.
   static Expected<Scan> create(Device& device, uint32_t count, bool storageReads = false, const ScanNames& names = {});
 
   uint32_t count() const { return count_; }
   /// The group counts of its dispatches, in order.
   std::vector<GroupCount> groups() const;
-  /// Declares the passes and returns the scanned version of `values` (paddedWords(count) uints, of which those behind the last
-  /// value come out undefined). No values: nothing is declared.
+  /// Declares the passes and returns the scanned version of `values` (paddedWords(count) uints; the padding
+  /// is undefined afterwards). With a count of 0 nothing is declared.
   BufferRef addTo(Graph& graph, BufferRef values, const Gate* gate = nullptr) const;
 
  private:
@@ -39,7 +40,7 @@ class Scan {
   struct Pipelines {
     const ComputePipeline *single = nullptr, *reduce = nullptr, *apply = nullptr, *applyScanned = nullptr;
   };
-  Pipelines pipes_;
+  Pipelines pipelines_;
   bool texels_ = false;
 };
 

@@ -1,6 +1,5 @@
-// Arrays that a shader reads: READ_FLOAT4(binding, particle) makes particleAt(k). With TEXEL they
-// are uniform texel buffers (lavapipe loads a storage buffer lane by lane, at three times the
-// price), else storage buffers, for devices whose texel limits are small.
+// Read-only arrays: READ_FLOAT4(binding, particle) declares particleAt(k). With TEXEL they are uniform texel
+// buffers (faster on lavapipe: docs/notes/lavapipe.md), else storage buffers, for devices with small texel limits.
 #ifndef RILL_ARRAYS_GLSL
 #define RILL_ARRAYS_GLSL
 #ifdef TEXEL

@@ -1,5 +1,5 @@
-// Lets one header declare constants and records for C++ and GLSL alike. Records hold 4-byte scalars alone (and arrays of them in storage
-// buffers), so that std430, std140 and C++ agree on every offset.
+// Macros for headers shared by C++ and GLSL. Records contain only 4-byte scalars (and arrays of them in
+// storage buffers), so that std430, std140 and C++ agree on every offset.
 #ifndef RILL_INTEROP_H
 #define RILL_INTEROP_H
 #ifdef __cplusplus

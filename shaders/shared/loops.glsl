@@ -1,14 +1,12 @@
-// Loops that lanes leave after different numbers of steps:
+// Loops with divergent iteration counts:
 //   LOOP_WHILE (more) {
 //     ...
 //     ++k;
 //   } LOOP_END(more);
-// is while (more) { ... }. The condition is written twice, the same both times. The step stands in
-// the body, at its end, so that `continue` would skip it: there is none. With TEXEL (the kernels
-// that lavapipe runs) such a loop is tested at its end, since lavapipe goes through the body of one
-// that is tested at its top once more when no lane is left. Without it (what SwiftShader runs, see
-// gpu/texel_reads.hpp) it is tested at its top: SwiftShader makes mistakes in some of those that
-// are not. See ARCHITECTURE.md, "What lavapipe taught".
+// means while (more) { ... }. Both conditions must be equal. The increment is the last statement of the
+// body, so `continue` must not be used. With TEXEL (lavapipe) the loop is tested at its end, because lavapipe
+// runs a loop tested at its top once more with no active lane. Without it the loop is tested at its top,
+// because SwiftShader miscompiles some do-while loops (docs/notes/lavapipe.md).
 #ifndef RILL_LOOPS_GLSL
 #define RILL_LOOPS_GLSL
 #ifdef TEXEL

@@ -1,5 +1,5 @@
-// A direction for two particles that (nearly) coincide, from their ids alone. Included by C++ and
-// GLSL: integers only, so both agree to the last bit.
+// A separation direction for two coincident particles, computed from their ids. Shared by C++ and GLSL:
+// integer arithmetic only, so both give identical results.
 #ifndef RILL_SHADERS_SHARED_PAIR_HASH_H
 #define RILL_SHADERS_SHARED_PAIR_HASH_H
 
@@ -25,15 +25,15 @@ RILL_PAIR_FUNCTION RILL_PAIR_UINT pairMix(RILL_PAIR_UINT x) {
   return x;
 }
 
-/// Of two ids, the same for both orders. The components of the direction are bits 0-9, 10-19 and 20-29.
+/// Symmetric hash of two ids. Bits 0-9, 10-19 and 20-29 are the components of the direction.
 RILL_PAIR_FUNCTION RILL_PAIR_UINT pairHash(RILL_PAIR_UINT idI, RILL_PAIR_UINT idJ) {
   RILL_PAIR_UINT lower = idI < idJ ? idI : idJ;
   RILL_PAIR_UINT upper = idI < idJ ? idJ : idI;
   return pairMix(lower ^ pairMix(upper + 0x9e3779b9u));
 }
 
-/// Component `axis` (0, 1, 2) of the direction from j to i, not normalized: odd, so never zero,
-/// within -1023 .. 1023. It changes sign when i and j are exchanged.
+/// Component `axis` (0, 1, 2) of the direction from j to i, not normalized: odd (never zero), in -1023 .. 1023.
+/// Antisymmetric: exchanging i and j changes the sign.
 RILL_PAIR_FUNCTION RILL_PAIR_INT pairDirection(RILL_PAIR_UINT idI, RILL_PAIR_UINT idJ, RILL_PAIR_UINT axis) {
   RILL_PAIR_INT component = 2 * RILL_PAIR_INT((pairHash(idI, idJ) >> (10u * axis)) & 1023u) - 1023;
   return idI < idJ ? component : -component;

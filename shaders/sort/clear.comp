@@ -1,5 +1,6 @@
 #version 460
-// Counting sort: counters to zero, four at a time, and no oversized bin yet. A dispatch and not a fill, so that a gate can leave it out.
+// Counting sort: clears the counters, four at a time, and the list of oversized bins. A dispatch instead of
+// a fill, so that a gate can skip it.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/dispatch.glsl"
 #include "sort/sort_types.h"

@@ -1,12 +1,12 @@
 #version 460
-// Counting sort: each bin in ascending order of index. Bins above kBinLimit are left to sort/order_oversized.
+// Counting sort: orders each bin by ascending index. Bins above kBinLimit are handled by sort/order_oversized.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/arrays.glsl"
 #include "shared/dispatch.glsl"
 #include "sort/sort_types.h"
 
 layout(constant_id = 0) const uint kWriteKeys = 0u;
-layout(constant_id = 1) const uint kLeaveOversized = 0u;
+layout(constant_id = 1) const uint kSkipOversized = 0u;
 
 layout(local_size_x = kCountThreads) in;
 layout(push_constant) uniform PushBlock { CountingPush push; };
@@ -25,6 +25,6 @@ void main() {
   const uint begin = startAt(key);
   const uint end = startAt(key + 1u);
   if (kWriteKeys != 0u) sortedKeys[slot] = key;
-  if (kLeaveOversized != 0u && end - begin > kBinLimit) return;
+  if (kSkipOversized != 0u && end - begin > kBinLimit) return;
   order[placeOf(index, begin, end)] = index;
 }

@@ -1,9 +1,7 @@
 #version 460
-// Counting sort: bins too large for sort/order_bins. Workgroup c + chunks * k takes listed bins k,
-// k + binGroups and so on: it sets a bit for each of a bin's indices that lies in the c-th chunk of
-// all indices, counts the bin's indices below the chunk, and writes the set bits out in order.
-// Linear in the bin's size for each chunk of 65,536 indices, and no loop over a bin is longer than
-// (keys / 256) + 520; the bins are at most keys / 513, and share the keys.
+// Counting sort: orders bins too large for sort/order_bins. Workgroup c + chunks * k handles listed bins k,
+// k + binGroups, ...: it sets a bit for each index of the bin that lies in chunk c, counts the bin's indices
+// below the chunk, and writes the set bits in order. Linear in the bin size per chunk of 65,536 indices.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
@@ -16,7 +14,7 @@ layout(push_constant) uniform PushBlock { CountingPush push; };
 READ_UINT(0, start)
 READ_UINT(1, arrived)
 layout(set = 0, binding = 2, std430) writeonly buffer Order { uint order[]; };
-layout(set = 0, binding = 3, std430) readonly buffer Oversized { uint oversized[]; };  // how many, and their keys
+layout(set = 0, binding = 3, std430) readonly buffer Oversized { uint oversized[]; };  // count, then the keys
 
 shared uint present[kChunkWords];
 shared uint indicesBelow;
@@ -35,7 +33,7 @@ void orderBin(uint key, uint firstIndex) {
   uint below = 0u;
   for (uint slot = begin + gl_LocalInvocationIndex; slot < end; slot += kCountThreads) {
     const uint index = arrivedAt(slot);
-    const uint inChunk = index - firstIndex;  // wraps below the chunk, so one comparison tells both sides
+    const uint inChunk = index - firstIndex;  // wraps around below the chunk, so one comparison checks both bounds
     if (inChunk < kChunkIndices) atomicOr(present[inChunk >> 5u], 1u << (inChunk & 31u));
     below += index < firstIndex ? 1u : 0u;
   }
@@ -51,7 +49,7 @@ void orderBin(uint key, uint firstIndex) {
   for (uint w = firstWord; w < firstWord + wordsEach; ++w) {
     for (uint word = present[w]; word != 0u; word &= word - 1u) order[place++] = firstIndex + 32u * w + uint(findLSB(word));
   }
-  barrier();  // the next bin takes the shared words
+  barrier();  // the next bin reuses the shared memory
 }
 
 void main() {

@@ -1,8 +1,6 @@
-// The places of a counting sort's indices, which have arrived in their bins in any order: an
-// index's place is the number of smaller ones in its bin. That makes the sort stable, and its
-// result independent of the order of atomics. For bins of up to kBinLimit; larger ones are put in
-// order by sort/order_oversized. The shader makes startAt() and arrivedAt() before it includes
-// this.
+// The final slot of an index in a counting sort: the number of smaller indices in its bin. This makes the
+// sort stable and independent of the order of the atomics. For bins up to kBinLimit; sort/order_oversized
+// handles larger ones. The including shader declares startAt() and arrivedAt() before.
 #ifndef RILL_PLACE_GLSL
 #define RILL_PLACE_GLSL
 #include "sort/sort_types.h"

@@ -1,6 +1,6 @@
 #version 460
-// Radix sort: how many keys of each digit a tile holds. Every invocation counts into bytes of its own (64 keys fit), so there
-// are no atomics; then invocation d adds up digit d.
+// Radix sort: counts the digits of each tile. Every invocation counts into its own bytes (64 keys fit), so
+// there are no atomics; then invocation d sums digit d.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/dispatch.glsl"
 #include "sort/sort_types.h"
@@ -10,7 +10,7 @@ layout(push_constant) uniform PushBlock { RadixPush push; };
 layout(set = 0, binding = 0, std430) readonly buffer Keys { uint keys[]; };
 layout(set = 0, binding = 1, std430) writeonly buffer Histogram { uint histogram[]; };  // [digit][tile]
 
-const uint kRow = kRadixThreads + 1u;  // keeps the digits' rows in different banks
+const uint kRow = kRadixThreads + 1u;  // padding against bank conflicts
 shared uint counters[(1u << kRadixBits) / 4u * kRow];
 
 void main() {

@@ -1,11 +1,11 @@
 #version 460
-// Radix sort: every key of a tile to its place. An invocation ranks consecutive keys, which is what keeps the sort stable. It reads
-// them from memory twice: a tile of 16 KiB stays in a cache, and a copy of it in shared memory made the pass 20 % slower on lavapipe.
+// Radix sort: scatters the keys of a tile. Each invocation ranks consecutive keys, which keeps the sort
+// stable. Keys are read twice instead of copied to shared memory: docs/notes/sort.md.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/dispatch.glsl"
 #include "sort/sort_types.h"
 
-layout(constant_id = 0) const uint kFirstPass = 0u;  // an index is then its own position
+layout(constant_id = 0) const uint kFirstPass = 0u;  // the index is the position
 layout(constant_id = 1) const uint kWriteKeys = 0u;
 
 layout(local_size_x = kRadixThreads) in;
@@ -17,7 +17,7 @@ layout(set = 0, binding = 3, std430) writeonly buffer KeysOut { uint keysOut[]; 
 layout(set = 0, binding = 4, std430) writeonly buffer OrderOut { uint orderOut[]; };
 
 const uint kRow = kRadixThreads + 1u;
-// Two digits a word: how many keys of a digit are in the tile before the invocation's next one.
+// Two 16-bit counters per word: keys of a digit in the tile before the invocation's next key.
 shared uint counters[(1u << kRadixBits) / 2u * kRow];
 shared uint base[1u << kRadixBits];
 

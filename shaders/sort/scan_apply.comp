@@ -1,5 +1,5 @@
 #version 460
-// Scan, last step, in place: each tile, from the sum of the tiles before it.
+// Scan, last step: scans each tile in place, starting from the sum of the previous tiles.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
@@ -7,7 +7,7 @@
 #include "shared/dispatch.glsl"
 #include "sort/sort_types.h"
 
-layout(constant_id = 0) const uint SCANNED = 0;  // the tiles' sums have been scanned; else each workgroup adds up those before its own
+layout(constant_id = 0) const uint kSumsScanned = 0;  // 1: the tile sums are scanned; 0: each workgroup adds up the sums of previous tiles
 
 layout(local_size_x = kScanThreads) in;
 layout(push_constant) uniform PushBlock { ScanPush push; };
@@ -20,7 +20,7 @@ READ_UINT(1, tileSums)
 shared uint sumBefore;
 
 uint offsetOf(uint tile) {
-  if (SCANNED != 0u) return tileSumsAt(tile);
+  if (kSumsScanned != 0u) return tileSumsAt(tile);
   if (gl_LocalInvocationIndex == 0u) sumBefore = 0u;
   barrier();
   uint sum = 0u;

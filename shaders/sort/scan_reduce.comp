@@ -1,5 +1,5 @@
 #version 460
-// Scan, first step: the sum of each tile.
+// Scan, first step: sums each tile.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
@@ -22,7 +22,7 @@ void main() {
   for (uint j = 0u; j < kScanItems / 4u; ++j) {
     const uint i = tile * (kScanTile / 4u) + j * kScanThreads + gl_LocalInvocationIndex;
     const uvec4 four = 4u * i < push.count ? valuesAt(i) : uvec4(0u);
-    sum += four.x + four.y + four.z + four.w;  // what lies behind the last value is behind all that the sum is for
+    sum += four.x + four.y + four.z + four.w;  // padding only affects the last tile's sum, which is never used
   }
   sum = subgroupAdd(sum);
   if (subgroupElect()) atomicAdd(tileSum, sum);

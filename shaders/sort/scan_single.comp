@@ -1,5 +1,5 @@
 #version 460
-// Scan of few values, in place, by one workgroup: a tile after the other.
+// Scan of few values in place by one workgroup, tile by tile.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
@@ -16,6 +16,6 @@ void main() {
   uint carry = 0u;
   for (uint first = 0u; first < push.count; first += kScanTile) {
     carry += scanTile(first, carry);
-    barrier();  // the next round writes the shared sums
+    barrier();  // the next iteration overwrites the shared sums
   }
 }

@@ -1,5 +1,5 @@
-// Scans one tile of `values`, which are fours, in place, from `offset`, and returns the tile's sum.
-// Each invocation takes kScanItems consecutive values.
+// Scans one tile of `values` (uvec4) in place, starting from `offset`, and returns the tile's sum. Each
+// invocation handles kScanItems consecutive values.
 #include "sort/workgroup_scan.glsl"
 
 uint scanTile(uint first, uint offset) {

@@ -1,5 +1,5 @@
 #version 460
-// Counting sort: every index into its bin, in the order of arrival, which differs from run to run.
+// Counting sort: scatters every index into its bin, in the nondeterministic order of the atomics.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/arrays.glsl"
 #include "shared/dispatch.glsl"

@@ -1,14 +1,14 @@
-// Constants and push constants of the sort's and the scan's shaders, for C++ and GLSL.
+// Constants and push constants of the sort and scan shaders, shared by C++ and GLSL.
 #ifndef RILL_SORT_TYPES_H
 #define RILL_SORT_TYPES_H
 #include "shared/interop.h"
 RILL_RECORDS_BEGIN
 
-// Scan: a workgroup takes a tile of kScanThreads * kScanItems values, which are loaded and stored four at a time.
+// Scan: a workgroup handles a tile of kScanThreads * kScanItems values, loaded and stored four at a time.
 RILL_CONST uint kScanThreads = 128u;
 RILL_CONST uint kScanItems = 16u;
 RILL_CONST uint kScanTile = kScanThreads * kScanItems;
-RILL_CONST uint kScanSums = 1024u;  // tiles, at most, whose sums every workgroup adds up for itself
+RILL_CONST uint kScanSums = 1024u;  // up to this many tiles, every workgroup sums the previous tiles itself
 
 struct ScanPush {
   uint count;  // values
@@ -16,23 +16,23 @@ struct ScanPush {
 
 // Counting sort.
 RILL_CONST uint kCountThreads = 256u;
-RILL_CONST uint kClearItems = 4u;  // fours of counters that one invocation clears
-// A particle of a bin of up to so many finds its place by reading the whole bin; larger ones go to sort/order_oversized.
+RILL_CONST uint kClearItems = 4u;  // uvec4s of counters that one invocation clears
+// In bins up to this size an index finds its slot by reading the whole bin; sort/order_oversized handles larger bins.
 RILL_CONST uint kBinLimit = 512u;
-// Indices that a workgroup of sort/order_oversized sorts at a time, as one bit each in 8 KiB of shared memory.
+// A workgroup of sort/order_oversized sorts a chunk of indices at a time, one bit per index in 8 KiB of shared memory.
 RILL_CONST uint kChunkWords = 2048u;
 RILL_CONST uint kChunkIndices = 32u * kChunkWords;
-RILL_CONST uint kOversizedGroups = 16u;  // a chunk, at most
+RILL_CONST uint kOversizedGroups = 16u;  // maximum per chunk
 
 struct CountingPush {
   uint count;      // keys
-  uint lastKey;    // largest key; a larger one is taken for it, so that a stray key writes nowhere else
-  uint chunks;     // of kChunkIndices indices
-  uint binGroups;  // workgroups a chunk that share the oversized bins
+  uint lastKey;    // largest key; larger ones are clamped to it, so that invalid keys never write out of bounds
+  uint chunks;     // number of chunks of kChunkIndices indices
+  uint binGroups;  // workgroups per chunk that share the oversized bins
 };
 
-// Radix sort: an invocation takes kRadixKeys consecutive keys, a workgroup a tile. There are as many invocations as digits.
-RILL_CONST uint kRadixBits = 6u;  // most bits of one pass
+// Radix sort: an invocation handles kRadixKeys consecutive keys, a workgroup one tile, with one invocation per digit value.
+RILL_CONST uint kRadixBits = 6u;  // maximum bits per pass
 RILL_CONST uint kRadixThreads = 64u;
 RILL_CONST uint kRadixKeys = 64u;
 RILL_CONST uint kRadixTile = kRadixThreads * kRadixKeys;
@@ -40,13 +40,13 @@ RILL_CONST uint kRadixTile = kRadixThreads * kRadixKeys;
 struct RadixPush {
   uint count;    // keys
   uint tiles;    // workgroups
-  uint shift;    // of this pass's digit
-  uint digits;   // values of a digit: a power of two, 2 .. 64
+  uint shift;    // bit offset of this pass's digit
+  uint digits;   // number of digit values: a power of two, 2 .. 64
 };
 
 struct StartPush {
   uint count;  // keys
-  uint range;  // entries of `start`, less one
+  uint range;  // entries of `start` minus one
 };
 
 RILL_RECORDS_END

@@ -1,5 +1,5 @@
 #version 460
-// Radix sort: start[k] = how many keys are smaller than k, by bisection in the sorted keys.
+// Radix sort: start[k] = number of keys smaller than k, by binary search in the sorted keys.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/dispatch.glsl"
 #include "sort/sort_types.h"

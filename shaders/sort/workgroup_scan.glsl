@@ -1,16 +1,17 @@
-// Exclusive sum over a workgroup at any subgroup size. Define WORKGROUP_SCAN_THREADS, the workgroup's size, before including.
-// The subgroups' sums are added up by one invocation each, from shared memory: a scan of them by one subgroup would be wrong
-// wherever there are more subgroups than invocations in one (64 subgroups of 4).
+// Exclusive prefix sum over a workgroup, for any subgroup size. Define WORKGROUP_SCAN_THREADS, the workgroup
+// size, before including. Subgroup sums are added in shared memory by one invocation per subgroup: a single
+// subgroup scan fails if there are more subgroups than lanes (64 subgroups of 4).
 #ifndef RILL_WORKGROUP_SCAN_GLSL
 #define RILL_WORKGROUP_SCAN_GLSL
 
 shared uint subgroupSums[WORKGROUP_SCAN_THREADS];
 shared uint subgroupOffsets[WORKGROUP_SCAN_THREADS + 1u];
 
-// The order in which workgroupExclusiveAdd adds: Vulkan leaves open how local indices map to subgroups.
+// The position in the order of summation. Vulkan does not define how local indices map to subgroups.
 uint scanLane() { return gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID; }
 
-// The sum of `value` over the invocations with a smaller scanLane(); `total` is the sum over all. A barrier is needed between two calls.
+// The sum of `value` over all invocations with a smaller scanLane(); `total` is the sum over the workgroup.
+// Two calls need a barrier between them.
 uint workgroupExclusiveAdd(uint value, out uint total) {
   const uint inclusive = subgroupInclusiveAdd(value);
   if (gl_SubgroupInvocationID == gl_SubgroupSize - 1u) subgroupSums[gl_SubgroupID] = inclusive;

@@ -1,9 +1,9 @@
 #pragma once
-#include "contract/guest.hpp"
+#include "contract/client.hpp"
 
 namespace rill::test {
 
-/// One host a test. Any message of its validation layer fails it.
+/// One host per test. Any validation message fails the test.
 class Contract : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -15,18 +15,18 @@ class Contract : public ::testing::Test {
     for (const std::string& message : host_->takeMessages()) ADD_FAILURE() << message;
   }
   Host& host() { return *host_; }
-  Watch& watch() { return host_->watch; }
-  /// Null, with a failure, where that fails.
-  std::unique_ptr<Guest> guest(const HostDevice& lent, bool draws = true) {
-    auto made = Guest::open(host(), lent, draws);
+  Interceptor& interceptor() { return host_->interceptor; }
+  /// Null, with a test failure, on error.
+  std::unique_ptr<Client> client(const HostDevice& hostDevice, bool draws = true) {
+    auto made = Client::open(host(), hostDevice, draws);
     if (made) return *std::move(made);
     ADD_FAILURE() << made.error().message;
     return nullptr;
   }
-  std::unique_ptr<Guest> guest() { return guest(host().lend()); }
-  static void frames(Guest& guest, int count) {
+  std::unique_ptr<Client> client() { return client(host().hostDevice()); }
+  static void frames(Client& client, int count) {
     for (int k = 0; k < count; ++k) {
-      const auto ok = guest.frame();
+      const auto ok = client.frame();
       ASSERT_TRUE(ok) << ok.error().message;
     }
   }

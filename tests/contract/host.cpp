@@ -9,7 +9,7 @@
 namespace rill::test {
 
 PFN_vkGetInstanceProcAddr loaderFunction() {
-  // Never closed: drivers leave threads and exit handlers behind.
+  // Never closed: drivers keep threads and exit handlers.
   static void* library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
   static const auto get = library ? reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library, "vkGetInstanceProcAddr")) : nullptr;
   return get;
@@ -46,7 +46,7 @@ bool Host::makeInstance() {
   VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
   application.apiVersion = VK_API_VERSION_1_3;
   const char* layer = "VK_LAYER_KHRONOS_validation";
-  const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;  // the instance's, for the test alone
+  const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;  // only for the test's messenger
   VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO, &features};
   info.pApplicationInfo = &application;
   info.enabledLayerCount = info.enabledExtensionCount = 1;
@@ -94,15 +94,15 @@ Host::~Host() {
   if (instance) vki.DestroyInstance(instance, nullptr);
 }
 
-HostDevice Host::lend() {
-  HostDevice lent;
-  lent.instance = instance;
-  lent.physicalDevice = physical;
-  lent.device = device;
-  lent.queueFamily = family;
-  lent.getInstanceProcAddr = Watch::getInstanceProcAddr();
-  lent.enabled = &needs.features;
-  return lent;
+HostDevice Host::hostDevice() {
+  HostDevice hostDevice;
+  hostDevice.instance = instance;
+  hostDevice.physicalDevice = physical;
+  hostDevice.device = device;
+  hostDevice.queueFamily = family;
+  hostDevice.getInstanceProcAddr = Interceptor::getInstanceProcAddr();
+  hostDevice.enabled = &needs.features;
+  return hostDevice;
 }
 
 void Host::run(const std::function<void(VkCommandBuffer)>& record, bool submits) {

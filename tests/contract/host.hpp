@@ -1,6 +1,6 @@
 #pragma once
-// Someone else's engine: an instance and a device with what Rill asks for and nothing besides, and a queue to which it alone submits.
-// Validation and synchronization validation listen.
+// A host application: an instance, a device with exactly the features that Rill requires, and a queue that
+// only the host submits to. Validation and synchronization validation are enabled.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "contract/watch.hpp"
+#include "contract/interceptor.hpp"
 #include "rill/device.hpp"
 
 namespace rill::test {
@@ -45,19 +45,19 @@ namespace rill::test {
 
 class Host {
  public:
-  /// Null, with a failure of the test, where there is no device. `without`: a required feature to leave out.
+  /// Null, with a test failure, if there is no device. `without`: a required feature to disable.
   static std::unique_ptr<Host> open(VkBool32 VkPhysicalDeviceVulkan13Features::*without = nullptr);
   ~Host();
   Host(const Host&) = delete;
   Host& operator=(const Host&) = delete;
 
-  /// With `watch` between; a test may change what it lends.
-  HostDevice lend();
-  /// Submits what `record` records and waits for it; or throws it away. From any thread.
+  /// The handles for Device::borrow, with `interceptor` as the function loader.
+  HostDevice hostDevice();
+  /// Records commands, then submits them and waits, or discards them. Thread safe.
   void run(const std::function<void(VkCommandBuffer)>& record, bool submits = true);
   std::vector<std::string> takeMessages();
 
-  Watch watch;
+  Interceptor interceptor;
   VkInstance instance = VK_NULL_HANDLE;
   VkPhysicalDevice physical = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;

@@ -1,7 +1,8 @@
-# Fails where LIBRARY needs a function that prints, reads the environment, handles signals, ends the process or starts a thread.
+# Fails if LIBRARY imports a function that prints, reads the environment, handles signals, ends the process
+# or starts a thread.
 execute_process(COMMAND ${NM} -u ${LIBRARY} OUTPUT_VARIABLE symbols ERROR_QUIET RESULT_VARIABLE failed)
 if(failed OR NOT symbols MATCHES " U memcpy")
-  message(FATAL_ERROR "${NM} could not list what ${LIBRARY} needs")
+  message(FATAL_ERROR "${NM} could not list the imports of ${LIBRARY}")
 endif()
 set(prints "(_IO_)?f?puts|puts|f?putc|putchar|v?f?printf|__v?f?printf_chk|v?dprintf|fwrite|perror|write|writev|std(out|err|in)|v?syslog|_ZSt4(cout|cerr|clog)|_ZSt5wcout")
 set(reads "(secure_)?getenv|__secure_getenv|setenv|putenv|environ|__environ")
@@ -10,5 +11,5 @@ set(handles "signal|sigaction|__sysv_signal|sigprocmask|pthread_sigmask|sigaltst
 set(threads "pthread_create|thrd_create|_ZNSt6thread.*")
 string(REGEX MATCHALL " U (${prints}|${reads}|${ends}|${handles}|${threads})(@[^\n]*)?\n" found "${symbols}")
 if(found)
-  message(FATAL_ERROR "${LIBRARY} needs: ${found}")
+  message(FATAL_ERROR "${LIBRARY} imports: ${found}")
 endif()

@@ -1,4 +1,4 @@
-// What a host has to bring, and what it is told where it did not.
+// Requirements for a host, and the errors if they are not met.
 #include <cstddef>
 #include <cstring>
 
@@ -20,21 +20,21 @@ constexpr Feature kFeatures[] = {
     {"computeFullSubgroups", &VkPhysicalDeviceVulkan13Features::computeFullSubgroups},
 };
 
-void expectRefused(const HostDevice& lent, ErrorKind kind, std::string_view part) {
-  const auto refused = Device::borrow(lent);
+void expectRefused(const HostDevice& hostDevice, ErrorKind kind, std::string_view part) {
+  const auto refused = Device::borrow(hostDevice);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, kind);
   EXPECT_NE(refused.error().message.find(part), std::string::npos) << refused.error().message;
 }
 
-TEST_F(Contract, ADeviceWithTheRequiredFeaturesAndNoExtensionIsEnough) {
-  auto made = guest();
+TEST_F(Contract, RunsWithRequiredFeaturesAndNoExtensions) {
+  auto made = client();
   ASSERT_TRUE(made);
   frames(*made, 3);
-  EXPECT_FALSE(made->bits().empty());
+  EXPECT_FALSE(made->readback().empty());
 }
 
-TEST_F(Contract, TheRequirementsAreTheseFeatures) {
+TEST_F(Contract, RequiresExactlyTheseFeatures) {
   DeviceRequirements all;
   for (const Feature& feature : kFeatures) all.vulkan13.*feature.flag = VK_TRUE;
   const VkPhysicalDeviceVulkan13Features& asked = host().needs.vulkan13;
@@ -46,10 +46,10 @@ TEST_F(Contract, TheRequirementsAreTheseFeatures) {
   EXPECT_EQ(std::memcmp(&host().needs.features.features, &none, sizeof none), 0);
 }
 
-TEST_F(Contract, WhatTheHostItselfAskedForStays) {
+TEST_F(Contract, AppendRequiredKeepsHostFeatures) {
   DeviceRequirements needs;
   needs.features.features.samplerAnisotropy = needs.vulkan13.inlineUniformBlock = VK_TRUE;
-  ASSERT_TRUE(appendRequired(Watch::getInstanceProcAddr(), host().instance, host().physical, needs));
+  ASSERT_TRUE(appendRequired(Interceptor::getInstanceProcAddr(), host().instance, host().physical, needs));
   EXPECT_TRUE(needs.features.features.samplerAnisotropy);
   EXPECT_TRUE(needs.vulkan13.inlineUniformBlock);
   VkPhysicalDeviceVulkan12Features own{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
@@ -57,24 +57,24 @@ TEST_F(Contract, WhatTheHostItselfAskedForStays) {
   EXPECT_EQ(chain, &needs.features);
   EXPECT_EQ(chain->pNext, &needs.vulkan13);
   EXPECT_EQ(needs.vulkan13.pNext, &own);
-  HostDevice lent = host().lend();
-  lent.enabled = chain;
-  EXPECT_TRUE(Device::borrow(lent));
+  HostDevice hostDevice = host().hostDevice();
+  hostDevice.enabled = chain;
+  EXPECT_TRUE(Device::borrow(hostDevice));
 }
 
-TEST(ContractFeatures, ADeviceMadeWithoutARequiredFeatureIsRefusedByItsName) {
+TEST(ContractFeatures, RejectsDeviceWithoutRequiredFeature) {
   for (const Feature& feature : kFeatures) {
     SCOPED_TRACE(feature.name);
     const auto host = Host::open(feature.flag);
     ASSERT_TRUE(host);
-    expectRefused(host->lend(), ErrorKind::NoDevice, std::string("feature ") + feature.name);
-    EXPECT_TRUE(host->watch.alive().empty());
+    expectRefused(host->hostDevice(), ErrorKind::NoDevice, std::string("feature ") + feature.name);
+    EXPECT_TRUE(host->interceptor.liveObjects().empty());
     for (const std::string& message : host->takeMessages()) ADD_FAILURE() << message;
   }
 }
 
-// Else no message would mean nothing.
-TEST_F(Contract, TheHostHearsItsValidationLayer) {
+// Proves that the absence of messages in the other tests is meaningful.
+TEST_F(Contract, ValidationMessagesReachHost) {
   const VkFenceCreateInfo wrong{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, nullptr, 0x80};
   VkFence fence = VK_NULL_HANDLE;
   ASSERT_EQ(host().vk.CreateFence(host().device, &wrong, nullptr, &fence), VK_SUCCESS);
@@ -82,51 +82,51 @@ TEST_F(Contract, TheHostHearsItsValidationLayer) {
   EXPECT_EQ(host().takeMessages().size(), 1u);
 }
 
-TEST_F(Contract, APhysicalDeviceThatLacksARequiredFeatureIsRefusedByItsName) {
+TEST_F(Contract, RejectsPhysicalDeviceWithoutRequiredFeature) {
   for (const Feature& feature : kFeatures) {
     SCOPED_TRACE(feature.name);
-    watch().lacks = feature.flag;
+    interceptor().missingFeature = feature.flag;
     DeviceRequirements needs;
-    const auto refused = appendRequired(Watch::getInstanceProcAddr(), host().instance, host().physical, needs);
+    const auto refused = appendRequired(Interceptor::getInstanceProcAddr(), host().instance, host().physical, needs);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().kind, ErrorKind::NoDevice);
     EXPECT_NE(refused.error().message.find(feature.name), std::string::npos) << refused.error().message;
   }
 }
 
-TEST_F(Contract, APhysicalDeviceThatLacksSubgroupsOrTexelsIsRefusedByTheirName) {
+TEST_F(Contract, RejectsPhysicalDeviceWithoutSubgroupsOrTexelFormats) {
   const auto refusal = [&] {
     DeviceRequirements needs;
-    const auto refused = appendRequired(Watch::getInstanceProcAddr(), host().instance, host().physical, needs);
+    const auto refused = appendRequired(Interceptor::getInstanceProcAddr(), host().instance, host().physical, needs);
     return refused ? std::string("accepted") : refused.error().message;
   };
   EXPECT_EQ(refusal(), "accepted");
   for (const VkSubgroupFeatureFlagBits operation : {VK_SUBGROUP_FEATURE_ARITHMETIC_BIT, VK_SUBGROUP_FEATURE_SHUFFLE_BIT}) {
-    watch().lacksSubgroups = operation;
+    interceptor().missingSubgroupOperations = operation;
     EXPECT_NE(refusal().find("subgroup operations (basic, arithmetic, shuffle)"), std::string::npos) << refusal();
   }
-  watch().lacksSubgroups = VK_SUBGROUP_FEATURE_VOTE_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT;
+  interceptor().missingSubgroupOperations = VK_SUBGROUP_FEATURE_VOTE_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT;
   EXPECT_EQ(refusal(), "accepted") << "no shader uses them";
-  watch().lacksSubgroups = 0;
-  watch().lanes = 2;
-  EXPECT_NE(refusal().find("its subgroups have 2 lanes, 4 are needed"), std::string::npos) << refusal();
-  watch().lanes = 0;
-  watch().lacksTexels = VK_FORMAT_R32_UINT;
+  interceptor().missingSubgroupOperations = 0;
+  interceptor().subgroupSize = 2;
+  EXPECT_NE(refusal().find("subgroup size 2; expected at least 4"), std::string::npos) << refusal();
+  interceptor().subgroupSize = 0;
+  interceptor().missingTexelFormat = VK_FORMAT_R32_UINT;
   EXPECT_NE(refusal().find("uniform texel buffers of R32_UINT"), std::string::npos) << refusal();
 }
 
-TEST_F(Contract, AQueueFamilyThatCannotComputeIsRefusedAndOneThatCannotDrawHasNoRenderer) {
-  watch().lacksQueues = VK_QUEUE_COMPUTE_BIT;
-  expectRefused(host().lend(), ErrorKind::BadInput, "its queues cannot compute");
-  watch().lacksQueues = VK_QUEUE_GRAPHICS_BIT;
-  auto device = Device::borrow(host().lend());
+TEST_F(Contract, RejectsQueueWithoutComputeAndRendererWithoutGraphics) {
+  interceptor().missingQueueFlags = VK_QUEUE_COMPUTE_BIT;
+  expectRefused(host().hostDevice(), ErrorKind::BadInput, "expected a family with compute");
+  interceptor().missingQueueFlags = VK_QUEUE_GRAPHICS_BIT;
+  auto device = Device::borrow(host().hostDevice());
   ASSERT_TRUE(device) << device.error().message;
   const auto renderer = FluidRenderer::create(**device);
   ASSERT_FALSE(renderer);
   EXPECT_EQ(renderer.error().kind, ErrorKind::NoDevice);
 }
 
-TEST_F(Contract, FeaturesMayBeGivenInTheStructuresThatTheyWerePromotedFrom) {
+TEST_F(Contract, AcceptsFeaturesInPromotedStructures) {
   VkPhysicalDeviceSynchronization2Features synchronization{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES, nullptr, VK_TRUE};
   VkPhysicalDeviceDynamicRenderingFeatures rendering{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES, &synchronization,
                                                      VK_TRUE};
@@ -134,16 +134,16 @@ TEST_F(Contract, FeaturesMayBeGivenInTheStructuresThatTheyWerePromotedFrom) {
   VkPhysicalDeviceSubgroupSizeControlFeatures sizes{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES, &maintenance, VK_TRUE,
                                                     VK_TRUE};
   const VkPhysicalDeviceFeatures2 enabled{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &sizes, {}};
-  HostDevice lent = host().lend();
-  lent.enabled = &enabled;
-  EXPECT_TRUE(Device::borrow(lent));
+  HostDevice hostDevice = host().hostDevice();
+  hostDevice.enabled = &enabled;
+  EXPECT_TRUE(Device::borrow(hostDevice));
 }
 
-TEST_F(Contract, WhatTheHostForgotIsNamed) {
+TEST_F(Contract, NamesInvalidHostFields) {
   const auto without = [&](auto member, auto value) {
-    HostDevice lent = host().lend();
-    lent.*member = value;
-    return lent;
+    HostDevice hostDevice = host().hostDevice();
+    hostDevice.*member = value;
+    return hostDevice;
   };
   const MemoryHooks hooks;
   expectRefused(without(&HostDevice::instance, VkInstance{}), ErrorKind::BadInput, "instance is null");
@@ -151,9 +151,9 @@ TEST_F(Contract, WhatTheHostForgotIsNamed) {
   expectRefused(without(&HostDevice::device, VkDevice{}), ErrorKind::BadInput, "device is null");
   expectRefused(without(&HostDevice::getInstanceProcAddr, nullptr), ErrorKind::BadInput, "getInstanceProcAddr is null");
   expectRefused(without(&HostDevice::enabled, nullptr), ErrorKind::BadInput, "enabled is null");
-  expectRefused(without(&HostDevice::apiVersion, VK_API_VERSION_1_2), ErrorKind::BadInput, "apiVersion is below 1.3");
+  expectRefused(without(&HostDevice::apiVersion, VK_API_VERSION_1_2), ErrorKind::BadInput, "apiVersion is 1.2.0; expected 1.3 or newer");
   expectRefused(without(&HostDevice::queueFamily, 1000u), ErrorKind::BadInput, "no such family");
-  expectRefused(without(&HostDevice::memory, &hooks), ErrorKind::BadInput, "memory lacks allocate or free");
+  expectRefused(without(&HostDevice::memory, &hooks), ErrorKind::BadInput, "memory: allocate or free is null");
 }
 
 }  // namespace

@@ -9,15 +9,17 @@
 namespace rill::test {
 namespace {
 
-/// Hands out pieces that lie at odd places of allocations of its own, and knows which are out.
-class Lender {
+/// Suballocates at unusual offsets and tracks the outstanding blocks.
+class TestAllocator {
  public:
-  explicit Lender(Host& host) : host_(host) { host.vki.GetPhysicalDeviceMemoryProperties(host.physical, &properties_); }
+  explicit TestAllocator(Host& host) : host_(host) { host.vki.GetPhysicalDeviceMemoryProperties(host.physical, &properties_); }
 
   MemoryHooks hooks() {
     return {this,
-            [](void* user, const MemoryRequest* request, MemoryBlock* block) { return static_cast<Lender*>(user)->lend(*request, *block); },
-            [](void* user, const MemoryBlock* block) { static_cast<Lender*>(user)->takeBack(*block); }};
+            [](void* user, const MemoryRequest* request, MemoryBlock* block) {
+              return static_cast<TestAllocator*>(user)->lend(*request, *block);
+            },
+            [](void* user, const MemoryBlock* block) { static_cast<TestAllocator*>(user)->release(*block); }};
   }
 
   struct Piece {
@@ -28,17 +30,17 @@ class Lender {
     int freed = 0;
   };
   std::list<Piece> pieces;
-  size_t out() const {
+  size_t outstanding() const {
     size_t count = 0;
     for (const Piece& piece : pieces) count += piece.freed == 0;
     return count;
   }
-  void (*spoil)(const MemoryRequest&, MemoryBlock&) = nullptr;  ///< what a careless host does
-  VkResult answer = VK_SUCCESS;
+  void (*corrupt)(const MemoryRequest&, MemoryBlock&) = nullptr;  ///< makes the returned block invalid
+  VkResult result = VK_SUCCESS;
 
  private:
   VkResult lend(const MemoryRequest& request, MemoryBlock& block) {
-    if (answer != VK_SUCCESS) return answer;
+    if (result != VK_SUCCESS) return result;
     const VkMemoryRequirements& needs = request.requirements;
     Piece piece{request.name, request.images, request.mapped, VK_NULL_HANDLE, needs.size, 0};
     const auto type = typeFor(needs.memoryTypeBits, request.required | request.preferred, request.required);
@@ -55,10 +57,10 @@ class Lender {
     }
     pieces.push_back(piece);
     block.handle = &pieces.back();
-    if (spoil) spoil(request, block);
+    if (corrupt) corrupt(request, block);
     return VK_SUCCESS;
   }
-  void takeBack(const MemoryBlock& block) {
+  void release(const MemoryBlock& block) {
     auto& piece = *static_cast<Piece*>(block.handle);
     if (piece.freed++ == 0) host_.vk.FreeMemory(host_.device, piece.memory, nullptr);
   }
@@ -77,41 +79,41 @@ class ContractMemory : public Contract {
   void SetUp() override {
     Contract::SetUp();
     if (HasFatalFailure()) return;
-    lender_.emplace(host());
-    hooks_ = lender_->hooks();
+    allocator_.emplace(host());
+    hooks_ = allocator_->hooks();
   }
   HostDevice lend() {
-    HostDevice lent = host().lend();
-    lent.memory = &hooks_;
-    return lent;
+    HostDevice hostDevice = host().hostDevice();
+    hostDevice.memory = &hooks_;
+    return hostDevice;
   }
-  Lender& lender() { return *lender_; }
-  void expectAllBackOnce() {
-    for (const Lender::Piece& piece : lender().pieces) EXPECT_EQ(piece.freed, 1) << piece.name;
+  TestAllocator& allocator() { return *allocator_; }
+  void expectEachFreedOnce() {
+    for (const TestAllocator::Piece& piece : allocator().pieces) EXPECT_EQ(piece.freed, 1) << piece.name;
   }
 
   MemoryHooks hooks_;
 
  private:
-  std::optional<Lender> lender_;
+  std::optional<TestAllocator> allocator_;
 };
 
-TEST_F(ContractMemory, AllMemoryComesFromTheHostsHooks) {
-  std::vector<std::byte> plain, lent;
+TEST_F(ContractMemory, AllocatesAllMemoryThroughHooks) {
+  std::vector<std::byte> plain, hooked;
   {
-    auto made = guest();
+    auto made = client();
     ASSERT_TRUE(made);
     frames(*made, 2);
-    plain = made->bits();
+    plain = made->readback();
   }
-  watch().forget();
+  interceptor().clearCalls();
   {
-    auto made = guest(lend());
+    auto made = client(lend());
     ASSERT_TRUE(made);
     frames(*made, 2);
-    lent = made->bits();
+    hooked = made->readback();
     bool images = false, buffers = false, mapped = false;
-    for (const Lender::Piece& piece : lender().pieces) {
+    for (const TestAllocator::Piece& piece : allocator().pieces) {
       EXPECT_FALSE(piece.name.empty());
       EXPECT_GT(piece.bytes, 0u);
       (piece.images ? images : buffers) = true;
@@ -119,73 +121,74 @@ TEST_F(ContractMemory, AllMemoryComesFromTheHostsHooks) {
     }
     EXPECT_TRUE(images && buffers && mapped);
   }
-  for (const Watch::Call& call : watch().calls()) EXPECT_TRUE(call.name != "vkAllocateMemory" && call.name != "vkFreeMemory") << call.name;
-  expectAllBackOnce();
-  EXPECT_FALSE(lent.empty());
-  EXPECT_TRUE(lent == plain) << "where memory comes from makes no difference";
+  for (const Interceptor::Call& call : interceptor().calls())
+    EXPECT_TRUE(call.name != "vkAllocateMemory" && call.name != "vkFreeMemory") << call.name;
+  expectEachFreedOnce();
+  EXPECT_FALSE(hooked.empty());
+  EXPECT_TRUE(hooked == plain) << "where memory comes from makes no difference";
 }
 
-TEST_F(ContractMemory, ABlockIsFreedOnceItsFrameHasCompletedAndNotBefore) {
+TEST_F(ContractMemory, FreesBlocksOnlyAfterTheirFrame) {
   auto device = Device::borrow(lend());
   ASSERT_TRUE(device);
   (*device)->beginFrame({5, 3});
   {
     auto buffer = createBuffer(**device, "short-lived", 4096);
     ASSERT_TRUE(buffer);
-    EXPECT_EQ(lender().out(), 1u);
+    EXPECT_EQ(allocator().outstanding(), 1u);
   }
-  EXPECT_EQ(lender().out(), 1u) << "frame 5 may use it";
+  EXPECT_EQ(allocator().outstanding(), 1u) << "frame 5 may use it";
   (*device)->beginFrame({6, 4});
-  EXPECT_EQ(lender().out(), 1u) << "frame 5 has not completed";
+  EXPECT_EQ(allocator().outstanding(), 1u) << "frame 5 has not completed";
   (*device)->beginFrame({7, 5});
-  EXPECT_EQ(lender().out(), 0u);
-  expectAllBackOnce();
+  EXPECT_EQ(allocator().outstanding(), 0u);
+  expectEachFreedOnce();
 }
 
-TEST_F(ContractMemory, TheEndOfTheDeviceFreesWhatIsLeft) {
+TEST_F(ContractMemory, DeviceDestructorFreesRemainingBlocks) {
   auto device = Device::borrow(lend());
   ASSERT_TRUE(device);
   hooks_ = {};  // what it points to was read by borrow() alone
   { auto buffer = createBuffer(**device, "short-lived", 4096); }
-  EXPECT_EQ(lender().out(), 1u);
+  EXPECT_EQ(allocator().outstanding(), 1u);
   device->reset();
-  expectAllBackOnce();
+  expectEachFreedOnce();
 }
 
-TEST_F(ContractMemory, AFrameLikeThoseBeforeItAsksForNoMemory) {
-  auto made = guest(lend());
+TEST_F(ContractMemory, RepeatedFrameAllocatesNoMemory) {
+  auto made = client(lend());
   ASSERT_TRUE(made);
   frames(*made, 4);
-  const size_t before = lender().pieces.size();
+  const size_t before = allocator().pieces.size();
   frames(*made, 6);
-  EXPECT_EQ(lender().pieces.size(), before);
+  EXPECT_EQ(allocator().pieces.size(), before);
 }
 
-TEST_F(ContractMemory, ABlockThatCannotBeIsRefusedByTheBuffersNameAndFreed) {
+TEST_F(ContractMemory, RejectsAndFreesInvalidBlocks) {
   auto device = Device::borrow(lend());
   ASSERT_TRUE(device);
   const struct {
-    void (*spoil)(const MemoryRequest&, MemoryBlock&);
-    const char* said;
-  } table[] = {{[](const MemoryRequest&, MemoryBlock& block) { ++block.offset; }, "is no multiple of"},
+    void (*corrupt)(const MemoryRequest&, MemoryBlock&);
+    const char* message;
+  } table[] = {{[](const MemoryRequest&, MemoryBlock& block) { ++block.offset; }, "not a multiple of"},
                {[](const MemoryRequest&, MemoryBlock& block) { block.mapped = nullptr; }, "no mapped address"},
                {[](const MemoryRequest&, MemoryBlock& block) { block.memory = VK_NULL_HANDLE; }, "no VkDeviceMemory"},
-               {[](const MemoryRequest&, MemoryBlock& block) { block.memoryType = 31; }, "not among those allowed"}};
+               {[](const MemoryRequest&, MemoryBlock& block) { block.memoryType = 31; }, "not an allowed type"}};
   for (const auto& row : table) {
-    lender().spoil = row.spoil;
+    allocator().corrupt = row.corrupt;
     const auto refused = createBuffer(**device, "positions", 4096, MemoryKind::Upload);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().kind, ErrorKind::BadInput);
     EXPECT_NE(refused.error().message.find("buffer 'positions'"), std::string::npos) << refused.error().message;
-    EXPECT_NE(refused.error().message.find(row.said), std::string::npos) << refused.error().message;
-    expectAllBackOnce();
+    EXPECT_NE(refused.error().message.find(row.message), std::string::npos) << refused.error().message;
+    expectEachFreedOnce();
   }
 }
 
-TEST_F(ContractMemory, WhatTheHostsAllocatorAnswersIsTheError) {
+TEST_F(ContractMemory, ReturnsAllocatorError) {
   auto device = Device::borrow(lend());
   ASSERT_TRUE(device);
-  lender().answer = VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  allocator().result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
   const auto refused = createBuffer(**device, "positions", 4096);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, ErrorKind::OutOfMemory);

@@ -1,4 +1,4 @@
-# Fails where LIBRARY defines or needs a symbol named vk*.
+# Fails if LIBRARY defines or imports a symbol named vk*.
 execute_process(COMMAND ${NM} ${LIBRARY} OUTPUT_VARIABLE symbols ERROR_QUIET RESULT_VARIABLE failed)
 if(failed OR NOT symbols MATCHES "rill")
   message(FATAL_ERROR "${NM} could not list the symbols of ${LIBRARY}")

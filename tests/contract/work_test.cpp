@@ -1,4 +1,4 @@
-// What Rill does with the handles that it was lent, and what it leaves alone.
+// Rill's use of the borrowed handles.
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
@@ -10,7 +10,7 @@
 namespace rill::test {
 namespace {
 
-/// The host's own allocator of host memory, which counts.
+/// The host's VkAllocationCallbacks, counting allocations.
 struct CountingCallbacks {
   static inline std::atomic<int64_t> alive = 0, total = 0;
   static constexpr size_t kHeader = 64;
@@ -37,13 +37,13 @@ struct CountingCallbacks {
   }
 };
 
-TEST_F(Contract, NothingIsSubmittedOrWaitedForAndNoDeviceIsMade) {
+TEST_F(Contract, NeverSubmitsWaitsOrCreatesDevices) {
   {
-    auto made = guest();
+    auto made = client();
     ASSERT_TRUE(made);
     frames(*made, 2);
   }
-  const auto lookedUp = watch().lookedUp();
+  const auto lookedUp = interceptor().lookedUp();
   EXPECT_TRUE(lookedUp.contains("vkCmdDispatch"));
   for (const std::string& name : lookedUp)
     for (const char* never : {"Submit", "Wait", "vkQueue", "vkCreateInstance", "vkCreateDevice", "Fence", "Semaphore", "vkGetDeviceQueue",
@@ -51,19 +51,19 @@ TEST_F(Contract, NothingIsSubmittedOrWaitedForAndNoDeviceIsMade) {
       EXPECT_EQ(name.find(never), std::string::npos) << name;
 }
 
-TEST_F(Contract, PipelinesAreMadeWithTheHostsCacheWhichTheHostMaySave) {
+TEST_F(Contract, CreatesPipelinesThroughHostCache) {
   const VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
   VkPipelineCache cache = VK_NULL_HANDLE;
   ASSERT_EQ(host().vk.CreatePipelineCache(host().device, &info, nullptr, &cache), VK_SUCCESS);
   size_t empty = 0, full = 0;
   ASSERT_EQ(host().vk.GetPipelineCacheData(host().device, cache, &empty, nullptr), VK_SUCCESS);
   {
-    HostDevice lent = host().lend();
-    lent.cache = cache;
-    ASSERT_TRUE(guest(lent));
+    HostDevice hostDevice = host().hostDevice();
+    hostDevice.cache = cache;
+    ASSERT_TRUE(client(hostDevice));
   }
   size_t pipelines = 0;
-  for (const Watch::Call& call : watch().calls()) {
+  for (const Interceptor::Call& call : interceptor().calls()) {
     if (call.name != "vkCreateComputePipelines" && call.name != "vkCreateGraphicsPipelines") continue;
     EXPECT_EQ(call.cache, cache);
     ++pipelines;
@@ -74,53 +74,53 @@ TEST_F(Contract, PipelinesAreMadeWithTheHostsCacheWhichTheHostMaySave) {
   host().vk.DestroyPipelineCache(host().device, cache, nullptr);
 }
 
-TEST_F(Contract, EveryObjectIsMadeAndDestroyedWithTheHostsCallbacks) {
+TEST_F(Contract, UsesHostCallbacksForEveryObject) {
   CountingCallbacks::alive = CountingCallbacks::total = 0;
   const VkAllocationCallbacks callbacks{
       nullptr, &CountingCallbacks::allocate, &CountingCallbacks::reallocate, &CountingCallbacks::release, nullptr, nullptr};
   {
-    HostDevice lent = host().lend();
-    lent.callbacks = &callbacks;
-    auto made = guest(lent);
+    HostDevice hostDevice = host().hostDevice();
+    hostDevice.callbacks = &callbacks;
+    auto made = client(hostDevice);
     ASSERT_TRUE(made);
     frames(*made, 2);
   }
-  ASSERT_FALSE(watch().calls().empty());
-  for (const Watch::Call& call : watch().calls()) EXPECT_EQ(call.callbacks, &callbacks) << call.name;
+  ASSERT_FALSE(interceptor().calls().empty());
+  for (const Interceptor::Call& call : interceptor().calls()) EXPECT_EQ(call.callbacks, &callbacks) << call.name;
   EXPECT_GT(CountingCallbacks::total, 0);
   EXPECT_EQ(CountingCallbacks::alive, 0);
 }
 
-TEST_F(Contract, WhatWasMadeIsDestroyedByTheEndOfTheDevice) {
+TEST_F(Contract, DestroysEverythingByDeviceDestruction) {
   {
-    auto made = guest();
+    auto made = client();
     ASSERT_TRUE(made);
     frames(*made, 3);
-    EXPECT_FALSE(watch().alive().empty());
+    EXPECT_FALSE(interceptor().liveObjects().empty());
   }
-  for (const auto& [kind, count] : watch().alive()) ADD_FAILURE() << count << " of " << kind << " are left";
+  for (const auto& [kind, count] : interceptor().liveObjects()) ADD_FAILURE() << count << " leaked objects of type " << kind;
 }
 
-TEST_F(Contract, AFrameLikeThoseBeforeItAllocatesNoMemoryAndMakesNothingButViews) {
-  auto made = guest();
+TEST_F(Contract, RepeatedFrameCreatesOnlyViews) {
+  auto made = client();
   ASSERT_TRUE(made);
   frames(*made, 4);
-  watch().forget();
-  const auto before = watch().alive();
+  interceptor().clearCalls();
+  const auto before = interceptor().liveObjects();
   frames(*made, 8);
-  EXPECT_EQ(watch().made("View"), 0u);
-  for (const Watch::Call& call : watch().calls()) EXPECT_NE(call.name.find("View"), std::string::npos) << call.name;
-  EXPECT_EQ(watch().alive(), before) << "views are destroyed as they are made";
+  EXPECT_EQ(interceptor().createCount("View"), 0u);
+  for (const Interceptor::Call& call : interceptor().calls()) EXPECT_NE(call.name.find("View"), std::string::npos) << call.name;
+  EXPECT_EQ(interceptor().liveObjects(), before) << "views are destroyed as they are made";
 }
 
-TEST_F(Contract, MemoryIsAllocatedInCallsThatReturnAnExpectedAndFreedInBeginFrameAndTheEndOfTheDevice) {
+TEST_F(Contract, AllocatesAndFreesOnlyInDocumentedCalls) {
   {
-    auto made = guest();
+    auto made = client();
     ASSERT_TRUE(made);
     frames(*made, 4);
   }
   std::set<std::string> allocates, frees;
-  for (const Watch::Call& call : watch().calls()) {
+  for (const Interceptor::Call& call : interceptor().calls()) {
     if (call.name == "vkAllocateMemory") allocates.insert(call.during);
     if (call.name == "vkFreeMemory") frees.insert(call.during);
   }
@@ -128,72 +128,72 @@ TEST_F(Contract, MemoryIsAllocatedInCallsThatReturnAnExpectedAndFreedInBeginFram
   EXPECT_EQ(frees, (std::set<std::string>{"beginFrame", "~Device"}));
 }
 
-TEST_F(Contract, FrameClockAloneDecidesWhatIsFreed) {
-  auto made = guest();
+TEST_F(Contract, OnlyFrameClockTriggersFrees) {
+  auto made = client();
   ASSERT_TRUE(made);
   frames(*made, 4);
-  const auto memory = [&] { return watch().alive()["DeviceMemory"]; };
+  const auto memory = [&] { return interceptor().liveObjects()["DeviceMemory"]; };
   const int64_t before = memory();
-  made->draws = false;  // images of the picture are not needed any more
+  made->draws = false;  // the rendered images are no longer needed
   for (int k = 0; k < 3; ++k) {
-    ASSERT_TRUE(made->frame(Guest::Fate::Submitted, false));
-    EXPECT_GE(memory(), before) << "the clock has told of none of these frames, though they have completed";
+    ASSERT_TRUE(made->frame(Client::Submission::Submitted, false));
+    EXPECT_GE(memory(), before) << "the clock has not reported these completed frames";
   }
-  const int64_t images = watch().alive()["Image"];
+  const int64_t images = interceptor().liveObjects()["Image"];
   EXPECT_GT(images, 0);
   made->clock.completed = made->clock.recording;
-  (void)made->bits();
-  EXPECT_LT(watch().alive()["Image"], images);
+  (void)made->readback();
+  EXPECT_LT(interceptor().liveObjects()["Image"], images);
 }
 
-TEST_F(Contract, AnAbandonedFrameIsAsIfItHadNeverBeen) {
+TEST_F(Contract, AbandonedFrameHasNoEffect) {
   std::vector<std::byte> plain;
   {
-    auto made = guest();
+    auto made = client();
     ASSERT_TRUE(made);
     frames(*made, 3);
-    plain = made->bits();
+    plain = made->readback();
   }
   ASSERT_FALSE(plain.empty());
-  auto made = guest();
+  auto made = client();
   ASSERT_TRUE(made);
-  ASSERT_TRUE(made->frame(Guest::Fate::Abandoned)) << "the very one that was to bring the particles";
-  EXPECT_TRUE(made->bits().empty());
+  ASSERT_TRUE(made->frame(Client::Submission::Abandoned)) << "this frame contains the particle upload";
+  EXPECT_TRUE(made->readback().empty());
   frames(*made, 1);
-  ASSERT_TRUE(made->frame(Guest::Fate::Abandoned));
-  ASSERT_TRUE(made->frame(Guest::Fate::Abandoned));
+  ASSERT_TRUE(made->frame(Client::Submission::Abandoned));
+  ASSERT_TRUE(made->frame(Client::Submission::Abandoned));
   frames(*made, 2);
-  EXPECT_TRUE(made->bits() == plain);
+  EXPECT_TRUE(made->readback() == plain);
 }
 
-TEST_F(Contract, SeveralRecordedFramesMayBeAbandonedTogether) {
+TEST_F(Contract, AbandonsSeveralRecordedFrames) {
   std::vector<std::byte> plain;
   {
-    auto made = guest();
+    auto made = client();
     ASSERT_TRUE(made);
     frames(*made, 3);
-    plain = made->bits();
+    plain = made->readback();
   }
-  auto made = guest();
+  auto made = client();
   ASSERT_TRUE(made);
   frames(*made, 1);
   std::vector<uint64_t> thrown;
   for (int k = 0; k < 3; ++k) {
-    ASSERT_TRUE(made->frame(Guest::Fate::ThrownAway, false));
+    ASSERT_TRUE(made->frame(Client::Submission::Discarded, false));
     thrown.push_back(made->clock.recording);
   }
   for (const uint64_t frame : thrown) made->device().abandon(frame);
   frames(*made, 2);
-  EXPECT_TRUE(made->bits() == plain);
+  EXPECT_TRUE(made->readback() == plain);
 }
 
-TEST_F(Contract, NothingIsPrinted) {
+TEST_F(Contract, PrintsNothing) {
   ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();
   {
-    auto made = Guest::open(host(), host().lend());
+    auto made = Client::open(host(), host().hostDevice());
     if (made) (void)(*made)->frame();
-    HostDevice lacking = host().lend();
+    HostDevice lacking = host().hostDevice();
     lacking.device = VK_NULL_HANDLE;
     (void)Device::borrow(lacking);
   }
@@ -201,16 +201,16 @@ TEST_F(Contract, NothingIsPrinted) {
   EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
 }
 
-TEST_F(Contract, AnyThreadMayCallAsLongAsOneDoesAtATime) {
+TEST_F(Contract, AnyThreadMayCallOneAtATime) {
   std::vector<std::byte> here, there;
   const auto lived = [&](bool elsewhere) {
-    std::unique_ptr<Guest> made;
+    std::unique_ptr<Client> made;
     std::vector<std::byte> bits;
     const auto onThread = [&](auto&& work) { elsewhere ? std::thread(work).join() : work(); };
-    onThread([&] { made = guest(host().lend(), false); });
+    onThread([&] { made = client(host().hostDevice(), false); });
     if (!made) return bits;
     for (int k = 0; k < 2; ++k) onThread([&] { frames(*made, 1); });
-    onThread([&] { bits = made->bits(); });
+    onThread([&] { bits = made->readback(); });
     onThread([&] { made.reset(); });
     return bits;
   };
@@ -220,18 +220,18 @@ TEST_F(Contract, AnyThreadMayCallAsLongAsOneDoesAtATime) {
   EXPECT_TRUE(here == there);
 }
 
-TEST_F(Contract, TwoDevicesOfOneVkDeviceMayBeUsedByTwoThreadsAtOnce) {
+TEST_F(Contract, TwoThreadsUseTwoDevicesOfOneVkDevice) {
   const VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
   VkPipelineCache cache = VK_NULL_HANDLE;
   ASSERT_EQ(host().vk.CreatePipelineCache(host().device, &info, nullptr, &cache), VK_SUCCESS);
-  HostDevice lent = host().lend();
-  lent.cache = cache;
+  HostDevice hostDevice = host().hostDevice();
+  hostDevice.cache = cache;
   std::vector<std::byte> bits[2];
   const auto live = [&](int k) {
-    auto made = guest(lent, false);
+    auto made = client(hostDevice, false);
     if (!made) return;
     frames(*made, 4);
-    bits[k] = made->bits();
+    bits[k] = made->readback();
   };
   std::thread other(live, 1);
   live(0);
@@ -241,7 +241,7 @@ TEST_F(Contract, TwoDevicesOfOneVkDeviceMayBeUsedByTwoThreadsAtOnce) {
   host().vk.DestroyPipelineCache(host().device, cache, nullptr);
 }
 
-TEST_F(Contract, WhatWasDeclaredWronglyIsAnErrorOfCompile) {
+TEST_F(Contract, CompileReportsDeclarationErrors) {
   Graph graph;
   const BufferRef nothing = graph.create("nothing", {0});
   (void)graph.readback(nothing);

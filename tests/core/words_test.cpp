@@ -8,20 +8,20 @@
 namespace rill {
 namespace {
 
-TEST(Words, TheNearestWordIsATypoAway) {
+TEST(Words, NearestWordFindsTypos) {
   const std::string_view known[] = {"spacing", "density", "viscosity", "vorticity"};
   EXPECT_EQ(nearestWord("spacin", known), "spacing") << "a missing letter";
-  EXPECT_EQ(nearestWord("densitty", known), "density") << "one too many";
-  EXPECT_EQ(nearestWord("viscosoty", known), "viscosity") << "a wrong one";
-  EXPECT_EQ(nearestWord("vorticiyt", known), "vorticity") << "two swapped";
+  EXPECT_EQ(nearestWord("densitty", known), "density") << "an extra letter";
+  EXPECT_EQ(nearestWord("viscosoty", known), "viscosity") << "a wrong letter";
+  EXPECT_EQ(nearestWord("vorticiyt", known), "vorticity") << "two letters swapped";
   EXPECT_EQ(nearestWord("VISCOSITY", known), "viscosity") << "case";
-  EXPECT_EQ(nearestWord("visc", known), "viscosity") << "a beginning";
+  EXPECT_EQ(nearestWord("visc", known), "viscosity") << "a prefix";
   EXPECT_EQ(nearestWord("gravity", known), "");
   EXPECT_EQ(nearestWord("", known), "");
   EXPECT_EQ(nearestWord("spacing", {}), "");
 }
 
-TEST(Words, QuotesShowWhatATerminalWouldNot) {
+TEST(Words, QuotesEscapeAndTruncate) {
   EXPECT_EQ(inQuotes("a b"), "\"a b\"");
   EXPECT_EQ(inQuotes("a\nb\x01").find('\n'), std::string::npos);
   EXPECT_EQ(inQuotes("a\nb\x01").find('\x01'), std::string::npos);
@@ -30,7 +30,7 @@ TEST(Words, QuotesShowWhatATerminalWouldNot) {
   for (int i = 0; i < 100; ++i) umlauts += "\xc3\xa4";
   const std::string cut = inQuotes(umlauts);
   EXPECT_LT(cut.size(), 80u);
-  size_t leads = 0, tails = 0;  // no character is cut in two
+  size_t leads = 0, tails = 0;  // equal unless a character was split
   for (unsigned char c : cut) leads += c == 0xc3, tails += c == 0xa4;
   EXPECT_EQ(leads, tails);
 }
@@ -43,7 +43,7 @@ TEST(Words, NumbersAreGroupedByThousands) {
   EXPECT_EQ(grouped(std::numeric_limits<uint64_t>::max()), "18,446,744,073,709,551,615");
 }
 
-TEST(Words, ShortNumbersReadBackTheSame) {
+TEST(Words, ShortNumbersRoundTrip) {
   EXPECT_EQ(shortNumber(0.1), "0.1");
   EXPECT_EQ(shortNumber(1000), "1000");
   for (double x : {1.0 / 3, 1e-300, 6.02214076e23, -0.0, 4194304.0, std::nextafter(1.0, 2.0)}) EXPECT_EQ(std::stod(shortNumber(x)), x);

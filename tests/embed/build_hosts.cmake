@@ -1,4 +1,4 @@
-# Installs the build, moves what was installed, and builds the hosts against it in a clean folder, from copies of their sources.
+# Installs the build, moves the installation, and builds copies of the hosts against it in a clean folder.
 #   cmake -DBUILD=... -DSOURCE=... -DOUT=... -DGENERATOR=... -P build_hosts.cmake
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE out)

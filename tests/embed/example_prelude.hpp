@@ -1,5 +1,5 @@
 #pragma once
-// What the guide and the examples in the headers take for granted: the names of a host.
+// Declarations of a host that the guide and the examples in the headers assume.
 #include <vulkan/vulkan.h>
 
 #include <cstdio>
@@ -20,7 +20,7 @@ extern uint64_t frameNumber, lastFinishedFrame;
 extern const float *viewMatrix, *projectionMatrix;
 int fail(std::string_view message);
 
-// Of headers that need a device: what a host has by then.
+// For headers whose examples need a device.
 extern rill::Device& device;
 extern rill::Graph& graph;
 extern rill::FluidState state;

@@ -1,4 +1,4 @@
-// The code in the guide and in the headers' top comments compiles as it stands there.
+// The code in the guide and in the headers' top comments compiles.
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -22,7 +22,7 @@ struct Code {
   }
 };
 
-/// Blocks of C++ in Markdown, one after another.
+/// The C++ code blocks of a Markdown file, concatenated.
 Code codeOfGuide(const fs::path& file) {
   Code code;
   std::istringstream text(contentOf(file));
@@ -36,7 +36,7 @@ Code codeOfGuide(const fs::path& file) {
   return code;
 }
 
-/// The lines of a header's top comment that are set in by three spaces.
+/// The lines of a header's top comment that are indented by three spaces.
 Code codeOfHeader(const fs::path& file) {
   Code code;
   std::istringstream text(contentOf(file));
@@ -60,20 +60,20 @@ void expectCompiles(const std::string& first, const Code& code) {
   EXPECT_EQ(outcome.code, 0) << source << outcome.err;
 }
 
-TEST(Examples, TheGuideCompiles) {
+TEST(Examples, GuideCompiles) {
   const Code code = codeOfGuide(fs::path(RILL_SOURCE_DIR) / "apps/embed/README.md");
   EXPECT_GT(code.lines, 40u);
   expectCompiles("", code);
 }
 
-TEST(Examples, AGameHasWaterInUnderSixtyLines) {
+TEST(Examples, WaterExampleIsUnderSixtyLines) {
   std::istringstream text(contentOf(fs::path(RILL_SOURCE_DIR) / "apps/embed/water.cpp"));
   size_t lines = 0, ofRill = 0;
   for (std::string line; std::getline(text, line);) {
     const size_t first = line.find_first_not_of(" }");
     if (first == std::string::npos || line.compare(first, 2, "//") == 0) continue;
     ++lines;
-    // Not the engine's own: its device, images, frames and clear.
+    // Lines of the host engine (device, images, frames, clear) do not count.
     ofRill += line.find("host::") == std::string::npos && line.find("engine.") == std::string::npos;
   }
   EXPECT_GT(lines, 30u);
@@ -89,7 +89,7 @@ TEST_P(HeaderExample, Compiles) {
   expectCompiles("#include <rill/" + GetParam() + ".hpp>\n", code);
 }
 
-/// All public headers but the one that has a single macro.
+/// All public headers except export.hpp, which only defines a macro.
 std::vector<std::string> headers() {
   std::vector<std::string> names;
   for (const std::string& name : TemporaryFolder::namesIn(kHeaders))

@@ -1,6 +1,6 @@
-// Hosts that are strangers to Rill, built from the installed package (build_hosts.cmake): each runs clean under the validation layer, and
-// its picture is looked at. RILL_UPDATE_GOLDEN=1 in the environment replaces the pictures that they are held against: look before
-// committing.
+// Independent hosts built against the installed package (build_hosts.cmake): each runs without validation
+// messages, and its image matches a golden image. RILL_UPDATE_GOLDEN=1 replaces the golden images: inspect
+// them before committing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ void expectClean(const Outcome& outcome) {
   EXPECT_EQ(outcome.err, "");
 }
 
-/// The picture that a host makes.
+/// The image that a host renders.
 Picture pictureOf(const std::string& host) {
   const TemporaryFolder folder;
   const fs::path program = kOut / (host == "two_fluids" ? "build-hosts" : "build-embed") / host;
@@ -39,7 +39,7 @@ Picture pictureOf(const std::string& host) {
   return readPicture(file);
 }
 
-TEST(Validation, HearsACarelessHost) {
+TEST(Validation, DetectsIncorrectHost) {
   const Outcome outcome = Child({(kOut / "build-hosts/careless").string()}, ".", kValidation).wait();
   EXPECT_NE(outcome.out.find("VUID-vkCmdFillBuffer-dstOffset"), std::string::npos) << outcome.out << outcome.err;
   EXPECT_NE(outcome.out.find("SYNC-HAZARD-WRITE-AFTER-WRITE"), std::string::npos) << outcome.out;
@@ -53,7 +53,7 @@ struct Case {
 
 class Host : public ::testing::TestWithParam<Case> {};
 
-TEST_P(Host, RunsCleanAndItsPictureIsRight) {
+TEST_P(Host, RunsCleanAndMatchesGolden) {
   const Picture picture = pictureOf(GetParam().host);
   ASSERT_FALSE(picture.rgb.empty());
   const fs::path golden = fs::path(RILL_SOURCE_DIR) / "assets/golden" / ("embed-" + std::string(GetParam().host) + ".png");
@@ -73,14 +73,14 @@ INSTANTIATE_TEST_SUITE_P(Pictures, Host,
                                            Case{"particles", {0.01, 0.1}}, Case{"blur", {0.002, 0.01}}, Case{"two_fluids", {0.02, 0.3}}),
                          [](const auto& one) { return std::string(one.param.host); });
 
-/// One game through volk, over the shared library, without exceptions and run-time type information: the same bits as through the loader.
-TEST(SameGame, DrawsTheSamePixels) {
+/// The water example with volk, with the shared library, and without exceptions and RTTI renders identical pixels.
+TEST(SameGame, RendersIdenticalPixels) {
   const Picture usual = pictureOf("water");
   ASSERT_FALSE(usual.rgb.empty());
   for (const char* way : {"water_volk", "water_shared", "water_plain"}) EXPECT_TRUE(usual.rgb == pictureOf(way).rgb) << way;
 }
 
-TEST(WaterBetween, HidesWhatIsDrawnLastWhereItIsNearer) {
+TEST(WaterBetween, OccludesLaterDrawsByDepth) {
   const Picture picture = pictureOf("between");
   ASSERT_FALSE(picture.rgb.empty());
   // The bar lies along x through the whole tank. The water at the left hides it, the air at the right does not.
@@ -94,7 +94,7 @@ TEST(WaterBetween, HidesWhatIsDrawnLastWhereItIsNearer) {
   EXPECT_GT(right, 100u);
 }
 
-TEST(Blur, IsThatOfThePattern) {
+TEST(Blur, MatchesReferenceBlur) {
   const Picture picture = pictureOf("blur");
   ASSERT_EQ(picture.rgb.size(), 3u * 96 * 64);
   const auto painted = [](int x, int y, int c) {
@@ -111,17 +111,17 @@ TEST(Blur, IsThatOfThePattern) {
       }
 }
 
-TEST(Package, GivesScenesAndASimulationWithoutAHost) {
+TEST(Package, ProvidesScenesAndSimulation) {
   for (const char* host : {"scenes", "scenes_shared", "scenes_pkgconfig", "researcher"}) {
     expectClean(Child({(kOut / "build-hosts" / host).string()}, ".", kValidation).wait());
   }
 }
 
-TEST(Package, HasEverythingInTheUsualPlaces) {
+TEST(Package, InstallsToStandardLocations) {
   for (const char* file : {"include/rill/fluid.hpp", "include/rill/version.hpp", "share/rill/scenes/scene.schema.json",
                            "share/rill/scenes/dam-break.json", "share/doc/rill/LICENSE"})
     EXPECT_TRUE(fs::exists(kOut / "rill" / file)) << file;
-  // Nothing in it knows where it was built or first installed.
+  // The package contains no paths of the build or the first installation.
   for (const auto& entry : fs::recursive_directory_iterator(kOut / "rill")) {
     const std::string extension = entry.path().extension().string();
     if (extension != ".cmake" && extension != ".pc" && extension != ".hpp") continue;

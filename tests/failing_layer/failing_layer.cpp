@@ -1,5 +1,5 @@
 // A Vulkan layer that makes one call fail: RILL_TEST_FAIL="vkQueueSubmit2 3 -4" has the third vkQueueSubmit2 return -4
-// (VK_ERROR_DEVICE_LOST). It serves one instance and one device, as the programs that it tests have.
+// (VK_ERROR_DEVICE_LOST). Supports one instance and one device.
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan_core.h>
 
@@ -64,7 +64,7 @@ enum FunctionIndex : int {
 #undef INDEX
 };
 
-/// The link of the chain that the loader left for this layer in a create info, taken off it.
+/// The loader's layer link in the pNext chain of a create info.
 template <class Link, class Info>
 Link* takeLink(const Info* info, VkStructureType type) {
   for (auto* next = static_cast<const VkBaseInStructure*>(info->pNext); next; next = next->pNext) {

@@ -1,5 +1,5 @@
-// Transients share memory: what would happen if a wait for that were missing, or if lifetimes in one place overlapped. Plans are spoiled
-// between compile() and prepare(), and synchronization validation, or what comes out, must show it; unspoiled they are clean.
+// Aliasing of transients. Plans are corrupted between compile() and prepare() (missing barriers, overlapping
+// lifetimes); synchronization validation or wrong results must reveal it. Unmodified plans are clean.
 #include "graph/graph_impl.hpp"
 #include "support/gpu_test.hpp"
 
@@ -10,13 +10,13 @@ constexpr uint32_t kWords = 4096, kFrames = 3;
 constexpr ImageDesc kDesc{VK_FORMAT_R32_UINT, 64, 64};
 static_assert(kDesc.width * kDesc.height == kWords);
 
-using Spoil = void (*)(GraphImpl& graph, uint32_t frame);
+using Corruption = void (*)(GraphImpl& graph, uint32_t frame);
 
 uint32_t valueOf(uint32_t frame, uint32_t which) { return 100 * (frame + 1) + which; }
 
 class Aliasing : public GpuTest {
  public:
-  /// Buffers a and b, one after the other in one place, each filled and copied out.
+  /// Buffers a and b with disjoint lifetimes in the same memory, each filled and copied out.
   void declareBuffers(Graph& graph, BufferRef& out, uint32_t frame) {
     for (uint32_t which = 0; which < 2; ++which) {
       BufferRef part = graph.create(which == 0 ? "a" : "b", {kWords * 4});
@@ -27,7 +27,7 @@ class Aliasing : public GpuTest {
       copyOut(graph, part, out, which);
     }
   }
-  /// Both filled before either is copied out: they live at the same time.
+  /// Both are filled before either is copied out, so their lifetimes overlap.
   void declareTogether(Graph& graph, BufferRef& out, uint32_t frame) {
     BufferRef parts[2] = {graph.create("a", {kWords * 4}), graph.create("b", {kWords * 4})};
     for (uint32_t which = 0; which < 2; ++which)
@@ -56,17 +56,18 @@ class Aliasing : public GpuTest {
   }
 
   using Declare = void (Aliasing::*)(Graph&, BufferRef&, uint32_t);
-  /// Three frames in one command buffer. Returns what the layer said; `wrong`: words that came back other than they should.
-  std::vector<std::string> go(Declare declare, Spoil spoil) {
+  /// Runs three frames in one command buffer and returns the validation messages. Sets `wrong` to the number
+  /// of wrong result words.
+  std::vector<std::string> go(Declare declare, Corruption corrupt) {
     Graph graph;
     Buffer results[kFrames];
     Ticket tickets[kFrames];
-    {  // images are placed for good once the device has been asked what they take
+    {  // the first frame queries the image sizes, which changes the plan
       const Buffer result = buffer("out", 2 * kWords * 4);
       BufferRef out = graph.import("out", importOf(result));
       (this->*declare)(graph, out, 0);
       run(graph);
-      graph.impl().before.valid = graph.impl().planWhole = false;
+      graph.impl().previousPlan.valid = graph.impl().planComplete = false;
     }
     const auto submitted = context().submit([&](VkCommandBuffer commands) {
       for (uint32_t frame = 0; frame < kFrames; ++frame) {
@@ -78,12 +79,12 @@ class Aliasing : public GpuTest {
         declareLast(graph);
         auto ok = graph.compile();
         if (ok) {
-          spoil(graph.impl(), frame);
+          corrupt(graph.impl(), frame);
           ok = graph.prepare(device());
         }
         ASSERT_TRUE(ok) << ok.error().message;
         graph.record(commands);
-        graph.impl().planWhole = false;  // the next frame has a plan of its own to spoil
+        graph.impl().planComplete = false;  // the next frame needs a new plan to corrupt
       }
     });
     EXPECT_TRUE(submitted);
@@ -104,7 +105,7 @@ class Aliasing : public GpuTest {
   size_t wrong = 0;
 
  private:
-  /// Without it the waits for the read-back order the next frame too.
+  /// A last pass, without which the read-back's barriers would also order the next frame.
   void declareLast(Graph& graph) {
     BufferRef last = graph.create("last", {kWords * 4});
     graph.pass("last", [&](Pass& pass) {
@@ -122,38 +123,38 @@ class Aliasing : public GpuTest {
   }
 };
 
-void leave(GraphImpl&, uint32_t) {}
-void expectOnePlace(const GraphImpl& graph, bool images) {
+void unmodified(GraphImpl&, uint32_t) {}
+void expectSharedMemory(const GraphImpl& graph, bool images) {
   const auto& placements = graph.plans[images].placements;
   ASSERT_GE(placements.size(), 2u);
   EXPECT_TRUE(sharesMemory(placements[0], placements[1]));
 }
 
-TEST_F(Aliasing, OneAfterTheOtherIsCleanAndRight) {
+TEST_F(Aliasing, UnmodifiedPlansAreCleanAndCorrect) {
   for (const Declare declare : {&Aliasing::declareBuffers, &Aliasing::declareTogether, &Aliasing::declareImages}) {
-    EXPECT_EQ(go(declare, leave), std::vector<std::string>{});
+    EXPECT_EQ(go(declare, unmodified), std::vector<std::string>{});
     EXPECT_EQ(wrong, 0u);
   }
 }
 
-TEST_F(Aliasing, AReuseThatDoesNotWaitIsReported) {
+TEST_F(Aliasing, ReportsMissingWaitOnReuse) {
   const auto messages = go(&Aliasing::declareBuffers, [](GraphImpl& graph, uint32_t) {
-    expectOnePlace(graph, false);
+    expectSharedMemory(graph, false);
     ASSERT_FALSE(graph.passes[2].barrier.empty()) << "b waits for a";
     graph.passes[2].barrier = {};
   });
   EXPECT_TRUE(namesHazard(messages));
 }
 
-TEST_F(Aliasing, AFrameThatDoesNotWaitForTheOneBeforeIsReported) {
+TEST_F(Aliasing, ReportsMissingWaitForPreviousFrame) {
   const auto messages = go(&Aliasing::declareBuffers, [](GraphImpl& graph, uint32_t frame) {
-    ASSERT_FALSE(graph.passes[0].barrier.empty()) << "a waits for the frame before";
+    ASSERT_FALSE(graph.passes[0].barrier.empty()) << "a waits for the previous frame";
     if (frame > 0) graph.passes[0].barrier = {};
   });
   EXPECT_TRUE(namesHazard(messages));
 }
 
-TEST_F(Aliasing, LifetimesThatOverlapInOnePlaceAreReportedAndSpoilWhatComesOut) {
+TEST_F(Aliasing, ReportsOverlappingLifetimesAndCorruptsResults) {
   const auto messages = go(&Aliasing::declareTogether, [](GraphImpl& graph, uint32_t) {
     auto& placements = graph.plans[0].placements;
     ASSERT_GE(placements.size(), 2u);
@@ -164,9 +165,9 @@ TEST_F(Aliasing, LifetimesThatOverlapInOnePlaceAreReportedAndSpoilWhatComesOut) 
   EXPECT_GT(wrong, 0u);
 }
 
-TEST_F(Aliasing, AnImageThatDoesNotWaitForTheOneBeforeItIsReported) {
+TEST_F(Aliasing, ReportsMissingImageTransitionWait) {
   const auto messages = go(&Aliasing::declareImages, [](GraphImpl& graph, uint32_t) {
-    expectOnePlace(graph, true);
+    expectSharedMemory(graph, true);
     const Range changes = graph.passes[2].barrier.transitions;
     ASSERT_EQ(changes.count, 1u);
     Scope& scope = graph.transitions[changes.first].scope;

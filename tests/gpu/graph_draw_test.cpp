@@ -1,4 +1,4 @@
-// Drawing through the graph on a real driver, with synchronization validation listening.
+// Drawing through the graph on a real driver, with synchronization validation.
 #include "gpu/device_impl.hpp"
 #include "support/gpu_test.hpp"
 
@@ -31,7 +31,7 @@ class GraphDraw : public GpuTest {
     EXPECT_TRUE(made) << made.error().message;
     return made ? *made : nullptr;
   }
-  /// Several frames of one graph in one command buffer, where synchronization validation sees all.
+  /// Several frames of one graph in one command buffer, so that synchronization validation covers all.
   template <class Declare>
   void runFrames(Graph& graph, int count, Declare&& declare) {
     auto submitted = context().submit([&](VkCommandBuffer commandBuffer) {
@@ -58,9 +58,9 @@ class GraphDraw : public GpuTest {
   }
 };
 
-// A far rectangle over all, a near one over the right half, one in between that the near one hides; then the result is drawn over by a
-// second pass that keeps both targets, its arguments on the device. Three frames in one command buffer.
-TEST_F(GraphDraw, ComposesByDepthAndKeepsWhatItDoesNotTouch) {
+// A far rectangle over everything, a near one over the right half, and one in between; then a second pass with
+// Load::Keep and indirect arguments. Three frames in one command buffer.
+TEST_F(GraphDraw, DepthTestAndLoadKeepCompose) {
   const GraphicsPipeline* less = drawing(VK_COMPARE_OP_LESS);
   ASSERT_TRUE(less);
   std::vector<float> addedHere(kWidth);
@@ -112,7 +112,7 @@ TEST_F(GraphDraw, ComposesByDepthAndKeepsWhatItDoesNotTouch) {
   }
 }
 
-TEST_F(GraphDraw, APyramidIsReadLevelByLevel) {
+TEST_F(GraphDraw, ReadsMipLevelsOneByOne) {
   static constexpr BindingKind kFill[] = {BindingKind::StorageImage}, kHalve[] = {BindingKind::SampledImage, BindingKind::StorageImage};
   const ComputePipeline* fill =
       pipeline({.shader = "image_fill", .spirv = testShader("image_fill"), .bindings = kFill, .pushConstantBytes = 4});
@@ -148,8 +148,8 @@ TEST_F(GraphDraw, APyramidIsReadLevelByLevel) {
   }
 }
 
-// Read-backs that together are more than one buffer may be.
-TEST_F(GraphDraw, ReadbacksMayTakeSeveralBuffers) {
+// Read-backs that together exceed the largest buffer.
+TEST_F(GraphDraw, ReadbacksSpanSeveralBuffers) {
   constexpr uint64_t kBytes = 80ull << 20;
   Graph graph;
   BufferRef buffers[2] = {graph.create("one", {kBytes}), graph.create("two", {kBytes})};

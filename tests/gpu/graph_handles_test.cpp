@@ -1,4 +1,4 @@
-// Passes with the host's own pipelines on a real driver, on transients whose handles the graph tells; synchronization validation listens.
+// Passes with the host's own pipelines on transients, on a real driver with synchronization validation.
 #include "gpu/device_impl.hpp"
 #include "gpu/device_memory.hpp"
 #include "support/gpu_test.hpp"
@@ -126,8 +126,8 @@ class GraphHandles : public GpuTest {
   DeviceImpl* d = nullptr;
 };
 
-// Between two passes of Rill's pipelines, so that barriers and bindings on both sides are tried.
-TEST_F(GraphHandles, AnOwnPipelineRunsOnTransients) {
+// Between two passes with Rill's pipelines, to check barriers and bindings on both sides.
+TEST_F(GraphHandles, HostPipelineUsesTransients) {
   const OwnPipeline own(*d);
   constexpr uint32_t width = kShotWidth / 2, height = kShotHeight / 2;
   Graph graph;
@@ -165,7 +165,7 @@ TEST_F(GraphHandles, AnOwnPipelineRunsOnTransients) {
   }
 }
 
-TEST_F(GraphHandles, TransientsAreUsedByRawCommands) {
+TEST_F(GraphHandles, RawCommandsUseTransients) {
   Graph graph;
   ImageRef image = graph.create("image", kDesc);
   BufferRef bytes = graph.create("bytes", {kShotWidth * kShotHeight * 4}), ahead = graph.create("ahead", {256});
@@ -197,7 +197,7 @@ TEST_F(GraphHandles, TransientsAreUsedByRawCommands) {
   EXPECT_EQ(read<uint32_t>(graph, other), std::vector<uint32_t>(64, 1u)) << "no byte of another transient was touched";
 }
 
-TEST_F(GraphHandles, ImagesAreCopiedToImages) {
+TEST_F(GraphHandles, CopiesImageToImage) {
   Graph graph;
   const ImageRef first = fill(graph, graph.create("first", kDesc), 7.0f);
   ImageRef second = graph.create("second", kDesc);
@@ -213,8 +213,8 @@ TEST_F(GraphHandles, ImagesAreCopiedToImages) {
   for (uint32_t i = 0; i < result.size(); ++i) ASSERT_EQ(result[i], filled(7.0f, i)) << "texel " << i;
 }
 
-// One frame leaves an image in a state that no pass has, the next takes it up from there: validation sees both layouts.
-TEST_F(GraphHandles, ImportsKeepTheirContentInStatesOfTheHost) {
+// One frame leaves an image in a state that no pass has and the next one continues from there.
+TEST_F(GraphHandles, ImportsKeepContentInCustomStates) {
   const VkImageUsageFlags usage = useState(Use::ComputeWrite).imageUsage | useState(Use::CopySource).imageUsage;
   const OwnImage image(*d, kDesc, usage);
   const UseState transfer{

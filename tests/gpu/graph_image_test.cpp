@@ -1,4 +1,4 @@
-// Images on a real driver, with synchronization validation listening.
+// Images on a real driver, with synchronization validation.
 #include <cmath>
 #include <numeric>
 
@@ -50,9 +50,9 @@ class GraphImages : public GpuTest {
   static float filled(float base, uint32_t x, uint32_t y) { return base + float(x) + 1000.0f * float(y); }
 };
 
-// Twenty images of which no more than three live at a time, in three frames of one command buffer: what a later image does to the memory
-// must wait for the earlier ones, in its own frame and in the one before.
-TEST_F(GraphImages, AliasSafelyThroughThreeFrames) {
+// Twenty images with at most three live at a time, in three frames of one command buffer: later images must
+// wait for earlier users of their memory, in this frame and the previous one.
+TEST_F(GraphImages, AliasSafelyAcrossFrames) {
   Graph graph;
   Ticket tickets[3];
   auto submitted = context().submit([&](VkCommandBuffer commandBuffer) {
@@ -65,7 +65,7 @@ TEST_F(GraphImages, AliasSafelyThroughThreeFrames) {
       auto ok = graph.compile();
       if (ok) ok = graph.prepare(device());
       ASSERT_TRUE(ok) << ok.error().message;
-      EXPECT_LT(graph.transientBytes(), 6u * kWidth * kHeight * 4) << "three images and the buffer, with what alignment takes";
+      EXPECT_LT(graph.transientBytes(), 6u * kWidth * kHeight * 4) << "three images, the buffer and alignment";
       graph.record(commandBuffer);
     }
   });
@@ -107,7 +107,7 @@ TEST_F(GraphImages, AreCopiedAndCleared) {
   EXPECT_EQ(read<float>(graph, second), std::vector<float>(kWidth * kHeight, 0.25f));
 }
 
-TEST_F(GraphImages, ImportedOnesStayTheHosts) {
+TEST_F(GraphImages, ImportsKeepContentBetweenFrames) {
   DeviceImpl& d = device().impl();
   VkImageCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
   create.imageType = VK_IMAGE_TYPE_2D;
@@ -129,7 +129,7 @@ TEST_F(GraphImages, ImportedOnesStayTheHosts) {
     Graph graph;
     (void)fill(graph, graph.import("target", {image, kDesc, Use::Unknown, Use::ComputeSampled}), 5.0f);
     run(graph);
-    graph.reset();  // the image has kept what the last frame drew, in the layout that it was left in
+    graph.reset();  // the image keeps the last frame's content and layout
     const ImageRef kept = graph.import("target", {image, kDesc, Use::ComputeSampled, Use::Nothing});
     const ImageRef own = fill(graph, graph.create("own", kDesc), 0.0f);
     const Ticket ticket = readback(graph, add(graph, kept, own));
@@ -143,7 +143,7 @@ TEST_F(GraphImages, ImportedOnesStayTheHosts) {
   freeMemory(d, *memory);
 }
 
-TEST_F(GraphImages, AFormatThatTheDeviceLacksIsRefusedByName) {
+TEST_F(GraphImages, RejectsUnsupportedFormatByName) {
   Graph graph;
   ImageRef image = graph.create("odd", ImageDesc{VK_FORMAT_R8G8B8_SSCALED, 8, 8});
   graph.pass("draw", [&](Pass& pass) {
@@ -157,12 +157,12 @@ TEST_F(GraphImages, AFormatThatTheDeviceLacksIsRefusedByName) {
   ASSERT_FALSE(ok);
   EXPECT_EQ(ok.error().kind, ErrorKind::BadInput);
   EXPECT_NE(ok.error().message.find("image 'odd' of 8 x 8 texels"), std::string::npos) << ok.error().message;
-  EXPECT_NE(ok.error().message.find("has no storage images of that format"), std::string::npos) << ok.error().message;
+  EXPECT_NE(ok.error().message.find("does not support storage images of this format"), std::string::npos) << ok.error().message;
   ASSERT_TRUE(context().submit([](VkCommandBuffer) {}));
 }
 
-// Shows that the others would notice: an image used in another layout than the graph was told.
-TEST_F(GraphImages, ValidationIsListening) {
+// Proves that validation is active: the image is used in a layout that was not declared.
+TEST_F(GraphImages, ValidationReportsHazards) {
   Graph graph;
   ImageRef image = fill(graph, graph.create("image", kDesc), 0.0f);
   BufferRef bytes = graph.create("texels", {kWidth * kHeight * 4});

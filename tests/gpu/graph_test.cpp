@@ -1,4 +1,4 @@
-// The graph on a real driver: what is dispatched, copied and read back, with synchronization validation listening.
+// The graph on a real driver, with synchronization validation: dispatches, copies, read-backs.
 #include <numeric>
 
 #include "support/gpu_test.hpp"
@@ -49,10 +49,10 @@ TEST_F(GraphOnGpu, AddsThroughTransients) {
   EXPECT_EQ(graph.timings()[0].name, "add");
   EXPECT_EQ(graph.timings()[0].runs, 5u);
   EXPECT_GT(graph.timings()[0].ms, 0);
-  EXPECT_LT(graph.transientBytes(), 3 * 4096u) << "five steps need the memory of two";
+  EXPECT_LT(graph.transientBytes(), 3 * 4096u) << "five steps alias to the memory of two";
 }
 
-TEST_F(GraphOnGpu, FoldsMoreGroupsThanADimensionHolds) {
+TEST_F(GraphOnGpu, FoldsGroupsAboveDimensionLimit) {
   Graph graph;
   const uint64_t groups = 65535 + 1000;
   BufferRef counter = graph.create("counter", {4});
@@ -76,7 +76,7 @@ TEST_F(GraphOnGpu, FoldsMoreGroupsThanADimensionHolds) {
   EXPECT_EQ(result[0] / 64, groups + groups % 2) << "two rows of equal length";
 }
 
-TEST_F(GraphOnGpu, DispatchesWhatTheDeviceDecides) {
+TEST_F(GraphOnGpu, DispatchesIndirect) {
   constexpr BindingKind kinds[] = {BindingKind::Storage};
   Graph graph;
   BufferRef arguments = graph.create("arguments", {16}), counter = graph.create("counter", {4});
@@ -101,7 +101,7 @@ TEST_F(GraphOnGpu, DispatchesWhatTheDeviceDecides) {
   EXPECT_EQ(read<uint32_t>(graph, ticket), std::vector<uint32_t>{13 * 64});
 }
 
-TEST_F(GraphOnGpu, ReadsTexelsOfImportsAndOfTransients) {
+TEST_F(GraphOnGpu, ReadsTexelsOfImportsAndTransients) {
   std::vector<float> numbers(400);
   std::iota(numbers.begin(), numbers.end(), 0.0f);
   const Buffer source = upload("source", numbers);
@@ -135,9 +135,9 @@ TEST_F(GraphOnGpu, ReadsTexelsOfImportsAndOfTransients) {
   }
 }
 
-// Synchronization validation sees hazards inside one command buffer alone, so three frames go into one: what the second does to the
-// transients' memory must wait for the first.
-TEST_F(GraphOnGpu, ThreeFramesInOneCommandBufferShareTheHeap) {
+// Synchronization validation only checks within a command buffer, so three frames share one: the second
+// frame's use of the transient memory must wait for the first.
+TEST_F(GraphOnGpu, FramesInOneCommandBufferShareTheHeap) {
   std::vector<uint32_t> numbers(5000, 1);
   const Buffer source = upload("source", numbers);
   const Buffer state = buffer("state", 20000);
@@ -173,7 +173,7 @@ TEST_F(GraphOnGpu, ThreeFramesInOneCommandBufferShareTheHeap) {
     for (uint32_t value : result) ASSERT_EQ(value, 1 + 5 * (frame + 1));
   }
   graph.reset();
-  EXPECT_TRUE(graph.data(tickets[0]).empty()) << "a span that was handed out ends with the next reset()";
+  EXPECT_TRUE(graph.data(tickets[0]).empty()) << "returned spans are valid until the next reset()";
 }
 
 TEST_F(GraphOnGpu, AtomicsCommute) {
@@ -194,9 +194,9 @@ TEST_F(GraphOnGpu, AtomicsCommute) {
   EXPECT_EQ(read<uint32_t>(graph, ticket), std::vector<uint32_t>{3 * 10 * 64});
 }
 
-// Shows that the other tests would notice: a write that the graph does not know of is a hazard, and it is reported.
-// (Two storage writes in a row would not be: the layer takes them for atomics.)
-TEST_F(GraphOnGpu, ValidationIsListening) {
+// Proves that validation is active: an undeclared write is reported as a hazard. (Two storage writes would
+// not be reported, because the layer assumes atomics.)
+TEST_F(GraphOnGpu, ValidationReportsHazards) {
   const Buffer source = buffer("source", 4096), target = buffer("target", 4096);
   Graph graph;
   const BufferRef in = graph.import("source", importOf(source));
@@ -216,7 +216,7 @@ TEST_F(GraphOnGpu, ValidationIsListening) {
   EXPECT_NE(messages[0].find("SYNC-HAZARD"), std::string::npos) << messages[0];
 }
 
-TEST_F(GraphOnGpu, AnAbandonedFrameDeliversNothing) {
+TEST_F(GraphOnGpu, AbandonedFrameHasNoResults) {
   const Buffer source = upload("source", std::vector<uint32_t>(64, 5));
   Graph graph;
   const Ticket lost = graph.readback(graph.import("source", importOf(source)));
@@ -225,7 +225,7 @@ TEST_F(GraphOnGpu, AnAbandonedFrameDeliversNothing) {
   ASSERT_TRUE(graph.compile());
   ASSERT_TRUE(graph.prepare(device()));
   device().abandon(clock->recording);
-  ASSERT_TRUE(context().submit([](VkCommandBuffer) {}));  // the frame goes out without the graph
+  ASSERT_TRUE(context().submit([](VkCommandBuffer) {}));  // submits the frame without the graph
   ASSERT_TRUE(context().wait());
   EXPECT_TRUE(graph.data(lost).empty());
   EXPECT_TRUE(graph.timings().empty());

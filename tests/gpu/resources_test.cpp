@@ -1,4 +1,4 @@
-// Buffers, pipelines and the context that tests and apps open.
+// Buffers, pipelines and the offline context.
 #include <bit>
 
 #include "gpu/device_impl.hpp"
@@ -10,7 +10,7 @@ namespace resources_test {
 using Resources = GpuTest;
 constexpr BindingKind kOneBuffer[] = {BindingKind::Storage};
 
-TEST_F(Resources, BuffersHaveTheMemoryThatTheirKindSays) {
+TEST_F(Resources, BufferMemoryMatchesKind) {
   const Buffer local = buffer("local", 1000), up = buffer("up", 1000, MemoryKind::Upload),
                back = buffer("back", 1000, MemoryKind::Readback);
   EXPECT_EQ(local.mapped(), nullptr);
@@ -19,7 +19,7 @@ TEST_F(Resources, BuffersHaveTheMemoryThatTheirKindSays) {
   EXPECT_EQ(up.size(), 1000u);
 }
 
-TEST_F(Resources, RefusesSizesThatNoBufferHas) {
+TEST_F(Resources, RejectsInvalidSizes) {
   for (const uint64_t size : std::initializer_list<uint64_t>{0, kMaxBufferBytes + 1, UINT64_MAX}) {
     const auto made = createBuffer(device(), "positions", size);
     ASSERT_FALSE(made);
@@ -28,7 +28,7 @@ TEST_F(Resources, RefusesSizesThatNoBufferHas) {
   }
 }
 
-TEST_F(Resources, ABufferOutlivesTheFrameThatWasRecordingWhenItDied) {
+TEST_F(Resources, BufferOutlivesRecordingFrame) {
   ASSERT_TRUE(context().wait());
   const size_t before = device().impl().retired.size();
   auto clock = context().beginFrame();
@@ -42,7 +42,7 @@ TEST_F(Resources, ABufferOutlivesTheFrameThatWasRecordingWhenItDied) {
   EXPECT_EQ(device().impl().retired.size(), 0u);
 }
 
-TEST_F(Resources, EqualDescriptionsShareAPipeline) {
+TEST_F(Resources, EqualDescriptionsShareOnePipeline) {
   const uint32_t one[] = {1}, two[] = {2};
   const auto make = [&](std::span<const uint32_t> constants) {
     return pipeline({.shader = "subgroup", .spirv = testShader("subgroup"), .bindings = kOneBuffer, .constants = constants});
@@ -55,7 +55,7 @@ TEST_F(Resources, EqualDescriptionsShareAPipeline) {
   EXPECT_EQ(pipelineCount(device()), count + 1);
 }
 
-TEST_F(Resources, ConstantsAndSubgroupSizeReachTheShader) {
+TEST_F(Resources, AppliesConstantsAndSubgroupSize) {
   const DeviceInfo& info = device().info();
   const uint32_t constants[] = {42, std::bit_cast<uint32_t>(2.5f)};
   for (uint32_t size = info.minSubgroupSize; size <= std::min(info.maxSubgroupSize, 64u); size *= 2) {
@@ -77,7 +77,7 @@ TEST_F(Resources, ConstantsAndSubgroupSizeReachTheShader) {
   }
 }
 
-TEST_F(Resources, NamesTheShaderThatCannotBeMade) {
+TEST_F(Resources, ErrorsNameTheShader) {
   const auto unknown = computePipeline(device(), {.shader = "fluid/nonsense", .bindings = kOneBuffer});
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().kind, ErrorKind::Shader);
@@ -89,7 +89,7 @@ TEST_F(Resources, NamesTheShaderThatCannotBeMade) {
   EXPECT_NE(sized.error().message.find("subgroups of " + std::to_string(tooLarge)), std::string::npos) << sized.error().message;
 }
 
-TEST_F(Resources, ChoosesDevicesByNameAndByIndex) {
+TEST_F(Resources, SelectsDeviceByNameAndIndex) {
   const auto byIndex = offline::Context::create({.device = "0"});
   ASSERT_TRUE(byIndex) << byIndex.error().message;
   const std::string name = (*byIndex)->device().info().name;
@@ -102,7 +102,7 @@ TEST_F(Resources, ChoosesDevicesByNameAndByIndex) {
   EXPECT_NE(none.error().message.find("0  " + name), std::string::npos) << none.error().message;
 }
 
-TEST_F(Resources, BorrowingTellsWhatTheHostForgot) {
+TEST_F(Resources, BorrowNamesMissingInput) {
   HostDevice host;
   host.instance = context().instance();
   host.physicalDevice = context().physicalDevice();

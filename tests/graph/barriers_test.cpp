@@ -1,4 +1,4 @@
-// The barriers of small frames, written out.
+// The exact barriers of small frames.
 #include "graph_fixture.hpp"
 
 namespace rill::test {
@@ -7,7 +7,7 @@ namespace {
 using Barriers = GraphTest;
 constexpr Scope kNoBarrier{};
 
-TEST_F(Barriers, ReadAfterWriteMovesMemoryAndReadAfterReadNeedsNothing) {
+TEST_F(Barriers, ReadAfterWriteNeedsMemoryBarrierReadAfterReadNone) {
   BufferRef a = write("write", import("a"));
   read("read", a);
   read("again", a);
@@ -16,10 +16,10 @@ TEST_F(Barriers, ReadAfterWriteMovesMemoryAndReadAfterReadNeedsNothing) {
   EXPECT_EQ(barrier(0), kNoBarrier);
   EXPECT_EQ(barrier(1), (Scope{kCompute, kStorageWrite, kCompute, kStorageRead}));
   EXPECT_EQ(barrier(2), kNoBarrier);
-  EXPECT_EQ(barrier(3), (Scope{kCompute, kStorageWrite, kCompute, kSampled})) << "another kind of read has not seen the write";
+  EXPECT_EQ(barrier(3), (Scope{kCompute, kStorageWrite, kCompute, kSampled})) << "the write is not visible to another kind of read";
 }
 
-TEST_F(Barriers, WriteAfterReadOnlyWaits) {
+TEST_F(Barriers, WriteAfterReadNeedsExecutionBarrierOnly) {
   BufferRef a = write("write", import("a"));
   read("read", a);
   a = write("overwrite", a);
@@ -27,7 +27,7 @@ TEST_F(Barriers, WriteAfterReadOnlyWaits) {
   EXPECT_EQ(barrier(2), (Scope{kCompute, 0, kCompute, 0}));
 }
 
-TEST_F(Barriers, AWriteThatKeepsWhatItHasNotSeenMovesMemory) {
+TEST_F(Barriers, WriteThatKeepsUnseenContentNeedsMemoryBarrier) {
   BufferRef a = write("write", import("a"));
   read("copy", a, Use::CopySource);
   a = write("add", a);
@@ -35,7 +35,7 @@ TEST_F(Barriers, AWriteThatKeepsWhatItHasNotSeenMovesMemory) {
   EXPECT_EQ(barrier(2), (Scope{kCompute | kTransfer, kStorageWrite, kCompute, kStorageRead | kStorageWrite}));
 }
 
-TEST_F(Barriers, WriteAfterWriteMovesMemory) {
+TEST_F(Barriers, WriteAfterWriteNeedsMemoryBarrier) {
   BufferRef a = import("a");
   a = write("fill", a, Use::CopyTarget);
   a = write("add", a);
@@ -45,7 +45,7 @@ TEST_F(Barriers, WriteAfterWriteMovesMemory) {
   EXPECT_EQ(barrier(2), (Scope{kCompute, kStorageWrite, kCompute, kStorageRead | kStorageWrite}));
 }
 
-TEST_F(Barriers, AtomicsCommuteWithTheirOwnKindAlone) {
+TEST_F(Barriers, AtomicsCommuteOnlyWithAtomics) {
   BufferRef a = import("a");
   a = write("fill", a, Use::CopyTarget);
   a = write("count", a, Use::ComputeAtomic);
@@ -63,17 +63,17 @@ TEST_F(Barriers, AtomicsCommuteWithTheirOwnKindAlone) {
   EXPECT_EQ(barrier(6), (Scope{kCompute, kStorageWrite, kCompute, kStorageRead | kStorageWrite}));
 }
 
-TEST_F(Barriers, OneBarrierServesEveryResourceThatItCovers) {
+TEST_F(Barriers, BarrierServesAllCoveredResources) {
   const BufferRef a = write("make a", import("a"));
   const BufferRef b = write("make b", import("b"));
   read("read a", a);
   read("read b", b);
   compile();
   EXPECT_EQ(barrier(2), (Scope{kCompute, kStorageWrite, kCompute, kStorageRead}));
-  EXPECT_EQ(barrier(3), kNoBarrier) << "the barrier before 'read a' has waited for 'make b' too";
+  EXPECT_EQ(barrier(3), kNoBarrier) << "the barrier before 'read a' also covers 'make b'";
 }
 
-TEST_F(Barriers, APassHasOneBarrierForAllThatItUses) {
+TEST_F(Barriers, PassHasOneBarrierForAllResources) {
   const BufferRef arguments = write("arguments", import("arguments"));
   const BufferRef filled = write("fill", import("filled"), Use::CopyTarget);
   graph.pass("work", [&](Pass& pass) {
@@ -87,7 +87,7 @@ TEST_F(Barriers, APassHasOneBarrierForAllThatItUses) {
   EXPECT_EQ(graph.impl().passes[2].barrier.causes.count, 2u);
 }
 
-TEST_F(Barriers, ImportsComeFromTheirStateAndReachTheNext) {
+TEST_F(Barriers, ImportsAreSynchronizedBeforeAndAfter) {
   const BufferRef a = import("written", Use::ComputeWrite, Use::Indirect);
   const BufferRef b = import("unknown", Use::Unknown);
   const BufferRef c = import("idle");
@@ -101,13 +101,13 @@ TEST_F(Barriers, ImportsComeFromTheirStateAndReachTheNext) {
   EXPECT_EQ(graph.impl().finalBarrier.scope, (Scope{kCompute, kStorageWrite, kIndirect, kIndirectRead}));
 }
 
-TEST_F(Barriers, AnImportThatWasReadBeforeIsOnlyWaitedFor) {
+TEST_F(Barriers, WriteToReadImportNeedsExecutionBarrierOnly) {
   (void)write("overwrite", import("a", Use::ComputeRead), Use::ComputeWrite);
   compile();
   EXPECT_EQ(barrier(0), (Scope{kCompute, 0, kCompute, 0}));
 }
 
-TEST_F(Barriers, AfterStatesAreReachedEvenWhenEveryPassIsCulled) {
+TEST_F(Barriers, AfterStatesAreReachedWithAllPassesCulled) {
   (void)import("a", Use::CopyTarget, Use::ComputeRead);
   (void)write("useless", graph.create("t", {64}));
   compile();
@@ -115,14 +115,14 @@ TEST_F(Barriers, AfterStatesAreReachedEvenWhenEveryPassIsCulled) {
   EXPECT_EQ(graph.impl().finalBarrier.scope, (Scope{kTransfer, kTransferWrite, kCompute, kStorageRead}));
 }
 
-TEST_F(Barriers, ReadbacksEndAtTheHost) {
+TEST_F(Barriers, ReadbacksAreVisibleToHost) {
   (void)graph.readback(write("write", import("a")));
   compile();
   EXPECT_EQ(barrier(1), (Scope{kCompute, kStorageWrite, kTransfer, kTransferRead}));
   EXPECT_EQ(graph.impl().finalBarrier.scope, (Scope{kTransfer, kTransferWrite, kHost, kHostRead}));
 }
 
-TEST_F(Barriers, TheFirstTransientWaitsForTheFrameBefore) {
+TEST_F(Barriers, FirstTransientWaitsForPreviousFrame) {
   const BufferRef a = write("make a", graph.create("a", {64}));
   const BufferRef b = write("make b", graph.create("b", {64}));
   read("look", a);
@@ -132,7 +132,7 @@ TEST_F(Barriers, TheFirstTransientWaitsForTheFrameBefore) {
   EXPECT_EQ(barrier(1), kNoBarrier) << "one barrier serves the whole heap";
 }
 
-TEST_F(Barriers, AliasedMemoryWaitsForItsEarlierUser) {
+TEST_F(Barriers, AliasedMemoryWaitsForPreviousUser) {
   const BufferRef a = write("make a", graph.create("a", {64}));
   read("look a", a);
   const BufferRef b = write("make b", graph.create("b", {64}), Use::CopyTarget);

@@ -1,4 +1,4 @@
-// Which passes run, and what the graph says of those that don't.
+// Culling of passes, and its reports.
 #include "graph_fixture.hpp"
 
 namespace rill::test {
@@ -6,7 +6,7 @@ namespace {
 
 using Culling = GraphTest;
 
-TEST_F(Culling, WhatReachesNobodyIsCulledWithItsCauses) {
+TEST_F(Culling, UnusedPassAndItsInputsAreCulled) {
   const BufferRef a = write("make a", graph.create("a", {64}));
   const BufferRef b = readWrite("make b", a, Use::ComputeRead, graph.create("b", {64}));
   (void)b;
@@ -19,7 +19,7 @@ TEST_F(Culling, WhatReachesNobodyIsCulledWithItsCauses) {
   EXPECT_EQ(graph.report()[1].reason, "nothing reads 'b'");
 }
 
-TEST_F(Culling, WritesToImportsSideEffectsAndReadbacksAreRoots) {
+TEST_F(Culling, ImportWritesSideEffectsAndReadbacksAreRoots) {
   const BufferRef a = write("make a", graph.create("a", {64}));
   (void)readWrite("store", a, Use::ComputeRead, import("out"));
   const BufferRef b = write("make b", graph.create("b", {64}));
@@ -30,7 +30,7 @@ TEST_F(Culling, WritesToImportsSideEffectsAndReadbacksAreRoots) {
   for (size_t i = 0; i < graph.impl().passes.size(); ++i) EXPECT_TRUE(alive(i)) << i;
 }
 
-TEST_F(Culling, AReaderWithoutEffectIsCulledAndSoIsWhatItReads) {
+TEST_F(Culling, ReaderWithoutOutputIsCulledWithItsInput) {
   const BufferRef a = write("make a", graph.create("a", {64}));
   read("look", a, Use::ComputeRead, false);
   compile();
@@ -39,7 +39,7 @@ TEST_F(Culling, AReaderWithoutEffectIsCulledAndSoIsWhatItReads) {
   EXPECT_EQ(graph.report()[1].reason, "it writes nothing");
 }
 
-TEST_F(Culling, AnOverwrittenResultIsNotNeededUnlessItIsKept) {
+TEST_F(Culling, DiscardedResultIsCulledKeptResultIsNot) {
   BufferRef out = import("out");
   out = write("first", out);
   out = write("second", out, Use::ComputeWrite, true);
@@ -50,7 +50,7 @@ TEST_F(Culling, AnOverwrittenResultIsNotNeededUnlessItIsKept) {
   EXPECT_TRUE(alive(2));
 }
 
-TEST_F(Culling, ReportAddsUpRunsAndListsWhatModulesSkipped) {
+TEST_F(Culling, ReportSumsRunsAndListsSkippedPasses) {
   BufferRef out = import("out");
   for (int i = 0; i < 3; ++i) out = write("step", out);
   graph.skipped("viscosity", "fluid.viscosity is 0");
@@ -63,7 +63,7 @@ TEST_F(Culling, ReportAddsUpRunsAndListsWhatModulesSkipped) {
   EXPECT_FALSE(graph.report()[1].culled);
 }
 
-TEST_F(Culling, DotAndJsonShowCulledPassesWithTheReason) {
+TEST_F(Culling, DotAndJsonShowCullReason) {
   (void)write("make \"a\"", graph.create("a", {64}));
   (void)write("store", import("out"));
   compile();
@@ -72,7 +72,7 @@ TEST_F(Culling, DotAndJsonShowCulledPassesWithTheReason) {
   EXPECT_NE(graph.json().find("\"name\":\"store\""), std::string::npos);
 }
 
-TEST_F(Culling, AnEmptyFrameCompiles) {
+TEST_F(Culling, EmptyFrameCompiles) {
   compile();
   EXPECT_TRUE(graph.report().empty());
   EXPECT_EQ(graph.transientBytes(), 0u);

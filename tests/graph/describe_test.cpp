@@ -1,4 +1,4 @@
-// What the graph says of a frame: memory with and without aliasing, places, lifetimes.
+// Reports of the graph: memory with and without aliasing, placements, lifetimes.
 #include <nlohmann/json.hpp>
 
 #include "graph_fixture.hpp"
@@ -8,7 +8,7 @@ namespace {
 
 class Describe : public GraphTest {
  protected:
-  /// Three buffers of 1000 bytes, of which no two but neighbors live together; a culled pass; a pyramid that is drawn and read.
+  /// Three buffers of 1000 bytes of which only consecutive ones overlap in lifetime; a culled pass; an image with two levels.
   void declare() {
     BufferRef at = write("make", graph.create("first", {1000}));
     at = readWrite("second pass", at, Use::ComputeRead, graph.create("second", {1000}));
@@ -26,7 +26,7 @@ class Describe : public GraphTest {
   }
 };
 
-TEST_F(Describe, HeapsWithAndWithoutAliasing) {
+TEST_F(Describe, ReportsHeapSizesWithAndWithoutAliasing) {
   declare();
   const auto heaps = graph.transientHeaps();
   ASSERT_EQ(heaps.size(), 2u);
@@ -35,7 +35,7 @@ TEST_F(Describe, HeapsWithAndWithoutAliasing) {
   EXPECT_EQ(heaps[0].bytes, 1024u + 1000);
   EXPECT_EQ(heaps[0].separate, 2 * 1024u + 1000);
   EXPECT_TRUE(heaps[1].images);
-  EXPECT_EQ(heaps[1].transients, 1u) << "a pyramid lies in one place";
+  EXPECT_EQ(heaps[1].transients, 1u) << "an image with mip levels has one placement";
   EXPECT_EQ(heaps[1].bytes, heaps[1].separate);
   EXPECT_EQ(graph.transientBytes(), heaps[0].bytes + heaps[1].bytes);
   const auto json = nlohmann::json::parse(graph.json());
@@ -46,10 +46,10 @@ TEST_F(Describe, HeapsWithAndWithoutAliasing) {
   EXPECT_EQ(json["heaps"][1]["kind"], "images");
 }
 
-TEST_F(Describe, TransientsThatShareAPlaceDoNotMeet) {
+TEST_F(Describe, AliasedTransientsHaveDisjointLifetimes) {
   declare();
   const auto all = graph.transients();
-  ASSERT_EQ(all.size(), 4u) << "three buffers, a pyramid";
+  ASSERT_EQ(all.size(), 4u) << "three buffers, one image";
   bool shared = false;
   for (const TransientReport& a : all) {
     EXPECT_FALSE(a.name.empty());
@@ -64,14 +64,14 @@ TEST_F(Describe, TransientsThatShareAPlaceDoNotMeet) {
   EXPECT_TRUE(shared);
 }
 
-TEST_F(Describe, DotShowsPlaceAndLifetime) {
+TEST_F(Describe, DotShowsPlacementAndLifetime) {
   declare();
   const std::string dot = graph.dot();
   for (const char* wanted :
        {"label=\"first\\n1000 bytes in heap 0 from 0 bytes\\npasses 0 to 1\"",
         "label=\"second\\n1000 bytes in heap 0 from 1024 bytes\\npasses 1 to 2\"",
         "label=\"third\\n1000 bytes in heap 0 from 0 bytes\\npasses 2 to 3\"", "4  idle\\nculled: nothing reads 'nobody's'\", style=dashed",
-        "label=\"nobody's\\nno pass that runs uses it\"", "label=\"picture, level 0\\n16 x 8, format 100\\n",
+        "label=\"nobody's\\nunused\"", "label=\"picture, level 0\\n16 x 8, format 100\\n",
         "label=\"picture, level 1\\n8 x 4, format 100\\n", "passes 5 to 5\""})
     EXPECT_NE(dot.find(wanted), std::string::npos) << wanted << "\n" << dot;
 }

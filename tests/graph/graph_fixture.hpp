@@ -1,5 +1,5 @@
 #pragma once
-// Declaring passes in a line, for tests that look at what compile() plans.
+// Helpers to declare passes in one line, for tests of the plan that compile() makes.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -51,8 +51,8 @@ class GraphTest : public ::testing::Test {
     const auto ok = graph.compile();
     ASSERT_TRUE(ok) << ok.error().message;
   }
-  /// The message that compile() fails with.
-  std::string mistake() {
+  /// The error message of compile(), or "compiled".
+  std::string compileError() {
     const auto ok = graph.compile();
     if (ok) return "compiled";
     EXPECT_EQ(ok.error().kind, ErrorKind::BadInput);
@@ -61,14 +61,14 @@ class GraphTest : public ::testing::Test {
   Scope barrier(size_t pass) { return graph.impl().passes[pass].barrier.scope; }
   bool alive(size_t pass) { return graph.impl().passes[pass].alive; }
 
-  std::unique_ptr<Graph> owned = std::make_unique<Graph>();  // so that a test with a device can end it before the device
+  std::unique_ptr<Graph> owned = std::make_unique<Graph>();  // a test with a device destroys it before the device
   Graph& graph = *owned;
 
  private:
   uint64_t imports_ = 0;
 };
 
-/// A pipeline that was never made: enough to declare kernels with.
+/// A pipeline without Vulkan objects, sufficient to declare kernels.
 struct FakePipeline {
   explicit FakePipeline(std::initializer_list<BindingKind> kinds) : set{kinds} {
     pipeline.shader = "fake";

@@ -1,4 +1,4 @@
-// What a pass that records with the host's own pipelines gets to see: handles, layouts, workgroups as they are given.
+// Handles, layouts and dispatch sizes in passes that record with the host's own pipelines.
 #include "graph_fixture.hpp"
 #include "support/null_vulkan.hpp"
 
@@ -27,7 +27,7 @@ class Handles : public GraphTest {
   std::unique_ptr<Device> device;
 };
 
-TEST_F(Handles, BuffersSayWhereTheyLie) {
+TEST_F(Handles, BufferReturnsHandleOffsetAndRange) {
   const BufferRef given = graph.import("given", {fakeBuffer(7), 128, 64, Use::Nothing});
   BufferRef first = graph.create("first", {256}), second = graph.create("second", {512});
   VkDescriptorBufferInfo in{}, a{}, b{};
@@ -47,12 +47,12 @@ TEST_F(Handles, BuffersSayWhereTheyLie) {
   EXPECT_EQ(in.offset, 128u);
   EXPECT_EQ(in.range, 64u);
   EXPECT_NE(a.buffer, VkBuffer(VK_NULL_HANDLE));
-  EXPECT_EQ(a.buffer, b.buffer) << "of one heap";
+  EXPECT_EQ(a.buffer, b.buffer) << "same heap";
   EXPECT_TRUE(a.offset + a.range <= b.offset || b.offset + b.range <= a.offset);
 }
 
-// Nothing is bound to a kernel: what the image is made for, and that it has views, follows from the uses alone.
-TEST_F(Handles, ImagesHaveWhatTheirUsesImply) {
+// Without kernels, usage flags and views follow from the declared uses alone.
+TEST_F(Handles, ImageUsageAndViewsFollowFromUses) {
   ImageRef image = graph.create("image", {VK_FORMAT_R32_SFLOAT, 64, 32, 2}), copied = graph.create("copied", kDesc);
   ImageRef second = graph.level(image, 1);
   ImageHandle written{}, read{}, other{}, bare{};
@@ -83,12 +83,12 @@ TEST_F(Handles, ImagesHaveWhatTheirUsesImply) {
   EXPECT_EQ(other.image, written.image);
   EXPECT_NE(other.view, written.view);
   EXPECT_EQ(other.level, 1u);
-  EXPECT_EQ(bare.view, VkImageView(VK_NULL_HANDLE)) << "nobody looks at it";
+  EXPECT_EQ(bare.view, VkImageView(VK_NULL_HANDLE)) << "copies need no view";
   EXPECT_EQ(bare.layout, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
   EXPECT_EQ(graph.impl().resources[image.index].usage, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
 }
 
-TEST_F(Handles, GroupsAreNotFolded) {
+TEST_F(Handles, ThreeDimensionalDispatchIsNotFolded) {
   constexpr BindingKind kinds[] = {BindingKind::Storage};
   auto made = computePipeline(*device, {.shader = "host", .spirv = kSpirv, .bindings = kinds, .pushConstantBytes = 4});
   ASSERT_TRUE(made);
@@ -109,7 +109,7 @@ TEST_F(Handles, GroupsAreNotFolded) {
   EXPECT_EQ(sizes, (std::vector<std::array<uint64_t, 3>>{{13, 8, 1}, {2, 3, 4}}));
 }
 
-TEST_F(Handles, WhatIsNoSpirvIsRefusedByName) {
+TEST_F(Handles, RejectsInvalidSpirvByName) {
   constexpr BindingKind kinds[] = {BindingKind::Storage};
   const auto refusal = [&](std::span<const uint32_t> spirv) {
     const auto made = computePipeline(*device, {.shader = "the host's", .spirv = spirv, .bindings = kinds});
@@ -119,19 +119,18 @@ TEST_F(Handles, WhatIsNoSpirvIsRefusedByName) {
   };
   constexpr uint32_t text[] = {0x65762322, 0x6f697372, 0x3634206e, 0x0a300000, 0}, other[] = {0x03022307, 0x100, 0, 0x1000000, 0};
   constexpr uint32_t cut[] = {0x07230203, 0x10000};
-  const std::string none =
-      "shader 'the host's': what was given is no SPIR-V: a module begins with the word 0x07230203 and has a header of five words";
+  const std::string none = "shader 'the host's': invalid SPIR-V; expected the magic number 0x07230203 and a header of five words";
   EXPECT_EQ(refusal(text), none);
   EXPECT_EQ(refusal(cut), none);
-  EXPECT_EQ(refusal(other), "shader 'the host's': its SPIR-V is in the other byte order: it must be in that of this machine");
-  EXPECT_EQ(refusal({}), "shader 'the host's': no SPIR-V was given, and Rill has no shader of that name");
+  EXPECT_EQ(refusal(other), "shader 'the host's': the SPIR-V has the wrong byte order; expected that of this machine");
+  EXPECT_EQ(refusal({}), "shader 'the host's': no SPIR-V given, and no embedded shader has this name");
   EXPECT_EQ(refusal(kSpirv), "made");
   const VkFormat color = VK_FORMAT_R8G8B8A8_UNORM;
   const auto drawn = graphicsPipeline(
       *device,
       {.vertex = "quad", .fragment = "fill", .vertexSpirv = kSpirv, .fragmentSpirv = text, .bindings = kinds, .colors = {&color, 1}});
   ASSERT_FALSE(drawn);
-  EXPECT_NE(drawn.error().message.find("shader 'fill': what was given is no SPIR-V"), std::string::npos) << drawn.error().message;
+  EXPECT_NE(drawn.error().message.find("shader 'fill': invalid SPIR-V"), std::string::npos) << drawn.error().message;
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Images in the plan: layouts, memory, mistakes; and what prepare() makes of them on a device that only remembers.
+// Images in the plan: layouts, memory, errors; and prepare() on a device that only records calls.
 #include <algorithm>
 
 #include "bench/count_allocations.hpp"
@@ -41,7 +41,7 @@ class Images : public GraphTest {
   using Changes = std::vector<std::pair<VkImageLayout, VkImageLayout>>;
 };
 
-TEST_F(Images, LayoutsFollowTheUses) {
+TEST_F(Images, LayoutsFollowUses) {
   ImageRef image = write("clear", graph.create("image", kDesc), Use::CopyTarget);
   image = write("draw", image);
   read("look", image);
@@ -52,15 +52,15 @@ TEST_F(Images, LayoutsFollowTheUses) {
   EXPECT_EQ(changes(planned(0)), (Changes{{kUndefined, kTarget}}));
   EXPECT_EQ(changes(planned(1)), (Changes{{kTarget, kGeneral}}));
   EXPECT_EQ(changes(planned(2)), (Changes{{kGeneral, kSampledLayout}}));
-  EXPECT_TRUE(planned(3).empty()) << "a second read in the same layout waits for nothing";
-  EXPECT_EQ(changes(planned(4)), (Changes{{kUndefined, kGeneral}})) << "what is discarded need not be kept through the change";
+  EXPECT_TRUE(planned(3).empty()) << "a second read in the same layout needs no barrier";
+  EXPECT_EQ(changes(planned(4)), (Changes{{kUndefined, kGeneral}})) << "discarded content need not be preserved";
   EXPECT_EQ(changes(planned(5)), (Changes{{kGeneral, kSource}}));
   EXPECT_EQ(change(1), (Scope{kTransfer, kTransferWrite, kCompute, kStorageRead | kStorageWrite}));
   EXPECT_EQ(change(2), (Scope{kCompute, kStorageWrite, kCompute, kSampled}));
-  for (size_t pass = 0; pass < 6; ++pass) EXPECT_TRUE(planned(pass).scope.empty()) << "the change of layout is all there is to wait for";
+  for (size_t pass = 0; pass < 6; ++pass) EXPECT_TRUE(planned(pass).scope.empty()) << "the layout transition is the only dependency";
 }
 
-TEST_F(Images, InOneLayoutTheyWaitAsBuffersDo) {
+TEST_F(Images, EqualLayoutsUseMemoryBarriers) {
   ImageRef image = write("draw", graph.create("image", kDesc));
   image = write("draw more", image);
   read("load", image, Use::ComputeRead);
@@ -71,7 +71,7 @@ TEST_F(Images, InOneLayoutTheyWaitAsBuffersDo) {
   EXPECT_EQ(barrier(2), (Scope{kCompute, kStorageWrite, kCompute, kStorageRead}));
 }
 
-TEST_F(Images, ImportsStartInTheirStateAndEndInTheOneAskedFor) {
+TEST_F(Images, ImportsStartAndEndInDeclaredStates) {
   ImageRef kept = graph.import("kept", {fakeImage(1), kDesc, Use::ComputeSampled, Use::ComputeSampled});
   ImageRef drawn = graph.import("drawn", {fakeImage(2), kDesc, Use::Unknown, Use::CopySource});
   (void)graph.import("idle", {fakeImage(3), kDesc, Use::CopyTarget, Use::ComputeSampled});
@@ -83,7 +83,7 @@ TEST_F(Images, ImportsStartInTheirStateAndEndInTheOneAskedFor) {
   EXPECT_EQ(changes(graph.impl().finalBarrier), (Changes{{kGeneral, kSource}, {kTarget, kSampledLayout}}));
 }
 
-TEST_F(Images, AnUnreadImageLeavesNoPass) {
+TEST_F(Images, UnreadImageIsCulled) {
   const ImageRef image = write("draw", graph.create("image", kDesc));
   read("look", image, Use::ComputeSampled, false);
   compile();
@@ -92,7 +92,7 @@ TEST_F(Images, AnUnreadImageLeavesNoPass) {
   EXPECT_TRUE(graph.impl().plans[1].placements.empty());
 }
 
-TEST_F(Images, ShareMemoryWithOtherImagesButNotWithBuffers) {
+TEST_F(Images, AliasImagesButNotBuffers) {
   for (int i = 0; i < 3; ++i) {
     const ImageRef image = write("draw", graph.create("image", kDesc));
     read("look", image);
@@ -102,49 +102,50 @@ TEST_F(Images, ShareMemoryWithOtherImagesButNotWithBuffers) {
   const auto& plan = graph.impl().plans[1];
   ASSERT_EQ(plan.placements.size(), 3u);
   ASSERT_EQ(plan.heapSizes.size(), 1u);
-  EXPECT_EQ(plan.heapSizes[0], 16ull * 64 * 32) << "an estimate, before a device was asked";
-  // The first waits for the frame before, the second for the first one's readers.
+  EXPECT_EQ(plan.heapSizes[0], 16ull * 64 * 32) << "an estimate, before the device is queried";
+  // The first waits for the previous frame, the second for the first one's readers.
   EXPECT_EQ(change(3).sourceStage & kCompute, kCompute);
 }
 
-TEST_F(Images, MistakesAreNamed) {
+TEST_F(Images, ErrorsNameTheResource) {
   const auto after = [&](auto&& declare) {
     graph.reset();
     declare();
-    return mistake();
+    return compileError();
   };
-  EXPECT_EQ(after([&] { read("look", graph.create("image", kDesc)); }), "pass 'look' reads 'image', which no pass has written");
+  EXPECT_EQ(after([&] { read("look", graph.create("image", kDesc)); }),
+            "pass 'look' reads 'image', whose content is undefined; write it in an earlier pass");
   EXPECT_EQ(after([&] {
               read("look", graph.import("image", {fakeImage(1), kDesc, Use::Unknown, Use::Nothing}));
             }),
-            "pass 'look' reads 'image', which no pass has written");
+            "pass 'look' reads 'image', whose content is undefined; write it in an earlier pass");
   EXPECT_EQ(after([&] { read("look", write("draw", graph.create("image", kDesc)), Use::ComputeUniform); }),
-            "pass 'look' reads 'image' with Use::ComputeUniform, which is no way for a pass to read an image");
+            "pass 'look' reads 'image' with Use::ComputeUniform, which is not a read use an image");
   EXPECT_EQ(after([&] { GraphTest::read("look", import("buffer"), Use::ComputeSampled); }),
-            "pass 'look' reads 'buffer' with Use::ComputeSampled, which is no way for a pass to read");
+            "pass 'look' reads 'buffer' with Use::ComputeSampled, which is not a read use");
   EXPECT_EQ(after([&] { (void)graph.create("image", ImageDesc{VK_FORMAT_UNDEFINED, 1, 1}); }), "image 'image' has no format");
   EXPECT_EQ(after([&] {
               (void)graph.create("image", ImageDesc{VK_FORMAT_R32_SFLOAT, 1u << 30, 1u << 30});
             }),
-            "image 'image' of 1073741824 x 1073741824 texels: at most 32768 a side are possible");
+            "image 'image' of 1073741824 x 1073741824 texels; expected at most 32768 per side");
   EXPECT_EQ(after([&] {
               (void)graph.import("one", {fakeImage(1), kDesc, Use::ComputeSampled, Use::Nothing});
               (void)graph.import("two", {fakeImage(1), kDesc, Use::ComputeSampled, Use::Nothing});
             }),
-            "imports 'one' and 'two' overlap in one VkImage: import the memory once");
+            "imports 'one' and 'two' overlap in the same VkImage; import the memory once");
   EXPECT_EQ(after([&] {
               (void)write("add", graph.import("image", {fakeImage(1), kDesc, Use::ComputeRead, Use::Nothing}), Use::ComputeAtomic);
             }),
-            "pass 'add' writes 'image' with Use::ComputeAtomic, which is no way for a pass to write an image");
-  EXPECT_EQ(after([&] { (void)graph.create("image", ImageDesc{VK_FORMAT_R32_SFLOAT, 0, 1}); }), "image 'image' has no size");
+            "pass 'add' writes 'image' with Use::ComputeAtomic, which is not a write use an image");
+  EXPECT_EQ(after([&] { (void)graph.create("image", ImageDesc{VK_FORMAT_R32_SFLOAT, 0, 1}); }), "image 'image': size is 0");
   EXPECT_EQ(after([&] {
               (void)graph.import("image", ImageImport{VK_NULL_HANDLE, kDesc, Use::Nothing, Use::Nothing});
             }),
-            "import 'image' has a null VkImage");
+            "import 'image': null handle, expected a VkImage");
   EXPECT_EQ(after([&] {
               (void)graph.import("image", {fakeImage(1), kDesc, Use::HostRead, Use::Nothing});
             }),
-            "import 'image': Use::HostRead is no use of an image");
+            "import 'image': Use::HostRead is not a use of an image");
   EXPECT_EQ(after([&] {
               const ImageRef image = write("draw", graph.create("image", kDesc));
               graph.pass("look", [&](Pass& p) {
@@ -153,7 +154,7 @@ TEST_F(Images, MistakesAreNamed) {
                 return [](Commands&) {};
               });
             }),
-            "pass 'look' reads 'image' with Use::ComputeSampled and Use::ComputeRead, which need different layouts: make two passes");
+            "pass 'look' reads 'image' with Use::ComputeSampled and Use::ComputeRead, which need different layouts; use two passes");
   FakePipeline storage({BindingKind::Storage}), sampled({BindingKind::SampledImage});
   for (auto* fake : {&storage, &sampled})
     EXPECT_EQ(after([&] {
@@ -164,7 +165,7 @@ TEST_F(Images, MistakesAreNamed) {
                 });
               }),
               std::string("pass 'draw', shader 'fake': binding 0 is ") + (fake == &storage ? "a storage buffer" : "a sampled image") +
-                  ", which no declared use of 'image' is");
+                  ", which matches no declared use of 'image'");
 }
 
 class ImagesOnNullDevice : public Images {
@@ -208,9 +209,9 @@ class ImagesOnNullDevice : public Images {
   FrameClock clock;
 };
 
-TEST_F(ImagesOnNullDevice, AreMadeOnceAndThePlanUsesWhatTheDeviceSays) {
+TEST_F(ImagesOnNullDevice, AreCreatedOnceWithQueriedSizes) {
   ASSERT_TRUE(frame(4, 64));
-  EXPECT_EQ(vulkan.imagesCreated, 1u) << "four that follow each other are one image";
+  EXPECT_EQ(vulkan.imagesCreated, 1u) << "four with disjoint lifetimes share one image";
   EXPECT_EQ(graph.impl().plans[1].heapSizes[0], 64u * 64 * 4) << "not the estimate";
   EXPECT_EQ(vulkan.count(NullCommand::ClearImage), 4u);
   EXPECT_EQ(vulkan.count(NullCommand::CopyFromImage), 4u);
@@ -223,15 +224,15 @@ TEST_F(ImagesOnNullDevice, AreMadeOnceAndThePlanUsesWhatTheDeviceSays) {
     EXPECT_EQ(b.image, image);
     EXPECT_EQ(b.oldLayout, k % 2 ? kTarget : kUndefined);
     EXPECT_EQ(b.newLayout, k % 2 ? kSource : kTarget);
-    EXPECT_EQ(b.srcAccessMask & kTransferWrite, kTransferWrite) << "even the first waits, for the frame before";
+    EXPECT_EQ(b.srcAccessMask & kTransferWrite, kTransferWrite) << "the first waits for the previous frame";
   }
   for (int i = 0; i < 8; ++i) ASSERT_TRUE(frame(4, 64));
   EXPECT_EQ(vulkan.imagesCreated, 1u);
-  ASSERT_TRUE(frame(4, 128));  // grows the heap, and makes another image in it
+  ASSERT_TRUE(frame(4, 128));  // grows the heap and creates another image in it
   EXPECT_EQ(vulkan.imagesCreated, 2u);
 }
 
-TEST_F(ImagesOnNullDevice, ASteadyStateAllocatesNothing) {
+TEST_F(ImagesOnNullDevice, SteadyStateAllocatesNothing) {
   for (int i = 0; i < 8; ++i) ASSERT_TRUE(frame(4, 64));
   const int64_t live = vulkan.liveObjects;
   bool fine = true;
@@ -242,7 +243,7 @@ TEST_F(ImagesOnNullDevice, ASteadyStateAllocatesNothing) {
   EXPECT_EQ(vulkan.liveObjects, live);
 }
 
-TEST_F(ImagesOnNullDevice, ErrorsNameTheImage) {
+TEST_F(ImagesOnNullDevice, DeviceErrorsNameTheImage) {
   auto ok = frame(1, 5000);
   ASSERT_FALSE(ok);
   EXPECT_NE(ok.error().message.find("image 'image' of 5000 x 64 texels"), std::string::npos) << ok.error().message;
@@ -252,7 +253,7 @@ TEST_F(ImagesOnNullDevice, ErrorsNameTheImage) {
   EXPECT_EQ(ok.error().kind, ErrorKind::OutOfMemory);
 }
 
-TEST_F(ImagesOnNullDevice, AreDestroyedInTheEnd) {
+TEST_F(ImagesOnNullDevice, AreDestroyedWithTheGraph) {
   const int64_t before = vulkan.liveObjects;
   ASSERT_TRUE(frame(3, 64));
   ASSERT_TRUE(frame(3, 128));

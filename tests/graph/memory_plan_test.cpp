@@ -37,12 +37,12 @@ TEST(MemoryPlan, NoHeapExceedsTheLimit) {
   EXPECT_EQ(p[3].offset, 3072u);
 }
 
-TEST(MemoryPlan, OrderIsOfFirstUseNotOfDeclaration) {
+TEST(MemoryPlan, OrdersByFirstUseNotDeclaration) {
   std::vector<Placement> p{{5, 6, 256}, {0, 1, 256}};
   EXPECT_EQ(plan(p), std::vector<uint64_t>{256});
 }
 
-TEST(MemoryPlan, NothingNeedsNoHeap) {
+TEST(MemoryPlan, EmptyPlanHasNoHeap) {
   std::vector<Placement> p;
   EXPECT_TRUE(plan(p).empty());
 }

@@ -1,4 +1,4 @@
-// Whatever a plan depends on makes a new one when it changes.
+// Every change that a plan depends on leads to a new plan.
 #include <functional>
 #include <vector>
 
@@ -44,7 +44,7 @@ class PlanReuse : public GraphTest {
   uint64_t plans() { return graph.impl().plansMade; }
 };
 
-TEST_F(PlanReuse, EachChangeMakesANewPlanOnce) {
+TEST_F(PlanReuse, EachChangeMakesOneNewPlan) {
   const std::vector<std::function<void(Declared&)>> changes = {
       [](Declared& d) { d.pass = "make more"; },
       [](Declared& d) { d.resource = "other"; },
@@ -74,7 +74,7 @@ TEST_F(PlanReuse, EachChangeMakesANewPlanOnce) {
   }
 }
 
-TEST_F(PlanReuse, HandlesMayChange) {
+TEST_F(PlanReuse, ChangedHandlesReusePlan) {
   frame({});
   Declared other;
   other.handle = 8;
@@ -82,7 +82,7 @@ TEST_F(PlanReuse, HandlesMayChange) {
   EXPECT_EQ(plans(), 1u);
 }
 
-TEST_F(PlanReuse, AFrameThatWasLeftBeforeItWasCompiledLeavesThePlan) {
+TEST_F(PlanReuse, UncompiledFrameKeepsPlan) {
   frame({});
   graph.reset();
   (void)write("something else", graph.create("made", {64}));
@@ -90,7 +90,7 @@ TEST_F(PlanReuse, AFrameThatWasLeftBeforeItWasCompiledLeavesThePlan) {
   EXPECT_EQ(plans(), 1u);
 }
 
-TEST_F(PlanReuse, WhatWasAddedAfterCompilingIsPlanned) {
+TEST_F(PlanReuse, PassesAddedAfterCompileArePlanned) {
   frame({});
   read("added", write("make it", graph.create("late", {64})));
   compile();

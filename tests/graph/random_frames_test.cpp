@@ -1,5 +1,5 @@
-// Thousands of random frames, each recorded twice in a row, against Vulkan's rules applied pair by pair: whatever touches the
-// same memory, one of them writing, must be ordered, and a write must be available and visible to what reads it.
+// Checks thousands of random frames, each recorded twice, against Vulkan's memory model, pair by pair:
+// conflicting accesses must be ordered, and writes must be available and visible to their readers.
 #include <random>
 
 #include "graph_fixture.hpp"
@@ -9,7 +9,7 @@ namespace {
 
 struct Barrier {
   Scope scope;
-  uint32_t image = kNone;  // of a change of layout: memory of this image alone
+  uint32_t image = kNone;  // for a layout transition: the image whose memory it covers
 };
 
 struct Step {  // a pass or a barrier of the recorded sequence
@@ -33,7 +33,7 @@ class RandomFrames : public GraphTest {
  protected:
   void declare(std::mt19937& random) {
     const auto pick = [&](uint32_t below) { return uint32_t(random() % below); };
-    // In some frames memory changes hands often: many transients, most of them used by a few passes in a row.
+    // Some frames reuse memory often: many transients, most of them used by a few consecutive passes.
     const bool chain = pick(8) == 0;
     const uint32_t imports = 3, transients = chain ? 20 : 4, passes = chain ? 40 : 14;
     std::vector<BufferRef> refs;
@@ -85,7 +85,7 @@ class RandomFrames : public GraphTest {
             pass.read(images[r], imageReads[pick(4)]);
           } else {
             constexpr Use imageWritings[] = {Use::ComputeWrite, Use::CopyTarget, Use::ColorTarget};
-            const Use use = imageWritings[pick(target ? 2 : 3)];  // targets of one pass are of one size: one of them
+            const Use use = imageWritings[pick(target ? 2 : 3)];  // at most one target, since targets of a pass must have equal sizes
             target |= use == Use::ColorTarget;
             const bool discard = pick(4) == 0 || (use == Use::ColorTarget && !drawn[r]);
             images[r] = pass.write(images[r], use, discard ? Load::Discard : Load::Keep);
@@ -97,7 +97,7 @@ class RandomFrames : public GraphTest {
       });
   }
 
-  /// The memory that an access touches: imports are told apart by their number, transients by heap and bytes.
+  /// Whether two accesses touch the same memory: compares imports by index, transients by heap and byte range.
   bool sameMemory(const Access& a, const Access& b) {
     const auto& ra = graph.impl().resources[a.resource];
     const auto& rb = graph.impl().resources[b.resource];
@@ -106,7 +106,7 @@ class RandomFrames : public GraphTest {
     return sharesMemory(placements[ra.placement], placements[rb.placement]);
   }
 
-  /// Every image is in the layout that its use wants, by changes that start from the layout it has, and none that loses content.
+  /// Every use finds the right layout; transitions start from the current layout and keep needed content.
   void checkLayouts(const std::vector<Step>& steps, uint32_t seed) {
     const auto& resources = graph.impl().resources;
     std::vector<VkImageLayout> layout(resources.size());
@@ -145,7 +145,7 @@ class RandomFrames : public GraphTest {
     return step;
   }
 
-  /// A change of layout reads and writes the image: whoever touched its memory before must have been waited for.
+  /// A layout transition reads and writes the image, so it must wait for all earlier accesses to its memory.
   void checkChanges(const std::vector<Step>& steps, uint32_t seed) {
     for (size_t i = 0; i < steps.size(); ++i)
       for (const Access& access : steps[i].accesses) {
@@ -155,7 +155,7 @@ class RandomFrames : public GraphTest {
           for (const auto& [b, image] : steps[s].barriers) {
             const bool waits = covers(b.sourceStage, useRow(access.use).stage) || (b.sourceStage & before);
             if (image != kNone && sameMemory(access, {image})) {
-              ASSERT_TRUE(waits) << "seed " << seed << ": a change of layout in step " << s << " does not wait for step " << i << "\n"
+              ASSERT_TRUE(waits) << "seed " << seed << ": a layout transition in step " << s << " does not wait for step " << i << "\n"
                                  << graph.json();
             }
             if (waits) ordered |= b.targetStage;
@@ -179,7 +179,7 @@ class RandomFrames : public GraphTest {
         VkPipelineStageFlags2 ordered = 0;
         bool available = false, visible = false;
         for (size_t s = first.step + 1; s <= second.step; ++s) {
-          const VkPipelineStageFlags2 before = ordered;  // barriers of one call do not wait for each other
+          const VkPipelineStageFlags2 before = ordered;  // barriers of one call are not ordered among themselves
           for (const auto& [b, image] : steps[s].barriers) {
             if (b.empty()) continue;
             const bool direct = covers(b.sourceStage, from.stage), chained = (b.sourceStage & before) || ((b.sourceStage & kAll) && before);
@@ -211,7 +211,7 @@ class RandomFrames : public GraphTest {
   static bool sameFrame(const Event& a, const Event& b, size_t steps) { return (a.step < steps / 2) == (b.step < steps / 2); }
 };
 
-TEST_F(RandomFrames, EveryConflictIsOrdered) {
+TEST_F(RandomFrames, SynchronizesEveryConflict) {
   size_t covered = 0, frames = 0;
   for (uint32_t seed = 0; seed < 3000; ++seed) {
     std::mt19937 random(seed);
@@ -223,7 +223,7 @@ TEST_F(RandomFrames, EveryConflictIsOrdered) {
       for (const Placement& a : plan.placements)
         for (const Placement& b : plan.placements)
           if (&a < &b && a.first <= b.last && b.first <= a.last) { ASSERT_FALSE(sharesMemory(a, b)) << "seed " << seed; }
-    const size_t placed = g.plans[0].placements.size(), waitedFor = g.plans[0].tenants.size();
+    const size_t placed = g.plans[0].placements.size(), waitedFor = g.plans[0].aliasCandidates.size();
     frames += waitedFor > 1 && waitedFor < placed;
     covered += placed - waitedFor;
     std::vector<Step> steps;
@@ -246,12 +246,12 @@ TEST_F(RandomFrames, EveryConflictIsOrdered) {
     check(steps, seed);
     if (HasFatalFailure()) return;
   }
-  EXPECT_GT(covered, 3000u) << "transients whose memory another took over whole";
-  EXPECT_GT(frames, 500u) << "and beside them some that were taken over in part or not at all";
+  EXPECT_GT(covered, 3000u) << "transients whose memory was reused completely";
+  EXPECT_GT(frames, 500u) << "frames that also have partly reused or unshared transients";
 }
 
-// A frame that is declared again has the plan that it had, and any other a plan of its own: what these plans must hold is tested above.
-TEST_F(RandomFrames, AnEqualFrameTakesOverThePlanAndNoOtherDoes) {
+// A repeated frame reuses its plan, any other frame gets a new one. The test above checks the plans themselves.
+TEST_F(RandomFrames, OnlyEqualFramesReuseThePlan) {
   for (uint32_t seed = 0; seed < 200; ++seed) {
     std::string planned;
     for (int time = 0; time < 3; ++time) {

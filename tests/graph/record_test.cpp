@@ -1,4 +1,4 @@
-// prepare() and record() against a device that only remembers.
+// prepare() and record() on a device that only records calls.
 #include "bench/count_allocations.hpp"
 #include "graph_fixture.hpp"
 #include "support/null_vulkan.hpp"
@@ -38,7 +38,7 @@ class Recording : public GraphTest {
     BufferRef list = graph.import("list", {fakeBuffer(2), 0, 4096, Use::ComputeWrite, Use::ComputeWrite});
     for (int i = 0; i < 100; ++i) {
       BufferRef scratch = graph.create("scratch of both, with a long name", {scratchBytes});
-      const std::array<uint64_t, 20> much{};  // what a record lambda may carry
+      const std::array<uint64_t, 20> much{};  // a large capture
       graph.pass("first of the two, with a long name", [&](Pass& pass) {
         pass.read(list, Use::ComputeTexel);
         scratch = pass.write(scratch, Use::ComputeWrite);
@@ -60,10 +60,10 @@ class Recording : public GraphTest {
   FrameClock clock;
 };
 
-TEST_F(Recording, ASteadyStateAllocatesNothing) {
+TEST_F(Recording, SteadyStateAllocatesNothing) {
   const auto* update = pipeline("update", {BindingKind::Storage, BindingKind::Storage});
   const auto* texel = pipeline("texel", {BindingKind::TexelFloat4, BindingKind::Storage});
-  for (const uint64_t other : {1024, 768}) {  // frames whose plan is taken over, frames that are each planned
+  for (const uint64_t other : {1024, 768}) {  // frames that reuse the plan, then frames that need a new plan each
     const auto wholeFrame = [&](int i) {
       frame();
       graph.reset();
@@ -71,7 +71,7 @@ TEST_F(Recording, ASteadyStateAllocatesNothing) {
       declareLargeFrame(update, texel, i % 2 == 0 ? 1024 : other);
       return bool(go()) && graph.timings().size() <= 3;
     };
-    for (int i = 0; i < 20; ++i) ASSERT_TRUE(wholeFrame(i));  // until forgotten read-backs have been given up
+    for (int i = 0; i < 20; ++i) ASSERT_TRUE(wholeFrame(i));  // until forgotten read-backs expire
     const int64_t live = vulkan.liveObjects;
     const uint64_t plans = graph.impl().plansMade;
     bench::startCounting();
@@ -81,11 +81,11 @@ TEST_F(Recording, ASteadyStateAllocatesNothing) {
     EXPECT_TRUE(fine);
     EXPECT_EQ(allocations, 0u);
     EXPECT_EQ(graph.impl().plansMade - plans, other == 1024 ? 0u : 40u);
-    EXPECT_EQ(vulkan.liveObjects, live) << "every frame destroys the views that it made";
+    EXPECT_EQ(vulkan.liveObjects, live) << "every frame destroys the views that it created";
   }
 }
 
-TEST_F(Recording, KernelsWithEqualBindingsShareASetAndAView) {
+TEST_F(Recording, EqualBindingsShareDescriptorSetAndView) {
   const auto* texel = pipeline("texel", {BindingKind::TexelFloat4, BindingKind::Storage});
   const auto* other = pipeline("other", {BindingKind::TexelFloat4, BindingKind::Storage});
   frame();
@@ -103,7 +103,7 @@ TEST_F(Recording, KernelsWithEqualBindingsShareASetAndAView) {
   EXPECT_EQ(vulkan.count(NullCommand::Dispatch), 10u);
 }
 
-TEST_F(Recording, APassHasAtMostOneBarrierAndLiesBetweenTwoTimestamps) {
+TEST_F(Recording, PassHasAtMostOneBarrierAndTwoTimestamps) {
   const auto* update = pipeline("update", {BindingKind::Storage, BindingKind::Storage});
   const auto* texel = pipeline("texel", {BindingKind::TexelFloat4, BindingKind::Storage});
   frame();
@@ -116,7 +116,7 @@ TEST_F(Recording, APassHasAtMostOneBarrierAndLiesBetweenTwoTimestamps) {
   }
 }
 
-TEST_F(Recording, FramesAreRecordedAlikeHoweverManyAreInFlight) {
+TEST_F(Recording, RecordingIsIndependentOfFramesInFlight) {
   const auto* update = pipeline("update", {BindingKind::Storage, BindingKind::Storage});
   const auto* texel = pipeline("texel", {BindingKind::TexelFloat4, BindingKind::Storage});
   const auto barriers = [&] {
@@ -138,7 +138,7 @@ TEST_F(Recording, FramesAreRecordedAlikeHoweverManyAreInFlight) {
   EXPECT_EQ(barriers(), first);
 }
 
-TEST_F(Recording, DispatchesAreFoldedAndEmptyOnesLeftOut) {
+TEST_F(Recording, FoldsLargeDispatchesAndSkipsEmptyOnes) {
   const auto* update = pipeline("update", {BindingKind::Storage});
   frame();
   BufferRef out = import("out");
@@ -157,7 +157,7 @@ TEST_F(Recording, DispatchesAreFoldedAndEmptyOnesLeftOut) {
   EXPECT_EQ(sizes, (std::vector<std::array<uint64_t, 2>>{{1, 1}, {65535, 1}, {32768, 2}, {62500, 16}}));
 }
 
-TEST_F(Recording, OutOfMemorySaysForWhatAndTheNextTrySucceeds) {
+TEST_F(Recording, OutOfMemoryNamesBufferAndRetrySucceeds) {
   frame();
   read("look", write("make", graph.create("scratch", {1 << 20})));
   vulkan.allocationResult = VK_ERROR_OUT_OF_DEVICE_MEMORY;
@@ -170,10 +170,10 @@ TEST_F(Recording, OutOfMemorySaysForWhatAndTheNextTrySucceeds) {
   ok = go();
   EXPECT_TRUE(ok);
   for (int i = 0; i < 3; ++i) frame();
-  EXPECT_EQ(vulkan.liveObjects, live + 3) << "the heap, its memory and a query pool; the failed buffer is gone";
+  EXPECT_EQ(vulkan.liveObjects, live + 3) << "the heap, its memory and a query pool; the failed buffer was destroyed";
 }
 
-TEST_F(Recording, HeapsGrowAndOldOnesWaitForTheirFrames) {
+TEST_F(Recording, OutgrownHeapsOutliveTheirFrames) {
   frame();
   read("look", write("make", graph.create("scratch", {1000})));
   ASSERT_TRUE(go());
@@ -192,15 +192,15 @@ TEST_F(Recording, HeapsGrowAndOldOnesWaitForTheirFrames) {
   EXPECT_GE(vulkan.liveObjects, live + 2) << "frames in flight still use the old heap";
 }
 
-TEST_F(Recording, AMisalignedImportIsRefused) {
+TEST_F(Recording, RejectsMisalignedImport) {
   frame();
   read("look", graph.import("a", {fakeBuffer(9), 20, 64}));
   const auto ok = go();
   ASSERT_FALSE(ok);
-  EXPECT_EQ(ok.error().message, "import 'a' lies at offset 20, which is no multiple of this device's 64");
+  EXPECT_EQ(ok.error().message, "import 'a': offset 20 is not a multiple of 64");
 }
 
-TEST_F(Recording, TellsWhatTheDeviceCannotBind) {
+TEST_F(Recording, RejectsBindingsAboveDeviceLimits) {
   const auto* texel = pipeline("texel", {BindingKind::TexelUint});
   const auto* uniform = pipeline("uniform", {BindingKind::Uniform});
   const auto attempt = [&](const ComputePipeline* with, Use use) {
@@ -216,11 +216,11 @@ TEST_F(Recording, TellsWhatTheDeviceCannotBind) {
     const auto ok = go();
     return ok ? std::string() : ok.error().message;
   };
-  EXPECT_EQ(attempt(texel, Use::ComputeTexel), "texel buffer 'big' of 262144 texels: 1 to 65536 are possible on null device");
-  EXPECT_EQ(attempt(uniform, Use::ComputeUniform), "buffer 'big' of 1048576 bytes: null device binds at most 65536");
+  EXPECT_EQ(attempt(texel, Use::ComputeTexel), "texel buffer 'big' of 262144 texels; null device supports 1 to 65536");
+  EXPECT_EQ(attempt(uniform, Use::ComputeUniform), "buffer 'big' of 1048576 bytes; null device binds at most 65536");
 }
 
-TEST_F(Recording, TimingsAddUpPassesOfOneNameAndArriveWithTheClock) {
+TEST_F(Recording, TimingsSumPassesByNameAfterCompletion) {
   device->beginFrame({1, 0});
   BufferRef out = import("out");
   out = write("step", out);
@@ -241,7 +241,7 @@ TEST_F(Recording, TimingsAddUpPassesOfOneNameAndArriveWithTheClock) {
   EXPECT_EQ(vulkan.count(NullCommand::Timestamp), 0u);
 }
 
-TEST_F(Recording, ForgottenReadbacksAreGivenUp) {
+TEST_F(Recording, ForgottenReadbacksExpire) {
   const auto* update = pipeline("update", {BindingKind::Storage});
   (void)update;
   std::vector<Ticket> tickets;
@@ -257,7 +257,7 @@ TEST_F(Recording, ForgottenReadbacksAreGivenUp) {
   EXPECT_TRUE(graph.data(tickets[59]).empty()) << "in flight";
 }
 
-TEST_F(Recording, EverythingIsDestroyedInTheEnd) {
+TEST_F(Recording, DestroysAllObjects) {
   const auto* update = pipeline("update", {BindingKind::Storage, BindingKind::Storage});
   const auto* texel = pipeline("texel", {BindingKind::TexelFloat4, BindingKind::Storage});
   device->beginFrame({1, 0});

@@ -1,4 +1,4 @@
-// Images that passes draw to, and pyramids.
+// Render targets and mip levels.
 #include "graph_fixture.hpp"
 
 namespace rill::test {
@@ -27,11 +27,11 @@ class Targets : public GraphTest {
   std::string after(Declare&& declare) {
     graph.reset();
     declare();
-    return mistake();
+    return compileError();
   }
 };
 
-TEST_F(Targets, OnlyWhatIsWantedLaterIsStored) {
+TEST_F(Targets, StoresOnlyTargetsUsedLater) {
   ImageRef color = graph.create("color", kColor), depth = graph.create("depth", kDepth);
   draw("opaque", color, depth, Load::Clear);
   draw("more", color, depth, Load::Keep);
@@ -41,10 +41,10 @@ TEST_F(Targets, OnlyWhatIsWantedLaterIsStored) {
   EXPECT_TRUE(target(0, 0).store) << "the second pass keeps it";
   EXPECT_TRUE(target(0, 1).store);
   EXPECT_TRUE(target(1, 0).store);
-  EXPECT_FALSE(target(1, 1).store) << "nobody reads the depth after it";
+  EXPECT_FALSE(target(1, 1).store) << "nothing reads the depth afterwards";
 }
 
-TEST_F(Targets, WhatIsDiscardedLaterIsNotStored) {
+TEST_F(Targets, DoesNotStoreTargetsDiscardedLater) {
   ImageRef color = graph.create("color", kColor), depth = graph.create("depth", kDepth);
   draw("opaque", color, depth, Load::Clear);
   look("look", color);
@@ -56,7 +56,7 @@ TEST_F(Targets, WhatIsDiscardedLaterIsNotStored) {
   EXPECT_TRUE(target(0, 0).store);
 }
 
-TEST_F(Targets, LayoutsAndStagesAreThoseOfAttachments) {
+TEST_F(Targets, UseAttachmentLayoutsAndStages) {
   ImageRef color = graph.create("color", kColor), depth = graph.create("depth", kDepth);
   draw("draw", color, depth, Load::Clear);
   look("look", depth, Use::DrawSampled);
@@ -72,7 +72,7 @@ TEST_F(Targets, LayoutsAndStagesAreThoseOfAttachments) {
   EXPECT_EQ(scope.targetStage, VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT);
 }
 
-TEST_F(Targets, ComputeFramesKnowNothingOfGraphics) {
+TEST_F(Targets, ComputeFramesUseNoGraphicsStages) {
   const BufferRef made = write("make", graph.create("buffer", {256}));
   read("use", made);
   compile();
@@ -81,7 +81,7 @@ TEST_F(Targets, ComputeFramesKnowNothingOfGraphics) {
   EXPECT_EQ(barrier(0).sourceStage & graphics, 0u) << "the queue may have none";
 }
 
-TEST_F(Targets, LevelsOfAPyramidAreReadWhileTheNextIsWritten) {
+TEST_F(Targets, MipLevelIsReadWhileNextIsWritten) {
   const ImageRef pyramid = graph.create("pyramid", {VK_FORMAT_R32_SFLOAT, 40, 20, 3});
   ImageRef levels[3];
   for (uint32_t k = 0; k < 3; ++k) levels[k] = graph.level(pyramid, k);
@@ -99,7 +99,7 @@ TEST_F(Targets, LevelsOfAPyramidAreReadWhileTheNextIsWritten) {
   look("look at the first", levels[0]);
   compile();
   const auto& plan = graph.impl().plans[1];
-  ASSERT_EQ(plan.placements.size(), 1u) << "one image, one place";
+  ASSERT_EQ(plan.placements.size(), 1u) << "one image, one placement";
   EXPECT_EQ(plan.placements[0].first, 0u);
   EXPECT_EQ(plan.placements[0].last, 4u);
   for (uint32_t pass = 1; pass < 3; ++pass) {
@@ -108,12 +108,12 @@ TEST_F(Targets, LevelsOfAPyramidAreReadWhileTheNextIsWritten) {
     EXPECT_EQ(graph.impl().resources[graph.impl().transitions[barrier.transitions.first].resource].level, pass - 1);
     EXPECT_EQ(graph.impl().resources[graph.impl().transitions[barrier.transitions.first + 1].resource].level, pass);
   }
-  EXPECT_EQ(graph.impl().passes[4].barrier.transitions.count, 0u) << "it still is as the second pass has read it";
+  EXPECT_EQ(graph.impl().passes[4].barrier.transitions.count, 0u) << "still in the layout that the second pass used";
   EXPECT_EQ(graph.impl().resources[levels[2].index].width(), 10u);
   EXPECT_EQ(graph.impl().resources[levels[2].index].height(), 5u);
 }
 
-TEST_F(Targets, ALevelThatNobodyReadsLeavesNoPass) {
+TEST_F(Targets, UnreadMipLevelIsCulled) {
   const ImageRef pyramid = graph.create("pyramid", {VK_FORMAT_R32_SFLOAT, 8, 8, 2});
   ImageRef first = graph.level(pyramid, 0), second = graph.level(pyramid, 1);
   graph.pass("first", [&](Pass& p) {
@@ -130,52 +130,50 @@ TEST_F(Targets, ALevelThatNobodyReadsLeavesNoPass) {
   EXPECT_TRUE(alive(1));
 }
 
-TEST_F(Targets, MistakesAreNamed) {
+TEST_F(Targets, ErrorsNameTheResource) {
   EXPECT_EQ(after([&] {
               ImageRef color = graph.create("color", kColor), depth = graph.create("depth", kDepth);
               draw("draw", color, depth, Load::Keep);
             }),
-            "pass 'draw' draws to 'color' and keeps what is there, but no pass has written it: clear or discard it");
+            "pass 'draw' draws to 'color' with Load::Keep, but its content is undefined; use Load::Clear or Load::Discard");
   EXPECT_EQ(after([&] {
               ImageRef color = graph.create("color", kColor), depth = graph.create("depth", ImageDesc{VK_FORMAT_D32_SFLOAT, 64, 64});
               draw("draw", color, depth, Load::Clear);
             }),
-            "pass 'draw' draws to 'depth' and to 'color', which is of another size");
+            "pass 'draw' draws to 'depth' and to 'color', which has a different size");
   EXPECT_EQ(after([&] {
               ImageRef color = graph.create("color", kColor), depth = graph.create("depth", kColor);
               draw("draw", color, depth, Load::Clear);
             }),
-            "pass 'draw' draws to 'depth' with Use::DepthTarget, but its format holds no depth");
+            "pass 'draw' draws to 'depth' with Use::DepthTarget, but its format has no depth aspect");
   EXPECT_EQ(after([&] {
               graph.pass("draw", [&](Pass& p) {
                 (void)p.write(graph.create("image", kColor), Use::ComputeWrite, Load::Clear);
                 return [](Commands&) {};
               });
             }),
-            "pass 'draw' writes 'image' with Use::ComputeWrite and Load::Clear: only what is drawn to is cleared so");
+            "pass 'draw' writes 'image' with Use::ComputeWrite and Load::Clear; only targets can be cleared");
   EXPECT_EQ(after([&] { (void)write("draw", graph.create("buffer", {256}), Use::ColorTarget); }),
-            "pass 'draw' writes 'buffer' with Use::ColorTarget, which is no way for a pass to write");
-  EXPECT_EQ(after([&] { (void)graph.level(graph.create("image", kColor), 1); }), "level 1 of image 'image' was asked for: it has 1");
+            "pass 'draw' writes 'buffer' with Use::ColorTarget, which is not a write use");
+  EXPECT_EQ(after([&] { (void)graph.level(graph.create("image", kColor), 1); }), "level 1 of image 'image' requested, but it has 1");
   EXPECT_EQ(after([&] {
               (void)graph.create("image", ImageDesc{VK_FORMAT_R32_SFLOAT, 4, 4, 4});
             }),
-            "image 'image' has 4 levels: 1 to 3 are possible at its size");
+            "image 'image' has 4 levels; expected 1 to 3");
   SetLayout set;
   GraphicsPipeline pipeline;
   pipeline.shader = "fake";
   pipeline.set = &set;
   pipeline.bindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
   pipeline.colors = {VK_FORMAT_R8G8B8A8_UNORM};
-  EXPECT_EQ(
-      after([&] {
-        graph.pass("draw", [&](Pass& p) {
-          (void)p.write(graph.create("image", kColor), Use::ColorTarget, Load::Clear);
-          (void)p.kernel(&pipeline, {});
-          return [](Commands&) {};
-        });
-      }),
-      "pass 'draw', shader 'fake': its pipeline was made for targets of other formats, or another number of them, than the pass draws "
-      "to");
+  EXPECT_EQ(after([&] {
+              graph.pass("draw", [&](Pass& p) {
+                (void)p.write(graph.create("image", kColor), Use::ColorTarget, Load::Clear);
+                (void)p.kernel(&pipeline, {});
+                return [](Commands&) {};
+              });
+            }),
+            "pass 'draw', shader 'fake': its target formats differ from the targets of the pass");
 }
 
 }  // namespace

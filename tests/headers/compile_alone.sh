@@ -1,7 +1,7 @@
 #!/bin/sh
-# Public headers go into any host: each compiles alone, all together with g++ and clang++, without a warning, with and without Vulkan's prototypes,
-# exceptions and run-time types, beside GLM, vulkan.h, volk, and the macros of X11 and Windows; pulls in nothing but the standard library and Vulkan's core; and defines no
-# macro but RILL_*.
+# Checks the public headers: each compiles alone, and all together with g++ and clang++, without warnings, with
+# and without Vulkan prototypes, exceptions and RTTI, and with GLM, vulkan.h, volk and the macros of X11 and
+# Windows. They include only the standard library and Vulkan's core, and define only macros named RILL_*.
 #   compile_alone.sh INCLUDE_FOLDER SCRATCH_FOLDER [FLAG...]   flags find Vulkan's headers
 set -eu
 include=$1 scratch=$2
@@ -13,7 +13,7 @@ compilers=$(for c in g++ clang++; do command -v $c || echo "left out: $c is not 
 [ -n "$headers" ] && [ -n "$compilers" ] || { echo "no headers in $include, or neither g++ nor clang++"; exit 1; }
 flags="-std=c++20 -fsyntax-only -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -I$include $*"
 
-# job COMPILER SOURCE [FLAG...]: a line of the list that is worked off at the end.
+# job COMPILER SOURCE [FLAG...]: adds a command to the job list, which is run at the end.
 job() {
   compiler=$1 source=$2
   shift 2
@@ -29,10 +29,10 @@ cp "$(dirname "$0")/designated.cpp" "$scratch"
 { echo '#include <volk.h>'; list; } >"$scratch/volk.cpp"
 for header in $headers; do
   name=$(basename "$header" .hpp)
-  printf '#include <%s>\n#include <%s>\n' "$header" "$header" >"$scratch/alone_$name.cpp"  # the second time nothing is left
+  printf '#include <%s>\n#include <%s>\n' "$header" "$header" >"$scratch/alone_$name.cpp"  # tests the include guard
 done
 
-for header in $headers; do  # what one forgets to include it forgets with any compiler
+for header in $headers; do  # one compiler is enough to find missing includes
   name=$(basename "$header" .hpp)
   job "${compilers%%
 *}" "alone_$name" -MD -MF "$scratch/$name.d"
@@ -41,7 +41,7 @@ for compiler in $compilers; do
   job "$compiler" all -DVK_NO_PROTOTYPES -fno-exceptions -fno-rtti
   job "$compiler" vulkan
   job "$compiler" designated
-  # Words that X11 and Windows take as macros.
+  # Macro names of X11 and Windows.
   job "$compiler" all -DNone=0L -DBool=int -DStatus=int -DSuccess=0 -DTrue=1 -DFalse=0 -DAlways=2 -DUnsorted=0 -Dnear= -Dfar= -DERROR=0 -DOPAQUE=2 -DIN= -DOUT=
   for other in glm/glm.hpp volk.h; do
     name=$(basename "${other%.*}")
@@ -54,7 +54,7 @@ for compiler in $compilers; do
 done
 xargs -P "$(getconf _NPROCESSORS_ONLN)" -d '\n' -n 1 sh -c 'exec $0' <"$scratch/jobs" || { echo "a header does not compile, see above"; exit 1; }
 
-# What the preprocessor read for each header.
+# The files that the preprocessor read for each header.
 failed=0
 for list in "$scratch"/*.d; do
   foreign=$(tr -s ' \\' '\n\n' <"$list" | grep -E '^/|\.hpp$' | grep -Ei \

@@ -1,4 +1,4 @@
-// A host that names some fields of a description, under -Wextra: the others have defaults of their own, so nothing is warned of.
+// Designated initializers with some fields must compile without warnings under -Wextra: all fields have defaults.
 #include <rill/fluid.hpp>
 #include <rill/fluid_renderer.hpp>
 #include <rill/offline.hpp>

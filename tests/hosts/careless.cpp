@@ -1,4 +1,4 @@
-// A host that uses Vulkan wrongly, without Rill: what the validation layer says of it shows that it listens to the others.
+// A host that uses Vulkan incorrectly, without Rill: proves that the validation layer is active for the other hosts.
 #include "host/engine.hpp"
 
 int main() {
@@ -7,7 +7,7 @@ int main() {
   const host::Frame frame = engine.begin();
   vkCmdFillBuffer(frame.commands, buffer.handle, 0, 256, 1);
   vkCmdFillBuffer(frame.commands, buffer.handle, 0, 256, 2);  // no barrier between
-  vkCmdFillBuffer(frame.commands, buffer.handle, 3, 4, 2);    // no multiple of 4
+  vkCmdFillBuffer(frame.commands, buffer.handle, 3, 4, 2);    // not a multiple of 4
   engine.end(frame);
   engine.wait();
   engine.destroy(buffer);

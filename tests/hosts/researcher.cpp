@@ -1,4 +1,4 @@
-// No Vulkan in sight: a tenth of a second of a scene, as arrays.
+// Simulates 0.1 s of a scene and reads the particles as arrays, without using Vulkan.
 #include <cstdio>
 #include <rill/offline.hpp>
 

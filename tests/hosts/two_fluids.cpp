@@ -1,4 +1,4 @@
-// Two fluids in one frame, three frames in flight, all of Rill's objects made and destroyed again and again while frames are in flight.
+// Two fluids per frame with three frames in flight; Rill's objects are recreated while frames are in flight.
 //   two_fluids OUT.ppm
 #include <rill/fluid.hpp>
 #include <rill/fluid_renderer.hpp>
@@ -11,7 +11,7 @@ namespace {
 constexpr uint32_t kWidth = 320, kHeight = 180;
 constexpr int kFrames = 110;
 
-/// A drop above a pool, in a tank that begins at `x`.
+/// A drop above a pool, in a tank whose minimum x is `x`.
 std::unique_ptr<rill::Fluid> makeFluid(rill::Device& device, double x, double viscosity) {
   rill::Scene scene;
   scene.fluid.spacing = 0.06;
@@ -44,7 +44,7 @@ int main(int count, char** arguments) {
     for (int k = 0; k < kFrames; ++k) {
       const host::Frame frame = engine.begin();
       device->beginFrame({frame.number, frame.completed});
-      // What is replaced here was recorded into frames that are still in flight.
+      // Frames in flight still use the objects replaced here.
       if (k % 7 == 0) left = makeFluid(*device, 0, 0);
       if (k % 5 == 0) right = makeFluid(*device, 1.1, 5);
       if (k % 11 == 0) painter = need(rill::FluidRenderer::create(*device, {color.format, depth.format}));

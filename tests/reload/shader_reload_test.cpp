@@ -1,4 +1,4 @@
-// What a development build (RILL_SHADER_RELOAD) adds: a changed shader replaces the running one, a broken one does not.
+// Shader reloading in development builds (RILL_SHADER_RELOAD).
 #include <unistd.h>
 
 #include <chrono>
@@ -23,15 +23,15 @@ class ShaderReloading : public ::testing::Test {
     auto made = offline::Context::create();
     ASSERT_TRUE(made) << made.error().message;
     context_ = std::move(*made);
-    context_->device().setMessageCallback([this](std::string_view text) { said_ += text; });
-    ASSERT_TRUE(context_->submit([](VkCommandBuffer) {}));  // the first look, which tells what is new from then on
+    context_->device().setMessageCallback([this](std::string_view text) { messages_ += text; });
+    ASSERT_TRUE(context_->submit([](VkCommandBuffer) {}));  // the first poll records the initial file times
   }
   void TearDown() override {
     unsetenv("RILL_SHADER_DIR");
     context_.reset();
     fs::remove_all(folder_);
   }
-  /// Appends to a shader's file, dated so that the change is seen whatever the file system's clock resolves.
+  /// Appends to a shader file, with a time in the future so that coarse file times still differ.
   void append(const std::string& file, const std::string& text) {
     std::ofstream(folder_ / file, std::ios::app) << text;
     fs::last_write_time(folder_ / file, fs::file_time_type::clock::now() + std::chrono::seconds(++changes_));
@@ -48,33 +48,33 @@ class ShaderReloading : public ::testing::Test {
 
   fs::path folder_;
   std::unique_ptr<offline::Context> context_;
-  std::string said_;
+  std::string messages_;
   int changes_ = 0;
 };
 
-TEST_F(ShaderReloading, ReplacesWhatChangedAndKeepsWhatBroke) {
+TEST_F(ShaderReloading, ReplacesChangedShaderKeepsOldOnError) {
   const ComputePipeline* pipeline = make();
   ASSERT_NE(pipeline, nullptr);
   const VkPipeline first = pipeline->handle;
-  append("sort/clear.comp", "\n// a remark\n");
-  EXPECT_EQ(said_, "shader 'sort/clear' was reloaded");
+  append("sort/clear.comp", "\n// a comment\n");
+  EXPECT_EQ(messages_, "shader 'sort/clear' was reloaded");
   const VkPipeline second = pipeline->handle;
   EXPECT_NE(second, first);
   EXPECT_EQ(make(), pipeline);
 
-  said_.clear();
+  messages_.clear();
   append("sort/clear.comp", "nonsense\n");
-  EXPECT_NE(said_.find("shader 'sort/clear' does not compile, the old one stays:"), std::string::npos) << said_;
-  EXPECT_NE(said_.find("sort/clear.comp:"), std::string::npos) << said_;
+  EXPECT_NE(messages_.find("shader 'sort/clear' does not compile, keeping the old version:"), std::string::npos) << messages_;
+  EXPECT_NE(messages_.find("sort/clear.comp:"), std::string::npos) << messages_;
   EXPECT_EQ(pipeline->handle, second);
 }
 
-TEST_F(ShaderReloading, AChangedHeaderReloadsEveryShader) {
+TEST_F(ShaderReloading, ChangedHeaderReloadsAllShaders) {
   append("sort/sort_types.h", "\n");
   size_t reloaded = 0;
-  for (size_t at = said_.find("was reloaded"); at != std::string::npos; at = said_.find("was reloaded", at + 1)) ++reloaded;
+  for (size_t at = messages_.find("was reloaded"); at != std::string::npos; at = messages_.find("was reloaded", at + 1)) ++reloaded;
   EXPECT_GT(reloaded, 10u);
-  EXPECT_EQ(said_.find("does not compile"), std::string::npos) << said_;
+  EXPECT_EQ(messages_.find("does not compile"), std::string::npos) << messages_;
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ Words randomKeys(uint32_t count, uint64_t keyRange) {
 
 class KeySortTest : public SortTest {
  protected:
-  /// Sorts and compares everything that can be asked for.
+  /// Sorts and compares all outputs.
   void check(SortMethod method, const Words& keys, uint64_t keyRange);
 };
 class BothSorts : public KeySortTest, public testing::WithParamInterface<SortMethod> {};
@@ -45,19 +45,19 @@ void KeySortTest::check(SortMethod method, const Words& keys, uint64_t keyRange)
   }
 }
 
-TEST_P(BothSorts, EveryCountAroundTheSizesOfWorkgroupsAndTiles) {
+TEST_P(BothSorts, SortsCountsAroundWorkgroupAndTileSizes) {
   for (uint32_t count : {1u, 2u, 3u, 63u, 64u, 65u, 255u, 256u, 257u, 511u, 512u, 513u, 1000u, 4095u, 4096u, 4097u, 65535u, 65536u, 65537u})
     check(GetParam(), randomKeys(count, 1000), 1000);
 }
 
-TEST_P(BothSorts, EveryWidthOfKey) {
+TEST_P(BothSorts, SortsEveryKeyWidth) {
   for (uint64_t keyRange : {1u, 2u, 3u, 63u, 64u, 65u, 128u, 4096u, 4097u, 8192u, 16384u, 16385u, 262144u, 262145u, 1u << 21})
     check(GetParam(), randomKeys(5000, keyRange), keyRange);
 }
 
-TEST_P(BothSorts, AMillion) { check(GetParam(), randomKeys(1000000, 300000), 300000); }
+TEST_P(BothSorts, SortsAMillionKeys) { check(GetParam(), randomKeys(1000000, 300000), 300000); }
 
-TEST_P(BothSorts, KeysThatAreSortedReversedOrFew) {
+TEST_P(BothSorts, SortsAscendingDescendingAndFewDistinctKeys) {
   constexpr uint32_t kCount = 10000;
   Words rising(kCount), falling(kCount), few(kCount), sparse(kCount);
   for (uint32_t i = 0; i < kCount; ++i) {
@@ -69,9 +69,9 @@ TEST_P(BothSorts, KeysThatAreSortedReversedOrFew) {
   for (const Words& keys : {rising, falling, few, sparse}) check(GetParam(), keys, kCount);
 }
 
-TEST_P(BothSorts, HundredThousandEqualKeysStayInOrder) { check(GetParam(), Words(100000, 77), 1000); }
+TEST_P(BothSorts, IsStableForEqualKeys) { check(GetParam(), Words(100000, 77), 1000); }
 
-TEST_P(BothSorts, BinsOnBothSidesOfTheLimit) {
+TEST_P(BothSorts, SortsBinsAroundTheBinLimit) {
   // Neighboring bins of limit - 1, limit, limit + 1 and several chunks, their keys spread over all indices.
   Words keys;
   const uint32_t sizes[] = {kBinLimit - 1, kBinLimit, kBinLimit + 1, kChunkIndices + 1, 3, kBinLimit + 100, 1};
@@ -83,20 +83,20 @@ TEST_P(BothSorts, BinsOnBothSidesOfTheLimit) {
   check(GetParam(), keys, 9);
 }
 
-TEST_P(BothSorts, TwoRunsAreEqual) {
+TEST_P(BothSorts, IsDeterministic) {
   const Words keys = randomKeys(50000, 40);
   const KeySortDesc desc{50000, 40, GetParam(), true, true};
   EXPECT_TRUE(sorted(desc, keys) == sorted(desc, keys));
 }
 
-TEST_P(BothSorts, OrderAlone) {
+TEST_P(BothSorts, ReturnsOrderOnly) {
   const Words keys = randomKeys(3000, 500);
   const Sorted got = sorted({3000, 500, GetParam()}, keys);
   EXPECT_TRUE(got.order == expected(keys, 500, false).order);
 }
 
-// Who makes the keys counts them, who moves what is sorted finds the places.
-TEST_P(BothSorts, OpenEnds) {
+// The caller's passes count the keys and compute the final slots (KeySortDesc::openEnds).
+TEST_P(BothSorts, SortsWithCallerProvidedPasses) {
   struct Push {
     uint32_t count;
   };
@@ -149,7 +149,7 @@ TEST_P(BothSorts, OpenEnds) {
   }
 }
 
-TEST_P(BothSorts, NoKeysDeclareNothing) {
+TEST_P(BothSorts, DeclaresNothingForZeroKeys) {
   auto sort = KeySort::create(device(), {0, 1000, GetParam(), true, true});
   ASSERT_TRUE(sort) << sort.error().message;
   EXPECT_TRUE(sort->groups().empty());
@@ -160,7 +160,7 @@ TEST_P(BothSorts, NoKeysDeclareNothing) {
   EXPECT_TRUE(graph.report().empty());
 }
 
-TEST_P(BothSorts, SeveralInOneCommandBuffer) {
+TEST_P(BothSorts, RunsSeveralSortsInOneCommandBuffer) {
   // Two sorts of one object and one of another, one fed with the other's result, over three frames: all in one command buffer.
   const Words a = randomKeys(5000, 3000), b = randomKeys(5000, 3000), c = randomKeys(700, 50);
   auto large = KeySort::create(device(), {5000, 3000, GetParam(), true, true});
@@ -183,12 +183,12 @@ TEST_P(BothSorts, SeveralInOneCommandBuffer) {
   EXPECT_TRUE(orderC.copy() == expected(c, 50, false).order);
 }
 
-TEST_P(BothSorts, AGateOpensAndCloses) {
-  // 5,000 equal keys: the oversized bin's dispatch must not run behind the closed gate either.
+TEST_P(BothSorts, GateSkipsAllDispatches) {
+  // 5,000 equal keys: the dispatch for oversized bins must be skipped as well.
   for (const Words& keys : {randomKeys(5000, 3000), Words(5000, 2)}) {
     auto sort = KeySort::create(device(), {5000, 3000, GetParam(), true, true});
     ASSERT_TRUE(sort);
-    Words open{9, 9, 9}, closed{9, 9, 9};  // a command of somebody else before the sort's
+    Words open{9, 9, 9}, closed{9, 9, 9};  // an unrelated command before those of the sort
     for (const GroupCount& groups : sort->groups())
       for (uint32_t n : groups) {
         open.push_back(n);
@@ -213,24 +213,24 @@ TEST_P(BothSorts, AGateOpensAndCloses) {
   }
 }
 
-TEST_F(KeySortTest, RadixOfAllBits) {
+TEST_F(KeySortTest, RadixSortsFullRangeKeys) {
   for (uint64_t keyRange : {kAllBits, kAllBits - 1, kAllBits / 2 + 1, uint64_t{1} << 25})
     for (uint32_t count : {1u, 2u, 4097u, 65537u}) check(SortMethod::Radix, randomKeys(count, keyRange), keyRange);
   check(SortMethod::Radix, {~0u, 0, ~0u, 1u << 31, (1u << 31) - 1, 0}, kAllBits);
 }
 
-TEST_F(KeySortTest, CountingOfAKeyOutOfRangeHarmsNothingElse) {
-  // Taken for the largest one; nothing is written outside, and the others are sorted.
+TEST_F(KeySortTest, CountingClampsOutOfRangeKeys) {
+  // The key is clamped to the largest one; nothing is written out of bounds, and the others are sorted.
   const Words got = sorted({4, 10, SortMethod::Counting, true}, Words{3, ~0u, 9, 0}).order;
   EXPECT_EQ(got, (Words{3, 0, 1, 2}));
 }
 
-TEST_F(KeySortTest, FourMillion) {
+TEST_F(KeySortTest, SortsMaximumCount) {
   constexpr uint32_t kCount = KeySortDesc::kMaxCount;
   for (const SortMethod method : {SortMethod::Counting, SortMethod::Radix}) check(method, randomKeys(kCount, kCount / 4), kCount / 4);
 }
 
-TEST_F(KeySortTest, ChoosesByTheDensityOfKeys) {
+TEST_F(KeySortTest, ChoosesMethodByKeyDensity) {
   EXPECT_EQ(chooseSortMethod({100000, 100000}), SortMethod::Counting);
   EXPECT_EQ(chooseSortMethod({100000, 20000}), SortMethod::Counting);
   EXPECT_EQ(chooseSortMethod({100000, 64}), SortMethod::Radix);
@@ -245,17 +245,18 @@ TEST_F(KeySortTest, ChoosesByTheDensityOfKeys) {
   EXPECT_TRUE(sorted({1000, 1000}, keys).order == expected(keys, 1000, false).order);
 }
 
-TEST_F(KeySortTest, RefusesWhatItCannotHold) {
+TEST_F(KeySortTest, RejectsCountsAndRangesOutOfBounds) {
   const auto refusal = [this](const KeySortDesc& desc) {
     auto sort = KeySort::create(device(), desc);
     EXPECT_FALSE(sort);
     return sort ? std::string() : sort.error().message;
   };
-  EXPECT_EQ(refusal({KeySortDesc::kMaxCount + 1, 10}), "sort: 4194305 keys, at most 4194304 are possible");
-  EXPECT_EQ(refusal({10, 0}), "sort: a key range of 0, expected 1 to 2^32");
-  EXPECT_EQ(refusal({10, kAllBits + 1}), "sort: a key range of 4294967297, expected 1 to 2^32");
-  EXPECT_EQ(refusal({10, kAllBits, SortMethod::Counting}), "sort: a table of 4294967296 keys, at most 33554431 fit in 128 MiB");
-  EXPECT_EQ(refusal({10, kAllBits, SortMethod::Radix, true}), "sort: a table of 4294967296 keys, at most 33554431 fit in 128 MiB");
+  EXPECT_EQ(refusal({KeySortDesc::kMaxCount + 1, 10}), "sort: 4194305 keys; expected at most 4194304");
+  EXPECT_EQ(refusal({10, 0}), "sort: key range 0; expected 1 to 2^32");
+  EXPECT_EQ(refusal({10, kAllBits + 1}), "sort: key range 4294967297; expected 1 to 2^32");
+  const std::string tooLarge = "sort: a start table of 4294967296 keys; expected at most 33554431 (128 MiB)";
+  EXPECT_EQ(refusal({10, kAllBits, SortMethod::Counting}), tooLarge);
+  EXPECT_EQ(refusal({10, kAllBits, SortMethod::Radix, true}), tooLarge);
 }
 
 TEST(Dispatches, FoldsLargeDispatches) {

@@ -1,5 +1,5 @@
 #pragma once
-// Runs graphs over buffers that the host can look into.
+// Runs graphs on host-visible buffers.
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -15,7 +15,7 @@ namespace rill::test {
 
 using Words = std::vector<uint32_t>;
 
-/// What stable sorting gives.
+/// The results of a stable sort.
 struct Sorted {
   Words order, start, keys;
   friend bool operator==(const Sorted&, const Sorted&) = default;
@@ -36,21 +36,21 @@ class WordBuffer {
   size_t count_;
 };
 
-/// std::stable_sort of the keys, with the table of the range's starts where `withStart`.
+/// The reference result by std::stable_sort, with the start table if `withStart`.
 Sorted expected(std::span<const uint32_t> keys, uint64_t keyRange, bool withStart);
 
 class SortTest : public GpuTest {
  protected:
   using Declare = std::function<void(Graph&)>;
-  /// Runs what `declare` declares as one frame, and waits for it.
+  /// Declares and runs one frame, and waits for it.
   void runGraph(const Declare& declare) { runGraphs({declare}); }
-  /// A graph for each, all recorded into one command buffer.
+  /// One graph per function, all recorded into one command buffer.
   void runGraphs(const std::vector<Declare>& declares);
 
   WordBuffer words(size_t count, uint32_t filling = 0) { return {device(), count, filling}; }
   WordBuffer words(const Words& content) { return {device(), content}; }
 
-  /// Sorts on the device, into buffers of the test's for all that `desc` asks for.
+  /// Sorts on the device and returns all outputs that `desc` requests.
   Sorted sorted(const KeySortDesc& desc, const Words& keys);
 };
 

@@ -25,7 +25,7 @@ Words ScanTest::scanned(const Words& values, bool storageReads) {
   return inPlace.copy();
 }
 
-TEST_F(ScanTest, EveryCountAroundTheSizesOfTiles) {
+TEST_F(ScanTest, MatchesReferenceAroundTileSizes) {
   std::mt19937 random(1);
   for (uint32_t count : {1u, 2u, 63u, 64u, 65u, 127u, 128u, 129u, 2047u, 2048u, 2049u, 16383u, 16384u, 16385u, 100000u, 1000003u,
                          kScanSums * kScanTile, kScanSums * kScanTile + 1}) {
@@ -36,14 +36,14 @@ TEST_F(ScanTest, EveryCountAroundTheSizesOfTiles) {
   }
 }
 
-TEST_F(ScanTest, ScansItsOwnTileSumsInSeveralRounds) {
+TEST_F(ScanTest, ScansMoreTilesThanOneTileHolds) {
   // More tiles than one tile has values.
   Words values(5000000, 1), wanted(5000000);
   std::iota(wanted.begin(), wanted.end(), 0u);
   for (const bool storageReads : {false, true}) EXPECT_TRUE(scanned(values, storageReads) == wanted) << storageReads;
 }
 
-TEST_F(ScanTest, NothingAndTooMuch) {
+TEST_F(ScanTest, AcceptsZeroAndRejectsTooManyValues) {
   auto scan = Scan::create(device(), 0);
   ASSERT_TRUE(scan);
   EXPECT_TRUE(scan->groups().empty());

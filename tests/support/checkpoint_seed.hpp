@@ -1,5 +1,5 @@
 #pragma once
-// A small checkpoint that no device wrote, and the means to change one so that its checksum holds.
+// A small synthetic checkpoint, and a helper to fix the checksum of a modified one.
 #include <cstring>
 #include <vector>
 
@@ -9,7 +9,7 @@
 
 namespace rill::test {
 
-/// What the state of seedCheckpoint() fits.
+/// The shape that matches seedCheckpoint().
 inline SnapshotShape seedShape() {
   return {.count = 6, .solidCount = 1, .listCapacity = 4, .cells = 256, .near = true, .movingSolids = true};
 }
@@ -57,7 +57,7 @@ inline offline::Checkpoint seedCheckpoint() {
   return c;
 }
 
-/// Makes the checksum that of the bytes.
+/// Updates the checksum at the end of the file.
 inline void seal(std::vector<std::byte>& file) {
   if (file.size() < 8) return;
   Fnv1a hash;

@@ -1,5 +1,5 @@
 #pragma once
-// Runs a program as a child and keeps what it wrote.
+// Runs a child process and captures its output.
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
@@ -17,16 +17,16 @@
 namespace rill::test {
 
 struct Outcome {
-  int code = -1;         ///< exit code; 128 + signal where one ended the program
+  int code = -1;         ///< exit code; 128 + signal number if a signal ended the program
   std::string out, err;  ///< standard output and standard error
 };
 
-/// A running program. It is killed where the test leaves before it has ended.
+/// A running program, killed by the destructor if it has not ended.
 class Child {
  public:
   using Environment = std::vector<std::pair<std::string, std::string>>;
 
-  /// `standardOutput`: a file that takes standard output in place of a pipe (opened for writing).
+  /// `standardOutput`: a file to receive standard output instead of the pipe.
   explicit Child(const std::vector<std::string>& command, const std::string& folder = ".", const Environment& environment = {},
                  const std::string& standardOutput = {}) {
     int out[2] = {-1, -1}, err[2] = {-1, -1};
@@ -58,13 +58,13 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// Reads until `text` shows up on standard error; false where the program ends before.
+  /// Reads until `text` appears on standard error; false if the program ends before.
   bool waitForMessage(const std::string& text) {
     while (outcome_.err.find(text) == std::string::npos)
       if (!readSome()) return false;
     return true;
   }
-  /// Waits until there is a file of that name in the folder; false where the program ends before.
+  /// Waits until the file exists; false if the program ends before.
   bool waitForFile(const std::filesystem::path& file) {
     const int events = ::inotify_init1(IN_CLOEXEC);
     ::inotify_add_watch(events, file.parent_path().c_str(), IN_CREATE | IN_MOVED_TO);
@@ -73,12 +73,12 @@ class Child {
     return std::filesystem::exists(file);
   }
   void signal(int number) const { ::kill(pid_, number); }
-  /// Whether it has ended; it is still to be waited for.
+  /// Whether the program has ended. Does not reap it: call wait().
   bool ended() const {
     siginfo_t information{};
     return ::waitid(P_PID, static_cast<id_t>(pid_), &information, WEXITED | WNOHANG | WNOWAIT) != 0 || information.si_pid != 0;
   }
-  /// As a reader that has gone: what is written to standard output from now on meets a closed pipe.
+  /// Closes the read end of standard output, so that further writes of the program fail with EPIPE.
   void closeOut() {
     if (out_ >= 0) ::close(std::exchange(out_, -1));
   }
@@ -93,10 +93,10 @@ class Child {
   }
 
  private:
-  /// Waits until the program writes or closes one of its outputs, or until there is something to read from `events`. False once both are
-  /// closed.
+  /// Waits until the program writes or closes an output, or `events` is readable. False once both outputs
+  /// are closed.
   bool readSome(int events = -1) {
-    pollfd ends[3] = {{out_, POLLIN, 0}, {err_, POLLIN, 0}, {events, POLLIN, 0}};  // poll passes over -1
+    pollfd ends[3] = {{out_, POLLIN, 0}, {err_, POLLIN, 0}, {events, POLLIN, 0}};  // poll ignores -1
     if (out_ < 0 && err_ < 0) return false;
     if (::poll(ends, 3, -1) < 0) return errno == EINTR;
     if (ends[2].revents != 0) {
@@ -122,7 +122,7 @@ class Child {
   Outcome outcome_;
 };
 
-/// Runs rill-capture to its end.
+/// Runs rill-capture and waits for it.
 inline Outcome capture(std::vector<std::string> arguments, const std::string& folder = ".", const Child::Environment& environment = {},
                        const std::string& standardOutput = {}) {
   arguments.insert(arguments.begin(), std::string(RILL_BINARY_DIR) + "/apps/capture/rill-capture");

@@ -1,4 +1,4 @@
-// fuzz_seeds FOLDER: writes what libFuzzer starts from, a folder a target.
+// fuzz_seeds FOLDER: writes the libFuzzer seed corpora, one folder per target.
 #include <cstdio>
 #include <fstream>
 

@@ -11,7 +11,7 @@ std::span<const EmbeddedShader> testShaders();
 namespace rill::test {
 namespace {
 
-/// Destroyed by GoogleTest before main returns: a driver's own exit handlers would find a device that is still open.
+/// Destroyed by GoogleTest before main returns, since drivers' exit handlers fail with an open device.
 class SharedContext : public ::testing::Environment {
  public:
   static SharedContext& get() {
@@ -38,7 +38,7 @@ class SharedContext : public ::testing::Environment {
   std::string error_;
 };
 
-// Registered before main: GoogleTest takes no environments once tests run.
+// Registered before main: GoogleTest ignores environments added once tests run.
 [[maybe_unused]] SharedContext& registered = SharedContext::get();
 
 }  // namespace

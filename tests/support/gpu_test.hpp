@@ -1,6 +1,6 @@
 #pragma once
-// A test on whatever driver the environment selects (VK_DRIVER_FILES), with validation and synchronization validation: any message fails
-// it.
+// Tests on the driver selected by the environment (VK_DRIVER_FILES), with validation and synchronization
+// validation. Any message fails the test.
 #include <gtest/gtest.h>
 
 #include <span>
@@ -13,7 +13,8 @@
 
 namespace rill::test {
 
-/// One context a test program, since opening a device costs more than most tests. Null where there is no device: the test fails.
+/// One context per test program, since opening a device takes longer than most tests. Null, with a test
+/// failure, if there is no device.
 offline::Context* sharedContext();
 
 /// SPIR-V of tests/support/shaders/NAME.comp.
@@ -28,9 +29,9 @@ class GpuTest : public ::testing::Test {
   Device& device() { return context_->device(); }
   /// Runs the graph as one frame and waits for it; a failure fails the test.
   void run(Graph& graph);
-  /// The same of several graphs, recorded into one command buffer in this order.
+  /// Runs several graphs, recorded into one command buffer in this order.
   void run(std::span<Graph* const> graphs);
-  /// A buffer of the host's bytes, in memory that the device reads.
+  /// A host-visible buffer with this content.
   template <class T>
   Buffer upload(std::string_view name, std::span<const T> data) {
     return uploadBytes(name, std::as_bytes(data));
@@ -45,7 +46,7 @@ class GpuTest : public ::testing::Test {
   static BufferImport importOf(const Buffer& buffer, Use before = Use::Nothing, Use after = Use::Nothing) {
     return {buffer.handle(), 0, buffer.size(), before, after};
   }
-  /// The ticket's bytes as a vector of T; empty where it has not arrived.
+  /// The read-back data as a vector of T; empty if not available.
   template <class T>
   static std::vector<T> read(const Graph& graph, Ticket ticket) {
     const auto bytes = graph.data(ticket);

@@ -9,7 +9,7 @@
 namespace rill::test {
 namespace {
 
-NullVulkan* current = nullptr;  // Vulkan's functions have no other way to know whom they serve
+NullVulkan* current = nullptr;  // Vulkan functions carry no user pointer
 std::vector<std::unique_ptr<std::byte[]>> mappings;
 
 template <class Handle>
@@ -82,7 +82,7 @@ void queueFamilies(VkPhysicalDevice, uint32_t* count, VkQueueFamilyProperties* o
   if (out) *out = {VK_QUEUE_COMPUTE_BIT | VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_TRANSFER_BIT, 1, 64, {1, 1, 1}};
 }
 
-// A buffer's requirements are asked for, its memory allocated and mapped, before the next one is created.
+// Relies on each buffer's memory being allocated and mapped before the next buffer is created.
 uint64_t newestBuffer = 0, newestAllocation = 0;
 
 VkResult createBuffer(VkDevice, const VkBufferCreateInfo* info, const VkAllocationCallbacks*, VkBuffer* out) {

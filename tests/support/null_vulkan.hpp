@@ -1,6 +1,5 @@
 #pragma once
-// A Vulkan device that does nothing but remember what was recorded: prepare() and record() can be tested without a driver,
-// and without a driver's own allocations.
+// A Vulkan device that only records calls, to test prepare() and record() without a driver and its allocations.
 #include <vector>
 
 #include "rill/device.hpp"
@@ -47,7 +46,7 @@ class NullVulkan {
 
   std::vector<NullCommand> commands;
   std::vector<VkImageMemoryBarrier2> imageBarriers;  ///< of all barriers, in order
-  VkResult allocationResult = VK_SUCCESS;            ///< what vkAllocateMemory answers
+  VkResult allocationResult = VK_SUCCESS;            ///< returned by vkAllocateMemory
   uint64_t bufferBytes = 0;                          ///< of all buffers that were created
   int64_t liveObjects = 0;                           ///< created and not yet destroyed
   size_t setsAllocated = 0, viewsCreated = 0, buffersCreated = 0, imagesCreated = 0;

@@ -11,7 +11,7 @@
 
 namespace rill::test {
 
-/// A small dam break in a folder of its own, and rill-capture run on it there.
+/// A small dam break scene in a temporary folder, in which run() starts rill-capture.
 class SmallDam : public ::testing::Test {
  protected:
   using Json = nlohmann::json;
@@ -34,7 +34,7 @@ class SmallDam : public ::testing::Test {
                           .string();
 };
 
-/// Whole: it begins as a PNG does and ends with the IEND chunk.
+/// Expects a PNG signature at the start and an IEND chunk at the end.
 inline void expectWholePng(const std::filesystem::path& file) {
   const std::string bytes = contentOf(file);
   ASSERT_GT(bytes.size(), 40u) << file;

@@ -11,14 +11,14 @@
 
 namespace rill::test {
 
-/// A folder of a test's own, removed at its end.
+/// A temporary folder, removed by the destructor.
 class TemporaryFolder {
  public:
   const std::filesystem::path& path() const { return folder_->path(); }
   std::string string() const { return path().string(); }
   std::filesystem::path operator/(const std::string& name) const { return path() / name; }
 
-  /// Names in the folder, hidden ones too, sorted.
+  /// Sorted names of the folder's entries, including hidden ones.
   std::vector<std::string> names() const { return namesIn(path()); }
   static std::vector<std::string> namesIn(const std::filesystem::path& folder) {
     std::vector<std::string> names;

@@ -1,47 +1,54 @@
 #pragma once
-// A device that a host lends to Rill:
+// rill::Device: wraps a VkDevice that the host created and owns.
 //
-//   rill::DeviceRequirements needs;  // before the device is made
+//   rill::DeviceRequirements needs;  // before vkCreateDevice
 //   if (auto ok = rill::appendRequired(vkGetInstanceProcAddr, instance, physicalDevice, needs); !ok) return fail(ok.error().message);
 //   deviceInfo.pNext = needs.chain();
-//   auto lent = rill::Device::borrow({.instance = instance,  // after it
-//                                     .physicalDevice = physicalDevice,
-//                                     .device = vkDevice,
-//                                     .queueFamily = queueFamily,
-//                                     .getInstanceProcAddr = vkGetInstanceProcAddr,
-//                                     .enabled = &needs.features});
-//   if (!lent) return fail(lent.error().message);
-//   (*lent)->beginFrame({.recording = frameNumber, .completed = lastFinishedFrame});  // every frame
+//   auto borrowed = rill::Device::borrow({.instance = instance,  // after vkCreateDevice
+//                                         .physicalDevice = physicalDevice,
+//                                         .device = vkDevice,
+//                                         .queueFamily = queueFamily,
+//                                         .getInstanceProcAddr = vkGetInstanceProcAddr,
+//                                         .enabled = &needs.features});
+//   if (!borrowed) return fail(borrowed.error().message);
+//   (*borrowed)->beginFrame({.recording = frameNumber, .completed = lastFinishedFrame});  // every frame
 //
-// What each side can rely on (tested in tests/contract, as far as a program can):
+// The contract between Rill and its host (tested in tests/contract):
 //
-// Needed: Vulkan 1.3, those of its features that appendRequired() adds (all mandatory, yet to be enabled), no extension. In compute shaders
-// subgroups of 4 lanes or more with arithmetic and shuffle; uniform texel buffers of R32_UINT, R32G32B32A32_UINT and R32G32B32A32_SFLOAT. A
-// queue family that computes; one that draws as well where a FluidRenderer, or a pass with targets, is used.
+// Requirements: Vulkan 1.3 with the features that appendRequired() sets (mandatory in 1.3, but the
+// host must enable them); no extension. Compute shaders need subgroups of at least 4 lanes with
+// arithmetic and shuffle operations. Uniform texel buffers of R32_UINT, R32G32B32A32_UINT and
+// R32G32B32A32_SFLOAT. A queue family with compute, and with graphics if a FluidRenderer or a pass
+// with targets is used.
 //
-// Work: Rill records into the host's command buffers. It never submits, never waits and makes no instance, device or queue. The host tells
-// by FrameClock what has completed; that alone decides when Rill uses memory again or frees it.
+// Submission: Rill records into the host's command buffers. It never submits, never waits, and
+// creates no instance, device or queue. The host reports completed frames through FrameClock, which
+// alone decides when Rill reuses or frees memory.
 //
-// Allocation: device memory is allocated inside calls that return an Expected, and freed in Device::beginFrame and ~Device. A frame
-// declared like those before it allocates none, and makes nothing but views, which live until their frame has completed. Memory comes from
-// HostDevice::memory where there is one, else from vkAllocateMemory.
+// Allocation: device memory is allocated only inside calls that return an Expected, and freed in
+// Device::beginFrame and ~Device. A frame declared like the previous ones allocates no memory and
+// creates only views, which live until that frame has completed. Memory comes from
+// HostDevice::memory if set, otherwise from vkAllocateMemory.
 //
-// The host's own: each object is made and destroyed with HostDevice::callbacks, each pipeline through HostDevice::cache, which the host may
-// save. Rill destroys nothing that it did not make, and all that it did by the end of ~Device.
+// Ownership: every object is created and destroyed with HostDevice::callbacks, every pipeline is
+// created through HostDevice::cache, which the host may save. Rill destroys only what it created, and
+// all of it by the end of ~Device.
 //
-// Threads: a Device and all that was made with it are used by one thread at a time, whichever that is. Rill starts none and calls the host
-// back only from inside a call of the host's. Devices borrowed from one VkDevice know nothing of each other: each may have its own thread,
-// if callbacks, memory and getInstanceProcAddr are safe there, and a shared cache was not made with
+// Threads: a Device and everything created with it may be used by any thread, but by one at a time.
+// Rill starts no threads and calls back only from inside a call of the host. Devices borrowed from one
+// VkDevice are independent: each may be used by its own thread if callbacks, memory and
+// getInstanceProcAddr are thread safe and a shared cache was created without
 // VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED_BIT.
 //
-// Errors: an Expected says what went wrong; a graph keeps what was declared wrongly for compile(). No exception leaves a call, but
-// std::bad_alloc where host memory has run out. What only wrong code can do is an assert, in builds that have them.
+// Errors: calls return an Expected; a graph keeps declaration errors until compile(). The only
+// exception that leaves a call is std::bad_alloc. Programming errors are asserts.
 //
-// Silence: nothing is printed, no signal handled, no environment read (but RILL_SHADER_DIR in builds with RILL_SHADER_RELOAD), and there is
-// no global state but a counter by which graphs tell their refs apart. What is nobody's result goes to the message callback.
+// Process state: Rill prints nothing, handles no signals and reads no environment variables (except
+// RILL_SHADER_DIR in builds with RILL_SHADER_RELOAD). The only global state is the counter that gives
+// each graph frame a unique epoch. Warnings that belong to no call go to the message callback.
 #include <vulkan/vulkan_core.h>
 #ifndef VK_API_VERSION_1_3
-#error "Rill needs Vulkan's headers of version 1.3.239 or newer"
+#error "Rill needs the Vulkan headers, version 1.3.239 or newer"
 #endif
 
 #include <cstdint>
@@ -56,22 +63,23 @@
 
 namespace rill {
 
-/// Handles that Rill borrows from its host, which keeps them alive until the rill::Device is gone and the work recorded through it has
-/// finished. The structures that it points to are read in Device::borrow alone, but for `callbacks`.
+/// Handles that Rill borrows. The host keeps them alive until the rill::Device is destroyed and the
+/// recorded work has finished. Only Device::borrow reads the structures pointed to, except `callbacks`.
 struct HostDevice {
   VkInstance instance = VK_NULL_HANDLE;
   VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;
-  uint32_t queueFamily = 0;  ///< of the queue that recorded work goes to; compute, and graphics where passes draw
-  PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;  ///< where every Vulkan function is looked up
-  uint32_t apiVersion = VK_API_VERSION_1_3;                 ///< that the instance and device were made with
-  const VkPhysicalDeviceFeatures2* enabled = nullptr;  ///< features enabled at vkCreateDevice, with their chain (a VkDevice can't be asked)
-  VkPipelineCache cache = VK_NULL_HANDLE;              ///< optional
-  const VkAllocationCallbacks* callbacks = nullptr;    ///< optional; lives as long as the handles
-  const MemoryHooks* memory = nullptr;                 ///< optional; what its `user` points to lives as long as the handles
+  uint32_t queueFamily = 0;  ///< family of the queue that the host submits to; compute, plus graphics if passes draw
+  PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;  ///< used to look up every Vulkan function
+  uint32_t apiVersion = VK_API_VERSION_1_3;                 ///< API version of the instance and the device; at least 1.3
+  const VkPhysicalDeviceFeatures2* enabled = nullptr;       ///< feature chain passed to vkCreateDevice (Vulkan has no query for it)
+  VkPipelineCache cache = VK_NULL_HANDLE;                   ///< optional
+  const VkAllocationCallbacks* callbacks = nullptr;         ///< optional; must live as long as the handles
+  const MemoryHooks* memory = nullptr;                      ///< optional; its `user` object must live as long as the handles
 };
 
-/// What Rill needs of a device. What the host wants of these two structures itself is set in them, of others chained on.
+/// Features that Rill requires. The host sets further features of these two structures in place, and
+/// passes other structures to chain().
 struct DeviceRequirements {
   DeviceRequirements() {
     features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
@@ -80,18 +88,19 @@ struct DeviceRequirements {
   VkPhysicalDeviceFeatures2 features{};
   VkPhysicalDeviceVulkan13Features vulkan13{};
 
-  /// Links both and `next`, a chain of the host's, for VkDeviceCreateInfo::pNext and HostDevice::enabled. Once more after a copy: links
-  /// point into the one that they were made for. `next` has neither of the two, nor what Vulkan 1.3 was put together from.
+  /// Links both structures and the host's chain `next`; the result is for VkDeviceCreateInfo::pNext and
+  /// HostDevice::enabled. Call it again after a copy, since the links point into the original. `next`
+  /// must contain neither structure, nor one that was promoted into Vulkan 1.3.
   RILL_API VkPhysicalDeviceFeatures2* chain(void* next = nullptr);
 };
 
-/// Adds the features that Rill requires to `requirements`, and takes none away. NoDevice, naming the missing feature or version, where the
-/// physical device lacks one. `getInstanceProcAddr` and `instance` are used for the query alone.
+/// Sets the features that Rill requires in `requirements`; clears none. Fails with NoDevice, naming the
+/// missing feature or version. `getInstanceProcAddr` and `instance` are used only during the call.
 RILL_API Expected<void> appendRequired(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance, VkPhysicalDevice physicalDevice,
                                        DeviceRequirements& requirements);
 
-/// The host's frame counters: the frame now being recorded and the last one whose work the device has finished.
-/// They drive all retirement of memory. Both only rise; recording > completed.
+/// The host's frame counters: the frame being recorded and the last frame that the device has finished.
+/// They decide when memory is reused or freed. Both only increase; recording > completed.
 struct FrameClock {
   uint64_t recording = 1;
   uint64_t completed = 0;
@@ -103,39 +112,42 @@ struct DeviceInfo {
   std::string driver;                  ///< driver name and version
   std::string api;                     ///< "1.3.230"
   uint64_t deviceLocalBytes = 0;       ///< size of the largest device-local heap
-  uint64_t maxStorageBufferBytes = 0;  ///< maxStorageBufferRange, at most 128 MiB is used by Rill
+  uint64_t maxStorageBufferBytes = 0;  ///< maxStorageBufferRange, clamped to 128 MiB (the largest buffer that Rill creates)
   uint32_t maxTexelBufferElements = 0;
   uint32_t subgroupSize = 0, minSubgroupSize = 0, maxSubgroupSize = 0;
 };
 
-/// Receives what Rill has to say outside a call's result (shader reloading). Rill itself never prints.
+/// Receives messages that belong to no call's result (shader reloading). Rill never prints.
 using MessageCallback = std::function<void(std::string_view)>;
 
 class DeviceImpl;
 
-/// Rill's view of a borrowed device. Every module and every graph that was prepared keeps a reference to it: it outlives them. Pipelines
-/// (rill/pipeline.hpp) live as long as it.
+/// A borrowed device. It must outlive every module created with it and every graph prepared with it.
+/// Pipelines (rill/pipeline.hpp) live as long as the Device.
 class RILL_API Device {
  public:
-  /// BadInput for a null handle or what else the host can put right, NoDevice where a required feature was not enabled (it is named).
+  /// Fails with BadInput for a null handle or another field that the host can correct, and with NoDevice,
+  /// naming the feature, if a required feature is not enabled.
   static Expected<std::unique_ptr<Device>> borrow(const HostDevice& host);
-  /// Destroys what Rill made: the host has waited for its work before.
+  /// Destroys everything that Rill created. The host must have waited for the recorded work.
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
-  /// Once before a frame's graph is prepared. What was retired in frames up to clock.completed is freed here.
+  /// Call once per frame, before the first Graph::prepare. Frees what was retired in frames up to
+  /// clock.completed.
   void beginFrame(FrameClock clock);
-  /// A recorded command buffer of this frame will not be submitted. Those of later frames that are recorded already will not be either:
-  /// called for each of them. What it was to upload is uploaded by the next one that is declared, which has a number of its own.
+  /// Call when the recorded command buffer of `frame` will not be submitted. Later frames that are
+  /// already recorded must be abandoned too. Lost uploads are repeated by the next declared frame, which
+  /// needs a new frame number.
   void abandon(uint64_t frame);
 
-  const DeviceInfo& info() const;  ///< what was found out when it was borrowed
-  /// Where warnings go that are nobody's result (a shader that did not reload). Called by the thread that calls Rill; none: they are
-  /// dropped.
+  const DeviceInfo& info() const;  ///< queried by borrow()
+  /// Receives warnings such as a failed shader reload, on the thread that calls Rill. Without a callback
+  /// they are dropped.
   void setMessageCallback(MessageCallback callback);
 
-  DeviceImpl& impl() { return *impl_; }  ///< engine/gpu; not for hosts
+  DeviceImpl& impl() { return *impl_; }  ///< internal (engine/gpu)
 
  private:
   explicit Device(std::unique_ptr<DeviceImpl>);

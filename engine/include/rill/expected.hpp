@@ -1,9 +1,9 @@
 #pragma once
-// Results that may be errors, in place of exceptions.
+// Results that may be errors, instead of exceptions.
 //
-//   rill::Expected<int> answer = rill::Error{rill::ErrorKind::BadInput, "the question was not asked"};
-//   if (!answer) return fail(answer.error().message);
-//   return *answer;
+//   rill::Expected<int> result = rill::Error{rill::ErrorKind::BadInput, "count: expected 1 or more, found 0"};
+//   if (!result) return fail(result.error().message);
+//   return *result;
 #include <cassert>
 #include <string>
 #include <utility>
@@ -11,26 +11,26 @@
 
 namespace rill {
 
-/// What went wrong, coarse enough for a caller to branch on. Apps turn it into an exit code.
+/// The category of an error, for callers to branch on. Programs map it to an exit code.
 enum class ErrorKind {
   BadInput,     ///< a file, key, option or argument that the caller can correct
-  TooLarge,     ///< more than the device can hold, refused before anything was allocated: the message says how much of what
+  TooLarge,     ///< exceeds the device's memory, detected before any allocation; the message names what and how much
   NoDevice,     ///< no Vulkan device that can run Rill
   DeviceLost,   ///< the driver reported VK_ERROR_DEVICE_LOST
   OutOfMemory,  ///< host or device memory ran out
-  Shader,       ///< a shader or a pipeline could not be made
+  Shader,       ///< creation of a shader or a pipeline failed
   Io,           ///< reading or writing a file
   Failed        ///< anything else
 };
 
-/// An error with a message that a user can act on: what was being done, what was found, what was expected.
+/// An error with a message for users: the operation, what was found, what was expected.
 struct Error {
   ErrorKind kind = ErrorKind::Failed;
   std::string message = {};
 };
 
-/// A value or an Error. Rill's public functions return it in place of throwing.
-/// Reading the value of a failed result is a programmer error (assert).
+/// A value or an Error. Rill's public functions return it instead of throwing.
+/// Reading the value of a failed result is a programming error (assert).
 template <class T>
 class [[nodiscard]] Expected {
  public:

@@ -1,5 +1,5 @@
 #pragma once
-// What a render graph tells of a frame: its passes, their times, where transients lie.
+// Reports of a render graph about a frame: passes, their GPU times, placement of transients.
 //
 //   for (const rill::Timing& pass : graph.timings()) std::printf("%6.3f ms  %s\n", pass.ms, std::string(pass.name).c_str());
 //   for (const rill::PassReport& pass : graph.report())
@@ -9,12 +9,12 @@
 
 namespace rill {
 
-/// Time that a pass took on the device, from the end of the pass before it, so that all add up to the frame's. Passes of one name are added
-/// up.
+/// GPU time from the end of the previous pass to the end of this one, so the sum is the frame's time.
+/// Passes of the same name are added up.
 struct Timing {
   std::string_view name;
   double ms = 0;
-  uint32_t runs = 0;  ///< passes of that name
+  uint32_t runs = 0;  ///< executed passes of that name
 };
 
 /// A pass that was declared, or that a module left out with a reason (Graph::skipped).
@@ -22,24 +22,24 @@ struct PassReport {
   std::string_view name;
   uint32_t runs = 0;
   bool culled = false;
-  std::string_view reason;  ///< why it was culled or skipped; empty where it ran
+  std::string_view reason;  ///< why it was culled or skipped; empty if it was executed
 };
 
-/// A piece of device memory that transients share.
+/// A block of device memory that transients share.
 struct TransientHeap {
-  bool images = false;      ///< holds images, else buffers
-  uint32_t transients = 0;  ///< that lie in it
-  uint64_t bytes = 0;       ///< that it takes
-  uint64_t separate = 0;    ///< that they would take without aliasing, one after another
+  bool images = false;      ///< holds images; false: buffers
+  uint32_t transients = 0;  ///< number of transients placed in it
+  uint64_t bytes = 0;       ///< size
+  uint64_t separate = 0;    ///< bytes that the transients would take without aliasing
 };
 
-/// Where a transient lies.
+/// Placement and lifetime of a transient.
 struct TransientReport {
   std::string_view name;
   bool image = false;
-  uint32_t heap = 0;               ///< of its kind
-  uint64_t offset = 0, bytes = 0;  ///< in it
-  uint32_t first = 0, last = 0;    ///< passes, in the order in which they run, between which it lives
+  uint32_t heap = 0;               ///< index among the heaps of its kind (images or buffers)
+  uint64_t offset = 0, bytes = 0;  ///< within the heap
+  uint32_t first = 0, last = 0;    ///< first and last pass that uses it, in execution order
 };
 
 }  // namespace rill

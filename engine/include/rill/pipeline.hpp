@@ -1,8 +1,9 @@
 #pragma once
-// Pipelines for passes of a render graph, of shaders that a host brings as SPIR-V. The graph makes their descriptor sets.
+// Pipelines for passes of a render graph, from SPIR-V that the host provides. The graph allocates their
+// descriptor sets.
 //
-// A pipeline belongs to the Device. It is made once, the first time that it is described, and found again from then on: asking every frame
-// costs a search, so hosts keep the pointer. It stays valid until the Device ends, which destroys it; nobody else does.
+// The Device owns pipelines and caches them by description: the first call creates a pipeline, later calls
+// with an equal description find it by a linear search, so keep the pointer. It is valid until ~Device.
 //
 //   const rill::BindingKind bindings[] = {rill::BindingKind::SampledImage, rill::BindingKind::StorageImage};
 //   const uint32_t words[] = {0x07230203};  // and so on: SPIR-V, as glslangValidator --vn writes it
@@ -18,53 +19,53 @@
 
 namespace rill {
 
-/// How a shader sees a binding. Set 0 alone is used; bindings are numbered 0, 1, 2 ... in the order given, one descriptor each, and
-/// Pass::kernel takes their resources in that order. There are no samplers.
+/// The descriptor type of a binding. All bindings are in set 0, numbered 0, 1, 2 ... in the order given, one
+/// descriptor each; Pass::kernel takes the resources in that order. There are no samplers.
 enum class BindingKind : uint8_t {
   Storage,       ///< buffer { ... }
   Uniform,       ///< uniform block
   TexelFloat4,   ///< samplerBuffer over R32G32B32A32_SFLOAT
   TexelUint,     ///< usamplerBuffer over R32_UINT
   TexelUint4,    ///< usamplerBuffer over R32G32B32A32_UINT
-  StorageImage,  ///< image2D, with its format in the shader
+  StorageImage,  ///< image2D with a format qualifier
   SampledImage   ///< texture2D or utexture2D, read by texelFetch
 };
 
-/// One 32-bit specialization constant: id k is the k-th of the list; floats by std::bit_cast.
+/// 32-bit specialization constants; element k has constant_id k. Floats are converted with std::bit_cast.
 using SpecializationConstants = std::span<const uint32_t>;
 
-/// One compute shader, of entry point "main". How many workgroups it gets, and how it finds its own among them: Commands::dispatch.
+/// A compute shader with entry point "main". See Commands::dispatch for how it computes its group index.
 struct ComputePipelineDesc {
-  std::string_view shader;               ///< what messages call it; where no `spirv` is given, the name of a shader of Rill's own
-  std::span<const uint32_t> spirv = {};  ///< a SPIR-V module in the machine's byte order; copied
+  std::string_view shader;               ///< name for messages; without `spirv`, the name of a built-in shader
+  std::span<const uint32_t> spirv = {};  ///< SPIR-V module in the byte order of this machine; copied
   std::span<const BindingKind> bindings = {};
-  uint32_t pushConstantBytes = 0;          ///< a multiple of 4, at most 128; every dispatch gives as many
+  uint32_t pushConstantBytes = 0;          ///< a multiple of 4, at most 128; every dispatch passes exactly this many
   SpecializationConstants constants = {};  ///< at most 32
-  uint32_t requiredSubgroupSize = 0;       ///< subgroups are whole then: local_size_x is a multiple of it; 0: the driver's choice
+  uint32_t requiredSubgroupSize = 0;       ///< requires full subgroups of this size; must divide local_size_x. 0: any
 };
 
 struct ComputePipeline;
 
-/// Makes the pipeline or finds it among those made before with an equal description. Shader, naming the shader, where what was given is no
-/// SPIR-V, the driver refuses it, or more is asked for than the device has; OutOfMemory.
+/// Creates the pipeline or finds it in the cache. Fails with Shader, naming the shader, if the SPIR-V is
+/// invalid, the driver rejects it or a device limit is exceeded; and with OutOfMemory.
 RILL_API Expected<const ComputePipeline*> computePipeline(Device& device, const ComputePipelineDesc& desc);
 
-/// What a fragment does to the color that is there.
+/// Color blending.
 enum class Blend : uint8_t {
-  Replace,       ///< replaces it
-  Premultiplied  ///< color + (1 - alpha) times it
+  Replace,       ///< source
+  Premultiplied  ///< source + (1 - source alpha) * destination
 };
 
-/// A vertex and a fragment shader for dynamic rendering: no vertex buffers (shaders read storage buffers), nothing culled by winding,
-/// viewport and scissor dynamic.
+/// A graphics pipeline for dynamic rendering: no vertex input (shaders read storage buffers), no face
+/// culling, dynamic viewport and scissor.
 struct GraphicsPipelineDesc {
-  std::string_view vertex = {}, fragment = {};  ///< as ComputePipelineDesc::shader; without a fragment shader only depth is drawn
+  std::string_view vertex = {}, fragment = {};  ///< as ComputePipelineDesc::shader; an empty fragment shader draws depth only
   std::span<const uint32_t> vertexSpirv = {}, fragmentSpirv = {};
-  std::span<const BindingKind> bindings = {};  ///< seen by both
-  uint32_t pushConstantBytes = 0;              ///< at most 128, seen by both
-  SpecializationConstants constants = {};      ///< of both
-  std::span<const VkFormat> colors = {};       ///< of the color targets, in the order that the pass declares them
-  VkFormat depth = VK_FORMAT_UNDEFINED;        ///< of the depth target; undefined: none
+  std::span<const BindingKind> bindings = {};  ///< visible to both stages
+  uint32_t pushConstantBytes = 0;              ///< a multiple of 4, at most 128; visible to both stages
+  SpecializationConstants constants = {};      ///< of both stages
+  std::span<const VkFormat> colors = {};       ///< formats of the color targets, in the order that the pass declares them
+  VkFormat depth = VK_FORMAT_UNDEFINED;        ///< format of the depth target; undefined: no depth target
   VkCompareOp depthCompare = VK_COMPARE_OP_ALWAYS;
   bool depthWrite = false;
   Blend blend = Blend::Replace;  ///< of all color targets
@@ -73,7 +74,8 @@ struct GraphicsPipelineDesc {
 
 struct GraphicsPipeline;
 
-/// As computePipeline(). BadInput for a format that cannot be drawn to, NoDevice where the host's queue cannot draw.
+/// As computePipeline(). Also fails with BadInput if a format cannot be a target, and with NoDevice if the
+/// host's queue family has no graphics.
 RILL_API Expected<const GraphicsPipeline*> graphicsPipeline(Device& device, const GraphicsPipelineDesc& desc);
 
 }  // namespace rill

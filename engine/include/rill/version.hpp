@@ -1,11 +1,11 @@
 #pragma once
-// Which Rill this is. Semantic versioning: before 1.0 a new minor version may change the interface (CHANGELOG.md says what breaks), a patch
-// does not; the ABI is promised by neither, so a host is compiled anew with each.
+// The version of Rill, by semantic versioning. Before 1.0 a minor version may change the API (breaking
+// changes are listed in CHANGELOG.md), a patch does not. The ABI is not stable: recompile for each version.
 //
 //   #if RILL_VERSION_MAJOR == 0 && RILL_VERSION_MINOR < 1
 //   #error "needs Rill 0.1"
 //   #endif
-//   if (rill::version() != std::string_view(RILL_VERSION)) return fail("the shared library is not the one of these headers");
+//   if (rill::version() != std::string_view(RILL_VERSION)) return fail("shared library and headers differ in version");
 #include "rill/export.hpp"
 
 #define RILL_VERSION_MAJOR 0
@@ -15,7 +15,7 @@
 
 namespace rill {
 
-/// Version of the library that runs, "major.minor.patch"; RILL_VERSION is that of the headers.
+/// The version of the loaded library, "major.minor.patch"; RILL_VERSION is the version of the headers.
 RILL_API const char* version();
 
 }  // namespace rill

@@ -1,4 +1,4 @@
-// Dispatch arguments made on the device.
+// Writes dispatch arguments on the device.
 #version 460
 layout(local_size_x = 1) in;
 layout(binding = 0) writeonly buffer Arguments { uint arguments[]; };

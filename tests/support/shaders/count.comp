@@ -1,4 +1,4 @@
-// Each group adds its size to a counter, all groups of all dispatches together.
+// Each workgroup adds its size to one shared counter.
 #version 460
 layout(local_size_x = 64) in;
 layout(binding = 0) buffer Counter { uint counter; };

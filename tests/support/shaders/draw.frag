@@ -1,4 +1,4 @@
-// A value, and the fragment's own x from a buffer that says what to add there.
+// Writes a constant plus a value from a buffer, indexed by the fragment's x.
 #version 460
 layout(push_constant) uniform Push { vec4 rect; float depth; float value; };
 layout(std430, set = 0, binding = 0) readonly buffer Added { float added[]; };

@@ -1,4 +1,4 @@
-// A rectangle at a depth: push.rect in clip space.
+// The rectangle push.rect, in clip space, at a given depth.
 #version 460
 layout(push_constant) uniform Push { vec4 rect; float depth; float value; };
 void main() {

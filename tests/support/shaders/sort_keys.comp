@@ -1,4 +1,4 @@
-// key[i] = source[i], counted for a sort with open ends.
+// key[i] = source[i], counting the keys (KeySortDesc::openEnds).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define COUNTERS 2

@@ -1,4 +1,4 @@
-// target[place] = index before the sort, of a sort with open ends.
+// target[slot] = index before the sort (KeySortDesc::openEnds).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;

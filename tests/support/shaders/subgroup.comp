@@ -1,4 +1,4 @@
-// The size that subgroups have, and a specialization constant.
+// Writes the subgroup size and the specialization constants.
 #version 460
 #extension GL_KHR_shader_subgroup_basic : require
 layout(local_size_x = 64) in;

@@ -1,11 +1,11 @@
-#include "contract/guest.hpp"
+#include "contract/client.hpp"
 
 namespace rill::test {
 namespace {
 
 constexpr uint32_t kWidth = 48, kHeight = 32;
 
-/// A block of 512 particles that falls into a corner of a box, and a ball that its host pushes into them.
+/// A block of 512 particles that falls into a corner of a box, and a sphere driven into it by the host.
 Scene tank() {
   Scene scene;
   scene.fluid.spacing = 1.0 / 16;
@@ -18,7 +18,7 @@ Scene tank() {
   return scene;
 }
 
-/// From 2.5 m before the box, 40 degrees wide.
+/// A camera 2.5 m in front of the box with a horizontal field of view of 40 degrees.
 FluidView viewOf(const FluidState& fluid) {
   FluidView view;
   view.view.column[3] = {-0.5f, -0.5f, -3, 1};
@@ -34,37 +34,37 @@ FluidView viewOf(const FluidState& fluid) {
 
 }  // namespace
 
-Expected<std::unique_ptr<Guest>> Guest::open(Host& host, const HostDevice& lent, bool draws) {
-  host.watch.doing = "create";
-  std::unique_ptr<Guest> guest(new Guest(host));
-  auto device = Device::borrow(lent);
+Expected<std::unique_ptr<Client>> Client::open(Host& host, const HostDevice& hostDevice, bool draws) {
+  host.interceptor.currentCall = "create";
+  std::unique_ptr<Client> client(new Client(host));
+  auto device = Device::borrow(hostDevice);
   if (!device) return device.error();
-  guest->device_ = *std::move(device);
+  client->device_ = *std::move(device);
   Scene scene = tank();
   auto particles = makeParticles(scene, 10000);
   if (!particles) return particles.error();
-  auto fluid = Fluid::create(*guest->device_, {.scene = &scene, .particles = &*particles});
+  auto fluid = Fluid::create(*client->device_, {.scene = &scene, .particles = &*particles});
   if (!fluid) return fluid.error();
-  guest->fluid_ = *std::move(fluid);
-  guest->draws = draws;
-  if (!draws) return guest;
-  auto renderer = FluidRenderer::create(*guest->device_);
+  client->fluid_ = *std::move(fluid);
+  client->draws = draws;
+  if (!draws) return client;
+  auto renderer = FluidRenderer::create(*client->device_);
   if (!renderer) return renderer.error();
-  guest->renderer_ = *std::move(renderer);
+  client->renderer_ = *std::move(renderer);
   const EnvironmentPicture sky{2, 1, {sharedExponent(0.5f, 0.6f, 0.9f), sharedExponent(0.9f, 0.6f, 0.5f)}};
-  if (auto ok = guest->renderer_->setEnvironment(sky); !ok) return ok.error();
-  return guest;
+  if (auto ok = client->renderer_->setEnvironment(sky); !ok) return ok.error();
+  return client;
 }
 
-Guest::~Guest() {
-  host_.watch.doing = "destroy";
+Client::~Client() {
+  host_.interceptor.currentCall = "destroy";
   renderer_.reset();
   fluid_.reset();
   graph_.reset();
-  host_.watch.doing = "~Device";
+  host_.interceptor.currentCall = "~Device";
 }
 
-ImageRef Guest::picture(const FluidState& state) {
+ImageRef Client::picture(const FluidState& state) {
   SceneTargets targets{graph_.create("color", ImageDesc{VK_FORMAT_R16G16B16A16_SFLOAT, kWidth, kHeight}),
                        graph_.create("depth", ImageDesc{VK_FORMAT_D32_SFLOAT, kWidth, kHeight})};
   graph_.pass("background", [&](Pass& pass) {
@@ -78,7 +78,7 @@ ImageRef Guest::picture(const FluidState& state) {
   return renderer_->addTo(graph_, state, targets, viewOf(state)).color;
 }
 
-Ticket Guest::readPixels(ImageRef color) {
+Ticket Client::readPixels(ImageRef color) {
   BufferRef pixels = graph_.create("pixels", {uint64_t{kWidth} * kHeight * 8});
   graph_.pass("read pixels", [&](Pass& pass) {
     pass.read(color, Use::CopySource);
@@ -88,31 +88,31 @@ Ticket Guest::readPixels(ImageRef color) {
   return graph_.readback(pixels);
 }
 
-Expected<void> Guest::frame(Fate fate, bool told) {
+Expected<void> Client::frame(Submission submission, bool completes) {
   ++clock.recording;
-  (void)bits();  // what the last frame read back has been seen: its memory is free for this one
-  host_.watch.doing = "declare";
+  (void)readback();  // marks the last frame's read-backs as read, so that this frame can reuse their memory
+  host_.interceptor.currentCall = "declare";
   graph_.reset();
   const SolidTarget target{0, {0.2, 0.5, 0.25}};
   const FluidState state = fluid_->addTo(graph_, {.advance_s = 1.0 / 120, .substeps = 12, .targets = {&target, 1}});
   tickets_ = {graph_.readback(state.position), graph_.readback(state.velocity)};
   if (draws) tickets_.push_back(readPixels(picture(state)));
   auto ok = graph_.compile();
-  host_.watch.doing = "prepare";
+  host_.interceptor.currentCall = "prepare";
   if (ok) ok = graph_.prepare(*device_);
-  host_.watch.doing = "record";
+  host_.interceptor.currentCall = "record";
   if (!ok) return ok;
-  host_.run([&](VkCommandBuffer commands) { graph_.record(commands); }, fate == Fate::Submitted);
-  if (fate == Fate::Abandoned) device_->abandon(clock.recording);
-  if (told) clock.completed = clock.recording;
+  host_.run([&](VkCommandBuffer commands) { graph_.record(commands); }, submission == Submission::Submitted);
+  if (submission == Submission::Abandoned) device_->abandon(clock.recording);
+  if (completes) clock.completed = clock.recording;
   return {};
 }
 
-std::vector<std::byte> Guest::bits() {
+std::vector<std::byte> Client::readback() {
   if (clock.completed == clock.recording) ++clock.recording;
-  host_.watch.doing = "beginFrame";
+  host_.interceptor.currentCall = "beginFrame";
   device_->beginFrame(clock);
-  host_.watch.doing = "read";
+  host_.interceptor.currentCall = "read";
   (void)fluid_->progress();
   std::vector<std::byte> all;
   for (const Ticket ticket : tickets_) {
