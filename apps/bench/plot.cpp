@@ -84,7 +84,7 @@ std::string plotProgram(std::span<const Plot> plots) {
         std::string label = k < series.labels.size() ? series.labels[k] : "";
         for (char& c : label)
           if (c == '"' || c == '\\' || c == '\n') c = ' ';
-        out << shortNumber(series.points[k].first) << " " << shortNumber(series.points[k].second) << " \"" << label << "\"\n";
+        out << shortestNumber(series.points[k].first) << " " << shortestNumber(series.points[k].second) << " \"" << label << "\"\n";
         ++drawn;
       }
       out << "EOD\n";

@@ -88,7 +88,7 @@ class Capture {
                                             ", at or after the end of the scene's duration; expected --frames"};
     if (first_ + frames > kMaxFrames)
       return Error{ErrorKind::BadInput, "the scene's duration takes more than " + std::to_string(kMaxFrames) + " frames at " +
-                                            shortNumber(fps_) + " frames/s; expected --frames or a lower --fps"};
+                                            shortestNumber(fps_) + " frames/s; expected --frames or a lower --fps"};
     frames_ = static_cast<uint32_t>(frames);
     // A scene's name may contain a folder ("validation/x"), which is kept; the folders of a path are not.
     const bool byName = fs::path(options_.scene) != *file;
@@ -106,7 +106,7 @@ class Capture {
       return aboutResume({ErrorKind::BadInput, inQuotes(options_.resume->string()) +
                                                    ": found a checkpoint without a frame number, expected one that rill-capture wrote"});
     if (options_.fpsGiven && options_.fps != read->fps)
-      return Error{ErrorKind::BadInput, "--fps: " + shortNumber(options_.fps) + " was given; expected " + shortNumber(read->fps) +
+      return Error{ErrorKind::BadInput, "--fps: " + shortestNumber(options_.fps) + " was given; expected " + shortestNumber(read->fps) +
                                             ", the frame rate of the checkpoint"};
     fps_ = read->fps;
     first_ = static_cast<uint32_t>(read->frame + 1);

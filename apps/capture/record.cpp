@@ -184,7 +184,7 @@ std::vector<std::string> Record::warnings() const {
   if (frames_.empty()) return warnings;
   const offline::Stats& last = frames_.back().stats;
   if (const double dropped = droppedSeconds(); dropped > 0)
-    warnings.push_back("warning: " + roughNumber(dropped) + " s of " + roughNumber(simulatedSeconds() + dropped) +
+    warnings.push_back("warning: " + roundedNumber(dropped) + " s of " + roundedNumber(simulatedSeconds() + dropped) +
                        " s were dropped: " + std::to_string(scene_->solver.max_substeps) +
                        " substeps per frame (solver.max_substeps) are too few for the time step that the fluid's speed, weight and "
                        "viscosity and solver.time_step allow");

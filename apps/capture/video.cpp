@@ -32,7 +32,7 @@ std::vector<std::string> encoderArguments(const fs::path& part, const Format& fo
   return {"-nostdin", "-hide_banner", "-loglevel", "error", "-xerror", "-y",
           // Input: pixels of four bytes, the last one ignored.
           "-f", "rawvideo", "-pixel_format", "rgb0", "-video_size", std::to_string(width) + "x" + std::to_string(height), "-framerate",
-          shortNumber(fps), "-i", "pipe:0",
+          shortestNumber(fps), "-i", "pipe:0",
           // Output. Players guess the color space of a video without tags.
           "-vf", filters, "-c:v", "libx264", "-crf", "18", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",
           "-color_range", "tv", "-f", format.muxer, "file:" + part.string()};

@@ -12,9 +12,9 @@ int main(int count, char** arguments) {
   if (count != 2) host::fail("usage: between OUT.ppm");
   constexpr uint32_t kWidth = 640, kHeight = 360;
   constexpr float kEye[3] = {1.3f, 1.5f, 3.6f}, kTarget[3] = {1, 0.35f, 0.5f};
-  Lender lender;
-  host::Engine& engine = lender.engine;
-  const auto device = lender.lend();
+  RillHost rillHost;
+  host::Engine& engine = rillHost.engine;
+  const auto device = rillHost.borrowDevice();
   host::Image color =
       engine.createImage(VK_FORMAT_R8G8B8A8_SRGB, kWidth, kHeight, rill::kFluidColorUsage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
   host::Image depth = engine.createImage(VK_FORMAT_D32_SFLOAT, kWidth, kHeight, rill::kFluidDepthUsage);

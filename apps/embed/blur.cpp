@@ -34,9 +34,9 @@ void writeCheckerboard(unsigned char* rgba) {
 
 int main(int count, char** arguments) {
   if (count != 2) host::fail("usage: blur OUT.ppm");
-  Lender lender;
-  host::Engine& engine = lender.engine;
-  const auto device = lender.lend();
+  RillHost rillHost;
+  host::Engine& engine = rillHost.engine;
+  const auto device = rillHost.borrowDevice();
   host::Image result = engine.createImage(kFormat, kWidth, kHeight, VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
   host::Buffer pixels = engine.createBuffer(4 * kWidth * kHeight, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
   writeCheckerboard(static_cast<unsigned char*>(pixels.mapped));

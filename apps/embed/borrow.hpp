@@ -13,14 +13,14 @@ T need(rill::Expected<T> result) {
   if constexpr (!std::is_void_v<T>) return *std::move(result);
 }
 
-struct Lender {
+struct RillHost {
   rill::DeviceRequirements needs;
   host::Engine engine{[this](VkInstance instance, VkPhysicalDevice physicalDevice) {
     need(rill::appendRequired(vkGetInstanceProcAddr, instance, physicalDevice, needs));
     return needs.chain();
   }};
 
-  std::unique_ptr<rill::Device> lend() {
+  std::unique_ptr<rill::Device> borrowDevice() {
     return need(rill::Device::borrow({.instance = engine.instance,
                                       .physicalDevice = engine.physicalDevice,
                                       .device = engine.device,

@@ -30,9 +30,9 @@ uint32_t writePositions(float* to, float time) {
 
 int main(int count, char** arguments) {
   if (count != 2) host::fail("usage: particles OUT.ppm");
-  Lender lender;
-  host::Engine& engine = lender.engine;
-  const auto device = lender.lend();
+  RillHost rillHost;
+  host::Engine& engine = rillHost.engine;
+  const auto device = rillHost.borrowDevice();
   host::Image color = engine.createImage(VK_FORMAT_R8G8B8A8_SRGB, kWidth, kHeight,
                                          rill::kFluidColorUsage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
   host::Image depth = engine.createImage(VK_FORMAT_D32_SFLOAT, kWidth, kHeight, rill::kFluidDepthUsage | VK_IMAGE_USAGE_TRANSFER_DST_BIT);

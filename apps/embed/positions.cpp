@@ -37,8 +37,8 @@ void draw(std::span<const Position> positions, const char* file) {
 
 int main(int count, char** arguments) {
   if (count != 2) host::fail("usage: positions OUT.ppm");
-  Lender lender;
-  const auto device = lender.lend();
+  RillHost rillHost;
+  const auto device = rillHost.borrowDevice();
   rill::Scene scene;
   scene.fluid.spacing = 0.04;
   scene.domain = rill::Domain{{0, 0, 0}, {2, 1, 1}};
@@ -59,7 +59,7 @@ int main(int count, char** arguments) {
     }
   };
   for (uint32_t k = 0; k < std::size(tickets); ++k) {
-    const host::Frame frame = lender.engine.begin();
+    const host::Frame frame = rillHost.engine.begin();
     device->beginFrame({frame.number, frame.completed});
     graph.reset();
     readArrived(k);
@@ -67,9 +67,9 @@ int main(int count, char** arguments) {
     need(graph.compile());
     need(graph.prepare(*device));
     graph.record(frame.commands);
-    lender.engine.end(frame);
+    rillHost.engine.end(frame);
   }
-  lender.engine.wait();
+  rillHost.engine.wait();
   device->beginFrame({std::size(tickets) + 1, std::size(tickets)});
   readArrived(std::size(tickets));
   if (arrived != std::size(tickets)) host::fail("positions are missing");

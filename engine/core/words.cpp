@@ -88,7 +88,7 @@ std::string grouped(uint64_t number) {
   return digits;
 }
 
-std::string shortNumber(double number) {
+std::string shortestNumber(double number) {
   std::array<char, 32> text{};
   const double size = std::abs(number);
   const bool plain = number == 0 || (size >= 1e-5 && size < 1e15);
@@ -97,13 +97,13 @@ std::string shortNumber(double number) {
   return {text.data(), end};
 }
 
-std::string roughNumber(double number) {
+std::string roundedNumber(double number) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.4g", number);
   return text.data();
 }
 
-std::string listInQuotes(std::span<const std::string_view> words) {
+std::string quotedList(std::span<const std::string_view> words) {
   std::string out;
   for (const std::string_view word : words) {
     if (!out.empty()) out += ", ";
@@ -112,7 +112,7 @@ std::string listInQuotes(std::span<const std::string_view> words) {
   return out;
 }
 
-std::string childPath(std::string_view path, std::string_view key) {
+std::string memberPath(std::string_view path, std::string_view key) {
   const bool plain = !key.empty() && key.size() <= 60 && std::all_of(key.begin(), key.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '$';
   });
@@ -121,6 +121,6 @@ std::string childPath(std::string_view path, std::string_view key) {
   return out + (plain ? std::string(key) : inQuotes(key));
 }
 
-std::string entryPath(std::string_view path, size_t index) { return std::string(path) + "[" + std::to_string(index) + "]"; }
+std::string elementPath(std::string_view path, size_t index) { return std::string(path) + "[" + std::to_string(index) + "]"; }
 
 }  // namespace rill

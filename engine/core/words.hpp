@@ -18,17 +18,17 @@ std::string inQuotes(std::string_view text);
 std::string grouped(uint64_t number);
 
 /// The shortest text that parses to the same double: "0.1", "1000", "1e-09".
-std::string shortNumber(double number);
+std::string shortestNumber(double number);
 
 /// Four significant digits, for measured or estimated values: "0.002307".
-std::string roughNumber(double number);
+std::string roundedNumber(double number);
 
 /// `words` in quotes, separated by commas: "\"a\", \"b\"".
-std::string listInQuotes(std::span<const std::string_view> words);
+std::string quotedList(std::span<const std::string_view> words);
 
 /// The path of `key` in the object at `path`: "fluid.viscosity". A key with special characters is quoted.
-std::string childPath(std::string_view path, std::string_view key);
+std::string memberPath(std::string_view path, std::string_view key);
 /// The path of element `index` of the array at `path`: "fill[2]".
-std::string entryPath(std::string_view path, size_t index);
+std::string elementPath(std::string_view path, size_t index);
 
 }  // namespace rill

@@ -39,7 +39,7 @@ std::string prefixOf(const Scene& scene) {
 
 Error badInput(const Scene& scene, const std::string& why) { return {ErrorKind::BadInput, prefixOf(scene) + why}; }
 
-std::string countText(double count) { return count < 1e15 ? grouped(static_cast<uint64_t>(count)) : "about " + roughNumber(count); }
+std::string countText(double count) { return count < 1e15 ? grouped(static_cast<uint64_t>(count)) : "about " + roundedNumber(count); }
 
 /// A deterministic pseudorandom number in [-1, 1): the finalizer of splitmix64 (Steele et al. 2014) over its arguments.
 double randomSigned(uint64_t seed, uint64_t fill, uint64_t particle, uint64_t axis) {
@@ -206,7 +206,7 @@ void addFillWarnings(const Scene& scene, const std::vector<Source>& sources, std
     const std::string of = " of " + countText(s.count) + " particles ";
     if (s.count < 1) {
       warn(i, s.file ? "yields no particles: the file has none"
-                     : "yields no particles: it is too thin for a spacing of " + roughNumber(scene.fluid.spacing) + " m");
+                     : "yields no particles: it is too thin for a spacing of " + roundedNumber(scene.fluid.spacing) + " m");
       continue;
     }
     if (s.domain > 0) warn(i, grouped(s.domain) + of + "start outside the domain's walls and are left out");
@@ -231,14 +231,14 @@ void addPrecisionWarning(const Scene& scene, const ParticleSet& set, const Bound
     step = std::max({step, reach * kFloatStep, place * kDoubleStep});
   }
   if (step <= kTooCoarse * scene.fluid.spacing) return;
-  warnings.push_back(prefixOf(scene) + "fluid starts " + roughNumber(far) +
+  warnings.push_back(prefixOf(scene) + "fluid starts " + roundedNumber(far) +
                      " m from the domain's minimum (or the fluid's center), where positions are rounded to multiples of " +
-                     roughNumber(step) + " m, more than a thousandth of the spacing " + roughNumber(scene.fluid.spacing) + " m");
+                     roundedNumber(step) + " m, more than a thousandth of the spacing " + roundedNumber(scene.fluid.spacing) + " m");
 }
 
 /// An error about the file of a fill, with the scene and the key that name it.
 Error aboutFile(const Scene& scene, size_t fill, const Error& error) {
-  return {error.kind, prefixOf(scene) + entryPath("fill", fill) + ".particles.file: " + error.message};
+  return {error.kind, prefixOf(scene) + elementPath("fill", fill) + ".particles.file: " + error.message};
 }
 
 /// The host has not enough memory for the particles of these sources.
@@ -248,7 +248,7 @@ Error outOfMemory(const Scene& scene, const std::vector<Source>& sources) {
     count += s.count;
     bytes += s.count * (2 * sizeof(Float3) + (s.file ? sizeof(Double3) : 0));
   }
-  const auto mebibytes = [](double b) { return roughNumber(b / (1 << 20)) + " MiB"; };
+  const auto mebibytes = [](double b) { return roundedNumber(b / (1 << 20)) + " MiB"; };
   const uint64_t available = availableHostBytes();
   return {ErrorKind::OutOfMemory, prefixOf(scene) + "not enough memory for the " + countText(count) +
                                       " particles of the scene's fills: they need at least " + mebibytes(bytes) +
@@ -270,9 +270,9 @@ Expected<ParticleSet> place(const Scene& scene, std::vector<Source>& sources, ui
     total += s.count;
   }
   if (total > static_cast<double>(maxParticles)) {
-    return badInput(scene, "fluid.spacing: " + shortNumber(spacing) + " m makes " + countText(total) + " particles; expected at most " +
+    return badInput(scene, "fluid.spacing: " + shortestNumber(spacing) + " m makes " + countText(total) + " particles; expected at most " +
                                grouped(maxParticles) + ", which a spacing of about " +
-                               roughNumber(spacing * std::cbrt(total / static_cast<double>(maxParticles)) * 1.01) + " m gives");
+                               roundedNumber(spacing * std::cbrt(total / static_cast<double>(maxParticles)) * 1.01) + " m gives");
   }
   Bounds all;
   std::vector<Bounds> bounds;

@@ -331,8 +331,9 @@ Expected<PlyParticles> PlyFile::read() const {
       const auto at = [&](size_t k) { return row[static_cast<size_t>(header.column[k])]; };
       for (size_t k = 0; k < (header.hasVelocity() ? 6U : 3U); ++k) {
         if (!fitsFloat(at(k))) {
-          return header.badInput("vertex " + grouped(i) + ": " + (k < 3 ? "the position" : "the velocity") + " is " + shortNumber(at(k)) +
-                                 " along " + "xyz"[k % 3] + "; expected a finite number that a 32-bit float can hold");
+          return header.badInput("vertex " + grouped(i) + ": " + (k < 3 ? "the position" : "the velocity") + " is " +
+                                 shortestNumber(at(k)) + " along " + "xyz"[k % 3] +
+                                 "; expected a finite number that a 32-bit float can hold");
         }
       }
       out.positions.push_back({at(0), at(1), at(2)});

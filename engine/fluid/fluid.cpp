@@ -43,7 +43,7 @@ Expected<void> checkGiven(const FluidDesc& desc) {
     return bad("a fluid needs as many velocities as positions: " + std::to_string(velocities) + " for " + std::to_string(n));
   for (const double v : desc.particles->origin)
     if (!(std::abs(v) <= std::numeric_limits<float>::max()))
-      return bad("ParticleSet::origin is " + shortNumber(v) + "; expected numbers (m) that a 32-bit float can hold");
+      return bad("ParticleSet::origin is " + shortestNumber(v) + "; expected numbers (m) that a 32-bit float can hold");
   return checkScene(*desc.scene);
 }
 
@@ -136,10 +136,10 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
                                           " buffers of 128 MiB that are available: make smoothing_ratio smaller"};
   const uint64_t maxTexels = std::max({more, 2 * uint64_t{n}, uint64_t{chunk} * p.listCapacity / 4, paddedWords(setup.grid.cells() + 1),
                                        uint64_t{setup.tables.size() / 4}});
-  texel_ = !storageReads && readsTexels(device, maxTexels);
+  texel_ = !storageReads && usesTexelReads(device, maxTexels);
 
   auto sort = KeySort::create(
-      device, {.count = count, .keyRange = setup.grid.cells(), .start = true, .storageReads = storageReads, .openEnds = true});
+      device, {.count = count, .keyRange = setup.grid.cells(), .start = true, .storageReads = storageReads, .fusedEnds = true});
   if (!sort) return sort.error();
   sort_ = std::move(*sort);
 

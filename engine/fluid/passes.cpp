@@ -204,7 +204,7 @@ bool FluidImpl::possible(Graph& graph, const FluidStep& step) const {
     return false;
   };
   if (!(step.advance_s >= 0 && step.advance_s <= std::numeric_limits<float>::max()))
-    return invalid("advance_s is " + shortNumber(step.advance_s) + "; expected a finite time of at least 0 (s)");
+    return invalid("advance_s is " + shortestNumber(step.advance_s) + "; expected a finite time of at least 0 (s)");
   for (size_t k = 0; k < step.targets.size(); ++k)
     if (step.targets[k].solid >= setup.solids.size())
       return invalid("targets[" + std::to_string(k) + "].solid is " + std::to_string(step.targets[k].solid) + "; the scene has " +
@@ -248,7 +248,7 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   if (blocks == 0) declareRebuild(graph);  // runs where there has been none yet
   declareSkipped(graph);
 
-  Pending pending{graph.impl().watched(), {}, {}, {}, false, uploads, {}};
+  Pending pending{graph.impl().weakSelf(), {}, {}, {}, false, uploads, {}};
   if (step.stats)
     declareMeasure(graph, pending);
   else

@@ -166,8 +166,9 @@ double xsphRate(double viscosity, const Scene& scene, const SmoothingKernel& ker
 void warnOfDropping(const std::string& why, double longest, FluidSetup& setup) {
   const double all = longest * setup.params.maxSubsteps;
   if (all >= 1.0 / 60) return;
-  setup.warnings.push_back(why + " needs substeps of at most " + roughNumber(longest) + " s: " + std::to_string(setup.params.maxSubsteps) +
-                           " of them are " + roughNumber(all) + " s, less than a frame of 1/60 s; time will be dropped");
+  setup.warnings.push_back(why + " needs substeps of at most " + roundedNumber(longest) +
+                           " s: " + std::to_string(setup.params.maxSubsteps) + " of them are " + roundedNumber(all) +
+                           " s, less than a frame of 1/60 s; time will be dropped");
 }
 
 // XSPH with coefficient c acts like a kinematic viscosity c sigma^2 / (2 dt): so many sweeps, and a step short enough, that none has c
@@ -182,7 +183,7 @@ void setViscosity(const Scene& scene, const SmoothingKernel& kernel, FluidSetup&
   p.viscosityRate = f(rate);
   const double most = setup.viscositySweeps / rate;
   p.maxStep = std::min(p.maxStep, f(most));
-  warnOfDropping("viscosity " + roughNumber(scene.fluid.viscosity) + " Pa s", most, setup);
+  warnOfDropping("viscosity " + roundedNumber(scene.fluid.viscosity) + " Pa s", most, setup);
 }
 
 double strongestGravity(const Scene& scene) {
@@ -244,7 +245,7 @@ void setRelaxation(const Scene& scene, const SmoothingKernel& kernel, FluidSetup
   setup.params.relaxationAtRest =
       scene.solver.relaxation ? setup.params.relaxationInMotion : f(std::min(wanted, kCalmOfJacobiLimit * most));
   if (wanted > limit)
-    setup.warnings.push_back("solver.relaxation " + roughNumber(wanted) + " does not converge with this kernel: " + roughNumber(limit) +
+    setup.warnings.push_back("solver.relaxation " + roundedNumber(wanted) + " does not converge with this kernel: " + roundedNumber(limit) +
                              " is taken");
 }
 
@@ -256,8 +257,8 @@ double warmGain(const Scene& scene, FluidSetup& setup) {
   const double most = scene.solver.kernel == KernelChoice::Poly6Spiky ? kMaxWarmGainPoly6Spiky : wanted;
   const double gain = std::min(wanted, most) / softness(scene);
   if (scene.solver.warm_start && gain < wanted)
-    setup.warnings.push_back("solver.warm_start " + roughNumber(wanted) +
-                             " gains energy with this kernel and regularization: " + roughNumber(gain) + " is taken");
+    setup.warnings.push_back("solver.warm_start " + roundedNumber(wanted) +
+                             " gains energy with this kernel and regularization: " + roundedNumber(gain) + " is taken");
   return gain;
 }
 
@@ -300,11 +301,11 @@ void setLongestStep(const Scene& scene, const SmoothingKernel& kernel, double he
   if (head <= 0) return;
   const double stable = bearableStep(scene, kernel, head, p.iterations, p.warmGainInMotion, p);
   if (scene.solver.time_step && *scene.solver.time_step > stable)
-    setup.warnings.push_back("solver.time_step " + roughNumber(*scene.solver.time_step) + " s is more than " +
+    setup.warnings.push_back("solver.time_step " + roundedNumber(*scene.solver.time_step) + " s is more than " +
                              std::to_string(p.iterations) + (p.iterations == 1 ? " iteration" : " iterations") +
-                             " can hold this fluid's weight in: steps are at most " + roughNumber(stable) + " s");
+                             " can hold this fluid's weight in: steps are at most " + roundedNumber(stable) + " s");
   p.maxStep = std::min(p.maxStep, f(stable));
-  if (softness(scene) > 1) warnOfDropping("solver.regularization " + roughNumber(regularization(scene)), stable, setup);
+  if (softness(scene) > 1) warnOfDropping("solver.regularization " + roundedNumber(regularization(scene)), stable, setup);
 }
 
 // The start's pressure is found for the longest step in which the defaults bear the fluid: in shorter ones the rounding of positions hides
@@ -338,12 +339,12 @@ Expected<void> checkSteps(const Scene& scene, const double room[3], const FluidS
   const bool asked = scene.solver.time_step.value_or(least) < least;
   const bool viscous = setup.viscositySweeps > 0 && p.viscosityRate * least > setup.viscositySweeps;
   const std::string key = asked     ? "solver.time_step: steps of "
-                          : viscous ? "fluid.viscosity: " + roughNumber(scene.fluid.viscosity) + " Pa s needs steps of at most "
-                                    : "solver: in " + roughNumber(widest(room)) +
+                          : viscous ? "fluid.viscosity: " + roundedNumber(scene.fluid.viscosity) + " Pa s needs steps of at most "
+                                    : "solver: in " + roundedNumber(widest(room)) +
                                           " m of room this fluid, with its relaxation and regularization, takes steps of at most ";
-  return Error{ErrorKind::BadInput, (scene.file.empty() ? "" : scene.file.string() + ": ") + key + roughNumber(p.maxStep) +
-                                        " s, in which the rounding of positions alone is " + roughNumber(least * p.pushLow / p.maxStep) +
-                                        " m/s; expected steps of " + roughNumber(least) + " s or more"};
+  return Error{ErrorKind::BadInput, (scene.file.empty() ? "" : scene.file.string() + ": ") + key + roundedNumber(p.maxStep) +
+                                        " s, in which the rounding of positions alone is " + roundedNumber(least * p.pushLow / p.maxStep) +
+                                        " m/s; expected steps of " + roundedNumber(least) + " s or more"};
 }
 
 // The first step: half of what the tolerance allows under a column as high as all particles. Fluid that is released without its pressure
@@ -402,8 +403,8 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   p.inverseRestGradient = f(1 / kernel.restGradientSum());
   p.regularization = f(regularization(scene) * kernel.restGradientSum());
   if (scene.solver.regularization.value_or(0) > regularization(scene))
-    setup.warnings.push_back("solver.regularization " + roughNumber(*scene.solver.regularization) +
-                             " gains energy with this kernel: " + roughNumber(regularization(scene)) + " is taken");
+    setup.warnings.push_back("solver.regularization " + roundedNumber(*scene.solver.regularization) +
+                             " gains energy with this kernel: " + roundedNumber(regularization(scene)) + " is taken");
   setRelaxation(scene, kernel, setup);
   p.warmRelease = f(kWarmRelease);
   p.reach = f(h + kListSkin * d);
@@ -412,8 +413,8 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   p.listCapacity = scene.solver.neighbors == NeighborChoice::List ? listCapacity((h + kListSkin * d) / d) : 0u;
   p.cfl = f(std::max(scene.solver.cfl, kLeastCfl));
   if (scene.solver.cfl < kLeastCfl)
-    setup.warnings.push_back("solver.cfl " + roughNumber(scene.solver.cfl) +
-                             " leaves no room to part particles in: " + roughNumber(kLeastCfl) + " is taken");
+    setup.warnings.push_back("solver.cfl " + roundedNumber(scene.solver.cfl) +
+                             " leaves no room to part particles in: " + roundedNumber(kLeastCfl) + " is taken");
   p.iterations = scene.solver.iterations;
   // Iterations do not stop at an error that the fluid cannot bear.
   p.tolerance = f(p.iterations > 1 ? std::min(scene.solver.tolerance, kStableError) : scene.solver.tolerance);
@@ -435,7 +436,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
     } else {
       setup.whyNoArtificialPressure = "tensile_radius reaches neighbors at rest";
       setup.warnings.push_back("fluid.tensile does nothing: it leaves pairs from 0.95 spacings on alone, and tensile_radius is " +
-                               roughNumber(scene.fluid.tensile_radius * scene.fluid.smoothing_ratio) + " spacings");
+                               roundedNumber(scene.fluid.tensile_radius * scene.fluid.smoothing_ratio) + " spacings");
     }
   }
   p.fullNeighbors = static_cast<uint32_t>(0.8 * 4.0 / 3.0 * std::numbers::pi * std::pow(h / d, 3));

@@ -8,7 +8,7 @@ namespace rill {
 /// Whether kernels read arrays of up to `elements` elements through uniform texel buffers
 /// (shaders/shared/arrays.glsl) instead of storage buffers. Devices with only the guaranteed minimum of
 /// 65,536 texels use storage buffers: SwiftShader miscompiles the texel variant (shaders/shared/loops.glsl).
-inline bool readsTexels(const Device& device, uint64_t elements) {
+inline bool usesTexelReads(const Device& device, uint64_t elements) {
   const uint64_t limit = device.info().maxTexelBufferElements;
   return limit > 65536 && elements <= limit;
 }

@@ -153,7 +153,7 @@ class GraphImpl {
   GraphImpl();
   ~GraphImpl();
   /// Expires with the graph. For modules that wait for read-backs of a graph which the host may destroy.
-  std::weak_ptr<GraphImpl> watched() const { return life_; }
+  std::weak_ptr<GraphImpl> weakSelf() const { return life_; }
 
   // graph.cpp
   void reset();

@@ -24,7 +24,7 @@ class Checker {
         const bool choice = std::ranges::find(one_of, field.info.key) != one_of.end();
         if (!ok || (choice && !given(member))) return;
         if (choice) chosen.push_back(field.info.key);
-        ok = value(childPath(path, field.info.key), field.info, member);
+        ok = value(memberPath(path, field.info.key), field.info, member);
       }
     });
     // makeParticles() sets `spacing` beside `particles`, so both are given afterwards.
@@ -58,7 +58,7 @@ class Checker {
   static bool given(const T&) { return true; }
 
   bool value(const std::string& path, const model::Info& info, double given) {
-    return accept(path, model::checkNumber(info, given, false, shortNumber(given)));
+    return accept(path, model::checkNumber(info, given, false, shortestNumber(given)));
   }
   bool value(const std::string& path, const model::Info& info, uint64_t given) {
     return accept(path, model::checkNumber(info, static_cast<double>(given), true, std::to_string(given)));
@@ -67,22 +67,22 @@ class Checker {
   bool value(const std::string& path, const model::Info& info, SideMask given) {
     if (given >> info.words.size() == 0) return true;
     return accept(path,
-                  model::Fault{"invalid bit mask " + std::to_string(given) + "; expected only the bits of " + listInQuotes(info.words)});
+                  model::Fault{"invalid bit mask " + std::to_string(given) + "; expected only the bits of " + quotedList(info.words)});
   }
   bool value(const std::string& path, const model::Info& info, const std::string& given) {
     return info.words.empty() || accept(path, model::checkChoice(info, given));
   }
   bool value(const std::string&, const model::Info&, const std::filesystem::path&) { return true; }  // empty: no file
   bool value(const std::string& path, const model::Info&, const std::optional<std::filesystem::path>& given) {
-    return !given || accept(childPath(path, "file"), model::checkFileName(given->string()));
+    return !given || accept(memberPath(path, "file"), model::checkFileName(given->string()));
   }
   bool value(const std::string& path, const model::Info& info, const std::optional<std::pair<double, double>>& given) {
-    return !given || (value(entryPath(path, 0), info, given->first) && value(entryPath(path, 1), info, given->second));
+    return !given || (value(elementPath(path, 0), info, given->first) && value(elementPath(path, 1), info, given->second));
   }
   template <size_t N>
   bool value(const std::string& path, const model::Info& info, const double (&given)[N]) {
     for (size_t i = 0; i < N; ++i)
-      if (!value(entryPath(path, i), info, given[i])) return false;
+      if (!value(elementPath(path, i), info, given[i])) return false;
     return true;
   }
   template <class Enum>
@@ -90,8 +90,7 @@ class Checker {
   bool value(const std::string& path, const model::Info& info, Enum given) {
     const auto number = static_cast<size_t>(given);
     if (number < info.words.size()) return true;
-    return accept(path,
-                  model::Fault{"invalid enum value " + std::to_string(number) + "; expected the value of " + listInQuotes(info.words)});
+    return accept(path, model::Fault{"invalid enum value " + std::to_string(number) + "; expected the value of " + quotedList(info.words)});
   }
   template <model::Described Struct>
   bool value(const std::string& path, const model::Info&, const Struct& given) {
@@ -105,7 +104,7 @@ class Checker {
   bool value(const std::string& path, const model::Info& info, const std::vector<T>& given) {
     if (!accept(path, model::checkLength(info, given.size()))) return false;
     for (size_t i = 0; i < given.size(); ++i)
-      if (!object(entryPath(path, i), given[i])) return false;
+      if (!object(elementPath(path, i), given[i])) return false;
     return accept(path, model::checkRules(given));
   }
 

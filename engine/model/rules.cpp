@@ -18,9 +18,9 @@ bool fitsFloat(double value) {
 CheckResult minBelowMax(const double (&min)[3], const double (&max)[3]) {
   for (size_t axis = 0; axis < 3; ++axis) {
     if (min[axis] < max[axis]) continue;
-    return Fault{"max is " + shortNumber(max[axis]) + " and min is " + shortNumber(min[axis]) + " along " + "xyz"[axis] +
+    return Fault{"max is " + shortestNumber(max[axis]) + " and min is " + shortestNumber(min[axis]) + " along " + "xyz"[axis] +
                      "; expected min below max on every axis",
-                 {entryPath("max", axis), entryPath("min", axis)}};
+                 {elementPath("max", axis), elementPath("min", axis)}};
   }
   return {};
 }
@@ -29,9 +29,9 @@ template <class Timed>
 CheckResult increasingTimes(const std::vector<Timed>& entries) {
   for (size_t i = 1; i < entries.size(); ++i) {
     if (entries[i].at > entries[i - 1].at) continue;
-    return Fault{"found " + shortNumber(entries[i].at) + " s after " + shortNumber(entries[i - 1].at) +
+    return Fault{"found " + shortestNumber(entries[i].at) + " s after " + shortestNumber(entries[i - 1].at) +
                      " s in the previous entry, expected increasing times",
-                 {childPath(entryPath("", i), "at"), childPath(entryPath("", i - 1), "at")}};
+                 {memberPath(elementPath("", i), "at"), memberPath(elementPath("", i - 1), "at")}};
   }
   return {};
 }
@@ -42,7 +42,7 @@ std::string unitText(const Info& info) { return info.unit.empty() ? std::string(
 
 std::string rangeText(const Range& range) {
   std::string text;
-  if (range.hasLow()) text = (range.low_open ? "above " : range.hasHigh() ? "from " : "at least ") + shortNumber(range.low);
+  if (range.hasLow()) text = (range.low_open ? "above " : range.hasHigh() ? "from " : "at least ") + shortestNumber(range.low);
   if (range.hasHigh()) {
     if (!text.empty()) text += range.low_open ? " and " : " to ";
     if (range.high_open) {
@@ -53,7 +53,7 @@ std::string rangeText(const Range& range) {
     constexpr double kExact = 9007199254740992.0;  // 2^53; the only larger bound is 2^64 - 1
     text += range.high > kExact ? "18446744073709551615"
             : range.high >= 1e6 ? std::to_string(static_cast<uint64_t>(range.high))
-                                : shortNumber(range.high);
+                                : shortestNumber(range.high);
   }
   return text;
 }
@@ -78,7 +78,7 @@ CheckResult checkNumber(const Info& info, double value, bool whole, std::string_
 CheckResult checkChoice(const Info& info, std::string_view given) {
   if (std::ranges::find(info.words, given) != info.words.end()) return {};
   const std::string_view suggestion = nearestWord(given, info.words);
-  return Fault{"found the string " + inQuotes(given) + ", expected one of " + listInQuotes(info.words) +
+  return Fault{"found the string " + inQuotes(given) + ", expected one of " + quotedList(info.words) +
                (suggestion.empty() ? "" : "; did you mean " + inQuotes(suggestion) + "?")};
 }
 
@@ -94,7 +94,7 @@ CheckResult checkLength(const Info& info, size_t entries) {
 
 CheckResult checkOneOf(std::span<const std::string_view> keys, std::span<const std::string_view> given) {
   if (keys.empty() || given.size() == 1) return {};
-  return Fault{"expected exactly one of " + listInQuotes(keys) + "; found " + (given.empty() ? "none" : listInQuotes(given))};
+  return Fault{"expected exactly one of " + quotedList(keys) + "; found " + (given.empty() ? "none" : quotedList(given))};
 }
 
 CheckResult checkRules(const BoxShape& box) { return minBelowMax(box.min, box.max); }
@@ -104,7 +104,7 @@ CheckResult checkRules(const FluidSettings& fluid) {
   if (fluid.spacing <= 0) return {};
   const double mass = fluid.density * fluid.spacing * fluid.spacing * fluid.spacing;
   if (mass >= std::numeric_limits<float>::min() && mass <= std::numeric_limits<float>::max()) return {};
-  return Fault{"the mass of a particle, density x spacing^3, is " + roughNumber(mass) + " kg; expected a mass that fits a 32-bit float",
+  return Fault{"the mass of a particle, density x spacing^3, is " + roundedNumber(mass) + " kg; expected a mass that fits a 32-bit float",
                {"spacing", "density"}};
 }
 
@@ -114,12 +114,13 @@ CheckResult checkRules(const Solid& solid) {
   if (!(length > 0))
     return Fault{"the quaternion has zero length; expected a non-zero quaternion, [0, 0, 0, 1] for no rotation", {"rotation"}};
   constexpr double kTolerance = 1e-3;  // rounding in products of float quaternions
-  if (std::abs(length - 1) > kTolerance) return Fault{"the quaternion's length is " + roughNumber(length) + "; expected 1", {"rotation"}};
+  if (std::abs(length - 1) > kTolerance) return Fault{"the quaternion's length is " + roundedNumber(length) + "; expected 1", {"rotation"}};
   // Set by hosts only: JSON has no key for it.
   if (!(solid.driven >= 0) || !fitsFloat(solid.driven))
-    return Fault{shortNumber(solid.driven) + " is out of range; expected a speed of at least 0 (m/s)", {"driven"}};
+    return Fault{shortestNumber(solid.driven) + " is out of range; expected a speed of at least 0 (m/s)", {"driven"}};
   if (solid.driven > 0 && !solid.motion.empty())
-    return Fault{"found " + shortNumber(solid.driven) + " for a solid with keyframes; expected 0, or a solid without motion", {"driven"}};
+    return Fault{"found " + shortestNumber(solid.driven) + " for a solid with keyframes; expected 0, or a solid without motion",
+                 {"driven"}};
   return {};
 }
 
@@ -136,11 +137,11 @@ CheckResult checkRules(const std::vector<GravityChange>& changes) { return incre
 CheckResult checkRules(const std::vector<Probe>& probes) {
   std::unordered_map<std::string_view, size_t> seen;
   for (size_t i = 0; i < probes.size(); ++i) {
-    const std::string here = childPath(entryPath("", i), "name");
+    const std::string here = memberPath(elementPath("", i), "name");
     if (probes[i].name.empty()) return Fault{"found an empty name, expected a unique name", {here}};
     const auto [first, fresh] = seen.emplace(probes[i].name, i);
     if (!fresh)
-      return Fault{inQuotes(probes[i].name) + " is also the name of " + entryPath("probes", first->second) + "; expected unique names",
+      return Fault{inQuotes(probes[i].name) + " is also the name of " + elementPath("probes", first->second) + "; expected unique names",
                    {here}};
   }
   return {};

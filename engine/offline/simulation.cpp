@@ -42,8 +42,8 @@ class Simulation::Impl {
     if (auto possible = checkScene(scene_); !possible) return possible;
     constexpr double kShortestFrame = 1e-6;  // s: an advance of many would never end
     if (!(options_.longestFrame_s >= kShortestFrame))
-      return Error{ErrorKind::BadInput, "Options::longestFrame_s is " + shortNumber(options_.longestFrame_s) + "; expected at least " +
-                                            shortNumber(kShortestFrame) + " (s)"};
+      return Error{ErrorKind::BadInput, "Options::longestFrame_s is " + shortestNumber(options_.longestFrame_s) + "; expected at least " +
+                                            shortestNumber(kShortestFrame) + " (s)"};
     auto start = given ? Expected<ParticleSet>(std::move(*given)) : makeParticles(scene_);
     if (!start) return start.error();
     start_ = std::move(*start);

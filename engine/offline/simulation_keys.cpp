@@ -29,11 +29,11 @@ class Lister {
   SimulationKeys take() { return std::move(keys_); }
 
  private:
-  void add(const model::Info&, std::string key, double value) { keys_.emplace_back(std::move(key), shortNumber(value)); }
+  void add(const model::Info&, std::string key, double value) { keys_.emplace_back(std::move(key), shortestNumber(value)); }
   void add(const model::Info&, std::string key, uint32_t value) { keys_.emplace_back(std::move(key), std::to_string(value)); }
   void add(const model::Info&, std::string key, uint64_t value) { keys_.emplace_back(std::move(key), std::to_string(value)); }
   void add(const model::Info&, std::string key, const std::optional<double>& value) {
-    keys_.emplace_back(std::move(key), value ? shortNumber(*value) : "auto");
+    keys_.emplace_back(std::move(key), value ? shortestNumber(*value) : "auto");
   }
   void add(const model::Info& info, std::string key, SideMask value) {
     std::string sides;
@@ -44,7 +44,7 @@ class Lister {
   template <size_t N>
   void add(const model::Info&, std::string key, const double (&value)[N]) {
     std::string numbers;
-    for (double number : value) numbers += (numbers.empty() ? "" : ",") + shortNumber(number);
+    for (double number : value) numbers += (numbers.empty() ? "" : ",") + shortestNumber(number);
     keys_.emplace_back(std::move(key), "[" + numbers + "]");
   }
   template <class Enum>

@@ -105,9 +105,9 @@ bool FluidRendererImpl::possible(Graph& graph, const FluidState& fluid, const Fl
     return mistake("a fluid of " + std::to_string(fluid.count) + " particles: at most " + std::to_string(SurfaceStage::kMaxParticles) +
                    " can be drawn");
   if (!(fluid.spacing > 0 && std::isfinite(fluid.spacing)))
-    return mistake("FluidState::spacing is " + shortNumber(fluid.spacing) + "; expected a length above 0 (m)");
+    return mistake("FluidState::spacing is " + shortestNumber(fluid.spacing) + "; expected a length above 0 (m)");
   for (const double v : fluid.origin)
-    if (!std::isfinite(v)) return mistake("FluidState::origin is " + shortNumber(v) + "; expected finite numbers (m)");
+    if (!std::isfinite(v)) return mistake("FluidState::origin is " + shortestNumber(v) + "; expected finite numbers (m)");
   const auto& resources = graph.impl().resources;
   const BufferRef position = fluid.position;
   if (position.index >= resources.size() || resources[position.index].isImage) return true;  // the pass that reads it says so
@@ -119,7 +119,7 @@ bool FluidRendererImpl::possible(Graph& graph, const FluidState& fluid, const Fl
 
 bool FluidRendererImpl::possible(Graph& graph, const FluidLook& look) {
   const auto refused = [&](const char* what, float value, const char* expected) {
-    graph.impl().fail("FluidLook::" + std::string(what) + " is " + shortNumber(double{value}) + "; expected " + expected);
+    graph.impl().fail("FluidLook::" + std::string(what) + " is " + shortestNumber(double{value}) + "; expected " + expected);
     return false;
   };
   if (!(look.refraction_index >= 1 && look.refraction_index <= 10)) return refused("refraction_index", look.refraction_index, "1 to 10");

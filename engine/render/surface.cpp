@@ -123,7 +123,7 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
   Frame frame = frameOf(fluid, camera, method, focus, settings);
   const uint64_t maxTexels = std::max({2 * uint64_t{fluid.count}, paddedWords(frame.cells + 1), sampleCount(frame.out.push)});
   frame.storageReads = settings.storage_reads;
-  frame.texels = !frame.storageReads && readsTexels(*device_, maxTexels);
+  frame.texels = !frame.storageReads && usesTexelReads(*device_, maxTexels);
   frame.narrows = method == SurfaceMethod::NarrowRange && !settings.filter;
   addBuffers(graph, fluid, frame, whole);
   addVisible(graph, fluid, frame);

@@ -85,13 +85,13 @@ Expected<Json*> walk(Json& root, const Override& change, const std::vector<Step>
       fresh = *step.index == node->size();
       if (fresh) node->push_back(nullptr);
       node = &(*node)[*step.index];
-      path = entryPath(path, *step.index);
+      path = elementPath(path, *step.index);
     } else {
       if (!node->is_object()) return invalidOverride(change, nameOf(path) + " is not an object; expected a key path of the scene");
       const auto [entry, made] = node->emplace(step.key, nullptr);
       fresh = made;
       node = &*entry;
-      path = childPath(path, step.key);
+      path = memberPath(path, step.key);
     }
     if (fresh) {
       marks.set(path, {change.key, {}});

@@ -27,7 +27,7 @@ std::string pathOfKey(std::string_view key, const std::string& path) {
     using Value = typename std::remove_cvref_t<decltype(field)>::Value;
     using Inner = typename model::Inner<Value>::Type;
     if (!found.empty()) return;
-    const std::string here = childPath(path, field.info.key);
+    const std::string here = memberPath(path, field.info.key);
     if (field.info.key == key) {
       found = here;
     } else if constexpr (!std::is_void_v<Inner>) {
@@ -77,7 +77,7 @@ std::string foundText(const Json& json) {
     case Json::value_t::number_integer:
       return "found " + std::to_string(json.get<int64_t>());
     case Json::value_t::number_float:
-      return "found " + shortNumber(json.get<double>());
+      return "found " + shortestNumber(json.get<double>());
     default:
       return "found a value of unknown type";
   }
@@ -118,9 +118,9 @@ bool Reader::unknownKey(const std::string& path, const std::string& key, const s
   } else if (!other.empty()) {
     text += "did you mean " + inQuotes(other) + (other.find('.') == std::string::npos ? ", at the top of the scene?" : "?");
   } else {
-    text += "expected one of " + listInQuotes(keys);
+    text += "expected one of " + quotedList(keys);
   }
-  return fail(childPath(path, key), text);
+  return fail(memberPath(path, key), text);
 }
 
 bool Reader::exactlyOne(const Json& json, const std::string& path, std::span<const std::string_view> keys) {
@@ -130,7 +130,7 @@ bool Reader::exactlyOne(const Json& json, const std::string& path, std::span<con
   }
   const model::CheckResult result = model::checkOneOf(keys, given);
   if (!result || given.empty()) return accept(path, result);
-  const std::string reported = marks_.find(childPath(path, given[0])) ? childPath(path, given[0]) : childPath(path, given[1]);
+  const std::string reported = marks_.find(memberPath(path, given[0])) ? memberPath(path, given[0]) : memberPath(path, given[1]);
   return fail(marks_.find(reported) ? reported : path, result->text);
 }
 
@@ -166,7 +166,7 @@ bool Reader::numbers(const Json& json, const std::string& path, const model::Inf
   };
   if (!json.is_array() || json.size() != out.size()) return fail(path, foundText(json) + expected());
   for (size_t i = 0; i < out.size(); ++i) {
-    if (!number(json[i], entryPath(path, i), info, false, out[i])) return false;
+    if (!number(json[i], elementPath(path, i), info, false, out[i])) return false;
   }
   return true;
 }
@@ -184,7 +184,7 @@ bool Reader::text(const Json& json, const std::string& path, std::string& out) {
 }
 
 bool Reader::word(const Json& json, const std::string& path, const model::Info& info, size_t& out) {
-  if (!json.is_string()) return fail(path, foundText(json) + ", expected one of " + listInQuotes(info.words));
+  if (!json.is_string()) return fail(path, foundText(json) + ", expected one of " + quotedList(info.words));
   const std::string& given = json.get_ref<const std::string&>();
   out = static_cast<size_t>(std::ranges::find(info.words, given) - info.words.begin());
   return accept(path, model::checkChoice(info, given));
@@ -220,13 +220,13 @@ bool Reader::value(const Json& json, const std::string& path, const model::Info&
 }
 
 bool Reader::value(const Json& json, const std::string& path, const model::Info& info, SideMask& out) {
-  if (!json.is_array()) return fail(path, foundText(json) + ", expected a list of sides: " + listInQuotes(info.words));
+  if (!json.is_array()) return fail(path, foundText(json) + ", expected a list of sides: " + quotedList(info.words));
   out = 0;
   for (size_t i = 0; i < json.size(); ++i) {
     size_t side = 0;
-    if (!word(json[i], entryPath(path, i), info, side)) return false;
+    if (!word(json[i], elementPath(path, i), info, side)) return false;
     const auto bit = static_cast<SideMask>(1U << side);
-    if ((out & bit) != 0) return fail(entryPath(path, i), "duplicate side " + inQuotes(info.words[side]) + "; expected each side once");
+    if ((out & bit) != 0) return fail(elementPath(path, i), "duplicate side " + inQuotes(info.words[side]) + "; expected each side once");
     out = static_cast<SideMask>(out | bit);
   }
   return true;

@@ -59,7 +59,7 @@ class Reader {
   bool member(const Json& json, const std::string& path, const model::Field<Owner, T>& field, Owner& owner) {
     if constexpr (model::kHasMember<T>) {
       const auto found = json.find(std::string(field.info.key));
-      const std::string here = childPath(path, field.info.key);
+      const std::string here = memberPath(path, field.info.key);
       if (found != json.end()) return value(*found, here, field.info, owner.*field.member);
       if (field.info.required) return fail(here, "required key is missing: " + std::string(field.info.help));
     }
@@ -117,7 +117,7 @@ class Reader {
     if (!accept(path, model::checkLength(info, json.size()))) return false;
     out.reserve(json.size());
     for (size_t i = 0; i < json.size(); ++i) {
-      if (!object(json[i], entryPath(path, i), out.emplace_back())) return false;
+      if (!object(json[i], elementPath(path, i), out.emplace_back())) return false;
     }
     return accept(path, model::checkRules(out));
   }

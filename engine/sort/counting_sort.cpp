@@ -15,14 +15,14 @@ Expected<CountingSort> CountingSort::create(Device& device, const KeySortDesc& d
   if (!scan) return scan.error();
   sort.scan_ = *scan;
   using enum BindingKind;
-  const bool texels = !desc.storageReads && readsTexels(device, std::max<uint64_t>(desc.count, paddedWords(desc.keyRange + 1)));
+  const bool texels = !desc.storageReads && usesTexelReads(device, std::max<uint64_t>(desc.count, paddedWords(desc.keyRange + 1)));
   const uint32_t oversized = sort.binsMayBeOversized() ? 1 : 0;
   ModulePipelines pipelines(device, sizeof(CountingPush));
   sort.texels_ = texels;
   sort.clear_ = pipelines.make("sort/clear", 2);
-  if (!desc.openEnds) sort.count_ = pipelines.makeReading("sort/count", texels, {TexelUint, Storage, Storage, Storage}, {oversized, 1});
+  if (!desc.fusedEnds) sort.count_ = pipelines.makeReading("sort/count", texels, {TexelUint, Storage, Storage, Storage}, {oversized, 1});
   sort.scatter_ = pipelines.makeReading("sort/scatter", texels, {TexelUint, TexelUint, TexelUint, Storage});
-  if (!desc.openEnds)
+  if (!desc.fusedEnds)
     sort.orderBins_ = pipelines.makeReading("sort/order_bins", texels, {TexelUint, TexelUint, TexelUint, Storage, Storage},
                                             {desc.keys ? 1u : 0u, oversized});
   if (oversized) sort.orderOversized_ = pipelines.makeReading("sort/order_oversized", texels, {TexelUint, TexelUint, Storage, Storage});
@@ -120,7 +120,7 @@ SortedKeys CountingSort::finish(Graph& graph, BufferRef keys, const KeyCounters&
       if (large) (*large)(commands);
     };
   });
-  return {order, start, sortedKeys, desc_.openEnds ? arrived : BufferRef{}};
+  return {order, start, sortedKeys, desc_.fusedEnds ? arrived : BufferRef{}};
 }
 
 }  // namespace rill

@@ -16,7 +16,7 @@ Expected<void> validate(const KeySortDesc& desc) {
     return badInput(std::to_string(desc.count) + " keys; expected at most " + std::to_string(KeySortDesc::kMaxCount));
   if (desc.keyRange < 1 || desc.keyRange > KeySortDesc::kMaxKeyRange)
     return badInput("key range " + std::to_string(desc.keyRange) + "; expected 1 to 2^32");
-  if (desc.keys && desc.openEnds) return badInput("openEnds and keys are both set; expected at most one");
+  if (desc.keys && desc.fusedEnds) return badInput("fusedEnds and keys are both set; expected at most one");
   const bool table = desc.start || desc.method == SortMethod::Counting;
   if (table && desc.keyRange > KeySortDesc::kMaxStartRange)
     return badInput("a start table of " + std::to_string(desc.keyRange) + " keys; expected at most " +
@@ -59,18 +59,18 @@ std::vector<GroupCount> KeySort::groups() const {
 std::array<uint32_t, 2> KeySort::counterConstants() const { return {desc_.count > kBinLimit, method() == SortMethod::Counting}; }
 
 SortedKeys KeySort::addTo(Graph& graph, BufferRef keys, const SortTargets& targets, const Gate* gate) const {
-  assert(!desc_.openEnds);
+  assert(!desc_.fusedEnds);
   return std::visit([&](const auto& sort) { return sort.addTo(graph, keys, targets, gate); }, sort_);
 }
 
 KeyCounters KeySort::begin(Graph& graph, const SortTargets& targets, const Gate* gate) const {
-  assert(desc_.openEnds);
+  assert(desc_.fusedEnds);
   const auto* counting = std::get_if<CountingSort>(&sort_);
   return counting ? counting->begin(graph, targets, gate) : KeyCounters{};
 }
 
 SortedKeys KeySort::finish(Graph& graph, BufferRef keys, const KeyCounters& counters, const SortTargets& targets, const Gate* gate) const {
-  assert(desc_.openEnds);
+  assert(desc_.fusedEnds);
   if (const auto* counting = std::get_if<CountingSort>(&sort_)) return counting->finish(graph, keys, counters, targets, gate);
   SortedKeys sorted = std::get<RadixSort>(sort_).addTo(graph, keys, targets, gate);
   sorted.arrived = sorted.order;  // sorted order is also a valid order of arrival

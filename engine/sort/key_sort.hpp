@@ -36,7 +36,7 @@ class KeySort {
 
   /// Specialization constants 0 and 1 of a shader that includes shaders/sort/count.glsl.
   std::array<uint32_t, 2> counterConstants() const;
-  /// With desc.openEnds: call begin(), declare the pass that writes keys and counters, then call finish().
+  /// With desc.fusedEnds: call begin(), declare the pass that writes keys and counters, then call finish().
   KeyCounters begin(Graph& graph, const SortTargets& targets = {}, const Gate* gate = nullptr) const;
   SortedKeys finish(Graph& graph, BufferRef keys, const KeyCounters& counters, const SortTargets& targets = {},
                     const Gate* gate = nullptr) const;

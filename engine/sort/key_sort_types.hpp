@@ -27,7 +27,7 @@ struct KeySortDesc {
   /// The caller fuses the first and last step into its own passes: the pass that writes the keys also counts
   /// them (shaders/sort/count.glsl), and the pass that reorders the data computes the final slots
   /// (shaders/sort/place.glsl). Not with `keys`.
-  bool openEnds = false;
+  bool fusedEnds = false;
 };
 
 /// Output buffers. For an empty ref a transient is created if the result is requested. With a gate, pass
@@ -42,12 +42,12 @@ struct SortedKeys {
   BufferRef order;  ///< order[slot] = index before the sort; equal keys keep their order
   BufferRef start;  ///< start[k] = first slot of key k, start[keyRange] = count; if requested
   BufferRef keys;   ///< keys[slot], ascending; if requested
-  /// With openEnds: arrived[slot] = index before the sort, equal keys in any order. `order` then holds only
+  /// With fusedEnds: arrived[slot] = index before the sort, equal keys in any order. `order` then holds only
   /// bins above kBinLimit.
   BufferRef arrived;
 };
 
-/// Counters for the caller's key pass of a sort with openEnds.
+/// Counters for the caller's key pass of a sort with fusedEnds.
 struct KeyCounters {
   BufferRef start, rank, oversized;
   bool counts() const { return !(rank == BufferRef{}); }  ///< a radix sort has no counters

@@ -24,7 +24,7 @@ Expected<Scan> Scan::create(Device& device, uint32_t count, bool storageReads, c
   scan.names_ = names;
   if (count == 0) return scan;
   using enum BindingKind;
-  scan.texels_ = !storageReads && readsTexels(device, paddedWords(count) / 4);
+  scan.texels_ = !storageReads && usesTexelReads(device, paddedWords(count) / 4);
   ModulePipelines pipelines(device, sizeof(ScanPush));
   const auto make = [&](bool texels) {
     Pipelines made;

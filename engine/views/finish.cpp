@@ -37,7 +37,7 @@ BufferRef Finish::addTo(Graph& graph, ImageRef color, uint32_t width, uint32_t h
     return [kernel, groups = divideUp(pixels, 64)](Commands& commands) { commands.dispatch(kernel, groups); };
   });
   graph.pass("picture edges", [&](Pass& pass) {
-    const bool texels = readsTexels(*device_, pixels);
+    const bool texels = usesTexelReads(*device_, pixels);
     pass.read(stairs, texels ? Use::ComputeTexel : Use::ComputeRead);
     picture = pass.write(picture, Use::ComputeWrite, true);
     const Kernel kernel = pass.kernel(antialias_[texels], {stairs, picture});

@@ -82,7 +82,7 @@ class ContractMemory : public Contract {
     allocator_.emplace(host());
     hooks_ = allocator_->hooks();
   }
-  HostDevice lend() {
+  HostDevice borrowDevice() {
     HostDevice hostDevice = host().hostDevice();
     hostDevice.memory = &hooks_;
     return hostDevice;
@@ -108,7 +108,7 @@ TEST_F(ContractMemory, AllocatesAllMemoryThroughHooks) {
   }
   interceptor().clearCalls();
   {
-    auto made = client(lend());
+    auto made = client(borrowDevice());
     ASSERT_TRUE(made);
     frames(*made, 2);
     hooked = made->readback();
@@ -129,7 +129,7 @@ TEST_F(ContractMemory, AllocatesAllMemoryThroughHooks) {
 }
 
 TEST_F(ContractMemory, FreesBlocksOnlyAfterTheirFrame) {
-  auto device = Device::borrow(lend());
+  auto device = Device::borrow(borrowDevice());
   ASSERT_TRUE(device);
   (*device)->beginFrame({5, 3});
   {
@@ -146,7 +146,7 @@ TEST_F(ContractMemory, FreesBlocksOnlyAfterTheirFrame) {
 }
 
 TEST_F(ContractMemory, DeviceDestructorFreesRemainingBlocks) {
-  auto device = Device::borrow(lend());
+  auto device = Device::borrow(borrowDevice());
   ASSERT_TRUE(device);
   hooks_ = {};  // what it points to was read by borrow() alone
   { auto buffer = createBuffer(**device, "short-lived", 4096); }
@@ -156,7 +156,7 @@ TEST_F(ContractMemory, DeviceDestructorFreesRemainingBlocks) {
 }
 
 TEST_F(ContractMemory, RepeatedFrameAllocatesNoMemory) {
-  auto made = client(lend());
+  auto made = client(borrowDevice());
   ASSERT_TRUE(made);
   frames(*made, 4);
   const size_t before = allocator().pieces.size();
@@ -165,7 +165,7 @@ TEST_F(ContractMemory, RepeatedFrameAllocatesNoMemory) {
 }
 
 TEST_F(ContractMemory, RejectsAndFreesInvalidBlocks) {
-  auto device = Device::borrow(lend());
+  auto device = Device::borrow(borrowDevice());
   ASSERT_TRUE(device);
   const struct {
     void (*corrupt)(const MemoryRequest&, MemoryBlock&);
@@ -186,7 +186,7 @@ TEST_F(ContractMemory, RejectsAndFreesInvalidBlocks) {
 }
 
 TEST_F(ContractMemory, ReturnsAllocatorError) {
-  auto device = Device::borrow(lend());
+  auto device = Device::borrow(borrowDevice());
   ASSERT_TRUE(device);
   allocator().result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
   const auto refused = createBuffer(**device, "positions", 4096);

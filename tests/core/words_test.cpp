@@ -44,20 +44,20 @@ TEST(Words, NumbersAreGroupedByThousands) {
 }
 
 TEST(Words, ShortNumbersRoundTrip) {
-  EXPECT_EQ(shortNumber(0.1), "0.1");
-  EXPECT_EQ(shortNumber(1000), "1000");
-  for (double x : {1.0 / 3, 1e-300, 6.02214076e23, -0.0, 4194304.0, std::nextafter(1.0, 2.0)}) EXPECT_EQ(std::stod(shortNumber(x)), x);
+  EXPECT_EQ(shortestNumber(0.1), "0.1");
+  EXPECT_EQ(shortestNumber(1000), "1000");
+  for (double x : {1.0 / 3, 1e-300, 6.02214076e23, -0.0, 4194304.0, std::nextafter(1.0, 2.0)}) EXPECT_EQ(std::stod(shortestNumber(x)), x);
 }
 
 TEST(Words, RoughNumbersHaveFourDigits) {
-  EXPECT_EQ(roughNumber(0.0023068), "0.002307");
-  EXPECT_EQ(roughNumber(12.3456), "12.35");
+  EXPECT_EQ(roundedNumber(0.0023068), "0.002307");
+  EXPECT_EQ(roundedNumber(12.3456), "12.35");
 }
 
 TEST(Words, ListsAreQuoted) {
   const std::string_view words[] = {"a", "b"};
-  EXPECT_EQ(listInQuotes(words), "\"a\", \"b\"");
-  EXPECT_EQ(listInQuotes({}), "");
+  EXPECT_EQ(quotedList(words), "\"a\", \"b\"");
+  EXPECT_EQ(quotedList({}), "");
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ TEST_F(CaptureTest, WritesImagesParticlesAndFigures) {
   EXPECT_EQ(TemporaryFolder::namesIn(folder / "made/here"),
             (std::vector<std::string>{"frame_00000.ply", "frame_00000.png", "frame_00001.ply", "frame_00001.png", "frame_00002.ply",
                                       "frame_00002.png"}));
-  expectWholePng(folder / "made/here/frame_00002.png");
+  expectCompletePng(folder / "made/here/frame_00002.png");
   const std::string ply = contentOf(folder / "made/here/frame_00002.ply");
   EXPECT_NE(ply.find("element vertex 600\n"), std::string::npos);
   EXPECT_NE(ply.find("comment time 0.03333333333333333\n"), std::string::npos);
@@ -123,7 +123,7 @@ TEST_F(CaptureTest, RendersEmptyScene) {
   EXPECT_EQ(json["frames"][2]["density_error_mean"], 0.0);
   EXPECT_EQ(json["frames"][2]["front_m"], 0.0);
   EXPECT_FALSE(json["frames"][2]["skipped"].empty());
-  expectWholePng(folder / "out/none/frame_00002.png");
+  expectCompletePng(folder / "out/none/frame_00002.png");
   EXPECT_NE(contentOf(folder / "out/none/frame_00000.ply").find("element vertex 0\n"), std::string::npos);
 }
 

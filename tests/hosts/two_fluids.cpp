@@ -27,9 +27,9 @@ std::unique_ptr<rill::Fluid> makeFluid(rill::Device& device, double x, double vi
 
 int main(int count, char** arguments) {
   if (count != 2) host::fail("usage: two_fluids OUT.ppm");
-  Lender lender;
-  host::Engine& engine = lender.engine;
-  auto device = lender.lend();
+  RillHost rillHost;
+  host::Engine& engine = rillHost.engine;
+  auto device = rillHost.borrowDevice();
   host::Image color = engine.createImage(VK_FORMAT_R8G8B8A8_SRGB, kWidth, kHeight,
                                          rill::kFluidColorUsage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
   host::Image depth = engine.createImage(VK_FORMAT_D32_SFLOAT, kWidth, kHeight, rill::kFluidDepthUsage | VK_IMAGE_USAGE_TRANSFER_DST_BIT);

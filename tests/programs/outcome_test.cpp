@@ -99,7 +99,7 @@ TEST_F(OutcomeTest, SignalLeavesCompleteFrames) {
       char name[32];
       std::snprintf(name, sizeof name, "frame_%05zu.png", k);
       EXPECT_EQ(frames[k], name) << "consecutive frames, no part files";
-      expectWholePng(folder / out / frames[k]);
+      expectCompletePng(folder / out / frames[k]);
     }
   }
 }
@@ -123,7 +123,7 @@ TEST_F(OutcomeTest, ClosedStreamsDoNoHarm) {
     EXPECT_EQ(TemporaryFolder::namesIn(folder / "made"),
               (std::vector<std::string>{"frame_00000.png", "frame_00001.png", "frame_00002.png"}))
         << streams;
-    for (const std::string& name : TemporaryFolder::namesIn(folder / "made")) expectWholePng(folder / "made" / name);
+    for (const std::string& name : TemporaryFolder::namesIn(folder / "made")) expectCompletePng(folder / "made" / name);
     std::filesystem::remove_all(folder / "made");
     std::filesystem::remove(folder / "s.json");
   }

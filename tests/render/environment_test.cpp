@@ -96,11 +96,11 @@ TEST(LoadEnvironment, RefusesByName) {
     EXPECT_EQ(read.error().message.rfind(file.string() + ": ", 0), 0u) << read.error().message;
     return read.error().message.substr(file.string().size() + 2);
   };
-  EXPECT_EQ(said(""), "is no picture; expected a .hdr, .png or .jpg file");
-  EXPECT_EQ(said("{}"), "is no picture; expected a .hdr, .png or .jpg file");
+  EXPECT_EQ(said(""), "not an image; expected a .hdr, .png or .jpg file");
+  EXPECT_EQ(said("{}"), "not an image; expected a .hdr, .png or .jpg file");
   EXPECT_EQ(said(radiance(3, 2, "abcd", 6)), "found 3x2 pixels; expected twice as wide as high, at most 8192x4096");
   EXPECT_EQ(said(radiance(16384, 8192, "abcd", 1)), "found 16384x8192 pixels; expected twice as wide as high, at most 8192x4096");
-  EXPECT_EQ(said(radiance(4, 2, "abcd", 7)), "ends before its last pixel");
+  EXPECT_EQ(said(radiance(4, 2, "abcd", 7)), "the image data is truncated");
   const std::string whole = png(64, 32, "abc");
   EXPECT_EQ(said(whole), "taken");
   EXPECT_EQ(said(whole.substr(0, whole.size() / 2)).rfind("can't be decoded: ", 0), 0u);

@@ -95,7 +95,7 @@ TEST_P(BothSorts, ReturnsOrderOnly) {
   EXPECT_TRUE(got.order == expected(keys, 500, false).order);
 }
 
-// The caller's passes count the keys and compute the final slots (KeySortDesc::openEnds).
+// The caller's passes count the keys and compute the final slots (KeySortDesc::fusedEnds).
 TEST_P(BothSorts, SortsWithCallerProvidedPasses) {
   struct Push {
     uint32_t count;
@@ -105,7 +105,7 @@ TEST_P(BothSorts, SortsWithCallerProvidedPasses) {
     if (i % 3 == 0) large[i] = i % 40;
   for (const Words& keys : {randomKeys(20000, 4000), randomKeys(100, 9), large}) {
     const auto count = static_cast<uint32_t>(keys.size());
-    auto sort = KeySort::create(device(), {.count = count, .keyRange = 4000, .method = GetParam(), .start = true, .openEnds = true});
+    auto sort = KeySort::create(device(), {.count = count, .keyRange = 4000, .method = GetParam(), .start = true, .fusedEnds = true});
     ASSERT_TRUE(sort) << sort.error().message;
     const uint32_t counts = GetParam() == SortMethod::Counting;
     const BindingKind buffers[5] = {};

@@ -35,7 +35,7 @@ class SmallDam : public ::testing::Test {
 };
 
 /// Expects a PNG signature at the start and an IEND chunk at the end.
-inline void expectWholePng(const std::filesystem::path& file) {
+inline void expectCompletePng(const std::filesystem::path& file) {
   const std::string bytes = contentOf(file);
   ASSERT_GT(bytes.size(), 40u) << file;
   EXPECT_EQ(bytes.substr(0, 8), "\x89PNG\r\n\x1a\n") << file;

@@ -1,4 +1,4 @@
-// key[i] = source[i], counting the keys (KeySortDesc::openEnds).
+// key[i] = source[i], counting the keys (KeySortDesc::fusedEnds).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define COUNTERS 2

@@ -1,4 +1,4 @@
-// target[slot] = index before the sort (KeySortDesc::openEnds).
+// target[slot] = index before the sort (KeySortDesc::fusedEnds).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
