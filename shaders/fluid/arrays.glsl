@@ -1,4 +1,5 @@
-// Bindings 2 to 5 of the passes over neighbors: the particles gathered from, the neighbor list, its counts and the cell keys.
+// Bindings 2 to 5 of the passes over neighbors: the particles gathered from, the neighbor list, its
+// counts and the cell keys.
 #ifndef RILL_FLUID_ARRAYS_GLSL
 #define RILL_FLUID_ARRAYS_GLSL
 #include "shared/arrays.glsl"

@@ -31,10 +31,12 @@ void main() {
   bool going = push.advance > 0.0;
   if (going) {
     c.nextStep = fittedStep(push.advance, c.desiredStep);
-    if (push.drivenSpeed > 0.0) c.initialPressure = 0u;  // the last advance was cut short; once a solid moves, the initial pressure no longer fits
+    // the last advance was cut short; once a solid moves, the initial pressure no longer fits
+    if (push.drivenSpeed > 0.0) c.initialPressure = 0u;
     if (c.initialPressure > 0u) c.nextStep = params.initialPressureStep;
     if (c.warmStep <= 0.0) c.warmStep = c.nextStep;
-    if (c.initialPressure == 0u && c.travel + (c.speed + c.solidSpeed + acceleration * c.nextStep) * c.nextStep > params.travelLimit) c.stale = max(c.stale, 1u);
+    float nextTravel = c.travel + (c.speed + c.solidSpeed + acceleration * c.nextStep) * c.nextStep;
+    if (c.initialPressure == 0u && nextTravel > params.travelLimit) c.stale = max(c.stale, 1u);
   }
   c.running = going && c.stale == 0u ? 1u : 0u;
   c.again = 0u;

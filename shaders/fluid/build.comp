@@ -1,7 +1,7 @@
 #version 460
-// The neighbor list of the sorted particles (those nearer than support plus skin), and the sorted arrays copied back in place.
-// A particle's true neighbor count is kept: one with more than the list holds walks the grid in every pass, and is counted.
-// Gathers from the sorted predictions.
+// The neighbor list of the sorted particles (those nearer than support plus skin), and the sorted
+// arrays copied back in place. A particle's true neighbor count is kept: one with more than the
+// list holds walks the grid in every pass, and is counted. Gathers from the sorted predictions.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
@@ -37,7 +37,8 @@ layout(std430, binding = 17) readonly buffer SolidBlock { SolidRecord solids[]; 
 
 const uint kNone = 0xffffffffu;
 
-// Lists the particle among those near one wall (from the front of nearList) or near several walls or a solid (from its back).
+// Lists the particle among those near one wall (from the front of nearList) or near several walls
+// or a solid (from its back).
 void listNear(uint i, vec3 x) {
   vec3 low = x - vec3(params.lowX, params.lowY, params.lowZ);
   vec3 high = vec3(params.highX, params.highY, params.highZ) - x;

@@ -1,6 +1,7 @@
-// Clusters: CLUSTER consecutive particles of the sorted arrays, one a lane of a subgroup, that walk the grid together: each lane fetches one candidate and
-// broadcasts it by a shuffle (Pall and Hess 2013, for pairs of atoms). Needs dispatch.glsl and, in the shader, GL_KHR_shader_subgroup_basic and _shuffle; its pipeline must ask for
-// full subgroups.
+// Clusters: CLUSTER consecutive particles of the sorted arrays, one a lane of a subgroup, that walk
+// the grid together: each lane fetches one candidate and broadcasts it by a shuffle (Pall and Hess
+// 2013, for pairs of atoms). Needs dispatch.glsl and, in the shader, GL_KHR_shader_subgroup_basic
+// and _shuffle; its pipeline must ask for full subgroups.
 #ifndef RILL_CLUSTER_GLSL
 #define RILL_CLUSTER_GLSL
 layout(constant_id = 1) const uint CLUSTER = 8;  // 4, 8, 16 or 32: a whole subgroup, half of one of 64 lanes

@@ -1,6 +1,7 @@
 #version 460
-// Solids at the end of a substep: centers are kept half a spacing off their surfaces, then contact with restitution and Coulomb friction relative to
-// the solid. A solid's impulse is what its own displaced density and the projection gave, so that friction feels the weight of the column above.
+// Solids at the end of a substep: centers are kept half a spacing off their surfaces, then contact
+// with restitution and Coulomb friction relative to the solid. A solid's impulse is what its own
+// displaced density and the projection gave, so that friction feels the weight of the column above.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #define WARM_CONSTANT 1
@@ -45,7 +46,8 @@ void main() {
     return;
   }
   vec3 v = velocity[i].xyz + (x - from) / control.step;
-  // The multiplier in all, never positive: what the warm start had, and the change. `warm` has a share of the change already.
+  // The multiplier in all, never positive: what the warm start had, and the change. `warm` has a
+  // share of the change already.
   float change = unpackHalf2x16(floatBitsToUint(work[i].w)).x * (params.inverseRestGradient / kMultiplierScale);
   float multiplier = min(0.0, (WARM != 0u ? warm[i] : 0.0) + (1.0 - control.warmGain) * change);
   vec3 given = multiplier * nearSample[NEAR_DISPLACED(i)].xyz / control.step + (x - from) / control.step;

@@ -1,6 +1,7 @@
 #version 460
-// Vorticity confinement (Fedkiw, Stam and Jensen 2001; Macklin and Mueller 2013, equation 16): an acceleration eps h |curl v| (N x curl v), N along the gradient
-// of the curl's length. Gathers positions and curls; predicts anew with the velocity it ends with.
+// Vorticity confinement (Fedkiw, Stam and Jensen 2001; Macklin and Mueller 2013, equation 16): an
+// acceleration eps h |curl v| (N x curl v), N along the gradient of the curl's length. Gathers
+// positions and curls; predicts anew with the velocity it ends with.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require

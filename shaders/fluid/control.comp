@@ -1,6 +1,7 @@
 #version 460
-// After a density pass: accounts for the substep, plans the next ones and enables the dispatch commands that follow.
-// Every decision that depends on the simulation's state is made here, on the device, so that no result depends on when the host reads.
+// After a density pass: accounts for the substep, plans the next ones and enables the dispatch
+// commands that follow. Every decision that depends on the simulation's state is made here, on the
+// device, so that no result depends on when the host reads.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/fluid_records.h"
 layout(local_size_x = 1) in;
@@ -35,12 +36,15 @@ void main() {
   sums.errorHigh = 0u;
   sums.errorMax = 0u;
 
-  // Settling: particles that overlap at the start are separated by position corrections without a step in time, which add no velocity.
+  // Settling: particles that overlap at the start are separated by position corrections without a
+  // step in time, which add no velocity.
   if (first && c.settling > 0u) {
     float enough = params.tolerance > 0.0 ? min(params.tolerance, 0.001) : 0.001;
-    // What is left becomes speed in the first step: a small part of what a correction may always add. Rounding leaves 1e-6.
+    // What is left becomes speed in the first step: a small part of what a correction may always
+    // add. Rounding leaves 1e-6.
     if (params.pushLow > 0.0) enough = min(enough, max(0.05 * params.pushLow * c.nextStep / params.spacing, 2.0e-6));
-    float rest = params.initialPressureIterations > 0u ? min(0.5 * enough, params.initialPressureErrorLimit) : 0.5 * enough;  // small enough for the initial pressure to be solved
+    // small enough for the initial pressure to be solved
+    float rest = params.initialPressureIterations > 0u ? min(0.5 * enough, params.initialPressureErrorLimit) : 0.5 * enough;
     bool apart = error <= rest && uintBitsToFloat(s.errorMax) <= 20.0 * enough;
     c.settling = apart ? 0u : c.settling - 1u;
     c.step = 0.0;
@@ -55,7 +59,8 @@ void main() {
     if (c.travel > params.travelLimit) c.stale = 1u;
     again = false;
   } else if (first && c.initialPressure > 0u) {
-    // Initial pressure: the hydrostatic equilibrium of the start, solved in a step of its own: see ARCHITECTURE.md, "The start's pressure".
+    // Initial pressure: the hydrostatic equilibrium of the start, solved in a step of its own: see
+    // ARCHITECTURE.md, "The start's pressure".
     c.initialPressure -= 1u;
     c.momentum = c.initialPressure > 0u ? params.initialPressureMomentum : 0.0;
     c.warmStep = c.nextStep;

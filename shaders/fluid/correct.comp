@@ -1,6 +1,7 @@
 #version 460
-// Ends a substep in one loop over the neighbors: position correction (Macklin and Mueller 2013, equations 12 to 14), walls, velocity, and the
-// prediction of the next substep with the warm start's push. Gathers from `work`: the prediction, and the two multipliers as halves.
+// Ends a substep in one loop over the neighbors: position correction (Macklin and Mueller 2013,
+// equations 12 to 14), walls, velocity, and the prediction of the next substep with the warm
+// start's push. Gathers from `work`: the prediction, and the two multipliers as halves.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
@@ -22,8 +23,10 @@ layout(std430, binding = 8) buffer PositionBlock { vec4 position[]; };
 layout(std430, binding = 9) buffer VelocityBlock { vec4 velocity[]; };
 READ_NEAR(10)
 layout(std430, binding = 11) buffer PredictionBlock { vec4 prediction[]; };
-layout(std430, binding = 12) buffer WarmAccelerationBlock { vec4 warmAcceleration[]; };  // m/s^2; w, in the initial-pressure phase: the last multiplier
-layout(std430, binding = 13) writeonly buffer FreeBlock { vec4 freeVelocity[]; };  // before the solve: what contacts compare with; w: the prediction's
+// m/s^2; w, in the initial-pressure phase: the last multiplier
+layout(std430, binding = 12) buffer WarmAccelerationBlock { vec4 warmAcceleration[]; };
+// before the solve: what contacts compare with; w: the prediction's
+layout(std430, binding = 13) writeonly buffer FreeBlock { vec4 freeVelocity[]; };
 layout(std430, binding = 14) buffer WarmBlock { float warm[]; };
 
 vec3 here;
@@ -52,8 +55,9 @@ void visit(vec4 particle) {
 }
 #include "fluid/neighbors.glsl"
 
-// Displacement from the start of the substep to its prediction. Computed from the velocity where nothing else changed the prediction:
-// the rounding of a difference of positions would make a random walk of the velocity.
+// Displacement from the start of the substep to its prediction. Computed from the velocity where
+// nothing else changed the prediction: the rounding of a difference of positions would make a
+// random walk of the velocity.
 vec3 predictedDisplacement(vec3 from, vec3 velocity, vec3 push) {
   vec3 difference = here - from;
   vec3 planned = control.step * (velocity + control.step * (gravity() + push));
@@ -83,19 +87,24 @@ void main() {
   vec4 pushedBy = WARM != 0u ? warmAcceleration[i] : vec4(0.0);
   bool presses = control.momentum >= 0.0, still = control.step == 0.0;  // no time passes
   vec3 to = presses ? from : insideWalls(here + moved);
-  // A correction separates particles in full, but adds no more speed than can have brought them together: see ARCHITECTURE.md, "Overlaps".
+  // A correction separates particles in full, but adds no more speed than can have brought them
+  // together: see ARCHITECTURE.md, "Overlaps".
   vec3 gained = to - here;
   float gain = sqrt(dot(gained, gained));
-  float maxGain = control.step * (clamp(0.5 * control.speed, params.pushLow, params.pushHigh) + 4.0 * control.step * sqrt(dot(gravity(), gravity())));
+  float maxGain = control.step * (clamp(0.5 * control.speed, params.pushLow, params.pushHigh) +
+                                  4.0 * control.step * sqrt(dot(gravity(), gravity())));
   float kept = min(1.0, maxGain / max(gain, 1.0e-20));
-  vec3 way = (0.5 + 0.5 * kept) * predictedDisplacement(from, before, pushedBy.xyz) + gained * kept;  // clamping deep overlaps also dissipates energy
+  // clamping deep overlaps also dissipates energy
+  vec3 way = (0.5 + 0.5 * kept) * predictedDisplacement(from, before, pushedBy.xyz) + gained * kept;
   // At most twice the distance that cfl allows: the next step shrinks to follow a faster particle.
   float most = max(2.0 * params.cfl, 0.02) * params.spacing;
   vec3 moves = to - from;
   float far = sqrt(dot(moves, moves));
   if (far > most) { way *= most / far; to = insideWalls(from + moves * (most / far)); }
   way *= min(1.0, min(most, params.speedLimit * control.step) / max(sqrt(dot(way, way)), 1.0e-20));
-  vec3 v = still ? before : way / control.step;  // not (to - from): a particle that starts outside the walls is moved inside without a change of velocity
+  // not (to - from): a particle that starts outside the walls is moved inside without a change of
+  // velocity
+  vec3 v = still ? before : way / control.step;
   vec3 away = pushed / (control.warmStep * control.warmStep);
   vec3 next = insideWalls(predicted(to, v, away));
   bool finite = isFinite(to) && isFinite(next);

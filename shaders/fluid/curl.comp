@@ -1,6 +1,6 @@
 #version 460
-// Vorticity of the velocity field, curl v (Macklin and Mueller 2013, equation 15): xyz the curl, w its length, 1/s. Gathers from
-// `work`, and velocities.
+// Vorticity of the velocity field, curl v (Macklin and Mueller 2013, equation 15): xyz the curl, w
+// its length, 1/s. Gathers from `work`, and velocities.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require

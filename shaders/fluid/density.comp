@@ -1,6 +1,7 @@
 #version 460
-// Density of the prediction, the constraint's gradient and the multiplier (Macklin and Mueller 2013, equations 1, 2, 9 and 11), with the
-// integral warm start: see ARCHITECTURE.md, "A substep". Gathers from the predicted positions.
+// Density of the prediction, the constraint's gradient and the multiplier (Macklin and Mueller
+// 2013, equations 1, 2, 9 and 11), with the integral warm start: see ARCHITECTURE.md, "A substep".
+// Gathers from the predicted positions.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
@@ -72,7 +73,8 @@ void main() {
     after = min(0.0, before + delta);
     float gain = control.initialPressure != 0u ? 1.0 : control.nextWarmGain * (delta > 0.0 ? params.warmRelease : 1.0);
     warmNext = min(0.0, before + gain * delta);
-    warmNext = max(warmNext, -params.warmLimit * control.nextStep * control.nextStep);  // bounded: in fluid without room it would grow without limit
+    // bounded: in fluid without room it would grow without limit
+    warmNext = max(warmNext, -params.warmLimit * control.nextStep * control.nextStep);
     if (control.settling != 0u) warmNext = 0.0;
     warm[i] = warmNext;
   } else {

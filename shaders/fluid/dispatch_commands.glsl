@@ -1,4 +1,5 @@
-// Shared by begin.comp, finish_rebuild.comp and control.comp: enabling dispatch commands, simulated time, the gravity schedule.
+// Shared by begin.comp, finish_rebuild.comp and control.comp: enabling dispatch commands, simulated
+// time, the gravity schedule.
 #ifndef RILL_DISPATCH_COMMANDS_GLSL
 #define RILL_DISPATCH_COMMANDS_GLSL
 // `shapes` holds the group counts of each command, `commands` what the device dispatches.
@@ -15,7 +16,8 @@ void switchCommand(uint k, bool on, FluidSums s) {
   commands[3u * k + 2u] = groups.z;
 }
 
-// Which commands run, once the control block is settled. `parity`: of the substep whose density pass has just run; 2: none has.
+// Which commands run, once the control block is settled. `parity`: of the substep whose density
+// pass has just run; 2: none has.
 bool shouldRun(uint k, FluidControl c, uint parity, FluidSums s) {
   bool walks = k >= kCommandWalks && k < kCommandSort;
   if (walks) k = k - kCommandWalks + kCommandDensity;

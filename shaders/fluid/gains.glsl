@@ -1,5 +1,5 @@
-// Relaxation, warm-start gain and noise damping between fluid at rest and in motion: the gains of a flow would add energy to a still tank. See
-// ARCHITECTURE.md, "Calm water".
+// Relaxation, warm-start gain and noise damping between fluid at rest and in motion: the gains of a
+// flow would add energy to a still tank. See ARCHITECTURE.md, "Calm water".
 #ifndef RILL_GAINS_GLSL
 #define RILL_GAINS_GLSL
 // From the fastest particle's speed, the gains of the next substep.
@@ -8,7 +8,8 @@ void setGains(inout FluidControl c) {
   c.restFraction = 1.0 - squared * squared;
   c.relaxation = c.nextRelaxation;
   c.warmGain = c.nextWarmGain;
-  c.nextRelaxation = mix(params.relaxationInMotion, params.relaxationAtRest, c.settling > 0u ? 0.0 : c.restFraction);  // settling corrections add no velocity
+  // settling corrections add no velocity
+  c.nextRelaxation = mix(params.relaxationInMotion, params.relaxationAtRest, c.settling > 0u ? 0.0 : c.restFraction);
   c.nextWarmGain = mix(params.warmGainInMotion, params.warmGainAtRest, c.restFraction);
 }
 #endif

@@ -1,5 +1,6 @@
-// The wrapped grid: cell coordinates modulo its size a dimension, so that the domain is unbounded. Cells are kCellsPerReach times narrower in x than in
-// y and z: what follows in x is contiguous in the sorted arrays, and narrow cells make its ends fit. Needs `params`.
+// The wrapped grid: cell coordinates modulo its size a dimension, so that the domain is unbounded.
+// Cells are kCellsPerReach times narrower in x than in y and z: what follows in x is contiguous in
+// the sorted arrays, and narrow cells make its ends fit. Needs `params`.
 #ifndef RILL_GRID_GLSL
 #define RILL_GRID_GLSL
 // Loaded once, see kernel.glsl.
@@ -12,8 +13,8 @@ const float kFarthestCell = 8388608.0;  // from there on a float knows no halves
 // In cells.
 vec3 scaledPosition(vec3 x) { return clamp(x * inverseCell, -kFarthestCell, kFarthestCell); }
 
-// Whole `cell`, at most a few beyond the farthest, modulo the grid's size. In floats, of which lavapipe takes eight at a time; exact: only the quotient may be
-// off, by one.
+// Whole `cell`, at most a few beyond the farthest, modulo the grid's size. In floats, of which
+// lavapipe takes eight at a time; exact: only the quotient may be off, by one.
 vec3 wrapped(vec3 cell) {
   vec3 rest = cell - gridSize * floor(cell * inverseGridSize);
   return rest + mix(vec3(0), gridSize, lessThan(rest, vec3(0))) - mix(vec3(0), gridSize, greaterThanEqual(rest, gridSize));

@@ -1,6 +1,7 @@
 #version 460
-// Density at the positions of the present instant (walls included), and histograms of its error for the percentiles. Walks a grid of its own, made of
-// the positions: no neighbor that the solver's list has missed is missed here.
+// Density at the positions of the present instant (walls included), and histograms of its error for
+// the percentiles. Walks a grid of its own, made of the positions: no neighbor that the solver's
+// list has missed is missed here.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require

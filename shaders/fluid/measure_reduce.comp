@@ -1,5 +1,6 @@
 #version 460
-// Adds up the partial sums of measure_sums.comp in a fixed order and reads the percentiles off the histograms of measure.comp. One workgroup.
+// Adds up the partial sums of measure_sums.comp in a fixed order and reads the percentiles off the
+// histograms of measure.comp. One workgroup.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "fluid/partials.glsl"
@@ -14,7 +15,9 @@ shared uint rank;
 shared float found;
 
 // The middle of a bin.
-float binValue(uint bin) { return 0.5 * (uintBitsToFloat((bin + kMeasureFirst) << 14) + uintBitsToFloat((bin + kMeasureFirst + 1u) << 14)); }
+float binValue(uint bin) {
+  return 0.5 * (uintBitsToFloat((bin + kMeasureFirst) << 14) + uintBitsToFloat((bin + kMeasureFirst + 1u) << 14));
+}
 
 // A line of bins: the compression histogram from small to large, or the signed one from far below to far above.
 const uint kSignedBins = 2u * kMeasureBins;
@@ -27,7 +30,8 @@ float valueAt(bool signed_, uint place) {
   return place < kMeasureBins ? -binValue(kMeasureBins - 1u - place) : binValue(place - kMeasureBins);
 }
 
-// The 99th percentile of compression over active particles (those not compressed are in no bin and come first), or the median of the signed error.
+// The 99th percentile of compression over active particles (those not compressed are in no bin and
+// come first), or the median of the signed error.
 float percentile(bool signed_, uint present) {
   uint lane = gl_LocalInvocationID.x;
   uint bins = signed_ ? kSignedBins : kMeasureBins;

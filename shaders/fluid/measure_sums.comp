@@ -1,6 +1,6 @@
 #version 460
-// Figures of the present instant except percentiles: compression, energies, momentum, particles outside. One partial sum a workgroup, in a fixed
-// order.
+// Figures of the present instant except percentiles: compression, energies, momentum, particles
+// outside. One partial sum a workgroup, in a fixed order.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "fluid/partials.glsl"
@@ -14,7 +14,8 @@ shared MeasurePartial rows[kFluidGroup];
 
 void main() {
   uint lane = gl_LocalInvocationID.x;
-  vec3 low = vec3(params.boundLowX, params.boundLowY, params.boundLowZ), high = vec3(params.boundHighX, params.boundHighY, params.boundHighZ);
+  vec3 low = vec3(params.boundLowX, params.boundLowY, params.boundLowZ);
+  vec3 high = vec3(params.boundHighX, params.boundHighY, params.boundHighZ);
   float compression = 0.0, compressionMax = 0.0, squares = 0.0, squaresMax = 0.0;
   vec3 velocities = vec3(0.0), positions = vec3(0.0);
   uint outside = 0u, inactive = 0u;
@@ -35,7 +36,8 @@ void main() {
     positions += x;
     outside += uint(any(lessThan(x, low)) || any(greaterThan(x, high)));
   }
-  rows[lane] = MeasurePartial(compression, compressionMax, squares, sqrt(squaresMax), velocities.x, velocities.y, velocities.z, positions.x, positions.y,
+  rows[lane] = MeasurePartial(compression, compressionMax, squares, sqrt(squaresMax),
+                              velocities.x, velocities.y, velocities.z, positions.x, positions.y,
                               positions.z, outside, inactive);
   barrier();
   for (uint half_ = kFluidGroup / 2u; half_ > 0u; half_ /= 2u) {

@@ -1,7 +1,10 @@
-// Sums over the neighbors of a particle: from its list, or by walking the grid where there is no list or it overflowed. Only the variant WALKS can walk; the
-// device dispatches it in place of the other while a list is full (the unused code costs an eighth of the time on lavapipe).
-// Before it includes this the shader includes fluid/arrays.glsl, defines `vec3 here`, the particle's place, and `void visit(vec4 particle)`, and binds at 2 the array whose elements are
-// handed over; with COMPANION(j) defined, `void visit(vec4 particle, vec4 companion)`. Particles beyond the support and dummies are visited too.
+// Sums over the neighbors of a particle: from its list, or by walking the grid where there is no
+// list or it overflowed. Only the variant WALKS can walk; the device dispatches it in place of the
+// other while a list is full (the unused code costs an eighth of the time on lavapipe). Before it
+// includes this the shader includes fluid/arrays.glsl, defines `vec3 here`, the particle's place,
+// and `void visit(vec4 particle)`, and binds at 2 the array whose elements are handed over; with
+// COMPANION(j) defined, `void visit(vec4 particle, vec4 companion)`. Particles beyond the support
+// and dummies are visited too.
 #ifndef RILL_NEIGHBORS_GLSL
 #define RILL_NEIGHBORS_GLSL
 #include "shared/loops.glsl"
@@ -42,7 +45,8 @@ void candidates(uint first, uint end) {
 #define VISIT(j, particle) visit(particle)
 #endif
 
-// Visits the neighbors of particle i, if `inRange`, at invocation `local` of its chunk. All lanes of a cluster call this.
+// Visits the neighbors of particle i, if `inRange`, at invocation `local` of its chunk. All lanes
+// of a cluster call this.
 void visitNeighbors(uint i, uint local, bool inRange) {
   uint count = LIST_CAPACITY == 0u || !inRange ? 0u : countAt(i);
   bool listed = LIST_CAPACITY != 0u && count <= LIST_CAPACITY;

@@ -3,7 +3,8 @@
 #define RILL_OUTSIDE_GLSL
 #include "fluid/solids.glsl"
 
-// Moves a center out of every solid, where each will be `ahead` seconds from now, walls last. `pushed`: m that solids moved it.
+// Moves a center out of every solid, where each will be `ahead` seconds from now, walls last.
+// `pushed`: m that solids moved it.
 vec3 outside(vec3 x, float ahead, out float pushed) {
   pushed = 0.0;
   for (uint k = 0u; k < params.solidCount; ++k) {

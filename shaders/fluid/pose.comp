@@ -1,6 +1,7 @@
 #version 460
-// Where the solids are, and how fast they move, at the end of the substep at hand: keyframes, linear between, held outside; driven ones go
-// evenly from where they were at the begin of the advance to where they are to be at its end. One workgroup.
+// Where the solids are, and how fast they move, at the end of the substep at hand: keyframes,
+// linear between, held outside; driven ones go evenly from where they were at the begin of the
+// advance to where they are to be at its end. One workgroup.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 layout(local_size_x = 64) in;

@@ -1,5 +1,6 @@
 #version 460
-// The prediction (w: m that solids pushed it out) of an advance's first substep, whose step was not known when the last one ended: x* = x + dt (v + dt (g + push)).
+// The prediction (w: m that solids pushed it out) of an advance's first substep, whose step was not
+// known when the last one ended: x* = x + dt (v + dt (g + push)).
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #define WARM_CONSTANT 0

@@ -1,6 +1,7 @@
 #version 460
-// Moves the particles into the order of their cells. The unused w of positions and velocities carry the id (as a number: kMaxParticles is below 2^24) and
-// the warm-start multiplier. build.comp copies them back.
+// Moves the particles into the order of their cells. The unused w of positions and velocities carry
+// the id (as a number: kMaxParticles is below 2^24) and the warm-start multiplier. build.comp
+// copies them back.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #define WARM_CONSTANT 0

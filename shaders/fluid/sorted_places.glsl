@@ -1,5 +1,6 @@
-// Bindings 2 to 5 of the passes that move particles into the order of their cells: what the sort gave. A slot of the sorted arrays is taken for one particle, which
-// belongs into another slot of the same cell.
+// Bindings 2 to 5 of the passes that move particles into the order of their cells: what the sort
+// gave. A slot of the sorted arrays is taken for one particle, which belongs into another slot of
+// the same cell.
 #ifndef RILL_SORTED_PLACES_GLSL
 #define RILL_SORTED_PLACES_GLSL
 #include "shared/arrays.glsl"

@@ -1,16 +1,18 @@
-// How long the next substep is: as long as the CFL bound and the tolerance allow, fitted to what is left of the advance. And what the first substep of a
-// block does for all of it.
+// How long the next substep is: as long as the CFL bound and the tolerance allow, fitted to what is
+// left of the advance. And what the first substep of a block does for all of it.
 #ifndef RILL_STEP_PLAN_GLSL
 #define RILL_STEP_PLAN_GLSL
-// The step in which the fastest particle, going on accelerating, moves no farther than cfl allows: speed t + acceleration t^2 = reach.
+// The step in which the fastest particle, going on accelerating, moves no farther than cfl allows:
+// speed t + acceleration t^2 = reach.
 float cflStep(float speed, float acceleration) {
   float reach = params.cfl * params.spacing;
   return min(params.maxStep, 2.0 * reach / (speed + sqrt(speed * speed + 4.0 * acceleration * reach) + 1.0e-20));
 }
 
-// The step that meets the tolerance, from the error of the last one: error / step^2 hardly depends on the step.
-// It changes slowly, since an error left by a long step becomes a velocity jump in a short one. In fluid at rest it follows a mean over many steps: a
-// step that follows each pressure wave would amplify it.
+// The step that meets the tolerance, from the error of the last one: error / step^2 hardly depends
+// on the step. It changes slowly, since an error left by a long step becomes a velocity jump in a
+// short one. In fluid at rest it follows a mean over many steps: a step that follows each pressure
+// wave would amplify it.
 float tolerableStep(inout FluidControl c, float error) {
   if (params.tolerance <= 0.0) return params.maxStep;
   if (c.errorRate == 0.0) c.errorRate = params.tolerance / (c.desiredStep * c.desiredStep);
@@ -19,14 +21,15 @@ float tolerableStep(inout FluidControl c, float error) {
   return clamp(sqrt(params.tolerance / c.errorRate), 0.995 * c.desiredStep, 1.002 * c.desiredStep);
 }
 
-// Meeting max_substeps has priority over the tolerance: the step is long enough for the remaining substeps to finish the advance. cfl has priority
-// over both.
+// Meeting max_substeps has priority over the tolerance: the step is long enough for the remaining
+// substeps to finish the advance. cfl has priority over both.
 float plannedStep(FluidControl c, float tolerable, float cflBound) {
   float left = float(max(params.maxSubsteps, c.substeps + 1u) - c.substeps);
   return min(max(tolerable, 1.01 * c.timeLeft / left), cflBound);
 }
 
-// The rest of the advance in equal substeps of about `wanted` seconds, up to a quarter longer, so that the last one is never very short.
+// The rest of the advance in equal substeps of about `wanted` seconds, up to a quarter longer, so
+// that the last one is never very short.
 float fittedStep(float rest, float wanted) {
   return rest / max(ceil(rest / wanted - 0.25), 1.0);
 }

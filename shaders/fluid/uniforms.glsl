@@ -33,6 +33,7 @@ vec3 predicted(vec3 x, vec3 v, vec3 away) {
   return x + control.nextStep * (v + control.nextStep * (gravity() + away));
 }
 
-// Seconds from now to the predicted instant, for the pose of solids, which do not move before the first substep in time.
+// Seconds from now to the predicted instant, for the pose of solids, which do not move before the
+// first substep in time.
 float ahead() { return control.settling != 0u || control.initialPressure != 0u ? 0.0 : control.nextStep; }
 #endif

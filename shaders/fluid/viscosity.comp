@@ -1,7 +1,8 @@
 #version 460
-// One sweep of XSPH (Schechter and Bridson 2012; Macklin and Mueller 2013, equation 17), its coefficient that of a dynamic viscosity in Pa s: the
-// fluid's own, or that which calms noise.
-// The pairs are those of the density pass: gathers from `work`, and velocities. Predicts anew with the velocity it ends with.
+// One sweep of XSPH (Schechter and Bridson 2012; Macklin and Mueller 2013, equation 17), its
+// coefficient that of a dynamic viscosity in Pa s: the fluid's own, or that which calms noise. The
+// pairs are those of the density pass: gathers from `work`, and velocities. Predicts anew with the
+// velocity it ends with.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require

@@ -1,4 +1,5 @@
-// Walks the grid around a cluster. Before it includes this the shader binds `sums` and makes cellStartAt(), the starts of the cells that the particles were sorted by, and defines:
+// Walks the grid around a cluster. Before it includes this the shader binds `sums` and makes
+// cellStartAt(), the starts of the cells that the particles were sorted by, and defines:
 //   void takeTurn(bool mine)               the lanes whose neighbors come next: they are in one row of cells
 //   void candidates(uint first, uint end)  particles of the sorted arrays, 1 to kWindow of them; all lanes of the cluster are here
 #ifndef RILL_WALK_GLSL
@@ -6,8 +7,10 @@
 #include "fluid/grid.glsl"
 #include "shared/loops.glsl"
 
-// Row `side` of 0 .. 8 around the row (y, z) of cells: the particles [begin, end) in it that can be within `reach` (m) of a box in that row, which goes from low
-// to high (in cells) in x and keeps `gaps` (m) from the row's sides at low y, low z, high y, high z. The row is two ranges where it wraps: part 0 and 1.
+// Row `side` of 0 .. 8 around the row (y, z) of cells: the particles [begin, end) in it that can be
+// within `reach` (m) of a box in that row, which goes from low to high (in cells) in x and keeps
+// `gaps` (m) from the row's sides at low y, low z, high y, high z. The row is two ranges where it
+// wraps: part 0 and 1.
 void rowRange(float low, float high, vec2 row, vec4 gaps, float reach, uint side, uint part, out uint begin, out uint end) {
   vec2 way = vec2(side % 3u, side / 3u) - 1.0;
   vec2 gap = vec2(way.x < 0.0 ? gaps.x : (way.x > 0.0 ? gaps.z : 0.0), way.y < 0.0 ? gaps.y : (way.y > 0.0 ? gaps.w : 0.0));
@@ -30,8 +33,9 @@ void rowRange(float low, float high, vec2 row, vec4 gaps, float reach, uint side
   end = cellStartAt(base + min(uint(part == 0u ? past : past - gridSize.x), size));
 }
 
-// `boxLow` to `boxHigh`: a box in one cell, in cells, that held the lane's particle when the cells were sorted; `waits`: whether the lane still has to visit its neighbors.
-// `reach` (m): at most a cell's edge in y.
+// `boxLow` to `boxHigh`: a box in one cell, in cells, that held the lane's particle when the cells
+// were sorted; `waits`: whether the lane still has to visit its neighbors. `reach` (m): at most a
+// cell's edge in y.
 void walkGrid(vec3 boxLow, vec3 boxHigh, bool waits, float reach) {
   vec2 cell = floor(boxLow.yz);
   uint walked = 0u;
@@ -43,8 +47,9 @@ void walkGrid(vec3 boxLow, vec3 boxHigh, bool waits, float reach) {
     vec3 low = clusterMin(mine ? boxLow : vec3(2.0e9)), high = clusterMax(mine ? boxHigh : vec3(-2.0e9));
     takeTurn(mine);
 
-    // Nine rows of cells, in two parts where the grid may wrap: every lane looks one up, then all go through them together. A row's parts follow each other,
-    // so that the order of a particle's neighbors does not depend on the other particles of its cluster.
+    // Nine rows of cells, in two parts where the grid may wrap: every lane looks one up, then all
+    // go through them together. A row's parts follow each other, so that the order of a particle's
+    // neighbors does not depend on the other particles of its cluster.
     vec4 gaps = vec4(low.yz - row, row + 1.0 - high.yz) / inverseCell.yzyz;
     float first = floor(low.x) - float(kCellsPerReach) - 1.0, last = floor(high.x) + float(kCellsPerReach) + 1.0;
     uint parts = wrapped(vec3(first, row)).x + (last - first) >= gridSize.x ? 2u : 1u;

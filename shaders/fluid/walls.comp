@@ -1,7 +1,8 @@
 #version 460
-// The density that walls and solids displace near a particle, and its gradient, from the tables of engine/sph/wall.hpp, and how much they add to
-// the push along them, from what is beside the particle (WallSample's `beside`).
-// CORNER 0 handles particles near one wall alone, CORNER 1 those near several walls or a solid.
+// The density that walls and solids displace near a particle, and its gradient, from the tables of
+// engine/sph/wall.hpp, and how much they add to the push along them, from what is beside the
+// particle (WallSample's `beside`). CORNER 0 handles particles near one wall alone, CORNER 1 those
+// near several walls or a solid.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "fluid/solids.glsl"
@@ -9,7 +10,9 @@
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 0) const uint CORNER = 0;
 layout(constant_id = 1) const uint SOLIDS = 0;
-layout(constant_id = 2) const int SIDES = 2;  // of an axis that can be near at once: 1 where the domain is nowhere thin (an eighth of the corner look-ups)
+// of an axis that can be near at once: 1 where the domain is nowhere thin (an eighth of the corner
+// look-ups)
+layout(constant_id = 2) const int SIDES = 2;
 
 READ_FLOAT4(2, prediction)
 READ_UINT(3, nearList)

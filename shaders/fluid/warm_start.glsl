@@ -1,5 +1,6 @@
-// Whether there is a warm start (Fluid's setup.warm). Without one, multipliers and accelerations are not kept, and their placeholder bindings are not
-// accessed. Before it includes this the shader defines WARM_CONSTANT, the constant's number.
+// Whether there is a warm start (Fluid's setup.warm). Without one, multipliers and accelerations
+// are not kept, and their placeholder bindings are not accessed. Before it includes this the shader
+// defines WARM_CONSTANT, the constant's number.
 #ifndef RILL_WARM_START_GLSL
 #define RILL_WARM_START_GLSL
 layout(constant_id = WARM_CONSTANT) const uint WARM = 1;

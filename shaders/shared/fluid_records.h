@@ -10,10 +10,13 @@ RILL_CONST uint kCellsPerReach = 2u;       // grid cells in x as long as one in 
 RILL_CONST uint kSettleSubsteps = 512u;    // at most, before the first substep in time
 RILL_CONST uint kMaxInitialPressureIterations = 1024u;    // iterations of the initial pressure, at most, after settling
 RILL_CONST float kMaxNoiseDamping = 0.5f;     // XSPH coefficient of a noise damping pass, at most
-RILL_CONST float kMaxWallCoverage = 0.4f;       // share of the kernel behind walls that the tangential scale makes up for, at most. See ARCHITECTURE.md, "Walls and solids"
+// share of the kernel behind walls that the tangential scale makes up for, at most. See
+// ARCHITECTURE.md, "Walls and solids"
+RILL_CONST float kMaxWallCoverage = 0.4f;
 RILL_CONST uint kWindow = 32u;            // candidates that a grid walk looks at together, a bit of a mask each
-// Candidates that the particles of a cluster look at together, at most, in whole windows; more are counted as a bound hit. Lavapipe ends a shader after 65,535
-// steps of its loops: a window takes about 20 where a cluster is 4, so that 1,024 windows leave room for the loops around them.
+// Candidates that the particles of a cluster look at together, at most, in whole windows; more are
+// counted as a bound hit. Lavapipe ends a shader after 65,535 steps of its loops: a window takes
+// about 20 where a cluster is 4, so that 1,024 windows leave room for the loops around them.
 RILL_CONST uint kWalkBound = 32768u;
 RILL_CONST float kInactivePosition = 1.0e9f;        // m: position of inactive particles and of the dummy neighbor that pads the list
 RILL_CONST float kNoWall = 1.0e9f;        // m, a coordinate
@@ -36,7 +39,8 @@ RILL_CONST uint kCommandMeasurePlane = 14u;   // the same particles as Plane and
 RILL_CONST uint kCommandMeasureCorner = 15u;
 RILL_CONST uint kCommandPlaneAgain = 16u;     // and in every further iteration
 RILL_CONST uint kCommandCornerAgain = 17u;
-RILL_CONST uint kCommandWalks = 18u;          // the passes over neighbors once more, in this order: where a list overflowed or there is none
+// the passes over neighbors once more, in this order: where a list overflowed or there is none
+RILL_CONST uint kCommandWalks = 18u;
 RILL_CONST uint kCommandSort = 23u;           // the sort's own follow
 RILL_CONST uint kMaxCommands = 64u;
 
@@ -80,7 +84,9 @@ struct FluidParams {
   float viscosityRate;    // XSPH coefficient a second of step, 1/s
   float noiseDampingRate;      // the same, of the noise's damping in a fluid at rest
   float vorticity;        // dimensionless
-  float tensileRate;      // artificial pressure, 1/s^2: times the square of the time since the last one it is a multiplier over 1 / D of the rest lattice
+  // artificial pressure, 1/s^2: times the square of the time since the last one it is a multiplier
+  // over 1 / D of the rest lattice
+  float tensileRate;
   float tensileLimit;      // and at most this
   float tensilePower;     // n
   float tensileInverse;   // 1 / K(delta q)
@@ -95,14 +101,17 @@ struct FluidParams {
   float warmLimit;        // m^2/s^2: the warm start is at most this times the step squared
   float boundLowX, boundLowY, boundLowZ;     // m, the domain, open sides too: particles beyond it count as outside
   float boundHighX, boundHighY, boundHighZ;
-  uint initialPressureIterations;         // iterations that find the pressure of the start (see engine/sph/start_pressure.hpp); 0: it starts without
+  // iterations that find the pressure of the start (see engine/sph/start_pressure.hpp); 0: it
+  // starts without
+  uint initialPressureIterations;
   float initialPressureStep;        // s, the step that it is found for
   float initialPressureMomentum;    // of a multiplier's last change, what is added to the next
   float initialPressureErrorLimit;       // mean compression of the start up to which it is looked for
   uint fullNeighbors;    // within the support: a particle with as many is inside the fluid
 };
 
-// Decided on the device, substep by substep; read as a uniform block by the passes, written by control.comp and begin.comp.
+// Decided on the device, substep by substep; read as a uniform block by the passes, written by
+// control.comp and begin.comp.
 struct FluidControl {
   float step;          // s, of the substep that control.comp has accounted for last; 0: it settled or pressed
   float nextStep;      // s, of the one whose prediction is at hand or is about to be made
@@ -134,7 +143,8 @@ struct FluidControl {
   float solidSpeed;    // m/s, the fastest solid of the advance
   uint initialPressure;       // iterations of the initial pressure left, after settling; nothing moves
   float momentum;      // of the one at hand; negative: the substep at hand is none of them
-  // Since the start, what prepares it too: for the host, which takes differences. Of the substeps, the first ones of their blocks; of these, those that the noise damping pass ran in.
+  // Since the start, what prepares it too: for the host, which takes differences. Of the substeps,
+  // the first ones of their blocks; of these, those that the noise damping pass ran in.
   uint executedSubsteps, executedIterations, executedBuilds, executedBlocks, executedNoiseDampings;
 };
 
