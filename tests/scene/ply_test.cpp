@@ -26,11 +26,11 @@ class Ply : public ::testing::Test {
     if (!s) return s.error();
     return makeParticles(*s, 1'000'000);
   }
-  /// The message without the folder.
+  /// The message without the scene, the key and the folder.
   std::string message(const std::string& bytes) {
     const auto result = load(bytes);
     if (result) return "accepted";
-    const std::string prefix = folder.path.string() + "/";
+    const std::string prefix = "dam: fill[0].particles.file: " + folder.path.string() + "/";
     const std::string& text = result.error().message;
     return text.rfind(prefix, 0) == 0 ? text.substr(prefix.size()) : text;
   }
