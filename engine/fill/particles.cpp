@@ -256,7 +256,7 @@ Error outOfMemory(const Scene& scene, const std::vector<Source>& sources) {
 }
 
 /// Places every source at the scene's spacing.
-Expected<ParticleSet> place(const Scene& scene, std::vector<Source>& sources, uint64_t maxParticles) {
+Expected<ParticleSet> placeAll(const Scene& scene, std::vector<Source>& sources, uint64_t maxParticles) {
   constexpr double kExactRows = 4e6;  // with more rows there are more points than 32 bits count
   const double spacing = scene.fluid.spacing;
   double total = 0;
@@ -312,6 +312,13 @@ Expected<ParticleSet> place(const Scene& scene, std::vector<Source>& sources, ui
   addFillWarnings(scene, sources, set.warnings);
   addPrecisionWarning(scene, set, all, set.warnings);
   return set;
+}
+
+/// placeAll(), with the bytes needed and available where memory runs out.
+Expected<ParticleSet> place(const Scene& scene, std::vector<Source>& sources, uint64_t maxParticles) {
+  try {
+    return placeAll(scene, sources, maxParticles);
+  } catch (const std::bad_alloc&) { return outOfMemory(scene, sources); }
 }
 
 /// Finds the spacing that makes about scene.fluid.particles particles, not counting those left out, and places them.

@@ -1,4 +1,4 @@
-// The JSON Schema and the Markdown table of the scene keys, both generated from model/fields.hpp.
+// The JSON Schema and the Markdown tables of the scene's keys, both from model/fields.hpp.
 #include "core/words.hpp"
 #include "rill/scene_io.hpp"
 #include "scene/field_json.hpp"
@@ -23,11 +23,11 @@ OrderedJson numberSchema(const model::Info& info, std::string_view type) {
   return schema;
 }
 
-OrderedJson arraySchema(const OrderedJson& items, size_t minItems, size_t maxItems) {
-  return {{"type", "array"}, {"items", items}, {"minItems", minItems}, {"maxItems", maxItems}};
+OrderedJson arraySchema(const OrderedJson& items, size_t least, size_t most) {
+  return {{"type", "array"}, {"items", items}, {"minItems", least}, {"maxItems", most}};
 }
 
-/// The schema of a key's value, selected by the type of its member.
+/// The type of a key's value, by the type of its member.
 template <class T>
 OrderedJson typeSchema(const model::Info& info) {
   using Inner = typename model::Inner<T>::Type;
@@ -68,7 +68,7 @@ OrderedJson typeSchema(const model::Info& info) {
   }
 }
 
-/// The help text with its unit: "m/s^2: gravity [x, y, z]".
+/// Help with the unit in front: "m/s^2: [x, y, z]".
 std::string description(const model::Info& info) {
   return (info.unit.empty() ? "" : std::string(info.unit) + ": ") + std::string(info.help);
 }
@@ -80,7 +80,7 @@ OrderedJson objectSchema() {
     using T = typename std::remove_cvref_t<decltype(field)>::Value;
     OrderedJson schema{{"description", description(field.info)}};
     schema.update(typeSchema<T>(field.info));
-    schema["description"] = description(field.info);  // describes the key, not the struct
+    schema["description"] = description(field.info);  // of the key, not of the struct
     if constexpr (model::kHasMember<T>) {
       const Owner defaults{};
       const OrderedJson value = defaultJson(field.info, defaults.*field.member);
@@ -106,20 +106,11 @@ std::string code(std::string_view text) {
   return out += '`';
 }
 
-/// The accepted values of a key as Markdown text.
-template <class T>
-std::string valuesText(const model::Info& info) {
-  std::string text;
-  if (!info.words.empty()) {
-    for (const std::string_view word : info.words) (text += text.empty() ? "" : ", ") += code(word);
-  } else if constexpr (std::is_same_v<T, double> || std::is_same_v<T, uint32_t> || std::is_same_v<T, uint64_t> ||
-                       std::is_same_v<T, std::optional<double>> || std::is_array_v<T> ||
-                       std::is_same_v<T, std::optional<std::pair<double, double>>>) {
-    text = model::rangeText(info.range);
-    if (std::is_same_v<T, std::optional<double>>) text = "`auto`, or " + text;
-  }
-  if (info.most > 0) text = "at most " + grouped(info.most) + " entries";
-  return text;
+/// A cell's text: a bar would end the cell.
+std::string inCell(std::string_view text) {
+  std::string out;
+  for (const char c : text) (out += c == '|' ? "\\" : "") += c;
+  return out;
 }
 
 std::string withRange(std::string_view type, const model::Range& range) {
@@ -132,7 +123,7 @@ template <class T>
 std::string valuesText(const model::Info& info) {
   std::string words;
   for (const std::string_view word : info.words) (words += words.empty() ? "" : ", ") += code(word);
-  if constexpr (std::is_same_v<T, model::Anything>) {
+  if constexpr (std::is_same_v<T, model::Ignored>) {
     return "anything";
   } else if constexpr (std::is_same_v<T, model::Version>) {
     return "`\"MAJOR.MINOR\"` or `\"MAJOR.MINOR.PATCH\"`";
