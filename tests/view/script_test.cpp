@@ -61,9 +61,9 @@ TEST(Script, ErrorsNameLineAndExpectation) {
   }
 }
 
-TEST(Keys, AreUniqueAndListedInHelpAndDocuments) {
+TEST(Keys, BindingsAreUniqueAndDocumented) {
   std::ifstream file(RILL_SOURCE_DIR "/docs/viewer.md");
-  const std::string page((std::istreambuf_iterator<char>(file)), {});
+  const std::string readme((std::istreambuf_iterator<char>(file)), {});
   const std::string help = keyHelp();
   for (const KeyBinding& binding : keyBindings()) {
     EXPECT_EQ(keyNamed(binding.name), binding.key);
@@ -71,10 +71,11 @@ TEST(Keys, AreUniqueAndListedInHelpAndDocuments) {
     for (const KeyBinding& other : keyBindings()) same += other.key == binding.key || other.action == binding.action;
     EXPECT_EQ(same, 1u) << binding.name;
     EXPECT_NE(help.find(std::string(binding.about)), std::string::npos);
-    EXPECT_NE(page.find("| `" + std::string(binding.name) + "` | " + std::string(binding.about) + " |"), std::string::npos) << binding.name;
+    EXPECT_NE(readme.find("| `" + std::string(binding.name) + "` | " + std::string(binding.about) + " |"), std::string::npos)
+        << binding.name;
   }
   for (const MouseUse& use : mouseUses())
-    EXPECT_NE(page.find("| " + std::string(use.how) + " | " + std::string(use.about) + " |"), std::string::npos) << use.how;
+    EXPECT_NE(readme.find("| " + std::string(use.how) + " | " + std::string(use.about) + " |"), std::string::npos) << use.how;
 }
 
 TEST(Layout, AreasDoNotOverlap) {
