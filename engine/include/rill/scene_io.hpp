@@ -42,7 +42,8 @@ RILL_API Expected<EnvironmentPicture> loadEnvironment(const std::filesystem::pat
 
 /// The JSON Schema (draft-07) of scene files, generated from the parser's field table.
 RILL_API std::string sceneSchema();
-/// A Markdown table of all keys with units, ranges, defaults and help, for the documentation.
-RILL_API std::string sceneKeyTable();
+/// Markdown tables of all keys with units, ranges, defaults and help, one for each kind of object: the generated part of
+/// docs/scene-format.md.
+RILL_API std::string sceneKeyTables();
 
 }  // namespace rill
