@@ -11,7 +11,8 @@ Usage: ./tests/run.sh [--no-install] [--long] [--help] [CTEST OPTION...]
 
 Installs what is missing (Debian 12 or Ubuntu 24.04 and newer; with sudo where not root), builds, and runs
   all tests on lavapipe,
-  the tests of label subgroups on lavapipe with subgroups of 4, and of 16 with a thread a core,
+  the tests of label subgroups on lavapipe with subgroups of 4 and of 16,
+  the tests of label threads on lavapipe with a thread a core,
   the tests of labels gpu and subgroups on SwiftShader, where the system has it.
 
   --no-install   install nothing, only build and run
@@ -67,14 +68,17 @@ lavapipe=$(first_file /usr/share/vulkan/icd.d/lvp_icd."$(uname -m)".json /usr/sh
 swiftshader=$(first_file /usr/lib/chromium/vk_swiftshader_icd.json)
 [ -n "$lavapipe" ] || fail "lavapipe's lvp_icd.*.json is not in /usr/share/vulkan/icd.d"
 
-# Tests run side by side: with its work in a test's own thread lavapipe takes a third of the time that waking others takes it, for dispatches as small as
-# these. Its last round has threads, as SwiftShader has, so that workgroups run beside each other.
+# Tests run side by side: with its work in a test's own thread lavapipe takes a third of the time that waking others takes it, for
+# dispatches as small as these. Workgroups run beside each other in the tests of label threads, and in all of SwiftShader's; without
+# SwiftShader in all of those with subgroups of 16.
 export LP_NUM_THREADS=0
-run_tests "lavapipe" "$lavapipe" error -LE '^long$' "$@"
-for subgroup in 4 16; do
-  [ $subgroup = 4 ] || unset LP_NUM_THREADS
-  LP_NATIVE_VECTOR_WIDTH=$((32 * subgroup)) run_tests "lavapipe with subgroups of $subgroup" "$lavapipe" $none -L '^subgroups$' "$@"
-done
+run_tests "lavapipe" "$lavapipe" error -LE '^(long|threads)$' "$@"
+LP_NATIVE_VECTOR_WIDTH=128 run_tests "lavapipe with subgroups of 4" "$lavapipe" $none -L '^subgroups$' "$@"
+[ -n "$swiftshader" ] || unset LP_NUM_THREADS
+LP_NATIVE_VECTOR_WIDTH=512 run_tests "lavapipe with subgroups of 16" "$lavapipe" $none -L '^subgroups$' "$@"
+unset LP_NUM_THREADS
+LP_NATIVE_VECTOR_WIDTH=512 run_tests "lavapipe with subgroups of 16 and threads" "$lavapipe" $none -L '^threads$' "$@"
+export LP_NUM_THREADS=0
 if [ -n "$swiftshader" ]; then
   run_tests "SwiftShader" "$swiftshader" $none -L '^(gpu|subgroups)$' "$@"
 else
