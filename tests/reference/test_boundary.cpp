@@ -47,7 +47,7 @@ TEST(Boundary, KeepsCentersHalfASpacingFromSurfaces) {
       }
     }
     EXPECT_LT(deepest, 1e-12);
-    EXPECT_EQ(solver.parked(), 0u);
+    EXPECT_EQ(solver.inactive(), 0u);
     EXPECT_GT(centerOfMass(solver).x, 2.2 * kSpacing);
   }
 }
@@ -67,9 +67,9 @@ TEST(Boundary, SolidCoversDirectionsAlongItsSurface) {
   };
   const WallSample floor = at(plate(0, 0), {0, kSpacing / 2, 0});
   EXPECT_GT(floor.value, 0.1);
-  EXPECT_NEAR(floor.beside[0], floor.value, 1e-12);
-  EXPECT_NEAR(floor.beside[1], 0, 1e-12);
-  EXPECT_NEAR(floor.beside[2], floor.value, 1e-12);
+  EXPECT_NEAR(floor.wallCoverage[0], floor.value, 1e-12);
+  EXPECT_NEAR(floor.wallCoverage[1], 0, 1e-12);
+  EXPECT_NEAR(floor.wallCoverage[2], floor.value, 1e-12);
   Solid turned = plate(0, 0);  // by 45 degrees: its face is x + y = 7.07 m, half of it beside either axis
   turned.box = BoxShape{{-5, -5, -5}, {5, 5, 5}};
   turned.rotation[2] = std::sin(std::numbers::pi / 8);
@@ -77,14 +77,14 @@ TEST(Boundary, SolidCoversDirectionsAlongItsSurface) {
   const double out = (5 + kSpacing / 2) / std::numbers::sqrt2;
   const WallSample slope = at(turned, {out, out, 0});
   EXPECT_NEAR(slope.value, floor.value, 1e-6);
-  EXPECT_NEAR(slope.beside[0], slope.value / 2, 1e-6);
-  EXPECT_NEAR(slope.beside[1], slope.value / 2, 1e-6);
-  EXPECT_NEAR(slope.beside[2], slope.value, 1e-6);
+  EXPECT_NEAR(slope.wallCoverage[0], slope.value / 2, 1e-6);
+  EXPECT_NEAR(slope.wallCoverage[1], slope.value / 2, 1e-6);
+  EXPECT_NEAR(slope.wallCoverage[2], slope.value, 1e-6);
   Solid ball;
   ball.sphere = SphereShape{{0, 0, 0}, 4 * kSpacing};
   const WallSample pole = at(ball, {0, 0, 4.5 * kSpacing});
-  EXPECT_NEAR(pole.beside[0], pole.value, 1e-12);
-  EXPECT_NEAR(pole.beside[2], 0, 1e-12);
+  EXPECT_NEAR(pole.wallCoverage[0], pole.value, 1e-12);
+  EXPECT_NEAR(pole.wallCoverage[2], 0, 1e-12);
 }
 
 TEST(Boundary, OpenSideLetsParticlesLeave) {

@@ -68,12 +68,12 @@ TEST(ReferenceSolver, ColumnStaysAtRest) {
   EXPECT_LT(rmsSpeed(solver), 0.05);
   EXPECT_NEAR(centerOfMass(solver).y / height, 1, 0.01);
   EXPECT_LT(compression(solver), 0.002);
-  EXPECT_EQ(solver.parked(), 0u);
+  EXPECT_EQ(solver.inactive(), 0u);
 }
 
 // The pressure of a column at rest bears its particles everywhere alike: at walls and in edges, where a part of their neighbors is behind
-// a wall and does not push along it, as in the middle. Without WallSample::beside they fell there at up to 0.18 g, and at 0.26 g for h =
-// 2.5 d.
+// a wall and does not push along it, as in the middle. Without WallSample::wallCoverage they fell there at up to 0.18 g, and at 0.26 g for
+// h = 2.5 d.
 double maxFallOfPressurizedColumn(ReferenceSettings s, int layers) {
   s.relaxation = 0.4;
   ReferenceSolver solver(s, lattice(6, layers, 6, kTankSpacing));
@@ -125,7 +125,7 @@ TEST(ReferenceSolver, DamBreakStaysInsideAndGainsNoEnergy) {
     }
     EXPECT_LT(highest / start, 1.002);
     EXPECT_LT(error, 0.002);
-    EXPECT_EQ(solver.parked(), 0u);
+    EXPECT_EQ(solver.inactive(), 0u);
     if (tabulated) { EXPECT_GT(centerOfMass(solver).x, 1.4 * 4.5 * kTankSpacing); }
   }
 }
@@ -142,7 +142,7 @@ TEST(ReferenceSolver, CoincidentParticlesSeparate) {
   ReferenceSolver pile(s, std::vector<glm::dvec3>(30, glm::dvec3(-0.2)));
   run(pile, 1e-3, 20);
   EXPECT_GT(leastDistance(pile), 1e-3 * pile.kernel().h());
-  EXPECT_EQ(pile.parked(), 0u);
+  EXPECT_EQ(pile.inactive(), 0u);
 }
 
 TEST(ReferenceSolver, DeactivatesNonFiniteParticles) {
@@ -152,11 +152,11 @@ TEST(ReferenceSolver, DeactivatesNonFiniteParticles) {
   v[100].z = std::numeric_limits<double>::infinity();
   ReferenceSolver solver(s, x, v);
   run(solver, 1e-3, 5);
-  EXPECT_EQ(solver.parked(), 2u);
+  EXPECT_EQ(solver.inactive(), 2u);
   solver.state.velocity[50].x = kNaN;
   solver.density();
   solver.predict(1e-3, 1e-3);
-  EXPECT_EQ(solver.parked(), 3u);
+  EXPECT_EQ(solver.inactive(), 3u);
   EXPECT_EQ(solver.state.velocity[50], glm::dvec3(0));
   for (int step = 0; step < 50; ++step) solver.substep(1e-3, 1e-3);
   for (const glm::dvec3& p : solver.state.position)

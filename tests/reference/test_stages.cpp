@@ -67,7 +67,7 @@ TEST(Correction, ConservesMomentum) {
     for (int step = 0; step < 5; ++step) solver.substep(kStageStep, kStageStep);
     EXPECT_LT(glm::length(meanVelocity(solver) - before), 1e-11 * rmsSpeed(solver));
     EXPECT_GT(rmsSpeed(solver), 5);  // it flew apart
-    EXPECT_EQ(solver.parked(), 0u);
+    EXPECT_EQ(solver.inactive(), 0u);
   }
 }
 
@@ -189,7 +189,7 @@ TEST(ArtificialPressureStage, IsConstantBelowReferenceAndZeroAtRest) {
   s.tensileRadius = 0.3;
   ReferenceSolver solver(s, std::vector<glm::dvec3>{{0, 0, 0}});
   const auto kernel = [&](double q) { return solver.kernel().value(q * solver.kernel().h()); };
-  const auto at = [&](double q) { return solver.tensileTerm(kernel(q), 1e-3); };
+  const auto at = [&](double q) { return solver.artificialPressureTerm(kernel(q), 1e-3); };
   EXPECT_LT(at(0.3), 0);
   EXPECT_EQ(at(0.1), at(0.3));
   EXPECT_EQ(at(0), at(0.3));

@@ -34,9 +34,9 @@ TEST(ArtificialPressure, ActsOnClosePairsButNotOnRestLattice) {
         for (const double power : {1.0, 4.0, 16.0}) {
           const SmoothingKernel kernel(choice, ratio * d, d);
           const ArtificialPressure pressure(kernel, 1, reach / ratio, power);
-          EXPECT_EQ(pressure.share(kernel.value(d)), 0) << ratio << " " << reach << " " << power;
+          EXPECT_EQ(pressure.factor(kernel.value(d)), 0) << ratio << " " << reach << " " << power;
           EXPECT_EQ(pressure.rate > 0, reach < 0.95) << ratio << " " << reach << " " << power;
-          EXPECT_EQ(pressure.share(kernel.value(0)) > 0, reach < 0.95) << ratio << " " << reach << " " << power;
+          EXPECT_EQ(pressure.factor(kernel.value(0)) > 0, reach < 0.95) << ratio << " " << reach << " " << power;
         }
 }
 

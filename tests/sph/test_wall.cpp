@@ -98,7 +98,7 @@ TEST_P(WallTest, TablesMatchLatticeSums) {
     EXPECT_NEAR(exact.value, table.value, crowd * bound);
     for (int a = 0; a < 3; ++a) {
       EXPECT_NEAR(exact.gradient[a] * kWallSpacing, table.gradient[a] * kWallSpacing, crowd * 4 * bound);
-      EXPECT_NEAR(exact.beside[a], table.beside[a], crowd * bound);
+      EXPECT_NEAR(exact.wallCoverage[a], table.wallCoverage[a], crowd * bound);
     }
   }
 }
@@ -118,8 +118,8 @@ TEST_P(WallTest, IncreasesTowardWall) {
     EXPECT_NEAR(low.gradient[1], near.slope, 1e-12 / kWallSpacing);
     EXPECT_NEAR(high.gradient[1], -near.slope, 1e-12 / kWallSpacing);
     EXPECT_EQ(low.gradient[0], 0);
-    EXPECT_EQ(low.beside[1], 0) << "a wall across the axis is not beside it";
-    EXPECT_NEAR(low.beside[0], near.value, 1e-14);
+    EXPECT_EQ(low.wallCoverage[1], 0) << "a wall across the axis is not beside it";
+    EXPECT_NEAR(low.wallCoverage[0], near.value, 1e-14);
   }
   for (const double s : {reach, 1.01 * reach, 50.0, kFar}) {
     EXPECT_EQ(rill::exactPlane(k, s).value, 0);
@@ -196,7 +196,7 @@ TEST(WendlandWall, PressureForceAlongWallIsReducedByCoverage) {
     const double near = kWallSpacing / 2;
     const auto beside = [&](double lowY, double highX) {
       const double lo[3] = {near, lowY, kFar}, hi[3] = {highX, kFar, kFar};
-      return rill::exactWall(k, lo, hi).beside[2];
+      return rill::exactWall(k, lo, hi).wallCoverage[2];
     };
     EXPECT_NEAR(push(9, 9) / whole, 1 - beside(near, kFar), 0.02) << "in an edge, h = " << ratio << " d";
     EXPECT_NEAR(push(1, 9) / whole, 1 - beside(near, near), 0.03) << "in the edge of a gap one layer wide, h = " << ratio << " d";
