@@ -6,7 +6,7 @@
 namespace rill::offline {
 
 PassLog::Entry& PassLog::entry(std::string_view name) {
-  // A few dozen passes: a search costs less than a map.
+  // With a few dozen passes, linear search is faster than a map.
   const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.name == name; });
   if (found != entries_.end()) return *found;
   entries_.push_back({std::string(name), 0, 0, 0, {}});

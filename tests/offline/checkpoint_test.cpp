@@ -1,4 +1,4 @@
-// A checkpoint's file: what comes back, and what is refused.
+// Checkpoint files: round trips and errors.
 #include <gtest/gtest.h>
 
 #include "fluid/snapshot.hpp"
@@ -35,12 +35,12 @@ TEST(CheckpointFile, RejectsTruncationAnywhere) {
   const auto bytes = offline::encodeCheckpoint(seedCheckpoint());
   for (size_t size = 1; size < bytes.size(); ++size) {
     const std::string why = refusal(std::span(bytes).first(size));
-    EXPECT_NE(why.find("is cut short"), std::string::npos) << size << ": " << why;
+    EXPECT_NE(why.find("is truncated"), std::string::npos) << size << ": " << why;
   }
-  EXPECT_NE(refusal({}).find("no checkpoint"), std::string::npos);
+  EXPECT_NE(refusal({}).find("not a Rill checkpoint"), std::string::npos);
   auto longer = bytes;
   longer.push_back({});
-  EXPECT_NE(refusal(longer).find("1 bytes more"), std::string::npos) << refusal(longer);
+  EXPECT_NE(refusal(longer).find("is corrupted: found"), std::string::npos) << refusal(longer);
 }
 
 TEST(CheckpointFile, RejectsAnyFlippedBit) {
@@ -55,21 +55,21 @@ TEST(CheckpointFile, RejectsAnyFlippedBit) {
 
 TEST(CheckpointFile, DistinguishesForeignAndNewerFiles) {
   const std::string picture = "\x89PNG\r\n\x1a\n and so on and so on";
-  EXPECT_NE(refusal(std::as_bytes(std::span(picture))).find("is no checkpoint of Rill"), std::string::npos);
+  EXPECT_NE(refusal(std::as_bytes(std::span(picture))).find("is not a Rill checkpoint"), std::string::npos);
   const auto checkpoint = offline::encodeCheckpoint(seedCheckpoint());
   const int format = std::to_integer<int>(checkpoint[8]);
   const auto expectRefused = [&](int other, const char* age) {
     auto bytes = checkpoint;
     bytes[8] = std::byte(other);
     seal(bytes);
-    const std::string what = age + (" Rill, in format " + std::to_string(other)) + "; this one reads format " + std::to_string(format);
+    const std::string what = age + (" Rill: found format " + std::to_string(other)) + ", expected " + std::to_string(format);
     EXPECT_NE(refusal(bytes).find(what), std::string::npos) << refusal(bytes);
   };
   expectRefused(format + 1, "a newer");
   expectRefused(format - 1, "an older");
 }
 
-// With a checksum that holds: lengths are not believed for that.
+// The checksum is valid, so that the lengths themselves are checked.
 TEST(CheckpointFile, RejectsInvalidLengths) {
   const auto whole = offline::encodeCheckpoint(seedCheckpoint());
   for (uint64_t wrong : {uint64_t{1}, uint64_t{1} << 40, ~uint64_t{0}, ~uint64_t{7}, uint64_t{1} << 63}) {
@@ -77,7 +77,7 @@ TEST(CheckpointFile, RejectsInvalidLengths) {
       auto bytes = whole;
       std::memcpy(bytes.data() + 24 + 16 * row + 8, &wrong, 8);
       seal(bytes);
-      EXPECT_NE(refusal(bytes).find("is damaged"), std::string::npos) << row << ": " << wrong;
+      EXPECT_NE(refusal(bytes).find("is corrupted"), std::string::npos) << row << ": " << wrong;
     }
     auto bytes = whole;
     std::memcpy(bytes.data() + 16, &wrong, 8);  // of the whole file
@@ -85,14 +85,14 @@ TEST(CheckpointFile, RejectsInvalidLengths) {
     bytes = whole;
     std::memcpy(bytes.data() + 24 + 16 * 14, &wrong, 8);  // of the first text
     seal(bytes);
-    EXPECT_NE(refusal(bytes).find("is damaged"), std::string::npos) << wrong;
+    EXPECT_NE(refusal(bytes).find("is corrupted"), std::string::npos) << wrong;
   }
 }
 
 TEST(CheckpointFile, RejectsUnprintableKeys) {
   Checkpoint c = seedCheckpoint();
   c.keys[0].second = "\x1b[2J";
-  EXPECT_NE(refusal(offline::encodeCheckpoint(c)).find("is damaged"), std::string::npos) << "they would reach a terminal";
+  EXPECT_NE(refusal(offline::encodeCheckpoint(c)).find("is corrupted"), std::string::npos) << "control characters would reach a terminal";
 }
 
 TEST(CheckpointFile, LoadsFromDisk) {
@@ -102,14 +102,14 @@ TEST(CheckpointFile, LoadsFromDisk) {
   const auto read = offline::loadCheckpoint(file);
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(*read, seedCheckpoint());
-  for (const auto& [path, words] : {std::pair{folder / "none", "is not there"}, std::pair{folder.path(), "is no file"},
-                                    std::pair{std::filesystem::path("/dev/zero"), "is no file"}}) {
+  for (const auto& [path, words] : {std::pair{folder / "none", "does not exist"}, std::pair{folder.path(), "is not a regular file"},
+                                    std::pair{std::filesystem::path("/dev/zero"), "is not a regular file"}}) {
     const auto missing = offline::loadCheckpoint(path);
     ASSERT_FALSE(missing);
     EXPECT_NE(missing.error().message.find(words), std::string::npos) << missing.error().message;
   }
   const auto film = folder.write("film", std::string(1 << 20, 'x'));
-  EXPECT_NE(offline::loadCheckpoint(film).error().message.find("no checkpoint"), std::string::npos);
+  EXPECT_NE(offline::loadCheckpoint(film).error().message.find("not a Rill checkpoint"), std::string::npos);
 }
 
 class SnapshotCheck : public ::testing::Test {
@@ -137,7 +137,7 @@ TEST_F(SnapshotCheck, AcceptsSnapshotWithoutWarmStart) {
   EXPECT_TRUE(checked) << checked.error().message;
 }
 
-// Every number that a shader finds its way by.
+// Every value that shaders use as an index.
 TEST_F(SnapshotCheck, RejectsInvalidIndices) {
   s.id[1] = s.id[0];
   expectRefused("ids");
@@ -184,7 +184,7 @@ TEST(SnapshotNeighborList, RoundTripsThroughBlockLayout) {
   s.listCapacity = 8;
   const uint32_t count = 3 * kListBlock + 17;
   for (uint32_t i = 0; i < count; ++i) {
-    s.neighborCount.push_back(i % 11);  // some of them more than the list holds
+    s.neighborCount.push_back(i % 11);  // some exceed the capacity
     for (uint32_t k = 0; k < i % 11 && i % 11 <= 8; ++k) s.neighbors.push_back((i * 7 + k) % count);
   }
   FluidSnapshot back = s;
@@ -192,7 +192,7 @@ TEST(SnapshotNeighborList, RoundTripsThroughBlockLayout) {
   for (const auto& [first, last] : {std::pair{0u, 2 * kListBlock}, std::pair{2 * kListBlock, count}}) {
     std::vector<uint32_t> list(8 * kListBlock * 2, 0xdead);
     layOutList(s, first, last, list);
-    if (first == 0) {  // particle 4097's fifth neighbor, its last: block 1, second group, filled up
+    if (first == 0) {  // particle 4097's fifth neighbor, its last: block 1, second group, padded
       const size_t at = ((kListBlock * 2 + 1) + kListBlock) * 4;
       EXPECT_EQ(list[at], (4097u * 7 + 4) % count);
       EXPECT_EQ(list[at + 1], count);
