@@ -11,7 +11,7 @@ namespace {
 
 using offline::Checkpoint;
 
-std::string refusal(std::span<const std::byte> bytes) {
+std::string decodeError(std::span<const std::byte> bytes) {
   const auto read = offline::decodeCheckpoint(bytes, "run.rill");
   if (read) return "";
   EXPECT_EQ(read.error().kind, ErrorKind::BadInput);
@@ -34,13 +34,13 @@ TEST(CheckpointFile, RoundTrips) {
 TEST(CheckpointFile, RejectsTruncationAnywhere) {
   const auto bytes = offline::encodeCheckpoint(seedCheckpoint());
   for (size_t size = 1; size < bytes.size(); ++size) {
-    const std::string why = refusal(std::span(bytes).first(size));
+    const std::string why = decodeError(std::span(bytes).first(size));
     EXPECT_NE(why.find("is truncated"), std::string::npos) << size << ": " << why;
   }
-  EXPECT_NE(refusal({}).find("not a Rill checkpoint"), std::string::npos);
+  EXPECT_NE(decodeError({}).find("not a Rill checkpoint"), std::string::npos);
   auto longer = bytes;
   longer.push_back({});
-  EXPECT_NE(refusal(longer).find("is corrupted: found"), std::string::npos) << refusal(longer);
+  EXPECT_NE(decodeError(longer).find("is corrupted: found"), std::string::npos) << decodeError(longer);
 }
 
 TEST(CheckpointFile, RejectsAnyFlippedBit) {
@@ -48,25 +48,25 @@ TEST(CheckpointFile, RejectsAnyFlippedBit) {
   for (size_t at = 0; at < bytes.size(); ++at)
     for (int bit = 0; bit < 8; ++bit) {
       bytes[at] ^= static_cast<std::byte>(1 << bit);
-      EXPECT_NE(refusal(bytes), "") << "byte " << at << ", bit " << bit;
+      EXPECT_NE(decodeError(bytes), "") << "byte " << at << ", bit " << bit;
       bytes[at] ^= static_cast<std::byte>(1 << bit);
     }
 }
 
 TEST(CheckpointFile, DistinguishesForeignAndNewerFiles) {
-  const std::string picture = "\x89PNG\r\n\x1a\n and so on and so on";
-  EXPECT_NE(refusal(std::as_bytes(std::span(picture))).find("is not a Rill checkpoint"), std::string::npos);
+  const std::string image = "\x89PNG\r\n\x1a\n and so on and so on";
+  EXPECT_NE(decodeError(std::as_bytes(std::span(image))).find("is not a Rill checkpoint"), std::string::npos);
   const auto checkpoint = offline::encodeCheckpoint(seedCheckpoint());
   const int format = std::to_integer<int>(checkpoint[8]);
-  const auto expectRefused = [&](int other, const char* age) {
+  const auto expectRejected = [&](int other, const char* age) {
     auto bytes = checkpoint;
     bytes[8] = std::byte(other);
     seal(bytes);
     const std::string what = age + (" Rill: found format " + std::to_string(other)) + ", expected " + std::to_string(format);
-    EXPECT_NE(refusal(bytes).find(what), std::string::npos) << refusal(bytes);
+    EXPECT_NE(decodeError(bytes).find(what), std::string::npos) << decodeError(bytes);
   };
-  expectRefused(format + 1, "a newer");
-  expectRefused(format - 1, "an older");
+  expectRejected(format + 1, "a newer");
+  expectRejected(format - 1, "an older");
 }
 
 // The checksum is valid, so that the lengths themselves are checked.
@@ -77,22 +77,23 @@ TEST(CheckpointFile, RejectsInvalidLengths) {
       auto bytes = whole;
       std::memcpy(bytes.data() + 24 + 16 * row + 8, &wrong, 8);
       seal(bytes);
-      EXPECT_NE(refusal(bytes).find("is corrupted"), std::string::npos) << row << ": " << wrong;
+      EXPECT_NE(decodeError(bytes).find("is corrupted"), std::string::npos) << row << ": " << wrong;
     }
     auto bytes = whole;
     std::memcpy(bytes.data() + 16, &wrong, 8);  // of the whole file
-    EXPECT_NE(refusal(bytes), "");
+    EXPECT_NE(decodeError(bytes), "");
     bytes = whole;
     std::memcpy(bytes.data() + 24 + 16 * 14, &wrong, 8);  // of the first text
     seal(bytes);
-    EXPECT_NE(refusal(bytes).find("is corrupted"), std::string::npos) << wrong;
+    EXPECT_NE(decodeError(bytes).find("is corrupted"), std::string::npos) << wrong;
   }
 }
 
 TEST(CheckpointFile, RejectsUnprintableKeys) {
   Checkpoint c = seedCheckpoint();
   c.keys[0].second = "\x1b[2J";
-  EXPECT_NE(refusal(offline::encodeCheckpoint(c)).find("is corrupted"), std::string::npos) << "control characters would reach a terminal";
+  EXPECT_NE(decodeError(offline::encodeCheckpoint(c)).find("is corrupted"), std::string::npos)
+      << "control characters would reach a terminal";
 }
 
 TEST(CheckpointFile, LoadsFromDisk) {
@@ -108,13 +109,13 @@ TEST(CheckpointFile, LoadsFromDisk) {
     ASSERT_FALSE(missing);
     EXPECT_NE(missing.error().message.find(words), std::string::npos) << missing.error().message;
   }
-  const auto film = folder.write("film", std::string(1 << 20, 'x'));
-  EXPECT_NE(offline::loadCheckpoint(film).error().message.find("not a Rill checkpoint"), std::string::npos);
+  const auto other = folder.write("other", std::string(1 << 20, 'x'));
+  EXPECT_NE(offline::loadCheckpoint(other).error().message.find("not a Rill checkpoint"), std::string::npos);
 }
 
 class SnapshotCheck : public ::testing::Test {
  protected:
-  void expectRefused(const char* words) {
+  void expectRejected(const char* words) {
     const auto checked = checkSnapshot(s, seedShape());
     ASSERT_FALSE(checked) << words;
     EXPECT_NE(checked.error().message.find(words), std::string::npos) << checked.error().message;
@@ -130,7 +131,7 @@ TEST_F(SnapshotCheck, AcceptsMatchingScene) {
 
 TEST_F(SnapshotCheck, AcceptsSnapshotWithoutWarmStart) {
   s.push.clear();
-  expectRefused("warm");
+  expectRejected("warm");
   s.push.clear();
   s.warm.clear();
   const auto checked = checkSnapshot(s, seedShape());
@@ -140,43 +141,43 @@ TEST_F(SnapshotCheck, AcceptsSnapshotWithoutWarmStart) {
 // Every value that shaders use as an index.
 TEST_F(SnapshotCheck, RejectsInvalidIndices) {
   s.id[1] = s.id[0];
-  expectRefused("ids");
+  expectRejected("ids");
   s.id[1] = seedShape().count;
-  expectRefused("ids");
+  expectRejected("ids");
   s.nearMore.push_back(0);
-  expectRefused("near walls");
+  expectRejected("near walls");
   s.nearWall[0] = 1000;
-  expectRefused("near walls");
+  expectRejected("near walls");
   s.nearMore[0] = s.nearWall[0];
-  expectRefused("near walls");
+  expectRejected("near walls");
   s.neighbors[0] = seedShape().count;
-  expectRefused("a neighbor is no particle");
+  expectRejected("a neighbor is no particle");
   s.neighbors.pop_back();
-  expectRefused("neighbors has");
+  expectRejected("neighbors has");
   s.neighborCount[0] = seedShape().listCapacity + 1;
-  expectRefused("neighbors has");
+  expectRejected("neighbors has");
   s.neighborCount.pop_back();
-  expectRefused("neighbor counts has");
+  expectRejected("neighbor counts has");
   s.cell.back() = static_cast<uint32_t>(seedShape().cells);
-  expectRefused("cells");
+  expectRejected("cells");
   s.cell.front() = s.cell.back() + 1;
-  expectRefused("cells");
+  expectRejected("cells");
   s.cell.clear();
-  expectRefused("cells");
+  expectRejected("cells");
   s.listCapacity += 4;
-  expectRefused("lists hold");
+  expectRejected("lists hold");
   s.control[offsetof(FluidControl, stale) / 4] = 2;
-  expectRefused("control block");
+  expectRejected("control block");
   s.control[offsetof(FluidControl, settling) / 4] = 1 << 30;
-  expectRefused("control block");
+  expectRejected("control block");
   s.control.clear();
-  expectRefused("control has 0 entries");
+  expectRejected("control has 0 entries");
   s.sums[offsetof(FluidSums, planeCount) / 4] = 5;
-  expectRefused("near walls");
+  expectRejected("near walls");
   s.push.pop_back();
-  expectRefused("push has");
+  expectRejected("push has");
   s.solids.push_back(0);
-  expectRefused("solids has");
+  expectRejected("solids has");
 }
 
 TEST(SnapshotNeighborList, RoundTripsThroughBlockLayout) {

@@ -1,4 +1,4 @@
-// Scenes whose numbers a host has got wrong at random: whatever they are, they are refused or they run, and both without harm.
+// Scenes with random invalid numbers: each is either rejected or accepted with valid simulation parameters.
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -12,10 +12,10 @@
 namespace rill::test {
 namespace {
 
-/// Where the numbers of a scene are.
+/// Setters of all numbers in a scene.
 class Numbers {
  public:
-  using Set = std::function<void(double factor, double value)>;  ///< to its own times factor, plus value
+  using Set = std::function<void(double factor, double value)>;  ///< sets number * factor + value
 
   explicit Numbers(Scene& scene) { object(scene); }
   const std::vector<Set>& all() const { return all_; }

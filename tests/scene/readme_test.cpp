@@ -1,4 +1,4 @@
-// README's table of keys and its scene are those of the declaration and the reader.
+// README's key table and example scene match the field table and the reader.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -15,7 +15,9 @@ std::string readme() {
   return text.str();
 }
 
-TEST(Readme, HasTheTableOfKeys) { EXPECT_NE(readme().find(sceneKeyTable()), std::string::npos) << "paste this:\n" << sceneKeyTable(); }
+TEST(Readme, HasTheTableOfKeys) {
+  EXPECT_NE(readme().find(sceneKeyTable()), std::string::npos) << "expected this table:\n" << sceneKeyTable();
+}
 
 TEST(Readme, HasNoPlaceholders) { EXPECT_EQ(readme().find('@'), std::string::npos); }
 
