@@ -199,13 +199,13 @@ TEST(Particles, FailsIfFillsYieldNoParticle) {
   ASSERT_TRUE(none);
   EXPECT_TRUE(none->positions.empty() && none->warnings.empty());
   Scene outside = scene(with(R"("domain": {}, "fill": [{"box": {"min": [2, 2, 2], "max": [3, 3, 3]}}])"));
-  const auto refused = makeParticles(outside, kMany);
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().kind, ErrorKind::BadInput);
-  EXPECT_EQ(refused.error().message.rfind(
+  const auto rejected = makeParticles(outside, kMany);
+  ASSERT_FALSE(rejected);
+  EXPECT_EQ(rejected.error().kind, ErrorKind::BadInput);
+  EXPECT_EQ(rejected.error().message.rfind(
                 "dam: fill: no particles are left (1,000 outside the walls, 0 inside solids); expected at least one.", 0),
             0U)
-      << refused.error().message;
+      << rejected.error().message;
 }
 
 TEST(Particles, RejectsTooManyParticlesBeforeAllocation) {

@@ -182,10 +182,10 @@ TEST(Overrides, ResolveRelativePathsAgainstCurrentDirectory) {
        "water.ply");
   read({{"look.environment", (above.path / "sky.hdr").string()}}, "sky.hdr", "scenes/water.ply");
 
-  const auto beside = loadScene(file, std::vector<Override>{{"look.environment", "beside.hdr"}});
-  ASSERT_FALSE(beside);
-  EXPECT_EQ(beside.error().message, "--set look.environment: \"beside.hdr\": no such file (looked for " +
-                                        (std::filesystem::current_path() / "beside.hdr").string() + ")");
+  const auto missing = loadScene(file, std::vector<Override>{{"look.environment", "beside.hdr"}});
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().message, "--set look.environment: \"beside.hdr\": no such file (looked for " +
+                                         (std::filesystem::current_path() / "beside.hdr").string() + ")");
 }
 
 TEST(Overrides, ParseKeyEqualsValue) {
