@@ -1,4 +1,4 @@
-# What `cmake --install` puts where. The package can be moved as a whole.
+# Installation rules. The installed package is relocatable.
 include(CMakePackageConfigHelpers)
 set(rill_package ${CMAKE_INSTALL_LIBDIR}/cmake/rill)
 set(rill_data ${CMAKE_INSTALL_DATADIR}/rill)
@@ -22,11 +22,11 @@ endif()
 install(DIRECTORY engine/include/rill DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${without})
 
 configure_package_config_file(cmake/rillConfig.cmake.in ${PROJECT_BINARY_DIR}/rillConfig.cmake INSTALL_DESTINATION ${rill_package} PATH_VARS rill_data)
-# Before 1.0 each minor version may change the interface.
+# Before 1.0, minor versions may change the interface.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/rillConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/rillConfig.cmake ${PROJECT_BINARY_DIR}/rillConfigVersion.cmake cmake/vulkan_headers.cmake DESTINATION ${rill_package})
 
-# pkg-config finds the prefix from where the file lies.
+# The .pc files find the prefix relative to their own location.
 file(RELATIVE_PATH rill_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 string(REGEX REPLACE "/$" "" rill_prefix ${rill_prefix})
 set(module rill)
@@ -43,5 +43,5 @@ if(RILL_BUILD_SCENE)
 endif()
 
 install(DIRECTORY assets/scenes DESTINATION ${rill_data})
-install(DIRECTORY apps/embed/ DESTINATION ${rill_data}/embed)  # the guide and its games
+install(DIRECTORY apps/embed/ DESTINATION ${rill_data}/embed)  # the embedding guide and its examples
 install(FILES LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

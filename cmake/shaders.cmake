@@ -1,18 +1,19 @@
-# GLSL -> SPIR-V (Vulkan 1.3), optimized by spirv-opt and checked by spirv-val where there are such, embedded as arrays in a library.
-#   rill_shader(fluid/density.comp)                                         becomes "fluid/density"
-#   rill_shader(fluid/density.comp AS fluid/density_texel DEFINES LIST_TEXEL) becomes "fluid/density_texel"
-#   rill_shader(gpu/add.comp ROOT ${CMAKE_CURRENT_SOURCE_DIR} GROUP tests)  belongs to a table of its own, not to the library's
-# Every header under shaders/, and beside a shader, is a dependency of every shader: they are few, and a stale one is worse than a rebuild.
+# Compiles GLSL to SPIR-V (Vulkan 1.3), optimizes it with spirv-opt and validates it with spirv-val if they are installed, and embeds it
+# as arrays in a library.
+#   rill_shader(fluid/density.comp)                                           adds "fluid/density"
+#   rill_shader(fluid/density.comp AS fluid/density_texel DEFINES LIST_TEXEL) adds "fluid/density_texel"
+#   rill_shader(gpu/add.comp ROOT ${CMAKE_CURRENT_SOURCE_DIR} GROUP tests)    adds to the table of the group 'tests'
+# Every shader depends on all headers under shaders/ and in its own folder: there are few, so exact dependencies are not worth tracking.
 find_program(RILL_GLSLANG glslangValidator)
 find_program(RILL_SPIRV_VAL spirv-val)
-find_program(RILL_SPIRV_OPT spirv-opt)  # a driver that compiles by a fixed effort per instruction starts in three quarters of the time
+find_program(RILL_SPIRV_OPT spirv-opt)  # shortens start-up; see docs/notes/shaders.md
 if(NOT RILL_GLSLANG)
-  message(FATAL_ERROR "Rill's shaders are compiled by glslangValidator (Debian: glslang-tools); set RILL_GLSLANG to its path")
+  message(FATAL_ERROR "glslangValidator not found; install it (Debian: glslang-tools) or set RILL_GLSLANG to its path")
 endif()
 set(RILL_SHADER_ROOT ${PROJECT_SOURCE_DIR}/shaders)
 set(RILL_WORDS_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/spirv_words.cmake)
 
-# Notes a shader for rill_embed_shaders() of its group.
+# Adds a shader to a group for rill_embed_shaders().
 function(rill_shader source)
   cmake_parse_arguments(ARG "" "AS;ROOT;GROUP" "DEFINES" ${ARGN})
   string(REGEX REPLACE "\\.[a-z]+$" "" name ${source})
@@ -31,7 +32,7 @@ function(rill_shader source)
   set_property(GLOBAL APPEND PROPERTY RILL_SHADERS_${group} "${name}|${root}|${source}|${defines}")
 endfunction()
 
-# Compiles the shaders that a group has so far, writes their table to a C++ file, and adds that to `target`, as rill::FUNCTION().
+# Compiles all shaders of a group and adds their table to `target` as rill::FUNCTION().
 #   rill_embed_shaders(rill)    rill_embed_shaders(test_support GROUP tests FUNCTION testShaders)
 function(rill_embed_shaders target)
   cmake_parse_arguments(ARG "" "GROUP;FUNCTION" "" ${ARGN})
@@ -60,7 +61,7 @@ function(rill_embed_shaders target)
     string(REPLACE " " ";" flags "${defines}")
     list(TRANSFORM flags PREPEND -D)
     set(optimize "")
-    if(RILL_SPIRV_OPT AND NOT CMAKE_BUILD_TYPE STREQUAL "Debug")  # there names are worth more
+    if(RILL_SPIRV_OPT AND NOT CMAKE_BUILD_TYPE STREQUAL "Debug")  # keep debug names
       set(optimize COMMAND ${RILL_SPIRV_OPT} --target-env=vulkan1.3 -O --strip-debug ${spv} -o ${spv})
     endif()
     set(check "")

@@ -1,4 +1,4 @@
-# Vulkan::Headers, for the build and for the installed package: Rill needs headers alone, no loader.
+# Defines Vulkan::Headers for the build and the installed package. Rill needs only the headers, not the loader.
 if(NOT TARGET Vulkan::Headers)
   find_path(Vulkan_INCLUDE_DIR vulkan/vulkan_core.h HINTS "$ENV{VULKAN_SDK}/include")
   if(Vulkan_INCLUDE_DIR)

@@ -1,10 +1,10 @@
-// A checkpoint's file. Little-endian throughout:
-//   "RILLCKPT", format (u32), sections (u32), bytes of the whole file (u64)
-//   of each section its name (8 bytes, filled up with zeros) and its bytes (u64)
-//   the sections, each filled up to a multiple of 8 bytes
-//   64-bit FNV-1a of all before it
-// Nothing in it is believed before the checksum holds, and no length, checksum or not, before it fits the file. Whether a state makes sense
-// for a scene is judged where a fluid is made from it (engine/fluid/snapshot.cpp).
+// The checkpoint file format, little-endian:
+//   "RILLCKPT", format version (u32), number of sections (u32), size of the file in bytes (u64)
+//   per section: name (8 bytes, zero-padded), size in bytes (u64)
+//   the sections, each zero-padded to a multiple of 8 bytes
+//   64-bit FNV-1a of everything before
+// The checksum is verified before any content is used, and every length is checked against the file even so. Whether the state fits the
+// scene is checked when a fluid is created from it (engine/fluid/snapshot.cpp).
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -20,13 +20,13 @@
 namespace rill::offline {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "numbers are copied without byte swapping");
 
 constexpr std::string_view kMagic = "RILLCKPT";
 constexpr uint32_t kFormat = 7;
-constexpr uint64_t kHeadBytes = 24, kRowBytes = 16, kChecksumBytes = 8;
+constexpr uint64_t kHeaderBytes = 24, kTableEntryBytes = 16, kChecksumBytes = 8;
 
-/// The state's arrays in the order of the file, each with the name of its section: calls visit(name, array).
+/// Calls visit(section name, array) for the arrays of the state in the order of the file.
 template <class Snapshot, class Visit>
 void forEachArray(Snapshot& s, Visit&& visit) {
   visit("control", s.control);
@@ -43,7 +43,7 @@ void forEachArray(Snapshot& s, Visit&& visit) {
   visit("nbrs", s.neighbors);
   visit("cell", s.cell);
 }
-constexpr size_t kSections = 14;  // the one about the run first
+constexpr size_t kSections = 14;  // the run information first, then the arrays
 
 uint64_t padded(uint64_t bytes) { return (bytes + 7) / 8 * 8; }
 
@@ -70,10 +70,10 @@ class Writer {
   void pad() { bytes.resize(padded(bytes.size())); }
 };
 
-/// Takes from the front; what is not there leaves `good` false and gives zero.
-class Taker {
+/// Reads from the front. Reading beyond the end clears `good` and returns zero.
+class ByteReader {
  public:
-  explicit Taker(std::span<const std::byte> bytes) : left_(bytes) {}
+  explicit ByteReader(std::span<const std::byte> bytes) : left_(bytes) {}
   bool good = true;
   std::span<const std::byte> take(uint64_t size) {
     if (size > left_.size()) {
@@ -101,27 +101,27 @@ class Taker {
   std::span<const std::byte> left_;
 };
 
-/// What is wrong with a file whose first bytes and size are these; empty where nothing is.
-std::string headTrouble(std::span<const std::byte> head, uint64_t size) {
-  Taker taker(head);
-  const auto magic = taker.take(std::min<uint64_t>(kMagic.size(), head.size()));
-  if (magic.empty() || std::memcmp(magic.data(), kMagic.data(), magic.size()) != 0) return "is no checkpoint of Rill";
-  const auto format = taker.number<uint32_t>();
-  const auto sections = taker.number<uint32_t>();
-  const auto bytes = taker.number<uint64_t>();
-  if (!taker.good) return "is cut short: " + grouped(size) + " bytes are left of it";
+/// Checks the first bytes and the size of a file. Returns what is wrong, or an empty string.
+std::string checkHeader(std::span<const std::byte> head, uint64_t size) {
+  ByteReader reader(head);
+  const auto magic = reader.take(std::min<uint64_t>(kMagic.size(), head.size()));
+  if (magic.empty() || std::memcmp(magic.data(), kMagic.data(), magic.size()) != 0) return "is not a Rill checkpoint";
+  const auto format = reader.number<uint32_t>();
+  const auto sections = reader.number<uint32_t>();
+  const auto bytes = reader.number<uint64_t>();
+  if (!reader.good) return "is truncated: found " + grouped(size) + " bytes, expected at least " + grouped(kHeaderBytes);
   if (format > kFormat)
-    return "was written by a newer Rill, in format " + std::to_string(format) + "; this one reads format " + std::to_string(kFormat);
+    return "was written by a newer Rill: found format " + std::to_string(format) + ", expected " + std::to_string(kFormat);
   if (format > 0 && format < kFormat)
-    return "was written by an older Rill, in format " + std::to_string(format) + "; this one reads format " + std::to_string(kFormat);
-  if (format != kFormat || sections != kSections) return "is damaged: its first bytes make no sense";
-  if (size < bytes) return "is cut short: " + grouped(size) + " of " + grouped(bytes) + " bytes are left of it";
-  if (size > bytes) return "is damaged: it has " + grouped(size - bytes) + " bytes more than it should";
-  if (size < kHeadBytes + kSections * kRowBytes + kChecksumBytes) return "is damaged: it is too small to hold anything";
+    return "was written by an older Rill: found format " + std::to_string(format) + ", expected " + std::to_string(kFormat);
+  if (format != kFormat || sections != kSections) return "is corrupted: invalid header";
+  if (size < bytes) return "is truncated: found " + grouped(size) + " bytes, expected " + grouped(bytes);
+  if (size > bytes) return "is corrupted: found " + grouped(size) + " bytes, expected " + grouped(bytes);
+  if (size < kHeaderBytes + kSections * kTableEntryBytes + kChecksumBytes) return "is corrupted: the size is too small for its sections";
   return {};
 }
 
-void writeAbout(Writer& writer, const Checkpoint& c) {
+void writeRunInfo(Writer& writer, const Checkpoint& c) {
   for (const std::string* text : {&c.rill, &c.scene, &c.device, &c.driver}) writer.text(*text);
   writer.number(c.time_s);
   writer.number(c.frame);
@@ -134,33 +134,33 @@ void writeAbout(Writer& writer, const Checkpoint& c) {
   }
 }
 
-/// As a scene's keys and their values are; messages show them.
-bool isPlain(std::string_view text) {
+/// Whether text is printable ASCII, as scene keys and values are. Messages show it on terminals.
+bool isPrintable(std::string_view text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
 }
 
-bool readAbout(std::span<const std::byte> bytes, Checkpoint& c) {
-  Taker taker(bytes);
-  for (std::string* text : {&c.rill, &c.scene, &c.device, &c.driver}) *text = taker.text();
-  c.time_s = taker.number<double>();
-  c.frame = taker.number<uint64_t>();
-  c.fps = taker.number<double>();
-  c.fluid.listCapacity = taker.number<uint32_t>();
-  const auto keys = taker.number<uint32_t>();
-  for (uint32_t k = 0; k < keys && taker.good; ++k) {
-    std::string key = taker.text();
-    c.keys.emplace_back(std::move(key), taker.text());
-    taker.good = taker.good && isPlain(c.keys.back().first) && isPlain(c.keys.back().second);
+bool readRunInfo(std::span<const std::byte> bytes, Checkpoint& c) {
+  ByteReader reader(bytes);
+  for (std::string* text : {&c.rill, &c.scene, &c.device, &c.driver}) *text = reader.text();
+  c.time_s = reader.number<double>();
+  c.frame = reader.number<uint64_t>();
+  c.fps = reader.number<double>();
+  c.fluid.listCapacity = reader.number<uint32_t>();
+  const auto keys = reader.number<uint32_t>();
+  for (uint32_t k = 0; k < keys && reader.good; ++k) {
+    std::string key = reader.text();
+    c.keys.emplace_back(std::move(key), reader.text());
+    reader.good = reader.good && isPrintable(c.keys.back().first) && isPrintable(c.keys.back().second);
   }
-  return taker.good && taker.left() == 0 && c.time_s >= 0 && c.time_s <= 1e300 && c.fps >= 0 && c.fps <= 1e300;
+  return reader.good && reader.left() == 0 && c.time_s >= 0 && c.time_s <= 1e300 && c.fps >= 0 && c.fps <= 1e300;
 }
 
 }  // namespace
 
 std::vector<std::byte> encodeCheckpoint(const Checkpoint& checkpoint) {
   Writer about;
-  writeAbout(about, checkpoint);
-  uint64_t total = kHeadBytes + kSections * kRowBytes + padded(about.bytes.size()) + kChecksumBytes;
+  writeRunInfo(about, checkpoint);
+  uint64_t total = kHeaderBytes + kSections * kTableEntryBytes + padded(about.bytes.size()) + kChecksumBytes;
   forEachArray(checkpoint.fluid, [&](const char*, const auto& array) { total += padded(std::as_bytes(std::span(array)).size()); });
 
   Writer file;
@@ -188,25 +188,25 @@ std::vector<std::byte> encodeCheckpoint(const Checkpoint& checkpoint) {
 }
 
 Expected<Checkpoint> decodeCheckpoint(std::span<const std::byte> bytes, std::string_view name) {
-  const auto refused = [&](const std::string& why) { return Error{ErrorKind::BadInput, inQuotes(name) + " " + why}; };
-  if (const std::string trouble = headTrouble(bytes.first(std::min<size_t>(kHeadBytes, bytes.size())), bytes.size()); !trouble.empty())
-    return refused(trouble);
+  const auto badInput = [&](const std::string& why) { return Error{ErrorKind::BadInput, inQuotes(name) + " " + why}; };
+  if (const std::string problem = checkHeader(bytes.first(std::min<size_t>(kHeaderBytes, bytes.size())), bytes.size()); !problem.empty())
+    return badInput(problem);
   const auto body = bytes.first(bytes.size() - kChecksumBytes);
   Fnv1a hash;
   hash.add(body);
-  if (Taker(bytes.last(kChecksumBytes)).number<uint64_t>() != hash.value()) return refused("is damaged: its checksum does not hold");
+  if (ByteReader(bytes.last(kChecksumBytes)).number<uint64_t>() != hash.value()) return badInput("is corrupted: checksum mismatch");
 
-  Taker table(body.subspan(kHeadBytes, kSections * kRowBytes));
-  Taker sections(body.subspan(kHeadBytes + kSections * kRowBytes));
-  std::string trouble;
+  ByteReader table(body.subspan(kHeaderBytes, kSections * kTableEntryBytes));
+  ByteReader sections(body.subspan(kHeaderBytes + kSections * kTableEntryBytes));
+  std::string problem;
   const auto next = [&](std::string_view wanted, uint64_t record) -> std::span<const std::byte> {
     const auto eight = table.take(8);
     const auto size = table.number<uint64_t>();
     std::string found(reinterpret_cast<const char*>(eight.data()), eight.size());
     found.resize(std::strlen(found.c_str()));
-    if (!trouble.empty()) return {};
+    if (!problem.empty()) return {};
     if (found != wanted || size % record != 0 || size > sections.left()) {
-      trouble = "is damaged: it has no proper section " + inQuotes(wanted);
+      problem = "is corrupted: missing or invalid section " + inQuotes(wanted);
       return {};
     }
     const auto section = sections.take(size);
@@ -214,38 +214,38 @@ Expected<Checkpoint> decodeCheckpoint(std::span<const std::byte> bytes, std::str
     return section;
   };
   Checkpoint checkpoint;
-  if (!readAbout(next("about", 1), checkpoint) && trouble.empty()) trouble = "is damaged: what it says about its run makes no sense";
+  if (!readRunInfo(next("about", 1), checkpoint) && problem.empty()) problem = "is corrupted: invalid run information";
   forEachArray(checkpoint.fluid, [&](const char* section, auto& array) {
     using Record = typename std::decay_t<decltype(array)>::value_type;
     const auto from = next(section, sizeof(Record));
     array.resize(from.size() / sizeof(Record));
     if (!from.empty()) std::memcpy(array.data(), from.data(), from.size());
   });
-  if (trouble.empty() && (!sections.good || sections.left() > 0)) trouble = "is damaged: its sections do not fill it";
-  if (!trouble.empty()) return refused(trouble);
+  if (problem.empty() && (!sections.good || sections.left() > 0)) problem = "is corrupted: the sizes of its sections do not add up";
+  if (!problem.empty()) return badInput(problem);
   return checkpoint;
 }
 
 Expected<Checkpoint> loadCheckpoint(const std::filesystem::path& file) {
   const std::string name = file.string();
-  const auto refused = [&](const std::string& why) { return Error{ErrorKind::BadInput, inQuotes(name) + " " + why}; };
+  const auto badInput = [&](const std::string& why) { return Error{ErrorKind::BadInput, inQuotes(name) + " " + why}; };
   try {
     std::error_code failed;
-    if (!std::filesystem::exists(file, failed)) return refused("is not there");
-    if (!std::filesystem::is_regular_file(file, failed)) return refused("is no file; expected a checkpoint");
+    if (!std::filesystem::exists(file, failed)) return badInput("does not exist");
+    if (!std::filesystem::is_regular_file(file, failed)) return badInput("is not a regular file; expected a checkpoint");
     std::ifstream stream(file, std::ios::binary);
-    if (!stream) return refused("can't be opened");
+    if (!stream) return badInput("cannot be opened");
     const uint64_t size = std::filesystem::file_size(file, failed);
-    if (failed) return refused("can't be read: " + failed.message());
-    // A film that was taken for a checkpoint is not read to its end.
-    std::array<char, kHeadBytes> head{};
+    if (failed) return badInput("cannot be read: " + failed.message());
+    // Check the header first, so that large files of other kinds are not read.
+    std::array<char, kHeaderBytes> head{};
     stream.read(head.data(), static_cast<std::streamsize>(std::min<uint64_t>(size, head.size())));
     const auto found = std::as_bytes(std::span(head)).first(static_cast<size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
-    if (const std::string trouble = headTrouble(found, size); !trouble.empty()) return refused(trouble);
+    if (const std::string problem = checkHeader(found, size); !problem.empty()) return badInput(problem);
     std::vector<std::byte> bytes(size);
     stream.seekg(0);
     stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-    if (static_cast<uint64_t>(std::max<std::streamsize>(stream.gcount(), 0)) != size) return refused("can't be read to its end");
+    if (static_cast<uint64_t>(std::max<std::streamsize>(stream.gcount(), 0)) != size) return badInput("cannot be read to its end");
     return decodeCheckpoint(bytes, name);
   } catch (const std::bad_alloc&) { return Error{ErrorKind::OutOfMemory, inQuotes(name) + ": not enough memory to read the checkpoint"}; }
 }

@@ -23,7 +23,7 @@ Context::~Context() = default;
 
 ContextImpl::~ContextImpl() {
   if (device) {
-    if (vk.DeviceWaitIdle) (void)vk.DeviceWaitIdle(device);  // a lost device is torn down all the same
+    if (vk.DeviceWaitIdle) (void)vk.DeviceWaitIdle(device);  // a lost device is destroyed as well
     rill.reset();
     if (timeline) vk.DestroySemaphore(device, timeline, nullptr);
     if (pool) vk.DestroyCommandPool(device, pool, nullptr);
@@ -62,13 +62,13 @@ Expected<void> ContextImpl::waitFor(uint64_t frame) {
     if (VkResult r = vk.WaitSemaphores(device, &info, UINT64_MAX); r != VK_SUCCESS)
       return vulkanError(r, "waiting for frame " + std::to_string(frame) + " on " + deviceName);
   }
-  return lookAtClock();
+  return updateCompleted();
 }
 
-Expected<void> ContextImpl::lookAtClock() {
+Expected<void> ContextImpl::updateCompleted() {
   uint64_t value = 0;
   if (VkResult r = vk.GetSemaphoreCounterValue(device, timeline, &value); r != VK_SUCCESS)
-    return vulkanError(r, "asking " + deviceName + " for its last finished frame");
+    return vulkanError(r, "reading the last completed frame of " + deviceName);
   completed = std::max(completed, value);
   rill->beginFrame({submitted + 1, completed});
   return {};

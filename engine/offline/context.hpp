@@ -1,6 +1,6 @@
 #pragma once
-// A Vulkan instance, device and queue of our own, for programs that have none to lend: capture, bench, tests, the viewer.
-// No loader is linked: libvulkan is opened at run time, so that a program without it can say so.
+// A Vulkan instance, device and queue for programs without their own: capture, bench, tests, the viewer.
+// libvulkan is opened at run time, so that a missing loader is an error message.
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -17,13 +17,13 @@
 namespace rill::offline {
 
 struct ContextDesc {
-  std::string device;       ///< part of a device's name (case ignored) or its index; empty: the most capable kind there is
-  bool validation = false;  ///< VK_LAYER_KHRONOS_validation with synchronization validation; an error where it is not installed
+  std::string device;       ///< part of a device's name (case-insensitive) or its index; empty: the most capable kind
+  bool validation = false;  ///< VK_LAYER_KHRONOS_validation with synchronization validation; an error if it is not installed
   uint32_t framesInFlight = 2;
-  std::vector<const char*> instanceExtensions = {};  ///< e.g. those that a window system asks for
+  std::vector<const char*> instanceExtensions = {};  ///< e.g. those required by the window system
   std::vector<const char*> deviceExtensions = {};
   std::string applicationName = "rill";
-  /// Whether a queue family can show pictures in the program's windows; devices without such a family are not chosen. Empty: any will do.
+  /// Whether a queue family can present to the program's windows; devices without one are not chosen. Empty: not required.
   std::function<bool(VkInstance, VkPhysicalDevice, uint32_t queueFamily)> presents = {};
 };
 
@@ -35,10 +35,10 @@ struct SubmitSemaphores {
 
 class ContextImpl;
 
-/// Destroys everything that it made, after waiting for the device; what uses its rill::Device goes first.
+/// Waits for the device and destroys everything on destruction. Users of its rill::Device must be destroyed first.
 class Context {
  public:
-  /// BadInput, listing the devices, where none matches `desc.device`; NoDevice where no usable one exists.
+  /// BadInput, listing the devices, if none matches `desc.device`; NoDevice if none is usable.
   static Expected<std::unique_ptr<Context>> create(const ContextDesc& desc = {});
   ~Context();
   Context(const Context&) = delete;
@@ -46,9 +46,9 @@ class Context {
 
   Device& device();
 
-  /// Waits until a command buffer is free and tells the device that a frame begins. Frames are numbered from 1.
+  /// Waits for a free command buffer and begins a frame. Frames are numbered from 1.
   Expected<FrameClock> beginFrame();
-  /// Records with `record(VkCommandBuffer)` and submits. Begins a frame if none has begun.
+  /// Records with `record(VkCommandBuffer)` and submits. Calls beginFrame() if needed.
   template <class Record>
   Expected<void> submit(Record&& record, const SubmitSemaphores& semaphores = {}) {
     Expected<VkCommandBuffer> commands = beginCommands();
@@ -58,14 +58,14 @@ class Context {
   }
   /// Compiles, prepares, records and submits a graph as one frame.
   Expected<void> run(Graph& graph);
-  /// Waits for everything submitted. Read-backs and timings of those frames are there afterwards.
+  /// Waits for all submitted frames; their read-backs and timings are then available.
   Expected<void> wait();
-  /// Waits until this submitted frame is finished.
+  /// Waits for a submitted frame.
   Expected<void> waitFor(uint64_t frame);
   /// Waits until at most `frames` submitted frames are unfinished.
   Expected<void> waitUntilInFlight(uint32_t frames);
 
-  /// What the validation layer said (warnings and errors) since the last call.
+  /// Warnings and errors of the validation layer since the last call.
   std::vector<std::string> takeMessages();
 
   VkInstance instance() const;

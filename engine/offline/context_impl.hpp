@@ -1,5 +1,5 @@
 #pragma once
-// What is behind offline::Context. vulkan_setup.cpp opens the loader and makes instance and device, context.cpp runs frames.
+// Implementation of offline::Context: vulkan_setup.cpp creates instance and device, context.cpp runs frames.
 #include <optional>
 
 #include "offline/context.hpp"
@@ -38,13 +38,13 @@ class ContextImpl {
   Expected<void> openLoader();
   Expected<void> makeInstance(const ContextDesc& desc);
   Expected<void> chooseDevice(const ContextDesc& desc);
-  /// The queue family that suits best: one that draws too, where there is one. None: the device has none that computes, or shows pictures.
+  /// The preferred queue family: one with graphics, if available. Empty if none supports compute, or presentation if required.
   std::optional<uint32_t> familyOf(VkPhysicalDevice handle, const ContextDesc& desc) const;
   Expected<void> makeDevice(const ContextDesc& desc);
   // context.cpp
   Expected<void> makeFrames(uint32_t count);
   Expected<void> waitFor(uint64_t frame);
-  Expected<void> lookAtClock();
+  Expected<void> updateCompleted();
 
   PFN_vkGetInstanceProcAddr get = nullptr;
   PFN_vkCreateInstance createInstance = nullptr;
@@ -59,12 +59,12 @@ class ContextImpl {
 
   VkCommandPool pool = VK_NULL_HANDLE;
   std::vector<VkCommandBuffer> commandBuffers;
-  VkSemaphore timeline = VK_NULL_HANDLE;  ///< its value is the last frame that has completed
+  VkSemaphore timeline = VK_NULL_HANDLE;  ///< its value is the last completed frame
   uint64_t submitted = 0;
   uint64_t completed = 0;
   bool begun = false;
 
-  std::mutex messagesMutex;  // drivers and layers may call back from threads of their own
+  std::mutex messagesMutex;  // layers may call back from other threads
   std::vector<std::string> messages;
 
 #define RILL_DECLARE(name) PFN_vk##name name = nullptr;

@@ -26,7 +26,7 @@ NeighborCounter::NeighborCounter(std::span<const Float3> points, double radius) 
     if (bucket[i] != UINT32_MAX) entries_[next[bucket[i]]++] = i;
 }
 
-uint32_t NeighborCounter::count(uint32_t index, uint32_t enough) const {
+uint32_t NeighborCounter::count(uint32_t index, uint32_t maxCount) const {
   Cell home;
   if (!cellOf(points_[index], home)) return 0;
   const Float3 center = points_[index];
@@ -38,12 +38,12 @@ uint32_t NeighborCounter::count(uint32_t index, uint32_t enough) const {
         const uint32_t bucket = bucketOf(cell);
         for (uint32_t e = start_[bucket]; e < start_[bucket + 1]; ++e) {
           const uint32_t other = entries_[e];
-          Cell theirs;
-          // Two of the 27 cells may share a bucket: without this a point would be counted twice.
-          if (other == index || !cellOf(points_[other], theirs) || theirs != cell) continue;
+          Cell otherCell;
+          // Cells may share a bucket: compare cells, so that no point is counted twice.
+          if (other == index || !cellOf(points_[other], otherCell) || otherCell != cell) continue;
           const double dx = double(points_[other].x) - center.x, dy = double(points_[other].y) - center.y,
                        dz = double(points_[other].z) - center.z;
-          if (dx * dx + dy * dy + dz * dz <= radius_ * radius_ && ++found >= enough) return found;
+          if (dx * dx + dy * dy + dz * dz <= radius_ * radius_ && ++found >= maxCount) return found;
         }
       }
   return found;
@@ -52,7 +52,7 @@ uint32_t NeighborCounter::count(uint32_t index, uint32_t enough) const {
 bool NeighborCounter::cellOf(const Float3& point, Cell& cell) const {
   const double value[3] = {point.x / radius_, point.y / radius_, point.z / radius_};
   for (size_t axis = 0; axis < 3; ++axis) {
-    if (!(std::abs(value[axis]) < 1e15)) return false;  // NaN and infinity, too
+    if (!(std::abs(value[axis]) < 1e15)) return false;  // also for NaN and infinity
     cell[axis] = static_cast<int64_t>(std::floor(value[axis]));
   }
   return true;

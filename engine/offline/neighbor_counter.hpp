@@ -8,15 +8,15 @@
 
 namespace rill::offline {
 
-/// Counts points near one of them, on the host. A hash grid with cells of the radius: cost follows the points, not the room they span.
-/// Points with a coordinate that is not finite are nobody's neighbor.
+/// Counts neighbors on the host, with a hash grid whose cost does not depend on the extent of the points. Non-finite points have no
+/// neighbors.
 class NeighborCounter {
  public:
-  /// Keeps the span: `points` outlives the counter. `radius` > 0, m.
+  /// `points` must outlive the counter. `radius`: m, > 0.
   NeighborCounter(std::span<const Float3> points, double radius);
 
-  /// Other points within the radius (inclusive) of point `index`, counted no further than `enough`.
-  uint32_t count(uint32_t index, uint32_t enough = UINT32_MAX) const;
+  /// Number of other points within the radius (inclusive) of point `index`, at most `maxCount`.
+  uint32_t count(uint32_t index, uint32_t maxCount = UINT32_MAX) const;
 
  private:
   using Cell = std::array<int64_t, 3>;
@@ -25,8 +25,8 @@ class NeighborCounter {
 
   std::span<const Float3> points_;
   double radius_;
-  uint32_t mask_ = 0;              ///< buckets - 1, a power of two less one
-  std::vector<uint32_t> start_;    ///< first entry of each bucket, one more at the end
+  uint32_t mask_ = 0;              ///< number of buckets - 1; the number is a power of two
+  std::vector<uint32_t> start_;    ///< first entry of each bucket, and the number of entries
   std::vector<uint32_t> entries_;  ///< point indices by bucket
 };
 

@@ -62,14 +62,14 @@ CameraView Painter::camera(uint32_t width, uint32_t height, double time_s) const
   return view;
 }
 
-Error Painter::aboutEnvironment(const Error& error) const {
+Error Painter::environmentError(const Error& error) const {
   const std::string scene = scene_.file.empty() ? scene_.name : scene_.file.string();
   return {error.kind, scene + ": look.environment: " + error.message};
 }
 
 Expected<void> Painter::check(std::string_view name, uint32_t width, uint32_t height) {
   const View* view = find(name);
-  if (!view) return Error{ErrorKind::BadInput, "there is no view \"" + std::string(name) + "\""};
+  if (!view) return Error{ErrorKind::BadInput, "unknown view " + inQuotes(name) + "; expected one of " + listInQuotes(kNames)};
   if (view->kind != Kind::Particles) return checkViewport(width, height);
   ParticleViewDesc desc;
   desc.width = width;
@@ -78,7 +78,7 @@ Expected<void> Painter::check(std::string_view name, uint32_t width, uint32_t he
 }
 
 Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t width, uint32_t height) {
-  if (auto possible = check(name, width, height); !possible) return possible;
+  if (auto valid = check(name, width, height); !valid) return valid;
   const View* view = find(name);
   if (view->kind == Kind::Particles) {
     if (particles_) return {};
@@ -87,13 +87,12 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
     particles_ = std::move(*made);
     return {};
   }
-  if (auto possible = FluidRenderer::check(fluidView(camera(width, height, 0), width, height, scene_.fluid.spacing)); !possible)
-    return possible;
+  if (auto valid = FluidRenderer::check(fluidView(camera(width, height, 0), width, height, scene_.fluid.spacing)); !valid) return valid;
   if (!fluid_) {
     const auto look = fluidLook(scene_.look.preset);
-    if (!look) return Error{ErrorKind::BadInput, "look.preset: there is no look " + inQuotes(scene_.look.preset)};
+    if (!look) return Error{ErrorKind::BadInput, "look.preset: unknown look " + inQuotes(scene_.look.preset)};
     const auto method = surfaceMethod(scene_.look.surface);
-    if (!method) return Error{ErrorKind::BadInput, "look.surface: there is no method " + inQuotes(scene_.look.surface)};
+    if (!method) return Error{ErrorKind::BadInput, "look.surface: unknown method " + inQuotes(scene_.look.surface)};
     look_ = *look;
     look_.surface = *method;
     auto made = FluidRenderer::create(device);
@@ -103,8 +102,8 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
   if (view->kind != Kind::Final || scenery_) return {};
   if (!scene_.look.environment.empty()) {
     const auto picture = loadEnvironment(scene_.look.environment);
-    if (!picture) return aboutEnvironment(picture.error());
-    if (auto set = fluid_->setEnvironment(*picture); !set) return aboutEnvironment(set.error());
+    if (!picture) return environmentError(picture.error());
+    if (auto set = fluid_->setEnvironment(*picture); !set) return environmentError(set.error());
   }
   auto scenery = Scenery::create(device, scene_, start_, {}, fluid_->impl().environment.get());
   if (!scenery) return scenery.error();

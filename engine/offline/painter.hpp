@@ -1,5 +1,5 @@
 #pragma once
-// The pictures of a simulation: which views there are, and the passes of each.
+// Rendering of a simulation: the views and their passes.
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -13,40 +13,41 @@
 
 namespace rill::offline {
 
-/// What comes back of a picture.
+/// Read-backs of a picture.
 struct PictureTickets {
   Ticket picture;
-  std::optional<Ticket> counters;  ///< of the surface, where one was made
+  std::optional<Ticket> counters;  ///< of the surface renderer, if it was used
 };
 
-/// Times that loops of the picture's shaders ran into their bound, once it has arrived.
+/// Number of times that shader loops of the picture reached their limit. The frame must have completed.
 uint64_t boundHits(const Graph& graph, const PictureTickets& tickets);
 
+/// Renders the views of a simulation.
 class Painter {
  public:
-  /// Scene and particles outlive it.
+  /// `scene` and `start` must outlive it.
   Painter(const Scene& scene, const ParticleSet& start, double orbit_deg_per_s)
       : scene_(scene), start_(start), orbit_deg_per_s_(orbit_deg_per_s) {}
 
   static std::span<const std::string_view> views();
-  /// BadInput for a view that there is not, or a size that it cannot be drawn in. Needs no device.
+  /// BadInput for an unknown view or an unsupported size. Needs no device.
   static Expected<void> check(std::string_view view, uint32_t width, uint32_t height);
-  /// What check() says, BadInput for a look that is unknown; makes on the device what it needs.
+  /// Creates the device resources of a view. Errors as check(); BadInput for an unknown look or an invalid environment map.
   Expected<void> prepare(Device& device, std::string_view view, uint32_t width, uint32_t height);
-  /// Declares the passes of a picture that prepare() allowed, seen from `eye`: width x height pixels, RGBA8 in sRGB, rows from the top.
+  /// Adds the passes of a picture seen from `eye`; prepare() must have succeeded. The result is RGBA8 in sRGB, top row first.
   BufferRef addTo(Graph& graph, const FluidState& fluid, std::string_view view, const CameraView& eye, uint32_t width, uint32_t height,
                   double time_s);
-  /// The same from the scene's camera, read back.
+  /// The same from the scene's camera, with read-backs.
   PictureTickets declare(Graph& graph, const FluidState& fluid, std::string_view view, uint32_t width, uint32_t height, double time_s);
-  /// The scale of what a view colors particles by; none for the other views, or before prepare().
+  /// The color scale of a view; empty for views without one, or before prepare().
   std::optional<LegendDesc> legend(std::string_view view, double time_s) const;
-  /// What is drawn on the finished picture by the host.
+  /// Draws the legend of a view into a finished picture, on the host.
   void finish(Image& image, std::string_view view, double time_s) const;
 
  private:
-  /// The scene's, gone around its target for so long.
+  /// The scene's camera, rotated about its target for `time_s`.
   CameraView camera(uint32_t width, uint32_t height, double time_s) const;
-  Error aboutEnvironment(const Error& error) const;
+  Error environmentError(const Error& error) const;
 
   const Scene& scene_;
   const ParticleSet& start_;

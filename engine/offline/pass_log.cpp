@@ -6,7 +6,7 @@
 namespace rill::offline {
 
 PassLog::Entry& PassLog::entry(std::string_view name) {
-  // A few dozen passes: a search costs less than a map.
+  // With a few dozen passes, linear search is faster than a map.
   const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.name == name; });
   if (found != entries_.end()) return *found;
   entries_.push_back({std::string(name), 0, 0, 0, {}});
@@ -31,10 +31,10 @@ void PassLog::add(std::span<const Timing> timings) {
 
 void PassLog::add(std::span<const FluidPassRuns> passes, std::span<const PassReport> report) {
   for (const PassReport& pass : report) {
-    const auto switched = [&](const FluidPassRuns& r) {
+    const auto matches = [&](const FluidPassRuns& r) {
       return r.name.ends_with('/') ? pass.name.starts_with(r.name) : pass.name == r.name;
     };
-    const auto found = std::ranges::find_if(passes, switched);
+    const auto found = std::ranges::find_if(passes, matches);
     if (found == passes.end() || pass.culled || !pass.reason.empty()) continue;
     entry(pass.name).ran -= static_cast<uint32_t>(uint64_t{pass.runs} * (found->of - std::min(found->ran, found->of)) / found->of);
   }

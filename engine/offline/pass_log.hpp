@@ -10,19 +10,19 @@
 
 namespace rill::offline {
 
-/// Adds up what the graphs of one instant report of their passes.
+/// Sums the pass reports of the graphs of one advance.
 class PassLog {
  public:
   void clear() { entries_.clear(); }
-  /// Of a graph that was compiled; `submitted`: its passes have run.
+  /// Adds a compiled graph. `submitted`: whether its passes were executed.
   void add(std::span<const PassReport> report, bool submitted);
-  /// Of that graph, once it has completed.
+  /// Adds the timings of that graph once it has completed.
   void add(std::span<const Timing> timings);
-  /// Of a fluid in that graph, likewise: what was empty.
+  /// Subtracts the passes that the device skipped for a fluid in that graph, once it has completed.
   void add(std::span<const FluidPassRuns> passes, std::span<const PassReport> report);
 
-  std::vector<PassTime> times() const;       ///< passes that ran, in the order met
-  std::vector<SkippedPass> skipped() const;  ///< passes that never ran
+  std::vector<PassTime> times() const;       ///< executed passes, in order of first occurrence
+  std::vector<SkippedPass> skipped() const;  ///< passes that were never executed
 
  private:
   struct Entry {

@@ -1,4 +1,4 @@
-// Pictures of particles that somebody else simulated.
+// Renders given particles.
 #include <cmath>
 #include <cstring>
 #include <new>
@@ -25,7 +25,7 @@ class Player::Impl {
     start_ = std::move(*start);
     if (!(scene_.fluid.spacing > 0))
       return Error{ErrorKind::BadInput,
-                   "fluid.spacing: the scene says how many particles there are but fills nothing; expected a spacing in m"};
+                   "fluid.spacing: not given, and no fill to compute it from fluid.particles; expected a number above 0 (m)"};
     ContextDesc desc;
     desc.device = options.device;
     desc.validation = options.validation;
@@ -38,11 +38,10 @@ class Player::Impl {
 
   Expected<void> show(const std::vector<Float3>& positions, const double origin[3], const std::vector<Float3>& velocities, double time_s) {
     if (positions.size() > kMaxParticles)
-      return Error{ErrorKind::TooLarge,
-                   std::to_string(positions.size()) + " particles; at most " + std::to_string(kMaxParticles) + " are possible"};
+      return Error{ErrorKind::TooLarge, std::to_string(positions.size()) + " particles; expected at most " + std::to_string(kMaxParticles)};
     if (!velocities.empty() && velocities.size() != positions.size())
-      return Error{ErrorKind::BadInput,
-                   std::to_string(velocities.size()) + " velocities for " + std::to_string(positions.size()) + " positions"};
+      return Error{ErrorKind::BadInput, "found " + std::to_string(velocities.size()) + " velocities for " +
+                                            std::to_string(positions.size()) + " positions, expected equal numbers"};
     count_ = static_cast<uint32_t>(positions.size());
     time_s_ = time_s;
     std::copy_n(origin, 3, origin_);
@@ -84,7 +83,7 @@ class Player::Impl {
     Image image{width, height, std::vector<uint8_t>(4 * size_t{width} * height)};
     const auto bytes = graph_.data(tickets.picture);
     if (bytes.size() < image.rgba.size())
-      return Error{ErrorKind::Failed, "drawing the view \"" + std::string(view) + "\": no picture came back"};
+      return Error{ErrorKind::Failed, "drawing the view \"" + std::string(view) + "\": the read-back is incomplete"};
     std::memcpy(image.rgba.data(), bytes.data(), image.rgba.size());
     painter_.finish(image, view, time_s_);
     boundHits_ = offline::boundHits(graph_, tickets);
@@ -99,7 +98,7 @@ class Player::Impl {
 
  private:
   Scene scene_;
-  ParticleSet start_;  ///< what frames the picture where the scene has no camera
+  ParticleSet start_;  ///< framed if the scene has no camera
   std::unique_ptr<Context> context_;
   Buffer position_, velocity_;
   uint32_t count_ = 0;

@@ -9,7 +9,7 @@
 namespace rill::offline {
 namespace {
 
-constexpr uint32_t kFrontNeighbors = 5;  // a lone drop is no front
+constexpr uint32_t kFrontNeighbors = 5;  // ignores isolated particles
 constexpr double kLevelBin = 1.5;        // spacings
 
 float coordinate(const Float3& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
@@ -39,7 +39,7 @@ double ProbeReader::level(double x, double z) const {
     if (dx * dx + dz * dz <= spacing_ * spacing_ && y >= 0 && std::isfinite(y)) heights.push_back(y);
   }
   std::sort(heights.begin(), heights.end());
-  double top = 0, filled = -1;  // filled: the highest bin without a gap below it
+  double top = 0, filled = -1;  // filled: highest bin without an empty bin below
   for (const double y : heights) {
     const double bin = std::floor(y / (kLevelBin * spacing_));
     if (bin > filled + 1) break;
@@ -52,7 +52,7 @@ double ProbeReader::level(double x, double z) const {
 double ProbeReader::front(Axis axis) const {
   const int component = static_cast<int>(axis) / 2;
   const float sign = static_cast<int>(axis) % 2 == 0 ? 1.0f : -1.0f;
-  // A heap: as a rule one of the first few particles is the front, so a full sort would be wasted.
+  // A heap: one of the first few particles is usually the front, so a full sort is not needed.
   std::vector<std::pair<float, uint32_t>> farthest;
   farthest.reserve(positions_.size());
   for (uint32_t i = 0; i < positions_.size(); ++i) {

@@ -7,30 +7,30 @@
 
 namespace rill::offline {
 
-/// Measures a scene's probes on particles that were read back. Values are relative to the domain's minimum (the scene's zero where it has
-/// none).
+/// Evaluates probes on particles in host memory. Values are in m, relative to the domain's minimum (to the scene's origin without a
+/// domain).
 class ProbeReader {
  public:
-  /// `positions` are relative to `origin` (both in m) and outlive the reader.
+  /// `positions`: m, relative to `origin` (m); they must outlive the reader.
   ProbeReader(const Scene& scene, std::span<const Float3> positions, const double (&origin)[3]);
   ~ProbeReader();
 
   double measure(const Probe& probe) const;
 
-  /// Height of the wet column over the floor at x, z (scene coordinates): among particles within one spacing of the vertical line, up from
-  /// the floor in bins of 1.5 spacings until one is empty; the highest below that plus half a spacing; 0 where dry.
+  /// Height of the fluid column above the floor at x, z (m, scene coordinates): the highest particle within one spacing of the vertical
+  /// line and below the first empty bin of 1.5 spacings, plus half a spacing; 0 without fluid.
   double level(double x, double z) const;
 
-  /// The farthest particle along the axis with at least five neighbors within the smoothing length, plus half a spacing the same way. 0
-  /// where there is none.
+  /// Position of the farthest particle along the axis with at least five neighbors within the smoothing length, plus half a spacing; 0
+  /// without one.
   double front(Axis axis) const;
 
  private:
   std::span<const Float3> positions_;
   double spacing_, smoothing_;
-  double shift_[3];                                     ///< from a position to one relative to the domain's minimum
+  double shift_[3];                                     ///< added to positions to make them relative to the domain's minimum, m
   double minimum_[3];                                   ///< of the domain, m
-  mutable std::unique_ptr<NeighborCounter> neighbors_;  ///< made when a front is asked for
+  mutable std::unique_ptr<NeighborCounter> neighbors_;  ///< created by front()
 };
 
 }  // namespace rill::offline

@@ -7,7 +7,7 @@
 namespace rill::offline {
 namespace {
 
-/// The first `count` records of a read-back; buffers may be longer than the particles they hold.
+/// The first `count` records of a read-back; buffers may be longer.
 template <class Record>
 std::vector<Record> records(std::span<const std::byte> bytes, uint32_t count) {
   assert(bytes.size() >= size_t{count} * sizeof(Record));

@@ -8,7 +8,7 @@
 
 namespace rill::offline {
 
-/// The particles of an instant as the device holds them.
+/// Particles in the order of the device.
 struct Readout {
   std::vector<Float3> positions;         ///< m, relative to FluidState::origin
   std::vector<Float3> velocities;        ///< m/s
@@ -16,14 +16,15 @@ struct Readout {
   std::vector<uint32_t> ids;
 };
 
+/// Read-backs of a Readout.
 struct ReadoutTickets {
   Ticket position, velocity, id;
   uint32_t count = 0;
 };
 
-/// Declares the read-backs of a state; none where there is no particle.
+/// Adds the read-backs of a state to a graph; none without particles.
 ReadoutTickets readout(Graph& graph, const FluidState& state);
-/// What they brought, once the graph's frame has completed.
+/// The particles that were read back. The frame must have completed.
 Readout collect(const Graph& graph, const ReadoutTickets& tickets);
 
 }  // namespace rill::offline

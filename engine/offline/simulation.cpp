@@ -19,11 +19,11 @@
 namespace rill::offline {
 namespace {
 
-constexpr uint32_t kFirstPiece = 16;  // substeps, before anything is known about a scene's need
+constexpr uint32_t kFirstPiece = 16;  // substeps recorded before any statistics are known
 
 uint32_t wholeBlocks(uint32_t substeps, uint32_t block) { return (std::max(substeps, 1u) + block - 1) / block * block; }
 
-/// Runs `work`, with running out of host memory as an error like others.
+/// Runs `work` and turns std::bad_alloc into an error.
 template <class Work>
 auto guarded(const char* what, Work&& work) -> decltype(work()) {
   try {
@@ -37,10 +37,10 @@ class Simulation::Impl {
  public:
   Impl(Scene scene, const Options& options) : scene_(std::move(scene)), options_(options) {}
 
-  /// The particles given, or those of the scene's fills.
+  /// Uses the given particles, or makes those of the scene's fills.
   Expected<void> place(std::optional<ParticleSet> given) {
-    if (auto possible = checkScene(scene_); !possible) return possible;
-    constexpr double kShortestFrame = 1e-6;  // s: an advance of many would never end
+    if (auto valid = checkScene(scene_); !valid) return valid;
+    constexpr double kShortestFrame = 1e-6;  // s; limits the number of frames of an advance
     if (!(options_.longestFrame_s >= kShortestFrame))
       return Error{ErrorKind::BadInput, "Options::longestFrame_s is " + shortestNumber(options_.longestFrame_s) + "; expected at least " +
                                             shortestNumber(kShortestFrame) + " (s)"};
@@ -50,25 +50,15 @@ class Simulation::Impl {
     return {};
   }
 
-  /// An allocation failed on the device: adds what the fluid needs in all, and what the device has.
-  Error withMemoryNeeded(Error error) const {
-    const auto mebibytes = [](uint64_t bytes) { return grouped(bytes >> 20) + " MiB"; };
-    const DeviceInfo& device = context_->device().info();
-    error.message += "\n" + grouped(start_.positions.size()) + " particles need " +
-                     mebibytes(fluidMemory(scene_, start_.positions.size()).total()) + " on the device; " + inQuotes(device.name) +
-                     " has " + mebibytes(device.deviceLocalBytes);
-    return error;
-  }
-
-  /// `from`: the checkpoint that it goes on from, or null.
+  /// `from`: the checkpoint to continue from, or null.
   Expected<void> open(const Checkpoint* from) {
     if (from)
-      if (const std::string other = firstDifference(from->keys, simulationKeys(scene_, start_)); !other.empty())
-        return Error{ErrorKind::BadInput, "the checkpoint was written by another scene: " + other};
+      if (const std::string difference = firstDifference(from->keys, simulationKeys(scene_, start_)); !difference.empty())
+        return Error{ErrorKind::BadInput, "the checkpoint was written by another scene: " + difference};
     ContextDesc desc;
     desc.device = options_.device;
     desc.validation = options_.validation;
-    desc.framesInFlight = 1;  // each frame is waited for
+    desc.framesInFlight = 1;  // every frame is waited for
     auto context = Context::create(desc);
     if (!context) return context.error();
     context_ = std::move(*context);
@@ -77,7 +67,7 @@ class Simulation::Impl {
     fluid_ = std::move(*fluid);
     if (from) {
       time_s_ = from->time_s;
-      warnOfOthers(*from);
+      addResumeWarnings(*from);
     }
     for (Graph* graph : {&advanceGraph_, &measureGraph_, &renderGraph_}) graph->enableTimings(options_.passTimes);
     return {};
@@ -85,9 +75,9 @@ class Simulation::Impl {
 
   Expected<void> advance(double seconds) {
     if (!std::isfinite(seconds) || seconds < 0)
-      return Error{ErrorKind::BadInput, "advance: " + std::to_string(seconds) + " s was given; expected a finite time, 0 or more"};
+      return Error{ErrorKind::BadInput, "advance: found " + std::to_string(seconds) + " s, expected a finite time of at least 0"};
     if (seconds == 0) return {};
-    beginInstant();
+    beginAdvance();
     const auto frames = static_cast<uint64_t>(std::max(1.0, std::ceil(seconds / options_.longestFrame_s - 1e-9)));
     for (uint64_t frame = 0; frame < frames; ++frame) {
       const auto before = std::chrono::steady_clock::now();
@@ -97,7 +87,7 @@ class Simulation::Impl {
       advanced_.substeps += done.substeps;
       advanced_.iterations += done.iterations;
       advanced_.list_builds += done.list_builds;
-      // What the recorded maximum had no room for is dropped by the next advance, whoever counts it.
+      // Time that the recorded substeps did not cover is dropped by the next advance.
       advanced_.time_dropped_s += std::max(done.time_dropped_s, done.time_left_s);
       if (done.substeps > 0) expected_ = std::max(done.substeps, done.list_builds * fluid_->substepsPerBlock());
     }
@@ -149,7 +139,7 @@ class Simulation::Impl {
   }
 
   Expected<Checkpoint> checkpoint(uint64_t frame, double fps) {
-    // Whoever looks has the state uploaded and the last advance closed.
+    // measure() uploads the state and completes the last advance.
     if (auto measured = measure(); !measured) return measured.error();
     Checkpoint c;
     c.rill = RILL_VERSION;
@@ -161,8 +151,8 @@ class Simulation::Impl {
     c.fps = fps;
     c.keys = simulationKeys(scene_, start_);
     SnapshotReader reader(*fluid_);
-    for (Graph graph; !reader.done();) {  // its own: what it reads into goes with it
-      auto ran = runAside(graph, [&](Graph& g) { reader.declare(g); });
+    for (Graph graph; !reader.done();) {  // a separate graph, to release its read-back memory afterwards
+      auto ran = runUnlogged(graph, [&](Graph& g) { reader.declare(g); });
       if (!ran) return ran.error();
       if (auto taken = reader.take(graph); !taken) return taken.error();
     }
@@ -176,7 +166,7 @@ class Simulation::Impl {
   Expected<Image> render(std::string_view view, uint32_t width, uint32_t height) {
     if (auto ready = prepareRender(view, width, height); !ready) return ready.error();
     if (auto measured = measure(); !measured) return measured.error();
-    const double now = measured_->time_s;  // the device's: behind time() where time was dropped
+    const double now = measured_->time_s;  // on the device, which is behind time() if time was dropped
     PictureTickets tickets;
     auto ran = run(renderGraph_, [&](Graph& graph) {
       const FluidState state = fluid_->addTo(graph, {});
@@ -186,7 +176,7 @@ class Simulation::Impl {
     const auto bytes = renderGraph_.data(tickets.picture);
     Image image{width, height, std::vector<uint8_t>(4 * size_t{width} * height)};
     if (bytes.size() < image.rgba.size())
-      return Error{ErrorKind::Failed, "drawing the view \"" + std::string(view) + "\": no picture came back"};
+      return Error{ErrorKind::Failed, "drawing the view \"" + std::string(view) + "\": the read-back is incomplete"};
     std::memcpy(image.rgba.data(), bytes.data(), image.rgba.size());
     painter_.finish(image, view, now);
     pictureBoundHits_ += boundHits(renderGraph_, tickets);
@@ -215,7 +205,7 @@ class Simulation::Impl {
   }
 
  private:
-  void beginInstant() {
+  void beginAdvance() {
     measured_.reset();
     advanced_ = {};
     wall_s_ = 0;
@@ -223,28 +213,28 @@ class Simulation::Impl {
     log_.clear();
   }
 
-  /// What differs from the run that wrote the checkpoint, where bits may differ for it.
-  void warnOfOthers(const Checkpoint& from) {
-    const auto compare = [&](const char* what, const std::string& there, const std::string& here) {
-      if (there != here)
-        warnings_.push_back("the checkpoint was written with the " + std::string(what) + " " + inQuotes(there) + ", this is " +
-                            inQuotes(here) + ": the run goes on, its bits may differ");
+  /// Warns of differences to the run that wrote the checkpoint that may change results.
+  void addResumeWarnings(const Checkpoint& from) {
+    const auto compare = [&](const char* what, const std::string& expected, const std::string& found) {
+      if (expected != found)
+        warnings_.push_back("the checkpoint was written with the " + std::string(what) + " " + inQuotes(expected) + ", this is " +
+                            inQuotes(found) + "; results may differ bitwise");
     };
     compare("device", from.device, device().name);
     compare("driver", from.driver, device().driver);
     compare("Rill", from.rill, RILL_VERSION);
   }
 
-  /// Like run(), unseen by the log of the instant.
+  /// Like run(), without an entry in the pass log.
   template <class Declare>
-  Expected<void> runAside(Graph& graph, Declare&& declare) {
+  Expected<void> runUnlogged(Graph& graph, Declare&& declare) {
     const PassLog log = log_;
     auto ran = run(graph, std::forward<Declare>(declare));
     log_ = log;
     return ran;
   }
 
-  /// Declares a graph, runs it and waits. A graph without a pass to run is not submitted: an empty scene costs next to nothing.
+  /// Declares a graph, runs it and waits. Graphs without passes to run are not submitted, which makes empty scenes cheap.
   template <class Declare>
   Expected<void> run(Graph& graph, Declare&& declare) {
     graph.reset();
@@ -264,16 +254,16 @@ class Simulation::Impl {
     return {};
   }
 
-  /// One advance of the solver, recorded in pieces until no time is left.
+  /// Runs one advance of the solver, recorded in pieces until no time is left.
   Expected<void> advanceFrame(double seconds) {
     const uint32_t block = std::max(1u, fluid_->substepsPerBlock());
-    const uint32_t most = fluid_->substepsToComplete();
-    const uint32_t guess = wholeBlocks(expected_, block);
-    for (uint32_t recorded = 0; recorded < most;) {
-      // The first piece is what the frame before took; what it leaves is done in pieces a quarter of that.
-      uint32_t piece = recorded == 0 ? guess : wholeBlocks(guess / 4, block);
+    const uint32_t maxSubsteps = fluid_->substepsToComplete();
+    const uint32_t estimate = wholeBlocks(expected_, block);
+    for (uint32_t recorded = 0; recorded < maxSubsteps;) {
+      // The first piece has the substeps of the previous frame, further pieces a quarter of that.
+      uint32_t piece = recorded == 0 ? estimate : wholeBlocks(estimate / 4, block);
       if (options_.substepsPerSubmit > 0) piece = wholeBlocks(options_.substepsPerSubmit, block);
-      piece = std::min(piece, most - recorded);
+      piece = std::min(piece, maxSubsteps - recorded);
       const FluidStep step{recorded == 0 ? seconds : 0.0, recorded > 0, piece, false};
       if (auto ran = run(advanceGraph_, [&](Graph& graph) { static_cast<void>(fluid_->addTo(graph, step)); }); !ran) return ran;
       recorded += piece;
@@ -282,7 +272,7 @@ class Simulation::Impl {
     return {};
   }
 
-  /// The figures and arrays of the present instant, once.
+  /// Measures statistics and reads particles back, once per time.
   Expected<void> measure() {
     if (measured_) return {};
     ReadoutTickets tickets;
@@ -305,16 +295,16 @@ class Simulation::Impl {
   std::unique_ptr<Context> context_;
   std::unique_ptr<Fluid> fluid_;
   Painter painter_{scene_, start_, options_.orbit_deg_per_s};
-  // One graph for each shape of frame: each keeps the memory plan of its own.
+  // One graph per kind of frame, so that each keeps its memory plan.
   Graph advanceGraph_, measureGraph_, renderGraph_;
-  PassLog log_;                         ///< since the last instant
-  FluidProgress advanced_;              ///< by the last advance(), its frames added up
-  std::optional<FluidStats> measured_;  ///< of the present instant
-  Readout readout_;                     ///< likewise
-  uint32_t expected_ = kFirstPiece;     ///< substeps that the next frame will take, a guess
+  PassLog log_;                         ///< since the last advance() began
+  FluidProgress advanced_;              ///< of the last advance(), summed over its frames
+  std::optional<FluidStats> measured_;  ///< at the current time
+  Readout readout_;                     ///< at the current time
+  uint32_t expected_ = kFirstPiece;     ///< estimated substeps of the next frame
   double time_s_ = 0;
   double wall_s_ = 0;
-  uint64_t pictureBoundHits_ = 0;  ///< of the present instant
+  uint64_t pictureBoundHits_ = 0;  ///< at the current time
 };
 
 Simulation::Simulation(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -331,7 +321,7 @@ Expected<std::unique_ptr<Simulation>> Simulation::make(Scene scene, std::optiona
   return guarded("opening the scene", [&]() -> Expected<std::unique_ptr<Simulation>> {
     if (start && start->positions.size() > kMaxParticles)
       return Error{ErrorKind::TooLarge,
-                   std::to_string(start->positions.size()) + " particles; at most " + std::to_string(kMaxParticles) + " are possible"};
+                   std::to_string(start->positions.size()) + " particles; expected at most " + std::to_string(kMaxParticles)};
     auto impl = std::make_unique<Impl>(std::move(scene), options);
     if (auto placed = impl->place(std::move(start)); !placed) return placed.error();
     if (auto opened = impl->open(from); !opened) return opened.error();

@@ -12,17 +12,17 @@
 namespace rill {
 namespace {
 
-constexpr std::array<std::string_view, 7> kLeftOut{"title", "about", "duration", "probes", "camera", "look", "fluid.particles"};
+constexpr std::array<std::string_view, 7> kExcluded{"title", "about", "duration", "probes", "camera", "look", "fluid.particles"};
 
-class Lister {
+class KeyCollector {
  public:
   template <class Owner>
-  void list(const std::string& path, const Owner& owner) {
+  void collect(const std::string& path, const Owner& owner) {
     model::forEachField<Owner>([&](const auto& field) {
       using Value = typename std::decay_t<decltype(field)>::Value;
       if constexpr (model::kHasMember<Value>) {
         std::string key = (path.empty() ? "" : path + ".") + std::string(field.info.key);
-        if (std::find(kLeftOut.begin(), kLeftOut.end(), key) == kLeftOut.end()) add(field.info, std::move(key), owner.*field.member);
+        if (std::find(kExcluded.begin(), kExcluded.end(), key) == kExcluded.end()) add(field.info, std::move(key), owner.*field.member);
       }
     });
   }
@@ -52,23 +52,23 @@ class Lister {
   void add(const model::Info& info, std::string key, Enum value) {
     keys_.emplace_back(std::move(key), std::string(info.words[static_cast<size_t>(value)]));
   }
-  /// The file's name may change: what was in it is among the particles at the start.
+  /// The name of the file may change; its particles are covered by the hash of the initial particles.
   void add(const model::Info&, std::string key, const std::optional<std::filesystem::path>& file) {
     if (file) keys_.emplace_back(std::move(key), "a file");
   }
   template <model::Described Struct>
   void add(const model::Info&, std::string key, const Struct& value) {
-    list(key, value);
+    collect(key, value);
   }
   template <model::Described Struct>
   void add(const model::Info&, std::string key, const std::optional<Struct>& value) {
-    if (value) list(key, *value);
+    if (value) collect(key, *value);
   }
   template <model::Described Struct>
   void add(const model::Info&, std::string key, const std::vector<Struct>& values) {
-    for (size_t k = 0; k < values.size(); ++k) list(key + "[" + std::to_string(k) + "]", values[k]);
+    for (size_t k = 0; k < values.size(); ++k) collect(key + "[" + std::to_string(k) + "]", values[k]);
   }
-  // Texts and probes: all are left out.
+  // Strings and probes are excluded.
   void add(const model::Info&, std::string, const std::string&) {}
   void add(const model::Info&, std::string, const std::filesystem::path&) {}
   void add(const model::Info&, std::string, const std::optional<std::pair<double, double>>&) {}
@@ -96,25 +96,25 @@ const std::string* find(const SimulationKeys& keys, const std::string& key) {
 }  // namespace
 
 SimulationKeys simulationKeys(const Scene& scene, const ParticleSet& start) {
-  Lister lister;
-  lister.list("", scene);
-  SimulationKeys keys = lister.take();
+  KeyCollector collector;
+  collector.collect("", scene);
+  SimulationKeys keys = collector.take();
   keys.emplace_back("start", hashOf(start));
   return keys;
 }
 
-std::string firstDifference(const SimulationKeys& there, const SimulationKeys& here) {
-  if (there == here) return {};
-  for (const auto& [key, value] : here) {
-    const std::string* other = find(there, key);
-    if (!other) return key + " was not set there and is " + value + " here";
-    if (*other == value) continue;
-    if (key == "start") return "the particles at the start are others (a file of particles has changed, or how Rill fills a shape)";
-    return key + " was " + *other + " there and is " + value + " here";
+std::string firstDifference(const SimulationKeys& expected, const SimulationKeys& found) {
+  if (expected == found) return {};
+  for (const auto& [key, value] : found) {
+    const std::string* wanted = find(expected, key);
+    if (!wanted) return key + ": found " + value + ", expected no such key";
+    if (*wanted == value) continue;
+    if (key == "start") return "start: the initial particles differ (a particle file or the placement of fills has changed)";
+    return key + ": found " + value + ", expected " + *wanted;
   }
-  for (const auto& [key, value] : there)
-    if (!find(here, key)) return key + " was " + value + " there and is not set here";
-  return "its keys come in another order";
+  for (const auto& [key, value] : expected)
+    if (!find(found, key)) return key + ": not set, expected " + value;
+  return "the order of the keys differs";
 }
 
 }  // namespace rill

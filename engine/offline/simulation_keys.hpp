@@ -1,5 +1,5 @@
 #pragma once
-// What of a scene decides a simulation, as text: so that two scenes can be compared, and the first key in which they differ be named.
+// The scene keys that affect a simulation, as text, to compare two scenes and name the first difference.
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,13 +10,13 @@
 
 namespace rill {
 
-/// Paths as in the file ("solver.cfl", "solids[0].friction") and values, in the order of the table of keys. Keys that change no particle
-/// (title, duration, probes, camera, look) are left out, and `fluid.particles`, which has become `fluid.spacing` by now.
+/// Key paths as in the file ("solver.cfl", "solids[0].friction") and values, in the order of the field table. Without keys that do not
+/// affect particles (title, duration, probes, camera, look) and `fluid.particles`, from which `fluid.spacing` was computed.
 using SimulationKeys = std::vector<std::pair<std::string, std::string>>;
-/// `scene` has been through makeParticles(). The last key, "start", stands for the particles themselves: a hash of them.
+/// `scene` and `start` must come from makeParticles(). The last key, "start", is a hash of the particles.
 SimulationKeys simulationKeys(const Scene& scene, const ParticleSet& start);
 
-/// Empty where both are the same; else "KEY was X there and is Y here" for the first key that differs.
-std::string firstDifference(const SimulationKeys& there, const SimulationKeys& here);
+/// Describes the first difference: "KEY: found Y, expected X". Empty if there is none. `expected` are the keys of the checkpoint.
+std::string firstDifference(const SimulationKeys& expected, const SimulationKeys& found);
 
 }  // namespace rill

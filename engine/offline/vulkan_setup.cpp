@@ -1,4 +1,4 @@
-// From nothing to a VkDevice: loader, instance, validation, choice of device.
+// Vulkan setup: loader, instance, validation, choice of device.
 #include <dlfcn.h>
 
 #include <algorithm>
@@ -54,7 +54,7 @@ std::string listed(const std::vector<Candidate>& devices) {
   return text;
 }
 
-/// The device that `wanted` names: by its index where it is a number in range, else by part of its name.
+/// The device with the index `wanted` if that is a number in range, else the first whose name contains it.
 std::optional<size_t> match(const std::vector<Candidate>& devices, const std::string& wanted) {
   if (wanted.size() <= 3 && std::ranges::all_of(wanted, [](unsigned char c) { return std::isdigit(c); }))
     if (const size_t index = std::stoul(wanted); index < devices.size()) return index;
@@ -66,14 +66,14 @@ std::optional<size_t> match(const std::vector<Candidate>& devices, const std::st
 }  // namespace
 
 Expected<void> ContextImpl::openLoader() {
-  // Never closed: drivers leave threads and exit handlers behind that must not outlive their code.
+  // Never closed: threads and exit handlers of drivers may still run its code.
   void* library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
   if (!library) library = dlopen("libvulkan.so", RTLD_NOW | RTLD_LOCAL);
   if (!library) return Error{ErrorKind::NoDevice, "no Vulkan loader on this system: install libvulkan1 (libvulkan.so.1) and a driver"};
   get = reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library, "vkGetInstanceProcAddr"));
   createInstance = get ? reinterpret_cast<PFN_vkCreateInstance>(get(nullptr, "vkCreateInstance")) : nullptr;
   if (!createInstance)
-    return Error{ErrorKind::NoDevice, "libvulkan.so.1 is no Vulkan loader: it lacks vkGetInstanceProcAddr or vkCreateInstance"};
+    return Error{ErrorKind::NoDevice, "libvulkan.so.1 is not a Vulkan loader: it lacks vkGetInstanceProcAddr or vkCreateInstance"};
   return {};
 }
 
@@ -86,8 +86,8 @@ Expected<void> ContextImpl::makeInstance(const ContextDesc& desc) {
 
   VkDebugUtilsMessengerCreateInfoEXT debug{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
   debug.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-  debug.messageType =
-      VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;  // not the loader's GENERAL
+  debug.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
+                      VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;  // without GENERAL messages of the loader
   debug.pfnUserCallback = onMessage;
   debug.pUserData = this;
   const VkValidationFeatureEnableEXT enable[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
@@ -121,7 +121,7 @@ Expected<void> ContextImpl::makeInstance(const ContextDesc& desc) {
     auto createMessenger = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(get(instance, "vkCreateDebugUtilsMessengerEXT"));
     if (!createMessenger) return Error{ErrorKind::Failed, "validation was asked for, but VK_EXT_debug_utils is missing"};
     if (VkResult r = createMessenger(instance, &debug, nullptr, &messenger); r != VK_SUCCESS)
-      return vulkanError(r, "listening to the validation layer");
+      return vulkanError(r, "creating the debug messenger");
   }
   return {};
 }
@@ -137,7 +137,7 @@ std::optional<uint32_t> ContextImpl::familyOf(VkPhysicalDevice handle, const Con
     return std::nullopt;
   };
   if (const auto draws = find(VK_QUEUE_COMPUTE_BIT | VK_QUEUE_GRAPHICS_BIT); draws || desc.presents) return draws;
-  return find(VK_QUEUE_COMPUTE_BIT);  // a compute-only card can still simulate
+  return find(VK_QUEUE_COMPUTE_BIT);  // compute-only devices can simulate
 }
 
 Expected<void> ContextImpl::chooseDevice(const ContextDesc& desc) {
@@ -154,20 +154,20 @@ Expected<void> ContextImpl::chooseDevice(const ContextDesc& desc) {
     vki.GetPhysicalDeviceProperties(handle, &properties);
     devices.push_back({handle, properties.deviceName, properties.deviceType});
   }
-  if (devices.empty())
-    return Error{ErrorKind::NoDevice, "no Vulkan device found (Debian: mesa-vulkan-drivers brings one that needs no GPU)"};
+  if (devices.empty()) return Error{ErrorKind::NoDevice, "no Vulkan device found (Debian: mesa-vulkan-drivers includes a CPU driver)"};
 
   const auto usable = [&](const Candidate& candidate) -> Expected<void> {
     DeviceRequirements ignored;
     if (auto ok = appendRequired(get, instance, candidate.handle, ignored); !ok) return ok;
     if (familyOf(candidate.handle, desc)) return {};
-    return Error{ErrorKind::NoDevice, "device '" + candidate.name + "' has no queue that " +
-                                          (desc.presents ? "computes, draws and shows pictures on this display" : "computes")};
+    return Error{ErrorKind::NoDevice,
+                 "device '" + candidate.name + "' has no queue that " +
+                     (desc.presents ? "supports compute, graphics and presentation to this display" : "supports compute")};
   };
   std::optional<size_t> chosen;
   if (!wanted.empty()) {
     chosen = match(devices, wanted);
-    if (!chosen) return Error{ErrorKind::BadInput, "no Vulkan device matches '" + wanted + "'. There are:" + listed(devices)};
+    if (!chosen) return Error{ErrorKind::BadInput, "no Vulkan device matches '" + wanted + "'. Available devices:" + listed(devices)};
     if (auto ok = usable(devices[*chosen]); !ok) return ok;
   } else {
     std::string reasons;

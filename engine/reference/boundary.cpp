@@ -1,4 +1,4 @@
-// What walls and solids do to the fluid: displaced density, collisions, contact.
+// Walls and solids: density contribution, collisions, contact.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -45,41 +45,40 @@ WallSample ReferenceSolver::boundaryOf(const glm::dvec3& x, std::span<const Soli
     sum.value += value;
     for (int a = 0; a < 3; ++a) {
       sum.gradient[a] += gradient[a];
-      if (squared > 0) sum.beside[a] += value * (1 - gradient[a] * gradient[a] / squared);
+      if (squared > 0) sum.wallCoverage[a] += value * (1 - gradient[a] * gradient[a] / squared);
     }
   }
   return sum;
 }
 
-glm::dvec3 ReferenceSolver::alongWalls(size_t i) const {
-  glm::dvec3 along;
-  for (int a = 0; a < 3; ++a) along[a] = 1 / (1 - std::min<double>(boundary_[i].beside[a], kMaxWallCoverage));
-  return along;
+glm::dvec3 ReferenceSolver::tangentialScale(size_t i) const {
+  glm::dvec3 scale;
+  for (int a = 0; a < 3; ++a) scale[a] = 1 / (1 - std::min<double>(boundary_[i].wallCoverage[a], kMaxBeside));
+  return scale;
 }
 
-/// Moves a center to half a spacing off every surface it is nearer to: solids in their order, walls last, so that nothing ends outside.
-/// Between walls nearer than a spacing it goes to the middle.
+/// Moves a center to half a spacing from every surface that is closer: solids in order, walls last, so that no particle ends outside.
+/// Between walls that are less than a spacing apart it is moved to the middle.
 glm::dvec3 ReferenceSolver::collide(glm::dvec3 x, std::span<const SolidPose> solids) const {
-  const double keep = settings.spacing / 2;
+  const double clearance = settings.spacing / 2;
   for (const SolidPose& pose : solids) {
     const double at[3] = {x.x, x.y, x.z};
     const SurfacePoint surface = solidSurface(pose, at);
-    if (surface.distance >= keep) continue;
-    for (int a = 0; a < 3; ++a) x[a] += (keep - surface.distance) * surface.normal[a];
+    if (surface.distance >= clearance) continue;
+    for (int a = 0; a < 3; ++a) x[a] += (clearance - surface.distance) * surface.normal[a];
   }
   for (int a = 0; a < 3; ++a) {
-    const double lo = settings.lo[a] + keep, hi = settings.hi[a] - keep;
+    const double lo = settings.lo[a] + clearance, hi = settings.hi[a] - clearance;
     x[a] = lo > hi ? (lo + hi) / 2 : std::clamp(x[a], lo, hi);
   }
   return x;
 }
 
-/// The velocity after touching solids with restitution e and Coulomb friction mu, relative to the solid's own velocity. With u = v_old + g
-/// dt - v_solid, the velocity before the solve, and f = a_i sum_j (lambda_i + lambda_j) G_ij / dt, what the neighbors' pressure gave:
-///   v_n >= -e u_n where u_n < 0;   the tangential part loses at most mu max(0, v_n - u_n - f_n), all the impulse that the solid itself
-///   gave.
-/// Without f a layer would feel its own weight alone, not that of the column above: the clamp of the positions carries most of it.
-/// Domain walls are smooth: e = 0 by the positions' clamp, mu = 0.
+/// Velocity after contact with solids, with restitution e and Coulomb friction mu, relative to the velocity of the solid. With the velocity
+/// before the solve, u = v_old + g dt - v_solid, and the contribution of the neighbors' pressure, f = a_i sum_j (lambda_i + lambda_j) G_ij
+/// / dt:
+///   v_n >= -e u_n if u_n < 0;   the tangential speed is reduced by at most mu max(0, v_n - u_n - f_n), the impulse of the solid.
+/// The term f makes friction include the weight of the column above. Domain walls have e = 0 and mu = 0.
 glm::dvec3 ReferenceSolver::contact(size_t i, glm::dvec3 v, double dt, std::span<const SolidPose> solids) const {
   const glm::dvec3& x = state.predicted[i];
   for (const SolidPose& pose : solids) {
@@ -96,7 +95,7 @@ glm::dvec3 ReferenceSolver::contact(size_t i, glm::dvec3 v, double dt, std::span
     if (before < 0 && pose.restitution > 0) normal = std::max(normal, -pose.restitution * before);
     glm::dvec3 pressure(0);
     for (const Pair& pair : pairs(i)) pressure += (lambda_[i] + lambda_[pair.j]) / dt * pair.gradient;
-    const double impulse = std::max(0.0, normal - before - glm::dot(alongWalls(i) * pressure, n));
+    const double impulse = std::max(0.0, normal - before - glm::dot(tangentialScale(i) * pressure, n));
     const double slip = glm::length(tangential);
     if (slip > 0) tangential *= std::max(0.0, 1 - pose.friction * impulse / slip);
     v = solid + normal * n + tangential;

@@ -8,7 +8,7 @@
 namespace rill::reference {
 namespace {
 
-constexpr size_t kBruteForceUpTo = 64;
+constexpr size_t kMaxBruteForce = 64;
 
 struct Cell {
   int64_t x, y, z;
@@ -18,7 +18,7 @@ Cell cellOf(const glm::dvec3& x, double h) {
   return {static_cast<int64_t>(std::floor(x.x / h)), static_cast<int64_t>(std::floor(x.y / h)), static_cast<int64_t>(std::floor(x.z / h))};
 }
 
-/// 21 bits an axis: cells two million apart share a key, which costs a distance test and no error.
+/// 21 bits per axis. Cells that are 2^21 apart share a key, which only adds distance tests.
 uint64_t keyOf(const Cell& c) {
   constexpr uint64_t mask = (1u << 21) - 1;
   return (static_cast<uint64_t>(c.x) & mask) << 42 | (static_cast<uint64_t>(c.y) & mask) << 21 | (static_cast<uint64_t>(c.z) & mask);
@@ -43,7 +43,7 @@ Neighbors findNeighborsBruteForce(std::span<const glm::dvec3> x, double h) {
 }
 
 Neighbors findNeighbors(std::span<const glm::dvec3> x, double h) {
-  if (x.size() <= kBruteForceUpTo) return findNeighborsBruteForce(x, h);
+  if (x.size() <= kMaxBruteForce) return findNeighborsBruteForce(x, h);
   std::unordered_map<uint64_t, std::vector<uint32_t>> cells;
   for (uint32_t i = 0; i < x.size(); ++i) cells[keyOf(cellOf(x[i], h))].push_back(i);
   Neighbors found;

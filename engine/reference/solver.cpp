@@ -37,7 +37,7 @@ ReferenceSolver::ReferenceSolver(const ReferenceSettings& s, std::span<const glm
   lambdaChange_.assign(count, 0);
   delta_.assign(count, 0);
   curl_.assign(count, glm::dvec3(0));
-  gained_ = walled_ = std::vector<glm::dvec3>(count, glm::dvec3(0));
+  gain_ = wallPosition_ = std::vector<glm::dvec3>(count, glm::dvec3(0));
   for (const glm::dvec3& v : state.velocity)
     if (finite(v)) fastest_ = std::max(fastest_, glm::length(v));
   if (settings.tabulated) {
@@ -54,32 +54,32 @@ void ReferenceSolver::begin(double dt) {
     const bool placed = finite(state.position[i]);
     if (placed && finite(state.velocity[i])) continue;
     for (int a = 0; a < 3 && !placed; ++a) state.position[i][a] = std::isfinite(settings.lo[a]) ? settings.lo[a] : 0;
-    park(i);
+    deactivate(i);
   }
-  if (pressed_ > 0) return predict(pressed_, dt);
+  if (initialPressureStep_ > 0) return predict(initialPressureStep_, dt);
   state.predicted = state.position;
   step_ = 0;
-  judgeCalmness();
+  updateRestFactor();
   density();
   predict(dt, dt);
 }
 
 void ReferenceSolver::press(double dt, double momentum, int iterations) {
-  judgeCalmness();
-  const double omega = std::lerp(settings.relaxation, settings.calmRelaxation, calmness_);
+  updateRestFactor();
+  const double omega = std::lerp(settings.relaxation, settings.calmRelaxation, restFactor_);
   std::vector<double> change(size(), 0);
   state.predicted = state.position;
   density();
   for (int iteration = 0; iteration < iterations; ++iteration) {
-    plan(dt, true);
+    predictPositions(dt, true);
     density();
     for (size_t i = 0; i < size(); ++i) {
-      const double before = state.warm[i], onward = std::min(0.0, before + momentum * change[i]);
-      state.warm[i] = std::min(0.0, onward - omega * (densityRatio_[i] - 1) / denominator_[i]);
+      const double before = state.warm[i], extrapolated = std::min(0.0, before + momentum * change[i]);
+      state.warm[i] = std::min(0.0, extrapolated - omega * (densityRatio_[i] - 1) / denominator_[i]);
       change[i] = state.warm[i] - before;
     }
   }
-  pressed_ = dt;
+  initialPressureStep_ = dt;
 }
 
 void ReferenceSolver::substep(double dt, double dtNext) {
@@ -91,21 +91,21 @@ void ReferenceSolver::substep(double dt, double dtNext) {
     multipliers(iteration == 0);
     correction(dt, first && iteration + 1 == settings.iterations ? push : 0);
   }
-  judgeCalmness();
+  updateRestFactor();
   velocities(dt);
   if (settings.viscosity > 0) viscosity(dt);
   if (first) {
-    if (settings.calmViscosity > 0) calm(blockTime_);
+    if (settings.calmViscosity > 0) dampNoise(blockTime_);
     blockTime_ = 0;
   }
   if (settings.vorticity > 0) vorticity(dt);
   predict(dt, dtNext);
 }
 
-// From the speeds that the substep started with.
-void ReferenceSolver::judgeCalmness() {
-  const double share = settings.roughSpeed > 0 ? std::min(fastest_ / settings.roughSpeed, 1.0) : 1;
-  calmness_ = 1 - std::pow(share, 4);
+// Uses the largest speed at the start of the substep.
+void ReferenceSolver::updateRestFactor() {
+  const double fraction = settings.roughSpeed > 0 ? std::min(fastest_ / settings.roughSpeed, 1.0) : 1;
+  restFactor_ = 1 - std::pow(fraction, 4);
 }
 
 ReferenceSolver::Pair ReferenceSolver::makePair(uint32_t i, uint32_t j) const {
@@ -142,15 +142,15 @@ void ReferenceSolver::density() {
       squares += glm::dot(pairs_.back().gradient, pairs_.back().gradient);
     }
     densityRatio_[i] = ratio;
-    const glm::dvec3 along = alongWalls(i);
-    const double all = glm::dot(sum, along * sum) + squares * (along.x + along.y + along.z) / 3;
-    denominator_[i] = std::max(all + settings.regularization * rest, kLeastDenominator * rest);
+    const glm::dvec3 scale = tangentialScale(i);
+    const double all = glm::dot(sum, scale * sum) + squares * (scale.x + scale.y + scale.z) / 3;
+    denominator_[i] = std::max(all + settings.regularization * rest, kMinDenominator * rest);
   }
 }
 
 void ReferenceSolver::multipliers(bool firstIteration) {
-  const double omega = std::lerp(settings.relaxation, settings.calmRelaxation, calmness_),
-               kappa = std::lerp(settings.warmStart, settings.calmWarmStart, calmness_);
+  const double omega = std::lerp(settings.relaxation, settings.calmRelaxation, restFactor_),
+               kappa = std::lerp(settings.warmStart, settings.calmWarmStart, restFactor_);
   for (size_t i = 0; i < size(); ++i) {
     if (firstIteration) lambda_[i] = state.warm[i];
     delta_[i] = -omega * (densityRatio_[i] - 1) / denominator_[i];
@@ -164,8 +164,8 @@ void ReferenceSolver::multipliers(bool firstIteration) {
   }
 }
 
-double ReferenceSolver::tensileTerm(double value, double push) const {
-  return push == 0 ? 0 : -push / kernel_.restGradientSum() * artificial_.share(value);
+double ReferenceSolver::artificialPressureTerm(double value, double push) const {
+  return push == 0 ? 0 : -push / kernel_.restGradientSum() * artificial_.factor(value);
 }
 
 void ReferenceSolver::correction(double dt, double push) {
@@ -173,17 +173,17 @@ void ReferenceSolver::correction(double dt, double push) {
   for (size_t i = 0; i < size(); ++i) {
     glm::dvec3 sum(0), apart(0);
     for (const Pair& pair : pairs(i)) {
-      sum += (lambdaChange_[i] + lambdaChange_[pair.j] + tensileTerm(pair.value, push)) * pair.gradient;
+      sum += (lambdaChange_[i] + lambdaChange_[pair.j] + artificialPressureTerm(pair.value, push)) * pair.gradient;
       apart += kCoincidentDistance * kernel_.h() * pair.apart;
     }
-    const glm::dvec3 moved = state.predicted[i] + alongWalls(i) * sum + lambdaChange_[i] * vec(boundary_[i].gradient) + apart;
-    gained_[i] = glm::dvec3(0);
+    const glm::dvec3 moved = state.predicted[i] + tangentialScale(i) * sum + lambdaChange_[i] * vec(boundary_[i].gradient) + apart;
+    gain_[i] = glm::dvec3(0);
     if (finite(moved)) {
-      walled_[i] = collide(moved, {});
-      gained_[i] = walled_[i] - state.predicted[i];
+      wallPosition_[i] = collide(moved, {});
+      gain_[i] = wallPosition_[i] - state.predicted[i];
       state.predicted[i] = collide(moved, solids);
     } else {
-      park(i);
+      deactivate(i);
     }
   }
 }
@@ -191,12 +191,12 @@ void ReferenceSolver::correction(double dt, double push) {
 void ReferenceSolver::velocities(double dt) {
   const std::vector<SolidPose> solids = poses(time_, dt);
   const double maxGain = dt * (std::clamp(0.5 * fastest_, settings.pushLow, settings.pushHigh) + 4 * dt * glm::length(settings.gravity));
-  fastest_ = 0;  // before solids, as the shaders have it
+  fastest_ = 0;  // excludes solids, as in the shaders
   for (size_t i = 0; i < size(); ++i) {
-    const double gain = glm::length(gained_[i]);
-    const double lost = gain > maxGain ? 1 - maxGain / gain : 0;
-    const glm::dvec3 excess = lost * (gained_[i] + 0.5 * (walled_[i] - gained_[i] - state.position[i]));
-    if (finite(walled_[i])) fastest_ = std::max(fastest_, glm::length(walled_[i] - state.position[i] - excess) / dt);
+    const double gain = glm::length(gain_[i]);
+    const double removed = gain > maxGain ? 1 - maxGain / gain : 0;
+    const glm::dvec3 excess = removed * (gain_[i] + 0.5 * (wallPosition_[i] - gain_[i] - state.position[i]));
+    if (finite(wallPosition_[i])) fastest_ = std::max(fastest_, glm::length(wallPosition_[i] - state.position[i] - excess) / dt);
     glm::dvec3 v = contact(i, (state.predicted[i] - state.position[i] - excess) / dt, dt, solids);
     const double speed = glm::length(v);
     if (speed > settings.speedLimit) v *= settings.speedLimit / speed;
@@ -204,7 +204,7 @@ void ReferenceSolver::velocities(double dt) {
       state.position[i] = state.predicted[i];
       state.velocity[i] = v;
     } else {
-      park(i);
+      deactivate(i);
     }
   }
   time_ += dt;
@@ -217,12 +217,14 @@ double ReferenceSolver::xsphCoefficient(double viscosity, double dt) const {
 
 void ReferenceSolver::viscosity(double dt) {
   const double c = xsphCoefficient(settings.viscosity, dt) / settings.viscositySweeps;
-  for (int sweep = 0; sweep < settings.viscositySweeps; ++sweep) smooth(c);
+  for (int sweep = 0; sweep < settings.viscositySweeps; ++sweep) applyXsph(c);
 }
 
-void ReferenceSolver::calm(double dt) { smooth(std::min(xsphCoefficient(calmness_ * settings.calmViscosity, dt), double{kMaxNoiseDamping})); }
+void ReferenceSolver::dampNoise(double dt) {
+  applyXsph(std::min(xsphCoefficient(restFactor_ * settings.calmViscosity, dt), double{kMaxCalming}));
+}
 
-void ReferenceSolver::smooth(double coefficient) {
+void ReferenceSolver::applyXsph(double coefficient) {
   const std::vector<glm::dvec3> v = state.velocity;
   for (size_t i = 0; i < size(); ++i)
     for (const Pair& pair : pairs(i)) state.velocity[i] += coefficient * pair.value * (v[pair.j] - v[i]);
@@ -247,30 +249,30 @@ void ReferenceSolver::vorticity(double dt) {
 
 void ReferenceSolver::predict(double dt, double dtNext) {
   for (double& w : state.warm) w *= (dtNext / dt) * (dtNext / dt);
-  plan(dtNext, false);
+  predictPositions(dtNext, false);
   step_ = dtNext;
 }
 
-void ReferenceSolver::plan(double dt, bool still) {
-  const std::vector<SolidPose> solids = poses(time_, still ? 0 : dt);
+void ReferenceSolver::predictPositions(double dt, bool atRest) {
+  const std::vector<SolidPose> solids = poses(time_, atRest ? 0 : dt);
   for (size_t i = 0; i < size(); ++i) {
-    const glm::dvec3 v = still ? glm::dvec3(0) : state.velocity[i];
+    const glm::dvec3 v = atRest ? glm::dvec3(0) : state.velocity[i];
     glm::dvec3 x = state.position[i] + dt * (v + dt * settings.gravity) + state.warm[i] * vec(boundary_[i].gradient), push(0);
     for (const Pair& pair : pairs(i)) push += (state.warm[i] + state.warm[pair.j]) * pair.gradient;
-    x += alongWalls(i) * push;
+    x += tangentialScale(i) * push;
     if (finite(x)) {
       state.predicted[i] = collide(x, solids);
     } else {
-      park(i);
+      deactivate(i);
     }
   }
 }
 
-void ReferenceSolver::park(size_t i) {
+void ReferenceSolver::deactivate(size_t i) {
   state.predicted[i] = state.position[i];
   state.velocity[i] = glm::dvec3(0);
   state.warm[i] = 0;
-  ++parked_;
+  ++inactive_;
 }
 
 }  // namespace rill::reference

@@ -1,21 +1,22 @@
 #pragma once
-// Position based fluids (Macklin and Mueller 2013) with walls, solids and an integral warm start, in double precision on one thread: the
-// oracle of the shaders and the documentation of the method. Speed comes after readability.
+// Reference implementation of Position Based Fluids (Macklin and Mueller 2013) with walls, solids and an integral warm start, in double
+// precision on one thread. It documents the method and is the oracle of the shaders' tests; readability comes before speed.
 //
-// A substep of dt. Notation: K = d^3 W as in sph/kernel.hpp, G_ij = grad_i K(x*_i - x*_j), B_i = what walls and solids add to the density,
-// grad B_i its gradient, a_i what makes up, axis by axis, for what is beside the particle: 1 / (1 - min(WallSample::beside, kMaxWallCoverage)).
+// A substep of dt. Notation: K = d^3 W as in sph/kernel.hpp, G_ij = grad_i K(x*_i - x*_j), B_i = density contribution of walls and
+// solids, grad B_i its gradient, a_i = tangential scale per axis, 1 / (1 - min(WallSample::wallCoverage, kMaxBeside)).
 //   density       rho_i/rho0 = K(0) + sum_j K_ij + B_i,   C_i = rho_i/rho0 - 1,
 //                 D_i = g . a_i g + mean(a_i) sum_j |G_ij|^2 + eps D_rest with g = sum_j G_ij + grad B_i
-//   multipliers   delta_i = -omega C_i / D_i,   lambda_i = min(0, lambda_i + delta_i), starting from w_i; the change is dlambda_i.
-//                 In the first iteration w_i = min(0, w_i + kappa delta_i): a slow integral, so that a fluid at rest carries its pressure
-//                 from substep to substep
-//   correction    x*_i += a_i sum_j (dlambda_i + dlambda_j + s_ij) G_ij + dlambda_i grad B_i, then out of solids and walls
+//   multipliers   delta_i = -omega C_i / D_i,   lambda_i = min(0, lambda_i + delta_i), initially w_i; its change is dlambda_i.
+//                 In the first iteration w_i = min(0, w_i + kappa delta_i): an integral that keeps the pressure of a fluid at rest from
+//                 substep to substep (warm start)
+//   correction    x*_i += a_i sum_j (dlambda_i + dlambda_j + s_ij) G_ij + dlambda_i grad B_i, then projected out of solids and walls
 //   velocities    v = (x* - x) / dt, contact with solids, |v| <= the limit, x = x*
-//   viscosity     XSPH, with more of it where the fluid is at rest;  vorticity   confinement
+//   viscosity     XSPH, and noise damping of slow fluid;  vorticity   confinement
 //   predict       w_i *= (dt_next/dt)^2,
-//                 x*_i = x_i + dt_next (v_i + g dt_next) + a_i sum_j (w_i + w_j) G_ij + w_i grad B_i, then out of solids and walls
-// Density to correction repeat for every iteration.
-// The pairs of the last density evaluation (its neighbors, K_ij and G_ij) serve all stages up to the next one.
+//                 x*_i = x_i + dt_next (v_i + g dt_next) + a_i sum_j (w_i + w_j) G_ij + w_i grad B_i, then projected out of solids and
+//                 walls
+// Density to correction repeat for every iteration. The pairs of the last density evaluation (neighbors, K_ij and G_ij) are used by all
+// stages up to the next one.
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <limits>
@@ -31,18 +32,17 @@
 
 namespace rill::reference {
 
-/// Pairs nearer than this share of h have no usable direction: they take one from their ids (shaders/shared/pair_hash.h), with the
-/// gradient's length at `kCoincidentGradient` h, and each is moved `kCoincidentDistance` h along it in every correction, whatever its
-/// density.
+/// Pairs closer than kCoincidentDistance h are coincident. Their direction comes from a hash of their ids (shaders/shared/pair_hash.h), the
+/// length of the gradient from distance kCoincidentGradient h, and each correction separates them by kCoincidentDistance h each.
 inline constexpr double kCoincidentDistance = 1e-3, kCoincidentGradient = 0.05;
 
-/// A particle whose center is within this many spacings of a solid's surface touches it (0.5 is where centers are held).
+/// A particle is in contact with a solid if its center is within this many spacings of the surface; centers are kept at 0.5.
 inline constexpr double kContactDistance = 0.55;
 
-/// D_i is at least this share of D_rest, so that eps = 0 does not divide a lone particle by 0.
-inline constexpr double kLeastDenominator = 1e-6;
+/// Lower limit of D_i over D_rest, which avoids division by zero for isolated particles with eps = 0.
+inline constexpr double kMinDenominator = 1e-6;
 
-/// Every coefficient, explicit. Nothing is "auto" here.
+/// All coefficients, explicitly; there is no "auto".
 struct ReferenceSettings {
   KernelChoice kernel = KernelChoice::Wendland;
   double spacing = 0.05;               ///< d, m, > 0
@@ -52,47 +52,47 @@ struct ReferenceSettings {
 
   glm::dvec3 lo = glm::dvec3(-std::numeric_limits<double>::infinity());  ///< m, walls; -infinity: open
   glm::dvec3 hi = glm::dvec3(std::numeric_limits<double>::infinity());   ///< m, walls; infinity: open
-  glm::dvec3 origin = {0, 0, 0};  ///< m, where the positions' zero is in the scene: taken off the solids
-  std::vector<Solid> solids;  ///< in scene coordinates; they should not overlap each other or the walls, since what they displace adds up
-  bool tabulated = false;     ///< walls and solids from the tables that the shaders read, in place of the sums
+  glm::dvec3 origin = {0, 0, 0};                                         ///< m, origin of the positions in scene coordinates
+  std::vector<Solid> solids;  ///< in scene coordinates; should not overlap each other or walls, since densities add up
+  bool tabulated = false;     ///< use the shaders' tables for walls and solids instead of lattice sums
 
-  int iterations = 1;         ///< Jacobi iterations a substep, >= 1
-  double relaxation = 0.5;    ///< omega, > 0 .. 2; 0.5 is quiet in a still tank
+  int iterations = 1;         ///< Jacobi iterations per substep, >= 1
+  double relaxation = 0.5;    ///< omega in motion, > 0 .. 2
   double regularization = 0;  ///< eps, a fraction of D_rest, >= 0
-  double warmStart = 0.01;    ///< kappa, 0 .. 0.5
-  double warmRelease = 1.5;   ///< times kappa where density is below rest density
+  double warmStart = 0.01;    ///< kappa in motion, 0 .. 0.5
+  double warmRelease = 1.5;   ///< factor on kappa where the density is below rest density
 
-  double roughSpeed = 0;      ///< m/s of the fastest particle, at which omega and kappa are those above; 0: always
-  double calmRelaxation = 0;  ///< omega of a fluid at rest, likewise; between them by the fourth power of the speed
-  double calmWarmStart = 0;   ///< kappa of a fluid at rest
-  double calmViscosity = 0;   ///< mu of a fluid at rest, Pa s, on top of `viscosity`; none at roughSpeed
-  int substepsPerBlock = 1;   ///< substeps from one use of it, and of the artificial pressure, to the next
+  double roughSpeed = 0;      ///< largest speed, m/s, from which on omega and kappa are those above; 0: always
+  double calmRelaxation = 0;  ///< omega at rest; interpolated by the fourth power of the speed
+  double calmWarmStart = 0;   ///< kappa at rest
+  double calmViscosity = 0;   ///< noise damping: viscosity at rest in addition to `viscosity`, Pa s; 0 at roughSpeed
+  int substepsPerBlock = 1;   ///< noise damping and artificial pressure are applied once per block of this many substeps
 
-  double tensile = 0;           ///< strength of the artificial pressure, 0 .. 1: see sph/artificial_pressure.hpp
+  double tensile = 0;           ///< strength of the artificial pressure, 0 .. 1; see sph/artificial_pressure.hpp
   double tensileRadius = 0.25;  ///< delta q / h
   double tensilePower = 16;     ///< n
 
   double viscosity = 0;                                         ///< mu, Pa s
-  int viscositySweeps = 1;                                      ///< n: XSPH sweeps a substep, each with c/n, which has to be below 1
-  double vorticity = 0;                                         ///< eps_v, dimensionless, 0 .. 1
-  double speedLimit = std::numeric_limits<double>::infinity();  ///< m/s, of a particle after a substep
-  double warmLimit = std::numeric_limits<double>::infinity();   ///< m^2/s^2: w is at least -warmLimit dt^2
-  double pushLow =
-      std::numeric_limits<double>::infinity();  ///< m/s: half of the fastest particle's speed, held between these, and 4 g dt on top,
-  double pushHigh = std::numeric_limits<double>::infinity();  ///< is the most that the last correction may add to a particle's speed
+  int viscositySweeps = 1;                                      ///< n: XSPH sweeps per substep, each with c/n < 1
+  double vorticity = 0;                                         ///< eps_v, 0 .. 1
+  double speedLimit = std::numeric_limits<double>::infinity();  ///< largest speed after a substep, m/s
+  double warmLimit = std::numeric_limits<double>::infinity();   ///< m^2/s^2: w >= -warmLimit dt^2
+  /// The last correction may add at most clamp(largest speed / 2, pushLow, pushHigh) + 4 g dt to the speed of a particle. m/s.
+  double pushLow = std::numeric_limits<double>::infinity();
+  double pushHigh = std::numeric_limits<double>::infinity();
 };
 
 class ReferenceSolver {
  public:
-  /// A neighbor j of particle i, of the last density evaluation.
+  /// A neighbor j of particle i in the last density evaluation.
   struct Pair {
     uint32_t j = 0;
     double value = 0;                 ///< K_ij
     glm::dvec3 gradient = {0, 0, 0};  ///< G_ij, 1/m
-    glm::dvec3 apart = {0, 0, 0};     ///< unit, from j to i, where the pair coincides; else 0
+    glm::dvec3 apart = {0, 0, 0};     ///< unit direction from j to i of a coincident pair; else 0
   };
 
-  /// All that a substep carries to the next. Any part may be set between stages.
+  /// State that is carried from substep to substep. It may be set between stages.
   struct State {
     std::vector<glm::dvec3> position;   ///< x, m, at time()
     std::vector<glm::dvec3> velocity;   ///< v, m/s
@@ -101,31 +101,31 @@ class ReferenceSolver {
     std::vector<uint32_t> id;           ///< unique
   };
 
-  /// Particles at rest in the warm start's sense (w = 0), with ids 0, 1, ... and x* = x. `velocities` may be empty: all 0.
+  /// Particles without warm start (w = 0), with ids 0, 1, ... and x* = x. Empty `velocities`: all 0.
   ReferenceSolver(const ReferenceSettings& settings, std::span<const glm::dvec3> positions, std::span<const glm::dvec3> velocities = {});
 
-  /// The first prediction, for a first substep of `dt` (s, > 0), with the pressure that press() has found. What is not finite is parked
-  /// here: a position at the lower corner (0 where open), a velocity at 0.
+  /// Predicts the first substep of `dt` (s, > 0), from the pressure of press() if it was called. Deactivates non-finite particles:
+  /// positions become the lower corner (0 on open sides), velocities 0.
   void begin(double dt);
 
-  /// Before begin(), of finite particles: the pressure that bears the start, w for a step of `dt` (s, > 0), by Jacobi iterations with
-  /// heavy-ball momentum in which nothing moves: x*_i = x_i + g dt^2 + a_i sum_j (w_i + w_j) G_ij + w_i grad B_i, out of solids and
-  /// walls, then w_i = min(0, min(0, w_i + momentum (w_i - w_i of the iteration before)) + delta_i).
+  /// Solves for the initial hydrostatic pressure, w for a step of `dt` (s, > 0). Call before begin(), with finite particles. Jacobi
+  /// iterations with heavy-ball momentum (Polyak 1964) at fixed positions: x*_i = x_i + g dt^2 + a_i sum_j (w_i + w_j) G_ij + w_i grad B_i,
+  /// projected out of solids and walls, then w_i = min(0, min(0, w_i + momentum * previous change of w_i) + delta_i).
   void press(double dt, double momentum, int iterations);
 
-  /// One substep of `dt`, which is the `dtNext` of the call before (or begin's `dt`), with the prediction of one of `dtNext`. s, > 0.
+  /// Runs a substep of `dt`, the `dtNext` of the previous call or the `dt` of begin(), and predicts one of `dtNext`. s, > 0.
   void substep(double dt, double dtNext);
 
-  /// The substep's parts, in its order: each reads `state` and what the parts before it left.
+  /// The stages of a substep in order. Each uses `state` and the results of earlier stages.
   void density();                           ///< neighbors of x*, pairs, rho, B, D
   void multipliers(bool firstIteration);    ///< lambda, dlambda; w in the first iteration
-  void correction(double dt, double push);  ///< x*; `push`: the artificial pressure, over 1 / D
-  void velocities(double dt);               ///< v, x; time goes on by dt
-  void viscosity(double dt);                ///< v: v_i += c/n sum_j K_ij (v_j - v_i), n times; symmetric, so it keeps momentum
-  void calm(double dt);                     ///< v: the same once, with the viscosity that a fluid at rest has on top
-  /// v += dt eps_v h |omega| (N x omega), with the curl omega_i = sum_j G_ij x (v_j - v_i), eta_i = sum_j G_ij (|omega_j| - |omega_i|) and
-  /// N = eta / (|eta| + 0.001 |omega| / h). An acceleration needs eps_v h |omega|^2 for a dimensionless eps_v: a vortex is fed at the rate
-  /// at which it turns, and slow water is left alone.
+  void correction(double dt, double push);  ///< x*; `push`: artificial pressure times D_rest
+  void velocities(double dt);               ///< v, x; adds dt to time()
+  void viscosity(double dt);                ///< v: v_i += c/n sum_j K_ij (v_j - v_i), n times; conserves momentum
+  void dampNoise(double dt);                ///< v: the same once, with the additional viscosity of slow fluid
+  /// Vorticity confinement (Macklin and Mueller 2013, eq. 15 and 16, with a dimensionless coefficient):
+  ///   v += dt eps_v h |omega| (N x omega), omega_i = sum_j G_ij x (v_j - v_i), eta_i = sum_j G_ij (|omega_j| - |omega_i|),
+  ///   N = eta / (|eta| + 0.001 |omega| / h).
   void vorticity(double dt);
   void predict(double dt, double dtNext);  ///< w, x*
 
@@ -135,8 +135,8 @@ class ReferenceSolver {
   size_t size() const { return state.position.size(); }
   double time() const { return time_; }  ///< s, since begin
   const SmoothingKernel& kernel() const { return kernel_; }
-  double mass() const;                         ///< of a particle: rho0 d^3, kg
-  uint64_t parked() const { return parked_; }  ///< particles that were not finite, counted each time
+  double mass() const;                             ///< of a particle: rho0 d^3, kg
+  uint64_t inactive() const { return inactive_; }  ///< number of deactivations of non-finite particles
 
   std::span<const Pair> pairs(size_t i) const { return std::span(pairs_).subspan(first_[i], first_[i + 1] - first_[i]); }
   std::span<const double> densityRatio() const { return densityRatio_; }  ///< rho/rho0
@@ -144,12 +144,11 @@ class ReferenceSolver {
   std::span<const double> lambdaChange() const { return lambdaChange_; }  ///< dlambda, m^2
   std::span<const glm::dvec3> curl() const { return curl_; }              ///< of v, 1/s, of the last vorticity()
 
-  /// B and grad B at a point, with the solids where they are at `t` (s).
+  /// B and grad B at a point, with solids at time `t` (s).
   WallSample boundaryAt(const glm::dvec3& x, double t) const;
-  /// s_corr of a pair with the kernel's value `value`, m^2, <= 0, where the artificial pressure is `push` over 1 / D: see
-  /// sph/artificial_pressure.hpp.
-  double tensileTerm(double value, double push) const;
-  /// c of XSPH over the whole substep, dimensionless: 2 mu dt / (rho0 sigma^2).
+  /// s_corr (eq. 13) of a pair with kernel value `value`, m^2, <= 0; `push` as in correction(). See sph/artificial_pressure.hpp.
+  double artificialPressureTerm(double value, double push) const;
+  /// Coefficient c of XSPH for a substep, dimensionless: 2 mu dt / (rho0 sigma^2).
   double xsphCoefficient(double viscosity, double dt) const;
 
  private:
@@ -157,32 +156,32 @@ class ReferenceSolver {
   glm::dvec3 contact(size_t i, glm::dvec3 v, double dt, std::span<const SolidPose> poses) const;
   std::vector<SolidPose> poses(double t, double dt) const;
   WallSample boundaryOf(const glm::dvec3& x, std::span<const SolidPose> poses) const;
-  glm::dvec3 alongWalls(size_t i) const;  ///< a_i
+  glm::dvec3 tangentialScale(size_t i) const;  ///< a_i
   Pair makePair(uint32_t i, uint32_t j) const;
-  void plan(double dt, bool still);
-  void park(size_t i);
-  void judgeCalmness();
-  void smooth(double coefficient);
+  void predictPositions(double dt, bool atRest);
+  void deactivate(size_t i);
+  void updateRestFactor();
+  void applyXsph(double coefficient);
 
   SmoothingKernel kernel_;
   ArtificialPressure artificial_;
   WallTables tables_;
-  std::vector<SphereTable> sphereTables_;  ///< as settings.solids; unused for boxes
+  std::vector<SphereTable> sphereTables_;  ///< one per solid; empty for boxes
   double time_ = 0;
-  double step_ = 0;     ///< s: state.predicted is for time_ + step_
-  double pressed_ = 0;  ///< s, the step of press(); 0: not called
-  uint64_t parked_ = 0;
+  double step_ = 0;                 ///< s; state.predicted is at time_ + step_
+  double initialPressureStep_ = 0;  ///< s, `dt` of press(); 0: not called
+  uint64_t inactive_ = 0;
   std::vector<uint32_t> first_;
   std::vector<Pair> pairs_;
   std::vector<double> densityRatio_, denominator_, delta_, lambda_, lambdaChange_;
   std::vector<WallSample> boundary_;
   std::vector<glm::dvec3> curl_;
-  double blockTime_ = 0;            ///< s since the last substep that was the first of its block
-  int substeps_ = 0;                ///< since the start
-  double calmness_ = 0;             ///< 1: at rest, 0: at roughSpeed or faster
-  double fastest_ = 0;              ///< m/s, at the start or in the last velocities()
-  std::vector<glm::dvec3> walled_;  ///< m, where the last correction put a particle, walls included, solids not
-  std::vector<glm::dvec3> gained_;  ///< m, what the last correction moved a particle by, walls included
+  double blockTime_ = 0;                  ///< s, since the first substep of the last block
+  int substeps_ = 0;                      ///< since the start
+  double restFactor_ = 0;                 ///< 1: at rest, 0: at roughSpeed or faster
+  double fastest_ = 0;                    ///< largest speed, m/s, initially or in the last velocities()
+  std::vector<glm::dvec3> wallPosition_;  ///< m, position after the last correction and the walls, before solids
+  std::vector<glm::dvec3> gain_;          ///< m, displacement by the last correction and the walls
 };
 
 }  // namespace rill::reference

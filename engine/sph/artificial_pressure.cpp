@@ -6,8 +6,8 @@
 namespace rill {
 namespace {
 
-/// The greatest |grad K|, 1/m.
-double steepest(const SmoothingKernel& kernel) {
+/// Largest |grad K|, 1/m.
+double maxGradient(const SmoothingKernel& kernel) {
   constexpr int kSamples = 1000;
   double slope = 0;
   for (int k = 1; k <= kSamples; ++k) {
@@ -20,13 +20,13 @@ double steepest(const SmoothingKernel& kernel) {
 }  // namespace
 
 ArtificialPressure::ArtificialPressure(const SmoothingKernel& kernel, double strength, double radius, double n) : power(n), atRest(0) {
-  const double d = kernel.spacing(), scale = kernel.restGradientSum() / steepest(kernel);
+  const double d = kernel.spacing(), scale = kernel.restGradientSum() / maxGradient(kernel);
   inverse = 1 / kernel.value(radius * kernel.h());
-  atRest = share(kernel.value(0.95 * d));
+  atRest = factor(kernel.value(0.95 * d));
   rate = atRest < 1 ? 28.7 * 9.81 * strength * scale : 0;
   most = 0.05 * d * scale;
 }
 
-double ArtificialPressure::share(double value) const { return std::max(std::pow(std::min(value * inverse, 1.0), power) - atRest, 0.0); }
+double ArtificialPressure::factor(double value) const { return std::max(std::pow(std::min(value * inverse, 1.0), power) - atRest, 0.0); }
 
 }  // namespace rill

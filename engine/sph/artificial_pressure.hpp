@@ -3,26 +3,25 @@
 
 namespace rill {
 
-/// s_corr of Macklin and Mueller 2013 (equation 13), which parts pairs that come too near each other where density is too low to: a step of
-/// dt that makes up for a time T adds -min(rate T^2, most) dt / T share(K) / D to the sum of a pair's multipliers, D being the rest
-/// lattice's sum of |grad K|^2.
+/// Artificial pressure s_corr of Macklin and Mueller 2013 (eq. 13), which separates close pairs where the density is below rest density.
+/// A step dt that applies it for a time T adds -min(rate T^2, most) dt / T factor(K) / D to the sum of a pair's multipliers, where D is
+/// the rest lattice's sum of |grad K|^2.
 ///
-/// The paper's k acts once an iteration, so that its push grows with the number of steps a second. Here it is an acceleration: at strength
-/// 1 each particle of a pair at delta q leaves the other with 28.7 times 9.81 m/s^2 where the kernel is steepest, whatever kernel, spacing,
-/// step and the scene's gravity, which is what the paper's k = 0.1 gives in four iterations of 1/120 s at d = 0.05 m and h = 2 d. It does
-/// not grow with the flow: its work is of the order of g d.
+/// The paper applies k once per iteration, so its effect depends on the number of steps. Here it is an acceleration: at strength 1 and
+/// distance delta q, 28.7 times 9.81 m/s^2 at the steepest point of the kernel, for all kernels, spacings and steps. This equals the
+/// paper's k = 0.1 with four iterations of 1/120 s at d = 0.05 m and h = 2 d.
 struct ArtificialPressure {
-  /// `strength`: 0 .. 1; `radius`: delta q / h, 0 .. 1 exclusive; `power`: n, >= 1.
+  /// `strength`: 0 .. 1. `radius`: delta q / h, 0 .. 1 exclusive. `power`: n, >= 1.
   ArtificialPressure(const SmoothingKernel& kernel, double strength, double radius, double power);
 
-  /// Of a pair whose kernel value is K: min(1, K / K(delta q))^n less what it is for neighbors at rest, 0 .. 1. They are not touched.
-  double share(double value) const;
+  /// min(1, K / K(delta q))^n - atRest for a pair with kernel value K, 0 .. 1; 0 for neighbors at rest.
+  double factor(double value) const;
 
-  double rate;     ///< 1/s^2; 0 where delta q is as far as neighbors at rest, who leave nothing to push
-  double most;     ///< dimensionless: what parts each of a pair by a twentieth of a spacing
+  double rate;     ///< 1/s^2; 0 if delta q is not below the distance of neighbors at rest
+  double most;     ///< dimensionless upper limit, which displaces each particle by spacing / 20
   double inverse;  ///< 1 / K(delta q)
   double power;    ///< n
-  double atRest;   ///< what is taken off: (K / K(delta q))^n at 0.95 d, at most 1
+  double atRest;   ///< offset: (K / K(delta q))^n at 0.95 d, at most 1
 };
 
 }  // namespace rill

@@ -11,7 +11,7 @@ namespace rill {
 
 double jacobiLimit(const SmoothingKernel& kernel) {
   struct Neighbor {
-    glm::dvec3 at, moves, feels;  // what a correction moves by, and what density feels of a move: not the same for poly6 with spiky
+    glm::dvec3 at, correction, response;  // gradients for corrections and for the density change; they differ for poly6 with spiky
   };
   std::vector<Neighbor> neighbors;
   const double h = kernel.h(), d = kernel.spacing();
@@ -25,22 +25,22 @@ double jacobiLimit(const SmoothingKernel& kernel) {
         const double slope = (kernel.value(r + step) - kernel.value(r - step)) / (2 * step);
         neighbors.push_back({at, kernel.gradientOverR(r) * at, slope / r * at});
       }
-  // By symmetry a sixth of an octant holds all waves.
+  // By symmetry, a sixth of an octant covers all wave vectors.
   constexpr int kNodes = 12;
-  double most = 0;
+  double largest = 0;
   for (int a = 0; a <= kNodes; ++a)
     for (int b = 0; b <= a; ++b)
       for (int c = 0; c <= b; ++c) {
         const glm::dvec3 wave = glm::dvec3(a, b, c) * (std::numbers::pi / (kNodes * d));
-        glm::dvec3 moves(0), feels(0);
+        glm::dvec3 correction(0), response(0);
         for (const Neighbor& n : neighbors) {
           const double phase = std::sin(glm::dot(wave, n.at));
-          moves += phase * n.moves;
-          feels += phase * n.feels;
+          correction += phase * n.correction;
+          response += phase * n.response;
         }
-        most = std::max(most, glm::dot(moves, feels));
+        largest = std::max(largest, glm::dot(correction, response));
       }
-  return most > 0 ? 2 * kernel.restGradientSum() / most : 2;
+  return largest > 0 ? 2 * kernel.restGradientSum() / largest : 2;
 }
 
 }  // namespace rill

@@ -3,9 +3,10 @@
 
 namespace rill {
 
-/// The largest under-relaxation omega with which Jacobi corrections of a rest lattice's density converge, linearized and unclamped: a wave
-/// of compression with wave vector k comes back as 1 - omega |sum_j grad K_j sin(k x_j)|^2 / sum_j |grad K_j|^2 of itself, which must not
-/// be under -1 for any k. Dimensionless; 0.77 for the kernel of Wendland at h = 2 d.
+/// Largest relaxation factor omega with which the Jacobi iteration converges on a rest lattice, dimensionless; 0.77 for Wendland at h = 2
+/// d. Von Neumann analysis, linearized and without clamping: an iteration multiplies a compression wave with wave vector k by
+///   1 - omega |sum_j grad K_j sin(k x_j)|^2 / sum_j |grad K_j|^2,
+/// which must be at least -1 for all k.
 double jacobiLimit(const SmoothingKernel& kernel);
 
 }  // namespace rill

@@ -8,7 +8,7 @@
 namespace rill {
 namespace {
 
-/// I of the header over [0, h], by five-point Gauss-Legendre rules between the kinks of f.
+/// The integral I of the header over [0, h], by five-point Gauss-Legendre quadrature between the kinks of f.
 template <class Cosine>
 double integral(const SmoothingKernel& kernel, std::array<double, 4> kinks, const Cosine& cosine) {
   constexpr int kPieces = 16;
@@ -41,13 +41,13 @@ double ballOverHalfSpace(const SmoothingKernel& kernel, double R, double s) {
   return ball / plane;
 }
 
-template <class Share>
-WallSample boxOf(const Share& share, const double local[3], const double half[3]) {
+template <class HalfSpace>
+WallSample boxOf(const HalfSpace& halfSpaceAt, const double local[3], const double half[3]) {
   LineSample slab[3];
   for (int a = 0; a < 3; ++a) {
     const double x = std::abs(local[a]);
-    const LineSample front = share(x - half[a]);
-    const LineSample back = share(x + half[a]);
+    const LineSample front = halfSpaceAt(x - half[a]);
+    const LineSample back = halfSpaceAt(x + half[a]);
     slab[a].value = std::clamp(front.value - back.value, 0.0, 1.0);
     slab[a].slope = (local[a] < 0 ? -1 : 1) * (front.slope - back.slope);
   }
@@ -61,7 +61,7 @@ WallSample boxOf(const Share& share, const double local[3], const double half[3]
 
 LineSample exactSphere(const SmoothingKernel& kernel, double R, double s) {
   if (s >= wallReach(kernel)) return {};
-  // The center itself is a kink (the distance to it): stay just off it.
+  // The distance has a kink at the center: clamp just outside of it.
   const double at = std::max(s, -R * (1 - 1e-6)), step = 1e-5 * std::min(R, kernel.spacing());
   const LineSample f = halfSpace(kernel, at);
   const double ratio = ballOverHalfSpace(kernel, R, at);

@@ -7,8 +7,8 @@
 namespace rill {
 namespace {
 
-/// v turned by the unit quaternion q, or back by its conjugate.
-void turn(const double q[4], double sign, const double v[3], double out[3]) {
+/// Rotates v by the unit quaternion q (sign 1) or its conjugate (sign -1).
+void rotate(const double q[4], double sign, const double v[3], double out[3]) {
   const double x = sign * q[0], y = sign * q[1], z = sign * q[2], w = q[3];
   const double t[3] = {2 * (y * v[2] - z * v[1]), 2 * (z * v[0] - x * v[2]), 2 * (x * v[1] - y * v[0])};
   const double u[3] = {y * t[2] - z * t[1], z * t[0] - x * t[2], x * t[1] - y * t[0]};
@@ -34,15 +34,15 @@ SolidPose poseAt(const Solid& solid, double t) {
   return pose;
 }
 
-/// The first keyframe later than t.
-auto after(const Solid& solid, double t) {
+/// The first keyframe after t.
+auto nextKeyframe(const Solid& solid, double t) {
   return std::upper_bound(solid.motion.begin(), solid.motion.end(), t, [](double time, const Keyframe& key) { return time < key.at; });
 }
 
 }  // namespace
 
 void solidTranslation(const Solid& solid, double t, double translation[3]) {
-  const auto next = after(solid, t);
+  const auto next = nextKeyframe(solid, t);
   for (int a = 0; a < 3; ++a) {
     if (solid.motion.empty()) {
       translation[a] = 0;
@@ -52,15 +52,15 @@ void solidTranslation(const Solid& solid, double t, double translation[3]) {
       translation[a] = std::prev(next)->translate[a];
     } else {
       const Keyframe& last = *std::prev(next);
-      const double share = (t - last.at) / (next->at - last.at);
-      translation[a] = last.translate[a] + share * (next->translate[a] - last.translate[a]);
+      const double fraction = (t - last.at) / (next->at - last.at);
+      translation[a] = last.translate[a] + fraction * (next->translate[a] - last.translate[a]);
     }
   }
 }
 
 SolidPose solidPose(const Solid& solid, double t) {
   SolidPose pose = poseAt(solid, t);
-  const auto next = after(solid, t);
+  const auto next = nextKeyframe(solid, t);
   if (next != solid.motion.begin() && next != solid.motion.end()) {
     const Keyframe& last = *std::prev(next);
     for (int a = 0; a < 3; ++a) pose.velocity[a] = (next->translate[a] - last.translate[a]) / (next->at - last.at);
@@ -79,11 +79,11 @@ SolidPose solidPose(const Solid& solid, double t, double dt) {
 
 void toSolid(const SolidPose& pose, const double x[3], double local[3]) {
   const double offset[3] = {x[0] - pose.center[0], x[1] - pose.center[1], x[2] - pose.center[2]};
-  turn(pose.rotation, -1, offset, local);
+  rotate(pose.rotation, -1, offset, local);
 }
 
 void fromSolid(const SolidPose& pose, const double localDirection[3], double direction[3]) {
-  turn(pose.rotation, 1, localDirection, direction);
+  rotate(pose.rotation, 1, localDirection, direction);
 }
 
 SurfacePoint sphereSurface(const double local[3], double radius) {

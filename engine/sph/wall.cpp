@@ -23,7 +23,7 @@ void addGhosts(const SmoothingKernel& kernel, double s, double side, Offsets& of
   for (double at = std::max(s, 0.0) + kernel.spacing() / 2; at < kernel.h(); at += kernel.spacing()) offsets.push_back(side * at);
 }
 
-/// S over the product of three sets of coordinates; the gradient along the axes in `ghost` alone, since the others' cancel by symmetry.
+/// S over the product of three sets of coordinates. Only axes in `ghost` have a gradient; the others cancel by symmetry.
 WallSample sumOver(const SmoothingKernel& kernel, const std::array<const Offsets*, 3>& axes, const std::array<bool, 3>& ghost) {
   WallSample sum;
   const double hh = kernel.h() * kernel.h();
@@ -59,21 +59,21 @@ LineSample lowWalls(const SmoothingKernel& kernel, const Offsets& line, int wall
   return {sum.value, sum.gradient[0]};
 }
 
-/// Where a distance falls among nodes: node `i` and i + 1 with the weight `t` of the latter. `inside` is false beyond the table.
-struct Place {
+/// Interpolation at a distance: nodes i and i + 1, weight t of the latter. `inside` is false beyond the table.
+struct Interpolation {
   size_t i = 0;
   double t = 0;
   bool inside = false;
 };
 
-Place place(double s, double step, uint32_t nodes) {
+Interpolation interpolationAt(double s, double step, uint32_t nodes) {
   const double at = std::max(s, 0.0) / step;
   if (!(at < nodes - 1)) return {};
   const double node = std::floor(at);
   return {static_cast<size_t>(node), at - node, true};
 }
 
-LineSample sampleLine(const std::vector<float>& table, const Place& p) {
+LineSample sampleLine(const std::vector<float>& table, const Interpolation& p) {
   if (!p.inside) return {};
   const auto at = [&](size_t part) {
     const float* n = &table[2 * p.i + part];
@@ -109,7 +109,7 @@ WallSample exactWall(const SmoothingKernel& kernel, const double lo[3], const do
     sum.value += sign * term.value;
     for (size_t a = 0; a < 3; ++a) {
       sum.gradient[a] += sign * term.gradient[a];
-      if (!ghost[a]) sum.beside[a] += sign * term.value;
+      if (!ghost[a]) sum.wallCoverage[a] += sign * term.value;
     }
   }
   return sum;
@@ -135,7 +135,7 @@ LineSample halfSpace(const SmoothingKernel& kernel, double s) {
 WallTables makeWallTables(const SmoothingKernel& kernel) {
   WallTables t;
   const double d = kernel.spacing();
-  // The last node that can be non-zero lies before h - d/2; one at or beyond it, and a guard.
+  // Nodes up to the first at or beyond h - d/2, and a guard node.
   const auto count = [&](double step) { return static_cast<uint32_t>(std::ceil(wallReach(kernel) / step - 1e-9)) + 2; };
   t.step = d / kStepsPerSpacing;
   t.cornerStep = d / kCornerStepsPerSpacing;
@@ -163,16 +163,16 @@ WallTables makeWallTables(const SmoothingKernel& kernel) {
   return t;
 }
 
-LineSample WallTables::samplePlane(double s) const { return sampleLine(plane, place(s, step, nodes)); }
+LineSample WallTables::samplePlane(double s) const { return sampleLine(plane, interpolationAt(s, step, nodes)); }
 
 LineSample WallTables::sampleFace(double s) const {
-  LineSample f = sampleLine(face, place(std::abs(s), step, nodes));
+  LineSample f = sampleLine(face, interpolationAt(std::abs(s), step, nodes));
   if (s < 0) f.value = 1 - f.value;
   return f;
 }
 
 LineSample WallTables::sampleEdge(double s1, double s2) const {
-  const Place p = place(s1, step, nodes), q = place(s2, step, nodes);
+  const Interpolation p = interpolationAt(s1, step, nodes), q = interpolationAt(s2, step, nodes);
   if (!p.inside || !q.inside) return {};
   const auto row = [&](size_t j, size_t part) {
     const float* n = &edge[2 * (j * nodes + p.i) + part];
@@ -183,7 +183,8 @@ LineSample WallTables::sampleEdge(double s1, double s2) const {
 }
 
 LineSample WallTables::sampleCorner(double s1, double s2, double s3) const {
-  const Place p = place(s1, cornerStep, cornerNodes), q = place(s2, cornerStep, cornerNodes), o = place(s3, cornerStep, cornerNodes);
+  const Interpolation p = interpolationAt(s1, cornerStep, cornerNodes), q = interpolationAt(s2, cornerStep, cornerNodes),
+                      o = interpolationAt(s3, cornerStep, cornerNodes);
   if (!p.inside || !q.inside || !o.inside) return {};
   const auto row = [&](size_t k, size_t j, size_t part) {
     const float* n = &corner[2 * ((k * cornerNodes + j) * cornerNodes + p.i) + part];
@@ -211,16 +212,16 @@ WallSample WallTables::sample(const double lo[3], const double hi[3]) const {
       const LineSample one = samplePlane(w.s);
       sum.value += one.value;
       sum.gradient[a] += w.side * one.slope;
-      sum.beside[b] += one.value;
-      sum.beside[c] += one.value;
+      sum.wallCoverage[b] += one.value;
+      sum.wallCoverage[c] += one.value;
       for (const Wall& v : walls[b]) {
         const LineSample byFirst = sampleEdge(w.s, v.s);
         sum.value -= byFirst.value;
-        sum.beside[c] -= byFirst.value;
+        sum.wallCoverage[c] -= byFirst.value;
         sum.gradient[a] -= w.side * byFirst.slope;
         sum.gradient[b] -= v.side * sampleEdge(v.s, w.s).slope;
         for (const Wall& u : walls[c]) {
-          // Every triple is met three times, once from each axis: each meeting gives its own axis' slope, the first the value.
+          // Each triple occurs once per axis: every occurrence adds the slope of its axis, the first also the value.
           const LineSample three = sampleCorner(w.s, v.s, u.s);
           if (a == 0) sum.value += three.value;
           sum.gradient[a] += w.side * three.slope;

@@ -1,4 +1,4 @@
-// A checkpoint's file: what comes back, and what is refused.
+// Checkpoint files: round trips and errors.
 #include <gtest/gtest.h>
 
 #include "fluid/snapshot.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 using offline::Checkpoint;
 
-std::string refusal(std::span<const std::byte> bytes) {
+std::string decodeError(std::span<const std::byte> bytes) {
   const auto read = offline::decodeCheckpoint(bytes, "run.rill");
   if (read) return "";
   EXPECT_EQ(read.error().kind, ErrorKind::BadInput);
@@ -34,13 +34,13 @@ TEST(CheckpointFile, RoundTrips) {
 TEST(CheckpointFile, RejectsTruncationAnywhere) {
   const auto bytes = offline::encodeCheckpoint(seedCheckpoint());
   for (size_t size = 1; size < bytes.size(); ++size) {
-    const std::string why = refusal(std::span(bytes).first(size));
-    EXPECT_NE(why.find("is cut short"), std::string::npos) << size << ": " << why;
+    const std::string why = decodeError(std::span(bytes).first(size));
+    EXPECT_NE(why.find("is truncated"), std::string::npos) << size << ": " << why;
   }
-  EXPECT_NE(refusal({}).find("no checkpoint"), std::string::npos);
+  EXPECT_NE(decodeError({}).find("not a Rill checkpoint"), std::string::npos);
   auto longer = bytes;
   longer.push_back({});
-  EXPECT_NE(refusal(longer).find("1 bytes more"), std::string::npos) << refusal(longer);
+  EXPECT_NE(decodeError(longer).find("is corrupted: found"), std::string::npos) << decodeError(longer);
 }
 
 TEST(CheckpointFile, RejectsAnyFlippedBit) {
@@ -48,28 +48,28 @@ TEST(CheckpointFile, RejectsAnyFlippedBit) {
   for (size_t at = 0; at < bytes.size(); ++at)
     for (int bit = 0; bit < 8; ++bit) {
       bytes[at] ^= static_cast<std::byte>(1 << bit);
-      EXPECT_NE(refusal(bytes), "") << "byte " << at << ", bit " << bit;
+      EXPECT_NE(decodeError(bytes), "") << "byte " << at << ", bit " << bit;
       bytes[at] ^= static_cast<std::byte>(1 << bit);
     }
 }
 
 TEST(CheckpointFile, DistinguishesForeignAndNewerFiles) {
-  const std::string picture = "\x89PNG\r\n\x1a\n and so on and so on";
-  EXPECT_NE(refusal(std::as_bytes(std::span(picture))).find("is no checkpoint of Rill"), std::string::npos);
+  const std::string image = "\x89PNG\r\n\x1a\n and so on and so on";
+  EXPECT_NE(decodeError(std::as_bytes(std::span(image))).find("is not a Rill checkpoint"), std::string::npos);
   const auto checkpoint = offline::encodeCheckpoint(seedCheckpoint());
   const int format = std::to_integer<int>(checkpoint[8]);
-  const auto expectRefused = [&](int other, const char* age) {
+  const auto expectRejected = [&](int other, const char* age) {
     auto bytes = checkpoint;
     bytes[8] = std::byte(other);
     seal(bytes);
-    const std::string what = age + (" Rill, in format " + std::to_string(other)) + "; this one reads format " + std::to_string(format);
-    EXPECT_NE(refusal(bytes).find(what), std::string::npos) << refusal(bytes);
+    const std::string what = age + (" Rill: found format " + std::to_string(other)) + ", expected " + std::to_string(format);
+    EXPECT_NE(decodeError(bytes).find(what), std::string::npos) << decodeError(bytes);
   };
-  expectRefused(format + 1, "a newer");
-  expectRefused(format - 1, "an older");
+  expectRejected(format + 1, "a newer");
+  expectRejected(format - 1, "an older");
 }
 
-// With a checksum that holds: lengths are not believed for that.
+// The checksum is valid, so that the lengths themselves are checked.
 TEST(CheckpointFile, RejectsInvalidLengths) {
   const auto whole = offline::encodeCheckpoint(seedCheckpoint());
   for (uint64_t wrong : {uint64_t{1}, uint64_t{1} << 40, ~uint64_t{0}, ~uint64_t{7}, uint64_t{1} << 63}) {
@@ -77,22 +77,23 @@ TEST(CheckpointFile, RejectsInvalidLengths) {
       auto bytes = whole;
       std::memcpy(bytes.data() + 24 + 16 * row + 8, &wrong, 8);
       seal(bytes);
-      EXPECT_NE(refusal(bytes).find("is damaged"), std::string::npos) << row << ": " << wrong;
+      EXPECT_NE(decodeError(bytes).find("is corrupted"), std::string::npos) << row << ": " << wrong;
     }
     auto bytes = whole;
     std::memcpy(bytes.data() + 16, &wrong, 8);  // of the whole file
-    EXPECT_NE(refusal(bytes), "");
+    EXPECT_NE(decodeError(bytes), "");
     bytes = whole;
     std::memcpy(bytes.data() + 24 + 16 * 14, &wrong, 8);  // of the first text
     seal(bytes);
-    EXPECT_NE(refusal(bytes).find("is damaged"), std::string::npos) << wrong;
+    EXPECT_NE(decodeError(bytes).find("is corrupted"), std::string::npos) << wrong;
   }
 }
 
 TEST(CheckpointFile, RejectsUnprintableKeys) {
   Checkpoint c = seedCheckpoint();
   c.keys[0].second = "\x1b[2J";
-  EXPECT_NE(refusal(offline::encodeCheckpoint(c)).find("is damaged"), std::string::npos) << "they would reach a terminal";
+  EXPECT_NE(decodeError(offline::encodeCheckpoint(c)).find("is corrupted"), std::string::npos)
+      << "control characters would reach a terminal";
 }
 
 TEST(CheckpointFile, LoadsFromDisk) {
@@ -102,19 +103,19 @@ TEST(CheckpointFile, LoadsFromDisk) {
   const auto read = offline::loadCheckpoint(file);
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(*read, seedCheckpoint());
-  for (const auto& [path, words] : {std::pair{folder / "none", "is not there"}, std::pair{folder.path(), "is no file"},
-                                    std::pair{std::filesystem::path("/dev/zero"), "is no file"}}) {
+  for (const auto& [path, words] : {std::pair{folder / "none", "does not exist"}, std::pair{folder.path(), "is not a regular file"},
+                                    std::pair{std::filesystem::path("/dev/zero"), "is not a regular file"}}) {
     const auto missing = offline::loadCheckpoint(path);
     ASSERT_FALSE(missing);
     EXPECT_NE(missing.error().message.find(words), std::string::npos) << missing.error().message;
   }
-  const auto film = folder.write("film", std::string(1 << 20, 'x'));
-  EXPECT_NE(offline::loadCheckpoint(film).error().message.find("no checkpoint"), std::string::npos);
+  const auto other = folder.write("other", std::string(1 << 20, 'x'));
+  EXPECT_NE(offline::loadCheckpoint(other).error().message.find("not a Rill checkpoint"), std::string::npos);
 }
 
 class SnapshotCheck : public ::testing::Test {
  protected:
-  void expectRefused(const char* words) {
+  void expectRejected(const char* words) {
     const auto checked = checkSnapshot(s, seedShape());
     ASSERT_FALSE(checked) << words;
     EXPECT_NE(checked.error().message.find(words), std::string::npos) << checked.error().message;
@@ -130,53 +131,53 @@ TEST_F(SnapshotCheck, AcceptsMatchingScene) {
 
 TEST_F(SnapshotCheck, AcceptsSnapshotWithoutWarmStart) {
   s.push.clear();
-  expectRefused("warm");
+  expectRejected("warm");
   s.push.clear();
   s.warm.clear();
   const auto checked = checkSnapshot(s, seedShape());
   EXPECT_TRUE(checked) << checked.error().message;
 }
 
-// Every number that a shader finds its way by.
+// Every value that shaders use as an index.
 TEST_F(SnapshotCheck, RejectsInvalidIndices) {
   s.id[1] = s.id[0];
-  expectRefused("ids");
+  expectRejected("ids");
   s.id[1] = seedShape().count;
-  expectRefused("ids");
+  expectRejected("ids");
   s.nearMore.push_back(0);
-  expectRefused("near walls");
+  expectRejected("near walls");
   s.nearWall[0] = 1000;
-  expectRefused("near walls");
+  expectRejected("near walls");
   s.nearMore[0] = s.nearWall[0];
-  expectRefused("near walls");
+  expectRejected("near walls");
   s.neighbors[0] = seedShape().count;
-  expectRefused("a neighbor is no particle");
+  expectRejected("a neighbor is no particle");
   s.neighbors.pop_back();
-  expectRefused("neighbors has");
+  expectRejected("neighbors has");
   s.neighborCount[0] = seedShape().listCapacity + 1;
-  expectRefused("neighbors has");
+  expectRejected("neighbors has");
   s.neighborCount.pop_back();
-  expectRefused("neighbor counts has");
+  expectRejected("neighbor counts has");
   s.cell.back() = static_cast<uint32_t>(seedShape().cells);
-  expectRefused("cells");
+  expectRejected("cells");
   s.cell.front() = s.cell.back() + 1;
-  expectRefused("cells");
+  expectRejected("cells");
   s.cell.clear();
-  expectRefused("cells");
+  expectRejected("cells");
   s.listCapacity += 4;
-  expectRefused("lists hold");
+  expectRejected("lists hold");
   s.control[offsetof(FluidControl, stale) / 4] = 2;
-  expectRefused("control block");
+  expectRejected("control block");
   s.control[offsetof(FluidControl, settling) / 4] = 1 << 30;
-  expectRefused("control block");
+  expectRejected("control block");
   s.control.clear();
-  expectRefused("control has 0 entries");
+  expectRejected("control has 0 entries");
   s.sums[offsetof(FluidSums, planeCount) / 4] = 5;
-  expectRefused("near walls");
+  expectRejected("near walls");
   s.push.pop_back();
-  expectRefused("push has");
+  expectRejected("push has");
   s.solids.push_back(0);
-  expectRefused("solids has");
+  expectRejected("solids has");
 }
 
 TEST(SnapshotNeighborList, RoundTripsThroughBlockLayout) {
@@ -184,7 +185,7 @@ TEST(SnapshotNeighborList, RoundTripsThroughBlockLayout) {
   s.listCapacity = 8;
   const uint32_t count = 3 * kListBlock + 17;
   for (uint32_t i = 0; i < count; ++i) {
-    s.neighborCount.push_back(i % 11);  // some of them more than the list holds
+    s.neighborCount.push_back(i % 11);  // some exceed the capacity
     for (uint32_t k = 0; k < i % 11 && i % 11 <= 8; ++k) s.neighbors.push_back((i * 7 + k) % count);
   }
   FluidSnapshot back = s;
@@ -192,7 +193,7 @@ TEST(SnapshotNeighborList, RoundTripsThroughBlockLayout) {
   for (const auto& [first, last] : {std::pair{0u, 2 * kListBlock}, std::pair{2 * kListBlock, count}}) {
     std::vector<uint32_t> list(8 * kListBlock * 2, 0xdead);
     layOutList(s, first, last, list);
-    if (first == 0) {  // particle 4097's fifth neighbor, its last: block 1, second group, filled up
+    if (first == 0) {  // particle 4097's fifth neighbor, its last: block 1, second group, padded
       const size_t at = ((kListBlock * 2 + 1) + kListBlock) * 4;
       EXPECT_EQ(list[at], (4097u * 7 + 4) % count);
       EXPECT_EQ(list[at + 1], count);

@@ -29,13 +29,13 @@ TEST(PassLog, DistinguishesRecordedFromExecuted) {
   PassLog log;
   const PassReport report[] = {
       {"sort/count", 6, false, ""}, {"sort/scan", 12, false, ""}, {"density", 9, false, ""}, {"begin", 1, false, ""}};
-  const FluidPassRuns switched[] = {{"sort/", 2, 6}, {"density", 0, 9}, {"iterate", 1, 2}};
+  const FluidPassRuns skippable[] = {{"sort/", 2, 6}, {"density", 0, 9}, {"iterate", 1, 2}};
   log.add(report, true);
-  log.add(switched, report);
+  log.add(skippable, report);
   const auto times = log.times();
-  ASSERT_EQ(times.size(), 4u) << "what was not in the frame stays out";
+  ASSERT_EQ(times.size(), 4u) << "passes that are not in the frame are ignored";
   EXPECT_EQ(times[0].ran, 2u);
-  EXPECT_EQ(times[1].ran, 4u) << "two passes of that name a sort";
+  EXPECT_EQ(times[1].ran, 4u) << "two passes of this name per sort";
   EXPECT_EQ(times[1].runs, 12u);
   EXPECT_EQ(times[2].ran, 0u);
   EXPECT_EQ(times[3].ran, 1u);
@@ -45,7 +45,7 @@ TEST(PassLog, DistinguishesRecordedFromExecuted) {
 
 TEST(PassLog, ExecutedPassIsNotSkipped) {
   PassLog log;
-  const PassReport without[] = {{"stats", 0, false, "nobody asked"}}, with[] = {{"stats", 1, false, ""}};
+  const PassReport without[] = {{"stats", 0, false, "not requested"}}, with[] = {{"stats", 1, false, ""}};
   log.add(without, true);
   EXPECT_EQ(log.skipped().size(), 1u);
   log.add(with, true);

@@ -19,7 +19,7 @@ Scene tank() {
   return scene;
 }
 
-/// nx x ny x nz points on the lattice that a fill at the origin makes.
+/// nx x ny x nz lattice points, as made by a fill at the origin.
 std::vector<Float3> block(int nx, int ny, int nz, double x0 = 0, double y0 = 0) {
   std::vector<Float3> points;
   for (int k = 0; k < nz; ++k)
@@ -74,7 +74,7 @@ TEST(Front, IsZeroWithoutFluid) {
 TEST(Level, MatchesColumnHeight) {
   const auto points = block(10, 6, 5);
   EXPECT_NEAR(level(tank(), points, 0.5, 0.25), 0.6, 1e-6);
-  EXPECT_EQ(level(tank(), points, 3.0, 0.25), 0) << "dry";
+  EXPECT_EQ(level(tank(), points, 3.0, 0.25), 0) << "no fluid";
   EXPECT_EQ(level(tank(), {}, 0.5, 0.25), 0);
 }
 
@@ -83,7 +83,7 @@ TEST(Level, StopsAtTheFirstEmptyBin) {
   const auto splash = block(10, 1, 5, 0, 0.8);
   points.insert(points.end(), splash.begin(), splash.end());
   EXPECT_NEAR(level(tank(), points, 0.5, 0.25), 0.3, 1e-6);
-  EXPECT_EQ(level(tank(), splash, 0.5, 0.25), 0) << "nothing on the floor";
+  EXPECT_EQ(level(tank(), splash, 0.5, 0.25), 0) << "no fluid on the floor";
 }
 
 TEST(Level, UsesParticlesWithinOneSpacing) {

@@ -14,7 +14,7 @@ const std::vector<uint32_t> kIds = {0, 1, 2};
 TEST(StateHash, EmptyStateHashesToOffsetBasis) { EXPECT_EQ(stateHash({}, {}, {}), 0xcbf29ce484222325ull); }
 
 TEST(StateHash, IsFnv1aOverTheBytes) {
-  // Six zero floats: 24 times a multiplication by the prime.
+  // Six zero floats are 24 zero bytes: 24 multiplications by the prime.
   uint64_t expected = 0xcbf29ce484222325ull;
   for (int i = 0; i < 24; ++i) expected *= 0x100000001b3ull;
   const std::vector<Float3> zero(1);

@@ -1,5 +1,5 @@
 #pragma once
-// Clouds and sums that the reference solver's tests share.
+// Particle clouds and sums for the tests of the reference solver.
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -11,7 +11,7 @@
 
 namespace rill::reference {
 
-/// A lattice of nx x ny x nz, the first point half a spacing inside `from`.
+/// A lattice of nx x ny x nz points, the first half a spacing inside `from`.
 inline std::vector<glm::dvec3> lattice(int nx, int ny, int nz, double d, glm::dvec3 from = glm::dvec3(0)) {
   std::vector<glm::dvec3> x;
   for (int k = 0; k < nz; ++k)
@@ -47,7 +47,7 @@ inline double rmsSpeed(const ReferenceSolver& solver) {
   return std::sqrt(sum / double(solver.size()));
 }
 
-/// Kinetic and potential energy, J; the potential's zero is the origin.
+/// Kinetic and potential energy, J; potential energy is 0 at the origin.
 inline double energy(const ReferenceSolver& solver) {
   double sum = 0;
   for (size_t i = 0; i < solver.size(); ++i)

@@ -1,4 +1,4 @@
-// Walls and solids: collisions, contact, displaced density.
+// Walls and solids: collisions, contact, density contribution.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -47,7 +47,7 @@ TEST(Boundary, KeepsCentersHalfASpacingFromSurfaces) {
       }
     }
     EXPECT_LT(deepest, 1e-12);
-    EXPECT_EQ(solver.parked(), 0u);
+    EXPECT_EQ(solver.inactive(), 0u);
     EXPECT_GT(centerOfMass(solver).x, 2.2 * kSpacing);
   }
 }
@@ -60,31 +60,31 @@ TEST(Boundary, ThinDomainKeepsParticlesInItsMiddle) {
   EXPECT_NEAR(solver.state.position[0].z, 0.2 * kSpacing, 1e-15);
 }
 
-// A solid is beside what moves along its face, and not beside what moves across it.
+// A surface covers the directions along it, and not the direction of its normal.
 TEST(Boundary, SolidCoversDirectionsAlongItsSurface) {
   const auto at = [](const Solid& solid, const glm::dvec3& x) {
     return ReferenceSolver(over(solid), std::vector<glm::dvec3>{x}).boundaryAt(x, 0);
   };
   const WallSample floor = at(plate(0, 0), {0, kSpacing / 2, 0});
   EXPECT_GT(floor.value, 0.1);
-  EXPECT_NEAR(floor.beside[0], floor.value, 1e-12);
-  EXPECT_NEAR(floor.beside[1], 0, 1e-12);
-  EXPECT_NEAR(floor.beside[2], floor.value, 1e-12);
-  Solid turned = plate(0, 0);  // by 45 degrees: its face is x + y = 7.07 m, half of it beside either axis
+  EXPECT_NEAR(floor.wallCoverage[0], floor.value, 1e-12);
+  EXPECT_NEAR(floor.wallCoverage[1], 0, 1e-12);
+  EXPECT_NEAR(floor.wallCoverage[2], floor.value, 1e-12);
+  Solid turned = plate(0, 0);  // by 45 degrees: the face x + y = 7.07 m covers x and y by one half
   turned.box = BoxShape{{-5, -5, -5}, {5, 5, 5}};
   turned.rotation[2] = std::sin(std::numbers::pi / 8);
   turned.rotation[3] = std::cos(std::numbers::pi / 8);
   const double out = (5 + kSpacing / 2) / std::numbers::sqrt2;
   const WallSample slope = at(turned, {out, out, 0});
   EXPECT_NEAR(slope.value, floor.value, 1e-6);
-  EXPECT_NEAR(slope.beside[0], slope.value / 2, 1e-6);
-  EXPECT_NEAR(slope.beside[1], slope.value / 2, 1e-6);
-  EXPECT_NEAR(slope.beside[2], slope.value, 1e-6);
+  EXPECT_NEAR(slope.wallCoverage[0], slope.value / 2, 1e-6);
+  EXPECT_NEAR(slope.wallCoverage[1], slope.value / 2, 1e-6);
+  EXPECT_NEAR(slope.wallCoverage[2], slope.value, 1e-6);
   Solid ball;
   ball.sphere = SphereShape{{0, 0, 0}, 4 * kSpacing};
   const WallSample pole = at(ball, {0, 0, 4.5 * kSpacing});
-  EXPECT_NEAR(pole.beside[0], pole.value, 1e-12);
-  EXPECT_NEAR(pole.beside[2], 0, 1e-12);
+  EXPECT_NEAR(pole.wallCoverage[0], pole.value, 1e-12);
+  EXPECT_NEAR(pole.wallCoverage[2], 0, 1e-12);
 }
 
 TEST(Boundary, OpenSideLetsParticlesLeave) {
@@ -132,7 +132,7 @@ TEST(Contact, FrictionAcceleratesToSpeedOfMovingSolid) {
   EXPECT_NEAR(solver.time(), 1, 1e-9);
 }
 
-// A column's whole weight is felt under it: the momentum that a fast belt under a settled column gives in a substep is mu M g dt.
+// A fast belt under a settled column transfers the momentum mu M g dt per substep: friction includes the weight of the whole column.
 TEST(Contact, FrictionIncludesWeightOfColumn) {
   for (const int layers : {1, 3, 8}) {
     const int wide = 6;
@@ -149,11 +149,11 @@ TEST(Contact, FrictionIncludesWeightOfColumn) {
     const int settle = 400, measure = 200;
     for (int step = 0; step < settle + measure; ++step) {
       if (step >= settle) {
-        ReferenceSolver rough = solver, smooth = solver;
-        rough.settings.solids[0].friction = 0.2;
-        rough.substep(kStep, kStep);
-        smooth.substep(kStep, kStep);
-        given += (meanVelocity(rough).x - meanVelocity(smooth).x) / (0.2 * 9.81 * kStep * measure);
+        ReferenceSolver withFriction = solver, frictionless = solver;
+        withFriction.settings.solids[0].friction = 0.2;
+        withFriction.substep(kStep, kStep);
+        frictionless.substep(kStep, kStep);
+        given += (meanVelocity(withFriction).x - meanVelocity(frictionless).x) / (0.2 * 9.81 * kStep * measure);
       }
       solver.substep(kStep, kStep);
     }

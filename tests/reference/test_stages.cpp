@@ -1,4 +1,4 @@
-// Each stage alone: pairs, multipliers, correction, viscosity, vorticity, prediction.
+// Single stages of the reference solver: pairs, multipliers, correction, viscosity, vorticity, prediction.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -66,8 +66,8 @@ TEST(Correction, ConservesMomentum) {
     solver.begin(kStageStep);
     for (int step = 0; step < 5; ++step) solver.substep(kStageStep, kStageStep);
     EXPECT_LT(glm::length(meanVelocity(solver) - before), 1e-11 * rmsSpeed(solver));
-    EXPECT_GT(rmsSpeed(solver), 5);  // it flew apart
-    EXPECT_EQ(solver.parked(), 0u);
+    EXPECT_GT(rmsSpeed(solver), 5);  // the dense cloud expands
+    EXPECT_EQ(solver.inactive(), 0u);
   }
 }
 
@@ -135,8 +135,8 @@ TEST(Prediction, ScalesWarmStartBySquaredStep) {
 }
 
 TEST(ArtificialPressureStage, AccelerationIsIndependentOfStepAndScale) {
-  // The acceleration of a pair at delta q apart, over g.
-  const auto push = [](double d, double dt) {
+  // Acceleration of a pair at distance delta q, over g.
+  const auto acceleration = [](double d, double dt) {
     ReferenceSettings s;
     s.spacing = d;
     s.tensile = 0.5;
@@ -149,10 +149,10 @@ TEST(ArtificialPressureStage, AccelerationIsIndependentOfStepAndScale) {
     EXPECT_NEAR(solver.state.velocity[0].x, -solver.state.velocity[1].x, 1e-12);
     return -solver.state.velocity[0].x / dt / 9.81;
   };
-  const double share = push(0.05, 1e-3);
-  EXPECT_NEAR(push(0.05, 4e-3), share, 1e-9);
-  EXPECT_NEAR(push(0.0005, 1e-4), share, 1e-9);
-  EXPECT_NEAR(share, 14.35, 0.1) << "half of strength 1";
+  const double expected = acceleration(0.05, 1e-3);
+  EXPECT_NEAR(acceleration(0.05, 4e-3), expected, 1e-9);
+  EXPECT_NEAR(acceleration(0.0005, 1e-4), expected, 1e-9);
+  EXPECT_NEAR(expected, 14.35, 0.1) << "half of strength 1";
 }
 
 TEST(ArtificialPressureStage, AppliesWholeBlockInItsFirstSubstep) {
@@ -165,7 +165,7 @@ TEST(ArtificialPressureStage, AppliesWholeBlockInItsFirstSubstep) {
     s.substepsPerBlock = block;
     ReferenceSolver solver(s, std::vector<glm::dvec3>{{0, 0, 0}, {r, 0, 0}});
     solver.begin(dt);
-    for (int step = 0; step < 7; ++step) solver.substep(dt, dt);  // 1 + 3 + 3: the first block has no time to make up for
+    for (int step = 0; step < 7; ++step) solver.substep(dt, dt);  // 1 + 3 + 3: the first block applies a single substep
     return solver.state.velocity[1].x;
   };
   EXPECT_GT(speed(1), 0.02);
@@ -189,7 +189,7 @@ TEST(ArtificialPressureStage, IsConstantBelowReferenceAndZeroAtRest) {
   s.tensileRadius = 0.3;
   ReferenceSolver solver(s, std::vector<glm::dvec3>{{0, 0, 0}});
   const auto kernel = [&](double q) { return solver.kernel().value(q * solver.kernel().h()); };
-  const auto at = [&](double q) { return solver.tensileTerm(kernel(q), 1e-3); };
+  const auto at = [&](double q) { return solver.artificialPressureTerm(kernel(q), 1e-3); };
   EXPECT_LT(at(0.3), 0);
   EXPECT_EQ(at(0.1), at(0.3));
   EXPECT_EQ(at(0), at(0.3));
@@ -198,7 +198,7 @@ TEST(ArtificialPressureStage, IsConstantBelowReferenceAndZeroAtRest) {
   EXPECT_EQ(at(0.5), 0);
 }
 
-/// The rate at which XSPH damps v_x = cos(pi y / L) in a lattice between planes, over nu k^2.
+/// Damping rate of the shear wave v_x = cos(pi y / L) by XSPH in a lattice between planes, over nu k^2.
 double decayOverTheory(double ratio, int sweeps) {
   const int layers = 24, wide = 9;
   ReferenceSettings s = freeSpace();
@@ -207,7 +207,7 @@ double decayOverTheory(double ratio, int sweeps) {
   s.viscositySweeps = sweeps;
   ReferenceSolver solver(s, lattice(wide, layers, wide, kStageSpacing));
   const double wave = std::numbers::pi / (layers * kStageSpacing), nu = s.viscosity / s.density, dt = 0.02;
-  // Refresh the field every step from the middle column, so that the block's sides, which lack neighbors, are not felt.
+  // Reset the field every step from the middle column, so that the sides of the block, which lack neighbors, have no influence.
   std::vector<double> column(layers);
   for (int j = 0; j < layers; ++j) column[j] = std::cos(wave * (j + 0.5) * kStageSpacing);
   const auto middle = [&](int j) { return static_cast<size_t>((wide / 2 * layers + j) * wide + wide / 2); };
@@ -259,7 +259,7 @@ TEST(Vorticity, MeasuresCurlAndAcceleratesVortex) {
     const glm::dvec3 x = glm::abs(solver.state.position[i]);
     if (x.x < 5.6 * kStageSpacing && x.y < 1.6 * kStageSpacing && x.z < 5.6 * kStageSpacing) { EXPECT_NEAR(solver.curl()[i].y, 6, 0.6); }
   }
-  // A vortex that fades outward: away from the core the push is along the flow.
+  // In a vortex that decays outward, the confinement force is along the flow outside of the core.
   for (size_t i = 0; i < solver.size(); ++i) {
     const glm::dvec3 x = solver.state.position[i];
     solver.state.velocity[i] = glm::cross(spin, x) * std::exp(-(x.x * x.x + x.z * x.z) / (9 * kStageSpacing * kStageSpacing));

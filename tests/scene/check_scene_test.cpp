@@ -1,4 +1,4 @@
-// Scenes that a host makes in code: each bad value is refused with the key's name, and none does harm.
+// checkScene() on scenes made in code: invalid values are rejected with a message that names the key.
 #include <functional>
 #include <limits>
 
@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
 
-/// The message that a scene is refused with; "accepted" where it is not.
-std::string refusalOf(const Scene& scene) {
+/// The error message of a scene, or "accepted".
+std::string errorOf(const Scene& scene) {
   const auto checked = checkScene(scene);
   if (checked) return "accepted";
   EXPECT_EQ(checked.error().kind, ErrorKind::BadInput);
@@ -24,16 +24,16 @@ struct Change {
 };
 
 TEST(CheckScene, AcceptsValidScenes) {
-  EXPECT_EQ(refusalOf(tank()), "accepted");
+  EXPECT_EQ(errorOf(tank()), "accepted");
   Scene least;
   least.fluid.spacing = 1;
-  EXPECT_EQ(refusalOf(least), "accepted");
+  EXPECT_EQ(errorOf(least), "accepted");
   least.fluid.spacing = 0;
   least.fluid.particles = 100;
-  EXPECT_EQ(refusalOf(least), "accepted");
+  EXPECT_EQ(errorOf(least), "accepted");
   Scene turned = tank();
-  turned.solids[0].rotation[3] = 0.9999;  // rounding of a float's
-  EXPECT_EQ(refusalOf(turned), "accepted");
+  turned.solids[0].rotation[3] = 0.9999;  // rounding of float quaternions
+  EXPECT_EQ(errorOf(turned), "accepted");
 }
 
 TEST(CheckScene, AcceptsSpacingComputedFromParticles) {
@@ -43,7 +43,7 @@ TEST(CheckScene, AcceptsSpacingComputedFromParticles) {
   const auto first = makeParticles(scene);
   ASSERT_TRUE(first) << first.error().message;
   EXPECT_GT(scene.fluid.spacing, 0);
-  EXPECT_EQ(refusalOf(scene), "accepted");
+  EXPECT_EQ(errorOf(scene), "accepted");
   const auto second = makeParticles(scene);
   ASSERT_TRUE(second) << second.error().message;
   EXPECT_EQ(first->positions.size(), second->positions.size());
@@ -114,7 +114,7 @@ TEST(CheckScene, RejectsInvalidValuesNamingKeyAndExpectation) {
   for (const Change& change : changes) {
     Scene scene = tank();
     change.make(scene);
-    EXPECT_EQ(refusalOf(scene), change.message);
+    EXPECT_EQ(errorOf(scene), change.message);
     const auto made = makeParticles(scene);
     ASSERT_FALSE(made) << change.message;
     EXPECT_EQ(made.error().message, change.message);
@@ -122,18 +122,18 @@ TEST(CheckScene, RejectsInvalidValuesNamingKeyAndExpectation) {
   Scene named = tank();
   named.name = "tank";
   named.seed = std::numeric_limits<uint64_t>::max();
-  EXPECT_EQ(refusalOf(named), "accepted");
+  EXPECT_EQ(errorOf(named), "accepted");
   named.solver.cfl = 11;
-  EXPECT_EQ(refusalOf(named), "tank: solver.cfl: 11 is out of range; expected a number above 0 and at most 10");
+  EXPECT_EQ(errorOf(named), "tank: solver.cfl: 11 is out of range; expected a number above 0 and at most 10");
 }
 
-// What a file may say a host may say, too: both are judged by the same rules.
+// Files and scenes made in code are checked by the same rules.
 TEST(CheckScene, AcceptsEveryShippedScene) {
   for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(RILL_SOURCE_DIR) / "assets/scenes")) {
     if (entry.path().extension() != ".json" || entry.path().filename() == "scene.schema.json") continue;
     const auto read = loadScene(entry.path());
     ASSERT_TRUE(read) << read.error().message;
-    EXPECT_EQ(refusalOf(*read), "accepted") << entry.path();
+    EXPECT_EQ(errorOf(*read), "accepted") << entry.path();
   }
 }
 

@@ -1,4 +1,4 @@
-// Scenes whose numbers a host has got wrong at random: whatever they are, they are refused or they run, and both without harm.
+// Scenes with random invalid numbers: each is either rejected or accepted with valid simulation parameters.
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -12,10 +12,10 @@
 namespace rill::test {
 namespace {
 
-/// Where the numbers of a scene are.
+/// Setters of all numbers in a scene.
 class Numbers {
  public:
-  using Set = std::function<void(double factor, double value)>;  ///< to its own times factor, plus value
+  using Set = std::function<void(double factor, double value)>;  ///< sets number * factor + value
 
   explicit Numbers(Scene& scene) { object(scene); }
   const std::vector<Set>& all() const { return all_; }
@@ -88,7 +88,7 @@ TEST(MutatedScenes, AreRejectedOrRun) {
   constexpr double kFactors[] = {0, 0, 0, 1, -1, 2, 0.5, 1.1, 0.01, 100, 1e6, 1e-6};
   std::mt19937 random(20240229);
   const auto below = [&](size_t count) { return std::uniform_int_distribution<size_t>(0, count - 1)(random); };
-  int refused = 0, ran = 0;
+  int rejected = 0, ran = 0;
   for (int round = 0; round < 4000; ++round) {
     Scene scene = tank();
     const Numbers numbers(scene);
@@ -101,7 +101,7 @@ TEST(MutatedScenes, AreRejectedOrRun) {
     const auto made = makeParticles(scene, 3000);
     const auto setup = makeFluidSetup(scene, made ? figuresOf(*made) : StartFigures{.count = 100, .extent = {1, 1, 1}});
     if (!checked) {
-      ++refused;
+      ++rejected;
       ASSERT_FALSE(made);
       EXPECT_EQ(made.error().message, checked.error().message);
       ASSERT_FALSE(setup);
@@ -124,7 +124,7 @@ TEST(MutatedScenes, AreRejectedOrRun) {
     EXPECT_TRUE(std::isfinite(setup->params.maxStep)) << round;
     for (const SolidRecord& solid : setup->solids) EXPECT_TRUE(std::isfinite(solid.centerX)) << round;
   }
-  EXPECT_GT(refused, 1000);
+  EXPECT_GT(rejected, 1000);
   EXPECT_GT(ran, 300);
 }
 

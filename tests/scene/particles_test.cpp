@@ -29,7 +29,7 @@ TEST(Particles, RoundsCountsPerAxis) {
   const auto count = [](const std::string& max) { return particles(with(R"("fill": [{"box": {"max": )" + max + "}}]")).positions.size(); };
   EXPECT_EQ(count("[0.14, 0.1, 0.1]"), 1U);
   EXPECT_EQ(count("[0.16, 0.1, 0.1]"), 2U);
-  EXPECT_EQ(count("[0.15, 0.1, 0.1]"), 2U);  // one and a half, although 0.15 / 0.1 is a little less in binary
+  EXPECT_EQ(count("[0.15, 0.1, 0.1]"), 2U);  // 1.5, although the binary quotient is slightly less
   EXPECT_EQ(count("[1, 1, 1]"), 1000U);
 }
 
@@ -53,13 +53,13 @@ TEST(Particles, CentersLatticeOnSphere) {
 TEST(Particles, JitterIsSeededAndBounded) {
   const std::string text = R"("domain": {}, "fill": [{"box": {}, "jitter": 0.5}], "seed": )";
   const ParticleSet a = particles(with(text + "1")), again = particles(with(text + "1")), b = particles(with(text + "2"));
-  const ParticleSet calm = particles(with(R"("domain": {}, "fill": [{"box": {}}])"));
+  const ParticleSet lattice = particles(with(R"("domain": {}, "fill": [{"box": {}}])"));
   ASSERT_EQ(a.positions.size(), 1000U);
   EXPECT_EQ(a.positions, again.positions);
   EXPECT_NE(a.positions, b.positions);
   double largest = 0, sum = 0;
   for (size_t i = 0; i < a.positions.size(); ++i) {
-    const double dx = double{a.positions[i].x} - calm.positions[i].x;
+    const double dx = double{a.positions[i].x} - lattice.positions[i].x;
     largest = std::max(largest, std::abs(dx));
     sum += dx;
     EXPECT_GE(a.positions[i].x, 0);
@@ -73,7 +73,7 @@ TEST(Particles, JitterIsSeededAndBounded) {
 TEST(Particles, JitterIsIndependentOfOtherFillsAndLosesNoParticles) {
   const ParticleSet both = particles(with(
       R"("domain": {"max": [2, 1, 1]}, "fill": [{"box": {}, "jitter": 0.5}, {"box": {"min": [1, 0, 0], "max": [2, 1, 1]}, "jitter": 0.5}])"));
-  EXPECT_EQ(both.positions.size(), 2000U);  // neighbors across the seam may be near: they were not on the lattice
+  EXPECT_EQ(both.positions.size(), 2000U);  // jittered neighbors across the border of two fills may be close
   const ParticleSet alone = particles(with(R"("domain": {"max": [2, 1, 1]}, "fill": [{"box": {}, "jitter": 0.5}])"));
   EXPECT_TRUE(std::equal(alone.positions.begin(), alone.positions.end(), both.positions.begin()));
 }
@@ -90,7 +90,7 @@ TEST(Particles, LeavesOutAndReportsOverlaps) {
   }
 }
 
-/// The hash of cells gives what comparing all pairs gives, also across cell borders and at negative places.
+/// The spatial hash agrees with a comparison of all pairs, also across cell borders and at negative coordinates.
 TEST(Particles, OverlapsMatchAllPairsSearch) {
   const ParticleSet set = particles(with(
       R"("fill": [{"sphere": {"center": [0.03, -0.01, 0.02], "radius": 0.5}}, {"sphere": {"center": [-0.4, 0.21, 0.1], "radius": 0.5}}])"));
@@ -115,7 +115,7 @@ TEST(Particles, LeavesOutParticlesInsideSolids) {
       left(
           R"({"box": {"min": [0.2, 0.2, 0.2], "max": [0.4, 0.4, 0.4]}, "motion": [{"at": 0, "translate": [0.1, 0, 0]}, {"at": 1, "translate": [5, 0, 0]}]})"),
       8U);
-  // A bar along x, turned by 90 degrees about y: along z.
+  // A bar along x, rotated by 90 degrees about y: along z.
   EXPECT_EQ(left(R"({"box": {"min": [0, 0.4, 0.4], "max": [1, 0.6, 0.6]}, "rotation": [0, 1, 0, 1]})"), 40U);
   EXPECT_EQ(left(R"({"box": {"min": [0, 0.4, 0], "max": [1, 0.6, 0.2]}, "rotation": [0, 1, 0, 1]})"), 24U);
   EXPECT_EQ(left(R"({"sphere": {"center": [0.5, 0.5, 0.5], "radius": 0.3}})"), 136U);
@@ -199,13 +199,13 @@ TEST(Particles, FailsIfFillsYieldNoParticle) {
   ASSERT_TRUE(none);
   EXPECT_TRUE(none->positions.empty() && none->warnings.empty());
   Scene outside = scene(with(R"("domain": {}, "fill": [{"box": {"min": [2, 2, 2], "max": [3, 3, 3]}}])"));
-  const auto refused = makeParticles(outside, kMany);
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().kind, ErrorKind::BadInput);
-  EXPECT_EQ(refused.error().message.rfind(
+  const auto rejected = makeParticles(outside, kMany);
+  ASSERT_FALSE(rejected);
+  EXPECT_EQ(rejected.error().kind, ErrorKind::BadInput);
+  EXPECT_EQ(rejected.error().message.rfind(
                 "dam: fill: no particles are left (1,000 outside the walls, 0 inside solids); expected at least one.", 0),
             0U)
-      << refused.error().message;
+      << rejected.error().message;
 }
 
 TEST(Particles, RejectsTooManyParticlesBeforeAllocation) {
@@ -250,7 +250,7 @@ TEST(Particles, ComputesSpacingFromParticleCount) {
   }
   Scene cube = scene(R"({"rill": "0.1", "fluid": {"particles": 8000}, "fill": [{"box": {}}]})");
   EXPECT_EQ(particles(cube).positions.size(), 8000U);
-  EXPECT_NEAR(cube.fluid.spacing, 0.05, 1e-12);  // the lattice that fits the box, not any other with as many particles
+  EXPECT_NEAR(cube.fluid.spacing, 0.05, 1e-12);  // the lattice that fits the box, among those with as many particles
 }
 
 TEST(Particles, ParticleCountExcludesLeftOutParticles) {

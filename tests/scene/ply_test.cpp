@@ -26,7 +26,7 @@ class Ply : public ::testing::Test {
     if (!s) return s.error();
     return makeParticles(*s, 1'000'000);
   }
-  /// The message without the scene, the key and the folder.
+  /// The error message without the folder.
   std::string message(const std::string& bytes) {
     const auto result = load(bytes);
     if (result) return "accepted";

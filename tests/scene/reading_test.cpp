@@ -95,8 +95,8 @@ TEST(Overrides, SetKeysBeforeValidation) {
 }
 
 TEST(Overrides, CanRepairInvalidScene) {
-  EXPECT_EQ(refusal(withFluid("\"spacing\": -1"), {{"fluid.spacing", "0.1"}}), "accepted");
-  EXPECT_EQ(refusal("{}", {{"rill", "0.1"}, {"fluid.spacing", "0.1"}}), "accepted");
+  EXPECT_EQ(parseError(withFluid("\"spacing\": -1"), {{"fluid.spacing", "0.1"}}), "accepted");
+  EXPECT_EQ(parseError("{}", {{"rill", "0.1"}, {"fluid.spacing", "0.1"}}), "accepted");
 }
 
 TEST(Overrides, SpacingAndParticlesReplaceEachOther) {
@@ -118,7 +118,7 @@ TEST(Overrides, ChangeAndAddListEntries) {
 
 TEST(Overrides, ErrorsNameTheOverride) {
   const std::string base = with(R"("fill": [{"box": {}}])");
-  const auto message = [&](const std::string& key, const std::string& value) { return refusal(base, {{key, value}}); };
+  const auto message = [&](const std::string& key, const std::string& value) { return parseError(base, {{key, value}}); };
   EXPECT_EQ(message("fluid.viscosty", "1"), "--set fluid.viscosty: unknown key; did you mean \"viscosity\"?");
   EXPECT_EQ(message("fluidd.viscosity", "1"), "--set fluidd.viscosity: fluidd: unknown key; did you mean \"fluid\"?");
   EXPECT_EQ(message("viscosity", "1"), "--set viscosity: unknown key; did you mean \"fluid.viscosity\"?");
@@ -153,11 +153,11 @@ TEST(Overrides, ErrorsNameTheOverride) {
 }
 
 TEST(Overrides, ErrorsOfTheFileNameTheFile) {
-  EXPECT_EQ(refusal(withFluid("\"spacing\": -1"), {{"fluid.viscosity", "1"}}),
+  EXPECT_EQ(parseError(withFluid("\"spacing\": -1"), {{"fluid.viscosity", "1"}}),
             "dam.json: fluid.spacing: -1 is out of range; expected a number above 0 (m)");
 }
 
-/// Two pictures and two files of particles of the same names, beside the scene and a folder above it.
+/// Images and particle files with the same names in the folder of the scene and in its parent.
 TEST(Overrides, ResolveRelativePathsAgainstCurrentDirectory) {
   const Folder above;
   std::filesystem::create_directory(above.path / "scenes");
@@ -182,10 +182,10 @@ TEST(Overrides, ResolveRelativePathsAgainstCurrentDirectory) {
        "water.ply");
   read({{"look.environment", (above.path / "sky.hdr").string()}}, "sky.hdr", "scenes/water.ply");
 
-  const auto beside = loadScene(file, std::vector<Override>{{"look.environment", "beside.hdr"}});
-  ASSERT_FALSE(beside);
-  EXPECT_EQ(beside.error().message, "--set look.environment: \"beside.hdr\": no such file (looked for " +
-                                        (std::filesystem::current_path() / "beside.hdr").string() + ")");
+  const auto missing = loadScene(file, std::vector<Override>{{"look.environment", "beside.hdr"}});
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().message, "--set look.environment: \"beside.hdr\": no such file (looked for " +
+                                         (std::filesystem::current_path() / "beside.hdr").string() + ")");
 }
 
 TEST(Overrides, ParseKeyEqualsValue) {
@@ -200,12 +200,12 @@ TEST(Overrides, ParseKeyEqualsValue) {
   EXPECT_EQ(parseOverride("").error().kind, ErrorKind::BadInput);
 }
 
-/// Whatever the bytes are, a scene is read or refused with a message that names it.
+/// Arbitrary bytes are read, or rejected with a message that names the file.
 TEST(SceneReader, HandlesTruncatedAndFlippedScenes) {
   std::ifstream in(std::filesystem::path(RILL_SOURCE_DIR) / "assets/scenes/box-and-sphere.json");
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   ASSERT_GT(text.size(), 500U);
-  const auto judge = [](const std::string& bytes) {
+  const auto check = [](const std::string& bytes) {
     const auto result = parse(bytes);
     if (!result) {
       EXPECT_EQ(result.error().message.rfind("dam.json:", 0), 0U) << result.error().message;
@@ -213,9 +213,9 @@ TEST(SceneReader, HandlesTruncatedAndFlippedScenes) {
       return;
     }
     Scene s = *result;
-    (void)makeParticles(s, 100'000);  // an error is fine, a crash is not
+    (void)makeParticles(s, 100'000);  // may fail, must not crash
   };
-  for (size_t length = 0; length < text.size(); ++length) judge(text.substr(0, length));
+  for (size_t length = 0; length < text.size(); ++length) check(text.substr(0, length));
   uint64_t random = 12345;
   for (int round = 0; round < 4000; ++round) {
     std::string flipped = text;
@@ -223,7 +223,7 @@ TEST(SceneReader, HandlesTruncatedAndFlippedScenes) {
       random = random * 6364136223846793005ULL + 1442695040888963407ULL;
       flipped[(random >> 33) % flipped.size()] ^= static_cast<char>(1 << (random >> 60 & 7));
     }
-    judge(flipped);
+    check(flipped);
   }
 }
 

@@ -1,4 +1,4 @@
-// README's scene is one that the reader accepts.
+// README's key table and example scene match the field table and the reader.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -13,6 +13,10 @@ std::string readme() {
   std::ostringstream text;
   text << std::ifstream(RILL_SOURCE_DIR "/README.md").rdbuf();
   return text.str();
+}
+
+TEST(Readme, HasTheTableOfKeys) {
+  EXPECT_NE(readme().find(sceneKeyTable()), std::string::npos) << "expected this table:\n" << sceneKeyTable();
 }
 
 TEST(Readme, HasNoPlaceholders) { EXPECT_EQ(readme().find('@'), std::string::npos); }

@@ -10,7 +10,7 @@ struct Case {
 };
 
 void expectMessages(const std::vector<Case>& cases) {
-  for (const Case& c : cases) EXPECT_EQ(refusal(c.text), "dam.json" + c.message) << c.text;
+  for (const Case& c : cases) EXPECT_EQ(parseError(c.text), "dam.json" + c.message) << c.text;
 }
 
 TEST(SceneErrors, ReportsLineAndColumnOfInvalidJson) {
@@ -23,16 +23,16 @@ TEST(SceneErrors, ReportsLineAndColumnOfInvalidJson) {
       {"{\"gravity\": [0, 1, ]}", ":1:20: invalid JSON: trailing comma before ]"},
       {"{\n\"rill\" 1}", ":2:8: invalid JSON: while parsing object separator - unexpected number literal; expected ':'"},
   });
-  EXPECT_NE(refusal("{\"rill\": \"0.1\"").find("dam.json:1:15: invalid JSON: while parsing object - unexpected end of input"),
+  EXPECT_NE(parseError("{\"rill\": \"0.1\"").find("dam.json:1:15: invalid JSON: while parsing object - unexpected end of input"),
             std::string::npos)
-      << refusal("{\"rill\": \"0.1\"");
-  EXPECT_NE(refusal("{} {}").find("dam.json:1:4: invalid JSON"), std::string::npos);
-  EXPECT_NE(refusal("{\"rill\": NaN}").find("dam.json:1:10: invalid JSON"), std::string::npos) << refusal("{\"rill\": NaN}");
-  EXPECT_NE(refusal("{\"rill\": -Infinity}").find("dam.json:1:1"), std::string::npos);
-  EXPECT_NE(refusal("{\"rill\": 0x10}").find("invalid JSON"), std::string::npos);
-  EXPECT_NE(refusal("{'rill': 1}").find("invalid JSON"), std::string::npos);
-  EXPECT_NE(refusal("{ /* no end }").find("invalid JSON"), std::string::npos);
-  EXPECT_LT(refusal("{\"rill\": \"" + std::string(100000, 'a')).size(), 600U);
+      << parseError("{\"rill\": \"0.1\"");
+  EXPECT_NE(parseError("{} {}").find("dam.json:1:4: invalid JSON"), std::string::npos);
+  EXPECT_NE(parseError("{\"rill\": NaN}").find("dam.json:1:10: invalid JSON"), std::string::npos) << parseError("{\"rill\": NaN}");
+  EXPECT_NE(parseError("{\"rill\": -Infinity}").find("dam.json:1:1"), std::string::npos);
+  EXPECT_NE(parseError("{\"rill\": 0x10}").find("invalid JSON"), std::string::npos);
+  EXPECT_NE(parseError("{'rill': 1}").find("invalid JSON"), std::string::npos);
+  EXPECT_NE(parseError("{ /* no end }").find("invalid JSON"), std::string::npos);
+  EXPECT_LT(parseError("{\"rill\": \"" + std::string(100000, 'a')).size(), 600U);
 }
 
 TEST(SceneErrors, RejectsDuplicateKeysAtAnyDepth) {
@@ -46,9 +46,9 @@ TEST(SceneErrors, RejectsDuplicateKeysAtAnyDepth) {
 
 TEST(SceneErrors, RejectsDeepNesting) {
   const std::string deep = "{\"extras\": " + std::string(1'000'000, '[');
-  EXPECT_EQ(refusal(deep), "dam.json:1:267: nested deeper than 256 levels");
+  EXPECT_EQ(parseError(deep), "dam.json:1:267: nested deeper than 256 levels");
   const std::string fits = with("\"extras\": " + std::string(255, '[') + std::string(255, ']'));
-  EXPECT_EQ(refusal(fits), "accepted");
+  EXPECT_EQ(parseError(fits), "accepted");
 }
 
 TEST(SceneErrors, NamesUnsupportedEncodings) {
@@ -68,8 +68,8 @@ TEST(SceneErrors, NamesUnsupportedEncodings) {
       {"{\"\xF4\x90\x80\x80\": 1}", ":1:3: the byte 0xF4 is not valid UTF-8; expected UTF-8"},
       {"{\"\xE2\x82", ":1:3: the byte 0xE2 is not valid UTF-8; expected UTF-8"},
   });
-  EXPECT_EQ(refusal("\xEF\xBB\xBF" + with(R"("title": "caf)"
-                                          "\xC3\xA9 \xE2\x82\xAC \xF0\x9F\x8C\x8A\"")),
+  EXPECT_EQ(parseError("\xEF\xBB\xBF" + with(R"("title": "caf)"
+                                             "\xC3\xA9 \xE2\x82\xAC \xF0\x9F\x8C\x8A\"")),
             "accepted");
 }
 
@@ -86,12 +86,12 @@ TEST(SceneErrors, RejectsInvalidAndNewerVersions) {
       {version(R"("v0.1")"), ": rill: found \"v0.1\", " + expected},
   });
   for (const std::string value : {"999.0", "0.999", "999.1.2", "99999999999999999999.0"}) {
-    EXPECT_EQ(refusal(version("\"" + value + "\"")).rfind("dam.json: rill: the scene needs Rill " + value + " or later; this is Rill ", 0),
-              0U)
+    EXPECT_EQ(
+        parseError(version("\"" + value + "\"")).rfind("dam.json: rill: the scene needs Rill " + value + " or later; this is Rill ", 0), 0U)
         << value;
   }
   for (const std::string value : {"0.1", "0.0", "0.1.0", "0.0.99", "00.01"})
-    EXPECT_EQ(refusal(R"({"rill": ")" + value + R"(", "fluid": {"spacing": 1}})"), "accepted") << value;
+    EXPECT_EQ(parseError(R"({"rill": ")" + value + R"(", "fluid": {"spacing": 1}})"), "accepted") << value;
 }
 
 TEST(SceneErrors, SuggestsNearestKeyForUnknownKeys) {
@@ -105,7 +105,7 @@ TEST(SceneErrors, SuggestsNearestKeyForUnknownKeys) {
       {with(R"("look": {"zzzzzz": 1})"), ": look.zzzzzz: unknown key; expected one of \"preset\", \"surface\", \"environment\""},
       {with(R"("look": {"a.b\nc": 1})"), ": look.\"a.b\\u000ac\": unknown key; expected one of \"preset\", \"surface\", \"environment\""},
   });
-  EXPECT_EQ(refusal(with(R"("extras": {"anything": [1, {"goes": null}]}, "$schema": "scene.schema.json")")), "accepted");
+  EXPECT_EQ(parseError(with(R"("extras": {"anything": [1, {"goes": null}]}, "$schema": "scene.schema.json")")), "accepted");
 }
 
 TEST(SceneErrors, RejectsWrongTypesAndLengths) {
@@ -208,8 +208,9 @@ TEST(SceneErrors, ChecksRulesBetweenKeys) {
   });
   std::string solids;
   for (int i = 0; i < 4096; ++i) solids += R"({"sphere": {}},)";
-  EXPECT_EQ(refusal(with("\"solids\": [" + solids.substr(0, solids.size() - 1) + "]")), "accepted");
-  EXPECT_EQ(refusal(with("\"solids\": [" + solids + "{\"sphere\": {}}]")), "dam.json: solids: found 4,097 entries, expected at most 4,096");
+  EXPECT_EQ(parseError(with("\"solids\": [" + solids.substr(0, solids.size() - 1) + "]")), "accepted");
+  EXPECT_EQ(parseError(with("\"solids\": [" + solids + "{\"sphere\": {}}]")),
+            "dam.json: solids: found 4,097 entries, expected at most 4,096");
 }
 
 TEST(SceneErrors, RejectsFilesThatAreNotScenes) {
@@ -246,9 +247,9 @@ TEST(SceneErrors, RejectsMissingParticleFile) {
   const auto there = parseScene(text, "dam.json", folder.path);
   ASSERT_TRUE(there);
   EXPECT_TRUE(there->fill[0].particles->is_absolute());
-  EXPECT_NE(refusal(with(R"("fill": [{"particles": {"file": ""}}])")).find("expected a file name"), std::string::npos);
-  EXPECT_NE(refusal(with(R"("fill": [{"particles": {}}])")).find("fill[0].particles.file: required key is missing"), std::string::npos);
-  EXPECT_NE(refusal(with(R"("fill": [{"particles": {"file": "."}}])")).find("not a regular file; expected a file"), std::string::npos);
+  EXPECT_NE(parseError(with(R"("fill": [{"particles": {"file": ""}}])")).find("expected a file name"), std::string::npos);
+  EXPECT_NE(parseError(with(R"("fill": [{"particles": {}}])")).find("fill[0].particles.file: required key is missing"), std::string::npos);
+  EXPECT_NE(parseError(with(R"("fill": [{"particles": {"file": "."}}])")).find("not a regular file; expected a file"), std::string::npos);
 }
 
 }  // namespace

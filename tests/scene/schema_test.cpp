@@ -13,7 +13,7 @@ using nlohmann::json;
 
 const std::filesystem::path kSceneFolder = std::filesystem::path(RILL_SOURCE_DIR) / "assets/scenes";
 
-/// As much of JSON Schema draft-07 as the scene's schema uses. Empty where `value` is valid, otherwise where it is not.
+/// Validates `value` by the subset of JSON Schema draft-07 that the scene schema uses. Returns the first violation, or an empty string.
 std::string violation(const json& schema, const json& value, const std::string& at = "") {
   static const std::set<std::string> known{
       "$schema",  "title",    "description", "default", "type",    "properties",       "additionalProperties",
@@ -81,8 +81,8 @@ std::string fileText(const std::filesystem::path& file) {
 TEST(Schema, FileMatchesFieldTable) {
   const std::filesystem::path fresh = std::filesystem::path(RILL_BINARY_DIR) / "scene.schema.json";
   std::ofstream(fresh, std::ios::binary) << sceneSchema();
-  EXPECT_TRUE(fileText(kSceneFolder / "scene.schema.json") == sceneSchema())
-      << "the table of fields has changed: cp " << fresh.string() << " assets/scenes/";
+  EXPECT_TRUE(fileText(kScenes / "scene.schema.json") == sceneSchema())
+      << "the field table has changed; update the schema: cp " << fresh.string() << " assets/scenes/";
 }
 
 TEST(Schema, AcceptsEveryShippedScene) {
@@ -93,7 +93,7 @@ TEST(Schema, AcceptsEveryShippedScene) {
   }
 }
 
-/// The schema and the parser agree on what neither needs the other's eyes for.
+/// The schema and the parser accept the same scenes.
 TEST(Schema, AgreesWithTheParser) {
   const json schema = json::parse(sceneSchema());
   const std::string texts[] = {withFluid(R"("spacing": 0.1)"),
@@ -141,7 +141,7 @@ TEST(Schema, AgreesWithTheParser) {
                                with(R"("title": 3)"),
                                with(R"("unknown": 3)")};
   for (const std::string& text : texts) {
-    const std::string parsed = refusal(text), by_schema = violation(schema, commented(text));
+    const std::string parsed = parseError(text), by_schema = violation(schema, commented(text));
     EXPECT_EQ(parsed == "accepted", by_schema.empty()) << text << "\n" << parsed << "\n" << by_schema;
   }
 }

@@ -7,7 +7,7 @@ namespace {
 
 const std::filesystem::path kScenes = std::filesystem::path(RILL_SOURCE_DIR) / "assets/scenes";
 
-/// Every scene that ships, with its number of particles. A scene that is not listed here fails the test below.
+/// Particle counts of all shipped scenes. Scenes that are not listed fail the test below.
 const std::map<std::string, size_t> kCounts{{"box-and-sphere", 30000},
                                             {"dam-break", 30000},
                                             {"dam10k", 10800},

@@ -12,7 +12,7 @@
 
 namespace rill::test {
 
-/// A folder of this test's own, removed afterwards.
+/// A temporary folder of a test, removed afterwards.
 class Folder {
  public:
   Folder() {
@@ -42,29 +42,29 @@ inline Expected<Scene> parse(std::string_view text, std::vector<Override> overri
   return parseScene(text, "dam.json", {}, overrides);
 }
 
-/// The scene, or a test failure with the message.
+/// The parsed scene; fails the test with the message on error.
 inline Scene scene(std::string_view text, std::vector<Override> overrides = {}) {
   auto result = parse(text, std::move(overrides));
   EXPECT_TRUE(result) << (result ? "" : result.error().message);
   return result ? *result : Scene{};
 }
 
-/// The message of a scene that is refused; "accepted" where it is not.
-inline std::string refusal(std::string_view text, std::vector<Override> overrides = {}) {
+/// The error message of a scene, or "accepted".
+inline std::string parseError(std::string_view text, std::vector<Override> overrides = {}) {
   const auto result = parse(text, std::move(overrides));
   if (result) return "accepted";
   EXPECT_EQ(result.error().kind, ErrorKind::BadInput);
   return result.error().message;
 }
 
-/// A scene with `more` beside what every scene needs.
+/// A minimal scene with the additional keys `more`.
 inline std::string with(std::string_view more) { return R"({"rill": "0.1", "fluid": {"spacing": 0.1}, )" + std::string(more) + "}"; }
-/// A scene with `keys` in its fluid.
+/// A scene with `keys` in `fluid`.
 inline std::string withFluid(std::string_view keys) { return R"({"rill": "0.1", "fluid": {)" + std::string(keys) + "}}"; }
 
 inline constexpr uint64_t kMany = 10'000'000;
 
-/// The particles, or a test failure with the message.
+/// The particles; fails the test with the message on error.
 inline ParticleSet particles(Scene& from, uint64_t most = kMany) {
   auto result = makeParticles(from, most);
   EXPECT_TRUE(result) << (result ? "" : result.error().message);

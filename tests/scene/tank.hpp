@@ -1,10 +1,10 @@
 #pragma once
-// A scene made in code, as a host makes one.
+// A scene made in code.
 #include "rill/scene.hpp"
 
 namespace rill::test {
 
-/// A tank at rest with something of everything in it.
+/// A tank at rest that uses every kind of object.
 inline Scene tank() {
   Scene scene;
   scene.fluid.spacing = 0.1;

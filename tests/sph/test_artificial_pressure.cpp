@@ -15,14 +15,14 @@ TEST(ArtificialPressure, IsInvariantUnderKernelAndScale) {
       for (const double d : {0.001, 0.05, 3.0}) {
         const SmoothingKernel kernel(choice, ratio * d, d);
         const ArtificialPressure pressure(kernel, 1, 0.1, 16);
-        double acceleration = 0, way = 0;
+        double acceleration = 0, displacement = 0;
         for (double r = 0.001 * d; r < d; r += 0.001 * d) {
           const double step = -kernel.gradientOverR(r) * r / kernel.restGradientSum();
           acceleration = std::max(acceleration, pressure.rate * step);
-          way = std::max(way, pressure.most * step);
+          displacement = std::max(displacement, pressure.most * step);
         }
         EXPECT_NEAR(acceleration, 28.7 * 9.81, 3) << ratio << " " << d;
-        EXPECT_NEAR(way, 0.05 * d, 0.0005 * d) << ratio << " " << d;
+        EXPECT_NEAR(displacement, 0.05 * d, 0.0005 * d) << ratio << " " << d;
       }
 }
 
@@ -34,9 +34,9 @@ TEST(ArtificialPressure, ActsOnClosePairsButNotOnRestLattice) {
         for (const double power : {1.0, 4.0, 16.0}) {
           const SmoothingKernel kernel(choice, ratio * d, d);
           const ArtificialPressure pressure(kernel, 1, reach / ratio, power);
-          EXPECT_EQ(pressure.share(kernel.value(d)), 0) << ratio << " " << reach << " " << power;
+          EXPECT_EQ(pressure.factor(kernel.value(d)), 0) << ratio << " " << reach << " " << power;
           EXPECT_EQ(pressure.rate > 0, reach < 0.95) << ratio << " " << reach << " " << power;
-          EXPECT_EQ(pressure.share(kernel.value(0)) > 0, reach < 0.95) << ratio << " " << reach << " " << power;
+          EXPECT_EQ(pressure.factor(kernel.value(0)) > 0, reach < 0.95) << ratio << " " << reach << " " << power;
         }
 }
 

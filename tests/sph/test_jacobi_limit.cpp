@@ -9,8 +9,8 @@
 namespace rill {
 namespace {
 
-/// Largest factor by which signed, undivided Jacobi corrections change a wave of compression on a periodic lattice of n^3, from rounds of
-/// them.
+/// Growth factor of the dominant compression wave per Jacobi iteration (linear, unclamped) on a periodic lattice of n^3, by power
+/// iteration.
 double growth(const SmoothingKernel& kernel, double omega, int n) {
   const double d = kernel.spacing();
   const int reach = static_cast<int>(kernel.h() / d + 1);

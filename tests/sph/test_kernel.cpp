@@ -34,7 +34,7 @@ TEST_P(KernelTest, RestLatticeHasRestDensity) {
   EXPECT_NEAR(gradients / k.restGradientSum(), 1, 1e-12);
 }
 
-// In the continuum the integral of K over space is d^3 to within the lattice's discretization error, which vanishes as h/d grows.
+// The integral of K over space is d^3 up to the discretization error of the lattice, which vanishes as h/d grows.
 TEST_P(KernelTest, IntegratesToParticleVolume) {
   const SmoothingKernel k = kernel();
   const int n = 20000;

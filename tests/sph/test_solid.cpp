@@ -87,7 +87,7 @@ TEST_P(SolidTest, ThickBoxMatchesWallAndThinPlateDisplacesLess) {
   }
 }
 
-// A plate as thick as a layer of the lattice, half a spacing from both neighbors, stands for that layer.
+// A plate as thick as one lattice layer contributes the same density as that layer.
 TEST_P(SolidTest, PlateOfOneSpacingMatchesOneLayer) {
   const SmoothingKernel k = kernel();
   const double half[3] = {10 * k.h(), 10 * k.h(), kSolidSpacing / 2}, at[3] = {0, 0, kSolidSpacing};

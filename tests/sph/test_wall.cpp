@@ -24,8 +24,8 @@ class WallTest : public testing::TestWithParam<std::tuple<KernelChoice, double>>
   double ratio() const { return std::get<1>(GetParam()); }
 };
 
-/// A full rest lattice of `layers` in a box, walls on all sides but those of an axis with 0 layers, which is endless: the largest |rho/rho0
-/// - 1| and the largest force that the constraint's gradient would give, times d.
+/// Largest |rho/rho0 - 1| and largest constraint gradient times d in a full rest lattice of `layers` in a box. Axes with 0 layers are
+/// unbounded, the others have walls on both sides.
 struct Rest {
   double density = 0, gradient = 0;
 };
@@ -50,9 +50,9 @@ Rest restLattice(const SmoothingKernel& k, const int (&layers)[3], const Wall& w
         for (n[0] = -reach; n[0] <= reach; ++n[0])
           for (n[1] = -reach; n[1] <= reach; ++n[1])
             for (n[2] = -reach; n[2] <= reach; ++n[2]) {
-              bool there = true;
-              for (int a = 0; a < 3; ++a) there = there && (!layers[a] || (p[a] + n[a] >= 0 && p[a] + n[a] < layers[a]));
-              if (!there) continue;
+              bool inBox = true;
+              for (int a = 0; a < 3; ++a) inBox = inBox && (!layers[a] || (p[a] + n[a] >= 0 && p[a] + n[a] < layers[a]));
+              if (!inBox) continue;
               const double r = d * std::sqrt(double(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]));
               sum += k.value(r);
               for (int a = 0; a < 3; ++a) g[a] -= k.gradientOverR(r) * d * n[a];
@@ -85,7 +85,7 @@ TEST_P(WallTest, TablesMatchLatticeSums) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> distance(0, 1.1 * rill::wallReach(k));
   std::uniform_int_distribution<int> closed(0, 1);
-  // Linear interpolation errs by step^2 / 8 times the curvature, which grows as the kernel narrows.
+  // The error of linear interpolation is step^2 / 8 times the curvature, which is larger for narrow kernels.
   const double bound = ratio() < 2 ? 5e-3 : ratio() < 3 ? 1.3e-3 : 5e-4;
   for (int sample = 0; sample < 2000; ++sample) {
     double lo[3], hi[3];
@@ -94,11 +94,11 @@ TEST_P(WallTest, TablesMatchLatticeSums) {
       hi[a] = closed(random) && sample % 4 == 0 ? distance(random) : kFar;
     }
     const WallSample exact = rill::exactWall(k, lo, hi), table = tables.sample(lo, hi);
-    const double crowd = sample % 4 == 0 ? 4 : 1;  // both walls of an axis near: more terms
-    EXPECT_NEAR(exact.value, table.value, crowd * bound);
+    const double terms = sample % 4 == 0 ? 4 : 1;  // both walls of an axis near: more terms
+    EXPECT_NEAR(exact.value, table.value, terms * bound);
     for (int a = 0; a < 3; ++a) {
-      EXPECT_NEAR(exact.gradient[a] * kWallSpacing, table.gradient[a] * kWallSpacing, crowd * 4 * bound);
-      EXPECT_NEAR(exact.beside[a], table.beside[a], crowd * bound);
+      EXPECT_NEAR(exact.gradient[a] * kWallSpacing, table.gradient[a] * kWallSpacing, terms * 4 * bound);
+      EXPECT_NEAR(exact.wallCoverage[a], table.wallCoverage[a], terms * bound);
     }
   }
 }
@@ -118,8 +118,8 @@ TEST_P(WallTest, IncreasesTowardWall) {
     EXPECT_NEAR(low.gradient[1], near.slope, 1e-12 / kWallSpacing);
     EXPECT_NEAR(high.gradient[1], -near.slope, 1e-12 / kWallSpacing);
     EXPECT_EQ(low.gradient[0], 0);
-    EXPECT_EQ(low.beside[1], 0) << "a wall across the axis is not beside it";
-    EXPECT_NEAR(low.beside[0], near.value, 1e-14);
+    EXPECT_EQ(low.wallCoverage[1], 0) << "a wall perpendicular to the axis does not cover it";
+    EXPECT_NEAR(low.wallCoverage[0], near.value, 1e-14);
   }
   for (const double s : {reach, 1.01 * reach, 50.0, kFar}) {
     EXPECT_EQ(rill::exactPlane(k, s).value, 0);
@@ -176,11 +176,11 @@ TEST(WendlandWall, GradientIsTheDerivativeOfTheValue) {
   }
 }
 
-// What of a push along z, by a pressure that falls linearly in z, the lattice beside a wall, in an edge or between two plates still gives.
+// The pressure force along z of a linear pressure, from the lattice at an edge and in the edge of a gap, over that in the bulk.
 TEST(WendlandWall, PressureForceAlongWallIsReducedByCoverage) {
   for (const double ratio : {2.0, 2.3, 3.0, 4.0}) {
     const SmoothingKernel k(KernelChoice::Wendland, ratio * kWallSpacing, kWallSpacing);
-    const auto push = [&](int columns, int rows) {
+    const auto force = [&](int columns, int rows) {
       double sum = 0;
       for (int x = -4; x <= 4; ++x)
         for (int y = -4; y <= 4; ++y)
@@ -194,13 +194,13 @@ TEST(WendlandWall, PressureForceAlongWallIsReducedByCoverage) {
       for (int y = -4; y <= 4; ++y)
         for (int z = -4; z <= 4; ++z) whole -= k.gradientOverR(kWallSpacing * std::sqrt(double(x * x + y * y + z * z))) * z * z;
     const double near = kWallSpacing / 2;
-    const auto beside = [&](double lowY, double highX) {
+    const auto coverage = [&](double lowY, double highX) {
       const double lo[3] = {near, lowY, kFar}, hi[3] = {highX, kFar, kFar};
-      return rill::exactWall(k, lo, hi).beside[2];
+      return rill::exactWall(k, lo, hi).wallCoverage[2];
     };
-    EXPECT_NEAR(push(9, 9) / whole, 1 - beside(near, kFar), 0.02) << "in an edge, h = " << ratio << " d";
-    EXPECT_NEAR(push(1, 9) / whole, 1 - beside(near, near), 0.03) << "in the edge of a gap one layer wide, h = " << ratio << " d";
-    EXPECT_LT(push(9, 9) / whole, 0.8) << "so that there is something to make up for";
+    EXPECT_NEAR(force(9, 9) / whole, 1 - coverage(near, kFar), 0.02) << "in an edge, h = " << ratio << " d";
+    EXPECT_NEAR(force(1, 9) / whole, 1 - coverage(near, near), 0.03) << "in the edge of a gap one layer wide, h = " << ratio << " d";
+    EXPECT_LT(force(9, 9) / whole, 0.8) << "the reduction must be significant for the test";
   }
 }
 

@@ -165,8 +165,8 @@ class RILL_API Fluid {
   /// Executions of passes between the two last frames known to have finished. Passes that are not listed always execute.
   std::vector<FluidPassRuns> passRuns() const;
 
-  /// Center of a driven solid at the end of the last declared advance, m. Its target, or on the way to it at Solid::driven.
-  /// NaN for a solid that is not driven.
+  /// Center of a driven solid at the end of the last declared advance, m: the target, or a point on the path to it if the target was too
+  /// far. NaN for a solid that is not driven.
   std::array<double, 3> drivenCenter(uint32_t solid) const;
 
   uint32_t count() const;  ///< particles, including inactive ones
