@@ -6,17 +6,18 @@
 
 namespace rill::bench {
 
-/// A method with its settings.
-struct SurfaceWay {
+/// A surface method with settings.
+struct SurfaceVariant {
   std::string family;   ///< the method
-  std::string setting;  ///< what was changed of it; empty: the method as it is
+  std::string setting;  ///< the changed setting; empty: default settings
   SurfaceMethod method = SurfaceMethod::Auto;
   SurfaceSettings settings = {};
-  bool standard() const { return setting.empty(); }
-  std::string name() const { return standard() ? family : family + " " + setting; }
+  bool isDefault() const { return setting.empty(); }
+  std::string name() const { return isDefault() ? family : family + " " + setting; }
 };
 
-/// The engine's methods and the baseline, each as it is and with its settings varied one by one; the method of SurfaceMethod::Auto first.
-std::vector<SurfaceWay> surfaceWays(const Bilateral& bilateral, bool quick);
+/// The engine's methods and the bilateral baseline, each with default settings and with one setting varied at a time. The first is
+/// SurfaceMethod::Auto.
+std::vector<SurfaceVariant> surfaceVariants(const Bilateral& bilateral, bool quick);
 
 }  // namespace rill::bench
