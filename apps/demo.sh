@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# From a clone to pictures of a dam break.
+# Builds Rill from a fresh clone and renders images of a dam break.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . apps/setup.sh
@@ -8,11 +8,15 @@ usage() {
   cat <<'END'
 Usage: ./apps/demo.sh [--no-install] [--help] [-- OPTION...]
 
-Installs what is missing (Debian 12 or Ubuntu 24.04 and newer; with sudo where not root), builds Rill,
-and captures the scene dam-break into ./out/dam-break. Needs no GPU.
+Installs missing packages (Debian 12, Ubuntu 24.04 or newer; uses sudo if not root), builds Rill,
+and renders the scene dam-break to ./out/dam-break. Does not require a GPU.
 
-  --no-install   install nothing, only build and run
-  -- OPTION...   options for rill-capture, for example: -- --frames 30 --size 640x360, or -- --video dam.mp4
+  --no-install   build and run without installing packages
+  -- OPTION...   options for rill-capture
+
+Examples:
+  ./apps/demo.sh -- --frames 30 --size 640x360
+  ./apps/demo.sh -- --video dam.mp4
 END
 }
 
@@ -31,16 +35,16 @@ done
 build_release OFF rill-capture
 
 out=out/dam-break
-pictures=yes
+images=yes
 args=("$@")
 for ((i = 0; i < $#; i++)); do
   case ${args[i]} in
     --out=*) out=${args[i]#--out=} ;;
     --out) out=${args[i + 1]:-$out} ;;
-    --no-images) pictures=no ;;
+    --no-images) images=no ;;
   esac
 done
 
-phase "Simulating and drawing dam-break"
+phase "Simulating and rendering dam-break"
 build/release/apps/capture/rill-capture dam-break "$@"
-if [ $pictures = yes ]; then phase "The pictures are in $out"; else phase "Done"; fi
+if [ $images = yes ]; then phase "Images are in $out"; else phase "Done"; fi

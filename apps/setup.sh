@@ -1,7 +1,7 @@
 # shellcheck shell=bash
-# What apps/demo.sh and tests/run.sh share: the one list of packages, how they are installed, the build. Sourced, from the project's root.
+# Shared by apps/demo.sh and tests/run.sh: the list of packages, their installation, the build. Source it from the project root.
 
-# section, Debian's and Ubuntu's name, what to look for on another system. "test?" is left out where the system has no such package.
+# Columns: section, Debian and Ubuntu package, description for other systems. Packages of "test?" are optional.
 packages='
 build g++                     a C++20 compiler (GCC 12 or newer)
 build cmake                   CMake 3.25 or newer
@@ -18,13 +18,17 @@ build libimgui-dev            Dear ImGui 1.86 or newer
 run   libvulkan1              the Vulkan loader
 run   fonts-dejavu-core       DejaVu Sans (typeface of the viewer)
 run   mesa-vulkan-drivers     a Vulkan 1.3 driver (Mesa: lavapipe needs no GPU)
+<<<<<<< HEAD
 test  clang                   clang (public headers are compiled by it, too)
 test  git                     git (the files that the checks of format look at)
 test  doxygen                 Doxygen 1.9 or newer (the pages of the public headers)
+=======
+test  clang                   clang (also compiles the public headers)
+>>>>>>> lang-bench
 test  libgtest-dev            GoogleTest
-test  libvulkan-volk-dev      volk (a host of the tests calls Vulkan through it)
-test  pkgconf                 pkg-config (a host of the tests is built with it)
-test  glslang-dev             glslang (library: development builds and a test reload shaders)
+test  libvulkan-volk-dev      volk (used by a test host)
+test  pkgconf                 pkg-config (builds a test host)
+test  glslang-dev             glslang (library, for shader reload in development builds and a test)
 test  binutils                binutils (nm)
 test  ffmpeg                  ffmpeg with libx264, and ffprobe (the videos of rill-capture)
 test  gnuplot-nox             gnuplot (the diagrams of rill-bench)
@@ -36,7 +40,7 @@ test? clang-tidy-14           clang-tidy 14
 test? chromium-common         SwiftShader (libvk_swiftshader.so with its vk_swiftshader_icd.json)
 '
 
-# phase TEXT...: one line for each phase, with the seconds since the script began.
+# phase TEXT...: prints TEXT with the seconds since the script started.
 phase() { printf '\n[%4d s] %s\n' "$SECONDS" "$*"; }
 
 fail() {
@@ -44,7 +48,7 @@ fail() {
   exit 1
 }
 
-# in_sections SECTION...: the rows of the list that belong to these sections.
+# in_sections SECTION...: prints the packages of these sections.
 in_sections() {
   local section name upstream
   while read -r section name upstream; do
@@ -64,7 +68,7 @@ as_root() {
   fi
 }
 
-# logged COMMAND...: quiet when it works; when not, shows what it said.
+# logged COMMAND...: runs COMMAND and shows its output only if it fails.
 logged() {
   local log status=0
   log=$(mktemp)
@@ -74,12 +78,12 @@ logged() {
   return $status
 }
 
-# install_packages SECTION...: installs what is missing. Asks neither apt nor the network when nothing is.
+# install_packages SECTION...: installs missing packages. Does not use apt or the network if there are none.
 install_packages() {
   local section name upstream missing=() optional=() lists=/var/lib/apt/lists
   if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
     {
-      echo "This is neither Debian nor Ubuntu, so nothing was installed. Install these, then run again with --no-install:"
+      echo "Automatic installation supports only Debian and Ubuntu. Install these packages, then run again with --no-install:"
       in_sections "$@" | while read -r section name upstream; do printf '  %s\n' "$upstream"; done
     } >&2
     exit 1
@@ -93,7 +97,7 @@ install_packages() {
       optional+=("$name")
     fi
   done < <(in_sections "$@")
-  # Where nothing else is missing, a package that the system's lists do not have is no reason to fetch them again.
+  # Optional packages that are not in the package lists do not justify fetching the lists again.
   if [ ${#missing[@]} = 0 ] && compgen -G "$lists/*_Packages*" >/dev/null; then
     local known=()
     for name in "${optional[@]}"; do
@@ -103,24 +107,24 @@ install_packages() {
   fi
   local all=("${missing[@]}" "${optional[@]}")
   if [ ${#all[@]} = 0 ]; then
-    phase "Every package is already there"
+    phase "All packages are installed"
     return
   fi
   if [ "$(id -u)" != 0 ] && ! command -v sudo >/dev/null; then
-    fail "Needs root, and there is no sudo. As root: apt-get install --no-install-recommends ${all[*]}"
+    fail "Installing packages requires root, and sudo was not found. Run as root: apt-get install --no-install-recommends ${all[*]}"
   fi
 
   phase "Installing ${all[*]}"
-  logged as_root apt-get -o DPkg::Lock::Timeout=300 update || echo "apt-get update failed; trying with the package lists that are here" >&2
+  logged as_root apt-get -o DPkg::Lock::Timeout=300 update || echo "apt-get update failed; using the existing package lists" >&2
   for name in "${optional[@]}"; do
     if is_known "$name"; then missing+=("$name"); fi
   done
   if [ ${#missing[@]} = 0 ]; then return; fi
   logged as_root apt-get -o DPkg::Lock::Timeout=300 install -y --no-install-recommends "${missing[@]}" ||
-    fail "apt-get could not install them (needs Debian 12, Ubuntu 24.04 or newer)"
+    fail "apt-get install failed (requires Debian 12, Ubuntu 24.04 or newer)"
 }
 
-# build_release TESTS TARGET: into build/release; TESTS is ON or OFF.
+# build_release TESTS TARGET: builds TARGET in build/release; TESTS is ON or OFF.
 build_release() {
   phase "Building $2 into build/release"
   logged cmake --preset release -DRILL_BUILD_TESTS="$1"

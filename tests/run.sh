@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every test, on every software Vulkan driver that this system has.
+# Runs all tests on every installed software Vulkan driver.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . apps/setup.sh
@@ -9,21 +9,25 @@ usage() {
   cat <<'END'
 Usage: ./tests/run.sh [--no-install] [--long] [--help] [CTEST OPTION...]
 
-Installs what is missing (Debian 12 or Ubuntu 24.04 and newer; with sudo where not root), builds, and runs
+Installs missing packages (Debian 12, Ubuntu 24.04 or newer; uses sudo if not root), builds, and runs
   all tests on lavapipe,
-  the tests of label subgroups on lavapipe with subgroups of 4 and of 16,
-  the tests of label threads on lavapipe with a thread a core,
-  the tests of labels gpu and subgroups on SwiftShader, where the system has it.
+  tests with the label subgroups on lavapipe with subgroup sizes 4 and 16,
+  tests with the label threads on lavapipe with one thread per core,
+  tests with the labels gpu and subgroups on SwiftShader, if installed.
 
-  --no-install   install nothing, only build and run
-  --long         then the tests of label long, too, on lavapipe: minutes of fuzzing, where clang is installed
-  CTEST OPTION   for ctest, for example: -R graph
+  --no-install   build and run without installing packages
+  --long         also run tests with the label long on lavapipe: several minutes of fuzzing, requires clang
+  CTEST OPTION   options for ctest
+
+Examples:
+  ./tests/run.sh --no-install -R graph
+  ./tests/run.sh --long
 END
 }
 
 install=yes
 long=no
-none=error  # a run that finds no test has failed, unless the caller chose which to run
+none=error  # a run without tests is an error, unless the caller selects tests
 while [ $# -gt 0 ]; do
   case $1 in
     --no-install) install=no ;;
@@ -34,7 +38,7 @@ while [ $# -gt 0 ]; do
   shift
 done
 
-# first_file PATH...: the first that exists.
+# first_file PATH...: prints the first existing file.
 first_file() {
   local path
   for path in "$@"; do
@@ -55,7 +59,7 @@ run_tests() {
   local name=$1 driver=$2 no_tests=$3 begin=$SECONDS
   shift 3
   phase "Testing on $name"
-  # Older loaders read VK_ICD_FILENAMES alone.
+  # Older loaders read only VK_ICD_FILENAMES.
   VK_DRIVER_FILES=$driver VK_ICD_FILENAMES=$driver \
     ctest --test-dir build/release --output-on-failure --no-tests="$no_tests" --parallel "$(nproc)" "$@" 2>&1 | tee "$log" || failed=1
   results+=("$name, $((SECONDS - begin)) s: $(grep -m1 -E 'tests passed|No tests were found' "$log" || echo 'no test ran')")
@@ -66,7 +70,7 @@ build_release ON all
 
 lavapipe=$(first_file /usr/share/vulkan/icd.d/lvp_icd."$(uname -m)".json /usr/share/vulkan/icd.d/lvp_icd.json)
 swiftshader=$(first_file /usr/lib/chromium/vk_swiftshader_icd.json)
-[ -n "$lavapipe" ] || fail "lavapipe's lvp_icd.*.json is not in /usr/share/vulkan/icd.d"
+[ -n "$lavapipe" ] || fail "/usr/share/vulkan/icd.d: lvp_icd.*.json of lavapipe was not found"
 
 # Tests run side by side: with its work in a test's own thread lavapipe takes a third of the time that waking others takes it, for
 # dispatches as small as these. Workgroups run beside each other in the tests of label threads, and in all of SwiftShader's; without
@@ -82,7 +86,7 @@ export LP_NUM_THREADS=0
 if [ -n "$swiftshader" ]; then
   run_tests "SwiftShader" "$swiftshader" $none -L '^(gpu|subgroups)$' "$@"
 else
-  results+=("SwiftShader: this system has no package of it (chromium-common), so not tested")
+  results+=("SwiftShader: skipped, not installed (package chromium-common)")
 fi
 for tool in clang-format clang-tidy; do
   [ -n "$(clang_tool $tool)" ] || results+=("$tool: version $clang_version is not installed, so its test was skipped")

@@ -20,7 +20,7 @@ namespace rill::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-double since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+double secondsSince(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 void message(const std::string& text) { std::fprintf(stderr, "rill-bench: %s\n", text.c_str()); }
 
@@ -43,9 +43,9 @@ std::string platform() {
 Expected<DeviceInfo> deviceInfo(const Options& options) {
   Scene empty;
   empty.fluid.spacing = 1;
-  offline::Options wanted;
-  wanted.device = options.device;
-  auto simulation = offline::Simulation::open(empty, wanted);
+  offline::Options settings;
+  settings.device = options.device;
+  auto simulation = offline::Simulation::open(empty, settings);
   if (!simulation) return simulation.error();
   return (*simulation)->device();
 }
@@ -64,13 +64,13 @@ void Bench::plan(size_t steps, std::string_view unit) {
   begin_ = Clock::now();
 }
 
-void Bench::step(const std::string& about, size_t parts) {
-  progress_.show({unit_, done_, total_, about, since(begin_)});
+void Bench::step(const std::string& label, size_t parts) {
+  progress_.show({unit_, done_, total_, label, secondsSince(begin_)});
   done_ = static_cast<uint32_t>(std::min<size_t>(total_, done_ + parts));
 }
 
-void Bench::finished() {
-  if (total_ > 0) progress_.show({unit_, total_, total_, "", since(begin_)});
+void Bench::finish() {
+  if (total_ > 0) progress_.show({unit_, total_, total_, "", secondsSince(begin_)});
   progress_.clear();
 }
 
@@ -84,11 +84,11 @@ Expected<Scene> namedScene(const std::string& name, const std::vector<Override>&
 
 Expected<RunFigures> runScene(const Bench& bench, const SceneRun& run) {
   const Clock::time_point begin = Clock::now();
-  offline::Options wanted;
-  wanted.device = bench.options().device;
-  wanted.passTimes = run.passTimes;
-  wanted.validation = run.validation;
-  auto opened = run.start ? offline::Simulation::open(run.scene, *run.start, wanted) : offline::Simulation::open(run.scene, wanted);
+  offline::Options settings;
+  settings.device = bench.options().device;
+  settings.passTimes = run.passTimes;
+  settings.validation = run.validation;
+  auto opened = run.start ? offline::Simulation::open(run.scene, *run.start, settings) : offline::Simulation::open(run.scene, settings);
   if (!opened) return opened.error();
   offline::Simulation& simulation = **opened;
   RunFigures figures;
@@ -96,11 +96,11 @@ Expected<RunFigures> runScene(const Bench& bench, const SceneRun& run) {
   const auto frames = static_cast<uint64_t>(run.duration_s / run.frame_s + 1e-6);
   for (uint64_t k = 0; k <= frames && !bench.stopped(); ++k) {
     if (k > 0)
-      if (auto ran = simulation.advance(run.frame_s); !ran) return ran.error();
+      if (auto advanced = simulation.advance(run.frame_s); !advanced) return advanced.error();
     auto stats = simulation.stats();
     if (!stats) return stats.error();
     const double time = double(k) * run.frame_s;
-    if (run.look) run.look(simulation, time);
+    if (run.onFrame) run.onFrame(simulation, time);
     figures.substeps += stats->substeps;
     figures.iterations += stats->iterations;
     figures.list_builds += stats->list_builds;
@@ -121,7 +121,7 @@ Expected<RunFigures> runScene(const Bench& bench, const SceneRun& run) {
   figures.density = apps::densityFigures(figures.instants);
   figures.energy = apps::energyFigures(simulation.scene(), figures.instants);
   figures.wall_s = apps::wallSeconds(figures.instants);
-  figures.total_s = since(begin);
+  figures.total_s = secondsSince(begin);
   figures.messages = simulation.takeValidationMessages();
   return figures;
 }
@@ -145,39 +145,40 @@ Json runJson(const RunFigures& run) {
 }
 
 int runBench(const Options& options) {
-  const auto refuse = [](const Error& error) {
+  const auto fail = [](const Error& error) {
     message(error.message);
     return apps::exitCodeBeforeRun(error);
   };
   const auto suite = std::ranges::find(suites(), std::string_view(options.suite), &Suite::name);
   for (const auto& [option, file] : {std::pair{"--json", options.json}, std::pair{"--plot", options.plot}})
     if (file)
-      if (auto place = apps::checkFilePlace(option, *file); !place) return refuse(place.error());
+      if (auto writable = apps::checkFilePlace(option, *file); !writable) return fail(writable.error());
   if (options.plot)
-    if (auto can = checkPlotter(); !can) return refuse(can.error());
+    if (auto plotter = checkPlotter(); !plotter) return fail(plotter.error());
   const auto device = deviceInfo(options);
-  if (!device) return refuse(device.error());
+  if (!device) return fail(device.error());
   if (!options.quiet)
     message(options.suite + (options.quick ? ", quick" : "") + ": " + device->name + " (" + device->driver + "), " + processor());
 
   Bench bench(options);
   const Clock::time_point begin = Clock::now();
   auto report = suite->run(bench);
-  bench.finished();
+  bench.finish();
   if (!report) {
     message(report.error().message);
     return apps::exitCodeBeforeRun(report.error());
   }
 
   if (!options.only.empty() && report->results.empty() && apps::signalReceived() == 0)
-    return refuse(Error{ErrorKind::BadInput, "--only: no case of " + options.suite + " has " + inQuotes(options.only) + " in its name"});
+    return fail(Error{ErrorKind::BadInput,
+                      "--only: no case of the suite " + options.suite + " has a name that contains " + inQuotes(options.only)});
 
   std::string text;
   for (const Table& table : report->tables) text += tableText(table) + "\n";
   for (const std::string& failure : report->failures) text += "FAILED " + failure + "\n";
-  const bool taken = options.json && apps::isStandardOutput(*options.json);
+  const bool jsonOnStdout = options.json && apps::isStandardOutput(*options.json);
   if (!options.quiet || !report->failures.empty())
-    if (auto written = apps::writeAll(taken ? STDERR_FILENO : STDOUT_FILENO, "standard output", text); !written) {
+    if (auto written = apps::writeAll(jsonOnStdout ? STDERR_FILENO : STDOUT_FILENO, "standard output", text); !written) {
       message(written.error().message);
       return apps::kFailed;
     }
@@ -190,7 +191,7 @@ int runBench(const Options& options) {
     json["device"] = {{"name", device->name}, {"driver", device->driver}, {"api", device->api}, {"subgroup_size", device->subgroupSize}};
     json["processor"] = processor();
     json["system"] = platform();
-    json["took_s"] = since(begin);
+    json["took_s"] = secondsSince(begin);
     json["failures"] = report->failures;
     json["results"] = report->results;
     if (auto written = apps::writeFile(*options.json, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"); !written) {
@@ -203,7 +204,8 @@ int runBench(const Options& options) {
       message(drawn.error().message);
       return apps::kFailed;
     }
-  if (options.plot && report->plots.empty() && !options.quiet) message("this suite draws no plot");
+  if (options.plot && report->plots.empty() && !options.quiet)
+    message("--plot: the suite " + options.suite + " has no diagrams; no file was written");
   if (const int signal = apps::signalReceived()) return 128 + signal;
   return report->failures.empty() ? apps::kDone : apps::kRequireFailed;
 }

@@ -12,22 +12,22 @@
 
 namespace rill::bench {
 
-/// What a suite works with: the options, progress on standard error, scenes run to their figures.
+/// The context of a suite: its options, and progress on standard error.
 class Bench {
  public:
   explicit Bench(const Options& options);
 
   const Options& options() const { return options_; }
   bool quick() const { return options_.quick; }
-  /// Whether a case is asked for (--only).
-  bool wanted(std::string_view name) const { return options_.only.empty() || name.find(options_.only) != std::string_view::npos; }
+  /// Whether --only selects this case.
+  bool selected(std::string_view name) const { return options_.only.empty() || name.find(options_.only) != std::string_view::npos; }
 
-  /// How many steps there will be; then each step when it begins, and so that progress can say how long the rest takes.
-  /// Where steps are far from equally long, they are counted in parts, each step as many as it takes time.
+  /// Sets the number of steps; call step() at the beginning of each. Progress estimates the time left from them.
+  /// Where steps differ much in length, count parts: a step has `parts` in proportion to its expected time.
   void plan(size_t steps, std::string_view unit = "case");
-  void step(const std::string& about, size_t parts = 1);
-  void finished();
-  /// A signal came: the suite returns what it has.
+  void step(const std::string& label, size_t parts = 1);
+  void finish();
+  /// Whether a signal has been received; the suite then returns the results so far.
   bool stopped() const;
 
  private:
@@ -38,15 +38,15 @@ class Bench {
   std::chrono::steady_clock::time_point begin_;
 };
 
-/// What is run, and how it is looked at.
+/// A scene to run, and what to measure.
 struct SceneRun {
   Scene scene;
-  std::optional<ParticleSet> start = {};  ///< in place of the scene's fills
+  std::optional<ParticleSet> start = {};  ///< replaces the scene's fills
   double duration_s = 0;
-  double frame_s = 1.0 / 60;  ///< figures are measured at its multiples
+  double frame_s = 1.0 / 60;  ///< interval between measurements
   bool passTimes = false;
-  bool validation = false;                                             ///< with the validation layer; NoDevice where it is not installed
-  std::function<void(offline::Simulation&, double time_s)> look = {};  ///< called at each instant, the start too
+  bool validation = false;                                                ///< enables the validation layer; NoDevice if it is not installed
+  std::function<void(offline::Simulation&, double time_s)> onFrame = {};  ///< called at every measurement, including t = 0
 };
 
 struct RunFigures {
@@ -54,33 +54,32 @@ struct RunFigures {
   apps::DensityFigures density;
   apps::EnergyFigures energy;
   double simulated_s = 0;
-  double wall_s = 0;   ///< of the simulation alone
-  double total_s = 0;  ///< with opening the device, measuring and looking
+  double wall_s = 0;   ///< simulation only
+  double total_s = 0;  ///< including device creation, measurement and onFrame
   uint64_t particles = 0, substeps = 0, iterations = 0, list_builds = 0, outside = 0, non_finite = 0;
   double time_dropped_s = 0;
   DeviceInfo device;
-  std::vector<offline::PassTime> passes;  ///< added up
-  std::vector<std::string> messages;      ///< of the validation layer, where it was asked for
+  std::vector<offline::PassTime> passes;  ///< sums over the run
+  std::vector<std::string> messages;      ///< of the validation layer, if enabled
 };
 
-/// Runs a scene on a device of its own, until its end or a signal.
+/// Runs a scene on its own device until the end or a signal.
 Expected<RunFigures> runScene(const Bench& bench, const SceneRun& run);
 
-/// A scene of assets/scenes, with keys changed.
+/// Loads a scene of assets/scenes with overrides.
 Expected<Scene> namedScene(const std::string& name, const std::vector<Override>& overrides = {});
 
-/// The figures that every suite reports of a run.
+/// The figures that every suite reports for a run.
 Json runJson(const RunFigures& run);
 
-/// One suite.
 struct Suite {
-  std::string_view name, about;
+  std::string_view name, description;
   Expected<Report> (*run)(Bench&);
 };
-/// All there are.
+/// All suites.
 std::span<const Suite> suites();
 
-/// Runs the suite and writes what was asked for; the program's exit code.
+/// Runs the suite and writes the requested outputs. Returns the exit code of the program.
 int runBench(const Options& options);
 
 }  // namespace rill::bench

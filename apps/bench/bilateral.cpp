@@ -16,23 +16,23 @@ static_assert(sizeof(BilateralPush) <= 128);
 }  // namespace
 
 Expected<Bilateral> Bilateral::create(Device& device) {
-  Bilateral made;
+  Bilateral filter;
   const struct {
     const ComputePipeline** pipeline;
     uint32_t columns, rows;
-  } all[] = {{&made.columns_, 1, 0}, {&made.rows_, 0, 1}, {&made.both_, 1, 1}};
+  } all[] = {{&filter.columns_, 1, 0}, {&filter.rows_, 0, 1}, {&filter.both_, 1, 1}};
   static constexpr BindingKind kBindings[] = {BindingKind::Storage, BindingKind::Storage};
-  for (const auto& wanted : all) {
-    const uint32_t constants[] = {wanted.columns, wanted.rows};
+  for (const auto& variant : all) {
+    const uint32_t constants[] = {variant.columns, variant.rows};
     auto pipeline = computePipeline(device, {.shader = "bilateral",
                                              .spirv = benchShader("bilateral"),
                                              .bindings = kBindings,
                                              .pushConstantBytes = sizeof(BilateralPush),
                                              .constants = constants});
     if (!pipeline) return pipeline.error();
-    *wanted.pipeline = *pipeline;
+    *variant.pipeline = *pipeline;
   }
-  return made;
+  return filter;
 }
 
 DepthFilter Bilateral::filter(const BilateralSettings& settings) const {

@@ -1,4 +1,4 @@
-// The program's operator new, in a file of its own: a compiler that sees through it mistakes it for a mismatch.
+// In its own file: inlined next to malloc and free, operator new causes false mismatched-allocation warnings.
 #include "bench/count_allocations.hpp"
 
 #include <cstdlib>

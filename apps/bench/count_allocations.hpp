@@ -3,7 +3,7 @@
 
 namespace rill::bench {
 
-/// Counts every operator new of this thread from here on.
+/// Counts calls of operator new in this thread until stopCounting().
 void startCounting();
 size_t stopCounting();
 

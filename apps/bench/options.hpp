@@ -9,19 +9,19 @@
 
 namespace rill::bench {
 
-/// What a command line asks for.
+/// Parsed command line.
 struct Options {
   std::string suite;
-  bool quick = false;  ///< under a minute: fewer and smaller cases
+  bool quick = false;  ///< fewer and smaller cases, under a minute
   bool quiet = false;
-  uint32_t repeat = 3;  ///< samples of each time, of which the median counts
-  std::string only;     ///< run only the cases whose names contain this
-  std::string device;   ///< part of a name, or an index
+  uint32_t repeat = 3;  ///< samples per time; the median is reported
+  std::string only;     ///< runs only cases whose name contains this
+  std::string device;   ///< part of the device's name, or its index
   std::optional<std::filesystem::path> json, plot;
-  std::string command;  ///< the command line, quoted where a shell needs it
+  std::string command;  ///< the command line, quoted for a shell where necessary
 };
 
-/// BadInput with a message that names the option, what was given and what was expected.
+/// Fails with BadInput; the message names the option, the value found and the expected one.
 Expected<apps::CommandLine<Options>> parseCommandLine(int count, const char* const* arguments);
 
 }  // namespace rill::bench

@@ -13,10 +13,10 @@ std::vector<size_t> paretoFront(std::span<const CostError> points) {
   std::erase_if(order, [&](size_t k) { return !std::isfinite(points[k].first) || !std::isfinite(points[k].second); });
   std::ranges::sort(order, [&](size_t a, size_t b) { return points[a] < points[b]; });
   std::vector<size_t> front;
-  double least = std::numeric_limits<double>::infinity();
+  double smallestError = std::numeric_limits<double>::infinity();
   for (const size_t k : order)
-    if (points[k].second < least) {
-      least = points[k].second;
+    if (points[k].second < smallestError) {
+      smallestError = points[k].second;
       front.push_back(k);
     }
   return front;
@@ -30,8 +30,8 @@ double costAtError(std::span<const CostError> points, double error) {
     const auto [costA, errorA] = sorted[k - 1];
     const auto [costB, errorB] = sorted[k];
     if (error > errorA || error < errorB) continue;
-    const double part = std::log(error / errorA) / std::log(errorB / errorA);
-    return costA * std::pow(costB / costA, part);
+    const double t = std::log(error / errorA) / std::log(errorB / errorA);
+    return costA * std::pow(costB / costA, t);
   }
   return std::numeric_limits<double>::quiet_NaN();
 }

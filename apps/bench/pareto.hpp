@@ -6,13 +6,13 @@
 
 namespace rill::bench {
 
-/// Cost and error; what is not finite is never on a front.
+/// Cost and error. Points that are not finite are never on a Pareto front.
 using CostError = std::pair<double, double>;
 
-/// Indices, by rising cost, of the points that no other point beats in both.
+/// Indices of the Pareto front, by increasing cost. Of equal points, the first is on it.
 std::vector<size_t> paretoFront(std::span<const CostError> points);
 
-/// The cost at `error` on the curve through `points`, a line between neighbors where both axes are logarithmic; NaN outside it.
+/// Cost at `error` on the Pareto front of `points`, interpolated linearly in log-log space; NaN outside its range.
 double costAtError(std::span<const CostError> points, double error);
 
 }  // namespace rill::bench

@@ -1,4 +1,4 @@
-// Drawing is gnuplot's: we write its program and its data, and take what it prints.
+// Diagrams are drawn by gnuplot from a generated script with inline data.
 #include "bench/plot.hpp"
 
 #include <algorithm>
@@ -17,28 +17,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kWidth = 720, kHeight = 480;  // of one diagram
+constexpr int kWidth = 720, kHeight = 480;  // pixels per diagram
 constexpr const char* kColors[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999933"};
 
-/// A gnuplot string in single quotes.
+/// A single-quoted gnuplot string.
 std::string quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("''") : std::string(1, c == '\n' ? ' ' : c);
   return out + "'";
 }
 
-std::string yAxis(const std::vector<std::string>& rows) {
+std::string yAxisCommands(const std::vector<std::string>& rows) {
   if (rows.empty()) return "set yrange [*:*]\nset ytics autofreq\n";
   std::string tics;
   for (size_t row = 0; row < rows.size(); ++row) tics += (row ? ", " : "") + quoted(rows[row]) + " " + std::to_string(row + 1);
   return "set yrange [" + std::to_string(rows.size()) + ".5:0.5]\nset ytics (" + tics + ")\n";
 }
 
-bool drawable(const Plot& plot, const std::pair<double, double>& point) {
+bool isDrawable(const Plot& plot, const std::pair<double, double>& point) {
   return std::isfinite(point.first) && std::isfinite(point.second) && (!plot.logX || point.first > 0) && (!plot.logY || point.second > 0);
 }
 
-/// 1, 2 and 5 of each decade: where fewer than two whole ones are shown, powers of ten alone say little.
+/// Tics at 1, 2 and 5 of each decade: ranges below two decades would have too few tics otherwise.
 std::string logTics() {
   std::string tics;
   for (int decade = -6; decade <= 6; ++decade)
@@ -50,8 +50,7 @@ std::string logTics() {
 
 Expected<void> checkPlotter() {
   if (std::system("gnuplot --version >/dev/null 2>&1") == 0) return {};
-  return Error{ErrorKind::BadInput,
-               "--plot: needs the program gnuplot, which is not there (Debian and Ubuntu: apt-get install gnuplot-nox)"};
+  return Error{ErrorKind::BadInput, "--plot: gnuplot was not found (Debian and Ubuntu: apt-get install gnuplot-nox)"};
 }
 
 std::string plotProgram(std::span<const Plot> plots) {
@@ -65,30 +64,35 @@ std::string plotProgram(std::span<const Plot> plots) {
   for (size_t p = 0; p < plots.size(); ++p) {
     const Plot& plot = plots[p];
     out << "set title " << quoted(plot.title) << "\nset xlabel " << quoted(plot.x) << "\nset ylabel " << quoted(plot.y) << "\n";
-    // Labeled points need the room; whole decades around them would leave them a corner.
+    // Extending axes to whole decades would leave too little room for point labels.
     const bool labeled = std::ranges::any_of(plot.series, [](const Series& one) { return !one.labels.empty(); });
     out << (labeled ? "set autoscale fix\nset offsets graph 0.06, graph 0.16, graph 0.08, graph 0.08\n"
                     : "set autoscale\nset offsets 0,0,0,0\n");
     out << "set xtics " << (labeled && plot.logX ? logTics() : "autofreq") << "\n";
     out << (plot.logX ? "set logscale x\n" : "unset logscale x\n") << (plot.logY ? "set logscale y\n" : "unset logscale y\n");
-    out << yAxis(plot.rows);
+    out << yAxisCommands(plot.rows);
     if (labeled && plot.logY) out << "set ytics " << logTics() << "\n";
     std::string curves;
     for (size_t s = 0; s < plot.series.size(); ++s) {
       const Series& series = plot.series[s];
       const std::string block = "$d" + std::to_string(p) + "_" + std::to_string(s);
-      size_t drawn = 0;
+      size_t written = 0;
       out << block << " << EOD\n";
       for (size_t k = 0; k < series.points.size(); ++k) {
-        if (!drawable(plot, series.points[k])) continue;
+        if (!isDrawable(plot, series.points[k])) continue;
         std::string label = k < series.labels.size() ? series.labels[k] : "";
         for (char& c : label)
           if (c == '"' || c == '\\' || c == '\n') c = ' ';
+<<<<<<< HEAD
         out << shortestNumber(series.points[k].first) << " " << shortestNumber(series.points[k].second) << " \"" << label << "\"\n";
         ++drawn;
+=======
+        out << shortNumber(series.points[k].first) << " " << shortNumber(series.points[k].second) << " \"" << label << "\"\n";
+        ++written;
+>>>>>>> lang-bench
       }
       out << "EOD\n";
-      if (drawn == 0) continue;
+      if (written == 0) continue;
       const std::string color = kColors[s % std::size(kColors)];
       const char* with = series.style == Series::Style::Points ? "points" : series.style == Series::Style::Lines ? "lines" : "linespoints";
       curves += (curves.empty() ? "plot " : ", ") + block + " using 1:2 with " + with + " pt " + std::to_string(s % 13 + 4) +
@@ -106,18 +110,18 @@ std::string plotProgram(std::span<const Plot> plots) {
 Expected<void> writePlots(const fs::path& file, std::span<const Plot> plots) {
   auto folder = apps::TemporaryFolder::make();
   if (!folder) return folder.error();
-  const fs::path program = folder->path() / "plot.gp", drawn = folder->path() / "plot.svg", said = folder->path() / "said";
+  const fs::path program = folder->path() / "plot.gp", drawn = folder->path() / "plot.svg", errors = folder->path() / "errors";
   std::ofstream(program) << plotProgram(plots);
-  const std::string command = "gnuplot '" + program.string() + "' >'" + drawn.string() + "' 2>'" + said.string() + "'";
+  const std::string command = "gnuplot '" + program.string() + "' >'" + drawn.string() + "' 2>'" + errors.string() + "'";
   const int status = std::system(command.c_str());
   const auto content = [](const fs::path& from) {
     std::ostringstream text;
     text << std::ifstream(from, std::ios::binary).rdbuf();
     return text.str();
   };
-  const std::string svg = content(drawn), message = content(said);
+  const std::string svg = content(drawn), message = content(errors);
   if (status != 0 || svg.find("</svg>") == std::string::npos)
-    return Error{ErrorKind::Io, file.string() + ": gnuplot did not draw it: " + message.substr(0, 400)};
+    return Error{ErrorKind::Io, file.string() + ": gnuplot failed: " + message.substr(0, 400)};
   return apps::writeFile(file, svg);
 }
 

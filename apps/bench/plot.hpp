@@ -8,13 +8,13 @@
 
 namespace rill::bench {
 
-/// BadInput, with what to install, where there is no gnuplot to draw with.
+/// BadInput if gnuplot is not installed; the message names the package to install.
 Expected<void> checkPlotter();
 
-/// The gnuplot program that draws `plots` beside and below each other as one SVG on its standard output.
+/// A gnuplot script that draws `plots` in a grid as one SVG on standard output.
 std::string plotProgram(std::span<const Plot> plots);
 
-/// Draws `plots` into an SVG file, written whole or not at all. Io, naming the file and what gnuplot said.
+/// Draws `plots` into an SVG file, written atomically. Io with the file's name and gnuplot's message.
 Expected<void> writePlots(const std::filesystem::path& file, std::span<const Plot> plots);
 
 }  // namespace rill::bench

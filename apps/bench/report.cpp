@@ -8,12 +8,12 @@
 namespace rill::bench {
 namespace {
 
-/// Characters, not bytes: enough for the few letters beyond ASCII that units have.
+/// Counts UTF-8 characters; wide and combining characters do not occur in reports.
 size_t width(const std::string& text) {
   return static_cast<size_t>(std::count_if(text.begin(), text.end(), [](unsigned char c) { return (c & 0xC0) != 0x80; }));
 }
 
-bool startsLikeANumber(const std::string& text) {
+bool startsWithNumber(const std::string& text) {
   return text.empty() || text == "-" || std::isdigit(static_cast<unsigned char>(text[0])) ||
          (text.size() > 1 && (text[0] == '-' || text[0] == '+') && std::isdigit(static_cast<unsigned char>(text[1])));
 }
@@ -28,7 +28,7 @@ std::string tableText(const Table& table) {
     widths[c] = width(table.columns[c]);
     for (const auto& row : table.rows) {
       widths[c] = std::max(widths[c], width(row[c]));
-      right[c] = right[c] && startsLikeANumber(row[c]);
+      right[c] = right[c] && startsWithNumber(row[c]);
     }
   }
   const auto line = [&](const std::vector<std::string>& cells) {
@@ -54,7 +54,7 @@ double median(std::vector<double> samples) {
   return (*middle + *std::max_element(samples.begin(), middle)) / 2;
 }
 
-Json sampled(std::span<const double> samples) {
+Json sampleStatistics(std::span<const double> samples) {
   Json json;
   const double middle = median({samples.begin(), samples.end()});
   const auto [low, high] = std::minmax_element(samples.begin(), samples.end());

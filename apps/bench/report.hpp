@@ -9,49 +9,49 @@ namespace rill::bench {
 
 using Json = nlohmann::ordered_json;
 
-/// A table for people.
+/// A table of the text report.
 struct Table {
   std::string title;
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
-  std::string note;  ///< below it: what a column means
+  std::string note;  ///< printed below the table: explains the columns
 };
-/// Columns as wide as they need to be; numbers to the right.
+/// Formats a table; columns of numbers are aligned right.
 std::string tableText(const Table& table);
 
-/// A curve or a cloud of points.
+/// A curve or a scatter plot.
 struct Series {
   enum class Style { Points, Lines, Both };
-  std::string name;  ///< in the key; empty: not listed
+  std::string name;  ///< in the legend; empty: not listed
   Style style = Style::Both;
   std::vector<std::pair<double, double>> points;
-  std::vector<std::string> labels;  ///< beside the points; may be empty
+  std::vector<std::string> labels;  ///< drawn beside the points; may be empty
   bool emphasized = false;          ///< larger points
 };
 
-/// One diagram. Points that are not finite, or not positive on a logarithmic axis, are drawn on the axis' far edge by whoever fills it.
+/// One diagram. Points that are not finite, or not positive on a logarithmic axis, are left out; callers clamp points that must be shown.
 struct Plot {
   std::string title, x, y;
   bool logX = false, logY = false;
   std::vector<Series> series;
-  std::vector<std::string> rows = {};  ///< names of y = 1, 2, ..., drawn from the top down; empty: y is a number
+  std::vector<std::string> rows = {};  ///< labels of y = 1, 2, ... from top to bottom; empty: y is numeric
 };
 
-/// What a suite found.
+/// The results of a suite.
 struct Report {
   std::vector<Table> tables;
   std::vector<Plot> plots;
-  Json results = Json::array();       ///< an object a case, every sample in it
-  std::vector<std::string> failures;  ///< cases that did not hold what the suite asserts, each with its figure
+  Json results = Json::array();       ///< one object per case, with every sample
+  std::vector<std::string> failures;  ///< failed checks: case, value found, value expected
 };
 
-/// {"median", "spread" (largest less smallest, over the median), "samples"}.
-Json sampled(std::span<const double> samples);
-double median(std::vector<double> samples);  ///< NaN of none
+/// {"median", "spread" ((max - min) / median), "samples"}.
+Json sampleStatistics(std::span<const double> samples);
+double median(std::vector<double> samples);  ///< NaN if empty
 
-/// A figure in a table: "%.*g".
+/// Formats a table cell with "%.*g"; "-" if not finite.
 std::string number(double value, int digits = 3);
-/// A fraction as per cent: "0.046 %".
+/// Formats a fraction as a percentage: "0.046 %".
 std::string percent(double fraction, int digits = 3);
 
 }  // namespace rill::bench

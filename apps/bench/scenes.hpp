@@ -7,7 +7,7 @@ namespace rill::bench {
 
 using Point = std::array<double, 3>;
 
-/// Default settings in a box of walls, m.
+/// A scene with default settings in a closed box, m.
 Scene boxScene(double spacing_m, const Point& min, const Point& max);
 Fill boxFill(const Point& min, const Point& max);
 

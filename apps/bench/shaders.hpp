@@ -6,12 +6,12 @@
 
 namespace rill {
 
-/// Those of the bench's own.
+/// Shaders of apps/bench/shaders.
 std::span<const EmbeddedShader> benchShaders();
 
 namespace bench {
 
-/// SPIR-V of apps/bench/shaders; `name` is one of them.
+/// SPIR-V of the shader `name`, which must exist.
 inline std::span<const uint32_t> benchShader(std::string_view name) {
   return std::ranges::find(benchShaders(), name, &EmbeddedShader::name)->words;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// How far a picture's surface is from the true one.
+// Errors of a rendered surface against the analytic reference.
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -10,37 +10,38 @@ namespace rill::bench {
 
 /// A perspective camera at the origin that looks along +z of view space; lengths in spacings.
 struct Eye {
-  uint32_t width = 0, height = 0;     ///< pixels
-  double tangentX = 0, tangentY = 0;  ///< of half the field of view
-  double distance = 0;                ///< of what it looks at
+  uint32_t width = 0, height = 0;           ///< pixels
+  double tanHalfFovX = 0, tanHalfFovY = 0;  ///< tangents of half the field of view
+  double distance = 0;                      ///< to the subject
 };
 
-/// A picture's surface as it was read back, a pixel each.
-struct Drawn {
+/// A surface read back from the GPU, one value per pixel.
+struct RenderedSurface {
   std::vector<float> depth;                   ///< infinite: no fluid
   std::vector<std::array<double, 3>> normal;  ///< in view space
 };
 
-/// The true one.
-struct TrueSurface {
-  enum class Where : uint8_t { Nowhere, Edge, Inside };  ///< an edge: 1.5 spacings around it
-  std::vector<Truth> truth;
-  std::vector<Where> where;
+/// The analytic surface per pixel.
+struct ReferenceSurface {
+  enum class Region : uint8_t { Outside, Edge, Interior };  ///< Edge: within 1.5 spacings of a silhouette or depth step
+  std::vector<ReferencePoint> points;
+  std::vector<Region> regions;
 };
-TrueSurface trueSurface(const Shape& shape, const Eye& eye);
+ReferenceSurface referenceSurface(const Shape& shape, const Eye& eye);
 
 struct Errors {
-  double mean = 0, p95 = 0;  ///< degrees, away from edges
-  double edge = 0;           ///< mean along edges, degrees
-  double depth = 0;          ///< rms, spacings, away from edges
-  double overlap = 1;        ///< of silhouettes: both over either
+  double mean = 0, p95 = 0;  ///< degrees, interior pixels
+  double edge = 0;           ///< mean of edge pixels, degrees
+  double depth = 0;          ///< root mean square, spacings, interior pixels
+  double iou = 1;            ///< intersection over union of the silhouettes
 };
-Errors surfaceErrors(const TrueSurface& surface, const Drawn& drawn);
+Errors surfaceErrors(const ReferenceSurface& surface, const RenderedSurface& rendered);
 
-/// Mean angle between the normals of two pictures, degrees, where both have fluid within `nearby` of the same depth.
-double normalChange(const Drawn& before, const Drawn& after, double nearby);
+/// Mean angle between the normals of two pictures, degrees, over pixels whose depths differ by at most `maxDepthDifference`.
+double normalChange(const RenderedSurface& before, const RenderedSurface& after, double maxDepthDifference);
 
-/// The same of what is wrong with them: a normal as it is seen from the true one, so that true motion is not counted.
-double errorChange(const TrueSurface& trueBefore, const Drawn& before, const TrueSurface& trueAfter, const Drawn& after);
+/// Mean angle between the errors of the normals of two pictures, degrees: motion of the reference surface is excluded.
+double errorChange(const ReferenceSurface& referenceBefore, const RenderedSurface& before, const ReferenceSurface& referenceAfter,
+                   const RenderedSurface& after);
 
 }  // namespace rill::bench

@@ -1,5 +1,5 @@
 #pragma once
-// Surfaces whose depth and normal are known in every pixel, and particles that fill what is under them.
+// Analytic surfaces with known depth and normal per pixel, and particles that fill the fluid below them.
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -10,33 +10,33 @@
 
 namespace rill::bench {
 
-/// View space: x right, y up, z away from the eye; lengths in spacings.
-struct Truth {
+/// Analytic depth and normal at a pixel. View space: x right, y up, z away from the eye; lengths in spacings.
+struct ReferencePoint {
   double depth = 0;
-  double normal[3] = {0, 0, -1};  ///< towards the eye
+  double normal[3] = {0, 0, -1};  ///< unit length, towards the eye
 };
 
-/// How far from where they should be particles are, in spacings: along the surface, across it.
+/// Largest random displacement of particles along the surface and along its normal, spacings.
 struct Jitter {
-  double along = 0.25, across = 0.1;
+  double tangential = 0.25, normal = 0.1;
 };
 
 class Shape {
  public:
   virtual ~Shape() = default;
   virtual std::string name() const = 0;
-  /// Where the ray through (x, y, 1) meets it; false: nowhere.
-  virtual bool hit(double x, double y, Truth& truth) const = 0;
+  /// Intersects the ray through (x, y, 1); false if it misses.
+  virtual bool intersect(double x, double y, ReferencePoint& reference) const = 0;
   /// Positions in view space.
   virtual std::vector<Float3> particles(const Jitter& jitter, uint32_t seed) const = 0;
 };
 
-/// What the bench looks at from `distance` spacings away: a tilted plane, waves of 8 to 60 spacings, two balls, the corner of a box, a
-/// round sheet of one layer over a fifth of the picture. `tangentX`, `tangentY`: of half the field of view.
-std::vector<std::unique_ptr<Shape>> shapes(double distance, double tangentX, double tangentY);
-/// A plane and waves that lean away at 50 degrees, for fields of view up to 1 / 1.8 of half a picture's width.
-std::vector<std::unique_ptr<Shape>> tiltedShapes(double distance, double tangentX, double tangentY);
-/// A wave that has moved on by `traveled` spacings, with the same particles in the same order: they ride up and down on it.
-std::unique_ptr<Shape> traveledWave(double distance, double tangentX, double tangentY, double length, double traveled);
+/// The shapes at `distance` spacings: a tilted plane, waves of 8 to 60 spacings, two balls, a box corner, and a round sheet of one layer
+/// that covers a fifth of the picture.
+std::vector<std::unique_ptr<Shape>> shapes(double distance, double tanHalfFovX, double tanHalfFovY);
+/// A plane and waves seen at 50 degrees. Requires tanHalfFovX <= 1 / 1.8.
+std::vector<std::unique_ptr<Shape>> tiltedShapes(double distance, double tanHalfFovX, double tanHalfFovY);
+/// A wave displaced by `traveled` spacings, with the same particles in the same order for every displacement: they follow its height.
+std::unique_ptr<Shape> travelingWave(double distance, double tanHalfFovX, double tanHalfFovY, double length, double traveled);
 
 }  // namespace rill::bench

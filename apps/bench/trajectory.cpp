@@ -31,7 +31,7 @@ Trajectory meanTrajectory(std::span<const Trajectory> seeds) {
   return mean;
 }
 
-double distance(const Trajectory& a, const Trajectory& b) {
+double rmsDistance(const Trajectory& a, const Trajectory& b) {
   const size_t instants = std::min(a.at.size(), b.at.size());
   if (instants == 0) return std::numeric_limits<double>::infinity();
   double sum = 0;

@@ -7,20 +7,20 @@
 
 namespace rill::bench {
 
-/// What a run does as a whole, at each of its instants, without dimension: center of mass and front over the fluid's first extent, energies
-/// over the energy at the start.
+/// Dimensionless global quantities of a run over time: center of mass and front divided by the initial extent of the fluid, energies
+/// divided by the initial energy.
 struct Trajectory {
-  static constexpr size_t kQuantities = 6;  ///< center x, y, z; front; kinetic; potential
+  static constexpr size_t kQuantities = 6;  ///< center of mass x, y, z; front; kinetic and potential energy
   std::vector<std::array<double, kQuantities>> at;
 };
 
-/// `length` in m, `energy` in J, both > 0: what lengths and energies are divided by.
+/// `length` in m and `energy` in J (both > 0) are the units of the dimensionless quantities.
 Trajectory trajectoryOf(std::span<const apps::Instant> run, double length, double energy);
 
-/// Of runs that differ by chance alone, one of each seed.
+/// The mean of runs that differ only in their seed.
 Trajectory meanTrajectory(std::span<const Trajectory> seeds);
 
-/// Root mean square of all differences, over instants and quantities; infinite where one is not a number.
-double distance(const Trajectory& a, const Trajectory& b);
+/// Root mean square of the differences over all instants and quantities; infinite if one is NaN.
+double rmsDistance(const Trajectory& a, const Trajectory& b);
 
 }  // namespace rill::bench

@@ -15,7 +15,7 @@ double millisecondsSince(Clock::time_point begin) { return 1e3 * std::chrono::du
 Expected<Workbench> Workbench::open(const Bench& bench) {
   offline::ContextDesc desc;
   desc.device = bench.options().device;
-  desc.framesInFlight = 1;  // each graph is waited for
+  desc.framesInFlight = 1;  // run() waits for every graph
   auto context = offline::Context::create(desc);
   if (!context) return context.error();
   return Workbench(std::move(*context));
@@ -25,7 +25,7 @@ Expected<GraphTime> Workbench::run(const std::function<void(Graph&)>& declare) {
   GraphTime time;
   Clock::time_point begin = Clock::now();
   const Clock::time_point first = begin;
-  const auto lap = [&] {
+  const auto lapMicroseconds = [&] {
     const double ms = millisecondsSince(begin);
     begin = Clock::now();
     return 1e3 * ms;
@@ -33,33 +33,33 @@ Expected<GraphTime> Workbench::run(const std::function<void(Graph&)>& declare) {
   startCounting();
   graph_->reset();
   declare(*graph_);
-  time.host.declare_us = lap();
+  time.host.declare_us = lapMicroseconds();
   time.host.declare_allocations = stopCounting();
   begin = Clock::now();
   startCounting();
   const auto compiled = graph_->compile();
   time.host.graph_allocations = stopCounting();
-  time.host.compile_us = lap();
+  time.host.compile_us = lapMicroseconds();
   if (!compiled) return compiled.error();
   if (auto began = context_->beginFrame(); !began) return began.error();
   begin = Clock::now();
   startCounting();
   const auto prepared = graph_->prepare(device());
   time.host.graph_allocations += stopCounting();
-  time.host.prepare_us = lap();
+  time.host.prepare_us = lapMicroseconds();
   if (!prepared) return prepared.error();
   const Clock::time_point recording = Clock::now();
-  const auto ran = context_->submit([&](VkCommandBuffer commands) {
+  const auto submitted = context_->submit([&](VkCommandBuffer commands) {
     begin = Clock::now();
     startCounting();
     graph_->record(commands);
     time.host.graph_allocations += stopCounting();
-    time.host.record_us = lap();
+    time.host.record_us = lapMicroseconds();
   });
-  if (!ran) return ran.error();
+  if (!submitted) return submitted.error();
   if (auto waited = context_->wait(); !waited) return waited.error();
   time.run_ms = millisecondsSince(recording);
-  time.whole_ms = millisecondsSince(first);
+  time.total_ms = millisecondsSince(first);
   return time;
 }
 
@@ -87,7 +87,7 @@ Expected<void> Workbench::downloadBytes(const Buffer& buffer, std::span<std::byt
   auto ran = run([&](Graph& graph) { ticket = graph.readback(importWhole(graph, "bench download", buffer)); });
   if (!ran) return ran.error();
   const auto content = graph_->data(ticket);
-  if (content.size() < bytes.size()) return Error{ErrorKind::Failed, "reading a buffer of the bench back: nothing came"};
+  if (content.size() < bytes.size()) return Error{ErrorKind::Failed, "bench download: the readback returned too few bytes"};
   std::memcpy(bytes.data(), content.data(), bytes.size());
   return {};
 }
@@ -100,7 +100,7 @@ Expected<GraphSamples> sampleGraph(Workbench& bench, uint32_t samples, const std
     const auto time = bench.run(declare);
     if (!time) return time.error();
     taken.run_ms.push_back(time->run_ms);
-    taken.whole_ms.push_back(time->whole_ms);
+    taken.total_ms.push_back(time->total_ms);
   }
   return taken;
 }

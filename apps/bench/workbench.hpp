@@ -14,25 +14,25 @@
 
 namespace rill::bench {
 
-/// What a graph took.
+/// Times of one graph.
 struct GraphTime {
-  /// Of the host's work, in order.
+  /// CPU time and allocations, in order of execution.
   struct Host {
     double declare_us = 0, compile_us = 0, prepare_us = 0, record_us = 0;
-    size_t declare_allocations = 0, graph_allocations = 0;  ///< of who declares; in the three others
+    size_t declare_allocations = 0, graph_allocations = 0;  ///< while declaring; while compiling, preparing and recording
   } host;
-  double run_ms = 0;    ///< from recording it to its end on the device
-  double whole_ms = 0;  ///< with declaring, compiling and preparing it
+  double run_ms = 0;    ///< from recording to completion on the device
+  double total_ms = 0;  ///< including declaring, compiling and preparing
 };
 
-/// A device of a suite's own, for graphs that belong to no scene. It outlives the buffers that it makes.
+/// A device for graphs without a scene. It must outlive the buffers that it creates.
 class Workbench {
  public:
   static Expected<Workbench> open(const Bench& bench);
 
   Device& device() { return context_->device(); }
 
-  /// Device memory that holds `items`: where a device has memory of its own, reading the host's would be what is timed.
+  /// Uploads `items` to device memory, so that timed passes do not read host memory over the bus.
   template <class T>
   Expected<Buffer> upload(std::string_view name, std::span<const T> items) {
     return uploadBytes(name, std::as_bytes(items));
@@ -45,9 +45,9 @@ class Workbench {
     return items;
   }
 
-  /// Declares a graph over `graph`, runs it and waits for it.
+  /// Declares a graph, runs it and waits for its completion.
   Expected<GraphTime> run(const std::function<void(Graph&)>& declare);
-  /// Whether each pass is timed from now on: it slows the whole.
+  /// Enables time stamps per pass, which slow the graph.
   void timePasses(bool timed) { graph_->enableTimings(timed); }
   std::span<const PassReport> passReport() const { return graph_->report(); }  ///< of the last graph
   std::span<const Timing> passTimes() const { return graph_->timings(); }      ///< of the last graph
@@ -63,12 +63,12 @@ class Workbench {
   std::unique_ptr<Graph> graph_;
 };
 
-/// Whether one run goes before those that count: a driver may compile shaders in it.
+/// Whether to run the graph once before sampling: drivers may compile shaders on first use.
 enum class WarmUp { Needed, Done };
 
-/// `samples` of a graph's time.
+/// Times of repeated runs of one graph.
 struct GraphSamples {
-  std::vector<double> run_ms, whole_ms;
+  std::vector<double> run_ms, total_ms;
 };
 Expected<GraphSamples> sampleGraph(Workbench& bench, uint32_t samples, const std::function<void(Graph&)>& declare,
                                    WarmUp warmUp = WarmUp::Needed);

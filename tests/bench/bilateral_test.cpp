@@ -1,4 +1,4 @@
-// The baseline's filter on a driver against the same sums on the CPU.
+// The bilateral filter on the GPU against a CPU reference.
 #include "bench/bilateral.hpp"
 
 #include <cmath>
@@ -15,7 +15,7 @@ constexpr int kColumns = 37, kRows = 29;
 
 class BilateralOnGpu : public GpuTest {
  protected:
-  /// A sample a pixel, four to a spacing at a depth of 1 m.
+  /// One sample per pixel, four per spacing at a depth of 1 m.
   static surface::SurfacePush view() {
     surface::SurfacePush push{};
     push.perspective = 1;
@@ -26,7 +26,7 @@ class BilateralOnGpu : public GpuTest {
     push.spacing = 4 * 2 * 0.5f / kRows;
     return push;
   }
-  /// A slanted surface with noise, a step and holes.
+  /// A slanted surface with noise, a step and a hole.
   static std::vector<float> picture() {
     std::mt19937 random(3);
     std::uniform_real_distribution<float> noise(-0.03f, 0.03f);
@@ -45,7 +45,7 @@ class BilateralOnGpu : public GpuTest {
       for (int x = 0; x < kColumns; ++x) {
         const double z = before[size_t(y * kColumns + x)];
         if (!std::isfinite(z)) continue;
-        const double side = 2 * push.scale[1] / kRows * z / push.spacing;  // of a sample, spacings
+        const double side = 2 * push.scale[1] / kRows * z / push.spacing;  // sample size, spacings
         const int reach = std::max(1, int(2.3 * settings.sigma / side));
         double sum = 0, weights = 0;
         for (int v = rows ? -reach : 0; v <= (rows ? reach : 0); ++v)
@@ -62,7 +62,7 @@ class BilateralOnGpu : public GpuTest {
       }
     return after;
   }
-  std::vector<float> onDriver(const std::vector<float>& before, const bench::BilateralSettings& settings) {
+  std::vector<float> onGpu(const std::vector<float>& before, const bench::BilateralSettings& settings) {
     const auto bilateral = bench::Bilateral::create(device());
     EXPECT_TRUE(bilateral) << bilateral.error().message;
     const Buffer depth = upload("depth", before);
@@ -82,22 +82,22 @@ class BilateralOnGpu : public GpuTest {
   }
 };
 
-TEST_F(BilateralOnGpu, BothDimensionsAtOnce) {
+TEST_F(BilateralOnGpu, MatchesCpuIn2D) {
   for (const double range : {0.3, 1.0}) {
     const bench::BilateralSettings settings{.sigma = 0.9, .range = range, .separable = false};
-    expectSame(onDriver(picture(), settings), onCpu(picture(), settings, true, true));
+    expectSame(onGpu(picture(), settings), onCpu(picture(), settings, true, true));
   }
 }
 
-TEST_F(BilateralOnGpu, ColumnsThenRows) {
+TEST_F(BilateralOnGpu, MatchesCpuWhenSeparable) {
   const bench::BilateralSettings settings{.sigma = 1.3, .range = 0.5};
-  expectSame(onDriver(picture(), settings), onCpu(onCpu(picture(), settings, true, false), settings, false, true));
+  expectSame(onGpu(picture(), settings), onCpu(onCpu(picture(), settings, true, false), settings, false, true));
 }
 
-TEST_F(BilateralOnGpu, APlaneStaysAndAStepIsKept) {
+TEST_F(BilateralOnGpu, KeepsPlanesAndSteps) {
   std::vector<float> step;
   for (int i = 0; i < kColumns * kRows; ++i) step.push_back(i % kColumns > 18 ? 1.5f : 1.0f);
-  expectSame(onDriver(step, {.range = 0.3}), step);  // a step of 3.6 spacings, 12 standard deviations
+  expectSame(onGpu(step, {.range = 0.3}), step);  // a step of 3.6 spacings, 12 standard deviations
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What rill-bench makes of a command line, without running anything.
+// Parsing of the rill-bench command line.
 #include "bench/options.hpp"
 
 #include <gtest/gtest.h>
@@ -13,15 +13,15 @@ Expected<apps::CommandLine<Options>> parsed(std::vector<const char*> arguments) 
   return parseCommandLine(static_cast<int>(arguments.size()), arguments.data());
 }
 
-void expectRefused(const std::vector<const char*>& arguments, const std::vector<std::string>& words) {
+void expectBadInput(const std::vector<const char*>& arguments, const std::vector<std::string>& words) {
   const auto line = parsed(arguments);
-  ASSERT_FALSE(line) << "expected a refusal";
+  ASSERT_FALSE(line) << "expected an error";
   EXPECT_EQ(line.error().kind, ErrorKind::BadInput);
   for (const std::string& word : words)
     EXPECT_NE(line.error().message.find(word), std::string::npos) << word << " is not in: " << line.error().message;
 }
 
-TEST(Options, Defaults) {
+TEST(Options, HasDefaults) {
   const auto line = parsed({"sort"});
   ASSERT_TRUE(line) << line.error().message;
   ASSERT_TRUE(line->options);
@@ -31,12 +31,12 @@ TEST(Options, Defaults) {
   EXPECT_FALSE(line->options->json);
 }
 
-TEST(Options, QuickTakesOneSampleUnlessToldOtherwise) {
+TEST(Options, QuickDefaultsToOneSample) {
   EXPECT_EQ(parsed({"sort", "--quick"})->options->repeat, 1u);
   EXPECT_EQ(parsed({"sort", "--quick", "--repeat", "5"})->options->repeat, 5u);
 }
 
-TEST(Options, FilesAndNames) {
+TEST(Options, ParsesFilesAndNames) {
   const auto line = parsed({"sort", "--json", "a b.json", "--plot", "p.svg", "--only", "random", "--device", "0"});
   ASSERT_TRUE(line) << line.error().message;
   EXPECT_EQ(line->options->json, "a b.json");
@@ -46,14 +46,14 @@ TEST(Options, FilesAndNames) {
   EXPECT_EQ(line->options->command, "rill-bench sort --json 'a b.json' --plot p.svg --only random --device 0");
 }
 
-TEST(Options, MistakesAreNamed) {
-  expectRefused({}, {"SUITE"});
-  expectRefused({"srot"}, {"\"srot\"", "did you mean \"sort\"?", "speed"});
-  expectRefused({"sort", "--qick"}, {"\"--qick\"", "did you mean \"--quick\"?"});
+TEST(Options, ErrorsNameOptionAndValue) {
+  expectBadInput({}, {"SUITE"});
+  expectBadInput({"srot"}, {"\"srot\"", "did you mean \"sort\"?", "speed"});
+  expectBadInput({"sort", "--qick"}, {"\"--qick\"", "did you mean \"--quick\"?"});
   for (const char* bad : {"0", "-1", "2.5", "x", "", "1001", "99999999999999999999"})
-    expectRefused({"sort", "--repeat", bad}, {"--repeat", std::string("\"") + bad + "\"", "1 to 1000"});
-  expectRefused({"sort", "--json", ""}, {"--json", "name of a file"});
-  expectRefused({"sort", "--device", ""}, {"--device", "index"});
+    expectBadInput({"sort", "--repeat", bad}, {"--repeat", std::string("\"") + bad + "\"", "1 to 1000"});
+  expectBadInput({"sort", "--json", ""}, {"--json", "name of a file"});
+  expectBadInput({"sort", "--device", ""}, {"--device", "index"});
 }
 
 TEST(Options, HelpListsEverySuite) {
@@ -62,7 +62,7 @@ TEST(Options, HelpListsEverySuite) {
   EXPECT_FALSE(line->options);
   for (const Suite& suite : suites()) {
     EXPECT_NE(line->text.find("  " + std::string(suite.name) + " "), std::string::npos) << suite.name;
-    EXPECT_NE(line->text.find(suite.about), std::string::npos) << suite.name;
+    EXPECT_NE(line->text.find(suite.description), std::string::npos) << suite.name;
   }
 }
 

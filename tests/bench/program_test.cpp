@@ -1,4 +1,4 @@
-// The program from end to end, on cases small enough for every driver.
+// End-to-end tests of rill-bench on small cases.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -24,7 +24,7 @@ const Json* resultOf(const Json& report, const std::string& name) {
   return nullptr;
 }
 
-TEST(RillBench, SortWritesATableAndJsonThatParses) {
+TEST(RillBench, SortWritesTableAndJson) {
   const TemporaryFolder folder;
   const Outcome outcome = bench({"sort", "--quick", "--only", "-1k", "--json", "out.json"}, folder.string());
   ASSERT_EQ(outcome.code, 0) << outcome.out << outcome.err;
@@ -36,13 +36,14 @@ TEST(RillBench, SortWritesATableAndJsonThatParses) {
   const Json* random = resultOf(report, "random-1k");
   ASSERT_NE(random, nullptr);
   EXPECT_EQ((*random)["keys"], 1000);
-  for (const char* way : {"counting", "radix", "std_sort", "std_stable_sort"}) EXPECT_EQ((*random)[way]["ms"]["samples"].size(), 5u) << way;
+  for (const char* method : {"counting", "radix", "std_sort", "std_stable_sort"})
+    EXPECT_EQ((*random)[method]["ms"]["samples"].size(), 5u) << method;
   const Json* many = resultOf(report, "many-1k");
   ASSERT_NE(many, nullptr);
-  EXPECT_TRUE((*many)["counting"].contains("skipped")) << "no counter for each of 2^32 values";
+  EXPECT_TRUE((*many)["counting"].contains("skipped")) << "counting sort does not support 2^32 values";
 }
 
-TEST(RillBench, JsonOnStandardOutputLeavesTheTableToStandardError) {
+TEST(RillBench, JsonOnStdoutMovesTableToStderr) {
   const Outcome outcome = bench({"sort", "--quick", "--only", "equal-1k", "--json", "-"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const Json report = Json::parse(outcome.out, nullptr, false);
@@ -57,13 +58,13 @@ TEST(RillBench, SpeedTimesEachPass) {
   ASSERT_FALSE(report.is_discarded()) << outcome.out;
   const Json* thousand = resultOf(report, "particles-1k");
   ASSERT_NE(thousand, nullptr);
-  EXPECT_EQ((*thousand)["particles"], 1350) << "whole layers";
+  EXPECT_EQ((*thousand)["particles"], 1350) << "not a whole number of layers";
   EXPECT_GT((*thousand)["ns_a_particle_a_substep"]["median"], 0);
   for (const char* pass : {"density", "correct", "build list", "sort"})
     EXPECT_GT((*thousand)["passes_ns_a_particle_a_substep"][pass]["median"], 0) << pass;
 }
 
-TEST(RillBench, RenderHoldsMethodsAndSettingsAgainstTheTruth) {
+TEST(RillBench, RenderMeasuresErrorsOfMethodsAndSettings) {
   const Outcome outcome = bench({"render", "--quick", "--only", "640x360 r 10, waves 50, ", "--json", "-"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_NE(outcome.err.find("front"), std::string::npos) << outcome.err;
@@ -76,16 +77,16 @@ TEST(RillBench, RenderHoldsMethodsAndSettingsAgainstTheTruth) {
     errors[result["method"]][result["setting"]] = result["normal_mean_deg"];
   }
   ASSERT_EQ(errors.size(), 4u);
-  EXPECT_GT(errors["planes"][""], 0.1) << "of jittered particles";
-  EXPECT_LT(errors["planes"][""], 1.04) << "0.83 on lavapipe and SwiftShader";
+  EXPECT_GT(errors["planes"][""], 0.1) << "jittered particles have an error";
+  EXPECT_LT(errors["planes"][""], 1.04) << "1.25 times the measured error, docs/notes/bench.md";
   for (const auto& [method, settings] : errors) {
     EXPECT_GE(settings.size(), 3u) << method;
     for (const auto& [setting, degrees] : settings)
-      if (!setting.empty()) { EXPECT_NE(degrees, settings.at("")) << method << ": " << setting << " changes nothing"; }
+      if (!setting.empty()) { EXPECT_NE(degrees, settings.at("")) << method << ": " << setting << " has no effect"; }
   }
 }
 
-TEST(RillBench, RenderTellsTheFlickerOfTheSolversOwnFrames) {
+TEST(RillBench, RenderMeasuresFlickerOfSimulatedFrames) {
   const Outcome outcome = bench({"render", "--quick", "--quiet", "--only", "resting column, planes", "--json", "-"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const Json report = Json::parse(outcome.out, nullptr, false);
@@ -93,10 +94,10 @@ TEST(RillBench, RenderTellsTheFlickerOfTheSolversOwnFrames) {
   const Json* column = resultOf(report, "resting column");
   ASSERT_NE(column, nullptr);
   EXPECT_GT((*column)["flicker_deg"], 0.001);
-  EXPECT_LT((*column)["flicker_deg"], 0.91) << "0.35 on lavapipe, 0.73 on SwiftShader, whose water moves otherwise";
+  EXPECT_LT((*column)["flicker_deg"], 0.91) << "1.25 times the largest error of all drivers, docs/notes/bench.md";
 }
 
-TEST(RillBench, AnEmptySceneRunsNoPass) {
+TEST(RillBench, EmptySceneRunsNoPass) {
   const Outcome outcome = bench({"features", "--quick", "--quiet", "--only", "empty, passes", "--json", "-"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const Json report = Json::parse(outcome.out, nullptr, false);
@@ -107,12 +108,12 @@ TEST(RillBench, AnEmptySceneRunsNoPass) {
   EXPECT_EQ((*empty)["skipped"]["density"], "no particles");
 }
 
-TEST(RillBench, AFeatureThatIsOffLeavesNoTrace) {
+TEST(RillBench, DisabledFeatureRunsNoPasses) {
   const Outcome outcome = bench({"features", "--quick", "--quiet", "--only", "viscosity", "--json", "-"});
-  EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;  // 3 where passes or bits differ
+  EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;  // 3 if passes or the state differ
 }
 
-TEST(RillBench, BadInputRunsNothing) {
+TEST(RillBench, BadInputExitsWith2) {
   const TemporaryFolder folder;
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"sort", "--device", "no such device"}, {"nothing"}, {"sort", "--json", folder.string()}}) {

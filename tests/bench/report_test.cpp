@@ -28,31 +28,31 @@ TEST(Table, CountsCharactersNotBytes) {
   EXPECT_EQ(tableText(table), "T\na   b\né   1\nxy  2\n");
 }
 
-TEST(Table, MayHaveNoRow) { EXPECT_EQ(tableText({"T", {"a", "b"}, {}, ""}), "T\na  b\n"); }
+TEST(Table, FormatsWithoutRows) { EXPECT_EQ(tableText({"T", {"a", "b"}, {}, ""}), "T\na  b\n"); }
 
-TEST(Median, IsTheMiddleOrTheMeanOfTheTwo) {
+TEST(Median, ReturnsMiddleOrMeanOfMiddleTwo) {
   EXPECT_EQ(median({3}), 3);
   EXPECT_EQ(median({9, 1, 5}), 5);
   EXPECT_EQ(median({4, 1, 3, 100}), 3.5);
   EXPECT_TRUE(std::isnan(median({})));
 }
 
-TEST(Sampled, HasEverySampleItsMedianAndItsSpread) {
+TEST(SampleStatistics, ReportsMedianSpreadAndSamples) {
   const double samples[] = {4, 2, 3};
-  const Json json = sampled(samples);
+  const Json json = sampleStatistics(samples);
   EXPECT_EQ(json["median"], 3);
   EXPECT_DOUBLE_EQ(json["spread"], 2.0 / 3);
   EXPECT_EQ(json["samples"], Json({4, 2, 3}));
 }
 
-TEST(Sampled, OfNothingIsStillJson) {
-  const Json json = sampled({});
+TEST(SampleStatistics, HandlesNoSamples) {
+  const Json json = sampleStatistics({});
   EXPECT_EQ(json["spread"], 0);
   EXPECT_TRUE(json["samples"].empty());
-  EXPECT_NE(json.dump().find("\"median\":null"), std::string::npos) << "JSON knows no NaN: " << json.dump();
+  EXPECT_NE(json.dump().find("\"median\":null"), std::string::npos) << "JSON has no NaN: " << json.dump();
 }
 
-TEST(Number, HasSoManyDigitsOrIsADash) {
+TEST(Number, RoundsToDigitsAndShowsDashForNonFinite) {
   EXPECT_EQ(number(1234.567, 3), "1.23e+03");
   EXPECT_EQ(number(0.00012345, 2), "0.00012");
   EXPECT_EQ(number(kNaN), "-");
@@ -64,7 +64,7 @@ Plot plotOf(std::vector<std::pair<double, double>> points) {
   return {"It's a title", "x", "y", true, true, {{"it's", Series::Style::Both, std::move(points), {}}}};
 }
 
-TEST(PlotProgram, HoldsTheDataAndTheNamesQuoted) {
+TEST(PlotProgram, ContainsDataAndQuotedNames) {
   const Plot plot = plotOf({{1, 0.25}, {1000, 7}});
   const std::string program = plotProgram(std::span(&plot, 1));
   EXPECT_NE(program.find("1 0.25 "), std::string::npos) << program;
@@ -74,14 +74,14 @@ TEST(PlotProgram, HoldsTheDataAndTheNamesQuoted) {
   EXPECT_NE(program.find("set logscale x"), std::string::npos) << program;
 }
 
-TEST(PlotProgram, WhatIsEmphasizedIsLarger) {
+TEST(PlotProgram, DrawsEmphasizedPointsLarger) {
   Plot plot = plotOf({{1, 2}});
   EXPECT_EQ(plotProgram(std::span(&plot, 1)).find(" ps 2"), std::string::npos);
   plot.series[0].emphasized = true;
   EXPECT_NE(plotProgram(std::span(&plot, 1)).find(" ps 2"), std::string::npos);
 }
 
-TEST(PlotProgram, NoTextEndsAStringOrALine) {
+TEST(PlotProgram, EscapesQuotesAndLineBreaks) {
   Plot plot = plotOf({{1, 2}});
   plot.title = "a\nb'; system('x')";
   plot.series[0].labels = {"c\"d\\e\nf"};
@@ -90,14 +90,14 @@ TEST(PlotProgram, NoTextEndsAStringOrALine) {
   EXPECT_NE(program.find("\"c d e f\""), std::string::npos) << program;
 }
 
-TEST(PlotProgram, LeavesOutWhatAnAxisCannotShow) {
+TEST(PlotProgram, SkipsPointsOutsideLogarithmicAxes) {
   const Plot plot = plotOf({{0, 5}, {2, kNaN}, {3, -1}});
   const std::string program = plotProgram(std::span(&plot, 1));
-  EXPECT_EQ(program.find("\nplot "), std::string::npos) << "gnuplot refuses a plot without points: " << program;
-  EXPECT_NE(program.find("set multiplot next"), std::string::npos) << "its place stays empty: " << program;
+  EXPECT_EQ(program.find("\nplot "), std::string::npos) << "gnuplot rejects a plot without points: " << program;
+  EXPECT_NE(program.find("set multiplot next"), std::string::npos) << "its cell of the grid stays empty: " << program;
 }
 
-TEST(PlotProgram, NamesRowsFromTheTopDownAndInThatDiagramAlone) {
+TEST(PlotProgram, LabelsRowsOfOneDiagramFromTop) {
   std::vector<Plot> plots(2, plotOf({{1, 1}}));
   plots[0].rows = {"first", "it's the second"};
   const std::string program = plotProgram(plots);
@@ -105,7 +105,7 @@ TEST(PlotProgram, NamesRowsFromTheTopDownAndInThatDiagramAlone) {
   EXPECT_LT(program.find("set ytics ('first'"), program.find("set ytics autofreq")) << program;
 }
 
-TEST(PlotProgram, SetsDiagramsSideBySide) {
+TEST(PlotProgram, ArrangesDiagramsInAGrid) {
   const std::vector<Plot> plots(3, plotOf({{1, 1}}));
   EXPECT_NE(plotProgram(plots).find("layout 2,2"), std::string::npos);
   EXPECT_NE(plotProgram(std::span(plots).first(1)).find("layout 1,1"), std::string::npos);

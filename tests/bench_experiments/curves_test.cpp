@@ -15,7 +15,7 @@ namespace {
 
 const std::filesystem::path kPublished = std::filesystem::path(RILL_SOURCE_DIR) / "assets" / "validation";
 
-TEST(Curves, LinearBetweenSamplesAndHeldOutside) {
+TEST(Curves, InterpolatesLinearlyAndClamps) {
   const Curve curve{{0, 1}, {1, 3}, {3, 3}};
   EXPECT_EQ(at(curve, -1), 1);
   EXPECT_EQ(at(curve, 0.5), 2);
@@ -23,7 +23,7 @@ TEST(Curves, LinearBetweenSamplesAndHeldOutside) {
   EXPECT_EQ(at(curve, 9), 3);
 }
 
-TEST(Curves, AShiftIsFoundAndItsSignMeansLater) {
+TEST(Curves, FitShiftFindsLagOfPoints) {
   Curve curve, points;
   for (double x = 0; x < 6; x += 0.01) curve.emplace_back(x, 1 + x * x);
   for (double x = 1; x < 4; x += 0.3) points.emplace_back(x + 0.137, 1 + x * x);
@@ -33,7 +33,7 @@ TEST(Curves, AShiftIsFoundAndItsSignMeansLater) {
   EXPECT_GT(fit.unshifted, 0.05);
 }
 
-TEST(Curves, AShiftDoesNotHideAWrongShape) {
+TEST(Curves, FitShiftKeepsErrorOfShape) {
   Curve curve, points;
   for (double x = 0; x < 6; x += 0.01) curve.emplace_back(x, 1 + 1.2 * x * x);
   for (double x = 1; x < 4; x += 0.3) points.emplace_back(x, 1 + x * x);
@@ -42,7 +42,7 @@ TEST(Curves, AShiftDoesNotHideAWrongShape) {
   EXPECT_GT(fit.shifted, 0.01);
 }
 
-TEST(Curves, PeriodAndDampingOfADampedSine) {
+TEST(Curves, OscillationMeasuresPeriodAndDamping) {
   constexpr double kPeriod = 1.18, kDecrement = 0.2;
   Curve curve;
   for (int k = 0; k < 400; ++k) {
@@ -55,7 +55,7 @@ TEST(Curves, PeriodAndDampingOfADampedSine) {
   EXPECT_GE(found.peaks.size(), 9u);
 }
 
-TEST(Curves, NoiseAfterTheWaveHasDiedIsNoCrossing) {
+TEST(Curves, OscillationIgnoresNoiseAfterDecay) {
   Curve curve;
   for (int k = 0; k < 600; ++k) {
     const double t = k / 60.0;
@@ -64,9 +64,9 @@ TEST(Curves, NoiseAfterTheWaveHasDiedIsNoCrossing) {
   EXPECT_NEAR(oscillation(curve, 0).period, 1, 0.01);
 }
 
-TEST(Curves, TooFewCrossingsHaveNoPeriod) { EXPECT_TRUE(std::isnan(oscillation({{0, 1}, {1, 0.5}, {2, -0.1}}, 0).period)); }
+TEST(Curves, OscillationWithoutCrossingsHasNoPeriod) { EXPECT_TRUE(std::isnan(oscillation({{0, 1}, {1, 0.5}, {2, -0.1}}, 0).period)); }
 
-TEST(Curves, PublishedFilesAreRead) {
+TEST(Curves, ReadsPublishedFiles) {
   for (const char* name : {"martin_moyce_n2_1_front", "martin_moyce_n2_2_front", "martin_moyce_n2_1_height", "martin_moyce_n2_2_height"}) {
     const auto curve = readCurve(kPublished / (std::string(name) + ".csv"));
     ASSERT_TRUE(curve) << curve.error().message;
@@ -76,7 +76,7 @@ TEST(Curves, PublishedFilesAreRead) {
   EXPECT_FALSE(readCurve(kPublished / "README.md"));
 }
 
-TEST(Exact, EllipticDropIsThatOfTheTable) {
+TEST(Exact, EllipticDropMatchesTable) {
   const auto table = readCurve(kPublished / "elliptic_drop.csv");
   ASSERT_TRUE(table);
   for (const auto& [time, axis] : *table) {
@@ -86,7 +86,7 @@ TEST(Exact, EllipticDropIsThatOfTheTable) {
   }
 }
 
-TEST(Exact, SloshPeriodsAreThoseOfTheTable) {
+TEST(Exact, SloshPeriodsMatchTable) {
   std::ifstream file(kPublished / "sloshing_first_mode.csv");
   std::string line;
   std::getline(file, line);

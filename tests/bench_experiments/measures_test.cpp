@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kSpacing = 0.05;
 
-/// A block of a rest lattice with its lowest corner at zero.
+/// A block of the rest lattice with its minimum corner at the origin.
 Cloud lattice(int x, int y, int z, double stretch = 1) {
   Cloud cloud;
   cloud.spacing = kSpacing;
@@ -25,7 +25,7 @@ Cloud lattice(int x, int y, int z, double stretch = 1) {
 
 Walls noWalls() { return {}; }
 
-TEST(NeighborGrid, FindsWhatABruteSearchFinds) {
+TEST(NeighborGrid, MatchesBruteForce) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> anywhere(-1, 1);
   std::vector<Point> points;
@@ -40,13 +40,13 @@ TEST(NeighborGrid, FindsWhatABruteSearchFinds) {
   }
 }
 
-TEST(Measures, TheRestLatticeReadsRestDensityInAWideKernel) {
+TEST(Measures, RestLatticeHasRestDensity) {
   const BulkDensity bulk = bulkDensity(lattice(12, 12, 12), noWalls(), 2 * kSpacing);
   ASSERT_GT(bulk.particles, 0u);
   EXPECT_NEAR(bulk.error, 0, 1e-9);
 }
 
-TEST(Measures, ASwollenLatticeReadsTooLittleAndADenseOneTooMuch) {
+TEST(Measures, StretchedLatticeHasMatchingDensityError) {
   for (const double stretch : {1.01, 0.99}) {
     const BulkDensity bulk = bulkDensity(lattice(14, 14, 14, stretch), noWalls(), 2 * kSpacing);
     ASSERT_GT(bulk.particles, 0u);
@@ -54,9 +54,9 @@ TEST(Measures, ASwollenLatticeReadsTooLittleAndADenseOneTooMuch) {
   }
 }
 
-TEST(Measures, DeepIsFarFromTheSurfaceAndFromWalls) {
+TEST(Measures, InteriorExcludesSurfaceAndWalls) {
   const Cloud cloud = lattice(12, 12, 12);
-  for (const size_t i : deepBulk(cloud, noWalls(), 4 * kSpacing))
+  for (const size_t i : interiorParticles(cloud, noWalls(), 4 * kSpacing))
     for (const double coordinate : cloud.position[i]) {
       EXPECT_GT(coordinate, 3 * kSpacing);
       EXPECT_LT(coordinate, 9 * kSpacing);
@@ -65,49 +65,49 @@ TEST(Measures, DeepIsFarFromTheSurfaceAndFromWalls) {
   walls.min = {0, 0, 0};
   walls.max = {0.6, 0.6, 0.6};
   walls.closed = 63;
-  EXPECT_EQ(deepBulk(cloud, walls, 4 * kSpacing).size(), 64u);  // those of 12 that are 4 from both sides: 4 an axis
-  EXPECT_TRUE(deepBulk(lattice(4, 4, 4), noWalls(), 4 * kSpacing).empty());
+  EXPECT_EQ(interiorParticles(cloud, walls, 4 * kSpacing).size(), 64u);  // 4 of 12 per axis are 4 spacings from both walls
+  EXPECT_TRUE(interiorParticles(lattice(4, 4, 4), noWalls(), 4 * kSpacing).empty());
 }
 
-TEST(Measures, NobodyIsClumpedInALatticeAndWhoWasPutAsideIs) {
+TEST(Measures, CountsClumpedParticles) {
   Cloud cloud = lattice(10, 10, 10);
-  EXPECT_EQ(clumpedShare(cloud), 0);
+  EXPECT_EQ(clumpedFraction(cloud), 0);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> jitter(-0.2 * kSpacing, 0.2 * kSpacing);
   for (Point& point : cloud.position)
     for (double& coordinate : point) coordinate += jitter(random);
-  EXPECT_EQ(clumpedShare(cloud), 0);  // two that jitter by 0.2 towards each other keep 0.6
+  EXPECT_EQ(clumpedFraction(cloud), 0);  // jitter of 0.2 leaves at least 0.6 spacings
   cloud.position[0] = cloud.position[500];
   cloud.position[0][0] += 0.3 * kSpacing;
-  EXPECT_NEAR(clumpedShare(cloud), 2.0 / 1000, 1e-12);
+  EXPECT_NEAR(clumpedFraction(cloud), 2.0 / 1000, 1e-12);
 }
 
-TEST(Measures, LevelOfABlockIsItsHeight) {
+TEST(Measures, LevelOfBlockIsItsHeight) {
   EXPECT_NEAR(surfaceLevel(lattice(8, 11, 6), 0, 0, 1), 11 * kSpacing, 1e-12);
   EXPECT_NEAR(surfaceLevel(lattice(8, 11, 6), -1, 0, 1), 1 + 11 * kSpacing, 1e-12);
 }
 
-TEST(Measures, LevelLeavesOutTheInsideOfAVoid) {
+TEST(Measures, LevelIgnoresVoids) {
   Cloud cloud = lattice(9, 12, 9);
   std::erase_if(cloud.position, [](const Point& p) { return std::hypot(p[0] - 0.225, p[1] - 0.2, p[2] - 0.225) < 0.1; });
   EXPECT_NEAR(surfaceLevel(cloud, 0, 0, 1), 12 * kSpacing, 1e-12);
 }
 
-TEST(Measures, FrontIsOfTheBulkNotOfASingleDrop) {
+TEST(Measures, FrontIgnoresIsolatedParticles) {
   Cloud cloud = lattice(10, 6, 6);
   EXPECT_NEAR(frontAlongX(cloud), 10 * kSpacing, 1e-12);
   cloud.position.push_back({3, 0.1, 0.1});
   EXPECT_NEAR(frontAlongX(cloud), 10 * kSpacing, 1e-12);
 }
 
-TEST(Measures, HeightAtTheWallEndsAtTheFirstGap) {
+TEST(Measures, HeightAtWallEndsAtFirstGap) {
   Cloud cloud = lattice(6, 9, 4);
   EXPECT_NEAR(heightAtWall(cloud, 0, 0), 9 * kSpacing, 1e-12);
-  cloud.position.push_back({0.02, 1, 0.1});  // a drop that was thrown up
+  cloud.position.push_back({0.02, 1, 0.1});  // a detached particle
   EXPECT_NEAR(heightAtWall(cloud, 0, 0), 9 * kSpacing, 1e-12);
 }
 
-TEST(Measures, SpinIsThatOfARotationAndNotOfAFlight) {
+TEST(Measures, AngularMomentumExcludesTranslation) {
   Cloud cloud = lattice(6, 6, 6);
   const Point center = meanPosition(cloud);
   double moment = 0;
@@ -116,10 +116,10 @@ TEST(Measures, SpinIsThatOfARotationAndNotOfAFlight) {
     cloud.velocity[i] = {5 - 2 * y, 2 * x, 1};
     moment += (x * x + y * y) / double(cloud.size());
   }
-  const Point spin = meanSpin(cloud);
-  EXPECT_NEAR(spin[0], 0, 1e-12);
-  EXPECT_NEAR(spin[1], 0, 1e-12);
-  EXPECT_NEAR(spin[2], 2 * moment, 1e-12);
+  const Point angularMomentum = meanAngularMomentum(cloud);
+  EXPECT_NEAR(angularMomentum[0], 0, 1e-12);
+  EXPECT_NEAR(angularMomentum[1], 0, 1e-12);
+  EXPECT_NEAR(angularMomentum[2], 2 * moment, 1e-12);
   EXPECT_NEAR(meanVelocity(cloud)[0], 5, 1e-12);
   EXPECT_GT(rmsSpeed(cloud), 5);
 }

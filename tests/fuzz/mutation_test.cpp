@@ -1,5 +1,4 @@
-// The fuzz targets on some thousand mutations of their seeds, the same in every run: with the ordinary compiler, in the ordinary suite.
-// libFuzzer goes further (tests/fuzz/run.sh).
+// Runs the fuzz targets on reproducible mutations of their seeds, without libFuzzer. See tests/fuzz/run.sh for longer fuzzing.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -13,12 +12,12 @@ namespace {
 using Target = int (*)(const uint8_t*, size_t);
 
 void feed(Target target, const std::string& input) {
-  // In memory of exactly its size, so that a sanitizer sees a read beyond it.
+  // Allocated at its exact size, so that sanitizers detect reads beyond the end.
   const std::vector<uint8_t> bytes(input.begin(), input.end());
   EXPECT_EQ(target(bytes.data(), bytes.size()), 0);
 }
 
-/// A few changes of the kinds that find things: bits, extreme numbers, pieces left out, doubled, or taken from another seed.
+/// Applies one to four mutations: flipped bits, extreme numbers, removed, repeated or spliced ranges, truncation.
 std::string mutated(std::string text, const std::vector<std::string>& seeds, std::mt19937& random) {
   const auto below = [&](size_t end) { return end == 0 ? 0 : random() % end; };
   for (size_t changes = 1 + below(4); changes > 0; --changes) {
@@ -54,7 +53,7 @@ std::string mutated(std::string text, const std::vector<std::string>& seeds, std
   return text;
 }
 
-void expectSurvives(Target target, const std::vector<std::string>& seeds, int rounds) {
+void expectNoCrash(Target target, const std::vector<std::string>& seeds, int rounds) {
   std::mt19937 random(1);
   for (const std::string& seed : seeds) {
     feed(target, seed);
@@ -63,9 +62,9 @@ void expectSurvives(Target target, const std::vector<std::string>& seeds, int ro
   feed(target, "");
 }
 
-TEST(Mutations, OfScenes) { expectSurvives(fuzzScene, sceneSeeds(), 300); }
-TEST(Mutations, OfPlyFiles) { expectSurvives(fuzzPly, plySeeds(), 1500); }
-TEST(Mutations, OfCheckpoints) { expectSurvives(fuzzCheckpoint, checkpointSeeds(), 3000); }
+TEST(Mutations, ScenesDoNotCrash) { expectNoCrash(fuzzScene, sceneSeeds(), 300); }
+TEST(Mutations, PlyFilesDoNotCrash) { expectNoCrash(fuzzPly, plySeeds(), 1500); }
+TEST(Mutations, CheckpointsDoNotCrash) { expectNoCrash(fuzzCheckpoint, checkpointSeeds(), 3000); }
 
 }  // namespace
 }  // namespace rill::test

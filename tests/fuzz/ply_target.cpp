@@ -10,7 +10,7 @@
 namespace rill::test {
 
 int fuzzPly(const uint8_t* data, size_t size) {
-  // A file in memory: the reader takes a path.
+  // The reader takes a path, so the input is written to a memory file.
   const int descriptor = ::memfd_create("fuzz", MFD_CLOEXEC);
   if (descriptor < 0) return 0;
   const bool written = ::write(descriptor, data, size) == static_cast<ssize_t>(size);

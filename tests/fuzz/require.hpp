@@ -2,11 +2,11 @@
 #include <cstdio>
 #include <cstdlib>
 
-/// Ends the program where something that must hold of any input does not: a finding, in every build.
-#define RILL_REQUIRE(what)                                                          \
-  do {                                                                              \
-    if (!(what)) {                                                                  \
-      std::fprintf(stderr, "%s:%d: %s does not hold\n", __FILE__, __LINE__, #what); \
-      std::abort();                                                                 \
-    }                                                                               \
+/// Aborts if a condition that every input must satisfy is false, in all build types; fuzzers report it as a crash.
+#define RILL_REQUIRE(what)                                                                \
+  do {                                                                                    \
+    if (!(what)) {                                                                        \
+      std::fprintf(stderr, "%s:%d: requirement failed: %s\n", __FILE__, __LINE__, #what); \
+      std::abort();                                                                       \
+    }                                                                                     \
   } while (false)

@@ -1,18 +1,19 @@
 #!/usr/bin/env bash
-# Fuzzes what reads files: scenes with overrides, PLY, checkpoints. Needs clang with libFuzzer; ends with 77 where there is none.
-# An input that crashes a target is left in build/fuzz/findings; run the target on it alone to see it again.
+# Fuzzes the file readers: scenes with overrides, PLY files, checkpoints. Exits with 77 (skipped) without clang and libFuzzer.
+# Crashing inputs are saved in build/fuzz/findings; pass one to its target to reproduce the crash.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 case ${1:-} in
-  -h | --help) echo "Usage: tests/fuzz/run.sh [SECONDS]   (of each target; default: 60)"; exit ;;
+  -h | --help) printf '%s\n' "Usage: tests/fuzz/run.sh [SECONDS]" "" "Fuzzes the readers of scenes, PLY files and checkpoints, each for SECONDS (default: 60)." \
+    "Crashing inputs are saved in build/fuzz/findings. Exit codes: 0 no crash, 1 crash, 77 no clang with libFuzzer."; exit ;;
 esac
 seconds=${1:-60}
 
 clang=$(command -v clang++ || true)
 if [ -z "$clang" ] || ! echo 'extern "C" int LLVMFuzzerTestOneInput(const unsigned char*, unsigned long) { return 0; }' |
   "$clang" -x c++ -fsanitize=fuzzer,address - -o /dev/null 2>/dev/null; then
-  echo "There is no clang++ with libFuzzer here (Debian: clang, libclang-rt-dev), so nothing was fuzzed"
+  echo "Skipped: clang++ with libFuzzer was not found (Debian: clang, libclang-rt-dev)"
   exit 77
 fi
 

@@ -23,7 +23,7 @@ int fuzzScene(const uint8_t* data, size_t size) {
     RILL_REQUIRE(!scene.error().message.empty());
     return 0;
   }
-  // Nobody's files are opened.
+  // Fuzzed scenes must not open files.
   if (std::any_of(scene->fill.begin(), scene->fill.end(), [](const Fill& fill) { return fill.particles.has_value(); })) return 0;
   const auto particles = makeParticles(*scene, 2000);
   if (!particles) {

@@ -1,5 +1,5 @@
 #pragma once
-// What fuzzing starts from.
+// Seed inputs for fuzzing.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace rill::test {
 
-/// All scenes that come with Rill, and one with overrides.
+/// All scenes of assets/scenes, and one with overrides.
 inline std::vector<std::string> sceneSeeds() {
   std::vector<std::string> seeds;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(std::filesystem::path(RILL_SOURCE_DIR) / "assets/scenes"))
@@ -37,11 +37,11 @@ inline std::vector<std::string> plySeeds() {
 
 inline std::vector<std::string> checkpointSeeds() {
   std::vector<std::string> seeds;
-  offline::Checkpoint walking = seedCheckpoint(), nothing;
-  FluidSnapshot& s = walking.fluid;  // no list at hand
+  offline::Checkpoint withoutList = seedCheckpoint(), empty;
+  FluidSnapshot& s = withoutList.fluid;
   s.control[offsetof(FluidControl, stale) / 4] = 1;
   for (auto* array : {&s.neighborCount, &s.neighbors, &s.cell}) array->clear();
-  for (const offline::Checkpoint& c : {seedCheckpoint(), walking, nothing}) {
+  for (const offline::Checkpoint& c : {seedCheckpoint(), withoutList, empty}) {
     const auto bytes = offline::encodeCheckpoint(c);
     seeds.emplace_back(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   }

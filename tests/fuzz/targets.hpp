@@ -1,15 +1,15 @@
 #pragma once
-// What is fuzzed: each takes any bytes and must neither crash nor read beyond them. All return 0, as libFuzzer wants.
+// Fuzz targets: they accept any bytes without crashing or reading out of bounds, and return 0 as libFuzzer requires.
 #include <cstddef>
 #include <cstdint>
 
 namespace rill::test {
 
-/// A scene's text; after a zero byte, overrides, one a line.
+/// Scene text, optionally followed by a zero byte and overrides, one per line.
 int fuzzScene(const uint8_t* data, size_t size);
 /// A PLY file of particles.
 int fuzzPly(const uint8_t* data, size_t size);
-/// A checkpoint's file, as it is and with a checksum that holds.
+/// A checkpoint file, unmodified and with corrected size and checksum.
 int fuzzCheckpoint(const uint8_t* data, size_t size);
 
 }  // namespace rill::test

@@ -6,17 +6,17 @@
 
 namespace rill::bench {
 
-/// What is asked of a figure. Errors are signed; their size counts.
+/// Aim and pass band of a figure. The magnitude of the signed error is compared.
 struct Band {
-  std::string_view family;  ///< experiments whose family begins with this
+  std::string_view family;  ///< prefix of the families that it applies to
   std::string_view figure;
-  double aim = 0;           ///< what a solver should reach; NaN: there is none
-  double band[kLevels]{};   ///< what this one must keep at each level; infinite: shown, not judged
-  std::string_view unit;    ///< "%", or what the number is in
-  std::string_view reason;  ///< of the band, where it is wider than the aim
+  double aim = 0;           ///< error that a solver should reach; NaN: none
+  double band[kLevels]{};   ///< largest passing error per level; infinite: shown, not checked
+  std::string_view unit;    ///< "%", or the unit of the error
+  std::string_view reason;  ///< why the band is wider than the aim
 };
 std::span<const Band> bands();
-/// Of one figure of an experiment; none where it is shown only.
+/// The first matching band; null if there is none.
 const Band* bandOf(std::string_view family, std::string_view figure);
 
 }  // namespace rill::bench

@@ -36,7 +36,7 @@ double slope(const Curve& points) {
   return (n * xy - x * y) / (n * xx - x * x);
 }
 
-/// The extreme of |y| among samples first .. last, refined by a parabola.
+/// Time and magnitude of the maximum of |y| in samples first .. last, refined by a parabola.
 std::pair<double, double> extreme(const Curve& curve, size_t first, size_t last) {
   size_t best = first;
   for (size_t k = first; k <= last; ++k)
@@ -63,7 +63,7 @@ ShiftFit fitShift(const Curve& curve, const Curve& points) {
   ShiftFit fit;
   if (curve.empty() || points.empty()) return {kNaN, kNaN, kNaN};
   fit.unshifted = rmsDistance(curve, points, 0);
-  // A scan finds the right valley, then the interval around its lowest point is narrowed.
+  // A scan finds the global minimum, then ternary search refines it.
   constexpr double kStep = 0.01;
   double best = 0;
   for (int k = -100; k <= 100; ++k)
@@ -81,17 +81,17 @@ ShiftFit fitShift(const Curve& curve, const Curve& points) {
   return fit;
 }
 
-Oscillation oscillation(const Curve& curve, double from, double least) {
+Oscillation oscillation(const Curve& curve, double from, double minRelativePeak) {
   Oscillation found;
   std::vector<double> crossings;
-  size_t begin = 0;  // first sample after the last crossing
+  size_t begin = 0;  // first sample after the previous crossing
   for (size_t k = 1; k < curve.size(); ++k) {
     const auto [t0, y0] = curve[k - 1];
     const auto [t1, y1] = curve[k];
     if ((y0 < 0) == (y1 < 0) || t0 < from) continue;
     if (!crossings.empty()) {
       const auto peak = extreme(curve, begin, k - 1);
-      if (!found.peaks.empty() && peak.second < least * found.peaks.front().second) break;
+      if (!found.peaks.empty() && peak.second < minRelativePeak * found.peaks.front().second) break;
       found.peaks.push_back(peak);
     }
     crossings.push_back(t0 + (t1 - t0) * y0 / (y0 - y1));
@@ -117,8 +117,7 @@ Expected<Curve> readCurve(const std::filesystem::path& file) {
     double x = 0, y = 0;
     char comma = 0;
     if (!(cells >> x >> comma >> y) || comma != ',')
-      return Error{ErrorKind::BadInput,
-                   file.string() + ":" + std::to_string(number) + ": \"" + line + "\" was found; expected two numbers"};
+      return Error{ErrorKind::BadInput, file.string() + ":" + std::to_string(number) + ": found \"" + line + "\", expected two numbers"};
     curve.emplace_back(x, y);
   }
   return curve;

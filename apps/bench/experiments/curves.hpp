@@ -1,5 +1,5 @@
 #pragma once
-// Curves over time and what is fitted to them.
+// Curves over time, and fits.
 #include <filesystem>
 #include <span>
 #include <utility>
@@ -9,31 +9,31 @@
 
 namespace rill::bench {
 
-using Curve = std::vector<std::pair<double, double>>;  ///< rising in the first
+using Curve = std::vector<std::pair<double, double>>;  ///< increasing in the first
 
-/// Linear between samples; before the first and after the last their values hold.
+/// Linear interpolation; constant outside the samples.
 double at(const Curve& curve, double x);
 
-/// Distance of a curve from published points, as the root mean square of relative differences.
+/// Root mean square of the relative differences between a curve and published points.
 struct ShiftFit {
-  double shift = 0;      ///< how much later the points are than the curve; the one that makes `shifted` least, within +-1
-  double unshifted = 0;  ///< error without it
-  double shifted = 0;    ///< error with it
+  double shift = 0;      ///< time by which the points lag the curve; minimizes `shifted` within [-1, 1]
+  double unshifted = 0;  ///< error without the shift
+  double shifted = 0;    ///< error with the shift
 };
 ShiftFit fitShift(const Curve& curve, const Curve& points);
 
-/// An oscillation about zero, from its zero crossings (linear between samples) and the extremes between them (a parabola through three).
+/// An oscillation about zero, from interpolated zero crossings and the extremes between them (parabola through three samples).
 struct Oscillation {
   double period = 0;     ///< NaN with fewer than three crossings
-  double decrement = 0;  ///< logarithmic, a period: least squares over the extremes; NaN with fewer than two
-  Curve peaks;           ///< time and size of each extreme between crossings
+  double decrement = 0;  ///< logarithmic decrement per period, least squares over the extremes; NaN with fewer than two
+  Curve peaks;           ///< time and magnitude of each extreme between crossings
 };
-/// Crossings before `from` are left out, and all after an extreme of less than `least` of the first: there noise crosses zero too.
-Oscillation oscillation(const Curve& curve, double from, double least = 0.05);
+/// Ignores crossings before `from` and after the first extreme below `minRelativePeak` times the first one, where noise dominates.
+Oscillation oscillation(const Curve& curve, double from, double minRelativePeak = 0.05);
 
 /// Two columns of a CSV file with one header line. Io or BadInput, naming the file and line.
 Expected<Curve> readCurve(const std::filesystem::path& file);
-/// One of assets/validation, which lies beside the scenes ("martin_moyce_n2_1_front").
+/// Reads a curve of assets/validation, for example "martin_moyce_n2_1_front".
 Expected<Curve> publishedCurve(const char* name);
 
 }  // namespace rill::bench

@@ -1,4 +1,4 @@
-// A weightless disc that is drawn out into an ellipse: a slab between frictionless walls.
+// A weightless disc that deforms into an ellipse, as a slab between frictionless walls.
 #include <cmath>
 
 #include "bench/experiments/curves.hpp"
@@ -9,10 +9,10 @@
 namespace rill::bench {
 namespace {
 
-constexpr double kRadius = 1;                       // m
-constexpr double kRate = 1;                         // A0, 1/s
-constexpr int kDropAcross[kLevels] = {10, 16, 24};  // spacings in the radius
-constexpr int kThick = 4;
+constexpr double kRadius = 1;                           // m
+constexpr double kRate = 1;                             // A0, 1/s
+constexpr int kDropResolution[kLevels] = {10, 16, 24};  // spacings per radius
+constexpr int kDropThickness = 4;
 
 Cloud disc(double spacing) {
   Cloud cloud;
@@ -20,7 +20,7 @@ Cloud disc(double spacing) {
   const int half = static_cast<int>(std::ceil(kRadius / spacing));
   for (int i = -half; i < half; ++i)
     for (int j = -half; j < half; ++j)
-      for (int l = 0; l < kThick; ++l) {
+      for (int l = 0; l < kDropThickness; ++l) {
         const double x = (i + 0.5) * spacing, y = (j + 0.5) * spacing;
         if (x * x + y * y > kRadius * kRadius) continue;
         cloud.position.push_back({x, y, (l + 0.5) * spacing});
@@ -29,7 +29,7 @@ Cloud disc(double spacing) {
   return cloud;
 }
 
-/// Semi-axes of the ellipse with the same second moments: every particle counts, no outline is needed.
+/// Semi-axes of the ellipse with the same second moments.
 std::pair<double, double> semiAxes(const Cloud& cloud) {
   const Point center = meanPosition(cloud);
   double xx = 0, yy = 0;
@@ -42,21 +42,21 @@ std::pair<double, double> semiAxes(const Cloud& cloud) {
 }
 
 Expected<Outcome> drop(const Bench& bench, unsigned level) {
-  const double spacing = kRadius / kDropAcross[level];
+  const double spacing = kRadius / kDropResolution[level];
   const auto points = publishedCurve("elliptic_drop");
   if (!points) return points.error();
   const auto start = StartFile::write(disc(spacing));
   if (!start) return start.error();
-  Scene scene = boxScene(spacing, {-5, -5, 0}, {5, 5, kThick * spacing});
+  Scene scene = boxScene(spacing, {-5, -5, 0}, {5, 5, kDropThickness * spacing});
   scene.gravity[1] = 0;
   scene.fill.push_back(start->fill());
   Curve longAxis, shortAxis;
   double radius = 0;
-  auto run = watch(
+  auto run = runSampled(
       bench, scene, 2 / kRate, 1.0 / 60, [](double) { return true; },
       [&](const Cloud& cloud, double time) {
         const auto [a, b] = semiAxes(cloud);
-        if (time == 0) radius = std::sqrt(a * b);  // of the lattice disc, whose outline has steps
+        if (time == 0) radius = std::sqrt(a * b);  // of the discretized disc
         shortAxis.emplace_back(kRate * time, a / radius);
         longAxis.emplace_back(kRate * time, b / radius);
       });
@@ -75,7 +75,7 @@ Expected<Outcome> drop(const Bench& bench, unsigned level) {
   outcome.figures.push_back(plainFigure("energy, peak", outcome.run.energy.ratio - 1));
   outcome.curves["long_axis"] = curveJson(longAxis);
   outcome.curves["short_axis"] = curveJson(shortAxis);
-  outcome.overlays.push_back({"elliptic", {"R / d = " + std::to_string(kDropAcross[level]), Series::Style::Lines, longAxis, {}}});
+  outcome.overlays.push_back({"elliptic", {"R / d = " + std::to_string(kDropResolution[level]), Series::Style::Lines, longAxis, {}}});
   return outcome;
 }
 
@@ -85,7 +85,7 @@ std::vector<Experiment> ellipticExperiments() {
   std::vector<Experiment> all;
   for (unsigned level = 0; level < kLevels; ++level)
     all.push_back(
-        {"elliptic-drop", level, level < 2, kRadius / kDropAcross[level], [level](const Bench& bench) { return drop(bench, level); }});
+        {"elliptic-drop", level, level < 2, kRadius / kDropResolution[level], [level](const Bench& bench) { return drop(bench, level); }});
   return all;
 }
 

@@ -11,20 +11,20 @@ EllipticDrop derivative(const EllipticDrop& at) {
   return {-at.rate * at.a, at.rate * at.b, at.rate * at.rate * (aa - bb) / (aa + bb)};
 }
 
-EllipticDrop moved(const EllipticDrop& from, const EllipticDrop& by, double times) {
+EllipticDrop advanced(const EllipticDrop& from, const EllipticDrop& by, double times) {
   return {from.a + times * by.a, from.b + times * by.b, from.rate + times * by.rate};
 }
 
 }  // namespace
 
 EllipticDrop ellipticDrop(double time) {
-  constexpr int kSteps = 2000;  // of Runge and Kutta's fourth order: far below what a float holds
+  constexpr int kSteps = 2000;  // classical Runge-Kutta; errors far below float precision
   const double step = time / kSteps;
   EllipticDrop drop;
   for (int k = 0; k < kSteps; ++k) {
-    const EllipticDrop k1 = derivative(drop), k2 = derivative(moved(drop, k1, step / 2)), k3 = derivative(moved(drop, k2, step / 2)),
-                       k4 = derivative(moved(drop, k3, step));
-    drop = moved(moved(moved(moved(drop, k1, step / 6), k2, step / 3), k3, step / 3), k4, step / 6);
+    const EllipticDrop k1 = derivative(drop), k2 = derivative(advanced(drop, k1, step / 2)), k3 = derivative(advanced(drop, k2, step / 2)),
+                       k4 = derivative(advanced(drop, k3, step));
+    drop = advanced(advanced(advanced(advanced(drop, k1, step / 6), k2, step / 3), k3, step / 3), k4, step / 6);
   }
   return drop;
 }

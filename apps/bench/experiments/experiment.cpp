@@ -12,18 +12,18 @@ Figure plainFigure(std::string name, double error) { return {std::move(name), er
 
 std::string Experiment::name() const { return family + "@" + number(spacing_m, 4); }
 
-Expected<RunFigures> watch(const Bench& bench, const Scene& scene, double duration_s, double frame_s,
-                           const std::function<bool(double)>& wanted, const std::function<void(const Cloud&, double)>& look) {
+Expected<RunFigures> runSampled(const Bench& bench, const Scene& scene, double duration_s, double frame_s,
+                                const std::function<bool(double)>& sampledAt, const std::function<void(const Cloud&, double)>& onSample) {
   SceneRun run;
   run.scene = scene;
   run.duration_s = duration_s;
   run.frame_s = frame_s;
   std::optional<Error> failed;
-  run.look = [&](offline::Simulation& simulation, double time_s) {
-    if (failed || !wanted(time_s)) return;
+  run.onFrame = [&](offline::Simulation& simulation, double time_s) {
+    if (failed || !sampledAt(time_s)) return;
     const auto particles = simulation.particles();
     if (particles)
-      look(cloudOf(*particles, scene.fluid.spacing), time_s);
+      onSample(cloudOf(*particles, scene.fluid.spacing), time_s);
     else
       failed = particles.error();
   };

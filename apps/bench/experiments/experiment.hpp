@@ -1,5 +1,5 @@
 #pragma once
-// What an experiment is to the suite `validation`: a scene at one resolution, and figures beside what they should be.
+// An experiment of the suite `validation`: a scene at one resolution, and measured figures with expected values.
 #include <functional>
 #include <limits>
 #include <string>
@@ -11,30 +11,30 @@
 
 namespace rill::bench {
 
-/// One figure of one run. Its aim and pass band lie in bands.cpp, under the experiment's family and this name.
+/// A measured figure. bands.cpp has its aim and pass band, by family and name.
 struct Figure {
   std::string name;
   double measured = 0;
-  double expected = std::numeric_limits<double>::quiet_NaN();  ///< NaN where only the error means something
-  double error = 0;                                            ///< in one number: a fraction, or in the unit that bands.cpp names
+  double expected = std::numeric_limits<double>::quiet_NaN();  ///< NaN if only the error is meaningful
+  double error = 0;                                            ///< a fraction, or in the unit given in bands.cpp
 };
-Figure relativeFigure(std::string name, double measured, double expected);  ///< error: measured over expected, less 1
-Figure plainFigure(std::string name, double error);                         ///< measured is the error
+Figure relativeFigure(std::string name, double measured, double expected);  ///< error = measured / expected - 1
+Figure plainFigure(std::string name, double error);                         ///< error = measured
 
 /// A curve for one of the suite's diagrams.
 struct Overlay {
-  std::string plot;  ///< key of validation.cpp
+  std::string plot;  ///< key of a diagram in validation.cpp
   Series series;
 };
 
 struct Outcome {
   std::vector<Figure> figures;
-  Json curves = Json::object();  ///< whole, for whoever wants to draw them anew
+  Json curves = Json::object();  ///< complete curves for the JSON report
   RunFigures run;
   std::vector<Overlay> overlays;
 };
 
-constexpr unsigned kLevels = 3;  ///< coarse, middle, fine
+constexpr unsigned kLevels = 3;  ///< coarse, medium, fine
 
 struct Experiment {
   std::string family;  ///< "slosh-0.5"
@@ -46,15 +46,16 @@ struct Experiment {
 };
 
 std::vector<Experiment> columnExperiments();  ///< Martin and Moyce: front, height
-std::vector<Experiment> tankExperiments();    ///< a still tank; the bulk of a dam break
+std::vector<Experiment> tankExperiments();    ///< still tank; interior of a dam break
 std::vector<Experiment> sloshExperiments();
 std::vector<Experiment> ellipticExperiments();
-std::vector<Experiment> freeExperiments();  ///< free fall; a drop's momentum
+std::vector<Experiment> freeExperiments();  ///< free fall; momentum of a drop
 std::vector<Experiment> jetExperiments();
 
-/// Runs a scene and calls `look` with the particles at the multiples of `frame_s` that `wanted` names.
-Expected<RunFigures> watch(const Bench& bench, const Scene& scene, double duration_s, double frame_s,
-                           const std::function<bool(double time_s)>& wanted, const std::function<void(const Cloud&, double time_s)>& look);
+/// Runs a scene and calls `onSample` with the particles at multiples of `frame_s` for which `sampledAt` returns true.
+Expected<RunFigures> runSampled(const Bench& bench, const Scene& scene, double duration_s, double frame_s,
+                                const std::function<bool(double time_s)>& sampledAt,
+                                const std::function<void(const Cloud&, double time_s)>& onSample);
 
 /// Points as [[x, y], ...].
 Json curveJson(const std::vector<std::pair<double, double>>& curve);

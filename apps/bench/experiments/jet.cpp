@@ -1,4 +1,4 @@
-// Torricelli: a tank runs out through a slit at its foot.
+// Torricelli: a tank drains through a slit at its bottom.
 #include <cmath>
 
 #include "bench/experiments/curves.hpp"
@@ -8,13 +8,13 @@ namespace rill::bench {
 namespace {
 
 constexpr double kTank = 2, kDepth = 1, kSlit = 0.2, kWall = 0.2;  // m
-constexpr double kFrom = 0.6, kTo = 1.2;                           // s: the flow has started, the head is still high
+constexpr double kFrom = 0.6, kTo = 1.2;                           // s: after startup, before the head falls much
 constexpr double kSpacing[kLevels] = {0.05, 1.0 / 30, 0.025};
-constexpr int kThick = 4;
+constexpr int kJetThickness = 4;
 
 Expected<Outcome> jet(const Bench& bench, unsigned level) {
-  const double spacing = kSpacing[level], thick = kThick * spacing;
-  Scene scene = boxScene(spacing, {0, 0, 0}, {12, 2, thick});  // so long that nothing comes back
+  const double spacing = kSpacing[level], thick = kJetThickness * spacing;
+  Scene scene = boxScene(spacing, {0, 0, 0}, {12, 2, thick});  // long enough that no fluid returns
   scene.fill.push_back(boxFill({0, 0, 0}, {kTank, kDepth, thick}));
   Solid wall;
   wall.box.emplace();
@@ -25,10 +25,10 @@ Expected<Outcome> jet(const Bench& bench, unsigned level) {
   }
   scene.solids.push_back(wall);
   Curve ratio, head, speeds, ideals, left;
-  auto run = watch(
+  auto run = runSampled(
       bench, scene, kTo, 1.0 / 60, [](double) { return true; },
       [&](const Cloud& cloud, double time) {
-        // The jet behind the wall, where it has contracted: from half a slit to two slits on.
+        // Samples the jet at the vena contracta, 0.5 to 2 slit heights behind the wall.
         double speed = 0, height = 0, count = 0, inside = 0;
         for (size_t i = 0; i < cloud.size(); ++i) {
           const double x = cloud.position[i][0];
@@ -40,8 +40,7 @@ Expected<Outcome> jet(const Bench& bench, unsigned level) {
         }
         left.emplace_back(time, inside / double(cloud.size()));
         if (count == 0) return;
-        // As under a sluice gate: the jet's surface is a streamline without pressure, so head counts down to it. It lies at twice the
-        // height of the jet's mean.
+        // As under a sluice gate, the head is measured down to the jet's free surface, at twice the mean height of the jet.
         const double level_m = surfaceLevel(cloud, 0, 0, kTank / 2), ideal = std::sqrt(2 * 9.81 * (level_m - 2 * height / count));
         head.emplace_back(time, level_m);
         speeds.emplace_back(time, speed / count);
@@ -60,7 +59,7 @@ Expected<Outcome> jet(const Bench& bench, unsigned level) {
       ++count;
     }
   outcome.figures.push_back(relativeFigure("speed over Torricelli's", sum / count, 1));
-  // What left the tank, over what a slit without contraction would have let out: 0.611 of a sharp edge in plane flow.
+  // Outflow divided by that without contraction; 0.611 for a sharp edge in plane flow.
   const double volume = (at(left, kFrom) - at(left, kTo)) * kTank * kDepth;
   outcome.figures.push_back(relativeFigure("contraction", volume / (kSlit * (kTo - kFrom) * ideal / count), 0.611));
   outcome.curves["speed_m_s"] = curveJson(speeds);

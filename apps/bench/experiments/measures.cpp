@@ -10,13 +10,13 @@ namespace rill::bench {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kVoid = 1.25;  // spacings; the farthest that a point inside a cubic lattice can be from it is 0.87
+constexpr double kVoidRadius = 1.25;  // spacings; points inside a cubic lattice are at most 0.87 from it
 
-/// Wendland C2 without its constant: densities are calibrated on the rest lattice.
+/// Wendland C2 without its constant factor: densities are calibrated on the rest lattice.
 double wendland(double q) {
   if (q >= 1) return 0;
-  const double left = 1 - q;
-  return left * left * left * left * (1 + 4 * q);
+  const double u = 1 - q;
+  return u * u * u * u * (1 + 4 * q);
 }
 
 double latticeSum(double support_in_spacings) {
@@ -64,7 +64,7 @@ NeighborGrid::Cell NeighborGrid::cellOf(const Point& point) const {
   return cell;
 }
 
-// 21 bits an axis. Cells that share a key are told apart by the distance test.
+// 21 bits per axis. The distance test separates cells that share a key.
 uint64_t NeighborGrid::keyOf(const Cell& cell) {
   uint64_t key = 0;
   for (const int64_t index : cell) key = key << 21 | (static_cast<uint64_t>(index) & 0x1FFFFF);
@@ -104,10 +104,10 @@ Walls wallsOf(const Scene& scene) {
   return walls;
 }
 
-std::vector<size_t> deepBulk(const Cloud& cloud, const Walls& walls, double reach_m) {
-  const double gap = kVoid * cloud.spacing;
+std::vector<size_t> interiorParticles(const Cloud& cloud, const Walls& walls, double reach_m) {
+  const double gap = kVoidRadius * cloud.spacing;
   const NeighborGrid grid(cloud.position, gap);
-  const auto offWalls = [&](const Point& point) {
+  const auto awayFromWalls = [&](const Point& point) {
     for (size_t axis = 0; axis < 3; ++axis) {
       if (walls.closed >> (2 * axis) & 1 && point[axis] - walls.min[axis] < reach_m) return false;
       if (walls.closed >> (2 * axis + 1) & 1 && walls.max[axis] - point[axis] < reach_m) return false;
@@ -125,17 +125,17 @@ std::vector<size_t> deepBulk(const Cloud& cloud, const Walls& walls, double reac
         }
     return true;
   };
-  std::vector<size_t> deep;
+  std::vector<size_t> interior;
   for (size_t i = 0; i < cloud.size(); ++i)
-    if (offWalls(cloud.position[i]) && surrounded(cloud.position[i])) deep.push_back(i);
-  return deep;
+    if (awayFromWalls(cloud.position[i]) && surrounded(cloud.position[i])) interior.push_back(i);
+  return interior;
 }
 
-std::vector<double> wideDensity(const Cloud& cloud, std::span<const size_t> of, double support_m) {
+std::vector<double> wideDensity(const Cloud& cloud, std::span<const size_t> indices, double support_m) {
   const double rest = latticeSum(support_m / cloud.spacing);
   const NeighborGrid grid(cloud.position, support_m);
   std::vector<double> density;
-  for (const size_t i : of) {
+  for (const size_t i : indices) {
     double sum = 0;
     grid.within(cloud.position[i], support_m, [&](size_t, double squared) { sum += wendland(std::sqrt(squared) / support_m); });
     density.push_back(sum / rest);
@@ -145,36 +145,36 @@ std::vector<double> wideDensity(const Cloud& cloud, std::span<const size_t> of, 
 
 BulkDensity bulkDensity(const Cloud& cloud, const Walls& walls, double solver_support_m) {
   const double support = 2 * solver_support_m;
-  const std::vector<size_t> deep = deepBulk(cloud, walls, support);
-  const std::vector<double> density = wideDensity(cloud, deep, support);
+  const std::vector<size_t> interior = interiorParticles(cloud, walls, support);
+  const std::vector<double> density = wideDensity(cloud, interior, support);
   BulkDensity bulk;
-  bulk.particles = deep.size();
+  bulk.particles = interior.size();
   double sum = 0, squares = 0;
   std::map<long, std::pair<double, size_t>> bins;
-  for (size_t k = 0; k < deep.size(); ++k) {
+  for (size_t k = 0; k < interior.size(); ++k) {
     const double error = density[k] - 1;
     sum += error;
     squares += error * error;
-    auto& [total, count] = bins[std::lround(std::floor(cloud.position[deep[k]][1] / (2 * cloud.spacing)))];
+    auto& [total, count] = bins[std::lround(std::floor(cloud.position[interior[k]][1] / (2 * cloud.spacing)))];
     total += error;
     ++count;
   }
-  const double count = double(deep.size());
-  bulk.error = deep.empty() ? kNaN : sum / count;
-  bulk.spread = deep.empty() ? kNaN : std::sqrt(std::max(0.0, squares / count - bulk.error * bulk.error));
+  const double count = double(interior.size());
+  bulk.error = interior.empty() ? kNaN : sum / count;
+  bulk.spread = interior.empty() ? kNaN : std::sqrt(std::max(0.0, squares / count - bulk.error * bulk.error));
   for (const auto& [bin, content] : bins)
     bulk.profile.emplace_back((double(bin) + 0.5) * 2 * cloud.spacing, content.first / double(content.second));
   return bulk;
 }
 
-double clumpedShare(const Cloud& cloud) {
+double clumpedFraction(const Cloud& cloud) {
   const double near = 0.5 * cloud.spacing;
   const NeighborGrid grid(cloud.position, cloud.spacing);
   size_t clumped = 0;
   for (const Point& point : cloud.position) {
     size_t others = 0;
     grid.within(point, near, [&](size_t, double) { ++others; });
-    if (others > 1) ++clumped;  // itself is one of them
+    if (others > 1) ++clumped;  // includes the particle itself
   }
   return double(clumped) / double(cloud.size());
 }
@@ -213,7 +213,7 @@ double frontAlongX(const Cloud& cloud) {
 
 double heightAtWall(const Cloud& cloud, double wall_m, double floor_m) {
   const double step = 1.5 * cloud.spacing;
-  std::map<long, std::vector<double>> strips;  // heights of the particles in each
+  std::map<long, std::vector<double>> strips;  // heights of the particles per strip
   for (const Point& point : cloud.position)
     if (point[0] - wall_m < step) strips[std::lround(std::floor(point[2] / (2 * cloud.spacing)))].push_back(point[1] - floor_m);
   double sum = 0;
@@ -242,7 +242,7 @@ double rmsSpeed(const Cloud& cloud) {
 Point meanPosition(const Cloud& cloud) { return mean(cloud.position); }
 Point meanVelocity(const Cloud& cloud) { return mean(cloud.velocity); }
 
-Point meanSpin(const Cloud& cloud) {
+Point meanAngularMomentum(const Cloud& cloud) {
   const Point center = meanPosition(cloud);
   Point sum{};
   for (size_t i = 0; i < cloud.size(); ++i) {

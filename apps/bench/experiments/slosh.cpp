@@ -1,4 +1,4 @@
-// The first standing wave of a tank: period against linear theory, damping against none.
+// First standing wave of a tank: period against linear theory, damping against zero.
 #include <cmath>
 #include <numbers>
 
@@ -10,22 +10,22 @@
 namespace rill::bench {
 namespace {
 
-constexpr double kLength = 1;                  // m
-constexpr double kDepths[] = {0.25, 0.5, 1};   // m, those of sloshing_first_mode.csv
-constexpr int kAlong[kLevels] = {20, 28, 40};  // spacings; multiples of 4, so that each depth holds whole ones
-constexpr int kTankThick = 4;                  // spacings in z, between frictionless walls
-constexpr double kPeriods = 5.3;               // long enough for ten crossings
-constexpr double kWide = 2.3;                  // smoothing ratio of a second run, at the middle depth
+constexpr double kLength = 1;                           // m
+constexpr double kDepths[] = {0.25, 0.5, 1};            // m, as in sloshing_first_mode.csv
+constexpr int kTankResolution[kLevels] = {20, 28, 40};  // spacings; multiples of 4, so that each depth is a multiple of the spacing
+constexpr int kTankThickness = 4;                       // spacings in z, between frictionless walls
+constexpr double kPeriods = 5.3;                        // long enough for ten crossings
+constexpr double kWide = 2.3;                           // smoothing ratio of additional runs at the medium depth
 
-/// A rest lattice displaced as the linear wave displaces water: free of divergence, so that density stays, and a cosine at the surface.
+/// A rest lattice displaced by the linear wave: divergence-free, with a cosine surface.
 Cloud wave(double depth, double spacing) {
-  // A fraction of the depth, since theory is for small ones, and below pi A / L = 0.13, where the next order changes the period by 0.2 %.
+  // Small enough for linear theory: below pi A / L = 0.13 the next order changes the period by less than 0.2 %.
   const double amplitude = std::min(0.04, 0.08 * depth), k = std::numbers::pi / kLength;
   Cloud cloud;
   cloud.spacing = spacing;
   for (int i = 0; (i + 0.5) * spacing < kLength; ++i)
     for (int j = 0; (j + 0.5) * spacing < depth; ++j)
-      for (int l = 0; l < kTankThick; ++l) {
+      for (int l = 0; l < kTankThickness; ++l) {
         const double x = (i + 0.5) * spacing, y = (j + 0.5) * spacing, z = (l + 0.5) * spacing, scale = amplitude / std::sinh(k * depth);
         cloud.position.push_back({x - scale * std::sin(k * x) * std::cosh(k * y), y + scale * std::cos(k * x) * std::sinh(k * y), z});
         cloud.velocity.push_back({0, 0, 0});
@@ -34,14 +34,14 @@ Cloud wave(double depth, double spacing) {
 }
 
 Expected<Outcome> slosh(const Bench& bench, double depth, unsigned level, double smoothingRatio) {
-  const double spacing = kLength / kAlong[level];
+  const double spacing = kLength / kTankResolution[level];
   const auto start = StartFile::write(wave(depth, spacing));
   if (!start) return start.error();
-  Scene scene = boxScene(spacing, {0, 0, 0}, {kLength, 2 * depth, kTankThick * spacing});
+  Scene scene = boxScene(spacing, {0, 0, 0}, {kLength, 2 * depth, kTankThickness * spacing});
   scene.fluid.smoothing_ratio = smoothingRatio;
   scene.fill.push_back(start->fill());
   const double expected = sloshPeriod(kLength, depth, -scene.gravity[1]);
-  auto run = watch(
+  auto run = runSampled(
       bench, scene, kPeriods * expected, 1.0 / 60, [](double) { return false; }, [](const Cloud&, double) {});
   if (!run) return run.error();
   Outcome outcome;
@@ -68,7 +68,7 @@ std::vector<Experiment> sloshExperiments() {
   std::vector<Experiment> all;
   const auto add = [&](const std::string& name, double depth, double smoothingRatio) {
     for (unsigned level = 0; level < kLevels; ++level)
-      all.push_back({name + number(depth), level, level == 0 && depth == kDepths[1], kLength / kAlong[level],
+      all.push_back({name + number(depth), level, level == 0 && depth == kDepths[1], kLength / kTankResolution[level],
                      [=](const Bench& bench) { return slosh(bench, depth, level, smoothingRatio); }});
   };
   for (const double depth : kDepths) add("slosh-", depth, Scene().fluid.smoothing_ratio);

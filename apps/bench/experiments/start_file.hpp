@@ -7,11 +7,10 @@
 
 namespace rill::bench {
 
-/// A start that no fill can say (a velocity field, a displaced lattice): a PLY file in the system's temporary folder, gone with this
-/// object.
+/// Initial particles that fills cannot describe (velocity fields, displaced lattices): a temporary PLY file, deleted by the destructor.
 class StartFile {
  public:
-  /// Io, naming the file.
+  /// Io with the name of the file.
   static Expected<StartFile> write(const Cloud& cloud);
   Fill fill() const;
 

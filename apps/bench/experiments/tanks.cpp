@@ -1,5 +1,5 @@
-// Errors that the solver's own kernel cannot see: level, bulk density in a wider kernel, clumping, unrest. In a tank at rest, and in a dam
-// break.
+// Errors that the solver's kernel does not measure, in a still tank and a dam break: level, bulk density in a wider kernel, clumping,
+// residual motion.
 #include <cmath>
 #include <numeric>
 
@@ -9,7 +9,7 @@
 namespace rill::bench {
 namespace {
 
-constexpr double kSide = 0.8, kStillDepth = 1;  // m, of the still tank: wide enough that twice the support fits in from both sides
+constexpr double kSide = 0.8, kStillDepth = 1;  // m, still tank: leaves an interior farther than twice the support from all walls
 constexpr double kStillSpacing[kLevels] = {1.0 / 15, 0.05, 1.0 / 30};
 constexpr double kDamSpacing[kLevels] = {0.05, 1.0 / 30, 0.025};
 constexpr double kFrame = 1.0 / 60;
@@ -24,9 +24,8 @@ void addBulk(Outcome& outcome, const BulkDensity& bulk, double clumped) {
   outcome.curves["bulk_density_profile"] = curveJson(bulk.profile);
 }
 
-/// Depth from momentum: what holds up all fluid above a plane is what it weighs, plus what speeds it up. The solver hands out no pressure;
-/// this is the force that it does exert, between two instants, on the particles that were above the plane at the first.
-struct Support {
+/// Pressure from momentum: the force on the particles above a plane is their weight plus the rate of change of their momentum.
+struct MomentumBalance {
   Cloud first;
   double begin = 0;
   double pressure(const Cloud& last, double end, double height, const Scene& scene, double area) const {
@@ -46,36 +45,37 @@ Expected<Outcome> stillTank(const Bench& bench, unsigned level) {
   Scene scene = boxScene(spacing, {0, 0, 0}, {kSide, 2 * kStillDepth, kSide});
   scene.fill.push_back(boxFill({0, 0, 0}, {kSide, kStillDepth, kSide}));
   Outcome outcome;
-  Support support;
-  auto run = watch(
+  MomentumBalance balance;
+  auto run = runSampled(
       bench, scene, 6, kFrame, [](double time) { return near(time, 4) || near(time, 6); },
       [&](const Cloud& cloud, double time) {
-        if (near(time, 4)) support = {cloud, time};
+        if (near(time, 4)) balance = {cloud, time};
         if (!near(time, 6)) return;
         const double area = kSide * kSide, rest = double(cloud.size()) * std::pow(spacing, 3) / area;
         const double surface = surfaceLevel(cloud, 0, 0, kSide);
         outcome.figures.push_back(relativeFigure("level", surface, rest));
         outcome.figures.push_back(relativeFigure("twice the center of mass", 2 * meanPosition(cloud)[1], rest));
         double worst = 0;
-        for (const double share : {0.0, 0.25, 0.5, 0.75}) {
-          const double held = support.pressure(cloud, time, share * rest, scene, area),
-                       hydrostatic = -scene.gravity[1] * scene.fluid.density * (rest - share * rest);
-          const double error = (held - hydrostatic) / (-scene.gravity[1] * scene.fluid.density * rest);
-          outcome.curves["pressure"].push_back({{"height_m", share * rest}, {"held_Pa", held}, {"hydrostatic_Pa", hydrostatic}});
+        for (const double fraction : {0.0, 0.25, 0.5, 0.75}) {
+          const double supported = balance.pressure(cloud, time, fraction * rest, scene, area),
+                       hydrostatic = -scene.gravity[1] * scene.fluid.density * (rest - fraction * rest);
+          const double error = (supported - hydrostatic) / (-scene.gravity[1] * scene.fluid.density * rest);
+          outcome.curves["pressure"].push_back({{"height_m", fraction * rest}, {"held_Pa", supported}, {"hydrostatic_Pa", hydrostatic}});
           if (std::abs(error) > std::abs(worst)) worst = error;
         }
         outcome.figures.push_back(plainFigure("pressure", worst));
-        addBulk(outcome, bulkDensity(cloud, wallsOf(scene), scene.fluid.smoothing_ratio * spacing), clumpedShare(cloud));
+        addBulk(outcome, bulkDensity(cloud, wallsOf(scene), scene.fluid.smoothing_ratio * spacing), clumpedFraction(cloud));
       });
   if (!run) return run.error();
   outcome.run = std::move(*run);
   if (bench.stopped()) return outcome;
   const auto& instants = outcome.run.instants;
   const double mass = double(outcome.run.particles) * scene.fluid.density * std::pow(spacing, 3), weight = mass * -scene.gravity[1];
-  Curve unrest;
-  for (const apps::Instant& instant : instants) unrest.emplace_back(instant.time_s, std::sqrt(2 * instant.stats.kinetic_J / mass));
-  for (const double time : {0.5, 2.0, 6.0}) outcome.figures.push_back(plainFigure("rms speed, " + number(time) + " s", at(unrest, time)));
-  // What the floor bears from frame to frame, about its mean over the last two seconds.
+  Curve rmsSpeeds;
+  for (const apps::Instant& instant : instants) rmsSpeeds.emplace_back(instant.time_s, std::sqrt(2 * instant.stats.kinetic_J / mass));
+  for (const double time : {0.5, 2.0, 6.0})
+    outcome.figures.push_back(plainFigure("rms speed, " + number(time) + " s", at(rmsSpeeds, time)));
+  // Fluctuation of the load on the floor about its mean over the last two seconds.
   double sum = 0, squares = 0, count = 0;
   for (size_t k = 1; k < instants.size(); ++k)
     if (instants[k].time_s > 4) {
@@ -84,11 +84,11 @@ Expected<Outcome> stillTank(const Bench& bench, unsigned level) {
       squares += force * force;
       ++count;
     }
-  outcome.figures.push_back(plainFigure("floor's load, rms", std::sqrt(std::max(0.0, squares / count - sum * sum / (count * count)))));
+  outcome.figures.push_back(plainFigure("floor load, rms", std::sqrt(std::max(0.0, squares / count - sum * sum / (count * count)))));
   outcome.figures.push_back(plainFigure("energy, end", outcome.run.energy.end_ratio - 1));
   outcome.figures.push_back(plainFigure("energy, peak", outcome.run.energy.ratio - 1));
-  outcome.curves["rms_speed"] = curveJson(unrest);
-  outcome.overlays.push_back({"unrest", {"d = " + number(spacing) + " m", Series::Style::Lines, unrest, {}}});
+  outcome.curves["rms_speed"] = curveJson(rmsSpeeds);
+  outcome.overlays.push_back({"residual-motion", {"d = " + number(spacing) + " m", Series::Style::Lines, rmsSpeeds, {}}});
   return outcome;
 }
 
@@ -99,10 +99,10 @@ Expected<Outcome> damBreak(const Bench& bench, unsigned level) {
   Outcome outcome;
   double clumped = 0;
   Curve density;
-  auto run = watch(
+  auto run = runSampled(
       bench, scene, 2, kFrame, [](double time) { return near(std::fmod(time + kFrame / 4, 0.25), 0); },
       [&](const Cloud& cloud, double time) {
-        clumped = std::max(clumped, clumpedShare(cloud));
+        clumped = std::max(clumped, clumpedFraction(cloud));
         const BulkDensity bulk = bulkDensity(cloud, wallsOf(scene), scene.fluid.smoothing_ratio * spacing);
         density.emplace_back(time, bulk.error);
         if (near(time, 2)) addBulk(outcome, bulk, clumped);

@@ -1,5 +1,9 @@
+<<<<<<< HEAD
 // Naive search: every particle against those of [first, last), added to what the ranges before
 // gave. A range keeps the loop short: a driver may bound it.
+=======
+// Brute-force search: every particle against [first, last), accumulated over ranges. Ranges keep loops short enough for driver limits.
+>>>>>>> lang-bench
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "cloud.h"
@@ -13,9 +17,9 @@ layout(binding = 1, std430) buffer Results { vec2 result[]; };
 void main() {
   const uint i = flatInvocation();
   if (i >= push.count) return;
-  Found found = Found(0.0, 0u);
-  if (push.first > 0u) found = Found(result[i].x, uint(result[i].y));
+  PairSum sum = PairSum(0.0, 0u);
+  if (push.first > 0u) sum = PairSum(result[i].x, uint(result[i].y));
   const vec3 here = position[i].xyz;
-  for (uint j = push.first; j < push.last; ++j) meet(found, here, position[j].xyz, push.radius);
-  result[i] = vec2(found.density, found.neighbors);
+  for (uint j = push.first; j < push.last; ++j) addPair(sum, here, position[j].xyz, push.radius);
+  result[i] = vec2(sum.density, sum.neighbors);
 }

@@ -1,6 +1,10 @@
 #version 460
+<<<<<<< HEAD
 // A bilateral filter of depth (Tomasi and Manduchi 1998): a Gaussian over samples, times one over
 // how far apart their depths are. In one dimension, or in both at once.
+=======
+// A bilateral filter of depth (Tomasi and Manduchi 1998): a spatial Gaussian times a Gaussian over depth differences, in 1D or 2D.
+>>>>>>> lang-bench
 #extension GL_GOOGLE_include_directive : require
 #define RILL_PUSH_MORE float range;  // spacings: standard deviation of the Gaussian over depth
 #include "render/surface.glsl"
@@ -9,8 +13,8 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, set = 0, binding = 0) readonly buffer Before { float before[]; };
 layout(std430, set = 0, binding = 1) writeonly buffer After { float after[]; };
-layout(constant_id = 0) const int kColumns = 1;  // 1: over columns of samples, 0: not
-layout(constant_id = 1) const int kRows = 1;
+layout(constant_id = 0) const int kColumns = 1;  // 1: filters along x
+layout(constant_id = 1) const int kRows = 1;     // 1: filters along y
 
 const float kReach = 2.3;  // standard deviations
 const int kMaxReach = 64;  // samples

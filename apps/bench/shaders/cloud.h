@@ -1,4 +1,4 @@
-// What the baselines' shaders and their caller share: a cloud of particles in a box of cells that are as wide as the search radius.
+// Shared by the baselines' shaders and the host: particles in a box of cells as wide as the search radius.
 #ifndef RILL_BENCH_CLOUD_H
 #define RILL_BENCH_CLOUD_H
 #include "shared/interop.h"
@@ -9,7 +9,7 @@ struct CloudPush {
   float radius;  // m
   uint cellsX, cellsY, cellsZ;
   uint count;
-  uint first, last;  // the particles that all_pairs goes through
+  uint first, last;  // range of candidates, all_pairs only
 };
 RILL_RECORDS_END
 #endif

@@ -1,5 +1,9 @@
+<<<<<<< HEAD
 // Search by the grid: the nine rows of three cells around a particle. STRUCT: all that belongs to a
 // particle lies together, in place of an array of positions.
+=======
+// Grid search: nine rows of three cells around a particle. STRUCT: array of structures instead of separate arrays.
+>>>>>>> lang-bench
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "cloud.h"
@@ -26,7 +30,7 @@ layout(binding = 2, std430) writeonly buffer Results { vec2 result[]; };
 void main() {
   const uint i = flatInvocation();
   if (i >= push.count) return;
-  Found found = Found(0.0, 0u);
+  PairSum sum = PairSum(0.0, 0u);
   const vec3 here = POSITION(i);
   const ivec3 home = cellOf(here);
   for (int row = 0; row < 9; ++row) {
@@ -34,7 +38,7 @@ void main() {
     if (any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, cells()))) continue;
     const uint begin = start[cellKey(ivec3(max(cell.x - 1, 0), cell.yz))];
     const uint end = start[cellKey(ivec3(min(cell.x + 1, cells().x - 1), cell.yz)) + 1u];
-    for (uint j = begin; j < end; ++j) meet(found, here, POSITION(j), push.radius);
+    for (uint j = begin; j < end; ++j) addPair(sum, here, POSITION(j), push.radius);
   }
-  result[i] = vec2(found.density, found.neighbors);
+  result[i] = vec2(sum.density, sum.neighbors);
 }

@@ -1,4 +1,4 @@
-// Each key of fluid and solver alone at its smallest and largest value, from the table that the parser uses; then all of them at random.
+// Each key of fluid and solver at its minimum and maximum, from the parser's field table; then random combinations.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -15,7 +15,7 @@ Scene smallDam() {
   return scene;
 }
 
-/// What stands for "as small" or "as large as you like".
+/// Replacements for open and missing limits.
 constexpr double kSmall = 1e-6, kLarge = 1e6;
 
 double lowest(const model::Range& r) {
@@ -27,7 +27,7 @@ double highest(const model::Range& r) {
   return r.high_open ? high - kSmall : high;
 }
 
-/// `value` for the key, as a scene file would give it.
+/// Sets a field as a scene file would.
 template <class Owner, class Value>
 void set(Owner& owner, const model::Field<Owner, Value>& field, double value) {
   if constexpr (std::is_same_v<Value, std::optional<double>> || std::is_same_v<Value, double>)
@@ -38,24 +38,24 @@ void set(Owner& owner, const model::Field<Owner, Value>& field, double value) {
     owner.*field.member = static_cast<Value>(std::llround(value));
 }
 
-/// The lengths and counts of the scene are not what is tried here.
-bool tried(std::string_view key) { return key != "spacing" && key != "particles"; }
+/// Excludes keys that define the resolution of the scene.
+bool isTested(std::string_view key) { return key != "spacing" && key != "particles"; }
 
 template <class Owner>
 void addExtremes(std::vector<StressCase>& cases, const std::string& owner, Owner Scene::*part) {
   model::forEachField<Owner>([&](const auto& field) {
-    if (!tried(field.info.key)) return;
+    if (!isTested(field.info.key)) return;
     const bool words = !field.info.words.empty();
     const double ends[] = {words ? 0 : lowest(field.info.range), words ? double(field.info.words.size() - 1) : highest(field.info.range)};
     for (const double value : ends) {
       Scene scene = smallDam();
-      if (field.info.key.starts_with("tensile_")) scene.fluid.tensile = 1;  // which they shape
+      if (field.info.key.starts_with("tensile_")) scene.fluid.tensile = 1;  // enables artificial pressure, which these keys shape
       set(scene.*part, field, value);
       const std::string shown = words ? std::string(field.info.words[static_cast<size_t>(value)]) : number(value, 7);
       StressCase c{.name = owner + "." + std::string(field.info.key) + "=" + shown, .scene = scene};
       c.duration_s = scene.solver.iterations > 100 ? 0.05 : 0.25;
-      c.maxSpeed = usualSpeed(scene);
-      c.mayRefuse = true;
+      c.maxSpeed = speedBound(scene);
+      c.mayBeRejected = true;
       cases.push_back(std::move(c));
     }
   });
@@ -75,17 +75,17 @@ std::vector<StressCase> randomCases(uint64_t first, uint64_t count) {
   for (uint64_t seed = first; seed < first + count; ++seed) {
     std::mt19937_64 random(seed);
     const auto uniform = [&](double low, double high) { return low + (high - low) * double(random() >> 11) * 0x1p-53; };
-    const auto sometimes = [&](double share) { return uniform(0, 1) < share; };
+    const auto chance = [&](double probability) { return uniform(0, 1) < probability; };
     const double d = std::pow(10.0, uniform(-3, 1));
     const double room[3] = {d * uniform(6, 24), d * uniform(6, 24), d * uniform(4, 16)};
     Scene scene = tankScene(
         d, {d * std::floor(uniform(2, room[0] / d)), d * std::floor(uniform(2, room[1] / d)), d * std::floor(uniform(2, room[2] / d))},
         {room[0], room[1], room[2]});
-    // Gravity and times that go with the size, off the usual by up to ten.
-    for (double& g : scene.gravity) g = sometimes(0.7) ? uniform(-10, 10) : 0;
-    const auto any = [&](auto& owner, double share) {
+    // Durations and velocities scale with the size; gravity does not.
+    for (double& g : scene.gravity) g = chance(0.7) ? uniform(-10, 10) : 0;
+    const auto randomize = [&](auto& owner, double probability) {
       model::forEachField<std::remove_reference_t<decltype(owner)>>([&](const auto& field) {
-        if (!tried(field.info.key) || !sometimes(share)) return;
+        if (!isTested(field.info.key) || !chance(probability)) return;
         const bool words = !field.info.words.empty();
         const double low = words ? 0 : lowest(field.info.range),
                      high = words ? double(field.info.words.size() - 1) : highest(field.info.range);
@@ -93,33 +93,33 @@ std::vector<StressCase> randomCases(uint64_t first, uint64_t count) {
         set(owner, field, std::clamp(value, low, high));
       });
     };
-    any(scene.fluid, 0.25);
-    any(scene.solver, 0.25);
-    scene.solver.iterations = std::min(scene.solver.iterations, 8u);  // more takes long and nothing else
-    const int solids = sometimes(0.5) ? 1 + static_cast<int>(uniform(0, 3)) : 0;
+    randomize(scene.fluid, 0.25);
+    randomize(scene.solver, 0.25);
+    scene.solver.iterations = std::min(scene.solver.iterations, 8u);  // more iterations only take longer
+    const int solids = chance(0.5) ? 1 + static_cast<int>(uniform(0, 3)) : 0;
     for (int k = 0; k < solids; ++k) {
       Solid solid;
       const double at[3] = {uniform(0, room[0]), uniform(0, room[1]), uniform(0, room[2])}, size = d * uniform(0.5, 4);
-      if (sometimes(0.5))
+      if (chance(0.5))
         solid.sphere = SphereShape{{at[0], at[1], at[2]}, size};
       else
         solid.box = BoxShape{{at[0] - size, at[1] - size, at[2] - size}, {at[0] + size, at[1] + size, at[2] + size}};
       solid.friction = uniform(0, 1);
       solid.restitution = uniform(0, 1);
-      if (sometimes(0.3)) solid.motion = {{0, {0, 0, 0}}, {0.2, {uniform(-4, 4) * d, uniform(-4, 4) * d, uniform(-4, 4) * d}}};
+      if (chance(0.3)) solid.motion = {{0, {0, 0, 0}}, {0.2, {uniform(-4, 4) * d, uniform(-4, 4) * d, uniform(-4, 4) * d}}};
       scene.solids.push_back(solid);
     }
     for (double& v : scene.fill[0].velocity) v = uniform(-2, 2) * std::sqrt(10 * d);
-    scene.fill[0].jitter = sometimes(0.3) ? uniform(0, 0.5) : 0;
+    scene.fill[0].jitter = chance(0.3) ? uniform(0, 0.5) : 0;
 
     StressCase c{.name = "random-" + std::to_string(seed), .scene = scene};
     c.duration_s = 12 * std::sqrt(d / 10);
     c.frame_s = c.duration_s / 12;
-    c.worked = std::ranges::any_of(scene.solids, [](const Solid& s) { return !s.motion.empty(); });
-    // Overlaps at the start (jitter, a solid on the fluid) part, and lift it.
+    c.externalWork = std::ranges::any_of(scene.solids, [](const Solid& s) { return !s.motion.empty(); });
+    // Initial overlaps (jitter, a solid inside the fluid) separate, which adds potential energy.
     c.maxEnergy = scene.fill[0].jitter > 0 || solids > 0 ? 1.2 : 1.02;
-    c.maxSpeed = usualSpeed(scene, 4 * std::sqrt(10 * d) + (c.worked ? 40 * d : 0));
-    c.mayRefuse = true;
+    c.maxSpeed = speedBound(scene, 4 * std::sqrt(10 * d) + (c.externalWork ? 40 * d : 0));
+    c.mayBeRejected = true;
     cases.push_back(std::move(c));
   }
   return cases;

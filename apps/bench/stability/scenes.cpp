@@ -11,22 +11,22 @@ Scene tankScene(double spacing, const Point& fluid, const Point& tank) {
   return scene;
 }
 
-ParticleSet placed(std::vector<Float3> positions, const Float3& velocity) {
+ParticleSet particlesAt(std::vector<Float3> positions, const Float3& velocity) {
   ParticleSet set;
   set.velocities.assign(positions.size(), velocity);
   set.positions = std::move(positions);
   return set;
 }
 
-double usualSpeed(const Scene& scene, double start) {
+double speedBound(const Scene& scene, double start) {
   double head = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    double most = std::abs(scene.gravity[axis]);
-    for (const GravityChange& change : scene.gravity_changes) most = std::max(most, std::abs(change.value[axis]));
+    double maxGravity = std::abs(scene.gravity[axis]);
+    for (const GravityChange& change : scene.gravity_changes) maxGravity = std::max(maxGravity, std::abs(change.value[axis]));
     const double room = scene.domain ? scene.domain->max[axis] - scene.domain->min[axis] : 1;
-    head += most * room;
+    head += maxGravity * room;
   }
-  // Jets at walls reach two to three times the speed of what falls.
+  // Jets at walls reach two to three times the speed of the falling fluid.
   return 4 * std::sqrt(2 * head + start * start + 1e-12);
 }
 

@@ -1,4 +1,4 @@
-// Starts that no sane scene has: coincident, crushed, outside, not numbers.
+// Degenerate initial states: coincident, compressed, outside the domain, non-finite.
 #include <cmath>
 #include <limits>
 
@@ -9,9 +9,9 @@ namespace {
 
 constexpr double kSpacing = 0.05;
 constexpr Point kRoom = {1, 1, 1};
-constexpr Point kNothing = {0, 0, 0};
+constexpr Point kNoFluid = {0, 0, 0};
 
-Scene room() { return tankScene(kSpacing, kNothing, kRoom); }
+Scene room() { return tankScene(kSpacing, kNoFluid, kRoom); }
 Scene weightless(Scene scene) {
   for (double& g : scene.gravity) g = 0;
   return scene;
@@ -27,11 +27,11 @@ std::vector<Float3> lattice(int x, int y, int z, double spacing, Float3 first) {
   return points;
 }
 
-double apart(const Float3& a, const Float3& b) { return std::hypot(double(a.x) - b.x, double(a.y) - b.y, double(a.z) - b.z); }
+double distanceBetween(const Float3& a, const Float3& b) { return std::hypot(double(a.x) - b.x, double(a.y) - b.y, double(a.z) - b.z); }
 
 StressCase make(std::string name, std::string asserts, Scene scene, std::optional<ParticleSet> start, double speed = 0) {
   StressCase c{.name = std::move(name), .asserts = std::move(asserts), .scene = std::move(scene), .start = std::move(start)};
-  c.maxSpeed = usualSpeed(c.scene, speed);
+  c.maxSpeed = speedBound(c.scene, speed);
   return c;
 }
 
@@ -42,41 +42,44 @@ std::vector<StressCase> startCases() {
   {
     Scene open = weightless(room());
     open.domain.reset();
-    StressCase c = make("coincident-pair", "they part, with no momentum", open, placed({{0, 0, 0}, {0, 0, 0}}));
+    StressCase c = make("coincident-pair", "the particles separate with zero total momentum", open, particlesAt({{0, 0, 0}, {0, 0, 0}}));
     c.maxSpeed = 1;
     c.maxEnergy = std::numeric_limits<double>::infinity();
-    c.own = [](const StressOutcome& o) {
-      const double distance = apart(o.particles.positions[0], o.particles.positions[1]);
-      if (distance < 0.01 * kSpacing) return "they are " + number(distance / kSpacing) + " d apart";
+    c.check = [](const StressOutcome& o) {
+      const double distance = distanceBetween(o.particles.positions[0], o.particles.positions[1]);
+      if (distance < 0.01 * kSpacing) return "distance: found " + number(distance / kSpacing) + " d, expected at least 0.01 d";
       const auto& p = o.run.instants.back().stats.momentum;
       const double momentum = std::hypot(p[0], p[1], p[2]), scale = 1000 * std::pow(kSpacing, 3);
-      return momentum > 1e-5 * scale ? "momentum " + number(momentum) + " kg m/s" : std::string();
+      return momentum > 1e-5 * scale ? "momentum: found " + number(momentum) + " kg m/s, expected zero" : std::string();
     };
     cases.push_back(std::move(c));
   }
   {
-    StressCase c = make("thousand-coincident", "they spread", weightless(room()), placed(std::vector<Float3>(1000, {0.5f, 0.5f, 0.5f})));
+    StressCase c =
+        make("thousand-coincident", "the particles spread", weightless(room()), particlesAt(std::vector<Float3>(1000, {0.5f, 0.5f, 0.5f})));
     c.maxSpeed = 20;
     c.maxEnergy = std::numeric_limits<double>::infinity();
-    c.own = [](const StressOutcome& o) {
+    c.check = [](const StressOutcome& o) {
       double farthest = 0;
-      for (const Float3& p : o.particles.positions) farthest = std::max(farthest, apart(p, {0.5f, 0.5f, 0.5f}));
-      return farthest < 3 * kSpacing ? "the farthest is " + number(farthest / kSpacing) + " d away" : std::string();
+      for (const Float3& p : o.particles.positions) farthest = std::max(farthest, distanceBetween(p, {0.5f, 0.5f, 0.5f}));
+      return farthest < 3 * kSpacing ? "farthest particle: found " + number(farthest / kSpacing) + " d, expected at least 3 d"
+                                     : std::string();
     };
     cases.push_back(std::move(c));
   }
   {
     Scene open = room();
     open.domain.reset();
-    StressCase c = make("single-particle", "it falls by the formula, to 1e-3", open, placed({{0, 0, 0}}, {1, 2, 0}));
+    StressCase c = make("single-particle", "free fall within 1e-3 of the analytic trajectory", open, particlesAt({{0, 0, 0}}, {1, 2, 0}));
     c.maxSpeed = 20;
-    c.own = [](const StressOutcome& o) {
+    c.check = [](const StressOutcome& o) {
       const double t = o.run.simulated_s;
       const Float3& p = o.particles.positions[0];
-      // Symplectic Euler is ahead of the parabola by g t dt / 2, for steps of one length.
+      // With constant steps, symplectic Euler leads the parabola by g t dt / 2.
       const double x = 1 * t, y = 2 * t - 0.5 * 9.81 * t * t, ahead = 0.5 * 9.81 * t * t / double(o.run.substeps);
-      const double off = std::hypot(p.x - x, p.y - (y - ahead), double(p.z));
-      return off > 1e-3 * std::hypot(x, y) ? "off by " + number(off) + " m" : std::string();
+      const double error = std::hypot(p.x - x, p.y - (y - ahead), double(p.z));
+      return error > 1e-3 * std::hypot(x, y) ? "position error: found " + number(error) + " m, expected at most 1e-3 of the distance"
+                                             : std::string();
     };
     cases.push_back(std::move(c));
   }
@@ -84,43 +87,44 @@ std::vector<StressCase> startCases() {
     Scene open = weightless(room());
     open.domain.reset();
     const auto h = static_cast<float>(2 * kSpacing);
-    StressCase c = make("two-at-h", "nothing moves", open, placed({{0, 0, 0}, {h, 0, 0}}));
+    StressCase c = make("two-at-h", "particles at the support radius do not interact", open, particlesAt({{0, 0, 0}, {h, 0, 0}}));
     c.maxSpeed = 1e-9;
     cases.push_back(std::move(c));
   }
   {
-    ParticleSet set = placed(lattice(8, 8, 8, kSpacing, {0.025f, 0.025f, 0.025f}));
+    ParticleSet set = particlesAt(lattice(8, 8, 8, kSpacing, {0.025f, 0.025f, 0.025f}));
     constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
     set.positions[17].x = nan;
     set.positions[100].y = infinite;
     set.positions[101].z = -infinite;
     set.velocities[200].x = nan;
     set.velocities[300] = {infinite, -infinite, nan};
-    StressCase c = make("not-numbers", "the five are parked and counted", room(), set);
-    c.parked = 5;
+    StressCase c = make("not-numbers", "five non-finite particles become inactive and are counted", room(), set);
+    c.inactive = 5;
     cases.push_back(std::move(c));
   }
   {
     const double near = kSpacing / std::cbrt(100.0);
-    StressCase c = make("compressed-100", "", weightless(room()), placed(lattice(10, 10, 10, near, {0.4f, 0.4f, 0.4f})));
+    StressCase c = make("compressed-100", "", weightless(room()), particlesAt(lattice(10, 10, 10, near, {0.4f, 0.4f, 0.4f})));
     c.maxSpeed = 20;
     c.maxEnergy = std::numeric_limits<double>::infinity();
     cases.push_back(std::move(c));
   }
   {
-    StressCase c = make("outside-the-walls", "they are put inside, and get no speed for it", weightless(room()),
-                        placed(lattice(8, 8, 8, kSpacing, {0.9f, -0.2f, 0.3f})));
+    StressCase c = make("outside-the-walls", "particles outside are moved inside without gaining speed", weightless(room()),
+                        particlesAt(lattice(8, 8, 8, kSpacing, {0.9f, -0.2f, 0.3f})));
     c.maxSpeed = 0.1;
     c.maxEnergy = std::numeric_limits<double>::infinity();
     cases.push_back(std::move(c));
   }
   {
-    StressCase c = make("far-outside", "a kilometer off", room(), placed(lattice(4, 4, 4, kSpacing, {1000.0f, -1000.0f, 3.0f})));
+    StressCase c = make("far-outside", "particles start a kilometer outside", room(),
+                        particlesAt(lattice(4, 4, 4, kSpacing, {1000.0f, -1000.0f, 3.0f})));
     c.maxEnergy = std::numeric_limits<double>::infinity();
     cases.push_back(std::move(c));
   }
   {
-    StressCase c = make("wall-at-100-m/s", "", room(), placed(lattice(8, 8, 8, kSpacing, {0.3f, 0.3f, 0.3f}), {100, 0, 0}), 100);
+    StressCase c = make("wall-at-100-m/s", "", room(), particlesAt(lattice(8, 8, 8, kSpacing, {0.3f, 0.3f, 0.3f}), {100, 0, 0}), 100);
     c.duration_s = 0.2;
     cases.push_back(std::move(c));
   }
@@ -139,34 +143,37 @@ std::vector<StressCase> startCases() {
     }
     overlapping.fill.push_back(second);
     StressCase c = make("overlapping-fills", "", overlapping, {});
-    c.maxEnergy = 1.1;  // what they part by lifts them
+    c.maxEnergy = 1.1;  // separating the overlap adds potential energy
     cases.push_back(std::move(c));
   }
   {
-    StressCase c = make("list-overflow", "lists overflow, and that is counted", room(),
-                        placed(lattice(12, 12, 12, 0.4 * kSpacing, {0.1f, 0.05f, 0.1f})));
+    StressCase c = make("list-overflow", "overflowing neighbor lists are counted", room(),
+                        particlesAt(lattice(12, 12, 12, 0.4 * kSpacing, {0.1f, 0.05f, 0.1f})));
     c.maxSpeed = 20;
     c.maxEnergy = std::numeric_limits<double>::infinity();
-    c.own = [](const StressOutcome& o) {
-      return o.run.instants.front().stats.neighbor_overflow > 0 ? std::string() : std::string("no overflow was counted");
+    c.check = [](const StressOutcome& o) {
+      return o.run.instants.front().stats.neighbor_overflow > 0 ? std::string()
+                                                                : std::string("neighbor_overflow: found 0, expected above 0");
     };
     cases.push_back(std::move(c));
   }
   cases.push_back(make("one-cell", "", tankScene(kSpacing, {0.1, 0.1, 0.1}, {0.1, 0.2, 0.1}), {}));
   {
-    StressCase c = make("all-in-one-cell", "", weightless(room()), placed(lattice(4, 4, 4, 0.2 * kSpacing, {0.5f, 0.5f, 0.5f})));
+    StressCase c = make("all-in-one-cell", "", weightless(room()), particlesAt(lattice(4, 4, 4, 0.2 * kSpacing, {0.5f, 0.5f, 0.5f})));
     c.maxSpeed = 20;
     c.maxEnergy = std::numeric_limits<double>::infinity();
     cases.push_back(std::move(c));
   }
   {
-    StressCase c = make("one-in-each-cell", "all fall freely", room(), placed(lattice(7, 2, 7, 2.5 * kSpacing, {0.1f, 0.6f, 0.1f})));
+    StressCase c = make("one-in-each-cell", "isolated particles fall freely", room(),
+                        particlesAt(lattice(7, 2, 7, 2.5 * kSpacing, {0.1f, 0.6f, 0.1f})));
     c.duration_s = 0.2;
-    c.own = [](const StressOutcome& o) {
+    c.check = [](const StressOutcome& o) {
       const double fallen = 0.5 * 9.81 * 0.04;
       for (size_t k = 0; k < o.particles.positions.size(); ++k) {
         const double from = k / 7 % 2 == 0 ? 0.6 : 0.6 + 2.5 * kSpacing;
-        if (std::abs(from - o.particles.positions[k].y - fallen) > 0.05 * fallen) return "particle " + std::to_string(k) + " did not";
+        if (std::abs(from - o.particles.positions[k].y - fallen) > 0.05 * fallen)
+          return "particle " + std::to_string(k) + " does not fall freely";
       }
       return std::string();
     };
@@ -178,7 +185,7 @@ std::vector<StressCase> startCases() {
     obstacle.box = BoxShape{{0, 0, 0}, {1, 1, 1}};
     filled.solids.push_back(obstacle);
     StressCase c = make("solid-fills-the-tank", "", filled, {});
-    c.mayRefuse = true;
+    c.mayBeRejected = true;
     c.maxEnergy = std::numeric_limits<double>::infinity();
     cases.push_back(std::move(c));
   }

@@ -1,4 +1,4 @@
-// Work and precision: what each level of error costs. Density error as the solver measures it, trajectory error against converged runs.
+// Work-precision: run time against density error (in the solver's kernel) and trajectory error (against converged runs).
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -13,16 +13,16 @@ namespace rill::bench {
 namespace {
 
 constexpr double kFrame_s = 1.0 / 60;
-constexpr double kBlownUp = 0.3;      // mean compression from which a run counts as blown up: it is drawn there
-constexpr double kMaxEnergy = 1.5;    // and the energy, over the start's
-constexpr double kFarTrajectory = 1;  // where a run that blew up is drawn on the trajectory plot
+constexpr double kDivergedError = 0.3;     // mean compression from which a run is diverged; diagrams clamp it to this
+constexpr double kMaxEnergy = 1.5;         // energy ratio from which a run is diverged
+constexpr double kDivergedTrajectory = 1;  // trajectory error of diverged runs in diagrams
 
 struct Setting {
   std::string family, name;
   std::vector<Override> changes;
 };
 
-/// `steps` substeps a frame of 1/60 s, each with `iterations`.
+/// `steps` substeps of equal length per frame of 1/60 s, with `iterations` each.
 Setting fixedStep(int steps, int iterations, std::vector<Override> more = {}, const std::string& family = "fixed step") {
   char step[40];
   std::snprintf(step, sizeof step, "%.9g", kFrame_s / steps);
@@ -66,8 +66,9 @@ std::vector<Setting> settings(bool quick) {
   return all;
 }
 
-/// What SPlisHSPlasH 2.16 took on dam50k, two threads of a like machine, with its own kernel: seconds a simulated second, mean compression.
-Series peer() {
+/// SPlisHSPlasH 2.16 on dam50k, two threads of a similar machine, its own kernel: wall seconds per simulated second, mean compression.
+/// See docs/notes/bench.md.
+Series splishsplash() {
   return {"SPlisHSPlasH 2.16",
           Series::Style::Points,
           {{36, 0.0011}, {39, 0.0016}, {84, 0.00012}, {52, 0.0012}, {26, 0.0043}},
@@ -77,9 +78,9 @@ Series peer() {
 struct Measured {
   Setting setting;
   RunFigures run;
-  std::vector<double> wall;  ///< seconds a simulated second, samples
+  std::vector<double> wall;  ///< samples, seconds per simulated second
   double trajectory = 0;
-  bool blownUp = false;
+  bool diverged = false;
   double cost() const { return median(wall); }
 };
 
@@ -88,9 +89,9 @@ struct Case {
   std::string scene;
   std::vector<Override> changes;
   double duration_s = 0;
-  int convergedSteps = 0;  ///< substeps a frame of the runs that trajectories are compared with
+  int convergedSteps = 0;  ///< substeps per frame of the reference runs for trajectories
   uint32_t seeds = 0;
-  bool withPeer = false;
+  bool comparesSplishsplash = false;
 };
 
 class Accuracy {
@@ -104,17 +105,17 @@ class Accuracy {
       cases.push_back({"dam", "dam50k", {{"fluid.spacing", "0.1"}}, 1.0, 40, 2, false});
       cases.push_back({"column", "resting-column", {{"fluid.spacing", "0.04"}}, 0.5, 60, 2, false});
     } else {
-      cases.push_back({"dam", "dam50k", {}, 1.0, 64, 2, true});  // the front meets the far wall at 0.7 s
+      cases.push_back({"dam", "dam50k", {}, 1.0, 64, 2, true});  // the front reaches the far wall at 0.7 s
       cases.push_back({"column", "resting-column", {}, 1.0, 96, 2, false});
     }
     const std::vector<Setting> all = settings(quick);
     size_t steps = 0;
     for (const Case& c : cases)
-      if (bench_.wanted(c.name)) steps += c.seeds + all.size();
+      if (bench_.selected(c.name)) steps += c.seeds + all.size();
     bench_.plan(steps);
     for (const Case& c : cases) {
-      if (!bench_.wanted(c.name) || bench_.stopped()) continue;
-      if (auto ran = runCase(c, all); !ran) return ran.error();
+      if (!bench_.selected(c.name) || bench_.stopped()) continue;
+      if (auto done = runCase(c, all); !done) return done.error();
     }
     return std::move(report_);
   }
@@ -140,8 +141,8 @@ class Accuracy {
       seeds.push_back(trajectoryOf(ran->instants, length, energy));
     }
     const Trajectory converged = meanTrajectory(seeds);
-    double chance = 0;  // how far runs are apart that differ by a thousandth of a spacing
-    for (const Trajectory& seed : seeds) chance = std::max(chance, distance(seed, converged));
+    double seedSpread = 0;  // distance between reference runs, which differ by a jitter of 0.001 spacings
+    for (const Trajectory& seed : seeds) seedSpread = std::max(seedSpread, rmsDistance(seed, converged));
 
     std::vector<Measured> measured;
     for (const Setting& setting : all) {
@@ -153,19 +154,19 @@ class Accuracy {
       for (uint32_t k = 0; k < bench_.options().repeat && !bench_.stopped(); ++k) {
         auto ran = runScene(bench_, {.scene = *scene, .duration_s = c.duration_s, .frame_s = kFrame_s});
         if (!ran) return ran.error();
-        if (bench_.stopped()) break;  // a run that was cut short is no sample
+        if (bench_.stopped()) break;  // incomplete runs are not samples
         if (k > 0 && ran->instants.back().stats.state_hash != m.run.instants.back().stats.state_hash)
-          report_.failures.push_back(c.name + " " + setting.name + ": two runs do not agree to the last bit");
+          report_.failures.push_back(c.name + " " + setting.name + ": two runs differ in their state hash");
         m.wall.push_back(ran->wall_s / std::max(ran->simulated_s, 1e-12));
         m.run = std::move(*ran);
       }
       if (m.wall.empty()) break;
-      m.trajectory = distance(trajectoryOf(m.run.instants, length, energy), converged);
-      m.blownUp =
-          !(m.run.density.mean < kBlownUp) || !(m.run.energy.ratio < kMaxEnergy) || m.run.non_finite > 0 || !std::isfinite(m.trajectory);
+      m.trajectory = rmsDistance(trajectoryOf(m.run.instants, length, energy), converged);
+      m.diverged = !(m.run.density.mean < kDivergedError) || !(m.run.energy.ratio < kMaxEnergy) || m.run.non_finite > 0 ||
+                   !std::isfinite(m.trajectory);
       measured.push_back(std::move(m));
     }
-    tell(c, measured, chance);
+    addToReport(c, measured, seedSpread);
     return {};
   }
 
@@ -175,52 +176,58 @@ class Accuracy {
     return namedScene(c.scene, changes);
   }
 
-  void tell(const Case& c, const std::vector<Measured>& measured, double chance) {
-    const auto density = [](const Measured& m) { return m.blownUp ? kBlownUp : m.run.density.mean; };
-    const auto trajectory = [](const Measured& m) { return m.blownUp ? kFarTrajectory : m.trajectory; };
-    const std::string kernel = "Wendland or poly6 of support h = 2 d where not said otherwise";
+  void addToReport(const Case& c, const std::vector<Measured>& measured, double seedSpread) {
+    const auto density = [](const Measured& m) { return m.diverged ? kDivergedError : m.run.density.mean; };
+    const auto trajectory = [](const Measured& m) { return m.diverged ? kDivergedTrajectory : m.trajectory; };
+    const std::string kernel = "Wendland or poly6, support h = 2 d unless noted";
     std::vector<CostError> byDensity, byTrajectory;
     for (const Measured& m : measured) {
-      byDensity.emplace_back(m.cost(), m.blownUp ? std::numeric_limits<double>::quiet_NaN() : density(m));
-      byTrajectory.emplace_back(m.cost(), m.blownUp ? std::numeric_limits<double>::quiet_NaN() : trajectory(m));
+      byDensity.emplace_back(m.cost(), m.diverged ? std::numeric_limits<double>::quiet_NaN() : density(m));
+      byTrajectory.emplace_back(m.cost(), m.diverged ? std::numeric_limits<double>::quiet_NaN() : trajectory(m));
     }
     const std::vector<size_t> front = paretoFront(byDensity), trajectoryFront = paretoFront(byTrajectory);
-    const auto on = [](const std::vector<size_t>& which, size_t k) { return std::ranges::find(which, k) != which.end(); };
+    const auto contains = [](const std::vector<size_t>& indices, size_t k) { return std::ranges::find(indices, k) != indices.end(); };
 
     Table table;
     table.title = c.name + " (" + c.scene + "): " + (measured.empty() ? "" : std::to_string(measured[0].run.particles)) + " particles, " +
                   number(c.duration_s) + " s";
-    table.columns = {"setting", "wall s/s", "substeps/s", "mean", "p99", "max", "trajectory", "energy", "end", "front"};
+    table.columns = {"setting", "wall s/s", "substeps/s", "mean", "p99", "max", "trajectory", "energy", "end", "Pareto front"};
     for (size_t k = 0; k < measured.size(); ++k) {
       const Measured& m = measured[k];
       const double seconds = std::max(m.run.simulated_s, 1e-12);
-      table.rows.push_back(
-          {m.setting.name, number(m.cost()), number(double(m.run.substeps) / seconds, 4), percent(m.run.density.mean),
-           percent(m.run.density.p99), percent(m.run.density.max), percent(m.trajectory), number(m.run.energy.ratio, 5),
-           number(m.run.energy.end_ratio, 4),
-           m.blownUp ? "blew up" : std::string(on(front, k) ? "density " : "") + (on(trajectoryFront, k) ? "trajectory" : "")});
+      table.rows.push_back({m.setting.name, number(m.cost()), number(double(m.run.substeps) / seconds, 4), percent(m.run.density.mean),
+                            percent(m.run.density.p99), percent(m.run.density.max), percent(m.trajectory), number(m.run.energy.ratio, 5),
+                            number(m.run.energy.end_ratio, 4),
+                            m.diverged
+                                ? "diverged"
+                                : std::string(contains(front, k) ? "density " : "") + (contains(trajectoryFront, k) ? "trajectory" : "")});
       Json json = runJson(m.run);
       json["case"] = c.name;
       json["setting"] = m.setting.name;
       json["family"] = m.setting.family;
       for (const Override& change : m.setting.changes) json["changes"][change.key] = change.value;
-      json["wall_per_simulated_s"] = sampled(m.wall);
+      json["wall_per_simulated_s"] = sampleStatistics(m.wall);
       json["trajectory_error"] = m.trajectory;
-      json["blown_up"] = m.blownUp;
-      json["on_front"] = {{"density", on(front, k)}, {"trajectory", on(trajectoryFront, k)}};
+      json["blown_up"] = m.diverged;
+      json["on_front"] = {{"density", contains(front, k)}, {"trajectory", contains(trajectoryFront, k)}};
       report_.results.push_back(std::move(json));
     }
-    table.note = "mean, p99, max: compression alone, in the solver's kernel (" + kernel +
-                 "), first tenth left out. trajectory: rms distance of center of\n"
-                 "mass, front and energies from " +
-                 std::to_string(c.seeds) + " runs of " + std::to_string(c.convergedSteps) +
-                 " substeps a frame, over first extent and energy; those runs are " + percent(chance) + " apart by chance." +
-                 (c.withPeer ? "\nSPlisHSPlasH 2.16, on the plot: on dam50k with two threads of a like machine, in its own kernel." : "");
+    table.note =
+        "mean, p99, max: compression in the solver's kernel (" + kernel +
+        "), without the first tenth of the run.\n"
+        "trajectory: root mean square distance of center of mass, front and energies, divided by their initial values, from\n" +
+        std::to_string(c.seeds) + " runs of " + std::to_string(c.convergedSteps) + " substeps per frame; the distance between these is " +
+        percent(seedSpread) + ".\n" + "energy, end: largest and final energy divided by the initial energy." +
+        (c.comparesSplishsplash ? "\nSPlisHSPlasH 2.16 in the diagram: dam50k, two threads of a similar machine, its own kernel." : "");
     report_.tables.push_back(std::move(table));
 
-    Plot first{
-        c.name + ": density error", "wall seconds a simulated second", "mean compression (kernel of h = 2 d if not said)", true, true, {}};
-    Plot second{c.name + ": trajectory error", "wall seconds a simulated second", "rms distance from converged runs", true, true, {}};
+    Plot first{c.name + ": density error",
+               "wall seconds per simulated second",
+               "mean compression (kernel of h = 2 d unless noted)",
+               true,
+               true,
+               {}};
+    Plot second{c.name + ": trajectory error", "wall seconds per simulated second", "rms distance from converged runs", true, true, {}};
     std::vector<std::string> families;
     for (const Measured& m : measured)
       if (std::ranges::find(families, m.setting.family) == families.end()) families.push_back(m.setting.family);
@@ -228,7 +235,7 @@ class Accuracy {
       Series a{family, Series::Style::Points, {}, {}, family == "default"}, b = a;
       for (const Measured& m : measured) {
         if (m.setting.family != family) continue;
-        const std::string label = m.setting.name + (m.blownUp ? " (blew up)" : "");
+        const std::string label = m.setting.name + (m.diverged ? " (diverged)" : "");
         a.points.emplace_back(m.cost(), density(m));
         b.points.emplace_back(m.cost(), trajectory(m));
         a.labels.push_back(label);
@@ -244,25 +251,25 @@ class Accuracy {
     };
     first.series.push_back(line(byDensity, front));
     second.series.push_back(line(byTrajectory, trajectoryFront));
-    if (c.withPeer) first.series.push_back(peer());
+    if (c.comparesSplishsplash) first.series.push_back(splishsplash());
     report_.plots.push_back(std::move(first));
     report_.plots.push_back(std::move(second));
     compareStepping(c, measured);
   }
 
-  /// Steps chosen by the device against steps of one length: over time, and in cost at the same error.
+  /// Compares adaptive with fixed time steps: error and substeps over time, cost at equal error.
   void compareStepping(const Case& c, const std::vector<Measured>& measured) {
     std::vector<CostError> byMean, byWorst;
     for (const Measured& m : measured)
-      if (m.setting.family == "fixed step" && !m.blownUp) {
+      if (m.setting.family == "fixed step" && !m.diverged) {
         byMean.emplace_back(m.cost(), m.run.density.mean);
         byWorst.emplace_back(m.cost(), m.run.density.p99);
       }
     Table table;
-    table.title = c.name + ": steps by tolerance against steps of one length";
-    table.columns = {"setting", "wall s/s", "fixed, equal mean", "saved", "fixed, equal worst p99", "saved"};
+    table.title = c.name + ": adaptive against fixed time steps";
+    table.columns = {"setting", "wall s/s", "fixed, equal mean", "saved", "fixed, equal p99", "saved"};
     Plot error{c.name + ": error over time", "simulated time (s)", "mean compression", false, true, {}};
-    Plot steps{c.name + ": substeps over time", "simulated time (s)", "substeps a frame of 1/60 s", false, false, {}};
+    Plot steps{c.name + ": substeps over time", "simulated time (s)", "substeps per frame of 1/60 s", false, false, {}};
     for (const Measured& m : measured) {
       if (m.setting.family != "tolerance" && m.setting.family != "default") continue;
       const double mean = costAtError(byMean, m.run.density.mean), worst = costAtError(byWorst, m.run.density.p99);
@@ -276,7 +283,7 @@ class Accuracy {
       error.series.push_back(std::move(a));
       steps.series.push_back(std::move(b));
     }
-    table.note = "\"-\": no fixed step of this run reaches that error.";
+    table.note = "fixed: cost of fixed steps at the same error; -: no measured fixed step reaches it.";
     report_.tables.push_back(std::move(table));
     report_.plots.push_back(std::move(error));
     report_.plots.push_back(std::move(steps));

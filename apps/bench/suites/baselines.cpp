@@ -16,17 +16,17 @@
 namespace rill::bench {
 namespace {
 
-constexpr uint32_t kTile = 16384;  // candidates of a dispatch of the naive search
+constexpr uint32_t kTile = 16384;  // candidates per dispatch of the brute-force search
 constexpr uint32_t kStructFloats = 20;
 
-/// Particles in no order, in a box from 0 to its cells' end.
+/// Unsorted particles in a box of cells from the origin.
 struct Cloud {
   std::vector<Float4> positions;
   CloudPush push{};
   uint32_t cells() const { return push.cellsX * push.cellsY * push.cellsZ; }
 };
 
-/// Of a particle: the sum that a density pass makes, and how many it summed over, itself included.
+/// Density sum of a particle, and the number of neighbors including itself.
 struct Found {
   float density, neighbors;
 };
@@ -58,7 +58,7 @@ Expected<const ComputePipeline*> pipelineOf(Workbench& workbench, std::string_vi
       {.shader = name, .spirv = benchShader(name), .bindings = kinds, .pushConstantBytes = sizeof(CloudPush), .constants = {}});
 }
 
-/// One pass: what is read, then what is written, in the order of the bindings.
+/// Declares one pass that binds `reads`, then `writes`.
 void declare(Graph& graph, const ComputePipeline* pipeline, const CloudPush& push, std::initializer_list<BufferRef> reads,
              BufferRef& writes, bool discard = true) {
   graph.pass("baseline", [&](Pass& pass) {
@@ -74,14 +74,14 @@ void declare(Graph& graph, const ComputePipeline* pipeline, const CloudPush& pus
   });
 }
 
-/// A search or a layout: its samples and what it found, by the particle's number.
+/// Time samples of a variant, and its density sums by particle index.
 struct Result {
   GraphSamples samples;
   std::vector<Found> found;
-  double middle() const { return median(samples.run_ms); }
+  double medianMs() const { return median(samples.run_ms); }
 };
 
-/// The most that two densities differ by, relative; infinite where counts differ.
+/// Largest relative difference of densities; infinite if neighbor counts differ.
 double difference(const std::vector<Found>& a, const std::vector<Found>& b) {
   double worst = a.size() == b.size() ? 0 : std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < std::min(a.size(), b.size()); ++i)
@@ -90,10 +90,10 @@ double difference(const std::vector<Found>& a, const std::vector<Found>& b) {
   return worst;
 }
 
-/// All searches over one cloud.
-class Searches {
+/// All variants on one cloud.
+class SearchVariants {
  public:
-  Searches(Workbench& workbench, const Cloud& cloud, uint32_t repeat) : workbench_(workbench), cloud_(cloud), repeat_(repeat) {}
+  SearchVariants(Workbench& workbench, const Cloud& cloud, uint32_t repeat) : workbench_(workbench), cloud_(cloud), repeat_(repeat) {}
 
   Expected<void> prepare() {
     const struct {
@@ -105,10 +105,10 @@ class Searches {
                      {&reorder_, "reorder", 3},
                      {&arrays_, "grid_density", 3},
                      {&structs_, "grid_density_struct", 3}};
-    for (const auto& wanted : pipelines) {
-      auto made = pipelineOf(workbench_, wanted.name, wanted.bindings);
+    for (const auto& desc : pipelines) {
+      auto made = pipelineOf(workbench_, desc.name, desc.bindings);
       if (!made) return made.error();
-      *wanted.pipeline = *made;
+      *desc.pipeline = *made;
     }
     auto sort = KeySort::create(workbench_.device(), {.count = cloud_.push.count, .keyRange = cloud_.cells(), .start = true});
     if (!sort) return sort.error();
@@ -124,10 +124,10 @@ class Searches {
                    {&order_, "bench order", 4 * uint64_t{cloud_.push.count}},
                    {&start_, "bench start", 4 * paddedWords(uint64_t{cloud_.cells()} + 1)},
                    {&result_, "bench result", sizeof(Found) * uint64_t{cloud_.push.count}}};
-    for (const auto& wanted : buffers) {
-      auto made = workbench_.make(wanted.name, wanted.bytes);
+    for (const auto& desc : buffers) {
+      auto made = workbench_.make(desc.name, desc.bytes);
       if (!made) return made.error();
-      *wanted.buffer = std::move(*made);
+      *desc.buffer = std::move(*made);
     }
     return {};
   }
@@ -142,12 +142,12 @@ class Searches {
         declare(graph, allPairs_, push, {positions}, result, push.first == 0);
       }
     };
-    // Its warm-up needs no more than one pair each.
+    // One candidate per particle is enough to compile the shader.
     if (auto warmUp = workbench_.run([&](Graph& graph) { search(graph, 1); }); !warmUp) return warmUp.error();
-    return sampled(repeat, WarmUp::Done, [&](Graph& graph) { search(graph, cloud_.push.count); });
+    return sample(repeat, WarmUp::Done, [&](Graph& graph) { search(graph, cloud_.push.count); });
   }
 
-  /// Keys, sort, and positions in the order of cells: what a search by the grid needs first.
+  /// Builds the grid: cell keys, sort, reordered positions.
   Expected<Result> build() {
     auto samples = sampleGraph(workbench_, repeat_, [&](Graph& graph) {
       const BufferRef positions = importWhole(graph, "positions", positions_);
@@ -160,35 +160,35 @@ class Searches {
     if (!samples) return samples.error();
     auto order = workbench_.download<uint32_t>(order_);
     if (!order) return order.error();
-    orderOnHost_ = std::move(*order);
+    hostOrder_ = std::move(*order);
     return Result{std::move(*samples), {}};
   }
 
-  Expected<Result> byGrid() { return gathered(arrays_, sorted_); }
+  Expected<Result> byGrid() { return searchGrid(arrays_, sorted_); }
 
   Expected<Result> byStructs() {
     std::vector<float> structs(size_t{kStructFloats} * cloud_.push.count);
-    for (size_t slot = 0; slot < orderOnHost_.size(); ++slot)
-      std::memcpy(&structs[kStructFloats * slot], &cloud_.positions[orderOnHost_[slot]], sizeof(Float4));
+    for (size_t slot = 0; slot < hostOrder_.size(); ++slot)
+      std::memcpy(&structs[kStructFloats * slot], &cloud_.positions[hostOrder_[slot]], sizeof(Float4));
     const auto particles = workbench_.upload("bench structs", std::span<const float>(structs));
     if (!particles) return particles.error();
-    return gathered(structs_, *particles);
+    return searchGrid(structs_, *particles);
   }
 
  private:
-  Expected<Result> gathered(const ComputePipeline* pipeline, const Buffer& particles) {
-    auto result = sampled(repeat_, WarmUp::Needed, [&](Graph& graph) {
+  Expected<Result> searchGrid(const ComputePipeline* pipeline, const Buffer& particles) {
+    auto result = sample(repeat_, WarmUp::Needed, [&](Graph& graph) {
       BufferRef found = importWhole(graph, "result", result_);
       declare(graph, pipeline, cloud_.push, {importWhole(graph, "particles", particles), importWhole(graph, "start", start_)}, found);
     });
     if (!result) return result;
     std::vector<Found> byNumber(result->found.size());
-    for (size_t slot = 0; slot < byNumber.size(); ++slot) byNumber[orderOnHost_[slot]] = result->found[slot];
+    for (size_t slot = 0; slot < byNumber.size(); ++slot) byNumber[hostOrder_[slot]] = result->found[slot];
     result->found = std::move(byNumber);
     return result;
   }
 
-  Expected<Result> sampled(uint32_t repeat, WarmUp warmUp, const std::function<void(Graph&)>& graph) {
+  Expected<Result> sample(uint32_t repeat, WarmUp warmUp, const std::function<void(Graph&)>& graph) {
     auto samples = sampleGraph(workbench_, repeat, graph, warmUp);
     if (!samples) return samples.error();
     auto found = workbench_.download<Found>(result_);
@@ -202,21 +202,21 @@ class Searches {
   const ComputePipeline *allPairs_ = nullptr, *keys_ = nullptr, *reorder_ = nullptr, *arrays_ = nullptr, *structs_ = nullptr;
   std::optional<KeySort> sort_;
   Buffer positions_, sorted_, order_, start_, result_;
-  std::vector<uint32_t> orderOnHost_;
+  std::vector<uint32_t> hostOrder_;
 };
 
 std::vector<uint32_t> countsOf(const Bench& bench) {
   std::vector<uint32_t> counts = bench.quick() ? std::vector<uint32_t>{10'000} : std::vector<uint32_t>{10'000, 50'000};
-  std::erase_if(counts, [&](uint32_t count) { return !bench.wanted("baseline-" + countName(count)); });
+  std::erase_if(counts, [&](uint32_t count) { return !bench.selected("baseline-" + countName(count)); });
   return counts;
 }
 
-/// The naive search takes long enough to be sampled once where it is large; the others are short enough to be sampled more often.
-uint32_t naiveSamples(const Bench& bench, uint32_t count) { return count > 20'000 ? 1 : bench.options().repeat; }
+/// Large brute-force searches are long enough for a single sample.
+uint32_t bruteForceSamples(const Bench& bench, uint32_t count) { return count > 20'000 ? 1 : bench.options().repeat; }
 uint32_t samplesOf(const Bench& bench) { return std::max(5u, bench.options().repeat); }
 
-/// Pairs are nearly all of it.
-size_t partsOf(const Bench& bench, uint32_t count) { return 1 + naiveSamples(bench, count) * (uint64_t{count} * count / 4'000'000); }
+/// Brute-force pairs dominate the time.
+size_t partsOf(const Bench& bench, uint32_t count) { return 1 + bruteForceSamples(bench, count) * (uint64_t{count} * count / 4'000'000); }
 
 }  // namespace
 
@@ -227,26 +227,26 @@ size_t Baselines::parts(const Bench& bench) const {
 }
 
 Expected<void> Baselines::run(Bench& bench, Report& report) const {
-  Table search{"Neighbor search, a density pass: naive all-pairs against the grid, ms",
-               {"particles", "neighbors", "all pairs", "grid: sort", "grid: search", "all pairs over grid"},
+  Table search{"Neighbor search in a density pass: brute force against grid, ms",
+               {"particles", "neighbors", "all pairs", "grid: sort", "grid: search", "all pairs / grid"},
                {},
-               "Over the grid: its sort included. Both are the bench's own, without a list, and find the same neighbors."};
-  Table layout{"Layout, the same search by the grid: one struct of " + std::to_string(4 * kStructFloats) +
-                   " bytes a particle against separate arrays, ms",
-               {"particles", "one struct", "arrays", "struct over arrays"},
+               "all pairs / grid: includes the sort of the grid. Both searches find the same neighbors and use no neighbor list."};
+  Table layout{"Memory layout, same grid search: one struct of " + std::to_string(4 * kStructFloats) +
+                   " bytes per particle against separate arrays, ms",
+               {"particles", "one struct", "arrays", "struct / arrays"},
                {},
                ""};
-  for (const uint32_t wanted : countsOf(bench)) {
+  for (const uint32_t count : countsOf(bench)) {
     if (bench.stopped()) break;
-    const std::string name = "baseline-" + countName(wanted);
-    bench.step(name, partsOf(bench, wanted));
+    const std::string name = "baseline-" + countName(count);
+    bench.step(name, partsOf(bench, count));
     auto workbench = Workbench::open(bench);
     if (!workbench) return workbench.error();
-    const auto cloud = cloudOf(wanted);
+    const auto cloud = cloudOf(count);
     if (!cloud) return cloud.error();
-    Searches searches(*workbench, *cloud, samplesOf(bench));
+    SearchVariants searches(*workbench, *cloud, samplesOf(bench));
     if (auto ready = searches.prepare(); !ready) return ready;
-    const auto pairs = searches.allPairs(naiveSamples(bench, wanted)), build = searches.build();
+    const auto pairs = searches.allPairs(bruteForceSamples(bench, count)), build = searches.build();
     if (!pairs) return pairs.error();
     if (!build) return build.error();
     const auto grid = searches.byGrid(), structs = searches.byStructs();
@@ -256,6 +256,7 @@ Expected<void> Baselines::run(Bench& bench, Report& report) const {
     double neighbors = 0;
     for (const Found& found : grid->found) neighbors += (found.neighbors - 1.0) / double(grid->found.size());
     if (const double apart = difference(pairs->found, grid->found); !(apart <= 1e-4))
+<<<<<<< HEAD
       report.failures.push_back(name + ": all pairs and the grid differ by " + roundedNumber(apart) +
                                 " (infinite: in a count); expected at most 1e-4");
     if (const double apart = difference(structs->found, grid->found); !(apart == 0))
@@ -265,15 +266,27 @@ Expected<void> Baselines::run(Bench& bench, Report& report) const {
                            number(grid->middle()), number(pairs->middle() / byGrid)});
     layout.rows.push_back(
         {grouped(cloud->push.count), number(structs->middle()), number(grid->middle()), number(structs->middle() / grid->middle())});
+=======
+      report.failures.push_back(name + ": densities of all pairs and grid differ by " + roughNumber(apart) +
+                                " (infinite: neighbor counts differ), expected at most 1e-4");
+    if (const double apart = difference(structs->found, grid->found); !(apart == 0))
+      report.failures.push_back(name + ": densities of structs and arrays differ by " + roughNumber(apart) +
+                                " (infinite: neighbor counts differ), expected 0");
+    const double byGrid = build->medianMs() + grid->medianMs();
+    search.rows.push_back({grouped(cloud->push.count), number(neighbors), number(pairs->medianMs()), number(build->medianMs()),
+                           number(grid->medianMs()), number(pairs->medianMs() / byGrid)});
+    layout.rows.push_back({grouped(cloud->push.count), number(structs->medianMs()), number(grid->medianMs()),
+                           number(structs->medianMs() / grid->medianMs())});
+>>>>>>> lang-bench
     report.results.push_back({{"case", name},
                               {"particles", cloud->push.count},
                               {"neighbors", neighbors},
-                              {"all_pairs_ms", bench::sampled(pairs->samples.run_ms)},
-                              {"grid_sort_ms", bench::sampled(build->samples.run_ms)},
-                              {"grid_search_ms", bench::sampled(grid->samples.run_ms)},
-                              {"struct_search_ms", bench::sampled(structs->samples.run_ms)},
-                              {"all_pairs_over_grid", pairs->middle() / byGrid},
-                              {"struct_over_arrays", structs->middle() / grid->middle()}});
+                              {"all_pairs_ms", bench::sampleStatistics(pairs->samples.run_ms)},
+                              {"grid_sort_ms", bench::sampleStatistics(build->samples.run_ms)},
+                              {"grid_search_ms", bench::sampleStatistics(grid->samples.run_ms)},
+                              {"struct_search_ms", bench::sampleStatistics(structs->samples.run_ms)},
+                              {"all_pairs_over_grid", pairs->medianMs() / byGrid},
+                              {"struct_over_arrays", structs->medianMs() / grid->medianMs()}});
   }
   if (!search.rows.empty()) {
     report.tables.push_back(std::move(search));

@@ -3,11 +3,11 @@
 
 namespace rill::bench {
 
-/// Baselines of the suite "speed": a naive search against a grid, one struct a particle against separate arrays.
+/// Baselines of the suite "speed": brute-force search against a grid, array of structures against separate arrays.
 /// Cases are named "baseline-10k".
 struct Baselines {
-  size_t parts(const Bench& bench) const;  ///< that they count as in progress
-  /// Adds a table each, and fails the report where two that should give the same do not.
+  size_t parts(const Bench& bench) const;  ///< of progress
+  /// Adds one table per comparison, and a failure where the results of two variants differ.
   Expected<void> run(Bench& bench, Report& report) const;
 };
 

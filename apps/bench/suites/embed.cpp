@@ -1,5 +1,4 @@
-// What Rill costs its host beside the work itself: until the first picture, with pipelines made anew and found in the host's cache, and
-// memory.
+// Startup time of a host until its first frame, with and without pipelines in the host's pipeline cache, and device memory.
 #include <chrono>
 #include <cstddef>
 
@@ -15,7 +14,7 @@ namespace {
 constexpr uint32_t kWidth = 1280, kHeight = 720;
 constexpr VkFormat kColor = VK_FORMAT_R16G16B16A16_SFLOAT, kDepth = VK_FORMAT_D32_SFLOAT;
 
-/// A pipeline cache as a host keeps it: loaded at its start, saved at its end.
+/// The pipeline cache of a host: loaded at startup, saved at exit.
 class HostCache {
  public:
   HostCache(offline::Context& context, std::span<const std::byte> saved) : device_(context.vkDevice()) {
@@ -49,14 +48,14 @@ class HostCache {
   PFN_vkGetPipelineCacheData data_ = nullptr;
 };
 
-/// Steps of a host's start, ms each, and what it holds then.
+/// Times of the startup steps of a host (ms), and its memory.
 struct Start {
   double borrow = 0, fluid = 0, renderer = 0, first_frame = 0, second_fluid = 0;
   uint64_t fluid_bytes = 0, transient_bytes = 0;
   std::vector<std::byte> cache;
 };
 
-class Watch {
+class Stopwatch {
  public:
   double lap() {
     const auto now = std::chrono::steady_clock::now();
@@ -67,16 +66,16 @@ class Watch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-Expected<Start> started(const Bench& bench, const Scene& scene, const ParticleSet& particles, std::span<const std::byte> saved) {
+Expected<Start> measureStart(const Bench& bench, const Scene& scene, const ParticleSet& particles, std::span<const std::byte> saved) {
   auto context = offline::Context::create({.device = bench.options().device});
   if (!context) return context.error();
   const HostCache cache(**context, saved);
   DeviceRequirements needs;
   if (auto ok = appendRequired((*context)->getInstanceProcAddr(), (*context)->instance(), (*context)->physicalDevice(), needs); !ok)
     return ok.error();
-  (void)needs.chain();  // as the context enabled them
+  (void)needs.chain();  // links the features, as the context does for device creation
   Start start;
-  Watch watch;
+  Stopwatch stopwatch;
   auto device = Device::borrow({.instance = (*context)->instance(),
                                 .physicalDevice = (*context)->physicalDevice(),
                                 .device = (*context)->vkDevice(),
@@ -85,14 +84,14 @@ Expected<Start> started(const Bench& bench, const Scene& scene, const ParticleSe
                                 .enabled = &needs.features,
                                 .cache = cache.handle()});
   if (!device) return device.error();
-  start.borrow = watch.lap();
+  start.borrow = stopwatch.lap();
   {
     auto fluid = Fluid::create(**device, {.scene = &scene, .particles = &particles});
     if (!fluid) return fluid.error();
-    start.fluid = watch.lap();
+    start.fluid = stopwatch.lap();
     auto renderer = FluidRenderer::create(**device, {kColor, kDepth});
     if (!renderer) return renderer.error();
-    start.renderer = watch.lap();
+    start.renderer = stopwatch.lap();
 
     auto frame = (*context)->beginFrame();
     if (!frame) return frame.error();
@@ -109,7 +108,7 @@ Expected<Start> started(const Bench& bench, const Scene& scene, const ParticleSe
     view.projection = Float4x4{{{1.2f, 0, 0, 0}, {0, -2.1f, 0, 0}, {0, 0, 0, -1}, {0, 0, 0.1f, 0}}};
     view.focus_m = 3;
     targets = (*renderer)->addTo(graph, (*fluid)->addTo(graph, {.advance_s = 1.0 / 60}), targets, view);
-    graph.pass("shown", [&](Pass& pass) {
+    graph.pass("consume", [&](Pass& pass) {
       pass.read(targets.color, Use::ComputeSampled);
       pass.sideEffect();
       return [](Commands&) {};
@@ -118,10 +117,10 @@ Expected<Start> started(const Bench& bench, const Scene& scene, const ParticleSe
     if (auto ok = graph.prepare(**device); !ok) return ok.error();
     if (auto ok = (*context)->submit([&](VkCommandBuffer commands) { graph.record(commands); }); !ok) return ok.error();
     if (auto ok = (*context)->wait(); !ok) return ok.error();
-    start.first_frame = watch.lap();
+    start.first_frame = stopwatch.lap();
     auto second = Fluid::create(**device, {.scene = &scene, .particles = &particles});
     if (!second) return second.error();
-    start.second_fluid = watch.lap();
+    start.second_fluid = stopwatch.lap();
     for (const FluidBuffer& buffer : (*fluid)->buffers()) start.fluid_bytes += buffer.bytes;
     start.transient_bytes = graph.transientBytes();
     start.cache = cache.save();
@@ -139,50 +138,49 @@ Expected<Report> runEmbed(Bench& bench) {
 
   const uint32_t samples = bench.quick() ? 3 : 9;
   bench.plan(2 * samples, "start");
-  constexpr const char* kWays[] = {"pipelines anew", "pipelines from the host's cache"};
+  constexpr const char* kCases[] = {"pipelines anew", "pipelines from the host's cache"};
   struct Row {
     std::vector<double> borrow, fluid, renderer, first_frame, second_fluid;
   } rows[2];
   Start last;
   for (uint32_t k = 0; k < 2 * samples && !bench.stopped(); ++k) {
-    const uint32_t way = k % 2;  // each run with a cache takes that of the run before it
-    bench.step(kWays[way]);
-    auto start = started(bench, *scene, *particles, way == 0 ? std::span<const std::byte>{} : std::span<const std::byte>(last.cache));
+    const uint32_t mode = k % 2;  // runs with a cache use the one of the run before
+    bench.step(kCases[mode]);
+    auto start = measureStart(bench, *scene, *particles, mode == 0 ? std::span<const std::byte>{} : std::span<const std::byte>(last.cache));
     if (!start) return start.error();
     last = *std::move(start);
-    rows[way].borrow.push_back(last.borrow);
-    rows[way].fluid.push_back(last.fluid);
-    rows[way].renderer.push_back(last.renderer);
-    rows[way].first_frame.push_back(last.first_frame);
-    rows[way].second_fluid.push_back(last.second_fluid);
+    rows[mode].borrow.push_back(last.borrow);
+    rows[mode].fluid.push_back(last.fluid);
+    rows[mode].renderer.push_back(last.renderer);
+    rows[mode].first_frame.push_back(last.first_frame);
+    rows[mode].second_fluid.push_back(last.second_fluid);
   }
 
   Report report;
   Table times;
-  times.title = "A host's start, ms (medians)";
+  times.title = "Startup of a host, ms (medians)";
   times.columns = {"", "borrow", "fluid", "renderer", "first frame", "second fluid"};
   times.note =
-      "a dam break of 10,000 particles at 1280x720. first frame: declared until its end on the device; a driver may compile shaders in "
-      "it.\n"
-      "second fluid: its pipelines are those of the first.";
-  for (uint32_t way = 0; way < 2; ++way) {
-    const Row& row = rows[way];
-    times.rows.push_back({kWays[way], number(median(row.borrow)), number(median(row.fluid)), number(median(row.renderer)),
+      "Dam break of 10,000 particles at 1280x720. first frame: from declaration to completion on the device, which may include shader\n"
+      "compilation by the driver. second fluid: shares the pipelines of the first.";
+  for (uint32_t mode = 0; mode < 2; ++mode) {
+    const Row& row = rows[mode];
+    times.rows.push_back({kCases[mode], number(median(row.borrow)), number(median(row.fluid)), number(median(row.renderer)),
                           number(median(row.first_frame)), number(median(row.second_fluid))});
-    report.results.push_back({{"case", kWays[way]},
-                              {"borrow_ms", sampled(row.borrow)},
-                              {"fluid_ms", sampled(row.fluid)},
-                              {"renderer_ms", sampled(row.renderer)},
-                              {"first_frame_ms", sampled(row.first_frame)},
-                              {"second_fluid_ms", sampled(row.second_fluid)}});
+    report.results.push_back({{"case", kCases[mode]},
+                              {"borrow_ms", sampleStatistics(row.borrow)},
+                              {"fluid_ms", sampleStatistics(row.fluid)},
+                              {"renderer_ms", sampleStatistics(row.renderer)},
+                              {"first_frame_ms", sampleStatistics(row.first_frame)},
+                              {"second_fluid_ms", sampleStatistics(row.second_fluid)}});
   }
   Table memory;
-  memory.title = "What it holds on the device";
+  memory.title = "Device memory";
   memory.columns = {"what", "MiB"};
   const auto mebibytes = [](uint64_t bytes) { return number(double(bytes) / (1 << 20)); };
-  memory.rows = {{"a fluid of 10,000 particles", mebibytes(last.fluid_bytes)},
-                 {"transients of its frame, drawn at 1280x720", mebibytes(last.transient_bytes)},
-                 {"the host's pipeline cache, saved", mebibytes(last.cache.size())}};
+  memory.rows = {{"fluid of 10,000 particles", mebibytes(last.fluid_bytes)},
+                 {"transient resources of a frame at 1280x720", mebibytes(last.transient_bytes)},
+                 {"saved pipeline cache", mebibytes(last.cache.size())}};
   report.results.push_back({{"case", "memory"},
                             {"fluid_bytes", last.fluid_bytes},
                             {"transient_bytes", last.transient_bytes},

@@ -1,4 +1,4 @@
-// What each feature costs when it is on, that it costs nothing when it is off, and which passes a scene runs at all.
+// Cost of each feature when enabled, checks that disabled features cost nothing, and the passes that each scene runs.
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -14,29 +14,29 @@ using offline::PassTime;
 using offline::Simulation;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kFeatureFrame_s = 0.01;  // of twelve steps: two whole blocks, so that none is recorded for nothing
-constexpr int kWarmUp = 2;                // frames in which shaders are compiled and the first guess of substeps is off
+constexpr double kFeatureFrame_s = 0.01;  // twelve substeps: two full blocks, so that no recorded substep is skipped
+constexpr int kWarmUp = 2;                // frames of shader compilation and a wrong estimate of the number of substeps
 
 using Overrides = std::vector<Override>;
 
-/// One thing that can be on. Steps are forced, so that all have the same work but for it.
+/// A feature to compare with the base scene. Time steps are fixed, so that all runs do the same work otherwise.
 struct Feature {
   std::string_view name;
   Overrides on;
-  Overrides zero = {};     ///< says that it is off, where the base scene says nothing
-  bool passTimes = false;  ///< the feature is that passes are timed
-  bool measuring = false;  ///< the feature is that figures are measured each frame
+  Overrides off = {};            ///< disables it explicitly, in place of the base scene's defaults
+  bool passTimes = false;        ///< the feature is timing of passes
+  bool measuresFigures = false;  ///< the feature is measuring figures every frame
 };
 
 const Overrides kBase = {{"solver.time_step", "0.00083333333"},
                          {"solver.tolerance", "0"},
                          {"solver.cfl", "10"},
                          {"fluid.tensile", "0"},
-                         // Fast enough for a list build in about eleven substeps, as in a whole dam break.
+                         // Fast enough for a list build about every eleven substeps, as in a complete dam break.
                          {"fill[0].velocity", "[8, 0, 0]"}};
 
 constexpr const char* kBox = R"([{"box": {"min": [2.6, 0, 0.3], "max": [2.9, 0.6, 0.7]}}])";
-constexpr const char* kFar = R"([{"box": {"min": [4.6, 3, 0.3], "max": [4.9, 3.6, 0.7]}}])";
+constexpr const char* kDistantBox = R"([{"box": {"min": [4.6, 3, 0.3], "max": [4.9, 3.6, 0.7]}}])";
 constexpr const char* kSphere = R"([{"sphere": {"center": [2.8, 0.3, 0.5], "radius": 0.25}}])";
 constexpr const char* kMoving =
     R"([{"box": {"min": [2.6, 0, 0.3], "max": [2.9, 0.6, 0.7]}, "motion": [{"at": 0}, {"at": 1, "translate": [0.5, 0, 0]}]}])";
@@ -45,28 +45,28 @@ std::vector<Feature> features() {
   return {
       {"viscosity", {{"fluid.viscosity", "1"}}, {{"fluid.viscosity", "0"}}},
       {"vorticity", {{"fluid.vorticity", "0.2"}}, {{"fluid.vorticity", "0"}}},
-      // Off, its other settings are to change nothing.
+      // When it is off, its other settings must have no effect.
       {"tensile", {{"fluid.tensile", "0.2"}}, {{"fluid.tensile", "0"}, {"fluid.tensile_radius", "0.4"}, {"fluid.tensile_power", "2"}}},
       {"solid box", {{"solids", kBox}}, {{"solids", "[]"}}},
-      {"solid out of reach", {{"solids", kFar}}},  // none at all: as above
+      {"solid out of reach", {{"solids", kDistantBox}}},  // without a solid it equals "solid box" off
       {"solid sphere", {{"solids", kSphere}}},
       {"moving solid", {{"solids", kMoving}}},
       {"3 iterations", {{"solver.iterations", "3"}, {"solver.warm_start", "0.02"}}, {{"solver.iterations", "1"}}},
-      {"no artificial viscosity", {{"solver.artificial_viscosity", "0"}}},  // empty dispatches: the base scene is fast
+      {"no artificial viscosity", {{"solver.artificial_viscosity", "0"}}},  // its dispatches are empty at the speeds of the base scene
       {"no warm start", {{"solver.warm_start", "0"}}},
       {"poly6 and spiky", {{"solver.kernel", "poly6_spiky"}}, {{"solver.kernel", "wendland"}}},
       {"grid, no list", {{"solver.neighbors", "grid"}}, {{"solver.neighbors", "list"}}},
       {"gravity changes", {{"gravity_changes", R"([{"at": 0.02, "value": [3, -9.81, 0]}])"}}, {{"gravity_changes", "[]"}}},
       {.name = "pass times", .on = {}, .passTimes = true},
-      {.name = "figures", .on = {}, .measuring = true},
+      {.name = "figures", .on = {}, .measuresFigures = true},
   };
 }
 
-/// One scene on its way: frames one by one, so that others can be run between them.
-class Lane {
+/// A simulation that advances frame by frame, so that several can be interleaved.
+class FrameStepper {
  public:
-  static Expected<Lane> open(const Bench& bench, const std::string& scene, const Overrides& overrides, bool passTimes = false,
-                             bool measuring = false) {
+  static Expected<FrameStepper> open(const Bench& bench, const std::string& scene, const Overrides& overrides, bool passTimes = false,
+                                     bool measuresFigures = false) {
     auto read = namedScene(scene, overrides);
     if (!read) return read.error();
     offline::Options options;
@@ -74,17 +74,17 @@ class Lane {
     options.passTimes = passTimes;
     auto simulation = Simulation::open(std::move(*read), options);
     if (!simulation) return simulation.error();
-    Lane lane;
-    lane.simulation_ = std::move(*simulation);
-    lane.measuring_ = measuring;
-    return lane;
+    FrameStepper stepper;
+    stepper.simulation_ = std::move(*simulation);
+    stepper.measuresFigures_ = measuresFigures;
+    return stepper;
   }
 
-  /// Runs a frame; with figures where this lane measures.
+  /// Advances one frame and returns its wall time in ms, including figures if enabled.
   Expected<double> frame(double seconds) {
     const Clock::time_point begin = Clock::now();
-    if (auto ran = simulation_->advance(seconds); !ran) return ran.error();
-    if (measuring_)
+    if (auto advanced = simulation_->advance(seconds); !advanced) return advanced.error();
+    if (measuresFigures_)
       if (auto measured = simulation_->stats(); !measured) return measured.error();
     return 1e3 * std::chrono::duration<double>(Clock::now() - begin).count();
   }
@@ -92,26 +92,26 @@ class Lane {
 
  private:
   std::unique_ptr<Simulation> simulation_;
-  bool measuring_ = false;
+  bool measuresFigures_ = false;
 };
 
-/// Frames of one lane.
+/// Samples of one run.
 struct Samples {
-  std::vector<double> ms, ratio;  ///< of a frame; over the base's frame beside it
-  uint64_t builds = 0;            ///< of the list
-  offline::Stats end;             ///< of the last frame
+  std::vector<double> ms, ratio;  ///< per frame; divided by the base's adjacent frame
+  uint64_t builds = 0;            ///< of the neighbor list
+  offline::Stats end;             ///< statistics of the last frame
   double ns() const { return 1e6 * median(ms) / (double(end.particles) * end.substeps); }
 };
 
-/// Runs lanes side by side, each frame of all before the next of any: what else the machine does meets them alike. The first is the base.
-Expected<void> runTogether(const Bench& bench, std::vector<Lane>& lanes, int frames, std::vector<Samples>& samples) {
+/// Advances all frame by frame in turn, so that other load on the machine affects them equally. The first is the base.
+Expected<void> runInterleaved(const Bench& bench, std::vector<FrameStepper>& steppers, int frames, std::vector<Samples>& samples) {
   for (int frame = 0; frame < kWarmUp + frames && !bench.stopped(); ++frame) {
     double base = 0;
-    for (size_t k = 0; k < lanes.size(); ++k) {
-      const auto ms = lanes[k].frame(kFeatureFrame_s);
+    for (size_t k = 0; k < steppers.size(); ++k) {
+      const auto ms = steppers[k].frame(kFeatureFrame_s);
       if (!ms) return ms.error();
       if (k == 0) base = *ms;
-      auto stats = lanes[k].stats();
+      auto stats = steppers[k].stats();
       if (!stats) return stats.error();
       if (frame >= kWarmUp) {
         samples[k].ms.push_back(*ms);
@@ -124,14 +124,14 @@ Expected<void> runTogether(const Bench& bench, std::vector<Lane>& lanes, int fra
   return {};
 }
 
-/// "build list 4, density 12", for comparing and for messages.
+/// Passes and their counts: "build list 4, density 12".
 std::string passList(const std::vector<PassTime>& passes) {
   std::string text;
   for (const PassTime& pass : passes) text += (text.empty() ? "" : ", ") + pass.name + " " + std::to_string(pass.runs);
   return text;
 }
 
-/// Names of `passes` that `base` does not run, and those of `base` that are gone, with a minus.
+/// Passes that are added to those of `base`, and removed ones as "no NAME".
 std::string passChanges(const std::vector<PassTime>& passes, const std::vector<PassTime>& base) {
   std::string text;
   const auto add = [&](const std::string& word) { text += (text.empty() ? "" : ", ") + word; };
@@ -143,18 +143,17 @@ std::string passChanges(const std::vector<PassTime>& passes, const std::vector<P
 }
 
 /// "+3", "-2", "0".
-std::string moreOf(uint64_t count, uint64_t base) {
+std::string signedDifference(uint64_t count, uint64_t base) {
   return count > base ? "+" + std::to_string(count - base) : std::to_string(int64_t(count) - int64_t(base));
 }
 
-/// Off must be what never was: the same passes as often, the same bits.
-void holdZero(const std::string& name, const Samples& zero, const Samples& base, Report& report) {
-  const std::string passes = passList(zero.end.pass_ms), expected = passList(base.end.pass_ms);
+/// Checks that a disabled feature runs the same passes as the base and gives a bitwise identical state.
+void checkDisabled(const std::string& name, const Samples& off, const Samples& base, Report& report) {
+  const std::string passes = passList(off.end.pass_ms), expected = passList(base.end.pass_ms);
   if (passes != expected)
-    report.failures.push_back(name + ": set to zero it runs other passes: " + passes +
-                              "; expected those of the scene without it: " + expected);
-  if (zero.end.state_hash != base.end.state_hash)
-    report.failures.push_back(name + ": set to zero it gives other bits than the scene without it");
+    report.failures.push_back(name + " disabled: found passes " + passes + ", expected those of the base scene: " + expected);
+  if (off.end.state_hash != base.end.state_hash)
+    report.failures.push_back(name + " disabled: the state hash differs from that of the base scene");
 }
 
 Json passesJson(const std::vector<PassTime>& passes) {
@@ -164,21 +163,21 @@ Json passesJson(const std::vector<PassTime>& passes) {
 }
 
 Json samplesJson(const Samples& samples) {
-  return {{"ms_a_frame", sampled(samples.ms)},
-          {"over_base", sampled(samples.ratio)},
+  return {{"ms_a_frame", sampleStatistics(samples.ms)},
+          {"over_base", sampleStatistics(samples.ratio)},
           {"ns_a_particle_a_substep", samples.ns()},
           {"list_builds", samples.builds},
           {"passes", passesJson(samples.end.pass_ms)}};
 }
 
-/// What was measured of a feature; no `off` where it cannot be.
+/// Results of a feature; `off` is empty if it cannot be disabled explicitly.
 struct Cost {
   const Feature* feature;
   Samples base, on;
   std::optional<Samples> off;
 };
 
-/// Features that share one base, whose frames theirs take turns with.
+/// Number of features that are interleaved with one run of the base.
 constexpr size_t kGroup = 4;
 Expected<std::vector<Cost>> measured(Bench& bench, std::span<const Feature> group) {
   std::string names;
@@ -186,46 +185,46 @@ Expected<std::vector<Cost>> measured(Bench& bench, std::span<const Feature> grou
   std::vector<Samples> samples;
   for (uint32_t k = 0; k < bench.options().repeat && !bench.stopped(); ++k) {
     bench.step(names, group.size());
-    std::vector<Lane> lanes;
-    const auto open = [&](const Overrides& more, bool passTimes, bool measuring) -> Expected<void> {
+    std::vector<FrameStepper> steppers;
+    const auto open = [&](const Overrides& more, bool passTimes, bool measuresFigures) -> Expected<void> {
       Overrides overrides = kBase;
       overrides.insert(overrides.end(), more.begin(), more.end());
-      auto lane = Lane::open(bench, "dam10k", overrides, passTimes, measuring);
-      if (!lane) return lane.error();
-      lanes.push_back(std::move(*lane));
+      auto stepper = FrameStepper::open(bench, "dam10k", overrides, passTimes, measuresFigures);
+      if (!stepper) return stepper.error();
+      steppers.push_back(std::move(*stepper));
       return {};
     };
     if (auto opened = open({}, false, false); !opened) return opened.error();
     for (const Feature& feature : group) {
-      if (auto opened = open(feature.on, feature.passTimes, feature.measuring); !opened) return opened.error();
-      if (feature.zero.empty()) continue;
-      if (auto opened = open(feature.zero, false, false); !opened) return opened.error();
+      if (auto opened = open(feature.on, feature.passTimes, feature.measuresFigures); !opened) return opened.error();
+      if (feature.off.empty()) continue;
+      if (auto opened = open(feature.off, false, false); !opened) return opened.error();
     }
-    samples.resize(lanes.size());
-    if (auto ran = runTogether(bench, lanes, bench.quick() ? 6 : 16, samples); !ran) return ran.error();
+    samples.resize(steppers.size());
+    if (auto done = runInterleaved(bench, steppers, bench.quick() ? 6 : 16, samples); !done) return done.error();
   }
   std::vector<Cost> costs;
-  if (samples.empty() || samples[0].ms.empty()) return costs;  // stopped before a frame that counts
+  if (samples.empty() || samples[0].ms.empty()) return costs;  // stopped before the first sample
   size_t next = 1;
   for (const Feature& feature : group) {
     Cost& cost = costs.emplace_back(Cost{&feature, samples[0], samples[next++], {}});
-    if (!feature.zero.empty()) cost.off = samples[next++];
+    if (!feature.off.empty()) cost.off = samples[next++];
   }
   std::erase_if(costs, [](const Cost& cost) { return cost.on.ms.size() != cost.base.ms.size(); });
   return costs;
 }
 
-Expected<void> costs(Bench& bench, const std::vector<Feature>& wanted, Report& report) {
+Expected<void> costs(Bench& bench, const std::vector<Feature>& chosen, Report& report) {
   Table table{
-      "Each feature alone on the scene dam10k, steps of 1/1200 s",
-      {"feature", "ns", "over base", "fastest", "list builds", "off, over base", "fastest", "passes that it adds"},
+      "Each feature alone in the scene dam10k, time steps of 1/1200 s",
+      {"feature", "ns", "on / base", "fastest", "list builds", "off / base", "fastest", "added passes"},
       {},
-      "ns: a particle a substep. over base: the median over frames of its time over that of the scene without it, run side by side.\n"
-      "fastest: its fastest frame over the base's fastest; where the two differ, other programs disturbed the run. off: named and set to\n"
-      "zero; it then has the base's passes and bits, or the suite fails. list builds: more than the base's, in all frames measured; what\n"
-      "changes how the water moves (a solid that it hits) changes how often the list is built, and that is in its cost."};
-  Plot plot{"A feature's cost, and that of having it off",
-            "time over that of the scene without it",
+      "ns: per particle and substep. on / base: median over frames of the time with the feature divided by the time of the base scene,\n"
+      "frames interleaved. fastest: the same ratio of the fastest frames; if the two ratios differ, other programs disturbed the run.\n"
+      "off: the feature disabled explicitly; fails unless it runs the passes of the base and gives the same bits. list builds: difference\n"
+      "from the base over all frames; features that change the flow (solids) change the number of list builds, which is in their cost."};
+  Plot plot{"Cost of features, enabled and disabled",
+            "time / time of the base scene",
             "",
             false,
             false,
@@ -237,32 +236,32 @@ Expected<void> costs(Bench& bench, const std::vector<Feature>& wanted, Report& r
     const auto& [feature, base, on, off] = cost;
     const std::string name(feature->name);
     if (on.end.substeps != base.end.substeps)
-      report.failures.push_back(name + ": took " + std::to_string(on.end.substeps) + " substeps a frame, the base " +
-                                std::to_string(base.end.substeps) + "; expected as many, or costs do not compare");
+      report.failures.push_back(name + ": found " + std::to_string(on.end.substeps) +
+                                " substeps per frame, expected those of the base scene: " + std::to_string(base.end.substeps));
     std::vector<std::string> row{name,
                                  number(on.ns()),
                                  number(median(on.ratio)),
                                  fastest(on, base),
-                                 moreOf(on.builds, base.builds),
+                                 signedDifference(on.builds, base.builds),
                                  "-",
                                  "-",
                                  passChanges(on.end.pass_ms, base.end.pass_ms)};
     Json json{{"case", name}, {"base", samplesJson(base)}, {"on", samplesJson(on)}};
-    const double place = double(table.rows.size() + 1);
+    const double rowY = double(table.rows.size() + 1);
     plot.rows.push_back(name);
-    plot.series[0].points.emplace_back(median(on.ratio), place);
+    plot.series[0].points.emplace_back(median(on.ratio), rowY);
     if (off) {
-      holdZero(name, *off, base, report);
+      checkDisabled(name, *off, base, report);
       row[5] = number(median(off->ratio));
       row[6] = fastest(*off, base);
       json["off"] = samplesJson(*off);
-      plot.series[1].points.emplace_back(median(off->ratio), place);
+      plot.series[1].points.emplace_back(median(off->ratio), rowY);
     }
     table.rows.push_back(std::move(row));
     report.results.push_back(std::move(json));
   };
-  for (size_t first = 0; first < wanted.size() && !bench.stopped(); first += kGroup) {
-    const auto group = measured(bench, std::span(wanted).subspan(first, std::min(kGroup, wanted.size() - first)));
+  for (size_t first = 0; first < chosen.size() && !bench.stopped(); first += kGroup) {
+    const auto group = measured(bench, std::span(chosen).subspan(first, std::min(kGroup, chosen.size() - first)));
     if (!group) return group.error();
     for (const Cost& cost : *group) add(cost);
   }
@@ -272,7 +271,7 @@ Expected<void> costs(Bench& bench, const std::vector<Feature>& wanted, Report& r
   return {};
 }
 
-/// Scenes whose passes are listed.
+/// A scene whose passes are listed.
 struct PassScene {
   std::string_view name, scene;
   Overrides overrides = {};
@@ -290,32 +289,30 @@ std::vector<PassScene> passScenes() {
 
 Expected<void> passes(Bench& bench, const std::vector<PassScene>& scenes, Report& report) {
   Table cost{"Scenes, in frames of 1/60 s",
-             {"scene", "particles", "ms a frame", "substeps", "passes that ran", "kinds", "skipped"},
+             {"scene", "particles", "ms per frame", "substeps", "passes", "kinds", "skipped"},
              {},
-             "passes that ran: as recorded in one frame, figures too."};
-  Table ran{"Passes of a scene: how often each is recorded in one frame",
-            {"pass"},
-            {},
-            "What the device then finds nothing to do for is an empty dispatch. -: not there."};
-  Table skipped{"Passes that were skipped, and why", {"pass", "reason", "scenes"}, {}, ""};
+             "passes: recorded in one frame, including those that measure figures. kinds: distinct passes. skipped: passes not recorded."};
+  Table recorded{
+      "Passes of a scene, recorded per frame", {"pass"}, {}, "Recorded passes without work are empty dispatches. -: not recorded."};
+  Table skipped{"Skipped passes and reasons", {"pass", "reason", "scenes"}, {}, ""};
   std::vector<std::vector<PassTime>> all;
   std::map<std::pair<std::string, std::string>, std::string> reasons;
   for (const PassScene& scene : scenes) {
     if (bench.stopped()) break;
     const std::string name(scene.name);
     bench.step(name + ", passes");
-    auto lane = Lane::open(bench, std::string(scene.scene), scene.overrides);
-    if (!lane) return lane.error();
+    auto stepper = FrameStepper::open(bench, std::string(scene.scene), scene.overrides);
+    if (!stepper) return stepper.error();
     std::vector<double> ms;
     for (int frame = 0; frame < kWarmUp + 3; ++frame) {
-      const auto took = lane->frame(1.0 / 60);
+      const auto took = stepper->frame(1.0 / 60);
       if (!took) return took.error();
       if (frame >= kWarmUp) ms.push_back(*took);
     }
-    const auto stats = lane->stats();
+    const auto stats = stepper->stats();
     if (!stats) return stats.error();
     uint64_t runs = 0;
-    Json json{{"case", name + ", passes"}, {"scene", scene.scene}, {"ms_a_frame", sampled(ms)}, {"substeps", stats->substeps}};
+    Json json{{"case", name + ", passes"}, {"scene", scene.scene}, {"ms_a_frame", sampleStatistics(ms)}, {"substeps", stats->substeps}};
     json["passes"] = passesJson(stats->pass_ms);
     json["skipped"] = Json::object();
     for (const PassTime& pass : stats->pass_ms) runs += pass.runs;
@@ -327,9 +324,9 @@ Expected<void> passes(Bench& bench, const std::vector<PassScene>& scenes, Report
     report.results.push_back(std::move(json));
     cost.rows.push_back({name, grouped(stats->particles), number(median(ms)), std::to_string(stats->substeps), std::to_string(runs),
                          std::to_string(stats->pass_ms.size()), std::to_string(stats->skipped.size())});
-    ran.columns.push_back(name);
+    recorded.columns.push_back(name);
     if (stats->particles == 0 && runs > 0)
-      report.failures.push_back(name + ": a scene without particles ran " + passList(stats->pass_ms) + "; expected no pass at all");
+      report.failures.push_back(name + ": found passes " + passList(stats->pass_ms) + " in a scene without particles, expected none");
     all.push_back(stats->pass_ms);
   }
   std::vector<std::string> names;
@@ -342,10 +339,10 @@ Expected<void> passes(Bench& bench, const std::vector<PassScene>& scenes, Report
       const auto found = std::ranges::find(list, name, &PassTime::name);
       row.push_back(found == list.end() ? "-" : std::to_string(found->runs));
     }
-    ran.rows.push_back(std::move(row));
+    recorded.rows.push_back(std::move(row));
   }
   for (const auto& [what, where] : reasons) skipped.rows.push_back({what.first, what.second, where});
-  for (Table* table : {&cost, &ran, &skipped})
+  for (Table* table : {&cost, &recorded, &skipped})
     if (!table->rows.empty()) report.tables.push_back(std::move(*table));
   return {};
 }
@@ -353,14 +350,14 @@ Expected<void> passes(Bench& bench, const std::vector<PassScene>& scenes, Report
 }  // namespace
 
 Expected<Report> runFeatures(Bench& bench) {
-  std::vector<Feature> wanted = features();
-  std::erase_if(wanted, [&](const Feature& feature) { return !bench.wanted(feature.name); });
+  std::vector<Feature> chosen = features();
+  std::erase_if(chosen, [&](const Feature& feature) { return !bench.selected(feature.name); });
   std::vector<PassScene> scenes = passScenes();
-  std::erase_if(scenes, [&](const PassScene& scene) { return !bench.wanted(std::string(scene.name) + ", passes"); });
-  bench.plan(wanted.size() * bench.options().repeat + scenes.size());
+  std::erase_if(scenes, [&](const PassScene& scene) { return !bench.selected(std::string(scene.name) + ", passes"); });
+  bench.plan(chosen.size() * bench.options().repeat + scenes.size());
   Report report;
-  if (auto ran = costs(bench, wanted, report); !ran) return ran.error();
-  if (auto ran = passes(bench, scenes, report); !ran) return ran.error();
+  if (auto done = costs(bench, chosen, report); !done) return done.error();
+  if (auto done = passes(bench, scenes, report); !done) return done.error();
   return report;
 }
 

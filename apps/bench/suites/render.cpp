@@ -1,4 +1,4 @@
-// Surfaces from particles against the truth, and what they cost: methods and settings over shapes of known depth and normal.
+// Surface reconstruction: time and error of methods and settings on analytic shapes.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "bench/pareto.hpp"
 #include "bench/suites/suites.hpp"
 #include "bench/suites/surface_aims.hpp"
-#include "bench/suites/surface_ways.hpp"
+#include "bench/suites/surface_variants.hpp"
 #include "bench/surface_errors.hpp"
 #include "bench/workbench.hpp"
 #include "render/fluid_renderer_impl.hpp"
@@ -17,28 +17,28 @@
 namespace rill::bench {
 namespace {
 
-constexpr double kFov = 40;        // degrees
-constexpr double kRadius = 0.75;   // spacings: of the spheres by which pictures are named
-constexpr double kTravel = 0.25;   // spacings that the moving wave travels a frame
-constexpr double kTraveling = 18;  // spacings: its length
+constexpr double kFov = 40;         // degrees
+constexpr double kRadius = 0.75;    // sphere radius in spacings, for the pixel radius in picture names
+constexpr double kTravel = 0.25;    // displacement of the moving wave per frame, spacings
+constexpr double kWavelength = 18;  // its wavelength, spacings
 constexpr double kFlickerFrame_s = 1.0 / 60;
-constexpr double kPixelsAPart = 2e5;  // of progress
+constexpr double kPixelsPerPart = 2e5;  // of progress
 
-constexpr const char* kAsItIs = "settings as they are";
+constexpr const char* kDefaultSettings = "default settings";
 
 struct Picture {
   std::string name;
   Eye eye;
   Jitter jitter = {};
   bool tilted = false;
-  bool settings = true;  ///< whether settings are varied, too
+  bool settings = true;  ///< also measures variants of the settings
 };
 
 Picture picture(uint32_t width, uint32_t height, double radius) {
-  const double tangentY = std::tan(0.5 * kFov * std::numbers::pi / 180);
+  const double tanHalfFovY = std::tan(0.5 * kFov * std::numbers::pi / 180);
   char name[64];
   std::snprintf(name, sizeof name, "%ux%u r %g", width, height, radius);
-  return {name, {width, height, tangentY * width / height, tangentY, kRadius * height / (2 * tangentY * radius)}};
+  return {name, {width, height, tanHalfFovY * width / height, tanHalfFovY, kRadius * height / (2 * tanHalfFovY * radius)}};
 }
 
 std::vector<Picture> pictures(bool quick) {
@@ -66,20 +66,20 @@ std::vector<Picture> pictures(bool quick) {
 
 std::vector<std::unique_ptr<Shape>> shapesOf(const Picture& picture, bool quick) {
   const Eye& eye = picture.eye;
-  if (picture.tilted) return tiltedShapes(eye.distance, eye.tangentX, eye.tangentY);
-  auto all = shapes(eye.distance, eye.tangentX, eye.tangentY);
+  if (picture.tilted) return tiltedShapes(eye.distance, eye.tanHalfFovX, eye.tanHalfFovY);
+  auto all = shapes(eye.distance, eye.tanHalfFovX, eye.tanHalfFovY);
   if (quick) std::erase_if(all, [](const auto& shape) { return shape->name() == "waves 30" || shape->name() == "waves 60"; });
   return all;
 }
 
-/// What fronts are drawn of: neither the corner nor the sheet, where edges decide.
+/// Shapes of the Pareto fronts: corner and sheet are excluded, since edges dominate their errors.
 bool smooth(const Shape& shape) { return shape.name() != "corner" && shape.name() != "sheet"; }
 
-/// A run of the solver, whose surface nobody knows.
+/// A simulation run, which has no reference surface.
 struct Recorded {
   const char *name, *scene;
   std::vector<Override> changes;
-  double from_s;  ///< of the first frame
+  double from_s;  ///< time of the first frame
 };
 const std::vector<Recorded>& recordings() {
   static const std::vector<Recorded> all{{"resting column", "resting-column", {}, 1.0},
@@ -87,16 +87,16 @@ const std::vector<Recorded>& recordings() {
   return all;
 }
 
-/// Particles on the device.
+/// Particle positions on the device.
 struct Points {
   Buffer positions;
   uint32_t count = 0;
   double spacing = 1;
 };
 
-/// A way's cost and error, added up over shapes or frames.
+/// Cost and error of a variant, summed over shapes or frames.
 struct Sum {
-  const SurfaceWay* way = nullptr;
+  const SurfaceVariant* variant = nullptr;
   double ms = 0, mean = 0, p95 = 0, count = 0;
 };
 
@@ -113,53 +113,53 @@ class Render {
     renderer_ = std::move(*renderer);
     auto bilateral = Bilateral::create(workbench_->device());
     if (!bilateral) return bilateral.error();
-    ways_ = surfaceWays(*bilateral, bench_.quick());
-    errors_.title = "Surfaces against the truth: ms of the whole chain, errors in degrees";
-    errors_.columns = {"picture", "shape", "method", "particles", "ms", "smoothing", "mean", "p95", "edge", "depth d", "IoU", "anew"};
+    variants_ = surfaceVariants(*bilateral, bench_.quick());
+    errors_.title = "Surfaces against the analytic reference: total time in ms, errors in degrees";
+    errors_.columns = {"picture", "shape", "method", "particles", "ms", "smoothing", "mean", "p95", "edge", "depth d", "IoU", "jitter"};
     errors_.note =
-        "r: pixels of a sphere of 0.75 spacings. ms: occlusion, splat, fit, blend, composition; the median. smoothing: without what comes\n"
-        "before the depth of spheres, passes timed one by one. mean, p95: of the angle to the true normal, 1.5 spacings away from edges;\n"
-        "edge: mean nearer to them. depth: rms in spacings. IoU: of silhouettes. anew: mean change of the normal where particles are\n"
-        "jittered anew.";
+        "r: radius in pixels of a sphere of 0.75 spacings. ms: median time of all surface passes. smoothing: passes after the sphere\n"
+        "depth, timed separately. mean, p95: mean and 95th percentile of the angle to the reference normal, farther than 1.5 spacings\n"
+        "from edges. edge: mean nearer to edges. depth: root mean square in spacings. IoU: intersection over union of the silhouettes.\n"
+        "jitter: mean change of the error of the normal between two random jitters of the particles.";
     const std::vector<Picture> all = pictures(bench_.quick());
     size_t parts = 0;
     for (const Picture& p : all) {
-      for (const auto& shape : shapesOf(p, bench_.quick())) parts += wanted(p, *shape).size() * partsOf(p.eye);
+      for (const auto& shape : shapesOf(p, bench_.quick())) parts += selectedVariants(p, *shape).size() * partsOf(p.eye);
     }
-    for (const Picture& p : moving()) parts += wanted("moving wave, " + p.name).size() * partsOf(p.eye);
-    for (const Recorded& r : recordings()) parts += wanted(r.name).size() * partsOf(still().eye);
+    for (const Picture& p : movingWavePictures()) parts += selectedVariants("moving wave, " + p.name).size() * partsOf(p.eye);
+    for (const Recorded& r : recordings()) parts += selectedVariants(r.name).size() * partsOf(flickerPicture().eye);
     bench_.plan(parts, "part");
     for (const Picture& p : all)
       if (auto ok = measure(p); !ok) return ok.error();
-    for (const Picture& p : moving())
+    for (const Picture& p : movingWavePictures())
       if (auto ok = flickerOfWave(p); !ok) return ok.error();
     for (const Recorded& r : recordings())
       if (auto ok = flickerOfRun(r); !ok) return ok.error();
-    if (Table aims = judgedSurfaces(figures_, bench_.options().only.empty() && !bench_.stopped(), report_.failures); !aims.rows.empty())
+    if (Table aims = surfaceAimTable(figures_, bench_.options().only.empty() && !bench_.stopped(), report_.failures); !aims.rows.empty())
       report_.tables.insert(report_.tables.begin(), std::move(aims));
     if (!errors_.rows.empty()) report_.tables.insert(report_.tables.begin(), std::move(errors_));
     return std::move(report_);
   }
 
  private:
-  std::vector<Picture> moving() const {
+  std::vector<Picture> movingWavePictures() const {
     if (bench_.quick()) return {picture(640, 360, 10)};
     return {picture(1024, 768, 10), picture(1024, 768, 4), picture(1024, 768, 25)};
   }
-  Picture still() const { return bench_.quick() ? picture(640, 360, 10) : picture(1024, 768, 10); }
+  Picture flickerPicture() const { return bench_.quick() ? picture(640, 360, 10) : picture(1024, 768, 10); }
   int frames() const { return bench_.quick() ? 3 : 8; }
   uint32_t samples() const { return std::max(3u, bench_.options().repeat); }
-  static size_t partsOf(const Eye& eye) { return std::max<size_t>(1, static_cast<size_t>(eye.width * eye.height / kPixelsAPart)); }
+  static size_t partsOf(const Eye& eye) { return std::max<size_t>(1, static_cast<size_t>(eye.width * eye.height / kPixelsPerPart)); }
 
-  std::vector<const SurfaceWay*> wanted(const std::string& about) const {
-    std::vector<const SurfaceWay*> out;
-    for (const SurfaceWay& way : ways_)
-      if (bench_.wanted(about + ", " + way.name())) out.push_back(&way);
+  std::vector<const SurfaceVariant*> selectedVariants(const std::string& caseName) const {
+    std::vector<const SurfaceVariant*> out;
+    for (const SurfaceVariant& variant : variants_)
+      if (bench_.selected(caseName + ", " + variant.name())) out.push_back(&variant);
     return out;
   }
-  std::vector<const SurfaceWay*> wanted(const Picture& picture, const Shape& shape) const {
-    auto out = wanted(picture.name + ", " + shape.name());
-    std::erase_if(out, [&](const SurfaceWay* way) { return !way->standard() && !(picture.settings && smooth(shape)); });
+  std::vector<const SurfaceVariant*> selectedVariants(const Picture& picture, const Shape& shape) const {
+    auto out = selectedVariants(picture.name + ", " + shape.name());
+    std::erase_if(out, [&](const SurfaceVariant* variant) { return !variant->isDefault() && !(picture.settings && smooth(shape)); });
     return out;
   }
 
@@ -181,22 +181,22 @@ class Render {
     return fluidView(camera, eye.width, eye.height, 1);
   }
 
-  SurfaceBuffers declare(Graph& graph, const Points& points, const SurfaceWay& way, const FluidView& view, bool whole) {
+  SurfaceBuffers declare(Graph& graph, const Points& points, const SurfaceVariant& variant, const FluidView& view, bool complete) {
     FluidState fluid;
     fluid.position = importWhole(graph, "positions", points.positions);
     fluid.count = points.count;
     fluid.spacing = static_cast<float>(points.spacing);
     surface::SurfacePush camera = renderer_->impl().camera(fluid, view);
-    camera.step = sampleStep(camera, fluid.spacing, view.focus_m, way.settings.samples);
-    return renderer_->impl().surface.addTo(graph, fluid, camera, way.method, whole, view.focus_m, way.settings);
+    camera.step = sampleStep(camera, fluid.spacing, view.focus_m, variant.settings.samples);
+    return renderer_->impl().surface.addTo(graph, fluid, camera, variant.method, complete, view.focus_m, variant.settings);
   }
 
-  /// `ms`: what it took, its pixels kept.
-  Expected<Drawn> draw(const Points& points, const SurfaceWay& way, const FluidView& view, double* ms = nullptr) {
+  /// Renders and reads back a surface; `ms`: time from recording to completion.
+  Expected<RenderedSurface> draw(const Points& points, const SurfaceVariant& variant, const FluidView& view, double* ms = nullptr) {
     auto pixels = workbench_->make("pixels", uint64_t{view.width} * view.height * 8);
     if (!pixels) return pixels.error();
-    const auto ran = workbench_->run([&](Graph& graph) {
-      const SurfaceBuffers found = declare(graph, points, way, view, true);
+    const auto executed = workbench_->run([&](Graph& graph) {
+      const SurfaceBuffers found = declare(graph, points, variant, view, true);
       BufferRef kept = importWhole(graph, "pixels", *pixels);
       graph.pass("keep", [&](Pass& pass) {
         pass.read(found.pixels, Use::CopySource);
@@ -204,11 +204,11 @@ class Render {
         return [=, from = found.pixels, bytes = pixels->size()](Commands& commands) { commands.copy(from, kept, bytes); };
       });
     });
-    if (!ran) return ran.error();
-    if (ms) *ms = ran->run_ms;
+    if (!executed) return executed.error();
+    if (ms) *ms = executed->run_ms;
     const auto words = workbench_->download<uint32_t>(*pixels);
     if (!words) return words.error();
-    Drawn drawn;
+    RenderedSurface drawn;
     drawn.depth.resize(words->size() / 2);
     drawn.normal.resize(drawn.depth.size());
     for (size_t i = 0; i < drawn.depth.size(); ++i) {
@@ -219,30 +219,30 @@ class Render {
     return drawn;
   }
 
-  void declareToTime(Graph& graph, const Points& points, const SurfaceWay& way, const FluidView& view) {
-    const SurfaceBuffers found = declare(graph, points, way, view, false);
-    graph.pass("look", [&](Pass& pass) {
+  void declareForTiming(Graph& graph, const Points& points, const SurfaceVariant& variant, const FluidView& view) {
+    const SurfaceBuffers found = declare(graph, points, variant, view, false);
+    graph.pass("consume", [&](Pass& pass) {
       pass.read(found.pixels, Use::CopySource);
       pass.sideEffect();
       return [](Commands&) {};
     });
   }
 
-  /// Once its shaders have run.
-  Expected<std::vector<double>> time(const Points& points, const SurfaceWay& way, const FluidView& view) {
+  /// Times of all surface passes; call draw() first, so that the shaders are compiled.
+  Expected<std::vector<double>> time(const Points& points, const SurfaceVariant& variant, const FluidView& view) {
     auto taken = sampleGraph(
-        *workbench_, samples(), [&](Graph& graph) { declareToTime(graph, points, way, view); }, WarmUp::Done);
+        *workbench_, samples(), [&](Graph& graph) { declareForTiming(graph, points, variant, view); }, WarmUp::Done);
     if (!taken) return taken.error();
     return std::move(taken->run_ms);
   }
 
-  /// Of smoothing with normals: all passes but those up to the depth of spheres. In runs of their own, since timing passes slows them.
-  Expected<std::vector<double>> timeSmoothing(const Points& points, const SurfaceWay& way, const FluidView& view) {
+  /// Times of smoothing and normals: all passes after the sphere depth. Separate runs, since time stamps per pass slow the graph.
+  Expected<std::vector<double>> timeSmoothing(const Points& points, const SurfaceVariant& variant, const FluidView& view) {
     static constexpr std::array kBefore{"surface clear", "surface occlude", "surface cull", "surface splat", "surface tiles"};
     std::vector<double> taken;
     workbench_->timePasses(true);
     for (uint32_t k = 0; k < samples(); ++k) {
-      const auto ran = workbench_->run([&](Graph& graph) { declareToTime(graph, points, way, view); });
+      const auto ran = workbench_->run([&](Graph& graph) { declareForTiming(graph, points, variant, view); });
       if (!ran) return ran.error();
       double ms = 0;
       for (const Timing& timing : workbench_->passTimes())
@@ -253,73 +253,73 @@ class Render {
     return taken;
   }
 
-  /// A picture of each shape, in each way.
+  /// Measures every variant on every shape of a picture.
   Expected<void> measure(const Picture& picture) {
     const FluidView view = viewOf(picture.eye);
     std::vector<Sum> sums;
     for (const auto& shape : shapesOf(picture, bench_.quick())) {
-      const auto ways = wanted(picture, *shape);
-      if (ways.empty()) continue;
-      const TrueSurface truth = trueSurface(*shape, picture.eye);
-      auto points = upload(*shape, picture.jitter, 1), anew = upload(*shape, picture.jitter, 2);
+      const auto variants = selectedVariants(picture, *shape);
+      if (variants.empty()) continue;
+      const ReferenceSurface reference = referenceSurface(*shape, picture.eye);
+      auto points = upload(*shape, picture.jitter, 1), rejittered = upload(*shape, picture.jitter, 2);
       if (!points) return points.error();
-      if (!anew) return anew.error();
-      for (const SurfaceWay* way : ways) {
+      if (!rejittered) return rejittered.error();
+      for (const SurfaceVariant* variant : variants) {
         if (bench_.stopped()) break;
-        bench_.step(picture.name + ", " + shape->name() + ", " + way->name(), partsOf(picture.eye));
-        const auto drawn = draw(*points, *way, view);
+        bench_.step(picture.name + ", " + shape->name() + ", " + variant->name(), partsOf(picture.eye));
+        const auto drawn = draw(*points, *variant, view);
         if (!drawn) return drawn.error();
-        const auto ms = time(*points, *way, view);
+        const auto ms = time(*points, *variant, view);
         if (!ms) return ms.error();
-        const Errors e = surfaceErrors(truth, *drawn);
-        Json json{{"picture", picture.name},       {"shape", shape->name()},     {"method", way->family},
-                  {"setting", way->setting},       {"particles", points->count}, {"ms", sampled(*ms)},
-                  {"normal_mean_deg", e.mean},     {"normal_p95_deg", e.p95},    {"edge_mean_deg", e.edge},
-                  {"depth_rms_spacings", e.depth}, {"silhouette_iou", e.overlap}};
-        if (way->standard()) {
-          const auto other = draw(*anew, *way, view);
+        const Errors e = surfaceErrors(reference, *drawn);
+        Json json{{"picture", picture.name},    {"shape", shape->name()},        {"method", variant->family}, {"setting", variant->setting},
+                  {"particles", points->count}, {"ms", sampleStatistics(*ms)},   {"normal_mean_deg", e.mean}, {"normal_p95_deg", e.p95},
+                  {"edge_mean_deg", e.edge},    {"depth_rms_spacings", e.depth}, {"silhouette_iou", e.iou}};
+        if (variant->isDefault()) {
+          const auto other = draw(*rejittered, *variant, view);
           if (!other) return other.error();
-          const double change = errorChange(truth, *drawn, truth, *other);
+          const double change = errorChange(reference, *drawn, reference, *other);
           json["jittered_anew_deg"] = change;
-          const auto smoothing = timeSmoothing(*points, *way, view);
+          const auto smoothing = timeSmoothing(*points, *variant, view);
           if (!smoothing) return smoothing.error();
-          json["smoothing_ms"] = sampled(*smoothing);
-          figures_.push_back({picture.name, shape->name(), way->family, median(*ms), median(*smoothing), e.mean, e.p95, e.edge, e.overlap});
-          errors_.rows.push_back({picture.name, shape->name(), way->family, std::to_string(points->count), number(median(*ms)),
+          json["smoothing_ms"] = sampleStatistics(*smoothing);
+          figures_.push_back({picture.name, shape->name(), variant->family, median(*ms), median(*smoothing), e.mean, e.p95, e.edge, e.iou});
+          errors_.rows.push_back({picture.name, shape->name(), variant->family, std::to_string(points->count), number(median(*ms)),
                                   number(median(*smoothing)), number(e.mean), number(e.p95), number(e.edge), number(e.depth),
-                                  number(e.overlap, 4), number(change)});
+                                  number(e.iou, 4), number(change)});
         }
         report_.results.push_back(std::move(json));
-        if (smooth(*shape)) add(sums, way, median(*ms), e.mean, e.p95);
+        if (smooth(*shape)) add(sums, variant, median(*ms), e.mean, e.p95);
       }
     }
-    if (picture.settings) tell(picture.name + ": mean over plane, waves and balls", "mean error of the normal (degrees)", sums);
+    if (picture.settings) report(picture.name + ": mean of plane, waves and balls", "mean error of the normal (degrees)", sums);
     return {};
   }
 
-  /// One jitter of particles on a wave that travels: what changes in the error of the normal from frame to frame.
+  /// Change of the error of the normal between frames of a traveling wave with one fixed jitter.
   Expected<void> flickerOfWave(const Picture& picture) {
     const std::string name = std::string(kMovingWave) + ", " + picture.name;
-    const auto ways = wanted(name);
-    if (ways.empty()) return {};
+    const auto variants = selectedVariants(name);
+    if (variants.empty()) return {};
     const Eye& eye = picture.eye;
     std::vector<Points> points;
-    std::vector<TrueSurface> truth;
+    std::vector<ReferenceSurface> references;
     for (int k = 0; k < frames() && !bench_.stopped(); ++k) {
-      const auto wave = traveledWave(eye.distance, eye.tangentX, eye.tangentY, kTraveling, kTravel * k);
+      const auto wave = travelingWave(eye.distance, eye.tanHalfFovX, eye.tanHalfFovY, kWavelength, kTravel * k);
       auto uploaded = upload(*wave, picture.jitter, 1);
       if (!uploaded) return uploaded.error();
       points.push_back(std::move(*uploaded));
-      truth.push_back(trueSurface(*wave, eye));
+      references.push_back(referenceSurface(*wave, eye));
     }
-    return flicker(name, eye, viewOf(eye), points, ways,
-                   [&](size_t k, const Drawn& before, const Drawn& after) { return errorChange(truth[k - 1], before, truth[k], after); });
+    return flicker(name, eye, viewOf(eye), points, variants, [&](size_t k, const RenderedSurface& before, const RenderedSurface& after) {
+      return errorChange(references[k - 1], before, references[k], after);
+    });
   }
 
-  /// Frames of the solver in a still camera. What moves is counted, too: only the ways can be compared.
+  /// Change of the normal between simulated frames with a fixed camera. It includes real motion, so only variants are comparable.
   Expected<void> flickerOfRun(const Recorded& recorded) {
-    const auto ways = wanted(recorded.name);
-    if (ways.empty() || bench_.stopped()) return {};
+    const auto variants = selectedVariants(recorded.name);
+    if (variants.empty() || bench_.stopped()) return {};
     const auto scene = namedScene(recorded.scene, recorded.changes);
     if (!scene) return scene.error();
     offline::Options options;
@@ -337,78 +337,83 @@ class Render {
       if (!uploaded) return uploaded.error();
       points.push_back(std::move(*uploaded));
     }
-    const Eye eye = still().eye;
+    const Eye eye = flickerPicture().eye;
     const CameraView camera = sceneCamera(*scene, (*simulation)->start(), double(eye.width) / eye.height);
-    return flicker(recorded.name, eye, fluidView(camera, eye.width, eye.height, scene->fluid.spacing), points, ways,
-                   [&](size_t, const Drawn& before, const Drawn& after) { return normalChange(before, after, scene->fluid.spacing); });
+    return flicker(recorded.name, eye, fluidView(camera, eye.width, eye.height, scene->fluid.spacing), points, variants,
+                   [&](size_t, const RenderedSurface& before, const RenderedSurface& after) {
+                     return normalChange(before, after, scene->fluid.spacing);
+                   });
   }
 
-  /// `change`: of frame k from the one before, degrees.
+  /// `change(k, before, after)`: change between frames k - 1 and k, degrees.
   Expected<void> flicker(const std::string& name, const Eye& eye, const FluidView& view, std::span<const Points> points,
-                         std::span<const SurfaceWay* const> ways, const std::function<double(size_t, const Drawn&, const Drawn&)>& change) {
+                         std::span<const SurfaceVariant* const> variants,
+                         const std::function<double(size_t, const RenderedSurface&, const RenderedSurface&)>& change) {
     std::vector<Sum> sums;
-    for (const SurfaceWay* way : ways) {
+    for (const SurfaceVariant* variant : variants) {
       if (bench_.stopped()) break;
-      bench_.step(name + ", " + way->name(), partsOf(eye));
-      Drawn before;
+      bench_.step(name + ", " + variant->name(), partsOf(eye));
+      RenderedSurface before;
       std::vector<double> ms(points.size()), changes;
       for (size_t k = 0; k < points.size(); ++k) {
-        auto drawn = draw(points[k], *way, view, &ms[k]);
+        auto drawn = draw(points[k], *variant, view, &ms[k]);
         if (!drawn) return drawn.error();
         if (k > 0) changes.push_back(change(k, before, *drawn));
         before = std::move(*drawn);
       }
       double mean = 0;
       for (const double c : changes) mean += c / double(changes.size());
-      if (way->standard() && name.starts_with(kMovingWave)) {
+      if (variant->isDefault() && name.starts_with(kMovingWave)) {
         SurfaceFigures figures;
         figures.shape = kMovingWave;
-        figures.method = way->family;
+        figures.method = variant->family;
         figures.flicker = mean;
         figures_.push_back(figures);
       }
       report_.results.push_back({{"case", name},
-                                 {"method", way->family},
-                                 {"setting", way->setting},
+                                 {"method", variant->family},
+                                 {"setting", variant->setting},
                                  {"particles", points[0].count},
-                                 {"ms", sampled(ms)},
+                                 {"ms", sampleStatistics(ms)},
                                  {"flicker_deg", mean}});
-      add(sums, way, median(ms), mean, *std::ranges::max_element(changes));
+      add(sums, variant, median(ms), mean, *std::ranges::max_element(changes));
     }
-    tell(name + ": from frame to frame", "mean change of the normal (degrees)", sums);
+    report(name + ": change between frames", "mean change of the normal (degrees)", sums);
     return {};
   }
 
-  static void add(std::vector<Sum>& sums, const SurfaceWay* way, double ms, double mean, double p95) {
-    auto found = std::ranges::find(sums, way, &Sum::way);
-    if (found == sums.end()) found = sums.insert(sums.end(), Sum{way});
+  static void add(std::vector<Sum>& sums, const SurfaceVariant* variant, double ms, double mean, double p95) {
+    auto found = std::ranges::find(sums, variant, &Sum::variant);
+    if (found == sums.end()) found = sums.insert(sums.end(), Sum{variant});
     found->ms += ms;
     found->mean += mean;
     found->p95 += p95;
     ++found->count;
   }
 
-  /// A table and a diagram of cost against error, with the front; methods as they are stand out.
-  void tell(const std::string& title, const std::string& what, const std::vector<Sum>& sums) {
+  /// Adds a table and a diagram of time against error with the Pareto front; default settings are emphasized.
+  void report(const std::string& title, const std::string& what, const std::vector<Sum>& sums) {
     if (sums.empty()) return;
     std::vector<CostError> points;
     for (const Sum& sum : sums) points.emplace_back(sum.ms / sum.count, sum.mean / sum.count);
     const std::vector<size_t> front = paretoFront(points);
-    Table table{title, {"method", "ms", "degrees", "p95 or worst frame", "front"}, {}, ""};
+    Table table{title, {"method", "ms", "degrees", "p95 or worst frame", "Pareto front"}, {}, ""};
     for (size_t k = 0; k < sums.size(); ++k)
-      table.rows.push_back({sums[k].way->name(), number(points[k].first), number(points[k].second), number(sums[k].p95 / sums[k].count),
-                            std::ranges::find(front, k) != front.end() ? "front" : ""});
+      table.rows.push_back({sums[k].variant->name(), number(points[k].first), number(points[k].second), number(sums[k].p95 / sums[k].count),
+                            std::ranges::find(front, k) != front.end() ? "yes" : ""});
     report_.tables.push_back(std::move(table));
 
     Plot plot{title, "ms", what, true, true, {}};
-    plot.series.push_back({kAsItIs, Series::Style::Points, {}, {}, true});
+    plot.series.push_back({kDefaultSettings, Series::Style::Points, {}, {}, true});
     for (size_t k = 0; k < sums.size(); ++k) {
-      const SurfaceWay& way = *sums[k].way;
-      const std::string name = way.standard() ? kAsItIs : way.family;
+      const SurfaceVariant& variant = *sums[k].variant;
+      const std::string name = variant.isDefault() ? kDefaultSettings : variant.family;
       auto found = std::ranges::find(plot.series, name, &Series::name);
       if (found == plot.series.end()) found = plot.series.insert(plot.series.end(), {name, Series::Style::Points, {}, {}});
       found->points.push_back(points[k]);
-      found->labels.push_back(&way == &ways_.front() ? way.family + ", the default" : way.standard() ? way.family : way.setting);
+      found->labels.push_back(&variant == &variants_.front() ? variant.family + " (default)"
+                              : variant.isDefault()          ? variant.family
+                                                             : variant.setting);
     }
     Series line{"Pareto front", Series::Style::Lines, {}, {}};
     for (const size_t k : front) line.points.push_back(points[k]);
@@ -419,7 +424,7 @@ class Render {
   Bench& bench_;
   std::optional<Workbench> workbench_;
   std::unique_ptr<FluidRenderer> renderer_;
-  std::vector<SurfaceWay> ways_;
+  std::vector<SurfaceVariant> variants_;
   Table errors_;
   std::vector<SurfaceFigures> figures_;
   Report report_;

@@ -1,4 +1,4 @@
-// The engine's two sorts against the standard library's, over how many keys there are, how many of them differ and how they lie.
+// Counting and radix sort against the standard library, by number, range and distribution of the keys.
 #include <algorithm>
 #include <chrono>
 #include <random>
@@ -16,12 +16,12 @@ namespace {
 using Keys = std::vector<uint32_t>;
 using Pair = std::pair<uint32_t, uint32_t>;  // key, index
 
-/// Keys below a range, as a sort may meet them.
+/// A distribution of keys.
 struct Kind {
-  std::string_view name, about;
+  std::string_view name, description;
   uint64_t (*range)(uint64_t count);
   uint32_t (*key)(uint32_t index, uint32_t count, std::mt19937& random);
-  bool start = false;  ///< with the table of where each key begins
+  bool start = false;  ///< also builds the table of first indices per key
 };
 
 uint64_t asKeys(uint64_t count) { return count; }
@@ -30,26 +30,27 @@ uint32_t below(uint64_t range, std::mt19937& random) {
 }
 
 constexpr Kind kKinds[] = {
-    {"random", "random, as many values as keys", asKeys,
+    {"random", "uniform random, range = number of keys", asKeys,
      [](uint32_t, uint32_t count, std::mt19937& random) { return below(count, random); }},
-    {"cells", "random of four values a key, with the table of starts, as the fluid's grid asks", [](uint64_t count) { return 4 * count; },
+    {"cells", "uniform random, range = 4 x number of keys, with the table of starts, as in the fluid's grid",
+     [](uint64_t count) { return 4 * count; },
      [](uint32_t, uint32_t count, std::mt19937& random) { return below(uint64_t{4} * count, random); }, true},
-    {"sorted", "sorted, all different", asKeys, [](uint32_t index, uint32_t, std::mt19937&) { return index; }},
-    {"reversed", "reversed, all different", asKeys, [](uint32_t index, uint32_t count, std::mt19937&) { return count - 1 - index; }},
-    {"few", "random of 16 values, which the range says", [](uint64_t) { return uint64_t{16}; },
+    {"sorted", "sorted, distinct", asKeys, [](uint32_t index, uint32_t, std::mt19937&) { return index; }},
+    {"reversed", "reversed, distinct", asKeys, [](uint32_t index, uint32_t count, std::mt19937&) { return count - 1 - index; }},
+    {"few", "uniform random of 16 values, range = 16", [](uint64_t) { return uint64_t{16}; },
      [](uint32_t, uint32_t, std::mt19937& random) { return below(16, random); }},
-    {"hidden-few", "random of 16 values, in a range of as many as keys", asKeys,
+    {"hidden-few", "uniform random of 16 values, range = number of keys", asKeys,
      [](uint32_t, uint32_t count, std::mt19937& random) { return below(16, random) * (count / 16); }},
-    {"equal", "all equal, in a range of as many values as keys", asKeys, [](uint32_t, uint32_t count, std::mt19937&) { return count / 2; }},
-    {"many", "random of 2^32 values", [](uint64_t) { return KeySortDesc::kMaxKeyRange; },
+    {"equal", "all equal, range = number of keys", asKeys, [](uint32_t, uint32_t count, std::mt19937&) { return count / 2; }},
+    {"many", "uniform random, range = 2^32", [](uint64_t) { return KeySortDesc::kMaxKeyRange; },
      [](uint32_t, uint32_t, std::mt19937& random) { return uint32_t(random()); }},
 };
 
-/// The samples of one way to sort, or why there are none.
+/// Samples of one sort, or the reason why there are none.
 struct Samples {
-  std::vector<double> run_ms, whole_ms;
-  std::string none;
-  double middle() const { return median(run_ms); }
+  std::vector<double> run_ms, total_ms;
+  std::string skipReason;
+  double medianMs() const { return median(run_ms); }
 };
 
 template <class Work>
@@ -60,18 +61,18 @@ Samples timedOnHost(uint32_t repeat, const std::vector<Pair>& pairs, std::vector
     const auto begin = std::chrono::steady_clock::now();
     work(sorted);
     const double ms = 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    if (k > 0) samples.run_ms.push_back(ms);  // the first one warms the caches
+    if (k > 0) samples.run_ms.push_back(ms);  // the first run warms the caches
   }
-  samples.whole_ms = samples.run_ms;
+  samples.total_ms = samples.run_ms;
   return samples;
 }
 
-/// Times one method on the device, and holds its result against `expected`.
+/// Times one method on the device and compares its result with `expected`.
 Expected<Samples> timedOnDevice(Workbench& workbench, uint32_t repeat, const KeySortDesc& desc, const Buffer& keys,
                                 const std::vector<Pair>& expected, const std::string& name, Report& report) {
   Samples samples;
   if (desc.method == SortMethod::Counting && desc.keyRange > KeySortDesc::kMaxStartRange) {
-    samples.none = "refused";
+    samples.skipReason = "key range above the limit of counting sort";
     return samples;
   }
   auto sort = KeySort::create(workbench.device(), desc);
@@ -91,29 +92,29 @@ Expected<Samples> timedOnDevice(Workbench& workbench, uint32_t repeat, const Key
   });
   if (!taken) return taken.error();
   samples.run_ms = std::move(taken->run_ms);
-  samples.whole_ms = std::move(taken->whole_ms);
+  samples.total_ms = std::move(taken->total_ms);
   const auto result = workbench.download<uint32_t>(*order);
   if (!result) return result.error();
   size_t wrong = 0;
   for (size_t slot = 0; slot < expected.size(); ++slot) wrong += (*result)[slot] != expected[slot].second;
   if (wrong > 0)
     report.failures.push_back(name + ", " + (desc.method == SortMethod::Counting ? "counting" : "radix") + ": " + std::to_string(wrong) +
-                              " places differ from std::stable_sort");
+                              " entries differ from std::stable_sort");
   return samples;
 }
 
 Json json(const Samples& samples) {
-  if (!samples.none.empty()) return {{"skipped", samples.none}};
-  return {{"ms", sampled(samples.run_ms)}, {"with_everything_ms", sampled(samples.whole_ms)}};
+  if (!samples.skipReason.empty()) return {{"skipped", samples.skipReason}};
+  return {{"ms", sampleStatistics(samples.run_ms)}, {"with_everything_ms", sampleStatistics(samples.total_ms)}};
 }
 
-/// What is short is sampled more often: it costs little, and other programs disturb it more.
+/// Short runs are sampled more often: they are cheap, and other load disturbs them more.
 uint32_t samplesOf(const Bench& bench, uint32_t count) {
   return count <= 100'000 ? std::max(5u, bench.options().repeat) : bench.options().repeat;
 }
 
 std::string cell(const Samples& samples) {
-  const double ms = samples.middle();  // NaN of none
+  const double ms = samples.medianMs();  // NaN if skipped
   return number(ms, ms >= 1000 ? 4 : 3);
 }
 
@@ -126,30 +127,30 @@ Expected<Report> runAll(Bench& bench) {
   const auto partsOf = [](uint32_t count) { return 1 + count / 10'000; };
   size_t parts = 0;
   for (const Kind& kind : kKinds)
-    for (const uint32_t count : counts) parts += bench.wanted(nameOf(kind, count)) ? partsOf(count) : 0;
+    for (const uint32_t count : counts) parts += bench.selected(nameOf(kind, count)) ? partsOf(count) : 0;
   bench.plan(parts, "part");
 
   Report report;
   Table table;
   table.title = "Sorting pairs of a 32-bit key and an index, ms (medians)";
-  table.columns = {"case", "counting", "radix", "std::sort", "std::stable_sort", "Auto takes", "over best", "over std"};
+  table.columns = {"case", "counting", "radix", "std::sort", "std::stable_sort", "Auto", "Auto / best", "Auto / std"};
   table.note =
-      "over best: what Auto takes over the faster one of the two. over std: over the faster of the standard library's, one thread.\n"
-      "-: refused, a key range beyond " +
-      grouped(KeySortDesc::kMaxStartRange) + " has no table of counters";
-  for (const Kind& kind : kKinds) table.note += "\n" + std::string(kind.name) + ": " + std::string(kind.about);
+      "Auto: method that SortMethod::Auto chooses. Auto / best: its time divided by the faster of the two methods; Auto / std: by the\n"
+      "faster of the standard library's sorts on one thread. -: not supported, counting sort is limited to key ranges of " +
+      grouped(KeySortDesc::kMaxStartRange) + ".";
+  for (const Kind& kind : kKinds) table.note += "\n" + std::string(kind.name) + ": " + std::string(kind.description);
 
   for (const Kind& kind : kKinds) {
     Plot plot;
     plot.title = "Sort: " + std::string(kind.name);
     plot.x = "keys";
-    plot.y = "ns a key";
+    plot.y = "ns per key";
     plot.logX = plot.logY = true;
     for (const char* series : {"counting", "radix", "std::sort", "std::stable_sort"})
       plot.series.push_back({series, Series::Style::Both, {}, {}});
     for (const uint32_t count : counts) {
       const std::string name = nameOf(kind, count);
-      if (!bench.wanted(name)) continue;
+      if (!bench.selected(name)) continue;
       if (bench.stopped()) break;
       bench.step(name, partsOf(count));
       std::mt19937 random(count);
@@ -160,7 +161,7 @@ Expected<Report> runAll(Bench& bench) {
         pairs[i] = {keys[i], i};
       }
       const uint32_t repeat = samplesOf(bench, count);
-      // By key, then by index: the order that a stable sort gives.
+      // By key, then by index, which equals the result of a stable sort.
       const Samples byStd = timedOnHost(repeat, pairs, sorted, [](std::vector<Pair>& p) { std::sort(p.begin(), p.end()); });
       const Samples byStable = timedOnHost(repeat, pairs, sorted, [](std::vector<Pair>& p) {
         std::stable_sort(p.begin(), p.end(), [](const Pair& a, const Pair& b) { return a.first < b.first; });
@@ -177,9 +178,9 @@ Expected<Report> runAll(Bench& bench) {
         byMethod[counting ? 0 : 1] = std::move(*samples);
       }
       const auto& [byCounting, byRadix] = byMethod;
-      const double chosen = (autoCounts ? byCounting : byRadix).middle();
-      const double best = byCounting.none.empty() ? std::min(byCounting.middle(), byRadix.middle()) : byRadix.middle();
-      const double host = std::min(byStd.middle(), byStable.middle());
+      const double chosen = (autoCounts ? byCounting : byRadix).medianMs();
+      const double best = byCounting.skipReason.empty() ? std::min(byCounting.medianMs(), byRadix.medianMs()) : byRadix.medianMs();
+      const double host = std::min(byStd.medianMs(), byStable.medianMs());
       table.rows.push_back({name, cell(byCounting), cell(byRadix), cell(byStd), cell(byStable), autoCounts ? "counting" : "radix",
                             number(chosen / best), number(chosen / host)});
       report.results.push_back({{"case", name},
@@ -194,7 +195,7 @@ Expected<Report> runAll(Bench& bench) {
                                 {"auto_over_std", chosen / host}});
       const Samples* const all[] = {&byCounting, &byRadix, &byStd, &byStable};
       for (size_t s = 0; s < std::size(all); ++s)
-        if (all[s]->none.empty()) plot.series[s].points.emplace_back(count, 1e6 * all[s]->middle() / count);
+        if (all[s]->skipReason.empty()) plot.series[s].points.emplace_back(count, 1e6 * all[s]->medianMs() / count);
     }
     if (!plot.series[2].points.empty()) report.plots.push_back(std::move(plot));
   }

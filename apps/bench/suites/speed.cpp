@@ -1,4 +1,4 @@
-// What a particle costs in a substep, over how many there are; where that time goes; and two baselines.
+// Cost per particle and substep by the number of particles, per pass, and two baselines.
 #include <algorithm>
 #include <cmath>
 
@@ -15,32 +15,31 @@ namespace rill::bench {
 namespace speed_suite {
 namespace {
 
-constexpr int kFrames = 3;  // measured; one more goes before them, in which shaders are compiled
+constexpr int kFrames = 3;  // measured, after one warm-up frame in which shaders are compiled
 
-// At this speed the list is built about once in eleven substeps, as in the whole dam break: water that has only just been let go needs no
-// build for a while.
+// At this speed the list is built about every eleven substeps, as on average in a dam break; a fluid that starts at rest needs fewer.
 constexpr const char* kSpeed = "[8, 0, 0]";
 
-/// Longer where particles are larger, so that every count has about as many substeps a frame.
+/// Proportional to the spacing, so that the number of substeps per frame is about the same for all counts.
 double frameOf(const Scene& scene) { return scene.fluid.spacing / 0.05 / 60; }
 
-/// What is short is sampled more often: it costs little, and other programs disturb it more.
+/// Short runs are sampled more often: they are cheap, and other load disturbs them more.
 uint32_t samplesOf(const Bench& bench, uint32_t count) {
   return count <= 20'000 ? std::max(3u, bench.options().repeat) : bench.options().repeat;
 }
 
-/// Of a run's time: opening it, then what its particles take.
+/// Progress parts of a run: a constant for startup plus a term per particle.
 size_t partsOf(uint32_t count) { return 8 + count / 1000; }
 
-/// A pass, or those of a module: time in each frame, and what it is divided by.
+/// Cost of a pass, or of all passes of a module.
 struct PassCost {
   std::string name;
-  std::vector<double> ns;  ///< a particle a substep, a sample a frame
+  std::vector<double> ns;  ///< per particle and substep, one sample per frame
 };
 
 std::string_view moduleOf(std::string_view pass) { return pass.starts_with("sort/") ? "sort" : pass; }
 
-/// Runs a scene's solver alone, in frames of its own: where figures are measured their sort would count as the solver's.
+/// Times the passes of the solver alone; measuring figures would add the time of their sort to that of the solver.
 Expected<std::vector<PassCost>> passCosts(const Bench& bench, Scene scene) {
   auto workbench = Workbench::open(bench);
   if (!workbench) return workbench.error();
@@ -58,7 +57,7 @@ Expected<std::vector<PassCost>> passCosts(const Bench& bench, Scene scene) {
     FluidStep step{frame_s, false, expected, false};
     for (uint32_t recorded = 0; recorded < (*fluid)->substepsToComplete();) {
       step.resume = recorded > 0;
-      if (auto ran = workbench->run([&](Graph& graph) { (void)(*fluid)->addTo(graph, step); }); !ran) return ran.error();
+      if (auto executed = workbench->run([&](Graph& graph) { (void)(*fluid)->addTo(graph, step); }); !executed) return executed.error();
       for (const Timing& timing : workbench->passTimes()) {
         const std::string name(moduleOf(timing.name));
         auto found = std::ranges::find(ms, name, &std::pair<std::string, double>::first);
@@ -80,17 +79,17 @@ Expected<std::vector<PassCost>> passCosts(const Bench& bench, Scene scene) {
   return costs;
 }
 
-/// One count of particles.
+/// Results for one number of particles.
 struct Case {
-  uint32_t wanted = 0;
+  uint32_t nominal = 0;
   uint64_t particles = 0;
-  std::vector<double> ns, whole_s;  ///< a sample a run: a particle a substep; wall time with everything
-  double buildsASubstep = 0;
-  double step_ms = 0;  ///< wall time of a substep
+  std::vector<double> ns, total_s;  ///< one sample per run: per particle and substep; total wall time
+  double buildsPerSubstep = 0;
+  double step_ms = 0;  ///< wall time per substep
   FluidMemory memory;
   std::vector<PassCost> passes;
-  std::string refused;  ///< why there are no times
-  std::string name() const { return "particles-" + countName(wanted); }
+  std::string limitError;  ///< the error if the case exceeds a limit
+  std::string name() const { return "particles-" + countName(nominal); }
   double sum() const {
     double sum = 0;
     for (const PassCost& pass : passes) sum += median(pass.ns);
@@ -98,29 +97,29 @@ struct Case {
   }
 };
 
-/// Whether an error is a device's or a host's limit: a finding here, not a failure.
+/// Whether the error is a limit of the device or host, which is reported as a result instead of a failure.
 bool isLimit(const Error& error) { return error.kind == ErrorKind::TooLarge || error.kind == ErrorKind::OutOfMemory; }
 
-Expected<Case> measured(Bench& bench, uint32_t wanted) {
+Expected<Case> measure(Bench& bench, uint32_t nominal) {
   Case made;
-  made.wanted = wanted;
-  const auto scene = tank(wanted, {{"fill[0].velocity", kSpeed}});
+  made.nominal = nominal;
+  const auto scene = tank(nominal, {{"fill[0].velocity", kSpeed}});
   if (!scene) return scene.error();
   const double layers = 1 / scene->fluid.spacing;
   made.particles = static_cast<uint64_t>(std::llround(6.25 * layers * layers * layers));
   made.memory = fluidMemory(*scene, made.particles);
-  for (uint32_t k = 0; k < samplesOf(bench, wanted) && !bench.stopped(); ++k) {
-    bench.step(made.name(), partsOf(wanted));
+  for (uint32_t k = 0; k < samplesOf(bench, nominal) && !bench.stopped(); ++k) {
+    bench.step(made.name(), partsOf(nominal));
     const double frame_s = frameOf(*scene);
     const auto run = runScene(bench, {.scene = *scene, .duration_s = (kFrames + 1.5) * frame_s, .frame_s = frame_s});
     if (!run && isLimit(run.error())) {
-      made.refused = run.error().message;
+      made.limitError = run.error().message;
       return made;
     }
     if (!run) return run.error();
     double wall_s = 0;
     uint64_t substeps = 0, builds = 0;
-    for (size_t frame = 2; frame < run->instants.size(); ++frame) {  // the start, and the frame in which shaders are compiled, do not count
+    for (size_t frame = 2; frame < run->instants.size(); ++frame) {  // skips the start and the warm-up frame
       wall_s += run->instants[frame].stats.wall_s;
       substeps += run->instants[frame].stats.substeps;
       builds += run->instants[frame].stats.list_builds;
@@ -128,12 +127,12 @@ Expected<Case> measured(Bench& bench, uint32_t wanted) {
     if (substeps == 0) continue;
     made.particles = run->particles;
     made.ns.push_back(1e9 * wall_s / (double(run->particles) * double(substeps)));
-    made.whole_s.push_back(run->total_s);
+    made.total_s.push_back(run->total_s);
     made.step_ms = 1e3 * wall_s / double(substeps);
-    made.buildsASubstep = double(builds) / double(substeps);
+    made.buildsPerSubstep = double(builds) / double(substeps);
   }
   if (bench.stopped()) return made;
-  bench.step(made.name() + ", passes", partsOf(wanted));
+  bench.step(made.name() + ", passes", partsOf(nominal));
   auto passes = passCosts(bench, *scene);
   if (!passes) return passes.error();
   made.passes = std::move(*passes);
@@ -146,29 +145,30 @@ Json json(const Case& c) {
   json["bytes_a_particle"] = {{"arrays", double(c.memory.particle_bytes) / particles},
                               {"grid", double(c.memory.grid_bytes) / particles},
                               {"list", double(c.memory.list_bytes) / particles}};
-  if (!c.refused.empty()) {
-    json["refused"] = c.refused;
+  if (!c.limitError.empty()) {
+    json["refused"] = c.limitError;
     return json;
   }
-  json["ns_a_particle_a_substep"] = sampled(c.ns);
-  json["with_everything_s"] = sampled(c.whole_s);
-  json["list_builds_a_substep"] = c.buildsASubstep;
-  for (const PassCost& pass : c.passes) json["passes_ns_a_particle_a_substep"][pass.name] = sampled(pass.ns);
+  json["ns_a_particle_a_substep"] = sampleStatistics(c.ns);
+  json["with_everything_s"] = sampleStatistics(c.total_s);
+  json["list_builds_a_substep"] = c.buildsPerSubstep;
+  for (const PassCost& pass : c.passes) json["passes_ns_a_particle_a_substep"][pass.name] = sampleStatistics(pass.ns);
   return json;
 }
 
 Table costTable(const std::vector<Case>& cases) {
-  Table table{"A particle's cost, simulation alone, pass times off",
-              {"particles", "ns a substep", "ms a substep", "substeps a list build", "bytes", "of these list", "whole run, s", "refused"},
+  Table table{"Cost per particle, simulation only, without pass times",
+              {"particles", "ns per substep", "ms per substep", "substeps per list build", "bytes", "bytes of list", "total, s", "limit"},
               {},
-              "ns: a particle a substep, list builds included. whole run: with opening the device, compiling shaders, measuring figures."};
+              "ns: per particle and substep, including list builds. bytes: per particle. total: wall time of the run including device\n"
+              "creation, shader compilation and measurement."};
   for (const Case& c : cases) {
     const double particles = double(c.particles), bytes = double(c.memory.total()) / particles;
-    table.rows.push_back({grouped(c.particles), number(median(c.ns)), number(c.refused.empty() ? c.step_ms : std::nan("")),
-                          number(1 / c.buildsASubstep), number(bytes), number(double(c.memory.list_bytes) / particles),
-                          number(median(c.whole_s)), c.refused});
+    table.rows.push_back({grouped(c.particles), number(median(c.ns)), number(c.limitError.empty() ? c.step_ms : std::nan("")),
+                          number(1 / c.buildsPerSubstep), number(bytes), number(double(c.memory.list_bytes) / particles),
+                          number(median(c.total_s)), c.limitError});
   }
-  const bool any = std::ranges::any_of(cases, [](const Case& c) { return !c.refused.empty(); });
+  const bool any = std::ranges::any_of(cases, [](const Case& c) { return !c.limitError.empty(); });
   if (!any) {
     table.columns.pop_back();
     for (auto& row : table.rows) row.pop_back();
@@ -177,10 +177,10 @@ Table costTable(const std::vector<Case>& cases) {
 }
 
 Table passTable(const std::vector<Case>& cases) {
-  Table table{"Where it goes: ns a particle a substep of each pass",
+  Table table{"Cost per pass, ns per particle and substep",
               {"pass"},
               {},
-              "With a time stamp after each pass, which costs a tenth and more of it."};
+              "Measured with a time stamp after each pass, which itself adds a tenth or more."};
   std::vector<std::string> names;
   for (const Case& c : cases) {
     if (c.passes.empty()) continue;
@@ -197,7 +197,7 @@ Table passTable(const std::vector<Case>& cases) {
     }
     table.rows.push_back(std::move(row));
   }
-  std::vector<std::string> sums{"all"};
+  std::vector<std::string> sums{"total"};
   for (const Case& c : cases)
     if (!c.passes.empty()) sums.push_back(number(c.sum()));
   table.rows.push_back(std::move(sums));
@@ -205,8 +205,8 @@ Table passTable(const std::vector<Case>& cases) {
 }
 
 std::vector<Plot> plots(const std::vector<Case>& cases) {
-  Plot total{"A particle's cost in a substep, simulation alone", "particles", "ns", true, false, {{"total", Series::Style::Both, {}, {}}}};
-  Plot passes{"Where it goes: passes above 2 ns somewhere", "particles", "ns a particle a substep", true, true, {}};
+  Plot total{"Cost per particle and substep, simulation only", "particles", "ns", true, false, {{"total", Series::Style::Both, {}, {}}}};
+  Plot passes{"Cost per pass, passes above 2 ns", "particles", "ns per particle and substep", true, true, {}};
   for (const Case& c : cases) {
     if (!c.ns.empty()) total.series[0].points.emplace_back(c.particles, median(c.ns));
     for (const PassCost& pass : c.passes) {
@@ -224,7 +224,7 @@ std::vector<Plot> plots(const std::vector<Case>& cases) {
 Expected<Report> runAll(Bench& bench) {
   std::vector<uint32_t> counts = bench.quick() ? std::vector<uint32_t>{1000, 10'000, 50'000, 100'000}
                                                : std::vector<uint32_t>{1000, 10'000, 50'000, 100'000, 200'000, 500'000, 1'000'000};
-  std::erase_if(counts, [&](uint32_t count) { return !bench.wanted("particles-" + countName(count)); });
+  std::erase_if(counts, [&](uint32_t count) { return !bench.selected("particles-" + countName(count)); });
   const Baselines baselines;
   size_t parts = baselines.parts(bench);
   for (const uint32_t count : counts) parts += (samplesOf(bench, count) + 1) * partsOf(count);
@@ -234,7 +234,7 @@ Expected<Report> runAll(Bench& bench) {
   std::vector<Case> cases;
   for (const uint32_t count : counts) {
     if (bench.stopped()) break;
-    auto made = measured(bench, count);
+    auto made = measure(bench, count);
     if (!made) return made.error();
     report.results.push_back(json(*made));
     cases.push_back(std::move(*made));
@@ -243,7 +243,7 @@ Expected<Report> runAll(Bench& bench) {
     report.tables = {costTable(cases), passTable(cases)};
     report.plots = plots(cases);
   }
-  if (auto ran = baselines.run(bench, report); !ran) return ran.error();
+  if (auto done = baselines.run(bench, report); !done) return done.error();
   return report;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What surfaces are measured against: aims of error and of time for spheres of ten pixels at 1024x768.
+// Aims for error and time of surface methods, for sphere radii of ten pixels at 1024x768.
 #include <span>
 #include <string>
 #include <vector>
@@ -8,19 +8,19 @@
 
 namespace rill::bench {
 
-/// What a method reached on a shape.
+/// Results of a method on a shape.
 struct SurfaceFigures {
   std::string picture, shape, method;
-  double ms = 0, smoothing_ms = 0;     ///< the whole chain; without what comes before the depth of spheres
+  double ms = 0, smoothing_ms = 0;     ///< all passes; passes after the sphere depth
   double mean = 0, p95 = 0, edge = 0;  ///< degrees
-  double overlap = 0;                  ///< of silhouettes
-  double flicker = 0;                  ///< degrees a frame; of the moving wave alone
+  double iou = 0;                      ///< intersection over union of silhouettes
+  double flicker = 0;                  ///< degrees per frame; moving wave only
 };
 
-inline constexpr const char* kMovingWave = "moving wave";  ///< a shape, of pictures of any size
+inline constexpr const char* kMovingWave = "moving wave";  ///< shape name; compared at any picture size
 
-/// A row an aim that was measured. What is worse than its band is among the `failures`; times have none, since they are the machine's.
-/// `whole`: nothing was left out, and an aim without a figure is a failure, too.
-Table judgedSurfaces(std::span<const SurfaceFigures> all, bool whole, std::vector<std::string>& failures);
+/// One row per measured aim. Adds a failure for each figure outside its band; times have no band, since they depend on the machine.
+/// `complete`: all cases ran, so an aim without a figure is a failure too.
+Table surfaceAimTable(std::span<const SurfaceFigures> all, bool complete, std::vector<std::string>& failures);
 
 }  // namespace rill::bench

@@ -3,7 +3,7 @@
 
 namespace rill::bench {
 
-/// The water of the scene dam50k in about `count` particles: as many layers as fill its box exactly, so that none overlaps a wall.
+/// The scene dam50k with about `count` particles. The spacing divides the box exactly, so that no particle overlaps a wall.
 Expected<Scene> tank(uint32_t count, std::vector<Override> changes = {});
 
 }  // namespace rill::bench

@@ -1,31 +1,31 @@
-#include "bench/suites/surface_ways.hpp"
+#include "bench/suites/surface_variants.hpp"
 
 #include "bench/report.hpp"
 
 namespace rill::bench {
 namespace {
 
-/// One number of the settings, varied.
-void vary(std::vector<SurfaceWay>& all, const SurfaceWay& from, const std::string& what, double SurfaceSettings::*member,
+/// Adds a variant of `from` for each value of one setting.
+void vary(std::vector<SurfaceVariant>& all, const SurfaceVariant& from, const std::string& what, double SurfaceSettings::*member,
           std::initializer_list<double> values) {
   for (const double value : values) {
-    SurfaceWay way = from;
-    way.setting = what + " " + number(value);
-    way.settings.*member = value;
-    all.push_back(std::move(way));
+    SurfaceVariant variant = from;
+    variant.setting = what + " " + number(value);
+    variant.settings.*member = value;
+    all.push_back(std::move(variant));
   }
 }
 
 }  // namespace
 
-std::vector<SurfaceWay> surfaceWays(const Bilateral& bilateral, bool quick) {
-  // What another setting is called in diagrams: n: samples a spacing at least; reach, sigma, range: spacings; time: spacings squared.
-  const SurfaceWay planes{"planes", "", SurfaceMethod::Planes}, flow{"curvature flow", "", SurfaceMethod::CurvatureFlow},
+std::vector<SurfaceVariant> surfaceVariants(const Bilateral& bilateral, bool quick) {
+  // Setting names: n: minimum samples per spacing; reach, sigma, range: spacings; time: spacings squared.
+  const SurfaceVariant planes{"planes", "", SurfaceMethod::Planes}, flow{"curvature flow", "", SurfaceMethod::CurvatureFlow},
       narrow{"narrow range", "", SurfaceMethod::NarrowRange};
   const auto filtered = [&](std::string setting, const BilateralSettings& settings, double samples = SurfaceSettings{}.samples) {
-    return SurfaceWay{"bilateral", std::move(setting), SurfaceMethod::Auto, {.samples = samples, .filter = bilateral.filter(settings)}};
+    return SurfaceVariant{"bilateral", std::move(setting), SurfaceMethod::Auto, {.samples = samples, .filter = bilateral.filter(settings)}};
   };
-  std::vector<SurfaceWay> all{planes, flow, narrow, filtered("", {})};
+  std::vector<SurfaceVariant> all{planes, flow, narrow, filtered("", {})};
   constexpr auto samples = &SurfaceSettings::samples, reach = &SurfaceSettings::fit_reach, time = &SurfaceSettings::flow_time,
                  sigma = &SurfaceSettings::narrow_sigma;
   vary(all, planes, "n", samples, {1.5, 6});
@@ -40,7 +40,7 @@ std::vector<SurfaceWay> surfaceWays(const Bilateral& bilateral, bool quick) {
   all.push_back(filtered("sigma 2.2", {.sigma = 2.2}));
   all.push_back(filtered("full 2D", {.separable = false}));
   if (quick) return all;
-  vary(all, narrow, "n", samples, {12});  // every pixel, at spheres of 10
+  vary(all, narrow, "n", samples, {12});  // every pixel at a sphere radius of 10 pixels
   vary(all, planes, "reach", reach, {2.1, 3});
   vary(all, flow, "time", time, {0.3, 0.7, 1.3, 3});
   vary(all, narrow, "sigma", sigma, {1, 2.2});
