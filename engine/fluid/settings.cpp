@@ -239,7 +239,7 @@ double stepOfError(double error, double head, double relaxation, const Smoothing
 }
 
 void setRelaxation(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
-  const double most = jacobiLimit(kernel), limit = kOfJacobiLimit * most,
+  const double most = maxJacobiRelaxation(kernel), limit = kOfJacobiLimit * most,
                wanted = scene.solver.relaxation.value_or(std::min(kRelaxation, limit));
   setup.params.relaxationInMotion = f(std::min(wanted, limit));
   setup.params.relaxationAtRest =
@@ -282,8 +282,8 @@ void setSpeeds(const Scene& scene, const StartFigures& start, FluidParams& p) {
       std::sqrt(2 * headOf(scene, room) + start.fastest * start.fastest) + std::max<double>(p.solidSpeed, fastestDriven(scene));
   constexpr double kNone = 1e18;  // m/s: where nothing bounds the way that something falls
   p.warmLimit = f(kWarmLimit * usual * usual);
-  p.pushLow = f(kPushLow * usual);
-  p.pushHigh = f(closed ? kPushHigh * usual : kNone);
+  p.minSpeedGain = f(kPushLow * usual);
+  p.maxSpeedGain = f(closed ? kPushHigh * usual : kNone);
   p.speedLimit = f(closed ? kSpeedLimit * usual : kNone);
 }
 
@@ -329,7 +329,7 @@ void setStartPressure(const Scene& scene, const SmoothingKernel& kernel, double 
 // In a shorter step the rounding of positions, which are floats, is more speed than a correction may always add.
 double shortestStep(const double room[3], const FluidParams& p) {
   constexpr double kHalfUlp = 0x1p-24;
-  return p.pushLow > 0 ? kHalfUlp * widest(room) / p.pushLow : 0;
+  return p.minSpeedGain > 0 ? kHalfUlp * widest(room) / p.minSpeedGain : 0;
 }
 
 Expected<void> checkSteps(const Scene& scene, const double room[3], const FluidSetup& setup) {
@@ -343,8 +343,9 @@ Expected<void> checkSteps(const Scene& scene, const double room[3], const FluidS
                                     : "solver: in " + roundedNumber(widest(room)) +
                                           " m of room this fluid, with its relaxation and regularization, takes steps of at most ";
   return Error{ErrorKind::BadInput, (scene.file.empty() ? "" : scene.file.string() + ": ") + key + roundedNumber(p.maxStep) +
-                                        " s, in which the rounding of positions alone is " + roundedNumber(least * p.pushLow / p.maxStep) +
-                                        " m/s; expected steps of " + roundedNumber(least) + " s or more"};
+                                        " s, in which the rounding of positions alone is " +
+                                        roundedNumber(least * p.minSpeedGain / p.maxStep) + " m/s; expected steps of " +
+                                        roundedNumber(least) + " s or more"};
 }
 
 // The first step: half of what the tolerance allows under a column as high as all particles. Fluid that is released without its pressure

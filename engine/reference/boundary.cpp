@@ -53,7 +53,7 @@ WallSample ReferenceSolver::boundaryOf(const glm::dvec3& x, std::span<const Soli
 
 glm::dvec3 ReferenceSolver::tangentialScale(size_t i) const {
   glm::dvec3 scale;
-  for (int a = 0; a < 3; ++a) scale[a] = 1 / (1 - std::min<double>(boundary_[i].wallCoverage[a], kMaxBeside));
+  for (int a = 0; a < 3; ++a) scale[a] = 1 / (1 - std::min<double>(boundary_[i].wallCoverage[a], kMaxWallCoverage));
   return scale;
 }
 

@@ -66,7 +66,7 @@ void ReferenceSolver::begin(double dt) {
 
 void ReferenceSolver::press(double dt, double momentum, int iterations) {
   updateRestFactor();
-  const double omega = std::lerp(settings.relaxation, settings.calmRelaxation, restFactor_);
+  const double omega = std::lerp(settings.relaxation, settings.relaxationAtRest, restFactor_);
   std::vector<double> change(size(), 0);
   state.predicted = state.position;
   density();
@@ -95,7 +95,7 @@ void ReferenceSolver::substep(double dt, double dtNext) {
   velocities(dt);
   if (settings.viscosity > 0) viscosity(dt);
   if (first) {
-    if (settings.calmViscosity > 0) dampNoise(blockTime_);
+    if (settings.viscosityAtRest > 0) dampNoise(blockTime_);
     blockTime_ = 0;
   }
   if (settings.vorticity > 0) vorticity(dt);
@@ -104,7 +104,7 @@ void ReferenceSolver::substep(double dt, double dtNext) {
 
 // Uses the largest speed at the start of the substep.
 void ReferenceSolver::updateRestFactor() {
-  const double fraction = settings.roughSpeed > 0 ? std::min(fastest_ / settings.roughSpeed, 1.0) : 1;
+  const double fraction = settings.motionSpeed > 0 ? std::min(fastest_ / settings.motionSpeed, 1.0) : 1;
   restFactor_ = 1 - std::pow(fraction, 4);
 }
 
@@ -149,8 +149,8 @@ void ReferenceSolver::density() {
 }
 
 void ReferenceSolver::multipliers(bool firstIteration) {
-  const double omega = std::lerp(settings.relaxation, settings.calmRelaxation, restFactor_),
-               kappa = std::lerp(settings.warmStart, settings.calmWarmStart, restFactor_);
+  const double omega = std::lerp(settings.relaxation, settings.relaxationAtRest, restFactor_),
+               kappa = std::lerp(settings.warmStart, settings.warmStartAtRest, restFactor_);
   for (size_t i = 0; i < size(); ++i) {
     if (firstIteration) lambda_[i] = state.warm[i];
     delta_[i] = -omega * (densityRatio_[i] - 1) / denominator_[i];
@@ -190,7 +190,8 @@ void ReferenceSolver::correction(double dt, double push) {
 
 void ReferenceSolver::velocities(double dt) {
   const std::vector<SolidPose> solids = poses(time_, dt);
-  const double maxGain = dt * (std::clamp(0.5 * fastest_, settings.pushLow, settings.pushHigh) + 4 * dt * glm::length(settings.gravity));
+  const double maxGain =
+      dt * (std::clamp(0.5 * fastest_, settings.minSpeedGain, settings.maxSpeedGain) + 4 * dt * glm::length(settings.gravity));
   fastest_ = 0;  // excludes solids, as in the shaders
   for (size_t i = 0; i < size(); ++i) {
     const double gain = glm::length(gain_[i]);
@@ -221,7 +222,7 @@ void ReferenceSolver::viscosity(double dt) {
 }
 
 void ReferenceSolver::dampNoise(double dt) {
-  applyXsph(std::min(xsphCoefficient(restFactor_ * settings.calmViscosity, dt), double{kMaxCalming}));
+  applyXsph(std::min(xsphCoefficient(restFactor_ * settings.viscosityAtRest, dt), double{kMaxCalming}));
 }
 
 void ReferenceSolver::applyXsph(double coefficient) {

@@ -3,7 +3,7 @@
 // precision on one thread. It documents the method and is the oracle of the shaders' tests; readability comes before speed.
 //
 // A substep of dt. Notation: K = d^3 W as in sph/kernel.hpp, G_ij = grad_i K(x*_i - x*_j), B_i = density contribution of walls and
-// solids, grad B_i its gradient, a_i = tangential scale per axis, 1 / (1 - min(WallSample::wallCoverage, kMaxBeside)).
+// solids, grad B_i its gradient, a_i = tangential scale per axis, 1 / (1 - min(WallSample::wallCoverage, kMaxWallCoverage)).
 //   density       rho_i/rho0 = K(0) + sum_j K_ij + B_i,   C_i = rho_i/rho0 - 1,
 //                 D_i = g . a_i g + mean(a_i) sum_j |G_ij|^2 + eps D_rest with g = sum_j G_ij + grad B_i
 //   multipliers   delta_i = -omega C_i / D_i,   lambda_i = min(0, lambda_i + delta_i), initially w_i; its change is dlambda_i.
@@ -62,11 +62,11 @@ struct ReferenceSettings {
   double warmStart = 0.01;    ///< kappa in motion, 0 .. 0.5
   double warmRelease = 1.5;   ///< factor on kappa where the density is below rest density
 
-  double roughSpeed = 0;      ///< largest speed, m/s, from which on omega and kappa are those above; 0: always
-  double calmRelaxation = 0;  ///< omega at rest; interpolated by the fourth power of the speed
-  double calmWarmStart = 0;   ///< kappa at rest
-  double calmViscosity = 0;   ///< noise damping: viscosity at rest in addition to `viscosity`, Pa s; 0 at roughSpeed
-  int substepsPerBlock = 1;   ///< noise damping and artificial pressure are applied once per block of this many substeps
+  double motionSpeed = 0;       ///< largest speed, m/s, from which on omega and kappa are those above; 0: always
+  double relaxationAtRest = 0;  ///< omega at rest; interpolated by the fourth power of the speed
+  double warmStartAtRest = 0;   ///< kappa at rest
+  double viscosityAtRest = 0;   ///< noise damping: viscosity at rest in addition to `viscosity`, Pa s; 0 at motionSpeed
+  int substepsPerBlock = 1;     ///< noise damping and artificial pressure are applied once per block of this many substeps
 
   double tensile = 0;           ///< strength of the artificial pressure, 0 .. 1; see sph/artificial_pressure.hpp
   double tensileRadius = 0.25;  ///< delta q / h
@@ -77,9 +77,9 @@ struct ReferenceSettings {
   double vorticity = 0;                                         ///< eps_v, 0 .. 1
   double speedLimit = std::numeric_limits<double>::infinity();  ///< largest speed after a substep, m/s
   double warmLimit = std::numeric_limits<double>::infinity();   ///< m^2/s^2: w >= -warmLimit dt^2
-  /// The last correction may add at most clamp(largest speed / 2, pushLow, pushHigh) + 4 g dt to the speed of a particle. m/s.
-  double pushLow = std::numeric_limits<double>::infinity();
-  double pushHigh = std::numeric_limits<double>::infinity();
+  /// The last correction may add at most clamp(largest speed / 2, minSpeedGain, maxSpeedGain) + 4 g dt to the speed of a particle. m/s.
+  double minSpeedGain = std::numeric_limits<double>::infinity();
+  double maxSpeedGain = std::numeric_limits<double>::infinity();
 };
 
 class ReferenceSolver {
@@ -178,7 +178,7 @@ class ReferenceSolver {
   std::vector<glm::dvec3> curl_;
   double blockTime_ = 0;                  ///< s, since the first substep of the last block
   int substeps_ = 0;                      ///< since the start
-  double restFactor_ = 0;                 ///< 1: at rest, 0: at roughSpeed or faster
+  double restFactor_ = 0;                 ///< 1: at rest, 0: at motionSpeed or faster
   double fastest_ = 0;                    ///< largest speed, m/s, initially or in the last velocities()
   std::vector<glm::dvec3> wallPosition_;  ///< m, position after the last correction and the walls, before solids
   std::vector<glm::dvec3> gain_;          ///< m, displacement by the last correction and the walls

@@ -9,7 +9,7 @@
 
 namespace rill {
 
-double jacobiLimit(const SmoothingKernel& kernel) {
+double maxJacobiRelaxation(const SmoothingKernel& kernel) {
   struct Neighbor {
     glm::dvec3 at, correction, response;  // gradients for corrections and for the density change; they differ for poly6 with spiky
   };

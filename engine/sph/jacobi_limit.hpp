@@ -7,6 +7,6 @@ namespace rill {
 /// d. Von Neumann analysis, linearized and without clamping: an iteration multiplies a compression wave with wave vector k by
 ///   1 - omega |sum_j grad K_j sin(k x_j)|^2 / sum_j |grad K_j|^2,
 /// which must be at least -1 for all k.
-double jacobiLimit(const SmoothingKernel& kernel);
+double maxJacobiRelaxation(const SmoothingKernel& kernel);
 
 }  // namespace rill

@@ -42,7 +42,7 @@ void main() {
     float enough = params.tolerance > 0.0 ? min(params.tolerance, 0.001) : 0.001;
     // What is left becomes speed in the first step: a small part of what a correction may always
     // add. Rounding leaves 1e-6.
-    if (params.pushLow > 0.0) enough = min(enough, max(0.05 * params.pushLow * c.nextStep / params.spacing, 2.0e-6));
+    if (params.minSpeedGain > 0.0) enough = min(enough, max(0.05 * params.minSpeedGain * c.nextStep / params.spacing, 2.0e-6));
     // small enough for the initial pressure to be solved
     float rest = params.initialPressureIterations > 0u ? min(0.5 * enough, params.initialPressureErrorLimit) : 0.5 * enough;
     bool apart = error <= rest && uintBitsToFloat(s.errorMax) <= 20.0 * enough;

@@ -91,7 +91,7 @@ void main() {
   // together: see ARCHITECTURE.md, "Overlaps".
   vec3 gained = to - here;
   float gain = sqrt(dot(gained, gained));
-  float maxGain = control.step * (clamp(0.5 * control.speed, params.pushLow, params.pushHigh) +
+  float maxGain = control.step * (clamp(0.5 * control.speed, params.minSpeedGain, params.maxSpeedGain) +
                                   4.0 * control.step * sqrt(dot(gravity(), gravity())));
   float kept = min(1.0, maxGain / max(gain, 1.0e-20));
   // clamping deep overlaps also dissipates energy

@@ -96,7 +96,7 @@ struct FluidParams {
   float farLimit;         // m from the origin beyond which a particle becomes inactive
   float nearLimit;        // m from a wall or a solid's surface within which a particle is listed as near
   float solidSpeed;       // m/s, the fastest solid that keyframes move
-  float pushLow, pushHigh;  // m/s: what a correction may add to a speed in a substep is held between them
+  float minSpeedGain, maxSpeedGain;  // m/s: what a correction may add to a speed in a substep is held between them
   float speedLimit;       // m/s, of any particle
   float warmLimit;        // m^2/s^2: the warm start is at most this times the step squared
   float boundLowX, boundLowY, boundLowZ;     // m, the domain, open sides too: particles beyond it count as outside

@@ -135,8 +135,8 @@ TEST(CommandLine, RejectsUnwritableOutputsWithoutDevice) {
   expectRefused({"scene.json", "--checkpoint", "."}, {"--checkpoint", "is a folder"});
   expectRefused({"scene.json", "--checkpoint", "scene.json/run.rill"}, {"--checkpoint", "is a file"});
   expectRefused({"scene.json", "--video", "scene.json/a.mp4"}, {"--video", "is a file"});
-  expectRefused({"scene.json", "--resume", "none.rill"}, {"--resume", "\"none.rill\" is not there"});
-  expectRefused({"scene.json", "--resume", "scene.json"}, {"--resume", "is no checkpoint"});
+  expectRefused({"scene.json", "--resume", "none.rill"}, {"--resume", "\"none.rill\" does not exist"});
+  expectRefused({"scene.json", "--resume", "scene.json"}, {"--resume", "is not a Rill checkpoint"});
 }
 
 TEST(CommandLine, MessagesContainNoControlCharacters) {

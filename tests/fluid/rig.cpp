@@ -63,11 +63,11 @@ reference::ReferenceSettings settingsOf(const Trial& trial) {
   s.warmLimit = setup.params.warmLimit;
   s.motionSpeed = setup.params.motionSpeed;
   s.relaxationAtRest = setup.params.relaxationAtRest;
-  s.calmWarmStart = setup.params.warmGainAtRest;
-  s.calmViscosity = setup.artificialViscosity;
+  s.warmStartAtRest = setup.params.warmGainAtRest;
+  s.viscosityAtRest = setup.artificialViscosity;
   s.substepsPerBlock = trial.stepwise ? 1 : static_cast<int>(setup.substepsPerBlock);
-  s.pushLow = setup.params.pushLow;
-  s.pushHigh = setup.params.pushHigh;
+  s.minSpeedGain = setup.params.minSpeedGain;
+  s.maxSpeedGain = setup.params.maxSpeedGain;
   return s;
 }
 

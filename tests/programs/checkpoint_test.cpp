@@ -146,10 +146,10 @@ TEST_F(CheckpointTest, FullDiskIsReported) {
 TEST_F(CheckpointTest, RejectsOtherScenesWithKey) {
   figures({"--frames", "2", "--checkpoint", "run.rill"});
   expectRefused({"--resume", "run.rill", "--set", "fluid.viscosity=1"},
-                {"--resume: \"run.rill\": ", "another scene", "fluid.viscosity was 0 there and is 1 here"});
-  expectRefused({"--resume", "run.rill", "--set", "seed=7"}, {"seed was 1 there and is 7 here"});
-  expectRefused({"--resume", "run.rill", "--set", "solids[0].friction=0"}, {"solids[0].friction was 0.2 there and is 0 here"});
-  expectRefused({"--resume", "run.rill", "--set", "gravity_changes=[]"}, {"gravity_changes[0].at was 0.05 there and is not set here"});
+                {"--resume: \"run.rill\": ", "another scene", "fluid.viscosity: found 1, expected 0"});
+  expectRefused({"--resume", "run.rill", "--set", "seed=7"}, {"seed: found 7, expected 1"});
+  expectRefused({"--resume", "run.rill", "--set", "solids[0].friction=0"}, {"solids[0].friction: found 0, expected 0.2"});
+  expectRefused({"--resume", "run.rill", "--set", "gravity_changes=[]"}, {"gravity_changes[0].at: not set, expected 0.05"});
   expectRefused({"--resume", "run.rill", "--fps", "30"}, {"--fps", "expected 60"});
   figures({"--frames", "1", "--resume", "run.rill"}, {"title=Another", "duration=9"});
 }
@@ -161,11 +161,11 @@ TEST_F(CheckpointTest, RejectsInvalidFiles) {
   changed[whole.size() / 2] ^= 4;
   folder.write("changed.rill", changed);
   folder.write("cut.rill", whole.substr(0, whole.size() - 1));
-  expectRefused({"--resume", "none.rill"}, {"--resume", "\"none.rill\" is not there"});
-  expectRefused({"--resume", "dam.json"}, {"--resume", "no checkpoint"});
-  expectRefused({"--resume", "changed.rill"}, {"--resume", "is damaged"});
-  expectRefused({"--resume", "cut.rill"}, {"--resume", "is cut short"});
-  expectRefused({"--resume", "."}, {"--resume", "is no file"});
+  expectRefused({"--resume", "none.rill"}, {"--resume", "\"none.rill\" does not exist"});
+  expectRefused({"--resume", "dam.json"}, {"--resume", "not a Rill checkpoint"});
+  expectRefused({"--resume", "changed.rill"}, {"--resume", "is corrupted"});
+  expectRefused({"--resume", "cut.rill"}, {"--resume", "is truncated"});
+  expectRefused({"--resume", "."}, {"--resume", "is not a regular file"});
 }
 
 TEST_F(CheckpointTest, RejectsChangedParticleFile) {
@@ -178,7 +178,7 @@ TEST_F(CheckpointTest, RejectsChangedParticleFile) {
   figures({"--frames", "2", "--checkpoint", "run.rill"});
   figures({"--frames", "1", "--resume", "run.rill"});
   folder.write("two.ply", ply(0.71));
-  expectRefused({"--frames", "1", "--resume", "run.rill"}, {"the particles at the start are others"});
+  expectRefused({"--frames", "1", "--resume", "run.rill"}, {"the initial particles differ"});
 }
 
 TEST_F(CheckpointTest, ResumesEmptyScenes) {

@@ -297,7 +297,7 @@ TEST_F(ViewWindowTest, BadInputIsToldBeforeAWindowOpens) {
   refused({scene, "--script", "no-such-file"}, "no-such-file");
   const Outcome device = view({scene, "--device", "no such device", "--frames", "1"});
   EXPECT_EQ(device.code, 2);
-  EXPECT_NE(device.err.find("There are:"), std::string::npos) << device.err;
+  EXPECT_NE(device.err.find("Available devices:"), std::string::npos) << device.err;
 }
 
 }  // namespace
