@@ -87,7 +87,7 @@ std::string plotProgram(std::span<const Plot> plots) {
         out << shortestNumber(series.points[k].first) << " " << shortestNumber(series.points[k].second) << " \"" << label << "\"\n";
         ++drawn;
 =======
-        out << shortNumber(series.points[k].first) << " " << shortNumber(series.points[k].second) << " \"" << label << "\"\n";
+        out << shortestNumber(series.points[k].first) << " " << shortestNumber(series.points[k].second) << " \"" << label << "\"\n";
         ++written;
 >>>>>>> lang-bench
       }

@@ -1,4 +1,4 @@
-// One step as graph passes: begin, blocks of (rebuild, substeps), measure. See ARCHITECTURE.md, "A substep".
+// One step as graph passes: begin, blocks of (rebuild, substeps), measure. See docs/method.md.
 #include <algorithm>
 #include <cassert>
 #include <limits>

@@ -262,7 +262,7 @@ double warmGain(const Scene& scene, FluidSetup& setup) {
   return gain;
 }
 
-// See ARCHITECTURE.md, "Calm water".
+// See docs/notes/noise-damping.md.
 void setGains(const Scene& scene, double head, FluidSetup& setup) {
   FluidParams& p = setup.params;
   const double layers = layersOf(scene, head), gain = warmGain(scene, setup);

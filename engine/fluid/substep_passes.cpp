@@ -1,4 +1,4 @@
-// The passes of one substep: walls, density, correction, contact, and the terms that a scene has. See ARCHITECTURE.md, "A substep".
+// The passes of one substep: walls, density, correction, contact, and the terms that a scene has. See docs/method.md.
 #include "fluid/pass_parts.hpp"
 
 namespace rill {

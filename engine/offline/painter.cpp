@@ -69,7 +69,7 @@ Error Painter::environmentError(const Error& error) const {
 
 Expected<void> Painter::check(std::string_view name, uint32_t width, uint32_t height) {
   const View* view = find(name);
-  if (!view) return Error{ErrorKind::BadInput, "unknown view " + inQuotes(name) + "; expected one of " + listInQuotes(kNames)};
+  if (!view) return Error{ErrorKind::BadInput, "unknown view " + inQuotes(name) + "; expected one of " + quotedList(kNames)};
   if (view->kind != Kind::Particles) return checkViewport(width, height);
   ParticleViewDesc desc;
   desc.width = width;

@@ -50,6 +50,16 @@ class Simulation::Impl {
     return {};
   }
 
+  /// Adds what the fluid needs in all, and what the device has, to the error of a failed allocation.
+  Error withMemoryNeeded(Error error) const {
+    const auto mebibytes = [](uint64_t bytes) { return grouped(bytes >> 20) + " MiB"; };
+    const DeviceInfo& device = context_->device().info();
+    error.message += "\n" + grouped(start_.positions.size()) + " particles need " +
+                     mebibytes(fluidMemory(scene_, start_.positions.size()).total()) + " on the device; " + inQuotes(device.name) +
+                     " has " + mebibytes(device.deviceLocalBytes);
+    return error;
+  }
+
   /// `from`: the checkpoint to continue from, or null.
   Expected<void> open(const Checkpoint* from) {
     if (from)

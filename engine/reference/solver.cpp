@@ -222,7 +222,7 @@ void ReferenceSolver::viscosity(double dt) {
 }
 
 void ReferenceSolver::dampNoise(double dt) {
-  applyXsph(std::min(xsphCoefficient(restFactor_ * settings.viscosityAtRest, dt), double{kMaxCalming}));
+  applyXsph(std::min(xsphCoefficient(restFactor_ * settings.viscosityAtRest, dt), double{kMaxNoiseDamping}));
 }
 
 void ReferenceSolver::applyXsph(double coefficient) {

@@ -60,7 +60,7 @@ void main() {
     again = false;
   } else if (first && c.initialPressure > 0u) {
     // Initial pressure: the hydrostatic equilibrium of the start, solved in a step of its own: see
-    // ARCHITECTURE.md, "The start's pressure".
+    // docs/notes/initial-pressure.md.
     c.initialPressure -= 1u;
     c.momentum = c.initialPressure > 0u ? params.initialPressureMomentum : 0.0;
     c.warmStep = c.nextStep;

@@ -78,7 +78,7 @@ void main() {
   moved *= unit * params.gradientScale;
   pushed *= unit * params.gradientScale;
   if (NEAR != 0u) {
-    vec3 wall = unit * displacedAt(i).xyz, along = tangentialScaleAt(i);  // see ARCHITECTURE.md, "Walls and solids"
+    vec3 wall = unit * displacedAt(i).xyz, along = tangentialScaleAt(i);  // see docs/notes/walls-and-solids.md
     moved = along * moved + own.x * wall;
     pushed = along * pushed + own.y * wall;
   }
@@ -88,7 +88,7 @@ void main() {
   bool presses = control.momentum >= 0.0, still = control.step == 0.0;  // no time passes
   vec3 to = presses ? from : insideWalls(here + moved);
   // A correction separates particles in full, but adds no more speed than can have brought them
-  // together: see ARCHITECTURE.md, "Overlaps".
+  // together: see docs/notes/overlaps.md.
   vec3 gained = to - here;
   float gain = sqrt(dot(gained, gained));
   float maxGain = control.step * (clamp(0.5 * control.speed, params.minSpeedGain, params.maxSpeedGain) +

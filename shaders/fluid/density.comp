@@ -1,6 +1,6 @@
 #version 460
 // Density of the prediction, the constraint's gradient and the multiplier (Macklin and Mueller
-// 2013, equations 1, 2, 9 and 11), with the integral warm start: see ARCHITECTURE.md, "A substep".
+// 2013, equations 1, 2, 9 and 11), with the integral warm start: see docs/method.md.
 // Gathers from the predicted positions.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require

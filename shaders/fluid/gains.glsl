@@ -1,5 +1,5 @@
 // Relaxation, warm-start gain and noise damping between fluid at rest and in motion: the gains of a
-// flow would add energy to a still tank. See ARCHITECTURE.md, "Calm water".
+// flow would add energy to a still tank. See docs/notes/noise-damping.md.
 #ifndef RILL_GAINS_GLSL
 #define RILL_GAINS_GLSL
 // From the fastest particle's speed, the gains of the next substep.

@@ -77,7 +77,7 @@ Blend blendAt(vec2 axis, float depth) {
   if (cut) blend.normal = -normalize(rayAlong(axis));
   const float still = kStill * spacingAt(depth);
   float from = depth;
-  int turn = 0;  // one exit, no break: see ARCHITECTURE.md, "What lavapipe taught"
+  int turn = 0;  // one exit, no break: see docs/notes/lavapipe.md
   bool moves = !cut && blend.firm > kFirm && abs(blend.depth - from) > still;
   LOOP_WHILE (moves) {
     const Blend next = lookFrom(axis, blend.depth);

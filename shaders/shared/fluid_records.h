@@ -11,7 +11,7 @@ RILL_CONST uint kSettleSubsteps = 512u;    // at most, before the first substep 
 RILL_CONST uint kMaxInitialPressureIterations = 1024u;    // iterations of the initial pressure, at most, after settling
 RILL_CONST float kMaxNoiseDamping = 0.5f;     // XSPH coefficient of a noise damping pass, at most
 // share of the kernel behind walls that the tangential scale makes up for, at most. See
-// ARCHITECTURE.md, "Walls and solids"
+// docs/notes/walls-and-solids.md
 RILL_CONST float kMaxWallCoverage = 0.4f;
 RILL_CONST uint kWindow = 32u;            // candidates that a grid walk looks at together, a bit of a mask each
 // Candidates that the particles of a cluster look at together, at most, in whole windows; more are

@@ -15,10 +15,6 @@ std::string readme() {
   return text.str();
 }
 
-TEST(Readme, HasTheTableOfKeys) {
-  EXPECT_NE(readme().find(sceneKeyTable()), std::string::npos) << "expected this table:\n" << sceneKeyTable();
-}
-
 TEST(Readme, HasNoPlaceholders) { EXPECT_EQ(readme().find('@'), std::string::npos); }
 
 TEST(Readme, ExampleSceneIsValid) {

@@ -81,7 +81,7 @@ std::string fileText(const std::filesystem::path& file) {
 TEST(Schema, FileMatchesFieldTable) {
   const std::filesystem::path fresh = std::filesystem::path(RILL_BINARY_DIR) / "scene.schema.json";
   std::ofstream(fresh, std::ios::binary) << sceneSchema();
-  EXPECT_TRUE(fileText(kScenes / "scene.schema.json") == sceneSchema())
+  EXPECT_TRUE(fileText(kSceneFolder / "scene.schema.json") == sceneSchema())
       << "the field table has changed; update the schema: cp " << fresh.string() << " assets/scenes/";
 }
 

@@ -267,10 +267,10 @@ Expected<void> Baselines::run(Bench& bench, Report& report) const {
     layout.rows.push_back(
         {grouped(cloud->push.count), number(structs->middle()), number(grid->middle()), number(structs->middle() / grid->middle())});
 =======
-      report.failures.push_back(name + ": densities of all pairs and grid differ by " + roughNumber(apart) +
+      report.failures.push_back(name + ": densities of all pairs and grid differ by " + roundedNumber(apart) +
                                 " (infinite: neighbor counts differ), expected at most 1e-4");
     if (const double apart = difference(structs->found, grid->found); !(apart == 0))
-      report.failures.push_back(name + ": densities of structs and arrays differ by " + roughNumber(apart) +
+      report.failures.push_back(name + ": densities of structs and arrays differ by " + roundedNumber(apart) +
                                 " (infinite: neighbor counts differ), expected 0");
     const double byGrid = build->medianMs() + grid->medianMs();
     search.rows.push_back({grouped(cloud->push.count), number(neighbors), number(pairs->medianMs()), number(build->medianMs()),

@@ -28,8 +28,8 @@
 
 namespace rill {
 
-/// The persistent state of a fluid between two advances, on the host: everything that later steps depend on, bit by bit (ARCHITECTURE.md,
-/// "Checkpoints"). Only for checkpoints. Arrays have one entry per particle, in the order of the device.
+/// The persistent state of a fluid between two advances, on the host: everything that later steps depend on, bit by bit
+/// (docs/architecture.md, "Checkpoints"). Only for checkpoints. Arrays have one entry per particle, in the order of the device.
 struct FluidSnapshot {
   std::vector<uint32_t> control = {};  ///< FluidControl (shaders/shared/fluid_records.h), word by word
   std::vector<uint32_t> sums = {};     ///< FluidSums, word by word
@@ -145,7 +145,7 @@ struct FluidPassRuns {
 class FluidImpl;
 
 /// A fluid on a borrowed device. It must outlive the execution of every command buffer that its passes were recorded into.
-/// Method: Macklin and Mueller 2013; ARCHITECTURE.md, "A substep".
+/// Method: Macklin and Mueller 2013; docs/method.md.
 class RILL_API Fluid {
  public:
   /// BadInput for an invalid description; TooLarge, naming the bytes needed and available, before anything is allocated; OutOfMemory.
