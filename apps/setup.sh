@@ -18,13 +18,9 @@ build libimgui-dev            Dear ImGui 1.86 or newer
 run   libvulkan1              the Vulkan loader
 run   fonts-dejavu-core       DejaVu Sans (typeface of the viewer)
 run   mesa-vulkan-drivers     a Vulkan 1.3 driver (Mesa: lavapipe needs no GPU)
-<<<<<<< HEAD
-test  clang                   clang (public headers are compiled by it, too)
 test  git                     git (the files that the checks of format look at)
 test  doxygen                 Doxygen 1.9 or newer (the pages of the public headers)
-=======
 test  clang                   clang (also compiles the public headers)
->>>>>>> lang-bench
 test  libgtest-dev            GoogleTest
 test  libvulkan-volk-dev      volk (used by a test host)
 test  pkgconf                 pkg-config (builds a test host)

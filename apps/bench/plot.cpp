@@ -83,13 +83,8 @@ std::string plotProgram(std::span<const Plot> plots) {
         std::string label = k < series.labels.size() ? series.labels[k] : "";
         for (char& c : label)
           if (c == '"' || c == '\\' || c == '\n') c = ' ';
-<<<<<<< HEAD
-        out << shortestNumber(series.points[k].first) << " " << shortestNumber(series.points[k].second) << " \"" << label << "\"\n";
-        ++drawn;
-=======
         out << shortestNumber(series.points[k].first) << " " << shortestNumber(series.points[k].second) << " \"" << label << "\"\n";
         ++written;
->>>>>>> lang-bench
       }
       out << "EOD\n";
       if (written == 0) continue;

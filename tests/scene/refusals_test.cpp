@@ -224,7 +224,7 @@ TEST(SceneErrors, RejectsFilesThatAreNotScenes) {
   const auto pipe = folder.path / "pipe.json";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_EQ(load(pipe), pipe.string() + ": found a pipe, expected a regular file");
-  EXPECT_EQ(load("/dev/zero"), "/dev/zero: is a device; expected a regular file");
+  EXPECT_EQ(load("/dev/zero"), "/dev/zero: found a device, expected a regular file");
   const auto large = folder.write("large.json", with("\"about\": \"" + std::string(16 << 20, 'x') + "\""));
   EXPECT_NE(load(large).find("bytes; expected at most 16,777,216"), std::string::npos) << load(large);
   const auto small = folder.write("small.json", withFluid("\"spacing\": 0.1"));

@@ -154,7 +154,7 @@ TEST(KeyTables, HaveARowForEveryKeyWithItsDefault) {
         "| `rill` | | `\"MAJOR.MINOR\"` or `\"MAJOR.MINOR.PATCH\"` | required |",
         "| `kernel` | | `wendland`, `poly6_spiky` | `\"wendland\"` |", "| `spacing` | m | number, above 0 | |",
         "| `solids` | | list of objects, at most 4,096 | `[]` |", "| `seed` | | whole number, from 0 to 18446744073709551615 | `1` |",
-        R"(sum of \|grad C\|^2 |)", "### `fill[].box`, `solids[].box`\n", "Exactly one of `spacing`, `particles` is given."}) {
+        R"(sum of \|grad C\|^2;)", "### `fill[].box`, `solids[].box`\n", "Exactly one of `spacing`, `particles` is given."}) {
     EXPECT_NE(tables.find(row), std::string::npos) << row << "\n" << tables;
   }
 }

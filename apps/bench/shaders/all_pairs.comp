@@ -1,9 +1,4 @@
-<<<<<<< HEAD
-// Naive search: every particle against those of [first, last), added to what the ranges before
-// gave. A range keeps the loop short: a driver may bound it.
-=======
 // Brute-force search: every particle against [first, last), accumulated over ranges. Ranges keep loops short enough for driver limits.
->>>>>>> lang-bench
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "cloud.h"

@@ -1,10 +1,5 @@
 #version 460
-<<<<<<< HEAD
-// A bilateral filter of depth (Tomasi and Manduchi 1998): a Gaussian over samples, times one over
-// how far apart their depths are. In one dimension, or in both at once.
-=======
 // A bilateral filter of depth (Tomasi and Manduchi 1998): a spatial Gaussian times a Gaussian over depth differences, in 1D or 2D.
->>>>>>> lang-bench
 #extension GL_GOOGLE_include_directive : require
 #define RILL_PUSH_MORE float range;  // spacings: standard deviation of the Gaussian over depth
 #include "render/surface.glsl"

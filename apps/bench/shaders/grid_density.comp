@@ -1,9 +1,4 @@
-<<<<<<< HEAD
-// Search by the grid: the nine rows of three cells around a particle. STRUCT: all that belongs to a
-// particle lies together, in place of an array of positions.
-=======
 // Grid search: nine rows of three cells around a particle. STRUCT: array of structures instead of separate arrays.
->>>>>>> lang-bench
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "cloud.h"
