@@ -115,8 +115,8 @@ ResourceRef GraphImpl::add(ResourceData resource) {
     if (resource.desc.format == VK_FORMAT_S8_UINT) reject(": stencil-only formats are not supported");
     if (resource.desc.width == 0 || resource.desc.height == 0) reject(": size is 0");
     if (std::max(resource.desc.width, resource.desc.height) > kMaxImageSide)
-      reject(" of " + std::to_string(resource.desc.width) + " x " + std::to_string(resource.desc.height) +
-             " texels; expected at maxLevels " + std::to_string(kMaxImageSide) + " per side");
+      reject(" of " + std::to_string(resource.desc.width) + " x " + std::to_string(resource.desc.height) + " texels; expected at most " +
+             std::to_string(kMaxImageSide) + " per side");
     const uint32_t maxLevels = uint32_t(std::bit_width(std::max({resource.desc.width, resource.desc.height, 1u})));
     if (resource.desc.levels == 0 || resource.desc.levels > maxLevels) {
       reject(" has " + std::to_string(resource.desc.levels) + " levels; expected 1 to " + std::to_string(maxLevels));
@@ -125,7 +125,7 @@ ResourceRef GraphImpl::add(ResourceData resource) {
   } else {
     if (resource.size == 0) reject(": size is 0");
     if (resource.size > kMaxBufferBytes)
-      reject(" of " + std::to_string(resource.size) + " bytes: at maxLevels " + std::to_string(kMaxBufferBytes) + " are possible");
+      reject(" of " + std::to_string(resource.size) + " bytes; expected at most " + std::to_string(kMaxBufferBytes));
   }
   for (ImportState* state : {&resource.before, &resource.after}) {
     if (isUse(state->use)) continue;
@@ -291,8 +291,7 @@ void GraphImpl::addTarget(uint32_t index, ResourceRef ref, Load load, const VkCl
     const ResourceData& other = resources[targets[t].resource];
     if (other.width() != image.width() || other.height() != image.height())
       return reject(" and to " + quoted(other.name) + ", which has a different size");
-    if (isDepth && hasDepth(other.desc.format))
-      return reject(" and to " + quoted(other.name) + ": a pass has at maxLevels one depth target");
+    if (isDepth && hasDepth(other.desc.format)) return reject(" and to " + quoted(other.name) + ": a pass has at most one depth target");
   }
   if (pass.targets.count == kMaxTargets) return reject(": more than 8 targets");
   targets.push_back({ref.index, load, true, clear});

@@ -167,7 +167,7 @@ TEST(CommandLine, ErrorsAboutScenesDoNotPrintTheirContent) {
   expectSceneRefused(R"({"rill": "0.1", "a\u001b[31m\nb": 1})", R"("a\u001b[31m\u000ab": unknown key)");
   expectSceneRefused(R"({"rill": "0.1", ")" + std::string(5000, 'x') + R"(": 1})", "xxx...\": unknown key");
   expectSceneRefused(R"({"rill": "0.1\u001b[31m"})", R"(rill: found "0.1\u001b[31m")");
-  expectSceneRefused("{\"rill\": \x1b[31m}", "broken JSON");
+  expectSceneRefused("{\"rill\": \x1b[31m}", "invalid JSON");
 }
 
 /// Expects that a scene with these bytes as its PLY file is rejected with the scene, the key, the file and `word`.
@@ -188,7 +188,7 @@ TEST(CommandLine, ErrorsAboutPlyFilesNameSceneAndKey) {
   const std::string header = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
   expectPlyRefused("ply\n", "expected a line end_header");
   expectPlyRefused("\x89PNG\r\n\x1a\n", "expected a PLY file");
-  expectPlyRefused(header + "0 0\n", "expected a whole file");
+  expectPlyRefused(header + "0 0\n", "expected a complete file");
   expectPlyRefused(header + "0 0 0\n0 0 \x1b[31mred\n", R"(vertex 1, property "z": found "\u001b[31mred", expected a number)");
   expectPlyRefused(header + "0 0 0\n0 0 nan\n", "vertex 1: the position is nan along z; expected a finite number");
 }

@@ -54,8 +54,8 @@ TEST(SceneEnvironment, RejectsBadFilesWithName) {
   };
   EXPECT_NE(errorOf().find("scene.json: look.environment: \"skies/sky.hdr\": no such file"), std::string::npos) << errorOf();
   std::filesystem::create_directory(folder / "skies");
-  EXPECT_NE(errorOf({"--set", "look.environment=skies"}).find("expected an equirectangular picture"), std::string::npos);
-  EXPECT_NE(errorOf({"--set", "look.environment="}).find("expected the name of a file"), std::string::npos);
+  EXPECT_NE(errorOf({"--set", "look.environment=skies"}).find("not a regular file; expected a file"), std::string::npos);
+  EXPECT_NE(errorOf({"--set", "look.environment="}).find("expected a file name"), std::string::npos);
   folder.write("skies/sky.hdr", "no picture at all");
   const std::string text = errorOf();
   EXPECT_NE(text.find("scene.json: look.environment: "), std::string::npos) << text;
