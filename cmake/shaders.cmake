@@ -6,7 +6,7 @@
 # Every shader depends on all headers under shaders/ and in its own folder: there are few, so exact dependencies are not worth tracking.
 find_program(RILL_GLSLANG glslangValidator)
 find_program(RILL_SPIRV_VAL spirv-val)
-find_program(RILL_SPIRV_OPT spirv-opt)  # shortens start-up; see docs/notes/shaders.md
+find_program(RILL_SPIRV_OPT spirv-opt)  # shortens start-up; see docs/notes/lavapipe.md
 if(NOT RILL_GLSLANG)
   message(FATAL_ERROR "glslangValidator not found; install it (Debian: glslang-tools) or set RILL_GLSLANG to its path")
 endif()

@@ -30,7 +30,7 @@ SortMethod chooseSortMethod(const KeySortDesc& desc) {
   if (desc.method != SortMethod::Auto) return desc.method;
   if (desc.keyRange > KeySortDesc::kMaxStartRange) return SortMethod::Radix;
   // Counting is slow for large bins (ordering them) and for sparse keys (clearing and scanning counters).
-  // Thresholds measured on lavapipe: docs/notes/sort.md.
+  // Thresholds measured on lavapipe: docs/notes/sorting.md.
   constexpr uint64_t kMaxKeysPerValue = 16;
   constexpr uint64_t kMaxValuesPerKey = 6;
   const bool smallBins = desc.count <= kMaxKeysPerValue * desc.keyRange;

@@ -1,6 +1,6 @@
 #version 460
 // Radix sort: scatters the keys of a tile. Each invocation ranks consecutive keys, which keeps the sort
-// stable. Keys are read twice instead of copied to shared memory: docs/notes/sort.md.
+// stable. Keys are read twice instead of copied to shared memory: docs/notes/sorting.md.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/dispatch.glsl"
 #include "sort/sort_types.h"
