@@ -9,6 +9,7 @@ build ninja-build             Ninja
 build libvulkan-dev           Vulkan headers 1.3.239 or newer
 build glslang-tools           glslang (glslangValidator)
 build spirv-tools             SPIRV-Tools (spirv-opt, spirv-val)
+build spirv-cross             SPIRV-Cross (reflects the bindings of shaders)
 build libglm-dev              GLM
 build nlohmann-json3-dev      nlohmann/json 3.11 or newer
 build libcli11-dev            CLI11

@@ -1,5 +1,5 @@
 # Compiles GLSL to SPIR-V (Vulkan 1.3), optimizes it with spirv-opt and validates it with spirv-val if they are installed, and embeds it
-# as arrays in a library.
+# as arrays in a library, with what spirv-cross reflects: bindings, specialization constants, push constants.
 #   rill_shader(fluid/density.comp)                                           adds "fluid/density"
 #   rill_shader(fluid/density.comp AS fluid/density_texel DEFINES LIST_TEXEL) adds "fluid/density_texel"
 #   rill_shader(gpu/add.comp ROOT ${CMAKE_CURRENT_SOURCE_DIR} GROUP tests)    adds to the table of the group 'tests'
@@ -7,11 +7,15 @@
 find_program(RILL_GLSLANG glslangValidator)
 find_program(RILL_SPIRV_VAL spirv-val)
 find_program(RILL_SPIRV_OPT spirv-opt)  # shortens start-up; see docs/notes/lavapipe.md
+find_program(RILL_SPIRV_CROSS spirv-cross)
 if(NOT RILL_GLSLANG)
   message(FATAL_ERROR "glslangValidator not found; install it (Debian: glslang-tools) or set RILL_GLSLANG to its path")
 endif()
+if(NOT RILL_SPIRV_CROSS)
+  message(FATAL_ERROR "spirv-cross not found; install it (Debian: spirv-cross) or set RILL_SPIRV_CROSS to its path")
+endif()
 set(RILL_SHADER_ROOT ${PROJECT_SOURCE_DIR}/shaders)
-set(RILL_WORDS_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/spirv_words.cmake)
+set(RILL_EMBED_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/embed_shader.cmake)
 
 # Adds a shader to a group for rill_embed_shaders().
 function(rill_shader source)
@@ -54,6 +58,7 @@ function(rill_embed_shaders target)
     list(GET parts 3 defines)
     string(REPLACE "/" "_" symbol ${name})
     set(spv ${PROJECT_BINARY_DIR}/shaders/${group}/${name}.spv)
+    set(reflection ${PROJECT_BINARY_DIR}/shaders/${group}/${name}.json)
     set(array ${PROJECT_BINARY_DIR}/shaders/${group}/${name}.inc)
     get_filename_component(folder ${spv} DIRECTORY)
     file(MAKE_DIRECTORY ${folder})
@@ -71,14 +76,15 @@ function(rill_embed_shaders target)
     add_custom_command(
       OUTPUT ${spv} ${array}
       COMMAND ${RILL_GLSLANG} --quiet -V --target-env vulkan1.3 -I${RILL_SHADER_ROOT} ${flags} -o ${spv} ${root}/${source}
+      COMMAND ${RILL_SPIRV_CROSS} ${spv} --reflect --output ${reflection}
       ${optimize}
       ${check}
-      COMMAND ${CMAKE_COMMAND} -DSPIRV=${spv} -DNAME=shader_${symbol} -DOUT=${array} -P ${RILL_WORDS_SCRIPT}
-      DEPENDS ${root}/${source} ${headers} ${RILL_WORDS_SCRIPT}
+      COMMAND ${CMAKE_COMMAND} -DSPIRV=${spv} -DREFLECTION=${reflection} -DNAME=shader_${symbol} -DOUT=${array} -P ${RILL_EMBED_SCRIPT}
+      DEPENDS ${root}/${source} ${headers} ${RILL_EMBED_SCRIPT}
       COMMENT "Shader ${name}" VERBATIM)
     list(APPEND arrays ${array})
     string(APPEND includes "#include \"${array}\"\n")
-    string(APPEND rows "    {\"${name}\", \"${source}\", \"${defines}\", shader_${symbol}},\n")
+    string(APPEND rows "    {\"${name}\", \"${source}\", \"${defines}\", shader_${symbol}, shader_${symbol}_bindings, shader_${symbol}_constants, shader_${symbol}_push},\n")
   endforeach()
   list(LENGTH shaders count)
   set(table ${PROJECT_BINARY_DIR}/shaders/${group}_shaders.cpp)

@@ -79,7 +79,16 @@ Expected<VkPipeline> PipelineStore::build(DeviceImpl& device, const GraphicsPipe
   return handle;
 }
 
-Expected<const GraphicsPipeline*> PipelineStore::find(DeviceImpl& device, const GraphicsPipelineDesc& desc) {
+Expected<const GraphicsPipeline*> PipelineStore::find(DeviceImpl& device, const GraphicsPipelineDesc& given) {
+  GraphicsPipelineDesc desc = given;
+  Reflection reflection;
+  if (desc.vertexSpirv.empty() && desc.fragmentSpirv.empty() && desc.bindings.empty()) {
+    auto reflected = reflect(device, {desc.vertex, desc.fragment});
+    if (!reflected) return reflected.error();
+    reflection = *std::move(reflected);
+    desc.bindings = reflection.kinds;
+    desc.pushConstantBytes = reflection.pushConstantBytes;
+  }
   for (const auto& p : graphics_)
     if (p->shader == desc.vertex && p->fragment == desc.fragment && p->pushBytes == desc.pushConstantBytes && p->depth == desc.depth &&
         p->depthCompare == desc.depthCompare && p->depthWrite == desc.depthWrite && p->blend == desc.blend &&
@@ -115,6 +124,7 @@ Expected<const GraphicsPipeline*> PipelineStore::find(DeviceImpl& device, const 
   auto pipeline = std::make_unique<GraphicsPipeline>();
   pipeline->shader = desc.vertex;
   pipeline->fragment = desc.fragment;
+  pipeline->bindings = std::move(reflection.bindings);
   pipeline->words.assign(desc.vertexSpirv.begin(), desc.vertexSpirv.end());
   pipeline->fragmentWords.assign(desc.fragmentSpirv.begin(), desc.fragmentSpirv.end());
   pipeline->bindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;

@@ -15,13 +15,44 @@ constexpr uint32_t kMaxPushBytes = 128;  // guaranteed by Vulkan
 
 }  // namespace
 
+const EmbeddedShader* embeddedShader(const DeviceImpl& device, std::string_view name) {
+  for (const auto& table : device.shaders.tables())
+    for (const EmbeddedShader& shader : table)
+      if (shader.name == name) return &shader;
+  return nullptr;
+}
+
 std::span<const uint32_t> embeddedSpirv(const DeviceImpl& device, std::string_view name) {
   if (device.reload)
     if (const auto words = device.reload->words(name); !words.empty()) return words;
-  for (const auto& table : device.shaders.tables())
-    for (const EmbeddedShader& shader : table)
-      if (shader.name == name) return shader.words;
-  return {};
+  const EmbeddedShader* shader = embeddedShader(device, name);
+  return shader ? shader->words : std::span<const uint32_t>();
+}
+
+Expected<Reflection> reflect(const DeviceImpl& device, std::initializer_list<std::string_view> shaders) {
+  Reflection all;
+  for (std::string_view name : shaders) {
+    if (name.empty()) continue;
+    const EmbeddedShader* shader = embeddedShader(device, name);
+    if (!shader) return shaderError(name, "no SPIR-V given, and no embedded shader has this name");
+    all.pushConstantBytes = std::max(all.pushConstantBytes, shader->pushConstantBytes);
+    all.bindings.resize(std::max(all.bindings.size(), shader->bindings.size()));
+    for (size_t k = 0; k < shader->bindings.size(); ++k) {
+      const ShaderBinding& own = shader->bindings[k];
+      ShaderBinding& merged = all.bindings[k];
+      if (own.name.empty()) continue;
+      if (!merged.name.empty() && (merged.name != own.name || merged.kind != own.kind))
+        return shaderError(
+            name, "binding " + std::to_string(k) + " is " + std::string(own.name) + "; another stage declares " + std::string(merged.name));
+      merged = {own.name, own.kind, own.writes || merged.writes};
+    }
+  }
+  for (size_t k = 0; k < all.bindings.size(); ++k) {
+    if (all.bindings[k].name.empty())
+      return shaderError(*shaders.begin(), "binding " + std::to_string(k) + " is not used; expected numbers without a gap");
+    all.kinds.push_back(all.bindings[k].kind);
+  }
+  return all;
 }
 
 Error shaderError(std::string_view shader, std::string what) {
@@ -185,7 +216,16 @@ Expected<VkPipeline> PipelineStore::build(DeviceImpl& device, const ComputePipel
   return handle;
 }
 
-Expected<const ComputePipeline*> PipelineStore::find(DeviceImpl& device, const ComputePipelineDesc& desc) {
+Expected<const ComputePipeline*> PipelineStore::find(DeviceImpl& device, const ComputePipelineDesc& given) {
+  ComputePipelineDesc desc = given;
+  Reflection reflection;
+  if (desc.spirv.empty() && desc.bindings.empty()) {
+    auto reflected = reflect(device, {desc.shader});
+    if (!reflected) return reflected.error();
+    reflection = *std::move(reflected);
+    desc.bindings = reflection.kinds;
+    desc.pushConstantBytes = reflection.pushConstantBytes;
+  }
   for (const auto& p : pipelines_)
     if (p->shader == desc.shader && p->pushBytes == desc.pushConstantBytes && p->requiredSubgroupSize == desc.requiredSubgroupSize &&
         std::ranges::equal(p->set->kinds, desc.bindings) && std::ranges::equal(p->constants, desc.constants) &&
@@ -206,6 +246,7 @@ Expected<const ComputePipeline*> PipelineStore::find(DeviceImpl& device, const C
 
   auto pipeline = std::make_unique<ComputePipeline>();
   pipeline->shader = desc.shader;
+  pipeline->bindings = std::move(reflection.bindings);
   pipeline->words.assign(desc.spirv.begin(), desc.spirv.end());
   pipeline->requiredSubgroupSize = size;
   if (auto ok = begin(device, *pipeline, desc.bindings, desc.pushConstantBytes, desc.constants); !ok) return ok.error();

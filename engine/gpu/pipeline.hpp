@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gpu/resources.hpp"
+#include "gpu/shader_library.hpp"
 
 namespace rill {
 
@@ -26,6 +27,7 @@ uint32_t texelBytes(BindingKind kind);
 struct Pipeline {
   std::string shader;  ///< name for messages; for graphics pipelines the vertex shader's
   const SetLayout* set = nullptr;
+  std::vector<ShaderBinding> bindings;  ///< as reflected; empty for SPIR-V given by the caller
   uint32_t pushBytes = 0;
   std::vector<uint32_t> constants;
   std::vector<uint32_t> words;  ///< SPIR-V given by the caller; empty: an embedded shader
@@ -86,6 +88,15 @@ class PipelineStore {
   std::vector<std::unique_ptr<GraphicsPipeline>> graphics_;
 };
 
+/// The embedded shader of that name; null if there is none.
+const EmbeddedShader* embeddedShader(const DeviceImpl& device, std::string_view name);
+/// What the stages of a pipeline declare together. Fails with Shader if they disagree, or leave out a binding number.
+struct Reflection {
+  std::vector<ShaderBinding> bindings;
+  std::vector<BindingKind> kinds;
+  uint32_t pushConstantBytes = 0;
+};
+Expected<Reflection> reflect(const DeviceImpl& device, std::initializer_list<std::string_view> shaders);
 /// SPIR-V of an embedded shader, or its reloaded version; empty if there is no shader of that name.
 std::span<const uint32_t> embeddedSpirv(const DeviceImpl& device, std::string_view name);
 Error shaderError(std::string_view shader, std::string what);

@@ -4,14 +4,32 @@
 #include <string_view>
 #include <vector>
 
+#include "rill/pipeline.hpp"
+
 namespace rill {
 
-/// A shader compiled into the library: its name, the file under shaders/ and the defines it was made from, and its SPIR-V words.
+/// A binding of a shader, reflected from its SPIR-V.
+struct ShaderBinding {
+  std::string_view name;  ///< of the buffer's first member, the texel buffer or the image in GLSL; empty: used by another stage
+  BindingKind kind = BindingKind::Storage;
+  bool writes = false;  ///< not declared `readonly`
+};
+
+struct ShaderConstant {
+  std::string_view name;
+  uint32_t id = 0;  ///< its constant_id
+};
+
+/// A shader compiled into the library: its name, the file under shaders/ and the defines it was made from, its SPIR-V words and what they
+/// declare (cmake/embed_shader.cmake).
 struct EmbeddedShader {
   std::string_view name;
   std::string_view source;
   std::string_view defines;  ///< separated by spaces
   std::span<const uint32_t> words;
+  std::span<const ShaderBinding> bindings;  ///< element k is binding k
+  std::span<const ShaderConstant> constants;
+  uint32_t pushConstantBytes = 0;
 };
 
 std::span<const EmbeddedShader> embeddedShaders();

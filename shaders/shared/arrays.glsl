@@ -8,8 +8,8 @@
   vec4 NAME##At(uint k) { return texelFetch(NAME##Texels, int(k)); }
 #define READ_UINT(BINDING, NAME) RILL_TEXELS(BINDING, NAME, usamplerBuffer) \
   uint NAME##At(uint k) { return texelFetch(NAME##Texels, int(k)).x; }
-#define READ_UINT4(BINDING, NAME) RILL_TEXELS(BINDING, NAME, usamplerBuffer) \
-  uvec4 NAME##At(uint k) { return texelFetch(NAME##Texels, int(k)); }
+#define READ_UINT4(BINDING, NAME) layout(set = 0, binding = BINDING) uniform usamplerBuffer NAME##Texels4; \
+  uvec4 NAME##At(uint k) { return texelFetch(NAME##Texels4, int(k)); }
 #define READ_FLOAT(BINDING, NAME) RILL_TEXELS(BINDING, NAME, usamplerBuffer) \
   float NAME##At(uint k) { return uintBitsToFloat(texelFetch(NAME##Texels, int(k)).x); }
 #else

@@ -91,6 +91,7 @@ class RILL_API Pass {
  private:
   friend class Graph;
   friend class GraphImpl;
+  friend struct PassAccess;
   Kernel missingPipeline();
   Kernel bindKernel(const Pipeline& pipeline, std::span<const ResourceRef> bindings);
   Pass(GraphImpl& graph, uint32_t index) : graph_(graph), index_(index) {}

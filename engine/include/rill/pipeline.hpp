@@ -36,7 +36,7 @@ using SpecializationConstants = std::span<const uint32_t>;
 
 /// A compute shader with entry point "main". See Commands::dispatch for how it computes its group index.
 struct ComputePipelineDesc {
-  std::string_view shader;               ///< name for messages; without `spirv`, the name of a built-in shader
+  std::string_view shader;               ///< name for messages; without `spirv`, the name of a built-in shader, which knows its bindings
   std::span<const uint32_t> spirv = {};  ///< SPIR-V module in the byte order of this machine; copied
   std::span<const BindingKind> bindings = {};
   uint32_t pushConstantBytes = 0;          ///< a multiple of 4, at most 128; every dispatch passes exactly this many

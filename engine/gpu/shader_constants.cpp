@@ -1,0 +1,28 @@
+#include "gpu/shader_constants.hpp"
+
+#include <algorithm>
+
+#include "gpu/device_impl.hpp"
+
+namespace rill {
+
+Expected<const ComputePipeline*> shaderPipeline(Device& device, std::string_view shader, std::span<const NamedConstant> constants,
+                                                uint32_t requiredSubgroupSize) {
+  const EmbeddedShader* embedded = embeddedShader(device.impl(), shader);
+  if (!embedded) return shaderError(shader, "no embedded shader has this name");
+  std::vector<uint32_t> values;
+  for (const ShaderConstant& constant : embedded->constants) {
+    const auto found = std::ranges::find(constants, constant.name, &NamedConstant::name);
+    if (found == constants.end()) return shaderError(shader, "its constant " + std::string(constant.name) + " is given no value");
+    values.resize(std::max<size_t>(values.size(), constant.id + 1));
+    values[constant.id] = found->value;
+  }
+  return computePipeline(device, {.shader = shader, .constants = values, .requiredSubgroupSize = requiredSubgroupSize});
+}
+
+std::string readingVariant(const Device& device, std::string_view shader, bool texels) {
+  const std::string variant = std::string(shader) + "_texel";
+  return texels && embeddedShader(const_cast<Device&>(device).impl(), variant) ? variant : std::string(shader);
+}
+
+}  // namespace rill

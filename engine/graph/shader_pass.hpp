@@ -1,0 +1,109 @@
+#pragma once
+// Passes of embedded shaders: what a pass reads, writes and binds follows from the names that its shader gives to its resources.
+//
+//   addDispatch(graph, "histogram", pipeline, groups, push, {{"keys", keys}, {"counts", counts}});
+//
+// A buffer that the shader declares `readonly` is read. Any other is written, and the ref given for it becomes its new version.
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "gpu/pipeline.hpp"
+#include "rill/graph.hpp"
+
+namespace rill {
+
+/// A resource under the name that it has in a shader.
+struct Named {
+  std::string_view name;
+  ResourceRef ref;
+  BufferRef* buffer = nullptr;  ///< where the new version of a written buffer goes
+  ImageRef* image = nullptr;
+  bool discard = false;  ///< the shader writes all of it that is read later
+  Named(std::string_view n, BufferRef& written) : name(n), ref(written), buffer(&written) {}
+  Named(std::string_view n, const BufferRef& read) : name(n), ref(read) {}
+  Named(std::string_view n, ImageRef& written) : name(n), ref(written), image(&written) {}
+  Named(std::string_view n, const ImageRef& read) : name(n), ref(read) {}
+};
+
+/// Of a target that a gated pass writes in full: without a gate its old content is not needed.
+inline Named discardUnless(const void* gate, Named named) {
+  named.discard = !gate;
+  return named;
+}
+
+/// How a compute pass uses a binding.
+constexpr Use useOf(const ShaderBinding& binding) {
+  switch (binding.kind) {
+    case BindingKind::Uniform:
+      return Use::ComputeUniform;
+    case BindingKind::TexelFloat4:
+    case BindingKind::TexelUint:
+    case BindingKind::TexelUint4:
+      return Use::ComputeTexel;
+    case BindingKind::SampledImage:
+      return Use::ComputeSampled;
+    default:
+      return binding.writes ? Use::ComputeWrite : Use::ComputeRead;
+  }
+}
+
+constexpr size_t kMaxBindings = 32;
+
+/// What one binding of a shader is bound to.
+struct BoundResource {
+  ResourceRef ref;
+  BufferRef* buffer = nullptr;  ///< in place of `ref`: advances to its new version if the shader writes it
+  ImageRef* image = nullptr;
+  bool discard = false;  ///< the shader writes all of it that is read later
+  bool atomic = false;   ///< a buffer that is written by commutative atomics alone, whose results are not used
+};
+
+/// Declares what the shader of `pipeline` reads and writes, and binds it, in the order of its bindings. Writing a resource that is given as
+/// `ref` is an error that compile() reports.
+Kernel bindShader(Pass& pass, const ComputePipeline* pipeline, std::span<const BoundResource> resources);
+
+/// The same by names. Resources that the shader does not name are left alone; one that
+/// it names and nobody gives, and a written one given as read-only, are errors that compile() reports.
+Kernel bindNamed(Pass& pass, const ComputePipeline* pipeline, std::span<const Named> resources);
+inline Kernel bindNamed(Pass& pass, const ComputePipeline* pipeline, std::initializer_list<Named> resources) {
+  return bindNamed(pass, pipeline, std::span(resources.begin(), resources.size()));
+}
+
+/// How many workgroups a dispatch has: a number, or three words of a buffer on the device.
+struct DispatchSize {
+  uint64_t groups = 0;
+  BufferRef arguments;
+  uint64_t offset = 0;  ///< bytes
+  DispatchSize(uint64_t count) : groups(count) {}
+  DispatchSize(BufferRef buffer, uint64_t bytes) : arguments(buffer), offset(bytes) {}
+};
+
+/// Records a dispatch; nothing for 0 groups.
+inline void dispatch(Commands& commands, Kernel kernel, const DispatchSize& size) {
+  if (size.arguments != BufferRef{})
+    commands.dispatchIndirect(kernel, size.arguments, size.offset);
+  else
+    commands.dispatch(kernel, size.groups);
+}
+template <class Push>
+void dispatch(Commands& commands, Kernel kernel, const DispatchSize& size, const Push& push) {
+  if (size.arguments != BufferRef{})
+    commands.dispatchIndirect(kernel, size.arguments, size.offset, push);
+  else
+    commands.dispatch(kernel, size.groups, push);
+}
+
+/// A pass of one dispatch.
+template <class Push>
+void addDispatch(Graph& graph, std::string_view name, const ComputePipeline* pipeline, const DispatchSize& size, const Push& push,
+                 std::initializer_list<Named> resources) {
+  graph.pass(name, [&](Pass& pass) {
+    if (size.arguments != BufferRef{}) pass.read(size.arguments, Use::Indirect);
+    const Kernel kernel = bindNamed(pass, pipeline, resources);
+    return [kernel, size, push](Commands& commands) { dispatch(commands, kernel, size, push); };
+  });
+}
+
+}  // namespace rill
