@@ -20,34 +20,39 @@ bool read(std::span<const std::byte> bytes, Record& record) {
 }  // namespace
 
 std::vector<FluidPassRuns> FluidImpl::passRuns() const {
-  const FluidParams& p = setup.params;
-  const uint32_t substeps = recordedLast_.substeps - recordedBefore_.substeps, blocks = recordedLast_.blocks - recordedBefore_.blocks;
-  const uint32_t rebuilds = recordedLast_.rebuilds - recordedBefore_.rebuilds, sorts = recordedLast_.sorts - recordedBefore_.sorts;
-  const uint32_t ran = ran_.substeps - ranBefore_.substeps, iterations = ran_.iterations - ranBefore_.iterations;
-  const uint32_t builds = ran_.builds - ranBefore_.builds, calms = ran_.calms - ranBefore_.calms;
-  const bool smooths = setup.viscositySweeps > 0, swirls = p.vorticity > 0, keeps = setup.viscositySweeps % 2 == 1,
-             calm = p.noiseDampingRate > 0;
-  std::vector<FluidPassRuns> all;
-  const auto add = [&](bool declared, uint32_t did, uint32_t of, std::initializer_list<std::string_view> names) {
-    for (std::string_view name : names)
-      if (declared && of > 0) all.push_back({name, did, of});
+  const Executed done{executed_.substeps - executedBefore_.substeps, executed_.iterations - executedBefore_.iterations,
+                      executed_.builds - executedBefore_.builds, executed_.noiseDampings - executedBefore_.noiseDampings};
+  const auto executed = [&](Start start) {
+    switch (start) {
+      case Start::Iterate:
+        return done.iterations - done.substeps;
+      case Start::NoiseDamping:
+        return done.noiseDampings;
+      case Start::Rebuild:
+        return done.builds;
+      default:
+        return done.substeps;
+    }
   };
-  add(true, builds, rebuilds, {"keys", "reorder", "build list"});
-  add(true, builds + (sorts - rebuilds), sorts, {"sort/"});
-  add(setup.near, iterations, substeps * p.iterations, {"walls and solids"});
-  add(true, iterations, substeps * p.iterations, {"density"});
-  add(true, iterations - ran, substeps * (p.iterations - 1), {"iterate"});
-  add(true, ran, substeps, {"correct"});
-  add(setup.movingSolids, ran, substeps, {"move solids"});
-  add(p.solidCount > 0, ran, substeps, {"collide"});
-  if (smooths || swirls)
-    add(p.solidCount > 0, ran, substeps, {"predict after terms"});
-  else
-    add(p.solidCount > 0 && calm, ran_.blocks - ranBefore_.blocks, blocks, {"predict after terms"});
-  add(smooths, ran, substeps, {"viscosity"});
-  add(swirls, ran, substeps, {"curl", "confine"});
-  add(calm, calms, blocks, {"noise damping"});
-  add(keeps || calm, (keeps ? ran : 0) + calms, (keeps ? substeps : 0) + (calm ? blocks : 0), {"copy velocities"});
+  const auto recorded = [&](FluidPass pass, Start start) {
+    const auto p = static_cast<size_t>(pass), k = static_cast<size_t>(start);
+    return recordedLast_.passes[p][k] - recordedBefore_.passes[p][k];
+  };
+  std::vector<FluidPassRuns> all;
+  for (const FluidPassRow& row : fluidPassTable()) {
+    if (row.id == FluidPass::CorrectWithArtificialPressure) continue;  // counted with the other corrections
+    FluidPassRuns runs{row.name, 0, 0};
+    for (Start start : row.starts) {
+      if (start == Start::Always || start == Start::Predict || start == Start::Figures) continue;  // whatever is recorded of these runs
+      uint32_t times = recorded(row.id, start);
+      if (row.id == FluidPass::Correct) times += recorded(FluidPass::CorrectWithArtificialPressure, start);
+      if (times > 0) runs.ran += executed(start);
+      runs.of += times;
+    }
+    if (runs.of > 0) all.push_back(runs);
+  }
+  const uint32_t sorts = recordedLast_.sorts - recordedBefore_.sorts, rebuilds = recorded(FluidPass::Keys, Start::Rebuild);
+  if (sorts > 0) all.push_back({"sort/", done.builds + (sorts - rebuilds), sorts});
   return all;
 }
 
@@ -66,8 +71,8 @@ void FluidImpl::poll() const {
       if (given_up->uploads) staging_.reset();
     pending_.erase(pending_.begin(), next);
     const Pending& pending = pending_.front();
-    ranBefore_ = std::exchange(ran_, {control.executedSubsteps, control.executedIterations, control.executedBuilds, control.executedBlocks,
-                                      control.executedNoiseDampings});
+    executedBefore_ = std::exchange(
+        executed_, {control.executedSubsteps, control.executedIterations, control.executedBuilds, control.executedNoiseDampings});
     recordedBefore_ = std::exchange(recordedLast_, pending.recorded);
     progress = {.known = true,
                 .time_s = double{control.timeHigh} + control.timeLow,

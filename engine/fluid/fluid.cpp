@@ -14,18 +14,11 @@
 namespace rill {
 namespace {
 
-constexpr uint32_t kMaxCluster = 32;  // see shaders/fluid/cluster.glsl: a window of candidates has as many
-
 constexpr uint64_t kMaxBuffer = uint64_t{128} << 20;
 static_assert(kMaxParticles == KeySortDesc::kMaxCount);
 static_assert(kMaxParticles <= 1u << 24);  // sorted particles carry their numbers as floats
 
-uint64_t listEntries(const Scene& scene) {
-  if (scene.solver.neighbors == NeighborChoice::Grid) return 0;
-  return listCapacity(scene.fluid.smoothing_ratio + kListSkin);
-}
-
-uint64_t blocks(uint64_t particles) { return (particles + kListBlock - 1) / kListBlock; }
+uint64_t blocks(uint64_t particles) { return divideUp(particles, kListBlock); }
 
 std::string mebibytes(uint64_t bytes) {
   char text[40];
@@ -49,21 +42,7 @@ Expected<void> checkGiven(const FluidDesc& desc) {
 
 }  // namespace
 
-FluidMemory fluidMemory(const Scene& scene, uint64_t particles) {
-  FluidMemory memory;
-  // position, velocity, prediction, push, work and two of the near sample; warm, id, count, cell, near list; and while sorting: three vec4,
-  // a key, where keys have arrived, and the order of full cells.
-  uint64_t each = 7 * 16 + 5 * 4 + (3 * 16 + 3 * 4);
-  if (!startsWarm(scene)) each -= 16 + 4;
-  if (scene.solver.neighbors == NeighborChoice::Grid) each -= 4;
-  if (scene.solver.iterations > 1) each += 4;
-  if (scene.fluid.viscosity > 0 || scene.fluid.vorticity > 0) each += 2 * 16;
-  if (!scene.solids.empty()) each += 16;
-  memory.particle_bytes = each * (particles + 1);
-  memory.list_bytes = blocks(particles) * kListBlock * listEntries(scene) * 4;
-  memory.grid_bytes = maxGridCells(particles) * 4 * 5 / 4;  // cell starts, and a sort's tile sums
-  return memory;
-}
+FluidMemory fluidMemory(const Scene& scene, uint64_t particles) { return memoryOf(arrayShape(scene, particles)); }
 
 Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const FluidDesc& desc) {
   if (auto given = checkGiven(desc); !given) return given.error();
@@ -110,13 +89,13 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
 
   if (impl->count == 0) return impl;
   if (auto ok = impl->makeBuffers(device, desc.storageReads); !ok) return ok.error();
+  if (auto ok = impl->preparePasses(device); !ok) return ok.error();
   impl->stageScene();
   if (desc.snapshot)
     impl->stageSnapshot(*desc.snapshot);
   else
     impl->stageStart(particles, desc.settle);
   if (auto ok = impl->staging_->make(device); !ok) return ok.error();
-  if (auto ok = impl->makePipelines(device); !ok) return ok.error();
   return impl;
 }
 
@@ -143,133 +122,22 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
   if (!sort) return sort.error();
   sort_ = std::move(*sort);
 
-  // 64 bytes stand for what this scene has no use for: a binding must be something.
-  const auto bytesIf = [](bool used, uint64_t bytes) { return used ? bytes : uint64_t{64}; };
-  const struct {
-    Buffer* buffer;
-    const char* name;
-    uint64_t bytes;
-  } table[] = {
-      {&buffers_.params, "fluid parameters", sizeof(FluidParams)},
-      {&buffers_.control, "fluid control", sizeof(FluidControl)},
-      {&buffers_.sums, "fluid sums", sizeof(FluidSums)},
-      {&buffers_.shapes, "dispatch shapes", kMaxCommands * 12},
-      {&buffers_.commands, "dispatch commands", kMaxCommands * 12},
-      {&buffers_.gravity, "gravity schedule", setup.gravity.size() * 4},
-      {&buffers_.tables, "wall tables", std::max<uint64_t>(64, setup.tables.size() * 4)},
-      {&buffers_.solids, "solids", std::max<uint64_t>(64, setup.solids.size() * sizeof(SolidRecord))},
-      {&buffers_.keyframes, "keyframes", std::max<uint64_t>(64, setup.keyframes.size() * 4)},
-      {&buffers_.position, "positions", more * 16},
-      {&buffers_.velocity, "velocities", more * 16},
-      {&buffers_.prediction, "predictions", more * 16},
-      {&buffers_.warmAcceleration, "warm pushes", bytesIf(setup.warm, n * 16)},
-      {&buffers_.work, "multipliers", more * 16},
-      {&buffers_.warm, "warm starts", bytesIf(setup.warm, n * 4)},
-      {&buffers_.id, "ids", n * 4},
-      {&buffers_.multiplier, "iteration multipliers", bytesIf(p.iterations > 1, n * 4)},
-      {&buffers_.neighborCount, "neighbor counts", bytesIf(p.listCapacity > 0, n * 4)},
-      {&buffers_.cell, "cells", n * 4},
-      {&buffers_.start, "cell starts", paddedWords(setup.grid.cells() + 1) * 4},
-      {&buffers_.nearSample, "wall samples", bytesIf(setup.near, n * 32)},
-      {&buffers_.nearList, "particles near walls", bytesIf(setup.near, n * 4)},
+  const ArrayShape shape = arrayShape(setup);
+  const auto add = [&](const ArrayRow& row, uint32_t c, uint64_t bytes) -> Expected<void> {
+    auto made_ = createBuffer(device, row.label, bytes);
+    if (!made_) return made_.error();
+    buffers_[slotOf(row.id, c)] = std::move(*made_);
+    made.push_back({row.label, bytes});
+    return {};
   };
-  for (const auto& row : table) {
-    auto buffer = createBuffer(device, row.name, row.bytes);
-    if (!buffer) return buffer.error();
-    *row.buffer = std::move(*buffer);
-    made.push_back({row.name, row.bytes});
-  }
-  for (const Chunk& c : chunks_) {
-    auto list = createBuffer(device, "neighbor list", p.listCapacity == 0 ? 64 : blocks(c.last - c.first) * blockBytes);
-    if (!list) return list.error();
-    made.push_back({"neighbor list", list->size()});
-    buffers_.lists.push_back(std::move(*list));
+  for (const ArrayRow& row : arrayTable()) {
+    if (row.lifetime != Lifetime::Fluid) continue;
+    const bool lists = row.id == FluidArray::List && shape.lists;
+    for (uint32_t c = 0; c < (lists ? chunkCount() : 1); ++c)
+      if (auto ok = add(row, c, lists ? blocks(chunks_[c].last - chunks_[c].first) * blockBytes : arrayBytes(row.id, shape)); !ok)
+        return ok;
   }
   return {};
-}
-
-Expected<void> FluidImpl::makePipelines(Device& device) {
-  using enum BindingKind;
-  const FluidParams& p = setup.params;
-  const uint32_t kernel = setup.kernel, capacity = p.listCapacity, nearWalls = setup.near, warm = setup.warm;
-  // Particles that walk the grid together are a subgroup, of which the shader knows that it is whole.
-  const uint32_t whole = std::min(device.info().subgroupSize, kFluidGroup), cluster = std::min(whole, kMaxCluster);
-  Expected<void> result;
-  const auto make = [&](const ComputePipeline*& out, std::string_view shader, std::vector<BindingKind> bindings, uint32_t push,
-                        std::vector<uint32_t> constants = {}, uint32_t subgroup = 0) {
-    if (!result) return;
-    auto pipeline = computePipeline(
-        device,
-        {.shader = shader, .bindings = bindings, .pushConstantBytes = push, .constants = constants, .requiredSubgroupSize = subgroup});
-    if (pipeline)
-      out = *pipeline;
-    else
-      result = pipeline.error();
-  };
-  // Arrays that are read: see shaders/shared/arrays.glsl.
-  const BindingKind vectors = texel_ ? TexelFloat4 : Storage, words = texel_ ? TexelUint : Storage, quads = texel_ ? TexelUint4 : Storage;
-  const auto reading = [&](std::string_view shader) { return std::string(shader) + (texel_ ? "_texel" : ""); };
-  // A pass that gathers: two uniform blocks, particles, list, counts, cells, cell starts, sums, and its own.
-  const auto gather = [&](GatherPipelines& out, std::string_view shader, std::vector<BindingKind> own, uint32_t push,
-                          std::vector<uint32_t> constants = {}) {
-    std::vector<BindingKind> bindings{Uniform, Uniform, vectors, quads, words, words, words, Storage};
-    bindings.insert(bindings.end(), own.begin(), own.end());
-    const std::string name = reading(shader);
-    constants.insert(constants.begin(), {kernel, cluster, capacity, 0});
-    if (capacity > 0) make(out.list, name, bindings, push, constants, whole);
-    constants[3] = 1;
-    make(out.walk, name, bindings, push, constants, whole);
-  };
-  const auto plain = [&](size_t uniforms, size_t n) {
-    std::vector<BindingKind> bindings(uniforms, Uniform);
-    bindings.insert(bindings.end(), n, Storage);
-    return bindings;
-  };
-
-  make(pipes_.begin, "fluid/begin", plain(1, 5), sizeof(BeginPush));
-  make(pipes_.control, "fluid/control", plain(1, 5), sizeof(ControlPush));
-  make(pipes_.finishRebuild, "fluid/finish_rebuild", plain(1, 5), 0);
-  make(pipes_.predict, reading("fluid/predict"), {Uniform, Uniform, vectors, vectors, vectors, Storage, Storage}, 0, {warm});
-  const auto [oversized, counts] = sort_->counterConstants();
-  const std::vector<BindingKind> keyed{Uniform, Uniform, vectors, Storage, Storage, Storage, Storage, Storage};
-  make(pipes_.keys, reading("fluid/keys"), keyed, 0, {oversized, counts, 1});
-  make(pipes_.measureKeys, reading("fluid/keys"), keyed, 0, {oversized, counts, 0});
-  make(pipes_.reorder, reading("fluid/reorder"),
-       {Uniform, Uniform, words, words, words, words, vectors, vectors, vectors, words, words, Storage, Storage, Storage}, 0, {warm});
-  std::vector<BindingKind> building = plain(2, 16);
-  building[2] = building[8] = building[9] = vectors;
-  building[6] = words;
-  make(pipes_.build, reading("fluid/build"), building, sizeof(ChunkPush), {0, cluster, capacity, nearWalls, warm}, whole);
-  if (setup.near) {
-    const std::vector<BindingKind> bindings{Uniform, Uniform, vectors, words, Storage, vectors, Storage, Storage};
-    make(pipes_.walls.plane, reading("fluid/walls"), bindings, 0, {0, 0, 1});
-    make(pipes_.walls.corner, reading("fluid/walls"), bindings, 0, {1, p.solidCount > 0, setup.thin ? 2u : 1u});
-  }
-  if (p.solidCount > 0) make(pipes_.collide, "fluid/collide", plain(2, 11), 0, {0, warm});
-  const bool smooths = setup.viscositySweeps > 0 || p.noiseDampingRate > 0;
-  if (p.solidCount > 0 && (smooths || p.vorticity > 0)) make(pipes_.predictAfterTerms, "fluid/collide", plain(2, 11), 0, {1, warm});
-  if (setup.movingSolids) make(pipes_.pose, "fluid/pose", plain(2, 2), 0);
-  gather(pipes_.density, "fluid/density", {Storage, Storage, vectors, Storage}, sizeof(ChunkPush), {nearWalls, p.iterations > 1, warm});
-  const auto correct = [&](GatherPipelines& pipelines, bool parts) {
-    gather(pipelines, "fluid/correct", {Storage, Storage, vectors, Storage, Storage, Storage, Storage}, sizeof(ChunkPush),
-           {nearWalls, parts, p.solidCount > 0, warm});
-  };
-  correct(pipes_.correct, false);
-  if (p.tensileRate > 0) correct(pipes_.correctWithArtificialPressure, true);
-  if (p.iterations > 1) gather(pipes_.iterate, "fluid/iterate", {Storage, vectors}, sizeof(ChunkPush), {nearWalls});
-  if (smooths) gather(pipes_.viscosity, "fluid/viscosity", {vectors, Storage, Storage, vectors, vectors}, sizeof(SweepPush), {warm});
-  if (setup.viscositySweeps % 2 == 1 || p.noiseDampingRate > 0)
-    make(pipes_.copyVelocity, "fluid/copy_velocity", plain(2, 2), sizeof(ChunkPush));
-  if (p.vorticity > 0) {
-    gather(pipes_.curl, "fluid/curl", {vectors, Storage}, sizeof(ChunkPush));
-    gather(pipes_.confine, "fluid/confine", {vectors, Storage, Storage, vectors, vectors}, sizeof(ChunkPush), {warm});
-  }
-  make(pipes_.measureOrder, reading("fluid/measure_order"), {Uniform, Uniform, words, words, words, words, vectors, Storage}, 0);
-  make(pipes_.measure, reading("fluid/measure"), {Uniform, Uniform, vectors, words, vectors, Storage, Storage, Storage}, 0,
-       {kernel, cluster, nearWalls}, whole);
-  make(pipes_.measureSums, reading("fluid/measure_sums"), {Uniform, Uniform, vectors, vectors, Storage}, 0);
-  make(pipes_.reduce, "fluid/measure_reduce", plain(2, 3), 0);
-  return result;
 }
 
 Fluid::Fluid(std::unique_ptr<FluidImpl> impl) : impl_(std::move(impl)) {}

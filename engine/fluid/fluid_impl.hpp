@@ -1,14 +1,19 @@
 #pragma once
-// What a Fluid holds: its settings, its buffers, its pipelines.
+// What a Fluid holds: its settings, its buffers, its pipelines, and what it has declared and not yet heard of.
 #include <array>
 #include <cmath>
 #include <deque>
 #include <memory>
 #include <optional>
+#include <type_traits>
 
+#include "fluid/arrays.hpp"
+#include "fluid/dispatch_commands.hpp"
+#include "fluid/pass_table.hpp"
 #include "fluid/settings.hpp"
 #include "fluid/staging.hpp"
 #include "gpu/resources.hpp"
+#include "graph/shader_pass.hpp"
 #include "rill/fluid.hpp"
 #include "sort/key_sort.hpp"
 
@@ -20,48 +25,31 @@ inline float speedOf(const Float3& v) { return std::sqrt(v.x * v.x + v.y * v.y +
 
 constexpr uint32_t kMaxListChunks = 16;
 
-/// Device buffers that live as long as the fluid. Arrays of `count` + 1 entries end with the dummy neighbor that pads lists.
-struct FluidBuffers {
-  Buffer params, control, sums, shapes, commands, gravity, tables, solids, keyframes;
-  Buffer position, velocity, prediction, warmAcceleration, work, warm, id;  // vec4 each but the last two
-  Buffer multiplier;                                                        // where there are several iterations
-  Buffer neighborCount, cell, start, nearSample, nearList;
-  std::vector<Buffer> lists;
-};
-
-/// Of the particles near one wall, and of those near several walls or a solid.
-struct WallPipelines {
-  const ComputePipeline *plane = nullptr, *corner = nullptr;
-};
-
-/// A pass over the neighbors: from the list, and the variant that can walk the grid as well. No list variant where there is no list.
-struct GatherPipelines {
-  const ComputePipeline *list = nullptr, *walk = nullptr;
-};
-
-struct FluidPipelines {
-  const ComputePipeline *begin = nullptr, *control = nullptr, *finishRebuild = nullptr, *predict = nullptr, *keys = nullptr,
-                        *reorder = nullptr, *build = nullptr;
-  const ComputePipeline *collide = nullptr, *predictAfterTerms = nullptr, *pose = nullptr;
-  WallPipelines walls;
-  GatherPipelines density, correct, correctWithArtificialPressure, iterate, viscosity, curl, confine;
-  const ComputePipeline* copyVelocity = nullptr;
-  const ComputePipeline *measureKeys = nullptr, *measureOrder = nullptr, *measure = nullptr, *measureSums = nullptr, *reduce = nullptr;
-};
-
-/// One frame's versions of the buffers.
-struct FluidRefs {
-  BufferRef params, control, sums, shapes, commands, gravity, tables, solids, keyframes;
-  BufferRef position, velocity, prediction, warmAcceleration, work, warm, id, multiplier;
-  BufferRef neighborCount, cell, start, nearSample, nearList;
-  std::array<BufferRef, kMaxListChunks> lists;
-};
-
 /// Range of particles that one list buffer serves; the whole fluid where there is no list.
 struct Chunk {
   uint32_t first = 0, last = 0;
   uint64_t groups() const { return divideUp(last - first, kFluidGroup); }
 };
+
+/// Where an array lies among a fluid's buffers; lists have one for each chunk.
+constexpr size_t slotOf(FluidArray array, uint32_t chunk = 0) {
+  return array == FluidArray::List && chunk > 0 ? kArrays + chunk - 1 : static_cast<size_t>(array);
+}
+constexpr size_t kSlots = kArrays + kMaxListChunks - 1;
+
+/// A row of the pass table as this fluid dispatches it.
+struct PreparedPass {
+  struct Variant {
+    const ComputePipeline* pipeline = nullptr;
+    uint32_t over = kOverShape;
+    std::vector<FluidArray> arrays = {};  ///< in the order of the bindings
+  };
+  std::vector<Variant> variants;
+  std::vector<std::array<uint32_t, kStarts + 1>> commands;  ///< of each variant, by start; correct has two, the second one last
+};
+
+/// How often the passes were recorded, by what starts them.
+using PassCounts = std::array<std::array<uint32_t, kStarts>, kFluidPasses>;
 
 class FluidImpl {
  public:
@@ -70,9 +58,9 @@ class FluidImpl {
   FluidState present(Graph& graph) const;
   void poll() const;
   std::vector<FluidPassRuns> passRuns() const;
-  const FluidRefs& refs() const { return r_; }  ///< of the step declared last
   std::span<const Chunk> chunks() const { return chunks_; }
-  const FluidBuffers& buffers() const { return buffers_; }
+  const Buffer& buffer(FluidArray array, uint32_t chunk = 0) const { return slot(slotOf(array, chunk)); }
+  const Buffer& slot(size_t slot) const { return buffers_[slot]; }
 
   FluidSetup setup;
   FluidMemory memory;
@@ -85,12 +73,13 @@ class FluidImpl {
  private:
   /// What was recorded, since the start, of what the device switches on and off.
   struct Recorded {
-    uint32_t substeps = 0, blocks = 0, rebuilds = 0, sorts = 0;  ///< sorts: with those of figures, which always run
+    PassCounts passes{};
+    uint32_t substeps = 0, sorts = 0;  ///< sorts: with those of figures, which always run
   };
 
-  /// What of it the device ran.
-  struct Ran {
-    uint32_t substeps = 0, iterations = 0, builds = 0, blocks = 0, calms = 0;
+  /// What of it the device executed.
+  struct Executed {
+    uint32_t substeps = 0, iterations = 0, builds = 0, noiseDampings = 0;
   };
 
   struct Pending {
@@ -108,34 +97,58 @@ class FluidImpl {
     std::vector<std::array<float, 3>> from;
   };
 
+  // fluid.cpp
   Expected<void> makeBuffers(Device& device, bool storageReads);
-  Expected<void> makePipelines(Device& device);
+  // pipelines.cpp
+  Expected<void> preparePasses(Device& device);
+  Expected<void> preparePass(Device& device, const FluidPassRow& row);
+  std::vector<NamedConstant> constants(Device& device) const;
+  // start_state.cpp
   void stageScene();
   void stageStart(const ParticleSet& particles, bool settle);
   void stageSnapshot(const FluidSnapshot& snapshot);
   void stageParticles(std::vector<Float3> positions, std::vector<Float3> velocities);
-  FluidState described() const;  ///< without buffers
-  bool possible(Graph& graph, const FluidStep& step) const;
-  BufferRef& versionOf(const Buffer& buffer);
-  void importAll(Graph& graph);
+  // host_input.cpp
   void declareUpload(Graph& graph);
   void declareDrive(Graph& graph, const FluidStep& step);
   void forgetAbandoned();  ///< what has been declared in frames that were given up
+  // passes.cpp
+  FluidState described() const;  ///< without buffers
+  bool validate(Graph& graph, const FluidStep& step) const;
+  void importAll(Graph& graph);
   void declareBegin(Graph& graph, double advance);
-  Kernel keysKernel(Pass& pass, const ComputePipeline* pipeline, BufferRef places, BufferRef& keys, KeyCounters& counters);
   void declareRebuild(Graph& graph);
+  /// Sorts by the cell of `places`; `keys` is the pass that finds it. The results are SortStart, SortArrived, SortOrder.
+  void sortKeys(Graph& graph, FluidPass keys, Start start, FluidArray places, const SortTargets& targets, const Gate* gate);
+  void declareSkipped(Graph& graph) const;
+  // substep_passes.cpp
   void declareSubstep(Graph& graph, uint32_t parity, bool first);  ///< first of its block
-  void declareCollide(Graph& graph, std::string_view name, const ComputePipeline* pipeline, BufferRef free, uint32_t parity);
-  void declareTerms(Graph& graph, uint32_t parity, bool calms);
-  void declareSweeps(Graph& graph, std::string_view name, uint32_t sweeps, uint32_t command, float share);
+  void declareTerms(Graph& graph, bool first);
+  void declareSweeps(Graph& graph, FluidPass pass, Start start, uint32_t sweeps, float share);
+  // measure_passes.cpp
   void declareMeasure(Graph& graph, Pending& pending);
-  void declareSkipped(Graph& graph);
+  // declare.cpp
+  struct NoPush {};
+  template <class Push = NoPush>
+  void declare(Graph& graph, FluidPass pass, Start start = Start::Always, Push push = {});
+  Kernel bind(Graph& graph, Pass& pass, const FluidPassRow& row, const PreparedPass::Variant& variant, uint32_t chunk);
+  uint64_t directGroups(Extent extent) const;
+  GroupCount shapeOf(Extent extent) const;
+  /// This frame's version of an array, or of the one that an alias stands for.
+  BufferRef& ref(FluidArray array, uint32_t chunk = 0) { return refs_[slotOf(aliases_[static_cast<size_t>(array)], chunk)]; }
+  /// From now on shaders see `target` under the name of `alias`.
+  void alias(FluidArray alias, FluidArray target) { aliases_[static_cast<size_t>(alias)] = target; }
+  void resetAliases();
+  void beginSection();  ///< transients of the section before are given up
   uint32_t chunkCount() const { return static_cast<uint32_t>(chunks_.size()); }
-  uint32_t commandCount() const;
 
-  FluidBuffers buffers_;
-  FluidPipelines pipes_;
-  FluidRefs r_;
+  std::array<Buffer, kSlots> buffers_;
+  std::array<BufferRef, kSlots> refs_{};
+  std::array<FluidArray, kArrays> aliases_{};
+  std::array<PreparedPass, kFluidPasses> passes_;
+  DispatchCommands commands_;
+  uint32_t sortCommand_ = 0;  // the first of the sort's
+  uint32_t parity_ = 0;       // of the substep being declared
   std::optional<KeySort> sort_;
   std::vector<Chunk> chunks_;
   mutable std::optional<Staging> staging_;  // the start state, until it has been copied
@@ -149,9 +162,46 @@ class FluidImpl {
   mutable std::deque<Pending> pending_;
   Recorded recording_;                              // by all frames that were declared
   mutable Recorded recordedLast_, recordedBefore_;  // at the end of the last finished frame, and of the one before
-  mutable Ran ran_, ranBefore_;                     // likewise
+  mutable Executed executed_, executedBefore_;      // likewise
   std::deque<Drive> drives_;                        // those that the device has not finished
   uint64_t driveCount_ = 0;
 };
+
+// A pass records a dispatch for each chunk and variant.
+template <class Push>
+void FluidImpl::declare(Graph& graph, FluidPass pass, Start start, Push push) {
+  const FluidPassRow& row = rowOf(pass);
+  const PreparedPass& prepared = passes_[static_cast<size_t>(pass)];
+  ++recording_.passes[static_cast<size_t>(pass)][static_cast<size_t>(start)];
+  graph.pass(row.name, [&](Pass& declared) {
+    struct Dispatched {
+      Kernel kernel;
+      uint64_t offset;
+    };
+    std::array<Dispatched, 2 * kMaxListChunks> all;
+    size_t count_ = 0;
+    const bool chunked = row.extent == Extent::Chunks || row.extent == Extent::Gather;
+    if (start != Start::Always) declared.read(ref(FluidArray::Commands), Use::Indirect);
+    for (uint32_t c = 0; c < (chunked ? chunkCount() : 1); ++c)
+      for (size_t v = 0; v < prepared.variants.size(); ++v) {
+        const size_t k = start == Start::Correct && parity_ == 1 ? kStarts : static_cast<size_t>(start);
+        all[count_++] = {bind(graph, declared, row, prepared.variants[v], c), DispatchCommands::offset(prepared.commands[v][k])};
+      }
+    return [=, this, arguments = ref(FluidArray::Commands), groups = directGroups(row.extent), each = prepared.variants.size(),
+            direct = start == Start::Always](Commands& commands) mutable {
+      for (size_t k = 0; k < count_; ++k) {
+        if constexpr (requires { push.first; }) {
+          push.first = chunks_[k / each].first;
+          push.last = chunks_[k / each].last;
+        }
+        const DispatchSize size = direct ? DispatchSize(groups) : DispatchSize(arguments, all[k].offset);
+        if constexpr (std::is_same_v<Push, NoPush>)
+          dispatch(commands, all[k].kernel, size);
+        else
+          dispatch(commands, all[k].kernel, size, push);
+      }
+    };
+  });
+}
 
 }  // namespace rill

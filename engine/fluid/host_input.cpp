@@ -20,19 +20,19 @@ void FluidImpl::declareUpload(Graph& graph) {
     }
     std::vector<Copy> copies;
     for (const Staging::Copy& copy : staging_->copies()) {
-      BufferRef& ref = versionOf(*copy.target);
-      ref = pass.write(ref, Use::CopyTarget);
-      copies.push_back({sources[copy.source], ref, copy.bytes, copy.at});
+      BufferRef& to = refs_[copy.target];
+      to = pass.write(to, Use::CopyTarget);
+      copies.push_back({sources[copy.source], to, copy.bytes, copy.at});
     }
-    for (const Buffer* buffer : staging_->cleared()) {
-      BufferRef& ref = versionOf(*buffer);
-      ref = pass.write(ref, Use::CopyTarget, true);
-      cleared.push_back(ref);
+    for (const size_t target : staging_->cleared()) {
+      BufferRef& to = refs_[target];
+      to = pass.write(to, Use::CopyTarget, true);
+      cleared.push_back(to);
     }
     return [this, copies = std::move(copies), cleared = std::move(cleared)](Commands& commands) {
       uploadFrame_ = device_->clock.recording;
       for (const Copy& copy : copies) commands.copy(copy.from, copy.to, copy.bytes, copy.at);
-      for (BufferRef ref : cleared) commands.fill(ref, 0);
+      for (BufferRef to : cleared) commands.fill(to, 0);
     };
   });
 }
@@ -76,8 +76,9 @@ void FluidImpl::declareDrive(Graph& graph, const FluidStep& step) {
                     {from[0], from[1], from[2], 0, to[0], to[1], to[2], static_cast<float>(step.advance_s)}});
   }
   graph.pass("drive solids", [&](Pass& pass) {
-    r_.keyframes = pass.write(r_.keyframes, Use::CopyTarget);
-    return [this, number = drive.number, keys = std::move(keys), target = r_.keyframes](Commands& commands) {
+    BufferRef& keyframes = ref(FluidArray::Keyframes);
+    keyframes = pass.write(keyframes, Use::CopyTarget);
+    return [this, number = drive.number, keys = std::move(keys), target = keyframes](Commands& commands) {
       for (Drive& declared : drives_)
         if (declared.number == number) declared.frame = device_->clock.recording;
       for (const Keys& k : keys) commands.update(target, std::as_bytes(std::span(k.values)), k.at);

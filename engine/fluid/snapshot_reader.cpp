@@ -9,8 +9,8 @@
 namespace rill {
 namespace {
 
-/// What is read, in this order; kLists + c is list buffer c.
-enum Part : uint32_t { kSmall, kPosition, kVelocity, kPush, kWarm, kId, kNear, kCounts, kCells, kLists };
+/// What is read after the records and the saved arrays, each in a graph of its own. A part is a slot of the fluid's buffers.
+constexpr uint32_t kRecords = kSlots;
 
 template <class Record>
 std::vector<Record> records(std::span<const std::byte> bytes, size_t count) {
@@ -19,10 +19,12 @@ std::vector<Record> records(std::span<const std::byte> bytes, size_t count) {
   return all;
 }
 
-std::vector<Float3> vectors(std::span<const std::byte> bytes, size_t count) {
-  std::vector<Float3> all(count);
-  for (size_t i = 0; i < count; ++i) std::memcpy(&all[i], bytes.data() + 16 * i, sizeof all[i]);
-  return all;
+/// An array of the device, whose vectors of three have four components.
+template <class Element>
+void read(std::span<const std::byte> bytes, size_t count, std::vector<Element>& all) {
+  constexpr size_t stride = std::is_same_v<Element, Float3> ? sizeof(Float4) : sizeof(Element);
+  all.resize(count);
+  for (size_t i = 0; i < count; ++i) std::memcpy(&all[i], bytes.data() + stride * i, sizeof(Element));
 }
 
 /// Theirs is the order in which threads met, which no bit depends on; a file should not, either.
@@ -35,26 +37,17 @@ std::vector<uint32_t> sorted(std::span<const uint32_t> words) {
 }  // namespace
 
 SnapshotReader::SnapshotReader(const Fluid& fluid) : fluid_(fluid.impl()) {
-  if (fluid_.count > 0) parts_ = {kSmall};
+  if (fluid_.count > 0) parts_ = {kRecords};
 }
 
 bool SnapshotReader::done() const { return next_ == parts_.size(); }
 
 void SnapshotReader::declare(Graph& graph) {
   tickets_.clear();
-  const FluidBuffers& buffers = fluid_.buffers();
-  const auto read = [&](const Buffer& buffer) { tickets_.push_back(graph.readback(importWhole(graph, "state", buffer))); };
+  const auto read = [&](size_t slot) { tickets_.push_back(graph.readback(importWhole(graph, "state", fluid_.slot(slot)))); };
   const uint32_t part = parts_[next_];
-  if (part == kSmall) {
-    read(buffers.control);
-    read(buffers.sums);
-    read(buffers.solids);
-    return;
-  }
-  const Buffer* const single[] = {nullptr,       &buffers.position, &buffers.velocity, &buffers.warmAcceleration,
-                                  &buffers.warm, &buffers.id,       &buffers.nearList, &buffers.neighborCount,
-                                  &buffers.cell};
-  read(part < kLists ? *single[part] : buffers.lists[part - kLists]);
+  if (part != kRecords) return read(part);
+  for (FluidArray array : {FluidArray::Control, FluidArray::Sums, FluidArray::Solids}) read(slotOf(array));
 }
 
 Expected<void> SnapshotReader::take(const Graph& graph) {
@@ -65,79 +58,72 @@ Expected<void> SnapshotReader::take(const Graph& graph) {
   }
   FluidSnapshot& s = snapshot_;
   const uint32_t n = fluid_.count, part = parts_[next_++];
-  switch (part) {
-    case kSmall: {
-      // Of the advance before, the next one begins with none of them.
-      FluidControl control;
-      std::memcpy(&control, data[0].data(), sizeof control);
-      control.substeps = control.iterations = control.builds = 0;
-      control.executedSubsteps = control.executedIterations = control.executedBuilds = control.executedBlocks =
-          control.executedNoiseDampings = 0;
-      control.timeDropped = 0;
-      s.control = records<uint32_t>(std::as_bytes(std::span(&control, 1)), sizeof control / 4);
-      s.sums = records<uint32_t>(data[1], sizeof(FluidSums) / 4);
-      if (fluid_.setup.movingSolids) {
-        for (const SolidRecord& r : records<SolidRecord>(data[2], fluid_.setup.params.solidCount))
-          s.solids.insert(s.solids.end(), {r.centerX, r.centerY, r.centerZ, r.velocityX, r.velocityY, r.velocityZ});
-      }
-      plan();
-      break;
-    }
-    case kPosition:
-      s.position = vectors(data[0], n);
-      break;
-    case kVelocity:
-      s.velocity = vectors(data[0], n);
-      break;
-    case kPush:
-      s.push = records<Float4>(data[0], n);
-      break;
-    case kWarm:
-      s.warm = records<float>(data[0], n);
-      break;
-    case kId:
-      s.id = records<uint32_t>(data[0], n);
-      break;
-    case kNear: {
-      FluidSums sums;
-      std::memcpy(&sums, s.sums.data(), sizeof sums);
-      const auto all = records<uint32_t>(data[0], n);
-      const std::span<const uint32_t> both(all);
-      if (uint64_t{sums.planeCount} + sums.cornerCount > n)
-        return Error{ErrorKind::Failed, "reading the state back: its counts make no sense"};
-      s.nearWall = sorted(both.first(sums.planeCount));
-      s.nearMore = sorted(both.last(sums.cornerCount));
-      break;
-    }
-    case kCounts: {
-      s.neighborCount = records<uint32_t>(data[0], n);
-      uint64_t entries = 0;
-      for (uint32_t k : s.neighborCount) entries += k <= s.listCapacity ? k : 0;
-      s.neighbors.reserve(entries);
-      break;
-    }
-    case kCells:
-      s.cell = records<uint32_t>(data[0], n);
-      break;
-    default: {
-      const Chunk& chunk = fluid_.chunks()[part - kLists];
-      gatherList(s, chunk.first, chunk.last, records<uint32_t>(data[0], data[0].size() / 4));
-    }
+  if (part == kRecords) {
+    takeRecords(data);
+    plan();
+    return {};
+  }
+  const std::span<const std::byte> bytes = data[0];
+  bool saved = false;
+  forEachSaved([&](const ArrayRow& row, auto member) {
+    if (slotOf(row.id) != part) return;
+    saved = true;
+    read(bytes, n, s.*member);
+  });
+  if (saved) return {};
+  if (part == slotOf(FluidArray::NearList)) {
+    FluidSums sums;
+    std::memcpy(&sums, s.sums.data(), sizeof sums);
+    const auto all = records<uint32_t>(bytes, n);
+    const std::span<const uint32_t> both(all);
+    if (uint64_t{sums.planeCount} + sums.cornerCount > n)
+      return Error{ErrorKind::Failed, "reading the state back: its counts make no sense"};
+    s.nearWall = sorted(both.first(sums.planeCount));
+    s.nearMore = sorted(both.last(sums.cornerCount));
+  } else if (part == slotOf(FluidArray::NeighborCount)) {
+    s.neighborCount = records<uint32_t>(bytes, n);
+    uint64_t entries = 0;
+    for (uint32_t k : s.neighborCount) entries += k <= s.listCapacity ? k : 0;
+    s.neighbors.reserve(entries);
+  } else if (part == slotOf(FluidArray::Cell)) {
+    s.cell = records<uint32_t>(bytes, n);
+  } else {
+    const uint32_t c = part == slotOf(FluidArray::List) ? 0 : part - static_cast<uint32_t>(kArrays) + 1;
+    const Chunk& chunk = fluid_.chunks()[c];
+    gatherList(s, chunk.first, chunk.last, records<uint32_t>(bytes, bytes.size() / 4));
   }
   return {};
+}
+
+// Of the advance before, the next one begins with no count.
+void SnapshotReader::takeRecords(std::span<const std::span<const std::byte>> data) {
+  FluidControl control;
+  std::memcpy(&control, data[0].data(), sizeof control);
+  control.substeps = control.iterations = control.builds = 0;
+  control.executedSubsteps = control.executedIterations = control.executedBuilds = control.executedBlocks = control.executedNoiseDampings =
+      0;
+  control.timeDropped = 0;
+  snapshot_.control = records<uint32_t>(std::as_bytes(std::span(&control, 1)), sizeof control / 4);
+  snapshot_.sums = records<uint32_t>(data[1], sizeof(FluidSums) / 4);
+  if (!fluid_.setup.movingSolids) return;
+  for (const SolidRecord& r : records<SolidRecord>(data[2], fluid_.setup.params.solidCount))
+    snapshot_.solids.insert(snapshot_.solids.end(), {r.centerX, r.centerY, r.centerZ, r.velocityX, r.velocityY, r.velocityZ});
 }
 
 /// What else there is to read follows from the control block.
 void SnapshotReader::plan() {
   snapshot_.listCapacity = fluid_.setup.params.listCapacity;
-  parts_.insert(parts_.end(), {kPosition, kVelocity, kId});
-  if (fluid_.setup.warm) parts_.insert(parts_.end(), {kPush, kWarm});
-  if (fluid_.setup.near) parts_.push_back(kNear);
+  const auto add = [&](FluidArray array, uint32_t chunk = 0) { parts_.push_back(static_cast<uint32_t>(slotOf(array, chunk))); };
+  const ArrayShape shape = arrayShape(fluid_.setup);
+  forEachSaved([&](const ArrayRow& row, auto) {
+    if (row.length(shape) > 0) add(row.id);
+  });
+  if (fluid_.setup.near) add(FluidArray::NearList);
   if (!hasNeighbors(snapshot_)) return;
-  if (walksGrid(snapshot_)) parts_.push_back(kCells);
+  if (walksGrid(snapshot_)) add(FluidArray::Cell);
   if (snapshot_.listCapacity == 0) return;
-  parts_.push_back(kCounts);
-  for (uint32_t c = 0; c < fluid_.chunks().size(); ++c) parts_.push_back(kLists + c);
+  add(FluidArray::NeighborCount);
+  for (uint32_t c = 0; c < fluid_.chunks().size(); ++c) add(FluidArray::List, c);
 }
 
 }  // namespace rill

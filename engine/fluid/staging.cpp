@@ -11,23 +11,22 @@ constexpr uint64_t kMaxBytes = uint64_t{128} << 20;  // of one buffer
 
 }  // namespace
 
-void Staging::add(const Buffer& target, uint64_t bytes, std::function<void(std::byte*)> write) {
-  assert(bytes <= target.size());
+void Staging::add(size_t target, uint64_t bytes, std::function<void(std::byte*)> write) {
   if (bytes == 0) return;
-  copies_.push_back({&target, 0, 0, bytes});
+  copies_.push_back({target, 0, 0, bytes});
   writers_.push_back(std::move(write));
   shared_.push_back(copies_.size() - 1);
 }
 
-void Staging::add(const Buffer& target, const void* data, uint64_t bytes) {
+void Staging::add(size_t target, const void* data, uint64_t bytes) {
   add(target, bytes, [=](std::byte* to) { std::memcpy(to, data, bytes); });
 }
 
-void Staging::addSame(const Buffer& target, const Buffer& other) {
-  const auto found = std::find_if(copies_.begin(), copies_.end(), [&](const Copy& copy) { return copy.target == &other; });
+void Staging::addSame(size_t target, size_t other) {
+  const auto found = std::find_if(copies_.begin(), copies_.end(), [&](const Copy& copy) { return copy.target == other; });
   assert(found != copies_.end());
   const auto index = static_cast<size_t>(found - copies_.begin());
-  copies_.push_back({&target, 0, 0, found->bytes});
+  copies_.push_back({target, 0, 0, found->bytes});
   writers_.emplace_back();
   shared_.push_back(index);
 }

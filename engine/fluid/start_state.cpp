@@ -32,34 +32,23 @@ std::function<void(std::byte*)> bytesOf(std::vector<T> values) {
 
 void FluidImpl::stageScene() {
   staging_.emplace();
-  std::vector<uint32_t> shapes(3 * kMaxCommands, 0);
-  const auto shape = [&](uint32_t command, GroupCount groups) { std::copy(groups.begin(), groups.end(), shapes.begin() + 3 * command); };
-  const GroupCount all = foldGroups(divideUp(count, kFluidGroup));
-  const GroupCount chunk = foldGroups(chunks_.front().groups());
-  for (uint32_t k : {kCommandPredict, kCommandKeys, kCommandReorder}) shape(k, all);
-  for (uint32_t k : {kCommandDensity, kCommandCorrect, kCommandCorrect + 1, kCommandIterate, kCommandNoiseDamping, kCommandBuild})
-    shape(k, chunk);
-  for (uint32_t k = kCommandWalks; k < kCommandSort; ++k) shape(k, chunk);
-  shape(kCommandPose, {1, 1, 1});
-  uint32_t next = kCommandSort;
-  for (const GroupCount& groups : sort_->groups()) shape(next++, groups);
-  assert(next <= kMaxCommands);
-
-  staging_->add(buffers_.params, &setup.params, sizeof setup.params);
-  staging_->add(buffers_.shapes, shapes.size() * 4, bytesOf(shapes));
-  staging_->add(buffers_.gravity, setup.gravity.data(), setup.gravity.size() * 4);
-  staging_->add(buffers_.tables, setup.tables.data(), setup.tables.size() * 4);
-  staging_->add(buffers_.keyframes, setup.keyframes.data(), setup.keyframes.size() * 4);
-  staging_->clear(buffers_.commands);
+  const auto& shapes = commands_.shapes();
+  staging_->add(slotOf(FluidArray::Params), &setup.params, sizeof setup.params);
+  staging_->add(slotOf(FluidArray::Shapes), shapes.size() * sizeof shapes[0], bytesOf(shapes));
+  staging_->add(slotOf(FluidArray::GravityChanges), setup.gravity.data(), setup.gravity.size() * 4);
+  staging_->add(slotOf(FluidArray::Table), setup.tables.data(), setup.tables.size() * 4);
+  staging_->add(slotOf(FluidArray::Keyframes), setup.keyframes.data(), setup.keyframes.size() * 4);
+  staging_->clear(slotOf(FluidArray::Commands));
 }
 
 void FluidImpl::stageParticles(std::vector<Float3> positions, std::vector<Float3> velocities) {
+  using enum FluidArray;
   const Float4 dummy{kInactivePosition, kInactivePosition, kInactivePosition, 0.0f};
-  staging_->add(buffers_.position, buffers_.position.size(), quads(std::move(positions), 0.0f, dummy));
-  staging_->add(buffers_.velocity, buffers_.velocity.size(), quads(std::move(velocities), 1.0f, Float4{0, 0, 0, 1}));
+  staging_->add(slotOf(Position), buffer(Position).size(), quads(std::move(positions), rowOf(Position).w, dummy));
+  staging_->add(slotOf(Velocity), buffer(Velocity).size(), quads(std::move(velocities), rowOf(Velocity).w, Float4{0, 0, 0, 1}));
   // Predictions start as the positions; they and `work` end with the dummy neighbor.
-  staging_->addSame(buffers_.prediction, buffers_.position);
-  staging_->addSame(buffers_.work, buffers_.position);
+  staging_->addSame(slotOf(Prediction), slotOf(Position));
+  staging_->addSame(slotOf(Work), slotOf(Position));
 }
 
 void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
@@ -89,20 +78,20 @@ void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
   control.desiredStep = static_cast<float>(setup.firstStep);
 
   stageParticles(std::move(positions), std::move(velocities));
-  staging_->add(buffers_.control, sizeof control, bytesOf(std::vector{control}));
-  staging_->add(buffers_.sums, sizeof sums, bytesOf(std::vector{sums}));
-  staging_->add(buffers_.solids, setup.solids.data(), setup.solids.size() * sizeof(SolidRecord));
-  staging_->add(buffers_.id, id.size() * 4, bytesOf(id));
-  staging_->clear(buffers_.warm);
-  staging_->clear(buffers_.warmAcceleration);
+  staging_->add(slotOf(FluidArray::Control), sizeof control, bytesOf(std::vector{control}));
+  staging_->add(slotOf(FluidArray::Sums), sizeof sums, bytesOf(std::vector{sums}));
+  staging_->add(slotOf(FluidArray::Solids), setup.solids.data(), setup.solids.size() * sizeof(SolidRecord));
+  staging_->add(slotOf(FluidArray::Id), id.size() * 4, bytesOf(id));
+  staging_->clear(slotOf(FluidArray::Warm));
+  staging_->clear(slotOf(FluidArray::WarmAcceleration));
 }
 
 // `snapshot` has been checked; it lives until the staging is made.
 void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
   resumed_ = true;
   stageParticles(s.position, s.velocity);
-  staging_->add(buffers_.control, s.control.data(), s.control.size() * 4);
-  staging_->add(buffers_.sums, s.sums.data(), s.sums.size() * 4);
+  staging_->add(slotOf(FluidArray::Control), s.control.data(), s.control.size() * 4);
+  staging_->add(slotOf(FluidArray::Sums), s.sums.data(), s.sums.size() * 4);
   std::vector<SolidRecord> solids = setup.solids;
   for (size_t k = 0; 6 * k < s.solids.size(); ++k) {
     const float* six = s.solids.data() + 6 * k;
@@ -114,34 +103,36 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
     solids[k].velocityZ = six[5];
   }
   for (DrivenSolid& driven : setup.driven) std::copy_n(s.solids.data() + 6 * driven.solid, 3, driven.center);
-  staging_->add(buffers_.solids, solids.size() * sizeof(SolidRecord), bytesOf(solids));
-  staging_->add(buffers_.id, s.id.data(), s.id.size() * 4);
-  if (setup.warm && s.warm.empty()) {
-    staging_->clear(buffers_.warm);
-    staging_->clear(buffers_.warmAcceleration);
-  } else if (setup.warm) {
-    staging_->add(buffers_.warm, s.warm.data(), s.warm.size() * 4);
-    staging_->add(buffers_.warmAcceleration, s.push.size() * 16, bytesOf(s.push));
-  }
+  staging_->add(slotOf(FluidArray::Solids), solids.size() * sizeof(SolidRecord), bytesOf(solids));
+  const ArrayShape shape = arrayShape(setup);
+  forEachSaved([&](const ArrayRow& row, auto member) {
+    const auto& array = s.*member;
+    if (row.stride != sizeof array[0] || row.length(shape) == 0) return;  // positions and velocities; what this scene has no use for
+    if (array.empty())
+      staging_->clear(slotOf(row.id));
+    else
+      staging_->add(slotOf(row.id), array.data(), array.size() * sizeof array[0]);
+  });
   if (setup.near) {
-    staging_->add(buffers_.nearList, uint64_t{count} * 4, [this, &s](std::byte* to) {
+    staging_->add(slotOf(FluidArray::NearList), uint64_t{count} * 4, [this, &s](std::byte* to) {
       std::memset(to, 0, size_t{count} * 4);
       std::memcpy(to, s.nearWall.data(), s.nearWall.size() * 4);
       std::memcpy(to + 4 * (count - s.nearMore.size()), s.nearMore.data(), s.nearMore.size() * 4);
     });
-    staging_->clear(buffers_.nearSample);  // of those near nothing; the others' are looked up before they are used
+    staging_->clear(slotOf(FluidArray::NearSample));  // of those near nothing; the others' are looked up before they are used
   }
   if (!hasNeighbors(s)) return;
   if (!s.cell.empty()) {
-    staging_->add(buffers_.cell, s.cell.data(), s.cell.size() * 4);
+    staging_->add(slotOf(FluidArray::Cell), s.cell.data(), s.cell.size() * 4);
     std::vector<uint32_t> start(setup.grid.cells() + 1);
     cellStarts(s.cell, start);
-    staging_->add(buffers_.start, start.size() * 4, bytesOf(start));
+    staging_->add(slotOf(FluidArray::CellStart), start.size() * 4, bytesOf(start));
   }
-  staging_->add(buffers_.neighborCount, s.neighborCount.data(), s.neighborCount.size() * 4);
+  staging_->add(slotOf(FluidArray::NeighborCount), s.neighborCount.data(), s.neighborCount.size() * 4);
   if (s.listCapacity == 0) return;
-  for (size_t c = 0; c < chunks_.size(); ++c)
-    staging_->add(buffers_.lists[c], buffers_.lists[c].size(), [this, &s, c, bytes = buffers_.lists[c].size()](std::byte* to) {
+  for (uint32_t c = 0; c < chunkCount(); ++c)
+    staging_->add(slotOf(FluidArray::List, c), buffer(FluidArray::List, c).size(), [this, &s, c](std::byte* to) {
+      const uint64_t bytes = buffer(FluidArray::List, c).size();
       std::vector<uint32_t> list(bytes / 4, count);
       layOutList(s, chunks_[c].first, chunks_[c].last, list);
       std::memcpy(to, list.data(), bytes);

@@ -15,6 +15,7 @@
 
 #include "core/fnv1a.hpp"
 #include "core/words.hpp"
+#include "fluid/arrays.hpp"
 #include "rill/offline.hpp"
 
 namespace rill::offline {
@@ -32,11 +33,7 @@ void forEachArray(Snapshot& s, Visit&& visit) {
   visit("control", s.control);
   visit("sums", s.sums);
   visit("solids", s.solids);
-  visit("position", s.position);
-  visit("velocity", s.velocity);
-  visit("push", s.push);
-  visit("warm", s.warm);
-  visit("id", s.id);
+  forEachSaved([&](const ArrayRow& row, auto member) { visit(row.savedName, s.*member); });
   visit("nearwall", s.nearWall);
   visit("nearmore", s.nearMore);
   visit("nbrcount", s.neighborCount);

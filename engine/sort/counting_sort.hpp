@@ -34,7 +34,6 @@ class CountingSort {
 
   KeySortDesc desc_;
   Scan scan_;
-  bool texels_ = false;
   const ComputePipeline* clear_ = nullptr;
   const ComputePipeline* count_ = nullptr;
   const ComputePipeline* scatter_ = nullptr;

@@ -56,8 +56,6 @@ std::vector<GroupCount> KeySort::groups() const {
   return std::visit([](const auto& sort) { return sort.groups(); }, sort_);
 }
 
-std::array<uint32_t, 2> KeySort::counterConstants() const { return {desc_.count > kBinLimit, method() == SortMethod::Counting}; }
-
 SortedKeys KeySort::addTo(Graph& graph, BufferRef keys, const SortTargets& targets, const Gate* gate) const {
   assert(!desc_.fusedEnds);
   return std::visit([&](const auto& sort) { return sort.addTo(graph, keys, targets, gate); }, sort_);

@@ -12,6 +12,7 @@
 #include "sort/dispatches.hpp"
 #include "sort/key_sort_types.hpp"
 #include "sort/radix_sort.hpp"
+#include "sort/sort_types.h"
 
 namespace rill {
 
@@ -34,8 +35,8 @@ class KeySort {
   /// declared and the targets are returned.
   SortedKeys addTo(Graph& graph, BufferRef keys, const SortTargets& targets = {}, const Gate* gate = nullptr) const;
 
-  /// Specialization constants 0 and 1 of a shader that includes shaders/sort/count.glsl.
-  std::array<uint32_t, 2> counterConstants() const;
+  /// LIST_OVERSIZED of a shader that includes shaders/sort/count.glsl.
+  bool listsOversized() const { return desc_.count > kBinLimit; }
   /// With desc.fusedEnds: call begin(), declare the pass that writes keys and counters, then call finish().
   KeyCounters begin(Graph& graph, const SortTargets& targets = {}, const Gate* gate = nullptr) const;
   SortedKeys finish(Graph& graph, BufferRef keys, const KeyCounters& counters, const SortTargets& targets = {},

@@ -23,19 +23,18 @@ Expected<Scan> Scan::create(Device& device, uint32_t count, bool storageReads, c
   scan.count_ = count;
   scan.names_ = names;
   if (count == 0) return scan;
-  using enum BindingKind;
-  scan.texels_ = !storageReads && usesTexelReads(device, paddedWords(count) / 4);
-  ModulePipelines pipelines(device, sizeof(ScanPush));
-  const auto make = [&](bool texels) {
+  const bool texels = !storageReads && usesTexelReads(device, paddedWords(count) / 4);
+  ModulePipelines pipelines(device);
+  const auto make = [&](bool texelReads) {
     Pipelines made;
-    made.single = pipelines.make("sort/scan_single", 1);
-    made.reduce = pipelines.makeReading("sort/scan_reduce", texels, {TexelUint4, Storage});
-    made.apply = pipelines.makeReading("sort/scan_apply", texels, {Storage, TexelUint}, {0});
-    made.applyScanned = pipelines.makeReading("sort/scan_apply", texels, {Storage, TexelUint}, {1});
+    made.single = pipelines.make("sort/scan_single");
+    made.reduce = pipelines.make("sort/scan_reduce", texelReads);
+    made.apply = pipelines.make("sort/scan_apply", texelReads, {{"SUMS_SCANNED", false}});
+    made.applyScanned = pipelines.make("sort/scan_apply", texelReads, {{"SUMS_SCANNED", true}});
     return made;
   };
-  scan.pipelines_ = make(scan.texels_);
-  if (count == kMaxCount) make(!scan.texels_);  // smaller counts may use the other variant
+  scan.pipelines_ = make(texels);
+  if (count == kMaxCount) make(!texels);  // smaller counts may use the other variant
   if (auto made = pipelines.result(); !made) return made.error();
   return scan;
 }
@@ -51,32 +50,17 @@ std::vector<GroupCount> Scan::groups() const {
 BufferRef Scan::addTo(Graph& graph, BufferRef values, const Gate* gate) const {
   if (count_ == 0) return values;
   Dispatches dispatches(gate);
-  const Use read = readUse(texels_);
-  const auto single = [&](std::string_view name, BufferRef& buffer, uint32_t count) {
-    graph.pass(name, [&](Pass& pass) {
-      buffer = pass.write(buffer, Use::ComputeWrite);
-      return dispatches.next(pass, pass.kernel(pipelines_.single, {buffer}), 1, ScanPush{count});
-    });
-  };
   if (count_ <= kSingleCount) {
-    single(names_.single, values, count_);
+    addDispatch(graph, names_.single, pipelines_.single, dispatches.next(1), ScanPush{count_}, {{"values", values}});
     return values;
   }
   const uint32_t tiles = tileCount(count_);
   BufferRef sums = graph.create("scan tile sums", {paddedWords(tiles) * sizeof(uint32_t)});
-  graph.pass(names_.reduce, [&](Pass& pass) {
-    pass.read(values, read);
-    sums = pass.write(sums, Use::ComputeWrite, true);
-    return dispatches.next(pass, pass.kernel(pipelines_.reduce, {values, sums}), tiles, ScanPush{count_});
-  });
+  addDispatch(graph, names_.reduce, pipelines_.reduce, dispatches.next(tiles), ScanPush{count_}, {{"values", values}, {"tileSums", sums}});
   const bool scanned = tiles > kScanSums;
-  if (scanned) single(names_.tiles, sums, tiles);
-  graph.pass(names_.apply, [&](Pass& pass) {
-    pass.read(sums, read);
-    values = pass.write(values, Use::ComputeWrite);
-    return dispatches.next(pass, pass.kernel(scanned ? pipelines_.applyScanned : pipelines_.apply, {values, sums}), tiles,
-                           ScanPush{count_});
-  });
+  if (scanned) addDispatch(graph, names_.tiles, pipelines_.single, dispatches.next(1), ScanPush{tiles}, {{"values", sums}});
+  addDispatch(graph, names_.apply, scanned ? pipelines_.applyScanned : pipelines_.apply, dispatches.next(tiles), ScanPush{count_},
+              {{"values", values}, {"tileSums", sums}});
   return values;
 }
 

@@ -41,7 +41,6 @@ class Scan {
     const ComputePipeline *single = nullptr, *reduce = nullptr, *apply = nullptr, *applyScanned = nullptr;
   };
   Pipelines pipelines_;
-  bool texels_ = false;
 };
 
 }  // namespace rill

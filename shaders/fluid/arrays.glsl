@@ -5,6 +5,6 @@
 #include "shared/arrays.glsl"
 READ_FLOAT4(2, particle)
 READ_UINT4(3, list)
-READ_UINT(4, count)
-READ_UINT(5, key)
+READ_UINT(4, neighborCount)
+READ_UINT(5, cell)
 #endif

@@ -40,6 +40,6 @@ void main() {
   }
   c.running = going && c.stale == 0u ? 1u : 0u;
   c.again = 0u;
-  switchCommands(push.commands, c, 2u, s);
+  switchCommands(push.commands, c, kNoSubstep, s);
   control = c;
 }

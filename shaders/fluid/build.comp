@@ -6,19 +6,15 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #include "fluid/uniforms.glsl"
-#define WARM_CONSTANT 4
-#include "fluid/warm_start.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/solids.glsl"
 #include "fluid/wall_samples.glsl"
 #include "shared/loops.glsl"
 #include "shared/pair_hash.h"
 layout(local_size_x = kFluidGroup) in;
-layout(constant_id = 2) const uint LIST_CAPACITY = 0;
-layout(constant_id = 3) const uint NEAR = 0;
 
 layout(push_constant) uniform Push { ChunkPush push; };
-READ_FLOAT4(2, particle)
+READ_FLOAT4(2, sortedPrediction)
 layout(std430, binding = 3) writeonly buffer ListBlock { uvec4 list[]; };
 layout(std430, binding = 4) writeonly buffer CountBlock { uint neighborCount[]; };
 layout(std430, binding = 5) writeonly buffer KeyBlock { uint cell[]; };
@@ -93,7 +89,7 @@ void candidates(uint first, uint end) {
   uint mask = 0u, coincidents = 0u;
   uint base = first;
   LOOP_WHILE (base < end) {
-    vec3 candidate = particleAt(min(base + clusterLane, end - 1u)).xyz;
+    vec3 candidate = sortedPredictionAt(min(base + clusterLane, end - 1u)).xyz;
     uint near = 0u, same = 0u;
     for (uint lane = 0u; lane < CLUSTER; ++lane) {
       vec3 r = here - SPREAD(candidate, lane);
@@ -118,7 +114,7 @@ void main() {
   uint i = push.first + local;
   bool inRange = i < push.last;
   if (!inRange) i = push.last - 1u;
-  vec4 predicted = particleAt(i);
+  vec4 predicted = sortedPredictionAt(i);
   vec3 x = predicted.xyz;
 
   at = (local / kListBlock) * (kListBlock * (LIST_CAPACITY / 4u)) + local % kListBlock;
@@ -149,7 +145,7 @@ void main() {
   position[i] = vec4(from, 0.0);
   prediction[i] = vec4(x, predicted.w);
   velocity[i] = vec4(moving.xyz, 1.0);
-  if (WARM != 0u) warm[i] = moving.w;
+  if (WARM) warm[i] = moving.w;
   id[i] = own;
-  if (NEAR != 0u) listNear(i, x);
+  if (NEAR) listNear(i, x);
 }

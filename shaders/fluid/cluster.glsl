@@ -4,7 +4,6 @@
 // and _shuffle; its pipeline must ask for full subgroups.
 #ifndef RILL_CLUSTER_GLSL
 #define RILL_CLUSTER_GLSL
-layout(constant_id = 1) const uint CLUSTER = 8;  // 4, 8, 16 or 32: a whole subgroup, half of one of 64 lanes
 
 uint clusterLane = gl_SubgroupInvocationID & (CLUSTER - 1u);
 

@@ -4,11 +4,8 @@
 // displaced density and the projection gave, so that friction feels the weight of the column above.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
-#define WARM_CONSTANT 1
-#include "fluid/warm_start.glsl"
 #include "fluid/wall_samples.glsl"
 layout(local_size_x = kFluidGroup) in;
-layout(constant_id = 0) const uint AGAIN = 0;  // viscosity or vorticity have changed the velocity: the prediction alone
 layout(std430, binding = 2) buffer PositionBlock { vec4 position[]; };
 layout(std430, binding = 3) buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 4) buffer PredictionBlock { vec4 prediction[]; };
@@ -23,8 +20,9 @@ layout(std430, binding = 11) readonly buffer WarmBlock { float warm[]; };
 layout(std430, binding = 12) readonly buffer NearBlock { vec4 nearSample[]; };
 
 void predict(uint i, vec3 x, vec3 v) {
+  if (TERMS) return;  // predict.comp, after them
   float pushed;
-  vec3 next = outside(predicted(x, v, KEPT_WARM_ACCELERATION(warmAcceleration[i])), ahead(), pushed);
+  vec3 next = outside(predicted(x, v, keptWarmAcceleration(warmAcceleration[i])), ahead(), pushed);
   prediction[i] = vec4(next, pushed);
 }
 
@@ -34,10 +32,6 @@ void main() {
   uint i = nearList[params.count - 1u - n];
   vec3 from = position[i].xyz;
   if (!isActive(from)) return;
-  if (AGAIN != 0u) {
-    predict(i, from, velocity[i].xyz);
-    return;
-  }
   float pushed;
   vec3 x = outside(from, 0.0, pushed);
   if (control.step == 0.0) {  // settling, or finding the initial pressure
@@ -49,7 +43,7 @@ void main() {
   // The multiplier in all, never positive: what the warm start had, and the change. `warm` has a
   // share of the change already.
   float change = unpackHalf2x16(floatBitsToUint(work[i].w)).x * (params.inverseRestGradient / kMultiplierScale);
-  float multiplier = min(0.0, (WARM != 0u ? warm[i] : 0.0) + (1.0 - control.warmGain) * change);
+  float multiplier = min(0.0, (WARM ? warm[i] : 0.0) + (1.0 - control.warmGain) * change);
   vec3 given = multiplier * nearSample[NEAR_DISPLACED(i)].xyz / control.step + (x - from) / control.step;
   for (uint k = 0u; k < params.solidCount; ++k) {
     if (solids[k].friction <= 0.0 && solids[k].restitution <= 0.0) continue;

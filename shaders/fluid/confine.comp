@@ -1,13 +1,11 @@
 #version 460
 // Vorticity confinement (Fedkiw, Stam and Jensen 2001; Macklin and Mueller 2013, equation 16): an
 // acceleration eps h |curl v| (N x curl v), N along the gradient of the curl's length. Gathers
-// positions and curls; predicts anew with the velocity it ends with.
+// positions and curls.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #include "fluid/uniforms.glsl"
-#define WARM_CONSTANT 4
-#include "fluid/warm_start.glsl"
 #include "fluid/arrays.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
@@ -15,9 +13,6 @@ layout(local_size_x = kFluidGroup) in;
 layout(push_constant) uniform Push { ChunkPush push; };
 READ_FLOAT4(8, curl)
 layout(std430, binding = 9) buffer VelocityBlock { vec4 velocity[]; };
-layout(std430, binding = 10) writeonly buffer PredictionBlock { vec4 prediction[]; };
-READ_FLOAT4(11, warmAcceleration)
-READ_FLOAT4(12, position)
 
 #define COMPANION(j) curlAt(j)
 
@@ -46,5 +41,4 @@ void main() {
   vec4 v = velocity[i];
   v.xyz += control.step * params.vorticity * params.support * own.w * cross(direction, own.xyz);
   velocity[i] = v;
-  prediction[i] = vec4(insideWalls(predicted(positionAt(i).xyz, v.xyz, KEPT_WARM_ACCELERATION(warmAccelerationAt(i)))), 0.0);
 }

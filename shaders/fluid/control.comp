@@ -21,7 +21,7 @@ void main() {
   FluidSums s = sums;
   bool first = push.iteration == 0u;
   if ((first ? c.running : c.again) == 0u) {
-    if (first) switchCommands(push.commands, c, 2u, s);  // the last correction's command was still on
+    if (first) switchCommands(push.commands, c, kNoSubstep, s);  // the last correction's command was still on
     return;
   }
 

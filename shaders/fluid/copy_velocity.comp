@@ -4,10 +4,10 @@
 #include "fluid/uniforms.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(push_constant) uniform Push { ChunkPush push; };
-layout(std430, binding = 2) readonly buffer SmoothedBlock { vec4 smoothed[]; };
+layout(std430, binding = 2) readonly buffer SweepFromBlock { vec4 sweepFrom[]; };
 layout(std430, binding = 3) writeonly buffer VelocityBlock { vec4 velocity[]; };
 
 void main() {
   uint i = push.first + flatInvocation();
-  if (i < push.last) velocity[i] = smoothed[i];
+  if (i < push.last) velocity[i] = sweepFrom[i];
 }

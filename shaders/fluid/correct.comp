@@ -7,16 +7,11 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "fluid/uniforms.glsl"
-#define WARM_CONSTANT 7
-#include "fluid/warm_start.glsl"
 #include "fluid/arrays.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
 #include "fluid/wall_samples.glsl"
 layout(local_size_x = kFluidGroup) in;
-layout(constant_id = 4) const uint NEAR = 0;
-layout(constant_id = 5) const uint TENSILE = 0;  // the first substep of a block has the artificial pressure
-layout(constant_id = 6) const uint CONTACT = 0;  // collide.comp follows
 
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer PositionBlock { vec4 position[]; };
@@ -25,7 +20,7 @@ READ_NEAR(10)
 layout(std430, binding = 11) buffer PredictionBlock { vec4 prediction[]; };
 // m/s^2; w, in the initial-pressure phase: the last multiplier
 layout(std430, binding = 12) buffer WarmAccelerationBlock { vec4 warmAcceleration[]; };
-// before the solve: what contacts compare with; w: the prediction's
+// before the solve: what contacts with solids compare with; w: the prediction's
 layout(std430, binding = 13) writeonly buffer FreeBlock { vec4 freeVelocity[]; };
 layout(std430, binding = 14) buffer WarmBlock { float warm[]; };
 
@@ -47,11 +42,11 @@ void visit(vec4 particle) {
   float distance = sqrt(dot(r, r));
   vec3 gradient = gradientShape(distance) * r;
   vec2 both = own + multipliers(particle);
-  if (TENSILE != 0u) {
+  if (ARTIFICIAL_PRESSURE) {
     both.x -= tensile * max(pow(min(kernelShape(distance) * tensileScale, 1.0), tensilePower) - tensileAtRest, 0.0);
   }
   moved += both.x * gradient;
-  if (WARM != 0u) pushed += both.y * gradient;
+  if (WARM) pushed += both.y * gradient;
 }
 #include "fluid/neighbors.glsl"
 
@@ -77,14 +72,14 @@ void main() {
   if (!inRange) return;
   moved *= unit * params.gradientScale;
   pushed *= unit * params.gradientScale;
-  if (NEAR != 0u) {
+  if (NEAR) {
     vec3 wall = unit * displacedAt(i).xyz, along = tangentialScaleAt(i);  // see docs/notes/walls-and-solids.md
     moved = along * moved + own.x * wall;
     pushed = along * pushed + own.y * wall;
   }
 
   vec3 from = position[i].xyz, before = velocity[i].xyz;
-  vec4 pushedBy = WARM != 0u ? warmAcceleration[i] : vec4(0.0);
+  vec4 pushedBy = WARM ? warmAcceleration[i] : vec4(0.0);
   bool presses = control.momentum >= 0.0, still = control.step == 0.0;  // no time passes
   vec3 to = presses ? from : insideWalls(here + moved);
   // A correction separates particles in full, but adds no more speed than can have brought them
@@ -115,17 +110,17 @@ void main() {
     v = vec3(0.0);
     away = vec3(0.0);
     next = from;
-    if (WARM != 0u) warm[i] = 0.0;
+    if (WARM) warm[i] = 0.0;
   }
   float found = 0.0;
-  if (WARM != 0u && presses) {  // heavy ball (Polyak 1964): the last change goes on in the next
+  if (WARM && presses) {  // heavy ball (Polyak 1964): the last change goes on in the next
     found = warm[i];
     warm[i] = min(0.0, found + control.momentum * (found - pushedBy.w));
   }
   position[i] = vec4(to, 0.0);
-  if (CONTACT != 0u) freeVelocity[i] = vec4(before + control.step * gravity(), prediction[i].w);
+  if (SOLIDS) freeVelocity[i] = vec4(before + control.step * gravity(), prediction[i].w);
   velocity[i] = vec4(v, 1.0);
-  if (WARM != 0u) warmAcceleration[i] = vec4(away, found);
+  if (WARM) warmAcceleration[i] = vec4(away, found);
   prediction[i] = vec4(next, 0.0);
 
   float fastest = subgroupMax(sqrt(dot(v, v)));

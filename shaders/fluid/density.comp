@@ -7,15 +7,11 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "fluid/uniforms.glsl"
-#define WARM_CONSTANT 6
-#include "fluid/warm_start.glsl"
 #include "fluid/arrays.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
 #include "fluid/wall_samples.glsl"
 layout(local_size_x = kFluidGroup) in;
-layout(constant_id = 4) const uint NEAR = 0;        // walls or solids displace density
-layout(constant_id = 5) const uint ITERATED = 0;    // more than one iteration a substep
 
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer WarmBlock { float warm[]; };
@@ -51,7 +47,7 @@ void main() {
   gradientSum *= params.gradientScale;
   gradientSquares *= params.gradientScale * params.gradientScale;
   vec3 along = vec3(1.0);
-  if (NEAR != 0u) {
+  if (NEAR) {
     vec4 displaced = displacedAt(i);
     gradientSum += displaced.xyz;
     rho += displaced.w;
@@ -64,7 +60,7 @@ void main() {
   float delta = -(first ? control.nextRelaxation : control.relaxation) * constraint / max(stiffness, 1.0e-20);
 
   float before, after, warmNext = 0.0;
-  if (first && WARM == 0u) {
+  if (first && !WARM) {
     before = 0.0;
     after = min(0.0, delta);
   } else if (first) {
@@ -80,9 +76,9 @@ void main() {
   } else {
     before = multiplier[i];
     after = min(0.0, before + delta);
-    if (WARM != 0u) warmNext = warm[i];
+    if (WARM) warmNext = warm[i];
   }
-  if (ITERATED != 0u) multiplier[i] = after;
+  if (ITERATED) multiplier[i] = after;
 
   float unit = kMultiplierScale / params.inverseRestGradient;
   work[i] = vec4(here, uintBitsToFloat(packHalf2x16(clamp(vec2(after - before, warmNext) * unit, -60000.0, 60000.0))));

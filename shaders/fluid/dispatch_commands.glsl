@@ -2,41 +2,46 @@
 // time, the gravity schedule.
 #ifndef RILL_DISPATCH_COMMANDS_GLSL
 #define RILL_DISPATCH_COMMANDS_GLSL
-// `shapes` holds the group counts of each command, `commands` what the device dispatches.
-void switchCommand(uint k, bool on, FluidSums s) {
-  uvec3 groups = uvec3(shapes[3u * k], shapes[3u * k + 1u], shapes[3u * k + 2u]);
-  if (k >= kCommandPlane && k <= kCommandCornerAgain) {
-    uint near = k == kCommandPlane || k == kCommandMeasurePlane || k == kCommandPlaneAgain ? s.planeCount : s.cornerCount;
-    uint needed = (near + kFluidGroup - 1u) / kFluidGroup;
-    groups = uvec3(min(needed, 65535u), needed == 0u ? 0u : (needed + 65534u) / 65535u, 1u);
+// Whether a command that is started by `start` runs, once the control block is settled. `parity`: of
+// the substep whose density pass has just run; kNoSubstep: none has.
+bool isStarted(uint start, FluidControl c, uint parity) {
+  switch (start) {
+    case kStartPredict: return parity == kNoSubstep && c.timeLeft > 0.0;
+    case kStartDensity: return c.running != 0u;
+    case kStartIterate: return c.again != 0u;
+    case kStartCorrectEven: return parity == 0u;
+    case kStartCorrectOdd: return parity == 1u;
+    case kStartNoiseDamping: return parity != kNoSubstep && c.noiseDamping > 0.0;
+    case kStartRebuild: return c.stale == 2u || (c.stale == 1u && c.timeLeft > 0.0);
   }
+  return true;
+}
+
+uvec3 groupsFor(uint particles) {
+  uint needed = (particles + kFluidGroup - 1u) / kFluidGroup;
+  return uvec3(min(needed, 65535u), needed == 0u ? 0u : (needed + 65534u) / 65535u, 1u);
+}
+
+// `shapes` holds, for each command, its groups in x and y and what it is over and started by, as
+// engine/fluid/dispatch_commands.hpp packs them; `commands` is what the device dispatches.
+void switchCommand(uint k, FluidControl c, uint parity, FluidSums s) {
+  uint packed_ = shapes[3u * k + 2u], over = packed_ & 15u;
+  bool on = isStarted(packed_ >> 4u, c, parity);
+  bool walks = params.listCapacity == 0u || s.overflow > 0u;
+  if (over == kOverLists) on = on && !walks;
+  if (over == kOverGrid) on = on && walks;
+  uvec3 groups = uvec3(shapes[3u * k], shapes[3u * k + 1u], 1u);
+  if (over == kOverPlane) groups = groupsFor(s.planeCount);
+  if (over == kOverCorner) groups = groupsFor(s.cornerCount);
   if (!on) groups = uvec3(0u);
   commands[3u * k] = groups.x;
   commands[3u * k + 1u] = groups.y;
   commands[3u * k + 2u] = groups.z;
 }
 
-// Which commands run, once the control block is settled. `parity`: of the substep whose density
-// pass has just run; 2: none has.
-bool shouldRun(uint k, FluidControl c, uint parity, FluidSums s) {
-  bool walks = k >= kCommandWalks && k < kCommandSort;
-  if (walks) k = k - kCommandWalks + kCommandDensity;
-  bool gathers = k >= kCommandDensity && k <= kCommandNoiseDamping;
-  if (gathers && walks != (params.listCapacity == 0u || s.overflow > 0u)) return false;
-  bool rebuild = c.stale == 2u || (c.stale == 1u && c.timeLeft > 0.0);
-  if (k == kCommandDensity || k == kCommandPose || k == kCommandPlane || k == kCommandCorner) return c.running != 0u;
-  if (k == kCommandCorrect || k == kCommandCollide) return parity == 0u;
-  if (k == kCommandCorrect + 1u || k == kCommandCollide + 1u) return parity == 1u;
-  if (k == kCommandNoiseDamping) return parity != 2u && c.noiseDamping > 0.0;
-  if (k == kCommandIterate || k == kCommandPlaneAgain || k == kCommandCornerAgain) return c.again != 0u;
-  if (k == kCommandMeasurePlane || k == kCommandMeasureCorner) return true;
-  if (k == kCommandPredict) return parity == 2u && c.timeLeft > 0.0;
-  return rebuild;
-}
-
 // In one invocation: a barrier costs lavapipe more than the loop.
 void switchCommands(uint count, FluidControl c, uint parity, FluidSums s) {
-  for (uint k = 0u; k < count; ++k) switchCommand(k, shouldRun(k, c, parity, s), s);
+  for (uint k = 0u; k < count; ++k) switchCommand(k, c, parity, s);
 }
 
 // Adds to the two-float sum (Knuth's TwoSum).

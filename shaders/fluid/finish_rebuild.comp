@@ -21,5 +21,5 @@ void main() {
   c.running = c.timeLeft > 0.0 ? 1u : 0u;
   control = c;
   FluidSums s = sums;
-  switchCommands(kMaxCommands, c, 2u, s);  // the sort's own, too: another rebuild may be recorded behind this one
+  switchCommands(kMaxCommands, c, kNoSubstep, s);  // the sort's own, too: another rebuild may be recorded behind this one
 }

@@ -9,7 +9,6 @@
 #include "fluid/kernel.glsl"
 #include "fluid/wall_samples.glsl"
 layout(local_size_x = kFluidGroup) in;
-layout(constant_id = 4) const uint NEAR = 0;
 
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer PredictionBlock { vec4 prediction[]; };
@@ -40,6 +39,6 @@ void main() {
   visitNeighbors(i, local, inRange);
   if (!inRange) return;
   moved *= unit * params.gradientScale;
-  if (NEAR != 0u) moved = tangentialScaleAt(i) * moved + unit * own * displacedAt(i).xyz;
+  if (NEAR) moved = tangentialScaleAt(i) * moved + unit * own * displacedAt(i).xyz;
   prediction[i] = vec4(insideWalls(here + moved), prediction[i].w);
 }

@@ -1,11 +1,10 @@
 // The smoothing kernel and its gradient without their constant factors, which sums over neighbors
 // are multiplied by at their end: params.valueScale makes K sum to 1 over the rest lattice, and
 // params.gradientScale gives (dK/dr) / r in 1/m^2, which times x_i - x_j is the gradient at i.
-// Constant 0 chooses: 0 Wendland C2 for both, 1 poly6 with the spiky gradient (Macklin and Mueller
-// 2013). Needs a uniform block `params`.
+// Needs a uniform block `params`.
 #ifndef RILL_KERNEL_GLSL
 #define RILL_KERNEL_GLSL
-layout(constant_id = 0) const uint KERNEL = 0;
+#include "fluid/constants.glsl"
 
 // Loaded once: lavapipe loads a uniform lane by lane wherever it is used, which doubled the cost of
 // a pass over the list.

@@ -1,20 +1,21 @@
 #version 460
-// The grid cell of each place, as a sort key, and how many particles each cell has.
+// The grid cell of each place, as a sort key. COUNTED: and how many particles each cell has, for a counting sort.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "fluid/grid.glsl"
 #include "shared/arrays.glsl"
+#ifdef COUNTED
 #define COUNTERS 5
 #include "sort/count.glsl"
+#endif
 layout(local_size_x = kFluidGroup) in;
-layout(constant_id = 2) const uint REBUILDS = 0;  // the list is built after this
 READ_FLOAT4(2, place)
 layout(std430, binding = 3) writeonly buffer KeyBlock { uint key[]; };
 layout(std430, binding = 4) buffer SumsBlock { FluidSums sums; };
 
 void main() {
   uint i = flatInvocation();
-  if (REBUILDS != 0u && i == 0u) {
+  if (REBUILDS && i == 0u) {
     sums.planeCount = 0u;
     sums.cornerCount = 0u;
     sums.overflow = 0u;
@@ -22,5 +23,7 @@ void main() {
   if (i >= params.count) return;
   uint cell = cellKey(cellOf(placeAt(i).xyz));
   key[i] = cell;
+#ifdef COUNTED
   countKey(i, cell);
+#endif
 }

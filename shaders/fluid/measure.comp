@@ -11,8 +11,7 @@
 #include "fluid/wall_samples.glsl"
 #include "shared/loops.glsl"
 layout(local_size_x = kFluidGroup) in;
-layout(constant_id = 2) const uint NEAR = 0;
-READ_FLOAT4(2, sorted)  // w: the particle's place in the solver's arrays, as a number
+READ_FLOAT4(2, orderedPosition)  // w: the particle's place in the solver's arrays, as a number
 READ_UINT(3, cellStart)
 READ_NEAR(4)
 layout(std430, binding = 5) buffer SumsBlock { FluidSums sums; };
@@ -29,7 +28,7 @@ void takeTurn(bool mine) { here = mine ? place : vec3(-kInactivePosition); }  //
 void candidates(uint first, uint end) {
   uint base = first;
   LOOP_WHILE (base < end) {
-    vec3 candidate = base + clusterLane < end ? sortedAt(base + clusterLane).xyz : vec3(kInactivePosition);
+    vec3 candidate = base + clusterLane < end ? orderedPositionAt(base + clusterLane).xyz : vec3(kInactivePosition);
     for (uint lane = 0u; lane < CLUSTER; ++lane) {
       vec3 r = here - SPREAD(candidate, lane);
       float distance = sqrt(dot(r, r));
@@ -48,7 +47,7 @@ uint binOf(float size) {
 void main() {
   uint slot = clusterInvocation();
   bool inRange = slot < params.count;
-  vec4 particle = inRange ? sortedAt(slot) : vec4(kInactivePosition);
+  vec4 particle = inRange ? orderedPositionAt(slot) : vec4(kInactivePosition);
   inRange = inRange && isActive(particle.xyz);
   place = particle.xyz;
   vec3 scaled = scaledPosition(place);
@@ -56,7 +55,7 @@ void main() {
   if (!inRange) return;
   uint i = uint(particle.w);
   rho *= params.valueScale;
-  if (NEAR != 0u) rho += displacedAt(i).w;
+  if (NEAR) rho += displacedAt(i).w;
   velocity[i].w = rho;
   float error = rho - 1.0;
   if (error > 0.0) atomicAdd(histogram[binOf(error)], 1u);

@@ -5,11 +5,11 @@
 #include "fluid/sorted_places.glsl"
 layout(local_size_x = kFluidGroup) in;
 READ_FLOAT4(6, position)
-layout(std430, binding = 7) writeonly buffer SortedBlock { vec4 sorted[]; };
+layout(std430, binding = 7) writeonly buffer OrderedPositionBlock { vec4 orderedPosition[]; };
 
 void main() {
   uint slot = flatInvocation();
   if (slot >= params.count) return;
   uint place, from = arrival(slot, place);
-  sorted[place] = vec4(positionAt(from).xyz, float(from));
+  orderedPosition[place] = vec4(positionAt(from).xyz, float(from));
 }

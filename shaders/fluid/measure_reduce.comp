@@ -7,7 +7,7 @@
 layout(local_size_x = 256) in;
 layout(std430, binding = 2) readonly buffer PartialBlock { MeasurePartial partials[]; };
 layout(std430, binding = 3) readonly buffer HistogramBlock { uint histogram[]; };
-layout(std430, binding = 4) writeonly buffer ResultBlock { MeasureResult result; };
+layout(std430, binding = 4) writeonly buffer ResultBlock { MeasureResult figures; };
 
 shared MeasurePartial rows[kMeasurePartials];
 shared uint before[256];
@@ -82,8 +82,8 @@ void main() {
   barrier();
   float median = percentile(true, 0u);
   if (lane == 0u) {
-    result.sums = rows[0];
-    result.compression99 = p99;
-    result.signedMedian = median;
+    figures.sums = rows[0];
+    figures.compression99 = p99;
+    figures.signedMedian = median;
   }
 }

@@ -8,8 +8,6 @@
 #ifndef RILL_NEIGHBORS_GLSL
 #define RILL_NEIGHBORS_GLSL
 #include "shared/loops.glsl"
-layout(constant_id = 2) const uint LIST_CAPACITY = 0;  // entries a particle; 0: no list
-layout(constant_id = 3) const uint WALKS = 0;
 
 READ_UINT(6, cellStart)
 layout(std430, binding = 7) buffer SumsBlock { FluidSums sums; };
@@ -48,7 +46,7 @@ void candidates(uint first, uint end) {
 // Visits the neighbors of particle i, if `inRange`, at invocation `local` of its chunk. All lanes
 // of a cluster call this.
 void visitNeighbors(uint i, uint local, bool inRange) {
-  uint count = LIST_CAPACITY == 0u || !inRange ? 0u : countAt(i);
+  uint count = LIST_CAPACITY == 0u || !inRange ? 0u : neighborCountAt(i);
   bool listed = LIST_CAPACITY != 0u && count <= LIST_CAPACITY;
   if (LIST_CAPACITY != 0u) {
     uint at = (local / kListBlock) * (kListBlock * (LIST_CAPACITY / 4u)) + local % kListBlock;
@@ -65,9 +63,9 @@ void visitNeighbors(uint i, uint local, bool inRange) {
       ++k;
     } LOOP_END(k < groups);
   }
-  if (WALKS == 0u) return;
+  if (!WALKS) return;
   bool walks = inRange && !listed && isActive(here);
-  vec3 home = cellFromKey(keyAt(inRange ? i : 0u));
+  vec3 home = cellFromKey(cellAt(inRange ? i : 0u));
   place = here;
   self = i;
   walkGrid(home, home + 1.0, walks, params.reach);

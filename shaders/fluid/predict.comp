@@ -1,25 +1,27 @@
 #version 460
-// The prediction (w: m that solids pushed it out) of an advance's first substep, whose step was not
-// known when the last one ended: x* = x + dt (v + dt (g + push)).
+// The prediction x* = x + dt (v + dt (g + a)), a the warm start's acceleration; w: m that solids pushed it
+// out. Runs where the correction could not make it: for an advance's first substep, whose step was not
+// known, and after terms that changed velocities. CORNER: for the particles that solids may push alone.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
-#define WARM_CONSTANT 0
-#include "fluid/warm_start.glsl"
 #include "shared/arrays.glsl"
-layout(std430, binding = 6) readonly buffer SolidBlock { SolidRecord solids[]; };
-#include "fluid/outside.glsl"
-layout(local_size_x = kFluidGroup) in;
 READ_FLOAT4(2, position)
 READ_FLOAT4(3, velocity)
 READ_FLOAT4(4, warmAcceleration)
 layout(std430, binding = 5) writeonly buffer PredictionBlock { vec4 prediction[]; };
+layout(std430, binding = 6) readonly buffer SolidBlock { SolidRecord solids[]; };
+layout(std430, binding = 7) readonly buffer NearListBlock { uint nearList[]; };
+layout(std430, binding = 8) readonly buffer SumsBlock { FluidSums sums; };
+#include "fluid/outside.glsl"
+layout(local_size_x = kFluidGroup) in;
 
 void main() {
   uint i = flatInvocation();
-  if (i >= params.count) return;
+  if (i >= (CORNER ? sums.cornerCount : params.count)) return;
+  if (CORNER) i = nearList[params.count - 1u - i];
   vec3 x = positionAt(i).xyz;
-  vec3 next = predicted(x, velocityAt(i).xyz, KEPT_WARM_ACCELERATION(warmAccelerationAt(i)));
-  float pushed;
-  next = outside(next, ahead(), pushed);
+  vec3 next = predicted(x, velocityAt(i).xyz, keptWarmAcceleration(warmAccelerationAt(i)));
+  float pushed = 0.0;
+  next = SOLIDS ? outside(next, ahead(), pushed) : insideWalls(next);
   prediction[i] = vec4(isFinite(next) ? next : x, pushed);
 }

@@ -4,8 +4,6 @@
 // copies them back.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
-#define WARM_CONSTANT 0
-#include "fluid/warm_start.glsl"
 #include "fluid/sorted_places.glsl"
 layout(local_size_x = kFluidGroup) in;
 READ_FLOAT4(6, position)
@@ -23,5 +21,5 @@ void main() {
   uint place, from = arrival(slot, place);
   sortedPosition[place] = vec4(positionAt(from).xyz, float(idAt(from)));
   sortedPrediction[place] = predictionAt(from);
-  sortedVelocity[place] = vec4(velocityAt(from).xyz, WARM != 0u ? warmAt(from) : 0.0);
+  sortedVelocity[place] = vec4(velocityAt(from).xyz, WARM ? warmAt(from) : 0.0);
 }

@@ -3,6 +3,7 @@
 #define RILL_UNIFORMS_GLSL
 #include "shared/fluid_records.h"
 #include "shared/dispatch.glsl"
+#include "fluid/constants.glsl"
 layout(binding = 0) uniform ParamsBlock { FluidParams params; };
 layout(binding = 1) uniform ControlBlock { FluidControl control; };
 
@@ -18,6 +19,9 @@ vec3 insideWalls(vec3 x) {
               x.y < low.y ? low.y : (x.y > high.y ? high.y : x.y),
               x.z < low.z ? low.z : (x.z > high.z ? high.z : x.z));
 }
+
+// The warm-start acceleration, m/s^2; without a warm start its array is a placeholder that nobody wrote.
+vec3 keptWarmAcceleration(vec4 stored) { return WARM ? stored.xyz : vec3(0.0); }
 
 bool isFinite(vec3 x) {
   vec3 limit = vec3(params.farLimit);

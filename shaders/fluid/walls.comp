@@ -8,13 +8,10 @@
 #include "fluid/solids.glsl"
 #include "fluid/wall_samples.glsl"
 layout(local_size_x = kFluidGroup) in;
-layout(constant_id = 0) const uint CORNER = 0;
-layout(constant_id = 1) const uint SOLIDS = 0;
-// of an axis that can be near at once: 1 where the domain is nowhere thin (an eighth of the corner
-// look-ups)
-layout(constant_id = 2) const int SIDES = 2;
+// walls of an axis that can be near at once: one takes an eighth of the corner look-ups
+const int SIDES = THIN ? 2 : 1;
 
-READ_FLOAT4(2, prediction)
+READ_FLOAT4(2, place)
 READ_UINT(3, nearList)
 layout(std430, binding = 4) readonly buffer SumsBlock { FluidSums sums; };
 READ_FLOAT4(5, table)  // value and slope of a node, and of the next one along the first axis
@@ -145,10 +142,10 @@ void store(uint i, vec4 displaced, vec3 beside) {
 
 void main() {
   uint n = flatInvocation();
-  if (CORNER == 0u) {
+  if (!CORNER) {
     if (n >= sums.planeCount) return;
     uint i = nearListAt(n);
-    vec3 x = predictionAt(i).xyz;
+    vec3 x = placeAt(i).xyz;
     vec3 low = x - vec3(params.lowX, params.lowY, params.lowZ);
     vec3 high = vec3(params.highX, params.highY, params.highZ) - x;
     vec3 nearest = min(low, high);
@@ -161,10 +158,10 @@ void main() {
   }
   if (n >= sums.cornerCount) return;
   uint i = nearListAt(params.count - 1u - n);
-  vec3 x = predictionAt(i).xyz;
+  vec3 x = placeAt(i).xyz;
   vec3 beside;
   vec4 displaced = domainWalls(x, beside);
-  if (SOLIDS != 0u) {
+  if (SOLIDS) {
     for (uint k = 0u; k < params.solidCount; ++k) {
       vec4 solid = solidSample(solids[k], x);
       displaced += solid;

@@ -22,26 +22,23 @@ RILL_CONST float kInactivePosition = 1.0e9f;        // m: position of inactive p
 RILL_CONST float kNoWall = 1.0e9f;        // m, a coordinate
 RILL_CONST float kMultiplierScale = 1024.0f;  // multipliers travel as halves in units of 1 / (restGradient * this)
 
-// Dispatch commands that the device switches on and off.
-RILL_CONST uint kCommandPredict = 0u;
-RILL_CONST uint kCommandDensity = 1u;         // the passes over neighbors: 1 to 5
-RILL_CONST uint kCommandCorrect = 2u;         // two of them, by the parity of the substep recorded
-RILL_CONST uint kCommandIterate = 4u;
-RILL_CONST uint kCommandNoiseDamping = 5u;
-RILL_CONST uint kCommandPose = 6u;            // one group, with the density pass
-RILL_CONST uint kCommandKeys = 7u;            // the rebuild
-RILL_CONST uint kCommandReorder = 8u;
-RILL_CONST uint kCommandBuild = 9u;
-RILL_CONST uint kCommandPlane = 10u;          // over the particles near one wall
-RILL_CONST uint kCommandCorner = 11u;         // over those near several walls or a solid
-RILL_CONST uint kCommandCollide = 12u;        // two of them, by parity, over the same
-RILL_CONST uint kCommandMeasurePlane = 14u;   // the same particles as Plane and Corner, whenever there are any
-RILL_CONST uint kCommandMeasureCorner = 15u;
-RILL_CONST uint kCommandPlaneAgain = 16u;     // and in every further iteration
-RILL_CONST uint kCommandCornerAgain = 17u;
-// the passes over neighbors once more, in this order: where a list overflowed or there is none
-RILL_CONST uint kCommandWalks = 18u;
-RILL_CONST uint kCommandSort = 23u;           // the sort's own follow
+// What starts a dispatch that the device switches on and off; see fluid/dispatch_commands.glsl.
+RILL_CONST uint kStartPredict = 0u;        // the begin of an advance
+RILL_CONST uint kStartDensity = 1u;        // a substep
+RILL_CONST uint kStartIterate = 2u;        // a further iteration of it
+RILL_CONST uint kStartCorrectEven = 3u;    // its end, by the parity of the substep as recorded: the density
+RILL_CONST uint kStartCorrectOdd = 4u;     // pass of the next one, which does not run, switches it off
+RILL_CONST uint kStartNoiseDamping = 5u;   // the end of the first substep of a block, if the fluid is at rest
+RILL_CONST uint kStartRebuild = 6u;        // the neighbor list is due
+RILL_CONST uint kStartFigures = 7u;        // figures were asked for
+RILL_CONST uint kNoSubstep = 2u;           // in place of a parity
+
+// What it is over.
+RILL_CONST uint kOverShape = 0u;           // a number of groups that was fixed when the fluid was made
+RILL_CONST uint kOverLists = 1u;           // the same, of the variant that reads lists alone: no list overflowed
+RILL_CONST uint kOverGrid = 2u;            // the same, of the variant that walks the grid: a list did, or there is none
+RILL_CONST uint kOverPlane = 3u;           // the particles near one wall
+RILL_CONST uint kOverCorner = 4u;          // those near several walls or a solid
 RILL_CONST uint kMaxCommands = 64u;
 
 // Constant over a run; a uniform block.

@@ -1,20 +1,25 @@
 #version 460
 // Radix sort: scatters the keys of a tile. Each invocation ranks consecutive keys, which keeps the sort
-// stable. Keys are read twice instead of copied to shared memory: docs/notes/sorting.md.
+// stable. Keys are read twice instead of copied to shared memory: docs/notes/sorting.md. FIRST: of the first
+// pass, where a key's index is its position. WRITE_KEYS: a later pass or the caller reads the keys.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/dispatch.glsl"
 #include "sort/sort_types.h"
 
-layout(constant_id = 0) const uint kFirstPass = 0u;  // the index is the position
-layout(constant_id = 1) const uint kWriteKeys = 0u;
-
 layout(local_size_x = kRadixThreads) in;
 layout(push_constant) uniform PushBlock { RadixPush push; };
 layout(set = 0, binding = 0, std430) readonly buffer Keys { uint keys[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Order { uint order[]; };
-layout(set = 0, binding = 2, std430) readonly buffer Offsets { uint offsets[]; };  // [digit][tile]
+layout(set = 0, binding = 1, std430) readonly buffer Offsets { uint offsets[]; };  // [digit][tile]
+layout(set = 0, binding = 2, std430) writeonly buffer OrderOut { uint orderOut[]; };
+#ifdef WRITE_KEYS
 layout(set = 0, binding = 3, std430) writeonly buffer KeysOut { uint keysOut[]; };
-layout(set = 0, binding = 4, std430) writeonly buffer OrderOut { uint orderOut[]; };
+#define NEXT_BINDING 4
+#else
+#define NEXT_BINDING 3
+#endif
+#ifndef FIRST
+layout(set = 0, binding = NEXT_BINDING, std430) readonly buffer Order { uint order[]; };
+#endif
 
 const uint kRow = kRadixThreads + 1u;
 // Two 16-bit counters per word: keys of a digit in the tile before the invocation's next key.
@@ -56,7 +61,13 @@ void main() {
     const uint side = (digit & 1u) * 16u;
     const uint target = base[digit] + ((counters[word] >> side) & 0xffffu);
     counters[word] += 1u << side;
-    if (kWriteKeys != 0u) keysOut[target] = key;
-    orderOut[target] = kFirstPass != 0u ? e : order[e];
+#ifdef WRITE_KEYS
+    keysOut[target] = key;
+#endif
+#ifdef FIRST
+    orderOut[target] = e;
+#else
+    orderOut[target] = order[e];
+#endif
   }
 }

@@ -7,7 +7,7 @@
 #include "shared/dispatch.glsl"
 #include "sort/sort_types.h"
 
-layout(constant_id = 0) const uint kSumsScanned = 0;  // 1: the tile sums are scanned; 0: each workgroup adds up the sums of previous tiles
+layout(constant_id = 0) const bool SUMS_SCANNED = false;  // false: each workgroup adds up the sums of previous tiles
 
 layout(local_size_x = kScanThreads) in;
 layout(push_constant) uniform PushBlock { ScanPush push; };
@@ -20,7 +20,7 @@ READ_UINT(1, tileSums)
 shared uint sumBefore;
 
 uint offsetOf(uint tile) {
-  if (kSumsScanned != 0u) return tileSumsAt(tile);
+  if (SUMS_SCANNED) return tileSumsAt(tile);
   if (gl_LocalInvocationIndex == 0u) sumBefore = 0u;
   barrier();
   uint sum = 0u;

@@ -32,11 +32,11 @@ class SnapshotTest : public FluidTest {
  protected:
   /// Fills all that a snapshot does not bring with numbers that make no sense: what reads it before it is written stands out.
   void poison(const Fluid& fluid) {
-    const FluidBuffers& b = fluid.impl().buffers();
-    std::vector<const Buffer*> all = {&b.position, &b.velocity,   &b.prediction, &b.warmAcceleration, &b.work,
-                                      &b.warm,     &b.id,         &b.multiplier, &b.neighborCount,    &b.cell,
-                                      &b.start,    &b.nearSample, &b.nearList};
-    for (const Buffer& list : b.lists) all.push_back(&list);
+    const FluidImpl& impl = fluid.impl();
+    std::vector<const Buffer*> all;
+    for (const ArrayRow& row : arrayTable())
+      if (row.lifetime == Lifetime::Fluid && row.account != Account::None) all.push_back(&impl.buffer(row.id));
+    for (uint32_t c = 1; c < impl.chunks().size(); ++c) all.push_back(&impl.buffer(FluidArray::List, c));
     Graph graph;
     graph.pass("poison", [&](Pass& pass) {
       pass.sideEffect();

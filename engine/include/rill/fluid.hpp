@@ -201,6 +201,7 @@ class RILL_API SnapshotReader {
 
  private:
   void plan();
+  void takeRecords(std::span<const std::span<const std::byte>> data);
   const FluidImpl& fluid_;
   FluidSnapshot snapshot_;
   std::vector<uint32_t> parts_ = {};  ///< indices of the buffers to read, in order

@@ -1,0 +1,140 @@
+#include "fluid/arrays.hpp"
+
+#include <algorithm>
+
+#include "sort/dispatches.hpp"
+
+namespace rill {
+namespace {
+
+uint64_t one(const ArrayShape&) { return 1; }
+uint64_t perParticle(const ArrayShape& s) { return s.particles; }
+uint64_t withDummy(const ArrayShape& s) { return s.particles + 1; }  // the neighbor that pads lists comes last
+
+template <bool ArrayShape::*Feature>
+uint64_t perParticleIf(const ArrayShape& s) {
+  return s.*Feature ? s.particles : 0;
+}
+
+constexpr uint64_t kVector = 16, kWord = 4;
+
+}  // namespace
+
+std::span<const ArrayRow, kArrays> arrayTable() {
+  using enum FluidArray;
+  using enum Lifetime;
+  static const std::array<ArrayRow, kArrays> table = {{
+      {Params, "params", "fluid parameters", Fluid, sizeof(FluidParams), one},
+      {Control, "control", "fluid control", Fluid, sizeof(FluidControl), one},
+      {Sums, "sums", "fluid sums", Fluid, sizeof(FluidSums), one},
+      {Shapes, "shapes", "dispatch shapes", Fluid, 12, [](const ArrayShape&) { return uint64_t{kMaxCommands}; }},
+      {Commands, "commands", "dispatch commands", Fluid, 12, [](const ArrayShape&) { return uint64_t{kMaxCommands}; }},
+      {GravityChanges, "gravityChanges", "gravity schedule", Fluid, kVector, [](const ArrayShape& s) { return s.gravityChanges; }},
+      {Table, "table", "wall tables", Fluid, kVector, [](const ArrayShape& s) { return s.tableEntries; }},
+      {Solids, "solids", "solids", Fluid, sizeof(SolidRecord), [](const ArrayShape& s) { return s.solids; }},
+      {Keyframes, "keyframes", "keyframes", Fluid, kVector, [](const ArrayShape& s) { return s.keyframes; }},
+
+      {Position, "position", "positions", Fluid, kVector, withDummy, Account::Particles, &FluidSnapshot::position, "position"},
+      {Velocity, "velocity", "velocities", Fluid, kVector, withDummy, Account::Particles, &FluidSnapshot::velocity, "velocity", 1},
+      {Prediction, "prediction", "predictions", Fluid, kVector, withDummy, Account::Particles},
+      {WarmAcceleration, "warmAcceleration", "warm-start accelerations", Fluid, kVector, perParticleIf<&ArrayShape::warm>,
+       Account::Particles, &FluidSnapshot::push, "push"},
+      {Work, "work", "predictions and multipliers", Fluid, kVector, withDummy, Account::Particles},
+      {Warm, "warm", "warm-start multipliers", Fluid, kWord, perParticleIf<&ArrayShape::warm>, Account::Particles, &FluidSnapshot::warm,
+       "warm"},
+      {Id, "id", "ids", Fluid, kWord, perParticle, Account::Particles, &FluidSnapshot::id, "id"},
+      {Multiplier, "multiplier", "iteration multipliers", Fluid, kWord, perParticleIf<&ArrayShape::iterated>, Account::Particles},
+      {NeighborCount, "neighborCount", "neighbor counts", Fluid, kWord, perParticleIf<&ArrayShape::lists>, Account::Particles},
+      {Cell, "cell", "cells", Fluid, kWord, perParticle, Account::Particles},
+      {NearSample, "nearSample", "wall samples", Fluid, 2 * kVector, perParticleIf<&ArrayShape::near>, Account::Particles},
+      {NearList, "nearList", "particles near walls", Fluid, kWord, perParticleIf<&ArrayShape::near>, Account::Particles},
+
+      {CellStart, "cellStart", "cell starts", Fluid, kWord, [](const ArrayShape& s) { return s.cellStarts; }, Account::Grid},
+      {List, "list", "neighbor list", Fluid, kWord, [](const ArrayShape& s) { return s.listEntries; }, Account::List},
+
+      {Key, "key", "cell keys", Section, kWord, perParticle, Account::Particles},
+      {SortedPosition, "sortedPosition", "sorted positions", Section, kVector, perParticle, Account::Particles},
+      {SortedPrediction, "sortedPrediction", "sorted predictions", Section, kVector, perParticle, Account::Particles},
+      {SortedVelocity, "sortedVelocity", "sorted velocities", Section, kVector, perParticle, Account::Particles},
+      {FreeVelocity, "freeVelocity", "free velocities", Section, kVector,
+       [](const ArrayShape& s) { return s.solids > 0 ? s.particles : 0; }, Account::Particles},
+      {Smoothed, "smoothed", "smoothed velocities", Section, kVector, [](const ArrayShape& s) { return s.smooths ? s.particles + 1 : 0; },
+       Account::Particles},
+      {Curl, "curl", "curl", Section, kVector, [](const ArrayShape& s) { return s.vorticity ? s.particles + 1 : 0; }, Account::Particles},
+      {OrderedPosition, "orderedPosition", "ordered positions", Section, kVector, perParticle},
+      {Histogram, "histogram", "error histogram", Section, kWord, [](const ArrayShape&) { return uint64_t{3 * kMeasureBins}; }},
+      {Partials, "partials", "partial sums", Section, sizeof(MeasurePartial), [](const ArrayShape&) { return uint64_t{kMeasurePartials}; }},
+      {Figures, "figures", "figures", Section, sizeof(MeasureResult), one},
+
+      {Particle, "particle"},
+      {Place, "place"},
+      {SweepFrom, "sweepFrom"},
+      {SweepTo, "sweepTo"},
+      {SortStart, "start"},
+      {SortArrived, "arrived"},
+      {SortOrder, "order"},
+      {SortRank, "rank"},
+      {SortOversized, "oversized"},
+  }};
+  return table;
+}
+
+FluidArray arrayNamed(std::string_view name) {
+  const auto found = std::ranges::find(arrayTable(), name, &ArrayRow::name);
+  return found == arrayTable().end() ? FluidArray::kCount : found->id;
+}
+
+ArrayShape arrayShape(const FluidSetup& setup) {
+  const FluidParams& p = setup.params;
+  return {.particles = p.count,
+          .listEntries = divideUp(p.count, kListBlock) * kListBlock * p.listCapacity,
+          .cellStarts = paddedWords(setup.grid.cells() + 1),
+          .gravityChanges = setup.gravity.size() / 4,
+          .tableEntries = setup.tables.size() / 4,
+          .solids = p.solidCount,
+          .keyframes = setup.keyframes.size() / 4,
+          .lists = p.listCapacity > 0,
+          .warm = setup.warm,
+          .near = setup.near,
+          .iterated = p.iterations > 1,
+          .smooths = setup.viscositySweeps > 0 || p.noiseDampingRate > 0,
+          .vorticity = p.vorticity > 0};
+}
+
+ArrayShape arrayShape(const Scene& scene, uint64_t particles) {
+  const bool lists = scene.solver.neighbors != NeighborChoice::Grid;
+  const uint64_t capacity = lists ? listCapacity(scene.fluid.smoothing_ratio + kListSkin) : 0;
+  return {.particles = particles,
+          .listEntries = divideUp(particles, kListBlock) * kListBlock * capacity,
+          .cellStarts = maxGridCells(particles) + 1,
+          .solids = scene.solids.size(),
+          .lists = lists,
+          .warm = startsWarm(scene),
+          .near = scene.domain.has_value() || !scene.solids.empty(),
+          .iterated = scene.solver.iterations > 1,
+          .smooths = scene.fluid.viscosity > 0,  // noise damping shares memory with a rebuild
+          .vorticity = scene.fluid.vorticity > 0};
+}
+
+uint64_t arrayBytes(FluidArray array, const ArrayShape& shape) {
+  constexpr uint64_t kPlaceholder = 64;
+  const ArrayRow& row = rowOf(array);
+  const uint64_t bytes = row.length(shape) * row.stride;
+  return bytes > 0 ? bytes : kPlaceholder;
+}
+
+FluidMemory memoryOf(const ArrayShape& shape) {
+  FluidMemory memory;
+  for (const ArrayRow& row : arrayTable()) {
+    if (row.account == Account::None) continue;
+    const uint64_t bytes = row.length(shape) * row.stride;
+    if (row.account == Account::Particles) memory.particle_bytes += bytes;
+    if (row.account == Account::List) memory.list_bytes += bytes;
+    if (row.account == Account::Grid) memory.grid_bytes += bytes;
+  }
+  memory.particle_bytes += 2 * kWord * shape.particles;  // the sort: where keys arrived, and the order of full cells
+  memory.grid_bytes += memory.grid_bytes / 4;            // and its tile sums
+  return memory;
+}
+
+}  // namespace rill

@@ -1,0 +1,48 @@
+// How a pass of the table is declared: its arrays become the versions that it reads and writes.
+#include <algorithm>
+
+#include "fluid/fluid_impl.hpp"
+
+namespace rill {
+
+GroupCount FluidImpl::shapeOf(Extent extent) const {
+  const bool chunked = extent == Extent::Chunks || extent == Extent::Gather;
+  return foldGroups(chunked ? chunks_.front().groups() : directGroups(extent));
+}
+
+uint64_t FluidImpl::directGroups(Extent extent) const {
+  switch (extent) {
+    case Extent::One:
+      return 1;
+    case Extent::Partials:
+      return std::min<uint64_t>(divideUp(count, kMeasureShare * kFluidGroup), kMeasurePartials);
+    default:
+      return divideUp(count, kFluidGroup);
+  }
+}
+
+void FluidImpl::resetAliases() {
+  for (size_t k = 0; k < kArrays; ++k) aliases_[k] = static_cast<FluidArray>(k);
+}
+
+void FluidImpl::beginSection() {
+  for (const ArrayRow& row : arrayTable())
+    if (row.lifetime != Lifetime::Fluid) refs_[slotOf(row.id)] = {};
+  resetAliases();
+}
+
+Kernel FluidImpl::bind(Graph& graph, Pass& pass, const FluidPassRow& row, const PreparedPass::Variant& variant, uint32_t chunk) {
+  std::array<BoundResource, kMaxBindings> bound;
+  for (size_t k = 0; k < variant.arrays.size(); ++k) {
+    const FluidArray array = aliases_[static_cast<size_t>(variant.arrays[k])];
+    BufferRef& version = refs_[slotOf(array, chunk)];
+    if (version == BufferRef{} && rowOf(array).lifetime == Lifetime::Section)
+      version = graph.create(rowOf(array).label, {arrayBytes(array, arrayShape(setup))});
+    bound[k].buffer = &version;
+    // Passes over neighbors only count in the sums: nothing has to wait between two of them.
+    bound[k].atomic = array == FluidArray::Sums && row.extent == Extent::Gather;
+  }
+  return bindShader(pass, variant.pipeline, std::span(bound).first(variant.arrays.size()));
+}
+
+}  // namespace rill

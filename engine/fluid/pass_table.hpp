@@ -1,0 +1,83 @@
+#pragma once
+// The one table of a fluid's passes. Pipelines, bindings, dispatch commands, reports of what is skipped and counts of what ran follow from
+// its rows. To add a pass: a value of FluidPass and its row in pass_table.cpp, its shader in shaders/fluid and shaders/CMakeLists.txt, and
+// the call that declares it, in substep_passes.cpp for one of a substep.
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <string_view>
+
+#include "fluid/settings.hpp"
+#include "gpu/shader_constants.hpp"
+
+namespace rill {
+
+enum class FluidPass : uint8_t {
+  Begin,
+  Predict,
+  // A rebuild.
+  Keys,
+  Reorder,
+  BuildList,
+  FinishRebuild,
+  // A substep.
+  MoveSolids,
+  Iterate,
+  Walls,
+  Density,
+  Control,
+  CorrectWithArtificialPressure,
+  Correct,
+  Collide,
+  Viscosity,
+  NoiseDamping,
+  CopyVelocities,
+  Curl,
+  Confine,
+  PredictAfterTerms,
+  PredictAtSolids,
+  // Figures.
+  MeasureWalls,
+  MeasureKeys,
+  MeasureOrder,
+  Measure,
+  MeasureSums,
+  Reduce,
+  kCount
+};
+constexpr size_t kFluidPasses = static_cast<size_t>(FluidPass::kCount);
+
+/// What starts a dispatch: the host, or a decision of the device (kStart... in shaders/shared/fluid_records.h).
+enum class Start : uint8_t { Always, Predict, Density, Iterate, Correct, NoiseDamping, Rebuild, Figures, kCount };
+constexpr size_t kStarts = static_cast<size_t>(Start::kCount);
+
+/// What a pass is over.
+enum class Extent : uint8_t {
+  One,        ///< one workgroup
+  Particles,  ///< all particles
+  Partials,   ///< the workgroups that add up figures
+  Chunks,     ///< all particles, a dispatch for each buffer of the neighbor list
+  Gather,     ///< the same over neighbors, in two variants: the device starts the one that reads lists or the one that can walk the grid
+  Near,       ///< particles near one wall, and those near several or a solid, in two variants
+  Corner      ///< the latter alone
+};
+
+struct FluidPassRow {
+  FluidPass id;
+  std::string_view name;    ///< in graphs and reports
+  std::string_view shader;  ///< reads arrays through texel buffers if the fluid does and the shader has such a variant
+  Extent extent = Extent::One;
+  std::initializer_list<Start> starts = {Start::Always};
+  bool (*exists)(const FluidSetup&) = nullptr;              ///< null: always
+  std::string_view (*reason)(const FluidSetup&) = nullptr;  ///< why it does not
+  std::initializer_list<NamedConstant> constants = {};      ///< besides those of the fluid
+  bool wholeSubgroups = false;                              ///< its particles walk the grid in clusters
+  std::string_view feature = {};                            ///< what the report of skipped passes calls it; empty: the pass's name
+};
+
+/// In the order of FluidPass.
+std::span<const FluidPassRow, kFluidPasses> fluidPassTable();
+inline const FluidPassRow& rowOf(FluidPass pass) { return fluidPassTable()[static_cast<size_t>(pass)]; }
+inline bool exists(FluidPass pass, const FluidSetup& setup) { return !rowOf(pass).exists || rowOf(pass).exists(setup); }
+
+}  // namespace rill

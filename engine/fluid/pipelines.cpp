@@ -1,0 +1,109 @@
+// The pipelines of a fluid's passes, with the specialization constants of shaders/fluid/constants.glsl, and their dispatch commands.
+#include <algorithm>
+
+#include "fluid/fluid_impl.hpp"
+#include "gpu/device_impl.hpp"
+
+namespace rill {
+namespace {
+
+constexpr uint32_t kMaxCluster = 32;  // see shaders/fluid/cluster.glsl: a window of candidates has as many
+
+uint32_t startCode(Start start) {
+  switch (start) {
+    case Start::Predict:
+      return kStartPredict;
+    case Start::Density:
+      return kStartDensity;
+    case Start::Iterate:
+      return kStartIterate;
+    case Start::Correct:
+      return kStartCorrectEven;
+    case Start::NoiseDamping:
+      return kStartNoiseDamping;
+    case Start::Rebuild:
+      return kStartRebuild;
+    default:
+      return kStartFigures;
+  }
+}
+
+/// Particles that walk the grid together are a subgroup, of which the shader knows that it is whole.
+uint32_t wholeSubgroup(const Device& device) { return std::min(device.info().subgroupSize, kFluidGroup); }
+
+}  // namespace
+
+std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
+  const FluidParams& p = setup.params;
+  return {{"KERNEL", setup.kernel},
+          {"CLUSTER", std::min(wholeSubgroup(device), kMaxCluster)},
+          {"LIST_CAPACITY", p.listCapacity},
+          {"NEAR", setup.near},
+          {"WARM", setup.warm},
+          {"ITERATED", p.iterations > 1},
+          {"SOLIDS", p.solidCount > 0},
+          {"TERMS", setup.viscositySweeps > 0 || p.vorticity > 0},
+          {"THIN", setup.thin},
+          {"LIST_OVERSIZED", sort_->listsOversized()},
+          // Where a pass or a variant of it does not say otherwise:
+          {"WALKS", false},
+          {"CORNER", false},
+          {"ARTIFICIAL_PRESSURE", false},
+          {"REBUILDS", false}};
+}
+
+Expected<void> FluidImpl::preparePasses(Device& device) {
+  for (const FluidPassRow& row : fluidPassTable()) {
+    if (!exists(row.id, setup)) continue;
+    if (auto ok = preparePass(device, row); !ok) return ok;
+  }
+  sortCommand_ = commands_.count();
+  for (const GroupCount& groups : sort_->groups()) commands_.add(kStartRebuild, kOverShape, groups);
+  return {};
+}
+
+Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
+  PreparedPass& prepared = passes_[static_cast<size_t>(row.id)];
+  const std::vector<NamedConstant> shared = constants(device);
+  std::string shader(row.shader);
+  if (shader == "fluid/keys" && sort_->method() == SortMethod::Counting) shader += "_counted";
+  shader = readingVariant(device, shader, texel_);
+  const uint32_t subgroup = row.extent == Extent::Gather || row.wholeSubgroups ? wholeSubgroup(device) : 0;
+
+  const auto add = [&](uint32_t over, std::initializer_list<NamedConstant> own) -> Expected<void> {
+    std::vector<NamedConstant> values(own);
+    values.insert(values.end(), row.constants.begin(), row.constants.end());
+    values.insert(values.end(), shared.begin(), shared.end());  // the first value of a name counts
+    auto pipeline = shaderPipeline(device, shader, values, subgroup);
+    if (!pipeline) return pipeline.error();
+    PreparedPass::Variant variant{*pipeline, over};
+    for (const ShaderBinding& binding : (*pipeline)->bindings) {
+      variant.arrays.push_back(arrayNamed(binding.name));
+      if (variant.arrays.back() == FluidArray::kCount)
+        return Error{ErrorKind::Shader, "shader '" + shader + "': no array of a fluid is named '" + std::string(binding.name) + "'"};
+    }
+    prepared.variants.push_back(std::move(variant));
+    std::array<uint32_t, kStarts + 1>& commands = prepared.commands.emplace_back();
+    for (Start start : row.starts) {
+      if (start == Start::Always) continue;
+      commands[static_cast<size_t>(start)] = commands_.shared(startCode(start), over, shapeOf(row.extent));
+      if (start == Start::Correct) commands[kStarts] = commands_.shared(kStartCorrectOdd, over, shapeOf(row.extent));
+    }
+    return {};
+  };
+  switch (row.extent) {
+    case Extent::Gather:
+      if (setup.params.listCapacity > 0)
+        if (auto ok = add(kOverLists, {}); !ok) return ok;
+      return add(kOverGrid, {{"WALKS", true}});
+    case Extent::Near:
+      if (auto ok = add(kOverCorner, {{"CORNER", true}}); !ok) return ok;
+      return add(kOverPlane, {{"CORNER", false}, {"SOLIDS", false}, {"THIN", false}});
+    case Extent::Corner:
+      return add(kOverCorner, {{"CORNER", true}});
+    default:
+      return add(kOverShape, {});
+  }
+}
+
+}  // namespace rill

@@ -1,0 +1,18 @@
+// Specialization constants of the fluid's shaders. C++ gives them by name (engine/fluid/pipelines.cpp); each number is used once.
+#ifndef RILL_FLUID_CONSTANTS_GLSL
+#define RILL_FLUID_CONSTANTS_GLSL
+layout(constant_id = 0) const uint KERNEL = 0;         // 0: Wendland C2; 1: poly6 with the spiky gradient
+layout(constant_id = 1) const uint CLUSTER = 8;        // particles that walk the grid together: 4, 8, 16 or 32, a subgroup or half of one of 64
+layout(constant_id = 2) const uint LIST_CAPACITY = 0;  // entries a particle of the neighbor list; 0: no list
+layout(constant_id = 3) const bool WALKS = false;      // the variant that can walk the grid, for particles whose list overflowed
+layout(constant_id = 4) const bool NEAR = false;       // walls or solids displace density
+layout(constant_id = 5) const bool WARM = true;        // multipliers and accelerations of the warm start are kept
+layout(constant_id = 6) const bool ITERATED = false;   // more than one iteration a substep
+layout(constant_id = 7) const bool SOLIDS = false;     // there are solids
+layout(constant_id = 8) const bool TERMS = false;      // viscosity or vorticity change velocities in every substep
+layout(constant_id = 9) const bool ARTIFICIAL_PRESSURE = false;  // in the first substep of a block
+layout(constant_id = 10) const bool CORNER = false;    // over the particles near several walls or a solid; else near one wall, or all
+layout(constant_id = 11) const bool THIN = true;       // opposite walls can both be near a particle
+layout(constant_id = 12) const bool REBUILDS = false;  // the list is built after the sort
+#define LIST_OVERSIZED_ID 13
+#endif
