@@ -1,6 +1,9 @@
-# Converts a SPIR-V file and its reflection (spirv-cross --reflect, before names are stripped) to C++: the words, the bindings by their
-# names in GLSL, the specialization constants and the size of the push constants. See engine/gpu/shader_library.hpp.
-#   cmake -DSPIRV=density.spv -DREFLECTION=density.json -DNAME=shader_density -DOUT=density.inc -P embed_shader.cmake
+# Converts a SPIR-V file and what spirv-cross reflects of it to C++: the words, the bindings by their names in GLSL, the specialization
+# constants and the size of the push constants. See engine/gpu/shader_library.hpp. Names come from before the optimizer (REFLECTION), which
+# strips them; of the constants only those that it left (USED) are given.
+#   cmake -DSPIRV=density.spv -DREFLECTION=density.json -DUSED=density.used.json -DNAME=shader_density -DOUT=density.inc -P embed_shader.cmake
+file(READ ${USED} json)
+string(JSON used_constants ERROR_VARIABLE none GET "${json}" specialization_constants)
 file(READ ${REFLECTION} json)
 
 # Sets `out` to the string at a path of the reflection, or to "" if it is absent.
@@ -97,11 +100,15 @@ if(top GREATER -1)
 endif()
 
 set(constants "")
+set(constant_count 0)
 indices(all specialization_constants)
 foreach(k IN LISTS all)
   get(name specialization_constants ${k} name)
   get(id specialization_constants ${k} id)
-  string(APPEND constants "    {\"${name}\", ${id}},\n")
+  if(used_constants MATCHES "\"id\" : ${id},")
+    string(APPEND constants "    {\"${name}\", ${id}},\n")
+    math(EXPR constant_count "${constant_count} + 1")
+  endif()
 endforeach()
 
 set(push 0)
@@ -113,7 +120,6 @@ endif()
 file(READ ${SPIRV} bytes HEX)
 string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1," words "${bytes}")
 math(EXPR count "${top} + 1")
-list(LENGTH all constant_count)
 file(WRITE ${OUT} "constexpr uint32_t ${NAME}[] = {${words}};
 constexpr std::array<rill::ShaderBinding, ${count}> ${NAME}_bindings = {{
 ${rows}}};

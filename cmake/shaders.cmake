@@ -59,6 +59,7 @@ function(rill_embed_shaders target)
     string(REPLACE "/" "_" symbol ${name})
     set(spv ${PROJECT_BINARY_DIR}/shaders/${group}/${name}.spv)
     set(reflection ${PROJECT_BINARY_DIR}/shaders/${group}/${name}.json)
+    set(used ${PROJECT_BINARY_DIR}/shaders/${group}/${name}.used.json)
     set(array ${PROJECT_BINARY_DIR}/shaders/${group}/${name}.inc)
     get_filename_component(folder ${spv} DIRECTORY)
     file(MAKE_DIRECTORY ${folder})
@@ -79,7 +80,8 @@ function(rill_embed_shaders target)
       COMMAND ${RILL_SPIRV_CROSS} ${spv} --reflect --output ${reflection}
       ${optimize}
       ${check}
-      COMMAND ${CMAKE_COMMAND} -DSPIRV=${spv} -DREFLECTION=${reflection} -DNAME=shader_${symbol} -DOUT=${array} -P ${RILL_EMBED_SCRIPT}
+      COMMAND ${RILL_SPIRV_CROSS} ${spv} --reflect --output ${used}
+      COMMAND ${CMAKE_COMMAND} -DSPIRV=${spv} -DREFLECTION=${reflection} -DUSED=${used} -DNAME=shader_${symbol} -DOUT=${array} -P ${RILL_EMBED_SCRIPT}
       DEPENDS ${root}/${source} ${headers} ${RILL_EMBED_SCRIPT}
       COMMENT "Shader ${name}" VERBATIM)
     list(APPEND arrays ${array})
