@@ -23,7 +23,7 @@ bool shouldRun(uint k, FluidControl c, uint parity, FluidSums s) {
   if (walks) k = k - kCommandWalks + kCommandDensity;
   bool gathers = k >= kCommandDensity && k <= kCommandNoiseDamping;
   if (gathers && walks != (params.listCapacity == 0u || s.overflow > 0u)) return false;
-  bool rebuild = c.stale == 2u || (c.stale == 1u && c.timeLeft > 0.0);
+  bool rebuild = c.listState == kListNone || (c.listState == kListDue && c.timeLeft > 0.0);
   if (k == kCommandDensity || k == kCommandPose || k == kCommandPlane || k == kCommandCorner) return c.running != 0u;
   if (k == kCommandCorrect || k == kCommandCollide) return parity == 0u;
   if (k == kCommandCorrect + 1u || k == kCommandCollide + 1u) return parity == 1u;
