@@ -92,6 +92,15 @@ Expected<void> checkNeighbors(const FluidSnapshot& s, const FluidSums& sums, con
   return {};
 }
 
+/// A phase before time begins has something left to do, and not more than it starts with.
+bool validPhase(const FluidControl& control, const SnapshotShape& shape) {
+  const uint32_t left = control.phaseLeft;
+  if (control.phase > kPhaseInitialPressure) return false;
+  if (control.nextPhase == kPhaseAdvancing) return left == 0;
+  if (control.nextPhase == kPhaseSettling) return left > 0 && left <= kSettleSubsteps;
+  return control.nextPhase == kPhaseInitialPressure && left > 0 && left <= shape.initialPressureIterations;
+}
+
 /// Where a particle's groups of four lie in its chunk's list, in entries; groups follow at a distance of 4 kListBlock.
 uint64_t firstEntry(uint32_t local, uint32_t capacity) {
   return (uint64_t{local / kListBlock} * capacity / 4 * kListBlock + local % kListBlock) * 4;
@@ -105,13 +114,14 @@ SnapshotShape snapshotShape(const FluidSetup& setup) {
       setup.near,         setup.movingSolids};
 }
 
-bool hasNeighbors(const FluidSnapshot& snapshot) { return record<FluidControl>(snapshot.control).stale == 0; }
+bool hasNeighbors(const FluidSnapshot& snapshot) { return record<FluidControl>(snapshot.control).listState == kListValid; }
 
 void forgetNeighbors(FluidSnapshot& s) {
   auto control = record<FluidControl>(s.control);
   auto sums = record<FluidSums>(s.sums);
-  control.stale = 1;
-  control.initialPressure = 0;  // what it goes by is not put in a new order: the pressure found so far has to do
+  control.listState = kListDue;
+  // What the solve goes by is not put in a new order: the pressure found so far has to do.
+  if (control.nextPhase == kPhaseInitialPressure) control.nextPhase = kPhaseAdvancing, control.phaseLeft = 0;
   sums.planeCount = sums.cornerCount = 0;
   s.control = wordsOf(control);
   s.sums = wordsOf(sums);
@@ -154,8 +164,7 @@ Expected<void> checkSnapshot(const FluidSnapshot& snapshot, const SnapshotShape&
   if (auto right = checkLengths(snapshot, shape); !right) return right;
   const auto control = record<FluidControl>(snapshot.control);
   const auto sums = record<FluidSums>(snapshot.sums);
-  if (control.stale > 1 || control.settling > kSettleSubsteps || control.initialPressure > shape.initialPressureIterations ||
-      control.timeLeft != 0)
+  if (control.listState > kListDue || !validPhase(control, shape) || control.timeLeft != 0)
     return wrong("its control block is not that of an advance's end");
   std::vector<bool> seen(shape.count);
   if (!markNew(seen, snapshot.id)) return wrong("its ids are not 0 to " + std::to_string(shape.count - 1) + ", each once");

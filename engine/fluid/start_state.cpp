@@ -71,10 +71,10 @@ void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
   sums.speedMax = std::bit_cast<uint32_t>(fastest);
 
   FluidControl control{};
-  control.stale = 2;
+  control.listState = kListNone;
   control.speed = fastest;
-  control.momentum = -1;  // not an iteration of the initial pressure
-  control.settling = settle ? kSettleSubsteps : 0;
+  control.nextPhase = settle ? kPhaseSettling : kPhaseAdvancing;
+  control.phaseLeft = settle ? kSettleSubsteps : 0;
   control.desiredStep = static_cast<float>(setup.firstStep);
 
   stageParticles(std::move(positions), std::move(velocities));

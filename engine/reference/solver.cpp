@@ -64,7 +64,7 @@ void ReferenceSolver::begin(double dt) {
   predict(dt, dt);
 }
 
-void ReferenceSolver::press(double dt, double momentum, int iterations) {
+void ReferenceSolver::solveInitialPressure(double dt, double momentum, int iterations) {
   updateRestFactor();
   const double omega = std::lerp(settings.relaxation, settings.relaxationAtRest, restFactor_);
   std::vector<double> change(size(), 0);

@@ -104,14 +104,14 @@ class ReferenceSolver {
   /// Particles without warm start (w = 0), with ids 0, 1, ... and x* = x. Empty `velocities`: all 0.
   ReferenceSolver(const ReferenceSettings& settings, std::span<const glm::dvec3> positions, std::span<const glm::dvec3> velocities = {});
 
-  /// Predicts the first substep of `dt` (s, > 0), from the pressure of press() if it was called. Deactivates non-finite particles:
-  /// positions become the lower corner (0 on open sides), velocities 0.
+  /// Predicts the first substep of `dt` (s, > 0), from the pressure of solveInitialPressure() if it was called. Deactivates non-finite
+  /// particles: positions become the lower corner (0 on open sides), velocities 0.
   void begin(double dt);
 
   /// Solves for the initial hydrostatic pressure, w for a step of `dt` (s, > 0). Call before begin(), with finite particles. Jacobi
   /// iterations with heavy-ball momentum (Polyak 1964) at fixed positions: x*_i = x_i + g dt^2 + a_i sum_j (w_i + w_j) G_ij + w_i grad B_i,
   /// projected out of solids and walls, then w_i = min(0, min(0, w_i + momentum * previous change of w_i) + delta_i).
-  void press(double dt, double momentum, int iterations);
+  void solveInitialPressure(double dt, double momentum, int iterations);
 
   /// Runs a substep of `dt`, the `dtNext` of the previous call or the `dt` of begin(), and predicts one of `dtNext`. s, > 0.
   void substep(double dt, double dtNext);
@@ -169,7 +169,7 @@ class ReferenceSolver {
   std::vector<SphereTable> sphereTables_;  ///< one per solid; empty for boxes
   double time_ = 0;
   double step_ = 0;                 ///< s; state.predicted is at time_ + step_
-  double initialPressureStep_ = 0;  ///< s, `dt` of press(); 0: not called
+  double initialPressureStep_ = 0;  ///< s, `dt` of solveInitialPressure(); 0: not called
   uint64_t inactive_ = 0;
   std::vector<uint32_t> first_;
   std::vector<Pair> pairs_;

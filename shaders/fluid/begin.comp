@@ -32,13 +32,13 @@ void main() {
   if (going) {
     c.nextStep = fittedStep(push.advance, c.desiredStep);
     // the last advance was cut short; once a solid moves, the initial pressure no longer fits
-    if (push.drivenSpeed > 0.0) c.initialPressure = 0u;
-    if (c.initialPressure > 0u) c.nextStep = params.initialPressureStep;
+    if (push.drivenSpeed > 0.0 && c.nextPhase == kPhaseInitialPressure) setNextPhase(c, kPhaseAdvancing, 0u);
+    if (c.nextPhase == kPhaseInitialPressure) c.nextStep = params.initialPressureStep;
     if (c.warmStep <= 0.0) c.warmStep = c.nextStep;
     float nextTravel = c.travel + (c.speed + c.solidSpeed + acceleration * c.nextStep) * c.nextStep;
-    if (c.initialPressure == 0u && nextTravel > params.travelLimit) c.stale = max(c.stale, 1u);
+    if (c.nextPhase != kPhaseInitialPressure && nextTravel > params.travelLimit && c.listState == kListValid) c.listState = kListDue;
   }
-  c.running = going && c.stale == 0u ? 1u : 0u;
+  c.running = going && c.listState == kListValid ? 1u : 0u;
   c.again = 0u;
   switchCommands(push.commands, c, kNoSubstep, s);
   control = c;

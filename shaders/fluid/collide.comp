@@ -34,7 +34,7 @@ void main() {
   if (!isActive(from)) return;
   float pushed;
   vec3 x = outside(from, 0.0, pushed);
-  if (control.step == 0.0) {  // settling, or finding the initial pressure
+  if (control.phase != kPhaseAdvancing) {
     position[i] = vec4(x, 0.0);
     predict(i, x, velocity[i].xyz);
     return;

@@ -16,6 +16,42 @@ layout(std430, binding = 5) readonly buffer GravityBlock { vec4 gravityChanges[]
 #include "fluid/step_plan.glsl"
 #include "fluid/dispatch_commands.glsl"
 
+// Settling: particles that overlap at the start are separated by position corrections without a
+// step in time, which add no velocity.
+void settle(inout FluidControl c, float error, float errorMax) {
+  float enough = params.tolerance > 0.0 ? min(params.tolerance, 0.001) : 0.001;
+  // What is left becomes speed in the first step: a small part of what a correction may always
+  // add. Rounding leaves 1e-6.
+  if (params.minSpeedGain > 0.0) enough = min(enough, max(0.05 * params.minSpeedGain * c.nextStep / params.spacing, 2.0e-6));
+  // small enough for the initial pressure to be solved
+  float rest = params.initialPressureIterations > 0u ? min(0.5 * enough, params.initialPressureErrorLimit) : 0.5 * enough;
+  bool apart = error <= rest && errorMax <= 20.0 * enough;
+  if (!apart && c.phaseLeft > 1u) {
+    setNextPhase(c, kPhaseSettling, c.phaseLeft - 1u);
+  } else if (params.initialPressureIterations > 0u && error <= params.initialPressureErrorLimit) {
+    setNextPhase(c, kPhaseInitialPressure, params.initialPressureIterations);
+    c.nextStep = c.warmStep = params.initialPressureStep;
+  } else {
+    setNextPhase(c, kPhaseAdvancing, 0u);
+  }
+  setGains(c);
+  c.travel += 0.1 * params.spacing;
+  if (c.travel > params.travelLimit) c.listState = kListDue;
+}
+
+// Initial pressure: the hydrostatic equilibrium of the start, solved in a step of its own: see
+// docs/notes/initial-pressure.md.
+void iteratePressure(inout FluidControl c) {
+  c.warmStep = c.nextStep;
+  if (c.phaseLeft > 1u) {
+    c.phaseLeft -= 1u;
+  } else {
+    setNextPhase(c, kPhaseAdvancing, 0u);
+    c.nextStep = fittedStep(c.timeLeft, c.desiredStep);
+  }
+  setGains(c);
+}
+
 void main() {
   FluidControl c = control;
   FluidSums s = sums;
@@ -36,42 +72,15 @@ void main() {
   sums.errorHigh = 0u;
   sums.errorMax = 0u;
 
-  // Settling: particles that overlap at the start are separated by position corrections without a
-  // step in time, which add no velocity.
-  if (first && c.settling > 0u) {
-    float enough = params.tolerance > 0.0 ? min(params.tolerance, 0.001) : 0.001;
-    // What is left becomes speed in the first step: a small part of what a correction may always
-    // add. Rounding leaves 1e-6.
-    if (params.minSpeedGain > 0.0) enough = min(enough, max(0.05 * params.minSpeedGain * c.nextStep / params.spacing, 2.0e-6));
-    // small enough for the initial pressure to be solved
-    float rest = params.initialPressureIterations > 0u ? min(0.5 * enough, params.initialPressureErrorLimit) : 0.5 * enough;
-    bool apart = error <= rest && uintBitsToFloat(s.errorMax) <= 20.0 * enough;
-    c.settling = apart ? 0u : c.settling - 1u;
+  if (first) c.phase = c.nextPhase;
+  if (first && c.phase != kPhaseAdvancing) {
+    again = false;
     c.step = 0.0;
     c.noiseDamping = 0.0;
     c.artificialPressure = 0.0;
-    setGains(c);
-    if (c.settling == 0u && params.initialPressureIterations > 0u && error <= params.initialPressureErrorLimit) {
-      c.initialPressure = params.initialPressureIterations;
-      c.nextStep = c.warmStep = params.initialPressureStep;
-    }
-    c.travel += 0.1 * params.spacing;
-    if (c.travel > params.travelLimit) c.stale = 1u;
-    again = false;
-  } else if (first && c.initialPressure > 0u) {
-    // Initial pressure: the hydrostatic equilibrium of the start, solved in a step of its own: see
-    // docs/notes/initial-pressure.md.
-    c.initialPressure -= 1u;
-    c.momentum = c.initialPressure > 0u ? params.initialPressureMomentum : 0.0;
-    c.warmStep = c.nextStep;
-    c.step = 0.0;
-    c.noiseDamping = 0.0;
-    c.artificialPressure = 0.0;
-    setGains(c);
-    if (c.initialPressure == 0u) c.nextStep = fittedStep(c.timeLeft, c.desiredStep);
-    again = false;
+    if (c.phase == kPhaseSettling) settle(c, error, uintBitsToFloat(s.errorMax));
+    else iteratePressure(c);
   } else if (first) {
-    c.momentum = -1.0;
     c.step = c.nextStep;
     c.error = error;
     c.speed = max(uintBitsToFloat(s.speedMax), 0.0);
@@ -92,11 +101,11 @@ void main() {
       c.timeLeft = 0.0;
     }
     c.nextStep = c.timeLeft > 0.0 ? fittedStep(c.timeLeft, c.desiredStep) : c.desiredStep;
-    if (c.travel + (c.speed + c.solidSpeed + acceleration * c.nextStep) * c.nextStep > params.travelLimit) c.stale = 1u;
+    if (c.travel + (c.speed + c.solidSpeed + acceleration * c.nextStep) * c.nextStep > params.travelLimit) c.listState = kListDue;
   }
 
   if (first && c.noiseDamping > 0.0) c.executedNoiseDampings += 1u;
-  c.running = c.timeLeft > 0.0 && c.stale == 0u ? 1u : 0u;
+  c.running = c.timeLeft > 0.0 && c.listState == kListValid ? 1u : 0u;
   c.again = again ? 1u : 0u;
   switchCommands(push.commands, c, push.parity, s);
   control = c;

@@ -80,8 +80,8 @@ void main() {
 
   vec3 from = position[i].xyz, before = velocity[i].xyz;
   vec4 pushedBy = WARM ? warmAcceleration[i] : vec4(0.0);
-  bool presses = control.momentum >= 0.0, still = control.step == 0.0;  // no time passes
-  vec3 to = presses ? from : insideWalls(here + moved);
+  bool solvesPressure = control.phase == kPhaseInitialPressure;
+  vec3 to = solvesPressure ? from : insideWalls(here + moved);
   // A correction separates particles in full, but adds no more speed than can have brought them
   // together: see docs/notes/overlaps.md.
   vec3 gained = to - here;
@@ -99,7 +99,7 @@ void main() {
   way *= min(1.0, min(most, params.speedLimit * control.step) / max(sqrt(dot(way, way)), 1.0e-20));
   // not (to - from): a particle that starts outside the walls is moved inside without a change of
   // velocity
-  vec3 v = still ? before : way / control.step;
+  vec3 v = control.phase == kPhaseAdvancing ? way / control.step : before;
   vec3 away = pushed / (control.warmStep * control.warmStep);
   vec3 next = insideWalls(predicted(to, v, away));
   bool finite = isFinite(to) && isFinite(next);
@@ -113,9 +113,10 @@ void main() {
     if (WARM) warm[i] = 0.0;
   }
   float found = 0.0;
-  if (WARM && presses) {  // heavy ball (Polyak 1964): the last change goes on in the next
+  if (WARM && solvesPressure) {  // heavy ball (Polyak 1964): the last change goes on in the next, if there is one
     found = warm[i];
-    warm[i] = min(0.0, found + control.momentum * (found - pushedBy.w));
+    float momentum = control.nextPhase == kPhaseInitialPressure ? params.initialPressureMomentum : 0.0;
+    warm[i] = min(0.0, found + momentum * (found - pushedBy.w));
   }
   position[i] = vec4(to, 0.0);
   if (SOLIDS) freeVelocity[i] = vec4(before + control.step * gravity(), prediction[i].w);

@@ -67,11 +67,11 @@ void main() {
     float ratio = control.nextStep / control.warmStep;
     before = warm[i] * ratio * ratio;  // 0 while particles settle
     after = min(0.0, before + delta);
-    float gain = control.initialPressure != 0u ? 1.0 : control.nextWarmGain * (delta > 0.0 ? params.warmRelease : 1.0);
+    float gain = control.nextPhase == kPhaseInitialPressure ? 1.0 : control.nextWarmGain * (delta > 0.0 ? params.warmRelease : 1.0);
     warmNext = min(0.0, before + gain * delta);
     // bounded: in fluid without room it would grow without limit
     warmNext = max(warmNext, -params.warmLimit * control.nextStep * control.nextStep);
-    if (control.settling != 0u) warmNext = 0.0;
+    if (control.nextPhase == kPhaseSettling) warmNext = 0.0;
     warm[i] = warmNext;
   } else {
     before = multiplier[i];

@@ -12,7 +12,7 @@ bool isStarted(uint start, FluidControl c, uint parity) {
     case kStartCorrectEven: return parity == 0u;
     case kStartCorrectOdd: return parity == 1u;
     case kStartNoiseDamping: return parity != kNoSubstep && c.noiseDamping > 0.0;
-    case kStartRebuild: return c.stale == 2u || (c.stale == 1u && c.timeLeft > 0.0);
+    case kStartRebuild: return c.listState == kListNone || (c.listState == kListDue && c.timeLeft > 0.0);
   }
   return true;
 }

@@ -13,8 +13,9 @@ layout(std430, binding = 5) readonly buffer GravityBlock { vec4 gravityChanges[]
 
 void main() {
   FluidControl c = control;
-  if (c.stale == 0u || (c.stale == 1u && c.timeLeft <= 0.0)) return;
-  c.stale = c.timeLeft > 0.0 ? 0u : 1u;  // a list of the start state, for figures alone: the first advance makes one of its predictions
+  if (c.listState == kListValid || (c.listState == kListDue && c.timeLeft <= 0.0)) return;
+  // without an advance a list of the start state, for figures alone: the first advance makes one of its predictions
+  c.listState = c.timeLeft > 0.0 ? kListValid : kListDue;
   c.travel = 0.0;
   c.builds += 1u;
   c.executedBuilds += 1u;

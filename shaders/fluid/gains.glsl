@@ -9,7 +9,7 @@ void setGains(inout FluidControl c) {
   c.relaxation = c.nextRelaxation;
   c.warmGain = c.nextWarmGain;
   // settling corrections add no velocity
-  c.nextRelaxation = mix(params.relaxationInMotion, params.relaxationAtRest, c.settling > 0u ? 0.0 : c.restFraction);
+  c.nextRelaxation = mix(params.relaxationInMotion, params.relaxationAtRest, c.nextPhase == kPhaseSettling ? 0.0 : c.restFraction);
   c.nextWarmGain = mix(params.warmGainInMotion, params.warmGainAtRest, c.restFraction);
 }
 #endif

@@ -34,6 +34,11 @@ float fittedStep(float rest, float wanted) {
   return rest / max(ceil(rest / wanted - 0.25), 1.0);
 }
 
+void setNextPhase(inout FluidControl c, uint phase, uint left) {
+  c.nextPhase = phase;
+  c.phaseLeft = left;
+}
+
 // Noise damping and artificial pressure act in the first substep of a block, for the time since the last one.
 void planBlock(inout FluidControl c, bool blockStart) {
   c.noiseDamping = 0.0;

@@ -32,12 +32,12 @@ vec3 gravity() { return vec3(control.gravityX, control.gravityY, control.gravity
 
 // The prediction of the next substep, before walls and solids; `away`: acceleration of the warm start, m/s^2.
 vec3 predicted(vec3 x, vec3 v, vec3 away) {
-  if (control.settling != 0u) return x;
-  if (control.initialPressure != 0u) v = vec3(0.0);  // the initial pressure balances weight, not motion
+  if (control.nextPhase == kPhaseSettling) return x;
+  if (control.nextPhase == kPhaseInitialPressure) v = vec3(0.0);  // the initial pressure balances weight, not motion
   return x + control.nextStep * (v + control.nextStep * (gravity() + away));
 }
 
 // Seconds from now to the predicted instant, for the pose of solids, which do not move before the
 // first substep in time.
-float ahead() { return control.settling != 0u || control.initialPressure != 0u ? 0.0 : control.nextStep; }
+float ahead() { return control.nextPhase == kPhaseAdvancing ? control.nextStep : 0.0; }
 #endif

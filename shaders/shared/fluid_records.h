@@ -107,10 +107,20 @@ struct FluidParams {
   uint fullNeighbors;    // within the support: a particle with as many is inside the fluid
 };
 
+// Phases of the solver; the two before time begins need no step in time.
+RILL_CONST uint kPhaseAdvancing = 0u;
+RILL_CONST uint kPhaseSettling = 1u;          // particles that overlap at the start part without gaining speed
+RILL_CONST uint kPhaseInitialPressure = 2u;   // the hydrostatic pressure is solved for; nothing moves
+
+// States of the neighbor list.
+RILL_CONST uint kListValid = 0u;
+RILL_CONST uint kListDue = 1u;                // it must be rebuilt before the next substep
+RILL_CONST uint kListNone = 2u;               // there has been none yet
+
 // Decided on the device, substep by substep; read as a uniform block by the passes, written by
 // control.comp and begin.comp.
 struct FluidControl {
-  float step;          // s, of the substep that control.comp has accounted for last; 0: it settled or pressed
+  float step;          // s, of the substep that control.comp has accounted for last; 0 before time begins
   float nextStep;      // s, of the one whose prediction is at hand or is about to be made
   float warmStep;      // s, the step that the stored multipliers are expressed for
   float timeLeft;      // s of the advance
@@ -121,7 +131,7 @@ struct FluidControl {
   float speed;         // m/s, the fastest particle
   float error;         // mean compression of the last prediction
   float gravityX, gravityY, gravityZ;  // m/s^2, for the prediction of the next substep
-  uint stale;          // 1: the list must be rebuilt before the next substep; 2: there has been none yet
+  uint listState;      // kListValid, kListDue or kListNone
   uint substeps;       // of the advance
   uint iterations;     // of the advance
   uint builds;         // list builds of the advance
@@ -136,10 +146,9 @@ struct FluidControl {
   float noiseDamping;       // XSPH coefficient of the noise damping pass after this substep; 0: it does not run
   float artificialPressure;       // artificial pressure of this substep, over 1 / D of the rest lattice; 0 in all but the first of a block
   float blockTime;     // s since the last substep that was the first of its block
-  uint settling;       // substeps left, at most, in which particles that overlap at the start part without gaining speed
+  uint phase, nextPhase;  // of the substep that control.comp has accounted for last, and of the next, as with step and nextStep
+  uint phaseLeft;      // substeps of the next phase left, at most; 0 while time advances
   float solidSpeed;    // m/s, the fastest solid of the advance
-  uint initialPressure;       // iterations of the initial pressure left, after settling; nothing moves
-  float momentum;      // of the one at hand; negative: the substep at hand is none of them
   // Since the start, what prepares it too: for the host, which takes differences. Of the substeps,
   // the first ones of their blocks; of these, those that the noise damping pass ran in.
   uint executedSubsteps, executedIterations, executedBuilds, executedBlocks, executedNoiseDampings;

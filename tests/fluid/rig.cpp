@@ -179,7 +179,7 @@ double Snapshot::fastest() const {
 Oracle::Oracle(const Trial& trial) : trial_(trial), solver_(settingsOf(trial), rounded(trial.x), rounded(trial.v)) {
   const FluidParams p = setupOf(trial).params;
   if (trial.settle && p.initialPressureIterations > 0)
-    solver_.press(p.initialPressureStep, p.initialPressureMomentum, static_cast<int>(p.initialPressureIterations));
+    solver_.solveInitialPressure(p.initialPressureStep, p.initialPressureMomentum, static_cast<int>(p.initialPressureIterations));
   solver_.begin(trial.step);
 }
 

@@ -39,7 +39,7 @@ inline std::vector<std::string> checkpointSeeds() {
   std::vector<std::string> seeds;
   offline::Checkpoint withoutList = seedCheckpoint(), empty;
   FluidSnapshot& s = withoutList.fluid;
-  s.control[offsetof(FluidControl, stale) / 4] = 1;
+  s.control[offsetof(FluidControl, listState) / 4] = kListDue;
   for (auto* array : {&s.neighborCount, &s.neighbors, &s.cell}) array->clear();
   for (const offline::Checkpoint& c : {seedCheckpoint(), withoutList, empty}) {
     const auto bytes = offline::encodeCheckpoint(c);

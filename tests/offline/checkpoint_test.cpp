@@ -166,9 +166,18 @@ TEST_F(SnapshotCheck, RejectsInvalidIndices) {
   expectRejected("cells");
   s.listCapacity += 4;
   expectRejected("lists hold");
-  s.control[offsetof(FluidControl, stale) / 4] = 2;
+  s.control[offsetof(FluidControl, listState) / 4] = kListNone;
   expectRejected("control block");
-  s.control[offsetof(FluidControl, settling) / 4] = 1 << 30;
+  for (const uint32_t phase : {kPhaseSettling, kPhaseInitialPressure, kPhaseInitialPressure + 1}) {
+    for (const uint32_t left : {0u, 1u << 30}) {
+      s.control[offsetof(FluidControl, nextPhase) / 4] = phase;
+      s.control[offsetof(FluidControl, phaseLeft) / 4] = left;
+      expectRejected("control block");
+    }
+  }
+  s.control[offsetof(FluidControl, phaseLeft) / 4] = 1;
+  expectRejected("control block");
+  s.control[offsetof(FluidControl, phase) / 4] = kPhaseInitialPressure + 1;
   expectRejected("control block");
   s.control.clear();
   expectRejected("control has 0 entries");

@@ -77,7 +77,7 @@ double maxAccelerationOfPressurizedColumn(ReferenceSettings s, int layers) {
   s.relaxation = 0.4;
   ReferenceSolver solver(s, lattice(6, layers, 6, kTankSpacing));
   const double dt = 1e-3, g = 9.81;
-  solver.press(dt, 0.8, 400);
+  solver.solveInitialPressure(dt, 0.8, 400);
   solver.begin(dt);
   double largest = 0;
   for (size_t i = 0; i < solver.size(); ++i) {

@@ -1,0 +1,20 @@
+#pragma once
+// From a scene's walls and solids to what the shaders read of them. Lengths relative to the particles' origin.
+#include "fluid/settings.hpp"
+#include "sph/kernel.hpp"
+
+namespace rill {
+
+/// m/s, of all solids that keyframes move.
+double fastestSolid(const Scene& scene);
+/// m/s, of all solids that the host moves.
+double fastestDriven(const Scene& scene);
+
+/// The records of a scene's solids at time 0, their keyframes, and the tables of its spheres.
+void addSolids(const Scene& scene, const SmoothingKernel& kernel, const double origin[3], FluidSetup& setup);
+/// Walls, the domain's bounds, and how near a center may come to them.
+void setWalls(const Scene& scene, const double origin[3], FluidParams& p);
+/// The density that walls displace: plane, edge, corner and face.
+void addWallTables(const SmoothingKernel& kernel, FluidSetup& setup);
+
+}  // namespace rill

@@ -1,0 +1,158 @@
+#include "fluid/stability_limits.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fluid/numbers.hpp"
+#include "shared/fluid_records.h"
+#include "sph/jacobi_limit.hpp"
+#include "sph/start_pressure.hpp"
+
+namespace rill {
+namespace {
+
+// At most; more brings nothing even where it converges.
+constexpr double kRelaxation = 0.7;
+// Of the linear limit, which is that of a lattice: disorder is stiffer.
+constexpr double kOfJacobiLimit = 0.92;
+// And at rest, where a correction is a speed in the next substep: see docs/notes/noise-damping.md (2).
+constexpr double kOfJacobiLimitAtRest = 0.6;
+
+// Of the rest lattice's sum |grad C|^2: bounds the correction of isolated pairs.
+constexpr double kRegularization = 0.02;
+constexpr double kWarmGain = 0.02;
+// Poly6 with spiky does work in loops. At these two a wave breaks faster than that feeds it; at 5, and at a gain of 0.5, energy grew by a
+// sixth: see docs/notes/kernel-choice.md.
+constexpr double kMaxRegularizationPoly6Spiky = 1, kMaxWarmGainPoly6Spiky = 0.02;
+// At rest, over the square of the column's layers, and at most: its longest wave gains kappa / 2 a substep.
+constexpr double kWarmGainAtRest = 1.2, kMaxWarmGainAtRest = 0.005;
+// With this kappa pressure still followed a dam's flow; without one the start's would stay for ever.
+constexpr double kLeastFollowing = 0.001;
+
+// A layer: the mean error that the step follows at rest; the column's first wave takes about seven.
+constexpr double kErrorSubsteps = 10;
+// Of the speed of falling through all the fluid's height: see docs/notes/noise-damping.md.
+constexpr double kMotionShare = 0.5;
+
+// How much less error a step bears with a warm start: at 0.05 0.0032 held, 0.0036 gained a quarter of energy; at 0.02 0.0036 gained 2.5 %.
+constexpr double kStableGain = 40;
+// Mean compression of a column, over that of one which rests on its corrections alone (see stepOfError).
+constexpr double kErrorOfHead = 0.38;
+
+// w is -p dt^2 / rho for a pressure p: twice that of water as high as the room.
+constexpr double kWarmLimit = 1;
+// Of the usual speed: what a correction may always add, and never more than. See docs/notes/overlaps.md.
+constexpr double kMinSpeedGain = 0.06, kMaxSpeedGain = 0.5;
+// Of the usual speed: jets at walls reach two or three times that.
+constexpr double kSpeedLimit = 8;
+
+double wantedWarmGain(const Scene& scene) { return scene.solver.warm_start.value_or(scene.solver.iterations == 1 ? kWarmGain : 0.0); }
+
+// epsilon stands beside D in what divides a correction.
+double softnessOf(const Scene& scene) {
+  return (1 + std::max(boundedRegularization(scene).taken, kRegularization)) / (1 + kRegularization);
+}
+
+}  // namespace
+
+double strongestGravity(const Scene& scene) {
+  double most = length(scene.gravity);
+  for (const GravityChange& change : scene.gravity_changes) most = std::max(most, length(change.value));
+  return most;
+}
+
+double columnHead(const Scene& scene, const double extent[3]) {
+  double head = 0;
+  for (int a = 0; a < 3; ++a) {
+    double most = std::abs(scene.gravity[a]);
+    for (const GravityChange& change : scene.gravity_changes) most = std::max(most, std::abs(change.value[a]));
+    head += most * std::max(extent[a], scene.fluid.spacing);
+  }
+  return head;
+}
+
+double columnLayers(const Scene& scene, double head) { return head / (std::max(strongestGravity(scene), 1e-20) * scene.fluid.spacing); }
+
+Bounded boundedRegularization(const Scene& scene) {
+  const double wanted = scene.solver.regularization.value_or(kRegularization);
+  return {wanted, scene.solver.kernel == KernelChoice::Poly6Spiky ? std::min(wanted, kMaxRegularizationPoly6Spiky) : wanted};
+}
+
+// A wave is fed where its correction is the smaller.
+Bounded boundedWarmGain(const Scene& scene) {
+  const double wanted = wantedWarmGain(scene);
+  const double most = scene.solver.kernel == KernelChoice::Poly6Spiky ? kMaxWarmGainPoly6Spiky : wanted;
+  return {wanted, std::min(wanted, most) / softnessOf(scene)};
+}
+
+StabilityLimits::StabilityLimits(const Scene& scene, const SmoothingKernel& kernel)
+    : scene_(scene), kernel_(kernel), regularization_(boundedRegularization(scene).taken), softness_(softnessOf(scene)) {
+  const double most = maxJacobiRelaxation(kernel);
+  relaxationLimit = kOfJacobiLimit * most;
+  relaxationWanted = scene.solver.relaxation.value_or(std::min(kRelaxation, relaxationLimit));
+  relaxationInMotion = f(std::min(relaxationWanted, relaxationLimit));
+  relaxationAtRest = scene.solver.relaxation ? relaxationInMotion : f(std::min(relaxationWanted, kOfJacobiLimitAtRest * most));
+  warmGainInMotion = f(boundedWarmGain(scene).taken);
+}
+
+// The step in which the mean compression of a column is `error`, over dt^2 g H / d^2. Corrections hold a column up where
+// 2 omega / D grad C = g dt^2, so that it is D d^2 / (4 omega) at rest; in the dam breaks of assets/scenes it is less, 0.06 at h = 2 d.
+double StabilityLimits::stepOfError(double error, double head, double relaxation) const {
+  const double d = kernel_.spacing();
+  // With a short support the gradients grow as soon as particles come nearer.
+  double gradients = kernel_.restGradientSum();
+  for (const double nearer : {1.1, 1.2, 1.3})
+    gradients = std::max(gradients, SmoothingKernel(kernel_.choice(), nearer * kernel_.h(), d).restGradientSum());
+  const double errorOfHead = kErrorOfHead * gradients * d * d / (4 * relaxation);
+  return d * std::sqrt(error / (errorOfHead * head));
+}
+
+double StabilityLimits::bearableStep(double head, uint32_t iterations, double gain) const {
+  const double error = kStableError * iterations / (1 + kStableGain * softness_ * gain);
+  return stepOfError(error, head, relaxationInMotion / softness_);
+}
+
+double StabilityLimits::longestStep(double head) const { return bearableStep(head, scene_.solver.iterations, warmGainInMotion); }
+
+// Half of what the tolerance allows: from the whole step on, a dam's worst particles are a quarter more compressed.
+double StabilityLimits::firstStep(double head) const {
+  if (scene_.solver.tolerance <= 0 || head <= 0) return std::numeric_limits<double>::infinity();
+  return 0.5 * stepOfError(scene_.solver.tolerance, head, relaxationAtRest / softness_);
+}
+
+double StabilityLimits::warmGainAtRest(double head) const {
+  const double layers = columnLayers(scene_, head), gain = boundedWarmGain(scene_).taken;
+  return scene_.solver.warm_start ? gain : std::min({gain, kMaxWarmGainAtRest, kWarmGainAtRest / (layers * layers)});
+}
+
+double StabilityLimits::motionSpeed(double head) const { return kMotionShare * std::sqrt(2 * head); }
+
+double StabilityLimits::errorRateShareAtRest(double head) const { return 1 / std::max(1.0, kErrorSubsteps * columnLayers(scene_, head)); }
+
+// It is found for the longest step in which the defaults bear the fluid: in shorter ones the rounding of positions hides it, in longer ones
+// the column folds. Where no pressure is carried from substep to substep there is none.
+InitialPressure StabilityLimits::initialPressure(double head, double room) const {
+  if (head <= 0 || warmGainInMotion < f(kLeastFollowing)) return {};
+  const StartPressure start =
+      startPressure(kernel_, relaxationAtRest, regularization_, columnLayers(scene_, head), kMaxInitialPressureIterations);
+  InitialPressure result{start.iterations, start.momentum, bearableStep(head, 1, kWarmGain / softness_), 0};
+  // A compression e of a column as high as all the fluid would be released within a step, at e times its height over that step: at most a
+  // twentieth of what falling through a spacing gives. And not below what rounding leaves of any start.
+  const double g = strongestGravity(scene_);
+  const double bearable = 0.05 * std::sqrt(g * scene_.fluid.spacing) * f(result.step) * g / head;
+  result.errorLimit = std::max({bearable, 2.0e-6, 0x1p-24 * room / scene_.fluid.spacing});
+  return result;
+}
+
+// The usual speed: what falling through all the room gives, what the fluid started with, what solids push it with.
+SpeedLimits speedLimits(const Scene& scene, const double extent[3], double fastest, double solids) {
+  double room[3];
+  const bool closed = scene.domain && scene.domain->open == 0;
+  for (int a = 0; a < 3; ++a) room[a] = std::max(extent[a], scene.domain ? scene.domain->max[a] - scene.domain->min[a] : 0);
+  const double usual = std::sqrt(2 * columnHead(scene, room) + fastest * fastest) + solids;
+  constexpr double kNone = 1e18;  // m/s: where nothing bounds the way that something falls
+  return {kWarmLimit * usual * usual, kMinSpeedGain * usual, closed ? kMaxSpeedGain * usual : kNone, closed ? kSpeedLimit * usual : kNone};
+}
+
+}  // namespace rill

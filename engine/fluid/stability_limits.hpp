@@ -1,0 +1,79 @@
+#pragma once
+// The longest steps and the largest gains that a fluid bears without gaining energy. See docs/notes/time-step-and-substeps.md and
+// docs/notes/noise-damping.md.
+#include <cstdint>
+
+#include "rill/scene.hpp"
+#include "sph/kernel.hpp"
+
+namespace rill {
+
+/// Mean compression by its own weight that an iteration bears. 0.007 held, 0.013 exploded (dam10k without warm start).
+inline constexpr double kStableError = 0.0055;
+
+/// m/s^2, of the whole schedule.
+double strongestGravity(const Scene& scene);
+/// m^2/s^2: gravity times the height of a column as high as `extent` (m), which sets its pressure.
+double columnHead(const Scene& scene, const double extent[3]);
+/// In spacings.
+double columnLayers(const Scene& scene, double head);
+
+/// Whether a scene asks for more than is stable, what it asks for, and what is taken.
+struct Bounded {
+  double wanted = 0, taken = 0;
+};
+/// epsilon, a fraction of the rest lattice's D.
+Bounded boundedRegularization(const Scene& scene);
+/// kappa of a fluid in motion: as much of it as the waves can bear.
+Bounded boundedWarmGain(const Scene& scene);
+
+/// The initial pressure: see engine/sph/start_pressure.hpp.
+struct InitialPressure {
+  uint32_t iterations = 0;  ///< 0: none
+  double momentum = 0;
+  double step = 0;        ///< s
+  double errorLimit = 0;  ///< mean compression up to which it is looked for
+};
+
+/// Limits of a scene's fluid. `head`: see columnHead().
+class StabilityLimits {
+ public:
+  StabilityLimits(const Scene& scene, const SmoothingKernel& kernel);
+
+  // As the device gets them.
+  float relaxationAtRest = 0, relaxationInMotion = 0;  ///< omega
+  float warmGainInMotion = 0;                          ///< kappa
+  double relaxationWanted = 0, relaxationLimit = 0;    ///< what the scene or its default asks for, and what converges
+
+  /// Makes every correction at rest smaller: times what the default regularization leaves of it.
+  double softness() const { return softness_; }
+  /// s; head > 0. A column that its weight compresses by too much in a step folds, and springs back with more energy than it had.
+  double longestStep(double head) const;
+  /// s, infinite without a tolerance or gravity. A fluid that is released without its pressure compresses, and springs back with what a
+  /// long step left.
+  double firstStep(double head) const;
+  double warmGainAtRest(double head) const;        ///< kappa
+  double motionSpeed(double head) const;           ///< m/s of the fastest particle, from which on a fluid is no longer at rest
+  double errorRateShareAtRest(double head) const;  ///< of a substep in the mean error that the step follows
+  /// `room`: the widest extent that positions have, m.
+  InitialPressure initialPressure(double head, double room) const;
+
+ private:
+  double bearableStep(double head, uint32_t iterations, double gain) const;
+  double stepOfError(double error, double head, double relaxation) const;
+
+  const Scene& scene_;
+  const SmoothingKernel& kernel_;
+  double regularization_, softness_;
+};
+
+/// Bounds on what a substep does to speeds.
+struct SpeedLimits {
+  double warm = 0;                  ///< m^2/s^2: the warm start is at most this times the step squared
+  double minGain = 0, maxGain = 0;  ///< m/s that a correction may add
+  double speed = 0;                 ///< m/s, of any particle
+};
+/// `extent` (m) and `fastest` (m/s): of the particles at the start; `solids`: m/s of the fastest solid.
+SpeedLimits speedLimits(const Scene& scene, const double extent[3], double fastest, double solids);
+
+}  // namespace rill
