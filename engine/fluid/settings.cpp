@@ -5,11 +5,11 @@
 #include <numbers>
 
 #include "core/words.hpp"
+#include "shape/pose.hpp"
 #include "sph/artificial_pressure.hpp"
 #include "sph/jacobi_limit.hpp"
 #include "sph/kernel.hpp"
 #include "sph/solid_density.hpp"
-#include "sph/solid_pose.hpp"
 #include "sph/start_pressure.hpp"
 #include "sph/wall.hpp"
 
@@ -91,11 +91,11 @@ void appendTable(std::vector<float>& tables, const std::vector<float>& table, ui
 
 void addSolids(const Scene& scene, const SmoothingKernel& kernel, const double origin[3], FluidSetup& setup) {
   for (const Solid& solid : scene.solids) {
-    const SolidPose pose = solidPose(solid, 0.0);
+    const Pose pose = solidPose(solid, 0.0);
+    const Vec3 half = halfExtents(solid.shape), translation = solidTranslation(solid, 0.0);
     SolidRecord record{};
-    record.shape = pose.sphere ? 1u : 0u;
-    double translation[3];
-    solidTranslation(solid, 0.0, translation);
+    const auto* sphere = std::get_if<SphereShape>(&solid.shape);
+    record.shape = sphere ? 1u : 0u;
     record.centerX = f(pose.center[0] - origin[0]);
     record.centerY = f(pose.center[1] - origin[1]);
     record.centerZ = f(pose.center[2] - origin[2]);
@@ -105,15 +105,15 @@ void addSolids(const Scene& scene, const SmoothingKernel& kernel, const double o
     record.velocityX = f(pose.velocity[0]);
     record.velocityY = f(pose.velocity[1]);
     record.velocityZ = f(pose.velocity[2]);
-    record.halfX = f(pose.half[0]);
-    record.halfY = f(pose.half[1]);
-    record.halfZ = f(pose.half[2]);
+    record.halfX = f(half[0]);
+    record.halfY = f(half[1]);
+    record.halfZ = f(half[2]);
     record.rotationX = f(pose.rotation[0]);
     record.rotationY = f(pose.rotation[1]);
     record.rotationZ = f(pose.rotation[2]);
     record.rotationW = f(pose.rotation[3]);
-    record.friction = f(pose.friction);
-    record.restitution = f(pose.restitution);
+    record.friction = f(solid.friction);
+    record.restitution = f(solid.restitution);
     record.firstKey = static_cast<uint32_t>(setup.keyframes.size() / 4);
     record.keyCount = static_cast<uint32_t>(solid.motion.size());
     for (const Keyframe& key : solid.motion) {
@@ -128,8 +128,8 @@ void addSolids(const Scene& scene, const SmoothingKernel& kernel, const double o
       record.baseX = record.baseY = record.baseZ = 0;
     }
     setup.movingSolids |= record.keyCount > 0;
-    if (pose.sphere) {
-      const SphereTable table = makeSphereTable(kernel, pose.half[0]);
+    if (sphere) {
+      const SphereTable table = makeSphereTable(kernel, sphere->radius);
       appendTable(setup.tables, table.table, record.tableOffset);
       record.tableNodes = table.nodes;
       record.tableFirst = f(table.first);

@@ -17,11 +17,6 @@ inline constexpr std::array<std::string_view, 4> kPresetWords{"water", "milk", "
 inline constexpr std::array<std::string_view, 4> kSurfaceWords{"auto", "planes", "curvature_flow", "narrow_range"};
 inline constexpr std::array<std::string_view, 0> kNoWords{};
 
-/// The JSON object that holds a file name: {"file": "settled.ply"}.
-struct FileName {
-  std::filesystem::path file;
-};
-
 template <>
 struct Table<Domain> {
   static constexpr std::string_view about = "An axis-aligned box of walls that bounds the fluid";
@@ -160,12 +155,12 @@ struct Table<SphereShape> {
 };
 
 template <>
-struct Table<FileName> {
+struct Table<ParticleFile> {
   static constexpr std::string_view about = "A file of particles";
   static constexpr std::array one_of = kNoWords;
   static constexpr std::tuple fields{
       Field{Info{.key = "file", .help = "PLY file (binary or ASCII); the path is relative to the scene file", .required = true},
-            &FileName::file}};
+            &ParticleFile::file}};
 };
 
 template <>
@@ -173,11 +168,13 @@ struct Table<Fill> {
   static constexpr std::string_view about = "Initial fluid, on a lattice of the spacing or from a file";
   static constexpr std::array<std::string_view, 3> one_of{"box", "sphere", "particles"};
   static constexpr std::tuple fields{
-      Field{Info{.key = "box",
-                 .help = "box with round((max - min) / spacing) particles along each axis, the first half a spacing inside min"},
-            &Fill::box},
-      Field{Info{.key = "sphere", .help = "sphere that contains the points of a lattice centered on its center"}, &Fill::sphere},
-      Field{Info{.key = "particles", .help = "positions from a file, and velocities if it has them"}, &Fill::particles},
+      alternative<BoxShape>(
+          Info{.key = "box",
+               .help = "box with round((max - min) / spacing) particles along each axis, the first half a spacing inside min"},
+          &Fill::shape),
+      alternative<SphereShape>(Info{.key = "sphere", .help = "sphere that contains the points of a lattice centered on its center"},
+                               &Fill::shape),
+      alternative<ParticleFile>(Info{.key = "particles", .help = "positions from a file, and velocities if it has them"}, &Fill::shape),
       Field{Info{.key = "velocity", .unit = "m/s", .help = "initial velocity [x, y, z]; added to a file's velocities"}, &Fill::velocity},
       Field{Info{.key = "jitter",
                  .range = between(0, 0.5),
@@ -200,8 +197,8 @@ struct Table<Solid> {
   static constexpr std::string_view about = "A solid that the fluid flows around";
   static constexpr std::array<std::string_view, 2> one_of{"box", "sphere"};
   static constexpr std::tuple fields{
-      Field{Info{.key = "box", .help = "corners before the rotation"}, &Solid::box},
-      Field{Info{.key = "sphere", .help = "center and radius"}, &Solid::sphere},
+      alternative<BoxShape>(Info{.key = "box", .help = "corners before the rotation"}, &Solid::shape),
+      alternative<SphereShape>(Info{.key = "sphere", .help = "center and radius"}, &Solid::shape),
       Field{
           Info{.key = "rotation", .help = "rotation about the solid's center: a quaternion [x, y, z, w], as in glTF; normalized when read"},
           &Solid::rotation},

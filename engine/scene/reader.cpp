@@ -250,13 +250,6 @@ bool Reader::value(const Json& json, const std::string& path, const model::Info&
   return true;
 }
 
-bool Reader::value(const Json& json, const std::string& path, const model::Info&, std::optional<fs::path>& out) {
-  model::FileName name;
-  if (!object(json, path, name)) return false;
-  out = std::move(name.file);
-  return true;
-}
-
 bool Reader::value(const Json& json, const std::string& path, const model::Info&, fs::path& out) {
   std::string given;
   if (!text(json, path, given)) return false;

@@ -55,12 +55,12 @@ class Reader {
     return found;
   }
 
-  template <class Owner, class T>
-  bool member(const Json& json, const std::string& path, const model::Field<Owner, T>& field, Owner& owner) {
-    if constexpr (model::kHasMember<T>) {
+  template <class Owner, class Field>
+  bool member(const Json& json, const std::string& path, const Field& field, Owner& owner) {
+    if constexpr (model::kHasMember<typename Field::Value>) {
       const auto found = json.find(std::string(field.info.key));
       const std::string here = memberPath(path, field.info.key);
-      if (found != json.end()) return value(*found, here, field.info, owner.*field.member);
+      if (found != json.end()) return value(*found, here, field.info, field.set(owner));
       if (field.info.required) return fail(here, "required key is missing: " + std::string(field.info.help));
     }
     return true;
@@ -81,7 +81,6 @@ class Reader {
   bool value(const Json& json, const std::string& path, const model::Info& info, SideMask& out);
   bool value(const Json& json, const std::string& path, const model::Info& info, std::optional<double>& out);
   bool value(const Json& json, const std::string& path, const model::Info& info, std::optional<std::pair<double, double>>& out);
-  bool value(const Json& json, const std::string& path, const model::Info& info, std::optional<std::filesystem::path>& out);
   bool value(const Json& json, const std::string& path, const model::Info& info, std::filesystem::path& out);
   bool value(const Json& json, const std::string& path, const model::Info& info, double (&out)[3]) {
     return numbers(json, path, info, "[x, y, z]", out);

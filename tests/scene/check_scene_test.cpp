@@ -81,13 +81,21 @@ TEST(CheckScene, RejectsInvalidValuesNamingKeyAndExpectation) {
       {[](Scene& s) { s.domain->max[0] = kNan; }, "domain.max[0]: nan is not finite; expected a number (m)"},
       {[](Scene& s) { s.domain->open = 0x40; },
        "domain.open: invalid bit mask 64; expected only the bits of \"-x\", \"+x\", \"-y\", \"+y\", \"-z\", \"+z\""},
-      {[](Scene& s) { s.fill[0].box.reset(); }, "fill[0]: expected exactly one of \"box\", \"sphere\", \"particles\"; found none"},
-      {[](Scene& s) { s.fill[1].particles = ""; }, "fill[1].particles.file: found \"\", expected a file name"},
+      {[](Scene& s) {
+         s.fill[0].shape = BoxShape{{0, 0, 0}, {1, 1, 0}};
+       },
+       "fill[0].box.max[2]: max is 0 and min is 0 along z; expected min below max on every axis"},
+      {[](Scene& s) { s.fill[1].shape = ParticleFile{}; }, "fill[1].particles.file: found \"\", expected a file name"},
       {[](Scene& s) { s.fill[0].jitter = 7; }, "fill[0].jitter: 7 is out of range; expected a number from 0 to 0.5"},
       {[](Scene& s) { s.fill[0].velocity[2] = kInf; }, "fill[0].velocity[2]: inf is not finite; expected a number (m/s)"},
-      {[](Scene& s) { s.fill[1].sphere->radius = -2; }, "fill[1].sphere.radius: -2 is out of range; expected a number above 0 (m)"},
-      {[](Scene& s) { s.solids[0].box.reset(); }, "solids[0]: expected exactly one of \"box\", \"sphere\"; found none"},
-      {[](Scene& s) { s.solids[1].box = BoxShape{}; }, "solids[1]: expected exactly one of \"box\", \"sphere\"; found \"box\", \"sphere\""},
+      {[](Scene& s) { std::get<SphereShape>(s.fill[1].shape).radius = -2; },
+       "fill[1].sphere.radius: -2 is out of range; expected a number above 0 (m)"},
+      {[](Scene& s) { std::get<BoxShape>(s.solids[0].shape).min[1] = kNan; },
+       "solids[0].box.min[1]: nan is not finite; expected a number (m)"},
+      {[](Scene& s) {
+         s.solids[1].shape = SphereShape{{0, 0, 0}, 0};
+       },
+       "solids[1].sphere.radius: 0 is out of range; expected a number above 0 (m)"},
       {[](Scene& s) { s.solids[0].rotation[3] = 0; },
        "solids[0].rotation: the quaternion has zero length; expected a non-zero quaternion, [0, 0, 0, 1] for no rotation"},
       {[](Scene& s) { s.solids[0].rotation[0] = 1; }, "solids[0].rotation: the quaternion's length is 1.414; expected 1"},

@@ -25,7 +25,9 @@ class Numbers {
   void object(Owner& owner) {
     model::forEachField<Owner>([&](const auto& field) {
       using Value = typename std::remove_cvref_t<decltype(field)>::Value;
-      if constexpr (model::kHasMember<Value>) add(owner.*field.member);
+      if constexpr (model::kHasMember<Value>) {
+        if (Value* value = field.find(owner)) add(*value);
+      }
     });
     if constexpr (std::is_same_v<Owner, Solid>) add(owner.driven);
   }

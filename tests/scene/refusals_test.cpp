@@ -246,7 +246,7 @@ TEST(SceneErrors, RejectsMissingParticleFile) {
   folder.write("settled.ply", "ply\n");
   const auto there = parseScene(text, "dam.json", folder.path);
   ASSERT_TRUE(there);
-  EXPECT_TRUE(there->fill[0].particles->is_absolute());
+  EXPECT_TRUE(std::get<ParticleFile>(there->fill[0].shape).file.is_absolute());
   EXPECT_NE(parseError(with(R"("fill": [{"particles": {"file": ""}}])")).find("expected a file name"), std::string::npos);
   EXPECT_NE(parseError(with(R"("fill": [{"particles": {}}])")).find("fill[0].particles.file: required key is missing"), std::string::npos);
   EXPECT_NE(parseError(with(R"("fill": [{"particles": {"file": "."}}])")).find("not a regular file; expected a file"), std::string::npos);

@@ -4,7 +4,7 @@
 //
 //   rill::Scene scene;
 //   scene.fluid.spacing = 0.04;
-//   scene.fill = {rill::Fill{.sphere = rill::SphereShape{{0, 1, 0}, 0.3}}};
+//   scene.fill = {rill::Fill{.shape = rill::SphereShape{{0, 1, 0}, 0.3}}};
 //   auto particles = rill::makeParticles(scene);
 //   auto water = rill::Fluid::create(device, {.scene = &scene, .particles = &*particles});
 //   if (!water) return fail(water.error().message);

@@ -1,0 +1,38 @@
+#pragma once
+// Where a solid is and how it moves; from its keyframes.
+#include "shape/shape.hpp"
+
+namespace rill {
+
+/// A position, an orientation and their rates of change, in scene coordinates or relative to an origin that the caller subtracts from
+/// `center`. The device's record of it is in shaders/shared/solid_records.h.
+struct Pose {
+  Vec3 center = {0, 0, 0};                        ///< m
+  std::array<double, 4> rotation = {0, 0, 0, 1};  ///< unit quaternion x y z w, from the solid's frame to the scene's
+  Vec3 velocity = {0, 0, 0};                      ///< of the center, m/s
+};
+
+/// Translation (m) by the keyframes at time `t` (s), relative to the initial pose: linear between keyframes, constant outside, 0 without
+/// keyframes.
+Vec3 solidTranslation(const Solid& solid, double t);
+
+/// The pose at `t` (s). The velocity is the slope of the keyframes, right-continuous; 0 before the first and after the last.
+Pose solidPose(const Solid& solid, double t);
+
+/// The pose at `t + dt` with the mean velocity over [t, t + dt], also across keyframes. dt: s, > 0.
+Pose solidPose(const Solid& solid, double t, double dt);
+
+/// A direction in the solid's frame, in the scene's.
+Vec3 toScene(const Pose& pose, const Vec3& local);
+/// A direction in the scene, in the solid's frame.
+Vec3 toSolid(const Pose& pose, const Vec3& direction);
+/// A point (m, in the frame of `pose.center`), in the solid's frame.
+Vec3 localPoint(const Pose& pose, const Vec3& x);
+
+/// Distance of `x` from a shape with this pose; `x` and the normal are in the frame of `pose.center`.
+SurfacePoint surfaceAt(const Shape& shape, const Pose& pose, const Vec3& x);
+
+/// Half extents along the axes of the scene of the box around a shape with this pose, m.
+Vec3 sceneExtents(const Shape& shape, const Pose& pose);
+
+}  // namespace rill
