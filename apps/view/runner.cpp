@@ -9,6 +9,7 @@
 #include "fluid/snapshot.hpp"
 #include "offline/readout.hpp"
 #include "offline/state_hash.hpp"
+#include "shape/records.hpp"
 #include "view/clock.hpp"
 
 namespace rill::view {
@@ -136,8 +137,7 @@ Expected<void> Runner::changeSolids(std::vector<Solid> solids) {
   now->solids.clear();
   for (size_t k = 0; k < solids.size(); ++k) {
     const Pose there = k < scene_.solids.size() ? pose(static_cast<uint32_t>(k)) : solidPose(solids[k], 0);
-    for (size_t a = 0; a < 3; ++a) now->solids.push_back(static_cast<float>(there.center[a] - start_.origin[a]));
-    for (double v : there.velocity) now->solids.push_back(static_cast<float>(v));
+    appendPose(recordOf(there, start_.origin), now->solids);
   }
   const bool anyMoves = std::ranges::any_of(solids, [](const Solid& solid) { return solid.driven > 0 || !solid.motion.empty(); });
   if (!anyMoves) now->solids.clear();
@@ -157,6 +157,7 @@ Expected<uint64_t> Runner::add(const Fill& fill) {
     const Pose there = pose(k), first = solidPose(scene_.solids[k], 0);
     only.solids[k].motion = {
         {0, {there.center[0] - first.center[0], there.center[1] - first.center[1], there.center[2] - first.center[2]}}};
+    std::ranges::copy(there.rotation, only.solids[k].rotation);
   }
   const auto more = makeParticles(only);
   if (!more) return more.error();

@@ -73,6 +73,7 @@ Expected<bool> Touch::grab(Session& session, const CameraView& eye, const Ray& r
       Vec3 moved = poses[held].center;
       for (size_t a = 0; a < 3; ++a) moved[a] -= solidPose(solids[held], 0).center[a];
       translate(solids[held].shape, moved);
+      std::ranges::copy(poses[held].rotation, solids[held].rotation);
       solids[held].motion.clear();
       solids[held].driven = speed;
       if (auto done = session.changeSolids(std::move(solids)); !done) return done.error();

@@ -5,6 +5,7 @@
 #include "fluid/fluid_impl.hpp"
 #include "fluid/snapshot.hpp"
 #include "graph/import_whole.hpp"
+#include "shape/records.hpp"
 
 namespace rill {
 namespace {
@@ -77,8 +78,7 @@ Expected<void> SnapshotReader::take(const Graph& graph) {
       s.control = records<uint32_t>(std::as_bytes(std::span(&control, 1)), sizeof control / 4);
       s.sums = records<uint32_t>(data[1], sizeof(FluidSums) / 4);
       if (fluid_.setup.movingSolids) {
-        for (const SolidRecord& r : records<SolidRecord>(data[2], fluid_.setup.params.solidCount))
-          s.solids.insert(s.solids.end(), {r.centerX, r.centerY, r.centerZ, r.velocityX, r.velocityY, r.velocityZ});
+        for (const SolidRecord& r : records<SolidRecord>(data[2], fluid_.setup.params.solidCount)) appendPose(r.pose, s.solids);
       }
       plan();
       break;

@@ -78,7 +78,7 @@ glm::dvec3 ReferenceSolver::contact(size_t i, glm::dvec3 v, double dt, std::span
     const SurfacePoint surface = surfaceAt(settings.solids[k].shape, solids[k], {x.x, x.y, x.z});
     if (surface.distance > kContactDistance * settings.spacing) continue;
     const glm::dvec3 n = vec(surface.normal);
-    const glm::dvec3 solid = vec(solids[k].velocity);
+    const glm::dvec3 solid = vec(velocityAt(solids[k], {x.x, x.y, x.z}));
     const double before = glm::dot(state.velocity[i] + dt * settings.gravity - solid, n);
     const glm::dvec3 relative = v - solid;
     double normal = glm::dot(relative, n);

@@ -66,6 +66,13 @@ Vec3 localPoint(const Pose& pose, const Vec3& x) {
   return toSolid(pose, {x[0] - pose.center[0], x[1] - pose.center[1], x[2] - pose.center[2]});
 }
 
+Vec3 velocityAt(const Pose& pose, const Vec3& x) {
+  const Vec3& w = pose.angularVelocity;
+  const Vec3 r = {x[0] - pose.center[0], x[1] - pose.center[1], x[2] - pose.center[2]};
+  return {pose.velocity[0] + w[1] * r[2] - w[2] * r[1], pose.velocity[1] + w[2] * r[0] - w[0] * r[2],
+          pose.velocity[2] + w[0] * r[1] - w[1] * r[0]};
+}
+
 SurfacePoint surfaceAt(const Shape& shape, const Pose& pose, const Vec3& x) {
   const SurfacePoint local = surfaceAt(shape, localPoint(pose, x));
   return {local.distance, toScene(pose, local.normal)};

@@ -10,6 +10,7 @@ struct Pose {
   Vec3 center = {0, 0, 0};                        ///< m
   std::array<double, 4> rotation = {0, 0, 0, 1};  ///< unit quaternion x y z w, from the solid's frame to the scene's
   Vec3 velocity = {0, 0, 0};                      ///< of the center, m/s
+  Vec3 angularVelocity = {0, 0, 0};               ///< rad/s, in the scene's frame
 };
 
 /// Translation (m) by the keyframes at time `t` (s), relative to the initial pose: linear between keyframes, constant outside, 0 without
@@ -28,6 +29,9 @@ Vec3 toScene(const Pose& pose, const Vec3& local);
 Vec3 toSolid(const Pose& pose, const Vec3& direction);
 /// A point (m, in the frame of `pose.center`), in the solid's frame.
 Vec3 localPoint(const Pose& pose, const Vec3& x);
+
+/// Velocity of the solid's point at `x` (m, in the frame of `pose.center`), m/s.
+Vec3 velocityAt(const Pose& pose, const Vec3& x);
 
 /// Distance of `x` from a shape with this pose; `x` and the normal are in the frame of `pose.center`.
 SurfacePoint surfaceAt(const Shape& shape, const Pose& pose, const Vec3& x);

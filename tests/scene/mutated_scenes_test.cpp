@@ -124,7 +124,7 @@ TEST(MutatedScenes, AreRejectedOrRun) {
     EXPECT_LE(setup->grid.cells(), maxGridCells(made->positions.size()));
     EXPECT_GT(setup->params.maxStep, 0) << round;
     EXPECT_TRUE(std::isfinite(setup->params.maxStep)) << round;
-    for (const SolidRecord& solid : setup->solids) EXPECT_TRUE(std::isfinite(solid.centerX)) << round;
+    for (const SolidRecord& solid : setup->solids) EXPECT_TRUE(std::isfinite(solid.pose.centerX)) << round;
   }
   EXPECT_GT(rejected, 1000);
   EXPECT_GT(ran, 300);
