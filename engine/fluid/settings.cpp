@@ -63,13 +63,14 @@ uint32_t substepsPerBlock(const SolverSettings& solver) {
   return lives < kLongestBlock ? static_cast<uint32_t>(lives) : kLongestBlock;
 }
 
+/// Bounds the speed of every point of the solids that keyframes move.
 double fastestSolid(const Scene& scene) {
   double fastest = 0;
   for (const Solid& solid : scene.solids) {
+    const double radius = boundingRadius(solid.shape);
     for (size_t k = 1; k < solid.motion.size(); ++k) {
-      double way[3];
-      for (int a = 0; a < 3; ++a) way[a] = solid.motion[k].translate[a] - solid.motion[k - 1].translate[a];
-      fastest = std::max(fastest, length(way) / (solid.motion[k].at - solid.motion[k - 1].at));
+      const Pose pose = solidPose(solid, solid.motion[k - 1].at);
+      fastest = std::max(fastest, length(pose.velocity.data()) + radius * length(pose.angularVelocity.data()));
     }
   }
   return fastest;

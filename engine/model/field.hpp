@@ -39,6 +39,7 @@ struct Info {
   std::span<const std::string_view> words = {};  ///< accepted values of an enum or bit mask, in its order
   bool required = false;                         ///< the key must be given
   size_t most = 0;                               ///< largest number of entries of a list; 0: unlimited
+  std::string_view since = {};                   ///< version that a scene must ask for to use the key; empty: any
 };
 
 /// A key and the member of Owner that it sets. The type of the member selects how the value is read.

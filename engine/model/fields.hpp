@@ -17,6 +17,9 @@ inline constexpr std::array<std::string_view, 4> kPresetWords{"water", "milk", "
 inline constexpr std::array<std::string_view, 4> kSurfaceWords{"auto", "planes", "curvature_flow", "narrow_range"};
 inline constexpr std::array<std::string_view, 0> kNoWords{};
 
+/// The newest version of scene files that can be read.
+inline constexpr std::string_view kSceneVersion = "0.2";
+
 template <>
 struct Table<Domain> {
   static constexpr std::string_view about = "An axis-aligned box of walls that bounds the fluid";
@@ -185,11 +188,17 @@ struct Table<Fill> {
 
 template <>
 struct Table<Keyframe> {
-  static constexpr std::string_view about = "Translation of a solid at a time";
+  static constexpr std::string_view about = "Displacement of a solid at a time";
   static constexpr std::array one_of = kNoWords;
   static constexpr std::tuple fields{
       Field{Info{.key = "at", .unit = "s", .range = atLeast(0), .help = "time; later than the previous entry's"}, &Keyframe::at},
-      Field{Info{.key = "translate", .unit = "m", .help = "translation relative to the initial pose [x, y, z]"}, &Keyframe::translate}};
+      Field{Info{.key = "translate", .unit = "m", .help = "translation relative to the initial pose [x, y, z]"}, &Keyframe::translate},
+      Field{
+          Info{.key = "rotate",
+               .help = "rotation relative to the initial pose, about the center: a quaternion [x, y, z, w], normalized when read; between "
+                       "keyframes the shorter way at constant speed",
+               .since = "0.2"},
+          &Keyframe::rotate}};
 };
 
 template <>

@@ -66,9 +66,12 @@ OrderedJson typeSchema(const model::Info& info) {
   }
 }
 
+/// What a scene must say to use the key.
+std::string sinceText(const model::Info& info) { return info.since.empty() ? "" : ". Needs \"rill\": \"" + std::string(info.since) + "\""; }
+
 /// Help with the unit in front: "m/s^2: [x, y, z]".
 std::string description(const model::Info& info) {
-  return (info.unit.empty() ? "" : std::string(info.unit) + ": ") + std::string(info.help);
+  return (info.unit.empty() ? "" : std::string(info.unit) + ": ") + std::string(info.help) + sinceText(info);
 }
 
 template <class Owner>
@@ -178,7 +181,7 @@ void addSection(const std::string& path, std::vector<KeySection>& out) {
       if (!value.is_null() && !field.info.required) fallback = code(value.dump());
     }
     const std::string cells[] = {code(field.info.key), std::string(field.info.unit), valuesText<T>(field.info), fallback,
-                                 std::string(field.info.help)};
+                                 std::string(field.info.help) + sinceText(field.info)};
     for (const std::string& cell : cells) (text += "| ") += inCell(cell) + (cell.empty() ? "" : " ");
     text += "|\n";
   });

@@ -4,23 +4,25 @@
 
 namespace rill {
 
+using Quaternion = std::array<double, 4>;  ///< x y z w
+
 /// A position, an orientation and their rates of change, in scene coordinates or relative to an origin that the caller subtracts from
 /// `center`. The device's record of it is in shaders/shared/solid_records.h.
 struct Pose {
-  Vec3 center = {0, 0, 0};                        ///< m
-  std::array<double, 4> rotation = {0, 0, 0, 1};  ///< unit quaternion x y z w, from the solid's frame to the scene's
-  Vec3 velocity = {0, 0, 0};                      ///< of the center, m/s
-  Vec3 angularVelocity = {0, 0, 0};               ///< rad/s, in the scene's frame
+  Vec3 center = {0, 0, 0};             ///< m
+  Quaternion rotation = {0, 0, 0, 1};  ///< unit quaternion x y z w, from the solid's frame to the scene's
+  Vec3 velocity = {0, 0, 0};           ///< of the center, m/s
+  Vec3 angularVelocity = {0, 0, 0};    ///< rad/s, in the scene's frame
 };
 
-/// Translation (m) by the keyframes at time `t` (s), relative to the initial pose: linear between keyframes, constant outside, 0 without
-/// keyframes.
-Vec3 solidTranslation(const Solid& solid, double t);
+/// Rotation vector (rad) that leads from one unit quaternion to another the shorter way, in the scene's frame.
+Vec3 turnBetween(const Quaternion& from, const Quaternion& to);
 
-/// The pose at `t` (s). The velocity is the slope of the keyframes, right-continuous; 0 before the first and after the last.
+/// The pose at `t` (s): linear and spherical linear between keyframes, constant outside. The velocities are the slopes of the keyframes,
+/// right-continuous; 0 before the first and after the last.
 Pose solidPose(const Solid& solid, double t);
 
-/// The pose at `t + dt` with the mean velocity over [t, t + dt], also across keyframes. dt: s, > 0.
+/// The pose at `t + dt` with the mean velocities over [t, t + dt], also across keyframes. dt: s, > 0.
 Pose solidPose(const Solid& solid, double t, double dt);
 
 /// A direction in the solid's frame, in the scene's.

@@ -1,5 +1,6 @@
 #include "shape/records.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -28,8 +29,21 @@ PoseRecord baseRecord(const Solid& solid, const double origin[3]) {
 
 std::vector<KeyframeRecord> keyframeRecords(const Solid& solid) {
   std::vector<KeyframeRecord> records;
-  for (const Keyframe& key : solid.motion)
-    records.push_back({.x = f(key.translate[0]), .y = f(key.translate[1]), .z = f(key.translate[2]), .at = f(key.at), .rotationW = 1});
+  for (size_t k = 0; k < solid.motion.size(); ++k) {
+    const Keyframe &key = solid.motion[k], &next = solid.motion[std::min(k + 1, solid.motion.size() - 1)];
+    const Vec3 turn = turnBetween(std::to_array(key.rotate), std::to_array(next.rotate));
+    records.push_back({.x = f(key.translate[0]),
+                       .y = f(key.translate[1]),
+                       .z = f(key.translate[2]),
+                       .at = f(key.at),
+                       .rotationX = f(key.rotate[0]),
+                       .rotationY = f(key.rotate[1]),
+                       .rotationZ = f(key.rotate[2]),
+                       .rotationW = f(key.rotate[3]),
+                       .turnX = f(turn[0]),
+                       .turnY = f(turn[1]),
+                       .turnZ = f(turn[2])});
+  }
   return records;
 }
 

@@ -65,6 +65,14 @@ TEST(SceneReader, NormalizesQuaternions) {
   }
 }
 
+TEST(SceneReader, NormalizesRotationsOfKeyframes) {
+  const Scene s = scene(
+      R"({"rill": "0.2", "fluid": {"spacing": 0.1}, "solids": [{"sphere": {}, "motion": [{"at": 0}, {"at": 1, "rotate": [0, 3, 0, 4]}]}]})");
+  EXPECT_EQ(s.solids[0].motion[0].rotate[3], 1);
+  EXPECT_NEAR(s.solids[0].motion[1].rotate[1], 0.6, 1e-15);
+  EXPECT_NEAR(s.solids[0].motion[1].rotate[3], 0.8, 1e-15);
+}
+
 TEST(SceneReader, TreatsAutoAsDefault) {
   const Scene s = scene(with(R"("solver": {"time_step": "auto", "relaxation": "auto", "regularization": "auto", "warm_start": "auto"})"));
   EXPECT_FALSE(s.solver.time_step || s.solver.relaxation || s.solver.regularization || s.solver.warm_start);

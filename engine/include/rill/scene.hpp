@@ -96,13 +96,15 @@ struct Fill {
   double jitter = 0;               ///< largest random offset along each axis, fraction of the spacing, 0 .. 0.5
 };
 
-/// Translation of a solid at a time.
+/// Displacement of a solid at a time, relative to its initial pose.
 struct Keyframe {
   double at = 0;                    ///< s, later than the previous keyframe
-  double translate[3] = {0, 0, 0};  ///< m, relative to the initial pose
+  double translate[3] = {0, 0, 0};  ///< m
+  double rotate[4] = {0, 0, 0, 1};  ///< unit quaternion x y z w, about the center; after Solid::rotation
 };
 
-/// A solid. It is rotated about its center and translated by keyframes, linearly between them and constant outside.
+/// A solid. It is rotated about its center and moved by keyframes: linear and spherical linear (the shorter way) between them,
+/// constant outside.
 struct Solid {
   Shape shape = {};
   double rotation[4] = {0, 0, 0, 1};  ///< unit quaternion x y z w
