@@ -16,9 +16,9 @@ Scene boxScene(double spacing_m, const Point& min, const Point& max) {
 
 Fill boxFill(const Point& min, const Point& max) {
   Fill fill;
-  fill.box.emplace();
-  std::ranges::copy(min, fill.box->min);
-  std::ranges::copy(max, fill.box->max);
+  auto& box = fill.shape.emplace<BoxShape>();
+  std::ranges::copy(min, box.min);
+  std::ranges::copy(max, box.max);
   return fill;
 }
 

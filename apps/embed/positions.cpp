@@ -42,7 +42,7 @@ int main(int count, char** arguments) {
   rill::Scene scene;
   scene.fluid.spacing = 0.04;
   scene.domain = rill::Domain{{0, 0, 0}, {2, 1, 1}};
-  scene.fill = {rill::Fill{.box = rill::BoxShape{{0, 0, 0}, {0.8, 0.8, 1}}}};
+  scene.fill = {rill::Fill{.shape = rill::BoxShape{{0, 0, 0}, {0.8, 0.8, 1}}}};
   const auto start = need(rill::makeParticles(scene));
   const auto water = need(rill::Fluid::create(*device, {.scene = &scene, .particles = &start}));
 

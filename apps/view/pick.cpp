@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace rill::view {
@@ -11,30 +10,6 @@ namespace {
 using Vector = std::array<double, 3>;
 
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-/// `center`: of the sphere, relative to the ray's origin.
-std::optional<double> hitSphere(const Vector& center, const Vector& along, double radius) {
-  const double nearest = dot(center, along), across = dot(center, center) - nearest * nearest;
-  if (across > radius * radius) return std::nullopt;
-  const double distance = nearest - std::sqrt(radius * radius - across);
-  return distance > 0 ? std::optional(distance) : std::nullopt;
-}
-
-std::optional<double> hitSolid(const Ray& ray, const SolidPose& solid) {
-  if (solid.sphere) {
-    Vector center;
-    for (size_t a = 0; a < 3; ++a) center[a] = solid.center[a] - ray.from[a];
-    return hitSphere(center, ray.along, solid.half[0]);
-  }
-  Ray local;
-  Vector end;
-  const Vector ahead = ray.at(1);
-  toSolid(solid, ray.from.data(), local.from.data());
-  toSolid(solid, ahead.data(), end.data());
-  for (size_t a = 0; a < 3; ++a) local.along[a] = end[a] - local.from[a];
-  const auto distance = entry(local, {-solid.half[0], -solid.half[1], -solid.half[2]}, {solid.half[0], solid.half[1], solid.half[2]});
-  return distance && *distance > 0 ? distance : std::nullopt;
-}
 
 }  // namespace
 
@@ -52,29 +27,22 @@ Ray rayThrough(const CameraView& eye, double right, double down) {
 }
 
 std::optional<Picked> pick(const Ray& ray, std::span<const Float3> positions, const double origin[3], double radius,
-                           std::span<const SolidPose> solids) {
+                           std::span<const Solid> solids, std::span<const Pose> poses) {
   std::optional<Picked> first;
   const auto take = [&](std::optional<double> distance, std::optional<uint32_t> solid) {
     if (distance && (!first || *distance < first->distance)) first = Picked{*distance, solid};
   };
+  const SphereShape ball{.radius = radius};
   for (const Float3& p : positions)
-    take(hitSphere({p.x + origin[0] - ray.from[0], p.y + origin[1] - ray.from[1], p.z + origin[2] - ray.from[2]}, ray.along, radius), {});
-  for (uint32_t k = 0; k < solids.size(); ++k) take(hitSolid(ray, solids[k]), k);
+    take(rayEntry(ball, {ray.from[0] - p.x - origin[0], ray.from[1] - p.y - origin[1], ray.from[2] - p.z - origin[2]}, ray.along), {});
+  for (uint32_t k = 0; k < poses.size(); ++k)
+    take(rayEntry(solids[k].shape, localPoint(poses[k], ray.from), toSolid(poses[k], ray.along)), k);
   return first;
 }
 
 std::optional<double> entry(const Ray& ray, const Vector& low, const Vector& high) {
-  double first = 0, last = std::numeric_limits<double>::infinity();
-  for (size_t a = 0; a < 3; ++a) {
-    if (ray.along[a] == 0) {
-      if (ray.from[a] < low[a] || ray.from[a] > high[a]) return std::nullopt;
-      continue;
-    }
-    const double one = (low[a] - ray.from[a]) / ray.along[a], other = (high[a] - ray.from[a]) / ray.along[a];
-    first = std::max(first, std::min(one, other));
-    last = std::min(last, std::max(one, other));
-  }
-  return first <= last ? std::optional(first) : std::nullopt;
+  const auto [first, last] = boxInterval(low, high, ray.from, ray.along);
+  return first <= last && last >= 0 ? std::optional(std::max(first, 0.0)) : std::nullopt;
 }
 
 std::optional<double> hitPlane(const Ray& ray, const Vector& point, const Vector& normal) {

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "rill/float3.hpp"
-#include "sph/solid_pose.hpp"
+#include "shape/pose.hpp"
 #include "views/camera.hpp"
 
 namespace rill::view {
@@ -26,9 +26,9 @@ struct Picked {
   std::optional<uint32_t> solid;  ///< none: the fluid
 };
 
-/// The first hit of the ray: spheres of `radius` at the positions (m, relative to `origin`), or solids (m, scene coordinates).
+/// The first hit of the ray: spheres of `radius` at the positions (m, relative to `origin`), or solids with these poses.
 std::optional<Picked> pick(const Ray& ray, std::span<const Float3> positions, const double origin[3], double radius,
-                           std::span<const SolidPose> solids);
+                           std::span<const Solid> solids, std::span<const Pose> poses);
 
 /// Distance at which the ray enters a box, m; 0 from inside; nullopt for a miss.
 std::optional<double> entry(const Ray& ray, const std::array<double, 3>& low, const std::array<double, 3>& high);

@@ -9,6 +9,7 @@
 #include "fluid/snapshot.hpp"
 #include "offline/readout.hpp"
 #include "offline/state_hash.hpp"
+#include "shape/records.hpp"
 #include "view/clock.hpp"
 
 namespace rill::view {
@@ -135,9 +136,8 @@ Expected<void> Runner::changeSolids(std::vector<Solid> solids) {
   if (count() > 0) forgetNeighbors(*now);
   now->solids.clear();
   for (size_t k = 0; k < solids.size(); ++k) {
-    const SolidPose there = k < scene_.solids.size() ? pose(static_cast<uint32_t>(k)) : solidPose(solids[k], 0);
-    for (size_t a = 0; a < 3; ++a) now->solids.push_back(static_cast<float>(there.center[a] - start_.origin[a]));
-    for (double v : there.velocity) now->solids.push_back(static_cast<float>(v));
+    const Pose there = k < scene_.solids.size() ? pose(static_cast<uint32_t>(k)) : solidPose(solids[k], 0);
+    appendPose(recordOf(there, start_.origin), now->solids);
   }
   const bool anyMoves = std::ranges::any_of(solids, [](const Solid& solid) { return solid.driven > 0 || !solid.motion.empty(); });
   if (!anyMoves) now->solids.clear();
@@ -154,9 +154,10 @@ Expected<uint64_t> Runner::add(const Fill& fill) {
   Scene only = scene_;
   only.fill = {fill};
   for (uint32_t k = 0; k < only.solids.size(); ++k) {
-    const SolidPose there = pose(k), first = solidPose(scene_.solids[k], 0);
+    const Pose there = pose(k), first = solidPose(scene_.solids[k], 0);
     only.solids[k].motion = {
         {0, {there.center[0] - first.center[0], there.center[1] - first.center[1], there.center[2] - first.center[2]}}};
+    std::ranges::copy(there.rotation, only.solids[k].rotation);
   }
   const auto more = makeParticles(only);
   if (!more) return more.error();
@@ -180,9 +181,9 @@ Expected<uint64_t> Runner::add(const Fill& fill) {
   return positions.size();
 }
 
-SolidPose Runner::pose(uint32_t solid) const {
-  SolidPose there = solidPose(scene_.solids[solid], time_s());
-  if (scene_.solids[solid].driven > 0) std::ranges::copy(fluid_->drivenCenter(solid), there.center);
+Pose Runner::pose(uint32_t solid) const {
+  Pose there = solidPose(scene_.solids[solid], time_s());
+  if (scene_.solids[solid].driven > 0) std::ranges::copy(fluid_->drivenCenter(solid), there.center.begin());
   return there;
 }
 

@@ -9,7 +9,7 @@
 #include "offline/pass_log.hpp"
 #include "rill/fluid.hpp"
 #include "rill/scene_io.hpp"
-#include "sph/solid_pose.hpp"
+#include "shape/pose.hpp"
 #include "view/pacing.hpp"
 #include "views/bounds.hpp"
 
@@ -56,7 +56,7 @@ class Runner {
   Expected<uint64_t> add(const Fill& fill);
 
   /// Current pose of a solid, m in scene coordinates.
-  SolidPose pose(uint32_t solid) const;
+  Pose pose(uint32_t solid) const;
   /// Sets the target of a driven solid for the next step and those that follow.
   void setTarget(const SolidTarget& target);
   void clearTargets() { targets_.clear(); }  ///< driven solids then stay where they are

@@ -109,7 +109,8 @@ Expected<std::string> Session::text(const std::filesystem::path& folder) const {
     return std::filesystem::proximate(whole, std::filesystem::absolute(folder, ignored), ignored).string();
   };
   for (size_t k = 0; k < scene->fill.size(); ++k)
-    if (scene->fill[k].particles) (*root)["fill"][k]["particles"]["file"] = fromFolder(*scene->fill[k].particles);
+    if (const auto* particles = std::get_if<ParticleFile>(&scene->fill[k].shape))
+      (*root)["fill"][k]["particles"]["file"] = fromFolder(particles->file);
   if (!scene->look.environment.empty()) (*root)["look"]["environment"] = fromFolder(scene->look.environment);
   return root->dump(2) + "\n";
 }

@@ -50,7 +50,7 @@ Expected<bool> Touch::grab(Session& session, const CameraView& eye, const Ray& r
     if (auto released = release(session); !released) return released.error();
   Runner& runner = session.runner();
   std::vector<Solid> solids = session.scene().solids;
-  std::vector<SolidPose> poses;
+  std::vector<Pose> poses;
   for (uint32_t k = 0; k < solids.size(); ++k) poses.push_back(runner.pose(k));
   std::vector<Float3> positions;  // a solid can be grabbed through fluid
   if (hold == Hold::Fluid) {
@@ -59,7 +59,7 @@ Expected<bool> Touch::grab(Session& session, const CameraView& eye, const Ray& r
     positions = std::move(*present);
   }
   const double spacing = session.scene().fluid.spacing;
-  const auto picked = pick(ray, positions, runner.start().origin, kPickRadius * spacing, poses);
+  const auto picked = pick(ray, positions, runner.start().origin, kPickRadius * spacing, solids, poses);
   if (!picked || picked->solid.has_value() != (hold == Hold::Solid)) return false;
 
   point_ = ray.at(picked->distance);
@@ -70,15 +70,10 @@ Expected<bool> Touch::grab(Session& session, const CameraView& eye, const Ray& r
     held = *picked->solid;
     for (size_t a = 0; a < 3; ++a) offset_[a] = poses[held].center[a] - point_[a];
     if (solids[held].driven != speed) {
-      const SolidPose first = solidPose(solids[held], 0);
-      for (size_t a = 0; a < 3; ++a) {
-        const double moved = poses[held].center[a] - first.center[a];
-        if (solids[held].sphere) solids[held].sphere->center[a] += moved;
-        if (solids[held].box) {
-          solids[held].box->min[a] += moved;
-          solids[held].box->max[a] += moved;
-        }
-      }
+      Vec3 moved = poses[held].center;
+      for (size_t a = 0; a < 3; ++a) moved[a] -= solidPose(solids[held], 0).center[a];
+      translate(solids[held].shape, moved);
+      std::ranges::copy(poses[held].rotation, solids[held].rotation);
       solids[held].motion.clear();
       solids[held].driven = speed;
       if (auto done = session.changeSolids(std::move(solids)); !done) return done.error();
@@ -87,7 +82,7 @@ Expected<bool> Touch::grab(Session& session, const CameraView& eye, const Ray& r
     const double radius = ballRadius(session);
     const auto before = ray.at(picked->distance - radius - spacing);
     Solid ball;
-    ball.sphere = SphereShape{{before[0], before[1], before[2]}, radius};
+    ball.shape = SphereShape{{before[0], before[1], before[2]}, radius};
     ball.driven = speed;
     solids.push_back(ball);
     if (auto done = session.changeSolids(std::move(solids)); !done) return done.error();
@@ -125,12 +120,12 @@ Expected<uint64_t> Touch::throwFluid(Session& session, const Ray& ray) {
   const auto enters = entry(ray, room.low, room.high);
   if (!enters || radius <= 0) return Error{ErrorKind::BadInput, "There is no room for fluid there; point into the tank"};
   Fill fill;
-  fill.sphere.emplace();
-  fill.sphere->radius = radius;
+  auto& sphere = fill.shape.emplace<SphereShape>();
+  sphere.radius = radius;
   const auto inside = ray.at(*enters + radius);
   const double speed = maxSpeed(session);
   for (size_t a = 0; a < 3; ++a) {
-    fill.sphere->center[a] = std::clamp(inside[a], room.low[a] + radius + spacing, room.high[a] - radius - spacing);
+    sphere.center[a] = std::clamp(inside[a], room.low[a] + radius + spacing, room.high[a] - radius - spacing);
     fill.velocity[a] = speed * ray.along[a];
   }
   return session.add(fill);

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "shape/shape.hpp"
 
 namespace rill {
 namespace {
@@ -14,21 +15,19 @@ double roundedCount(double length, double spacing) {
   return std::floor(ratio * (1 + 1e-12) + 0.5 + 1e-9);
 }
 
+double volumeOf(const ParticleFile&) { return 0; }
+
 double volumeOf(const Fill& fill) {
-  if (fill.box) {
-    double volume = 1;
-    for (int axis = 0; axis < 3; ++axis) volume *= fill.box->max[axis] - fill.box->min[axis];
-    return volume;
-  }
-  return fill.sphere ? 4.0 / 3.0 * std::numbers::pi * std::pow(fill.sphere->radius, 3) : 0.0;
+  return std::visit([](const auto& shape) { return volumeOf(shape); }, fill.shape);
 }
 
 /// Largest difference between a box side and a whole number of spacings, in spacings: 0 to 0.5.
 double maxMisfit(std::span<const Fill> fills, double spacing) {
   double worst = 0;
   for (const Fill& fill : fills) {
-    for (int axis = 0; fill.box && axis < 3; ++axis) {
-      const double ratio = (fill.box->max[axis] - fill.box->min[axis]) / spacing;
+    const auto* box = std::get_if<BoxShape>(&fill.shape);
+    for (int axis = 0; box && axis < 3; ++axis) {
+      const double ratio = (box->max[axis] - box->min[axis]) / spacing;
       worst = std::max(worst, std::abs(ratio - std::round(ratio)));
     }
   }
@@ -39,7 +38,7 @@ double totalPoints(std::span<const Fill> fills, double spacing) {
   const double exact_rows = std::min(4096.0, 40000.0 / static_cast<double>(fills.size()));  // the search evaluates thousands of spacings
   double total = 0;
   for (const Fill& fill : fills) {
-    if (fill.box || fill.sphere) total += countPoints(latticeOf(fill, spacing), exact_rows);
+    if (!std::holds_alternative<ParticleFile>(fill.shape)) total += countPoints(latticeOf(fill, spacing), exact_rows);
   }
   return total;
 }
@@ -49,16 +48,16 @@ double totalPoints(std::span<const Fill> fills, double spacing) {
 Lattice latticeOf(const Fill& fill, double spacing) {
   Lattice lattice;
   lattice.spacing = spacing;
-  if (fill.box) {
+  if (const auto* box = std::get_if<BoxShape>(&fill.shape)) {
     for (int axis = 0; axis < 3; ++axis) {
-      lattice.size[axis] = roundedCount(fill.box->max[axis] - fill.box->min[axis], spacing);
-      lattice.first[axis] = fill.box->min[axis] + 0.5 * spacing;
+      lattice.size[axis] = roundedCount(box->max[axis] - box->min[axis], spacing);
+      lattice.first[axis] = box->min[axis] + 0.5 * spacing;
     }
-  } else if (fill.sphere) {
-    lattice.radius = fill.sphere->radius;
+  } else if (const auto* sphere = std::get_if<SphereShape>(&fill.shape)) {
+    lattice.radius = sphere->radius;
     for (int axis = 0; axis < 3; ++axis) {
-      lattice.size[axis] = roundedCount(2 * fill.sphere->radius, spacing);
-      lattice.first[axis] = fill.sphere->center[axis] - 0.5 * (lattice.size[axis] - 1) * spacing;
+      lattice.size[axis] = roundedCount(2 * sphere->radius, spacing);
+      lattice.first[axis] = sphere->center[axis] - 0.5 * (lattice.size[axis] - 1) * spacing;
     }
   }
   return lattice;
@@ -86,7 +85,7 @@ void rowOf(const Lattice& lattice, uint64_t j, uint64_t k, uint64_t& begin, uint
 double countPoints(const Lattice& lattice, double exactRows) {
   if (lattice.radius < 0) return lattice.boxCount();
   const double rows = lattice.size[1] * lattice.size[2];
-  if (!(rows <= exactRows)) return 4.0 / 3.0 * std::numbers::pi * std::pow(lattice.radius / lattice.spacing, 3);
+  if (!(rows <= exactRows)) return volumeOf(SphereShape{.radius = lattice.radius / lattice.spacing});
   uint64_t count = 0;
   for (uint64_t k = 0; k < static_cast<uint64_t>(lattice.size[2]); ++k) {
     for (uint64_t j = 0; j < static_cast<uint64_t>(lattice.size[1]); ++j) {
@@ -124,8 +123,9 @@ double spacingFor(std::span<const Fill> fills, double target) {
   constexpr size_t kFillsToFit = 8;
   constexpr double kMaxPerAxis = 2000;
   for (const Fill& fill : fills.first(std::min(fills.size(), kFillsToFit))) {
-    for (int axis = 0; fill.box && axis < 3; ++axis) {
-      const double length = fill.box->max[axis] - fill.box->min[axis];
+    const auto* box = std::get_if<BoxShape>(&fill.shape);
+    for (int axis = 0; box && axis < 3; ++axis) {
+      const double length = box->max[axis] - box->min[axis];
       const double last = std::min(2 * length / middle, kMaxPerAxis);
       for (double n = std::max(1.0, std::floor(0.5 * length / middle)); n <= last; ++n) consider(length / n);
     }

@@ -8,10 +8,10 @@
 
 #include "core/words.hpp"
 #include "fill/host_memory.hpp"
+#include "fill/inside_solids.hpp"
 #include "fill/lattice.hpp"
 #include "fill/ply_reader.hpp"
 #include "fill/point_hash.hpp"
-#include "fill/solid_test.hpp"
 #include "rill/scene_io.hpp"
 
 namespace rill {
@@ -118,7 +118,7 @@ class Placer {
     }
     if (beyondWall(at)) {
       ++source.domain;
-    } else if (solids_.inside(at, kSlack * spacing_)) {
+    } else if (solids_.contain(std::to_array(at), kSlack * spacing_)) {
       ++source.solid;
     } else if (placed_ != nullptr &&
                placed_->overlaps(lattice, static_cast<uint32_t>(fill), kOverlap * spacing_ * (1 - kSlack), kCoincident * spacing_)) {
@@ -158,7 +158,7 @@ class Placer {
 
   const Scene& scene_;
   ParticleSet& out_;
-  SolidTest solids_;
+  InsideSolids solids_;
   PointHash* placed_;
   double spacing_;
 };
@@ -370,8 +370,9 @@ Expected<ParticleSet> make(Scene& scene, uint64_t maxParticles) {
   const uint64_t limit = std::min(maxParticles, kIds);
   std::vector<Source> sources(scene.fill.size());
   for (size_t i = 0; i < sources.size(); ++i) {
-    if (!scene.fill[i].particles) continue;
-    auto file = PlyFile::open(*scene.fill[i].particles);
+    const auto* particles = std::get_if<ParticleFile>(&scene.fill[i].shape);
+    if (particles == nullptr) continue;
+    auto file = PlyFile::open(particles->file);
     if (!file) return aboutFile(scene, i, file.error());
     sources[i].count = static_cast<double>(file->count());
     sources[i].file = std::move(*file);

@@ -32,7 +32,7 @@ std::span<const ArrayRow, kArrays> arrayTable() {
       {GravityChanges, "gravityChanges", "gravity schedule", Fluid, kVector, [](const ArrayShape& s) { return s.gravityChanges; }},
       {Table, "table", "wall tables", Fluid, kVector, [](const ArrayShape& s) { return s.tableEntries; }},
       {Solids, "solids", "solids", Fluid, sizeof(SolidRecord), [](const ArrayShape& s) { return s.solids; }},
-      {Keyframes, "keyframes", "keyframes", Fluid, kVector, [](const ArrayShape& s) { return s.keyframes; }},
+      {Keyframes, "keyframes", "keyframes", Fluid, sizeof(KeyframeRecord), [](const ArrayShape& s) { return s.keyframes; }},
 
       {Position, "position", "positions", Fluid, kVector, withDummy, Account::Particles, &FluidSnapshot::position, "position"},
       {Velocity, "velocity", "velocities", Fluid, kVector, withDummy, Account::Particles, &FluidSnapshot::velocity, "velocity", 1},
@@ -92,7 +92,7 @@ ArrayShape arrayShape(const FluidSetup& setup) {
           .gravityChanges = setup.gravity.size() / 4,
           .tableEntries = setup.tables.size() / 4,
           .solids = p.solidCount,
-          .keyframes = setup.keyframes.size() / 4,
+          .keyframes = setup.keyframes.size() / kKeyframeNumbers,
           .lists = p.listCapacity > 0,
           .warm = setup.warm,
           .near = setup.near,

@@ -1,10 +1,12 @@
 #include "fluid/boundaries.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 
 #include "fluid/numbers.hpp"
+#include "shape/records.hpp"
 #include "sph/solid_density.hpp"
-#include "sph/solid_pose.hpp"
 #include "sph/wall.hpp"
 
 namespace rill {
@@ -24,10 +26,10 @@ void appendTable(std::vector<float>& tables, const std::vector<float>& table, ui
 double fastestSolid(const Scene& scene) {
   double fastest = 0;
   for (const Solid& solid : scene.solids) {
+    const double radius = boundingRadius(solid.shape);
     for (size_t k = 1; k < solid.motion.size(); ++k) {
-      double way[3];
-      for (int a = 0; a < 3; ++a) way[a] = solid.motion[k].translate[a] - solid.motion[k - 1].translate[a];
-      fastest = std::max(fastest, length(way) / (solid.motion[k].at - solid.motion[k - 1].at));
+      const Pose pose = solidPose(solid, solid.motion[k - 1].at);
+      fastest = std::max(fastest, length(pose.velocity.data()) + radius * length(pose.angularVelocity.data()));
     }
   }
   return fastest;
@@ -41,45 +43,29 @@ double fastestDriven(const Scene& scene) {
 
 void addSolids(const Scene& scene, const SmoothingKernel& kernel, const double origin[3], FluidSetup& setup) {
   for (const Solid& solid : scene.solids) {
-    const SolidPose pose = solidPose(solid, 0.0);
     SolidRecord record{};
-    record.shape = pose.sphere ? 1u : 0u;
-    double translation[3];
-    solidTranslation(solid, 0.0, translation);
-    record.centerX = f(pose.center[0] - origin[0]);
-    record.centerY = f(pose.center[1] - origin[1]);
-    record.centerZ = f(pose.center[2] - origin[2]);
-    record.baseX = f(pose.center[0] - translation[0] - origin[0]);
-    record.baseY = f(pose.center[1] - translation[1] - origin[1]);
-    record.baseZ = f(pose.center[2] - translation[2] - origin[2]);
-    record.velocityX = f(pose.velocity[0]);
-    record.velocityY = f(pose.velocity[1]);
-    record.velocityZ = f(pose.velocity[2]);
-    record.halfX = f(pose.half[0]);
-    record.halfY = f(pose.half[1]);
-    record.halfZ = f(pose.half[2]);
-    record.rotationX = f(pose.rotation[0]);
-    record.rotationY = f(pose.rotation[1]);
-    record.rotationZ = f(pose.rotation[2]);
-    record.rotationW = f(pose.rotation[3]);
-    record.friction = f(pose.friction);
-    record.restitution = f(pose.restitution);
-    record.firstKey = static_cast<uint32_t>(setup.keyframes.size() / 4);
-    record.keyCount = static_cast<uint32_t>(solid.motion.size());
-    for (const Keyframe& key : solid.motion) {
-      for (double x : key.translate) setup.keyframes.push_back(f(x));
-      setup.keyframes.push_back(f(key.at));
-    }
+    record.pose = recordOf(solidPose(solid, 0.0), origin);
+    record.shape = recordOf(solid.shape);
+    record.base = baseRecord(solid, origin);
+    record.friction = f(solid.friction);
+    record.restitution = f(solid.restitution);
+    std::vector<KeyframeRecord> keyframes = keyframeRecords(solid);
     if (solid.driven > 0) {
       record.driven = 1;
-      record.keyCount = 2;
-      setup.keyframes.insert(setup.keyframes.end(), 8, 0.0f);
-      setup.driven.push_back({static_cast<uint32_t>(setup.solids.size()), solid.driven, {record.centerX, record.centerY, record.centerZ}});
-      record.baseX = record.baseY = record.baseZ = 0;
+      keyframes.assign(2, KeyframeRecord{.rotationW = 1});
+      const PoseRecord& p = record.pose;
+      setup.driven.push_back({static_cast<uint32_t>(setup.solids.size()), solid.driven, {p.centerX, p.centerY, p.centerZ}});
+      record.base.centerX = record.base.centerY = record.base.centerZ = 0;
     }
+    record.firstKey = static_cast<uint32_t>(setup.keyframes.size() / kKeyframeNumbers);
+    record.keyCount = static_cast<uint32_t>(keyframes.size());
     setup.movingSolids |= record.keyCount > 0;
-    if (pose.sphere) {
-      const SphereTable table = makeSphereTable(kernel, pose.half[0]);
+    for (const KeyframeRecord& key : keyframes) {
+      const auto numbers = std::bit_cast<std::array<float, kKeyframeNumbers>>(key);
+      setup.keyframes.insert(setup.keyframes.end(), numbers.begin(), numbers.end());
+    }
+    if (const auto* sphere = std::get_if<SphereShape>(&solid.shape)) {
+      const SphereTable table = makeSphereTable(kernel, sphere->radius);
       appendTable(setup.tables, table.table, record.tableOffset);
       record.tableNodes = table.nodes;
       record.tableFirst = f(table.first);

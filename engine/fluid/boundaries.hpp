@@ -5,7 +5,7 @@
 
 namespace rill {
 
-/// m/s, of all solids that keyframes move.
+/// Bounds the speed of every point of the solids that keyframes move, m/s.
 double fastestSolid(const Scene& scene);
 /// m/s, of all solids that the host moves.
 double fastestDriven(const Scene& scene);

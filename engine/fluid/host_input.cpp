@@ -51,7 +51,7 @@ void FluidImpl::forgetAbandoned() {
 void FluidImpl::declareDrive(Graph& graph, const FluidStep& step) {
   struct Keys {
     uint64_t at;
-    std::array<float, 8> values;  // where it is and when, where it will be and when
+    std::array<KeyframeRecord, 2> values;  // where it is, and where it will be
   };
   std::vector<Keys> keys;
   Drive& drive = drives_.emplace_back();
@@ -72,8 +72,10 @@ void FluidImpl::declareDrive(Graph& graph, const FluidStep& step) {
       drivenSpeed_ = std::max(drivenSpeed_, static_cast<float>(share * length / step.advance_s));
     }
     std::copy(to.begin(), to.end(), driven.center);
-    keys.push_back({uint64_t{setup.solids[driven.solid].firstKey} * 16,
-                    {from[0], from[1], from[2], 0, to[0], to[1], to[2], static_cast<float>(step.advance_s)}});
+    const auto key = [](const std::array<float, 3>& x, double at) {
+      return KeyframeRecord{.x = x[0], .y = x[1], .z = x[2], .at = static_cast<float>(at), .rotationW = 1};
+    };
+    keys.push_back({uint64_t{setup.solids[driven.solid].firstKey} * sizeof(KeyframeRecord), {key(from, 0), key(to, step.advance_s)}});
   }
   graph.pass("drive solids", [&](Pass& pass) {
     BufferRef& keyframes = ref(FluidArray::Keyframes);

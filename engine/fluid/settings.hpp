@@ -15,6 +15,9 @@ namespace rill {
 /// Spacings beyond the support that the list reaches.
 inline constexpr double kListSkin = 0.15;
 
+/// Floats of a KeyframeRecord.
+inline constexpr size_t kKeyframeNumbers = sizeof(KeyframeRecord) / sizeof(float);
+
 /// A solid that the host moves.
 struct DrivenSolid {
   uint32_t solid = 0;
@@ -27,7 +30,7 @@ struct FluidSetup {
   GridSize grid;
   std::vector<float> tables;                             ///< wall and ball tables: value and slope, then those of the next entry
   std::vector<SolidRecord> solids;                       ///< relative to the particles' origin, at time 0
-  std::vector<float> keyframes;                          ///< translation and time, four floats each
+  std::vector<float> keyframes;                          ///< KeyframeRecords
   std::vector<DrivenSolid> driven;                       ///< at the start; their keyframes follow from each advance
   std::vector<float> gravity;                            ///< the schedule: value and time, four floats each; the scene's own first
   uint32_t kernel = 0;                                   ///< specialization constant KERNEL

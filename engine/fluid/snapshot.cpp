@@ -7,6 +7,8 @@
 #include <cstring>
 #include <string>
 
+#include "shape/records.hpp"
+
 namespace rill {
 namespace {
 
@@ -38,7 +40,7 @@ Expected<void> checkLengths(const FluidSnapshot& s, const SnapshotShape& shape) 
   } rows[] = {
       {"control", s.control.size(), sizeof(FluidControl) / 4},
       {"sums", s.sums.size(), sizeof(FluidSums) / 4},
-      {"solids", s.solids.size(), shape.movingSolids ? uint64_t{6} * shape.solidCount : 0},
+      {"solids", s.solids.size(), shape.movingSolids ? uint64_t{kPoseNumbers} * shape.solidCount : 0},
       {"position", s.position.size(), shape.count},
       {"velocity", s.velocity.size(), shape.count},
       {"push", s.push.size(), s.push.empty() ? 0 : shape.count},  // of a fluid without a warm start there are none

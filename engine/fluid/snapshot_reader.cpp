@@ -5,6 +5,7 @@
 #include "fluid/fluid_impl.hpp"
 #include "fluid/snapshot.hpp"
 #include "graph/import_whole.hpp"
+#include "shape/records.hpp"
 
 namespace rill {
 namespace {
@@ -107,7 +108,7 @@ void SnapshotReader::takeRecords(std::span<const std::span<const std::byte>> dat
   snapshot_.sums = records<uint32_t>(data[1], sizeof(FluidSums) / 4);
   if (!fluid_.setup.movingSolids) return;
   for (const SolidRecord& r : records<SolidRecord>(data[2], fluid_.setup.params.solidCount))
-    snapshot_.solids.insert(snapshot_.solids.end(), {r.centerX, r.centerY, r.centerZ, r.velocityX, r.velocityY, r.velocityZ});
+    appendPose(r.pose, snapshot_.solids);
 }
 
 /// What else there is to read follows from the control block.

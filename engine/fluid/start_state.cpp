@@ -7,6 +7,7 @@
 
 #include "fluid/fluid_impl.hpp"
 #include "fluid/snapshot.hpp"
+#include "shape/records.hpp"
 
 namespace rill {
 namespace {
@@ -93,16 +94,8 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
   staging_->add(slotOf(FluidArray::Control), s.control.data(), s.control.size() * 4);
   staging_->add(slotOf(FluidArray::Sums), s.sums.data(), s.sums.size() * 4);
   std::vector<SolidRecord> solids = setup.solids;
-  for (size_t k = 0; 6 * k < s.solids.size(); ++k) {
-    const float* six = s.solids.data() + 6 * k;
-    solids[k].centerX = six[0];
-    solids[k].centerY = six[1];
-    solids[k].centerZ = six[2];
-    solids[k].velocityX = six[3];
-    solids[k].velocityY = six[4];
-    solids[k].velocityZ = six[5];
-  }
-  for (DrivenSolid& driven : setup.driven) std::copy_n(s.solids.data() + 6 * driven.solid, 3, driven.center);
+  for (size_t k = 0; kPoseNumbers * k < s.solids.size(); ++k) solids[k].pose = poseAt(s.solids, k);
+  for (DrivenSolid& driven : setup.driven) std::copy_n(s.solids.data() + kPoseNumbers * driven.solid, 3, driven.center);
   staging_->add(slotOf(FluidArray::Solids), solids.size() * sizeof(SolidRecord), bytesOf(solids));
   const ArrayShape shape = arrayShape(setup);
   forEachSaved([&](const ArrayRow& row, auto member) {

@@ -20,11 +20,11 @@ class Checker {
     model::forEachField<Owner>([&](const auto& field) {
       using Value = typename std::remove_cvref_t<decltype(field)>::Value;
       if constexpr (model::kHasMember<Value>) {
-        const auto& member = owner.*field.member;
+        const Value* member = field.find(owner);
         const bool choice = std::ranges::find(one_of, field.info.key) != one_of.end();
-        if (!ok || (choice && !given(member))) return;
+        if (!ok || member == nullptr || (choice && !given(*member))) return;
         if (choice) chosen.push_back(field.info.key);
-        ok = value(memberPath(path, field.info.key), field.info, member);
+        ok = value(memberPath(path, field.info.key), field.info, *member);
       }
     });
     // makeParticles() sets `spacing` in addition to `particles`, so both are given afterwards.
@@ -72,9 +72,8 @@ class Checker {
   bool value(const std::string& path, const model::Info& info, const std::string& given) {
     return info.words.empty() || accept(path, model::checkChoice(info, given));
   }
-  bool value(const std::string&, const model::Info&, const std::filesystem::path&) { return true; }  // empty: no file
-  bool value(const std::string& path, const model::Info&, const std::optional<std::filesystem::path>& given) {
-    return !given || accept(memberPath(path, "file"), model::checkFileName(given->string()));
+  bool value(const std::string& path, const model::Info& info, const std::filesystem::path& given) {
+    return (!info.required && given.empty()) || accept(path, model::checkFileName(given.string()));
   }
   bool value(const std::string& path, const model::Info& info, const std::optional<std::pair<double, double>>& given) {
     return !given || (value(elementPath(path, 0), info, given->first) && value(elementPath(path, 1), info, given->second));

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace rill::model {
@@ -38,6 +39,7 @@ struct Info {
   std::span<const std::string_view> words = {};  ///< accepted values of an enum or bit mask, in its order
   bool required = false;                         ///< the key must be given
   size_t most = 0;                               ///< largest number of entries of a list; 0: unlimited
+  std::string_view since = {};                   ///< version that a scene must ask for to use the key; empty: any
 };
 
 /// A key and the member of Owner that it sets. The type of the member selects how the value is read.
@@ -46,9 +48,29 @@ struct Field {
   using Value = T;
   Info info;
   T Owner::*member;
+
+  const T* find(const Owner& owner) const { return &(owner.*member); }
+  T* find(Owner& owner) const { return &(owner.*member); }
+  T& set(Owner& owner) const { return owner.*member; }  ///< the value to write to
 };
 template <class Owner, class T>
 Field(Info, T Owner::*) -> Field<Owner, T>;
+
+/// A key and the alternative T of a variant that it selects. Used like a Field; find() returns null for another alternative.
+template <class Owner, class T, class Variant>
+struct Alternative {
+  using Value = T;
+  Info info;
+  Variant Owner::*member;
+
+  const T* find(const Owner& owner) const { return std::get_if<T>(&(owner.*member)); }
+  T* find(Owner& owner) const { return std::get_if<T>(&(owner.*member)); }
+  T& set(Owner& owner) const { return (owner.*member).template emplace<T>(); }
+};
+template <class T, class Owner, class Variant>
+constexpr Alternative<Owner, T, Variant> alternative(const Info& info, Variant Owner::*member) {
+  return {info, member};
+}
 
 /// Type of a key that is accepted and ignored. Its Field has no member.
 struct Ignored {};
@@ -57,7 +79,7 @@ struct Version {};
 
 /// The description of a struct; fields.hpp specializes it with
 ///   static constexpr std::string_view about;     description in one line
-///   static constexpr std::tuple fields;          of Field, in the order of the documentation
+///   static constexpr std::tuple fields;          of Field and Alternative, in the order of the documentation
 ///   static constexpr std::array<std::string_view, N> one_of;   exactly one of these keys must be given; N may be 0
 template <class Owner>
 struct Table;

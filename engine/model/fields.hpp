@@ -17,10 +17,8 @@ inline constexpr std::array<std::string_view, 4> kPresetWords{"water", "milk", "
 inline constexpr std::array<std::string_view, 4> kSurfaceWords{"auto", "planes", "curvature_flow", "narrow_range"};
 inline constexpr std::array<std::string_view, 0> kNoWords{};
 
-/// The JSON object that holds a file name: {"file": "settled.ply"}.
-struct FileName {
-  std::filesystem::path file;
-};
+/// The newest version of scene files that can be read.
+inline constexpr std::string_view kSceneVersion = "0.2";
 
 template <>
 struct Table<Domain> {
@@ -160,12 +158,12 @@ struct Table<SphereShape> {
 };
 
 template <>
-struct Table<FileName> {
+struct Table<ParticleFile> {
   static constexpr std::string_view about = "A file of particles";
   static constexpr std::array one_of = kNoWords;
   static constexpr std::tuple fields{
       Field{Info{.key = "file", .help = "PLY file (binary or ASCII); the path is relative to the scene file", .required = true},
-            &FileName::file}};
+            &ParticleFile::file}};
 };
 
 template <>
@@ -173,11 +171,13 @@ struct Table<Fill> {
   static constexpr std::string_view about = "Initial fluid, on a lattice of the spacing or from a file";
   static constexpr std::array<std::string_view, 3> one_of{"box", "sphere", "particles"};
   static constexpr std::tuple fields{
-      Field{Info{.key = "box",
-                 .help = "box with round((max - min) / spacing) particles along each axis, the first half a spacing inside min"},
-            &Fill::box},
-      Field{Info{.key = "sphere", .help = "sphere that contains the points of a lattice centered on its center"}, &Fill::sphere},
-      Field{Info{.key = "particles", .help = "positions from a file, and velocities if it has them"}, &Fill::particles},
+      alternative<BoxShape>(
+          Info{.key = "box",
+               .help = "box with round((max - min) / spacing) particles along each axis, the first half a spacing inside min"},
+          &Fill::shape),
+      alternative<SphereShape>(Info{.key = "sphere", .help = "sphere that contains the points of a lattice centered on its center"},
+                               &Fill::shape),
+      alternative<ParticleFile>(Info{.key = "particles", .help = "positions from a file, and velocities if it has them"}, &Fill::shape),
       Field{Info{.key = "velocity", .unit = "m/s", .help = "initial velocity [x, y, z]; added to a file's velocities"}, &Fill::velocity},
       Field{Info{.key = "jitter",
                  .range = between(0, 0.5),
@@ -188,11 +188,17 @@ struct Table<Fill> {
 
 template <>
 struct Table<Keyframe> {
-  static constexpr std::string_view about = "Translation of a solid at a time";
+  static constexpr std::string_view about = "Displacement of a solid at a time";
   static constexpr std::array one_of = kNoWords;
   static constexpr std::tuple fields{
       Field{Info{.key = "at", .unit = "s", .range = atLeast(0), .help = "time; later than the previous entry's"}, &Keyframe::at},
-      Field{Info{.key = "translate", .unit = "m", .help = "translation relative to the initial pose [x, y, z]"}, &Keyframe::translate}};
+      Field{Info{.key = "translate", .unit = "m", .help = "translation relative to the initial pose [x, y, z]"}, &Keyframe::translate},
+      Field{
+          Info{.key = "rotate",
+               .help = "rotation relative to the initial pose, about the center: a quaternion [x, y, z, w], normalized when read; between "
+                       "keyframes the shorter way at constant speed",
+               .since = "0.2"},
+          &Keyframe::rotate}};
 };
 
 template <>
@@ -200,8 +206,8 @@ struct Table<Solid> {
   static constexpr std::string_view about = "A solid that the fluid flows around";
   static constexpr std::array<std::string_view, 2> one_of{"box", "sphere"};
   static constexpr std::tuple fields{
-      Field{Info{.key = "box", .help = "corners before the rotation"}, &Solid::box},
-      Field{Info{.key = "sphere", .help = "center and radius"}, &Solid::sphere},
+      alternative<BoxShape>(Info{.key = "box", .help = "corners before the rotation"}, &Solid::shape),
+      alternative<SphereShape>(Info{.key = "sphere", .help = "center and radius"}, &Solid::shape),
       Field{
           Info{.key = "rotation", .help = "rotation about the solid's center: a quaternion [x, y, z, w], as in glTF; normalized when read"},
           &Solid::rotation},

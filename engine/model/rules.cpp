@@ -36,6 +36,17 @@ CheckResult increasingTimes(const std::vector<Timed>& entries) {
   return {};
 }
 
+CheckResult unitQuaternion(const double (&parts)[4], std::string_view key) {
+  double length = 0;
+  for (const double part : parts) length = std::hypot(length, part);
+  if (!(length > 0))
+    return Fault{"the quaternion has zero length; expected a non-zero quaternion, [0, 0, 0, 1] for no rotation", {std::string(key)}};
+  constexpr double kTolerance = 1e-3;  // rounding in products of float quaternions
+  if (std::abs(length - 1) > kTolerance)
+    return Fault{"the quaternion's length is " + roundedNumber(length) + "; expected 1", {std::string(key)}};
+  return {};
+}
+
 }  // namespace
 
 std::string unitText(const Info& info) { return info.unit.empty() ? std::string() : " (" + std::string(info.unit) + ")"; }
@@ -109,12 +120,7 @@ CheckResult checkRules(const FluidSettings& fluid) {
 }
 
 CheckResult checkRules(const Solid& solid) {
-  double length = 0;
-  for (const double part : solid.rotation) length = std::hypot(length, part);
-  if (!(length > 0))
-    return Fault{"the quaternion has zero length; expected a non-zero quaternion, [0, 0, 0, 1] for no rotation", {"rotation"}};
-  constexpr double kTolerance = 1e-3;  // rounding in products of float quaternions
-  if (std::abs(length - 1) > kTolerance) return Fault{"the quaternion's length is " + roundedNumber(length) + "; expected 1", {"rotation"}};
+  if (CheckResult fault = unitQuaternion(solid.rotation, "rotation")) return fault;
   // Set by hosts only: JSON has no key for it.
   if (!(solid.driven >= 0) || !fitsFloat(solid.driven))
     return Fault{shortestNumber(solid.driven) + " is out of range; expected a speed of at least 0 (m/s)", {"driven"}};
@@ -123,6 +129,8 @@ CheckResult checkRules(const Solid& solid) {
                  {"driven"}};
   return {};
 }
+
+CheckResult checkRules(const Keyframe& keyframe) { return unitQuaternion(keyframe.rotate, "rotate"); }
 
 CheckResult checkRules(const Camera& camera) {
   for (size_t axis = 0; axis < 3; ++axis) {

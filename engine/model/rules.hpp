@@ -37,6 +37,7 @@ CheckResult checkRules(const BoxShape& box);
 CheckResult checkRules(const Domain& domain);
 CheckResult checkRules(const FluidSettings& fluid);
 CheckResult checkRules(const Solid& solid);
+CheckResult checkRules(const Keyframe& keyframe);
 CheckResult checkRules(const Camera& camera);
 CheckResult checkRules(const std::vector<Keyframe>& motion);
 CheckResult checkRules(const std::vector<GravityChange>& changes);

@@ -22,7 +22,8 @@ class KeyCollector {
       using Value = typename std::decay_t<decltype(field)>::Value;
       if constexpr (model::kHasMember<Value>) {
         std::string key = (path.empty() ? "" : path + ".") + std::string(field.info.key);
-        if (std::find(kExcluded.begin(), kExcluded.end(), key) == kExcluded.end()) add(field.info, std::move(key), owner.*field.member);
+        const Value* value = field.find(owner);
+        if (value && std::find(kExcluded.begin(), kExcluded.end(), key) == kExcluded.end()) add(field.info, std::move(key), *value);
       }
     });
   }
@@ -53,9 +54,7 @@ class KeyCollector {
     keys_.emplace_back(std::move(key), std::string(info.words[static_cast<size_t>(value)]));
   }
   /// The name of the file may change; its particles are covered by the hash of the initial particles.
-  void add(const model::Info&, std::string key, const std::optional<std::filesystem::path>& file) {
-    if (file) keys_.emplace_back(std::move(key), "a file");
-  }
+  void add(const model::Info&, std::string key, const ParticleFile&) { keys_.emplace_back(std::move(key), "a file"); }
   template <model::Described Struct>
   void add(const model::Info&, std::string key, const Struct& value) {
     collect(key, value);

@@ -7,12 +7,17 @@
 #include "shared/fluid_records.h"
 
 namespace rill::reference {
+namespace {
 
-std::vector<SolidPose> ReferenceSolver::poses(double t, double dt) const {
-  std::vector<SolidPose> all;
+glm::dvec3 vec(const Vec3& v) { return {v[0], v[1], v[2]}; }
+
+}  // namespace
+
+std::vector<Pose> ReferenceSolver::poses(double t, double dt) const {
+  std::vector<Pose> all;
   for (const Solid& solid : settings.solids) {
-    SolidPose pose = dt > 0 ? solidPose(solid, t, dt) : solidPose(solid, t);
-    for (int a = 0; a < 3; ++a) pose.center[a] -= settings.origin[a];
+    Pose pose = dt > 0 ? solidPose(solid, t, dt) : solidPose(solid, t);
+    for (glm::length_t a = 0; a < 3; ++a) pose.center[a] -= settings.origin[a];
     all.push_back(pose);
   }
   return all;
@@ -20,32 +25,20 @@ std::vector<SolidPose> ReferenceSolver::poses(double t, double dt) const {
 
 WallSample ReferenceSolver::boundaryAt(const glm::dvec3& x, double t) const { return boundaryOf(x, poses(t, 0)); }
 
-WallSample ReferenceSolver::boundaryOf(const glm::dvec3& x, std::span<const SolidPose> solids) const {
+WallSample ReferenceSolver::boundaryOf(const glm::dvec3& x, std::span<const Pose> solids) const {
   double lo[3], hi[3];
   for (int a = 0; a < 3; ++a) lo[a] = x[a] - settings.lo[a], hi[a] = settings.hi[a] - x[a];
   WallSample sum = settings.tabulated ? tables_.sample(lo, hi) : exactWall(kernel_, lo, hi);
-  const double at[3] = {x.x, x.y, x.z};
   for (size_t n = 0; n < solids.size(); ++n) {
-    const SolidPose& pose = solids[n];
-    double gradient[3], value;
-    if (pose.sphere) {
-      const SurfacePoint surface = solidSurface(pose, at);
-      const LineSample ball =
-          settings.tabulated ? sphereTables_[n].sample(surface.distance) : exactSphere(kernel_, pose.half[0], surface.distance);
-      value = ball.value;
-      for (int a = 0; a < 3; ++a) gradient[a] = ball.slope * surface.normal[a];
-    } else {
-      double local[3];
-      toSolid(pose, at, local);
-      const WallSample box = settings.tabulated ? boxSample(tables_, local, pose.half) : boxSample(kernel_, local, pose.half);
-      value = box.value;
-      fromSolid(pose, box.gradient, gradient);
-    }
+    const Shape& shape = settings.solids[n].shape;
+    const Vec3 local = localPoint(solids[n], {x.x, x.y, x.z});
+    const WallSample own = settings.tabulated ? solidSample(tables_, sphereTables_[n], shape, local) : solidSample(kernel_, shape, local);
+    const Vec3 gradient = toScene(solids[n], std::to_array(own.gradient));
     const double squared = gradient[0] * gradient[0] + gradient[1] * gradient[1] + gradient[2] * gradient[2];
-    sum.value += value;
-    for (int a = 0; a < 3; ++a) {
+    sum.value += own.value;
+    for (size_t a = 0; a < 3; ++a) {
       sum.gradient[a] += gradient[a];
-      if (squared > 0) sum.wallCoverage[a] += value * (1 - gradient[a] * gradient[a] / squared);
+      if (squared > 0) sum.wallCoverage[a] += own.value * (1 - gradient[a] * gradient[a] / squared);
     }
   }
   return sum;
@@ -59,13 +52,11 @@ glm::dvec3 ReferenceSolver::tangentialScale(size_t i) const {
 
 /// Moves a center to half a spacing from every surface that is closer: solids in order, walls last, so that no particle ends outside.
 /// Between walls that are less than a spacing apart it is moved to the middle.
-glm::dvec3 ReferenceSolver::collide(glm::dvec3 x, std::span<const SolidPose> solids) const {
+glm::dvec3 ReferenceSolver::collide(glm::dvec3 x, std::span<const Pose> solids) const {
   const double clearance = settings.spacing / 2;
-  for (const SolidPose& pose : solids) {
-    const double at[3] = {x.x, x.y, x.z};
-    const SurfacePoint surface = solidSurface(pose, at);
-    if (surface.distance >= clearance) continue;
-    for (int a = 0; a < 3; ++a) x[a] += (clearance - surface.distance) * surface.normal[a];
+  for (size_t n = 0; n < solids.size(); ++n) {
+    const SurfacePoint surface = surfaceAt(settings.solids[n].shape, solids[n], {x.x, x.y, x.z});
+    if (surface.distance < clearance) x += (clearance - surface.distance) * vec(surface.normal);
   }
   for (int a = 0; a < 3; ++a) {
     const double lo = settings.lo[a] + clearance, hi = settings.hi[a] - clearance;
@@ -79,25 +70,25 @@ glm::dvec3 ReferenceSolver::collide(glm::dvec3 x, std::span<const SolidPose> sol
 /// / dt:
 ///   v_n >= -e u_n if u_n < 0;   the tangential speed is reduced by at most mu max(0, v_n - u_n - f_n), the impulse of the solid.
 /// The term f makes friction include the weight of the column above. Domain walls have e = 0 and mu = 0.
-glm::dvec3 ReferenceSolver::contact(size_t i, glm::dvec3 v, double dt, std::span<const SolidPose> solids) const {
+glm::dvec3 ReferenceSolver::contact(size_t i, glm::dvec3 v, double dt, std::span<const Pose> solids) const {
   const glm::dvec3& x = state.predicted[i];
-  for (const SolidPose& pose : solids) {
-    if (pose.restitution <= 0 && pose.friction <= 0) continue;
-    const double at[3] = {x.x, x.y, x.z};
-    const SurfacePoint surface = solidSurface(pose, at);
+  for (size_t k = 0; k < solids.size(); ++k) {
+    const double restitution = settings.solids[k].restitution, friction = settings.solids[k].friction;
+    if (restitution <= 0 && friction <= 0) continue;
+    const SurfacePoint surface = surfaceAt(settings.solids[k].shape, solids[k], {x.x, x.y, x.z});
     if (surface.distance > kContactDistance * settings.spacing) continue;
-    const glm::dvec3 n = {surface.normal[0], surface.normal[1], surface.normal[2]};
-    const glm::dvec3 solid = {pose.velocity[0], pose.velocity[1], pose.velocity[2]};
+    const glm::dvec3 n = vec(surface.normal);
+    const glm::dvec3 solid = vec(velocityAt(solids[k], {x.x, x.y, x.z}));
     const double before = glm::dot(state.velocity[i] + dt * settings.gravity - solid, n);
     const glm::dvec3 relative = v - solid;
     double normal = glm::dot(relative, n);
     glm::dvec3 tangential = relative - normal * n;
-    if (before < 0 && pose.restitution > 0) normal = std::max(normal, -pose.restitution * before);
+    if (before < 0 && restitution > 0) normal = std::max(normal, -restitution * before);
     glm::dvec3 pressure(0);
     for (const Pair& pair : pairs(i)) pressure += (lambda_[i] + lambda_[pair.j]) / dt * pair.gradient;
     const double impulse = std::max(0.0, normal - before - glm::dot(tangentialScale(i) * pressure, n));
     const double slip = glm::length(tangential);
-    if (slip > 0) tangential *= std::max(0.0, 1 - pose.friction * impulse / slip);
+    if (slip > 0) tangential *= std::max(0.0, 1 - friction * impulse / slip);
     v = solid + normal * n + tangential;
   }
   return v;

@@ -42,8 +42,10 @@ ReferenceSolver::ReferenceSolver(const ReferenceSettings& s, std::span<const glm
     if (finite(v)) fastest_ = std::max(fastest_, glm::length(v));
   if (settings.tabulated) {
     tables_ = makeWallTables(kernel_);
-    for (const Solid& solid : settings.solids)
-      sphereTables_.push_back(solid.sphere ? makeSphereTable(kernel_, solid.sphere->radius) : SphereTable{});
+    for (const Solid& solid : settings.solids) {
+      const auto* sphere = std::get_if<SphereShape>(&solid.shape);
+      sphereTables_.push_back(sphere ? makeSphereTable(kernel_, sphere->radius) : SphereTable{});
+    }
   }
 }
 
@@ -124,7 +126,7 @@ ReferenceSolver::Pair ReferenceSolver::makePair(uint32_t i, uint32_t j) const {
 
 void ReferenceSolver::density() {
   const Neighbors found = findNeighbors(state.predicted, kernel_.h());
-  const std::vector<SolidPose> solids = poses(time_, step_);
+  const std::vector<Pose> solids = poses(time_, step_);
   first_ = found.first;
   pairs_.clear();
   densityRatio_.resize(size());
@@ -169,7 +171,7 @@ double ReferenceSolver::artificialPressureTerm(double value, double push) const 
 }
 
 void ReferenceSolver::correction(double dt, double push) {
-  const std::vector<SolidPose> solids = poses(time_, dt);
+  const std::vector<Pose> solids = poses(time_, dt);
   for (size_t i = 0; i < size(); ++i) {
     glm::dvec3 sum(0), apart(0);
     for (const Pair& pair : pairs(i)) {
@@ -189,7 +191,7 @@ void ReferenceSolver::correction(double dt, double push) {
 }
 
 void ReferenceSolver::velocities(double dt) {
-  const std::vector<SolidPose> solids = poses(time_, dt);
+  const std::vector<Pose> solids = poses(time_, dt);
   const double maxGain =
       dt * (std::clamp(0.5 * fastest_, settings.minSpeedGain, settings.maxSpeedGain) + 4 * dt * glm::length(settings.gravity));
   fastest_ = 0;  // excludes solids, as in the shaders
@@ -255,7 +257,7 @@ void ReferenceSolver::predict(double dt, double dtNext) {
 }
 
 void ReferenceSolver::predictPositions(double dt, bool atRest) {
-  const std::vector<SolidPose> solids = poses(time_, atRest ? 0 : dt);
+  const std::vector<Pose> solids = poses(time_, atRest ? 0 : dt);
   for (size_t i = 0; i < size(); ++i) {
     const glm::dvec3 v = atRest ? glm::dvec3(0) : state.velocity[i];
     glm::dvec3 x = state.position[i] + dt * (v + dt * settings.gravity) + state.warm[i] * vec(boundary_[i].gradient), push(0);

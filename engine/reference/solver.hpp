@@ -24,10 +24,10 @@
 #include <vector>
 
 #include "rill/scene.hpp"
+#include "shape/pose.hpp"
 #include "sph/artificial_pressure.hpp"
 #include "sph/kernel.hpp"
 #include "sph/solid_density.hpp"
-#include "sph/solid_pose.hpp"
 #include "sph/wall.hpp"
 
 namespace rill::reference {
@@ -152,10 +152,10 @@ class ReferenceSolver {
   double xsphCoefficient(double viscosity, double dt) const;
 
  private:
-  glm::dvec3 collide(glm::dvec3 x, std::span<const SolidPose> poses) const;
-  glm::dvec3 contact(size_t i, glm::dvec3 v, double dt, std::span<const SolidPose> poses) const;
-  std::vector<SolidPose> poses(double t, double dt) const;
-  WallSample boundaryOf(const glm::dvec3& x, std::span<const SolidPose> poses) const;
+  glm::dvec3 collide(glm::dvec3 x, std::span<const Pose> poses) const;
+  glm::dvec3 contact(size_t i, glm::dvec3 v, double dt, std::span<const Pose> poses) const;
+  std::vector<Pose> poses(double t, double dt) const;
+  WallSample boundaryOf(const glm::dvec3& x, std::span<const Pose> poses) const;
   glm::dvec3 tangentialScale(size_t i) const;  ///< a_i
   Pair makePair(uint32_t i, uint32_t j) const;
   void predictPositions(double dt, bool atRest);

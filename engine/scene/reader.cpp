@@ -103,10 +103,15 @@ bool Reader::accept(const std::string& path, const model::CheckResult& result) {
 }
 
 /// Files may hold quaternions of any non-zero length.
-void Reader::normalize(Solid& solid) {
+void Reader::normalize(double (&quaternion)[4]) {
   double length = 0;
-  for (const double part : solid.rotation) length = std::hypot(length, part);
-  for (double& part : solid.rotation) part = length > 0 ? part / length : part;
+  for (const double part : quaternion) length = std::hypot(length, part);
+  for (double& part : quaternion) part = length > 0 ? part / length : part;
+}
+
+bool Reader::allowed(const std::string& path, const model::Info& info) {
+  if (info.since.empty() || versionNumbers(version_) >= versionNumbers(info.since)) return true;
+  return fail(path, "the scene says \"rill\": " + inQuotes(version_) + "; the key needs \"rill\": " + inQuotes(info.since));
 }
 
 bool Reader::unknownKey(const std::string& path, const std::string& key, const std::vector<std::string_view>& keys) {
@@ -143,7 +148,10 @@ bool Reader::version(const Json& root) {
   if (!text(*found, path, given)) return false;
   const std::vector<uint32_t> needed = versionNumbers(given);
   if (needed.empty()) return fail(path, "found " + inQuotes(given) + ", " + expected);
-  if (needed > versionNumbers(RILL_VERSION)) return fail(path, "the scene needs Rill " + given + " or later; this is Rill " + RILL_VERSION);
+  if (needed > versionNumbers(model::kSceneVersion))
+    return fail(path, "the scene needs Rill " + given + " or later; this is Rill " RILL_VERSION ", which reads scenes up to " +
+                          std::string(model::kSceneVersion));
+  version_ = given;
   return true;
 }
 
@@ -247,13 +255,6 @@ bool Reader::value(const Json& json, const std::string& path, const model::Info&
   double pair[2] = {0, 0};
   if (!numbers(json, path, info, "[x, z]", pair)) return false;
   out.emplace(pair[0], pair[1]);
-  return true;
-}
-
-bool Reader::value(const Json& json, const std::string& path, const model::Info&, std::optional<fs::path>& out) {
-  model::FileName name;
-  if (!object(json, path, name)) return false;
-  out = std::move(name.file);
   return true;
 }
 

@@ -22,7 +22,7 @@ class Reader {
 
   const std::string& message() const { return message_; }
 
-  /// Checks the version key alone, so that a newer scene is rejected for its version and not for an unknown key.
+  /// Reads the version key alone, so that a newer scene is rejected for its version and not for an unknown key.
   bool version(const Json& root);
 
   /// Reads a JSON object into `owner`. Checks unknown keys, then each value, then the rules between keys.
@@ -36,7 +36,8 @@ class Reader {
     model::forEachField<Owner>([&](const auto& field) {
       if (ok) ok = member(json, path, field, owner);
     });
-    if constexpr (std::is_same_v<Owner, Solid>) normalize(owner);
+    if constexpr (std::is_same_v<Owner, Solid>) normalize(owner.rotation);
+    if constexpr (std::is_same_v<Owner, Keyframe>) normalize(owner.rotate);
     return ok && exactlyOne(json, path, model::Table<Owner>::one_of) && accept(path, model::checkRules(owner));
   }
 
@@ -44,8 +45,10 @@ class Reader {
   bool fail(const std::string& path, const std::string& text);
   /// On a fault, reports the first candidate key that an override has set, else the first candidate.
   bool accept(const std::string& path, const model::CheckResult& result);
-  static void normalize(Solid& solid);
+  static void normalize(double (&quaternion)[4]);
   bool unknownKey(const std::string& path, const std::string& key, const std::vector<std::string_view>& keys);
+  /// Whether the scene's version has the key.
+  bool allowed(const std::string& path, const model::Info& info);
   bool exactlyOne(const Json& json, const std::string& path, std::span<const std::string_view> keys);
 
   template <class Owner>
@@ -55,12 +58,13 @@ class Reader {
     return found;
   }
 
-  template <class Owner, class T>
-  bool member(const Json& json, const std::string& path, const model::Field<Owner, T>& field, Owner& owner) {
-    if constexpr (model::kHasMember<T>) {
+  template <class Owner, class Field>
+  bool member(const Json& json, const std::string& path, const Field& field, Owner& owner) {
+    if constexpr (model::kHasMember<typename Field::Value>) {
       const auto found = json.find(std::string(field.info.key));
       const std::string here = memberPath(path, field.info.key);
-      if (found != json.end()) return value(*found, here, field.info, owner.*field.member);
+      if (found != json.end() && !allowed(here, field.info)) return false;
+      if (found != json.end()) return value(*found, here, field.info, field.set(owner));
       if (field.info.required) return fail(here, "required key is missing: " + std::string(field.info.help));
     }
     return true;
@@ -81,7 +85,6 @@ class Reader {
   bool value(const Json& json, const std::string& path, const model::Info& info, SideMask& out);
   bool value(const Json& json, const std::string& path, const model::Info& info, std::optional<double>& out);
   bool value(const Json& json, const std::string& path, const model::Info& info, std::optional<std::pair<double, double>>& out);
-  bool value(const Json& json, const std::string& path, const model::Info& info, std::optional<std::filesystem::path>& out);
   bool value(const Json& json, const std::string& path, const model::Info& info, std::filesystem::path& out);
   bool value(const Json& json, const std::string& path, const model::Info& info, double (&out)[3]) {
     return numbers(json, path, info, "[x, y, z]", out);
@@ -125,6 +128,7 @@ class Reader {
   std::string name_;
   const OverrideMarks& marks_;
   std::filesystem::path folder_;
+  std::string version_ = "0";  // as the scene gives it
   std::string message_;
 };
 

@@ -51,8 +51,6 @@ OrderedJson typeSchema(const model::Info& info) {
     OrderedJson schema = arraySchema({{"enum", info.words}}, 0, info.words.size());
     schema["uniqueItems"] = true;
     return schema;
-  } else if constexpr (std::is_same_v<T, std::optional<std::filesystem::path>>) {
-    return objectSchema<model::FileName>();
   } else if constexpr (model::kIsList<T>) {
     OrderedJson schema{{"type", "array"}, {"items", objectSchema<Inner>()}};
     if (info.most > 0) schema["maxItems"] = info.most;
@@ -68,9 +66,12 @@ OrderedJson typeSchema(const model::Info& info) {
   }
 }
 
+/// What a scene must say to use the key.
+std::string sinceText(const model::Info& info) { return info.since.empty() ? "" : ". Needs \"rill\": \"" + std::string(info.since) + "\""; }
+
 /// Help with the unit in front: "m/s^2: [x, y, z]".
 std::string description(const model::Info& info) {
-  return (info.unit.empty() ? "" : std::string(info.unit) + ": ") + std::string(info.help);
+  return (info.unit.empty() ? "" : std::string(info.unit) + ": ") + std::string(info.help) + sinceText(info);
 }
 
 template <class Owner>
@@ -83,7 +84,8 @@ OrderedJson objectSchema() {
     schema["description"] = description(field.info);  // of the key, not of the struct
     if constexpr (model::kHasMember<T>) {
       const Owner defaults{};
-      const OrderedJson value = defaultJson(field.info, defaults.*field.member);
+      const T* given = field.find(defaults);
+      const OrderedJson value = given ? defaultJson(field.info, *given) : OrderedJson();
       if (!value.is_null()) schema["default"] = value;
     }
     if (field.info.required) required.push_back(field.info.key);
@@ -141,7 +143,7 @@ std::string valuesText(const model::Info& info) {
     return "list of " + words;
   } else if constexpr (model::kIsList<T>) {
     return std::string("list of objects") + (info.most > 0 ? ", at most " + grouped(info.most) : "");
-  } else if constexpr (model::Described<typename model::Inner<T>::Type> || std::is_same_v<T, std::optional<std::filesystem::path>>) {
+  } else if constexpr (model::Described<typename model::Inner<T>::Type>) {
     return "object";
   } else {
     return words.empty() ? "text" : words;
@@ -174,11 +176,12 @@ void addSection(const std::string& path, std::vector<KeySection>& out) {
     std::string fallback = field.info.required ? "required" : "";
     if constexpr (model::kHasMember<T>) {
       const Owner defaults{};
-      const OrderedJson value = defaultJson(field.info, defaults.*field.member);
+      const T* given = field.find(defaults);
+      const OrderedJson value = given ? defaultJson(field.info, *given) : OrderedJson();
       if (!value.is_null() && !field.info.required) fallback = code(value.dump());
     }
     const std::string cells[] = {code(field.info.key), std::string(field.info.unit), valuesText<T>(field.info), fallback,
-                                 std::string(field.info.help)};
+                                 std::string(field.info.help) + sinceText(field.info)};
     for (const std::string& cell : cells) (text += "| ") += inCell(cell) + (cell.empty() ? "" : " ");
     text += "|\n";
   });
@@ -187,11 +190,7 @@ void addSection(const std::string& path, std::vector<KeySection>& out) {
     using T = typename std::remove_cvref_t<decltype(field)>::Value;
     using Inner = typename model::Inner<T>::Type;
     const std::string inside = (path.empty() ? "" : path + ".") + std::string(field.info.key) + (model::kIsList<T> ? "[]" : "");
-    if constexpr (std::is_same_v<T, std::optional<std::filesystem::path>>) {
-      addSection<model::FileName>(inside, out);
-    } else if constexpr (!std::is_void_v<Inner>) {
-      addSection<Inner>(inside, out);
-    }
+    if constexpr (!std::is_void_v<Inner>) addSection<Inner>(inside, out);
   });
 }
 

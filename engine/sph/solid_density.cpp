@@ -42,9 +42,9 @@ double ballOverHalfSpace(const SmoothingKernel& kernel, double R, double s) {
 }
 
 template <class HalfSpace>
-WallSample boxOf(const HalfSpace& halfSpaceAt, const double local[3], const double half[3]) {
+WallSample boxOf(const HalfSpace& halfSpaceAt, const Vec3& local, const Vec3& half) {
   LineSample slab[3];
-  for (int a = 0; a < 3; ++a) {
+  for (size_t a = 0; a < 3; ++a) {
     const double x = std::abs(local[a]);
     const LineSample front = halfSpaceAt(x - half[a]);
     const LineSample back = halfSpaceAt(x + half[a]);
@@ -53,8 +53,25 @@ WallSample boxOf(const HalfSpace& halfSpaceAt, const double local[3], const doub
   }
   WallSample sum;
   sum.value = slab[0].value * slab[1].value * slab[2].value;
-  for (int a = 0; a < 3; ++a) sum.gradient[a] = slab[a].slope * slab[(a + 1) % 3].value * slab[(a + 2) % 3].value;
+  for (size_t a = 0; a < 3; ++a) sum.gradient[a] = slab[a].slope * slab[(a + 1) % 3].value * slab[(a + 2) % 3].value;
   return sum;
+}
+
+/// A function of the distance from a sphere, as a sample.
+WallSample radial(const LineSample& along, const SurfacePoint& surface) {
+  WallSample sum{.value = along.value};
+  for (size_t a = 0; a < 3; ++a) sum.gradient[a] = along.slope * surface.normal[a];
+  return sum;
+}
+
+/// Answers for each shape of the engine.
+template <class Sphere, class Box>
+WallSample sampleOf(const Shape& shape, const Vec3& local, const Sphere& sphereAt, const Box& boxAt) {
+  if (const auto* sphere = std::get_if<SphereShape>(&shape)) {
+    const SurfacePoint surface = surfaceAt(*sphere, local);
+    return radial(sphereAt(sphere->radius, surface.distance), surface);
+  }
+  return boxAt(halfExtents(std::get<BoxShape>(shape)));
 }
 
 }  // namespace
@@ -93,14 +110,25 @@ LineSample SphereTable::sample(double s) const {
   return {n[0] * (1 - t) + n[2] * t, n[1] * (1 - t) + n[3] * t};
 }
 
-WallSample boxSample(const SmoothingKernel& kernel, const double local[3], const double half[3]) {
-  for (int a = 0; a < 3; ++a)
+WallSample boxSample(const SmoothingKernel& kernel, const Vec3& local, const Vec3& half) {
+  for (size_t a = 0; a < 3; ++a)
     if (std::abs(local[a]) - half[a] >= wallReach(kernel)) return {};
   return boxOf([&](double s) { return halfSpace(kernel, s); }, local, half);
 }
 
-WallSample boxSample(const WallTables& tables, const double local[3], const double half[3]) {
+WallSample boxSample(const WallTables& tables, const Vec3& local, const Vec3& half) {
   return boxOf([&](double s) { return tables.sampleFace(s); }, local, half);
+}
+
+WallSample solidSample(const SmoothingKernel& kernel, const Shape& shape, const Vec3& local) {
+  return sampleOf(
+      shape, local, [&](double radius, double s) { return exactSphere(kernel, radius, s); },
+      [&](const Vec3& half) { return boxSample(kernel, local, half); });
+}
+
+WallSample solidSample(const WallTables& tables, const SphereTable& sphere, const Shape& shape, const Vec3& local) {
+  return sampleOf(
+      shape, local, [&](double, double s) { return sphere.sample(s); }, [&](const Vec3& half) { return boxSample(tables, local, half); });
 }
 
 }  // namespace rill

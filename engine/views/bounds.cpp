@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "shape/shape.hpp"
+
 namespace rill {
 
 Bounds fluidBounds(const Scene& scene, const ParticleSet& particles) {
@@ -14,25 +16,11 @@ Bounds fluidBounds(const Scene& scene, const ParticleSet& particles) {
   return bounds;
 }
 
-void solidBall(const Solid& solid, double center[3], double& radius) {
-  radius = solid.sphere ? solid.sphere->radius : 0;
-  double square = 0;
-  for (int a = 0; a < 3; ++a) {
-    if (solid.box) {
-      center[a] = 0.5 * (solid.box->min[a] + solid.box->max[a]);
-      square += 0.25 * (solid.box->max[a] - solid.box->min[a]) * (solid.box->max[a] - solid.box->min[a]);
-    } else {
-      center[a] = solid.sphere ? solid.sphere->center[a] : 0;
-    }
-  }
-  if (solid.box) radius = std::sqrt(square);
-}
-
 void addSolids(Bounds& bounds, const Scene& scene) {
   for (const Solid& solid : scene.solids) {
-    double center[3], radius = 0;
-    solidBall(solid, center, radius);
-    if (solid.motion.empty()) bounds.add(center, radius);
+    const Vec3 center = centerOf(solid.shape);
+    const double radius = boundingRadius(solid.shape);
+    if (solid.motion.empty()) bounds.add(center.data(), radius);
     for (const Keyframe& key : solid.motion) {
       const double moved[3] = {center[0] + key.translate[0], center[1] + key.translate[1], center[2] + key.translate[2]};
       bounds.add(moved, radius);

@@ -27,7 +27,5 @@ struct Bounds {
 Bounds fluidBounds(const Scene& scene, const ParticleSet& particles);
 /// Adds the solids' bounding spheres, over all of their keyframes.
 void addSolids(Bounds& bounds, const Scene& scene);
-/// Center of a solid as described (before its motion), and the radius of the sphere around it, m.
-void solidBall(const Solid& solid, double center[3], double& radius);
 
 }  // namespace rill

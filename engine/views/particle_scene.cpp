@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "shape/records.hpp"
 #include "views/bounds.hpp"
 #include "views/color_map.hpp"
 
@@ -13,7 +14,6 @@ namespace {
 
 using particle_view::kColors;
 using particle_view::SceneRecord;
-using particle_view::SolidRecord;
 
 constexpr uint32_t kLightTexels = 512;  // a side at most
 
@@ -89,21 +89,14 @@ void fillLight(SceneRecord& record, const Bounds& bounds, const double origin[3]
 
 void fillSolids(ParticleScene& out, const Scene& scene) {
   for (const Solid& solid : scene.solids) {
-    double center[3], radius = 0;
-    solidBall(solid, center, radius);
-    SolidRecord record;
-    const auto relative = [&](int a) { return static_cast<float>(center[a] - out.origin[a]); };
-    record.center = {relative(0), relative(1), relative(2), solid.sphere ? static_cast<float>(radius) : 0.0f};
-    record.rotation = {static_cast<float>(solid.rotation[0]), static_cast<float>(solid.rotation[1]), static_cast<float>(solid.rotation[2]),
-                       static_cast<float>(solid.rotation[3])};
-    const auto half = [&](int a) { return solid.box ? static_cast<float>(0.5 * (solid.box->max[a] - solid.box->min[a])) : 0.0f; };
-    record.half_size = {half(0), half(1), half(2), static_cast<float>(radius)};
-    record.motion = {static_cast<uint32_t>(out.keyframes.size()), static_cast<uint32_t>(solid.motion.size()), solid.driven > 0, 0};
-    for (const Keyframe& key : solid.motion) {
-      out.keyframes.push_back({static_cast<float>(key.translate[0]), static_cast<float>(key.translate[1]),
-                               static_cast<float>(key.translate[2]), static_cast<float>(key.at)});
-    }
-    out.solids.push_back(record);
+    const std::vector<KeyframeRecord> keyframes = keyframeRecords(solid);
+    out.solids.push_back({.base = baseRecord(solid, out.origin),
+                          .shape = recordOf(solid.shape),
+                          .radius = static_cast<float>(boundingRadius(solid.shape)),
+                          .firstKey = static_cast<uint32_t>(out.keyframes.size()),
+                          .keyCount = static_cast<uint32_t>(keyframes.size()),
+                          .driven = solid.driven > 0});
+    out.keyframes.insert(out.keyframes.end(), keyframes.begin(), keyframes.end());
   }
 }
 

@@ -11,8 +11,8 @@ namespace rill {
 struct ParticleScene {
   double origin[3] = {0, 0, 0};  ///< m; all records are relative to it
   particle_view::SceneRecord scene;
-  std::vector<particle_view::SolidRecord> solids;
-  std::vector<Float4> keyframes;  ///< translation in m, time in s
+  std::vector<particle_view::SceneSolid> solids;
+  std::vector<KeyframeRecord> keyframes;
   double speed_max = 1;           ///< m/s at the speed map's end
   double compression_max = 0.01;  ///< fraction at the compression map's end
 };

@@ -5,7 +5,6 @@
 
 #include "gpu/device_impl.hpp"
 #include "render/compute_step.hpp"
-#include "shared/fluid_records.h"
 #include "sort/dispatches.hpp"
 
 namespace rill {
@@ -14,7 +13,7 @@ std::span<const EmbeddedShader> viewsShaders();  // generated
 
 namespace {
 
-using particle_view::kParticleGroup, particle_view::PoseRecord, particle_view::SceneRecord, particle_view::ViewPush;
+using particle_view::kParticleGroup, particle_view::PlacedSolid, particle_view::SceneRecord, particle_view::ViewPush;
 
 /// A host-written buffer with the bytes of `data`; at least one element, so that it can be bound.
 template <class T>
@@ -40,12 +39,12 @@ Expected<SceneBuffers> SceneBuffers::create(Device& device, ParticleScene host) 
     return {};
   };
   if (auto ok = keep(out.scene, upload<SceneRecord>(device, "view: scene", {&out.host.scene, 1})); !ok) return ok.error();
-  if (auto ok = keep(out.solids, upload<particle_view::SolidRecord>(device, "view: solids", out.host.solids)); !ok) return ok.error();
-  if (auto ok = keep(out.keyframes, upload<Float4>(device, "view: keyframes", out.host.keyframes)); !ok) return ok.error();
+  if (auto ok = keep(out.solids, upload<particle_view::SceneSolid>(device, "view: solids", out.host.solids)); !ok) return ok.error();
+  if (auto ok = keep(out.keyframes, upload<KeyframeRecord>(device, "view: keyframes", out.host.keyframes)); !ok) return ok.error();
   using enum BindingKind;
   static constexpr BindingKind kBindings[] = {Uniform, Storage, Storage, Storage, Storage};
-  for (const auto& [pipeline, floats] : {std::pair{&out.poses, size_t{0}}, {&out.drivenPoses, sizeof(rill::SolidRecord) / sizeof(float)}}) {
-    const uint32_t constants[] = {static_cast<uint32_t>(floats)};
+  for (const auto& [pipeline, driven] : {std::pair{&out.poses, 0u}, {&out.drivenPoses, 1u}}) {
+    const uint32_t constants[] = {driven};
     auto made = computePipeline(
         device, {.shader = "views/particle_poses", .bindings = kBindings, .pushConstantBytes = sizeof(ViewPush), .constants = constants});
     if (!made) return made.error();
@@ -61,7 +60,7 @@ BufferRef SceneBuffers::importScene(Graph& graph) const {
 BufferRef SceneBuffers::addPoses(Graph& graph, const FluidState& fluid, BufferRef sceneRef, const ViewPush& push) const {
   const BufferRef solidRecords = graph.import("view solids", {solids.handle(), 0, solids.size(), Use::Nothing, Use::Nothing});
   const BufferRef keys = graph.import("view keyframes", {keyframes.handle(), 0, keyframes.size(), Use::Nothing, Use::Nothing});
-  BufferRef out = graph.create("view poses", {host.solids.size() * sizeof(PoseRecord)});
+  BufferRef out = graph.create("view poses", {host.solids.size() * sizeof(PlacedSolid)});
   const bool driven = fluid.solids != BufferRef{};
   addStep(graph, "view poses", driven ? drivenPoses : poses,
           {uniform(sceneRef), reads(solidRecords), reads(keys), fresh(out), reads(driven ? fluid.solids : solidRecords)},

@@ -14,7 +14,7 @@ struct SceneBuffers {
   static Expected<SceneBuffers> create(Device& device, ParticleScene host);
 
   BufferRef importScene(Graph& graph) const;
-  /// PoseRecords of the solids (there are some) at the push's time, seen with its camera; of driven ones as `fluid` has them.
+  /// PlacedSolids (there are some) at the push's time, seen with its camera; of driven ones as `fluid` has them.
   BufferRef addPoses(Graph& graph, const FluidState& fluid, BufferRef scene, const particle_view::ViewPush& push) const;
 
   ParticleScene host;

@@ -7,7 +7,8 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 #include "fluid/uniforms.glsl"
 #include "fluid/cluster.glsl"
-#include "fluid/solids.glsl"
+#include "shared/pose.glsl"
+#include "shared/shape.glsl"
 #include "fluid/wall_samples.glsl"
 #include "shared/loops.glsl"
 #include "shared/pair_hash.h"
@@ -43,7 +44,7 @@ void listNear(uint i, vec3 x) {
   bool solid = false;
   for (uint s = 0u; s < params.solidCount; ++s) {
     vec3 normal;
-    if (surfaceDistance(solids[s], toLocal(solids[s], x), normal) < params.nearLimit) solid = true;
+    if (surfaceDistance(solids[s].shape, localPoint(solids[s].pose, x), normal) < params.nearLimit) solid = true;
   }
   nearSample[NEAR_DISPLACED(i)] = vec4(0.0);
   nearSample[NEAR_TANGENTIAL(i)] = vec4(0.0);

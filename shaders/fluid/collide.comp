@@ -48,9 +48,9 @@ void main() {
   for (uint k = 0u; k < params.solidCount; ++k) {
     if (solids[k].friction <= 0.0 && solids[k].restitution <= 0.0) continue;
     vec3 normal;
-    if (surfaceDistance(solids[k], toLocal(solids[k], x), normal) > 1.1 * params.margin) continue;
-    normal = toWorld(solids[k], normal);
-    vec3 moving = vec3(solids[k].velocityX, solids[k].velocityY, solids[k].velocityZ);
+    if (surfaceDistance(solids[k].shape, localPoint(solids[k].pose, x), normal) > 1.1 * params.margin) continue;
+    normal = toScene(solids[k].pose, normal);
+    vec3 moving = velocityAt(solids[k].pose, x);
     float before = dot(freeVelocity[i].xyz - moving, normal);
     vec3 relative = v - moving;
     float away = dot(relative, normal);

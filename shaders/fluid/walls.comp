@@ -5,7 +5,8 @@
 // near several walls or a solid.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
-#include "fluid/solids.glsl"
+#include "shared/pose.glsl"
+#include "shared/shape.glsl"
 #include "fluid/wall_samples.glsl"
 layout(local_size_x = kFluidGroup) in;
 // walls of an axis that can be near at once: one takes an eighth of the corner look-ups
@@ -116,22 +117,21 @@ vec2 face(float s) {
 
 // A box displaces the product of its slabs, a ball what its own table says.
 vec4 solidSample(SolidRecord s, vec3 x) {
-  vec3 local = toLocal(s, x);
-  if (s.shape == 1u) {
-    float r = length(local);
-    float distance = r - s.halfX;
+  vec3 local = localPoint(s.pose, x);
+  if (s.shape.kind == kShapeSphere) {
+    vec3 normal;
+    float distance = surfaceDistance(s.shape, local, normal);
     vec2 f = line(s.tableOffset, s.tableNodes, params.tableStep, distance - s.tableFirst);
-    vec3 normal = r > 1.0e-6 * s.halfX ? local / r : vec3(0.0, 1.0, 0.0);
-    return vec4(toWorld(s, normal * f.y), f.x);
+    return vec4(toScene(s.pose, normal * f.y), f.x);
   }
-  vec3 half_ = vec3(s.halfX, s.halfY, s.halfZ), slab, slope;
+  vec3 half_ = halfExtents(s.shape), slab, slope;
   for (int a = 0; a < 3; ++a) {
     vec2 near = face(local[a] - half_[a]), far = face(local[a] + half_[a]);
     slab[a] = near.x - far.x;
     slope[a] = near.y - far.y;
   }
   vec3 gradient = vec3(slope.x * slab.y * slab.z, slab.x * slope.y * slab.z, slab.x * slab.y * slope.z);
-  return vec4(toWorld(s, gradient), slab.x * slab.y * slab.z);
+  return vec4(toScene(s.pose, gradient), slab.x * slab.y * slab.z);
 }
 
 void store(uint i, vec4 displaced, vec3 beside) {

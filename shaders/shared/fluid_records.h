@@ -2,6 +2,7 @@
 #ifndef RILL_FLUID_RECORDS_H
 #define RILL_FLUID_RECORDS_H
 #include "shared/interop.h"
+#include "shared/solid_records.h"
 RILL_RECORDS_BEGIN
 
 RILL_CONST uint kFluidGroup = 64u;        // invocations a workgroup of every per-particle pass
@@ -166,27 +167,6 @@ struct FluidSums {
   uint cornerCount;          // particles near several walls or a solid, at the last build
 };
 RILL_CONST float kErrorUnit = 1.0f / 16777216.0f;
-
-// A solid at the end of the present substep; a storage buffer. Shape 0: box, 1: sphere.
-struct SolidRecord {
-  float centerX, centerY, centerZ;
-  uint shape;
-  float halfX, halfY, halfZ;       // box: half extents; sphere: radius in halfX. m
-  float friction;
-  float rotationX, rotationY, rotationZ, rotationW;  // from local to world
-  float velocityX, velocityY, velocityZ;             // m/s
-  float restitution;
-  uint firstKey, keyCount;         // motion: entries of the keyframe buffer
-  uint tableOffset;                // sphere: entries into the table buffer
-  uint tableNodes;
-  float baseX, baseY, baseZ;       // center before any motion, m
-  float tableFirst;                // sphere: signed distance of the table's first node, m
-  uint driven;                     // 1: two keyframes, where it is at the begin and at the end of the advance, with seconds since its begin
-};
-
-struct KeyframeRecord {
-  float at, x, y, z;               // s; m
-};
 
 struct BeginPush {
   float advance;       // s

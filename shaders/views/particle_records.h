@@ -1,6 +1,7 @@
 // What the particle view's shaders and its C++ side share. All lengths in m, relative to the view's origin; y up.
 #ifndef RILL_RENDER_PARTICLE_RECORDS_H
 #define RILL_RENDER_PARTICLE_RECORDS_H
+#include "shared/solid_records.h"
 
 #ifdef __cplusplus
 #include <cstdint>
@@ -83,20 +84,20 @@ struct SceneRecord {
 };
 
 // A solid as the scene describes it.
-struct SolidRecord {
-  vec4 center;    // w: radius of a sphere, 0 for a box
-  vec4 rotation;  // unit quaternion
-  vec4 half_size; // of a box; w: radius of the bounding sphere
-  uvec4 motion;   // first keyframe, number of keyframes, whether it is driven
+struct SceneSolid {
+  PoseRecord base;          // before any motion
+  ShapeRecord shape;
+  float radius;             // of the bounding sphere
+  uint firstKey, keyCount;  // entries of the keyframe buffer
+  uint driven;              // 1: the host moves it
 };
 
 // A solid at the frame's time.
-struct PoseRecord {
-  vec4 center;  // w: radius of a sphere, 0 for a box
-  vec4 axis_x;  // unit; w: half size along it
-  vec4 axis_y;
-  vec4 axis_z;
-  vec4 view;    // center in view space; w: radius of the bounding sphere
+struct PlacedSolid {
+  PoseRecord pose;
+  ShapeRecord shape;
+  float viewX, viewY, viewZ;  // center in view space
+  float radius;               // of the bounding sphere
 };
 
 // An edge of the domain on the screen: |line.x x + line.y y + line.z| is the distance in pixels.

@@ -10,7 +10,7 @@ layout(std140, set = 0, binding = 0) uniform Scene { SceneRecord scene; };
 layout(std430, set = 0, binding = 1) readonly buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Tiles { uint tiles[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Winner { uint winner[]; };
-layout(std430, set = 0, binding = 4) readonly buffer Poses { PoseRecord poses[]; };
+layout(std430, set = 0, binding = 4) readonly buffer Placed { PlacedSolid placed[]; };
 layout(std430, set = 0, binding = 5) readonly buffer LightMap { uint light_map[]; };
 layout(std430, set = 0, binding = 6) writeonly buffer Shaded { uint shaded[]; };
 layout(std430, set = 0, binding = 7) writeonly buffer Rims { uint rims[]; };
@@ -22,21 +22,21 @@ const vec3 kSolid = vec3(0.62, 0.50, 0.36);      // sand, against the blues of s
 const vec3 kSolidGray = vec3(0.36, 0.40, 0.44);  // against the warm colors of compression
 
 // Whether a box is seen through a point of the image; spheres have a rim of their own.
-bool seesBox(PoseRecord pose, vec2 pixel) {
+bool seesBox(PlacedSolid solid, vec2 pixel) {
   vec3 normal;
-  return solidHit(pose, eyePoint(), rayOf(tangentOf(pixel)), normal) >= view.near_depth;
+  return solidHit(solid, eyePoint(), rayOf(tangentOf(pixel)), normal) >= view.near_depth;
 }
 
 // The rim of a box: the nearest of four neighboring points that miss it, and by bisection where.
-uint boxRim(PoseRecord pose, vec2 pixel) {
+uint boxRim(PlacedSolid solid, vec2 pixel) {
   uint best = kNoRim;
   RILL_LOOP for (uint side = 0u; side < 4u; ++side) {
     const vec2 step = vec2(rimStep(side));
     float low = 0.0, high = 1.0;
-    if (seesBox(pose, pixel + step)) low = 1.0;
+    if (seesBox(solid, pixel + step)) low = 1.0;
     RILL_LOOP for (int k = 0; k < 6; ++k) {
       const float middle = 0.5 * (low + high);
-      if (seesBox(pose, pixel + middle * step)) low = middle; else high = middle;
+      if (seesBox(solid, pixel + middle * step)) low = middle; else high = middle;
     }
     if (low < 1.0 && low < rimDistance(best)) best = packRim(side, low);
   }
@@ -52,11 +52,11 @@ void main() {
   const uint id = winner[index];
   if (id < kSolidBase || id >= kFloorId) return;
 
-  const PoseRecord pose = poses[id - kSolidBase];
+  const PlacedSolid solid = placed[id - kSolidBase];
   const vec2 middle = vec2(pixel) + 0.5;
   const vec3 eye = eyePoint(), ray = rayOf(tangentOf(middle));
   vec3 normal;
-  const vec3 at = eye + solidHit(pose, eye, ray, normal) * ray;
+  const vec3 at = eye + solidHit(solid, eye, ray, normal) * ray;
   const float texel = scene.light_texel.x;
   const float light = lightVisibility(at + normal * (2.0 * texel), 2.5 * texel);
   const float lifted = scene.domain_min.w > 0.0 ? (at.y - scene.domain_min.y) / (scene.domain_max.y - scene.domain_min.y) : 1.0;
@@ -66,9 +66,9 @@ void main() {
   RILL_LOOP for (int k = 0; k < 4; ++k) {
     const vec2 offset = vec2(float(k & 1) - 0.5, float(k >> 1) - 0.5) * 0.5;
     vec3 facing = normal;
-    if (solidHit(pose, eye, rayOf(tangentOf(middle + offset)), facing) < view.near_depth) facing = normal;
+    if (solidHit(solid, eye, rayOf(tangentOf(middle + offset)), facing) < view.near_depth) facing = normal;
     lit += 0.25 * (ambient(facing) * open + kKey * (max(dot(facing, scene.light_to.xyz), 0.0) * light));
   }
   shaded[index] = packColor(view.unlit != 0u ? kPlainSolid * min(lit.g, 1.0) : (view.compression != 0u ? kSolidGray : kSolid) * lit);
-  rims[index] = pose.center.w > 0.0 ? sphereRim(pose.view.xyz, pose.center.w, tangentOf(middle)) : boxRim(pose, middle);
+  rims[index] = solid.shape.kind == kShapeSphere ? sphereRim(vec3(solid.viewX, solid.viewY, solid.viewZ), solid.radius, tangentOf(middle)) : boxRim(solid, middle);
 }

@@ -5,7 +5,7 @@
 
 layout(local_size_x = 64) in;
 layout(std140, set = 0, binding = 0) uniform Scene { SceneRecord scene; };
-layout(std430, set = 0, binding = 1) readonly buffer Poses { PoseRecord poses[]; };
+layout(std430, set = 0, binding = 1) readonly buffer Placed { PlacedSolid placed[]; };
 layout(std430, set = 0, binding = 2) writeonly buffer Masks { uint masks[]; };
 #include "views/particle_light.glsl"
 #define MEETS_TILE
@@ -19,7 +19,7 @@ void main() {
   const uint columns = surfaceColumns();
   uint mask = 0u;
   RILL_LOOP for (uint k = 0u; k < 32u && first + k < scene.counts.x; ++k) {
-    if (meetsTile(poses[first + k], uvec2(tile % columns, tile / columns))) mask |= 1u << k;
+    if (meetsTile(placed[first + k], uvec2(tile % columns, tile / columns))) mask |= 1u << k;
   }
   masks[index] = mask;
 }

@@ -11,7 +11,7 @@ layout(std430, set = 0, binding = 2) writeonly buffer Winner { uint winner[]; };
 #include "views/particle_light.glsl"
 #include "views/particle_frustum.glsl"
 #ifndef BARE
-layout(std430, set = 0, binding = 3) readonly buffer Poses { PoseRecord poses[]; };
+layout(std430, set = 0, binding = 3) readonly buffer Placed { PlacedSolid placed[]; };
 layout(std430, set = 0, binding = 4) readonly buffer Masks { uint masks[]; };
 #include "views/particle_solids.glsl"
 #endif
@@ -50,7 +50,7 @@ void main() {
     for (uint mask = masks[tile * words + word]; mask != 0u; mask &= mask - 1u) {
       const uint solid = word * 32u + uint(findLSB(mask));
       vec3 normal;
-      const float t = solidHit(poses[solid], from, ray, normal);
+      const float t = solidHit(placed[solid], from, ray, normal);
       if (t >= nearest && t < best) {
         best = t;
         owner = kSolidBase + solid;

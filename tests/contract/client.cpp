@@ -11,9 +11,9 @@ Scene tank() {
   scene.fluid.spacing = 1.0 / 16;
   scene.domain = Domain{};
   scene.fill.resize(1);
-  scene.fill[0].box = BoxShape{{0, 0.25, 0}, {0.5, 0.75, 0.5}};
+  scene.fill[0].shape = BoxShape{{0, 0.25, 0}, {0.5, 0.75, 0.5}};
   scene.solids.resize(1);
-  scene.solids[0].sphere = SphereShape{{0.66, 0.5, 0.25}, 0.15};
+  scene.solids[0].shape = SphereShape{{0.66, 0.5, 0.25}, 0.15};
   scene.solids[0].driven = 2;
   return scene;
 }

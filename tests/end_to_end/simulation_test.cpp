@@ -171,7 +171,7 @@ TEST(Simulation, AddsTheOrigin) {
   Scene far = dam();
   for (int axis = 0; axis < 3; ++axis) {
     far.domain->min[axis] += 512, far.domain->max[axis] += 512;
-    far.fill[0].box->min[axis] += 512, far.fill[0].box->max[axis] += 512;
+    std::get<BoxShape>(far.fill[0].shape).min[axis] += 512, std::get<BoxShape>(far.fill[0].shape).max[axis] += 512;
   }
   const auto near = open(), moved = open({}, far);
   ASSERT_TRUE(near && moved);
@@ -233,7 +233,7 @@ TEST(Simulation, TimeStepIsLimitedByFluid) {
   tall.fluid.spacing = 0.05;
   tall.domain = Domain{{0, 0, 0}, {0.6, 3, 0.2}};
   Fill fill;
-  fill.box = BoxShape{{0, 0, 0}, {0.3, 2, 0.2}};
+  fill.shape = BoxShape{{0, 0, 0}, {0.3, 2, 0.2}};
   tall.fill.push_back(fill);
   tall.solver.time_step = 1;
   tall.solver.tolerance = 0.1;

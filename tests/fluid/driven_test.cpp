@@ -74,12 +74,12 @@ TEST_F(DrivenTest, GoesNoFasterThanItMay) {
   EXPECT_NEAR(center[1], 0.2 + 5 * 0.02, 1e-6);
   const auto records = solidsOf(run->fluid());
   ASSERT_EQ(records.size(), 1u);
-  EXPECT_NEAR(records[0].centerY, center[1], 1e-6) << "the device has it there too";
-  EXPECT_NEAR(records[0].velocityY, 5, 1e-4);
+  EXPECT_NEAR(records[0].pose.centerY, center[1], 1e-6) << "the device has it there too";
+  EXPECT_NEAR(records[0].pose.velocityY, 5, 1e-4);
   run->targets.clear();
   run->advance(0.02);
   EXPECT_EQ(run->fluid().drivenCenter(0), center) << "who is not named stays";
-  EXPECT_EQ(solidsOf(run->fluid())[0].velocityY, 0);
+  EXPECT_EQ(solidsOf(run->fluid())[0].pose.velocityY, 0);
   run->targets = {target(0, std::numeric_limits<double>::quiet_NaN(), 0, 0)};
   run->advance(0.02);
   EXPECT_EQ(run->fluid().drivenCenter(0), center) << "nor does one whose target is no place";
@@ -95,9 +95,9 @@ TEST_F(DrivenTest, OnlyWhoIsDrivenMoves) {
   run->advance(0.02);
   const auto records = solidsOf(run->fluid());
   ASSERT_EQ(records.size(), 3u);
-  EXPECT_NEAR(records[0].centerY, 0.1 + 0.02, 1e-6) << "its keyframes move it";
-  EXPECT_NEAR(records[1].centerX, 0.66, 1e-6);
-  EXPECT_NEAR(records[2].centerY, 0.29, 1e-6);
+  EXPECT_NEAR(records[0].pose.centerY, 0.1 + 0.02, 1e-6) << "its keyframes move it";
+  EXPECT_NEAR(records[1].pose.centerX, 0.66, 1e-6);
+  EXPECT_NEAR(records[2].pose.centerY, 0.29, 1e-6);
 }
 
 TEST_F(DrivenTest, ThePiecesOfAnAdvanceDoNotMatter) {

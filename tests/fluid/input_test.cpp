@@ -53,7 +53,10 @@ TEST_F(FluidInput, ScenesThatCannotBe) {
   EXPECT_EQ(with([](Scene& s) { s.gravity[1] = kNan; }), "gravity[1]: nan is not finite; expected a number (m/s^2)");
   EXPECT_EQ(with([](Scene& s) { s.solver.iterations = 4'000'000'000; }),
             "solver.iterations: 4000000000 is out of range; expected a whole number from 1 to 1000");
-  EXPECT_EQ(with([](Scene& s) { s.solids[0].sphere.reset(); }), "solids[0]: expected exactly one of \"box\", \"sphere\"; found none");
+  EXPECT_EQ(with([](Scene& s) {
+              s.solids[0].shape = SphereShape{{0, 0, 0}, -1};
+            }),
+            "solids[0].sphere.radius: -1 is out of range; expected a number above 0 (m)");
   EXPECT_EQ(with([](Scene& s) { s.fluid.smoothing_ratio = kNan; }),
             "fluid.smoothing_ratio: nan is not finite; expected a number from 1.2 to 4");
   EXPECT_EQ(with([](Scene& s) { s.fluid.spacing = 0, s.fluid.particles = 64; }),

@@ -124,13 +124,13 @@ void setWalls(Trial& trial, glm::dvec3 size, SideMask open) {
 
 Solid ball(glm::dvec3 center, double radius) {
   Solid solid;
-  solid.sphere = SphereShape{{center.x, center.y, center.z}, radius};
+  solid.shape = SphereShape{{center.x, center.y, center.z}, radius};
   return solid;
 }
 
 Solid slab(glm::dvec3 low, glm::dvec3 high) {
   Solid solid;
-  solid.box = BoxShape{{low.x, low.y, low.z}, {high.x, high.y, high.z}};
+  solid.shape = BoxShape{{low.x, low.y, low.z}, {high.x, high.y, high.z}};
   return solid;
 }
 

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "fluid/rig.hpp"
+#include "shape/records.hpp"
 
 namespace rill::test {
 namespace start_pressure_test {
@@ -153,7 +154,7 @@ TEST_F(StartPressureTest, SolidsStandStill) {
   run->read({.advance_s = t.step, .substeps = 12});
   ASSERT_EQ(run->control().nextPhase, kPhaseInitialPressure);
   const FluidSnapshot saved = run->saved();
-  ASSERT_EQ(saved.solids.size(), 6u);
+  ASSERT_EQ(saved.solids.size(), kPoseNumbers);
   EXPECT_NEAR(saved.solids[1], 9.5 * t.d(), 1e-6);
 }
 

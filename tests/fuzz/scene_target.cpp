@@ -24,7 +24,9 @@ int fuzzScene(const uint8_t* data, size_t size) {
     return 0;
   }
   // Fuzzed scenes must not open files.
-  if (std::any_of(scene->fill.begin(), scene->fill.end(), [](const Fill& fill) { return fill.particles.has_value(); })) return 0;
+  if (std::any_of(scene->fill.begin(), scene->fill.end(),
+                  [](const Fill& fill) { return std::holds_alternative<ParticleFile>(fill.shape); }))
+    return 0;
   const auto particles = makeParticles(*scene, 2000);
   if (!particles) {
     RILL_REQUIRE(!particles.error().message.empty());

@@ -17,8 +17,8 @@ std::unique_ptr<rill::Fluid> makeFluid(rill::Device& device, double x, double vi
   scene.fluid.spacing = 0.06;
   scene.fluid.viscosity = viscosity;
   scene.domain = rill::Domain{{x, 0, 0}, {x + 0.9, 1, 0.9}};
-  scene.fill = {rill::Fill{.box = rill::BoxShape{{x, 0, 0}, {x + 0.9, 0.24, 0.9}}},
-                rill::Fill{.sphere = rill::SphereShape{{x + 0.45, 0.6, 0.45}, 0.2}}};
+  scene.fill = {rill::Fill{.shape = rill::BoxShape{{x, 0, 0}, {x + 0.9, 0.24, 0.9}}},
+                rill::Fill{.shape = rill::SphereShape{{x + 0.45, 0.6, 0.45}, 0.2}}};
   const auto start = need(rill::makeParticles(scene));
   return need(rill::Fluid::create(device, {.scene = &scene, .particles = &start}));
 }

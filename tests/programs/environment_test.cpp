@@ -75,8 +75,8 @@ TEST(SceneEnvironment, RendersCleanUnderValidation) {
     Scene scene;
     scene.fluid.spacing = 0.1;
     scene.domain = Domain{{0, 0, 0}, {1, 1, 1}, 0};
-    scene.fill.push_back(Fill{.box = BoxShape{{0, 0, 0}, {0.5, 0.5, 1}}});
-    if (solids) scene.solids.push_back(Solid{.sphere = SphereShape{{0.8, 0.2, 0.5}, 0.1}});
+    scene.fill.push_back(Fill{.shape = BoxShape{{0, 0, 0}, {0.5, 0.5, 1}}});
+    if (solids) scene.solids.push_back(Solid{.shape = SphereShape{{0.8, 0.2, 0.5}, 0.1}});
     scene.look.environment = folder.write("sky.hdr", radiance({'\x80', '\x40', '\x20', '\x81'}));
     offline::Options options;
     options.validation = true;

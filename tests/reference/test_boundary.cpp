@@ -13,7 +13,7 @@ constexpr double kSpacing = 0.05, kStep = 1e-3;
 
 Solid plate(double friction, double restitution) {
   Solid solid;
-  solid.box = BoxShape{{-5, -1, -5}, {5, 0, 5}};
+  solid.shape = BoxShape{{-5, -1, -5}, {5, 0, 5}};
   solid.friction = friction;
   solid.restitution = restitution;
   return solid;
@@ -31,8 +31,8 @@ TEST(Boundary, KeepsCentersHalfASpacingFromSurfaces) {
     ReferenceSettings s = tank(kSpacing, kSpacing * glm::dvec3(12, 16, 5));
     s.tabulated = tabulated;
     Solid ball, box;
-    ball.sphere = SphereShape{{6 * kSpacing, 3 * kSpacing, 2.5 * kSpacing}, 1.4 * kSpacing};
-    box.box = BoxShape{{9 * kSpacing, 0, 1.4 * kSpacing}, {10 * kSpacing, 4 * kSpacing, 3.6 * kSpacing}};
+    ball.shape = SphereShape{{6 * kSpacing, 3 * kSpacing, 2.5 * kSpacing}, 1.4 * kSpacing};
+    box.shape = BoxShape{{9 * kSpacing, 0, 1.4 * kSpacing}, {10 * kSpacing, 4 * kSpacing, 3.6 * kSpacing}};
     box.rotation[1] = std::sin(0.3), box.rotation[3] = std::cos(0.3);
     s.solids = {ball, box};
     ReferenceSolver solver(s, lattice(4, 12, 5, kSpacing));
@@ -41,8 +41,8 @@ TEST(Boundary, KeepsCentersHalfASpacingFromSurfaces) {
     for (int step = 0; step < (tabulated ? 500 : 100); ++step) {
       solver.substep(kStep, kStep);
       for (const glm::dvec3& x : solver.state.position) {
-        const double at[3] = {x.x, x.y, x.z};
-        for (const Solid& solid : s.solids) deepest = std::max(deepest, kSpacing / 2 - solidSurface(solidPose(solid, 0), at).distance);
+        for (const Solid& solid : s.solids)
+          deepest = std::max(deepest, kSpacing / 2 - surfaceAt(solid.shape, solidPose(solid, 0), {x.x, x.y, x.z}).distance);
         for (int a = 0; a < 3; ++a) ASSERT_TRUE(x[a] >= kSpacing / 2 && x[a] <= s.hi[a] - kSpacing / 2);
       }
     }
@@ -71,7 +71,7 @@ TEST(Boundary, SolidCoversDirectionsAlongItsSurface) {
   EXPECT_NEAR(floor.wallCoverage[1], 0, 1e-12);
   EXPECT_NEAR(floor.wallCoverage[2], floor.value, 1e-12);
   Solid turned = plate(0, 0);  // by 45 degrees: the face x + y = 7.07 m covers x and y by one half
-  turned.box = BoxShape{{-5, -5, -5}, {5, 5, 5}};
+  turned.shape = BoxShape{{-5, -5, -5}, {5, 5, 5}};
   turned.rotation[2] = std::sin(std::numbers::pi / 8);
   turned.rotation[3] = std::cos(std::numbers::pi / 8);
   const double out = (5 + kSpacing / 2) / std::numbers::sqrt2;
@@ -81,7 +81,7 @@ TEST(Boundary, SolidCoversDirectionsAlongItsSurface) {
   EXPECT_NEAR(slope.wallCoverage[1], slope.value / 2, 1e-6);
   EXPECT_NEAR(slope.wallCoverage[2], slope.value, 1e-6);
   Solid ball;
-  ball.sphere = SphereShape{{0, 0, 0}, 4 * kSpacing};
+  ball.shape = SphereShape{{0, 0, 0}, 4 * kSpacing};
   const WallSample pole = at(ball, {0, 0, 4.5 * kSpacing});
   EXPECT_NEAR(pole.wallCoverage[0], pole.value, 1e-12);
   EXPECT_NEAR(pole.wallCoverage[2], 0, 1e-12);
@@ -140,7 +140,7 @@ TEST(Contact, FrictionIncludesWeightOfColumn) {
     s.lo.y = -kSpacing;
     s.viscosity = 5;
     Solid belt = plate(0, 0);
-    belt.box->min[0] = -50;
+    std::get<BoxShape>(belt.shape).min[0] = -50;
     belt.motion = {{0, {0, 0, 0}}, {10, {100, 0, 0}}};
     s.solids = {belt};
     ReferenceSolver solver(s, lattice(wide, layers, wide, kSpacing));
@@ -163,7 +163,7 @@ TEST(Contact, FrictionIncludesWeightOfColumn) {
 
 TEST(Boundary, MovingSphereDisplacesParticles) {
   Solid ball;
-  ball.sphere = SphereShape{{-0.5, 0, 0}, 0.2};
+  ball.shape = SphereShape{{-0.5, 0, 0}, 0.2};
   ball.motion = {{0, {0, 0, 0}}, {1, {1, 0, 0}}};
   ReferenceSettings s = over(ball);
   s.gravity = glm::dvec3(0);
@@ -172,9 +172,9 @@ TEST(Boundary, MovingSphereDisplacesParticles) {
   solver.begin(kStep);
   for (int step = 0; step < 1000; ++step) {
     solver.substep(kStep, kStep);
-    const SolidPose pose = solidPose(ball, solver.time());
-    const double at[3] = {solver.state.position[0].x + 3, solver.state.position[0].y, solver.state.position[0].z};
-    EXPECT_GE(solidSurface(pose, at).distance, kSpacing / 2 - 1e-9);
+    const Pose pose = solidPose(ball, solver.time());
+    const Vec3 at = {solver.state.position[0].x + 3, solver.state.position[0].y, solver.state.position[0].z};
+    EXPECT_GE(surfaceAt(ball.shape, pose, at).distance, kSpacing / 2 - 1e-9);
   }
   EXPECT_GT(glm::length(solver.state.position[0] - glm::dvec3(-3, 0.01, 0)), 0.1);
 }
@@ -185,7 +185,7 @@ TEST(Boundary, TablesAndLatticeSumsGiveSameFlow) {
     ReferenceSettings s = tank(kSpacing, kSpacing * glm::dvec3(10, 10, 4));
     s.tabulated = tabulated;
     Solid ball;
-    ball.sphere = SphereShape{{7 * kSpacing, 2 * kSpacing, 2 * kSpacing}, kSpacing};
+    ball.shape = SphereShape{{7 * kSpacing, 2 * kSpacing, 2 * kSpacing}, kSpacing};
     s.solids = {ball};
     ReferenceSolver solver(s, lattice(4, 6, 4, kSpacing));
     solver.begin(kStep);

@@ -270,7 +270,7 @@ TEST_F(ParticleViewOnGpu, EmptyTankHasFloorWallsAndEdges) {
 TEST_F(ParticleViewOnGpu, SolidsHideParticlesAndMove) {
   constexpr uint32_t kSize = 128;
   Solid box;
-  box.box = BoxShape{{-1, -1, -6}, {1, 1, -5}};
+  box.shape = BoxShape{{-1, -1, -6}, {1, 1, -5}};
   box.motion = {{0, {0, 0, 0}}, {1, {30, 0, 0}}};
   scene_.solids = {box};
   const Particle behind{0, 0, -8}, before{0, 0, -3}, far{100, 100, 50};
@@ -296,9 +296,9 @@ TEST_F(ParticleViewOnGpu, ManySolidsOfBothKinds) {
     Solid solid;
     const double x = 0.8 * (k % 20 - 9.5), y = 0.8 * (k / 20 - 2);
     if (k % 2 == 0)
-      solid.sphere = SphereShape{{x, y, -10}, 0.2};
+      solid.shape = SphereShape{{x, y, -10}, 0.2};
     else
-      solid.box = BoxShape{{x - 0.12, y - 0.12, -10.1}, {x + 0.12, y + 0.12, -9.9}};
+      solid.shape = BoxShape{{x - 0.12, y - 0.12, -10.1}, {x + 0.12, y + 0.12, -9.9}};
     scene_.solids.push_back(solid);
     centers.emplace_back(x, y);
   }
@@ -353,7 +353,7 @@ TEST_F(ParticleViewOnGpu, ColorsSpeedAndCompression) {
 TEST_F(ParticleViewOnGpu, UnlitColorsAreThoseOfTheMap) {
   constexpr uint32_t kSize = 96;
   scene_.domain = Domain{{-3, -0.6, -7}, {3, 2, -1}, 0};
-  scene_.solids.push_back(Solid{{}, SphereShape{{1.4, 0.2, -5}, 0.7}});
+  scene_.solids.push_back(Solid{SphereShape{{1.4, 0.2, -5}, 0.7}});
   for (const auto color : {ParticleColor::Speed, ParticleColor::Compression}) {
     double darkest = 1;
     for (int k = 0; k <= 16; ++k) {

@@ -25,7 +25,9 @@ class Numbers {
   void object(Owner& owner) {
     model::forEachField<Owner>([&](const auto& field) {
       using Value = typename std::remove_cvref_t<decltype(field)>::Value;
-      if constexpr (model::kHasMember<Value>) add(owner.*field.member);
+      if constexpr (model::kHasMember<Value>) {
+        if (Value* value = field.find(owner)) add(*value);
+      }
     });
     if constexpr (std::is_same_v<Owner, Solid>) add(owner.driven);
   }
@@ -122,7 +124,7 @@ TEST(MutatedScenes, AreRejectedOrRun) {
     EXPECT_LE(setup->grid.cells(), maxGridCells(made->positions.size()));
     EXPECT_GT(setup->params.maxStep, 0) << round;
     EXPECT_TRUE(std::isfinite(setup->params.maxStep)) << round;
-    for (const SolidRecord& solid : setup->solids) EXPECT_TRUE(std::isfinite(solid.centerX)) << round;
+    for (const SolidRecord& solid : setup->solids) EXPECT_TRUE(std::isfinite(solid.pose.centerX)) << round;
   }
   EXPECT_GT(rejected, 1000);
   EXPECT_GT(ran, 300);

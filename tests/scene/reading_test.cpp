@@ -48,7 +48,7 @@ TEST(SceneReader, ReadsEveryKey) {
   EXPECT_EQ(s.solver.kernel, KernelChoice::Poly6Spiky);
   EXPECT_EQ(s.solver.neighbors, NeighborChoice::Grid);
   EXPECT_EQ(s.fill[0].velocity[2], 3);
-  EXPECT_EQ(s.fill[1].sphere->radius, 4);
+  EXPECT_EQ(std::get<SphereShape>(s.fill[1].shape).radius, 4);
   EXPECT_EQ(s.solids[0].rotation[1], 1);
   EXPECT_EQ(s.solids[0].motion[1].translate[0], 1);
   EXPECT_EQ(s.probes[0].level->second, 0.075);
@@ -63,6 +63,14 @@ TEST(SceneReader, NormalizesQuaternions) {
     EXPECT_NEAR(solid.rotation[0], std::sqrt(0.5), 1e-12);
     EXPECT_NEAR(solid.rotation[3], std::sqrt(0.5), 1e-12);
   }
+}
+
+TEST(SceneReader, NormalizesRotationsOfKeyframes) {
+  const Scene s = scene(
+      R"({"rill": "0.2", "fluid": {"spacing": 0.1}, "solids": [{"sphere": {}, "motion": [{"at": 0}, {"at": 1, "rotate": [0, 3, 0, 4]}]}]})");
+  EXPECT_EQ(s.solids[0].motion[0].rotate[3], 1);
+  EXPECT_NEAR(s.solids[0].motion[1].rotate[1], 0.6, 1e-15);
+  EXPECT_NEAR(s.solids[0].motion[1].rotate[3], 0.8, 1e-15);
 }
 
 TEST(SceneReader, TreatsAutoAsDefault) {
@@ -112,7 +120,7 @@ TEST(Overrides, ChangeAndAddListEntries) {
   const Scene s =
       scene(with(R"("fill": [{"box": {}}])"), {{"fill[1]", R"({"sphere": {"radius": 2}})"}, {"gravity", "[1,2,3]"}, {"gravity[2]", "7"}});
   ASSERT_EQ(s.fill.size(), 2U);
-  EXPECT_EQ(s.fill[1].sphere->radius, 2);
+  EXPECT_EQ(std::get<SphereShape>(s.fill[1].shape).radius, 2);
   EXPECT_EQ(s.gravity[2], 7);
 }
 
@@ -171,8 +179,9 @@ TEST(Overrides, ResolveRelativePathsAgainstCurrentDirectory) {
     const auto scene = loadScene(file, overrides);
     ASSERT_TRUE(scene) << scene.error().message;
     EXPECT_TRUE(std::filesystem::equivalent(scene->look.environment, above.path / environment)) << scene->look.environment;
-    EXPECT_TRUE(std::filesystem::equivalent(*scene->fill[0].particles, above.path / particles)) << *scene->fill[0].particles;
-    EXPECT_TRUE(scene->look.environment.is_absolute() && scene->fill[0].particles->is_absolute());
+    EXPECT_TRUE(std::filesystem::equivalent(std::get<ParticleFile>(scene->fill[0].shape).file, above.path / particles))
+        << std::get<ParticleFile>(scene->fill[0].shape).file;
+    EXPECT_TRUE(scene->look.environment.is_absolute() && std::get<ParticleFile>(scene->fill[0].shape).file.is_absolute());
   };
   read({}, "scenes/sky.hdr", "scenes/water.ply");
   read({{"look.preset", "milk"}, {"fill[0].jitter", "0.1"}}, "scenes/sky.hdr", "scenes/water.ply");

@@ -85,13 +85,32 @@ TEST(SceneErrors, RejectsInvalidAndNewerVersions) {
       {version(R"("0.1.2.3")"), ": rill: found \"0.1.2.3\", " + expected},
       {version(R"("v0.1")"), ": rill: found \"v0.1\", " + expected},
   });
-  for (const std::string value : {"999.0", "0.999", "999.1.2", "99999999999999999999.0"}) {
+  for (const std::string value : {"999.0", "0.3", "0.999", "999.1.2", "99999999999999999999.0"}) {
     EXPECT_EQ(
         parseError(version("\"" + value + "\"")).rfind("dam.json: rill: the scene needs Rill " + value + " or later; this is Rill ", 0), 0U)
         << value;
   }
-  for (const std::string value : {"0.1", "0.0", "0.1.0", "0.0.99", "00.01"})
+  for (const std::string value : {"0.1", "0.2", "0.0", "0.1.0", "0.2.0", "0.0.99", "00.01"})
     EXPECT_EQ(parseError(R"({"rill": ")" + value + R"(", "fluid": {"spacing": 1}})"), "accepted") << value;
+}
+
+TEST(SceneErrors, RejectsKeysNewerThanTheVersionOfTheScene) {
+  const auto turning = [](const std::string& version, const std::string& key) {
+    return R"({"rill": ")" + version + R"(", "fluid": {"spacing": 0.1}, "solids": [{"box": {}, "motion": [{"at": 0}, {"at": 1, )" + key +
+           "}]}]}";
+  };
+  const std::string turn = R"("rotate": [0, 1, 0, 0])";
+  EXPECT_EQ(parseError(turning("0.2", turn)), "accepted");
+  EXPECT_EQ(parseError(turning("0.1", turn)),
+            "dam.json: solids[0].motion[1].rotate: the scene says \"rill\": \"0.1\"; the key needs \"rill\": \"0.2\"");
+  EXPECT_EQ(parseError(turning("0.1", turn), {{"rill", "0.2"}}), "accepted");
+  EXPECT_EQ(parseError(turning("0.1", "\"translate\": [1, 0, 0]"), {{"solids[0].motion[0].rotate", "[0,0,0,1]"}}),
+            "--set solids[0].motion[0].rotate: the scene says \"rill\": \"0.1\"; the key needs \"rill\": \"0.2\"");
+  EXPECT_EQ(
+      parseError(turning("0.2", R"("rotate": [0, 0, 0, 0])")),
+      "dam.json: solids[0].motion[1].rotate: the quaternion has zero length; expected a non-zero quaternion, [0, 0, 0, 1] for no rotation");
+  EXPECT_EQ(parseError(turning("0.2", R"("rotate": [0, 0, 1])")),
+            "dam.json: solids[0].motion[1].rotate: found an array of length 3, expected 4 numbers [x, y, z, w]");
 }
 
 TEST(SceneErrors, SuggestsNearestKeyForUnknownKeys) {
@@ -246,7 +265,7 @@ TEST(SceneErrors, RejectsMissingParticleFile) {
   folder.write("settled.ply", "ply\n");
   const auto there = parseScene(text, "dam.json", folder.path);
   ASSERT_TRUE(there);
-  EXPECT_TRUE(there->fill[0].particles->is_absolute());
+  EXPECT_TRUE(std::get<ParticleFile>(there->fill[0].shape).file.is_absolute());
   EXPECT_NE(parseError(with(R"("fill": [{"particles": {"file": ""}}])")).find("expected a file name"), std::string::npos);
   EXPECT_NE(parseError(with(R"("fill": [{"particles": {}}])")).find("fill[0].particles.file: required key is missing"), std::string::npos);
   EXPECT_NE(parseError(with(R"("fill": [{"particles": {"file": "."}}])")).find("not a regular file; expected a file"), std::string::npos);

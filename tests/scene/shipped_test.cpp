@@ -50,7 +50,7 @@ TEST(Shipped, Dam50kKeepsItsBenchmarkSetup) {
   EXPECT_EQ(s->domain->max[0], 5);
   EXPECT_EQ(s->domain->max[1], 4);
   EXPECT_EQ(s->domain->open, 0);
-  EXPECT_EQ(s->fill[0].box->max[1], 2.5);
+  EXPECT_EQ(std::get<BoxShape>(s->fill[0].shape).max[1], 2.5);
 }
 
 }  // namespace

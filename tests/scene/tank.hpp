@@ -10,12 +10,12 @@ inline Scene tank() {
   scene.fluid.spacing = 0.1;
   scene.domain = Domain{{0, 0, 0}, {2, 1, 1}, 0};
   Fill block, drop;
-  block.box = BoxShape{{0, 0, 0}, {0.5, 0.5, 0.5}};
-  drop.sphere = SphereShape{{1.5, 0.5, 0.5}, 0.3};
+  block.shape = BoxShape{{0, 0, 0}, {0.5, 0.5, 0.5}};
+  drop.shape = SphereShape{{1.5, 0.5, 0.5}, 0.3};
   scene.fill = {block, drop};
   Solid post, ball;
-  post.box = BoxShape{{0.9, 0, 0.4}, {1, 0.5, 0.6}};
-  ball.sphere = SphereShape{{1, 0.8, 0.5}, 0.1};
+  post.shape = BoxShape{{0.9, 0, 0.4}, {1, 0.5, 0.6}};
+  ball.shape = SphereShape{{1, 0.8, 0.5}, 0.1};
   ball.motion = {Keyframe{0.5, {0, 0, 0}}, Keyframe{1, {0, 0.1, 0}}};
   scene.solids = {post, ball};
   scene.gravity_changes = {GravityChange{1, {0, -5, 0}}, GravityChange{2, {0, -9, 0}}};

@@ -6,7 +6,6 @@
 
 #include "shared/pair_hash.h"
 #include "sph/solid_density.hpp"
-#include "sph/solid_pose.hpp"
 
 namespace {
 
@@ -72,7 +71,7 @@ TEST_P(SolidTest, ThickBoxMatchesWallAndThinPlateDisplacesLess) {
     const LineSample plane = exactPlane(k, s);
     double last = plane.value;
     for (const double thickness : {2 * k.h(), 1.5 * kSolidSpacing, kSolidSpacing, 0.3 * kSolidSpacing}) {
-      const double half[3] = {wide, wide, thickness / 2}, at[3] = {0.1 * kSolidSpacing, -0.2 * kSolidSpacing, -(s + thickness / 2)};
+      const Vec3 half = {wide, wide, thickness / 2}, at = {0.1 * kSolidSpacing, -0.2 * kSolidSpacing, -(s + thickness / 2)};
       const WallSample box = boxSample(k, at, half);
       if (thickness > k.h()) {
         EXPECT_NEAR(box.value, plane.value, 1e-12);
@@ -90,7 +89,7 @@ TEST_P(SolidTest, ThickBoxMatchesWallAndThinPlateDisplacesLess) {
 // A plate as thick as one lattice layer contributes the same density as that layer.
 TEST_P(SolidTest, PlateOfOneSpacingMatchesOneLayer) {
   const SmoothingKernel k = kernel();
-  const double half[3] = {10 * k.h(), 10 * k.h(), kSolidSpacing / 2}, at[3] = {0, 0, kSolidSpacing};
+  const Vec3 half = {10 * k.h(), 10 * k.h(), kSolidSpacing / 2}, at = {0, 0, kSolidSpacing};
   double layer = 0;
   for (int i = -5; i <= 5; ++i)
     for (int j = -5; j <= 5; ++j) layer += k.value(kSolidSpacing * std::sqrt(i * i + j * j + 1.0));
@@ -102,60 +101,16 @@ TEST(WendlandBox, GradientIsTheDerivativeOfTheValue) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(-4 * kSolidSpacing, 4 * kSolidSpacing), size(0.2 * kSolidSpacing, 2 * kSolidSpacing);
   for (int sample = 0; sample < 300; ++sample) {
-    const double at[3] = {place(random), place(random), place(random)}, half[3] = {size(random), size(random), size(random)};
+    const Vec3 at = {place(random), place(random), place(random)}, half = {size(random), size(random), size(random)};
     const WallSample box = boxSample(k, at, half);
-    for (int a = 0; a < 3; ++a) {
+    for (size_t a = 0; a < 3; ++a) {
       const double step = 1e-6 * kSolidSpacing;
-      double low[3] = {at[0], at[1], at[2]}, high[3] = {at[0], at[1], at[2]};
+      Vec3 low = at, high = at;
       low[a] -= step, high[a] += step;
       const double slope = (boxSample(k, high, half).value - boxSample(k, low, half).value) / (2 * step);
       EXPECT_NEAR(box.gradient[a] * kSolidSpacing, slope * kSolidSpacing, 1e-4);
     }
   }
-}
-
-TEST(SolidPose, InterpolatesKeyframes) {
-  Solid solid;
-  solid.sphere = SphereShape{{1, 2, 3}, 0.5};
-  EXPECT_EQ(solidPose(solid, 5).center[0], 1);
-  EXPECT_EQ(solidPose(solid, 5).velocity[0], 0);
-  solid.motion = {{1, {1, 0, 0}}, {3, {5, 0, 0}}, {4, {5, -2, 0}}};
-  EXPECT_DOUBLE_EQ(solidPose(solid, 0).center[0], 2);
-  EXPECT_DOUBLE_EQ(solidPose(solid, 0).velocity[0], 0);
-  EXPECT_DOUBLE_EQ(solidPose(solid, 2).center[0], 4);
-  EXPECT_DOUBLE_EQ(solidPose(solid, 2).velocity[0], 2);
-  EXPECT_DOUBLE_EQ(solidPose(solid, 3).velocity[0], 0);
-  EXPECT_DOUBLE_EQ(solidPose(solid, 3).velocity[1], -2);
-  EXPECT_DOUBLE_EQ(solidPose(solid, 3.5).center[1], 1);
-  EXPECT_DOUBLE_EQ(solidPose(solid, 9).center[1], 0);
-  EXPECT_DOUBLE_EQ(solidPose(solid, 9).velocity[1], 0);
-  const SolidPose step = solidPose(solid, 2.5, 1.0);  // half a second at 2 m/s in x, half at -2 in y
-  EXPECT_DOUBLE_EQ(step.velocity[0], 1);
-  EXPECT_DOUBLE_EQ(step.velocity[1], -1);
-  EXPECT_DOUBLE_EQ(step.center[1], 1);
-}
-
-TEST(SolidPose, ComputesSurfaceOfSpheresAndRotatedBoxes) {
-  Solid ball;
-  ball.sphere = SphereShape{{1, 0, 0}, 0.5};
-  const double above[3] = {1, 2, 0}, center[3] = {1, 0, 0};
-  EXPECT_DOUBLE_EQ(solidSurface(solidPose(ball, 0), above).distance, 1.5);
-  EXPECT_DOUBLE_EQ(solidSurface(solidPose(ball, 0), above).normal[1], 1);
-  EXPECT_DOUBLE_EQ(solidSurface(solidPose(ball, 0), center).distance, -0.5);
-  EXPECT_DOUBLE_EQ(solidSurface(solidPose(ball, 0), center).normal[1], 1);
-
-  Solid box;
-  box.box = BoxShape{{-2, -1, -1}, {2, 1, 1}};
-  box.rotation[2] = box.rotation[3] = std::sqrt(0.5);  // a quarter turn about z: long along y
-  const SolidPose pose = solidPose(box, 0);
-  const double top[3] = {0, 3, 0}, inside[3] = {0.9, 0.5, 0}, corner[3] = {1 + 3, 2 + 4, 0};
-  EXPECT_NEAR(solidSurface(pose, top).distance, 1, 1e-12);
-  EXPECT_NEAR(solidSurface(pose, top).normal[1], 1, 1e-12);
-  EXPECT_NEAR(solidSurface(pose, inside).distance, -0.1, 1e-12);
-  EXPECT_NEAR(solidSurface(pose, inside).normal[0], 1, 1e-12);
-  EXPECT_NEAR(solidSurface(pose, corner).distance, 5, 1e-12);
-  EXPECT_NEAR(solidSurface(pose, corner).normal[0], 0.6, 1e-12);
-  EXPECT_NEAR(solidSurface(pose, corner).normal[1], 0.8, 1e-12);
 }
 
 TEST(PairHash, IsAntisymmetricNonZeroAndUniform) {

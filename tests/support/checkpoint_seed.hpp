@@ -39,7 +39,7 @@ inline offline::Checkpoint seedCheckpoint() {
   };
   s.control = words(control);
   s.sums = words(sums);
-  s.solids = {1, 2, 3, 0, 0, 0.5f};
+  s.solids = {1, 2, 3, 0, 0, 0, 1, 0, 0, 0.5f, 0, 0, 0};
   for (uint32_t i = 0; i < 6; ++i) {
     const auto x = static_cast<float>(i);
     s.position.push_back({x, 0.5f, 0.25f});

@@ -10,10 +10,11 @@ namespace {
 
 CameraView ahead() { return {.eye = {0, 0, 5}, .target = {0, 0, 0}, .fov_y_deg = 90}; }
 
-SolidPose box(double x, double half, bool turned = false) {
-  SolidPose pose;
+Solid box(double half) { return {.shape = BoxShape{{-half, -half, -half}, {half, half, half}}}; }
+
+Pose at(double x, bool turned = false) {
+  Pose pose;
   pose.center[0] = x;
-  for (double& h : pose.half) h = half;
   if (turned) {  // by 45 degrees about y
     pose.rotation[1] = std::sin(M_PI / 8);
     pose.rotation[3] = std::cos(M_PI / 8);
@@ -34,27 +35,27 @@ TEST(ViewPick, ReturnsNearestHit) {
   const Ray ray = rayThrough(ahead(), 0, 0);
   const Float3 balls[] = {{0, 0, -3}, {0.05f, 0, -1}, {0.2f, 0, 0}, {0, 0, 7}};  // the third is beside the ray, the last behind the eye
   const double origin[3] = {0, 0, 1};
-  const auto fluid = pick(ray, balls, origin, 0.1, {});
+  const auto fluid = pick(ray, balls, origin, 0.1, {}, {});
   ASSERT_TRUE(fluid);
   EXPECT_FALSE(fluid->solid);
   EXPECT_NEAR(fluid->distance, 5 - std::sqrt(0.1 * 0.1 - 0.05 * 0.05), 1e-6);
-  SolidPose sphere = box(0, 0.5);
-  sphere.sphere = true;
-  const SolidPose solids[] = {box(3, 1), sphere};
-  const auto solid = pick(ray, balls, origin, 0.1, solids);
+  const Solid solids[] = {box(1), {.shape = SphereShape{{0, 0, 0}, 0.5}}};
+  const Pose poses[] = {at(3), at(0)};
+  const auto solid = pick(ray, balls, origin, 0.1, solids, poses);
   ASSERT_TRUE(solid && solid->solid);
   EXPECT_EQ(*solid->solid, 1u);
   EXPECT_NEAR(solid->distance, 4.5, 1e-12);
-  EXPECT_FALSE(pick(ray, {}, origin, 0.1, {}));
-  EXPECT_FALSE(pick(rayThrough(ahead(), -0.4, 0), balls, origin, 0.1, solids));
+  EXPECT_FALSE(pick(ray, {}, origin, 0.1, {}, {}));
+  EXPECT_FALSE(pick(rayThrough(ahead(), -0.4, 0), balls, origin, 0.1, solids, poses));
 }
 
 TEST(ViewPick, HitsRotatedBoxAtEdge) {
-  const SolidPose straight[] = {box(0, 1)}, turned[] = {box(0, 1, true)};
+  const Solid solids[] = {box(1)};
+  const Pose straight[] = {at(0)}, turned[] = {at(0, true)};
   const double origin[3] = {0, 0, 0};
   const Ray ray = rayThrough(ahead(), 0, 0);
-  EXPECT_NEAR(pick(ray, {}, origin, 0.1, straight)->distance, 4, 1e-12);
-  EXPECT_NEAR(pick(ray, {}, origin, 0.1, turned)->distance, 5 - std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(pick(ray, {}, origin, 0.1, solids, straight)->distance, 4, 1e-12);
+  EXPECT_NEAR(pick(ray, {}, origin, 0.1, solids, turned)->distance, 5 - std::sqrt(2.0), 1e-9);
 }
 
 TEST(ViewPick, MissesBoxesAndPlanes) {

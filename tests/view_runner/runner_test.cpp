@@ -195,7 +195,7 @@ TEST_F(ViewRunnerTest, SavedSceneHasRelativePaths) {
     return *scene;
   };
   EXPECT_TRUE(std::filesystem::equivalent(saved().look.environment, folder / "sky.hdr"));
-  EXPECT_TRUE(std::filesystem::equivalent(*saved().fill[0].particles, folder / "water.ply"));
+  EXPECT_TRUE(std::filesystem::equivalent(std::get<ParticleFile>(saved().fill[0].shape).file, folder / "water.ply"));
   const auto fromHere = std::filesystem::relative(elsewhere / "other.hdr");
   ASSERT_TRUE((*session)->change({"look.environment", fromHere.string()}));
   EXPECT_TRUE(std::filesystem::equivalent(saved().look.environment, elsewhere / "other.hdr"));

@@ -62,11 +62,12 @@ TEST_F(TouchTest, BallPushesFluidAndIsRemoved) {
   ASSERT_TRUE(held) << held.error().message;
   ASSERT_TRUE(*held && touch_.holds());
   EXPECT_EQ(session().scene().solids.size(), solids + 1);
-  const SolidPose stands = runner().pose(static_cast<uint32_t>(solids));
-  EXPECT_TRUE(stands.sphere);
-  EXPECT_GT(stands.center[2] - stands.half[0], 0.6 - 0.05) << "before the surface";
+  const auto* ball = std::get_if<SphereShape>(&session().scene().solids[solids].shape);
+  ASSERT_NE(ball, nullptr);
+  const Pose stands = runner().pose(static_cast<uint32_t>(solids));
+  EXPECT_GT(stands.center[2] - ball->radius, 0.6 - 0.05) << "before the surface";
   steps(10);
-  const SolidPose in = runner().pose(static_cast<uint32_t>(solids));
+  const Pose in = runner().pose(static_cast<uint32_t>(solids));
   EXPECT_NEAR(in.center[2], 0.6, 0.04) << "half in, where the pointer is";
   EXPECT_NEAR(in.center[0], 1.5, 1e-3);
   const double before_x = stats().momentum[0];
@@ -88,7 +89,7 @@ TEST_F(TouchTest, BallPushesFluidAndIsRemoved) {
 
 TEST_F(TouchTest, SolidFollowsPointerAndStays) {
   steps(5);
-  const SolidPose there = runner().pose(0);
+  const Pose there = runner().pose(0);
   EXPECT_NEAR(there.center[0], 1.2 + 0.3 * 6 / 60, 1e-5) << "its keyframes have moved it";
   auto held = touch_.grab(session(), eye(), at(there.center[0] + 0.05, 0.7), Hold::Solid);
   ASSERT_TRUE(held && *held);
@@ -110,13 +111,12 @@ TEST_F(TouchTest, DrivenSolidIsDrawnAtItsPose) {
   ASSERT_TRUE(held && *held);
   touch_.drag(session(), eye(), at(1.5, 0.75));
   steps(20);
-  const SolidPose there = runner().pose(1);
+  const Pose there = runner().pose(1);
   EXPECT_NEAR(there.center[0], 1.5, 1e-4);
   Scene still = session().scene();
-  for (size_t a = 0; a < 3; ++a) {
-    still.solids[1].box->min[a] = there.center[a] - there.half[a];
-    still.solids[1].box->max[a] = there.center[a] + there.half[a];
-  }
+  Vec3 moved = there.center;
+  for (size_t a = 0; a < 3; ++a) moved[a] -= centerOf(still.solids[1].shape)[a];
+  translate(still.solids[1].shape, moved);
   still.solids[1].driven = 0;
   const ParticleSet start = runner().start();
   offline::Painter other(still, start, 0);

@@ -17,11 +17,11 @@ Expected<Outcome> jet(const Bench& bench, unsigned level) {
   Scene scene = boxScene(spacing, {0, 0, 0}, {12, 2, thick});  // long enough that no fluid returns
   scene.fill.push_back(boxFill({0, 0, 0}, {kTank, kDepth, thick}));
   Solid wall;
-  wall.box.emplace();
+  auto& box = wall.shape.emplace<BoxShape>();
   const double low[] = {kTank, kSlit, -1}, high[] = {kTank + kWall, 3, thick + 1};
   for (size_t axis = 0; axis < 3; ++axis) {
-    wall.box->min[axis] = low[axis];
-    wall.box->max[axis] = high[axis];
+    box.min[axis] = low[axis];
+    box.max[axis] = high[axis];
   }
   scene.solids.push_back(wall);
   Curve ratio, head, speeds, ideals, left;

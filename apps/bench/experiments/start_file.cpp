@@ -26,7 +26,7 @@ Expected<StartFile> StartFile::write(const Cloud& cloud) {
 
 Fill StartFile::fill() const {
   Fill fill;
-  fill.particles = file();
+  fill.shape = ParticleFile{file()};
   return fill;
 }
 

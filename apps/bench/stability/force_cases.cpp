@@ -49,7 +49,7 @@ std::vector<StressCase> forceCases() {
     drop.fluid.spacing = 0.05;
     for (double& g : drop.gravity) g = 0;
     Fill ball;
-    ball.sphere = SphereShape{{0, 0, 0}, 0.2};
+    ball.shape = SphereShape{{0, 0, 0}, 0.2};
     ball.velocity[0] = 0.3;
     ball.velocity[1] = -0.1;
     drop.fill.push_back(ball);
@@ -88,8 +88,9 @@ std::vector<StressCase> forceCases() {
     for (int axis = 0; axis < 3; ++axis) {
       far.domain->min[axis] += 1e4;
       far.domain->max[axis] += 1e4;
-      far.fill[0].box->min[axis] += 1e4;
-      far.fill[0].box->max[axis] += 1e4;
+      auto& box = std::get<BoxShape>(far.fill[0].shape);
+      box.min[axis] += 1e4;
+      box.max[axis] += 1e4;
     }
     StressCase c = make("origin-at-10-km", "as at the origin: mean error at most 1.1 times, final energy ratio within 0.02", far);
     c.reference = dam();
@@ -113,7 +114,7 @@ std::vector<StressCase> forceCases() {
     // A piston compresses the fluid to 80 % of its volume, holds, and retracts.
     Scene crush = tankScene(0.05, {0.5, 0.5, 0.5}, {0.6, 0.5, 0.5});
     Solid piston;
-    piston.box = BoxShape{{0.5, -0.1, -0.1}, {0.6, 0.6, 0.6}};
+    piston.shape = BoxShape{{0.5, -0.1, -0.1}, {0.6, 0.6, 0.6}};
     piston.motion = {{0, {0, 0, 0}}, {0.2, {-0.1, 0, 0}}, {0.4, {-0.1, 0, 0}}, {0.5, {0, 0, 0}}};
     crush.solids.push_back(piston);
     StressCase c = make("crushed-to-80-percent", "after release, the speed falls below 2 m/s", crush);

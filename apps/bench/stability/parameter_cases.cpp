@@ -101,9 +101,9 @@ std::vector<StressCase> randomCases(uint64_t first, uint64_t count) {
       Solid solid;
       const double at[3] = {uniform(0, room[0]), uniform(0, room[1]), uniform(0, room[2])}, size = d * uniform(0.5, 4);
       if (chance(0.5))
-        solid.sphere = SphereShape{{at[0], at[1], at[2]}, size};
+        solid.shape = SphereShape{{at[0], at[1], at[2]}, size};
       else
-        solid.box = BoxShape{{at[0] - size, at[1] - size, at[2] - size}, {at[0] + size, at[1] + size, at[2] + size}};
+        solid.shape = BoxShape{{at[0] - size, at[1] - size, at[2] - size}, {at[0] + size, at[1] + size, at[2] + size}};
       solid.friction = uniform(0, 1);
       solid.restitution = uniform(0, 1);
       if (chance(0.3)) solid.motion = {{0, {0, 0, 0}}, {0.2, {uniform(-4, 4) * d, uniform(-4, 4) * d, uniform(-4, 4) * d}}};

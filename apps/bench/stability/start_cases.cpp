@@ -130,16 +130,16 @@ std::vector<StressCase> startCases() {
   }
   {
     Scene sheet = tankScene(kSpacing, {1, 0.05, 1}, {1, 1, 1});
-    sheet.fill[0].box->min[1] = 0.5;
-    sheet.fill[0].box->max[1] = 0.55;
+    std::get<BoxShape>(sheet.fill[0].shape).min[1] = 0.5;
+    std::get<BoxShape>(sheet.fill[0].shape).max[1] = 0.55;
     cases.push_back(make("thin-sheet", "", sheet, {}));
   }
   {
     Scene overlapping = tankScene(kSpacing, {0.5, 0.5, 0.5}, {1, 1, 1});
     Fill second = overlapping.fill[0];
     for (int axis = 0; axis < 3; ++axis) {
-      second.box->min[axis] += 0.27;
-      second.box->max[axis] += 0.27;
+      std::get<BoxShape>(second.shape).min[axis] += 0.27;
+      std::get<BoxShape>(second.shape).max[axis] += 0.27;
     }
     overlapping.fill.push_back(second);
     StressCase c = make("overlapping-fills", "", overlapping, {});
@@ -182,7 +182,7 @@ std::vector<StressCase> startCases() {
   {
     Scene filled = tankScene(kSpacing, {0.5, 0.5, 0.5}, {1, 1, 1});
     Solid obstacle;
-    obstacle.box = BoxShape{{0, 0, 0}, {1, 1, 1}};
+    obstacle.shape = BoxShape{{0, 0, 0}, {1, 1, 1}};
     filled.solids.push_back(obstacle);
     StressCase c = make("solid-fills-the-tank", "", filled, {});
     c.mayBeRejected = true;

@@ -4,7 +4,7 @@
 //
 //   rill::Scene scene;
 //   scene.fluid.spacing = 0.04;
-//   scene.fill = {rill::Fill{.sphere = rill::SphereShape{{0, 1, 0}, 0.3}}};
+//   scene.fill = {rill::Fill{.shape = rill::SphereShape{{0, 1, 0}, 0.3}}};
 //   auto particles = rill::makeParticles(scene);
 //   auto water = rill::Fluid::create(device, {.scene = &scene, .particles = &*particles});
 //   if (!water) return fail(water.error().message);
@@ -31,9 +31,9 @@ namespace rill {
 /// The persistent state of a fluid between two advances, on the host: everything that later steps depend on, bit by bit
 /// (docs/architecture.md, "Checkpoints"). Only for checkpoints. Arrays have one entry per particle, in the order of the device.
 struct FluidSnapshot {
-  std::vector<uint32_t> control = {};  ///< FluidControl (shaders/shared/fluid_records.h), word by word
-  std::vector<uint32_t> sums = {};     ///< FluidSums, word by word
-  std::vector<float> solids = {};      ///< center (m) and velocity (m/s) of each solid, six numbers each; empty if no solid moves
+  std::vector<uint32_t> control = {};                ///< FluidControl (shaders/shared/fluid_records.h), word by word
+  std::vector<uint32_t> sums = {};                   ///< FluidSums, word by word
+  std::vector<float> solids = {};                    ///< the pose of each solid (shaders/shared/solid_records.h); empty if no solid moves
   std::vector<Float3> position = {}, velocity = {};  ///< m, m/s
   // Warm start; empty without one.
   std::vector<Float4> push = {};  ///< warm-start acceleration, m/s^2; w: last multiplier (m^2) while the initial pressure is solved for
@@ -98,7 +98,7 @@ struct FluidState {
   BufferRef velocity = {};       ///< vec4 per particle: xyz in m/s; w: density over rest density with FluidStep::stats, else 1
   BufferRef id = {};             ///< uint per particle: its index in the initial ParticleSet
   BufferRef control = {};        ///< FluidControl (shaders/shared/fluid_records.h)
-  BufferRef solids = {};         ///< SolidRecord (same header) per solid, at the present time; null if no solid is driven
+  BufferRef solids = {};         ///< SolidRecord (solid_records.h) per solid, at the present time; null if no solid is driven
   uint32_t count = 0;            ///< particles
   float spacing = 0;             ///< m
   double origin[3] = {0, 0, 0};  ///< m

@@ -3,7 +3,7 @@
 //
 //   rill::Scene scene;
 //   scene.fluid.spacing = 0.04;
-//   scene.fill = {rill::Fill{.sphere = rill::SphereShape{{0, 1, 0}, 0.3}}};
+//   scene.fill = {rill::Fill{.shape = rill::SphereShape{{0, 1, 0}, 0.3}}};
 //   auto particles = rill::makeParticles(scene);
 //   if (!particles) return fail(particles.error().message);
 #include <cstdint>

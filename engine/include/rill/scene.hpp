@@ -5,13 +5,14 @@
 //   rill::Scene scene;
 //   scene.fluid.spacing = 0.04;
 //   scene.domain = rill::Domain{{0, 0, 0}, {2, 1, 1}};
-//   scene.fill = {rill::Fill{.box = rill::BoxShape{{0, 0, 0}, {0.8, 0.8, 1}}}};
-//   scene.solids = {rill::Solid{.sphere = rill::SphereShape{{1.5, 0.2, 0.5}, 0.2}, .friction = 0.2}};
+//   scene.fill = {rill::Fill{.shape = rill::BoxShape{{0, 0, 0}, {0.8, 0.8, 1}}}};
+//   scene.solids = {rill::Solid{.shape = rill::SphereShape{{1.5, 0.2, 0.5}, 0.2}, .friction = 0.2}};
 //   if (auto ok = rill::checkScene(scene); !ok) return fail(ok.error().message);
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "rill/expected.hpp"
@@ -80,26 +81,32 @@ struct SphereShape {
   double radius = 1;             ///< m, > 0
 };
 
-/// Initial fluid. Exactly one of `box`, `sphere` and `particles` is given.
-struct Fill {
-  std::optional<BoxShape> box = {};
-  std::optional<SphereShape> sphere = {};
-  std::optional<std::filesystem::path> particles = {};  ///< PLY file; an absolute path once the scene is loaded
-  double velocity[3] = {0, 0, 0};                       ///< initial velocity, m/s; added to that of a file
-  double jitter = 0;                                    ///< largest random offset along each axis, fraction of the spacing, 0 .. 0.5
+/// The shape of a solid.
+using Shape = std::variant<BoxShape, SphereShape>;
+
+/// A file of particles.
+struct ParticleFile {
+  std::filesystem::path file = {};  ///< PLY; an absolute path once the scene is loaded
 };
 
-/// Translation of a solid at a time.
+/// Initial fluid: a lattice inside a shape, or the particles of a file.
+struct Fill {
+  std::variant<BoxShape, SphereShape, ParticleFile> shape = {};
+  double velocity[3] = {0, 0, 0};  ///< initial velocity, m/s; added to that of a file
+  double jitter = 0;               ///< largest random offset along each axis, fraction of the spacing, 0 .. 0.5
+};
+
+/// Displacement of a solid at a time, relative to its initial pose.
 struct Keyframe {
   double at = 0;                    ///< s, later than the previous keyframe
-  double translate[3] = {0, 0, 0};  ///< m, relative to the initial pose
+  double translate[3] = {0, 0, 0};  ///< m
+  double rotate[4] = {0, 0, 0, 1};  ///< unit quaternion x y z w, about the center; after Solid::rotation
 };
 
-/// A solid. Exactly one of `box` and `sphere` is given. It is rotated about its center and translated by keyframes, linearly between
-/// them and constant outside.
+/// A solid. It is rotated about its center and moved by keyframes: linear and spherical linear (the shorter way) between them,
+/// constant outside.
 struct Solid {
-  std::optional<BoxShape> box = {};
-  std::optional<SphereShape> sphere = {};
+  Shape shape = {};
   double rotation[4] = {0, 0, 0, 1};  ///< unit quaternion x y z w
   double friction = 0;                ///< coefficient of friction (Coulomb), >= 0
   double restitution = 0;             ///< coefficient of restitution, 0 .. 1

@@ -1,0 +1,50 @@
+#include "fill/inside_solids.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace rill {
+
+size_t InsideSolids::cellAlong(size_t axis, double x) const {
+  const double width = high_[axis] - low_[axis];
+  const double at = width > 0 ? (x - low_[axis]) / width * static_cast<double>(cells_) : 0.0;
+  return static_cast<size_t>(std::clamp(at, 0.0, static_cast<double>(cells_ - 1)));
+}
+
+InsideSolids::InsideSolids(std::span<const Solid> solids) {
+  low_.fill(std::numeric_limits<double>::infinity());
+  high_.fill(-std::numeric_limits<double>::infinity());
+  for (const Solid& solid : solids) {
+    const Pose pose = solidPose(solid, 0);
+    const Body& body = bodies_.emplace_back(Body{solid.shape, pose, sceneExtents(solid.shape, pose)});
+    for (size_t axis = 0; axis < 3; ++axis) {
+      low_[axis] = std::min(low_[axis], body.pose.center[axis] - body.extents[axis]);
+      high_[axis] = std::max(high_[axis], body.pose.center[axis] + body.extents[axis]);
+    }
+  }
+  cells_ = bodies_.size() > 8 ? 16 : 1;
+  inCell_.resize(cells_ * cells_ * cells_);
+  for (uint32_t i = 0; i < bodies_.size(); ++i) {
+    size_t from[3], to[3];
+    for (size_t axis = 0; axis < 3; ++axis) {
+      from[axis] = cellAlong(axis, bodies_[i].pose.center[axis] - bodies_[i].extents[axis]);
+      to[axis] = cellAlong(axis, bodies_[i].pose.center[axis] + bodies_[i].extents[axis]);
+    }
+    for (size_t z = from[2]; z <= to[2]; ++z) {
+      for (size_t y = from[1]; y <= to[1]; ++y) {
+        for (size_t x = from[0]; x <= to[0]; ++x) inCell_[(z * cells_ + y) * cells_ + x].push_back(i);
+      }
+    }
+  }
+}
+
+bool InsideSolids::contain(const Vec3& p, double margin) const {
+  for (size_t axis = 0; axis < 3; ++axis) {
+    if (!(p[axis] > low_[axis] && p[axis] < high_[axis])) return false;
+  }
+  const auto& near = inCell_[(cellAlong(2, p[2]) * cells_ + cellAlong(1, p[1])) * cells_ + cellAlong(0, p[0])];
+  return std::any_of(near.begin(), near.end(),
+                     [&](uint32_t i) { return surfaceAt(bodies_[i].shape, bodies_[i].pose, p).distance < -margin; });
+}
+
+}  // namespace rill

@@ -1,0 +1,33 @@
+#pragma once
+// Tests whether points are inside solids at time 0.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "shape/pose.hpp"
+
+namespace rill {
+
+/// The solids of a scene at t = 0, in a coarse grid so that a query stays cheap with thousands of them.
+class InsideSolids {
+ public:
+  explicit InsideSolids(std::span<const Solid> solids);
+
+  /// Whether p (m, scene coordinates) is deeper than `margin` (m) inside a solid.
+  bool contain(const Vec3& p, double margin) const;
+
+ private:
+  struct Body {
+    Shape shape;
+    Pose pose;
+    Vec3 extents;  ///< half extents of the axis-aligned bounds
+  };
+  size_t cellAlong(size_t axis, double x) const;
+
+  std::vector<Body> bodies_;
+  size_t cells_ = 1;           // along each axis
+  Vec3 low_ = {}, high_ = {};  // bounds of all bodies
+  std::vector<std::vector<uint32_t>> inCell_;
+};
+
+}  // namespace rill

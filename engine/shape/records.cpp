@@ -1,0 +1,61 @@
+#include "shape/records.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+namespace rill {
+namespace {
+
+float f(double value) { return static_cast<float>(value); }
+
+}  // namespace
+
+ShapeRecord recordOf(const Shape& shape) {
+  const Vec3 half = halfExtents(shape);
+  return {f(half[0]), f(half[1]), f(half[2]), std::holds_alternative<SphereShape>(shape) ? kShapeSphere : kShapeBox};
+}
+
+PoseRecord recordOf(const Pose& pose, const double origin[3]) {
+  return {f(pose.center[0] - origin[0]), f(pose.center[1] - origin[1]), f(pose.center[2] - origin[2]), f(pose.rotation[0]),
+          f(pose.rotation[1]),           f(pose.rotation[2]),           f(pose.rotation[3]),           f(pose.velocity[0]),
+          f(pose.velocity[1]),           f(pose.velocity[2]),           f(pose.angularVelocity[0]),    f(pose.angularVelocity[1]),
+          f(pose.angularVelocity[2])};
+}
+
+PoseRecord baseRecord(const Solid& solid, const double origin[3]) {
+  return recordOf(Pose{.center = centerOf(solid.shape), .rotation = std::to_array(solid.rotation)}, origin);
+}
+
+std::vector<KeyframeRecord> keyframeRecords(const Solid& solid) {
+  std::vector<KeyframeRecord> records;
+  for (size_t k = 0; k < solid.motion.size(); ++k) {
+    const Keyframe &key = solid.motion[k], &next = solid.motion[std::min(k + 1, solid.motion.size() - 1)];
+    const Vec3 turn = turnBetween(std::to_array(key.rotate), std::to_array(next.rotate));
+    records.push_back({.x = f(key.translate[0]),
+                       .y = f(key.translate[1]),
+                       .z = f(key.translate[2]),
+                       .at = f(key.at),
+                       .rotationX = f(key.rotate[0]),
+                       .rotationY = f(key.rotate[1]),
+                       .rotationZ = f(key.rotate[2]),
+                       .rotationW = f(key.rotate[3]),
+                       .turnX = f(turn[0]),
+                       .turnY = f(turn[1]),
+                       .turnZ = f(turn[2])});
+  }
+  return records;
+}
+
+void appendPose(const PoseRecord& pose, std::vector<float>& numbers) {
+  const auto all = std::bit_cast<std::array<float, kPoseNumbers>>(pose);
+  numbers.insert(numbers.end(), all.begin(), all.end());
+}
+
+PoseRecord poseAt(const std::vector<float>& numbers, size_t solid) {
+  PoseRecord pose;
+  std::memcpy(&pose, numbers.data() + kPoseNumbers * solid, sizeof pose);
+  return pose;
+}
+
+}  // namespace rill

@@ -1,0 +1,26 @@
+#pragma once
+// Solids as the device's records.
+#include <vector>
+
+#include "shape/pose.hpp"
+#include "shared/solid_records.h"
+
+namespace rill {
+
+ShapeRecord recordOf(const Shape& shape);
+
+/// `origin`: what the record's center is relative to, in the frame of `pose.center`, m.
+PoseRecord recordOf(const Pose& pose, const double origin[3]);
+
+/// A solid before any motion.
+PoseRecord baseRecord(const Solid& solid, const double origin[3]);
+
+/// A solid's motion.
+std::vector<KeyframeRecord> keyframeRecords(const Solid& solid);
+
+/// The numbers of a pose, as a FluidSnapshot has them.
+inline constexpr size_t kPoseNumbers = sizeof(PoseRecord) / sizeof(float);
+void appendPose(const PoseRecord& pose, std::vector<float>& numbers);
+PoseRecord poseAt(const std::vector<float>& numbers, size_t solid);
+
+}  // namespace rill

@@ -1,0 +1,125 @@
+#include "shape/shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace rill {
+namespace {
+
+double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+std::optional<double> ifAhead(double distance) { return distance > 0 ? std::optional(distance) : std::nullopt; }
+
+}  // namespace
+
+Vec3 centerOf(const BoxShape& box) {
+  Vec3 center;
+  for (size_t a = 0; a < 3; ++a) center[a] = (box.min[a] + box.max[a]) / 2;
+  return center;
+}
+Vec3 centerOf(const SphereShape& sphere) { return std::to_array(sphere.center); }
+
+Vec3 halfExtents(const BoxShape& box) {
+  Vec3 half;
+  for (size_t a = 0; a < 3; ++a) half[a] = (box.max[a] - box.min[a]) / 2;
+  return half;
+}
+Vec3 halfExtents(const SphereShape& sphere) { return {sphere.radius, sphere.radius, sphere.radius}; }
+
+double boundingRadius(const BoxShape& box) {
+  const Vec3 half = halfExtents(box);
+  return std::sqrt(dot(half, half));
+}
+double boundingRadius(const SphereShape& sphere) { return sphere.radius; }
+
+double volumeOf(const BoxShape& box) {
+  double volume = 1;
+  for (size_t a = 0; a < 3; ++a) volume *= box.max[a] - box.min[a];
+  return volume;
+}
+double volumeOf(const SphereShape& sphere) { return 4.0 / 3.0 * std::numbers::pi * std::pow(sphere.radius, 3); }
+
+SurfacePoint surfaceAt(const BoxShape& box, const Vec3& local) {
+  const Vec3 half = halfExtents(box);
+  Vec3 beyond, outside;
+  size_t nearest = 0;
+  for (size_t a = 0; a < 3; ++a) {
+    beyond[a] = std::abs(local[a]) - half[a];
+    outside[a] = std::max(beyond[a], 0.0);
+    if (beyond[a] > beyond[nearest]) nearest = a;
+  }
+  SurfacePoint point;
+  const double far = std::sqrt(dot(outside, outside));
+  const auto side = [&](size_t a) { return local[a] < 0 ? -1.0 : 1.0; };
+  point.distance = far > 0 ? far : beyond[nearest];
+  for (size_t a = 0; a < 3; ++a) point.normal[a] = far > 0 ? side(a) * outside[a] / far : (a == nearest ? side(a) : 0);
+  return point;
+}
+
+SurfacePoint surfaceAt(const SphereShape& sphere, const Vec3& local) {
+  SurfacePoint point;
+  const double r = std::sqrt(dot(local, local));
+  point.distance = r - sphere.radius;
+  if (r > 0)
+    for (size_t a = 0; a < 3; ++a) point.normal[a] = local[a] / r;
+  return point;
+}
+
+std::array<double, 2> boxInterval(const Vec3& low, const Vec3& high, const Vec3& from, const Vec3& along) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  double first = -kInfinity, last = kInfinity;
+  for (size_t a = 0; a < 3; ++a) {
+    if (along[a] == 0) {
+      if (from[a] < low[a] || from[a] > high[a]) return {kInfinity, -kInfinity};
+      continue;
+    }
+    const double one = (low[a] - from[a]) / along[a], other = (high[a] - from[a]) / along[a];
+    first = std::max(first, std::min(one, other));
+    last = std::min(last, std::max(one, other));
+  }
+  return {first, last};
+}
+
+std::optional<double> rayEntry(const BoxShape& box, const Vec3& from, const Vec3& along) {
+  const Vec3 half = halfExtents(box);
+  const auto [first, last] = boxInterval({-half[0], -half[1], -half[2]}, half, from, along);
+  return first <= last ? ifAhead(first) : std::nullopt;
+}
+
+std::optional<double> rayEntry(const SphereShape& sphere, const Vec3& from, const Vec3& along) {
+  const double nearest = -dot(from, along), across = dot(from, from) - nearest * nearest, square = sphere.radius * sphere.radius;
+  return across > square ? std::nullopt : ifAhead(nearest - std::sqrt(square - across));
+}
+
+void translate(BoxShape& box, const Vec3& by) {
+  for (size_t a = 0; a < 3; ++a) {
+    box.min[a] += by[a];
+    box.max[a] += by[a];
+  }
+}
+void translate(SphereShape& sphere, const Vec3& by) {
+  for (size_t a = 0; a < 3; ++a) sphere.center[a] += by[a];
+}
+
+Vec3 centerOf(const Shape& shape) {
+  return std::visit([](const auto& s) { return centerOf(s); }, shape);
+}
+Vec3 halfExtents(const Shape& shape) {
+  return std::visit([](const auto& s) { return halfExtents(s); }, shape);
+}
+double boundingRadius(const Shape& shape) {
+  return std::visit([](const auto& s) { return boundingRadius(s); }, shape);
+}
+SurfacePoint surfaceAt(const Shape& shape, const Vec3& local) {
+  return std::visit([&](const auto& s) { return surfaceAt(s, local); }, shape);
+}
+std::optional<double> rayEntry(const Shape& shape, const Vec3& from, const Vec3& along) {
+  return std::visit([&](const auto& s) { return rayEntry(s, from, along); }, shape);
+}
+void translate(Shape& shape, const Vec3& by) {
+  std::visit([&](auto& s) { translate(s, by); }, shape);
+}
+
+}  // namespace rill

@@ -1,0 +1,31 @@
+// Poses between keyframes. Needs the storage array `keyframes` of KeyframeRecord.
+#ifndef RILL_KEYFRAMES_GLSL
+#define RILL_KEYFRAMES_GLSL
+#include "shared/pose.glsl"
+
+// The pose at a time (s) of a solid that starts at `base`: linear and spherical linear between keyframes, held outside.
+PoseRecord keyframedPose(PoseRecord base, uint first, uint count, float time) {
+  if (count == 0u) return base;
+  uint low = 0u, high = count;  // the first keyframe later than `time` is in low .. high
+  while (low < high) {
+    uint middle = (low + high) / 2u;
+    if (keyframes[first + middle].at <= time) low = middle + 1u; else high = middle;
+  }
+  KeyframeRecord a = keyframes[first + max(low, 1u) - 1u];
+  vec3 moved = vec3(a.x, a.y, a.z), velocity = vec3(0.0), angular = vec3(0.0);
+  vec4 turned = vec4(a.rotationX, a.rotationY, a.rotationZ, a.rotationW);
+  if (low > 0u && low < count) {
+    KeyframeRecord b = keyframes[first + low];
+    float span = b.at - a.at, since = time - a.at;
+    velocity = (vec3(b.x, b.y, b.z) - moved) / span;
+    moved += velocity * since;
+    angular = vec3(a.turnX, a.turnY, a.turnZ) / span;
+    float speed = length(angular);
+    if (speed > 0.0) {
+      float half_ = 0.5 * speed * since;
+      turned = normalize(composed(vec4(angular * (sin(half_) / speed), cos(half_)), turned));
+    }
+  }
+  return poseOf(centerOf(base) + moved, composed(turned, rotationOf(base)), velocity, angular);
+}
+#endif

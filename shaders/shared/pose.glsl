@@ -1,0 +1,46 @@
+// Poses of solids: between the solid's frame and the scene's, and how its points move.
+#ifndef RILL_POSE_GLSL
+#define RILL_POSE_GLSL
+#include "shared/solid_records.h"
+
+vec3 rotate(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
+
+// The rotation b, then a.
+vec4 composed(vec4 a, vec4 b) { return vec4(a.w * b.xyz + b.w * a.xyz + cross(a.xyz, b.xyz), a.w * b.w - dot(a.xyz, b.xyz)); }
+
+vec3 centerOf(PoseRecord p) { return vec3(p.centerX, p.centerY, p.centerZ); }
+vec4 rotationOf(PoseRecord p) { return vec4(p.rotationX, p.rotationY, p.rotationZ, p.rotationW); }
+vec3 angularVelocity(PoseRecord p) { return vec3(p.angularX, p.angularY, p.angularZ); }
+
+PoseRecord poseOf(vec3 center, vec4 rotation, vec3 velocity, vec3 angular) {
+  return PoseRecord(center.x, center.y, center.z, rotation.x, rotation.y, rotation.z, rotation.w, velocity.x, velocity.y, velocity.z,
+                    angular.x, angular.y, angular.z);
+}
+
+// A direction in the solid's frame, in the scene's, and the other way round; a point of the scene, in the solid's frame.
+vec3 toScene(PoseRecord p, vec3 local) { return rotate(rotationOf(p), local); }
+vec3 toSolid(PoseRecord p, vec3 direction) { return rotate(vec4(-p.rotationX, -p.rotationY, -p.rotationZ, p.rotationW), direction); }
+vec3 localPoint(PoseRecord p, vec3 x) { return toSolid(p, x - centerOf(p)); }
+
+// Of the point of the solid that is at x, m/s.
+vec3 velocityAt(PoseRecord p, vec3 x) {
+  return vec3(p.velocityX, p.velocityY, p.velocityZ) + cross(angularVelocity(p), x - centerOf(p));
+}
+
+// The pose `seconds` later, at the same velocities. tan(a) = a + a^3 / 3 of half the angle, for the small angles of a step.
+PoseRecord later(PoseRecord p, float seconds) {
+  p.centerX += seconds * p.velocityX;
+  p.centerY += seconds * p.velocityY;
+  p.centerZ += seconds * p.velocityZ;
+  vec3 half_ = 0.5 * seconds * angularVelocity(p);
+  float square = dot(half_, half_);
+  if (square > 0.0) {
+    vec4 q = normalize(composed(vec4(half_ * (1.0 + square / 3.0), 1.0), rotationOf(p)));
+    p.rotationX = q.x;
+    p.rotationY = q.y;
+    p.rotationZ = q.z;
+    p.rotationW = q.w;
+  }
+  return p;
+}
+#endif

@@ -1,0 +1,45 @@
+// Shape, pose and motion of a solid on the device. Their geometry is in shape.glsl, pose.glsl and keyframes.glsl here, in
+// engine/shape on the host.
+#ifndef RILL_SOLID_RECORDS_H
+#define RILL_SOLID_RECORDS_H
+#include "shared/interop.h"
+RILL_RECORDS_BEGIN
+
+RILL_CONST uint kShapeBox = 0u, kShapeSphere = 1u;
+
+struct ShapeRecord {
+  float halfX, halfY, halfZ;  // m, half extents; of a sphere its radius
+  uint kind;                  // kShapeBox or kShapeSphere
+};
+
+struct PoseRecord {
+  float centerX, centerY, centerZ;                   // m, relative to the owner's origin
+  float rotationX, rotationY, rotationZ, rotationW;  // unit quaternion from the solid's frame to the scene's
+  float velocityX, velocityY, velocityZ;             // m/s, of the center
+  float angularX, angularY, angularZ;                // rad/s, angular velocity in the scene's frame
+};
+
+// Displacement from the initial pose at a time.
+struct KeyframeRecord {
+  float x, y, z;                                     // m
+  float at;                                          // s
+  float rotationX, rotationY, rotationZ, rotationW;  // unit quaternion, about the center
+  float turnX, turnY, turnZ;                         // rad, rotation vector to the next keyframe in the scene's frame
+  float unused;
+};
+
+// A solid of the fluid at the end of the present substep.
+struct SolidRecord {
+  PoseRecord pose;
+  ShapeRecord shape;
+  float friction, restitution;
+  PoseRecord base;             // before any motion; of a driven solid its center is 0
+  uint firstKey, keyCount;     // entries of the keyframe buffer
+  uint driven;                 // 1: two keyframes, where it is at the begin and at the end of the advance, with seconds since its begin
+  uint tableOffset;            // sphere: entries into the table buffer
+  uint tableNodes;
+  float tableFirst;            // sphere: signed distance of the table's first node, m
+};
+
+RILL_RECORDS_END
+#endif
