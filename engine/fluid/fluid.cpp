@@ -71,7 +71,7 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   const ParticleSet& particles = *desc.particles;
   const uint64_t n = particles.positions.size();
   auto impl = std::make_unique<FluidImpl>();
-  impl->device_ = &device.impl();
+  impl->device_ = &implOf(device);
   impl->memory = fluidMemory(scene, n);
   const uint64_t available = device.info().deviceLocalBytes;
   const uint64_t largest = std::max((n + 1) * 16, n * 32);  // positions, with the dummy; wall samples

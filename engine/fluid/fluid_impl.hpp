@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/impl_of.hpp"
 #include "fluid/settings.hpp"
 #include "fluid/staging.hpp"
 #include "gpu/resources.hpp"

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/impl_of.hpp"
 #include "gpu/function_table.hpp"
 #include "gpu/pipeline.hpp"
 #include "gpu/resources.hpp"

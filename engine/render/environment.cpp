@@ -58,7 +58,7 @@ Expected<std::unique_ptr<Environment>> Environment::create(Device& device, const
 }
 
 BufferRef Environment::addTo(Graph& graph) {
-  const DeviceImpl& device = device_.impl();
+  const DeviceImpl& device = implOf(device_);
   if (copied_ && device.abandoned(*copied_)) copied_.reset();
   if (copied_ && *copied_ <= device.clock.completed) staging_ = {};
   BufferRef texels =
@@ -70,7 +70,7 @@ BufferRef Environment::addTo(Graph& graph) {
     texels = pass.write(texels, Use::CopyTarget, true);
     return [this, from, texels](Commands& commands) {
       commands.copy(from, texels, texels_.size());
-      if (!copied_) copied_ = device_.impl().clock.recording;
+      if (!copied_) copied_ = implOf(device_).clock.recording;
     };
   });
   return texels;

@@ -1,5 +1,6 @@
 #pragma once
 // What is behind rill::FluidRenderer.
+#include "core/impl_of.hpp"
 #include "render/environment.hpp"
 #include "render/look_records.h"
 #include "render/mean_faces.hpp"

@@ -32,7 +32,7 @@ class SnapshotTest : public FluidTest {
  protected:
   /// Fills all that a snapshot does not bring with numbers that make no sense: what reads it before it is written stands out.
   void poison(const Fluid& fluid) {
-    const FluidBuffers& b = fluid.impl().buffers();
+    const FluidBuffers& b = implOf(fluid).buffers();
     std::vector<const Buffer*> all = {&b.position, &b.velocity,   &b.prediction, &b.warmAcceleration, &b.work,
                                       &b.warm,     &b.id,         &b.multiplier, &b.neighborCount,    &b.cell,
                                       &b.start,    &b.nearSample, &b.nearList};

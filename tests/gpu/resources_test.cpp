@@ -30,16 +30,16 @@ TEST_F(Resources, RejectsInvalidSizes) {
 
 TEST_F(Resources, BufferOutlivesRecordingFrame) {
   ASSERT_TRUE(context().wait());
-  const size_t before = device().impl().retired.size();
+  const size_t before = implOf(device()).retired.size();
   auto clock = context().beginFrame();
   ASSERT_TRUE(clock);
   { const Buffer shortLived = buffer("short-lived", 64); }
-  EXPECT_EQ(device().impl().retired.size(), before + 2);
+  EXPECT_EQ(implOf(device()).retired.size(), before + 2);
   device().beginFrame(*clock);
-  EXPECT_EQ(device().impl().retired.size(), before + 2) << "its frame is still being recorded";
+  EXPECT_EQ(implOf(device()).retired.size(), before + 2) << "its frame is still being recorded";
   ASSERT_TRUE(context().submit([](VkCommandBuffer) {}));
   ASSERT_TRUE(context().wait());
-  EXPECT_EQ(device().impl().retired.size(), 0u);
+  EXPECT_EQ(implOf(device()).retired.size(), 0u);
 }
 
 TEST_F(Resources, EqualDescriptionsShareOnePipeline) {

@@ -85,7 +85,7 @@ TEST_F(Handles, ImageUsageAndViewsFollowFromUses) {
   EXPECT_EQ(other.level, 1u);
   EXPECT_EQ(bare.view, VkImageView(VK_NULL_HANDLE)) << "copies need no view";
   EXPECT_EQ(bare.layout, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-  EXPECT_EQ(graph.impl().resources[image.index].usage, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
+  EXPECT_EQ(implOf(graph).resources[image.index].usage, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
 }
 
 TEST_F(Handles, ThreeDimensionalDispatchIsNotFolded) {

@@ -30,7 +30,7 @@ class BoundHits : public GpuTest {
     fluid.spacing = kApart;
     fluid.position = graph.import("position", importOf(position));
     (void)graph.readback(renderer_->addData(graph, fluid, fluidView(camera, 320, 240, kApart), data, 1, method));
-    const Ticket counters = graph.readback(renderer_->impl().last.counters);
+    const Ticket counters = graph.readback(implOf(*renderer_).last.counters);
     run(graph);
     const auto words = read<uint32_t>(graph, counters);
     EXPECT_EQ(words.size(), surface::kSurfaceCounterWords);

@@ -96,7 +96,7 @@ FluidRendererImpl& SurfaceOnGpu::renderer() {
     EXPECT_TRUE(made) << made.error().message;
     renderer_ = std::move(*made);
   }
-  return renderer_->impl();
+  return implOf(*renderer_);
 }
 
 void SurfaceOnGpu::leaveBehind(Graph& graph, int run) {

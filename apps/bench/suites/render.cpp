@@ -186,9 +186,9 @@ class Render {
     fluid.position = importWhole(graph, "positions", points.positions);
     fluid.count = points.count;
     fluid.spacing = static_cast<float>(points.spacing);
-    surface::SurfacePush camera = renderer_->impl().camera(fluid, view);
+    surface::SurfacePush camera = implOf(*renderer_).camera(fluid, view);
     camera.step = sampleStep(camera, fluid.spacing, view.focus_m, variant.settings.samples);
-    return renderer_->impl().surface.addTo(graph, fluid, camera, variant.method, complete, view.focus_m, variant.settings);
+    return implOf(*renderer_).surface.addTo(graph, fluid, camera, variant.method, complete, view.focus_m, variant.settings);
   }
 
   /// Renders and reads back a surface; `ms`: time from recording to completion.

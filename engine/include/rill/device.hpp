@@ -147,9 +147,8 @@ class RILL_API Device {
   /// they are dropped.
   void setMessageCallback(MessageCallback callback);
 
-  DeviceImpl& impl() { return *impl_; }  ///< internal (engine/gpu)
-
  private:
+  friend struct ImplAccess;  // engine/core/impl_of.hpp
   explicit Device(std::unique_ptr<DeviceImpl>);
   std::unique_ptr<DeviceImpl> impl_;
 };

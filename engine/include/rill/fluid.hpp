@@ -180,9 +180,8 @@ class RILL_API Fluid {
   /// Settings that the solver cannot honor, with numbers ("viscosity 50 Pa s needs ..."). Fixed at creation.
   std::span<const std::string> warnings() const;
 
-  const FluidImpl& impl() const { return *impl_; }  ///< internal: engine/fluid and its tests
-
  private:
+  friend struct ImplAccess;  // engine/core/impl_of.hpp
   explicit Fluid(std::unique_ptr<FluidImpl>);
   std::unique_ptr<FluidImpl> impl_;
 };

@@ -122,9 +122,8 @@ class RILL_API FluidRenderer {
   BufferRef addData(Graph& graph, const FluidState& fluid, const FluidView& view, SurfaceData data, float full,
                     SurfaceMethod method = SurfaceMethod::Auto);
 
-  FluidRendererImpl& impl() { return *impl_; }  ///< engine/render and its tests; not for hosts
-
  private:
+  friend struct ImplAccess;  // engine/core/impl_of.hpp
   explicit FluidRenderer(std::unique_ptr<FluidRendererImpl>);
   std::unique_ptr<FluidRendererImpl> impl_;
 };
