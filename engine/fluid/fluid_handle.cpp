@@ -1,6 +1,7 @@
 // The public Fluid: a handle that passes every call on to FluidImpl.
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "fluid/fluid_impl.hpp"
 
@@ -8,11 +9,13 @@ namespace rill {
 
 Fluid::Fluid(std::unique_ptr<FluidImpl> impl) : impl_(std::move(impl)) {}
 Fluid::~Fluid() = default;
+Fluid::Fluid(Fluid&&) noexcept = default;
+Fluid& Fluid::operator=(Fluid&&) noexcept = default;
 
-Expected<std::unique_ptr<Fluid>> Fluid::create(Device& device, const FluidDesc& desc) {
+Expected<Fluid> Fluid::create(Device& device, const FluidDesc& desc) {
   auto impl = FluidImpl::create(device, desc);
   if (!impl) return impl.error();
-  return std::unique_ptr<Fluid>(new Fluid(std::move(*impl)));
+  return Fluid(std::move(*impl));
 }
 
 FluidState Fluid::addTo(Graph& graph, const FluidStep& step) { return impl_->addTo(graph, step); }

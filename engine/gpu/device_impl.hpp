@@ -57,6 +57,7 @@ class DeviceImpl {
   bool abandoned(uint64_t frame) const;
   void abandon(uint64_t frame);
 
+  Device* device = nullptr;  ///< the handle; it changes when the handle is moved
   InstanceTable instance;
   DeviceTable vk;
   VkPhysicalDevice physical = VK_NULL_HANDLE;

@@ -45,7 +45,7 @@ Expected<void> FluidRendererImpl::create(Device& host, const TargetFormats& targ
   if (!hasDepth(targets.depth))
     return Error{ErrorKind::BadInput,
                  "TargetFormats::depth is " + std::to_string(targets.depth) + "; expected a VkFormat that holds depth"};
-  device = &host;
+  device = &implOf(host);
   formats = targets;
   auto stage = SurfaceStage::create(host);
   if (!stage) return stage.error();
@@ -72,8 +72,8 @@ Expected<void> FluidRendererImpl::create(Device& host, const TargetFormats& targ
 Expected<void> FluidRendererImpl::makeShade() {
   using enum BindingKind;
   static constexpr BindingKind kShade[] = {Uniform, Storage, Storage, Storage, Storage, Storage, Storage, Storage, Storage};
-  auto drawn =
-      graphicsPipeline(*device, {.vertex = "render/fluid_shade_vertex",
+  auto drawn = graphicsPipeline(*device->device,
+                                {.vertex = "render/fluid_shade_vertex",
                                  .fragment = environment ? "render/fluid_shade_environment_fragment" : "render/fluid_shade_fragment",
                                  .bindings = std::span(kShade).first(environment ? 9 : 8),
                                  .pushConstantBytes = sizeof(SurfacePush),
@@ -87,7 +87,7 @@ Expected<void> FluidRendererImpl::makeShade() {
 }
 
 Expected<void> FluidRendererImpl::setEnvironment(const EnvironmentPicture& picture) {
-  auto made = Environment::create(*device, picture);
+  auto made = Environment::create(*device->device, picture);
   if (!made) return made.error();
   environment = *std::move(made);
   return makeShade();
@@ -218,14 +218,16 @@ BufferRef FluidRendererImpl::addData(Graph& graph, const FluidState& fluid, cons
   return picture;
 }
 
-Expected<std::unique_ptr<FluidRenderer>> FluidRenderer::create(Device& device, const TargetFormats& formats) {
+Expected<FluidRenderer> FluidRenderer::create(Device& device, const TargetFormats& formats) {
   auto impl = std::make_unique<FluidRendererImpl>();
   if (auto ok = impl->create(device, formats); !ok) return ok.error();
-  return std::unique_ptr<FluidRenderer>(new FluidRenderer(std::move(impl)));
+  return FluidRenderer(std::move(impl));
 }
 
 FluidRenderer::FluidRenderer(std::unique_ptr<FluidRendererImpl> impl) : impl_(std::move(impl)) {}
 FluidRenderer::~FluidRenderer() = default;
+FluidRenderer::FluidRenderer(FluidRenderer&&) noexcept = default;
+FluidRenderer& FluidRenderer::operator=(FluidRenderer&&) noexcept = default;
 
 Expected<void> FluidRenderer::setEnvironment(const EnvironmentPicture& picture) { return impl_->setEnvironment(picture); }
 

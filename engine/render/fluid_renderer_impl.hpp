@@ -33,7 +33,7 @@ class FluidRendererImpl {
                      BufferRef texels = {});
   BufferRef addData(Graph& graph, const FluidState& fluid, const FluidView& view, SurfaceData data, float full, SurfaceMethod method);
 
-  Device* device = nullptr;
+  DeviceImpl* device = nullptr;
   TargetFormats formats;
   std::unique_ptr<Environment> environment;  ///< none: the sky of Rill's own
   SurfaceStage surface;

@@ -92,10 +92,10 @@ TEST_F(Resources, ErrorsNameTheShader) {
 TEST_F(Resources, SelectsDeviceByNameAndIndex) {
   const auto byIndex = offline::Context::create({.device = "0"});
   ASSERT_TRUE(byIndex) << byIndex.error().message;
-  const std::string name = (*byIndex)->device().info().name;
+  const std::string name = byIndex->device().info().name;
   const auto byName = offline::Context::create({.device = name.substr(0, 5)});
   ASSERT_TRUE(byName) << byName.error().message;
-  EXPECT_EQ((*byName)->device().info().name, name);
+  EXPECT_EQ(byName->device().info().name, name);
   const auto none = offline::Context::create({.device = "Voodoo 2"});
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().kind, ErrorKind::BadInput);

@@ -1,4 +1,6 @@
 // Handles, layouts and dispatch sizes in passes that record with the host's own pipelines.
+#include <optional>
+
 #include "graph_fixture.hpp"
 #include "support/null_vulkan.hpp"
 
@@ -24,7 +26,7 @@ class Handles : public GraphTest {
     graph.record(NullVulkan::commandBuffer());
   }
   NullVulkan vulkan;
-  std::unique_ptr<Device> device;
+  std::optional<Device> device;
 };
 
 TEST_F(Handles, BufferReturnsHandleOffsetAndRange) {

@@ -1,5 +1,6 @@
 // Images in the plan: layouts, memory, errors; and prepare() on a device that only records calls.
 #include <algorithm>
+#include <optional>
 
 #include "bench/count_allocations.hpp"
 #include "graph_fixture.hpp"
@@ -205,7 +206,7 @@ class ImagesOnNullDevice : public Images {
     return ok;
   }
   NullVulkan vulkan;
-  std::unique_ptr<Device> device;
+  std::optional<Device> device;
   FrameClock clock;
 };
 

@@ -1,4 +1,6 @@
 // prepare() and record() on a device that only records calls.
+#include <optional>
+
 #include "bench/count_allocations.hpp"
 #include "graph_fixture.hpp"
 #include "support/null_vulkan.hpp"
@@ -56,7 +58,7 @@ class Recording : public GraphTest {
   }
 
   NullVulkan vulkan;
-  std::unique_ptr<Device> device;
+  std::optional<Device> device;
   FrameClock clock;
 };
 

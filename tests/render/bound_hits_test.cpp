@@ -1,4 +1,5 @@
 // What bounded loops of the surface's shaders leave out is counted.
+#include <optional>
 #include <random>
 
 #include "render/fluid_renderer_impl.hpp"
@@ -48,7 +49,7 @@ class BoundHits : public GpuTest {
               {float(x) * kApart + wobble(random), float(y) * kApart + wobble(random), -meters - float(z) * kApart + wobble(random), 0});
     return out;
   }
-  std::unique_ptr<FluidRenderer> renderer_;
+  std::optional<FluidRenderer> renderer_;
 };
 
 constexpr SurfaceMethod kMethods[] = {SurfaceMethod::Planes, SurfaceMethod::CurvatureFlow, SurfaceMethod::NarrowRange};

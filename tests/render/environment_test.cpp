@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 
 #include "render/fluid_renderer_impl.hpp"
 #include "rill/scene_io.hpp"
@@ -183,7 +184,7 @@ class EnvironmentOnGpu : public GpuTest {
     return scene;
   }();
   ParticleSet start_;
-  std::unique_ptr<FluidRenderer> renderer_;
+  std::optional<FluidRenderer> renderer_;
   std::unique_ptr<Scenery> scenery_;
   bool copied_ = false;
 };
@@ -256,7 +257,7 @@ TEST_F(EnvironmentOnGpu, PicturesThatCannotBeAreRefused) {
   auto made = FluidRenderer::create(device());
   ASSERT_TRUE(made);
   for (const EnvironmentPicture& bad : {EnvironmentPicture{}, EnvironmentPicture{4, 2, {1, 2, 3}}, EnvironmentPicture{4, 4, {}}}) {
-    const auto set = (*made)->setEnvironment(bad);
+    const auto set = made->setEnvironment(bad);
     ASSERT_FALSE(set);
     EXPECT_EQ(set.error().kind, ErrorKind::BadInput);
   }

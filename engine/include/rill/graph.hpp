@@ -179,8 +179,8 @@ class RILL_API Graph {
  public:
   Graph();
   ~Graph();
-  Graph(const Graph&) = delete;
-  Graph& operator=(const Graph&) = delete;
+  Graph(Graph&&) noexcept;  ///< not while a pass is declared; a moved-from Graph may only be destroyed or assigned to
+  Graph& operator=(Graph&&) noexcept;
 
   /// Clears the declared frame and invalidates its refs. Read-backs in flight, the transients' memory and
   /// timings are kept.
