@@ -47,7 +47,7 @@ Expected<DeviceInfo> deviceInfo(const Options& options) {
   settings.device = options.device;
   auto simulation = offline::Simulation::open(empty, settings);
   if (!simulation) return simulation.error();
-  return (*simulation)->device();
+  return simulation->device();
 }
 
 }  // namespace
@@ -90,7 +90,7 @@ Expected<RunFigures> runScene(const Bench& bench, const SceneRun& run) {
   settings.validation = run.validation;
   auto opened = run.start ? offline::Simulation::open(run.scene, *run.start, settings) : offline::Simulation::open(run.scene, settings);
   if (!opened) return opened.error();
-  offline::Simulation& simulation = **opened;
+  offline::Simulation& simulation = *opened;
   RunFigures figures;
   figures.device = simulation.device();
   const auto frames = static_cast<uint64_t>(run.duration_s / run.frame_s + 1e-6);

@@ -1,7 +1,6 @@
 #pragma once
 #include <cstring>
 #include <functional>
-#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -30,7 +29,7 @@ class Workbench {
  public:
   static Expected<Workbench> open(const Bench& bench);
 
-  Device& device() { return context_->device(); }
+  Device& device() { return context_.device(); }
 
   /// Uploads `items` to device memory, so that timed passes do not read host memory over the bus.
   template <class T>
@@ -48,19 +47,17 @@ class Workbench {
   /// Declares a graph, runs it and waits for its completion.
   Expected<GraphTime> run(const std::function<void(Graph&)>& declare);
   /// Enables time stamps per pass, which slow the graph.
-  void timePasses(bool timed) { graph_->enableTimings(timed); }
-  std::span<const PassReport> passReport() const { return graph_->report(); }  ///< of the last graph
-  std::span<const Timing> passTimes() const { return graph_->timings(); }      ///< of the last graph
+  void timePasses(bool timed) { graph_.enableTimings(timed); }
+  std::span<const PassReport> passReport() const { return graph_.report(); }  ///< of the last graph
+  std::span<const Timing> passTimes() const { return graph_.timings(); }      ///< of the last graph
 
  private:
-  explicit Workbench(std::unique_ptr<offline::Context> context) : context_(std::move(context)), graph_(std::make_unique<Graph>()) {
-    graph_->enableTimings(false);
-  }
+  explicit Workbench(offline::Context context) : context_(std::move(context)) { graph_.enableTimings(false); }
   Expected<Buffer> uploadBytes(std::string_view name, std::span<const std::byte> bytes);
   Expected<void> downloadBytes(const Buffer& buffer, std::span<std::byte> bytes);
 
-  std::unique_ptr<offline::Context> context_;
-  std::unique_ptr<Graph> graph_;
+  offline::Context context_;
+  Graph graph_;
 };
 
 /// Whether to run the graph once before sampling: drivers may compile shaders on first use.

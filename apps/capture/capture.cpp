@@ -276,7 +276,7 @@ class Capture {
   std::optional<offline::Checkpoint> resumed_;
   uint32_t checkpointed_ = 0;  // frames of this run at the last checkpoint
   apps::Progress progress_;
-  std::unique_ptr<offline::Simulation> simulation_;
+  std::optional<offline::Simulation> simulation_;
   std::unique_ptr<OutputFolder> folder_;
   std::optional<Video> video_;
   std::unique_ptr<Record> record_;

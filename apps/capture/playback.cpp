@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -90,7 +89,7 @@ int runPlayback(const Options& options) {
   settings.orbit_deg_per_s = options.orbit_deg_per_s;
   auto player = offline::Player::open(*std::move(scene), settings);
   if (!player) return refuse(player.error());
-  if (auto ready = (*player)->prepareRender(options.view, options.width, options.height); !ready) return refuse(ready.error());
+  if (auto ready = player->prepareRender(options.view, options.width, options.height); !ready) return refuse(ready.error());
   std::optional<OutputFolder> folder;
   if (options.images) {
     auto prepared = OutputFolder::prepare(out, false);
@@ -108,15 +107,15 @@ int runPlayback(const Options& options) {
   apps::Progress progress(options.quiet ? apps::Progress::Style::Quiet : apps::Progress::styleForTerminal());
   const auto count = static_cast<uint32_t>(files->size());
   if (!options.quiet)
-    message((*player)->scene().name + ": " + grouped(count) + (count == 1 ? " frame" : " frames") + " of " +
-            inQuotes(options.play->string()) + ", " + (*player)->device().name);
+    message(player->scene().name + ": " + grouped(count) + (count == 1 ? " frame" : " frames") + " of " + inQuotes(options.play->string()) +
+            ", " + player->device().name);
   const auto begin = std::chrono::steady_clock::now();
   uint64_t hits = 0;
   const auto frame = [&](uint32_t k) -> Expected<void> {
-    if (auto shown = show(**player, (*files)[k], k / options.fps); !shown) return shown;
-    auto image = (*player)->render(options.view, options.width, options.height);
+    if (auto shown = show(*player, (*files)[k], k / options.fps); !shown) return shown;
+    auto image = player->render(options.view, options.width, options.height);
     if (!image) return image.error();
-    hits += (*player)->boundHits();
+    hits += player->boundHits();
     if (folder)
       if (auto written = apps::writePng(folder->frame(k, "png"), *image); !written) return written;
     return video ? video->add(*image) : Expected<void>();
@@ -140,7 +139,7 @@ int runPlayback(const Options& options) {
       code = apps::kFailed;
     }
   if (options.graph)
-    if (auto written = apps::writeFile(*options.graph, (*player)->pictureDot()); !written) {
+    if (auto written = apps::writeFile(*options.graph, player->pictureDot()); !written) {
       message(written.error().message);
       code = apps::kFailed;
     }

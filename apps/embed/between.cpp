@@ -14,7 +14,7 @@ int main(int count, char** arguments) {
   constexpr float kEye[3] = {1.3f, 1.5f, 3.6f}, kTarget[3] = {1, 0.35f, 0.5f};
   RillHost rillHost;
   host::Engine& engine = rillHost.engine;
-  const auto device = rillHost.borrowDevice();
+  auto device = rillHost.borrowDevice();
   host::Image color =
       engine.createImage(VK_FORMAT_R8G8B8A8_SRGB, kWidth, kHeight, rill::kFluidColorUsage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
   host::Image depth = engine.createImage(VK_FORMAT_D32_SFLOAT, kWidth, kHeight, rill::kFluidDepthUsage);
@@ -32,8 +32,8 @@ int main(int count, char** arguments) {
     scene.fill = {rill::Fill{.shape = rill::BoxShape{{0, 0, 0}, {0.8, 0.8, 1}}}};
     scene.solids = {rill::Solid{.shape = rill::BoxShape{{1.2, 0, 0.35}, {1.5, 0.9, 0.65}}}};
     const auto start = need(rill::makeParticles(scene));
-    const auto water = need(rill::Fluid::create(*device, {.scene = &scene, .particles = &start}));
-    const auto renderer = need(rill::FluidRenderer::create(*device, {color.format, depth.format}));
+    auto water = need(rill::Fluid::create(device, {.scene = &scene, .particles = &start}));
+    auto renderer = need(rill::FluidRenderer::create(device, {color.format, depth.format}));
     const rill::FluidView view = lookAt(kEye, kTarget, kWidth, kHeight);
 
     rill::Graph graph;
@@ -41,13 +41,13 @@ int main(int count, char** arguments) {
       const host::Frame frame = engine.begin();
       cuboids.drawFirst(frame, clip, opaque, 2);
 
-      device->beginFrame({frame.number, frame.completed});
+      device.beginFrame({frame.number, frame.completed});
       graph.reset();
       const rill::SceneTargets targets{importTarget(graph, "color", color, rill::Use::ColorTarget),
                                        importTarget(graph, "depth", depth, rill::Use::DepthTarget)};
-      (void)renderer->addTo(graph, water->addTo(graph, {.advance_s = 1.0 / 60}), targets, view);
+      (void)renderer.addTo(graph, water.addTo(graph, {.advance_s = 1.0 / 60}), targets, view);
       need(graph.compile());
-      need(graph.prepare(*device));
+      need(graph.prepare(device));
       graph.record(frame.commands);
 
       cuboids.drawOver(frame, clip, last, 1);

@@ -36,7 +36,7 @@ int main(int count, char** arguments) {
   if (count != 2) host::fail("usage: blur OUT.ppm");
   RillHost rillHost;
   host::Engine& engine = rillHost.engine;
-  const auto device = rillHost.borrowDevice();
+  auto device = rillHost.borrowDevice();
   host::Image result = engine.createImage(kFormat, kWidth, kHeight, VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
   host::Buffer pixels = engine.createBuffer(4 * kWidth * kHeight, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
   writeCheckerboard(static_cast<unsigned char*>(pixels.mapped));
@@ -45,7 +45,7 @@ int main(int count, char** arguments) {
     // Bindings 0, 1, ... of descriptor set 0.
     const rill::BindingKind bindings[] = {rill::BindingKind::SampledImage, rill::BindingKind::StorageImage};
     const rill::ComputePipeline* across = need(rill::computePipeline(
-        *device, {.shader = "blur", .spirv = blur_comp, .bindings = bindings, .pushConstantBytes = sizeof(Direction)}));
+        device, {.shader = "blur", .spirv = blur_comp, .bindings = bindings, .pushConstantBytes = sizeof(Direction)}));
 
     // Declare the frame: imported resources with their states, and what each pass reads and writes. The graph derives
     // barriers and memory from that.
@@ -85,8 +85,8 @@ int main(int count, char** arguments) {
     // Compile the graph, allocate its memory, record it into a command buffer that the game submits.
     need(graph.compile());
     const host::Frame frame = engine.begin();
-    device->beginFrame({frame.number, frame.completed});
-    need(graph.prepare(*device));
+    device.beginFrame({frame.number, frame.completed});
+    need(graph.prepare(device));
     graph.record(frame.commands);
     engine.end(frame);
     engine.wait();

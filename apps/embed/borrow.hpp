@@ -1,6 +1,5 @@
 #pragma once
 // The device setup of water.cpp, for the other programs: an engine with a device that Rill can borrow.
-#include <memory>
 #include <rill/device.hpp>
 #include <type_traits>
 
@@ -20,7 +19,7 @@ struct RillHost {
     return needs.chain();
   }};
 
-  std::unique_ptr<rill::Device> borrowDevice() {
+  rill::Device borrowDevice() {
     return need(rill::Device::borrow({.instance = engine.instance,
                                       .physicalDevice = engine.physicalDevice,
                                       .device = engine.device,

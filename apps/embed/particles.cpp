@@ -32,11 +32,11 @@ int main(int count, char** arguments) {
   if (count != 2) host::fail("usage: particles OUT.ppm");
   RillHost rillHost;
   host::Engine& engine = rillHost.engine;
-  const auto device = rillHost.borrowDevice();
+  auto device = rillHost.borrowDevice();
   host::Image color = engine.createImage(VK_FORMAT_R8G8B8A8_SRGB, kWidth, kHeight,
                                          rill::kFluidColorUsage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
   host::Image depth = engine.createImage(VK_FORMAT_D32_SFLOAT, kWidth, kHeight, rill::kFluidDepthUsage | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
-  const auto renderer = need(rill::FluidRenderer::create(*device, {color.format, depth.format}));
+  auto renderer = need(rill::FluidRenderer::create(device, {color.format, depth.format}));
   const rill::FluidView view = lookAt({2.4f, 1.7f, 3.6f}, {1, 0.2f, 1}, kWidth, kHeight);
 
   // One buffer per frame in flight: the device may still read the others.
@@ -51,14 +51,14 @@ int main(int count, char** arguments) {
     state.spacing = kSpacing;
     engine.clear(frame, color, {{0.55f, 0.65f, 0.75f, 1}}, depth, 0);
 
-    device->beginFrame({frame.number, frame.completed});
+    device.beginFrame({frame.number, frame.completed});
     graph.reset();
     state.position = graph.import("positions", {current.handle, 0, uint64_t{16} * state.count, rill::Use::Nothing, rill::Use::Nothing});
     const rill::SceneTargets targets{importTarget(graph, "color", color, rill::Use::ColorTarget),
                                      importTarget(graph, "depth", depth, rill::Use::DepthTarget)};
-    (void)renderer->addTo(graph, state, targets, view);
+    (void)renderer.addTo(graph, state, targets, view);
     need(graph.compile());
-    need(graph.prepare(*device));
+    need(graph.prepare(device));
     graph.record(frame.commands);
     engine.end(frame);
   }

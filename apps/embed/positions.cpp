@@ -38,13 +38,13 @@ void draw(std::span<const Position> positions, const char* file) {
 int main(int count, char** arguments) {
   if (count != 2) host::fail("usage: positions OUT.ppm");
   RillHost rillHost;
-  const auto device = rillHost.borrowDevice();
+  auto device = rillHost.borrowDevice();
   rill::Scene scene;
   scene.fluid.spacing = 0.04;
   scene.domain = rill::Domain{{0, 0, 0}, {2, 1, 1}};
   scene.fill = {rill::Fill{.shape = rill::BoxShape{{0, 0, 0}, {0.8, 0.8, 1}}}};
   const auto start = need(rill::makeParticles(scene));
-  const auto water = need(rill::Fluid::create(*device, {.scene = &scene, .particles = &start}));
+  auto water = need(rill::Fluid::create(device, {.scene = &scene, .particles = &start}));
 
   rill::Graph graph;
   rill::Ticket tickets[60];
@@ -55,22 +55,22 @@ int main(int count, char** arguments) {
       const std::span<const std::byte> bytes = graph.data(tickets[arrived]);
       if (bytes.empty()) return;  // still in flight
       const auto* first = reinterpret_cast<const Position*>(bytes.data());
-      latest.assign(first, first + water->count());
+      latest.assign(first, first + water.count());
     }
   };
   for (uint32_t k = 0; k < std::size(tickets); ++k) {
     const host::Frame frame = rillHost.engine.begin();
-    device->beginFrame({frame.number, frame.completed});
+    device.beginFrame({frame.number, frame.completed});
     graph.reset();
     readArrived(k);
-    tickets[k] = graph.readback(water->addTo(graph, {.advance_s = 1.0 / 60}).position);
+    tickets[k] = graph.readback(water.addTo(graph, {.advance_s = 1.0 / 60}).position);
     need(graph.compile());
-    need(graph.prepare(*device));
+    need(graph.prepare(device));
     graph.record(frame.commands);
     rillHost.engine.end(frame);
   }
   rillHost.engine.wait();
-  device->beginFrame({std::size(tickets) + 1, std::size(tickets)});
+  device.beginFrame({std::size(tickets) + 1, std::size(tickets)});
   readArrived(std::size(tickets));
   if (arrived != std::size(tickets)) host::fail("positions are missing");
   draw(latest, arguments[1]);

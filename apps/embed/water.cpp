@@ -33,7 +33,7 @@ int main(int count, char** arguments) {
   hostDevice.queueFamily = engine.queueFamily;
   hostDevice.getInstanceProcAddr = engine.getInstanceProcAddr;
   hostDevice.enabled = &needs.features;
-  const auto device = need(rill::Device::borrow(hostDevice));
+  auto device = need(rill::Device::borrow(hostDevice));
 
   // 2. Scene: a tank of 2 x 1 x 1 m with water on the left.
   rill::Scene scene;
@@ -41,14 +41,14 @@ int main(int count, char** arguments) {
   scene.domain = rill::Domain{{0, 0, 0}, {2, 1, 1}};
   scene.fill = {rill::Fill{.shape = rill::BoxShape{{0, 0, 0}, {0.8, 0.8, 1}}}};
   const auto particles = need(rill::makeParticles(scene));
-  const auto water = need(rill::Fluid::create(*device, {.scene = &scene, .particles = &particles}));
+  auto water = need(rill::Fluid::create(device, {.scene = &scene, .particles = &particles}));
 
   // 3. Renderer: draws into the game's color and depth buffer.
   constexpr uint32_t kWidth = 640, kHeight = 360;
   host::Image color = engine.createImage(VK_FORMAT_R8G8B8A8_SRGB, kWidth, kHeight,
                                          rill::kFluidColorUsage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
   host::Image depth = engine.createImage(VK_FORMAT_D32_SFLOAT, kWidth, kHeight, rill::kFluidDepthUsage | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
-  const auto renderer = need(rill::FluidRenderer::create(*device, {color.format, depth.format}));
+  auto renderer = need(rill::FluidRenderer::create(device, {color.format, depth.format}));
   rill::FluidView view;
   view.view = rill::Float4x4::from(host::lookAt({2.6f, 1.6f, 3.2f}, {0.9f, 0.3f, 0.5f}).m[0]);
   view.projection = rill::Float4x4::from(host::perspective(40, float(kWidth) / kHeight, 0.1f).m[0]);
@@ -62,15 +62,15 @@ int main(int count, char** arguments) {
     const host::Frame frame = engine.begin();
     engine.clear(frame, color, {{0.55f, 0.65f, 0.75f, 1}}, depth, 0);
 
-    device->beginFrame({frame.number, frame.completed});
+    device.beginFrame({frame.number, frame.completed});
     graph.reset();
     rill::SceneTargets targets;
     targets.color = graph.import("color", {color.handle, {color.format, kWidth, kHeight}, rill::Use::ColorTarget, rill::Use::ColorTarget});
     targets.depth = graph.import("depth", {depth.handle, {depth.format, kWidth, kHeight}, rill::Use::DepthTarget, rill::Use::DepthTarget});
-    const rill::FluidState state = water->addTo(graph, {.advance_s = 1.0 / 60});
-    targets = renderer->addTo(graph, state, targets, view);
+    const rill::FluidState state = water.addTo(graph, {.advance_s = 1.0 / 60});
+    targets = renderer.addTo(graph, state, targets, view);
     need(graph.compile());
-    need(graph.prepare(*device));
+    need(graph.prepare(device));
     graph.record(frame.commands);
 
     engine.end(frame);

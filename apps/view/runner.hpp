@@ -90,7 +90,7 @@ class Runner {
   Scene scene_;
   ParticleSet start_;  ///< including particles that were added
   Bounds firstBounds_;
-  std::unique_ptr<Fluid> fluid_;
+  std::optional<Fluid> fluid_;
   std::vector<SolidTarget> targets_;
   Graph graph_, measureGraph_;
   Pacing pacing_{1};

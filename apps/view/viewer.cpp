@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <optional>
 #include <thread>
 
 #include "core/words.hpp"
@@ -547,7 +548,7 @@ class Viewer {
 
   // In the order of their dependencies.
   std::unique_ptr<Window> window_;
-  std::unique_ptr<offline::Context> context_;
+  std::optional<offline::Context> context_;
   std::unique_ptr<Interface> interface_;
   std::unique_ptr<Display> display_;
   std::unique_ptr<Session> session_;

@@ -1,4 +1,4 @@
-// A Fluid's life: what it needs, its buffers and pipelines.
+// What a fluid needs, its buffers and its pipelines.
 #include "rill/fluid.hpp"
 
 #include <algorithm>
@@ -50,7 +50,7 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   const ParticleSet& particles = *desc.particles;
   const uint64_t n = particles.positions.size();
   auto impl = std::make_unique<FluidImpl>();
-  impl->device_ = &device.impl();
+  impl->device_ = &implOf(device);
   impl->memory = fluidMemory(scene, n);
   const uint64_t available = device.info().deviceLocalBytes;
   const uint64_t largest = std::max((n + 1) * 16, n * 32);  // positions, with the dummy; wall samples
@@ -139,52 +139,5 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
   }
   return {};
 }
-
-Fluid::Fluid(std::unique_ptr<FluidImpl> impl) : impl_(std::move(impl)) {}
-Fluid::~Fluid() = default;
-
-Expected<std::unique_ptr<Fluid>> Fluid::create(Device& device, const FluidDesc& desc) {
-  auto impl = FluidImpl::create(device, desc);
-  if (!impl) return impl.error();
-  return std::unique_ptr<Fluid>(new Fluid(std::move(*impl)));
-}
-
-FluidState Fluid::addTo(Graph& graph, const FluidStep& step) { return impl_->addTo(graph, step); }
-
-FluidState Fluid::present(Graph& graph) const { return impl_->present(graph); }
-
-std::optional<FluidStats> Fluid::stats() const {
-  impl_->poll();
-  return impl_->stats;
-}
-
-const FluidProgress& Fluid::progress() const {
-  impl_->poll();
-  return impl_->progress;
-}
-
-std::vector<FluidPassRuns> Fluid::passRuns() const {
-  impl_->poll();
-  return impl_->passRuns();
-}
-
-std::array<double, 3> Fluid::drivenCenter(uint32_t solid) const {
-  const auto& driven = impl_->setup.driven;
-  const auto found = std::find_if(driven.begin(), driven.end(), [solid](const DrivenSolid& d) { return d.solid == solid; });
-  std::array<double, 3> center;
-  center.fill(std::numeric_limits<double>::quiet_NaN());
-  if (found == driven.end()) return center;
-  for (size_t a = 0; a < 3; ++a) center[a] = impl_->origin[a] + found->center[a];
-  return center;
-}
-
-uint32_t Fluid::count() const { return impl_->count; }
-uint32_t Fluid::substepsPerBlock() const { return impl_->setup.substepsPerBlock; }
-uint32_t Fluid::substepsToComplete() const {
-  return substepsPerBlock() * (impl_->setup.params.maxSubsteps + kSettleSubsteps + impl_->setup.params.initialPressureIterations);
-}
-FluidMemory Fluid::memory() const { return impl_->memory; }
-std::span<const FluidBuffer> Fluid::buffers() const { return impl_->made; }
-std::span<const std::string> Fluid::warnings() const { return impl_->setup.warnings; }
 
 }  // namespace rill

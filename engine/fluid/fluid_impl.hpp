@@ -7,6 +7,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "core/impl_of.hpp"
 #include "fluid/arrays.hpp"
 #include "fluid/dispatch_commands.hpp"
 #include "fluid/pass_table.hpp"

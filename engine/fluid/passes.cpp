@@ -81,7 +81,7 @@ FluidState FluidImpl::present(Graph& graph) const {
 bool FluidImpl::validate(Graph& graph, const FluidStep& step) const {
   if (step.resume) return true;
   const auto invalid = [&](const std::string& what) {
-    graph.impl().fail("FluidStep::" + what);
+    implOf(graph).fail("FluidStep::" + what);
     return false;
   };
   if (!(step.advance_s >= 0 && step.advance_s <= std::numeric_limits<float>::max()))
@@ -129,7 +129,7 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   if (blocks == 0) declareRebuild(graph);  // runs where there has been none yet
   declareSkipped(graph);
 
-  Pending pending{graph.impl().weakSelf(), {}, {}, {}, false, uploads, {}};
+  Pending pending{implOf(graph).weakSelf(), {}, {}, {}, false, uploads, {}};
   if (step.stats)
     declareMeasure(graph, pending);
   else

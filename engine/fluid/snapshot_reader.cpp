@@ -37,7 +37,7 @@ std::vector<uint32_t> sorted(std::span<const uint32_t> words) {
 
 }  // namespace
 
-SnapshotReader::SnapshotReader(const Fluid& fluid) : fluid_(fluid.impl()) {
+SnapshotReader::SnapshotReader(const Fluid& fluid) : fluid_(implOf(fluid)) {
   if (fluid_.count > 0) parts_ = {kRecords};
 }
 

@@ -62,7 +62,7 @@ Expected<Buffer> DeviceImpl::createBuffer(std::string_view name, uint64_t size, 
 }
 
 Expected<Buffer> createBuffer(Device& device, std::string_view name, uint64_t size, MemoryKind kind) {
-  return device.impl().createBuffer(name, size, kind);
+  return implOf(device).createBuffer(name, size, kind);
 }
 
 }  // namespace rill

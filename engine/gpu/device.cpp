@@ -54,7 +54,7 @@ int64_t timestampBits(const DeviceImpl& impl, const HostDevice& host, VkQueueFla
 
 }  // namespace
 
-Expected<std::unique_ptr<Device>> Device::borrow(const HostDevice& host) {
+Expected<Device> Device::borrow(const HostDevice& host) {
   if (!host.instance) return invalidHost("instance is null");
   if (!host.physicalDevice) return invalidHost("physicalDevice is null");
   if (!host.device) return invalidHost("device is null");
@@ -83,11 +83,19 @@ Expected<std::unique_ptr<Device>> Device::borrow(const HostDevice& host) {
   impl->timestampMask = bits == 0 ? 0 : bits >= 64 ? ~0ull : (1ull << bits) - 1;
   describe(*impl, host);
   impl->reload = ShaderReload::fromEnvironment();
-  return std::unique_ptr<Device>(new Device(std::move(impl)));
+  return Device(std::move(impl));
 }
 
-Device::Device(std::unique_ptr<DeviceImpl> impl) : impl_(std::move(impl)) {}
+Device::Device(std::unique_ptr<DeviceImpl> impl) : impl_(std::move(impl)) { impl_->device = this; }
 Device::~Device() = default;
+Device::Device(Device&& other) noexcept : impl_(std::move(other.impl_)) {
+  if (impl_) impl_->device = this;
+}
+Device& Device::operator=(Device&& other) noexcept {
+  impl_ = std::move(other.impl_);
+  if (impl_) impl_->device = this;
+  return *this;
+}
 
 void Device::beginFrame(FrameClock clock) {
   assert(clock.recording > clock.completed);

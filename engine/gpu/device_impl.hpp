@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/impl_of.hpp"
 #include "gpu/function_table.hpp"
 #include "gpu/pipeline.hpp"
 #include "gpu/resources.hpp"
@@ -56,6 +57,7 @@ class DeviceImpl {
   bool abandoned(uint64_t frame) const;
   void abandon(uint64_t frame);
 
+  Device* device = nullptr;  ///< the handle; it changes when the handle is moved
   InstanceTable instance;
   DeviceTable vk;
   VkPhysicalDevice physical = VK_NULL_HANDLE;

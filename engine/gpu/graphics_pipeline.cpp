@@ -141,7 +141,7 @@ Expected<const GraphicsPipeline*> PipelineStore::find(DeviceImpl& device, const 
 }
 
 Expected<const GraphicsPipeline*> graphicsPipeline(Device& device, const GraphicsPipelineDesc& desc) {
-  return device.impl().pipelines.find(device.impl(), desc);
+  return implOf(device).pipelines.find(implOf(device), desc);
 }
 
 }  // namespace rill

@@ -298,9 +298,9 @@ void PipelineStore::destroy(DeviceImpl& device) {
 }
 
 Expected<const ComputePipeline*> computePipeline(Device& device, const ComputePipelineDesc& desc) {
-  return device.impl().pipelines.find(device.impl(), desc);
+  return implOf(device).pipelines.find(implOf(device), desc);
 }
 
-size_t pipelineCount(const Device& device) { return const_cast<Device&>(device).impl().pipelines.size(); }
+size_t pipelineCount(const Device& device) { return implOf(device).pipelines.size(); }
 
 }  // namespace rill

@@ -8,7 +8,7 @@ namespace rill {
 
 Expected<const ComputePipeline*> shaderPipeline(Device& device, std::string_view shader, std::span<const NamedConstant> constants,
                                                 uint32_t requiredSubgroupSize) {
-  const EmbeddedShader* embedded = embeddedShader(device.impl(), shader);
+  const EmbeddedShader* embedded = embeddedShader(implOf(device), shader);
   if (!embedded) return shaderError(shader, "no embedded shader has this name");
   std::vector<uint32_t> values;
   for (const ShaderConstant& constant : embedded->constants) {
@@ -22,7 +22,7 @@ Expected<const ComputePipeline*> shaderPipeline(Device& device, std::string_view
 
 std::string readingVariant(const Device& device, std::string_view shader, bool texels) {
   const std::string variant = std::string(shader) + "_texel";
-  return texels && embeddedShader(const_cast<Device&>(device).impl(), variant) ? variant : std::string(shader);
+  return texels && embeddedShader(implOf(device), variant) ? variant : std::string(shader);
 }
 
 }  // namespace rill

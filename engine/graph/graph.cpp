@@ -381,6 +381,8 @@ Kernel Pass::bindKernel(const Pipeline& pipeline, std::span<const ResourceRef> r
 
 Graph::Graph() : impl_(std::make_unique<GraphImpl>()) {}
 Graph::~Graph() = default;
+Graph::Graph(Graph&&) noexcept = default;
+Graph& Graph::operator=(Graph&&) noexcept = default;
 void Graph::reset() { impl_->reset(); }
 
 BufferRef Graph::create(std::string_view name, BufferDesc desc) {

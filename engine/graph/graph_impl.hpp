@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/impl_of.hpp"
 #include "gpu/device_impl.hpp"
 #include "gpu/pipeline.hpp"
 #include "graph/frame_slot.hpp"

@@ -10,7 +10,7 @@ namespace rill {
 
 Expected<void> GraphImpl::prepare(Device& owner) {
   if (!compiled) return Error{ErrorKind::BadInput, "Graph::prepare: call compile() successfully before prepare()"};
-  DeviceImpl& d = owner.impl();
+  DeviceImpl& d = implOf(owner);
   if (device && device != &d)
     return Error{ErrorKind::BadInput, "Graph::prepare: the graph was prepared with another device; use one graph per device"};
   device = &d;

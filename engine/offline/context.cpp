@@ -8,18 +8,20 @@
 
 namespace rill::offline {
 
-Expected<std::unique_ptr<Context>> Context::create(const ContextDesc& desc) {
+Expected<Context> Context::create(const ContextDesc& desc) {
   auto impl = std::make_unique<ContextImpl>();
   if (auto ok = impl->openLoader(); !ok) return ok.error();
   if (auto ok = impl->makeInstance(desc); !ok) return ok.error();
   if (auto ok = impl->chooseDevice(desc); !ok) return ok.error();
   if (auto ok = impl->makeDevice(desc); !ok) return ok.error();
   if (auto ok = impl->makeFrames(std::max(desc.framesInFlight, 1u)); !ok) return ok.error();
-  return std::unique_ptr<Context>(new Context(std::move(impl)));
+  return Context(std::move(impl));
 }
 
 Context::Context(std::unique_ptr<ContextImpl> impl) : impl_(std::move(impl)) {}
 Context::~Context() = default;
+Context::Context(Context&&) noexcept = default;
+Context& Context::operator=(Context&&) noexcept = default;
 
 ContextImpl::~ContextImpl() {
   if (device) {
@@ -75,6 +77,7 @@ Expected<void> ContextImpl::updateCompleted() {
 }
 
 Device& Context::device() { return *impl_->rill; }
+const Device& Context::device() const { return *impl_->rill; }
 
 Expected<FrameClock> Context::beginFrame() {
   ContextImpl& c = *impl_;

@@ -35,16 +35,18 @@ struct SubmitSemaphores {
 
 class ContextImpl;
 
-/// Waits for the device and destroys everything on destruction. Users of its rill::Device must be destroyed first.
+/// Waits for the device and destroys everything on destruction. Users of its rill::Device must be destroyed first. device() stays where it
+/// is when a Context is moved; a moved-from one may only be destroyed or assigned to.
 class Context {
  public:
   /// BadInput, listing the devices, if none matches `desc.device`; NoDevice if none is usable.
-  static Expected<std::unique_ptr<Context>> create(const ContextDesc& desc = {});
+  static Expected<Context> create(const ContextDesc& desc = {});
   ~Context();
-  Context(const Context&) = delete;
-  Context& operator=(const Context&) = delete;
+  Context(Context&&) noexcept;
+  Context& operator=(Context&&) noexcept;
 
   Device& device();
+  const Device& device() const;
 
   /// Waits for a free command buffer and begins a frame. Frames are numbered from 1.
   Expected<FrameClock> beginFrame();

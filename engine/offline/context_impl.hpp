@@ -55,7 +55,7 @@ class ContextImpl {
   VkDevice device = VK_NULL_HANDLE;
   VkQueue queue = VK_NULL_HANDLE;
   uint32_t queueFamily = 0;
-  std::unique_ptr<Device> rill;
+  std::optional<Device> rill;
 
   VkCommandPool pool = VK_NULL_HANDLE;
   std::vector<VkCommandBuffer> commandBuffers;

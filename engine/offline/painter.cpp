@@ -105,7 +105,7 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
     if (!picture) return environmentError(picture.error());
     if (auto set = fluid_->setEnvironment(*picture); !set) return environmentError(set.error());
   }
-  auto scenery = Scenery::create(device, scene_, start_, {}, fluid_->impl().environment.get());
+  auto scenery = Scenery::create(device, scene_, start_, {}, implOf(*fluid_).environment.get());
   if (!scenery) return scenery.error();
   auto finish = Finish::create(device);
   if (!finish) return finish.error();
@@ -118,7 +118,7 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
 PictureTickets Painter::declare(Graph& graph, const FluidState& fluid, std::string_view view, uint32_t width, uint32_t height,
                                 double time_s) {
   PictureTickets tickets{graph.readback(addTo(graph, fluid, view, camera(width, height, time_s), width, height, time_s)), {}};
-  if (find(view)->kind != Kind::Particles && fluid.count > 0) tickets.counters = graph.readback(fluid_->impl().last.counters);
+  if (find(view)->kind != Kind::Particles && fluid.count > 0) tickets.counters = graph.readback(implOf(*fluid_).last.counters);
   return tickets;
 }
 
@@ -141,7 +141,7 @@ BufferRef Painter::addTo(Graph& graph, const FluidState& fluid, std::string_view
   const TargetFormats formats;
   SceneTargets targets{graph.create("picture color", {formats.color, width, height}),
                        graph.create("picture depth", {formats.depth, width, height})};
-  FluidRendererImpl& renderer = fluid_->impl();
+  FluidRendererImpl& renderer = implOf(*fluid_);
   const BufferRef environment = renderer.environment ? renderer.environment->addTo(graph) : BufferRef{};
   targets = scenery_->addTo(graph, fluid, targets, seen, look_, time_s, environment);
   targets = renderer.addTo(graph, fluid, targets, seen, look_, true, environment);

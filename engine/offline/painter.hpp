@@ -53,7 +53,7 @@ class Painter {
   const ParticleSet& start_;
   double orbit_deg_per_s_;
   std::unique_ptr<ParticleView> particles_;
-  std::unique_ptr<FluidRenderer> fluid_;
+  std::optional<FluidRenderer> fluid_;
   std::unique_ptr<Scenery> scenery_;
   Finish finish_;
   FluidLook look_;

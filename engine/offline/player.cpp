@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstring>
 #include <new>
+#include <optional>
 
 #include "gpu/resources.hpp"
 #include "offline/context.hpp"
@@ -99,7 +100,7 @@ class Player::Impl {
  private:
   Scene scene_;
   ParticleSet start_;  ///< framed if the scene has no camera
-  std::unique_ptr<Context> context_;
+  std::optional<Context> context_;
   Buffer position_, velocity_;
   uint32_t count_ = 0;
   double origin_[3] = {0, 0, 0};
@@ -111,11 +112,13 @@ class Player::Impl {
 
 Player::Player(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Player::~Player() = default;
+Player::Player(Player&&) noexcept = default;
+Player& Player::operator=(Player&&) noexcept = default;
 
-Expected<std::unique_ptr<Player>> Player::open(Scene scene, const Options& options) try {
+Expected<Player> Player::open(Scene scene, const Options& options) try {
   auto impl = std::make_unique<Impl>(std::move(scene), options.orbit_deg_per_s);
   if (auto opened = impl->open(options); !opened) return opened.error();
-  return std::unique_ptr<Player>(new Player(std::move(impl)));
+  return Player(std::move(impl));
 } catch (const std::bad_alloc&) { return outOfMemory("opening the scene"); }
 
 Expected<void> Player::show(const std::vector<Float3>& positions, const double origin[3], const std::vector<Float3>& velocities,

@@ -302,8 +302,8 @@ class Simulation::Impl {
   Options options_;
   ParticleSet start_;
   std::vector<std::string> warnings_;
-  std::unique_ptr<Context> context_;
-  std::unique_ptr<Fluid> fluid_;
+  std::optional<Context> context_;
+  std::optional<Fluid> fluid_;
   Painter painter_{scene_, start_, options_.orbit_deg_per_s};
   // One graph per kind of frame, so that each keeps its memory plan.
   Graph advanceGraph_, measureGraph_, renderGraph_;
@@ -319,35 +319,34 @@ class Simulation::Impl {
 
 Simulation::Simulation(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
-Expected<std::unique_ptr<Simulation>> Simulation::open(const std::filesystem::path& scene, const Options& options) {
+Expected<Simulation> Simulation::open(const std::filesystem::path& scene, const Options& options) {
   auto read = loadScene(scene, options.overrides);
   if (!read) return read.error();
   return open(std::move(*read), options);
 }
 
-Expected<std::unique_ptr<Simulation>> Simulation::make(Scene scene, std::optional<ParticleSet> start, const Options& options,
-                                                       const Checkpoint* from) {
-  return guarded("opening the scene", [&]() -> Expected<std::unique_ptr<Simulation>> {
+Expected<Simulation> Simulation::make(Scene scene, std::optional<ParticleSet> start, const Options& options, const Checkpoint* from) {
+  return guarded("opening the scene", [&]() -> Expected<Simulation> {
     if (start && start->positions.size() > kMaxParticles)
       return Error{ErrorKind::TooLarge,
                    std::to_string(start->positions.size()) + " particles; expected at most " + std::to_string(kMaxParticles)};
     auto impl = std::make_unique<Impl>(std::move(scene), options);
     if (auto placed = impl->place(std::move(start)); !placed) return placed.error();
     if (auto opened = impl->open(from); !opened) return opened.error();
-    return std::unique_ptr<Simulation>(new Simulation(std::move(impl)));
+    return Simulation(std::move(impl));
   });
 }
 
-Expected<std::unique_ptr<Simulation>> Simulation::open(Scene scene, const Options& options) {
-  return make(std::move(scene), {}, options, nullptr);
-}
+Expected<Simulation> Simulation::open(Scene scene, const Options& options) { return make(std::move(scene), {}, options, nullptr); }
 
-Expected<std::unique_ptr<Simulation>> Simulation::open(Scene scene, ParticleSet start, const Options& options) {
+Expected<Simulation> Simulation::open(Scene scene, ParticleSet start, const Options& options) {
   return make(std::move(scene), std::move(start), options, nullptr);
 }
 
-Expected<std::unique_ptr<Simulation>> Simulation::resume(Scene scene, const Checkpoint& checkpoint, const Options& options) {
+Expected<Simulation> Simulation::resume(Scene scene, const Checkpoint& checkpoint, const Options& options) {
   return make(std::move(scene), {}, options, &checkpoint);
 }
 

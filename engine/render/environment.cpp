@@ -43,7 +43,7 @@ Expected<std::unique_ptr<Environment>> Environment::create(Device& device, const
   if (picture.texels.size() != size_t{picture.width} * picture.height)
     return Error{ErrorKind::BadInput, "an environment of " + std::to_string(picture.width) + "x" + std::to_string(picture.height) +
                                           " pixels: found " + std::to_string(picture.texels.size()) + " texels"};
-  auto out = std::unique_ptr<Environment>(new Environment(device));
+  auto out = std::unique_ptr<Environment>(new Environment(implOf(device)));
   out->width_ = picture.width;
   lightOf(picture, out->above_, out->below_);
   const uint64_t bytes = picture.texels.size() * sizeof(uint32_t);
@@ -58,7 +58,7 @@ Expected<std::unique_ptr<Environment>> Environment::create(Device& device, const
 }
 
 BufferRef Environment::addTo(Graph& graph) {
-  const DeviceImpl& device = device_.impl();
+  const DeviceImpl& device = device_;
   if (copied_ && device.abandoned(*copied_)) copied_.reset();
   if (copied_ && *copied_ <= device.clock.completed) staging_ = {};
   BufferRef texels =
@@ -70,7 +70,7 @@ BufferRef Environment::addTo(Graph& graph) {
     texels = pass.write(texels, Use::CopyTarget, true);
     return [this, from, texels](Commands& commands) {
       commands.copy(from, texels, texels_.size());
-      if (!copied_) copied_ = device_.impl().clock.recording;
+      if (!copied_) copied_ = device_.clock.recording;
     };
   });
   return texels;

@@ -25,9 +25,9 @@ class Environment {
   Float3 below() const { return below_; }
 
  private:
-  explicit Environment(Device& device) : device_(device) {}
+  explicit Environment(DeviceImpl& device) : device_(device) {}
 
-  Device& device_;
+  DeviceImpl& device_;
   uint32_t width_ = 0;
   Float3 above_, below_;
   Buffer texels_, staging_;         // staging_: none once it has been copied

@@ -45,7 +45,7 @@ Expected<void> FluidRendererImpl::create(Device& host, const TargetFormats& targ
   if (!hasDepth(targets.depth))
     return Error{ErrorKind::BadInput,
                  "TargetFormats::depth is " + std::to_string(targets.depth) + "; expected a VkFormat that holds depth"};
-  device = &host;
+  device = &implOf(host);
   formats = targets;
   auto stage = SurfaceStage::create(host);
   if (!stage) return stage.error();
@@ -72,8 +72,8 @@ Expected<void> FluidRendererImpl::create(Device& host, const TargetFormats& targ
 Expected<void> FluidRendererImpl::makeShade() {
   using enum BindingKind;
   static constexpr BindingKind kShade[] = {Uniform, Storage, Storage, Storage, Storage, Storage, Storage, Storage, Storage};
-  auto drawn =
-      graphicsPipeline(*device, {.vertex = "render/fluid_shade_vertex",
+  auto drawn = graphicsPipeline(*device->device,
+                                {.vertex = "render/fluid_shade_vertex",
                                  .fragment = environment ? "render/fluid_shade_environment_fragment" : "render/fluid_shade_fragment",
                                  .bindings = std::span(kShade).first(environment ? 9 : 8),
                                  .pushConstantBytes = sizeof(SurfacePush),
@@ -87,7 +87,7 @@ Expected<void> FluidRendererImpl::makeShade() {
 }
 
 Expected<void> FluidRendererImpl::setEnvironment(const EnvironmentPicture& picture) {
-  auto made = Environment::create(*device, picture);
+  auto made = Environment::create(*device->device, picture);
   if (!made) return made.error();
   environment = *std::move(made);
   return makeShade();
@@ -95,7 +95,7 @@ Expected<void> FluidRendererImpl::setEnvironment(const EnvironmentPicture& pictu
 
 bool FluidRendererImpl::possible(Graph& graph, const FluidState& fluid, const FluidView& view, SurfaceMethod method) {
   const auto mistake = [&](std::string what) {
-    graph.impl().fail(std::move(what));
+    implOf(graph).fail(std::move(what));
     return false;
   };
   if (auto ok = checkView(view); !ok) return mistake(ok.error().message);
@@ -108,7 +108,7 @@ bool FluidRendererImpl::possible(Graph& graph, const FluidState& fluid, const Fl
     return mistake("FluidState::spacing is " + shortestNumber(fluid.spacing) + "; expected a length above 0 (m)");
   for (const double v : fluid.origin)
     if (!std::isfinite(v)) return mistake("FluidState::origin is " + shortestNumber(v) + "; expected finite numbers (m)");
-  const auto& resources = graph.impl().resources;
+  const auto& resources = implOf(graph).resources;
   const BufferRef position = fluid.position;
   if (position.index >= resources.size() || resources[position.index].isImage) return true;  // the pass that reads it says so
   if (const uint64_t bytes = resources[position.index].size; bytes < uint64_t{fluid.count} * 16)
@@ -119,7 +119,7 @@ bool FluidRendererImpl::possible(Graph& graph, const FluidState& fluid, const Fl
 
 bool FluidRendererImpl::possible(Graph& graph, const FluidLook& look) {
   const auto refused = [&](const char* what, float value, const char* expected) {
-    graph.impl().fail("FluidLook::" + std::string(what) + " is " + shortestNumber(double{value}) + "; expected " + expected);
+    implOf(graph).fail("FluidLook::" + std::string(what) + " is " + shortestNumber(double{value}) + "; expected " + expected);
     return false;
   };
   if (!(look.refraction_index >= 1 && look.refraction_index <= 10)) return refused("refraction_index", look.refraction_index, "1 to 10");
@@ -128,14 +128,14 @@ bool FluidRendererImpl::possible(Graph& graph, const FluidLook& look) {
 }
 
 bool FluidRendererImpl::within(Graph& graph, const SceneTargets& targets, const FluidView& view) {
-  const auto& resources = graph.impl().resources;
+  const auto& resources = implOf(graph).resources;
   for (const ImageRef target : {targets.color, targets.depth}) {
     if (target.index >= resources.size() || !resources[target.index].isImage) continue;  // the pass that reads it says so
     const ResourceData& image = resources[target.index];
     if (uint64_t{view.x} + view.width <= image.width() && uint64_t{view.y} + view.height <= image.height()) continue;
-    graph.impl().fail("the fluid's viewport of " + std::to_string(view.width) + "x" + std::to_string(view.height) + " pixels at " +
-                      std::to_string(view.x) + ", " + std::to_string(view.y) + " does not lie within a target of " +
-                      std::to_string(image.width()) + "x" + std::to_string(image.height()));
+    implOf(graph).fail("the fluid's viewport of " + std::to_string(view.width) + "x" + std::to_string(view.height) + " pixels at " +
+                       std::to_string(view.x) + ", " + std::to_string(view.y) + " does not lie within a target of " +
+                       std::to_string(image.width()) + "x" + std::to_string(image.height()));
     return false;
   }
   return true;
@@ -218,14 +218,16 @@ BufferRef FluidRendererImpl::addData(Graph& graph, const FluidState& fluid, cons
   return picture;
 }
 
-Expected<std::unique_ptr<FluidRenderer>> FluidRenderer::create(Device& device, const TargetFormats& formats) {
+Expected<FluidRenderer> FluidRenderer::create(Device& device, const TargetFormats& formats) {
   auto impl = std::make_unique<FluidRendererImpl>();
   if (auto ok = impl->create(device, formats); !ok) return ok.error();
-  return std::unique_ptr<FluidRenderer>(new FluidRenderer(std::move(impl)));
+  return FluidRenderer(std::move(impl));
 }
 
 FluidRenderer::FluidRenderer(std::unique_ptr<FluidRendererImpl> impl) : impl_(std::move(impl)) {}
 FluidRenderer::~FluidRenderer() = default;
+FluidRenderer::FluidRenderer(FluidRenderer&&) noexcept = default;
+FluidRenderer& FluidRenderer::operator=(FluidRenderer&&) noexcept = default;
 
 Expected<void> FluidRenderer::setEnvironment(const EnvironmentPicture& picture) { return impl_->setEnvironment(picture); }
 
@@ -242,7 +244,7 @@ BufferRef FluidRenderer::addData(Graph& graph, const FluidState& fluid, const Fl
                                  SurfaceMethod method) {
   if (!FluidRendererImpl::possible(graph, fluid, view, method)) return {};
   if (size_t(data) > size_t(SurfaceData::Thickness)) {
-    graph.impl().fail(std::to_string(unsigned(data)) + " is no SurfaceData");
+    implOf(graph).fail(std::to_string(unsigned(data)) + " is no SurfaceData");
     return {};
   }
   return impl_->addData(graph, fluid, view, data, full, method);

@@ -1,5 +1,6 @@
 #pragma once
 // What is behind rill::FluidRenderer.
+#include "core/impl_of.hpp"
 #include "render/environment.hpp"
 #include "render/look_records.h"
 #include "render/mean_faces.hpp"
@@ -32,7 +33,7 @@ class FluidRendererImpl {
                      BufferRef texels = {});
   BufferRef addData(Graph& graph, const FluidState& fluid, const FluidView& view, SurfaceData data, float full, SurfaceMethod method);
 
-  Device* device = nullptr;
+  DeviceImpl* device = nullptr;
   TargetFormats formats;
   std::unique_ptr<Environment> environment;  ///< none: the sky of Rill's own
   SurfaceStage surface;

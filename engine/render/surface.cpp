@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "gpu/device_impl.hpp"
 #include "gpu/texel_reads.hpp"
 #include "render/compute_step.hpp"
 #include "sort/dispatches.hpp"
@@ -58,7 +59,7 @@ uint32_t sampleStep(const SurfacePush& camera, float spacing, double depth, doub
 
 Expected<SurfaceStage> SurfaceStage::create(Device& device) {
   SurfaceStage stage;
-  stage.device_ = &device;
+  stage.device_ = &implOf(device);
   using enum BindingKind;
   static constexpr BindingKind kStorage[] = {Storage, Storage, Storage, Storage, Storage, Storage, Storage, Storage},
                                kTexels[] = {TexelUint, TexelFloat4, TexelFloat4, Storage, Storage, Storage, Storage, Storage},
@@ -123,7 +124,7 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
   Frame frame = frameOf(fluid, camera, method, focus, settings);
   const uint64_t maxTexels = std::max({2 * uint64_t{fluid.count}, paddedWords(frame.cells + 1), sampleCount(frame.out.push)});
   frame.storageReads = settings.storage_reads;
-  frame.texels = !frame.storageReads && usesTexelReads(*device_, maxTexels);
+  frame.texels = !frame.storageReads && usesTexelReads(*device_->device, maxTexels);
   frame.narrows = method == SurfaceMethod::NarrowRange && !settings.filter;
   addBuffers(graph, fluid, frame, whole);
   addVisible(graph, fluid, frame);
@@ -216,7 +217,7 @@ void SurfaceStage::addGrid(Graph& graph, const FluidState& fluid, Frame& frame) 
           {reads(fluid.position), writes(out.counters), reads(frame.survivors), reads(frame.depth), writes(frame.start), fresh(rank)},
           survivorGroups(), out.push);
   addArguments(graph, out);
-  auto scan = Scan::create(*device_, static_cast<uint32_t>(frame.cells + 1), frame.storageReads,
+  auto scan = Scan::create(*device_->device, static_cast<uint32_t>(frame.cells + 1), frame.storageReads,
                            {"surface scan", "surface scan reduce", "surface scan tiles", "surface scan apply"});
   assert(scan && "its pipelines were made in create()");
   frame.start = scan->addTo(graph, frame.start);

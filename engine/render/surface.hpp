@@ -84,7 +84,7 @@ class SurfaceStage {
   void addFiltered(Graph& graph, Frame& frame, const SurfaceSettings& settings) const;
   void addCompose(Graph& graph, Frame& frame, const ComputePipeline* edges, bool whole) const;
 
-  Device* device_ = nullptr;
+  DeviceImpl* device_ = nullptr;
   CurvatureFlow flow_;
   const ComputePipeline *occlude_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr, *pick_ = nullptr,
                         *scatter_ = nullptr, *order_ = nullptr, *planes_[2] = {}, *blend_[2] = {}, *tiles_ = nullptr, *compose_ = nullptr,

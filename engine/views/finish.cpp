@@ -1,5 +1,6 @@
 #include "views/finish.hpp"
 
+#include "gpu/device_impl.hpp"
 #include "gpu/texel_reads.hpp"
 #include "sort/dispatches.hpp"
 #include "views/antialias_record.h"
@@ -14,7 +15,7 @@ Expected<Finish> Finish::create(Device& device) {
   auto tone = computePipeline(device, {.shader = "views/tonemap", .bindings = kTone});
   if (!tone) return tone.error();
   Finish out;
-  out.device_ = &device;
+  out.device_ = &implOf(device);
   out.tone_ = *tone;
   for (const bool texels : {false, true}) {
     const BindingKind bindings[] = {texels ? TexelUint : Storage, Storage};
@@ -37,7 +38,7 @@ BufferRef Finish::addTo(Graph& graph, ImageRef color, uint32_t width, uint32_t h
     return [kernel, groups = divideUp(pixels, 64)](Commands& commands) { commands.dispatch(kernel, groups); };
   });
   graph.pass("picture edges", [&](Pass& pass) {
-    const bool texels = usesTexelReads(*device_, pixels);
+    const bool texels = usesTexelReads(*device_->device, pixels);
     pass.read(stairs, texels ? Use::ComputeTexel : Use::ComputeRead);
     picture = pass.write(picture, Use::ComputeWrite, true);
     const Kernel kernel = pass.kernel(antialias_[texels], {stairs, picture});

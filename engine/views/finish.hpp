@@ -14,7 +14,7 @@ class Finish {
   BufferRef addTo(Graph& graph, ImageRef color, uint32_t width, uint32_t height) const;
 
  private:
-  Device* device_ = nullptr;
+  DeviceImpl* device_ = nullptr;
   const ComputePipeline *tone_ = nullptr, *antialias_[2] = {};  // the second reads texels
 };
 

@@ -27,7 +27,7 @@ Expected<Buffer> upload(Device& device, std::string_view name, std::span<const T
 
 }  // namespace
 
-void bringViewShaders(Device& device) { device.impl().shaders.add(viewsShaders()); }
+void bringViewShaders(Device& device) { implOf(device).shaders.add(viewsShaders()); }
 
 Expected<SceneBuffers> SceneBuffers::create(Device& device, ParticleScene host) {
   bringViewShaders(device);

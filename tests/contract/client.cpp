@@ -39,18 +39,18 @@ Expected<std::unique_ptr<Client>> Client::open(Host& host, const HostDevice& hos
   std::unique_ptr<Client> client(new Client(host));
   auto device = Device::borrow(hostDevice);
   if (!device) return device.error();
-  client->device_ = *std::move(device);
+  client->device_ = std::make_unique<Device>(*std::move(device));
   Scene scene = tank();
   auto particles = makeParticles(scene, 10000);
   if (!particles) return particles.error();
   auto fluid = Fluid::create(*client->device_, {.scene = &scene, .particles = &*particles});
   if (!fluid) return fluid.error();
-  client->fluid_ = *std::move(fluid);
+  client->fluid_ = std::make_unique<Fluid>(*std::move(fluid));
   client->draws = draws;
   if (!draws) return client;
   auto renderer = FluidRenderer::create(*client->device_);
   if (!renderer) return renderer.error();
-  client->renderer_ = *std::move(renderer);
+  client->renderer_ = std::make_unique<FluidRenderer>(*std::move(renderer));
   const EnvironmentPicture sky{2, 1, {sharedExponent(0.5f, 0.6f, 0.9f), sharedExponent(0.9f, 0.6f, 0.5f)}};
   if (auto ok = client->renderer_->setEnvironment(sky); !ok) return ok.error();
   return client;
@@ -62,6 +62,14 @@ Client::~Client() {
   fluid_.reset();
   graph_.reset();
   host_.interceptor.currentCall = "~Device";
+}
+
+void Client::moveHandles() {
+  device_ = std::make_unique<Device>(std::move(*device_));
+  fluid_ = std::make_unique<Fluid>(std::move(*fluid_));
+  renderer_ = std::make_unique<FluidRenderer>(std::move(*renderer_));
+  Graph graph = std::move(graph_);
+  graph_ = std::move(graph);
 }
 
 ImageRef Client::picture(const FluidState& state) {

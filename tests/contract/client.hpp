@@ -26,6 +26,9 @@ class Client {
   /// Positions, velocities and pixels of the last submitted frame, if the clock reports it as completed.
   std::vector<std::byte> readback();
 
+  /// Moves device, fluid, renderer and graph into other objects, and destroys the old ones.
+  void moveHandles();
+
   Device& device() { return *device_; }
   FrameClock clock;
   bool draws = true;  ///< the next frame

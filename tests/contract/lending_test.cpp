@@ -121,7 +121,7 @@ TEST_F(Contract, RejectsQueueWithoutComputeAndRendererWithoutGraphics) {
   interceptor().missingQueueFlags = VK_QUEUE_GRAPHICS_BIT;
   auto device = Device::borrow(host().hostDevice());
   ASSERT_TRUE(device) << device.error().message;
-  const auto renderer = FluidRenderer::create(**device);
+  const auto renderer = FluidRenderer::create(*device);
   ASSERT_FALSE(renderer);
   EXPECT_EQ(renderer.error().kind, ErrorKind::NoDevice);
 }

@@ -131,16 +131,16 @@ TEST_F(ContractMemory, AllocatesAllMemoryThroughHooks) {
 TEST_F(ContractMemory, FreesBlocksOnlyAfterTheirFrame) {
   auto device = Device::borrow(borrowDevice());
   ASSERT_TRUE(device);
-  (*device)->beginFrame({5, 3});
+  device->beginFrame({5, 3});
   {
-    auto buffer = createBuffer(**device, "short-lived", 4096);
+    auto buffer = createBuffer(*device, "short-lived", 4096);
     ASSERT_TRUE(buffer);
     EXPECT_EQ(allocator().outstanding(), 1u);
   }
   EXPECT_EQ(allocator().outstanding(), 1u) << "frame 5 may use it";
-  (*device)->beginFrame({6, 4});
+  device->beginFrame({6, 4});
   EXPECT_EQ(allocator().outstanding(), 1u) << "frame 5 has not completed";
-  (*device)->beginFrame({7, 5});
+  device->beginFrame({7, 5});
   EXPECT_EQ(allocator().outstanding(), 0u);
   expectEachFreedOnce();
 }
@@ -149,9 +149,9 @@ TEST_F(ContractMemory, DeviceDestructorFreesRemainingBlocks) {
   auto device = Device::borrow(borrowDevice());
   ASSERT_TRUE(device);
   hooks_ = {};  // what it points to was read by borrow() alone
-  { auto buffer = createBuffer(**device, "short-lived", 4096); }
+  { auto buffer = createBuffer(*device, "short-lived", 4096); }
   EXPECT_EQ(allocator().outstanding(), 1u);
-  device->reset();
+  { const Device destroyed = *std::move(device); }
   expectEachFreedOnce();
 }
 
@@ -176,7 +176,7 @@ TEST_F(ContractMemory, RejectsAndFreesInvalidBlocks) {
                {[](const MemoryRequest&, MemoryBlock& block) { block.memoryType = 31; }, "not an allowed type"}};
   for (const auto& row : table) {
     allocator().corrupt = row.corrupt;
-    const auto refused = createBuffer(**device, "positions", 4096, MemoryKind::Upload);
+    const auto refused = createBuffer(*device, "positions", 4096, MemoryKind::Upload);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().kind, ErrorKind::BadInput);
     EXPECT_NE(refused.error().message.find("buffer 'positions'"), std::string::npos) << refused.error().message;
@@ -189,7 +189,7 @@ TEST_F(ContractMemory, ReturnsAllocatorError) {
   auto device = Device::borrow(borrowDevice());
   ASSERT_TRUE(device);
   allocator().result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
-  const auto refused = createBuffer(**device, "positions", 4096);
+  const auto refused = createBuffer(*device, "positions", 4096);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, ErrorKind::OutOfMemory);
   EXPECT_NE(refused.error().message.find("'positions'"), std::string::npos) << refused.error().message;

@@ -146,6 +146,22 @@ TEST_F(Contract, OnlyFrameClockTriggersFrees) {
   EXPECT_LT(interceptor().liveObjects()["Image"], images);
 }
 
+TEST_F(Contract, MovedHandlesContinue) {
+  std::vector<std::byte> bits[2];
+  for (const bool moves : {false, true}) {
+    auto made = client();
+    ASSERT_TRUE(made);
+    if (moves) made->moveHandles();  // before the start state and the environment have been copied
+    frames(*made, 1);
+    ASSERT_TRUE(made->frame(Client::Submission::Submitted, false));
+    if (moves) made->moveHandles();  // with a frame in flight
+    frames(*made, 2);
+    bits[moves] = made->readback();
+  }
+  EXPECT_FALSE(bits[0].empty());
+  EXPECT_TRUE(bits[0] == bits[1]);
+}
+
 TEST_F(Contract, AbandonedFrameHasNoEffect) {
   std::vector<std::byte> plain;
   {

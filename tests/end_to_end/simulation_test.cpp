@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -22,17 +21,17 @@ Scene dam() {
   return *scene;
 }
 
-std::unique_ptr<Simulation> open(const Options& options = {}, Scene scene = dam()) {
+std::optional<Simulation> open(const Options& options = {}, Scene scene = dam()) {
   auto simulation = Simulation::open(std::move(scene), options);
   if (!simulation) {
     ADD_FAILURE() << simulation.error().message;
-    return nullptr;
+    return {};
   }
   return std::move(*simulation);
 }
 
 uint64_t hashAfter(const Options& options, int frames) {
-  const auto simulation = open(options);
+  auto simulation = open(options);
   if (!simulation) return 0;
   for (int k = 0; k < frames; ++k) EXPECT_TRUE(simulation->advance(1.0 / 60));
   const auto stats = simulation->stats();
@@ -50,7 +49,7 @@ TEST(Simulation, ResultDoesNotDependOnSubmitSize) {
 }
 
 TEST(Simulation, MeasuringDoesNotChangeResult) {
-  const auto looked = open(), left = open();
+  auto looked = open(), left = open();
   ASSERT_TRUE(looked && left);
   for (int k = 0; k < 8; ++k) {
     ASSERT_TRUE(looked->advance(1.0 / 60));
@@ -70,7 +69,7 @@ double restingSpeed(std::optional<double> artificialViscosity) {
                           "tank", ".");
   EXPECT_TRUE(scene);
   scene->solver.artificial_viscosity = artificialViscosity;
-  const auto simulation = open({}, *scene);
+  auto simulation = open({}, *scene);
   if (!simulation) return 0;
   EXPECT_TRUE(simulation->advance(2));
   const auto stats = simulation->stats();
@@ -96,7 +95,7 @@ TEST(Simulation, OverlappingFillsStartWithoutBurst) {
     "fill": [{"box": {"min": [0, 0, 0], "max": [0.7, 1.2, 0.5]}}]})",
                                 "overlapping", ".");
   ASSERT_TRUE(scene);
-  const auto simulation = open({}, *scene);
+  auto simulation = open({}, *scene);
   ASSERT_TRUE(simulation);
   const auto before = simulation->stats();
   ASSERT_TRUE(before);
@@ -114,7 +113,7 @@ TEST(Simulation, DistantDropsFallLikeOne) {
   const auto fall = [](const std::string& fills) {
     auto scene = parseScene(R"({"rill": "0.1", "fluid": {"spacing": 0.02}, "fill": [)" + fills + "]}", "drops", ".");
     EXPECT_TRUE(scene);
-    const auto simulation = open({}, *scene);
+    auto simulation = open({}, *scene);
     if (!simulation) return offline::Stats{};
     EXPECT_TRUE(simulation->advance(0.1));
     const auto stats = simulation->stats();
@@ -132,7 +131,7 @@ TEST(Simulation, DistantDropsFallLikeOne) {
 TEST(Simulation, LongAdvancesAreSplitIntoFrames) {
   Options frames;
   frames.longestFrame_s = 1.0 / 60;
-  const auto once = open(frames), often = open(frames);
+  auto once = open(frames), often = open(frames);
   ASSERT_TRUE(once && often);
   ASSERT_TRUE(once->advance(12.0 / 60));
   for (int k = 0; k < 12; ++k) ASSERT_TRUE(often->advance((12.0 / 60) / 12));
@@ -146,7 +145,7 @@ TEST(Simulation, LongAdvancesAreSplitIntoFrames) {
 }
 
 TEST(Simulation, ReturnsParticles) {
-  const auto simulation = open();
+  auto simulation = open();
   ASSERT_TRUE(simulation);
   const auto start = simulation->particles();
   ASSERT_TRUE(start);
@@ -173,7 +172,7 @@ TEST(Simulation, AddsTheOrigin) {
     far.domain->min[axis] += 512, far.domain->max[axis] += 512;
     std::get<BoxShape>(far.fill[0].shape).min[axis] += 512, std::get<BoxShape>(far.fill[0].shape).max[axis] += 512;
   }
-  const auto near = open(), moved = open({}, far);
+  auto near = open(), moved = open({}, far);
   ASSERT_TRUE(near && moved);
   ASSERT_TRUE(near->advance(0.1));
   ASSERT_TRUE(moved->advance(0.1));
@@ -185,7 +184,7 @@ TEST(Simulation, AddsTheOrigin) {
 TEST(Simulation, StatsAreOfCurrentInstant) {
   Options options;
   options.passTimes = true;
-  const auto simulation = open(options);
+  auto simulation = open(options);
   ASSERT_TRUE(simulation);
   ASSERT_TRUE(simulation->advance(1.0 / 60));
   const auto first = simulation->stats(), again = simulation->stats();
@@ -201,7 +200,7 @@ TEST(Simulation, StatsAreOfCurrentInstant) {
 }
 
 TEST(Simulation, PassTimesAreOptional) {
-  const auto simulation = open();
+  auto simulation = open();
   ASSERT_TRUE(simulation);
   ASSERT_TRUE(simulation->advance(1.0 / 60));
   const auto stats = simulation->stats();
@@ -217,7 +216,7 @@ TEST(Simulation, PassTimesAreOptional) {
 }
 
 TEST(Simulation, RejectsInvalidArguments) {
-  const auto simulation = open();
+  auto simulation = open();
   ASSERT_TRUE(simulation);
   EXPECT_FALSE(simulation->advance(-1));
   EXPECT_FALSE(simulation->advance(std::nan("")));
@@ -240,7 +239,7 @@ TEST(Simulation, TimeStepIsLimitedByFluid) {
   tall.solver.cfl = 10;
   for (const uint32_t iterations : {1u, 3u}) {
     tall.solver.iterations = iterations;
-    const auto simulation = open({}, tall);
+    auto simulation = open({}, tall);
     ASSERT_TRUE(simulation);
     const auto warnings = simulation->warnings();
     EXPECT_TRUE(
@@ -259,7 +258,7 @@ TEST(Simulation, TimeStepIsLimitedByFluid) {
 TEST(Simulation, IsCleanUnderValidation) {
   Options options;
   options.validation = true;
-  const auto simulation = open(options);
+  auto simulation = open(options);
   ASSERT_TRUE(simulation);
   ASSERT_TRUE(simulation->advance(0.05));
   ASSERT_TRUE(simulation->stats());

@@ -1,6 +1,8 @@
 // What a fluid says that it needs, against the buffers that are created: for the fluid, and for the transients of a frame.
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "fluid/fluid_impl.hpp"
 #include "rill/graph.hpp"
 #include "support/null_vulkan.hpp"
@@ -27,7 +29,7 @@ class CountedMemory : public ::testing::Test {
     scene.fluid.spacing = 0.1;
   }
   NullVulkan vulkan;
-  std::unique_ptr<Device> device;
+  std::optional<Device> device;
   Scene scene;
   ParticleSet particles;
 };
@@ -45,10 +47,10 @@ TEST_P(FluidMemoryTest, IsWhatIsAllocated) {
 
   auto fluid = Fluid::create(*device, {.scene = &scene, .particles = &particles});
   ASSERT_TRUE(fluid) << fluid.error().message;
-  const FluidMemory said = (*fluid)->memory();
+  const FluidMemory said = fluid->memory();
   EXPECT_EQ(said.total(), fluidMemory(scene, n).total());
   Graph graph;
-  (void)(*fluid)->addTo(graph, {.advance_s = 0.01});
+  (void)fluid->addTo(graph, {.advance_s = 0.01});
   ASSERT_TRUE(graph.compile());
   ASSERT_TRUE(graph.prepare(*device));
   // Not counted: the start state on its way to the device, tables, parameters, read-backs; half a MiB at most.
@@ -64,7 +66,7 @@ TEST_F(CountedMemory, WhatIsOffHasNoBuffer) {
     auto fluid = Fluid::create(*device, {.scene = &scene, .particles = &particles});
     EXPECT_TRUE(fluid) << fluid.error().message;
     uint64_t bytes = 0;
-    for (const FluidBuffer& buffer : (*fluid)->buffers())
+    for (const FluidBuffer& buffer : fluid->buffers())
       if (buffer.name == name) bytes += buffer.bytes;
     EXPECT_GT(bytes, 0u) << name;
     return bytes;

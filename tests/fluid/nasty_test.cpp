@@ -76,7 +76,7 @@ TEST_F(NastyTest, FullCellsAreSortedByDigits) {
     SCOPED_TRACE(nameOf(gather));
     t.gather = gather;
     auto run = start(t), again = start(t);
-    const FluidSetup& setup = run->fluid().impl().setup;
+    const FluidSetup& setup = implOf(run->fluid()).setup;
     ASSERT_EQ(chooseSortMethod({.count = setup.params.count, .keyRange = setup.grid.cells(), .start = true}), SortMethod::Radix);
     run->substeps(2);
     again->substeps(2);

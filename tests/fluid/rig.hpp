@@ -2,6 +2,7 @@
 // The solver on the device beside the reference: both made from one scene, particles compared by id, in units of the spacing.
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -101,7 +102,7 @@ class FluidTest : public GpuTest {
     Graph graph_;
     Snapshot measured_;
     FluidControl control_{};
-    std::unique_ptr<Fluid> fluid_;
+    std::optional<Fluid> fluid_;
   };
 
   std::unique_ptr<Run> start(const Trial& trial, const FluidSnapshot* from = nullptr) { return std::make_unique<Run>(*this, trial, from); }

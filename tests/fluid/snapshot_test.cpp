@@ -32,7 +32,7 @@ class SnapshotTest : public FluidTest {
  protected:
   /// Fills all that a snapshot does not bring with numbers that make no sense: what reads it before it is written stands out.
   void poison(const Fluid& fluid) {
-    const FluidImpl& impl = fluid.impl();
+    const FluidImpl& impl = implOf(fluid);
     std::vector<const Buffer*> all;
     for (const ArrayRow& row : arrayTable())
       if (row.lifetime == Lifetime::Fluid && row.account != Account::None) all.push_back(&impl.buffer(row.id));

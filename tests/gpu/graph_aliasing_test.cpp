@@ -67,7 +67,7 @@ class Aliasing : public GpuTest {
       BufferRef out = graph.import("out", importOf(result));
       (this->*declare)(graph, out, 0);
       run(graph);
-      graph.impl().previousPlan.valid = graph.impl().planComplete = false;
+      implOf(graph).previousPlan.valid = implOf(graph).planComplete = false;
     }
     const auto submitted = context().submit([&](VkCommandBuffer commands) {
       for (uint32_t frame = 0; frame < kFrames; ++frame) {
@@ -79,12 +79,12 @@ class Aliasing : public GpuTest {
         declareLast(graph);
         auto ok = graph.compile();
         if (ok) {
-          corrupt(graph.impl(), frame);
+          corrupt(implOf(graph), frame);
           ok = graph.prepare(device());
         }
         ASSERT_TRUE(ok) << ok.error().message;
         graph.record(commands);
-        graph.impl().planComplete = false;  // the next frame needs a new plan to corrupt
+        implOf(graph).planComplete = false;  // the next frame needs a new plan to corrupt
       }
     });
     EXPECT_TRUE(submitted);

@@ -108,7 +108,7 @@ TEST_F(GraphImages, AreCopiedAndCleared) {
 }
 
 TEST_F(GraphImages, ImportsKeepContentBetweenFrames) {
-  DeviceImpl& d = device().impl();
+  DeviceImpl& d = implOf(device());
   VkImageCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
   create.imageType = VK_IMAGE_TYPE_2D;
   create.format = kDesc.format;

@@ -30,16 +30,16 @@ TEST_F(Resources, RejectsInvalidSizes) {
 
 TEST_F(Resources, BufferOutlivesRecordingFrame) {
   ASSERT_TRUE(context().wait());
-  const size_t before = device().impl().retired.size();
+  const size_t before = implOf(device()).retired.size();
   auto clock = context().beginFrame();
   ASSERT_TRUE(clock);
   { const Buffer shortLived = buffer("short-lived", 64); }
-  EXPECT_EQ(device().impl().retired.size(), before + 2);
+  EXPECT_EQ(implOf(device()).retired.size(), before + 2);
   device().beginFrame(*clock);
-  EXPECT_EQ(device().impl().retired.size(), before + 2) << "its frame is still being recorded";
+  EXPECT_EQ(implOf(device()).retired.size(), before + 2) << "its frame is still being recorded";
   ASSERT_TRUE(context().submit([](VkCommandBuffer) {}));
   ASSERT_TRUE(context().wait());
-  EXPECT_EQ(device().impl().retired.size(), 0u);
+  EXPECT_EQ(implOf(device()).retired.size(), 0u);
 }
 
 TEST_F(Resources, EqualDescriptionsShareOnePipeline) {
@@ -92,10 +92,10 @@ TEST_F(Resources, ErrorsNameTheShader) {
 TEST_F(Resources, SelectsDeviceByNameAndIndex) {
   const auto byIndex = offline::Context::create({.device = "0"});
   ASSERT_TRUE(byIndex) << byIndex.error().message;
-  const std::string name = (*byIndex)->device().info().name;
+  const std::string name = byIndex->device().info().name;
   const auto byName = offline::Context::create({.device = name.substr(0, 5)});
   ASSERT_TRUE(byName) << byName.error().message;
-  EXPECT_EQ((*byName)->device().info().name, name);
+  EXPECT_EQ(byName->device().info().name, name);
   const auto none = offline::Context::create({.device = "Voodoo 2"});
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().kind, ErrorKind::BadInput);

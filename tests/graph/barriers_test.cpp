@@ -84,7 +84,7 @@ TEST_F(Barriers, PassHasOneBarrierForAllResources) {
   });
   compile();
   EXPECT_EQ(barrier(2), (Scope{kCompute | kTransfer, kStorageWrite | kTransferWrite, kCompute | kIndirect, kStorageRead | kIndirectRead}));
-  EXPECT_EQ(graph.impl().passes[2].barrier.causes.count, 2u);
+  EXPECT_EQ(implOf(graph).passes[2].barrier.causes.count, 2u);
 }
 
 TEST_F(Barriers, ImportsAreSynchronizedBeforeAndAfter) {
@@ -98,7 +98,7 @@ TEST_F(Barriers, ImportsAreSynchronizedBeforeAndAfter) {
   EXPECT_EQ(barrier(0), (Scope{kCompute, kStorageWrite, kCompute, kStorageRead}));
   EXPECT_EQ(barrier(1), (Scope{kAll, kMemoryWrite, kCompute, kStorageRead}));
   EXPECT_EQ(barrier(2), kNoBarrier);
-  EXPECT_EQ(graph.impl().finalBarrier.scope, (Scope{kCompute, kStorageWrite, kIndirect, kIndirectRead}));
+  EXPECT_EQ(implOf(graph).finalBarrier.scope, (Scope{kCompute, kStorageWrite, kIndirect, kIndirectRead}));
 }
 
 TEST_F(Barriers, WriteToReadImportNeedsExecutionBarrierOnly) {
@@ -112,14 +112,14 @@ TEST_F(Barriers, AfterStatesAreReachedWithAllPassesCulled) {
   (void)write("useless", graph.create("t", {64}));
   compile();
   EXPECT_FALSE(alive(0));
-  EXPECT_EQ(graph.impl().finalBarrier.scope, (Scope{kTransfer, kTransferWrite, kCompute, kStorageRead}));
+  EXPECT_EQ(implOf(graph).finalBarrier.scope, (Scope{kTransfer, kTransferWrite, kCompute, kStorageRead}));
 }
 
 TEST_F(Barriers, ReadbacksAreVisibleToHost) {
   (void)graph.readback(write("write", import("a")));
   compile();
   EXPECT_EQ(barrier(1), (Scope{kCompute, kStorageWrite, kTransfer, kTransferRead}));
-  EXPECT_EQ(graph.impl().finalBarrier.scope, (Scope{kTransfer, kTransferWrite, kHost, kHostRead}));
+  EXPECT_EQ(implOf(graph).finalBarrier.scope, (Scope{kTransfer, kTransferWrite, kHost, kHostRead}));
 }
 
 TEST_F(Barriers, FirstTransientWaitsForPreviousFrame) {
@@ -138,7 +138,7 @@ TEST_F(Barriers, AliasedMemoryWaitsForPreviousUser) {
   const BufferRef b = write("make b", graph.create("b", {64}), Use::CopyTarget);
   read("look b", b, Use::CopySource);
   compile();
-  ASSERT_EQ(graph.impl().plans[0].placements[0].offset, graph.impl().plans[0].placements[1].offset);
+  ASSERT_EQ(implOf(graph).plans[0].placements[0].offset, implOf(graph).plans[0].placements[1].offset);
   EXPECT_NE(barrier(2).sourceStage & kCompute, 0u);
   EXPECT_EQ(barrier(2).targetStage, kTransfer);
 }

@@ -13,7 +13,7 @@ TEST_F(Culling, UnusedPassAndItsInputsAreCulled) {
   compile();
   EXPECT_FALSE(alive(0));
   EXPECT_FALSE(alive(1));
-  EXPECT_TRUE(graph.impl().plans[0].placements.empty()) << "a culled pass needs no memory";
+  EXPECT_TRUE(implOf(graph).plans[0].placements.empty()) << "a culled pass needs no memory";
   ASSERT_EQ(graph.report().size(), 2u);
   EXPECT_TRUE(graph.report()[1].culled);
   EXPECT_EQ(graph.report()[1].reason, "nothing reads 'b'");
@@ -27,7 +27,7 @@ TEST_F(Culling, ImportWritesSideEffectsAndReadbacksAreRoots) {
   const BufferRef c = write("make c", graph.create("c", {64}));
   (void)graph.readback(c);
   compile();
-  for (size_t i = 0; i < graph.impl().passes.size(); ++i) EXPECT_TRUE(alive(i)) << i;
+  for (size_t i = 0; i < implOf(graph).passes.size(); ++i) EXPECT_TRUE(alive(i)) << i;
 }
 
 TEST_F(Culling, ReaderWithoutOutputIsCulledWithItsInput) {

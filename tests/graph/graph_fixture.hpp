@@ -58,8 +58,8 @@ class GraphTest : public ::testing::Test {
     EXPECT_EQ(ok.error().kind, ErrorKind::BadInput);
     return ok.error().message;
   }
-  Scope barrier(size_t pass) { return graph.impl().passes[pass].barrier.scope; }
-  bool alive(size_t pass) { return graph.impl().passes[pass].alive; }
+  Scope barrier(size_t pass) { return implOf(graph).passes[pass].barrier.scope; }
+  bool alive(size_t pass) { return implOf(graph).passes[pass].alive; }
 
   std::unique_ptr<Graph> owned = std::make_unique<Graph>();  // a test with a device destroys it before the device
   Graph& graph = *owned;

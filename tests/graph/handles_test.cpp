@@ -1,4 +1,6 @@
 // Handles, layouts and dispatch sizes in passes that record with the host's own pipelines.
+#include <optional>
+
 #include "graph_fixture.hpp"
 #include "support/null_vulkan.hpp"
 
@@ -24,7 +26,7 @@ class Handles : public GraphTest {
     graph.record(NullVulkan::commandBuffer());
   }
   NullVulkan vulkan;
-  std::unique_ptr<Device> device;
+  std::optional<Device> device;
 };
 
 TEST_F(Handles, BufferReturnsHandleOffsetAndRange) {
@@ -85,7 +87,7 @@ TEST_F(Handles, ImageUsageAndViewsFollowFromUses) {
   EXPECT_EQ(other.level, 1u);
   EXPECT_EQ(bare.view, VkImageView(VK_NULL_HANDLE)) << "copies need no view";
   EXPECT_EQ(bare.layout, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-  EXPECT_EQ(graph.impl().resources[image.index].usage, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
+  EXPECT_EQ(implOf(graph).resources[image.index].usage, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
 }
 
 TEST_F(Handles, ThreeDimensionalDispatchIsNotFolded) {

@@ -1,5 +1,6 @@
 // Images in the plan: layouts, memory, errors; and prepare() on a device that only records calls.
 #include <algorithm>
+#include <optional>
 
 #include "bench/count_allocations.hpp"
 #include "graph_fixture.hpp"
@@ -33,11 +34,11 @@ class Images : public GraphTest {
   std::vector<std::pair<VkImageLayout, VkImageLayout>> changes(const PlannedBarrier& barrier) {
     std::vector<std::pair<VkImageLayout, VkImageLayout>> list;
     for (uint32_t k = barrier.transitions.first; k < barrier.transitions.first + barrier.transitions.count; ++k)
-      list.emplace_back(graph.impl().transitions[k].from, graph.impl().transitions[k].to);
+      list.emplace_back(implOf(graph).transitions[k].from, implOf(graph).transitions[k].to);
     return list;
   }
-  const PlannedBarrier& planned(size_t pass) { return graph.impl().passes[pass].barrier; }
-  Scope change(size_t pass) { return graph.impl().transitions[planned(pass).transitions.first].scope; }
+  const PlannedBarrier& planned(size_t pass) { return implOf(graph).passes[pass].barrier; }
+  Scope change(size_t pass) { return implOf(graph).transitions[planned(pass).transitions.first].scope; }
   using Changes = std::vector<std::pair<VkImageLayout, VkImageLayout>>;
 };
 
@@ -80,7 +81,7 @@ TEST_F(Images, ImportsStartAndEndInDeclaredStates) {
   compile();
   EXPECT_TRUE(planned(0).empty());
   EXPECT_EQ(changes(planned(1)), (Changes{{kUndefined, kGeneral}}));
-  EXPECT_EQ(changes(graph.impl().finalBarrier), (Changes{{kGeneral, kSource}, {kTarget, kSampledLayout}}));
+  EXPECT_EQ(changes(implOf(graph).finalBarrier), (Changes{{kGeneral, kSource}, {kTarget, kSampledLayout}}));
 }
 
 TEST_F(Images, UnreadImageIsCulled) {
@@ -89,7 +90,7 @@ TEST_F(Images, UnreadImageIsCulled) {
   compile();
   EXPECT_FALSE(alive(0));
   EXPECT_FALSE(alive(1));
-  EXPECT_TRUE(graph.impl().plans[1].placements.empty());
+  EXPECT_TRUE(implOf(graph).plans[1].placements.empty());
 }
 
 TEST_F(Images, AliasImagesButNotBuffers) {
@@ -99,7 +100,7 @@ TEST_F(Images, AliasImagesButNotBuffers) {
     (void)GraphTest::write("store", graph.create("buffer", {256}));
   }
   compile();
-  const auto& plan = graph.impl().plans[1];
+  const auto& plan = implOf(graph).plans[1];
   ASSERT_EQ(plan.placements.size(), 3u);
   ASSERT_EQ(plan.heapSizes.size(), 1u);
   EXPECT_EQ(plan.heapSizes[0], 16ull * 64 * 32) << "an estimate, before the device is queried";
@@ -205,14 +206,14 @@ class ImagesOnNullDevice : public Images {
     return ok;
   }
   NullVulkan vulkan;
-  std::unique_ptr<Device> device;
+  std::optional<Device> device;
   FrameClock clock;
 };
 
 TEST_F(ImagesOnNullDevice, AreCreatedOnceWithQueriedSizes) {
   ASSERT_TRUE(frame(4, 64));
   EXPECT_EQ(vulkan.imagesCreated, 1u) << "four with disjoint lifetimes share one image";
-  EXPECT_EQ(graph.impl().plans[1].heapSizes[0], 64u * 64 * 4) << "not the estimate";
+  EXPECT_EQ(implOf(graph).plans[1].heapSizes[0], 64u * 64 * 4) << "not the estimate";
   EXPECT_EQ(vulkan.count(NullCommand::ClearImage), 4u);
   EXPECT_EQ(vulkan.count(NullCommand::CopyFromImage), 4u);
   for (const NullCommand& c : vulkan.commands)

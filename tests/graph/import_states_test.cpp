@@ -28,9 +28,9 @@ class ImportStates : public GraphTest {
   }
   const Transition& only(const PlannedBarrier& barrier) {
     EXPECT_EQ(barrier.transitions.count, 1u);
-    return graph.impl().transitions[barrier.transitions.first];
+    return implOf(graph).transitions[barrier.transitions.first];
   }
-  const PlannedBarrier& last() { return graph.impl().finalBarrier; }
+  const PlannedBarrier& last() { return implOf(graph).finalBarrier; }
   std::string after(auto&& declare) {
     graph.reset();
     declare();
@@ -41,7 +41,7 @@ class ImportStates : public GraphTest {
 TEST_F(ImportStates, SwapchainImageEndsInPresentLayout) {
   draw(image(Use::Unknown, Use::Present), Use::ColorTarget, Load::Discard);
   compile();
-  const Transition& first = only(graph.impl().passes[0].barrier);
+  const Transition& first = only(implOf(graph).passes[0].barrier);
   EXPECT_EQ(first.from, VK_IMAGE_LAYOUT_UNDEFINED);
   EXPECT_EQ(first.scope.sourceStage, kAll) << "covers any stage at which the submission waits for the image";
   const Transition& present = only(last());
@@ -52,14 +52,14 @@ TEST_F(ImportStates, SwapchainImageEndsInPresentLayout) {
 TEST_F(ImportStates, PresentedImageKeepsContent) {
   draw(image(Use::Present, Use::Present), Use::ColorTarget);
   compile();
-  EXPECT_EQ(only(graph.impl().passes[0].barrier).from, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR) << "its content is kept";
+  EXPECT_EQ(only(implOf(graph).passes[0].barrier).from, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR) << "its content is kept";
   EXPECT_EQ(only(last()).to, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
 }
 
 TEST_F(ImportStates, CustomStatesAreSynchronized) {
   look(image(kSampledInGeneral, kSampledInGeneral), Use::ComputeSampled);
   compile();
-  const Transition& first = only(graph.impl().passes[0].barrier);
+  const Transition& first = only(implOf(graph).passes[0].barrier);
   EXPECT_EQ(first.from, VK_IMAGE_LAYOUT_GENERAL);
   EXPECT_EQ(first.scope.sourceStage, kFragment);
   const Transition& final = only(last());
@@ -71,7 +71,7 @@ TEST_F(ImportStates, CustomStatesAreSynchronized) {
 TEST_F(ImportStates, CustomStateWithEqualLayoutNeedsNoTransition) {
   draw(image(kSampledInGeneral, kSampledInGeneral), Use::ComputeWrite);
   compile();
-  EXPECT_EQ(graph.impl().passes[0].barrier.transitions.count, 0u);
+  EXPECT_EQ(implOf(graph).passes[0].barrier.transitions.count, 0u);
   EXPECT_EQ(barrier(0).sourceStage, kFragment) << "the stage that read it";
   EXPECT_EQ(barrier(0).targetStage, kCompute);
   EXPECT_EQ(last().transitions.count, 0u);
@@ -92,7 +92,7 @@ TEST_F(ImportStates, StateWithoutStagesNeedsNoBarrier) {
   draw(image(UseState{.layout = VK_IMAGE_LAYOUT_GENERAL}, Use::Nothing), Use::ComputeWrite);
   (void)graph.import("buffer", {fakeBuffer(9), 0, 64, UseState{}, UseState{}});
   compile();
-  EXPECT_TRUE(graph.impl().passes[0].barrier.empty());
+  EXPECT_TRUE(implOf(graph).passes[0].barrier.empty());
   EXPECT_TRUE(last().empty());
 }
 
@@ -111,13 +111,13 @@ TEST_F(ImportStates, ChangedCustomStateMakesNewPlan) {
     compile();
   };
   plan(kSampledInGeneral);
-  const uint64_t plans = graph.impl().plansMade;
+  const uint64_t plans = implOf(graph).plansMade;
   plan(kSampledInGeneral);
-  EXPECT_EQ(graph.impl().plansMade, plans);
+  EXPECT_EQ(implOf(graph).plansMade, plans);
   UseState other = kSampledInGeneral;
   other.stages = kTransfer;
   plan(other);
-  EXPECT_EQ(graph.impl().plansMade, plans + 1);
+  EXPECT_EQ(implOf(graph).plansMade, plans + 1);
   EXPECT_EQ(barrier(0).sourceStage, kTransfer);
 }
 
@@ -131,11 +131,11 @@ TEST_F(ImportStates, UseStateMatchesPlannedBarriers) {
   // A Use and the equal custom state give the same barrier.
   draw(image(Use::ComputeSampled, Use::Nothing), Use::ComputeWrite);
   compile();
-  const Transition named = only(graph.impl().passes[0].barrier);
+  const Transition named = only(implOf(graph).passes[0].barrier);
   graph.reset();
   draw(image(sampled, Use::Nothing), Use::ComputeWrite);
   compile();
-  EXPECT_EQ(only(graph.impl().passes[0].barrier).scope, named.scope);
+  EXPECT_EQ(only(implOf(graph).passes[0].barrier).scope, named.scope);
 }
 
 TEST_F(ImportStates, ErrorsNameTheResource) {

@@ -41,7 +41,7 @@ class PlanReuse : public GraphTest {
     if (d.back) (void)graph.readback(made);
     compile();
   }
-  uint64_t plans() { return graph.impl().plansMade; }
+  uint64_t plans() { return implOf(graph).plansMade; }
 };
 
 TEST_F(PlanReuse, EachChangeMakesOneNewPlan) {

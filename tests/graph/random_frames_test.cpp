@@ -99,16 +99,16 @@ class RandomFrames : public GraphTest {
 
   /// Whether two accesses touch the same memory: compares imports by index, transients by heap and byte range.
   bool sameMemory(const Access& a, const Access& b) {
-    const auto& ra = graph.impl().resources[a.resource];
-    const auto& rb = graph.impl().resources[b.resource];
+    const auto& ra = implOf(graph).resources[a.resource];
+    const auto& rb = implOf(graph).resources[b.resource];
     if (ra.imported || rb.imported || ra.isImage != rb.isImage) return a.resource == b.resource;
-    const auto& placements = graph.impl().planOf(ra).placements;
+    const auto& placements = implOf(graph).planOf(ra).placements;
     return sharesMemory(placements[ra.placement], placements[rb.placement]);
   }
 
   /// Every use finds the right layout; transitions start from the current layout and keep needed content.
   void checkLayouts(const std::vector<Step>& steps, uint32_t seed) {
-    const auto& resources = graph.impl().resources;
+    const auto& resources = implOf(graph).resources;
     std::vector<VkImageLayout> layout(resources.size());
     for (size_t s = 0; s < steps.size(); ++s) {
       if (s == 0 || s == steps.size() / 2)
@@ -134,7 +134,7 @@ class RandomFrames : public GraphTest {
 
   /// Barriers of a pass. `all`: those of imported images too, of which the second frame's are not checked against the first's.
   Step stepOf(const PlannedBarrier& planned, bool all) {
-    const GraphImpl& g = graph.impl();
+    const GraphImpl& g = implOf(graph);
     Step step;
     step.barriers.push_back({planned.scope});
     for (uint32_t k = planned.transitions.first; k < planned.transitions.first + planned.transitions.count; ++k) {
@@ -191,7 +191,7 @@ class RandomFrames : public GraphTest {
           }
         }
         ASSERT_TRUE(covers(ordered, to.stage)) << told(seed, "not ordered", first, second);
-        if (!first.access.write || (!same && graph.impl().resources[second.access.resource].isImage)) continue;
+        if (!first.access.write || (!same && implOf(graph).resources[second.access.resource].isImage)) continue;
         ASSERT_TRUE(available) << told(seed, "not available", first, second);
         // Only the latest write is read, and a transient's first write reads nothing.
         const bool reads = !second.access.write || second.access.keep;
@@ -218,7 +218,7 @@ TEST_F(RandomFrames, SynchronizesEveryConflict) {
     graph.reset();
     declare(random);
     compile();
-    const GraphImpl& g = graph.impl();
+    const GraphImpl& g = implOf(graph);
     for (const TransientPlan& plan : g.plans)
       for (const Placement& a : plan.placements)
         for (const Placement& b : plan.placements)
@@ -259,7 +259,7 @@ TEST_F(RandomFrames, OnlyEqualFramesReuseThePlan) {
       graph.reset();
       declare(random);
       compile();
-      ASSERT_EQ(graph.impl().plansMade, seed + 1) << "seed " << seed << ", time " << time;
+      ASSERT_EQ(implOf(graph).plansMade, seed + 1) << "seed " << seed << ", time " << time;
       if (time == 0) planned = graph.json();
       ASSERT_EQ(graph.json(), planned) << "seed " << seed;
     }

@@ -1,4 +1,6 @@
 // prepare() and record() on a device that only records calls.
+#include <optional>
+
 #include "bench/count_allocations.hpp"
 #include "graph_fixture.hpp"
 #include "support/null_vulkan.hpp"
@@ -56,7 +58,7 @@ class Recording : public GraphTest {
   }
 
   NullVulkan vulkan;
-  std::unique_ptr<Device> device;
+  std::optional<Device> device;
   FrameClock clock;
 };
 
@@ -73,14 +75,14 @@ TEST_F(Recording, SteadyStateAllocatesNothing) {
     };
     for (int i = 0; i < 20; ++i) ASSERT_TRUE(wholeFrame(i));  // until forgotten read-backs expire
     const int64_t live = vulkan.liveObjects;
-    const uint64_t plans = graph.impl().plansMade;
+    const uint64_t plans = implOf(graph).plansMade;
     bench::startCounting();
     bool fine = true;
     for (int i = 0; i < 40; ++i) fine = wholeFrame(i) && fine;
     const size_t allocations = bench::stopCounting();
     EXPECT_TRUE(fine);
     EXPECT_EQ(allocations, 0u);
-    EXPECT_EQ(graph.impl().plansMade - plans, other == 1024 ? 0u : 40u);
+    EXPECT_EQ(implOf(graph).plansMade - plans, other == 1024 ? 0u : 40u);
     EXPECT_EQ(vulkan.liveObjects, live) << "every frame destroys the views that it created";
   }
 }
@@ -251,7 +253,7 @@ TEST_F(Recording, ForgottenReadbacksExpire) {
     tickets.push_back(graph.readback(import("a")));
     ASSERT_TRUE(go());
   }
-  EXPECT_LE(graph.impl().slots.size(), 20u);
+  EXPECT_LE(implOf(graph).slots.size(), 20u);
   EXPECT_TRUE(graph.data(tickets[0]).empty());
   EXPECT_EQ(graph.data(tickets[56]).size(), 1024u);
   EXPECT_TRUE(graph.data(tickets[59]).empty()) << "in flight";

@@ -22,7 +22,7 @@ class Targets : public GraphTest {
       return [](Commands&) {};
     });
   }
-  const Target& target(size_t pass, uint32_t n) { return graph.impl().targets[graph.impl().passes[pass].targets.first + n]; }
+  const Target& target(size_t pass, uint32_t n) { return implOf(graph).targets[implOf(graph).passes[pass].targets.first + n]; }
   template <class Declare>
   std::string after(Declare&& declare) {
     graph.reset();
@@ -61,13 +61,13 @@ TEST_F(Targets, UseAttachmentLayoutsAndStages) {
   draw("draw", color, depth, Load::Clear);
   look("look", depth, Use::DrawSampled);
   compile();
-  const PlannedBarrier& first = graph.impl().passes[0].barrier;
+  const PlannedBarrier& first = implOf(graph).passes[0].barrier;
   ASSERT_EQ(first.transitions.count, 2u);
-  EXPECT_EQ(graph.impl().transitions[first.transitions.first].to, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
-  EXPECT_EQ(graph.impl().transitions[first.transitions.first + 1].to, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL);
-  const PlannedBarrier& second = graph.impl().passes[1].barrier;
+  EXPECT_EQ(implOf(graph).transitions[first.transitions.first].to, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+  EXPECT_EQ(implOf(graph).transitions[first.transitions.first + 1].to, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL);
+  const PlannedBarrier& second = implOf(graph).passes[1].barrier;
   ASSERT_EQ(second.transitions.count, 1u);
-  const Scope scope = graph.impl().transitions[second.transitions.first].scope;
+  const Scope scope = implOf(graph).transitions[second.transitions.first].scope;
   EXPECT_EQ(scope.sourceStage, VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT);
   EXPECT_EQ(scope.targetStage, VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT);
 }
@@ -98,19 +98,19 @@ TEST_F(Targets, MipLevelIsReadWhileNextIsWritten) {
   look("look", levels[2]);
   look("look at the first", levels[0]);
   compile();
-  const auto& plan = graph.impl().plans[1];
+  const auto& plan = implOf(graph).plans[1];
   ASSERT_EQ(plan.placements.size(), 1u) << "one image, one placement";
   EXPECT_EQ(plan.placements[0].first, 0u);
   EXPECT_EQ(plan.placements[0].last, 4u);
   for (uint32_t pass = 1; pass < 3; ++pass) {
-    const PlannedBarrier& barrier = graph.impl().passes[pass].barrier;
+    const PlannedBarrier& barrier = implOf(graph).passes[pass].barrier;
     ASSERT_EQ(barrier.transitions.count, 2u);
-    EXPECT_EQ(graph.impl().resources[graph.impl().transitions[barrier.transitions.first].resource].level, pass - 1);
-    EXPECT_EQ(graph.impl().resources[graph.impl().transitions[barrier.transitions.first + 1].resource].level, pass);
+    EXPECT_EQ(implOf(graph).resources[implOf(graph).transitions[barrier.transitions.first].resource].level, pass - 1);
+    EXPECT_EQ(implOf(graph).resources[implOf(graph).transitions[barrier.transitions.first + 1].resource].level, pass);
   }
-  EXPECT_EQ(graph.impl().passes[4].barrier.transitions.count, 0u) << "still in the layout that the second pass used";
-  EXPECT_EQ(graph.impl().resources[levels[2].index].width(), 10u);
-  EXPECT_EQ(graph.impl().resources[levels[2].index].height(), 5u);
+  EXPECT_EQ(implOf(graph).passes[4].barrier.transitions.count, 0u) << "still in the layout that the second pass used";
+  EXPECT_EQ(implOf(graph).resources[levels[2].index].width(), 10u);
+  EXPECT_EQ(implOf(graph).resources[levels[2].index].height(), 5u);
 }
 
 TEST_F(Targets, UnreadMipLevelIsCulled) {

@@ -193,30 +193,30 @@ TEST_F(CheckpointTest, ResumesInLibrary) {
   ASSERT_TRUE(scene);
   auto whole = offline::Simulation::open(*scene);
   ASSERT_TRUE(whole);
-  ASSERT_TRUE((*whole)->advance(0.02));
-  const auto taken = (*whole)->checkpoint();
+  ASSERT_TRUE(whole->advance(0.02));
+  const auto taken = whole->checkpoint();
   ASSERT_TRUE(taken) << taken.error().message;
   EXPECT_EQ(taken->time_s, 0.02);
   offline::Options options;
   options.validation = true;
   auto rest = offline::Simulation::resume(*scene, *taken, options);
   ASSERT_TRUE(rest) << rest.error().message;
-  EXPECT_EQ((*rest)->time(), 0.02);
-  EXPECT_EQ((*rest)->stats()->state_hash, (*whole)->stats()->state_hash);
-  for (auto& each : {&*whole, &*rest}) ASSERT_TRUE((*each)->advance(0.03));
-  EXPECT_EQ((*rest)->stats()->state_hash, (*whole)->stats()->state_hash);
-  EXPECT_TRUE((*rest)->warnings().empty());
-  const auto again = (*rest)->checkpoint();
+  EXPECT_EQ(rest->time(), 0.02);
+  EXPECT_EQ(rest->stats()->state_hash, whole->stats()->state_hash);
+  for (offline::Simulation* each : {&*whole, &*rest}) ASSERT_TRUE(each->advance(0.03));
+  EXPECT_EQ(rest->stats()->state_hash, whole->stats()->state_hash);
+  EXPECT_TRUE(rest->warnings().empty());
+  const auto again = rest->checkpoint();
   ASSERT_TRUE(again);
-  EXPECT_EQ(*again, *(*whole)->checkpoint());
-  for (const std::string& message : (*rest)->takeValidationMessages()) ADD_FAILURE() << message;
+  EXPECT_EQ(*again, *whole->checkpoint());
+  for (const std::string& message : rest->takeValidationMessages()) ADD_FAILURE() << message;
 
   offline::Checkpoint other = *taken;
   other.driver = "another driver";
   const auto warned = offline::Simulation::resume(*scene, other, {});
   ASSERT_TRUE(warned);
-  ASSERT_EQ((*warned)->warnings().size(), 1u);
-  EXPECT_NE((*warned)->warnings()[0].find("another driver"), std::string::npos);
+  ASSERT_EQ(warned->warnings().size(), 1u);
+  EXPECT_NE(warned->warnings()[0].find("another driver"), std::string::npos);
 }
 
 }  // namespace checkpoint_test

@@ -83,11 +83,11 @@ TEST(SceneEnvironment, RendersCleanUnderValidation) {
     auto run = offline::Simulation::open(scene, options);
     ASSERT_TRUE(run) << run.error().message;
     for (int frame = 0; frame < 3; ++frame) {
-      ASSERT_TRUE((*run)->advance(0.02));
-      const auto image = (*run)->render("final", 160, 90);
+      ASSERT_TRUE(run->advance(0.02));
+      const auto image = run->render("final", 160, 90);
       ASSERT_TRUE(image) << image.error().message;
     }
-    for (const std::string& text : (*run)->takeValidationMessages()) ADD_FAILURE() << text;
+    for (const std::string& text : run->takeValidationMessages()) ADD_FAILURE() << text;
   }
 }
 

@@ -101,14 +101,14 @@ TEST(Play, LibraryDrawsEveryViewCleanUnderValidation) {
   const double origin[3] = {-0.5, -0.5, -0.5};
   for (int round = 0; round < 2; ++round) {
     for (const std::string_view view : offline::Simulation::views()) {
-      const auto image = (*player)->render(std::string(view), 160, 90);
+      const auto image = player->render(std::string(view), 160, 90);
       ASSERT_TRUE(image) << image.error().message;
       EXPECT_EQ(image->rgba.size(), 160u * 90 * 4);
     }
-    ASSERT_TRUE((*player)->show(positions, origin));
+    ASSERT_TRUE(player->show(positions, origin));
   }
-  EXPECT_FALSE((*player)->show(positions, origin, {{0, 0, 0}}));
-  for (const std::string& text : (*player)->takeValidationMessages()) ADD_FAILURE() << text;
+  EXPECT_FALSE(player->show(positions, origin, {{0, 0, 0}}));
+  for (const std::string& text : player->takeValidationMessages()) ADD_FAILURE() << text;
 }
 
 }  // namespace play_test

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 #include "gpu/pipeline.hpp"
 #include "support/gpu_test.hpp"
@@ -47,7 +48,7 @@ class ShaderReloading : public ::testing::Test {
   }
 
   fs::path folder_;
-  std::unique_ptr<offline::Context> context_;
+  std::optional<offline::Context> context_;
   std::string messages_;
   int changes_ = 0;
 };

@@ -1,4 +1,5 @@
 // What bounded loops of the surface's shaders leave out is counted.
+#include <optional>
 #include <random>
 
 #include "render/fluid_renderer_impl.hpp"
@@ -30,7 +31,7 @@ class BoundHits : public GpuTest {
     fluid.spacing = kApart;
     fluid.position = graph.import("position", importOf(position));
     (void)graph.readback(renderer_->addData(graph, fluid, fluidView(camera, 320, 240, kApart), data, 1, method));
-    const Ticket counters = graph.readback(renderer_->impl().last.counters);
+    const Ticket counters = graph.readback(implOf(*renderer_).last.counters);
     run(graph);
     const auto words = read<uint32_t>(graph, counters);
     EXPECT_EQ(words.size(), surface::kSurfaceCounterWords);
@@ -48,7 +49,7 @@ class BoundHits : public GpuTest {
               {float(x) * kApart + wobble(random), float(y) * kApart + wobble(random), -meters - float(z) * kApart + wobble(random), 0});
     return out;
   }
-  std::unique_ptr<FluidRenderer> renderer_;
+  std::optional<FluidRenderer> renderer_;
 };
 
 constexpr SurfaceMethod kMethods[] = {SurfaceMethod::Planes, SurfaceMethod::CurvatureFlow, SurfaceMethod::NarrowRange};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 
 #include "render/fluid_renderer_impl.hpp"
 #include "rill/scene_io.hpp"
@@ -124,7 +125,7 @@ class EnvironmentOnGpu : public GpuTest {
   /// Linear colors of the scene's surroundings with the fluid, and whether the environment was copied for it.
   std::vector<Rgb> draw(const CameraView& camera, const FluidLook& look = {}) {
     if (!scenery_) {
-      auto made = Scenery::create(device(), scene_, start_, {}, renderer_->impl().environment.get());
+      auto made = Scenery::create(device(), scene_, start_, {}, implOf(*renderer_).environment.get());
       EXPECT_TRUE(made) << made.error().message;
       scenery_ = *std::move(made);
     }
@@ -144,7 +145,7 @@ class EnvironmentOnGpu : public GpuTest {
     const FluidView view = fluidView(camera, kWidth, kHeight, kSpacing);
     const TargetFormats formats;
     SceneTargets targets{graph.create("color", {formats.color, kWidth, kHeight}), graph.create("depth", {formats.depth, kWidth, kHeight})};
-    FluidRendererImpl& renderer = renderer_->impl();
+    FluidRendererImpl& renderer = implOf(*renderer_);
     const BufferRef texels = renderer.environment ? renderer.environment->addTo(graph) : BufferRef{};
     targets = scenery_->addTo(graph, fluid, targets, view, look, 0, texels);
     targets = renderer.addTo(graph, fluid, targets, view, look, true, texels);
@@ -183,7 +184,7 @@ class EnvironmentOnGpu : public GpuTest {
     return scene;
   }();
   ParticleSet start_;
-  std::unique_ptr<FluidRenderer> renderer_;
+  std::optional<FluidRenderer> renderer_;
   std::unique_ptr<Scenery> scenery_;
   bool copied_ = false;
 };
@@ -192,8 +193,8 @@ TEST_F(EnvironmentOnGpu, OneColorIsTheBackgroundExactly) {
   use(picture(16, [](uint32_t, uint32_t) { return Rgb{0.25, 0.5, 1.5}; }));
   for (const auto& camera : {looking(0, 0, -1), looking(0.01, 1, 0), looking(0.3, -1, 1)})
     for (const Rgb& c : draw(camera)) ASSERT_EQ(c, (Rgb{0.25, 0.5, 1.5}));
-  EXPECT_EQ(renderer_->impl().environment->above().x, 0.25f);
-  EXPECT_EQ(renderer_->impl().environment->below().z, 1.5f);
+  EXPECT_EQ(implOf(*renderer_).environment->above().x, 0.25f);
+  EXPECT_EQ(implOf(*renderer_).environment->below().z, 1.5f);
 }
 
 // Each direction in which an axis points shows what the picture has there.
@@ -256,7 +257,7 @@ TEST_F(EnvironmentOnGpu, PicturesThatCannotBeAreRefused) {
   auto made = FluidRenderer::create(device());
   ASSERT_TRUE(made);
   for (const EnvironmentPicture& bad : {EnvironmentPicture{}, EnvironmentPicture{4, 2, {1, 2, 3}}, EnvironmentPicture{4, 4, {}}}) {
-    const auto set = (*made)->setEnvironment(bad);
+    const auto set = made->setEnvironment(bad);
     ASSERT_FALSE(set);
     EXPECT_EQ(set.error().kind, ErrorKind::BadInput);
   }

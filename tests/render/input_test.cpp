@@ -21,9 +21,9 @@ class RendererInput : public SurfaceOnGpu {
     FluidState own = fluid;
     if (own.position.index == 0) own.position = graph.import("positions", {reinterpret_cast<VkBuffer>(uintptr_t{16}), 0, 160});
     if (data)
-      (void)graph.readback((*renderer)->addData(graph, own, view, what_, 1, look.surface));
+      (void)graph.readback(renderer->addData(graph, own, view, what_, 1, look.surface));
     else
-      targets = (*renderer)->addTo(graph, own, targets, view, look);
+      targets = renderer->addTo(graph, own, targets, view, look);
     const auto compiled = graph.compile();
     if (compiled) return "compiled";
     EXPECT_EQ(compiled.error().kind, ErrorKind::BadInput);

@@ -96,7 +96,7 @@ FluidRendererImpl& SurfaceOnGpu::renderer() {
     EXPECT_TRUE(made) << made.error().message;
     renderer_ = std::move(*made);
   }
-  return renderer_->impl();
+  return implOf(*renderer_);
 }
 
 void SurfaceOnGpu::leaveBehind(Graph& graph, int run) {
@@ -177,7 +177,7 @@ Drawn SurfaceOnGpu::drawn(const FluidView& view, const FluidLook& look, const Ba
   for (int run = 0; run < 2; ++run) {
     leaveBehind(graph, run);
     const FluidState fluid = state(graph);
-    const SceneTargets targets = (*made)->addTo(graph, fluid, hosts(graph, formats, width, height, backdrop), view, look);
+    const SceneTargets targets = made->addTo(graph, fluid, hosts(graph, formats, width, height, backdrop), view, look);
     const uint64_t pixels = uint64_t{width} * height;
     BufferRef color = graph.create("color texels", {pixels * texelBytes(formats.color)});
     BufferRef depth = graph.create("depth texels", {pixels * 4});

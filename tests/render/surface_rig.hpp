@@ -2,8 +2,8 @@
 // The fluid's surface on a driver: cameras, clouds of particles, the surface as data, and pictures drawn into a host's targets.
 #include <array>
 #include <cmath>
-#include <memory>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -90,7 +90,7 @@ class SurfaceOnGpu : public GpuTest {
 
   Buffer position_, backdrop_, backdropDepth_;
   uint32_t count_ = 0;
-  std::unique_ptr<FluidRenderer> renderer_;
+  std::optional<FluidRenderer> renderer_;
   std::mt19937 random_{7};
 };
 

@@ -1,6 +1,7 @@
 #include "support/gpu_test.hpp"
 
 #include <cstring>
+#include <optional>
 
 #include "gpu/shader_library.hpp"
 
@@ -29,12 +30,12 @@ class SharedContext : public ::testing::Environment {
         error_ = made.error().message;
     }
     if (!context_) ADD_FAILURE() << error_;
-    return context_.get();
+    return context_ ? &*context_ : nullptr;
   }
   void TearDown() override { context_.reset(); }
 
  private:
-  std::unique_ptr<offline::Context> context_;
+  std::optional<offline::Context> context_;
   std::string error_;
 };
 

@@ -38,8 +38,8 @@ TEST_F(ViewRunnerTest, StepsEqualCaptureBitwise) {
   constexpr int kSteps = 8;
   auto captured = offline::Simulation::open(scene());
   ASSERT_TRUE(captured) << captured.error().message;
-  for (int k = 0; k < kSteps; ++k) ASSERT_TRUE((*captured)->advance(1.0 / 60));
-  auto stats = (*captured)->stats();
+  for (int k = 0; k < kSteps; ++k) ASSERT_TRUE(captured->advance(1.0 / 60));
+  auto stats = captured->stats();
   ASSERT_TRUE(stats);
   uint32_t maxPieces = 0;
   for (const double budget : {0.0, 0.004, 1e9}) {

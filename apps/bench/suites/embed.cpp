@@ -69,33 +69,33 @@ class Stopwatch {
 Expected<Start> measureStart(const Bench& bench, const Scene& scene, const ParticleSet& particles, std::span<const std::byte> saved) {
   auto context = offline::Context::create({.device = bench.options().device});
   if (!context) return context.error();
-  const HostCache cache(**context, saved);
+  const HostCache cache(*context, saved);
   DeviceRequirements needs;
-  if (auto ok = appendRequired((*context)->getInstanceProcAddr(), (*context)->instance(), (*context)->physicalDevice(), needs); !ok)
+  if (auto ok = appendRequired(context->getInstanceProcAddr(), context->instance(), context->physicalDevice(), needs); !ok)
     return ok.error();
   (void)needs.chain();  // links the features, as the context does for device creation
   Start start;
   Stopwatch stopwatch;
-  auto device = Device::borrow({.instance = (*context)->instance(),
-                                .physicalDevice = (*context)->physicalDevice(),
-                                .device = (*context)->vkDevice(),
-                                .queueFamily = (*context)->queueFamily(),
-                                .getInstanceProcAddr = (*context)->getInstanceProcAddr(),
+  auto device = Device::borrow({.instance = context->instance(),
+                                .physicalDevice = context->physicalDevice(),
+                                .device = context->vkDevice(),
+                                .queueFamily = context->queueFamily(),
+                                .getInstanceProcAddr = context->getInstanceProcAddr(),
                                 .enabled = &needs.features,
                                 .cache = cache.handle()});
   if (!device) return device.error();
   start.borrow = stopwatch.lap();
   {
-    auto fluid = Fluid::create(**device, {.scene = &scene, .particles = &particles});
+    auto fluid = Fluid::create(*device, {.scene = &scene, .particles = &particles});
     if (!fluid) return fluid.error();
     start.fluid = stopwatch.lap();
-    auto renderer = FluidRenderer::create(**device, {kColor, kDepth});
+    auto renderer = FluidRenderer::create(*device, {kColor, kDepth});
     if (!renderer) return renderer.error();
     start.renderer = stopwatch.lap();
 
-    auto frame = (*context)->beginFrame();
+    auto frame = context->beginFrame();
     if (!frame) return frame.error();
-    (*device)->beginFrame(*frame);
+    device->beginFrame(*frame);
     Graph graph;
     SceneTargets targets{graph.create("color", {kColor, kWidth, kHeight}), graph.create("depth", {kDepth, kWidth, kHeight})};
     graph.pass("background", [&](Pass& pass) {
@@ -107,21 +107,21 @@ Expected<Start> measureStart(const Bench& bench, const Scene& scene, const Parti
     view.view.column[3] = {-0.5f, -0.3f, -3, 1};
     view.projection = Float4x4{{{1.2f, 0, 0, 0}, {0, -2.1f, 0, 0}, {0, 0, 0, -1}, {0, 0, 0.1f, 0}}};
     view.focus_m = 3;
-    targets = (*renderer)->addTo(graph, (*fluid)->addTo(graph, {.advance_s = 1.0 / 60}), targets, view);
+    targets = renderer->addTo(graph, fluid->addTo(graph, {.advance_s = 1.0 / 60}), targets, view);
     graph.pass("consume", [&](Pass& pass) {
       pass.read(targets.color, Use::ComputeSampled);
       pass.sideEffect();
       return [](Commands&) {};
     });
     if (auto ok = graph.compile(); !ok) return ok.error();
-    if (auto ok = graph.prepare(**device); !ok) return ok.error();
-    if (auto ok = (*context)->submit([&](VkCommandBuffer commands) { graph.record(commands); }); !ok) return ok.error();
-    if (auto ok = (*context)->wait(); !ok) return ok.error();
+    if (auto ok = graph.prepare(*device); !ok) return ok.error();
+    if (auto ok = context->submit([&](VkCommandBuffer commands) { graph.record(commands); }); !ok) return ok.error();
+    if (auto ok = context->wait(); !ok) return ok.error();
     start.first_frame = stopwatch.lap();
-    auto second = Fluid::create(**device, {.scene = &scene, .particles = &particles});
+    auto second = Fluid::create(*device, {.scene = &scene, .particles = &particles});
     if (!second) return second.error();
     start.second_fluid = stopwatch.lap();
-    for (const FluidBuffer& buffer : (*fluid)->buffers()) start.fluid_bytes += buffer.bytes;
+    for (const FluidBuffer& buffer : fluid->buffers()) start.fluid_bytes += buffer.bytes;
     start.transient_bytes = graph.transientBytes();
     start.cache = cache.save();
   }

@@ -91,7 +91,7 @@ class FrameStepper {
   Expected<offline::Stats> stats() { return simulation_->stats(); }
 
  private:
-  std::unique_ptr<Simulation> simulation_;
+  std::optional<Simulation> simulation_;
   bool measuresFigures_ = false;
 };
 

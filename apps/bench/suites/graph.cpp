@@ -1,6 +1,7 @@
 // CPU cost of the render graph: frames of copy passes by their number, and a simulated and rendered frame.
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "bench/suites/suites.hpp"
 #include "bench/workbench.hpp"
@@ -95,7 +96,7 @@ struct DamBreak {
   static constexpr uint32_t kWidth = 320, kHeight = 180;
   Scene scene;
   ParticleSet start;
-  std::unique_ptr<Fluid> fluid;
+  std::optional<Fluid> fluid;
   offline::Painter painter{scene, start, 0};
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <optional>
 
 #include "bench/pareto.hpp"
 #include "bench/suites/suites.hpp"
@@ -186,9 +187,9 @@ class Render {
     fluid.position = importWhole(graph, "positions", points.positions);
     fluid.count = points.count;
     fluid.spacing = static_cast<float>(points.spacing);
-    surface::SurfacePush camera = renderer_->impl().camera(fluid, view);
+    surface::SurfacePush camera = implOf(*renderer_).camera(fluid, view);
     camera.step = sampleStep(camera, fluid.spacing, view.focus_m, variant.settings.samples);
-    return renderer_->impl().surface.addTo(graph, fluid, camera, variant.method, complete, view.focus_m, variant.settings);
+    return implOf(*renderer_).surface.addTo(graph, fluid, camera, variant.method, complete, view.focus_m, variant.settings);
   }
 
   /// Renders and reads back a surface; `ms`: time from recording to completion.
@@ -328,8 +329,8 @@ class Render {
     if (!simulation) return simulation.error();
     std::vector<Points> points;
     for (int k = 0; k < frames() && !bench_.stopped(); ++k) {
-      if (auto ran = (*simulation)->advance(k == 0 ? recorded.from_s : kFlickerFrame_s); !ran) return ran.error();
-      const auto particles = (*simulation)->particles();
+      if (auto ran = simulation->advance(k == 0 ? recorded.from_s : kFlickerFrame_s); !ran) return ran.error();
+      const auto particles = simulation->particles();
       if (!particles) return particles.error();
       std::vector<Float4> positions;
       for (const Float3& p : particles->positions) positions.push_back({p.x, p.y, p.z, 0});
@@ -338,7 +339,7 @@ class Render {
       points.push_back(std::move(*uploaded));
     }
     const Eye eye = flickerPicture().eye;
-    const CameraView camera = sceneCamera(*scene, (*simulation)->start(), double(eye.width) / eye.height);
+    const CameraView camera = sceneCamera(*scene, simulation->start(), double(eye.width) / eye.height);
     return flicker(recorded.name, eye, fluidView(camera, eye.width, eye.height, scene->fluid.spacing), points, variants,
                    [&](size_t, const RenderedSurface& before, const RenderedSurface& after) {
                      return normalChange(before, after, scene->fluid.spacing);
@@ -423,7 +424,7 @@ class Render {
 
   Bench& bench_;
   std::optional<Workbench> workbench_;
-  std::unique_ptr<FluidRenderer> renderer_;
+  std::optional<FluidRenderer> renderer_;
   std::vector<SurfaceVariant> variants_;
   Table errors_;
   std::vector<SurfaceFigures> figures_;

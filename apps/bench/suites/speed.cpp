@@ -49,26 +49,26 @@ Expected<std::vector<PassCost>> passCosts(const Bench& bench, Scene scene) {
   if (!start) return start.error();
   auto fluid = Fluid::create(workbench->device(), {&scene, &*start});
   if (!fluid) return fluid.error();
-  const double particles = (*fluid)->count();
+  const double particles = fluid->count();
   std::vector<PassCost> costs;
-  uint32_t expected = 4 * (*fluid)->substepsPerBlock();
+  uint32_t expected = 4 * fluid->substepsPerBlock();
   for (int frame = 0; frame <= kFrames && !bench.stopped(); ++frame) {
     std::vector<std::pair<std::string, double>> ms;
     FluidStep step{frame_s, false, expected, false};
-    for (uint32_t recorded = 0; recorded < (*fluid)->substepsToComplete();) {
+    for (uint32_t recorded = 0; recorded < fluid->substepsToComplete();) {
       step.resume = recorded > 0;
-      if (auto executed = workbench->run([&](Graph& graph) { (void)(*fluid)->addTo(graph, step); }); !executed) return executed.error();
+      if (auto executed = workbench->run([&](Graph& graph) { (void)fluid->addTo(graph, step); }); !executed) return executed.error();
       for (const Timing& timing : workbench->passTimes()) {
         const std::string name(moduleOf(timing.name));
         auto found = std::ranges::find(ms, name, &std::pair<std::string, double>::first);
         if (found == ms.end()) found = ms.insert(ms.end(), {name, 0});
         found->second += timing.ms;
       }
-      if (!((*fluid)->progress().time_left_s > 0)) break;
+      if (!(fluid->progress().time_left_s > 0)) break;
       recorded += step.substeps;
-      step.substeps = (*fluid)->substepsPerBlock();
+      step.substeps = fluid->substepsPerBlock();
     }
-    const uint32_t substeps = (*fluid)->progress().substeps;
+    const uint32_t substeps = fluid->progress().substeps;
     if (frame == 0) continue;
     for (const auto& [name, time] : ms) {
       auto found = std::ranges::find(costs, name, &PassCost::name);

@@ -11,7 +11,7 @@
 //                                         .getInstanceProcAddr = vkGetInstanceProcAddr,
 //                                         .enabled = &needs.features});
 //   if (!borrowed) return fail(borrowed.error().message);
-//   (*borrowed)->beginFrame({.recording = frameNumber, .completed = lastFinishedFrame});  // every frame
+//   borrowed->beginFrame({.recording = frameNumber, .completed = lastFinishedFrame});  // every frame
 //
 // The contract between Rill and its host (tested in tests/contract):
 //
@@ -122,17 +122,18 @@ using MessageCallback = std::function<void(std::string_view)>;
 
 class DeviceImpl;
 
-/// A borrowed device. It must outlive every module created with it and every graph prepared with it.
-/// Pipelines (rill/pipeline.hpp) live as long as the Device.
+/// A borrowed device. It must outlive every module created with it and every graph prepared with it; they remain
+/// valid when it is moved. A moved-from Device may only be destroyed or assigned to. Pipelines (rill/pipeline.hpp)
+/// live as long as the Device.
 class RILL_API Device {
  public:
   /// Fails with BadInput for a null handle or another field that the host can correct, and with NoDevice,
   /// naming the feature, if a required feature is not enabled.
-  static Expected<std::unique_ptr<Device>> borrow(const HostDevice& host);
+  static Expected<Device> borrow(const HostDevice& host);
   /// Destroys everything that Rill created. The host must have waited for the recorded work.
   ~Device();
-  Device(const Device&) = delete;
-  Device& operator=(const Device&) = delete;
+  Device(Device&&) noexcept;
+  Device& operator=(Device&&) noexcept;  ///< destroys what the target held, as ~Device
 
   /// Call once per frame, before the first Graph::prepare. Frees what was retired in frames up to
   /// clock.completed.
@@ -147,9 +148,8 @@ class RILL_API Device {
   /// they are dropped.
   void setMessageCallback(MessageCallback callback);
 
-  DeviceImpl& impl() { return *impl_; }  ///< internal (engine/gpu)
-
  private:
+  friend struct ImplAccess;  // engine/core/impl_of.hpp
   explicit Device(std::unique_ptr<DeviceImpl>);
   std::unique_ptr<DeviceImpl> impl_;
 };

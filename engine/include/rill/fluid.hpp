@@ -8,7 +8,7 @@
 //   auto particles = rill::makeParticles(scene);
 //   auto water = rill::Fluid::create(device, {.scene = &scene, .particles = &*particles});
 //   if (!water) return fail(water.error().message);
-//   const rill::FluidState state = (*water)->addTo(graph, {.advance_s = 1.0 / 60});  // every frame
+//   const rill::FluidState state = water->addTo(graph, {.advance_s = 1.0 / 60});  // every frame
 //
 // All state is on the device, which also chooses time steps and list rebuilds; addTo() records the largest number of substeps needed.
 #include <array>
@@ -144,13 +144,15 @@ struct FluidPassRuns {
 
 class FluidImpl;
 
-/// A fluid on a borrowed device. It must outlive the execution of every command buffer that its passes were recorded into.
-/// Method: Macklin and Mueller 2013; docs/method.md.
+/// A fluid on a borrowed device. It may be moved, or destroyed once the graphs that it was added to have been recorded: what recorded
+/// frames use is kept until Device::beginFrame() reports them as completed. A moved-from Fluid may only be destroyed or assigned to.
 class RILL_API Fluid {
  public:
   /// BadInput for an invalid description; TooLarge, naming the bytes needed and available, before anything is allocated; OutOfMemory.
-  static Expected<std::unique_ptr<Fluid>> create(Device& device, const FluidDesc& desc);
+  static Expected<Fluid> create(Device& device, const FluidDesc& desc);
   ~Fluid();
+  Fluid(Fluid&&) noexcept;
+  Fluid& operator=(Fluid&&) noexcept;
 
   /// Adds the passes of one step; the fluid advances when the graph is recorded and executed. A negative or non-finite time and an
   /// invalid solid index are reported by the graph's compile(); no pass is added then.
@@ -180,9 +182,8 @@ class RILL_API Fluid {
   /// Settings that the solver cannot honor, with numbers ("viscosity 50 Pa s needs ..."). Fixed at creation.
   std::span<const std::string> warnings() const;
 
-  const FluidImpl& impl() const { return *impl_; }  ///< internal: engine/fluid and its tests
-
  private:
+  friend struct ImplAccess;  // engine/core/impl_of.hpp
   explicit Fluid(std::unique_ptr<FluidImpl>);
   std::unique_ptr<FluidImpl> impl_;
 };

@@ -10,7 +10,7 @@
 //   rill::FluidView view{.width = width, .height = height, .focus_m = 3};
 //   view.view = rill::Float4x4::from(viewMatrix);
 //   view.projection = rill::Float4x4::from(projectionMatrix);
-//   targets = (*painter)->addTo(graph, state, targets, view);
+//   targets = painter->addTo(graph, state, targets, view);
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -98,12 +98,14 @@ class FluidRendererImpl;
 /// read with Use::ComputeRead: of a host's own it is an import created for STORAGE_BUFFER, of at least `count` times 16 bytes, in the state
 /// that BufferImport::before says.
 /// Two runs on one driver give the same pixels, unless more than 1,024 surface particles share a cell of four by four samples (counted).
-/// The depth written at a silhouette is the fluid's in every pixel that it touches.
+/// The depth written at a silhouette is the fluid's in every pixel that it touches. Lifetime and moves as of a Fluid.
 class RILL_API FluidRenderer {
  public:
   /// NoDevice where the host's queue cannot draw; Shader, BadInput for formats that cannot be drawn to.
-  static Expected<std::unique_ptr<FluidRenderer>> create(Device& device, const TargetFormats& formats = {});
+  static Expected<FluidRenderer> create(Device& device, const TargetFormats& formats = {});
   ~FluidRenderer();
+  FluidRenderer(FluidRenderer&&) noexcept;
+  FluidRenderer& operator=(FluidRenderer&&) noexcept;
 
   /// What the fluid reflects and is lit by from now on, in place of a sky of Rill's own; the sun stays where FluidLook has it. The host
   /// draws its background itself. Once; not between a graph's declaration and its recording. Errors as create(), BadInput for a picture
@@ -122,9 +124,8 @@ class RILL_API FluidRenderer {
   BufferRef addData(Graph& graph, const FluidState& fluid, const FluidView& view, SurfaceData data, float full,
                     SurfaceMethod method = SurfaceMethod::Auto);
 
-  FluidRendererImpl& impl() { return *impl_; }  ///< engine/render and its tests; not for hosts
-
  private:
+  friend struct ImplAccess;  // engine/core/impl_of.hpp
   explicit FluidRenderer(std::unique_ptr<FluidRendererImpl>);
   std::unique_ptr<FluidRendererImpl> impl_;
 };

@@ -180,8 +180,8 @@ class RILL_API Graph {
  public:
   Graph();
   ~Graph();
-  Graph(const Graph&) = delete;
-  Graph& operator=(const Graph&) = delete;
+  Graph(Graph&&) noexcept;  ///< not while a pass is declared; a moved-from Graph may only be destroyed or assigned to
+  Graph& operator=(Graph&&) noexcept;
 
   /// Clears the declared frame and invalidates its refs. Read-backs in flight, the transients' memory and
   /// timings are kept.
@@ -243,11 +243,10 @@ class RILL_API Graph {
   /// about 30 us per timestamp.
   void enableTimings(bool enabled);
 
-  GraphImpl& impl() { return *impl_; }  ///< internal (engine/graph and its tests)
-
  private:
   friend class Pass;
   friend class Commands;
+  friend struct ImplAccess;  // engine/core/impl_of.hpp
   uint32_t beginPass(std::string_view name);
   void* endPass(uint32_t index, size_t bytes, size_t alignment, void (*invoke)(void*, Commands&), void (*destroy)(void*));
   std::unique_ptr<GraphImpl> impl_;

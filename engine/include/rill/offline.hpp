@@ -3,9 +3,9 @@
 //
 //   auto run = rill::offline::Simulation::open("dam-break.json");
 //   if (!run) return fail(run.error().message);
-//   if (auto ok = (*run)->advance(0.5); !ok) return fail(ok.error().message);
-//   auto particles = (*run)->particles();  // positions, velocities, densities, ids
-//   auto stats = (*run)->stats();
+//   if (auto ok = run->advance(0.5); !ok) return fail(ok.error().message);
+//   auto particles = run->particles();  // positions, velocities, densities, ids
+//   auto stats = run->stats();
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -105,20 +105,22 @@ Expected<Checkpoint> decodeCheckpoint(std::span<const std::byte> bytes, std::str
 /// Loads a checkpoint file. BadInput as decodeCheckpoint(); OutOfMemory.
 Expected<Checkpoint> loadCheckpoint(const std::filesystem::path& file);
 
-/// A simulation of one scene on its own device. Not thread-safe.
+/// A simulation of one scene on its own device. Not thread-safe. A moved-from one may only be destroyed or assigned to.
 class Simulation {
  public:
   /// Opens a scene file. BadInput, NoDevice, TooLarge (naming bytes needed and available), OutOfMemory.
-  static Expected<std::unique_ptr<Simulation>> open(const std::filesystem::path& scene, const Options& options = {});
+  static Expected<Simulation> open(const std::filesystem::path& scene, const Options& options = {});
   /// Opens a loaded scene; Options::overrides are not applied. The scene is validated before a device is opened.
-  static Expected<std::unique_ptr<Simulation>> open(Scene scene, const Options& options = {});
+  static Expected<Simulation> open(Scene scene, const Options& options = {});
   /// Opens a scene with the given particles instead of its fills. They are not checked: they may overlap, be outside or not finite.
   /// BadInput without `fluid.spacing`, or if the numbers of positions and velocities differ.
-  static Expected<std::unique_ptr<Simulation>> open(Scene scene, ParticleSet start, const Options& options = {});
+  static Expected<Simulation> open(Scene scene, ParticleSet start, const Options& options = {});
   /// Continues from a checkpoint of the same scene. BadInput, naming the first key that differs, for another scene; checked before a
   /// device is opened. Another device, driver or Rill version adds to warnings(). Other errors as open().
-  static Expected<std::unique_ptr<Simulation>> resume(Scene scene, const Checkpoint& checkpoint, const Options& options = {});
+  static Expected<Simulation> resume(Scene scene, const Checkpoint& checkpoint, const Options& options = {});
   ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
 
   /// Advances by `seconds` of simulated time (finite, >= 0) and waits for the device. Longer times are split into frames of at most
   /// Options::longestFrame_s; statistics of the advance are summed over them. BadInput for an invalid time; DeviceLost, OutOfMemory or
@@ -150,18 +152,19 @@ class Simulation {
 
  private:
   class Impl;
-  static Expected<std::unique_ptr<Simulation>> make(Scene scene, std::optional<ParticleSet> start, const Options& options,
-                                                    const Checkpoint* from);
+  static Expected<Simulation> make(Scene scene, std::optional<ParticleSet> start, const Options& options, const Checkpoint* from);
   explicit Simulation(std::unique_ptr<Impl>);
   std::unique_ptr<Impl> impl_;
 };
 
-/// Renders given particles with a scene's camera, solids and look. Not thread-safe.
+/// Renders given particles with a scene's camera, solids and look. Not thread-safe. Moves as Simulation.
 class Player {
  public:
   /// BadInput for a scene without a spacing; other errors as Simulation::open(). Uses Options::device, validation and orbit_deg_per_s.
-  static Expected<std::unique_ptr<Player>> open(Scene scene, const Options& options = {});
+  static Expected<Player> open(Scene scene, const Options& options = {});
   ~Player();
+  Player(Player&&) noexcept;
+  Player& operator=(Player&&) noexcept;
 
   /// Sets the particles to draw. `positions`: m, relative to `origin`. `velocities`: m/s, for the color of some views; may be empty.
   /// `time_s`: time of moving solids, s. BadInput if the numbers of positions and velocities differ; TooLarge, OutOfMemory.

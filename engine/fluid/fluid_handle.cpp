@@ -1,0 +1,59 @@
+// The public Fluid: a handle that passes every call on to FluidImpl.
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "fluid/fluid_impl.hpp"
+
+namespace rill {
+
+Fluid::Fluid(std::unique_ptr<FluidImpl> impl) : impl_(std::move(impl)) {}
+Fluid::~Fluid() = default;
+Fluid::Fluid(Fluid&&) noexcept = default;
+Fluid& Fluid::operator=(Fluid&&) noexcept = default;
+
+Expected<Fluid> Fluid::create(Device& device, const FluidDesc& desc) {
+  auto impl = FluidImpl::create(device, desc);
+  if (!impl) return impl.error();
+  return Fluid(std::move(*impl));
+}
+
+FluidState Fluid::addTo(Graph& graph, const FluidStep& step) { return impl_->addTo(graph, step); }
+
+FluidState Fluid::present(Graph& graph) const { return impl_->present(graph); }
+
+std::optional<FluidStats> Fluid::stats() const {
+  impl_->poll();
+  return impl_->stats;
+}
+
+const FluidProgress& Fluid::progress() const {
+  impl_->poll();
+  return impl_->progress;
+}
+
+std::vector<FluidPassRuns> Fluid::passRuns() const {
+  impl_->poll();
+  return impl_->passRuns();
+}
+
+std::array<double, 3> Fluid::drivenCenter(uint32_t solid) const {
+  const auto& driven = impl_->setup.driven;
+  const auto found = std::find_if(driven.begin(), driven.end(), [solid](const DrivenSolid& d) { return d.solid == solid; });
+  std::array<double, 3> center;
+  center.fill(std::numeric_limits<double>::quiet_NaN());
+  if (found == driven.end()) return center;
+  for (size_t a = 0; a < 3; ++a) center[a] = impl_->origin[a] + found->center[a];
+  return center;
+}
+
+uint32_t Fluid::count() const { return impl_->count; }
+uint32_t Fluid::substepsPerBlock() const { return impl_->setup.substepsPerBlock; }
+uint32_t Fluid::substepsToComplete() const {
+  return substepsPerBlock() * (impl_->setup.params.maxSubsteps + kSettleSubsteps + impl_->setup.params.initialPressureIterations);
+}
+FluidMemory Fluid::memory() const { return impl_->memory; }
+std::span<const FluidBuffer> Fluid::buffers() const { return impl_->made; }
+std::span<const std::string> Fluid::warnings() const { return impl_->setup.warnings; }
+
+}  // namespace rill
