@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sort/dispatches.hpp"
+#include "sort/sort_types.h"
 
 namespace rill {
 namespace {
@@ -10,6 +11,9 @@ namespace {
 uint64_t one(const ArrayShape&) { return 1; }
 uint64_t perParticle(const ArrayShape& s) { return s.particles; }
 uint64_t withDummy(const ArrayShape& s) { return s.particles + 1; }  // the neighbor that pads lists comes last
+
+uint64_t perKey(const ArrayShape& s) { return divideUp(s.particles, kCountThreads) * kCountThreads; }  // see keys.comp
+uint64_t inTwoLists(const ArrayShape& s) { return s.near ? 2 * s.particles : 0; }
 
 template <bool ArrayShape::*Feature>
 uint64_t perParticleIf(const ArrayShape& s) {
@@ -35,24 +39,24 @@ std::span<const ArrayRow, kArrays> arrayTable() {
       {Keyframes, "keyframes", "keyframes", Fluid, sizeof(KeyframeRecord), [](const ArrayShape& s) { return s.keyframes; }},
 
       {Position, "position", "positions", Fluid, kVector, withDummy, Account::Particles, &FluidSnapshot::position, "position"},
-      {Velocity, "velocity", "velocities", Fluid, kVector, withDummy, Account::Particles, &FluidSnapshot::velocity, "velocity", 1},
+      {Velocity, "velocity", "velocities", Fluid, kVector, withDummy, Account::Particles, &FluidSnapshot::velocity, "velocity", false, 1},
       {Prediction, "prediction", "predictions", Fluid, kVector, withDummy, Account::Particles},
       {WarmAcceleration, "warmAcceleration", "warm-start accelerations", Fluid, kVector, perParticleIf<&ArrayShape::warm>,
-       Account::Particles, &FluidSnapshot::push, "push"},
+       Account::Particles, &FluidSnapshot::push, "push", true},
       {Work, "work", "predictions and multipliers", Fluid, kVector, withDummy, Account::Particles},
       {Warm, "warm", "warm-start multipliers", Fluid, kWord, perParticleIf<&ArrayShape::warm>, Account::Particles, &FluidSnapshot::warm,
-       "warm"},
+       "warm", true},
       {Id, "id", "ids", Fluid, kWord, perParticle, Account::Particles, &FluidSnapshot::id, "id"},
       {Multiplier, "multiplier", "iteration multipliers", Fluid, kWord, perParticleIf<&ArrayShape::iterated>, Account::Particles},
       {NeighborCount, "neighborCount", "neighbor counts", Fluid, kWord, perParticleIf<&ArrayShape::lists>, Account::Particles},
       {Cell, "cell", "cells", Fluid, kWord, perParticle, Account::Particles},
       {NearSample, "nearSample", "wall samples", Fluid, 2 * kVector, perParticleIf<&ArrayShape::near>, Account::Particles},
-      {NearList, "nearList", "particles near walls", Fluid, kWord, perParticleIf<&ArrayShape::near>, Account::Particles},
+      {NearList, "nearList", "particles near walls", Fluid, kWord, inTwoLists, Account::Particles},
 
       {CellStart, "cellStart", "cell starts", Fluid, kWord, [](const ArrayShape& s) { return s.cellStarts; }, Account::Grid},
       {List, "list", "neighbor list", Fluid, kWord, [](const ArrayShape& s) { return s.listEntries; }, Account::List},
 
-      {Key, "key", "cell keys", Section, kWord, perParticle, Account::Particles},
+      {Key, "key", "cell keys", Section, kWord, perKey, Account::Particles},
       {SortedPosition, "sortedPosition", "sorted positions", Section, kVector, perParticle, Account::Particles},
       {SortedPrediction, "sortedPrediction", "sorted predictions", Section, kVector, perParticle, Account::Particles},
       {SortedVelocity, "sortedVelocity", "sorted velocities", Section, kVector, perParticle, Account::Particles},
@@ -86,8 +90,8 @@ FluidArray arrayNamed(std::string_view name) {
 
 ArrayShape arrayShape(const FluidSetup& setup) {
   const FluidParams& p = setup.params;
-  return {.particles = p.count,
-          .listEntries = divideUp(p.count, kListBlock) * kListBlock * p.listCapacity,
+  return {.particles = p.capacity,
+          .listEntries = divideUp(p.capacity, kListBlock) * kListBlock * p.listCapacity,
           .cellStarts = paddedWords(setup.grid.cells() + 1),
           .gravityChanges = setup.gravity.size() / 4,
           .tableEntries = setup.tables.size() / 4,

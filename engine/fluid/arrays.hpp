@@ -68,7 +68,7 @@ constexpr size_t kArrays = static_cast<size_t>(FluidArray::kCount);
 
 /// What decides which arrays there are, and how long they are.
 struct ArrayShape {
-  uint64_t particles = 0;
+  uint64_t particles = 0;    ///< at most
   uint64_t listEntries = 0;  ///< of all particles
   uint64_t cellStarts = 0;   ///< entries
   uint64_t gravityChanges = 1, tableEntries = 0, solids = 0, keyframes = 0;
@@ -102,6 +102,7 @@ struct ArrayRow {
   Account account = Account::None;
   SnapshotMember saved = {};   ///< what persists between steps and is not derived from other arrays
   const char* savedName = "";  ///< of its section in a checkpoint, at most 8 characters
+  bool optional = false;       ///< a snapshot of a fluid without a warm start lacks it
   float w = 0;                 ///< of an array of Float3: the fourth component on the device
 };
 

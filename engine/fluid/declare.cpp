@@ -5,19 +5,14 @@
 
 namespace rill {
 
-GroupCount FluidImpl::shapeOf(Extent extent) const {
-  const bool chunked = extent == Extent::Chunks || extent == Extent::Gather;
-  return foldGroups(chunked ? chunks_.front().groups() : directGroups(extent));
-}
-
-uint64_t FluidImpl::directGroups(Extent extent) const {
+uint64_t FluidImpl::fixedGroups(Extent extent) const {
   switch (extent) {
     case Extent::One:
       return 1;
     case Extent::Partials:
-      return std::min<uint64_t>(divideUp(count, kMeasureShare * kFluidGroup), kMeasurePartials);
+      return std::min<uint64_t>(divideUp(capacity, kMeasureShare * kFluidGroup), kMeasurePartials);
     default:
-      return divideUp(count, kFluidGroup);
+      return divideUp(capacity, kFluidGroup);
   }
 }
 

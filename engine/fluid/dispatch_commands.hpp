@@ -13,7 +13,8 @@ namespace rill {
 
 class DispatchCommands {
  public:
-  /// The command of `groups` workgroups over `over` that `start` starts. Equal ones share a command.
+  /// The command over `over` that `start` starts, of `groups` workgroups; in x the particles a group where it is over particles. Equal ones
+  /// share a command.
   uint32_t shared(uint32_t start, uint32_t over, GroupCount groups) {
     const auto found = std::ranges::find(shapes_, shape(start, over, groups));
     if (found != shapes_.end()) return static_cast<uint32_t>(found - shapes_.begin());

@@ -74,6 +74,7 @@ void FluidImpl::poll() const {
     executedBefore_ = std::exchange(
         executed_, {control.executedSubsteps, control.executedIterations, control.executedBuilds, control.executedNoiseDampings});
     recordedBefore_ = std::exchange(recordedLast_, pending.recorded);
+    count = control.count;
     progress = {.known = true,
                 .time_s = double{control.timeHigh} + control.timeLow,
                 .time_left_s = control.timeLeft,
@@ -84,10 +85,10 @@ void FluidImpl::poll() const {
     MeasureResult result{};
     if (pending.measured && read(pending.graph.lock()->data(pending.measure), result)) {
       const MeasurePartial& m = result.sums;
-      const double n = std::max(count - m.inactive, 1u), mass = setup.params.particleMass;
+      const double n = std::max(control.count - m.inactive, 1u), mass = setup.params.particleMass;
       FluidStats s;
       s.time_s = progress.time_s;
-      s.particles = count;
+      s.particles = control.count;
       s.substeps = control.substeps;
       s.iterations = control.iterations;
       s.time_dropped_s = control.timeDropped;

@@ -48,19 +48,19 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   if (auto given = checkGiven(desc); !given) return given.error();
   const Scene& scene = *desc.scene;
   const ParticleSet& particles = *desc.particles;
-  const uint64_t n = particles.positions.size();
+  const uint64_t n = particles.positions.size(), capacity = std::max<uint64_t>(desc.capacity, n);
   auto impl = std::make_unique<FluidImpl>();
   impl->device_ = &implOf(device);
-  impl->memory = fluidMemory(scene, n);
+  impl->memory = fluidMemory(scene, capacity);
   const uint64_t available = device.info().deviceLocalBytes;
-  const uint64_t largest = std::max((n + 1) * 16, n * 32);  // positions, with the dummy; wall samples
-  if (impl->memory.total() > available || largest > kMaxBuffer || n > kMaxParticles)
-    return Error{ErrorKind::TooLarge, std::to_string(n) + " particles need " + mebibytes(impl->memory.total()) + " on the device; \"" +
-                                          device.info().name + "\" has " + mebibytes(available) + " and holds at most " +
-                                          std::to_string(kMaxParticles) +
+  const uint64_t largest = std::max((capacity + 1) * 16, capacity * 32);  // positions, with the dummy; wall samples
+  if (impl->memory.total() > available || largest > kMaxBuffer || capacity > kMaxParticles)
+    return Error{ErrorKind::TooLarge, std::to_string(capacity) + " particles need " + mebibytes(impl->memory.total()) +
+                                          " on the device; \"" + device.info().name + "\" has " + mebibytes(available) +
+                                          " and holds at most " + std::to_string(kMaxParticles) +
                                           " particles: make fluid.spacing larger or fluid.particles smaller"};
 
-  StartFigures start{.count = static_cast<uint32_t>(n)};
+  StartFigures start{.count = static_cast<uint32_t>(n), .capacity = static_cast<uint32_t>(capacity)};
   double low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
   bool any = false;
   for (size_t i = 0; i < n; ++i) {
@@ -81,13 +81,14 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   auto setup = makeFluidSetup(scene, start);
   if (!setup) return setup.error();
   impl->setup = std::move(*setup);
-  impl->count = static_cast<uint32_t>(n);
+  impl->capacity = static_cast<uint32_t>(capacity);
+  impl->count = static_cast<uint32_t>(desc.snapshot ? desc.snapshot->id.size() : n);
   std::copy(particles.origin, particles.origin + 3, impl->origin);
 
-  if (desc.snapshot && impl->count > 0)
+  if (desc.snapshot && capacity > 0)
     if (auto fits = checkSnapshot(*desc.snapshot, snapshotShape(impl->setup)); !fits) return fits.error();
 
-  if (impl->count == 0) return impl;
+  if (impl->capacity == 0) return impl;
   if (auto ok = impl->makeBuffers(device, desc.storageReads); !ok) return ok.error();
   if (auto ok = impl->preparePasses(device); !ok) return ok.error();
   impl->stageScene();
@@ -100,15 +101,15 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
 }
 
 Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
-  const uint64_t n = count, more = n + 1;
+  const uint64_t n = capacity, more = n + 1;
   const FluidParams& p = setup.params;
 
   const uint64_t blockBytes = uint64_t{kListBlock} * p.listCapacity * 4;
   const uint64_t wanted = p.listCapacity == 0 ? 1 : (blocks(n) * blockBytes + kMaxBuffer - 1) / kMaxBuffer;
   const uint64_t chunkBlocks = (blocks(n) + wanted - 1) / wanted;
-  const uint32_t chunk = p.listCapacity == 0 ? count : static_cast<uint32_t>(chunkBlocks * kListBlock);
+  const uint32_t chunk = p.listCapacity == 0 ? capacity : static_cast<uint32_t>(chunkBlocks * kListBlock);
   setup.params.chunkParticles = chunk;
-  for (uint32_t first = 0; first < count; first += chunk) chunks_.push_back({first, std::min(count, first + chunk)});
+  for (uint32_t first = 0; first < capacity; first += chunk) chunks_.push_back({first, std::min(capacity, first + chunk)});
   if (chunks_.size() > kMaxListChunks)
     return Error{ErrorKind::TooLarge, "the neighbor list of " + std::to_string(n) + " particles at this smoothing_ratio needs " +
                                           mebibytes(memory.list_bytes) + ", more than the " + std::to_string(kMaxListChunks) +
@@ -118,7 +119,7 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
   texel_ = !storageReads && usesTexelReads(device, maxTexels);
 
   auto sort = KeySort::create(
-      device, {.count = count, .keyRange = setup.grid.cells(), .start = true, .storageReads = storageReads, .fusedEnds = true});
+      device, {.count = capacity, .keyRange = setup.grid.cells(), .start = true, .storageReads = storageReads, .fusedEnds = true});
   if (!sort) return sort.error();
   sort_ = std::move(*sort);
 

@@ -47,7 +47,11 @@ std::array<double, 3> Fluid::drivenCenter(uint32_t solid) const {
   return center;
 }
 
-uint32_t Fluid::count() const { return impl_->count; }
+uint32_t Fluid::count() const {
+  impl_->poll();
+  return impl_->count;
+}
+uint32_t Fluid::capacity() const { return impl_->capacity; }
 uint32_t Fluid::substepsPerBlock() const { return impl_->setup.substepsPerBlock; }
 uint32_t Fluid::substepsToComplete() const {
   return substepsPerBlock() * (impl_->setup.params.maxSubsteps + kSettleSubsteps + impl_->setup.params.initialPressureIterations);

@@ -26,10 +26,9 @@ inline float speedOf(const Float3& v) { return std::sqrt(v.x * v.x + v.y * v.y +
 
 constexpr uint32_t kMaxListChunks = 16;
 
-/// Range of particles that one list buffer serves; the whole fluid where there is no list.
+/// Range of entries that one list buffer serves; the whole fluid where there is no list.
 struct Chunk {
   uint32_t first = 0, last = 0;
-  uint64_t groups() const { return divideUp(last - first, kFluidGroup); }
 };
 
 /// Where an array lies among a fluid's buffers; lists have one for each chunk.
@@ -66,7 +65,8 @@ class FluidImpl {
   FluidSetup setup;
   FluidMemory memory;
   std::vector<FluidBuffer> made;  ///< the buffers, for reports
-  uint32_t count = 0;
+  uint32_t capacity = 0;          ///< particles at most
+  mutable uint32_t count = 0;     ///< particles at the end of the last frame that is known to have finished
   double origin[3] = {0, 0, 0};
   mutable std::optional<FluidStats> stats;
   mutable FluidProgress progress;
@@ -133,8 +133,7 @@ class FluidImpl {
   template <class Push = NoPush>
   void declare(Graph& graph, FluidPass pass, Start start = Start::Always, Push push = {});
   Kernel bind(Graph& graph, Pass& pass, const FluidPassRow& row, const PreparedPass::Variant& variant, uint32_t chunk);
-  uint64_t directGroups(Extent extent) const;
-  GroupCount shapeOf(Extent extent) const;
+  uint64_t fixedGroups(Extent extent) const;
   /// This frame's version of an array, or of the one that an alias stands for.
   BufferRef& ref(FluidArray array, uint32_t chunk = 0) { return refs_[slotOf(aliases_[static_cast<size_t>(array)], chunk)]; }
   /// From now on shaders see `target` under the name of `alias`.
@@ -148,7 +147,7 @@ class FluidImpl {
   std::array<FluidArray, kArrays> aliases_{};
   std::array<PreparedPass, kFluidPasses> passes_;
   DispatchCommands commands_;
-  uint32_t sortCommand_ = 0;  // the first of the sort's
+  uint32_t sortCommand_ = 0;  // the first of the sort's in a rebuild; those for figures follow
   uint32_t parity_ = 0;       // of the substep being declared
   std::optional<KeySort> sort_;
   std::vector<Chunk> chunks_;
@@ -188,7 +187,7 @@ void FluidImpl::declare(Graph& graph, FluidPass pass, Start start, Push push) {
         const size_t k = start == Start::Correct && parity_ == 1 ? kStarts : static_cast<size_t>(start);
         all[count_++] = {bind(graph, declared, row, prepared.variants[v], c), DispatchCommands::offset(prepared.commands[v][k])};
       }
-    return [=, this, arguments = ref(FluidArray::Commands), groups = directGroups(row.extent), each = prepared.variants.size(),
+    return [=, this, arguments = ref(FluidArray::Commands), groups = fixedGroups(row.extent), each = prepared.variants.size(),
             direct = start == Start::Always](Commands& commands) mutable {
       for (size_t k = 0; k < count_; ++k) {
         if constexpr (requires { push.first; }) {

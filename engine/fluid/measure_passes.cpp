@@ -14,10 +14,11 @@ void FluidImpl::declareMeasure(Graph& graph, Pending& pending) {
     histogram = pass.write(histogram, Use::CopyTarget, true);
     return [cleared = histogram](rill::Commands& commands) { commands.fill(cleared, 0); };
   });
-  sortKeys(graph, FluidPass::MeasureKeys, Start::Always, Position, {}, nullptr);
-  declare(graph, FluidPass::MeasureOrder);
+  const Gate gate{ref(FluidArray::Commands), sortCommand_ + static_cast<uint32_t>(sort_->dispatches().size())};
+  sortKeys(graph, FluidPass::MeasureKeys, Start::Figures, Position, {}, &gate);
+  declare(graph, FluidPass::MeasureOrder, Start::Figures);
   alias(CellStart, SortStart);
-  declare(graph, FluidPass::Measure);
+  declare(graph, FluidPass::Measure, Start::Figures);
   resetAliases();
   declare(graph, FluidPass::MeasureSums);
   declare(graph, FluidPass::Reduce);

@@ -74,9 +74,9 @@ std::span<const FluidPassRow, kFluidPasses> fluidPassTable() {
       {PredictAtSolids, "predict at solids", "fluid/predict", Corner, {Start::Correct, Start::NoiseDamping}, termsAndSolids},
 
       {MeasureWalls, "measure walls", "fluid/walls", Near, {Start::Figures}, near},
-      {MeasureKeys, "measure keys", "fluid/keys", Particles},
-      {MeasureOrder, "measure order", "fluid/measure_order", Particles},
-      {Measure, "measure", "fluid/measure", Particles, {Start::Always}, nullptr, nullptr, {}, true},
+      {MeasureKeys, "measure keys", "fluid/keys", Particles, {Start::Figures}},
+      {MeasureOrder, "measure order", "fluid/measure_order", Particles, {Start::Figures}},
+      {Measure, "measure", "fluid/measure", Particles, {Start::Figures}, nullptr, nullptr, {}, true},
       {MeasureSums, "measure sums", "fluid/measure_sums", Partials},
       {Reduce, "reduce", "fluid/measure_reduce"},
   }};

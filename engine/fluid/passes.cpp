@@ -60,7 +60,7 @@ void FluidImpl::declareSkipped(Graph& graph) const {
 
 FluidState FluidImpl::described() const {
   FluidState state;
-  state.count = count;
+  state.count = capacity;
   state.spacing = setup.params.spacing;
   std::copy(origin, origin + 3, state.origin);
   return state;
@@ -68,11 +68,11 @@ FluidState FluidImpl::described() const {
 
 FluidState FluidImpl::present(Graph& graph) const {
   FluidState state = described();
-  if (count == 0) return state;
+  if (capacity == 0) return state;
   state.position = importWhole(graph, "positions", buffer(FluidArray::Position));
   state.velocity = importWhole(graph, "velocities", buffer(FluidArray::Velocity));
   state.id = importWhole(graph, "ids", buffer(FluidArray::Id));
-  state.control = importWhole(graph, "control", buffer(FluidArray::Control));
+  state.countBuffer = state.control = importWhole(graph, "control", buffer(FluidArray::Control));
   if (!setup.driven.empty()) state.solids = importWhole(graph, "solids", buffer(FluidArray::Solids));
   return state;
 }
@@ -96,7 +96,7 @@ bool FluidImpl::validate(Graph& graph, const FluidStep& step) const {
 FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   FluidState state = described();
   if (!validate(graph, step)) return state;
-  if (count == 0) {
+  if (capacity == 0) {
     for (const char* name : {"build list", "density", "correct", "measure"}) graph.skipped(name, "no particles");
     if (!step.resume) emptyTime_ += step.advance_s;
     FluidStats none;
@@ -143,7 +143,7 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   state.position = ref(FluidArray::Position);
   state.velocity = ref(FluidArray::Velocity);
   state.id = ref(FluidArray::Id);
-  state.control = ref(FluidArray::Control);
+  state.countBuffer = state.control = ref(FluidArray::Control);
   if (!setup.driven.empty()) state.solids = ref(FluidArray::Solids);
   return state;
 }

@@ -58,7 +58,12 @@ Expected<void> FluidImpl::preparePasses(Device& device) {
     if (auto ok = preparePass(device, row); !ok) return ok;
   }
   sortCommand_ = commands_.count();
-  for (const GroupCount& groups : sort_->groups()) commands_.add(kStartRebuild, kOverShape, groups);
+  for (const uint32_t start : {kStartRebuild, kStartFigures})
+    for (const GatedDispatch& d : sort_->dispatches())
+      if (d.keysPerGroup > 0)
+        commands_.add(start, kOverParticles, {d.keysPerGroup, 0, 1});
+      else
+        commands_.add(start, kOverShape, d.groups);
   return {};
 }
 
@@ -86,8 +91,9 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
     std::array<uint32_t, kStarts + 1>& commands = prepared.commands.emplace_back();
     for (Start start : row.starts) {
       if (start == Start::Always) continue;
-      commands[static_cast<size_t>(start)] = commands_.shared(startCode(start), over, shapeOf(row.extent));
-      if (start == Start::Correct) commands[kStarts] = commands_.shared(kStartCorrectOdd, over, shapeOf(row.extent));
+      const GroupCount groups = over == kOverShape ? foldGroups(fixedGroups(row.extent)) : GroupCount{kFluidGroup, 0, 1};
+      commands[static_cast<size_t>(start)] = commands_.shared(startCode(start), over, groups);
+      if (start == Start::Correct) commands[kStarts] = commands_.shared(kStartCorrectOdd, over, groups);
     }
     return {};
   };
@@ -101,6 +107,11 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
       return add(kOverPlane, {{"CORNER", false}, {"SOLIDS", false}, {"THIN", false}});
     case Extent::Corner:
       return add(kOverCorner, {{"CORNER", true}});
+    case Extent::Chunks:
+      return add(kOverChunk, {});
+    case Extent::Particles:
+      // A radix sort looks at all keys, those of no particle too.
+      return add(row.shader == "fluid/keys" && sort_->method() == SortMethod::Radix ? kOverShape : kOverParticles, {});
     default:
       return add(kOverShape, {});
   }

@@ -212,7 +212,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   const SmoothingKernel kernel(scene.solver.kernel, h, d);
   setup.kernel = scene.solver.kernel == KernelChoice::Wendland ? 0u : 1u;
 
-  p.count = count;
+  p.capacity = start.capacity;
   p.spacing = f(d);
   p.support = f(h);
   p.inverseSupport = f(1 / h);
@@ -267,7 +267,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   setInitialPressure(limits, head, room, setup);
 
   if (auto able = checkSteps(scene, room, setup); !able) return able.error();
-  setup.grid = chooseGridSize(p.reach, room, count);
+  setup.grid = chooseGridSize(p.reach, room, start.capacity);
   p.gridSizeX = setup.grid.size[0];
   p.gridSizeY = setup.grid.size[1];
   p.gridSizeZ = setup.grid.size[2];

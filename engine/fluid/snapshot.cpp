@@ -34,22 +34,20 @@ Expected<void> checkLength(const char* name, uint64_t entries, uint64_t expected
 }
 
 Expected<void> checkLengths(const FluidSnapshot& s, const SnapshotShape& shape) {
-  const struct {
-    const char* name;
-    uint64_t entries, expected;
-  } rows[] = {
-      {"control", s.control.size(), sizeof(FluidControl) / 4},
-      {"sums", s.sums.size(), sizeof(FluidSums) / 4},
-      {"solids", s.solids.size(), shape.movingSolids ? uint64_t{kPoseNumbers} * shape.solidCount : 0},
-      {"position", s.position.size(), shape.count},
-      {"velocity", s.velocity.size(), shape.count},
-      {"push", s.push.size(), s.push.empty() ? 0 : shape.count},  // of a fluid without a warm start there are none
-      {"warm", s.warm.size(), s.push.size()},
-      {"id", s.id.size(), shape.count},
-  };
-  for (const auto& row : rows)
-    if (auto right = checkLength(row.name, row.entries, row.expected); !right) return right;
-  return {};
+  if (auto right = checkLength("control", s.control.size(), sizeof(FluidControl) / 4); !right) return right;
+  if (auto right = checkLength("sums", s.sums.size(), sizeof(FluidSums) / 4); !right) return right;
+  const uint64_t poses = shape.movingSolids ? uint64_t{kPoseNumbers} * shape.solidCount : 0;
+  if (auto right = checkLength("solids", s.solids.size(), poses); !right) return right;
+  const uint32_t count = record<FluidControl>(s.control).count;
+  if (count > shape.capacity)
+    return wrong("it has " + std::to_string(count) + " particles; expected at most " + std::to_string(shape.capacity));
+  Expected<void> result;
+  forEachSaved([&](const ArrayRow& row, auto member) {
+    // Of a fluid without a warm start there are none.
+    const bool absent = row.optional && s.push.empty() && s.warm.empty();
+    if (result) result = checkLength(row.savedName, (s.*member).size(), absent ? 0 : count);
+  });
+  return result;
 }
 
 /// Marks entries; false for one that is out of range or was there before.
@@ -65,7 +63,7 @@ Expected<void> checkNear(const FluidSnapshot& s, const FluidSums& sums, const Sn
   if (s.nearWall.size() != sums.planeCount || s.nearMore.size() != sums.cornerCount ||
       (!shape.near && sums.planeCount + sums.cornerCount > 0))
     return wrong("the lists of particles near walls have other lengths than their counts");
-  std::vector<bool> seen(shape.count);
+  std::vector<bool> seen(s.id.size());
   if (!markNew(seen, s.nearWall) || !markNew(seen, s.nearMore))
     return wrong("a list of particles near walls names no particle, or one twice");
   return {};
@@ -75,7 +73,7 @@ Expected<void> checkNeighbors(const FluidSnapshot& s, const FluidSums& sums, con
   const bool alive = hasNeighbors(s), lists = alive && shape.listCapacity > 0;
   if (s.listCapacity != shape.listCapacity)
     return wrong("its neighbor lists hold " + std::to_string(s.listCapacity) + " entries; expected " + std::to_string(shape.listCapacity));
-  if (auto right = checkLength("neighbor counts", s.neighborCount.size(), lists ? shape.count : 0); !right) return right;
+  if (auto right = checkLength("neighbor counts", s.neighborCount.size(), lists ? s.id.size() : 0); !right) return right;
   uint64_t entries = 0, overflow = 0;
   for (uint32_t n : s.neighborCount) {
     if (n <= shape.listCapacity)
@@ -85,10 +83,10 @@ Expected<void> checkNeighbors(const FluidSnapshot& s, const FluidSums& sums, con
   }
   if (auto right = checkLength("neighbors", s.neighbors.size(), entries); !right) return right;
   if (lists && overflow != sums.overflow) return wrong("its neighbor counts do not add up");
-  if (std::any_of(s.neighbors.begin(), s.neighbors.end(), [&](uint32_t j) { return j >= shape.count; }))
+  if (std::any_of(s.neighbors.begin(), s.neighbors.end(), [&](uint32_t j) { return j >= s.id.size(); }))
     return wrong("a neighbor is no particle");
 
-  if (auto right = checkLength("cells", s.cell.size(), alive && walksGrid(s) ? shape.count : 0); !right) return right;
+  if (auto right = checkLength("cells", s.cell.size(), alive && walksGrid(s) ? s.id.size() : 0); !right) return right;
   if (!std::is_sorted(s.cell.begin(), s.cell.end()) || (!s.cell.empty() && s.cell.back() >= shape.cells))
     return wrong("the particles are not sorted by their cells");
   return {};
@@ -111,9 +109,13 @@ uint64_t firstEntry(uint32_t local, uint32_t capacity) {
 }  // namespace
 
 SnapshotShape snapshotShape(const FluidSetup& setup) {
-  return {
-      setup.params.count, setup.params.solidCount, setup.params.listCapacity, setup.grid.cells(), setup.params.initialPressureIterations,
-      setup.near,         setup.movingSolids};
+  return {setup.params.capacity,
+          setup.params.solidCount,
+          setup.params.listCapacity,
+          setup.grid.cells(),
+          setup.params.initialPressureIterations,
+          setup.near,
+          setup.movingSolids};
 }
 
 bool hasNeighbors(const FluidSnapshot& snapshot) { return record<FluidControl>(snapshot.control).listState == kListValid; }
@@ -138,8 +140,9 @@ void append(FluidSnapshot& s, std::span<const Float3> positions, std::span<const
   forgetNeighbors(s);
   const bool warm = !s.warm.empty();
   auto sums = record<FluidSums>(s.sums);
+  uint32_t next = s.id.empty() ? 0 : *std::max_element(s.id.begin(), s.id.end()) + 1;
   for (size_t k = 0; k < positions.size(); ++k) {
-    s.id.push_back(static_cast<uint32_t>(s.id.size()));
+    s.id.push_back(next++);
     s.position.push_back(positions[k]);
     s.velocity.push_back(velocities[k]);
     if (warm) {
@@ -150,6 +153,9 @@ void append(FluidSnapshot& s, std::span<const Float3> positions, std::span<const
     sums.speedMax = std::max(sums.speedMax, std::bit_cast<uint32_t>(std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z)));
   }
   s.sums = wordsOf(sums);
+  auto control = record<FluidControl>(s.control);
+  control.count = static_cast<uint32_t>(s.id.size());
+  s.control = wordsOf(control);
 }
 
 void setGravity(FluidSnapshot& s, const double gravity[3]) {
@@ -168,28 +174,32 @@ Expected<void> checkSnapshot(const FluidSnapshot& snapshot, const SnapshotShape&
   const auto sums = record<FluidSums>(snapshot.sums);
   if (control.listState > kListDue || !validPhase(control, shape) || control.timeLeft != 0)
     return wrong("its control block is not that of an advance's end");
-  std::vector<bool> seen(shape.count);
-  if (!markNew(seen, snapshot.id)) return wrong("its ids are not 0 to " + std::to_string(shape.count - 1) + ", each once");
+  std::vector<uint32_t> ids(snapshot.id);
+  std::sort(ids.begin(), ids.end());
+  if (std::adjacent_find(ids.begin(), ids.end()) != ids.end()) return wrong("an id appears twice; expected each once");
+  if (!ids.empty() && ids.back() >= kMaxIds)
+    return wrong("its largest id is " + std::to_string(ids.back()) + "; expected less than " + std::to_string(kMaxIds));
   if (auto right = checkNear(snapshot, sums, shape); !right) return right;
   return checkNeighbors(snapshot, sums, shape);
 }
 
-void layOutList(const FluidSnapshot& snapshot, uint32_t first, uint32_t last, std::span<uint32_t> out) {
-  const auto count = static_cast<uint32_t>(snapshot.neighborCount.size());
+void layOutList(const FluidSnapshot& snapshot, uint32_t first, uint32_t last, uint32_t dummy, std::span<uint32_t> out) {
+  last = std::min(last, static_cast<uint32_t>(snapshot.neighborCount.size()));
   const uint32_t capacity = snapshot.listCapacity;
   const auto listed = [&](uint32_t i) { return snapshot.neighborCount[i] <= capacity ? snapshot.neighborCount[i] : 0; };
   uint64_t from = 0;
-  for (uint32_t i = 0; i < first; ++i) from += listed(i);
+  for (uint32_t i = 0; i < std::min(first, last); ++i) from += listed(i);
   for (uint32_t i = first; i < last; ++i) {
     const uint64_t at = firstEntry(i - first, capacity);
     const uint32_t n = listed(i);
     for (uint32_t k = 0; k < (n + 3) / 4 * 4; ++k)
-      out[at + uint64_t{k / 4} * kListBlock * 4 + k % 4] = k < n ? snapshot.neighbors[from + k] : count;
+      out[at + uint64_t{k / 4} * kListBlock * 4 + k % 4] = k < n ? snapshot.neighbors[from + k] : dummy;
     from += n;
   }
 }
 
 void gatherList(FluidSnapshot& snapshot, uint32_t first, uint32_t last, std::span<const uint32_t> list) {
+  last = std::min(last, static_cast<uint32_t>(snapshot.neighborCount.size()));
   for (uint32_t i = first; i < last; ++i) {
     const uint32_t n = snapshot.neighborCount[i];
     if (n > snapshot.listCapacity) continue;

@@ -7,9 +7,12 @@
 
 namespace rill {
 
+/// Ids are less: particles carry them as floats while they are sorted.
+inline constexpr uint32_t kMaxIds = 1u << 24;
+
 /// What a snapshot must fit.
 struct SnapshotShape {
-  uint32_t count = 0;  ///< particles
+  uint32_t capacity = 0;  ///< particles at most
   uint32_t solidCount = 0;
   uint32_t listCapacity = 0;
   uint64_t cells = 0;                       ///< of the grid
@@ -34,8 +37,8 @@ void append(FluidSnapshot& snapshot, std::span<const Float3> positions, std::spa
 void setGravity(FluidSnapshot& snapshot, const double gravity[3]);
 
 /// The list of particles [first, last) as the device holds it: k-major in blocks of kListBlock particles, four entries at a time, the last
-/// of a particle's filled up with `count`. `out` has room for whole blocks and is written where it will be read.
-void layOutList(const FluidSnapshot& snapshot, uint32_t first, uint32_t last, std::span<uint32_t> out);
+/// of a particle's filled up with `dummy`. `out` has room for whole blocks and is written where it will be read.
+void layOutList(const FluidSnapshot& snapshot, uint32_t first, uint32_t last, uint32_t dummy, std::span<uint32_t> out);
 /// The other way: appends the neighbors of particles [first, last) to the snapshot, which has their counts.
 void gatherList(FluidSnapshot& snapshot, uint32_t first, uint32_t last, std::span<const uint32_t> list);
 

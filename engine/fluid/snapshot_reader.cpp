@@ -38,7 +38,7 @@ std::vector<uint32_t> sorted(std::span<const uint32_t> words) {
 }  // namespace
 
 SnapshotReader::SnapshotReader(const Fluid& fluid) : fluid_(implOf(fluid)) {
-  if (fluid_.count > 0) parts_ = {kRecords};
+  if (fluid_.capacity > 0) parts_ = {kRecords};
 }
 
 bool SnapshotReader::done() const { return next_ == parts_.size(); }
@@ -58,12 +58,13 @@ Expected<void> SnapshotReader::take(const Graph& graph) {
     if (data.back().empty()) return Error{ErrorKind::Failed, "reading the state back: no data came back"};
   }
   FluidSnapshot& s = snapshot_;
-  const uint32_t n = fluid_.count, part = parts_[next_++];
+  const uint32_t part = parts_[next_++];
   if (part == kRecords) {
     takeRecords(data);
     plan();
     return {};
   }
+  const uint32_t n = s.control.front();  // FluidControl::count
   const std::span<const std::byte> bytes = data[0];
   bool saved = false;
   forEachSaved([&](const ArrayRow& row, auto member) {
@@ -75,12 +76,12 @@ Expected<void> SnapshotReader::take(const Graph& graph) {
   if (part == slotOf(FluidArray::NearList)) {
     FluidSums sums;
     std::memcpy(&sums, s.sums.data(), sizeof sums);
-    const auto all = records<uint32_t>(bytes, n);
+    const auto all = records<uint32_t>(bytes, size_t{2} * fluid_.capacity);
     const std::span<const uint32_t> both(all);
     if (uint64_t{sums.planeCount} + sums.cornerCount > n)
       return Error{ErrorKind::Failed, "reading the state back: its counts make no sense"};
     s.nearWall = sorted(both.first(sums.planeCount));
-    s.nearMore = sorted(both.last(sums.cornerCount));
+    s.nearMore = sorted(both.subspan(fluid_.capacity, sums.cornerCount));
   } else if (part == slotOf(FluidArray::NeighborCount)) {
     s.neighborCount = records<uint32_t>(bytes, n);
     uint64_t entries = 0;
@@ -107,8 +108,7 @@ void SnapshotReader::takeRecords(std::span<const std::span<const std::byte>> dat
   snapshot_.control = records<uint32_t>(std::as_bytes(std::span(&control, 1)), sizeof control / 4);
   snapshot_.sums = records<uint32_t>(data[1], sizeof(FluidSums) / 4);
   if (!fluid_.setup.movingSolids) return;
-  for (const SolidRecord& r : records<SolidRecord>(data[2], fluid_.setup.params.solidCount))
-    appendPose(r.pose, snapshot_.solids);
+  for (const SolidRecord& r : records<SolidRecord>(data[2], fluid_.setup.params.solidCount)) appendPose(r.pose, snapshot_.solids);
 }
 
 /// What else there is to read follows from the control block.

@@ -152,7 +152,8 @@ SpeedLimits speedLimits(const Scene& scene, const double extent[3], double faste
   for (int a = 0; a < 3; ++a) room[a] = std::max(extent[a], scene.domain ? scene.domain->max[a] - scene.domain->min[a] : 0);
   const double usual = std::sqrt(2 * columnHead(scene, room) + fastest * fastest) + solids;
   constexpr double kUnbounded = 1e18;  // m/s: where nothing bounds the way that something falls
-  return {kWarmLimit * usual * usual, kMinSpeedGain * usual, closed ? kMaxSpeedGain * usual : kUnbounded, closed ? kSpeedLimit * usual : kUnbounded};
+  return {kWarmLimit * usual * usual, kMinSpeedGain * usual, closed ? kMaxSpeedGain * usual : kUnbounded,
+          closed ? kSpeedLimit * usual : kUnbounded};
 }
 
 }  // namespace rill

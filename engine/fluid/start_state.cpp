@@ -12,15 +12,13 @@
 namespace rill {
 namespace {
 
-/// The vectors as four floats each; `last` follows them where there is one.
-std::function<void(std::byte*)> quads(std::vector<Float3> vectors, float w, std::optional<Float4> last = {}) {
-  return [vectors = std::move(vectors), w, last](std::byte* to) {
-    for (const Float3& v : vectors) {
-      const Float4 quad{v.x, v.y, v.z, w};
-      std::memcpy(to, &quad, sizeof quad);
-      to += sizeof quad;
+/// The vectors as four floats each, then `rest` up to `entries`.
+std::function<void(std::byte*)> quads(std::vector<Float3> vectors, float w, Float4 rest, size_t entries) {
+  return [vectors = std::move(vectors), w, rest, entries](std::byte* to) {
+    for (size_t i = 0; i < entries; ++i) {
+      const Float4 quad = i < vectors.size() ? Float4{vectors[i].x, vectors[i].y, vectors[i].z, w} : rest;
+      std::memcpy(to + i * sizeof quad, &quad, sizeof quad);
     }
-    if (last) std::memcpy(to, &*last, sizeof *last);
   };
 }
 
@@ -44,9 +42,11 @@ void FluidImpl::stageScene() {
 
 void FluidImpl::stageParticles(std::vector<Float3> positions, std::vector<Float3> velocities) {
   using enum FluidArray;
-  const Float4 dummy{kInactivePosition, kInactivePosition, kInactivePosition, 0.0f};
-  staging_->add(slotOf(Position), buffer(Position).size(), quads(std::move(positions), rowOf(Position).w, dummy));
-  staging_->add(slotOf(Velocity), buffer(Velocity).size(), quads(std::move(velocities), rowOf(Velocity).w, Float4{0, 0, 0, 1}));
+  // The entries without a particle, and the dummy neighbor behind them, are inactive.
+  const Float4 inactive{kInactivePosition, kInactivePosition, kInactivePosition, 0.0f};
+  const size_t entries = size_t{capacity} + 1;
+  staging_->add(slotOf(Position), buffer(Position).size(), quads(std::move(positions), rowOf(Position).w, inactive, entries));
+  staging_->add(slotOf(Velocity), buffer(Velocity).size(), quads(std::move(velocities), rowOf(Velocity).w, Float4{0, 0, 0, 1}, entries));
   // Predictions start as the positions; they and `work` end with the dummy neighbor.
   staging_->addSame(slotOf(Prediction), slotOf(Position));
   staging_->addSame(slotOf(Work), slotOf(Position));
@@ -72,6 +72,7 @@ void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
   sums.speedMax = std::bit_cast<uint32_t>(fastest);
 
   FluidControl control{};
+  control.count = count;
   control.listState = kListNone;
   control.speed = fastest;
   control.nextPhase = settle ? kPhaseSettling : kPhaseAdvancing;
@@ -107,10 +108,10 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
       staging_->add(slotOf(row.id), array.data(), array.size() * sizeof array[0]);
   });
   if (setup.near) {
-    staging_->add(slotOf(FluidArray::NearList), uint64_t{count} * 4, [this, &s](std::byte* to) {
-      std::memset(to, 0, size_t{count} * 4);
+    staging_->add(slotOf(FluidArray::NearList), uint64_t{capacity} * 8, [this, &s](std::byte* to) {
+      std::memset(to, 0, size_t{capacity} * 8);
       std::memcpy(to, s.nearWall.data(), s.nearWall.size() * 4);
-      std::memcpy(to + 4 * (count - s.nearMore.size()), s.nearMore.data(), s.nearMore.size() * 4);
+      std::memcpy(to + 4 * size_t{capacity}, s.nearMore.data(), s.nearMore.size() * 4);
     });
     staging_->clear(slotOf(FluidArray::NearSample));  // of those near nothing; the others' are looked up before they are used
   }
@@ -126,8 +127,8 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
   for (uint32_t c = 0; c < chunkCount(); ++c)
     staging_->add(slotOf(FluidArray::List, c), buffer(FluidArray::List, c).size(), [this, &s, c](std::byte* to) {
       const uint64_t bytes = buffer(FluidArray::List, c).size();
-      std::vector<uint32_t> list(bytes / 4, count);
-      layOutList(s, chunks_[c].first, chunks_[c].last, list);
+      std::vector<uint32_t> list(bytes / 4, capacity);
+      layOutList(s, chunks_[c].first, chunks_[c].last, capacity, list);
       std::memcpy(to, list.data(), bytes);
     });
 }

@@ -1,5 +1,6 @@
 #include "offline/readout.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cstring>
 #include <span>
@@ -20,8 +21,9 @@ std::vector<Record> records(std::span<const std::byte> bytes, uint32_t count) {
 
 ReadoutTickets readout(Graph& graph, const FluidState& state) {
   ReadoutTickets tickets;
-  tickets.count = state.count;
+  tickets.capacity = state.count;
   if (state.count == 0) return tickets;
+  tickets.particles = graph.readback(state.countBuffer);
   tickets.position = graph.readback(state.position);
   tickets.velocity = graph.readback(state.velocity);
   tickets.id = graph.readback(state.id);
@@ -30,14 +32,15 @@ ReadoutTickets readout(Graph& graph, const FluidState& state) {
 
 Readout collect(const Graph& graph, const ReadoutTickets& tickets) {
   Readout result;
-  if (tickets.count == 0) return result;
-  const auto positions = records<Float4>(graph.data(tickets.position), tickets.count);
-  const auto velocities = records<Float4>(graph.data(tickets.velocity), tickets.count);
-  result.ids = records<uint32_t>(graph.data(tickets.id), tickets.count);
-  result.positions.reserve(tickets.count);
-  result.velocities.reserve(tickets.count);
-  result.relativeDensities.reserve(tickets.count);
-  for (uint32_t i = 0; i < tickets.count; ++i) {
+  if (tickets.capacity == 0) return result;
+  const uint32_t count = std::min(records<uint32_t>(graph.data(tickets.particles), 1).front(), tickets.capacity);
+  const auto positions = records<Float4>(graph.data(tickets.position), count);
+  const auto velocities = records<Float4>(graph.data(tickets.velocity), count);
+  result.ids = records<uint32_t>(graph.data(tickets.id), count);
+  result.positions.reserve(count);
+  result.velocities.reserve(count);
+  result.relativeDensities.reserve(count);
+  for (uint32_t i = 0; i < count; ++i) {
     result.positions.push_back({positions[i].x, positions[i].y, positions[i].z});
     result.velocities.push_back({velocities[i].x, velocities[i].y, velocities[i].z});
     result.relativeDensities.push_back(velocities[i].w);

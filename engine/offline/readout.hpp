@@ -18,8 +18,8 @@ struct Readout {
 
 /// Read-backs of a Readout.
 struct ReadoutTickets {
-  Ticket position, velocity, id;
-  uint32_t count = 0;
+  Ticket position, velocity, id, particles;
+  uint32_t capacity = 0;
 };
 
 /// Adds the read-backs of a state to a graph; none without particles.

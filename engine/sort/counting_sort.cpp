@@ -35,14 +35,15 @@ uint64_t CountingSort::oversizedGroups() const { return uint64_t{chunks()} * bin
 
 CountingPush CountingSort::push() const { return {desc_.count, static_cast<uint32_t>(desc_.keyRange - 1), chunks(), binGroups()}; }
 
-std::vector<GroupCount> CountingSort::groups() const {
+std::vector<GatedDispatch> CountingSort::dispatches() const {
   if (desc_.count == 0) return {};
-  std::vector<GroupCount> all{foldGroups(clearGroups())};
-  if (count_) all.push_back(foldGroups(countGroups()));
-  for (const GroupCount& groups : scan_.groups()) all.push_back(groups);
-  all.push_back(foldGroups(countGroups()));  // scatter
-  if (orderBins_) all.push_back(foldGroups(countGroups()));
-  if (orderOversized_) all.push_back(foldGroups(oversizedGroups()));
+  const GatedDispatch overKeys{foldGroups(countGroups()), kCountThreads};
+  std::vector<GatedDispatch> all{{foldGroups(clearGroups())}};
+  if (count_) all.push_back(overKeys);
+  for (const GroupCount& groups : scan_.groups()) all.push_back({groups});
+  all.push_back(overKeys);  // scatter
+  if (orderBins_) all.push_back(overKeys);
+  if (orderOversized_) all.push_back({foldGroups(oversizedGroups())});
   return all;
 }
 

@@ -18,7 +18,7 @@ class CountingSort {
   /// KeySort::create has validated `desc`.
   static Expected<CountingSort> create(Device& device, const KeySortDesc& desc);
 
-  std::vector<GroupCount> groups() const;
+  std::vector<GatedDispatch> dispatches() const;
   SortedKeys addTo(Graph& graph, BufferRef keys, const SortTargets& targets, const Gate* gate) const;
   KeyCounters begin(Graph& graph, const SortTargets& targets, const Gate* gate) const;
   SortedKeys finish(Graph& graph, BufferRef keys, const KeyCounters& counters, const SortTargets& targets, const Gate* gate) const;

@@ -24,6 +24,12 @@ constexpr uint64_t paddedWords(uint64_t count) { return (count + 3) / 4 * 4; }
 /// `target`, or a new transient of `count` uints if `target` is empty.
 BufferRef targetOr(Graph& graph, BufferRef target, std::string_view name, uint64_t count);
 
+/// A dispatch that a gate starts.
+struct GatedDispatch {
+  GroupCount groups{};
+  uint32_t keysPerGroup = 0;  ///< where the device knows how many keys there are, fewer groups do; 0: it takes them all
+};
+
 /// Indirect dispatch arguments for a module that the device enables or skips per frame. Dispatch k reads
 /// byte (firstCommand + k) * sizeof(VkDispatchIndirectCommand) of `arguments`, which holds the module's
 /// groups(), or zeros to skip it.

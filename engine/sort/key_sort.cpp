@@ -52,8 +52,8 @@ Expected<KeySort> KeySort::create(Device& device, const KeySortDesc& desc) {
 
 SortMethod KeySort::method() const { return std::holds_alternative<CountingSort>(sort_) ? SortMethod::Counting : SortMethod::Radix; }
 
-std::vector<GroupCount> KeySort::groups() const {
-  return std::visit([](const auto& sort) { return sort.groups(); }, sort_);
+std::vector<GatedDispatch> KeySort::dispatches() const {
+  return std::visit([](const auto& sort) { return sort.dispatches(); }, sort_);
 }
 
 SortedKeys KeySort::addTo(Graph& graph, BufferRef keys, const SortTargets& targets, const Gate* gate) const {

@@ -27,8 +27,9 @@ class KeySort {
 
   /// The chosen method, Counting or Radix.
   SortMethod method() const;
-  /// The group counts of its dispatches, in order: the contents of the Gate's arguments if the sort runs.
-  std::vector<GroupCount> groups() const;
+  /// Its dispatches, in order: their group counts are the contents of the Gate's arguments if the sort runs. Fewer keys than desc.count may
+  /// be sorted: the others are kNoKey, and have the largest indices.
+  std::vector<GatedDispatch> dispatches() const;
 
   /// Declares the passes. `keys` holds desc.count uints below desc.keyRange; larger ones only affect the
   /// result. If the gate's arguments are zero the targets keep their content. With a count of 0 nothing is

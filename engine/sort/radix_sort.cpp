@@ -34,15 +34,15 @@ Expected<RadixSort> RadixSort::create(Device& device, const KeySortDesc& desc) {
 bool RadixSort::writesKeys(uint32_t pass) const { return pass + 1 < passes_ || desc_.keys || desc_.start; }
 uint64_t RadixSort::startGroups() const { return divideUp(desc_.keyRange + 1, kCountThreads); }
 
-std::vector<GroupCount> RadixSort::groups() const {
+std::vector<GatedDispatch> RadixSort::dispatches() const {
   if (desc_.count == 0) return {};
-  std::vector<GroupCount> all;
+  std::vector<GatedDispatch> all;
   for (uint32_t pass = 0; pass < passes_; ++pass) {
-    all.push_back(foldGroups(tiles_));
-    for (const GroupCount& groups : scan_.groups()) all.push_back(groups);
-    all.push_back(foldGroups(tiles_));
+    all.push_back({foldGroups(tiles_)});
+    for (const GroupCount& groups : scan_.groups()) all.push_back({groups});
+    all.push_back({foldGroups(tiles_)});
   }
-  if (desc_.start) all.push_back(foldGroups(startGroups()));
+  if (desc_.start) all.push_back({foldGroups(startGroups())});
   return all;
 }
 

@@ -20,7 +20,7 @@ class RadixSort {
 
   /// Number of passes over the keys, 1 .. 6.
   uint32_t passes() const { return passes_; }
-  std::vector<GroupCount> groups() const;
+  std::vector<GatedDispatch> dispatches() const;
   SortedKeys addTo(Graph& graph, BufferRef keys, const SortTargets& targets, const Gate* gate) const;
 
  private:

@@ -34,8 +34,7 @@ layout(std430, binding = 17) readonly buffer SolidBlock { SolidRecord solids[]; 
 
 const uint kNone = 0xffffffffu;
 
-// Lists the particle among those near one wall (from the front of nearList) or near several walls
-// or a solid (from its back).
+// Lists the particle among those near one wall, or among those near several walls or a solid.
 void listNear(uint i, vec3 x) {
   vec3 low = x - vec3(params.lowX, params.lowY, params.lowZ);
   vec3 high = vec3(params.highX, params.highY, params.highZ) - x;
@@ -49,8 +48,8 @@ void listNear(uint i, vec3 x) {
   nearSample[NEAR_DISPLACED(i)] = vec4(0.0);
   nearSample[NEAR_TANGENTIAL(i)] = vec4(0.0);
   if (!isActive(x)) return;
-  if (solid || walls > 1u) nearList[params.count - 1u - atomicAdd(sums.cornerCount, 1u)] = i;
-  else if (walls == 1u) nearList[atomicAdd(sums.planeCount, 1u)] = i;
+  if (solid || walls > 1u) nearList[NEAR_CORNER(atomicAdd(sums.cornerCount, 1u))] = i;
+  else if (walls == 1u) nearList[NEAR_PLANE(atomicAdd(sums.planeCount, 1u))] = i;
 }
 
 // Neighbors are stored four at a time: lavapipe stores lane by lane, so fewer and wider stores are faster.
@@ -113,8 +112,8 @@ void candidates(uint first, uint end) {
 void main() {
   uint local = clusterInvocation();
   uint i = push.first + local;
-  bool inRange = i < push.last;
-  if (!inRange) i = push.last - 1u;
+  bool inRange = i < min(push.last, control.count);
+  if (!inRange) i = push.first;
   vec4 predicted = sortedPredictionAt(i);
   vec3 x = predicted.xyz;
 
@@ -127,7 +126,7 @@ void main() {
   cell[i] = cellKey(cellOf(x));
   if (LIST_CAPACITY != 0u) {
     uint all = count + holds;
-    for (uint k = 1u; k < 4u; ++k) held[k] = holds <= k ? params.count : held[k];
+    for (uint k = 1u; k < 4u; ++k) held[k] = holds <= k ? params.capacity : held[k];
     if (holds != 0u) store();
     neighborCount[i] = all;
     if (all > LIST_CAPACITY) atomicAdd(sums.overflow, 1u);

@@ -29,7 +29,7 @@ void predict(uint i, vec3 x, vec3 v) {
 void main() {
   uint n = flatInvocation();
   if (n >= sums.cornerCount) return;
-  uint i = nearList[params.count - 1u - n];
+  uint i = nearList[NEAR_CORNER(n)];
   vec3 from = position[i].xyz;
   if (!isActive(from)) return;
   float pushed;

@@ -29,8 +29,8 @@ void visit(vec4 particle, vec4 companion) {
 void main() {
   uint local = clusterInvocation();
   uint i = push.first + local;
-  bool inRange = i < push.last;
-  if (!inRange) i = params.count;
+  bool inRange = i < min(push.last, control.count);
+  if (!inRange) i = params.capacity;
   here = particleAt(i).xyz;
   own = curlAt(i);
   visitNeighbors(i, local, inRange);

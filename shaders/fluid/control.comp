@@ -61,7 +61,7 @@ void main() {
     return;
   }
 
-  float error = (float(s.errorHigh) * 4294967296.0 + float(s.errorLow)) * kErrorUnit / float(params.count);
+  float error = (float(s.errorHigh) * 4294967296.0 + float(s.errorLow)) * kErrorUnit / float(max(c.count, 1u));
   bool converged = params.tolerance > 0.0 && error <= params.tolerance && uintBitsToFloat(s.errorMax) <= 100.0 * params.tolerance;
   bool again = push.iteration + 1u < params.iterations && !converged;
   c.iterations += 1u;

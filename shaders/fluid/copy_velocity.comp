@@ -3,11 +3,10 @@
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 layout(local_size_x = kFluidGroup) in;
-layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 2) readonly buffer SweepFromBlock { vec4 sweepFrom[]; };
 layout(std430, binding = 3) writeonly buffer VelocityBlock { vec4 velocity[]; };
 
 void main() {
-  uint i = push.first + flatInvocation();
-  if (i < push.last) velocity[i] = sweepFrom[i];
+  uint i = flatInvocation();
+  if (i < control.count) velocity[i] = sweepFrom[i];
 }

@@ -63,8 +63,8 @@ vec3 predictedDisplacement(vec3 from, vec3 velocity, vec3 push) {
 void main() {
   uint local = clusterInvocation();
   uint i = push.first + local;
-  bool inRange = i < push.last;
-  if (!inRange) i = params.count;
+  bool inRange = i < min(push.last, control.count);
+  if (!inRange) i = params.capacity;
   vec4 particle = particleAt(i);
   here = particle.xyz;
   own = multipliers(particle);

@@ -29,13 +29,13 @@ void visit(vec4 particle, vec4 companion) {
 void main() {
   uint local = clusterInvocation();
   uint i = push.first + local;
-  bool inRange = i < push.last;
-  if (!inRange) i = params.count;
+  bool inRange = i < min(push.last, control.count);
+  if (!inRange) i = params.capacity;
   here = particleAt(i).xyz;
   own = velocityAt(i).xyz;
   visitNeighbors(i, local, inRange);
   if (!inRange) return;
   turning *= params.gradientScale;
   curl[i] = vec4(turning, length(turning));
-  if (i == 0u) curl[params.count] = vec4(0.0);  // the dummy neighbor, whose weight of 0 would not do away with a NaN
+  if (i == 0u) curl[params.capacity] = vec4(0.0);  // the dummy neighbor, whose weight of 0 would not do away with a NaN
 }

@@ -38,8 +38,8 @@ void visit(vec4 particle) {
 void main() {
   uint local = clusterInvocation();
   uint i = push.first + local;
-  bool inRange = i < push.last;
-  if (!inRange) i = params.count;
+  bool inRange = i < min(push.last, control.count);
+  if (!inRange) i = params.capacity;
   here = particleAt(i).xyz;
   visitNeighbors(i, local, inRange);
   if (!inRange) return;

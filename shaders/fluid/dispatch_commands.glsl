@@ -17,22 +17,28 @@ bool isStarted(uint start, FluidControl c, uint parity) {
   return true;
 }
 
-uvec3 groupsFor(uint particles) {
-  uint needed = (particles + kFluidGroup - 1u) / kFluidGroup;
+uvec3 groupsFor(uint particles, uint each) {
+  uint needed = (particles + each - 1u) / each;
   return uvec3(min(needed, 65535u), needed == 0u ? 0u : (needed + 65534u) / 65535u, 1u);
 }
 
-// `shapes` holds, for each command, its groups in x and y and what it is over and started by, as
-// engine/fluid/dispatch_commands.hpp packs them; `commands` is what the device dispatches.
+// `shapes` holds, for each command, its groups in x and y, or how many particles a group has, and what it
+// is over and started by, as engine/fluid/dispatch_commands.hpp packs them; `commands` is what the device
+// dispatches.
 void switchCommand(uint k, FluidControl c, uint parity, FluidSums s) {
-  uint packed_ = shapes[3u * k + 2u], over = packed_ & 15u;
-  bool on = isStarted(packed_ >> 4u, c, parity);
+  uvec3 shape = uvec3(shapes[3u * k], shapes[3u * k + 1u], shapes[3u * k + 2u]);
+  uint over = shape.z & 15u;
+  bool on = isStarted(shape.z >> 4u, c, parity);
   bool walks = params.listCapacity == 0u || s.overflow > 0u;
-  if (over == kOverLists) on = on && !walks;
-  if (over == kOverGrid) on = on && walks;
-  uvec3 groups = uvec3(shapes[3u * k], shapes[3u * k + 1u], 1u);
-  if (over == kOverPlane) groups = groupsFor(s.planeCount);
-  if (over == kOverCorner) groups = groupsFor(s.cornerCount);
+  uvec3 groups = uvec3(shape.xy, 1u);
+  switch (over) {
+    case kOverParticles: groups = groupsFor(c.count, shape.x); break;
+    case kOverChunk: groups = groupsFor(min(c.count, params.chunkParticles), shape.x); break;
+    case kOverLists: groups = groupsFor(walks ? 0u : min(c.count, params.chunkParticles), shape.x); break;
+    case kOverGrid: groups = groupsFor(walks ? min(c.count, params.chunkParticles) : 0u, shape.x); break;
+    case kOverPlane: groups = groupsFor(s.planeCount, shape.x); break;
+    case kOverCorner: groups = groupsFor(s.cornerCount, shape.x); break;
+  }
   if (!on) groups = uvec3(0u);
   commands[3u * k] = groups.x;
   commands[3u * k + 1u] = groups.y;

@@ -31,8 +31,8 @@ void visit(vec4 particle) {
 void main() {
   uint local = clusterInvocation();
   uint i = push.first + local;
-  bool inRange = i < push.last;
-  if (!inRange) i = params.count;
+  bool inRange = i < min(push.last, control.count);
+  if (!inRange) i = params.capacity;
   vec4 particle = particleAt(i);
   here = particle.xyz;
   own = multiplier(particle);

@@ -4,6 +4,7 @@
 #include "fluid/uniforms.glsl"
 #include "fluid/grid.glsl"
 #include "shared/arrays.glsl"
+#include "sort/sort_types.h"
 #ifdef COUNTED
 #define COUNTERS 5
 #include "sort/count.glsl"
@@ -20,7 +21,15 @@ void main() {
     sums.cornerCount = 0u;
     sums.overflow = 0u;
   }
-  if (i >= params.count) return;
+#ifdef COUNTED
+  // The sort's workgroups are larger: what they see behind the last particle is no key.
+  uint padded = min((control.count + kCountThreads - 1u) / kCountThreads * kCountThreads, params.capacity);
+  for (uint j = i; j < min(i + kCountThreads, padded); j += kFluidGroup)
+    if (j >= control.count) key[j] = kNoKey;
+#else
+  if (i >= control.count && i < params.capacity) key[i] = kNoKey;
+#endif
+  if (i >= control.count) return;
   uint cell = cellKey(cellOf(placeAt(i).xyz));
   key[i] = cell;
 #ifdef COUNTED

@@ -46,7 +46,7 @@ uint binOf(float size) {
 
 void main() {
   uint slot = clusterInvocation();
-  bool inRange = slot < params.count;
+  bool inRange = slot < control.count;
   vec4 particle = inRange ? orderedPositionAt(slot) : vec4(kInactivePosition);
   inRange = inRange && isActive(particle.xyz);
   place = particle.xyz;

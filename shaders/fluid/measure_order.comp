@@ -9,7 +9,7 @@ layout(std430, binding = 7) writeonly buffer OrderedPositionBlock { vec4 ordered
 
 void main() {
   uint slot = flatInvocation();
-  if (slot >= params.count) return;
+  if (slot >= control.count) return;
   uint place, from = arrival(slot, place);
   orderedPosition[place] = vec4(positionAt(from).xyz, float(from));
 }

@@ -78,7 +78,7 @@ void main() {
     if (lane < half_) rows[lane] = addPartials(rows[lane], rows[lane + half_]);
     barrier();
   }
-  float p99 = percentile(false, params.count - rows[0].inactive);
+  float p99 = percentile(false, control.count - rows[0].inactive);
   barrier();
   float median = percentile(true, 0u);
   if (lane == 0u) {

@@ -19,7 +19,7 @@ void main() {
   float compression = 0.0, compressionMax = 0.0, squares = 0.0, squaresMax = 0.0;
   vec3 velocities = vec3(0.0), positions = vec3(0.0);
   uint outside = 0u, inactive = 0u;
-  for (uint i = flatInvocation(); i < params.count; i += partialCount() * kFluidGroup) {
+  for (uint i = flatInvocation(); i < control.count; i += partialCount() * kFluidGroup) {
     vec3 x = positionAt(i).xyz;
     if (!isActive(x)) {
       outside += 1u;

@@ -18,7 +18,7 @@ void takeTurn(bool mine) { here = mine ? place : vec3(-kInactivePosition); }  //
 void candidates(uint first, uint end) {
   uint base = first;
   LOOP_WHILE (base < end) {
-    uint j = base + clusterLane < end ? base + clusterLane : params.count;
+    uint j = base + clusterLane < end ? base + clusterLane : params.capacity;
     vec4 particle = particleAt(j);
 #ifdef COMPANION
     vec4 companion = COMPANION(j);

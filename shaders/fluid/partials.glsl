@@ -2,7 +2,7 @@
 #ifndef RILL_PARTIALS_GLSL
 #define RILL_PARTIALS_GLSL
 // Workgroups that add up: few, since the end of each, in shared memory, costs lavapipe 23 us.
-uint partialCount() { return min((params.count + kMeasureShare * kFluidGroup - 1u) / (kMeasureShare * kFluidGroup), kMeasurePartials); }
+uint partialCount() { return min((control.count + kMeasureShare * kFluidGroup - 1u) / (kMeasureShare * kFluidGroup), kMeasurePartials); }
 
 MeasurePartial addPartials(MeasurePartial a, MeasurePartial b) {
   return MeasurePartial(a.compression + b.compression, max(a.compressionMax, b.compressionMax), a.kinetic + b.kinetic,

@@ -17,8 +17,8 @@ layout(local_size_x = kFluidGroup) in;
 
 void main() {
   uint i = flatInvocation();
-  if (i >= (CORNER ? sums.cornerCount : params.count)) return;
-  if (CORNER) i = nearList[params.count - 1u - i];
+  if (i >= (CORNER ? sums.cornerCount : control.count)) return;
+  if (CORNER) i = nearList[NEAR_CORNER(i)];
   vec3 x = positionAt(i).xyz;
   vec3 next = predicted(x, velocityAt(i).xyz, keptWarmAcceleration(warmAccelerationAt(i)));
   float pushed = 0.0;

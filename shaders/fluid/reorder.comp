@@ -17,7 +17,7 @@ layout(std430, binding = 13) writeonly buffer SortedVelocityBlock { vec4 sortedV
 
 void main() {
   uint slot = flatInvocation();
-  if (slot >= params.count) return;
+  if (slot >= control.count) return;
   uint place, from = arrival(slot, place);
   sortedPosition[place] = vec4(positionAt(from).xyz, float(idAt(from)));
   sortedPrediction[place] = predictionAt(from);

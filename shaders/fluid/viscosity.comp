@@ -29,8 +29,8 @@ void visit(vec4 particle, vec4 companion) {
 void main() {
   uint local = clusterInvocation();
   uint i = push.first + local;
-  bool inRange = i < push.last;
-  if (!inRange) i = params.count;
+  bool inRange = i < min(push.last, control.count);
+  if (!inRange) i = params.capacity;
   here = particleAt(i).xyz;
   own = sweepFromAt(i);
   visitNeighbors(i, local, inRange);
@@ -38,5 +38,5 @@ void main() {
   float coefficient = push.share > 0.0 ? params.viscosityRate * control.step * push.share : control.noiseDamping;
   vec3 v = own.xyz + coefficient * params.valueScale * change;
   sweepTo[i] = vec4(v, own.w);
-  if (i == 0u) sweepTo[params.count] = vec4(0.0);  // the dummy neighbor, whose weight of 0 would not do away with a NaN
+  if (i == 0u) sweepTo[params.capacity] = vec4(0.0);  // the dummy neighbor, whose weight of 0 would not do away with a NaN
 }

@@ -144,7 +144,7 @@ void main() {
   uint n = flatInvocation();
   if (!CORNER) {
     if (n >= sums.planeCount) return;
-    uint i = nearListAt(n);
+    uint i = nearListAt(NEAR_PLANE(n));
     vec3 x = placeAt(i).xyz;
     vec3 low = x - vec3(params.lowX, params.lowY, params.lowZ);
     vec3 high = vec3(params.highX, params.highY, params.highZ) - x;
@@ -157,7 +157,7 @@ void main() {
     return;
   }
   if (n >= sums.cornerCount) return;
-  uint i = nearListAt(params.count - 1u - n);
+  uint i = nearListAt(NEAR_CORNER(n));
   vec3 x = placeAt(i).xyz;
   vec3 beside;
   vec4 displaced = domainWalls(x, beside);

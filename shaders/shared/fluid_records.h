@@ -36,15 +36,17 @@ RILL_CONST uint kNoSubstep = 2u;           // in place of a parity
 
 // What it is over.
 RILL_CONST uint kOverShape = 0u;           // a number of groups that was fixed when the fluid was made
-RILL_CONST uint kOverLists = 1u;           // the same, of the variant that reads lists alone: no list overflowed
-RILL_CONST uint kOverGrid = 2u;            // the same, of the variant that walks the grid: a list did, or there is none
-RILL_CONST uint kOverPlane = 3u;           // the particles near one wall
-RILL_CONST uint kOverCorner = 4u;          // those near several walls or a solid
+RILL_CONST uint kOverParticles = 1u;       // all particles
+RILL_CONST uint kOverChunk = 2u;           // those of a buffer of the neighbor list
+RILL_CONST uint kOverLists = 3u;           // the same, of the variant that reads lists alone: no list overflowed
+RILL_CONST uint kOverGrid = 4u;            // the same, of the variant that walks the grid: a list did, or there is none
+RILL_CONST uint kOverPlane = 5u;           // the particles near one wall
+RILL_CONST uint kOverCorner = 6u;          // those near several walls or a solid
 RILL_CONST uint kMaxCommands = 64u;
 
 // Constant over a run; a uniform block.
 struct FluidParams {
-  uint count;             // particles
+  uint capacity;          // entries of the arrays; the dummy neighbor is the next
   uint listCapacity;      // neighbors that the list holds a particle, a multiple of 4; 0: no list
   uint chunkParticles;    // particles a list buffer, a multiple of kListBlock
   uint solidCount;
@@ -121,6 +123,7 @@ RILL_CONST uint kListNone = 2u;               // there has been none yet
 // Decided on the device, substep by substep; read as a uniform block by the passes, written by
 // control.comp and begin.comp.
 struct FluidControl {
+  uint count;          // particles: the first entries of the arrays, inactive ones among them. First, for hosts that read it alone
   float step;          // s, of the substep that control.comp has accounted for last; 0 before time begins
   float nextStep;      // s, of the one whose prediction is at hand or is about to be made
   float warmStep;      // s, the step that the stored multipliers are expressed for

@@ -14,5 +14,7 @@ layout(set = 0, binding = 3, std430) writeonly buffer Arrived { uint arrived[]; 
 
 void main() {
   const uint i = flatGroup() * kCountThreads + gl_LocalInvocationIndex;
-  if (i < push.count) arrived[startAt(min(keyAt(i), push.lastKey)) + rankAt(i)] = i;
+  if (i >= push.count) return;
+  const uint key = keyAt(i);
+  if (key != kNoKey) arrived[startAt(min(key, push.lastKey)) + rankAt(i)] = i;
 }

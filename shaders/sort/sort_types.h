@@ -14,6 +14,8 @@ struct ScanPush {
   uint count;  // values
 };
 
+RILL_CONST uint kNoKey = 0xffffffffu;  // in place of a key: this index has none, and none has it with a larger index
+
 // Counting sort.
 RILL_CONST uint kCountThreads = 256u;
 RILL_CONST uint kClearItems = 4u;  // uvec4s of counters that one invocation clears

@@ -77,7 +77,7 @@ TEST_F(NastyTest, FullCellsAreSortedByDigits) {
     t.gather = gather;
     auto run = start(t), again = start(t);
     const FluidSetup& setup = implOf(run->fluid()).setup;
-    ASSERT_EQ(chooseSortMethod({.count = setup.params.count, .keyRange = setup.grid.cells(), .start = true}), SortMethod::Radix);
+    ASSERT_EQ(chooseSortMethod({.count = setup.params.capacity, .keyRange = setup.grid.cells(), .start = true}), SortMethod::Radix);
     run->substeps(2);
     again->substeps(2);
     EXPECT_TRUE(run->snapshot().finite());

@@ -18,7 +18,8 @@ glm::dvec3 wide(const Float3& v) { return {v.x, v.y, v.z}; }
 Float3 narrow(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 
 FluidSetup setupOf(const Trial& trial) {
-  StartFigures start{.count = static_cast<uint32_t>(trial.x.size())};
+  const auto count = static_cast<uint32_t>(trial.x.size());
+  StartFigures start{.count = count, .capacity = std::max(count, trial.capacity)};
   for (int a = 0; a < 3; ++a) {
     start.origin[a] = trial.origin[a];
     double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -200,6 +201,7 @@ FluidTest::Run::Run(FluidTest& test, const Trial& trial, const FluidSnapshot* fr
                                                 .particles = &particles,
                                                 .snapshot = from,
                                                 .settle = trial.settle,
+                                                .capacity = trial.capacity,
                                                 .storageReads = trial.gather == Gather::Storage});
   if (!made) throw std::runtime_error(made.error().message);
   fluid_ = std::move(*made);
@@ -250,12 +252,13 @@ Snapshot FluidTest::Run::read(const FluidStep& step) {
   result.x.resize(raw.ids.size());
   result.v.resize(raw.ids.size());
   result.density.resize(raw.ids.size());
+  std::vector<uint32_t> ids(raw.ids);
+  std::sort(ids.begin(), ids.end());
   for (size_t i = 0; i < raw.ids.size(); ++i) {
-    const uint32_t id = raw.ids[i];
-    if (id >= raw.ids.size()) throw std::runtime_error("an id beyond the particles' number");
-    result.x[id] = wide(raw.positions[i]);
-    result.v[id] = wide(raw.velocities[i]);
-    result.density[id] = step.stats ? raw.relativeDensities[i] : 0.0;
+    const auto place = static_cast<size_t>(std::lower_bound(ids.begin(), ids.end(), raw.ids[i]) - ids.begin());
+    result.x[place] = wide(raw.positions[i]);
+    result.v[place] = wide(raw.velocities[i]);
+    result.density[place] = step.stats ? raw.relativeDensities[i] : 0.0;
   }
   return result;
 }

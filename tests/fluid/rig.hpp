@@ -25,6 +25,7 @@ struct Trial {
   std::vector<glm::dvec3> x, v;  ///< m and m/s, relative to the origin; `v` may be empty: at rest
   double step = 1e-3;            ///< s
   Gather gather = Gather::Texel;
+  uint32_t capacity = 0;  ///< 0: as many as there are particles
   bool settle = false;    ///< the oracle finds the start's pressure, but parts nobody: what settles should fit its room
   bool stepwise = false;  ///< each substep is an advance of its own: the noise damping pass then runs in every one
 

@@ -10,12 +10,12 @@ namespace {
 /// The host code that loads a snapshot into a fluid of this shape.
 void loadIntoFluid(const FluidSnapshot& snapshot, const SnapshotShape& shape) {
   if (!checkSnapshot(snapshot, shape) || !hasNeighbors(snapshot)) return;
-  std::vector<uint32_t> list(size_t{kListBlock} * shape.listCapacity, shape.count);
-  layOutList(snapshot, 0, shape.count, list);
-  for (uint32_t entry : list) RILL_REQUIRE(entry <= shape.count);
+  std::vector<uint32_t> list(size_t{kListBlock} * shape.listCapacity, shape.capacity);
+  layOutList(snapshot, 0, shape.capacity, shape.capacity, list);
+  for (uint32_t entry : list) RILL_REQUIRE(entry <= shape.capacity);
   std::vector<uint32_t> start(shape.cells + 1);
   cellStarts(snapshot.cell, start);
-  for (size_t k = 0; k < shape.cells; ++k) RILL_REQUIRE(start[k] <= start[k + 1] && start[k + 1] <= shape.count);
+  for (size_t k = 0; k < shape.cells; ++k) RILL_REQUIRE(start[k] <= start[k + 1] && start[k + 1] <= shape.capacity);
 }
 
 void checkRoundTrip(const std::vector<std::byte>& bytes) {

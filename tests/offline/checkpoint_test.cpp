@@ -131,26 +131,44 @@ TEST_F(SnapshotCheck, AcceptsMatchingScene) {
 
 TEST_F(SnapshotCheck, AcceptsSnapshotWithoutWarmStart) {
   s.push.clear();
-  expectRejected("warm");
+  expectRejected("push has 0 entries");
   s.push.clear();
   s.warm.clear();
   const auto checked = checkSnapshot(s, seedShape());
   EXPECT_TRUE(checked) << checked.error().message;
 }
 
+TEST_F(SnapshotCheck, AcceptsSparseIdsAndFewerParticlesThanCapacity) {
+  s.id[1] = 1000;
+  SnapshotShape larger = seedShape();
+  larger.capacity = 100;
+  for (const SnapshotShape& shape : {seedShape(), larger}) {
+    const auto checked = checkSnapshot(s, shape);
+    EXPECT_TRUE(checked) << checked.error().message;
+  }
+}
+
+TEST_F(SnapshotCheck, RejectsMoreParticlesThanCapacity) {
+  SnapshotShape smaller = seedShape();
+  smaller.capacity = 5;
+  const auto checked = checkSnapshot(s, smaller);
+  ASSERT_FALSE(checked);
+  EXPECT_NE(checked.error().message.find("has 6 particles; expected at most 5"), std::string::npos) << checked.error().message;
+}
+
 // Every value that shaders use as an index.
 TEST_F(SnapshotCheck, RejectsInvalidIndices) {
   s.id[1] = s.id[0];
-  expectRejected("ids");
-  s.id[1] = seedShape().count;
-  expectRejected("ids");
+  expectRejected("an id appears twice");
+  s.id[1] = kMaxIds;
+  expectRejected("its largest id is 16777216");
   s.nearMore.push_back(0);
   expectRejected("near walls");
   s.nearWall[0] = 1000;
   expectRejected("near walls");
   s.nearMore[0] = s.nearWall[0];
   expectRejected("near walls");
-  s.neighbors[0] = seedShape().count;
+  s.neighbors[0] = static_cast<uint32_t>(s.id.size());
   expectRejected("a neighbor is no particle");
   s.neighbors.pop_back();
   expectRejected("neighbors has");
@@ -201,7 +219,7 @@ TEST(SnapshotNeighborList, RoundTripsThroughBlockLayout) {
   back.neighbors.clear();
   for (const auto& [first, last] : {std::pair{0u, 2 * kListBlock}, std::pair{2 * kListBlock, count}}) {
     std::vector<uint32_t> list(8 * kListBlock * 2, 0xdead);
-    layOutList(s, first, last, list);
+    layOutList(s, first, last, count, list);
     if (first == 0) {  // particle 4097's fifth neighbor, its last: block 1, second group, padded
       const size_t at = ((kListBlock * 2 + 1) + kListBlock) * 4;
       EXPECT_EQ(list[at], (4097u * 7 + 4) % count);

@@ -153,7 +153,7 @@ TEST_P(BothSorts, SortsWithCallerProvidedPasses) {
 TEST_P(BothSorts, DeclaresNothingForZeroKeys) {
   auto sort = KeySort::create(device(), {0, 1000, GetParam(), true, true});
   ASSERT_TRUE(sort) << sort.error().message;
-  EXPECT_TRUE(sort->groups().empty());
+  EXPECT_TRUE(sort->dispatches().empty());
   Graph graph;
   const BufferRef order = graph.create("order", {4});
   EXPECT_EQ(sort->addTo(graph, BufferRef{}, {.order = order}).order, order);
@@ -190,7 +190,7 @@ TEST_P(BothSorts, GateSkipsAllDispatches) {
     auto sort = KeySort::create(device(), {5000, 3000, GetParam(), true, true});
     ASSERT_TRUE(sort);
     Words open{9, 9, 9}, closed{9, 9, 9};  // an unrelated command before those of the sort
-    for (const GroupCount& groups : sort->groups())
+    for (const auto& [groups, keys] : sort->dispatches())
       for (uint32_t n : groups) {
         open.push_back(n);
         closed.push_back(0);

@@ -11,7 +11,7 @@ namespace rill::test {
 
 /// The shape that matches seedCheckpoint().
 inline SnapshotShape seedShape() {
-  return {.count = 6, .solidCount = 1, .listCapacity = 4, .cells = 256, .near = true, .movingSolids = true};
+  return {.capacity = 6, .solidCount = 1, .listCapacity = 4, .cells = 256, .near = true, .movingSolids = true};
 }
 
 /// Six particles: one near a wall, two near more, one of them with more neighbors than its list holds.
@@ -27,6 +27,7 @@ inline offline::Checkpoint seedCheckpoint() {
   c.keys = {{"fluid.spacing", "0.1"}, {"start", "0123456789abcdef"}};
   FluidSnapshot& s = c.fluid;
   FluidControl control{};
+  control.count = 6;
   control.desiredStep = 1e-3f;
   FluidSums sums{};
   sums.overflow = 1;

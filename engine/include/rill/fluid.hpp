@@ -57,6 +57,8 @@ struct FluidDesc {
   /// hydrostatic pressure. Settling takes 1 recorded substep without overlaps and at most 512 with them; the pressure takes about 3 per
   /// layer of particles, at most 1,024. Frames that record fewer do not advance, and drop their time (FluidProgress::time_dropped_s).
   bool settle = true;
+  /// Particles that there is room for; at least those at the start, for which 0 stands.
+  uint32_t capacity = 0;
   bool storageReads = false;  ///< never use texel buffers to read arrays (slower on most CPU drivers)
 };
 
@@ -98,8 +100,9 @@ struct FluidState {
   BufferRef velocity = {};       ///< vec4 per particle: xyz in m/s; w: density over rest density with FluidStep::stats, else 1
   BufferRef id = {};             ///< uint per particle: its index in the initial ParticleSet
   BufferRef control = {};        ///< FluidControl (shaders/shared/fluid_records.h)
+  BufferRef countBuffer = {};    ///< its first uint is the number of particles: they are the first entries of the arrays
   BufferRef solids = {};         ///< SolidRecord (solid_records.h) per solid, at the present time; null if no solid is driven
-  uint32_t count = 0;            ///< particles
+  uint32_t count = 0;            ///< entries of the arrays: particles at most; those beyond the particles are inactive, far from all others
   float spacing = 0;             ///< m
   double origin[3] = {0, 0, 0};  ///< m
 };
@@ -171,7 +174,8 @@ class RILL_API Fluid {
   /// far. NaN for a solid that is not driven.
   std::array<double, 3> drivenCenter(uint32_t solid) const;
 
-  uint32_t count() const;  ///< particles, including inactive ones
+  uint32_t count() const;     ///< particles of the last finished frame, including inactive ones
+  uint32_t capacity() const;  ///< particles that there is room for
   /// Number of substeps between neighbor list rebuilds; FluidStep::substeps is rounded up to multiples of it.
   uint32_t substepsPerBlock() const;
   /// Number of recorded substeps that completes any advance, including the first with FluidDesc::settle. Includes substeps that the
