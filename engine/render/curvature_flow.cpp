@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "render/compute_step.hpp"
+#include "graph/step.hpp"
 
 namespace rill {
 namespace {
@@ -76,17 +76,13 @@ BufferRef CurvatureFlow::addTo(Graph& graph, BufferRef depth, const SurfaceBuffe
     level.start = l == 0 ? depth : graph.create("surface flow coarse", {bytes});
     for (BufferRef& buffer : level.to) buffer = graph.create("surface flow", {bytes});
   }
-  graph.pass("surface flow clear", [&](Pass& pass) {
-    BufferRef cleared[3 * (kMaxLevels + 1)];
-    size_t count = 0;
-    for (uint32_t l = 0; l <= coarsest; ++l) {
-      if (l > 0) cleared[count++] = levels[l].start = pass.write(levels[l].start, Use::CopyTarget, true);
-      for (BufferRef& buffer : levels[l].to) cleared[count++] = buffer = pass.write(buffer, Use::CopyTarget, true);
-    }
-    return [all = std::to_array(cleared), count](Commands& commands) {
-      for (size_t k = 0; k < count; ++k) commands.fill(all[k], kInfiniteBits);
-    };
-  });
+  StepFill fills[3 * (kMaxLevels + 1)];
+  size_t count = 0;
+  for (uint32_t l = 0; l <= coarsest; ++l) {
+    if (l > 0) fills[count++] = {&levels[l].start, kInfiniteBits};
+    for (BufferRef& buffer : levels[l].to) fills[count++] = {&buffer, kInfiniteBits};
+  }
+  addFill(graph, "surface flow clear", std::span(fills).first(count));
   const StepGroups blocks(surface.arguments, kSampleBlockArguments);
   const auto array = [&](BufferRef buffer) { return texels ? rill::texels(buffer) : reads(buffer); };
   for (uint32_t l = 1; l <= coarsest; ++l)

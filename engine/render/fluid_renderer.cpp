@@ -5,7 +5,7 @@
 
 #include "core/words.hpp"
 #include "graph/graph_impl.hpp"
-#include "render/compute_step.hpp"
+#include "graph/step.hpp"
 #include "render/fluid_renderer_impl.hpp"
 #include "render/view_push.hpp"
 #include "sort/dispatches.hpp"
@@ -158,17 +158,8 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
   const SurfacePush push = last.push;
   const uint64_t pixels = uint64_t{push.width} * push.height;
   BufferRef sceneColor = graph.create("fluid scene color", {pixels * 8}), sceneDepth = graph.create("fluid scene depth", {pixels * 4});
-  graph.pass("fluid scene", [&](Pass& pass) {
-    pass.read(targets.color, Use::ComputeSampled);
-    pass.read(targets.depth, Use::ComputeSampled);
-    pass.read(last.arguments, Use::Indirect);
-    sceneColor = pass.write(sceneColor, Use::ComputeWrite, true);
-    sceneDepth = pass.write(sceneDepth, Use::ComputeWrite, true);
-    const Kernel kernel = pass.kernel(scene, {targets.color, targets.depth, sceneColor, sceneDepth});
-    return [kernel, push, arguments = last.arguments](Commands& commands) {
-      commands.dispatchIndirect(kernel, arguments, kPixelArguments * 4, push);
-    };
-  });
+  addStep(graph, "fluid scene", scene, {sampled(targets.color), sampled(targets.depth), fresh(sceneColor), fresh(sceneDepth)},
+          StepGroups(last.arguments, kPixelArguments), push);
   const SurfacePush thick = SurfaceStage::thicknessPush(push, fluid, kThicknessStep);
   BufferRef thickness, bend;
   if (look.opaque) {
@@ -203,10 +194,7 @@ BufferRef FluidRendererImpl::addData(Graph& graph, const FluidState& fluid, cons
   const uint64_t pixels = uint64_t{push.width} * push.height;
   BufferRef picture = graph.create("surface data", {pixels * 4});
   if (fluid.count == 0) {
-    graph.pass("surface data", [&](Pass& pass) {
-      picture = pass.write(picture, Use::CopyTarget, true);
-      return [picture](Commands& commands) { commands.fill(picture, 0); };
-    });
+    addFill(graph, "surface data", {{&picture, 0}});
     return picture;
   }
   last = surface.addTo(graph, fluid, push, method, true, view.focus_m);

@@ -1,6 +1,6 @@
 #include "render/mean_faces.hpp"
 
-#include "render/compute_step.hpp"
+#include "graph/step.hpp"
 
 namespace rill {
 

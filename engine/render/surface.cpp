@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "gpu/texel_reads.hpp"
-#include "render/compute_step.hpp"
+#include "graph/step.hpp"
 #include "sort/dispatches.hpp"
 
 namespace rill {
@@ -22,8 +22,6 @@ constexpr uint32_t kMaxStep = 16;
 constexpr uint32_t kNarrowPasses = 2;
 
 static_assert(kMarginSamples % kCellSamples == 0);
-
-uint64_t gridCells(uint64_t width, uint64_t height, uint32_t side) { return divideUp(width, side) * divideUp(height, side); }
 
 double metersAPixel(const SurfacePush& camera, double depth) {
   return std::abs(double{camera.scale[1]}) * 2 / camera.height * (camera.perspective > 0 ? depth : 1.0);
@@ -170,21 +168,16 @@ void SurfaceStage::addBuffers(Graph& graph, const FluidState& fluid, Frame& fram
   out.samples = graph.create("surface samples", {sampleCount(out.push) * 8});
   if (frame.narrows)
     for (BufferRef& buffer : frame.filtered) buffer = graph.create("surface filtered", {sampleCount(out.push) * 4});
-  graph.pass("surface clear", [&](Pass& pass) {
-    std::array<BufferRef, 6> infinite;
-    size_t count = 0;
-    const auto clear = [&](BufferRef& buffer) { infinite[count++] = buffer = pass.write(buffer, Use::CopyTarget, true); };
-    for (BufferRef* buffer : {&frame.occluders, &frame.depth, &out.samples}) clear(*buffer);
-    if (frame.narrows)
-      for (BufferRef& buffer : frame.filtered) clear(buffer);
-    if (whole) clear(out.pixels);
-    for (BufferRef* buffer : {&frame.start, &out.counters}) *buffer = pass.write(*buffer, Use::CopyTarget, true);
-    return [infinite, count, start = frame.start, counters = out.counters](Commands& commands) {
-      for (size_t k = 0; k < count; ++k) commands.fill(infinite[k], kInfiniteBits);
-      commands.fill(start, 0);
-      commands.fill(counters, 0);
-    };
-  });
+  const auto filtered = [&](size_t k) { return frame.narrows ? &frame.filtered[k] : nullptr; };
+  addFill(graph, "surface clear",
+          {{&frame.occluders, kInfiniteBits},
+           {&frame.depth, kInfiniteBits},
+           {&out.samples, kInfiniteBits},
+           {filtered(0), kInfiniteBits},
+           {filtered(1), kInfiniteBits},
+           {whole ? &out.pixels : nullptr, kInfiniteBits},
+           {&frame.start, 0},
+           {&out.counters, 0}});
 }
 
 /// Groups of what has been counted so far.
@@ -297,14 +290,7 @@ BufferRef SurfaceStage::addThickness(Graph& graph, const ThicknessNames& names, 
   BufferRef own;
   if (!counters) own = graph.create(names.counters, {kSurfaceCounterWords * 4});
   BufferRef thickness = graph.create(names.pass, {gridCells(push.width, push.height, push.step) * 4});
-  graph.pass(names.clear, [&](Pass& pass) {
-    thickness = pass.write(thickness, Use::CopyTarget, true);
-    if (!counters) own = pass.write(own, Use::CopyTarget, true);
-    return [thickness, counters = own, clear = !counters](Commands& commands) {
-      commands.fill(thickness, 0);
-      if (clear) commands.fill(counters, 0);
-    };
-  });
+  addFill(graph, names.clear, {{&thickness, 0}, {counters ? nullptr : &own, 0}});
   if (fluid.count == 0) return thickness;
   const uint64_t groups = divideUp(fluid.count, kSurfaceGroup);
   BufferRef& counted = counters ? *counters : own;

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "gpu/resources.hpp"
-#include "render/compute_step.hpp"
+#include "graph/step.hpp"
 #include "render/curvature_flow.hpp"
 #include "render/surface_buffers.hpp"
 #include "rill/fluid.hpp"
@@ -71,7 +71,7 @@ class SurfaceStage {
     std::array<BufferRef, 2> filtered;                        ///< which that goes back and forth between
     bool texels = false;                                      ///< start, center, plane and what a filter reads are texel buffers
     bool storageReads = false;                                ///< nothing is to be one
-    StepBuffer walks(BufferRef buffer) const { return texels ? rill::texels(buffer) : reads(buffer); }
+    StepBinding walks(BufferRef buffer) const { return texels ? rill::texels(buffer) : reads(buffer); }
   };
   static Frame frameOf(const FluidState& fluid, surface::SurfacePush camera, SurfaceMethod method, double focus,
                        const SurfaceSettings& settings);

@@ -16,6 +16,9 @@ struct SurfaceBuffers {
   surface::SurfacePush push;
 };
 
+/// Cells of `side` x `side` that cover a grid of `width` x `height`.
+inline uint64_t gridCells(uint64_t width, uint64_t height, uint64_t side) { return divideUp(width, side) * divideUp(height, side); }
+
 /// Samples a row and rows of them, of the picture with its margin: sampleGrid() of the shaders.
 inline uint64_t sampleColumns(const surface::SurfacePush& push) { return divideUp(push.width, push.step) + 2 * uint64_t{push.margin}; }
 inline uint64_t sampleRows(const surface::SurfacePush& push) { return divideUp(push.height, push.step) + 2 * uint64_t{push.margin}; }

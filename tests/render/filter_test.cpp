@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "render/compute_step.hpp"
+#include "graph/step.hpp"
 #include "render/curvature_flow.hpp"
 #include "render/flow_reference.hpp"
 #include "render/view_push.hpp"
@@ -83,7 +83,7 @@ class DepthFilters : public SurfaceOnGpu {
         to = pass.write(to, Use::CopyTarget, true);
         return [to](Commands& commands) { commands.fill(to, std::bit_cast<uint32_t>(kNone)); };
       });
-      const StepBuffer source_array = reading == BindingKind::Storage ? reads(from) : texels(from);
+      const StepBinding source_array = reading == BindingKind::Storage ? reads(from) : texels(from);
       addStep(graph, "filter", filter, {source_array, writes(to), writes(counters), reads(blocks)}, listed.size(), FlowPush{push, k});
       from = to;
     }

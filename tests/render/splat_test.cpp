@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "render/compute_step.hpp"
+#include "graph/step.hpp"
 #include "render/surface_reference.hpp"
 #include "render/view_push.hpp"
 
