@@ -3,7 +3,7 @@
 
 #include "graph/step.hpp"
 #include "render/surface_buffers.hpp"
-#include "views/particle_view_impl.hpp"
+#include "views/particle_view.hpp"
 
 namespace rill {
 
@@ -15,23 +15,23 @@ constexpr uint32_t kInfinity = 0x7F800000u;  // bits of the float
 
 }  // namespace
 
-void ParticleViewImpl::addSetup(Graph& graph, const FluidState& fluid, Frame& frame) const {
+void ParticleView::addSetup(Graph& graph, const FluidState& fluid, Frame& frame) const {
   frame.scene = buffers_.importScene(graph);
   frame.counters = graph.create("view counters", {kCounterWords * 4});
   frame.edges = graph.create("view edges", {kEdges * sizeof(EdgeRecord)});
   addFill(graph, "view clear", {{&frame.counters, 0}});
   addStep(graph, "view edges", edges_, {uniform(frame.scene), fresh(frame.edges)}, 1, frame.push);
-  if (scene_.solids.empty())
+  if (scene().solids.empty())
     graph.skipped("view poses", "the scene has no solids");
   else
     frame.poses = buffers_.addPoses(graph, fluid, frame.scene, frame.push);
 }
 
 /// For each tile of the picture or the light map, the solids that may be visible in it.
-BufferRef ParticleViewImpl::addSolidMasks(Graph& graph, const Frame& frame, bool light) const {
-  const uint64_t tiles = light ? gridCells(scene_.scene.counts.y, scene_.scene.counts.z, kPixelTile)
+BufferRef ParticleView::addSolidMasks(Graph& graph, const Frame& frame, bool light) const {
+  const uint64_t tiles = light ? gridCells(scene().scene.counts.y, scene().scene.counts.z, kPixelTile)
                                : gridCells(frame.push.width, frame.push.height, kPixelTile);
-  const uint64_t words = tiles * divideUp(scene_.solids.size(), 32);
+  const uint64_t words = tiles * divideUp(scene().solids.size(), 32);
   BufferRef masks = graph.create(light ? "view light masks" : "view solid masks", {words * 4});
   addStep(graph, "view solid tiles", light ? lightTiles_ : solidTiles_, {uniform(frame.scene), reads(frame.poses), fresh(masks)},
           divideUp(words, kParticleGroup), frame.push);
@@ -39,13 +39,13 @@ BufferRef ParticleViewImpl::addSolidMasks(Graph& graph, const Frame& frame, bool
 }
 
 /// The nearest floor or solid of each pixel.
-void ParticleViewImpl::addSurfaces(Graph& graph, Frame& frame) const {
+void ParticleView::addSurfaces(Graph& graph, Frame& frame) const {
   const uint64_t groups = gridCells(frame.push.width, frame.push.height, kPixelTile);
   const auto createTargets = [&] {
     frame.depth = graph.create("view depth", {frame.pixels * 4});
     frame.winner = graph.create("view winner", {frame.pixels * 4});
   };
-  if (scene_.solids.empty()) {
+  if (scene().solids.empty()) {
     createTargets();
     addStep(graph, "view surfaces", floor_, {uniform(frame.scene), fresh(frame.depth), fresh(frame.winner)}, groups, frame.push);
     return;
@@ -57,10 +57,10 @@ void ParticleViewImpl::addSurfaces(Graph& graph, Frame& frame) const {
 }
 
 /// The light map as the solids alone fill it.
-void ParticleViewImpl::addLightMap(Graph& graph, Frame& frame) const {
+void ParticleView::addLightMap(Graph& graph, Frame& frame) const {
   if (!hasShadows(frame)) return;
   frame.light = graph.create("view light map", {lightTexels() * 4});
-  if (scene_.solids.empty()) {
+  if (scene().solids.empty()) {
     graph.skipped("view light solids", "the scene has no solids");
     addFill(graph, "view clear", {{&frame.light, kInfinity}});
     return;
@@ -69,11 +69,11 @@ void ParticleViewImpl::addLightMap(Graph& graph, Frame& frame) const {
   // Binding 2 is not used by the variant for the light map.
   addStep(graph, "view light solids", lightSolids_,
           {uniform(frame.scene), fresh(frame.light), reads(frame.poses), reads(frame.poses), reads(masks)},
-          gridCells(scene_.scene.counts.y, scene_.scene.counts.z, kPixelTile), frame.push);
+          gridCells(scene().scene.counts.y, scene().scene.counts.z, kPixelTile), frame.push);
 }
 
 /// Particles into the light map, and the list of those that may be visible.
-void ParticleViewImpl::addVisibility(Graph& graph, Frame& frame) const {
+void ParticleView::addVisibility(Graph& graph, Frame& frame) const {
   const uint64_t groups = divideUp(frame.push.count, kParticleGroup);
   BufferRef occluders = graph.create("view occluders", {gridCells(frame.push.width, frame.push.height, frame.push.cell) * 4});
   frame.survivors = graph.create("view survivors", {uint64_t{frame.push.count} * 4});
@@ -86,12 +86,12 @@ void ParticleViewImpl::addVisibility(Graph& graph, Frame& frame) const {
 }
 
 /// Writes every indirect argument from the counts so far.
-void ParticleViewImpl::addArguments(Graph& graph, Frame& frame) const {
+void ParticleView::addArguments(Graph& graph, Frame& frame) const {
   addStep(graph, "view arguments", arguments_, {writes(frame.counters)}, 1, frame.push);
 }
 
 /// Depths, or the particles that own them: one kernel for both, so that both find exactly the same depths.
-void ParticleViewImpl::addSplat(Graph& graph, Frame& frame, bool winners) const {
+void ParticleView::addSplat(Graph& graph, Frame& frame, bool winners) const {
   ViewPush push = frame.push;
   push.winners = winners ? 1 : 0;
   const auto add = [&](std::string_view name, const ComputePipeline* pipeline, uint32_t arguments) {
@@ -105,7 +105,7 @@ void ParticleViewImpl::addSplat(Graph& graph, Frame& frame, bool winners) const 
 }
 
 /// Color, ambient occlusion and shadow of each particle that may be visible.
-void ParticleViewImpl::addTint(Graph& graph, Frame& frame) const {
+void ParticleView::addTint(Graph& graph, Frame& frame) const {
   frame.tint = graph.create("view tint", {std::max<uint64_t>(frame.push.count, 1) * 8});
   addStep(graph, "view tint", tint_,
           {uniform(frame.scene), reads(frame.position), reads(frame.velocity), reads(frame.counters), reads(frame.survivors),
@@ -113,7 +113,7 @@ void ParticleViewImpl::addTint(Graph& graph, Frame& frame) const {
           StepGroups(frame.counters, kTintArguments), frame.push);
 }
 
-void ParticleViewImpl::addFloorShadow(Graph& graph, Frame& frame) const {
+void ParticleView::addFloorShadow(Graph& graph, Frame& frame) const {
   if (!hasFloor() || !hasShadows(frame) || frame.push.unlit) {
     graph.skipped("view floor shadow", !hasFloor()        ? "the domain has no floor"
                                        : frame.push.unlit ? "nothing is lit"
@@ -127,7 +127,7 @@ void ParticleViewImpl::addFloorShadow(Graph& graph, Frame& frame) const {
 }
 
 /// Lists the tiles by what they hold, for the passes of addShade().
-void ParticleViewImpl::addClassify(Graph& graph, Frame& frame) const {
+void ParticleView::addClassify(Graph& graph, Frame& frame) const {
   const uint64_t tiles = gridCells(frame.push.width, frame.push.height, kShadeTile);
   frame.tiles = graph.create("view tiles", {tiles * kTileLists * 4});
   addStep(graph, "view classify", classify_, {reads(frame.winner), reads(frame.edges), writes(frame.counters), fresh(frame.tiles)},
@@ -136,12 +136,12 @@ void ParticleViewImpl::addClassify(Graph& graph, Frame& frame) const {
 }
 
 /// Each pass runs on a list of tiles and writes the pixels of its own kind; together they write all.
-void ParticleViewImpl::addShade(Graph& graph, Frame& frame) const {
+void ParticleView::addShade(Graph& graph, Frame& frame) const {
   frame.shaded = graph.create("view shaded", {frame.pixels * 4});
   frame.rims = graph.create("view rims", {frame.pixels * 4});
   frame.picture = graph.create("view picture", {frame.pixels * 4});
   const auto onTiles = [&](uint32_t list) { return StepGroups(frame.counters, kTileArguments + 4 * list); };
-  const bool fluid = frame.push.count > 0, solids = !scene_.solids.empty();
+  const bool fluid = frame.push.count > 0, solids = !scene().solids.empty();
   addStep(graph, "view shade sky", shadeSky_,
           {uniform(frame.scene), reads(frame.counters), reads(frame.tiles), reads(frame.winner), fresh(frame.shaded), fresh(frame.rims),
            fresh(frame.picture)},
@@ -165,7 +165,7 @@ void ParticleViewImpl::addShade(Graph& graph, Frame& frame) const {
     addStep(graph, "view resolve", resolve_,
             {reads(frame.counters), reads(frame.tiles), reads(frame.depth), reads(frame.shaded), reads(frame.rims), writes(frame.picture)},
             onTiles(kTilesOutline), frame.push);
-  if (scene_.scene.domain_min.w > 0)
+  if (scene().scene.domain_min.w > 0)
     addStep(graph, "view draw edges", drawEdges_,
             {reads(frame.counters), reads(frame.tiles), reads(frame.edges), reads(frame.depth), writes(frame.picture)}, onTiles(kTilesEdge),
             frame.push);

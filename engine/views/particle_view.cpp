@@ -7,8 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "views/particle_view_impl.hpp"
-
 namespace rill {
 namespace {
 
@@ -24,10 +22,11 @@ void storeAxis(const double from[3], float to[3]) {
 
 }  // namespace
 
-Expected<void> ParticleViewImpl::create(Device& device, const Scene& scene, const ParticleSet& particles) {
+Expected<std::unique_ptr<ParticleView>> ParticleView::create(Device& device, const Scene& scene, const ParticleSet& particles) {
   auto uploaded = SceneBuffers::create(device, particleScene(scene, particles));
   if (!uploaded) return uploaded.error();
-  buffers_ = *std::move(uploaded);
+  auto out = std::make_unique<ParticleView>();
+  out->buffers_ = *std::move(uploaded);
 
   using enum BindingKind;
   static constexpr BindingKind kStorage[] = {Storage, Storage, Storage, Storage, Storage, Storage};
@@ -39,43 +38,42 @@ Expected<void> ParticleViewImpl::create(Device& device, const Scene& scene, cons
   };
   const std::span<const BindingKind> storage = kStorage, withScene = kWithScene;
   const Wanted all[] = {
-      {edges_, "views/particle_edges", withScene.first(2)},
-      {solidTiles_, "views/particle_solid_tiles", withScene.first(3)},
-      {lightTiles_, "views/particle_light_tiles", withScene.first(3)},
-      {surfaces_, "views/particle_surfaces", withScene.first(5)},
-      {floor_, "views/particle_floor", withScene.first(3)},
-      {lightSolids_, "views/particle_light_solids", withScene.first(5)},
-      {project_, "views/particle_project", withScene.first(4)},
-      {cull_, "views/particle_cull", storage.first(4)},
-      {arguments_, "views/particle_arguments", storage.first(1)},
-      {splat_, "views/particle_splat", storage.first(5)},
-      {splatLarge_, "views/particle_splat_large", storage.first(5)},
-      {floorShadow_, "views/particle_floor_shadow", withScene.first(3)},
-      {tint_, "views/particle_tint", withScene.first(8)},
-      {classify_, "views/particle_classify", storage.first(4)},
-      {shadeFluid_, "views/particle_shade_fluid", withScene.first(8)},
-      {shadeFloor_, "views/particle_shade_floor", withScene.first(8)},
-      {shadeSky_, "views/particle_shade_sky", withScene.first(7)},
-      {shadeSolids_, "views/particle_shade_solids", withScene.first(8)},
-      {resolve_, "views/particle_resolve", storage.first(6)},
-      {drawEdges_, "views/particle_draw_edges", storage.first(5)},
+      {out->edges_, "views/particle_edges", withScene.first(2)},
+      {out->solidTiles_, "views/particle_solid_tiles", withScene.first(3)},
+      {out->lightTiles_, "views/particle_light_tiles", withScene.first(3)},
+      {out->surfaces_, "views/particle_surfaces", withScene.first(5)},
+      {out->floor_, "views/particle_floor", withScene.first(3)},
+      {out->lightSolids_, "views/particle_light_solids", withScene.first(5)},
+      {out->project_, "views/particle_project", withScene.first(4)},
+      {out->cull_, "views/particle_cull", storage.first(4)},
+      {out->arguments_, "views/particle_arguments", storage.first(1)},
+      {out->splat_, "views/particle_splat", storage.first(5)},
+      {out->splatLarge_, "views/particle_splat_large", storage.first(5)},
+      {out->floorShadow_, "views/particle_floor_shadow", withScene.first(3)},
+      {out->tint_, "views/particle_tint", withScene.first(8)},
+      {out->classify_, "views/particle_classify", storage.first(4)},
+      {out->shadeFluid_, "views/particle_shade_fluid", withScene.first(8)},
+      {out->shadeFloor_, "views/particle_shade_floor", withScene.first(8)},
+      {out->shadeSky_, "views/particle_shade_sky", withScene.first(7)},
+      {out->shadeSolids_, "views/particle_shade_solids", withScene.first(8)},
+      {out->resolve_, "views/particle_resolve", storage.first(6)},
+      {out->drawEdges_, "views/particle_draw_edges", storage.first(5)},
   };
   for (const Wanted& wanted : all) {
     auto made = computePipeline(device, {.shader = wanted.shader, .bindings = wanted.bindings, .pushConstantBytes = sizeof(ViewPush)});
     if (!made) return made.error();
     wanted.pipeline = *made;
   }
-  return {};
+  return out;
 }
 
-ViewPush ParticleViewImpl::pushConstants(const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc,
-                                         double time) const {
+ViewPush ParticleView::pushConstants(const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc, double time_s) const {
   const CameraBasis basis = cameraBasis(camera);
   ViewPush push{};
   double distance = 0;
   for (int a = 0; a < 3; ++a) {
-    push.eye[a] = static_cast<float>(camera.eye[a] - scene_.origin[a]);
-    push.offset[a] = static_cast<float>(fluid.origin[a] - scene_.origin[a]);
+    push.eye[a] = static_cast<float>(camera.eye[a] - scene().origin[a]);
+    push.offset[a] = static_cast<float>(fluid.origin[a] - scene().origin[a]);
     distance = std::hypot(distance, camera.target[a] - camera.eye[a]);
   }
   storeAxis(basis.right, push.right);
@@ -85,7 +83,7 @@ ViewPush ParticleViewImpl::pushConstants(const FluidState& fluid, const CameraVi
   push.focal = static_cast<float>(focal);
   push.radius = 0.5f * fluid.spacing;
   push.near_depth = static_cast<float>(std::max({0.1 * push.radius, distance * kMinNear, 1e-6}));
-  push.time = static_cast<float>(time);
+  push.time = static_cast<float>(time_s);
   push.count = fluid.count;
   push.width = desc.width;
   push.height = desc.height;
@@ -94,15 +92,16 @@ ViewPush ParticleViewImpl::pushConstants(const FluidState& fluid, const CameraVi
   push.cell = pixels < 10 ? 2 : 4;
   push.compression = desc.color == ParticleColor::Compression ? 1 : 0;
   push.unlit = desc.unlit ? 1 : 0;
-  const double scale = desc.scale_max > 0 ? desc.scale_max : (push.compression ? scene_.compression_max : scene_.speed_max);
+  const double scale = desc.scale_max > 0 ? desc.scale_max : (push.compression ? scene().compression_max : scene().speed_max);
   push.scale = static_cast<float>(1 / scale);
   return push;
 }
 
-BufferRef ParticleViewImpl::addTo(Graph& graph, const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc,
-                                  double time) {
+BufferRef ParticleView::addTo(Graph& graph, const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc,
+                              double time_s) const {
+  assert(check(desc));
   Frame frame;
-  frame.push = pushConstants(fluid, camera, desc, time);
+  frame.push = pushConstants(fluid, camera, desc, time_s);
   frame.pixels = uint64_t{desc.width} * desc.height;
   frame.position = fluid.position;
   frame.velocity = fluid.velocity;
@@ -123,15 +122,6 @@ BufferRef ParticleViewImpl::addTo(Graph& graph, const FluidState& fluid, const C
   return frame.picture;
 }
 
-Expected<std::unique_ptr<ParticleView>> ParticleView::create(Device& device, const Scene& scene, const ParticleSet& particles) {
-  auto impl = std::make_unique<ParticleViewImpl>();
-  if (auto ok = impl->create(device, scene, particles); !ok) return ok.error();
-  return std::unique_ptr<ParticleView>(new ParticleView(std::move(impl)));
-}
-
-ParticleView::ParticleView(std::unique_ptr<ParticleViewImpl> impl) : impl_(std::move(impl)) {}
-ParticleView::~ParticleView() = default;
-
 Expected<void> ParticleView::check(const ParticleViewDesc& desc) {
   const bool fits = desc.width >= 1 && desc.height >= 1 && desc.width <= kMaxSide && desc.height <= kMaxSide &&
                     uint64_t{desc.width} * desc.height <= kMaxPixels;
@@ -141,14 +131,8 @@ Expected<void> ParticleView::check(const ParticleViewDesc& desc) {
                                         " and their product at most " + std::to_string(kMaxPixels)};
 }
 
-BufferRef ParticleView::addTo(Graph& graph, const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc,
-                              double time_s) {
-  assert(check(desc));
-  return impl_->addTo(graph, fluid, camera, desc, time_s);
-}
-
 double ParticleView::scaleMax(ParticleColor color) const {
-  return color == ParticleColor::Speed ? impl_->scene_.speed_max : impl_->scene_.compression_max;
+  return color == ParticleColor::Speed ? scene().speed_max : scene().compression_max;
 }
 
 }  // namespace rill
