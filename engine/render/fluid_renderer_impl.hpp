@@ -1,7 +1,7 @@
 #pragma once
 // What is behind rill::FluidRenderer.
 #include "render/environment.hpp"
-#include "render/look_records.h"
+#include "render/look_record.hpp"
 #include "render/mean_faces.hpp"
 #include "render/surface.hpp"
 #include "rill/fluid_renderer.hpp"
@@ -19,12 +19,6 @@ static_assert(sizeof(DataPush) <= 128);
 class FluidRendererImpl {
  public:
   Expected<void> create(Device& device, const TargetFormats& formats);
-  /// Whether a host's look can be drawn; the graph's compile() says why not.
-  static bool possible(Graph& graph, const FluidLook& look);
-  /// Whether a host's view of a state can be drawn, in a method that there is; the graph's compile() says what not.
-  static bool possible(Graph& graph, const FluidState& fluid, const FluidView& view, SurfaceMethod method);
-  /// The same of a viewport in its targets.
-  static bool within(Graph& graph, const SceneTargets& targets, const FluidView& view);
   surface::SurfacePush camera(const FluidState& fluid, const FluidView& view) const;
   Expected<void> setEnvironment(const EnvironmentPicture& picture);
   /// `texels`: of the environment, where there is one.
@@ -44,10 +38,5 @@ class FluidRendererImpl {
  private:
   Expected<void> makeShade();
 };
-
-/// `environment` may be null.
-look::LookRecord lookRecord(const FluidLook& look, const surface::SurfacePush& thickness, const Environment* environment);
-/// A uniform buffer with the record, written by a pass of its own.
-BufferRef addLook(Graph& graph, const look::LookRecord& record);
 
 }  // namespace rill

@@ -4,7 +4,6 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 #include "gpu/texel_reads.hpp"
 #include "graph/step.hpp"
@@ -15,9 +14,7 @@ namespace {
 
 using namespace surface;
 
-constexpr float kHardRadius = 0.9f;            // spacings: spheres that leave no gap between surface particles
-constexpr float kThicknessRadius = 1.2f;       // spacings: a disc that overlaps enough to be smooth
-constexpr float kThicknessUnit = 1.0f / 1024;  // spacings
+constexpr float kHardRadius = 0.9f;  // spacings: spheres that leave no gap between surface particles
 constexpr uint32_t kMaxStep = 16;
 constexpr uint32_t kNarrowPasses = 2;
 
@@ -34,19 +31,6 @@ uint32_t marginSamples(double samples) {
 }
 
 }  // namespace
-
-SurfacePixel unpackPixel(const uint32_t* words) {
-  SurfacePixel pixel{std::bit_cast<float>(words[0]), {}};
-  if (std::signbit(pixel.depth)) pixel.depth = std::numeric_limits<float>::infinity();
-  const auto part = [](uint32_t bits) { return double(int32_t(bits << 18) >> 18) / 8191; };  // 14 bits, signed
-  double x = part(words[1]), y = part(words[1] >> 14);
-  const double z = 1 - std::abs(x) - std::abs(y), fold = std::max(-z, 0.0);
-  x += x >= 0 ? -fold : fold;
-  y += y >= 0 ? -fold : fold;
-  const double size = std::sqrt(x * x + y * y + z * z);
-  pixel.normal = {x / size, y / size, z / size};
-  return pixel;
-}
 
 uint32_t sampleStep(const SurfacePush& camera, float spacing, double depth, double samples) {
   const double meters = metersAPixel(camera, depth);
@@ -273,32 +257,6 @@ void SurfaceStage::addCompose(Graph& graph, Frame& frame, const ComputePipeline*
           {frame.walks(frame.start), frame.walks(frame.center), frame.walks(frame.plane), reads(frame.depth), reads(out.samples),
            writes(out.counters), reads(listed), writes(out.pixels)},
           StepGroups(out.arguments, kEdgeArguments), out.push);
-}
-
-SurfacePush SurfaceStage::thicknessPush(SurfacePush camera, const FluidState& fluid, uint32_t step) {
-  camera.spacing = fluid.spacing;
-  camera.radius = kThicknessRadius * fluid.spacing;
-  camera.unit = kThicknessUnit * fluid.spacing;
-  camera.count = fluid.count;
-  camera.step = step;
-  camera.margin = 0;
-  return camera;
-}
-
-BufferRef SurfaceStage::addThickness(Graph& graph, const ThicknessNames& names, const FluidState& fluid, const SurfacePush& push,
-                                     BufferRef sceneDepth, BufferRef* counters) const {
-  BufferRef own;
-  if (!counters) own = graph.create(names.counters, {kSurfaceCounterWords * 4});
-  BufferRef thickness = graph.create(names.pass, {gridCells(push.width, push.height, push.step) * 4});
-  addFill(graph, names.clear, {{&thickness, 0}, {counters ? nullptr : &own, 0}});
-  if (fluid.count == 0) return thickness;
-  const uint64_t groups = divideUp(fluid.count, kSurfaceGroup);
-  BufferRef& counted = counters ? *counters : own;
-  if (sceneDepth == BufferRef{})
-    addStep(graph, names.pass, thicknessBare_, {reads(fluid.position), writes(thickness), writes(counted)}, groups, push);
-  else
-    addStep(graph, names.pass, thickness_, {reads(fluid.position), writes(thickness), writes(counted), reads(sceneDepth)}, groups, push);
-  return thickness;
 }
 
 }  // namespace rill

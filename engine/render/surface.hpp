@@ -92,13 +92,6 @@ class SurfaceStage {
                         *thicknessBare_ = nullptr;
 };
 
-/// A pixel of SurfaceBuffers::pixels, as shaders/render/surface.glsl packs it.
-struct SurfacePixel {
-  float depth = 0;               ///< m; infinite: no fluid, or less than half a pixel of it
-  std::array<double, 3> normal;  ///< unit vector in view space
-};
-SurfacePixel unpackPixel(const uint32_t* words);
-
 /// Pixels a side of a sample: what sees a spacing as `samples` to twice as many where the fluid is.
 uint32_t sampleStep(const surface::SurfacePush& camera, float spacing, double depth, double samples = SurfaceSettings{}.samples);
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+
 #include "render/surface_records.h"
 #include "rill/graph.hpp"
 #include "sort/dispatches.hpp"
@@ -15,6 +17,13 @@ struct SurfaceBuffers {
   BufferRef arguments;  ///< kSurfaceTileArguments, kTileDraw, kPixelArguments
   surface::SurfacePush push;
 };
+
+/// A pixel of SurfaceBuffers::pixels, as shaders/render/surface.glsl packs it.
+struct SurfacePixel {
+  float depth = 0;               ///< m; infinite: no fluid, or less than half a pixel of it
+  std::array<double, 3> normal;  ///< unit vector in view space
+};
+SurfacePixel unpackPixel(const uint32_t* words);
 
 /// Cells of `side` x `side` that cover a grid of `width` x `height`.
 inline uint64_t gridCells(uint64_t width, uint64_t height, uint64_t side) { return divideUp(width, side) * divideUp(height, side); }
