@@ -9,7 +9,7 @@ namespace rill {
 /// What a step of the flow is told.
 struct FlowPush {
   surface::SurfacePush view;
-  uint32_t turn = 0;  ///< which of the steps it is
+  uint32_t iteration = 0;  ///< which of the steps it is
 };
 static_assert(sizeof(FlowPush) <= 128);
 

@@ -28,9 +28,9 @@ Expected<void> FluidRendererImpl::create(Device& host, const TargetFormats& targ
   auto stage = SurfaceStage::create(host);
   if (!stage) return stage.error();
   surface = *stage;
-  auto mean = MeanFaces::create(host);
+  auto mean = MeanNormals::create(host);
   if (!mean) return mean.error();
-  faces = *mean;
+  meanNormals = *mean;
   using enum BindingKind;
   static constexpr BindingKind kScene[] = {SampledImage, SampledImage, Storage, Storage};
   static constexpr BindingKind kData[] = {Storage, Storage, Storage};
@@ -39,8 +39,8 @@ Expected<void> FluidRendererImpl::create(Device& host, const TargetFormats& targ
   scene = *made;
   for (uint32_t what = 0; what < 3; ++what) {
     const uint32_t constants[] = {what};
-    made = computePipeline(host,
-                           {.shader = "render/analysis", .bindings = kData, .pushConstantBytes = sizeof(DataPush), .constants = constants});
+    made = computePipeline(
+        host, {.shader = "render/surface_data", .bindings = kData, .pushConstantBytes = sizeof(DataPush), .constants = constants});
     if (!made) return made.error();
     data[what] = *made;
   }
@@ -91,19 +91,19 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
   addStep(graph, "fluid scene", scene, {sampled(targets.color), sampled(targets.depth), fresh(sceneColor), fresh(sceneDepth)},
           StepGroups(last.arguments, kPixelArguments), push);
   const SurfacePush thick = SurfaceStage::thicknessPush(push, fluid, kThicknessStep);
-  BufferRef thickness, bend;
+  BufferRef thickness, normals;
   if (look.opaque) {
     graph.skipped(kFluidThickness.pass, "the look is opaque");
-    graph.skipped("surface faces", "the look is opaque");
-    thickness = bend = last.tiles;  // bound, never read
+    graph.skipped("surface mean normals", "the look is opaque");
+    thickness = normals = last.tiles;  // bound, never read
   } else {
-    bend = faces.addTo(graph, last);
+    normals = meanNormals.addTo(graph, last);
     thickness = surface.addThickness(graph, kFluidThickness, fluid, thick, sceneDepth, &last.counters);
   }
   const BufferRef record = addLook(graph, lookRecord(look, thick, environment.get()));
   graph.pass("fluid shade", [&](Pass& pass) {
     pass.read(record, Use::DrawUniform);
-    const ResourceRef bound[] = {record, last.tiles, last.pixels, thickness, sceneColor, sceneDepth, bend, last.samples, texels};
+    const ResourceRef bound[] = {record, last.tiles, last.pixels, thickness, sceneColor, sceneDepth, normals, last.samples, texels};
     const size_t count = environment ? 9 : 8;
     for (size_t k = 1; k < count; ++k) pass.read(BufferRef{bound[k]}, Use::DrawRead);
     pass.read(last.arguments, Use::Indirect);

@@ -2,7 +2,7 @@
 // What is behind rill::FluidRenderer.
 #include "render/environment.hpp"
 #include "render/look_record.hpp"
-#include "render/mean_faces.hpp"
+#include "render/mean_normals.hpp"
 #include "render/surface.hpp"
 #include "rill/fluid_renderer.hpp"
 
@@ -30,7 +30,7 @@ class FluidRendererImpl {
   TargetFormats formats;
   std::unique_ptr<Environment> environment;  ///< none: the sky of Rill's own
   SurfaceStage surface;
-  MeanFaces faces;
+  MeanNormals meanNormals;
   SurfaceBuffers last;  ///< of the frame that is being declared
   const ComputePipeline *scene = nullptr, *data[3] = {};
   const GraphicsPipeline* shade = nullptr;

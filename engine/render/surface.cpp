@@ -68,7 +68,7 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device) {
       {stage.thickness_, "render/surface_thickness", storage(4)},
       {stage.normals_[0], "render/surface_normals", storage(7)},
       {stage.edgesFiltered_[0], "render/surface_edges_filtered", storage(8)},
-      {stage.thicknessBare_, "render/surface_thickness_bare", storage(3)},
+      {stage.thicknessNoScene_, "render/surface_thickness_no_scene", storage(3)},
       {stage.planes_[1], "render/surface_planes_texel", kTexelsToPlanes},
       {stage.blend_[1], "render/surface_blend_texel", std::span(kTexels).first(7)},
       {stage.edges_[1], "render/surface_edges_texel", kTexels},

@@ -89,7 +89,7 @@ class SurfaceStage {
   const ComputePipeline *occlude_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr, *pick_ = nullptr,
                         *scatter_ = nullptr, *order_ = nullptr, *planes_[2] = {}, *blend_[2] = {}, *tiles_ = nullptr, *compose_ = nullptr,
                         *edges_[2] = {}, *edgesFiltered_[2] = {}, *narrow_[2][2] = {}, *normals_[2] = {}, *thickness_ = nullptr,
-                        *thicknessBare_ = nullptr;
+                        *thicknessNoScene_ = nullptr;
 };
 
 /// Pixels a side of a sample: what sees a spacing as `samples` to twice as many where the fluid is.

@@ -33,7 +33,7 @@ BufferRef SurfaceStage::addThickness(Graph& graph, const ThicknessNames& names, 
   const uint64_t groups = divideUp(fluid.count, kSurfaceGroup);
   BufferRef& counted = counters ? *counters : own;
   if (sceneDepth == BufferRef{})
-    addStep(graph, names.pass, thicknessBare_, {reads(fluid.position), writes(thickness), writes(counted)}, groups, push);
+    addStep(graph, names.pass, thicknessNoScene_, {reads(fluid.position), writes(thickness), writes(counted)}, groups, push);
   else
     addStep(graph, names.pass, thickness_, {reads(fluid.position), writes(thickness), writes(counted), reads(sceneDepth)}, groups, push);
   return thickness;

@@ -1,5 +1,5 @@
 #version 460
-// Tiles that hold outlines: shaded pixels blended along them and encoded. A workgroup is a tile of the list.
+// Tiles that hold outlines: shaded pixels blended along them and encodeSrgb. A workgroup is a tile of the list.
 // An outline that crosses a pixel says how much of it the owner covers; the rest is the neighbor's beyond the outline.
 #extension GL_GOOGLE_include_directive : require
 #include "views/particle_view.glsl"
@@ -12,7 +12,7 @@ layout(std430, set = 0, binding = 2) readonly buffer Depth { uint depth[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Shaded { uint shaded[]; };
 layout(std430, set = 0, binding = 4) readonly buffer Rims { uint rims[]; };
 layout(std430, set = 0, binding = 5) writeonly buffer Picture { uint picture[]; };
-#include "views/particle_finish.glsl"
+#include "views/srgb.glsl"
 
 uint indexAt(ivec2 pixel) {
   const ivec2 at = clamp(pixel, ivec2(0), ivec2(view.width, view.height) - 1);
@@ -37,5 +37,5 @@ void main() {
     const float reach = rimDistance(reaching) - 0.5;
     if ((reaching & 3u) == side && reach > 0.0 && reach < 0.5 && depth[other] < bits) color = mix(color, unpackColor(shaded[other]), reach);
   }
-  picture[index] = encoded(color);
+  picture[index] = encodeSrgb(color);
 }

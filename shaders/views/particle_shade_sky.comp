@@ -5,7 +5,7 @@
 #include "views/particle_view.glsl"
 #include "views/particle_tiles.glsl"
 #include "views/particle_lighting.glsl"
-#include "views/particle_finish.glsl"
+#include "views/srgb.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, set = 0, binding = 0) uniform Scene { SceneRecord scene; };
@@ -45,5 +45,5 @@ void main() {
   const uint packed = packColor(view.unlit != 0u ? kPlain : overWalls(background(middle.y), ray));
   shaded[index] = packed;
   rims[index] = kNoRim;
-  picture[index] = encoded(unpackColor(packed));  // unpacked again: the same color in a tile with outlines and in one without
+  picture[index] = encodeSrgb(unpackColor(packed));  // unpacked again: the same color in a tile with outlines and in one without
 }

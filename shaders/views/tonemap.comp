@@ -3,7 +3,7 @@
 // compressed towards white (Khronos' PBR Neutral).
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-#include "views/particle_finish.glsl"
+#include "views/srgb.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform texture2D hdr;
@@ -32,5 +32,5 @@ void main() {
   const uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
   if (index >= uint(size.x) * uint(size.y)) return;
   const vec3 color = texelFetch(hdr, ivec2(index % uint(size.x), index / uint(size.x)), 0).rgb;
-  picture[index] = encoded(neutral(bounded(color)));
+  picture[index] = encodeSrgb(neutral(bounded(color)));
 }

@@ -8,7 +8,7 @@
 namespace rill::test {
 namespace {
 
-class NastyViews : public SurfaceOnGpu {
+class DegenerateViews : public SurfaceOnGpu {
  protected:
   static constexpr SurfaceMethod kMethods[] = {SurfaceMethod::Planes, SurfaceMethod::CurvatureFlow, SurfaceMethod::NarrowRange};
 
@@ -41,20 +41,20 @@ class NastyViews : public SurfaceOnGpu {
   static float nearOf(const FluidView& view) { return view.projection.column[3].z; }
 };
 
-TEST_F(NastyViews, FromInsideTheFluid) {
+TEST_F(DegenerateViews, FromInsideTheFluid) {
   fill(block({-0.6, -0.6, -0.6}, {0.6, 0.6, 0.6}));
   const FluidView view = looking({0, 0, 0}, {0, 0, -1}, 96, 72);
   EXPECT_GT(scannedAll(view), 96u * 72 / 2);
 }
 
-TEST_F(NastyViews, OneParticleFillsTheScreen) {
+TEST_F(DegenerateViews, OneParticleFillsTheScreen) {
   const FluidView view = looking({0, 0, 0}, {0, 0, -4}, 96, 72);
   // The ball of half a spacing that is drawn, so near that the picture's corners still hit it.
   fill({{0, 0, -0.1f - nearOf(view), 0}});
   EXPECT_GT(scannedAll(view), 96u * 72 / 2);
 }
 
-TEST_F(NastyViews, OnePixelAndAVeryWideRow) {
+TEST_F(DegenerateViews, OnePixelAndAVeryWideRow) {
   fill(block({-3, -0.3, -4.4}, {3, 0.3, -4}));
   EXPECT_EQ(scannedAll(looking({0, 0, 0}, {0, 0, -4}, 1, 1)), 1u);
   FluidView wide = looking({0, 0, 0}, {0, 0, -4}, 4096, 4);
@@ -63,7 +63,7 @@ TEST_F(NastyViews, OnePixelAndAVeryWideRow) {
 }
 
 // A row that comes through the near plane fills less and less of the picture, and none of it when it lies before that plane.
-TEST_F(NastyViews, ParticlesOnTheNearPlane) {
+TEST_F(DegenerateViews, ParticlesOnTheNearPlane) {
   const FluidView view = looking({0, 0, 0}, {0, 0, -4}, 96, 72);
   const float near = nearOf(view), beyond = std::nextafter(near, 1.0f), before = std::nextafter(near, 0.0f);
   const auto seen = [&](float depth, SurfaceMethod method) {
@@ -86,7 +86,7 @@ TEST_F(NastyViews, ParticlesOnTheNearPlane) {
 }
 
 // From inside it is cut open: the near plane is seen all over, and faces the eye.
-TEST_F(NastyViews, TheNearPlaneInsideTheFluid) {
+TEST_F(DegenerateViews, TheNearPlaneInsideTheFluid) {
   fill(block({-0.6, -0.6, -0.6}, {0.6, 0.6, 0.6}));
   const FluidView view = looking({0.03, 0.02, 0}, {0, 0, -1}, 96, 72);
   for (const SurfaceMethod method : kMethods) {
@@ -99,7 +99,7 @@ TEST_F(NastyViews, TheNearPlaneInsideTheFluid) {
 }
 
 // One sphere covers more samples than a driver's loop may have turns (65,535 on lavapipe), and light comes through as it is.
-TEST_F(NastyViews, ALargePictureFromWithin) {
+TEST_F(DegenerateViews, ALargePictureFromWithin) {
   fill(block({0, 0, 0}, {4, 3, 2.5}, 0));
   const FluidView view = looking({0.6667, 0.6667, 1.3333}, {10, 0.6667, 1.3333}, 400, 240);
   const VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
@@ -117,7 +117,7 @@ TEST_F(NastyViews, ALargePictureFromWithin) {
   }
 }
 
-TEST_F(NastyViews, ParticlesThatAreNoNumbers) {
+TEST_F(DegenerateViews, ParticlesThatAreNoNumbers) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   const FluidView view = looking({0, 0, 0}, {0, 0, -4}, 96, 72);
   std::vector<Float4> cloud = block({-0.5, -0.5, -4.5}, {0.5, 0.5, -4});
