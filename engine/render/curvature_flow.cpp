@@ -11,14 +11,14 @@ namespace {
 
 using namespace surface;
 
-constexpr double kCoarsest = 0.7;    // spacings: how wide samples are at most
-constexpr uint32_t kPolish = 4;      // steps of a finer level
-constexpr uint32_t kMaxSteps = 128;  // of the coarsest
+constexpr double kCoarsest = 0.7;    // spacings: maximal width of a sample
+constexpr uint32_t kFineSteps = 4;   // on each finer level
+constexpr uint32_t kMaxSteps = 128;  // on the coarsest level
 
 /// One level of the pyramid.
 struct Level {
   SurfacePush push;
-  uint32_t steps = 0;  ///< that the whole time takes
+  uint32_t steps = 0;  ///< for the total time
   BufferRef start, to[2];
 };
 
@@ -91,7 +91,7 @@ BufferRef CurvatureFlow::addTo(Graph& graph, BufferRef depth, const SurfaceBuffe
   BufferRef from;
   for (uint32_t l = coarsest + 1; l-- > 0;) {
     Level& level = levels[l];
-    uint32_t turn = 0;
+    uint32_t target = 0;
     if (l == coarsest) {
       from = level.start;
     } else {
@@ -100,10 +100,10 @@ BufferRef CurvatureFlow::addTo(Graph& graph, BufferRef depth, const SurfaceBuffe
                reads(surface.blocks)},
               blocks, level.push);
       from = level.to[0];
-      turn = 1;
+      target = 1;
     }
-    for (uint32_t k = 0; k < (l == coarsest ? level.steps : std::min(level.steps, kPolish)); ++k) {
-      BufferRef& to = level.to[turn++ % 2];
+    for (uint32_t k = 0; k < (l == coarsest ? level.steps : std::min(level.steps, kFineSteps)); ++k) {
+      BufferRef& to = level.to[target++ % 2];
       addStep(graph, "surface flow", flow_[l][texels], {array(from), writes(to), reads(surface.counters), reads(surface.blocks)}, blocks,
               FlowPush{level.push, k});
       from = to;

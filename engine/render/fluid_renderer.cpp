@@ -95,7 +95,7 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
   if (look.opaque) {
     graph.skipped(kFluidThickness.pass, "the look is opaque");
     graph.skipped("surface mean normals", "the look is opaque");
-    thickness = normals = last.tiles;  // bound, never read
+    thickness = normals = last.tiles;  // bound, not read
   } else {
     normals = meanNormals.addTo(graph, last);
     thickness = surface.addThickness(graph, kFluidThickness, fluid, thick, sceneDepth, &last.counters);
@@ -129,7 +129,7 @@ BufferRef FluidRendererImpl::addData(Graph& graph, const FluidState& fluid, cons
   }
   last = surface.addTo(graph, fluid, push, method, true, view.focus_m);
   const SurfacePush thick = SurfaceStage::thicknessPush(push, fluid, kThicknessStep);
-  BufferRef thickness = last.tiles;  // bound, never read
+  BufferRef thickness = last.tiles;  // bound, not read
   if (what == SurfaceData::Thickness) thickness = surface.addThickness(graph, kFluidThickness, fluid, thick, {}, &last.counters);
   addStep(graph, "surface data", data[static_cast<size_t>(what)], {reads(last.pixels), reads(thickness), fresh(picture)},
           divideUp(pixels, kSurfaceGroup), DataPush{thick, full});

@@ -1,5 +1,5 @@
 #pragma once
-// What is behind rill::FluidRenderer.
+// Implementation of rill::FluidRenderer.
 #include "render/environment.hpp"
 #include "render/look_record.hpp"
 #include "render/mean_normals.hpp"
@@ -8,7 +8,7 @@
 
 namespace rill {
 
-inline constexpr uint32_t kThicknessStep = 4;  ///< pixels a side of the thickness buffer's samples
+inline constexpr uint32_t kThicknessStep = 4;  ///< pixels per side of a sample of the thickness
 
 struct DataPush {
   surface::SurfacePush view;
@@ -21,17 +21,17 @@ class FluidRendererImpl {
   Expected<void> create(Device& device, const TargetFormats& formats);
   surface::SurfacePush camera(const FluidState& fluid, const FluidView& view) const;
   Expected<void> setEnvironment(const EnvironmentPicture& picture);
-  /// `texels`: of the environment, where there is one.
+  /// `whole`: also writes pixels of the surface without fluid. `texels`: of the environment, if any.
   SceneTargets addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view, const FluidLook& look, bool whole,
                      BufferRef texels = {});
   BufferRef addData(Graph& graph, const FluidState& fluid, const FluidView& view, SurfaceData data, float full, SurfaceMethod method);
 
   Device* device = nullptr;
   TargetFormats formats;
-  std::unique_ptr<Environment> environment;  ///< none: the sky of Rill's own
+  std::unique_ptr<Environment> environment;  ///< null: the built-in sky
   SurfaceStage surface;
   MeanNormals meanNormals;
-  SurfaceBuffers last;  ///< of the frame that is being declared
+  SurfaceBuffers last;  ///< of the frame being declared
   const ComputePipeline *scene = nullptr, *data[3] = {};
   const GraphicsPipeline* shade = nullptr;
 

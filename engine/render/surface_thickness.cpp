@@ -8,7 +8,7 @@ using namespace surface;
 
 namespace {
 
-constexpr float kThicknessRadius = 1.2f;       // spacings: a disc that overlaps enough to be smooth
+constexpr float kThicknessRadius = 1.2f;       // spacings: discs that overlap enough for a smooth sum
 constexpr float kThicknessUnit = 1.0f / 1024;  // spacings
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace rill {
 surface::SurfacePush viewPush(const FluidView& view, const double origin[3]) {
   const Float4x4 &v = view.view, &p = view.projection;
   const bool perspective = element(p, 3, 2) != 0;
-  // Depth grows away from the eye: along -z unless the projection says otherwise.
+  // The view direction is -z unless the projection's w grows along +z.
   const double forward = perspective && element(p, 3, 2) > 0 ? 1 : -1;
   const double w = perspective ? std::abs(element(p, 3, 2)) : element(p, 3, 3);
   surface::SurfacePush push{};
@@ -29,12 +29,13 @@ surface::SurfacePush viewPush(const FluidView& view, const double origin[3]) {
   const double varying = perspective ? element(p, 2, 3) / w : forward * element(p, 2, 2) / w;
   push.depth_map[0] = static_cast<float>(constant);
   push.depth_map[1] = static_cast<float>(varying);
-  // Where the target's depth is 0 and where it is 1; an infinite far plane has none.
+  // View depth where the target's depth is 0 and where it is 1; not finite for an infinite far plane.
   const auto depthOf = [&](double stored) { return perspective ? varying / (stored - constant) : (stored - constant) / varying; };
   const double a = depthOf(0), b = depthOf(1);
   double near = perspective ? (std::isfinite(a) && a > 0 ? a : b) : std::min(a, b);
   if (perspective && std::isfinite(b) && b > 0) near = std::min(near, b);
-  if (!perspective) {  // depth counts from the near plane, which may lie behind the eye: shaders compare depths by their bits
+  if (!perspective) {  // depth starts at the near plane, which may be behind the eye: shaders compare the bits of depths, which must be
+                       // positive
     push.rows[11] -= static_cast<float>(near);
     push.depth_map[0] += static_cast<float>(varying * near);
     near = 0;

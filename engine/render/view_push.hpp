@@ -1,5 +1,5 @@
 #pragma once
-// A camera as the shaders read it.
+// A camera as push constants.
 #include "render/surface_records.h"
 #include "rill/fluid_renderer.hpp"
 

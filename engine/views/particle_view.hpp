@@ -20,30 +20,28 @@ struct ParticleViewDesc {
   uint32_t width = 1280;  ///< pixels, 1 .. 8192
   uint32_t height = 720;  ///< pixels, 1 .. 8192; width x height is at most 2^25
   ParticleColor color = ParticleColor::Speed;
-  /// A particle's pixels have the map's color of its value, to be read off the legend: nothing is lit or casts a shadow, and what is
-  /// around the particles is darker than any color of a map.
+  /// Particles have the exact color of the legend, without lighting or shadows; the surroundings are darker than any color of a map.
   bool unlit = false;
   double scale_max = 0;  ///< value at the color map's end (m/s, or fraction of rest density); 0: ParticleView::scaleMax(color)
 };
 
 /// Draws spheres of half a spacing's radius, the domain's floor, walls and edges, and the solids.
-/// Nothing depends on the order of execution: two runs on one driver give the same bytes.
+/// Bitwise deterministic per driver.
 class ParticleView {
  public:
-  /// Copies the domain, the solids and the light's frame to the device. `particles` is the start: it fixes the color scales, and its
-  /// origin. Scene and particles are not kept.
+  /// Copies the domain, the solids and the light's frame to the device. `particles`, the start, defines the color scales and the origin.
+  /// Scene and particles are not kept.
   static Expected<std::unique_ptr<ParticleView>> create(Device& device, const Scene& scene, const ParticleSet& particles);
 
   /// BadInput for a picture that is empty or too large, with the limits. Needs no device.
   static Expected<void> check(const ParticleViewDesc& desc);
 
-  /// Declares the passes of one picture, `desc` being one that check() allows. The buffer that it returns holds width x height pixels,
-  /// RGBA8 in sRGB with alpha 255, rows from the top.
-  /// `time_s`: simulated time, where the solids are. With no particles, the state's buffers are not looked at.
+  /// Declares the passes of one picture; `desc` must pass check(). The returned buffer holds width x height pixels, RGBA8 in sRGB with
+  /// alpha 255, rows from the top. `time_s`: simulated time of the solids' poses. Without particles the state's buffers are not used.
   BufferRef addTo(Graph& graph, const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc, double time_s) const;
 
   /// The value at a color map's end, fixed by the scene so that colors do not flicker: for speed, sqrt(2 g H) of the fall from the
-  /// fluid's top at the start to the tank's floor, for compression ten times the solver's tolerance, each rounded to a handsome number.
+  /// fluid's top at the start to the tank's floor, for compression ten times the solver's tolerance, each rounded to a round number.
   double scaleMax(ParticleColor color) const;
 
  private:

@@ -1,5 +1,5 @@
 #version 460
-// Draws the domain's edges over the picture, behind what is nearer. A workgroup is a tile of the list.
+// Draws the domain's edges over the picture, with a depth test. A workgroup is a listed tile.
 #extension GL_GOOGLE_include_directive : require
 #include "views/particle_view.glsl"
 #include "views/particle_tiles.glsl"
