@@ -80,7 +80,7 @@ class MeanNormalsOnGpu : public SurfaceOnGpu {
   };
   Found found(const FluidView& view, SurfaceMethod method = SurfaceMethod::Planes) {
     Graph graph;
-    leaveBehind(graph, 0);
+    fillTransients(graph, 0);
     const FluidState fluid = state(graph);
     const SurfaceBuffers buffers = renderer().surface.addTo(graph, fluid, renderer().camera(fluid, view), method, false, view.focus_m);
     const Ticket samples = graph.readback(buffers.samples), means = graph.readback(renderer().meanNormals.addTo(graph, buffers));
