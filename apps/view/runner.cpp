@@ -46,8 +46,8 @@ Expected<void> Runner::advancePiece(double budget_s) {
     current_ = {};
     log_.clear();
   }
-  const uint32_t most = fluid_->substepsToComplete();
-  const uint32_t substeps = std::min(pacing_.next(budget_s), most - recorded_);
+  const uint32_t limit = fluid_->substepsToComplete();
+  const uint32_t substeps = std::min(pacing_.next(budget_s), limit - recorded_);
   const FluidStep part{recorded_ == 0 ? Clock::kStep : 0.0, recorded_ > 0, substeps, false, targets_};
   if (auto ran = run(graph_, [&](Graph& graph) { static_cast<void>(fluid_->addTo(graph, part)); }); !ran) return ran;
   log_.add(graph_.report(), true);
@@ -63,7 +63,7 @@ Expected<void> Runner::advancePiece(double budget_s) {
   done_ = due;
   ++current_.pieces;
   current_.wall_s += seconds;
-  if (progress.time_left_s > 0 && recorded_ < most) return {};
+  if (progress.time_left_s > 0 && recorded_ < limit) return {};
 
   pacing_.endStep(progress.substeps);
   current_.substeps = progress.substeps;
@@ -135,9 +135,9 @@ Expected<void> Runner::changeSolids(std::vector<Solid> solids) {
   if (count() > 0) forgetNeighbors(*now);
   now->solids.clear();
   for (size_t k = 0; k < solids.size(); ++k) {
-    const SolidPose there = k < scene_.solids.size() ? pose(static_cast<uint32_t>(k)) : solidPose(solids[k], 0);
-    for (size_t a = 0; a < 3; ++a) now->solids.push_back(static_cast<float>(there.center[a] - start_.origin[a]));
-    for (double v : there.velocity) now->solids.push_back(static_cast<float>(v));
+    const SolidPose current = k < scene_.solids.size() ? pose(static_cast<uint32_t>(k)) : solidPose(solids[k], 0);
+    for (size_t a = 0; a < 3; ++a) now->solids.push_back(static_cast<float>(current.center[a] - start_.origin[a]));
+    for (double v : current.velocity) now->solids.push_back(static_cast<float>(v));
   }
   const bool anyMoves = std::ranges::any_of(solids, [](const Solid& solid) { return solid.driven > 0 || !solid.motion.empty(); });
   if (!anyMoves) now->solids.clear();
@@ -154,9 +154,9 @@ Expected<uint64_t> Runner::add(const Fill& fill) {
   Scene only = scene_;
   only.fill = {fill};
   for (uint32_t k = 0; k < only.solids.size(); ++k) {
-    const SolidPose there = pose(k), first = solidPose(scene_.solids[k], 0);
+    const SolidPose current = pose(k), first = solidPose(scene_.solids[k], 0);
     only.solids[k].motion = {
-        {0, {there.center[0] - first.center[0], there.center[1] - first.center[1], there.center[2] - first.center[2]}}};
+        {0, {current.center[0] - first.center[0], current.center[1] - first.center[1], current.center[2] - first.center[2]}}};
   }
   const auto more = makeParticles(only);
   if (!more) return more.error();
@@ -181,9 +181,9 @@ Expected<uint64_t> Runner::add(const Fill& fill) {
 }
 
 SolidPose Runner::pose(uint32_t solid) const {
-  SolidPose there = solidPose(scene_.solids[solid], time_s());
-  if (scene_.solids[solid].driven > 0) std::ranges::copy(fluid_->drivenCenter(solid), there.center);
-  return there;
+  SolidPose current = solidPose(scene_.solids[solid], time_s());
+  if (scene_.solids[solid].driven > 0) std::ranges::copy(fluid_->drivenCenter(solid), current.center);
+  return current;
 }
 
 void Runner::setTarget(const SolidTarget& target) {
