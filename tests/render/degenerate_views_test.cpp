@@ -110,7 +110,8 @@ TEST_F(DegenerateViews, HandlesALargePictureFromInside) {
     look.surface = method;
     look.absorption = look.scatter = {0, 0, 0};
     Backdrop ramp;
-    for (uint32_t k = 0; k < view.width * view.height; ++k) ramp.pixels.push_back({float(k % view.width), float(k / view.width), 0, 1});
+    for (uint32_t y = 0; y < view.height; ++y)
+      for (uint32_t x = 0; x < view.width; ++x) ramp.pixels.push_back({float(x), float(y), 0, 1});
     const auto seen = drawn(view, look, ramp, {.color = format}).channels(format);
     for (size_t i = 0; i < seen.size(); ++i)
       for (size_t c = 0; c < 2; ++c) ASSERT_NEAR(seen[i][c], double(ramp.pixels[i][c]), 0.6) << int(method) << " " << i;

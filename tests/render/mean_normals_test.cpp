@@ -28,7 +28,7 @@ std::vector<Vector> blurred(const Samples& samples, const std::vector<Face>& fac
       const Face& own = faces[samples.index(x, y)];
       if (own.depth == SurfaceReference::kNone) continue;
       const double spacing = std::max(double{kSpacing}, 1.2 * samples.side(own.depth)), side = samples.side(own.depth) / spacing;
-      const int stride = std::max(int(2 / (12 * side) + 0.5), 1);
+      const int stride = std::max(static_cast<int>(std::lround(2 / (12 * side))), 1);
       const double slant = 1 / std::max(-dot(own.normal, unit(samples.ray(x, y).along)), 0.04);
       double weights = 1;
       Vector& sum = after[samples.index(x, y)];
@@ -56,7 +56,7 @@ std::vector<Vector> smoothedCoherence(const Samples& samples, const std::vector<
       const double depth = faces[samples.index(x, y)].depth;
       if (depth == SurfaceReference::kNone) continue;
       const double side = samples.side(depth) / std::max(double{kSpacing}, 1.2 * samples.side(depth)) / 1.5;  // of the reach
-      const int stride = std::max(int(1 / (12 * side) + 0.5), 1);
+      const int stride = std::max(static_cast<int>(std::lround(1 / (12 * side))), 1);
       double sum = 0, weights = 0;
       for (int k = -12; k <= 12; ++k) {
         const int u = vertical ? x : x + k * stride, v = vertical ? y + k * stride : y;
@@ -165,7 +165,9 @@ TEST_F(Coherence, IsHighOnLevelWaterAtFlatAngles) {
 
 TEST_F(Coherence, IsLowOnSingleDrops) {
   std::vector<Float4> apart;
-  for (int k = 0; k < 25; ++k) apart.push_back({float(k % 5 - 2) * 0.6f, float(k / 5 - 2) * 0.5f, -4, 0});
+  apart.reserve(25);
+  for (int row = -2; row <= 2; ++row)
+    for (int column = -2; column <= 2; ++column) apart.push_back({float(column) * 0.6f, float(row) * 0.5f, -4, 0});
   const auto drops = coherence(apart, perspective());
   ASSERT_GT(drops.size(), 100u);
   for (const double length : drops) ASSERT_LT(length, 0.2);
