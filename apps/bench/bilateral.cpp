@@ -1,7 +1,7 @@
 #include "bench/bilateral.hpp"
 
 #include "bench/shaders.hpp"
-#include "render/compute_step.hpp"
+#include "graph/step.hpp"
 #include "sort/dispatches.hpp"
 
 namespace rill::bench {

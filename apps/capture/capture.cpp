@@ -179,7 +179,7 @@ class Capture {
     return {};
   }
 
-  /// Writes a checkpoint of the last frame, where --checkpoint asks for one and it is not written yet.
+  /// Writes a checkpoint of the last frame, if --checkpoint is given and it is not written yet.
   Expected<void> writeCheckpoint() {
     const auto frames = static_cast<uint32_t>(record_->frames());
     if (!options_.checkpoint || frames == checkpointed_) return {};

@@ -47,8 +47,8 @@ Expected<void> Runner::advancePiece(double budget_s) {
     current_ = {};
     log_.clear();
   }
-  const uint32_t most = fluid_->substepsToComplete();
-  const uint32_t substeps = std::min(pacing_.next(budget_s), most - recorded_);
+  const uint32_t limit = fluid_->substepsToComplete();
+  const uint32_t substeps = std::min(pacing_.next(budget_s), limit - recorded_);
   const FluidStep part{recorded_ == 0 ? Clock::kStep : 0.0, recorded_ > 0, substeps, false, targets_};
   if (auto ran = run(graph_, [&](Graph& graph) { static_cast<void>(fluid_->addTo(graph, part)); }); !ran) return ran;
   log_.add(graph_.report(), true);
@@ -64,7 +64,7 @@ Expected<void> Runner::advancePiece(double budget_s) {
   done_ = due;
   ++current_.pieces;
   current_.wall_s += seconds;
-  if (progress.time_left_s > 0 && recorded_ < most) return {};
+  if (progress.time_left_s > 0 && recorded_ < limit) return {};
 
   pacing_.endStep(progress.substeps);
   current_.substeps = progress.substeps;
@@ -136,8 +136,8 @@ Expected<void> Runner::changeSolids(std::vector<Solid> solids) {
   if (count() > 0) forgetNeighbors(*now);
   now->solids.clear();
   for (size_t k = 0; k < solids.size(); ++k) {
-    const Pose there = k < scene_.solids.size() ? pose(static_cast<uint32_t>(k)) : solidPose(solids[k], 0);
-    appendPose(recordOf(there, start_.origin), now->solids);
+    const Pose current = k < scene_.solids.size() ? pose(static_cast<uint32_t>(k)) : solidPose(solids[k], 0);
+    appendPose(recordOf(current, start_.origin), now->solids);
   }
   const bool anyMoves = std::ranges::any_of(solids, [](const Solid& solid) { return solid.driven > 0 || !solid.motion.empty(); });
   if (!anyMoves) now->solids.clear();
@@ -154,10 +154,10 @@ Expected<uint64_t> Runner::add(const Fill& fill) {
   Scene only = scene_;
   only.fill = {fill};
   for (uint32_t k = 0; k < only.solids.size(); ++k) {
-    const Pose there = pose(k), first = solidPose(scene_.solids[k], 0);
+    const Pose current = pose(k), first = solidPose(scene_.solids[k], 0);
     only.solids[k].motion = {
-        {0, {there.center[0] - first.center[0], there.center[1] - first.center[1], there.center[2] - first.center[2]}}};
-    std::ranges::copy(there.rotation, only.solids[k].rotation);
+        {0, {current.center[0] - first.center[0], current.center[1] - first.center[1], current.center[2] - first.center[2]}}};
+    std::ranges::copy(current.rotation, only.solids[k].rotation);
   }
   const auto more = makeParticles(only);
   if (!more) return more.error();
@@ -182,9 +182,9 @@ Expected<uint64_t> Runner::add(const Fill& fill) {
 }
 
 Pose Runner::pose(uint32_t solid) const {
-  Pose there = solidPose(scene_.solids[solid], time_s());
-  if (scene_.solids[solid].driven > 0) std::ranges::copy(fluid_->drivenCenter(solid), there.center.begin());
-  return there;
+  Pose current = solidPose(scene_.solids[solid], time_s());
+  if (scene_.solids[solid].driven > 0) std::ranges::copy(fluid_->drivenCenter(solid), current.center.begin());
+  return current;
 }
 
 void Runner::setTarget(const SolidTarget& target) {

@@ -115,8 +115,8 @@ Expected<void> Touch::release(Session& session) {
 Expected<uint64_t> Touch::throwFluid(Session& session, const Ray& ray) {
   const Box room = boxOf(session);
   const double spacing = session.scene().fluid.spacing;
-  const double least = std::min({room.high[0] - room.low[0], room.high[1] - room.low[1], room.high[2] - room.low[2]});
-  const double radius = std::min(kThrown * ballRadius(session), 0.5 * least - spacing);
+  const double shortest = std::min({room.high[0] - room.low[0], room.high[1] - room.low[1], room.high[2] - room.low[2]});
+  const double radius = std::min(kThrown * ballRadius(session), 0.5 * shortest - spacing);
   const auto enters = entry(ray, room.low, room.high);
   if (!enters || radius <= 0) return Error{ErrorKind::BadInput, "There is no room for fluid there; point into the tank"};
   Fill fill;

@@ -67,7 +67,7 @@ class Viewer {
     auto file = scenes_.find(options_.scene);
     if (!file) return file.error();
     const auto scene = loadScene(*file, options_.overrides);
-    // An invalid file is an error where nobody can fix it while the window waits: with --frames, a script, invalid --set.
+    // An invalid file is an error where it cannot be fixed while the window is open: with --frames, a script, invalid --set.
     if (!scene && (options_.frames || options_.script || loadScene(*file))) return scene.error();
     if (options_.script) {
       auto script = loadScript(*options_.script);

@@ -94,7 +94,7 @@ void WindowPass::upload(Graph& graph, const ImDrawData& lists) {
     vertices_.insert(vertices_.end(), list.VtxBuffer.begin(), list.VtxBuffer.end());
     indices_.insert(indices_.end(), list.IdxBuffer.begin(), list.IdxBuffer.end());
     for (const ImDrawCmd& command : list.CmdBuffer) {
-      const auto clamped = [](float v, float most) { return static_cast<uint32_t>(std::clamp(v, 0.0f, most)); };
+      const auto clamped = [](float v, float limit) { return static_cast<uint32_t>(std::clamp(v, 0.0f, limit)); };
       const uint32_t x0 = clamped(std::floor(command.ClipRect.x), lists.DisplaySize.x),
                      x1 = clamped(command.ClipRect.z, lists.DisplaySize.x);
       const uint32_t y0 = clamped(std::floor(command.ClipRect.y), lists.DisplaySize.y),

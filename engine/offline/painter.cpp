@@ -8,8 +8,8 @@
 
 #include "core/words.hpp"
 #include "gpu/resources.hpp"
+#include "render/check_input.hpp"
 #include "render/fluid_renderer_impl.hpp"
-#include "render/view_push.hpp"
 
 namespace rill::offline {
 namespace {

@@ -4,21 +4,21 @@
 #include <bit>
 #include <cmath>
 
-#include "render/compute_step.hpp"
+#include "graph/step.hpp"
 
 namespace rill {
 namespace {
 
 using namespace surface;
 
-constexpr double kCoarsest = 0.7;    // spacings: how wide samples are at most
-constexpr uint32_t kPolish = 4;      // steps of a finer level
-constexpr uint32_t kMaxSteps = 128;  // of the coarsest
+constexpr double kCoarsest = 0.7;    // spacings: maximal width of a sample
+constexpr uint32_t kFineSteps = 4;   // on each finer level
+constexpr uint32_t kMaxSteps = 128;  // on the coarsest level
 
 /// One level of the pyramid.
 struct Level {
   SurfacePush push;
-  uint32_t steps = 0;  ///< that the whole time takes
+  uint32_t steps = 0;  ///< for the total time
   BufferRef start, to[2];
 };
 
@@ -76,17 +76,13 @@ BufferRef CurvatureFlow::addTo(Graph& graph, BufferRef depth, const SurfaceBuffe
     level.start = l == 0 ? depth : graph.create("surface flow coarse", {bytes});
     for (BufferRef& buffer : level.to) buffer = graph.create("surface flow", {bytes});
   }
-  graph.pass("surface flow clear", [&](Pass& pass) {
-    BufferRef cleared[3 * (kMaxLevels + 1)];
-    size_t count = 0;
-    for (uint32_t l = 0; l <= coarsest; ++l) {
-      if (l > 0) cleared[count++] = levels[l].start = pass.write(levels[l].start, Use::CopyTarget, true);
-      for (BufferRef& buffer : levels[l].to) cleared[count++] = buffer = pass.write(buffer, Use::CopyTarget, true);
-    }
-    return [all = std::to_array(cleared), count](Commands& commands) {
-      for (size_t k = 0; k < count; ++k) commands.fill(all[k], kInfiniteBits);
-    };
-  });
+  StepFill fills[3 * (kMaxLevels + 1)];
+  size_t count = 0;
+  for (uint32_t l = 0; l <= coarsest; ++l) {
+    if (l > 0) fills[count++] = {&levels[l].start, kInfiniteBits};
+    for (BufferRef& buffer : levels[l].to) fills[count++] = {&buffer, kInfiniteBits};
+  }
+  addFill(graph, "surface flow clear", std::span(fills).first(count));
   const StepGroups blocks(surface.arguments, kSampleBlockArguments);
   const auto array = [&](BufferRef buffer) { return texels ? rill::texels(buffer) : reads(buffer); };
   for (uint32_t l = 1; l <= coarsest; ++l)
@@ -95,7 +91,7 @@ BufferRef CurvatureFlow::addTo(Graph& graph, BufferRef depth, const SurfaceBuffe
   BufferRef from;
   for (uint32_t l = coarsest + 1; l-- > 0;) {
     Level& level = levels[l];
-    uint32_t turn = 0;
+    uint32_t target = 0;
     if (l == coarsest) {
       from = level.start;
     } else {
@@ -104,10 +100,10 @@ BufferRef CurvatureFlow::addTo(Graph& graph, BufferRef depth, const SurfaceBuffe
                reads(surface.blocks)},
               blocks, level.push);
       from = level.to[0];
-      turn = 1;
+      target = 1;
     }
-    for (uint32_t k = 0; k < (l == coarsest ? level.steps : std::min(level.steps, kPolish)); ++k) {
-      BufferRef& to = level.to[turn++ % 2];
+    for (uint32_t k = 0; k < (l == coarsest ? level.steps : std::min(level.steps, kFineSteps)); ++k) {
+      BufferRef& to = level.to[target++ % 2];
       addStep(graph, "surface flow", flow_[l][texels], {array(from), writes(to), reads(surface.counters), reads(surface.blocks)}, blocks,
               FlowPush{level.push, k});
       from = to;

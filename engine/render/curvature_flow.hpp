@@ -1,29 +1,27 @@
 #pragma once
-// Screen-space curvature flow (van der Laan, Green and Sainz 2009), from coarse to fine: long waves are smoothed where samples are few and
-// steps are long.
+// Screen-space curvature flow (van der Laan, Green and Sainz 2009) on a pyramid, from coarse to fine: the coarse levels smooth long waves
+// with few samples and long steps.
 #include "gpu/resources.hpp"
 #include "render/surface_buffers.hpp"
 
 namespace rill {
 
-/// What a step of the flow is told.
+/// Push constants of a step of the flow.
 struct FlowPush {
   surface::SurfacePush view;
-  uint32_t turn = 0;  ///< which of the steps it is
+  uint32_t iteration = 0;  ///< number of the step
 };
 static_assert(sizeof(FlowPush) <= 128);
 
-/// The flow's kernels, on every level that a pyramid may have.
 class CurvatureFlow {
  public:
-  static constexpr uint32_t kMaxLevels = 2;  ///< above the samples: a margin is a whole number of cells, of four samples
+  static constexpr uint32_t kMaxLevels = 2;  ///< above the samples; limited by a margin that is a multiple of four samples
 
   static Expected<CurvatureFlow> create(Device& device);
 
-  /// A smooth depth from that of the spheres, a float a sample. `side`: m that a sample is wide at the focus. `time`: spacings squared;
-  /// blurs over about its root. As many steps are recorded as that takes at the focus: nearer to the eye, where samples are smaller, the
-  /// stable ones fall short of it; farther away a sample takes fewer of them. `maxLevels`: of the pyramid above the samples. `texels`: it
-  /// is read as texel buffers.
+  /// Smooths the spheres' depth, a float per sample. `side`: width of a sample at the focus, m. `time`: total time, squared spacings.
+  /// The number of steps suffices at the focus: nearer fluid, with smaller samples, is smoothed less. `maxLevels`: of the pyramid above
+  /// the samples. `texels`: inputs are read as texel buffers.
   BufferRef addTo(Graph& graph, BufferRef depth, const SurfaceBuffers& surface, double side, double time, uint32_t maxLevels,
                   bool texels) const;
 

@@ -9,8 +9,8 @@
 namespace rill {
 namespace {
 
-/// The mean radiance over the upper and the lower half, weighted with the cosine to the vertical: irradiance over pi.
-void lightOf(const EnvironmentPicture& picture, Float3& above, Float3& below) {
+/// Irradiance over pi from the upper and from the lower half: the mean radiance, weighted by the cosine to the vertical.
+void irradiance(const EnvironmentPicture& picture, Float3& above, Float3& below) {
   double sums[2][3] = {}, weights[2] = {};
   for (uint32_t y = 0; y < picture.height; ++y) {
     const double polar = (y + 0.5) / picture.height * std::numbers::pi, up = std::cos(polar);
@@ -26,7 +26,7 @@ void lightOf(const EnvironmentPicture& picture, Float3& above, Float3& below) {
     weights[half] += weight * picture.width;
   }
   const auto mean = [&](int half) {
-    // A picture of one row has nothing below its middle.
+    // A map of one row has no lower half.
     if (weights[half] <= 0) half = 1 - half;
     return Float3{static_cast<float>(sums[half][0] / weights[half]), static_cast<float>(sums[half][1] / weights[half]),
                   static_cast<float>(sums[half][2] / weights[half])};
@@ -45,11 +45,11 @@ Expected<std::unique_ptr<Environment>> Environment::create(Device& device, const
                                           " pixels: found " + std::to_string(picture.texels.size()) + " texels"};
   auto out = std::unique_ptr<Environment>(new Environment(implOf(device)));
   out->width_ = picture.width;
-  lightOf(picture, out->above_, out->below_);
+  irradiance(picture, out->above_, out->below_);
   const uint64_t bytes = picture.texels.size() * sizeof(uint32_t);
   auto texels = createBuffer(device, "environment", bytes, MemoryKind::Device);
   if (!texels) return texels.error();
-  auto staging = createBuffer(device, "environment on its way", bytes, MemoryKind::Upload);
+  auto staging = createBuffer(device, "environment staging", bytes, MemoryKind::Upload);
   if (!staging) return staging.error();
   std::memcpy(staging->mapped(), picture.texels.data(), bytes);
   out->texels_ = *std::move(texels);
@@ -64,7 +64,7 @@ BufferRef Environment::addTo(Graph& graph) {
   BufferRef texels =
       graph.import("environment", {texels_.handle(), 0, texels_.size(), staging_ ? Use::Unknown : Use::CopyTarget, Use::Nothing});
   if (!staging_) return texels;
-  const BufferRef from = graph.import("environment on its way", {staging_.handle(), 0, staging_.size(), Use::Nothing, Use::Nothing});
+  const BufferRef from = graph.import("environment staging", {staging_.handle(), 0, staging_.size(), Use::Nothing, Use::Nothing});
   graph.pass("environment upload", [&](Pass& pass) {
     pass.read(from, Use::CopySource);
     texels = pass.write(texels, Use::CopyTarget, true);

@@ -1,5 +1,5 @@
 #pragma once
-// An environment on the device.
+// An environment map on the device.
 #include <memory>
 #include <optional>
 
@@ -12,15 +12,15 @@ namespace rill {
 
 class Environment {
  public:
-  /// BadInput for a picture of another size than it says or may be, OutOfMemory.
+  /// BadInput if the number of texels does not match the size or the size is not allowed; OutOfMemory.
   static Expected<std::unique_ptr<Environment>> create(Device& device, const EnvironmentPicture& picture);
 
-  /// The texels, for the passes of one frame; with a pass before that copies them until a frame that did has completed.
+  /// The texels, for the passes of one frame. Until a frame with the copy has completed, a pass copies them.
   BufferRef addTo(Graph& graph);
 
   uint32_t width() const { return width_; }
   uint32_t height() const { return width_ / 2; }
-  /// What a white surface that looks straight up, and one that looks down, gets of its light.
+  /// Radiance reflected by a white surface that faces up, and by one that faces down.
   Float3 above() const { return above_; }
   Float3 below() const { return below_; }
 
@@ -30,8 +30,8 @@ class Environment {
   DeviceImpl& device_;
   uint32_t width_ = 0;
   Float3 above_, below_;
-  Buffer texels_, staging_;         // staging_: none once it has been copied
-  std::optional<uint64_t> copied_;  // the frame that was recorded with the copy first
+  Buffer texels_, staging_;         // staging_: released after the copy
+  std::optional<uint64_t> copied_;  // the first frame recorded with the copy
 };
 
 }  // namespace rill

@@ -8,7 +8,7 @@ namespace rill {
 namespace {
 
 constexpr uint32_t kMaxWidth = 8192;
-constexpr float kMaxRadiance = 32768;  // of half of what a 16-bit float holds: reflections add up
+constexpr float kMaxRadiance = 32768;  // half of the largest 16-bit float, because reflections add up
 
 }  // namespace
 

@@ -1,11 +1,8 @@
 #include "rill/fluid_renderer.hpp"
 
-#include <cmath>
-#include <cstring>
-
-#include "core/words.hpp"
 #include "graph/graph_impl.hpp"
-#include "render/compute_step.hpp"
+#include "graph/step.hpp"
+#include "render/check_input.hpp"
 #include "render/fluid_renderer_impl.hpp"
 #include "render/view_push.hpp"
 #include "sort/dispatches.hpp"
@@ -14,45 +11,26 @@ namespace rill {
 
 using namespace surface;
 
-look::LookRecord lookRecord(const FluidLook& look, const SurfacePush& thickness, const Environment* environment) {
-  look::LookRecord record{};
-  record.absorption = {look.absorption.x, look.absorption.y, look.absorption.z, look.refraction_index};
-  record.scatter = {look.scatter.x, look.scatter.y, look.scatter.z, look.opaque ? 1.0f : 0.0f};
-  const Float3& s = look.to_sun;
-  const float size = std::sqrt(s.x * s.x + s.y * s.y + s.z * s.z);
-  record.light = size > 0 ? Float4{s.x / size, s.y / size, s.z / size, look.sun} : Float4{0, 1, 0, look.sun};
-  record.finish = {look.highlight, static_cast<float>(thickness.step), thickness.unit, look.aeration};
-  if (environment) {
-    const Float3 above = environment->above(), below = environment->below();
-    record.above = {above.x, above.y, above.z, static_cast<float>(environment->width())};
-    record.below = {below.x, below.y, below.z, static_cast<float>(environment->height())};
-  }
-  return record;
+namespace {
+
+/// Reports a failed check from compile().
+bool accepted(Graph& graph, const Expected<void>& check) {
+  if (!check) implOf(graph).fail(check.error().message);
+  return bool(check);
 }
 
-BufferRef addLook(Graph& graph, const look::LookRecord& record) {
-  BufferRef buffer = graph.create("fluid look", {sizeof record});
-  graph.pass("fluid look", [&](Pass& pass) {
-    buffer = pass.write(buffer, Use::CopyTarget, true);
-    return [buffer, record](Commands& commands) { commands.update(buffer, std::as_bytes(std::span(&record, 1))); };
-  });
-  return buffer;
-}
+}  // namespace
 
 Expected<void> FluidRendererImpl::create(Device& host, const TargetFormats& targets) {
-  if (targets.color == VK_FORMAT_UNDEFINED || hasDepth(targets.color))
-    return Error{ErrorKind::BadInput, "TargetFormats::color is " + std::to_string(targets.color) + "; expected a VkFormat of colors"};
-  if (!hasDepth(targets.depth))
-    return Error{ErrorKind::BadInput,
-                 "TargetFormats::depth is " + std::to_string(targets.depth) + "; expected a VkFormat that holds depth"};
+  if (auto ok = checkFormats(targets); !ok) return ok;
   device = &implOf(host);
   formats = targets;
   auto stage = SurfaceStage::create(host);
   if (!stage) return stage.error();
   surface = *stage;
-  auto mean = MeanFaces::create(host);
+  auto mean = MeanNormals::create(host);
   if (!mean) return mean.error();
-  faces = *mean;
+  meanNormals = *mean;
   using enum BindingKind;
   static constexpr BindingKind kScene[] = {SampledImage, SampledImage, Storage, Storage};
   static constexpr BindingKind kData[] = {Storage, Storage, Storage};
@@ -61,8 +39,8 @@ Expected<void> FluidRendererImpl::create(Device& host, const TargetFormats& targ
   scene = *made;
   for (uint32_t what = 0; what < 3; ++what) {
     const uint32_t constants[] = {what};
-    made = computePipeline(host,
-                           {.shader = "render/analysis", .bindings = kData, .pushConstantBytes = sizeof(DataPush), .constants = constants});
+    made = computePipeline(
+        host, {.shader = "render/surface_data", .bindings = kData, .pushConstantBytes = sizeof(DataPush), .constants = constants});
     if (!made) return made.error();
     data[what] = *made;
   }
@@ -93,54 +71,6 @@ Expected<void> FluidRendererImpl::setEnvironment(const EnvironmentPicture& pictu
   return makeShade();
 }
 
-bool FluidRendererImpl::possible(Graph& graph, const FluidState& fluid, const FluidView& view, SurfaceMethod method) {
-  const auto mistake = [&](std::string what) {
-    implOf(graph).fail(std::move(what));
-    return false;
-  };
-  if (auto ok = checkView(view); !ok) return mistake(ok.error().message);
-  if (size_t(method) > size_t(SurfaceMethod::NarrowRange)) return mistake(std::to_string(unsigned(method)) + " is no SurfaceMethod");
-  if (fluid.count == 0) return true;
-  if (fluid.count > SurfaceStage::kMaxParticles)
-    return mistake("a fluid of " + std::to_string(fluid.count) + " particles: at most " + std::to_string(SurfaceStage::kMaxParticles) +
-                   " can be drawn");
-  if (!(fluid.spacing > 0 && std::isfinite(fluid.spacing)))
-    return mistake("FluidState::spacing is " + shortestNumber(fluid.spacing) + "; expected a length above 0 (m)");
-  for (const double v : fluid.origin)
-    if (!std::isfinite(v)) return mistake("FluidState::origin is " + shortestNumber(v) + "; expected finite numbers (m)");
-  const auto& resources = implOf(graph).resources;
-  const BufferRef position = fluid.position;
-  if (position.index >= resources.size() || resources[position.index].isImage) return true;  // the pass that reads it says so
-  if (const uint64_t bytes = resources[position.index].size; bytes < uint64_t{fluid.count} * 16)
-    return mistake("FluidState::position has " + std::to_string(bytes) + " bytes; expected 16 for each of its " +
-                   std::to_string(fluid.count) + " particles");
-  return true;
-}
-
-bool FluidRendererImpl::possible(Graph& graph, const FluidLook& look) {
-  const auto refused = [&](const char* what, float value, const char* expected) {
-    implOf(graph).fail("FluidLook::" + std::string(what) + " is " + shortestNumber(double{value}) + "; expected " + expected);
-    return false;
-  };
-  if (!(look.refraction_index >= 1 && look.refraction_index <= 10)) return refused("refraction_index", look.refraction_index, "1 to 10");
-  if (!(look.aeration >= 0 && look.aeration <= 1)) return refused("aeration", look.aeration, "0 to 1");
-  return true;
-}
-
-bool FluidRendererImpl::within(Graph& graph, const SceneTargets& targets, const FluidView& view) {
-  const auto& resources = implOf(graph).resources;
-  for (const ImageRef target : {targets.color, targets.depth}) {
-    if (target.index >= resources.size() || !resources[target.index].isImage) continue;  // the pass that reads it says so
-    const ResourceData& image = resources[target.index];
-    if (uint64_t{view.x} + view.width <= image.width() && uint64_t{view.y} + view.height <= image.height()) continue;
-    implOf(graph).fail("the fluid's viewport of " + std::to_string(view.width) + "x" + std::to_string(view.height) + " pixels at " +
-                       std::to_string(view.x) + ", " + std::to_string(view.y) + " does not lie within a target of " +
-                       std::to_string(image.width()) + "x" + std::to_string(image.height()));
-    return false;
-  }
-  return true;
-}
-
 SurfacePush FluidRendererImpl::camera(const FluidState& fluid, const FluidView& view) const {
   SurfacePush push = viewPush(view, fluid.origin);
   push.step = sampleStep(push, fluid.spacing, view.focus_m);
@@ -153,36 +83,27 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
     graph.skipped("fluid shade", "there are no particles");
     return targets;
   }
-  if (!within(graph, targets, view)) return targets;
+  if (!accepted(graph, checkTargets(graph, targets, view))) return targets;
   last = surface.addTo(graph, fluid, camera(fluid, view), look.surface, whole, view.focus_m);
   const SurfacePush push = last.push;
   const uint64_t pixels = uint64_t{push.width} * push.height;
   BufferRef sceneColor = graph.create("fluid scene color", {pixels * 8}), sceneDepth = graph.create("fluid scene depth", {pixels * 4});
-  graph.pass("fluid scene", [&](Pass& pass) {
-    pass.read(targets.color, Use::ComputeSampled);
-    pass.read(targets.depth, Use::ComputeSampled);
-    pass.read(last.arguments, Use::Indirect);
-    sceneColor = pass.write(sceneColor, Use::ComputeWrite, true);
-    sceneDepth = pass.write(sceneDepth, Use::ComputeWrite, true);
-    const Kernel kernel = pass.kernel(scene, {targets.color, targets.depth, sceneColor, sceneDepth});
-    return [kernel, push, arguments = last.arguments](Commands& commands) {
-      commands.dispatchIndirect(kernel, arguments, kPixelArguments * 4, push);
-    };
-  });
+  addStep(graph, "fluid scene", scene, {sampled(targets.color), sampled(targets.depth), fresh(sceneColor), fresh(sceneDepth)},
+          StepGroups(last.arguments, kPixelArguments), push);
   const SurfacePush thick = SurfaceStage::thicknessPush(push, fluid, kThicknessStep);
-  BufferRef thickness, bend;
+  BufferRef thickness, normals;
   if (look.opaque) {
     graph.skipped(kFluidThickness.pass, "the look is opaque");
-    graph.skipped("surface faces", "the look is opaque");
-    thickness = bend = last.tiles;  // bound, never read
+    graph.skipped("surface mean normals", "the look is opaque");
+    thickness = normals = last.tiles;  // bound, not read
   } else {
-    bend = faces.addTo(graph, last);
+    normals = meanNormals.addTo(graph, last);
     thickness = surface.addThickness(graph, kFluidThickness, fluid, thick, sceneDepth, &last.counters);
   }
   const BufferRef record = addLook(graph, lookRecord(look, thick, environment.get()));
   graph.pass("fluid shade", [&](Pass& pass) {
     pass.read(record, Use::DrawUniform);
-    const ResourceRef bound[] = {record, last.tiles, last.pixels, thickness, sceneColor, sceneDepth, bend, last.samples, texels};
+    const ResourceRef bound[] = {record, last.tiles, last.pixels, thickness, sceneColor, sceneDepth, normals, last.samples, texels};
     const size_t count = environment ? 9 : 8;
     for (size_t k = 1; k < count; ++k) pass.read(BufferRef{bound[k]}, Use::DrawRead);
     pass.read(last.arguments, Use::Indirect);
@@ -203,15 +124,12 @@ BufferRef FluidRendererImpl::addData(Graph& graph, const FluidState& fluid, cons
   const uint64_t pixels = uint64_t{push.width} * push.height;
   BufferRef picture = graph.create("surface data", {pixels * 4});
   if (fluid.count == 0) {
-    graph.pass("surface data", [&](Pass& pass) {
-      picture = pass.write(picture, Use::CopyTarget, true);
-      return [picture](Commands& commands) { commands.fill(picture, 0); };
-    });
+    addFill(graph, "surface data", {{&picture, 0}});
     return picture;
   }
   last = surface.addTo(graph, fluid, push, method, true, view.focus_m);
   const SurfacePush thick = SurfaceStage::thicknessPush(push, fluid, kThicknessStep);
-  BufferRef thickness = last.tiles;  // bound, never read
+  BufferRef thickness = last.tiles;  // bound, not read
   if (what == SurfaceData::Thickness) thickness = surface.addThickness(graph, kFluidThickness, fluid, thick, {}, &last.counters);
   addStep(graph, "surface data", data[static_cast<size_t>(what)], {reads(last.pixels), reads(thickness), fresh(picture)},
           divideUp(pixels, kSurfaceGroup), DataPush{thick, full});
@@ -235,18 +153,16 @@ Expected<void> FluidRenderer::check(const FluidView& view) { return checkView(vi
 
 SceneTargets FluidRenderer::addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view,
                                   const FluidLook& look) {
-  if (!FluidRendererImpl::possible(graph, fluid, view, look.surface) || !FluidRendererImpl::possible(graph, look)) return targets;
+  for (const auto& check : {checkView(view), checkMethod(look.surface), checkFluid(graph, fluid), checkLook(look)})
+    if (!accepted(graph, check)) return targets;
   const bool drawn = impl_->environment && fluid.count > 0;
   return impl_->addTo(graph, fluid, targets, view, look, false, drawn ? impl_->environment->addTo(graph) : BufferRef{});
 }
 
 BufferRef FluidRenderer::addData(Graph& graph, const FluidState& fluid, const FluidView& view, SurfaceData data, float full,
                                  SurfaceMethod method) {
-  if (!FluidRendererImpl::possible(graph, fluid, view, method)) return {};
-  if (size_t(data) > size_t(SurfaceData::Thickness)) {
-    implOf(graph).fail(std::to_string(unsigned(data)) + " is no SurfaceData");
-    return {};
-  }
+  for (const auto& check : {checkView(view), checkMethod(method), checkFluid(graph, fluid), checkData(data)})
+    if (!accepted(graph, check)) return {};
   return impl_->addData(graph, fluid, view, data, full, method);
 }
 

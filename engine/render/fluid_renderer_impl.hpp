@@ -1,15 +1,15 @@
 #pragma once
-// What is behind rill::FluidRenderer.
+// Implementation of rill::FluidRenderer.
 #include "core/impl_of.hpp"
 #include "render/environment.hpp"
-#include "render/look_records.h"
-#include "render/mean_faces.hpp"
+#include "render/look_record.hpp"
+#include "render/mean_normals.hpp"
 #include "render/surface.hpp"
 #include "rill/fluid_renderer.hpp"
 
 namespace rill {
 
-inline constexpr uint32_t kThicknessStep = 4;  ///< pixels a side of the thickness buffer's samples
+inline constexpr uint32_t kThicknessStep = 4;  ///< pixels per side of a sample of the thickness
 
 struct DataPush {
   surface::SurfacePush view;
@@ -20,35 +20,24 @@ static_assert(sizeof(DataPush) <= 128);
 class FluidRendererImpl {
  public:
   Expected<void> create(Device& device, const TargetFormats& formats);
-  /// Whether a host's look can be drawn; the graph's compile() says why not.
-  static bool possible(Graph& graph, const FluidLook& look);
-  /// Whether a host's view of a state can be drawn, in a method that there is; the graph's compile() says what not.
-  static bool possible(Graph& graph, const FluidState& fluid, const FluidView& view, SurfaceMethod method);
-  /// The same of a viewport in its targets.
-  static bool within(Graph& graph, const SceneTargets& targets, const FluidView& view);
   surface::SurfacePush camera(const FluidState& fluid, const FluidView& view) const;
   Expected<void> setEnvironment(const EnvironmentPicture& picture);
-  /// `texels`: of the environment, where there is one.
+  /// `whole`: also writes pixels of the surface without fluid. `texels`: of the environment, if any.
   SceneTargets addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view, const FluidLook& look, bool whole,
                      BufferRef texels = {});
   BufferRef addData(Graph& graph, const FluidState& fluid, const FluidView& view, SurfaceData data, float full, SurfaceMethod method);
 
   DeviceImpl* device = nullptr;
   TargetFormats formats;
-  std::unique_ptr<Environment> environment;  ///< none: the sky of Rill's own
+  std::unique_ptr<Environment> environment;  ///< null: the built-in sky
   SurfaceStage surface;
-  MeanFaces faces;
-  SurfaceBuffers last;  ///< of the frame that is being declared
+  MeanNormals meanNormals;
+  SurfaceBuffers last;  ///< of the frame being declared
   const ComputePipeline *scene = nullptr, *data[3] = {};
   const GraphicsPipeline* shade = nullptr;
 
  private:
   Expected<void> makeShade();
 };
-
-/// `environment` may be null.
-look::LookRecord lookRecord(const FluidLook& look, const surface::SurfacePush& thickness, const Environment* environment);
-/// A uniform buffer with the record, written by a pass of its own.
-BufferRef addLook(Graph& graph, const look::LookRecord& record);
 
 }  // namespace rill

@@ -4,11 +4,10 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 #include "gpu/device_impl.hpp"
 #include "gpu/texel_reads.hpp"
-#include "render/compute_step.hpp"
+#include "graph/step.hpp"
 #include "sort/dispatches.hpp"
 
 namespace rill {
@@ -16,21 +15,17 @@ namespace {
 
 using namespace surface;
 
-constexpr float kHardRadius = 0.9f;            // spacings: spheres that leave no gap between surface particles
-constexpr float kThicknessRadius = 1.2f;       // spacings: a disc that overlaps enough to be smooth
-constexpr float kThicknessUnit = 1.0f / 1024;  // spacings
+constexpr float kHardRadius = 0.9f;  // spacings: spheres that leave no gap between surface particles
 constexpr uint32_t kMaxStep = 16;
 constexpr uint32_t kNarrowPasses = 2;
 
 static_assert(kMarginSamples % kCellSamples == 0);
 
-uint64_t gridCells(uint64_t width, uint64_t height, uint32_t side) { return divideUp(width, side) * divideUp(height, side); }
-
 double metersAPixel(const SurfacePush& camera, double depth) {
   return std::abs(double{camera.scale[1]}) * 2 / camera.height * (camera.perspective > 0 ? depth : 1.0);
 }
 
-/// As wide in spacings as the one of the default, in whole cells.
+/// A margin as wide in spacings as the default's, in whole cells.
 uint32_t marginSamples(double samples) {
   const double finer = std::max(samples / SurfaceSettings{}.samples, 1.0);
   return kMarginSamples / kCellSamples * static_cast<uint32_t>(std::ceil(finer)) * kCellSamples;
@@ -38,22 +33,9 @@ uint32_t marginSamples(double samples) {
 
 }  // namespace
 
-SurfacePixel unpackPixel(const uint32_t* words) {
-  SurfacePixel pixel{std::bit_cast<float>(words[0]), {}};
-  if (std::signbit(pixel.depth)) pixel.depth = std::numeric_limits<float>::infinity();
-  const auto part = [](uint32_t bits) { return double(int32_t(bits << 18) >> 18) / 8191; };  // 14 bits, signed
-  double x = part(words[1]), y = part(words[1] >> 14);
-  const double z = 1 - std::abs(x) - std::abs(y), fold = std::max(-z, 0.0);
-  x += x >= 0 ? -fold : fold;
-  y += y >= 0 ? -fold : fold;
-  const double size = std::sqrt(x * x + y * y + z * z);
-  pixel.normal = {x / size, y / size, z / size};
-  return pixel;
-}
-
 uint32_t sampleStep(const SurfacePush& camera, float spacing, double depth, double samples) {
   const double meters = metersAPixel(camera, depth);
-  const double pixels = spacing / std::max(meters, 1e-30) / samples;  // of the widest sample
+  const double pixels = spacing / std::max(meters, 1e-30) / samples;  // of the widest allowed sample
   return pixels >= kMaxStep ? kMaxStep : std::bit_floor(static_cast<uint32_t>(std::max(pixels, 1.0)));
 }
 
@@ -87,7 +69,7 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device) {
       {stage.thickness_, "render/surface_thickness", storage(4)},
       {stage.normals_[0], "render/surface_normals", storage(7)},
       {stage.edgesFiltered_[0], "render/surface_edges_filtered", storage(8)},
-      {stage.thicknessBare_, "render/surface_thickness_bare", storage(3)},
+      {stage.thicknessNoScene_, "render/surface_thickness_no_scene", storage(3)},
       {stage.planes_[1], "render/surface_planes_texel", kTexelsToPlanes},
       {stage.blend_[1], "render/surface_blend_texel", std::span(kTexels).first(7)},
       {stage.edges_[1], "render/surface_edges_texel", kTexels},
@@ -112,7 +94,7 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device) {
   auto flow = CurvatureFlow::create(device);
   if (!flow) return flow.error();
   stage.flow_ = *flow;
-  // Those of a picture of any size are found among the pipelines that are made now.
+  // Creates the pipelines of scans of any size, so that addGrid() finds them in the cache.
   if (auto scan = Scan::create(device, Scan::kMaxCount); !scan) return scan.error();
   return stage;
 }
@@ -121,11 +103,11 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
                                    double focus, const SurfaceSettings& settings) const {
   assert(fluid.count > 0);
   const bool filtered = settings.filter || method == SurfaceMethod::CurvatureFlow || method == SurfaceMethod::NarrowRange;
-  Frame frame = frameOf(fluid, camera, method, focus, settings);
+  Frame frame = makeFrame(fluid, camera, method, focus, settings);
   const uint64_t maxTexels = std::max({2 * uint64_t{fluid.count}, paddedWords(frame.cells + 1), sampleCount(frame.out.push)});
   frame.storageReads = settings.storage_reads;
   frame.texels = !frame.storageReads && usesTexelReads(*device_->device, maxTexels);
-  frame.narrows = method == SurfaceMethod::NarrowRange && !settings.filter;
+  frame.narrowRange = method == SurfaceMethod::NarrowRange && !settings.filter;
   addBuffers(graph, fluid, frame, whole);
   addVisible(graph, fluid, frame);
   addGrid(graph, fluid, frame);
@@ -137,8 +119,8 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
   return frame.out;
 }
 
-SurfaceStage::Frame SurfaceStage::frameOf(const FluidState& fluid, SurfacePush push, SurfaceMethod method, double focus,
-                                          const SurfaceSettings& settings) {
+SurfaceStage::Frame SurfaceStage::makeFrame(const FluidState& fluid, SurfacePush push, SurfaceMethod method, double focus,
+                                            const SurfaceSettings& settings) {
   push.spacing = fluid.spacing;
   push.radius = kHardRadius * fluid.spacing;
   push.count = fluid.count;
@@ -155,7 +137,7 @@ SurfaceStage::Frame SurfaceStage::frameOf(const FluidState& fluid, SurfacePush p
   return frame;
 }
 
-/// Those of more than one part, and what they hold at first.
+/// Creates and clears the buffers that several parts share.
 void SurfaceStage::addBuffers(Graph& graph, const FluidState& fluid, Frame& frame, bool whole) {
   SurfaceBuffers& out = frame.out;
   frame.occluders = graph.create("surface occluders", {frame.occluderCells * 4});
@@ -169,31 +151,26 @@ void SurfaceStage::addBuffers(Graph& graph, const FluidState& fluid, Frame& fram
   out.pixels = graph.create("surface pixels", {uint64_t{out.push.width} * out.push.height * 8});
   out.blocks = graph.create("surface blocks", {frame.sampleBlocks * 4});
   out.samples = graph.create("surface samples", {sampleCount(out.push) * 8});
-  if (frame.narrows)
+  if (frame.narrowRange)
     for (BufferRef& buffer : frame.filtered) buffer = graph.create("surface filtered", {sampleCount(out.push) * 4});
-  graph.pass("surface clear", [&](Pass& pass) {
-    std::array<BufferRef, 6> infinite;
-    size_t count = 0;
-    const auto clear = [&](BufferRef& buffer) { infinite[count++] = buffer = pass.write(buffer, Use::CopyTarget, true); };
-    for (BufferRef* buffer : {&frame.occluders, &frame.depth, &out.samples}) clear(*buffer);
-    if (frame.narrows)
-      for (BufferRef& buffer : frame.filtered) clear(buffer);
-    if (whole) clear(out.pixels);
-    for (BufferRef* buffer : {&frame.start, &out.counters}) *buffer = pass.write(*buffer, Use::CopyTarget, true);
-    return [infinite, count, start = frame.start, counters = out.counters](Commands& commands) {
-      for (size_t k = 0; k < count; ++k) commands.fill(infinite[k], kInfiniteBits);
-      commands.fill(start, 0);
-      commands.fill(counters, 0);
-    };
-  });
+  const auto filtered = [&](size_t k) { return frame.narrowRange ? &frame.filtered[k] : nullptr; };
+  addFill(graph, "surface clear",
+          {{&frame.occluders, kInfiniteBits},
+           {&frame.depth, kInfiniteBits},
+           {&out.samples, kInfiniteBits},
+           {filtered(0), kInfiniteBits},
+           {filtered(1), kInfiniteBits},
+           {whole ? &out.pixels : nullptr, kInfiniteBits},
+           {&frame.start, 0},
+           {&out.counters, 0}});
 }
 
-/// Groups of what has been counted so far.
+/// Dispatch arguments from the counts so far.
 void SurfaceStage::addArguments(Graph& graph, SurfaceBuffers& out) const {
   addStep(graph, "surface arguments", arguments_, {reads(out.counters), fresh(out.arguments)}, 1, out.push);
 }
 
-/// Particles that nothing hides, the depth of their spheres, and the tiles that those are seen in.
+/// Particles that are not occluded, the depth of their spheres, and the tiles that these cover.
 void SurfaceStage::addVisible(Graph& graph, const FluidState& fluid, Frame& frame) const {
   SurfaceBuffers& out = frame.out;
   const uint64_t particles = divideUp(fluid.count, kSurfaceGroup), tiles = gridCells(out.push.width, out.push.height, kSurfaceTile);
@@ -207,7 +184,7 @@ void SurfaceStage::addVisible(Graph& graph, const FluidState& fluid, Frame& fram
           divideUp(std::max(tiles, frame.sampleBlocks), kSurfaceGroup), out.push);
 }
 
-/// Those of them that are surface, in the cells of the screen grid and in one order.
+/// Surface particles, sorted into the cells of the screen grid.
 void SurfaceStage::addGrid(Graph& graph, const FluidState& fluid, Frame& frame) const {
   SurfaceBuffers& out = frame.out;
   BufferRef rank = graph.create("surface ranks", {uint64_t{fluid.count} * 4});
@@ -229,46 +206,46 @@ void SurfaceStage::addGrid(Graph& graph, const FluidState& fluid, Frame& frame) 
           StepGroups(out.arguments, kSurfaceArguments), out.push);
 }
 
-/// A plane a particle, then what they say together.
+/// A plane per particle, then their blend.
 void SurfaceStage::addPlanes(Graph& graph, Frame& frame) const {
   SurfaceBuffers& out = frame.out;
   frame.plane = graph.create("surface planes", {uint64_t{out.push.count} * 32});
   addStep(graph, "surface planes", planes_[frame.texels],
-          {frame.walks(frame.start), frame.walks(frame.center), fresh(frame.plane), writes(out.counters)},
+          {frame.arrayOf(frame.start), frame.arrayOf(frame.center), fresh(frame.plane), writes(out.counters)},
           StepGroups(out.arguments, kSurfaceArguments), out.push);
   addStep(graph, "surface blend", blend_[frame.texels],
-          {frame.walks(frame.start), frame.walks(frame.center), frame.walks(frame.plane), reads(frame.depth), writes(out.samples),
+          {frame.arrayOf(frame.start), frame.arrayOf(frame.center), frame.arrayOf(frame.plane), reads(frame.depth), writes(out.samples),
            writes(out.counters), reads(out.blocks)},
           StepGroups(out.arguments, kSampleBlockArguments), out.push);
 }
 
-/// A smooth depth, then normals.
+/// Smoothed depth and its normals.
 void SurfaceStage::addFiltered(Graph& graph, Frame& frame, const SurfaceSettings& settings) const {
   SurfaceBuffers& out = frame.out;
   const StepGroups blocks(out.arguments, kSampleBlockArguments);
   BufferRef from = frame.depth;
   if (settings.filter) {
     from = settings.filter(graph, from, out.push);
-  } else if (!frame.narrows) {
+  } else if (!frame.narrowRange) {
     from = flow_.addTo(graph, from, out, frame.sampleSide, settings.flow_time, settings.flow_levels, frame.texels);
   } else {
     uint32_t steps = 0;
     for (uint32_t k = 0; k < kNarrowPasses; ++k)
       for (const ComputePipeline* pipeline : narrow_[frame.texels]) {
         BufferRef& to = frame.filtered[steps++ % 2];
-        addStep(graph, "surface narrow range", pipeline, {frame.walks(from), writes(to), writes(out.counters), reads(out.blocks)}, blocks,
+        addStep(graph, "surface narrow range", pipeline, {frame.arrayOf(from), writes(to), writes(out.counters), reads(out.blocks)}, blocks,
                 out.push);
         from = to;
       }
   }
   addStep(graph, "surface normals", normals_[frame.texels],
-          {frame.walks(frame.start), frame.walks(frame.center), frame.walks(from), reads(frame.depth), writes(out.samples),
+          {frame.arrayOf(frame.start), frame.arrayOf(frame.center), frame.arrayOf(from), reads(frame.depth), writes(out.samples),
            writes(out.counters), reads(out.blocks)},
           blocks, out.push);
-  frame.plane = frame.center;  // bound, never read
+  frame.plane = frame.center;  // bound, not read
 }
 
-/// From samples to the pixels of the tiles with fluid, then those at edges.
+/// From samples to pixels of the tiles with fluid, then pixels at edges.
 void SurfaceStage::addCompose(Graph& graph, Frame& frame, const ComputePipeline* edges, bool whole) const {
   SurfaceBuffers& out = frame.out;
   BufferRef listed = graph.create("surface edge pixels", {uint64_t{out.push.width} * out.push.height * 4});
@@ -278,42 +255,9 @@ void SurfaceStage::addCompose(Graph& graph, Frame& frame, const ComputePipeline*
           StepGroups(out.arguments, kSurfaceTileArguments), out.push);
   addArguments(graph, out);
   addStep(graph, "surface edges", edges,
-          {frame.walks(frame.start), frame.walks(frame.center), frame.walks(frame.plane), reads(frame.depth), reads(out.samples),
+          {frame.arrayOf(frame.start), frame.arrayOf(frame.center), frame.arrayOf(frame.plane), reads(frame.depth), reads(out.samples),
            writes(out.counters), reads(listed), writes(out.pixels)},
           StepGroups(out.arguments, kEdgeArguments), out.push);
-}
-
-SurfacePush SurfaceStage::thicknessPush(SurfacePush camera, const FluidState& fluid, uint32_t step) {
-  camera.spacing = fluid.spacing;
-  camera.radius = kThicknessRadius * fluid.spacing;
-  camera.unit = kThicknessUnit * fluid.spacing;
-  camera.count = fluid.count;
-  camera.step = step;
-  camera.margin = 0;
-  return camera;
-}
-
-BufferRef SurfaceStage::addThickness(Graph& graph, const ThicknessNames& names, const FluidState& fluid, const SurfacePush& push,
-                                     BufferRef sceneDepth, BufferRef* counters) const {
-  BufferRef own;
-  if (!counters) own = graph.create(names.counters, {kSurfaceCounterWords * 4});
-  BufferRef thickness = graph.create(names.pass, {gridCells(push.width, push.height, push.step) * 4});
-  graph.pass(names.clear, [&](Pass& pass) {
-    thickness = pass.write(thickness, Use::CopyTarget, true);
-    if (!counters) own = pass.write(own, Use::CopyTarget, true);
-    return [thickness, counters = own, clear = !counters](Commands& commands) {
-      commands.fill(thickness, 0);
-      if (clear) commands.fill(counters, 0);
-    };
-  });
-  if (fluid.count == 0) return thickness;
-  const uint64_t groups = divideUp(fluid.count, kSurfaceGroup);
-  BufferRef& counted = counters ? *counters : own;
-  if (sceneDepth == BufferRef{})
-    addStep(graph, names.pass, thicknessBare_, {reads(fluid.position), writes(thickness), writes(counted)}, groups, push);
-  else
-    addStep(graph, names.pass, thickness_, {reads(fluid.position), writes(thickness), writes(counted), reads(sceneDepth)}, groups, push);
-  return thickness;
 }
 
 }  // namespace rill

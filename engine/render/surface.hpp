@@ -1,11 +1,11 @@
 #pragma once
-// From particles to a smooth surface: its depth and normal in every pixel. The methods share all that comes before the smoothing.
+// From particles to a smooth surface: depth, normal and coverage of each pixel. The methods differ in the smoothing only.
 #include <array>
 #include <functional>
 #include <string_view>
 
 #include "gpu/resources.hpp"
-#include "render/compute_step.hpp"
+#include "graph/step.hpp"
 #include "render/curvature_flow.hpp"
 #include "render/surface_buffers.hpp"
 #include "rill/fluid.hpp"
@@ -15,22 +15,21 @@
 
 namespace rill {
 
-/// From the spheres' depth, a float a sample, to a smooth one.
+/// Smooths the spheres' depth, a float per sample.
 using DepthFilter = std::function<BufferRef(Graph&, BufferRef depth, const surface::SurfacePush&)>;
 
-/// How finely the surface is sampled and how far it is smoothed. The defaults are what pictures are made with; `rill-bench render` varies
-/// them.
+/// Sampling and smoothing of the surface. Pictures use the defaults; `rill-bench render` varies them.
 struct SurfaceSettings {
-  double samples = 3;          ///< a spacing at the focus, at least: samples are 1, 2, 4 ... pixels wide
-  double fit_reach = 2.5;      ///< planes: how far around a particle its plane is fitted, spacings
-  double flow_time = 0.9;      ///< curvature flow: spacings squared; blurs over about its root
-  uint32_t flow_levels = 2;    ///< curvature flow: of the pyramid above the samples, at most
-  double narrow_sigma = 0.8;   ///< narrow range: standard deviation of its Gaussian, spacings
-  DepthFilter filter = {};     ///< in place of the method's own; for baselines
-  bool storage_reads = false;  ///< reads through storage buffers even where texel buffers would do; the same bits
+  double samples = 3;          ///< minimal samples per spacing at the focus; a sample is 1, 2, 4 ... pixels wide
+  double fit_reach = 2.5;      ///< planes: reach of a plane's fit, spacings
+  double flow_time = 0.9;      ///< curvature flow: total time, squared spacings; blurs over about its square root
+  uint32_t flow_levels = 2;    ///< curvature flow: maximal levels of the pyramid above the samples
+  double narrow_sigma = 0.8;   ///< narrow range: standard deviation of the Gaussian, spacings
+  DepthFilter filter = {};     ///< replaces the method's smoothing; for baselines
+  bool storage_reads = false;  ///< never uses texel buffers; the bits are the same
 };
 
-/// What the passes and buffers of a thickness are called: the eye's and the sun's are told apart by them.
+/// Names of the passes and buffers of a thickness, as seen from the eye or from the sun.
 struct ThicknessNames {
   std::string_view pass, clear, counters;
 };
@@ -39,43 +38,43 @@ inline constexpr ThicknessNames kFluidShadow{"fluid shadow", "fluid shadow clear
 
 class SurfaceStage {
  public:
-  /// Of 32 bytes a plane: what a buffer holds.
+  /// A buffer holds at most as many planes, of 32 bytes.
   static constexpr uint32_t kMaxParticles = (128u << 20) / 32;
 
   static Expected<SurfaceStage> create(Device& device);
 
-  /// `camera`: viewPush() of the view with its step. `whole`: pixels without fluid are written, too. `focus`: m, how far away the fluid is.
-  /// The state has particles.
+  /// `camera`: viewPush() of the view with its step. `whole`: also writes pixels without fluid. `focus`: distance of the fluid, m.
+  /// The state must have particles.
   SurfaceBuffers addTo(Graph& graph, const FluidState& fluid, surface::SurfacePush camera, SurfaceMethod method, bool whole, double focus,
                        const SurfaceSettings& settings = {}) const;
 
-  /// Counts of `push.unit` along each sample's ray, a sample every `push.step` pixels: 1 m of fluid measures 1 m.
-  /// `sceneDepth`: m a pixel, what lies behind it is not counted; an empty ref: nothing is in the way.
-  /// `counters`: those of addTo(), where kBoundHits goes on; null: nobody asks.
+  /// Thickness along each sample's ray in units of `push.unit`, one sample per `push.step` pixels.
+  /// `sceneDepth`: m per pixel, hides fluid behind it; may be an empty ref.
+  /// `counters`: those of addTo(), for kBoundHits; may be null.
   BufferRef addThickness(Graph& graph, const ThicknessNames& names, const FluidState& fluid, const surface::SurfacePush& push,
                          BufferRef sceneDepth, BufferRef* counters) const;
-  /// The camera with what addThickness() asks for.
+  /// The camera with the fields that addThickness() needs.
   static surface::SurfacePush thicknessPush(surface::SurfacePush camera, const FluidState& fluid, uint32_t step);
 
  private:
-  /// A surface in the making: how much there is of everything, and the buffers that more than one part of it works on.
+  /// A surface while its passes are declared: sizes, and the buffers that several parts share.
   struct Frame {
     SurfaceBuffers out;
-    uint64_t sampleBlocks = 0, occluderCells = 0, cells = 0;  ///< of the picture with its margin
-    double sampleSide = 0;                                    ///< m, at the focus
-    BufferRef occluders, depth;                               ///< the depth of the spheres
-    BufferRef survivors;                                      ///< particles that nothing hides
-    BufferRef start, center;                                  ///< screen grid of those that are surface
-    BufferRef plane;                                          ///< of the method that has planes
-    bool narrows = false;                                     ///< by the narrow-range filter
-    std::array<BufferRef, 2> filtered;                        ///< which that goes back and forth between
-    bool texels = false;                                      ///< start, center, plane and what a filter reads are texel buffers
-    bool storageReads = false;                                ///< nothing is to be one
-    StepBuffer walks(BufferRef buffer) const { return texels ? rill::texels(buffer) : reads(buffer); }
+    uint64_t sampleBlocks = 0, occluderCells = 0, cells = 0;  ///< numbers, including the margin
+    double sampleSide = 0;                                    ///< m, width of a sample at the focus
+    BufferRef occluders, depth;                               ///< depth: of the spheres, before smoothing
+    BufferRef survivors;                                      ///< particles that are not occluded
+    BufferRef start, center;                                  ///< screen grid of surface particles
+    BufferRef plane;                                          ///< of the method `planes`
+    bool narrowRange = false;                                 ///< uses the narrow-range filter
+    std::array<BufferRef, 2> filtered;                        ///< ping-pong buffers of the narrow-range filter
+    bool texels = false;                                      ///< start, center, plane and the filters' inputs are read as texel buffers
+    bool storageReads = false;                                ///< SurfaceSettings::storage_reads
+    StepBinding arrayOf(BufferRef buffer) const { return texels ? rill::texels(buffer) : reads(buffer); }
   };
-  static Frame frameOf(const FluidState& fluid, surface::SurfacePush camera, SurfaceMethod method, double focus,
-                       const SurfaceSettings& settings);
-  // Its parts, in the order in which they run. Those of a method make samples of what the first ones found.
+  static Frame makeFrame(const FluidState& fluid, surface::SurfacePush camera, SurfaceMethod method, double focus,
+                         const SurfaceSettings& settings);
+  // The parts in the order in which they run; addPlanes() or addFiltered() writes the samples.
   static void addBuffers(Graph& graph, const FluidState& fluid, Frame& frame, bool whole);
   void addArguments(Graph& graph, SurfaceBuffers& out) const;
   void addVisible(Graph& graph, const FluidState& fluid, Frame& frame) const;
@@ -89,17 +88,10 @@ class SurfaceStage {
   const ComputePipeline *occlude_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr, *pick_ = nullptr,
                         *scatter_ = nullptr, *order_ = nullptr, *planes_[2] = {}, *blend_[2] = {}, *tiles_ = nullptr, *compose_ = nullptr,
                         *edges_[2] = {}, *edgesFiltered_[2] = {}, *narrow_[2][2] = {}, *normals_[2] = {}, *thickness_ = nullptr,
-                        *thicknessBare_ = nullptr;
+                        *thicknessNoScene_ = nullptr;
 };
 
-/// A pixel of SurfaceBuffers::pixels, as shaders/render/surface.glsl packs it.
-struct SurfacePixel {
-  float depth = 0;               ///< m; infinite: no fluid, or less than half a pixel of it
-  std::array<double, 3> normal;  ///< unit vector in view space
-};
-SurfacePixel unpackPixel(const uint32_t* words);
-
-/// Pixels a side of a sample: what sees a spacing as `samples` to twice as many where the fluid is.
+/// Pixels per side of a sample, such that a spacing at `depth` has `samples` to twice as many samples.
 uint32_t sampleStep(const surface::SurfacePush& camera, float spacing, double depth, double samples = SurfaceSettings{}.samples);
 
 }  // namespace rill

@@ -1,16 +1,17 @@
 #pragma once
-// A camera as the shaders read it.
+// A camera as push constants.
 #include "render/surface_records.h"
-#include "rill/expected.hpp"
 #include "rill/fluid_renderer.hpp"
 
 namespace rill {
 
-/// For positions that are stored relative to `origin`. `view` is one that FluidRenderer::check() allows.
-surface::SurfacePush viewPush(const FluidView& view, const double origin[3]);
+/// Element of a row and a column.
+inline double element(const Float4x4& matrix, int row, int column) {
+  const Float4& c = matrix.column[column];
+  return double{row == 0 ? c.x : row == 1 ? c.y : row == 2 ? c.z : c.w};
+}
 
-/// The size alone.
-Expected<void> checkViewport(uint32_t width, uint32_t height);
-Expected<void> checkView(const FluidView& view);
+/// For positions that are stored relative to `origin`. `view` has passed checkView().
+surface::SurfacePush viewPush(const FluidView& view, const double origin[3]);
 
 }  // namespace rill

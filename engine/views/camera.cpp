@@ -56,7 +56,7 @@ CameraView frameCamera(const double min[3], const double max[3], double aspect) 
   const CameraBasis basis = cameraBasis(camera);
   const glm::dvec3 right = vec(basis.right), up = vec(basis.up);
   double distance = 0;
-  // The nearest distance from which every corner is inside, then the target moved to the middle of what is seen; this settles quickly.
+  // Alternates the nearest distance that shows every corner and centering the target; converges in a few rounds.
   for (int round = 0; round < 8; ++round) {
     distance = 0;
     for (int corner = 0; corner < 8; ++corner) {

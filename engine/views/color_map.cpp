@@ -9,9 +9,9 @@ namespace {
 
 struct Key {
   double chroma, hue;
-};  // Oklab; hue in degrees, going on beyond 0 and 360
+};  // Oklab; hue in degrees, not limited to 0 .. 360
 
-/// Lightness runs evenly from `first` to `last`; chroma and hue are interpolated between keys.
+/// Lightness is linear from `first` to `last`; chroma and hue are interpolated between keys.
 struct Map {
   double first, last;
   Key keys[6];

@@ -2,6 +2,7 @@
 
 #include "gpu/device_impl.hpp"
 #include "gpu/texel_reads.hpp"
+#include "graph/step.hpp"
 #include "sort/dispatches.hpp"
 #include "views/antialias_record.h"
 
@@ -30,22 +31,12 @@ Expected<Finish> Finish::create(Device& device) {
 
 BufferRef Finish::addTo(Graph& graph, ImageRef color, uint32_t width, uint32_t height) const {
   const uint64_t pixels = uint64_t{width} * height;
-  BufferRef stairs = graph.create("picture before smoothing", {pixels * 4}), picture = graph.create("picture", {pixels * 4});
-  graph.pass("picture tone", [&](Pass& pass) {
-    pass.read(color, Use::ComputeSampled);
-    stairs = pass.write(stairs, Use::ComputeWrite, true);
-    const Kernel kernel = pass.kernel(tone_, {color, stairs});
-    return [kernel, groups = divideUp(pixels, 64)](Commands& commands) { commands.dispatch(kernel, groups); };
-  });
-  graph.pass("picture edges", [&](Pass& pass) {
-    const bool texels = usesTexelReads(*device_->device, pixels);
-    pass.read(stairs, texels ? Use::ComputeTexel : Use::ComputeRead);
-    picture = pass.write(picture, Use::ComputeWrite, true);
-    const Kernel kernel = pass.kernel(antialias_[texels], {stairs, picture});
-    const Groups groups{static_cast<uint32_t>(divideUp(width, kAntialiasGroup)), static_cast<uint32_t>(divideUp(height, kAntialiasGroup)),
-                        1};
-    return [kernel, groups, push = AntialiasPush{width, height}](Commands& commands) { commands.dispatch(kernel, groups, push); };
-  });
+  BufferRef aliased = graph.create("picture aliased", {pixels * 4}), picture = graph.create("picture", {pixels * 4});
+  addStep(graph, "picture tone", tone_, {sampled(color), fresh(aliased)}, divideUp(pixels, 64));
+  const bool texels = usesTexelReads(*device_->device, pixels);
+  const Groups tiles{static_cast<uint32_t>(divideUp(width, kAntialiasGroup)), static_cast<uint32_t>(divideUp(height, kAntialiasGroup)), 1};
+  addStep(graph, "picture edges", antialias_[texels], {texels ? rill::texels(aliased) : reads(aliased), fresh(picture)}, tiles,
+          AntialiasPush{width, height});
   return picture;
 }
 

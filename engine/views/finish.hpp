@@ -1,5 +1,5 @@
 #pragma once
-// From linear light to a picture: tone curve, sRGB, and edges without stairs.
+// Post-processing from linear light to a picture: tone curve, sRGB encoding, antialiasing.
 #include "gpu/resources.hpp"
 #include "rill/graph.hpp"
 
@@ -7,7 +7,7 @@ namespace rill {
 
 class Finish {
  public:
-  /// The device knows the shaders of engine/views.
+  /// The device must have the shaders of engine/views.
   static Expected<Finish> create(Device& device);
 
   /// `color`: linear light, width x height. RGBA8 in sRGB, rows from the top.
@@ -15,7 +15,7 @@ class Finish {
 
  private:
   DeviceImpl* device_ = nullptr;
-  const ComputePipeline *tone_ = nullptr, *antialias_[2] = {};  // the second reads texels
+  const ComputePipeline *tone_ = nullptr, *antialias_[2] = {};  // by texel reads
 };
 
 }  // namespace rill

@@ -7,7 +7,7 @@
 
 namespace rill {
 
-/// What a picture's legend says.
+/// Content of a picture's legend.
 struct LegendDesc {
   ParticleColor color = ParticleColor::Speed;
   double max = 1;                ///< the value at the map's end: m/s, or density over rest density - 1
@@ -15,7 +15,7 @@ struct LegendDesc {
 };
 
 /// Draws a color bar with ticks, a title and the time into the bottom left corner of a picture: width x height RGBA8 sRGB pixels, rows
-/// from the top. Its size follows the picture's height; a picture that is too small for it, so that it would cover the fluid, gets none.
+/// from the top. Its size follows the picture's height; too small a picture gets none.
 void drawLegend(std::span<uint8_t> rgba, uint32_t width, uint32_t height, const LegendDesc& legend);
 
 }  // namespace rill

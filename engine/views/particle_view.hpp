@@ -11,6 +11,7 @@
 #include "rill/scene.hpp"
 #include "views/camera.hpp"
 #include "views/color_map.hpp"
+#include "views/scene_buffers.hpp"
 
 namespace rill {
 
@@ -19,38 +20,64 @@ struct ParticleViewDesc {
   uint32_t width = 1280;  ///< pixels, 1 .. 8192
   uint32_t height = 720;  ///< pixels, 1 .. 8192; width x height is at most 2^25
   ParticleColor color = ParticleColor::Speed;
-  /// A particle's pixels have the map's color of its value, to be read off the legend: nothing is lit or casts a shadow, and what is
-  /// around the particles is darker than any color of a map.
+  /// Particles have the exact color of the legend, without lighting or shadows; the surroundings are darker than any color of a map.
   bool unlit = false;
   double scale_max = 0;  ///< value at the color map's end (m/s, or fraction of rest density); 0: ParticleView::scaleMax(color)
 };
 
-class ParticleViewImpl;
-
 /// Draws spheres of half a spacing's radius, the domain's floor, walls and edges, and the solids.
-/// Nothing depends on the order of execution: two runs on one driver give the same bytes.
+/// Bitwise deterministic per driver.
 class ParticleView {
  public:
-  /// Copies the domain, the solids and the light's frame to the device. `particles` is the start: it fixes the color scales, and its
-  /// origin. Scene and particles are not kept.
+  /// Copies the domain, the solids and the light's frame to the device. `particles`, the start, defines the color scales and the origin.
+  /// Scene and particles are not kept.
   static Expected<std::unique_ptr<ParticleView>> create(Device& device, const Scene& scene, const ParticleSet& particles);
-  ~ParticleView();
 
   /// BadInput for a picture that is empty or too large, with the limits. Needs no device.
   static Expected<void> check(const ParticleViewDesc& desc);
 
-  /// Declares the passes of one picture, `desc` being one that check() allows. The buffer that it returns holds width x height pixels,
-  /// RGBA8 in sRGB with alpha 255, rows from the top.
-  /// `time_s`: simulated time, where the solids are. With no particles, the state's buffers are not looked at.
-  BufferRef addTo(Graph& graph, const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc, double time_s);
+  /// Declares the passes of one picture; `desc` must pass check(). The returned buffer holds width x height pixels, RGBA8 in sRGB with
+  /// alpha 255, rows from the top. `time_s`: simulated time of the solids' poses. Without particles the state's buffers are not used.
+  BufferRef addTo(Graph& graph, const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc, double time_s) const;
 
   /// The value at a color map's end, fixed by the scene so that colors do not flicker: for speed, sqrt(2 g H) of the fall from the
-  /// fluid's top at the start to the tank's floor, for compression ten times the solver's tolerance, each rounded to a handsome number.
+  /// fluid's top at the start to the tank's floor, for compression ten times the solver's tolerance, each rounded to a round number.
   double scaleMax(ParticleColor color) const;
 
  private:
-  explicit ParticleView(std::unique_ptr<ParticleViewImpl>);
-  std::unique_ptr<ParticleViewImpl> impl_;
+  /// The buffers of one frame, each in its current version.
+  struct Frame {
+    particle_view::ViewPush push;
+    uint64_t pixels = 0;
+    BufferRef scene, poses, edges, depth, winner, light, floor, tint, position, velocity, counters, survivors;
+    BufferRef tiles, shaded, rims, picture;
+  };
+
+  particle_view::ViewPush pushConstants(const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc,
+                                        double time_s) const;
+  void addSetup(Graph& graph, const FluidState& fluid, Frame& frame) const;
+  void addSurfaces(Graph& graph, Frame& frame) const;
+  void addLightMap(Graph& graph, Frame& frame) const;
+  BufferRef addSolidMasks(Graph& graph, const Frame& frame, bool light) const;
+  void addVisibility(Graph& graph, Frame& frame) const;
+  void addSplat(Graph& graph, Frame& frame, bool winners) const;
+  void addTint(Graph& graph, Frame& frame) const;
+  void addFloorShadow(Graph& graph, Frame& frame) const;
+  void addClassify(Graph& graph, Frame& frame) const;
+  void addShade(Graph& graph, Frame& frame) const;
+  void addArguments(Graph& graph, Frame& frame) const;
+
+  const ParticleScene& scene() const { return buffers_.host; }
+  uint64_t lightTexels() const { return uint64_t{scene().scene.counts.y} * scene().scene.counts.z; }
+  bool hasFloor() const { return scene().scene.domain_min.w > 0 && (scene().scene.counts.w & 4u) != 0; }
+  bool hasShadows(const Frame& frame) const { return frame.push.count > 0 || scene().scene.counts.x > 0; }
+
+  SceneBuffers buffers_;
+  const ComputePipeline *edges_ = nullptr, *solidTiles_ = nullptr, *lightTiles_ = nullptr, *surfaces_ = nullptr, *floor_ = nullptr;
+  const ComputePipeline *lightSolids_ = nullptr, *project_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr,
+                        *splatLarge_ = nullptr;
+  const ComputePipeline *floorShadow_ = nullptr, *tint_ = nullptr, *classify_ = nullptr, *shadeFluid_ = nullptr, *shadeFloor_ = nullptr;
+  const ComputePipeline *shadeSky_ = nullptr, *shadeSolids_ = nullptr, *resolve_ = nullptr, *drawEdges_ = nullptr;
 };
 
 }  // namespace rill

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "gpu/device_impl.hpp"
-#include "render/compute_step.hpp"
+#include "graph/step.hpp"
 #include "sort/dispatches.hpp"
 
 namespace rill {

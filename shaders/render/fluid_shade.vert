@@ -1,5 +1,5 @@
 #version 460
-// A square for every tile with fluid.
+// A quad for each tile with fluid.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 

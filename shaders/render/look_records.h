@@ -1,4 +1,4 @@
-// How a fluid looks, as shaders read it. Colors are linear RGB; directions are in the world.
+// The appearance of a fluid, as shaders read it. Colors are linear RGB; directions are in world space.
 #ifndef RILL_RENDER_LOOK_RECORDS_H
 #define RILL_RENDER_LOOK_RECORDS_H
 
@@ -13,13 +13,13 @@ using vec4 = Float4;
 
 struct LookRecord {
   vec4 absorption;  // 1/m; w: index of refraction
-  vec4 scatter;     // what the fluid's inside sends back where it is thick; w: 1 where it is opaque
-  vec4 light;       // direction to the sun; w: its radiance over the sky's
-  // x: exponent of the sun's highlight, y: pixels a side of the thickness buffer's samples, z: m of
-  // its counts, w: how white torn fluid is
+  vec4 scatter;     // color of white light scattered by thick fluid; w: 1 if the fluid is opaque
+  vec4 light;       // direction to the sun; w: its radiance relative to the sky's
+  // x: exponent of the sun's highlight, y: pixels per sample of the thickness buffer, z: m per count
+  // of it, w: strength of whitewater
   vec4 finish;
-  vec4 above;       // light of the environment on what looks up; w: its width in texels, 0: there is none
-  vec4 below;       // and on what looks down; w: its height
+  vec4 above;       // irradiance of the environment from above, over pi; w: width in texels, 0: no environment
+  vec4 below;       // the same from below; w: height
 };
 
 #ifdef __cplusplus

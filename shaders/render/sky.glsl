@@ -1,19 +1,19 @@
-// The sky that fluids reflect and that lights the scenery. Needs `look`. With ENVIRONMENT, the number of a binding, it is a picture.
+// The sky that fluids reflect and that lights the scenery. Needs `look`. With ENVIRONMENT, a binding number, it is an environment map.
 #ifdef ENVIRONMENT
 layout(std430, set = 0, binding = ENVIRONMENT) readonly buffer Environment { uint environment[]; };
 
 vec3 environmentTexel(ivec2 at, ivec2 size) {
   const uint texel = environment[uint(at.y * size.x + at.x)];
-  // Nine bits each, over 2^24, times two to the power of the upper five.
+  // E5B9G9R9: nine-bit mantissas over 2^24, times two to the power of the upper five bits.
   return vec3(texel & 0x1FFu, (texel >> 9) & 0x1FFu, (texel >> 18) & 0x1FFu) * uintBitsToFloat(((texel >> 27) + 103u) << 23);
 }
 
-// Rows from straight up to straight down, the middle column towards -z; between four texels, around the back, too.
+// Equirectangular: rows from +y to -y, the middle column towards -z. Bilinear, wrapping around at the back.
 vec3 skyColor(vec3 direction, vec3 sun) {
   const ivec2 size = ivec2(look.above.w, look.below.w);
   const vec2 flat_on = dot(direction.xz, direction.xz) > 1e-20 ? direction.xz : vec2(0.0, -1.0);
-  const vec2 turn = vec2(atan(flat_on.x, -flat_on.y) * 0.15915494 + 0.5, acos(clamp(direction.y, -1.0, 1.0)) * 0.31830989);
-  const vec2 at = turn * vec2(size) - 0.5;
+  const vec2 uv = vec2(atan(flat_on.x, -flat_on.y) * 0.15915494 + 0.5, acos(clamp(direction.y, -1.0, 1.0)) * 0.31830989);
+  const vec2 at = uv * vec2(size) - 0.5;
   const vec2 part = at - floor(at);
   const ivec2 base = ivec2(floor(at));
   const ivec2 columns = (ivec2(base.x, base.x + 1) + size.x) % size.x, rows = clamp(ivec2(base.y, base.y + 1), ivec2(0), ivec2(size.y - 1));
@@ -22,12 +22,12 @@ vec3 skyColor(vec3 direction, vec3 sun) {
   return mix(upper, lower, part.y);
 }
 
-float skyShare(vec3 direction) { return 1.0; }  // the picture is of all around
+float skyShare(vec3 direction) { return 1.0; }  // the map covers all directions
 
 vec3 skyLight(vec3 normal) { return mix(look.below.rgb, look.above.rgb, 0.5 + 0.5 * normal.y); }
 
 #else
-// A gradient, a bright band near the horizon, a wide soft light around the sun.
+// A gradient with a bright band at the horizon and a wide soft light around the sun.
 const vec3 kZenith = vec3(0.16, 0.30, 0.58);
 const vec3 kHorizon = vec3(0.62, 0.74, 0.88);
 const vec3 kGround = vec3(0.09, 0.13, 0.16);
@@ -39,7 +39,7 @@ vec3 skyColor(vec3 direction, vec3 sun) {
   const vec3 above = mix(kHorizon, kZenith, pow(clamp(up, 0.0, 1.0), 0.55));
   const vec3 base = mix(kGround, above, skyShare(direction));
   const float near_sun = max(dot(direction, sun), 0.0);
-  // A wide soft light overhead: its edges show how a surface curves.
+  // A wide soft light overhead, whose reflected edges show curvature.
   const vec2 at = direction.xz / max(up, 1e-3) - vec2(-0.35, -0.55);
   const vec2 inside = smoothstep(vec2(1.5, 1.0), vec2(0.2, 0.1), abs(at));
   const vec3 lamp = vec3(1.0, 0.97, 0.92) * (up > 0.05 ? inside.x * inside.y * 0.9 : 0.0);

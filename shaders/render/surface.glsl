@@ -1,8 +1,8 @@
-// Camera and spheres for every kernel of the surface.
+// Camera, spheres and sample grid for all shaders of the surface.
 #extension GL_EXT_control_flow_attributes : require
 #include "render/surface_records.h"
 
-// Before loops of a fixed count: a software driver takes seconds to compile them unrolled.
+// For loops with a constant count: software drivers take seconds to compile them unrolled.
 #define RILL_LOOP [[dont_unroll]]
 
 #ifndef RILL_PUSH_MORE
@@ -13,11 +13,11 @@ layout(push_constant) uniform Push {
   RILL_PUSH_MORE
 };
 
-#define groupIndex() (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x)  // of kernels alone
+#define groupIndex() (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x)  // compute shaders only
 
 float infinity() { return uintBitsToFloat(kInfiniteBits); }
 
-// By bits: a compiler may assume that there are no NaNs.
+// Compares bits because a compiler may assume that there are no NaNs.
 bool drawable(vec3 p) {
   const uvec3 magnitude = floatBitsToUint(p) & 0x7FFFFFFFu;
   return all(lessThan(magnitude, uvec3(0x58635FA9u)));  // 1e15 m
@@ -28,7 +28,7 @@ vec3 viewPoint(vec3 p) {
               dot(vec3(view.rows[4], view.rows[5], view.rows[6]), p) + view.rows[7],
               dot(vec3(view.rows[8], view.rows[9], view.rows[10]), p) + view.rows[11]);
 }
-// Directions back to where positions are stored: the rows are orthonormal.
+// From view space to the space of stored positions; the rows are orthonormal.
 vec3 worldDirection(vec3 v) {
   return vec3(view.rows[0], view.rows[1], view.rows[2]) * v.x + vec3(view.rows[4], view.rows[5], view.rows[6]) * v.y +
          vec3(view.rows[8], view.rows[9], view.rows[10]) * v.z;
@@ -37,9 +37,9 @@ vec3 worldDirection(vec3 v) {
 vec3 worldPoint(vec3 v) { return worldDirection(v - vec3(view.rows[3], view.rows[7], view.rows[11])); }
 
 vec2 pictureSize() { return vec2(float(view.width), float(view.height)); }
-// How a pixel's extent grows with depth. What lies before the near plane is put where it would be on it.
+// Factor by which a pixel's extent grows with depth. Points in front of the near plane are treated as on it.
 float widening(float z) { return view.perspective > 0.0 ? max(z, view.near_depth) : 1.0; }
-float nearestDrawn() { return view.near_depth * 1.000001 + 1e-6 * view.spacing; }  // just beyond the near plane
+float nearestDrawn() { return view.near_depth * 1.000001 + 1e-6 * view.spacing; }  // just behind the near plane
 vec2 axisOf(vec2 pixel) {
   return (pixel / pictureSize() * 2.0 - 1.0 - vec2(view.shift[0], view.shift[1])) * vec2(view.scale[0], view.scale[1]);
 }
@@ -53,9 +53,8 @@ float metersAPixel(float z) { return abs(view.scale[1]) * 2.0 / float(view.heigh
 vec3 rayFrom(vec2 axis) { return view.perspective > 0.0 ? vec3(0.0) : vec3(axis, 0.0); }
 vec3 rayAlong(vec2 axis) { return view.perspective > 0.0 ? vec3(axis, 1.0) : vec3(0.0, 0.0, 1.0); }
 
-// Depth of the near side of a sphere along a ray, or of the near plane where that cuts it; negative
-// where it misses or lies before the near plane. Measured from the ray's nearest point to the
-// center, so that a small sphere far away keeps its precision.
+// Depth of a sphere's near side along a ray, or of the near plane where it cuts the sphere; negative on a miss. Measured from the
+// ray's point nearest to the center, which keeps the precision of small distant spheres.
 float sphereDepth(vec3 center, float radius, vec2 axis) {
   const vec3 from = rayFrom(axis), along = rayAlong(axis);
   const float inverse = 1.0 / dot(along, along);
@@ -65,19 +64,19 @@ float sphereDepth(vec3 center, float radius, vec2 axis) {
   return inside > 0.0 && middle + half_chord > nearest ? max(middle - half_chord, nearest) : -1.0;
 }
 
-// Square of a point's distance to a ray.
+// Squared distance of a point to a ray.
 float raySquare(vec3 point, vec2 axis) {
   const vec3 from = rayFrom(axis), along = rayAlong(axis);
   const vec3 miss = point - from - dot(point - from, along) / dot(along, along) * along;
   return dot(miss, miss);
 }
 
-// Between which axes a sphere is seen that the near plane cuts: on each the tangents that touch it
-// beyond that plane, and the ends of the plane's own section (Mara and McGuire 2013).
+// Bounds of a sphere that the near plane cuts: per axis the tangents that touch it behind the plane, and the ends of its section
+// with the plane (Mara and McGuire 2013).
 void cutExtent(vec3 center, float radius, out vec2 low, out vec2 high) {
   const vec2 from_eye = center.xy * center.xy + center.z * center.z, tangent = sqrt(max(from_eye - radius * radius, 0.0));
   const vec2 high_z = tangent * center.z - center.xy * radius, low_z = tangent * center.z + center.xy * radius;
-  const vec2 beyond = view.near_depth * from_eye;  // where a tangent touches, its depth is one of those times tangent / from_eye
+  const vec2 beyond = view.near_depth * from_eye;  // the depth of a point of tangency is high_z or low_z times tangent / from_eye
   const float off = view.near_depth - center.z, section = sqrt(max(radius * radius - off * off, 0.0));
   high = (center.xy + section) / view.near_depth;
   low = (center.xy - section) / view.near_depth;
@@ -87,7 +86,7 @@ void cutExtent(vec3 center, float radius, out vec2 low, out vec2 high) {
   }
 }
 
-// Pixels between which a sphere is seen.
+// Screen-space bounds of a sphere, in pixels.
 vec4 sphereExtent(vec3 center, float radius) {
   vec2 low = center.xy - radius, high = center.xy + radius;
   if (view.perspective > 0.0 && center.z - radius <= view.near_depth) {
@@ -102,7 +101,7 @@ vec4 sphereExtent(vec3 center, float radius) {
   return vec4(min(a, b), max(a, b));
 }
 
-// Beyond the near plane and inside the picture with this margin (pixels), as a part at least.
+// Whether a part of the sphere is behind the near plane and inside the picture with this margin (pixels).
 bool shownWithin(vec3 center, float radius, float margin) {
   if (!(center.z + radius > nearestDrawn())) return false;
   const vec4 extent = sphereExtent(center, radius);
@@ -110,43 +109,43 @@ bool shownWithin(vec3 center, float radius, float margin) {
 }
 bool shown(vec3 center, float radius) { return shownWithin(center, radius, float(view.margin * view.step)); }
 
-// Samples: one a square of view.step pixels, at its middle, the first ones in the margin.
+// Samples lie at the centers of squares of view.step pixels; the first ones are in the margin.
 uvec2 sampleGrid() { return (uvec2(view.width, view.height) + view.step - 1u) / view.step + 2u * view.margin; }
 vec2 samplePixel(ivec2 at) { return (vec2(at - int(view.margin)) + 0.5) * float(view.step); }
-// Where among the samples a pixel lies; whole numbers are samples.
+// Position of a pixel on the sample grid; whole numbers are samples.
 vec2 sampleOf(vec2 pixel) { return pixel / float(view.step) - 0.5 + float(view.margin); }
-// First and last sample whose middle a sphere may cover, both included; empty where last < first.
+// First and last sample whose center a sphere may cover, both included; empty if last < first.
 ivec4 sampleRect(vec3 center, float radius) {
   const vec4 pixels = clamp(sphereExtent(center, radius), vec4(-1e6), vec4(1e6));
   const vec4 extent = vec4(sampleOf(pixels.xy), sampleOf(pixels.zw));
   return ivec4(max(ivec2(ceil(extent.xy)), ivec2(0)), min(ivec2(floor(extent.zw)), ivec2(sampleGrid()) - 1));
 }
 
-// Where particles are smaller than samples, spheres and lengths are those of a sample: far away the fluid is a coarser one.
+// Where particles are smaller than samples, spheres and lengths are those of a sample: distant fluid is coarser.
 float hardRadius(float z) { return max(view.radius, 0.71 * metersAPixel(z) * float(view.step)); }
 float spacingAt(float z) { return max(view.spacing, 1.2 * metersAPixel(z) * float(view.step)); }
 
-// The screen grid: cells of kCellSamples samples a side; what lies beyond the picture counts for the nearest cell.
+// The screen grid: cells of kCellSamples samples a side; positions outside the picture map to the nearest cell.
 uvec2 cellGrid() { return (sampleGrid() + kCellSamples - 1u) / kCellSamples; }
 ivec2 cellOf(vec2 pixel) {
   return clamp(ivec2(floor((sampleOf(pixel) + 0.5) / float(kCellSamples))), ivec2(0), ivec2(cellGrid()) - 1);
 }
 
-// What the target's depth is for a view depth.
+// Conversion between view depth and the target's depth.
 float targetDepth(float z) { return view.depth_map[0] + view.depth_map[1] * (view.perspective > 0.0 ? 1.0 / z : z); }
 float depthOfTarget(float stored) {
   const float part = (stored - view.depth_map[0]) / view.depth_map[1];
   return view.perspective > 0.0 ? (part > 0.0 ? 1.0 / part : infinity()) : part;
 }
 
-// Where a point of view space is drawn, in clip space.
+// From view space to clip space.
 vec4 clipPoint(vec3 v) {
   const float w = view.perspective > 0.0 ? v.z : 1.0;
   const float depth = view.perspective > 0.0 ? view.depth_map[0] * v.z + view.depth_map[1] : targetDepth(v.z);
   return vec4(v.xy / vec2(view.scale[0], view.scale[1]) + w * vec2(view.shift[0], view.shift[1]), depth, w);
 }
 
-// Unit vectors in 28 bits: octahedral, 14 bits a coordinate (Cigolle et al. 2014). The other four are for what a pixel's coverage is.
+// Unit vectors in 28 bits: octahedral, 14 bits a coordinate (Cigolle et al. 2014). The other four bits hold a pixel's coverage.
 uint packNormal(vec3 n) {
   vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
   if (n.z < 0.0) p = (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
@@ -162,8 +161,8 @@ vec3 unpackNormal(uint packed) {
   return normalize(n);
 }
 
-// A pixel of the surface: depth and normal, and how much of it is fluid. Where that is less than
-// half, the depth's sign is set: it reads as no fluid to all but those who draw edges.
+// A pixel of the surface: depth, normal and coverage. At a coverage below 0.5 the depth's sign is set, which reads as no fluid
+// everywhere but in shading.
 uvec2 packPixel(float z, vec3 normal, float coverage) {
   if (coverage <= 0.0 || !(z < infinity())) return uvec2(kInfiniteBits, 0u);
   z = max(z, nearestDrawn());
@@ -171,5 +170,5 @@ uvec2 packPixel(float z, vec3 normal, float coverage) {
 }
 float pixelDepth(uvec2 pixel) { return abs(uintBitsToFloat(pixel.x)); }
 float pixelCoverage(uvec2 pixel) { return float(pixel.y >> 28) / 15.0; }
-// What the near plane cuts is seen in it, and faces the eye: depth and normal as samples are stored.
+// A sample where the near plane cuts the fluid: in the plane, facing the eye.
 uvec2 cutSample(vec2 axis) { return uvec2(floatBitsToUint(nearestDrawn()), packNormal(-normalize(rayAlong(axis)))); }

@@ -1,4 +1,4 @@
-// What a look at the surface walks over, at bindings 0 and 1: the cells of the screen grid and the centers of surface particles.
+// Bindings 0 and 1: the cell starts of the screen grid and the centers of surface particles.
 #include "shared/arrays.glsl"
 READ_UINT(0, start)
 READ_FLOAT4(1, center)

@@ -1,5 +1,5 @@
 #version 460
-// The blended surface of every sample that a sphere covers.
+// The blended surface at each sample that a sphere covers.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 
@@ -10,7 +10,7 @@ layout(std430, set = 0, binding = 5) buffer Counters { uint counters[]; };
 #define BLOCKS 6
 #include "render/surface_block.glsl"
 #include "render/surface_blend.glsl"
-#include "render/surface_solid.glsl"
+#include "render/surface_interior.glsl"
 
 void main() {
   ivec2 at;
@@ -19,12 +19,12 @@ void main() {
   const float hard = uintBitsToFloat(depth[index]);
   if (hard == infinity()) return;
   const vec2 axis = axisOf(samplePixel(at));
-  if (hard <= nearestDrawn() && solidAround(at)) {  // amid what the near plane cuts
+  if (hard <= nearestDrawn() && isInterior(at)) {  // inside the near plane's section
     samples[index] = cutSample(axis);
     return;
   }
   const Blend blend = blendAt(axis, hard);
-  samples[index] = blend.coverage >= 0.5 || solidAround(at)
+  samples[index] = blend.coverage >= 0.5 || isInterior(at)
                        ? uvec2(floatBitsToUint(blend.depth), packNormal(blend.normal))
                        : uvec2(kInfiniteBits, 0u);
   if (bound_hit) atomicAdd(counters[kBoundHits], 1u);

@@ -1,7 +1,5 @@
-// Kernels over samples run where there is fluid alone: a workgroup takes one of the listed blocks
-// of kSampleBlock x kSampleBlock samples. Outside of those samples stay as they were cleared.
-// Define BLOCKS, the list's binding, before including; needs `counters`. With LEVELS a block has
-// half as many samples a side on each coarser level of a pyramid.
+// A workgroup processes one listed block of kSampleBlock x kSampleBlock samples; samples of other blocks keep their cleared value.
+// BLOCKS is the list's binding; needs `counters`. With LEVELS, blocks halve on each coarser level of the pyramid.
 #ifdef LEVELS
 layout(local_size_x = kSampleBlock, local_size_y = kSampleBlock, local_size_x_id = 1, local_size_y_id = 1) in;
 layout(constant_id = 1) const uint kBlock = kSampleBlock;
@@ -11,7 +9,7 @@ const uint kBlock = kSampleBlock;
 #endif
 layout(std430, set = 0, binding = BLOCKS) readonly buffer Blocks { uint blocks[]; };
 
-// Whether there is one for this invocation.
+// The sample of this invocation; false if it has none.
 bool ownSample(out ivec2 at) {
   at = ivec2(0);
   if (groupIndex() >= counters[kSampleBlockCount]) return false;

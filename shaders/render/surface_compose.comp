@@ -1,7 +1,6 @@
 #version 460
-// The surface of the pixels of the tiles with fluid: between four samples that lie on one surface
-// it is what they say. Where they do not, and there is fluid around, the pixel is listed for
-// surface_edges.comp: few are, and those few lie apart.
+// The surface of the pixels of listed tiles: interpolated between four samples on one surface. Other pixels near fluid are listed for
+// surface_edges.comp, because few need it and they would stall their workgroup.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 
@@ -13,7 +12,7 @@ layout(std430, set = 0, binding = 3) readonly buffer Tiles { uint tiles[]; };
 layout(std430, set = 0, binding = 4) writeonly buffer Surface { uvec2 surface[]; };  // packPixel()
 layout(std430, set = 0, binding = 5) writeonly buffer Edges { uint edges[]; };
 #include "render/surface_corners.glsl"
-#include "render/surface_around.glsl"
+#include "render/surface_depth_range.glsl"
 
 void main() {
   if (groupIndex() >= counters[kSurfaceTileCount]) return;
@@ -23,10 +22,10 @@ void main() {
   if (pixel.x >= view.width || pixel.y >= view.height) return;
   const uint index = pixel.y * view.width + pixel.x;
   const Corners c = cornersOf(vec2(pixel) + 0.5);
-  if (c.agree) {
+  if (c.coplanar) {
     const vec4 weight = vec4((1.0 - c.part.x) * (1.0 - c.part.y), c.part.x * (1.0 - c.part.y), (1.0 - c.part.x) * c.part.y,
                              c.part.x * c.part.y);
-    // In perspective it is the inverse of depth that is linear across a plane.
+    // In perspective the inverse depth is linear across a plane.
     const vec4 each = vec4(c.depths[0], c.depths[1], c.depths[2], c.depths[3]);
     const float z = view.perspective > 0.0 ? 1.0 / dot(weight, 1.0 / each) : dot(weight, each);
     const vec3 normal = weight.x * c.normals[0] + weight.y * c.normals[1] + weight.z * c.normals[2] + weight.w * c.normals[3];
@@ -34,7 +33,7 @@ void main() {
     return;
   }
   float nearest = infinity(), farthest = 0.0;
-  depthsAround(sampleOfPixel(pixel), nearest, farthest);
+  depthRange(sampleOfPixel(pixel), nearest, farthest);
   if (nearest < infinity())
     edges[atomicAdd(counters[kEdgeCount], 1u)] = index;
   else

@@ -1,11 +1,11 @@
 // The four samples around a pixel, each with its plane, and whether they lie on one surface. Needs `samples`.
-const float kAgree = 0.35;  // spacings that a sample may lie off the plane through another
+const float kCoplanar = 0.35;  // spacings: maximal distance of a sample to the plane through another
 
 struct Corners {
-  vec2 part;  // of the way from the first sample to the last
+  vec2 part;  // bilinear weights of the last sample
   float depths[4];
   vec3 normals[4], points[4];
-  bool agree;
+  bool coplanar;
 };
 
 Corners cornersOf(vec2 middle) {
@@ -14,7 +14,7 @@ Corners cornersOf(vec2 middle) {
   const ivec2 base = ivec2(floor(at));
   Corners c;
   c.part = at - vec2(base);
-  c.agree = true;
+  c.coplanar = true;
   for (int k = 0; k < 4; ++k) {
     const ivec2 s = clamp(base + ivec2(k & 1, k >> 1), ivec2(0), grid - 1);
     const uvec2 stored = samples[uint(s.y * grid.x + s.x)];
@@ -22,11 +22,11 @@ Corners cornersOf(vec2 middle) {
     c.depths[k] = uintBitsToFloat(stored.x);
     c.normals[k] = unpackNormal(stored.y);
     c.points[k] = rayFrom(axis) + c.depths[k] * rayAlong(axis);
-    c.agree = c.agree && c.depths[k] < infinity();
+    c.coplanar = c.coplanar && c.depths[k] < infinity();
   }
-  for (int k = 1; k < 4 && c.agree; ++k) {
+  for (int k = 1; k < 4 && c.coplanar; ++k) {
     const vec3 d = c.points[k] - c.points[0];
-    c.agree = abs(dot(d, c.normals[0])) < kAgree * view.spacing && abs(dot(d, c.normals[k])) < kAgree * view.spacing;
+    c.coplanar = abs(dot(d, c.normals[0])) < kCoplanar * view.spacing && abs(dot(d, c.normals[k])) < kCoplanar * view.spacing;
   }
   return c;
 }

@@ -1,5 +1,5 @@
 #version 460
-// Lists the particles that occlusion leaves, in any order.
+// Lists the particles that are not occluded, in any order.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 

@@ -1,7 +1,6 @@
 #version 460
-// The listed pixels, whose samples do not lie on one surface: each has a look of its own. With
-// FILTERED, where the samples come from a depth filter, that look tells how much of the pixel is
-// fluid, and the surface is a sample's.
+// The listed pixels, whose samples are not on one surface, are evaluated one by one. With FILTERED, for samples of a depth filter,
+// only the coverage is evaluated and the surface is a sample's.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 
@@ -13,32 +12,32 @@ layout(std430, set = 0, binding = 5) buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 6) readonly buffer Edges { uint edges[]; };
 layout(std430, set = 0, binding = 7) writeonly buffer Surface { uvec2 surface[]; };  // packPixel()
 #ifdef FILTERED
-#include "render/surface_cover.glsl"
+#include "render/surface_coverage.glsl"
 #include "render/surface_corners.glsl"
 #else
 #include "render/surface_blend.glsl"
 #endif
-#include "render/surface_solid.glsl"
-#include "render/surface_around.glsl"
+#include "render/surface_interior.glsl"
+#include "render/surface_depth_range.glsl"
 
-struct Look {
+struct EdgePixel {
   float z, coverage;
   vec3 normal;
 };
 
 #ifdef FILTERED
-// On the plane of the nearest of the four samples, of the surface that covers this pixel.
-Look lookAt(vec2 middle, ivec2 own, float nearest, float farthest) {
+// The plane of the nearest of the four samples on the surface that covers this pixel.
+EdgePixel evaluate(vec2 middle, ivec2 own, float nearest, float farthest) {
   const vec2 axis = axisOf(middle);
-  Look look = Look(infinity(), coverOf(axis, nearest), vec3(0.0, 0.0, -1.0));
+  EdgePixel pixel_surface = EdgePixel(infinity(), coverageFromCenters(axis, nearest), vec3(0.0, 0.0, -1.0));
   float hard = nearest;
-  if (look.coverage < 1.0 && farthest > nearest + 0.5 * view.spacing) {
-    const float behind = coverOf(axis, farthest);
-    if (look.coverage < 0.5) hard = farthest;
-    look.coverage = max(look.coverage, behind) >= 0.5 ? 1.0 : behind;
+  if (pixel_surface.coverage < 1.0 && farthest > nearest + 0.5 * view.spacing) {
+    const float behind = coverageFromCenters(axis, farthest);
+    if (pixel_surface.coverage < 0.5) hard = farthest;
+    pixel_surface.coverage = max(pixel_surface.coverage, behind) >= 0.5 ? 1.0 : behind;
   }
-  if (look.coverage < 1.0) look.coverage = max(look.coverage, solidCoverage(middle));
-  if (look.coverage <= 0.0) return look;
+  if (pixel_surface.coverage < 1.0) pixel_surface.coverage = max(pixel_surface.coverage, interiorCoverage(middle));
+  if (pixel_surface.coverage <= 0.0) return pixel_surface;
   const Corners c = cornersOf(middle);
   float best = 1e30;
   for (int k = 0; k < 4; ++k) {
@@ -46,32 +45,32 @@ Look lookAt(vec2 middle, ivec2 own, float nearest, float farthest) {
     const float badness = c.depths[k] < infinity() ? dot(off, off) + 4.0 * abs(c.depths[k] - hard) / view.spacing : 1e30;
     if (badness >= best) continue;
     best = badness;
-    look.normal = c.normals[k];
-    const float slope = dot(rayAlong(axis), look.normal), height = dot(c.points[k] - rayFrom(axis), look.normal);
-    look.z = slope < -0.05 * length(rayAlong(axis))
+    pixel_surface.normal = c.normals[k];
+    const float slope = dot(rayAlong(axis), pixel_surface.normal), height = dot(c.points[k] - rayFrom(axis), pixel_surface.normal);
+    pixel_surface.z = slope < -0.05 * length(rayAlong(axis))
                  ? clamp(height / slope, c.depths[k] - view.spacing, c.depths[k] + view.spacing)
                  : c.depths[k];
   }
-  return look;
+  return pixel_surface;
 }
 #else
-Look lookAt(vec2 middle, ivec2 own, float nearest, float farthest) {
+EdgePixel evaluate(vec2 middle, ivec2 own, float nearest, float farthest) {
   const vec2 axis = axisOf(middle);
   Blend blend = blendAt(axis, nearest);
   float coverage = blend.coverage;
-  // an edge before other fluid is one without a pixel of what is behind both
+  // At an edge in front of other fluid, coverage counts both.
   if (coverage < 1.0 && farthest > nearest + 0.5 * view.spacing) {
     const Blend behind = blendAt(axis, farthest);
     if (coverage < 0.5) blend = behind;
     coverage = max(coverage, behind.coverage) >= 0.5 ? 1.0 : behind.coverage;
   }
-  const float solid = coverage < 1.0 ? solidCoverage(middle) : 0.0;
-  if (coverage < 0.5 && solid > coverage) {
+  const float interior = coverage < 1.0 ? interiorCoverage(middle) : 0.0;
+  if (coverage < 0.5 && interior > coverage) {
     const float hard = uintBitsToFloat(depth[uint(own.y) * sampleGrid().x + uint(own.x)]);
     blend = blendAt(axis, hard < infinity() ? hard : nearest);
   }
-  coverage = max(coverage, solid);
-  return Look(blend.depth, coverage, blend.normal);
+  coverage = max(coverage, interior);
+  return EdgePixel(blend.depth, coverage, blend.normal);
 }
 #endif
 
@@ -81,8 +80,8 @@ void main() {
   const uvec2 pixel = uvec2(edges[k] % view.width, edges[k] / view.width);
   const ivec2 own = sampleOfPixel(pixel);
   float nearest = infinity(), farthest = 0.0;
-  depthsAround(own, nearest, farthest);
-  const Look look = lookAt(vec2(pixel) + 0.5, own, nearest, farthest);
-  surface[edges[k]] = packPixel(look.z, look.normal, look.coverage);
+  depthRange(own, nearest, farthest);
+  const EdgePixel pixel_surface = evaluate(vec2(pixel) + 0.5, own, nearest, farthest);
+  surface[edges[k]] = packPixel(pixel_surface.z, pixel_surface.normal, pixel_surface.coverage);
   if (bound_hit) atomicAdd(counters[kBoundHits], 1u);
 }

@@ -1,10 +1,8 @@
 #version 460
-// One step of screen-space curvature flow (van der Laan, Green and Sainz 2009): depth moves with
-// the surface's mean curvature. Beyond an edge of depth the surface goes on as it is, so that
-// silhouettes neither shrink nor are pulled. Each sample takes as many steps as it needs: far away,
-// where samples are wide and steps are long, it soon has had its time.
+// One step of screen-space curvature flow (van der Laan, Green and Sainz 2009). The surface is continued across depth edges, so that
+// silhouettes stay. Each sample takes the steps that its width needs: wide, distant samples take few.
 #extension GL_GOOGLE_include_directive : require
-#define RILL_PUSH_MORE uint turn;  // which step this is
+#define RILL_PUSH_MORE uint iteration;  // number of this step
 #include "render/surface.glsl"
 #include "shared/arrays.glsl"
 #include "render/surface_filter.glsl"
@@ -15,9 +13,9 @@ layout(std430, set = 0, binding = 2) readonly buffer Counters { uint counters[];
 #define BLOCKS 3
 #define LEVELS
 #include "render/surface_block.glsl"
-#include "render/surface_level.glsl"
+#include "render/surface_pyramid.glsl"
 
-layout(constant_id = 0) const float kStep = kFlowStable;  // of the square of a sample's side; the test of stability tries others
+layout(constant_id = 0) const float kStep = kFlowStable;  // squared samples; the stability test uses others
 
 float at(ivec2 p, ivec2 grid) { return beforeAt(uint(clamp(p.y, 0, grid.y - 1) * grid.x + clamp(p.x, 0, grid.x - 1))); }
 
@@ -29,7 +27,7 @@ void main() {
   const float z = beforeAt(index);
   if (z == infinity()) return;
   const float length = metersASample(z), steps = max(ceil(view.smoothing / (kStep * length * length)), 1.0);
-  if (float(turn) >= steps) {
+  if (float(iteration) >= steps) {
     after[index] = z;
     return;
   }
@@ -37,7 +35,7 @@ void main() {
   float side[9];
   for (int k = 0; k < 9; ++k) side[k] = at(p + ivec2(k % 3 - 1, k / 3 - 1), grid);
   float value[9];
-  // A neighbor on another surface is replaced by what its opposite says, or by this sample.
+  // A neighbor on another surface is extrapolated from its opposite, or replaced by this sample.
   for (int k = 0; k < 9; ++k) {
     const bool same = abs(side[k] - z) < edge, other = abs(side[8 - k] - z) < edge;
     value[k] = same ? toLinear(side[k]) : (other ? 2.0 * q - toLinear(side[8 - k]) : q);

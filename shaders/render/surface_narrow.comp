@@ -1,6 +1,6 @@
 #version 460
-// The narrow-range filter (Truong and Yuksel 2018), one dimension of it: a Gaussian over samples,
-// of which those far in front are left out and those far behind count as just behind.
+// The narrow-range filter (Truong and Yuksel 2018), one dimension of it: a Gaussian that ignores samples far in front and clamps those
+// far behind.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 #include "shared/arrays.glsl"
@@ -13,7 +13,7 @@ layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };
 #include "render/surface_block.glsl"
 layout(constant_id = 0) const uint kVertical = 0u;
 
-const float kReach = 2.3076923;  // standard deviations: where the Gaussian is cut, at 0.07 of its peak (three spacings at a sigma of 1.3)
+const float kReach = 2.3076923;  // standard deviations: the Gaussian is cut at 0.07 of its peak
 const float kFront = 2.0;        // spacings in front of this sample: another surface
 const float kBehind = 1.0;       // spacings behind it at most
 const uint kMaxTaps = 3u;       // margins of samples
@@ -28,19 +28,19 @@ void main() {
   const float length = metersASample(z) / view.spacing;
   const int wanted = max(int(min(kReach * view.smoothing / length, 1e6)), 1), taps = min(wanted, int(kMaxTaps * view.margin));
   if (taps < wanted) atomicAdd(counters[kBoundHits], 1u);
-  // By numbers: of a constant vector chosen by a specialization constant lavapipe (Mesa 22.3) takes the same one always.
+  // Not a choice between constant vectors, which lavapipe (Mesa 22.3) folds to (0, 0) with a specialization constant.
   const ivec2 along = ivec2(1 - int(kVertical), int(kVertical));
   float sum = toLinear(z), weights = 1.0;
   for (int k = 1; k <= taps; ++k) {
-    // Both sides or none: what is missing on one side would tilt the surface.
+    // Both sides or none, because a missing side would tilt the surface.
     float pair = 0.0;
     bool whole = true;
     for (int s = -1; s <= 1; s += 2) {
-      const ivec2 there = p + s * k * along;
-      const bool inside = all(greaterThanEqual(there, ivec2(0))) && all(lessThan(there, grid));
-      const float other = inside ? beforeAt(uint(there.y * grid.x + there.x)) : infinity();
+      const ivec2 neighbor = p + s * k * along;
+      const bool inside = all(greaterThanEqual(neighbor, ivec2(0))) && all(lessThan(neighbor, grid));
+      const float other = inside ? beforeAt(uint(neighbor.y * grid.x + neighbor.x)) : infinity();
       whole = whole && other > z - kFront * view.spacing * float(k) * length && other < infinity();
-      const float slope = float(k) * length;  // a slanted surface lies behind itself
+      const float slope = float(k) * length;  // allows for a slanted surface
       pair += toLinear(min(other, z + (kBehind + 2.0 * slope) * view.spacing));
     }
     const float off = float(k) * length / view.smoothing;

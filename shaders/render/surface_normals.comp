@@ -1,5 +1,5 @@
 #version 460
-// Normals of a filtered depth: differences to the nearer one of the two neighbors across, so that none reaches over an edge.
+// Normals of a filtered depth, by differences that do not cross depth edges.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 
@@ -10,30 +10,30 @@ layout(std430, set = 0, binding = 4) writeonly buffer Samples { uvec2 samples[];
 layout(std430, set = 0, binding = 5) buffer Counters { uint counters[]; };
 #define BLOCKS 6
 #include "render/surface_block.glsl"
-#include "render/surface_cover.glsl"
-#include "render/surface_solid.glsl"
+#include "render/surface_coverage.glsl"
+#include "render/surface_interior.glsl"
 
-const float kInset = 0.3;  // spacings: how far the smoothed spheres of 0.9 spacings lie above the surface, half a spacing above the centers
+const float kInset = 0.3;  // spacings: smoothed spheres of 0.9 spacings lie this far above the surface, which is 0.5 above the centers
 
-vec3 pointAt(ivec2 p, ivec2 grid, out bool there) {
-  there = all(greaterThanEqual(p, ivec2(0))) && all(lessThan(p, grid));
-  const float z = there ? filteredAt(uint(p.y * grid.x + p.x)) : infinity();
-  there = there && z < infinity();
+vec3 pointAt(ivec2 p, ivec2 grid, out bool valid) {
+  valid = all(greaterThanEqual(p, ivec2(0))) && all(lessThan(p, grid));
+  const float z = valid ? filteredAt(uint(p.y * grid.x + p.x)) : infinity();
+  valid = valid && z < infinity();
   const vec2 axis = axisOf(samplePixel(p));
-  return rayFrom(axis) + (there ? z : 0.0) * rayAlong(axis);
+  return rayFrom(axis) + (valid ? z : 0.0) * rayAlong(axis);
 }
 
 vec3 difference(ivec2 p, ivec2 along, ivec2 grid, vec3 own) {
-  bool before_there, after_there;
-  const vec3 before = own - pointAt(p - along, grid, before_there), after = pointAt(p + along, grid, after_there) - own;
-  if (before_there && after_there) {
+  bool before_valid, after_valid;
+  const vec3 before = own - pointAt(p - along, grid, before_valid), after = pointAt(p + along, grid, after_valid) - own;
+  if (before_valid && after_valid) {
     const float edge = 0.5 * view.spacing;
-    // On one surface the mean of both sides, across an edge the nearer one.
+    // Central difference on one surface, at an edge the smaller one.
     if (abs(before.z - after.z) < edge) return before + after;
     return abs(before.z) < abs(after.z) ? before : after;
   }
-  if (before_there) return before;
-  if (after_there) return after;
+  if (before_valid) return before;
+  if (after_valid) return after;
   const float length = metersAPixel(own.z) * float(view.step);
   return vec3(vec2(along), 0.0) * length;
 }
@@ -47,8 +47,8 @@ void main() {
   if (z == infinity()) return;
   const float hard = uintBitsToFloat(depth[index]);
   const vec2 axis = axisOf(samplePixel(p));
-  if (!solidAround(p)) {
-    const float coverage = coverOf(axis, hard);
+  if (!isInterior(p)) {
+    const float coverage = coverageFromCenters(axis, hard);
     if (bound_hit) atomicAdd(counters[kBoundHits], 1u);
     if (coverage < 0.5) return;
   }
@@ -56,14 +56,14 @@ void main() {
     samples[index] = cutSample(axis);
     return;
   }
-  bool there;
-  const vec3 own = pointAt(p, grid, there);
+  bool valid;
+  const vec3 own = pointAt(p, grid, valid);
   vec3 normal = cross(difference(p, ivec2(1, 0), grid, own), difference(p, ivec2(0, 1), grid, own));
   const vec3 towards = view.perspective > 0.0 ? own : vec3(0.0, 0.0, 1.0);
   if (dot(normal, towards) > 0.0) normal = -normal;
   const float size = length(normal);
   normal = size > 0.0 ? normal / size : -normalize(towards);
-  // The spheres reach beyond where the fluid ends.
+  // The spheres extend beyond the fluid's surface.
   const float slope = dot(rayAlong(axis), normal);
   const float inset = min(kInset / max(-slope, 0.1), 3.0 * kInset) * view.spacing;
   samples[index] = uvec2(floatBitsToUint(max(z + inset, nearestDrawn())), packNormal(normal));

@@ -1,5 +1,5 @@
 #version 460
-// Every particle marks the occlusion cells that its sphere covers wholly, with the depth of its center: nothing behind that is seen there.
+// Each particle marks the occlusion cells that its sphere covers completely with the depth of its center, which hides all behind it.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 
@@ -13,17 +13,17 @@ void main() {
   const vec3 center = viewPoint(position[i].xyz);
   const float radius = hardRadius(center.z);
   if (!(center.z > view.near_depth) || !shown(center, radius)) return;
-  // A square inside the silhouette, which is at least as large as the section through the center.
+  // A square inside the sphere's silhouette.
   const vec2 middle = sampleOf(pixelOf(center)) + 0.5;
   const float side = 0.7 * radius / metersAPixel(center.z) / float(view.step);
   const float cell = float(kOccluderSamples);
   const ivec2 cells = ivec2((sampleGrid() + kOccluderSamples - 1u) / kOccluderSamples);
   const ivec2 first = max(ivec2(ceil(clamp((middle - side) / cell, vec2(-1e6), vec2(1e6)))), ivec2(0));
   const ivec2 last = min(ivec2(floor(clamp((middle + side) / cell, vec2(-1e6), vec2(1e6)))) - 1, cells - 1);
-  const ivec2 most = min(last, first + int(kMaxCells) - 1);
+  const ivec2 limit = min(last, first + int(kMaxCells) - 1);
   const uint bits = floatBitsToUint(center.z);
-  for (int y = first.y; y <= most.y; ++y)
-    for (int x = first.x; x <= most.x; ++x) {
+  for (int y = first.y; y <= limit.y; ++y)
+    for (int x = first.x; x <= limit.x; ++x) {
       const uint at = uint(y * cells.x + x);
       if (bits < occluders[at]) atomicMin(occluders[at], bits);
     }

@@ -1,5 +1,5 @@
 #version 460
-// Each cell in ascending order of particle, so that sums over it do not depend on the order of arrival; centers in view space.
+// Sorts each cell by particle number, so that sums do not depend on the order of atomics; centers in view space.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 
@@ -20,7 +20,7 @@ void main() {
   const uint begin = start[key], end = start[key + 1u];
   uint place = begin;
   for (uint other = begin; other < min(end, begin + kMaxInCell); ++other) place += arrived[other] < i ? 1u : 0u;
-  if (end - begin > kMaxInCell) {  // particles upon each other: in the order of arrival
+  if (end - begin > kMaxInCell) {  // coincident particles stay in the order of arrival
     place = slot;
     if (slot == begin) atomicAdd(counters[kBoundHits], 1u);
   }

@@ -1,5 +1,5 @@
 #version 460
-// Which of the particles are surface: those that own enough of their own disc. Counts them in the cells of the screen grid.
+// Surface particles are those whose disc is visible to a sufficient share. Counts them per cell of the screen grid.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 
@@ -11,30 +11,30 @@ layout(std430, set = 0, binding = 3) readonly buffer Depth { uint depth[]; };
 layout(std430, set = 0, binding = 4) buffer Cells { uint cells[]; };
 layout(std430, set = 0, binding = 5) writeonly buffer Rank { uint rank[]; };
 
-const float kOwnedShare = 0.03;  // of a disc: less is a neighbor's rim showing through
+const float kOwnedShare = 0.03;  // of visible samples of a disc; less is a sliver between neighbors
 
-shared uint inside[kSurfaceGroup], owned[kSurfaceGroup];  // samples of each invocation's disc; of them those that no other sphere covers
+shared uint inside[kSurfaceGroup], owned[kSurfaceGroup];  // samples of each invocation's disc; visible ones of them
 uint visited = 0u, own = 0u;
 
-void visit(vec3 center, float radius, ivec2 p) {
+void visitSample(vec3 center, float radius, ivec2 p) {
   const float t = sphereDepth(center, radius, axisOf(samplePixel(p)));
   if (t < 0.0) return;
   ++visited;
   if (t <= uintBitsToFloat(depth[uint(p.y) * sampleGrid().x + uint(p.x)]) + 1e-3 * view.spacing) ++own;
 }
-void visitedAll(uint owner) {
+void endVisit(uint owner) {
   if (visited > 0u) atomicAdd(inside[owner], visited);
   if (own > 0u) atomicAdd(owned[owner], own);
   visited = own = 0u;
 }
-#include "render/surface_spread.glsl"
+#include "render/surface_visit.glsl"
 
 void main() {
   const uint self = gl_LocalInvocationIndex, k = groupIndex() * kSurfaceGroup + self;
   inside[self] = owned[self] = 0u;
   const bool live = k < counters[kSurvivorCount];
   const vec3 center = live ? viewPoint(position[survivors[k]].xyz) : vec3(0.0);
-  spread(live, center, hardRadius(center.z));
+  visitSphere(live, center, hardRadius(center.z));
   if (!live) return;
   uint place = kNotSurface;
   if (owned[self] > 0u && float(owned[self]) >= kOwnedShare * float(inside[self])) {

@@ -1,7 +1,6 @@
 #version 460
-// A plane for every surface particle: the weighted principal directions of the surface particles around it, raised to where the fluid ends.
-// Where they do not lie in one plane, those off the plane are left out and the rest is fitted again: a crease stays one.
-// One with too few of them around it, or around which they do not spread in a plane, is a ball; so is one that the near plane cuts.
+// A plane per surface particle by weighted principal component analysis of its neighbors, raised to the surface. At a crease neighbors
+// off the plane are removed and it is fitted again. Without enough neighbors, or cut by the near plane, a particle is a ball.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 
@@ -9,18 +8,17 @@ layout(local_size_x = kSurfaceGroup) in;
 #include "render/surface_arrays.glsl"
 layout(std430, set = 0, binding = 2) writeonly buffer Plane { vec4 plane[]; };
 layout(std430, set = 0, binding = 3) buffer Counters { uint counters[]; };
-#include "render/surface_walk.glsl"
+#include "render/surface_cells.glsl"
 
-const float kFewest = 1.5;       // sum of the others' weights below which it is a ball
-const float kFlattest = 0.6;     // least over middle eigenvalue above which it is one
-const float kCrease = 0.04;      // the same ratio above which two faces may meet here, and it is fitted again to its own
-const int kRefits = 2;         // times
-// that the first plane leans to the eye: on a crease a particle is of the face that is seen, in
-// every frame
-const float kToEye = 0.4;
-const float kSameFace = 0.9;     // spacings off the last plane within which others count then
+const float kMinWeight = 1.5;       // of all neighbors; below it the particle is a ball
+const float kMaxFlatness = 0.6;     // smallest over middle eigenvalue; above it the particle is a ball
+const float kCrease = 0.04;      // the same ratio; above it two faces may meet and the plane is fitted again
+const int kRefits = 2;
+// Bias of the first plane towards the eye: a particle on a crease belongs to the visible face in every frame.
+const float kLeanToEye = 0.4;
+const float kSameFace = 0.9;     // spacings: maximal distance to the last plane in a refit
 
-// The eigenvector of the least eigenvalue of a symmetric matrix (a b c; b d e; c e f), and the three eigenvalues, rising.
+// The eigenvector of the smallest eigenvalue of a symmetric matrix (a b c; b d e; c e f), and the eigenvalues in ascending order.
 vec3 leastDirection(float a, float b, float c, float d, float e, float f, out vec3 values) {
   const float mean = (a + d + f) / 3.0;
   const float p2 = (a - mean) * (a - mean) + (d - mean) * (d - mean) + (f - mean) * (f - mean) + 2.0 * (b * b + c * c + e * e);
@@ -43,8 +41,8 @@ struct Fit {
   vec3 mean, square, mixed;
 };
 
-// Weighted moments of the centers around one, in units of the reach. `across`: the normal of a plane through it, over the distance in these
-// units at which others stop to count; zero: all do.
+// Weighted moments of the centers around one, in units of the reach. `across`: a plane's normal over the distance to the plane, in these
+// units, at which weights are zero; a zero vector: no plane.
 Fit fitAround(vec3 own, float inverse, CellRange range, vec3 across) {
   Fit fit = Fit(0.0, vec3(0.0), vec3(0.0), vec3(0.0));
   for (int y = range.first.y; y <= range.last.y; ++y) {
@@ -61,7 +59,7 @@ Fit fitAround(vec3 own, float inverse, CellRange range, vec3 across) {
       fit.mixed += w * q.xyz * q.yzx;
     }
   }
-  fit.sum = max(fit.sum, 1e-6);  // of a crowded row only the first are seen, and the particle itself may not be among them
+  fit.sum = max(fit.sum, 1e-6);  // the particle itself may be beyond kMaxInRow of its row
   fit.mean /= fit.sum;
   fit.square = fit.square / fit.sum - fit.mean * fit.mean;
   fit.mixed = fit.mixed / fit.sum - fit.mean.xyz * fit.mean.yzx;
@@ -72,7 +70,7 @@ void main() {
   const uint k = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
   if (k >= counters[kSurfaceCount]) return;
   const vec3 own = centerAt(k).xyz;
-  if (own.z - 0.5 * view.spacing <= view.near_depth) {  // cut by the near plane: a ball, whose neighbors would be all over the picture
+  if (own.z - 0.5 * view.spacing <= view.near_depth) {  // cut by the near plane, where the neighbors' cells may span the picture
     plane[2u * k] = vec4(own, 1.0);
     plane[2u * k + 1u] = vec4(0.0);
     return;
@@ -85,12 +83,12 @@ void main() {
   const vec3 towards = view.perspective > 0.0 ? normalize(own) : vec3(0.0, 0.0, 1.0);
   if (dot(normal, towards) > 0.0) normal = -normal;
   const bool sharp = values.x > kCrease * values.y;
-  if (sharp) normal = normalize(normal - kToEye * towards);
-  for (int turn = 0; turn < kRefits && sharp; ++turn) {
+  if (sharp) normal = normalize(normal - kLeanToEye * towards);
+  for (int refit = 0; refit < kRefits && sharp; ++refit) {
     fit = fitAround(own, inverse, range, normal * (view.smoothing / kSameFace));
     normal = leastDirection(fit.square.x, fit.mixed.x, fit.mixed.z, fit.square.y, fit.mixed.y, fit.square.z, values);
   }
-  const bool ball = fit.sum - 1.0 < kFewest || values.x > kFlattest * values.y;
+  const bool ball = fit.sum - 1.0 < kMinWeight || values.x > kMaxFlatness * values.y;
   if (dot(normal, towards) > 0.0) normal = -normal;
   const float height = ball ? 0.0 : dot(fit.mean, normal) * reach + 0.5 * view.spacing;
   plane[2u * k] = vec4(own + height * normal, ball ? 1.0 : 0.0);

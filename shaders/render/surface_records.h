@@ -1,4 +1,4 @@
-// What the surface's shaders and their C++ side share. View space: x and y across, z the depth, growing away from the eye; lengths in m.
+// Records and constants that the surface's shaders share with C++. View space: z is the depth, growing away from the eye; lengths in m.
 #ifndef RILL_RENDER_SURFACE_RECORDS_H
 #define RILL_RENDER_SURFACE_RECORDS_H
 
@@ -13,37 +13,36 @@ using uint = std::uint32_t;
 #define RILL_NUMBER const float
 #endif
 
-RILL_CONSTANT kSurfaceGroup = 64;      // invocations of a particle kernel's workgroup
-RILL_CONSTANT kSurfaceTile = 16;       // pixels a side of the tiles that are composed and shaded
-RILL_CONSTANT kSampleBlock = 8;        // samples a side of the blocks that are smoothed
-RILL_CONSTANT kCellSamples = 4;        // samples a side of a cell of the screen grid
-RILL_CONSTANT kOccluderSamples = 2;    // samples a side of an occlusion cell
-RILL_CONSTANT kMaxCells = 160;         // cells a side that one particle hides, or is hidden by, at most
-// beyond each side of the picture: as far as a plane is fitted at three samples a spacing, the
-// default
+RILL_CONSTANT kSurfaceGroup = 64;      // invocations per workgroup of a shader over particles
+RILL_CONSTANT kSurfaceTile = 16;       // pixels per side of the tiles that are composed and shaded
+RILL_CONSTANT kSampleBlock = 8;        // samples per side of the blocks that are smoothed
+RILL_CONSTANT kCellSamples = 4;        // samples per side of a cell of the screen grid
+RILL_CONSTANT kOccluderSamples = 2;    // samples per side of an occlusion cell
+RILL_CONSTANT kMaxCells = 160;         // maximal occlusion cells per side of one particle
+// beyond each side of the picture: the reach of a plane's fit at the default of three samples per spacing
 RILL_CONSTANT kMarginSamples = 8;
-RILL_CONSTANT kMaxRows = 48;          // rows of the screen grid that one walk visits at most
-RILL_CONSTANT kMaxInRow = 64;         // particles of one row that a walk visits at most
-RILL_CONSTANT kMaxInCell = 1024;      // particles of a cell that are put in order
-RILL_CONSTANT kInfiniteBits = 0x7F800000u;  // bits of the float: there is no fluid
+RILL_CONSTANT kMaxRows = 48;          // maximal rows of the screen grid that an iteration around a point visits
+RILL_CONSTANT kMaxInRow = 64;         // maximal particles that it visits per row
+RILL_CONSTANT kMaxInCell = 1024;      // maximal particles of a cell that are sorted
+RILL_CONSTANT kInfiniteBits = 0x7F800000u;  // of a float: no fluid
 RILL_CONSTANT kNotSurface = 0xFFFFFFFFu;
-RILL_NUMBER kFlowStable = 0.45f;  // of a sample's square: a step of the flow at most; explicit ones in two dimensions are stable up to 0.5
+RILL_NUMBER kFlowStable = 0.45f;  // largest step of the flow, in squared samples; explicit steps in 2D are stable up to 0.5
 
 // Words of the counter buffer.
-RILL_CONSTANT kSurvivorCount = 0;     // particles that occlusion left
-RILL_CONSTANT kSurfaceCount = 1;      // of them, those that own a part of the picture
-RILL_CONSTANT kSurfaceTileCount = 2;  // tiles that hold fluid
-RILL_CONSTANT kBoundHits = 3;         // invocations in which a bounded loop ran into its bound: something was left out of the picture
-RILL_CONSTANT kSampleBlockCount = 4;  // blocks of samples that hold fluid
-RILL_CONSTANT kEdgeCount = 5;         // pixels that have a look of their own
+RILL_CONSTANT kSurvivorCount = 0;     // particles that are not occluded
+RILL_CONSTANT kSurfaceCount = 1;      // surface particles among them
+RILL_CONSTANT kSurfaceTileCount = 2;  // tiles with fluid
+RILL_CONSTANT kBoundHits = 3;         // invocations in which a bounded loop was cut short: the picture is incomplete
+RILL_CONSTANT kSampleBlockCount = 4;  // blocks of samples with fluid
+RILL_CONSTANT kEdgeCount = 5;         // pixels that surface_edges.comp evaluates
 RILL_CONSTANT kSurfaceCounterWords = 6;
 
-// Words of the argument buffer: three a dispatch, four a draw.
+// Words of the argument buffer: three per dispatch, four per draw.
 RILL_CONSTANT kSurvivorArguments = 0;
 RILL_CONSTANT kSurfaceArguments = 4;
 RILL_CONSTANT kSurfaceTileArguments = 8;
 RILL_CONSTANT kTileDraw = 12;
-RILL_CONSTANT kPixelArguments = 16;  // over all pixels; no groups where no particle is left
+RILL_CONSTANT kPixelArguments = 16;  // over all pixels; no groups if no particle is left
 RILL_CONSTANT kSampleBlockArguments = 20;
 RILL_CONSTANT kEdgeArguments = 24;
 RILL_CONSTANT kSurfaceArgumentWords = 28;
@@ -51,21 +50,21 @@ RILL_CONSTANT kSurfaceArgumentWords = 28;
 // Camera and picture. ndc = pixel / size * 2 - 1; a pixel looks along x, y = (ndc - shift) * scale,
 // times z where the view is in perspective.
 struct SurfacePush {
-  float rows[12];      // to view space from positions as they are stored: three rows of four
+  float rows[12];      // stored position to view space: three rows of four
   float scale[2];
   float shift[2];
   float depth_map[2];  // the target's depth is the first plus the second / z (perspective) or * z (orthographic)
   float perspective;   // 1 or 0
-  float near_depth;    // m; nothing nearer is drawn
+  float near_depth;    // m
   float spacing;       // m
   uint count;          // particles
   uint width, height;  // pixels of the picture
-  uint left, top;      // of it in the targets
-  uint step;           // pixels a side of a sample
-  uint margin;         // samples beyond each side of the picture, so that the surface does not end there; whole cells
-  float radius;        // m; of a particle's sphere in the hard depth
-  float unit;          // m; of a count of the thickness buffer
-  float smoothing;     // planes: spacings that they are fitted over; narrow range: spacings, sigma; curvature flow: m^2, all of its time
+  uint left, top;      // of the picture in the targets
+  uint step;           // pixels per side of a sample
+  uint margin;         // samples beyond each side of the picture, a multiple of kCellSamples
+  float radius;        // m; of a particle's sphere in the depth before smoothing
+  float unit;          // m per count of the thickness buffer
+  float smoothing;     // planes: reach of the fit, spacings; narrow range: sigma, spacings; curvature flow: total time, m^2
 };
 
 #undef RILL_CONSTANT

@@ -1,5 +1,5 @@
 #version 460
-// Every surface particle into its cell, in the order of arrival, which differs from run to run.
+// Scatters surface particles into their cells, in an order that depends on atomics.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 

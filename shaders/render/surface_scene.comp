@@ -1,5 +1,5 @@
 #version 460
-// What the host has drawn so far: its color (linear) and its depth in m, for refraction, and so that the fluid can write both anew.
+// Copies the host's color (linear) and depth (m), for refraction and because the fluid overwrites both.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "render/surface.glsl"
@@ -7,7 +7,7 @@
 layout(local_size_x = kSurfaceGroup) in;
 layout(set = 0, binding = 0) uniform texture2D host_color;
 layout(set = 0, binding = 1) uniform texture2D host_depth;
-layout(std430, set = 0, binding = 2) writeonly buffer SceneColor { uvec2 scene_color[]; };  // a pixel: four halves
+layout(std430, set = 0, binding = 2) writeonly buffer SceneColor { uvec2 scene_color[]; };  // four halves per pixel
 layout(std430, set = 0, binding = 3) writeonly buffer SceneDepth { float scene_depth[]; };
 
 void main() {

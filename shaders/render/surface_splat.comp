@@ -1,5 +1,5 @@
 #version 460
-// Hard depth: the nearest sphere of every sample.
+// Depth before smoothing: the nearest sphere at each sample.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 
@@ -9,19 +9,19 @@ layout(std430, set = 0, binding = 1) buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Survivors { uint survivors[]; };
 layout(std430, set = 0, binding = 3) buffer Depth { uint depth[]; };
 
-void visit(vec3 center, float radius, ivec2 p) {
+void visitSample(vec3 center, float radius, ivec2 p) {
   const float t = sphereDepth(center, radius, axisOf(samplePixel(p)));
   if (t < 0.0) return;
   const uint at = uint(p.y) * sampleGrid().x + uint(p.x);
   const uint bits = floatBitsToUint(t);
   if (bits < depth[at]) atomicMin(depth[at], bits);
 }
-void visitedAll(uint owner) {}
-#include "render/surface_spread.glsl"
+void endVisit(uint owner) {}
+#include "render/surface_visit.glsl"
 
 void main() {
   const uint k = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
   const bool live = k < counters[kSurvivorCount];
   const vec3 center = live ? viewPoint(position[survivors[k]].xyz) : vec3(0.0);
-  spread(live, center, hardRadius(center.z));
+  visitSphere(live, center, hardRadius(center.z));
 }

@@ -1,5 +1,5 @@
 #version 460
-// Thickness of the fluid along each sample's ray: every particle spreads its volume over a disc (BARE: no scene is in the way).
+// Thickness of the fluid along each sample's ray: each particle spreads its volume over a disc. With NO_SCENE nothing occludes it.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 
@@ -7,12 +7,12 @@ layout(local_size_x = kSurfaceGroup) in;
 layout(std430, set = 0, binding = 0) readonly buffer Position { vec4 position[]; };
 layout(std430, set = 0, binding = 1) buffer Thickness { uint thickness[]; };  // in view.unit
 layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };
-#ifndef BARE
-layout(std430, set = 0, binding = 3) readonly buffer SceneDepth { float scene_depth[]; };  // a pixel, m
+#ifndef NO_SCENE
+layout(std430, set = 0, binding = 3) readonly buffer SceneDepth { float scene_depth[]; };  // m per pixel
 #endif
 
 bool behindScene(ivec2 at, float z) {
-#ifdef BARE
+#ifdef NO_SCENE
   return false;
 #else
   const uvec2 pixel = min(uvec2(samplePixel(at)), uvec2(view.width, view.height) - 1u);
@@ -27,16 +27,16 @@ void add(ivec2 at, float z, float meters) {
   if (amount > 0u) atomicAdd(thickness[uint(at.y * grid.x + at.x)], amount);
 }
 
-// (1 - r^2 / R^2)^2 has the integral pi R^2 / 3 over its disc.
-void visit(vec3 center, float radius, ivec2 at) {
+// The integral of (1 - r^2 / R^2)^2 over the disc is pi R^2 / 3.
+void visitSample(vec3 center, float radius, ivec2 at) {
   const float inside = 1.0 - raySquare(center, axisOf(samplePixel(at))) / (radius * radius);
   const float peak = view.spacing * view.spacing * view.spacing * 3.0 / (3.14159265 * radius * radius);
   if (inside > 0.0) add(at, center.z, peak * inside * inside);
 }
-void visitedAll(uint owner) {}
-#include "render/surface_spread.glsl"
+void endVisit(uint owner) {}
+#include "render/surface_visit.glsl"
 
-// Too small for its disc to be sampled: shared among the four samples around.
+// A disc too small to be sampled is distributed bilinearly.
 void addSmall(vec3 center, float side) {
   const vec2 at = sampleOf(pixelOf(center));
   const ivec2 base = ivec2(floor(at));
@@ -52,10 +52,10 @@ void main() {
   const uint i = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
   bool live = i < view.count && drawable(position[i].xyz);
   const vec3 center = live ? viewPoint(position[i].xyz) : vec3(0.0);
-  // A sample gets its share of what is beside the picture, too.
+  // Includes particles within a sample of the picture.
   live = live && center.z > view.near_depth && shownWithin(center, view.radius, float(view.step));
   const float side = metersAPixel(center.z) * float(view.step);
   const bool small = view.radius < 1.5 * side;
   if (live && small) addSmall(center, side);
-  spread(live && !small, center, view.radius);
+  visitSphere(live && !small, center, view.radius);
 }

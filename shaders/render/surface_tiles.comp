@@ -1,5 +1,5 @@
 #version 460
-// Lists the tiles of the picture in which a sample is covered, or one beside them; and the blocks of samples in which one is.
+// Lists the tiles of the picture with a covered sample in or next to them, and the blocks with a covered sample.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 
@@ -9,7 +9,7 @@ layout(std430, set = 0, binding = 1) buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 2) writeonly buffer Tiles { uint tiles[]; };
 layout(std430, set = 0, binding = 3) writeonly buffer Blocks { uint blocks[]; };
 
-// Of the samples from `first` to `last`.
+// Among the samples from `first` to `last`.
 bool anyCovered(ivec2 first, ivec2 last) {
   const uint columns = sampleGrid().x;
   bool any_covered = false;

@@ -1,8 +1,6 @@
 #version 460
-// Smooths the stairs that are left in a finished picture: edges of fluid before fluid, of solids,
-// of what is seen bent. Where light changes sharply across a row of pixels, the row is followed to
-// both of its ends, and the pixel takes as much of its neighbor across as an edge between those
-// ends would cover (Lottes 2009, FXAA).
+// Antialiasing of a finished picture (Lottes 2009, FXAA), for edges of fluid in front of fluid, of solids and of refracted objects.
+// An edge is followed to both of its ends; the pixel takes the share of its neighbor that the edge between them covers.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shared/arrays.glsl"
@@ -13,8 +11,8 @@ layout(push_constant) uniform Push { AntialiasPush push; };
 READ_UINT(0, source)  // RGBA8, sRGB
 layout(std430, set = 0, binding = 1) writeonly buffer Smoothed { uint smoothed[]; };
 
-const float kLeast = 0.06, kShare = 0.15;  // of contrast, absolute and of the brightest: less is no edge
-const int kFarthest = 8;                   // pixels to a side where an edge is no longer followed
+const float kMinContrast = 0.06, kMinRelativeContrast = 0.15;  // of an edge: absolute, and relative to the brightest pixel
+const int kMaxReach = 8;  // pixels that an edge is followed to each side
 
 uint pixelAt(ivec2 p) {
   p = clamp(p, ivec2(0), ivec2(push.width, push.height) - 1);
@@ -24,13 +22,12 @@ vec3 colorOf(uint pixel) { return vec3(pixel & 0xFFu, (pixel >> 8) & 0xFFu, (pix
 float lumaOf(uint pixel) { return dot(colorOf(pixel), vec3(0.299, 0.587, 0.114)); }
 float lumaAt(ivec2 p) { return lumaOf(pixelAt(p)); }
 
-// How far to a side (-1, 1) the edge goes on: to where the mean of both rows is no longer that of
-// the edge. `off`: by how much it differs there.
+// Length of the edge to a side (-1, 1): to where the mean of both rows differs from the edge's. `off`: by how much.
 int endOf(ivec2 p, ivec2 along, ivec2 across, int side, float edge, float least, out float off) {
   off = 0.0;
   int end = 1;
   bool open = true;
-  [[dont_unroll]] while (open && end < kFarthest) {
+  [[dont_unroll]] while (open && end < kMaxReach) {
     const ivec2 q = p + side * end * along;
     off = 0.5 * (lumaAt(q) + lumaAt(q + across)) - edge;
     open = abs(off) < least;
@@ -46,7 +43,7 @@ void main() {
   const float c = lumaOf(own);
   const float n = lumaAt(p + ivec2(0, -1)), s = lumaAt(p + ivec2(0, 1)), w = lumaAt(p + ivec2(-1, 0)), e = lumaAt(p + ivec2(1, 0));
   const float highest = max(c, max(max(n, s), max(w, e))), range = highest - min(c, min(min(n, s), min(w, e)));
-  if (range < max(kLeast, kShare * highest)) {
+  if (range < max(kMinContrast, kMinRelativeContrast * highest)) {
     smoothed[index] = own;
     return;
   }
@@ -62,10 +59,10 @@ void main() {
   const int before = endOf(p, along, across, -1, edge, least, off_before), after = endOf(p, along, across, 1, edge, least, off_after);
   const int nearer = min(before, after);
   const float off = before <= after ? off_before : off_after;
-  // Where at its nearer end the edge turns into this row, it has already cut the pixel.
-  const bool cut = nearer < kFarthest && (off < 0.0) != (c < edge);
+  // The edge covers the pixel only if it bends into this row at its nearer end.
+  const bool cut = nearer < kMaxReach && (off < 0.0) != (c < edge);
   const float share = cut ? max(0.5 - (float(nearer) - 0.5) / float(before + after - 1), 0.0) : 0.0;
-  // Light is about the square of what is stored.
+  // Light is about the square of the stored value.
   const vec3 mine = colorOf(own), its = colorOf(pixelAt(p + across));
   const uvec3 bytes = uvec3(sqrt(mix(mine * mine, its * its, share)) * 255.0 + 0.5);
   smoothed[index] = share > 0.0 ? bytes.r | bytes.g << 8 | bytes.b << 16 | 0xFF000000u : own;

@@ -1,4 +1,4 @@
-// What the pass that smooths a finished picture is told.
+// Push constants of the antialiasing pass.
 #ifndef RILL_VIEWS_ANTIALIAS_RECORD_H
 #define RILL_VIEWS_ANTIALIAS_RECORD_H
 
@@ -6,7 +6,7 @@
 #include <cstdint>
 namespace rill::antialias {
 using uint = std::uint32_t;
-constexpr uint kAntialiasGroup = 8;  // pixels a side of a workgroup
+constexpr uint kAntialiasGroup = 8;  // pixels per side of a workgroup
 #else
 const uint kAntialiasGroup = 8;
 #endif

@@ -1,5 +1,5 @@
 #version 460
-// Dispatch arguments from the numbers of survivors and of tiles. It runs after each has been counted, and writes all of them.
+// Dispatch arguments from the counts of survivors and tiles. Runs after each count and writes all arguments.
 #extension GL_GOOGLE_include_directive : require
 #include "views/particle_view.glsl"
 

@@ -1,6 +1,6 @@
 #version 460
-// Lists the shading tiles by what they hold. An invocation is a tile.
-// Kernels for one kind of owner each, on lists of tiles: a software driver runs both sides of every branch.
+// Lists the shading tiles by what they hold, one invocation per tile. Each list is shaded by a shader for one kind of owner, because
+// software drivers execute both sides of branches.
 #extension GL_GOOGLE_include_directive : require
 #include "views/particle_view.glsl"
 #include "views/particle_tiles.glsl"
@@ -9,7 +9,7 @@ layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 0) readonly buffer Winner { uint winner[]; };
 layout(std430, set = 0, binding = 1) readonly buffer Edges { EdgeRecord edges[]; };
 layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };
-layout(std430, set = 0, binding = 3) writeonly buffer Tiles { uint tiles[]; };  // list after list, each as long as there are tiles
+layout(std430, set = 0, binding = 3) writeonly buffer Tiles { uint tiles[]; };  // kTileLists lists, each with room for all tiles
 
 void main() {
   const uint index = groupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationIndex;

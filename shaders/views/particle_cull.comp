@@ -1,5 +1,5 @@
 #version 460
-// Lists the particles that may be seen: small ones from the front of the list, large ones in a list of their own.
+// Lists the particles that may be visible: small ones from the front of the buffer, large ones from the back.
 #extension GL_GOOGLE_include_directive : require
 #include "views/particle_view.glsl"
 
@@ -7,7 +7,6 @@ layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 0) readonly buffer Position { vec4 position[]; };
 layout(std430, set = 0, binding = 1) readonly buffer Occluders { uint occluders[]; };
 layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };
-// small ones from the front, large ones from the back
 layout(std430, set = 0, binding = 3) writeonly buffer Survivors { uint survivors[]; };
 
 bool hidden(vec3 center, float radius, ivec4 rect) {

@@ -1,5 +1,5 @@
 #version 460
-// How much light reaches the floor, softened, on the light map's texels: each texel sees one point of the floor.
+// Filtered visibility of the light on the floor, per texel of the light map; each texel maps to one point of the floor.
 #extension GL_GOOGLE_include_directive : require
 #include "views/particle_view.glsl"
 
@@ -8,7 +8,7 @@ layout(std140, set = 0, binding = 0) uniform Scene { SceneRecord scene; };
 layout(std430, set = 0, binding = 1) readonly buffer LightMap { uint light_map[]; };
 layout(std430, set = 0, binding = 2) writeonly buffer FloorLight { float floor_light[]; };
 
-// Light depth of the floor as seen by a texel.
+// Light depth of the floor at a texel.
 float floorDepth(vec2 texel) {
   const float u = scene.light_u.w + texel.x * scene.light_texel.x, v = scene.light_v.w + texel.y * scene.light_texel.x;
   return scene.light_to.w - (scene.domain_min.y - u * scene.light_u.y - v * scene.light_v.y) / scene.light_to.y;

@@ -1,5 +1,5 @@
 #version 460
-// Every particle marks the light map, and the occlusion cells that it covers wholly, with the farthest depth at which it covers them.
+// Each particle marks the light map, and the occlusion cells that it covers completely, with its largest depth over the cells.
 #extension GL_GOOGLE_include_directive : require
 #include "views/particle_view.glsl"
 
@@ -27,7 +27,7 @@ void markLight(vec3 world) {
 void markCells(vec3 center, float radius) {
   const vec2 middle = center.xy / center.z;
   const float side = 0.66 * radius / center.z;
-  // Where a sphere is no deeper than some depth is convex on the screen: its depth over a rectangle is largest at a corner.
+  // The screen region where a sphere is nearer than a depth is convex, so its depth over a rectangle is largest at a corner.
   const vec4 corners = vec4(sphereDepth(center, radius, middle + vec2(-side, -side)),
                             sphereDepth(center, radius, middle + vec2(side, -side)),
                             sphereDepth(center, radius, middle + vec2(-side, side)),

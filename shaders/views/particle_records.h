@@ -1,4 +1,4 @@
-// What the particle view's shaders and its C++ side share. All lengths in m, relative to the view's origin; y up.
+// Records and constants that the particle view's shaders share with C++. Lengths in m, relative to the view's origin; y up.
 #ifndef RILL_RENDER_PARTICLE_RECORDS_H
 #define RILL_RENDER_PARTICLE_RECORDS_H
 #include "shared/solid_records.h"
@@ -16,31 +16,31 @@ struct uvec4 { uint x = 0, y = 0, z = 0, w = 0; };
 #define RILL_CONSTANT const uint
 #endif
 
-RILL_CONSTANT kPixelTile = 16;         // pixels a side of the tiles that share solids and large spheres
-RILL_CONSTANT kParticleGroup = 64;     // invocations of a particle kernel's workgroup
-RILL_CONSTANT kShadeTile = 8;          // pixels a side of the shading kernel's workgroup
-RILL_CONSTANT kSmallRect = 64;         // pixels: a sphere up to this wide and high is splatted by one invocation
-RILL_CONSTANT kLargeChunk = 4096;      // large spheres that one workgroup looks at
-RILL_CONSTANT kHiddenCells = 16384;    // occlusion cells that are looked at for one sphere at most
-RILL_CONSTANT kOccluderCells = 128;    // occlusion cells a side that one sphere covers at most
+RILL_CONSTANT kPixelTile = 16;         // pixels per side of the tiles that share solids and large spheres
+RILL_CONSTANT kParticleGroup = 64;     // invocations per workgroup of a shader over particles
+RILL_CONSTANT kShadeTile = 8;          // pixels per side of a shading workgroup
+RILL_CONSTANT kSmallRect = 64;         // pixels: a sphere up to this size is splatted by one invocation
+RILL_CONSTANT kLargeChunk = 4096;      // large spheres per workgroup
+RILL_CONSTANT kHiddenCells = 16384;    // maximal occlusion cells tested per sphere
+RILL_CONSTANT kOccluderCells = 128;    // maximal occlusion cells per side that a sphere marks
 RILL_CONSTANT kColors = 64;           // entries of a color map
 RILL_CONSTANT kEdges = 12;             // of a box
 
-// Who owns a pixel: a particle's index, or one of these.
+// The owner of a pixel: a particle's index, or one of these.
 RILL_CONSTANT kSolidBase = 0x80000000u;  // + number of the solid
 RILL_CONSTANT kFloorId = 0xFFFFFFFEu;
 RILL_CONSTANT kNobody = 0xFFFFFFFFu;
 
-// What a tile of the shading kernels holds: one list of tiles each.
-RILL_CONSTANT kTilesFluid = 0;    // a particle owns a pixel
-RILL_CONSTANT kTilesSolid = 1;    // a solid does
-RILL_CONSTANT kTilesFloor = 2;    // the floor does
-RILL_CONSTANT kTilesSky = 3;      // nobody does
-RILL_CONSTANT kTilesOutline = 4;  // a particle or a solid owns a pixel of it or beside it
-RILL_CONSTANT kTilesEdge = 5;     // an edge of the domain may cross it
+// Lists of shading tiles by content.
+RILL_CONSTANT kTilesFluid = 0;    // a pixel of a particle
+RILL_CONSTANT kTilesSolid = 1;    // a pixel of a solid
+RILL_CONSTANT kTilesFloor = 2;    // a pixel of the floor
+RILL_CONSTANT kTilesSky = 3;      // a pixel without owner
+RILL_CONSTANT kTilesOutline = 4;  // a pixel of a particle or solid in or next to the tile
+RILL_CONSTANT kTilesEdge = 5;     // an edge of the domain may cross the tile
 RILL_CONSTANT kTileLists = 6;
 
-// Words of the counter buffer: how many, then dispatch arguments, three words each.
+// Words of the counter buffer: counts, then dispatch arguments of three words each.
 RILL_CONSTANT kSmallCount = 0;
 RILL_CONSTANT kLargeCount = 1;
 RILL_CONSTANT kTileCount = 2;       // + list
@@ -55,7 +55,7 @@ struct ViewPush {
   float eye[3];
   float focal;       // pixels
   float right[3];
-  float near_depth;  // nothing nearer is drawn
+  float near_depth;  // near plane
   float up[3];
   float radius;      // of a particle
   float forward[3];
@@ -64,22 +64,22 @@ struct ViewPush {
   uint count;        // particles
   uint width;        // pixels
   uint height;
-  uint cell;         // pixels a side of an occlusion cell
+  uint cell;         // pixels per side of an occlusion cell
   uint compression;  // 0: colored by speed, 1: by compression
   float scale;       // 1 / the value at the color map's end
   uint winners;      // 0: splat depths, 1: splat indices
-  uint unlit;        // 1: a particle's pixels have its color as it is, and what is around them is darker than any color map
+  uint unlit;        // 1: particles have the color map's exact color, and the surroundings are darker than any color map
 };
 
-// What stays the same over a view's life.
+// Constant over a view's lifetime.
 struct SceneRecord {
-  vec4 domain_min;   // w: 1 where there is a domain
+  vec4 domain_min;   // w: 1 if there is a domain
   vec4 domain_max;   // w: spacing of the floor's grid lines
   uvec4 counts;      // solids, light map width, light map height, closed sides (bits -x +x -y +y -z +z)
   vec4 light_u;      // axis; w: coordinate of the light map's first texel center
   vec4 light_v;
-  vec4 light_to;     // direction to the light; w: coordinate of the plane that light depth counts from
-  vec4 light_texel;  // x: size of a texel, y: how far light depths reach
+  vec4 light_to;     // direction to the light; w: coordinate of the plane where light depth is 0
+  vec4 light_texel;  // x: size of a texel, y: range of light depths
   vec4 colors[2 * kColors];  // linear RGB: by speed, by compression
 };
 

@@ -1,6 +1,6 @@
 #version 460
-// Tiles that hold outlines: shaded pixels blended along them and encoded. A workgroup is a tile of the list.
-// An outline that crosses a pixel says how much of it the owner covers; the rest is the neighbor's beyond the outline.
+// Antialiases outlines: an outline that crosses a pixel gives the owner's coverage; the rest has the color of the neighbor beyond it.
+// A workgroup is a listed tile.
 #extension GL_GOOGLE_include_directive : require
 #include "views/particle_view.glsl"
 #include "views/particle_tiles.glsl"
@@ -12,7 +12,7 @@ layout(std430, set = 0, binding = 2) readonly buffer Depth { uint depth[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Shaded { uint shaded[]; };
 layout(std430, set = 0, binding = 4) readonly buffer Rims { uint rims[]; };
 layout(std430, set = 0, binding = 5) writeonly buffer Picture { uint picture[]; };
-#include "views/particle_finish.glsl"
+#include "views/srgb.glsl"
 
 uint indexAt(ivec2 pixel) {
   const ivec2 at = clamp(pixel, ivec2(0), ivec2(view.width, view.height) - 1);
@@ -32,10 +32,10 @@ void main() {
   const uint rim = rims[index];
   if (rimDistance(rim) < 0.5) color = mix(unpackColor(shaded[indexAt(pixel + rimStep(rim))]), color, 0.5 + rimDistance(rim));
   RILL_LOOP for (uint side = 0u; side < 4u; ++side) {
-    const uint other = indexAt(pixel - rimStep(side));  // whose outline may reach over to here
+    const uint other = indexAt(pixel - rimStep(side));  // its outline may cross this pixel
     const uint reaching = rims[other];
     const float reach = rimDistance(reaching) - 0.5;
     if ((reaching & 3u) == side && reach > 0.0 && reach < 0.5 && depth[other] < bits) color = mix(color, unpackColor(shaded[other]), reach);
   }
-  picture[index] = encoded(color);
+  picture[index] = encodeSrgb(color);
 }

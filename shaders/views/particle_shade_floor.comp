@@ -1,10 +1,10 @@
 #version 460
-// Shades the floor: grid lines, soft shadows. A workgroup is a tile of the list. Where no outline is near, this is the picture.
+// Shades the floor: grid lines and soft shadows. A workgroup is a listed tile. Final except near outlines.
 #extension GL_GOOGLE_include_directive : require
 #include "views/particle_view.glsl"
 #include "views/particle_tiles.glsl"
 #include "views/particle_lighting.glsl"
-#include "views/particle_finish.glsl"
+#include "views/srgb.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, set = 0, binding = 0) uniform Scene { SceneRecord scene; };
@@ -19,7 +19,7 @@ layout(std430, set = 0, binding = 7) writeonly buffer Picture { uint picture[]; 
 
 const vec3 kFloor = vec3(0.50, 0.50, 0.49);
 
-// How much of a pixel `width` wide the grid lines cover at `at`, lines being `line` wide and `step` apart.
+// Coverage of a pixel of size `width` at `at` by grid lines of width `line`, `step` apart.
 float gridCover(float at, float width, float line, float step) {
   const float drawn = max(line, width);
   const float distance = abs(fract(at / step - 0.5) - 0.5) * step;
@@ -28,9 +28,9 @@ float gridCover(float at, float width, float line, float step) {
 }
 
 float floorLight(vec3 at) {
-  if (view.count + scene.counts.x == 0u) return 1.0;  // nothing casts a shadow, and there is no map
+  if (view.count + scene.counts.x == 0u) return 1.0;  // no casters, no map
   const vec2 limit = vec2(scene.counts.yz) - 1.001;
-  const vec2 texel = clamp(lightTexel(at), vec2(0.0), limit);  // the map's border sees past everything
+  const vec2 texel = clamp(lightTexel(at), vec2(0.0), limit);  // the map's border is lit
   const uvec2 base = uvec2(texel);
   const vec2 part = texel - vec2(base);
   const uint row = base.y * scene.counts.y + base.x;
@@ -42,7 +42,7 @@ vec3 shadeFloor(vec3 ray) {
   const vec3 eye = eyePoint();
   const float t = (scene.domain_min.y - eye.y) / ray.y;
   const vec2 at = eye.xz + t * ray.xz;
-  // How far the hit moves from a pixel to the next.
+  // Screen-space derivatives of the hit.
   const vec2 right = (rightAxis().xz - ray.xz * (rightAxis().y / ray.y)) * (t / view.focal);
   const vec2 up = (upAxis().xz - ray.xz * (upAxis().y / ray.y)) * (t / view.focal);
   const vec2 width = abs(right) + abs(up);
@@ -70,5 +70,5 @@ void main() {
   const uint packed = packColor(shadeFloor(ray));
   shaded[index] = packed;
   rims[index] = kNoRim;
-  picture[index] = encoded(unpackColor(packed));  // unpacked again: the same color in a tile with outlines and in one without
+  picture[index] = encodeSrgb(unpackColor(packed));  // as view resolve unpacks it: the same bits in tiles with and without outlines
 }

@@ -1,5 +1,5 @@
 #version 460
-// Shades the pixels that particles own, a workgroup a tile of the list.
+// Shades the pixels of particles. A workgroup is a listed tile.
 #extension GL_GOOGLE_include_directive : require
 #include "views/particle_view.glsl"
 #include "views/particle_tiles.glsl"

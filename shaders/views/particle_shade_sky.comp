@@ -1,11 +1,10 @@
 #version 460
-// Shades what nobody owns: the background, seen through the tank's walls. A workgroup is a tile of
-// the list. Where no outline is near, this is the picture.
+// Shades pixels without owner: the background, seen through the tank's walls. A workgroup is a listed tile. Final except near outlines.
 #extension GL_GOOGLE_include_directive : require
 #include "views/particle_view.glsl"
 #include "views/particle_tiles.glsl"
 #include "views/particle_lighting.glsl"
-#include "views/particle_finish.glsl"
+#include "views/srgb.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, set = 0, binding = 0) uniform Scene { SceneRecord scene; };
@@ -20,7 +19,7 @@ const vec3 kWall = vec3(0.30, 0.42, 0.52);
 
 vec3 background(float y) { return mix(vec3(0.78, 0.80, 0.82), vec3(0.50, 0.52, 0.55), smoothstep(0.0, 1.0, y / float(view.height))); }
 
-// The closed wall through which the ray leaves the domain tints what is behind it.
+// The closed wall through which the ray leaves the domain tints the background.
 vec3 overWalls(vec3 color, vec3 ray) {
   const vec3 eye = eyePoint();
   const vec3 step = vec3(ray.x < 0.0 ? -1.0 : 1.0, ray.y < 0.0 ? -1.0 : 1.0, ray.z < 0.0 ? -1.0 : 1.0) * max(abs(ray), vec3(1e-12));
@@ -45,5 +44,5 @@ void main() {
   const uint packed = packColor(view.unlit != 0u ? kPlain : overWalls(background(middle.y), ray));
   shaded[index] = packed;
   rims[index] = kNoRim;
-  picture[index] = encoded(unpackColor(packed));  // unpacked again: the same color in a tile with outlines and in one without
+  picture[index] = encodeSrgb(unpackColor(packed));  // as view resolve unpacks it: the same bits in tiles with and without outlines
 }

@@ -1,6 +1,6 @@
 #version 460
-// Depth of the small survivors, an invocation a sphere; in the second run, the least index among those whose depth is a pixel's depth.
-// One kernel for both runs, so that both find the very same depths.
+// Depth of the small survivors, one invocation per sphere. The second run finds the smallest index among those at a pixel's depth; both
+// runs use one shader, so that they compute exactly the same depths.
 #extension GL_GOOGLE_include_directive : require
 #include "views/particle_view.glsl"
 

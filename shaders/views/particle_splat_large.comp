@@ -1,5 +1,5 @@
 #version 460
-// Depth of the large survivors: a workgroup is a tile of pixels and a chunk of spheres, an invocation a pixel. Runs as in particle_splat.
+// Depth of the large survivors: a workgroup has a tile of pixels and a chunk of spheres. Two runs, as in particle_splat.comp.
 #extension GL_GOOGLE_include_directive : require
 #include "views/particle_view.glsl"
 
@@ -13,7 +13,7 @@ layout(std430, set = 0, binding = 4) buffer Winner { uint winner[]; };
 shared vec4 spheres[256];
 shared uint indices[256];
 shared uint sphere_count;
-shared uint tile_depth;  // of the tile's farthest pixel so far: what lies behind is hidden
+shared uint tile_depth;  // largest depth in the tile so far; spheres behind it are hidden
 
 void main() {
   const uint columns = (view.width + kPixelTile - 1u) / kPixelTile, rows = (view.height + kPixelTile - 1u) / kPixelTile;

@@ -1,5 +1,5 @@
 #version 460
-// Color, ambient occlusion and shadow of every particle that may be seen, once a particle.
+// Color, ambient occlusion and shadow, once per particle that may be visible.
 #extension GL_GOOGLE_include_directive : require
 #include "views/particle_view.glsl"
 
@@ -28,7 +28,7 @@ float depthAround(vec2 pixel, float low, float high) {
   return clamp(uintBitsToFloat(depth[uint(at.y) * view.width + uint(at.x)]), low, high);
 }
 
-// How deep the particle lies in a hollow of the picture: opposite neighbors that are both nearer than it.
+// Screen-space ambient occlusion: pairs of opposite neighbors that are both nearer than the particle.
 float openness(vec3 center, float radius) {
   const vec2 middle = pixelOf(center.xy / center.z);
   const float reach = radius / center.z * view.focal;

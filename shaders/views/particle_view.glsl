@@ -1,8 +1,8 @@
-// Camera, spheres and the light map, for every kernel of the particle view.
+// Camera and spheres for all shaders of the particle view.
 #extension GL_EXT_control_flow_attributes : require
 #include "views/particle_records.h"
 
-// Before loops of a fixed count: a software driver takes seconds to compile them unrolled.
+// For loops with a constant count: software drivers take seconds to compile them unrolled.
 #define RILL_LOOP [[dont_unroll]]
 
 layout(push_constant) uniform Push { ViewPush view; };
@@ -21,7 +21,7 @@ vec3 viewPoint(vec3 world) {
   return vec3(dot(d, rightAxis()), dot(d, upAxis()), dot(d, forwardAxis()));
 }
 
-// Where a point of the image (pixels from its top left corner) looks: right and up over forward.
+// The direction of a point of the image (pixels from its top left corner): right and up over forward.
 vec2 tangentOf(vec2 pixel) {
   return vec2(pixel.x - 0.5 * float(view.width), 0.5 * float(view.height) - pixel.y) / view.focal;
 }
@@ -30,17 +30,17 @@ vec2 pixelOf(vec2 tangent) {
 }
 vec3 rayOf(vec2 tangent) { return forwardAxis() + rightAxis() * tangent.x + upAxis() * tangent.y; }
 
-// By bits: a compiler may assume that there are no NaNs.
+// Compares bits because a compiler may assume that there are no NaNs.
 bool drawable(vec3 p) {
   const uvec3 magnitude = floatBitsToUint(p) & 0x7FFFFFFFu;
   return all(lessThan(magnitude, uvec3(0x58635FA9u)));  // 1e15 m
 }
 
-// A particle's disc is drawn so wide that it covers a pixel's center wherever it is.
+// At least so large that a disc covers a pixel's center at any position.
 float drawnRadius(float depth) { return max(view.radius, 0.71 * depth / view.focal); }
 
-// Depth of the near side of a sphere (view space) along a ray; negative where the ray misses or the hit is nearer than the near plane.
-// Measured from the ray's nearest point to the center, so that a small sphere far away keeps its precision.
+// Depth of a sphere's near side (view space) along a ray; negative on a miss or in front of the near plane. Measured from the ray's
+// point nearest to the center, which keeps the precision of small distant spheres.
 float sphereDepth(vec3 center, float radius, vec2 tangent) {
   precise float inverse = 1.0 / (1.0 + tangent.x * tangent.x + tangent.y * tangent.y);
   precise float middle = (center.z + center.x * tangent.x + center.y * tangent.y) * inverse;
@@ -51,14 +51,14 @@ float sphereDepth(vec3 center, float radius, vec2 tangent) {
   return depth >= view.near_depth ? depth : -1.0;
 }
 
-// True where no part of the sphere is in front of the near plane and inside the image.
+// True if no part of the sphere is behind the near plane and inside the image.
 bool outsideImage(vec3 center, float radius) {
   const vec2 corner = 0.5 * vec2(float(view.width), float(view.height)) / view.focal;
   const vec2 reach = radius * sqrt(1.0 + corner * corner) + corner * center.z;
   return center.z + radius <= view.near_depth || abs(center.x) >= reach.x || abs(center.y) >= reach.y;
 }
 
-// Pixels (first and last, inclusive) that a sphere can touch; empty where last < first.
+// First and last pixel (inclusive) that a sphere can cover; empty if last < first.
 ivec4 sphereRect(vec3 center, float radius) {
   const ivec4 whole = ivec4(0, 0, int(view.width) - 1, int(view.height) - 1);
   if (center.z - radius <= view.near_depth) return whole;

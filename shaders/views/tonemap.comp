@@ -1,15 +1,14 @@
 #version 460
-// From linear light to RGBA8 in sRGB: up to 0.8 less 0.04 where there is as much, above that
-// compressed towards white (Khronos' PBR Neutral).
+// Tone curve (Khronos PBR Neutral) and sRGB encoding: values below 0.8 are offset by up to 0.04, above it compressed towards white.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-#include "views/particle_finish.glsl"
+#include "views/srgb.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform texture2D hdr;
 layout(std430, set = 0, binding = 1) writeonly buffer Picture { uint picture[]; };
 
-// No light where it is negative or no number (by bits: a compiler may assume that there are none), an endless one as much as a half holds.
+// Negative values and NaNs become 0 (by bits, because a compiler may assume that there are no NaNs), infinity the largest half.
 vec3 bounded(vec3 c) {
   return min(mix(vec3(0.0), c, lessThanEqual(floatBitsToUint(c), uvec3(0x7F800000u))), 65504.0);
 }
@@ -32,5 +31,5 @@ void main() {
   const uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
   if (index >= uint(size.x) * uint(size.y)) return;
   const vec3 color = texelFetch(hdr, ivec2(index % uint(size.x), index / uint(size.x)), 0).rgb;
-  picture[index] = encoded(neutral(bounded(color)));
+  picture[index] = encodeSrgb(neutral(bounded(color)));
 }

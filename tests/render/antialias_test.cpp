@@ -1,4 +1,4 @@
-// The pass that smooths edges of a finished picture: stairs become what an edge would cover, everything else stays.
+// Antialiasing of a finished picture: pixels at aliased edges get the edge's coverage, all others stay.
 #include <algorithm>
 #include <cmath>
 
@@ -20,7 +20,7 @@ class Antialias : public GpuTest {
     const auto byte = [](double v) { return uint32_t(std::lround(v * 255)); };
     return byte(r) | byte(g) << 8 | byte(b) << 16 | 0xFF000000u;
   }
-  /// Through texels and through a storage buffer: the same.
+  /// By texel reads and by storage reads, with equal results.
   std::vector<uint32_t> smoothed(const std::vector<uint32_t>& picture, uint32_t width) {
     const uint32_t height = uint32_t(picture.size() / width);
     bringViewShaders(device());
@@ -60,7 +60,7 @@ class Antialias : public GpuTest {
   }
 };
 
-TEST_F(Antialias, LeavesAloneWhatHasNoStairs) {
+TEST_F(Antialias, KeepsPixelsWithoutAliasing) {
   Gray flat(kHeight, std::vector<double>(kWidth, 0.4)), ramp = flat, across = flat, down = flat;
   for (uint32_t y = 0; y < kHeight; ++y)
     for (uint32_t x = 0; x < kWidth; ++x) {
@@ -74,7 +74,7 @@ TEST_F(Antialias, LeavesAloneWhatHasNoStairs) {
   for (const Gray* picture : {&flat, &ramp, &across, &down, &row, &column}) EXPECT_EQ(smoothed(gray(*picture), kWidth), gray(*picture));
 }
 
-TEST_F(Antialias, StairsBecomeWhatTheEdgeCovers) {
+TEST_F(Antialias, EdgePixelsGetTheirCoverage) {
   for (const double slope : {0.12, 0.3, 0.7, 1.4, 4.0}) {
     Gray stairs(kHeight, std::vector<double>(kWidth)), covered = stairs;
     for (uint32_t y = 0; y < kHeight; ++y)
@@ -82,7 +82,7 @@ TEST_F(Antialias, StairsBecomeWhatTheEdgeCovers) {
         const auto inside = [&](double px, double py) { return py - 18.3 < slope * (px - 26.1); };
         int sum = 0;
         for (int k = 0; k < 256; ++k) sum += inside(x + (k % 16 + 0.5) / 16, y + (k / 16 + 0.5) / 16);
-        covered[y][x] = std::sqrt(0.1 * 0.1 + (0.9 * 0.9 - 0.1 * 0.1) * sum / 256);  // of light, the square of what is stored
+        covered[y][x] = std::sqrt(0.1 * 0.1 + (0.9 * 0.9 - 0.1 * 0.1) * sum / 256);  // light, the square of the stored value
         stairs[y][x] = inside(x + 0.5, y + 0.5) ? 0.9 : 0.1;
       }
     const auto before = gray(stairs), after = smoothed(before, kWidth);
@@ -97,8 +97,8 @@ TEST_F(Antialias, StairsBecomeWhatTheEdgeCovers) {
   }
 }
 
-// Turned over its diagonal, a picture is smoothed to the turned result.
-TEST_F(Antialias, RowsAreAsColumns) {
+// The transposed picture gives the transposed result.
+TEST_F(Antialias, IsSymmetricInRowsAndColumns) {
   constexpr uint32_t kSide = 41;
   std::vector<uint32_t> picture, turned(kSide * kSide);
   for (uint32_t y = 0; y < kSide; ++y)
@@ -113,7 +113,7 @@ TEST_F(Antialias, RowsAreAsColumns) {
 }
 
 TEST_F(Antialias, KeepsColorsAndSizes) {
-  // Red beside green of the same light has no contrast; one pixel alone has nobody beside it.
+  // Red beside green of the same light has no contrast; a single pixel has no neighbors.
   std::vector<uint32_t> two;
   for (uint32_t i = 0; i < kWidth * kHeight; ++i) two.push_back(i % kWidth < 26 ? packed(0.6, 0, 0) : packed(0, 0.6 * 0.299 / 0.587, 0));
   EXPECT_EQ(smoothed(two, kWidth), two);

@@ -1,4 +1,4 @@
-// What bounded loops of the surface's shaders leave out is counted.
+// Bounded loops of the surface's shaders count where they are cut short.
 #include <optional>
 #include <random>
 
@@ -13,7 +13,7 @@ constexpr float kApart = 0.1f;
 
 class BoundHits : public GpuTest {
  protected:
-  /// Of a picture of 320x240 from the origin along -z, planned for fluid that is `focus` m away.
+  /// Of a picture of 320x240 from the origin along -z, with its focus `focus` m away.
   uint32_t hits(const std::vector<Float4>& positions, SurfaceMethod method, double focus, SurfaceData data = SurfaceData::Normals) {
     CameraView camera;
     for (int k = 0; k < 3; ++k) camera.eye[k] = camera.target[k] = 0;
@@ -54,18 +54,18 @@ class BoundHits : public GpuTest {
 
 constexpr SurfaceMethod kMethods[] = {SurfaceMethod::Planes, SurfaceMethod::CurvatureFlow, SurfaceMethod::NarrowRange};
 
-TEST_F(BoundHits, NoneInWater) {
+TEST_F(BoundHits, IsZeroInOrdinaryFluid) {
   for (const SurfaceMethod method : kMethods) EXPECT_EQ(hits(water(4), method, 4), 0u) << int(method);
 }
 
-TEST_F(BoundHits, ParticlesUponEachOther) {
-  // More than a walk looks at in a row of the grid, fewer than are put in order.
+TEST_F(BoundHits, CountsCoincidentParticles) {
+  // More than kMaxInRow, fewer than kMaxInCell.
   std::vector<Float4> heap(500, Float4{0, 0, -4, 0});
   for (const SurfaceMethod method : kMethods) EXPECT_GT(hits(heap, method, 4), 0u) << int(method);
 }
 
-// Samples are as small as what is far away needs.
-TEST_F(BoundHits, FarNearerThanPlannedFor) {
+// Samples are as small as distant fluid needs.
+TEST_F(BoundHits, CountsFluidMuchNearerThanTheFocus) {
   const std::vector<Float4> near = {{0, 0, -0.12f, 0}};
   EXPECT_GT(hits(near, SurfaceMethod::Planes, 40), 0u) << "a disc that fills the picture";
   EXPECT_GT(hits(water(2), SurfaceMethod::NarrowRange, 40), 0u) << "fewer taps than the filter reaches over";

@@ -59,7 +59,7 @@ TEST(Camera, BasisIsOrthonormalEvenStraightDown) {
   EXPECT_NEAR(basis.up[2], -1, 1e-12);
 }
 
-TEST(Camera, SceneWithoutOneFramesTheDomainOrTheFluid) {
+TEST(Camera, DefaultFramesTheDomainOrTheFluid) {
   Scene scene;
   scene.fluid.spacing = 0.1;
   ParticleSet particles;
@@ -104,7 +104,7 @@ TEST(ParticleScene, ScalesAreFixedByTheScene) {
   EXPECT_DOUBLE_EQ(particleScene(scene, particles).compression_max, 0.01);
 }
 
-TEST(ParticleView, RefusesPicturesThatAreEmptyOrTooLarge) {
+TEST(ParticleView, RejectsEmptyAndTooLargePictures) {
   EXPECT_TRUE(ParticleView::check({1, 1}));
   EXPECT_TRUE(ParticleView::check({7680, 4320}));
   for (const ParticleViewDesc& desc :

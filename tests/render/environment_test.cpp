@@ -1,4 +1,4 @@
-// A picture in place of the sky: as it is read, behind the fluid, and mirrored in it.
+// Environment maps: loading, as background, and in reflections of the fluid.
 #include "render/environment.hpp"
 
 #include <array>
@@ -43,7 +43,7 @@ std::string radiance(int width, int height, const std::string& rgbe, int pixels)
 
 /// Big-endian, as PNG has its numbers.
 std::string word(uint32_t value) { return {char(value >> 24), char(value >> 16), char(value >> 8), char(value)}; }
-/// A PNG whose pixels all have one color. Its checksums are none: stb_image looks at none.
+/// A PNG whose pixels all have one color. Checksums are omitted, because stb_image ignores them.
 std::string png(uint32_t width, uint32_t height, const std::string& rgb) {
   std::string rows;
   for (uint32_t y = 0; y < height; ++y) {
@@ -57,7 +57,7 @@ std::string png(uint32_t width, uint32_t height, const std::string& rgb) {
          chunk("IDAT", stored + rows + word(0)) + chunk("IEND", "");
 }
 
-TEST(SharedExponent, KeepsNineBitsAndTakesAnything) {
+TEST(SharedExponent, KeepsNineBitsAndAcceptsAnyFloat) {
   EXPECT_EQ(unpacked(sharedExponent(1, 0.5f, 0.25f)), (Rgb{1, 0.5, 0.25}));
   EXPECT_EQ(unpacked(sharedExponent(0, 0, 0)), (Rgb{0, 0, 0}));
   for (const float value : {1e-4f, 0.0311f, 0.9999f, 3.3f, 511.6f, 32767.9f}) {
@@ -70,7 +70,7 @@ TEST(SharedExponent, KeepsNineBitsAndTakesAnything) {
   EXPECT_EQ(unpacked(sharedExponent(infinite, none, -3)), (Rgb{32768, 0, 0}));
 }
 
-TEST(LoadEnvironment, ReadsRadianceAsItIsAndBytesAsSrgb) {
+TEST(LoadEnvironment, ReadsRadianceLinearlyAndBytesAsSrgb) {
   const TemporaryFolder folder;
   const auto hdr = loadEnvironment(folder.write("a.hdr", radiance(4, 2, {'\x80', '\x40', '\x20', '\x82'}, 8)));
   ASSERT_TRUE(hdr) << hdr.error().message;
@@ -87,7 +87,7 @@ TEST(LoadEnvironment, ReadsRadianceAsItIsAndBytesAsSrgb) {
   EXPECT_EQ(linear[2], 0);
 }
 
-TEST(LoadEnvironment, RefusesByName) {
+TEST(LoadEnvironment, ErrorsNameTheFile) {
   const TemporaryFolder folder;
   const auto said = [&](const std::string& content) {
     const auto file = folder.write("sky.hdr", content);
@@ -189,7 +189,7 @@ class EnvironmentOnGpu : public GpuTest {
   bool copied_ = false;
 };
 
-TEST_F(EnvironmentOnGpu, OneColorIsTheBackgroundExactly) {
+TEST_F(EnvironmentOnGpu, UniformMapIsTheExactBackground) {
   use(picture(16, [](uint32_t, uint32_t) { return Rgb{0.25, 0.5, 1.5}; }));
   for (const auto& camera : {looking(0, 0, -1), looking(0.01, 1, 0), looking(0.3, -1, 1)})
     for (const Rgb& c : draw(camera)) ASSERT_EQ(c, (Rgb{0.25, 0.5, 1.5}));
@@ -197,8 +197,8 @@ TEST_F(EnvironmentOnGpu, OneColorIsTheBackgroundExactly) {
   EXPECT_EQ(implOf(*renderer_).environment->below().z, 1.5f);
 }
 
-// Each direction in which an axis points shows what the picture has there.
-TEST_F(EnvironmentOnGpu, DirectionsAreWhereTheyAreSaidToBe) {
+// The direction of each axis shows its texels.
+TEST_F(EnvironmentOnGpu, AxesMapToTheDocumentedTexels) {
   // Columns by eighths of a turn from +z over -x, -z, +x; the poles in rows of their own.
   const EnvironmentPicture compass = picture(64, [](uint32_t x, uint32_t y) {
     if (y < 8) return Rgb{4, 4, 4};
@@ -215,8 +215,8 @@ TEST_F(EnvironmentOnGpu, DirectionsAreWhereTheyAreSaidToBe) {
   EXPECT_EQ(middle(0, -1, 1e-3), (Rgb{8, 8, 8}));
 }
 
-// A ball before a picture whose left half is bright mirrors it on its left, and on its left alone.
-TEST_F(EnvironmentOnGpu, TheFluidMirrorsIt) {
+// A ball in front of a map whose left half is bright reflects it on its left side only.
+TEST_F(EnvironmentOnGpu, FluidReflectsIt) {
   use(picture(64, [](uint32_t x, uint32_t) { return x < 32 ? Rgb{1, 1, 1} : Rgb{0, 0, 0}; }));
   for (double z = -1; z < 1; z += kSpacing)
     for (double y = -1; y < 1; y += kSpacing)
@@ -238,7 +238,7 @@ TEST_F(EnvironmentOnGpu, TheFluidMirrorsIt) {
   EXPECT_LT(right, 0.1 * left);
 }
 
-TEST_F(EnvironmentOnGpu, IsCopiedOnceAndNotAtAllWithoutOne) {
+TEST_F(EnvironmentOnGpu, IsCopiedOnceIfPresent) {
   use(picture(4, [](uint32_t, uint32_t) { return Rgb{0.5, 0.5, 0.5}; }));
   const auto first = draw(looking(0, 0, -1));
   EXPECT_TRUE(copied_);
@@ -253,7 +253,7 @@ TEST_F(EnvironmentOnGpu, IsCopiedOnceAndNotAtAllWithoutOne) {
   EXPECT_FALSE(copied_);
 }
 
-TEST_F(EnvironmentOnGpu, PicturesThatCannotBeAreRefused) {
+TEST_F(EnvironmentOnGpu, RejectsInvalidPictures) {
   auto made = FluidRenderer::create(device());
   ASSERT_TRUE(made);
   for (const EnvironmentPicture& bad : {EnvironmentPicture{}, EnvironmentPicture{4, 2, {1, 2, 3}}, EnvironmentPicture{4, 4, {}}}) {

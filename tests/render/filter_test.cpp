@@ -1,10 +1,10 @@
-// The depth filters, a step at a time, against their formulas in double precision, and how long a step of the flow may be.
+// Single steps of the depth filters against their formulas in double precision, and the stability limit of the flow.
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 
-#include "render/compute_step.hpp"
+#include "graph/step.hpp"
 #include "render/curvature_flow.hpp"
 #include "render/flow_reference.hpp"
 #include "render/view_push.hpp"
@@ -43,7 +43,7 @@ class DepthFilters : public SurfaceOnGpu {
             ((y - int(kMargin) + 0.5) * push.step / push.height * 2 - 1) * double{push.scale[1]} * wide, z};
   }
 
-  /// Through storage buffers over all blocks of samples, and through texel buffers over those alone that hold fluid: the same.
+  /// Through storage buffers over all blocks of samples, and through texel buffers over blocks with fluid only: equal results.
   Map filtered(std::string_view shader, const Map& before, const SurfacePush& push, uint32_t passes = 1,
                SpecializationConstants constants = {}) {
     Map all = filteredIn(shader, BindingKind::Storage, allBlocks(before, false), before, push, passes, constants);
@@ -83,7 +83,7 @@ class DepthFilters : public SurfaceOnGpu {
         to = pass.write(to, Use::CopyTarget, true);
         return [to](Commands& commands) { commands.fill(to, std::bit_cast<uint32_t>(kNone)); };
       });
-      const StepBuffer source_array = reading == BindingKind::Storage ? reads(from) : texels(from);
+      const StepBinding source_array = reading == BindingKind::Storage ? reads(from) : texels(from);
       addStep(graph, "filter", filter, {source_array, writes(to), writes(counters), reads(blocks)}, listed.size(), FlowPush{push, k});
       from = to;
     }
@@ -95,7 +95,7 @@ class DepthFilters : public SurfaceOnGpu {
     return after;
   }
 
-  /// Two rough surfaces and holes: one slants through the picture, one is a band before it.
+  /// Two rough surfaces with holes: one slanted, one a band in front of it.
   Map rough(double side, double noise) {
     std::uniform_real_distribution<double> bump(-noise, noise), any(0, 1);
     Map map(kColumns, kRows, kNone);
@@ -132,7 +132,7 @@ class DepthFilters : public SurfaceOnGpu {
   }
 };
 
-TEST_F(DepthFilters, AStepOfFlowIsItsFormula) {
+TEST_F(DepthFilters, FlowStepMatchesReference) {
   for (const bool inPerspective : {false, true})
     for (const double time : {1e9, 1e-4}) {  // as long as is stable, and less
       const double side = kH / 4;
@@ -145,8 +145,8 @@ TEST_F(DepthFilters, AStepOfFlowIsItsFormula) {
     }
 }
 
-// Of the shape, not of the formula: a plane stays, a ball shrinks by time over radius along its normals.
-TEST_F(DepthFilters, FlowLeavesPlanesAndShrinksBalls) {
+// Analytic shapes: a plane stays, a ball shrinks by time over radius along its normals.
+TEST_F(DepthFilters, FlowKeepsPlanesAndShrinksBalls) {
   const double side = kH / 4;
   for (const bool inPerspective : {false, true}) {
     const SurfacePush push = pushOf(inPerspective, side);
@@ -180,8 +180,8 @@ TEST_F(DepthFilters, FlowLeavesPlanesAndShrinksBalls) {
     }
 }
 
-// The limit of an explicit step is half of a sample's square: the roughest pattern there is changes by 1 - 2 share / limit a step.
-TEST_F(DepthFilters, FlowIsStableUpToItsLimitAndNotBeyond) {
+// The limit of an explicit step is half a squared sample: the highest frequency changes by 1 - 2 share / limit per step.
+TEST_F(DepthFilters, FlowIsStableUpToItsLimitOnly) {
   const double side = kH / 4, limit = 0.5;
   EXPECT_LT(double{surface::kFlowStable}, limit);
   const SurfacePush push = pushOf(false, side);
@@ -211,7 +211,7 @@ TEST_F(DepthFilters, FlowIsStableUpToItsLimitAndNotBeyond) {
       before = after;
     }
     EXPECT_LT(before, 0.1 * size);
-    // The step that is shipped, however much time it is given.
+    // The default step, for any total time.
     EXPECT_LT(roughness(filtered("render/surface_flow", map, push, 400)), 0.1 * size);
   }
   const Map map = start(0.001);
@@ -252,7 +252,7 @@ Wanted narrowed(const Map& map, const SurfacePush& push, int x, int y, bool vert
   return wanted;
 }
 
-TEST_F(DepthFilters, APassOfTheNarrowRangeIsItsFormula) {
+TEST_F(DepthFilters, NarrowRangePassMatchesReference) {
   for (const bool inPerspective : {false, true})
     for (const uint32_t vertical : {0u, 1u})
       for (const double sigma : {SurfaceSettings{}.narrow_sigma, 1.3})  // spacings: what is shipped, and wider

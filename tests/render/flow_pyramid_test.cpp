@@ -1,4 +1,4 @@
-// Curvature flow from coarse to fine against the same in double precision, whole levels at a time.
+// Curvature flow from coarse to fine against a reference in double precision, level by level.
 #include <bit>
 
 #include "render/curvature_flow.hpp"
@@ -18,7 +18,7 @@ struct Level {
 
 double linear(const SurfacePush& push, double z) { return push.perspective > 0 ? 1 / z : z; }
 
-/// Of each four samples the mean of those on the nearest surface.
+/// The mean of those of four samples that are on the nearest surface.
 Level coarser(const Level& fine) {
   Level out{fine.push, Map(0, 0, 0)};
   out.push.step *= 2;
@@ -55,7 +55,7 @@ Level flowing(Level level, int steps, double time) {
   return level;
 }
 
-/// What the coarser level says; at an edge by how much it has moved.
+/// Interpolates the coarser level; at an edge its displacement.
 Level finer(const Level& fine, const Level& started, const Level& flowed) {
   Level out = fine;
   for (int y = 0; y < fine.map.rows; ++y)
@@ -130,7 +130,7 @@ class FlowPyramid : public SurfaceOnGpu {
     const Buffer depth = upload("depth", level.map.z), blocks = upload("blocks", listed), counters = upload("counters", counts),
                  arguments = upload("arguments", groups);
     Graph graph;
-    leaveBehind(graph, 0);
+    fillTransients(graph, 0);
     SurfaceBuffers surface;
     surface.blocks = graph.import("blocks", importOf(blocks));
     surface.counters = graph.import("counters", importOf(counters));
@@ -145,7 +145,7 @@ class FlowPyramid : public SurfaceOnGpu {
   }
 };
 
-TEST_F(FlowPyramid, IsItsFormulaLevelByLevel) {
+TEST_F(FlowPyramid, MatchesReferenceOnEachLevel) {
   const struct {
     double sideInSpacings, time;
     uint32_t maxLevels, levels;

@@ -23,7 +23,7 @@ struct Map {
   bool has(int x, int y) const { return x >= 0 && y >= 0 && x < columns && y < rows; }
 };
 
-/// What a filter makes of a sample, and how near its decisions were to falling otherwise (in m, or in samples of a reach).
+/// A filter's result, and the smallest margin of its decisions (m, or samples of a reach).
 struct Wanted {
   double z = 0;
   double margin = 1;
@@ -35,7 +35,7 @@ inline double sideAt(const surface::SurfacePush& push, double z) {
   return std::abs(double{push.scale[1]}) * 2 / push.height * push.step * (push.perspective > 0 ? z : 1);
 }
 
-/// m of depth between neighboring samples from which on they are two surfaces.
+/// Depth difference (m) above which neighboring samples are of two surfaces.
 inline double edgeAt(const surface::SurfacePush& push, double z) { return std::max(kH, 3.3 * sideAt(push, z)); }
 
 // Depth as a function of both directions across, moved by half the mean curvature of its graph: dz/dt = (trace H - g.H.g / (1 + g.g)) / 2

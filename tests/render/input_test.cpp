@@ -1,4 +1,4 @@
-// What a host may get wrong when it asks for a picture: the graph's compile() says what, and nothing else happens.
+// Invalid input of a host: the graph's compile() fails with a message that names it.
 #include <cmath>
 #include <limits>
 
@@ -11,8 +11,8 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 class RendererInput : public SurfaceOnGpu {
  protected:
-  /// What compile() says of a picture and, where `data`, of figures.
-  std::string mistake(const FluidState& fluid, const FluidView& view, const FluidLook& look = {}, bool data = false) {
+  /// The error of compile() for a picture or, if `data`, for the surface as data.
+  std::string compileError(const FluidState& fluid, const FluidView& view, const FluidLook& look = {}, bool data = false) {
     auto renderer = FluidRenderer::create(device());
     if (!renderer) return renderer.error().message;
     Graph graph;
@@ -29,7 +29,7 @@ class RendererInput : public SurfaceOnGpu {
     EXPECT_EQ(compiled.error().kind, ErrorKind::BadInput);
     return compiled.error().message;
   }
-  /// A state whose positions mistake() imports.
+  /// A state whose positions compileError() imports.
   static FluidState state() {
     FluidState fluid;
     fluid.count = 10;
@@ -40,7 +40,7 @@ class RendererInput : public SurfaceOnGpu {
   SurfaceData what_ = SurfaceData::Normals;
 };
 
-TEST_F(RendererInput, FormatsThatAreNone) {
+TEST_F(RendererInput, RejectsInvalidFormats) {
   const struct {
     TargetFormats formats;
     const char* named;
@@ -57,7 +57,7 @@ TEST_F(RendererInput, FormatsThatAreNone) {
   }
 }
 
-TEST_F(RendererInput, ViewsThatCheckRefuses) {
+TEST_F(RendererInput, RejectsInvalidViews) {
   const FluidView good = looking({0, 0, 0}, {0, 0, -4}, 64, 48);
   FluidView empty = good, huge = good, skewed = good, none = good;
   empty.width = 0;
@@ -67,43 +67,43 @@ TEST_F(RendererInput, ViewsThatCheckRefuses) {
   for (const FluidView* view : {&empty, &huge, &skewed, &none}) {
     const auto checked = FluidRenderer::check(*view);
     ASSERT_FALSE(checked);
-    for (const bool data : {false, true}) EXPECT_EQ(mistake(state(), *view, {}, data), checked.error().message);
+    for (const bool data : {false, true}) EXPECT_EQ(compileError(state(), *view, {}, data), checked.error().message);
   }
 }
 
-TEST_F(RendererInput, StatesThatAreNone) {
+TEST_F(RendererInput, RejectsInvalidStates) {
   const FluidView view = looking({0, 0, 0}, {0, 0, -4}, 64, 48);
   FluidState bad = state();
   bad.position = {};
-  EXPECT_NE(mistake(bad, view).find("an empty ref"), std::string::npos) << mistake(bad, view);
-  EXPECT_NE(mistake(bad, view, {}, true).find("an empty ref"), std::string::npos);
+  EXPECT_NE(compileError(bad, view).find("an empty ref"), std::string::npos) << compileError(bad, view);
+  EXPECT_NE(compileError(bad, view, {}, true).find("an empty ref"), std::string::npos);
   bad = state();
   bad.count = 11;
-  EXPECT_EQ(mistake(bad, view), "FluidState::position has 160 bytes; expected 16 for each of its 11 particles");
+  EXPECT_EQ(compileError(bad, view), "FluidState::position has 160 bytes; expected 16 for each of its 11 particles");
   bad.count = (4u << 20) + 1;
-  EXPECT_NE(mistake(bad, view, {}, true).find("can be drawn"), std::string::npos);
+  EXPECT_EQ(compileError(bad, view, {}, true), "FluidState::count is 4194305; expected at most 4194304");
   bad = state();
   bad.spacing = kNan;
-  EXPECT_EQ(mistake(bad, view), "FluidState::spacing is nan; expected a length above 0 (m)");
+  EXPECT_EQ(compileError(bad, view), "FluidState::spacing is nan; expected a length above 0 (m)");
   bad.spacing = 0.1f;
   bad.origin[2] = kNan;
-  EXPECT_EQ(mistake(bad, view), "FluidState::origin is nan; expected finite numbers (m)");
+  EXPECT_EQ(compileError(bad, view), "FluidState::origin is nan; expected finite numbers (m)");
 }
 
-TEST_F(RendererInput, MethodsThatAreNone) {
+TEST_F(RendererInput, RejectsInvalidEnumsAndLooks) {
   const FluidView view = looking({0, 0, 0}, {0, 0, -4}, 64, 48);
   FluidLook look;
   look.surface = SurfaceMethod(9);
-  EXPECT_EQ(mistake(state(), view, look), "9 is no SurfaceMethod");
-  EXPECT_EQ(mistake(state(), view, look, true), "9 is no SurfaceMethod");
+  EXPECT_EQ(compileError(state(), view, look), "invalid SurfaceMethod value 9");
+  EXPECT_EQ(compileError(state(), view, look, true), "invalid SurfaceMethod value 9");
   look = {};
   look.refraction_index = 0.5f;
-  EXPECT_EQ(mistake(state(), view, look), "FluidLook::refraction_index is 0.5; expected 1 to 10");
+  EXPECT_EQ(compileError(state(), view, look), "FluidLook::refraction_index is 0.5; expected 1 to 10");
   look = {};
   look.aeration = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_EQ(mistake(state(), view, look), "FluidLook::aeration is nan; expected 0 to 1");
+  EXPECT_EQ(compileError(state(), view, look), "FluidLook::aeration is nan; expected 0 to 1");
   what_ = SurfaceData(200);
-  EXPECT_EQ(mistake(state(), view, {}, true), "200 is no SurfaceData");
+  EXPECT_EQ(compileError(state(), view, {}, true), "invalid SurfaceData value 200");
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ std::vector<uint8_t> draw(uint32_t width, uint32_t height, const LegendDesc& leg
   return {memory.begin() + 4096, memory.begin() + 4096 + static_cast<std::ptrdiff_t>(bytes)};
 }
 
-TEST(Legend, StaysInsideOfAnyPicture) {
+TEST(Legend, StaysInsideAnyPicture) {
   for (const uint32_t width : {1u, 16u, 60u, 100u, 161u, 640u}) {
     for (const uint32_t height : {1u, 16u, 40u, 90u, 480u}) {
       for (const double max : {4.0, 0.0, 1e-9, 1e12}) draw(width, height, {ParticleColor::Compression, max, 1234567.5});
@@ -30,7 +30,7 @@ TEST(Legend, StaysInsideOfAnyPicture) {
   }
 }
 
-TEST(Legend, IsInTheBottomLeftCornerAlone) {
+TEST(Legend, CoversOnlyTheBottomLeftCorner) {
   constexpr uint32_t kWidth = 1280, kHeight = 720;
   const auto picture = draw(kWidth, kHeight, {ParticleColor::Speed, 4, 0.5});
   size_t changed = 0;
@@ -47,7 +47,7 @@ TEST(Legend, IsInTheBottomLeftCornerAlone) {
   EXPECT_GT(changed, 10000u);
 }
 
-TEST(Legend, SmallPicturesHaveNone) {
+TEST(Legend, SkipsSmallPictures) {
   for (const uint8_t byte : draw(320, 180, {ParticleColor::Speed, 4, 0.5})) EXPECT_EQ(byte, kGray);
   for (const uint8_t byte : draw(16, 16, {ParticleColor::Speed, 4, 0.5})) EXPECT_EQ(byte, kGray);
 }

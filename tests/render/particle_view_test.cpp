@@ -1,4 +1,4 @@
-// Pictures of particles on a driver, against what geometry says must be in them.
+// Pictures of particles against geometry in double precision.
 #include "views/particle_view.hpp"
 
 #include <algorithm>
@@ -98,7 +98,7 @@ class ParticleViewOnGpu : public GpuTest {
   std::optional<Float3> start_;  ///< in place of the particles, where the light's frame must not follow them
 };
 
-TEST_F(ParticleViewOnGpu, DrawsTheOutlineThatGeometrySays) {
+TEST_F(ParticleViewOnGpu, OutlinesMatchGeometry) {
   constexpr uint32_t kWidth = 200, kHeight = 120;
   const Picture empty = take({}, kWidth, kHeight);
   // Near and large (the tiled kernel), far and small, off the axis where the outline is an ellipse, cut by the picture's border.
@@ -120,7 +120,7 @@ TEST_F(ParticleViewOnGpu, DrawsTheOutlineThatGeometrySays) {
   }
 }
 
-TEST_F(ParticleViewOnGpu, DepthDecidesBetweenSpheres) {
+TEST_F(ParticleViewOnGpu, NearestSphereOwnsThePixel) {
   constexpr uint32_t kWidth = 160, kHeight = 160;
   // Two that intersect: the boundary is where their depths along the ray are equal.
   const Particle a{-0.2f, 0, -3, 0, 0, 0}, b{0.25f, 0, -3.1f, 1, 0, 0};
@@ -151,7 +151,7 @@ TEST_F(ParticleViewOnGpu, DepthDecidesBetweenSpheres) {
   EXPECT_GT(compared, 100u);
 }
 
-TEST_F(ParticleViewOnGpu, LeavesOutWhatCannotBeSeen) {
+TEST_F(ParticleViewOnGpu, CullsInvisibleParticles) {
   constexpr uint32_t kSize = 96;
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   const Particle seen{0, 0, -6};
@@ -166,7 +166,7 @@ TEST_F(ParticleViewOnGpu, LeavesOutWhatCannotBeSeen) {
   EXPECT_EQ(difference(take(all, kSize, kSize), alone), 0u);
 }
 
-TEST_F(ParticleViewOnGpu, NearAndHugeSpheresFillThePictureInBoundedLoops) {
+TEST_F(ParticleViewOnGpu, HugeSpheresTakeBoundedLoops) {
   constexpr uint32_t kWidth = 700, kHeight = 500;
   const Picture empty = take({}, kWidth, kHeight);
   // One that covers everything; behind a large one, a small one is hidden.
@@ -175,7 +175,7 @@ TEST_F(ParticleViewOnGpu, NearAndHugeSpheresFillThePictureInBoundedLoops) {
   const Picture huge = take({cover, cover}, kWidth, kHeight);
   EXPECT_EQ(difference(huge, empty), huge.pixels.size());
   EXPECT_EQ(difference(take({cover, {0, 0, -2600}}, kWidth, kHeight), huge), 0u);
-  // The eye inside of a sphere, and many that cross the near plane: finite work, and nothing hangs.
+  // The eye inside a sphere, and many spheres that cross the near plane.
   scene_.fluid.spacing = 1;
   std::vector<Particle> crowd;
   for (int k = 0; k < 2000; ++k) {
@@ -197,7 +197,7 @@ TEST_F(ParticleViewOnGpu, DistantParticlesStayVisible) {
   }
 }
 
-TEST_F(ParticleViewOnGpu, ShowsTheNearestOfACloud) {
+TEST_F(ParticleViewOnGpu, NearestOfACloudMatchesReference) {
   // Thousands, most of them hidden and culled, against every sphere tested for every pixel. Slow ones are blue, fast ones pale.
   constexpr uint32_t kWidth = 192, kHeight = 108;
   scene_.fluid.spacing = 0.2;
@@ -267,7 +267,7 @@ TEST_F(ParticleViewOnGpu, EmptyTankHasFloorWallsAndEdges) {
   EXPECT_GT(difference(tank, take({}, kWidth, kHeight)), tank.pixels.size() / 20);
 }
 
-TEST_F(ParticleViewOnGpu, SolidsHideParticlesAndMove) {
+TEST_F(ParticleViewOnGpu, SolidsOccludeParticlesAndMove) {
   constexpr uint32_t kSize = 128;
   Solid box;
   box.shape = BoxShape{{-1, -1, -6}, {1, 1, -5}};
@@ -316,7 +316,7 @@ TEST_F(ParticleViewOnGpu, ManySolidsOfBothKinds) {
   }
 }
 
-TEST_F(ParticleViewOnGpu, FarFromTheOriginTheSamePicture) {
+TEST_F(ParticleViewOnGpu, PictureDoesNotDependOnTheOrigin) {
   constexpr uint32_t kSize = 100;
   const std::vector<Particle> particles = {{0.3f, 0.2f, -4}, {-1, 0.5f, -6, 2, 0, 0}};
   scene_.domain = Domain{{-2, -2, -10}, {2, 2, -1}, 0};
@@ -331,7 +331,7 @@ TEST_F(ParticleViewOnGpu, FarFromTheOriginTheSamePicture) {
   EXPECT_EQ(difference(take(particles, kSize, kSize), here), 0u);
 }
 
-TEST_F(ParticleViewOnGpu, ColorsSpeedAndCompression) {
+TEST_F(ParticleViewOnGpu, ColorsShowSpeedAndCompression) {
   constexpr uint32_t kSize = 64;
   const uint32_t middle = kSize / 2;
   const auto channel = [&](const Picture& picture, int k) { return static_cast<int>((picture.at(middle, middle) >> (8 * k)) & 255); };
@@ -348,9 +348,8 @@ TEST_F(ParticleViewOnGpu, ColorsSpeedAndCompression) {
   EXPECT_EQ(difference(take({{0, 0, -4, nan, 0, 0, nan}}, kSize, kSize, 0, compression), rest), 0u);
 }
 
-// Unlit, every pixel of a particle has the map's own color of its value, wherever the light is and whatever lies before it; all else is
-// darker than the map.
-TEST_F(ParticleViewOnGpu, UnlitColorsAreThoseOfTheMap) {
+// Unlit particles have the exact color of the map; everything else is darker than the map.
+TEST_F(ParticleViewOnGpu, UnlitColorsMatchTheMap) {
   constexpr uint32_t kSize = 96;
   scene_.domain = Domain{{-3, -0.6, -7}, {3, 2, -1}, 0};
   scene_.solids.push_back(Solid{SphereShape{{1.4, 0.2, -5}, 0.7}});
@@ -380,7 +379,7 @@ TEST_F(ParticleViewOnGpu, UnlitColorsAreThoseOfTheMap) {
   }
 }
 
-TEST_F(ParticleViewOnGpu, TinyAndOddPictures) {
+TEST_F(ParticleViewOnGpu, HandlesTinyAndOddSizes) {
   scene_.domain = Domain{{-1, -1, -5}, {1, 1, -3}, 0};
   for (const auto& [width, height] : {std::pair{1u, 1u}, std::pair{3u, 17u}, std::pair{257u, 9u}}) {
     const Picture picture = take({{0, 0, -4}}, width, height);

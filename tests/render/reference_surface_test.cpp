@@ -1,5 +1,5 @@
-// The passes from particles to pixels, with planes and by depth, against the same surface in double precision without grid, lists or
-// culling.
+// The passes from particles to pixels, with planes and with depth filters, against a reference in double precision without grid, lists
+// or culling.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -11,7 +11,7 @@ namespace {
 
 using surface::SurfacePush;
 
-/// Two places of a surface: whether both are there, and how far apart they are.
+/// Difference of two surface points: whether both exist, and their distance.
 struct Difference {
   double spacing = kSpacing;  ///< m; of a sample where that is wider
   int there = 0, lone = 0, off = 0;
@@ -24,8 +24,7 @@ struct Difference {
     const double angle = std::acos(std::clamp(dot(normal, wanted.normal), -1.0, 1.0));
     off += !(std::abs(depth - wanted.depth) < 1e-3 * spacing) || !(angle < 0.1 * kDegree);
   }
-  /// `share`: one in so many may be off. Decisions by thresholds fall otherwise in floats where a sum lies on one, and their neighbors
-  /// follow.
+  /// `share`: one in so many may differ, because rounding may decide thresholds differently.
   void expect(const std::string& what, int least, int share) const {
     EXPECT_GT(there, least) << what;
     EXPECT_LE(lone, there / 200) << what << " of " << there;
@@ -37,7 +36,7 @@ using By = SurfaceReference::By;
 
 class ReferenceSurface : public SurfaceOnGpu, public testing::WithParamInterface<By> {
  protected:
-  /// A slab that leans through the picture and beyond it, a ball before it, a crease, and drops all around.
+  /// A slanted slab beyond the picture's borders, a ball in front of it, a crease, and drops.
   std::vector<Float4> cloud(double size) {
     std::vector<Float4> all = under({0, -0.9 * size, -4}, unit({0.1, 1, 0.35}), unit({1, -0.1, 0}), unit({-0.035, -0.35, 1}), 1.3 * size);
     for (const auto& part :
@@ -126,16 +125,16 @@ class ReferenceSurface : public SurfaceOnGpu, public testing::WithParamInterface
   }
 };
 
-TEST_P(ReferenceSurface, InPerspective) {
+TEST_P(ReferenceSurface, MatchesInPerspective) {
   const FluidView view = looking({0.1, 0.2, 0}, {0, 0, -4}, 80, 60);
   for (const double samples : {3.0, 1.5, 0.6}) compare("samples " + std::to_string(samples), cloud(1.0), view, samples, 1500);
 }
 
-TEST_P(ReferenceSurface, WithParallelRays) {
+TEST_P(ReferenceSurface, MatchesInOrthographicViews) {
   compare("parallel", cloud(0.6), orthographic(0.7, looking({0, 0.1, 0}, {0, 0, -4}, 72, 56)), 3, 1500);
 }
 
-TEST_P(ReferenceSurface, NearTheEye) {
+TEST_P(ReferenceSurface, MatchesNearTheEye) {
   // A spacing is 20 to 60 pixels wide, and some particles lie before the near plane.
   auto all = block({-0.25, -0.25, -1.6}, {0.25, 0.15, -1.1});
   const auto drops = scattered({-0.3, -0.3, -1.0}, {0.3, 0.3, 0.1}, 12);
@@ -143,7 +142,7 @@ TEST_P(ReferenceSurface, NearTheEye) {
   compare("near", all, looking({0, 0, 0}, {0, 0, -1.2}, 90, 70), 3, 1500);
 }
 
-TEST_P(ReferenceSurface, CutByTheNearPlane) {
+TEST_P(ReferenceSurface, MatchesWhenCutByTheNearPlane) {
   // A slab that the eye is in, and drops beside and before it.
   auto all = block({-0.8, -0.4, -1.2}, {0.8, 0, 0.3});
   const auto drops = scattered({-0.4, 0.15, -0.6}, {0.4, 0.4, 0.1}, 12);
@@ -154,12 +153,12 @@ TEST_P(ReferenceSurface, CutByTheNearPlane) {
 }
 
 // Most tiles are empty, and some hold the rim of a drop alone.
-TEST_P(ReferenceSurface, OfDropsFarApart) {
+TEST_P(ReferenceSurface, MatchesOnSparseDrops) {
   compare("drops", scattered({-2, -1.5, -4.5}, {2, 1.5, -3.5}, 120), perspective(), 3, 3000, 100, 0);
 }
 
-// There a particle whose plane is decided otherwise is seen in ten of some eight hundred pixels.
-TEST_P(ReferenceSurface, WhereParticlesAreSmallerThanSamples) {
+// A particle whose plane is decided differently covers about ten of eight hundred pixels.
+TEST_P(ReferenceSurface, MatchesWhenParticlesAreSmallerThanSamples) {
   compare("far", cloud(2.5), looking({0, 0, 8}, {0, 0, -4}, 64, 48), 3, 200, 30);
 }
 

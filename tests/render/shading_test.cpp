@@ -1,5 +1,5 @@
-// What the eye sees of a flat pool, against the formulas of Fresnel, Snell, and Beer and Lambert in double precision. The view has parallel
-// rays, so that all of the picture is seen at one angle, or is in perspective, so that a picture holds many.
+// Shading of a flat pool against Fresnel, Snell and Beer-Lambert in double precision, in orthographic views (one angle) and in
+// perspective (many angles).
 #include <algorithm>
 #include <cmath>
 
@@ -79,7 +79,7 @@ class FlatPool : public SurfaceOnGpu {
   }
 };
 
-TEST_F(FlatPool, LetsThroughWhatItDoesNotMirror) {
+TEST_F(FlatPool, TransmitsWhatItDoesNotReflect) {
   pool(0.3, 4);
   for (const float index : {1.333f, 2.0f}) {
     FluidLook look = clear();
@@ -107,8 +107,8 @@ TEST_F(FlatPool, LetsThroughWhatItDoesNotMirror) {
   }
 }
 
-// Absorption is a meter's: twice as deep a pool lets through the square, and a slanted ray goes through more of it.
-TEST_F(FlatPool, AbsorbsByTheMeter) {
+// Twice the depth transmits the square, and a slanted ray is absorbed along its length.
+TEST_F(FlatPool, AbsorptionFollowsBeerLambert) {
   FluidLook look = clear();
   look.absorption = {2.5f, 0.8f, 0.2f};
   const double rates[] = {2.5, 0.8, 0.2};
@@ -126,7 +126,7 @@ TEST_F(FlatPool, AbsorbsByTheMeter) {
     }
 }
 
-TEST_F(FlatPool, IsTheWholeFormulaAtAnyAngle) {
+TEST_F(FlatPool, MatchesFormulaAtAnyAngle) {
   pool(0.4);
   for (const double degrees : {0.0, 20.0, 45.0, 65.0}) {
     const double angle = degrees * kDegree, meters = 0.4 / std::cos(angle);
@@ -154,8 +154,7 @@ TEST_F(FlatPool, IsTheWholeFormulaAtAnyAngle) {
   }
 }
 
-// An opaque pool has a color of its own and mirrors the sky; nothing behind it is seen.
-TEST_F(FlatPool, OpaqueIsItsColorUnderTheSky) {
+TEST_F(FlatPool, OpaqueFluidHasItsColorAndReflectsTheSky) {
   pool(0.2);
   for (const double degrees : {0.0, 60.0}) {
     const double angle = degrees * kDegree, part = fresnel(angle, 1.5);
@@ -176,8 +175,8 @@ TEST_F(FlatPool, OpaqueIsItsColorUnderTheSky) {
   }
 }
 
-// Behind a pool of thickness t along the ray, the picture is shifted as a ray that Snell's law has bent is after t meters.
-TEST_F(FlatPool, ShiftsWhatIsBehindAsSnellSays) {
+// The picture is shifted by the offset of the refracted ray after the pool's thickness along it.
+TEST_F(FlatPool, RefractionFollowsSnell) {
   pool(0.3);
   for (const double degrees : {0.0, 30.0, 50.0}) {
     const double angle = degrees * kDegree;
@@ -202,8 +201,8 @@ TEST_F(FlatPool, ShiftsWhatIsBehindAsSnellSays) {
   }
 }
 
-// A ball's lower rim, seen edge on, mirrors what is behind it where light goes through the fluid, and nothing of it where not.
-TEST_F(FlatPool, OpaqueFluidShowsNothingOfWhatIsBehind) {
+// A ball's lower rim, seen edge on, reflects the scene behind it if the fluid is transparent, and not if it is opaque.
+TEST_F(FlatPool, OpaqueFluidHidesTheScene) {
   fill(shells({0, 0, 0}, 0.5));
   FluidLook look = clear();
   look.opaque = true;
@@ -222,8 +221,7 @@ TEST_F(FlatPool, OpaqueFluidShowsNothingOfWhatIsBehind) {
   EXPECT_LT(mixed, fluid / 15);
 }
 
-// A lone drop lies straight before what is behind it.
-TEST_F(FlatPool, ADropDoesNotBendLight) {
+TEST_F(FlatPool, DropsDoNotRefract) {
   fill({{0, 0, 0, 0}});
   const FluidView view = orthographic(0.1, eye(0.3));
   Backdrop ramp;
@@ -237,8 +235,8 @@ TEST_F(FlatPool, ADropDoesNotBendLight) {
   EXPECT_NEAR(middle[1], kDown / 2, 0.6);
 }
 
-// Nor does it mirror the sun, wherever that stands: spray would glitter. A larger ball does.
-TEST_F(FlatPool, ADropDoesNotGlitter) {
+// Spray would flicker. A larger ball reflects the sun.
+TEST_F(FlatPool, DropsDoNotReflectTheSun) {
   const FluidView view = orthographic(0.1, eye(0.3)), wide = orthographic(0.7, eye(0.3));
   FluidLook dark = clear(), sunny = clear();
   sunny.sun = 100;
@@ -249,8 +247,8 @@ TEST_F(FlatPool, ADropDoesNotGlitter) {
   EXPECT_NE(seen(wide, sunny, {0, 0, 0, 1}), seen(wide, dark, {0, 0, 0, 1}));
 }
 
-// White light from torn fluid: drops have it, a pool's middle has none of it.
-TEST_F(FlatPool, TornFluidIsWhiteAndEvenFluidIsNot) {
+// Drops scatter white light, a pool's middle does not.
+TEST_F(FlatPool, WhitewaterIsWhiteAndLevelFluidIsNot) {
   FluidLook none = clear(), white = clear();
   none.aeration = 0;
   white.aeration = 0.5f;
@@ -267,8 +265,8 @@ TEST_F(FlatPool, TornFluidIsWhiteAndEvenFluidIsNot) {
   }
 }
 
-// A solid before the pool, in the middle of the picture: where it is not, all is as without it, though the bent rays end behind it.
-TEST_F(FlatPool, WhatStandsBeforeItIsNotSeenThroughIt) {
+// A solid in front of the pool changes no other pixel, although refracted rays end behind it.
+TEST_F(FlatPool, SceneInFrontIsNotRefracted) {
   pool(0.3);
   for (const double degrees : {0.0, 30.0, 50.0}) {
     const FluidView view = parallel(degrees * kDegree);

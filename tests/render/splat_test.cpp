@@ -1,9 +1,9 @@
-// The first passes, from particles to depth and thickness a sample, against every particle on every ray in double precision.
+// Depth and thickness per sample against all particles on all rays in double precision.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "render/compute_step.hpp"
+#include "graph/step.hpp"
 #include "render/surface_reference.hpp"
 #include "render/view_push.hpp"
 
@@ -80,7 +80,7 @@ class ParticlesToSamples : public SurfaceOnGpu {
   }
 };
 
-TEST_F(ParticlesToSamples, EachSampleHoldsTheNearestSphere) {
+TEST_F(ParticlesToSamples, SamplesHoldTheNearestSphere) {
   struct Case {
     FluidView view;
     uint32_t step, count;
@@ -90,8 +90,8 @@ TEST_F(ParticlesToSamples, EachSampleHoldsTheNearestSphere) {
   const FluidView eye = looking({0.1, 0.2, 0.3}, {0.3, 0, -4}, 64, 48);
   const Case cases[] = {
       {eye, 1, 60, {-1.5, -1.2, -3}, {1.5, 1.2, -0.2}, false},      // far apart, some at the near plane, some beside the picture
-      {eye, 1, 600, {-0.2, -0.2, -1.2}, {0.4, 0.4, -0.4}, true},    // a crowd
-      {eye, 1, 1500, {-0.2, -0.1, -0.5}, {0.4, 0.4, -0.25}, true},  // a dense one, whose front is all that is seen
+      {eye, 1, 600, {-0.2, -0.2, -1.2}, {0.4, 0.4, -0.4}, true},    // dense
+      {eye, 1, 1500, {-0.2, -0.1, -0.5}, {0.4, 0.4, -0.25}, true},  // denser: only its front is visible
       {eye, 1, 60, {-0.3, -0.2, -0.1}, {0.5, 0.6, 0.7}, false},     // around the eye, cut by the near plane
       {eye, 2, 3000, {-2, -1.5, -5}, {2, 1.5, -1}, false},
       {eye, 1, 3000, {-40, -40, -90}, {40, 40, -30}, false},  // smaller than samples: drawn as large as one
@@ -124,7 +124,7 @@ TEST_F(ParticlesToSamples, EachSampleHoldsTheNearestSphere) {
   }
 }
 
-TEST_F(ParticlesToSamples, ThicknessIsTheSumOfAllDiscs) {
+TEST_F(ParticlesToSamples, ThicknessIsTheSumOfDiscs) {
   const FluidView eye = looking({0, 0, 0}, {0, 0, -4}, 64, 48);
   std::vector<float> wall(64 * 48);
   for (size_t i = 0; i < wall.size(); ++i) wall[i] = i % 64 < 32 ? 3.0f : 100.0f;  // its left half hides what is farther away

@@ -36,7 +36,7 @@ double Samples::nearest() const { return double{push.near_depth} * 1.000001 + 1e
 
 namespace {
 
-/// Eigenvalues of a symmetric matrix, rising, and the direction of the least: turned until nothing is left beside the diagonal (Jacobi).
+/// Eigenvalues of a symmetric matrix, rising, and the direction of the least: by Jacobi rotations.
 void eigen(double m[3][3], double values[3], Vector& least) {
   double turned[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (int sweep = 0; sweep < 50; ++sweep)
@@ -99,7 +99,7 @@ SurfaceReference::SurfaceReference(const surface::SurfacePush& push, const std::
         if (cover(samples_.ray(x, y), hard) >= 0.5 || closed(x, y)) smooth_[samples_.index(x, y)] = sampleOfDepth(x, y);
         continue;
       }
-      const Look found = look(samples_.ray(x, y), hard);
+      const Evaluation found = evaluate(samples_.ray(x, y), hard);
       if (found.coverage >= 0.5 || closed(x, y)) smooth_[samples_.index(x, y)] = {found.depth, found.normal};
     }
 }
@@ -115,7 +115,7 @@ double SurfaceReference::sphere(const Vector& center, double radius, const Sampl
   return b / a + half > samples_.nearest() ? std::max(b / a - half, samples_.nearest()) : -1;
 }
 
-/// Those that own at least three hundredths of the samples that they cover.
+/// Particles visible in at least 3 % of the samples that they cover.
 std::vector<Vector> SurfaceReference::picked(const std::vector<Vector>& centers) const {
   std::vector<Vector> out;
   for (const Vector& center : centers) {
@@ -175,10 +175,10 @@ SurfaceReference::Plane SurfaceReference::plane(const std::vector<Vector>& cente
   return {own, own + normal * (dot(found.mean, normal) * reach + 0.5 * double{samples_.push.spacing}), normal, false};
 }
 
-SurfaceReference::Look SurfaceReference::lookFrom(const Samples::Ray& ray, double depth) const {
+SurfaceReference::Evaluation SurfaceReference::evaluateStep(const Samples::Ray& ray, double depth) const {
   const double spacing = spacingAt(depth), range = 1.2 * spacing;
   const Vector x = ray.at(depth), sight = unit(ray.along);
-  double height = 0, slope = 0, cover = 0, sum = 0, firm = 0;
+  double height = 0, slope = 0, cover = 0, sum = 0, planeWeight = 0;
   Vector normal;
   for (const Plane& plane : planes_) {
     Vector d = x - plane.anchor, n = plane.normal;
@@ -189,7 +189,7 @@ SurfaceReference::Look SurfaceReference::lookFrom(const Samples::Ray& ray, doubl
     const double h = dot(d, n), across = std::max(1 - (dot(d, d) - h * h) / std::pow(1.8 * spacing, 2), 0.0);
     const double within = std::max(1 - h * h / (range * range), 0.0), w = std::pow(across, 3) * within * within;
     sum += w;
-    firm += plane.ball ? -w : w;
+    planeWeight += plane.ball ? -w : w;
     height += w * h;
     slope += w * dot(ray.along, n);
     normal = normal + n * w;
@@ -198,28 +198,28 @@ SurfaceReference::Look SurfaceReference::lookFrom(const Samples::Ray& ray, doubl
     const double beside = std::max(1 - dot(miss, miss) / std::pow(1.2 * spacing, 2), 0.0);
     cover += beside * beside * std::max(std::abs(dot(n, sight)), 0.35);
   }
-  Look out;
+  Evaluation out;
   const double threshold = 0.6 + (0.4 - 0.6) * smoothstep(1.5, 2.8, sum), pixel = samples_.side(depth) / samples_.push.step;
   out.coverage = std::clamp(0.5 + (cover - threshold) * spacing / (1.25 * pixel), 0.0, 1.0);
-  out.firm = firm;
+  out.planeWeight = planeWeight;
   out.depth = depth + (slope < -1e-6 ? std::clamp(-height / slope, -range, range) : 0);
   const double size = std::sqrt(dot(normal, normal));
   out.normal = size > 1e-6 ? normal * (1 / size) : sight * -1;
   return out;
 }
 
-/// Again from what was found, at most twice, while planes outweigh balls and it moves by more than a quarter of a spacing.
-SurfaceReference::Look SurfaceReference::look(const Samples::Ray& ray, double depth) const {
+/// Refined at most twice, while planes outweigh balls and the depth moves by more than a quarter of a spacing.
+SurfaceReference::Evaluation SurfaceReference::evaluate(const Samples::Ray& ray, double depth) const {
   const double still = 0.25 * spacingAt(depth);
-  Look out = lookFrom(ray, depth);
-  if (depth <= samples_.nearest()) {  // the near plane itself is seen where it cuts
+  Evaluation out = evaluateStep(ray, depth);
+  if (depth <= samples_.nearest()) {  // section with the near plane
     out.depth = depth;
     out.normal = unit(ray.along) * -1;
     return out;
   }
-  for (int turn = 0; turn < 2 && out.firm > 0.5 && std::abs(out.depth - depth) > still; ++turn) {
-    const Look next = lookFrom(ray, out.depth);
-    if (next.firm <= 0.5) break;
+  for (int turn = 0; turn < 2 && out.planeWeight > 0.5 && std::abs(out.depth - depth) > still; ++turn) {
+    const Evaluation next = evaluateStep(ray, out.depth);
+    if (next.planeWeight <= 0.5) break;
     depth = out.depth;
     out.depth = next.depth;
     out.normal = next.normal;
@@ -235,7 +235,7 @@ bool SurfaceReference::closed(int x, int y) const {
   return true;
 }
 
-/// Of the square of two and a half samples to each side what spheres cover.
+/// Share of the square of 2.5 samples to each side that spheres cover.
 double SurfaceReference::share(double x, double y) const {
   const int left = int(std::floor(x)), top = int(std::floor(y));
   if (!samples_.has(left - 2, top - 2) || !samples_.has(left + 3, top + 3)) return 0;
@@ -281,7 +281,7 @@ SurfaceReference::Place SurfaceReference::sampleOfDepth(int x, int y) const {
   const Vector a = difference(x, y, 1, 0), b = difference(x, y, 0, 1);
   const Samples::Ray ray = samples_.ray(x, y);
   const double depth = hard_[samples_.index(x, y)];
-  if (depth <= samples_.nearest()) return {depth, unit(ray.along) * -1};  // the near plane itself is seen where it cuts
+  if (depth <= samples_.nearest()) return {depth, unit(ray.along) * -1};  // section with the near plane
   const Vector towards = samples_.push.perspective > 0 ? ray.at(depth) : Vector{0, 0, 1};
   Vector normal{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
   normal = dot(normal, normal) > 0 ? unit(normal) : unit(towards) * -1;
@@ -291,25 +291,25 @@ SurfaceReference::Place SurfaceReference::sampleOfDepth(int x, int y) const {
   return {std::max(depth + inset, samples_.nearest()), normal};
 }
 
-SurfaceReference::Look SurfaceReference::lookByPlanes(const Samples::Ray& ray, double nearest, double farthest, double own,
-                                                      double filled) const {
-  Look found = look(ray, nearest);
+SurfaceReference::Evaluation SurfaceReference::evaluateByPlanes(const Samples::Ray& ray, double nearest, double farthest, double own,
+                                                                double filled) const {
+  Evaluation found = evaluate(ray, nearest);
   double coverage = found.coverage;
   if (coverage < 1 && farthest > nearest + 0.5 * double{samples_.push.spacing}) {
-    const Look behind = look(ray, farthest);
+    const Evaluation behind = evaluate(ray, farthest);
     if (coverage < 0.5) found = behind;
     coverage = std::max(coverage, behind.coverage) >= 0.5 ? 1 : behind.coverage;
   }
-  if (coverage < 0.5 && filled > coverage) found = look(ray, std::isfinite(own) ? own : nearest);
+  if (coverage < 0.5 && filled > coverage) found = evaluate(ray, std::isfinite(own) ? own : nearest);
   found.coverage = std::max(coverage, filled);
   return found;
 }
 
-/// On the plane of that of the four samples which is nearest, a spacing of depth counted as two samples.
-SurfaceReference::Look SurfaceReference::lookByDepth(const Samples::Ray& ray, double nearest, double farthest, const Corner (&corners)[4],
-                                                     double filled) const {
+/// On the plane of the nearest of the four samples; a spacing of depth counts as two samples.
+SurfaceReference::Evaluation SurfaceReference::evaluateByDepth(const Samples::Ray& ray, double nearest, double farthest,
+                                                               const Corner (&corners)[4], double filled) const {
   const double spacing = double{samples_.push.spacing};
-  Look found;
+  Evaluation found;
   double hard = nearest, best = kNone;
   found.coverage = cover(ray, nearest);
   if (found.coverage < 1 && farthest > nearest + 0.5 * spacing) {
@@ -370,8 +370,8 @@ SurfaceReference::Pixel SurfaceReference::pixel(uint32_t x, uint32_t y) const {
   if (nearest == kNone) return {};
   const Samples::Ray ray = samples_.ray(x + 0.5, y + 0.5);
   const double filled = std::clamp(0.5 + (share(atX, atY) - 0.9683) * std::max(5.0 * push.step, 0.5 / (1 - 0.9683)), 0.0, 1.0);
-  const Look found = by_ == By::Planes ? lookByPlanes(ray, nearest, farthest, hard_[samples_.index(ownX, ownY)], filled)
-                                       : lookByDepth(ray, nearest, farthest, corners, filled);
+  const Evaluation found = by_ == By::Planes ? evaluateByPlanes(ray, nearest, farthest, hard_[samples_.index(ownX, ownY)], filled)
+                                             : evaluateByDepth(ray, nearest, farthest, corners, filled);
   if (found.depth == kNone) return {};
   return {{std::max(found.depth, samples_.nearest()), found.normal}, found.coverage};
 }

@@ -1,6 +1,6 @@
 #pragma once
-// The surface in double precision, from every particle at every ray, without grid, lists or culling: the oracle of the passes from
-// hard depth to pixels.
+// The surface in double precision, from all particles on all rays, without grid, lists or culling: the oracle of the passes from depth
+// to pixels.
 #include <limits>
 #include <vector>
 
@@ -15,7 +15,7 @@ struct Samples {
 
   /// View space of a position as it is stored.
   Vector seen(const Float4& p) const;
-  /// Of the ray through a place of the picture, pixels: where it begins, and a step along it that is one deeper.
+  /// The ray through a point of the picture (pixels): its start, and a step of depth 1.
   struct Ray {
     Vector from, along;
     Vector at(double depth) const { return from + along * depth; }
@@ -24,7 +24,7 @@ struct Samples {
   Ray ray(int x, int y) const { return ray((x - int(push.margin) + 0.5) * push.step, (y - int(push.margin) + 0.5) * push.step); }
   /// m that a sample is wide at a depth.
   double side(double depth) const;
-  double nearest() const;  ///< depth of what the near plane cuts
+  double nearest() const;  ///< depth of the section with the near plane
   bool has(int x, int y) const { return x >= 0 && y >= 0 && x < columns && y < rows; }
   size_t index(int x, int y) const { return size_t(y) * size_t(columns) + size_t(x); }
 
@@ -44,10 +44,10 @@ class SurfaceReference {
   SurfaceReference(const surface::SurfacePush& push, const std::vector<Float4>& positions, By by);
 
   const Samples& samples() const { return samples_; }
-  const std::vector<double>& hard() const { return hard_; }  ///< depth of the nearest sphere, a sample
+  const std::vector<double>& hard() const { return hard_; }  ///< depth of the nearest sphere per sample
   size_t surfaceParticles() const { return centers_.size(); }
-  const std::vector<Place>& smooth() const { return smooth_; }  ///< a sample
-  /// What is seen in a pixel, and how much of it that covers; where that is less than a half, too.
+  const std::vector<Place>& smooth() const { return smooth_; }  ///< per sample
+  /// Surface and coverage of a pixel, also for coverages below 0.5.
   struct Pixel {
     Place place;
     double coverage = 0;
@@ -66,8 +66,8 @@ class SurfaceReference {
     double values[3];
     Vector least;
   };
-  struct Look {
-    double depth = kNone, coverage = 0, firm = 0;
+  struct Evaluation {
+    double depth = kNone, coverage = 0, planeWeight = 0;
     Vector normal;
   };
   /// One of the four samples around a pixel.
@@ -82,13 +82,13 @@ class SurfaceReference {
   std::vector<Vector> picked(const std::vector<Vector>& centers) const;
   Fit fit(const std::vector<Vector>& centers, const Vector& own, double reach, const Vector* across) const;
   Plane plane(const std::vector<Vector>& centers, const Vector& own) const;
-  Look lookFrom(const Samples::Ray& ray, double depth) const;
-  Look look(const Samples::Ray& ray, double depth) const;
+  Evaluation evaluateStep(const Samples::Ray& ray, double depth) const;
+  Evaluation evaluate(const Samples::Ray& ray, double depth) const;
   double cover(const Samples::Ray& ray, double depth) const;
   Place sampleOfDepth(int x, int y) const;
   Vector difference(int x, int y, int dx, int dy) const;
-  Look lookByPlanes(const Samples::Ray& ray, double nearest, double farthest, double own, double filled) const;
-  Look lookByDepth(const Samples::Ray& ray, double nearest, double farthest, const Corner (&corners)[4], double filled) const;
+  Evaluation evaluateByPlanes(const Samples::Ray& ray, double nearest, double farthest, double own, double filled) const;
+  Evaluation evaluateByDepth(const Samples::Ray& ray, double nearest, double farthest, const Corner (&corners)[4], double filled) const;
   double share(double x, double y) const;  ///< share of the samples around that are covered; whole numbers are samples
 
   Samples samples_;

@@ -19,7 +19,7 @@ uint32_t texelBytes(VkFormat format) {
     case VK_FORMAT_R32G32B32A32_SFLOAT:
       return 16;
     default:
-      ADD_FAILURE() << "a format that the rig does not know: " << format;
+      ADD_FAILURE() << "unexpected format " << format;
       return 16;
   }
 }
@@ -99,11 +99,11 @@ FluidRendererImpl& SurfaceOnGpu::renderer() {
   return implOf(*renderer_);
 }
 
-void SurfaceOnGpu::leaveBehind(Graph& graph, int run) {
+void SurfaceOnGpu::fillTransients(Graph& graph, int run) {
   const float left = run == 0 ? std::numeric_limits<float>::quiet_NaN() : 4.1f;
   graph.reset();
-  BufferRef buffers = graph.create("left over", {uint64_t{32} << 20});
-  graph.pass("leave", [&](Pass& pass) {
+  BufferRef buffers = graph.create("transient fill", {uint64_t{32} << 20});
+  graph.pass("transient fill", [&](Pass& pass) {
     buffers = pass.write(buffers, Use::CopyTarget, true);
     pass.sideEffect();
     return [buffers, left](Commands& commands) { commands.fill(buffers, std::bit_cast<uint32_t>(left)); };
@@ -117,7 +117,7 @@ std::vector<Pixel> SurfaceOnGpu::surface(const FluidView& view, SurfaceMethod me
   std::vector<uint32_t> first;
   Graph graph;
   for (int run = 0; run < 2; ++run) {
-    leaveBehind(graph, run);
+    fillTransients(graph, run);
     const FluidState fluid = state(graph);
     SurfaceBuffers found =
         renderer().surface.addTo(graph, fluid, renderer().camera(fluid, view), method, true, view.focus_m, {.storage_reads = run == 1});
@@ -127,7 +127,7 @@ std::vector<Pixel> SurfaceOnGpu::surface(const FluidView& view, SurfaceMethod me
     if (run == 0)
       first = std::move(words);
     else
-      EXPECT_EQ(first, words) << "two runs, two pictures";
+      EXPECT_EQ(first, words) << "pictures of two runs differ";
   }
   std::vector<Pixel> pixels(first.size() / 2);
   for (size_t i = 0; i < pixels.size(); ++i) {
@@ -175,7 +175,7 @@ Drawn SurfaceOnGpu::drawn(const FluidView& view, const FluidLook& look, const Ba
   Drawn first;
   Graph graph;
   for (int run = 0; run < 2; ++run) {
-    leaveBehind(graph, run);
+    fillTransients(graph, run);
     const FluidState fluid = state(graph);
     const SceneTargets targets = made->addTo(graph, fluid, hosts(graph, formats, width, height, backdrop), view, look);
     const uint64_t pixels = uint64_t{width} * height;
@@ -198,8 +198,8 @@ Drawn SurfaceOnGpu::drawn(const FluidView& view, const FluidLook& look, const Ba
     if (run == 0) {
       first = std::move(out);
     } else {
-      EXPECT_TRUE(first.color == out.color) << "two runs, two pictures";
-      EXPECT_TRUE(std::memcmp(first.depth.data(), out.depth.data(), out.depth.size() * 4) == 0) << "two runs, two depths";
+      EXPECT_TRUE(first.color == out.color) << "pictures of two runs differ";
+      EXPECT_TRUE(std::memcmp(first.depth.data(), out.depth.data(), out.depth.size() * 4) == 0) << "depths of two runs differ";
     }
   }
   return first;

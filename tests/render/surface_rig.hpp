@@ -30,7 +30,7 @@ struct Pixel {
   Vector normal;    ///< in view space: x right, y up, z away from the eye
 };
 
-/// What a host has drawn before the fluid.
+/// The host's scene in front of or behind the fluid.
 struct Backdrop {
   std::array<float, 4> color{0, 0, 0, 1};
   float depth = 0;                           ///< as the target stores it
@@ -45,7 +45,7 @@ struct Drawn {
   std::vector<std::array<double, 4>> channels(VkFormat format) const;
 };
 
-/// What an sRGB target makes of linear light (IEC 61966-2-1).
+/// sRGB encoding of linear light (IEC 61966-2-1).
 double encodedSrgb(double linear);
 
 class SurfaceOnGpu : public GpuTest {
@@ -65,27 +65,25 @@ class SurfaceOnGpu : public GpuTest {
   /// Of the default formats.
   FluidRendererImpl& renderer();
 
-  /// The surface of the picture, found twice, through texel and through storage buffers: the same bits.
+  /// The surface of the picture, computed by texel reads and by storage reads, with equal bits.
   std::vector<Pixel> surface(const FluidView& view, SurfaceMethod method = SurfaceMethod::Auto);
 
-  /// Gives a graph transient memory whose content differs from run to run: who reads any before it was written makes another picture.
-  void leaveBehind(Graph& graph, int run);
+  /// Fills the graph's transient memory with a different value per run, so that a read of undefined content changes the picture.
+  void fillTransients(Graph& graph, int run);
 
   /// Targets of a size that hold the backdrop.
   SceneTargets hosts(Graph& graph, const TargetFormats& formats, uint32_t width, uint32_t height, const Backdrop& backdrop);
-  /// The fluid over a backdrop, drawn twice: the same bits. Targets are as large as the viewport and what is left and above of it, or as
-  /// given.
+  /// The fluid over a backdrop, drawn twice with equal bits. Without a size, targets end at the viewport's lower right corner.
   Drawn drawn(const FluidView& view, const FluidLook& look, const Backdrop& backdrop = {}, const TargetFormats& formats = {},
               uint32_t width = 0, uint32_t height = 0);
 
   /// Particles of a lattice, jittered.
   std::vector<Float4> block(Vector low, Vector high, double jitter = 0.2);
-  /// Four layers under a plane, as a fluid at rest has them: half a spacing under it the first, jittered 0.25 spacings along and 0.1
-  /// across.
+  /// Four layers of a fluid at rest under a plane, the first half a spacing below it; jittered 0.25 spacings along and 0.1 across.
   std::vector<Float4> under(Vector point, Vector normal, Vector u, Vector v, double extent);
-  /// Shells in a ball: spirals of as many particles as have the density of rest.
+  /// A ball of spherical shells at rest density; each shell is a spiral.
   std::vector<Float4> shells(Vector center, double radius);
-  /// Anywhere in a box.
+  /// Uniformly distributed in a box.
   std::vector<Float4> scattered(Vector low, Vector high, uint32_t count);
 
   Buffer position_, backdrop_, backdropDepth_;

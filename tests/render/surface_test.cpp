@@ -37,7 +37,7 @@ Errors compared(const std::vector<Pixel>& pixels, uint32_t width, uint32_t heigh
 
 const double kHalfUp = std::tan(22.5 * kDegree), kAspect = 320.0 / 240;
 
-TEST_F(SurfaceOnGpu, ATiltedPlaneIsAPlane) {
+TEST_F(SurfaceOnGpu, ReconstructsTiltedPlane) {
   const Vector normal{0.3 / std::sqrt(1.34), 0.5 / std::sqrt(1.34), 1 / std::sqrt(1.34)};  // of the fluid, in the world; z towards the eye
   const double at = -4;                                                                    // through (0, 0, at)
   const double across = std::sqrt(1 - normal.x * normal.x);
@@ -60,9 +60,8 @@ TEST_F(SurfaceOnGpu, ATiltedPlaneIsAPlane) {
   }
 }
 
-// From 5 to 40 pixels a spacing the same particles have the same roughness, at any size of the picture: all reaches are lengths in the
-// world.
-TEST_F(SurfaceOnGpu, LooksTheSameFromNearAndFar) {
+// All reaches are lengths in world space: from 5 to 40 pixels per spacing the errors are equal.
+TEST_F(SurfaceOnGpu, ErrorDoesNotDependOnDistance) {
   fill(under({0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 4));
   for (const SurfaceMethod method : {SurfaceMethod::Planes, SurfaceMethod::CurvatureFlow, SurfaceMethod::NarrowRange}) {
     double least = 1e9, most = 0;
@@ -82,7 +81,7 @@ TEST_F(SurfaceOnGpu, LooksTheSameFromNearAndFar) {
   }
 }
 
-TEST_F(SurfaceOnGpu, ABallIsABallInEitherProjection) {
+TEST_F(SurfaceOnGpu, ReconstructsBallInBothProjections) {
   const Vector center{0.2, -0.1, -5};
   const double radius = 1;
   fill(shells(center, radius));
@@ -111,7 +110,7 @@ TEST_F(SurfaceOnGpu, ABallIsABallInEitherProjection) {
   EXPECT_GT(o.overlap(), 0.98);
 }
 
-TEST_F(SurfaceOnGpu, AnyDepthConventionSeesTheSame) {
+TEST_F(SurfaceOnGpu, DoesNotDependOnTheDepthConvention) {
   fill(block({-1, -1, -5}, {1, 1, -4}));
   const FluidView reversed = perspective();
   const auto wanted = surface(reversed);
@@ -125,7 +124,7 @@ TEST_F(SurfaceOnGpu, AnyDepthConventionSeesTheSame) {
   }
 }
 
-TEST_F(SurfaceOnGpu, AMetreOfFluidMeasuresAMetre) {
+TEST_F(SurfaceOnGpu, ThicknessIsInMeters) {
   fill(block({-3, -3, -5}, {3, 3, -4}, 0));  // ten layers
   for (const uint32_t step : {4u, 16u}) {    // discs of many samples, and of less than one
     Graph graph;
@@ -147,12 +146,12 @@ TEST_F(SurfaceOnGpu, AMetreOfFluidMeasuresAMetre) {
   }
 }
 
-TEST_F(SurfaceOnGpu, NastyCloudsAreDrawnWithoutANumberThatIsNone) {
+TEST_F(SurfaceOnGpu, DegenerateCloudsGiveFiniteValues) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   const std::vector<std::vector<Float4>> clouds = {
       {{0, 0, -4, 0}},
       {{nan, 0, -4, 0}, {0, inf, -4, 0}, {0, 0, -1e30f, 0}, {0.1f, 0, -4, 0}},
-      std::vector<Float4>(66000, Float4{0, 0, -4, 0}),  // more than the 65,535 turns after which lavapipe ends a loop
+      std::vector<Float4>(66000, Float4{0, 0, -4, 0}),  // more than the 65,535 iterations after which lavapipe ends a loop
       {{0, 0, -0.0999f, 0}, {0, 0, -0.1f, 0}, {0, 0, -0.19f, 0}, {0, 0, 0, 0}, {0, 0, 5, 0}},
       {{0, 0, -0.12f, 0}},  // fills the picture
       {{1e7f, 0, -4, 0}, {0, 0, -1e7f, 0}},
@@ -173,8 +172,8 @@ TEST_F(SurfaceOnGpu, NastyCloudsAreDrawnWithoutANumberThatIsNone) {
   }
 }
 
-// Thirty particles a pixel: a slab is whole, and one ball fills a picture that it is before.
-TEST_F(SurfaceOnGpu, FarAndNearFluidIsWhole) {
+// Thirty particles per pixel leave no hole in a slab; one ball in front of the eye fills the picture.
+TEST_F(SurfaceOnGpu, HasNoHolesFarAndNear) {
   fill(block({-3, -3, -5}, {3, 3, -4}));
   FluidView tiny = perspective();
   tiny.width = 8;
@@ -188,7 +187,7 @@ TEST_F(SurfaceOnGpu, FarAndNearFluidIsWhole) {
 }
 
 // Depth may begin behind the eye.
-TEST_F(SurfaceOnGpu, AnOrthographicViewMaySeeBehindItsEye) {
+TEST_F(SurfaceOnGpu, OrthographicViewMayStartBehindTheEye) {
   fill(block({-3, -3, 1}, {3, 3, 2}));
   FluidView view = orthographic(1);
   view.projection.column[2].z = -0.05f;  // -10 to 10 m
@@ -196,36 +195,36 @@ TEST_F(SurfaceOnGpu, AnOrthographicViewMaySeeBehindItsEye) {
   for (const Pixel& pixel : surface(view)) ASSERT_NEAR(pixel.depth, 8, 0.1);
 }
 
-TEST(FluidViewCheck, RefusesWhatIsNoCamera) {
+TEST(FluidViewCheck, RejectsInvalidCameras) {
   FluidView view;
   view.projection.column[2] = {0, 0, 0, -1};
   view.projection.column[3] = {0, 0, 0.1f, 0};
   EXPECT_TRUE(FluidRenderer::check(view));
-  const auto said = [](const FluidView& bad) {
+  const auto message = [](const FluidView& bad) {
     const auto ok = FluidRenderer::check(bad);
     return ok ? std::string("fine") : ok.error().message;
   };
   FluidView bad = view;
   bad.width = 0;
-  EXPECT_NE(said(bad).find("1 to 8192"), std::string::npos);
+  EXPECT_NE(message(bad).find("1 to 8192"), std::string::npos);
   bad = view;
   bad.view.column[0].x = 2;
-  EXPECT_NE(said(bad).find("not rigid"), std::string::npos);
+  EXPECT_NE(message(bad).find("not rigid"), std::string::npos);
   bad = view;
   bad.projection.column[3].w = 1;
-  EXPECT_NE(said(bad).find("neither a perspective"), std::string::npos);
+  EXPECT_NE(message(bad).find("neither perspective"), std::string::npos);
   bad = view;
   bad.projection.column[1].x = 0.5f;
-  EXPECT_NE(said(bad).find("shears"), std::string::npos);
+  EXPECT_NE(message(bad).find("shears"), std::string::npos);
   bad = view;
   bad.width = bad.height = 4096;
-  EXPECT_NE(said(bad).find("16777216"), std::string::npos);
+  EXPECT_NE(message(bad).find("16777216"), std::string::npos);
   bad = view;
   bad.focus_m = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(said(bad).find("focus_m"), std::string::npos);
+  EXPECT_NE(message(bad).find("focus_m"), std::string::npos);
   bad = view;
   bad.projection.column[0].x = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_NE(said(bad).find("not finite"), std::string::npos);
+  EXPECT_NE(message(bad).find("not finite"), std::string::npos);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The fluid in a host's targets: formats, depth conventions, viewports, and what hides what.
+// The fluid in a host's targets: formats, depth conventions, viewports and occlusion.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -15,21 +15,21 @@ class FluidInTargets : public SurfaceOnGpu {
   static FluidView small() { return looking({0, 0, 0}, {0, 0, -4}, kSmall, kSmallHeight); }
   void fillSmall() { fill(block({-0.8, -0.7, -4.6}, {0.8, 0.7, -4})); }
 
-  /// Pixels of two pictures that differ by more than `most` in a channel.
-  static size_t others(const Drawn& a, const Drawn& b, double most) {
+  /// Pixels of two pictures that differ by more than `limit` in a channel.
+  static size_t others(const Drawn& a, const Drawn& b, double limit) {
     const auto p = a.channels(VK_FORMAT_R16G16B16A16_SFLOAT), q = b.channels(VK_FORMAT_R16G16B16A16_SFLOAT);
     EXPECT_EQ(p.size(), q.size());
     size_t count = 0;
     for (size_t i = 0; i < p.size(); ++i) {
       double apart = 0;
       for (size_t c = 0; c < 4; ++c) apart = std::max(apart, std::abs(p[i][c] - q[i][c]));
-      count += apart > most ? 1 : 0;
+      count += apart > limit ? 1 : 0;
     }
     return count;
   }
 };
 
-TEST_F(FluidInTargets, AnSrgbTargetHoldsTheLinearPicture) {
+TEST_F(FluidInTargets, SrgbTargetEncodesTheLinearPicture) {
   fillSmall();
   Backdrop backdrop;
   backdrop.color = {1, 0, 1, 1};  // the same in every format
@@ -58,8 +58,8 @@ TEST_F(FluidInTargets, AnSrgbTargetHoldsTheLinearPicture) {
   }
 }
 
-// Pictures alike, and the depth that each projection gives to the surface that was seen.
-TEST_F(FluidInTargets, AnyDepthConventionDrawsTheSamePicture) {
+// Equal pictures, and the surface's depth as each projection stores it.
+TEST_F(FluidInTargets, PictureDoesNotDependOnTheDepthConvention) {
   fillSmall();
   const FluidView infinite = small();
   const Drawn wanted = drawn(infinite, {});
@@ -92,7 +92,7 @@ TEST_F(FluidInTargets, AnyDepthConventionDrawsTheSamePicture) {
   }
 }
 
-TEST_F(FluidInTargets, ParallelRaysSeeTheFluidWhereItIs) {
+TEST_F(FluidInTargets, OrthographicViewDrawsTheFluidInPlace) {
   fillSmall();
   const double half = 1.2, pixel = 2 * half / kSmallHeight;
   for (const bool reversed : {false, true}) {
@@ -122,8 +122,8 @@ TEST_F(FluidInTargets, ParallelRaysSeeTheFluidWhereItIs) {
   }
 }
 
-// Inside, the bits of a target of the viewport's own size; outside, those that the host had put there.
-TEST_F(FluidInTargets, OnlyTheViewportIsDrawnTo) {
+// Inside, the bits of a target of the viewport's size; outside, those of the host.
+TEST_F(FluidInTargets, DrawsOnlyInTheViewport) {
   fillSmall();
   const FluidView whole = small();
   const VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
@@ -157,7 +157,7 @@ TEST_F(FluidInTargets, OnlyTheViewportIsDrawnTo) {
   }
 }
 
-TEST_F(FluidInTargets, AViewportBeyondTheTargetsIsAnError) {
+TEST_F(FluidInTargets, RejectsViewportOutsideTheTargets) {
   fill(block({-1, -1, -5}, {1, 1, -4}));
   Graph graph;
   (void)renderer().addTo(graph, state(graph), hosts(graph, {}, 8, 8, {}), perspective(), {}, false);
@@ -166,7 +166,7 @@ TEST_F(FluidInTargets, AViewportBeyondTheTargetsIsAnError) {
   EXPECT_EQ(ok.error().message, "the fluid's viewport of 320x240 pixels at 0, 0 does not lie within a target of 8x8");
 }
 
-TEST_F(FluidInTargets, FluidAndSceneHideEachOther) {
+TEST_F(FluidInTargets, FluidAndSceneOccludeEachOther) {
   fill(block({-3, -3, -5}, {3, 3, -4}));
   const FluidView view = small();
   const double near = double{view.projection.column[3].z};
@@ -186,7 +186,7 @@ TEST_F(FluidInTargets, FluidAndSceneHideEachOther) {
   }
 }
 
-TEST_F(FluidInTargets, WithoutParticlesNothingRuns) {
+TEST_F(FluidInTargets, RunsNothingWithoutParticles) {
   fill({});
   Graph graph;
   const TargetFormats formats;

@@ -60,7 +60,7 @@ class ToneMap : public GpuTest {
   }
 };
 
-TEST_F(ToneMap, IsItsFormula) {
+TEST_F(ToneMap, MatchesFormula) {
   std::vector<std::array<float, 4>> colors;
   for (const float scale : {1.0f, 0.05f, 0.003f, 8.0f, 1000.0f, 60000.0f})  // all branches of both curves
     for (int r = 0; r <= 8; ++r)
@@ -76,7 +76,7 @@ TEST_F(ToneMap, IsItsFormula) {
   }
 }
 
-TEST_F(ToneMap, MoreLightIsNeverDarkerAndBlackStaysBlack) {
+TEST_F(ToneMap, IsMonotonicAndKeepsBlack) {
   std::vector<std::array<float, 4>> grays{{0, 0, 0, 0}};
   for (double light = 1e-4; light < 65504; light *= 1.002) grays.push_back({float(light), float(light), float(light), 1});
   const auto got = mapped(grays);
@@ -88,15 +88,15 @@ TEST_F(ToneMap, MoreLightIsNeverDarkerAndBlackStaysBlack) {
   }
 }
 
-TEST_F(ToneMap, WhatIsNoLightIsBlackAndWhatIsEndlessWhite) {
+TEST_F(ToneMap, MapsNanToBlackAndInfinityToWhite) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
-  const float most = std::numeric_limits<float>::max();
+  const float largest = std::numeric_limits<float>::max();
   const auto got = mapped({{-1, -1, -1, 1},
                            {-inf, -inf, -inf, 1},
                            {nan, nan, nan, 1},
                            {-0.0f, -0.0f, -0.0f, 1},  // black
                            {inf, inf, inf, 1},
-                           {most, most, most, 1},  // white
+                           {largest, largest, largest, 1},  // white
                            {0.5f, -3, 0.25f, 1},
                            {0.5f, 0, 0.25f, 1},  // the same
                            {0.5f, nan, 0.25f, 1}});

@@ -213,7 +213,7 @@ TEST_F(ViewRunnerTest, ReloadsChangedFileAndKeepsSceneWhenInvalid) {
   const auto again = s.reload();
   ASSERT_FALSE(again);
   EXPECT_NE(again.error().message.find("dam.json"), std::string::npos);
-  EXPECT_FALSE(s.fileChanged(3)) << "said once";
+  EXPECT_FALSE(s.fileChanged(3)) << "reported once";
   EXPECT_TRUE(s.runner().step());
   // What is done to the scene meanwhile goes on from the text that it was read from.
   EXPECT_TRUE(s.change({"fluid.viscosity", "0.5"}));

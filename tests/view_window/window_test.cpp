@@ -1,4 +1,4 @@
-// rill-view from end to end, in a window on a display of its own (Xvfb), with validation.
+// rill-view from end to end, in a window on a virtual display (Xvfb), with validation.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -20,8 +20,8 @@ class ViewWindowTest : public ::testing::Test {
  protected:
   void SetUp() override { scene = folder.write("dam.json", kDam).string(); }
   static std::string program() { return std::string(RILL_BINARY_DIR) + "/apps/view/rill-view"; }
-  /// xvfb-run looks for a free display from a number on; two that start from the same one at once take the same. With a file of its own for
-  /// the authority it fails now and then to remove it, and says so in place of the program's exit code.
+  /// xvfb-run searches a free display from a number, and concurrent searches from one number may take the same display. With its own
+  /// authority file it sometimes fails to remove it, which replaces the program's exit code.
   std::vector<std::string> onADisplay() const {
     const std::string number = std::to_string(100 + ::getpid() % 20000), authority = folder.write("Xauthority", "").string();
     return {"/usr/bin/xvfb-run", "-a", "-n", number, "-f", authority, "-s", "-screen 0 1280x720x24"};
@@ -39,7 +39,7 @@ class ViewWindowTest : public ::testing::Test {
         {"VK_LAYER_PATH", RILL_FAILING_LAYER_FOLDER}, {"VK_INSTANCE_LAYERS", "VK_LAYER_RILL_failing"}, {"RILL_TEST_FAIL", plan}};
     return Child(command(std::move(arguments)), folder.string(), failing).wait();
   }
-  /// The figure after `name` in what a run printed.
+  /// The figure after `name` in a run's output.
   static std::string figure(const Outcome& outcome, const std::string& name) {
     std::istringstream words(outcome.out);
     for (std::string word, value; words >> word >> value;)
@@ -61,7 +61,7 @@ class ViewWindowTest : public ::testing::Test {
   std::string scene;
 };
 
-TEST_F(ViewWindowTest, OpensDrawsAndClosesByItself) {
+TEST_F(ViewWindowTest, OpensDrawsAndCloses) {
   for (const char* scale : {"1", "2.5"}) {
     const Outcome outcome = view({scene, "--frames", "5", "--scale", scale, "--screenshot", "last.png", "--validate"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
@@ -72,7 +72,7 @@ TEST_F(ViewWindowTest, OpensDrawsAndClosesByItself) {
   }
 }
 
-TEST_F(ViewWindowTest, InLockstepAFrameIsCaptures) {
+TEST_F(ViewWindowTest, LockstepFramesEqualThoseOfCapture) {
   const Outcome shown = view({scene, "--frames", "7", "--lockstep", "--size", "320x200", "--validate"});
   ASSERT_EQ(shown.code, 0) << shown.err;
   const Outcome captured = capture({scene, "--frames", "7", "--no-images", "--quiet", "--stats", "stats.json"}, folder.string());
@@ -82,7 +82,7 @@ TEST_F(ViewWindowTest, InLockstepAFrameIsCaptures) {
   EXPECT_EQ(figure(shown, "state_hash"), stats["frames"][6]["state_hash"].get<std::string>());
 }
 
-TEST_F(ViewWindowTest, AScriptGoesThroughAllViewsKeysAndSizes) {
+TEST_F(ViewWindowTest, ScriptSwitchesViewsKeysAndSizes) {
   std::string script;
   int frame = 0;
   for (const char* view : {"final", "particles", "density", "speed", "depth", "normals", "thickness"})
@@ -107,7 +107,7 @@ TEST_F(ViewWindowTest, AScriptGoesThroughAllViewsKeysAndSizes) {
   EXPECT_EQ(sizeOf("end.png"), std::pair(1280, 720));
 }
 
-TEST_F(ViewWindowTest, ReplayedTwiceItEndsInTheSameState) {
+TEST_F(ViewWindowTest, ReplaysEndInEqualStates) {
   folder.write("hands.txt", "0 key P\n2 key P\n5 set fluid.viscosity=2\n8 set gravity=[3,-9.81,0]\n14 view depth\n");
   const Outcome one = view({scene, "--script", "hands.txt", "--size", "320x200"});
   const Outcome two = view({scene, "--script", "hands.txt", "--size", "400x300", "--view", "particles"});
@@ -118,7 +118,7 @@ TEST_F(ViewWindowTest, ReplayedTwiceItEndsInTheSameState) {
   EXPECT_EQ(figure(one, "state_hash").size(), 16u);
 }
 
-TEST_F(ViewWindowTest, AHandTouchesTheSceneAndAReplayDoesTheSame) {
+TEST_F(ViewWindowTest, MouseInteractionReplaysBitwise) {
   folder.write("solid.json", R"({
     "rill": "0.1", "domain": {"min": [0, 0, 0], "max": [1, 1, 0.3]}, "fluid": {"spacing": 0.05},
     "fill": [{"box": {"min": [0, 0, 0], "max": [1, 0.4, 0.3]}}],
@@ -134,26 +134,26 @@ TEST_F(ViewWindowTest, AHandTouchesTheSceneAndAReplayDoesTheSame) {
   folder.write("push.txt", push);
   folder.write("move.txt", move);
   folder.write("thrown.txt", thrown);
-  folder.write("anew.txt", still + "50 move 120 145\n50 press left\n52 key R\n53 release left\n");
+  folder.write("restarted.txt", still + "50 move 120 145\n50 press left\n52 key R\n53 release left\n");
   const auto run = [&](const char* script) {
     return view({(folder / "solid.json").string(), "--script", script, "--size", "320x200", "--lockstep", "--frames", "57", "--validate"});
   };
-  const Outcome alone = run("still.txt"), again = run("push.txt");
+  const Outcome untouched = run("still.txt"), again = run("push.txt");
   for (const char* script : {"push.txt", "move.txt", "thrown.txt"}) {
     const Outcome touched = run(script);
     ASSERT_EQ(touched.code, 0) << script << ": " << touched.err;
     EXPECT_EQ(touched.err, "") << script;
-    EXPECT_EQ(figure(touched, "steps"), figure(alone, "steps")) << script;
-    EXPECT_NE(figure(touched, "state_hash"), figure(alone, "state_hash")) << script << " has done something";
+    EXPECT_EQ(figure(touched, "steps"), figure(untouched, "steps")) << script;
+    EXPECT_NE(figure(touched, "state_hash"), figure(untouched, "state_hash")) << script << " has an effect";
     if (std::string_view(script) == "push.txt") { EXPECT_EQ(figure(touched, "state_hash"), figure(again, "state_hash")); }
   }
-  const Outcome anew = run("anew.txt");
-  ASSERT_EQ(anew.code, 0) << anew.err;
-  EXPECT_EQ(figure(anew, "steps"), "4") << "R while the fluid is held; its frame shows the start";
+  const Outcome restarted = run("restarted.txt");
+  ASSERT_EQ(restarted.code, 0) << restarted.err;
+  EXPECT_EQ(figure(restarted, "steps"), "4") << "R while the fluid is held; its frame shows the start";
 }
 
-TEST_F(ViewWindowTest, AClickInAPanelIsThePanels) {
-  // On the button "Pause (P)"; and in the picture, where it pauses nothing.
+TEST_F(ViewWindowTest, PanelsConsumeTheirClicks) {
+  // On the button "Pause (P)", and in the picture, where it does not pause.
   folder.write("click.txt", "1 move 42 97\n1 press left\n2 release left\n9 view final\n");
   folder.write("beside.txt", "1 move 640 300\n1 press left\n2 release left\n9 view final\n");
   const Outcome paused = view({scene, "--script", "click.txt"}), running = view({scene, "--script", "beside.txt"});
@@ -162,7 +162,7 @@ TEST_F(ViewWindowTest, AClickInAPanelIsThePanels) {
   EXPECT_EQ(figure(running, "steps"), "9");
 }
 
-TEST_F(ViewWindowTest, TheSceneIsSavedWithItsChanges) {
+TEST_F(ViewWindowTest, SavedSceneContainsChanges) {
   folder.write("save.txt", "1 set fluid.viscosity=0.5\n2 move 49 123\n2 press left\n3 release left\n6 view final\n");
   const Outcome outcome = view({scene, "--script", "save.txt"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
@@ -171,7 +171,7 @@ TEST_F(ViewWindowTest, TheSceneIsSavedWithItsChanges) {
   EXPECT_EQ(saved["fluid"]["spacing"], 0.05);
 }
 
-TEST_F(ViewWindowTest, NumbersAreTypedAndDragged) {
+TEST_F(ViewWindowTest, NumbersCanBeTypedAndDragged) {
   // The field of fluid.viscosity; "Save scene" is at 49, 123. All within one frame: clicks and keys wait for each other.
   const std::string save = "move 49 123\n30 press left\n30 release left\n38 view final\n";
   const struct {
@@ -185,7 +185,7 @@ TEST_F(ViewWindowTest, NumbersAreTypedAndDragged) {
     folder.write("hands.txt", row.hands + save);
     const Outcome outcome = view({scene, "--script", "hands.txt", "--screenshot", "end.png", "--view", "particles"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_EQ(sizeOf("end.png"), std::pair(1280, 720)) << "the last frame of a script, too";
+    EXPECT_EQ(sizeOf("end.png"), std::pair(1280, 720)) << "the last frame of a script";
     ASSERT_TRUE(std::filesystem::exists(folder / "dam-changed.json")) << row.hands;
     const auto saved = nlohmann::json::parse(contentOf(folder / "dam-changed.json"));
     ASSERT_TRUE(saved["fluid"].contains("viscosity")) << row.hands;
@@ -194,7 +194,7 @@ TEST_F(ViewWindowTest, NumbersAreTypedAndDragged) {
   }
 }
 
-TEST_F(ViewWindowTest, APictureThatCannotBeWrittenIsAnError) {
+TEST_F(ViewWindowTest, UnwritablePictureIsAnError) {
   for (const char* script : {"2 screenshot no-such-folder/a.png\n4 view final\n", "1 minimize\n2 screenshot a.png\n4 restore\n"}) {
     folder.write("hands.txt", script);
     const Outcome outcome = view({scene, "--script", "hands.txt"});
@@ -203,7 +203,7 @@ TEST_F(ViewWindowTest, APictureThatCannotBeWrittenIsAnError) {
   }
 }
 
-TEST_F(ViewWindowTest, TheWindowsImagesMayGoOutOfDate) {
+TEST_F(ViewWindowTest, RecoversFromOutOfDateSwapchains) {
   for (const char* plan : {"vkAcquireNextImageKHR 3 -1000001004", "vkQueuePresentKHR 3 -1000001004", "vkQueuePresentKHR 3 1000001003"}) {
     const Outcome outcome = viewFailing(plan, {scene, "--frames", "8"});
     EXPECT_EQ(outcome.code, 0) << plan << ": " << outcome.err;
@@ -211,7 +211,7 @@ TEST_F(ViewWindowTest, TheWindowsImagesMayGoOutOfDate) {
   }
 }
 
-TEST_F(ViewWindowTest, ALostDeviceIsTold) {
+TEST_F(ViewWindowTest, ReportsALostDevice) {
   for (const char* plan : {"vkQueueSubmit2 9 -4", "vkWaitSemaphores 6 -4", "vkAcquireNextImageKHR 3 -4", "vkQueuePresentKHR 3 -4"}) {
     const Outcome outcome = viewFailing(plan, {scene, "--frames", "30"});
     EXPECT_EQ(outcome.code, 1) << plan;
@@ -222,7 +222,7 @@ TEST_F(ViewWindowTest, ALostDeviceIsTold) {
   EXPECT_NE(full.err.find("memory"), std::string::npos) << full.err;
 }
 
-TEST_F(ViewWindowTest, GoesThroughTheScenesThereAre) {
+TEST_F(ViewWindowTest, CyclesThroughScenes) {
   const auto small = [&](const char* name) {
     std::string text = kDam;
     folder.write(name, text.replace(text.find("0.05"), 4, "0.1"));
@@ -234,7 +234,7 @@ TEST_F(ViewWindowTest, GoesThroughTheScenesThereAre) {
   const Child::Environment environment{{"RILL_SCENES", folder.string()}};
   const Outcome outcome = Child(command({"a", "--script", "hands.txt", "--validate"}), folder.string(), environment).wait();
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_EQ(outcome.err, "") << "a broken scene is told in the window";
+  EXPECT_EQ(outcome.err, "") << "an invalid scene is reported in the window";
   EXPECT_EQ(figure(outcome, "scene"), "a");
 }
 
@@ -245,31 +245,31 @@ TEST_F(ViewWindowTest, OpensEveryScene) {
   const Outcome outcome = view({"box-and-sphere", "--view", "particles", "--size", "320x200", "--script", "hands.txt", "--validate"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
-  EXPECT_EQ(figure(outcome, "scene"), "box-and-sphere") << "once around";
+  EXPECT_EQ(figure(outcome, "scene"), "box-and-sphere") << "one cycle";
 }
 
-TEST_F(ViewWindowTest, ASignalClosesIt) {
+TEST_F(ViewWindowTest, SignalClosesTheWindow) {
   folder.write("hands.txt", "1 screenshot shown.png\n1000000 view final\n");
   std::vector<std::string> interrupted = onADisplay();
   const std::string view = "echo $$ > pid; exec '" + program() + "' '" + scene + "' --script hands.txt --validate";
   interrupted.insert(interrupted.end(), {"/bin/sh", "-c", view});
   Child child(interrupted, folder.string());
   ASSERT_TRUE(child.waitForFile(folder / "shown.png")) << child.wait().err;
-  // To the program alone and once: the second of a kind ends it at once.
+  // Sent once, to the program only: a second one ends it immediately.
   ::kill(std::stoi(contentOf(folder / "pid")), SIGINT);
   const Outcome outcome = child.wait();
   EXPECT_EQ(outcome.code, 130) << "as after any Ctrl-C: " << outcome.err;
   EXPECT_EQ(outcome.err, "");
 }
 
-TEST_F(ViewWindowTest, ABrokenFileWaitsInTheWindowUntilItIsMended) {
+TEST_F(ViewWindowTest, InvalidFileIsReloadedWhenFixed) {
   folder.write("scene.json", "{ \"rill\": \"0.1\", ");
   std::vector<std::string> opened = onADisplay();
   const std::string view = "echo $$ > pid; exec '" + program() + "' scene.json --validate";
   opened.insert(opened.end(), {"/bin/sh", "-c", view});
   Child child(opened, folder.string());
-  ASSERT_TRUE(child.waitForMessage("scene.json:1")) << "told in the terminal, too";
-  // A scene that is none before it is one: the message of the second says that the file was read again, and that the window is still there.
+  ASSERT_TRUE(child.waitForMessage("scene.json:1")) << "also reported in the terminal";
+  // Two invalid contents before a valid one: the second message shows that the file was read again and that the window is open.
   folder.write("scene.json", "{ \"rill\": \"0.1\", \"fluid\": { \"spacing\": -1 } }");
   folder.write("scene.json", kDam);
   ASSERT_FALSE(child.ended());
@@ -279,7 +279,7 @@ TEST_F(ViewWindowTest, ABrokenFileWaitsInTheWindowUntilItIsMended) {
   EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
 }
 
-TEST_F(ViewWindowTest, BadInputIsToldBeforeAWindowOpens) {
+TEST_F(ViewWindowTest, RejectsBadInputBeforeOpeningAWindow) {
   const Child::Environment nowhere{{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}};
   const auto refused = [&](std::vector<std::string> arguments, const std::string& says) {
     arguments.insert(arguments.begin(), program());

@@ -138,7 +138,7 @@ Expected<Report> runEmbed(Bench& bench) {
 
   const uint32_t samples = bench.quick() ? 3 : 9;
   bench.plan(2 * samples, "start");
-  constexpr const char* kCases[] = {"pipelines anew", "pipelines from the host's cache"};
+  constexpr const char* kCases[] = {"new pipelines", "pipelines from the host's cache"};
   struct Row {
     std::vector<double> borrow, fluid, renderer, first_frame, second_fluid;
   } rows[2];

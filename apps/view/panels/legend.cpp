@@ -28,11 +28,11 @@ void legendOverlay(Board& board) {
                                               IM_COL32(srgbByte(c.x), srgbByte(c.y), srgbByte(c.z), 255));
   }
   ImGui::Dummy(ImVec2(width, height));
-  char most[32];
-  std::snprintf(most, sizeof most, "%.3g", speed ? legend->max : 100 * legend->max);
+  char limit[32];
+  std::snprintf(limit, sizeof limit, "%.3g", speed ? legend->max : 100 * legend->max);
   ImGui::TextUnformatted("0");
-  ImGui::SameLine(width - ImGui::CalcTextSize(most).x);
-  ImGui::TextUnformatted(most);
+  ImGui::SameLine(width - ImGui::CalcTextSize(limit).x);
+  ImGui::TextUnformatted(limit);
   ImGui::End();
 }
 

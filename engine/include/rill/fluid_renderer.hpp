@@ -28,19 +28,19 @@
 
 namespace rill {
 
-/// Formats of the images that a FluidRenderer draws to: pipelines are made for them.
+/// Formats of the images that a FluidRenderer draws to. Pipelines depend on them.
 struct TargetFormats {
-  VkFormat color = VK_FORMAT_R16G16B16A16_SFLOAT;  ///< linear values are written: a UNORM format gets no curve, an SRGB one its own
+  VkFormat color = VK_FORMAT_R16G16B16A16_SFLOAT;  ///< linear values are written; only an SRGB format encodes them
   VkFormat depth = VK_FORMAT_D32_SFLOAT;
 };
 
-/// What the host's images are made for, beside what the host itself does with them, so that a fluid can be drawn into them.
+/// Usage flags that the host's color image needs in addition to the host's own.
 inline constexpr VkImageUsageFlags kFluidColorUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
 /// The same for the depth image.
 inline constexpr VkImageUsageFlags kFluidDepthUsage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
 
-/// What the host has drawn, and what the fluid is drawn into: versions of images of the same graph, of TargetFormats and of one size. Both
-/// have content. They are read with Use::ComputeSampled, and drawn to with Use::ColorTarget and Use::DepthTarget.
+/// The images that hold the host's scene and that the fluid is drawn into: images of the same graph, of TargetFormats and of equal size,
+/// with content. They are read with Use::ComputeSampled and drawn to with Use::ColorTarget and Use::DepthTarget.
 struct SceneTargets {
   ImageRef color, depth;
 };
@@ -54,69 +54,68 @@ struct FluidView {
   double origin[3] = {0, 0, 0};         ///< m, in the scene's coordinates
   uint32_t x = 0, y = 0;                ///< of the viewport in the targets, pixels
   uint32_t width = 1280, height = 720;  ///< of the viewport, pixels
-  double focus_m = 1;  ///< m: how far away the fluid is, roughly. Work is planned for it: the picture is right at any distance
+  double focus_m = 1;                   ///< approximate distance of the fluid, m. The resolution of the surface follows from it
 };
 
-/// How the surface is found from particles.
+/// How the surface is reconstructed from particles.
 enum class SurfaceMethod : uint8_t {
-  Auto,    ///< Planes: of what `rill-bench render` compares the most accurate over all shapes, at about twice the time of NarrowRange
-  Planes,  ///< a plane fitted around each surface particle, blended
+  Auto,           ///< Planes: the most accurate over all shapes of `rill-bench render`, at about twice the time of NarrowRange
+  Planes,         ///< a plane fitted around each surface particle, blended
   CurvatureFlow,  ///< van der Laan, Green and Sainz 2009: the spheres' depth, moved with its mean curvature
   NarrowRange     ///< Truong and Yuksel 2018: the spheres' depth, filtered over a narrow range of it
 };
 
-/// What the fluid is made of, to the eye. Colors are linear RGB.
+/// The fluid's appearance. Colors are linear RGB.
 struct FluidLook {
   SurfaceMethod surface = SurfaceMethod::Auto;
-  Float3 absorption{2.6f, 0.75f, 0.40f};  ///< 1/m, Beer and Lambert
-  Float3 scatter{0.02f, 0.13f, 0.19f};    ///< what its inside sends back where it is thick, of white light; of an opaque fluid its color
-  bool opaque = false;                    ///< nothing is seen through it, and no thickness is made
+  Float3 absorption{2.6f, 0.75f, 0.40f};  ///< 1/m, Beer-Lambert law
+  Float3 scatter{0.02f, 0.13f, 0.19f};    ///< color of white light scattered by thick fluid; of an opaque fluid its color
+  bool opaque = false;                    ///< nothing is visible through the fluid, and its thickness is not computed
   float refraction_index = 1.333f;        ///< 1 to 10
-  float highlight = 900;                  ///< exponent of the sun's reflection
-  float sun = 18;                         ///< radiance of the sun's reflection over the sky's
+  float highlight = 900;                  ///< exponent of the sun's specular reflection
+  float sun = 18;                         ///< radiance of the sun's reflection relative to the sky's
   Float3 to_sun{-0.30f, 0.84f, 0.45f};    ///< direction, of any length
-  float aeration = 0.3f;                  ///< how white torn fluid is, spray and breaking crests: 0 (none) to 1; of one that is not opaque
+  float aeration = 0.3f;                  ///< strength of whitewater (spray and breaking crests), 0 (none) to 1; ignored if opaque
 };
 
-/// The looks that `look.preset` of a scene names: water, milk, ink, clay. Nothing for another name.
+/// The preset of a scene's `look.preset`: water, milk, ink or clay. Empty for another name.
 RILL_API std::optional<FluidLook> fluidLook(std::string_view preset);
-/// What `look.surface` of a scene names. Nothing for another name.
+/// The method of a scene's `look.surface`. Empty for another name.
 RILL_API std::optional<SurfaceMethod> surfaceMethod(std::string_view name);
-/// Names of all looks.
+/// Names of all presets.
 RILL_API std::span<const std::string_view> fluidLooks();
 
-/// What can be read of the surface, exactly: no tone curve, alpha 0 where there is no fluid.
+/// Exact values of the surface, without a tone curve; alpha 0 without fluid.
 enum class SurfaceData : uint8_t {
-  Normals,   ///< n / 2 + 1/2, in the world
+  Normals,   ///< n / 2 + 1/2, in world space
   Depth,     ///< distance along the view direction over `full`, gray
   Thickness  ///< of the fluid along the ray over `full`, gray
 };
 
 class FluidRendererImpl;
 
-/// Draws the fluid of a FluidState: only its position, count, spacing and origin are used, so a host can fill one itself. `position` is
-/// read with Use::ComputeRead: of a host's own it is an import created for STORAGE_BUFFER, of at least `count` times 16 bytes, in the state
-/// that BufferImport::before says.
-/// Two runs on one driver give the same pixels, unless more than 1,024 surface particles share a cell of four by four samples (counted).
-/// The depth written at a silhouette is the fluid's in every pixel that it touches. Lifetime and moves as of a Fluid.
+/// Draws the fluid of a FluidState. Only its position, count, spacing and origin are used, so that a host can fill one itself. `position`
+/// is read with Use::ComputeRead; a host's buffer is created for STORAGE_BUFFER, with at least 16 bytes per particle.
+/// Pixels are bitwise deterministic per driver, unless more than 1,024 surface particles share a cell of four by four samples (counted).
+/// At a silhouette the fluid's depth is written in every pixel that it covers in part. Lifetime and moves as of a Fluid.
 class RILL_API FluidRenderer {
  public:
-  /// NoDevice where the host's queue cannot draw; Shader, BadInput for formats that cannot be drawn to.
+  /// NoDevice if the host's queue cannot draw; Shader; BadInput for formats that cannot be drawn to.
   static Expected<FluidRenderer> create(Device& device, const TargetFormats& formats = {});
   ~FluidRenderer();
   FluidRenderer(FluidRenderer&&) noexcept;
   FluidRenderer& operator=(FluidRenderer&&) noexcept;
 
-  /// What the fluid reflects and is lit by from now on, in place of a sky of Rill's own; the sun stays where FluidLook has it. The host
-  /// draws its background itself. Once; not between a graph's declaration and its recording. Errors as create(), BadInput for a picture
-  /// that EnvironmentPicture does not allow, OutOfMemory. The first frames copy it to the device, in a pass of their own.
+  /// Replaces the built-in sky that the fluid reflects and is lit by. The sun stays at FluidLook::to_sun; the host draws its background
+  /// itself. Call it once, not between a graph's declaration and its recording. The first frames copy the picture to the device. Errors as
+  /// create(), BadInput for a picture that EnvironmentPicture does not allow, OutOfMemory.
   Expected<void> setEnvironment(const EnvironmentPicture& picture);
 
-  /// BadInput for a view that cannot be drawn (empty, larger than 8192 a side or 2^24 pixels, a projection that is none). Needs no device.
+  /// BadInput for a view that cannot be drawn: empty, larger than 8192 per side or 2^24 pixels, an invalid projection. Needs no device.
   static Expected<void> check(const FluidView& view);
 
-  /// Declares the passes that draw the fluid over what is in `targets` and returns their new versions. A view that check() refuses, a
-  /// viewport beyond the targets, more than 2^22 particles or a state that is none is an error that the graph's compile() reports.
+  /// Declares the passes that draw the fluid over the content of `targets` and returns their new versions. The graph's compile() fails for
+  /// a view that check() refuses, a viewport outside the targets, more than 2^22 particles or an invalid state.
   [[nodiscard]] SceneTargets addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view,
                                    const FluidLook& look = {});
 

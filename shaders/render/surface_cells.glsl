@@ -1,5 +1,5 @@
-// The cells of the screen grid around a point. Needs surface_arrays.glsl.
-bool bound_hit = false;  // a walk has left something out
+// Iteration over the cells of the screen grid around a point. Needs surface_arrays.glsl.
+bool bound_hit = false;  // an iteration was cut short
 
 struct CellRange {
   ivec2 first, last;  // both included
@@ -15,7 +15,7 @@ CellRange cellsAround(vec3 point, float reach) {
   range.last.y = min(range.last.y, range.first.y + int(kMaxRows) - 1);
   return range;
 }
-// Surface particles of one row of the range: first, and the one after the last.
+// Surface particles of one row of the range: the first, and one past the last.
 uvec2 rowOf(CellRange range, int y) {
   const uint row = uint(y) * cellGrid().x;
   const uint begin = startAt(row + uint(range.first.x)), end = startAt(row + uint(range.last.x) + 1u);

@@ -1,10 +1,10 @@
-// How much of the pixel around a ray is fluid near a depth, from the centers alone. Needs surface_arrays.glsl.
-#include "render/surface_walk.glsl"
-#include "render/surface_edge.glsl"
+// Coverage of a pixel by fluid near a depth, from the centers of particles alone. Needs surface_arrays.glsl.
+#include "render/surface_cells.glsl"
+#include "render/surface_silhouette.glsl"
 
-const float kCoverDepth = 1.6;  // spacings before and behind the depth
+const float kCoverDepth = 1.6;  // spacings in front of and behind the depth
 
-float coverOf(vec2 axis, float depth) {
+float coverageFromCenters(vec2 axis, float depth) {
   const vec3 x = rayFrom(axis) + depth * rayAlong(axis);
   const float spacing = spacingAt(depth), reach = kCoverReach * spacing, inverse = 1.0 / (reach * reach);
   const CellRange range = cellsAround(x, reach);
@@ -14,8 +14,8 @@ float coverOf(vec2 axis, float depth) {
     for (uint j = row.x; j < row.y; ++j) {
       const vec3 at = centerAt(j).xyz;
       if (abs(at.z - depth) > kCoverDepth * spacing) continue;
-      cover += coverOfCenter(at, axis, inverse);
+      cover += centerWeight(at, axis, inverse);
     }
   }
-  return coverageAt(cover - kCoverBare, depth);
+  return coverageAt(cover - kCoverThreshold, depth);
 }

@@ -1,4 +1,4 @@
-// The surface as data: each byte is what the surface, or the thickness, says of its pixel.
+// The surface as data: each byte equals the surface's or the thickness's value of its pixel.
 #include <cmath>
 
 #include "render/surface_reference.hpp"
@@ -10,7 +10,7 @@ class SurfaceAsData : public SurfaceOnGpu {
  protected:
   std::vector<uint32_t> data(const FluidView& view, SurfaceData what, float full) {
     Graph graph;
-    leaveBehind(graph, 0);
+    fillTransients(graph, 0);
     const FluidState fluid = state(graph);
     const Ticket ticket = graph.readback(renderer().addData(graph, fluid, view, what, full, SurfaceMethod::Planes));
     run(graph);
@@ -25,7 +25,7 @@ class SurfaceAsData : public SurfaceOnGpu {
   }
 };
 
-TEST_F(SurfaceAsData, NormalsAreThoseOfTheWorld) {
+TEST_F(SurfaceAsData, NormalsAreInWorldSpace) {
   const FluidView view = side();
   const auto pixels = surface(view);
   const auto bytes = data(view, SurfaceData::Normals, 1);
@@ -49,7 +49,7 @@ TEST_F(SurfaceAsData, NormalsAreThoseOfTheWorld) {
   EXPECT_GT(there, 500);
 }
 
-TEST_F(SurfaceAsData, DepthIsGrayUpToFull) {
+TEST_F(SurfaceAsData, DepthIsLinearGrayUpToFull) {
   const FluidView view = side();
   const auto pixels = surface(view);
   for (const float full : {5.0f, 3.0f}) {  // the second is nearer than some of it

@@ -1,17 +1,16 @@
 #version 460
-// How torn the water is: lengths of mean normals, smoothed over a spacing and a half of all the
-// fluid that is seen to each side, whatever its depth, one dimension of it. So it changes from
-// place to place, not from drop to drop. Directions stay.
+// Smooths the coherence, the length of mean normals, over 1.5 spacings to each side at any depth, one dimension of it, so that it does
+// not jump between drops. Directions are kept.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 
 layout(std430, set = 0, binding = 0) readonly buffer Samples { uvec2 samples[]; };  // depth, normal
 layout(std430, set = 0, binding = 1) readonly buffer Before { uint before[]; };     // packed
-layout(std430, set = 0, binding = 2) writeonly buffer After { uint after[]; };      // packed; where there is fluid
+layout(std430, set = 0, binding = 2) writeonly buffer After { uint after[]; };      // packed; where neighbor is fluid
 layout(std430, set = 0, binding = 3) readonly buffer Counters { uint counters[]; };
 #define BLOCKS 4
 #include "render/surface_block.glsl"
-#include "render/surface_mean.glsl"
+#include "render/surface_mean_normal.glsl"
 layout(constant_id = 0) const uint kVertical = 0u;
 
 const float kReach = 1.5;  // spacings
@@ -36,9 +35,9 @@ void main() {
   RILL_LOOP for (int k = 1; k <= kTaps; ++k) {
     const float inside = tapWeight(taps, k);
     RILL_LOOP for (int s = -1; s <= 1; s += 2) {
-      const ivec2 there = p + s * k * along;
-      if (any(lessThan(there, ivec2(0))) || any(greaterThanEqual(there, grid))) continue;
-      const uint at = uint(there.y * grid.x + there.x);
+      const ivec2 neighbor = p + s * k * along;
+      if (any(lessThan(neighbor, ivec2(0))) || any(greaterThanEqual(neighbor, grid))) continue;
+      const uint at = uint(neighbor.y * grid.x + neighbor.x);
       if (samples[at].x == kInfiniteBits) continue;
       sum += inside * length(unpackMean(before[at]));
       weights += inside;

@@ -1,4 +1,4 @@
-// The mean of the faces around a sample against its formula, and what it says of even and of torn water.
+// Mean normals and their coherence against formulas in double precision, and on level water, slanted water and drops.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@ struct Face {
   Vector normal;
 };
 
-/// surface_mean.glsl's: 11, 11 and 10 bits, signed.
+/// As packMean() of surface_mean_normal.glsl: 11, 11 and 10 signed bits.
 Vector unpackedMean(uint32_t bits) {
   const auto part = [&](uint32_t from, uint32_t count) {
     return double(int32_t(bits << (32 - from - count)) >> (32 - count)) / ((1 << (count - 1)) - 1);
@@ -20,8 +20,7 @@ Vector unpackedMean(uint32_t bits) {
   return {part(0, 11), part(11, 11), part(22, 10)};
 }
 
-/// One dimension of it: weights (1 - (distance over two spacings)^2)^2 times 1 - (depth over what it may change by)^2. What lies farther in
-/// depth counts as nothing.
+/// One dimension of the mean: weights (1 - (distance / 2 spacings)^2)^2 times 1 - (depth difference / allowed difference)^2.
 std::vector<Vector> blurred(const Samples& samples, const std::vector<Face>& faces, const std::vector<Vector>& before, bool vertical) {
   std::vector<Vector> after = before;
   for (int y = 0; y < samples.rows; ++y)
@@ -29,7 +28,7 @@ std::vector<Vector> blurred(const Samples& samples, const std::vector<Face>& fac
       const Face& own = faces[samples.index(x, y)];
       if (own.depth == SurfaceReference::kNone) continue;
       const double spacing = std::max(double{kSpacing}, 1.2 * samples.side(own.depth)), side = samples.side(own.depth) / spacing;
-      const int stride = std::max(int(2 / (12 * side) + 0.5), 1);
+      const int stride = std::max(static_cast<int>(std::lround(2 / (12 * side))), 1);
       const double slant = 1 / std::max(-dot(own.normal, unit(samples.ray(x, y).along)), 0.04);
       double weights = 1;
       Vector& sum = after[samples.index(x, y)];
@@ -47,8 +46,9 @@ std::vector<Vector> blurred(const Samples& samples, const std::vector<Face>& fac
   return after;
 }
 
-/// One dimension of the smoothing of lengths over a spacing and a half, whatever the depth. Directions stay.
-std::vector<Vector> torn(const Samples& samples, const std::vector<Face>& faces, const std::vector<Vector>& before, bool vertical) {
+/// One dimension of the smoothing of coherence over 1.5 spacings at any depth. Directions are kept.
+std::vector<Vector> smoothedCoherence(const Samples& samples, const std::vector<Face>& faces, const std::vector<Vector>& before,
+                                      bool vertical) {
   const auto size = [](const Vector& v) { return std::sqrt(dot(v, v)); };
   std::vector<Vector> after = before;
   for (int y = 0; y < samples.rows; ++y)
@@ -56,7 +56,7 @@ std::vector<Vector> torn(const Samples& samples, const std::vector<Face>& faces,
       const double depth = faces[samples.index(x, y)].depth;
       if (depth == SurfaceReference::kNone) continue;
       const double side = samples.side(depth) / std::max(double{kSpacing}, 1.2 * samples.side(depth)) / 1.5;  // of the reach
-      const int stride = std::max(int(1 / (12 * side) + 0.5), 1);
+      const int stride = std::max(static_cast<int>(std::lround(1 / (12 * side))), 1);
       double sum = 0, weights = 0;
       for (int k = -12; k <= 12; ++k) {
         const int u = vertical ? x : x + k * stride, v = vertical ? y + k * stride : y;
@@ -71,7 +71,7 @@ std::vector<Vector> torn(const Samples& samples, const std::vector<Face>& faces,
   return after;
 }
 
-class MeanFacesOnGpu : public SurfaceOnGpu {
+class MeanNormalsOnGpu : public SurfaceOnGpu {
  protected:
   struct Found {
     surface::SurfacePush push;
@@ -80,10 +80,10 @@ class MeanFacesOnGpu : public SurfaceOnGpu {
   };
   Found found(const FluidView& view, SurfaceMethod method = SurfaceMethod::Planes) {
     Graph graph;
-    leaveBehind(graph, 0);
+    fillTransients(graph, 0);
     const FluidState fluid = state(graph);
     const SurfaceBuffers buffers = renderer().surface.addTo(graph, fluid, renderer().camera(fluid, view), method, false, view.focus_m);
-    const Ticket samples = graph.readback(buffers.samples), means = graph.readback(renderer().faces.addTo(graph, buffers));
+    const Ticket samples = graph.readback(buffers.samples), means = graph.readback(renderer().meanNormals.addTo(graph, buffers));
     run(graph);
     Found out{buffers.push, {}, {}};
     const auto faceWords = read<uint32_t>(graph, samples), meanWords = read<uint32_t>(graph, means);
@@ -97,7 +97,7 @@ class MeanFacesOnGpu : public SurfaceOnGpu {
   }
 };
 
-TEST_F(MeanFacesOnGpu, AreTheirFormula) {
+TEST_F(MeanNormalsOnGpu, MatchesReference) {
   auto all = block({-1, -1, -4.6}, {0.4, 0.3, -4});
   const auto drops = scattered({-1.5, -1.2, -4.5}, {1.5, 1.2, -3}, 120);
   all.insert(all.end(), drops.begin(), drops.end());
@@ -110,24 +110,24 @@ TEST_F(MeanFacesOnGpu, AreTheirFormula) {
     std::vector<Vector> own;
     for (const Face& face : got.faces) own.push_back(face.normal);
     const auto mean = blurred(samples, got.faces, blurred(samples, got.faces, own, false), true);
-    const auto wanted = torn(samples, got.faces, torn(samples, got.faces, mean, false), true);
-    int there = 0;
+    const auto wanted = smoothedCoherence(samples, got.faces, smoothedCoherence(samples, got.faces, mean, false), true);
+    int compared = 0;
     for (size_t i = 0; i < wanted.size(); ++i) {
       if (got.faces[i].depth == SurfaceReference::kNone) continue;
-      ++there;
+      ++compared;
       const Vector off = got.means[i] - wanted[i];
-      // Four roundings to 1 / 1023, of z to 1 / 511; of a short one the direction is lengthened with its rounding.
+      // Four roundings to 1 / 1023 (z: 1 / 511); scaling a short vector's direction scales its rounding.
       const double shortest = std::max(std::sqrt(dot(mean[i], mean[i])), 1e-2);
       ASSERT_LT(std::sqrt(dot(off, off)), 6e-3 + 4e-3 * std::sqrt(dot(wanted[i], wanted[i])) / shortest) << i;
     }
-    EXPECT_GT(there, 50);
+    EXPECT_GT(compared, 50);
   }
 }
 
-class LengthsOfMeans : public MeanFacesOnGpu {
+class Coherence : public MeanNormalsOnGpu {
  protected:
-  /// Of the samples in the picture that hold fluid.
-  std::vector<double> lengths(const std::vector<Float4>& particles, const FluidView& view, SurfaceMethod method = SurfaceMethod::Planes) {
+  /// The coherence of all samples of the picture that hold fluid.
+  std::vector<double> coherence(const std::vector<Float4>& particles, const FluidView& view, SurfaceMethod method = SurfaceMethod::Planes) {
     fill(particles);
     const Found got = found(view, method);
     const Samples samples(got.push);
@@ -142,32 +142,33 @@ class LengthsOfMeans : public MeanFacesOnGpu {
   }
 };
 
-TEST_F(LengthsOfMeans, OneOnEvenWater) {
+TEST_F(Coherence, IsOneOnLevelWater) {
   for (const SurfaceMethod method : {SurfaceMethod::Planes, SurfaceMethod::CurvatureFlow, SurfaceMethod::NarrowRange}) {
-    const auto even = lengths(under({0, 0, -4}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 5), perspective(), method);
+    const auto even = coherence(under({0, 0, -4}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 5), perspective(), method);
     ASSERT_GT(even.size(), 1000u);
     for (const double length : even) ASSERT_GT(length, 0.95) << int(method);
   }
 }
 
-// Seen ever flatter, level water is level: it bends light (from 0.7 on in full) and is not white (from 0.5 on). Flatter than some eight
-// degrees the bending falls off.
-TEST_F(LengthsOfMeans, NearlyOneOnWaterThatIsSeenFlat) {
-  for (const auto& [degrees, most, middle] : {std::array{20.0, 0.6, 0.7}, std::array{10.0, 0.6, 0.7}, std::array{6.0, 0.3, 0.55}}) {
+// Level water at flat angles refracts (in full from 0.7) and is not white (from 0.5); below about eight degrees refraction fades.
+TEST_F(Coherence, IsHighOnLevelWaterAtFlatAngles) {
+  for (const auto& [degrees, low, middle] : {std::array{20.0, 0.6, 0.7}, std::array{10.0, 0.6, 0.7}, std::array{6.0, 0.3, 0.55}}) {
     const double angle = degrees * kDegree;
     const FluidView view = orthographic(0.3, looking({0, 6 * std::sin(angle), 6 * std::cos(angle)}, {0, 0, 0}, 120, 90));
-    auto flat = lengths(under({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}, 5.5), view);
+    auto flat = coherence(under({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}, 5.5), view);
     ASSERT_GT(flat.size(), 300u) << degrees;
     std::sort(flat.begin(), flat.end());
-    EXPECT_GT(flat[flat.size() / 20], most) << degrees;
+    EXPECT_GT(flat[flat.size() / 20], low) << degrees;
     EXPECT_GT(flat[flat.size() / 2], middle) << degrees;
   }
 }
 
-TEST_F(LengthsOfMeans, ATenthOnALoneDrop) {
+TEST_F(Coherence, IsLowOnSingleDrops) {
   std::vector<Float4> apart;
-  for (int k = 0; k < 25; ++k) apart.push_back({float(k % 5 - 2) * 0.6f, float(k / 5 - 2) * 0.5f, -4, 0});
-  const auto drops = lengths(apart, perspective());
+  apart.reserve(25);
+  for (int row = -2; row <= 2; ++row)
+    for (int column = -2; column <= 2; ++column) apart.push_back({float(column) * 0.6f, float(row) * 0.5f, -4, 0});
+  const auto drops = coherence(apart, perspective());
   ASSERT_GT(drops.size(), 100u);
   for (const double length : drops) ASSERT_LT(length, 0.2);
 }

@@ -1,4 +1,4 @@
-// The looks that scenes name.
+// The appearances and surface methods that scenes name.
 #include <utility>
 
 #include "rill/fluid_renderer.hpp"

@@ -1,20 +1,20 @@
 #version 460
-// The mean of the normals of a square of two spacings to each side, one dimension of it. It is the shorter the more they differ.
+// Mean normal over two spacings to each side, one dimension of it; the more the normals differ, the shorter it is.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 
 layout(std430, set = 0, binding = 0) readonly buffer Samples { uvec2 samples[]; };  // depth, normal
-layout(std430, set = 0, binding = 1) readonly buffer Before { uint before[]; };     // of the first dimension, packed
-layout(std430, set = 0, binding = 2) writeonly buffer After { uint after[]; };      // packed; where there is fluid
+layout(std430, set = 0, binding = 1) readonly buffer Before { uint before[]; };     // of the first dimension
+layout(std430, set = 0, binding = 2) writeonly buffer After { uint after[]; };      // packed; where neighbor is fluid
 layout(std430, set = 0, binding = 3) readonly buffer Counters { uint counters[]; };
 #define BLOCKS 4
 #include "render/surface_block.glsl"
-#include "render/surface_mean.glsl"
+#include "render/surface_mean_normal.glsl"
 layout(constant_id = 0) const uint kVertical = 0u;
 
 const float kReach = 2.0;  // spacings
 
-vec3 faceAt(uint index, uvec2 stored) { return kVertical == 1u ? unpackMean(before[index]) : unpackNormal(stored.y); }
+vec3 normalAt(uint index, uvec2 stored) { return kVertical == 1u ? unpackMean(before[index]) : unpackNormal(stored.y); }
 
 void main() {
   const ivec2 grid = ivec2(sampleGrid());
@@ -24,7 +24,7 @@ void main() {
   const uvec2 own = samples[index];
   if (own.x == kInfiniteBits) return;
   const float z = uintBitsToFloat(own.x), spacing = spacingAt(z);
-  if (z <= nearestDrawn()) {  // cut by the near plane: what the eye looks through, not a face
+  if (z <= nearestDrawn()) {  // the section with the near plane is not a surface
     after[index] = packMean(unpackNormal(own.y));
     return;
   }
@@ -32,18 +32,18 @@ void main() {
   const ivec2 along = ivec2(1 - int(kVertical), int(kVertical)) * taps.stride;
   const vec3 sight = normalize(rayAlong(axisOf(samplePixel(p))));
   const vec3 normal = unpackNormal(own.y);
-  vec3 sum = faceAt(index, own);
+  vec3 sum = normalAt(index, own);
   float weights = 1.0;
   RILL_LOOP for (int k = 1; k <= kTaps; ++k) {
     const float inside = tapWeight(taps, k), across = float(k) * taps.apart * kReach * spacing;
     RILL_LOOP for (int s = -1; s <= 1; s += 2) {
-      const ivec2 there = p + s * k * along;
-      if (any(lessThan(there, ivec2(0))) || any(greaterThanEqual(there, grid))) continue;
-      const uint at = uint(there.y * grid.x + there.x);
+      const ivec2 neighbor = p + s * k * along;
+      if (any(lessThan(neighbor, ivec2(0))) || any(greaterThanEqual(neighbor, grid))) continue;
+      const uint at = uint(neighbor.y * grid.x + neighbor.x);
       const uvec2 other = samples[at];
-      const float w = inside * sameWater(uintBitsToFloat(other.x) - z, changeOf(spacing, across, normal, sight));
+      const float w = inside * sameSurface(uintBitsToFloat(other.x) - z, allowedDepthChange(spacing, across, normal, sight));
       weights += inside;
-      if (w > 0.0) sum += w * faceAt(at, other);
+      if (w > 0.0) sum += w * normalAt(at, other);
     }
   }
   after[index] = packMean(sum / weights);

@@ -1,6 +1,5 @@
-// Of the spheres in the samples around a pixel, the nearest and the farthest depth; both as they
-// came in where there is none. Needs `depth`.
-void depthsAround(ivec2 own, inout float nearest, inout float farthest) {
+// Nearest and farthest depth of the spheres in the samples around a pixel; unchanged if there is none. Needs `depth`.
+void depthRange(ivec2 own, inout float nearest, inout float farthest) {
   const ivec2 grid = ivec2(sampleGrid());
   for (int y = max(own.y - 1, 0); y <= min(own.y + 1, grid.y - 1); ++y)
     for (int x = max(own.x - 1, 0); x <= min(own.x + 1, grid.x - 1); ++x) {

@@ -1,11 +1,8 @@
-// Each invocation of a particle kernel visits the samples that its sphere may cover. The whole
-// workgroup visits those of a sphere that covers many: near the eye one fills the picture, and
-// lavapipe ends a loop after 65,535 turns. Before including, define visit(center, radius, at), and
-// visitedAll(owner) for what is to be done with what an invocation found of another one's sphere;
-// needs `counters`.
+// visitSphere() calls visitSample() for each sample that an invocation's sphere may cover, then endVisit(). Large spheres are shared by
+// the workgroup: lavapipe ends a loop after 65,535 iterations. Define both functions before including; needs `counters`.
 
-const int kOwnSamples = 1024;   // that an invocation visits by itself at most
-const int kMaxVisits = 60000;  // of one invocation for all large spheres of its workgroup
+const int kOwnSamples = 1024;   // samples of a sphere that one invocation visits by itself
+const int kMaxVisits = 60000;  // samples per invocation over all large spheres of its workgroup
 
 shared vec4 large_sphere[kSurfaceGroup];
 shared uint large_owner[kSurfaceGroup];
@@ -13,8 +10,8 @@ shared uint large_count;
 
 int areaOf(ivec4 rect) { return max(rect.z - rect.x + 1, 0) * max(rect.w - rect.y + 1, 0); }
 
-// By all invocations of a workgroup; `live`: whether this one has a sphere.
-void spread(bool live, vec3 center, float radius) {
+// Called by all invocations of a workgroup; `live`: whether this one has a sphere.
+void visitSphere(bool live, vec3 center, float radius) {
   if (gl_LocalInvocationIndex == 0u) large_count = 0u;
   barrier();
   if (live) {
@@ -25,8 +22,8 @@ void spread(bool live, vec3 center, float radius) {
       large_owner[slot] = gl_LocalInvocationIndex;
     } else {
       for (int y = rect.y; y <= rect.w; ++y)
-        for (int x = rect.x; x <= rect.z; ++x) visit(center, radius, ivec2(x, y));
-      visitedAll(gl_LocalInvocationIndex);
+        for (int x = rect.x; x <= rect.z; ++x) visitSample(center, radius, ivec2(x, y));
+      endVisit(gl_LocalInvocationIndex);
     }
   }
   barrier();
@@ -38,8 +35,8 @@ void spread(bool live, vec3 center, float radius) {
     left -= each;
     if (left >= 0) {
       for (int i = int(gl_LocalInvocationIndex); i < area; i += int(kSurfaceGroup))
-        visit(sphere.xyz, sphere.w, rect.xy + ivec2(i % width, i / width));
-      visitedAll(large_owner[k]);
+        visitSample(sphere.xyz, sphere.w, rect.xy + ivec2(i % width, i / width));
+      endVisit(large_owner[k]);
     } else if (gl_LocalInvocationIndex == 0u) {
       atomicAdd(counters[kBoundHits], 1u);
     }

@@ -1,6 +1,6 @@
-// Whether the spheres leave no gap around a place: then there is fluid, whatever the particles nearest to the ray say. Needs `depth`.
+// The interior of the fluid on the screen: where spheres leave no gap, coverage is 1 whatever the nearest centers give. Needs `depth`.
 
-bool solidAround(ivec2 at) {
+bool isInterior(ivec2 at) {
   const ivec2 grid = ivec2(sampleGrid()), first = max(at - 2, ivec2(0)), last = min(at + 2, grid - 1);
   for (int y = first.y; y <= last.y; ++y)
     for (int x = first.x; x <= last.x; ++x)
@@ -8,12 +8,11 @@ bool solidAround(ivec2 at) {
   return true;
 }
 
-const float kSolid = 0.9683;  // share of half a pixel's coverage; none that straight edges have exactly
+const float kInteriorShare = 0.9683;  // share of covered samples at a coverage of 0.5; a value that straight edges never have exactly
 
-// The same between samples, as a pixel's coverage by fluid: from the share of what lies within two
-// and a half samples that spheres cover. At a straight edge it changes by a fifth a sample, so that
-// the coverage is as wide as a pixel, and 1 where all is covered.
-float solidCoverage(vec2 middle) {
+// The same between samples, as a coverage: from the share of covered samples within 2.5 samples. At a straight edge the share changes
+// by 1/5 per sample; the slope makes the transition a pixel wide.
+float interiorCoverage(vec2 middle) {
   const ivec2 grid = ivec2(sampleGrid());
   const vec2 at = sampleOf(middle);
   const ivec2 base = ivec2(floor(at));
@@ -27,6 +26,6 @@ float solidCoverage(vec2 middle) {
       if (depth[uint((base.y + y) * grid.x + base.x + x)] != kInfiniteBits) covered += wx * wy;
     }
   }
-  const float slope = max(5.0 * float(view.step), 0.5 / (1.0 - kSolid));
-  return clamp(0.5 + (covered / 25.0 - kSolid) * slope, 0.0, 1.0);
+  const float slope = max(5.0 * float(view.step), 0.5 / (1.0 - kInteriorShare));
+  return clamp(0.5 + (covered / 25.0 - kInteriorShare) * slope, 0.0, 1.0);
 }

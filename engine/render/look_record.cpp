@@ -1,0 +1,33 @@
+#include "render/look_record.hpp"
+
+#include <cmath>
+#include <span>
+
+namespace rill {
+
+look::LookRecord lookRecord(const FluidLook& look, const surface::SurfacePush& thickness, const Environment* environment) {
+  look::LookRecord record{};
+  record.absorption = {look.absorption.x, look.absorption.y, look.absorption.z, look.refraction_index};
+  record.scatter = {look.scatter.x, look.scatter.y, look.scatter.z, look.opaque ? 1.0f : 0.0f};
+  const Float3& s = look.to_sun;
+  const float size = std::sqrt(s.x * s.x + s.y * s.y + s.z * s.z);
+  record.light = size > 0 ? Float4{s.x / size, s.y / size, s.z / size, look.sun} : Float4{0, 1, 0, look.sun};
+  record.finish = {look.highlight, static_cast<float>(thickness.step), thickness.unit, look.aeration};
+  if (environment) {
+    const Float3 above = environment->above(), below = environment->below();
+    record.above = {above.x, above.y, above.z, static_cast<float>(environment->width())};
+    record.below = {below.x, below.y, below.z, static_cast<float>(environment->height())};
+  }
+  return record;
+}
+
+BufferRef addLook(Graph& graph, const look::LookRecord& record) {
+  BufferRef buffer = graph.create("fluid look", {sizeof record});
+  graph.pass("fluid look", [&](Pass& pass) {
+    buffer = pass.write(buffer, Use::CopyTarget, true);
+    return [buffer, record](Commands& commands) { commands.update(buffer, std::as_bytes(std::span(&record, 1))); };
+  });
+  return buffer;
+}
+
+}  // namespace rill

@@ -1,0 +1,42 @@
+// The thickness of the fluid along rays, as passes.
+#include "graph/step.hpp"
+#include "render/surface.hpp"
+
+namespace rill {
+
+using namespace surface;
+
+namespace {
+
+constexpr float kThicknessRadius = 1.2f;       // spacings: discs that overlap enough for a smooth sum
+constexpr float kThicknessUnit = 1.0f / 1024;  // spacings
+
+}  // namespace
+
+SurfacePush SurfaceStage::thicknessPush(SurfacePush camera, const FluidState& fluid, uint32_t step) {
+  camera.spacing = fluid.spacing;
+  camera.radius = kThicknessRadius * fluid.spacing;
+  camera.unit = kThicknessUnit * fluid.spacing;
+  camera.count = fluid.count;
+  camera.step = step;
+  camera.margin = 0;
+  return camera;
+}
+
+BufferRef SurfaceStage::addThickness(Graph& graph, const ThicknessNames& names, const FluidState& fluid, const SurfacePush& push,
+                                     BufferRef sceneDepth, BufferRef* counters) const {
+  BufferRef own;
+  if (!counters) own = graph.create(names.counters, {kSurfaceCounterWords * 4});
+  BufferRef thickness = graph.create(names.pass, {gridCells(push.width, push.height, push.step) * 4});
+  addFill(graph, names.clear, {{&thickness, 0}, {counters ? nullptr : &own, 0}});
+  if (fluid.count == 0) return thickness;
+  const uint64_t groups = divideUp(fluid.count, kSurfaceGroup);
+  BufferRef& counted = counters ? *counters : own;
+  if (sceneDepth == BufferRef{})
+    addStep(graph, names.pass, thicknessNoScene_, {reads(fluid.position), writes(thickness), writes(counted)}, groups, push);
+  else
+    addStep(graph, names.pass, thickness_, {reads(fluid.position), writes(thickness), writes(counted), reads(sceneDepth)}, groups, push);
+  return thickness;
+}
+
+}  // namespace rill
