@@ -25,6 +25,8 @@ constexpr double kLeastCfl = 0.01;     // spacings a substep
 constexpr uint32_t kLongestBlock = 6;  // substeps
 // Spacings: beyond it, positions have lost their meaning: float holds 24 bits.
 constexpr double kFarSpacings = 1.0e6;
+// For the device, where a limit is infinite.
+constexpr double kLargest = 1e30;
 
 /// As many as a list lives for where the step is the longest that the CFL condition allows, and one more: it is shorter as a rule. Where
 /// something else bounds the step, a list may live for long.
@@ -82,7 +84,8 @@ void setRegularization(const Scene& scene, const SmoothingKernel& kernel, FluidS
                              " is taken");
 }
 
-void setRelaxation(const StabilityLimits& limits, FluidSetup& setup) {
+void setRelaxation(FluidSetup& setup) {
+  const StabilityLimits& limits = setup.limits;
   setup.params.relaxationInMotion = limits.relaxationInMotion;
   setup.params.relaxationAtRest = limits.relaxationAtRest;
   if (limits.relaxationWanted > limits.relaxationLimit)
@@ -90,17 +93,35 @@ void setRelaxation(const StabilityLimits& limits, FluidSetup& setup) {
                              " does not converge with this kernel: " + roundedNumber(limits.relaxationLimit) + " is taken");
 }
 
-void setGains(const Scene& scene, const StabilityLimits& limits, double head, FluidSetup& setup) {
+void setGains(const Scene& scene, FluidSetup& setup) {
   const auto [wanted, taken] = boundedWarmGain(scene);
   if (scene.solver.warm_start && taken < wanted)
     setup.warnings.push_back("solver.warm_start " + roundedNumber(wanted) +
                              " gains energy with this kernel and regularization: " + roundedNumber(taken) + " is taken");
-  FluidParams& p = setup.params;
   setup.warm = startsWarm(scene);
-  p.warmGainInMotion = limits.warmGainInMotion;
-  p.warmGainAtRest = f(limits.warmGainAtRest(head));
-  p.motionSpeed = f(limits.motionSpeed(head));
-  p.errorRateShareAtRest = f(limits.errorRateShareAtRest(head));
+  setup.params.warmGainInMotion = setup.limits.warmGainInMotion;
+  setup.params.maxWarmGainAtRest = f(setup.limits.maxWarmGainAtRest);
+  setup.params.layerWarmGainAtRest = f(std::min(setup.limits.layerWarmGainAtRest, kLargest));
+}
+
+// The head of the start, and what the device needs to follow it: see docs/notes/column-height.md. What nothing can hold may be drops far
+// apart: no column is higher than one drop of all of it.
+void setColumn(const Scene& scene, const StartFigures& start, FluidSetup& setup) {
+  FluidParams& p = setup.params;
+  float* gravity[3] = {&p.columnGravityX, &p.columnGravityY, &p.columnGravityZ};
+  float* limit[3] = {&p.columnLimitX, &p.columnLimitY, &p.columnLimitZ};
+  const double drop = 1.5 * std::cbrt(static_cast<double>(start.count)) * scene.fluid.spacing;
+  double height[3];
+  for (int a = 0; a < 3; ++a) {
+    height[a] = setup.near ? start.extent[a] : std::min(start.extent[a], drop);
+    *gravity[a] = setup.near ? f(strongestGravity(scene, a)) : 0.0f;
+    const double room = scene.domain ? scene.domain->max[a] - scene.domain->min[a] : std::max(start.extent[a], drop);
+    *limit[a] = f(std::max(room, scene.fluid.spacing));
+  }
+  setup.head = columnHead(scene, height);
+  p.layerHead = f(setup.limits.layerHead);
+  p.stableStep = f(setup.limits.stableStep);
+  p.toleratedStep = f(std::min(setup.limits.toleratedStep, kLargest));
 }
 
 void setSpeeds(const Scene& scene, const StartFigures& start, FluidParams& p) {
@@ -112,22 +133,23 @@ void setSpeeds(const Scene& scene, const StartFigures& start, FluidParams& p) {
 }
 
 // No step is longer than the fluid can bear, whatever is asked for.
-void setLongestStep(const Scene& scene, const StabilityLimits& limits, double head, FluidSetup& setup) {
-  FluidParams& p = setup.params;
-  const double stable = limits.longestStep(head);
+void setLongestStep(const Scene& scene, FluidSetup& setup) {
+  const StabilityLimits& limits = setup.limits;
+  const uint32_t iterations = setup.params.iterations;
+  const double stable = limits.longestStep(setup.head);
   if (scene.solver.time_step && *scene.solver.time_step > stable)
     setup.warnings.push_back("solver.time_step " + roundedNumber(*scene.solver.time_step) + " s is more than " +
-                             std::to_string(p.iterations) + (p.iterations == 1 ? " iteration" : " iterations") +
+                             std::to_string(iterations) + (iterations == 1 ? " iteration" : " iterations") +
                              " can hold this fluid's weight in: steps are at most " + roundedNumber(stable) + " s");
-  p.maxStep = std::min(p.maxStep, f(stable));
-  if (limits.softness() > 1) warnOfDropping("solver.regularization " + roundedNumber(boundedRegularization(scene).taken), stable, setup);
-  setup.firstStep = std::min<double>(p.maxStep, limits.firstStep(head));
+  setup.longestStep = std::min<double>(setup.params.maxStep, stable);
+  if (limits.softness > 1) warnOfDropping("solver.regularization " + roundedNumber(boundedRegularization(scene).taken), stable, setup);
+  setup.firstStep = std::min(setup.longestStep, limits.firstStep(setup.head));
 }
 
 // Where nothing holds the fluid up there is no initial pressure.
-void setInitialPressure(const StabilityLimits& limits, double head, const double room[3], FluidSetup& setup) {
+void setInitialPressure(const Scene& scene, const SmoothingKernel& kernel, const double room[3], FluidSetup& setup) {
   if (!setup.near) return;
-  const InitialPressure pressure = limits.initialPressure(head, widest(room));
+  const InitialPressure pressure = initialPressure(scene, kernel, setup.limits, setup.head, widest(room));
   setup.params.initialPressureIterations = pressure.iterations;
   setup.params.initialPressureMomentum = f(pressure.momentum);
   setup.params.initialPressureStep = f(pressure.step);
@@ -143,16 +165,16 @@ double shortestStep(const double room[3], const FluidParams& p) {
 Expected<void> checkSteps(const Scene& scene, const double room[3], const FluidSetup& setup) {
   const FluidParams& p = setup.params;
   const double least = shortestStep(room, p);
-  if (p.maxStep >= least) return {};
+  if (setup.longestStep >= least) return {};
   const bool asked = scene.solver.time_step.value_or(least) < least;
   const bool viscous = setup.viscositySweeps > 0 && p.viscosityRate * least > setup.viscositySweeps;
   const std::string key = asked     ? "solver.time_step: steps of "
                           : viscous ? "fluid.viscosity: " + roundedNumber(scene.fluid.viscosity) + " Pa s needs steps of at most "
                                     : "solver: in " + roundedNumber(widest(room)) +
                                           " m of room this fluid, with its relaxation and regularization, takes steps of at most ";
-  return Error{ErrorKind::BadInput, (scene.file.empty() ? "" : scene.file.string() + ": ") + key + roundedNumber(p.maxStep) +
+  return Error{ErrorKind::BadInput, (scene.file.empty() ? "" : scene.file.string() + ": ") + key + roundedNumber(setup.longestStep) +
                                         " s, in which the rounding of positions alone is " +
-                                        roundedNumber(least * p.minSpeedGain / p.maxStep) + " m/s; expected steps of " +
+                                        roundedNumber(least * p.minSpeedGain / setup.longestStep) + " m/s; expected steps of " +
                                         roundedNumber(least) + " s or more"};
 }
 
@@ -203,7 +225,6 @@ uint32_t listCapacity(double reachInSpacings) {
 
 Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& start) {
   if (auto possible = checkScene(scene); !possible) return possible.error();
-  const uint32_t count = start.count;
   const double *origin = start.origin, *extent = start.extent;
   const double d = scene.fluid.spacing, h = scene.fluid.smoothing_ratio * d;
   if (!(d > 0)) return Error{ErrorKind::BadInput, "fluid.spacing is not set: give it, or make the particles first"};
@@ -219,9 +240,9 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   p.valueScale = f(kernel.valueScale());
   p.gradientScale = f(setup.kernel == 0 ? kernel.gradientScale() : kernel.gradientScale() / h);
   p.inverseRestGradient = f(1 / kernel.restGradientSum());
-  const StabilityLimits limits(scene, kernel);
+  setup.limits = stabilityLimits(scene, kernel);
   setRegularization(scene, kernel, setup);
-  setRelaxation(limits, setup);
+  setRelaxation(setup);
   p.warmRelease = f(kWarmRelease);
   p.reach = f(h + kListSkin * d);
   p.travelLimit = f(kTravel * d);
@@ -257,14 +278,10 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   setSpeeds(scene, start, p);
   double room[3];
   for (int a = 0; a < 3; ++a) room[a] = scene.domain ? scene.domain->max[a] - scene.domain->min[a] : 2 * extent[a];
-  // What nothing can hold may be drops far apart: no column is higher than one drop of all of it.
-  double height[3];
-  for (int a = 0; a < 3; ++a)
-    height[a] = setup.near ? extent[a] : std::min(extent[a], 1.5 * std::cbrt(static_cast<double>(count)) * scene.fluid.spacing);
-  const double head = columnHead(scene, height);
-  setGains(scene, limits, head, setup);
-  setLongestStep(scene, limits, head, setup);
-  setInitialPressure(limits, head, room, setup);
+  setGains(scene, setup);
+  setColumn(scene, start, setup);
+  setLongestStep(scene, setup);
+  setInitialPressure(scene, kernel, room, setup);
 
   if (auto able = checkSteps(scene, room, setup); !able) return able.error();
   setup.grid = chooseGridSize(p.reach, room, start.capacity);

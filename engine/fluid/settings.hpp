@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fluid/grid_size.hpp"
+#include "fluid/stability_limits.hpp"
 #include "rill/expected.hpp"
 #include "rill/fluid.hpp"
 #include "shared/fluid_records.h"
@@ -39,9 +40,11 @@ struct FluidSetup {
   double artificialViscosity = 0;                        ///< Pa s, of a fluid at rest
   std::string whyNoNoiseDamping;                         ///< where that is 0
   std::string whyNoArtificialPressure = "tensile is 0";  ///< where there is no artificial pressure
-  double firstStep = 0;                                  ///< s
-  bool near = false;                                     ///< walls or solids displace density
-  bool thin = false;                                     ///< walls that face each other can both be near a particle
+  StabilityLimits limits;
+  double head = 0;                        ///< m^2/s^2, of the start's column
+  double longestStep = 0, firstStep = 0;  ///< s, of the start
+  bool near = false;                      ///< walls or solids displace density
+  bool thin = false;                      ///< walls that face each other can both be near a particle
   bool movingSolids = false;
   bool warm = false;  ///< there is a warm start: multipliers and pushes are kept
   std::vector<std::string> warnings;

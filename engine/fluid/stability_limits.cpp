@@ -30,11 +30,6 @@ constexpr double kWarmGainAtRest = 1.2, kMaxWarmGainAtRest = 0.005;
 // With this kappa pressure still followed a dam's flow; without one the start's would stay for ever.
 constexpr double kLeastFollowing = 0.001;
 
-// A layer: the mean error that the step follows at rest; the column's first wave takes about seven.
-constexpr double kErrorSubsteps = 10;
-// Of the speed of falling through all the fluid's height: see docs/notes/noise-damping.md.
-constexpr double kMotionShare = 0.5;
-
 // How much less error a step bears with a warm start: at 0.05 0.0032 held, 0.0036 gained a quarter of energy; at 0.02 0.0036 gained 2.5 %.
 constexpr double kStableGain = 40;
 // Mean compression of a column, over that of one which rests on its corrections alone (see stepOfError).
@@ -54,6 +49,23 @@ double softnessOf(const Scene& scene) {
   return (1 + std::max(boundedRegularization(scene).taken, kRegularization)) / (1 + kRegularization);
 }
 
+// The step in which the mean compression of a column is `error`, times the root of its head. Corrections hold a column up where
+// 2 omega / D grad C = g dt^2, so that C is D d^2 / (4 omega) at rest, over dt^2 g H / d^2; in the dam breaks of assets/scenes it is less,
+// 0.06 at h = 2 d.
+double stepOfError(const SmoothingKernel& kernel, double error, double relaxation) {
+  const double d = kernel.spacing();
+  // With a short support the gradients grow as soon as particles come nearer.
+  double gradients = kernel.restGradientSum();
+  for (const double nearer : {1.1, 1.2, 1.3})
+    gradients = std::max(gradients, SmoothingKernel(kernel.choice(), nearer * kernel.h(), d).restGradientSum());
+  return d * std::sqrt(error / (kErrorOfHead * gradients * d * d / (4 * relaxation)));
+}
+
+double bearableStep(const SmoothingKernel& kernel, const StabilityLimits& limits, uint32_t iterations, double gain) {
+  const double error = kStableError * iterations / (1 + kStableGain * limits.softness * gain);
+  return stepOfError(kernel, error, limits.relaxationInMotion / limits.softness);
+}
+
 }  // namespace
 
 double strongestGravity(const Scene& scene) {
@@ -62,17 +74,17 @@ double strongestGravity(const Scene& scene) {
   return most;
 }
 
-double columnHead(const Scene& scene, const double extent[3]) {
-  double head = 0;
-  for (int a = 0; a < 3; ++a) {
-    double most = std::abs(scene.gravity[a]);
-    for (const GravityChange& change : scene.gravity_changes) most = std::max(most, std::abs(change.value[a]));
-    head += most * std::max(extent[a], scene.fluid.spacing);
-  }
-  return head;
+double strongestGravity(const Scene& scene, int axis) {
+  double most = std::abs(scene.gravity[axis]);
+  for (const GravityChange& change : scene.gravity_changes) most = std::max(most, std::abs(change.value[axis]));
+  return most;
 }
 
-double columnLayers(const Scene& scene, double head) { return head / (std::max(strongestGravity(scene), 1e-20) * scene.fluid.spacing); }
+double columnHead(const Scene& scene, const double extent[3]) {
+  double head = 0;
+  for (int a = 0; a < 3; ++a) head += strongestGravity(scene, a) * std::max(extent[a], scene.fluid.spacing);
+  return head;
+}
 
 Bounded boundedRegularization(const Scene& scene) {
   const double wanted = scene.solver.regularization.value_or(kRegularization);
@@ -86,62 +98,52 @@ Bounded boundedWarmGain(const Scene& scene) {
   return {wanted, std::min(wanted, most) / softnessOf(scene)};
 }
 
-StabilityLimits::StabilityLimits(const Scene& scene, const SmoothingKernel& kernel)
-    : scene_(scene), kernel_(kernel), regularization_(boundedRegularization(scene).taken), softness_(softnessOf(scene)) {
-  const double most = maxJacobiRelaxation(kernel);
-  relaxationLimit = kOfJacobiLimit * most;
-  relaxationWanted = scene.solver.relaxation.value_or(std::min(kRelaxation, relaxationLimit));
-  relaxationInMotion = f(std::min(relaxationWanted, relaxationLimit));
-  relaxationAtRest = scene.solver.relaxation ? relaxationInMotion : f(std::min(relaxationWanted, kOfJacobiLimitAtRest * most));
-  warmGainInMotion = f(boundedWarmGain(scene).taken);
+StabilityLimits stabilityLimits(const Scene& scene, const SmoothingKernel& kernel) {
+  const double most = maxJacobiRelaxation(kernel), gain = boundedWarmGain(scene).taken;
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  StabilityLimits limits;
+  limits.relaxationLimit = kOfJacobiLimit * most;
+  limits.relaxationWanted = scene.solver.relaxation.value_or(std::min(kRelaxation, limits.relaxationLimit));
+  limits.relaxationInMotion = f(std::min(limits.relaxationWanted, limits.relaxationLimit));
+  limits.relaxationAtRest =
+      scene.solver.relaxation ? limits.relaxationInMotion : f(std::min(limits.relaxationWanted, kOfJacobiLimitAtRest * most));
+  limits.warmGainInMotion = f(gain);
+  limits.softness = softnessOf(scene);
+  limits.stableStep = bearableStep(kernel, limits, scene.solver.iterations, limits.warmGainInMotion);
+  // Half of what the tolerance allows: from the whole step on, a dam's worst particles are a quarter more compressed.
+  const double tolerance = scene.solver.tolerance;
+  limits.toleratedStep = tolerance > 0 ? 0.5 * stepOfError(kernel, tolerance, limits.relaxationAtRest / limits.softness) : kInfinite;
+  limits.layerHead = std::max(strongestGravity(scene), 1e-20) * scene.fluid.spacing;
+  limits.maxWarmGainAtRest = scene.solver.warm_start ? gain : std::min(gain, kMaxWarmGainAtRest);
+  limits.layerWarmGainAtRest = scene.solver.warm_start ? kInfinite : kWarmGainAtRest;
+  return limits;
 }
 
-// The step in which the mean compression of a column is `error`, over dt^2 g H / d^2. Corrections hold a column up where
-// 2 omega / D grad C = g dt^2, so that it is D d^2 / (4 omega) at rest; in the dam breaks of assets/scenes it is less, 0.06 at h = 2 d.
-double StabilityLimits::stepOfError(double error, double head, double relaxation) const {
-  const double d = kernel_.spacing();
-  // With a short support the gradients grow as soon as particles come nearer.
-  double gradients = kernel_.restGradientSum();
-  for (const double nearer : {1.1, 1.2, 1.3})
-    gradients = std::max(gradients, SmoothingKernel(kernel_.choice(), nearer * kernel_.h(), d).restGradientSum());
-  const double errorOfHead = kErrorOfHead * gradients * d * d / (4 * relaxation);
-  return d * std::sqrt(error / (errorOfHead * head));
-}
-
-double StabilityLimits::bearableStep(double head, uint32_t iterations, double gain) const {
-  const double error = kStableError * iterations / (1 + kStableGain * softness_ * gain);
-  return stepOfError(error, head, relaxationInMotion / softness_);
-}
-
-double StabilityLimits::longestStep(double head) const { return bearableStep(head, scene_.solver.iterations, warmGainInMotion); }
-
-// Half of what the tolerance allows: from the whole step on, a dam's worst particles are a quarter more compressed.
-double StabilityLimits::firstStep(double head) const {
-  if (scene_.solver.tolerance <= 0 || head <= 0) return std::numeric_limits<double>::infinity();
-  return 0.5 * stepOfError(scene_.solver.tolerance, head, relaxationAtRest / softness_);
-}
+double StabilityLimits::longestStep(double head) const { return stableStep / std::sqrt(head); }
+double StabilityLimits::firstStep(double head) const { return toleratedStep / std::sqrt(head); }
 
 double StabilityLimits::warmGainAtRest(double head) const {
-  const double layers = columnLayers(scene_, head), gain = boundedWarmGain(scene_).taken;
-  return scene_.solver.warm_start ? gain : std::min({gain, kMaxWarmGainAtRest, kWarmGainAtRest / (layers * layers)});
+  return std::min(maxWarmGainAtRest, layerWarmGainAtRest / (layers(head) * layers(head)));
 }
 
-double StabilityLimits::motionSpeed(double head) const { return kMotionShare * std::sqrt(2 * head); }
+double StabilityLimits::motionSpeed(double head) const { return double{kMotionShare} * std::sqrt(2 * head); }
 
-double StabilityLimits::errorRateShareAtRest(double head) const { return 1 / std::max(1.0, kErrorSubsteps * columnLayers(scene_, head)); }
+double StabilityLimits::errorRateShareAtRest(double head) const { return 1 / std::max(1.0, double{kErrorSubsteps} * layers(head)); }
 
 // It is found for the longest step in which the defaults bear the fluid: in shorter ones the rounding of positions hides it, in longer ones
 // the column folds. Where no pressure is carried from substep to substep there is none.
-InitialPressure StabilityLimits::initialPressure(double head, double room) const {
-  if (head <= 0 || warmGainInMotion < f(kLeastFollowing)) return {};
-  const StartPressure start =
-      startPressure(kernel_, relaxationAtRest, regularization_, columnLayers(scene_, head), kMaxInitialPressureIterations);
-  InitialPressure result{start.iterations, start.momentum, bearableStep(head, 1, kWarmGain / softness_), 0};
+InitialPressure initialPressure(const Scene& scene, const SmoothingKernel& kernel, const StabilityLimits& limits, double head,
+                                double room) {
+  if (head <= 0 || limits.warmGainInMotion < f(kLeastFollowing)) return {};
+  const StartPressure start = startPressure(kernel, limits.relaxationAtRest, boundedRegularization(scene).taken, limits.layers(head),
+                                            kMaxInitialPressureIterations);
+  InitialPressure result{start.iterations, start.momentum, bearableStep(kernel, limits, 1, kWarmGain / limits.softness) / std::sqrt(head),
+                         0};
   // A compression e of a column as high as all the fluid would be released within a step, at e times its height over that step: at most a
   // twentieth of what falling through a spacing gives. And not below what rounding leaves of any start.
-  const double g = strongestGravity(scene_);
-  const double bearable = 0.05 * std::sqrt(g * scene_.fluid.spacing) * f(result.step) * g / head;
-  result.errorLimit = std::max({bearable, 2.0e-6, 0x1p-24 * room / scene_.fluid.spacing});
+  const double g = strongestGravity(scene);
+  const double bearable = 0.05 * std::sqrt(g * scene.fluid.spacing) * f(result.step) * g / head;
+  result.errorLimit = std::max({bearable, 2.0e-6, 0x1p-24 * room / scene.fluid.spacing});
   return result;
 }
 

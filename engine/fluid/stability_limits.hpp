@@ -13,10 +13,10 @@ inline constexpr double kStableError = 0.0055;
 
 /// m/s^2, of the whole schedule.
 double strongestGravity(const Scene& scene);
+/// Along one axis.
+double strongestGravity(const Scene& scene, int axis);
 /// m^2/s^2: gravity times the height of a column as high as `extent` (m), which sets its pressure.
 double columnHead(const Scene& scene, const double extent[3]);
-/// In spacings.
-double columnLayers(const Scene& scene, double head);
 
 /// Whether a scene asks for more than is stable, what it asks for, and what is taken.
 struct Bounded {
@@ -27,6 +27,31 @@ Bounded boundedRegularization(const Scene& scene);
 /// kappa of a fluid in motion: as much of it as the waves can bear.
 Bounded boundedWarmGain(const Scene& scene);
 
+/// Limits of a scene's fluid. `head`: see columnHead(). The device evaluates the same formulas for the fluid as it is:
+/// shaders/fluid/stability.glsl.
+struct StabilityLimits {
+  // As the device gets them.
+  float relaxationAtRest = 0, relaxationInMotion = 0;  ///< omega
+  float warmGainInMotion = 0;                          ///< kappa
+  double relaxationWanted = 0, relaxationLimit = 0;    ///< what the scene or its default asks for, and what converges
+  double softness = 1;             ///< what the default regularization leaves of a correction at rest, over what the scene's does
+  double stableStep = 0;           ///< m: times 1 / sqrt(head) the longest step
+  double toleratedStep = 0;        ///< m: likewise the first step; infinite without a tolerance
+  double layerHead = 0;            ///< m^2/s^2, of a column of one layer
+  double maxWarmGainAtRest = 0;    ///< kappa at rest, and
+  double layerWarmGainAtRest = 0;  ///< this over the square of the column's layers, if that is less
+
+  double layers(double head) const { return head / layerHead; }
+  /// s. A column that its weight compresses by too much in a step folds, and springs back with more energy than it had.
+  double longestStep(double head) const;
+  /// s. A fluid that is released without its pressure compresses, and springs back with what a long step left.
+  double firstStep(double head) const;
+  double warmGainAtRest(double head) const;        ///< kappa
+  double motionSpeed(double head) const;           ///< m/s of the fastest particle, from which on a fluid is no longer at rest
+  double errorRateShareAtRest(double head) const;  ///< of a substep in the mean error that the step follows
+};
+StabilityLimits stabilityLimits(const Scene& scene, const SmoothingKernel& kernel);
+
 /// The initial pressure: see engine/sph/start_pressure.hpp.
 struct InitialPressure {
   uint32_t iterations = 0;  ///< 0: none
@@ -34,38 +59,8 @@ struct InitialPressure {
   double step = 0;        ///< s
   double errorLimit = 0;  ///< mean compression up to which it is looked for
 };
-
-/// Limits of a scene's fluid. `head`: see columnHead().
-class StabilityLimits {
- public:
-  StabilityLimits(const Scene& scene, const SmoothingKernel& kernel);
-
-  // As the device gets them.
-  float relaxationAtRest = 0, relaxationInMotion = 0;  ///< omega
-  float warmGainInMotion = 0;                          ///< kappa
-  double relaxationWanted = 0, relaxationLimit = 0;    ///< what the scene or its default asks for, and what converges
-
-  /// Makes every correction at rest smaller: times what the default regularization leaves of it.
-  double softness() const { return softness_; }
-  /// s; head > 0. A column that its weight compresses by too much in a step folds, and springs back with more energy than it had.
-  double longestStep(double head) const;
-  /// s, infinite without a tolerance or gravity. A fluid that is released without its pressure compresses, and springs back with what a
-  /// long step left.
-  double firstStep(double head) const;
-  double warmGainAtRest(double head) const;        ///< kappa
-  double motionSpeed(double head) const;           ///< m/s of the fastest particle, from which on a fluid is no longer at rest
-  double errorRateShareAtRest(double head) const;  ///< of a substep in the mean error that the step follows
-  /// `room`: the widest extent that positions have, m.
-  InitialPressure initialPressure(double head, double room) const;
-
- private:
-  double bearableStep(double head, uint32_t iterations, double gain) const;
-  double stepOfError(double error, double head, double relaxation) const;
-
-  const Scene& scene_;
-  const SmoothingKernel& kernel_;
-  double regularization_, softness_;
-};
+/// `room`: the widest extent that positions have, m.
+InitialPressure initialPressure(const Scene& scene, const SmoothingKernel& kernel, const StabilityLimits& limits, double head, double room);
 
 /// Bounds on what a substep does to speeds.
 struct SpeedLimits {

@@ -77,6 +77,7 @@ void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
   control.speed = fastest;
   control.nextPhase = settle ? kPhaseSettling : kPhaseAdvancing;
   control.phaseLeft = settle ? kSettleSubsteps : 0;
+  control.head = static_cast<float>(setup.head);
   control.desiredStep = static_cast<float>(setup.firstStep);
 
   stageParticles(std::move(positions), std::move(velocities));

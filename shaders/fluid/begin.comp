@@ -27,7 +27,7 @@ void main() {
   float acceleration = length(vec3(c.gravityX, c.gravityY, c.gravityZ));
   c.speed = uintBitsToFloat(s.speedMax);
   if (c.nextRelaxation == 0.0) setGains(c);  // the first advance: from then on each substep sets those of the next
-  c.desiredStep = plannedStep(c, c.desiredStep, cflStep(c.speed, acceleration));
+  c.desiredStep = plannedStep(c, c.desiredStep, cflStep(c.speed, acceleration, c.head));
   bool going = push.advance > 0.0;
   if (going) {
     c.nextStep = fittedStep(push.advance, c.desiredStep);

@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
 #include "fluid/uniforms.glsl"
 #include "fluid/cluster.glsl"
 #include "shared/pose.glsl"
@@ -21,6 +22,7 @@ layout(std430, binding = 4) writeonly buffer CountBlock { uint neighborCount[]; 
 layout(std430, binding = 5) writeonly buffer KeyBlock { uint cell[]; };
 READ_UINT(6, cellStart)
 layout(std430, binding = 7) buffer SumsBlock { FluidSums sums; };
+#include "fluid/columns.glsl"
 READ_FLOAT4(8, sortedPosition)  // w: the id, as a number
 READ_FLOAT4(9, sortedVelocity)  // w: the warm start
 layout(std430, binding = 10) writeonly buffer PositionBlock { vec4 position[]; };
@@ -121,6 +123,7 @@ void main() {
   place = x;
   self = i;
   vec3 scaled = scaledPosition(x);
+  addToColumns(inRange, x);
   walkGrid(scaled, scaled, inRange && isActive(x), params.reach);
   if (!inRange) return;
   cell[i] = cellKey(cellOf(x));

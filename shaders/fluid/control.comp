@@ -94,7 +94,7 @@ void main() {
     c.travel += (c.speed + c.solidSpeed) * c.step;
     gravityAt(c);
     float acceleration = length(vec3(c.gravityX, c.gravityY, c.gravityZ));
-    c.desiredStep = plannedStep(c, tolerableStep(c, error), cflStep(c.speed, acceleration));
+    c.desiredStep = plannedStep(c, tolerableStep(c, error), cflStep(c.speed, acceleration, c.head));
     if (c.timeLeft < 1.0e-4 * c.step) c.timeLeft = 0.0;
     if (c.timeLeft > 0.0 && c.substeps >= params.maxSubsteps) {
       c.timeDropped += c.timeLeft;

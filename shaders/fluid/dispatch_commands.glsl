@@ -32,7 +32,7 @@ void switchCommand(uint k, FluidControl c, uint parity, FluidSums s) {
   bool walks = params.listCapacity == 0u || s.overflow > 0u;
   uvec3 groups = uvec3(shape.xy, 1u);
   switch (over) {
-    case kOverParticles: groups = groupsFor(c.count, shape.x); break;
+    case kOverParticles: groups = groupsFor(max(c.count, 1u), shape.x); break;  // the first one starts sums anew
     case kOverChunk: groups = groupsFor(min(c.count, params.chunkParticles), shape.x); break;
     case kOverLists: groups = groupsFor(walks ? 0u : min(c.count, params.chunkParticles), shape.x); break;
     case kOverGrid: groups = groupsFor(walks ? min(c.count, params.chunkParticles) : 0u, shape.x); break;

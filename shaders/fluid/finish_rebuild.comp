@@ -9,6 +9,7 @@ layout(std430, binding = 2) readonly buffer SumsBlock { FluidSums sums; };
 layout(std430, binding = 3) readonly buffer ShapeBlock { uint shapes[]; };
 layout(std430, binding = 4) buffer CommandBlock { uint commands[]; };
 layout(std430, binding = 5) readonly buffer GravityBlock { vec4 gravityChanges[]; };
+#include "fluid/stability.glsl"
 #include "fluid/dispatch_commands.glsl"
 
 void main() {
@@ -20,7 +21,8 @@ void main() {
   c.builds += 1u;
   c.executedBuilds += 1u;
   c.running = c.timeLeft > 0.0 ? 1u : 0u;
-  control = c;
   FluidSums s = sums;
+  followColumn(c, columnHead(s));
+  control = c;
   switchCommands(kMaxCommands, c, kNoSubstep, s);  // the sort's own, too: another rebuild may be recorded behind this one
 }

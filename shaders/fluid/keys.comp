@@ -20,6 +20,11 @@ void main() {
     sums.planeCount = 0u;
     sums.cornerCount = 0u;
     sums.overflow = 0u;
+    sums.columnCountX = sums.columnCountY = sums.columnCountZ = 0u;
+    sums.columnLowX = sums.columnLowY = sums.columnLowZ = 0xffffffffu;
+    sums.columnHighX = sums.columnHighY = sums.columnHighZ = 0u;
+    sums.columnSumLowX = sums.columnSumLowY = sums.columnSumLowZ = 0u;
+    sums.columnSumHighX = sums.columnSumHighY = sums.columnSumHighZ = 0u;
   }
 #ifdef COUNTED
   // The sort's workgroups are larger: what they see behind the last particle is no key.

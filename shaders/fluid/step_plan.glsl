@@ -2,11 +2,12 @@
 // left of the advance. And what the first substep of a block does for all of it.
 #ifndef RILL_STEP_PLAN_GLSL
 #define RILL_STEP_PLAN_GLSL
+#include "fluid/stability.glsl"
 // The step in which the fastest particle, going on accelerating, moves no farther than cfl allows:
-// speed t + acceleration t^2 = reach.
-float cflStep(float speed, float acceleration) {
+// speed t + acceleration t^2 = reach. And no longer than the fluid bears.
+float cflStep(float speed, float acceleration, float head) {
   float reach = params.cfl * params.spacing;
-  return min(params.maxStep, 2.0 * reach / (speed + sqrt(speed * speed + 4.0 * acceleration * reach) + 1.0e-20));
+  return min(longestStep(head), 2.0 * reach / (speed + sqrt(speed * speed + 4.0 * acceleration * reach) + 1.0e-20));
 }
 
 // The step that meets the tolerance, from the error of the last one: error / step^2 hardly depends
@@ -14,10 +15,10 @@ float cflStep(float speed, float acceleration) {
 // short one. In fluid at rest it follows a mean over many steps: a step that follows each pressure
 // wave would amplify it.
 float tolerableStep(inout FluidControl c, float error) {
-  if (params.tolerance <= 0.0) return params.maxStep;
+  if (params.tolerance <= 0.0) return longestStep(c.head);
   if (c.errorRate == 0.0) c.errorRate = params.tolerance / (c.desiredStep * c.desiredStep);
   float now = max(error, 1.0e-9) / (c.step * c.step);
-  c.errorRate = mix(c.errorRate, now, pow(params.errorRateShareAtRest, c.restFraction));
+  c.errorRate = mix(c.errorRate, now, pow(errorRateShareAtRest(c.head), c.restFraction));
   return clamp(sqrt(params.tolerance / c.errorRate), 0.995 * c.desiredStep, 1.002 * c.desiredStep);
 }
 

@@ -10,6 +10,11 @@ RILL_CONST uint kListBlock = 4096u;       // particles a block of the neighbor l
 RILL_CONST uint kCellsPerReach = 2u;       // grid cells in x as long as one in y or z
 RILL_CONST uint kSettleSubsteps = 512u;    // at most, before the first substep in time
 RILL_CONST uint kMaxInitialPressureIterations = 1024u;    // iterations of the initial pressure, at most, after settling
+// motionSpeed, of the speed of falling through the column: see docs/notes/noise-damping.md
+RILL_CONST float kMotionShare = 0.5f;
+// a layer: substeps in the mean error that the step follows at rest. The column's first wave takes
+// about seven.
+RILL_CONST float kErrorSubsteps = 10.0f;
 RILL_CONST float kMaxNoiseDamping = 0.5f;     // XSPH coefficient of a noise damping pass, at most
 // share of the kernel behind walls that the tangential scale makes up for, at most. See
 // docs/notes/walls-and-solids.md
@@ -58,14 +63,19 @@ struct FluidParams {
   float inverseRestGradient;  // 1 / sum |grad K|^2 of the rest lattice, m^2
   float regularization;   // epsilon times sum |grad K|^2 of the rest lattice, 1/m^2
   float relaxationAtRest, relaxationInMotion;  // omega of a fluid at rest, and of one that moves at motionSpeed (see restFraction.glsl)
-  float warmGainAtRest, warmGainInMotion;      // kappa, likewise
-  float motionSpeed;       // m/s; 0: never at rest
-  float errorRateShareAtRest;        // of a substep in the mean error that the step follows in a fluid at rest
+  float warmGainInMotion;      // kappa of a fluid that moves; at rest see stability.glsl
+  float maxWarmGainAtRest;     // at most, and
+  float layerWarmGainAtRest;   // this over the square of the column's layers
+  float layerHead;             // m^2/s^2, gravity times the spacing
+  float stableStep;            // m, over the square root of the head: the longest step that the fluid bears
+  float toleratedStep;         // m, likewise: the first step, half of what the tolerance allows
+  float columnGravityX, columnGravityY, columnGravityZ;  // m/s^2, the strongest; 0: the head does not follow the fluid along this axis
+  float columnLimitX, columnLimitY, columnLimitZ;        // m, the largest height of a column
   float warmRelease;      // times kappa where density is below rest density
   float reach;            // m, support plus skin: the list holds what was nearer when it was built
   float travelLimit;      // m that the fastest particle may move before the list is rebuilt
   float cfl;              // spacings a substep
-  float maxStep;          // s
+  float maxStep;          // s, as the scene asks for and its viscosity bears; see stability.glsl
   float tolerance;        // mean compression aimed for; 0: none
   uint maxSubsteps;       // an advance
   uint iterations;        // Jacobi iterations a substep, at most
@@ -148,6 +158,7 @@ struct FluidControl {
   float errorRate;     // mean compression over the step's square, 1/s^2; in fluid at rest a mean over many steps
   float restFraction;      // 1: at rest, 0: at motionSpeed or faster
   float noiseDamping;       // XSPH coefficient of the noise damping pass after this substep; 0: it does not run
+  float head;          // m^2/s^2, gravity times the height of the column that the fluid has stood in so far
   float artificialPressure;       // artificial pressure of this substep, over 1 / D of the rest lattice; 0 in all but the first of a block
   float blockTime;     // s since the last substep that was the first of its block
   uint phase, nextPhase;  // of the substep that control.comp has accounted for last, and of the next, as with step and nextStep
@@ -168,7 +179,16 @@ struct FluidSums {
   uint boundHits;            // loops cut at their bound since the start
   uint planeCount;           // particles near one wall, at the last build
   uint cornerCount;          // particles near several walls or a solid, at the last build
+  // of the active particles inside the domain, at the last build: how many, and of their places
+  // above its lower bounds, in spacings over kColumnUnits, the least, the largest and the 64-bit sum
+  uint columnCountX, columnCountY, columnCountZ;
+  uint columnLowX, columnLowY, columnLowZ;
+  uint columnHighX, columnHighY, columnHighZ;
+  uint columnSumLowX, columnSumLowY, columnSumLowZ;
+  uint columnSumHighX, columnSumHighY, columnSumHighZ;
 };
+RILL_CONST float kColumnUnits = 16.0f;
+RILL_CONST uint kMaxColumnPlace = (1u << 18) - 1u;
 RILL_CONST float kErrorUnit = 1.0f / 16777216.0f;
 
 struct BeginPush {

@@ -62,9 +62,9 @@ reference::ReferenceSettings settingsOf(const Trial& trial) {
   s.viscositySweeps = scene.fluid.viscosity > 0 ? static_cast<int>(setup.viscositySweeps) : 1;
   s.vorticity = scene.fluid.vorticity;
   s.warmLimit = setup.params.warmLimit;
-  s.motionSpeed = setup.params.motionSpeed;
+  s.motionSpeed = setup.limits.motionSpeed(setup.head);
   s.relaxationAtRest = setup.params.relaxationAtRest;
-  s.warmStartAtRest = setup.params.warmGainAtRest;
+  s.warmStartAtRest = setup.limits.warmGainAtRest(setup.head);
   s.viscosityAtRest = setup.artificialViscosity;
   s.substepsPerBlock = trial.stepwise ? 1 : static_cast<int>(setup.substepsPerBlock);
   s.minSpeedGain = setup.params.minSpeedGain;

@@ -122,8 +122,8 @@ TEST(MutatedScenes, AreRejectedOrRun) {
     }
     ++ran;
     EXPECT_LE(setup->grid.cells(), maxGridCells(made->positions.size()));
-    EXPECT_GT(setup->params.maxStep, 0) << round;
-    EXPECT_TRUE(std::isfinite(setup->params.maxStep)) << round;
+    EXPECT_GT(setup->longestStep, 0) << round;
+    EXPECT_TRUE(std::isfinite(setup->longestStep)) << round;
     for (const SolidRecord& solid : setup->solids) EXPECT_TRUE(std::isfinite(solid.pose.centerX)) << round;
   }
   EXPECT_GT(rejected, 1000);
