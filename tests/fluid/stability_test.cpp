@@ -99,7 +99,7 @@ TEST_F(StabilityTest, SplashRaisesNoBound) {
   t.x = block({6, 14, 6}, t.d());
   t.step = kFrame;
   auto run = start(t);
-  const double before = run->fluid().impl().setup.head;
+  const double before = implOf(run->fluid()).setup.head;
   double highest = 0;
   for (int frame = 0; frame < 60; ++frame) {
     run->advance(kFrame);
@@ -119,7 +119,7 @@ TEST_F(StabilityTest, DeviceHasTheFormulasOfTheHost) {
       auto run = start(t);
       run->read({.advance_s = kFrame});
       const FluidControl c = run->control();
-      const StabilityLimits& limits = run->fluid().impl().setup.limits;
+      const StabilityLimits& limits = implOf(run->fluid()).setup.limits;
       EXPECT_NEAR(c.head, headOf(t, layers - 1), 0.01 * headOf(t, layers - 1));
       EXPECT_NEAR(c.desiredStep / limits.longestStep(c.head), 1, 1e-5);
       const double rest = 1 - std::pow(std::min(c.speed / limits.motionSpeed(c.head), 1.0), 4);
@@ -140,7 +140,7 @@ TEST_F(StabilityTest, ErrorRateFollowsSlowlyInDeepWater) {
     const FluidControl after = run->control();
     ASSERT_EQ(after.substeps, 1u);
     const double now = std::max<double>(after.error, 1e-9) / (after.step * after.step);
-    const double share = run->fluid().impl().setup.limits.errorRateShareAtRest(after.head);
+    const double share = implOf(run->fluid()).setup.limits.errorRateShareAtRest(after.head);
     EXPECT_NEAR(after.errorRate / std::lerp(before.errorRate, now, std::pow(share, after.restFraction)), 1, 1e-4) << layers;
     EXPECT_NEAR(share, 0.1 / (layers - 1), 0.01 * share);
   }
