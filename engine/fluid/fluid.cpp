@@ -256,7 +256,7 @@ Expected<void> FluidImpl::makePipelines(Device& device) {
   };
   correct(pipes_.correct, false);
   if (p.tensileRate > 0) correct(pipes_.correctWithArtificialPressure, true);
-  if (p.iterations > 1) gather(pipes_.iterate, "fluid/iterate", {Storage, vectors}, sizeof(ChunkPush), {nearWalls});
+  if (p.iterations > 1) gather(pipes_.iterate, "fluid/iterate", {Storage, vectors}, sizeof(ChunkPush), {nearWalls, p.solidCount > 0});
   if (smooths) gather(pipes_.viscosity, "fluid/viscosity", {vectors, Storage, Storage, vectors, vectors}, sizeof(SweepPush), {warm});
   if (setup.viscositySweeps % 2 == 1 || p.noiseDampingRate > 0)
     make(pipes_.copyVelocity, "fluid/copy_velocity", plain(2, 2), sizeof(ChunkPush));

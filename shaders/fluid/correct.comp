@@ -16,7 +16,7 @@
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 4) const uint NEAR = 0;
 layout(constant_id = 5) const uint TENSILE = 0;  // the first substep of a block has the artificial pressure
-layout(constant_id = 6) const uint CONTACT = 0;  // collide.comp follows
+layout(constant_id = 6) const uint CONTACT = 0;  // there are solids: collide.comp follows
 
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer PositionBlock { vec4 position[]; };
@@ -78,9 +78,10 @@ void main() {
   moved *= unit * params.gradientScale;
   pushed *= unit * params.gradientScale;
   if (NEAR != 0u) {
-    vec3 wall = unit * displacedAt(i).xyz, along = tangentialScaleAt(i);  // see docs/notes/walls-and-solids.md
-    moved = along * moved + own.x * wall;
-    pushed = along * pushed + own.y * wall;
+    vec3 wall = unit * displacedAt(i).xyz;
+    WallScale walls = wallScaleAt(i);  // see docs/notes/walls-and-solids.md
+    moved = atWalls(walls, CONTACT != 0u, moved, own.x * wall);
+    pushed = atWalls(walls, CONTACT != 0u, pushed, own.y * wall);
   }
 
   vec3 from = position[i].xyz, before = velocity[i].xyz;

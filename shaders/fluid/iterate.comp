@@ -10,6 +10,7 @@
 #include "fluid/wall_samples.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(constant_id = 4) const uint NEAR = 0;
+layout(constant_id = 5) const uint SOLIDS = 0;
 
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer PredictionBlock { vec4 prediction[]; };
@@ -40,6 +41,6 @@ void main() {
   visitNeighbors(i, local, inRange);
   if (!inRange) return;
   moved *= unit * params.gradientScale;
-  if (NEAR != 0u) moved = tangentialScaleAt(i) * moved + unit * own * displacedAt(i).xyz;
+  if (NEAR != 0u) moved = atWalls(wallScaleAt(i), SOLIDS != 0u, moved, unit * own * displacedAt(i).xyz);
   prediction[i] = vec4(insideWalls(here + moved), prediction[i].w);
 }
