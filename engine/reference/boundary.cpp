@@ -34,20 +34,16 @@ WallSample ReferenceSolver::boundaryOf(const glm::dvec3& x, std::span<const Pose
     const Vec3 local = localPoint(solids[n], {x.x, x.y, x.z});
     const WallSample own = settings.tabulated ? solidSample(tables_, sphereTables_[n], shape, local) : solidSample(kernel_, shape, local);
     const Vec3 gradient = toScene(solids[n], std::to_array(own.gradient));
-    const double squared = gradient[0] * gradient[0] + gradient[1] * gradient[1] + gradient[2] * gradient[2];
     sum.value += own.value;
-    for (size_t a = 0; a < 3; ++a) {
-      sum.gradient[a] += gradient[a];
-      if (squared > 0) sum.wallCoverage[a] += own.value * (1 - gradient[a] * gradient[a] / squared);
-    }
+    for (size_t a = 0; a < 3; ++a) sum.gradient[a] += gradient[a];
+    sum.cover(own.value, gradient.data());
   }
   return sum;
 }
 
-glm::dvec3 ReferenceSolver::tangentialScale(size_t i) const {
-  glm::dvec3 scale;
-  for (int a = 0; a < 3; ++a) scale[a] = 1 / (1 - std::min<double>(boundary_[i].wallCoverage[a], kMaxWallCoverage));
-  return scale;
+glm::dmat3 ReferenceSolver::tangentialScale(size_t i) const {
+  const WallScale s = wallScale(boundary_[i]);
+  return {s.diagonal[0], s.mixed[2], s.mixed[1], s.mixed[2], s.diagonal[1], s.mixed[0], s.mixed[1], s.mixed[0], s.diagonal[2]};
 }
 
 /// Moves a center to half a spacing from every surface that is closer: solids in order, walls last, so that no particle ends outside.

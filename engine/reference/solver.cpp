@@ -144,8 +144,8 @@ void ReferenceSolver::density() {
       squares += glm::dot(pairs_.back().gradient, pairs_.back().gradient);
     }
     densityRatio_[i] = ratio;
-    const glm::dvec3 scale = tangentialScale(i);
-    const double all = glm::dot(sum, scale * sum) + squares * (scale.x + scale.y + scale.z) / 3;
+    const glm::dmat3 scale = tangentialScale(i);
+    const double all = glm::dot(sum, scale * sum) + squares * (scale[0].x + scale[1].y + scale[2].z) / 3;
     denominator_[i] = std::max(all + settings.regularization * rest, kMinDenominator * rest);
   }
 }

@@ -3,9 +3,9 @@
 // precision on one thread. It documents the method and is the oracle of the shaders' tests; readability comes before speed.
 //
 // A substep of dt. Notation: K = d^3 W as in sph/kernel.hpp, G_ij = grad_i K(x*_i - x*_j), B_i = density contribution of walls and
-// solids, grad B_i its gradient, a_i = tangential scale per axis, 1 / (1 - min(WallSample::wallCoverage, kMaxWallCoverage)).
+// solids, grad B_i its gradient, a_i = tangential scale, a symmetric matrix: wallScale() in sph/wall.hpp.
 //   density       rho_i/rho0 = K(0) + sum_j K_ij + B_i,   C_i = rho_i/rho0 - 1,
-//                 D_i = g . a_i g + mean(a_i) sum_j |G_ij|^2 + eps D_rest with g = sum_j G_ij + grad B_i
+//                 D_i = g . a_i g + tr(a_i) / 3 sum_j |G_ij|^2 + eps D_rest with g = sum_j G_ij + grad B_i
 //   multipliers   delta_i = -omega C_i / D_i,   lambda_i = min(0, lambda_i + delta_i), initially w_i; its change is dlambda_i.
 //                 In the first iteration w_i = min(0, w_i + kappa delta_i): an integral that keeps the pressure of a fluid at rest from
 //                 substep to substep (warm start)
@@ -18,6 +18,7 @@
 // Density to correction repeat for every iteration. The pairs of the last density evaluation (neighbors, K_ij and G_ij) are used by all
 // stages up to the next one.
 #include <cstdint>
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
 #include <span>
@@ -156,7 +157,7 @@ class ReferenceSolver {
   glm::dvec3 contact(size_t i, glm::dvec3 v, double dt, std::span<const Pose> poses) const;
   std::vector<Pose> poses(double t, double dt) const;
   WallSample boundaryOf(const glm::dvec3& x, std::span<const Pose> poses) const;
-  glm::dvec3 tangentialScale(size_t i) const;  ///< a_i
+  glm::dmat3 tangentialScale(size_t i) const;  ///< a_i
   Pair makePair(uint32_t i, uint32_t j) const;
   void predictPositions(double dt, bool atRest);
   void deactivate(size_t i);

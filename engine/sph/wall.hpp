@@ -17,10 +17,23 @@ namespace rill {
 struct WallSample {
   double value = 0;                ///< added to rho_i / rho0, dimensionless
   double gradient[3] = {0, 0, 0};  ///< 1/m, d value / d x_i with the gradient kernel; points toward the wall
-  /// Per axis: the part of `value` from walls parallel to the axis, 0 to 1. The pressure force along the axis lacks it: for a linear
+  /// The symmetric tensor sum of value (1 - n n^T) over walls with normals n. The pressure force along a wall lacks it: for a linear
   /// pressure, sum_j (lambda_i + lambda_j) grad K_ij has the fraction 1 - wallCoverage (integration by parts, continuous kernel).
-  double wallCoverage[3] = {0, 0, 0};
+  double wallCoverage[3] = {0, 0, 0};       ///< xx, yy, zz
+  double wallCoverageMixed[3] = {0, 0, 0};  ///< yz, zx, xy; 0 where all walls are along the axes
+
+  /// Adds the coverage of a surface that displaces `displaced`, with a normal of this direction (of any length).
+  void cover(double displaced, const double direction[3]);
 };
+
+/// What walls do to a correction: the push of the neighbors is multiplied by this symmetric matrix, (1 - wallCoverage)^-1.
+struct WallScale {
+  double diagonal[3] = {1, 1, 1};  ///< xx, yy, zz
+  double mixed[3] = {0, 0, 0};     ///< yz, zx, xy
+};
+
+/// Eigenvalues of the coverage are bounded by kMaxWallCoverage: axis by axis where walls are along the axes, else by a common factor.
+WallScale wallScale(const WallSample& sample);
 
 /// A function of one distance and its derivative.
 struct LineSample {

@@ -73,9 +73,10 @@ void main() {
   moved *= unit * params.gradientScale;
   pushed *= unit * params.gradientScale;
   if (NEAR) {
-    vec3 wall = unit * displacedAt(i).xyz, along = tangentialScaleAt(i);  // see docs/notes/walls-and-solids.md
-    moved = along * moved + own.x * wall;
-    pushed = along * pushed + own.y * wall;
+    vec3 wall = unit * displacedAt(i).xyz;
+    WallScale walls = wallScaleAt(i);  // see docs/notes/walls-and-solids.md
+    moved = atWalls(walls, SOLIDS, moved, own.x * wall);
+    pushed = atWalls(walls, SOLIDS, pushed, own.y * wall);
   }
 
   vec3 from = position[i].xyz, before = velocity[i].xyz;

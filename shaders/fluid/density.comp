@@ -46,16 +46,16 @@ void main() {
   rho = params.valueScale * (rho + kernelShape(0.0));
   gradientSum *= params.gradientScale;
   gradientSquares *= params.gradientScale * params.gradientScale;
-  vec3 along = vec3(1.0);
+  WallScale walls = kNoWalls;
   if (NEAR) {
     vec4 displaced = displacedAt(i);
     gradientSum += displaced.xyz;
     rho += displaced.w;
-    along = tangentialScaleAt(i);
+    walls = wallScaleAt(i);
   }
 
   float constraint = isActive(here) ? rho - 1.0 : -1.0;  // inactive particles coincide; exclude them from the error
-  float stiffness = dot(gradientSum, along * gradientSum) + gradientSquares * (along.x + along.y + along.z) / 3.0 + params.regularization;
+  float stiffness = stiffnessAtWalls(walls, gradientSum, gradientSquares, params.regularization);
   bool first = push.iteration == 0u;
   float delta = -(first ? control.nextRelaxation : control.relaxation) * constraint / max(stiffness, 1.0e-20);
 

@@ -39,6 +39,6 @@ void main() {
   visitNeighbors(i, local, inRange);
   if (!inRange) return;
   moved *= unit * params.gradientScale;
-  if (NEAR) moved = tangentialScaleAt(i) * moved + unit * own * displacedAt(i).xyz;
+  if (NEAR) moved = atWalls(wallScaleAt(i), SOLIDS, moved, unit * own * displacedAt(i).xyz);
   prediction[i] = vec4(insideWalls(here + moved), prediction[i].w);
 }

@@ -1,11 +1,50 @@
-// Density displaced by walls and solids, two vectors a particle in one array; both are 0 away from walls and solids.
+// What walls and solids do to a particle, two vectors a particle in one array; 0 away from them.
 #ifndef RILL_WALL_SAMPLES_GLSL
 #define RILL_WALL_SAMPLES_GLSL
 #include "shared/arrays.glsl"
 #define NEAR_DISPLACED(i) (2u * (i))         // gradient of the displaced density; w: its value
-#define NEAR_TANGENTIAL(i) (2u * (i) + 1u)        // extra tangential scale for the support that is missing behind walls
+#define NEAR_TANGENTIAL(i) (2u * (i) + 1u)   // tangential scale: its diagonal less 1; w: the rest, packed
+
+// What a wall does to a correction: the push of the neighbors is multiplied by a symmetric matrix that
+// makes up, along each wall, for the support that is missing behind it.
+struct WallScale {
+  vec3 diagonal;
+  vec3 mixed;  // yz, zx, xy; 0 where all walls are along the axes
+};
+const WallScale kNoWalls = WallScale(vec3(1.0), vec3(0.0));
+
+// The push of the neighbors, scaled, and that of the walls. `solids`: there are any; without them nothing is off the diagonal.
+vec3 atWalls(WallScale s, bool solids, vec3 push, vec3 wall) {
+  vec3 sum = s.diagonal * push + wall;
+  if (solids) sum += s.mixed.zxy * push.yzx + s.mixed.yzx * push.zxy;
+  return sum;
+}
+
+// D of docs/method.md: of the gradient's sum and its squares, and `more`.
+float stiffnessAtWalls(WallScale s, vec3 gradient, float squares, float more) {
+  float sum = dot(gradient, s.diagonal * gradient) + squares * (s.diagonal.x + s.diagonal.y + s.diagonal.z) / 3.0 + more;
+  sum += 2.0 * dot(s.mixed, gradient.yzx * gradient.zxy);
+  return sum;
+}
+
+// Off the diagonal: at most 1/3, as three numbers of 10 bits around 512, a float that is neither denormal nor NaN. 0: none.
+const float kMixedUnits = 1500.0;
+
+float packMixed(vec3 mixed) {
+  uvec3 q = uvec3(clamp(round(mixed * kMixedUnits) + 512.0, 12.0, 1012.0));
+  return uintBitsToFloat(q.x | q.y << 10 | q.z << 20);
+}
+
+vec3 unpackMixed(float packed) {
+  uint q = floatBitsToUint(packed);
+  vec3 mixed = (vec3(q & 1023u, q >> 10 & 1023u, q >> 20) - 512.0) / kMixedUnits;
+  return q == 0u ? vec3(0.0) : mixed;
+}
+
+WallScale unpackWallScale(vec4 stored) { return WallScale(1.0 + stored.xyz, unpackMixed(stored.w)); }
+
 #define READ_NEAR(BINDING) \
   READ_FLOAT4(BINDING, nearSample) \
   vec4 displacedAt(uint i) { return nearSampleAt(NEAR_DISPLACED(i)); } \
-  vec3 tangentialScaleAt(uint i) { return 1.0 + nearSampleAt(NEAR_TANGENTIAL(i)).xyz; }
+  WallScale wallScaleAt(uint i) { return unpackWallScale(nearSampleAt(NEAR_TANGENTIAL(i))); }
 #endif

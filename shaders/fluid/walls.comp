@@ -1,13 +1,12 @@
 #version 460
 // The density that walls and solids displace near a particle, and its gradient, from the tables of
-// engine/sph/wall.hpp, and how much they add to the push along them, from what is beside the
-// particle (WallSample's `beside`). CORNER 0 handles particles near one wall alone, CORNER 1 those
-// near several walls or a solid.
+// engine/sph/wall.hpp, and the tangential scale from their coverage (wall_coverage.glsl). CORNER 0
+// handles particles near one wall alone, CORNER 1 those near several walls or a solid.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "shared/pose.glsl"
 #include "shared/shape.glsl"
-#include "fluid/wall_samples.glsl"
+#include "fluid/wall_coverage.glsl"
 layout(local_size_x = kFluidGroup) in;
 // walls of an axis that can be near at once: one takes an eighth of the corner look-ups
 const int SIDES = THIN ? 2 : 1;
@@ -62,7 +61,7 @@ vec2 corner(float s1, float s2, float s3) {
 }
 
 // Domain walls by inclusion and exclusion over the axes.
-vec4 domainWalls(vec3 x, out vec3 beside) {
+vec4 domainWalls(vec3 x, out vec3 coverage) {
   vec3 low = x - vec3(params.lowX, params.lowY, params.lowZ), high = vec3(params.highX, params.highY, params.highZ) - x;
   float s[3][2], d[3][2];  // distance to a wall, and the sign of its normal
   for (int a = 0; a < 3; ++a) {
@@ -73,7 +72,7 @@ vec4 domainWalls(vec3 x, out vec3 beside) {
   }
   float value = 0.0;
   vec3 gradient = vec3(0.0);
-  beside = vec3(0.0);
+  coverage = vec3(0.0);
   float reach = params.tableStep * float(params.tableNodes - 1u);
   for (int a = 0; a < 3; ++a) {
     int b = (a + 1) % 3, c = (a + 2) % 3;
@@ -82,15 +81,15 @@ vec4 domainWalls(vec3 x, out vec3 beside) {
       float di = d[a][i];
       vec2 one = line(0u, params.tableNodes, params.tableStep, s[a][i]);
       value += one.x;
-      beside[b] += one.x;
-      beside[c] += one.x;
+      coverage[b] += one.x;
+      coverage[c] += one.x;
       gradient[a] += di * one.y;
       for (int j = 0; j < SIDES; ++j) {
         if (s[b][j] >= reach) continue;
         float dj = d[b][j];
         vec2 two = edge(s[a][i], s[b][j]);
         value -= two.x;
-        beside[c] -= two.x;
+        coverage[c] -= two.x;
         gradient[a] -= di * two.y;
         gradient[b] -= dj * edge(s[b][j], s[a][i]).y;
         if (a != 0) continue;
@@ -134,10 +133,9 @@ vec4 solidSample(SolidRecord s, vec3 x) {
   return vec4(toScene(s.pose, gradient), slab.x * slab.y * slab.z);
 }
 
-void store(uint i, vec4 displaced, vec3 beside) {
-  beside = min(beside, vec3(kMaxWallCoverage));
+void store(uint i, vec4 displaced, WallCoverage coverage) {
   nearSample[NEAR_DISPLACED(i)] = displaced;
-  nearSample[NEAR_TANGENTIAL(i)] = vec4(beside / (1.0 - beside), 0.0);
+  nearSample[NEAR_TANGENTIAL(i)] = packWallScale(coverage);
 }
 
 void main() {
@@ -153,21 +151,20 @@ void main() {
     vec3 axis = s == nearest.x ? vec3(1, 0, 0) : (s == nearest.y ? vec3(0, 1, 0) : vec3(0, 0, 1));
     vec2 f = line(0u, params.tableNodes, params.tableStep, s);
     float sign = dot(axis, low) <= dot(axis, high) ? 1.0 : -1.0;
-    store(i, vec4(sign * f.y * axis, f.x), f.x * (1.0 - axis));
+    store(i, vec4(sign * f.y * axis, f.x), WallCoverage(f.x * (1.0 - axis), vec3(0.0)));
     return;
   }
   if (n >= sums.cornerCount) return;
   uint i = nearListAt(NEAR_CORNER(n));
   vec3 x = placeAt(i).xyz;
-  vec3 beside;
-  vec4 displaced = domainWalls(x, beside);
+  WallCoverage coverage = WallCoverage(vec3(0.0), vec3(0.0));
+  vec4 displaced = domainWalls(x, coverage.diagonal);
   if (SOLIDS) {
     for (uint k = 0u; k < params.solidCount; ++k) {
       vec4 solid = solidSample(solids[k], x);
       displaced += solid;
-      float steep = dot(solid.xyz, solid.xyz);
-      if (steep > 0.0) beside += solid.w * (1.0 - solid.xyz * solid.xyz / steep);
+      cover(coverage, solid.w, solid.xyz);
     }
   }
-  store(i, displaced, beside);
+  store(i, displaced, coverage);
 }

@@ -70,5 +70,7 @@ void main() {
     lit += 0.25 * (ambient(facing) * open + kKey * (max(dot(facing, scene.light_to.xyz), 0.0) * light));
   }
   shaded[index] = packColor(view.unlit != 0u ? kPlainSolid * min(lit.g, 1.0) : (view.compression != 0u ? kSolidGray : kSolid) * lit);
-  rims[index] = solid.shape.kind == kShapeSphere ? sphereRim(vec3(solid.viewX, solid.viewY, solid.viewZ), solid.radius, tangentOf(middle)) : boxRim(solid, middle);
+  const bool sphere = solid.shape.kind == kShapeSphere;
+  const vec3 center = vec3(solid.viewX, solid.viewY, solid.viewZ);
+  rims[index] = sphere ? sphereRim(center, solid.radius, tangentOf(middle)) : boxRim(solid, middle);
 }

@@ -80,6 +80,8 @@ TEST(Boundary, SolidCoversDirectionsAlongItsSurface) {
   EXPECT_NEAR(slope.wallCoverage[0], slope.value / 2, 1e-6);
   EXPECT_NEAR(slope.wallCoverage[1], slope.value / 2, 1e-6);
   EXPECT_NEAR(slope.wallCoverage[2], slope.value, 1e-6);
+  EXPECT_NEAR(slope.wallCoverageMixed[2], -slope.value / 2, 1e-6);
+  EXPECT_NEAR(slope.wallCoverageMixed[0], 0, 1e-12);
   Solid ball;
   ball.shape = SphereShape{{0, 0, 0}, 4 * kSpacing};
   const WallSample pole = at(ball, {0, 0, 4.5 * kSpacing});

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -210,6 +211,47 @@ TEST(WallTables, StaySmallAtTheWidestKernel) {
   EXPECT_LT(bytes, 300u << 10);
   EXPECT_EQ(t.edge.size(), size_t(2) * t.nodes * t.nodes);
   EXPECT_EQ(t.corner.size(), size_t(2) * t.cornerNodes * t.cornerNodes * t.cornerNodes);
+}
+
+/// The scale times a vector.
+std::array<double, 3> scaled(const rill::WallScale& s, const double (&v)[3]) {
+  return {s.diagonal[0] * v[0] + s.mixed[2] * v[1] + s.mixed[1] * v[2], s.mixed[2] * v[0] + s.diagonal[1] * v[1] + s.mixed[0] * v[2],
+          s.mixed[1] * v[0] + s.mixed[0] * v[1] + s.diagonal[2] * v[2]};
+}
+
+TEST(WallScale, ScalesAlongAWallOfAnyNormal) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> part;
+  for (int n = 0; n < 100; ++n) {
+    double normal[3] = {part(random), part(random), part(random)}, along[3] = {part(random), part(random), part(random)};
+    const double square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+    const double out = (normal[0] * along[0] + normal[1] * along[1] + normal[2] * along[2]) / square;
+    for (int a = 0; a < 3; ++a) along[a] -= out * normal[a];
+    for (const double b : {0.125, 0.39, 0.9}) {
+      WallSample sample;
+      sample.cover(b, normal);
+      const rill::WallScale scale = rill::wallScale(sample);
+      const double wanted = 1 / (1 - std::min(b, 0.4));
+      for (size_t a = 0; a < 3; ++a) {
+        EXPECT_NEAR(scaled(scale, along)[a], wanted * along[a], 1e-6) << b;
+        EXPECT_NEAR(scaled(scale, normal)[a], normal[a], 1e-6) << b;
+      }
+    }
+  }
+}
+
+// Two walls that meet: along the edge both count, across one wall the other alone.
+TEST(WallScale, AddsTheWallsOfATurnedEdge) {
+  const double c = std::cos(0.3), s = std::sin(0.3), first[3] = {c, s, 0}, second[3] = {-s, c, 0}, edge[3] = {0, 0, 1};
+  WallSample sample;
+  sample.cover(0.125, first);
+  sample.cover(0.2, second);
+  const rill::WallScale scale = rill::wallScale(sample);
+  for (size_t a = 0; a < 3; ++a) {
+    EXPECT_NEAR(scaled(scale, first)[a], first[a] / (1 - 0.2), 1e-9);
+    EXPECT_NEAR(scaled(scale, second)[a], second[a] / (1 - 0.125), 1e-9);
+    EXPECT_NEAR(scaled(scale, edge)[a], edge[a] / (1 - 0.325), 1e-9);
+  }
 }
 
 }  // namespace
