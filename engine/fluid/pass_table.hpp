@@ -70,14 +70,18 @@ struct FluidPassRow {
   std::initializer_list<Start> starts = {Start::Always};
   bool (*exists)(const FluidSetup&) = nullptr;              ///< null: always
   std::string_view (*reason)(const FluidSetup&) = nullptr;  ///< why it does not
+  std::string_view feature = {};                            ///< what the report of skipped passes calls it; empty: the pass's name
   std::initializer_list<NamedConstant> constants = {};      ///< besides those of the fluid
   bool wholeSubgroups = false;                              ///< its particles walk the grid in clusters
-  std::string_view feature = {};                            ///< what the report of skipped passes calls it; empty: the pass's name
+  bool force = false;  ///< changes velocities at the end of every substep, in the order of the table; declared by its row alone
 };
 
 /// In the order of FluidPass.
 std::span<const FluidPassRow, kFluidPasses> fluidPassTable();
 inline const FluidPassRow& rowOf(FluidPass pass) { return fluidPassTable()[static_cast<size_t>(pass)]; }
 inline bool exists(FluidPass pass, const FluidSetup& setup) { return !rowOf(pass).exists || rowOf(pass).exists(setup); }
+
+/// Whether viscosity or another force changes velocities in every substep: the prediction then follows after them.
+bool hasForces(const FluidSetup& setup);
 
 }  // namespace rill

@@ -31,16 +31,19 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
 // Terms change velocities alone; the prediction with what they made of them follows once, after all.
 void FluidImpl::declareTerms(Graph& graph, bool first) {
   const FluidParams& p = setup.params;
-  const bool everySubstep = setup.viscositySweeps > 0 || p.vorticity > 0, dampsNoise = first && p.noiseDampingRate > 0;
+  const bool forces = hasForces(setup), dampsNoise = first && p.noiseDampingRate > 0;
   if (setup.viscositySweeps > 0)
     declareSweeps(graph, FluidPass::Viscosity, Start::Correct, setup.viscositySweeps, 1.0f / float(setup.viscositySweeps));
   if (dampsNoise) declareSweeps(graph, FluidPass::NoiseDamping, Start::NoiseDamping, 1, 0);
-  if (p.vorticity > 0) {
-    declare(graph, FluidPass::Curl, Start::Correct, ChunkPush{});
-    declare(graph, FluidPass::Confine, Start::Correct, ChunkPush{});
+  for (const FluidPassRow& row : fluidPassTable()) {
+    if (!row.force || !exists(row.id, setup)) continue;
+    if (row.extent == Extent::Gather)
+      declare(graph, row.id, Start::Correct, ChunkPush{});
+    else
+      declare(graph, row.id, Start::Correct);
   }
-  if (!everySubstep && !dampsNoise) return;
-  const Start start = everySubstep ? Start::Correct : Start::NoiseDamping;
+  if (!forces && !dampsNoise) return;
+  const Start start = forces ? Start::Correct : Start::NoiseDamping;
   declare(graph, FluidPass::PredictAfterTerms, start);
   if (p.solidCount > 0) declare(graph, FluidPass::PredictAtSolids, start);
 }

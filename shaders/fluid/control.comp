@@ -67,7 +67,6 @@ void main() {
   c.iterations += 1u;
   c.executedIterations += 1u;
   if (first) c.executedSubsteps += 1u;
-  if (first && push.blockStart != 0u) c.executedBlocks += 1u;
   sums.errorLow = 0u;
   sums.errorHigh = 0u;
   sums.errorMax = 0u;

@@ -164,9 +164,9 @@ struct FluidControl {
   uint phase, nextPhase;  // of the substep that control.comp has accounted for last, and of the next, as with step and nextStep
   uint phaseLeft;      // substeps of the next phase left, at most; 0 while time advances
   float solidSpeed;    // m/s, the fastest solid of the advance
-  // Since the start, what prepares it too: for the host, which takes differences. Of the substeps,
-  // the first ones of their blocks; of these, those that the noise damping pass ran in.
-  uint executedSubsteps, executedIterations, executedBuilds, executedBlocks, executedNoiseDampings;
+  // Since the start, what prepares it too: for the host, which takes differences. The noise damping
+  // pass runs in the first substeps of blocks.
+  uint executedSubsteps, executedIterations, executedBuilds, executedNoiseDampings;
 };
 
 // Sums of the passes of one substep; integers, so that their order does not matter.

@@ -162,7 +162,7 @@ TEST_F(SnapshotTest, OfAnotherFluidIsRefused) {
   const auto made = Fluid::create(rillDevice(), {.scene = &scene, .particles = &fewer, .snapshot = &saved});
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().kind, ErrorKind::BadInput);
-  EXPECT_NE(made.error().message.find("position has 252 entries; expected 251"), std::string::npos) << made.error().message;
+  EXPECT_NE(made.error().message.find("it has 252 particles; expected at most 251"), std::string::npos) << made.error().message;
 }
 
 }  // namespace snapshot_test
