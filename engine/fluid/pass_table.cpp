@@ -13,6 +13,7 @@ bool artificialPressure(const FluidSetup& s) { return s.params.tensileRate > 0; 
 bool viscous(const FluidSetup& s) { return s.viscositySweeps > 0; }
 bool dampsNoise(const FluidSetup& s) { return s.params.noiseDampingRate > 0; }
 bool swirls(const FluidSetup& s) { return s.params.vorticity > 0; }
+bool drags(const FluidSetup& s) { return s.params.drag > 0; }
 bool copies(const FluidSetup& s) { return s.viscositySweeps % 2 == 1 || dampsNoise(s); }
 bool terms(const FluidSetup& s) { return hasForces(s) || dampsNoise(s); }
 bool termsAndSolids(const FluidSetup& s) { return terms(s) && solids(s); }
@@ -26,6 +27,7 @@ Reason noArtificialPressure(const FluidSetup& s) { return s.whyNoArtificialPress
 Reason noViscosity(const FluidSetup&) { return "viscosity is 0"; }
 Reason noNoiseDamping(const FluidSetup& s) { return s.whyNoNoiseDamping; }
 Reason noVorticity(const FluidSetup&) { return "vorticity is 0"; }
+Reason noDrag(const FluidSetup&) { return "drag is 0"; }
 
 }  // namespace
 
@@ -122,6 +124,14 @@ std::span<const FluidPassRow, kFluidPasses> fluidPassTable() {
        .starts = {S::Correct},
        .exists = swirls,
        .reason = noVorticity,
+       .force = true},
+      {.id = P::Drag,
+       .name = "drag",
+       .shader = "fluid/drag",
+       .extent = E::Particles,
+       .starts = {S::Correct},
+       .exists = drags,
+       .reason = noDrag,
        .force = true},
       {.id = P::PredictAfterTerms,
        .name = "predict after terms",

@@ -34,6 +34,7 @@ enum class FluidPass : uint8_t {
   CopyVelocities,
   Curl,
   Confine,
+  Drag,
   PredictAfterTerms,
   PredictAtSolids,
   // Figures.

@@ -262,6 +262,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   p.nearLimit = f(wallReach(kernel) + (kTravel + 0.2) * d);
   p.solidSpeed = f(fastestSolid(scene));
   p.vorticity = f(scene.fluid.vorticity);
+  p.drag = f(scene.fluid.drag);
   setArtificialPressure(scene, kernel, setup);
   p.fullNeighbors = static_cast<uint32_t>(0.8 * 4.0 / 3.0 * std::numbers::pi * std::pow(h / d, 3));
 

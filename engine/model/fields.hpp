@@ -65,6 +65,12 @@ struct Table<FluidSettings> {
                  .help = "strength of vorticity confinement (Macklin and Mueller 2013, eq. 16), which adds rotation that the solver "
                          "dissipates; 0 turns it off"},
             &FluidSettings::vorticity},
+      Field{Info{.key = "drag",
+                 .unit = "1/s",
+                 .range = atLeast(0),
+                 .help = "linear drag against air at rest: speed falls by the factor exp(-drag t); 0 turns it off",
+                 .since = "0.2"},
+            &FluidSettings::drag},
       Field{Info{.key = "tensile",
                  .range = between(0, 1),
                  .help = "strength of the artificial pressure s_corr (Macklin and Mueller 2013, eq. 13), which keeps particles from "

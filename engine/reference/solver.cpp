@@ -101,6 +101,7 @@ void ReferenceSolver::substep(double dt, double dtNext) {
     blockTime_ = 0;
   }
   if (settings.vorticity > 0) vorticity(dt);
+  if (settings.drag > 0) drag(dt);
   predict(dt, dtNext);
 }
 
@@ -248,6 +249,10 @@ void ReferenceSolver::vorticity(double dt) {
     const glm::dvec3 toward = eta / (glm::length(eta) + 0.001 * strength / h);
     state.velocity[i] += dt * settings.vorticity * h * strength * glm::cross(toward, curl_[i]);
   }
+}
+
+void ReferenceSolver::drag(double dt) {
+  for (glm::dvec3& v : state.velocity) v *= std::exp(-settings.drag * dt);
 }
 
 void ReferenceSolver::predict(double dt, double dtNext) {

@@ -11,7 +11,7 @@
 //                 substep to substep (warm start)
 //   correction    x*_i += a_i sum_j (dlambda_i + dlambda_j + s_ij) G_ij + dlambda_i grad B_i, then projected out of solids and walls
 //   velocities    v = (x* - x) / dt, contact with solids, |v| <= the limit, x = x*
-//   viscosity     XSPH, and noise damping of slow fluid;  vorticity   confinement
+//   viscosity     XSPH, and noise damping of slow fluid;  vorticity   confinement;  drag   linear
 //   predict       w_i *= (dt_next/dt)^2,
 //                 x*_i = x_i + dt_next (v_i + g dt_next) + a_i sum_j (w_i + w_j) G_ij + w_i grad B_i, then projected out of solids and
 //                 walls
@@ -76,6 +76,7 @@ struct ReferenceSettings {
   double viscosity = 0;                                         ///< mu, Pa s
   int viscositySweeps = 1;                                      ///< n: XSPH sweeps per substep, each with c/n < 1
   double vorticity = 0;                                         ///< eps_v, 0 .. 1
+  double drag = 0;                                              ///< 1/s
   double speedLimit = std::numeric_limits<double>::infinity();  ///< largest speed after a substep, m/s
   double warmLimit = std::numeric_limits<double>::infinity();   ///< m^2/s^2: w >= -warmLimit dt^2
   /// The last correction may add at most clamp(largest speed / 2, minSpeedGain, maxSpeedGain) + 4 g dt to the speed of a particle. m/s.
@@ -128,6 +129,7 @@ class ReferenceSolver {
   ///   v += dt eps_v h |omega| (N x omega), omega_i = sum_j G_ij x (v_j - v_i), eta_i = sum_j G_ij (|omega_j| - |omega_i|),
   ///   N = eta / (|eta| + 0.001 |omega| / h).
   void vorticity(double dt);
+  void drag(double dt);                    ///< v: dv/dt = -drag v
   void predict(double dt, double dtNext);  ///< w, x*
 
   State state;

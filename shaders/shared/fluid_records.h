@@ -94,6 +94,7 @@ struct FluidParams {
   float viscosityRate;    // XSPH coefficient a second of step, 1/s
   float noiseDampingRate;      // the same, of the noise's damping in a fluid at rest
   float vorticity;        // dimensionless
+  float drag;             // 1/s
   // artificial pressure, 1/s^2: times the square of the time since the last one it is a multiplier
   // over 1 / D of the rest lattice
   float tensileRate;

@@ -61,6 +61,7 @@ reference::ReferenceSettings settingsOf(const Trial& trial) {
   s.viscosity = scene.fluid.viscosity;
   s.viscositySweeps = scene.fluid.viscosity > 0 ? static_cast<int>(setup.viscositySweeps) : 1;
   s.vorticity = scene.fluid.vorticity;
+  s.drag = scene.fluid.drag;
   s.warmLimit = setup.params.warmLimit;
   s.motionSpeed = setup.limits.motionSpeed(setup.head);
   s.relaxationAtRest = setup.params.relaxationAtRest;

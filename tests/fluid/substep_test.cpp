@@ -209,6 +209,26 @@ TEST_F(SubstepTest, ViscosityAndVorticity) {
   expectEqual(t, 10, kTen, kTen);
 }
 
+TEST_F(SubstepTest, Drag) {
+  Trial t = trial();
+  t.scene.fluid.drag = 30;
+  setWalls(t, {1, 1, 1});
+  t.scene.solids = {ball({0.5, 0.6, 0.5}, 0.1)};
+  t.x = block({6, 7, 6}, t.d(), {}, 0.1);
+  t.v = cloud(t.x.size(), 2.0, 5, glm::dvec3(-1.0));
+  expectEqual(t, 1, kOne, kOne);
+  expectEqual(t, 10, kTen, kTen, kAgeing);
+}
+
+TEST_F(SubstepTest, DragReachesTerminalVelocity) {
+  Trial t = trial();
+  t.x = {{0, 0, 0}};
+  t.scene.fluid.drag = 20;
+  auto run = start(t);
+  run->advance(0.5, 64);
+  EXPECT_NEAR(run->snapshot().v[0].y, -9.81 / 20, 0.02 * 9.81 / 20) << "g over drag";
+}
+
 TEST_F(SubstepTest, Tensile) {
   Trial t = trial();
   t.scene.fluid.tensile = 1;
