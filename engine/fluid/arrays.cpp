@@ -22,66 +22,65 @@ uint64_t perParticleIf(const ArrayShape& s) {
 
 constexpr uint64_t kVector = 16, kWord = 4;
 
+using enum FluidArray;
+using enum Lifetime;
+constexpr std::array<ArrayRow, kArrays> kArrayTable = {{
+    {Params, "params", "fluid parameters", Fluid, sizeof(FluidParams), one},
+    {Control, "control", "fluid control", Fluid, sizeof(FluidControl), one},
+    {Sums, "sums", "fluid sums", Fluid, sizeof(FluidSums), one},
+    {Shapes, "shapes", "dispatch shapes", Fluid, 12, [](const ArrayShape&) { return uint64_t{kMaxCommands}; }},
+    {Commands, "commands", "dispatch commands", Fluid, 12, [](const ArrayShape&) { return uint64_t{kMaxCommands}; }},
+    {GravityChanges, "gravityChanges", "gravity schedule", Fluid, kVector, [](const ArrayShape& s) { return s.gravityChanges; }},
+    {Table, "table", "wall tables", Fluid, kVector, [](const ArrayShape& s) { return s.tableEntries; }},
+    {Solids, "solids", "solids", Fluid, sizeof(SolidRecord), [](const ArrayShape& s) { return s.solids; }},
+    {Keyframes, "keyframes", "keyframes", Fluid, sizeof(KeyframeRecord), [](const ArrayShape& s) { return s.keyframes; }},
+
+    {Position, "position", "positions", Fluid, kVector, withDummy, Account::Particles, &FluidSnapshot::position, "position"},
+    {Velocity, "velocity", "velocities", Fluid, kVector, withDummy, Account::Particles, &FluidSnapshot::velocity, "velocity", false, 1},
+    {Prediction, "prediction", "predictions", Fluid, kVector, withDummy, Account::Particles},
+    {WarmAcceleration, "warmAcceleration", "warm-start accelerations", Fluid, kVector, perParticleIf<&ArrayShape::warm>, Account::Particles,
+     &FluidSnapshot::push, "push", true},
+    {Work, "work", "predictions and multipliers", Fluid, kVector, withDummy, Account::Particles},
+    {Warm, "warm", "warm-start multipliers", Fluid, kWord, perParticleIf<&ArrayShape::warm>, Account::Particles, &FluidSnapshot::warm,
+     "warm", true},
+    {Id, "id", "ids", Fluid, kWord, perParticle, Account::Particles, &FluidSnapshot::id, "id"},
+    {Multiplier, "multiplier", "iteration multipliers", Fluid, kWord, perParticleIf<&ArrayShape::iterated>, Account::Particles},
+    {NeighborCount, "neighborCount", "neighbor counts", Fluid, kWord, perParticleIf<&ArrayShape::lists>, Account::Particles},
+    {Cell, "cell", "cells", Fluid, kWord, perParticle, Account::Particles},
+    {NearSample, "nearSample", "wall samples", Fluid, 2 * kVector, perParticleIf<&ArrayShape::near>, Account::Particles},
+    {NearList, "nearList", "particles near walls", Fluid, kWord, inTwoLists, Account::Particles},
+
+    {CellStart, "cellStart", "cell starts", Fluid, kWord, [](const ArrayShape& s) { return s.cellStarts; }, Account::Grid},
+    {List, "list", "neighbor list", Fluid, kWord, [](const ArrayShape& s) { return s.listEntries; }, Account::List},
+
+    {Key, "key", "cell keys", Section, kWord, perKey, Account::Particles},
+    {SortedPosition, "sortedPosition", "sorted positions", Section, kVector, perParticle, Account::Particles},
+    {SortedPrediction, "sortedPrediction", "sorted predictions", Section, kVector, perParticle, Account::Particles},
+    {SortedVelocity, "sortedVelocity", "sorted velocities", Section, kVector, perParticle, Account::Particles},
+    {FreeVelocity, "freeVelocity", "free velocities", Section, kVector, [](const ArrayShape& s) { return s.solids > 0 ? s.particles : 0; },
+     Account::Particles},
+    {Smoothed, "smoothed", "smoothed velocities", Section, kVector, [](const ArrayShape& s) { return s.smooths ? s.particles + 1 : 0; },
+     Account::Particles},
+    {Curl, "curl", "curl", Section, kVector, [](const ArrayShape& s) { return s.vorticity ? s.particles + 1 : 0; }, Account::Particles},
+    {OrderedPosition, "orderedPosition", "ordered positions", Section, kVector, perParticle},
+    {Histogram, "histogram", "error histogram", Section, kWord, [](const ArrayShape&) { return uint64_t{3 * kMeasureBins}; }},
+    {Partials, "partials", "partial sums", Section, sizeof(MeasurePartial), [](const ArrayShape&) { return uint64_t{kMeasurePartials}; }},
+    {Figures, "figures", "figures", Section, sizeof(MeasureResult), one},
+
+    {Particle, "particle"},
+    {Place, "place"},
+    {SweepFrom, "sweepFrom"},
+    {SweepTo, "sweepTo"},
+    {SortStart, "start"},
+    {SortArrived, "arrived"},
+    {SortOrder, "order"},
+    {SortRank, "rank"},
+    {SortOversized, "oversized"},
+}};
+
 }  // namespace
 
-std::span<const ArrayRow, kArrays> arrayTable() {
-  using enum FluidArray;
-  using enum Lifetime;
-  static const std::array<ArrayRow, kArrays> table = {{
-      {Params, "params", "fluid parameters", Fluid, sizeof(FluidParams), one},
-      {Control, "control", "fluid control", Fluid, sizeof(FluidControl), one},
-      {Sums, "sums", "fluid sums", Fluid, sizeof(FluidSums), one},
-      {Shapes, "shapes", "dispatch shapes", Fluid, 12, [](const ArrayShape&) { return uint64_t{kMaxCommands}; }},
-      {Commands, "commands", "dispatch commands", Fluid, 12, [](const ArrayShape&) { return uint64_t{kMaxCommands}; }},
-      {GravityChanges, "gravityChanges", "gravity schedule", Fluid, kVector, [](const ArrayShape& s) { return s.gravityChanges; }},
-      {Table, "table", "wall tables", Fluid, kVector, [](const ArrayShape& s) { return s.tableEntries; }},
-      {Solids, "solids", "solids", Fluid, sizeof(SolidRecord), [](const ArrayShape& s) { return s.solids; }},
-      {Keyframes, "keyframes", "keyframes", Fluid, sizeof(KeyframeRecord), [](const ArrayShape& s) { return s.keyframes; }},
-
-      {Position, "position", "positions", Fluid, kVector, withDummy, Account::Particles, &FluidSnapshot::position, "position"},
-      {Velocity, "velocity", "velocities", Fluid, kVector, withDummy, Account::Particles, &FluidSnapshot::velocity, "velocity", false, 1},
-      {Prediction, "prediction", "predictions", Fluid, kVector, withDummy, Account::Particles},
-      {WarmAcceleration, "warmAcceleration", "warm-start accelerations", Fluid, kVector, perParticleIf<&ArrayShape::warm>,
-       Account::Particles, &FluidSnapshot::push, "push", true},
-      {Work, "work", "predictions and multipliers", Fluid, kVector, withDummy, Account::Particles},
-      {Warm, "warm", "warm-start multipliers", Fluid, kWord, perParticleIf<&ArrayShape::warm>, Account::Particles, &FluidSnapshot::warm,
-       "warm", true},
-      {Id, "id", "ids", Fluid, kWord, perParticle, Account::Particles, &FluidSnapshot::id, "id"},
-      {Multiplier, "multiplier", "iteration multipliers", Fluid, kWord, perParticleIf<&ArrayShape::iterated>, Account::Particles},
-      {NeighborCount, "neighborCount", "neighbor counts", Fluid, kWord, perParticleIf<&ArrayShape::lists>, Account::Particles},
-      {Cell, "cell", "cells", Fluid, kWord, perParticle, Account::Particles},
-      {NearSample, "nearSample", "wall samples", Fluid, 2 * kVector, perParticleIf<&ArrayShape::near>, Account::Particles},
-      {NearList, "nearList", "particles near walls", Fluid, kWord, inTwoLists, Account::Particles},
-
-      {CellStart, "cellStart", "cell starts", Fluid, kWord, [](const ArrayShape& s) { return s.cellStarts; }, Account::Grid},
-      {List, "list", "neighbor list", Fluid, kWord, [](const ArrayShape& s) { return s.listEntries; }, Account::List},
-
-      {Key, "key", "cell keys", Section, kWord, perKey, Account::Particles},
-      {SortedPosition, "sortedPosition", "sorted positions", Section, kVector, perParticle, Account::Particles},
-      {SortedPrediction, "sortedPrediction", "sorted predictions", Section, kVector, perParticle, Account::Particles},
-      {SortedVelocity, "sortedVelocity", "sorted velocities", Section, kVector, perParticle, Account::Particles},
-      {FreeVelocity, "freeVelocity", "free velocities", Section, kVector,
-       [](const ArrayShape& s) { return s.solids > 0 ? s.particles : 0; }, Account::Particles},
-      {Smoothed, "smoothed", "smoothed velocities", Section, kVector, [](const ArrayShape& s) { return s.smooths ? s.particles + 1 : 0; },
-       Account::Particles},
-      {Curl, "curl", "curl", Section, kVector, [](const ArrayShape& s) { return s.vorticity ? s.particles + 1 : 0; }, Account::Particles},
-      {OrderedPosition, "orderedPosition", "ordered positions", Section, kVector, perParticle},
-      {Histogram, "histogram", "error histogram", Section, kWord, [](const ArrayShape&) { return uint64_t{3 * kMeasureBins}; }},
-      {Partials, "partials", "partial sums", Section, sizeof(MeasurePartial), [](const ArrayShape&) { return uint64_t{kMeasurePartials}; }},
-      {Figures, "figures", "figures", Section, sizeof(MeasureResult), one},
-
-      {Particle, "particle"},
-      {Place, "place"},
-      {SweepFrom, "sweepFrom"},
-      {SweepTo, "sweepTo"},
-      {SortStart, "start"},
-      {SortArrived, "arrived"},
-      {SortOrder, "order"},
-      {SortRank, "rank"},
-      {SortOversized, "oversized"},
-  }};
-  return table;
-}
+std::span<const ArrayRow, kArrays> arrayTable() { return kArrayTable; }
 
 FluidArray arrayNamed(std::string_view name) {
   const auto found = std::ranges::find(arrayTable(), name, &ArrayRow::name);

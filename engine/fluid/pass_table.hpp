@@ -2,8 +2,8 @@
 // The one table of a fluid's passes. Pipelines, bindings, dispatch commands, reports of what is skipped and counts of what ran follow from
 // its rows. To add a pass: a value of FluidPass and its row in pass_table.cpp, its shader in shaders/fluid and shaders/CMakeLists.txt, and
 // the call that declares it, in substep_passes.cpp for one of a substep.
+#include <array>
 #include <cstdint>
-#include <initializer_list>
 #include <span>
 #include <string_view>
 
@@ -68,11 +68,11 @@ struct FluidPassRow {
   std::string_view name;    ///< in graphs and reports
   std::string_view shader;  ///< reads arrays through texel buffers if the fluid does and the shader has such a variant
   Extent extent = Extent::One;
-  std::initializer_list<Start> starts = {Start::Always};
+  std::array<Start, 2> starts = {};                         ///< Start::Always, or up to two others
   bool (*exists)(const FluidSetup&) = nullptr;              ///< null: always
   std::string_view (*reason)(const FluidSetup&) = nullptr;  ///< why it does not
   std::string_view feature = {};                            ///< what the report of skipped passes calls it; empty: the pass's name
-  std::initializer_list<NamedConstant> constants = {};      ///< besides those of the fluid
+  NamedConstant constant = {};                              ///< besides those of the fluid
   bool wholeSubgroups = false;                              ///< its particles walk the grid in clusters
   bool force = false;  ///< changes velocities at the end of every substep, in the order of the table; declared by its row alone
 };

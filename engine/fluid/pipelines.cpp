@@ -77,7 +77,7 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
 
   const auto add = [&](uint32_t over, std::initializer_list<NamedConstant> own) -> Expected<void> {
     std::vector<NamedConstant> values(own);
-    values.insert(values.end(), row.constants.begin(), row.constants.end());
+    if (!row.constant.name.empty()) values.push_back(row.constant);
     values.insert(values.end(), shared.begin(), shared.end());  // the first value of a name counts
     auto pipeline = shaderPipeline(device, shader, values, subgroup);
     if (!pipeline) return pipeline.error();
