@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "fluid/settings.hpp"
@@ -63,24 +64,34 @@ enum class Extent : uint8_t {
   Corner      ///< the latter alone
 };
 
+/// When a pass exists, and what the report of skipped passes says where it does not.
+struct PassCondition {
+  bool (*holds)(const FluidSetup&) = [](const FluidSetup&) { return true; };
+  const char* reason = nullptr;            ///< null: it goes unsaid
+  std::string FluidSetup::*why = nullptr;  ///< in place of `reason`
+  const char* feature = nullptr;           ///< in place of the pass's name
+};
+
+struct PassOptions {
+  NamedConstant constant = {};  ///< besides those of the fluid
+  bool clusters = false;        ///< its particles walk the grid together, in whole subgroups
+  bool force = false;           ///< changes velocities at the end of every substep, in the order of the table; declared by its row alone
+};
+
 struct FluidPassRow {
   FluidPass id;
   std::string_view name;    ///< in graphs and reports
   std::string_view shader;  ///< reads arrays through texel buffers if the fluid does and the shader has such a variant
   Extent extent = Extent::One;
-  std::array<Start, 2> starts = {};                         ///< Start::Always, or up to two others
-  bool (*exists)(const FluidSetup&) = nullptr;              ///< null: always
-  std::string_view (*reason)(const FluidSetup&) = nullptr;  ///< why it does not
-  std::string_view feature = {};                            ///< what the report of skipped passes calls it; empty: the pass's name
-  NamedConstant constant = {};                              ///< besides those of the fluid
-  bool wholeSubgroups = false;                              ///< its particles walk the grid in clusters
-  bool force = false;  ///< changes velocities at the end of every substep, in the order of the table; declared by its row alone
+  std::array<Start, 2> starts = {};  ///< Start::Always, or up to two others
+  PassCondition condition = {};
+  PassOptions options = {};
 };
 
 /// In the order of FluidPass.
 std::span<const FluidPassRow, kFluidPasses> fluidPassTable();
 inline const FluidPassRow& rowOf(FluidPass pass) { return fluidPassTable()[static_cast<size_t>(pass)]; }
-inline bool exists(FluidPass pass, const FluidSetup& setup) { return !rowOf(pass).exists || rowOf(pass).exists(setup); }
+inline bool exists(FluidPass pass, const FluidSetup& setup) { return rowOf(pass).condition.holds(setup); }
 
 /// Whether viscosity or another force changes velocities in every substep: the prediction then follows after them.
 bool hasForces(const FluidSetup& setup);

@@ -53,8 +53,11 @@ void FluidImpl::sortKeys(Graph& graph, FluidPass keys, Start start, FluidArray p
 }
 
 void FluidImpl::declareSkipped(Graph& graph) const {
-  for (const FluidPassRow& row : fluidPassTable())
-    if (row.reason && !exists(row.id, setup)) graph.skipped(row.feature.empty() ? row.name : row.feature, row.reason(setup));
+  for (const FluidPassRow& row : fluidPassTable()) {
+    const PassCondition& c = row.condition;
+    if (c.holds(setup) || (!c.reason && !c.why)) continue;
+    graph.skipped(c.feature ? std::string_view(c.feature) : row.name, c.why ? std::string_view(setup.*c.why) : c.reason);
+  }
   if (setup.driven.empty()) graph.skipped("drive solids", "the host moves none");
 }
 

@@ -73,11 +73,11 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
   std::string shader(row.shader);
   if (shader == "fluid/keys" && sort_->method() == SortMethod::Counting) shader += "_counted";
   shader = readingVariant(device, shader, texel_);
-  const uint32_t subgroup = row.extent == Extent::Gather || row.wholeSubgroups ? wholeSubgroup(device) : 0;
+  const uint32_t subgroup = row.extent == Extent::Gather || row.options.clusters ? wholeSubgroup(device) : 0;
 
   const auto add = [&](uint32_t over, std::initializer_list<NamedConstant> own) -> Expected<void> {
     std::vector<NamedConstant> values(own);
-    if (!row.constant.name.empty()) values.push_back(row.constant);
+    if (!row.options.constant.name.empty()) values.push_back(row.options.constant);
     values.insert(values.end(), shared.begin(), shared.end());  // the first value of a name counts
     auto pipeline = shaderPipeline(device, shader, values, subgroup);
     if (!pipeline) return pipeline.error();

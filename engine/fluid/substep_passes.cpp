@@ -36,7 +36,7 @@ void FluidImpl::declareTerms(Graph& graph, bool first) {
     declareSweeps(graph, FluidPass::Viscosity, Start::Correct, setup.viscositySweeps, 1.0f / float(setup.viscositySweeps));
   if (dampsNoise) declareSweeps(graph, FluidPass::NoiseDamping, Start::NoiseDamping, 1, 0);
   for (const FluidPassRow& row : fluidPassTable()) {
-    if (!row.force || !exists(row.id, setup)) continue;
+    if (!row.options.force || !exists(row.id, setup)) continue;
     if (row.extent == Extent::Gather)
       declare(graph, row.id, Start::Correct, ChunkPush{});
     else
