@@ -125,9 +125,9 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
 
   const ArrayShape shape = arrayShape(setup);
   const auto add = [&](const ArrayRow& row, uint32_t c, uint64_t bytes) -> Expected<void> {
-    auto made_ = createBuffer(device, row.label, bytes);
-    if (!made_) return made_.error();
-    buffers_[slotOf(row.id, c)] = std::move(*made_);
+    auto created = createBuffer(device, row.label, bytes);
+    if (!created) return created.error();
+    buffers_[slotOf(row.id, c)] = std::move(*created);
     made.push_back({row.label, bytes});
     return {};
   };

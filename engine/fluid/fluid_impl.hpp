@@ -179,17 +179,17 @@ void FluidImpl::declare(Graph& graph, FluidPass pass, Start start, Push push) {
       uint64_t offset;
     };
     std::array<Dispatched, 2 * kMaxListChunks> all;
-    size_t count_ = 0;
+    size_t dispatches = 0;
     const bool chunked = row.extent == Extent::Chunks || row.extent == Extent::Gather;
     if (start != Start::Always) declared.read(ref(FluidArray::Commands), Use::Indirect);
     for (uint32_t c = 0; c < (chunked ? chunkCount() : 1); ++c)
       for (size_t v = 0; v < prepared.variants.size(); ++v) {
         const size_t k = start == Start::Correct && parity_ == 1 ? kStarts : static_cast<size_t>(start);
-        all[count_++] = {bind(graph, declared, row, prepared.variants[v], c), DispatchCommands::offset(prepared.commands[v][k])};
+        all[dispatches++] = {bind(graph, declared, row, prepared.variants[v], c), DispatchCommands::offset(prepared.commands[v][k])};
       }
     return [=, this, arguments = ref(FluidArray::Commands), groups = fixedGroups(row.extent), each = prepared.variants.size(),
             direct = start == Start::Always](Commands& commands) mutable {
-      for (size_t k = 0; k < count_; ++k) {
+      for (size_t k = 0; k < dispatches; ++k) {
         if constexpr (requires { push.first; }) {
           push.first = chunks_[k / each].first;
           push.last = chunks_[k / each].last;
