@@ -45,7 +45,7 @@ std::vector<Feature> features() {
   return {
       {"viscosity", {{"fluid.viscosity", "1"}}, {{"fluid.viscosity", "0"}}},
       {"vorticity", {{"fluid.vorticity", "0.2"}}, {{"fluid.vorticity", "0"}}},
-      {"drag", {{"fluid.drag", "0.5"}}, {{"fluid.drag", "0"}}},
+      {"drag", {{"rill", "\"0.2\""}, {"fluid.drag", "0.5"}}, {{"rill", "\"0.2\""}, {"fluid.drag", "0"}}},
       // When it is off, its other settings must have no effect.
       {"tensile", {{"fluid.tensile", "0.2"}}, {{"fluid.tensile", "0"}, {"fluid.tensile_radius", "0.4"}, {"fluid.tensile_power", "2"}}},
       {"solid box", {{"solids", kBox}}, {{"solids", "[]"}}},
