@@ -129,7 +129,6 @@ class FluidImpl {
   // measure_passes.cpp
   void declareMeasure(Graph& graph, Pending& pending);
   // declare.cpp
-  struct NoPush {};
   template <class Push = NoPush>
   void declare(Graph& graph, FluidPass pass, Start start = Start::Always, Push push = {});
   Kernel bind(Graph& graph, Pass& pass, const FluidPassRow& row, const PreparedPass::Variant& variant, uint32_t chunk);
@@ -195,10 +194,7 @@ void FluidImpl::declare(Graph& graph, FluidPass pass, Start start, Push push) {
           push.last = chunks_[k / each].last;
         }
         const DispatchSize size = direct ? DispatchSize(groups) : DispatchSize(arguments, all[k].offset);
-        if constexpr (std::is_same_v<Push, NoPush>)
-          dispatch(commands, all[k].kernel, size);
-        else
-          dispatch(commands, all[k].kernel, size, push);
+        dispatch(commands, all[k].kernel, size, push);
       }
     };
   });

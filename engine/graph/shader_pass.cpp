@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
+#include <type_traits>
 
 #include "graph/graph_impl.hpp"
 
@@ -19,16 +21,18 @@ struct PassAccess {
   }
 };
 
-Kernel bindShader(Pass& pass, const ComputePipeline* pipeline, std::span<const BoundResource> resources) {
+template <class AnyPipeline>
+static Kernel bind(Pass& pass, const AnyPipeline* pipeline, std::span<const BoundResource> resources) {
   if (!pipeline) return pass.kernel(pipeline, Bindings{});
+  constexpr bool draws = std::is_same_v<AnyPipeline, GraphicsPipeline>;
   const std::vector<ShaderBinding>& bindings = pipeline->bindings;
+  const auto reject = [&](const std::string& what) { return PassAccess::fail(pass, "shader '" + pipeline->shader + "'" + what); };
   if (bindings.size() != resources.size() || bindings.size() > kMaxBindings)
-    return PassAccess::fail(pass, "shader '" + pipeline->shader + "': " + std::to_string(resources.size()) + " resources; expected " +
-                                      std::to_string(bindings.size()));
+    return reject(": " + std::to_string(resources.size()) + " resources; expected " + std::to_string(bindings.size()));
   std::array<ResourceRef, kMaxBindings> bound;
   for (size_t k = 0; k < bindings.size(); ++k) {
     const BoundResource& given = resources[k];
-    const Use use = given.atomic ? Use::ComputeAtomic : useOf(bindings[k]);
+    const Use use = given.atomic ? Use::ComputeAtomic : useOf(bindings[k], draws);
     const bool isImage = bindings[k].kind == BindingKind::StorageImage || bindings[k].kind == BindingKind::SampledImage;
     bound[k] = given.buffer ? *given.buffer : given.image ? *given.image : given.ref;
     if (PassAccess::writes(pass, bound[k])) continue;
@@ -36,19 +40,19 @@ Kernel bindShader(Pass& pass, const ComputePipeline* pipeline, std::span<const B
       pass.read(ImageRef{bound[k]}, use);
     } else if (!bindings[k].writes) {
       pass.read(BufferRef{bound[k]}, use);
-    } else if (given.buffer) {
+    } else if (given.buffer && !draws) {
       bound[k] = *given.buffer = pass.write(*given.buffer, use, given.discard);
-    } else if (given.image) {
+    } else if (given.image && !draws) {
       bound[k] = *given.image = pass.write(*given.image, use, given.discard ? Load::Discard : Load::Keep);
     } else {
-      return PassAccess::fail(
-          pass, "shader '" + pipeline->shader + "' writes '" + std::string(bindings[k].name) + "', which is given to be read");
+      return reject(" writes '" + std::string(bindings[k].name) + "', which " + (draws ? "a draw cannot" : "is given to be read"));
     }
   }
   return pass.kernel(pipeline, std::span<const ResourceRef>(bound.data(), bindings.size()));
 }
 
-Kernel bindNamed(Pass& pass, const ComputePipeline* pipeline, std::span<const Named> resources) {
+template <class AnyPipeline>
+static Kernel bindByName(Pass& pass, const AnyPipeline* pipeline, std::span<const Named> resources) {
   std::array<BoundResource, kMaxBindings> bound;
   size_t count = 0;
   if (pipeline) {
@@ -59,7 +63,41 @@ Kernel bindNamed(Pass& pass, const ComputePipeline* pipeline, std::span<const Na
       bound[count++] = {named->ref, named->buffer, named->image, named->discard};
     }
   }
-  return bindShader(pass, pipeline, std::span<const BoundResource>(bound).first(count));
+  return bind(pass, pipeline, std::span<const BoundResource>(bound).first(count));
+}
+
+Kernel bindShader(Pass& pass, const ComputePipeline* pipeline, std::span<const BoundResource> resources) {
+  return bind(pass, pipeline, resources);
+}
+Kernel bindShader(Pass& pass, const GraphicsPipeline* pipeline, std::span<const BoundResource> resources) {
+  return bind(pass, pipeline, resources);
+}
+Kernel bindNamed(Pass& pass, const ComputePipeline* pipeline, std::span<const Named> resources) {
+  return bindByName(pass, pipeline, resources);
+}
+Kernel bindNamed(Pass& pass, const GraphicsPipeline* pipeline, std::span<const Named> resources) {
+  return bindByName(pass, pipeline, resources);
+}
+
+void addFill(Graph& graph, std::string_view name, std::span<const Fill32> fills) {
+  graph.pass(name, [&](Pass& pass) {
+    constexpr size_t kMaxFills = 12;
+    struct Recorded {
+      BufferRef buffer;
+      uint32_t value = 0;
+    };
+    std::array<Recorded, kMaxFills> recorded;
+    size_t count = 0;
+    for (const Fill32& fill : fills) {
+      if (!fill.buffer) continue;
+      assert(count < kMaxFills);
+      *fill.buffer = pass.write(*fill.buffer, Use::CopyTarget, true);
+      recorded[count++] = {*fill.buffer, fill.value};
+    }
+    return [recorded, count](Commands& commands) {
+      for (size_t k = 0; k < count; ++k) commands.fill(recorded[k].buffer, recorded[k].value);
+    };
+  });
 }
 
 }  // namespace rill

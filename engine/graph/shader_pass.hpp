@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "gpu/pipeline.hpp"
 #include "rill/graph.hpp"
@@ -33,19 +34,19 @@ inline Named discardUnless(const void* gate, Named named) {
   return named;
 }
 
-/// How a compute pass uses a binding.
-constexpr Use useOf(const ShaderBinding& binding) {
+/// How a pass uses a binding of a shader that dispatches, or draws.
+constexpr Use useOf(const ShaderBinding& binding, bool draws = false) {
   switch (binding.kind) {
     case BindingKind::Uniform:
-      return Use::ComputeUniform;
+      return draws ? Use::DrawUniform : Use::ComputeUniform;
     case BindingKind::TexelFloat4:
     case BindingKind::TexelUint:
     case BindingKind::TexelUint4:
       return Use::ComputeTexel;
     case BindingKind::SampledImage:
-      return Use::ComputeSampled;
+      return draws ? Use::DrawSampled : Use::ComputeSampled;
     default:
-      return binding.writes ? Use::ComputeWrite : Use::ComputeRead;
+      return draws ? Use::DrawRead : binding.writes ? Use::ComputeWrite : Use::ComputeRead;
   }
 }
 
@@ -63,36 +64,42 @@ struct BoundResource {
 /// Declares what the shader of `pipeline` reads and writes, and binds it, in the order of its bindings. Writing a resource that is given as
 /// `ref` is an error that compile() reports.
 Kernel bindShader(Pass& pass, const ComputePipeline* pipeline, std::span<const BoundResource> resources);
+/// Of a pass with targets, which the pass has declared before.
+Kernel bindShader(Pass& pass, const GraphicsPipeline* pipeline, std::span<const BoundResource> resources);
 
 /// The same by names. Resources that the shader does not name are left alone; one that
 /// it names and nobody gives, and a written one given as read-only, are errors that compile() reports.
 Kernel bindNamed(Pass& pass, const ComputePipeline* pipeline, std::span<const Named> resources);
-inline Kernel bindNamed(Pass& pass, const ComputePipeline* pipeline, std::initializer_list<Named> resources) {
+Kernel bindNamed(Pass& pass, const GraphicsPipeline* pipeline, std::span<const Named> resources);
+template <class AnyPipeline>
+Kernel bindNamed(Pass& pass, const AnyPipeline* pipeline, std::initializer_list<Named> resources) {
   return bindNamed(pass, pipeline, std::span(resources.begin(), resources.size()));
 }
 
-/// How many workgroups a dispatch has: a number, or three words of a buffer on the device.
+/// The workgroups of a dispatch: their number, folded into x and y; an exact grid; or three words of a buffer on the device.
 struct DispatchSize {
   uint64_t groups = 0;
+  Groups grid{0, 0, 0};
   BufferRef arguments;
   uint64_t offset = 0;  ///< bytes
   DispatchSize(uint64_t count) : groups(count) {}
+  DispatchSize(Groups exact) : grid(exact) {}
   DispatchSize(BufferRef buffer, uint64_t bytes) : arguments(buffer), offset(bytes) {}
 };
 
+struct NoPush {};
+
 /// Records a dispatch; nothing for 0 groups.
-inline void dispatch(Commands& commands, Kernel kernel, const DispatchSize& size) {
+template <class Push = NoPush>
+void dispatch(Commands& commands, Kernel kernel, const DispatchSize& size, const Push& push = {}) {
+  std::span<const std::byte> bytes;
+  if constexpr (!std::is_same_v<Push, NoPush>) bytes = std::as_bytes(std::span(&push, 1));
   if (size.arguments != BufferRef{})
-    commands.dispatchIndirect(kernel, size.arguments, size.offset);
+    commands.dispatchIndirect(kernel, size.arguments, size.offset, bytes);
+  else if (size.grid.x > 0)
+    commands.dispatch(kernel, size.grid, bytes);
   else
-    commands.dispatch(kernel, size.groups);
-}
-template <class Push>
-void dispatch(Commands& commands, Kernel kernel, const DispatchSize& size, const Push& push) {
-  if (size.arguments != BufferRef{})
-    commands.dispatchIndirect(kernel, size.arguments, size.offset, push);
-  else
-    commands.dispatch(kernel, size.groups, push);
+    commands.dispatch(kernel, size.groups, bytes);
 }
 
 /// A pass of one dispatch.
@@ -104,6 +111,18 @@ void addDispatch(Graph& graph, std::string_view name, const ComputePipeline* pip
     const Kernel kernel = bindNamed(pass, pipeline, resources);
     return [kernel, size, push](Commands& commands) { dispatch(commands, kernel, size, push); };
   });
+}
+
+/// A buffer and the word that fills it; null: nothing is filled.
+struct Fill32 {
+  BufferRef* buffer = nullptr;
+  uint32_t value = 0;
+};
+
+/// A pass that fills whole buffers, whose old content is discarded. At most 12.
+void addFill(Graph& graph, std::string_view name, std::span<const Fill32> fills);
+inline void addFill(Graph& graph, std::string_view name, std::initializer_list<Fill32> fills) {
+  addFill(graph, name, std::span<const Fill32>(fills.begin(), fills.size()));
 }
 
 }  // namespace rill

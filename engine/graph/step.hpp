@@ -7,6 +7,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "graph/shader_pass.hpp"
 #include "rill/graph.hpp"
 #include "rill/pipeline.hpp"
 
@@ -36,8 +37,6 @@ struct StepGroups {
   StepGroups(Groups groups) : grid(groups) {}
   StepGroups(BufferRef buffer, uint32_t word) : arguments(buffer), offset(uint64_t{word} * 4) {}
 };
-
-struct NoPush {};
 
 /// Declares a pass of one dispatch. The shader's bindings are `bindings` in their order; `push` is its push constants.
 template <class Push = NoPush>
@@ -71,37 +70,6 @@ void addStep(Graph& graph, std::string_view name, const ComputePipeline* pipelin
         commands.dispatch(kernel, groups.count, bytes);
     };
   });
-}
-
-/// A buffer and the word that fills it; null: nothing is filled.
-struct StepFill {
-  BufferRef* buffer = nullptr;
-  uint32_t value = 0;
-};
-
-/// Declares a pass that fills whole buffers, whose old content is discarded.
-inline void addFill(Graph& graph, std::string_view name, std::span<const StepFill> fills) {
-  graph.pass(name, [&](Pass& pass) {
-    constexpr size_t kMaxFills = 12;
-    struct Recorded {
-      BufferRef buffer;
-      uint32_t value = 0;
-    };
-    std::array<Recorded, kMaxFills> recorded;
-    size_t count = 0;
-    for (const StepFill& fill : fills) {
-      if (!fill.buffer) continue;
-      assert(count < kMaxFills);
-      *fill.buffer = pass.write(*fill.buffer, Use::CopyTarget, true);
-      recorded[count++] = {*fill.buffer, fill.value};
-    }
-    return [recorded, count](Commands& commands) {
-      for (size_t k = 0; k < count; ++k) commands.fill(recorded[k].buffer, recorded[k].value);
-    };
-  });
-}
-inline void addFill(Graph& graph, std::string_view name, std::initializer_list<StepFill> fills) {
-  addFill(graph, name, std::span<const StepFill>(fills.begin(), fills.size()));
 }
 
 }  // namespace rill

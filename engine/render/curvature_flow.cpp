@@ -76,7 +76,7 @@ BufferRef CurvatureFlow::addTo(Graph& graph, BufferRef depth, const SurfaceBuffe
     level.start = l == 0 ? depth : graph.create("surface flow coarse", {bytes});
     for (BufferRef& buffer : level.to) buffer = graph.create("surface flow", {bytes});
   }
-  StepFill fills[3 * (kMaxLevels + 1)];
+  Fill32 fills[3 * (kMaxLevels + 1)];
   size_t count = 0;
   for (uint32_t l = 0; l <= coarsest; ++l) {
     if (l > 0) fills[count++] = {&levels[l].start, kInfiniteBits};
