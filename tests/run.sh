@@ -11,9 +11,11 @@ Usage: ./tests/run.sh [--no-install] [--long] [--help] [CTEST OPTION...]
 
 Installs missing packages (Debian 12, Ubuntu 24.04 or newer; uses sudo if not root), builds, and runs
   all tests on lavapipe,
-  tests with the label subgroups on lavapipe with subgroup sizes 4 and 16,
+  tests with the label subgroups on lavapipe with a subgroup size of 16,
   tests with the label threads on lavapipe with one thread per core,
-  tests with the labels gpu and subgroups on SwiftShader, if installed.
+  tests with the labels gpu and subgroups on SwiftShader, which has a subgroup size of 4;
+    if it is not installed, those with the label subgroups on lavapipe with that size.
+Tests of a program share a few processes. With CTEST OPTIONs each runs in its own, so that -R selects by name.
 
   --no-install   build and run without installing packages
   --long         also run tests with the label long on lavapipe: several minutes of fuzzing, requires clang
@@ -28,12 +30,13 @@ END
 install=yes
 long=no
 none=error  # a run without tests is an error, unless the caller selects tests
+shards=yes  # tests of a program share processes, unless the caller selects tests: see SHARDS in tests/CMakeLists.txt
 while [ $# -gt 0 ]; do
   case $1 in
     --no-install) install=no ;;
     --long) long=yes ;;
     -h | --help) usage; exit ;;
-    *) none=ignore; break ;;
+    *) none=ignore shards=no; break ;;
   esac
   shift
 done
@@ -72,19 +75,26 @@ lavapipe=$(first_file /usr/share/vulkan/icd.d/lvp_icd."$(uname -m)".json /usr/sh
 swiftshader=$(first_file /usr/lib/chromium/vk_swiftshader_icd.json)
 [ -n "$lavapipe" ] || fail "/usr/share/vulkan/icd.d: lvp_icd.*.json of lavapipe was not found"
 
-# Tests run side by side: with its work in a test's own thread lavapipe takes a third of the time that waking others takes it, for
-# dispatches as small as these. Workgroups run beside each other in the tests of label threads, and in all of SwiftShader's; without
-# SwiftShader in all of those with subgroups of 16.
+if [ $shards = yes ]; then
+  round=(-C shards) prefix='' skipped='long|threads|single-.*'
+else
+  round=() prefix='(single-)?' skipped='long|threads'
+fi
+
+# LP_NUM_THREADS=0: lavapipe works in the thread of the test, which for dispatches this small takes a third of the time. Workgroups run
+# concurrently in the tests with the label threads and on SwiftShader; without SwiftShader in those with subgroups of 16.
 export LP_NUM_THREADS=0
-run_tests "lavapipe" "$lavapipe" error -LE '^(long|threads)$' "$@"
-LP_NATIVE_VECTOR_WIDTH=128 run_tests "lavapipe with subgroups of 4" "$lavapipe" $none -L '^subgroups$' "$@"
-[ -n "$swiftshader" ] || unset LP_NUM_THREADS
-LP_NATIVE_VECTOR_WIDTH=512 run_tests "lavapipe with subgroups of 16" "$lavapipe" $none -L '^subgroups$' "$@"
+run_tests "lavapipe" "$lavapipe" error "${round[@]}" -LE "^($skipped)$" "$@"
+if [ -z "$swiftshader" ]; then
+  LP_NATIVE_VECTOR_WIDTH=128 run_tests "lavapipe with subgroups of 4" "$lavapipe" $none "${round[@]}" -L "^${prefix}subgroups$" "$@"
+  unset LP_NUM_THREADS
+fi
+LP_NATIVE_VECTOR_WIDTH=512 run_tests "lavapipe with subgroups of 16" "$lavapipe" $none "${round[@]}" -L "^${prefix}subgroups$" "$@"
 unset LP_NUM_THREADS
 LP_NATIVE_VECTOR_WIDTH=512 run_tests "lavapipe with subgroups of 16 and threads" "$lavapipe" $none -L '^threads$' "$@"
 export LP_NUM_THREADS=0
 if [ -n "$swiftshader" ]; then
-  run_tests "SwiftShader" "$swiftshader" $none -L '^(gpu|subgroups)$' "$@"
+  run_tests "SwiftShader" "$swiftshader" $none "${round[@]}" -L "^${prefix}(gpu|subgroups)$" "$@"
 else
   results+=("SwiftShader: skipped, not installed (package chromium-common)")
 fi

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 
 #include "shared/png.hpp"
 #include "support/child_process.hpp"
@@ -29,14 +30,21 @@ void expectClean(const Outcome& outcome) {
   EXPECT_EQ(outcome.err, "");
 }
 
-/// The image that a host renders.
-Picture pictureOf(const std::string& host) {
+Picture render(const std::string& host) {
   const TemporaryFolder folder;
   const fs::path program = kOut / (host == "two_fluids" ? "build-hosts" : "build-embed") / host;
   EXPECT_TRUE(fs::exists(program)) << program << " was not built: is what it needs installed? (apps/setup.sh)";
   const std::string file = (folder / "out.ppm").string();
   expectClean(Child({program.string(), file}, ".", kValidation).wait());
   return readPicture(file);
+}
+
+/// The image that a host renders. Each host runs once per process.
+const Picture& pictureOf(const std::string& host) {
+  static std::map<std::string, Picture> pictures;
+  const auto [entry, isNew] = pictures.try_emplace(host);
+  if (isNew) entry->second = render(host);
+  return entry->second;
 }
 
 TEST(Validation, DetectsIncorrectHost) {
@@ -54,7 +62,7 @@ struct Case {
 class Host : public ::testing::TestWithParam<Case> {};
 
 TEST_P(Host, RunsCleanAndMatchesGolden) {
-  const Picture picture = pictureOf(GetParam().host);
+  const Picture& picture = pictureOf(GetParam().host);
   ASSERT_FALSE(picture.rgb.empty());
   const fs::path golden = fs::path(RILL_SOURCE_DIR) / "assets/golden" / ("embed-" + std::string(GetParam().host) + ".png");
   if (std::getenv("RILL_UPDATE_GOLDEN")) {
@@ -75,13 +83,13 @@ INSTANTIATE_TEST_SUITE_P(Pictures, Host,
 
 /// The water example with volk, with the shared library, and without exceptions and RTTI renders identical pixels.
 TEST(SameGame, RendersIdenticalPixels) {
-  const Picture usual = pictureOf("water");
+  const Picture& usual = pictureOf("water");
   ASSERT_FALSE(usual.rgb.empty());
   for (const char* way : {"water_volk", "water_shared", "water_plain"}) EXPECT_TRUE(usual.rgb == pictureOf(way).rgb) << way;
 }
 
 TEST(WaterBetween, OccludesLaterDrawsByDepth) {
-  const Picture picture = pictureOf("between");
+  const Picture& picture = pictureOf("between");
   ASSERT_FALSE(picture.rgb.empty());
   // The bar lies along x through the whole tank. The water at the left hides it, the air at the right does not.
   uint32_t left = 0, right = 0;
@@ -95,7 +103,7 @@ TEST(WaterBetween, OccludesLaterDrawsByDepth) {
 }
 
 TEST(Blur, MatchesReferenceBlur) {
-  const Picture picture = pictureOf("blur");
+  const Picture& picture = pictureOf("blur");
   ASSERT_EQ(picture.rgb.size(), 3u * 96 * 64);
   const auto painted = [](int x, int y, int c) {
     x = std::clamp(x, 0, 95), y = std::clamp(y, 0, 63);

@@ -190,8 +190,8 @@ TEST_P(BothSorts, GateSkipsAllDispatches) {
     auto sort = KeySort::create(device(), {5000, 3000, GetParam(), true, true});
     ASSERT_TRUE(sort);
     Words open{9, 9, 9}, closed{9, 9, 9};  // an unrelated command before those of the sort
-    for (const auto& [groups, keys] : sort->dispatches())
-      for (uint32_t n : groups) {
+    for (const auto& dispatch : sort->dispatches())
+      for (uint32_t n : dispatch.groups) {
         open.push_back(n);
         closed.push_back(0);
       }
