@@ -112,8 +112,8 @@ Expected<RunFigures> runScene(const Bench& bench, const SceneRun& run) {
       auto found = std::ranges::find(figures.passes, pass.name, &offline::PassTime::name);
       if (found == figures.passes.end()) found = figures.passes.insert(figures.passes.end(), {pass.name});
       found->ms += pass.ms;
-      found->runs += pass.runs;
-      found->ran += pass.ran;
+      found->recorded += pass.recorded;
+      found->executed += pass.executed;
     }
     figures.instants.push_back({time, std::move(*stats)});
     figures.simulated_s = time;

@@ -167,8 +167,8 @@ std::string Record::passTable() const {
       auto found = std::ranges::find(passes, pass.name, &offline::PassTime::name);
       if (found == passes.end()) found = passes.insert(passes.end(), {pass.name});
       found->ms += pass.ms;
-      found->runs += pass.runs;
-      found->ran += pass.ran;
+      found->recorded += pass.recorded;
+      found->executed += pass.executed;
     }
   }
   for (const apps::Instant& frame : frames_)

@@ -19,6 +19,7 @@ Expected<std::unique_ptr<Runner>> Runner::create(offline::Context& context, Scen
   auto start = makeParticles(runner->scene_);
   if (!start) return start.error();
   runner->start_ = std::move(*start);
+  runner->scene_.fluid.spacing = runner->start_.spacing;
   runner->firstBounds_ = fluidBounds(runner->scene_, runner->start_);
   auto fluid = Fluid::create(context.device(), {.scene = &runner->scene_, .particles = &runner->start_});
   if (!fluid) return fluid.error();

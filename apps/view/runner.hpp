@@ -8,6 +8,7 @@
 #include "offline/context.hpp"
 #include "offline/pass_log.hpp"
 #include "rill/fluid.hpp"
+#include "rill/snapshot.hpp"
 #include "rill/scene_io.hpp"
 #include "shape/pose.hpp"
 #include "view/pacing.hpp"

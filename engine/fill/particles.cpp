@@ -322,7 +322,8 @@ Expected<ParticleSet> place(const Scene& scene, std::vector<Source>& sources, ui
 }
 
 /// Finds the spacing that makes about scene.fluid.particles particles, not counting those left out, and places them.
-Expected<ParticleSet> placeByCount(Scene& scene, std::vector<Source>& sources, uint64_t maxParticles) {
+Expected<ParticleSet> placeByCount(const Scene& given, std::vector<Source>& sources, uint64_t maxParticles) {
+  Scene scene = given;
   const auto wanted = static_cast<double>(scene.fluid.particles);
   double from_files = 0;
   for (const Source& s : sources) from_files += s.file ? s.count : 0;
@@ -333,7 +334,7 @@ Expected<ParticleSet> placeByCount(Scene& scene, std::vector<Source>& sources, u
     return bad("files already contain " + countText(from_files) + " particles; expected a larger number, or fluid.spacing instead");
   }
   ParticleSet best;
-  double best_spacing = 0, best_miss = std::numeric_limits<double>::infinity(), target = wanted - from_files;
+  double best_miss = std::numeric_limits<double>::infinity(), target = wanted - from_files;
   constexpr int kAttempts = 4;     // the number left out depends on the spacing
   constexpr double kMaxTried = 3;  // largest count tried, over the count wanted
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
@@ -347,14 +348,13 @@ Expected<ParticleSet> placeByCount(Scene& scene, std::vector<Source>& sources, u
     const double miss = std::abs(kept - wanted);
     if (miss < best_miss) {
       best = std::move(*set);
-      best_spacing = scene.fluid.spacing;
+      best.spacing = scene.fluid.spacing;
       best_miss = miss;
     }
     const double kept_of_lattices = kept - from_files;
     if (complete || miss <= 0.005 * wanted || kept_of_lattices <= 0) break;
     target = std::min(target * (wanted - from_files) / kept_of_lattices, kMaxTried * wanted);
   }
-  scene.fluid.spacing = best_spacing;
   if (best.positions.size() > maxParticles)
     return bad("the closest spacing makes " + grouped(best.positions.size()) + " particles; expected at most " + grouped(maxParticles));
   if (best_miss > 0.05 * wanted) {
@@ -364,7 +364,7 @@ Expected<ParticleSet> placeByCount(Scene& scene, std::vector<Source>& sources, u
   return best;
 }
 
-Expected<ParticleSet> make(Scene& scene, uint64_t maxParticles) {
+Expected<ParticleSet> make(const Scene& scene, uint64_t maxParticles) {
   if (auto possible = checkScene(scene); !possible) return possible.error();
   constexpr uint64_t kIds = std::numeric_limits<uint32_t>::max();  // ids have 32 bits, and one value marks "no particle"
   const uint64_t limit = std::min(maxParticles, kIds);
@@ -379,6 +379,7 @@ Expected<ParticleSet> make(Scene& scene, uint64_t maxParticles) {
   }
   const bool by_count = scene.fluid.particles > 0;
   auto set = by_count ? placeByCount(scene, sources, limit) : place(scene, sources, limit);
+  if (set && !by_count) set->spacing = scene.fluid.spacing;
   if (set && set->positions.empty() && !scene.fill.empty()) {
     return badInput(scene, "fill: no particles are left (" + grouped(set->left_out_domain) + " outside the walls, " +
                                grouped(set->left_out_solid) + " inside solids); expected at least one" +
@@ -389,7 +390,7 @@ Expected<ParticleSet> make(Scene& scene, uint64_t maxParticles) {
 
 }  // namespace
 
-Expected<ParticleSet> makeParticles(Scene& scene, uint64_t maxParticles) {
+Expected<ParticleSet> makeParticles(const Scene& scene, uint64_t maxParticles) {
   try {
     return make(scene, maxParticles);
   } catch (const std::bad_alloc&) {

@@ -10,6 +10,7 @@
 
 #include "fluid/settings.hpp"
 #include "rill/fluid.hpp"
+#include "rill/snapshot.hpp"
 
 namespace rill {
 

@@ -46,10 +46,10 @@ std::vector<FluidPassRuns> FluidImpl::passRuns() const {
       if (start == Start::Always || start == Start::Predict || start == Start::Figures) continue;  // whatever is recorded of these runs
       uint32_t times = recorded(row.id, start);
       if (row.id == FluidPass::Correct) times += recorded(FluidPass::CorrectWithArtificialPressure, start);
-      if (times > 0) runs.ran += executed(start);
-      runs.of += times;
+      if (times > 0) runs.executed += executed(start);
+      runs.recorded += times;
     }
-    if (runs.of > 0) all.push_back(runs);
+    if (runs.recorded > 0) all.push_back(runs);
   }
   const uint32_t sorts = recordedLast_.sorts - recordedBefore_.sorts, rebuilds = recorded(FluidPass::Keys, Start::Rebuild);
   if (sorts > 0) all.push_back({"sort/", done.builds + (sorts - rebuilds), sorts});

@@ -46,8 +46,13 @@ FluidMemory fluidMemory(const Scene& scene, uint64_t particles) { return memoryO
 
 Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const FluidDesc& desc) {
   if (auto given = checkGiven(desc); !given) return given.error();
-  const Scene& scene = *desc.scene;
   const ParticleSet& particles = *desc.particles;
+  Scene spaced;
+  if (particles.spacing > 0 && desc.scene->fluid.spacing != particles.spacing) {
+    spaced = *desc.scene;
+    spaced.fluid.spacing = particles.spacing;
+  }
+  const Scene& scene = spaced.fluid.spacing > 0 ? spaced : *desc.scene;
   const uint64_t n = particles.positions.size(), capacity = std::max<uint64_t>(desc.capacity, n);
   auto impl = std::make_unique<FluidImpl>();
   impl->device_ = &implOf(device);

@@ -16,6 +16,7 @@
 #include "gpu/resources.hpp"
 #include "graph/shader_pass.hpp"
 #include "rill/fluid.hpp"
+#include "rill/snapshot.hpp"
 #include "sort/key_sort.hpp"
 
 namespace rill {

@@ -44,7 +44,7 @@ Expected<void> checkLengths(const FluidSnapshot& s, const SnapshotShape& shape) 
   Expected<void> result;
   forEachSaved([&](const ArrayRow& row, auto member) {
     // Of a fluid without a warm start there are none.
-    const bool absent = row.optional && s.push.empty() && s.warm.empty();
+    const bool absent = row.optional && s.warmAcceleration.empty() && s.warmStart.empty();
     if (result) result = checkLength(row.savedName, (s.*member).size(), absent ? 0 : count);
   });
   return result;
@@ -60,11 +60,11 @@ bool markNew(std::vector<bool>& seen, std::span<const uint32_t> entries) {
 }
 
 Expected<void> checkNear(const FluidSnapshot& s, const FluidSums& sums, const SnapshotShape& shape) {
-  if (s.nearWall.size() != sums.planeCount || s.nearMore.size() != sums.cornerCount ||
+  if (s.nearWall.size() != sums.planeCount || s.nearCorner.size() != sums.cornerCount ||
       (!shape.near && sums.planeCount + sums.cornerCount > 0))
     return wrong("the lists of particles near walls have other lengths than their counts");
   std::vector<bool> seen(s.id.size());
-  if (!markNew(seen, s.nearWall) || !markNew(seen, s.nearMore))
+  if (!markNew(seen, s.nearWall) || !markNew(seen, s.nearCorner))
     return wrong("a list of particles near walls names no particle, or one twice");
   return {};
 }
@@ -130,7 +130,7 @@ void forgetNeighbors(FluidSnapshot& s) {
   s.control = wordsOf(control);
   s.sums = wordsOf(sums);
   s.nearWall.clear();
-  s.nearMore.clear();
+  s.nearCorner.clear();
   s.neighborCount.clear();
   s.neighbors.clear();
   s.cell.clear();
@@ -138,7 +138,7 @@ void forgetNeighbors(FluidSnapshot& s) {
 
 void append(FluidSnapshot& s, std::span<const Float3> positions, std::span<const Float3> velocities) {
   forgetNeighbors(s);
-  const bool warm = !s.warm.empty();
+  const bool warm = !s.warmStart.empty();
   auto sums = record<FluidSums>(s.sums);
   uint32_t next = s.id.empty() ? 0 : *std::max_element(s.id.begin(), s.id.end()) + 1;
   for (size_t k = 0; k < positions.size(); ++k) {
@@ -146,8 +146,8 @@ void append(FluidSnapshot& s, std::span<const Float3> positions, std::span<const
     s.position.push_back(positions[k]);
     s.velocity.push_back(velocities[k]);
     if (warm) {
-      s.push.push_back({});
-      s.warm.push_back(0);
+      s.warmAcceleration.push_back({});
+      s.warmStart.push_back(0);
     }
     const Float3& v = velocities[k];
     sums.speedMax = std::max(sums.speedMax, std::bit_cast<uint32_t>(std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z)));

@@ -81,7 +81,7 @@ Expected<void> SnapshotReader::take(const Graph& graph) {
     if (uint64_t{sums.planeCount} + sums.cornerCount > n)
       return Error{ErrorKind::Failed, "reading the state back: its counts make no sense"};
     s.nearWall = sorted(both.first(sums.planeCount));
-    s.nearMore = sorted(both.subspan(fluid_.capacity, sums.cornerCount));
+    s.nearCorner = sorted(both.subspan(fluid_.capacity, sums.cornerCount));
   } else if (part == slotOf(FluidArray::NeighborCount)) {
     s.neighborCount = records<uint32_t>(bytes, n);
     uint64_t entries = 0;

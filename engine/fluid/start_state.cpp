@@ -112,7 +112,7 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
     staging_->add(slotOf(FluidArray::NearList), uint64_t{capacity} * 8, [this, &s](std::byte* to) {
       std::memset(to, 0, size_t{capacity} * 8);
       std::memcpy(to, s.nearWall.data(), s.nearWall.size() * 4);
-      std::memcpy(to + 4 * size_t{capacity}, s.nearMore.data(), s.nearMore.size() * 4);
+      std::memcpy(to + 4 * size_t{capacity}, s.nearCorner.data(), s.nearCorner.size() * 4);
     });
     staging_->clear(slotOf(FluidArray::NearSample));  // of those near nothing; the others' are looked up before they are used
   }

@@ -19,8 +19,8 @@ void PassLog::add(std::span<const PassReport> report, bool submitted) {
     if (!pass.reason.empty())
       known.reason = pass.reason;
     else if (submitted && !pass.culled) {
-      known.runs += pass.runs;
-      known.ran += pass.runs;
+      known.recorded += pass.runs;
+      known.executed += pass.runs;
     }
   }
 }
@@ -36,21 +36,22 @@ void PassLog::add(std::span<const FluidPassRuns> passes, std::span<const PassRep
     };
     const auto found = std::ranges::find_if(passes, matches);
     if (found == passes.end() || pass.culled || !pass.reason.empty()) continue;
-    entry(pass.name).ran -= static_cast<uint32_t>(uint64_t{pass.runs} * (found->of - std::min(found->ran, found->of)) / found->of);
+    const uint32_t skipped = found->recorded - std::min(found->executed, found->recorded);
+    entry(pass.name).executed -= static_cast<uint32_t>(uint64_t{pass.runs} * skipped / found->recorded);
   }
 }
 
 std::vector<PassTime> PassLog::times() const {
   std::vector<PassTime> times;
   for (const Entry& e : entries_)
-    if (e.runs > 0) times.push_back({e.name, e.ms, e.runs, e.ran});
+    if (e.recorded > 0) times.push_back({e.name, e.ms, e.recorded, e.executed});
   return times;
 }
 
 std::vector<SkippedPass> PassLog::skipped() const {
   std::vector<SkippedPass> skipped;
   for (const Entry& e : entries_)
-    if (e.runs == 0 && !e.reason.empty()) skipped.emplace_back(e.name, e.reason);
+    if (e.recorded == 0 && !e.reason.empty()) skipped.emplace_back(e.name, e.reason);
   return skipped;
 }
 
@@ -59,10 +60,10 @@ std::string passTable(std::span<const PassTime> passes, std::span<const SkippedP
   std::snprintf(line, sizeof line, "%-36s %9s %9s %11s %10s\n", "pass", "recorded", "ran", "ms", "us a run");
   std::string text = line;
   for (const PassTime& pass : passes) {
-    std::snprintf(line, sizeof line, "%-36s %9u %9u", pass.name.c_str(), pass.runs, pass.ran);
+    std::snprintf(line, sizeof line, "%-36s %9u %9u", pass.name.c_str(), pass.recorded, pass.executed);
     text += line;
-    if (pass.ms > 0 && pass.ran > 0)
-      std::snprintf(line, sizeof line, " %11.3f %10.2f\n", pass.ms, 1e3 * pass.ms / pass.ran);
+    if (pass.ms > 0 && pass.executed > 0)
+      std::snprintf(line, sizeof line, " %11.3f %10.2f\n", pass.ms, 1e3 * pass.ms / pass.executed);
     else if (pass.ms > 0)
       std::snprintf(line, sizeof line, " %11.3f %10s\n", pass.ms, "-");
     else  // not timed

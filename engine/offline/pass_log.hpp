@@ -28,7 +28,7 @@ class PassLog {
   struct Entry {
     std::string name;
     double ms = 0;
-    uint32_t runs = 0, ran = 0;
+    uint32_t recorded = 0, executed = 0;
     std::string reason;
   };
   Entry& entry(std::string_view name);

@@ -24,6 +24,7 @@ class Player::Impl {
     auto start = makeParticles(scene_);
     if (!start) return start.error();
     start_ = std::move(*start);
+    scene_.fluid.spacing = start_.spacing;
     if (!(scene_.fluid.spacing > 0))
       return Error{ErrorKind::BadInput,
                    "fluid.spacing: not given, and no fill to compute it from fluid.particles; expected a number above 0 (m)"};

@@ -47,6 +47,7 @@ class Simulation::Impl {
     auto start = given ? Expected<ParticleSet>(std::move(*given)) : makeParticles(scene_);
     if (!start) return start.error();
     start_ = std::move(*start);
+    if (start_.spacing > 0) scene_.fluid.spacing = start_.spacing;
     return {};
   }
 

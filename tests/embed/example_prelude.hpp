@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <rill/fluid.hpp>
 #include <rill/graph.hpp>
+#include <rill/particles.hpp>
+#include <rill/scene.hpp>
 #include <string_view>
 
 extern VkInstance instance;
@@ -24,3 +26,7 @@ int fail(std::string_view message);
 extern rill::Device& device;
 extern rill::Graph& graph;
 extern rill::FluidState state;
+extern rill::Scene scene;
+extern rill::ParticleSet particles;
+extern rill::Fluid water;
+void run(rill::Graph& graph);

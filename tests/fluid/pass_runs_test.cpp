@@ -19,14 +19,14 @@ class PassRunsTest : public FluidTest {
       runGraph(graph);
       if (HasFatalFailure()) return ran;
       for (const FluidPassRuns& pass : run.fluid().passRuns()) {
-        EXPECT_LE(pass.ran, pass.of) << pass.name;
-        ran[std::string(pass.name)] += pass.ran;
+        EXPECT_LE(pass.executed, pass.recorded) << pass.name;
+        ran[std::string(pass.name)] += pass.executed;
         uint64_t recorded = 0;
         for (const PassReport& report : graph.report())
           if (report.reason.empty() && (pass.name.ends_with('/') ? report.name.starts_with(pass.name) : report.name == pass.name))
             recorded += report.runs;
         EXPECT_GT(recorded, 0u) << pass.name;
-        EXPECT_EQ(recorded % pass.of, 0u) << pass.name;
+        EXPECT_EQ(recorded % pass.recorded, 0u) << pass.name;
       }
       resume = true;
     } while (run.progress().time_left_s > 0);
@@ -85,7 +85,7 @@ TEST_F(PassRunsTest, OfOneFrameEachOrOfAllSinceTheLastLook) {
   };
   for (int frame = 0; frame < 3; ++frame) {
     run->substeps(4);
-    EXPECT_EQ(corrections().ran, 4u);
+    EXPECT_EQ(corrections().executed, 4u);
   }
   for (int frame = 0; frame < 3; ++frame) {  // frames that nobody asks after
     Graph graph;
@@ -93,11 +93,11 @@ TEST_F(PassRunsTest, OfOneFrameEachOrOfAllSinceTheLastLook) {
     runGraph(graph);
   }
   run->substeps(4);
-  EXPECT_EQ(corrections().ran, 16u);
-  EXPECT_GE(corrections().of, 16u);
+  EXPECT_EQ(corrections().executed, 16u);
+  EXPECT_GE(corrections().recorded, 16u);
   run->stats();
   for (const FluidPassRuns& pass : run->fluid().passRuns())
-    EXPECT_EQ(pass.name == "sort/" ? 1u : 0u, pass.ran) << pass.name << ": figures sort for themselves, and advance nothing";
+    EXPECT_EQ(pass.name == "sort/" ? 1u : 0u, pass.executed) << pass.name << ": figures sort for themselves, and advance nothing";
 }
 
 // Two rebuilds behind each other, of which the second has nothing to do: before the first advance, and in a piece of an advance that has

@@ -9,6 +9,7 @@
 #include "fluid/fluid_impl.hpp"
 #include "reference/solver.hpp"
 #include "rill/fluid.hpp"
+#include "rill/snapshot.hpp"
 #include "support/gpu_test.hpp"
 
 namespace rill::test {

@@ -34,8 +34,8 @@ struct StartPressureTest : FluidTest {
   std::vector<double> pressures(Run& run, const Trial& t) {
     const FluidSnapshot saved = run.saved();
     const double step = run.control().warmStep;
-    std::vector<double> p(saved.warm.size());
-    for (size_t i = 0; i < p.size(); ++i) p[saved.id[i]] = -t.scene.fluid.density * double{saved.warm[i]} / (step * step);
+    std::vector<double> p(saved.warmStart.size());
+    for (size_t i = 0; i < p.size(); ++i) p[saved.id[i]] = -t.scene.fluid.density * double{saved.warmStart[i]} / (step * step);
     return p;
   }
 };
@@ -173,7 +173,7 @@ TEST_F(StartPressureTest, IsFoundOverSeveralAdvances) {
   whole->substeps(1);
   for (int n = 0; n < 40 && parts->progress().time_s == 0; ++n) parts->read({.advance_s = t.step, .substeps = 12});
   EXPECT_GT(parts->progress().time_s, 0);
-  EXPECT_EQ(parts->saved().warm, whole->saved().warm);
+  EXPECT_EQ(parts->saved().warmStart, whole->saved().warmStart);
 }
 
 TEST_F(StartPressureTest, GoesOnFromACheckpoint) {

@@ -130,10 +130,10 @@ TEST_F(SnapshotCheck, AcceptsMatchingScene) {
 }
 
 TEST_F(SnapshotCheck, AcceptsSnapshotWithoutWarmStart) {
-  s.push.clear();
+  s.warmAcceleration.clear();
   expectRejected("push has 0 entries");
-  s.push.clear();
-  s.warm.clear();
+  s.warmAcceleration.clear();
+  s.warmStart.clear();
   const auto checked = checkSnapshot(s, seedShape());
   EXPECT_TRUE(checked) << checked.error().message;
 }
@@ -162,11 +162,11 @@ TEST_F(SnapshotCheck, RejectsInvalidIndices) {
   expectRejected("an id appears twice");
   s.id[1] = kMaxIds;
   expectRejected("its largest id is 16777216");
-  s.nearMore.push_back(0);
+  s.nearCorner.push_back(0);
   expectRejected("near walls");
   s.nearWall[0] = 1000;
   expectRejected("near walls");
-  s.nearMore[0] = s.nearWall[0];
+  s.nearCorner[0] = s.nearWall[0];
   expectRejected("near walls");
   s.neighbors[0] = static_cast<uint32_t>(s.id.size());
   expectRejected("a neighbor is no particle");
@@ -201,7 +201,7 @@ TEST_F(SnapshotCheck, RejectsInvalidIndices) {
   expectRejected("control has 0 entries");
   s.sums[offsetof(FluidSums, planeCount) / 4] = 5;
   expectRejected("near walls");
-  s.push.pop_back();
+  s.warmAcceleration.pop_back();
   expectRejected("push has");
   s.solids.push_back(0);
   expectRejected("solids has");

@@ -16,7 +16,7 @@ TEST(PassLog, SumsPiecesInOrder) {
   const auto times = log.times();
   ASSERT_EQ(times.size(), 1u);
   EXPECT_EQ(times[0].name, "density");
-  EXPECT_EQ(times[0].runs, 8u);
+  EXPECT_EQ(times[0].recorded, 8u);
   EXPECT_DOUBLE_EQ(times[0].ms, 4.0);
   const auto skipped = log.skipped();
   ASSERT_EQ(skipped.size(), 1u);
@@ -34,11 +34,11 @@ TEST(PassLog, DistinguishesRecordedFromExecuted) {
   log.add(skippable, report);
   const auto times = log.times();
   ASSERT_EQ(times.size(), 4u) << "passes that are not in the frame are ignored";
-  EXPECT_EQ(times[0].ran, 2u);
-  EXPECT_EQ(times[1].ran, 4u) << "two passes of this name per sort";
-  EXPECT_EQ(times[1].runs, 12u);
-  EXPECT_EQ(times[2].ran, 0u);
-  EXPECT_EQ(times[3].ran, 1u);
+  EXPECT_EQ(times[0].executed, 2u);
+  EXPECT_EQ(times[1].executed, 4u) << "two passes of this name per sort";
+  EXPECT_EQ(times[1].recorded, 12u);
+  EXPECT_EQ(times[2].executed, 0u);
+  EXPECT_EQ(times[3].executed, 1u);
   const std::string table = passTable(times, {});
   EXPECT_NE(table.find("sort/scan                                   12         4"), std::string::npos) << table;
 }

@@ -42,7 +42,9 @@ TEST(CheckScene, AcceptsSpacingComputedFromParticles) {
   scene.fluid.particles = 500;
   const auto first = makeParticles(scene);
   ASSERT_TRUE(first) << first.error().message;
-  EXPECT_GT(scene.fluid.spacing, 0);
+  EXPECT_GT(first->spacing, 0);
+  EXPECT_EQ(scene.fluid.spacing, 0) << "the scene is left as it was";
+  scene.fluid.spacing = first->spacing;
   EXPECT_EQ(errorOf(scene), "accepted");
   const auto second = makeParticles(scene);
   ASSERT_TRUE(second) << second.error().message;

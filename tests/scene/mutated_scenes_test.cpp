@@ -101,6 +101,7 @@ TEST(MutatedScenes, AreRejectedOrRun) {
     const auto checked = checkScene(scene);
     (void)fluidMemory(scene, 1000);
     const auto made = makeParticles(scene, 3000);
+    if (made) scene.fluid.spacing = made->spacing;
     const auto setup = makeFluidSetup(scene, made ? figuresOf(*made) : StartFigures{.count = 100, .extent = {1, 1, 1}});
     if (!checked) {
       ++rejected;

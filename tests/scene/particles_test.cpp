@@ -241,16 +241,18 @@ TEST(Particles, ComputesSpacingFromParticleCount) {
           scene(R"({"rill": "0.1", "fluid": {"particles": )" + std::to_string(static_cast<int>(wanted)) + R"(}, "fill": [)" + fill + "]}");
       const ParticleSet set = particles(s);
       EXPECT_NEAR(static_cast<double>(set.positions.size()) / wanted, 1, 0.05) << fill;
-      EXPECT_GT(s.fluid.spacing, 0);
+      EXPECT_GT(set.spacing, 0);
       Scene again =
           scene(R"({"rill": "0.1", "fluid": {"particles": )" + std::to_string(static_cast<int>(wanted)) + R"(}, "fill": [)" + fill + "]}");
-      EXPECT_EQ(particles(again).positions, set.positions);
-      EXPECT_EQ(again.fluid.spacing, s.fluid.spacing);
+      const ParticleSet same = particles(again);
+      EXPECT_EQ(same.positions, set.positions);
+      EXPECT_EQ(same.spacing, set.spacing);
     }
   }
   Scene cube = scene(R"({"rill": "0.1", "fluid": {"particles": 8000}, "fill": [{"box": {}}]})");
-  EXPECT_EQ(particles(cube).positions.size(), 8000U);
-  EXPECT_NEAR(cube.fluid.spacing, 0.05, 1e-12);  // the lattice that fits the box, among those with as many particles
+  const ParticleSet ofCube = particles(cube);
+  EXPECT_EQ(ofCube.positions.size(), 8000U);
+  EXPECT_NEAR(ofCube.spacing, 0.05, 1e-12);  // the lattice that fits the box, among those with as many particles
 }
 
 TEST(Particles, ParticleCountExcludesLeftOutParticles) {

@@ -45,13 +45,13 @@ inline offline::Checkpoint seedCheckpoint() {
     const auto x = static_cast<float>(i);
     s.position.push_back({x, 0.5f, 0.25f});
     s.velocity.push_back({0, -x, 0});
-    s.push.push_back({0, 0, x});
-    s.warm.push_back(-0.125f * x);
+    s.warmAcceleration.push_back({0, 0, x});
+    s.warmStart.push_back(-0.125f * x);
     s.id.push_back(5 - i);
     s.cell.push_back(3 * i);
   }
   s.nearWall = {2};
-  s.nearMore = {0, 5};
+  s.nearCorner = {0, 5};
   s.listCapacity = 4;
   s.neighborCount = {1, 2, 0, 4, 9, 1};
   s.neighbors = {1, 0, 3, 0, 1, 2, 5, 3};

@@ -36,6 +36,7 @@ Expected<Cloud> cloudOf(uint32_t count) {
   if (!scene) return scene.error();
   const auto start = makeParticles(*scene);
   if (!start) return start.error();
+  scene->fluid.spacing = start->spacing;
   Cloud cloud;
   cloud.push.count = static_cast<uint32_t>(start->positions.size());
   cloud.push.radius = static_cast<float>(scene->fluid.smoothing_ratio * scene->fluid.spacing);

@@ -135,6 +135,7 @@ Expected<Report> runEmbed(Bench& bench) {
   if (!scene) return scene.error();
   const auto particles = makeParticles(*scene);
   if (!particles) return particles.error();
+  scene->fluid.spacing = particles->spacing;
 
   const uint32_t samples = bench.quick() ? 3 : 9;
   bench.plan(2 * samples, "start");

@@ -128,7 +128,7 @@ Expected<void> runInterleaved(const Bench& bench, std::vector<FrameStepper>& ste
 /// Passes and their counts: "build list 4, density 12".
 std::string passList(const std::vector<PassTime>& passes) {
   std::string text;
-  for (const PassTime& pass : passes) text += (text.empty() ? "" : ", ") + pass.name + " " + std::to_string(pass.runs);
+  for (const PassTime& pass : passes) text += (text.empty() ? "" : ", ") + pass.name + " " + std::to_string(pass.recorded);
   return text;
 }
 
@@ -159,7 +159,7 @@ void checkDisabled(const std::string& name, const Samples& off, const Samples& b
 
 Json passesJson(const std::vector<PassTime>& passes) {
   Json json = Json::object();
-  for (const PassTime& pass : passes) json[pass.name] = pass.runs;
+  for (const PassTime& pass : passes) json[pass.name] = pass.recorded;
   return json;
 }
 
@@ -316,7 +316,7 @@ Expected<void> passes(Bench& bench, const std::vector<PassScene>& scenes, Report
     Json json{{"case", name + ", passes"}, {"scene", scene.scene}, {"ms_a_frame", sampleStatistics(ms)}, {"substeps", stats->substeps}};
     json["passes"] = passesJson(stats->pass_ms);
     json["skipped"] = Json::object();
-    for (const PassTime& pass : stats->pass_ms) runs += pass.runs;
+    for (const PassTime& pass : stats->pass_ms) runs += pass.recorded;
     for (const auto& [pass, reason] : stats->skipped) {
       json["skipped"][pass] = reason;
       std::string& where = reasons[{pass, reason}];
@@ -338,7 +338,7 @@ Expected<void> passes(Bench& bench, const std::vector<PassScene>& scenes, Report
     std::vector<std::string> row{name};
     for (const auto& list : all) {
       const auto found = std::ranges::find(list, name, &PassTime::name);
-      row.push_back(found == list.end() ? "-" : std::to_string(found->runs));
+      row.push_back(found == list.end() ? "-" : std::to_string(found->recorded));
     }
     recorded.rows.push_back(std::move(row));
   }

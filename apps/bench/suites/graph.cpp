@@ -82,6 +82,7 @@ struct DamBreak {
     auto start = makeParticles(made->scene);
     if (!start) return start.error();
     made->start = std::move(*start);
+    made->scene.fluid.spacing = made->start.spacing;
     auto fluid = Fluid::create(workbench.device(), {.scene = &made->scene, .particles = &made->start});
     if (!fluid) return fluid.error();
     made->fluid = std::move(*fluid);

@@ -40,7 +40,7 @@ struct PassCost {
 std::string_view moduleOf(std::string_view pass) { return pass.starts_with("sort/") ? "sort" : pass; }
 
 /// Times the passes of the solver alone; measuring figures would add the time of their sort to that of the solver.
-Expected<std::vector<PassCost>> passCosts(const Bench& bench, Scene scene) {
+Expected<std::vector<PassCost>> passCosts(const Bench& bench, const Scene& scene) {
   auto workbench = Workbench::open(bench);
   if (!workbench) return workbench.error();
   workbench->timePasses(true);

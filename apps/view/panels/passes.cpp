@@ -47,7 +47,7 @@ void passPanel(Board& board) {
   board.histories.passesOf = runner.steps();
   ImGui::TextDisabled("simulation, last step");
   if (beginTable("simulation")) {
-    for (const offline::PassTime& pass : runner.log().times()) row(board, pass.name, pass.ms, pass.runs, pass.ran, isNew);
+    for (const offline::PassTime& pass : runner.log().times()) row(board, pass.name, pass.ms, pass.recorded, pass.executed, isNew);
     ImGui::EndTable();
   }
   for (const auto& [name, reason] : runner.log().skipped()) skippedLine(name, reason);

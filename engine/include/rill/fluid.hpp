@@ -28,25 +28,7 @@
 
 namespace rill {
 
-/// The persistent state of a fluid between two advances, on the host: everything that later steps depend on, bit by bit
-/// (docs/architecture.md, "Checkpoints"). Only for checkpoints. Arrays have one entry per particle, in the order of the device.
-struct FluidSnapshot {
-  std::vector<uint32_t> control = {};                ///< FluidControl (shaders/shared/fluid_records.h), word by word
-  std::vector<uint32_t> sums = {};                   ///< FluidSums, word by word
-  std::vector<float> solids = {};                    ///< the pose of each solid (shaders/shared/solid_records.h); empty if no solid moves
-  std::vector<Float3> position = {}, velocity = {};  ///< m, m/s
-  // Warm start; empty without one.
-  std::vector<Float4> push = {};  ///< warm-start acceleration, m/s^2; w: last multiplier (m^2) while the initial pressure is solved for
-  std::vector<float> warm = {};   ///< multipliers, m^2
-  std::vector<uint32_t> id = {};
-  std::vector<uint32_t> nearWall = {}, nearMore = {};  ///< indices of particles near one wall; near several walls or a solid; increasing
-  // Neighbor list; empty if the next step rebuilds it.
-  uint32_t listCapacity = 0;                 ///< capacity of the list, entries per particle
-  std::vector<uint32_t> neighborCount = {};  ///< neighbors of each particle; empty without a valid list
-  std::vector<uint32_t> neighbors = {};      ///< concatenated by particle; without those of particles that exceed the capacity
-  std::vector<uint32_t> cell = {};           ///< cell of each sorted particle, if some particles search the grid
-  friend bool operator==(const FluidSnapshot&, const FluidSnapshot&) = default;
-};
+struct FluidSnapshot;  // rill/snapshot.hpp
 
 /// Parameters of Fluid::create(). Pointers are not kept.
 struct FluidDesc {
@@ -139,10 +121,10 @@ struct FluidStats {
   double artificial_viscosity_Pa_s = 0;  ///< viscosity that solver.artificial_viscosity adds now, Pa s; 0 in fast motion
 };
 
-/// Executions of a pass that the device can skip: it was recorded `of` times and executed `ran` times; the others were empty dispatches.
+/// How often a pass that the device can skip was recorded and executed; the difference were empty dispatches.
 struct FluidPassRuns {
-  std::string_view name;     ///< as in PassReport; a name that ends with '/' stands for all passes with that prefix
-  uint32_t ran = 0, of = 0;  ///< executed; recorded
+  std::string_view name;  ///< as in PassReport; a name that ends with '/' stands for all passes with that prefix
+  uint32_t executed = 0, recorded = 0;
 };
 
 class FluidImpl;
@@ -190,28 +172,6 @@ class RILL_API Fluid {
   friend struct ImplAccess;  // engine/core/impl_of.hpp
   explicit Fluid(std::unique_ptr<FluidImpl>);
   std::unique_ptr<FluidImpl> impl_;
-};
-
-/// Reads the state of a fluid back for a checkpoint, in graphs of at most 128 MiB each:
-///   for (SnapshotReader reader(fluid); !reader.done(); reader.take(graph)) { graph.reset(); reader.declare(graph); ... run it ... }
-/// Requires that a frame with `advance_s` = 0 has completed. Do not use the fluid otherwise until done().
-class RILL_API SnapshotReader {
- public:
-  explicit SnapshotReader(const Fluid& fluid);
-  bool done() const;           ///< whether everything has been read
-  void declare(Graph& graph);  ///< adds the next read-backs to a graph
-  /// Collects the data of a completed frame. Failed if it has not completed.
-  Expected<void> take(const Graph& graph);
-  FluidSnapshot& snapshot() { return snapshot_; }  ///< valid once done()
-
- private:
-  void plan();
-  void takeRecords(std::span<const std::span<const std::byte>> data);
-  const FluidImpl& fluid_;
-  FluidSnapshot snapshot_;
-  std::vector<uint32_t> parts_ = {};  ///< indices of the buffers to read, in order
-  size_t next_ = 0;
-  std::vector<Ticket> tickets_ = {};
 };
 
 }  // namespace rill

@@ -21,6 +21,7 @@
 #include "rill/expected.hpp"
 #include "rill/fluid.hpp"
 #include "rill/scene_io.hpp"
+#include "rill/snapshot.hpp"
 
 namespace rill::offline {
 
@@ -55,9 +56,9 @@ struct Image {
 /// Executions and time of a pass.
 struct PassTime {
   std::string name = {};
-  double ms = 0;      ///< 0 without Options::passTimes
-  uint32_t runs = 0;  ///< number of times recorded
-  uint32_t ran = 0;   ///< number of times executed; the device skips the others, which are empty dispatches
+  double ms = 0;          ///< 0 without Options::passTimes
+  uint32_t recorded = 0;  ///< number of times
+  uint32_t executed = 0;  ///< number of times; the device skips the others, which are empty dispatches
 };
 using SkippedPass = std::pair<std::string, std::string>;  ///< name of a pass and the reason why it was skipped
 

@@ -24,6 +24,7 @@ inline constexpr uint64_t kMaxParticles = uint64_t{4} << 20;
 /// fluid's center rounded to whole spacings), so that precision does not depend on the location of the scene.
 struct ParticleSet {
   double origin[3] = {0, 0, 0};         ///< m, scene coordinates
+  double spacing = 0;                   ///< m, of the particles at rest; 0: that of the scene
   std::vector<Float3> positions = {};   ///< m, relative to origin
   std::vector<Float3> velocities = {};  ///< m/s
   uint64_t left_out_overlap = 0;        ///< closer than 0.9 spacings to a particle of an earlier fill
@@ -32,9 +33,10 @@ struct ParticleSet {
   std::vector<std::string> warnings = {};
 };
 
-/// Makes the particles of the scene's fills and reads their PLY files. If `fluid.particles` is given, computes the spacing and stores it in
-/// `scene.fluid.spacing`. Counts are checked against `maxParticles` before anything is allocated. BadInput if the scene is invalid, a file
-/// cannot be read, there are too many particles, or fills are given and no particles are left; OutOfMemory.
-RILL_API Expected<ParticleSet> makeParticles(Scene& scene, uint64_t maxParticles = kMaxParticles);
+/// Makes the particles of the scene's fills and reads their PLY files. If `fluid.particles` is given, computes the spacing, which is in the
+/// set: Fluid::create() takes it from there; what else needs the scene's spacing gets it by `scene.fluid.spacing = set.spacing`. Counts are
+/// checked against `maxParticles` before anything is allocated. BadInput if the scene is invalid, a file cannot be read, there are too many
+/// particles, or fills are given and no particles are left; OutOfMemory.
+RILL_API Expected<ParticleSet> makeParticles(const Scene& scene, uint64_t maxParticles = kMaxParticles);
 
 }  // namespace rill

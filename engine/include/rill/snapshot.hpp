@@ -1,0 +1,68 @@
+#pragma once
+// The state of a fluid on the host, for checkpoints: a fluid that is created from it goes on with the same bits.
+//
+//   rill::SnapshotReader reader(water);  // after a frame with advance_s = 0 has completed
+//   while (!reader.done()) {
+//     graph.reset();
+//     reader.declare(graph);
+//     run(graph);  // compile, prepare, record, submit, wait
+//     if (auto taken = reader.take(graph); !taken) return fail(taken.error().message);
+//   }
+//   const rill::FluidSnapshot state = std::move(reader.snapshot());
+//   auto again = rill::Fluid::create(device, {.scene = &scene, .particles = &particles, .snapshot = &state});
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rill/expected.hpp"
+#include "rill/export.hpp"
+#include "rill/float3.hpp"
+#include "rill/fluid.hpp"
+#include "rill/graph.hpp"
+
+namespace rill {
+
+/// The persistent state of a fluid between two advances, on the host: everything that later steps depend on, bit by bit
+/// (docs/architecture.md, "Checkpoints"). Arrays have one entry per particle, in the order of the device.
+struct FluidSnapshot {
+  std::vector<uint32_t> control = {};                ///< FluidControl (shaders/shared/fluid_records.h), word by word
+  std::vector<uint32_t> sums = {};                   ///< FluidSums, word by word
+  std::vector<float> solids = {};                    ///< the pose of each solid (shaders/shared/solid_records.h); empty if no solid moves
+  std::vector<Float3> position = {}, velocity = {};  ///< m, m/s
+  // Warm start; empty without one.
+  std::vector<Float4> warmAcceleration = {};  ///< m/s^2; w: last multiplier (m^2) while the initial pressure is solved for
+  std::vector<float> warmStart = {};          ///< multipliers, m^2
+  std::vector<uint32_t> id = {};
+  std::vector<uint32_t> nearWall = {}, nearCorner = {};  ///< indices of particles near one wall; near several walls or a solid; increasing
+  // Neighbor list; empty if the next step rebuilds it.
+  uint32_t listCapacity = 0;                 ///< capacity of the list, entries per particle
+  std::vector<uint32_t> neighborCount = {};  ///< neighbors of each particle; empty without a valid list
+  std::vector<uint32_t> neighbors = {};      ///< concatenated by particle; without those of particles that exceed the capacity
+  std::vector<uint32_t> cell = {};           ///< cell of each sorted particle, if some particles search the grid
+  friend bool operator==(const FluidSnapshot&, const FluidSnapshot&) = default;
+};
+
+/// Reads the state of a fluid back for a checkpoint, in graphs of at most 128 MiB each:
+///   for (SnapshotReader reader(fluid); !reader.done(); reader.take(graph)) { graph.reset(); reader.declare(graph); ... run it ... }
+/// Requires that a frame with `advance_s` = 0 has completed. Do not use the fluid otherwise until done().
+class RILL_API SnapshotReader {
+ public:
+  explicit SnapshotReader(const Fluid& fluid);
+  bool done() const;           ///< whether everything has been read
+  void declare(Graph& graph);  ///< adds the next read-backs to a graph
+  /// Collects the data of a completed frame. Failed if it has not completed.
+  Expected<void> take(const Graph& graph);
+  FluidSnapshot& snapshot() { return snapshot_; }  ///< valid once done()
+
+ private:
+  void plan();
+  void takeRecords(std::span<const std::span<const std::byte>> data);
+  const FluidImpl& fluid_;
+  FluidSnapshot snapshot_;
+  std::vector<uint32_t> parts_ = {};  ///< indices of the buffers to read, in order
+  size_t next_ = 0;
+  std::vector<Ticket> tickets_ = {};
+};
+
+}  // namespace rill
