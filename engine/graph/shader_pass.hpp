@@ -102,15 +102,21 @@ void dispatch(Commands& commands, Kernel kernel, const DispatchSize& size, const
     commands.dispatch(kernel, size.groups, bytes);
 }
 
-/// A pass of one dispatch.
+/// A pass of one dispatch. Resources that the shader does not name are left alone, so passes can share a list.
 template <class Push>
 void addDispatch(Graph& graph, std::string_view name, const ComputePipeline* pipeline, const DispatchSize& size, const Push& push,
-                 std::initializer_list<Named> resources) {
+                 std::span<const Named> resources) {
   graph.pass(name, [&](Pass& pass) {
     if (size.arguments != BufferRef{}) pass.read(size.arguments, Use::Indirect);
     const Kernel kernel = bindNamed(pass, pipeline, resources);
     return [kernel, size, push](Commands& commands) { dispatch(commands, kernel, size, push); };
   });
+}
+
+template <class Push>
+void addDispatch(Graph& graph, std::string_view name, const ComputePipeline* pipeline, const DispatchSize& size, const Push& push,
+                 std::initializer_list<Named> resources) {
+  addDispatch(graph, name, pipeline, size, push, std::span(resources.begin(), resources.size()));
 }
 
 /// A buffer and the word that fills it; null: nothing is filled.

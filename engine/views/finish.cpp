@@ -2,8 +2,9 @@
 
 #include "gpu/device_impl.hpp"
 #include "gpu/texel_reads.hpp"
-#include "graph/step.hpp"
+#include "graph/shader_pass.hpp"
 #include "sort/dispatches.hpp"
+#include "sort/pipelines.hpp"
 #include "views/antialias_record.h"
 
 namespace rill {
@@ -11,32 +12,23 @@ namespace rill {
 using namespace antialias;
 
 Expected<Finish> Finish::create(Device& device) {
-  using enum BindingKind;
-  static constexpr BindingKind kTone[] = {SampledImage, Storage};
-  auto tone = computePipeline(device, {.shader = "views/tonemap", .bindings = kTone});
-  if (!tone) return tone.error();
   Finish out;
   out.device_ = &implOf(device);
-  out.tone_ = *tone;
-  for (const bool texels : {false, true}) {
-    const BindingKind bindings[] = {texels ? TexelUint : Storage, Storage};
-    auto antialias = computePipeline(
-        device,
-        {.shader = texels ? "views/antialias_texel" : "views/antialias", .bindings = bindings, .pushConstantBytes = sizeof(AntialiasPush)});
-    if (!antialias) return antialias.error();
-    out.antialias_[texels] = *antialias;
-  }
+  ModulePipelines pipelines(device);
+  out.tone_ = pipelines.make("views/tonemap");
+  for (const bool texels : {false, true}) out.antialias_[texels] = pipelines.make("views/antialias", texels);
+  if (auto made = pipelines.result(); !made) return made.error();
   return out;
 }
 
 BufferRef Finish::addTo(Graph& graph, ImageRef color, uint32_t width, uint32_t height) const {
   const uint64_t pixels = uint64_t{width} * height;
   BufferRef aliased = graph.create("picture aliased", {pixels * 4}), picture = graph.create("picture", {pixels * 4});
-  addStep(graph, "picture tone", tone_, {sampled(color), fresh(aliased)}, divideUp(pixels, 64));
+  addDispatch(graph, "picture tone", tone_, divideUp(pixels, 64), NoPush{}, {{"hdr", color}, {"aliased", aliased}});
   const bool texels = usesTexelReads(*device_->device, pixels);
   const Groups tiles{static_cast<uint32_t>(divideUp(width, kAntialiasGroup)), static_cast<uint32_t>(divideUp(height, kAntialiasGroup)), 1};
-  addStep(graph, "picture edges", antialias_[texels], {texels ? rill::texels(aliased) : reads(aliased), fresh(picture)}, tiles,
-          AntialiasPush{width, height});
+  addDispatch(graph, "picture edges", antialias_[texels], tiles, AntialiasPush{width, height},
+              {{"aliased", aliased}, {"picture", picture}});
   return picture;
 }
 

@@ -28,41 +28,33 @@ Expected<std::unique_ptr<ParticleView>> ParticleView::create(Device& device, con
   auto out = std::make_unique<ParticleView>();
   out->buffers_ = *std::move(uploaded);
 
-  using enum BindingKind;
-  static constexpr BindingKind kStorage[] = {Storage, Storage, Storage, Storage, Storage, Storage};
-  static constexpr BindingKind kWithScene[] = {Uniform, Storage, Storage, Storage, Storage, Storage, Storage, Storage};
-  struct Wanted {
-    const ComputePipeline*& pipeline;
-    std::string_view shader;
-    std::span<const BindingKind> bindings;
+  const std::pair<const ComputePipeline*&, const char*> all[] = {
+      {out->edges_, "edges"},
+      {out->solidTiles_, "solid_tiles"},
+      {out->lightTiles_, "light_tiles"},
+      {out->surfaces_, "surfaces"},
+      {out->floor_, "floor"},
+      {out->lightSolids_, "light_solids"},
+      {out->project_, "project"},
+      {out->cull_, "cull"},
+      {out->arguments_, "arguments"},
+      {out->splat_, "splat"},
+      {out->splatLarge_, "splat_large"},
+      {out->floorShadow_, "floor_shadow"},
+      {out->tint_, "tint"},
+      {out->classify_, "classify"},
+      {out->shadeFluid_, "shade_fluid"},
+      {out->shadeFloor_, "shade_floor"},
+      {out->shadeShadowedFloor_, "shade_floor_shadows"},
+      {out->shadeSky_, "shade_sky"},
+      {out->shadeSolids_, "shade_solids"},
+      {out->resolve_, "resolve"},
+      {out->drawEdges_, "draw_edges"},
   };
-  const std::span<const BindingKind> storage = kStorage, withScene = kWithScene;
-  const Wanted all[] = {
-      {out->edges_, "views/particle_edges", withScene.first(2)},
-      {out->solidTiles_, "views/particle_solid_tiles", withScene.first(3)},
-      {out->lightTiles_, "views/particle_light_tiles", withScene.first(3)},
-      {out->surfaces_, "views/particle_surfaces", withScene.first(5)},
-      {out->floor_, "views/particle_floor", withScene.first(3)},
-      {out->lightSolids_, "views/particle_light_solids", withScene.first(5)},
-      {out->project_, "views/particle_project", withScene.first(4)},
-      {out->cull_, "views/particle_cull", storage.first(4)},
-      {out->arguments_, "views/particle_arguments", storage.first(1)},
-      {out->splat_, "views/particle_splat", storage.first(5)},
-      {out->splatLarge_, "views/particle_splat_large", storage.first(5)},
-      {out->floorShadow_, "views/particle_floor_shadow", withScene.first(3)},
-      {out->tint_, "views/particle_tint", withScene.first(8)},
-      {out->classify_, "views/particle_classify", storage.first(4)},
-      {out->shadeFluid_, "views/particle_shade_fluid", withScene.first(8)},
-      {out->shadeFloor_, "views/particle_shade_floor", withScene.first(8)},
-      {out->shadeSky_, "views/particle_shade_sky", withScene.first(7)},
-      {out->shadeSolids_, "views/particle_shade_solids", withScene.first(8)},
-      {out->resolve_, "views/particle_resolve", storage.first(6)},
-      {out->drawEdges_, "views/particle_draw_edges", storage.first(5)},
-  };
-  for (const Wanted& wanted : all) {
-    auto made = computePipeline(device, {.shader = wanted.shader, .bindings = wanted.bindings, .pushConstantBytes = sizeof(ViewPush)});
+  for (const auto& [pipeline, shader] : all) {
+    auto made = computePipeline(device, {.shader = std::string("views/particle_") + shader});
     if (!made) return made.error();
-    wanted.pipeline = *made;
+    pipeline = *made;
   }
   return out;
 }

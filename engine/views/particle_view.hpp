@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "graph/shader_pass.hpp"
 #include "rill/device.hpp"
 #include "rill/expected.hpp"
 #include "rill/fluid.hpp"
@@ -50,7 +51,7 @@ class ParticleView {
     particle_view::ViewPush push;
     uint64_t pixels = 0;
     BufferRef scene, poses, edges, depth, winner, light, floor, tint, position, velocity, counters, survivors;
-    BufferRef tiles, shaded, rims, picture;
+    BufferRef masks, occluders, tiles, shaded, rims, picture;
   };
 
   particle_view::ViewPush pushConstants(const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc,
@@ -58,7 +59,7 @@ class ParticleView {
   void addSetup(Graph& graph, const FluidState& fluid, Frame& frame) const;
   void addSurfaces(Graph& graph, Frame& frame) const;
   void addLightMap(Graph& graph, Frame& frame) const;
-  BufferRef addSolidMasks(Graph& graph, const Frame& frame, bool light) const;
+  void addSolidMasks(Graph& graph, Frame& frame, bool light) const;
   void addVisibility(Graph& graph, Frame& frame) const;
   void addSplat(Graph& graph, Frame& frame, bool winners) const;
   void addTint(Graph& graph, Frame& frame) const;
@@ -66,6 +67,8 @@ class ParticleView {
   void addClassify(Graph& graph, Frame& frame) const;
   void addShade(Graph& graph, Frame& frame) const;
   void addArguments(Graph& graph, Frame& frame) const;
+  /// A pass of one dispatch over the frame's buffers.
+  void add(Graph& graph, std::string_view name, const ComputePipeline* pipeline, const DispatchSize& size, Frame& frame) const;
 
   const ParticleScene& scene() const { return buffers_.host; }
   uint64_t lightTexels() const { return uint64_t{scene().scene.counts.y} * scene().scene.counts.z; }
@@ -76,7 +79,8 @@ class ParticleView {
   const ComputePipeline *edges_ = nullptr, *solidTiles_ = nullptr, *lightTiles_ = nullptr, *surfaces_ = nullptr, *floor_ = nullptr;
   const ComputePipeline *lightSolids_ = nullptr, *project_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr,
                         *splatLarge_ = nullptr;
-  const ComputePipeline *floorShadow_ = nullptr, *tint_ = nullptr, *classify_ = nullptr, *shadeFluid_ = nullptr, *shadeFloor_ = nullptr;
+  const ComputePipeline *floorShadow_ = nullptr, *tint_ = nullptr, *classify_ = nullptr, *shadeFluid_ = nullptr, *shadeFloor_ = nullptr,
+                        *shadeShadowedFloor_ = nullptr;
   const ComputePipeline *shadeSky_ = nullptr, *shadeSolids_ = nullptr, *resolve_ = nullptr, *drawEdges_ = nullptr;
 };
 

@@ -4,8 +4,9 @@
 #include <cstring>
 
 #include "gpu/device_impl.hpp"
-#include "graph/step.hpp"
+#include "graph/shader_pass.hpp"
 #include "sort/dispatches.hpp"
+#include "sort/pipelines.hpp"
 
 namespace rill {
 
@@ -41,15 +42,10 @@ Expected<SceneBuffers> SceneBuffers::create(Device& device, ParticleScene host) 
   if (auto ok = keep(out.scene, upload<SceneRecord>(device, "view: scene", {&out.host.scene, 1})); !ok) return ok.error();
   if (auto ok = keep(out.solids, upload<particle_view::SceneSolid>(device, "view: solids", out.host.solids)); !ok) return ok.error();
   if (auto ok = keep(out.keyframes, upload<KeyframeRecord>(device, "view: keyframes", out.host.keyframes)); !ok) return ok.error();
-  using enum BindingKind;
-  static constexpr BindingKind kBindings[] = {Uniform, Storage, Storage, Storage, Storage};
-  for (const auto& [pipeline, driven] : {std::pair{&out.poses, 0u}, {&out.drivenPoses, 1u}}) {
-    const uint32_t constants[] = {driven};
-    auto made = computePipeline(
-        device, {.shader = "views/particle_poses", .bindings = kBindings, .pushConstantBytes = sizeof(ViewPush), .constants = constants});
-    if (!made) return made.error();
-    *pipeline = *made;
-  }
+  ModulePipelines pipelines(device);
+  out.poses = pipelines.make("views/particle_poses");
+  out.drivenPoses = pipelines.make("views/particle_driven_poses");
+  if (auto made = pipelines.result(); !made) return made.error();
   return out;
 }
 
@@ -62,9 +58,8 @@ BufferRef SceneBuffers::addPoses(Graph& graph, const FluidState& fluid, BufferRe
   const BufferRef keys = graph.import("view keyframes", {keyframes.handle(), 0, keyframes.size(), Use::Nothing, Use::Nothing});
   BufferRef out = graph.create("view poses", {host.solids.size() * sizeof(PlacedSolid)});
   const bool driven = fluid.solids != BufferRef{};
-  addStep(graph, "view poses", driven ? drivenPoses : poses,
-          {uniform(sceneRef), reads(solidRecords), reads(keys), fresh(out), reads(driven ? fluid.solids : solidRecords)},
-          divideUp(host.solids.size(), kParticleGroup), push);
+  addDispatch(graph, "view poses", driven ? drivenPoses : poses, divideUp(host.solids.size(), kParticleGroup), push,
+              {{"scene", sceneRef}, {"solids", solidRecords}, {"keyframes", keys}, {"placed", out}, {"fluidSolids", fluid.solids}});
   return out;
 }
 

@@ -59,22 +59,15 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
   auto stage = SurfaceStage::create(device);
   if (!stage) return stage.error();
   out->stage_ = *stage;
-  using enum BindingKind;
-  static constexpr BindingKind kLit[] = {Uniform, Uniform, Storage, SampledImage, Storage};
-  static constexpr BindingKind kBare[] = {Uniform, Uniform, Storage, Storage};  // of the ground without solids
-  static constexpr BindingKind kPoses[] = {Storage};
-  static constexpr BindingKind kEdges[] = {Uniform, Storage};
   const bool solids = !out->buffers_.host.solids.empty();
   const std::span<const VkFormat> color{&formats.color, 1};
   struct Wanted {
     const GraphicsPipeline*& pipeline;
     GraphicsPipelineDesc desc;
   };
-  const auto desc = [&](std::string_view vertex, std::string_view fragment, std::span<const BindingKind> bindings) {
+  const auto desc = [&](std::string_view vertex, std::string_view fragment) {
     return GraphicsPipelineDesc{.vertex = vertex,
                                 .fragment = fragment,
-                                .bindings = bindings,
-                                .pushConstantBytes = sizeof(SurfacePush),
                                 .colors = color,
                                 .depth = formats.depth,
                                 .depthCompare = VK_COMPARE_OP_GREATER,
@@ -82,25 +75,22 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
   };
   constexpr std::string_view kGround[2][2] = {{"views/scenery_ground_fragment", "views/scenery_ground_environment_fragment"},
                                               {"views/scenery_ground_solids_fragment", "views/scenery_ground_solids_environment_fragment"}};
-  GraphicsPipelineDesc ground = desc("views/scenery_ground_vertex", kGround[solids][environment != nullptr],
-                                     (solids ? std::span<const BindingKind>(kLit).first(environment ? 5 : 4)
-                                             : std::span<const BindingKind>(kBare).first(environment ? 4 : 3)));
+  GraphicsPipelineDesc ground = desc("views/scenery_ground_vertex", kGround[solids][environment != nullptr]);
   ground.depthCompare = VK_COMPARE_OP_ALWAYS;
-  GraphicsPipelineDesc edges = desc("views/scenery_edges_vertex", "views/scenery_edges_fragment", std::span(kEdges).first(1));
+  GraphicsPipelineDesc edges = desc("views/scenery_edges_vertex", "views/scenery_edges_fragment");
   edges.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
   edges.depthWrite = false;
   edges.blend = Blend::Premultiplied;
   GraphicsPipelineDesc over = edges;
   over.fragment = "views/scenery_edges_over_fluid_fragment";
-  over.bindings = kEdges;
   std::vector<Wanted> all{{out->ground_, ground}, {out->edges_, edges}, {out->edgesOverFluid_, over}};
   if (solids) {
-    GraphicsPipelineDesc light = desc("views/scenery_solid_light_vertex", "views/scenery_solid_light_fragment", kPoses);
+    GraphicsPipelineDesc light = desc("views/scenery_solid_light_vertex", "views/scenery_solid_light_fragment");
     light.colors = {};
     light.depth = kShadowFormat;
     light.depthCompare = VK_COMPARE_OP_LESS;
     all.push_back({out->solid_, desc("views/scenery_solid_vertex",
-                                     environment ? "views/scenery_solid_environment_fragment" : "views/scenery_solid_fragment", kLit)});
+                                     environment ? "views/scenery_solid_environment_fragment" : "views/scenery_solid_fragment")});
     all.push_back({out->solidLight_, light});
   }
   for (const Wanted& wanted : all) {
@@ -154,9 +144,8 @@ SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets 
   const SurfacePush light = SurfaceStage::thicknessPush(lightPush(fluid, fluid.origin), fluid, 1);
   const bool shaded = solids || hasGround();
   if (!shaded) graph.skipped(kFluidShadow.pass, "there is nothing that it falls on");
-  const BufferRef shadow =
-      shaded ? stage_.addThickness(graph, kFluidShadow, fluid, light, {}, nullptr)  // a particle spans five texels at most
-             : scene;                                                               // bound, never read
+  BufferRef shadow = scene;  // where there is no ground, which alone reads it
+  if (shaded) shadow = stage_.addThickness(graph, kFluidShadow, fluid, light, {}, nullptr);  // a particle spans five texels at most
   const BufferRef record = addLook(graph, lookRecord(look, light, environment_));
   BufferRef poses;
   ImageRef lightDepth;
@@ -167,41 +156,27 @@ SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets 
     poses = buffers_.addPoses(graph, fluid, scene, push);
     lightDepth = graph.create("scenery light depth", {kShadowFormat, light.width, light.height});
     graph.pass("scenery shadows", [&](Pass& pass) {
-      pass.read(poses, Use::DrawRead);
       lightDepth = pass.write(lightDepth, Use::DepthTarget, Load::Clear, depthClear(1));
-      const Kernel kernel = pass.kernel(solidLight_, {poses});
+      const Kernel kernel = bindNamed(pass, solidLight_, {{"placed", poses}});
       return [kernel, push = lightPush(fluid, buffers_.host.origin), count = static_cast<uint32_t>(buffers_.host.solids.size())](
                  Commands& commands) { commands.draw(kernel, kSolidVertices, count, push); };
     });
   } else {
     graph.skipped("scenery solids", "the scene has no solids");
   }
-  const auto readLight = [&](Pass& pass) {
-    pass.read(scene, Use::DrawUniform);
-    pass.read(record, Use::DrawUniform);
-    pass.read(shadow, Use::DrawRead);
-    if (solids) pass.read(lightDepth, Use::DrawSampled);
-  };
+  const Named lit[] = {{"scene", scene},  {"look", record},       {"fluid_shadow", shadow}, {"light_depth", lightDepth},
+                       {"placed", poses}, {"environment", texels}};
   graph.pass("scenery ground", [&](Pass& pass) {
-    readLight(pass);
     targets.color = pass.write(targets.color, Use::ColorTarget, Load::Discard);
     targets.depth = pass.write(targets.depth, Use::DepthTarget, Load::Discard);
-    std::vector<ResourceRef> bound{scene, record, shadow};
-    if (solids) bound.push_back(lightDepth);
-    if (environment_) {
-      pass.read(texels, Use::DrawRead);
-      bound.push_back(texels);
-    }
-    const Kernel kernel = pass.kernel(ground_, bound);
+    const Kernel kernel = bindNamed(pass, ground_, lit);
     return [kernel, camera](Commands& commands) { commands.draw(kernel, 3, 1, camera); };
   });
   if (solids) {
     graph.pass("scenery solids", [&](Pass& pass) {
-      readLight(pass);
-      pass.read(poses, Use::DrawRead);
       targets.color = pass.write(targets.color, Use::ColorTarget);
       targets.depth = pass.write(targets.depth, Use::DepthTarget);
-      const Kernel kernel = pass.kernel(solid_, {scene, record, shadow, lightDepth, poses});
+      const Kernel kernel = bindNamed(pass, solid_, lit);
       return [kernel, camera, count = static_cast<uint32_t>(buffers_.host.solids.size())](Commands& commands) {
         commands.draw(kernel, kSolidVertices, count, camera);
       };
@@ -209,10 +184,9 @@ SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets 
   }
   if (!hasEdges()) return targets;
   graph.pass("scenery edges", [&](Pass& pass) {
-    pass.read(scene, Use::DrawUniform);
     targets.color = pass.write(targets.color, Use::ColorTarget);
     targets.depth = pass.write(targets.depth, Use::DepthTarget);
-    const Kernel kernel = pass.kernel(edges_, {scene});
+    const Kernel kernel = bindNamed(pass, edges_, {{"scene", scene}});
     return [kernel, camera](Commands& commands) { commands.draw(kernel, kEdgeVertices, kEdgeCount, camera); };
   });
   return targets;
@@ -222,11 +196,9 @@ SceneTargets Scenery::addEdgesOverFluid(Graph& graph, SceneTargets targets, cons
   if (!hasEdges()) return targets;
   const BufferRef scene = buffers_.importScene(graph);
   graph.pass("scenery edges over fluid", [&](Pass& pass) {
-    pass.read(scene, Use::DrawUniform);
-    pass.read(pixels, Use::DrawRead);
     targets.color = pass.write(targets.color, Use::ColorTarget);
     targets.depth = pass.write(targets.depth, Use::DepthTarget);
-    const Kernel kernel = pass.kernel(edgesOverFluid_, {scene, pixels});
+    const Kernel kernel = bindNamed(pass, edgesOverFluid_, {{"scene", scene}, {"surface", pixels}});
     return [kernel, camera = viewPush(view, buffers_.host.origin)](Commands& commands) {
       commands.draw(kernel, kEdgeVertices, kEdgeCount, camera);
     };

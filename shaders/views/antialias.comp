@@ -8,15 +8,15 @@
 
 layout(local_size_x = kAntialiasGroup, local_size_y = kAntialiasGroup) in;
 layout(push_constant) uniform Push { AntialiasPush push; };
-READ_UINT(0, source)  // RGBA8, sRGB
-layout(std430, set = 0, binding = 1) writeonly buffer Smoothed { uint smoothed[]; };
+READ_UINT(0, aliased)  // RGBA8, sRGB
+layout(std430, set = 0, binding = 1) writeonly buffer Picture { uint picture[]; };
 
 const float kMinContrast = 0.06, kMinRelativeContrast = 0.15;  // of an edge: absolute, and relative to the brightest pixel
 const int kMaxReach = 8;  // pixels that an edge is followed to each side
 
 uint pixelAt(ivec2 p) {
   p = clamp(p, ivec2(0), ivec2(push.width, push.height) - 1);
-  return sourceAt(uint(p.y) * push.width + uint(p.x));
+  return aliasedAt(uint(p.y) * push.width + uint(p.x));
 }
 vec3 colorOf(uint pixel) { return vec3(pixel & 0xFFu, (pixel >> 8) & 0xFFu, (pixel >> 16) & 0xFFu) / 255.0; }
 float lumaOf(uint pixel) { return dot(colorOf(pixel), vec3(0.299, 0.587, 0.114)); }
@@ -44,7 +44,7 @@ void main() {
   const float n = lumaAt(p + ivec2(0, -1)), s = lumaAt(p + ivec2(0, 1)), w = lumaAt(p + ivec2(-1, 0)), e = lumaAt(p + ivec2(1, 0));
   const float highest = max(c, max(max(n, s), max(w, e))), range = highest - min(c, min(min(n, s), min(w, e)));
   if (range < max(kMinContrast, kMinRelativeContrast * highest)) {
-    smoothed[index] = own;
+    picture[index] = own;
     return;
   }
   const float nw = lumaAt(p + ivec2(-1, -1)), ne = lumaAt(p + ivec2(1, -1)), sw = lumaAt(p + ivec2(-1, 1)), se = lumaAt(p + ivec2(1, 1));
@@ -65,5 +65,5 @@ void main() {
   // Light is about the square of the stored value.
   const vec3 mine = colorOf(own), its = colorOf(pixelAt(p + across));
   const uvec3 bytes = uvec3(sqrt(mix(mine * mine, its * its, share)) * 255.0 + 0.5);
-  smoothed[index] = share > 0.0 ? bytes.r | bytes.g << 8 | bytes.b << 16 | 0xFF000000u : own;
+  picture[index] = share > 0.0 ? bytes.r | bytes.g << 8 | bytes.b << 16 | 0xFF000000u : own;
 }

@@ -1,5 +1,5 @@
 #version 460
-// Shades the floor: grid lines and soft shadows. A workgroup is a listed tile. Final except near outlines.
+// Shades the floor: grid lines and, with SHADOWS, soft shadows. A workgroup is a listed tile. Final except near outlines.
 #extension GL_GOOGLE_include_directive : require
 #include "views/particle_view.glsl"
 #include "views/particle_tiles.glsl"
@@ -11,10 +11,12 @@ layout(std140, set = 0, binding = 0) uniform Scene { SceneRecord scene; };
 layout(std430, set = 0, binding = 1) readonly buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Tiles { uint tiles[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Winner { uint winner[]; };
-layout(std430, set = 0, binding = 4) readonly buffer FloorLight { float floor_light[]; };
-layout(std430, set = 0, binding = 5) writeonly buffer Shaded { uint shaded[]; };
-layout(std430, set = 0, binding = 6) writeonly buffer Rims { uint rims[]; };
-layout(std430, set = 0, binding = 7) writeonly buffer Picture { uint picture[]; };
+layout(std430, set = 0, binding = 4) writeonly buffer Shaded { uint shaded[]; };
+layout(std430, set = 0, binding = 5) writeonly buffer Rims { uint rims[]; };
+layout(std430, set = 0, binding = 6) writeonly buffer Picture { uint picture[]; };
+#ifdef SHADOWS
+layout(std430, set = 0, binding = 7) readonly buffer FloorLight { float floor_light[]; };
+#endif
 #include "views/particle_light.glsl"
 
 const vec3 kFloor = vec3(0.50, 0.50, 0.49);
@@ -28,7 +30,7 @@ float gridCover(float at, float width, float line, float step) {
 }
 
 float floorLight(vec3 at) {
-  if (view.count + scene.counts.x == 0u) return 1.0;  // no casters, no map
+#ifdef SHADOWS
   const vec2 limit = vec2(scene.counts.yz) - 1.001;
   const vec2 texel = clamp(lightTexel(at), vec2(0.0), limit);  // the map's border is lit
   const uvec2 base = uvec2(texel);
@@ -36,6 +38,9 @@ float floorLight(vec3 at) {
   const uint row = base.y * scene.counts.y + base.x;
   return mix(mix(floor_light[row], floor_light[row + 1u], part.x),
              mix(floor_light[row + scene.counts.y], floor_light[row + scene.counts.y + 1u], part.x), part.y);
+#else
+  return 1.0;
+#endif
 }
 
 vec3 shadeFloor(vec3 ray) {

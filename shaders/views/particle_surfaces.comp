@@ -6,13 +6,19 @@
 
 layout(local_size_x = 16, local_size_y = 16) in;
 layout(std140, set = 0, binding = 0) uniform Scene { SceneRecord scene; };
+#ifdef LIGHT
+layout(std430, set = 0, binding = 1) writeonly buffer LightMap { uint light_map[]; };
+#define FIRST_SOLID_BINDING 2
+#else
 layout(std430, set = 0, binding = 1) writeonly buffer Depth { uint depth[]; };
-layout(std430, set = 0, binding = 2) writeonly buffer Winner { uint winner[]; };  // with LIGHT not written
+layout(std430, set = 0, binding = 2) writeonly buffer Winner { uint winner[]; };
+#define FIRST_SOLID_BINDING 3
+#endif
 #include "views/particle_light.glsl"
 #include "views/particle_frustum.glsl"
 #ifndef BARE
-layout(std430, set = 0, binding = 3) readonly buffer Placed { PlacedSolid placed[]; };
-layout(std430, set = 0, binding = 4) readonly buffer Masks { uint masks[]; };
+layout(std430, set = 0, binding = FIRST_SOLID_BINDING) readonly buffer Placed { PlacedSolid placed[]; };
+layout(std430, set = 0, binding = FIRST_SOLID_BINDING + 1) readonly buffer Masks { uint masks[]; };
 #include "views/particle_solids.glsl"
 #endif
 
@@ -59,8 +65,10 @@ void main() {
   }
 #endif
   const uint index = pixel.y * size.x + pixel.x;
+#ifdef LIGHT
+  light_map[index] = floatBitsToUint(best);
+#else
   depth[index] = floatBitsToUint(best);
-#ifndef LIGHT
   winner[index] = owner;
 #endif
 }

@@ -6,7 +6,7 @@
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform texture2D hdr;
-layout(std430, set = 0, binding = 1) writeonly buffer Picture { uint picture[]; };
+layout(std430, set = 0, binding = 1) writeonly buffer Aliased { uint aliased[]; };
 
 // Negative values and NaNs become 0 (by bits, because a compiler may assume that there are no NaNs), infinity the largest half.
 vec3 bounded(vec3 c) {
@@ -31,5 +31,5 @@ void main() {
   const uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
   if (index >= uint(size.x) * uint(size.y)) return;
   const vec3 color = texelFetch(hdr, ivec2(index % uint(size.x), index / uint(size.x)), 0).rgb;
-  picture[index] = encodeSrgb(neutral(bounded(color)));
+  aliased[index] = encodeSrgb(neutral(bounded(color)));
 }
