@@ -1,7 +1,9 @@
 #include "bench/bilateral.hpp"
 
 #include "bench/shaders.hpp"
-#include "graph/step.hpp"
+#include "core/impl_of.hpp"
+#include "gpu/device_impl.hpp"
+#include "graph/shader_pass.hpp"
 #include "sort/dispatches.hpp"
 
 namespace rill::bench {
@@ -21,14 +23,10 @@ Expected<Bilateral> Bilateral::create(Device& device) {
     const ComputePipeline** pipeline;
     uint32_t columns, rows;
   } all[] = {{&filter.columns_, 1, 0}, {&filter.rows_, 0, 1}, {&filter.both_, 1, 1}};
-  static constexpr BindingKind kBindings[] = {BindingKind::Storage, BindingKind::Storage};
+  implOf(device).shaders.add(benchShaders());
   for (const auto& variant : all) {
     const uint32_t constants[] = {variant.columns, variant.rows};
-    auto pipeline = computePipeline(device, {.shader = "bilateral",
-                                             .spirv = benchShader("bilateral"),
-                                             .bindings = kBindings,
-                                             .pushConstantBytes = sizeof(BilateralPush),
-                                             .constants = constants});
+    auto pipeline = computePipeline(device, {.shader = "bilateral", .constants = constants});
     if (!pipeline) return pipeline.error();
     *variant.pipeline = *pipeline;
   }
@@ -42,7 +40,7 @@ DepthFilter Bilateral::filter(const BilateralSettings& settings) const {
     const uint64_t columns = divideUp(view.width, view.step) + 2 * view.margin, rows = divideUp(view.height, view.step) + 2 * view.margin;
     const auto pass = [&](const ComputePipeline* pipeline) {
       BufferRef to = graph.create("bilateral", {columns * rows * 4});
-      addStep(graph, "bilateral", pipeline, {reads(depth), fresh(to)}, divideUp(columns, 8) * divideUp(rows, 8), push);
+      addDispatch(graph, "bilateral", pipeline, divideUp(columns, 8) * divideUp(rows, 8), push, {{"before", depth}, {"after", to}});
       depth = to;
     };
     if (settings.separable) {

@@ -4,7 +4,8 @@
 #include <bit>
 #include <cmath>
 
-#include "graph/step.hpp"
+#include "graph/shader_pass.hpp"
+#include "sort/pipelines.hpp"
 
 namespace rill {
 namespace {
@@ -25,35 +26,16 @@ struct Level {
 }  // namespace
 
 Expected<CurvatureFlow> CurvatureFlow::create(Device& device) {
-  using enum BindingKind;
-  static constexpr BindingKind kStorage[] = {Storage, Storage, Storage, Storage, Storage, Storage};
-  static constexpr BindingKind kOne[] = {TexelUint, Storage, Storage, Storage};
-  static constexpr BindingKind kThree[] = {TexelUint, TexelUint, TexelUint, Storage, Storage, Storage};
   CurvatureFlow out;
+  ModulePipelines pipelines(device);
   for (uint32_t level = 0; level <= kMaxLevels; ++level)
     for (const bool texels : {false, true}) {
-      const struct {
-        const ComputePipeline*& pipeline;
-        std::string_view shader;
-        std::span<const BindingKind> bindings;
-        bool used = true;
-      } all[] = {{out.flow_[level][texels], texels ? "render/surface_flow_texel" : "render/surface_flow",
-                  texels ? std::span<const BindingKind>(kOne) : std::span(kStorage).first(4)},
-                 {out.down_[level][texels], texels ? "render/surface_flow_down_texel" : "render/surface_flow_down",
-                  texels ? std::span<const BindingKind>(kOne) : std::span(kStorage).first(4), level > 0},
-                 {out.up_[level][texels], texels ? "render/surface_flow_up_texel" : "render/surface_flow_up",
-                  texels ? std::span<const BindingKind>(kThree) : std::span<const BindingKind>(kStorage), level < kMaxLevels}};
-      const uint32_t constants[] = {std::bit_cast<uint32_t>(kFlowStable), kSampleBlock >> level};
-      for (const auto& row : all) {
-        if (!row.used) continue;
-        const size_t bytes = &row.pipeline == &out.flow_[level][texels] ? sizeof(FlowPush) : sizeof(SurfacePush);
-        auto made = computePipeline(
-            device,
-            {.shader = row.shader, .bindings = row.bindings, .pushConstantBytes = static_cast<uint32_t>(bytes), .constants = constants});
-        if (!made) return made.error();
-        row.pipeline = *made;
-      }
+      const NamedConstant step{"kStep", std::bit_cast<uint32_t>(kFlowStable)}, block{"kBlock", kSampleBlock >> level};
+      out.flow_[level][texels] = pipelines.make("render/surface_flow", texels, {step, block});
+      if (level > 0) out.down_[level][texels] = pipelines.make("render/surface_flow_down", texels, {step, block});
+      if (level < kMaxLevels) out.up_[level][texels] = pipelines.make("render/surface_flow_up", texels, {step, block});
     }
+  if (auto made = pipelines.result(); !made) return made.error();
   return out;
 }
 
@@ -83,11 +65,11 @@ BufferRef CurvatureFlow::addTo(Graph& graph, BufferRef depth, const SurfaceBuffe
     for (BufferRef& buffer : levels[l].to) fills[count++] = {&buffer, kInfiniteBits};
   }
   addFill(graph, "surface flow clear", std::span(fills).first(count));
-  const StepGroups blocks(surface.arguments, kSampleBlockArguments);
-  const auto array = [&](BufferRef buffer) { return texels ? rill::texels(buffer) : reads(buffer); };
+  const DispatchSize blocks(surface.arguments, kSampleBlockArguments * 4);
+  const Named counters{"counters", surface.counters}, list{"blocks", surface.blocks};
   for (uint32_t l = 1; l <= coarsest; ++l)
-    addStep(graph, "surface flow down", down_[l][texels],
-            {array(levels[l - 1].start), writes(levels[l].start), reads(surface.counters), reads(surface.blocks)}, blocks, levels[l].push);
+    addDispatch(graph, "surface flow down", down_[l][texels], blocks, levels[l].push,
+                {{"finer", levels[l - 1].start}, {"coarse", levels[l].start}, counters, list});
   BufferRef from;
   for (uint32_t l = coarsest + 1; l-- > 0;) {
     Level& level = levels[l];
@@ -95,17 +77,15 @@ BufferRef CurvatureFlow::addTo(Graph& graph, BufferRef depth, const SurfaceBuffe
     if (l == coarsest) {
       from = level.start;
     } else {
-      addStep(graph, "surface flow up", up_[l][texels],
-              {array(level.start), array(levels[l + 1].start), array(from), writes(level.to[0]), reads(surface.counters),
-               reads(surface.blocks)},
-              blocks, level.push);
+      addDispatch(graph, "surface flow up", up_[l][texels], blocks, level.push,
+                  {{"before", level.start}, {"started", levels[l + 1].start}, {"flowed", from}, {"after", level.to[0]}, counters, list});
       from = level.to[0];
       target = 1;
     }
     for (uint32_t k = 0; k < (l == coarsest ? level.steps : std::min(level.steps, kFineSteps)); ++k) {
       BufferRef& to = level.to[target++ % 2];
-      addStep(graph, "surface flow", flow_[l][texels], {array(from), writes(to), reads(surface.counters), reads(surface.blocks)}, blocks,
-              FlowPush{level.push, k});
+      addDispatch(graph, "surface flow", flow_[l][texels], blocks, FlowPush{level.push, k},
+                  {{"before", from}, {"after", to}, counters, list});
       from = to;
     }
   }

@@ -1,11 +1,12 @@
 #include "rill/fluid_renderer.hpp"
 
 #include "graph/graph_impl.hpp"
-#include "graph/step.hpp"
+#include "graph/shader_pass.hpp"
 #include "render/check_input.hpp"
 #include "render/fluid_renderer_impl.hpp"
 #include "render/view_push.hpp"
 #include "sort/dispatches.hpp"
+#include "sort/pipelines.hpp"
 
 namespace rill {
 
@@ -31,30 +32,18 @@ Expected<void> FluidRendererImpl::create(Device& host, const TargetFormats& targ
   auto mean = MeanNormals::create(host);
   if (!mean) return mean.error();
   meanNormals = *mean;
-  using enum BindingKind;
-  static constexpr BindingKind kScene[] = {SampledImage, SampledImage, Storage, Storage};
-  static constexpr BindingKind kData[] = {Storage, Storage, Storage};
-  auto made = computePipeline(host, {.shader = "render/surface_scene", .bindings = kScene, .pushConstantBytes = sizeof(SurfacePush)});
-  if (!made) return made.error();
-  scene = *made;
-  for (uint32_t what = 0; what < 3; ++what) {
-    const uint32_t constants[] = {what};
-    made = computePipeline(
-        host, {.shader = "render/surface_data", .bindings = kData, .pushConstantBytes = sizeof(DataPush), .constants = constants});
-    if (!made) return made.error();
-    data[what] = *made;
-  }
+  ModulePipelines pipelines(host);
+  scene = pipelines.make("render/surface_scene");
+  for (const bool depth : {false, true}) data[depth] = pipelines.make("render/surface_data", false, {{"DEPTH", depth}});
+  data[size_t(SurfaceData::Thickness)] = pipelines.make("render/surface_data_thickness");
+  if (auto made = pipelines.result(); !made) return made.error();
   return makeShade();
 }
 
 Expected<void> FluidRendererImpl::makeShade() {
-  using enum BindingKind;
-  static constexpr BindingKind kShade[] = {Uniform, Storage, Storage, Storage, Storage, Storage, Storage, Storage, Storage};
   auto drawn = graphicsPipeline(*device->device,
                                 {.vertex = "render/fluid_shade_vertex",
                                  .fragment = environment ? "render/fluid_shade_environment_fragment" : "render/fluid_shade_fragment",
-                                 .bindings = std::span(kShade).first(environment ? 9 : 8),
-                                 .pushConstantBytes = sizeof(SurfacePush),
                                  .colors = {&formats.color, 1},
                                  .depth = formats.depth,
                                  .depthCompare = VK_COMPARE_OP_ALWAYS,  // the shader compares in m
@@ -88,28 +77,33 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
   const SurfacePush push = last.push;
   const uint64_t pixels = uint64_t{push.width} * push.height;
   BufferRef sceneColor = graph.create("fluid scene color", {pixels * 8}), sceneDepth = graph.create("fluid scene depth", {pixels * 4});
-  addStep(graph, "fluid scene", scene, {sampled(targets.color), sampled(targets.depth), fresh(sceneColor), fresh(sceneDepth)},
-          StepGroups(last.arguments, kPixelArguments), push);
+  addDispatch(graph, "fluid scene", scene, {last.arguments, kPixelArguments * 4}, push,
+              {{"host_color", targets.color}, {"host_depth", targets.depth}, {"scene_color", sceneColor}, {"scene_depth", sceneDepth}});
   const SurfacePush thick = SurfaceStage::thicknessPush(push, fluid, kThicknessStep);
   BufferRef thickness, normals;
   if (look.opaque) {
     graph.skipped(kFluidThickness.pass, "the look is opaque");
     graph.skipped("surface mean normals", "the look is opaque");
-    thickness = normals = last.tiles;  // bound, not read
+    thickness = normals = last.tiles;  // the shader can do without them
   } else {
     normals = meanNormals.addTo(graph, last);
     thickness = surface.addThickness(graph, kFluidThickness, fluid, thick, sceneDepth, &last.counters);
   }
   const BufferRef record = addLook(graph, lookRecord(look, thick, environment.get()));
   graph.pass("fluid shade", [&](Pass& pass) {
-    pass.read(record, Use::DrawUniform);
-    const ResourceRef bound[] = {record, last.tiles, last.pixels, thickness, sceneColor, sceneDepth, normals, last.samples, texels};
-    const size_t count = environment ? 9 : 8;
-    for (size_t k = 1; k < count; ++k) pass.read(BufferRef{bound[k]}, Use::DrawRead);
     pass.read(last.arguments, Use::Indirect);
     targets.color = pass.write(targets.color, Use::ColorTarget);
     targets.depth = pass.write(targets.depth, Use::DepthTarget);
-    const Kernel kernel = pass.kernel(shade, std::span(bound).first(count));
+    const Kernel kernel = bindNamed(pass, shade,
+                                    {{"look", record},
+                                     {"tiles", last.tiles},
+                                     {"surface", last.pixels},
+                                     {"thickness", thickness},
+                                     {"scene_color", sceneColor},
+                                     {"scene_depth", sceneDepth},
+                                     {"mean_normals", normals},
+                                     {"samples", last.samples},
+                                     {"environment", texels}});
     return [kernel, push, arguments = last.arguments](Commands& commands) {
       commands.viewport(push.left, push.top, push.width, push.height);
       commands.drawIndirect(kernel, arguments, kTileDraw * 4, push);
@@ -129,10 +123,10 @@ BufferRef FluidRendererImpl::addData(Graph& graph, const FluidState& fluid, cons
   }
   last = surface.addTo(graph, fluid, push, method, true, view.focus_m);
   const SurfacePush thick = SurfaceStage::thicknessPush(push, fluid, kThicknessStep);
-  BufferRef thickness = last.tiles;  // bound, not read
+  BufferRef thickness;
   if (what == SurfaceData::Thickness) thickness = surface.addThickness(graph, kFluidThickness, fluid, thick, {}, &last.counters);
-  addStep(graph, "surface data", data[static_cast<size_t>(what)], {reads(last.pixels), reads(thickness), fresh(picture)},
-          divideUp(pixels, kSurfaceGroup), DataPush{thick, full});
+  addDispatch(graph, "surface data", data[static_cast<size_t>(what)], divideUp(pixels, kSurfaceGroup), DataPush{thick, full},
+              {{"surface", last.pixels}, {"thickness", thickness}, {"picture", picture}});
   return picture;
 }
 

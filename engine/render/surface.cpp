@@ -7,8 +7,9 @@
 
 #include "gpu/device_impl.hpp"
 #include "gpu/texel_reads.hpp"
-#include "graph/step.hpp"
+#include "graph/shader_pass.hpp"
 #include "sort/dispatches.hpp"
+#include "sort/pipelines.hpp"
 
 namespace rill {
 namespace {
@@ -42,55 +43,28 @@ uint32_t sampleStep(const SurfacePush& camera, float spacing, double depth, doub
 Expected<SurfaceStage> SurfaceStage::create(Device& device) {
   SurfaceStage stage;
   stage.device_ = &implOf(device);
-  using enum BindingKind;
-  static constexpr BindingKind kStorage[] = {Storage, Storage, Storage, Storage, Storage, Storage, Storage, Storage},
-                               kTexels[] = {TexelUint, TexelFloat4, TexelFloat4, Storage, Storage, Storage, Storage, Storage},
-                               kTexelsToPlanes[] = {TexelUint, TexelFloat4, Storage, Storage},
-                               kTexelSamples[] = {TexelUint, Storage, Storage, Storage},
-                               kTexelsToNormals[] = {TexelUint, TexelFloat4, TexelUint, Storage, Storage, Storage, Storage};
-  const auto storage = [](size_t bindings) { return std::span(kStorage).first(bindings); };
-  const struct {
-    const ComputePipeline*& pipeline;
-    std::string_view shader;
-    std::span<const BindingKind> bindings;
-  } all[] = {
-      {stage.occlude_, "render/surface_occlude", storage(2)},
-      {stage.cull_, "render/surface_cull", storage(4)},
-      {stage.arguments_, "render/surface_arguments", storage(2)},
-      {stage.splat_, "render/surface_splat", storage(4)},
-      {stage.pick_, "render/surface_pick", storage(6)},
-      {stage.scatter_, "render/surface_scatter", storage(6)},
-      {stage.order_, "render/surface_order", storage(5)},
-      {stage.planes_[0], "render/surface_planes", storage(4)},
-      {stage.blend_[0], "render/surface_blend", storage(7)},
-      {stage.tiles_, "render/surface_tiles", storage(4)},
-      {stage.compose_, "render/surface_compose", storage(6)},
-      {stage.edges_[0], "render/surface_edges", storage(8)},
-      {stage.thickness_, "render/surface_thickness", storage(4)},
-      {stage.normals_[0], "render/surface_normals", storage(7)},
-      {stage.edgesFiltered_[0], "render/surface_edges_filtered", storage(8)},
-      {stage.thicknessNoScene_, "render/surface_thickness_no_scene", storage(3)},
-      {stage.planes_[1], "render/surface_planes_texel", kTexelsToPlanes},
-      {stage.blend_[1], "render/surface_blend_texel", std::span(kTexels).first(7)},
-      {stage.edges_[1], "render/surface_edges_texel", kTexels},
-      {stage.normals_[1], "render/surface_normals_texel", kTexelsToNormals},
-      {stage.edgesFiltered_[1], "render/surface_edges_filtered_texel", kTexels},
-  };
-  for (const auto& row : all) {
-    auto made = computePipeline(device, {.shader = row.shader, .bindings = row.bindings, .pushConstantBytes = sizeof(SurfacePush)});
-    if (!made) return made.error();
-    row.pipeline = *made;
+  ModulePipelines pipelines(device);
+  stage.occlude_ = pipelines.make("render/surface_occlude");
+  stage.cull_ = pipelines.make("render/surface_cull");
+  stage.arguments_ = pipelines.make("render/surface_arguments");
+  stage.splat_ = pipelines.make("render/surface_splat");
+  stage.pick_ = pipelines.make("render/surface_pick");
+  stage.scatter_ = pipelines.make("render/surface_scatter");
+  stage.order_ = pipelines.make("render/surface_order");
+  stage.tiles_ = pipelines.make("render/surface_tiles");
+  stage.compose_ = pipelines.make("render/surface_compose");
+  stage.thickness_ = pipelines.make("render/surface_thickness");
+  stage.thicknessNoScene_ = pipelines.make("render/surface_thickness_no_scene");
+  for (const bool texels : {false, true}) {
+    stage.planes_[texels] = pipelines.make("render/surface_planes", texels);
+    stage.blend_[texels] = pipelines.make("render/surface_blend", texels);
+    stage.edges_[texels] = pipelines.make("render/surface_edges", texels);
+    stage.edgesFiltered_[texels] = pipelines.make("render/surface_edges_filtered", texels);
+    stage.normals_[texels] = pipelines.make("render/surface_normals", texels);
+    for (const bool vertical : {false, true})
+      stage.narrow_[texels][vertical] = pipelines.make("render/surface_narrow", texels, {{"VERTICAL", vertical}});
   }
-  for (const bool texels : {false, true})
-    for (uint32_t vertical = 0; vertical < 2; ++vertical) {
-      const uint32_t constants[] = {vertical};
-      auto made = computePipeline(device, {.shader = texels ? "render/surface_narrow_texel" : "render/surface_narrow",
-                                           .bindings = texels ? std::span<const BindingKind>(kTexelSamples) : storage(4),
-                                           .pushConstantBytes = sizeof(SurfacePush),
-                                           .constants = constants});
-      if (!made) return made.error();
-      stage.narrow_[texels][vertical] = *made;
-    }
+  if (auto made = pipelines.result(); !made) return made.error();
   auto flow = CurvatureFlow::create(device);
   if (!flow) return flow.error();
   stage.flow_ = *flow;
@@ -108,6 +82,7 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
   frame.storageReads = settings.storage_reads;
   frame.texels = !frame.storageReads && usesTexelReads(*device_->device, maxTexels);
   frame.narrowRange = method == SurfaceMethod::NarrowRange && !settings.filter;
+  frame.position = fluid.position;
   addBuffers(graph, fluid, frame, whole);
   addVisible(graph, fluid, frame);
   addGrid(graph, fluid, frame);
@@ -115,7 +90,7 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
     addFiltered(graph, frame, settings);
   else
     addPlanes(graph, frame);
-  addCompose(graph, frame, (filtered ? edgesFiltered_ : edges_)[frame.texels], whole);
+  addCompose(graph, frame, (filtered ? edgesFiltered_ : edges_)[frame.texels]);
   return frame.out;
 }
 
@@ -165,99 +140,93 @@ void SurfaceStage::addBuffers(Graph& graph, const FluidState& fluid, Frame& fram
            {&out.counters, 0}});
 }
 
-/// Dispatch arguments from the counts so far.
-void SurfaceStage::addArguments(Graph& graph, SurfaceBuffers& out) const {
-  addStep(graph, "surface arguments", arguments_, {reads(out.counters), fresh(out.arguments)}, 1, out.push);
+/// A pass of one dispatch over the frame's buffers, which shaders know by these names.
+void SurfaceStage::add(Graph& graph, std::string_view name, const ComputePipeline* pipeline, const DispatchSize& size, Frame& f) const {
+  addDispatch(graph, name, pipeline, size, f.out.push,
+              {{"position", f.position},
+               {"occluders", f.occluders},
+               {"survivors", f.survivors},
+               {"depth", f.depth},
+               {"start", f.start},
+               {"rank", f.rank},
+               {"arrived", f.arrived},
+               {"center", f.center},
+               {"plane", f.plane},
+               {"before", f.before},
+               {"filtered", f.before},
+               {"after", f.after},
+               {"edges", f.edges},
+               {"counters", f.out.counters},
+               {"arguments", f.out.arguments},
+               {"tiles", f.out.tiles},
+               {"blocks", f.out.blocks},
+               {"samples", f.out.samples},
+               {"surface", f.out.pixels}});
 }
+/// Over as many workgroups as the device has counted.
+void SurfaceStage::addCounted(Graph& graph, std::string_view name, const ComputePipeline* pipeline, uint32_t arguments, Frame& f) const {
+  add(graph, name, pipeline, {f.out.arguments, arguments * 4}, f);
+}
+
+/// Dispatch arguments from the counts so far.
+void SurfaceStage::addArguments(Graph& graph, Frame& frame) const { add(graph, "surface arguments", arguments_, 1, frame); }
 
 /// Particles that are not occluded, the depth of their spheres, and the tiles that these cover.
 void SurfaceStage::addVisible(Graph& graph, const FluidState& fluid, Frame& frame) const {
-  SurfaceBuffers& out = frame.out;
-  const uint64_t particles = divideUp(fluid.count, kSurfaceGroup), tiles = gridCells(out.push.width, out.push.height, kSurfaceTile);
-  addStep(graph, "surface occlude", occlude_, {reads(fluid.position), writes(frame.occluders)}, particles, out.push);
-  addStep(graph, "surface cull", cull_, {reads(fluid.position), reads(frame.occluders), writes(out.counters), fresh(frame.survivors)},
-          particles, out.push);
-  addArguments(graph, out);
-  addStep(graph, "surface splat", splat_, {reads(fluid.position), writes(out.counters), reads(frame.survivors), writes(frame.depth)},
-          StepGroups(out.arguments, kSurvivorArguments), out.push);
-  addStep(graph, "surface tiles", tiles_, {reads(frame.depth), writes(out.counters), fresh(out.tiles), fresh(out.blocks)},
-          divideUp(std::max(tiles, frame.sampleBlocks), kSurfaceGroup), out.push);
+  const SurfacePush& push = frame.out.push;
+  const uint64_t particles = divideUp(fluid.count, kSurfaceGroup), tiles = gridCells(push.width, push.height, kSurfaceTile);
+  add(graph, "surface occlude", occlude_, particles, frame);
+  add(graph, "surface cull", cull_, particles, frame);
+  addArguments(graph, frame);
+  addCounted(graph, "surface splat", splat_, kSurvivorArguments, frame);
+  add(graph, "surface tiles", tiles_, divideUp(std::max(tiles, frame.sampleBlocks), kSurfaceGroup), frame);
 }
 
 /// Surface particles, sorted into the cells of the screen grid.
 void SurfaceStage::addGrid(Graph& graph, const FluidState& fluid, Frame& frame) const {
-  SurfaceBuffers& out = frame.out;
-  BufferRef rank = graph.create("surface ranks", {uint64_t{fluid.count} * 4});
-  BufferRef arrived = graph.create("surface arrived", {uint64_t{fluid.count} * 4});
-  const auto survivorGroups = [&] { return StepGroups(out.arguments, kSurvivorArguments); };
-  addStep(graph, "surface pick", pick_,
-          {reads(fluid.position), writes(out.counters), reads(frame.survivors), reads(frame.depth), writes(frame.start), fresh(rank)},
-          survivorGroups(), out.push);
-  addArguments(graph, out);
+  frame.rank = graph.create("surface ranks", {uint64_t{fluid.count} * 4});
+  frame.arrived = graph.create("surface arrived", {uint64_t{fluid.count} * 4});
+  addCounted(graph, "surface pick", pick_, kSurvivorArguments, frame);
+  addArguments(graph, frame);
   auto scan = Scan::create(*device_->device, static_cast<uint32_t>(frame.cells + 1), frame.storageReads,
                            {"surface scan", "surface scan reduce", "surface scan tiles", "surface scan apply"});
   assert(scan && "its pipelines were made in create()");
   frame.start = scan->addTo(graph, frame.start);
-  addStep(graph, "surface scatter", scatter_,
-          {reads(fluid.position), reads(out.counters), reads(frame.survivors), reads(frame.start), reads(rank), fresh(arrived)},
-          survivorGroups(), out.push);
-  addStep(graph, "surface order", order_,
-          {reads(fluid.position), writes(out.counters), reads(frame.start), reads(arrived), fresh(frame.center)},
-          StepGroups(out.arguments, kSurfaceArguments), out.push);
+  addCounted(graph, "surface scatter", scatter_, kSurvivorArguments, frame);
+  addCounted(graph, "surface order", order_, kSurfaceArguments, frame);
 }
 
 /// A plane per particle, then their blend.
 void SurfaceStage::addPlanes(Graph& graph, Frame& frame) const {
-  SurfaceBuffers& out = frame.out;
-  frame.plane = graph.create("surface planes", {uint64_t{out.push.count} * 32});
-  addStep(graph, "surface planes", planes_[frame.texels],
-          {frame.arrayOf(frame.start), frame.arrayOf(frame.center), fresh(frame.plane), writes(out.counters)},
-          StepGroups(out.arguments, kSurfaceArguments), out.push);
-  addStep(graph, "surface blend", blend_[frame.texels],
-          {frame.arrayOf(frame.start), frame.arrayOf(frame.center), frame.arrayOf(frame.plane), reads(frame.depth), writes(out.samples),
-           writes(out.counters), reads(out.blocks)},
-          StepGroups(out.arguments, kSampleBlockArguments), out.push);
+  frame.plane = graph.create("surface planes", {uint64_t{frame.out.push.count} * 32});
+  addCounted(graph, "surface planes", planes_[frame.texels], kSurfaceArguments, frame);
+  addCounted(graph, "surface blend", blend_[frame.texels], kSampleBlockArguments, frame);
 }
 
 /// Smoothed depth and its normals.
 void SurfaceStage::addFiltered(Graph& graph, Frame& frame, const SurfaceSettings& settings) const {
-  SurfaceBuffers& out = frame.out;
-  const StepGroups blocks(out.arguments, kSampleBlockArguments);
-  BufferRef from = frame.depth;
+  frame.before = frame.depth;
   if (settings.filter) {
-    from = settings.filter(graph, from, out.push);
+    frame.before = settings.filter(graph, frame.before, frame.out.push);
   } else if (!frame.narrowRange) {
-    from = flow_.addTo(graph, from, out, frame.sampleSide, settings.flow_time, settings.flow_levels, frame.texels);
+    frame.before = flow_.addTo(graph, frame.before, frame.out, frame.sampleSide, settings.flow_time, settings.flow_levels, frame.texels);
   } else {
-    uint32_t steps = 0;
     for (uint32_t k = 0; k < kNarrowPasses; ++k)
-      for (const ComputePipeline* pipeline : narrow_[frame.texels]) {
-        BufferRef& to = frame.filtered[steps++ % 2];
-        addStep(graph, "surface narrow range", pipeline, {frame.arrayOf(from), writes(to), writes(out.counters), reads(out.blocks)}, blocks,
-                out.push);
-        from = to;
+      for (const bool vertical : {false, true}) {
+        frame.after = frame.filtered[vertical];
+        addCounted(graph, "surface narrow range", narrow_[frame.texels][vertical], kSampleBlockArguments, frame);
+        frame.before = frame.filtered[vertical] = frame.after;
       }
   }
-  addStep(graph, "surface normals", normals_[frame.texels],
-          {frame.arrayOf(frame.start), frame.arrayOf(frame.center), frame.arrayOf(from), reads(frame.depth), writes(out.samples),
-           writes(out.counters), reads(out.blocks)},
-          blocks, out.push);
-  frame.plane = frame.center;  // bound, not read
+  addCounted(graph, "surface normals", normals_[frame.texels], kSampleBlockArguments, frame);
 }
 
 /// From samples to pixels of the tiles with fluid, then pixels at edges.
-void SurfaceStage::addCompose(Graph& graph, Frame& frame, const ComputePipeline* edges, bool whole) const {
-  SurfaceBuffers& out = frame.out;
-  BufferRef listed = graph.create("surface edge pixels", {uint64_t{out.push.width} * out.push.height * 4});
-  addStep(graph, "surface compose", compose_,
-          {reads(frame.depth), reads(out.samples), writes(out.counters), reads(out.tiles), whole ? writes(out.pixels) : fresh(out.pixels),
-           fresh(listed)},
-          StepGroups(out.arguments, kSurfaceTileArguments), out.push);
-  addArguments(graph, out);
-  addStep(graph, "surface edges", edges,
-          {frame.arrayOf(frame.start), frame.arrayOf(frame.center), frame.arrayOf(frame.plane), reads(frame.depth), reads(out.samples),
-           writes(out.counters), reads(listed), writes(out.pixels)},
-          StepGroups(out.arguments, kEdgeArguments), out.push);
+void SurfaceStage::addCompose(Graph& graph, Frame& frame, const ComputePipeline* edges) const {
+  frame.edges = graph.create("surface edge pixels", {uint64_t{frame.out.push.width} * frame.out.push.height * 4});
+  addCounted(graph, "surface compose", compose_, kSurfaceTileArguments, frame);
+  addArguments(graph, frame);
+  addCounted(graph, "surface edges", edges, kEdgeArguments, frame);
 }
 
 }  // namespace rill

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "gpu/resources.hpp"
-#include "graph/step.hpp"
+#include "graph/shader_pass.hpp"
 #include "render/curvature_flow.hpp"
 #include "render/surface_buffers.hpp"
 #include "rill/fluid.hpp"
@@ -62,26 +62,30 @@ class SurfaceStage {
     SurfaceBuffers out;
     uint64_t sampleBlocks = 0, occluderCells = 0, cells = 0;  ///< numbers, including the margin
     double sampleSide = 0;                                    ///< m, width of a sample at the focus
+    BufferRef position;                                       ///< of the fluid
     BufferRef occluders, depth;                               ///< depth: of the spheres, before smoothing
     BufferRef survivors;                                      ///< particles that are not occluded
-    BufferRef start, center;                                  ///< screen grid of surface particles
+    BufferRef start, center, rank, arrived;                   ///< screen grid of surface particles
     BufferRef plane;                                          ///< of the method `planes`
+    BufferRef before, after;                                  ///< of a step of a filter; `before` is its result in the end
+    BufferRef edges;                                          ///< listed pixels
     bool narrowRange = false;                                 ///< uses the narrow-range filter
     std::array<BufferRef, 2> filtered;                        ///< ping-pong buffers of the narrow-range filter
     bool texels = false;                                      ///< start, center, plane and the filters' inputs are read as texel buffers
     bool storageReads = false;                                ///< SurfaceSettings::storage_reads
-    StepBinding arrayOf(BufferRef buffer) const { return texels ? rill::texels(buffer) : reads(buffer); }
   };
   static Frame makeFrame(const FluidState& fluid, surface::SurfacePush camera, SurfaceMethod method, double focus,
                          const SurfaceSettings& settings);
   // The parts in the order in which they run; addPlanes() or addFiltered() writes the samples.
   static void addBuffers(Graph& graph, const FluidState& fluid, Frame& frame, bool whole);
-  void addArguments(Graph& graph, SurfaceBuffers& out) const;
+  void addArguments(Graph& graph, Frame& frame) const;
+  void add(Graph& graph, std::string_view name, const ComputePipeline* pipeline, const DispatchSize& size, Frame& frame) const;
+  void addCounted(Graph& graph, std::string_view name, const ComputePipeline* pipeline, uint32_t arguments, Frame& frame) const;
   void addVisible(Graph& graph, const FluidState& fluid, Frame& frame) const;
   void addGrid(Graph& graph, const FluidState& fluid, Frame& frame) const;
   void addPlanes(Graph& graph, Frame& frame) const;
   void addFiltered(Graph& graph, Frame& frame, const SurfaceSettings& settings) const;
-  void addCompose(Graph& graph, Frame& frame, const ComputePipeline* edges, bool whole) const;
+  void addCompose(Graph& graph, Frame& frame, const ComputePipeline* edges) const;
 
   DeviceImpl* device_ = nullptr;
   CurvatureFlow flow_;

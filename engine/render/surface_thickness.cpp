@@ -1,5 +1,5 @@
 // The thickness of the fluid along rays, as passes.
-#include "graph/step.hpp"
+#include "graph/shader_pass.hpp"
 #include "render/surface.hpp"
 
 namespace rill {
@@ -32,10 +32,8 @@ BufferRef SurfaceStage::addThickness(Graph& graph, const ThicknessNames& names, 
   if (fluid.count == 0) return thickness;
   const uint64_t groups = divideUp(fluid.count, kSurfaceGroup);
   BufferRef& counted = counters ? *counters : own;
-  if (sceneDepth == BufferRef{})
-    addStep(graph, names.pass, thicknessNoScene_, {reads(fluid.position), writes(thickness), writes(counted)}, groups, push);
-  else
-    addStep(graph, names.pass, thickness_, {reads(fluid.position), writes(thickness), writes(counted), reads(sceneDepth)}, groups, push);
+  addDispatch(graph, names.pass, sceneDepth == BufferRef{} ? thicknessNoScene_ : thickness_, groups, push,
+              {{"position", fluid.position}, {"thickness", thickness}, {"counters", counted}, {"scene_depth", sceneDepth}});
   return thickness;
 }
 

@@ -9,6 +9,7 @@ layout(std430, set = 0, binding = 4) writeonly buffer Samples { uvec2 samples[];
 layout(std430, set = 0, binding = 5) buffer Counters { uint counters[]; };
 #define BLOCKS 6
 #include "render/surface_block.glsl"
+#define PLANES 2
 #include "render/surface_blend.glsl"
 #include "render/surface_interior.glsl"
 

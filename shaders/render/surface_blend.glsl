@@ -1,9 +1,9 @@
 // The smooth surface along a ray: the zero of the weighted sum of signed distances to planes (implicit moving least squares, Kolluri 2005).
-// Needs surface_arrays.glsl; planes at binding 2.
+// Needs surface_arrays.glsl; planes at PLANES.
 #include "render/surface_cells.glsl"
 #include "shared/loops.glsl"
 #include "render/surface_silhouette.glsl"
-READ_FLOAT4(2, plane)
+READ_FLOAT4(PLANES, plane)
 
 const float kBlendReach = 1.8;  // spacings, across a plane
 const float kBlendRange = 1.2;  // spacings, along its normal

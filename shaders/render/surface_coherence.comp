@@ -11,7 +11,7 @@ layout(std430, set = 0, binding = 3) readonly buffer Counters { uint counters[];
 #define BLOCKS 4
 #include "render/surface_block.glsl"
 #include "render/surface_mean_normal.glsl"
-layout(constant_id = 0) const uint kVertical = 0u;
+layout(constant_id = 0) const bool VERTICAL = false;
 
 const float kReach = 1.5;  // spacings
 
@@ -28,7 +28,7 @@ void main() {
     return;
   }
   const Taps taps = tapsOver(kReach, z);
-  const ivec2 along = ivec2(1 - int(kVertical), int(kVertical)) * taps.stride;
+  const ivec2 along = ivec2(1 - int(VERTICAL), int(VERTICAL)) * taps.stride;
   const vec3 mean = unpackMean(before[index]);
   const float size = length(mean);
   float sum = size, weights = 1.0;

@@ -6,15 +6,16 @@
 
 layout(local_size_x = kSurfaceGroup) in;
 #include "render/surface_arrays.glsl"
-layout(std430, set = 0, binding = 3) readonly buffer Depth { uint depth[]; };
-layout(std430, set = 0, binding = 4) readonly buffer Samples { uvec2 samples[]; };
-layout(std430, set = 0, binding = 5) buffer Counters { uint counters[]; };
-layout(std430, set = 0, binding = 6) readonly buffer Edges { uint edges[]; };
-layout(std430, set = 0, binding = 7) writeonly buffer Surface { uvec2 surface[]; };  // packPixel()
+layout(std430, set = 0, binding = 2) readonly buffer Depth { uint depth[]; };
+layout(std430, set = 0, binding = 3) readonly buffer Samples { uvec2 samples[]; };
+layout(std430, set = 0, binding = 4) buffer Counters { uint counters[]; };
+layout(std430, set = 0, binding = 5) readonly buffer Edges { uint edges[]; };
+layout(std430, set = 0, binding = 6) writeonly buffer Surface { uvec2 surface[]; };  // packPixel()
 #ifdef FILTERED
 #include "render/surface_coverage.glsl"
 #include "render/surface_corners.glsl"
 #else
+#define PLANES 7
 #include "render/surface_blend.glsl"
 #endif
 #include "render/surface_interior.glsl"

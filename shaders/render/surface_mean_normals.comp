@@ -1,20 +1,29 @@
 #version 460
-// Mean normal over two spacings to each side, one dimension of it; the more the normals differ, the shorter it is.
+// Mean normal over two spacings to each side, one dimension of it; the more the normals differ, the shorter it is. VERTICAL: the
+// second dimension, of the first one's means.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 
 layout(std430, set = 0, binding = 0) readonly buffer Samples { uvec2 samples[]; };  // depth, normal
-layout(std430, set = 0, binding = 1) readonly buffer Before { uint before[]; };     // of the first dimension
-layout(std430, set = 0, binding = 2) writeonly buffer After { uint after[]; };      // packed; where neighbor is fluid
-layout(std430, set = 0, binding = 3) readonly buffer Counters { uint counters[]; };
-#define BLOCKS 4
+layout(std430, set = 0, binding = 1) writeonly buffer After { uint after[]; };      // packed; where neighbor is fluid
+layout(std430, set = 0, binding = 2) readonly buffer Counters { uint counters[]; };
+#define BLOCKS 3
 #include "render/surface_block.glsl"
 #include "render/surface_mean_normal.glsl"
-layout(constant_id = 0) const uint kVertical = 0u;
+#ifdef VERTICAL
+layout(std430, set = 0, binding = 4) readonly buffer Before { uint before[]; };     // of the first dimension
+const int kVertical = 1;
+#else
+const int kVertical = 0;
+#endif
 
 const float kReach = 2.0;  // spacings
 
-vec3 normalAt(uint index, uvec2 stored) { return kVertical == 1u ? unpackMean(before[index]) : unpackNormal(stored.y); }
+#ifdef VERTICAL
+vec3 normalAt(uint index, uvec2 stored) { return unpackMean(before[index]); }
+#else
+vec3 normalAt(uint index, uvec2 stored) { return unpackNormal(stored.y); }
+#endif
 
 void main() {
   const ivec2 grid = ivec2(sampleGrid());
@@ -29,7 +38,7 @@ void main() {
     return;
   }
   const Taps taps = tapsOver(kReach, z);
-  const ivec2 along = ivec2(1 - int(kVertical), int(kVertical)) * taps.stride;
+  const ivec2 along = ivec2(1 - kVertical, kVertical) * taps.stride;
   const vec3 sight = normalize(rayAlong(axisOf(samplePixel(p))));
   const vec3 normal = unpackNormal(own.y);
   vec3 sum = normalAt(index, own);

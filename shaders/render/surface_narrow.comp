@@ -11,7 +11,7 @@ layout(std430, set = 0, binding = 1) writeonly buffer After { float after[]; };
 layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };
 #define BLOCKS 3
 #include "render/surface_block.glsl"
-layout(constant_id = 0) const uint kVertical = 0u;
+layout(constant_id = 0) const bool VERTICAL = false;
 
 const float kReach = 2.3076923;  // standard deviations: the Gaussian is cut at 0.07 of its peak
 const float kFront = 2.0;        // spacings in front of this sample: another surface
@@ -29,7 +29,7 @@ void main() {
   const int wanted = max(int(min(kReach * view.smoothing / length, 1e6)), 1), taps = min(wanted, int(kMaxTaps * view.margin));
   if (taps < wanted) atomicAdd(counters[kBoundHits], 1u);
   // Not a choice between constant vectors, which lavapipe (Mesa 22.3) folds to (0, 0) with a specialization constant.
-  const ivec2 along = ivec2(1 - int(kVertical), int(kVertical));
+  const ivec2 along = ivec2(1 - int(VERTICAL), int(VERTICAL));
   float sum = toLinear(z), weights = 1.0;
   for (int k = 1; k <= taps; ++k) {
     // Both sides or none, because a missing side would tilt the surface.

@@ -8,7 +8,7 @@ layout(std430, set = 0, binding = 0) readonly buffer Position { vec4 position[];
 layout(std430, set = 0, binding = 1) buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Survivors { uint survivors[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Depth { uint depth[]; };
-layout(std430, set = 0, binding = 4) buffer Cells { uint cells[]; };
+layout(std430, set = 0, binding = 4) buffer Start { uint start[]; };
 layout(std430, set = 0, binding = 5) writeonly buffer Rank { uint rank[]; };
 
 const float kOwnedShare = 0.03;  // of visible samples of a disc; less is a sliver between neighbors
@@ -39,7 +39,7 @@ void main() {
   uint place = kNotSurface;
   if (owned[self] > 0u && float(owned[self]) >= kOwnedShare * float(inside[self])) {
     const ivec2 cell = cellOf(pixelOf(center));
-    place = atomicAdd(cells[uint(cell.y) * cellGrid().x + uint(cell.x)], 1u);
+    place = atomicAdd(start[uint(cell.y) * cellGrid().x + uint(cell.x)], 1u);
     atomicAdd(counters[kSurfaceCount], 1u);
   }
   rank[k] = place;

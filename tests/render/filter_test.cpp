@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "graph/step.hpp"
+#include "graph/shader_pass.hpp"
 #include "render/curvature_flow.hpp"
 #include "render/flow_reference.hpp"
 #include "render/view_push.hpp"
@@ -83,8 +83,13 @@ class DepthFilters : public SurfaceOnGpu {
         to = pass.write(to, Use::CopyTarget, true);
         return [to](Commands& commands) { commands.fill(to, std::bit_cast<uint32_t>(kNone)); };
       });
-      const StepBinding source_array = reading == BindingKind::Storage ? reads(from) : texels(from);
-      addStep(graph, "filter", filter, {source_array, writes(to), writes(counters), reads(blocks)}, listed.size(), FlowPush{push, k});
+      graph.pass("filter", [&](Pass& pass) {
+        pass.read(from, reading == BindingKind::Storage ? Use::ComputeRead : Use::ComputeTexel);
+        pass.read(blocks, Use::ComputeRead);
+        for (BufferRef* written : {&to, &counters}) *written = pass.write(*written, Use::ComputeWrite);
+        const Kernel kernel = pass.kernel(filter, {from, to, counters, blocks});
+        return [kernel, groups = listed.size(), own = FlowPush{push, k}](Commands& commands) { commands.dispatch(kernel, groups, own); };
+      });
       from = to;
     }
     const Ticket ticket = graph.readback(from);

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "graph/step.hpp"
+#include "graph/shader_pass.hpp"
 #include "render/surface_reference.hpp"
 #include "render/view_push.hpp"
 
@@ -26,11 +26,6 @@ class ParticlesToSamples : public SurfaceOnGpu {
     push.margin = surface::kMarginSamples;
     return push;
   }
-  const ComputePipeline* kernel(std::string_view shader, size_t bindings) {
-    static constexpr BindingKind kStorage[] = {BindingKind::Storage, BindingKind::Storage, BindingKind::Storage, BindingKind::Storage};
-    return pipeline({.shader = shader, .bindings = std::span(kStorage).first(bindings), .pushConstantBytes = sizeof(SurfacePush)});
-  }
-
   struct Splatted {
     std::vector<float> depth;
     uint32_t survivors = 0;
@@ -52,11 +47,9 @@ class ParticlesToSamples : public SurfaceOnGpu {
         commands.fill(counters, 0);
       };
     });
-    addStep(graph, "occlude", kernel("render/surface_occlude", 2), {reads(position), writes(occluders)}, groups, push);
-    addStep(graph, "cull", kernel("render/surface_cull", 4), {reads(position), reads(occluders), writes(counters), fresh(survivors)},
-            groups, push);
-    addStep(graph, "splat", kernel("render/surface_splat", 4), {reads(position), writes(counters), reads(survivors), writes(depth)}, groups,
-            push);
+    for (const char* part : {"occlude", "cull", "splat"})
+      addDispatch(graph, part, pipeline({.shader = std::string("render/surface_") + part}), groups, push,
+                  {{"position", position}, {"occluders", occluders}, {"counters", counters}, {"survivors", survivors}, {"depth", depth}});
     const Ticket depthTicket = graph.readback(depth), counterTicket = graph.readback(counters);
     run(graph);
     const auto counts = read<uint32_t>(graph, counterTicket);
