@@ -102,8 +102,7 @@ void SnapshotReader::takeRecords(std::span<const std::span<const std::byte>> dat
   FluidControl control;
   std::memcpy(&control, data[0].data(), sizeof control);
   control.substeps = control.iterations = control.builds = 0;
-  control.executedSubsteps = control.executedIterations = control.executedBuilds = control.executedNoiseDampings =
-      0;
+  control.executedSubsteps = control.executedIterations = control.executedBuilds = control.executedNoiseDampings = 0;
   control.timeDropped = 0;
   snapshot_.control = records<uint32_t>(std::as_bytes(std::span(&control, 1)), sizeof control / 4);
   snapshot_.sums = records<uint32_t>(data[1], sizeof(FluidSums) / 4);

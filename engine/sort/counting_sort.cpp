@@ -18,7 +18,7 @@ Expected<CountingSort> CountingSort::create(Device& device, const KeySortDesc& d
   ModulePipelines pipelines(device);
   sort.clear_ = pipelines.make("sort/clear");
   if (!desc.fusedEnds) sort.count_ = pipelines.make("sort/count", texels, {{"LIST_OVERSIZED", oversized}});
-  sort.scatter_ = pipelines.make("sort/scatter", texels);
+  sort.scatter_ = pipelines.make("sort/scatter", texels, {{"SKIP_NO_KEY", desc.fusedEnds}});
   if (!desc.fusedEnds)
     sort.orderBins_ = pipelines.make(desc.keys ? "sort/order_bins_keys" : "sort/order_bins", texels, {{"SKIP_OVERSIZED", oversized}});
   if (oversized) sort.orderOversized_ = pipelines.make("sort/order_oversized", texels);

@@ -27,8 +27,8 @@ class KeySort {
 
   /// The chosen method, Counting or Radix.
   SortMethod method() const;
-  /// Its dispatches, in order: their group counts are the contents of the Gate's arguments if the sort runs. Fewer keys than desc.count may
-  /// be sorted: the others are kNoKey, and have the largest indices.
+  /// Its dispatches, in order: their group counts are the contents of the Gate's arguments if the sort runs. With fusedEnds
+  /// fewer keys than desc.count may be sorted: the others are kNoKey, and have the largest indices.
   std::vector<GatedDispatch> dispatches() const;
 
   /// Declares the passes. `keys` holds desc.count uints below desc.keyRange; larger ones only affect the

@@ -2,7 +2,7 @@
 #ifndef RILL_FLUID_CONSTANTS_GLSL
 #define RILL_FLUID_CONSTANTS_GLSL
 layout(constant_id = 0) const uint KERNEL = 0;         // 0: Wendland C2; 1: poly6 with the spiky gradient
-layout(constant_id = 1) const uint CLUSTER = 8;        // particles that walk the grid together: 4, 8, 16 or 32, a subgroup or half of one of 64
+layout(constant_id = 1) const uint CLUSTER = 8;        // particles that walk the grid together: 4, 8, 16 or 32, at most a subgroup
 layout(constant_id = 2) const uint LIST_CAPACITY = 0;  // entries a particle of the neighbor list; 0: no list
 layout(constant_id = 3) const bool WALKS = false;      // the variant that can walk the grid, for particles whose list overflowed
 layout(constant_id = 4) const bool NEAR = false;       // walls or solids displace density

@@ -3,6 +3,14 @@
 #define RILL_KEYFRAMES_GLSL
 #include "shared/pose.glsl"
 
+// Sine and cosine up to half pi: Vulkan promises no more than 2^-11 for its own. The next terms are below 1e-7.
+vec2 sineAndCosine(float x) {
+  float s = x * x;
+  float sine = x * (1.0 + s * (-1.0 / 6.0 + s * (1.0 / 120.0 + s * (-1.0 / 5040.0 + s * (1.0 / 362880.0 - s / 39916800.0)))));
+  float cosine = 1.0 + s * (-0.5 + s * (1.0 / 24.0 + s * (-1.0 / 720.0 + s * (1.0 / 40320.0 + s * (-1.0 / 3628800.0 + s / 479001600.0)))));
+  return vec2(sine, cosine);
+}
+
 // The pose at a time (s) of a solid that starts at `base`: linear and spherical linear between keyframes, held outside.
 PoseRecord keyframedPose(PoseRecord base, uint first, uint count, float time) {
   if (count == 0u) return base;
@@ -22,8 +30,8 @@ PoseRecord keyframedPose(PoseRecord base, uint first, uint count, float time) {
     angular = vec3(a.turnX, a.turnY, a.turnZ) / span;
     float speed = length(angular);
     if (speed > 0.0) {
-      float half_ = 0.5 * speed * since;
-      turned = normalize(composed(vec4(angular * (sin(half_) / speed), cos(half_)), turned));
+      vec2 turn = sineAndCosine(0.5 * speed * since);  // at most half a turn from keyframe to keyframe
+      turned = normalize(composed(vec4(angular * (turn.x / speed), turn.y), turned));
     }
   }
   return poseOf(centerOf(base) + moved, composed(turned, rotationOf(base)), velocity, angular);

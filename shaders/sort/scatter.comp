@@ -5,6 +5,8 @@
 #include "shared/dispatch.glsl"
 #include "sort/sort_types.h"
 
+layout(constant_id = 0) const bool SKIP_NO_KEY = false;  // the caller's key pass has left some indices without a key
+
 layout(local_size_x = kCountThreads) in;
 layout(push_constant) uniform PushBlock { CountingPush push; };
 READ_UINT(0, key)
@@ -16,5 +18,5 @@ void main() {
   const uint i = flatGroup() * kCountThreads + gl_LocalInvocationIndex;
   if (i >= push.count) return;
   const uint key = keyAt(i);
-  if (key != kNoKey) arrived[startAt(min(key, push.lastKey)) + rankAt(i)] = i;
+  if (!SKIP_NO_KEY || key != kNoKey) arrived[startAt(min(key, push.lastKey)) + rankAt(i)] = i;
 }

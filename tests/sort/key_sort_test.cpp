@@ -221,8 +221,8 @@ TEST_F(KeySortTest, RadixSortsFullRangeKeys) {
 }
 
 TEST_F(KeySortTest, CountingClampsOutOfRangeKeys) {
-  // The key is clamped to the largest one (kNoKey is none); nothing is written out of bounds, and the others are sorted.
-  const Words got = sorted({4, 10, SortMethod::Counting, true}, Words{3, kNoKey - 1, 9, 0}).order;
+  // The key is clamped to the largest one; nothing is written out of bounds, and the others are sorted.
+  const Words got = sorted({4, 10, SortMethod::Counting, true}, Words{3, ~0u, 9, 0}).order;
   EXPECT_EQ(got, (Words{3, 0, 1, 2}));
 }
 
