@@ -103,10 +103,10 @@ Expected<RunFigures> runScene(const Bench& bench, const SceneRun& run) {
     if (run.onFrame) run.onFrame(simulation, time);
     figures.substeps += stats->substeps;
     figures.iterations += stats->iterations;
-    figures.list_builds += stats->list_builds;
-    figures.time_dropped_s += stats->time_dropped_s;
+    figures.listBuilds += stats->listBuilds;
+    figures.timeDropped_s += stats->timeDropped_s;
     figures.outside = std::max(figures.outside, stats->outside);
-    figures.non_finite = std::max(figures.non_finite, stats->non_finite);
+    figures.nonFinite = std::max(figures.nonFinite, stats->nonFinite);
     figures.particles = stats->particles;
     for (const offline::PassTime& pass : stats->pass_ms) {
       auto found = std::ranges::find(figures.passes, pass.name, &offline::PassTime::name);
@@ -134,13 +134,13 @@ Json runJson(const RunFigures& run) {
   json["total_s"] = run.total_s;
   json["substeps"] = run.substeps;
   json["iterations"] = run.iterations;
-  json["list_builds"] = run.list_builds;
-  json["time_dropped_s"] = run.time_dropped_s;
+  json["list_builds"] = run.listBuilds;
+  json["time_dropped_s"] = run.timeDropped_s;
   json["density_error"] = {
       {"mean", run.density.mean}, {"p99", run.density.p99}, {"max", run.density.max}, {"signed_median", run.density.signed_median}};
   json["energy"] = {{"ratio", run.energy.ratio}, {"end_ratio", run.energy.end_ratio}};
   json["outside"] = run.outside;
-  json["non_finite"] = run.non_finite;
+  json["non_finite"] = run.nonFinite;
   return json;
 }
 

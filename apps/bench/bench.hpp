@@ -56,8 +56,8 @@ struct RunFigures {
   double simulated_s = 0;
   double wall_s = 0;   ///< simulation only
   double total_s = 0;  ///< including device creation, measurement and onFrame
-  uint64_t particles = 0, substeps = 0, iterations = 0, list_builds = 0, outside = 0, non_finite = 0;
-  double time_dropped_s = 0;
+  uint64_t particles = 0, substeps = 0, iterations = 0, listBuilds = 0, outside = 0, nonFinite = 0;
+  double timeDropped_s = 0;
   DeviceInfo device;
   std::vector<offline::PassTime> passes;  ///< sums over the run
   std::vector<std::string> messages;      ///< of the validation layer, if enabled

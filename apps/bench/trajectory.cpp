@@ -11,7 +11,7 @@ Trajectory trajectoryOf(std::span<const apps::Instant> run, double length, doubl
   Trajectory trajectory;
   for (const apps::Instant& instant : run) {
     const offline::Stats& s = instant.stats;
-    trajectory.at.push_back({s.center_of_mass[0] / length, s.center_of_mass[1] / length, s.center_of_mass[2] / length, s.front_m / length,
+    trajectory.at.push_back({s.centerOfMass[0] / length, s.centerOfMass[1] / length, s.centerOfMass[2] / length, s.front_m / length,
                              s.kinetic_J / energy, s.potential_J / energy});
   }
   return trajectory;

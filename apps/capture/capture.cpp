@@ -165,7 +165,7 @@ class Capture {
       if (auto written = writeFrame(number, time_s); !written) return written;
       auto stats = simulation_->stats();
       if (!stats) return stats.error();
-      const double error = stats->density_error_mean;
+      const double error = stats->densityErrorMean;
       record_->add(time_s, std::move(*stats));
       char about[64];
       std::snprintf(about, sizeof about, "t %.3f s  error %.3f %%", time_s, 100 * error);

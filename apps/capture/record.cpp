@@ -35,25 +35,25 @@ Json frameJson(double time_s, const offline::Stats& stats) {
   frame["particles"] = stats.particles;
   frame["substeps"] = stats.substeps;
   frame["iterations"] = stats.iterations;
-  frame["time_dropped_s"] = stats.time_dropped_s;
-  frame["density_error_mean"] = stats.density_error_mean;
-  frame["density_error_p99"] = stats.density_error_p99;
-  frame["density_error_max"] = stats.density_error_max;
-  frame["density_signed_median"] = stats.density_signed_median;
+  frame["time_dropped_s"] = stats.timeDropped_s;
+  frame["density_error_mean"] = stats.densityErrorMean;
+  frame["density_error_p99"] = stats.densityErrorP99;
+  frame["density_error_max"] = stats.densityErrorMax;
+  frame["density_signed_median"] = stats.densitySignedMedian;
   frame["kinetic_J"] = stats.kinetic_J;
   frame["potential_J"] = stats.potential_J;
   frame["momentum"] = stats.momentum;
-  frame["centre_of_mass"] = stats.center_of_mass;
+  frame["centre_of_mass"] = stats.centerOfMass;
   frame["front_m"] = stats.front_m;
-  frame["max_speed"] = stats.max_speed;
-  frame["non_finite"] = stats.non_finite;
+  frame["max_speed"] = stats.maxSpeed;
+  frame["non_finite"] = stats.nonFinite;
   frame["outside"] = stats.outside;
-  frame["neighbour_overflow"] = stats.neighbor_overflow;
-  frame["loop_bound_hits"] = stats.loop_bound_hits;
-  frame["picture_bound_hits"] = stats.picture_bound_hits;
-  frame["list_builds"] = stats.list_builds;
-  frame["artificial_viscosity_Pa_s"] = stats.artificial_viscosity_Pa_s;
-  frame["state_hash"] = hexadecimal(stats.state_hash);
+  frame["neighbour_overflow"] = stats.neighborOverflow;
+  frame["loop_bound_hits"] = stats.loopBoundHits;
+  frame["picture_bound_hits"] = stats.pictureBoundHits;
+  frame["list_builds"] = stats.listBuilds;
+  frame["artificial_viscosity_Pa_s"] = stats.artificialViscosity_Pa_s;
+  frame["state_hash"] = hexadecimal(stats.stateHash);
   frame["probes"] = probes;
   frame["wall_s"] = stats.wall_s;
   frame["pass_ms"] = pass_ms;
@@ -70,7 +70,7 @@ void Record::add(double time_s, offline::Stats stats) { frames_.push_back({time_
 
 double Record::droppedSeconds() const {
   double dropped = 0;
-  for (const apps::Instant& frame : frames_) dropped += frame.stats.time_dropped_s;
+  for (const apps::Instant& frame : frames_) dropped += frame.stats.timeDropped_s;
   return dropped;
 }
 
@@ -106,7 +106,7 @@ std::vector<Figure> Record::figures() const {
       {"wall_per_simulated_s", simulated > 0 ? wall / simulated : none, ""},
       {"substeps", of(&Stats::substeps)(sum), ""},
       {"iterations", of(&Stats::iterations)(sum), ""},
-      {"list_builds", of(&Stats::list_builds)(sum), ""},
+      {"list_builds", of(&Stats::listBuilds)(sum), ""},
       {"time_dropped_s", droppedSeconds(), "s"},
       {"density_error_mean", error.mean, ""},
       {"density_error_p99", error.p99, ""},
@@ -116,12 +116,12 @@ std::vector<Figure> Record::figures() const {
       {"kinetic_J", last.kinetic_J, "J"},
       {"potential_J", last.potential_J, "J"},
       {"front_m", last.front_m, "m"},
-      {"max_speed", of(&Stats::max_speed)(largest), "m/s"},
-      {"artificial_viscosity", last.artificial_viscosity_Pa_s, "Pa s"},
+      {"max_speed", of(&Stats::maxSpeed)(largest), "m/s"},
+      {"artificial_viscosity", last.artificialViscosity_Pa_s, "Pa s"},
       {"outside", of(&Stats::outside)(largest), ""},
-      {"non_finite", of(&Stats::non_finite)(largest), ""},
-      {"neighbour_overflow", of(&Stats::neighbor_overflow)(largest), ""},
-      {"loop_bound_hits", of(&Stats::loop_bound_hits)(largest), ""},
+      {"non_finite", of(&Stats::nonFinite)(largest), ""},
+      {"neighbour_overflow", of(&Stats::neighborOverflow)(largest), ""},
+      {"loop_bound_hits", of(&Stats::loopBoundHits)(largest), ""},
       {"picture_bound_hits", double(pictureBoundHits()), ""},
   };
   for (const Probe& probe : scene_->probes) {
@@ -134,7 +134,7 @@ std::vector<Figure> Record::figures() const {
 
 uint64_t Record::pictureBoundHits() const {
   uint64_t hits = 0;
-  for (const apps::Instant& frame : frames_) hits += frame.stats.picture_bound_hits;
+  for (const apps::Instant& frame : frames_) hits += frame.stats.pictureBoundHits;
   return hits;
 }
 
@@ -188,11 +188,11 @@ std::vector<std::string> Record::warnings() const {
                        " s were dropped: " + std::to_string(scene_->solver.max_substeps) +
                        " substeps per frame (solver.max_substeps) are too few for the time step that the fluid's speed, weight and "
                        "viscosity and solver.time_step allow");
-  if (last.loop_bound_hits > 0)
-    warnings.push_back("warning: neighbor loops reached their limit " + grouped(last.loop_bound_hits) +
+  if (last.loopBoundHits > 0)
+    warnings.push_back("warning: neighbor loops reached their limit " + grouped(last.loopBoundHits) +
                        " times since the start: some particles have too many neighbors");
-  if (last.non_finite > 0)
-    warnings.push_back("warning: " + grouped(last.non_finite) + (last.non_finite == 1 ? " particle is" : " particles are") +
+  if (last.nonFinite > 0)
+    warnings.push_back("warning: " + grouped(last.nonFinite) + (last.nonFinite == 1 ? " particle is" : " particles are") +
                        " inactive: the position or velocity was not finite");
   if (const uint64_t hits = pictureBoundHits(); hits > 0) warnings.push_back(boundHitsWarning(hits));
   return warnings;

@@ -45,10 +45,10 @@ DensityFigures densityFigures(std::span<const Instant> run) {
   const size_t skip = std::min((run.size() + 9) / 10, run.size() - 1);
   std::vector<double> medians;
   for (const Instant& instant : run.subspan(skip)) {
-    error.mean += instant.stats.density_error_mean / double(run.size() - skip);
-    error.p99 = std::max(error.p99, instant.stats.density_error_p99);
-    error.max = std::max(error.max, instant.stats.density_error_max);
-    medians.push_back(instant.stats.density_signed_median);
+    error.mean += instant.stats.densityErrorMean / double(run.size() - skip);
+    error.p99 = std::max(error.p99, instant.stats.densityErrorP99);
+    error.max = std::max(error.max, instant.stats.densityErrorMax);
+    medians.push_back(instant.stats.densitySignedMedian);
   }
   const auto middle = medians.begin() + static_cast<std::ptrdiff_t>(medians.size() / 2);
   std::nth_element(medians.begin(), middle, medians.end());

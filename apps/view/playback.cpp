@@ -47,7 +47,7 @@ Expected<bool> Playback::finished(Runner& runner, const Frame& frame) {
   auto stats = runner.measure();
   if (!stats) return stats.error();
   stats_ = *stats;
-  histories_.error.add(100 * stats->density_error_mean);
+  histories_.error.add(100 * stats->densityErrorMean);
   return true;
 }
 

@@ -65,12 +65,12 @@ Expected<void> Runner::advancePiece(double budget_s) {
   done_ = due;
   ++current_.pieces;
   current_.wall_s += seconds;
-  if (progress.time_left_s > 0 && recorded_ < limit) return {};
+  if (progress.timeLeft_s > 0 && recorded_ < limit) return {};
 
   pacing_.endStep(progress.substeps);
   current_.substeps = progress.substeps;
   current_.iterations = progress.iterations;
-  current_.time_dropped_s = std::max(progress.time_dropped_s, progress.time_left_s);
+  current_.timeDropped_s = std::max(progress.timeDropped_s, progress.timeLeft_s);
   last_ = current_;
   shown_ = log_;
   recorded_ = done_ = 0;

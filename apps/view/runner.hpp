@@ -19,7 +19,7 @@ namespace rill::view {
 /// Figures of a completed step.
 struct StepFigures {
   uint32_t substeps = 0, iterations = 0, pieces = 0;
-  double time_dropped_s = 0;
+  double timeDropped_s = 0;
   double wall_s = 0;  ///< of its pieces
 };
 
@@ -43,7 +43,7 @@ class Runner {
 
   /// Only between steps: measures figures, and the density for the view `density`. Does not change later results.
   Expected<FluidStats> measure();
-  /// Only between steps: the `state_hash` of rill-capture's figures.
+  /// Only between steps: the `stateHash` of rill-capture's figures.
   Expected<uint64_t> hash();
 
   // These continue from the current state with a change; the current step is completed first. Errors as create(); then

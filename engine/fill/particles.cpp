@@ -305,9 +305,9 @@ Expected<ParticleSet> placeAll(const Scene& scene, std::vector<Source>& sources,
   Placer placer(scene, set, placed ? &*placed : nullptr);
   for (size_t i = 0; i < sources.size(); ++i) {
     placeFill(scene, i, sources[i], placer);
-    set.left_out_overlap += sources[i].overlap;
-    set.left_out_solid += sources[i].solid;
-    set.left_out_domain += sources[i].domain;
+    set.leftOutOverlap += sources[i].overlap;
+    set.leftOutSolid += sources[i].solid;
+    set.leftOutDomain += sources[i].domain;
   }
   addFillWarnings(scene, sources, set.warnings);
   addPrecisionWarning(scene, set, all, set.warnings);
@@ -344,7 +344,7 @@ Expected<ParticleSet> placeByCount(const Scene& given, std::vector<Source>& sour
     auto set = place(scene, sources, std::max(maxParticles, static_cast<uint64_t>(2 * kMaxTried * wanted)));
     if (!set) return set;
     const auto kept = static_cast<double>(set->positions.size());
-    const bool complete = set->left_out_overlap + set->left_out_solid + set->left_out_domain == 0;
+    const bool complete = set->leftOutOverlap + set->leftOutSolid + set->leftOutDomain == 0;
     const double miss = std::abs(kept - wanted);
     if (miss < best_miss) {
       best = std::move(*set);
@@ -381,8 +381,8 @@ Expected<ParticleSet> make(const Scene& scene, uint64_t maxParticles) {
   auto set = by_count ? placeByCount(scene, sources, limit) : place(scene, sources, limit);
   if (set && !by_count) set->spacing = scene.fluid.spacing;
   if (set && set->positions.empty() && !scene.fill.empty()) {
-    return badInput(scene, "fill: no particles are left (" + grouped(set->left_out_domain) + " outside the walls, " +
-                               grouped(set->left_out_solid) + " inside solids); expected at least one" +
+    return badInput(scene, "fill: no particles are left (" + grouped(set->leftOutDomain) + " outside the walls, " +
+                               grouped(set->leftOutSolid) + " inside solids); expected at least one" +
                                (set->warnings.empty() ? "" : ". " + set->warnings.front().substr(prefixOf(scene).size())));
   }
   return set;

@@ -131,12 +131,12 @@ FluidMemory memoryOf(const ArrayShape& shape) {
   for (const ArrayRow& row : arrayTable()) {
     if (row.account == Account::None) continue;
     const uint64_t bytes = row.length(shape) * row.stride;
-    if (row.account == Account::Particles) memory.particle_bytes += bytes;
-    if (row.account == Account::List) memory.list_bytes += bytes;
-    if (row.account == Account::Grid) memory.grid_bytes += bytes;
+    if (row.account == Account::Particles) memory.particleBytes += bytes;
+    if (row.account == Account::List) memory.listBytes += bytes;
+    if (row.account == Account::Grid) memory.gridBytes += bytes;
   }
-  memory.particle_bytes += 2 * kWord * shape.particles;  // the sort: where keys arrived, and the order of full cells
-  memory.grid_bytes += memory.grid_bytes / 4;            // and its tile sums
+  memory.particleBytes += 2 * kWord * shape.particles;  // the sort: where keys arrived, and the order of full cells
+  memory.gridBytes += memory.gridBytes / 4;             // and its tile sums
   return memory;
 }
 

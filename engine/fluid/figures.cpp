@@ -77,11 +77,11 @@ void FluidImpl::poll() const {
     count = control.count;
     progress = {.known = true,
                 .time_s = double{control.timeHigh} + control.timeLow,
-                .time_left_s = control.timeLeft,
-                .time_dropped_s = control.timeDropped,
+                .timeLeft_s = control.timeLeft,
+                .timeDropped_s = control.timeDropped,
                 .substeps = control.substeps,
                 .iterations = control.iterations,
-                .list_builds = control.builds};
+                .listBuilds = control.builds};
     MeasureResult result{};
     if (pending.measured && read(pending.graph.lock()->data(pending.measure), result)) {
       const MeasurePartial& m = result.sums;
@@ -91,11 +91,11 @@ void FluidImpl::poll() const {
       s.particles = control.count;
       s.substeps = control.substeps;
       s.iterations = control.iterations;
-      s.time_dropped_s = control.timeDropped;
-      s.density_error_mean = m.compression / n;
-      s.density_error_p99 = result.compression99;
-      s.density_error_max = m.compressionMax;
-      s.density_signed_median = result.signedMedian;
+      s.timeDropped_s = control.timeDropped;
+      s.densityErrorMean = m.compression / n;
+      s.densityErrorP99 = result.compression99;
+      s.densityErrorMax = m.compressionMax;
+      s.densitySignedMedian = result.signedMedian;
       s.kinetic_J = 0.5 * mass * m.kinetic;
       const double sum[3] = {m.positionX + n * origin[0], m.positionY + n * origin[1], m.positionZ + n * origin[2]};
       const double gravity[3] = {control.gravityX, control.gravityY, control.gravityZ};
@@ -103,15 +103,15 @@ void FluidImpl::poll() const {
       for (int a = 0; a < 3; ++a) {
         s.potential_J -= mass * gravity[a] * sum[a];
         s.momentum[a] = mass * velocity[a];
-        s.center_of_mass[a] = sum[a] / n;
+        s.centerOfMass[a] = sum[a] / n;
       }
-      s.max_speed = m.speedMax;
-      s.non_finite = sums.nonFinite;
+      s.maxSpeed = m.speedMax;
+      s.nonFinite = sums.nonFinite;
       s.outside = m.outside;
-      s.neighbor_overflow = sums.overflow;
-      s.loop_bound_hits = sums.boundHits;
-      s.list_builds = control.builds;
-      s.artificial_viscosity_Pa_s = setup.artificialViscosity * control.restFraction;
+      s.neighborOverflow = sums.overflow;
+      s.loopBoundHits = sums.boundHits;
+      s.listBuilds = control.builds;
+      s.artificialViscosity_Pa_s = setup.artificialViscosity * control.restFraction;
       stats = s;
     }
     if (pending.uploads) staging_.reset();

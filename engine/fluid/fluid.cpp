@@ -117,7 +117,7 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
   for (uint32_t first = 0; first < capacity; first += chunk) chunks_.push_back({first, std::min(capacity, first + chunk)});
   if (chunks_.size() > kMaxListChunks)
     return Error{ErrorKind::TooLarge, "the neighbor list of " + std::to_string(n) + " particles at this smoothing_ratio needs " +
-                                          mebibytes(memory.list_bytes) + ", more than the " + std::to_string(kMaxListChunks) +
+                                          mebibytes(memory.listBytes) + ", more than the " + std::to_string(kMaxListChunks) +
                                           " buffers of 128 MiB that are available: make smoothing_ratio smaller"};
   const uint64_t maxTexels = std::max({more, 2 * uint64_t{n}, uint64_t{chunk} * p.listCapacity / 4, paddedWords(setup.grid.cells() + 1),
                                        uint64_t{setup.tables.size() / 4}});

@@ -111,7 +111,7 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
   if (!finish) return finish.error();
   finish_ = *finish;
   scenery_ = std::move(*scenery);
-  look_.to_sun = scenery_->toSun();
+  look_.toSun = scenery_->toSun();
   return {};
 }
 

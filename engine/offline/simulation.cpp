@@ -97,10 +97,10 @@ class Simulation::Impl {
       const FluidProgress& done = fluid_->progress();
       advanced_.substeps += done.substeps;
       advanced_.iterations += done.iterations;
-      advanced_.list_builds += done.list_builds;
+      advanced_.listBuilds += done.listBuilds;
       // Time that the recorded substeps did not cover is dropped by the next advance.
-      advanced_.time_dropped_s += std::max(done.time_dropped_s, done.time_left_s);
-      if (done.substeps > 0) expected_ = std::max(done.substeps, done.list_builds * fluid_->substepsPerBlock());
+      advanced_.timeDropped_s += std::max(done.timeDropped_s, done.timeLeft_s);
+      if (done.substeps > 0) expected_ = std::max(done.substeps, done.listBuilds * fluid_->substepsPerBlock());
     }
     time_s_ += seconds;
     return {};
@@ -136,13 +136,13 @@ class Simulation::Impl {
     static_cast<FluidStats&>(stats) = *measured_;
     stats.substeps = advanced_.substeps;
     stats.iterations = advanced_.iterations;
-    stats.time_dropped_s = advanced_.time_dropped_s;
-    stats.list_builds = advanced_.list_builds;
+    stats.timeDropped_s = advanced_.timeDropped_s;
+    stats.listBuilds = advanced_.listBuilds;
     const ProbeReader reader(scene_, readout_.positions, start_.origin);
     stats.front_m = reader.front(Axis::PlusX);
-    stats.state_hash = stateHash(readout_.positions, readout_.velocities, readout_.ids);
+    stats.stateHash = stateHash(readout_.positions, readout_.velocities, readout_.ids);
     for (const Probe& probe : scene_.probes) stats.probes.emplace_back(probe.name, reader.measure(probe));
-    stats.picture_bound_hits = pictureBoundHits_;
+    stats.pictureBoundHits = pictureBoundHits_;
     stats.wall_s = wall_s_;
     stats.pass_ms = log_.times();
     stats.skipped = log_.skipped();
@@ -278,7 +278,7 @@ class Simulation::Impl {
       const FluidStep step{recorded == 0 ? seconds : 0.0, recorded > 0, piece, false};
       if (auto ran = run(advanceGraph_, [&](Graph& graph) { static_cast<void>(fluid_->addTo(graph, step)); }); !ran) return ran;
       recorded += piece;
-      if (!(fluid_->progress().time_left_s > 0)) break;
+      if (!(fluid_->progress().timeLeft_s > 0)) break;
     }
     return {};
   }

@@ -93,8 +93,8 @@ Expected<void> checkData(SurfaceData data) {
 }
 
 Expected<void> checkLook(const FluidLook& look) {
-  if (!(look.refraction_index >= 1 && look.refraction_index <= 10))
-    return outOfRange("FluidLook::refraction_index", double{look.refraction_index}, "1 to 10");
+  if (!(look.refractionIndex >= 1 && look.refractionIndex <= 10))
+    return outOfRange("FluidLook::refraction_index", double{look.refractionIndex}, "1 to 10");
   if (!(look.aeration >= 0 && look.aeration <= 1)) return outOfRange("FluidLook::aeration", double{look.aeration}, "0 to 1");
   return {};
 }

@@ -28,7 +28,7 @@ std::optional<FluidLook> fluidLook(std::string_view preset) {
   if (preset == kNames[1]) {
     look.absorption = {55, 60, 75};
     look.scatter = {0.84f, 0.82f, 0.76f};
-    look.refraction_index = 1.35f;
+    look.refractionIndex = 1.35f;
     look.aeration = 0;
     return look;
   }
@@ -41,7 +41,7 @@ std::optional<FluidLook> fluidLook(std::string_view preset) {
   if (preset == kNames[3]) {
     look.opaque = true;
     look.scatter = {0.52f, 0.30f, 0.20f};
-    look.refraction_index = 1.3f;
+    look.refractionIndex = 1.3f;
     look.highlight = 12;
     look.aeration = 0;
     look.sun = 1;

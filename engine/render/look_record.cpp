@@ -7,9 +7,9 @@ namespace rill {
 
 look::LookRecord lookRecord(const FluidLook& look, const surface::SurfacePush& thickness, const Environment* environment) {
   look::LookRecord record{};
-  record.absorption = {look.absorption.x, look.absorption.y, look.absorption.z, look.refraction_index};
+  record.absorption = {look.absorption.x, look.absorption.y, look.absorption.z, look.refractionIndex};
   record.scatter = {look.scatter.x, look.scatter.y, look.scatter.z, look.opaque ? 1.0f : 0.0f};
-  const Float3& s = look.to_sun;
+  const Float3& s = look.toSun;
   const float size = std::sqrt(s.x * s.x + s.y * s.y + s.z * s.z);
   record.light = size > 0 ? Float4{s.x / size, s.y / size, s.z / size, look.sun} : Float4{0, 1, 0, look.sun};
   record.finish = {look.highlight, static_cast<float>(thickness.step), thickness.unit, look.aeration};

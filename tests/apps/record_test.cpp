@@ -23,12 +23,12 @@ Scene scene() {
 offline::Stats stats(double error, double kinetic, double potential) {
   offline::Stats made;
   made.particles = 100;
-  made.density_error_mean = error;
-  made.density_error_p99 = 2 * error;
-  made.density_error_max = 3 * error;
+  made.densityErrorMean = error;
+  made.densityErrorP99 = 2 * error;
+  made.densityErrorMax = 3 * error;
   made.kinetic_J = kinetic;
   made.potential_J = potential;
-  made.state_hash = 0xabc;
+  made.stateHash = 0xabc;
   made.wall_s = 0.5;
   made.probes = {{"H1", 0.25}};
   made.pass_ms = {{"density", 1.5, 4, 3}};
@@ -61,10 +61,10 @@ TEST(Record, WarnsAboutDroppedTimeAndLimits) {
 
   Record cut(small, {}, "");
   offline::Stats some = stats(0.001, 1, 1);
-  some.time_dropped_s = 0.125;
-  some.loop_bound_hits = 1234;
-  some.non_finite = 1;
-  some.picture_bound_hits = 7;
+  some.timeDropped_s = 0.125;
+  some.loopBoundHits = 1234;
+  some.nonFinite = 1;
+  some.pictureBoundHits = 7;
   cut.add(0, stats(0.001, 1, 1));
   cut.add(0.25, some);
   cut.add(0.5, some);
@@ -108,7 +108,7 @@ TEST(Record, WritesDocumentedJsonKeys) {
   Record record(small, device, "rill-capture small");
   record.add(0, stats(0.001, 1, 1));
   offline::Stats broken = stats(std::numeric_limits<double>::quiet_NaN(), 1, 1);
-  broken.max_speed = std::numeric_limits<double>::infinity();
+  broken.maxSpeed = std::numeric_limits<double>::infinity();
   record.add(0.5, broken);
   const auto json = nlohmann::json::parse(record.json());
   for (const char* key : {"rill", "scene", "device", "particles", "simulated_s", "wall_s", "density_error", "frames", "command", "energy"})

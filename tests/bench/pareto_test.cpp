@@ -29,7 +29,7 @@ TEST(Pareto, InterpolatesCostInLogLogSpace) {
 
 apps::Instant instant(double x, double kinetic) {
   apps::Instant instant;
-  instant.stats.center_of_mass[0] = x;
+  instant.stats.centerOfMass[0] = x;
   instant.stats.kinetic_J = kinetic;
   return instant;
 }

@@ -36,7 +36,7 @@ uint64_t hashAfter(const Options& options, int frames) {
   for (int k = 0; k < frames; ++k) EXPECT_TRUE(simulation->advance(1.0 / 60));
   const auto stats = simulation->stats();
   EXPECT_TRUE(stats);
-  return stats ? stats->state_hash : 0;
+  return stats ? stats->stateHash : 0;
 }
 
 TEST(Simulation, ResultDoesNotDependOnSubmitSize) {
@@ -58,7 +58,7 @@ TEST(Simulation, MeasuringDoesNotChangeResult) {
     ASSERT_TRUE(looked->particles());
     ASSERT_TRUE(looked->render("density", 64, 36));
   }
-  EXPECT_EQ(looked->stats()->state_hash, left->stats()->state_hash);
+  EXPECT_EQ(looked->stats()->stateHash, left->stats()->stateHash);
 }
 
 /// RMS speed in a tank, 16 layers deep, after two seconds at rest, m/s.
@@ -75,8 +75,8 @@ double restingSpeed(std::optional<double> artificialViscosity) {
   const auto stats = simulation->stats();
   EXPECT_TRUE(stats);
   if (!stats) return 0;
-  EXPECT_EQ(stats->artificial_viscosity_Pa_s > 0, artificialViscosity != 0.0);
-  EXPECT_LT(stats->density_error_mean, 0.001);
+  EXPECT_EQ(stats->artificialViscosity_Pa_s > 0, artificialViscosity != 0.0);
+  EXPECT_LT(stats->densityErrorMean, 0.001);
   return std::sqrt(2 * stats->kinetic_J / (1000 * 0.4 * 0.8 * 0.4));
 }
 
@@ -99,12 +99,12 @@ TEST(Simulation, OverlappingFillsStartWithoutBurst) {
   ASSERT_TRUE(simulation);
   const auto before = simulation->stats();
   ASSERT_TRUE(before);
-  EXPECT_GT(before->density_error_mean, 0.01) << "it does overlap";
+  EXPECT_GT(before->densityErrorMean, 0.01) << "it does overlap";
   ASSERT_TRUE(simulation->advance(1.0 / 60));
   const auto after = simulation->stats();
   ASSERT_TRUE(after);
-  EXPECT_LT(after->max_speed, 0.6) << "falling gives 0.16, what was parted a little more: not 2.6";
-  EXPECT_LT(after->density_error_mean, 0.001);
+  EXPECT_LT(after->maxSpeed, 0.6) << "falling gives 0.16, what was parted a little more: not 2.6";
+  EXPECT_LT(after->densityErrorMean, 0.001);
   EXPECT_LT(after->kinetic_J + after->potential_J, 1.02 * before->potential_J) << "it rises by what was too dense";
 }
 
@@ -123,9 +123,9 @@ TEST(Simulation, DistantDropsFallLikeOne) {
   const std::string drop = R"({"sphere": {"center": [0, 0, 0], "radius": 0.1}})";
   const auto one = fall(drop), two = fall(drop + R"(, {"sphere": {"center": [0, 300, 0], "radius": 0.1}})");
   EXPECT_EQ(two.particles, 2 * one.particles);
-  EXPECT_EQ(two.time_dropped_s, 0);
+  EXPECT_EQ(two.timeDropped_s, 0);
   EXPECT_LT(two.substeps, 1.5 * one.substeps) << "one drop of all of it is a quarter higher";
-  EXPECT_NEAR(two.max_speed, 0.981, 0.01);
+  EXPECT_NEAR(two.maxSpeed, 0.981, 0.01);
 }
 
 TEST(Simulation, LongAdvancesAreSplitIntoFrames) {
@@ -137,9 +137,9 @@ TEST(Simulation, LongAdvancesAreSplitIntoFrames) {
   for (int k = 0; k < 12; ++k) ASSERT_TRUE(often->advance((12.0 / 60) / 12));
   const auto a = once->stats(), b = often->stats();
   ASSERT_TRUE(a && b);
-  EXPECT_EQ(a->state_hash, b->state_hash);
+  EXPECT_EQ(a->stateHash, b->stateHash);
   EXPECT_GT(a->substeps, b->substeps) << "of the whole advance";
-  EXPECT_EQ(a->time_dropped_s, 0);
+  EXPECT_EQ(a->timeDropped_s, 0);
   EXPECT_NEAR(once->time(), 0.2, 1e-12);
   EXPECT_NEAR(a->time_s, 0.2, 1e-6);
 }
@@ -176,7 +176,7 @@ TEST(Simulation, AddsTheOrigin) {
   ASSERT_TRUE(near && moved);
   ASSERT_TRUE(near->advance(0.1));
   ASSERT_TRUE(moved->advance(0.1));
-  EXPECT_EQ(near->stats()->state_hash, moved->stats()->state_hash) << "the same to the last bit, far from zero";
+  EXPECT_EQ(near->stats()->stateHash, moved->stats()->stateHash) << "the same to the last bit, far from zero";
   EXPECT_NEAR(near->stats()->front_m, moved->stats()->front_m, 1e-12);
   EXPECT_NEAR(moved->particles()->positions[0].x, 512 + near->particles()->positions[0].x, 1e-4);
 }

@@ -59,8 +59,8 @@ TEST_F(BrokenTest, TheOthersDoNotNotice) {
     run->substeps(20);
     clean->substeps(20);
     const FluidStats stats = run->stats();
-    EXPECT_EQ(stats.non_finite, broken.size());
-    EXPECT_EQ(stats.loop_bound_hits, 0u);
+    EXPECT_EQ(stats.nonFinite, broken.size());
+    EXPECT_EQ(stats.loopBoundHits, 0u);
     EXPECT_TRUE(run->measured().finite());
     expectOthersLike(run->snapshot(), clean->snapshot());
   }
@@ -75,7 +75,7 @@ TEST_F(BrokenTest, TheOthersDoNotNoticeWithAllTerms) {
   auto run = start(t), clean = start(without(t, broken));
   run->substeps(10);
   clean->substeps(10);
-  EXPECT_EQ(run->stats().non_finite, broken.size());
+  EXPECT_EQ(run->stats().nonFinite, broken.size());
   expectOthersLike(run->snapshot(), clean->snapshot());
 }
 
@@ -84,16 +84,16 @@ TEST_F(BrokenTest, TheFiguresDoNotNotice) {
   run->substeps(5);
   clean->substeps(5);
   const FluidStats a = run->stats(), b = clean->stats();
-  EXPECT_EQ(a.non_finite, broken.size());
-  EXPECT_EQ(b.non_finite, 0u);
+  EXPECT_EQ(a.nonFinite, broken.size());
+  EXPECT_EQ(b.nonFinite, 0u);
   EXPECT_EQ(a.outside, broken.size());
-  EXPECT_NEAR(a.density_error_mean, b.density_error_mean, 1e-6);
-  EXPECT_EQ(a.density_error_p99, b.density_error_p99);
-  EXPECT_EQ(a.density_error_max, b.density_error_max);
-  EXPECT_EQ(a.density_signed_median, b.density_signed_median);
-  EXPECT_EQ(a.max_speed, b.max_speed);
+  EXPECT_NEAR(a.densityErrorMean, b.densityErrorMean, 1e-6);
+  EXPECT_EQ(a.densityErrorP99, b.densityErrorP99);
+  EXPECT_EQ(a.densityErrorMax, b.densityErrorMax);
+  EXPECT_EQ(a.densitySignedMedian, b.densitySignedMedian);
+  EXPECT_EQ(a.maxSpeed, b.maxSpeed);
   EXPECT_NEAR(a.kinetic_J, b.kinetic_J, 1e-5 * b.kinetic_J);
-  for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(a.center_of_mass[axis], b.center_of_mass[axis], 1e-6) << axis;
+  for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(a.centerOfMass[axis], b.centerOfMass[axis], 1e-6) << axis;
 }
 
 TEST_F(BrokenTest, TheStepDoesNotNotice) {
@@ -116,9 +116,9 @@ TEST_F(BrokenTest, AllOfThem) {
   auto run = start(t);
   run->substeps(3);
   const FluidStats stats = run->stats();
-  EXPECT_EQ(stats.non_finite, t.x.size());
-  EXPECT_EQ(stats.density_error_mean, 0);
-  EXPECT_TRUE(std::isfinite(stats.center_of_mass[0]));
+  EXPECT_EQ(stats.nonFinite, t.x.size());
+  EXPECT_EQ(stats.densityErrorMean, 0);
+  EXPECT_TRUE(std::isfinite(stats.centerOfMass[0]));
   EXPECT_TRUE(run->measured().finite());
 }
 

@@ -56,10 +56,10 @@ TEST_F(CapacityTest, FiguresAreThoseOfTheParticlesAlone) {
   const FluidStats got = roomy->stats();
   EXPECT_EQ(got.particles, t.x.size());
   EXPECT_EQ(got.outside, wanted.outside);
-  EXPECT_NEAR(got.density_error_mean, wanted.density_error_mean, 1e-5);
-  EXPECT_NEAR(got.density_signed_median, wanted.density_signed_median, 1e-3);
+  EXPECT_NEAR(got.densityErrorMean, wanted.densityErrorMean, 1e-5);
+  EXPECT_NEAR(got.densitySignedMedian, wanted.densitySignedMedian, 1e-3);
   EXPECT_NEAR(got.kinetic_J, wanted.kinetic_J, 1e-4 * wanted.kinetic_J);
-  for (int a = 0; a < 3; ++a) EXPECT_NEAR(got.center_of_mass[a], wanted.center_of_mass[a], 1e-5);
+  for (int a = 0; a < 3; ++a) EXPECT_NEAR(got.centerOfMass[a], wanted.centerOfMass[a], 1e-5);
 }
 
 // The state of a fluid goes on in one with more room, with particles that were not there before and with ids that have gaps.

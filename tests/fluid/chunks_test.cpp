@@ -15,7 +15,7 @@ TEST_F(Chunks, TwoListsGiveWhatTheGridGives) {
   Snapshot listed, walked;
   {
     const auto run = start(t);
-    ASSERT_GT(run->fluid().memory().list_bytes, uint64_t{128} << 20);
+    ASSERT_GT(run->fluid().memory().listBytes, uint64_t{128} << 20);
     run->substeps(1);
     listed = run->snapshot();
   }

@@ -30,7 +30,7 @@ class DeterminismTest : public FluidTest {
     builds = 0;
     for (int n = 0; n < frames; ++n) {
       run->advance(kFrame, piece);
-      builds += run->progress().list_builds;
+      builds += run->progress().listBuilds;
     }
     return run->snapshot();
   }
@@ -98,7 +98,7 @@ TEST_F(DeterminismTest, MeasuredBetweenPiecesOrNot) {
     run->read({.advance_s = kFrame, .resume = resume, .substeps = 6, .stats = true});
     ASSERT_FALSE(HasFatalFailure());
     resume = true;
-  } while (run->progress().time_left_s > 0);
+  } while (run->progress().timeLeft_s > 0);
   EXPECT_EQ(unseen, run->snapshot());
 }
 
@@ -115,7 +115,7 @@ TEST_F(DeterminismTest, RecordedAheadOrOneByOne) {
   }
   runGraphs(all);
   ASSERT_FALSE(HasFatalFailure());
-  EXPECT_EQ(run->progress().time_left_s, 0) << "the frames were not recorded to their ends";
+  EXPECT_EQ(run->progress().timeLeft_s, 0) << "the frames were not recorded to their ends";
   EXPECT_NEAR(run->progress().time_s, 4 * kFrame, 1e-6);
   EXPECT_EQ(waited, run->snapshot());
 }

@@ -140,16 +140,16 @@ TEST_F(DrivenTest, AWildHandHarmsNothing) {
     run->advance(kFrame);
     const FluidStats stats = run->stats();
     ASSERT_TRUE(run->measured().finite()) << frame;
-    ASSERT_EQ(stats.non_finite, 0u) << frame;
+    ASSERT_EQ(stats.nonFinite, 0u) << frame;
     ASSERT_EQ(stats.outside, 0u) << frame;
     ASSERT_EQ(stats.particles, t.x.size());
-    ASSERT_LE(stats.max_speed, 8 * (20 + std::sqrt(2 * 9.81 * 0.5) + 1e-3)) << "the limit of any speed";
+    ASSERT_LE(stats.maxSpeed, 8 * (20 + std::sqrt(2 * 9.81 * 0.5) + 1e-3)) << "the limit of any speed";
   }
   run->targets = {target(0, 0.5, 3, 0.2)};  // away
   for (int frame = 0; frame < 80; ++frame) run->advance(kFrame);
   const FluidStats calm = run->stats();
-  EXPECT_LT(calm.max_speed, 1) << "it comes to rest";
-  EXPECT_LT(calm.density_error_mean, 0.005);
+  EXPECT_LT(calm.maxSpeed, 1) << "it comes to rest";
+  EXPECT_LT(calm.densityErrorMean, 0.005);
 }
 
 TEST_F(DrivenTest, BadOnesAreRefused) {

@@ -64,7 +64,7 @@ TEST_F(NastyTest, ACellOfThousands) {
     EXPECT_TRUE(s.finite());
     EXPECT_EQ(s, again->snapshot());
     EXPECT_TRUE(eachIdOnce(run->saved()));
-    EXPECT_EQ(run->stats().non_finite, 0u);
+    EXPECT_EQ(run->stats().nonFinite, 0u);
   }
 }
 
@@ -83,7 +83,7 @@ TEST_F(NastyTest, FullCellsAreSortedByDigits) {
     EXPECT_TRUE(run->snapshot().finite());
     EXPECT_EQ(run->snapshot(), again->snapshot());
     EXPECT_TRUE(eachIdOnce(run->saved()));
-    EXPECT_EQ(run->stats().non_finite, 0u);
+    EXPECT_EQ(run->stats().nonFinite, 0u);
   }
 }
 
@@ -198,11 +198,11 @@ TEST_F(NastyTest, FullListsWalkTheGrid) {
   t.v = cloud(400, 1.0, 8, glm::dvec3(-0.5));
   auto listed = start(t);
   listed->substeps(1);
-  EXPECT_GT(listed->stats().neighbor_overflow, 0u);
+  EXPECT_GT(listed->stats().neighborOverflow, 0u);
   t.gather = Gather::Grid;
   auto walked = start(t);
   walked->substeps(1);
-  EXPECT_EQ(walked->stats().neighbor_overflow, 0u);
+  EXPECT_EQ(walked->stats().neighborOverflow, 0u);
   const Snapshot a = listed->snapshot(), b = walked->snapshot();
   for (size_t i = 0; i < a.x.size(); ++i) EXPECT_LT(glm::length(a.x[i] - b.x[i]), 2e-4 * t.d()) << i;
   t.gather = Gather::Texel;
@@ -222,7 +222,7 @@ TEST_F(NastyTest, ListsThatOverflowForAWhile) {
   const auto after = [&](int substeps, uint32_t piece, uint64_t& overflow) {
     auto run = start(t);
     run->substeps(substeps, piece);
-    overflow = run->stats().neighbor_overflow;
+    overflow = run->stats().neighborOverflow;
     return run->snapshot();
   };
   constexpr int kLong = 60;
@@ -252,15 +252,15 @@ TEST_F(NastyTest, AWalkIsBoundedAndSaysSo) {
   auto run = start(t);
   run->substeps(1);
   const FluidStats stats = run->stats();
-  EXPECT_GT(stats.loop_bound_hits, 0u);
-  EXPECT_EQ(stats.non_finite, 40000u);
+  EXPECT_GT(stats.loopBoundHits, 0u);
+  EXPECT_EQ(stats.nonFinite, 40000u);
   EXPECT_LT(glm::length(run->snapshot().x.back() - t.x.back()), 1e-6) << "alone";
 
   t.x.erase(t.x.begin(), t.x.begin() + 20000);
   t.v.resize(t.x.size());
   auto fewer = start(t);
   fewer->substeps(1);
-  EXPECT_EQ(fewer->stats().loop_bound_hits, 0u) << "within the bound";
+  EXPECT_EQ(fewer->stats().loopBoundHits, 0u) << "within the bound";
 }
 
 TEST_F(NastyTest, NoParticles) {
@@ -270,12 +270,12 @@ TEST_F(NastyTest, NoParticles) {
   run->advance(0.25);
   EXPECT_TRUE(run->progress().known);
   EXPECT_EQ(run->progress().time_s, 0.25);
-  EXPECT_EQ(run->progress().time_left_s, 0);
+  EXPECT_EQ(run->progress().timeLeft_s, 0);
   run->advance(0.25);
   const FluidStats s = run->stats();
   EXPECT_EQ(s.particles, 0u);
   EXPECT_EQ(s.time_s, 0.5);
-  EXPECT_EQ(s.density_error_mean, 0);
+  EXPECT_EQ(s.densityErrorMean, 0);
   EXPECT_EQ(s.kinetic_J, 0);
   EXPECT_TRUE(run->snapshot().x.empty());
   EXPECT_EQ(run->fluid().count(), 0u);
@@ -292,7 +292,7 @@ TEST_F(NastyTest, FarFromTheOriginIsLikeNear) {
     auto run = start(t);
     run->substeps(20);
     const FluidStats stats = run->stats();
-    for (int a = 0; a < 3; ++a) EXPECT_NEAR(stats.center_of_mass[a] - origin, 0.2, 0.2);
+    for (int a = 0; a < 3; ++a) EXPECT_NEAR(stats.centerOfMass[a] - origin, 0.2, 0.2);
     return run->snapshot();
   };
   const Snapshot near = finish(0), far = finish(1048576);
@@ -319,7 +319,7 @@ TEST_F(NastyTest, LeavesThroughAnOpenSide) {
     for (const glm::dvec3& x : s.x) beyond += x.x > 0.5;
     EXPECT_EQ(stats.outside, beyond);
     EXPECT_GE(beyond, 1u);
-    EXPECT_EQ(stats.non_finite, 0u);
+    EXPECT_EQ(stats.nonFinite, 0u);
     EXPECT_NEAR(s.x.back().x, 0.45 + 100 * 20 * t.step, 1e-3);
     EXPECT_TRUE(s.finite());
   }
@@ -340,7 +340,7 @@ TEST_F(NastyTest, FliesAwayForEver) {
   const FluidStats stats = run->stats();
   const Snapshot& s = run->measured();
   EXPECT_TRUE(s.finite());
-  EXPECT_EQ(stats.non_finite, 0u);
+  EXPECT_EQ(stats.nonFinite, 0u);
   EXPECT_GT(s.x.back().x, 1e6 * t.d() - 0.1);
   EXPECT_LT(s.x.back().x, 1e6 * t.d() + 10);
   for (size_t i = 0; i + 1 < s.x.size(); ++i) EXPECT_LT(glm::length(s.x[i] - t.x[i]), 0.5 * t.d());

@@ -29,7 +29,7 @@ class PassRunsTest : public FluidTest {
         EXPECT_EQ(recorded % pass.recorded, 0u) << pass.name;
       }
       resume = true;
-    } while (run.progress().time_left_s > 0);
+    } while (run.progress().timeLeft_s > 0);
     return ran;
   }
 };
@@ -50,9 +50,9 @@ TEST_F(PassRunsTest, OfEveryPassThatCanBeEmpty) {
   auto run = start(t);
   const auto ran = ranIn(*run, 0.05);
   const FluidProgress& p = run->progress();
-  EXPECT_GT(p.list_builds, 1u);
-  EXPECT_EQ(ran.at("build list"), p.list_builds + 1u) << "and once at the start";
-  EXPECT_EQ(ran.at("sort/"), p.list_builds + 1u);
+  EXPECT_GT(p.listBuilds, 1u);
+  EXPECT_EQ(ran.at("build list"), p.listBuilds + 1u) << "and once at the start";
+  EXPECT_EQ(ran.at("sort/"), p.listBuilds + 1u);
   for (const char* each : {"correct", "collide", "predict after terms", "predict at solids", "viscosity", "curl", "confine"})
     EXPECT_EQ(ran.at(each), p.substeps) << each;
   for (const char* each : {"density", "walls and solids"}) EXPECT_EQ(ran.at(each), p.iterations) << each;

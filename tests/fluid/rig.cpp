@@ -238,7 +238,7 @@ void FluidTest::Run::advance(double seconds, uint32_t piece) {
     test_.runGraph(graph_);
     if (HasFatalFailure()) return;
     resume = true;
-  } while (fluid_->progress().time_left_s > 0);
+  } while (fluid_->progress().timeLeft_s > 0);
 }
 
 Snapshot FluidTest::Run::read(const FluidStep& step) {

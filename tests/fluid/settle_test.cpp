@@ -24,8 +24,8 @@ TEST_F(SettleTest, OverlapBecomesNoSpeed) {
   t.settle = true;
   auto settled = start(t);
   settled->advance(0.01);
-  EXPECT_LT(settled->stats().max_speed, 0.1) << "resolved within steps of 0.1 ms it would be tens of m/s";
-  EXPECT_LT(settled->stats().density_error_mean, 1e-3);
+  EXPECT_LT(settled->stats().maxSpeed, 0.1) << "resolved within steps of 0.1 ms it would be tens of m/s";
+  EXPECT_LT(settled->stats().densityErrorMean, 1e-3);
 }
 
 TEST_F(SettleTest, TakesNoTime) {

@@ -79,7 +79,7 @@ class SnapshotTest : public FluidTest {
       poison(resumed->fluid());
       expectEqual(resumed->saved(), saved);
       const FluidStats there = looked->stats(), here = resumed->stats();
-      EXPECT_EQ(there.density_error_mean, here.density_error_mean);
+      EXPECT_EQ(there.densityErrorMean, here.densityErrorMean);
       EXPECT_EQ(there.time_s, here.time_s);
       for (size_t more = n; more < n + 2 && more < 4; ++more) {
         resumed->advance(kFrame, more % 2 ? 12 : 64);

@@ -49,7 +49,7 @@ class StabilityTest : public FluidTest {
       run.advance(kFrame);
       const FluidStats s = run.stats();
       figures.maxEnergy = std::max(figures.maxEnergy, energy(s) / first);
-      figures.meanError += s.density_error_mean / frames;
+      figures.meanError += s.densityErrorMean / frames;
     }
     return figures;
   }

@@ -163,7 +163,7 @@ TEST_F(StartPressureTest, TakesNoTime) {
   run->substeps(2);
   EXPECT_EQ(run->progress().substeps, 2u);
   EXPECT_NEAR(run->progress().time_s, 1e-3, 1e-9);
-  EXPECT_EQ(run->progress().time_dropped_s, 0);
+  EXPECT_EQ(run->progress().timeDropped_s, 0);
 }
 
 // A host records a few substeps a frame, whatever is due: the same pressure, later.
@@ -182,7 +182,7 @@ TEST_F(StartPressureTest, GoesOnFromACheckpoint) {
   const FluidStep frame{.advance_s = 4 * t.step, .substeps = 12};
   run->read(frame);
   EXPECT_EQ(run->control().nextPhase, kPhaseInitialPressure) << "12 are not enough";
-  EXPECT_GT(run->progress().time_left_s, 0);
+  EXPECT_GT(run->progress().timeLeft_s, 0);
   run->read({.advance_s = 0, .substeps = 12});  // gives the advance up
   const FluidSnapshot saved = run->saved();
   auto resumed = start(t, &saved);

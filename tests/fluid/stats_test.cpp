@@ -61,18 +61,18 @@ class StatsTest : public FluidTest {
     const Sums sums = sumsOf(t, s);
     for (size_t i = 0; i < s.x.size(); ++i) EXPECT_NEAR(s.density[i], sums.density[i], own * std::max(1.0, sums.density[i])) << i;
     EXPECT_EQ(stats.particles, t.x.size());
-    EXPECT_NEAR(stats.density_error_mean, sums.mean, own + 1e-5 * sums.mean);
-    EXPECT_NEAR(stats.density_error_p99, sums.p99, own + sums.p99 / 512);
-    EXPECT_NEAR(stats.density_error_max, sums.max, own + 1e-5 * sums.max);
-    EXPECT_NEAR(stats.density_signed_median, sums.median, own + std::abs(sums.median) / 512);
+    EXPECT_NEAR(stats.densityErrorMean, sums.mean, own + 1e-5 * sums.mean);
+    EXPECT_NEAR(stats.densityErrorP99, sums.p99, own + sums.p99 / 512);
+    EXPECT_NEAR(stats.densityErrorMax, sums.max, own + 1e-5 * sums.max);
+    EXPECT_NEAR(stats.densitySignedMedian, sums.median, own + std::abs(sums.median) / 512);
     EXPECT_NEAR(stats.kinetic_J, sums.kinetic, 1e-5 * sums.kinetic);
     const double mass = t.scene.fluid.density * std::pow(t.d(), 3) * double(t.x.size());
     EXPECT_NEAR(stats.potential_J, sums.potential, 1e-5 * mass * 9.81 + 1e-7 * std::abs(sums.potential));
     for (int a = 0; a < 3; ++a) {
       EXPECT_NEAR(stats.momentum[a], sums.momentum[a], 1e-5 * mass * sums.fastest) << a;
-      EXPECT_NEAR(stats.center_of_mass[a], sums.center[a], 1e-6) << a;
+      EXPECT_NEAR(stats.centerOfMass[a], sums.center[a], 1e-6) << a;
     }
-    EXPECT_NEAR(stats.max_speed, sums.fastest, 1e-6 * sums.fastest);
+    EXPECT_NEAR(stats.maxSpeed, sums.fastest, 1e-6 * sums.fastest);
   }
 };
 
@@ -124,21 +124,21 @@ TEST_F(StatsTest, RestLatticeInACorner) {
   auto run = start(t);
   const FluidStats full = run->stats();
   for (double density : run->measured().density) EXPECT_NEAR(density, 1, 1e-5);
-  EXPECT_LT(full.density_error_max, 1e-5);
-  EXPECT_LT(std::abs(full.density_signed_median), 1e-5);
+  EXPECT_LT(full.densityErrorMax, 1e-5);
+  EXPECT_LT(std::abs(full.densitySignedMedian), 1e-5);
 
   setWalls(t, {1, 1, 1});
   run = start(t);
   const FluidStats corner = run->stats();
-  EXPECT_LT(corner.density_error_max, 1e-5);
+  EXPECT_LT(corner.densityErrorMax, 1e-5);
   for (size_t i = 0; i < t.x.size(); ++i) {
     const bool buried = std::max({t.x[i].x, t.x[i].y, t.x[i].z}) < 4 * t.d();
     EXPECT_LT(run->measured().density[i], 1 + 1e-5) << i;
     EXPECT_GT(run->measured().density[i], buried ? 1 - 1e-5 : 0.5) << i;
   }
   EXPECT_EQ(corner.kinetic_J, 0);
-  EXPECT_EQ(corner.max_speed, 0);
-  EXPECT_NEAR(corner.center_of_mass[1], 3 * t.d(), 1e-6);
+  EXPECT_EQ(corner.maxSpeed, 0);
+  EXPECT_NEAR(corner.centerOfMass[1], 3 * t.d(), 1e-6);
 }
 
 // 0.1 of 300: the 99th percentile leaves out the three that are worst.
@@ -150,11 +150,11 @@ TEST_F(StatsTest, PercentileOfAFewBadOnes) {
   auto run = start(t);
   const FluidStats stats = run->stats();
   const SmoothingKernel kernel(t.scene.solver.kernel, 2 * t.d(), t.d());
-  EXPECT_NEAR(stats.density_error_max, kernel.value(0) + 2 * kernel.value(0.01) - 1, 1e-5);
-  EXPECT_EQ(stats.density_error_p99, 0);
+  EXPECT_NEAR(stats.densityErrorMax, kernel.value(0) + 2 * kernel.value(0.01) - 1, 1e-5);
+  EXPECT_EQ(stats.densityErrorP99, 0);
   t.x.push_back({-1 - 0.02, 0, 0});
   run = start(t);
-  EXPECT_GT(run->stats().density_error_p99, 0.1);
+  EXPECT_GT(run->stats().densityErrorP99, 0.1);
 }
 
 }  // namespace stats_test

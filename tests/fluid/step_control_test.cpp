@@ -29,7 +29,7 @@ class StepControlTest : public FluidTest {
       if (HasFatalFailure()) return;
       see(s);
       resume = true;
-    } while (run.progress().time_left_s > 0);
+    } while (run.progress().timeLeft_s > 0);
   }
 };
 
@@ -81,9 +81,9 @@ TEST_F(StepControlTest, ToleranceIsMet) {
     auto run = start(t);
     for (int frame = 0; frame < 60; ++frame) run->advance(1.0 / 60, 12);
     const FluidStats stats = run->stats();
-    EXPECT_LE(stats.density_error_mean, tolerance);
-    EXPECT_LT(std::abs(stats.density_signed_median), 5 * tolerance);
-    EXPECT_EQ(stats.time_dropped_s, 0);
+    EXPECT_LE(stats.densityErrorMean, tolerance);
+    EXPECT_LT(std::abs(stats.densitySignedMedian), 5 * tolerance);
+    EXPECT_EQ(stats.timeDropped_s, 0);
     steps.push_back(stats.substeps);
   }
   EXPECT_GE(steps[0], steps[1]) << "a finer tolerance takes no fewer substeps";
@@ -100,14 +100,14 @@ TEST_F(StepControlTest, TimeBeyondTheMostSubstepsIsDropped) {
     run->advance(0.0105);
     const FluidProgress p = run->progress();
     EXPECT_EQ(p.substeps, 7u);
-    EXPECT_EQ(p.time_left_s, 0);
-    EXPECT_GT(p.time_dropped_s, 0.002);
-    EXPECT_NEAR(p.time_s - time + p.time_dropped_s, 0.0105, 1e-7);
+    EXPECT_EQ(p.timeLeft_s, 0);
+    EXPECT_GT(p.timeDropped_s, 0.002);
+    EXPECT_NEAR(p.time_s - time + p.timeDropped_s, 0.0105, 1e-7);
     time = p.time_s;
   }
   // Nothing is dropped where the steps fit.
   run->advance(0.006);
-  EXPECT_EQ(run->progress().time_dropped_s, 0);
+  EXPECT_EQ(run->progress().timeDropped_s, 0);
   EXPECT_NEAR(run->progress().time_s - time, 0.006, 1e-7);
 }
 
@@ -117,11 +117,11 @@ TEST_F(StepControlTest, AnAbandonedAdvanceIsDropped) {
   t.x = block({3, 3, 3}, t.d());
   auto run = start(t);
   run->read({.advance_s = 0.01, .substeps = 6});
-  EXPECT_NEAR(run->progress().time_left_s, 0.004, 1e-7);
+  EXPECT_NEAR(run->progress().timeLeft_s, 0.004, 1e-7);
   run->read({.advance_s = 0.005, .substeps = 6});
   EXPECT_NEAR(run->progress().time_s, 0.011, 1e-7);
-  EXPECT_EQ(run->progress().time_left_s, 0);
-  EXPECT_NEAR(run->progress().time_dropped_s, 0.004, 1e-7);
+  EXPECT_EQ(run->progress().timeLeft_s, 0);
+  EXPECT_NEAR(run->progress().timeDropped_s, 0.004, 1e-7);
 }
 
 // To a few roundings of each substep's float.
@@ -133,7 +133,7 @@ TEST_F(StepControlTest, AdvancesByJustTheTimeAskedFor) {
     run->advance(frame);
     time += frame;
     EXPECT_NEAR(run->progress().time_s, time, 2e-8 * run->progress().substeps + 1e-8) << frame;
-    EXPECT_EQ(run->progress().time_dropped_s, 0);
+    EXPECT_EQ(run->progress().timeDropped_s, 0);
     EXPECT_GT(run->progress().substeps, 0u);
     time = run->progress().time_s;
   }
@@ -170,7 +170,7 @@ TEST_F(StepControlTest, PreviewStaysBounded) {
       ASSERT_TRUE(run->measured().finite());
       EXPECT_EQ(stats.outside, 0u);
       EXPECT_LT(stats.kinetic_J + stats.potential_J, 1.05 * energy) << frame;
-      EXPECT_LT(stats.density_error_mean, 0.01) << frame;
+      EXPECT_LT(stats.densityErrorMean, 0.01) << frame;
     }
   }
 }

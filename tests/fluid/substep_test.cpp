@@ -154,7 +154,7 @@ TEST_F(SubstepTest, WithoutGravityNothingIsCalm) {
   t.x = block({6, 7, 6}, t.d());
   expectEqual(t, 1, kOne, kOne);
   const FluidStats stats = start(t)->stats();
-  EXPECT_EQ(stats.artificial_viscosity_Pa_s, 0);
+  EXPECT_EQ(stats.artificialViscosity_Pa_s, 0);
 }
 
 TEST_F(SubstepTest, ArtificialViscosityDampsNoise) {
@@ -167,7 +167,7 @@ TEST_F(SubstepTest, ArtificialViscosityDampsNoise) {
     auto run = start(t);
     for (int n = 0; n < 30; ++n) run->substeps(1);
     const FluidStats stats = run->stats();
-    said = stats.artificial_viscosity_Pa_s;
+    said = stats.artificialViscosity_Pa_s;
     return stats.kinetic_J;
   };
   const double full = energy(calmed()), saidFull = said, some = energy(little), nothing = energy(none);

@@ -26,7 +26,7 @@ void describe() {
   (void)rill::FluidSettings{.spacing = 0.1};
   (void)rill::SolverSettings{.cfl = 0.2};
   (void)rill::Scene{.duration = 2};
-  (void)rill::ParticleSet{.left_out_solid = 1};
+  (void)rill::ParticleSet{.leftOutSolid = 1};
   (void)rill::Override{.key = "fluid.spacing"};
   (void)rill::Error{.kind = rill::ErrorKind::Io};
   (void)rill::offline::Options{.validation = true};

@@ -9,5 +9,5 @@ int main() {
   const auto particles = run->particles();
   const auto stats = run->stats();
   if (!particles || !stats) return 1;
-  return particles->positions.size() == stats->particles && stats->density_error_mean < 0.01 && stats->outside == 0 ? 0 : 1;
+  return particles->positions.size() == stats->particles && stats->densityErrorMean < 0.01 && stats->outside == 0 ? 0 : 1;
 }

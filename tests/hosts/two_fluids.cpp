@@ -64,7 +64,7 @@ int main(int count, char** arguments) {
       graph.record(frame.commands);
       engine.end(frame);
       for (const rill::Fluid* fluid : {&*left, &*right})
-        if (const auto stats = fluid->stats(); stats && stats->non_finite + stats->outside > 0) host::fail("a fluid left its tank");
+        if (const auto stats = fluid->stats(); stats && stats->nonFinite + stats->outside > 0) host::fail("a fluid left its tank");
     }
     engine.wait();
     engine.save(color, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, arguments[1]);

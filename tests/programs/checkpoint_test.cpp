@@ -202,9 +202,9 @@ TEST_F(CheckpointTest, ResumesInLibrary) {
   auto rest = offline::Simulation::resume(*scene, *taken, options);
   ASSERT_TRUE(rest) << rest.error().message;
   EXPECT_EQ(rest->time(), 0.02);
-  EXPECT_EQ(rest->stats()->state_hash, whole->stats()->state_hash);
+  EXPECT_EQ(rest->stats()->stateHash, whole->stats()->stateHash);
   for (offline::Simulation* each : {&*whole, &*rest}) ASSERT_TRUE(each->advance(0.03));
-  EXPECT_EQ(rest->stats()->state_hash, whole->stats()->state_hash);
+  EXPECT_EQ(rest->stats()->stateHash, whole->stats()->stateHash);
   EXPECT_TRUE(rest->warnings().empty());
   const auto again = rest->checkpoint();
   ASSERT_TRUE(again);

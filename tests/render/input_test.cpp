@@ -97,8 +97,8 @@ TEST_F(RendererInput, RejectsInvalidEnumsAndLooks) {
   EXPECT_EQ(compileError(state(), view, look), "invalid SurfaceMethod value 9");
   EXPECT_EQ(compileError(state(), view, look, true), "invalid SurfaceMethod value 9");
   look = {};
-  look.refraction_index = 0.5f;
-  EXPECT_EQ(compileError(state(), view, look), "FluidLook::refraction_index is 0.5; expected 1 to 10");
+  look.refractionIndex = 0.5f;
+  EXPECT_EQ(compileError(state(), view, look), "FluidLook::refractionIndex is 0.5; expected 1 to 10");
   look = {};
   look.aeration = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(compileError(state(), view, look), "FluidLook::aeration is nan; expected 0 to 1");

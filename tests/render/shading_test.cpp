@@ -54,7 +54,7 @@ class FlatPool : public SurfaceOnGpu {
     FluidLook look;
     look.absorption = look.scatter = {0, 0, 0};
     look.sun = 0;
-    look.to_sun = {0, -1, 0};  // from below: no glow around it in what the pool mirrors
+    look.toSun = {0, -1, 0};  // from below: no glow around it in what the pool mirrors
     return look;
   }
   std::vector<Color> seen(const FluidView& view, const FluidLook& look, std::array<float, 4> behind) {
@@ -83,7 +83,7 @@ TEST_F(FlatPool, TransmitsWhatItDoesNotReflect) {
   pool(0.3, 4);
   for (const float index : {1.333f, 2.0f}) {
     FluidLook look = clear();
-    look.refraction_index = index;
+    look.refractionIndex = index;
     // From 27 to 73 degrees in one picture.
     const FluidView view = eye(50 * kDegree);
     const auto light = through(view, look);
@@ -117,7 +117,7 @@ TEST_F(FlatPool, AbsorptionFollowsBeerLambert) {
       pool(depth);
       const auto light = through(parallel(angle), look);
       const Color whole = mean(light);
-      const double meters = depth / std::cos(angle), left = 1 - fresnel(angle, double{look.refraction_index});
+      const double meters = depth / std::cos(angle), left = 1 - fresnel(angle, double{look.refractionIndex});
       for (size_t c = 0; c < 3; ++c) {
         EXPECT_NEAR(std::log(whole[c] / left) / -rates[c], meters, 0.02 * meters + 0.002 / rates[c]) << depth << " m, channel " << c;
         for (const Color& pixel : light)
@@ -137,11 +137,11 @@ TEST_F(FlatPool, MatchesFormulaAtAnyAngle) {
       Vector sun{0, -1, 0};
       if (sunny) {  // where the pool mirrors it
         sun = mirrored;
-        look.to_sun = {float(sun.x), float(sun.y), float(sun.z)};
+        look.toSun = {float(sun.x), float(sun.y), float(sun.z)};
         look.sun = 3;
       }
       const double rates[] = {1.2, 0.5, 0.1}, behind[] = {0.7, 0.4, 0.9}, white[] = {1, 0.95, 0.86};
-      const double part = fresnel(angle, double{look.refraction_index});
+      const double part = fresnel(angle, double{look.refractionIndex});
       const auto pixels = seen(parallel(angle), look, {0.7f, 0.4f, 0.9f, 1});
       const Color whole = mean(pixels);
       for (int c = 0; c < 3; ++c) {
@@ -162,8 +162,8 @@ TEST_F(FlatPool, OpaqueFluidHasItsColorAndReflectsTheSky) {
     FluidLook look = clear();
     look.opaque = true;
     look.scatter = {0.5f, 0.3f, 0.1f};
-    look.refraction_index = 1.5f;
-    look.to_sun = {float(sun.x), float(sun.y), float(sun.z)};
+    look.refractionIndex = 1.5f;
+    look.toSun = {float(sun.x), float(sun.y), float(sun.z)};
     const auto pixels = seen(parallel(angle), look, {9, 9, 9, 1});
     const double own[] = {0.5, 0.3, 0.1}, direct[] = {1, 0.95, 0.88};
     for (int c = 0; c < 3; ++c) {
@@ -188,10 +188,10 @@ TEST_F(FlatPool, RefractionFollowsSnell) {
       for (uint32_t x = 0; x < kAcross; ++x) ramp.pixels.push_back({float(x) + 0.5f, float(y) + 0.5f, 0, 1});
     const auto dark = drawn(view, look, black, {.color = kFormat}).channels(kFormat);
     const auto light = drawn(view, look, ramp, {.color = kFormat}).channels(kFormat);
-    const double inner = std::asin(std::sin(angle) / double{look.refraction_index});
+    const double inner = std::asin(std::sin(angle) / double{look.refractionIndex});
     const double meters = 0.3 / std::cos(angle), pixel = 1.0 / kDown;
     // Bent towards the normal, it comes out nearer to the eye's side than it went in: down the picture.
-    const double shift = std::sin(angle - inner) * meters / pixel, left = 1 - fresnel(angle, double{look.refraction_index});
+    const double shift = std::sin(angle - inner) * meters / pixel, left = 1 - fresnel(angle, double{look.refractionIndex});
     for (uint32_t y = 30; y < kDown - 30; ++y)
       for (uint32_t x = 30; x < kAcross - 30; ++x) {
         const size_t i = size_t{y} * kAcross + x;
@@ -240,7 +240,7 @@ TEST_F(FlatPool, DropsDoNotReflectTheSun) {
   const FluidView view = orthographic(0.1, eye(0.3)), wide = orthographic(0.7, eye(0.3));
   FluidLook dark = clear(), sunny = clear();
   sunny.sun = 100;
-  dark.to_sun = sunny.to_sun = {0.2f, 1, 0.5f};
+  dark.toSun = sunny.toSun = {0.2f, 1, 0.5f};
   fill({{0, 0, 0, 0}});
   EXPECT_EQ(seen(view, sunny, {0, 0, 0, 1}), seen(view, dark, {0, 0, 0, 1}));
   fill(shells({0, 0, 0}, 0.5));

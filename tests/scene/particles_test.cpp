@@ -81,7 +81,7 @@ TEST(Particles, JitterIsIndependentOfOtherFillsAndLosesNoParticles) {
 TEST(Particles, LeavesOutAndReportsOverlaps) {
   const ParticleSet set = particles(with(
       R"("fill": [{"box": {}}, {"box": {"min": [0.5, 0, 0], "max": [1.5, 1, 1]}}, {"sphere": {"center": [5, 5, 5], "radius": 0.2}}])"));
-  EXPECT_EQ(set.left_out_overlap, 500U);
+  EXPECT_EQ(set.leftOutOverlap, 500U);
   EXPECT_GE(set.positions.size(), 1500U);
   ASSERT_EQ(set.warnings.size(), 1U);
   EXPECT_EQ(set.warnings[0], "dam: fill[1]: 500 of 1,000 particles are closer than 0.9 spacings to earlier fills, and are left out");
@@ -102,13 +102,13 @@ TEST(Particles, OverlapsMatchAllPairsSearch) {
   for (const Float3& p : b.positions)
     near += std::any_of(a.positions.begin(), a.positions.end(), [&](const Float3& q) { return distance(p, q) < 0.09; });
   EXPECT_GT(near, 20U);
-  EXPECT_EQ(set.left_out_overlap, near);
+  EXPECT_EQ(set.leftOutOverlap, near);
   EXPECT_EQ(set.positions.size(), a.positions.size() + b.positions.size() - near);
 }
 
 TEST(Particles, LeavesOutParticlesInsideSolids) {
   const std::string fill = R"("fill": [{"box": {"min": [0, 0, 0], "max": [1, 1, 1]}}], )";
-  const auto left = [&](const std::string& solid) { return particles(with(fill + "\"solids\": [" + solid + "]")).left_out_solid; };
+  const auto left = [&](const std::string& solid) { return particles(with(fill + "\"solids\": [" + solid + "]")).leftOutSolid; };
   EXPECT_EQ(left(R"({"box": {"min": [0, 0, 0], "max": [0.5, 0.5, 0.5]}})"), 125U);
   EXPECT_EQ(left(R"({"box": {"min": [0.2, 0.2, 0.2], "max": [0.4, 0.4, 0.4]}, "motion": [{"at": 1, "translate": [5, 0, 0]}]})"), 0U);
   EXPECT_EQ(
@@ -131,7 +131,7 @@ TEST(Particles, TestsEverySolid) {
               std::to_string(0.05 + 0.1 * (i / 10 % 10)) + "," + std::to_string(0.05 + 0.1 * (i / 100)) + "]}}";
   }
   const ParticleSet set = particles(with(R"("fill": [{"box": {"max": [1, 1, 1.1]}}], "solids": [)" + solids + "]"));
-  EXPECT_EQ(set.left_out_solid, 1000U);
+  EXPECT_EQ(set.leftOutSolid, 1000U);
   EXPECT_EQ(set.positions.size(), 100U);
 }
 
@@ -139,7 +139,7 @@ TEST(Particles, LeavesOutParticlesBeyondClosedWallsOnly) {
   const std::string fill = R"("fill": [{"box": {"min": [-0.2, 0, 0], "max": [0.8, 1.2, 1]}}])";
   const ParticleSet closed = particles(with(R"("domain": {}, )" + fill));
   EXPECT_EQ(closed.positions.size(), 800U);
-  EXPECT_EQ(closed.left_out_domain, 400U);
+  EXPECT_EQ(closed.leftOutDomain, 400U);
   ASSERT_EQ(closed.warnings.size(), 1U);
   EXPECT_EQ(closed.warnings[0], "dam: fill[0]: 400 of 1,200 particles start outside the domain's walls and are left out");
   const ParticleSet open = particles(with(R"("domain": {"open": ["+y", "-x"]}, )" + fill));
@@ -153,7 +153,7 @@ TEST(Particles, KeepsFullTankDespiteRounding) {
     const ParticleSet set = particles(withSpacing(
         spacing,
         R"("domain": {"min": [0.1, -0.7, 1000.3], "max": [1.3, 0.2, 1001.2]}, "fill": [{"box": {"min": [0.1, -0.7, 1000.3], "max": [1.3, 0.2, 1001.2]}}])"));
-    EXPECT_EQ(set.left_out_domain, 0U) << spacing;
+    EXPECT_EQ(set.leftOutDomain, 0U) << spacing;
     for (const Float3& p : set.positions)
       ASSERT_TRUE(p.x > 0 && p.y > 0 && p.z > 0 && p.x <= 1.2F && p.y <= 0.9F && p.z <= 0.9F + 1e-4F) << spacing;
   }

@@ -92,7 +92,7 @@ TEST_F(Ply, KeepsCloseButDropsCoincidentParticles) {
   const auto set = load(five + "1 1 1\n1.06 1 1\n1.06 1 1\n2 2 2\n2 2 2.00001\n");
   ASSERT_TRUE(set);
   EXPECT_EQ(set->positions.size(), 3U);
-  EXPECT_EQ(set->left_out_overlap, 2U);
+  EXPECT_EQ(set->leftOutOverlap, 2U);
   ASSERT_EQ(set->warnings.size(), 1U);
   EXPECT_NE(set->warnings[0].find("fill[0]: 2 of 5 particles coincide, or are closer than 0.9 spacings"), std::string::npos)
       << set->warnings[0];

@@ -61,7 +61,7 @@ TEST_F(ViewRunnerTest, StepsEqualCaptureBitwise) {
     }
     const auto hash = (*runner)->hash();
     ASSERT_TRUE(hash);
-    EXPECT_EQ(*hash, stats->state_hash) << budget;
+    EXPECT_EQ(*hash, stats->stateHash) << budget;
     EXPECT_NEAR((*runner)->time_s(), kSteps / 60.0, 1e-6);
   }
   EXPECT_GT(maxPieces, 1u) << "some of them were cut";
@@ -124,9 +124,9 @@ TEST_F(ViewRunnerTest, LiveChangeContinuesFromCurrentState) {
   EXPECT_EQ(s.scene().fluid.viscosity, 20);
   const auto end = s.runner().measure();
   ASSERT_TRUE(end);
-  EXPECT_EQ(end->non_finite, 0u);
+  EXPECT_EQ(end->nonFinite, 0u);
   EXPECT_EQ(end->outside, 0u);
-  EXPECT_LT(end->density_error_mean, 0.01);
+  EXPECT_LT(end->densityErrorMean, 0.01);
 }
 
 TEST_F(ViewRunnerTest, InvalidChangeHasNoEffect) {

@@ -82,7 +82,7 @@ TEST_F(TouchTest, BallPushesFluidAndIsRemoved) {
   EXPECT_EQ(session().scene().solids.size(), solids);
   EXPECT_EQ(runner().steps(), before + 30) << "time went on";
   steps(2);
-  EXPECT_EQ(stats().non_finite + stats().outside, 0u);
+  EXPECT_EQ(stats().nonFinite + stats().outside, 0u);
   ASSERT_TRUE(session().restart());
   EXPECT_EQ(session().scene().solids[0].motion.size(), 2u);
 }
@@ -153,10 +153,10 @@ TEST_F(TouchTest, ThrownFluidIsAddedWhereThereIsRoom) {
   ASSERT_TRUE(thrown) << thrown.error().message;
   EXPECT_GT(*thrown, 50u);
   EXPECT_EQ(stats().particles, before + *thrown);
-  EXPECT_GT(stats().max_speed, 0.9 * Touch::maxSpeed(session()));
-  EXPECT_LT(stats().density_error_mean, 0.01) << "none over another";
+  EXPECT_GT(stats().maxSpeed, 0.9 * Touch::maxSpeed(session()));
+  EXPECT_LT(stats().densityErrorMean, 0.01) << "none over another";
   steps(20);
-  EXPECT_EQ(stats().non_finite + stats().outside, 0u);
+  EXPECT_EQ(stats().nonFinite + stats().outside, 0u);
   const auto hash = runner().hash();
   EXPECT_TRUE(hash) << "ids are still each once";
   const auto missed = Touch::throwFluid(session(), at(5, 5));
@@ -187,16 +187,16 @@ TEST_F(TouchTest, RandomInteractionStaysStable) {
     steps(1);
     const FluidStats now = stats();
     ASSERT_EQ(now.particles, particles);
-    ASSERT_EQ(now.non_finite, 0u) << k;
+    ASSERT_EQ(now.nonFinite, 0u) << k;
     ASSERT_EQ(now.outside, 0u) << k;
-    ASSERT_LT(now.max_speed, 60) << k;
+    ASSERT_LT(now.maxSpeed, 60) << k;
   }
   EXPECT_GT(grabs, 3u);
   EXPECT_GT(throws, 0u);
   ASSERT_TRUE(touch_.release(session()));
   steps(90);
-  EXPECT_LT(stats().max_speed, 1.5) << "it comes to rest";
-  EXPECT_LT(stats().density_error_mean, 0.01);
+  EXPECT_LT(stats().maxSpeed, 1.5) << "it comes to rest";
+  EXPECT_LT(stats().densityErrorMean, 0.01);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ Expected<Outcome> fall(const Bench& bench, unsigned level) {
   const auto& last = outcome.run.instants.back().stats;
   const double mass = double(last.particles) * scene.fluid.density * std::pow(scene.fluid.spacing, 3);
   outcome.figures.push_back(
-      relativeFigure("distance", first.center_of_mass[1] - last.center_of_mass[1], -0.5 * scene.gravity[1] * kDuration * kDuration));
+      relativeFigure("distance", first.centerOfMass[1] - last.centerOfMass[1], -0.5 * scene.gravity[1] * kDuration * kDuration));
   outcome.figures.push_back(relativeFigure("speed", -last.momentum[1] / mass, -scene.gravity[1] * kDuration));
   return outcome;
 }

@@ -47,8 +47,7 @@ Expected<Outcome> slosh(const Bench& bench, double depth, unsigned level, double
   Outcome outcome;
   outcome.run = std::move(*run);
   Curve sway, drawn;
-  for (const apps::Instant& instant : outcome.run.instants)
-    sway.emplace_back(instant.time_s, instant.stats.center_of_mass[0] - kLength / 2);
+  for (const apps::Instant& instant : outcome.run.instants) sway.emplace_back(instant.time_s, instant.stats.centerOfMass[0] - kLength / 2);
   for (const auto& [time, x] : sway) drawn.emplace_back(time / expected, x / sway.front().second);
   const Oscillation found = oscillation(sway, 0);
   outcome.figures.push_back(relativeFigure("period", found.period, expected));

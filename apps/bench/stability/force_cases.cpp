@@ -39,7 +39,7 @@ std::vector<StressCase> forceCases() {
     scene.solver.cfl = 10;
     StressCase c = make("step-" + number(step) + "-s", "one substep per frame: the remaining time is reported as dropped", scene);
     c.check = [](const StressOutcome& o) {
-      return o.run.time_dropped_s > 0 ? std::string() : std::string("time_dropped_s: found 0, expected above 0");
+      return o.run.timeDropped_s > 0 ? std::string() : std::string("time_dropped_s: found 0, expected above 0");
     };
     cases.push_back(std::move(c));
   }
@@ -122,7 +122,7 @@ std::vector<StressCase> forceCases() {
     c.duration_s = 1.5;
     c.maxSpeed = 60;
     c.check = [](const StressOutcome& o) {
-      const double speed = o.run.instants.back().stats.max_speed;
+      const double speed = o.run.instants.back().stats.maxSpeed;
       return speed > 2 ? "maximum speed: found " + number(speed) + " m/s, expected at most 2 m/s" : std::string();
     };
     cases.push_back(std::move(c));

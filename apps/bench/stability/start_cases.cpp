@@ -152,8 +152,8 @@ std::vector<StressCase> startCases() {
     c.maxSpeed = 20;
     c.maxEnergy = std::numeric_limits<double>::infinity();
     c.check = [](const StressOutcome& o) {
-      return o.run.instants.front().stats.neighbor_overflow > 0 ? std::string()
-                                                                : std::string("neighbor_overflow: found 0, expected above 0");
+      return o.run.instants.front().stats.neighborOverflow > 0 ? std::string()
+                                                               : std::string("neighbor_overflow: found 0, expected above 0");
     };
     cases.push_back(std::move(c));
   }

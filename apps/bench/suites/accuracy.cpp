@@ -155,14 +155,14 @@ class Accuracy {
         auto ran = runScene(bench_, {.scene = *scene, .duration_s = c.duration_s, .frame_s = kFrame_s});
         if (!ran) return ran.error();
         if (bench_.stopped()) break;  // incomplete runs are not samples
-        if (k > 0 && ran->instants.back().stats.state_hash != m.run.instants.back().stats.state_hash)
+        if (k > 0 && ran->instants.back().stats.stateHash != m.run.instants.back().stats.stateHash)
           report_.failures.push_back(c.name + " " + setting.name + ": two runs differ in their state hash");
         m.wall.push_back(ran->wall_s / std::max(ran->simulated_s, 1e-12));
         m.run = std::move(*ran);
       }
       if (m.wall.empty()) break;
       m.trajectory = rmsDistance(trajectoryOf(m.run.instants, length, energy), converged);
-      m.diverged = !(m.run.density.mean < kDivergedError) || !(m.run.energy.ratio < kMaxEnergy) || m.run.non_finite > 0 ||
+      m.diverged = !(m.run.density.mean < kDivergedError) || !(m.run.energy.ratio < kMaxEnergy) || m.run.nonFinite > 0 ||
                    !std::isfinite(m.trajectory);
       measured.push_back(std::move(m));
     }
@@ -277,7 +277,7 @@ class Accuracy {
                             percent(1 - m.cost() / worst, 2)});
       Series a{m.setting.name, Series::Style::Lines, {}, {}}, b = a;
       for (size_t k = 1; k < m.run.instants.size(); ++k) {
-        a.points.emplace_back(m.run.instants[k].time_s, m.run.instants[k].stats.density_error_mean);
+        a.points.emplace_back(m.run.instants[k].time_s, m.run.instants[k].stats.densityErrorMean);
         b.points.emplace_back(m.run.instants[k].time_s, m.run.instants[k].stats.substeps);
       }
       error.series.push_back(std::move(a));

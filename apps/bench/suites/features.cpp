@@ -117,7 +117,7 @@ Expected<void> runInterleaved(const Bench& bench, std::vector<FrameStepper>& ste
       if (frame >= kWarmUp) {
         samples[k].ms.push_back(*ms);
         samples[k].ratio.push_back(*ms / base);
-        samples[k].builds += stats->list_builds;
+        samples[k].builds += stats->listBuilds;
       }
       samples[k].end = std::move(*stats);
     }
@@ -153,7 +153,7 @@ void checkDisabled(const std::string& name, const Samples& off, const Samples& b
   const std::string passes = passList(off.end.pass_ms), expected = passList(base.end.pass_ms);
   if (passes != expected)
     report.failures.push_back(name + " disabled: found passes " + passes + ", expected those of the base scene: " + expected);
-  if (off.end.state_hash != base.end.state_hash)
+  if (off.end.stateHash != base.end.stateHash)
     report.failures.push_back(name + " disabled: the state hash differs from that of the base scene");
 }
 

@@ -64,7 +64,7 @@ Expected<std::vector<PassCost>> passCosts(const Bench& bench, const Scene& scene
         if (found == ms.end()) found = ms.insert(ms.end(), {name, 0});
         found->second += timing.ms;
       }
-      if (!(fluid->progress().time_left_s > 0)) break;
+      if (!(fluid->progress().timeLeft_s > 0)) break;
       recorded += step.substeps;
       step.substeps = fluid->substepsPerBlock();
     }
@@ -122,7 +122,7 @@ Expected<Case> measure(Bench& bench, uint32_t nominal) {
     for (size_t frame = 2; frame < run->instants.size(); ++frame) {  // skips the start and the warm-up frame
       wall_s += run->instants[frame].stats.wall_s;
       substeps += run->instants[frame].stats.substeps;
-      builds += run->instants[frame].stats.list_builds;
+      builds += run->instants[frame].stats.listBuilds;
     }
     if (substeps == 0) continue;
     made.particles = run->particles;
@@ -142,9 +142,9 @@ Expected<Case> measure(Bench& bench, uint32_t nominal) {
 Json json(const Case& c) {
   Json json{{"case", c.name()}, {"particles", c.particles}};
   const double particles = double(c.particles);
-  json["bytes_a_particle"] = {{"arrays", double(c.memory.particle_bytes) / particles},
-                              {"grid", double(c.memory.grid_bytes) / particles},
-                              {"list", double(c.memory.list_bytes) / particles}};
+  json["bytes_a_particle"] = {{"arrays", double(c.memory.particleBytes) / particles},
+                              {"grid", double(c.memory.gridBytes) / particles},
+                              {"list", double(c.memory.listBytes) / particles}};
   if (!c.limitError.empty()) {
     json["refused"] = c.limitError;
     return json;
@@ -165,7 +165,7 @@ Table costTable(const std::vector<Case>& cases) {
   for (const Case& c : cases) {
     const double particles = double(c.particles), bytes = double(c.memory.total()) / particles;
     table.rows.push_back({grouped(c.particles), number(median(c.ns)), number(c.limitError.empty() ? c.step_ms : std::nan("")),
-                          number(1 / c.buildsPerSubstep), number(bytes), number(double(c.memory.list_bytes) / particles),
+                          number(1 / c.buildsPerSubstep), number(bytes), number(double(c.memory.listBytes) / particles),
                           number(median(c.total_s)), c.limitError});
   }
   const bool any = std::ranges::any_of(cases, [](const Case& c) { return !c.limitError.empty(); });

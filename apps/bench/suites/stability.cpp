@@ -18,16 +18,16 @@ std::string firstFailure(const StressCase& c, const StressOutcome& o, uint64_t p
     const std::string at = " at " + number(instant.time_s) + " s";
     if (s.particles != particles)
       return "particles" + at + ": found " + std::to_string(s.particles) + ", expected " + std::to_string(particles);
-    if (s.non_finite != c.inactive)
-      return "inactive particles" + at + ": found " + std::to_string(s.non_finite) + ", expected " + std::to_string(c.inactive);
-    if (!std::isfinite(s.kinetic_J) || !std::isfinite(s.potential_J) || !std::isfinite(s.density_error_max))
+    if (s.nonFinite != c.inactive)
+      return "inactive particles" + at + ": found " + std::to_string(s.nonFinite) + ", expected " + std::to_string(c.inactive);
+    if (!std::isfinite(s.kinetic_J) || !std::isfinite(s.potential_J) || !std::isfinite(s.densityErrorMax))
       return "energy or density error is not finite" + at;
     // Frame 0 is the unmodified initial state.
     if (instant.time_s > 0 && s.outside > c.inactive)
       return "particles outside the walls" + at + ": found " + std::to_string(s.outside) + ", expected at most " +
              std::to_string(c.inactive);
-    if (!(s.max_speed <= c.maxSpeed))
-      return "speed" + at + ": found " + number(s.max_speed) + " m/s, expected at most " + number(c.maxSpeed) + " m/s";
+    if (!(s.maxSpeed <= c.maxSpeed))
+      return "speed" + at + ": found " + number(s.maxSpeed) + " m/s, expected at most " + number(c.maxSpeed) + " m/s";
   }
   for (size_t k = 0; k < o.particles.positions.size(); ++k) {
     const Float3 &p = o.particles.positions[k], &v = o.particles.velocities[k];
@@ -117,7 +117,7 @@ class Stability {
       if (failure.empty() && c.reference) failure = compareWithReference(*c.reference, c, outcome);
       json.update(runJson(outcome.run));
       double fastest = 0;
-      for (const apps::Instant& instant : outcome.run.instants) fastest = std::max(fastest, instant.stats.max_speed);
+      for (const apps::Instant& instant : outcome.run.instants) fastest = std::max(fastest, instant.stats.maxSpeed);
       table_.rows.push_back({c.name, std::to_string(particles), std::to_string(outcome.run.substeps), percent(outcome.run.density.mean, 2),
                              number(fastest), number(outcome.run.energy.ratio, 5), failure.empty() ? "passed" : "FAILED"});
     }
@@ -135,7 +135,7 @@ class Stability {
     auto second = runScene(bench_, {.scene = c.scene, .start = c.start, .duration_s = c.duration_s, .frame_s = c.frame_s});
     if (!second) return second.error().message;
     if (bench_.stopped()) return {};
-    if (second->instants.back().stats.state_hash != first.run.instants.back().stats.state_hash) return "state hash: two runs differ";
+    if (second->instants.back().stats.stateHash != first.run.instants.back().stats.stateHash) return "state hash: two runs differ";
     const auto& all = first.run.instants;
     const auto energy = [](const apps::Instant& i) { return i.stats.kinetic_J + i.stats.potential_J; };
     const size_t quarter = all.size() / 4;

@@ -112,10 +112,10 @@ struct Findings {
     json["run"] = runJson(outcome.run);
     report.results.push_back(std::move(json));
     for (const Overlay& overlay : outcome.overlays) overlays.emplace_back(overlay.plot, overlay.series);
-    if (outcome.run.non_finite > 0)
-      report.failures.push_back(experiment.name() + ": " + std::to_string(outcome.run.non_finite) + " particles are not finite");
-    if (outcome.run.time_dropped_s > 0)
-      report.failures.push_back(experiment.name() + ": found " + number(outcome.run.time_dropped_s) +
+    if (outcome.run.nonFinite > 0)
+      report.failures.push_back(experiment.name() + ": " + std::to_string(outcome.run.nonFinite) + " particles are not finite");
+    if (outcome.run.timeDropped_s > 0)
+      report.failures.push_back(experiment.name() + ": found " + number(outcome.run.timeDropped_s) +
                                 " s of dropped simulation time, expected none");
   }
 

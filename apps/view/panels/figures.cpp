@@ -35,11 +35,11 @@ void figurePanel(Board& board) {
   plot("iterations a step", h.iterations, "%.0f");
   plot("compression mean", h.error, "%.3f %%");
   if (board.stats) {
-    figureLine("compression p99", "%.3f %%", 100 * board.stats->density_error_p99);
-    figureLine("max speed", "%.3g m/s", board.stats->max_speed);
+    figureLine("compression p99", "%.3f %%", 100 * board.stats->densityErrorP99);
+    figureLine("max speed", "%.3g m/s", board.stats->maxSpeed);
     figureLine("energy", "%.4g J", board.stats->kinetic_J + board.stats->potential_J);
     figureLine("outside; not finite", "%llu; %llu", static_cast<unsigned long long>(board.stats->outside),
-               static_cast<unsigned long long>(board.stats->non_finite));
+               static_cast<unsigned long long>(board.stats->nonFinite));
   }
 }
 

@@ -37,7 +37,7 @@ struct FluidDesc {
   const FluidSnapshot* snapshot = nullptr;  ///< optional: state to continue from, of the same scene and particles; BadInput otherwise
   /// Before simulated time starts: separate overlapping particles without changing velocities (settling), then solve for the initial
   /// hydrostatic pressure. Settling takes 1 recorded substep without overlaps and at most 512 with them; the pressure takes about 3 per
-  /// layer of particles, at most 1,024. Frames that record fewer do not advance, and drop their time (FluidProgress::time_dropped_s).
+  /// layer of particles, at most 1,024. Frames that record fewer do not advance, and drop their time (FluidProgress::timeDropped_s).
   bool settle = true;
   /// Particles that there is room for; at least those at the start, for which 0 stands.
   uint32_t capacity = 0;
@@ -46,10 +46,10 @@ struct FluidDesc {
 
 /// Device memory of a Fluid, bytes.
 struct FluidMemory {
-  uint64_t particle_bytes = 0;  ///< per-particle arrays without the neighbor list
-  uint64_t list_bytes = 0;      ///< the neighbor list; 0 with solver.neighbors "grid"
-  uint64_t grid_bytes = 0;      ///< start of each grid cell, upper bound
-  uint64_t total() const { return particle_bytes + list_bytes + grid_bytes; }
+  uint64_t particleBytes = 0;  ///< per-particle arrays without the neighbor list
+  uint64_t listBytes = 0;      ///< the neighbor list; 0 with solver.neighbors "grid"
+  uint64_t gridBytes = 0;      ///< start of each grid cell, upper bound
+  uint64_t total() const { return particleBytes + listBytes + gridBytes; }
 };
 /// A buffer of a Fluid.
 struct FluidBuffer {
@@ -91,34 +91,34 @@ struct FluidState {
 
 /// Progress of an advance.
 struct FluidProgress {
-  bool known = false;         ///< whether a frame has finished
-  double time_s = 0;          ///< simulated time
-  double time_left_s = 0;     ///< remaining time of the advance; 0 once it is complete
-  double time_dropped_s = 0;  ///< time of the advance that exceeded solver.max_substeps or the recorded substeps
-  uint32_t substeps = 0;      ///< in the advance
-  uint32_t iterations = 0;    ///< Jacobi iterations in the advance, summed over substeps
-  uint32_t list_builds = 0;   ///< neighbor list builds in the advance
+  bool known = false;        ///< whether a frame has finished
+  double time_s = 0;         ///< simulated time
+  double timeLeft_s = 0;     ///< remaining time of the advance; 0 once it is complete
+  double timeDropped_s = 0;  ///< time of the advance that exceeded solver.max_substeps or the recorded substeps
+  uint32_t substeps = 0;     ///< in the advance
+  uint32_t iterations = 0;   ///< Jacobi iterations in the advance, summed over substeps
+  uint32_t listBuilds = 0;   ///< neighbor list builds in the advance
 };
 
 /// Statistics at one time. Sums are evaluated in a fixed order, so they are deterministic.
 struct FluidStats {
   double time_s = 0;  ///< simulated time
   uint64_t particles = 0;
-  uint32_t substeps = 0;      ///< in the last advance
-  uint32_t iterations = 0;    ///< Jacobi iterations in the last advance, summed over substeps
-  double time_dropped_s = 0;  ///< in the last advance
-  double density_error_mean = 0, density_error_p99 = 0, density_error_max = 0;  ///< max(rho / rho0 - 1, 0)
-  double density_signed_median = 0;  ///< median of rho / rho0 - 1 over particles with a full neighborhood
+  uint32_t substeps = 0;                                                  ///< in the last advance
+  uint32_t iterations = 0;                                                ///< Jacobi iterations in the last advance, summed over substeps
+  double timeDropped_s = 0;                                               ///< in the last advance
+  double densityErrorMean = 0, densityErrorP99 = 0, densityErrorMax = 0;  ///< max(rho / rho0 - 1, 0)
+  double densitySignedMedian = 0;  ///< median of rho / rho0 - 1 over particles with a full neighborhood
   double kinetic_J = 0, potential_J = 0;
-  double momentum[3] = {0, 0, 0};        ///< kg m/s
-  double center_of_mass[3] = {0, 0, 0};  ///< m
-  double max_speed = 0;                  ///< m/s
-  uint64_t non_finite = 0;               ///< particles made inactive since the start because a value was not finite
-  uint64_t outside = 0;                  ///< particles beyond a closed wall, or that left through an open side
-  uint64_t neighbor_overflow = 0;        ///< particles that exceeded the list capacity at the last build and search the grid instead
-  uint64_t loop_bound_hits = 0;          ///< times that a shader loop reached its iteration limit since the start
-  uint32_t list_builds = 0;              ///< neighbor list builds in the last advance
-  double artificial_viscosity_Pa_s = 0;  ///< viscosity that solver.artificial_viscosity adds now, Pa s; 0 in fast motion
+  double momentum[3] = {0, 0, 0};       ///< kg m/s
+  double centerOfMass[3] = {0, 0, 0};   ///< m
+  double maxSpeed = 0;                  ///< m/s
+  uint64_t nonFinite = 0;               ///< particles made inactive since the start because a value was not finite
+  uint64_t outside = 0;                 ///< particles beyond a closed wall, or that left through an open side
+  uint64_t neighborOverflow = 0;        ///< particles that exceeded the list capacity at the last build and search the grid instead
+  uint64_t loopBoundHits = 0;           ///< times that a shader loop reached its iteration limit since the start
+  uint32_t listBuilds = 0;              ///< neighbor list builds in the last advance
+  double artificialViscosity_Pa_s = 0;  ///< viscosity that solver.artificial_viscosity adds now, Pa s; 0 in fast motion
 };
 
 /// How often a pass that the device can skip was recorded and executed; the difference were empty dispatches.

@@ -71,10 +71,10 @@ struct FluidLook {
   Float3 absorption{2.6f, 0.75f, 0.40f};  ///< 1/m, Beer-Lambert law
   Float3 scatter{0.02f, 0.13f, 0.19f};    ///< color of white light scattered by thick fluid; of an opaque fluid its color
   bool opaque = false;                    ///< nothing is visible through the fluid, and its thickness is not computed
-  float refraction_index = 1.333f;        ///< 1 to 10
+  float refractionIndex = 1.333f;         ///< 1 to 10
   float highlight = 900;                  ///< exponent of the sun's specular reflection
   float sun = 18;                         ///< radiance of the sun's reflection relative to the sky's
-  Float3 to_sun{-0.30f, 0.84f, 0.45f};    ///< direction, of any length
+  Float3 toSun{-0.30f, 0.84f, 0.45f};     ///< direction, of any length
   float aeration = 0.3f;                  ///< strength of whitewater (spray and breaking crests), 0 (none) to 1; ignored if opaque
 };
 
@@ -106,7 +106,7 @@ class RILL_API FluidRenderer {
   FluidRenderer(FluidRenderer&&) noexcept;
   FluidRenderer& operator=(FluidRenderer&&) noexcept;
 
-  /// Replaces the built-in sky that the fluid reflects and is lit by. The sun stays at FluidLook::to_sun; the host draws its background
+  /// Replaces the built-in sky that the fluid reflects and is lit by. The sun stays at FluidLook::toSun; the host draws its background
   /// itself. Call it once, not between a graph's declaration and its recording. The first frames copy the picture to the device. Errors as
   /// create(), BadInput for a picture that EnvironmentPicture does not allow, OutOfMemory.
   Expected<void> setEnvironment(const EnvironmentPicture& picture);

@@ -77,9 +77,9 @@ std::string memoryTable(std::span<const FrameMemory> frames);
 /// Statistics at one time, as written by `rill-capture --stats`.
 struct Stats : FluidStats {
   double front_m = 0;                                       ///< farthest fluid along +x, relative to the domain's minimum, m
-  uint64_t state_hash = 0;                                  ///< FNV-1a of positions and velocities in id order
+  uint64_t stateHash = 0;                                   ///< FNV-1a of positions and velocities in id order
   std::vector<std::pair<std::string, double>> probes = {};  ///< name and value, m
-  uint64_t picture_bound_hits = 0;     ///< times that shader loops of the renderer reached their limit in pictures at this time
+  uint64_t pictureBoundHits = 0;       ///< times that shader loops of the renderer reached their limit in pictures at this time
   double wall_s = 0;                   ///< wall-clock time of the last advance()
   std::vector<PassTime> pass_ms = {};  ///< recorded passes of the last advance
   std::vector<SkippedPass> skipped = {};
@@ -175,7 +175,7 @@ class Player {
   Expected<Image> render(const std::string& view, uint32_t width, uint32_t height);
   Expected<void> prepareRender(const std::string& view, uint32_t width, uint32_t height);  ///< as Simulation::prepareRender()
   std::string pictureDot() const;                                                          ///< Graphviz graph of the last picture
-  uint64_t boundHits() const;  ///< Stats::picture_bound_hits of the last picture
+  uint64_t boundHits() const;                                                              ///< Stats::pictureBoundHits of the last picture
 
   const Scene& scene() const;
   const DeviceInfo& device() const;

@@ -27,9 +27,9 @@ struct ParticleSet {
   double spacing = 0;                   ///< m, of the particles at rest; 0: that of the scene
   std::vector<Float3> positions = {};   ///< m, relative to origin
   std::vector<Float3> velocities = {};  ///< m/s
-  uint64_t left_out_overlap = 0;        ///< closer than 0.9 spacings to a particle of an earlier fill
-  uint64_t left_out_solid = 0;          ///< number left out inside solids
-  uint64_t left_out_domain = 0;         ///< number left out beyond walls
+  uint64_t leftOutOverlap = 0;          ///< closer than 0.9 spacings to a particle of an earlier fill
+  uint64_t leftOutSolid = 0;            ///< number left out inside solids
+  uint64_t leftOutDomain = 0;           ///< number left out beyond walls
   std::vector<std::string> warnings = {};
 };
 
