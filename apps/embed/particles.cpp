@@ -47,13 +47,13 @@ int main(int count, char** arguments) {
     const host::Frame frame = engine.begin();
     const host::Buffer& current = positions[frame.number % 3];
     rill::FluidState state;
-    state.count = writePositions(static_cast<float*>(current.mapped), 0.1f * float(k));
+    state.capacity = writePositions(static_cast<float*>(current.mapped), 0.1f * float(k));
     state.spacing = kSpacing;
     engine.clear(frame, color, {{0.55f, 0.65f, 0.75f, 1}}, depth, 0);
 
     device.beginFrame({frame.number, frame.completed});
     graph.reset();
-    state.position = graph.import("positions", {current.handle, 0, uint64_t{16} * state.count, rill::Use::Nothing, rill::Use::Nothing});
+    state.position = graph.import("positions", {current.handle, 0, uint64_t{16} * state.capacity, rill::Use::Nothing, rill::Use::Nothing});
     const rill::SceneTargets targets{importTarget(graph, "color", color, rill::Use::ColorTarget),
                                      importTarget(graph, "depth", depth, rill::Use::DepthTarget)};
     (void)renderer.addTo(graph, state, targets, view);

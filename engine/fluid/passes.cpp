@@ -63,7 +63,7 @@ void FluidImpl::declareSkipped(Graph& graph) const {
 
 FluidState FluidImpl::described() const {
   FluidState state;
-  state.count = capacity;
+  state.capacity = capacity;
   state.spacing = setup.params.spacing;
   std::copy(origin, origin + 3, state.origin);
   return state;

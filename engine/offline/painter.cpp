@@ -118,7 +118,7 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
 PictureTickets Painter::declare(Graph& graph, const FluidState& fluid, std::string_view view, uint32_t width, uint32_t height,
                                 double time_s) {
   PictureTickets tickets{graph.readback(addTo(graph, fluid, view, camera(width, height, time_s), width, height, time_s)), {}};
-  if (find(view)->kind != Kind::Particles && fluid.count > 0) tickets.counters = graph.readback(implOf(*fluid_).last.counters);
+  if (find(view)->kind != Kind::Particles && fluid.capacity > 0) tickets.counters = graph.readback(implOf(*fluid_).last.counters);
   return tickets;
 }
 
@@ -145,7 +145,7 @@ BufferRef Painter::addTo(Graph& graph, const FluidState& fluid, std::string_view
   const BufferRef environment = renderer.environment ? renderer.environment->addTo(graph) : BufferRef{};
   targets = scenery_->addTo(graph, fluid, targets, seen, look_, time_s, environment);
   targets = renderer.addTo(graph, fluid, targets, seen, look_, true, environment);
-  if (fluid.count > 0) targets = scenery_->addEdgesOverFluid(graph, targets, seen, renderer.last.pixels);
+  if (fluid.capacity > 0) targets = scenery_->addEdgesOverFluid(graph, targets, seen, renderer.last.pixels);
   return finish_.addTo(graph, targets.color, width, height);
 }
 

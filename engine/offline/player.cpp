@@ -72,7 +72,7 @@ class Player::Impl {
     if (auto ready = prepareRender(view, width, height); !ready) return ready.error();
     graph_.reset();
     FluidState fluid;
-    fluid.count = count_;
+    fluid.capacity = count_;
     fluid.spacing = static_cast<float>(scene_.fluid.spacing);
     std::copy_n(origin_, 3, fluid.origin);
     if (count_ > 0) {

@@ -21,8 +21,8 @@ std::vector<Record> records(std::span<const std::byte> bytes, uint32_t count) {
 
 ReadoutTickets readout(Graph& graph, const FluidState& state) {
   ReadoutTickets tickets;
-  tickets.capacity = state.count;
-  if (state.count == 0) return tickets;
+  tickets.capacity = state.capacity;
+  if (state.capacity == 0) return tickets;
   tickets.particles = graph.readback(state.countBuffer);
   tickets.position = graph.readback(state.position);
   tickets.velocity = graph.readback(state.velocity);

@@ -100,9 +100,9 @@ Expected<void> checkLook(const FluidLook& look) {
 }
 
 Expected<void> checkFluid(Graph& graph, const FluidState& fluid) {
-  if (fluid.count == 0) return {};
-  if (fluid.count > SurfaceStage::kMaxParticles)
-    return badInput("FluidState::count is " + std::to_string(fluid.count) + "; expected at most " +
+  if (fluid.capacity == 0) return {};
+  if (fluid.capacity > SurfaceStage::kMaxParticles)
+    return badInput("FluidState::capacity is " + std::to_string(fluid.capacity) + "; expected at most " +
                     std::to_string(SurfaceStage::kMaxParticles));
   if (!(fluid.spacing > 0 && std::isfinite(fluid.spacing)))
     return outOfRange("FluidState::spacing", double{fluid.spacing}, "a length above 0 (m)");
@@ -111,9 +111,9 @@ Expected<void> checkFluid(Graph& graph, const FluidState& fluid) {
   const auto& resources = implOf(graph).resources;
   const BufferRef position = fluid.position;
   if (position.index >= resources.size() || resources[position.index].isImage) return {};
-  if (const uint64_t bytes = resources[position.index].size; bytes < uint64_t{fluid.count} * 16)
+  if (const uint64_t bytes = resources[position.index].size; bytes < uint64_t{fluid.capacity} * 16)
     return badInput("FluidState::position has " + std::to_string(bytes) + " bytes; expected 16 for each of its " +
-                    std::to_string(fluid.count) + " particles");
+                    std::to_string(fluid.capacity) + " particles");
   return {};
 }
 

@@ -68,7 +68,7 @@ SurfacePush FluidRendererImpl::camera(const FluidState& fluid, const FluidView& 
 
 SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view,
                                       const FluidLook& look, bool whole, BufferRef texels) {
-  if (fluid.count == 0) {
+  if (fluid.capacity == 0) {
     graph.skipped("fluid shade", "there are no particles");
     return targets;
   }
@@ -117,7 +117,7 @@ BufferRef FluidRendererImpl::addData(Graph& graph, const FluidState& fluid, cons
   const SurfacePush push = camera(fluid, view);
   const uint64_t pixels = uint64_t{push.width} * push.height;
   BufferRef picture = graph.create("surface data", {pixels * 4});
-  if (fluid.count == 0) {
+  if (fluid.capacity == 0) {
     addFill(graph, "surface data", {{&picture, 0}});
     return picture;
   }
@@ -149,7 +149,7 @@ SceneTargets FluidRenderer::addTo(Graph& graph, const FluidState& fluid, SceneTa
                                   const FluidLook& look) {
   for (const auto& check : {checkView(view), checkMethod(look.surface), checkFluid(graph, fluid), checkLook(look)})
     if (!accepted(graph, check)) return targets;
-  const bool drawn = impl_->environment && fluid.count > 0;
+  const bool drawn = impl_->environment && fluid.capacity > 0;
   return impl_->addTo(graph, fluid, targets, view, look, false, drawn ? impl_->environment->addTo(graph) : BufferRef{});
 }
 

@@ -75,10 +75,10 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device) {
 
 SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, SurfacePush camera, SurfaceMethod method, bool whole,
                                    double focus, const SurfaceSettings& settings) const {
-  assert(fluid.count > 0);
+  assert(fluid.capacity > 0);
   const bool filtered = settings.filter || method == SurfaceMethod::CurvatureFlow || method == SurfaceMethod::NarrowRange;
   Frame frame = makeFrame(fluid, camera, method, focus, settings);
-  const uint64_t maxTexels = std::max({2 * uint64_t{fluid.count}, paddedWords(frame.cells + 1), sampleCount(frame.out.push)});
+  const uint64_t maxTexels = std::max({2 * uint64_t{fluid.capacity}, paddedWords(frame.cells + 1), sampleCount(frame.out.push)});
   frame.storageReads = settings.storage_reads;
   frame.texels = !frame.storageReads && usesTexelReads(*device_->device, maxTexels);
   frame.narrowRange = method == SurfaceMethod::NarrowRange && !settings.filter;
@@ -98,7 +98,7 @@ SurfaceStage::Frame SurfaceStage::makeFrame(const FluidState& fluid, SurfacePush
                                             const SurfaceSettings& settings) {
   push.spacing = fluid.spacing;
   push.radius = kHardRadius * fluid.spacing;
-  push.count = fluid.count;
+  push.count = fluid.capacity;
   const double sampleSide = std::max(metersAPixel(push, focus) * push.step, 1e-6 * fluid.spacing);
   push.margin = marginSamples(std::min(2 * settings.samples, push.spacing / sampleSide));
   Frame frame;
@@ -120,8 +120,8 @@ void SurfaceStage::addBuffers(Graph& graph, const FluidState& fluid, Frame& fram
   frame.start = graph.create("surface cells", {paddedWords(frame.cells + 1) * 4});
   out.counters = graph.create("surface counters", {kSurfaceCounterWords * 4});
   out.arguments = graph.create("surface arguments", {kSurfaceArgumentWords * 4});
-  frame.survivors = graph.create("surface survivors", {uint64_t{fluid.count} * 4});
-  frame.center = graph.create("surface centers", {uint64_t{fluid.count} * 16});
+  frame.survivors = graph.create("surface survivors", {uint64_t{fluid.capacity} * 4});
+  frame.center = graph.create("surface centers", {uint64_t{fluid.capacity} * 16});
   out.tiles = graph.create("surface tiles", {gridCells(out.push.width, out.push.height, kSurfaceTile) * 4});
   out.pixels = graph.create("surface pixels", {uint64_t{out.push.width} * out.push.height * 8});
   out.blocks = graph.create("surface blocks", {frame.sampleBlocks * 4});
@@ -174,7 +174,7 @@ void SurfaceStage::addArguments(Graph& graph, Frame& frame) const { add(graph, "
 /// Particles that are not occluded, the depth of their spheres, and the tiles that these cover.
 void SurfaceStage::addVisible(Graph& graph, const FluidState& fluid, Frame& frame) const {
   const SurfacePush& push = frame.out.push;
-  const uint64_t particles = divideUp(fluid.count, kSurfaceGroup), tiles = gridCells(push.width, push.height, kSurfaceTile);
+  const uint64_t particles = divideUp(fluid.capacity, kSurfaceGroup), tiles = gridCells(push.width, push.height, kSurfaceTile);
   add(graph, "surface occlude", occlude_, particles, frame);
   add(graph, "surface cull", cull_, particles, frame);
   addArguments(graph, frame);
@@ -184,8 +184,8 @@ void SurfaceStage::addVisible(Graph& graph, const FluidState& fluid, Frame& fram
 
 /// Surface particles, sorted into the cells of the screen grid.
 void SurfaceStage::addGrid(Graph& graph, const FluidState& fluid, Frame& frame) const {
-  frame.rank = graph.create("surface ranks", {uint64_t{fluid.count} * 4});
-  frame.arrived = graph.create("surface arrived", {uint64_t{fluid.count} * 4});
+  frame.rank = graph.create("surface ranks", {uint64_t{fluid.capacity} * 4});
+  frame.arrived = graph.create("surface arrived", {uint64_t{fluid.capacity} * 4});
   addCounted(graph, "surface pick", pick_, kSurvivorArguments, frame);
   addArguments(graph, frame);
   auto scan = Scan::create(*device_->device, static_cast<uint32_t>(frame.cells + 1), frame.storageReads,

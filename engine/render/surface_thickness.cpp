@@ -17,7 +17,7 @@ SurfacePush SurfaceStage::thicknessPush(SurfacePush camera, const FluidState& fl
   camera.spacing = fluid.spacing;
   camera.radius = kThicknessRadius * fluid.spacing;
   camera.unit = kThicknessUnit * fluid.spacing;
-  camera.count = fluid.count;
+  camera.count = fluid.capacity;
   camera.step = step;
   camera.margin = 0;
   return camera;
@@ -29,8 +29,8 @@ BufferRef SurfaceStage::addThickness(Graph& graph, const ThicknessNames& names, 
   if (!counters) own = graph.create(names.counters, {kSurfaceCounterWords * 4});
   BufferRef thickness = graph.create(names.pass, {gridCells(push.width, push.height, push.step) * 4});
   addFill(graph, names.clear, {{&thickness, 0}, {counters ? nullptr : &own, 0}});
-  if (fluid.count == 0) return thickness;
-  const uint64_t groups = divideUp(fluid.count, kSurfaceGroup);
+  if (fluid.capacity == 0) return thickness;
+  const uint64_t groups = divideUp(fluid.capacity, kSurfaceGroup);
   BufferRef& counted = counters ? *counters : own;
   addDispatch(graph, names.pass, sceneDepth == BufferRef{} ? thicknessNoScene_ : thickness_, groups, push,
               {{"position", fluid.position}, {"thickness", thickness}, {"counters", counted}, {"scene_depth", sceneDepth}});

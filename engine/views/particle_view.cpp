@@ -76,7 +76,7 @@ ViewPush ParticleView::pushConstants(const FluidState& fluid, const CameraView& 
   push.radius = 0.5f * fluid.spacing;
   push.near_depth = static_cast<float>(std::max({0.1 * push.radius, distance * kMinNear, 1e-6}));
   push.time = static_cast<float>(time_s);
-  push.count = fluid.count;
+  push.count = fluid.capacity;
   push.width = desc.width;
   push.height = desc.height;
   // A sphere covers a cell only where it is several cells wide.
@@ -100,7 +100,7 @@ BufferRef ParticleView::addTo(Graph& graph, const FluidState& fluid, const Camer
   addSetup(graph, fluid, frame);
   addSurfaces(graph, frame);
   addLightMap(graph, frame);
-  if (fluid.count > 0) {
+  if (fluid.capacity > 0) {
     addVisibility(graph, frame);
     addSplat(graph, frame, false);
     addSplat(graph, frame, true);

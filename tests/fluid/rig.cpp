@@ -245,7 +245,7 @@ Snapshot FluidTest::Run::read(const FluidStep& step) {
   graph_.reset();
   const FluidState state = fluid_->addTo(graph_, step);
   const auto tickets = offline::readout(graph_, state);
-  const Ticket control = state.count > 0 ? graph_.readback(state.control) : Ticket{};
+  const Ticket control = state.capacity > 0 ? graph_.readback(state.control) : Ticket{};
   test_.runGraph(graph_);
   if (const auto bytes = graph_.data(control); bytes.size() >= sizeof control_) std::memcpy(&control_, bytes.data(), sizeof control_);
   const auto raw = offline::collect(graph_, tickets);

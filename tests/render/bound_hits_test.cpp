@@ -27,7 +27,7 @@ class BoundHits : public GpuTest {
     const Buffer position = upload("position", positions);
     Graph graph;
     FluidState fluid;
-    fluid.count = uint32_t(positions.size());
+    fluid.capacity = uint32_t(positions.size());
     fluid.spacing = kApart;
     fluid.position = graph.import("position", importOf(position));
     (void)graph.readback(renderer_->addData(graph, fluid, fluidView(camera, 320, 240, kApart), data, 1, method));

@@ -131,12 +131,12 @@ class EnvironmentOnGpu : public GpuTest {
     }
     Graph graph;
     FluidState fluid;
-    fluid.count = uint32_t(start_.positions.size());
+    fluid.capacity = uint32_t(start_.positions.size());
     fluid.spacing = kSpacing;
     std::vector<Float4> positions;
     for (const Float3& p : start_.positions) positions.push_back({p.x, p.y, p.z, 0});
     Buffer position;
-    if (fluid.count > 0) {
+    if (fluid.capacity > 0) {
       position = upload("position", positions);
       fluid.position = graph.import("position", importOf(position));
     } else {

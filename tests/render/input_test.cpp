@@ -32,7 +32,7 @@ class RendererInput : public SurfaceOnGpu {
   /// A state whose positions compileError() imports.
   static FluidState state() {
     FluidState fluid;
-    fluid.count = 10;
+    fluid.capacity = 10;
     fluid.spacing = 0.1f;
     fluid.position = BufferRef{{0, 0, 0}};
     return fluid;
@@ -78,10 +78,10 @@ TEST_F(RendererInput, RejectsInvalidStates) {
   EXPECT_NE(compileError(bad, view).find("an empty ref"), std::string::npos) << compileError(bad, view);
   EXPECT_NE(compileError(bad, view, {}, true).find("an empty ref"), std::string::npos);
   bad = state();
-  bad.count = 11;
+  bad.capacity = 11;
   EXPECT_EQ(compileError(bad, view), "FluidState::position has 160 bytes; expected 16 for each of its 11 particles");
-  bad.count = (4u << 20) + 1;
-  EXPECT_EQ(compileError(bad, view, {}, true), "FluidState::count is 4194305; expected at most 4194304");
+  bad.capacity = (4u << 20) + 1;
+  EXPECT_EQ(compileError(bad, view, {}, true), "FluidState::capacity is 4194305; expected at most 4194304");
   bad = state();
   bad.spacing = kNan;
   EXPECT_EQ(compileError(bad, view), "FluidState::spacing is nan; expected a length above 0 (m)");

@@ -61,7 +61,7 @@ class ParticleViewOnGpu : public GpuTest {
     Picture picture{width, height, {}};
     Graph graph;
     FluidState state;
-    state.count = static_cast<uint32_t>(particles.size());
+    state.capacity = static_cast<uint32_t>(particles.size());
     state.spacing = static_cast<float>(scene_.fluid.spacing);
     std::copy_n(origin_, 3, state.origin);
     if (!particles.empty()) {

@@ -84,7 +84,7 @@ void SurfaceOnGpu::fill(const std::vector<Float4>& positions) {
 
 FluidState SurfaceOnGpu::state(Graph& graph) {
   FluidState fluid;
-  fluid.count = count_;
+  fluid.capacity = count_;
   fluid.spacing = kSpacing;
   if (count_ > 0) fluid.position = graph.import("position", importOf(position_));
   return fluid;

@@ -52,8 +52,8 @@ TEST_F(ViewRunnerTest, StepsEqualCaptureBitwise) {
       const Ticket ticket = graph.readback(shown.position);
       run(graph);
       const auto positions = read<Float4>(graph, ticket);
-      ASSERT_GE(positions.size(), shown.count);
-      for (uint32_t i = 0; i < shown.count; ++i)
+      ASSERT_GE(positions.size(), shown.capacity);
+      for (uint32_t i = 0; i < shown.capacity; ++i)
         ASSERT_TRUE(positions[i].x >= 0 && positions[i].x <= 1) << "in the tank, between pieces too";
       if (!(*runner)->betweenSteps()) continue;
       maxPieces = std::max(maxPieces, (*runner)->last().pieces);

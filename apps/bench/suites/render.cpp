@@ -185,7 +185,7 @@ class Render {
   SurfaceBuffers declare(Graph& graph, const Points& points, const SurfaceVariant& variant, const FluidView& view, bool complete) {
     FluidState fluid;
     fluid.position = importWhole(graph, "positions", points.positions);
-    fluid.count = points.count;
+    fluid.capacity = points.count;
     fluid.spacing = static_cast<float>(points.spacing);
     surface::SurfacePush camera = implOf(*renderer_).camera(fluid, view);
     camera.step = sampleStep(camera, fluid.spacing, view.focus_m, variant.settings.samples);

@@ -84,7 +84,7 @@ struct FluidState {
   BufferRef control = {};        ///< FluidControl (shaders/shared/fluid_records.h)
   BufferRef countBuffer = {};    ///< its first uint is the number of particles: they are the first entries of the arrays
   BufferRef solids = {};         ///< SolidRecord (solid_records.h) per solid, at the present time; null if no solid is driven
-  uint32_t count = 0;            ///< entries of the arrays: particles at most; those beyond the particles are inactive, far from all others
+  uint32_t capacity = 0;         ///< entries of the arrays: particles at most; those beyond the particles are inactive, far from all others
   float spacing = 0;             ///< m
   double origin[3] = {0, 0, 0};  ///< m
 };
