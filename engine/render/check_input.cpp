@@ -94,7 +94,7 @@ Expected<void> checkData(SurfaceData data) {
 
 Expected<void> checkLook(const FluidLook& look) {
   if (!(look.refractionIndex >= 1 && look.refractionIndex <= 10))
-    return outOfRange("FluidLook::refraction_index", double{look.refractionIndex}, "1 to 10");
+    return outOfRange("FluidLook::refractionIndex", double{look.refractionIndex}, "1 to 10");
   if (!(look.aeration >= 0 && look.aeration <= 1)) return outOfRange("FluidLook::aeration", double{look.aeration}, "0 to 1");
   return {};
 }

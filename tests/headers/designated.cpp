@@ -14,7 +14,7 @@ void describe() {
   (void)rill::GraphicsPipelineDesc{.vertex = "quad"};
   (void)rill::FluidDesc{.settle = false};
   (void)rill::FluidStep{.advance_s = 0.01};
-  (void)rill::FluidState{.count = 1};
+  (void)rill::FluidState{.capacity = 1};
   (void)rill::SolidTarget{.solid = 1};
   (void)rill::FluidView{.width = 640};
   (void)rill::FluidLook{.opaque = true};
