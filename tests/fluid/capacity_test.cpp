@@ -62,6 +62,20 @@ TEST_F(CapacityTest, FiguresAreThoseOfTheParticlesAlone) {
   for (int a = 0; a < 3; ++a) EXPECT_NEAR(got.centerOfMass[a], wanted.centerOfMass[a], 1e-5);
 }
 
+TEST_F(CapacityTest, RunsWithoutParticles) {
+  Trial t = tank();
+  t.x.clear();
+  t.capacity = 300;
+  auto run = start(t);
+  run->advance(0.05, 64);
+  const FluidStats stats = run->stats();
+  EXPECT_EQ(stats.particles, 0u);
+  EXPECT_EQ(stats.kinetic_J, 0);
+  EXPECT_EQ(stats.densityErrorMax, 0);
+  EXPECT_NEAR(stats.time_s, 0.05, 1e-6);
+  EXPECT_TRUE(run->saved().id.empty());
+}
+
 // The state of a fluid goes on in one with more room, with particles that were not there before and with ids that have gaps.
 TEST_F(CapacityTest, TakesParticlesInThroughASnapshot) {
   Trial t = tank();
