@@ -4,8 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "gpu/module_pipelines.hpp"
 #include "graph/shader_pass.hpp"
-#include "sort/pipelines.hpp"
 
 namespace rill {
 namespace {

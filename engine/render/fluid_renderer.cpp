@@ -1,12 +1,12 @@
 #include "rill/fluid_renderer.hpp"
 
+#include "gpu/module_pipelines.hpp"
 #include "graph/graph_impl.hpp"
 #include "graph/shader_pass.hpp"
 #include "render/check_input.hpp"
 #include "render/fluid_renderer_impl.hpp"
 #include "render/view_push.hpp"
 #include "sort/dispatches.hpp"
-#include "sort/pipelines.hpp"
 
 namespace rill {
 

@@ -1,7 +1,7 @@
 #include "render/mean_normals.hpp"
 
+#include "gpu/module_pipelines.hpp"
 #include "graph/shader_pass.hpp"
-#include "sort/pipelines.hpp"
 
 namespace rill {
 

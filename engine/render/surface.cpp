@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "gpu/device_impl.hpp"
+#include "gpu/module_pipelines.hpp"
 #include "gpu/texel_reads.hpp"
 #include "graph/shader_pass.hpp"
 #include "sort/dispatches.hpp"
-#include "sort/pipelines.hpp"
 
 namespace rill {
 namespace {

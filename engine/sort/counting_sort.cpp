@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "gpu/module_pipelines.hpp"
 #include "gpu/texel_reads.hpp"
-#include "sort/pipelines.hpp"
 
 namespace rill {
 Expected<CountingSort> CountingSort::create(Device& device, const KeySortDesc& desc) {

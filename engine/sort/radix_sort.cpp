@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "sort/pipelines.hpp"
+#include "gpu/module_pipelines.hpp"
 #include "sort/sort_types.h"
 
 namespace rill {

@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "gpu/module_pipelines.hpp"
 #include "gpu/texel_reads.hpp"
-#include "sort/pipelines.hpp"
 #include "sort/sort_types.h"
 
 namespace rill {

@@ -1,10 +1,10 @@
 #include "views/finish.hpp"
 
 #include "gpu/device_impl.hpp"
+#include "gpu/module_pipelines.hpp"
 #include "gpu/texel_reads.hpp"
 #include "graph/shader_pass.hpp"
 #include "sort/dispatches.hpp"
-#include "sort/pipelines.hpp"
 #include "views/antialias_record.h"
 
 namespace rill {

@@ -4,9 +4,9 @@
 #include <cstring>
 
 #include "gpu/device_impl.hpp"
+#include "gpu/module_pipelines.hpp"
 #include "graph/shader_pass.hpp"
 #include "sort/dispatches.hpp"
-#include "sort/pipelines.hpp"
 
 namespace rill {
 
