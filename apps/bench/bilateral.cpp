@@ -3,6 +3,7 @@
 #include "bench/shaders.hpp"
 #include "core/impl_of.hpp"
 #include "gpu/device_impl.hpp"
+#include "gpu/shader_constants.hpp"
 #include "graph/shader_pass.hpp"
 #include "sort/dispatches.hpp"
 
@@ -25,8 +26,7 @@ Expected<Bilateral> Bilateral::create(Device& device) {
   } all[] = {{&filter.columns_, 1, 0}, {&filter.rows_, 0, 1}, {&filter.both_, 1, 1}};
   implOf(device).shaders.add(benchShaders());
   for (const auto& variant : all) {
-    const uint32_t constants[] = {variant.columns, variant.rows};
-    auto pipeline = computePipeline(device, {.shader = "bilateral", .constants = constants});
+    auto pipeline = shaderPipeline(device, "bilateral", {{"kColumns", variant.columns}, {"kRows", variant.rows}});
     if (!pipeline) return pipeline.error();
     *variant.pipeline = *pipeline;
   }

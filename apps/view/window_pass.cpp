@@ -5,7 +5,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "gpu/shader_library.hpp"
+#include "gpu/device_impl.hpp"
+#include "graph/shader_pass.hpp"
 
 namespace rill {
 std::span<const EmbeddedShader> viewShaders();
@@ -27,8 +28,6 @@ struct PicturePush {
   float unused[2];
   float behind[4];
 };
-
-std::span<const uint32_t> words(std::string_view name) { return std::ranges::find(viewShaders(), name, &EmbeddedShader::name)->words; }
 
 /// Rounds up to a power of two, so that the graph's memory plan rarely changes.
 uint64_t roundedSize(uint64_t bytes) { return std::max<uint64_t>(std::bit_ceil(bytes), 64 << 10); }
@@ -52,24 +51,14 @@ BufferRef uploaded(Graph& graph, std::string_view name, const std::vector<Record
 Expected<std::unique_ptr<WindowPass>> WindowPass::create(Device& device, VkFormat target, ImFontAtlas& fonts) {
   auto made = std::make_unique<WindowPass>();
   const VkFormat colors[] = {target};
-  const BindingKind storages[] = {BindingKind::Storage, BindingKind::Storage, BindingKind::Storage};
-  GraphicsPipelineDesc ui{.vertex = "view/ui.vert", .fragment = "view/ui.frag", .bindings = storages};
-  ui.pushConstantBytes = sizeof(UiPush);
-  ui.colors = colors;
-  ui.blend = Blend::Premultiplied;
-  ui.vertexSpirv = words("ui_vertex");
-  ui.fragmentSpirv = words("ui_fragment");
-  auto uiPipeline = graphicsPipeline(device, ui);
-  if (!uiPipeline) return uiPipeline.error();
-  made->ui_ = *uiPipeline;
-  GraphicsPipelineDesc picture{.vertex = "view/picture.vert", .fragment = "view/picture.frag", .bindings = std::span(storages).first(1)};
-  picture.pushConstantBytes = sizeof(PicturePush);
-  picture.colors = colors;
-  picture.vertexSpirv = words("picture_vertex");
-  picture.fragmentSpirv = words("picture_fragment");
-  auto picturePipeline = graphicsPipeline(device, picture);
-  if (!picturePipeline) return picturePipeline.error();
-  made->picture_ = *picturePipeline;
+  implOf(device).shaders.add(viewShaders());
+  auto ui = graphicsPipeline(device,
+                             {.vertex = "view/ui_vertex", .fragment = "view/ui_fragment", .colors = colors, .blend = Blend::Premultiplied});
+  if (!ui) return ui.error();
+  made->ui_ = *ui;
+  auto picture = graphicsPipeline(device, {.vertex = "view/picture_vertex", .fragment = "view/picture_fragment", .colors = colors});
+  if (!picture) return picture.error();
+  made->picture_ = *picture;
 
   unsigned char* texels = nullptr;
   int width = 0, height = 0;
@@ -113,15 +102,11 @@ void WindowPass::upload(Graph& graph, const ImDrawData& lists) {
 
 ImageRef WindowPass::draw(Graph& graph, ImageRef target, const ShownPicture& picture, const ImVec4& behind) const {
   graph.pass("window", [&](Pass& pass) {
-    pass.read(picture.pixels, Use::DrawRead);
     const VkClearValue clear{.color = {.float32 = {behind.x, behind.y, behind.z, 1}}};
     target = pass.write(target, Use::ColorTarget, Load::Clear, clear);
-    const Kernel stretched = pass.kernel(picture_, {picture.pixels});
+    const Kernel stretched = bindNamed(pass, picture_, {{"picture", picture.pixels}});
     Kernel ui;
-    if (!parts_.empty()) {
-      for (const BufferRef buffer : {vertexRef_, indexRef_, fontRef_}) pass.read(buffer, Use::DrawRead);
-      ui = pass.kernel(ui_, {vertexRef_, indexRef_, fontRef_});
-    }
+    if (!parts_.empty()) ui = bindNamed(pass, ui_, {{"vertices", vertexRef_}, {"indices", indexRef_}, {"font", fontRef_}});
     const auto over = [](uint32_t a, uint32_t b) { return static_cast<float>(a) / static_cast<float>(b); };
     const Area area = picture.area;
     const PicturePush push{{picture.width, picture.height},

@@ -82,12 +82,11 @@ Expected<VkPipeline> PipelineStore::build(DeviceImpl& device, const GraphicsPipe
 Expected<const GraphicsPipeline*> PipelineStore::find(DeviceImpl& device, const GraphicsPipelineDesc& given) {
   GraphicsPipelineDesc desc = given;
   Reflection reflection;
-  if (desc.vertexSpirv.empty() && desc.fragmentSpirv.empty() && desc.bindings.empty()) {
+  if (desc.vertexSpirv.empty() && desc.fragmentSpirv.empty()) {
     auto reflected = reflect(device, {desc.vertex, desc.fragment});
     if (!reflected) return reflected.error();
     reflection = *std::move(reflected);
-    desc.bindings = reflection.kinds;
-    desc.pushConstantBytes = reflection.pushConstantBytes;
+    if (auto ok = reflection.complete(desc, desc.vertex); !ok) return ok.error();
   }
   for (const auto& p : graphics_)
     if (p->shader == desc.vertex && p->fragment == desc.fragment && p->pushBytes == desc.pushConstantBytes && p->depth == desc.depth &&

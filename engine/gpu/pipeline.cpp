@@ -219,12 +219,11 @@ Expected<VkPipeline> PipelineStore::build(DeviceImpl& device, const ComputePipel
 Expected<const ComputePipeline*> PipelineStore::find(DeviceImpl& device, const ComputePipelineDesc& given) {
   ComputePipelineDesc desc = given;
   Reflection reflection;
-  if (desc.spirv.empty() && desc.bindings.empty()) {
+  if (desc.spirv.empty()) {
     auto reflected = reflect(device, {desc.shader});
     if (!reflected) return reflected.error();
     reflection = *std::move(reflected);
-    desc.bindings = reflection.kinds;
-    desc.pushConstantBytes = reflection.pushConstantBytes;
+    if (auto ok = reflection.complete(desc, desc.shader); !ok) return ok.error();
   }
   for (const auto& p : pipelines_)
     if (p->shader == desc.shader && p->pushBytes == desc.pushConstantBytes && p->requiredSubgroupSize == desc.requiredSubgroupSize &&

@@ -1,5 +1,6 @@
 #pragma once
 // Pipelines and the device's cache of them. pipeline.cpp: shared parts and compute; graphics_pipeline.cpp: graphics.
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <string>
@@ -95,11 +96,26 @@ struct Reflection {
   std::vector<ShaderBinding> bindings;
   std::vector<BindingKind> kinds;
   uint32_t pushConstantBytes = 0;
+
+  /// Completes the description of a pipeline of embedded shaders. Fails with Shader if it gives bindings that the shaders do not have.
+  template <class Desc>
+  Expected<void> complete(Desc& desc, std::string_view shader) const;
 };
 Expected<Reflection> reflect(const DeviceImpl& device, std::initializer_list<std::string_view> shaders);
 /// SPIR-V of an embedded shader, or its reloaded version; empty if there is no shader of that name.
 std::span<const uint32_t> embeddedSpirv(const DeviceImpl& device, std::string_view name);
 Error shaderError(std::string_view shader, std::string what);
+
+template <class Desc>
+Expected<void> Reflection::complete(Desc& desc, std::string_view shader) const {
+  if (!desc.bindings.empty() && !std::ranges::equal(desc.bindings, kinds))
+    return shaderError(shader, "the bindings given are not those of the embedded shader; expected none, or its " +
+                                   std::to_string(kinds.size()) + " in their order");
+  desc.bindings = kinds;
+  desc.pushConstantBytes = pushConstantBytes;
+  return {};
+}
+
 /// The caller's SPIR-V, or an embedded shader's if none was given. Fails with Shader if there is neither or
 /// the SPIR-V header is invalid.
 Expected<std::span<const uint32_t>> resolveSpirv(const DeviceImpl& device, std::string_view shader, std::span<const uint32_t> spirv);

@@ -52,7 +52,8 @@ void ShaderReload::poll(DeviceImpl& device) {
     for (const EmbeddedShader& shader : table) {
       std::error_code missing;
       const Stamp own = std::filesystem::last_write_time(folder_ / shader.source, missing);
-      const Stamp now = missing ? headers : std::max(own, headers);
+      if (missing) continue;  // being replaced, or of a program that keeps its shaders elsewhere
+      const Stamp now = std::max(own, headers);
       const auto [known, first] = stamps_.try_emplace(shader.name, now);
       if (first || known->second == now) continue;
       known->second = now;

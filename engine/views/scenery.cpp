@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "render/fluid_renderer_impl.hpp"
 #include "render/view_push.hpp"
@@ -73,9 +74,9 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
                                 .depthCompare = VK_COMPARE_OP_GREATER,
                                 .depthWrite = true};
   };
-  constexpr std::string_view kGround[2][2] = {{"views/scenery_ground_fragment", "views/scenery_ground_environment_fragment"},
-                                              {"views/scenery_ground_solids_fragment", "views/scenery_ground_solids_environment_fragment"}};
-  GraphicsPipelineDesc ground = desc("views/scenery_ground_vertex", kGround[solids][environment != nullptr]);
+  const std::string around = out->hasGround() ? (solids ? "ground_solids" : "ground") : "sky", sky = environment ? "_environment" : "";
+  const std::string groundShader = "views/scenery_" + around + sky + "_fragment", solidShader = "views/scenery_solid" + sky + "_fragment";
+  GraphicsPipelineDesc ground = desc("views/scenery_ground_vertex", groundShader);
   ground.depthCompare = VK_COMPARE_OP_ALWAYS;
   GraphicsPipelineDesc edges = desc("views/scenery_edges_vertex", "views/scenery_edges_fragment");
   edges.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
@@ -89,8 +90,7 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
     light.colors = {};
     light.depth = kShadowFormat;
     light.depthCompare = VK_COMPARE_OP_LESS;
-    all.push_back({out->solid_, desc("views/scenery_solid_vertex",
-                                     environment ? "views/scenery_solid_environment_fragment" : "views/scenery_solid_fragment")});
+    all.push_back({out->solid_, desc("views/scenery_solid_vertex", solidShader)});
     all.push_back({out->solidLight_, light});
   }
   for (const Wanted& wanted : all) {
@@ -142,10 +142,11 @@ SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets 
   camera.spacing = fluid.spacing;
   const BufferRef scene = buffers_.importScene(graph);
   const SurfacePush light = SurfaceStage::thicknessPush(lightPush(fluid, fluid.origin), fluid, 1);
-  const bool shaded = solids || hasGround();
-  if (!shaded) graph.skipped(kFluidShadow.pass, "there is nothing that it falls on");
-  BufferRef shadow = scene;  // where there is no ground, which alone reads it
-  if (shaded) shadow = stage_.addThickness(graph, kFluidShadow, fluid, light, {}, nullptr);  // a particle spans five texels at most
+  BufferRef shadow;
+  if (solids || hasGround())
+    shadow = stage_.addThickness(graph, kFluidShadow, fluid, light, {}, nullptr);  // a particle spans five texels at most
+  else
+    graph.skipped(kFluidShadow.pass, "there is nothing that it falls on");
   const BufferRef record = addLook(graph, lookRecord(look, light, environment_));
   BufferRef poses;
   ImageRef lightDepth;

@@ -1,13 +1,19 @@
 #version 460
-// Sky, and where the domain has a floor the ground that it stands on: a checker inside the domain, plain outside, hazy far away.
+// Sky, and the ground that the domain stands on: a checker inside the domain, plain outside, hazy far away. SKY: no ground.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 #include "views/particle_records.h"
 #include "render/look_records.h"
 
+#if defined(ENVIRONMENT) || !defined(SKY)
 layout(std140, set = 0, binding = 0) uniform Scene { SceneRecord scene; };
 layout(std140, set = 0, binding = 1) uniform Look { LookRecord look; };
+#ifdef SKY
+#include "render/sky.glsl"
+#else
 #include "views/scenery.glsl"
+#endif
+#endif
 layout(location = 0) out vec4 color;
 
 // A checker, averaged over a pixel `width` wide: the integral of a square wave, exactly.
@@ -29,13 +35,12 @@ vec3 haze(vec3 sight) { return backdrop(normalize(vec3(sight.x, 0.02, sight.z)))
 
 void main() {
   const vec2 middle = gl_FragCoord.xy - vec2(view.left, view.top), axis = axisOf(middle);
-  const vec3 along = rayAlong(axis);
-  const vec3 from = worldPoint(rayFrom(axis)), ray = worldDirection(along);
-  const vec3 sight = normalize(ray);
-  const vec3 sun = scene.light_to.xyz;
+  const vec3 ray = worldDirection(rayAlong(axis)), sight = normalize(ray);
   color = vec4(backdrop(sight), 1.0);
   gl_FragDepth = clamp(view.depth_map[0], 0.0, 1.0);  // as far as a perspective goes
-  if (scene.domain_min.w == 0.0 || (scene.counts.w & 4u) == 0u || ray.y >= 0.0) return;
+#ifndef SKY
+  if (ray.y >= 0.0) return;
+  const vec3 from = worldPoint(rayFrom(axis)), sun = scene.light_to.xyz;
   const float z = (scene.domain_min.y - from.y) / ray.y;
   if (!(z > view.near_depth)) return;
   const vec3 p = from + z * ray;
@@ -57,4 +62,5 @@ void main() {
   const float far = length(beyond) / (1.4 * max(max(extent.x, extent.y), 1e-6));
   color = vec4(mix(lit, haze(sight), 1.0 - exp(-far * far)), 1.0);
   gl_FragDepth = clamp(targetDepth(z), 0.0, 1.0);
+#endif
 }

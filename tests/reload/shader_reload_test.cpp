@@ -41,8 +41,7 @@ class ShaderReloading : public ::testing::Test {
     }
   }
   const ComputePipeline* make() {
-    constexpr BindingKind kinds[] = {BindingKind::Storage, BindingKind::Storage, BindingKind::Storage, BindingKind::Storage};
-    auto made = computePipeline(context_->device(), {.shader = "sort/clear", .bindings = kinds, .pushConstantBytes = 64});
+    auto made = computePipeline(context_->device(), {.shader = "sort/clear"});
     EXPECT_TRUE(made) << made.error().message;
     return made ? *made : nullptr;
   }
@@ -62,6 +61,8 @@ TEST_F(ShaderReloading, ReplacesChangedShaderKeepsOldOnError) {
   const VkPipeline second = pipeline->handle;
   EXPECT_NE(second, first);
   EXPECT_EQ(make(), pipeline);
+  ASSERT_FALSE(pipeline->bindings.empty());
+  EXPECT_EQ(pipeline->bindings.front().name, "start") << "passes still bind by names";
 
   messages_.clear();
   append("sort/clear.comp", "nonsense\n");

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graph/shader_pass.hpp"
 #include "support/gpu_test.hpp"
 #include "views/antialias_record.h"
 #include "views/scene_buffers.hpp"
@@ -27,21 +28,13 @@ class Antialias : public GpuTest {
     std::vector<uint32_t> first;
     for (const bool texels : {false, true}) {
       if (texels && device().info().maxTexelBufferElements < picture.size()) continue;
-      const BindingKind bindings[] = {texels ? BindingKind::TexelUint : BindingKind::Storage, BindingKind::Storage};
-      const ComputePipeline* antialias = pipeline({.shader = texels ? "views/antialias_texel" : "views/antialias",
-                                                   .bindings = bindings,
-                                                   .pushConstantBytes = sizeof(AntialiasPush)});
+      const ComputePipeline* antialias = pipeline({.shader = texels ? "views/antialias_texel" : "views/antialias"});
       const Buffer source = upload("picture", picture);
       Graph graph;
       const BufferRef before = graph.import("picture", importOf(source));
       BufferRef after = graph.create("smoothed", {picture.size() * 4});
-      graph.pass("edges", [&](Pass& pass) {
-        pass.read(before, texels ? Use::ComputeTexel : Use::ComputeRead);
-        after = pass.write(after, Use::ComputeWrite, true);
-        const Kernel kernel = pass.kernel(antialias, {before, after});
-        const Groups groups{(width + kAntialiasGroup - 1) / kAntialiasGroup, (height + kAntialiasGroup - 1) / kAntialiasGroup, 1};
-        return [=](Commands& commands) { commands.dispatch(kernel, groups, AntialiasPush{width, height}); };
-      });
+      const Groups groups{(width + kAntialiasGroup - 1) / kAntialiasGroup, (height + kAntialiasGroup - 1) / kAntialiasGroup, 1};
+      addDispatch(graph, "edges", antialias, groups, AntialiasPush{width, height}, {{"aliased", before}, {"picture", after}});
       const Ticket ticket = graph.readback(after);
       run(graph);
       auto words = read<uint32_t>(graph, ticket);

@@ -46,9 +46,8 @@ class DepthFilters : public SurfaceOnGpu {
   /// Through storage buffers over all blocks of samples, and through texel buffers over blocks with fluid only: equal results.
   Map filtered(std::string_view shader, const Map& before, const SurfacePush& push, uint32_t passes = 1,
                SpecializationConstants constants = {}) {
-    Map all = filteredIn(shader, BindingKind::Storage, allBlocks(before, false), before, push, passes, constants);
-    const Map some =
-        filteredIn(std::string(shader) + "_texel", BindingKind::TexelUint, allBlocks(before, true), before, push, passes, constants);
+    Map all = filteredIn(shader, allBlocks(before, false), before, push, passes, constants);
+    const Map some = filteredIn(std::string(shader) + "_texel", allBlocks(before, true), before, push, passes, constants);
     EXPECT_TRUE(some.z == all.z) << shader;
     return all;
   }
@@ -65,11 +64,9 @@ class DepthFilters : public SurfaceOnGpu {
     }
     return blocks;
   }
-  Map filteredIn(std::string_view shader, BindingKind reading, const std::vector<uint32_t>& listed, const Map& before,
-                 const SurfacePush& push, uint32_t passes, SpecializationConstants constants) {
-    const BindingKind bindings[] = {reading, BindingKind::Storage, BindingKind::Storage, BindingKind::Storage};
-    const ComputePipeline* filter =
-        pipeline({.shader = shader, .bindings = bindings, .pushConstantBytes = sizeof(FlowPush), .constants = constants});
+  Map filteredIn(std::string_view shader, const std::vector<uint32_t>& listed, const Map& before, const SurfacePush& push, uint32_t passes,
+                 SpecializationConstants constants) {
+    const ComputePipeline* filter = pipeline({.shader = shader, .constants = constants});
     const Buffer source = upload("before", before.z);
     std::vector<uint32_t> counts(surface::kSurfaceCounterWords);
     counts[surface::kSampleBlockCount] = uint32_t(listed.size());
@@ -79,16 +76,12 @@ class DepthFilters : public SurfaceOnGpu {
               blocks = graph.import("blocks", importOf(list));
     for (uint32_t k = 0; k < passes; ++k) {
       BufferRef to = graph.create("after", {before.z.size() * 4});
-      graph.pass("clear", [&](Pass& pass) {
-        to = pass.write(to, Use::CopyTarget, true);
-        return [to](Commands& commands) { commands.fill(to, std::bit_cast<uint32_t>(kNone)); };
-      });
+      addFill(graph, "clear", {{&to, std::bit_cast<uint32_t>(kNone)}});
       graph.pass("filter", [&](Pass& pass) {
-        pass.read(from, reading == BindingKind::Storage ? Use::ComputeRead : Use::ComputeTexel);
-        pass.read(blocks, Use::ComputeRead);
-        for (BufferRef* written : {&to, &counters}) *written = pass.write(*written, Use::ComputeWrite);
-        const Kernel kernel = pass.kernel(filter, {from, to, counters, blocks});
-        return [kernel, groups = listed.size(), own = FlowPush{push, k}](Commands& commands) { commands.dispatch(kernel, groups, own); };
+        const Kernel kernel = bindNamed(pass, filter, {{"before", from}, {"after", to}, {"counters", counters}, {"blocks", blocks}});
+        return [kernel, groups = listed.size(), own = FlowPush{push, k}, bytes = filter->pushBytes](Commands& commands) {
+          commands.dispatch(kernel, groups, std::as_bytes(std::span(&own, 1)).first(bytes));  // a filter without steps has no number of it
+        };
       });
       from = to;
     }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "graph/shader_pass.hpp"
 #include "render/surface_rig.hpp"
 #include "views/scene_buffers.hpp"
 
@@ -28,9 +29,8 @@ class ToneMap : public GpuTest {
  protected:
   /// The bytes that become of linear colors.
   std::vector<std::array<uint8_t, 4>> mapped(const std::vector<std::array<float, 4>>& colors) {
-    static constexpr BindingKind kBindings[] = {BindingKind::SampledImage, BindingKind::Storage};
     bringViewShaders(device());
-    const ComputePipeline* tonemap = pipeline({.shader = "views/tonemap", .bindings = kBindings});
+    const ComputePipeline* tonemap = pipeline({.shader = "views/tonemap"});
     constexpr uint32_t kRow = 37;  // not a multiple of a workgroup
     const uint32_t rows = uint32_t(colors.size() + kRow - 1) / kRow;
     std::vector<std::array<float, 4>> texels = colors;
@@ -45,12 +45,7 @@ class ToneMap : public GpuTest {
       return [=](Commands& commands) { commands.copy(in, image); };
     });
     BufferRef picture = graph.create("picture", {texels.size() * 4});
-    graph.pass("tone", [&](Pass& pass) {
-      pass.read(image, Use::ComputeSampled);
-      picture = pass.write(picture, Use::ComputeWrite, true);
-      const Kernel kernel = pass.kernel(tonemap, {image, picture});
-      return [=, groups = (texels.size() + 63) / 64](Commands& commands) { commands.dispatch(kernel, groups); };
-    });
+    addDispatch(graph, "tone", tonemap, (texels.size() + 63) / 64, NoPush{}, {{"hdr", image}, {"aliased", picture}});
     const Ticket ticket = graph.readback(picture);
     run(graph);
     auto bytes = read<std::array<uint8_t, 4>>(graph, ticket);

@@ -10,6 +10,8 @@
 #include "bench/suites/tank.hpp"
 #include "bench/workbench.hpp"
 #include "core/words.hpp"
+#include "gpu/device_impl.hpp"
+#include "graph/shader_pass.hpp"
 #include "rill/float3.hpp"
 #include "sort/key_sort.hpp"
 
@@ -52,27 +54,9 @@ Expected<Cloud> cloudOf(uint32_t count) {
   return cloud;
 }
 
-Expected<const ComputePipeline*> pipelineOf(Workbench& workbench, std::string_view name, size_t bindings) {
-  const std::vector<BindingKind> kinds(bindings, BindingKind::Storage);
-  return computePipeline(
-      workbench.device(),
-      {.shader = name, .spirv = benchShader(name), .bindings = kinds, .pushConstantBytes = sizeof(CloudPush), .constants = {}});
-}
-
-/// Declares one pass that binds `reads`, then `writes`.
-void declare(Graph& graph, const ComputePipeline* pipeline, const CloudPush& push, std::initializer_list<BufferRef> reads,
-             BufferRef& writes, bool discard = true) {
-  graph.pass("baseline", [&](Pass& pass) {
-    std::vector<ResourceRef> bindings;
-    for (const BufferRef ref : reads) {
-      pass.read(ref, Use::ComputeRead);
-      bindings.push_back(ref);
-    }
-    writes = pass.write(writes, Use::ComputeWrite, discard);
-    bindings.push_back(writes);
-    const Kernel kernel = pass.kernel(pipeline, bindings);
-    return [=](Commands& commands) { commands.dispatch(kernel, (push.count + kCloudGroup - 1) / kCloudGroup, push); };
-  });
+/// Over all particles.
+void declare(Graph& graph, const ComputePipeline* pipeline, const CloudPush& push, std::initializer_list<Named> resources) {
+  addDispatch(graph, "baseline", pipeline, divideUp(push.count, kCloudGroup), push, resources);
 }
 
 /// Time samples of a variant, and its density sums by particle index.
@@ -97,19 +81,16 @@ class SearchVariants {
   SearchVariants(Workbench& workbench, const Cloud& cloud, uint32_t repeat) : workbench_(workbench), cloud_(cloud), repeat_(repeat) {}
 
   Expected<void> prepare() {
-    const struct {
-      const ComputePipeline** pipeline;
-      const char* name;
-      size_t bindings;
-    } pipelines[] = {{&allPairs_, "all_pairs", 2},
-                     {&keys_, "cell_keys", 2},
-                     {&reorder_, "reorder", 3},
-                     {&arrays_, "grid_density", 3},
-                     {&structs_, "grid_density_struct", 3}};
-    for (const auto& desc : pipelines) {
-      auto made = pipelineOf(workbench_, desc.name, desc.bindings);
+    implOf(workbench_.device()).shaders.add(benchShaders());
+    const std::pair<const ComputePipeline**, const char*> pipelines[] = {{&allPairs_, "all_pairs"},
+                                                                         {&keys_, "cell_keys"},
+                                                                         {&reorder_, "reorder"},
+                                                                         {&arrays_, "grid_density"},
+                                                                         {&structs_, "grid_density_struct"}};
+    for (const auto& [pipeline, shader] : pipelines) {
+      auto made = computePipeline(workbench_.device(), {.shader = shader});
       if (!made) return made.error();
-      *desc.pipeline = *made;
+      *pipeline = *made;
     }
     auto sort = KeySort::create(workbench_.device(), {.count = cloud_.push.count, .keyRange = cloud_.cells(), .start = true});
     if (!sort) return sort.error();
@@ -140,7 +121,7 @@ class SearchVariants {
       CloudPush push = cloud_.push;
       for (push.first = 0; push.first < last; push.first += kTile) {
         push.last = std::min(last, push.first + kTile);
-        declare(graph, allPairs_, push, {positions}, result, push.first == 0);
+        declare(graph, allPairs_, push, {{"position", positions}, {"result", result}});
       }
     };
     // One candidate per particle is enough to compile the shader.
@@ -153,10 +134,10 @@ class SearchVariants {
     auto samples = sampleGraph(workbench_, repeat_, [&](Graph& graph) {
       const BufferRef positions = importWhole(graph, "positions", positions_);
       BufferRef keys = graph.create("keys", {4 * uint64_t{cloud_.push.count}}), sorted = importWhole(graph, "sorted", sorted_);
-      declare(graph, keys_, cloud_.push, {positions}, keys);
+      declare(graph, keys_, cloud_.push, {{"position", positions}, {"key", keys}});
       const SortedKeys order = sort_->addTo(
           graph, keys, {.order = importWhole(graph, "order", order_), .start = importWhole(graph, "start", start_), .keys = {}});
-      declare(graph, reorder_, cloud_.push, {positions, order.order}, sorted);
+      declare(graph, reorder_, cloud_.push, {{"position", positions}, {"order", order.order}, {"sorted", sorted}});
     });
     if (!samples) return samples.error();
     auto order = workbench_.download<uint32_t>(order_);
@@ -180,7 +161,8 @@ class SearchVariants {
   Expected<Result> searchGrid(const ComputePipeline* pipeline, const Buffer& particles) {
     auto result = sample(repeat_, WarmUp::Needed, [&](Graph& graph) {
       BufferRef found = importWhole(graph, "result", result_);
-      declare(graph, pipeline, cloud_.push, {importWhole(graph, "particles", particles), importWhole(graph, "start", start_)}, found);
+      const BufferRef particle = importWhole(graph, "particles", particles), start = importWhole(graph, "start", start_);
+      declare(graph, pipeline, cloud_.push, {{"position", particle}, {"particle", particle}, {"start", start}, {"result", found}});
     });
     if (!result) return result;
     std::vector<Found> byNumber(result->found.size());
