@@ -37,7 +37,7 @@ void ShaderReload::poll(DeviceImpl& device) {
 #ifdef RILL_SHADER_RELOAD
   if (frames_++ % kFramesBetweenPolls != 0) return;
   const Stamp headers = newestHeader();
-  const auto report = [&](std::string text) {
+  const auto report = [&](const std::string& text) {
     if (device.message) device.message(text);
   };
   const auto reload = [&](const EmbeddedShader& shader) {

@@ -18,13 +18,13 @@ namespace rill {
 /// A resource under the name that it has in a shader.
 struct Named {
   std::string_view name;
-  ResourceRef ref;
   BufferRef* buffer = nullptr;  ///< where the new version of a written buffer goes
   ImageRef* image = nullptr;
+  ResourceRef ref;
   bool discard = false;  ///< the shader writes all of it that is read later
-  Named(std::string_view n, BufferRef& written) : name(n), ref(written), buffer(&written) {}
+  Named(std::string_view n, BufferRef& written) : name(n), buffer(&written), ref(written) {}
   Named(std::string_view n, const BufferRef& read) : name(n), ref(read) {}
-  Named(std::string_view n, ImageRef& written) : name(n), ref(written), image(&written) {}
+  Named(std::string_view n, ImageRef& written) : name(n), image(&written), ref(written) {}
   Named(std::string_view n, const ImageRef& read) : name(n), ref(read) {}
 };
 

@@ -74,7 +74,8 @@ TEST_F(Antialias, EdgePixelsGetTheirCoverage) {
       for (uint32_t x = 0; x < kWidth; ++x) {
         const auto inside = [&](double px, double py) { return py - 18.3 < slope * (px - 26.1); };
         int sum = 0;
-        for (int k = 0; k < 256; ++k) sum += inside(x + (k % 16 + 0.5) / 16, y + (k / 16 + 0.5) / 16);
+        for (int row = 0; row < 16; ++row)
+          for (int column = 0; column < 16; ++column) sum += inside(x + (column + 0.5) / 16, y + (row + 0.5) / 16);
         covered[y][x] = std::sqrt(0.1 * 0.1 + (0.9 * 0.9 - 0.1 * 0.1) * sum / 256);  // light, the square of the stored value
         stairs[y][x] = inside(x + 0.5, y + 0.5) ? 0.9 : 0.1;
       }

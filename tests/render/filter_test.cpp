@@ -59,7 +59,7 @@ class DepthFilters : public SurfaceOnGpu {
       bool any = !covered;
       for (int y = block / columns * kBlock; y < std::min((block / columns + 1) * kBlock, map.rows); ++y)
         for (int x = block % columns * kBlock; x < std::min((block % columns + 1) * kBlock, map.columns); ++x)
-          any = any || map.z[size_t(y * map.columns + x)] != kNone;
+          any = any || map.at(x, y) != kNone;
       if (any) blocks.push_back(uint32_t(block));
     }
     return blocks;
