@@ -154,6 +154,7 @@ Expected<uint64_t> Runner::add(const Fill& fill) {
   if (!now) return now.error();
   Scene only = scene_;
   only.fill = {fill};
+  if (only.fluid.spacing > 0) only.fluid.particles = 0;  // the spacing of what is there, whatever it was derived from
   for (uint32_t k = 0; k < only.solids.size(); ++k) {
     const Pose current = pose(k), first = solidPose(scene_.solids[k], 0);
     only.solids[k].motion = {

@@ -27,7 +27,7 @@ class Checker {
         ok = value(memberPath(path, field.info.key), field.info, *member);
       }
     });
-    // makeParticles() sets `spacing` in addition to `particles`, so both are given afterwards.
+    // The spacing that `particles` led to may be kept beside it (ParticleSet::spacing), so both may be given.
     if (std::is_same_v<Owner, FluidSettings> && chosen.size() == 2) chosen.pop_back();
     return ok && accept(path, model::checkOneOf(one_of, chosen)) && accept(path, model::checkRules(owner));
   }

@@ -164,6 +164,19 @@ TEST_F(TouchTest, ThrownFluidIsAddedWhereThereIsRoom) {
   EXPECT_EQ(missed.error().kind, ErrorKind::BadInput);
 }
 
+TEST_F(TouchTest, ThrownFluidHasTheSpacingOfTheScene) {
+  const auto by_spacing = Touch::throwFluid(session(), at(1.5, 0.8));
+  ASSERT_TRUE(by_spacing) << by_spacing.error().message;
+  std::string text = kPool;
+  text.replace(text.find(R"("spacing": 0.05)"), 15, R"("particles": 1920)");  // as many as the spacing makes
+  auto opened = Session::open(context(), folder.write("counted.json", text));
+  ASSERT_TRUE(opened) << opened.error().message;
+  ASSERT_TRUE((*opened)->runner().step());
+  const auto by_count = Touch::throwFluid(**opened, at(1.5, 0.8));
+  ASSERT_TRUE(by_count) << by_count.error().message;
+  EXPECT_NEAR(double(*by_count), double(*by_spacing), 0.2 * double(*by_spacing));
+}
+
 TEST_F(TouchTest, RandomInteractionStaysStable) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> x(0.7, 2.3), y(-0.2, 0.8), chance(0, 1);
