@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "fluid/fluid_impl.hpp"
+#include "graph/graph_impl.hpp"
 
 namespace rill {
 
@@ -24,6 +25,15 @@ void FluidImpl::beginSection() {
   for (const ArrayRow& row : arrayTable())
     if (row.lifetime != Lifetime::Fluid) refs_[slotOf(row.id)] = {};
   resetAliases();
+}
+
+uint64_t FluidImpl::commandOffset(Graph& graph, const FluidPassRow& row, size_t variant, Start start) const {
+  if (start == Start::Always) return 0;
+  const size_t k = start == Start::Correct && parity_ == 1 ? kStarts : static_cast<size_t>(start);
+  const uint32_t command = passes_[static_cast<size_t>(row.id)].commands[variant][k];
+  if (command != kNoCommand) return DispatchCommands::offset(command);
+  implOf(graph).fail("pass '" + std::string(row.name) + "': its row in pass_table.cpp lacks what starts it");
+  return 0;
 }
 
 Kernel FluidImpl::bind(Graph& graph, Pass& pass, const FluidPassRow& row, const PreparedPass::Variant& variant, uint32_t chunk) {

@@ -11,6 +11,8 @@
 
 namespace rill {
 
+constexpr uint32_t kNoCommand = 0xFFFFFFFF;
+
 class DispatchCommands {
  public:
   /// The command over `over` that `start` starts, of `groups` workgroups; in x the particles a group where it is over particles. Equal ones
@@ -23,7 +25,6 @@ class DispatchCommands {
   /// A new command.
   uint32_t add(uint32_t start, uint32_t over, GroupCount groups) {
     shapes_.push_back(shape(start, over, groups));
-    assert(shapes_.size() <= kMaxCommands);
     return count() - 1;
   }
   uint32_t count() const { return static_cast<uint32_t>(shapes_.size()); }

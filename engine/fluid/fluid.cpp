@@ -90,7 +90,7 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   impl->count = static_cast<uint32_t>(desc.snapshot ? desc.snapshot->id.size() : n);
   std::copy(particles.origin, particles.origin + 3, impl->origin);
 
-  if (desc.snapshot && capacity > 0)
+  if (desc.snapshot)
     if (auto fits = checkSnapshot(*desc.snapshot, snapshotShape(impl->setup)); !fits) return fits.error();
 
   if (impl->capacity == 0) return impl;

@@ -132,6 +132,8 @@ class FluidImpl {
   // declare.cpp
   template <class Push = NoPush>
   void declare(Graph& graph, FluidPass pass, Start start = Start::Always, Push push = {});
+  /// Bytes from the first command to that of a variant; 0 for Start::Always. A start that the row lacks is an error of compile().
+  uint64_t commandOffset(Graph& graph, const FluidPassRow& row, size_t variant, Start start) const;
   Kernel bind(Graph& graph, Pass& pass, const FluidPassRow& row, const PreparedPass::Variant& variant, uint32_t chunk);
   uint64_t fixedGroups(Extent extent) const;
   /// This frame's version of an array, or of the one that an alias stands for.
@@ -184,8 +186,7 @@ void FluidImpl::declare(Graph& graph, FluidPass pass, Start start, Push push) {
     if (start != Start::Always) declared.read(ref(FluidArray::Commands), Use::Indirect);
     for (uint32_t c = 0; c < (chunked ? chunkCount() : 1); ++c)
       for (size_t v = 0; v < prepared.variants.size(); ++v) {
-        const size_t k = start == Start::Correct && parity_ == 1 ? kStarts : static_cast<size_t>(start);
-        all[dispatches++] = {bind(graph, declared, row, prepared.variants[v], c), DispatchCommands::offset(prepared.commands[v][k])};
+        all[dispatches++] = {bind(graph, declared, row, prepared.variants[v], c), commandOffset(graph, row, v, start)};
       }
     return [=, this, arguments = ref(FluidArray::Commands), groups = fixedGroups(row.extent), each = prepared.variants.size(),
             direct = start == Start::Always](Commands& commands) mutable {

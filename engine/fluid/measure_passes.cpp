@@ -10,10 +10,7 @@ void FluidImpl::declareMeasure(Graph& graph, Pending& pending) {
   alias(Place, Position);
   if (setup.near) declare(graph, FluidPass::MeasureWalls, Start::Figures);
   BufferRef& histogram = ref(Histogram) = graph.create(rowOf(Histogram).label, {arrayBytes(Histogram, arrayShape(setup))});
-  graph.pass("clear histogram", [&](Pass& pass) {
-    histogram = pass.write(histogram, Use::CopyTarget, true);
-    return [cleared = histogram](rill::Commands& commands) { commands.fill(cleared, 0); };
-  });
+  addFill(graph, "clear histogram", {{&histogram, 0}});
   const Gate gate{ref(FluidArray::Commands), sortCommand_ + static_cast<uint32_t>(sort_->dispatches().size())};
   sortKeys(graph, FluidPass::MeasureKeys, Start::Figures, Position, {}, &gate);
   declare(graph, FluidPass::MeasureOrder, Start::Figures);

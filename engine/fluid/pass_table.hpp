@@ -1,6 +1,6 @@
 #pragma once
 // The one table of a fluid's passes. Pipelines, bindings, dispatch commands, reports of what is skipped and counts of what ran follow from
-// its rows. To add a pass: a value of FluidPass and its row in pass_table.cpp, its shader in shaders/fluid and shaders/CMakeLists.txt, and
+// its rows. To add a pass: a value of FluidPass and its row in pass_table.cpp, its shader in shaders/fluid, and
 // the call that declares it, in substep_passes.cpp for one of a substep.
 #include <array>
 #include <cstdint>

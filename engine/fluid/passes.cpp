@@ -19,8 +19,7 @@ void FluidImpl::importAll(Graph& graph) {
 }
 
 void FluidImpl::declareBegin(Graph& graph, double advance) {
-  declare(graph, FluidPass::Begin, Start::Always,
-          BeginPush{static_cast<float>(advance), commands_.count(), advance > 0 ? drivenSpeed_ : 0.0f});
+  declare(graph, FluidPass::Begin, Start::Always, BeginPush{static_cast<float>(advance), advance > 0 ? drivenSpeed_ : 0.0f});
   if (advance > 0) declare(graph, FluidPass::Predict, Start::Predict);
 }
 

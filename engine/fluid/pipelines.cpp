@@ -64,6 +64,10 @@ Expected<void> FluidImpl::preparePasses(Device& device) {
         commands_.add(start, kOverParticles, {d.keysPerGroup, 0, 1});
       else
         commands_.add(start, kOverShape, d.groups);
+  if (commands_.count() > kMaxCommands)
+    return Error{ErrorKind::Failed, "the passes of the fluid have " + std::to_string(commands_.count()) +
+                                        " dispatch commands; expected at most " + std::to_string(kMaxCommands) + " (kMaxCommands)"};
+  setup.params.commandCount = commands_.count();
   return {};
 }
 
@@ -89,6 +93,7 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
     }
     prepared.variants.push_back(std::move(variant));
     std::array<uint32_t, kStarts + 1>& commands = prepared.commands.emplace_back();
+    commands.fill(kNoCommand);
     for (Start start : row.starts) {
       if (start == Start::Always) continue;
       const GroupCount groups = over == kOverShape ? foldGroups(fixedGroups(row.extent)) : GroupCount{kFluidGroup, 0, 1};

@@ -65,7 +65,7 @@ Expected<void> checkNear(const FluidSnapshot& s, const FluidSums& sums, const Sn
     return wrong("the lists of particles near walls have other lengths than their counts");
   std::vector<bool> seen(s.id.size());
   if (!markNew(seen, s.nearWall) || !markNew(seen, s.nearCorner))
-    return wrong("a list of particles near walls names no particle, or one twice");
+    return wrong("a list of particles near walls has an index that is out of range or appears twice");
   return {};
 }
 
@@ -82,9 +82,9 @@ Expected<void> checkNeighbors(const FluidSnapshot& s, const FluidSums& sums, con
       ++overflow;
   }
   if (auto right = checkLength("neighbors", s.neighbors.size(), entries); !right) return right;
-  if (lists && overflow != sums.overflow) return wrong("its neighbor counts do not add up");
+  if (lists && overflow != sums.overflow) return wrong("its number of overflowed neighbor lists is not that of its neighbor counts");
   if (std::any_of(s.neighbors.begin(), s.neighbors.end(), [&](uint32_t j) { return j >= s.id.size(); }))
-    return wrong("a neighbor is no particle");
+    return wrong("a neighbor index is out of range");
 
   if (auto right = checkLength("cells", s.cell.size(), alive && walksGrid(s) ? s.id.size() : 0); !right) return right;
   if (!std::is_sorted(s.cell.begin(), s.cell.end()) || (!s.cell.empty() && s.cell.back() >= shape.cells))
@@ -169,6 +169,7 @@ void setGravity(FluidSnapshot& s, const double gravity[3]) {
 bool walksGrid(const FluidSnapshot& snapshot) { return snapshot.listCapacity == 0 || record<FluidSums>(snapshot.sums).overflow > 0; }
 
 Expected<void> checkSnapshot(const FluidSnapshot& snapshot, const SnapshotShape& shape) {
+  if (shape.capacity == 0 && snapshot.id.empty()) return {};
   if (auto right = checkLengths(snapshot, shape); !right) return right;
   const auto control = record<FluidControl>(snapshot.control);
   const auto sums = record<FluidSums>(snapshot.sums);

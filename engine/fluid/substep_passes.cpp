@@ -19,7 +19,7 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
     if (setup.near) declare(graph, FluidPass::Walls, start);
     alias(Particle, Prediction);
     declare(graph, FluidPass::Density, start, push);
-    declare(graph, FluidPass::Control, Start::Always, ControlPush{iteration, parity, commands_.count(), first});
+    declare(graph, FluidPass::Control, Start::Always, ControlPush{iteration, parity, first});
   }
   alias(Particle, Work);
   const bool artificialPressure = first && p.tensileRate > 0;

@@ -58,7 +58,7 @@ struct BoundResource {
   BufferRef* buffer = nullptr;  ///< in place of `ref`: advances to its new version if the shader writes it
   ImageRef* image = nullptr;
   bool discard = false;  ///< the shader writes all of it that is read later
-  bool atomic = false;   ///< a buffer that is written by commutative atomics alone, whose results are not used
+  bool atomic = false;   ///< a buffer that is written by commutative atomics alone, whose results decide at most a carry into the same buffer
 };
 
 /// Declares what the shader of `pipeline` reads and writes, and binds it, in the order of its bindings. Writing a resource that is given as

@@ -13,6 +13,7 @@ layout(std430, binding = 5) readonly buffer GravityBlock { vec4 gravityChanges[]
 #include "fluid/gains.glsl"
 #include "fluid/step_plan.glsl"
 #include "fluid/dispatch_commands.glsl"
+#include "fluid/time.glsl"
 
 void main() {
   FluidControl c = control;
@@ -40,6 +41,6 @@ void main() {
   }
   c.running = going && c.listState == kListValid ? 1u : 0u;
   c.again = 0u;
-  switchCommands(push.commands, c, kNoSubstep, s);
+  switchCommands(c, kNoSubstep, s);
   control = c;
 }

@@ -15,6 +15,7 @@ layout(std430, binding = 5) readonly buffer GravityBlock { vec4 gravityChanges[]
 #include "fluid/gains.glsl"
 #include "fluid/step_plan.glsl"
 #include "fluid/dispatch_commands.glsl"
+#include "fluid/time.glsl"
 
 // Settling: particles that overlap at the start are separated by position corrections without a
 // step in time, which add no velocity.
@@ -57,7 +58,7 @@ void main() {
   FluidSums s = sums;
   bool first = push.iteration == 0u;
   if ((first ? c.running : c.again) == 0u) {
-    if (first) switchCommands(push.commands, c, kNoSubstep, s);  // the last correction's command was still on
+    if (first) switchCommands(c, kNoSubstep, s);  // the last correction's command was still on
     return;
   }
 
@@ -106,6 +107,6 @@ void main() {
   if (first && c.noiseDamping > 0.0) c.executedNoiseDampings += 1u;
   c.running = c.timeLeft > 0.0 && c.listState == kListValid ? 1u : 0u;
   c.again = again ? 1u : 0u;
-  switchCommands(push.commands, c, push.parity, s);
+  switchCommands(c, push.parity, s);
   control = c;
 }

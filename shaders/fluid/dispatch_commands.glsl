@@ -1,5 +1,4 @@
-// Shared by begin.comp, finish_rebuild.comp and control.comp: enabling dispatch commands, simulated
-// time, the gravity schedule.
+// Shared by begin.comp, finish_rebuild.comp and control.comp: enabling dispatch commands.
 #ifndef RILL_DISPATCH_COMMANDS_GLSL
 #define RILL_DISPATCH_COMMANDS_GLSL
 // Whether a command that is started by `start` runs, once the control block is settled. `parity`: of
@@ -46,27 +45,7 @@ void switchCommand(uint k, FluidControl c, uint parity, FluidSums s) {
 }
 
 // In one invocation: a barrier costs lavapipe more than the loop.
-void switchCommands(uint count, FluidControl c, uint parity, FluidSums s) {
-  for (uint k = 0u; k < count; ++k) switchCommand(k, c, parity, s);
-}
-
-// Adds to the two-float sum (Knuth's TwoSum).
-void addTime(inout FluidControl c, float step) {
-  precise float sum = c.timeHigh + (step + c.timeLow);
-  precise float rest = (c.timeHigh - sum) + (step + c.timeLow);
-  c.timeHigh = sum;
-  c.timeLow = rest;
-}
-
-// Gravity from the last schedule entry up to the present time; entry 0 is the scene's own, at time 0.
-void gravityAt(inout FluidControl c) {
-  for (uint n = 0u; n < params.gravityChanges && c.gravityIndex < params.gravityChanges; ++n) {
-    vec4 change = gravityChanges[c.gravityIndex];
-    if (change.w > c.timeHigh + 1.0e-7) break;
-    c.gravityX = change.x;
-    c.gravityY = change.y;
-    c.gravityZ = change.z;
-    c.gravityIndex += 1u;
-  }
+void switchCommands(FluidControl c, uint parity, FluidSums s) {
+  for (uint k = 0u; k < params.commandCount; ++k) switchCommand(k, c, parity, s);
 }
 #endif

@@ -8,7 +8,6 @@ layout(std430, binding = 1) buffer ControlBlock { FluidControl control; };
 layout(std430, binding = 2) readonly buffer SumsBlock { FluidSums sums; };
 layout(std430, binding = 3) readonly buffer ShapeBlock { uint shapes[]; };
 layout(std430, binding = 4) buffer CommandBlock { uint commands[]; };
-layout(std430, binding = 5) readonly buffer GravityBlock { vec4 gravityChanges[]; };
 #include "fluid/stability.glsl"
 #include "fluid/dispatch_commands.glsl"
 
@@ -24,5 +23,5 @@ void main() {
   FluidSums s = sums;
   followColumn(c, columnHead(s));
   control = c;
-  switchCommands(kMaxCommands, c, kNoSubstep, s);  // the sort's own, too: another rebuild may be recorded behind this one
+  switchCommands(c, kNoSubstep, s);  // the sort's own, too: another rebuild may be recorded behind this one
 }

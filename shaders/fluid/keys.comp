@@ -28,7 +28,7 @@ void main() {
   }
 #ifdef COUNTED
   // The sort's workgroups are larger: what they see behind the last particle is no key.
-  uint padded = min((control.count + kCountThreads - 1u) / kCountThreads * kCountThreads, params.capacity);
+  uint padded = min((max(control.count, 1u) + kCountThreads - 1u) / kCountThreads * kCountThreads, params.capacity);
   for (uint j = i; j < min(i + kCountThreads, padded); j += kFluidGroup)
     if (j >= control.count) key[j] = kNoKey;
 #else

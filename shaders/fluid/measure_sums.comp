@@ -13,6 +13,7 @@ layout(std430, binding = 4) writeonly buffer PartialBlock { MeasurePartial parti
 shared MeasurePartial rows[kFluidGroup];
 
 void main() {
+  if (flatGroup() >= partialCount()) return;
   uint lane = gl_LocalInvocationID.x;
   vec3 low = vec3(params.boundLowX, params.boundLowY, params.boundLowZ);
   vec3 high = vec3(params.boundHighX, params.boundHighY, params.boundHighZ);

@@ -62,12 +62,12 @@ struct FluidParams {
   float gradientScale;    // of its gradient's polynomial, negative, 1/m^2 (see kernel.glsl)
   float inverseRestGradient;  // 1 / sum |grad K|^2 of the rest lattice, m^2
   float regularization;   // epsilon times sum |grad K|^2 of the rest lattice, 1/m^2
-  float relaxationAtRest, relaxationInMotion;  // omega of a fluid at rest, and of one that moves at motionSpeed (see restFraction.glsl)
+  float relaxationAtRest, relaxationInMotion;  // omega of a fluid at rest, and of one that moves at motionSpeed (see gains.glsl)
   float warmGainInMotion;      // kappa of a fluid that moves; at rest see stability.glsl
   float maxWarmGainAtRest;     // at most, and
   float layerWarmGainAtRest;   // this over the square of the column's layers
   float layerHead;             // m^2/s^2, gravity times the spacing
-  float stableStep;            // m, over the square root of the head: the longest step that the fluid bears
+  float stableStep;            // m, over the square root of the head: the longest stable step
   float toleratedStep;         // m, likewise: the first step, half of what the tolerance allows
   float columnGravityX, columnGravityY, columnGravityZ;  // m/s^2, the strongest; 0: the head does not follow the fluid along this axis
   float columnLimitX, columnLimitY, columnLimitZ;        // m, the largest height of a column
@@ -75,7 +75,7 @@ struct FluidParams {
   float reach;            // m, support plus skin: the list holds what was nearer when it was built
   float travelLimit;      // m that the fastest particle may move before the list is rebuilt
   float cfl;              // spacings a substep
-  float maxStep;          // s, as the scene asks for and its viscosity bears; see stability.glsl
+  float maxStep;          // s, as the scene asks for, and at which its viscosity is stable; see stability.glsl
   float tolerance;        // mean compression aimed for; 0: none
   uint maxSubsteps;       // an advance
   uint iterations;        // Jacobi iterations a substep, at most
@@ -119,6 +119,7 @@ struct FluidParams {
   float initialPressureMomentum;    // of a multiplier's last change, what is added to the next
   float initialPressureErrorLimit;       // mean compression of the start up to which it is looked for
   uint fullNeighbors;    // within the support: a particle with as many is inside the fluid
+  uint commandCount;     // dispatches that the device switches on and off
 };
 
 // Phases of the solver; the two before time begins need no step in time.
@@ -194,14 +195,12 @@ RILL_CONST float kErrorUnit = 1.0f / 16777216.0f;
 
 struct BeginPush {
   float advance;       // s
-  uint commands;       // how many
   float drivenSpeed;   // m/s, the fastest driven solid of the advance
 };
 
 struct ControlPush {
   uint iteration;      // 0 is the first
   uint parity;         // of the recorded substep
-  uint commands;       // how many
   uint blockStart;     // the substep is recorded as the first of its block
 };
 

@@ -169,7 +169,7 @@ TEST_F(SnapshotCheck, RejectsInvalidIndices) {
   s.nearCorner[0] = s.nearWall[0];
   expectRejected("near walls");
   s.neighbors[0] = static_cast<uint32_t>(s.id.size());
-  expectRejected("a neighbor is no particle");
+  expectRejected("a neighbor index is out of range");
   s.neighbors.pop_back();
   expectRejected("neighbors has");
   s.neighborCount[0] = seedShape().listCapacity + 1;

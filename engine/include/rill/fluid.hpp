@@ -32,9 +32,10 @@ struct FluidSnapshot;  // rill/snapshot.hpp
 
 /// Parameters of Fluid::create(). Pointers are not kept.
 struct FluidDesc {
-  const Scene* scene = nullptr;             ///< required; settings, domain, solids, gravity; fluid.spacing > 0
-  const ParticleSet* particles = nullptr;   ///< required; see makeParticles()
-  const FluidSnapshot* snapshot = nullptr;  ///< optional: state to continue from, of the same scene and particles; BadInput otherwise
+  const Scene* scene = nullptr;            ///< required; settings, domain, solids, gravity; fluid.spacing > 0
+  const ParticleSet* particles = nullptr;  ///< required; see makeParticles()
+  /// Optional: the state to continue from, of the same scene, with at most `capacity` particles; BadInput otherwise.
+  const FluidSnapshot* snapshot = nullptr;
   /// Before simulated time starts: separate overlapping particles without changing velocities (settling), then solve for the initial
   /// hydrostatic pressure. Settling takes 1 recorded substep without overlaps and at most 512 with them; the pressure takes about 3 per
   /// layer of particles, at most 1,024. Frames that record fewer do not advance, and drop their time (FluidProgress::timeDropped_s).
@@ -76,11 +77,11 @@ struct FluidStep {
   std::span<const SolidTarget> targets = {};
 };
 
-/// The particles of a frame, as buffers of its graph. Read them with any Use. Buffers may have one unused entry after `count`.
+/// The particles of a frame, as buffers of its graph. Read them with any Use. Buffers of particles have an unused entry after `capacity`.
 struct FluidState {
   BufferRef position = {};       ///< vec4 per particle: xyz in m relative to `origin`; w unused
   BufferRef velocity = {};       ///< vec4 per particle: xyz in m/s; w: density over rest density with FluidStep::stats, else 1
-  BufferRef id = {};             ///< uint per particle: its index in the initial ParticleSet
+  BufferRef id = {};             ///< uint per particle, which it keeps: unique, below 2^24; at the start its index in the ParticleSet
   BufferRef control = {};        ///< FluidControl (shaders/shared/fluid_records.h)
   BufferRef countBuffer = {};    ///< its first uint is the number of particles: they are the first entries of the arrays
   BufferRef solids = {};         ///< SolidRecord (solid_records.h) per solid, at the present time; null if no solid is driven

@@ -24,7 +24,7 @@
 namespace rill {
 
 /// The persistent state of a fluid between two advances, on the host: everything that later steps depend on, bit by bit
-/// (docs/architecture.md, "Checkpoints"). Arrays have one entry per particle, in the order of the device.
+/// (docs/architecture.md, "What is persisted"). Arrays have one entry per particle, in the order of the device.
 struct FluidSnapshot {
   std::vector<uint32_t> control = {};                ///< FluidControl (shaders/shared/fluid_records.h), word by word
   std::vector<uint32_t> sums = {};                   ///< FluidSums, word by word
