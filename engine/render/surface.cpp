@@ -9,6 +9,7 @@
 #include "gpu/module_pipelines.hpp"
 #include "gpu/texel_reads.hpp"
 #include "graph/shader_pass.hpp"
+#include "render/particle_count.hpp"
 #include "sort/dispatches.hpp"
 
 namespace rill {
@@ -83,6 +84,7 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
   frame.texels = !frame.storageReads && usesTexelReads(*device_->device, maxTexels);
   frame.narrowRange = method == SurfaceMethod::NarrowRange && !settings.filter;
   frame.position = fluid.position;
+  frame.count = particleCount(graph, fluid);
   addBuffers(graph, fluid, frame, whole);
   addVisible(graph, fluid, frame);
   addGrid(graph, fluid, frame);
@@ -144,6 +146,7 @@ void SurfaceStage::addBuffers(Graph& graph, const FluidState& fluid, Frame& fram
 void SurfaceStage::add(Graph& graph, std::string_view name, const ComputePipeline* pipeline, const DispatchSize& size, Frame& f) const {
   addDispatch(graph, name, pipeline, size, f.out.push,
               {{"position", f.position},
+               {"particle_count", f.count},
                {"occluders", f.occluders},
                {"survivors", f.survivors},
                {"depth", f.depth},

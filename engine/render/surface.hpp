@@ -62,7 +62,7 @@ class SurfaceStage {
     SurfaceBuffers out;
     uint64_t sampleBlocks = 0, occluderCells = 0, cells = 0;  ///< numbers, including the margin
     double sampleSide = 0;                                    ///< m, width of a sample at the focus
-    BufferRef position;                                       ///< of the fluid
+    BufferRef position, count;                                ///< of the fluid
     BufferRef occluders, depth;                               ///< depth: of the spheres, before smoothing
     BufferRef survivors;                                      ///< particles that are not occluded
     BufferRef start, center, rank, arrived;                   ///< screen grid of surface particles

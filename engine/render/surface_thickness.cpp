@@ -1,5 +1,6 @@
 // The thickness of the fluid along rays, as passes.
 #include "graph/shader_pass.hpp"
+#include "render/particle_count.hpp"
 #include "render/surface.hpp"
 
 namespace rill {
@@ -33,7 +34,11 @@ BufferRef SurfaceStage::addThickness(Graph& graph, const ThicknessNames& names, 
   const uint64_t groups = divideUp(fluid.capacity, kSurfaceGroup);
   BufferRef& counted = counters ? *counters : own;
   addDispatch(graph, names.pass, sceneDepth == BufferRef{} ? thicknessNoScene_ : thickness_, groups, push,
-              {{"position", fluid.position}, {"thickness", thickness}, {"counters", counted}, {"scene_depth", sceneDepth}});
+              {{"position", fluid.position},
+               {"particle_count", particleCount(graph, fluid)},
+               {"thickness", thickness},
+               {"counters", counted},
+               {"scene_depth", sceneDepth}});
   return thickness;
 }
 

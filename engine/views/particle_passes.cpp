@@ -15,10 +15,11 @@ constexpr uint32_t kInfinity = 0x7F800000u;  // bits of the float
 }  // namespace
 
 void ParticleView::add(Graph& graph, std::string_view name, const ComputePipeline* pipeline, const DispatchSize& size, Frame& f) const {
-  const BufferRef &scene = f.scene, &position = f.position, &velocity = f.velocity;
+  const BufferRef &scene = f.scene, &position = f.position, &velocity = f.velocity, &count = f.count;
   addDispatch(graph, name, pipeline, size, f.push,
               {{"scene", scene},
                {"position", position},
+               {"particle_count", count},
                {"velocity", velocity},
                {"placed", f.poses},
                {"edges", f.edges},

@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "render/particle_count.hpp"
+
 namespace rill {
 namespace {
 
@@ -97,6 +99,7 @@ BufferRef ParticleView::addTo(Graph& graph, const FluidState& fluid, const Camer
   frame.pixels = uint64_t{desc.width} * desc.height;
   frame.position = fluid.position;
   frame.velocity = fluid.velocity;
+  if (fluid.capacity > 0) frame.count = particleCount(graph, fluid);
   addSetup(graph, fluid, frame);
   addSurfaces(graph, frame);
   addLightMap(graph, frame);

@@ -50,7 +50,7 @@ class ParticleView {
   struct Frame {
     particle_view::ViewPush push;
     uint64_t pixels = 0;
-    BufferRef scene, poses, edges, depth, winner, light, floor, tint, position, velocity, counters, survivors;
+    BufferRef scene, poses, edges, depth, winner, light, floor, tint, position, velocity, count, counters, survivors;
     BufferRef masks, occluders, tiles, shaded, rims, picture;
   };
 

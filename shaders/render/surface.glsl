@@ -20,7 +20,7 @@ float infinity() { return uintBitsToFloat(kInfiniteBits); }
 // Compares bits because a compiler may assume that there are no NaNs.
 bool drawable(vec3 p) {
   const uvec3 magnitude = floatBitsToUint(p) & 0x7FFFFFFFu;
-  return all(lessThan(magnitude, uvec3(0x58635FA9u)));  // 1e15 m
+  return all(lessThan(magnitude, uvec3(0x4DEE6B28u)));  // 5e8 m: inactive particles are beyond
 }
 
 vec3 viewPoint(vec3 p) {

@@ -8,6 +8,7 @@ layout(std430, set = 0, binding = 0) readonly buffer Position { vec4 position[];
 layout(std430, set = 0, binding = 1) readonly buffer Occluders { uint occluders[]; };
 layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 3) writeonly buffer Survivors { uint survivors[]; };
+layout(std430, set = 0, binding = 4) readonly buffer ParticleCount { uint particle_count; };
 
 bool hidden(vec3 center, float radius) {
   const float cell = float(kOccluderSamples);
@@ -25,7 +26,7 @@ bool hidden(vec3 center, float radius) {
 
 void main() {
   const uint i = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
-  if (i >= view.count || !drawable(position[i].xyz)) return;
+  if (i >= min(view.count, particle_count) || !drawable(position[i].xyz)) return;
   const vec3 center = viewPoint(position[i].xyz);
   const float radius = hardRadius(center.z);
   if (!shown(center, radius) || hidden(center, radius)) return;

@@ -6,10 +6,11 @@
 layout(local_size_x = kSurfaceGroup) in;
 layout(std430, set = 0, binding = 0) readonly buffer Position { vec4 position[]; };
 layout(std430, set = 0, binding = 1) buffer Occluders { uint occluders[]; };
+layout(std430, set = 0, binding = 2) readonly buffer ParticleCount { uint particle_count; };
 
 void main() {
   const uint i = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
-  if (i >= view.count || !drawable(position[i].xyz)) return;
+  if (i >= min(view.count, particle_count) || !drawable(position[i].xyz)) return;
   const vec3 center = viewPoint(position[i].xyz);
   const float radius = hardRadius(center.z);
   if (!(center.z > view.near_depth) || !shown(center, radius)) return;

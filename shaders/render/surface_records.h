@@ -57,7 +57,7 @@ struct SurfacePush {
   float perspective;   // 1 or 0
   float near_depth;    // m
   float spacing;       // m
-  uint count;          // particles
+  uint count;          // particles at most; particle_count says how many
   uint width, height;  // pixels of the picture
   uint left, top;      // of the picture in the targets
   uint step;           // pixels per side of a sample

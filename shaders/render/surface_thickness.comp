@@ -7,8 +7,9 @@ layout(local_size_x = kSurfaceGroup) in;
 layout(std430, set = 0, binding = 0) readonly buffer Position { vec4 position[]; };
 layout(std430, set = 0, binding = 1) buffer Thickness { uint thickness[]; };  // in view.unit
 layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };
+layout(std430, set = 0, binding = 3) readonly buffer ParticleCount { uint particle_count; };
 #ifndef NO_SCENE
-layout(std430, set = 0, binding = 3) readonly buffer SceneDepth { float scene_depth[]; };  // m per pixel
+layout(std430, set = 0, binding = 4) readonly buffer SceneDepth { float scene_depth[]; };  // m per pixel
 #endif
 
 bool behindScene(ivec2 at, float z) {
@@ -50,7 +51,7 @@ void addSmall(vec3 center, float side) {
 
 void main() {
   const uint i = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
-  bool live = i < view.count && drawable(position[i].xyz);
+  bool live = i < min(view.count, particle_count) && drawable(position[i].xyz);
   const vec3 center = live ? viewPoint(position[i].xyz) : vec3(0.0);
   // Includes particles within a sample of the picture.
   live = live && center.z > view.near_depth && shownWithin(center, view.radius, float(view.step));

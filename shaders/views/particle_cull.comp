@@ -8,6 +8,7 @@ layout(std430, set = 0, binding = 0) readonly buffer Position { vec4 position[];
 layout(std430, set = 0, binding = 1) readonly buffer Occluders { uint occluders[]; };
 layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 3) writeonly buffer Survivors { uint survivors[]; };
+layout(std430, set = 0, binding = 4) readonly buffer ParticleCount { uint particle_count; };
 
 bool hidden(vec3 center, float radius, ivec4 rect) {
   const uint columns = (view.width + view.cell - 1u) / view.cell;
@@ -24,7 +25,7 @@ bool hidden(vec3 center, float radius, ivec4 rect) {
 
 void main() {
   const uint i = groupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
-  if (i >= view.count) return;
+  if (i >= min(view.count, particle_count)) return;
   const vec3 world = particlePoint(position[i].xyz);
   if (!drawable(world)) return;
   const vec3 center = viewPoint(world);

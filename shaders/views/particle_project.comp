@@ -8,6 +8,7 @@ layout(std140, set = 0, binding = 0) uniform Scene { SceneRecord scene; };
 layout(std430, set = 0, binding = 1) readonly buffer Position { vec4 position[]; };
 layout(std430, set = 0, binding = 2) buffer Occluders { uint occluders[]; };
 layout(std430, set = 0, binding = 3) buffer LightMap { uint light_map[]; };
+layout(std430, set = 0, binding = 4) readonly buffer ParticleCount { uint particle_count; };
 #include "views/particle_light.glsl"
 
 void markLight(vec3 world) {
@@ -53,7 +54,7 @@ void markCells(vec3 center, float radius) {
 
 void main() {
   const uint i = groupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
-  if (i >= view.count) return;
+  if (i >= min(view.count, particle_count)) return;
   const vec3 world = particlePoint(position[i].xyz);
   if (!drawable(world)) return;
   markLight(world);

@@ -33,7 +33,7 @@ vec3 rayOf(vec2 tangent) { return forwardAxis() + rightAxis() * tangent.x + upAx
 // Compares bits because a compiler may assume that there are no NaNs.
 bool drawable(vec3 p) {
   const uvec3 magnitude = floatBitsToUint(p) & 0x7FFFFFFFu;
-  return all(lessThan(magnitude, uvec3(0x58635FA9u)));  // 1e15 m
+  return all(lessThan(magnitude, uvec3(0x4DEE6B28u)));  // 5e8 m: inactive particles are beyond
 }
 
 // At least so large that a disc covers a pixel's center at any position.

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "graph/shader_pass.hpp"
+#include "render/particle_count.hpp"
 #include "render/surface_reference.hpp"
 #include "render/view_push.hpp"
 
@@ -34,7 +35,8 @@ class ParticlesToSamples : public SurfaceOnGpu {
     const Samples samples(push);
     const uint64_t groups = (count_ + surface::kSurfaceGroup - 1) / surface::kSurfaceGroup;
     Graph graph;
-    const BufferRef position = state(graph).position;
+    const FluidState fluid = state(graph);
+    const BufferRef position = fluid.position, count = particleCount(graph, fluid);
     BufferRef occluders = graph.create("occluders", {uint64_t(samples.columns) * uint64_t(samples.rows) * 4});
     BufferRef depth = graph.create("depth", {uint64_t(samples.columns) * uint64_t(samples.rows) * 4});
     BufferRef counters = graph.create("counters", {surface::kSurfaceCounterWords * 4});
@@ -49,7 +51,12 @@ class ParticlesToSamples : public SurfaceOnGpu {
     });
     for (const char* part : {"occlude", "cull", "splat"})
       addDispatch(graph, part, pipeline({.shader = std::string("render/surface_") + part}), groups, push,
-                  {{"position", position}, {"occluders", occluders}, {"counters", counters}, {"survivors", survivors}, {"depth", depth}});
+                  {{"position", position},
+                   {"particle_count", count},
+                   {"occluders", occluders},
+                   {"counters", counters},
+                   {"survivors", survivors},
+                   {"depth", depth}});
     const Ticket depthTicket = graph.readback(depth), counterTicket = graph.readback(counters);
     run(graph);
     const auto counts = read<uint32_t>(graph, counterTicket);

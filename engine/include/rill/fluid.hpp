@@ -83,7 +83,7 @@ struct FluidState {
   BufferRef velocity = {};       ///< vec4 per particle: xyz in m/s; w: density over rest density with FluidStep::stats, else 1
   BufferRef id = {};             ///< uint per particle, which it keeps: unique, below 2^24; at the start its index in the ParticleSet
   BufferRef control = {};        ///< FluidControl (shaders/shared/fluid_records.h)
-  BufferRef countBuffer = {};    ///< its first uint is the number of particles: they are the first entries of the arrays
+  BufferRef countBuffer = {};    ///< its first uint is the number of particles: they are the first entries of the arrays. Renderers take `capacity` where it is null
   BufferRef solids = {};         ///< SolidRecord (solid_records.h) per solid, at the present time; null if no solid is driven
   uint32_t capacity = 0;         ///< entries of the arrays: particles at most; those beyond the particles are inactive, far from all others
   float spacing = 0;             ///< m
