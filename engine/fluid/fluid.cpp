@@ -65,7 +65,7 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
                                           " and holds at most " + std::to_string(kMaxParticles) +
                                           " particles: make fluid.spacing larger or fluid.particles smaller"};
 
-  StartFigures start{.count = static_cast<uint32_t>(n), .capacity = static_cast<uint32_t>(capacity)};
+  StartFigures start{.capacity = static_cast<uint32_t>(capacity)};
   double low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
   bool any = false;
   for (size_t i = 0; i < n; ++i) {

@@ -104,13 +104,18 @@ void setGains(const Scene& scene, FluidSetup& setup) {
   setup.params.layerWarmGainAtRest = f(std::min(setup.limits.layerWarmGainAtRest, kLargest));
 }
 
+// Of all that there is room for, m.
+double cubeEdge(const Scene& scene, const StartFigures& start) {
+  return std::cbrt(static_cast<double>(start.capacity)) * scene.fluid.spacing;
+}
+
 // The head of the start, and what the device needs to follow it: see docs/notes/column-height.md. What nothing can hold may be drops far
 // apart: no column is higher than one drop of all of it.
 void setColumn(const Scene& scene, const StartFigures& start, FluidSetup& setup) {
   FluidParams& p = setup.params;
   float* gravity[3] = {&p.columnGravityX, &p.columnGravityY, &p.columnGravityZ};
   float* limit[3] = {&p.columnLimitX, &p.columnLimitY, &p.columnLimitZ};
-  const double drop = 1.5 * std::cbrt(static_cast<double>(start.count)) * scene.fluid.spacing;
+  const double drop = 1.5 * cubeEdge(scene, start);
   double height[3];
   for (int a = 0; a < 3; ++a) {
     height[a] = setup.near ? start.extent[a] : std::min(start.extent[a], drop);
@@ -125,7 +130,10 @@ void setColumn(const Scene& scene, const StartFigures& start, FluidSetup& setup)
 }
 
 void setSpeeds(const Scene& scene, const StartFigures& start, FluidParams& p) {
-  const SpeedLimits limits = speedLimits(scene, start.extent, start.fastest, std::max<double>(p.solidSpeed, fastestDriven(scene)));
+  // Without a domain nothing else bounds what the fluid becomes when more is added.
+  double extent[3];
+  for (int a = 0; a < 3; ++a) extent[a] = scene.domain ? start.extent[a] : std::max(start.extent[a], cubeEdge(scene, start));
+  const SpeedLimits limits = speedLimits(scene, extent, start.fastest, std::max<double>(p.solidSpeed, fastestDriven(scene)));
   p.warmLimit = f(limits.warm);
   p.minSpeedGain = f(limits.minGain);
   p.maxSpeedGain = f(limits.maxGain);

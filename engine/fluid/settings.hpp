@@ -52,7 +52,6 @@ struct FluidSetup {
 
 /// What is known of the particles before they are placed.
 struct StartFigures {
-  uint32_t count = 0;
   uint32_t capacity = 0;         ///< particles at most
   double origin[3] = {0, 0, 0};  ///< m
   double extent[3] = {0, 0, 0};  ///< m

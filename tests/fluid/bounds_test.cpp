@@ -43,7 +43,7 @@ class BoundsTest : public FluidTest {
 };
 
 FluidSetup setupOf(const Scene& scene) {
-  auto setup = makeFluidSetup(scene, {.count = 360, .extent = {0.3, 0.6, 0.3}});
+  auto setup = makeFluidSetup(scene, {.capacity = 360, .extent = {0.3, 0.6, 0.3}});
   if (!setup) throw std::runtime_error(setup.error().message);
   return *std::move(setup);
 }
@@ -147,23 +147,23 @@ TEST_F(BoundsTest, SettlingGoesAsFarAsAShortStepNeeds) {
 TEST_F(BoundsTest, StepsTooShortForFloatsAreRefused) {
   Scene scene = dam().scene;
   scene.solver.time_step = 1e-9;
-  const auto step = makeFluidSetup(scene, {.count = 360, .extent = {0.3, 0.6, 0.3}});
+  const auto step = makeFluidSetup(scene, {.capacity = 360, .extent = {0.3, 0.6, 0.3}});
   ASSERT_FALSE(step);
   EXPECT_EQ(step.error().kind, ErrorKind::BadInput);
   EXPECT_TRUE(step.error().message.starts_with("solver.time_step: steps of 1e-09 s, ")) << step.error().message;
   scene.solver.time_step = 1e-5;
-  EXPECT_TRUE(makeFluidSetup(scene, {.count = 360, .extent = {0.3, 0.6, 0.3}}));
+  EXPECT_TRUE(makeFluidSetup(scene, {.capacity = 360, .extent = {0.3, 0.6, 0.3}}));
 
   scene = dam().scene;
   scene.fluid.viscosity = 1e9;
-  const auto viscous = makeFluidSetup(scene, {.count = 360, .extent = {0.3, 0.6, 0.3}});
+  const auto viscous = makeFluidSetup(scene, {.capacity = 360, .extent = {0.3, 0.6, 0.3}});
   ASSERT_FALSE(viscous);
   EXPECT_TRUE(viscous.error().message.starts_with("fluid.viscosity: 1e+09 Pa s needs steps of at most ")) << viscous.error().message;
 
   scene = {};
   scene.fluid.spacing = 0.01;
-  EXPECT_TRUE(makeFluidSetup(scene, {.count = 8000, .extent = {500, 0.2, 0.2}})) << "two drops far apart";
-  const auto wide = makeFluidSetup(scene, {.count = 8000, .extent = {5000, 0.2, 0.2}});
+  EXPECT_TRUE(makeFluidSetup(scene, {.capacity = 8000, .extent = {500, 0.2, 0.2}})) << "two drops far apart";
+  const auto wide = makeFluidSetup(scene, {.capacity = 8000, .extent = {5000, 0.2, 0.2}});
   ASSERT_FALSE(wide) << "so far that floats hardly tell places apart";
   EXPECT_TRUE(wide.error().message.starts_with("solver: in 1e+04 m of room this fluid")) << wide.error().message;
 }

@@ -19,7 +19,7 @@ Float3 narrow(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cas
 
 FluidSetup setupOf(const Trial& trial) {
   const auto count = static_cast<uint32_t>(trial.x.size());
-  StartFigures start{.count = count, .capacity = std::max(count, trial.capacity)};
+  StartFigures start{.capacity = std::max(count, trial.capacity)};
   for (int a = 0; a < 3; ++a) {
     start.origin[a] = trial.origin[a];
     double low = std::numeric_limits<double>::infinity(), high = -low;

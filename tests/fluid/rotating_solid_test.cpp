@@ -97,11 +97,11 @@ TEST_F(RotatingSolidTest, PoseOnTheDeviceIsThatOfTheKeyframes) {
 TEST_F(RotatingSolidTest, SpeedBoundHasTheFarthestCorner) {
   Trial t = paddle(4);
   const ParticleSet particles = t.particles();
-  const auto setup = makeFluidSetup(t.scene, {.count = static_cast<uint32_t>(particles.positions.size()), .extent = {1, 0.5, 1}});
+  const auto setup = makeFluidSetup(t.scene, {.capacity = static_cast<uint32_t>(particles.positions.size()), .extent = {1, 0.5, 1}});
   ASSERT_TRUE(setup);
   EXPECT_NEAR(setup->params.solidSpeed, 4 * std::sqrt(0.3 * 0.3 + 0.2 * 0.2 + 0.05 * 0.05), 1e-5);
   t.scene.solids[0].motion = {{0, {0, 0, 0}}, {2, {0, 0, 3}}};
-  const auto moving = makeFluidSetup(t.scene, {.count = 100, .extent = {1, 0.5, 1}});
+  const auto moving = makeFluidSetup(t.scene, {.capacity = 100, .extent = {1, 0.5, 1}});
   ASSERT_TRUE(moving);
   EXPECT_NEAR(moving->params.solidSpeed, 1.5, 1e-6);
 }

@@ -78,6 +78,35 @@ TEST_F(StabilityTest, TankFilledLaterIsAsStableAsOneReleasedFull) {
   }
 }
 
+// A basin of solids without a domain, which starts with one layer.
+TEST_F(StabilityTest, BasinFilledLaterHasTheBoundsOfOneReleasedFull) {
+  const auto basin = [](int layers) {
+    Trial t = tank(layers);
+    t.scene.domain.reset();
+    const double side = 8 * t.d(), high = 40 * t.d(), thick = 4 * t.d();
+    t.scene.solids = {slab({-thick, -thick, -thick}, {side + thick, 0, side + thick}), slab({-thick, 0, -thick}, {0, high, side + thick}),
+                      slab({side, 0, -thick}, {side + thick, high, side + thick}), slab({0, 0, -thick}, {side, high, 0}),
+                      slab({0, 0, side}, {side, high, side + thick})};
+    return t;
+  };
+  std::vector<Float3> more;
+  for (const glm::dvec3& x : block({8, 11, 8}, tank(1).d(), {0, tank(1).d(), 0}))
+    more.push_back({static_cast<float>(x.x), static_cast<float>(x.y), static_cast<float>(x.z)});
+  const Figures full = follow(*start(basin(12)), 24);
+  Trial shallow = basin(1);
+  shallow.capacity = 12 * 64;
+  auto run = start(shallow);
+  run->advance(kFrame);
+  FluidSnapshot state = run->saved();
+  append(state, more, std::vector<Float3>(more.size()));
+  auto filled = start(shallow, &state);
+  const Figures later = follow(*filled, 24);
+  EXPECT_NEAR(filled->control().head, headOf(tank(12), 11), 0.02 * headOf(tank(12), 11));
+  EXPECT_LT(later.maxEnergy, 1.01);
+  EXPECT_NEAR(later.maxEnergy, full.maxEnergy, 0.01);
+  EXPECT_LT(later.meanError, 1.1 * full.meanError);
+}
+
 // Spray, what has left the domain or the simulation, and what is no number.
 TEST_F(StabilityTest, SparseParticlesAreNoColumn) {
   const Trial t = tank(12);

@@ -74,7 +74,7 @@ class Numbers {
 };
 
 StartFigures figuresOf(const ParticleSet& set) {
-  StartFigures start{.count = static_cast<uint32_t>(set.positions.size())};
+  StartFigures start{.capacity = static_cast<uint32_t>(set.positions.size())};
   std::copy_n(set.origin, 3, start.origin);
   for (const Float3& p : set.positions) {
     const float v[3] = {p.x, p.y, p.z};
@@ -102,7 +102,7 @@ TEST(MutatedScenes, AreRejectedOrRun) {
     (void)fluidMemory(scene, 1000);
     const auto made = makeParticles(scene, 3000);
     if (made) scene.fluid.spacing = made->spacing;
-    const auto setup = makeFluidSetup(scene, made ? figuresOf(*made) : StartFigures{.count = 100, .extent = {1, 1, 1}});
+    const auto setup = makeFluidSetup(scene, made ? figuresOf(*made) : StartFigures{.capacity = 100, .extent = {1, 1, 1}});
     if (!checked) {
       ++rejected;
       ASSERT_FALSE(made);

@@ -79,11 +79,12 @@ struct FluidStep {
 
 /// The particles of a frame, as buffers of its graph. Read them with any Use. Buffers of particles have an unused entry after `capacity`.
 struct FluidState {
-  BufferRef position = {};       ///< vec4 per particle: xyz in m relative to `origin`; w unused
-  BufferRef velocity = {};       ///< vec4 per particle: xyz in m/s; w: density over rest density with FluidStep::stats, else 1
-  BufferRef id = {};             ///< uint per particle, which it keeps: unique, below 2^24; at the start its index in the ParticleSet
-  BufferRef control = {};        ///< FluidControl (shaders/shared/fluid_records.h)
-  BufferRef countBuffer = {};    ///< its first uint is the number of particles: they are the first entries of the arrays. Renderers take `capacity` where it is null
+  BufferRef position = {};  ///< vec4 per particle: xyz in m relative to `origin`; w unused
+  BufferRef velocity = {};  ///< vec4 per particle: xyz in m/s; w: density over rest density with FluidStep::stats, else 1
+  BufferRef id = {};        ///< uint per particle, which it keeps: unique, below 2^24; at the start its index in the ParticleSet
+  BufferRef control = {};   ///< FluidControl (shaders/shared/fluid_records.h)
+  /// Its first uint is the number of particles: they are the first entries of the arrays. Null: renderers take `capacity`.
+  BufferRef countBuffer = {};
   BufferRef solids = {};         ///< SolidRecord (solid_records.h) per solid, at the present time; null if no solid is driven
   uint32_t capacity = 0;         ///< entries of the arrays: particles at most; those beyond the particles are inactive, far from all others
   float spacing = 0;             ///< m
