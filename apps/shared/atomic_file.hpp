@@ -23,7 +23,7 @@ Expected<void> writeFile(const std::filesystem::path& file, std::span<const std:
 Expected<void> writeFile(const std::filesystem::path& file, std::string_view text);
 
 /// Writes to standard output or standard error (STDOUT_FILENO, STDERR_FILENO). A stream that is closed, or whose reader
-/// has exited, is not an error: nobody reads the rest. Io for anything else, such as a full disk.
+/// has exited, is not an error: the rest is not read. Io for anything else, such as a full disk.
 Expected<void> writeStream(int stream, std::span<const std::byte> bytes);
 Expected<void> writeStream(int stream, std::string_view text);
 

@@ -46,7 +46,7 @@ Expected<PipedProcess> PipedProcess::start(const fs::path& program, std::span<co
   int ends[2] = {-1, -1};
   if (::pipe2(ends, O_CLOEXEC) != 0) return cannotStart(name, errno);
   Descriptor output(ends[0]), input(ends[1]);
-  // A file, not a pipe: nobody has to read it while the process runs.
+  // A file, not a pipe, which would have to be read while the process runs.
   Descriptor log(::memfd_create("log", MFD_CLOEXEC));
   if (log.get() < 0) return cannotStart(name, errno);
 

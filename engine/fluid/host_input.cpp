@@ -63,12 +63,12 @@ void FluidImpl::declareDrive(Graph& graph, const FluidStep& step) {
     drive.from.push_back(from);
     to = from;
     for (const SolidTarget& target : step.targets) {
-      double way[3];
-      for (int a = 0; a < 3; ++a) way[a] = target.center[a] - origin[a] - from[a];
-      const double length = std::hypot(way[0], way[1], way[2]);
+      double displacement[3];
+      for (int a = 0; a < 3; ++a) displacement[a] = target.center[a] - origin[a] - from[a];
+      const double length = std::hypot(displacement[0], displacement[1], displacement[2]);
       if (target.solid != driven.solid || !std::isfinite(length)) continue;
       const double share = length > 0 ? std::min(1.0, driven.fastest * step.advance_s / length) : 0.0;
-      for (int a = 0; a < 3; ++a) to[a] = static_cast<float>(from[a] + share * way[a]);
+      for (int a = 0; a < 3; ++a) to[a] = static_cast<float>(from[a] + share * displacement[a]);
       drivenSpeed_ = std::max(drivenSpeed_, static_cast<float>(share * length / step.advance_s));
     }
     std::copy(to.begin(), to.end(), driven.center);

@@ -140,7 +140,7 @@ void setSpeeds(const Scene& scene, const StartFigures& start, FluidParams& p) {
   p.speedLimit = f(limits.speed);
 }
 
-// No step is longer than the fluid can bear, whatever is asked for.
+// No step is longer than the longest stable one, whatever is asked for.
 void setLongestStep(const Scene& scene, FluidSetup& setup) {
   const StabilityLimits& limits = setup.limits;
   const uint32_t iterations = setup.params.iterations;
@@ -261,7 +261,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
     setup.warnings.push_back("solver.cfl " + roundedNumber(scene.solver.cfl) +
                              " leaves no room to part particles in: " + roundedNumber(kLeastCfl) + " is taken");
   p.iterations = scene.solver.iterations;
-  // Iterations do not stop at an error that the fluid cannot bear.
+  // Iterations do not stop at an error at which the fluid is unstable.
   p.tolerance = f(p.iterations > 1 ? std::min(scene.solver.tolerance, kStableError) : scene.solver.tolerance);
   p.maxSubsteps = scene.solver.max_substeps;
   p.maxStep = f(scene.solver.time_step.value_or(1.0 / 60));

@@ -46,7 +46,7 @@ struct FluidSetup {
   bool near = false;                      ///< walls or solids displace density
   bool thin = false;                      ///< walls that face each other can both be near a particle
   bool movingSolids = false;
-  bool warm = false;  ///< there is a warm start: multipliers and pushes are kept
+  bool warm = false;  ///< there is a warm start: multipliers and accelerations are kept
   std::vector<std::string> warnings;
 };
 
@@ -64,7 +64,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
 /// Whether a scene's substeps start from the multipliers of the ones before.
 bool startsWarm(const Scene& scene);
 
-/// The dynamic viscosity that damps particle noise in a fluid at rest, Pa s; 0 where there is none.
+/// The dynamic viscosity that damps particle noise in a fluid at rest, Pa s; 0 without noise damping.
 double artificialViscosity(const Scene& scene);
 
 /// Neighbors that the list holds a particle, a multiple of 4: what a lattice compressed by a fifth puts within the reach.

@@ -30,7 +30,7 @@ constexpr double kWarmGainAtRest = 1.2, kMaxWarmGainAtRest = 0.005;
 // With this kappa pressure still followed a dam's flow; without one the start's would stay for ever.
 constexpr double kLeastFollowing = 0.001;
 
-// How much less error a step bears with a warm start: at 0.05 0.0032 held, 0.0036 gained a quarter of energy; at 0.02 0.0036 gained 2.5 %.
+// How much less error is stable with a warm start: at 0.05 0.0032 held, 0.0036 gained a quarter of energy; at 0.02 0.0036 gained 2.5 %.
 constexpr double kStableGain = 40;
 // Mean compression of a column, over that of one which rests on its corrections alone (see stepOfError).
 constexpr double kErrorOfHead = 0.38;
@@ -61,7 +61,7 @@ double stepOfError(const SmoothingKernel& kernel, double error, double relaxatio
   return d * std::sqrt(error / (kErrorOfHead * gradients * d * d / (4 * relaxation)));
 }
 
-double bearableStep(const SmoothingKernel& kernel, const StabilityLimits& limits, uint32_t iterations, double gain) {
+double stableStepOf(const SmoothingKernel& kernel, const StabilityLimits& limits, uint32_t iterations, double gain) {
   const double error = kStableError * iterations / (1 + kStableGain * limits.softness * gain);
   return stepOfError(kernel, error, limits.relaxationInMotion / limits.softness);
 }
@@ -109,7 +109,7 @@ StabilityLimits stabilityLimits(const Scene& scene, const SmoothingKernel& kerne
       scene.solver.relaxation ? limits.relaxationInMotion : f(std::min(limits.relaxationWanted, kOfJacobiLimitAtRest * most));
   limits.warmGainInMotion = f(gain);
   limits.softness = softnessOf(scene);
-  limits.stableStep = bearableStep(kernel, limits, scene.solver.iterations, limits.warmGainInMotion);
+  limits.stableStep = stableStepOf(kernel, limits, scene.solver.iterations, limits.warmGainInMotion);
   // Half of what the tolerance allows: from the whole step on, a dam's worst particles are a quarter more compressed.
   const double tolerance = scene.solver.tolerance;
   limits.toleratedStep = tolerance > 0 ? 0.5 * stepOfError(kernel, tolerance, limits.relaxationAtRest / limits.softness) : kInfinite;
@@ -130,20 +130,20 @@ double StabilityLimits::motionSpeed(double head) const { return double{kMotionSh
 
 double StabilityLimits::errorRateShareAtRest(double head) const { return 1 / std::max(1.0, double{kErrorSubsteps} * layers(head)); }
 
-// It is found for the longest step in which the defaults bear the fluid: in shorter ones the rounding of positions hides it, in longer ones
-// the column folds. Where no pressure is carried from substep to substep there is none.
+// It is found for the longest step that is stable with the defaults: in shorter ones the rounding of positions hides it, in longer ones
+// the column folds. Zero where no pressure is carried from substep to substep.
 InitialPressure initialPressure(const Scene& scene, const SmoothingKernel& kernel, const StabilityLimits& limits, double head,
                                 double room) {
   if (head <= 0 || limits.warmGainInMotion < f(kLeastFollowing)) return {};
   const StartPressure start = startPressure(kernel, limits.relaxationAtRest, boundedRegularization(scene).taken, limits.layers(head),
                                             kMaxInitialPressureIterations);
-  InitialPressure result{start.iterations, start.momentum, bearableStep(kernel, limits, 1, kWarmGain / limits.softness) / std::sqrt(head),
+  InitialPressure result{start.iterations, start.momentum, stableStepOf(kernel, limits, 1, kWarmGain / limits.softness) / std::sqrt(head),
                          0};
   // A compression e of a column as high as all the fluid would be released within a step, at e times its height over that step: at most a
   // twentieth of what falling through a spacing gives. And not below what rounding leaves of any start.
   const double g = strongestGravity(scene);
-  const double bearable = 0.05 * std::sqrt(g * scene.fluid.spacing) * f(result.step) * g / head;
-  result.errorLimit = std::max({bearable, 2.0e-6, 0x1p-24 * room / scene.fluid.spacing});
+  const double noticed = 0.05 * std::sqrt(g * scene.fluid.spacing) * f(result.step) * g / head;
+  result.errorLimit = std::max({noticed, 2.0e-6, 0x1p-24 * room / scene.fluid.spacing});
   return result;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The longest steps and the largest gains that a fluid bears without gaining energy. See docs/notes/time-step-and-substeps.md and
+// The longest steps and the largest gains at which a fluid gains no energy. See docs/notes/time-step-and-substeps.md and
 // docs/notes/noise-damping.md.
 #include <cstdint>
 
@@ -8,7 +8,7 @@
 
 namespace rill {
 
-/// Mean compression by its own weight that an iteration bears. 0.007 held, 0.013 exploded (dam10k without warm start).
+/// Mean compression by its own weight at which one iteration is stable. 0.007 held, 0.013 exploded (dam10k without warm start).
 inline constexpr double kStableError = 0.0055;
 
 /// m/s^2, of the whole schedule.
@@ -24,7 +24,7 @@ struct Bounded {
 };
 /// epsilon, a fraction of the rest lattice's D.
 Bounded boundedRegularization(const Scene& scene);
-/// kappa of a fluid in motion: as much of it as the waves can bear.
+/// kappa of a fluid in motion: as much of it as waves are stable at.
 Bounded boundedWarmGain(const Scene& scene);
 
 /// Limits of a scene's fluid. `head`: see columnHead(). The device evaluates the same formulas for the fluid as it is:

@@ -89,7 +89,7 @@ class PipelineStore {
   std::vector<std::unique_ptr<GraphicsPipeline>> graphics_;
 };
 
-/// The embedded shader of that name; null if there is none.
+/// The embedded shader of that name, or null.
 const EmbeddedShader* embeddedShader(const DeviceImpl& device, std::string_view name);
 /// What the stages of a pipeline declare together. Fails with Shader if they disagree, or leave out a binding number.
 struct Reflection {

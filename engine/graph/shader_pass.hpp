@@ -58,7 +58,8 @@ struct BoundResource {
   BufferRef* buffer = nullptr;  ///< in place of `ref`: advances to its new version if the shader writes it
   ImageRef* image = nullptr;
   bool discard = false;  ///< the shader writes all of it that is read later
-  bool atomic = false;   ///< a buffer that is written by commutative atomics alone, whose results decide at most a carry into the same buffer
+  bool atomic =
+      false;  ///< a buffer that is written by commutative atomics alone, whose results decide at most a carry into the same buffer
 };
 
 /// Declares what the shader of `pipeline` reads and writes, and binds it, in the order of its bindings. Writing a resource that is given as
@@ -68,7 +69,7 @@ Kernel bindShader(Pass& pass, const ComputePipeline* pipeline, std::span<const B
 Kernel bindShader(Pass& pass, const GraphicsPipeline* pipeline, std::span<const BoundResource> resources);
 
 /// The same by names. Resources that the shader does not name are left alone; one that
-/// it names and nobody gives, and a written one given as read-only, are errors that compile() reports.
+/// it names and that is not given, and a written one given as read-only, are errors that compile() reports.
 Kernel bindNamed(Pass& pass, const ComputePipeline* pipeline, std::span<const Named> resources);
 Kernel bindNamed(Pass& pass, const GraphicsPipeline* pipeline, std::span<const Named> resources);
 template <class AnyPipeline>

@@ -16,7 +16,7 @@ using SimulationKeys = std::vector<std::pair<std::string, std::string>>;
 /// `scene` and `start` must come from makeParticles(). The last key, "start", is a hash of the particles.
 SimulationKeys simulationKeys(const Scene& scene, const ParticleSet& start);
 
-/// Describes the first difference: "KEY: found Y, expected X". Empty if there is none. `expected` are the keys of the checkpoint.
+/// Describes the first difference: "KEY: found Y, expected X". Empty without a difference. `expected` are the keys of the checkpoint.
 std::string firstDifference(const SimulationKeys& expected, const SimulationKeys& found);
 
 }  // namespace rill

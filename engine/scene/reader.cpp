@@ -19,7 +19,7 @@ bool isNonFiniteWord(std::string_view text) {
   return word == "nan" || word == "inf" || word == "infinity";
 }
 
-/// The first dotted path in the scene whose last key is `key`; empty if there is none.
+/// The first dotted path in the scene whose last key is `key`, or an empty one.
 template <class Owner>
 std::string pathOfKey(std::string_view key, const std::string& path) {
   std::string found;

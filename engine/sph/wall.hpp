@@ -26,7 +26,7 @@ struct WallSample {
   void cover(double displaced, const double direction[3]);
 };
 
-/// What walls do to a correction: the push of the neighbors is multiplied by this symmetric matrix, (1 - wallCoverage)^-1.
+/// What walls do to a correction: the neighbors' share is multiplied by this symmetric matrix, (1 - wallCoverage)^-1.
 struct WallScale {
   double diagonal[3] = {1, 1, 1};  ///< xx, yy, zz
   double mixed[3] = {0, 0, 0};     ///< yz, zx, xy

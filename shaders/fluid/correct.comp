@@ -1,7 +1,7 @@
 #version 460
 // Ends a substep in one loop over the neighbors: position correction (Macklin and Mueller 2013,
 // equations 12 to 14), walls, velocity, and the prediction of the next substep with the warm
-// start's push. Gathers from `work`: the prediction, and the two multipliers as halves.
+// start's acceleration. Gathers from `work`: the prediction, and the two multipliers as halves.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
@@ -25,9 +25,9 @@ layout(std430, binding = 13) writeonly buffer FreeBlock { vec4 freeVelocity[]; }
 layout(std430, binding = 14) buffer WarmBlock { float warm[]; };
 
 vec3 here;
-vec2 own;                     // multiplier change, warm start; in the unit
-vec3 moved = vec3(0.0);       // m, once scaled
-vec3 pushed = vec3(0.0);      // m, once scaled
+vec2 own;                           // multiplier change, warm start; in the unit
+vec3 correction = vec3(0.0);        // m, once scaled
+vec3 warmDisplacement = vec3(0.0);  // m, once scaled
 
 float unit = params.inverseRestGradient / kMultiplierScale;  // m^2, of the multipliers
 float tensile = control.artificialPressure * kMultiplierScale;
@@ -45,17 +45,17 @@ void visit(vec4 particle) {
   if (ARTIFICIAL_PRESSURE) {
     both.x -= tensile * max(pow(min(kernelShape(distance) * tensileScale, 1.0), tensilePower) - tensileAtRest, 0.0);
   }
-  moved += both.x * gradient;
-  if (WARM) pushed += both.y * gradient;
+  correction += both.x * gradient;
+  if (WARM) warmDisplacement += both.y * gradient;
 }
 #include "fluid/neighbors.glsl"
 
 // Displacement from the start of the substep to its prediction. Computed from the velocity where
 // nothing else changed the prediction: the rounding of a difference of positions would make a
 // random walk of the velocity.
-vec3 predictedDisplacement(vec3 from, vec3 velocity, vec3 push) {
+vec3 predictedDisplacement(vec3 from, vec3 velocity, vec3 acceleration) {
   vec3 difference = here - from;
-  vec3 planned = control.step * (velocity + control.step * (gravity() + push));
+  vec3 planned = control.step * (velocity + control.step * (gravity() + acceleration));
   vec3 rounding = 3.0e-7 * (abs(from) + abs(here));
   return all(lessThanEqual(abs(difference - planned), rounding)) ? planned : difference;
 }
@@ -70,19 +70,19 @@ void main() {
   own = multipliers(particle);
   visitNeighbors(i, local, inRange);
   if (!inRange) return;
-  moved *= unit * params.gradientScale;
-  pushed *= unit * params.gradientScale;
+  correction *= unit * params.gradientScale;
+  warmDisplacement *= unit * params.gradientScale;
   if (NEAR) {
     vec3 wall = unit * displacedAt(i).xyz;
     WallScale walls = wallScaleAt(i);  // see docs/notes/walls-and-solids.md
-    moved = atWalls(walls, SOLIDS, moved, own.x * wall);
-    pushed = atWalls(walls, SOLIDS, pushed, own.y * wall);
+    correction = atWalls(walls, SOLIDS, correction, own.x * wall);
+    warmDisplacement = atWalls(walls, SOLIDS, warmDisplacement, own.y * wall);
   }
 
   vec3 from = position[i].xyz, before = velocity[i].xyz;
-  vec4 pushedBy = WARM ? warmAcceleration[i] : vec4(0.0);
+  vec4 lastAcceleration = WARM ? warmAcceleration[i] : vec4(0.0);
   bool solvesPressure = control.phase == kPhaseInitialPressure;
-  vec3 to = solvesPressure ? from : insideWalls(here + moved);
+  vec3 to = solvesPressure ? from : insideWalls(here + correction);
   // A correction separates particles in full, but adds no more speed than can have brought them
   // together: see docs/notes/overlaps.md.
   vec3 gained = to - here;
@@ -91,25 +91,25 @@ void main() {
                                   4.0 * control.step * sqrt(dot(gravity(), gravity())));
   float kept = min(1.0, maxGain / max(gain, 1.0e-20));
   // clamping deep overlaps also dissipates energy
-  vec3 way = (0.5 + 0.5 * kept) * predictedDisplacement(from, before, pushedBy.xyz) + gained * kept;
+  vec3 displacement = (0.5 + 0.5 * kept) * predictedDisplacement(from, before, lastAcceleration.xyz) + gained * kept;
   // At most twice the distance that cfl allows: the next step shrinks to follow a faster particle.
-  float most = max(2.0 * params.cfl, 0.02) * params.spacing;
-  vec3 moves = to - from;
-  float far = sqrt(dot(moves, moves));
-  if (far > most) { way *= most / far; to = insideWalls(from + moves * (most / far)); }
-  way *= min(1.0, min(most, params.speedLimit * control.step) / max(sqrt(dot(way, way)), 1.0e-20));
+  float limit = max(2.0 * params.cfl, 0.02) * params.spacing;
+  vec3 whole = to - from;
+  float far = sqrt(dot(whole, whole));
+  if (far > limit) { displacement *= limit / far; to = insideWalls(from + whole * (limit / far)); }
+  displacement *= min(1.0, min(limit, params.speedLimit * control.step) / max(sqrt(dot(displacement, displacement)), 1.0e-20));
   // not (to - from): a particle that starts outside the walls is moved inside without a change of
   // velocity
-  vec3 v = control.phase == kPhaseAdvancing ? way / control.step : before;
-  vec3 away = pushed / (control.warmStep * control.warmStep);
-  vec3 next = insideWalls(predicted(to, v, away));
+  vec3 v = control.phase == kPhaseAdvancing ? displacement / control.step : before;
+  vec3 acceleration = warmDisplacement / (control.warmStep * control.warmStep);
+  vec3 next = insideWalls(predicted(to, v, acceleration));
   bool finite = isFinite(to) && isFinite(next);
   if (!finite) {
-    bool gone = isFinite(here) || !isActive(from);  // left through an open side, or inactive before
-    if (!gone) { atomicAdd(sums.nonFinite, 1u); }
+    bool left = isFinite(here) || !isActive(from);  // left through an open side, or inactive before
+    if (!left) { atomicAdd(sums.nonFinite, 1u); }
     to = from;
     v = vec3(0.0);
-    away = vec3(0.0);
+    acceleration = vec3(0.0);
     next = from;
     if (WARM) warm[i] = 0.0;
   }
@@ -117,12 +117,12 @@ void main() {
   if (WARM && solvesPressure) {  // heavy ball (Polyak 1964): the last change goes on in the next, if there is one
     found = warm[i];
     float momentum = control.nextPhase == kPhaseInitialPressure ? params.initialPressureMomentum : 0.0;
-    warm[i] = min(0.0, found + momentum * (found - pushedBy.w));
+    warm[i] = min(0.0, found + momentum * (found - lastAcceleration.w));
   }
   position[i] = vec4(to, 0.0);
   if (SOLIDS) freeVelocity[i] = vec4(before + control.step * gravity(), prediction[i].w);
   velocity[i] = vec4(v, 1.0);
-  if (WARM) warmAcceleration[i] = vec4(away, found);
+  if (WARM) warmAcceleration[i] = vec4(acceleration, found);
   prediction[i] = vec4(next, 0.0);
 
   float fastest = subgroupMax(sqrt(dot(v, v)));

@@ -10,7 +10,7 @@ READ_UINT(4, arrived)
 READ_UINT(5, order)  // of cells with more than kBinLimit particles
 #include "sort/place.glsl"
 
-// The particle that is moved in the name of `slot`, by its place before the sort; and its new one.
+// The particle that the invocation `slot` moves, by its place before the sort; and its new place.
 uint arrival(uint slot, out uint place) {
   uint from = arrivedAt(slot), key = keyAt(from);
   uint begin = startAt(key), end = startAt(key + 1u);

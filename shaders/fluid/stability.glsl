@@ -1,4 +1,4 @@
-// The longest step and the gains at rest that the fluid bears, from its head: gravity times the
+// The longest stable step and the gains at rest, from the fluid's head: gravity times the
 // height of its column, m^2/s^2. The formulas are those of engine/fluid/stability_limits.cpp. Needs `params`.
 #ifndef RILL_STABILITY_GLSL
 #define RILL_STABILITY_GLSL

@@ -11,7 +11,7 @@ layout(binding = 1) uniform ControlBlock { FluidControl control; };
 #define NEAR_PLANE(n) (n)
 #define NEAR_CORNER(n) (params.capacity + (n))
 
-// Particles that left the simulation wait at kInactivePosition, with the dummy neighbor that pads the lists.
+// Particles that left the simulation lie at kInactivePosition, with the dummy neighbor that pads the lists.
 bool isActive(vec3 x) { return !(x.x >= 0.5 * kInactivePosition); }
 
 // Keeps a center half a spacing off the domain's walls. NaN and inactive particles are returned unchanged.
@@ -24,7 +24,7 @@ vec3 insideWalls(vec3 x) {
               x.z < low.z ? low.z : (x.z > high.z ? high.z : x.z));
 }
 
-// The warm-start acceleration, m/s^2; without a warm start its array is a placeholder that nobody wrote.
+// The warm-start acceleration, m/s^2; without a warm start its array is a placeholder, not written.
 vec3 keptWarmAcceleration(vec4 stored) { return WARM ? stored.xyz : vec3(0.0); }
 
 bool isFinite(vec3 x) {

@@ -1,6 +1,6 @@
 #version 460
 // One sweep of XSPH (Schechter and Bridson 2012; Macklin and Mueller 2013, equation 17), its
-// coefficient that of a dynamic viscosity in Pa s: the fluid's own, or that which calms noise. The
+// coefficient that of a dynamic viscosity in Pa s: the fluid's own, or that of noise damping. The
 // pairs are those of the density pass: gathers from `work`, and velocities.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require

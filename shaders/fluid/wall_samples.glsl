@@ -5,7 +5,7 @@
 #define NEAR_DISPLACED(i) (2u * (i))         // gradient of the displaced density; w: its value
 #define NEAR_TANGENTIAL(i) (2u * (i) + 1u)   // tangential scale: its diagonal less 1; w: the rest, packed
 
-// What a wall does to a correction: the push of the neighbors is multiplied by a symmetric matrix that
+// What a wall does to a correction: the neighbors' share is multiplied by a symmetric matrix that
 // makes up, along each wall, for the support that is missing behind it.
 struct WallScale {
   vec3 diagonal;
@@ -13,10 +13,10 @@ struct WallScale {
 };
 const WallScale kNoWalls = WallScale(vec3(1.0), vec3(0.0));
 
-// The push of the neighbors, scaled, and that of the walls. `solids`: there are any; without them nothing is off the diagonal.
-vec3 atWalls(WallScale s, bool solids, vec3 push, vec3 wall) {
-  vec3 sum = s.diagonal * push + wall;
-  if (solids) sum += s.mixed.zxy * push.yzx + s.mixed.yzx * push.zxy;
+// The neighbors' share, scaled, and that of the walls. `solids`: there are any; without them nothing is off the diagonal.
+vec3 atWalls(WallScale s, bool solids, vec3 neighbors, vec3 wall) {
+  vec3 sum = s.diagonal * neighbors + wall;
+  if (solids) sum += s.mixed.zxy * neighbors.yzx + s.mixed.yzx * neighbors.zxy;
   return sum;
 }
 

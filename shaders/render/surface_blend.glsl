@@ -14,7 +14,7 @@ const float kConverged = 0.25;   // spacings: a step below this is the last
 const float kMinPlaneWeight = 0.5;  // weight of planes above which a step's result is used
 
 struct Blend {
-  float depth;         // of the surface; the given depth if there is none
+  float depth;         // of the surface; the given depth without a surface
   float plane_weight;  // weight of planes minus that of balls
   float coverage;      // of the pixel by fluid: 0.5 at the silhouette
   vec3 normal;         // in view space, towards the eye

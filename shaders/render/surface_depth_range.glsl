@@ -1,4 +1,4 @@
-// Nearest and farthest depth of the spheres in the samples around a pixel; unchanged if there is none. Needs `depth`.
+// Nearest and farthest depth of the spheres in the samples around a pixel; unchanged without spheres. Needs `depth`.
 void depthRange(ivec2 own, inout float nearest, inout float farthest) {
   const ivec2 grid = ivec2(sampleGrid());
   for (int y = max(own.y - 1, 0); y <= min(own.y + 1, grid.y - 1); ++y)

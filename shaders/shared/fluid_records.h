@@ -44,7 +44,7 @@ RILL_CONST uint kOverShape = 0u;           // a number of groups that was fixed 
 RILL_CONST uint kOverParticles = 1u;       // all particles
 RILL_CONST uint kOverChunk = 2u;           // those of a buffer of the neighbor list
 RILL_CONST uint kOverLists = 3u;           // the same, of the variant that reads lists alone: no list overflowed
-RILL_CONST uint kOverGrid = 4u;            // the same, of the variant that walks the grid: a list did, or there is none
+RILL_CONST uint kOverGrid = 4u;            // the same, of the variant that walks the grid: a list overflowed, or the fluid has no list
 RILL_CONST uint kOverPlane = 5u;           // the particles near one wall
 RILL_CONST uint kOverCorner = 6u;          // those near several walls or a solid
 RILL_CONST uint kMaxCommands = 64u;
@@ -79,8 +79,8 @@ struct FluidParams {
   float tolerance;        // mean compression aimed for; 0: none
   uint maxSubsteps;       // an advance
   uint iterations;        // Jacobi iterations a substep, at most
-  float lowX, lowY, lowZ;     // m, walls; -kNoWall where there is none
-  float highX, highY, highZ;  // m; kNoWall where there is none
+  float lowX, lowY, lowZ;     // m, walls; -kNoWall without a wall
+  float highX, highY, highZ;  // m; kNoWall without a wall
   float margin;           // m, how near a center may come to a wall or a solid: half a spacing
   uint gridSizeX, gridSizeY, gridSizeZ;  // cells a dimension
   float inverseCell;      // 1/m, in y and z

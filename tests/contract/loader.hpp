@@ -3,7 +3,7 @@
 
 namespace rill::test {
 
-/// Of libvulkan, opened at run time; null where there is none.
+/// Of libvulkan, opened at run time; null without a loader.
 PFN_vkGetInstanceProcAddr loaderFunction();
 
 }  // namespace rill::test

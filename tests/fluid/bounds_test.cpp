@@ -1,4 +1,4 @@
-// What is asked for beyond what the method bears: bounded so that no energy comes of it, or refused.
+// What is asked for beyond what is stable: bounded so that no energy comes of it, or refused.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -120,7 +120,7 @@ TEST_F(DeterminismTest, RecordedAheadOrOneByOne) {
   EXPECT_EQ(waited, run->snapshot());
 }
 
-// The order in which a scene lists its particles is nobody's business but the ids': the sums differ in their order alone.
+// The order in which a scene lists its particles changes nothing but the ids: the sums differ in their order alone.
 TEST_F(DeterminismTest, OrderOfTheParticlesIsRounding) {
   Trial t = dam();
   t.step = 1e-3;

@@ -80,8 +80,8 @@ TEST_F(FluidInput, StepsThatCannotBe) {
   EXPECT_EQ(invalid({.advance_s = -0.1}), "FluidStep::advance_s is -0.1; expected a finite time of at least 0 (s)");
   EXPECT_EQ(invalid({.advance_s = kInf}), "FluidStep::advance_s is inf; expected a finite time of at least 0 (s)");
   EXPECT_EQ(invalid({.advance_s = 1e300}), "FluidStep::advance_s is 1e+300; expected a finite time of at least 0 (s)");
-  const SolidTarget nobody[] = {{.solid = 0}, {.solid = 7}};
-  EXPECT_EQ(invalid({.advance_s = 0.01, .targets = nobody}), "FluidStep::targets[1].solid is 7; the scene has 1 solid");
+  const SolidTarget unknown[] = {{.solid = 0}, {.solid = 7}};
+  EXPECT_EQ(invalid({.advance_s = 0.01, .targets = unknown}), "FluidStep::targets[1].solid is 7; the scene has 1 solid");
   for (const double v : run->fluid().drivenCenter(7)) EXPECT_TRUE(std::isnan(v));
   EXPECT_TRUE(std::isfinite(run->fluid().drivenCenter(0)[0]));
   EXPECT_EQ(run->snapshot(), before);

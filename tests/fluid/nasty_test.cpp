@@ -166,9 +166,9 @@ TEST_F(NastyTest, ManyCoincidentParticlesPart) {
   EXPECT_EQ(outsideOf(t, s), 0u);
 }
 
-// A block with a hundred times the rest density. A substep moves nobody farther than twice what cfl allows, half a spacing, and may be half
-// as long as the one before: four of them take a particle out of the reach of all others, with at most 2^4 times half a spacing a first
-// step. From then on walls take energy out.
+// A block with a hundred times the rest density. A substep moves no particle farther than twice what cfl allows, half a spacing, and may be
+// half as long as the one before: four of them take a particle out of the reach of all others, with at most 2^4 times half a spacing a
+// first step. From then on walls take energy out.
 TEST_F(NastyTest, CrushedBlockStaysInsideAtABoundedSpeed) {
   Trial t = trial();
   setWalls(t, {1, 1, 1});
@@ -325,7 +325,7 @@ TEST_F(NastyTest, LeavesThroughAnOpenSide) {
   }
 }
 
-// Beyond what floats can tell apart, nothing moves any more, and nobody else is harmed.
+// Beyond what floats can tell apart, nothing moves any more, and other particles are unharmed.
 TEST_F(NastyTest, FliesAwayForEver) {
   Trial t = trial();
   t.scene.fluid.spacing = 1.0 / 1024;

@@ -87,7 +87,7 @@ TEST_F(PassRunsTest, OfOneFrameEachOrOfAllSinceTheLastLook) {
     run->substeps(4);
     EXPECT_EQ(corrections().executed, 4u);
   }
-  for (int frame = 0; frame < 3; ++frame) {  // frames that nobody asks after
+  for (int frame = 0; frame < 3; ++frame) {  // frames whose runs are not read
     Graph graph;
     run->fluid().addTo(graph, {.advance_s = 4 * t.step, .substeps = 12});
     runGraph(graph);

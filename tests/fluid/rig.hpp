@@ -27,7 +27,7 @@ struct Trial {
   double step = 1e-3;            ///< s
   Gather gather = Gather::Texel;
   uint32_t capacity = 0;  ///< 0: as many as there are particles
-  bool settle = false;    ///< the oracle finds the start's pressure, but parts nobody: what settles should fit its room
+  bool settle = false;    ///< the oracle finds the start's pressure, but parts no particles: what settles should fit its room
   bool stepwise = false;  ///< each substep is an advance of its own: the noise damping pass then runs in every one
 
   double d() const { return scene.fluid.spacing; }

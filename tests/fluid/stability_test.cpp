@@ -11,7 +11,7 @@ namespace stability_test {
 
 constexpr double kFrame = 1.0 / 60;
 
-/// Water that fills its tank from side to side, in the longest steps that it bears.
+/// Water that fills its tank from side to side, in the longest stable steps.
 Trial tank(int layers) {
   Trial t = trial();
   t.scene.solver.relaxation.reset();

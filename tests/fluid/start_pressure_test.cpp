@@ -1,4 +1,4 @@
-// The pressure that bears the fluid's weight is there when time begins: no wave is released, and nothing else changes.
+// The pressure that holds the fluid's weight is there when time begins: no wave is released, and nothing else changes.
 #include <glm/geometric.hpp>
 #include <limits>
 

@@ -202,7 +202,7 @@ TEST_F(StepControlTest, GravityTurnsWithinAStep) {
   EXPECT_LE(run->snapshot().v[0].y, 1e-4);
 }
 
-// A piston across the whole tank drives the water before it; nobody is left inside it or behind it.
+// A piston across the whole tank drives the water before it; no particle is left inside it or behind it.
 TEST_F(StepControlTest, PistonPushesWithoutPenetration) {
   Trial t = dam({7, 6, 4}, {1, 0.75, 0.25});
   const double face = 0.125;

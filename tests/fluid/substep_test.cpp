@@ -83,7 +83,7 @@ TEST_F(SubstepTest, AcrossTheGridsSeams) {
 TEST_F(SubstepTest, Poly6Spiky) {
   Trial t = trial();
   t.scene.solver.kernel = KernelChoice::Poly6Spiky;
-  t.scene.solver.relaxation = 0.6;  // of what this kernel bears
+  t.scene.solver.relaxation = 0.6;  // of what is stable with this kernel
   setWalls(t, {1, 1, 1});
   t.x = block({6, 7, 6}, t.d(), {}, 0.1);
   expectEqual(t, 1, kOne, kOne);
@@ -93,7 +93,7 @@ TEST_F(SubstepTest, Poly6Spiky) {
 TEST_F(SubstepTest, WideSupport) {
   Trial t = trial();
   t.scene.fluid.smoothing_ratio = 3;
-  t.scene.solver.relaxation = 0.25;  // of what this support bears
+  t.scene.solver.relaxation = 0.25;  // of what is stable with this support
   setWalls(t, {1, 1, 1});
   t.x = block({6, 7, 6}, t.d(), {}, 0.1);
   expectEqual(t, 10, kTen, kTen);

@@ -16,7 +16,7 @@ struct Band {
   std::string_view reason;  ///< why the band is wider than the aim
 };
 std::span<const Band> bands();
-/// The first matching band; null if there is none.
+/// The first matching band, or null.
 const Band* bandOf(std::string_view family, std::string_view figure);
 
 }  // namespace rill::bench
