@@ -4,21 +4,19 @@
 
 namespace rill::bench {
 
-Scene boxScene(double spacing_m, const Point& min, const Point& max) {
+Scene boxScene(double spacing_m, const Double3& min, const Double3& max) {
   Scene scene;
   scene.name = "bench";
   scene.fluid.spacing = spacing_m;
   scene.domain.emplace();
-  std::ranges::copy(min, scene.domain->min);
-  std::ranges::copy(max, scene.domain->max);
+  scene.domain->min = min;
+  scene.domain->max = max;
   return scene;
 }
 
-Fill boxFill(const Point& min, const Point& max) {
+Fill boxFill(const Double3& min, const Double3& max) {
   Fill fill;
-  auto& box = fill.shape.emplace<BoxShape>();
-  std::ranges::copy(min, box.min);
-  std::ranges::copy(max, box.max);
+  fill.shape = BoxShape{min, max};
   return fill;
 }
 

@@ -1,14 +1,10 @@
 #pragma once
-#include <array>
-
 #include "rill/scene.hpp"
 
 namespace rill::bench {
 
-using Point = std::array<double, 3>;
-
 /// A scene with default settings in a closed box, m.
-Scene boxScene(double spacing_m, const Point& min, const Point& max);
-Fill boxFill(const Point& min, const Point& max);
+Scene boxScene(double spacing_m, const Double3& min, const Double3& max);
+Fill boxFill(const Double3& min, const Double3& max);
 
 }  // namespace rill::bench

@@ -10,17 +10,17 @@ namespace {
 constexpr double kEdgeWidth = 1.5;  // spacings
 constexpr double kDepthStep = 4;    // spacings: smallest step in depth that is an edge
 
-double angleDegrees(const double* a, const double* b) {
+double angleDegrees(const Double3& a, const Double3& b) {
   return std::acos(std::clamp(a[0] * b[0] + a[1] * b[1] + a[2] * b[2], -1.0, 1.0)) * 180 / std::numbers::pi;
 }
 
 double meanOf(double sum, double count) { return sum / std::max(count, 1.0); }
 
 /// Applies to `n` the minimal rotation that maps `from` to (0, 0, -1).
-std::array<double, 3> rotated(const std::array<double, 3>& n, const double* from) {
+Double3 rotated(const Double3& n, const Double3& from) {
   const double axis[2] = {-from[1], from[0]};  // cross product of `from` and (0, 0, -1); its z is 0
-  const double cross[3] = {axis[1] * n[2], -axis[0] * n[2], axis[0] * n[1] - axis[1] * n[0]};
-  const double twice[3] = {axis[1] * cross[2], -axis[0] * cross[2], axis[0] * cross[1] - axis[1] * cross[0]};
+  const Double3 cross = {axis[1] * n[2], -axis[0] * n[2], axis[0] * n[1] - axis[1] * n[0]};
+  const Double3 twice = {axis[1] * cross[2], -axis[0] * cross[2], axis[0] * cross[1] - axis[1] * cross[0]};
   const double scale = 1 / (1 - from[2]);  // 1 / (1 + cosine); visible surfaces face the eye
   return {n[0] + cross[0] + scale * twice[0], n[1] + cross[1] + scale * twice[1], n[2] + cross[2] + scale * twice[2]};
 }
@@ -62,7 +62,7 @@ Errors surfaceErrors(const ReferenceSurface& surface, const RenderedSurface& ren
     both += found && expected;
     either += found || expected;
     if (!found || !expected) continue;
-    const double error = angleDegrees(rendered.normal[i].data(), surface.points[i].normal);
+    const double error = angleDegrees(rendered.normal[i], surface.points[i].normal);
     if (surface.regions[i] == Edge) {
       edgeSum += error;
       ++edges;
@@ -90,7 +90,7 @@ double normalChange(const RenderedSurface& before, const RenderedSurface& after,
   double sum = 0, count = 0;
   for (size_t i = 0; i < before.depth.size(); ++i) {
     if (!std::isfinite(before.depth[i]) || !(std::abs(before.depth[i] - after.depth[i]) <= maxDepthDifference)) continue;
-    sum += angleDegrees(before.normal[i].data(), after.normal[i].data());
+    sum += angleDegrees(before.normal[i], after.normal[i]);
     ++count;
   }
   return meanOf(sum, count);
@@ -105,7 +105,7 @@ double errorChange(const ReferenceSurface& referenceBefore, const RenderedSurfac
     if (!std::isfinite(before.depth[i]) || !std::isfinite(after.depth[i])) continue;
     const auto a = rotated(before.normal[i], referenceBefore.points[i].normal),
                b = rotated(after.normal[i], referenceAfter.points[i].normal);
-    sum += angleDegrees(a.data(), b.data());
+    sum += angleDegrees(a, b);
     ++count;
   }
   return meanOf(sum, count);

@@ -17,8 +17,8 @@ struct Eye {
 
 /// A surface read back from the GPU, one value per pixel.
 struct RenderedSurface {
-  std::vector<float> depth;                   ///< infinite: no fluid
-  std::vector<std::array<double, 3>> normal;  ///< in view space
+  std::vector<float> depth;     ///< infinite: no fluid
+  std::vector<Double3> normal;  ///< in view space
 };
 
 /// The analytic surface per pixel.

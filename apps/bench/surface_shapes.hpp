@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "rill/float3.hpp"
 #include "rill/fluid_renderer.hpp"
+#include "rill/vectors.hpp"
 
 namespace rill::bench {
 
 /// Analytic depth and normal at a pixel. View space: x right, y up, z away from the eye; lengths in spacings.
 struct ReferencePoint {
   double depth = 0;
-  double normal[3] = {0, 0, -1};  ///< unit length, towards the eye
+  Double3 normal = {0, 0, -1};  ///< unit length, towards the eye
 };
 
 /// Largest random displacement of particles along the surface and along its normal, spacings.

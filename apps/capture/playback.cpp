@@ -46,7 +46,7 @@ Expected<void> show(offline::Player& player, const fs::path& file, double time_s
   if (!opened) return Error{opened.error().kind, "--play: " + opened.error().message};
   auto particles = opened->read();
   if (!particles) return Error{particles.error().kind, "--play: " + particles.error().message};
-  double origin[3] = {0, 0, 0};
+  Double3 origin = {0, 0, 0};
   if (!particles->positions.empty()) {
     const Double3& first = particles->positions.front();
     origin[0] = first.x, origin[1] = first.y, origin[2] = first.z;

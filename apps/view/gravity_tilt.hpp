@@ -10,6 +10,6 @@ enum class Tilt { Left, Right, Away, Towards };
 
 /// Gravity rotated by `degrees` towards the horizontal direction `tilt` of the image, at most until it is parallel to it.
 /// Its magnitude is kept.
-std::array<double, 3> tilted(const std::array<double, 3>& gravity, const CameraView& eye, Tilt tilt, double degrees);
+Double3 tilted(const Double3& gravity, const CameraView& eye, Tilt tilt, double degrees);
 
 }  // namespace rill::view

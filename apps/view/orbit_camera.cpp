@@ -24,11 +24,11 @@ void OrbitCamera::home(const CameraView& view) {
 }
 
 OrbitCamera::Pose OrbitCamera::pose(const CameraView& view) {
-  std::array<double, 3> away{};
+  Double3 away{};
   for (size_t a = 0; a < 3; ++a) away[a] = view.eye[a] - view.target[a];
   Pose pose;
   pose.distance = std::clamp(std::hypot(away[0], away[1], away[2]), kNearest, kFarthest);
-  std::copy_n(view.target, 3, pose.target.begin());
+  pose.target = view.target;
   pose.pitch = std::clamp(std::asin(std::clamp(away[1] / pose.distance, -1.0, 1.0)), -kPole, kPole);
   pose.yaw = std::atan2(away[0], away[2]);
   return pose;
@@ -113,7 +113,7 @@ bool OrbitCamera::moving() const {
 }
 
 CameraView OrbitCamera::viewOf(const Pose& pose, double fov_y_deg) {
-  const double direction[3] = {std::cos(pose.pitch) * std::sin(pose.yaw), std::sin(pose.pitch), std::cos(pose.pitch) * std::cos(pose.yaw)};
+  const Double3 direction = {std::cos(pose.pitch) * std::sin(pose.yaw), std::sin(pose.pitch), std::cos(pose.pitch) * std::cos(pose.yaw)};
   CameraView view;
   view.fov_y_deg = fov_y_deg;
   for (int a = 0; a < 3; ++a) {

@@ -31,9 +31,9 @@ class OrbitCamera {
 
  private:
   struct Pose {
-    std::array<double, 3> target{};  // m
-    double distance = 1;             // m
-    double yaw = 0, pitch = 0;       // radians; yaw 0 looks along -z, pitch is the elevation of the eye
+    Double3 target{};           // m
+    double distance = 1;        // m
+    double yaw = 0, pitch = 0;  // radians; yaw 0 looks along -z, pitch is the elevation of the eye
   };
   static Pose pose(const CameraView& view);
   void unwrapYaw();  ///< chooses the shorter direction of rotation

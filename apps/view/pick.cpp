@@ -7,7 +7,7 @@
 namespace rill::view {
 namespace {
 
-using Vector = std::array<double, 3>;
+using Vector = Double3;
 
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -26,7 +26,7 @@ Ray rayThrough(const CameraView& eye, double right, double down) {
   return ray;
 }
 
-std::optional<Picked> pick(const Ray& ray, std::span<const Float3> positions, const double origin[3], double radius,
+std::optional<Picked> pick(const Ray& ray, std::span<const Float3> positions, const Double3& origin, double radius,
                            std::span<const Solid> solids, std::span<const Pose> poses) {
   std::optional<Picked> first;
   const auto take = [&](std::optional<double> distance, std::optional<uint32_t> solid) {

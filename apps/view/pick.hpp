@@ -5,15 +5,15 @@
 #include <optional>
 #include <span>
 
-#include "rill/float3.hpp"
+#include "rill/vectors.hpp"
 #include "shape/pose.hpp"
 #include "views/camera.hpp"
 
 namespace rill::view {
 
 struct Ray {
-  std::array<double, 3> from{}, along{};  ///< m; unit vector
-  std::array<double, 3> at(double distance) const {
+  Double3 from{}, along{};  ///< m; unit vector
+  Double3 at(double distance) const {
     return {from[0] + distance * along[0], from[1] + distance * along[1], from[2] + distance * along[2]};
   }
 };
@@ -27,13 +27,13 @@ struct Picked {
 };
 
 /// The first hit of the ray: spheres of `radius` at the positions (m, relative to `origin`), or solids with these poses.
-std::optional<Picked> pick(const Ray& ray, std::span<const Float3> positions, const double origin[3], double radius,
+std::optional<Picked> pick(const Ray& ray, std::span<const Float3> positions, const Double3& origin, double radius,
                            std::span<const Solid> solids, std::span<const Pose> poses);
 
 /// Distance at which the ray enters a box, m; 0 from inside; nullopt for a miss.
-std::optional<double> entry(const Ray& ray, const std::array<double, 3>& low, const std::array<double, 3>& high);
+std::optional<double> entry(const Ray& ray, const Double3& low, const Double3& high);
 
 /// Distance at which the ray hits the plane through `point` with this normal, m; nullopt for a miss.
-std::optional<double> hitPlane(const Ray& ray, const std::array<double, 3>& point, const std::array<double, 3>& normal);
+std::optional<double> hitPlane(const Ray& ray, const Double3& point, const Double3& normal);
 
 }  // namespace rill::view

@@ -159,7 +159,7 @@ Expected<uint64_t> Runner::add(const Fill& fill) {
     const Pose current = pose(k), first = solidPose(scene_.solids[k], 0);
     only.solids[k].motion = {
         {0, {current.center[0] - first.center[0], current.center[1] - first.center[1], current.center[2] - first.center[2]}}};
-    std::ranges::copy(current.rotation, only.solids[k].rotation);
+    only.solids[k].rotation = current.rotation;
   }
   const auto more = makeParticles(only);
   if (!more) return more.error();
@@ -185,7 +185,7 @@ Expected<uint64_t> Runner::add(const Fill& fill) {
 
 Pose Runner::pose(uint32_t solid) const {
   Pose current = solidPose(scene_.solids[solid], time_s());
-  if (scene_.solids[solid].driven > 0) std::ranges::copy(fluid_->drivenCenter(solid), current.center.begin());
+  if (scene_.solids[solid].driven > 0) current.center = fluid_->drivenCenter(solid);
   return current;
 }
 

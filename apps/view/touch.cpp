@@ -14,7 +14,7 @@ constexpr double kThrown = 1.2;       // radius of thrown balls, of that radius
 constexpr double kPickRadius = 0.75;  // spacings: above 0.71 the spheres of a lattice leave no gap
 
 struct Box {
-  std::array<double, 3> low{}, high{};
+  Double3 low{}, high{};
   double longest() const { return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]}); }
 };
 
@@ -70,10 +70,10 @@ Expected<bool> Touch::grab(Session& session, const CameraView& eye, const Ray& r
     held = *picked->solid;
     for (size_t a = 0; a < 3; ++a) offset_[a] = poses[held].center[a] - point_[a];
     if (solids[held].driven != speed) {
-      Vec3 moved = poses[held].center;
+      Double3 moved = poses[held].center;
       for (size_t a = 0; a < 3; ++a) moved[a] -= solidPose(solids[held], 0).center[a];
       translate(solids[held].shape, moved);
-      std::ranges::copy(poses[held].rotation, solids[held].rotation);
+      solids[held].rotation = poses[held].rotation;
       solids[held].motion.clear();
       solids[held].driven = speed;
       if (auto done = session.changeSolids(std::move(solids)); !done) return done.error();
@@ -82,7 +82,7 @@ Expected<bool> Touch::grab(Session& session, const CameraView& eye, const Ray& r
     const double radius = ballRadius(session);
     const auto before = ray.at(picked->distance - radius - spacing);
     Solid ball;
-    ball.shape = SphereShape{{before[0], before[1], before[2]}, radius};
+    ball.shape = SphereShape{before, radius};
     ball.driven = speed;
     solids.push_back(ball);
     if (auto done = session.changeSolids(std::move(solids)); !done) return done.error();
@@ -95,7 +95,7 @@ Expected<bool> Touch::grab(Session& session, const CameraView& eye, const Ray& r
 
 void Touch::drag(Session& session, const CameraView& eye, const Ray& ray) {
   if (!solid_) return;
-  std::ranges::copy(cameraBasis(eye).forward, normal_.begin());
+  normal_ = cameraBasis(eye).forward;
   const auto distance = hitPlane(ray, point_, normal_);
   if (!distance) return;
   point_ = ray.at(*distance);

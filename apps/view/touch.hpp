@@ -30,8 +30,8 @@ class Touch {
 
  private:
   std::optional<uint32_t> solid_;
-  bool ball_ = false;                                    // a ball is grabbed
-  std::array<double, 3> point_{}, normal_{}, offset_{};  // of the drag plane; from its point to the solid's center
+  bool ball_ = false;                      // a ball is grabbed
+  Double3 point_{}, normal_{}, offset_{};  // of the drag plane; from its point to the solid's center
 };
 
 }  // namespace rill::view

@@ -337,7 +337,7 @@ class Viewer {
       showMessage("The scene has no gravity to tilt");
       return {};
     }
-    const auto g = tilted({scene.gravity[0], scene.gravity[1], scene.gravity[2]}, controls_.camera.view(), direction, kDegrees);
+    const auto g = tilted(scene.gravity, controls_.camera.view(), direction, kDegrees);
     char text[96];
     std::snprintf(text, sizeof text, "[%.9g, %.9g, %.9g]", g[0], g[1], g[2]);
     return applied(session_->change({"gravity", text}), "gravity");

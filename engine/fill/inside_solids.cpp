@@ -12,8 +12,10 @@ size_t InsideSolids::cellAlong(size_t axis, double x) const {
 }
 
 InsideSolids::InsideSolids(std::span<const Solid> solids) {
-  low_.fill(std::numeric_limits<double>::infinity());
-  high_.fill(-std::numeric_limits<double>::infinity());
+  for (size_t axis = 0; axis < 3; ++axis) {
+    low_[axis] = std::numeric_limits<double>::infinity();
+    high_[axis] = -low_[axis];
+  }
   for (const Solid& solid : solids) {
     const Pose pose = solidPose(solid, 0);
     const Body& body = bodies_.emplace_back(Body{solid.shape, pose, sceneExtents(solid.shape, pose)});
@@ -38,7 +40,7 @@ InsideSolids::InsideSolids(std::span<const Solid> solids) {
   }
 }
 
-bool InsideSolids::contain(const Vec3& p, double margin) const {
+bool InsideSolids::contain(const Double3& p, double margin) const {
   for (size_t axis = 0; axis < 3; ++axis) {
     if (!(p[axis] > low_[axis] && p[axis] < high_[axis])) return false;
   }

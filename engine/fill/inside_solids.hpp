@@ -14,19 +14,19 @@ class InsideSolids {
   explicit InsideSolids(std::span<const Solid> solids);
 
   /// Whether p (m, scene coordinates) is deeper than `margin` (m) inside a solid.
-  bool contain(const Vec3& p, double margin) const;
+  bool contain(const Double3& p, double margin) const;
 
  private:
   struct Body {
     Shape shape;
     Pose pose;
-    Vec3 extents;  ///< half extents of the axis-aligned bounds
+    Double3 extents;  ///< half extents of the axis-aligned bounds
   };
   size_t cellAlong(size_t axis, double x) const;
 
   std::vector<Body> bodies_;
-  size_t cells_ = 1;           // along each axis
-  Vec3 low_ = {}, high_ = {};  // bounds of all bodies
+  size_t cells_ = 1;              // along each axis
+  Double3 low_ = {}, high_ = {};  // bounds of all bodies
   std::vector<std::vector<uint32_t>> inCell_;
 };
 

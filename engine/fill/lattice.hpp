@@ -9,10 +9,10 @@ namespace rill {
 
 /// A box or sphere fill at a given spacing. Points are at first + index x spacing on each axis.
 struct Lattice {
-  double first[3] = {0, 0, 0};  ///< m, scene coordinates of the first point
-  double size[3] = {0, 0, 0};   ///< points along each axis: whole numbers, as doubles since they may exceed 64 bits
-  double spacing = 0;           ///< m
-  double radius = -1;           ///< m, of the sphere centered on the lattice; negative: a box
+  Double3 first = {0, 0, 0};  ///< m, scene coordinates of the first point
+  Double3 size = {0, 0, 0};   ///< points along each axis: whole numbers, as doubles since they may exceed 64 bits
+  double spacing = 0;         ///< m
+  double radius = -1;         ///< m, of the sphere centered on the lattice; negative: a box
 
   double boxCount() const { return size[0] * size[1] * size[2]; }
 };

@@ -55,14 +55,13 @@ double randomSigned(uint64_t seed, uint64_t fill, uint64_t particle, uint64_t ax
 
 /// Axis-aligned bounds of particles; empty if low > high.
 struct Bounds {
-  double low[3] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
-                   std::numeric_limits<double>::infinity()};
-  double high[3] = {-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
-                    -std::numeric_limits<double>::infinity()};
+  Double3 low = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  Double3 high = {-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+                  -std::numeric_limits<double>::infinity()};
 
   bool empty() const { return low[0] > high[0]; }
   void add(double x, double y, double z) {
-    const double p[3] = {x, y, z};
+    const Double3 p = {x, y, z};
     for (int axis = 0; axis < 3; ++axis) {
       low[axis] = std::min(low[axis], p[axis]);
       high[axis] = std::max(high[axis], p[axis]);
@@ -109,16 +108,16 @@ class Placer {
       : scene_(scene), out_(out), solids_(scene.solids), placed_(placed), spacing_(scene.fluid.spacing) {}
 
   /// `p`: position in scene coordinates, m. `number`: index within the fill.
-  void add(const double (&p)[3], const Float3& velocity, size_t fill, uint64_t number, Source& source) {
+  void add(const Double3& p, const Float3& velocity, size_t fill, uint64_t number, Source& source) {
     const double jitter = scene_.fill[fill].jitter * spacing_;
-    double at[3], lattice[3];
+    Double3 at, lattice;
     for (int axis = 0; axis < 3; ++axis) {
       lattice[axis] = p[axis] - out_.origin[axis];
       at[axis] = jitter > 0 ? p[axis] + jitter * randomSigned(scene_.seed, fill, number, static_cast<uint64_t>(axis)) : p[axis];
     }
     if (beyondWall(at)) {
       ++source.domain;
-    } else if (solids_.contain(std::to_array(at), kSlack * spacing_)) {
+    } else if (solids_.contain(at, kSlack * spacing_)) {
       ++source.solid;
     } else if (placed_ != nullptr &&
                placed_->overlaps(lattice, static_cast<uint32_t>(fill), kOverlap * spacing_ * (1 - kSlack), kCoincident * spacing_)) {
@@ -134,7 +133,7 @@ class Placer {
  private:
   bool closed(int side) const { return (scene_.domain->open >> side & 1) == 0; }
 
-  bool beyondWall(const double (&p)[3]) const {
+  bool beyondWall(const Double3& p) const {
     if (!scene_.domain) return false;
     const double slack = kSlack * spacing_;
     for (int axis = 0; axis < 3; ++axis) {
@@ -145,7 +144,7 @@ class Placer {
   }
 
   /// Position relative to the origin, clamped to closed walls against rounding.
-  Float3 relative(const double (&p)[3]) const {
+  Float3 relative(const Double3& p) const {
     float r[3];
     for (int axis = 0; axis < 3; ++axis) {
       r[axis] = static_cast<float>(p[axis] - out_.origin[axis]);
@@ -183,9 +182,9 @@ void placeFill(const Scene& scene, size_t index, Source& source, Placer& placer)
       uint64_t begin = 0, end = 0;
       rowOf(lattice, j, k, begin, end);
       for (uint64_t i = begin; i < end; ++i) {
-        const double p[3] = {lattice.first[0] + static_cast<double>(i) * lattice.spacing,
-                             lattice.first[1] + static_cast<double>(j) * lattice.spacing,
-                             lattice.first[2] + static_cast<double>(k) * lattice.spacing};
+        const Double3 p = {lattice.first[0] + static_cast<double>(i) * lattice.spacing,
+                           lattice.first[1] + static_cast<double>(j) * lattice.spacing,
+                           lattice.first[2] + static_cast<double>(k) * lattice.spacing};
         placer.add(p, velocity, index, (k * ny + j) * nx + i, source);
       }
     }

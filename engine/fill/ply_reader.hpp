@@ -6,13 +6,9 @@
 #include <vector>
 
 #include "rill/expected.hpp"
-#include "rill/float3.hpp"
+#include "rill/vectors.hpp"
 
 namespace rill {
-
-struct Double3 {
-  double x = 0, y = 0, z = 0;
-};
 
 struct PlyParticles {
   std::vector<Double3> positions;  ///< m

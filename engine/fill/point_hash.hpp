@@ -17,7 +17,7 @@ class PointHash {
     points_.reserve(expected);
   }
 
-  void insert(const double (&p)[3], uint32_t group) {
+  void insert(const Double3& p, uint32_t group) {
     int64_t cell[3];
     for (int axis = 0; axis < 3; ++axis) cell[axis] = index(p[axis] / cell_);
     uint32_t& head = heads_[slot(cell[0], cell[1], cell[2])];
@@ -26,7 +26,7 @@ class PointHash {
   }
 
   /// Whether a point of another group is closer than `otherGroup` to p, or one of the same group closer than `sameGroup`.
-  bool overlaps(const double (&p)[3], uint32_t group, double otherGroup, double sameGroup) const {
+  bool overlaps(const Double3& p, uint32_t group, double otherGroup, double sameGroup) const {
     // Cells are two reaches wide: the cell of p and its neighbor on the closer side cover the reach on each axis.
     int64_t low[3];
     for (int axis = 0; axis < 3; ++axis) low[axis] = index(p[axis] / cell_ - 0.5);
@@ -45,7 +45,7 @@ class PointHash {
  private:
   static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
   struct Point {
-    double at[3];
+    Double3 at;
     uint32_t group, next;
   };
 

@@ -29,7 +29,7 @@ double fastestSolid(const Scene& scene) {
     const double radius = boundingRadius(solid.shape);
     for (size_t k = 1; k < solid.motion.size(); ++k) {
       const Pose pose = solidPose(solid, solid.motion[k - 1].at);
-      fastest = std::max(fastest, length(pose.velocity.data()) + radius * length(pose.angularVelocity.data()));
+      fastest = std::max(fastest, length(pose.velocity) + radius * length(pose.angularVelocity));
     }
   }
   return fastest;
@@ -41,7 +41,7 @@ double fastestDriven(const Scene& scene) {
   return fastest;
 }
 
-void addSolids(const Scene& scene, const SmoothingKernel& kernel, const double origin[3], FluidSetup& setup) {
+void addSolids(const Scene& scene, const SmoothingKernel& kernel, const Double3& origin, FluidSetup& setup) {
   for (const Solid& solid : scene.solids) {
     SolidRecord record{};
     record.pose = recordOf(solidPose(solid, 0.0), origin);
@@ -74,7 +74,7 @@ void addSolids(const Scene& scene, const SmoothingKernel& kernel, const double o
   }
 }
 
-void setWalls(const Scene& scene, const double origin[3], FluidParams& p) {
+void setWalls(const Scene& scene, const Double3& origin, FluidParams& p) {
   float* low[3] = {&p.lowX, &p.lowY, &p.lowZ};
   float* high[3] = {&p.highX, &p.highY, &p.highZ};
   float* boundLow[3] = {&p.boundLowX, &p.boundLowY, &p.boundLowZ};

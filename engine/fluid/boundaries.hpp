@@ -11,9 +11,9 @@ double fastestSolid(const Scene& scene);
 double fastestDriven(const Scene& scene);
 
 /// The records of a scene's solids at time 0, their keyframes, and the tables of its spheres.
-void addSolids(const Scene& scene, const SmoothingKernel& kernel, const double origin[3], FluidSetup& setup);
+void addSolids(const Scene& scene, const SmoothingKernel& kernel, const Double3& origin, FluidSetup& setup);
 /// Walls, the domain's bounds, and how near a center may come to them.
-void setWalls(const Scene& scene, const double origin[3], FluidParams& p);
+void setWalls(const Scene& scene, const Double3& origin, FluidParams& p);
 /// The density that walls displace: plane, edge, corner and face.
 void addWallTables(const SmoothingKernel& kernel, FluidSetup& setup);
 

@@ -97,9 +97,9 @@ void FluidImpl::poll() const {
       s.densityErrorMax = m.compressionMax;
       s.densitySignedMedian = result.signedMedian;
       s.kinetic_J = 0.5 * mass * m.kinetic;
-      const double sum[3] = {m.positionX + n * origin[0], m.positionY + n * origin[1], m.positionZ + n * origin[2]};
-      const double gravity[3] = {control.gravityX, control.gravityY, control.gravityZ};
-      const double velocity[3] = {m.velocityX, m.velocityY, m.velocityZ};
+      const Double3 sum = {m.positionX + n * origin[0], m.positionY + n * origin[1], m.positionZ + n * origin[2]};
+      const Double3 gravity = {control.gravityX, control.gravityY, control.gravityZ};
+      const Double3 velocity = {m.velocityX, m.velocityY, m.velocityZ};
       for (int a = 0; a < 3; ++a) {
         s.potential_J -= mass * gravity[a] * sum[a];
         s.momentum[a] = mass * velocity[a];

@@ -66,13 +66,13 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
                                           " particles: make fluid.spacing larger or fluid.particles smaller"};
 
   StartFigures start{.capacity = static_cast<uint32_t>(capacity)};
-  double low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+  Double3 low = {0, 0, 0}, high = {0, 0, 0};
   bool any = false;
   for (size_t i = 0; i < n; ++i) {
     const Float3 &x = particles.positions[i], &u = particles.velocities[i];
     if (!finite(x)) continue;
     if (const float speed = speedOf(u); std::isfinite(speed)) start.fastest = std::max<double>(start.fastest, speed);
-    const double v[3] = {x.x, x.y, x.z};
+    const Double3 v = {x.x, x.y, x.z};
     for (int a = 0; a < 3; ++a) {
       low[a] = any ? std::min(low[a], v[a]) : v[a];
       high[a] = any ? std::max(high[a], v[a]) : v[a];
@@ -88,7 +88,7 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   impl->setup = std::move(*setup);
   impl->capacity = static_cast<uint32_t>(capacity);
   impl->count = static_cast<uint32_t>(desc.snapshot ? desc.snapshot->id.size() : n);
-  std::copy(particles.origin, particles.origin + 3, impl->origin);
+  impl->origin = particles.origin;
 
   if (desc.snapshot)
     if (auto fits = checkSnapshot(*desc.snapshot, snapshotShape(impl->setup)); !fits) return fits.error();

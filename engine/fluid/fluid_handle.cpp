@@ -37,12 +37,12 @@ std::vector<FluidPassRuns> Fluid::passRuns() const {
   return impl_->passRuns();
 }
 
-std::array<double, 3> Fluid::drivenCenter(uint32_t solid) const {
+Double3 Fluid::drivenCenter(uint32_t solid) const {
   const auto& driven = impl_->setup.driven;
   const auto found = std::find_if(driven.begin(), driven.end(), [solid](const DrivenSolid& d) { return d.solid == solid; });
-  std::array<double, 3> center;
-  center.fill(std::numeric_limits<double>::quiet_NaN());
-  if (found == driven.end()) return center;
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  if (found == driven.end()) return {kNaN, kNaN, kNaN};
+  Double3 center;
   for (size_t a = 0; a < 3; ++a) center[a] = impl_->origin[a] + found->center[a];
   return center;
 }

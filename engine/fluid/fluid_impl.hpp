@@ -68,7 +68,7 @@ class FluidImpl {
   std::vector<FluidBuffer> made;  ///< the buffers, for reports
   uint32_t capacity = 0;          ///< particles at most
   mutable uint32_t count = 0;     ///< particles at the end of the last frame that is known to have finished
-  double origin[3] = {0, 0, 0};
+  Double3 origin = {0, 0, 0};
   mutable std::optional<FluidStats> stats;
   mutable FluidProgress progress;
 
@@ -96,7 +96,7 @@ class FluidImpl {
   struct Drive {
     uint64_t number = 0;
     uint64_t frame = 0;  ///< into whose commands it was recorded; 0: not yet
-    std::vector<std::array<float, 3>> from;
+    std::vector<Float3> from;
   };
 
   // fluid.cpp

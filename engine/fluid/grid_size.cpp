@@ -9,7 +9,7 @@ namespace rill {
 
 uint64_t maxGridCells(uint64_t particles) { return std::max<uint64_t>(4096, 4 * particles); }
 
-GridSize chooseGridSize(double cell, const double extent[3], uint64_t particles) {
+GridSize chooseGridSize(double cell, const Double3& extent, uint64_t particles) {
   const GridSize least;
   GridSize size;
   size.cell = cell;

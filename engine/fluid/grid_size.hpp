@@ -1,6 +1,8 @@
 #pragma once
 #include <cstdint>
 
+#include "rill/vectors.hpp"
+
 namespace rill {
 
 /// The wrapped grid: cell coordinates are taken modulo its size a dimension, so that particles may be anywhere.
@@ -16,6 +18,6 @@ uint64_t maxGridCells(uint64_t particles);
 
 /// Dimensions that cover `extent` (m) where that takes at most about four cells a particle, else wrapped, the longest dimension halved
 /// first. Clearing and scanning cost a cell what a sort costs a particle, so more cells than that buy nothing.
-GridSize chooseGridSize(double cell, const double extent[3], uint64_t particles);
+GridSize chooseGridSize(double cell, const Double3& extent, uint64_t particles);
 
 }  // namespace rill

@@ -43,7 +43,7 @@ void FluidImpl::forgetAbandoned() {
     uploadFrame_.reset();
   }
   for (; !drives_.empty() && device_->abandoned(drives_.back().frame); drives_.pop_back())
-    for (size_t k = 0; k < setup.driven.size(); ++k) std::ranges::copy(drives_.back().from[k], setup.driven[k].center);
+    for (size_t k = 0; k < setup.driven.size(); ++k) setup.driven[k].center = drives_.back().from[k];
   while (!drives_.empty() && drives_.front().frame <= device_->clock.completed) drives_.pop_front();
 }
 
@@ -58,12 +58,11 @@ void FluidImpl::declareDrive(Graph& graph, const FluidStep& step) {
   drive.number = ++driveCount_;
   drivenSpeed_ = 0;
   for (DrivenSolid& driven : setup.driven) {
-    std::array<float, 3> from{}, to{};
-    std::copy(std::begin(driven.center), std::end(driven.center), from.begin());
+    const Float3 from = driven.center;
+    Float3 to = from;
     drive.from.push_back(from);
-    to = from;
     for (const SolidTarget& target : step.targets) {
-      double displacement[3];
+      Double3 displacement;
       for (int a = 0; a < 3; ++a) displacement[a] = target.center[a] - origin[a] - from[a];
       const double length = std::hypot(displacement[0], displacement[1], displacement[2]);
       if (target.solid != driven.solid || !std::isfinite(length)) continue;
@@ -71,9 +70,9 @@ void FluidImpl::declareDrive(Graph& graph, const FluidStep& step) {
       for (int a = 0; a < 3; ++a) to[a] = static_cast<float>(from[a] + share * displacement[a]);
       drivenSpeed_ = std::max(drivenSpeed_, static_cast<float>(share * length / step.advance_s));
     }
-    std::copy(to.begin(), to.end(), driven.center);
-    const auto key = [](const std::array<float, 3>& x, double at) {
-      return KeyframeRecord{.x = x[0], .y = x[1], .z = x[2], .at = static_cast<float>(at), .rotationW = 1};
+    driven.center = to;
+    const auto key = [](const Float3& x, double at) {
+      return KeyframeRecord{.x = x.x, .y = x.y, .z = x.z, .at = static_cast<float>(at), .rotationW = 1};
     };
     keys.push_back({uint64_t{setup.solids[driven.solid].firstKey} * sizeof(KeyframeRecord), {key(from, 0), key(to, step.advance_s)}});
   }

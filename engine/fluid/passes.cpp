@@ -64,7 +64,7 @@ FluidState FluidImpl::described() const {
   FluidState state;
   state.capacity = capacity;
   state.spacing = setup.params.spacing;
-  std::copy(origin, origin + 3, state.origin);
+  state.origin = origin;
   return state;
 }
 

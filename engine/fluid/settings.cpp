@@ -74,7 +74,7 @@ void setNoiseDamping(const Scene& scene, const SmoothingKernel& kernel, FluidSet
                                                                                  : "fluid.viscosity is larger";
 }
 
-double widest(const double room[3]) { return std::max({room[0], room[1], room[2]}); }
+double widest(const Double3& room) { return std::max({room[0], room[1], room[2]}); }
 
 void setRegularization(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
   const auto [wanted, taken] = boundedRegularization(scene);
@@ -116,7 +116,7 @@ void setColumn(const Scene& scene, const StartFigures& start, FluidSetup& setup)
   float* gravity[3] = {&p.columnGravityX, &p.columnGravityY, &p.columnGravityZ};
   float* limit[3] = {&p.columnLimitX, &p.columnLimitY, &p.columnLimitZ};
   const double drop = 1.5 * cubeEdge(scene, start);
-  double height[3];
+  Double3 height;
   for (int a = 0; a < 3; ++a) {
     height[a] = setup.near ? start.extent[a] : std::min(start.extent[a], drop);
     *gravity[a] = setup.near ? f(strongestGravity(scene, a)) : 0.0f;
@@ -131,7 +131,7 @@ void setColumn(const Scene& scene, const StartFigures& start, FluidSetup& setup)
 
 void setSpeeds(const Scene& scene, const StartFigures& start, FluidParams& p) {
   // Without a domain nothing else bounds what the fluid becomes when more is added.
-  double extent[3];
+  Double3 extent;
   for (int a = 0; a < 3; ++a) extent[a] = scene.domain ? start.extent[a] : std::max(start.extent[a], cubeEdge(scene, start));
   const SpeedLimits limits = speedLimits(scene, extent, start.fastest, std::max<double>(p.solidSpeed, fastestDriven(scene)));
   p.warmLimit = f(limits.warm);
@@ -155,7 +155,7 @@ void setLongestStep(const Scene& scene, FluidSetup& setup) {
 }
 
 // Where nothing holds the fluid up there is no initial pressure.
-void setInitialPressure(const Scene& scene, const SmoothingKernel& kernel, const double room[3], FluidSetup& setup) {
+void setInitialPressure(const Scene& scene, const SmoothingKernel& kernel, const Double3& room, FluidSetup& setup) {
   if (!setup.near) return;
   const InitialPressure pressure = initialPressure(scene, kernel, setup.limits, setup.head, widest(room));
   setup.params.initialPressureIterations = pressure.iterations;
@@ -165,12 +165,12 @@ void setInitialPressure(const Scene& scene, const SmoothingKernel& kernel, const
 }
 
 // In a shorter step the rounding of positions, which are floats, is more speed than a correction may always add.
-double shortestStep(const double room[3], const FluidParams& p) {
+double shortestStep(const Double3& room, const FluidParams& p) {
   constexpr double kHalfUlp = 0x1p-24;
   return p.minSpeedGain > 0 ? kHalfUlp * widest(room) / p.minSpeedGain : 0;
 }
 
-Expected<void> checkSteps(const Scene& scene, const double room[3], const FluidSetup& setup) {
+Expected<void> checkSteps(const Scene& scene, const Double3& room, const FluidSetup& setup) {
   const FluidParams& p = setup.params;
   const double least = shortestStep(room, p);
   if (setup.longestStep >= least) return {};
@@ -204,12 +204,9 @@ void setArtificialPressure(const Scene& scene, const SmoothingKernel& kernel, Fl
 }
 
 void setGravity(const Scene& scene, FluidSetup& setup) {
-  for (double g : scene.gravity) setup.gravity.push_back(f(g));
-  setup.gravity.push_back(0);
-  for (const GravityChange& change : scene.gravity_changes) {
-    for (double g : change.value) setup.gravity.push_back(f(g));
-    setup.gravity.push_back(f(change.at));
-  }
+  const auto add = [&](const Double3& g, double from) { setup.gravity.insert(setup.gravity.end(), {f(g.x), f(g.y), f(g.z), f(from)}); };
+  add(scene.gravity, 0);
+  for (const GravityChange& change : scene.gravity_changes) add(change.value, change.at);
   setup.params.gravityChanges = static_cast<uint32_t>(setup.gravity.size() / 4);
 }
 
@@ -233,7 +230,7 @@ uint32_t listCapacity(double reachInSpacings) {
 
 Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& start) {
   if (auto possible = checkScene(scene); !possible) return possible.error();
-  const double *origin = start.origin, *extent = start.extent;
+  const Double3 &origin = start.origin, &extent = start.extent;
   const double d = scene.fluid.spacing, h = scene.fluid.smoothing_ratio * d;
   if (!(d > 0)) return Error{ErrorKind::BadInput, "fluid.spacing is not set: give it, or make the particles first"};
   FluidSetup setup;
@@ -285,7 +282,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   setNoiseDamping(scene, kernel, setup);
   setGravity(scene, setup);
   setSpeeds(scene, start, p);
-  double room[3];
+  Double3 room;
   for (int a = 0; a < 3; ++a) room[a] = scene.domain ? scene.domain->max[a] - scene.domain->min[a] : 2 * extent[a];
   setGains(scene, setup);
   setColumn(scene, start, setup);

@@ -22,8 +22,8 @@ inline constexpr size_t kKeyframeNumbers = sizeof(KeyframeRecord) / sizeof(float
 /// A solid that the host moves.
 struct DrivenSolid {
   uint32_t solid = 0;
-  double fastest = 0;           ///< m/s
-  float center[3] = {0, 0, 0};  ///< m, relative to the particles' origin: where it is at the end of the last advance that was declared
+  double fastest = 0;  ///< m/s
+  Float3 center = {};  ///< m, relative to the particles' origin: where it is at the end of the last advance that was declared
 };
 
 struct FluidSetup {
@@ -52,10 +52,10 @@ struct FluidSetup {
 
 /// What is known of the particles before they are placed.
 struct StartFigures {
-  uint32_t capacity = 0;         ///< particles at most
-  double origin[3] = {0, 0, 0};  ///< m
-  double extent[3] = {0, 0, 0};  ///< m
-  double fastest = 0;            ///< m/s
+  uint32_t capacity = 0;       ///< particles at most
+  Double3 origin = {0, 0, 0};  ///< m
+  Double3 extent = {0, 0, 0};  ///< m
+  double fastest = 0;          ///< m/s
 };
 
 /// BadInput where the scene cannot run.

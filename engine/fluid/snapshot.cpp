@@ -158,7 +158,7 @@ void append(FluidSnapshot& s, std::span<const Float3> positions, std::span<const
   s.control = wordsOf(control);
 }
 
-void setGravity(FluidSnapshot& s, const double gravity[3]) {
+void setGravity(FluidSnapshot& s, const Double3& gravity) {
   auto control = record<FluidControl>(s.control);
   control.gravityX = static_cast<float>(gravity[0]);
   control.gravityY = static_cast<float>(gravity[1]);

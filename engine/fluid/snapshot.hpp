@@ -35,7 +35,7 @@ void forgetNeighbors(FluidSnapshot& snapshot);
 /// Particles that were not there before, with the next ids. Neighbors are forgotten.
 void append(FluidSnapshot& snapshot, std::span<const Float3> positions, std::span<const Float3> velocities);
 /// Gravity from the present instant on, m/s^2, where no schedule changes it.
-void setGravity(FluidSnapshot& snapshot, const double gravity[3]);
+void setGravity(FluidSnapshot& snapshot, const Double3& gravity);
 
 /// The list of particles [first, last) as the device holds it: k-major in blocks of kListBlock particles, four entries at a time, the last
 /// of a particle's filled up with `dummy`. `out` has room for whole blocks and is written where it will be read.

@@ -80,7 +80,7 @@ double strongestGravity(const Scene& scene, int axis) {
   return most;
 }
 
-double columnHead(const Scene& scene, const double extent[3]) {
+double columnHead(const Scene& scene, const Double3& extent) {
   double head = 0;
   for (int a = 0; a < 3; ++a) head += strongestGravity(scene, a) * std::max(extent[a], scene.fluid.spacing);
   return head;
@@ -148,8 +148,8 @@ InitialPressure initialPressure(const Scene& scene, const SmoothingKernel& kerne
 }
 
 // The usual speed: what falling through all the room gives, what the fluid started with, what solids push it with.
-SpeedLimits speedLimits(const Scene& scene, const double extent[3], double fastest, double solids) {
-  double room[3];
+SpeedLimits speedLimits(const Scene& scene, const Double3& extent, double fastest, double solids) {
+  Double3 room;
   const bool closed = scene.domain && scene.domain->open == 0;
   for (int a = 0; a < 3; ++a) room[a] = std::max(extent[a], scene.domain ? scene.domain->max[a] - scene.domain->min[a] : 0);
   const double usual = std::sqrt(2 * columnHead(scene, room) + fastest * fastest) + solids;

@@ -16,7 +16,7 @@ double strongestGravity(const Scene& scene);
 /// Along one axis.
 double strongestGravity(const Scene& scene, int axis);
 /// m^2/s^2: gravity times the height of a column as high as `extent` (m), which sets its pressure.
-double columnHead(const Scene& scene, const double extent[3]);
+double columnHead(const Scene& scene, const Double3& extent);
 
 /// Whether a scene asks for more than is stable, what it asks for, and what is taken.
 struct Bounded {
@@ -69,6 +69,6 @@ struct SpeedLimits {
   double speed = 0;                 ///< m/s, of any particle
 };
 /// `extent` (m) and `fastest` (m/s): of the particles at the start; `solids`: m/s of the fastest solid.
-SpeedLimits speedLimits(const Scene& scene, const double extent[3], double fastest, double solids);
+SpeedLimits speedLimits(const Scene& scene, const Double3& extent, double fastest, double solids);
 
 }  // namespace rill

@@ -97,7 +97,7 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
   staging_->add(slotOf(FluidArray::Sums), s.sums.data(), s.sums.size() * 4);
   std::vector<SolidRecord> solids = setup.solids;
   for (size_t k = 0; kPoseNumbers * k < s.solids.size(); ++k) solids[k].pose = poseAt(s.solids, k);
-  for (DrivenSolid& driven : setup.driven) std::copy_n(s.solids.data() + kPoseNumbers * driven.solid, 3, driven.center);
+  for (DrivenSolid& driven : setup.driven) std::copy_n(s.solids.data() + kPoseNumbers * driven.solid, 3, driven.center.begin());
   staging_->add(slotOf(FluidArray::Solids), solids.size() * sizeof(SolidRecord), bytesOf(solids));
   const ArrayShape shape = arrayShape(setup);
   forEachSaved([&](const ArrayRow& row, auto member) {

@@ -54,7 +54,7 @@ class Checker {
     return value.has_value();
   }
   template <class T>
-  requires std::is_class_v<T> || std::is_array_v<T>
+  requires std::is_class_v<T>
   static bool given(const T&) { return true; }
 
   bool value(const std::string& path, const model::Info& info, double given) {
@@ -78,9 +78,11 @@ class Checker {
   bool value(const std::string& path, const model::Info& info, const std::optional<std::pair<double, double>>& given) {
     return !given || (value(elementPath(path, 0), info, given->first) && value(elementPath(path, 1), info, given->second));
   }
-  template <size_t N>
-  bool value(const std::string& path, const model::Info& info, const double (&given)[N]) {
-    for (size_t i = 0; i < N; ++i)
+  bool value(const std::string& path, const model::Info& info, const Double3& given) { return components(path, info, given); }
+  bool value(const std::string& path, const model::Info& info, const Quaternion& given) { return components(path, info, given); }
+  template <class Vector>
+  bool components(const std::string& path, const model::Info& info, const Vector& given) {
+    for (size_t i = 0; i < std::ranges::size(given); ++i)
       if (!value(elementPath(path, i), info, given[i])) return false;
     return true;
   }

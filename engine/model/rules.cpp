@@ -15,7 +15,7 @@ bool fitsFloat(double value) {
   return value == 0 || std::abs(value) >= std::numeric_limits<float>::denorm_min();
 }
 
-CheckResult minBelowMax(const double (&min)[3], const double (&max)[3]) {
+CheckResult minBelowMax(const Double3& min, const Double3& max) {
   for (size_t axis = 0; axis < 3; ++axis) {
     if (min[axis] < max[axis]) continue;
     return Fault{"max is " + shortestNumber(max[axis]) + " and min is " + shortestNumber(min[axis]) + " along " + "xyz"[axis] +
@@ -36,9 +36,8 @@ CheckResult increasingTimes(const std::vector<Timed>& entries) {
   return {};
 }
 
-CheckResult unitQuaternion(const double (&parts)[4], std::string_view key) {
-  double length = 0;
-  for (const double part : parts) length = std::hypot(length, part);
+CheckResult unitQuaternion(const Quaternion& parts, std::string_view key) {
+  const double length = std::hypot(std::hypot(parts.x, parts.y, parts.z), parts.w);
   if (!(length > 0))
     return Fault{"the quaternion has zero length; expected a non-zero quaternion, [0, 0, 0, 1] for no rotation", {std::string(key)}};
   constexpr double kTolerance = 1e-3;  // rounding in products of float quaternions

@@ -50,7 +50,7 @@ uint32_t NeighborCounter::count(uint32_t index, uint32_t maxCount) const {
 }
 
 bool NeighborCounter::cellOf(const Float3& point, Cell& cell) const {
-  const double value[3] = {point.x / radius_, point.y / radius_, point.z / radius_};
+  const Double3 value = {point.x / radius_, point.y / radius_, point.z / radius_};
   for (size_t axis = 0; axis < 3; ++axis) {
     if (!(std::abs(value[axis]) < 1e15)) return false;  // also for NaN and infinity
     cell[axis] = static_cast<int64_t>(std::floor(value[axis]));

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "rill/float3.hpp"
+#include "rill/vectors.hpp"
 
 namespace rill::offline {
 

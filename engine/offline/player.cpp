@@ -38,7 +38,7 @@ class Player::Impl {
     return {};
   }
 
-  Expected<void> show(const std::vector<Float3>& positions, const double origin[3], const std::vector<Float3>& velocities, double time_s) {
+  Expected<void> show(const std::vector<Float3>& positions, const Double3& origin, const std::vector<Float3>& velocities, double time_s) {
     if (positions.size() > kMaxParticles)
       return Error{ErrorKind::TooLarge, std::to_string(positions.size()) + " particles; expected at most " + std::to_string(kMaxParticles)};
     if (!velocities.empty() && velocities.size() != positions.size())
@@ -46,7 +46,7 @@ class Player::Impl {
                                             std::to_string(positions.size()) + " positions, expected equal numbers"};
     count_ = static_cast<uint32_t>(positions.size());
     time_s_ = time_s;
-    std::copy_n(origin, 3, origin_);
+    origin_ = origin;
     if (count_ == 0) return {};
     for (const auto& [buffer, from, w] : {std::tuple{&position_, &positions, 0.0f}, std::tuple{&velocity_, &velocities, 1.0f}}) {
       const uint64_t bytes = uint64_t{count_} * sizeof(Float4);
@@ -74,7 +74,7 @@ class Player::Impl {
     FluidState fluid;
     fluid.capacity = count_;
     fluid.spacing = static_cast<float>(scene_.fluid.spacing);
-    std::copy_n(origin_, 3, fluid.origin);
+    fluid.origin = origin_;
     if (count_ > 0) {
       fluid.position = graph_.import("played positions", {position_.handle(), 0, position_.size(), Use::Nothing, Use::Nothing});
       fluid.velocity = graph_.import("played velocities", {velocity_.handle(), 0, velocity_.size(), Use::Nothing, Use::Nothing});
@@ -104,7 +104,7 @@ class Player::Impl {
   std::optional<Context> context_;
   Buffer position_, velocity_;
   uint32_t count_ = 0;
-  double origin_[3] = {0, 0, 0};
+  Double3 origin_ = {0, 0, 0};
   double time_s_ = 0;
   uint64_t boundHits_ = 0;  ///< of the last picture
   Painter painter_;
@@ -122,7 +122,7 @@ Expected<Player> Player::open(Scene scene, const Options& options) try {
   return Player(std::move(impl));
 } catch (const std::bad_alloc&) { return outOfMemory("opening the scene"); }
 
-Expected<void> Player::show(const std::vector<Float3>& positions, const double origin[3], const std::vector<Float3>& velocities,
+Expected<void> Player::show(const std::vector<Float3>& positions, const Double3& origin, const std::vector<Float3>& velocities,
                             double time_s) {
   return impl_->show(positions, origin, velocities, time_s);
 }

@@ -16,7 +16,7 @@ float coordinate(const Float3& p, int axis) { return axis == 0 ? p.x : axis == 1
 
 }  // namespace
 
-ProbeReader::ProbeReader(const Scene& scene, std::span<const Float3> positions, const double (&origin)[3])
+ProbeReader::ProbeReader(const Scene& scene, std::span<const Float3> positions, const Double3& origin)
     : positions_(positions), spacing_(scene.fluid.spacing), smoothing_(scene.fluid.spacing * scene.fluid.smoothing_ratio) {
   for (int axis = 0; axis < 3; ++axis) {
     minimum_[axis] = scene.domain ? scene.domain->min[axis] : 0.0;

@@ -12,7 +12,7 @@ namespace rill::offline {
 class ProbeReader {
  public:
   /// `positions`: m, relative to `origin` (m); they must outlive the reader.
-  ProbeReader(const Scene& scene, std::span<const Float3> positions, const double (&origin)[3]);
+  ProbeReader(const Scene& scene, std::span<const Float3> positions, const Double3& origin);
   ~ProbeReader();
 
   double measure(const Probe& probe) const;
@@ -28,8 +28,8 @@ class ProbeReader {
  private:
   std::span<const Float3> positions_;
   double spacing_, smoothing_;
-  double shift_[3];                                     ///< added to positions to make them relative to the domain's minimum, m
-  double minimum_[3];                                   ///< of the domain, m
+  Double3 shift_;                                       ///< added to positions to make them relative to the domain's minimum, m
+  Double3 minimum_;                                     ///< of the domain, m
   mutable std::unique_ptr<NeighborCounter> neighbors_;  ///< created by front()
 };
 

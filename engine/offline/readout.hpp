@@ -2,9 +2,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "rill/float3.hpp"
 #include "rill/fluid.hpp"
 #include "rill/graph.hpp"
+#include "rill/vectors.hpp"
 
 namespace rill::offline {
 

@@ -42,10 +42,12 @@ class KeyCollector {
       if (value >> side & 1) sides += (sides.empty() ? "" : ",") + std::string(info.words[side]);
     keys_.emplace_back(std::move(key), "[" + sides + "]");
   }
-  template <size_t N>
-  void add(const model::Info&, std::string key, const double (&value)[N]) {
+  void add(const model::Info&, std::string key, const Double3& vector) { addList(std::move(key), vector); }
+  void add(const model::Info&, std::string key, const Quaternion& quaternion) { addList(std::move(key), quaternion); }
+  template <class Vector>
+  void addList(std::string key, const Vector& values) {
     std::string numbers;
-    for (double number : value) numbers += (numbers.empty() ? "" : ",") + shortestNumber(number);
+    for (double number : values) numbers += (numbers.empty() ? "" : ",") + shortestNumber(number);
     keys_.emplace_back(std::move(key), "[" + numbers + "]");
   }
   template <class Enum>

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "rill/float3.hpp"
+#include "rill/vectors.hpp"
 
 namespace rill::offline {
 

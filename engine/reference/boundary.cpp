@@ -7,11 +7,6 @@
 #include "shared/fluid_records.h"
 
 namespace rill::reference {
-namespace {
-
-glm::dvec3 vec(const Vec3& v) { return {v[0], v[1], v[2]}; }
-
-}  // namespace
 
 std::vector<Pose> ReferenceSolver::poses(double t, double dt) const {
   std::vector<Pose> all;
@@ -26,17 +21,17 @@ std::vector<Pose> ReferenceSolver::poses(double t, double dt) const {
 WallSample ReferenceSolver::boundaryAt(const glm::dvec3& x, double t) const { return boundaryOf(x, poses(t, 0)); }
 
 WallSample ReferenceSolver::boundaryOf(const glm::dvec3& x, std::span<const Pose> solids) const {
-  double lo[3], hi[3];
+  Double3 lo, hi;
   for (int a = 0; a < 3; ++a) lo[a] = x[a] - settings.lo[a], hi[a] = settings.hi[a] - x[a];
   WallSample sum = settings.tabulated ? tables_.sample(lo, hi) : exactWall(kernel_, lo, hi);
   for (size_t n = 0; n < solids.size(); ++n) {
     const Shape& shape = settings.solids[n].shape;
-    const Vec3 local = localPoint(solids[n], {x.x, x.y, x.z});
+    const Double3 local = localPoint(solids[n], {x.x, x.y, x.z});
     const WallSample own = settings.tabulated ? solidSample(tables_, sphereTables_[n], shape, local) : solidSample(kernel_, shape, local);
-    const Vec3 gradient = toScene(solids[n], std::to_array(own.gradient));
+    const Double3 gradient = toScene(solids[n], own.gradient);
     sum.value += own.value;
     for (size_t a = 0; a < 3; ++a) sum.gradient[a] += gradient[a];
-    sum.cover(own.value, gradient.data());
+    sum.cover(own.value, gradient);
   }
   return sum;
 }

@@ -16,8 +16,6 @@ namespace {
 
 bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-glm::dvec3 vec(const double v[3]) { return {v[0], v[1], v[2]}; }
-
 }  // namespace
 
 ReferenceSolver::ReferenceSolver(const ReferenceSettings& s, std::span<const glm::dvec3> positions, std::span<const glm::dvec3> velocities)

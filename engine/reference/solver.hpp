@@ -33,6 +33,8 @@
 
 namespace rill::reference {
 
+inline glm::dvec3 vec(const Double3& v) { return {v.x, v.y, v.z}; }
+
 /// Pairs closer than kCoincidentDistance h are coincident. Their direction comes from a hash of their ids (shaders/shared/pair_hash.h), the
 /// length of the gradient from distance kCoincidentGradient h, and each correction separates them by kCoincidentDistance h each.
 inline constexpr double kCoincidentDistance = 1e-3, kCoincidentGradient = 0.05;

@@ -16,7 +16,7 @@ void irradiance(const EnvironmentPicture& picture, Float3& above, Float3& below)
     const double polar = (y + 0.5) / picture.height * std::numbers::pi, up = std::cos(polar);
     const double weight = std::abs(up) * std::sin(polar);
     const int half = up > 0 ? 0 : 1;
-    double row[3] = {};
+    Double3 row = {};
     for (uint32_t x = 0; x < picture.width; ++x) {
       const uint32_t texel = picture.texels[size_t{y} * picture.width + x];
       const double scale = std::ldexp(1.0, static_cast<int>(texel >> 27) - 24);

@@ -5,8 +5,8 @@
 
 #include "gpu/resources.hpp"
 #include "rill/environment.hpp"
-#include "rill/float3.hpp"
 #include "rill/graph.hpp"
+#include "rill/vectors.hpp"
 
 namespace rill {
 

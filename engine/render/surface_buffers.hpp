@@ -3,6 +3,7 @@
 
 #include "render/surface_records.h"
 #include "rill/graph.hpp"
+#include "rill/vectors.hpp"
 #include "sort/dispatches.hpp"
 
 namespace rill {
@@ -20,8 +21,8 @@ struct SurfaceBuffers {
 
 /// A pixel of SurfaceBuffers::pixels, as shaders/render/surface.glsl packs it.
 struct SurfacePixel {
-  float depth = 0;               ///< m; infinite: no fluid, or a coverage below 0.5
-  std::array<double, 3> normal;  ///< unit vector in view space
+  float depth = 0;  ///< m; infinite: no fluid, or a coverage below 0.5
+  Double3 normal;   ///< unit vector in view space
 };
 SurfacePixel unpackPixel(const uint32_t* words);
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 namespace rill {
-surface::SurfacePush viewPush(const FluidView& view, const double origin[3]) {
+surface::SurfacePush viewPush(const FluidView& view, const Double3& origin) {
   const Float4x4 &v = view.view, &p = view.projection;
   const bool perspective = element(p, 3, 2) != 0;
   // The view direction is -z unless the projection's w grows along +z.

@@ -12,6 +12,6 @@ inline double element(const Float4x4& matrix, int row, int column) {
 }
 
 /// For positions that are stored relative to `origin`. `view` has passed checkView().
-surface::SurfacePush viewPush(const FluidView& view, const double origin[3]);
+surface::SurfacePush viewPush(const FluidView& view, const Double3& origin);
 
 }  // namespace rill

@@ -17,6 +17,13 @@ inline OrderedJson tidyNumber(double number) {
   return number;
 }
 
+template <class Vector>
+OrderedJson numbersJson(const Vector& vector) {
+  OrderedJson numbers = OrderedJson::array();
+  for (const double number : vector) numbers.push_back(tidyNumber(number));
+  return numbers;
+}
+
 /// The default of a key; null if it has none. `value` is the member's initializer.
 inline OrderedJson defaultJson(const model::Info& info, double value) {
   return info.range.contains(value) ? tidyNumber(value) : OrderedJson();
@@ -36,12 +43,8 @@ inline OrderedJson defaultJson(const model::Info& info, SideMask value) {
   }
   return sides;
 }
-template <size_t N>
-OrderedJson defaultJson(const model::Info&, const double (&value)[N]) {
-  OrderedJson numbers = OrderedJson::array();
-  for (const double number : value) numbers.push_back(tidyNumber(number));
-  return numbers;
-}
+inline OrderedJson defaultJson(const model::Info&, const Double3& value) { return numbersJson(value); }
+inline OrderedJson defaultJson(const model::Info&, const Quaternion& value) { return numbersJson(value); }
 template <class Enum>
 requires std::is_enum_v<Enum> OrderedJson defaultJson(const model::Info& info, const Enum& value) {
   return OrderedJson(info.words[static_cast<size_t>(value)]);

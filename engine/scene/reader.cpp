@@ -103,10 +103,9 @@ bool Reader::accept(const std::string& path, const model::CheckResult& result) {
 }
 
 /// Files may hold quaternions of any non-zero length.
-void Reader::normalize(double (&quaternion)[4]) {
-  double length = 0;
-  for (const double part : quaternion) length = std::hypot(length, part);
-  for (double& part : quaternion) part = length > 0 ? part / length : part;
+void Reader::normalize(Quaternion& quaternion) {
+  const double length = std::hypot(std::hypot(quaternion.x, quaternion.y, quaternion.z), quaternion.w);
+  for (size_t i = 0; i < 4 && length > 0; ++i) quaternion[i] /= length;
 }
 
 bool Reader::allowed(const std::string& path, const model::Info& info) {

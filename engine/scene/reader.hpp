@@ -45,7 +45,7 @@ class Reader {
   bool fail(const std::string& path, const std::string& text);
   /// On a fault, reports the first candidate key that an override has set, else the first candidate.
   bool accept(const std::string& path, const model::CheckResult& result);
-  static void normalize(double (&quaternion)[4]);
+  static void normalize(Quaternion& quaternion);
   bool unknownKey(const std::string& path, const std::string& key, const std::vector<std::string_view>& keys);
   /// Whether the scene's version has the key.
   bool allowed(const std::string& path, const model::Info& info);
@@ -86,10 +86,10 @@ class Reader {
   bool value(const Json& json, const std::string& path, const model::Info& info, std::optional<double>& out);
   bool value(const Json& json, const std::string& path, const model::Info& info, std::optional<std::pair<double, double>>& out);
   bool value(const Json& json, const std::string& path, const model::Info& info, std::filesystem::path& out);
-  bool value(const Json& json, const std::string& path, const model::Info& info, double (&out)[3]) {
+  bool value(const Json& json, const std::string& path, const model::Info& info, Double3& out) {
     return numbers(json, path, info, "[x, y, z]", out);
   }
-  bool value(const Json& json, const std::string& path, const model::Info& info, double (&out)[4]) {
+  bool value(const Json& json, const std::string& path, const model::Info& info, Quaternion& out) {
     return numbers(json, path, info, "[x, y, z, w]", out);
   }
 

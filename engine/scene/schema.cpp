@@ -45,8 +45,9 @@ OrderedJson typeSchema(const model::Info& info) {
     return {{"oneOf", OrderedJson::array({{{"const", "auto"}}, numberSchema(info, "number")})}};
   } else if constexpr (std::is_same_v<T, std::optional<std::pair<double, double>>>) {
     return arraySchema(numberSchema(info, "number"), 2, 2);
-  } else if constexpr (std::is_array_v<T>) {
-    return arraySchema(numberSchema(info, "number"), std::extent_v<T>, std::extent_v<T>);
+  } else if constexpr (std::is_same_v<T, Double3> || std::is_same_v<T, Quaternion>) {
+    constexpr size_t kSize = sizeof(T) / sizeof(double);
+    return arraySchema(numberSchema(info, "number"), kSize, kSize);
   } else if constexpr (std::is_same_v<T, SideMask>) {
     OrderedJson schema = arraySchema({{"enum", info.words}}, 0, info.words.size());
     schema["uniqueItems"] = true;
@@ -137,8 +138,8 @@ std::string valuesText(const model::Info& info) {
     return "`\"auto\"`, or " + withRange("number", info.range);
   } else if constexpr (std::is_same_v<T, std::optional<std::pair<double, double>>>) {
     return withRange("2 numbers", info.range);
-  } else if constexpr (std::is_array_v<T>) {
-    return withRange(std::to_string(std::extent_v<T>) + " numbers", info.range);
+  } else if constexpr (std::is_same_v<T, Double3> || std::is_same_v<T, Quaternion>) {
+    return withRange(std::to_string(sizeof(T) / sizeof(double)) + " numbers", info.range);
   } else if constexpr (std::is_same_v<T, SideMask>) {
     return "list of " + words;
   } else if constexpr (model::kIsList<T>) {

@@ -8,16 +8,16 @@ namespace rill {
 namespace {
 
 /// Rotates v by the unit quaternion q (sign 1) or its conjugate (sign -1).
-Vec3 rotate(const Quaternion& q, double sign, const Vec3& v) {
+Double3 rotate(const Quaternion& q, double sign, const Double3& v) {
   const double x = sign * q[0], y = sign * q[1], z = sign * q[2], w = q[3];
-  const Vec3 t = {2 * (y * v[2] - z * v[1]), 2 * (z * v[0] - x * v[2]), 2 * (x * v[1] - y * v[0])};
-  const Vec3 u = {y * t[2] - z * t[1], z * t[0] - x * t[2], x * t[1] - y * t[0]};
+  const Double3 t = {2 * (y * v[2] - z * v[1]), 2 * (z * v[0] - x * v[2]), 2 * (x * v[1] - y * v[0])};
+  const Double3 u = {y * t[2] - z * t[1], z * t[0] - x * t[2], x * t[1] - y * t[0]};
   return {v[0] + w * t[0] + u[0], v[1] + w * t[1] + u[1], v[2] + w * t[2] + u[2]};
 }
 
-Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Double3 minus(const Double3& a, const Double3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
-Vec3 over(const Vec3& v, double divisor) { return {v[0] / divisor, v[1] / divisor, v[2] / divisor}; }
+Double3 over(const Double3& v, double divisor) { return {v[0] / divisor, v[1] / divisor, v[2] / divisor}; }
 
 /// The rotation b, then a.
 Quaternion composed(const Quaternion& a, const Quaternion& b) {
@@ -25,19 +25,19 @@ Quaternion composed(const Quaternion& a, const Quaternion& b) {
           a[3] * b[2] + b[3] * a[2] + a[0] * b[1] - a[1] * b[0], a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]};
 }
 
-double lengthOf(const Vec3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+double lengthOf(const Double3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
 /// The rotation by a rotation vector, rad.
-Quaternion rotationBy(const Vec3& turn) {
+Quaternion rotationBy(const Double3& turn) {
   const double angle = lengthOf(turn), scale = angle > 0 ? std::sin(angle / 2) / angle : 0;
   return {scale * turn[0], scale * turn[1], scale * turn[2], std::cos(angle / 2)};
 }
 
 /// Displacement from the initial pose.
 struct Displacement {
-  Vec3 translation = {};
+  Double3 translation = {};
   Quaternion rotation = {0, 0, 0, 1};
-  Vec3 velocity = {}, angularVelocity = {};
+  Double3 velocity = {}, angularVelocity = {};
 };
 
 Displacement displacementAt(const Solid& solid, double t) {
@@ -45,12 +45,12 @@ Displacement displacementAt(const Solid& solid, double t) {
   if (motion.empty()) return {};
   const auto next = std::upper_bound(motion.begin(), motion.end(), t, [](double time, const Keyframe& key) { return time < key.at; });
   const Keyframe& last = next == motion.begin() ? *next : *std::prev(next);
-  Displacement out{.translation = std::to_array(last.translate), .rotation = std::to_array(last.rotate)};
+  Displacement out{.translation = last.translate, .rotation = last.rotate};
   if (next == motion.begin() || next == motion.end()) return out;
   const double span = next->at - last.at, since = t - last.at;
-  out.velocity = over(minus(std::to_array(next->translate), out.translation), span);
-  out.angularVelocity = over(turnBetween(out.rotation, std::to_array(next->rotate)), span);
-  const Vec3& w = out.angularVelocity;
+  out.velocity = over(minus(next->translate, out.translation), span);
+  out.angularVelocity = over(turnBetween(out.rotation, next->rotate), span);
+  const Double3& w = out.angularVelocity;
   for (size_t a = 0; a < 3; ++a) out.translation[a] += since * out.velocity[a];
   out.rotation = composed(rotationBy({since * w[0], since * w[1], since * w[2]}), out.rotation);
   return out;
@@ -58,10 +58,10 @@ Displacement displacementAt(const Solid& solid, double t) {
 
 }  // namespace
 
-Vec3 turnBetween(const Quaternion& from, const Quaternion& to) {
+Double3 turnBetween(const Quaternion& from, const Quaternion& to) {
   Quaternion by = composed(to, {-from[0], -from[1], -from[2], from[3]});
   if (by[3] < 0) by = {-by[0], -by[1], -by[2], -by[3]};
-  const Vec3 axis = {by[0], by[1], by[2]};
+  const Double3 axis = {by[0], by[1], by[2]};
   const double sine = lengthOf(axis), scale = sine > 0 ? 2 * std::atan2(sine, by[3]) / sine : 0;
   return {scale * axis[0], scale * axis[1], scale * axis[2]};
 }
@@ -69,10 +69,10 @@ Vec3 turnBetween(const Quaternion& from, const Quaternion& to) {
 Pose solidPose(const Solid& solid, double t) {
   const Displacement by = displacementAt(solid, t);
   Pose pose{.center = by.translation,
-            .rotation = composed(by.rotation, std::to_array(solid.rotation)),
+            .rotation = composed(by.rotation, solid.rotation),
             .velocity = by.velocity,
             .angularVelocity = by.angularVelocity};
-  const Vec3 center = centerOf(solid.shape);
+  const Double3 center = centerOf(solid.shape);
   for (size_t a = 0; a < 3; ++a) pose.center[a] += center[a];
   return pose;
 }
@@ -85,30 +85,30 @@ Pose solidPose(const Solid& solid, double t, double dt) {
   return pose;
 }
 
-Vec3 toScene(const Pose& pose, const Vec3& local) { return rotate(pose.rotation, 1, local); }
+Double3 toScene(const Pose& pose, const Double3& local) { return rotate(pose.rotation, 1, local); }
 
-Vec3 toSolid(const Pose& pose, const Vec3& direction) { return rotate(pose.rotation, -1, direction); }
+Double3 toSolid(const Pose& pose, const Double3& direction) { return rotate(pose.rotation, -1, direction); }
 
-Vec3 localPoint(const Pose& pose, const Vec3& x) { return toSolid(pose, minus(x, pose.center)); }
+Double3 localPoint(const Pose& pose, const Double3& x) { return toSolid(pose, minus(x, pose.center)); }
 
-Vec3 velocityAt(const Pose& pose, const Vec3& x) {
-  const Vec3& w = pose.angularVelocity;
-  const Vec3 r = minus(x, pose.center);
+Double3 velocityAt(const Pose& pose, const Double3& x) {
+  const Double3& w = pose.angularVelocity;
+  const Double3 r = minus(x, pose.center);
   return {pose.velocity[0] + w[1] * r[2] - w[2] * r[1], pose.velocity[1] + w[2] * r[0] - w[0] * r[2],
           pose.velocity[2] + w[0] * r[1] - w[1] * r[0]};
 }
 
-SurfacePoint surfaceAt(const Shape& shape, const Pose& pose, const Vec3& x) {
+SurfacePoint surfaceAt(const Shape& shape, const Pose& pose, const Double3& x) {
   const SurfacePoint local = surfaceAt(shape, localPoint(pose, x));
   return {local.distance, toScene(pose, local.normal)};
 }
 
-Vec3 sceneExtents(const Shape& shape, const Pose& pose) {
+Double3 sceneExtents(const Shape& shape, const Pose& pose) {
   if (const auto* sphere = std::get_if<SphereShape>(&shape)) return halfExtents(*sphere);
-  const Vec3 half = halfExtents(shape);
-  Vec3 extents = {};
+  const Double3 half = halfExtents(shape);
+  Double3 extents = {};
   for (size_t own = 0; own < 3; ++own) {
-    Vec3 axis = {};
+    Double3 axis = {};
     axis[own] = half[own];
     axis = toScene(pose, axis);
     for (size_t a = 0; a < 3; ++a) extents[a] += std::abs(axis[a]);

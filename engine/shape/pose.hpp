@@ -4,19 +4,17 @@
 
 namespace rill {
 
-using Quaternion = std::array<double, 4>;  ///< x y z w
-
 /// A position, an orientation and their rates of change, in scene coordinates or relative to an origin that the caller subtracts from
 /// `center`. The device's record of it is in shaders/shared/solid_records.h.
 struct Pose {
-  Vec3 center = {0, 0, 0};             ///< m
-  Quaternion rotation = {0, 0, 0, 1};  ///< unit quaternion x y z w, from the solid's frame to the scene's
-  Vec3 velocity = {0, 0, 0};           ///< of the center, m/s
-  Vec3 angularVelocity = {0, 0, 0};    ///< rad/s, in the scene's frame
+  Double3 center = {0, 0, 0};           ///< m
+  Quaternion rotation = {0, 0, 0, 1};   ///< unit quaternion x y z w, from the solid's frame to the scene's
+  Double3 velocity = {0, 0, 0};         ///< of the center, m/s
+  Double3 angularVelocity = {0, 0, 0};  ///< rad/s, in the scene's frame
 };
 
 /// Rotation vector (rad) that leads from one unit quaternion to another the shorter way, in the scene's frame.
-Vec3 turnBetween(const Quaternion& from, const Quaternion& to);
+Double3 turnBetween(const Quaternion& from, const Quaternion& to);
 
 /// The pose at `t` (s): linear and spherical linear between keyframes, constant outside. The velocities are the slopes of the keyframes,
 /// right-continuous; 0 before the first and after the last.
@@ -26,19 +24,19 @@ Pose solidPose(const Solid& solid, double t);
 Pose solidPose(const Solid& solid, double t, double dt);
 
 /// A direction in the solid's frame, in the scene's.
-Vec3 toScene(const Pose& pose, const Vec3& local);
+Double3 toScene(const Pose& pose, const Double3& local);
 /// A direction in the scene, in the solid's frame.
-Vec3 toSolid(const Pose& pose, const Vec3& direction);
+Double3 toSolid(const Pose& pose, const Double3& direction);
 /// A point (m, in the frame of `pose.center`), in the solid's frame.
-Vec3 localPoint(const Pose& pose, const Vec3& x);
+Double3 localPoint(const Pose& pose, const Double3& x);
 
 /// Velocity of the solid's point at `x` (m, in the frame of `pose.center`), m/s.
-Vec3 velocityAt(const Pose& pose, const Vec3& x);
+Double3 velocityAt(const Pose& pose, const Double3& x);
 
 /// Distance of `x` from a shape with this pose; `x` and the normal are in the frame of `pose.center`.
-SurfacePoint surfaceAt(const Shape& shape, const Pose& pose, const Vec3& x);
+SurfacePoint surfaceAt(const Shape& shape, const Pose& pose, const Double3& x);
 
 /// Half extents along the axes of the scene of the box around a shape with this pose, m.
-Vec3 sceneExtents(const Shape& shape, const Pose& pose);
+Double3 sceneExtents(const Shape& shape, const Pose& pose);
 
 }  // namespace rill

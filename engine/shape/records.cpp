@@ -12,26 +12,26 @@ float f(double value) { return static_cast<float>(value); }
 }  // namespace
 
 ShapeRecord recordOf(const Shape& shape) {
-  const Vec3 half = halfExtents(shape);
+  const Double3 half = halfExtents(shape);
   return {f(half[0]), f(half[1]), f(half[2]), std::holds_alternative<SphereShape>(shape) ? kShapeSphere : kShapeBox};
 }
 
-PoseRecord recordOf(const Pose& pose, const double origin[3]) {
+PoseRecord recordOf(const Pose& pose, const Double3& origin) {
   return {f(pose.center[0] - origin[0]), f(pose.center[1] - origin[1]), f(pose.center[2] - origin[2]), f(pose.rotation[0]),
           f(pose.rotation[1]),           f(pose.rotation[2]),           f(pose.rotation[3]),           f(pose.velocity[0]),
           f(pose.velocity[1]),           f(pose.velocity[2]),           f(pose.angularVelocity[0]),    f(pose.angularVelocity[1]),
           f(pose.angularVelocity[2])};
 }
 
-PoseRecord baseRecord(const Solid& solid, const double origin[3]) {
-  return recordOf(Pose{.center = centerOf(solid.shape), .rotation = std::to_array(solid.rotation)}, origin);
+PoseRecord baseRecord(const Solid& solid, const Double3& origin) {
+  return recordOf(Pose{.center = centerOf(solid.shape), .rotation = solid.rotation}, origin);
 }
 
 std::vector<KeyframeRecord> keyframeRecords(const Solid& solid) {
   std::vector<KeyframeRecord> records;
   for (size_t k = 0; k < solid.motion.size(); ++k) {
     const Keyframe &key = solid.motion[k], &next = solid.motion[std::min(k + 1, solid.motion.size() - 1)];
-    const Vec3 turn = turnBetween(std::to_array(key.rotate), std::to_array(next.rotate));
+    const Double3 turn = turnBetween(key.rotate, next.rotate);
     records.push_back({.x = f(key.translate[0]),
                        .y = f(key.translate[1]),
                        .z = f(key.translate[2]),

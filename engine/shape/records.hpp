@@ -10,10 +10,10 @@ namespace rill {
 ShapeRecord recordOf(const Shape& shape);
 
 /// `origin`: what the record's center is relative to, in the frame of `pose.center`, m.
-PoseRecord recordOf(const Pose& pose, const double origin[3]);
+PoseRecord recordOf(const Pose& pose, const Double3& origin);
 
 /// A solid before any motion.
-PoseRecord baseRecord(const Solid& solid, const double origin[3]);
+PoseRecord baseRecord(const Solid& solid, const Double3& origin);
 
 /// A solid's motion.
 std::vector<KeyframeRecord> keyframeRecords(const Solid& solid);

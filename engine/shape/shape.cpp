@@ -8,28 +8,28 @@
 namespace rill {
 namespace {
 
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double dot(const Double3& a, const Double3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 std::optional<double> ifAhead(double distance) { return distance > 0 ? std::optional(distance) : std::nullopt; }
 
 }  // namespace
 
-Vec3 centerOf(const BoxShape& box) {
-  Vec3 center;
+Double3 centerOf(const BoxShape& box) {
+  Double3 center;
   for (size_t a = 0; a < 3; ++a) center[a] = (box.min[a] + box.max[a]) / 2;
   return center;
 }
-Vec3 centerOf(const SphereShape& sphere) { return std::to_array(sphere.center); }
+Double3 centerOf(const SphereShape& sphere) { return sphere.center; }
 
-Vec3 halfExtents(const BoxShape& box) {
-  Vec3 half;
+Double3 halfExtents(const BoxShape& box) {
+  Double3 half;
   for (size_t a = 0; a < 3; ++a) half[a] = (box.max[a] - box.min[a]) / 2;
   return half;
 }
-Vec3 halfExtents(const SphereShape& sphere) { return {sphere.radius, sphere.radius, sphere.radius}; }
+Double3 halfExtents(const SphereShape& sphere) { return {sphere.radius, sphere.radius, sphere.radius}; }
 
 double boundingRadius(const BoxShape& box) {
-  const Vec3 half = halfExtents(box);
+  const Double3 half = halfExtents(box);
   return std::sqrt(dot(half, half));
 }
 double boundingRadius(const SphereShape& sphere) { return sphere.radius; }
@@ -41,9 +41,9 @@ double volumeOf(const BoxShape& box) {
 }
 double volumeOf(const SphereShape& sphere) { return 4.0 / 3.0 * std::numbers::pi * std::pow(sphere.radius, 3); }
 
-SurfacePoint surfaceAt(const BoxShape& box, const Vec3& local) {
-  const Vec3 half = halfExtents(box);
-  Vec3 beyond, outside;
+SurfacePoint surfaceAt(const BoxShape& box, const Double3& local) {
+  const Double3 half = halfExtents(box);
+  Double3 beyond, outside;
   size_t nearest = 0;
   for (size_t a = 0; a < 3; ++a) {
     beyond[a] = std::abs(local[a]) - half[a];
@@ -58,7 +58,7 @@ SurfacePoint surfaceAt(const BoxShape& box, const Vec3& local) {
   return point;
 }
 
-SurfacePoint surfaceAt(const SphereShape& sphere, const Vec3& local) {
+SurfacePoint surfaceAt(const SphereShape& sphere, const Double3& local) {
   SurfacePoint point;
   const double r = std::sqrt(dot(local, local));
   point.distance = r - sphere.radius;
@@ -67,7 +67,7 @@ SurfacePoint surfaceAt(const SphereShape& sphere, const Vec3& local) {
   return point;
 }
 
-std::array<double, 2> boxInterval(const Vec3& low, const Vec3& high, const Vec3& from, const Vec3& along) {
+std::array<double, 2> boxInterval(const Double3& low, const Double3& high, const Double3& from, const Double3& along) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   double first = -kInfinity, last = kInfinity;
   for (size_t a = 0; a < 3; ++a) {
@@ -82,43 +82,43 @@ std::array<double, 2> boxInterval(const Vec3& low, const Vec3& high, const Vec3&
   return {first, last};
 }
 
-std::optional<double> rayEntry(const BoxShape& box, const Vec3& from, const Vec3& along) {
-  const Vec3 half = halfExtents(box);
+std::optional<double> rayEntry(const BoxShape& box, const Double3& from, const Double3& along) {
+  const Double3 half = halfExtents(box);
   const auto [first, last] = boxInterval({-half[0], -half[1], -half[2]}, half, from, along);
   return first <= last ? ifAhead(first) : std::nullopt;
 }
 
-std::optional<double> rayEntry(const SphereShape& sphere, const Vec3& from, const Vec3& along) {
+std::optional<double> rayEntry(const SphereShape& sphere, const Double3& from, const Double3& along) {
   const double nearest = -dot(from, along), across = dot(from, from) - nearest * nearest, square = sphere.radius * sphere.radius;
   return across > square ? std::nullopt : ifAhead(nearest - std::sqrt(square - across));
 }
 
-void translate(BoxShape& box, const Vec3& by) {
+void translate(BoxShape& box, const Double3& by) {
   for (size_t a = 0; a < 3; ++a) {
     box.min[a] += by[a];
     box.max[a] += by[a];
   }
 }
-void translate(SphereShape& sphere, const Vec3& by) {
+void translate(SphereShape& sphere, const Double3& by) {
   for (size_t a = 0; a < 3; ++a) sphere.center[a] += by[a];
 }
 
-Vec3 centerOf(const Shape& shape) {
+Double3 centerOf(const Shape& shape) {
   return std::visit([](const auto& s) { return centerOf(s); }, shape);
 }
-Vec3 halfExtents(const Shape& shape) {
+Double3 halfExtents(const Shape& shape) {
   return std::visit([](const auto& s) { return halfExtents(s); }, shape);
 }
 double boundingRadius(const Shape& shape) {
   return std::visit([](const auto& s) { return boundingRadius(s); }, shape);
 }
-SurfacePoint surfaceAt(const Shape& shape, const Vec3& local) {
+SurfacePoint surfaceAt(const Shape& shape, const Double3& local) {
   return std::visit([&](const auto& s) { return surfaceAt(s, local); }, shape);
 }
-std::optional<double> rayEntry(const Shape& shape, const Vec3& from, const Vec3& along) {
+std::optional<double> rayEntry(const Shape& shape, const Double3& from, const Double3& along) {
   return std::visit([&](const auto& s) { return rayEntry(s, from, along); }, shape);
 }
-void translate(Shape& shape, const Vec3& by) {
+void translate(Shape& shape, const Double3& by) {
   std::visit([&](auto& s) { translate(s, by); }, shape);
 }
 

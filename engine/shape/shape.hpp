@@ -8,23 +8,21 @@
 
 namespace rill {
 
-using Vec3 = std::array<double, 3>;
-
 /// Signed distance to a surface and its gradient.
 struct SurfacePoint {
-  double distance = 0;      ///< m, negative inside
-  Vec3 normal = {0, 1, 0};  ///< unit, outward
+  double distance = 0;         ///< m, negative inside
+  Double3 normal = {0, 1, 0};  ///< unit, outward
 };
 
 /// Center in the scene, m, before any motion.
-Vec3 centerOf(const BoxShape& box);
-Vec3 centerOf(const SphereShape& sphere);
-Vec3 centerOf(const Shape& shape);
+Double3 centerOf(const BoxShape& box);
+Double3 centerOf(const SphereShape& sphere);
+Double3 centerOf(const Shape& shape);
 
 /// Half extents of the box around the shape in its own frame, m.
-Vec3 halfExtents(const BoxShape& box);
-Vec3 halfExtents(const SphereShape& sphere);
-Vec3 halfExtents(const Shape& shape);
+Double3 halfExtents(const BoxShape& box);
+Double3 halfExtents(const SphereShape& sphere);
+Double3 halfExtents(const Shape& shape);
 
 /// Radius of the sphere around the center that holds the shape, m.
 double boundingRadius(const BoxShape& box);
@@ -37,21 +35,21 @@ double volumeOf(const SphereShape& sphere);
 
 /// The closest point of the surface. Box: edges are round outside; inside, ties take the first of x, y, z, and the positive side at 0.
 /// Sphere: at the center the normal is +y.
-SurfacePoint surfaceAt(const BoxShape& box, const Vec3& local);
-SurfacePoint surfaceAt(const SphereShape& sphere, const Vec3& local);
-SurfacePoint surfaceAt(const Shape& shape, const Vec3& local);
+SurfacePoint surfaceAt(const BoxShape& box, const Double3& local);
+SurfacePoint surfaceAt(const SphereShape& sphere, const Double3& local);
+SurfacePoint surfaceAt(const Shape& shape, const Double3& local);
 
 /// Distance at which a ray (unit direction) enters the shape from outside, m, > 0; nullopt for a miss and from inside.
-std::optional<double> rayEntry(const BoxShape& box, const Vec3& from, const Vec3& along);
-std::optional<double> rayEntry(const SphereShape& sphere, const Vec3& from, const Vec3& along);
-std::optional<double> rayEntry(const Shape& shape, const Vec3& from, const Vec3& along);
+std::optional<double> rayEntry(const BoxShape& box, const Double3& from, const Double3& along);
+std::optional<double> rayEntry(const SphereShape& sphere, const Double3& from, const Double3& along);
+std::optional<double> rayEntry(const Shape& shape, const Double3& from, const Double3& along);
 
 /// Interval of a ray, in lengths of `along`, inside the box from `low` to `high`; empty where the first is larger.
-std::array<double, 2> boxInterval(const Vec3& low, const Vec3& high, const Vec3& from, const Vec3& along);
+std::array<double, 2> boxInterval(const Double3& low, const Double3& high, const Double3& from, const Double3& along);
 
 /// Moves the shape in the scene, m.
-void translate(BoxShape& box, const Vec3& by);
-void translate(SphereShape& sphere, const Vec3& by);
-void translate(Shape& shape, const Vec3& by);
+void translate(BoxShape& box, const Double3& by);
+void translate(SphereShape& sphere, const Double3& by);
+void translate(Shape& shape, const Double3& by);
 
 }  // namespace rill

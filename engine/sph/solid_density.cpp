@@ -42,7 +42,7 @@ double ballOverHalfSpace(const SmoothingKernel& kernel, double R, double s) {
 }
 
 template <class HalfSpace>
-WallSample boxOf(const HalfSpace& halfSpaceAt, const Vec3& local, const Vec3& half) {
+WallSample boxOf(const HalfSpace& halfSpaceAt, const Double3& local, const Double3& half) {
   LineSample slab[3];
   for (size_t a = 0; a < 3; ++a) {
     const double x = std::abs(local[a]);
@@ -66,7 +66,7 @@ WallSample radial(const LineSample& along, const SurfacePoint& surface) {
 
 /// Answers for each shape of the engine.
 template <class Sphere, class Box>
-WallSample sampleOf(const Shape& shape, const Vec3& local, const Sphere& sphereAt, const Box& boxAt) {
+WallSample sampleOf(const Shape& shape, const Double3& local, const Sphere& sphereAt, const Box& boxAt) {
   if (const auto* sphere = std::get_if<SphereShape>(&shape)) {
     const SurfacePoint surface = surfaceAt(*sphere, local);
     return radial(sphereAt(sphere->radius, surface.distance), surface);
@@ -110,25 +110,26 @@ LineSample SphereTable::sample(double s) const {
   return {n[0] * (1 - t) + n[2] * t, n[1] * (1 - t) + n[3] * t};
 }
 
-WallSample boxSample(const SmoothingKernel& kernel, const Vec3& local, const Vec3& half) {
+WallSample boxSample(const SmoothingKernel& kernel, const Double3& local, const Double3& half) {
   for (size_t a = 0; a < 3; ++a)
     if (std::abs(local[a]) - half[a] >= wallReach(kernel)) return {};
   return boxOf([&](double s) { return halfSpace(kernel, s); }, local, half);
 }
 
-WallSample boxSample(const WallTables& tables, const Vec3& local, const Vec3& half) {
+WallSample boxSample(const WallTables& tables, const Double3& local, const Double3& half) {
   return boxOf([&](double s) { return tables.sampleFace(s); }, local, half);
 }
 
-WallSample solidSample(const SmoothingKernel& kernel, const Shape& shape, const Vec3& local) {
+WallSample solidSample(const SmoothingKernel& kernel, const Shape& shape, const Double3& local) {
   return sampleOf(
       shape, local, [&](double radius, double s) { return exactSphere(kernel, radius, s); },
-      [&](const Vec3& half) { return boxSample(kernel, local, half); });
+      [&](const Double3& half) { return boxSample(kernel, local, half); });
 }
 
-WallSample solidSample(const WallTables& tables, const SphereTable& sphere, const Shape& shape, const Vec3& local) {
+WallSample solidSample(const WallTables& tables, const SphereTable& sphere, const Shape& shape, const Double3& local) {
   return sampleOf(
-      shape, local, [&](double, double s) { return sphere.sample(s); }, [&](const Vec3& half) { return boxSample(tables, local, half); });
+      shape, local, [&](double, double s) { return sphere.sample(s); },
+      [&](const Double3& half) { return boxSample(tables, local, half); });
 }
 
 }  // namespace rill

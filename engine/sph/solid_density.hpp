@@ -35,15 +35,15 @@ SphereTable makeSphereTable(const SmoothingKernel& kernel, double R);
 ///   P_a = clamp(F(|x_a| - half_a) - F(|x_a| + half_a), 0, 1),  dP_a/dx_a = sign(x_a) (F'(|x_a| - half_a) - F'(|x_a| + half_a)).
 /// Faces of thick and wide boxes equal the plane wall from d/2 on. The gradient is in the frame of the box; `wallCoverage` is 0, since it
 /// refers to the axes of the scene.
-WallSample boxSample(const SmoothingKernel& kernel, const Vec3& local, const Vec3& half);
+WallSample boxSample(const SmoothingKernel& kernel, const Double3& local, const Double3& half);
 
 /// The same with F from the tables, as in the shaders.
-WallSample boxSample(const WallTables& tables, const Vec3& local, const Vec3& half);
+WallSample boxSample(const WallTables& tables, const Double3& local, const Double3& half);
 
 /// Density contribution of a shape at `local`; gradient and `local` are in its frame, `wallCoverage` is 0.
-WallSample solidSample(const SmoothingKernel& kernel, const Shape& shape, const Vec3& local);
+WallSample solidSample(const SmoothingKernel& kernel, const Shape& shape, const Double3& local);
 
 /// The same from the tables. `sphere`: of its radius, if the shape is a sphere.
-WallSample solidSample(const WallTables& tables, const SphereTable& sphere, const Shape& shape, const Vec3& local);
+WallSample solidSample(const WallTables& tables, const SphereTable& sphere, const Shape& shape, const Double3& local);
 
 }  // namespace rill

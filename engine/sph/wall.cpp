@@ -48,7 +48,7 @@ WallSample sumOver(const SmoothingKernel& kernel, const std::array<const Offsets
 }
 
 /// S with the first `walls` axes behind a low wall at s[axis].
-LineSample lowWalls(const SmoothingKernel& kernel, const Offsets& line, int walls, const double* s) {
+LineSample lowWalls(const SmoothingKernel& kernel, const Offsets& line, int walls, const Double3& s) {
   std::array<Offsets, 3> ghosts;
   std::array<const Offsets*, 3> axes = {&line, &line, &line};
   std::array<bool, 3> ghost = {};
@@ -86,7 +86,7 @@ LineSample sampleLine(const std::vector<float>& table, const Interpolation& p) {
 
 }  // namespace
 
-void WallSample::cover(double displaced, const double direction[3]) {
+void WallSample::cover(double displaced, const Double3& direction) {
   double square = 0;
   for (int a = 0; a < 3; ++a) square += direction[a] * direction[a];
   if (square <= 0) return;
@@ -97,7 +97,7 @@ void WallSample::cover(double displaced, const double direction[3]) {
 }
 
 WallScale wallScale(const WallSample& sample) {
-  const double(&d)[3] = sample.wallCoverage, (&m)[3] = sample.wallCoverageMixed;
+  const Double3 &d = sample.wallCoverage, &m = sample.wallCoverageMixed;
   WallScale scale;
   if (m[0] == 0 && m[1] == 0 && m[2] == 0) {
     for (int a = 0; a < 3; ++a) scale.diagonal[a] = 1 / (1 - std::min<double>(d[a], kMaxWallCoverage));
@@ -113,7 +113,7 @@ WallScale wallScale(const WallSample& sample) {
       size > 0 ? mean + 2 * size * std::cos(std::acos(std::clamp(0.5 * determinant / (size * size * size), -1.0, 1.0)) / 3) : mean;
   const double bound = std::min(1.0, kMaxWallCoverage / largest);
   // The inverse of 1 - bound * coverage, by cofactors.
-  double p[3], q[3];
+  Double3 p, q;
   for (int a = 0; a < 3; ++a) {
     p[a] = 1 - bound * d[a];
     q[a] = -bound * m[a];
@@ -129,7 +129,7 @@ WallScale wallScale(const WallSample& sample) {
 
 double wallReach(const SmoothingKernel& kernel) { return kernel.h() - kernel.spacing() / 2; }
 
-WallSample exactWall(const SmoothingKernel& kernel, const double lo[3], const double hi[3]) {
+WallSample exactWall(const SmoothingKernel& kernel, const Double3& lo, const Double3& hi) {
   std::array<Offsets, 3> ghosts;
   for (size_t a = 0; a < 3; ++a) {
     addGhosts(kernel, lo[a], -1, ghosts[a]);
@@ -160,7 +160,7 @@ WallSample exactWall(const SmoothingKernel& kernel, const double lo[3], const do
 
 LineSample exactPlane(const SmoothingKernel& kernel, double s) {
   if (s >= wallReach(kernel)) return {};
-  return lowWalls(kernel, aligned(kernel), 1, &s);
+  return lowWalls(kernel, aligned(kernel), 1, {s, 0, 0});
 }
 
 LineSample halfSpace(const SmoothingKernel& kernel, double s) {
@@ -185,10 +185,10 @@ WallTables makeWallTables(const SmoothingKernel& kernel) {
   t.nodes = count(t.step);
   t.cornerNodes = count(t.cornerStep);
   const Offsets line = aligned(kernel);
-  const auto push = [&](std::vector<float>& table, int walls, std::array<double, 3> s) {
+  const auto push = [&](std::vector<float>& table, int walls, Double3 s) {
     const double reach = wallReach(kernel) * (1 - 1e-9);
     const bool beyond = s[0] >= reach || (walls > 1 && s[1] >= reach) || (walls > 2 && s[2] >= reach);
-    const LineSample sum = beyond ? LineSample{} : lowWalls(kernel, line, walls, s.data());
+    const LineSample sum = beyond ? LineSample{} : lowWalls(kernel, line, walls, s);
     table.push_back(static_cast<float>(sum.value));
     table.push_back(static_cast<float>(sum.slope));
   };
@@ -238,7 +238,7 @@ LineSample WallTables::sampleCorner(double s1, double s2, double s3) const {
   return {at(0), at(1)};
 }
 
-WallSample WallTables::sample(const double lo[3], const double hi[3]) const {
+WallSample WallTables::sample(const Double3& lo, const Double3& hi) const {
   struct Wall {
     double s, side;  // side: d s / d x
   };

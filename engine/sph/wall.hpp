@@ -15,21 +15,21 @@ namespace rill {
 
 /// Contribution of walls or solids to a particle.
 struct WallSample {
-  double value = 0;                ///< added to rho_i / rho0, dimensionless
-  double gradient[3] = {0, 0, 0};  ///< 1/m, d value / d x_i with the gradient kernel; points toward the wall
+  double value = 0;              ///< added to rho_i / rho0, dimensionless
+  Double3 gradient = {0, 0, 0};  ///< 1/m, d value / d x_i with the gradient kernel; points toward the wall
   /// The symmetric tensor sum of value (1 - n n^T) over walls with normals n. The pressure force along a wall lacks it: for a linear
   /// pressure, sum_j (lambda_i + lambda_j) grad K_ij has the fraction 1 - wallCoverage (integration by parts, continuous kernel).
-  double wallCoverage[3] = {0, 0, 0};       ///< xx, yy, zz
-  double wallCoverageMixed[3] = {0, 0, 0};  ///< yz, zx, xy; 0 where all walls are along the axes
+  Double3 wallCoverage = {0, 0, 0};       ///< xx, yy, zz
+  Double3 wallCoverageMixed = {0, 0, 0};  ///< yz, zx, xy; 0 where all walls are along the axes
 
   /// Adds the coverage of a surface that displaces `displaced`, with a normal of this direction (of any length).
-  void cover(double displaced, const double direction[3]);
+  void cover(double displaced, const Double3& direction);
 };
 
 /// What walls do to a correction: the neighbors' share is multiplied by this symmetric matrix, (1 - wallCoverage)^-1.
 struct WallScale {
-  double diagonal[3] = {1, 1, 1};  ///< xx, yy, zz
-  double mixed[3] = {0, 0, 0};     ///< yz, zx, xy
+  Double3 diagonal = {1, 1, 1};  ///< xx, yy, zz
+  Double3 mixed = {0, 0, 0};     ///< yz, zx, xy
 };
 
 /// Eigenvalues of the coverage are bounded by kMaxWallCoverage: axis by axis where walls are along the axes, else by a common factor.
@@ -46,7 +46,7 @@ double wallReach(const SmoothingKernel& kernel);
 
 /// The contribution of all walls by lattice sums. `lo`, `hi`: distances to the low and high wall of each axis, m, clamped to >= 0; infinity
 /// without a wall.
-WallSample exactWall(const SmoothingKernel& kernel, const double lo[3], const double hi[3]);
+WallSample exactWall(const SmoothingKernel& kernel, const Double3& lo, const Double3& hi);
 
 /// G1(s): contribution of a single wall at distance s (m, >= 0), by lattice sums.
 LineSample exactPlane(const SmoothingKernel& kernel, double s);
@@ -70,11 +70,11 @@ struct WallTables {
   std::vector<float> edge;    ///< S of two axes: node i2 * nodes + i1; the slope by s2 is the one at (s2, s1)
   std::vector<float> corner;  ///< S of three axes: node (i3 * cornerNodes + i2) * cornerNodes + i1; symmetric in s2 and s3
 
-  LineSample samplePlane(double s) const;                           ///< linear interpolation, s >= 0
-  LineSample sampleFace(double s) const;                            ///< linear interpolation, any sign
-  LineSample sampleEdge(double s1, double s2) const;                ///< bilinear; the slope is the one by s1
-  LineSample sampleCorner(double s1, double s2, double s3) const;   ///< trilinear; the slope is the one by s1
-  WallSample sample(const double lo[3], const double hi[3]) const;  ///< as exactWall
+  LineSample samplePlane(double s) const;                          ///< linear interpolation, s >= 0
+  LineSample sampleFace(double s) const;                           ///< linear interpolation, any sign
+  LineSample sampleEdge(double s1, double s2) const;               ///< bilinear; the slope is the one by s1
+  LineSample sampleCorner(double s1, double s2, double s3) const;  ///< trilinear; the slope is the one by s1
+  WallSample sample(const Double3& lo, const Double3& hi) const;   ///< as exactWall
 };
 
 WallTables makeWallTables(const SmoothingKernel& kernel);

@@ -10,7 +10,7 @@ Bounds fluidBounds(const Scene& scene, const ParticleSet& particles) {
   Bounds bounds;
   for (const Float3& p : particles.positions) {
     if (!(std::abs(p.x) + std::abs(p.y) + std::abs(p.z) < 1e15f)) continue;
-    const double at[3] = {particles.origin[0] + p.x, particles.origin[1] + p.y, particles.origin[2] + p.z};
+    const Double3 at = {particles.origin[0] + p.x, particles.origin[1] + p.y, particles.origin[2] + p.z};
     bounds.add(at, 0.5 * scene.fluid.spacing);
   }
   return bounds;
@@ -18,11 +18,11 @@ Bounds fluidBounds(const Scene& scene, const ParticleSet& particles) {
 
 void addSolids(Bounds& bounds, const Scene& scene) {
   for (const Solid& solid : scene.solids) {
-    const Vec3 center = centerOf(solid.shape);
+    const Double3 center = centerOf(solid.shape);
     const double radius = boundingRadius(solid.shape);
-    if (solid.motion.empty()) bounds.add(center.data(), radius);
+    if (solid.motion.empty()) bounds.add(center, radius);
     for (const Keyframe& key : solid.motion) {
-      const double moved[3] = {center[0] + key.translate[0], center[1] + key.translate[1], center[2] + key.translate[2]};
+      const Double3 moved = {center[0] + key.translate[0], center[1] + key.translate[1], center[2] + key.translate[2]};
       bounds.add(moved, radius);
     }
   }

@@ -9,13 +9,12 @@ namespace rill {
 
 /// An axis-aligned box, m; empty until something is added.
 struct Bounds {
-  double min[3] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
-                   std::numeric_limits<double>::infinity()};
-  double max[3] = {-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
-                   -std::numeric_limits<double>::infinity()};
+  Double3 min = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  Double3 max = {-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+                 -std::numeric_limits<double>::infinity()};
 
   bool empty() const { return !(min[0] <= max[0]); }
-  void add(const double point[3], double reach = 0) {
+  void add(const Double3& point, double reach = 0) {
     for (int a = 0; a < 3; ++a) {
       min[a] = std::min(min[a], point[a] - reach);
       max[a] = std::max(max[a], point[a] + reach);

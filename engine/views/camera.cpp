@@ -11,9 +11,9 @@
 namespace rill {
 namespace {
 
-glm::dvec3 vec(const double v[3]) { return {v[0], v[1], v[2]}; }
+glm::dvec3 vec(const Double3& v) { return {v[0], v[1], v[2]}; }
 
-void store(const glm::dvec3& v, double out[3]) {
+void store(const glm::dvec3& v, Double3& out) {
   out[0] = v.x;
   out[1] = v.y;
   out[2] = v.z;
@@ -35,7 +35,7 @@ CameraBasis cameraBasis(const CameraView& camera) {
   return basis;
 }
 
-CameraView frameCamera(const double min[3], const double max[3], double aspect) {
+CameraView frameCamera(const Double3& min, const Double3& max, double aspect) {
   constexpr double kMargin = 1.07, kFov = 32;
   glm::dvec3 low = vec(min), high = vec(max);
   glm::dvec3 size = high - low;
@@ -82,15 +82,15 @@ CameraView frameCamera(const double min[3], const double max[3], double aspect) 
 CameraView sceneCamera(const Scene& scene, const ParticleSet& particles, double aspect) {
   if (scene.camera) {
     CameraView camera;
-    std::copy_n(scene.camera->eye, 3, camera.eye);
-    std::copy_n(scene.camera->target, 3, camera.target);
+    camera.eye = scene.camera->eye;
+    camera.target = scene.camera->target;
     camera.fov_y_deg = scene.camera->fov_y_deg;
     return camera;
   }
   if (scene.domain) return frameCamera(scene.domain->min, scene.domain->max, aspect);
   Bounds bounds = fluidBounds(scene, particles);
   addSolids(bounds, scene);
-  const double zero[3] = {0, 0, 0};
+  const Double3 zero = {0, 0, 0};
   return bounds.empty() ? frameCamera(zero, zero, aspect) : frameCamera(bounds.min, bounds.max, aspect);
 }
 

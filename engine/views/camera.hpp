@@ -7,22 +7,22 @@ namespace rill {
 
 /// A perspective camera with y up. If it looks along y, the picture's up is -z.
 struct CameraView {
-  double eye[3] = {0, 0, 1};     ///< m
-  double target[3] = {0, 0, 0};  ///< m
-  double fov_y_deg = 40;         ///< vertical field of view
+  Double3 eye = {0, 0, 1};     ///< m
+  Double3 target = {0, 0, 0};  ///< m
+  double fov_y_deg = 40;       ///< vertical field of view
 };
 
 /// Unit vectors of a camera's picture, right-handed: right x up points to the viewer.
 struct CameraBasis {
-  double right[3] = {1, 0, 0};
-  double up[3] = {0, 1, 0};
-  double forward[3] = {0, 0, -1};
+  Double3 right = {1, 0, 0};
+  Double3 up = {0, 1, 0};
+  Double3 forward = {0, 0, -1};
 };
 CameraBasis cameraBasis(const CameraView& camera);
 
 /// A camera that shows the whole box with a small margin, from the front and slightly above, with the longer horizontal side across.
 /// `min` and `max` in m (a box without size is widened to 1 m), `aspect`: the picture's width over its height.
-CameraView frameCamera(const double min[3], const double max[3], double aspect);
+CameraView frameCamera(const Double3& min, const Double3& max, double aspect);
 
 /// The scene's camera. By default it frames the domain or, without a domain, the fluid and solids at the start.
 CameraView sceneCamera(const Scene& scene, const ParticleSet& particles, double aspect);

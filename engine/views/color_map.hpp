@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-#include "rill/float3.hpp"
+#include "rill/vectors.hpp"
 
 namespace rill {
 

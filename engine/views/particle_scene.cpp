@@ -20,15 +20,15 @@ constexpr uint32_t kLightTexels = 512;  // a side at most
 /// Directions of the light map: across, across and to the light. The light comes from the front, left and above, so that the usual camera
 /// sees lit sides.
 struct LightFrame {
-  double u[3], v[3], to[3];
+  Double3 u, v, to;
 };
 
 LightFrame lightFrame() {
-  double to[3] = {-0.36, 1.0, 0.52};
-  const double size = std::sqrt(to[0] * to[0] + to[1] * to[1] + to[2] * to[2]);
-  for (double& c : to) c /= size;
+  constexpr Double3 kToLight = {-0.36, 1.0, 0.52};
+  const double size = std::sqrt(kToLight.x * kToLight.x + kToLight.y * kToLight.y + kToLight.z * kToLight.z);
+  const Double3 to = {kToLight.x / size, kToLight.y / size, kToLight.z / size};
   const double across = std::hypot(to[0], to[2]);
-  LightFrame frame{{to[2] / across, 0, -to[0] / across}, {}, {to[0], to[1], to[2]}};
+  LightFrame frame{{to[2] / across, 0, -to[0] / across}, {}, to};
   frame.v[0] = to[1] * frame.u[2] - to[2] * frame.u[1];
   frame.v[1] = to[2] * frame.u[0] - to[0] * frame.u[2];
   frame.v[2] = to[0] * frame.u[1] - to[1] * frame.u[0];
@@ -41,8 +41,7 @@ Bounds litBounds(const Scene& scene, const ParticleSet& particles) {
   addSolids(bounds, scene);
   if (bounds.empty()) {
     if (!scene.domain) {
-      const double zero[3] = {0, 0, 0};
-      bounds.add(zero, 1);
+      bounds.add({}, 1);
       return bounds;
     }
     bounds.add(scene.domain->min);
@@ -61,13 +60,13 @@ Bounds litBounds(const Scene& scene, const ParticleSet& particles) {
   return bounds;
 }
 
-void fillLight(SceneRecord& record, const Bounds& bounds, const double origin[3], double spacing) {
+void fillLight(SceneRecord& record, const Bounds& bounds, const Double3& origin, double spacing) {
   const LightFrame frame = lightFrame();
-  double low[3] = {1e300, 1e300, 1e300}, high[3] = {-1e300, -1e300, -1e300};
+  Double3 low = {1e300, 1e300, 1e300}, high = {-1e300, -1e300, -1e300};
   for (int corner = 0; corner < 8; ++corner) {
-    double at[3];
+    Double3 at;
     for (int a = 0; a < 3; ++a) at[a] = ((corner >> a) & 1 ? bounds.max[a] : bounds.min[a]) - origin[a];
-    const double* axes[3] = {frame.u, frame.v, frame.to};
+    const Double3 axes[3] = {frame.u, frame.v, frame.to};
     for (int k = 0; k < 3; ++k) {
       const double along = axes[k][0] * at[0] + axes[k][1] * at[1] + axes[k][2] * at[2];
       low[k] = std::min(low[k], along);
@@ -76,7 +75,7 @@ void fillLight(SceneRecord& record, const Bounds& bounds, const double origin[3]
   }
   const double extent = std::max({high[0] - low[0], high[1] - low[1], 1e-6});
   const double texel = std::max(extent / (kLightTexels - 4), 0.5 * spacing);
-  const auto vec = [](const double v[3], double w) {
+  const auto vec = [](const Double3& v, double w) {
     return Float4{static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), static_cast<float>(w)};
   };
   record.light_u = vec(frame.u, low[0] - texel);
@@ -109,8 +108,8 @@ double fallSpeed(const Scene& scene, const ParticleSet& particles) {
     if (std::isfinite(s)) square = std::max(square, s);
   }
   if (fluid.empty()) return std::sqrt(square);
-  std::vector<std::array<double, 3>> gravities{{scene.gravity[0], scene.gravity[1], scene.gravity[2]}};
-  for (const GravityChange& change : scene.gravity_changes) gravities.push_back({change.value[0], change.value[1], change.value[2]});
+  std::vector<Double3> gravities{scene.gravity};
+  for (const GravityChange& change : scene.gravity_changes) gravities.push_back(change.value);
   for (const auto& gravity : gravities) {
     // 2 g H, with both in one product: along every axis, from the fluid's far side to the end of the fall.
     double fall = 0;
@@ -140,7 +139,7 @@ double roundNicely(double value) {
 
 ParticleScene particleScene(const Scene& scene, const ParticleSet& particles) {
   ParticleScene out;
-  std::copy_n(particles.origin, 3, out.origin);
+  out.origin = particles.origin;
   SceneRecord& record = out.scene;
   if (scene.domain) {
     const Domain& domain = *scene.domain;

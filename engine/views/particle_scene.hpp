@@ -9,7 +9,7 @@
 namespace rill {
 
 struct ParticleScene {
-  double origin[3] = {0, 0, 0};  ///< m; all records are relative to it
+  Double3 origin = {0, 0, 0};  ///< m; all records are relative to it
   particle_view::SceneRecord scene;
   std::vector<particle_view::SceneSolid> solids;
   std::vector<KeyframeRecord> keyframes;

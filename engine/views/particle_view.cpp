@@ -18,7 +18,7 @@ constexpr uint32_t kMaxSide = 8192;
 constexpr uint64_t kMaxPixels = uint64_t{1} << 25;  // 128 MiB of 4 bytes
 constexpr double kMinNear = 1e-4;                   // of the distance to the target: the nearest near plane
 
-void storeAxis(const double from[3], float to[3]) {
+void storeAxis(const Double3& from, float to[3]) {
   for (int a = 0; a < 3; ++a) to[a] = static_cast<float>(from[a]);
 }
 

@@ -104,7 +104,7 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
 Float3 Scenery::toSun() const { return xyz(buffers_.host.scene.light_to); }
 
 /// The light map's frame as an orthographic camera, for positions relative to `origin`.
-SurfacePush Scenery::lightPush(const FluidState& fluid, const double origin[3]) const {
+SurfacePush Scenery::lightPush(const FluidState& fluid, const Double3& origin) const {
   const particle_view::SceneRecord& scene = buffers_.host.scene;
   SurfacePush push{};
   const Float4* axes[2] = {&scene.light_u, &scene.light_v};

@@ -31,7 +31,7 @@ class Scenery {
   Float3 toSun() const;
 
  private:
-  surface::SurfacePush lightPush(const FluidState& fluid, const double origin[3]) const;
+  surface::SurfacePush lightPush(const FluidState& fluid, const Double3& origin) const;
   bool hasGround() const { return hasEdges() && (buffers_.host.scene.counts.w & 4u) != 0; }  // a floor that is closed
   bool hasEdges() const { return buffers_.host.scene.domain_min.w > 0; }
 

@@ -5,7 +5,7 @@
 #ifdef __cplusplus
 #include <cstdint>
 
-#include "rill/float3.hpp"
+#include "rill/vectors.hpp"
 namespace rill::look {
 using uint = std::uint32_t;
 using vec4 = Float4;

@@ -6,7 +6,7 @@
 #ifdef __cplusplus
 #include <cstdint>
 
-#include "rill/float3.hpp"
+#include "rill/vectors.hpp"
 namespace rill::particle_view {
 using uint = std::uint32_t;
 using vec4 = Float4;

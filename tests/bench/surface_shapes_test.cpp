@@ -13,10 +13,10 @@ namespace {
 
 constexpr Eye kEye{48, 36, 0.36 * 4 / 3, 0.36, 60};
 
-using Vector = std::array<double, 3>;
+using Vector = Double3;
 Vector operator-(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 Vector cross(const Vector& a, const Vector& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
-double dot(const Vector& a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 std::vector<std::unique_ptr<Shape>> allShapes() {
   auto all = shapes(kEye.distance, kEye.tanHalfFovX, kEye.tanHalfFovY);
@@ -43,7 +43,7 @@ TEST(SurfaceShapes, NormalsMatchDepthGradient) {
             !pointAt(x, y + d, up))
           continue;
         Vector normal = cross(up - down, right - left);
-        const double size = std::sqrt(dot(normal, normal.data()));
+        const double size = std::sqrt(dot(normal, normal));
         for (double& v : normal) v /= size;
         EXPECT_NEAR(dot(normal, reference.normal), 1, 1e-6) << shape->name() << " at " << x << ", " << y;
         EXPECT_LT(x * reference.normal[0] + y * reference.normal[1] + reference.normal[2], 0)

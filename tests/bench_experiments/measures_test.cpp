@@ -28,13 +28,13 @@ Walls noWalls() { return {}; }
 TEST(NeighborGrid, MatchesBruteForce) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> anywhere(-1, 1);
-  std::vector<Point> points;
+  std::vector<Double3> points;
   for (int i = 0; i < 500; ++i) points.push_back({anywhere(random), anywhere(random), anywhere(random)});
   const NeighborGrid grid(points, 0.3);
-  for (const Point& center : points) {
+  for (const Double3& center : points) {
     size_t found = 0, expected = 0;
     grid.within(center, 0.3, [&](size_t, double) { ++found; });
-    for (const Point& other : points)
+    for (const Double3& other : points)
       if (std::hypot(other[0] - center[0], other[1] - center[1], other[2] - center[2]) <= 0.3) ++expected;
     EXPECT_EQ(found, expected);
   }
@@ -74,7 +74,7 @@ TEST(Measures, CountsClumpedParticles) {
   EXPECT_EQ(clumpedFraction(cloud), 0);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> jitter(-0.2 * kSpacing, 0.2 * kSpacing);
-  for (Point& point : cloud.position)
+  for (Double3& point : cloud.position)
     for (double& coordinate : point) coordinate += jitter(random);
   EXPECT_EQ(clumpedFraction(cloud), 0);  // jitter of 0.2 leaves at least 0.6 spacings
   cloud.position[0] = cloud.position[500];
@@ -89,7 +89,7 @@ TEST(Measures, LevelOfBlockIsItsHeight) {
 
 TEST(Measures, LevelIgnoresVoids) {
   Cloud cloud = lattice(9, 12, 9);
-  std::erase_if(cloud.position, [](const Point& p) { return std::hypot(p[0] - 0.225, p[1] - 0.2, p[2] - 0.225) < 0.1; });
+  std::erase_if(cloud.position, [](const Double3& p) { return std::hypot(p[0] - 0.225, p[1] - 0.2, p[2] - 0.225) < 0.1; });
   EXPECT_NEAR(surfaceLevel(cloud, 0, 0, 1), 12 * kSpacing, 1e-12);
 }
 
@@ -109,14 +109,14 @@ TEST(Measures, HeightAtWallEndsAtFirstGap) {
 
 TEST(Measures, AngularMomentumExcludesTranslation) {
   Cloud cloud = lattice(6, 6, 6);
-  const Point center = meanPosition(cloud);
+  const Double3 center = meanPosition(cloud);
   double moment = 0;
   for (size_t i = 0; i < cloud.size(); ++i) {
     const double x = cloud.position[i][0] - center[0], y = cloud.position[i][1] - center[1];
     cloud.velocity[i] = {5 - 2 * y, 2 * x, 1};
     moment += (x * x + y * y) / double(cloud.size());
   }
-  const Point angularMomentum = meanAngularMomentum(cloud);
+  const Double3 angularMomentum = meanAngularMomentum(cloud);
   EXPECT_NEAR(angularMomentum[0], 0, 1e-12);
   EXPECT_NEAR(angularMomentum[1], 0, 1e-12);
   EXPECT_NEAR(angularMomentum[2], 2 * moment, 1e-12);

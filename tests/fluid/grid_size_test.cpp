@@ -11,7 +11,7 @@ namespace grid_size_test {
 constexpr double kCell = 0.125;
 
 GridSize sized(double x, double y, double z, uint64_t particles) {
-  const double extent[3] = {x, y, z};
+  const Double3 extent = {x, y, z};
   return chooseGridSize(kCell, extent, particles);
 }
 

@@ -93,7 +93,7 @@ Scene Trial::timedScene() const {
 
 ParticleSet Trial::particles() const {
   ParticleSet set;
-  std::copy(origin, origin + 3, set.origin);
+  set.origin = origin;
   for (const glm::dvec3& p : x) set.positions.push_back(narrow(p));
   for (const glm::dvec3& p : v) set.velocities.push_back(narrow(p));
   set.velocities.resize(set.positions.size());

@@ -22,7 +22,7 @@ const char* nameOf(Gather gather);
 /// A scene with its particles, and the fixed step that both solvers take.
 struct Trial {
   Scene scene;
-  double origin[3] = {0, 0, 0};  ///< m
+  Double3 origin = {0, 0, 0};    ///< m
   std::vector<glm::dvec3> x, v;  ///< m and m/s, relative to the origin; `v` may be empty: at rest
   double step = 1e-3;            ///< s
   Gather gather = Gather::Texel;

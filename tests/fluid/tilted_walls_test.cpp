@@ -23,8 +23,7 @@ Trial turned(Trial t, const glm::dquat& by) {
       box.min[a] += move[a];
       box.max[a] += move[a];
     }
-    const double q[4] = {by.x, by.y, by.z, by.w};
-    std::copy(q, q + 4, solid.rotation);
+    solid.rotation = {by.x, by.y, by.z, by.w};
   }
   for (glm::dvec3& x : t.x) x = by * x;
   const glm::dvec3 g = by * glm::dvec3(0, -9.81, 0);

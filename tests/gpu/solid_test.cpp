@@ -11,24 +11,24 @@
 namespace rill::test {
 namespace solid_test {
 
-constexpr double kOrigin[3] = {0, 0, 0};
+constexpr Double3 kOrigin = {0, 0, 0};
 
 /// Boxes and spheres within 2 m, every other one of each with keyframes over 3 s.
 std::vector<Solid> randomSolids(std::mt19937& random) {
   std::uniform_real_distribution<double> place(-1, 1), size(0.05, 0.8);
   std::normal_distribution<double> normal;
-  const auto quaternion = [&](double(&q)[4]) {
+  const auto quaternion = [&](Quaternion& q) {
     double length = 0;
     for (double& part : q) length = std::hypot(length, part = normal(random));
     for (double& part : q) part /= length;
   };
   std::vector<Solid> solids(40);
   for (size_t k = 0; k < solids.size(); ++k) {
-    const Vec3 c = {place(random), place(random), place(random)}, half = {size(random), size(random), size(random)};
+    const Double3 c = {place(random), place(random), place(random)}, half = {size(random), size(random), size(random)};
     if (k % 2 == 0)
       solids[k].shape = BoxShape{{c[0] - half[0], c[1] - half[1], c[2] - half[2]}, {c[0] + half[0], c[1] + half[1], c[2] + half[2]}};
     else
-      solids[k].shape = SphereShape{{c[0], c[1], c[2]}, half[0]};
+      solids[k].shape = SphereShape{c, half[0]};
     quaternion(solids[k].rotation);
     for (int key = 0; key < (k % 4 < 2 ? 0 : 1 + int(k) % 5); ++key) {
       Keyframe& frame = solids[k].motion.emplace_back(Keyframe{0.25 + 0.5 * key, {place(random), place(random), place(random)}});
@@ -111,7 +111,7 @@ TEST_F(SolidGeometry, MatchesHost) {
     if (next.velocity == pose.velocity) {  // no keyframe between
       EXPECT_LT(difference(got.later, recordOf(next, kOrigin)), kRounding) << n;
     }
-    const Vec3 x = {q.x, q.y, q.z}, along = {q.alongX, q.alongY, q.alongZ}, speed = velocityAt(pose, x);
+    const Double3 x = {q.x, q.y, q.z}, along = {q.alongX, q.alongY, q.alongZ}, speed = velocityAt(pose, x);
     const SurfacePoint point = surfaceAt(solid.shape, pose, x);
     EXPECT_NEAR(got.distance, point.distance, kRounding) << n;
     EXPECT_NEAR(got.velocityX, speed[0], kRounding) << n;
@@ -129,7 +129,7 @@ TEST_F(SolidGeometry, MatchesHost) {
     if (!entry) continue;
     ++hits;
     EXPECT_NEAR(got.entry, *entry, 1e-3 * (1 + *entry)) << n;  // at a grazing sphere the root magnifies rounding
-    const Vec3 hit = {x[0] + *entry * along[0], x[1] + *entry * along[1], x[2] + *entry * along[2]};
+    const Double3 hit = {x[0] + *entry * along[0], x[1] + *entry * along[1], x[2] + *entry * along[2]};
     EXPECT_NEAR(surfaceAt(solid.shape, pose, hit).distance, 0, 1e-6) << n;
     EXPECT_LT(got.entryX * along[0] + got.entryY * along[1] + got.entryZ * along[2], 1e-3) << n << ": out of the surface";
   }

@@ -29,11 +29,11 @@ std::vector<Float3> block(int nx, int ny, int nz, double x0 = 0, double y0 = 0) 
   return points;
 }
 
-double front(const Scene& scene, const std::vector<Float3>& points, Axis axis, const double (&origin)[3] = {0, 0, 0}) {
+double front(const Scene& scene, const std::vector<Float3>& points, Axis axis, const Double3& origin = {0, 0, 0}) {
   return ProbeReader(scene, points, origin).front(axis);
 }
 
-double level(const Scene& scene, const std::vector<Float3>& points, double x, double z, const double (&origin)[3] = {0, 0, 0}) {
+double level(const Scene& scene, const std::vector<Float3>& points, double x, double z, const Double3& origin = {0, 0, 0}) {
   return ProbeReader(scene, points, origin).level(x, z);
 }
 

@@ -98,7 +98,7 @@ TEST(Play, LibraryDrawsEveryViewCleanUnderValidation) {
   ASSERT_TRUE(player) << player.error().message;
   std::vector<Float3> positions;
   for (int i = 0; i < 1000; ++i) positions.push_back({0.1f * float(i % 10), 0.1f * float(i / 10 % 10), 0.1f * float(i / 100)});
-  const double origin[3] = {-0.5, -0.5, -0.5};
+  const Double3 origin = {-0.5, -0.5, -0.5};
   for (int round = 0; round < 2; ++round) {
     for (const std::string_view view : offline::Simulation::views()) {
       const auto image = player->render(std::string(view), 160, 90);

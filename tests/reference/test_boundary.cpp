@@ -175,7 +175,7 @@ TEST(Boundary, MovingSphereDisplacesParticles) {
   for (int step = 0; step < 1000; ++step) {
     solver.substep(kStep, kStep);
     const Pose pose = solidPose(ball, solver.time());
-    const Vec3 at = {solver.state.position[0].x + 3, solver.state.position[0].y, solver.state.position[0].z};
+    const Double3 at = {solver.state.position[0].x + 3, solver.state.position[0].y, solver.state.position[0].z};
     EXPECT_GE(surfaceAt(ball.shape, pose, at).distance, kSpacing / 2 - 1e-9);
   }
   EXPECT_GT(glm::length(solver.state.position[0] - glm::dvec3(-3, 0.01, 0)), 0.1);

@@ -14,8 +14,7 @@ Solid slab(const glm::dvec3& low, const glm::dvec3& high, const glm::dquat& by) 
   const glm::dvec3 middle = by * ((low + high) / 2.0), half = (high - low) / 2.0;
   const glm::dvec3 min = middle - half, max = middle + half;
   Solid solid{.shape = BoxShape{{min.x, min.y, min.z}, {max.x, max.y, max.z}}};
-  const double q[4] = {by.x, by.y, by.z, by.w};
-  std::copy(q, q + 4, solid.rotation);
+  solid.rotation = {by.x, by.y, by.z, by.w};
   return solid;
 }
 

@@ -13,12 +13,12 @@
 namespace rill {
 namespace {
 
-double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double dot(const Double3& a, const Double3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// Where a point appears, in half heights of the picture.
-void project(const CameraView& camera, const double point[3], double& x, double& y, double& depth) {
+void project(const CameraView& camera, const Double3& point, double& x, double& y, double& depth) {
   const CameraBasis basis = cameraBasis(camera);
-  const double d[3] = {point[0] - camera.eye[0], point[1] - camera.eye[1], point[2] - camera.eye[2]};
+  const Double3 d = {point[0] - camera.eye[0], point[1] - camera.eye[1], point[2] - camera.eye[2]};
   depth = dot(d, basis.forward);
   const double tangent = std::tan(camera.fov_y_deg * std::numbers::pi / 360);
   x = dot(d, basis.right) / depth / tangent;
@@ -30,10 +30,10 @@ TEST(Camera, FramesBoxesOfAnyShape) {
       {0, 0, 0, 5, 4, 1}, {0, 0, 0, 1.6, 0.8, 0.15}, {-3, 0, -40, 3, 2, 40}, {1e6, 0, 0, 1e6 + 1, 1, 1}, {0, 0, 0, 0.01, 8, 0.01}};
   for (const auto& box : boxes) {
     for (const double aspect : {16.0 / 9, 1.0, 0.4}) {
-      const CameraView camera = frameCamera(box, box + 3, aspect);
+      const CameraView camera = frameCamera({box[0], box[1], box[2]}, {box[3], box[4], box[5]}, aspect);
       double widest = 0;
       for (int corner = 0; corner < 8; ++corner) {
-        const double at[3] = {box[corner & 1 ? 3 : 0], box[corner & 2 ? 4 : 1], box[corner & 4 ? 5 : 2]};
+        const Double3 at = {box[corner & 1 ? 3 : 0], box[corner & 2 ? 4 : 1], box[corner & 4 ? 5 : 2]};
         double x = 0, y = 0, depth = 0;
         project(camera, at, x, y, depth);
         EXPECT_GT(depth, 0);

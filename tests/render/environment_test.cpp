@@ -169,7 +169,7 @@ class EnvironmentOnGpu : public GpuTest {
   }
   static CameraView looking(double x, double y, double z) {
     CameraView camera;
-    const double at[3] = {x, y, z};
+    const Double3 at = {x, y, z};
     for (int a = 0; a < 3; ++a) {
       camera.eye[a] = 0;
       camera.target[a] = at[a];

@@ -29,7 +29,7 @@ class DepthFilters : public SurfaceOnGpu {
       view.projection.column[0].x = static_cast<float>(4 / half * view.height / view.width);
       view.projection.column[1].y = static_cast<float>(-4 / half);
     }
-    const double origin[3] = {0, 0, 0};
+    const Double3 origin = {0, 0, 0};
     SurfacePush push = viewPush(view, origin);
     push.step = kStep;
     push.margin = kMargin;

@@ -87,7 +87,7 @@ class FlowPyramid : public SurfaceOnGpu {
 
   /// Of samples `side` m wide four meters away; two surfaces, one a band before the other, and holes.
   Level scene(bool inPerspective, double side) {
-    const double half = 0.5 * side * kDown, origin[3] = {0, 0, 0};
+    const double half = 0.5 * side * kDown;
     const FluidView eye = looking({0, 0, 0}, {0, 0, -4}, kAcross, kDown);
     FluidView view = orthographic(half, eye);
     if (inPerspective) {
@@ -95,7 +95,7 @@ class FlowPyramid : public SurfaceOnGpu {
       view.projection.column[0].x = static_cast<float>(4 / half * view.height / view.width);
       view.projection.column[1].y = static_cast<float>(-4 / half);
     }
-    SurfacePush push = viewPush(view, origin);
+    SurfacePush push = viewPush(view, {});
     push.step = 1;
     push.margin = kMargin;
     push.spacing = kSpacing;

@@ -42,7 +42,7 @@ class ParticleViewOnGpu : public GpuTest {
   Picture take(const std::vector<Particle>& particles, uint32_t width, uint32_t height, double time = 0,
                ParticleColor color = ParticleColor::Speed, bool unlit = false) {
     ParticleSet start;
-    std::copy_n(origin_, 3, start.origin);
+    start.origin = origin_;
     std::vector<Float4> positions, velocities;
     for (const Particle& p : particles) {
       positions.push_back({p.x, p.y, p.z, 0});
@@ -63,7 +63,7 @@ class ParticleViewOnGpu : public GpuTest {
     FluidState state;
     state.capacity = static_cast<uint32_t>(particles.size());
     state.spacing = static_cast<float>(scene_.fluid.spacing);
-    std::copy_n(origin_, 3, state.origin);
+    state.origin = origin_;
     if (!particles.empty()) {
       state.position = graph.import("position", importOf(position));
       state.velocity = graph.import("velocity", importOf(velocity));
@@ -87,14 +87,14 @@ class ParticleViewOnGpu : public GpuTest {
   /// How far inside a sphere's outline the ray of a pixel runs, as a fraction of its radius: 1 through the center, negative outside.
   static double inside(const Particle& p, double radius, double x, double y, uint32_t width, uint32_t height) {
     const double focal = 0.5 * height / kTangent;
-    const double d[3] = {(x - 0.5 * width) / focal, (0.5 * height - y) / focal, -1};
+    const Double3 d = {(x - 0.5 * width) / focal, (0.5 * height - y) / focal, -1};
     const double t = (p.x * d[0] + p.y * d[1] + p.z * d[2]) / (d[0] * d[0] + d[1] * d[1] + 1);
     return 1 - std::hypot(p.x - t * d[0], p.y - t * d[1], p.z - t * d[2]) / radius;
   }
 
   Scene scene_;
   CameraView camera_;
-  double origin_[3] = {0, 0, 0};
+  Double3 origin_ = {0, 0, 0};
   std::optional<Float3> start_;  ///< in place of the particles, where the light's frame must not follow them
 };
 
@@ -128,7 +128,7 @@ TEST_F(ParticleViewOnGpu, NearestSphereOwnsThePixel) {
                 onlyB = take({{100, 0, 50}, b}, kWidth, kHeight);
   const double focal = 0.5 * kHeight / kTangent;
   const auto depth = [&](const Particle& p, uint32_t x, uint32_t y) {
-    const double d[3] = {(x + 0.5 - 0.5 * kWidth) / focal, (0.5 * kHeight - y - 0.5) / focal, -1};
+    const Double3 d = {(x + 0.5 - 0.5 * kWidth) / focal, (0.5 * kHeight - y - 0.5) / focal, -1};
     const double dd = d[0] * d[0] + d[1] * d[1] + 1, dp = d[0] * p.x + d[1] * p.y + d[2] * p.z;
     const double square = dp * dp - dd * (double{p.x} * p.x + double{p.y} * p.y + double{p.z} * p.z - 0.25);
     return square < 0 ? std::numeric_limits<double>::infinity() : (dp - std::sqrt(square)) / dd;
@@ -211,7 +211,8 @@ TEST_F(ParticleViewOnGpu, NearestOfACloudMatchesReference) {
   size_t compared = 0, wrong = 0, bare = 0;
   for (uint32_t y = 0; y < kHeight; ++y) {
     for (uint32_t x = 0; x < kWidth; ++x) {
-      const double d[3] = {(x + 0.5 - 0.5 * kWidth) / focal, (0.5 * kHeight - y - 0.5) / focal, -1}, dd = d[0] * d[0] + d[1] * d[1] + 1;
+      const Double3 d = {(x + 0.5 - 0.5 * kWidth) / focal, (0.5 * kHeight - y - 0.5) / focal, -1};
+      const double dd = d[0] * d[0] + d[1] * d[1] + 1;
       double nearest[2] = {1e9, 1e9}, rim = 0;  // of either kind; how far inside of the outline the hit is
       bool beside = false;                      // an outline of a nearer one is close
       for (size_t k = 0; k < cloud.size(); ++k) {

@@ -20,10 +20,10 @@ class SpareRoom : public GpuTest {
     for (int a = 0; a < 3; ++a) box.min[a] = 0.2, box.max[a] = 0.6;
     scene_.fill.emplace_back().shape = box;
     // Past the fluid, towards the place of the entries without a particle.
-    const double eye[3] = {-0.6, 0.2, -0.6}, target[3] = {0.4, 0.9, 0.4};
+    const Double3 eye = {-0.6, 0.2, -0.6}, target = {0.4, 0.9, 0.4};
     scene_.camera = Camera{};
-    std::copy_n(eye, 3, scene_.camera->eye);
-    std::copy_n(target, 3, scene_.camera->target);
+    scene_.camera->eye = eye;
+    scene_.camera->target = target;
   }
 
   std::vector<uint8_t> picture(std::string_view view, uint32_t capacity) {

@@ -18,7 +18,7 @@ constexpr double kNothing = SurfaceReference::kNone;
 class ParticlesToSamples : public SurfaceOnGpu {
  protected:
   static SurfacePush pushOf(const FluidView& view, uint32_t step, uint32_t count) {
-    const double origin[3] = {0, 0, 0};
+    const Double3 origin = {0, 0, 0};
     SurfacePush push = viewPush(view, origin);
     push.step = step;
     push.spacing = kSpacing;

@@ -41,9 +41,9 @@ TEST_F(SurfaceAsData, NormalsAreInWorldSpace) {
     // The view's rows are the axes of view space in the world, whose z points back to the eye.
     const Vector& n = pixels[i].normal;
     const auto& column = view.view.column;
-    const double world[3] = {n.x * double{column[0].x} + n.y * double{column[0].y} - n.z * double{column[0].z},
-                             n.x * double{column[1].x} + n.y * double{column[1].y} - n.z * double{column[1].z},
-                             n.x * double{column[2].x} + n.y * double{column[2].y} - n.z * double{column[2].z}};
+    const Double3 world = {n.x * double{column[0].x} + n.y * double{column[0].y} - n.z * double{column[0].z},
+                           n.x * double{column[1].x} + n.y * double{column[1].y} - n.z * double{column[1].z},
+                           n.x * double{column[2].x} + n.y * double{column[2].y} - n.z * double{column[2].z}};
     for (int c = 0; c < 3; ++c) ASSERT_NEAR(channel(bytes[i], c), byte(world[c] * 0.5 + 0.5), 0.6) << i << " " << c;
   }
   EXPECT_GT(there, 500);

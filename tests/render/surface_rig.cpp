@@ -55,9 +55,8 @@ std::vector<std::array<double, 4>> Drawn::channels(VkFormat format) const {
 
 FluidView SurfaceOnGpu::looking(Vector eye, Vector target, uint32_t width, uint32_t height) {
   CameraView camera;
-  const double from[] = {eye.x, eye.y, eye.z}, to[] = {target.x, target.y, target.z};
-  std::copy_n(from, 3, camera.eye);
-  std::copy_n(to, 3, camera.target);
+  camera.eye = {eye.x, eye.y, eye.z};
+  camera.target = {target.x, target.y, target.z};
   camera.fov_y_deg = 45;
   return fluidView(camera, width, height, double{kSpacing});
 }

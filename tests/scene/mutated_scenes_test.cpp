@@ -43,9 +43,11 @@ class Numbers {
       number = static_cast<Whole>(fits ? static_cast<uint8_t>(wanted) : std::numeric_limits<uint64_t>::max());
     });
   }
-  template <size_t N>
-  void add(double (&numbers)[N]) {
-    for (double& number : numbers) add(number);
+  void add(Double3& v) {
+    for (double& number : v) add(number);
+  }
+  void add(Quaternion& v) {
+    for (double& number : v) add(number);
   }
   void add(std::optional<std::pair<double, double>>& pair) {
     if (!pair) return;
@@ -75,7 +77,7 @@ class Numbers {
 
 StartFigures figuresOf(const ParticleSet& set) {
   StartFigures start{.capacity = static_cast<uint32_t>(set.positions.size())};
-  std::copy_n(set.origin, 3, start.origin);
+  start.origin = set.origin;
   for (const Float3& p : set.positions) {
     const float v[3] = {p.x, p.y, p.z};
     for (int a = 0; a < 3; ++a) start.extent[a] = std::max<double>(start.extent[a], std::abs(v[a]));

@@ -31,7 +31,7 @@ TEST(Pose, InterpolatesKeyframes) {
 TEST(Pose, ComputesSurfaceOfSpheresAndRotatedBoxes) {
   Solid ball;
   ball.shape = SphereShape{{1, 0, 0}, 0.5};
-  const Vec3 above = {1, 2, 0}, center = {1, 0, 0};
+  const Double3 above = {1, 2, 0}, center = {1, 0, 0};
   EXPECT_DOUBLE_EQ(surfaceAt(ball.shape, solidPose(ball, 0), above).distance, 1.5);
   EXPECT_DOUBLE_EQ(surfaceAt(ball.shape, solidPose(ball, 0), above).normal[1], 1);
   EXPECT_DOUBLE_EQ(surfaceAt(ball.shape, solidPose(ball, 0), center).distance, -0.5);
@@ -41,7 +41,7 @@ TEST(Pose, ComputesSurfaceOfSpheresAndRotatedBoxes) {
   box.shape = BoxShape{{-2, -1, -1}, {2, 1, 1}};
   box.rotation[2] = box.rotation[3] = std::sqrt(0.5);  // a quarter turn about z: long along y
   const Pose pose = solidPose(box, 0);
-  const Vec3 top = {0, 3, 0}, inside = {0.9, 0.5, 0}, corner = {1 + 3, 2 + 4, 0};
+  const Double3 top = {0, 3, 0}, inside = {0.9, 0.5, 0}, corner = {1 + 3, 2 + 4, 0};
   EXPECT_NEAR(surfaceAt(box.shape, pose, top).distance, 1, 1e-12);
   EXPECT_NEAR(surfaceAt(box.shape, pose, top).normal[1], 1, 1e-12);
   EXPECT_NEAR(surfaceAt(box.shape, pose, inside).distance, -0.1, 1e-12);
@@ -70,7 +70,7 @@ TEST(Pose, TurnsAtConstantSpeedBetweenKeyframes) {
   for (const double t : {1.0, 1.5, 2.0, 2.9}) {
     const Pose pose = solidPose(box, t);
     EXPECT_NEAR(pose.angularVelocity[1], kQuarter / 2, kTurned) << t;
-    const Vec3 x = toScene(pose, {1, 0, 0});
+    const Double3 x = toScene(pose, {1, 0, 0});
     const double angle = (t - 1) * kQuarter / 2;
     EXPECT_NEAR(x[0], std::cos(angle), kTurned) << t;
     EXPECT_NEAR(x[2], -std::sin(angle), kTurned) << t;
@@ -82,8 +82,8 @@ TEST(Pose, TurnsAtConstantSpeedBetweenKeyframes) {
 }
 
 TEST(Pose, TurnsTheShorterWay) {
-  Quaternion far = turn(0, 1, 0, 0.2);
-  for (double& part : far) part = -part;  // the same rotation, the longer way in four dimensions
+  const Quaternion near = turn(0, 1, 0, 0.2),
+                   far = {-near.x, -near.y, -near.z, -near.w};  // the same rotation, the longer way in four dimensions
   EXPECT_NEAR(solidPose(turning({0, 0, 0, 1}, far), 2).angularVelocity[1], 0.1, kTurned);
   EXPECT_NEAR(solidPose(turning({0, 0, 0, 1}, turn(0, 1, 0, 3.5 * kQuarter)), 2).angularVelocity[1], -0.25 * kQuarter, kTurned);
 }
@@ -99,8 +99,8 @@ TEST(Pose, HandlesEqualAndOppositeRotations) {
 TEST(Pose, RotatesAfterTheInitialRotation) {
   Solid box = turning(turn(0, 1, 0, kQuarter), turn(0, 1, 0, kQuarter));
   const Quaternion initial = turn(0, 0, 1, kQuarter);
-  std::copy(initial.begin(), initial.end(), box.rotation);
-  const Vec3 x = toScene(solidPose(box, 0), {1, 0, 0});  // to y, which the keyframe leaves alone
+  box.rotation = initial;
+  const Double3 x = toScene(solidPose(box, 0), {1, 0, 0});  // to y, which the keyframe leaves alone
   EXPECT_NEAR(x[1], 1, kTurned);
 }
 
@@ -108,10 +108,10 @@ TEST(Pose, VelocityIsTheDerivativeOfThePoint) {
   Solid box = turning(turn(0.6, 0, 0.8, 0.3), turn(0, 1, 0, 2));
   box.motion[1].translate[0] = 3;
   const Pose pose = solidPose(box, 1.7), later = solidPose(box, 1.7 + 1e-6);
-  const Vec3 local = {0.3, -0.8, 0.5}, now = toScene(pose, local), then = toScene(later, local);
-  Vec3 x;
+  const Double3 local = {0.3, -0.8, 0.5}, now = toScene(pose, local), then = toScene(later, local);
+  Double3 x;
   for (size_t a = 0; a < 3; ++a) x[a] = pose.center[a] + now[a];
-  const Vec3 v = velocityAt(pose, x);
+  const Double3 v = velocityAt(pose, x);
   for (size_t a = 0; a < 3; ++a) EXPECT_NEAR(v[a], (later.center[a] + then[a] - x[a]) / 1e-6, 1e-5) << a;
 }
 

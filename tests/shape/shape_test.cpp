@@ -16,7 +16,7 @@ const Shape kShapes[] = {BoxShape{{1, 2, 3}, {1.4, 3, 4.6}}, SphereShape{{1, 2, 
 /// Points and directions in a cube of 4 m.
 class Points {
  public:
-  Vec3 next() { return {place_(random_), place_(random_), place_(random_)}; }
+  Double3 next() { return {place_(random_), place_(random_), place_(random_)}; }
 
  private:
   std::mt19937 random_{7};
@@ -27,14 +27,14 @@ TEST(Shape, NormalIsTheGradientOfTheDistance) {
   Points points;
   for (const Shape& shape : kShapes) {
     for (int n = 0; n < 500; ++n) {
-      const Vec3 x = points.next();
+      const Double3 x = points.next();
       const SurfacePoint at = surfaceAt(shape, x);
       for (size_t a = 0; a < 3; ++a) {
-        Vec3 low = x, high = x;
+        Double3 low = x, high = x;
         low[a] -= 1e-7, high[a] += 1e-7;
         EXPECT_NEAR(at.normal[a], (surfaceAt(shape, high).distance - surfaceAt(shape, low).distance) / 2e-7, 1e-5);
       }
-      Vec3 foot = x;  // outside: the closest point is on the surface
+      Double3 foot = x;  // outside: the closest point is on the surface
       for (size_t a = 0; a < 3; ++a) foot[a] -= at.distance * at.normal[a];
       EXPECT_NEAR(surfaceAt(shape, foot).distance, 0, 1e-12);
     }
@@ -45,15 +45,15 @@ TEST(Shape, BoundsHoldWhatIsInside) {
   Points points;
   const Pose pose{.center = {0, 0, 0}, .rotation = {0.5, 0.5, -0.5, 0.5}};
   for (const Shape& shape : kShapes) {
-    const Vec3 half = halfExtents(shape), extents = sceneExtents(shape, pose);
+    const Double3 half = halfExtents(shape), extents = sceneExtents(shape, pose);
     size_t inside = 0;
-    double reach[3] = {0, 0, 0};
+    Double3 reach = {0, 0, 0};
     for (int n = 0; n < 20000; ++n) {
-      const Vec3 x = points.next();
+      const Double3 x = points.next();
       if (surfaceAt(shape, pose, x).distance > 0) continue;
       ++inside;
       EXPECT_LE(std::hypot(x[0], x[1], x[2]), boundingRadius(shape));
-      const Vec3 local = localPoint(pose, x);
+      const Double3 local = localPoint(pose, x);
       for (size_t a = 0; a < 3; ++a) {
         EXPECT_LE(std::abs(local[a]), half[a]);
         EXPECT_LE(std::abs(x[a]), extents[a] + 1e-12);
@@ -71,8 +71,8 @@ TEST(Shape, RaysEnterAtTheSurface) {
   for (const Shape& shape : kShapes) {
     size_t hits = 0;
     for (int n = 0; n < 2000; ++n) {
-      const Vec3 from = points.next();
-      Vec3 along = points.next();
+      const Double3 from = points.next();
+      Double3 along = points.next();
       const double length = std::hypot(along[0], along[1], along[2]);
       for (double& a : along) a /= length;
       const auto entry = rayEntry(shape, from, along);
@@ -98,9 +98,9 @@ TEST(Shape, RaysEnterAtTheSurface) {
 
 TEST(Shape, TranslatesItsCenter) {
   for (Shape shape : kShapes) {
-    const Vec3 before = centerOf(shape), half = halfExtents(shape);
+    const Double3 before = centerOf(shape), half = halfExtents(shape);
     translate(shape, {1, -2, 3});
-    const Vec3 after = centerOf(shape);
+    const Double3 after = centerOf(shape);
     EXPECT_DOUBLE_EQ(after[0] - before[0], 1);
     EXPECT_DOUBLE_EQ(after[1] - before[1], -2);
     EXPECT_DOUBLE_EQ(after[2] - before[2], 3);

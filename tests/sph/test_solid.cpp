@@ -71,7 +71,7 @@ TEST_P(SolidTest, ThickBoxMatchesWallAndThinPlateDisplacesLess) {
     const LineSample plane = exactPlane(k, s);
     double last = plane.value;
     for (const double thickness : {2 * k.h(), 1.5 * kSolidSpacing, kSolidSpacing, 0.3 * kSolidSpacing}) {
-      const Vec3 half = {wide, wide, thickness / 2}, at = {0.1 * kSolidSpacing, -0.2 * kSolidSpacing, -(s + thickness / 2)};
+      const Double3 half = {wide, wide, thickness / 2}, at = {0.1 * kSolidSpacing, -0.2 * kSolidSpacing, -(s + thickness / 2)};
       const WallSample box = boxSample(k, at, half);
       if (thickness > k.h()) {
         EXPECT_NEAR(box.value, plane.value, 1e-12);
@@ -89,7 +89,7 @@ TEST_P(SolidTest, ThickBoxMatchesWallAndThinPlateDisplacesLess) {
 // A plate as thick as one lattice layer contributes the same density as that layer.
 TEST_P(SolidTest, PlateOfOneSpacingMatchesOneLayer) {
   const SmoothingKernel k = kernel();
-  const Vec3 half = {10 * k.h(), 10 * k.h(), kSolidSpacing / 2}, at = {0, 0, kSolidSpacing};
+  const Double3 half = {10 * k.h(), 10 * k.h(), kSolidSpacing / 2}, at = {0, 0, kSolidSpacing};
   double layer = 0;
   for (int i = -5; i <= 5; ++i)
     for (int j = -5; j <= 5; ++j) layer += k.value(kSolidSpacing * std::sqrt(i * i + j * j + 1.0));
@@ -101,11 +101,11 @@ TEST(WendlandBox, GradientIsTheDerivativeOfTheValue) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(-4 * kSolidSpacing, 4 * kSolidSpacing), size(0.2 * kSolidSpacing, 2 * kSolidSpacing);
   for (int sample = 0; sample < 300; ++sample) {
-    const Vec3 at = {place(random), place(random), place(random)}, half = {size(random), size(random), size(random)};
+    const Double3 at = {place(random), place(random), place(random)}, half = {size(random), size(random), size(random)};
     const WallSample box = boxSample(k, at, half);
     for (size_t a = 0; a < 3; ++a) {
       const double step = 1e-6 * kSolidSpacing;
-      Vec3 low = at, high = at;
+      Double3 low = at, high = at;
       low[a] -= step, high[a] += step;
       const double slope = (boxSample(k, high, half).value - boxSample(k, low, half).value) / (2 * step);
       EXPECT_NEAR(box.gradient[a] * kSolidSpacing, slope * kSolidSpacing, 1e-4);
@@ -114,7 +114,7 @@ TEST(WendlandBox, GradientIsTheDerivativeOfTheValue) {
 }
 
 TEST(PairHash, IsAntisymmetricNonZeroAndUniform) {
-  double mean[3] = {0, 0, 0};
+  Double3 mean = {0, 0, 0};
   int count = 0;
   for (uint32_t i = 0; i < 60; ++i) {
     for (uint32_t j = 0; j < i; ++j, ++count) {

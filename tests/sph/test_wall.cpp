@@ -41,7 +41,7 @@ Rest restLattice(const SmoothingKernel& k, const int (&layers)[3], const Wall& w
   for (p[0] = 0; p[0] < count[0]; ++p[0])
     for (p[1] = 0; p[1] < count[1]; ++p[1])
       for (p[2] = 0; p[2] < count[2]; ++p[2]) {
-        double lo[3], hi[3];
+        Double3 lo, hi;
         for (int a = 0; a < 3; ++a) {
           lo[a] = layers[a] ? (p[a] + 0.5) * d : kFar;
           hi[a] = layers[a] ? (layers[a] - p[a] - 0.5) * d : kFar;
@@ -71,10 +71,10 @@ TEST_P(WallTest, RestLatticeHasRestDensityEverywhere) {
                           {2, 0, 0},  {3, 5, 0},   {4, 4, 4}, {1, 1, 1},   {2, 1, 3}};
   for (const auto& layers : boxes) {
     const auto name = testing::Message() << layers[0] << " x " << layers[1] << " x " << layers[2] << " layers";
-    const Rest exact = restLattice(k, layers, [&](const double* lo, const double* hi) { return rill::exactWall(k, lo, hi); });
+    const Rest exact = restLattice(k, layers, [&](const Double3& lo, const Double3& hi) { return rill::exactWall(k, lo, hi); });
     EXPECT_LT(exact.density, 1e-12) << name;
     EXPECT_LT(exact.gradient, 1e-12) << name;
-    const Rest tabulated = restLattice(k, layers, [&](const double* lo, const double* hi) { return tables.sample(lo, hi); });
+    const Rest tabulated = restLattice(k, layers, [&](const Double3& lo, const Double3& hi) { return tables.sample(lo, hi); });
     EXPECT_LT(tabulated.density, 2e-6) << name;
     EXPECT_LT(tabulated.gradient, 1e-5) << name;
   }
@@ -89,7 +89,7 @@ TEST_P(WallTest, TablesMatchLatticeSums) {
   // The error of linear interpolation is step^2 / 8 times the curvature, which is larger for narrow kernels.
   const double bound = ratio() < 2 ? 5e-3 : ratio() < 3 ? 1.3e-3 : 5e-4;
   for (int sample = 0; sample < 2000; ++sample) {
-    double lo[3], hi[3];
+    Double3 lo, hi;
     for (int a = 0; a < 3; ++a) {
       lo[a] = closed(random) ? distance(random) : kFar;
       hi[a] = closed(random) && sample % 4 == 0 ? distance(random) : kFar;
@@ -113,7 +113,7 @@ TEST_P(WallTest, IncreasesTowardWall) {
     const LineSample near = rill::exactPlane(k, s), far = rill::exactPlane(k, reach * (i + 1) / 100);
     EXPECT_GT(near.value, far.value);
     EXPECT_LT(near.slope, 0);
-    const double lo[3] = {kFar, s, kFar}, hi[3] = {kFar, kFar, kFar};
+    const Double3 lo = {kFar, s, kFar}, hi = {kFar, kFar, kFar};
     const WallSample low = rill::exactWall(k, lo, hi), high = rill::exactWall(k, hi, lo);
     EXPECT_NEAR(low.value, near.value, 1e-14);
     EXPECT_NEAR(low.gradient[1], near.slope, 1e-12 / kWallSpacing);
@@ -159,14 +159,14 @@ TEST(WendlandWall, GradientIsTheDerivativeOfTheValue) {
     const SmoothingKernel k(KernelChoice::Wendland, ratio * kWallSpacing, kWallSpacing);
     std::uniform_real_distribution<double> distance(0.01 * kWallSpacing, k.h());
     for (int sample = 0; sample < 50; ++sample) {
-      double lo[3], hi[3];
+      Double3 lo, hi;
       for (int a = 0; a < 3; ++a) lo[a] = distance(random), hi[a] = sample % 2 ? distance(random) : kFar;
       const WallSample at = rill::exactWall(k, lo, hi);
       for (int a = 0; a < 3; ++a) {
         const double step = 1e-5 * kWallSpacing;
         double value[2];
         for (int side = 0; side < 2; ++side) {
-          double l[3] = {lo[0], lo[1], lo[2]}, u[3] = {hi[0], hi[1], hi[2]};
+          Double3 l = lo, u = hi;
           const double move = side ? step : -step;
           l[a] += move, u[a] -= move;
           value[side] = rill::exactWall(k, l, u).value;
@@ -196,7 +196,7 @@ TEST(WendlandWall, PressureForceAlongWallIsReducedByCoverage) {
         for (int z = -4; z <= 4; ++z) whole -= k.gradientOverR(kWallSpacing * std::sqrt(double(x * x + y * y + z * z))) * z * z;
     const double near = kWallSpacing / 2;
     const auto coverage = [&](double lowY, double highX) {
-      const double lo[3] = {near, lowY, kFar}, hi[3] = {highX, kFar, kFar};
+      const Double3 lo = {near, lowY, kFar}, hi = {highX, kFar, kFar};
       return rill::exactWall(k, lo, hi).wallCoverage[2];
     };
     EXPECT_NEAR(force(9, 9) / whole, 1 - coverage(near, kFar), 0.02) << "in an edge, h = " << ratio << " d";
@@ -214,7 +214,7 @@ TEST(WallTables, StaySmallAtTheWidestKernel) {
 }
 
 /// The scale times a vector.
-std::array<double, 3> scaled(const rill::WallScale& s, const double (&v)[3]) {
+std::array<double, 3> scaled(const rill::WallScale& s, const Double3& v) {
   return {s.diagonal[0] * v[0] + s.mixed[2] * v[1] + s.mixed[1] * v[2], s.mixed[2] * v[0] + s.diagonal[1] * v[1] + s.mixed[0] * v[2],
           s.mixed[1] * v[0] + s.mixed[0] * v[1] + s.diagonal[2] * v[2]};
 }
@@ -223,7 +223,7 @@ TEST(WallScale, ScalesAlongAWallOfAnyNormal) {
   std::mt19937 random(3);
   std::normal_distribution<double> part;
   for (int n = 0; n < 100; ++n) {
-    double normal[3] = {part(random), part(random), part(random)}, along[3] = {part(random), part(random), part(random)};
+    Double3 normal = {part(random), part(random), part(random)}, along = {part(random), part(random), part(random)};
     const double square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
     const double out = (normal[0] * along[0] + normal[1] * along[1] + normal[2] * along[2]) / square;
     for (int a = 0; a < 3; ++a) along[a] -= out * normal[a];
@@ -242,7 +242,8 @@ TEST(WallScale, ScalesAlongAWallOfAnyNormal) {
 
 // Two walls that meet: along the edge both count, across one wall the other alone.
 TEST(WallScale, AddsTheWallsOfATurnedEdge) {
-  const double c = std::cos(0.3), s = std::sin(0.3), first[3] = {c, s, 0}, second[3] = {-s, c, 0}, edge[3] = {0, 0, 1};
+  const double c = std::cos(0.3), s = std::sin(0.3);
+  const Double3 first = {c, s, 0}, second = {-s, c, 0}, edge = {0, 0, 1};
   WallSample sample;
   sample.cover(0.125, first);
   sample.cover(0.2, second);

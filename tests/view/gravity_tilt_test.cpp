@@ -7,7 +7,7 @@
 namespace rill::view {
 namespace {
 
-constexpr std::array<double, 3> kDown{0, -9.81, 0};
+constexpr Double3 kDown{0, -9.81, 0};
 
 CameraView from(double x, double y, double z) {
   CameraView view;
@@ -17,7 +17,7 @@ CameraView from(double x, double y, double z) {
   return view;
 }
 
-double length(const std::array<double, 3>& v) { return std::hypot(v[0], v[1], v[2]); }
+double length(const Double3& v) { return std::hypot(v[0], v[1], v[2]); }
 
 TEST(GravityTilt, FollowsImageDirections) {
   const CameraView front = from(0, 1, 3), right = from(3, 1, 0);

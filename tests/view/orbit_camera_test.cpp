@@ -10,9 +10,9 @@ namespace {
 
 CameraView someView() {
   CameraView view;
-  const double eye[3] = {3, 2, 4}, target[3] = {1, 0.5, -1};
-  std::copy_n(eye, 3, view.eye);
-  std::copy_n(target, 3, view.target);
+  const Double3 eye = {3, 2, 4}, target = {1, 0.5, -1};
+  view.eye = eye;
+  view.target = target;
   view.fov_y_deg = 35;
   return view;
 }
@@ -28,7 +28,7 @@ void expectNear(const CameraView& a, const CameraView& b, double tolerance) {
 double distanceOf(const CameraView& v) { return std::hypot(v.eye[0] - v.target[0], v.eye[1] - v.target[1], v.eye[2] - v.target[2]); }
 
 /// Where a point of the world is in the picture, in its heights from the middle, right and down.
-std::array<double, 2> seen(const CameraView& view, const std::array<double, 3>& point) {
+std::array<double, 2> seen(const CameraView& view, const Double3& point) {
   const CameraBasis basis = cameraBasis(view);
   double right = 0, up = 0, forward = 0;
   for (int a = 0; a < 3; ++a) {
@@ -42,10 +42,10 @@ std::array<double, 2> seen(const CameraView& view, const std::array<double, 3>& 
 }
 
 /// The point at the target's depth that is seen there.
-std::array<double, 3> pointAt(const CameraView& view, double right, double down) {
+Double3 pointAt(const CameraView& view, double right, double down) {
   const CameraBasis basis = cameraBasis(view);
   const double meters = 2 * distanceOf(view) * std::tan(view.fov_y_deg * std::numbers::pi / 360);
-  std::array<double, 3> point{};
+  Double3 point{};
   for (int a = 0; a < 3; ++a) point[a] = view.target[a] + meters * (right * basis.right[a] - down * basis.up[a]);
   return point;
 }
@@ -118,7 +118,7 @@ TEST(OrbitCamera, LooksAlongAxes) {
   OrbitCamera camera(someView());
   const struct {
     AxisView view;
-    double forward[3];
+    Double3 forward;
   } rows[] = {{AxisView::Front, {0, 0, -1}}, {AxisView::Back, {0, 0, 1}}, {AxisView::Right, {-1, 0, 0}},
               {AxisView::Left, {1, 0, 0}},   {AxisView::Top, {0, -1, 0}}, {AxisView::Bottom, {0, 1, 0}}};
   for (const auto& row : rows) {

@@ -34,7 +34,7 @@ TEST(ViewPick, RayPassesThroughImagePoint) {
 TEST(ViewPick, ReturnsNearestHit) {
   const Ray ray = rayThrough(ahead(), 0, 0);
   const Float3 balls[] = {{0, 0, -3}, {0.05f, 0, -1}, {0.2f, 0, 0}, {0, 0, 7}};  // the third is beside the ray, the last behind the eye
-  const double origin[3] = {0, 0, 1};
+  const Double3 origin = {0, 0, 1};
   const auto fluid = pick(ray, balls, origin, 0.1, {}, {});
   ASSERT_TRUE(fluid);
   EXPECT_FALSE(fluid->solid);
@@ -52,7 +52,7 @@ TEST(ViewPick, ReturnsNearestHit) {
 TEST(ViewPick, HitsRotatedBoxAtEdge) {
   const Solid solids[] = {box(1)};
   const Pose straight[] = {at(0)}, turned[] = {at(0, true)};
-  const double origin[3] = {0, 0, 0};
+  const Double3 origin = {0, 0, 0};
   const Ray ray = rayThrough(ahead(), 0, 0);
   EXPECT_NEAR(pick(ray, {}, origin, 0.1, solids, straight)->distance, 4, 1e-12);
   EXPECT_NEAR(pick(ray, {}, origin, 0.1, solids, turned)->distance, 5 - std::sqrt(2.0), 1e-9);

@@ -114,7 +114,7 @@ TEST_F(TouchTest, DrivenSolidIsDrawnAtItsPose) {
   const Pose there = runner().pose(1);
   EXPECT_NEAR(there.center[0], 1.5, 1e-4);
   Scene still = session().scene();
-  Vec3 moved = there.center;
+  Double3 moved = there.center;
   for (size_t a = 0; a < 3; ++a) moved[a] -= centerOf(still.solids[1].shape)[a];
   translate(still.solids[1].shape, moved);
   still.solids[1].driven = 0;

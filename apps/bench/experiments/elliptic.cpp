@@ -31,9 +31,9 @@ Cloud disc(double spacing) {
 
 /// Semi-axes of the ellipse with the same second moments.
 std::pair<double, double> semiAxes(const Cloud& cloud) {
-  const Point center = meanPosition(cloud);
+  const Double3 center = meanPosition(cloud);
   double xx = 0, yy = 0;
-  for (const Point& point : cloud.position) {
+  for (const Double3& point : cloud.position) {
     xx += (point[0] - center[0]) * (point[0] - center[0]);
     yy += (point[1] - center[1]) * (point[1] - center[1]);
   }

@@ -10,11 +10,11 @@ namespace {
 
 constexpr double kSize = 0.5;                          // m: edge of the block, radius of the drop
 constexpr int kBlockResolution[kLevels] = {5, 8, 12};  // spacings per kSize
-constexpr Point kFlight{1, 0.5, 0.25};                 // m/s
+constexpr Double3 kFlight{1, 0.5, 0.25};               // m/s
 constexpr double kSpin = 1, kCompression = 2;          // 1/s
 
-double length(const Point& vector) { return std::hypot(vector[0], vector[1], vector[2]); }
-Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+double length(const Double3& vector) { return std::hypot(vector[0], vector[1], vector[2]); }
+Double3 difference(const Double3& a, const Double3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 Expected<Outcome> fall(const Bench& bench, unsigned level) {
   Scene scene;
@@ -45,7 +45,7 @@ Cloud ball(double spacing) {
   for (int i = -half; i < half; ++i)
     for (int j = -half; j < half; ++j)
       for (int l = -half; l < half; ++l) {
-        const Point p{(i + 0.5) * spacing, (j + 0.5) * spacing, (l + 0.5) * spacing};
+        const Double3 p{(i + 0.5) * spacing, (j + 0.5) * spacing, (l + 0.5) * spacing};
         if (length(p) > kSize) continue;
         cloud.position.push_back(p);
         cloud.velocity.push_back({kFlight[0] - kCompression * p[0] - kSpin * p[1], kFlight[1] + 0.5 * kCompression * p[1] + kSpin * p[0],
@@ -61,13 +61,13 @@ Expected<Outcome> flight(const Bench& bench, unsigned level) {
   const auto start = StartFile::write(ball(scene.fluid.spacing));
   if (!start) return start.error();
   scene.fill.push_back(start->fill());
-  Point speed{}, angularMomentum{};
+  Double3 speed{}, angularMomentum{};
   double momentumDrift = 0, angularMomentumDrift = 0;
   Curve angularMomenta;
   auto run = runSampled(
       bench, scene, 1, 1.0 / 60, [](double) { return true; },
       [&](const Cloud& cloud, double time) {
-        const Point newSpeed = meanVelocity(cloud), newAngularMomentum = meanAngularMomentum(cloud);
+        const Double3 newSpeed = meanVelocity(cloud), newAngularMomentum = meanAngularMomentum(cloud);
         if (time == 0) {
           speed = newSpeed;
           angularMomentum = newAngularMomentum;

@@ -28,9 +28,9 @@ double latticeSum(double support_in_spacings) {
   return sum;
 }
 
-Point mean(std::span<const Point> points) {
-  Point sum{};
-  for (const Point& point : points)
+Double3 mean(std::span<const Double3> points) {
+  Double3 sum{};
+  for (const Double3& point : points)
     for (size_t axis = 0; axis < 3; ++axis) sum[axis] += point[axis];
   for (double& value : sum) value /= double(points.size());
   return sum;
@@ -39,7 +39,7 @@ Point mean(std::span<const Point> points) {
 }  // namespace
 
 Cloud cloudOf(const offline::Particles& particles, double spacing_m) {
-  const auto wide = [](const Float3& value) { return Point{value.x, value.y, value.z}; };
+  const auto wide = [](const Float3& value) { return Double3{value.x, value.y, value.z}; };
   Cloud cloud;
   cloud.spacing = spacing_m;
   for (const Float3& position : particles.positions) cloud.position.push_back(wide(position));
@@ -47,10 +47,10 @@ Cloud cloudOf(const offline::Particles& particles, double spacing_m) {
   return cloud;
 }
 
-NeighborGrid::NeighborGrid(std::span<const Point> points, double reach_m) : points_(points), cell_(reach_m), order_(points.size()) {
+NeighborGrid::NeighborGrid(std::span<const Double3> points, double reach_m) : points_(points), cell_(reach_m), order_(points.size()) {
   std::iota(order_.begin(), order_.end(), size_t{0});
   std::vector<uint64_t> keys;
-  for (const Point& point : points) keys.push_back(keyOf(cellOf(point)));
+  for (const Double3& point : points) keys.push_back(keyOf(cellOf(point)));
   std::ranges::stable_sort(order_, {}, [&](size_t i) { return keys[i]; });
   for (size_t first = 0, last = 0; first < order_.size(); first = last) {
     while (last < order_.size() && keys[order_[last]] == keys[order_[first]]) ++last;
@@ -58,7 +58,7 @@ NeighborGrid::NeighborGrid(std::span<const Point> points, double reach_m) : poin
   }
 }
 
-NeighborGrid::Cell NeighborGrid::cellOf(const Point& point) const {
+NeighborGrid::Cell NeighborGrid::cellOf(const Double3& point) const {
   Cell cell;
   for (size_t axis = 0; axis < 3; ++axis) cell[axis] = static_cast<int64_t>(std::floor(point[axis] / cell_));
   return cell;
@@ -71,7 +71,7 @@ uint64_t NeighborGrid::keyOf(const Cell& cell) {
   return key;
 }
 
-void NeighborGrid::within(const Point& center, double radius_m, const std::function<void(size_t, double)>& visit) const {
+void NeighborGrid::within(const Double3& center, double radius_m, const std::function<void(size_t, double)>& visit) const {
   const Cell middle = cellOf(center);
   for (int64_t x = -1; x <= 1; ++x)
     for (int64_t y = -1; y <= 1; ++y)
@@ -79,7 +79,7 @@ void NeighborGrid::within(const Point& center, double radius_m, const std::funct
         const auto found = ranges_.find(keyOf({middle[0] + x, middle[1] + y, middle[2] + z}));
         if (found == ranges_.end()) continue;
         for (size_t k = found->second.first; k < found->second.second; ++k) {
-          const Point& other = points_[order_[k]];
+          const Double3& other = points_[order_[k]];
           double squared = 0;
           for (size_t axis = 0; axis < 3; ++axis) squared += (other[axis] - center[axis]) * (other[axis] - center[axis]);
           if (squared <= radius_m * radius_m) visit(order_[k], squared);
@@ -87,7 +87,7 @@ void NeighborGrid::within(const Point& center, double radius_m, const std::funct
       }
 }
 
-bool NeighborGrid::anyWithin(const Point& center, double radius_m) const {
+bool NeighborGrid::anyWithin(const Double3& center, double radius_m) const {
   bool any = false;
   within(center, radius_m, [&](size_t, double) { any = true; });
   return any;
@@ -107,14 +107,14 @@ Walls wallsOf(const Scene& scene) {
 std::vector<size_t> interiorParticles(const Cloud& cloud, const Walls& walls, double reach_m) {
   const double gap = kVoidRadius * cloud.spacing;
   const NeighborGrid grid(cloud.position, gap);
-  const auto awayFromWalls = [&](const Point& point) {
+  const auto awayFromWalls = [&](const Double3& point) {
     for (size_t axis = 0; axis < 3; ++axis) {
       if (walls.closed >> (2 * axis) & 1 && point[axis] - walls.min[axis] < reach_m) return false;
       if (walls.closed >> (2 * axis + 1) & 1 && walls.max[axis] - point[axis] < reach_m) return false;
     }
     return true;
   };
-  const auto surrounded = [&](const Point& point) {
+  const auto surrounded = [&](const Double3& point) {
     for (int x = -1; x <= 1; ++x)
       for (int y = -1; y <= 1; ++y)
         for (int z = -1; z <= 1; ++z) {
@@ -171,7 +171,7 @@ double clumpedFraction(const Cloud& cloud) {
   const double near = 0.5 * cloud.spacing;
   const NeighborGrid grid(cloud.position, cloud.spacing);
   size_t clumped = 0;
-  for (const Point& point : cloud.position) {
+  for (const Double3& point : cloud.position) {
     size_t others = 0;
     grid.within(point, near, [&](size_t, double) { ++others; });
     if (others > 1) ++clumped;  // includes the particle itself
@@ -183,7 +183,7 @@ double surfaceLevel(const Cloud& cloud, double floor_m, double min_x_m, double m
   const double reach = 2 * cloud.spacing;
   const NeighborGrid grid(cloud.position, reach);
   std::vector<double> heights;
-  for (const Point& point : cloud.position) {
+  for (const Double3& point : cloud.position) {
     if (point[0] < min_x_m || point[0] > max_x_m) continue;
     bool covered = false;
     grid.within(point, reach, [&](size_t other, double squared) {
@@ -214,7 +214,7 @@ double frontAlongX(const Cloud& cloud) {
 double heightAtWall(const Cloud& cloud, double wall_m, double floor_m) {
   const double step = 1.5 * cloud.spacing;
   std::map<long, std::vector<double>> strips;  // heights of the particles per strip
-  for (const Point& point : cloud.position)
+  for (const Double3& point : cloud.position)
     if (point[0] - wall_m < step) strips[std::lround(std::floor(point[2] / (2 * cloud.spacing)))].push_back(point[1] - floor_m);
   double sum = 0;
   for (auto& [strip, heights] : strips) {
@@ -234,21 +234,21 @@ double heightAtWall(const Cloud& cloud, double wall_m, double floor_m) {
 
 double rmsSpeed(const Cloud& cloud) {
   double sum = 0;
-  for (const Point& velocity : cloud.velocity)
+  for (const Double3& velocity : cloud.velocity)
     for (const double component : velocity) sum += component * component;
   return std::sqrt(sum / double(cloud.size()));
 }
 
-Point meanPosition(const Cloud& cloud) { return mean(cloud.position); }
-Point meanVelocity(const Cloud& cloud) { return mean(cloud.velocity); }
+Double3 meanPosition(const Cloud& cloud) { return mean(cloud.position); }
+Double3 meanVelocity(const Cloud& cloud) { return mean(cloud.velocity); }
 
-Point meanAngularMomentum(const Cloud& cloud) {
-  const Point center = meanPosition(cloud);
-  Point sum{};
+Double3 meanAngularMomentum(const Cloud& cloud) {
+  const Double3 center = meanPosition(cloud);
+  Double3 sum{};
   for (size_t i = 0; i < cloud.size(); ++i) {
-    Point arm;
+    Double3 arm;
     for (size_t axis = 0; axis < 3; ++axis) arm[axis] = cloud.position[i][axis] - center[axis];
-    const Point& v = cloud.velocity[i];
+    const Double3& v = cloud.velocity[i];
     sum[0] += arm[1] * v[2] - arm[2] * v[1];
     sum[1] += arm[2] * v[0] - arm[0] * v[2];
     sum[2] += arm[0] * v[1] - arm[1] * v[0];

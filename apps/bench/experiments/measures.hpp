@@ -16,9 +16,9 @@ namespace rill::bench {
 
 /// Particles of one instant, by id.
 struct Cloud {
-  std::vector<Point> position;  ///< m
-  std::vector<Point> velocity;  ///< m/s
-  double spacing = 0;           ///< m
+  std::vector<Double3> position;  ///< m
+  std::vector<Double3> velocity;  ///< m/s
+  double spacing = 0;             ///< m
   size_t size() const { return position.size(); }
 };
 Cloud cloudOf(const offline::Particles& particles, double spacing_m);
@@ -27,16 +27,16 @@ Cloud cloudOf(const offline::Particles& particles, double spacing_m);
 class NeighborGrid {
  public:
   /// `points` must outlive the grid; `reach_m` is the largest search radius.
-  NeighborGrid(std::span<const Point> points, double reach_m);
+  NeighborGrid(std::span<const Double3> points, double reach_m);
   /// Calls `visit(index, squared distance in m^2)` for every point within `radius_m` (<= reach) of `center`, including coincident ones.
-  void within(const Point& center, double radius_m, const std::function<void(size_t, double)>& visit) const;
-  bool anyWithin(const Point& center, double radius_m) const;
+  void within(const Double3& center, double radius_m, const std::function<void(size_t, double)>& visit) const;
+  bool anyWithin(const Double3& center, double radius_m) const;
 
  private:
   using Cell = std::array<int64_t, 3>;
-  Cell cellOf(const Point& point) const;
+  Cell cellOf(const Double3& point) const;
   static uint64_t keyOf(const Cell& cell);
-  std::span<const Point> points_;
+  std::span<const Double3> points_;
   double cell_;
   std::vector<size_t> order_;                                       // indices grouped by key
   std::unordered_map<uint64_t, std::pair<size_t, size_t>> ranges_;  // ranges of order_
@@ -44,7 +44,7 @@ class NeighborGrid {
 
 /// A box whose `closed` sides (bits -x +x -y +y -z +z) are walls.
 struct Walls {
-  Point min{}, max{};
+  Double3 min{}, max{};
   unsigned closed = 0;
 };
 /// Walls of a scene; all sides are open without a domain.
@@ -82,9 +82,9 @@ double heightAtWall(const Cloud& cloud, double wall_m, double floor_m);
 
 /// Root mean square speed, m/s.
 double rmsSpeed(const Cloud& cloud);
-Point meanPosition(const Cloud& cloud);
-Point meanVelocity(const Cloud& cloud);
+Double3 meanPosition(const Cloud& cloud);
+Double3 meanVelocity(const Cloud& cloud);
 /// Angular momentum per unit of mass about the mean position, m^2/s.
-Point meanAngularMomentum(const Cloud& cloud);
+Double3 meanAngularMomentum(const Cloud& cloud);
 
 }  // namespace rill::bench

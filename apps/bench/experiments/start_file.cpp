@@ -10,7 +10,7 @@ Expected<StartFile> StartFile::write(const Cloud& cloud) {
   auto folder = apps::TemporaryFolder::make();
   if (!folder) return folder.error();
   StartFile start(std::move(*folder));
-  const auto narrow = [](const Point& point) {
+  const auto narrow = [](const Double3& point) {
     return Float3{static_cast<float>(point[0]), static_cast<float>(point[1]), static_cast<float>(point[2])};
   };
   offline::Particles particles;

@@ -129,7 +129,7 @@ std::vector<StressCase> forceCases() {
   }
   for (const bool longRun : {false, true}) {
     // The long case settles, the short one starts at rest: sloshing exchanges energy with the lattice and looks like drift.
-    Scene small = tankScene(0.05, longRun ? Point{0.2, 0.2, 0.2} : Point{0.4, 0.1, 0.2}, {0.4, 0.4, 0.2});
+    Scene small = tankScene(0.05, longRun ? Double3{0.2, 0.2, 0.2} : Double3{0.4, 0.1, 0.2}, {0.4, 0.4, 0.2});
     const int substeps = longRun ? 100000 : 5000;
     small.solver.time_step = 1.0 / 3840;
     small.solver.tolerance = 0;

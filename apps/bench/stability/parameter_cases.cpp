@@ -77,10 +77,10 @@ std::vector<StressCase> randomCases(uint64_t first, uint64_t count) {
     const auto uniform = [&](double low, double high) { return low + (high - low) * double(random() >> 11) * 0x1p-53; };
     const auto chance = [&](double probability) { return uniform(0, 1) < probability; };
     const double d = std::pow(10.0, uniform(-3, 1));
-    const double room[3] = {d * uniform(6, 24), d * uniform(6, 24), d * uniform(4, 16)};
+    const Double3 room = {d * uniform(6, 24), d * uniform(6, 24), d * uniform(4, 16)};
     Scene scene = tankScene(
         d, {d * std::floor(uniform(2, room[0] / d)), d * std::floor(uniform(2, room[1] / d)), d * std::floor(uniform(2, room[2] / d))},
-        {room[0], room[1], room[2]});
+        room);
     // Durations and velocities scale with the size; gravity does not.
     for (double& g : scene.gravity) g = chance(0.7) ? uniform(-10, 10) : 0;
     const auto randomize = [&](auto& owner, double probability) {
@@ -99,9 +99,10 @@ std::vector<StressCase> randomCases(uint64_t first, uint64_t count) {
     const int solids = chance(0.5) ? 1 + static_cast<int>(uniform(0, 3)) : 0;
     for (int k = 0; k < solids; ++k) {
       Solid solid;
-      const double at[3] = {uniform(0, room[0]), uniform(0, room[1]), uniform(0, room[2])}, size = d * uniform(0.5, 4);
+      const Double3 at = {uniform(0, room[0]), uniform(0, room[1]), uniform(0, room[2])};
+      const double size = d * uniform(0.5, 4);
       if (chance(0.5))
-        solid.shape = SphereShape{{at[0], at[1], at[2]}, size};
+        solid.shape = SphereShape{at, size};
       else
         solid.shape = BoxShape{{at[0] - size, at[1] - size, at[2] - size}, {at[0] + size, at[1] + size, at[2] + size}};
       solid.friction = uniform(0, 1);

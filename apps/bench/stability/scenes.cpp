@@ -5,7 +5,7 @@
 
 namespace rill::bench {
 
-Scene tankScene(double spacing, const Point& fluid, const Point& tank) {
+Scene tankScene(double spacing, const Double3& fluid, const Double3& tank) {
   Scene scene = boxScene(spacing, {0, 0, 0}, tank);
   if (fluid[0] > 0) scene.fill.push_back(boxFill({0, 0, 0}, fluid));
   return scene;

@@ -8,8 +8,8 @@ namespace rill::bench {
 namespace {
 
 constexpr double kSpacing = 0.05;
-constexpr Point kRoom = {1, 1, 1};
-constexpr Point kNoFluid = {0, 0, 0};
+constexpr Double3 kRoom = {1, 1, 1};
+constexpr Double3 kNoFluid = {0, 0, 0};
 
 Scene room() { return tankScene(kSpacing, kNoFluid, kRoom); }
 Scene weightless(Scene scene) {

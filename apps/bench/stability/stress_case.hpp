@@ -36,7 +36,7 @@ struct StressCase {
 };
 
 /// A box of fluid in a tank; both start at the origin, sizes in m.
-Scene tankScene(double spacing, const Point& fluid, const Point& tank);
+Scene tankScene(double spacing, const Double3& fluid, const Double3& tank);
 /// Particles at `positions` with a common velocity.
 ParticleSet particlesAt(std::vector<Float3> positions, const Float3& velocity = {});
 /// A bound on physical speeds of the scene: a multiple of the speed from falling through the domain plus the initial speed.

@@ -12,7 +12,7 @@
 #include "core/words.hpp"
 #include "gpu/device_impl.hpp"
 #include "graph/shader_pass.hpp"
-#include "rill/float3.hpp"
+#include "rill/vectors.hpp"
 #include "sort/key_sort.hpp"
 
 namespace rill::bench {

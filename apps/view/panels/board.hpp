@@ -18,7 +18,7 @@ namespace rill::view {
 /// A number that is being dragged; it is applied to the scene when the drag ends.
 struct HeldEdit {
   std::string key;
-  std::array<double, 3> value{};
+  Double3 value{};
 };
 
 /// Settings of the window.

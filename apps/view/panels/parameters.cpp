@@ -50,7 +50,7 @@ class KeyField {
     // A wide or unbounded range changes by a fiftieth of the value per pixel.
     const double part = value_[0] != 0 ? std::abs(value_[0]) : 0.1;
     const double speed = isWideRange() ? part / 50 : (high - low) / 300;
-    ImGui::DragScalar("##value", ImGuiDataType_Double, value_.data(), static_cast<float>(speed), &low, &high, "%.5g",
+    ImGui::DragScalar("##value", ImGuiDataType_Double, value_.begin(), static_cast<float>(speed), &low, &high, "%.5g",
                       ImGuiSliderFlags_AlwaysClamp);
     edited(text(value_[0]));
   }
@@ -68,10 +68,10 @@ class KeyField {
   template <class Enum>
   requires std::is_enum_v<Enum>
   void draw(const Enum& value) { choice(std::string(info_.words[static_cast<size_t>(value)])); }
-  void draw(const double (&value)[3]) {
-    hold({value[0], value[1], value[2]});
+  void draw(const Double3& value) {
+    hold(value);
     ImGui::SetNextItemWidth(ImGui::GetWindowContentRegionMax().x * 0.5f);
-    ImGui::DragScalarN("##value", ImGuiDataType_Double, value_.data(), 3, 0.05f, nullptr, nullptr, "%.3g");
+    ImGui::DragScalarN("##value", ImGuiDataType_Double, value_.begin(), 3, 0.05f, nullptr, nullptr, "%.3g");
     edited("[" + text(value_[0]) + ", " + text(value_[1]) + ", " + text(value_[2]) + "]");
   }
 
@@ -109,7 +109,7 @@ class KeyField {
     ImGui::EndCombo();
   }
   /// Shows the numbers of the scene, or those that are being dragged.
-  void hold(const std::array<double, 3>& scene) { value_ = board_.held.key == key_ ? board_.held.value : scene; }
+  void hold(const Double3& scene) { value_ = board_.held.key == key_ ? board_.held.value : scene; }
   void edited(std::string json) {
     if (ImGui::IsItemDeactivatedAfterEdit()) request(std::move(json));
     if (ImGui::IsItemActive())
@@ -122,7 +122,7 @@ class KeyField {
   Board& board_;
   const model::Info& info_;
   std::string key_;
-  std::array<double, 3> value_{};
+  Double3 value_{};
 };
 
 template <class Value>

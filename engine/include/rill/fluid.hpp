@@ -62,8 +62,8 @@ RILL_API FluidMemory fluidMemory(const Scene& scene, uint64_t particles);
 
 /// Target position of a driven solid at the end of an advance.
 struct SolidTarget {
-  uint32_t solid = 0;            ///< index into Scene::solids; a solid with `driven` 0 does not move
-  double center[3] = {0, 0, 0};  ///< m; not finite: the solid does not move
+  uint32_t solid = 0;          ///< index into Scene::solids; a solid with `driven` 0 does not move
+  Double3 center = {0, 0, 0};  ///< m; not finite: the solid does not move
 };
 
 /// Parameters of Fluid::addTo().
@@ -85,10 +85,10 @@ struct FluidState {
   BufferRef control = {};   ///< FluidControl (shaders/shared/fluid_records.h)
   /// Its first uint is the number of particles: they are the first entries of the arrays. Null: renderers take `capacity`.
   BufferRef countBuffer = {};
-  BufferRef solids = {};         ///< SolidRecord (solid_records.h) per solid, at the present time; null if no solid is driven
-  uint32_t capacity = 0;         ///< entries of the arrays: particles at most; those beyond the particles are inactive, far from all others
-  float spacing = 0;             ///< m
-  double origin[3] = {0, 0, 0};  ///< m
+  BufferRef solids = {};       ///< SolidRecord (solid_records.h) per solid, at the present time; null if no solid is driven
+  uint32_t capacity = 0;       ///< entries of the arrays: particles at most; those beyond the particles are inactive, far from all others
+  float spacing = 0;           ///< m
+  Double3 origin = {0, 0, 0};  ///< m
 };
 
 /// Progress of an advance.
@@ -112,8 +112,8 @@ struct FluidStats {
   double densityErrorMean = 0, densityErrorP99 = 0, densityErrorMax = 0;  ///< max(rho / rho0 - 1, 0)
   double densitySignedMedian = 0;  ///< median of rho / rho0 - 1 over particles with a full neighborhood
   double kinetic_J = 0, potential_J = 0;
-  double momentum[3] = {0, 0, 0};       ///< kg m/s
-  double centerOfMass[3] = {0, 0, 0};   ///< m
+  Double3 momentum = {0, 0, 0};         ///< kg m/s
+  Double3 centerOfMass = {0, 0, 0};     ///< m
   double maxSpeed = 0;                  ///< m/s
   uint64_t nonFinite = 0;               ///< particles made inactive since the start because a value was not finite
   uint64_t outside = 0;                 ///< particles beyond a closed wall, or that left through an open side
@@ -156,7 +156,7 @@ class RILL_API Fluid {
 
   /// Center of a driven solid at the end of the last declared advance, m: the target, or a point on the path to it if the target was too
   /// far. NaN for a solid that is not driven.
-  std::array<double, 3> drivenCenter(uint32_t solid) const;
+  Double3 drivenCenter(uint32_t solid) const;
 
   uint32_t count() const;     ///< particles of the last finished frame, including inactive ones
   uint32_t capacity() const;  ///< particles that there is room for

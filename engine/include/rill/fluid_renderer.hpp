@@ -21,10 +21,10 @@
 #include "rill/environment.hpp"
 #include "rill/expected.hpp"
 #include "rill/export.hpp"
-#include "rill/float3.hpp"
 #include "rill/fluid.hpp"
 #include "rill/graph.hpp"
 #include "rill/scene.hpp"
+#include "rill/vectors.hpp"
 
 namespace rill {
 
@@ -51,7 +51,7 @@ struct FluidView {
   Float4x4 view = {};
   /// View to Vulkan's clip space. Perspective or orthographic, standard or reversed depth, finite or infinite, centered or not.
   Float4x4 projection = {};
-  double origin[3] = {0, 0, 0};         ///< m, in the scene's coordinates
+  Double3 origin = {0, 0, 0};           ///< m, in the scene's coordinates
   uint32_t x = 0, y = 0;                ///< of the viewport in the targets, pixels
   uint32_t width = 1280, height = 720;  ///< of the viewport, pixels
   double focus_m = 1;                   ///< approximate distance of the fluid, m. The resolution of the surface follows from it

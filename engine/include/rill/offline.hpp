@@ -169,7 +169,7 @@ class Player {
 
   /// Sets the particles to draw. `positions`: m, relative to `origin`. `velocities`: m/s, for the color of some views; may be empty.
   /// `time_s`: time of moving solids, s. BadInput if the numbers of positions and velocities differ; TooLarge, OutOfMemory.
-  Expected<void> show(const std::vector<Float3>& positions, const double origin[3], const std::vector<Float3>& velocities = {},
+  Expected<void> show(const std::vector<Float3>& positions, const Double3& origin, const std::vector<Float3>& velocities = {},
                       double time_s = 0);
   /// As Simulation::render(). Without fluid before the first show().
   Expected<Image> render(const std::string& view, uint32_t width, uint32_t height);

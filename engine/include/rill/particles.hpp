@@ -12,8 +12,8 @@
 
 #include "rill/expected.hpp"
 #include "rill/export.hpp"
-#include "rill/float3.hpp"
 #include "rill/scene.hpp"
+#include "rill/vectors.hpp"
 
 namespace rill {
 
@@ -23,7 +23,7 @@ inline constexpr uint64_t kMaxParticles = uint64_t{4} << 20;
 /// Initial particles of a simulation, in the order of the fills. Positions are relative to `origin` (the domain's minimum, or the
 /// fluid's center rounded to whole spacings), so that precision does not depend on the location of the scene.
 struct ParticleSet {
-  double origin[3] = {0, 0, 0};         ///< m, scene coordinates
+  Double3 origin = {0, 0, 0};           ///< m, scene coordinates
   double spacing = 0;                   ///< m, of the particles at rest; 0: that of the scene
   std::vector<Float3> positions = {};   ///< m, relative to origin
   std::vector<Float3> velocities = {};  ///< m/s

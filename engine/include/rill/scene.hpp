@@ -17,7 +17,7 @@
 
 #include "rill/expected.hpp"
 #include "rill/export.hpp"
-#include "rill/float3.hpp"
+#include "rill/vectors.hpp"
 
 namespace rill {
 
@@ -26,9 +26,9 @@ using SideMask = uint8_t;
 
 /// An axis-aligned box of walls. Particle positions are stored relative to `min`.
 struct Domain {
-  double min[3] = {0, 0, 0};  ///< m
-  double max[3] = {1, 1, 1};  ///< m
-  SideMask open = 0;          ///< sides without a wall; particles that leave stay in the simulation and are counted as outside
+  Double3 min = {0, 0, 0};  ///< m
+  Double3 max = {1, 1, 1};  ///< m
+  SideMask open = 0;        ///< sides without a wall; particles that leave stay in the simulation and are counted as outside
 };
 
 /// The smoothing kernel.
@@ -74,12 +74,12 @@ struct SolverSettings {
 
 /// An axis-aligned box.
 struct BoxShape {
-  double min[3] = {0, 0, 0}, max[3] = {1, 1, 1};  ///< corners, m; max above min on every axis
+  Double3 min = {0, 0, 0}, max = {1, 1, 1};  ///< corners, m; max above min on every axis
 };
 /// A sphere.
 struct SphereShape {
-  double center[3] = {0, 0, 0};  ///< m
-  double radius = 1;             ///< m, > 0
+  Double3 center = {0, 0, 0};  ///< m
+  double radius = 1;           ///< m, > 0
 };
 
 /// The shape of a solid.
@@ -93,32 +93,32 @@ struct ParticleFile {
 /// Initial fluid: a lattice inside a shape, or the particles of a file.
 struct Fill {
   std::variant<BoxShape, SphereShape, ParticleFile> shape = {};
-  double velocity[3] = {0, 0, 0};  ///< initial velocity, m/s; added to that of a file
-  double jitter = 0;               ///< largest random offset along each axis, fraction of the spacing, 0 .. 0.5
+  Double3 velocity = {0, 0, 0};  ///< initial velocity, m/s; added to that of a file
+  double jitter = 0;             ///< largest random offset along each axis, fraction of the spacing, 0 .. 0.5
 };
 
 /// Displacement of a solid at a time, relative to its initial pose.
 struct Keyframe {
-  double at = 0;                    ///< s, later than the previous keyframe
-  double translate[3] = {0, 0, 0};  ///< m
-  double rotate[4] = {0, 0, 0, 1};  ///< unit quaternion x y z w, about the center; after Solid::rotation
+  double at = 0;                     ///< s, later than the previous keyframe
+  Double3 translate = {0, 0, 0};     ///< m
+  Quaternion rotate = {0, 0, 0, 1};  ///< unit quaternion x y z w, about the center; after Solid::rotation
 };
 
 /// A solid. It is rotated about its center and moved by keyframes: linear and spherical linear (the shorter way) between them,
 /// constant outside.
 struct Solid {
   Shape shape = {};
-  double rotation[4] = {0, 0, 0, 1};  ///< unit quaternion x y z w
-  double friction = 0;                ///< coefficient of friction (Coulomb), >= 0
-  double restitution = 0;             ///< coefficient of restitution, 0 .. 1
+  Quaternion rotation = {0, 0, 0, 1};  ///< unit quaternion x y z w
+  double friction = 0;                 ///< coefficient of friction (Coulomb), >= 0
+  double restitution = 0;              ///< coefficient of restitution, 0 .. 1
   std::vector<Keyframe> motion = {};
   double driven = 0;  ///< largest speed, m/s, of a solid that the host moves (FluidStep::targets); 0: not moved by the host
 };
 
 /// Gravity from a given time on.
 struct GravityChange {
-  double at = 0;                ///< s, later than the previous change
-  double value[3] = {0, 0, 0};  ///< m/s^2
+  double at = 0;              ///< s, later than the previous change
+  Double3 value = {0, 0, 0};  ///< m/s^2
 };
 
 /// A direction along an axis, or against it.
@@ -133,8 +133,8 @@ struct Probe {
 
 /// The camera of the pictures.
 struct Camera {
-  double eye[3] = {0, 0, 1}, target[3] = {0, 0, 0};  ///< m; must differ
-  double fov_y_deg = 40;                             ///< vertical field of view, degrees, > 0 .. < 180
+  Double3 eye = {0, 0, 1}, target = {0, 0, 0};  ///< m; must differ
+  double fov_y_deg = 40;                        ///< vertical field of view, degrees, > 0 .. < 180
 };
 
 /// Appearance of rendered pictures.
@@ -149,9 +149,9 @@ struct Scene {
   std::filesystem::path file = {};  ///< file that it was loaded from; empty if it was made in code
   std::string name = {};            ///< file name without extension
   std::string title = {}, about = {};
-  double duration = 3.0;              ///< s
-  uint64_t seed = 1;                  ///< of all random numbers
-  double gravity[3] = {0, -9.81, 0};  ///< m/s^2
+  double duration = 3.0;            ///< s
+  uint64_t seed = 1;                ///< of all random numbers
+  Double3 gravity = {0, -9.81, 0};  ///< m/s^2
   std::vector<GravityChange> gravity_changes = {};
   std::optional<Domain> domain = {};  ///< empty: unbounded space
   FluidSettings fluid = {};

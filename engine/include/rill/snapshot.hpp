@@ -17,9 +17,9 @@
 
 #include "rill/expected.hpp"
 #include "rill/export.hpp"
-#include "rill/float3.hpp"
 #include "rill/fluid.hpp"
 #include "rill/graph.hpp"
+#include "rill/vectors.hpp"
 
 namespace rill {
 
