@@ -37,7 +37,12 @@ Expected<void> checkGiven(const FluidDesc& desc) {
   for (const double v : desc.particles->origin)
     if (!(std::abs(v) <= std::numeric_limits<float>::max()))
       return bad("ParticleSet::origin is " + shortestNumber(v) + "; expected numbers (m) that a 32-bit float can hold");
-  return checkScene(*desc.scene);
+  if (auto valid = checkScene(*desc.scene); !valid) return valid;
+  const double own = desc.particles->spacing, scenes = desc.scene->fluid.spacing;
+  if (!(own >= 0 && std::isfinite(own)) || (own > 0 && scenes > 0 && own != scenes))
+    return bad("ParticleSet::spacing is " + shortestNumber(own) + "; expected " +
+               (scenes > 0 ? "the scene's fluid.spacing, " + shortestNumber(scenes) + " (m)" : "a length above 0 (m)"));
+  return {};
 }
 
 }  // namespace
@@ -47,12 +52,8 @@ FluidMemory fluidMemory(const Scene& scene, uint64_t particles) { return memoryO
 Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const FluidDesc& desc) {
   if (auto given = checkGiven(desc); !given) return given.error();
   const ParticleSet& particles = *desc.particles;
-  Scene spaced;
-  if (particles.spacing > 0 && desc.scene->fluid.spacing != particles.spacing) {
-    spaced = *desc.scene;
-    spaced.fluid.spacing = particles.spacing;
-  }
-  const Scene& scene = spaced.fluid.spacing > 0 ? spaced : *desc.scene;
+  Scene scene = *desc.scene;
+  if (particles.spacing > 0) scene.fluid.spacing = particles.spacing;
   const uint64_t n = particles.positions.size(), capacity = std::max<uint64_t>(desc.capacity, n);
   auto impl = std::make_unique<FluidImpl>();
   impl->device_ = &implOf(device);

@@ -42,6 +42,19 @@ TEST_F(FluidInput, DescriptionsThatAreNone) {
   }
 }
 
+TEST_F(FluidInput, RejectsSpacingThatIsNotTheScenes) {
+  Trial t = tank();
+  t.scene.fluid.spacing = 0.0625;
+  ParticleSet set = t.particles();
+  for (const auto& [spacing, text] : {std::pair{0.5, "0.5"}, {-0.0625, "-0.0625"}, {kNan, "nan"}}) {
+    set.spacing = spacing;
+    EXPECT_EQ(refusal({.scene = &t.scene, .particles = &set}),
+              "ParticleSet::spacing is " + std::string(text) + "; expected the scene's fluid.spacing, 0.0625 (m)");
+  }
+  t.scene.fluid.spacing = 0, t.scene.fluid.particles = 64;
+  EXPECT_EQ(refusal({.scene = &t.scene, .particles = &set}), "ParticleSet::spacing is nan; expected a length above 0 (m)");
+}
+
 TEST_F(FluidInput, ScenesThatCannotBe) {
   const Trial t = tank();
   const ParticleSet particles = t.particles();

@@ -24,7 +24,7 @@ inline constexpr uint64_t kMaxParticles = uint64_t{4} << 20;
 /// fluid's center rounded to whole spacings), so that precision does not depend on the location of the scene.
 struct ParticleSet {
   Double3 origin = {0, 0, 0};           ///< m, scene coordinates
-  double spacing = 0;                   ///< m, of the particles at rest; 0: that of the scene
+  double spacing = 0;                   ///< m, of the particles at rest, as fluid.spacing if the scene has it; 0: that of the scene
   std::vector<Float3> positions = {};   ///< m, relative to origin
   std::vector<Float3> velocities = {};  ///< m/s
   uint64_t leftOutOverlap = 0;          ///< closer than 0.9 spacings to a particle of an earlier fill
