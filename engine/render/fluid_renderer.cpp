@@ -41,15 +41,18 @@ Expected<void> FluidRendererImpl::create(Device& host, const TargetFormats& targ
 }
 
 Expected<void> FluidRendererImpl::makeShade() {
-  auto drawn = graphicsPipeline(*device->device,
-                                {.vertex = "render/fluid_shade_vertex",
-                                 .fragment = environment ? "render/fluid_shade_environment_fragment" : "render/fluid_shade_fragment",
-                                 .colors = {&formats.color, 1},
-                                 .depth = formats.depth,
-                                 .depthCompare = VK_COMPARE_OP_ALWAYS,  // the shader compares in m
-                                 .depthWrite = true});
-  if (!drawn) return drawn.error();
-  shade = *drawn;
+  constexpr const char* kFragments[2][2] = {{"render/fluid_shade_fragment", "render/fluid_shade_environment_fragment"},
+                                            {"render/fluid_shade_opaque_fragment", "render/fluid_shade_opaque_environment_fragment"}};
+  for (const bool opaque : {false, true}) {
+    auto drawn = graphicsPipeline(*device->device, {.vertex = "render/fluid_shade_vertex",
+                                                    .fragment = kFragments[opaque][environment != nullptr],
+                                                    .colors = {&formats.color, 1},
+                                                    .depth = formats.depth,
+                                                    .depthCompare = VK_COMPARE_OP_ALWAYS,  // the shader compares in m
+                                                    .depthWrite = true});
+    if (!drawn) return drawn.error();
+    shade[opaque] = *drawn;
+  }
   return {};
 }
 
@@ -84,7 +87,6 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
   if (look.opaque) {
     graph.skipped(kFluidThickness.pass, "the look is opaque");
     graph.skipped("surface mean normals", "the look is opaque");
-    thickness = normals = last.tiles;  // the shader can do without them
   } else {
     normals = meanNormals.addTo(graph, last);
     thickness = surface.addThickness(graph, kFluidThickness, fluid, thick, sceneDepth, &last.counters);
@@ -94,13 +96,13 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
     pass.read(last.arguments, Use::Indirect);
     targets.color = pass.write(targets.color, Use::ColorTarget);
     targets.depth = pass.write(targets.depth, Use::DepthTarget);
-    const Kernel kernel = bindNamed(pass, shade,
+    const Kernel kernel = bindNamed(pass, shade[look.opaque],
                                     {{"look", record},
                                      {"tiles", last.tiles},
                                      {"surface", last.pixels},
-                                     {"thickness", thickness},
                                      {"scene_color", sceneColor},
                                      {"scene_depth", sceneDepth},
+                                     {"thickness", thickness},
                                      {"mean_normals", normals},
                                      {"samples", last.samples},
                                      {"environment", texels}});

@@ -34,7 +34,7 @@ class FluidRendererImpl {
   MeanNormals meanNormals;
   SurfaceBuffers last;  ///< of the frame being declared
   const ComputePipeline *scene = nullptr, *data[3] = {};
-  const GraphicsPipeline* shade = nullptr;
+  const GraphicsPipeline* shade[2] = {};  ///< by FluidLook::opaque
 
  private:
   Expected<void> makeShade();

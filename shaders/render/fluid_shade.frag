@@ -1,5 +1,6 @@
 #version 460
 // The fluid over the host's scene: reflection of the sky, refraction of the scene, absorption by thickness (Beer-Lambert law).
+// OPAQUE: reflection of the sky and the fluid's own color alone.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 #include "render/look_records.h"
@@ -7,17 +8,36 @@
 layout(std140, set = 0, binding = 0) uniform Look { LookRecord look; };
 #include "render/sky.glsl"
 layout(std430, set = 0, binding = 2) readonly buffer Surface { uvec2 surface[]; };
-layout(std430, set = 0, binding = 3) readonly buffer Thickness { uint thickness[]; };
-layout(std430, set = 0, binding = 4) readonly buffer SceneColor { uvec2 scene_color[]; };
-layout(std430, set = 0, binding = 5) readonly buffer SceneDepth { float scene_depth[]; };
+layout(std430, set = 0, binding = 3) readonly buffer SceneColor { uvec2 scene_color[]; };
+layout(std430, set = 0, binding = 4) readonly buffer SceneDepth { float scene_depth[]; };
+#ifndef OPAQUE
+layout(std430, set = 0, binding = 5) readonly buffer Thickness { uint thickness[]; };
 layout(std430, set = 0, binding = 6) readonly buffer MeanNormals { uint mean_normals[]; };  // packed mean normal of each sample with fluid
 layout(std430, set = 0, binding = 7) readonly buffer Samples { uvec2 samples[]; };  // depth, normal
-layout(location = 0) out vec4 color;
 #include "render/surface_mean_normal.glsl"
+#endif
+layout(location = 0) out vec4 color;
 
+const float kEdgeOn = -0.02;  // largest cosine between a visible normal and the view ray
+const vec3 kSunlight = vec3(1.0, 0.95, 0.88);
+
+vec3 sceneAt(ivec2 pixel) {
+  const uvec2 packed = scene_color[uint(pixel.y) * view.width + uint(pixel.x)];
+  return vec3(unpackHalf2x16(packed.x), unpackHalf2x16(packed.y).x);
+}
+
+// Reflectance of unpolarized light at this cosine (Fresnel equations).
+float fresnel(float cosine, float index) {
+  const float sine = sqrt(max(1.0 - cosine * cosine, 0.0)) / index;
+  const float inner = sqrt(max(1.0 - sine * sine, 0.0));
+  const float s = (cosine - index * inner) / (cosine + index * inner);
+  const float p = (inner - index * cosine) / (inner + index * cosine);
+  return 0.5 * (s * s + p * p);
+}
+
+#ifndef OPAQUE
 const float kMaxRay = 1e4;       // spacings: maximal length of a refracted ray
 const int kRefractionSteps = 3;  // steps that find where the ray meets the scene's depth
-const float kEdgeOn = -0.02;     // largest cosine between a visible normal and the view ray
 // Coherence, the length of the mean normal: 0.1 on a single drop, 0.5 at a straight silhouette, 1 on an even surface.
 // Each effect fades between two values of it.
 const vec2 kRefractionFade = vec2(0.2, 0.7);
@@ -26,12 +46,6 @@ const vec2 kHighlightFade = vec2(0.6, 0.9);   // of the sun
 const vec2 kWhitewaterFade = vec2(0.1, 0.5);  // from white to clear
 // Cosines between view ray and reflected ray: from a reflection of the sky to one of the scene behind.
 const vec2 kGrazing = vec2(0.5, 0.9);
-const vec3 kSunlight = vec3(1.0, 0.95, 0.88);
-
-vec3 sceneAt(ivec2 pixel) {
-  const uvec2 packed = scene_color[uint(pixel.y) * view.width + uint(pixel.x)];
-  return vec3(unpackHalf2x16(packed.x), unpackHalf2x16(packed.y).x);
-}
 
 // The scene's color, or that of pixel `own` where the scene is in front of depth z.
 vec3 sceneUnlessInFront(ivec2 pixel, ivec2 own, float z) {
@@ -86,15 +100,6 @@ MeanNormal meanNormalAt(vec2 middle, float z, vec3 normal, vec3 sight) {
   return MeanNormal(size > 1e-4 ? sum / size : normal, weights > 1e-4 ? lengths / weights : kRefractionFade.x);
 }
 
-// Reflectance of unpolarized light at this cosine (Fresnel equations).
-float fresnel(float cosine, float index) {
-  const float sine = sqrt(max(1.0 - cosine * cosine, 0.0)) / index;
-  const float inner = sqrt(max(1.0 - sine * sine, 0.0));
-  const float s = (cosine - index * inner) / (cosine + index * inner);
-  const float p = (inner - index * cosine) / (inner + index * cosine);
-  return 0.5 * (s * s + p * p);
-}
-
 // Refracted and scattered light, without the reflection. `scattered`: incident light.
 vec3 refractedLight(ivec2 pixel, vec3 point, vec3 sight, MeanNormal mean_normal, vec3 scattered) {
   const uint index = uint(pixel.y) * view.width + uint(pixel.x);
@@ -143,6 +148,7 @@ vec3 reflectedLight(ivec2 pixel, vec3 sight, vec3 mirrored) {
   if (past <= 0.0) return sky;
   return mix(sky, sceneAt(pixel) * exp(-look.absorption.rgb * thicknessAt(vec2(pixel) + 0.5)), past);
 }
+#endif
 
 void main() {
   const ivec2 pixel = ivec2(gl_FragCoord.xy) - ivec2(view.left, view.top);
@@ -163,18 +169,17 @@ void main() {
   const vec3 ambient = skyLight(world_normal);
   float reflected = fresnel(cosine, look.absorption.w);
   float highlight = pow(max(dot(mirrored, sun), 0.0), look.finish.x) * look.light.w;
-  vec3 body, mirror;
-  if (look.scatter.w > 0.0) {
-    body = look.scatter.rgb * (ambient + kSunlight * lit);
-    mirror = skyColor(mirrored, sun);
-  } else {
-    const MeanNormal mean_normal = meanNormalAt(vec2(pixel) + 0.5, z, normal, sight);
-    // Reflections in spray would flicker from pixel to pixel. A straight silhouette reflects in full.
-    reflected *= z <= nearestDrawn() ? 0.0 : smoothstep(kReflectionFade.x, kReflectionFade.y, mean_normal.coherence);
-    highlight *= smoothstep(kHighlightFade.x, kHighlightFade.y, mean_normal.coherence);
-    body = refractedLight(pixel, rayFrom(axis) + z * along, sight, mean_normal, ambient + vec3(0.5) * (0.3 + 0.7 * lit));
-    mirror = reflectedLight(pixel, world_sight, mirrored);
-  }
+#ifdef OPAQUE
+  const vec3 body = look.scatter.rgb * (ambient + kSunlight * lit);
+  const vec3 mirror = skyColor(mirrored, sun);
+#else
+  const MeanNormal mean_normal = meanNormalAt(vec2(pixel) + 0.5, z, normal, sight);
+  // Reflections in spray would flicker from pixel to pixel. A straight silhouette reflects in full.
+  reflected *= z <= nearestDrawn() ? 0.0 : smoothstep(kReflectionFade.x, kReflectionFade.y, mean_normal.coherence);
+  highlight *= smoothstep(kHighlightFade.x, kHighlightFade.y, mean_normal.coherence);
+  const vec3 body = refractedLight(pixel, rayFrom(axis) + z * along, sight, mean_normal, ambient + vec3(0.5) * (0.3 + 0.7 * lit));
+  const vec3 mirror = reflectedLight(pixel, world_sight, mirrored);
+#endif
   const vec3 fluid = mix(body, mirror, reflected) + vec3(1.0, 0.95, 0.86) * (reflected * highlight);
   color = vec4(mix(sceneAt(pixel), fluid, pixelCoverage(own)), 1.0);
   gl_FragDepth = targetDepth(z);
