@@ -27,6 +27,7 @@ static Kernel bind(Pass& pass, const AnyPipeline* pipeline, std::span<const Boun
   constexpr bool draws = std::is_same_v<AnyPipeline, GraphicsPipeline>;
   const std::vector<ShaderBinding>& bindings = pipeline->bindings;
   const auto reject = [&](const std::string& what) { return PassAccess::fail(pass, "shader '" + pipeline->shader + "'" + what); };
+  if (bindings.size() != pipeline->set->kinds.size()) return reject(": its resources have no names; expected an embedded shader");
   if (bindings.size() != resources.size() || bindings.size() > kMaxBindings)
     return reject(": " + std::to_string(resources.size()) + " resources; expected " + std::to_string(bindings.size()));
   std::array<ResourceRef, kMaxBindings> bound;

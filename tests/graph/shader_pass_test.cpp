@@ -165,6 +165,37 @@ TEST_F(ShaderPass, RejectsWrongNumberOfResources) {
   EXPECT_EQ(compileError(), "pass 'count': shader 'count': 1 resources; expected 2");
 }
 
+TEST_F(ShaderPass, RejectsNullPipeline) {
+  const std::string expected = "pass 'count' declares a kernel with a null pipeline";
+  BufferRef counts = import("counts");
+  addDispatch(graph, "count", nullptr, 1, NoPush{}, {{"counts", counts}});
+  EXPECT_EQ(compileError(), expected);
+  graph.reset();
+  graph.pass("count", [&](Pass& pass) {
+    const GraphicsPipeline* none = nullptr;
+    const BoundResource one[] = {{.buffer = &counts}};
+    bindShader(pass, none, one);
+    return [](Commands&) {};
+  });
+  EXPECT_EQ(compileError(), expected);
+}
+
+// Of SPIR-V that the caller gives only the kinds of its resources are known.
+TEST_F(ShaderPass, RejectsPipelineWithoutNames) {
+  const std::string expected = "pass 'count': shader 'fake': its resources have no names; expected an embedded shader";
+  const FakePipeline unnamed{BindingKind::Storage};
+  BufferRef counts = import("counts");
+  addDispatch(graph, "count", &unnamed.pipeline, 1, NoPush{}, {{"counts", counts}});
+  EXPECT_EQ(compileError(), expected);
+  graph.reset();
+  graph.pass("count", [&](Pass& pass) {
+    const BoundResource one[] = {{.buffer = &counts}};
+    bindShader(pass, &unnamed.pipeline, one);
+    return [](Commands&) {};
+  });
+  EXPECT_EQ(compileError(), expected);
+}
+
 class EmbeddedPipelines : public ::testing::Test {
  protected:
   EmbeddedPipelines() {
