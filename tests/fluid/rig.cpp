@@ -206,14 +206,18 @@ FluidTest::Run::Run(FluidTest& test, const Trial& trial, const FluidSnapshot* fr
                                                 .storageReads = trial.gather == Gather::Storage});
   if (!made) throw std::runtime_error(made.error().message);
   fluid_ = std::move(*made);
-  // Transient memory starts as NaN: what reads a transient before anyone wrote it stands out.
-  BufferRef poison = graph_.create("poison", {uint64_t{8} << 20});
-  graph_.pass("poison", [&](Pass& pass) {
-    poison = pass.write(poison, Use::CopyTarget, true);
+  fillTransients(0xffffffffu);
+}
+
+void FluidTest::Run::fillTransients(uint32_t word) {
+  graph_.reset();
+  BufferRef transients = graph_.create("transient fill", {uint64_t{8} << 20});
+  graph_.pass("transient fill", [&](Pass& pass) {
+    transients = pass.write(transients, Use::CopyTarget, true);
     pass.sideEffect();
-    return [poison](Commands& commands) { commands.fill(poison, 0xffffffffu); };
+    return [transients, word](Commands& commands) { commands.fill(transients, word); };
   });
-  test.runGraph(graph_);
+  test_.runGraph(graph_);
 }
 
 FluidSnapshot FluidTest::Run::saved() {

@@ -84,6 +84,8 @@ class FluidTest : public GpuTest {
    public:
     /// `from`: goes on from it.
     Run(FluidTest& test, const Trial& trial, const FluidSnapshot* from = nullptr);
+    /// What the next graph reads of transient memory before anyone wrote it. At the start that is NaN.
+    void fillTransients(uint32_t word);
     /// Goes on until the advance is complete, in pieces of `piece` substeps recorded.
     void advance(double seconds, uint32_t piece = 64);
     void substeps(int count, uint32_t piece = 64) { advance(count * step_, piece); }
