@@ -32,7 +32,7 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::Begin, "begin", "fluid/begin"},
     {P::Predict, "predict", "fluid/predict", E::Particles, {S::Predict}},
 
-    {P::Keys, "keys", "fluid/keys", E::Particles, kRebuild, kAlways, {.constant = {"REBUILDS", true}}},
+    {P::Keys, "keys", "fluid/keys", E::Keys, kRebuild, kAlways, {.constant = {"REBUILDS", true}}},
     {P::Reorder, "reorder", "fluid/reorder", E::Particles, kRebuild},
     {P::BuildList, "build list", "fluid/build", E::Chunks, kRebuild, kAlways, kClusters},
     {P::FinishRebuild, "finish rebuild", "fluid/finish_rebuild"},
@@ -62,7 +62,7 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::PredictAtSolids, "predict at solids", "fluid/predict", E::Corner, kEndOrDamped, {termsAndSolids}},
 
     {P::MeasureWalls, "measure walls", "fluid/walls", E::Near, kFigures, {near}},
-    {P::MeasureKeys, "measure keys", "fluid/keys", E::Particles, kFigures},
+    {P::MeasureKeys, "measure keys", "fluid/keys", E::Keys, kFigures},
     {P::MeasureOrder, "measure order", "fluid/measure_order", E::Particles, kFigures},
     {P::Measure, "measure", "fluid/measure", E::Particles, kFigures, kAlways, kClusters},
     {P::MeasureSums, "measure sums", "fluid/measure_sums", E::Partials},

@@ -57,6 +57,7 @@ constexpr size_t kStarts = static_cast<size_t>(Start::kCount);
 enum class Extent : uint8_t {
   One,        ///< one workgroup
   Particles,  ///< all particles
+  Keys,       ///< the keys of a sort: of all particles, which a variant of the shader counts, or of all entries if it is by digits
   Partials,   ///< the workgroups that add up figures
   Chunks,     ///< all particles, a dispatch for each buffer of the neighbor list
   Gather,     ///< the same over neighbors, in two variants: the device starts the one that reads lists or the one that can walk the grid

@@ -74,8 +74,9 @@ Expected<void> FluidImpl::preparePasses(Device& device) {
 Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
   PreparedPass& prepared = passes_[static_cast<size_t>(row.id)];
   const std::vector<NamedConstant> shared = constants(device);
+  const bool counted = sort_->method() == SortMethod::Counting;
   std::string shader(row.shader);
-  if (shader == "fluid/keys" && sort_->method() == SortMethod::Counting) shader += "_counted";
+  if (row.extent == Extent::Keys && counted) shader += "_counted";
   shader = readingVariant(device, shader, texel_);
   const uint32_t subgroup = row.extent == Extent::Gather || row.options.clusters ? wholeSubgroup(device) : 0;
 
@@ -115,8 +116,9 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
     case Extent::Chunks:
       return add(kOverChunk, {});
     case Extent::Particles:
-      // A radix sort looks at all keys, those of no particle too.
-      return add(row.shader == "fluid/keys" && sort_->method() == SortMethod::Radix ? kOverShape : kOverParticles, {});
+      return add(kOverParticles, {});
+    case Extent::Keys:
+      return add(counted ? kOverParticles : kOverShape, {});
     default:
       return add(kOverShape, {});
   }
