@@ -97,7 +97,7 @@ TEST_F(BoundsTest, StrongTensileGainsNoEnergy) {
   EXPECT_LT(maxEnergy(t, 40), 1.02);
 }
 
-TEST_F(BoundsTest, TensileThatReachesALatticeAtRestIsOffAndSaysSo) {
+TEST_F(BoundsTest, DisablesTensileThatReachesTheRestLatticeAndWarns) {
   Scene scene = dam().scene;
   EXPECT_GT(setupOf(scene).params.tensileRate, 0);
   EXPECT_FALSE(warned(setupOf(scene), "fluid.tensile"));
@@ -108,7 +108,7 @@ TEST_F(BoundsTest, TensileThatReachesALatticeAtRestIsOffAndSaysSo) {
   }
 }
 
-TEST_F(BoundsTest, TensileKeepsASplashFromClumping) {
+TEST_F(BoundsTest, TensilePreventsClumpingInASplash) {
   // Share of particles whose nearest neighbor is nearer than half a spacing, mean over a splash.
   const auto clumped = [&](double strength) {
     Trial t = dam();
@@ -134,7 +134,7 @@ TEST_F(BoundsTest, TensileKeepsASplashFromClumping) {
 }
 
 // Particles that overlap at the start leave an overlap that a short step must not turn into speed.
-TEST_F(BoundsTest, SettlingGoesAsFarAsAShortStepNeeds) {
+TEST_F(BoundsTest, SettlesFurtherForShorterSteps) {
   Trial t = dam();
   t.x = block({6, 10, 6}, t.d(), {}, 0.4);
   t.settle = true;
@@ -144,7 +144,7 @@ TEST_F(BoundsTest, SettlingGoesAsFarAsAShortStepNeeds) {
   EXPECT_LT(run->snapshot().fastest(), 0.3) << "falling gives 0.01 m/s in that time";
 }
 
-TEST_F(BoundsTest, StepsTooShortForFloatsAreRefused) {
+TEST_F(BoundsTest, RejectsStepsTooShortForFloats) {
   Scene scene = dam().scene;
   scene.solver.time_step = 1e-9;
   const auto step = makeFluidSetup(scene, {.capacity = 360, .extent = {0.3, 0.6, 0.3}});

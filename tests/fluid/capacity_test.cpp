@@ -29,7 +29,7 @@ std::array<double, 10> figures(const FluidStats& s) {
 
 class CapacityTest : public FluidTest {};
 
-TEST_F(CapacityTest, StepsLikeTheReferenceHoweverMuchRoomThereIs) {
+TEST_F(CapacityTest, MatchesReferenceWithAnyCapacity) {
   Trial t = tank();
   t.scene.solids = {ball({0.3, 0.6, 0.2}, 0.1)};
   t.scene.solver.iterations = 2;
@@ -90,7 +90,7 @@ TEST_F(CapacityTest, FillsPartOfSeveralLists) {
   }
 }
 
-TEST_F(CapacityTest, FiguresAreThoseOfTheParticlesAlone) {
+TEST_F(CapacityTest, FiguresCountActiveParticlesOnly) {
   Trial t = tank();
   auto exact = start(t);
   exact->substeps(5);
@@ -157,7 +157,7 @@ TEST_F(CapacityTest, RunsWithoutParticles) {
 }
 
 // The state of a fluid goes on in one with more room, with particles that were not there before and with ids that have gaps.
-TEST_F(CapacityTest, TakesParticlesInThroughASnapshot) {
+TEST_F(CapacityTest, SnapshotAddsParticles) {
   Trial t = tank();
   auto before = start(t);
   before->substeps(4);

@@ -8,7 +8,7 @@ namespace chunks_test {
 
 using Chunks = FluidTest;
 
-TEST_F(Chunks, TwoListsGiveWhatTheGridGives) {
+TEST_F(Chunks, TwoListChunksEqualTheGrid) {
   Trial t = trial();
   t.x = block({100, 85, 80}, t.d(), glm::dvec3(0), 0.1);
   t.v.assign(t.x.size(), glm::dvec3(0));

@@ -37,7 +37,7 @@ class DeterminismTest : public FluidTest {
   uint32_t builds = 0;  // of all frames
 };
 
-TEST_F(DeterminismTest, TwiceTheSame) {
+TEST_F(DeterminismTest, RepeatedRunsAreEqual) {
   for (Gather gather : kGathers) {
     Trial t = dam();
     t.gather = gather;
@@ -48,7 +48,7 @@ TEST_F(DeterminismTest, TwiceTheSame) {
   }
 }
 
-TEST_F(DeterminismTest, ManyTermsTwiceTheSame) {
+TEST_F(DeterminismTest, RepeatedRunsWithEveryTermAreEqual) {
   Trial t = dam();
   t.scene.solver.iterations = 3;
   t.scene.fluid.viscosity = 5;
@@ -59,14 +59,14 @@ TEST_F(DeterminismTest, ManyTermsTwiceTheSame) {
   EXPECT_EQ(finish(t, 64, 2), finish(t, 12, 2));
 }
 
-TEST_F(DeterminismTest, AnySizeOfPieces) {
+TEST_F(DeterminismTest, DoesNotDependOnPieceSize) {
   const Trial t = dam();
   const Snapshot whole = finish(t, 256);
   EXPECT_GT(builds, 1u);
   for (uint32_t piece : {6u, 12u, 64u}) EXPECT_EQ(whole, finish(t, piece)) << piece;
 }
 
-TEST_F(DeterminismTest, MeasuredOnTheWayOrNot) {
+TEST_F(DeterminismTest, DoesNotDependOnMeasuring) {
   const Trial t = dam();
   const Snapshot unseen = finish(t, 64);
   auto run = start(t);
@@ -79,7 +79,7 @@ TEST_F(DeterminismTest, MeasuredOnTheWayOrNot) {
   EXPECT_EQ(unseen, run->snapshot());
 }
 
-TEST_F(DeterminismTest, MeasuredBeforeTheStartOrNot) {
+TEST_F(DeterminismTest, DoesNotDependOnMeasuringBeforeTheStart) {
   const Trial t = dam();
   const Snapshot unseen = finish(t, 64);
   auto run = start(t);
@@ -89,7 +89,7 @@ TEST_F(DeterminismTest, MeasuredBeforeTheStartOrNot) {
 }
 
 // Figures asked for in the graph that advances, in the middle of an advance.
-TEST_F(DeterminismTest, MeasuredBetweenPiecesOrNot) {
+TEST_F(DeterminismTest, DoesNotDependOnMeasuringBetweenPieces) {
   const Trial t = dam();
   const Snapshot unseen = finish(t, 64, 1);
   auto run = start(t);
@@ -103,7 +103,7 @@ TEST_F(DeterminismTest, MeasuredBetweenPiecesOrNot) {
 }
 
 // Several advances in one command buffer: what the host knows between them changes nothing.
-TEST_F(DeterminismTest, RecordedAheadOrOneByOne) {
+TEST_F(DeterminismTest, DoesNotDependOnRecordingAhead) {
   const Trial t = dam();
   const Snapshot waited = finish(t, 96);
   auto run = start(t);
@@ -121,7 +121,7 @@ TEST_F(DeterminismTest, RecordedAheadOrOneByOne) {
 }
 
 // The order in which a scene lists its particles changes nothing but the ids: the sums differ in their order alone.
-TEST_F(DeterminismTest, OrderOfTheParticlesIsRounding) {
+TEST_F(DeterminismTest, ParticleOrderChangesRoundingOnly) {
   Trial t = dam();
   t.step = 1e-3;
   t.scene.solver.cfl = 10;

@@ -39,7 +39,7 @@ class DrivenTest : public FluidTest {
   }
 };
 
-TEST_F(DrivenTest, IsAKeyframedSolidOfTheSameWay) {
+TEST_F(DrivenTest, EqualsKeyframedSolidOnTheSamePath) {
   Trial host = tank(), keyed = tank();
   host.scene.solids[0].driven = 2;  // the limits of speeds follow from it
   const double speed = 2, advance = 10 * host.step;
@@ -65,7 +65,7 @@ TEST_F(DrivenTest, IsAKeyframedSolidOfTheSameWay) {
   EXPECT_LT(wrong, 0.05 * host.d());
 }
 
-TEST_F(DrivenTest, GoesNoFasterThanItMay) {
+TEST_F(DrivenTest, KeepsToItsMaximumSpeed) {
   const Trial t = tank();
   auto run = start(t);
   run->targets = {target(0, 0.75, 100, 0.1875)};
@@ -85,7 +85,7 @@ TEST_F(DrivenTest, GoesNoFasterThanItMay) {
   EXPECT_EQ(run->fluid().drivenCenter(0), center) << "nor does one whose target is no place";
 }
 
-TEST_F(DrivenTest, OnlyWhoIsDrivenMoves) {
+TEST_F(DrivenTest, MovesDrivenSolidsOnly) {
   Trial t = tank();
   t.scene.solids = {slab({0.9, 0, 0}, {1, 0.2, 0.1}), driven(slab({0.6, 0, 0}, {0.7, 0.2, 0.1}), 1),
                     driven(ball({0.8, 0.3, 0.2}, 0.05), 1)};
@@ -100,7 +100,7 @@ TEST_F(DrivenTest, OnlyWhoIsDrivenMoves) {
   EXPECT_NEAR(records[2].pose.centerY, 0.29, 1e-6);
 }
 
-TEST_F(DrivenTest, ThePiecesOfAnAdvanceDoNotMatter) {
+TEST_F(DrivenTest, DoesNotDependOnPieceSize) {
   std::vector<Snapshot> ends;
   for (uint32_t piece : {64u, 6u}) {
     auto run = start(tank());
@@ -113,7 +113,7 @@ TEST_F(DrivenTest, ThePiecesOfAnAdvanceDoNotMatter) {
   EXPECT_EQ(ends[0], ends[1]);
 }
 
-TEST_F(DrivenTest, GoesOnFromASnapshot) {
+TEST_F(DrivenTest, ContinuesFromASnapshot) {
   const Trial t = tank();
   auto straight = start(t);
   straight->targets = {target(0, 0.6, 0.2, 0.1875)};
@@ -127,7 +127,7 @@ TEST_F(DrivenTest, GoesOnFromASnapshot) {
   EXPECT_EQ(straight->snapshot(), resumed->snapshot());
 }
 
-TEST_F(DrivenTest, AWildHandHarmsNothing) {
+TEST_F(DrivenTest, SurvivesRandomTargets) {
   Trial t = tank();
   t.scene.solids = {driven(ball({0.75, 0.25, 0.1875}, 0.1), 20)};
   t.scene.solver = {};  // as a viewer runs it
@@ -152,7 +152,7 @@ TEST_F(DrivenTest, AWildHandHarmsNothing) {
   EXPECT_LT(calm.densityErrorMean, 0.005);
 }
 
-TEST_F(DrivenTest, BadOnesAreRefused) {
+TEST_F(DrivenTest, RejectsInvalidTargets) {
   for (double bad : {-1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     Trial t = tank();
     t.scene.solids[0].driven = bad;

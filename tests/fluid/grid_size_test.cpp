@@ -15,7 +15,7 @@ GridSize sized(double x, double y, double z, uint64_t particles) {
   return chooseGridSize(kCell, extent, particles);
 }
 
-TEST(GridSizeTest, CoversTheRoomWithoutARowMeetingItself) {
+TEST(GridSizeTest, CoversTheDomainWithoutOverlappingItself) {
   for (double room : {1.0, 1.01, 4.9, 5.0, 12.3}) {
     const GridSize grid = sized(room, room, room, 10'000'000);
     for (int axis = 0; axis < 3; ++axis) {
@@ -27,14 +27,14 @@ TEST(GridSizeTest, CoversTheRoomWithoutARowMeetingItself) {
   }
 }
 
-TEST(GridSizeTest, IsNeverSoSmallThatNeighboringCellsAreOne) {
+TEST(GridSizeTest, KeepsNeighboringCellsDistinct) {
   const GridSize grid = sized(0, 0, 1e-6, 1);
   EXPECT_GE(grid.size[0], 2 * kCellsPerReach + 3);
   EXPECT_GE(grid.size[1], 3u);
   EXPECT_GE(grid.size[2], 3u);
 }
 
-TEST(GridSizeTest, WrapsWhatHasMoreCellsThanParticlesNeed) {
+TEST(GridSizeTest, WrapsDomainsWithMoreCellsThanNeeded) {
   for (uint64_t particles : {uint64_t{1}, uint64_t{5000}, uint64_t{4} << 20}) {
     for (double x : {1.0, 300.0, 1e30}) {
       const GridSize grid = sized(x, 300, 1e12, particles);

@@ -27,7 +27,7 @@ class FluidInput : public FluidTest {
   }
 };
 
-TEST_F(FluidInput, DescriptionsThatAreNone) {
+TEST_F(FluidInput, RejectsInvalidDescriptions) {
   const Trial t = tank();
   const ParticleSet particles = t.particles();
   EXPECT_EQ(refusal({}), "FluidDesc::scene is null; expected a scene");
@@ -55,7 +55,7 @@ TEST_F(FluidInput, RejectsSpacingThatIsNotTheScenes) {
   EXPECT_EQ(refusal({.scene = &t.scene, .particles = &set}), "ParticleSet::spacing is nan; expected a length above 0 (m)");
 }
 
-TEST_F(FluidInput, ScenesThatCannotBe) {
+TEST_F(FluidInput, RejectsInvalidScenes) {
   const Trial t = tank();
   const ParticleSet particles = t.particles();
   const auto with = [&](auto&& change) {
@@ -76,7 +76,7 @@ TEST_F(FluidInput, ScenesThatCannotBe) {
             "fluid.spacing is not set: give it, or make the particles first");
 }
 
-TEST_F(FluidInput, StepsThatCannotBe) {
+TEST_F(FluidInput, RejectsInvalidSteps) {
   const Trial t = tank();
   auto run = start(t);
   run->advance(0.01);

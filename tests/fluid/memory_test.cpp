@@ -36,7 +36,7 @@ class CountedMemory : public ::testing::Test {
 
 class FluidMemoryTest : public CountedMemory, public ::testing::WithParamInterface<Case> {};
 
-TEST_P(FluidMemoryTest, IsWhatIsAllocated) {
+TEST_P(FluidMemoryTest, EqualsTheAllocatedBytes) {
   scene.domain = Domain{};
   scene.domain->max[0] = scene.domain->max[1] = scene.domain->max[2] = 100;
   GetParam().change(scene);
@@ -59,7 +59,7 @@ TEST_P(FluidMemoryTest, IsWhatIsAllocated) {
   EXPECT_GE(double(vulkan.bufferBytes), 0.75 * double(said.total())) << "far more was announced";
 }
 
-TEST_F(CountedMemory, WhatIsOffHasNoBuffer) {
+TEST_F(CountedMemory, DisabledFeaturesHaveNoBuffer) {
   particles.positions.resize(1000);
   particles.velocities.resize(1000);
   const auto bytesOf = [&](std::string_view name) {
@@ -85,7 +85,7 @@ TEST_F(CountedMemory, WhatIsOffHasNoBuffer) {
   EXPECT_GE(bytesOf("iteration multipliers"), 4000u);
 }
 
-TEST_F(CountedMemory, TooLargeIsRefusedWithWhatItNeedsAndWhatThereIs) {
+TEST_F(CountedMemory, RejectsTooLargeFluidsWithNeededAndAvailableBytes) {
   const auto refusal = [&](size_t n) {
     particles.positions.assign(n, {});
     particles.velocities.assign(n, {});

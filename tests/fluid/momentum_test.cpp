@@ -44,23 +44,23 @@ class MomentumTest : public FluidTest {
   }
 };
 
-TEST_F(MomentumTest, OneSubstep) { expectKept(drop(), 1); }
-TEST_F(MomentumTest, TenSubsteps) { expectKept(drop(), 10); }
+TEST_F(MomentumTest, IsConservedInOneSubstep) { expectKept(drop(), 1); }
+TEST_F(MomentumTest, IsConservedInTenSubsteps) { expectKept(drop(), 10); }
 
-TEST_F(MomentumTest, SeveralIterations) {
+TEST_F(MomentumTest, IsConservedInSeveralIterations) {
   Trial t = drop();
   t.scene.solver.iterations = 4;
   expectKept(t, 5);
 }
 
-TEST_F(MomentumTest, TensileAndViscosity) {
+TEST_F(MomentumTest, IsConservedWithTensileAndViscosity) {
   Trial t = drop();
   t.scene.fluid.tensile = 1;
   t.scene.fluid.viscosity = 20;
   expectKept(t, 5);
 }
 
-TEST_F(MomentumTest, OtherKernel) {
+TEST_F(MomentumTest, IsConservedWithTheOtherKernel) {
   Trial t = drop();
   t.scene.solver.kernel = KernelChoice::Poly6Spiky;
   expectKept(t, 5);

@@ -42,7 +42,7 @@ Trial shaken() {
   return t;
 }
 
-TEST_F(PassRunsTest, OfEveryPassThatCanBeEmpty) {
+TEST_F(PassRunsTest, CountsPassesThatMayBeEmpty) {
   Trial t = shaken();
   t.scene.fluid.viscosity = 0.02;
   t.scene.fluid.vorticity = 0.1;
@@ -60,7 +60,7 @@ TEST_F(PassRunsTest, OfEveryPassThatCanBeEmpty) {
   EXPECT_EQ(ran.count("move solids"), 0u) << "no solid moves";
 }
 
-TEST_F(PassRunsTest, OfWhatIsRecordedOnceABlock) {
+TEST_F(PassRunsTest, CountsPassesOfABlock) {
   Trial t = shaken();
   t.scene.solver.artificial_viscosity = 0.1;
   auto run = start(t);
@@ -72,7 +72,7 @@ TEST_F(PassRunsTest, OfWhatIsRecordedOnceABlock) {
   EXPECT_EQ(ran.count("viscosity"), 0u);
 }
 
-TEST_F(PassRunsTest, OfOneFrameEachOrOfAllSinceTheLastLook) {
+TEST_F(PassRunsTest, SumsFramesSinceTheLastQuery) {
   Trial t = trial();
   t.x = block({6, 6, 6}, t.d());
   auto run = start(t);
@@ -102,7 +102,7 @@ TEST_F(PassRunsTest, OfOneFrameEachOrOfAllSinceTheLastLook) {
 
 // Two rebuilds behind each other, of which the second has nothing to do: before the first advance, and in a piece of an advance that has
 // none yet.
-TEST_F(PassRunsTest, ASecondRebuildTouchesNothing) {
+TEST_F(PassRunsTest, SecondRebuildChangesNothing) {
   for (bool looked : {false, true}) {
     Trial t = shaken();
     auto run = start(t), plain = start(t);

@@ -61,7 +61,7 @@ TEST_F(RotatingSolidTest, PaddleMatchesReference) {
   expectEqual(t, 10, 2e-4, 2e-2);
 }
 
-TEST_F(RotatingSolidTest, PaddleStirsItsWay) {
+TEST_F(RotatingSolidTest, PaddleStirsTheFluid) {
   for (const double speed : {4.0, -4.0}) {
     const auto [device, reference] = momenta(paddle(speed), 60);
     EXPECT_GT(device * speed, 0) << speed;
@@ -81,7 +81,7 @@ TEST_F(RotatingSolidTest, BallDragsByFriction) {
   EXPECT_NEAR(with - without, referenceWith - referenceWithout, 0.05 * std::abs(referenceWith));
 }
 
-TEST_F(RotatingSolidTest, PoseOnTheDeviceIsThatOfTheKeyframes) {
+TEST_F(RotatingSolidTest, DevicePoseMatchesKeyframes) {
   const Trial t = paddle(4);
   auto run = start(t);
   run->substeps(130);
@@ -94,7 +94,7 @@ TEST_F(RotatingSolidTest, PoseOnTheDeviceIsThatOfTheKeyframes) {
 }
 
 // The speed that the list's travel and the speed limits follow is that of the farthest corner.
-TEST_F(RotatingSolidTest, SpeedBoundHasTheFarthestCorner) {
+TEST_F(RotatingSolidTest, SpeedBoundIncludesTheFarthestCorner) {
   Trial t = paddle(4);
   const ParticleSet particles = t.particles();
   const auto setup = makeFluidSetup(t.scene, {.capacity = static_cast<uint32_t>(particles.positions.size()), .extent = {1, 0.5, 1}});

@@ -97,7 +97,7 @@ class SnapshotTest : public FluidTest {
   int alive_ = 0, walks_ = 0;  // snapshots with a list, with walkers
 };
 
-TEST_F(SnapshotTest, GoesOnWhateverTheGather) {
+TEST_F(SnapshotTest, ContinuesWithEitherNeighborSearch) {
   for (Gather gather : kGathers) {
     SCOPED_TRACE(nameOf(gather));
     Trial t = dam();
@@ -107,14 +107,14 @@ TEST_F(SnapshotTest, GoesOnWhateverTheGather) {
   EXPECT_GE(alive_, 3) << "lists that are alive among them";
 }
 
-TEST_F(SnapshotTest, GoesOnWithSolidsThatMove) {
+TEST_F(SnapshotTest, ContinuesWithMovingSolids) {
   Trial t = dam();
   t.scene.solids = {moving(ball({0.55, 0.15, 0.1875}, 0.1)), slab({0.6, 0, 0}, {0.7, 0.2, 0.2})};
   t.scene.solids[0].friction = 0.3;
   expectTheSame(t);
 }
 
-TEST_F(SnapshotTest, GoesOnWithEveryTerm) {
+TEST_F(SnapshotTest, ContinuesWithEveryTerm) {
   for (double viscosity : {1.0, 20.0}) {
     Trial t = dam();
     t.scene.solver.iterations = 3;
@@ -127,13 +127,13 @@ TEST_F(SnapshotTest, GoesOnWithEveryTerm) {
   }
 }
 
-TEST_F(SnapshotTest, GoesOnWithoutWalls) {
+TEST_F(SnapshotTest, ContinuesWithoutWalls) {
   Trial t = dam();
   t.scene.domain.reset();
   expectTheSame(t);
 }
 
-TEST_F(SnapshotTest, GoesOnWithListsThatOverflow) {
+TEST_F(SnapshotTest, ContinuesWithListsThatOverflow) {
   Trial t = dam();
   t.settle = false;
   t.x = cloud(400, 5 * t.d(), 7, glm::dvec3(0.03));
@@ -145,13 +145,13 @@ TEST_F(SnapshotTest, GoesOnWithListsThatOverflow) {
   EXPECT_GT(walks_, 0) << "some walk the grid";
 }
 
-TEST_F(SnapshotTest, WithParkedParticles) {
+TEST_F(SnapshotTest, ContinuesWithInactiveParticles) {
   Trial t = dam();
   t.x[5].x = std::numeric_limits<double>::quiet_NaN();
   expectTheSame(t);
 }
 
-TEST_F(SnapshotTest, OfAnotherFluidIsRefused) {
+TEST_F(SnapshotTest, RejectsSnapshotOfAnotherFluid) {
   Trial t = dam();
   auto run = start(t);
   run->advance(kFrame);

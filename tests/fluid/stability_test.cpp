@@ -108,7 +108,7 @@ TEST_F(StabilityTest, BasinFilledLaterHasTheBoundsOfOneReleasedFull) {
 }
 
 // Spray, what has left the domain or the simulation, and what is no number.
-TEST_F(StabilityTest, SparseParticlesAreNoColumn) {
+TEST_F(StabilityTest, IgnoresSparseParticlesInColumnHeight) {
   const Trial t = tank(12);
   const auto at = [&](double layers) { return Float3{0.25f, static_cast<float>(layers * t.d()), 0.25f}; };
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
@@ -121,7 +121,7 @@ TEST_F(StabilityTest, SparseParticlesAreNoColumn) {
   EXPECT_LT(head, headOf(t, 11) * 1.02) << "a drop in 769, three times as high as the fluid";
 }
 
-TEST_F(StabilityTest, SplashRaisesNoBound) {
+TEST_F(StabilityTest, SplashDoesNotRaiseTheBound) {
   Trial t = trial();
   t.scene.solver.cfl = 0.25;
   setWalls(t, {1, 2, 0.375});
@@ -139,7 +139,7 @@ TEST_F(StabilityTest, SplashRaisesNoBound) {
 }
 
 // The device's formulas are those of the host.
-TEST_F(StabilityTest, DeviceHasTheFormulasOfTheHost) {
+TEST_F(StabilityTest, DeviceFormulasMatchTheHost) {
   for (const int layers : {3, 12, 30})
     for (const bool given : {false, true}) {
       SCOPED_TRACE(std::to_string(layers) + " layers" + (given ? ", warm start given" : ""));

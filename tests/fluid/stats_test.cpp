@@ -76,7 +76,7 @@ class StatsTest : public FluidTest {
   }
 };
 
-TEST_F(StatsTest, CompressedCloud) {
+TEST_F(StatsTest, MatchesReferenceInACompressedCloud) {
   Trial t = trial();
   setWalls(t, {1, 1, 1});
   t.x = cloud(500, 6 * t.d(), 21, glm::dvec3(0.03));
@@ -89,7 +89,7 @@ TEST_F(StatsTest, CompressedCloud) {
   expectLike(t, *run);
 }
 
-TEST_F(StatsTest, CloudWithoutWallsFarFromZero) {
+TEST_F(StatsTest, MatchesReferenceWithoutWallsFarFromZero) {
   Trial t = trial();
   t.origin[0] = 1000;
   t.origin[1] = -500;
@@ -98,7 +98,7 @@ TEST_F(StatsTest, CloudWithoutWallsFarFromZero) {
   expectLike(t, *start(t));
 }
 
-TEST_F(StatsTest, OtherKernelAndSupport) {
+TEST_F(StatsTest, MatchesReferenceWithOtherKernelAndSupport) {
   Trial t = trial();
   t.scene.solver.kernel = KernelChoice::Poly6Spiky;
   t.scene.fluid.smoothing_ratio = 2.6;
@@ -107,7 +107,7 @@ TEST_F(StatsTest, OtherKernelAndSupport) {
   expectLike(t, *start(t));
 }
 
-TEST_F(StatsTest, AroundSolids) {
+TEST_F(StatsTest, MatchesReferenceAroundSolids) {
   Trial t = trial();
   setWalls(t, {1, 1, 1});
   t.scene.solids = {slab({0.3, 0.2, 0.3}, {0.7, 0.4, 0.7}), ball({0.5, 0.8, 0.5}, 0.125)};
@@ -117,7 +117,7 @@ TEST_F(StatsTest, AroundSolids) {
 
 // The walls stand in for the lattice beyond them: every particle with a full neighborhood of fluid and walls has the rest density, those
 // at the free faces less.
-TEST_F(StatsTest, RestLatticeInACorner) {
+TEST_F(StatsTest, MatchesReferenceForARestLatticeInACorner) {
   Trial t = trial();
   setWalls(t, {6 * t.d(), 6 * t.d(), 6 * t.d()});
   t.x = block({6, 6, 6}, t.d());
@@ -142,7 +142,7 @@ TEST_F(StatsTest, RestLatticeInACorner) {
 }
 
 // 0.1 of 300: the 99th percentile leaves out the three that are worst.
-TEST_F(StatsTest, PercentileOfAFewBadOnes) {
+TEST_F(StatsTest, PercentileCountsAFewLargeErrors) {
   Trial t = trial();
   t.scene.gravity[1] = 0;
   for (int i = 0; i < 297; ++i) t.x.push_back({4.0 * t.d() * (i % 27), 4.0 * t.d() * (i / 27), 0});

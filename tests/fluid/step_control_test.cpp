@@ -35,7 +35,7 @@ class StepControlTest : public FluidTest {
 
 // A planned step may be a quarter longer than cfl's bound where that saves a sliver at the end of an advance, and correction may double the
 // way.
-TEST_F(StepControlTest, CflIsRespected) {
+TEST_F(StepControlTest, RespectsCfl) {
   Trial t = dam({6, 8, 5}, {1, 1, 5.0 / 16});
   t.scene.solver.tolerance = 0;
   auto run = start(t);
@@ -59,7 +59,7 @@ TEST_F(StepControlTest, CflIsRespected) {
 }
 
 // One particle in free flight takes steps of just its bound.
-TEST_F(StepControlTest, FreeFlightTakesTheLongestStep) {
+TEST_F(StepControlTest, TakesTheLongestStepInFreeFlight) {
   Trial t = trial();
   t.scene.gravity[1] = 0;
   t.step = 1.0 / 60;
@@ -72,7 +72,7 @@ TEST_F(StepControlTest, FreeFlightTakesTheLongestStep) {
   EXPECT_NEAR(run->snapshot().x[0].x, 0.1, 1e-6);
 }
 
-TEST_F(StepControlTest, ToleranceIsMet) {
+TEST_F(StepControlTest, MeetsTheTolerance) {
   Trial t = dam({6, 6, 6}, glm::dvec3(6.0 / 16, 1, 6.0 / 16));
   std::vector<uint32_t> steps;
   for (double tolerance : {0.002, 0.01}) {
@@ -89,7 +89,7 @@ TEST_F(StepControlTest, ToleranceIsMet) {
   EXPECT_GE(steps[0], steps[1]) << "a finer tolerance takes no fewer substeps";
 }
 
-TEST_F(StepControlTest, TimeBeyondTheMostSubstepsIsDropped) {
+TEST_F(StepControlTest, DropsTimeBeyondMaxSubsteps) {
   Trial t = trial();
   t.step = 0.001;
   t.scene.solver.max_substeps = 7;
@@ -112,7 +112,7 @@ TEST_F(StepControlTest, TimeBeyondTheMostSubstepsIsDropped) {
 }
 
 // What was not recorded to its end is dropped by the next advance, and said so.
-TEST_F(StepControlTest, AnAbandonedAdvanceIsDropped) {
+TEST_F(StepControlTest, DropsAbandonedAdvance) {
   Trial t = trial();
   t.x = block({3, 3, 3}, t.d());
   auto run = start(t);
@@ -125,7 +125,7 @@ TEST_F(StepControlTest, AnAbandonedAdvanceIsDropped) {
 }
 
 // To a few roundings of each substep's float.
-TEST_F(StepControlTest, AdvancesByJustTheTimeAskedFor) {
+TEST_F(StepControlTest, AdvancesByTheGivenTime) {
   Trial t = dam({4, 5, 4}, {0.5, 0.75, 0.25});
   auto run = start(t);
   double time = 0;
@@ -140,7 +140,7 @@ TEST_F(StepControlTest, AdvancesByJustTheTimeAskedFor) {
 }
 
 // Many short steps at a late time: float alone would have lost them.
-TEST_F(StepControlTest, TimeIsKeptForLongRuns) {
+TEST_F(StepControlTest, KeepsTimeInLongRuns) {
   Trial t = trial();
   t.scene.gravity[1] = 0;
   t.step = 100;

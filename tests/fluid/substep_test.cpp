@@ -11,28 +11,28 @@ constexpr double kOne = 2e-4;  // after one substep
 constexpr double kTen = 1e-3;  // after ten
 constexpr double kAgeing = 0.1;
 
-TEST_F(SubstepTest, CloudTakesOneStep) {
+TEST_F(SubstepTest, CloudMatchesReference) {
   Trial t = trial();
   t.x = cloud(400, 7.4 * t.d(), 11);
   t.v = cloud(400, 1.0, 12, glm::dvec3(-0.5));
   expectEqual(t, 1, kOne, kOne);
 }
 
-TEST_F(SubstepTest, Lattice) {
+TEST_F(SubstepTest, LatticeMatchesReference) {
   Trial t = trial();
   t.x = block({7, 6, 8}, t.d());
   expectEqual(t, 1, kOne, kOne);
   expectEqual(t, 10, kTen, kTen);
 }
 
-TEST_F(SubstepTest, CompressedLattice) {
+TEST_F(SubstepTest, CompressedLatticeMatchesReference) {
   Trial t = trial();
   t.x = block({7, 6, 8}, 0.93 * t.d(), {}, 0.05);
   expectEqual(t, 1, kOne, kOne);
   expectEqual(t, 10, kTen, kTen, kAgeing);
 }
 
-TEST_F(SubstepTest, JitteredBlockInACorner) {
+TEST_F(SubstepTest, JitteredBlockInACornerMatchesReference) {
   Trial t = trial();
   setWalls(t, {1, 1, 1});
   t.x = block({6, 7, 6}, t.d(), {}, 0.2);
@@ -41,7 +41,7 @@ TEST_F(SubstepTest, JitteredBlockInACorner) {
   expectEqual(t, 10, kTen, kTen, kAgeing);
 }
 
-TEST_F(SubstepTest, BlockInTheFarCorner) {
+TEST_F(SubstepTest, BlockInTheFarCornerMatchesReference) {
   Trial t = trial();
   setWalls(t, {0.75, 1, 0.875});
   t.x = block({6, 7, 6}, t.d(), {0.75 - 6 * t.d(), 1 - 7 * t.d(), 0.875 - 6 * t.d()}, 0.1);
@@ -50,21 +50,21 @@ TEST_F(SubstepTest, BlockInTheFarCorner) {
   expectEqual(t, 10, kTen, kTen, kAgeing);
 }
 
-TEST_F(SubstepTest, ThinSlab) {
+TEST_F(SubstepTest, ThinSlabMatchesReference) {
   Trial t = trial();
   setWalls(t, {1, 1, 2.2 * t.d()});
   t.x = block({8, 8, 2}, t.d(), {0.1, 0, 0.1 * t.d()}, 0.05);
   expectEqual(t, 10, kTen, kTen);
 }
 
-TEST_F(SubstepTest, OneSpacingThin) {
+TEST_F(SubstepTest, LayerOfOneSpacingMatchesReference) {
   Trial t = trial();
   setWalls(t, {1, 1, 1.0 * t.d()});
   t.x = block({10, 8, 1}, t.d(), {}, 0.05);
   expectEqual(t, 10, kTen, kTen);
 }
 
-TEST_F(SubstepTest, OpenSides) {
+TEST_F(SubstepTest, OpenSidesMatchReference) {
   Trial t = trial();
   setWalls(t, {0.5, 1, 0.5}, 0b001010);
   t.x = block({8, 6, 8}, t.d(), {}, 0.1);
@@ -72,7 +72,7 @@ TEST_F(SubstepTest, OpenSides) {
 }
 
 // The wrapped grid: rows that are cut where it begins anew, on either side of the origin and many grids away from it.
-TEST_F(SubstepTest, AcrossTheGridsSeams) {
+TEST_F(SubstepTest, WrappedGridMatchesReference) {
   Trial t = trial();
   for (const glm::dvec3 from : {glm::dvec3(-3.3 * t.d()), glm::dvec3(11.3, -7.1, 4.6), glm::dvec3(-9.7, 0.4, -13.2)}) {
     t.x = block({7, 6, 8}, 0.95 * t.d(), from, 0.05);
@@ -80,7 +80,7 @@ TEST_F(SubstepTest, AcrossTheGridsSeams) {
   }
 }
 
-TEST_F(SubstepTest, Poly6Spiky) {
+TEST_F(SubstepTest, Poly6SpikyMatchesReference) {
   Trial t = trial();
   t.scene.solver.kernel = KernelChoice::Poly6Spiky;
   t.scene.solver.relaxation = 0.6;  // of what is stable with this kernel
@@ -90,7 +90,7 @@ TEST_F(SubstepTest, Poly6Spiky) {
   expectEqual(t, 10, kTen, kTen, kAgeing);
 }
 
-TEST_F(SubstepTest, WideSupport) {
+TEST_F(SubstepTest, WideSupportMatchesReference) {
   Trial t = trial();
   t.scene.fluid.smoothing_ratio = 3;
   t.scene.solver.relaxation = 0.25;  // of what is stable with this support
@@ -99,7 +99,7 @@ TEST_F(SubstepTest, WideSupport) {
   expectEqual(t, 10, kTen, kTen);
 }
 
-TEST_F(SubstepTest, OneSweepOfViscosity) {
+TEST_F(SubstepTest, OneSweepOfViscosityMatchesReference) {
   Trial t = trial();
   t.scene.fluid.viscosity = 20;
   setWalls(t, {1, 1, 1});
@@ -122,33 +122,33 @@ Trial calmed() {
   return t;
 }
 
-TEST_F(SubstepTest, Calm) {
+TEST_F(SubstepTest, NoiseDampingMatchesReference) {
   expectEqual(calmed(), 1, kOne, kOne);
   expectEqual(calmed(), 10, kTen, kTen, kAgeing);
 }
 
 // The pass runs in the first substep of a block alone, with the time since the last one.
-TEST_F(SubstepTest, CalmOnceABlock) {
+TEST_F(SubstepTest, NoiseDampingOnceABlockMatchesReference) {
   Trial t = calmed();
   t.stepwise = false;
   expectEqual(t, 8, kTen, kTen, kAgeing);
 }
 
-TEST_F(SubstepTest, CalmInThreeIterations) {
+TEST_F(SubstepTest, NoiseDampingInThreeIterationsMatchesReference) {
   Trial t = calmed();
   t.scene.solver.iterations = 3;
   expectEqual(t, 1, kOne, kOne);
   expectEqual(t, 10, kTen, kTen, kAgeing);
 }
 
-TEST_F(SubstepTest, CalmUnderABall) {
+TEST_F(SubstepTest, NoiseDampingUnderABallMatchesReference) {
   Trial t = calmed();
   t.scene.solids.push_back(ball({0.2, 0.545, 0.2}, 0.1));
   t.scene.solids.back().friction = 0.3;
   expectEqual(t, 10, kTen, kTen, kAgeing);
 }
 
-TEST_F(SubstepTest, WithoutGravityNothingIsCalm) {
+TEST_F(SubstepTest, NoiseDampingNeedsGravity) {
   Trial t = calmed();
   t.scene.gravity[1] = 0;
   t.x = block({6, 7, 6}, t.d());
@@ -179,7 +179,7 @@ TEST_F(SubstepTest, ArtificialViscosityDampsNoise) {
   EXPECT_GT(saidFull, 0.5 * atRest);
 }
 
-TEST_F(SubstepTest, SeveralSweepsOfViscosity) {
+TEST_F(SubstepTest, SeveralSweepsOfViscosityMatchReference) {
   Trial t = trial();
   t.scene.fluid.viscosity = 2500;
   setWalls(t, {1, 1, 1});
@@ -190,7 +190,7 @@ TEST_F(SubstepTest, SeveralSweepsOfViscosity) {
   expectEqual(t, 10, kTen, kTen);
 }
 
-TEST_F(SubstepTest, Vorticity) {
+TEST_F(SubstepTest, VorticityMatchesReference) {
   Trial t = trial();
   t.scene.fluid.vorticity = 0.5;
   setWalls(t, {1, 1, 1});
@@ -200,7 +200,7 @@ TEST_F(SubstepTest, Vorticity) {
   expectEqual(t, 10, kTen, kTen, kAgeing);
 }
 
-TEST_F(SubstepTest, ViscosityAndVorticity) {
+TEST_F(SubstepTest, ViscosityAndVorticityMatchReference) {
   Trial t = trial();
   t.scene.fluid.viscosity = 20;
   t.scene.fluid.vorticity = 0.5;
@@ -209,7 +209,7 @@ TEST_F(SubstepTest, ViscosityAndVorticity) {
   expectEqual(t, 10, kTen, kTen);
 }
 
-TEST_F(SubstepTest, Drag) {
+TEST_F(SubstepTest, DragMatchesReference) {
   Trial t = trial();
   t.scene.fluid.drag = 30;
   setWalls(t, {1, 1, 1});
@@ -229,7 +229,7 @@ TEST_F(SubstepTest, DragReachesTerminalVelocity) {
   EXPECT_NEAR(run->snapshot().v[0].y, -9.81 / 20, 0.02 * 9.81 / 20) << "g over drag";
 }
 
-TEST_F(SubstepTest, Tensile) {
+TEST_F(SubstepTest, TensileMatchesReference) {
   Trial t = trial();
   t.scene.fluid.tensile = 1;
   t.step = 4e-3;
@@ -240,7 +240,7 @@ TEST_F(SubstepTest, Tensile) {
   expectEqual(t, 10, kTen, kTen, kAgeing);
 }
 
-TEST_F(SubstepTest, ThreeIterations) {
+TEST_F(SubstepTest, ThreeIterationsMatchReference) {
   Trial t = trial();
   t.scene.solver.iterations = 3;
   t.scene.fluid.tensile = 0.5;
@@ -251,7 +251,7 @@ TEST_F(SubstepTest, ThreeIterations) {
 }
 
 // As the noise damping pass: by as much as the time since the last block's first substep asks for.
-TEST_F(SubstepTest, TensileOnceABlock) {
+TEST_F(SubstepTest, TensileOnceABlockMatchesReference) {
   Trial t = calmed();
   t.scene.fluid.tensile = 1;
   t.stepwise = false;
@@ -260,7 +260,7 @@ TEST_F(SubstepTest, TensileOnceABlock) {
   expectEqual(t, 8, kTen, kTen, kAgeing);
 }
 
-TEST_F(SubstepTest, ThreeIterationsAtWalls) {
+TEST_F(SubstepTest, ThreeIterationsAtWallsMatchReference) {
   Trial t = trial();
   t.scene.solver.iterations = 3;
   setWalls(t, {1, 1, 1});
@@ -269,14 +269,14 @@ TEST_F(SubstepTest, ThreeIterationsAtWalls) {
   expectEqual(t, 10, kTen, kTen, kAgeing);
 }
 
-TEST_F(SubstepTest, GravityThatChanges) {
+TEST_F(SubstepTest, ChangingGravityMatchesReference) {
   Trial t = trial();
   t.scene.gravity_changes = {{0.003, {5, 0, 0}}, {0.0062, {0, 0, -20}}};
   t.x = block({5, 5, 5}, t.d());
   expectEqual(t, 10, kTen, kTen);
 }
 
-TEST_F(SubstepTest, RestsOnABox) {
+TEST_F(SubstepTest, RestOnABoxMatchesReference) {
   Trial t = trial();
   setWalls(t, {1, 1, 1});
   t.scene.solids = {slab({0.1, 0, 0.1}, {0.9, 0.25, 0.9})};
@@ -286,7 +286,7 @@ TEST_F(SubstepTest, RestsOnABox) {
   expectEqual(t, 10, kTen, kTen);
 }
 
-TEST_F(SubstepTest, RestsOnATurnedBox) {
+TEST_F(SubstepTest, RestOnATurnedBoxMatchesReference) {
   Trial t = trial();
   t.scene.solids = {slab({-0.4, -0.2, -0.4}, {0.4, 0.2, 0.4})};
   t.scene.solids[0].rotation[2] = 0.6;
@@ -297,7 +297,7 @@ TEST_F(SubstepTest, RestsOnATurnedBox) {
   expectEqual(t, 10, kTen, kTen);
 }
 
-TEST_F(SubstepTest, FlowsOverABall) {
+TEST_F(SubstepTest, FlowOverABallMatchesReference) {
   Trial t = trial();
   setWalls(t, {1, 1, 1});
   t.scene.solids = {ball({0.5, 0.2, 0.5}, 0.2)};
@@ -308,7 +308,7 @@ TEST_F(SubstepTest, FlowsOverABall) {
 }
 
 // A wall, a ball and a turned box at once, with a support so wide that what is beside a particle meets its bound.
-TEST_F(SubstepTest, WideSupportBetweenSolidsInTwoIterations) {
+TEST_F(SubstepTest, WideSupportBetweenSolidsInTwoIterationsMatchesReference) {
   Trial t = trial();
   t.scene.fluid.smoothing_ratio = 3;
   t.scene.solver.relaxation = 0.25;
@@ -323,7 +323,7 @@ TEST_F(SubstepTest, WideSupportBetweenSolidsInTwoIterations) {
   expectEqual(t, 10, kTen, kTen);
 }
 
-TEST_F(SubstepTest, RubsAndBounces) {
+TEST_F(SubstepTest, FrictionAndRestitutionMatchReference) {
   Trial t = trial();
   setWalls(t, {1, 1, 1});
   t.scene.solids = {slab({0.1, 0, 0.1}, {0.9, 0.25, 0.9})};
@@ -335,7 +335,7 @@ TEST_F(SubstepTest, RubsAndBounces) {
   expectEqual(t, 10, 1.5 * kTen, kTen);
 }
 
-TEST_F(SubstepTest, LoneParticleRubs) {
+TEST_F(SubstepTest, FrictionOnALoneParticleMatchesReference) {
   Trial t = trial();
   t.scene.solids = {slab({-1, -1, -1}, {1, 0, 1})};
   t.scene.solids[0].friction = 0.3;
@@ -344,7 +344,7 @@ TEST_F(SubstepTest, LoneParticleRubs) {
   expectEqual(t, 10, 1e-5, 1e-5);
 }
 
-TEST_F(SubstepTest, SolidThatMoves) {
+TEST_F(SubstepTest, MovingSolidMatchesReference) {
   Trial t = trial();
   setWalls(t, {1, 1, 1});
   t.scene.solids = {slab({0.1, 0, 0.1}, {0.9, 0.25, 0.9}), ball({0.5, 0.8, 0.5}, 0.15)};
@@ -356,7 +356,7 @@ TEST_F(SubstepTest, SolidThatMoves) {
   expectEqual(t, 10, kTen, kTen);
 }
 
-TEST_F(SubstepTest, SolidWithViscosity) {
+TEST_F(SubstepTest, SolidWithViscosityMatchesReference) {
   Trial t = trial();
   t.scene.fluid.viscosity = 20;
   setWalls(t, {1, 1, 1});

@@ -67,7 +67,7 @@ class TiltedWallsTest : public FluidTest {
 };
 
 // Measured: at most 0.0012 spacings apart, 0.0003 rms. With a scale per axis 0.13, and 0.043 rms.
-TEST_F(TiltedWallsTest, PlaneIsThatAlongTheAxes) {
+TEST_F(TiltedWallsTest, PlaneEqualsAxisAlignedPlane) {
   for (const glm::dquat& by : kTurns) {
     const auto [most, mean] = apart(onPlane(), by, 50);
     EXPECT_LT(most, 0.005);
@@ -75,7 +75,7 @@ TEST_F(TiltedWallsTest, PlaneIsThatAlongTheAxes) {
   }
 }
 
-TEST_F(TiltedWallsTest, CornerIsThatAlongTheAxes) {
+TEST_F(TiltedWallsTest, CornerEqualsAxisAlignedCorner) {
   for (const glm::dquat& by : kTurns) {
     const auto [most, mean] = apart(inCorner(), by, 50);
     EXPECT_LT(most, 0.005);

@@ -1,5 +1,5 @@
 // What no scene should contain and some will: lone, coincident, crushed and lost particles; thin tanks; places far from zero. See
-// broken_test.cpp, too.
+// non_finite_test.cpp, too.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -9,9 +9,9 @@
 #include "sort/sort_types.h"
 
 namespace rill::test {
-namespace nasty_test {
+namespace degenerate_input_test {
 
-using NastyTest = FluidTest;
+using DegenerateInputTest = FluidTest;
 
 // Beyond the walls of `t` by more than the rounding of a float.
 size_t outsideOf(const Trial& t, const Snapshot& s) {
@@ -48,7 +48,7 @@ double speeds(const Snapshot& s) {
 }
 
 // A cell with more particles than the sort looks through for each: it is put in order in another way.
-TEST_F(NastyTest, ACellOfThousands) {
+TEST_F(DegenerateInputTest, HandlesThousandsOfParticlesInOneCell) {
   Trial t = trial();
   t.x = cloud(3000, 0.4 * t.d(), 7, {0.01, 0.01, 0.01});
   for (const glm::dvec3& x : block({6, 6, 6}, t.d(), {0.5, 0, 0})) t.x.push_back(x);
@@ -69,7 +69,7 @@ TEST_F(NastyTest, ACellOfThousands) {
 }
 
 // So many particles a cell that the fluid's sort is the one by digits.
-TEST_F(NastyTest, FullCellsAreSortedByDigits) {
+TEST_F(DegenerateInputTest, SortsFullCellsByDigits) {
   Trial t = trial();
   t.x = cloud(3000, 2 * t.d(), 11);
   for (Gather gather : kGathers) {
@@ -89,7 +89,7 @@ TEST_F(NastyTest, FullCellsAreSortedByDigits) {
 
 // All numbers are sums of few powers of two: nothing is rounded, and symplectic Euler's parabola x0 + n dt v + n (n + 1) / 2 dt^2 g is met
 // to the bit.
-TEST_F(NastyTest, LoneParticleFallsAlongTheParabola) {
+TEST_F(DegenerateInputTest, LoneParticleFollowsTheParabola) {
   Trial t = trial();
   t.step = 1.0 / 1024;
   t.scene.gravity[1] = -8;
@@ -110,7 +110,7 @@ TEST_F(NastyTest, LoneParticleFallsAlongTheParabola) {
   }
 }
 
-TEST_F(NastyTest, TwoParticlesAtTheSupportDoNotFeelEachOther) {
+TEST_F(DegenerateInputTest, ParticlesAtTheSupportRadiusDoNotInteract) {
   for (KernelChoice kernel : {KernelChoice::Wendland, KernelChoice::Poly6Spiky}) {
     Trial t = trial();
     t.scene.solver.kernel = kernel;
@@ -133,7 +133,7 @@ TEST_F(NastyTest, TwoParticlesAtTheSupportDoNotFeelEachOther) {
 
 // Forces between two particles are opposite: what the sum of velocities may change by is the rounding of positions (2^-24 of the few
 // spacings that the cluster spans, over the step), for every particle and substep.
-TEST_F(NastyTest, CoincidentParticlesPart) {
+TEST_F(DegenerateInputTest, SeparatesCoincidentParticles) {
   Trial t = trial();
   t.scene.gravity[1] = 0;
   t.scene.solver.cfl = 10;  // the bound on the speed acts on each particle alone
@@ -153,7 +153,7 @@ TEST_F(NastyTest, CoincidentParticlesPart) {
 }
 
 // More of them than a list holds.
-TEST_F(NastyTest, ManyCoincidentParticlesPart) {
+TEST_F(DegenerateInputTest, SeparatesManyCoincidentParticles) {
   Trial t = trial();
   setWalls(t, {1, 1, 1});
   t.x.assign(300, glm::dvec3(0.4));
@@ -169,7 +169,7 @@ TEST_F(NastyTest, ManyCoincidentParticlesPart) {
 // A block with a hundred times the rest density. A substep moves no particle farther than twice what cfl allows, half a spacing, and may be
 // half as long as the one before: four of them take a particle out of the reach of all others, with at most 2^4 times half a spacing a
 // first step. From then on walls take energy out.
-TEST_F(NastyTest, CrushedBlockStaysInsideAtABoundedSpeed) {
+TEST_F(DegenerateInputTest, CompressedBlockStaysInsideAtABoundedSpeed) {
   Trial t = trial();
   setWalls(t, {1, 1, 1});
   t.x = cloud(400, std::cbrt(4.0) * t.d(), 3, glm::dvec3(0.3));
@@ -191,7 +191,7 @@ TEST_F(NastyTest, CrushedBlockStaysInsideAtABoundedSpeed) {
   }
 }
 
-TEST_F(NastyTest, FullListsWalkTheGrid) {
+TEST_F(DegenerateInputTest, FullListsFallBackToTheGrid) {
   Trial t = trial();
   setWalls(t, {1, 1, 1});
   t.x = cloud(400, 5 * t.d(), 7, glm::dvec3(0.03));
@@ -211,7 +211,7 @@ TEST_F(NastyTest, FullListsWalkTheGrid) {
 
 // Lists that overflow at first and fit once the fluid has spread: the device switches between the two variants of every pass over
 // neighbors.
-TEST_F(NastyTest, ListsThatOverflowForAWhile) {
+TEST_F(DegenerateInputTest, HandlesListsThatOverflowForAWhile) {
   Trial t = trial();
   setWalls(t, {1, 1, 1});
   t.scene.solver.iterations = 2;
@@ -243,7 +243,7 @@ TEST_F(NastyTest, ListsThatOverflowForAWhile) {
 // More particles in one cell than a walk looks at: it ends, and says so. They are inactive (a start that is not finite), which puts them
 // all into the first cell of the wrapped grid but lets none of them walk: one cluster alone has the long way, so that this is quick on
 // every driver.
-TEST_F(NastyTest, AWalkIsBoundedAndSaysSo) {
+TEST_F(DegenerateInputTest, BoundsNeighborSearchAndCountsIt) {
   Trial t = trial();
   t.scene.gravity[1] = 0;
   t.x.assign(40000, glm::dvec3(NAN));
@@ -263,7 +263,7 @@ TEST_F(NastyTest, AWalkIsBoundedAndSaysSo) {
   EXPECT_EQ(fewer->stats().loopBoundHits, 0u) << "within the bound";
 }
 
-TEST_F(NastyTest, NoParticles) {
+TEST_F(DegenerateInputTest, HandlesZeroParticles) {
   Trial t = trial();
   setWalls(t, {1, 1, 1});
   auto run = start(t);
@@ -281,7 +281,7 @@ TEST_F(NastyTest, NoParticles) {
   EXPECT_EQ(run->fluid().count(), 0u);
 }
 
-TEST_F(NastyTest, FarFromTheOriginIsLikeNear) {
+TEST_F(DegenerateInputTest, DoesNotDependOnTheOrigin) {
   Trial t = trial();
   t.x = block({5, 6, 5}, t.d(), {}, 0.1);
   const auto finish = [&](double origin) {
@@ -301,7 +301,7 @@ TEST_F(NastyTest, FarFromTheOriginIsLikeNear) {
   EXPECT_EQ(near, odd);
 }
 
-TEST_F(NastyTest, LeavesThroughAnOpenSide) {
+TEST_F(DegenerateInputTest, ParticlesLeaveThroughOpenSides) {
   Trial t = trial();
   setWalls(t, {0.5, 0.5, 0.5}, 0b000010);
   t.x = block({6, 6, 6}, t.d(), {0.1, 0, 0.05});
@@ -326,7 +326,7 @@ TEST_F(NastyTest, LeavesThroughAnOpenSide) {
 }
 
 // Beyond what floats can tell apart, nothing moves any more, and other particles are unharmed.
-TEST_F(NastyTest, FliesAwayForEver) {
+TEST_F(DegenerateInputTest, DeactivatesParticlesThatFlyAway) {
   Trial t = trial();
   t.scene.fluid.spacing = 1.0 / 1024;
   t.scene.gravity[1] = 0;
@@ -346,7 +346,7 @@ TEST_F(NastyTest, FliesAwayForEver) {
   for (size_t i = 0; i + 1 < s.x.size(); ++i) EXPECT_LT(glm::length(s.x[i] - t.x[i]), 0.5 * t.d());
 }
 
-TEST_F(NastyTest, OutsideAWallAtTheStart) {
+TEST_F(DegenerateInputTest, MovesParticlesBeyondWallsInside) {
   Trial t = trial();
   t.scene.solver.cfl = 0.25;
   t.scene.gravity[1] = 0;
@@ -371,7 +371,7 @@ TEST_F(NastyTest, OutsideAWallAtTheStart) {
 }
 
 // Walls nearer to each other than a spacing leave each center one place on that axis.
-TEST_F(NastyTest, VeryThinDomain) {
+TEST_F(DegenerateInputTest, HandlesVeryThinDomain) {
   for (double thickness : {0.3, 0.7, 1.0, 1.5}) {
     SCOPED_TRACE(thickness);
     Trial t = trial();
@@ -393,7 +393,7 @@ TEST_F(NastyTest, VeryThinDomain) {
   }
 }
 
-TEST_F(NastyTest, DomainForOneParticle) {
+TEST_F(DegenerateInputTest, HandlesDomainForOneParticle) {
   Trial t = trial();
   setWalls(t, glm::dvec3(0.5 * t.d()));
   t.x = {{0, 0.01, 0.02}};
@@ -405,5 +405,5 @@ TEST_F(NastyTest, DomainForOneParticle) {
   EXPECT_LT(s.fastest(), 1e-3);
 }
 
-}  // namespace nasty_test
+}  // namespace degenerate_input_test
 }  // namespace rill::test

@@ -4,9 +4,9 @@
 #include "fluid/rig.hpp"
 
 namespace rill::test {
-namespace settle_test {
+namespace settling_test {
 
-using SettleTest = FluidTest;
+using SettlingTest = FluidTest;
 
 // A lattice as wide as its box and 0.16 spacings too high for it: the last layer is pressed into the one below.
 Trial tight() {
@@ -19,7 +19,7 @@ Trial tight() {
   return t;
 }
 
-TEST_F(SettleTest, OverlapBecomesNoSpeed) {
+TEST_F(SettlingTest, OverlapGivesNoSpeed) {
   Trial t = tight();
   t.settle = true;
   auto settled = start(t);
@@ -28,7 +28,7 @@ TEST_F(SettleTest, OverlapBecomesNoSpeed) {
   EXPECT_LT(settled->stats().densityErrorMean, 1e-3);
 }
 
-TEST_F(SettleTest, TakesNoTime) {
+TEST_F(SettlingTest, TakesNoTime) {
   Trial t = tight();
   t.settle = true;
   auto run = start(t);
@@ -37,7 +37,7 @@ TEST_F(SettleTest, TakesNoTime) {
   EXPECT_NEAR(run->stats().time_s, 2e-4, 1e-9);
 }
 
-TEST_F(SettleTest, ALatticeAtRestIsLeftAlone) {
+TEST_F(SettlingTest, KeepsALatticeAtRest) {
   Trial t = trial();
   t.scene.gravity[1] = 0;
   t.settle = true;
@@ -49,5 +49,5 @@ TEST_F(SettleTest, ALatticeAtRestIsLeftAlone) {
   for (size_t i = 0; i < t.x.size(); ++i) ASSERT_LT(glm::length(after.x[i] - t.x[i]), 1e-4 * t.d()) << i;
 }
 
-}  // namespace settle_test
+}  // namespace settling_test
 }  // namespace rill::test

@@ -1,3 +1,5 @@
+#include "sph/wall.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,8 +8,6 @@
 #include <limits>
 #include <random>
 #include <tuple>
-
-#include "sph/wall.hpp"
 
 namespace {
 

@@ -1,8 +1,8 @@
+#include "sph/artificial_pressure.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
-
-#include "sph/artificial_pressure.hpp"
 
 namespace rill {
 namespace {

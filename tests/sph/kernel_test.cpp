@@ -1,10 +1,10 @@
+#include "sph/kernel.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 #include <tuple>
-
-#include "sph/kernel.hpp"
 
 namespace {
 

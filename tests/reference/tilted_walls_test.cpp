@@ -39,7 +39,7 @@ double apart(const glm::dquat& by, double smoothingRatio) {
   return most;
 }
 
-TEST(TiltedWalls, CornerIsThatAlongTheAxes) {
+TEST(TiltedWalls, CornerEqualsAxisAlignedCorner) {
   const glm::dquat turns[] = {glm::angleAxis(0.785, glm::dvec3(0, 0, 1)), glm::angleAxis(0.7, glm::normalize(glm::dvec3(1, 2, -1.5)))};
   for (const glm::dquat& by : turns) {
     EXPECT_LT(apart(by, 2), 1e-9);

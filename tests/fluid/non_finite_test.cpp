@@ -6,7 +6,7 @@
 #include "fluid/rig.hpp"
 
 namespace rill::test {
-namespace broken_test {
+namespace non_finite_test {
 
 // Takes out every particle of `broken`, which is not finite.
 Trial without(const Trial& t, const std::vector<size_t>& broken) {
@@ -21,9 +21,9 @@ Trial without(const Trial& t, const std::vector<size_t>& broken) {
   return rest;
 }
 
-class BrokenTest : public FluidTest {
+class NonFiniteTest : public FluidTest {
  protected:
-  BrokenTest() {
+  NonFiniteTest() {
     t.x = block({6, 7, 6}, t.d(), {}, 0.1);
     t.v = cloud(t.x.size(), 0.4, 5, glm::dvec3(-0.2));
     setWalls(t, {1, 1, 1});
@@ -51,7 +51,7 @@ class BrokenTest : public FluidTest {
   std::vector<size_t> broken = {3, 50, 51, 100, 200, 201, 202};
 };
 
-TEST_F(BrokenTest, TheOthersDoNotNotice) {
+TEST_F(NonFiniteTest, DoesNotChangeOtherParticles) {
   for (Gather gather : kGathers) {
     t.gather = gather;
     SCOPED_TRACE(nameOf(gather));
@@ -66,7 +66,7 @@ TEST_F(BrokenTest, TheOthersDoNotNotice) {
   }
 }
 
-TEST_F(BrokenTest, TheOthersDoNotNoticeWithAllTerms) {
+TEST_F(NonFiniteTest, DoesNotChangeOtherParticlesWithEveryTerm) {
   t.scene.solver.iterations = 3;
   t.scene.fluid.viscosity = 10;
   t.scene.fluid.vorticity = 0.3;
@@ -79,7 +79,7 @@ TEST_F(BrokenTest, TheOthersDoNotNoticeWithAllTerms) {
   expectOthersLike(run->snapshot(), clean->snapshot());
 }
 
-TEST_F(BrokenTest, TheFiguresDoNotNotice) {
+TEST_F(NonFiniteTest, DoesNotChangeFigures) {
   auto run = start(t), clean = start(without(t, broken));
   run->substeps(5);
   clean->substeps(5);
@@ -96,7 +96,7 @@ TEST_F(BrokenTest, TheFiguresDoNotNotice) {
   for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(a.centerOfMass[axis], b.centerOfMass[axis], 1e-6) << axis;
 }
 
-TEST_F(BrokenTest, TheStepDoesNotNotice) {
+TEST_F(NonFiniteTest, DoesNotChangeTheStep) {
   t.scene.solver.tolerance = 0.05;  // of the water; the step follows it by half a percent a substep
   t.step = 0.01;
   for (Gather gather : {Gather::Texel, Gather::Grid}) {
@@ -111,7 +111,7 @@ TEST_F(BrokenTest, TheStepDoesNotNotice) {
   }
 }
 
-TEST_F(BrokenTest, AllOfThem) {
+TEST_F(NonFiniteTest, HandlesOnlyNonFiniteParticles) {
   for (glm::dvec3& x : t.x) x.x = std::numeric_limits<double>::quiet_NaN();
   auto run = start(t);
   run->substeps(3);
@@ -122,5 +122,5 @@ TEST_F(BrokenTest, AllOfThem) {
   EXPECT_TRUE(run->measured().finite());
 }
 
-}  // namespace broken_test
+}  // namespace non_finite_test
 }  // namespace rill::test

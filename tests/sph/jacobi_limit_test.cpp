@@ -1,10 +1,10 @@
+#include "sph/jacobi_limit.hpp"
+
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
-
-#include "sph/jacobi_limit.hpp"
 
 namespace rill {
 namespace {

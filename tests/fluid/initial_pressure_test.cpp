@@ -6,7 +6,7 @@
 #include "shape/records.hpp"
 
 namespace rill::test {
-namespace start_pressure_test {
+namespace initial_pressure_test {
 
 constexpr double kGravity = 9.81;
 
@@ -29,7 +29,7 @@ Trial dam(int layers) {
   return t;
 }
 
-struct StartPressureTest : FluidTest {
+struct InitialPressureTest : FluidTest {
   /// By id, Pa.
   std::vector<double> pressures(Run& run, const Trial& t) {
     const FluidSnapshot saved = run.saved();
@@ -41,7 +41,7 @@ struct StartPressureTest : FluidTest {
 };
 
 // In the middle of the tank, at its walls and in its edges alike. A layer and the next one are taken together: they differ by turns.
-TEST_F(StartPressureTest, IsThatOfTheWaterAbove) {
+TEST_F(InitialPressureTest, EqualsTheWeightAbove) {
   const Trial t = column(30);
   auto run = start(t);
   run->substeps(1);
@@ -64,7 +64,7 @@ TEST_F(StartPressureTest, IsThatOfTheWaterAbove) {
     }
 }
 
-TEST_F(StartPressureTest, HoldsAColumnFromTheFirstSubstep) {
+TEST_F(InitialPressureTest, SupportsAColumnFromTheFirstSubstep) {
   Trial t = column(30);
   const auto fall = [&](bool settle) {
     t.settle = settle;
@@ -77,7 +77,7 @@ TEST_F(StartPressureTest, HoldsAColumnFromTheFirstSubstep) {
   EXPECT_GT(fall(false), 0.5) << "without it the column falls, until a wave from the floor has come up to it";
 }
 
-TEST_F(StartPressureTest, IsThatOfTheReference) {
+TEST_F(InitialPressureTest, MatchesReference) {
   for (Gather gather : kGathers) {
     Trial t = dam(12);
     t.gather = gather;
@@ -95,10 +95,10 @@ TEST_F(StartPressureTest, IsThatOfTheReference) {
   }
 }
 
-TEST_F(StartPressureTest, TheFlowThatFollowsIsThatOfTheReference) { expectEqual(dam(12), 20, 2e-4, 1e-4); }
+TEST_F(InitialPressureTest, FollowingFlowMatchesReference) { expectEqual(dam(12), 20, 2e-4, 1e-4); }
 
 // Were the fall's speed part of what the pressure has to hold up, the whole column would be stopped before it has begun to move.
-TEST_F(StartPressureTest, StopsNoOneWhoMoves) {
+TEST_F(InitialPressureTest, KeepsMovingParticlesMoving) {
   Trial t = column(12);
   t.v.assign(t.x.size(), glm::dvec3(0, -2, 0));
   auto run = start(t);
@@ -109,13 +109,13 @@ TEST_F(StartPressureTest, StopsNoOneWhoMoves) {
   }
 }
 
-TEST_F(StartPressureTest, AFlowThatMovesIsThatOfTheReference) {
+TEST_F(InitialPressureTest, MovingFlowMatchesReference) {
   Trial t = dam(8);
   t.v.assign(t.x.size(), glm::dvec3(1, -0.5, 0));
   expectEqual(t, 10, 2e-4, 1e-4);
 }
 
-TEST_F(StartPressureTest, HoldsWhateverTheIterationsAndGain) {
+TEST_F(InitialPressureTest, SupportsTheColumnForAllIterationsAndGains) {
   for (const uint32_t iterations : {1u, 2u, 4u, 8u})
     for (const double gain : {0.001, 0.02}) {
       SCOPED_TRACE(std::to_string(iterations) + " iterations, gain " + std::to_string(gain));
@@ -131,7 +131,7 @@ TEST_F(StartPressureTest, HoldsWhateverTheIterationsAndGain) {
     }
 }
 
-TEST_F(StartPressureTest, OnASolidAndWithWhoIsNoNumber) {
+TEST_F(InitialPressureTest, HandlesSolidsAndNonFiniteParticles) {
   Trial t = column(12);
   t.scene.solids.push_back(slab({0, 0, 0}, {6 * t.d(), 2 * t.d(), 6 * t.d()}));
   t.x = block({6, 10, 6}, t.d(), {0, 2 * t.d(), 0});
@@ -145,7 +145,7 @@ TEST_F(StartPressureTest, OnASolidAndWithWhoIsNoNumber) {
 }
 
 // What moves waits until time begins.
-TEST_F(StartPressureTest, SolidsStandStill) {
+TEST_F(InitialPressureTest, SolidsDoNotMove) {
   Trial t = column(8);
   Solid lid = slab({-1, 9 * t.d(), -1}, {1, 10 * t.d(), 1});
   lid.motion = {{0, {0, 0, 0}}, {1, {0, -t.d(), 0}}};
@@ -158,7 +158,7 @@ TEST_F(StartPressureTest, SolidsStandStill) {
   EXPECT_NEAR(saved.solids[1], 9.5 * t.d(), 1e-6);
 }
 
-TEST_F(StartPressureTest, TakesNoTime) {
+TEST_F(InitialPressureTest, TakesNoTime) {
   auto run = start(column(8));
   run->substeps(2);
   EXPECT_EQ(run->progress().substeps, 2u);
@@ -167,7 +167,7 @@ TEST_F(StartPressureTest, TakesNoTime) {
 }
 
 // A host records a few substeps a frame, whatever is due: the same pressure, later.
-TEST_F(StartPressureTest, IsFoundOverSeveralAdvances) {
+TEST_F(InitialPressureTest, ConvergesOverSeveralAdvances) {
   const Trial t = column(12);
   auto whole = start(t), parts = start(t);
   whole->substeps(1);
@@ -176,7 +176,7 @@ TEST_F(StartPressureTest, IsFoundOverSeveralAdvances) {
   EXPECT_EQ(parts->saved().warmStart, whole->saved().warmStart);
 }
 
-TEST_F(StartPressureTest, GoesOnFromACheckpoint) {
+TEST_F(InitialPressureTest, ContinuesFromACheckpoint) {
   const Trial t = column(12);
   auto run = start(t);
   const FluidStep frame{.advance_s = 4 * t.step, .substeps = 12};
@@ -192,7 +192,7 @@ TEST_F(StartPressureTest, GoesOnFromACheckpoint) {
   EXPECT_LT(run->snapshot().fastest(), 0.5 * kGravity * run->progress().time_s) << "and it holds";
 }
 
-TEST_F(StartPressureTest, IsSkippedWhereThereIsNone) {
+TEST_F(InitialPressureTest, IsSkippedWithoutNeed) {
   const auto most = [&](const Trial& t) {
     const auto run = start(t);
     return run->fluid().substepsToComplete() / run->fluid().substepsPerBlock() - t.scene.solver.max_substeps;
@@ -210,7 +210,7 @@ TEST_F(StartPressureTest, IsSkippedWhereThereIsNone) {
   EXPECT_EQ(most(forgets), kSettleSubsteps) << "no pressure is carried from substep to substep";
 }
 
-TEST_F(StartPressureTest, DeepWaterTakesABoundedNumber) {
+TEST_F(InitialPressureTest, IterationsAreBoundedInDeepWater) {
   Trial t = column(8);
   t.x.push_back({3 * t.d(), 5000 * t.d(), 3 * t.d()});
   t.scene.domain->max[1] = 6000 * t.d();
@@ -219,5 +219,5 @@ TEST_F(StartPressureTest, DeepWaterTakesABoundedNumber) {
             run->fluid().substepsPerBlock() * (t.scene.solver.max_substeps + kSettleSubsteps + kMaxInitialPressureIterations));
 }
 
-}  // namespace start_pressure_test
+}  // namespace initial_pressure_test
 }  // namespace rill::test
