@@ -127,7 +127,7 @@ class KeyField {
 
 template <class Value>
 inline constexpr bool kDrawn = std::is_same_v<Value, double> || std::is_same_v<Value, uint32_t> || std::is_same_v<Value, uint64_t> ||
-                               std::is_same_v<Value, std::optional<double>> || std::is_same_v<Value, double[3]> || std::is_enum_v<Value>;
+                               std::is_same_v<Value, std::optional<double>> || std::is_same_v<Value, Double3> || std::is_enum_v<Value>;
 
 template <class Owner>
 void group(Board& board, const char* name, const Owner& owner) {
@@ -150,7 +150,7 @@ void parameterPanel(Board& board) {
   ImGui::TextDisabled("* restarts the scene");
   model::forEachField<Scene>([&](const auto& field) {
     using Value = typename std::decay_t<decltype(field)>::Value;
-    if constexpr (std::is_same_v<Value, double[3]>) KeyField(board, "", field.info).draw(scene.*(field.member));
+    if constexpr (std::is_same_v<Value, Double3>) KeyField(board, "", field.info).draw(scene.*(field.member));
   });
   group(board, "fluid", scene.fluid);
   group(board, "solver", scene.solver);
