@@ -108,7 +108,7 @@ Expected<RunFigures> runScene(const Bench& bench, const SceneRun& run) {
     figures.outside = std::max(figures.outside, stats->outside);
     figures.nonFinite = std::max(figures.nonFinite, stats->nonFinite);
     figures.particles = stats->particles;
-    for (const offline::PassTime& pass : stats->pass_ms) {
+    for (const offline::PassTime& pass : stats->passes) {
       auto found = std::ranges::find(figures.passes, pass.name, &offline::PassTime::name);
       if (found == figures.passes.end()) found = figures.passes.insert(figures.passes.end(), {pass.name});
       found->ms += pass.ms;

@@ -39,7 +39,7 @@ class Capture {
     if (const auto outputs = checkOutputs(); !outputs) return refuse(outputs.error());
     offline::Options settings;
     settings.device = options_.device;
-    settings.orbit_deg_per_s = options_.orbit_deg_per_s;
+    settings.orbit_degPerS = options_.orbit_degPerS;
     settings.passTimes = options_.passTimes && (options_.stats || options_.explain);
     auto simulation = resumed_ ? offline::Simulation::resume(scene_, *resumed_, settings) : offline::Simulation::open(scene_, settings);
     if (!simulation) return refuse(resumed_ ? aboutCheckpoint(simulation.error()) : simulation.error());

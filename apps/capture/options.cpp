@@ -152,7 +152,7 @@ Expected<Options> validated(const Raw& raw, const CLI::App& app) {
   if (given("--orbit")) {
     const auto orbit = numberIn<double>(raw.orbit);
     if (!orbit || !(std::abs(*orbit) <= 36000)) return badInput("--orbit", raw.orbit, "a number of degrees from -36000 to 36000");
-    options.orbit_deg_per_s = *orbit;
+    options.orbit_degPerS = *orbit;
   }
   if (given("--export")) {
     if (raw.exportAs != "ply") return badInput("--export", raw.exportAs, "ply");

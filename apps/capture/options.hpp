@@ -24,7 +24,7 @@ struct Options {
   uint32_t width = 1280, height = 720;       ///< pixels
   std::optional<std::filesystem::path> out;  ///< none: out/SCENE
   std::string view = "final";
-  double orbit_deg_per_s = 0;                  ///< rotation of the camera about its target
+  double orbit_degPerS = 0;                    ///< rotation of the camera about its target
   std::optional<std::filesystem::path> video;  ///< video file of the images
   std::optional<std::filesystem::path> stats;
   std::optional<std::filesystem::path> graph;  ///< passes of the last image, in Graphviz's dot language

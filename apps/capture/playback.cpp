@@ -86,7 +86,7 @@ int runPlayback(const Options& options) {
 
   offline::Options settings;
   settings.device = options.device;
-  settings.orbit_deg_per_s = options.orbit_deg_per_s;
+  settings.orbit_degPerS = options.orbit_degPerS;
   auto player = offline::Player::open(*std::move(scene), settings);
   if (!player) return refuse(player.error());
   if (auto ready = player->prepareRender(options.view, options.width, options.height); !ready) return refuse(ready.error());

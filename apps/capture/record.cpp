@@ -27,7 +27,7 @@ std::string oneLine(const Json& json) { return json.dump(-1, ' ', false, Json::e
 Json frameJson(double time_s, const offline::Stats& stats) {
   Json probes = Json::object(), pass_ms = Json::object(), skipped = Json::object();
   for (const auto& [name, value] : stats.probes) probes[name] = value;
-  for (const offline::PassTime& pass : stats.pass_ms)
+  for (const offline::PassTime& pass : stats.passes)
     if (pass.ms > 0) pass_ms[pass.name] = pass.ms;
   for (const auto& [name, reason] : stats.skipped) skipped[name] = reason;
   Json frame;
@@ -163,7 +163,7 @@ std::string Record::passTable() const {
   std::vector<offline::PassTime> passes;
   std::vector<offline::SkippedPass> skipped;
   for (const apps::Instant& frame : frames_) {
-    for (const offline::PassTime& pass : frame.stats.pass_ms) {
+    for (const offline::PassTime& pass : frame.stats.passes) {
       auto found = std::ranges::find(passes, pass.name, &offline::PassTime::name);
       if (found == passes.end()) found = passes.insert(passes.end(), {pass.name});
       found->ms += pass.ms;

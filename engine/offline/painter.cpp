@@ -55,7 +55,7 @@ std::span<const std::string_view> Painter::views() { return kNames; }
 
 CameraView Painter::camera(uint32_t width, uint32_t height, double time_s) const {
   CameraView view = sceneCamera(scene_, start_, double(width) / height);
-  const double angle = orbit_deg_per_s_ * time_s * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
+  const double angle = orbit_degPerS_ * time_s * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
   const double x = view.eye[0] - view.target[0], z = view.eye[2] - view.target[2];
   view.eye[0] = view.target[0] + c * x + s * z;
   view.eye[2] = view.target[2] - s * x + c * z;

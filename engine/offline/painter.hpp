@@ -26,8 +26,8 @@ uint64_t boundHits(const Graph& graph, const PictureTickets& tickets);
 class Painter {
  public:
   /// `scene` and `start` must outlive it.
-  Painter(const Scene& scene, const ParticleSet& start, double orbit_deg_per_s)
-      : scene_(scene), start_(start), orbit_deg_per_s_(orbit_deg_per_s) {}
+  Painter(const Scene& scene, const ParticleSet& start, double orbit_degPerS)
+      : scene_(scene), start_(start), orbit_degPerS_(orbit_degPerS) {}
 
   static std::span<const std::string_view> views();
   /// BadInput for an unknown view or an unsupported size. Needs no device.
@@ -51,7 +51,7 @@ class Painter {
 
   const Scene& scene_;
   const ParticleSet& start_;
-  double orbit_deg_per_s_;
+  double orbit_degPerS_;
   std::unique_ptr<ParticleView> particles_;
   std::optional<FluidRenderer> fluid_;
   std::unique_ptr<Scenery> scenery_;

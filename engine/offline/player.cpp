@@ -18,7 +18,7 @@ Error outOfMemory(const char* what) { return {ErrorKind::OutOfMemory, std::strin
 
 class Player::Impl {
  public:
-  Impl(Scene scene, double orbit_deg_per_s) : scene_(std::move(scene)), painter_(scene_, start_, orbit_deg_per_s) {}
+  Impl(Scene scene, double orbit_degPerS) : scene_(std::move(scene)), painter_(scene_, start_, orbit_degPerS) {}
 
   Expected<void> open(const Options& options) {
     auto start = makeParticles(scene_);
@@ -117,7 +117,7 @@ Player::Player(Player&&) noexcept = default;
 Player& Player::operator=(Player&&) noexcept = default;
 
 Expected<Player> Player::open(Scene scene, const Options& options) try {
-  auto impl = std::make_unique<Impl>(std::move(scene), options.orbit_deg_per_s);
+  auto impl = std::make_unique<Impl>(std::move(scene), options.orbit_degPerS);
   if (auto opened = impl->open(options); !opened) return opened.error();
   return Player(std::move(impl));
 } catch (const std::bad_alloc&) { return outOfMemory("opening the scene"); }

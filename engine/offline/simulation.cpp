@@ -144,7 +144,7 @@ class Simulation::Impl {
     for (const Probe& probe : scene_.probes) stats.probes.emplace_back(probe.name, reader.measure(probe));
     stats.pictureBoundHits = pictureBoundHits_;
     stats.wall_s = wall_s_;
-    stats.pass_ms = log_.times();
+    stats.passes = log_.times();
     stats.skipped = log_.skipped();
     return stats;
   }
@@ -305,7 +305,7 @@ class Simulation::Impl {
   std::vector<std::string> warnings_;
   std::optional<Context> context_;
   std::optional<Fluid> fluid_;
-  Painter painter_{scene_, start_, options_.orbit_deg_per_s};
+  Painter painter_{scene_, start_, options_.orbit_degPerS};
   // One graph per kind of frame, so that each keeps its memory plan.
   Graph advanceGraph_, measureGraph_, renderGraph_;
   PassLog log_;                         ///< since the last advance() began

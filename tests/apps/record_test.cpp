@@ -31,7 +31,7 @@ offline::Stats stats(double error, double kinetic, double potential) {
   made.stateHash = 0xabc;
   made.wall_s = 0.5;
   made.probes = {{"H1", 0.25}};
-  made.pass_ms = {{"density", 1.5, 4, 3}};
+  made.passes = {{"density", 1.5, 4, 3}};
   made.skipped = {{"vorticity", "vorticity is 0"}};
   return made;
 }

@@ -192,8 +192,8 @@ TEST(Simulation, StatsAreOfCurrentInstant) {
   EXPECT_EQ(first->wall_s, again->wall_s);
   EXPECT_EQ(first->substeps, again->substeps);
   EXPECT_GT(first->wall_s, 0);
-  ASSERT_FALSE(first->pass_ms.empty());
-  for (const PassTime& pass : first->pass_ms) EXPECT_GT(pass.ms, 0) << pass.name;
+  ASSERT_FALSE(first->passes.empty());
+  for (const PassTime& pass : first->passes) EXPECT_GT(pass.ms, 0) << pass.name;
   EXPECT_FALSE(first->skipped.empty());
   EXPECT_NE(simulation->explain().find("skipped: vorticity is 0"), std::string::npos);
   EXPECT_NE(simulation->graphDot().find("digraph"), std::string::npos);
@@ -205,8 +205,8 @@ TEST(Simulation, PassTimesAreOptional) {
   ASSERT_TRUE(simulation->advance(1.0 / 60));
   const auto stats = simulation->stats();
   ASSERT_TRUE(stats);
-  ASSERT_FALSE(stats->pass_ms.empty()) << "what ran is known all the same";
-  for (const PassTime& pass : stats->pass_ms) {
+  ASSERT_FALSE(stats->passes.empty()) << "what ran is known all the same";
+  for (const PassTime& pass : stats->passes) {
     EXPECT_GT(pass.recorded, 0u) << pass.name;
     EXPECT_EQ(pass.ms, 0) << pass.name;
   }

@@ -150,7 +150,7 @@ std::string signedDifference(uint64_t count, uint64_t base) {
 
 /// Checks that a disabled feature runs the same passes as the base and gives a bitwise identical state.
 void checkDisabled(const std::string& name, const Samples& off, const Samples& base, Report& report) {
-  const std::string passes = passList(off.end.pass_ms), expected = passList(base.end.pass_ms);
+  const std::string passes = passList(off.end.passes), expected = passList(base.end.passes);
   if (passes != expected)
     report.failures.push_back(name + " disabled: found passes " + passes + ", expected those of the base scene: " + expected);
   if (off.end.stateHash != base.end.stateHash)
@@ -168,7 +168,7 @@ Json samplesJson(const Samples& samples) {
           {"over_base", sampleStatistics(samples.ratio)},
           {"ns_a_particle_a_substep", samples.ns()},
           {"list_builds", samples.builds},
-          {"passes", passesJson(samples.end.pass_ms)}};
+          {"passes", passesJson(samples.end.passes)}};
 }
 
 /// Results of a feature; `off` is empty if it cannot be disabled explicitly.
@@ -246,7 +246,7 @@ Expected<void> costs(Bench& bench, const std::vector<Feature>& chosen, Report& r
                                  signedDifference(on.builds, base.builds),
                                  "-",
                                  "-",
-                                 passChanges(on.end.pass_ms, base.end.pass_ms)};
+                                 passChanges(on.end.passes, base.end.passes)};
     Json json{{"case", name}, {"base", samplesJson(base)}, {"on", samplesJson(on)}};
     const double rowY = double(table.rows.size() + 1);
     plot.rows.push_back(name);
@@ -314,9 +314,9 @@ Expected<void> passes(Bench& bench, const std::vector<PassScene>& scenes, Report
     if (!stats) return stats.error();
     uint64_t runs = 0;
     Json json{{"case", name + ", passes"}, {"scene", scene.scene}, {"ms_a_frame", sampleStatistics(ms)}, {"substeps", stats->substeps}};
-    json["passes"] = passesJson(stats->pass_ms);
+    json["passes"] = passesJson(stats->passes);
     json["skipped"] = Json::object();
-    for (const PassTime& pass : stats->pass_ms) runs += pass.recorded;
+    for (const PassTime& pass : stats->passes) runs += pass.recorded;
     for (const auto& [pass, reason] : stats->skipped) {
       json["skipped"][pass] = reason;
       std::string& where = reasons[{pass, reason}];
@@ -324,11 +324,11 @@ Expected<void> passes(Bench& bench, const std::vector<PassScene>& scenes, Report
     }
     report.results.push_back(std::move(json));
     cost.rows.push_back({name, grouped(stats->particles), number(median(ms)), std::to_string(stats->substeps), std::to_string(runs),
-                         std::to_string(stats->pass_ms.size()), std::to_string(stats->skipped.size())});
+                         std::to_string(stats->passes.size()), std::to_string(stats->skipped.size())});
     recorded.columns.push_back(name);
     if (stats->particles == 0 && runs > 0)
-      report.failures.push_back(name + ": found passes " + passList(stats->pass_ms) + " in a scene without particles, expected none");
-    all.push_back(stats->pass_ms);
+      report.failures.push_back(name + ": found passes " + passList(stats->passes) + " in a scene without particles, expected none");
+    all.push_back(stats->passes);
   }
   std::vector<std::string> names;
   for (const auto& list : all)

@@ -27,11 +27,11 @@ namespace rill::offline {
 
 /// Options of Simulation and Player.
 struct Options {
-  double orbit_deg_per_s = 0;            ///< angular speed of the camera around its target, counter-clockwise seen from above
+  double orbit_degPerS = 0;              ///< angular speed of the camera around its target, counter-clockwise seen from above
   std::string device = {};               ///< part of a name, or an index; empty: the most capable device
   std::vector<Override> overrides = {};  ///< applied to the scene
   bool validation = false;               ///< enable the validation layer with synchronization validation; it must be installed
-  bool passTimes = false;                ///< measure Stats::pass_ms; costs time, on CPU drivers up to a fifth of the run
+  bool passTimes = false;                ///< measure Stats::passes; costs time, on CPU drivers up to a fifth of the run
   uint32_t substepsPerSubmit = 0;        ///< 0: automatic; results do not depend on it
   double longestFrame_s = 1.0 / 60;      ///< s, >= 1e-6; longer advances are split into equal frames, each with max_substeps
 };
@@ -79,9 +79,9 @@ struct Stats : FluidStats {
   double front_m = 0;                                       ///< farthest fluid along +x, relative to the domain's minimum, m
   uint64_t stateHash = 0;                                   ///< FNV-1a of positions and velocities in id order
   std::vector<std::pair<std::string, double>> probes = {};  ///< name and value, m
-  uint64_t pictureBoundHits = 0;       ///< times that shader loops of the renderer reached their limit in pictures at this time
-  double wall_s = 0;                   ///< wall-clock time of the last advance()
-  std::vector<PassTime> pass_ms = {};  ///< recorded passes of the last advance
+  uint64_t pictureBoundHits = 0;      ///< times that shader loops of the renderer reached their limit in pictures at this time
+  double wall_s = 0;                  ///< wall-clock time of the last advance()
+  std::vector<PassTime> passes = {};  ///< recorded passes of the last advance
   std::vector<SkippedPass> skipped = {};
 };
 
@@ -161,7 +161,7 @@ class Simulation {
 /// Renders given particles with a scene's camera, solids and look. Not thread-safe. Moves as Simulation.
 class Player {
  public:
-  /// BadInput for a scene without a spacing; other errors as Simulation::open(). Uses Options::device, validation and orbit_deg_per_s.
+  /// BadInput for a scene without a spacing; other errors as Simulation::open(). Uses Options::device, validation and orbit_degPerS.
   static Expected<Player> open(Scene scene, const Options& options = {});
   ~Player();
   Player(Player&&) noexcept;
