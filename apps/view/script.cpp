@@ -77,7 +77,7 @@ int takeModifiers(std::string_view& name) {
 /// Parses a line and appends it to `lines`; returns an error message, or an empty string.
 std::string parseLine(const std::vector<std::string_view>& words, std::vector<ScriptLine>& lines) {
   const auto frame = apps::numberIn<uint64_t>(words[0]);
-  if (!frame) return inQuotes(words[0]) + " was found; expected the number of a frame";
+  if (!frame) return "the line does not begin with a number; expected that of a frame";  // without the content: it may be any file's
   if (!lines.empty() && *frame < lines.back().frame)
     return "frame " + std::to_string(*frame) + " comes after frame " + std::to_string(lines.back().frame) + "; expected ascending frames";
   std::vector<std::string_view> names;

@@ -226,16 +226,16 @@ Expected<void> PlyFile::Header::parse(std::ifstream& in) {
   constexpr size_t kMaxBytes = 1 << 20;  // of a header
   std::string line;
   bool vertex_done = false, format_seen = false, first = true;
+  const std::string notPly = "does not begin with \"ply\"; expected a PLY file";  // without the content: it may be any file's
   for (;;) {
     line.clear();
     char c = 0;
     while (in.get(c) && c != '\n' && ++body <= kMaxBytes) line += c;
     ++body;
-    if (body > kMaxBytes || !in)
-      return badInput(first ? "does not begin with \"ply\"; expected a PLY file" : "the header has no end; expected a line end_header");
+    if (body > kMaxBytes || !in) return badInput(first ? notPly : "the header has no end; expected a line end_header");
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (first) {
-      if (line != "ply") return badInput("begins with " + inQuotes(line) + "; expected a PLY file, whose first line is \"ply\"");
+      if (line != "ply") return badInput(notPly);
       first = false;
       continue;
     }

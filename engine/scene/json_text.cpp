@@ -144,7 +144,7 @@ class Builder : public nlohmann::json_sax<Json> {
     const size_t at = startOfToken(std::min(position > 0 ? position - 1 : 0, text_.size()));
     constexpr int kOutOfRange = 406;
     if (error.id == kOutOfRange)
-      return fail(at, "the number " + clipped(std::string(text_.substr(at, position - at))) +
+      return fail(at, (open_.empty() ? "the number" : "the number " + clipped(std::string(text_.substr(at, position - at)))) +
                           " is out of range; expected a number that fits a 32-bit float");
     std::string what = error.what();
     const size_t column = what.find("column ");

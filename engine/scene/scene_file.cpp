@@ -12,7 +12,11 @@ Expected<Scene> readScene(std::string_view text, std::string_view name, const st
                           std::span<const Override> overrides) {
   auto root = parseJsonText(text, name);
   if (!root) return root.error();
-  if (!root->is_object()) return Error{ErrorKind::BadInput, std::string(name) + ": " + foundText(*root) + ", expected an object { ... }"};
+  if (!root->is_object()) {
+    // Without the content: it may be any file's.
+    const std::string found = root->is_string() ? "found a string" : root->is_number() ? "found a number" : foundText(*root);
+    return Error{ErrorKind::BadInput, std::string(name) + ": " + found + ", expected an object { ... }"};
+  }
 
   OverrideMarks marks;
   const auto applied = applyOverrides(*root, overrides, marks);

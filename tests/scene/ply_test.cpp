@@ -7,6 +7,8 @@
 namespace rill::test {
 namespace {
 
+using namespace std::string_literals;
+
 template <class T>
 std::string bytesOf(T value, bool big) {
   std::string out(sizeof(T), '\0');
@@ -101,7 +103,7 @@ TEST_F(Ply, KeepsCloseButDropsCoincidentParticles) {
 TEST_F(Ply, RejectsInvalidFiles) {
   const std::string head = "ply\nformat ascii 1.0\n", xyz = "property float x\nproperty float y\nproperty float z\n";
   EXPECT_EQ(message(""), "p.ply: does not begin with \"ply\"; expected a PLY file");
-  EXPECT_EQ(message("solid\n"), "p.ply: begins with \"solid\"; expected a PLY file, whose first line is \"ply\"");
+  EXPECT_EQ(message("solid\n"), "p.ply: does not begin with \"ply\"; expected a PLY file");
   EXPECT_EQ(message("ply\n"), "p.ply: the header has no end; expected a line end_header");
   EXPECT_EQ(message("ply\nformat ascii 2.0\nend_header\n"), "p.ply: the format's version is \"2.0\"; expected 1.0");
   EXPECT_EQ(message("ply\nformat text 1.0\nend_header\n"),
@@ -133,6 +135,11 @@ TEST_F(Ply, RejectsInvalidFiles) {
             "p.ply: vertex 1: the position is 1e+39 along z; expected a finite number that a 32-bit float can hold");
   EXPECT_EQ(message(kAscii + "1 2 3\n4 5 1e999\n"),
             "p.ply: vertex 1: the position is inf along z; expected a finite number that a 32-bit float can hold");
+}
+
+TEST_F(Ply, MessageOmitsContentOfOtherFiles) {
+  for (const std::string& bytes : {"root:x:0:0:root:/root:/bin/sh\n"s, "password=hunter2"s, "plymouth hunter2\nformat ascii 1.0\n"s})
+    EXPECT_EQ(message(bytes), "p.ply: does not begin with \"ply\"; expected a PLY file") << bytes;
 }
 
 TEST_F(Ply, ChecksCountsAgainstFileSize) {

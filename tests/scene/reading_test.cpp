@@ -136,7 +136,7 @@ TEST(Overrides, ErrorsNameTheOverride) {
   EXPECT_EQ(message("fluid.viscosity", "nan"),
             "--set fluid.viscosity: found the string \"nan\", which is not finite; expected a number of at least 0 (Pa s)");
   EXPECT_EQ(message("fluid.viscosity", "-1"), "--set fluid.viscosity: -1 is out of range; expected a number of at least 0 (Pa s)");
-  EXPECT_NE(message("fluid.viscosity", "1e999").find("--set fluid.viscosity:1:1: the number 1e999 is out of range"), std::string::npos);
+  EXPECT_NE(message("fluid.viscosity", "1e999").find("--set fluid.viscosity:1:1: the number is out of range; expected"), std::string::npos);
   EXPECT_EQ(message("fluid.viscosity.x", "1"),
             "--set fluid.viscosity.x: fluid.viscosity: found an object, expected a number of at least 0 (Pa s)");
   EXPECT_EQ(message("rill", "999.5").rfind("--set rill: the scene needs Rill 999.5 or later; this is Rill ", 0), 0U);

@@ -18,7 +18,7 @@ TEST(SceneErrors, ReportsLineAndColumnOfInvalidJson) {
       {"", ": empty file; expected a JSON object"},
       {" \n ", ": empty file; expected a JSON object"},
       {"[1]", ": found an array of length 1, expected an object { ... }"},
-      {"3", ": found 3, expected an object { ... }"},
+      {"3", ": found a number, expected an object { ... }"},
       {"{\n  \"rill\": \"0.1\",\n}", ":3:1: invalid JSON: trailing comma before }"},
       {"{\"gravity\": [0, 1, ]}", ":1:20: invalid JSON: trailing comma before ]"},
       {"{\n\"rill\" 1}", ":2:8: invalid JSON: while parsing object separator - unexpected number literal; expected ':'"},
@@ -33,6 +33,16 @@ TEST(SceneErrors, ReportsLineAndColumnOfInvalidJson) {
   EXPECT_NE(parseError("{'rill': 1}").find("invalid JSON"), std::string::npos);
   EXPECT_NE(parseError("{ /* no end }").find("invalid JSON"), std::string::npos);
   EXPECT_LT(parseError("{\"rill\": \"" + std::string(100000, 'a')).size(), 600U);
+}
+
+TEST(SceneErrors, OmitContentOfFilesThatAreNoScenes) {
+  for (const char* text : {"hunter2", "root:hunter2:0:0", "\"hunter2\"", "[\"hunter2\"]", "{\"password\": \"hunter2\"}",
+                           "{\"password\": hunter2}", "password=hunter2", "31415926", "31415926e999"}) {
+    const std::string message = parseError(text);
+    EXPECT_EQ(message.rfind("dam.json:", 0), 0U) << message;
+    EXPECT_EQ(message.find("hunter2"), std::string::npos) << message;
+    EXPECT_EQ(message.find("31415926"), std::string::npos) << message;
+  }
 }
 
 TEST(SceneErrors, RejectsDuplicateKeysAtAnyDepth) {

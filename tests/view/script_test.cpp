@@ -45,7 +45,7 @@ TEST(Script, ErrorsNameLineAndExpectation) {
   } rows[] = {{"0 move nan 1\n", "expected \"move X Y\""},
               {"0 wheel inf\n", "expected \"wheel STEPS\""},
               {"0 move 1\n", "test:1: move: expected \"move X Y\""},
-              {"0 key P\nx key P\n", "test:2: \"x\" was found"},
+              {"0 key P\nx key P\n", "test:2: the line does not begin with a number; expected that of a frame"},
               {"3 key P\n2 key P\n", "test:2: frame 2 comes after frame 3"},
               {"0 prss left\n", "did you mean \"press\"?"},
               {"0 press up\n", "expected \"press left|middle|right\""},
