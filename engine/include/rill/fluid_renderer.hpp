@@ -94,9 +94,10 @@ enum class SurfaceData : uint8_t {
 
 class FluidRendererImpl;
 
-/// Draws the fluid of a FluidState. Only its position, capacity, spacing and origin are used, so that a host can fill one itself:
-/// entries without a particle lie at 1e9 m and are skipped, so the device's count is not needed. `position`
-/// is read with Use::ComputeRead; a host's buffer is created for STORAGE_BUFFER, with at least 16 bytes per particle.
+/// Draws the fluid of a FluidState. Only its position, countBuffer, capacity, spacing and origin are used, so that a host can fill one
+/// itself. The number of particles is the first uint of `countBuffer`, at most `capacity`; without a countBuffer it is `capacity`. Entries
+/// at 1e9 m are skipped. Both buffers are read with Use::ComputeRead; a host creates its own for STORAGE_BUFFER, `position` with at least
+/// 16 bytes per entry, `countBuffer` with at least 4.
 /// Pixels are bitwise deterministic per driver, unless more than 1,024 surface particles share a cell of four by four samples (counted).
 /// At a silhouette the fluid's depth is written in every pixel that it covers in part. Lifetime and moves as of a Fluid.
 class RILL_API FluidRenderer {
