@@ -9,8 +9,8 @@
 namespace rill::view {
 namespace {
 
-constexpr KeyBinding kBindings[] = {{GLFW_KEY_P, "P", Action::Pause, "pause, go on"},
-                                    {GLFW_KEY_O, "O", Action::OneStep, "one step of 1/60 s, and pause"},
+constexpr KeyBinding kBindings[] = {{GLFW_KEY_P, "P", Action::Pause, "pause or continue"},
+                                    {GLFW_KEY_O, "O", Action::OneStep, "one step of 1/60 s, then pause"},
                                     {GLFW_KEY_R, "R", Action::Restart, "restart the scene"},
                                     {GLFW_KEY_LEFT_BRACKET, "[", Action::PreviousScene, "previous scene"},
                                     {GLFW_KEY_RIGHT_BRACKET, "]", Action::NextScene, "next scene"},
@@ -32,10 +32,10 @@ constexpr KeyBinding kBindings[] = {{GLFW_KEY_P, "P", Action::Pause, "pause, go 
                                     {GLFW_KEY_C, "C", Action::Screenshot, "write the window to a PNG file"},
                                     {GLFW_KEY_F1, "F1", Action::Help, "this help"}};
 
-constexpr MouseUse kMouse[] = {{"left drag", "on the fluid: push it; elsewhere, paused, or with Alt: go around the scene"},
-                               {"right drag", "on a solid: move it; elsewhere: nearer and farther"},
-                               {"wheel", "nearer and farther, towards the pointer"},
-                               {"middle drag", "move the scene along the picture (or Shift and left drag)"},
+constexpr MouseUse kMouse[] = {{"left drag", "on the fluid: push it; elsewhere, while paused, or with Alt: orbit the camera"},
+                               {"right drag", "on a solid: move it; elsewhere: move the camera nearer or farther"},
+                               {"wheel", "move the camera nearer or farther, towards the pointer"},
+                               {"middle drag", "pan the camera (also Shift and left drag)"},
                                {"drop a file", "open a scene"}};
 
 struct NamedKey {
