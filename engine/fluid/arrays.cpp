@@ -39,7 +39,7 @@ constexpr std::array<ArrayRow, kArrays> kArrayTable = {{
     {Velocity, "velocity", "velocities", Fluid, kVector, withDummy, Account::Particles, &FluidSnapshot::velocity, "velocity", false, 1},
     {Prediction, "prediction", "predictions", Fluid, kVector, withDummy, Account::Particles},
     {WarmAcceleration, "warmAcceleration", "warm-start accelerations", Fluid, kVector, perParticleIf<&ArrayShape::warm>, Account::Particles,
-     &FluidSnapshot::warmAcceleration, "push", true},
+     &FluidSnapshot::warmAcceleration, "warmacc", true},
     {Work, "work", "predictions and multipliers", Fluid, kVector, withDummy, Account::Particles},
     {Warm, "warm", "warm-start multipliers", Fluid, kWord, perParticleIf<&ArrayShape::warm>, Account::Particles, &FluidSnapshot::warmStart,
      "warm", true},

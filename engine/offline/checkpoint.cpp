@@ -35,7 +35,7 @@ void forEachArray(Snapshot& s, Visit&& visit) {
   visit("solids", s.solids);
   forEachSaved([&](const ArrayRow& row, auto member) { visit(row.savedName, s.*member); });
   visit("nearwall", s.nearWall);
-  visit("nearmore", s.nearCorner);
+  visit("nearcorn", s.nearCorner);
   visit("nbrcount", s.neighborCount);
   visit("nbrs", s.neighbors);
   visit("cell", s.cell);

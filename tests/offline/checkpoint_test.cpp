@@ -131,7 +131,7 @@ TEST_F(SnapshotCheck, AcceptsMatchingScene) {
 
 TEST_F(SnapshotCheck, AcceptsSnapshotWithoutWarmStart) {
   s.warmAcceleration.clear();
-  expectRejected("push has 0 entries");
+  expectRejected("warmacc has 0 entries");
   s.warmAcceleration.clear();
   s.warmStart.clear();
   const auto checked = checkSnapshot(s, seedShape());
@@ -202,7 +202,7 @@ TEST_F(SnapshotCheck, RejectsInvalidIndices) {
   s.sums[offsetof(FluidSums, planeCount) / 4] = 5;
   expectRejected("near walls");
   s.warmAcceleration.pop_back();
-  expectRejected("push has");
+  expectRejected("warmacc has");
   s.solids.push_back(0);
   expectRejected("solids has");
 }
