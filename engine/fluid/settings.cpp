@@ -21,7 +21,7 @@ constexpr double kArtificialViscosity = 0.03;
 constexpr double kWarmRelease = 1.5;
 // Spacings that the fastest particle may move before the list is rebuilt.
 constexpr double kTravel = 1.2;
-constexpr double kLeastCfl = 0.01;     // spacings a substep
+constexpr double kMinCfl = 0.01;       // spacings a substep
 constexpr uint32_t kLongestBlock = 6;  // substeps
 // Spacings: beyond it, positions have lost their meaning: float holds 24 bits.
 constexpr double kFarSpacings = 1.0e6;
@@ -32,7 +32,7 @@ constexpr double kLargest = 1e30;
 /// something else bounds the step, a list may live for long.
 uint32_t substepsPerBlock(const SolverSettings& solver) {
   if (solver.time_step || solver.cfl > kTravel) return kLongestBlock;
-  const double lives = std::ceil(kTravel / std::max(solver.cfl, kLeastCfl)) + 1;
+  const double lives = std::ceil(kTravel / std::max(solver.cfl, kMinCfl)) + 1;
   return lives < kLongestBlock ? static_cast<uint32_t>(lives) : kLongestBlock;
 }
 
@@ -74,14 +74,17 @@ void setNoiseDamping(const Scene& scene, const SmoothingKernel& kernel, FluidSet
                                                                                  : "fluid.viscosity is larger";
 }
 
+// The end of a warning about a setting beyond its bound.
+std::string usedInstead(double found, double used) { return roundedNumber(found) + "; " + roundedNumber(used) + " is used"; }
+
 double widest(const Double3& room) { return std::max({room[0], room[1], room[2]}); }
 
 void setRegularization(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
   const auto [wanted, taken] = boundedRegularization(scene);
   setup.params.regularization = f(taken * kernel.restGradientSum());
   if (taken < wanted)
-    setup.warnings.push_back("solver.regularization " + roundedNumber(wanted) + " gains energy with this kernel: " + roundedNumber(taken) +
-                             " is taken");
+    setup.warnings.push_back("solver.regularization: expected at most " + roundedNumber(taken) +
+                             ", beyond which this kernel gains energy, found " + usedInstead(wanted, taken));
 }
 
 void setRelaxation(FluidSetup& setup) {
@@ -89,15 +92,16 @@ void setRelaxation(FluidSetup& setup) {
   setup.params.relaxationInMotion = limits.relaxationInMotion;
   setup.params.relaxationAtRest = limits.relaxationAtRest;
   if (limits.relaxationWanted > limits.relaxationLimit)
-    setup.warnings.push_back("solver.relaxation " + roundedNumber(limits.relaxationWanted) +
-                             " does not converge with this kernel: " + roundedNumber(limits.relaxationLimit) + " is taken");
+    setup.warnings.push_back("solver.relaxation: expected at most " + roundedNumber(limits.relaxationLimit) +
+                             ", beyond which this kernel does not converge, found " +
+                             usedInstead(limits.relaxationWanted, limits.relaxationLimit));
 }
 
 void setGains(const Scene& scene, FluidSetup& setup) {
   const auto [wanted, taken] = boundedWarmGain(scene);
   if (scene.solver.warm_start && taken < wanted)
-    setup.warnings.push_back("solver.warm_start " + roundedNumber(wanted) +
-                             " gains energy with this kernel and regularization: " + roundedNumber(taken) + " is taken");
+    setup.warnings.push_back("solver.warm_start: expected at most " + roundedNumber(taken) +
+                             ", beyond which this kernel and regularization gain energy, found " + usedInstead(wanted, taken));
   setup.warm = startsWarm(scene);
   setup.params.warmGainInMotion = setup.limits.warmGainInMotion;
   setup.params.maxWarmGainAtRest = f(setup.limits.maxWarmGainAtRest);
@@ -232,7 +236,8 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   if (auto possible = checkScene(scene); !possible) return possible.error();
   const Double3 &origin = start.origin, &extent = start.extent;
   const double d = scene.fluid.spacing, h = scene.fluid.smoothing_ratio * d;
-  if (!(d > 0)) return Error{ErrorKind::BadInput, "fluid.spacing is not set: give it, or make the particles first"};
+  if (!(d > 0))
+    return Error{ErrorKind::BadInput, "fluid.spacing: expected a number above 0 (m) here or in ParticleSet::spacing, found none"};
   FluidSetup setup;
   FluidParams& p = setup.params;
   const SmoothingKernel kernel(scene.solver.kernel, h, d);
@@ -253,10 +258,10 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   p.travelLimit = f(kTravel * d);
   setup.substepsPerBlock = substepsPerBlock(scene.solver);
   p.listCapacity = scene.solver.neighbors == NeighborChoice::List ? listCapacity((h + kListSkin * d) / d) : 0u;
-  p.cfl = f(std::max(scene.solver.cfl, kLeastCfl));
-  if (scene.solver.cfl < kLeastCfl)
-    setup.warnings.push_back("solver.cfl " + roundedNumber(scene.solver.cfl) +
-                             " leaves no room to part particles in: " + roundedNumber(kLeastCfl) + " is taken");
+  p.cfl = f(std::max(scene.solver.cfl, kMinCfl));
+  if (scene.solver.cfl < kMinCfl)
+    setup.warnings.push_back("solver.cfl: expected at least " + roundedNumber(kMinCfl) + ", found " +
+                             usedInstead(scene.solver.cfl, kMinCfl));
   p.iterations = scene.solver.iterations;
   // Iterations do not stop at an error at which the fluid is unstable.
   p.tolerance = f(p.iterations > 1 ? std::min(scene.solver.tolerance, kStableError) : scene.solver.tolerance);

@@ -28,7 +28,7 @@ constexpr double kMaxRegularizationPoly6Spiky = 1, kMaxWarmGainPoly6Spiky = 0.02
 // At rest, over the square of the column's layers, and at most: its longest wave gains kappa / 2 a substep.
 constexpr double kWarmGainAtRest = 1.2, kMaxWarmGainAtRest = 0.005;
 // With this kappa pressure still followed a dam's flow; without one the start's would stay for ever.
-constexpr double kLeastFollowing = 0.001;
+constexpr double kMinFollowing = 0.001;
 
 // How much less error is stable with a warm start: at 0.05 0.0032 held, 0.0036 gained a quarter of energy; at 0.02 0.0036 gained 2.5 %.
 constexpr double kStableGain = 40;
@@ -134,7 +134,7 @@ double StabilityLimits::errorRateShareAtRest(double head) const { return 1 / std
 // the column folds. Zero where no pressure is carried from substep to substep.
 InitialPressure initialPressure(const Scene& scene, const SmoothingKernel& kernel, const StabilityLimits& limits, double head,
                                 double room) {
-  if (head <= 0 || limits.warmGainInMotion < f(kLeastFollowing)) return {};
+  if (head <= 0 || limits.warmGainInMotion < f(kMinFollowing)) return {};
   const StartPressure start = startPressure(kernel, limits.relaxationAtRest, boundedRegularization(scene).taken, limits.layers(head),
                                             kMaxInitialPressureIterations);
   InitialPressure result{start.iterations, start.momentum, stableStepOf(kernel, limits, 1, kWarmGain / limits.softness) / std::sqrt(head),

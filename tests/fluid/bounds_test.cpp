@@ -70,7 +70,8 @@ TEST_F(BoundsTest, SoftFluidTakesShorterSteps) {
   EXPECT_NEAR(soft.firstStep / usual.firstStep, std::sqrt(1.02 / 2), 1e-3);
   EXPECT_NEAR(soft.params.warmGainInMotion, 0.1 * 1.02 / 2, 1e-6);
   EXPECT_EQ(usual.params.warmGainInMotion, 0.1f);
-  EXPECT_TRUE(warned(soft, "solver.warm_start 0.1 ")) << "a gain that is not taken is said";
+  EXPECT_TRUE(
+      warned(soft, "solver.warm_start: expected at most 0.051, beyond which this kernel and regularization gain energy, found 0.1; "));
   EXPECT_FALSE(warned(usual, "solver.warm_start"));
 }
 
@@ -80,8 +81,8 @@ TEST_F(BoundsTest, PolySpikyGainsNoEnergy) {
   t.scene.solver.regularization = 50;
   t.scene.solver.warm_start = 0.5;
   const FluidSetup setup = setupOf(t.scene);
-  EXPECT_TRUE(warned(setup, "solver.regularization 50 "));
-  EXPECT_TRUE(warned(setup, "solver.warm_start 0.5 "));
+  EXPECT_TRUE(warned(setup, "solver.regularization: expected at most 1, beyond which this kernel gains energy, found 50; 1 is used"));
+  EXPECT_TRUE(warned(setup, "solver.warm_start: expected at most "));
   EXPECT_LT(maxEnergy(t, 40), 1.02);
 }
 
@@ -95,6 +96,13 @@ TEST_F(BoundsTest, StrongTensileGainsNoEnergy) {
   t.scene.solver.kernel = KernelChoice::Poly6Spiky;
   t.scene.fluid.tensile_radius = 0.25;
   EXPECT_LT(maxEnergy(t, 40), 1.02);
+}
+
+TEST_F(BoundsTest, WarnsOfTooSmallCfl) {
+  Scene scene = dam().scene;
+  EXPECT_FALSE(warned(setupOf(scene), "solver.cfl"));
+  scene.solver.cfl = 0.001;
+  EXPECT_TRUE(warned(setupOf(scene), "solver.cfl: expected at least 0.01, found 0.001; 0.01 is used"));
 }
 
 TEST_F(BoundsTest, DisablesTensileThatReachesTheRestLatticeAndWarns) {

@@ -73,7 +73,7 @@ TEST_F(FluidInput, RejectsInvalidScenes) {
   EXPECT_EQ(with([](Scene& s) { s.fluid.smoothing_ratio = kNan; }),
             "fluid.smoothing_ratio: nan is not finite; expected a number from 1.2 to 4");
   EXPECT_EQ(with([](Scene& s) { s.fluid.spacing = 0, s.fluid.particles = 64; }),
-            "fluid.spacing is not set: give it, or make the particles first");
+            "fluid.spacing: expected a number above 0 (m) here or in ParticleSet::spacing, found none");
 }
 
 TEST_F(FluidInput, RejectsInvalidSteps) {
