@@ -79,7 +79,7 @@ FluidState FluidImpl::present(Graph& graph) const {
   return state;
 }
 
-/// Whether a host can have meant it; the graph's compile() says what not.
+/// Whether a step is valid. If not, the graph's compile() fails with a message that names the member.
 bool FluidImpl::validate(Graph& graph, const FluidStep& step) const {
   if (step.resume) return true;
   const auto invalid = [&](const std::string& what) {

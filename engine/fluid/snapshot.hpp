@@ -22,7 +22,7 @@ struct SnapshotShape {
 };
 SnapshotShape snapshotShape(const FluidSetup& setup);
 
-/// BadInput, naming the array, where a snapshot does not fit: lengths, and all numbers that a shader finds its way by. Floats may be any.
+/// BadInput, naming the array, for lengths that do not fit and for indices out of range, which shaders would read by. Any float is valid.
 Expected<void> checkSnapshot(const FluidSnapshot& snapshot, const SnapshotShape& shape);
 
 /// Whether the snapshot has a list (or, where the fluid has none, a grid) that is not due to be built anew.

@@ -153,7 +153,7 @@ SpeedLimits speedLimits(const Scene& scene, const Double3& extent, double fastes
   const bool closed = scene.domain && scene.domain->open == 0;
   for (int a = 0; a < 3; ++a) room[a] = std::max(extent[a], scene.domain ? scene.domain->max[a] - scene.domain->min[a] : 0);
   const double usual = std::sqrt(2 * columnHead(scene, room) + fastest * fastest) + solids;
-  constexpr double kUnbounded = 1e18;  // m/s: where nothing bounds the way that something falls
+  constexpr double kUnbounded = 1e18;  // m/s: through an open side fluid may fall any distance
   return {kWarmLimit * usual * usual, kMinSpeedGain * usual, closed ? kMaxSpeedGain * usual : kUnbounded,
           closed ? kSpeedLimit * usual : kUnbounded};
 }

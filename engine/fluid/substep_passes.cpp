@@ -28,7 +28,7 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
   declareTerms(graph, first);
 }
 
-// Terms change velocities alone; the prediction with what they made of them follows once, after all.
+// Terms change velocities only. One pass after all of them predicts positions from the resulting velocities.
 void FluidImpl::declareTerms(Graph& graph, bool first) {
   const FluidParams& p = setup.params;
   const bool forces = hasForces(setup), dampsNoise = first && p.noiseDampingRate > 0;

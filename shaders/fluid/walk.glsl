@@ -12,8 +12,8 @@
 // `gaps` (m) from the row's sides at low y, low z, high y, high z. The row is two ranges where it
 // wraps: part 0 and 1.
 void rowRange(float low, float high, vec2 row, vec4 gaps, float reach, uint side, uint part, out uint begin, out uint end) {
-  vec2 way = vec2(side % 3u, side / 3u) - 1.0;
-  vec2 gap = vec2(way.x < 0.0 ? gaps.x : (way.x > 0.0 ? gaps.z : 0.0), way.y < 0.0 ? gaps.y : (way.y > 0.0 ? gaps.w : 0.0));
+  vec2 offset = vec2(side % 3u, side / 3u) - 1.0;
+  vec2 gap = vec2(offset.x < 0.0 ? gaps.x : (offset.x > 0.0 ? gaps.z : 0.0), offset.y < 0.0 ? gaps.y : (offset.y > 0.0 ? gaps.w : 0.0));
   float left = reach * reach - dot(gap, gap);
   begin = 0u;
   end = 0u;
@@ -21,7 +21,7 @@ void rowRange(float low, float high, vec2 row, vec4 gaps, float reach, uint side
   float width = sqrt(left) * inverseCell.x;
   vec2 cells = floor(vec2(low, high));
   float from = cells.x + floor(low - cells.x - width), to = cells.y + floor(high - cells.y + width);
-  vec3 cell = wrapped(vec3(from, row + way));
+  vec3 cell = wrapped(vec3(from, row + offset));
   float past = cell.x + (to - from) + 1.0;
   if (to - from >= gridSize.x - 1.0) {  // all around
     cell.x = 0.0;
