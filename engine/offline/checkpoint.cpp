@@ -40,7 +40,14 @@ void forEachArray(Snapshot& s, Visit&& visit) {
   visit("nbrs", s.neighbors);
   visit("cell", s.cell);
 }
-constexpr size_t kSections = 14;  // the run information first, then the arrays
+/// The run information is the first section, then come the arrays.
+uint64_t countSections() {
+  uint64_t sections = 1;
+  FluidSnapshot none;
+  forEachArray(none, [&](const char*, const auto&) { ++sections; });
+  return sections;
+}
+const uint64_t kSections = countSections();
 
 uint64_t padded(uint64_t bytes) { return (bytes + 7) / 8 * 8; }
 
