@@ -13,7 +13,6 @@ uint64_t perParticle(const ArrayShape& s) { return s.particles; }
 uint64_t withDummy(const ArrayShape& s) { return s.particles + 1; }  // the neighbor that pads lists comes last
 
 uint64_t perKey(const ArrayShape& s) { return divideUp(s.particles, kCountThreads) * kCountThreads; }  // see keys.comp
-uint64_t inTwoLists(const ArrayShape& s) { return s.near ? 2 * s.particles : 0; }
 
 template <bool ArrayShape::*Feature>
 uint64_t perParticleIf(const ArrayShape& s) {
@@ -48,7 +47,8 @@ constexpr std::array<ArrayRow, kArrays> kArrayTable = {{
     {NeighborCount, "neighborCount", "neighbor counts", Fluid, kWord, perParticleIf<&ArrayShape::lists>, Account::Particles},
     {Cell, "cell", "cells", Fluid, kWord, perParticle, Account::Particles},
     {NearSample, "nearSample", "wall samples", Fluid, 2 * kVector, perParticleIf<&ArrayShape::near>, Account::Particles},
-    {NearList, "nearList", "particles near walls", Fluid, kWord, inTwoLists, Account::Particles},
+    {NearPlane, "nearPlane", "particles near one wall", Fluid, kWord, perParticleIf<&ArrayShape::near>, Account::Particles},
+    {NearCorner, "nearCorner", "particles near corners", Fluid, kWord, perParticleIf<&ArrayShape::near>, Account::Particles},
 
     {CellStart, "cellStart", "cell starts", Fluid, kWord, [](const ArrayShape& s) { return s.cellStarts; }, Account::Grid},
     {List, "list", "neighbor list", Fluid, kWord, [](const ArrayShape& s) { return s.listEntries; }, Account::List},

@@ -37,7 +37,8 @@ enum class FluidArray : uint8_t {
   NeighborCount,
   Cell,
   NearSample,
-  NearList,
+  NearPlane,
+  NearCorner,
   // The neighbor search.
   CellStart,
   List,

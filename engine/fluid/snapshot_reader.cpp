@@ -29,10 +29,9 @@ void read(std::span<const std::byte> bytes, size_t count, std::vector<Element>& 
 }
 
 /// Theirs is the order in which threads met, which no bit depends on; a file should not, either.
-std::vector<uint32_t> sorted(std::span<const uint32_t> words) {
-  std::vector<uint32_t> all(words.begin(), words.end());
-  std::sort(all.begin(), all.end());
-  return all;
+std::vector<uint32_t> sorted(std::vector<uint32_t> words) {
+  std::sort(words.begin(), words.end());
+  return words;
 }
 
 }  // namespace
@@ -73,15 +72,15 @@ Expected<void> SnapshotReader::take(const Graph& graph) {
     read(bytes, n, s.*member);
   });
   if (saved) return {};
-  if (part == slotOf(FluidArray::NearList)) {
+  if (part == slotOf(FluidArray::NearPlane) || part == slotOf(FluidArray::NearCorner)) {
     FluidSums sums;
     std::memcpy(&sums, s.sums.data(), sizeof sums);
-    const auto all = records<uint32_t>(bytes, size_t{2} * fluid_.capacity);
-    const std::span<const uint32_t> both(all);
     if (uint64_t{sums.planeCount} + sums.cornerCount > n)
       return Error{ErrorKind::Failed, "reading the state back: its counts make no sense"};
-    s.nearWall = sorted(both.first(sums.planeCount));
-    s.nearCorner = sorted(both.subspan(fluid_.capacity, sums.cornerCount));
+    if (part == slotOf(FluidArray::NearPlane))
+      s.nearWall = sorted(records<uint32_t>(bytes, sums.planeCount));
+    else
+      s.nearCorner = sorted(records<uint32_t>(bytes, sums.cornerCount));
   } else if (part == slotOf(FluidArray::NeighborCount)) {
     s.neighborCount = records<uint32_t>(bytes, n);
     uint64_t entries = 0;
@@ -118,7 +117,10 @@ void SnapshotReader::plan() {
   forEachSaved([&](const ArrayRow& row, auto) {
     if (row.length(shape) > 0) add(row.id);
   });
-  if (fluid_.setup.near) add(FluidArray::NearList);
+  if (fluid_.setup.near) {
+    add(FluidArray::NearPlane);
+    add(FluidArray::NearCorner);
+  }
   if (!hasNeighbors(snapshot_)) return;
   if (walksGrid(snapshot_)) add(FluidArray::Cell);
   if (snapshot_.listCapacity == 0) return;

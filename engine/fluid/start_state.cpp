@@ -109,11 +109,8 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
       staging_->add(slotOf(row.id), array.data(), array.size() * sizeof array[0]);
   });
   if (setup.near) {
-    staging_->add(slotOf(FluidArray::NearList), uint64_t{capacity} * 8, [this, &s](std::byte* to) {
-      std::memset(to, 0, size_t{capacity} * 8);
-      std::memcpy(to, s.nearWall.data(), s.nearWall.size() * 4);
-      std::memcpy(to + 4 * size_t{capacity}, s.nearCorner.data(), s.nearCorner.size() * 4);
-    });
+    staging_->add(slotOf(FluidArray::NearPlane), s.nearWall.data(), s.nearWall.size() * 4);
+    staging_->add(slotOf(FluidArray::NearCorner), s.nearCorner.data(), s.nearCorner.size() * 4);
     staging_->clear(slotOf(FluidArray::NearSample));  // of those near nothing; the others' are looked up before they are used
   }
   if (!hasNeighbors(s)) return;

@@ -31,8 +31,9 @@ layout(std430, binding = 12) writeonly buffer VelocityBlock { vec4 velocity[]; }
 layout(std430, binding = 13) writeonly buffer WarmBlock { float warm[]; };
 layout(std430, binding = 14) writeonly buffer IdBlock { uint id[]; };
 layout(std430, binding = 15) writeonly buffer NearBlock { vec4 nearSample[]; };
-layout(std430, binding = 16) writeonly buffer NearListBlock { uint nearList[]; };
-layout(std430, binding = 17) readonly buffer SolidBlock { SolidRecord solids[]; };
+layout(std430, binding = 16) writeonly buffer NearPlaneBlock { uint nearPlane[]; };
+layout(std430, binding = 17) writeonly buffer NearCornerBlock { uint nearCorner[]; };
+layout(std430, binding = 18) readonly buffer SolidBlock { SolidRecord solids[]; };
 
 const uint kNone = 0xffffffffu;
 
@@ -50,8 +51,8 @@ void listNear(uint i, vec3 x) {
   nearSample[NEAR_DISPLACED(i)] = vec4(0.0);
   nearSample[NEAR_TANGENTIAL(i)] = vec4(0.0);
   if (!isActive(x)) return;
-  if (solid || walls > 1u) nearList[NEAR_CORNER(atomicAdd(sums.cornerCount, 1u))] = i;
-  else if (walls == 1u) nearList[NEAR_PLANE(atomicAdd(sums.planeCount, 1u))] = i;
+  if (solid || walls > 1u) nearCorner[atomicAdd(sums.cornerCount, 1u)] = i;
+  else if (walls == 1u) nearPlane[atomicAdd(sums.planeCount, 1u)] = i;
 }
 
 // Neighbors are stored four at a time: lavapipe stores lane by lane, so fewer and wider stores are faster.

@@ -10,7 +10,7 @@ layout(std430, binding = 2) buffer PositionBlock { vec4 position[]; };
 layout(std430, binding = 3) buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 4) buffer PredictionBlock { vec4 prediction[]; };
 layout(std430, binding = 5) readonly buffer WarmAccelerationBlock { vec4 warmAcceleration[]; };
-layout(std430, binding = 6) readonly buffer NearListBlock { uint nearList[]; };
+layout(std430, binding = 6) readonly buffer NearCornerBlock { uint nearCorner[]; };
 layout(std430, binding = 7) readonly buffer SumsBlock { FluidSums sums; };
 layout(std430, binding = 8) readonly buffer SolidBlock { SolidRecord solids[]; };
 #include "fluid/outside.glsl"
@@ -29,7 +29,7 @@ void predict(uint i, vec3 x, vec3 v) {
 void main() {
   uint n = flatInvocation();
   if (n >= sums.cornerCount) return;
-  uint i = nearList[NEAR_CORNER(n)];
+  uint i = nearCorner[n];
   vec3 from = position[i].xyz;
   if (!isActive(from)) return;
   float pushed;

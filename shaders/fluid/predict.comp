@@ -10,7 +10,7 @@ READ_FLOAT4(3, velocity)
 READ_FLOAT4(4, warmAcceleration)
 layout(std430, binding = 5) writeonly buffer PredictionBlock { vec4 prediction[]; };
 layout(std430, binding = 6) readonly buffer SolidBlock { SolidRecord solids[]; };
-layout(std430, binding = 7) readonly buffer NearListBlock { uint nearList[]; };
+layout(std430, binding = 7) readonly buffer NearCornerBlock { uint nearCorner[]; };
 layout(std430, binding = 8) readonly buffer SumsBlock { FluidSums sums; };
 #include "fluid/outside.glsl"
 layout(local_size_x = kFluidGroup) in;
@@ -18,7 +18,7 @@ layout(local_size_x = kFluidGroup) in;
 void main() {
   uint i = flatInvocation();
   if (i >= (CORNER ? sums.cornerCount : control.count)) return;
-  if (CORNER) i = nearList[NEAR_CORNER(i)];
+  if (CORNER) i = nearCorner[i];
   vec3 x = positionAt(i).xyz;
   vec3 next = predicted(x, velocityAt(i).xyz, keptWarmAcceleration(warmAccelerationAt(i)));
   float pushed = 0.0;

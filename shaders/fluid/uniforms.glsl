@@ -7,10 +7,6 @@
 layout(binding = 0) uniform ParamsBlock { FluidParams params; };
 layout(binding = 1) uniform ControlBlock { FluidControl control; };
 
-// The two lists of `nearList`: particles near one wall, and those near several walls or a solid.
-#define NEAR_PLANE(n) (n)
-#define NEAR_CORNER(n) (params.capacity + (n))
-
 // Particles that left the simulation lie at kInactivePosition, with the dummy neighbor that pads the lists.
 bool isActive(vec3 x) { return !(x.x >= 0.5 * kInactivePosition); }
 

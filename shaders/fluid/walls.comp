@@ -12,11 +12,12 @@ layout(local_size_x = kFluidGroup) in;
 const int SIDES = THIN ? 2 : 1;
 
 READ_FLOAT4(2, place)
-READ_UINT(3, nearList)
-layout(std430, binding = 4) readonly buffer SumsBlock { FluidSums sums; };
-READ_FLOAT4(5, table)  // value and slope of a node, and of the next one along the first axis
-layout(std430, binding = 6) readonly buffer SolidBlock { SolidRecord solids[]; };
-layout(std430, binding = 7) writeonly buffer NearBlock { vec4 nearSample[]; };
+READ_UINT(3, nearPlane)
+READ_UINT(4, nearCorner)
+layout(std430, binding = 5) readonly buffer SumsBlock { FluidSums sums; };
+READ_FLOAT4(6, table)  // value and slope of a node, and of the next one along the first axis
+layout(std430, binding = 7) readonly buffer SolidBlock { SolidRecord solids[]; };
+layout(std430, binding = 8) writeonly buffer NearBlock { vec4 nearSample[]; };
 
 // Node and weight of a distance; beyond the table both nodes are its last, which is 0.
 void locate(float s, float step, uint nodes, out uint node, out float weight) {
@@ -142,7 +143,7 @@ void main() {
   uint n = flatInvocation();
   if (!CORNER) {
     if (n >= sums.planeCount) return;
-    uint i = nearListAt(NEAR_PLANE(n));
+    uint i = nearPlaneAt(n);
     vec3 x = placeAt(i).xyz;
     vec3 low = x - vec3(params.lowX, params.lowY, params.lowZ);
     vec3 high = vec3(params.highX, params.highY, params.highZ) - x;
@@ -155,7 +156,7 @@ void main() {
     return;
   }
   if (n >= sums.cornerCount) return;
-  uint i = nearListAt(NEAR_CORNER(n));
+  uint i = nearCornerAt(n);
   vec3 x = placeAt(i).xyz;
   WallCoverage coverage = WallCoverage(vec3(0.0), vec3(0.0));
   vec4 displaced = domainWalls(x, coverage.diagonal);

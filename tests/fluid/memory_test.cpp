@@ -72,7 +72,7 @@ TEST_F(CountedMemory, DisabledFeaturesHaveNoBuffer) {
     return bytes;
   };
   const auto expectOff = [&](std::string_view name) { EXPECT_LE(bytesOf(name), 64u) << name; };  // a binding must be something
-  for (const char* name : {"iteration multipliers", "wall samples", "particles near walls"}) expectOff(name);
+  for (const char* name : {"iteration multipliers", "wall samples", "particles near one wall", "particles near corners"}) expectOff(name);
   for (const char* name : {"warm-start accelerations", "warm-start multipliers", "neighbor counts", "neighbor list"})
     EXPECT_GE(bytesOf(name), 4000u) << name;
   scene.solver.warm_start = 0;
