@@ -2,13 +2,11 @@
 #ifndef RILL_UNIFORMS_GLSL
 #define RILL_UNIFORMS_GLSL
 #include "shared/fluid_records.h"
+#include "shared/active.glsl"
 #include "shared/dispatch.glsl"
 #include "fluid/constants.glsl"
 layout(binding = 0) uniform ParamsBlock { FluidParams params; };
 layout(binding = 1) uniform ControlBlock { FluidControl control; };
-
-// Particles that left the simulation lie at kInactivePosition, with the dummy neighbor that pads the lists.
-bool isActive(vec3 x) { return !(x.x >= 0.5 * kInactivePosition); }
 
 // Keeps a center half a spacing off the domain's walls. NaN and inactive particles are returned unchanged.
 vec3 insideWalls(vec3 x) {

@@ -1,6 +1,7 @@
 // Camera, spheres and sample grid for all shaders of the surface.
 #extension GL_EXT_control_flow_attributes : require
 #include "render/surface_records.h"
+#include "shared/active.glsl"
 
 // For loops with a constant count: software drivers take seconds to compile them unrolled.
 #define RILL_LOOP [[dont_unroll]]
@@ -16,12 +17,6 @@ layout(push_constant) uniform Push {
 #define groupIndex() (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x)  // compute shaders only
 
 float infinity() { return uintBitsToFloat(kInfiniteBits); }
-
-// Compares bits because a compiler may assume that there are no NaNs.
-bool drawable(vec3 p) {
-  const uvec3 magnitude = floatBitsToUint(p) & 0x7FFFFFFFu;
-  return all(lessThan(magnitude, uvec3(0x4DEE6B28u)));  // 5e8 m: inactive particles are beyond
-}
 
 vec3 viewPoint(vec3 p) {
   return vec3(dot(vec3(view.rows[0], view.rows[1], view.rows[2]), p) + view.rows[3],

@@ -25,6 +25,7 @@ RILL_CONST uint kWindow = 32u;            // candidates that a grid walk looks a
 // about 20 where a cluster is 4, so that 1,024 windows leave room for the loops around them.
 RILL_CONST uint kWalkBound = 32768u;
 RILL_CONST float kInactivePosition = 1.0e9f;        // m: position of inactive particles and of the dummy neighbor that pads the list
+RILL_CONST float kInactiveLimit = 5.0e8f;           // m: from this coordinate on a particle is inactive
 RILL_CONST float kNoWall = 1.0e9f;        // m, a coordinate
 RILL_CONST float kMultiplierScale = 1024.0f;  // multipliers travel as halves in units of 1 / (restGradient * this)
 

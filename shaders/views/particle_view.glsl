@@ -1,5 +1,6 @@
 // Camera and spheres for all shaders of the particle view.
 #extension GL_EXT_control_flow_attributes : require
+#include "shared/active.glsl"
 #include "views/particle_records.h"
 
 // For loops with a constant count: software drivers take seconds to compile them unrolled.
@@ -29,12 +30,6 @@ vec2 pixelOf(vec2 tangent) {
   return vec2(0.5 * float(view.width) + tangent.x * view.focal, 0.5 * float(view.height) - tangent.y * view.focal);
 }
 vec3 rayOf(vec2 tangent) { return forwardAxis() + rightAxis() * tangent.x + upAxis() * tangent.y; }
-
-// Compares bits because a compiler may assume that there are no NaNs.
-bool drawable(vec3 p) {
-  const uvec3 magnitude = floatBitsToUint(p) & 0x7FFFFFFFu;
-  return all(lessThan(magnitude, uvec3(0x4DEE6B28u)));  // 5e8 m: inactive particles are beyond
-}
 
 // At least so large that a disc covers a pixel's center at any position.
 float drawnRadius(float depth) { return max(view.radius, 0.71 * depth / view.focal); }
