@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/overloaded.hpp"
 #include "shape/shape.hpp"
 
 namespace rill {
@@ -48,18 +49,21 @@ double totalPoints(std::span<const Fill> fills, double spacing) {
 Lattice latticeOf(const Fill& fill, double spacing) {
   Lattice lattice;
   lattice.spacing = spacing;
-  if (const auto* box = std::get_if<BoxShape>(&fill.shape)) {
-    for (int axis = 0; axis < 3; ++axis) {
-      lattice.size[axis] = roundedCount(box->max[axis] - box->min[axis], spacing);
-      lattice.first[axis] = box->min[axis] + 0.5 * spacing;
-    }
-  } else if (const auto* sphere = std::get_if<SphereShape>(&fill.shape)) {
-    lattice.radius = sphere->radius;
-    for (int axis = 0; axis < 3; ++axis) {
-      lattice.size[axis] = roundedCount(2 * sphere->radius, spacing);
-      lattice.first[axis] = sphere->center[axis] - 0.5 * (lattice.size[axis] - 1) * spacing;
-    }
-  }
+  std::visit(Overloaded{[&](const BoxShape& box) {
+                          for (int axis = 0; axis < 3; ++axis) {
+                            lattice.size[axis] = roundedCount(box.max[axis] - box.min[axis], spacing);
+                            lattice.first[axis] = box.min[axis] + 0.5 * spacing;
+                          }
+                        },
+                        [&](const SphereShape& sphere) {
+                          lattice.radius = sphere.radius;
+                          for (int axis = 0; axis < 3; ++axis) {
+                            lattice.size[axis] = roundedCount(2 * sphere.radius, spacing);
+                            lattice.first[axis] = sphere.center[axis] - 0.5 * (lattice.size[axis] - 1) * spacing;
+                          }
+                        },
+                        [](const ParticleFile&) {}},
+             fill.shape);
   return lattice;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 
+#include "core/overloaded.hpp"
 #include "fluid/numbers.hpp"
 #include "shape/records.hpp"
 #include "sph/solid_density.hpp"
@@ -64,12 +65,14 @@ void addSolids(const Scene& scene, const SmoothingKernel& kernel, const Double3&
       const auto numbers = std::bit_cast<std::array<float, kKeyframeNumbers>>(key);
       setup.keyframes.insert(setup.keyframes.end(), numbers.begin(), numbers.end());
     }
-    if (const auto* sphere = std::get_if<SphereShape>(&solid.shape)) {
-      const SphereTable table = makeSphereTable(kernel, sphere->radius);
-      appendTable(setup.tables, table.table, record.tableOffset);
-      record.tableNodes = table.nodes;
-      record.tableFirst = f(table.first);
-    }
+    std::visit(Overloaded{[&](const SphereShape& sphere) {
+                            const SphereTable table = makeSphereTable(kernel, sphere.radius);
+                            appendTable(setup.tables, table.table, record.tableOffset);
+                            record.tableNodes = table.nodes;
+                            record.tableFirst = f(table.first);
+                          },
+                          [](const BoxShape&) {}},  // reads the table of a half-space
+               solid.shape);
     setup.solids.push_back(record);
   }
 }

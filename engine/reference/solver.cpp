@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
+#include "core/overloaded.hpp"
 #include "reference/neighbors.hpp"
 #include "shared/fluid_records.h"
 #include "shared/pair_hash.h"
@@ -40,10 +41,9 @@ ReferenceSolver::ReferenceSolver(const ReferenceSettings& s, std::span<const glm
     if (finite(v)) fastest_ = std::max(fastest_, glm::length(v));
   if (settings.tabulated) {
     tables_ = makeWallTables(kernel_);
-    for (const Solid& solid : settings.solids) {
-      const auto* sphere = std::get_if<SphereShape>(&solid.shape);
-      sphereTables_.push_back(sphere ? makeSphereTable(kernel_, sphere->radius) : SphereTable{});
-    }
+    const Overloaded tableFor{[&](const SphereShape& sphere) { return makeSphereTable(kernel_, sphere.radius); },
+                              [](const BoxShape&) { return SphereTable{}; }};
+    for (const Solid& solid : settings.solids) sphereTables_.push_back(std::visit(tableFor, solid.shape));
   }
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/overloaded.hpp"
+
 namespace rill {
 namespace {
 
@@ -56,6 +58,18 @@ Displacement displacementAt(const Solid& solid, double t) {
   return out;
 }
 
+Double3 boxExtents(const BoxShape& box, const Pose& pose) {
+  const Double3 half = halfExtents(box);
+  Double3 extents = {};
+  for (size_t own = 0; own < 3; ++own) {
+    Double3 axis = {};
+    axis[own] = half[own];
+    axis = toScene(pose, axis);
+    for (size_t a = 0; a < 3; ++a) extents[a] += std::abs(axis[a]);
+  }
+  return extents;
+}
+
 }  // namespace
 
 Double3 turnBetween(const Quaternion& from, const Quaternion& to) {
@@ -104,16 +118,9 @@ SurfacePoint surfaceAt(const Shape& shape, const Pose& pose, const Double3& x) {
 }
 
 Double3 sceneExtents(const Shape& shape, const Pose& pose) {
-  if (const auto* sphere = std::get_if<SphereShape>(&shape)) return halfExtents(*sphere);
-  const Double3 half = halfExtents(shape);
-  Double3 extents = {};
-  for (size_t own = 0; own < 3; ++own) {
-    Double3 axis = {};
-    axis[own] = half[own];
-    axis = toScene(pose, axis);
-    for (size_t a = 0; a < 3; ++a) extents[a] += std::abs(axis[a]);
-  }
-  return extents;
+  return std::visit(
+      Overloaded{[](const SphereShape& sphere) { return halfExtents(sphere); }, [&](const BoxShape& box) { return boxExtents(box, pose); }},
+      shape);
 }
 
 }  // namespace rill

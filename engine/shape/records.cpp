@@ -4,16 +4,22 @@
 #include <bit>
 #include <cstring>
 
+#include "core/overloaded.hpp"
+
 namespace rill {
 namespace {
 
 float f(double value) { return static_cast<float>(value); }
 
+uint32_t kindOf(const Shape& shape) {
+  return std::visit(Overloaded{[](const BoxShape&) { return kShapeBox; }, [](const SphereShape&) { return kShapeSphere; }}, shape);
+}
+
 }  // namespace
 
 ShapeRecord recordOf(const Shape& shape) {
   const Double3 half = halfExtents(shape);
-  return {f(half[0]), f(half[1]), f(half[2]), std::holds_alternative<SphereShape>(shape) ? kShapeSphere : kShapeBox};
+  return {f(half[0]), f(half[1]), f(half[2]), kindOf(shape)};
 }
 
 PoseRecord recordOf(const Pose& pose, const Double3& origin) {

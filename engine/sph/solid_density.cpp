@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/overloaded.hpp"
+
 namespace rill {
 namespace {
 
@@ -64,14 +66,14 @@ WallSample radial(const LineSample& along, const SurfacePoint& surface) {
   return sum;
 }
 
-/// Answers for each shape of the engine.
 template <class Sphere, class Box>
 WallSample sampleOf(const Shape& shape, const Double3& local, const Sphere& sphereAt, const Box& boxAt) {
-  if (const auto* sphere = std::get_if<SphereShape>(&shape)) {
-    const SurfacePoint surface = surfaceAt(*sphere, local);
-    return radial(sphereAt(sphere->radius, surface.distance), surface);
-  }
-  return boxAt(halfExtents(std::get<BoxShape>(shape)));
+  return std::visit(Overloaded{[&](const SphereShape& sphere) {
+                                 const SurfacePoint surface = surfaceAt(sphere, local);
+                                 return radial(sphereAt(sphere.radius, surface.distance), surface);
+                               },
+                               [&](const BoxShape& box) { return boxAt(halfExtents(box)); }},
+                    shape);
 }
 
 }  // namespace
