@@ -169,9 +169,10 @@ class FluidImpl {
   uint64_t driveCount_ = 0;
 };
 
-// A pass records a dispatch for each chunk and variant.
+// A pass records a dispatch for each chunk and variant, and nothing where the condition of its row does not hold.
 template <class Push>
 void FluidImpl::declare(Graph& graph, FluidPass pass, Start start, Push push) {
+  if (!exists(pass, setup)) return;
   const FluidPassRow& row = rowOf(pass);
   const PreparedPass& prepared = passes_[static_cast<size_t>(pass)];
   ++recording_.passes[static_cast<size_t>(pass)][static_cast<size_t>(start)];

@@ -5,47 +5,44 @@ namespace rill {
 
 void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
   using enum FluidArray;
-  const FluidParams& p = setup.params;
   ++recording_.substeps;
   parity_ = parity;
   beginSection();
-  if (setup.movingSolids) declare(graph, FluidPass::MoveSolids, Start::Density);
-  for (uint32_t iteration = 0; iteration < p.iterations; ++iteration) {
+  declare(graph, FluidPass::MoveSolids, Start::Density);
+  for (uint32_t iteration = 0; iteration < setup.params.iterations; ++iteration) {
     const Start start = iteration == 0 ? Start::Density : Start::Iterate;
     const ChunkPush push{0, 0, iteration};
     alias(Particle, Work);
     if (iteration > 0) declare(graph, FluidPass::Iterate, start, push);
     alias(Place, Prediction);
-    if (setup.near) declare(graph, FluidPass::Walls, start);
+    declare(graph, FluidPass::Walls, start);
     alias(Particle, Prediction);
     declare(graph, FluidPass::Density, start, push);
     declare(graph, FluidPass::Control, Start::Always, ControlPush{iteration, parity, first});
   }
   alias(Particle, Work);
-  const bool artificialPressure = first && p.tensileRate > 0;
+  const bool artificialPressure = first && exists(FluidPass::CorrectWithArtificialPressure, setup);
   declare(graph, artificialPressure ? FluidPass::CorrectWithArtificialPressure : FluidPass::Correct, Start::Correct, ChunkPush{});
-  if (p.solidCount > 0) declare(graph, FluidPass::Collide, Start::Correct);
+  declare(graph, FluidPass::Collide, Start::Correct);
   declareTerms(graph, first);
 }
 
 // Terms change velocities only. One pass after all of them predicts positions from the resulting velocities.
 void FluidImpl::declareTerms(Graph& graph, bool first) {
-  const FluidParams& p = setup.params;
-  const bool forces = hasForces(setup), dampsNoise = first && p.noiseDampingRate > 0;
-  if (setup.viscositySweeps > 0)
+  if (exists(FluidPass::Viscosity, setup))
     declareSweeps(graph, FluidPass::Viscosity, Start::Correct, setup.viscositySweeps, 1.0f / float(setup.viscositySweeps));
-  if (dampsNoise) declareSweeps(graph, FluidPass::NoiseDamping, Start::NoiseDamping, 1, 0);
+  if (first && exists(FluidPass::NoiseDamping, setup)) declareSweeps(graph, FluidPass::NoiseDamping, Start::NoiseDamping, 1, 0);
   for (const FluidPassRow& row : fluidPassTable()) {
-    if (!row.options.force || !exists(row.id, setup)) continue;
+    if (!row.options.force) continue;
     if (row.extent == Extent::Gather)
       declare(graph, row.id, Start::Correct, ChunkPush{});
     else
       declare(graph, row.id, Start::Correct);
   }
-  if (!forces && !dampsNoise) return;
-  const Start start = forces ? Start::Correct : Start::NoiseDamping;
+  if (!first && !hasForces(setup)) return;
+  const Start start = hasForces(setup) ? Start::Correct : Start::NoiseDamping;
   declare(graph, FluidPass::PredictAfterTerms, start);
-  if (p.solidCount > 0) declare(graph, FluidPass::PredictAtSolids, start);
+  declare(graph, FluidPass::PredictAtSolids, start);
 }
 
 // Sweeps of XSPH, there and back between the velocities and a copy.
