@@ -29,8 +29,8 @@ void FluidImpl::beginSection() {
 
 uint64_t FluidImpl::commandOffset(Graph& graph, const FluidPassRow& row, size_t variant, Start start) const {
   if (start == Start::Always) return 0;
-  const size_t k = start == Start::Correct && parity_ == 1 ? kStarts : static_cast<size_t>(start);
-  const uint32_t command = passes_[static_cast<size_t>(row.id)].commands[variant][k];
+  if (start == Start::Correct && parity_ == 1) start = Start::CorrectOdd;
+  const uint32_t command = passes_[static_cast<size_t>(row.id)].commands[variant][static_cast<size_t>(start)];
   if (command != kNoCommand) return DispatchCommands::offset(command);
   implOf(graph).fail("pass '" + std::string(row.name) + "': its row in pass_table.cpp lacks what starts it");
   return 0;

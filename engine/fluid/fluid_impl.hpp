@@ -46,7 +46,7 @@ struct PreparedPass {
     std::vector<FluidArray> arrays = {};  ///< in the order of the bindings
   };
   std::vector<Variant> variants;
-  std::vector<std::array<uint32_t, kStarts + 1>> commands;  ///< of each variant, by start; correct has two, the second one last
+  std::vector<std::array<uint32_t, kStarts>> commands;  ///< of each variant, by start
 };
 
 /// How often the passes were recorded, by what starts them.

@@ -10,6 +10,7 @@
 
 #include "fluid/settings.hpp"
 #include "gpu/shader_constants.hpp"
+#include "shared/fluid_records.h"
 
 namespace rill {
 
@@ -49,8 +50,19 @@ enum class FluidPass : uint8_t {
 };
 constexpr size_t kFluidPasses = static_cast<size_t>(FluidPass::kCount);
 
-/// What starts a dispatch: the host, or a decision of the device (kStart... in shaders/shared/fluid_records.h).
-enum class Start : uint8_t { Always, Predict, Density, Iterate, Correct, NoiseDamping, Rebuild, Figures, kCount };
+/// What starts a dispatch; shaders/shared/fluid_records.h says when.
+enum class Start : uint8_t {
+  Always = kStartAlways,
+  Predict = kStartPredict,
+  Density = kStartDensity,
+  Iterate = kStartIterate,
+  Correct = kStartCorrect,
+  CorrectOdd = kStartCorrectOdd,  ///< in place of Correct, in every second substep; rows and calls name Correct
+  NoiseDamping = kStartNoiseDamping,
+  Rebuild = kStartRebuild,
+  Figures = kStartFigures,
+  kCount
+};
 constexpr size_t kStarts = static_cast<size_t>(Start::kCount);
 
 /// What a pass is over.

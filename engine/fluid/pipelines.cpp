@@ -9,25 +9,6 @@ namespace {
 
 constexpr uint32_t kMaxCluster = 32;  // see shaders/fluid/cluster.glsl: a window of candidates has as many
 
-uint32_t startCode(Start start) {
-  switch (start) {
-    case Start::Predict:
-      return kStartPredict;
-    case Start::Density:
-      return kStartDensity;
-    case Start::Iterate:
-      return kStartIterate;
-    case Start::Correct:
-      return kStartCorrectEven;
-    case Start::NoiseDamping:
-      return kStartNoiseDamping;
-    case Start::Rebuild:
-      return kStartRebuild;
-    default:
-      return kStartFigures;
-  }
-}
-
 /// Particles that walk the grid together are a subgroup, of which the shader knows that it is whole.
 uint32_t wholeSubgroup(const Device& device) { return std::min(device.info().subgroupSize, kFluidGroup); }
 
@@ -93,13 +74,17 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
         return Error{ErrorKind::Shader, "shader '" + shader + "': no array of a fluid is named '" + std::string(binding.name) + "'"};
     }
     prepared.variants.push_back(std::move(variant));
-    std::array<uint32_t, kStarts + 1>& commands = prepared.commands.emplace_back();
+    std::array<uint32_t, kStarts>& commands = prepared.commands.emplace_back();
     commands.fill(kNoCommand);
     for (Start start : row.starts) {
       if (start == Start::Always) continue;
       const GroupCount groups = over == kOverShape ? foldGroups(fixedGroups(row.extent)) : GroupCount{kFluidGroup, 0, 1};
-      commands[static_cast<size_t>(start)] = commands_.shared(startCode(start), over, groups);
-      if (start == Start::Correct) commands[kStarts] = commands_.shared(kStartCorrectOdd, over, groups);
+      const auto share = [&](Start when) {
+        const auto k = static_cast<uint32_t>(when);
+        commands[k] = commands_.shared(k, over, groups);
+      };
+      share(start);
+      if (start == Start::Correct) share(Start::CorrectOdd);
     }
     return {};
   };

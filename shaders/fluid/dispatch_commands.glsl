@@ -8,7 +8,7 @@ bool isStarted(uint start, FluidControl c, uint parity) {
     case kStartPredict: return parity == kNoSubstep && c.timeLeft > 0.0;
     case kStartDensity: return c.running != 0u;
     case kStartIterate: return c.again != 0u;
-    case kStartCorrectEven: return parity == 0u;
+    case kStartCorrect: return parity == 0u;
     case kStartCorrectOdd: return parity == 1u;
     case kStartNoiseDamping: return parity != kNoSubstep && c.noiseDamping > 0.0;
     case kStartRebuild: return c.listState == kListNone || (c.listState == kListDue && c.timeLeft > 0.0);

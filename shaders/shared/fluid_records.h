@@ -29,15 +29,17 @@ RILL_CONST float kInactiveLimit = 5.0e8f;           // m: from this coordinate o
 RILL_CONST float kNoWall = 1.0e9f;        // m, a coordinate
 RILL_CONST float kMultiplierScale = 1024.0f;  // multipliers travel as halves in units of 1 / (restGradient * this)
 
-// What starts a dispatch that the device switches on and off; see fluid/dispatch_commands.glsl.
-RILL_CONST uint kStartPredict = 0u;        // the begin of an advance
-RILL_CONST uint kStartDensity = 1u;        // a substep
-RILL_CONST uint kStartIterate = 2u;        // a further iteration of it
-RILL_CONST uint kStartCorrectEven = 3u;    // its end, by the parity of the substep as recorded: the density
-RILL_CONST uint kStartCorrectOdd = 4u;     // pass of the next one, which does not run, switches it off
-RILL_CONST uint kStartNoiseDamping = 5u;   // the end of the first substep of a block, if the fluid is at rest
-RILL_CONST uint kStartRebuild = 6u;        // the neighbor list is due
-RILL_CONST uint kStartFigures = 7u;        // figures were asked for
+// What starts a dispatch: the host, or a decision of the device (fluid/dispatch_commands.glsl). The
+// values of enum Start in engine/fluid/pass_table.hpp.
+RILL_CONST uint kStartAlways = 0u;         // the host
+RILL_CONST uint kStartPredict = 1u;        // the begin of an advance
+RILL_CONST uint kStartDensity = 2u;        // a substep
+RILL_CONST uint kStartIterate = 3u;        // a further iteration of it
+RILL_CONST uint kStartCorrect = 4u;        // the end of a substep that is recorded with an even number: the density
+RILL_CONST uint kStartCorrectOdd = 5u;     // pass of the next one, which does not run, switches it off; with an odd one
+RILL_CONST uint kStartNoiseDamping = 6u;   // the end of the first substep of a block, if the fluid is at rest
+RILL_CONST uint kStartRebuild = 7u;        // the neighbor list is due
+RILL_CONST uint kStartFigures = 8u;        // figures were asked for
 RILL_CONST uint kNoSubstep = 2u;           // in place of a parity
 
 // What it is over.
