@@ -125,7 +125,7 @@ class FluidImpl {
   void declareSkipped(Graph& graph) const;
   // substep_passes.cpp
   void declareSubstep(Graph& graph, uint32_t parity, bool first);  ///< first of its block
-  void declareTerms(Graph& graph, bool first);
+  void declareForces(Graph& graph, bool first);
   void declareSweeps(Graph& graph, FluidPass pass, Start start, uint32_t sweeps, float share);
   // measure_passes.cpp
   void declareMeasure(Graph& graph, Pending& pending);

@@ -13,8 +13,8 @@ bool noisy(const FluidSetup& s) { return s.params.noiseDampingRate > 0; }
 bool swirls(const FluidSetup& s) { return s.params.vorticity > 0; }
 bool drags(const FluidSetup& s) { return s.params.drag > 0; }
 bool copies(const FluidSetup& s) { return s.viscositySweeps % 2 == 1 || noisy(s); }
-bool terms(const FluidSetup& s) { return hasForces(s) || noisy(s); }
-bool termsAndSolids(const FluidSetup& s) { return terms(s) && solids(s); }
+bool forcesOrDamping(const FluidSetup& s) { return hasForces(s) || noisy(s); }
+bool forcesOrDampingAtSolids(const FluidSetup& s) { return forcesOrDamping(s) && solids(s); }
 
 constexpr PassCondition kAlways, kNear{near, "no domain and no solids"}, kSolids{solids, "no solids"}, kMoves{moves, "no solid moves"},
     kIterates{iterates, "one iteration a substep"}, kViscous{viscous, "viscosity is 0"}, kSwirls{swirls, "vorticity is 0"},
@@ -58,8 +58,14 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::Curl, "curl", "fluid/curl", E::Gather, kEnd, kSwirls, kForce},
     {P::Confine, "confine", "fluid/confine", E::Gather, kEnd, kSwirls, kForce},
     {P::Drag, "drag", "fluid/drag", E::Particles, kEnd, kDrags, kForce},
-    {P::PredictAfterTerms, "predict after terms", "fluid/predict", E::Particles, kEndOrDamped, {terms}, {.constant = {"SOLIDS", false}}},
-    {P::PredictAtSolids, "predict at solids", "fluid/predict", E::Corner, kEndOrDamped, {termsAndSolids}},
+    {P::PredictAfterForces,
+     "predict after forces",
+     "fluid/predict",
+     E::Particles,
+     kEndOrDamped,
+     {forcesOrDamping},
+     {.constant = {"SOLIDS", false}}},
+    {P::PredictAtSolids, "predict at solids", "fluid/predict", E::Corner, kEndOrDamped, {forcesOrDampingAtSolids}},
 
     {P::MeasureWalls, "measure walls", "fluid/walls", E::Near, kFigures, {near}},
     {P::MeasureKeys, "measure keys", "fluid/keys", E::Keys, kFigures},

@@ -37,7 +37,7 @@ enum class FluidPass : uint8_t {
   Curl,
   Confine,
   Drag,
-  PredictAfterTerms,
+  PredictAfterForces,
   PredictAtSolids,
   // Figures.
   MeasureWalls,

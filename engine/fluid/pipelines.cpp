@@ -23,7 +23,7 @@ std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
           {"WARM", setup.warm},
           {"ITERATED", p.iterations > 1},
           {"SOLIDS", p.solidCount > 0},
-          {"TERMS", hasForces(setup)},
+          {"FORCES", hasForces(setup)},
           {"THIN", setup.thin},
           {"LIST_OVERSIZED", sort_->listsOversized()},
           // Where a pass or a variant of it does not say otherwise:

@@ -1,4 +1,4 @@
-// The passes of one substep: walls, density, correction, contact, and the terms that a scene has. See docs/method.md.
+// The passes of one substep: walls, density, correction, contact, and the forces that a scene has. See docs/method.md.
 #include "fluid/fluid_impl.hpp"
 
 namespace rill {
@@ -24,11 +24,11 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
   const bool artificialPressure = first && exists(FluidPass::CorrectWithArtificialPressure, setup);
   declare(graph, artificialPressure ? FluidPass::CorrectWithArtificialPressure : FluidPass::Correct, Start::Correct, ChunkPush{});
   declare(graph, FluidPass::Collide, Start::Correct);
-  declareTerms(graph, first);
+  declareForces(graph, first);
 }
 
-// Terms change velocities only. One pass after all of them predicts positions from the resulting velocities.
-void FluidImpl::declareTerms(Graph& graph, bool first) {
+// Forces change velocities only. One pass after all of them predicts positions from the resulting velocities.
+void FluidImpl::declareForces(Graph& graph, bool first) {
   if (exists(FluidPass::Viscosity, setup))
     declareSweeps(graph, FluidPass::Viscosity, Start::Correct, setup.viscositySweeps, 1.0f / float(setup.viscositySweeps));
   if (first && exists(FluidPass::NoiseDamping, setup)) declareSweeps(graph, FluidPass::NoiseDamping, Start::NoiseDamping, 1, 0);
@@ -41,7 +41,7 @@ void FluidImpl::declareTerms(Graph& graph, bool first) {
   }
   if (!first && !hasForces(setup)) return;
   const Start start = hasForces(setup) ? Start::Correct : Start::NoiseDamping;
-  declare(graph, FluidPass::PredictAfterTerms, start);
+  declare(graph, FluidPass::PredictAfterForces, start);
   declare(graph, FluidPass::PredictAtSolids, start);
 }
 

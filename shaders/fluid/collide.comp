@@ -20,7 +20,7 @@ layout(std430, binding = 11) readonly buffer WarmBlock { float warm[]; };
 layout(std430, binding = 12) readonly buffer NearBlock { vec4 nearSample[]; };
 
 void predict(uint i, vec3 x, vec3 v) {
-  if (TERMS) return;  // predict.comp, after them
+  if (FORCES) return;  // predict.comp, after them
   float pushed;
   vec3 next = outside(predicted(x, v, keptWarmAcceleration(warmAcceleration[i])), ahead(), pushed);
   prediction[i] = vec4(next, pushed);

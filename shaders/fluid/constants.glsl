@@ -9,7 +9,7 @@ layout(constant_id = 4) const bool NEAR = false;       // walls or solids displa
 layout(constant_id = 5) const bool WARM = true;        // multipliers and accelerations of the warm start are kept
 layout(constant_id = 6) const bool ITERATED = false;   // more than one iteration a substep
 layout(constant_id = 7) const bool SOLIDS = false;     // there are solids
-layout(constant_id = 8) const bool TERMS = false;      // viscosity or another force changes velocities in every substep
+layout(constant_id = 8) const bool FORCES = false;     // viscosity or another force changes velocities in every substep
 layout(constant_id = 9) const bool ARTIFICIAL_PRESSURE = false;  // in the first substep of a block
 layout(constant_id = 10) const bool CORNER = false;    // over the particles near several walls or a solid; else near one wall, or all
 layout(constant_id = 11) const bool THIN = true;       // opposite walls can both be near a particle

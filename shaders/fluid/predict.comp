@@ -1,7 +1,7 @@
 #version 460
 // The prediction x* = x + dt (v + dt (g + a)), a the warm start's acceleration; w: m that solids pushed it
 // out. Runs where the correction could not make it: for an advance's first substep, whose step was not
-// known, and after terms that changed velocities. CORNER: for the particles that solids may push alone.
+// known, and after forces that changed velocities. CORNER: for the particles that solids may push alone.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "shared/arrays.glsl"

@@ -48,7 +48,7 @@ TEST_F(DeterminismTest, RepeatedRunsAreEqual) {
   }
 }
 
-TEST_F(DeterminismTest, RepeatedRunsWithEveryTermAreEqual) {
+TEST_F(DeterminismTest, RepeatedRunsWithForcesAreEqual) {
   Trial t = dam();
   t.scene.solver.iterations = 3;
   t.scene.fluid.viscosity = 5;

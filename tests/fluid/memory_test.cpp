@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, FluidMemoryTest,
                          ::testing::Values(Case{"Plain", 100000, [](Scene&) {}},
                                            Case{"Grid", 100000, [](Scene& s) { s.solver.neighbors = NeighborChoice::Grid; }},
                                            Case{"Iterations", 100000, [](Scene& s) { s.solver.iterations = 4; }},
-                                           Case{"Terms", 100000, [](Scene& s) { s.fluid.viscosity = 1, s.fluid.vorticity = 0.5; }},
+                                           Case{"Forces", 100000, [](Scene& s) { s.fluid.viscosity = 1, s.fluid.vorticity = 0.5; }},
                                            Case{"WideSupport", 50000, [](Scene& s) { s.fluid.smoothing_ratio = 3; }},
                                            Case{"SeveralLists", 700000, [](Scene& s) { s.domain.reset(); }}),
                          [](const auto& c) { return c.param.name; });

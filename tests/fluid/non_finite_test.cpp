@@ -66,7 +66,7 @@ TEST_F(NonFiniteTest, DoesNotChangeOtherParticles) {
   }
 }
 
-TEST_F(NonFiniteTest, DoesNotChangeOtherParticlesWithEveryTerm) {
+TEST_F(NonFiniteTest, DoesNotChangeOtherParticlesWithForces) {
   t.scene.solver.iterations = 3;
   t.scene.fluid.viscosity = 10;
   t.scene.fluid.vorticity = 0.3;

@@ -53,7 +53,7 @@ TEST_F(PassRunsTest, CountsPassesThatMayBeEmpty) {
   EXPECT_GT(p.listBuilds, 1u);
   EXPECT_EQ(ran.at("build list"), p.listBuilds + 1u) << "and once at the start";
   EXPECT_EQ(ran.at("sort/"), p.listBuilds + 1u);
-  for (const char* each : {"correct", "collide", "predict after terms", "predict at solids", "viscosity", "curl", "confine"})
+  for (const char* each : {"correct", "collide", "predict after forces", "predict at solids", "viscosity", "curl", "confine"})
     EXPECT_EQ(ran.at(each), p.substeps) << each;
   for (const char* each : {"density", "walls and solids"}) EXPECT_EQ(ran.at(each), p.iterations) << each;
   EXPECT_EQ(ran.at("iterate"), p.iterations - p.substeps);
@@ -68,7 +68,7 @@ TEST_F(PassRunsTest, CountsPassesOfABlock) {
   const uint64_t damped = ran.at("noise damping");
   EXPECT_GE(damped, 1u);
   EXPECT_LT(damped, run->progress().substeps) << "blocks have several substeps";
-  for (const char* each : {"copy velocities", "predict after terms", "predict at solids"}) EXPECT_EQ(ran.at(each), damped) << each;
+  for (const char* each : {"copy velocities", "predict after forces", "predict at solids"}) EXPECT_EQ(ran.at(each), damped) << each;
   EXPECT_EQ(ran.count("viscosity"), 0u);
 }
 

@@ -114,7 +114,7 @@ TEST_F(SnapshotTest, ContinuesWithMovingSolids) {
   expectTheSame(t);
 }
 
-TEST_F(SnapshotTest, ContinuesWithEveryTerm) {
+TEST_F(SnapshotTest, ContinuesWithForces) {
   for (double viscosity : {1.0, 20.0}) {
     Trial t = dam();
     t.scene.solver.iterations = 3;
