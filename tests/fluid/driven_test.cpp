@@ -74,15 +74,15 @@ TEST_F(DrivenTest, KeepsToItsMaximumSpeed) {
   EXPECT_NEAR(center[1], 0.2 + 5 * 0.02, 1e-6);
   const auto records = solidsOf(run->fluid());
   ASSERT_EQ(records.size(), 1u);
-  EXPECT_NEAR(records[0].pose.centerY, center[1], 1e-6) << "the device has it there too";
+  EXPECT_NEAR(records[0].pose.centerY, center[1], 1e-6) << "the same pose on the device";
   EXPECT_NEAR(records[0].pose.velocityY, 5, 1e-4);
   run->targets.clear();
   run->advance(0.02);
-  EXPECT_EQ(run->fluid().drivenCenter(0), center) << "who is not named stays";
+  EXPECT_EQ(run->fluid().drivenCenter(0), center) << "a solid without a target stays";
   EXPECT_EQ(solidsOf(run->fluid())[0].pose.velocityY, 0);
   run->targets = {target(0, std::numeric_limits<double>::quiet_NaN(), 0, 0)};
   run->advance(0.02);
-  EXPECT_EQ(run->fluid().drivenCenter(0), center) << "nor does one whose target is no place";
+  EXPECT_EQ(run->fluid().drivenCenter(0), center) << "so does one whose target is not finite";
 }
 
 TEST_F(DrivenTest, MovesDrivenSolidsOnly) {

@@ -22,7 +22,7 @@ Trial column(int layers) {
   return t;
 }
 
-// The same let go at one side.
+// The same with a free side.
 Trial dam(int layers) {
   Trial t = column(layers);
   setWalls(t, {20 * t.d(), 1.5 * layers * t.d(), 6 * t.d()});
@@ -40,17 +40,18 @@ struct InitialPressureTest : FluidTest {
   }
 };
 
-// In the middle of the tank, at its walls and in its edges alike. A layer and the next one are taken together: they differ by turns.
+// In the middle of the tank, at its walls and in its edges. Means of two layers: neighboring layers alternate.
 TEST_F(InitialPressureTest, EqualsTheWeightAbove) {
   const Trial t = column(30);
   auto run = start(t);
   run->substeps(1);
   const auto p = pressures(*run, t);
   const SmoothingKernel kernel(KernelChoice::Wendland, 2 * t.d(), t.d());
-  double push = 0;  // of a pressure that falls by 1 a meter, on the cubic lattice: 0.95, so that it takes more to bear the same
+  // Force of a unit pressure gradient on the cubic lattice, 0.95: the gradient that balances the weight is larger by its inverse.
+  double force = 0;
   for (int x = -1; x <= 1; ++x)
     for (int y = -1; y <= 1; ++y)
-      for (int z = -1; z <= 1; ++z) push -= kernel.gradientOverR(t.d() * std::sqrt(double(x * x + y * y + z * z))) * y * y * t.d() * t.d();
+      for (int z = -1; z <= 1; ++z) force -= kernel.gradientOverR(t.d() * std::sqrt(double(x * x + y * y + z * z))) * y * y * t.d() * t.d();
   double low[6][6] = {}, high[6][6] = {};
   for (size_t i = 0; i < p.size(); ++i) {
     const auto at = [&](int a) { return static_cast<int>(t.x[i][a] / t.d()); };
@@ -60,7 +61,7 @@ TEST_F(InitialPressureTest, EqualsTheWeightAbove) {
   for (int x = 0; x < 6; ++x)
     for (int z = 0; z < 6; ++z) {
       const double rises = (low[x][z] - high[x][z]) / (14 * t.d()) / (t.scene.fluid.density * kGravity);
-      EXPECT_NEAR(rises * push, 1, 0.02) << "column " << x << ", " << z << ": meters of water a meter";
+      EXPECT_NEAR(rises * force, 1, 0.02) << "column " << x << ", " << z << ": meters of water a meter";
     }
 }
 

@@ -1,4 +1,4 @@
-// A fluid that goes on from a snapshot has the bits of the one that it was taken of, and one that is taken leaves no trace.
+// A fluid that is created from a snapshot continues with the bits of the original; reading a snapshot does not change a fluid.
 #include "fluid/snapshot.hpp"
 
 #include <cstring>
@@ -30,7 +30,7 @@ Solid moving(Solid solid) {
 
 class SnapshotTest : public FluidTest {
  protected:
-  /// Fills all that a snapshot does not bring with numbers that make no sense: what reads it before it is written stands out.
+  /// Fills all buffers with NaN: a pass that reads one which the snapshot does not contain and nothing has written changes the result.
   void poison(const Fluid& fluid) {
     const FluidImpl& impl = implOf(fluid);
     std::vector<const Buffer*> all;
@@ -41,6 +41,7 @@ class SnapshotTest : public FluidTest {
     graph.pass("poison", [&](Pass& pass) {
       pass.sideEffect();
       std::vector<BufferRef> refs;
+      refs.reserve(all.size());
       for (const Buffer* buffer : all)
         refs.push_back(pass.write(graph.import("any", {.handle = buffer->handle(), .size = buffer->size()}), Use::CopyTarget, true));
       return [refs](Commands& commands) {
@@ -58,10 +59,10 @@ class SnapshotTest : public FluidTest {
                 a.warmStart == b.warmStart && a.id == b.id);
     EXPECT_TRUE(a.nearWall == b.nearWall && a.nearCorner == b.nearCorner);
     EXPECT_TRUE(a.neighborCount == b.neighborCount && a.neighbors == b.neighbors && a.cell == b.cell);
-    EXPECT_EQ(a, b) << "nothing is lost on the way";
+    EXPECT_EQ(a, b) << "a member that is not compared above";
   }
 
-  /// A snapshot before the first step and after each of two frames; each goes on for two more.
+  /// A snapshot before the first step and after each of two frames; the fluid created from it advances two more.
   void expectTheSame(const Trial& t) {
     std::vector<Snapshot> untouched;
     auto straight = start(t);
@@ -69,32 +70,32 @@ class SnapshotTest : public FluidTest {
       straight->advance(kFrame);
       untouched.push_back(straight->snapshot());
     }
-    auto looked = start(t);
+    auto original = start(t);
     for (size_t n = 0; n < 3; ++n) {
       SCOPED_TRACE("after " + std::to_string(n) + " frames");
-      const FluidSnapshot saved = looked->saved();
-      alive_ += hasNeighbors(saved) ? 1 : 0;
-      walks_ += hasNeighbors(saved) && walksGrid(saved) ? 1 : 0;
+      const FluidSnapshot saved = original->saved();
+      withList_ += hasNeighbors(saved) ? 1 : 0;
+      walksGrid_ += hasNeighbors(saved) && walksGrid(saved) ? 1 : 0;
       auto resumed = start(t, &saved);
       poison(resumed->fluid());
       expectEqual(resumed->saved(), saved);
-      const FluidStats there = looked->stats(), here = resumed->stats();
+      const FluidStats there = original->stats(), here = resumed->stats();
       EXPECT_EQ(there.densityErrorMean, here.densityErrorMean);
       EXPECT_EQ(there.time_s, here.time_s);
       for (size_t more = n; more < n + 2 && more < 4; ++more) {
         resumed->advance(kFrame, more % 2 ? 12 : 64);
         EXPECT_EQ(resumed->snapshot(), untouched[more]) << "frame " << more + 1;
       }
-      auto unseen = start(t, &saved);
-      poison(unseen->fluid());
-      unseen->advance(kFrame);
-      EXPECT_EQ(unseen->snapshot(), untouched[n]) << "without a look at its start";
-      looked->advance(kFrame);
-      EXPECT_EQ(looked->snapshot(), untouched[n]) << "who is read goes on as if he were not";
+      auto unread = start(t, &saved);
+      poison(unread->fluid());
+      unread->advance(kFrame);
+      EXPECT_EQ(unread->snapshot(), untouched[n]) << "without reading its start";
+      original->advance(kFrame);
+      EXPECT_EQ(original->snapshot(), untouched[n]) << "after its state was read";
     }
   }
 
-  int alive_ = 0, walks_ = 0;  // snapshots with a list, with walkers
+  int withList_ = 0, walksGrid_ = 0;  // snapshots with a valid list; with particles that walk the grid
 };
 
 TEST_F(SnapshotTest, ContinuesWithEitherNeighborSearch) {
@@ -104,7 +105,7 @@ TEST_F(SnapshotTest, ContinuesWithEitherNeighborSearch) {
     t.gather = gather;
     expectTheSame(t);
   }
-  EXPECT_GE(alive_, 3) << "lists that are alive among them";
+  EXPECT_GE(withList_, 3) << "snapshots with a valid list";
 }
 
 TEST_F(SnapshotTest, ContinuesWithMovingSolids) {
@@ -142,7 +143,7 @@ TEST_F(SnapshotTest, ContinuesWithListsThatOverflow) {
   t.scene.solver.cfl = 0.05;
   t.scene.solver.tolerance = 0;
   expectTheSame(t);
-  EXPECT_GT(walks_, 0) << "some walk the grid";
+  EXPECT_GT(walksGrid_, 0) << "snapshots with particles that walk the grid";
 }
 
 TEST_F(SnapshotTest, ContinuesWithInactiveParticles) {

@@ -82,7 +82,7 @@ TEST_F(StatsTest, MatchesReferenceInACompressedCloud) {
   t.x = cloud(500, 6 * t.d(), 21, glm::dvec3(0.03));
   t.v = cloud(500, 3.0, 22, {-1, -1, -2});
   t.scene.gravity[0] = 2;
-  t.scene.solver.cfl = 0.25;  // who is near a wall is known to within a list's life: no particle may fly there at once
+  t.scene.solver.cfl = 0.25;  // short steps: no particle reaches a wall before the next rebuild lists it as near
   auto run = start(t);
   expectLike(t, *run);
   run->substeps(2);
