@@ -11,6 +11,7 @@
 
 namespace {
 
+using rill::Double3;
 using rill::KernelChoice;
 using rill::LineSample;
 using rill::SmoothingKernel;
@@ -253,6 +254,30 @@ TEST(WallScale, AddsTheWallsOfATurnedEdge) {
     EXPECT_NEAR(scaled(scale, second)[a], second[a] / (1 - 0.125), 1e-9);
     EXPECT_NEAR(scaled(scale, edge)[a], edge[a] / (1 - 0.325), 1e-9);
   }
+}
+
+// Coverage above the bound is cut axis by axis or by a common factor: there a small turn of a wall is a step. At h = 2 d no corner is.
+TEST(WallScale, StepsByASmallTurnAboveTheBoundOnly) {
+  constexpr double kTurn = 1e-3, kNear = kWallSpacing / 2;  // rad, m
+  const auto step = [](double ratio, double slot) {
+    const SmoothingKernel k(KernelChoice::Wendland, ratio * kWallSpacing, kWallSpacing);
+    const WallSample walls = rill::exactWall(k, {slot, kNear, kNear}, {kFar, kFar, kFar});
+    const double behind = rill::exactWall(k, {kNear, kFar, kFar}, {kFar, kFar, kFar}).value;  // a face of a box
+    const auto scale = [&](double turn) {
+      WallSample sample = walls;
+      sample.cover(behind, {-std::cos(turn), 0, std::sin(turn)});
+      return rill::wallScale(sample);
+    };
+    double most = 0;
+    for (size_t a = 0; a < 3; ++a) most = std::max(most, std::abs(scale(kTurn).diagonal[a] / scale(0).diagonal[a] - 1));
+    return most;
+  };
+  EXPECT_LT(step(2, kFar), kTurn);
+  EXPECT_LT(step(2, kNear), kTurn) << "in a slot one layer wide";
+  EXPECT_NEAR(step(3, kFar), 0.076, 0.001);
+  EXPECT_NEAR(step(4, kFar), 0.094, 0.001);
+  EXPECT_NEAR(step(2.3, kNear), 0.080, 0.001);
+  EXPECT_NEAR(step(4, kNear), 0.199, 0.001);
 }
 
 }  // namespace
