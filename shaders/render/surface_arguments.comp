@@ -2,16 +2,17 @@
 // Dispatch and draw arguments from the counts so far.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
+#include "shared/dispatch.glsl"
 
 layout(local_size_x = 1) in;
 layout(std430, set = 0, binding = 0) readonly buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 1) writeonly buffer Arguments { uint arguments[]; };
 
 void groups(uint at, uint count) {
-  const uint rows = (count + 65534u) / 65535u;
-  arguments[at] = rows == 0u ? 0u : (count + rows - 1u) / rows;
-  arguments[at + 1u] = rows;
-  arguments[at + 2u] = 1u;
+  const uvec3 folded = foldGroups(count);
+  arguments[at] = folded.x;
+  arguments[at + 1u] = folded.y;
+  arguments[at + 2u] = folded.z;
 }
 
 void main() {

@@ -1,16 +1,17 @@
 #version 460
 // Dispatch arguments from the counts of survivors and tiles. Runs after each count and writes all arguments.
 #extension GL_GOOGLE_include_directive : require
+#include "shared/dispatch.glsl"
 #include "views/particle_view.glsl"
 
 layout(local_size_x = 1) in;
 layout(std430, set = 0, binding = 0) buffer Counters { uint counters[]; };
 
 void writeArguments(uint at, uint groups) {
-  const uint x = min(groups, 65535u);
-  counters[at] = x;
-  counters[at + 1u] = x == 0u ? 0u : (groups + x - 1u) / x;
-  counters[at + 2u] = x == 0u ? 0u : 1u;
+  const uvec3 folded = foldGroups(groups);
+  counters[at] = folded.x;
+  counters[at + 1u] = folded.y;
+  counters[at + 2u] = folded.z;
 }
 
 void main() {
