@@ -89,7 +89,7 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
     graph.skipped("surface mean normals", "the look is opaque");
   } else {
     normals = meanNormals.addTo(graph, last);
-    thickness = surface.addThickness(graph, kFluidThickness, fluid, thick, sceneDepth, &last.counters);
+    thickness = surface.addThickness(graph, kFluidThickness, fluid, thick, sceneDepth, &last);
   }
   const BufferRef record = addLook(graph, lookRecord(look, thick, environment.get()));
   graph.pass("fluid shade", [&](Pass& pass) {
@@ -126,7 +126,7 @@ BufferRef FluidRendererImpl::addData(Graph& graph, const FluidState& fluid, cons
   last = surface.addTo(graph, fluid, push, method, true, view.focus_m);
   const SurfacePush thick = SurfaceStage::thicknessPush(push, fluid, kThicknessStep);
   BufferRef thickness;
-  if (what == SurfaceData::Thickness) thickness = surface.addThickness(graph, kFluidThickness, fluid, thick, {}, &last.counters);
+  if (what == SurfaceData::Thickness) thickness = surface.addThickness(graph, kFluidThickness, fluid, thick, {}, &last);
   addDispatch(graph, "surface data", data[static_cast<size_t>(what)], divideUp(pixels, kSurfaceGroup), DataPush{thick, full},
               {{"surface", last.pixels}, {"thickness", thickness}, {"picture", picture}});
   return picture;

@@ -9,7 +9,6 @@
 #include "gpu/module_pipelines.hpp"
 #include "gpu/texel_reads.hpp"
 #include "graph/shader_pass.hpp"
-#include "render/particle_count.hpp"
 #include "sort/dispatches.hpp"
 
 namespace rill {
@@ -45,6 +44,7 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device) {
   SurfaceStage stage;
   stage.device_ = &implOf(device);
   ModulePipelines pipelines(device);
+  stage.particleGroups_ = pipelines.make("render/particle_groups");
   stage.occlude_ = pipelines.make("render/surface_occlude");
   stage.cull_ = pipelines.make("render/surface_cull");
   stage.arguments_ = pipelines.make("render/surface_arguments");
@@ -84,9 +84,9 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
   frame.texels = !frame.storageReads && usesTexelReads(*device_->device, maxTexels);
   frame.narrowRange = method == SurfaceMethod::NarrowRange && !settings.filter;
   frame.position = fluid.position;
-  frame.count = particleCount(graph, fluid);
+  frame.out.particles = countParticles(graph, fluid, particleGroups_, kSurfaceGroup);
   addBuffers(graph, fluid, frame, whole);
-  addVisible(graph, fluid, frame);
+  addVisible(graph, frame);
   addGrid(graph, fluid, frame);
   if (filtered)
     addFiltered(graph, frame, settings);
@@ -146,7 +146,7 @@ void SurfaceStage::addBuffers(Graph& graph, const FluidState& fluid, Frame& fram
 void SurfaceStage::add(Graph& graph, std::string_view name, const ComputePipeline* pipeline, const DispatchSize& size, Frame& f) const {
   addDispatch(graph, name, pipeline, size, f.out.push,
               {{"position", f.position},
-               {"particle_count", f.count},
+               {"particle_count", f.out.particles.count},
                {"occluders", f.occluders},
                {"survivors", f.survivors},
                {"depth", f.depth},
@@ -175,11 +175,11 @@ void SurfaceStage::addCounted(Graph& graph, std::string_view name, const Compute
 void SurfaceStage::addArguments(Graph& graph, Frame& frame) const { add(graph, "surface arguments", arguments_, 1, frame); }
 
 /// Particles that are not occluded, the depth of their spheres, and the tiles that these cover.
-void SurfaceStage::addVisible(Graph& graph, const FluidState& fluid, Frame& frame) const {
+void SurfaceStage::addVisible(Graph& graph, Frame& frame) const {
   const SurfacePush& push = frame.out.push;
-  const uint64_t particles = divideUp(fluid.capacity, kSurfaceGroup), tiles = gridCells(push.width, push.height, kSurfaceTile);
-  add(graph, "surface occlude", occlude_, particles, frame);
-  add(graph, "surface cull", cull_, particles, frame);
+  const uint64_t tiles = gridCells(push.width, push.height, kSurfaceTile);
+  add(graph, "surface occlude", occlude_, frame.out.particles.groups, frame);
+  add(graph, "surface cull", cull_, frame.out.particles.groups, frame);
   addArguments(graph, frame);
   addCounted(graph, "surface splat", splat_, kSurvivorArguments, frame);
   add(graph, "surface tiles", tiles_, divideUp(std::max(tiles, frame.sampleBlocks), kSurfaceGroup), frame);

@@ -50,9 +50,9 @@ class SurfaceStage {
 
   /// Thickness along each sample's ray in units of `push.unit`, one sample per `push.step` pixels.
   /// `sceneDepth`: m per pixel, hides fluid behind it; may be an empty ref.
-  /// `counters`: those of addTo(), for kBoundHits; may be null.
+  /// `surface`: the result of addTo() for the same state, which counts kBoundHits; may be null.
   BufferRef addThickness(Graph& graph, const ThicknessNames& names, const FluidState& fluid, const surface::SurfacePush& push,
-                         BufferRef sceneDepth, BufferRef* counters) const;
+                         BufferRef sceneDepth, SurfaceBuffers* surface) const;
   /// The camera with the fields that addThickness() needs.
   static surface::SurfacePush thicknessPush(surface::SurfacePush camera, const FluidState& fluid, uint32_t step);
 
@@ -62,7 +62,7 @@ class SurfaceStage {
     SurfaceBuffers out;
     uint64_t sampleBlocks = 0, occluderCells = 0, cells = 0;  ///< numbers, including the margin
     double sampleSide = 0;                                    ///< m, width of a sample at the focus
-    BufferRef position, count;                                ///< of the fluid
+    BufferRef position;                                       ///< of the fluid
     BufferRef occluders, depth;                               ///< depth: of the spheres, before smoothing
     BufferRef survivors;                                      ///< particles that are not occluded
     BufferRef start, center, rank, arrived;                   ///< screen grid of surface particles
@@ -81,7 +81,7 @@ class SurfaceStage {
   void addArguments(Graph& graph, Frame& frame) const;
   void add(Graph& graph, std::string_view name, const ComputePipeline* pipeline, const DispatchSize& size, Frame& frame) const;
   void addCounted(Graph& graph, std::string_view name, const ComputePipeline* pipeline, uint32_t arguments, Frame& frame) const;
-  void addVisible(Graph& graph, const FluidState& fluid, Frame& frame) const;
+  void addVisible(Graph& graph, Frame& frame) const;
   void addGrid(Graph& graph, const FluidState& fluid, Frame& frame) const;
   void addPlanes(Graph& graph, Frame& frame) const;
   void addFiltered(Graph& graph, Frame& frame, const SurfaceSettings& settings) const;
@@ -89,10 +89,10 @@ class SurfaceStage {
 
   DeviceImpl* device_ = nullptr;
   CurvatureFlow flow_;
-  const ComputePipeline *occlude_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr, *pick_ = nullptr,
-                        *scatter_ = nullptr, *order_ = nullptr, *planes_[2] = {}, *blend_[2] = {}, *tiles_ = nullptr, *compose_ = nullptr,
-                        *edges_[2] = {}, *edgesFiltered_[2] = {}, *narrow_[2][2] = {}, *normals_[2] = {}, *thickness_ = nullptr,
-                        *thicknessNoScene_ = nullptr;
+  const ComputePipeline *particleGroups_ = nullptr, *occlude_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr,
+                        *pick_ = nullptr, *scatter_ = nullptr, *order_ = nullptr, *planes_[2] = {}, *blend_[2] = {}, *tiles_ = nullptr,
+                        *compose_ = nullptr, *edges_[2] = {}, *edgesFiltered_[2] = {}, *narrow_[2][2] = {}, *normals_[2] = {},
+                        *thickness_ = nullptr, *thicknessNoScene_ = nullptr;
 };
 
 /// Pixels per side of a sample, such that a spacing at `depth` has `samples` to twice as many samples.

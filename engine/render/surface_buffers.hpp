@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 
+#include "render/particle_count.hpp"
 #include "render/surface_records.h"
 #include "rill/graph.hpp"
 #include "rill/vectors.hpp"
@@ -10,12 +11,13 @@ namespace rill {
 
 /// The result of SurfaceStage. Only pixels of listed tiles are written, unless `whole` was set.
 struct SurfaceBuffers {
-  BufferRef pixels;     ///< two words per pixel, see unpackPixel()
-  BufferRef tiles;      ///< indices of tiles with fluid, in any order
-  BufferRef samples;    ///< two words per sample: depth (infinite: no fluid) and packNormal()
-  BufferRef blocks;     ///< indices of blocks of samples with fluid, in any order
-  BufferRef counters;   ///< kSurvivorCount ...
-  BufferRef arguments;  ///< kSurfaceTileArguments, kTileDraw, kPixelArguments
+  BufferRef pixels;            ///< two words per pixel, see unpackPixel()
+  BufferRef tiles;             ///< indices of tiles with fluid, in any order
+  BufferRef samples;           ///< two words per sample: depth (infinite: no fluid) and packNormal()
+  BufferRef blocks;            ///< indices of blocks of samples with fluid, in any order
+  BufferRef counters;          ///< kSurvivorCount ...
+  BufferRef arguments;         ///< kSurfaceTileArguments, kTileDraw, kPixelArguments
+  CountedParticles particles;  ///< of the state
   surface::SurfacePush push;
 };
 

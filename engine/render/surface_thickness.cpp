@@ -1,6 +1,5 @@
 // The thickness of the fluid along rays, as passes.
 #include "graph/shader_pass.hpp"
-#include "render/particle_count.hpp"
 #include "render/surface.hpp"
 
 namespace rill {
@@ -25,19 +24,19 @@ SurfacePush SurfaceStage::thicknessPush(SurfacePush camera, const FluidState& fl
 }
 
 BufferRef SurfaceStage::addThickness(Graph& graph, const ThicknessNames& names, const FluidState& fluid, const SurfacePush& push,
-                                     BufferRef sceneDepth, BufferRef* counters) const {
+                                     BufferRef sceneDepth, SurfaceBuffers* surface) const {
   BufferRef own;
-  if (!counters) own = graph.create(names.counters, {kSurfaceCounterWords * 4});
+  if (!surface) own = graph.create(names.counters, {kSurfaceCounterWords * 4});
   BufferRef thickness = graph.create(names.pass, {gridCells(push.width, push.height, push.step) * 4});
-  addFill(graph, names.clear, {{&thickness, 0}, {counters ? nullptr : &own, 0}});
+  addFill(graph, names.clear, {{&thickness, 0}, {surface ? nullptr : &own, 0}});
   if (fluid.capacity == 0) return thickness;
-  const uint64_t groups = divideUp(fluid.capacity, kSurfaceGroup);
-  BufferRef& counted = counters ? *counters : own;
-  addDispatch(graph, names.pass, sceneDepth == BufferRef{} ? thicknessNoScene_ : thickness_, groups, push,
+  const CountedParticles particles = surface ? surface->particles : countParticles(graph, fluid, particleGroups_, kSurfaceGroup);
+  BufferRef& counters = surface ? surface->counters : own;
+  addDispatch(graph, names.pass, sceneDepth == BufferRef{} ? thicknessNoScene_ : thickness_, particles.groups, push,
               {{"position", fluid.position},
-               {"particle_count", particleCount(graph, fluid)},
+               {"particle_count", particles.count},
                {"thickness", thickness},
-               {"counters", counted},
+               {"counters", counters},
                {"scene_depth", sceneDepth}});
   return thickness;
 }

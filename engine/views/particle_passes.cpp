@@ -15,7 +15,7 @@ constexpr uint32_t kInfinity = 0x7F800000u;  // bits of the float
 }  // namespace
 
 void ParticleView::add(Graph& graph, std::string_view name, const ComputePipeline* pipeline, const DispatchSize& size, Frame& f) const {
-  const BufferRef &scene = f.scene, &position = f.position, &velocity = f.velocity, &count = f.count;
+  const BufferRef &scene = f.scene, &position = f.position, &velocity = f.velocity, &count = f.particles.count;
   addDispatch(graph, name, pipeline, size, f.push,
               {{"scene", scene},
                {"position", position},
@@ -83,12 +83,11 @@ void ParticleView::addLightMap(Graph& graph, Frame& frame) const {
 
 /// Particles into the light map, and the list of those that may be visible.
 void ParticleView::addVisibility(Graph& graph, Frame& frame) const {
-  const uint64_t groups = divideUp(frame.push.count, kParticleGroup);
   frame.occluders = graph.create("view occluders", {gridCells(frame.push.width, frame.push.height, frame.push.cell) * 4});
   frame.survivors = graph.create("view survivors", {uint64_t{frame.push.count} * 4});
   addFill(graph, "view clear", {{&frame.occluders, kInfinity}});
-  add(graph, "view project", project_, groups, frame);
-  add(graph, "view cull", cull_, groups, frame);
+  add(graph, "view project", project_, frame.particles.groups, frame);
+  add(graph, "view cull", cull_, frame.particles.groups, frame);
   addArguments(graph, frame);
 }
 

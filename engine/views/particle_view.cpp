@@ -7,8 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "render/particle_count.hpp"
-
 namespace rill {
 namespace {
 
@@ -58,6 +56,9 @@ Expected<std::unique_ptr<ParticleView>> ParticleView::create(Device& device, con
     if (!made) return made.error();
     pipeline = *made;
   }
+  auto groups = computePipeline(device, {.shader = "render/particle_groups"});
+  if (!groups) return groups.error();
+  out->particleGroups_ = *groups;
   return out;
 }
 
@@ -99,7 +100,7 @@ BufferRef ParticleView::addTo(Graph& graph, const FluidState& fluid, const Camer
   frame.pixels = uint64_t{desc.width} * desc.height;
   frame.position = fluid.position;
   frame.velocity = fluid.velocity;
-  if (fluid.capacity > 0) frame.count = particleCount(graph, fluid);
+  if (fluid.capacity > 0) frame.particles = countParticles(graph, fluid, particleGroups_, kParticleGroup);
   addSetup(graph, fluid, frame);
   addSurfaces(graph, frame);
   addLightMap(graph, frame);

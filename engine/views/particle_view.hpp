@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "graph/shader_pass.hpp"
+#include "render/particle_count.hpp"
 #include "rill/device.hpp"
 #include "rill/expected.hpp"
 #include "rill/fluid.hpp"
@@ -50,7 +51,8 @@ class ParticleView {
   struct Frame {
     particle_view::ViewPush push;
     uint64_t pixels = 0;
-    BufferRef scene, poses, edges, depth, winner, light, floor, tint, position, velocity, count, counters, survivors;
+    BufferRef scene, poses, edges, depth, winner, light, floor, tint, position, velocity, counters, survivors;
+    CountedParticles particles;  ///< without any, empty
     BufferRef masks, occluders, tiles, shaded, rims, picture;
   };
 
@@ -77,8 +79,8 @@ class ParticleView {
 
   SceneBuffers buffers_;
   const ComputePipeline *edges_ = nullptr, *solidTiles_ = nullptr, *lightTiles_ = nullptr, *surfaces_ = nullptr, *floor_ = nullptr;
-  const ComputePipeline *lightSolids_ = nullptr, *project_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr,
-                        *splatLarge_ = nullptr;
+  const ComputePipeline *lightSolids_ = nullptr, *particleGroups_ = nullptr, *project_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr,
+                        *splat_ = nullptr, *splatLarge_ = nullptr;
   const ComputePipeline *floorShadow_ = nullptr, *tint_ = nullptr, *classify_ = nullptr, *shadeFluid_ = nullptr, *shadeFloor_ = nullptr,
                         *shadeShadowedFloor_ = nullptr;
   const ComputePipeline *shadeSky_ = nullptr, *shadeSolids_ = nullptr, *resolve_ = nullptr, *drawEdges_ = nullptr;
