@@ -239,7 +239,8 @@ class Render {
 
   /// Times of smoothing and normals: all passes after the sphere depth. Separate runs, since time stamps per pass slow the graph.
   Expected<std::vector<double>> timeSmoothing(const Points& points, const SurfaceVariant& variant, const FluidView& view) {
-    static constexpr std::array kBefore{"surface clear", "surface occlude", "surface cull", "surface splat", "surface tiles"};
+    static constexpr std::array kBefore{"particle count", "surface clear", "surface occlude",
+                                        "surface cull",   "surface splat", "surface tiles"};
     std::vector<double> taken;
     workbench_->timePasses(true);
     for (uint32_t k = 0; k < samples(); ++k) {
