@@ -25,6 +25,7 @@ test  clang                   clang (also compiles the public headers)
 test  libgtest-dev            GoogleTest
 test  libvulkan-volk-dev      volk (used by a test host)
 test  pkgconf                 pkg-config (builds a test host)
+test  spirv-headers           SPIR-V headers (the layers of the tests)
 test  glslang-dev             glslang (library, for shader reload in development builds and a test)
 test  binutils                binutils (nm)
 test  ffmpeg                  ffmpeg with libx264, and ffprobe (the videos of rill-capture)

@@ -15,7 +15,7 @@ layout(std430, binding = 7) readonly buffer SumsBlock { FluidSums sums; };
 layout(std430, binding = 8) readonly buffer SolidBlock { SolidRecord solids[]; };
 #include "fluid/outside.glsl"
 layout(std430, binding = 9) readonly buffer FreeBlock { vec4 freeVelocity[]; };
-layout(std430, binding = 10) readonly buffer WorkBlock { vec4 work[]; };
+layout(std430, binding = 10) readonly buffer WorkBlock { uvec4 work[]; };
 layout(std430, binding = 11) readonly buffer WarmBlock { float warm[]; };
 layout(std430, binding = 12) readonly buffer NearBlock { vec4 nearSample[]; };
 
@@ -42,7 +42,7 @@ void main() {
   vec3 v = velocity[i].xyz + (x - from) / control.step;
   // The multiplier in all, never positive: what the warm start had, and the change. `warm` has a
   // share of the change already.
-  float change = unpackHalf2x16(floatBitsToUint(work[i].w)).x * (params.inverseRestGradient / kMultiplierScale);
+  float change = unpackHalf2x16(work[i].w).x * (params.inverseRestGradient / kMultiplierScale);
   float multiplier = min(0.0, (WARM ? warm[i] : 0.0) + (1.0 - control.warmGain) * change);
   vec3 given = multiplier * nearSample[NEAR_DISPLACED(i)].xyz / control.step + (x - from) / control.step;
   for (uint k = 0u; k < params.solidCount; ++k) {

@@ -7,6 +7,7 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "fluid/uniforms.glsl"
+#define PARTICLE uvec4
 #include "fluid/arrays.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
@@ -35,10 +36,10 @@ float tensileScale = params.valueScale * params.tensileInverse;
 float tensilePower = params.tensilePower;
 float tensileAtRest = params.tensileAtRest;
 
-vec2 multipliers(vec4 particle) { return unpackHalf2x16(floatBitsToUint(particle.w)); }
+vec2 multipliers(uvec4 particle) { return unpackHalf2x16(particle.w); }
 
-void visit(vec4 particle) {
-  vec3 r = here - particle.xyz;
+void visit(uvec4 particle) {
+  vec3 r = here - uintBitsToFloat(particle.xyz);
   float distance = sqrt(dot(r, r));
   vec3 gradient = gradientShape(distance) * r;
   vec2 both = own + multipliers(particle);
@@ -65,8 +66,8 @@ void main() {
   uint i = push.first + local;
   bool inRange = i < min(push.last, control.count);
   if (!inRange) i = params.capacity;
-  vec4 particle = particleAt(i);
-  here = particle.xyz;
+  uvec4 particle = particleAt(i);
+  here = uintBitsToFloat(particle.xyz);
   own = multipliers(particle);
   visitNeighbors(i, local, inRange);
   if (!inRange) return;

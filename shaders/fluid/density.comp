@@ -15,7 +15,7 @@ layout(local_size_x = kFluidGroup) in;
 
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer WarmBlock { float warm[]; };
-layout(std430, binding = 9) writeonly buffer WorkBlock { vec4 work[]; };
+layout(std430, binding = 9) writeonly buffer WorkBlock { uvec4 work[]; };
 READ_NEAR(10)
 layout(std430, binding = 11) buffer MultiplierBlock { float multiplier[]; };
 
@@ -81,7 +81,7 @@ void main() {
   if (ITERATED) multiplier[i] = after;
 
   float unit = kMultiplierScale / params.inverseRestGradient;
-  work[i] = vec4(here, uintBitsToFloat(packHalf2x16(clamp(vec2(after - before, warmNext) * unit, -60000.0, 60000.0))));
+  work[i] = uvec4(floatBitsToUint(here), packHalf2x16(clamp(vec2(after - before, warmNext) * unit, -60000.0, 60000.0)));
 
   float compression = clamp(constraint, 0.0, 1.0);  // of 64 lanes, in kErrorUnit, it fits into 32 bits
   float sum = subgroupAdd(compression);

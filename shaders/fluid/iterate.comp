@@ -4,6 +4,7 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #include "fluid/uniforms.glsl"
+#define PARTICLE uvec4
 #include "fluid/arrays.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
@@ -20,10 +21,10 @@ vec3 moved = vec3(0.0);
 
 float unit = params.inverseRestGradient / kMultiplierScale;  // m^2, of the multipliers
 
-float multiplier(vec4 particle) { return unpackHalf2x16(floatBitsToUint(particle.w)).x; }
+float multiplier(uvec4 particle) { return unpackHalf2x16(particle.w).x; }
 
-void visit(vec4 particle) {
-  vec3 r = here - particle.xyz;
+void visit(uvec4 particle) {
+  vec3 r = here - uintBitsToFloat(particle.xyz);
   moved += (own + multiplier(particle)) * gradientShape(sqrt(dot(r, r))) * r;
 }
 #include "fluid/neighbors.glsl"
@@ -33,8 +34,8 @@ void main() {
   uint i = push.first + local;
   bool inRange = i < min(push.last, control.count);
   if (!inRange) i = params.capacity;
-  vec4 particle = particleAt(i);
-  here = particle.xyz;
+  uvec4 particle = particleAt(i);
+  here = uintBitsToFloat(particle.xyz);
   own = multiplier(particle);
   visitNeighbors(i, local, inRange);
   if (!inRange) return;

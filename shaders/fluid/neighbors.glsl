@@ -2,8 +2,8 @@
 // list or it overflowed. Only the variant WALKS can walk; the device dispatches it in place of the
 // other while a list is full (the unused code costs an eighth of the time on lavapipe). Before it
 // includes this the shader includes fluid/arrays.glsl, defines `vec3 here`, the particle's place,
-// and `void visit(vec4 particle)`, and binds at 2 the array whose elements are handed over; with
-// COMPANION(j) defined, `void visit(vec4 particle, vec4 companion)`. Particles beyond the support
+// and `void visit(PARTICLE particle)`, and binds at 2 the array whose elements are handed over; with
+// COMPANION(j) defined, `void visit(PARTICLE particle, vec4 companion)`. Particles beyond the support
 // and dummies are visited too.
 #ifndef RILL_NEIGHBORS_GLSL
 #define RILL_NEIGHBORS_GLSL
@@ -15,17 +15,19 @@ layout(std430, binding = 7) buffer SumsBlock { FluidSums sums; };
 vec3 place;
 uint self;
 void takeTurn(bool mine) { here = mine ? place : vec3(-kInactivePosition); }  // from there nothing is near
+vec4 movedAway(vec4 particle) { return vec4(vec3(kInactivePosition), particle.w); }
+uvec4 movedAway(uvec4 particle) { return uvec4(floatBitsToUint(vec3(kInactivePosition)), particle.w); }
 void candidates(uint first, uint end) {
   uint base = first;
   LOOP_WHILE (base < end) {
     uint j = base + clusterLane < end ? base + clusterLane : params.capacity;
-    vec4 particle = particleAt(j);
+    PARTICLE particle = particleAt(j);
 #ifdef COMPANION
     vec4 companion = COMPANION(j);
 #endif
     for (uint lane = 0u; lane < CLUSTER; ++lane) {
-      vec4 other = SPREAD(particle, lane);
-      if (base + lane == self) other.xyz = vec3(kInactivePosition);
+      PARTICLE other = SPREAD(particle, lane);
+      if (base + lane == self) other = movedAway(other);
 #ifdef COMPANION
       visit(other, SPREAD(companion, lane));
 #else
@@ -54,7 +56,7 @@ void visitNeighbors(uint i, uint local, bool inRange) {
     uint k = 0u;
     LOOP_WHILE (k < groups) {
       uvec4 js = listAt(at);
-      vec4 x = particleAt(js.x), y = particleAt(js.y), z = particleAt(js.z), w = particleAt(js.w);
+      PARTICLE x = particleAt(js.x), y = particleAt(js.y), z = particleAt(js.z), w = particleAt(js.w);
       VISIT(js.x, x);
       VISIT(js.y, y);
       VISIT(js.z, z);

@@ -1,5 +1,5 @@
 // A lost device, exhausted memory, a shader that the driver rejects: rill-capture reports the operation, exits with 1 and
-// leaves complete files. tests/failing_layer makes the calls fail.
+// leaves complete files. tests/layers/failing.cpp makes the calls fail.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -33,7 +33,7 @@ class FailingLayer : public ::testing::Test {
     const std::string scene = folder.write("drop.json", kDrop).string();
     return capture(
         {scene, "--frames", "6", "--size", "64x48", "--stats", "stats.json", "--export", "ply"}, folder.string(),
-        {{"VK_LAYER_PATH", RILL_FAILING_LAYER_FOLDER}, {"VK_INSTANCE_LAYERS", "VK_LAYER_RILL_failing"}, {"RILL_TEST_FAIL", plan}});
+        {{"VK_LAYER_PATH", RILL_LAYERS_FOLDER}, {"VK_INSTANCE_LAYERS", "VK_LAYER_RILL_failing"}, {"RILL_TEST_FAIL", plan}});
   }
   TemporaryFolder folder;
 };

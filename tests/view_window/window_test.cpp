@@ -33,10 +33,10 @@ class ViewWindowTest : public ::testing::Test {
     return all;
   }
   Outcome view(std::vector<std::string> arguments) const { return Child(command(std::move(arguments)), folder.string()).wait(); }
-  /// With a Vulkan call that fails, see failing_layer.cpp.
+  /// With a Vulkan call that fails, see layers/failing.cpp.
   Outcome viewFailing(const std::string& plan, std::vector<std::string> arguments) const {
     const Child::Environment failing{
-        {"VK_LAYER_PATH", RILL_FAILING_LAYER_FOLDER}, {"VK_INSTANCE_LAYERS", "VK_LAYER_RILL_failing"}, {"RILL_TEST_FAIL", plan}};
+        {"VK_LAYER_PATH", RILL_LAYERS_FOLDER}, {"VK_INSTANCE_LAYERS", "VK_LAYER_RILL_failing"}, {"RILL_TEST_FAIL", plan}};
     return Child(command(std::move(arguments)), folder.string(), failing).wait();
   }
   /// The figure after `name` in a run's output.

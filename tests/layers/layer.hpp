@@ -1,0 +1,18 @@
+// The frame of a Vulkan layer: it finds the next layer's functions and hands on what the layer does not replace. Supports one instance
+// and one device.
+#pragma once
+#include <vulkan/vk_layer.h>
+#include <vulkan/vulkan_core.h>
+
+namespace rill::layer {
+
+/// The layer's own function of that name ("vkCreateBuffer"), or null. Each layer defines it.
+PFN_vkVoidFunction replacement(const char* name);
+
+/// Called once the device exists. Each layer defines it, to find what it calls by nextDeviceProc().
+void deviceCreated(VkDevice device);
+
+/// A function of the next layer or the driver.
+PFN_vkVoidFunction nextDeviceProc(VkDevice device, const char* name);
+
+}  // namespace rill::layer

@@ -1,0 +1,285 @@
+#include "spirv_rewrites.hpp"
+
+#include <map>
+
+#include "spirv_module.hpp"
+
+namespace rill::layer {
+namespace {
+
+using Kind = NumericType::Kind;
+using spv::Op;
+
+constexpr uint32_t kInfinityBits = 0x7f800000u, kQuietNan = 0x7fc00bad;
+
+bool isArithmetic(Op op) {
+  switch (op) {
+    case Op::OpFAdd:
+    case Op::OpFSub:
+    case Op::OpFMul:
+    case Op::OpFDiv:
+    case Op::OpFRem:
+    case Op::OpFMod:
+    case Op::OpVectorTimesScalar:
+    case Op::OpMatrixTimesVector:
+    case Op::OpVectorTimesMatrix:
+    case Op::OpDot:
+    case Op::OpExtInst:
+    case Op::OpGroupNonUniformFAdd:
+    case Op::OpConvertSToF:
+    case Op::OpConvertUToF:
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// An instruction whose result, of the given id, `after` changes: it is computed under a new id first.
+template <class After>
+std::vector<Instruction> thenChanged(SpirvModule& module, const Instruction& instruction, const After& after) {
+  std::vector<Instruction> out{instruction};
+  const uint32_t result = instruction.operands[1];
+  out[0].operands[1] = module.newId();
+  after(out, out[0].operands[1], result);
+  return out;
+}
+
+uint32_t hashOf(std::span<const uint32_t> words) {
+  uint32_t hash = 2166136261u;
+  for (const uint32_t word : words) hash = (hash ^ word) * 16777619u;
+  return hash;
+}
+
+uint32_t mixed(uint32_t x) {
+  x = (x ^ (x >> 16)) * 0x7feb352du;
+  x = (x ^ (x >> 15)) * 0x846ca68bu;
+  return x ^ (x >> 16);
+}
+
+}  // namespace
+
+std::vector<uint32_t> flushDenormals(std::span<const uint32_t> words) {
+  SpirvModule module(words);
+  module.rewriteFunctions([&](const Instruction& instruction) -> std::vector<Instruction> {
+    const bool flushes = isArithmetic(instruction.op) || instruction.op == Op::OpImageFetch || instruction.op == Op::OpImageRead ||
+                         instruction.op == Op::OpBitcast;
+    const NumericType type = flushes ? module.typeOf(instruction.operands[0]) : NumericType{};
+    if (type.kind != Kind::Float) return {instruction};
+    const uint32_t uints = module.type(Kind::Uint, type.components), bools = module.type(Kind::Bool, type.components);
+    const uint32_t exponent = module.constant(Kind::Uint, 0x7f800000u, type.components);
+    const uint32_t sign = module.constant(Kind::Uint, 0x80000000u, type.components);
+    const uint32_t zero = module.constant(Kind::Uint, 0, type.components);
+    return thenChanged(module, instruction, [&](std::vector<Instruction>& out, uint32_t from, uint32_t to) {
+      const uint32_t bits = module.newId(), masked = module.newId(), small = module.newId(), none = module.newId(), kept = module.newId();
+      out.push_back({Op::OpBitcast, {uints, bits, from}});
+      out.push_back({Op::OpBitwiseAnd, {uints, masked, bits, exponent}});
+      out.push_back({Op::OpIEqual, {bools, small, masked, zero}});
+      out.push_back({Op::OpBitwiseAnd, {uints, none, bits, sign}});
+      out.push_back({Op::OpSelect, {uints, kept, small, none, bits}});
+      out.push_back({Op::OpBitcast, {instruction.operands[0], to, kept}});
+    });
+  });
+  return module.words();
+}
+
+namespace {
+
+Op otherOrder(Op op) {
+  switch (op) {
+    case Op::OpFOrdEqual: return Op::OpFUnordEqual;
+    case Op::OpFUnordEqual: return Op::OpFOrdEqual;
+    case Op::OpFOrdNotEqual: return Op::OpFUnordNotEqual;
+    case Op::OpFUnordNotEqual: return Op::OpFOrdNotEqual;
+    case Op::OpFOrdLessThan: return Op::OpFUnordLessThan;
+    case Op::OpFUnordLessThan: return Op::OpFOrdLessThan;
+    case Op::OpFOrdGreaterThan: return Op::OpFUnordGreaterThan;
+    case Op::OpFUnordGreaterThan: return Op::OpFOrdGreaterThan;
+    case Op::OpFOrdLessThanEqual: return Op::OpFUnordLessThanEqual;
+    case Op::OpFUnordLessThanEqual: return Op::OpFOrdLessThanEqual;
+    case Op::OpFOrdGreaterThanEqual: return Op::OpFUnordGreaterThanEqual;
+    case Op::OpFUnordGreaterThanEqual: return Op::OpFOrdGreaterThanEqual;
+    default: return Op::OpNop;
+  }
+}
+
+/// The outcome of comparing a finite number with +infinity; `swapped`: of comparing +infinity with it.
+bool outcomeWithInfinity(Op op, bool swapped) {
+  switch (op) {
+    case Op::OpFOrdEqual:
+    case Op::OpFUnordEqual: return false;
+    case Op::OpFOrdNotEqual:
+    case Op::OpFUnordNotEqual: return true;
+    case Op::OpFOrdLessThan:
+    case Op::OpFUnordLessThan:
+    case Op::OpFOrdLessThanEqual:
+    case Op::OpFUnordLessThanEqual: return !swapped;
+    default: return swapped;
+  }
+}
+
+}  // namespace
+
+std::vector<uint32_t> assumeFinite(std::span<const uint32_t> words) {
+  SpirvModule module(words);
+  const auto is = [&](uint32_t id, uint32_t wanted) {
+    uint32_t bits = 0;
+    return module.typeOfValue(id).kind == Kind::Float && module.constantBits(id, bits) && (bits & 0x7fffffffu) == wanted;
+  };
+  std::map<uint32_t, uint32_t> castFrom;  // floats made of bits: the bits' ids
+  const auto isInfinity = [&](uint32_t id) {
+    uint32_t bits = 0;
+    return is(id, kInfinityBits) || (castFrom.contains(id) && module.constantBits(castFrom[id], bits) && bits == kInfinityBits);
+  };
+  module.rewriteFunctions([&](const Instruction& instruction) -> std::vector<Instruction> {
+    const auto& operands = instruction.operands;
+    const auto fixed = [&](bool outcome) -> std::vector<Instruction> {
+      const uint32_t n = module.typeOf(operands[0]).components, zero = module.constant(Kind::Uint, 0, n);
+      return {{outcome ? Op::OpIEqual : Op::OpINotEqual, {operands[0], operands[1], zero, zero}}};
+    };
+    if (instruction.op == Op::OpBitcast) castFrom[operands[1]] = operands[2];
+    if (instruction.op == Op::OpIsNan || instruction.op == Op::OpIsInf) return fixed(false);
+    if (const Op other = otherOrder(instruction.op); other != Op::OpNop) {
+      if (isInfinity(operands[3])) return fixed(outcomeWithInfinity(instruction.op, false));
+      if (isInfinity(operands[2])) return fixed(outcomeWithInfinity(instruction.op, true));
+      return {{other, operands}};
+    }
+    const bool cancels = instruction.op == Op::OpFSub && operands[2] == operands[3];
+    const bool vanishes = instruction.op == Op::OpFMul && (is(operands[2], 0) || is(operands[3], 0));
+    if (cancels || vanishes) {
+      const uint32_t zero = module.constant(Kind::Float, 0, module.typeOf(operands[0]).components);
+      return {{Op::OpCopyObject, {operands[0], operands[1], zero}}};
+    }
+    return {instruction};
+  });
+  return module.words();
+}
+
+std::vector<uint32_t> perturbRounding(std::span<const uint32_t> words, uint32_t seed) {
+  SpirvModule module(words);
+  uint32_t index = hashOf(words) + 0x9e3779b9u * seed;
+  const auto isPowerOfTwo = [&](uint32_t id) {
+    uint32_t bits = 0;
+    return module.constantBits(id, bits) && (bits & 0x7fffffu) == 0;
+  };
+  module.rewriteFunctions([&](const Instruction& instruction) -> std::vector<Instruction> {
+    switch (instruction.op) {
+      case Op::OpFMul:
+      case Op::OpVectorTimesScalar:
+        if (isPowerOfTwo(instruction.operands[2]) || isPowerOfTwo(instruction.operands[3])) return {instruction};
+        break;
+      case Op::OpFDiv:
+      case Op::OpDot: break;
+      case Op::OpExtInst: {  // of GLSL.std.450: sines to square roots, length to normalize; not rounding, minimum, packing
+        const uint32_t function = instruction.operands[3];
+        if (!((function >= 13 && function <= 32) || (function >= 66 && function <= 69))) return {instruction};
+        break;
+      }
+      default: return {instruction};
+    }
+    const NumericType type = module.typeOf(instruction.operands[0]);
+    const uint32_t direction = mixed(++index) % 3;
+    if (type.kind != Kind::Float || direction == 0 || module.isDecorated(instruction.operands[1], spv::Decoration::NoContraction))
+      return {instruction};
+    const uint32_t n = type.components, uints = module.type(Kind::Uint, n), bools = module.type(Kind::Bool, n);
+    const uint32_t exponent = module.constant(Kind::Uint, 0x7f800000u, n), zero = module.constant(Kind::Uint, 0, n);
+    const uint32_t one = module.constant(Kind::Uint, 1, n);
+    return thenChanged(module, instruction, [&](std::vector<Instruction>& out, uint32_t from, uint32_t to) {
+      const uint32_t bits = module.newId(), masked = module.newId(), small = module.newId(), huge = module.newId(), exact = module.newId(),
+                     moved = module.newId(), kept = module.newId();
+      out.push_back({Op::OpBitcast, {uints, bits, from}});
+      out.push_back({Op::OpBitwiseAnd, {uints, masked, bits, exponent}});
+      out.push_back({Op::OpIEqual, {bools, small, masked, zero}});
+      out.push_back({Op::OpIEqual, {bools, huge, masked, exponent}});
+      out.push_back({Op::OpLogicalOr, {bools, exact, small, huge}});
+      out.push_back({direction == 1 ? Op::OpIAdd : Op::OpISub, {uints, moved, bits, one}});
+      out.push_back({Op::OpSelect, {uints, kept, exact, bits, moved}});
+      out.push_back({Op::OpBitcast, {instruction.operands[0], to, kept}});
+    });
+  });
+  return module.words();
+}
+
+std::vector<uint32_t> poisonShuffles(std::span<const uint32_t> words) {
+  SpirvModule module(words);
+  module.rewriteFunctions([&](const Instruction& instruction) -> std::vector<Instruction> {
+    const bool byXor = instruction.op == Op::OpGroupNonUniformShuffleXor;
+    if (!byXor && instruction.op != Op::OpGroupNonUniformShuffle) return {instruction};
+    const NumericType type = module.typeOf(instruction.operands[0]);
+    const uint32_t uints = module.type(Kind::Uint, 1), masks = module.type(Kind::Uint, 4), bools = module.type(Kind::Bool, 1);
+    const uint32_t scope = instruction.operands[2], yes = module.newId(), zero = module.constant(Kind::Uint, 0, 1);
+    const uint32_t lane = byXor ? module.builtIn(spv::BuiltIn::SubgroupLocalInvocationId, 1) : 0;
+    module.requireCapability(spv::Capability::GroupNonUniformBallot);
+    const uint32_t poison = module.constant(type.kind, type.kind == Kind::Float ? kQuietNan : 0xdeadbeefu, type.components);
+    return thenChanged(module, instruction, [&](std::vector<Instruction>& out, uint32_t from, uint32_t to) {
+      uint32_t source = instruction.operands[4];
+      out.push_back({Op::OpIEqual, {bools, yes, zero, zero}});
+      if (byXor) {
+        const uint32_t own = module.newId(), other = module.newId();
+        out.push_back({Op::OpLoad, {uints, own, lane}});
+        out.push_back({Op::OpBitwiseXor, {uints, other, own, source}});
+        source = other;
+      }
+      const uint32_t ballot = module.newId(), active = module.newId();
+      out.push_back({Op::OpGroupNonUniformBallot, {masks, ballot, scope, yes}});
+      out.push_back({Op::OpGroupNonUniformBallotBitExtract, {bools, active, scope, ballot, source}});
+      uint32_t choice = active;
+      if (type.components > 1) {
+        choice = module.newId();
+        std::vector<uint32_t> parts{module.type(Kind::Bool, type.components), choice};
+        parts.insert(parts.end(), type.components, active);
+        out.push_back({Op::OpCompositeConstruct, std::move(parts)});
+      }
+      out.push_back({Op::OpSelect, {instruction.operands[0], to, choice, from, poison}});
+    });
+  });
+  return module.words();
+}
+
+std::vector<uint32_t> permuteWorkgroups(std::span<const uint32_t> words, uint32_t seed) {
+  SpirvModule module(words);
+  if (!module.isCompute()) return module.words();
+  const uint32_t group = module.findBuiltIn(spv::BuiltIn::WorkgroupId), global = module.findBuiltIn(spv::BuiltIn::GlobalInvocationId);
+  if (!group && !global) return module.words();
+  const uint32_t counts = module.builtIn(spv::BuiltIn::NumWorkgroups, 3), groups = module.builtIn(spv::BuiltIn::WorkgroupId, 3);
+  const uint32_t locals = module.builtIn(spv::BuiltIn::LocalInvocationId, 3);
+  // A prime above all counts of groups has no factor in common with any, so that g * prime % n is a permutation; reduced modulo n first,
+  // the product of two numbers below 65,536 fits into 32 bits.
+  constexpr uint32_t kPrimes[] = {65537, 65539, 65543, 65551, 65557, 65563, 65579, 65581};
+  const uint32_t prime = module.constant(Kind::Uint, kPrimes[seed % 8], 1), shift = module.constant(Kind::Uint, mixed(seed) % 65536, 1);
+  const uint32_t uints = module.type(Kind::Uint, 1), vectors = module.type(Kind::Uint, 3), bools = module.type(Kind::Bool, 1);
+  const uint32_t one = module.constant(Kind::Uint, 1, 1), size = module.constant(Kind::Uint, module.workgroupSize(0), 1);
+  std::map<uint32_t, uint32_t> chains;  // pointers to the first component of either variable
+  module.rewriteFunctions([&](const Instruction& instruction) -> std::vector<Instruction> {
+    const auto& operands = instruction.operands;
+    const auto isEither = [&](uint32_t id) { return id != 0 && (id == group || id == global); };
+    if ((instruction.op == Op::OpAccessChain || instruction.op == Op::OpInBoundsAccessChain) && isEither(operands[2])) {
+      if (uint32_t axis = 1; module.constantBits(operands[3], axis) && axis == 0) chains[operands[1]] = operands[2];
+      return {instruction};
+    }
+    if (instruction.op != Op::OpLoad) return {instruction};
+    const bool whole = isEither(operands[2]);
+    if (!whole && !chains.contains(operands[2])) return {instruction};
+    std::vector<Instruction> out;
+    const auto add = [&](Op op, uint32_t type, std::vector<uint32_t> rest) {
+      const uint32_t id = module.newId();
+      rest.insert(rest.begin(), {type, id});
+      out.push_back({op, std::move(rest)});
+      return id;
+    };
+    const auto first = [&](uint32_t variable) { return add(Op::OpCompositeExtract, uints, {add(Op::OpLoad, vectors, {variable}), 0}); };
+    const uint32_t n = first(counts), g = first(groups);
+    const uint32_t product = add(Op::OpIMul, uints, {g, add(Op::OpUMod, uints, {prime, n})});
+    const uint32_t moved = add(Op::OpIAdd, uints, {add(Op::OpUMod, uints, {product, n}), shift});
+    const uint32_t alone = add(Op::OpIEqual, bools, {n, one});
+    uint32_t place = add(Op::OpSelect, uints, {alone, g, add(Op::OpUMod, uints, {moved, n})});
+    if ((whole ? operands[2] : chains[operands[2]]) == global) place = add(Op::OpIAdd, uints, {add(Op::OpIMul, uints, {place, size}), first(locals)});
+    if (whole)
+      out.push_back({Op::OpCompositeInsert, {operands[0], operands[1], place, add(Op::OpLoad, vectors, {operands[2]}), 0}});
+    else
+      out.push_back({Op::OpCopyObject, {operands[0], operands[1], place}});
+    return out;
+  });
+  return module.words();
+}
+
+}  // namespace rill::layer

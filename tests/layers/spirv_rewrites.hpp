@@ -1,0 +1,27 @@
+// What a conforming driver may do to a shader, taken to the extreme: each function returns a module that a shader written by the
+// specification computes the same with, up to rounding.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rill::layer {
+
+/// Denormal floats are zeros: those fetched, made from bits or computed (Vulkan 1.3, "Precision and Operation of SPIR-V Instructions").
+std::vector<uint32_t> flushDenormals(std::span<const uint32_t> words);
+
+/// Neither operands nor results are NaN or infinite, so that ordered and unordered comparisons are each other's, comparisons with
+/// infinity have one outcome, and x - x and 0 * x are 0.
+std::vector<uint32_t> assumeFinite(std::span<const uint32_t> words);
+
+/// Products, quotients and results of built-in functions differ by a unit in the last place where they are not `precise`: up or down or
+/// not at all, by the shader, the instruction and the seed.
+std::vector<uint32_t> perturbRounding(std::span<const uint32_t> words, uint32_t seed);
+
+/// A shuffle from a lane that is not active gives garbage: NaN, or 0xdeadbeef.
+std::vector<uint32_t> poisonShuffles(std::span<const uint32_t> words);
+
+/// Workgroups trade places: group g of n does the work of group (g * odd + seed) % n.
+std::vector<uint32_t> permuteWorkgroups(std::span<const uint32_t> words, uint32_t seed);
+
+}  // namespace rill::layer
