@@ -6,6 +6,7 @@
 
 #include "gpu/module_pipelines.hpp"
 #include "graph/shader_pass.hpp"
+#include "shared/no_depth.h"
 
 namespace rill {
 namespace {
@@ -61,8 +62,8 @@ BufferRef CurvatureFlow::addTo(Graph& graph, BufferRef depth, const SurfaceBuffe
   Fill32 fills[3 * (kMaxLevels + 1)];
   size_t count = 0;
   for (uint32_t l = 0; l <= coarsest; ++l) {
-    if (l > 0) fills[count++] = {&levels[l].start, kInfiniteBits};
-    for (BufferRef& buffer : levels[l].to) fills[count++] = {&buffer, kInfiniteBits};
+    if (l > 0) fills[count++] = {&levels[l].start, kNoDepthBits};
+    for (BufferRef& buffer : levels[l].to) fills[count++] = {&buffer, kNoDepthBits};
   }
   addFill(graph, "surface flow clear", std::span(fills).first(count));
   const DispatchSize blocks(surface.arguments, kSampleBlockArguments * 4);

@@ -9,6 +9,7 @@
 #include "gpu/module_pipelines.hpp"
 #include "gpu/texel_reads.hpp"
 #include "graph/shader_pass.hpp"
+#include "shared/no_depth.h"
 #include "sort/dispatches.hpp"
 
 namespace rill {
@@ -132,12 +133,12 @@ void SurfaceStage::addBuffers(Graph& graph, const FluidState& fluid, Frame& fram
     for (BufferRef& buffer : frame.filtered) buffer = graph.create("surface filtered", {sampleCount(out.push) * 4});
   const auto filtered = [&](size_t k) { return frame.narrowRange ? &frame.filtered[k] : nullptr; };
   addFill(graph, "surface clear",
-          {{&frame.occluders, kInfiniteBits},
-           {&frame.depth, kInfiniteBits},
-           {&out.samples, kInfiniteBits},
-           {filtered(0), kInfiniteBits},
-           {filtered(1), kInfiniteBits},
-           {whole ? &out.pixels : nullptr, kInfiniteBits},
+          {{&frame.occluders, kNoDepthBits},
+           {&frame.depth, kNoDepthBits},
+           {&out.samples, kNoDepthBits},
+           {filtered(0), kNoDepthBits},
+           {filtered(1), kNoDepthBits},
+           {whole ? &out.pixels : nullptr, kNoDepthBits},
            {&frame.start, 0},
            {&out.counters, 0}});
 }

@@ -13,7 +13,7 @@ namespace rill {
 struct SurfaceBuffers {
   BufferRef pixels;            ///< two words per pixel, see unpackPixel()
   BufferRef tiles;             ///< indices of tiles with fluid, in any order
-  BufferRef samples;           ///< two words per sample: depth (infinite: no fluid) and packNormal()
+  BufferRef samples;           ///< two words per sample: depth (kNoDepthBits: no fluid) and packNormal()
   BufferRef blocks;            ///< indices of blocks of samples with fluid, in any order
   BufferRef counters;          ///< kSurvivorCount ...
   BufferRef arguments;         ///< kSurfaceTileArguments, kTileDraw, kPixelArguments

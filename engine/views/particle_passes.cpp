@@ -2,17 +2,12 @@
 #include <algorithm>
 
 #include "render/surface_buffers.hpp"
+#include "shared/no_depth.h"
 #include "views/particle_view.hpp"
 
 namespace rill {
 
 using namespace particle_view;
-
-namespace {
-
-constexpr uint32_t kInfinity = 0x7F800000u;  // bits of the float
-
-}  // namespace
 
 void ParticleView::add(Graph& graph, std::string_view name, const ComputePipeline* pipeline, const DispatchSize& size, Frame& f) const {
   const BufferRef &scene = f.scene, &position = f.position, &velocity = f.velocity, &count = f.particles.count;
@@ -74,7 +69,7 @@ void ParticleView::addLightMap(Graph& graph, Frame& frame) const {
   frame.light = graph.create("view light map", {lightTexels() * 4});
   if (scene().solids.empty()) {
     graph.skipped("view light solids", "the scene has no solids");
-    addFill(graph, "view clear", {{&frame.light, kInfinity}});
+    addFill(graph, "view clear", {{&frame.light, kNoDepthBits}});
     return;
   }
   addSolidMasks(graph, frame, true);
@@ -85,7 +80,7 @@ void ParticleView::addLightMap(Graph& graph, Frame& frame) const {
 void ParticleView::addVisibility(Graph& graph, Frame& frame) const {
   frame.occluders = graph.create("view occluders", {gridCells(frame.push.width, frame.push.height, frame.push.cell) * 4});
   frame.survivors = graph.create("view survivors", {uint64_t{frame.push.count} * 4});
-  addFill(graph, "view clear", {{&frame.occluders, kInfinity}});
+  addFill(graph, "view clear", {{&frame.occluders, kNoDepthBits}});
   add(graph, "view project", project_, frame.particles.groups, frame);
   add(graph, "view cull", cull_, frame.particles.groups, frame);
   addArguments(graph, frame);

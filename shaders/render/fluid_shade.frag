@@ -89,7 +89,7 @@ MeanNormal meanNormalAt(vec2 middle, float z, vec3 normal, vec3 sight) {
     const ivec2 corner = ivec2(k & 1, k >> 1), s = clamp(base + corner, ivec2(0), grid - 1);
     const uint index = uint(s.y * grid.x + s.x);
     const float depth = uintBitsToFloat(samples[index].x);
-    if (depth == infinity()) continue;
+    if (depth >= noDepth()) continue;
     const vec3 mean = unpackMean(mean_normals[index]);
     const vec2 share = mix(1.0 - part, part, vec2(corner));
     sum += share.x * share.y * sameSurface(depth - z, change) * mean;
@@ -155,7 +155,7 @@ void main() {
   const uint index = uint(pixel.y) * view.width + uint(pixel.x);
   const uvec2 own = surface[index];
   const float z = pixelDepth(own);
-  if (!(z < scene_depth[index]) || isinf(z)) discard;
+  if (!(z < scene_depth[index]) || z >= noDepth()) discard;
   const vec2 axis = axisOf(vec2(pixel) + 0.5);
   const vec3 along = rayAlong(axis), sight = normalize(along);
   vec3 normal = unpackNormal(own.y);

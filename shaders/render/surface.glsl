@@ -2,6 +2,7 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "render/surface_records.h"
 #include "shared/active.glsl"
+#include "shared/no_depth.h"
 
 // For loops with a constant count: software drivers take seconds to compile them unrolled.
 #define RILL_LOOP [[dont_unroll]]
@@ -16,7 +17,6 @@ layout(push_constant) uniform Push {
 
 #define groupIndex() (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x)  // compute shaders only
 
-float infinity() { return uintBitsToFloat(kInfiniteBits); }
 
 vec3 viewPoint(vec3 p) {
   return vec3(dot(vec3(view.rows[0], view.rows[1], view.rows[2]), p) + view.rows[3],
@@ -130,7 +130,7 @@ ivec2 cellOf(vec2 pixel) {
 float targetDepth(float z) { return view.depth_map[0] + view.depth_map[1] * (view.perspective > 0.0 ? 1.0 / z : z); }
 float depthOfTarget(float stored) {
   const float part = (stored - view.depth_map[0]) / view.depth_map[1];
-  return view.perspective > 0.0 ? (part > 0.0 ? 1.0 / part : infinity()) : part;
+  return view.perspective > 0.0 ? (part > 0.0 ? 1.0 / part : noDepth()) : part;
 }
 
 // From view space to clip space.
@@ -159,7 +159,7 @@ vec3 unpackNormal(uint packed) {
 // A pixel of the surface: depth, normal and coverage. At a coverage below 0.5 the depth's sign is set, which reads as no fluid
 // everywhere but in shading.
 uvec2 packPixel(float z, vec3 normal, float coverage) {
-  if (coverage <= 0.0 || !(z < infinity())) return uvec2(kInfiniteBits, 0u);
+  if (coverage <= 0.0 || !(z < noDepth())) return uvec2(kNoDepthBits, 0u);
   z = max(z, nearestDrawn());
   return uvec2(floatBitsToUint(coverage < 0.5 ? -z : z), packNormal(normal) | uint(coverage * 15.0 + 0.5) << 28);
 }

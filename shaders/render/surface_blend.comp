@@ -18,7 +18,7 @@ void main() {
   if (!ownSample(at)) return;
   const uint index = uint(at.y) * sampleGrid().x + uint(at.x);
   const float hard = uintBitsToFloat(depth[index]);
-  if (hard == infinity()) return;
+  if (hard >= noDepth()) return;
   const vec2 axis = axisOf(samplePixel(at));
   if (hard <= nearestDrawn() && isInterior(at)) {  // inside the near plane's section
     samples[index] = cutSample(axis);
@@ -27,6 +27,6 @@ void main() {
   const Blend blend = blendAt(axis, hard);
   samples[index] = blend.coverage >= 0.5 || isInterior(at)
                        ? uvec2(floatBitsToUint(blend.depth), packNormal(blend.normal))
-                       : uvec2(kInfiniteBits, 0u);
+                       : uvec2(kNoDepthBits, 0u);
   if (bound_hit) atomicAdd(counters[kBoundHits], 1u);
 }

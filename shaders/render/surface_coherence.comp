@@ -21,7 +21,7 @@ void main() {
   if (!ownSample(p)) return;
   const uint index = uint(p.y * grid.x + p.x);
   const uvec2 own = samples[index];
-  if (own.x == kInfiniteBits) return;
+  if (own.x == kNoDepthBits) return;
   const float z = uintBitsToFloat(own.x);
   if (z <= nearestDrawn()) {
     after[index] = before[index];
@@ -38,7 +38,7 @@ void main() {
       const ivec2 neighbor = p + s * k * along;
       if (any(lessThan(neighbor, ivec2(0))) || any(greaterThanEqual(neighbor, grid))) continue;
       const uint at = uint(neighbor.y * grid.x + neighbor.x);
-      if (samples[at].x == kInfiniteBits) continue;
+      if (samples[at].x == kNoDepthBits) continue;
       sum += inside * length(unpackMean(before[at]));
       weights += inside;
     }

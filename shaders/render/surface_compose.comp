@@ -32,10 +32,10 @@ void main() {
     surface[index] = packPixel(z, normalize(normal), 1.0);
     return;
   }
-  float nearest = infinity(), farthest = 0.0;
+  float nearest = noDepth(), farthest = 0.0;
   depthRange(sampleOfPixel(pixel), nearest, farthest);
-  if (nearest < infinity())
+  if (nearest < noDepth())
     edges[atomicAdd(counters[kEdgeCount], 1u)] = index;
   else
-    surface[index] = uvec2(kInfiniteBits, 0u);
+    surface[index] = uvec2(kNoDepthBits, 0u);
 }

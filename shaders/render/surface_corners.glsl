@@ -22,7 +22,7 @@ Corners cornersOf(vec2 middle) {
     c.depths[k] = uintBitsToFloat(stored.x);
     c.normals[k] = unpackNormal(stored.y);
     c.points[k] = rayFrom(axis) + c.depths[k] * rayAlong(axis);
-    c.coplanar = c.coplanar && c.depths[k] < infinity();
+    c.coplanar = c.coplanar && c.depths[k] < noDepth();
   }
   for (int k = 1; k < 4 && c.coplanar; ++k) {
     const vec3 d = c.points[k] - c.points[0];

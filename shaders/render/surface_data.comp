@@ -23,7 +23,7 @@ void main() {
   if (index >= view.width * view.height) return;
   const uvec2 own = surface[index];
   uint result = 0u;
-  if (own.x < kInfiniteBits) {
+  if (own.x < kNoDepthBits) {
 #ifdef THICKNESS
     const uvec2 at = uvec2(index % view.width, index / view.width) / view.step;
     result = bytes(vec3(float(thickness[at.y * sampleGrid().x + at.x]) * view.unit / white));

@@ -5,7 +5,7 @@ void depthRange(ivec2 own, inout float nearest, inout float farthest) {
     for (int x = max(own.x - 1, 0); x <= min(own.x + 1, grid.x - 1); ++x) {
       const float hard = uintBitsToFloat(depth[uint(y * grid.x + x)]);
       nearest = min(nearest, hard);
-      if (hard < infinity()) farthest = max(farthest, hard);
+      if (hard < noDepth()) farthest = max(farthest, hard);
     }
 }
 

@@ -30,7 +30,7 @@ struct EdgePixel {
 // The plane of the nearest of the four samples on the surface that covers this pixel.
 EdgePixel evaluate(vec2 middle, ivec2 own, float nearest, float farthest) {
   const vec2 axis = axisOf(middle);
-  EdgePixel pixel_surface = EdgePixel(infinity(), coverageFromCenters(axis, nearest), vec3(0.0, 0.0, -1.0));
+  EdgePixel pixel_surface = EdgePixel(noDepth(), coverageFromCenters(axis, nearest), vec3(0.0, 0.0, -1.0));
   float hard = nearest;
   if (pixel_surface.coverage < 1.0 && farthest > nearest + 0.5 * view.spacing) {
     const float behind = coverageFromCenters(axis, farthest);
@@ -43,7 +43,7 @@ EdgePixel evaluate(vec2 middle, ivec2 own, float nearest, float farthest) {
   float best = 1e30;
   for (int k = 0; k < 4; ++k) {
     const vec2 off = c.part - vec2(k & 1, k >> 1);
-    const float badness = c.depths[k] < infinity() ? dot(off, off) + 4.0 * abs(c.depths[k] - hard) / view.spacing : 1e30;
+    const float badness = c.depths[k] < noDepth() ? dot(off, off) + 4.0 * abs(c.depths[k] - hard) / view.spacing : 1e30;
     if (badness >= best) continue;
     best = badness;
     pixel_surface.normal = c.normals[k];
@@ -68,7 +68,7 @@ EdgePixel evaluate(vec2 middle, ivec2 own, float nearest, float farthest) {
   const float interior = coverage < 1.0 ? interiorCoverage(middle) : 0.0;
   if (coverage < 0.5 && interior > coverage) {
     const float hard = uintBitsToFloat(depth[uint(own.y) * sampleGrid().x + uint(own.x)]);
-    blend = blendAt(axis, hard < infinity() ? hard : nearest);
+    blend = blendAt(axis, hard < noDepth() ? hard : nearest);
   }
   coverage = max(coverage, interior);
   return EdgePixel(blend.depth, coverage, blend.normal);
@@ -80,7 +80,7 @@ void main() {
   if (k >= counters[kEdgeCount]) return;
   const uvec2 pixel = uvec2(edges[k] % view.width, edges[k] / view.width);
   const ivec2 own = sampleOfPixel(pixel);
-  float nearest = infinity(), farthest = 0.0;
+  float nearest = noDepth(), farthest = 0.0;
   depthRange(own, nearest, farthest);
   const EdgePixel pixel_surface = evaluate(vec2(pixel) + 0.5, own, nearest, farthest);
   surface[edges[k]] = packPixel(pixel_surface.z, pixel_surface.normal, pixel_surface.coverage);

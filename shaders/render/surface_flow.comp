@@ -25,7 +25,7 @@ void main() {
   if (!ownSample(p)) return;
   const uint index = uint(p.y * grid.x + p.x);
   const float z = beforeAt(index);
-  if (z == infinity()) return;
+  if (z >= noDepth()) return;
   const float length = metersASample(z), steps = max(ceil(view.smoothing / (kStep * length * length)), 1.0);
   if (float(iteration) >= steps) {
     after[index] = z;

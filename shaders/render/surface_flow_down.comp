@@ -17,13 +17,13 @@ void main() {
   ivec2 p;
   if (!ownSample(p)) return;
   const ivec2 finer_grid = finerGrid();
-  float corners[4], nearest = infinity();
+  float corners[4], nearest = noDepth();
   for (int k = 0; k < 4; ++k) {
     const ivec2 q = 2 * p + ivec2(k & 1, k >> 1);
-    corners[k] = all(lessThan(q, finer_grid)) ? finerAt(uint(q.y * finer_grid.x + q.x)) : infinity();
+    corners[k] = all(lessThan(q, finer_grid)) ? finerAt(uint(q.y * finer_grid.x + q.x)) : noDepth();
     nearest = min(nearest, corners[k]);
   }
-  if (nearest == infinity()) return;
+  if (nearest >= noDepth()) return;
   const float edge = edgeAt(nearest);
   float sum = 0.0, count = 0.0;
   for (int k = 0; k < 4; ++k)

@@ -22,7 +22,7 @@ void main() {
   if (!ownSample(p)) return;
   const uint index = uint(p.y * grid.x + p.x);
   const float z = beforeAt(index);
-  if (z == infinity()) return;
+  if (z >= noDepth()) return;
   const ivec2 coarse_grid = coarserGrid();
   const vec2 at = (vec2(p) + 0.5) * 0.5 - 0.5;
   const ivec2 base = ivec2(floor(at));

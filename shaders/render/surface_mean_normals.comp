@@ -31,7 +31,7 @@ void main() {
   if (!ownSample(p)) return;
   const uint index = uint(p.y * grid.x + p.x);
   const uvec2 own = samples[index];
-  if (own.x == kInfiniteBits) return;
+  if (own.x == kNoDepthBits) return;
   const float z = uintBitsToFloat(own.x), spacing = spacingAt(z);
   if (z <= nearestDrawn()) {  // the section with the near plane is not a surface
     after[index] = packMean(unpackNormal(own.y));

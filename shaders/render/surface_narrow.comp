@@ -24,7 +24,7 @@ void main() {
   if (!ownSample(p)) return;
   const uint index = uint(p.y * grid.x + p.x);
   const float z = beforeAt(index);
-  if (z == infinity()) return;
+  if (z >= noDepth()) return;
   const float length = metersASample(z) / view.spacing;
   const int wanted = max(int(min(kReach * view.smoothing / length, 1e6)), 1), taps = min(wanted, int(kMaxTaps * view.margin));
   if (taps < wanted) atomicAdd(counters[kBoundHits], 1u);
@@ -38,8 +38,8 @@ void main() {
     for (int s = -1; s <= 1; s += 2) {
       const ivec2 neighbor = p + s * k * along;
       const bool inside = all(greaterThanEqual(neighbor, ivec2(0))) && all(lessThan(neighbor, grid));
-      const float other = inside ? beforeAt(uint(neighbor.y * grid.x + neighbor.x)) : infinity();
-      whole = whole && other > z - kFront * view.spacing * float(k) * length && other < infinity();
+      const float other = inside ? beforeAt(uint(neighbor.y * grid.x + neighbor.x)) : noDepth();
+      whole = whole && other > z - kFront * view.spacing * float(k) * length && other < noDepth();
       const float slope = float(k) * length;  // allows for a slanted surface
       pair += toLinear(min(other, z + (kBehind + 2.0 * slope) * view.spacing));
     }

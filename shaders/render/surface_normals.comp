@@ -17,8 +17,8 @@ const float kInset = 0.3;  // spacings: smoothed spheres of 0.9 spacings lie thi
 
 vec3 pointAt(ivec2 p, ivec2 grid, out bool valid) {
   valid = all(greaterThanEqual(p, ivec2(0))) && all(lessThan(p, grid));
-  const float z = valid ? filteredAt(uint(p.y * grid.x + p.x)) : infinity();
-  valid = valid && z < infinity();
+  const float z = valid ? filteredAt(uint(p.y * grid.x + p.x)) : noDepth();
+  valid = valid && z < noDepth();
   const vec2 axis = axisOf(samplePixel(p));
   return rayFrom(axis) + (valid ? z : 0.0) * rayAlong(axis);
 }
@@ -44,7 +44,7 @@ void main() {
   if (!ownSample(p)) return;
   const uint index = uint(p.y * grid.x + p.x);
   const float z = filteredAt(index);
-  if (z == infinity()) return;
+  if (z >= noDepth()) return;
   const float hard = uintBitsToFloat(depth[index]);
   const vec2 axis = axisOf(samplePixel(p));
   if (!isInterior(p)) {

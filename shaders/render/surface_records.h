@@ -24,7 +24,6 @@ RILL_CONSTANT kMarginSamples = 8;
 RILL_CONSTANT kMaxRows = 48;          // maximal rows of the screen grid that an iteration around a point visits
 RILL_CONSTANT kMaxInRow = 64;         // maximal particles that it visits per row
 RILL_CONSTANT kMaxInCell = 1024;      // maximal particles of a cell that are sorted
-RILL_CONSTANT kInfiniteBits = 0x7F800000u;  // of a float: no fluid
 RILL_CONSTANT kNotSurface = 0xFFFFFFFFu;
 RILL_NUMBER kFlowStable = 0.45f;  // largest step of the flow, in squared samples; explicit steps in 2D are stable up to 0.5
 

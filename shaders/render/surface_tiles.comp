@@ -14,7 +14,7 @@ bool anyCovered(ivec2 first, ivec2 last) {
   const uint columns = sampleGrid().x;
   bool any_covered = false;
   for (int y = first.y; y <= last.y && !any_covered; ++y)
-    for (int x = first.x; x <= last.x && !any_covered; ++x) any_covered = depth[uint(y) * columns + uint(x)] != kInfiniteBits;
+    for (int x = first.x; x <= last.x && !any_covered; ++x) any_covered = depth[uint(y) * columns + uint(x)] != kNoDepthBits;
   return any_covered;
 }
 

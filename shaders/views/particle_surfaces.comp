@@ -29,7 +29,7 @@ void main() {
   const uvec2 pixel = uvec2(tile % surfaceColumns(), tile / surfaceColumns()) * kPixelTile + gl_LocalInvocationID.xy;
   if (pixel.x >= size.x || pixel.y >= size.y) return;
 
-  float best = uintBitsToFloat(0x7F800000u);
+  float best = noDepth();
   uint owner = kNobody;
 #ifdef LIGHT
   // From the plane that light depth counts from, along the light.

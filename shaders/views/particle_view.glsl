@@ -2,6 +2,7 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "shared/active.glsl"
 #include "views/particle_records.h"
+#include "shared/no_depth.h"
 
 // For loops with a constant count: software drivers take seconds to compile them unrolled.
 #define RILL_LOOP [[dont_unroll]]

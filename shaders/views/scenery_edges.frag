@@ -12,7 +12,7 @@ layout(location = 0) out vec4 color;
 void main() {
 #ifdef OVER_FLUID
   const uvec2 pixel = uvec2(gl_FragCoord.xy) - uvec2(view.left, view.top);
-  if (surface[pixel.y * view.width + pixel.x].x >= kInfiniteBits) discard;
+  if (surface[pixel.y * view.width + pixel.x].x >= kNoDepthBits) discard;
 #endif
   const float cover = clamp(half_width + 0.5 - abs(across), 0.0, 1.0) * 0.55;
   if (cover <= 0.0) discard;

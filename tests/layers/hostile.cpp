@@ -20,7 +20,8 @@ std::vector<uint32_t> rewritten(std::vector<uint32_t> words, std::string_view to
     todo.remove_prefix(std::min(one.size() + 1, todo.size()));
     const size_t equals = one.find('=');
     const std::string_view name = one.substr(0, equals);
-    const auto seed = equals == one.npos ? 0u : static_cast<uint32_t>(std::strtoul(std::string(one.substr(equals + 1)).c_str(), nullptr, 10));
+    const auto seed =
+        equals == one.npos ? 0u : static_cast<uint32_t>(std::strtoul(std::string(one.substr(equals + 1)).c_str(), nullptr, 10));
     if (name == "flush-denormals") {
       words = flushDenormals(words);
     } else if (name == "assume-finite") {

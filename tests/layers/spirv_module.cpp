@@ -49,11 +49,16 @@ NumericType SpirvModule::typeOf(uint32_t typeId) const {
   for (const Instruction& g : globals_) {
     if (g.operands.empty() || g.operands[0] != typeId) continue;
     switch (g.op) {
-      case spv::Op::OpTypeFloat: return {g.operands[1] == 32 ? Kind::Float : Kind::Other, 1};
-      case spv::Op::OpTypeInt: return {g.operands[1] != 32 ? Kind::Other : g.operands[2] ? Kind::Int : Kind::Uint, 1};
-      case spv::Op::OpTypeBool: return {Kind::Bool, 1};
-      case spv::Op::OpTypeVector: return {typeOf(g.operands[1]).kind, g.operands[2]};
-      default: break;
+      case spv::Op::OpTypeFloat:
+        return {g.operands[1] == 32 ? Kind::Float : Kind::Other, 1};
+      case spv::Op::OpTypeInt:
+        return {g.operands[1] != 32 ? Kind::Other : g.operands[2] ? Kind::Int : Kind::Uint, 1};
+      case spv::Op::OpTypeBool:
+        return {Kind::Bool, 1};
+      case spv::Op::OpTypeVector:
+        return {typeOf(g.operands[1]).kind, g.operands[2]};
+      default:
+        break;
     }
   }
   return {};
@@ -74,16 +79,21 @@ uint32_t SpirvModule::addGlobal(spv::Op op, std::vector<uint32_t> operands) {
 uint32_t SpirvModule::type(Kind kind, uint32_t components) {
   const uint32_t element = components > 1 ? type(kind, 1) : 0;
   for (const Instruction& g : globals_) {
-    if (g.op != spv::Op::OpTypeFloat && g.op != spv::Op::OpTypeInt && g.op != spv::Op::OpTypeBool && g.op != spv::Op::OpTypeVector) continue;
+    if (g.op != spv::Op::OpTypeFloat && g.op != spv::Op::OpTypeInt && g.op != spv::Op::OpTypeBool && g.op != spv::Op::OpTypeVector)
+      continue;
     const NumericType found = typeOf(g.operands[0]);
     if (found.kind == kind && found.components == components) return g.operands[0];
   }
   if (components > 1) return addGlobal(spv::Op::OpTypeVector, {newId(), element, components});
   switch (kind) {
-    case Kind::Float: return addGlobal(spv::Op::OpTypeFloat, {newId(), 32});
-    case Kind::Uint: return addGlobal(spv::Op::OpTypeInt, {newId(), 32, 0});
-    case Kind::Int: return addGlobal(spv::Op::OpTypeInt, {newId(), 32, 1});
-    default: return addGlobal(spv::Op::OpTypeBool, {newId()});
+    case Kind::Float:
+      return addGlobal(spv::Op::OpTypeFloat, {newId(), 32});
+    case Kind::Uint:
+      return addGlobal(spv::Op::OpTypeInt, {newId(), 32, 0});
+    case Kind::Int:
+      return addGlobal(spv::Op::OpTypeInt, {newId(), 32, 1});
+    default:
+      return addGlobal(spv::Op::OpTypeBool, {newId()});
   }
 }
 
@@ -116,8 +126,7 @@ uint32_t SpirvModule::builtIn(spv::BuiltIn builtIn, uint32_t components) {
   addGlobal(spv::Op::OpTypePointer, {pointer, input, held});
   addGlobal(spv::Op::OpVariable, {pointer, variable, input});
   const auto at = std::find_if(globals_.begin(), globals_.end(), [](const Instruction& g) { return g.op == spv::Op::OpDecorate; });
-  globals_.insert(at, {spv::Op::OpDecorate,
-                       {variable, static_cast<uint32_t>(spv::Decoration::BuiltIn), static_cast<uint32_t>(builtIn)}});
+  globals_.insert(at, {spv::Op::OpDecorate, {variable, static_cast<uint32_t>(spv::Decoration::BuiltIn), static_cast<uint32_t>(builtIn)}});
   for (Instruction& g : globals_)
     if (g.op == spv::Op::OpEntryPoint) g.operands.push_back(variable);
   return variable;

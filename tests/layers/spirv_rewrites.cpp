@@ -86,19 +86,32 @@ namespace {
 
 Op otherOrder(Op op) {
   switch (op) {
-    case Op::OpFOrdEqual: return Op::OpFUnordEqual;
-    case Op::OpFUnordEqual: return Op::OpFOrdEqual;
-    case Op::OpFOrdNotEqual: return Op::OpFUnordNotEqual;
-    case Op::OpFUnordNotEqual: return Op::OpFOrdNotEqual;
-    case Op::OpFOrdLessThan: return Op::OpFUnordLessThan;
-    case Op::OpFUnordLessThan: return Op::OpFOrdLessThan;
-    case Op::OpFOrdGreaterThan: return Op::OpFUnordGreaterThan;
-    case Op::OpFUnordGreaterThan: return Op::OpFOrdGreaterThan;
-    case Op::OpFOrdLessThanEqual: return Op::OpFUnordLessThanEqual;
-    case Op::OpFUnordLessThanEqual: return Op::OpFOrdLessThanEqual;
-    case Op::OpFOrdGreaterThanEqual: return Op::OpFUnordGreaterThanEqual;
-    case Op::OpFUnordGreaterThanEqual: return Op::OpFOrdGreaterThanEqual;
-    default: return Op::OpNop;
+    case Op::OpFOrdEqual:
+      return Op::OpFUnordEqual;
+    case Op::OpFUnordEqual:
+      return Op::OpFOrdEqual;
+    case Op::OpFOrdNotEqual:
+      return Op::OpFUnordNotEqual;
+    case Op::OpFUnordNotEqual:
+      return Op::OpFOrdNotEqual;
+    case Op::OpFOrdLessThan:
+      return Op::OpFUnordLessThan;
+    case Op::OpFUnordLessThan:
+      return Op::OpFOrdLessThan;
+    case Op::OpFOrdGreaterThan:
+      return Op::OpFUnordGreaterThan;
+    case Op::OpFUnordGreaterThan:
+      return Op::OpFOrdGreaterThan;
+    case Op::OpFOrdLessThanEqual:
+      return Op::OpFUnordLessThanEqual;
+    case Op::OpFUnordLessThanEqual:
+      return Op::OpFOrdLessThanEqual;
+    case Op::OpFOrdGreaterThanEqual:
+      return Op::OpFUnordGreaterThanEqual;
+    case Op::OpFUnordGreaterThanEqual:
+      return Op::OpFOrdGreaterThanEqual;
+    default:
+      return Op::OpNop;
   }
 }
 
@@ -106,14 +119,18 @@ Op otherOrder(Op op) {
 bool outcomeWithInfinity(Op op, bool swapped) {
   switch (op) {
     case Op::OpFOrdEqual:
-    case Op::OpFUnordEqual: return false;
+    case Op::OpFUnordEqual:
+      return false;
     case Op::OpFOrdNotEqual:
-    case Op::OpFUnordNotEqual: return true;
+    case Op::OpFUnordNotEqual:
+      return true;
     case Op::OpFOrdLessThan:
     case Op::OpFUnordLessThan:
     case Op::OpFOrdLessThanEqual:
-    case Op::OpFUnordLessThanEqual: return !swapped;
-    default: return swapped;
+    case Op::OpFUnordLessThanEqual:
+      return !swapped;
+    default:
+      return swapped;
   }
 }
 
@@ -168,13 +185,15 @@ std::vector<uint32_t> perturbRounding(std::span<const uint32_t> words, uint32_t 
         if (isPowerOfTwo(instruction.operands[2]) || isPowerOfTwo(instruction.operands[3])) return {instruction};
         break;
       case Op::OpFDiv:
-      case Op::OpDot: break;
+      case Op::OpDot:
+        break;
       case Op::OpExtInst: {  // of GLSL.std.450: sines to square roots, length to normalize; not rounding, minimum, packing
         const uint32_t function = instruction.operands[3];
         if (!((function >= 13 && function <= 32) || (function >= 66 && function <= 69))) return {instruction};
         break;
       }
-      default: return {instruction};
+      default:
+        return {instruction};
     }
     const NumericType type = module.typeOf(instruction.operands[0]);
     const uint32_t direction = mixed(++index) % 3;
@@ -272,7 +291,8 @@ std::vector<uint32_t> permuteWorkgroups(std::span<const uint32_t> words, uint32_
     const uint32_t moved = add(Op::OpIAdd, uints, {add(Op::OpUMod, uints, {product, n}), shift});
     const uint32_t alone = add(Op::OpIEqual, bools, {n, one});
     uint32_t place = add(Op::OpSelect, uints, {alone, g, add(Op::OpUMod, uints, {moved, n})});
-    if ((whole ? operands[2] : chains[operands[2]]) == global) place = add(Op::OpIAdd, uints, {add(Op::OpIMul, uints, {place, size}), first(locals)});
+    if ((whole ? operands[2] : chains[operands[2]]) == global)
+      place = add(Op::OpIAdd, uints, {add(Op::OpIMul, uints, {place, size}), first(locals)});
     if (whole)
       out.push_back({Op::OpCompositeInsert, {operands[0], operands[1], place, add(Op::OpLoad, vectors, {operands[2]}), 0}});
     else

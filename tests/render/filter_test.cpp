@@ -235,10 +235,10 @@ Wanted narrowed(const Map& map, const SurfacePush& push, int x, int y, bool vert
     for (const int s : {-k, k}) {
       const int u = vertical ? x : x + s, v = vertical ? y + s : y;
       const double other = map.has(u, v) ? double{map.at(u, v)} : double{kNone};
-      if (std::isfinite(other)) wanted.margin = std::min(wanted.margin, std::abs(other - (z - kFront * away)));
-      counts = counts && std::isfinite(other) && other > z - kFront * away;
+      if (isDepth(other)) wanted.margin = std::min(wanted.margin, std::abs(other - (z - kFront * away)));
+      counts = counts && isDepth(other) && other > z - kFront * away;
       const double farthest = z + kBehind * kH + kSlant * away;
-      wanted.cut = wanted.cut || (std::isfinite(other) && other > farthest);
+      wanted.cut = wanted.cut || (isDepth(other) && other > farthest);
       pair += linear(std::min(other, farthest));
     }
     if (!counts) continue;

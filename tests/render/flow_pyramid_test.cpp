@@ -33,7 +33,7 @@ Level coarser(const Level& fine) {
         return fine.map.has(u, v) ? double{fine.map.at(u, v)} : double{kNone};
       };
       for (int k = 0; k < 4; ++k) nearest = std::min(nearest, at(k));
-      if (!std::isfinite(nearest)) continue;
+      if (!isDepth(nearest)) continue;
       for (int k = 0; k < 4; ++k)
         if (at(k) - nearest < edgeAt(out.push, nearest)) {
           sum += linear(out.push, at(k));
@@ -61,7 +61,7 @@ Level finer(const Level& fine, const Level& started, const Level& flowed) {
   for (int y = 0; y < fine.map.rows; ++y)
     for (int x = 0; x < fine.map.columns; ++x) {
       const double z = double{fine.map.at(x, y)};
-      if (!std::isfinite(z)) continue;
+      if (!isDepth(z)) continue;
       const double atX = 0.5 * x - 0.25, atY = 0.5 * y - 0.25;
       double sum = 0, moved = 0, weights = 0;
       for (int v = int(std::floor(atY)); v <= int(std::floor(atY)) + 1; ++v)

@@ -1,15 +1,17 @@
 #pragma once
 // Maps of depth, and a step of curvature flow over one in double precision.
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "render/surface_rig.hpp"
+#include "shared/no_depth.h"
 
 namespace rill::test {
 
-inline constexpr float kNone = std::numeric_limits<float>::infinity();
+inline constexpr float kNone = std::bit_cast<float>(kNoDepthBits);
+inline bool isDepth(double z) { return z < double{kNone}; }
 inline constexpr double kH = double{kSpacing};
 
 /// Depth a sample, rows from the top.

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "render/surface_reference.hpp"
+#include "shared/no_depth.h"
 
 namespace rill::test {
 namespace {
@@ -82,7 +83,7 @@ class ReferenceSurface : public SurfaceOnGpu, public testing::WithParamInterface
         const auto [place, coverage] = wanted.pixel(x, y);
         pixelsOff.add(std::isfinite(depth), double{depth}, {n[0], n[1], n[2]}, coverage >= 0.5 ? place : SurfaceReference::Place{});
         const uint32_t* words = &pixelWords[2 * (y * view.width + x)];
-        const uint32_t fifteenths = (words[0] & 0x7FFFFFFF) == surface::kInfiniteBits ? 0 : words[1] >> 28;
+        const uint32_t fifteenths = (words[0] & 0x7FFFFFFF) == kNoDepthBits ? 0 : words[1] >> 28;
         pixelsOff.off += std::abs(fifteenths / 15.0 - coverage) > 0.05;
         // Amid closed samples there is nothing but fluid.
         const auto before = [&](uint32_t pixel) { return int(std::floor((pixel + 0.5) / found.push.step - 0.5)) + int(found.push.margin); };

@@ -1,5 +1,6 @@
 // Depth and thickness per sample against all particles on all rays in double precision.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -7,6 +8,7 @@
 #include "render/particle_count.hpp"
 #include "render/surface_reference.hpp"
 #include "render/view_push.hpp"
+#include "shared/no_depth.h"
 
 namespace rill::test {
 namespace {
@@ -44,8 +46,8 @@ class ParticlesToSamples : public SurfaceOnGpu {
     graph.pass("clear", [&](Pass& pass) {
       for (BufferRef* buffer : {&occluders, &depth, &counters}) *buffer = pass.write(*buffer, Use::CopyTarget, true);
       return [=](Commands& commands) {
-        commands.fill(occluders, 0x7F800000u);
-        commands.fill(depth, 0x7F800000u);
+        commands.fill(occluders, kNoDepthBits);
+        commands.fill(depth, kNoDepthBits);
         commands.fill(counters, 0);
       };
     });
@@ -61,7 +63,9 @@ class ParticlesToSamples : public SurfaceOnGpu {
     run(graph);
     const auto counts = read<uint32_t>(graph, counterTicket);
     EXPECT_EQ(counts.at(surface::kBoundHits), 0u);
-    return {read<float>(graph, depthTicket), counts.at(surface::kSurvivorCount)};
+    std::vector<float> depths = read<float>(graph, depthTicket);
+    std::ranges::replace(depths, std::bit_cast<float>(kNoDepthBits), float(kNothing));
+    return {std::move(depths), counts.at(surface::kSurvivorCount)};
   }
 
   /// The nearest sphere on a sample's ray, or the near plane where it cuts one. `grown`: of their radius.

@@ -21,7 +21,7 @@ void main() {
   if (p.x >= grid.x || p.y >= grid.y) return;
   const uint index = uint(p.y * grid.x + p.x);
   const float z = before[index];
-  if (z == infinity()) {
+  if (z >= noDepth()) {
     after[index] = z;
     return;
   }
@@ -32,7 +32,7 @@ void main() {
   for (int y = max(p.y - far.y, 0); y <= min(p.y + far.y, grid.y - 1); ++y)
     for (int x = max(p.x - far.x, 0); x <= min(p.x + far.x, grid.x - 1); ++x) {
       const float other = before[uint(y * grid.x + x)];
-      if (other == infinity()) continue;
+      if (other >= noDepth()) continue;
       const vec2 across = vec2(ivec2(x, y) - p) * length / view.smoothing;
       const float along = (other - z) / (range * view.spacing);
       const float w = exp(-0.5 * (dot(across, across) + along * along));
