@@ -188,8 +188,8 @@ void SurfaceStage::addVisible(Graph& graph, Frame& frame) const {
 
 /// Surface particles, sorted into the cells of the screen grid.
 void SurfaceStage::addGrid(Graph& graph, const FluidState& fluid, Frame& frame) const {
-  frame.rank = graph.create("surface ranks", {uint64_t{fluid.capacity} * 4});
-  frame.arrived = graph.create("surface arrived", {uint64_t{fluid.capacity} * 4});
+  frame.rank = graph.create("surface ranks", {uint64_t{fluid.capacity} * 8});
+  frame.arrived = graph.create("surface arrived", {uint64_t{fluid.capacity} * 8});
   addCounted(graph, "surface pick", pick_, kSurvivorArguments, frame);
   addArguments(graph, frame);
   auto scan = Scan::create(*device_->device, static_cast<uint32_t>(frame.cells + 1), frame.storageReads,

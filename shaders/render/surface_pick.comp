@@ -9,7 +9,7 @@ layout(std430, set = 0, binding = 1) buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Survivors { uint survivors[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Depth { uint depth[]; };
 layout(std430, set = 0, binding = 4) buffer Start { uint start[]; };
-layout(std430, set = 0, binding = 5) writeonly buffer Rank { uint rank[]; };
+layout(std430, set = 0, binding = 5) writeonly buffer Rank { uvec2 rank[]; };  // cell, rank in it
 
 const float kOwnedShare = 0.03;  // of visible samples of a disc; less is a sliver between neighbors
 
@@ -36,10 +36,12 @@ void main() {
   const vec3 center = live ? viewPoint(position[survivors[k]].xyz) : vec3(0.0);
   visitSphere(live, center, hardRadius(center.z));
   if (!live) return;
-  uint place = kNotSurface;
+  uvec2 place = uvec2(kNotSurface);
   if (owned[self] > 0u && float(owned[self]) >= kOwnedShare * float(inside[self])) {
     const ivec2 cell = cellOf(pixelOf(center));
-    place = atomicAdd(start[uint(cell.y) * cellGrid().x + uint(cell.x)], 1u);
+    // kept: computed anew elsewhere, the cell may come out as the next one by rounding
+    place.x = uint(cell.y) * cellGrid().x + uint(cell.x);
+    place.y = atomicAdd(start[place.x], 1u);
     atomicAdd(counters[kSurfaceCount], 1u);
   }
   rank[k] = place;
