@@ -34,7 +34,11 @@ vec3 worldPoint(vec3 v) { return worldDirection(v - vec3(view.rows[3], view.rows
 vec2 pictureSize() { return vec2(float(view.width), float(view.height)); }
 // Factor by which a pixel's extent grows with depth. Points in front of the near plane are treated as on it.
 float widening(float z) { return view.perspective > 0.0 ? max(z, view.near_depth) : 1.0; }
-float nearestDrawn() { return view.near_depth * 1.000001 + 1e-6 * view.spacing; }  // just behind the near plane
+// Just behind the near plane. Shaders compare each other's results, so it must be rounded alike in all.
+float nearestDrawn() {
+  precise float z = view.near_depth * 1.000001 + 1e-6 * view.spacing;
+  return z;
+}
 vec2 axisOf(vec2 pixel) {
   return (pixel / pictureSize() * 2.0 - 1.0 - vec2(view.shift[0], view.shift[1])) * vec2(view.scale[0], view.scale[1]);
 }

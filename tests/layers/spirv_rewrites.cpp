@@ -173,7 +173,13 @@ std::vector<uint32_t> assumeFinite(std::span<const uint32_t> words) {
 
 std::vector<uint32_t> perturbRounding(std::span<const uint32_t> words, uint32_t seed) {
   SpirvModule module(words);
-  uint32_t index = hashOf(words) + 0x9e3779b9u * seed;
+  // Variants of a shader that differ in how they read their arrays round alike, as they compute the same.
+  std::vector<uint32_t> arithmetic;
+  module.rewriteFunctions([&](const Instruction& instruction) -> std::vector<Instruction> {
+    if (isArithmetic(instruction.op)) arithmetic.push_back(static_cast<uint32_t>(instruction.op));
+    return {instruction};
+  });
+  uint32_t index = hashOf(arithmetic) + 0x9e3779b9u * seed;
   const auto isPowerOfTwo = [&](uint32_t id) {
     uint32_t bits = 0;
     return module.constantBits(id, bits) && (bits & 0x7fffffu) == 0;
