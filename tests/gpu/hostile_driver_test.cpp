@@ -1,0 +1,63 @@
+// The layer of layers/hostile.cpp does what its tests rely on. Runs in the tests with the label hostile-driver.
+#include <bit>
+#include <cstdlib>
+#include <limits>
+#include <set>
+#include <string>
+
+#include "graph/shader_pass.hpp"
+#include "support/gpu_test.hpp"
+
+namespace rill::test {
+namespace hostile_driver_test {
+
+struct Source {
+  float one = 1, denormal = 1e-40f, nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
+  float factors[8] = {1.1f, 2.3f, 3.7f, 0.13f, 17.9f, 0.7f, 5.3f, 9.1f};
+};
+struct Target {
+  uint32_t flushed, ordered, foundNan, foundInfinity, shuffled, next, products[8], turn[64];
+};
+
+TEST_F(GpuTest, HostileDriverDoesWhatItSays) {
+  const char* given = std::getenv("RILL_TEST_HOSTILE");
+  if (!given) GTEST_SKIP() << "runs with RILL_TEST_HOSTILE";
+  const std::string mode = std::string(given).substr(0, std::string(given).find('='));
+  const Source source;
+  const Buffer from = upload("source", std::span<const Source>(&source, 1));
+  const BindingKind buffers[2] = {};
+  Graph graph;
+  const BufferRef in = graph.import("source", importOf(from));
+  BufferRef out = graph.create("target", {sizeof(Target)});
+  addFill(graph, "clear", {{&out, 0}});
+  graph.pass("hostile", [&](Pass& pass) {
+    pass.read(in, Use::ComputeRead);
+    out = pass.write(out, Use::ComputeWrite);
+    const Kernel kernel = pass.kernel(pipeline({.shader = "hostile", .spirv = testShader("hostile"), .bindings = buffers}), {in, out});
+    return [=](Commands& commands) { commands.dispatch(kernel, 64); };
+  });
+  const Ticket ticket = graph.readback(out);
+  run(graph);
+  const Target got = read<Target>(graph, ticket).at(0);
+
+  if (mode == "flush-denormals") { EXPECT_EQ(got.flushed, 0u); }
+  if (mode == "assume-finite") {
+    EXPECT_EQ(got.ordered, 1u);
+    EXPECT_EQ(got.foundNan, 0u);
+    EXPECT_EQ(got.foundInfinity, 0u);
+  }
+  if (mode == "poison-shuffles") { EXPECT_EQ(got.shuffled, 0xdeadbeefu); }
+  int moved = 0;
+  for (int k = 0; k < 8; ++k) {
+    const int away = int(got.products[k] - std::bit_cast<uint32_t>(source.factors[k] * source.factors[(k + 1) % 8]));
+    EXPECT_LE(std::abs(away), mode == "perturb" ? 1 : 0);
+    moved += away != 0;
+  }
+  if (mode == "perturb") { EXPECT_GT(moved, 0); }
+  std::set<uint32_t> turns(std::begin(got.turn), std::end(got.turn));
+  EXPECT_EQ(turns.size(), 64u) << "each workgroup's work is done once";
+  if (mode == "groups") { EXPECT_FALSE(std::is_sorted(std::begin(got.turn), std::end(got.turn))); }
+}
+
+}  // namespace hostile_driver_test
+}  // namespace rill::test
