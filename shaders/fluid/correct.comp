@@ -61,16 +61,8 @@ vec3 predictedDisplacement(vec3 from, vec3 velocity, vec3 acceleration) {
   return all(lessThanEqual(abs(difference - planned), rounding)) ? planned : difference;
 }
 
-void main() {
-  uint local = clusterInvocation();
-  uint i = push.first + local;
-  bool inRange = i < min(push.last, control.count);
-  if (!inRange) i = params.capacity;
-  uvec4 particle = particleAt(i);
-  here = uintBitsToFloat(particle.xyz);
-  own = multipliers(particle);
-  visitNeighbors(i, local, inRange);
-  if (!inRange) return;
+// Speed of the particle (m/s), whose substep ends here.
+float endSubstep(uint i) {
   correction *= unit * params.gradientScale;
   warmDisplacement *= unit * params.gradientScale;
   if (NEAR) {
@@ -125,7 +117,19 @@ void main() {
   velocity[i] = vec4(v, 1.0);
   if (WARM) warmAcceleration[i] = vec4(acceleration, found);
   prediction[i] = vec4(next, 0.0);
+  return sqrt(dot(v, v));
+}
 
-  float fastest = subgroupMax(sqrt(dot(v, v)));
+void main() {
+  uint local = clusterInvocation();
+  uint i = push.first + local;
+  bool inRange = i < min(push.last, control.count);
+  if (!inRange) i = params.capacity;
+  uvec4 particle = particleAt(i);
+  here = uintBitsToFloat(particle.xyz);
+  own = multipliers(particle);
+  visitNeighbors(i, local, inRange);
+  // No lane leaves before the maximum: those that are left need not come together again.
+  float fastest = subgroupMax(inRange ? endSubstep(i) : 0.0);
   if (subgroupElect()) atomicMax(sums.speedMax, floatBitsToUint(fastest));
 }

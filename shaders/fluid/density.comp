@@ -35,14 +35,8 @@ void visit(vec4 particle) {
 }
 #include "fluid/neighbors.glsl"
 
-void main() {
-  uint local = clusterInvocation();
-  uint i = push.first + local;
-  bool inRange = i < min(push.last, control.count);
-  if (!inRange) i = params.capacity;
-  here = particleAt(i).xyz;
-  visitNeighbors(i, local, inRange);
-  if (!inRange) return;
+// Compression of the particle, from 0 to 1; its multiplier is updated.
+float updateMultiplier(uint i) {
   rho = params.valueScale * (rho + kernelShape(0.0));
   gradientSum *= params.gradientScale;
   gradientSquares *= params.gradientScale * params.gradientScale;
@@ -82,9 +76,19 @@ void main() {
 
   float unit = kMultiplierScale / params.inverseRestGradient;
   work[i] = uvec4(floatBitsToUint(here), packHalf2x16(clamp(vec2(after - before, warmNext) * unit, -60000.0, 60000.0)));
+  return isWithin(vec3(constraint), 1.0e30) ? clamp(constraint, 0.0, 1.0) : 0.0;
+}
 
-  float compression = clamp(constraint, 0.0, 1.0);  // of 64 lanes, in kErrorUnit, it fits into 32 bits
-  float sum = subgroupAdd(compression);
+void main() {
+  uint local = clusterInvocation();
+  uint i = push.first + local;
+  bool inRange = i < min(push.last, control.count);
+  if (!inRange) i = params.capacity;
+  here = particleAt(i).xyz;
+  visitNeighbors(i, local, inRange);
+  // No lane leaves before the sums: those that are left need not come together again.
+  float compression = inRange ? updateMultiplier(i) : 0.0;
+  float sum = subgroupAdd(compression);  // of 64 lanes, in kErrorUnit, it fits into 32 bits
   float most = subgroupMax(compression);
   if (subgroupElect()) {
     uint add = uint(sum / kErrorUnit + 0.5);

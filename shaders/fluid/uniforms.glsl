@@ -10,7 +10,7 @@ layout(binding = 1) uniform ControlBlock { FluidControl control; };
 
 // Keeps a center half a spacing off the domain's walls. NaN and inactive particles are returned unchanged.
 vec3 insideWalls(vec3 x) {
-  if (!isActive(x)) return x;
+  if (!drawable(x)) return x;
   vec3 low = vec3(params.lowX, params.lowY, params.lowZ) + params.margin;
   vec3 high = vec3(params.highX, params.highY, params.highZ) - params.margin;
   return vec3(x.x < low.x ? low.x : (x.x > high.x ? high.x : x.x),
@@ -21,10 +21,7 @@ vec3 insideWalls(vec3 x) {
 // The warm-start acceleration, m/s^2; without a warm start its array is a placeholder, not written.
 vec3 keptWarmAcceleration(vec4 stored) { return WARM ? stored.xyz : vec3(0.0); }
 
-bool isFinite(vec3 x) {
-  vec3 limit = vec3(params.farLimit);
-  return all(lessThan(abs(x), limit));  // false for NaN, too
-}
+bool isFinite(vec3 x) { return isWithin(x, params.farLimit); }
 
 vec3 gravity() { return vec3(control.gravityX, control.gravityY, control.gravityZ); }
 
