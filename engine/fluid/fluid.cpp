@@ -51,6 +51,7 @@ FluidMemory fluidMemory(const Scene& scene, uint64_t particles) { return memoryO
 
 Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const FluidDesc& desc) {
   if (auto given = checkGiven(desc); !given) return given.error();
+  if (auto able = checkClusters(device); !able) return able.error();
   const ParticleSet& particles = *desc.particles;
   Scene scene = *desc.scene;
   if (particles.spacing > 0) scene.fluid.spacing = particles.spacing;

@@ -104,6 +104,8 @@ class FluidImpl {
   // pipelines.cpp
   Expected<void> preparePasses(Device& device);
   Expected<void> preparePass(Device& device, const FluidPassRow& row);
+  /// NoDevice if the particles of a workgroup cannot work together in clusters.
+  static Expected<void> checkClusters(const Device& device);
   std::vector<NamedConstant> constants(Device& device) const;
   // start_state.cpp
   void stageScene();

@@ -7,17 +7,25 @@
 namespace rill {
 namespace {
 
-constexpr uint32_t kMaxCluster = 32;  // see shaders/fluid/cluster.glsl: a window of candidates has as many
-
-/// Particles that walk the grid together are a subgroup, of which the shader knows that it is whole.
-uint32_t wholeSubgroup(const Device& device) { return std::min(device.info().subgroupSize, kFluidGroup); }
+ClusterChoice clusterOf(const Device& device) {
+  const DeviceImpl& impl = implOf(device);
+  return chooseCluster(impl.info, impl.canSetSubgroupSize, impl.vendor, kFluidGroup);
+}
 
 }  // namespace
+
+Expected<void> FluidImpl::checkClusters(const Device& device) {
+  if (const DeviceInfo& info = device.info(); clusterOf(device).cluster == 0)
+    return Error{ErrorKind::NoDevice, "device '" + info.name + "' cannot run a fluid: its subgroups are of up to " +
+                                          std::to_string(info.maxSubgroupSize) + " invocations, which do not divide workgroups of " +
+                                          std::to_string(kFluidGroup) + ", and no size can be required in compute shaders"};
+  return {};
+}
 
 std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
   const FluidParams& p = setup.params;
   return {{"KERNEL", setup.kernel},
-          {"CLUSTER", std::min(wholeSubgroup(device), kMaxCluster)},
+          {"CLUSTER", clusterOf(device).cluster},
           {"LIST_CAPACITY", p.listCapacity},
           {"NEAR", setup.near},
           {"WARM", setup.warm},
@@ -59,13 +67,13 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
   std::string shader(row.shader);
   if (row.extent == Extent::Keys && counted) shader += "_counted";
   shader = readingVariant(device, shader, texel_);
-  const uint32_t subgroup = row.extent == Extent::Gather || row.options.clusters ? wholeSubgroup(device) : 0;
+  const ClusterChoice choice = clusterOf(device);
 
-  const auto add = [&](uint32_t over, std::initializer_list<NamedConstant> own) -> Expected<void> {
+  const auto add = [&](uint32_t over, std::initializer_list<NamedConstant> own, SubgroupNeed subgroups = {}) -> Expected<void> {
     std::vector<NamedConstant> values(own);
     if (!row.options.constant.name.empty()) values.push_back(row.options.constant);
     values.insert(values.end(), shared.begin(), shared.end());  // the first value of a name counts
-    auto pipeline = shaderPipeline(device, shader, values, subgroup);
+    auto pipeline = shaderPipeline(device, shader, values, subgroups);
     if (!pipeline) return pipeline.error();
     PreparedPass::Variant variant{*pipeline, over};
     for (const ShaderBinding& binding : (*pipeline)->bindings) {
@@ -91,17 +99,17 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
   switch (row.extent) {
     case Extent::Gather:
       if (setup.params.listCapacity > 0)
-        if (auto ok = add(kOverLists, {}); !ok) return ok;
-      return add(kOverGrid, {{"WALKS", true}});
+        if (auto ok = add(kOverLists, {}, withoutCluster(device.info(), choice, kFluidGroup)); !ok) return ok;
+      return add(kOverGrid, {{"WALKS", true}}, choice.need);
     case Extent::Near:
       if (auto ok = add(kOverCorner, {{"CORNER", true}}); !ok) return ok;
       return add(kOverPlane, {{"CORNER", false}, {"SOLIDS", false}, {"THIN", false}});
     case Extent::Corner:
       return add(kOverCorner, {{"CORNER", true}});
     case Extent::Chunks:
-      return add(kOverChunk, {});
+      return add(kOverChunk, {}, choice.need);
     case Extent::Particles:
-      return add(kOverParticles, {});
+      return add(kOverParticles, {}, row.options.clusters ? choice.need : SubgroupNeed{});
     case Extent::Keys:
       return add(counted ? kOverParticles : kOverShape, {});
     default:

@@ -25,6 +25,7 @@ void describe(DeviceImpl& impl, const HostDevice& host) {
   impl.instance.GetPhysicalDeviceMemoryProperties(host.physicalDevice, &impl.memory);
   impl.physical = host.physicalDevice;
   impl.limits = properties.properties.limits;
+  impl.vendor = properties.properties.vendorID;
   impl.canSetSubgroupSize = (sizes.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
 
   DeviceInfo& info = impl.info;

@@ -70,6 +70,7 @@ class DeviceImpl {
   VkPhysicalDeviceMemoryProperties memory{};
   uint64_t timestampMask = 0;       ///< valid bits of the queue's timestamps; 0: not supported
   bool hasGraphics = false;         ///< the host's queue has graphics
+  uint32_t vendor = 0;              ///< PCI id
   bool canSetSubgroupSize = false;  ///< compute pipelines can require a subgroup size
   FrameClock clock;
   RetireQueue retired;

@@ -197,7 +197,7 @@ Expected<VkPipeline> PipelineStore::build(DeviceImpl& device, const ComputePipel
   const Constants constants(pipeline.constants);
   VkPipelineShaderStageRequiredSubgroupSizeCreateInfo subgroupSize{
       VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO};
-  subgroupSize.requiredSubgroupSize = pipeline.requiredSubgroupSize;
+  subgroupSize.requiredSubgroupSize = pipeline.subgroups.size;
 
   VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
   create.stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
@@ -205,10 +205,8 @@ Expected<VkPipeline> PipelineStore::build(DeviceImpl& device, const ComputePipel
   create.stage.module = module->handle();
   create.stage.pName = "main";
   create.stage.pSpecializationInfo = constants.info();
-  if (pipeline.requiredSubgroupSize != 0) {
-    create.stage.flags = VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
-    if (device.canSetSubgroupSize) create.stage.pNext = &subgroupSize;
-  }
+  if (pipeline.subgroups.full) create.stage.flags = VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
+  if (pipeline.subgroups.size != 0 && device.canSetSubgroupSize) create.stage.pNext = &subgroupSize;
   create.layout = pipeline.layout;
   VkPipeline handle = VK_NULL_HANDLE;
   if (VkResult r = device.vk.CreateComputePipelines(device.handle, device.cache, 1, &create, device.callbacks, &handle); r != VK_SUCCESS)
@@ -225,8 +223,9 @@ Expected<const ComputePipeline*> PipelineStore::find(DeviceImpl& device, const C
     reflection = *std::move(reflected);
     if (auto ok = reflection.complete(desc, desc.shader); !ok) return ok.error();
   }
+  const SubgroupNeed subgroups{desc.requiredSubgroupSize, desc.fullSubgroups || desc.requiredSubgroupSize != 0};
   for (const auto& p : pipelines_)
-    if (p->shader == desc.shader && p->pushBytes == desc.pushConstantBytes && p->requiredSubgroupSize == desc.requiredSubgroupSize &&
+    if (p->shader == desc.shader && p->pushBytes == desc.pushConstantBytes && p->subgroups == subgroups &&
         std::ranges::equal(p->set->kinds, desc.bindings) && std::ranges::equal(p->constants, desc.constants) &&
         std::ranges::equal(p->words, desc.spirv))
       return p.get();
@@ -247,7 +246,7 @@ Expected<const ComputePipeline*> PipelineStore::find(DeviceImpl& device, const C
   pipeline->shader = desc.shader;
   pipeline->bindings = std::move(reflection.bindings);
   pipeline->words.assign(desc.spirv.begin(), desc.spirv.end());
-  pipeline->requiredSubgroupSize = size;
+  pipeline->subgroups = subgroups;
   if (auto ok = begin(device, *pipeline, desc.bindings, desc.pushConstantBytes, desc.constants); !ok) return ok.error();
   auto handle = build(device, *pipeline, *words);
   return keep(device, pipelines_, std::move(pipeline), std::move(handle));

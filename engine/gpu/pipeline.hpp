@@ -9,6 +9,7 @@
 
 #include "gpu/resources.hpp"
 #include "gpu/shader_library.hpp"
+#include "gpu/subgroups.hpp"
 
 namespace rill {
 
@@ -39,7 +40,7 @@ struct Pipeline {
 };
 
 struct ComputePipeline : Pipeline {
-  uint32_t requiredSubgroupSize = 0;
+  SubgroupNeed subgroups;
 };
 
 struct GraphicsPipeline : Pipeline {

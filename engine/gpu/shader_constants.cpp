@@ -7,7 +7,7 @@
 namespace rill {
 
 Expected<const ComputePipeline*> shaderPipeline(Device& device, std::string_view shader, std::span<const NamedConstant> constants,
-                                                uint32_t requiredSubgroupSize) {
+                                                SubgroupNeed subgroups) {
   const EmbeddedShader* embedded = embeddedShader(implOf(device), shader);
   if (!embedded) return shaderError(shader, "no embedded shader has this name");
   std::vector<uint32_t> values;
@@ -17,7 +17,8 @@ Expected<const ComputePipeline*> shaderPipeline(Device& device, std::string_view
     values.resize(std::max<size_t>(values.size(), constant.id + 1));
     values[constant.id] = found->value;
   }
-  return computePipeline(device, {.shader = shader, .constants = values, .requiredSubgroupSize = requiredSubgroupSize});
+  return computePipeline(device,
+                         {.shader = shader, .constants = values, .requiredSubgroupSize = subgroups.size, .fullSubgroups = subgroups.full});
 }
 
 std::string readingVariant(const Device& device, std::string_view shader, bool texels) {

@@ -17,7 +17,7 @@ struct NamedConstant {
 /// The compute pipeline of an embedded shader. Each of its specialization constants must be among `constants`, which may name others too:
 /// a module gives all of its shaders the same list. Fails as computePipeline(), and with Shader for a constant without a value.
 Expected<const ComputePipeline*> shaderPipeline(Device& device, std::string_view shader, std::span<const NamedConstant> constants = {},
-                                                uint32_t requiredSubgroupSize = 0);
+                                                SubgroupNeed subgroups = {});
 inline Expected<const ComputePipeline*> shaderPipeline(Device& device, std::string_view shader,
                                                        std::initializer_list<NamedConstant> constants) {
   return shaderPipeline(device, shader, std::span(constants.begin(), constants.size()));

@@ -38,26 +38,29 @@ void features(VkPhysicalDevice, VkPhysicalDeviceFeatures2* out) {
 
 void properties(VkPhysicalDevice, VkPhysicalDeviceProperties2* out) {
   VkPhysicalDeviceProperties& p = out->properties;
-  p.apiVersion = VK_API_VERSION_1_3;
-  std::snprintf(p.deviceName, sizeof p.deviceName, "null device");
+  const NullProperties& given = current->properties;
+  p.apiVersion = given.api;
+  p.vendorID = given.vendor;
+  std::snprintf(p.deviceName, sizeof p.deviceName, "%s", given.name);
   p.limits.maxStorageBufferRange = 1u << 30;
   p.limits.maxUniformBufferRange = 65536;
   p.limits.maxImageDimension2D = 4096;
   p.limits.maxPerStageDescriptorStorageImages = p.limits.maxPerStageDescriptorSampledImages = 16;
-  p.limits.maxTexelBufferElements = 65536;
+  p.limits.maxTexelBufferElements = given.maxTexelBufferElements;
   p.limits.maxPerStageDescriptorStorageBuffers = 64;
   p.limits.minStorageBufferOffsetAlignment = p.limits.minUniformBufferOffsetAlignment = p.limits.minTexelBufferOffsetAlignment = 64;
   p.limits.timestampPeriod = 1;
   for (auto* next = static_cast<VkBaseOutStructure*>(out->pNext); next; next = next->pNext) {
     if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES) {
       auto& s = *reinterpret_cast<VkPhysicalDeviceSubgroupProperties*>(next);
-      s.subgroupSize = 8;
+      s.subgroupSize = given.subgroupSize;
       s.supportedStages = VK_SHADER_STAGE_COMPUTE_BIT;
-      s.supportedOperations = 0xff;
+      s.supportedOperations = given.subgroupOperations;
     } else if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES) {
       auto& s = *reinterpret_cast<VkPhysicalDeviceSubgroupSizeControlProperties*>(next);
-      s.minSubgroupSize = s.maxSubgroupSize = 8;
-      s.requiredSubgroupSizeStages = VK_SHADER_STAGE_COMPUTE_BIT;
+      s.minSubgroupSize = given.minSubgroupSize;
+      s.maxSubgroupSize = given.maxSubgroupSize;
+      s.requiredSubgroupSizeStages = given.requiresSubgroupSize ? VK_SHADER_STAGE_COMPUTE_BIT : 0;
     }
   }
 }
@@ -127,9 +130,17 @@ VkResult mapMemory(VkDevice, VkDeviceMemory, VkDeviceSize, VkDeviceSize, VkMemor
   return VK_SUCCESS;
 }
 
-VkResult createPipelines(VkDevice, VkPipelineCache, uint32_t count, const VkComputePipelineCreateInfo*, const VkAllocationCallbacks*,
+VkResult createPipelines(VkDevice, VkPipelineCache, uint32_t count, const VkComputePipelineCreateInfo* infos, const VkAllocationCallbacks*,
                          VkPipeline* out) {
-  for (uint32_t i = 0; i < count; ++i) out[i] = newHandle<VkPipeline>();
+  for (uint32_t i = 0; i < count; ++i) {
+    out[i] = newHandle<VkPipeline>();
+    NullPipeline made{0, (infos[i].stage.flags & VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT) != 0};
+    for (auto* next = static_cast<const VkBaseInStructure*>(infos[i].stage.pNext); next; next = next->pNext)
+      if (next->sType == VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO)
+        made.requiredSubgroupSize =
+            reinterpret_cast<const VkPipelineShaderStageRequiredSubgroupSizeCreateInfo*>(next)->requiredSubgroupSize;
+    current->pipelines.push_back(made);
+  }
   return VK_SUCCESS;
 }
 

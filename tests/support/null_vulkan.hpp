@@ -33,6 +33,23 @@ struct NullCommand {
                      ///< barriers in handle
 };
 
+/// What the device says of itself.
+struct NullProperties {
+  const char* name = "null device";
+  uint32_t vendor = 0;  ///< PCI id
+  uint32_t subgroupSize = 8, minSubgroupSize = 8, maxSubgroupSize = 8;
+  bool requiresSubgroupSize = true;  ///< a size can be required in compute shaders
+  uint32_t maxTexelBufferElements = 65536;
+  VkSubgroupFeatureFlags subgroupOperations = 0xff;
+  uint32_t api = VK_API_VERSION_1_3;
+};
+
+/// A compute pipeline that was created.
+struct NullPipeline {
+  uint32_t requiredSubgroupSize;  ///< 0: any
+  bool fullSubgroups;
+};
+
 class NullVulkan {
  public:
   NullVulkan();
@@ -44,7 +61,9 @@ class NullVulkan {
   static VkCommandBuffer commandBuffer() { return reinterpret_cast<VkCommandBuffer>(uintptr_t(1)); }
   size_t count(NullCommand::Kind kind) const;
 
+  NullProperties properties;  ///< read when the device is borrowed
   std::vector<NullCommand> commands;
+  std::vector<NullPipeline> pipelines;
   std::vector<VkImageMemoryBarrier2> imageBarriers;  ///< of all barriers, in order
   VkResult allocationResult = VK_SUCCESS;            ///< returned by vkAllocateMemory
   uint64_t bufferBytes = 0;                          ///< of all buffers that were created

@@ -42,6 +42,7 @@ struct ComputePipelineDesc {
   uint32_t pushConstantBytes = 0;          ///< a multiple of 4, at most 128; every dispatch passes exactly this many
   SpecializationConstants constants = {};  ///< at most 32
   uint32_t requiredSubgroupSize = 0;       ///< requires full subgroups of this size; must divide local_size_x. 0: any
+  bool fullSubgroups = false;  ///< of any size: no invocation is missing; local_size_x must be a multiple of DeviceInfo::maxSubgroupSize
 };
 
 struct ComputePipeline;

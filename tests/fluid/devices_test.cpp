@@ -1,0 +1,112 @@
+// What a fluid takes of devices as their drivers describe them. Sources: Mesa 24 (src/amd/vulkan/radv_physical_device.c,
+// src/nouveau/vulkan/nvk_physical_device.c, src/intel/vulkan/anv_physical_device.c, src/freedreno/vulkan/tu_device.cc,
+// src/panfrost/vulkan/panvk_vX_physical_device.c, src/broadcom/vulkan/v3dv_device.c), MoltenVK 1.2 (MVKDevice.mm), the drivers themselves.
+#include <gtest/gtest.h>
+
+#include "gpu/device_impl.hpp"
+#include "gpu/subgroups.hpp"
+#include "rill/fluid.hpp"
+#include "rill/particles.hpp"
+#include "shared/fluid_records.h"
+#include "support/null_vulkan.hpp"
+
+namespace rill::test {
+namespace devices_test {
+
+constexpr uint32_t kAmd = 0x1002, kApple = 0x106b, kArm = 0x13b5, kBroadcom = 0x14e4, kIntel = 0x8086, kNvidia = 0x10de, kQualcomm = 0x5143;
+
+struct Row {
+  NullProperties device;
+  uint32_t requiredSize, cluster;  ///< of passes with clusters; 0: no size is required
+};
+
+void PrintTo(const Row& row, std::ostream* out) { *out << row.device.name; }
+
+NullProperties device(const char* name, uint32_t vendor, uint32_t size, uint32_t smallest, uint32_t largest, bool requires_ = true,
+                      uint32_t texels = 1u << 27) {
+  return {.name = name,
+          .vendor = vendor,
+          .subgroupSize = size,
+          .minSubgroupSize = smallest,
+          .maxSubgroupSize = largest,
+          .requiresSubgroupSize = requires_,
+          .maxTexelBufferElements = texels};
+}
+
+class DevicesTest : public ::testing::TestWithParam<Row> {
+ protected:
+  /// The message of a fluid that is not made, else nothing.
+  std::string create() {
+    auto borrowed = Device::borrow(vulkan.host());
+    if (!borrowed) return borrowed.error().message;
+    device_ = std::move(*borrowed);
+    device_->beginFrame({1, 0});
+    Scene scene;
+    scene.fluid.spacing = 0.1;
+    scene.domain = Domain{};
+    Fill fill;
+    fill.shape = BoxShape{{0, 0, 0}, {0.5, 0.5, 0.5}};
+    scene.fill.push_back(fill);
+    const auto particles = makeParticles(scene);
+    if (!particles) return particles.error().message;
+    const auto fluid = Fluid::create(*device_, {.scene = &scene, .particles = &*particles});
+    return fluid ? "" : fluid.error().message;
+  }
+  NullVulkan vulkan;
+  std::optional<Device> device_;
+};
+
+TEST_P(DevicesTest, RunsAFluid) {
+  const auto& [given, requiredSize, cluster] = GetParam();
+  vulkan.properties = given;
+  ASSERT_EQ(create(), "");
+  size_t clustered = 0;
+  for (const NullPipeline& pipeline : vulkan.pipelines) {
+    if (pipeline.requiredSubgroupSize != 0) {
+      EXPECT_TRUE(given.requiresSubgroupSize);
+      EXPECT_EQ(pipeline.requiredSubgroupSize, requiredSize);
+    } else if (pipeline.fullSubgroups) {
+      EXPECT_EQ(kFluidGroup % given.maxSubgroupSize, 0u) << "full subgroups of any size need a multiple of the largest";
+    }
+    clustered += pipeline.fullSubgroups && pipeline.requiredSubgroupSize == requiredSize;
+  }
+  EXPECT_GT(clustered, 0u);
+  const DeviceImpl& impl = implOf(*device_);
+  const ClusterChoice choice = chooseCluster(impl.info, impl.canSetSubgroupSize, impl.vendor, kFluidGroup);
+  EXPECT_EQ(choice.need, (SubgroupNeed{requiredSize, true}));
+  EXPECT_EQ(choice.cluster, cluster);
+}
+
+INSTANTIATE_TEST_SUITE_P(Known, DevicesTest,
+                         testing::Values(Row{device("Apple M1 (MoltenVK)", kApple, 32, 4, 32, false), 0, 4},
+                                         Row{device("GeForce RTX 2070 (Turing)", kNvidia, 32, 32, 32), 32, 32},
+                                         Row{device("GeForce RTX 3070 (Ampere)", kNvidia, 32, 32, 32), 32, 32},
+                                         Row{device("GeForce RTX 4070 (Ada)", kNvidia, 32, 32, 32), 32, 32},
+                                         Row{device("GeForce RTX 4070 (NVK, Mesa 23)", kNvidia, 32, 32, 32, false), 0, 32},
+                                         Row{device("Radeon RX 6800 (RDNA 2)", kAmd, 64, 32, 64), 32, 32},
+                                         Row{device("Radeon RX 7800 (RDNA 3)", kAmd, 64, 32, 64), 32, 32},
+                                         Row{device("Radeon RX 580 (GCN)", kAmd, 64, 64, 64, false), 0, 32},
+                                         Row{device("Arc A770", kIntel, 32, 8, 32), 16, 16},
+                                         Row{device("Iris Xe", kIntel, 32, 8, 32), 16, 16},
+                                         Row{device("Adreno 740", kQualcomm, 128, 64, 128), 64, 32},
+                                         Row{device("Mali-G710", kArm, 16, 16, 16, false, 1u << 28), 0, 16},
+                                         Row{device("Mali-G52 (Bifrost)", kArm, 8, 8, 8, false, 1u << 28), 0, 8},
+                                         Row{device("V3D 7.1 (Raspberry Pi 5)", kBroadcom, 16, 16, 16), 16, 16}));
+
+TEST_F(DevicesTest, RejectsSubgroupsAboveTheWorkgroupWithoutControl) {
+  vulkan.properties = device("wide", kQualcomm, 128, 64, 128, false);
+  EXPECT_EQ(
+      create(),
+      "device 'wide' cannot run a fluid: its subgroups are of up to 128 invocations, which do not divide workgroups of 64, and no size "
+      "can be required in compute shaders");
+  EXPECT_EQ(vulkan.bufferBytes, 0u) << "before anything is allocated";
+}
+
+TEST_F(DevicesTest, RejectsDeviceWithoutShuffles) {
+  vulkan.properties = device("plain", kBroadcom, 16, 16, 16);
+  vulkan.properties.subgroupOperations = VK_SUBGROUP_FEATURE_BASIC_BIT;
+  EXPECT_EQ(create(), "device 'plain' cannot run Rill: missing subgroup operations (basic, arithmetic, shuffle) in compute shaders");
+}
+
+}  // namespace devices_test
+}  // namespace rill::test
