@@ -1,5 +1,7 @@
-// A Vulkan layer that makes any driver a hostile one: it rewrites shaders as the specification allows (spirv_rewrites.hpp).
-// RILL_TEST_HOSTILE names what it does, separated by commas: flush-denormals, assume-finite, perturb=SEED, poison-shuffles, groups=SEED.
+// A Vulkan layer that makes any driver a hostile one, by what the specification leaves to drivers. RILL_TEST_HOSTILE names it, separated
+// by commas: flush-denormals, assume-finite, perturb=SEED, poison-shuffles, groups=SEED rewrite shaders (spirv_rewrites.hpp);
+// varying-subgroups=SIZE says that no subgroup size can be required and that they may be as small as SIZE.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -14,14 +16,26 @@ namespace {
 
 PFN_vkCreateShaderModule nextCreateShaderModule = nullptr;
 
-std::vector<uint32_t> rewritten(std::vector<uint32_t> words, std::string_view todo) {
-  while (!todo.empty()) {
+struct Freedom {
+  std::string name;
+  uint32_t number = 0;
+};
+
+std::vector<Freedom> freedoms() {
+  const char* given = std::getenv("RILL_TEST_HOSTILE");
+  std::vector<Freedom> out;
+  for (std::string_view todo = given ? given : ""; !todo.empty();) {
     const std::string_view one = todo.substr(0, todo.find(','));
     todo.remove_prefix(std::min(one.size() + 1, todo.size()));
-    const size_t equals = one.find('=');
-    const std::string_view name = one.substr(0, equals);
-    const auto seed =
-        equals == one.npos ? 0u : static_cast<uint32_t>(std::strtoul(std::string(one.substr(equals + 1)).c_str(), nullptr, 10));
+    const size_t equals = std::min(one.find('='), one.size());
+    const std::string number(one.substr(std::min(equals + 1, one.size())));
+    out.push_back({std::string(one.substr(0, equals)), static_cast<uint32_t>(std::strtoul(number.c_str(), nullptr, 10))});
+  }
+  return out;
+}
+
+std::vector<uint32_t> rewritten(std::vector<uint32_t> words) {
+  for (const auto& [name, seed] : freedoms()) {
     if (name == "flush-denormals") {
       words = flushDenormals(words);
     } else if (name == "assume-finite") {
@@ -32,8 +46,8 @@ std::vector<uint32_t> rewritten(std::vector<uint32_t> words, std::string_view to
       words = poisonShuffles(words);
     } else if (name == "groups") {
       words = permuteWorkgroups(words, seed);
-    } else {
-      std::fprintf(stderr, "RILL_TEST_HOSTILE: unknown name \"%s\"\n", std::string(name).c_str());
+    } else if (name != "varying-subgroups") {
+      std::fprintf(stderr, "RILL_TEST_HOSTILE: unknown name \"%s\"\n", name.c_str());
       std::abort();
     }
   }
@@ -42,12 +56,22 @@ std::vector<uint32_t> rewritten(std::vector<uint32_t> words, std::string_view to
 
 VKAPI_ATTR VkResult VKAPI_CALL createShaderModule(VkDevice device, const VkShaderModuleCreateInfo* info,
                                                   const VkAllocationCallbacks* callbacks, VkShaderModule* module) {
-  const char* todo = std::getenv("RILL_TEST_HOSTILE");
-  const std::vector<uint32_t> words = rewritten({info->pCode, info->pCode + info->codeSize / 4}, todo ? todo : "");
+  const std::vector<uint32_t> words = rewritten({info->pCode, info->pCode + info->codeSize / 4});
   VkShaderModuleCreateInfo changed = *info;
   changed.codeSize = words.size() * 4;
   changed.pCode = words.data();
   return nextCreateShaderModule(device, &changed, callbacks, module);
+}
+
+VKAPI_ATTR void VKAPI_CALL getProperties(VkPhysicalDevice physical, VkPhysicalDeviceProperties2* out) {
+  reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(nextInstanceProc("vkGetPhysicalDeviceProperties2"))(physical, out);
+  for (const auto& [name, size] : freedoms())
+    for (auto* next = static_cast<VkBaseOutStructure*>(out->pNext); next && name == "varying-subgroups"; next = next->pNext)
+      if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES) {
+        auto& sizes = *reinterpret_cast<VkPhysicalDeviceSubgroupSizeControlProperties*>(next);
+        sizes.minSubgroupSize = size;
+        sizes.requiredSubgroupSizeStages = 0;
+      }
 }
 
 }  // namespace
@@ -57,7 +81,9 @@ void deviceCreated(VkDevice device) {
 }
 
 PFN_vkVoidFunction replacement(const char* name) {
-  return std::strcmp(name, "vkCreateShaderModule") == 0 ? reinterpret_cast<PFN_vkVoidFunction>(&createShaderModule) : nullptr;
+  if (std::strcmp(name, "vkCreateShaderModule") == 0) return reinterpret_cast<PFN_vkVoidFunction>(&createShaderModule);
+  if (std::strcmp(name, "vkGetPhysicalDeviceProperties2") == 0) return reinterpret_cast<PFN_vkVoidFunction>(&getProperties);
+  return nullptr;
 }
 
 }  // namespace rill::layer

@@ -7,6 +7,7 @@ namespace {
 
 PFN_vkGetInstanceProcAddr nextInstance = nullptr;
 PFN_vkGetDeviceProcAddr nextDevice = nullptr;
+VkInstance theInstance = VK_NULL_HANDLE;
 
 /// The loader's layer link in the pNext chain of a create info.
 template <class Link, class Info>
@@ -24,7 +25,9 @@ VKAPI_ATTR VkResult VKAPI_CALL createInstance(const VkInstanceCreateInfo* info, 
   if (!link) return VK_ERROR_INITIALIZATION_FAILED;
   nextInstance = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
   link->u.pLayerInfo = link->u.pLayerInfo->pNext;
-  return reinterpret_cast<PFN_vkCreateInstance>(nextInstance(VK_NULL_HANDLE, "vkCreateInstance"))(info, callbacks, instance);
+  const VkResult made = reinterpret_cast<PFN_vkCreateInstance>(nextInstance(VK_NULL_HANDLE, "vkCreateInstance"))(info, callbacks, instance);
+  if (made == VK_SUCCESS) theInstance = *instance;
+  return made;
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkDeviceCreateInfo* info,
@@ -61,6 +64,7 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getInstanceProc(VkInstance instance, co
 
 }  // namespace
 
+PFN_vkVoidFunction nextInstanceProc(const char* name) { return nextInstance(theInstance, name); }
 PFN_vkVoidFunction nextDeviceProc(VkDevice device, const char* name) { return nextDevice(device, name); }
 
 }  // namespace rill::layer

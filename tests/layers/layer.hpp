@@ -12,7 +12,8 @@ PFN_vkVoidFunction replacement(const char* name);
 /// Called once the device exists. Each layer defines it, to find what it calls by nextDeviceProc().
 void deviceCreated(VkDevice device);
 
-/// A function of the next layer or the driver.
+/// Functions of the next layer or the driver.
+PFN_vkVoidFunction nextInstanceProc(const char* name);
 PFN_vkVoidFunction nextDeviceProc(VkDevice device, const char* name);
 
 }  // namespace rill::layer
