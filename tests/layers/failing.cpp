@@ -61,6 +61,8 @@ enum FunctionIndex : int {
 
 }  // namespace
 
+void instanceCreated(VkInstance) {}
+
 void deviceCreated(VkDevice device) {
 #define FIND(function)                                               \
   Failing<PFN_vk##function>::Of<k##function>::name = "vk" #function; \

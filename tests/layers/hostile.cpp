@@ -15,6 +15,7 @@ namespace rill::layer {
 namespace {
 
 PFN_vkCreateShaderModule nextCreateShaderModule = nullptr;
+PFN_vkGetPhysicalDeviceProperties2 nextGetProperties = nullptr;
 
 struct Freedom {
   std::string name;
@@ -64,7 +65,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createShaderModule(VkDevice device, const VkShade
 }
 
 VKAPI_ATTR void VKAPI_CALL getProperties(VkPhysicalDevice physical, VkPhysicalDeviceProperties2* out) {
-  reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(nextInstanceProc("vkGetPhysicalDeviceProperties2"))(physical, out);
+  nextGetProperties(physical, out);
   for (const auto& [name, size] : freedoms())
     for (auto* next = static_cast<VkBaseOutStructure*>(out->pNext); next && name == "varying-subgroups"; next = next->pNext)
       if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES) {
@@ -75,6 +76,10 @@ VKAPI_ATTR void VKAPI_CALL getProperties(VkPhysicalDevice physical, VkPhysicalDe
 }
 
 }  // namespace
+
+void instanceCreated(VkInstance instance) {
+  nextGetProperties = reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(nextInstanceProc(instance, "vkGetPhysicalDeviceProperties2"));
+}
 
 void deviceCreated(VkDevice device) {
   nextCreateShaderModule = reinterpret_cast<PFN_vkCreateShaderModule>(nextDeviceProc(device, "vkCreateShaderModule"));

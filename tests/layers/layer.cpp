@@ -7,7 +7,6 @@ namespace {
 
 PFN_vkGetInstanceProcAddr nextInstance = nullptr;
 PFN_vkGetDeviceProcAddr nextDevice = nullptr;
-VkInstance theInstance = VK_NULL_HANDLE;
 
 /// The loader's layer link in the pNext chain of a create info.
 template <class Link, class Info>
@@ -26,7 +25,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createInstance(const VkInstanceCreateInfo* info, 
   nextInstance = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
   link->u.pLayerInfo = link->u.pLayerInfo->pNext;
   const VkResult made = reinterpret_cast<PFN_vkCreateInstance>(nextInstance(VK_NULL_HANDLE, "vkCreateInstance"))(info, callbacks, instance);
-  if (made == VK_SUCCESS) theInstance = *instance;
+  if (made == VK_SUCCESS) instanceCreated(*instance);
   return made;
 }
 
@@ -64,7 +63,7 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getInstanceProc(VkInstance instance, co
 
 }  // namespace
 
-PFN_vkVoidFunction nextInstanceProc(const char* name) { return nextInstance(theInstance, name); }
+PFN_vkVoidFunction nextInstanceProc(VkInstance instance, const char* name) { return nextInstance(instance, name); }
 PFN_vkVoidFunction nextDeviceProc(VkDevice device, const char* name) { return nextDevice(device, name); }
 
 }  // namespace rill::layer
