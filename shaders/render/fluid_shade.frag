@@ -80,8 +80,8 @@ struct MeanNormal {
 MeanNormal meanNormalAt(vec2 middle, float z, vec3 normal, vec3 sight) {
   const ivec2 grid = ivec2(sampleGrid());
   const vec2 at = sampleOf(middle);
-  const ivec2 base = ivec2(floor(at));
-  const vec2 part = at - vec2(base);
+  const ivec2 base = sampleBefore(at);
+  const vec2 part = max(at - vec2(base), vec2(0.0));
   const float change = allowedDepthChange(spacingAt(z), metersAPixel(z) * float(view.step), normal, sight);
   vec3 sum = vec3(0.0);
   float lengths = 0.0, weights = 0.0;

@@ -113,6 +113,9 @@ uvec2 sampleGrid() { return (uvec2(view.width, view.height) + view.step - 1u) / 
 vec2 samplePixel(ivec2 at) { return (vec2(at - int(view.margin)) + 0.5) * float(view.step); }
 // Position of a pixel on the sample grid; whole numbers are samples.
 vec2 sampleOf(vec2 pixel) { return pixel / float(view.step) - 0.5 + float(view.margin); }
+// The sample at or before a position of a pixel's center. Positions are whole or at least 1/32 from it, up to the rounding of sampleOf(),
+// which may fall on either side.
+ivec2 sampleBefore(vec2 at) { return ivec2(floor(at + 1e-3)); }
 // First and last sample whose center a sphere may cover, both included; empty if last < first.
 ivec4 sampleRect(vec3 center, float radius) {
   const vec4 pixels = clamp(sphereExtent(center, radius), vec4(-1e6), vec4(1e6));

@@ -11,9 +11,9 @@ struct Corners {
 Corners cornersOf(vec2 middle) {
   const ivec2 grid = ivec2(sampleGrid());
   const vec2 at = sampleOf(middle);
-  const ivec2 base = ivec2(floor(at));
+  const ivec2 base = sampleBefore(at);
   Corners c;
-  c.part = at - vec2(base);
+  c.part = max(at - vec2(base), vec2(0.0));
   c.coplanar = true;
   for (int k = 0; k < 4; ++k) {
     const ivec2 s = clamp(base + ivec2(k & 1, k >> 1), ivec2(0), grid - 1);

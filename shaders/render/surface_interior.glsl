@@ -15,9 +15,9 @@ const float kInteriorShare = 0.9683;  // share of covered samples at a coverage 
 float interiorCoverage(vec2 middle) {
   const ivec2 grid = ivec2(sampleGrid());
   const vec2 at = sampleOf(middle);
-  const ivec2 base = ivec2(floor(at));
+  const ivec2 base = sampleBefore(at);
   if (any(lessThan(base, ivec2(2))) || any(greaterThanEqual(base, grid - 3))) return 0.0;
-  const vec2 part = at - vec2(base);
+  const vec2 part = max(at - vec2(base), vec2(0.0));
   float covered = 0.0;
   for (int y = -2; y <= 3; ++y) {
     const float wy = y == -2 ? 1.0 - part.y : (y == 3 ? part.y : 1.0);
