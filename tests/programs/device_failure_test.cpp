@@ -31,9 +31,8 @@ class FailingLayer : public ::testing::Test {
  protected:
   Outcome run(const std::string& plan) {
     const std::string scene = folder.write("drop.json", kDrop).string();
-    return capture(
-        {scene, "--frames", "6", "--size", "64x48", "--stats", "stats.json", "--export", "ply"}, folder.string(),
-        {{"VK_LAYER_PATH", RILL_LAYERS_FOLDER}, {"VK_INSTANCE_LAYERS", "VK_LAYER_RILL_failing"}, {"RILL_TEST_FAIL", plan}});
+    return capture({scene, "--frames", "6", "--size", "64x48", "--stats", "stats.json", "--export", "ply"}, folder.string(),
+                   {{"VK_LAYER_PATH", RILL_LAYERS_FOLDER}, {"VK_INSTANCE_LAYERS", "VK_LAYER_RILL_failing"}, {"RILL_TEST_FAIL", plan}});
   }
   TemporaryFolder folder;
 };
