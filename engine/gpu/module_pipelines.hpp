@@ -13,9 +13,10 @@ class ModulePipelines {
   explicit ModulePipelines(Device& device) : device_(device) {}
 
   /// Null after an error; see result(). `texels`: the variant that reads arrays through texel buffers, if the shader has one.
-  const ComputePipeline* make(std::string_view shader, bool texels = false, std::initializer_list<NamedConstant> constants = {}) {
+  const ComputePipeline* make(std::string_view shader, bool texels = false, std::initializer_list<NamedConstant> constants = {},
+                              SubgroupNeed subgroups = {}) {
     if (error_) return nullptr;
-    auto made = shaderPipeline(device_, readingVariant(device_, shader, texels), constants);
+    auto made = shaderPipeline(device_, readingVariant(device_, shader, texels), std::span(constants.begin(), constants.size()), subgroups);
     if (made) return *made;
     error_ = made.error();
     return nullptr;

@@ -24,6 +24,9 @@ struct ClusterChoice {
 /// spill registers at 32; as near to that as the device goes.
 ClusterChoice chooseCluster(const DeviceInfo& info, bool canRequireSize, uint32_t vendor, uint32_t workgroup);
 
+/// Full subgroups of any size, if these divide the workgroup; else no need.
+SubgroupNeed fullSubgroups(const DeviceInfo& info, uint32_t workgroup);
+
 /// For passes of the same shaders that have no clusters: full subgroups of any size, where those can be had without requiring one.
 SubgroupNeed withoutCluster(const DeviceInfo& info, const ClusterChoice& choice, uint32_t workgroup);
 

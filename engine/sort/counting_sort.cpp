@@ -21,7 +21,7 @@ Expected<CountingSort> CountingSort::create(Device& device, const KeySortDesc& d
   sort.scatter_ = pipelines.make("sort/scatter", texels, {{"SKIP_NO_KEY", desc.fusedEnds}});
   if (!desc.fusedEnds)
     sort.orderBins_ = pipelines.make(desc.keys ? "sort/order_bins_keys" : "sort/order_bins", texels, {{"SKIP_OVERSIZED", oversized}});
-  if (oversized) sort.orderOversized_ = pipelines.make("sort/order_oversized", texels);
+  if (oversized) sort.orderOversized_ = pipelines.make("sort/order_oversized", texels, {}, fullSubgroups(device.info(), kCountThreads));
   if (auto made = pipelines.result(); !made) return made.error();
   return sort;
 }

@@ -25,12 +25,13 @@ Expected<Scan> Scan::create(Device& device, uint32_t count, bool storageReads, c
   if (count == 0) return scan;
   const bool texels = !storageReads && usesTexelReads(device, paddedWords(count) / 4);
   ModulePipelines pipelines(device);
+  const SubgroupNeed full = fullSubgroups(device.info(), kScanThreads);  // see workgroup_scan.glsl
   const auto make = [&](bool texelReads) {
     Pipelines made;
-    made.single = pipelines.make("sort/scan_single");
-    made.reduce = pipelines.make("sort/scan_reduce", texelReads);
-    made.apply = pipelines.make("sort/scan_apply", texelReads, {{"SUMS_SCANNED", false}});
-    made.applyScanned = pipelines.make("sort/scan_apply", texelReads, {{"SUMS_SCANNED", true}});
+    made.single = pipelines.make("sort/scan_single", false, {}, full);
+    made.reduce = pipelines.make("sort/scan_reduce", texelReads, {}, full);
+    made.apply = pipelines.make("sort/scan_apply", texelReads, {{"SUMS_SCANNED", false}}, full);
+    made.applyScanned = pipelines.make("sort/scan_apply", texelReads, {{"SUMS_SCANNED", true}}, full);
     return made;
   };
   scan.pipelines_ = make(texels);

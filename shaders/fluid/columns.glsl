@@ -21,7 +21,7 @@ const uint kColumnOne = 1u << 25;  // of 64 lanes: 7 bits for how many, 24 for t
 void addToColumns(bool counts, vec3 x) {
   vec3 low = vec3(params.boundLowX, params.boundLowY, params.boundLowZ);
   vec3 high = vec3(params.boundHighX, params.boundHighY, params.boundHighZ);
-  counts = counts && isActive(x) && all(greaterThanEqual(x, low)) && all(lessThanEqual(x, high));  // not NaN, either
+  counts = counts && drawable(x) && all(greaterThanEqual(x, low)) && all(lessThanEqual(x, high));
   low = max(low, vec3(-0.5 * float(kMaxColumnPlace) / kColumnUnits * params.spacing));  // without a domain
   vec3 places = max((x - low) * (kColumnUnits / params.spacing), vec3(0.0));
   ADD_TO_COLUMN(X, places.x)

@@ -15,8 +15,8 @@ layout(std430, binding = 7) buffer SumsBlock { FluidSums sums; };
 vec3 place;
 uint self;
 void takeTurn(bool mine) { here = mine ? place : vec3(-kInactivePosition); }  // from there nothing is near
-vec4 movedAway(vec4 particle) { return vec4(vec3(kInactivePosition), particle.w); }
-uvec4 movedAway(uvec4 particle) { return uvec4(floatBitsToUint(vec3(kInactivePosition)), particle.w); }
+vec4 asInactive(vec4 particle) { return vec4(vec3(kInactivePosition), particle.w); }
+uvec4 asInactive(uvec4 particle) { return uvec4(floatBitsToUint(vec3(kInactivePosition)), particle.w); }
 void candidates(uint first, uint end) {
   uint base = first;
   LOOP_WHILE (base < end) {
@@ -27,7 +27,7 @@ void candidates(uint first, uint end) {
 #endif
     for (uint lane = 0u; lane < CLUSTER; ++lane) {
       PARTICLE other = SPREAD(particle, lane);
-      if (base + lane == self) other = movedAway(other);
+      if (base + lane == self) other = asInactive(other);
 #ifdef COMPANION
       visit(other, SPREAD(companion, lane));
 #else

@@ -10,7 +10,7 @@ layout(binding = 1) uniform ControlBlock { FluidControl control; };
 
 // Keeps a center half a spacing off the domain's walls. NaN and inactive particles are returned unchanged.
 vec3 insideWalls(vec3 x) {
-  if (!drawable(x)) return x;
+  if (!isActive(x) || !isWithin(x, 3.0e38)) return x;
   vec3 low = vec3(params.lowX, params.lowY, params.lowZ) + params.margin;
   vec3 high = vec3(params.highX, params.highY, params.highZ) - params.margin;
   return vec3(x.x < low.x ? low.x : (x.x > high.x ? high.x : x.x),

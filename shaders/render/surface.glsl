@@ -17,7 +17,6 @@ layout(push_constant) uniform Push {
 
 #define groupIndex() (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x)  // compute shaders only
 
-
 vec3 viewPoint(vec3 p) {
   return vec3(dot(vec3(view.rows[0], view.rows[1], view.rows[2]), p) + view.rows[3],
               dot(vec3(view.rows[4], view.rows[5], view.rows[6]), p) + view.rows[7],
@@ -115,7 +114,7 @@ vec2 samplePixel(ivec2 at) { return (vec2(at - int(view.margin)) + 0.5) * float(
 vec2 sampleOf(vec2 pixel) { return pixel / float(view.step) - 0.5 + float(view.margin); }
 // The sample at or before a position of a pixel's center. Positions are whole or at least 1/32 from it, up to the rounding of sampleOf(),
 // which may fall on either side.
-ivec2 sampleBefore(vec2 at) { return ivec2(floor(at + 1e-3)); }
+ivec2 sampleBefore(vec2 at) { return ivec2(floor(at + 1.0 / 64.0)); }
 // First and last sample whose center a sphere may cover, both included; empty if last < first.
 ivec4 sampleRect(vec3 center, float radius) {
   const vec4 pixels = clamp(sphereExtent(center, radius), vec4(-1e6), vec4(1e6));

@@ -1,5 +1,6 @@
 // The layer of layers/hostile.cpp does what its tests rely on. Runs in the tests with the label hostile-driver.
 #include <bit>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <set>
@@ -16,7 +17,7 @@ struct Source {
   float factors[8] = {1.1f, 2.3f, 3.7f, 0.13f, 17.9f, 0.7f, 5.3f, 9.1f};
 };
 struct Target {
-  uint32_t flushed, ordered, foundNan, foundInfinity, shuffled, next, products[8], turn[64];
+  uint32_t flushed, ordered, foundNan, foundInfinity, lowest, shuffled, next, products[8], turn[64];
 };
 
 TEST_F(GpuTest, HostileDriverDoesWhatItSays) {
@@ -45,8 +46,13 @@ TEST_F(GpuTest, HostileDriverDoesWhatItSays) {
     EXPECT_EQ(got.ordered, 1u);
     EXPECT_EQ(got.foundNan, 0u);
     EXPECT_EQ(got.foundInfinity, 0u);
+    EXPECT_TRUE(std::isnan(std::bit_cast<float>(got.lowest)));
   }
   if (mode == "poison-shuffles") { EXPECT_EQ(got.shuffled, 0xdeadbeefu); }
+  if (mode == "varying-subgroups") {
+    EXPECT_EQ(device().info().minSubgroupSize, uint32_t(std::atoi(given + mode.size() + 1)));
+    EXPECT_LT(device().info().minSubgroupSize, device().info().subgroupSize) << "so that clusters are smaller";
+  }
   int moved = 0;
   for (int k = 0; k < 8; ++k) {
     const int away = int(got.products[k] - std::bit_cast<uint32_t>(source.factors[k] * source.factors[(k + 1) % 8]));

@@ -10,6 +10,10 @@ hash_of() {  # NAME=VALUE...: with these in the environment
 }
 expected=$(hash_of LP_NUM_THREADS=0)
 [ -n "$expected" ] || { echo "rill-capture printed no state hash" >&2; exit 1; }
+if hash_of VK_INSTANCE_LAYERS=VK_LAYER_RILL_hostile RILL_TEST_HOSTILE=unknown 2>/dev/null; then
+  echo "the layer VK_LAYER_RILL_hostile is not loaded from $VK_ADD_LAYER_PATH" >&2
+  exit 1
+fi
 failed=0
 check() {
   local found

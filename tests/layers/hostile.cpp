@@ -17,14 +17,14 @@ namespace {
 PFN_vkCreateShaderModule nextCreateShaderModule = nullptr;
 PFN_vkGetPhysicalDeviceProperties2 nextGetProperties = nullptr;
 
-struct Freedom {
+struct Behavior {
   std::string name;
   uint32_t number = 0;
 };
 
-std::vector<Freedom> freedoms() {
+std::vector<Behavior> behaviors() {
   const char* given = std::getenv("RILL_TEST_HOSTILE");
-  std::vector<Freedom> out;
+  std::vector<Behavior> out;
   for (std::string_view todo = given ? given : ""; !todo.empty();) {
     const std::string_view one = todo.substr(0, todo.find(','));
     todo.remove_prefix(std::min(one.size() + 1, todo.size()));
@@ -36,7 +36,7 @@ std::vector<Freedom> freedoms() {
 }
 
 std::vector<uint32_t> rewritten(std::vector<uint32_t> words) {
-  for (const auto& [name, seed] : freedoms()) {
+  for (const auto& [name, seed] : behaviors()) {
     if (name == "flush-denormals") {
       words = flushDenormals(words);
     } else if (name == "assume-finite") {
@@ -66,7 +66,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createShaderModule(VkDevice device, const VkShade
 
 VKAPI_ATTR void VKAPI_CALL getProperties(VkPhysicalDevice physical, VkPhysicalDeviceProperties2* out) {
   nextGetProperties(physical, out);
-  for (const auto& [name, size] : freedoms())
+  for (const auto& [name, size] : behaviors())
     for (auto* next = static_cast<VkBaseOutStructure*>(out->pNext); next && name == "varying-subgroups"; next = next->pNext)
       if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES) {
         auto& sizes = *reinterpret_cast<VkPhysicalDeviceSubgroupSizeControlProperties*>(next);

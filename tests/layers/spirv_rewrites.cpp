@@ -142,10 +142,11 @@ std::vector<uint32_t> assumeFinite(std::span<const uint32_t> words) {
     uint32_t bits = 0;
     return module.typeOfValue(id).kind == Kind::Float && module.constantBits(id, bits) && (bits & 0x7fffffffu) == wanted;
   };
-  std::map<uint32_t, uint32_t> castFrom;  // floats made of bits: the bits' ids
-  const auto isInfinity = [&](uint32_t id) {
+  std::map<uint32_t, uint32_t> castFrom;      // floats made of bits: the bits' ids
+  const auto isInfinity = [&](uint32_t id) {  // positive
     uint32_t bits = 0;
-    return is(id, kInfinityBits) || (castFrom.contains(id) && module.constantBits(castFrom[id], bits) && bits == kInfinityBits);
+    const bool isConstant = module.typeOfValue(id).kind == Kind::Float && module.constantBits(id, bits);
+    return (isConstant || (castFrom.contains(id) && module.constantBits(castFrom[id], bits))) && bits == kInfinityBits;
   };
   module.rewriteFunctions([&](const Instruction& instruction) -> std::vector<Instruction> {
     const auto& operands = instruction.operands;
@@ -159,6 +160,22 @@ std::vector<uint32_t> assumeFinite(std::span<const uint32_t> words) {
       if (isInfinity(operands[3])) return fixed(outcomeWithInfinity(instruction.op, false));
       if (isInfinity(operands[2])) return fixed(outcomeWithInfinity(instruction.op, true));
       return {{other, operands}};
+    }
+    if (instruction.op == Op::OpExtInst) {                   // NaN is what a minimum, maximum or clamp of it may give
+      constexpr uint32_t kMin = 37, kMax = 40, kClamp = 43;  // of GLSL.std.450, for floats
+      const uint32_t function = operands[3], type = operands[0];
+      if (function != kMin && function != kMax && function != kClamp) return {instruction};
+      const uint32_t bools = module.type(Kind::Bool, module.typeOf(type).components), x = operands[4];
+      const uint32_t first = module.newId(), second = module.newId(), kept = module.newId();
+      if (function == kClamp)
+        return {{Op::OpFOrdLessThan, {bools, first, x, operands[5]}},
+                {Op::OpSelect, {type, kept, first, operands[5], x}},
+                {Op::OpFOrdGreaterThan, {bools, second, kept, operands[6]}},
+                {Op::OpSelect, {type, operands[1], second, operands[6], kept}}};
+      return {{function == kMin ? Op::OpFUnordLessThan : Op::OpFUnordGreaterThan, {bools, first, operands[5], x}},
+              {Op::OpSelect, {type, kept, first, operands[5], x}},
+              {Op::OpIsNan, {bools, second, x}},
+              {Op::OpSelect, {type, operands[1], second, x, kept}}};
     }
     const bool cancels = instruction.op == Op::OpFSub && operands[2] == operands[3];
     const bool vanishes = instruction.op == Op::OpFMul && (is(operands[2], 0) || is(operands[3], 0));
@@ -271,8 +288,8 @@ std::vector<uint32_t> permuteWorkgroups(std::span<const uint32_t> words, uint32_
   // the product of two numbers below 65,536 fits into 32 bits.
   constexpr uint32_t kPrimes[] = {65537, 65539, 65543, 65551, 65557, 65563, 65579, 65581};
   const uint32_t prime = module.constant(Kind::Uint, kPrimes[seed % 8], 1), shift = module.constant(Kind::Uint, mixed(seed) % 65536, 1);
-  const uint32_t uints = module.type(Kind::Uint, 1), vectors = module.type(Kind::Uint, 3), bools = module.type(Kind::Bool, 1);
-  const uint32_t one = module.constant(Kind::Uint, 1, 1), size = module.constant(Kind::Uint, module.workgroupSize(0), 1);
+  const uint32_t uints = module.type(Kind::Uint, 1), vectors = module.type(Kind::Uint, 3);
+  const uint32_t size = module.constant(Kind::Uint, module.workgroupSize(0), 1);
   std::map<uint32_t, uint32_t> chains;  // pointers to the first component of either variable
   module.rewriteFunctions([&](const Instruction& instruction) -> std::vector<Instruction> {
     const auto& operands = instruction.operands;
@@ -295,8 +312,7 @@ std::vector<uint32_t> permuteWorkgroups(std::span<const uint32_t> words, uint32_
     const uint32_t n = first(counts), g = first(groups);
     const uint32_t product = add(Op::OpIMul, uints, {g, add(Op::OpUMod, uints, {prime, n})});
     const uint32_t moved = add(Op::OpIAdd, uints, {add(Op::OpUMod, uints, {product, n}), shift});
-    const uint32_t alone = add(Op::OpIEqual, bools, {n, one});
-    uint32_t place = add(Op::OpSelect, uints, {alone, g, add(Op::OpUMod, uints, {moved, n})});
+    uint32_t place = add(Op::OpUMod, uints, {moved, n});
     if ((whole ? operands[2] : chains[operands[2]]) == global)
       place = add(Op::OpIAdd, uints, {add(Op::OpIMul, uints, {place, size}), first(locals)});
     if (whole)

@@ -11,17 +11,17 @@ namespace rill::layer {
 std::vector<uint32_t> flushDenormals(std::span<const uint32_t> words);
 
 /// Neither operands nor results are NaN or infinite, so that ordered and unordered comparisons are each other's, comparisons with
-/// infinity have one outcome, and x - x and 0 * x are 0.
+/// infinity have one outcome, minima, maxima and clamps of NaN are NaN, and x - x and 0 * x are 0.
 std::vector<uint32_t> assumeFinite(std::span<const uint32_t> words);
 
 /// Products, quotients and results of built-in functions differ by a unit in the last place where they are not `precise`: up or down or
-/// not at all, by the shader, the instruction and the seed.
+/// not at all, by the shader's arithmetic, the instruction and the seed. A product stands for what contraction into a sum does to it.
 std::vector<uint32_t> perturbRounding(std::span<const uint32_t> words, uint32_t seed);
 
 /// A shuffle from a lane that is not active gives garbage: NaN, or 0xdeadbeef.
 std::vector<uint32_t> poisonShuffles(std::span<const uint32_t> words);
 
-/// Workgroups trade places: group g of n does the work of group (g * odd + seed) % n.
+/// Workgroups are permuted: group g of n does the work of group (g * odd + seed) % n.
 std::vector<uint32_t> permuteWorkgroups(std::span<const uint32_t> words, uint32_t seed);
 
 }  // namespace rill::layer

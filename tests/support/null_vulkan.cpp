@@ -134,7 +134,11 @@ VkResult createPipelines(VkDevice, VkPipelineCache, uint32_t count, const VkComp
                          VkPipeline* out) {
   for (uint32_t i = 0; i < count; ++i) {
     out[i] = newHandle<VkPipeline>();
-    NullPipeline made{0, (infos[i].stage.flags & VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT) != 0};
+    NullPipeline made{0, (infos[i].stage.flags & VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT) != 0, {}};
+    if (const VkSpecializationInfo* info = infos[i].stage.pSpecializationInfo) {
+      made.constants.resize(info->dataSize / 4);
+      std::memcpy(made.constants.data(), info->pData, made.constants.size() * 4);
+    }
     for (auto* next = static_cast<const VkBaseInStructure*>(infos[i].stage.pNext); next; next = next->pNext)
       if (next->sType == VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO)
         made.requiredSubgroupSize =

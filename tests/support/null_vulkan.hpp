@@ -48,6 +48,7 @@ struct NullProperties {
 struct NullPipeline {
   uint32_t requiredSubgroupSize;  ///< 0: any
   bool fullSubgroups;
+  std::vector<uint32_t> constants;  ///< specialized, by their ids from 0
 };
 
 class NullVulkan {

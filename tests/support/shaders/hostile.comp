@@ -5,7 +5,7 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 layout(local_size_x = 64) in;
 layout(binding = 0) readonly buffer Source { float one, denormal, nan, infinite, factors[8]; };
-layout(binding = 1) buffer Target { uint flushed, ordered, found_nan, found_infinity, shuffled, next, products[8], turn[64]; };
+layout(binding = 1) buffer Target { uint flushed, ordered, found_nan, found_infinity, lowest, shuffled, next, products[8], turn[64]; };
 void main() {
   uint received = 0u;
   if ((gl_SubgroupInvocationID & 1u) == 1u) received = subgroupShuffle(7u, gl_SubgroupInvocationID - 1u);  // that lane is not here
@@ -16,6 +16,7 @@ void main() {
   flushed = floatBitsToUint(denormal * one);
   ordered = uint(nan < one);
   found_nan = uint(isnan(nan));
+  lowest = floatBitsToUint(min(one, nan));
   found_infinity = uint(infinite == uintBitsToFloat(0x7F800000u));
 #define PRODUCT(k) products[k] = floatBitsToUint(factors[k] * factors[(k + 1) & 7]);  // an instruction each
   PRODUCT(0) PRODUCT(1) PRODUCT(2) PRODUCT(3) PRODUCT(4) PRODUCT(5) PRODUCT(6) PRODUCT(7)

@@ -1,0 +1,54 @@
+// Which particles are active, finite and drawn, also where a device assumes that there are no NaNs and infinities.
+#include <cmath>
+#include <limits>
+
+#include "shared/fluid_records.h"
+#include "support/gpu_test.hpp"
+
+namespace rill::test {
+namespace active_test {
+
+TEST_F(GpuTest, ActiveParticlesAreFoundByBits) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinite = std::numeric_limits<float>::infinity();
+  const float below = std::nextafter(kInactiveLimit, 0.0f);
+  const std::vector<float> numbers = {0,
+                                      1,
+                                      -4.9f,
+                                      5,
+                                      std::nextafter(5.0f, 0.0f),
+                                      -5,
+                                      1e-40f,
+                                      below,
+                                      -below,
+                                      kNan,
+                                      -kNan,
+                                      kInactiveLimit,
+                                      1e9f,
+                                      -kInactiveLimit,
+                                      kInfinite,
+                                      -kInfinite};
+  const Buffer from = upload("numbers", numbers);
+  const BindingKind buffers[2] = {};
+  Graph graph;
+  const BufferRef in = graph.import("numbers", importOf(from));
+  BufferRef out = graph.create("found", {numbers.size() * 4});
+  graph.pass("active", [&](Pass& pass) {
+    pass.read(in, Use::ComputeRead);
+    out = pass.write(out, Use::ComputeWrite);
+    const Kernel kernel = pass.kernel(pipeline({.shader = "active", .spirv = testShader("active"), .bindings = buffers}), {in, out});
+    return [=](Commands& commands) { commands.dispatch(kernel, 1); };
+  });
+  const Ticket ticket = graph.readback(out);
+  run(graph);
+  const auto found = read<uint32_t>(graph, ticket);
+  ASSERT_EQ(found.size(), numbers.size());
+  for (size_t i = 0; i < numbers.size(); ++i) {
+    const float x = numbers[i];
+    const bool drawn = std::abs(x) < kInactiveLimit;
+    const uint32_t wanted = uint32_t(!(x >= kInactiveLimit)) | uint32_t(std::abs(x) < 5) << 1 | uint32_t(drawn) << 2 | uint32_t(drawn) << 3;
+    EXPECT_EQ(found[i], wanted) << x;
+  }
+}
+
+}  // namespace active_test
+}  // namespace rill::test
