@@ -1,5 +1,6 @@
 #pragma once
 // Types that describe one scene key. The descriptions are in fields.hpp.
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -76,6 +77,9 @@ constexpr Alternative<Owner, T, Variant> alternative(const Info& info, Variant O
 struct Ignored {};
 /// Type of the version key, which is checked before all others. Its Field has no member.
 struct Version {};
+
+/// Table::one_of of a struct that has no alternatives.
+inline constexpr std::array<std::string_view, 0> kNoWords{};
 
 /// The description of a struct; fields.hpp specializes it with
 ///   static constexpr std::string_view about;     description in one line

@@ -1,21 +1,20 @@
 #pragma once
 // The table of scene keys: parser, JSON Schema, --set, the documented key table and the viewer's sliders are derived from it by
-// forEachField<FluidSettings>(...). Defaults are the member initializers in rill/scene.hpp.
+// forEachField<FluidSettings>(...). Rows of `fluid` and `solver` are in fluid_fields.hpp. Defaults are the member initializers in
+// rill/scene.hpp.
 #include <array>
 #include <filesystem>
 
 #include "model/field.hpp"
+#include "model/fluid_fields.hpp"
 #include "rill/scene.hpp"
 
 namespace rill::model {
 
 inline constexpr std::array<std::string_view, 6> kSideWords{"-x", "+x", "-y", "+y", "-z", "+z"};  // bits of SideMask
 inline constexpr std::array<std::string_view, 6> kAxisWords{"+x", "-x", "+y", "-y", "+z", "-z"};  // Axis
-inline constexpr std::array<std::string_view, 2> kKernelWords{"wendland", "poly6_spiky"};         // KernelChoice
-inline constexpr std::array<std::string_view, 2> kNeighborWords{"list", "grid"};                  // NeighborChoice
 inline constexpr std::array<std::string_view, 4> kPresetWords{"water", "milk", "ink", "clay"};
 inline constexpr std::array<std::string_view, 4> kSurfaceWords{"auto", "planes", "curvature_flow", "narrow_range"};
-inline constexpr std::array<std::string_view, 0> kNoWords{};
 
 /// The newest version of scene files that can be read.
 inline constexpr std::string_view kSceneVersion = "0.2";
@@ -31,119 +30,6 @@ struct Table<Domain> {
                  .help = "sides without a wall; particles that leave through one stay in the simulation and are counted as outside",
                  .words = kSideWords},
             &Domain::open}};
-};
-
-template <>
-struct Table<FluidSettings> {
-  static constexpr std::string_view about = "Material and resolution of the fluid; give either spacing or particles";
-  static constexpr std::array<std::string_view, 2> one_of{"spacing", "particles"};
-  static constexpr std::tuple fields{
-      Field{Info{.key = "spacing",
-                 .unit = "m",
-                 .range = above(0),
-                 .help = "distance of neighboring particles at rest; a particle has the mass density x spacing^3. Half the spacing means 8 "
-                         "times the particles and shorter time steps"},
-            &FluidSettings::spacing},
-      Field{Info{.key = "particles",
-                 .range = between(1, 4294967295.0),
-                 .help = "approximate number of particles that the fills make; the spacing is computed from it. Use it in place of spacing "
-                         "to fix the cost of a scene"},
-            &FluidSettings::particles},
-      Field{Info{.key = "density", .unit = "kg/m^3", .range = above(0), .help = "rest density; water has 1000"}, &FluidSettings::density},
-      Field{Info{.key = "smoothing_ratio",
-                 .range = between(1.2, 4),
-                 .help = "smoothing length (support radius of the kernel) over spacing; larger values average over more neighbors, which "
-                         "is smoother and slower"},
-            &FluidSettings::smoothing_ratio},
-      Field{Info{.key = "viscosity",
-                 .unit = "Pa s",
-                 .range = atLeast(0),
-                 .help = "dynamic viscosity: water has 0.001, honey about 5; raise it for thick fluids"},
-            &FluidSettings::viscosity},
-      Field{Info{.key = "vorticity",
-                 .range = between(0, 1),
-                 .help = "strength of vorticity confinement (Macklin and Mueller 2013, eq. 16), which adds rotation that the solver "
-                         "dissipates; 0 turns it off"},
-            &FluidSettings::vorticity},
-      Field{Info{.key = "drag",
-                 .unit = "1/s",
-                 .range = atLeast(0),
-                 .help = "linear drag against air at rest: speed falls by the factor exp(-drag t); 0 turns it off",
-                 .since = "0.2"},
-            &FluidSettings::drag},
-      Field{Info{.key = "tensile",
-                 .range = between(0, 1),
-                 .help = "strength of the artificial pressure s_corr (Macklin and Mueller 2013, eq. 13), which keeps particles from "
-                         "clustering where the fluid is sparse; 0 turns it off"},
-            &FluidSettings::tensile},
-      Field{Info{.key = "tensile_radius",
-                 .range = inside(0, 1),
-                 .help = "artificial pressure: reference distance delta q over the smoothing length; closer pairs feel the full strength"},
-            &FluidSettings::tensile_radius},
-      Field{Info{.key = "tensile_power",
-                 .range = between(1, 16),
-                 .help = "artificial pressure: exponent n; higher values limit it to closer pairs"},
-            &FluidSettings::tensile_power}};
-};
-
-template <>
-struct Table<SolverSettings> {
-  static constexpr std::string_view about = "Accuracy and cost of the solver";
-  static constexpr std::array one_of = kNoWords;
-  static constexpr std::tuple fields{
-      Field{Info{.key = "time_step",
-                 .unit = "s",
-                 .range = above(0),
-                 .help = "longest time step; auto: as long as cfl and tolerance allow. Set it for convergence studies"},
-            &SolverSettings::time_step},
-      Field{Info{.key = "cfl",
-                 .range = aboveTo(0, 10),
-                 .help = "distance in spacings that the fastest particle may move in a substep; lower it for accuracy in fast flow"},
-            &SolverSettings::cfl},
-      Field{Info{.key = "max_substeps",
-                 .range = between(1, 256),
-                 .help = "largest number of substeps in a frame of up to 1/60 s; time that does not fit is dropped and reported. Lower it "
-                         "to bound the cost of a frame"},
-            &SolverSettings::max_substeps},
-      Field{Info{.key = "iterations",
-                 .range = between(1, 1000),
-                 .help = "largest number of Jacobi iterations in a substep; more of them compress the fluid less and cost more"},
-            &SolverSettings::iterations},
-      Field{Info{.key = "tolerance",
-                 .range = atLeast(0),
-                 .help = "largest mean compression, as a fraction of the rest density; iterations and substeps are reduced as far as it "
-                         "allows. 0: always the full number of iterations"},
-            &SolverSettings::tolerance},
-      Field{Info{.key = "relaxation",
-                 .range = aboveTo(0, 2),
-                 .help = "relaxation factor of the Jacobi iteration; auto: 0.7 in motion, 0.46 at rest (with the default kernel). Lower it "
-                         "if the fluid jitters"},
-            &SolverSettings::relaxation},
-      Field{Info{.key = "regularization",
-                 .range = atLeast(0),
-                 .help = "epsilon of Macklin and Mueller 2013, eq. 11, as a fraction of the rest lattice's sum of |grad C|^2; larger "
-                         "values make the fluid softer; auto: 0.02"},
-            &SolverSettings::regularization},
-      Field{Info{.key = "warm_start",
-                 .range = between(0, 0.5),
-                 .help = "gain of the pressure that is kept from substep to substep; 0 turns it off. auto: 0.02 in motion, at most 0.005 "
-                         "at rest, 0 with several iterations"},
-            &SolverSettings::warm_start},
-      Field{Info{.key = "artificial_viscosity",
-                 .range = between(0, 0.3),
-                 .help = "noise damping: viscosity of slow fluid, over density x spacing x sqrt(g x spacing), of which fluid.viscosity is "
-                         "a part; auto: 0.03. 0 keeps small waves undamped"},
-            &SolverSettings::artificial_viscosity},
-      Field{Info{.key = "kernel",
-                 .help = "smoothing kernel; wendland: Wendland C2 for density and gradient. poly6_spiky: the pair of Macklin and Mueller "
-                         "2013, for comparison",
-                 .words = kKernelWords},
-            &SolverSettings::kernel},
-      Field{Info{.key = "neighbors",
-                 .help = "neighbor search; list: a neighbor list that is kept for several substeps. grid: search the grid in every pass, "
-                         "which needs less memory",
-                 .words = kNeighborWords},
-            &SolverSettings::neighbors}};
 };
 
 template <>
