@@ -27,20 +27,7 @@ TEST_F(GpuTest, ActiveParticlesAreFoundByBits) {
                                       -kInactiveLimit,
                                       kInfinite,
                                       -kInfinite};
-  const Buffer from = upload("numbers", numbers);
-  const BindingKind buffers[2] = {};
-  Graph graph;
-  const BufferRef in = graph.import("numbers", importOf(from));
-  BufferRef out = graph.create("found", {numbers.size() * 4});
-  graph.pass("active", [&](Pass& pass) {
-    pass.read(in, Use::ComputeRead);
-    out = pass.write(out, Use::ComputeWrite);
-    const Kernel kernel = pass.kernel(pipeline({.shader = "active", .spirv = testShader("active"), .bindings = buffers}), {in, out});
-    return [=](Commands& commands) { commands.dispatch(kernel, 1); };
-  });
-  const Ticket ticket = graph.readback(out);
-  run(graph);
-  const auto found = read<uint32_t>(graph, ticket);
+  const auto found = wordsFrom("active", upload("numbers", numbers), numbers.size(), 1);
   ASSERT_EQ(found.size(), numbers.size());
   for (size_t i = 0; i < numbers.size(); ++i) {
     const float x = numbers[i];

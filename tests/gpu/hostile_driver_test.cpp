@@ -1,12 +1,13 @@
-// The layer of layers/hostile.cpp does what its tests rely on. Runs in the tests with the label hostile-driver.
+// The layer of layers/hostile.cpp does what its tests rely on, in the tests with the label hostile-driver. Without it products are exact
+// (Vulkan 1.3 requires them to be correctly rounded) and each workgroup runs once.
 #include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <set>
 #include <string>
 
-#include "graph/shader_pass.hpp"
 #include "support/gpu_test.hpp"
 
 namespace rill::test {
@@ -20,26 +21,14 @@ struct Target {
   uint32_t flushed, ordered, foundNan, foundInfinity, lowest, shuffled, next, products[8], turn[64];
 };
 
-TEST_F(GpuTest, HostileDriverDoesWhatItSays) {
+TEST_F(GpuTest, HostileDriverUsesItsFreedomOnly) {
   const char* given = std::getenv("RILL_TEST_HOSTILE");
-  if (!given) GTEST_SKIP() << "runs with RILL_TEST_HOSTILE";
-  const std::string mode = std::string(given).substr(0, std::string(given).find('='));
+  const std::string named = given ? given : "", mode = named.substr(0, named.find('='));
   const Source source;
-  const Buffer from = upload("source", std::span<const Source>(&source, 1));
-  const BindingKind buffers[2] = {};
-  Graph graph;
-  const BufferRef in = graph.import("source", importOf(from));
-  BufferRef out = graph.create("target", {sizeof(Target)});
-  addFill(graph, "clear", {{&out, 0}});
-  graph.pass("hostile", [&](Pass& pass) {
-    pass.read(in, Use::ComputeRead);
-    out = pass.write(out, Use::ComputeWrite);
-    const Kernel kernel = pass.kernel(pipeline({.shader = "hostile", .spirv = testShader("hostile"), .bindings = buffers}), {in, out});
-    return [=](Commands& commands) { commands.dispatch(kernel, 64); };
-  });
-  const Ticket ticket = graph.readback(out);
-  run(graph);
-  const Target got = read<Target>(graph, ticket).at(0);
+  const auto words = wordsFrom("hostile", upload("source", std::span<const Source>(&source, 1)), sizeof(Target) / 4, 64);
+  ASSERT_EQ(words.size(), sizeof(Target) / 4);
+  Target got;
+  std::memcpy(&got, words.data(), sizeof got);
 
   if (mode == "flush-denormals") { EXPECT_EQ(got.flushed, 0u); }
   if (mode == "assume-finite") {
@@ -50,7 +39,7 @@ TEST_F(GpuTest, HostileDriverDoesWhatItSays) {
   }
   if (mode == "poison-shuffles") { EXPECT_EQ(got.shuffled, 0xdeadbeefu); }
   if (mode == "varying-subgroups") {
-    EXPECT_EQ(device().info().minSubgroupSize, uint32_t(std::atoi(given + mode.size() + 1)));
+    EXPECT_EQ(device().info().minSubgroupSize, uint32_t(std::stoul(named.substr(mode.size() + 1))));
     EXPECT_LT(device().info().minSubgroupSize, device().info().subgroupSize) << "so that clusters are smaller";
   }
   int moved = 0;

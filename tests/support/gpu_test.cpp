@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "gpu/shader_library.hpp"
+#include "graph/shader_pass.hpp"
 
 namespace rill {
 std::span<const EmbeddedShader> testShaders();
@@ -105,6 +106,23 @@ const ComputePipeline* GpuTest::pipeline(const ComputePipelineDesc& desc) {
   if (made) return *made;
   ADD_FAILURE() << made.error().message;
   return nullptr;
+}
+
+std::vector<uint32_t> GpuTest::wordsFrom(std::string_view shader, const Buffer& source, uint64_t words, uint32_t groups) {
+  const BindingKind buffers[2] = {};
+  Graph graph;
+  const BufferRef in = graph.import("source", importOf(source));
+  BufferRef out = graph.create("target", {words * 4});
+  addFill(graph, "clear", {{&out, 0}});
+  graph.pass(shader, [&](Pass& pass) {
+    pass.read(in, Use::ComputeRead);
+    out = pass.write(out, Use::ComputeWrite);
+    const Kernel kernel = pass.kernel(pipeline({.shader = shader, .spirv = testShader(shader), .bindings = buffers}), {in, out});
+    return [=](Commands& commands) { commands.dispatch(kernel, groups); };
+  });
+  const Ticket ticket = graph.readback(out);
+  run(graph);
+  return read<uint32_t>(graph, ticket);
 }
 
 }  // namespace rill::test

@@ -42,6 +42,8 @@ class GpuTest : public ::testing::Test {
   }
   Buffer buffer(std::string_view name, uint64_t bytes, MemoryKind kind = MemoryKind::Device);
   const ComputePipeline* pipeline(const ComputePipelineDesc& desc);
+  /// What a test shader writes to binding 1, cleared before, from `source` at binding 0.
+  std::vector<uint32_t> wordsFrom(std::string_view shader, const Buffer& source, uint64_t words, uint32_t groups);
 
   static BufferImport importOf(const Buffer& buffer, Use before = Use::Nothing, Use after = Use::Nothing) {
     return {buffer.handle(), 0, buffer.size(), before, after};
