@@ -18,7 +18,7 @@ vec3 insideWalls(vec3 x) {
               x.z < low.z ? low.z : (x.z > high.z ? high.z : x.z));
 }
 
-// The warm-start acceleration, m/s^2; without a warm start its array is a placeholder, not written.
+// The warm-start acceleration, m/s^2; without a warm start nothing writes its array.
 vec3 keptWarmAcceleration(vec4 stored) { return WARM ? stored.xyz : vec3(0.0); }
 
 bool isFinite(vec3 x) { return isWithin(x, params.farLimit); }

@@ -207,7 +207,7 @@ class EmbeddedPipelines : public ::testing::Test {
   std::optional<Device> device;
 };
 
-// Whoever asks first, a pipeline of an embedded shader has names.
+// A pipeline of an embedded shader has names, also if it was first requested with explicit bindings.
 TEST_F(EmbeddedPipelines, HaveNamesHoweverTheyAreDescribed) {
   const EmbeddedShader* shader = embeddedShader(implOf(*device), "sort/clear");
   ASSERT_NE(shader, nullptr);
