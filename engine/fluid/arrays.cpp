@@ -44,14 +44,15 @@ constexpr std::array<ArrayRow, kArrays> kArrayTable = {{
      "warm", true},
     {Id, "id", "ids", Fluid, kWord, perParticle, Account::Particles, &FluidSnapshot::id, "id"},
     {Multiplier, "multiplier", "iteration multipliers", Fluid, kWord, perParticleIf<&ArrayShape::iterated>, Account::Particles},
-    {NeighborCount, "neighborCount", "neighbor counts", Fluid, kWord, perParticleIf<&ArrayShape::lists>, Account::Particles},
+    {ListHead, "listHead", "list heads", Fluid, kWord, [](const ArrayShape& s) { return s.lists || s.near ? s.particles : 0; },
+     Account::Particles},
     {Cell, "cell", "cells", Fluid, kWord, perParticle, Account::Particles},
     {NearSample, "nearSample", "wall samples", Fluid, 2 * kVector, perParticleIf<&ArrayShape::near>, Account::Particles},
     {NearPlane, "nearPlane", "particles near one wall", Fluid, kWord, perParticleIf<&ArrayShape::near>, Account::Particles},
     {NearCorner, "nearCorner", "particles near corners", Fluid, kWord, perParticleIf<&ArrayShape::near>, Account::Particles},
 
     {CellStart, "cellStart", "cell starts", Fluid, kWord, [](const ArrayShape& s) { return s.cellStarts; }, Account::Grid},
-    {List, "list", "neighbor list", Fluid, kWord, [](const ArrayShape& s) { return s.listEntries; }, Account::List},
+    {List, "list", "neighbor list", Fluid, kListEntryBytes, [](const ArrayShape& s) { return s.listEntries; }, Account::List},
 
     {Key, "key", "cell keys", Section, kWord, perKey, Account::Particles},
     {SortedPosition, "sortedPosition", "sorted positions", Section, kVector, perParticle, Account::Particles},

@@ -34,7 +34,7 @@ enum class FluidArray : uint8_t {
   Warm,
   Id,
   Multiplier,
-  NeighborCount,
+  ListHead,
   Cell,
   NearSample,
   NearPlane,

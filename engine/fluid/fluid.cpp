@@ -111,7 +111,7 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
   const uint64_t n = capacity, more = n + 1;
   const FluidParams& p = setup.params;
 
-  const uint64_t blockBytes = uint64_t{kListBlock} * p.listCapacity * 4;
+  const uint64_t blockBytes = uint64_t{kListBlock} * p.listCapacity * kListEntryBytes;
   const uint64_t wanted = p.listCapacity == 0 ? 1 : (blocks(n) * blockBytes + kMaxBuffer - 1) / kMaxBuffer;
   const uint64_t chunkBlocks = (blocks(n) + wanted - 1) / wanted;
   const uint32_t chunk = p.listCapacity == 0 ? capacity : static_cast<uint32_t>(chunkBlocks * kListBlock);

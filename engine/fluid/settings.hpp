@@ -70,4 +70,6 @@ double artificialViscosity(const Scene& scene);
 /// Neighbors that the list holds a particle, a multiple of 4: what a lattice compressed by a fifth puts within the reach.
 uint32_t listCapacity(double reachInSpacings);
 
+constexpr uint32_t kListEntryBytes = 2;
+
 }  // namespace rill

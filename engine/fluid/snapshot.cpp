@@ -7,6 +7,7 @@
 #include <cstring>
 #include <string>
 
+#include "fluid/neighbor_list.hpp"
 #include "shape/records.hpp"
 
 namespace rill {
@@ -85,6 +86,14 @@ Expected<void> checkNeighbors(const FluidSnapshot& s, const FluidSums& sums, con
   if (lists && overflow != sums.overflow) return wrong("its number of overflowed neighbor lists is not that of its neighbor counts");
   if (std::any_of(s.neighbors.begin(), s.neighbors.end(), [&](uint32_t j) { return j >= s.id.size(); }))
     return wrong("a neighbor index is out of range");
+  uint64_t from = 0;
+  for (uint32_t i = 0; i < s.neighborCount.size(); ++i) {
+    const uint32_t n = s.neighborCount[i];
+    if (n > shape.listCapacity) continue;
+    if (listEntries(i, std::span(s.neighbors).subspan(from, n)) > shape.listCapacity)
+      return wrong("the neighbors of a particle take more entries than its list has; expected them in increasing order");
+    from += n;
+  }
 
   if (auto right = checkLength("cells", s.cell.size(), alive && walksGrid(s) ? s.id.size() : 0); !right) return right;
   if (!std::is_sorted(s.cell.begin(), s.cell.end()) || (!s.cell.empty() && s.cell.back() >= shape.cells))
@@ -99,11 +108,6 @@ bool validPhase(const FluidControl& control, const SnapshotShape& shape) {
   if (control.nextPhase == kPhaseAdvancing) return left == 0;
   if (control.nextPhase == kPhaseSettling) return left > 0 && left <= kSettleSubsteps;
   return control.nextPhase == kPhaseInitialPressure && left > 0 && left <= shape.initialPressureIterations;
-}
-
-/// Where a particle's groups of four lie in its chunk's list, in entries; groups follow at a distance of 4 kListBlock.
-uint64_t firstEntry(uint32_t local, uint32_t capacity) {
-  return (uint64_t{local / kListBlock} * capacity / 4 * kListBlock + local % kListBlock) * 4;
 }
 
 }  // namespace
@@ -182,31 +186,6 @@ Expected<void> checkSnapshot(const FluidSnapshot& snapshot, const SnapshotShape&
     return wrong("its largest id is " + std::to_string(ids.back()) + "; expected less than " + std::to_string(kMaxIds));
   if (auto right = checkNear(snapshot, sums, shape); !right) return right;
   return checkNeighbors(snapshot, sums, shape);
-}
-
-void layOutList(const FluidSnapshot& snapshot, uint32_t first, uint32_t last, uint32_t dummy, std::span<uint32_t> out) {
-  last = std::min(last, static_cast<uint32_t>(snapshot.neighborCount.size()));
-  const uint32_t capacity = snapshot.listCapacity;
-  const auto listed = [&](uint32_t i) { return snapshot.neighborCount[i] <= capacity ? snapshot.neighborCount[i] : 0; };
-  uint64_t from = 0;
-  for (uint32_t i = 0; i < std::min(first, last); ++i) from += listed(i);
-  for (uint32_t i = first; i < last; ++i) {
-    const uint64_t at = firstEntry(i - first, capacity);
-    const uint32_t n = listed(i);
-    for (uint32_t k = 0; k < (n + 3) / 4 * 4; ++k)
-      out[at + uint64_t{k / 4} * kListBlock * 4 + k % 4] = k < n ? snapshot.neighbors[from + k] : dummy;
-    from += n;
-  }
-}
-
-void gatherList(FluidSnapshot& snapshot, uint32_t first, uint32_t last, std::span<const uint32_t> list) {
-  last = std::min(last, static_cast<uint32_t>(snapshot.neighborCount.size()));
-  for (uint32_t i = first; i < last; ++i) {
-    const uint32_t n = snapshot.neighborCount[i];
-    if (n > snapshot.listCapacity) continue;
-    const uint64_t at = firstEntry(i - first, snapshot.listCapacity);
-    for (uint32_t k = 0; k < n; ++k) snapshot.neighbors.push_back(list[at + uint64_t{k / 4} * kListBlock * 4 + k % 4]);
-  }
 }
 
 void cellStarts(std::span<const uint32_t> cell, std::span<uint32_t> start) {

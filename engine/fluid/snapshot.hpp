@@ -37,12 +37,6 @@ void append(FluidSnapshot& snapshot, std::span<const Float3> positions, std::spa
 /// Gravity from the present instant on, m/s^2, where no schedule changes it.
 void setGravity(FluidSnapshot& snapshot, const Double3& gravity);
 
-/// The list of particles [first, last) as the device holds it: k-major in blocks of kListBlock particles, four entries at a time, the last
-/// of a particle's filled up with `dummy`. `out` has room for whole blocks and is written where it will be read.
-void layOutList(const FluidSnapshot& snapshot, uint32_t first, uint32_t last, uint32_t dummy, std::span<uint32_t> out);
-/// The other way: appends the neighbors of particles [first, last) to the snapshot, which has their counts.
-void gatherList(FluidSnapshot& snapshot, uint32_t first, uint32_t last, std::span<const uint32_t> list);
-
 /// Where the particles of each cell begin, one more at the end: what the sort gave.
 void cellStarts(std::span<const uint32_t> cell, std::span<uint32_t> start);
 

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "fluid/fluid_impl.hpp"
+#include "fluid/neighbor_list.hpp"
 #include "fluid/snapshot.hpp"
 #include "graph/import_whole.hpp"
 #include "shape/records.hpp"
@@ -81,17 +82,15 @@ Expected<void> SnapshotReader::take(const Graph& graph) {
       s.nearWall = sorted(records<uint32_t>(bytes, sums.planeCount));
     else
       s.nearCorner = sorted(records<uint32_t>(bytes, sums.cornerCount));
-  } else if (part == slotOf(FluidArray::NeighborCount)) {
-    s.neighborCount = records<uint32_t>(bytes, n);
-    uint64_t entries = 0;
-    for (uint32_t k : s.neighborCount) entries += k <= s.listCapacity ? k : 0;
-    s.neighbors.reserve(entries);
+  } else if (part == slotOf(FluidArray::ListHead)) {
+    heads_ = records<uint32_t>(bytes, n);
+    s.neighborCount.reserve(n);
   } else if (part == slotOf(FluidArray::Cell)) {
     s.cell = records<uint32_t>(bytes, n);
   } else {
     const uint32_t c = part == slotOf(FluidArray::List) ? 0 : part - static_cast<uint32_t>(kArrays) + 1;
     const Chunk& chunk = fluid_.chunks()[c];
-    gatherList(s, chunk.first, chunk.last, records<uint32_t>(bytes, bytes.size() / 4));
+    gatherList(s, chunk.first, chunk.last, heads_, records<uint32_t>(bytes, bytes.size() / 4));
   }
   return {};
 }
@@ -124,7 +123,7 @@ void SnapshotReader::plan() {
   if (!hasNeighbors(snapshot_)) return;
   if (walksGrid(snapshot_)) add(FluidArray::Cell);
   if (snapshot_.listCapacity == 0) return;
-  add(FluidArray::NeighborCount);
+  add(FluidArray::ListHead);
   for (uint32_t c = 0; c < fluid_.chunks().size(); ++c) add(FluidArray::List, c);
 }
 

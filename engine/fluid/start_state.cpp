@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "fluid/fluid_impl.hpp"
+#include "fluid/neighbor_list.hpp"
 #include "fluid/snapshot.hpp"
 #include "shape/records.hpp"
 
@@ -111,8 +112,9 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
   if (setup.near) {
     staging_->add(slotOf(FluidArray::NearPlane), s.nearWall.data(), s.nearWall.size() * 4);
     staging_->add(slotOf(FluidArray::NearCorner), s.nearCorner.data(), s.nearCorner.size() * 4);
-    staging_->clear(slotOf(FluidArray::NearSample));  // of those near nothing; the others' are looked up before they are used
   }
+  const std::vector<uint32_t> heads = layOutHeads(s);
+  staging_->add(slotOf(FluidArray::ListHead), heads.size() * 4, bytesOf(heads));
   if (!hasNeighbors(s)) return;
   if (!s.cell.empty()) {
     staging_->add(slotOf(FluidArray::Cell), s.cell.data(), s.cell.size() * 4);
@@ -120,13 +122,12 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
     cellStarts(s.cell, start);
     staging_->add(slotOf(FluidArray::CellStart), start.size() * 4, bytesOf(start));
   }
-  staging_->add(slotOf(FluidArray::NeighborCount), s.neighborCount.data(), s.neighborCount.size() * 4);
   if (s.listCapacity == 0) return;
   for (uint32_t c = 0; c < chunkCount(); ++c)
     staging_->add(slotOf(FluidArray::List, c), buffer(FluidArray::List, c).size(), [this, &s, c](std::byte* to) {
       const uint64_t bytes = buffer(FluidArray::List, c).size();
-      std::vector<uint32_t> list(bytes / 4, capacity);
-      layOutList(s, chunks_[c].first, chunks_[c].last, capacity, list);
+      std::vector<uint32_t> list(bytes / 4);
+      layOutList(s, chunks_[c].first, chunks_[c].last, list);
       std::memcpy(to, list.data(), bytes);
     });
 }

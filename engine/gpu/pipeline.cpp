@@ -108,6 +108,7 @@ VkDescriptorType descriptorType(BindingKind kind) {
       return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     case BindingKind::TexelFloat4:
     case BindingKind::TexelUint:
+    case BindingKind::TexelUint2:
     case BindingKind::TexelUint4:
       return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
     case BindingKind::StorageImage:
@@ -124,6 +125,8 @@ VkFormat texelFormat(BindingKind kind) {
       return VK_FORMAT_R32G32B32A32_SFLOAT;
     case BindingKind::TexelUint:
       return VK_FORMAT_R32_UINT;
+    case BindingKind::TexelUint2:
+      return VK_FORMAT_R32G32_UINT;
     case BindingKind::TexelUint4:
       return VK_FORMAT_R32G32B32A32_UINT;
     default:
@@ -132,8 +135,16 @@ VkFormat texelFormat(BindingKind kind) {
 }
 
 uint32_t texelBytes(BindingKind kind) {
-  const VkFormat format = texelFormat(kind);
-  return format == VK_FORMAT_UNDEFINED ? 0 : format == VK_FORMAT_R32_UINT ? 4 : 16;
+  switch (texelFormat(kind)) {
+    case VK_FORMAT_UNDEFINED:
+      return 0;
+    case VK_FORMAT_R32_UINT:
+      return 4;
+    case VK_FORMAT_R32G32_UINT:
+      return 8;
+    default:
+      return 16;
+  }
 }
 
 Expected<const SetLayout*> PipelineStore::setLayout(DeviceImpl& device, std::span<const BindingKind> kinds, VkShaderStageFlags stages,

@@ -77,6 +77,7 @@ Expected<void> checkDevice(const InstanceTable& instance, VkPhysicalDevice devic
     return unsupported(name, "subgroup size " + std::to_string(subgroup.subgroupSize) + "; expected at least 4");
   constexpr std::pair<VkFormat, const char*> formats[] = {{VK_FORMAT_R32G32B32A32_SFLOAT, "R32G32B32A32_SFLOAT"},
                                                           {VK_FORMAT_R32G32B32A32_UINT, "R32G32B32A32_UINT"},
+                                                          {VK_FORMAT_R32G32_UINT, "R32G32_UINT"},
                                                           {VK_FORMAT_R32_UINT, "R32_UINT"}};
   for (const auto& [format, text] : formats) {
     VkFormatProperties support{};

@@ -30,6 +30,7 @@ bool kindMatchesUse(BindingKind kind, bool isImage, Use use, bool draws) {
       return use == (draws ? Use::DrawUniform : Use::ComputeUniform);
     case BindingKind::TexelFloat4:
     case BindingKind::TexelUint:
+    case BindingKind::TexelUint2:
     case BindingKind::TexelUint4:
       return !draws && use == Use::ComputeTexel;
     case BindingKind::SampledImage:

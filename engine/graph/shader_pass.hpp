@@ -41,6 +41,7 @@ constexpr Use useOf(const ShaderBinding& binding, bool draws = false) {
       return draws ? Use::DrawUniform : Use::ComputeUniform;
     case BindingKind::TexelFloat4:
     case BindingKind::TexelUint:
+    case BindingKind::TexelUint2:
     case BindingKind::TexelUint4:
       return Use::ComputeTexel;
     case BindingKind::SampledImage:

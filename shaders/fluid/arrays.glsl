@@ -1,5 +1,5 @@
 // Bindings 2 to 5 of the passes over neighbors: the particles gathered from, the neighbor list, its
-// counts and the cell keys. Particles of the array `work` (PARTICLE uvec4) hold halves beside floats: as words, since a float that they
+// heads and the cell keys. Particles of the array `work` (PARTICLE uvec4) hold halves beside floats: as words, since a float that they
 // happen to make may be denormal, which a device may flush to zero.
 #ifndef RILL_FLUID_ARRAYS_GLSL
 #define RILL_FLUID_ARRAYS_GLSL
@@ -10,7 +10,7 @@ READ_UINT4(2, particle)
 #define PARTICLE vec4
 READ_FLOAT4(2, particle)
 #endif
-READ_UINT4(3, list)
-READ_UINT(4, neighborCount)
+READ_UINT2(3, list)
+READ_UINT(4, listHead)
 READ_UINT(5, cell)
 #endif

@@ -1,7 +1,7 @@
 #version 460
-// The neighbor list of the sorted particles (those nearer than support plus skin), and the sorted
-// arrays copied back in place. A particle's true neighbor count is kept: one with more than the
-// list holds walks the grid in every pass, and is counted. Gathers from the sorted predictions.
+// The neighbor list of the sorted particles (those nearer than support plus skin), as described in
+// shared/neighbor_list.h, and the sorted arrays copied back in place. A particle with more entries than
+// the list holds walks the grid in every pass, and is counted. Gathers from the sorted predictions.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
@@ -17,8 +17,8 @@ layout(local_size_x = kFluidGroup) in;
 
 layout(push_constant) uniform Push { ChunkPush push; };
 READ_FLOAT4(2, sortedPrediction)
-layout(std430, binding = 3) writeonly buffer ListBlock { uvec4 list[]; };
-layout(std430, binding = 4) writeonly buffer CountBlock { uint neighborCount[]; };
+layout(std430, binding = 3) writeonly buffer ListBlock { uvec2 list[]; };
+layout(std430, binding = 4) writeonly buffer HeadBlock { uint listHead[]; };
 layout(std430, binding = 5) writeonly buffer KeyBlock { uint cell[]; };
 READ_UINT(6, cellStart)
 layout(std430, binding = 7) buffer SumsBlock { FluidSums sums; };
@@ -30,15 +30,14 @@ layout(std430, binding = 11) writeonly buffer PredictionBlock { vec4 prediction[
 layout(std430, binding = 12) writeonly buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 13) writeonly buffer WarmBlock { float warm[]; };
 layout(std430, binding = 14) writeonly buffer IdBlock { uint id[]; };
-layout(std430, binding = 15) writeonly buffer NearBlock { vec4 nearSample[]; };
-layout(std430, binding = 16) writeonly buffer NearPlaneBlock { uint nearPlane[]; };
-layout(std430, binding = 17) writeonly buffer NearCornerBlock { uint nearCorner[]; };
-layout(std430, binding = 18) readonly buffer SolidBlock { SolidRecord solids[]; };
+layout(std430, binding = 15) writeonly buffer NearPlaneBlock { uint nearPlane[]; };
+layout(std430, binding = 16) writeonly buffer NearCornerBlock { uint nearCorner[]; };
+layout(std430, binding = 17) readonly buffer SolidBlock { SolidRecord solids[]; };
 
 const uint kNone = 0xffffffffu;
 
-// Lists the particle among those near one wall, or among those near several walls or a solid.
-void listNear(uint i, vec3 x) {
+// Lists the particle among those near one wall, or among those near several walls or a solid; whether it is.
+bool listNear(uint i, vec3 x) {
   vec3 low = x - vec3(params.lowX, params.lowY, params.lowZ);
   vec3 high = vec3(params.highX, params.highY, params.highZ) - x;
   uvec3 sides = uvec3(lessThan(low, vec3(params.nearLimit))) + uvec3(lessThan(high, vec3(params.nearLimit)));
@@ -48,40 +47,63 @@ void listNear(uint i, vec3 x) {
     vec3 normal;
     if (surfaceDistance(solids[s].shape, localPoint(solids[s].pose, x), normal) < params.nearLimit) solid = true;
   }
-  nearSample[NEAR_DISPLACED(i)] = vec4(0.0);
-  nearSample[NEAR_TANGENTIAL(i)] = vec4(0.0);
-  if (!isActive(x)) return;
+  if (!isActive(x)) return false;
   if (solid || walls > 1u) nearCorner[atomicAdd(sums.cornerCount, 1u)] = i;
   else if (walls == 1u) nearPlane[atomicAdd(sums.planeCount, 1u)] = i;
+  return solid || walls > 0u;
 }
 
-// Neighbors are stored four at a time: lavapipe stores lane by lane, so fewer and wider stores are faster.
-uvec4 held;
+uint self;
+
+// Entries are stored four at a time: lavapipe stores lane by lane, so fewer and wider stores are faster.
+uvec2 held;
 uint holds = 0u;
-uint count = 0u;
+uint stored = 0u;  // entries
 uint at;
+uint headDistance;  // see the list head
+uint last = kNone;  // the neighbor that was listed last
+
+void hold(uint k, uint entry) {
+  held[k / 2u] = k % 2u == 0u ? entry : held[k / 2u] | entry << 16;
+  holds = k + 1u;
+}
 
 void store() {
-  if (count < LIST_CAPACITY) list[at] = held;
+  if (stored < LIST_CAPACITY) list[at] = held;
   at += kListBlock;
-  count += holds;
+  stored += holds;
   holds = 0u;
+}
+
+// Goes on to a neighbor near enough to `j` for one step to it.
+void approach(uint j) {
+  if (last == kNone) {
+    headDistance = min(self - min(self, j), kMaxHeadDistance);
+    last = self - headDistance;
+  }
+  if (j - last < kLongStep) return;
+  uint far = uint(int(j - last) >> kLongStepShift), next = holds;
+  for (uint k = 0u; k < 4u; ++k)
+    if (next == k) hold(k, kLongStep | (far & 0xfffu));
+  if (holds == 4u) store();
+  last += far << kLongStepShift;
 }
 
 // Particles base + k for the bits k of `mask`.
 void listNeighbors(uint base, uint mask) {
+  if (mask != 0u) approach(base + findLSB(mask));
   LOOP_WHILE (mask != 0u) {
     for (uint k = 0u; k < 4u; ++k) {
       if (holds != k || mask == 0u) continue;
-      held[k] = base + findLSB(mask);
+      uint j = base + findLSB(mask);
       mask &= mask - 1u;
-      holds = k + 1u;
+      hold(k, j - last);
+      last = j;
     }
     if (holds == 4u) store();
   } LOOP_END(mask != 0u);
 }
 
-uint self;
 vec3 place, here;
 uint coincident = kNone;
 float reachSquared = params.reach * params.reach;
@@ -128,12 +150,17 @@ void main() {
   walkGrid(scaled, scaled, inRange && isActive(x), params.reach);
   if (!inRange) return;
   cell[i] = cellKey(cellOf(x));
+  uint head = 0u;
   if (LIST_CAPACITY != 0u) {
-    uint all = count + holds;
-    for (uint k = 1u; k < 4u; ++k) held[k] = holds <= k ? params.capacity : held[k];
-    if (holds != 0u) store();
-    neighborCount[i] = all;
-    if (all > LIST_CAPACITY) atomicAdd(sums.overflow, 1u);
+    uint all = stored + holds;
+    if (holds != 0u) {
+      for (uint k = 1u; k < 4u; ++k)
+        if (holds == k) hold(k, kLongStep);
+      store();
+    }
+    bool fits = all <= LIST_CAPACITY;
+    head = (fits ? all : kUnlisted) | (last == kNone ? 0u : headDistance << kHeadDistanceShift);
+    if (!fits) atomicAdd(sums.overflow, 1u);
   }
 
   vec4 sorted = sortedPositionAt(i), moving = sortedVelocityAt(i);
@@ -151,5 +178,6 @@ void main() {
   velocity[i] = vec4(moving.xyz, 1.0);
   if (WARM) warm[i] = moving.w;
   id[i] = own;
-  if (NEAR) listNear(i, x);
+  if (NEAR && listNear(i, x)) head |= kNearWallsBit;
+  if (LIST_CAPACITY != 0u || NEAR) listHead[i] = head;
 }

@@ -33,7 +33,7 @@ void main() {
   if (!inRange) i = params.capacity;
   here = particleAt(i).xyz;
   own = curlAt(i);
-  visitNeighbors(i, local, inRange);
+  visitNeighbors(i, headOf(i, inRange), local, inRange);
   if (!inRange) return;
   rise *= params.gradientScale;
   // Below a thousandth of the spin a smoothing length its change is noise.

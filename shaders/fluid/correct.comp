@@ -62,12 +62,12 @@ vec3 predictedDisplacement(vec3 from, vec3 velocity, vec3 acceleration) {
 }
 
 // Speed of the particle (m/s), whose substep ends here.
-float endSubstep(uint i) {
+float endSubstep(uint i, uint head) {
   correction *= unit * params.gradientScale;
   warmDisplacement *= unit * params.gradientScale;
   if (NEAR) {
-    vec3 wall = unit * displacedAt(i).xyz;
-    WallScale walls = wallScaleAt(i);  // see docs/notes/walls-and-solids.md
+    vec3 wall = unit * displacedAt(i, head).xyz;
+    WallScale walls = wallScaleAt(i, head);  // see docs/notes/walls-and-solids.md
     correction = atWalls(walls, SOLIDS, correction, own.x * wall);
     warmDisplacement = atWalls(walls, SOLIDS, warmDisplacement, own.y * wall);
   }
@@ -128,8 +128,9 @@ void main() {
   uvec4 particle = particleAt(i);
   here = uintBitsToFloat(particle.xyz);
   own = multipliers(particle);
-  visitNeighbors(i, local, inRange);
+  uint head = headOf(i, inRange);
+  visitNeighbors(i, head, local, inRange);
   // No lane leaves before the maximum: those that are left need not come together again.
-  float fastest = subgroupMax(inRange ? endSubstep(i) : 0.0);
+  float fastest = subgroupMax(inRange ? endSubstep(i, head) : 0.0);
   if (subgroupElect()) atomicMax(sums.speedMax, floatBitsToUint(fastest));
 }

@@ -33,7 +33,7 @@ void main() {
   if (!inRange) i = params.capacity;
   here = particleAt(i).xyz;
   own = velocityAt(i).xyz;
-  visitNeighbors(i, local, inRange);
+  visitNeighbors(i, headOf(i, inRange), local, inRange);
   if (!inRange) return;
   turning *= params.gradientScale;
   curl[i] = vec4(turning, length(turning));

@@ -36,16 +36,16 @@ void visit(vec4 particle) {
 #include "fluid/neighbors.glsl"
 
 // Compression of the particle, from 0 to 1; its multiplier is updated.
-float updateMultiplier(uint i) {
+float updateMultiplier(uint i, uint head) {
   rho = params.valueScale * (rho + kernelShape(0.0));
   gradientSum *= params.gradientScale;
   gradientSquares *= params.gradientScale * params.gradientScale;
   WallScale walls = kNoWalls;
   if (NEAR) {
-    vec4 displaced = displacedAt(i);
+    vec4 displaced = displacedAt(i, head);
     gradientSum += displaced.xyz;
     rho += displaced.w;
-    walls = wallScaleAt(i);
+    walls = wallScaleAt(i, head);
   }
 
   float constraint = isActive(here) ? rho - 1.0 : -1.0;  // inactive particles coincide; exclude them from the error
@@ -85,9 +85,10 @@ void main() {
   bool inRange = i < min(push.last, control.count);
   if (!inRange) i = params.capacity;
   here = particleAt(i).xyz;
-  visitNeighbors(i, local, inRange);
+  uint head = headOf(i, inRange);
+  visitNeighbors(i, head, local, inRange);
   // No lane leaves before the sums: those that are left need not come together again.
-  float compression = inRange ? updateMultiplier(i) : 0.0;
+  float compression = inRange ? updateMultiplier(i, head) : 0.0;
   float sum = subgroupAdd(compression);  // of 64 lanes, in kErrorUnit, it fits into 32 bits
   float most = subgroupMax(compression);
   if (subgroupElect()) {

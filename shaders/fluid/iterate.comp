@@ -37,9 +37,10 @@ void main() {
   uvec4 particle = particleAt(i);
   here = uintBitsToFloat(particle.xyz);
   own = multiplier(particle);
-  visitNeighbors(i, local, inRange);
+  uint head = headOf(i, inRange);
+  visitNeighbors(i, head, local, inRange);
   if (!inRange) return;
   moved *= unit * params.gradientScale;
-  if (NEAR) moved = atWalls(wallScaleAt(i), SOLIDS, moved, unit * own * displacedAt(i).xyz);
+  if (NEAR) moved = atWalls(wallScaleAt(i, head), SOLIDS, moved, unit * own * displacedAt(i, head).xyz);
   prediction[i] = vec4(insideWalls(here + moved), prediction[i].w);
 }

@@ -17,6 +17,7 @@ READ_NEAR(4)
 layout(std430, binding = 5) buffer SumsBlock { FluidSums sums; };
 layout(std430, binding = 6) buffer HistogramBlock { uint histogram[]; };  // compression; then inside the fluid: above, below rest density
 layout(std430, binding = 7) buffer VelocityBlock { vec4 velocity[]; };    // w: density over rest density
+READ_UINT(8, listHead)
 
 vec3 here;
 float rho = 0.0;
@@ -55,7 +56,7 @@ void main() {
   if (!inRange) return;
   uint i = uint(particle.w);
   rho *= params.valueScale;
-  if (NEAR) rho += displacedAt(i).w;
+  if (NEAR) rho += displacedAt(i, listHeadAt(i)).w;
   velocity[i].w = rho;
   float error = rho - 1.0;
   if (error > 0.0) atomicAdd(histogram[binOf(error)], 1u);

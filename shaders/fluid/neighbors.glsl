@@ -45,22 +45,39 @@ void candidates(uint first, uint end) {
 #define VISIT(j, particle) visit(particle)
 #endif
 
+uint dummy = params.capacity;  // loaded once, see kernel.glsl
+
+// The neighbor that an entry of the list leads to from neighbor j, or the dummy; moves j on.
+uint nextNeighbor(inout uint j, uint entry) {
+  bool isLong = entry >= kLongStep;
+  j += isLong ? uint(int(entry << 20) >> (20 - kLongStepShift)) : entry;
+  return isLong ? dummy : j;
+}
+
+// The list head of particle i; of none if it is not `inRange`.
+uint headOf(uint i, bool inRange) {
+  return (LIST_CAPACITY != 0u || NEAR) && inRange ? listHeadAt(i) : 0u;
+}
+
 // Visits the neighbors of particle i, if `inRange`, at invocation `local` of its chunk. All lanes
 // of a cluster call this.
-void visitNeighbors(uint i, uint local, bool inRange) {
-  uint count = LIST_CAPACITY == 0u || !inRange ? 0u : neighborCountAt(i);
-  bool listed = LIST_CAPACITY != 0u && count <= LIST_CAPACITY;
+void visitNeighbors(uint i, uint head, uint local, bool inRange) {
+  uint count = head & kUnlisted;
+  bool listed = LIST_CAPACITY != 0u && count != kUnlisted;
   if (LIST_CAPACITY != 0u) {
     uint at = (local / kListBlock) * (kListBlock * (LIST_CAPACITY / 4u)) + local % kListBlock;
     uint groups = listed ? (count + 3u) / 4u : 0u;
+    uint j = i - (head >> kHeadDistanceShift);
     uint k = 0u;
     LOOP_WHILE (k < groups) {
-      uvec4 js = listAt(at);
-      PARTICLE x = particleAt(js.x), y = particleAt(js.y), z = particleAt(js.z), w = particleAt(js.w);
-      VISIT(js.x, x);
-      VISIT(js.y, y);
-      VISIT(js.z, z);
-      VISIT(js.w, w);
+      uvec2 entries = listAt(at);
+      uint x = nextNeighbor(j, entries.x & 0xffffu), y = nextNeighbor(j, entries.x >> 16);
+      uint z = nextNeighbor(j, entries.y & 0xffffu), w = nextNeighbor(j, entries.y >> 16);
+      PARTICLE atX = particleAt(x), atY = particleAt(y), atZ = particleAt(z), atW = particleAt(w);
+      VISIT(x, atX);
+      VISIT(y, atY);
+      VISIT(z, atZ);
+      VISIT(w, atW);
       at += kListBlock;
       ++k;
     } LOOP_END(k < groups);

@@ -33,7 +33,7 @@ void main() {
   if (!inRange) i = params.capacity;
   here = particleAt(i).xyz;
   own = sweepFromAt(i);
-  visitNeighbors(i, local, inRange);
+  visitNeighbors(i, headOf(i, inRange), local, inRange);
   if (!inRange) return;
   float coefficient = push.share > 0.0 ? params.viscosityRate * control.step * push.share : control.noiseDamping;
   vec3 v = own.xyz + coefficient * params.valueScale * change;

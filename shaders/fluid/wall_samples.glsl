@@ -1,4 +1,4 @@
-// What walls and solids do to a particle, two vectors a particle in one array; 0 away from them.
+// What walls and solids do to a particle that they are near, two vectors a particle in one array; undefined for others.
 #ifndef RILL_WALL_SAMPLES_GLSL
 #define RILL_WALL_SAMPLES_GLSL
 #include "shared/arrays.glsl"
@@ -43,8 +43,10 @@ vec3 unpackMixed(float packed) {
 
 WallScale unpackWallScale(vec4 stored) { return WallScale(1.0 + stored.xyz, unpackMixed(stored.w)); }
 
+// Samples of particle i with this list head; 0 where no wall is near.
 #define READ_NEAR(BINDING) \
   READ_FLOAT4(BINDING, nearSample) \
-  vec4 displacedAt(uint i) { return nearSampleAt(NEAR_DISPLACED(i)); } \
-  WallScale wallScaleAt(uint i) { return unpackWallScale(nearSampleAt(NEAR_TANGENTIAL(i))); }
+  vec4 sampleAt(uint k, uint head) { return (head & kNearWallsBit) != 0u ? nearSampleAt(k) : vec4(0.0); } \
+  vec4 displacedAt(uint i, uint head) { return sampleAt(NEAR_DISPLACED(i), head); } \
+  WallScale wallScaleAt(uint i, uint head) { return unpackWallScale(sampleAt(NEAR_TANGENTIAL(i), head)); }
 #endif

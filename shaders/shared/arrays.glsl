@@ -10,6 +10,8 @@
   uint NAME##At(uint k) { return texelFetch(NAME##Texels, int(k)).x; }
 #define READ_UINT4(BINDING, NAME) layout(set = 0, binding = BINDING) uniform usamplerBuffer NAME##Texels4; \
   uvec4 NAME##At(uint k) { return texelFetch(NAME##Texels4, int(k)); }
+#define READ_UINT2(BINDING, NAME) layout(set = 0, binding = BINDING) uniform usamplerBuffer NAME##Texels2; \
+  uvec2 NAME##At(uint k) { return texelFetch(NAME##Texels2, int(k)).xy; }
 #define READ_FLOAT(BINDING, NAME) RILL_TEXELS(BINDING, NAME, usamplerBuffer) \
   float NAME##At(uint k) { return uintBitsToFloat(texelFetch(NAME##Texels, int(k)).x); }
 #else
@@ -17,6 +19,7 @@
   TYPE NAME##At(uint k) { return NAME##Array[k]; }
 #define READ_FLOAT4(BINDING, NAME) RILL_STORAGE(BINDING, NAME, vec4)
 #define READ_UINT(BINDING, NAME) RILL_STORAGE(BINDING, NAME, uint)
+#define READ_UINT2(BINDING, NAME) RILL_STORAGE(BINDING, NAME, uvec2)
 #define READ_UINT4(BINDING, NAME) RILL_STORAGE(BINDING, NAME, uvec4)
 #define READ_FLOAT(BINDING, NAME) RILL_STORAGE(BINDING, NAME, float)
 #endif

@@ -2,11 +2,11 @@
 #ifndef RILL_FLUID_RECORDS_H
 #define RILL_FLUID_RECORDS_H
 #include "shared/interop.h"
+#include "shared/neighbor_list.h"
 #include "shared/solid_records.h"
 RILL_RECORDS_BEGIN
 
 RILL_CONST uint kFluidGroup = 64u;        // invocations a workgroup of every per-particle pass
-RILL_CONST uint kListBlock = 4096u;       // particles a block of the neighbor list: k-major inside a block
 RILL_CONST uint kCellsPerReach = 2u;       // grid cells in x as long as one in y or z
 RILL_CONST uint kSettleSubsteps = 512u;    // at most, before the first substep in time
 RILL_CONST uint kMaxInitialPressureIterations = 1024u;    // iterations of the initial pressure, at most, after settling
@@ -55,7 +55,7 @@ RILL_CONST uint kMaxCommands = 64u;
 // Constant over a run; a uniform block.
 struct FluidParams {
   uint capacity;          // entries of the arrays; the dummy neighbor is the next
-  uint listCapacity;      // neighbors that the list holds a particle, a multiple of 4; 0: no list
+  uint listCapacity;      // entries that the list holds a particle, a multiple of 4; 0: no list
   uint chunkParticles;    // particles a list buffer, a multiple of kListBlock
   uint solidCount;
   float spacing;          // m
@@ -180,7 +180,7 @@ struct FluidSums {
   uint errorMax;             // bits of the largest compression
   uint speedMax;             // bits of the largest speed
   uint nonFinite;            // particles that became inactive since the start
-  uint overflow;             // particles with more neighbors than the list holds, at the last build
+  uint overflow;             // particles with more entries than the list holds, at the last build
   uint boundHits;            // loops cut at their bound since the start
   uint planeCount;           // particles near one wall, at the last build
   uint cornerCount;          // particles near several walls or a solid, at the last build

@@ -73,13 +73,13 @@ TEST_F(CountedMemory, DisabledFeaturesHaveNoBuffer) {
   };
   const auto expectOff = [&](std::string_view name) { EXPECT_LE(bytesOf(name), 64u) << name; };  // a binding must be something
   for (const char* name : {"iteration multipliers", "wall samples", "particles near one wall", "particles near corners"}) expectOff(name);
-  for (const char* name : {"warm-start accelerations", "warm-start multipliers", "neighbor counts", "neighbor list"})
+  for (const char* name : {"warm-start accelerations", "warm-start multipliers", "list heads", "neighbor list"})
     EXPECT_GE(bytesOf(name), 4000u) << name;
   scene.solver.warm_start = 0;
   expectOff("warm-start accelerations");
   expectOff("warm-start multipliers");
   scene.solver.neighbors = NeighborChoice::Grid;
-  expectOff("neighbor counts");
+  expectOff("list heads");
   expectOff("neighbor list");
   scene.solver.iterations = 3;
   EXPECT_GE(bytesOf("iteration multipliers"), 4000u);
@@ -100,7 +100,7 @@ TEST_F(CountedMemory, RejectsTooLargeFluidsWithNeededAndAvailableBytes) {
   EXPECT_NE(many.message.find("4194305 particles need"), std::string::npos) << many.message;
   EXPECT_NE(many.message.find("has 4096.0 MiB"), std::string::npos) << many.message;
   scene.fluid.smoothing_ratio = 4;
-  const Error wide = refusal(2000000);
+  const Error wide = refusal(3000000);
   EXPECT_EQ(wide.kind, ErrorKind::TooLarge);
   EXPECT_NE(wide.message.find("make smoothing_ratio smaller"), std::string::npos) << wide.message;
 }

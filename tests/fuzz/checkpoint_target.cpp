@@ -1,5 +1,6 @@
 #include <cstring>
 
+#include "fluid/neighbor_list.hpp"
 #include "fuzz/require.hpp"
 #include "fuzz/targets.hpp"
 #include "support/checkpoint_seed.hpp"
@@ -10,9 +11,13 @@ namespace {
 /// The host code that loads a snapshot into a fluid of this shape.
 void loadIntoFluid(const FluidSnapshot& snapshot, const SnapshotShape& shape) {
   if (!checkSnapshot(snapshot, shape) || !hasNeighbors(snapshot)) return;
-  std::vector<uint32_t> list(size_t{kListBlock} * shape.listCapacity, shape.capacity);
-  layOutList(snapshot, 0, shape.capacity, shape.capacity, list);
-  for (uint32_t entry : list) RILL_REQUIRE(entry <= shape.capacity);
+  std::vector<uint32_t> list(size_t{kListBlock} * shape.listCapacity / 2);
+  layOutList(snapshot, 0, shape.capacity, list);
+  FluidSnapshot back = snapshot;
+  back.neighbors.clear();
+  back.neighborCount.clear();
+  gatherList(back, 0, shape.capacity, layOutHeads(snapshot), list);
+  RILL_REQUIRE(back.neighbors == snapshot.neighbors);
   std::vector<uint32_t> start(shape.cells + 1);
   cellStarts(snapshot.cell, start);
   for (size_t k = 0; k < shape.cells; ++k) RILL_REQUIRE(start[k] <= start[k + 1] && start[k + 1] <= shape.capacity);

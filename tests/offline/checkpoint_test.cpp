@@ -1,6 +1,7 @@
 // Checkpoint files: round trips and errors.
 #include <gtest/gtest.h>
 
+#include "fluid/neighbor_list.hpp"
 #include "fluid/snapshot.hpp"
 #include "rill/offline.hpp"
 #include "support/checkpoint_seed.hpp"
@@ -172,6 +173,8 @@ TEST_F(SnapshotCheck, RejectsInvalidIndices) {
   expectRejected("a neighbor index is out of range");
   s.neighbors.pop_back();
   expectRejected("neighbors has");
+  std::swap(s.neighbors[3], s.neighbors[6]);  // 5 before 0: a step back takes an entry of its own
+  expectRejected("increasing order");
   s.neighborCount[0] = seedShape().listCapacity + 1;
   expectRejected("neighbors has");
   s.neighborCount.pop_back();
@@ -211,22 +214,51 @@ TEST(SnapshotNeighborList, RoundTripsThroughBlockLayout) {
   FluidSnapshot s;
   s.listCapacity = 8;
   const uint32_t count = 3 * kListBlock + 17;
+  s.id.resize(count);
   for (uint32_t i = 0; i < count; ++i) {
-    s.neighborCount.push_back(i % 11);  // some exceed the capacity
-    for (uint32_t k = 0; k < i % 11 && i % 11 <= 8; ++k) s.neighbors.push_back((i * 7 + k) % count);
+    s.neighborCount.push_back(i % 10);  // some exceed the capacity, by one
+    for (uint32_t k = 0; k < i % 10 && i % 10 <= 8; ++k) s.neighbors.push_back((i * 7) % (count - 8) + k);
   }
   FluidSnapshot back = s;
   back.neighbors.clear();
+  back.neighborCount.clear();
+  const std::vector<uint32_t> heads = layOutHeads(s);
   for (const auto& [first, last] : {std::pair{0u, 2 * kListBlock}, std::pair{2 * kListBlock, count}}) {
-    std::vector<uint32_t> list(8 * kListBlock * 2, 0xdead);
-    layOutList(s, first, last, count, list);
-    if (first == 0) {  // particle 4097's fifth neighbor, its last: block 1, second group, padded
-      const size_t at = ((kListBlock * 2 + 1) + kListBlock) * 4;
-      EXPECT_EQ(list[at], (4097u * 7 + 4) % count);
-      EXPECT_EQ(list[at + 1], count);
+    std::vector<uint32_t> list(8 * kListBlock * 2 / 2, 0xdead);
+    layOutList(s, first, last, list);
+    if (first == 0) {  // particle 4097 has seven neighbors in a row: block 1, second group, padded
+      const size_t at = ((kListBlock * 2 + 1) + kListBlock) * 2;
+      EXPECT_EQ(list[at], 1u | 1u << 16);
+      EXPECT_EQ(list[at + 1], 1u | kLongStep << 16);
     }
-    gatherList(back, first, last, list);
+    gatherList(back, first, last, heads, list);
   }
+  EXPECT_EQ(back, s);
+}
+
+// A step of 16 bits reaches no farther than 61,439 particles; two entries reach any.
+TEST(SnapshotNeighborList, ReachesDistantNeighbors) {
+  const uint32_t far = kMaxParticles - 1;
+  for (const uint32_t i : {0u, 1u, 100000u, far}) {
+    FluidSnapshot s;
+    s.listCapacity = 12;
+    const std::vector<uint32_t> neighbors = {0, kLongStep - 1, 2 * kLongStep - 1, 2 * kLongStep, 3000000, far - 1, far};
+    EXPECT_LE(listEntries(i, neighbors), 11u);
+    EXPECT_GE(listEntries(i, neighbors), 9u);
+    const std::vector<uint32_t> none;
+    EXPECT_EQ(listEntries(i, none), 0u);
+  }
+  FluidSnapshot s;
+  s.listCapacity = 12;
+  s.id.resize(4);
+  s.neighborCount = {3, 1, 0, 3};
+  s.neighbors = {1, 2 * kLongStep, far, far, 5, 3, far};  // the last goes back, and on again
+  FluidSnapshot back = s;
+  back.neighbors.clear();
+  back.neighborCount.clear();
+  std::vector<uint32_t> list(12 * kListBlock / 2);
+  layOutList(s, 0, 4, list);
+  gatherList(back, 0, 4, layOutHeads(s), list);
   EXPECT_EQ(back, s);
 }
 

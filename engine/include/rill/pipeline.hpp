@@ -26,6 +26,7 @@ enum class BindingKind : uint8_t {
   Uniform,       ///< uniform block
   TexelFloat4,   ///< samplerBuffer over R32G32B32A32_SFLOAT
   TexelUint,     ///< usamplerBuffer over R32_UINT
+  TexelUint2,    ///< usamplerBuffer over R32G32_UINT
   TexelUint4,    ///< usamplerBuffer over R32G32B32A32_UINT
   StorageImage,  ///< image2D with a format qualifier
   SampledImage   ///< texture2D or utexture2D, read by texelFetch

@@ -36,7 +36,7 @@ struct FluidSnapshot {
   std::vector<uint32_t> id = {};
   std::vector<uint32_t> nearWall = {}, nearCorner = {};  ///< indices of particles near one wall; near several walls or a solid; increasing
   // Neighbor list; empty if the next step rebuilds it.
-  uint32_t listCapacity = 0;                 ///< capacity of the list, entries per particle
+  uint32_t listCapacity = 0;                 ///< capacity of the list, entries per particle; a neighbor takes one or two
   std::vector<uint32_t> neighborCount = {};  ///< neighbors of each particle; empty without a valid list
   std::vector<uint32_t> neighbors = {};      ///< concatenated by particle; without those of particles that exceed the capacity
   std::vector<uint32_t> cell = {};           ///< cell of each sorted particle, if some particles search the grid
@@ -63,6 +63,7 @@ class RILL_API SnapshotReader {
   std::vector<uint32_t> parts_ = {};  ///< indices of the buffers to read, in order
   size_t next_ = 0;
   std::vector<Ticket> tickets_ = {};
+  std::vector<uint32_t> heads_ = {};  ///< of the neighbor lists
 };
 
 }  // namespace rill
