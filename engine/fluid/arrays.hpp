@@ -21,6 +21,7 @@ enum class FluidArray : uint8_t {
   Sums,
   Shapes,
   Commands,
+  DensityCommands,
   GravityChanges,
   Table,
   Solids,

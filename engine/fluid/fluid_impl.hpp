@@ -46,6 +46,7 @@ struct PreparedPass {
     std::vector<FluidArray> arrays = {};  ///< in the order of the bindings
   };
   std::vector<Variant> variants;
+  FluidArray arguments = FluidArray::Commands;          ///< what the commands are in
   std::vector<std::array<uint32_t, kStarts>> commands;  ///< of each variant, by start
 };
 
@@ -186,12 +187,12 @@ void FluidImpl::declare(Graph& graph, FluidPass pass, Start start, Push push) {
     std::array<Dispatched, 2 * kMaxListChunks> all;
     size_t dispatches = 0;
     const bool chunked = row.extent == Extent::Chunks || row.extent == Extent::Gather;
-    if (start != Start::Always) declared.read(ref(FluidArray::Commands), Use::Indirect);
+    if (start != Start::Always) declared.read(ref(prepared.arguments), Use::Indirect);
     for (uint32_t c = 0; c < (chunked ? chunkCount() : 1); ++c)
       for (size_t v = 0; v < prepared.variants.size(); ++v) {
         all[dispatches++] = {bind(graph, declared, row, prepared.variants[v], c), commandOffset(graph, row, v, start)};
       }
-    return [=, this, arguments = ref(FluidArray::Commands), groups = fixedGroups(row.extent), each = prepared.variants.size(),
+    return [=, this, arguments = ref(prepared.arguments), groups = fixedGroups(row.extent), each = prepared.variants.size(),
             direct = start == Start::Always](Commands& commands) mutable {
       for (size_t k = 0; k < dispatches; ++k) {
         if constexpr (requires { push.first; }) {

@@ -12,6 +12,7 @@ bool viscous(const FluidSetup& s) { return s.viscositySweeps > 0; }
 bool noisy(const FluidSetup& s) { return s.params.noiseDampingRate > 0; }
 bool swirls(const FluidSetup& s) { return s.params.vorticity > 0; }
 bool drags(const FluidSetup& s) { return s.params.drag > 0; }
+bool separate(const FluidSetup& s) { return !s.mergesPasses; }
 bool copies(const FluidSetup& s) { return s.viscositySweeps % 2 == 1 || noisy(s); }
 bool forcesOrDamping(const FluidSetup& s) { return hasForces(s) || noisy(s); }
 bool forcesOrDampingAtSolids(const FluidSetup& s) { return forcesOrDamping(s) && solids(s); }
@@ -41,7 +42,7 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::Iterate, "iterate", "fluid/iterate", E::Gather, {S::Iterate}, kIterates},
     {P::Walls, "walls and solids", "fluid/walls", E::Near, kSolve, kNear},
     {P::Density, "density", "fluid/density", E::Gather, kSolve},
-    {P::Control, "control", "fluid/control"},
+    {P::Control, "control", "fluid/control", E::One, {}, {separate}},
     {P::CorrectWithArtificialPressure,
      "correct",
      "fluid/correct",

@@ -73,7 +73,7 @@ enum class Extent : uint8_t {
   Partials,   ///< the workgroups that add up figures
   Chunks,     ///< all particles, a dispatch for each buffer of the neighbor list
   Gather,     ///< the same over neighbors, in two variants: the device starts the one that reads lists or the one that can walk the grid
-  Near,       ///< particles near one wall, and those near several or a solid, in two variants
+  Near,       ///< particles near one wall, and those near several or a solid, in two variants or in one
   Corner      ///< the latter alone
 };
 

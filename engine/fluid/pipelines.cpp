@@ -37,6 +37,7 @@ std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
           // Where a pass or a variant of it does not say otherwise:
           {"WALKS", false},
           {"CORNER", false},
+          {"MERGED", setup.mergesPasses},
           {"ARTIFICIAL_PRESSURE", false},
           {"REBUILDS", false}};
 }
@@ -66,6 +67,8 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
   const bool counted = sort_->method() == SortMethod::Counting;
   std::string shader(row.shader);
   if (row.extent == Extent::Keys && counted) shader += "_counted";
+  const bool accounts = row.id == FluidPass::Density && setup.mergesPasses;
+  if (accounts) shader += "_control", prepared.arguments = FluidArray::DensityCommands;
   shader = readingVariant(device, shader, texel_);
   const ClusterChoice choice = clusterOf(device);
 
@@ -89,7 +92,7 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
       const GroupCount groups = over == kOverShape ? foldGroups(fixedGroups(row.extent)) : GroupCount{kFluidGroup, 0, 1};
       const auto share = [&](Start when) {
         const auto k = static_cast<uint32_t>(when);
-        commands[k] = commands_.shared(k, over, groups);
+        commands[k] = accounts ? uint32_t{over == kOverGrid} : commands_.shared(k, over, groups);
       };
       share(start);
       if (start == Start::Correct) share(Start::CorrectOdd);
@@ -102,6 +105,7 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
         if (auto ok = add(kOverLists, {}, withoutCluster(device.info(), choice, kFluidGroup)); !ok) return ok;
       return add(kOverGrid, {{"WALKS", true}}, choice.need);
     case Extent::Near:
+      if (setup.mergesPasses) return add(kOverNear, {});
       if (auto ok = add(kOverCorner, {{"CORNER", true}}); !ok) return ok;
       return add(kOverPlane, {{"CORNER", false}, {"SOLIDS", false}, {"THIN", false}});
     case Extent::Corner:

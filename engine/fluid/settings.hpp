@@ -46,7 +46,8 @@ struct FluidSetup {
   bool near = false;                      ///< walls or solids displace density
   bool thin = false;                      ///< walls that face each other can both be near a particle
   bool movingSolids = false;
-  bool warm = false;  ///< there is a warm start: multipliers and accelerations are kept
+  bool mergesPasses = false;  ///< see FluidDesc::mergePasses
+  bool warm = false;          ///< there is a warm start: multipliers and accelerations are kept
   std::vector<std::string> warnings;
 };
 

@@ -39,6 +39,7 @@ void FluidImpl::stageScene() {
   staging_->add(slotOf(FluidArray::Table), setup.tables.data(), setup.tables.size() * 4);
   staging_->add(slotOf(FluidArray::Keyframes), setup.keyframes.data(), setup.keyframes.size() * 4);
   staging_->clear(slotOf(FluidArray::Commands));
+  staging_->clear(slotOf(FluidArray::DensityCommands));
 }
 
 void FluidImpl::stageParticles(std::vector<Float3> positions, std::vector<Float3> velocities) {

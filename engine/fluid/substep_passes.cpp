@@ -17,7 +17,7 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
     alias(Place, Prediction);
     declare(graph, FluidPass::Walls, start);
     alias(Particle, Prediction);
-    declare(graph, FluidPass::Density, start, push);
+    declare(graph, FluidPass::Density, start, DensityPush{0, 0, iteration, parity, first});
     declare(graph, FluidPass::Control, Start::Always, ControlPush{iteration, parity, first});
   }
   alias(Particle, Work);

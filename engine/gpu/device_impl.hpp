@@ -71,6 +71,7 @@ class DeviceImpl {
   uint64_t timestampMask = 0;       ///< valid bits of the queue's timestamps; 0: not supported
   bool hasGraphics = false;         ///< the host's queue has graphics
   uint32_t vendor = 0;              ///< PCI id
+  bool isCpu = false;               ///< a software driver
   bool canSetSubgroupSize = false;  ///< compute pipelines can require a subgroup size
   FrameClock clock;
   RetireQueue retired;

@@ -5,42 +5,46 @@
 layout(local_size_x = 1) in;
 layout(push_constant) uniform Push { BeginPush push; };
 layout(binding = 0) uniform ParamsBlock { FluidParams params; };
-layout(std430, binding = 1) buffer ControlBlock { FluidControl control; };
+layout(std430, binding = 1) buffer ControlBlock { FluidControl control; } stored;
+FluidControl control;
 layout(std430, binding = 2) readonly buffer SumsBlock { FluidSums sums; };
 layout(std430, binding = 3) readonly buffer ShapeBlock { uint shapes[]; };
 layout(std430, binding = 4) buffer CommandBlock { uint commands[]; };
 layout(std430, binding = 5) readonly buffer GravityBlock { vec4 gravityChanges[]; };
+layout(std430, binding = 6) writeonly buffer DensityCommandBlock { uint densityCommands[]; };
 #include "fluid/gains.glsl"
 #include "fluid/step_plan.glsl"
 #include "fluid/dispatch_commands.glsl"
+#include "fluid/density_commands.glsl"
 #include "fluid/time.glsl"
 
 void main() {
-  FluidControl c = control;
-  FluidSums s = sums;
-  c.timeDropped = max(c.timeLeft, 0.0);  // an advance that was not recorded to its end
-  c.timeLeft = push.advance;
-  c.substeps = 0u;
-  c.iterations = 0u;
-  c.builds = 0u;
-  c.solidSpeed = max(params.solidSpeed, push.drivenSpeed);
-  gravityAt(c);
-  float acceleration = length(vec3(c.gravityX, c.gravityY, c.gravityZ));
-  c.speed = uintBitsToFloat(s.speedMax);
-  if (c.nextRelaxation == 0.0) setGains(c);  // the first advance: from then on each substep sets those of the next
-  c.desiredStep = plannedStep(c, c.desiredStep, cflStep(c.speed, acceleration, c.head));
+  control = stored.control;
+  control.timeDropped = max(control.timeLeft, 0.0);  // an advance that was not recorded to its end
+  control.timeLeft = push.advance;
+  control.substeps = 0u;
+  control.iterations = 0u;
+  control.builds = 0u;
+  control.solidSpeed = max(params.solidSpeed, push.drivenSpeed);
+  gravityAt();
+  float acceleration = length(vec3(control.gravityX, control.gravityY, control.gravityZ));
+  control.speed = uintBitsToFloat(sums.speedMax);
+  if (control.nextRelaxation == 0.0) setGains();  // the first advance: from then on each substep sets those of the next
+  control.desiredStep = plannedStep(control.desiredStep, cflStep(control.speed, acceleration, control.head));
   bool going = push.advance > 0.0;
   if (going) {
-    c.nextStep = fittedStep(push.advance, c.desiredStep);
+    control.nextStep = fittedStep(push.advance, control.desiredStep);
     // the last advance was cut short; once a solid moves, the initial pressure no longer fits
-    if (push.drivenSpeed > 0.0 && c.nextPhase == kPhaseInitialPressure) setNextPhase(c, kPhaseAdvancing, 0u);
-    if (c.nextPhase == kPhaseInitialPressure) c.nextStep = params.initialPressureStep;
-    if (c.warmStep <= 0.0) c.warmStep = c.nextStep;
-    float nextTravel = c.travel + (c.speed + c.solidSpeed + acceleration * c.nextStep) * c.nextStep;
-    if (c.nextPhase != kPhaseInitialPressure && nextTravel > params.travelLimit && c.listState == kListValid) c.listState = kListDue;
+    if (push.drivenSpeed > 0.0 && control.nextPhase == kPhaseInitialPressure) setNextPhase(kPhaseAdvancing, 0u);
+    if (control.nextPhase == kPhaseInitialPressure) control.nextStep = params.initialPressureStep;
+    if (control.warmStep <= 0.0) control.warmStep = control.nextStep;
+    float nextTravel = control.travel + (control.speed + control.solidSpeed + acceleration * control.nextStep) * control.nextStep;
+    if (control.nextPhase != kPhaseInitialPressure && nextTravel > params.travelLimit && control.listState == kListValid)
+      control.listState = kListDue;
   }
-  c.running = going && c.listState == kListValid ? 1u : 0u;
-  c.again = 0u;
-  switchCommands(c, kNoSubstep, s);
-  control = c;
+  control.running = going && control.listState == kListValid ? 1u : 0u;
+  control.again = 0u;
+  switchCommands(kNoSubstep);
+  setDensityCommands();
+  stored.control = control;
 }

@@ -1,7 +1,8 @@
 #version 460
 // Density of the prediction, the constraint's gradient and the multiplier (Macklin and Mueller
 // 2013, equations 1, 2, 9 and 11), with the integral warm start: see docs/method.md.
-// Gathers from the predicted positions.
+// Gathers from the predicted positions. CONTROLS: the subgroup that finishes last accounts for the
+// substep, which is a pass less on GPUs; CPU drivers would execute that code, masked, in every subgroup.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
@@ -13,11 +14,16 @@
 #include "fluid/wall_samples.glsl"
 layout(local_size_x = kFluidGroup) in;
 
-layout(push_constant) uniform Push { ChunkPush push; };
+layout(push_constant) uniform Push { DensityPush push; };
 layout(std430, binding = 8) buffer WarmBlock { float warm[]; };
 layout(std430, binding = 9) writeonly buffer WorkBlock { uvec4 work[]; };
 READ_NEAR(10)
 layout(std430, binding = 11) buffer MultiplierBlock { float multiplier[]; };
+#ifdef CONTROLS
+layout(std430, binding = 12) readonly buffer ShapeBlock { uint shapes[]; };
+layout(std430, binding = 13) coherent buffer CommandBlock { uint commands[]; };
+layout(std430, binding = 14) readonly buffer GravityBlock { vec4 gravityChanges[]; };
+#endif
 
 vec3 here;
 float rho = 0.0;        // over rest density
@@ -79,10 +85,43 @@ float updateMultiplier(uint i, uint head) {
   return isWithin(vec3(constraint), 1.0e30) ? clamp(constraint, 0.0, 1.0) : 0.0;
 }
 
+// Whether there is something to do.
+bool runs() {
+#ifdef CONTROLS
+  return (push.iteration == 0u ? control.running : control.again) != 0u;
+#else
+  return true;
+#endif
+}
+
+void addCompression(float sum, float most) {
+  uint add = uint(sum / kErrorUnit + 0.5);
+  uint old = atomicAdd(sums.errorLow, add);
+  if (old + add < old) atomicAdd(sums.errorHigh, 1u);
+  atomicMax(sums.errorMax, floatBitsToUint(most));
+}
+
+#ifdef CONTROLS
+#include "fluid/control.glsl"
+#include "fluid/dispatch_commands.glsl"
+
+// One invocation of each subgroup calls this. The starts to switch the commands by, if its subgroup is the last of all.
+uint startsAfterLast() {
+  uint chunks = divideUp(params.capacity, params.chunkParticles);
+  uint subgroups = gl_NumSubgroups * gl_NumWorkGroups.x * gl_NumWorkGroups.y * chunks;
+  memoryBarrierBuffer();  // what was added to the sums comes before the ticket
+  if (atomicAdd(commands[kTicketWord], 1u) + 1u != subgroups) return 0u;
+  memoryBarrierBuffer();
+  commands[kTicketWord] = 0u;
+  uint parity = accountSubstep(push.iteration, push.parity, push.blockStart != 0u);
+  return parity == kAsBefore ? 0u : startsOn(parity);
+}
+#endif
+
 void main() {
   uint local = clusterInvocation();
   uint i = push.first + local;
-  bool inRange = i < min(push.last, control.count);
+  bool going = runs(), inRange = going && i < min(push.last, control.count);
   if (!inRange) i = params.capacity;
   here = particleAt(i).xyz;
   uint head = headOf(i, inRange);
@@ -91,10 +130,15 @@ void main() {
   float compression = inRange ? updateMultiplier(i, head) : 0.0;
   float sum = subgroupAdd(compression);  // of 64 lanes, in kErrorUnit, it fits into 32 bits
   float most = subgroupMax(compression);
+#ifdef CONTROLS
+  uint on = 0u;
   if (subgroupElect()) {
-    uint add = uint(sum / kErrorUnit + 0.5);
-    uint old = atomicAdd(sums.errorLow, add);
-    if (old + add < old) atomicAdd(sums.errorHigh, 1u);
-    atomicMax(sums.errorMax, floatBitsToUint(most));
+    if (going) addCompression(sum, most);
+    on = startsAfterLast();
   }
+  on = subgroupMax(on);
+  if (on != 0u) switchCommands(on, subgroupExclusiveAdd(1u), subgroupAdd(1u));
+#else
+  if (subgroupElect()) addCompression(sum, most);
+#endif
 }

@@ -4,24 +4,37 @@
 #include "shared/fluid_records.h"
 layout(local_size_x = 1) in;
 layout(binding = 0) uniform ParamsBlock { FluidParams params; };
-layout(std430, binding = 1) buffer ControlBlock { FluidControl control; };
+layout(std430, binding = 1) buffer ControlBlock { FluidControl control; } stored;
+FluidControl control;
 layout(std430, binding = 2) readonly buffer SumsBlock { FluidSums sums; };
 layout(std430, binding = 3) readonly buffer ShapeBlock { uint shapes[]; };
 layout(std430, binding = 4) buffer CommandBlock { uint commands[]; };
+layout(std430, binding = 5) writeonly buffer DensityCommandBlock { uint densityCommands[]; };
 #include "fluid/stability.glsl"
 #include "fluid/dispatch_commands.glsl"
+#include "fluid/density_commands.glsl"
+
+// Bounds only rise: see docs/notes/column-height.md.
+void followColumn(float head) {
+  if (head > kAddedAtOnce * control.head) {  // water without its pressure, as at a start
+    control.desiredStep = min(control.desiredStep, firstStep(head));
+    control.errorRate = 0.0;
+  }
+  control.head = max(control.head, head);
+}
 
 void main() {
-  FluidControl c = control;
-  if (c.listState == kListValid || (c.listState == kListDue && c.timeLeft <= 0.0)) return;
+  control = stored.control;
+  if (control.listState == kListValid || (control.listState == kListDue && control.timeLeft <= 0.0)) return;
   // without an advance a list of the start state, for figures alone: the first advance makes one of its predictions
-  c.listState = c.timeLeft > 0.0 ? kListValid : kListDue;
-  c.travel = 0.0;
-  c.builds += 1u;
-  c.executedBuilds += 1u;
-  c.running = c.timeLeft > 0.0 ? 1u : 0u;
+  control.listState = control.timeLeft > 0.0 ? kListValid : kListDue;
+  control.travel = 0.0;
+  control.builds += 1u;
+  control.executedBuilds += 1u;
+  control.running = control.timeLeft > 0.0 ? 1u : 0u;
   FluidSums s = sums;
-  followColumn(c, columnHead(s));
-  control = c;
-  switchCommands(c, kNoSubstep, s);  // the sort's own, too: another rebuild may be recorded behind this one
+  followColumn(columnHead(s));
+  switchCommands(kNoSubstep);  // the sort's own, too: another rebuild may be recorded behind this one
+  setDensityCommands();
+  stored.control = control;
 }

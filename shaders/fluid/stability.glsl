@@ -39,12 +39,4 @@ float columnHead(FluidSums s) {
   return dot(vec3(params.columnGravityX, params.columnGravityY, params.columnGravityZ), height);
 }
 
-// Bounds only rise: see docs/notes/column-height.md.
-void followColumn(inout FluidControl c, float head) {
-  if (head > kAddedAtOnce * c.head) {  // water without its pressure, as at a start
-    c.desiredStep = min(c.desiredStep, firstStep(head));
-    c.errorRate = 0.0;
-  }
-  c.head = max(c.head, head);
-}
 #endif

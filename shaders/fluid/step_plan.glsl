@@ -1,5 +1,6 @@
 // How long the next substep is: as long as the CFL bound and the tolerance allow, fitted to what is
-// left of the advance. And what the first substep of a block does for all of it.
+// left of the advance. And what the first substep of a block does for all of it. Needs `params` and a
+// `control` to write.
 #ifndef RILL_STEP_PLAN_GLSL
 #define RILL_STEP_PLAN_GLSL
 #include "fluid/stability.glsl"
@@ -14,19 +15,19 @@ float cflStep(float speed, float acceleration, float head) {
 // on the step. It changes slowly, since an error left by a long step becomes a velocity jump in a
 // short one. In fluid at rest it follows a mean over many steps: a step that follows each pressure
 // wave would amplify it.
-float tolerableStep(inout FluidControl c, float error) {
-  if (params.tolerance <= 0.0) return longestStep(c.head);
-  if (c.errorRate == 0.0) c.errorRate = params.tolerance / (c.desiredStep * c.desiredStep);
-  float now = max(error, 1.0e-9) / (c.step * c.step);
-  c.errorRate = mix(c.errorRate, now, pow(errorRateShareAtRest(c.head), c.restFraction));
-  return clamp(sqrt(params.tolerance / c.errorRate), 0.995 * c.desiredStep, 1.002 * c.desiredStep);
+float tolerableStep(float error) {
+  if (params.tolerance <= 0.0) return longestStep(control.head);
+  if (control.errorRate == 0.0) control.errorRate = params.tolerance / (control.desiredStep * control.desiredStep);
+  float now = max(error, 1.0e-9) / (control.step * control.step);
+  control.errorRate = mix(control.errorRate, now, pow(errorRateShareAtRest(control.head), control.restFraction));
+  return clamp(sqrt(params.tolerance / control.errorRate), 0.995 * control.desiredStep, 1.002 * control.desiredStep);
 }
 
 // Meeting max_substeps has priority over the tolerance: the step is long enough for the remaining
 // substeps to finish the advance. cfl has priority over both.
-float plannedStep(FluidControl c, float tolerable, float cflBound) {
-  float left = float(max(params.maxSubsteps, c.substeps + 1u) - c.substeps);
-  return min(max(tolerable, 1.01 * c.timeLeft / left), cflBound);
+float plannedStep(float tolerable, float cflBound) {
+  float left = float(max(params.maxSubsteps, control.substeps + 1u) - control.substeps);
+  return min(max(tolerable, 1.01 * control.timeLeft / left), cflBound);
 }
 
 // The rest of the advance in equal substeps of about `wanted` seconds, up to a quarter longer, so
@@ -35,19 +36,19 @@ float fittedStep(float rest, float wanted) {
   return rest / max(ceil(rest / wanted - 0.25), 1.0);
 }
 
-void setNextPhase(inout FluidControl c, uint phase, uint left) {
-  c.nextPhase = phase;
-  c.phaseLeft = left;
+void setNextPhase(uint phase, uint left) {
+  control.nextPhase = phase;
+  control.phaseLeft = left;
 }
 
 // Noise damping and artificial pressure act in the first substep of a block, for the time since the last one.
-void planBlock(inout FluidControl c, bool blockStart) {
-  c.noiseDamping = 0.0;
-  c.artificialPressure = 0.0;
-  c.blockTime += c.step;
+void planBlock(bool blockStart) {
+  control.noiseDamping = 0.0;
+  control.artificialPressure = 0.0;
+  control.blockTime += control.step;
   if (!blockStart) return;
-  c.noiseDamping = min(params.noiseDampingRate * c.restFraction * c.blockTime, kMaxNoiseDamping);
-  c.artificialPressure = min(params.tensileRate * c.blockTime, params.tensileLimit / c.blockTime) * c.step;
-  c.blockTime = 0.0;
+  control.noiseDamping = min(params.noiseDampingRate * control.restFraction * control.blockTime, kMaxNoiseDamping);
+  control.artificialPressure = min(params.tensileRate * control.blockTime, params.tensileLimit / control.blockTime) * control.step;
+  control.blockTime = 0.0;
 }
 #endif

@@ -1,4 +1,4 @@
-// The two uniform blocks of every fluid pass, at bindings 0 and 1.
+// The two uniform blocks of every fluid pass, at bindings 0 and 1. CONTROLS: the pass writes the control block.
 #ifndef RILL_UNIFORMS_GLSL
 #define RILL_UNIFORMS_GLSL
 #include "shared/fluid_records.h"
@@ -6,7 +6,11 @@
 #include "shared/dispatch.glsl"
 #include "fluid/constants.glsl"
 layout(binding = 0) uniform ParamsBlock { FluidParams params; };
+#ifdef CONTROLS
+layout(std430, binding = 1) buffer ControlBlock { FluidControl control; };
+#else
 layout(binding = 1) uniform ControlBlock { FluidControl control; };
+#endif
 
 // Keeps a center half a spacing off the domain's walls. NaN and inactive particles are returned unchanged.
 vec3 insideWalls(vec3 x) {

@@ -1,7 +1,9 @@
 #version 460
 // The density that walls and solids displace near a particle, and its gradient, from the tables of
 // engine/sph/wall.hpp, and the tangential scale from their coverage (wall_coverage.glsl). CORNER 0
-// handles particles near one wall alone, CORNER 1 those near several walls or a solid.
+// handles particles near one wall alone, CORNER 1 those near several walls or a solid. MERGED: one
+// dispatch, in which the first workgroups take the latter; on CPU drivers every workgroup would execute
+// the code of both.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "shared/pose.glsl"
@@ -139,24 +141,19 @@ void store(uint i, vec4 displaced, WallCoverage coverage) {
   nearSample[NEAR_TANGENTIAL(i)] = packWallScale(coverage);
 }
 
-void main() {
-  uint n = flatInvocation();
-  if (!CORNER) {
-    if (n >= sums.planeCount) return;
-    uint i = nearPlaneAt(n);
-    vec3 x = placeAt(i).xyz;
-    vec3 low = x - vec3(params.lowX, params.lowY, params.lowZ);
-    vec3 high = vec3(params.highX, params.highY, params.highZ) - x;
-    vec3 nearest = min(low, high);
-    float s = min(nearest.x, min(nearest.y, nearest.z));
-    vec3 axis = s == nearest.x ? vec3(1, 0, 0) : (s == nearest.y ? vec3(0, 1, 0) : vec3(0, 0, 1));
-    vec2 f = line(0u, params.tableNodes, params.tableStep, s);
-    float sign = dot(axis, low) <= dot(axis, high) ? 1.0 : -1.0;
-    store(i, vec4(sign * f.y * axis, f.x), WallCoverage(f.x * (1.0 - axis), vec3(0.0)));
-    return;
-  }
-  if (n >= sums.cornerCount) return;
-  uint i = nearCornerAt(n);
+void nearOneWall(uint i) {
+  vec3 x = placeAt(i).xyz;
+  vec3 low = x - vec3(params.lowX, params.lowY, params.lowZ);
+  vec3 high = vec3(params.highX, params.highY, params.highZ) - x;
+  vec3 nearest = min(low, high);
+  float s = min(nearest.x, min(nearest.y, nearest.z));
+  vec3 axis = s == nearest.x ? vec3(1, 0, 0) : (s == nearest.y ? vec3(0, 1, 0) : vec3(0, 0, 1));
+  vec2 f = line(0u, params.tableNodes, params.tableStep, s);
+  float sign = dot(axis, low) <= dot(axis, high) ? 1.0 : -1.0;
+  store(i, vec4(sign * f.y * axis, f.x), WallCoverage(f.x * (1.0 - axis), vec3(0.0)));
+}
+
+void nearSeveral(uint i) {
   vec3 x = placeAt(i).xyz;
   WallCoverage coverage = WallCoverage(vec3(0.0), vec3(0.0));
   vec4 displaced = domainWalls(x, coverage.diagonal);
@@ -168,4 +165,16 @@ void main() {
     }
   }
   store(i, displaced, coverage);
+}
+
+void main() {
+  uint n = flatInvocation();
+  if (!MERGED) {
+    if (CORNER && n < sums.cornerCount) nearSeveral(nearCornerAt(n));
+    if (!CORNER && n < sums.planeCount) nearOneWall(nearPlaneAt(n));
+    return;
+  }
+  uint several = sums.cornerCount, wholeGroups = divideUp(several, kFluidGroup) * kFluidGroup;
+  if (n < several) nearSeveral(nearCornerAt(n));
+  else if (n >= wholeGroups && n - wholeGroups < sums.planeCount) nearOneWall(nearPlaneAt(n - wholeGroups));
 }

@@ -7,6 +7,7 @@ uvec3 foldGroups(uint groups) {
   const uint rows = (groups + 65534u) / 65535u;
   return uvec3((groups + rows - 1u) / rows, rows, 1u);
 }
+uint divideUp(uint all, uint each) { return (all + each - 1u) / each; }
 uint flatGroup() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
 // A macro, because in a function before the shader's local_size declaration gl_WorkGroupSize would be 1.
 #define flatInvocation() (flatGroup() * gl_WorkGroupSize.x + gl_LocalInvocationID.x)

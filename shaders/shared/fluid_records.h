@@ -50,7 +50,9 @@ RILL_CONST uint kOverLists = 3u;           // the same, of the variant that read
 RILL_CONST uint kOverGrid = 4u;            // the same, of the variant that walks the grid: a list overflowed, or the fluid has no list
 RILL_CONST uint kOverPlane = 5u;           // the particles near one wall
 RILL_CONST uint kOverCorner = 6u;          // those near several walls or a solid
+RILL_CONST uint kOverNear = 7u;            // the latter, and in workgroups of their own the former
 RILL_CONST uint kMaxCommands = 64u;
+RILL_CONST uint kTicketWord = 3u * kMaxCommands;  // behind the commands: subgroups of a density pass that have finished
 
 // Constant over a run; a uniform block.
 struct FluidParams {
@@ -136,10 +138,10 @@ RILL_CONST uint kListDue = 1u;                // it must be rebuilt before the n
 RILL_CONST uint kListNone = 2u;               // there has been none yet
 
 // Decided on the device, substep by substep; read as a uniform block by the passes, written by
-// control.comp and begin.comp.
+// control.glsl and begin.comp.
 struct FluidControl {
   uint count;          // particles: the first entries of the arrays, inactive ones among them. First, for hosts that read it alone
-  float step;          // s, of the substep that control.comp has accounted for last; 0 before time begins
+  float step;          // s, of the substep that control.glsl has accounted for last; 0 before time begins
   float nextStep;      // s, of the one whose prediction is at hand or is about to be made
   float warmStep;      // s, the step that the stored multipliers are expressed for
   float timeLeft;      // s of the advance
@@ -158,7 +160,7 @@ struct FluidControl {
   float desiredStep;   // s, what cfl and tolerance ask for, before it is fitted to the advance
   uint running;        // the next density pass runs
   uint again;          // so does the next iteration
-  float relaxation, nextRelaxation;  // omega of this substep, and of the next, whose density pass comes before control.comp
+  float relaxation, nextRelaxation;  // omega of this substep, and of the next, whose density pass comes before control.glsl
   float warmGain, nextWarmGain;      // kappa, likewise
   float errorRate;     // mean compression over the step's square, 1/s^2; in fluid at rest a mean over many steps
   float restFraction;      // 1: at rest, 0: at motionSpeed or faster
@@ -166,7 +168,7 @@ struct FluidControl {
   float head;          // m^2/s^2, gravity times the height of the column that the fluid has stood in so far
   float artificialPressure;       // artificial pressure of this substep, over 1 / D of the rest lattice; 0 in all but the first of a block
   float blockTime;     // s since the last substep that was the first of its block
-  uint phase, nextPhase;  // of the substep that control.comp has accounted for last, and of the next, as with step and nextStep
+  uint phase, nextPhase;  // of the substep that control.glsl has accounted for last, and of the next, as with step and nextStep
   uint phaseLeft;      // substeps of the next phase left, at most; 0 while time advances
   float solidSpeed;    // m/s, the fastest solid of the advance
   // Since the start, what prepares it too: for the host, which takes differences. The noise damping
@@ -199,6 +201,13 @@ RILL_CONST float kErrorUnit = 1.0f / 16777216.0f;
 struct BeginPush {
   float advance;       // s
   float drivenSpeed;   // m/s, the fastest driven solid of the advance
+};
+
+struct DensityPush {
+  uint first, last;    // as in ChunkPush
+  uint iteration;      // as in ControlPush
+  uint parity;
+  uint blockStart;
 };
 
 struct ControlPush {

@@ -82,7 +82,8 @@ std::vector<glm::dvec3> rounded(std::vector<glm::dvec3> points) {
 }  // namespace
 
 const char* nameOf(Gather gather) {
-  return gather == Gather::Texel ? "list through texel buffers" : (gather == Gather::Storage ? "list through storage buffers" : "grid");
+  return gather == Gather::Texel ? "list through texel buffers"
+                                 : (gather == Gather::Storage ? "list through storage buffers, passes merged" : "grid");
 }
 
 Scene Trial::timedScene() const {
@@ -203,7 +204,8 @@ FluidTest::Run::Run(FluidTest& test, const Trial& trial, const FluidSnapshot* fr
                                                 .snapshot = from,
                                                 .settle = trial.settle,
                                                 .capacity = trial.capacity,
-                                                .storageReads = trial.gather == Gather::Storage});
+                                                .storageReads = trial.gather == Gather::Storage,
+                                                .mergePasses = trial.mergePasses.value_or(trial.gather == Gather::Storage)});
   if (!made) throw std::runtime_error(made.error().message);
   fluid_ = std::move(*made);
   fillTransients(0xffffffffu);

@@ -14,7 +14,7 @@
 
 namespace rill::test {
 
-/// The three ways to gather neighbors.
+/// The three ways to gather neighbors. Storage is what GPUs run: its passes are merged, too.
 enum class Gather { Texel, Storage, Grid };
 inline constexpr Gather kGathers[] = {Gather::Texel, Gather::Storage, Gather::Grid};
 const char* nameOf(Gather gather);
@@ -28,7 +28,8 @@ struct Trial {
   Gather gather = Gather::Texel;
   uint32_t capacity = 0;  ///< 0: as many as there are particles
   bool settle = false;    ///< the oracle finds the start's pressure, but parts no particles: what settles should fit its room
-  bool stepwise = false;  ///< each substep is an advance of its own: the noise damping pass then runs in every one
+  std::optional<bool> mergePasses = {};  ///< without a value: with Gather::Storage
+  bool stepwise = false;                 ///< each substep is an advance of its own: the noise damping pass then runs in every one
 
   double d() const { return scene.fluid.spacing; }
   Scene timedScene() const;  ///< with the step as its longest one

@@ -43,6 +43,8 @@ struct FluidDesc {
   /// Particles that there is room for; at least those at the start, for which 0 stands.
   uint32_t capacity = 0;
   bool storageReads = false;  ///< never use texel buffers to read arrays (slower on most CPU drivers)
+  /// Fewer and larger passes, with the same results: less latency on GPUs, slower on CPU drivers. Without a value: on all but CPU devices.
+  std::optional<bool> mergePasses = {};
 };
 
 /// Device memory of a Fluid, bytes.
