@@ -70,9 +70,9 @@ Expected<void> checkDevice(const InstanceTable& instance, VkPhysicalDevice devic
   properties.pNext = &subgroup;
   instance.GetPhysicalDeviceProperties2(device, &properties);
   constexpr VkSubgroupFeatureFlags operations =
-      VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
+      VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_VOTE_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
   if (!(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) || (subgroup.supportedOperations & operations) != operations)
-    return unsupported(name, "missing subgroup operations (basic, arithmetic, shuffle) in compute shaders");
+    return unsupported(name, "missing subgroup operations (basic, vote, arithmetic, shuffle) in compute shaders");
   if (subgroup.subgroupSize < 4)
     return unsupported(name, "subgroup size " + std::to_string(subgroup.subgroupSize) + "; expected at least 4");
   constexpr std::pair<VkFormat, const char*> formats[] = {{VK_FORMAT_R32G32B32A32_SFLOAT, "R32G32B32A32_SFLOAT"},

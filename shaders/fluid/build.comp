@@ -4,6 +4,7 @@
 // the list holds walks the grid in every pass, and is counted. Gathers from the sorted predictions.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "fluid/uniforms.glsl"
@@ -113,8 +114,8 @@ void takeTurn(bool mine) { here = mine ? place : vec3(-kInactivePosition); }  //
 void candidates(uint first, uint end) {
   uint mask = 0u, coincidents = 0u;
   uint base = first;
-  LOOP_WHILE (base < end) {
-    vec3 candidate = sortedPredictionAt(min(base + clusterLane, end - 1u)).xyz;
+  LOOP_WHILE (ANY_LANE(base < end)) {
+    vec3 candidate = sortedPredictionAt(min(base + clusterLane, max(end, 1u) - 1u)).xyz;
     uint near = 0u, same = 0u;
     for (uint lane = 0u; lane < CLUSTER; ++lane) {
       vec3 r = here - SPREAD(candidate, lane);
@@ -125,7 +126,7 @@ void candidates(uint first, uint end) {
     mask |= near << (base - first);
     coincidents |= same << (base - first);
     base += CLUSTER;
-  } LOOP_END(base < end);
+  } LOOP_END(ANY_LANE(base < end));
   if (end - first < kWindow) mask &= (1u << (end - first)) - 1u;
   if (self - first < kWindow) mask &= ~(1u << (self - first));
   coincidents &= mask;

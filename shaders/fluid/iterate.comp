@@ -2,6 +2,7 @@
 // One more Jacobi iteration: moves the prediction by the last multipliers. Gathers from `work`.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #include "fluid/uniforms.glsl"
 #define PARTICLE uvec4

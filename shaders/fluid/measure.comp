@@ -4,6 +4,7 @@
 // list has missed is missed here.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #include "fluid/uniforms.glsl"
 #include "fluid/cluster.glsl"
@@ -28,7 +29,7 @@ vec3 place;
 void takeTurn(bool mine) { here = mine ? place : vec3(-kInactivePosition); }  // from there nothing is near
 void candidates(uint first, uint end) {
   uint base = first;
-  LOOP_WHILE (base < end) {
+  LOOP_WHILE (ANY_LANE(base < end)) {
     vec3 candidate = base + clusterLane < end ? orderedPositionAt(base + clusterLane).xyz : vec3(kInactivePosition);
     for (uint lane = 0u; lane < CLUSTER; ++lane) {
       vec3 r = here - SPREAD(candidate, lane);
@@ -37,7 +38,7 @@ void candidates(uint first, uint end) {
       inside += uint(distance < support);
     }
     base += CLUSTER;
-  } LOOP_END(base < end);
+  } LOOP_END(ANY_LANE(base < end));
 }
 #include "fluid/walk.glsl"
 

@@ -23,7 +23,7 @@ vec4 asInactive(vec4 particle) { return vec4(vec3(kInactivePosition), particle.w
 uvec4 asInactive(uvec4 particle) { return uvec4(floatBitsToUint(vec3(kInactivePosition)), particle.w); }
 void candidates(uint first, uint end) {
   uint base = first;
-  LOOP_WHILE (base < end) {
+  LOOP_WHILE (ANY_LANE(base < end)) {
     uint j = base + clusterLane < end ? base + clusterLane : params.capacity;
     PARTICLE particle = particleAt(j);
 #ifdef COMPANION
@@ -39,7 +39,7 @@ void candidates(uint first, uint end) {
 #endif
     }
     base += CLUSTER;
-  } LOOP_END(base < end);
+  } LOOP_END(ANY_LANE(base < end));
 }
 #include "fluid/walk.glsl"
 

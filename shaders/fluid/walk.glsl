@@ -1,7 +1,7 @@
 // Walks the grid around a cluster. Before it includes this the shader binds `sums` and makes
 // cellStartAt(), the starts of the cells that the particles were sorted by, and defines:
 //   void takeTurn(bool mine)               the lanes whose neighbors come next: they are in one row of cells
-//   void candidates(uint first, uint end)  particles of the sorted arrays, 1 to kWindow of them; all lanes of the cluster are here
+//   void candidates(uint first, uint end)  particles of the sorted arrays, 0 to kWindow of them; all lanes of the subgroup are here
 #ifndef RILL_WALK_GLSL
 #define RILL_WALK_GLSL
 #include "fluid/grid.glsl"
@@ -40,8 +40,8 @@ void walkGrid(vec3 boxLow, vec3 boxHigh, bool waits, float reach) {
   vec2 cell = floor(boxLow.yz);
   uint walked = 0u;
   uint leader = clusterMin(waits ? clusterLane : CLUSTER), turn = 0u;
-  LOOP_WHILE (leader < CLUSTER && turn < CLUSTER) {
-    vec2 row = SPREAD(cell, leader);
+  LOOP_WHILE (ANY_LANE(leader < CLUSTER) && turn < CLUSTER) {
+    vec2 row = SPREAD(cell, leader & (CLUSTER - 1u));
     bool mine = waits && (cell == row || clusterLane == leader);  // the leader at least, whatever NaN compares like
     if (mine) waits = false;
     vec3 low = clusterMin(mine ? boxLow : vec3(2.0e9)), high = clusterMax(mine ? boxHigh : vec3(-2.0e9));
@@ -53,25 +53,27 @@ void walkGrid(vec3 boxLow, vec3 boxHigh, bool waits, float reach) {
     vec4 gaps = vec4(low.yz - row, row + 1.0 - high.yz) / inverseCell.yzyz;
     float first = floor(low.x) - float(kCellsPerReach) - 1.0, last = floor(high.x) + float(kCellsPerReach) + 1.0;
     uint parts = wrapped(vec3(first, row)).x + (last - first) >= gridSize.x ? 2u : 1u;
-    uint base = 0u;
-    LOOP_WHILE (base < 9u * parts) {
+    uint rows = leader < CLUSTER ? 9u * parts : 0u, base = 0u;
+    LOOP_WHILE (ANY_LANE(base < rows)) {
       uint at = base + clusterLane, begin = 0u, end = 0u;
-      if (at < 9u * parts) rowRange(low.x, high.x, row, gaps, reach, at / parts, at % parts, begin, end);
-      uint lane = 0u, rows = min(CLUSTER, 9u * parts - base);
-      LOOP_WHILE (lane < rows) {
-        uint from = SPREAD(begin, lane), to = SPREAD(end, lane);
-        LOOP_WHILE (from < to && walked < kWalkBound) {
-          candidates(from, min(to, from + kWindow));
-          walked += kWindow;
-          from += kWindow;
-        } LOOP_END(from < to && walked < kWalkBound);
+      if (at < rows) rowRange(low.x, high.x, row, gaps, reach, at / parts, at % parts, begin, end);
+      uint lane = 0u;
+      LOOP_WHILE (lane < CLUSTER && ANY_LANE(base + lane < rows)) {
+        uint from = SPREAD(begin, lane), to = max(from, SPREAD(end, lane));
+        if (walked >= kWalkBound) to = from;
+        LOOP_WHILE (ANY_LANE(from < to)) {
+          uint next = min(to, from + kWindow);
+          candidates(from, next);
+          walked += from < to ? kWindow : 0u;
+          from = walked < kWalkBound ? next : to;
+        } LOOP_END(ANY_LANE(from < to));
         ++lane;
-      } LOOP_END(lane < rows);
+      } LOOP_END(lane < CLUSTER && ANY_LANE(base + lane < rows));
       base += CLUSTER;
-    } LOOP_END(base < 9u * parts);
+    } LOOP_END(ANY_LANE(base < rows));
     leader = clusterMin(waits ? clusterLane : CLUSTER);
     ++turn;
-  } LOOP_END(leader < CLUSTER && turn < CLUSTER);
+  } LOOP_END(ANY_LANE(leader < CLUSTER) && turn < CLUSTER);
   if (walked >= kWalkBound && clusterLane == 0u) atomicAdd(sums.boundHits, 1u);
 }
 #endif

@@ -106,7 +106,7 @@ TEST_F(DevicesTest, RejectsSubgroupsAboveTheWorkgroupWithoutControl) {
 TEST_F(DevicesTest, RejectsDeviceWithoutShuffles) {
   vulkan.properties = device("plain", kBroadcom, 16, 16, 16);
   vulkan.properties.subgroupOperations = VK_SUBGROUP_FEATURE_BASIC_BIT;
-  EXPECT_EQ(create(), "device 'plain' cannot run Rill: missing subgroup operations (basic, arithmetic, shuffle) in compute shaders");
+  EXPECT_EQ(create(), "device 'plain' cannot run Rill: missing subgroup operations (basic, vote, arithmetic, shuffle) in compute shaders");
 }
 
 }  // namespace devices_test

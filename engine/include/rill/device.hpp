@@ -17,7 +17,7 @@
 //
 // Requirements: Vulkan 1.3 with the features that appendRequired() sets (mandatory in 1.3, but the
 // host must enable them); no extension. Compute shaders need subgroups of at least 4 lanes with
-// arithmetic and shuffle operations. Uniform texel buffers of R32_UINT, R32G32_UINT,
+// vote, arithmetic and shuffle operations. Uniform texel buffers of R32_UINT, R32G32_UINT,
 // R32G32B32A32_UINT and R32G32B32A32_SFLOAT. A queue family with compute, and with graphics if a
 // FluidRenderer or a pass with targets is used.
 //
