@@ -1,0 +1,177 @@
+#include "lanes/spirv_program.hpp"
+
+#include <stdexcept>
+#include <string>
+
+namespace rill::lanes {
+
+using spv::Op;
+
+namespace {
+
+Instruction decode(std::span<const uint32_t> words) {
+  Instruction out{static_cast<Op>(words[0] & 0xffffu), 0, 0, {}};
+  bool hasResult = false, hasType = false;
+  spv::HasResultAndType(out.op, &hasResult, &hasType);
+  size_t at = 1;
+  if (hasType) out.type = words[at++];
+  if (hasResult) out.result = words[at++];
+  out.operands.assign(words.begin() + static_cast<std::ptrdiff_t>(at), words.end());
+  return out;
+}
+
+}  // namespace
+
+bool isInlined(std::span<const uint32_t> words) {
+  uint32_t functions = 0;
+  for (size_t at = 5; at < words.size(); at += words[at] >> 16) functions += static_cast<Op>(words[at] & 0xffffu) == Op::OpFunction;
+  return functions == 1;
+}
+
+Program::Program(std::span<const uint32_t> words, const std::map<uint32_t, uint32_t>& specialization) {
+  if (!isInlined(words)) throw std::runtime_error("the shader has several functions; expected calls inlined by spirv-opt");
+  bound = words[3];
+  typeOf.resize(bound);
+  std::vector<Instruction>* block = nullptr;
+  for (size_t at = 5; at < words.size(); at += words[at] >> 16) {
+    const Instruction instruction = decode(words.subspan(at, words[at] >> 16));
+    if (instruction.result) typeOf[instruction.result] = instruction.type;
+    if (instruction.op == Op::OpLabel) {
+      if (!entry) entry = instruction.result;
+      block = &blocks[instruction.result];
+    } else if (instruction.op == Op::OpFunctionEnd) {
+      block = nullptr;
+    } else if (block && instruction.op != Op::OpVariable) {
+      block->push_back(instruction);
+    } else {
+      decorate(instruction);
+      declare(instruction, specialization);
+    }
+  }
+}
+
+void Program::decorate(const Instruction& instruction) {
+  const auto& operands = instruction.operands;
+  if (instruction.op == Op::OpMemberDecorate && operands[2] == static_cast<uint32_t>(spv::Decoration::Offset))
+    offsets_[operands[0]][operands[1]] = operands[3];
+  if (instruction.op != Op::OpDecorate) return;
+  switch (static_cast<spv::Decoration>(operands[1])) {
+    case spv::Decoration::SpecId:
+      specIds_[operands[0]] = operands[2];
+      break;
+    case spv::Decoration::Binding:
+      bindings_[operands[0]] = operands[2];
+      break;
+    case spv::Decoration::BuiltIn:
+      builtIns_[operands[0]] = operands[2];
+      break;
+    case spv::Decoration::ArrayStride:
+      strides_[operands[0]] = operands[2];
+      break;
+    default:
+      break;
+  }
+}
+
+void Program::declare(const Instruction& instruction, const std::map<uint32_t, uint32_t>& specialization) {
+  const uint32_t id = instruction.result;
+  const auto& operands = instruction.operands;
+  const auto constant = [&](const Value& value) { constants[id] = value; };
+  const auto specialized = [&](uint32_t otherwise) {
+    const auto given = specIds_.contains(id) ? specialization.find(specIds_[id]) : specialization.end();
+    return given == specialization.end() ? otherwise : given->second;
+  };
+  Type type{instruction.op, false, 0, 1, strides_[id], {}, {}};
+  switch (instruction.op) {
+    case Op::OpTypeVoid:
+    case Op::OpTypeBool:
+    case Op::OpTypeFloat:
+      types[id] = type;
+      break;
+    case Op::OpTypeInt:
+      type.isSigned = operands[1] != 0;
+      types[id] = type;
+      break;
+    case Op::OpTypeVector:
+      type.components = operands[1];
+      [[fallthrough]];
+    case Op::OpTypeArray:
+    case Op::OpTypeRuntimeArray:
+      type.element = operands[0];
+      types[id] = type;
+      break;
+    case Op::OpTypePointer:
+      type.element = operands[1];
+      types[id] = type;
+      break;
+    case Op::OpTypeStruct:
+      type.members = operands;
+      type.offsets = offsets_[id];
+      types[id] = type;
+      break;
+    case Op::OpConstantTrue:
+      constant({1});
+      break;
+    case Op::OpConstantFalse:
+    case Op::OpConstantNull:
+    case Op::OpUndef:
+      constant({});
+      break;
+    case Op::OpConstant:
+      constant({operands[0]});
+      break;
+    case Op::OpSpecConstant:
+      constant({specialized(operands[0])});
+      break;
+    case Op::OpSpecConstantTrue:
+      constant({specialized(1)});
+      break;
+    case Op::OpSpecConstantFalse:
+      constant({specialized(0)});
+      break;
+    case Op::OpConstantComposite:
+    case Op::OpSpecConstantComposite: {
+      Value value{};
+      for (size_t k = 0; k < operands.size() && k < value.size(); ++k) value[k] = constants[operands[k]][0];
+      constant(value);
+      break;
+    }
+    case Op::OpSpecConstantOp: {
+      const Instruction inner{static_cast<Op>(operands[0]), instruction.type, id, {operands.begin() + 1, operands.end()}};
+      std::vector<const Value*> values;
+      for (const uint32_t operand : inner.operands) values.push_back(&constants[operand]);
+      Value value{};
+      if (!evaluate(*this, inner, values, value))
+        throw std::runtime_error("cannot evaluate OpSpecConstantOp of instruction " + std::to_string(operands[0]));
+      constant(value);
+      break;
+    }
+    case Op::OpVariable: {
+      Variable variable{Variable::Kind::Local, 0, spv::BuiltIn::Max, types[instruction.type].element};
+      if (bindings_.contains(id)) {
+        variable.kind = Variable::Kind::Buffer;
+        variable.binding = bindings_[id];
+      } else if (builtIns_.contains(id)) {
+        variable.kind = Variable::Kind::Input;
+        variable.builtIn = static_cast<spv::BuiltIn>(builtIns_[id]);
+      } else if (static_cast<spv::StorageClass>(operands[0]) == spv::StorageClass::PushConstant) {
+        variable.kind = Variable::Kind::Push;
+      } else if (static_cast<spv::StorageClass>(operands[0]) == spv::StorageClass::Workgroup) {
+        throw std::runtime_error("shared variables are not supported");
+      }
+      variables[id] = variable;
+      break;
+    }
+    default:
+      break;
+  }
+}
+
+uint32_t componentsOf(const Program& program, uint32_t type) { return program.types.at(type).components; }
+
+const Type& scalarOf(const Program& program, uint32_t type) {
+  const Type& found = program.types.at(type);
+  return found.op == Op::OpTypeVector ? program.types.at(found.element) : found;
+}
+
+}  // namespace rill::lanes
