@@ -84,6 +84,7 @@ Expected<Device> Device::borrow(const HostDevice& host) {
   impl->hasGraphics = (queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0;
   impl->timestampMask = bits == 0 ? 0 : bits >= 64 ? ~0ull : (1ull << bits) - 1;
   describe(*impl, host);
+  impl->reconvergence = reconvergenceOf(*host.enabled);
   impl->reload = ShaderReload::fromEnvironment();
   return Device(std::move(impl));
 }

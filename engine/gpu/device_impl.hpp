@@ -8,6 +8,7 @@
 #include "core/impl_of.hpp"
 #include "gpu/function_table.hpp"
 #include "gpu/pipeline.hpp"
+#include "gpu/reconvergence.hpp"
 #include "gpu/resources.hpp"
 #include "gpu/shader_library.hpp"
 #include "rill/memory.hpp"
@@ -73,6 +74,7 @@ class DeviceImpl {
   uint32_t vendor = 0;              ///< PCI id
   bool isCpu = false;               ///< a software driver
   bool canSetSubgroupSize = false;  ///< compute pipelines can require a subgroup size
+  Reconvergence reconvergence = Reconvergence::Workgroup;
   FrameClock clock;
   RetireQueue retired;
   ShaderLibrary shaders;

@@ -7,8 +7,10 @@
 #define RILL_CONTEXT_INSTANCE_FUNCTIONS(X) \
   X(CreateDevice)                          \
   X(DestroyInstance)                       \
+  X(EnumerateDeviceExtensionProperties)    \
   X(EnumeratePhysicalDevices)              \
   X(GetDeviceProcAddr)                     \
+  X(GetPhysicalDeviceFeatures2)            \
   X(GetPhysicalDeviceProperties)           \
   X(GetPhysicalDeviceQueueFamilyProperties)
 
@@ -40,6 +42,7 @@ class ContextImpl {
   Expected<void> chooseDevice(const ContextDesc& desc);
   /// The preferred queue family: one with graphics, if available. Empty if none supports compute, or presentation if required.
   std::optional<uint32_t> familyOf(VkPhysicalDevice handle, const ContextDesc& desc) const;
+  bool offers(const char* extension, void* features) const;
   Expected<void> makeDevice(const ContextDesc& desc);
   // context.cpp
   Expected<void> makeFrames(uint32_t count);

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <optional>
 
+#include "gpu/reconvergence.hpp"
 #include "gpu/vulkan_error.hpp"
 #include "offline/context_impl.hpp"
 
@@ -186,6 +187,18 @@ Expected<void> ContextImpl::chooseDevice(const ContextDesc& desc) {
   return {};
 }
 
+/// Whether the device has the extension; its features are written to `features`, a structure for the chain.
+bool ContextImpl::offers(const char* extension, void* features) const {
+  uint32_t count = 0;
+  vki.EnumerateDeviceExtensionProperties(physicalDevice, nullptr, &count, nullptr);
+  std::vector<VkExtensionProperties> offered(count);
+  vki.EnumerateDeviceExtensionProperties(physicalDevice, nullptr, &count, offered.data());
+  if (std::ranges::none_of(offered, [&](const auto& one) { return std::string_view(one.extensionName) == extension; })) return false;
+  VkPhysicalDeviceFeatures2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, features, {}};
+  vki.GetPhysicalDeviceFeatures2(physicalDevice, &all);
+  return true;
+}
+
 Expected<void> ContextImpl::makeDevice(const ContextDesc& desc) {
   DeviceRequirements needs;
   if (auto ok = appendRequired(get, instance, physicalDevice, needs); !ok) return ok;
@@ -193,11 +206,23 @@ Expected<void> ContextImpl::makeDevice(const ContextDesc& desc) {
   own.timelineSemaphore = VK_TRUE;  // the frame clock
   const float priority = 1;
   const VkDeviceQueueCreateInfo queueInfo{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, queueFamily, 1, &priority};
+  std::vector<const char*> extensions = desc.deviceExtensions;
+  VkPhysicalDeviceShaderMaximalReconvergenceFeaturesKHR maximal{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_MAXIMAL_RECONVERGENCE_FEATURES_KHR,
+                                                                nullptr, VK_FALSE};
+  VkPhysicalDeviceShaderSubgroupUniformControlFlowFeaturesKHR uniform{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_SUBGROUP_UNIFORM_CONTROL_FLOW_FEATURES_KHR, nullptr, VK_FALSE};
+  if (offers(VK_KHR_SHADER_MAXIMAL_RECONVERGENCE_EXTENSION_NAME, &maximal) && maximal.shaderMaximalReconvergence) {
+    extensions.push_back(VK_KHR_SHADER_MAXIMAL_RECONVERGENCE_EXTENSION_NAME);
+    own.pNext = &maximal;
+  } else if (offers(VK_KHR_SHADER_SUBGROUP_UNIFORM_CONTROL_FLOW_EXTENSION_NAME, &uniform) && uniform.shaderSubgroupUniformControlFlow) {
+    extensions.push_back(VK_KHR_SHADER_SUBGROUP_UNIFORM_CONTROL_FLOW_EXTENSION_NAME);
+    own.pNext = &uniform;
+  }
   VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, needs.chain(&own)};
   create.queueCreateInfoCount = 1;
   create.pQueueCreateInfos = &queueInfo;
-  create.enabledExtensionCount = uint32_t(desc.deviceExtensions.size());
-  create.ppEnabledExtensionNames = desc.deviceExtensions.data();
+  create.enabledExtensionCount = uint32_t(extensions.size());
+  create.ppEnabledExtensionNames = extensions.data();
   if (VkResult r = vki.CreateDevice(physicalDevice, &create, nullptr, &device); r != VK_SUCCESS)
     return vulkanError(r, "opening device '" + deviceName + "'");
 

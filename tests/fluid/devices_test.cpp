@@ -4,6 +4,9 @@
 // src/panfrost/vulkan/panvk_vX_physical_device.c, src/broadcom/vulkan/v3dv_device.c), MoltenVK (MVKDevice.mm), the drivers themselves.
 #include <gtest/gtest.h>
 
+#include <spirv/unified1/spirv.hpp11>
+
+#include "gpu/reconvergence.hpp"
 #include "rill/fluid.hpp"
 #include "rill/particles.hpp"
 #include "shared/fluid_records.h"
@@ -35,8 +38,8 @@ NullProperties device(const char* name, uint32_t vendor, uint32_t size, uint32_t
 class DevicesTest : public ::testing::TestWithParam<Row> {
  protected:
   /// The message of a fluid that is not made, else nothing.
-  std::string create() {
-    auto borrowed = Device::borrow(vulkan.host());
+  std::string create(void* features = nullptr) {
+    auto borrowed = Device::borrow(vulkan.host(features));
     if (!borrowed) return borrowed.error().message;
     device_ = std::move(*borrowed);
     device_->beginFrame({1, 0});
@@ -107,6 +110,41 @@ TEST_F(DevicesTest, RejectsDeviceWithoutShuffles) {
   vulkan.properties = device("plain", kBroadcom, 16, 16, 16);
   vulkan.properties.subgroupOperations = VK_SUBGROUP_FEATURE_BASIC_BIT;
   EXPECT_EQ(create(), "device 'plain' cannot run Rill: missing subgroup operations (basic, vote, arithmetic, shuffle) in compute shaders");
+}
+
+/// Whether the shader has the execution mode, in its place: after the entry points, with its extension before the memory model.
+bool asksFor(const NullPipeline& pipeline, spv::ExecutionMode mode, std::string_view extension) {
+  bool isExtended = false, asks = false, hasModel = false, hasEntry = false;
+  const auto& words = pipeline.words;
+  for (size_t at = 5; at < words.size(); at += words[at] >> 16) {
+    const auto op = static_cast<spv::Op>(words[at] & 0xffffu);
+    hasModel |= op == spv::Op::OpMemoryModel;
+    hasEntry |= op == spv::Op::OpEntryPoint;
+    if (op == spv::Op::OpExtension && !hasModel) isExtended |= extension == reinterpret_cast<const char*>(&words[at + 1]);
+    if (op == spv::Op::OpExecutionMode && hasEntry) asks |= words[at + 2] == static_cast<uint32_t>(mode);
+    if (op == spv::Op::OpFunction) break;
+  }
+  EXPECT_EQ(isExtended, asks);
+  return asks;
+}
+
+TEST_F(DevicesTest, ShadersAskForTheReconvergenceThatTheHostEnabled) {
+  constexpr auto kMaximal = spv::ExecutionMode(6023);  // newer than the oldest headers
+  VkPhysicalDeviceShaderSubgroupUniformControlFlowFeaturesKHR uniform{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_SUBGROUP_UNIFORM_CONTROL_FLOW_FEATURES_KHR, nullptr, VK_TRUE};
+  VkPhysicalDeviceShaderMaximalReconvergenceFeaturesKHR maximal{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_MAXIMAL_RECONVERGENCE_FEATURES_KHR,
+                                                                &uniform, VK_TRUE};
+  vulkan.properties = device("Radeon RX 580 (GCN)", kAmd, 64, 64, 64, false);
+  for (void* features : {static_cast<void*>(nullptr), static_cast<void*>(&uniform), static_cast<void*>(&maximal)}) {
+    vulkan.pipelines.clear();
+    ASSERT_EQ(create(features), "");
+    ASSERT_GT(vulkan.pipelines.size(), 0u);
+    for (const NullPipeline& pipeline : vulkan.pipelines) {
+      EXPECT_EQ(asksFor(pipeline, kMaximal, "SPV_KHR_maximal_reconvergence"), pipeline.fullSubgroups && features == &maximal);
+      EXPECT_EQ(asksFor(pipeline, spv::ExecutionMode::SubgroupUniformControlFlowKHR, "SPV_KHR_subgroup_uniform_control_flow"),
+                pipeline.fullSubgroups && features == &uniform);
+    }
+  }
 }
 
 }  // namespace devices_test

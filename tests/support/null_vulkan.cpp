@@ -130,11 +130,19 @@ VkResult mapMemory(VkDevice, VkDeviceMemory, VkDeviceSize, VkDeviceSize, VkMemor
   return VK_SUCCESS;
 }
 
+std::vector<uint32_t> newestModule;  // relies on a pipeline being made of the module created last
+
+VkResult createModule(VkDevice, const VkShaderModuleCreateInfo* info, const VkAllocationCallbacks*, VkShaderModule* out) {
+  newestModule.assign(info->pCode, info->pCode + info->codeSize / 4);
+  *out = newHandle<VkShaderModule>();
+  return VK_SUCCESS;
+}
+
 VkResult createPipelines(VkDevice, VkPipelineCache, uint32_t count, const VkComputePipelineCreateInfo* infos, const VkAllocationCallbacks*,
                          VkPipeline* out) {
   for (uint32_t i = 0; i < count; ++i) {
     out[i] = newHandle<VkPipeline>();
-    NullPipeline made{0, (infos[i].stage.flags & VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT) != 0, {}};
+    NullPipeline made{0, (infos[i].stage.flags & VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT) != 0, {}, newestModule};
     if (const VkSpecializationInfo* info = infos[i].stage.pSpecializationInfo) {
       made.constants.resize(info->dataSize / 4);
       std::memcpy(made.constants.data(), info->pData, made.constants.size() * 4);
@@ -270,7 +278,7 @@ PFN_vkVoidFunction lookUp(std::string_view name) {
   RILL_FUNCTION(vkCreateImageView, create)
   RILL_FUNCTION(vkCreatePipelineLayout, create)
   RILL_FUNCTION(vkCreateQueryPool, create)
-  RILL_FUNCTION(vkCreateShaderModule, create)
+  RILL_FUNCTION(vkCreateShaderModule, createModule)
   RILL_FUNCTION(vkDestroyBuffer, destroy)
   RILL_FUNCTION(vkDestroyBufferView, destroy)
   RILL_FUNCTION(vkDestroyDescriptorPool, destroy)
@@ -306,8 +314,8 @@ NullVulkan::~NullVulkan() {
   mappings.clear();
 }
 
-HostDevice NullVulkan::host() {
-  vulkan13_ = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES, nullptr};
+HostDevice NullVulkan::host(void* further) {
+  vulkan13_ = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES, further};
   features_ = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &vulkan13_};
   features(VK_NULL_HANDLE, &features_);
   HostDevice host;

@@ -49,6 +49,7 @@ struct NullPipeline {
   uint32_t requiredSubgroupSize;  ///< 0: any
   bool fullSubgroups;
   std::vector<uint32_t> constants;  ///< specialized, by their ids from 0
+  std::vector<uint32_t> words;      ///< SPIR-V
 };
 
 class NullVulkan {
@@ -58,7 +59,8 @@ class NullVulkan {
   NullVulkan(const NullVulkan&) = delete;
   NullVulkan& operator=(const NullVulkan&) = delete;
 
-  HostDevice host();
+  /// `features`: a chain of further structures, as enabled
+  HostDevice host(void* features = nullptr);
   static VkCommandBuffer commandBuffer() { return reinterpret_cast<VkCommandBuffer>(uintptr_t(1)); }
   size_t count(NullCommand::Kind kind) const;
 

@@ -19,7 +19,8 @@
 // host must enable them); no extension. Compute shaders need subgroups of at least 4 lanes with
 // vote, arithmetic and shuffle operations. Uniform texel buffers of R32_UINT, R32G32_UINT,
 // R32G32B32A32_UINT and R32G32B32A32_SFLOAT. A queue family with compute, and with graphics if a
-// FluidRenderer or a pass with targets is used.
+// FluidRenderer or a pass with targets is used. Where the host enables shaderMaximalReconvergence or
+// shaderSubgroupUniformControlFlow (and their extensions), shaders that shuffle ask for it.
 //
 // Submission: Rill records into the host's command buffers. It never submits, never waits, and
 // creates no instance, device or queue. The host reports completed frames through FrameClock, which
