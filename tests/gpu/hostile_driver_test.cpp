@@ -14,11 +14,13 @@ namespace rill::test {
 namespace hostile_driver_test {
 
 struct Source {
-  float one = 1, denormal = 1e-40f, nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
+  float one = 1, denormal = 1e-40f, halves[2] = {-5e-5f, 6.103515625e-5f};
+  uint32_t half = 0x0200;
+  float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
   float factors[8] = {1.1f, 2.3f, 3.7f, 0.13f, 17.9f, 0.7f, 5.3f, 9.1f};
 };
 struct Target {
-  uint32_t flushed, ordered, foundNan, foundInfinity, lowest, shuffled, next, products[8], turn[64];
+  uint32_t flushed, bits, halves, unpacked, ordered, foundNan, foundInfinity, lowest, shuffled, next, products[8], quotients[8], turn[64];
 };
 
 TEST_F(GpuTest, HostileDriverUsesItsFreedomOnly) {
@@ -30,7 +32,12 @@ TEST_F(GpuTest, HostileDriverUsesItsFreedomOnly) {
   Target got;
   std::memcpy(&got, words.data(), sizeof got);
 
-  if (mode == "flush-denormals") { EXPECT_EQ(got.flushed, 0u); }
+  if (mode == "flush-denormals") {
+    EXPECT_EQ(got.flushed, 0u);
+    EXPECT_EQ(got.bits, 0u);
+    EXPECT_EQ(got.halves, 0x04008000u) << "the least normal half stays, the denormal one's sign";
+    EXPECT_EQ(got.unpacked, 0u);
+  }
   if (mode == "assume-finite") {
     EXPECT_EQ(got.ordered, 1u);
     EXPECT_EQ(got.foundNan, 0u);
@@ -42,13 +49,19 @@ TEST_F(GpuTest, HostileDriverUsesItsFreedomOnly) {
     EXPECT_EQ(device().info().minSubgroupSize, uint32_t(std::stoul(named.substr(mode.size() + 1))));
     EXPECT_LT(device().info().minSubgroupSize, device().info().subgroupSize) << "so that clusters are smaller";
   }
-  int moved = 0;
+  int moved = 0, farthest = 0;
   for (int k = 0; k < 8; ++k) {
     const int away = int(got.products[k] - std::bit_cast<uint32_t>(source.factors[k] * source.factors[(k + 1) % 8]));
     EXPECT_LE(std::abs(away), mode == "perturb" ? 1 : 0);
     moved += away != 0;
+    const int from = int(got.quotients[k] - std::bit_cast<uint32_t>(source.factors[k] / source.factors[(k + 1) % 8]));
+    EXPECT_LE(std::abs(from), mode == "perturb" ? 3 : 1) << "2.5 units are allowed";
+    farthest = std::max(farthest, std::abs(from));
   }
-  if (mode == "perturb") { EXPECT_GT(moved, 0); }
+  if (mode == "perturb") {
+    EXPECT_GT(moved, 0);
+    EXPECT_GT(farthest, 1);
+  }
   std::set<uint32_t> turns(std::begin(got.turn), std::end(got.turn));
   EXPECT_EQ(turns.size(), 64u) << "each workgroup's work is done once";
   if (mode == "groups") { EXPECT_FALSE(std::is_sorted(std::begin(got.turn), std::end(got.turn))); }

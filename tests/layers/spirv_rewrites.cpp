@@ -1,5 +1,7 @@
 #include "spirv_rewrites.hpp"
 
+#include <spirv/unified1/GLSL.std.450.h>
+
 #include <map>
 
 #include "spirv_module.hpp"
@@ -58,24 +60,59 @@ uint32_t mixed(uint32_t x) {
 
 }  // namespace
 
+namespace {
+
+/// Adds instructions that clear the field `size` of `bits` where it is below `least`; the result's id.
+uint32_t withoutDenormals(SpirvModule& module, std::vector<Instruction>& out, uint32_t components, uint32_t bits, uint32_t size,
+                          uint32_t least) {
+  const uint32_t uints = module.type(Kind::Uint, components), bools = module.type(Kind::Bool, components);
+  const auto constant = [&](uint32_t value) { return module.constant(Kind::Uint, value, components); };
+  const uint32_t masked = module.newId(), small = module.newId(), none = module.newId(), kept = module.newId();
+  out.push_back({Op::OpBitwiseAnd, {uints, masked, bits, constant(size)}});
+  out.push_back({Op::OpULessThan, {bools, small, masked, constant(least)}});
+  out.push_back({Op::OpBitwiseAnd, {uints, none, bits, constant(~size)}});
+  out.push_back({Op::OpSelect, {uints, kept, small, none, bits}});
+  return kept;
+}
+
+constexpr uint32_t kFloatSize = 0x7fffffffu, kLeastNormal = 0x00800000u, kLeastNormalHalf = 0x38800000u;  // the last: as a float
+
+/// Halves packed into a word, and what such words hold.
+std::vector<Instruction> flushHalves(SpirvModule& module, const Instruction& instruction) {
+  const bool packs = instruction.operands[3] == GLSLstd450PackHalf2x16;
+  return thenChanged(module, instruction, [&](std::vector<Instruction>& out, uint32_t from, uint32_t to) {
+    const uint32_t type = instruction.operands[0];
+    if (packs) {
+      const uint32_t low = withoutDenormals(module, out, 1, from, 0x7fffu, 0x400u);
+      const uint32_t both = withoutDenormals(module, out, 1, low, 0x7fff0000u, 0x04000000u);
+      out.push_back({Op::OpCopyObject, {type, to, both}});
+    } else {
+      const uint32_t bits = module.newId();
+      out.push_back({Op::OpBitcast, {module.type(Kind::Uint, 2), bits, from}});
+      out.push_back({Op::OpBitcast, {type, to, withoutDenormals(module, out, 2, bits, kFloatSize, kLeastNormalHalf)}});
+    }
+  });
+}
+
+}  // namespace
+
 std::vector<uint32_t> flushDenormals(std::span<const uint32_t> words) {
   SpirvModule module(words);
   module.rewriteFunctions([&](const Instruction& instruction) -> std::vector<Instruction> {
+    if (instruction.op == Op::OpExtInst &&
+        (instruction.operands[3] == GLSLstd450PackHalf2x16 || instruction.operands[3] == GLSLstd450UnpackHalf2x16))
+      return flushHalves(module, instruction);
     const bool flushes = isArithmetic(instruction.op) || instruction.op == Op::OpImageFetch || instruction.op == Op::OpImageRead ||
                          instruction.op == Op::OpBitcast;
     const NumericType type = flushes ? module.typeOf(instruction.operands[0]) : NumericType{};
-    if (type.kind != Kind::Float) return {instruction};
-    const uint32_t uints = module.type(Kind::Uint, type.components), bools = module.type(Kind::Bool, type.components);
-    const uint32_t exponent = module.constant(Kind::Uint, 0x7f800000u, type.components);
-    const uint32_t sign = module.constant(Kind::Uint, 0x80000000u, type.components);
-    const uint32_t zero = module.constant(Kind::Uint, 0, type.components);
+    // Bits of a float: those of the float that a load from memory, flushed, would have given.
+    const bool takesBits = instruction.op == Op::OpBitcast && module.typeOfValue(instruction.operands[2]).kind == Kind::Float;
+    if (type.kind != Kind::Float && !takesBits) return {instruction};
+    const uint32_t uints = module.type(Kind::Uint, type.components);
     return thenChanged(module, instruction, [&](std::vector<Instruction>& out, uint32_t from, uint32_t to) {
-      const uint32_t bits = module.newId(), masked = module.newId(), small = module.newId(), none = module.newId(), kept = module.newId();
+      const uint32_t bits = module.newId();
       out.push_back({Op::OpBitcast, {uints, bits, from}});
-      out.push_back({Op::OpBitwiseAnd, {uints, masked, bits, exponent}});
-      out.push_back({Op::OpIEqual, {bools, small, masked, zero}});
-      out.push_back({Op::OpBitwiseAnd, {uints, none, bits, sign}});
-      out.push_back({Op::OpSelect, {uints, kept, small, none, bits}});
+      const uint32_t kept = withoutDenormals(module, out, type.components, bits, kFloatSize, kLeastNormal);
       out.push_back({Op::OpBitcast, {instruction.operands[0], to, kept}});
     });
   });
@@ -212,6 +249,7 @@ std::vector<uint32_t> perturbRounding(std::span<const uint32_t> words, uint32_t 
         break;
       case Op::OpExtInst: {  // of GLSL.std.450: sines to square roots, length to normalize; not rounding, minimum, packing
         const uint32_t function = instruction.operands[3];
+        if (function == GLSLstd450Fma && !isPowerOfTwo(instruction.operands[4]) && !isPowerOfTwo(instruction.operands[5])) break;
         if (!((function >= 13 && function <= 32) || (function >= 66 && function <= 69))) return {instruction};
         break;
       }
@@ -219,12 +257,13 @@ std::vector<uint32_t> perturbRounding(std::span<const uint32_t> words, uint32_t 
         return {instruction};
     }
     const NumericType type = module.typeOf(instruction.operands[0]);
-    const uint32_t direction = mixed(++index) % 3;
-    if (type.kind != Kind::Float || direction == 0 || module.isDecorated(instruction.operands[1], spv::Decoration::NoContraction))
+    const uint32_t most = instruction.op == Op::OpFDiv ? 2 : 1;  // units: 2.5 are allowed a division, its own rounding among them
+    const auto away = static_cast<int32_t>(mixed(++index) % (2 * most + 1)) - static_cast<int32_t>(most);
+    if (type.kind != Kind::Float || away == 0 || module.isDecorated(instruction.operands[1], spv::Decoration::NoContraction))
       return {instruction};
     const uint32_t n = type.components, uints = module.type(Kind::Uint, n), bools = module.type(Kind::Bool, n);
     const uint32_t exponent = module.constant(Kind::Uint, 0x7f800000u, n), zero = module.constant(Kind::Uint, 0, n);
-    const uint32_t one = module.constant(Kind::Uint, 1, n);
+    const uint32_t units = module.constant(Kind::Uint, static_cast<uint32_t>(away), n);
     return thenChanged(module, instruction, [&](std::vector<Instruction>& out, uint32_t from, uint32_t to) {
       const uint32_t bits = module.newId(), masked = module.newId(), small = module.newId(), huge = module.newId(), exact = module.newId(),
                      moved = module.newId(), kept = module.newId();
@@ -233,7 +272,7 @@ std::vector<uint32_t> perturbRounding(std::span<const uint32_t> words, uint32_t 
       out.push_back({Op::OpIEqual, {bools, small, masked, zero}});
       out.push_back({Op::OpIEqual, {bools, huge, masked, exponent}});
       out.push_back({Op::OpLogicalOr, {bools, exact, small, huge}});
-      out.push_back({direction == 1 ? Op::OpIAdd : Op::OpISub, {uints, moved, bits, one}});
+      out.push_back({Op::OpIAdd, {uints, moved, bits, units}});
       out.push_back({Op::OpSelect, {uints, kept, exact, bits, moved}});
       out.push_back({Op::OpBitcast, {instruction.operands[0], to, kept}});
     });
