@@ -27,6 +27,7 @@ void describe(DeviceImpl& impl, const HostDevice& host) {
   impl.limits = properties.properties.limits;
   impl.vendor = properties.properties.vendorID;
   impl.isCpu = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+  impl.maxWorkgroupSubgroups = sizes.maxComputeWorkgroupSubgroups;
   impl.canSetSubgroupSize = (sizes.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
 
   DeviceInfo& info = impl.info;

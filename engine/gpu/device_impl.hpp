@@ -69,11 +69,12 @@ class DeviceImpl {
   DeviceInfo info;
   VkPhysicalDeviceLimits limits{};
   VkPhysicalDeviceMemoryProperties memory{};
-  uint64_t timestampMask = 0;       ///< valid bits of the queue's timestamps; 0: not supported
-  bool hasGraphics = false;         ///< the host's queue has graphics
-  uint32_t vendor = 0;              ///< PCI id
-  bool isCpu = false;               ///< a software driver
-  bool canSetSubgroupSize = false;  ///< compute pipelines can require a subgroup size
+  uint64_t timestampMask = 0;          ///< valid bits of the queue's timestamps; 0: not supported
+  bool hasGraphics = false;            ///< the host's queue has graphics
+  uint32_t vendor = 0;                 ///< PCI id
+  bool isCpu = false;                  ///< a software driver
+  bool canSetSubgroupSize = false;     ///< compute pipelines can require a subgroup size
+  uint32_t maxWorkgroupSubgroups = 0;  ///< where a size is required
   Reconvergence reconvergence = Reconvergence::Workgroup;
   FrameClock clock;
   RetireQueue retired;

@@ -1,17 +1,48 @@
 #include "gpu/pipeline.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "gpu/device_impl.hpp"
 #include "gpu/shader_library.hpp"
 #include "gpu/shader_reload.hpp"
 #include "gpu/vulkan_error.hpp"
+#include "gpu/workgroup_size.hpp"
 
 namespace rill {
 namespace {
 
 constexpr size_t kMaxConstants = 32;
 constexpr uint32_t kMaxPushBytes = 128;  // guaranteed by Vulkan
+
+/// Shader if the device cannot run workgroups of this size, or not with these subgroups.
+Expected<void> checkWorkgroups(const DeviceImpl& device, std::string_view shader, const WorkgroupSize& size, const SubgroupNeed& need) {
+  const DeviceInfo& info = device.info;
+  const uint32_t smallest = info.minSubgroupSize, largest = info.maxSubgroupSize;
+  const auto refuse = [&](const std::string& needs, const std::string& supports) {
+    return shaderError(shader, "needs " + needs + "; " + info.name + " supports " + supports);
+  };
+  const uint32_t(&limit)[3] = device.limits.maxComputeWorkGroupSize;
+  if (size.invocations() > device.limits.maxComputeWorkGroupInvocations || size.x > limit[0] || size.y > limit[1] || size.z > limit[2])
+    return refuse("workgroups of " + std::to_string(size.x) + " x " + std::to_string(size.y) + " x " + std::to_string(size.z),
+                  "at most " + std::to_string(device.limits.maxComputeWorkGroupInvocations) + " invocations and " +
+                      std::to_string(limit[0]) + " x " + std::to_string(limit[1]) + " x " + std::to_string(limit[2]));
+  // Without subgroup size control, only the device's single size is supported.
+  const bool supported = device.canSetSubgroupSize ? need.size >= smallest && need.size <= largest && std::has_single_bit(need.size)
+                                                   : need.size == info.subgroupSize && smallest == largest;
+  if (need.size != 0 && !supported)
+    return refuse("subgroups of " + std::to_string(need.size), std::to_string(smallest) + " to " + std::to_string(largest));
+  const uint32_t whole = need.size != 0 ? need.size : largest;  // the driver may take its largest
+  if (need.full && size.x % std::max(whole, 1u) != 0)
+    return shaderError(shader,
+                       "needs full subgroups, but " + std::to_string(size.x) +
+                           ", the first of the sizes of its workgroups, is not a multiple of " + std::to_string(whole) +
+                           (need.size != 0 ? ", the subgroup size that it requires" : ", the largest subgroup size of " + info.name));
+  if (need.size != 0 && size.invocations() > uint64_t{need.size} * device.maxWorkgroupSubgroups)
+    return refuse(std::to_string((size.invocations() + need.size - 1) / need.size) + " subgroups a workgroup",
+                  "at most " + std::to_string(device.maxWorkgroupSubgroups));
+  return {};
+}
 
 }  // namespace
 
@@ -245,15 +276,7 @@ Expected<const ComputePipeline*> PipelineStore::find(DeviceImpl& device, const C
 
   const auto words = resolveSpirv(device, desc.shader, desc.spirv);
   if (!words) return words.error();
-  const uint32_t size = desc.requiredSubgroupSize;
-  const DeviceInfo& info = device.info;
-  // Without subgroup size control, only the device's single size is supported.
-  const bool supported = device.canSetSubgroupSize
-                             ? size >= info.minSubgroupSize && size <= info.maxSubgroupSize && (size & (size - 1)) == 0
-                             : size == info.subgroupSize && info.minSubgroupSize == info.maxSubgroupSize;
-  if (size != 0 && !supported)
-    return shaderError(desc.shader, "needs subgroups of " + std::to_string(size) + "; " + info.name + " supports " +
-                                        std::to_string(info.minSubgroupSize) + " to " + std::to_string(info.maxSubgroupSize));
+  if (auto fits = checkWorkgroups(device, desc.shader, workgroupSize(*words, desc.constants), subgroups); !fits) return fits.error();
 
   auto pipeline = std::make_unique<ComputePipeline>();
   pipeline->shader = desc.shader;

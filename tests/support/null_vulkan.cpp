@@ -33,6 +33,7 @@ void features(VkPhysicalDevice, VkPhysicalDeviceFeatures2* out) {
     if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES) {
       auto& f = *reinterpret_cast<VkPhysicalDeviceVulkan13Features*>(next);
       f.synchronization2 = f.dynamicRendering = f.maintenance4 = f.subgroupSizeControl = f.computeFullSubgroups = VK_TRUE;
+      for (const auto missing : current->properties.missingFeatures) f.*missing = VK_FALSE;
     }
 }
 
@@ -47,7 +48,9 @@ void properties(VkPhysicalDevice, VkPhysicalDeviceProperties2* out) {
   p.limits.maxImageDimension2D = 4096;
   p.limits.maxPerStageDescriptorStorageImages = p.limits.maxPerStageDescriptorSampledImages = 16;
   p.limits.maxTexelBufferElements = given.maxTexelBufferElements;
-  p.limits.maxPerStageDescriptorStorageBuffers = 64;
+  p.limits.maxPerStageDescriptorStorageBuffers = given.storageBuffers;
+  p.limits.maxComputeWorkGroupInvocations = given.workgroupInvocations;
+  for (uint32_t& size : p.limits.maxComputeWorkGroupSize) size = given.workgroupInvocations;
   p.limits.minStorageBufferOffsetAlignment = p.limits.minUniformBufferOffsetAlignment = p.limits.minTexelBufferOffsetAlignment = 64;
   p.limits.timestampPeriod = 1;
   for (auto* next = static_cast<VkBaseOutStructure*>(out->pNext); next; next = next->pNext) {
@@ -60,13 +63,14 @@ void properties(VkPhysicalDevice, VkPhysicalDeviceProperties2* out) {
       auto& s = *reinterpret_cast<VkPhysicalDeviceSubgroupSizeControlProperties*>(next);
       s.minSubgroupSize = given.minSubgroupSize;
       s.maxSubgroupSize = given.maxSubgroupSize;
+      s.maxComputeWorkgroupSubgroups = given.workgroupInvocations / given.minSubgroupSize;
       s.requiredSubgroupSizeStages = given.requiresSubgroupSize ? VK_SHADER_STAGE_COMPUTE_BIT : 0;
     }
   }
 }
 
 void formatProperties(VkPhysicalDevice, VkFormat, VkFormatProperties* out) {
-  out->bufferFeatures = VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT;
+  out->bufferFeatures = current->properties.texelBuffers ? VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT : 0;
   out->optimalTilingFeatures = VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT |
                                VK_FORMAT_FEATURE_TRANSFER_SRC_BIT | VK_FORMAT_FEATURE_TRANSFER_DST_BIT |
                                VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT;

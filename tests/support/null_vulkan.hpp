@@ -42,6 +42,10 @@ struct NullProperties {
   uint32_t maxTexelBufferElements = 65536;
   VkSubgroupFeatureFlags subgroupOperations = 0xff;
   uint32_t api = VK_API_VERSION_1_3;
+  uint32_t storageBuffers = 64;         ///< that a shader can bind
+  uint32_t workgroupInvocations = 256;  ///< at most, and in each dimension
+  bool texelBuffers = true;             ///< of each format
+  std::vector<VkBool32 VkPhysicalDeviceVulkan13Features::*> missingFeatures = {};
 };
 
 /// A compute pipeline that was created.

@@ -49,7 +49,7 @@ struct ComputePipelineDesc {
 struct ComputePipeline;
 
 /// Creates the pipeline or finds it in the cache. Fails with Shader, naming the shader, if the SPIR-V is
-/// invalid, the driver rejects it or a device limit is exceeded; and with OutOfMemory.
+/// invalid, the driver rejects it or a device limit is exceeded, such as that of workgroups; and with OutOfMemory.
 RILL_API Expected<const ComputePipeline*> computePipeline(Device& device, const ComputePipelineDesc& desc);
 
 /// Color blending.
