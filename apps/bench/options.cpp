@@ -68,7 +68,7 @@ Expected<apps::CommandLine<Options>> parseCommandLine(int count, const char* con
   app.add_option("--plot", raw.plot, "draw the diagrams of the suite as SVG (requires gnuplot)")->type_name("FILE.svg");
   app.add_option("--only", raw.only, "run only the cases whose name contains TEXT")->type_name("TEXT");
   app.add_option("--repeat", raw.repeat, "measure each time N times and report the median (default: 3; with --quick: 1)")->type_name("N");
-  app.add_option("--device", raw.device, "Vulkan device: part of its name, or its index")->type_name("NAME");
+  app.add_option("--device", raw.device, "Vulkan device: its name, a part that no other has, or its index")->type_name("NAME");
   app.add_flag("--quiet", raw.quiet, "print only errors and failed checks");
   app.set_help_flag("-h,--help", "print this help");
   app.set_version_flag("--version", std::string("rill-bench ") + RILL_VERSION, "print the version");

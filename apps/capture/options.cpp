@@ -81,7 +81,7 @@ void declare(CLI::App& app, Raw& raw) {
 
   app.add_flag("--no-pass-times", raw.noPassTimes, "do not time passes for --stats and --explain, which slows down software devices")
       ->group(run);
-  once("--device", raw.device, "part of a device's name, or its index", "NAME", run);
+  once("--device", raw.device, "name of a device, a part that no other has, or its index", "NAME", run);
   list("--require", raw.require, "exit with 3 unless it holds, for example 'outside<1'", "FIGURE<NUMBER", run);
   app.add_flag("--explain", raw.explain, "list all passes: how often recorded and run, time, or the reason why skipped")->group(run);
   app.add_flag("--quiet", raw.quiet, "print nothing but errors")->group(run);

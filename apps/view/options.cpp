@@ -42,7 +42,7 @@ void declare(CLI::App& app, Raw& raw) {
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->expected(1);
-  text("--device", raw.device, "part of a device's name, or its index", "NAME", run);
+  text("--device", raw.device, "name of a device, a part that no other has, or its index", "NAME", run);
   text("--frames", raw.frames, "close the window after N displayed frames", "N", run);
   text("--screenshot", raw.screenshot, "write the last frame of the window, including the panels, as PNG", "FILE", run);
   text("--script", raw.script, "replay input from a file, in lockstep (commands below)", "FILE", run);

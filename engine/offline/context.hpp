@@ -17,7 +17,7 @@
 namespace rill::offline {
 
 struct ContextDesc {
-  std::string device;       ///< part of a device's name (case-insensitive) or its index; empty: the most capable kind
+  std::string device;       ///< a device's name, a part that no other has (case-insensitive) or its index; empty: the most capable kind
   bool validation = false;  ///< VK_LAYER_KHRONOS_validation with synchronization validation; an error if it is not installed
   uint32_t framesInFlight = 2;
   std::vector<const char*> instanceExtensions = {};  ///< e.g. those required by the window system
@@ -39,7 +39,7 @@ class ContextImpl;
 /// is when a Context is moved; a moved-from one may only be destroyed or assigned to.
 class Context {
  public:
-  /// BadInput, listing the devices, if none matches `desc.device`; NoDevice if none is usable.
+  /// BadInput, listing the devices, if none or more than one matches `desc.device`; NoDevice if none is usable.
   static Expected<Context> create(const ContextDesc& desc = {});
   ~Context();
   Context(Context&&) noexcept;

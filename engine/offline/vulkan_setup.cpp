@@ -2,12 +2,12 @@
 #include <dlfcn.h>
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 
 #include "gpu/reconvergence.hpp"
 #include "gpu/vulkan_error.hpp"
 #include "offline/context_impl.hpp"
+#include "offline/device_choice.hpp"
 
 namespace rill::offline {
 namespace {
@@ -20,12 +20,6 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
   const std::lock_guard lock(context.messagesMutex);
   context.messages.emplace_back(data->pMessage);
   return VK_FALSE;
-}
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  std::ranges::transform(out, out.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return out;
 }
 
 int rank(VkPhysicalDeviceType type) {
@@ -48,21 +42,6 @@ struct Candidate {
   std::string name;
   VkPhysicalDeviceType type;
 };
-
-std::string listed(const std::vector<Candidate>& devices) {
-  std::string text;
-  for (size_t i = 0; i < devices.size(); ++i) text += "\n  " + std::to_string(i) + "  " + devices[i].name;
-  return text;
-}
-
-/// The device with the index `wanted` if that is a number in range, else the first whose name contains it.
-std::optional<size_t> match(const std::vector<Candidate>& devices, const std::string& wanted) {
-  if (wanted.size() <= 3 && std::ranges::all_of(wanted, [](unsigned char c) { return std::isdigit(c); }))
-    if (const size_t index = std::stoul(wanted); index < devices.size()) return index;
-  for (size_t i = 0; i < devices.size(); ++i)
-    if (lower(devices[i].name).find(lower(wanted)) != std::string::npos) return i;
-  return std::nullopt;
-}
 
 }  // namespace
 
@@ -167,8 +146,11 @@ Expected<void> ContextImpl::chooseDevice(const ContextDesc& desc) {
   };
   std::optional<size_t> chosen;
   if (!wanted.empty()) {
-    chosen = match(devices, wanted);
-    if (!chosen) return Error{ErrorKind::BadInput, "no Vulkan device matches '" + wanted + "'. Available devices:" + listed(devices)};
+    std::vector<std::string> names;
+    for (const Candidate& candidate : devices) names.push_back(candidate.name);
+    const auto named = offline::chooseDevice(names, wanted);
+    if (!named) return named.error();
+    chosen = *named;
     if (auto ok = usable(devices[*chosen]); !ok) return ok;
   } else {
     std::string reasons;
