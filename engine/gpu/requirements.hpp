@@ -5,10 +5,11 @@ namespace rill {
 
 struct InstanceTable;
 
-/// Checks version, subgroup operations and texel formats. Fails with NoDevice, naming what is missing.
+/// Checks version, features, subgroups, texel formats and the limits that the built-in compute shaders need. Fails with NoDevice and a line
+/// for each item that is missing, with what would help.
 Expected<void> checkDevice(const InstanceTable& instance, VkPhysicalDevice device);
 
-/// Checks the features passed to vkCreateDevice. Fails with NoDevice, naming what is missing.
+/// Checks the features passed to vkCreateDevice. Fails with NoDevice and a line for each that is missing.
 Expected<void> checkEnabled(const VkPhysicalDeviceFeatures2& enabled);
 
 }  // namespace rill

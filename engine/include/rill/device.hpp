@@ -18,9 +18,10 @@
 // Requirements: Vulkan 1.3 with the features that appendRequired() sets (mandatory in 1.3, but the
 // host must enable them); no extension. Compute shaders need subgroups of at least 4 lanes with
 // vote, arithmetic and shuffle operations. Uniform texel buffers of R32_UINT, R32G32_UINT,
-// R32G32B32A32_UINT and R32G32B32A32_SFLOAT. A queue family with compute, and with graphics if a
-// FluidRenderer or a pass with targets is used. Where the host enables shaderMaximalReconvergence or
-// shaderSubgroupUniformControlFlow (and their extensions), shaders that shuffle ask for it.
+// R32G32B32A32_UINT and R32G32B32A32_SFLOAT. Workgroups of 256 invocations and 16 storage buffers in a
+// compute shader. A queue family with compute, and with graphics if a FluidRenderer or a pass with targets
+// is used. Where the host enables shaderMaximalReconvergence or shaderSubgroupUniformControlFlow (and their
+// extensions), shaders that shuffle ask for it.
 //
 // Submission: Rill records into the host's command buffers. It never submits, never waits, and
 // creates no instance, device or queue. The host reports completed frames through FrameClock, which
@@ -95,8 +96,9 @@ struct DeviceRequirements {
   RILL_API VkPhysicalDeviceFeatures2* chain(void* next = nullptr);
 };
 
-/// Sets the features that Rill requires in `requirements`; clears none. Fails with NoDevice, naming the
-/// missing feature or version. `getInstanceProcAddr` and `instance` are used only during the call.
+/// Sets the features that Rill requires in `requirements`; clears none. Fails with NoDevice and a line for
+/// each version, feature or limit that is missing, with what would help. `getInstanceProcAddr` and `instance`
+/// are used only during the call.
 RILL_API Expected<void> appendRequired(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance, VkPhysicalDevice physicalDevice,
                                        DeviceRequirements& requirements);
 
@@ -128,8 +130,8 @@ class DeviceImpl;
 /// live as long as the Device.
 class RILL_API Device {
  public:
-  /// Fails with BadInput for a null handle or another field that the host can correct, and with NoDevice,
-  /// naming the feature, if a required feature is not enabled.
+  /// Fails with BadInput for a null handle or another field that the host can correct, and with NoDevice
+  /// and a line for each item if the device lacks something or required features are not enabled.
   static Expected<Device> borrow(const HostDevice& host);
   /// Destroys everything that Rill created. The host must have waited for the recorded work.
   ~Device();
