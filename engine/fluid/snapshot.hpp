@@ -9,7 +9,7 @@
 namespace rill {
 
 /// Ids are less: particles carry them as floats while they are sorted.
-inline constexpr uint32_t kMaxIds = 1u << 24;
+inline constexpr uint32_t kMaxIds = 0x7F000000;
 
 /// What a snapshot must fit.
 struct SnapshotShape {

@@ -13,6 +13,7 @@
 #include "shared/shape.glsl"
 #include "fluid/wall_samples.glsl"
 #include "shared/loops.glsl"
+#include "shared/number.glsl"
 #include "shared/pair_hash.h"
 layout(local_size_x = kFluidGroup) in;
 
@@ -24,7 +25,7 @@ layout(std430, binding = 5) writeonly buffer KeyBlock { uint cell[]; };
 READ_UINT(6, cellStart)
 layout(std430, binding = 7) buffer SumsBlock { FluidSums sums; };
 #include "fluid/columns.glsl"
-READ_FLOAT4(8, sortedPosition)  // w: the id, as a number
+READ_FLOAT4(8, sortedPosition)  // w: the id
 READ_FLOAT4(9, sortedVelocity)  // w: the warm start
 layout(std430, binding = 10) writeonly buffer PositionBlock { vec4 position[]; };
 layout(std430, binding = 11) writeonly buffer PredictionBlock { vec4 prediction[]; };
@@ -166,9 +167,9 @@ void main() {
 
   vec4 sorted = sortedPositionAt(i), moving = sortedVelocityAt(i);
   vec3 from = sorted.xyz;
-  uint own = uint(sorted.w);
+  uint own = numberFromFloat(sorted.w);
   if (coincident != kNone) {  // coincident particles: a direction from both ids, opposite for the two
-    uint other = uint(sortedPositionAt(coincident).w);
+    uint other = numberFromFloat(sortedPositionAt(coincident).w);
     vec3 apart = vec3(pairDirection(own, other, 0u), pairDirection(own, other, 1u), pairDirection(own, other, 2u)) *
                  (0.02 / 1024.0 * params.spacing);
     x = insideWalls(x + apart);

@@ -11,8 +11,9 @@
 #include "fluid/kernel.glsl"
 #include "fluid/wall_samples.glsl"
 #include "shared/loops.glsl"
+#include "shared/number.glsl"
 layout(local_size_x = kFluidGroup) in;
-READ_FLOAT4(2, orderedPosition)  // w: the particle's place in the solver's arrays, as a number
+READ_FLOAT4(2, orderedPosition)  // w: the particle's place in the solver's arrays
 READ_UINT(3, cellStart)
 READ_NEAR(4)
 layout(std430, binding = 5) buffer SumsBlock { FluidSums sums; };
@@ -55,7 +56,7 @@ void main() {
   vec3 scaled = scaledPosition(place);
   walkGrid(scaled, scaled, inRange, support);
   if (!inRange) return;
-  uint i = uint(particle.w);
+  uint i = numberFromFloat(particle.w);
   rho *= params.valueScale;
   if (NEAR) rho += displacedAt(i, listHeadAt(i)).w;
   velocity[i].w = rho;

@@ -1,10 +1,10 @@
 #version 460
 // Moves the particles into the order of their cells. The unused w of positions and velocities carry
-// the id (as a number: kMaxParticles is below 2^24) and the warm-start multiplier. build.comp
-// copies them back.
+// the id (shared/number.glsl) and the warm-start multiplier. build.comp copies them back.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "fluid/sorted_places.glsl"
+#include "shared/number.glsl"
 layout(local_size_x = kFluidGroup) in;
 READ_FLOAT4(6, position)
 READ_FLOAT4(7, prediction)
@@ -19,7 +19,7 @@ void main() {
   uint slot = flatInvocation();
   if (slot >= control.count) return;
   uint place, from = arrival(slot, place);
-  sortedPosition[place] = vec4(positionAt(from).xyz, float(idAt(from)));
+  sortedPosition[place] = vec4(positionAt(from).xyz, numberToFloat(idAt(from)));
   sortedPrediction[place] = predictionAt(from);
   sortedVelocity[place] = vec4(velocityAt(from).xyz, WARM ? warmAt(from) : 0.0);
 }
