@@ -7,7 +7,7 @@
 namespace rill {
 namespace {
 
-constexpr uint64_t kMaxBytes = uint64_t{128} << 20;  // of one buffer
+constexpr uint64_t kMaxBytes = uint64_t{128} << 20;  // of a buffer with several contents
 
 }  // namespace
 
@@ -41,7 +41,7 @@ Expected<void> Staging::make(Device& device) {
       continue;
     }
     const uint64_t bytes = (copy.bytes + 15) / 16 * 16;
-    if (sizes.empty() || sizes.back() + bytes > kMaxBytes) sizes.push_back(0);
+    if (sizes.empty() || (sizes.back() > 0 && sizes.back() + bytes > kMaxBytes)) sizes.push_back(0);
     copy.source = static_cast<uint32_t>(sizes.size() - 1);
     copy.at = sizes.back();
     sizes.back() += bytes;

@@ -1,5 +1,6 @@
 #pragma once
-// First contents of device buffers on their way there: laid out in upload memory, in buffers of at most 128 MiB each.
+// First contents of device buffers on their way there: laid out in upload memory, in buffers of at most 128 MiB each, unless one content is
+// larger.
 #include <functional>
 #include <vector>
 

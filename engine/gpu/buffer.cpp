@@ -39,9 +39,9 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
 
 Expected<Buffer> DeviceImpl::createBuffer(std::string_view name, uint64_t size, MemoryKind kind) {
   const std::string quoted = "'" + std::string(name) + "'";
-  if (size == 0 || size > info.maxStorageBufferBytes)
+  if (size == 0 || size > info.maxBufferBytes)
     return Error{ErrorKind::BadInput, "buffer " + quoted + " of " + bytesText(size) + "; " + info.name + " supports 1 byte to " +
-                                          bytesText(info.maxStorageBufferBytes)};
+                                          bytesText(info.maxBufferBytes) + " (" + std::string(info.maxBufferName) + ")"};
   Buffer buffer;  // its destructor retires the handles if a later step fails
   buffer.device_ = this;
   buffer.size_ = size;

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cstring>
+#include <tuple>
 
 #include "gpu/device_impl.hpp"
 #include "gpu/device_memory.hpp"
@@ -18,7 +20,9 @@ Error invalidHost(const std::string& what) { return {ErrorKind::BadInput, "Devic
 
 void describe(DeviceImpl& impl, const HostDevice& host) {
   VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES, nullptr};
-  VkPhysicalDeviceSubgroupSizeControlProperties sizes{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES, &driver};
+  VkPhysicalDeviceMaintenance3Properties allocations{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES, &driver};
+  VkPhysicalDeviceMaintenance4Properties buffers{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES, &allocations};
+  VkPhysicalDeviceSubgroupSizeControlProperties sizes{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES, &buffers};
   VkPhysicalDeviceSubgroupProperties subgroup{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES, &sizes};
   VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &subgroup};
   impl.instance.GetPhysicalDeviceProperties2(host.physicalDevice, &properties);
@@ -37,11 +41,24 @@ void describe(DeviceImpl& impl, const HostDevice& host) {
   for (uint32_t i = 0; i < impl.memory.memoryHeapCount; ++i)
     if (impl.memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT)
       info.deviceLocalBytes = std::max<uint64_t>(info.deviceLocalBytes, impl.memory.memoryHeaps[i].size);
-  info.maxStorageBufferBytes = std::min<uint64_t>(impl.limits.maxStorageBufferRange, kMaxBufferBytes);
+  const std::pair<uint64_t, std::string_view> limits[] = {{impl.limits.maxStorageBufferRange, "maxStorageBufferRange"},
+                                                          {buffers.maxBufferSize, "maxBufferSize"},
+                                                          {allocations.maxMemoryAllocationSize, "maxMemoryAllocationSize"}};
+  std::tie(info.maxBufferBytes, info.maxBufferName) = *std::ranges::min_element(limits);
+  info.maxBufferBytes &= ~uint64_t{15};  // createBuffer() rounds sizes up to that
   info.maxTexelBufferElements = impl.limits.maxTexelBufferElements;
   info.subgroupSize = subgroup.subgroupSize;
   info.minSubgroupSize = sizes.minSubgroupSize;
   info.maxSubgroupSize = sizes.maxSubgroupSize;
+}
+
+bool hasExtension(const InstanceTable& instance, VkPhysicalDevice device, const char* name) {
+  uint32_t count = 0;
+  if (instance.EnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr) != VK_SUCCESS) return false;
+  std::vector<VkExtensionProperties> all(count);
+  if (instance.EnumerateDeviceExtensionProperties(device, nullptr, &count, all.data()) != VK_SUCCESS) return false;
+  all.resize(count);
+  return std::ranges::any_of(all, [&](const VkExtensionProperties& e) { return std::strcmp(e.extensionName, name) == 0; });
 }
 
 /// The number of valid timestamp bits of the host's queue family, or -1 if the device has no such family.
@@ -86,6 +103,7 @@ Expected<Device> Device::borrow(const HostDevice& host) {
   impl->timestampMask = bits == 0 ? 0 : bits >= 64 ? ~0ull : (1ull << bits) - 1;
   describe(*impl, host);
   impl->reconvergence = reconvergenceOf(*host.enabled);
+  impl->hasMemoryBudget = hasExtension(impl->instance, host.physicalDevice, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
   impl->reload = ShaderReload::fromEnvironment();
   return Device(std::move(impl));
 }
@@ -111,6 +129,19 @@ void Device::beginFrame(FrameClock clock) {
 
 void Device::abandon(uint64_t frame) { impl_->abandon(frame); }
 const DeviceInfo& Device::info() const { return impl_->info; }
+
+uint64_t Device::availableBytes() const {
+  if (!impl_->hasMemoryBudget || impl_->hooks) return impl_->info.deviceLocalBytes;
+  VkPhysicalDeviceMemoryBudgetPropertiesEXT budget{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT, nullptr};
+  VkPhysicalDeviceMemoryProperties2 memory{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2, &budget};
+  impl_->instance.GetPhysicalDeviceMemoryProperties2(impl_->physical, &memory);
+  uint64_t most = 0;
+  for (uint32_t i = 0; i < memory.memoryProperties.memoryHeapCount; ++i)
+    if ((memory.memoryProperties.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) && budget.heapBudget[i] > budget.heapUsage[i])
+      most = std::max<uint64_t>(most, budget.heapBudget[i] - budget.heapUsage[i]);
+  return most;
+}
+
 void Device::setMessageCallback(MessageCallback callback) { impl_->message = std::move(callback); }
 
 DeviceImpl::DeviceImpl() = default;

@@ -15,8 +15,11 @@
 
 namespace rill {
 
-/// Largest buffer that Rill creates, in bytes: lavapipe's maxStorageBufferRange, the smallest limit tested.
-inline constexpr uint64_t kMaxBufferBytes = 128ull * 1024 * 1024;
+/// Bytes that no device has in a buffer: the ranges that shaders see are 32-bit numbers. What a device has is DeviceInfo::maxBufferBytes.
+inline constexpr uint64_t kMaxBufferBytes = uint64_t{1} << 32;
+
+/// Buffers that hold several things are as large, unless one thing is larger. Every device has buffers of this size.
+inline constexpr uint64_t kSharedBufferBytes = uint64_t{128} << 20;
 
 /// Handles and memory, destroyed once the frame that last used them has completed.
 class RetireQueue {
@@ -76,6 +79,7 @@ class DeviceImpl {
   bool canSetSubgroupSize = false;     ///< compute pipelines can require a subgroup size
   uint32_t maxWorkgroupSubgroups = 0;  ///< where a size is required
   Reconvergence reconvergence = Reconvergence::Workgroup;
+  bool hasMemoryBudget = false;        ///< VK_EXT_memory_budget
   FrameClock clock;
   RetireQueue retired;
   ShaderLibrary shaders;

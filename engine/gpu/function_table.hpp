@@ -3,12 +3,14 @@
 // symbols, so it works with hosts that use the loader's prototypes, volk or their own tables.
 #include "rill/device.hpp"
 
-#define RILL_INSTANCE_FUNCTIONS(X)     \
-  X(GetDeviceProcAddr)                 \
-  X(GetPhysicalDeviceFeatures2)        \
-  X(GetPhysicalDeviceFormatProperties) \
-  X(GetPhysicalDeviceMemoryProperties) \
-  X(GetPhysicalDeviceProperties2)      \
+#define RILL_INSTANCE_FUNCTIONS(X)      \
+  X(EnumerateDeviceExtensionProperties) \
+  X(GetDeviceProcAddr)                  \
+  X(GetPhysicalDeviceFeatures2)         \
+  X(GetPhysicalDeviceFormatProperties)  \
+  X(GetPhysicalDeviceMemoryProperties)  \
+  X(GetPhysicalDeviceMemoryProperties2) \
+  X(GetPhysicalDeviceProperties2)       \
   X(GetPhysicalDeviceQueueFamilyProperties)
 
 #define RILL_DEVICE_FUNCTIONS(X)      \

@@ -42,7 +42,7 @@ class Buffer {
   uint64_t size_ = 0;
 };
 
-/// `size`: 1 byte to 128 MiB, otherwise BadInput. The content is undefined. Errors name `name` and the size.
+/// `size`: 1 byte to DeviceInfo::maxBufferBytes, otherwise BadInput. The content is undefined. Errors name `name` and the size.
 Expected<Buffer> createBuffer(Device& device, std::string_view name, uint64_t size, MemoryKind kind = MemoryKind::Device);
 
 /// The number of cached pipelines, for tests.

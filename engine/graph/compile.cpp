@@ -106,7 +106,9 @@ void GraphImpl::placeTransients() {
     plans[1].placements[k].alignment = needs.alignment;
     largest = std::max(largest, needs.size);
   }
-  planner.plan(plans[0].placements, kMaxBufferBytes, plans[0].heapSizes);
+  uint64_t longest = 0;
+  for (const Placement& buffer : plans[0].placements) longest = std::max(longest, buffer.size);
+  planner.plan(plans[0].placements, std::max(longest, kSharedBufferBytes), plans[0].heapSizes);
   planner.plan(plans[1].placements, std::max(largest, kImageHeapBytes), plans[1].heapSizes);
   reportHeaps();
 }

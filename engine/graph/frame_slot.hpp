@@ -50,7 +50,7 @@ struct FrameSlot {
   uint32_t queryCapacity = 0;
   std::vector<uint32_t> timedNames;  ///< names of the passes between consecutive timestamps
   bool timingsPending = false;
-  std::vector<Buffer> readbacks;  ///< each at most kMaxBufferBytes
+  std::vector<Buffer> readbacks;  ///< each at most kSharedBufferBytes, or one read-back
   std::vector<PendingReadback> pendingReadbacks;
 };
 

@@ -199,6 +199,7 @@ class GraphImpl {
 
   // prepare.cpp
   Expected<void> prepare(Device& device);
+  Expected<void> checkSizes(const DeviceImpl& d) const;
   Expected<void> growHeaps(DeviceImpl& device);
   Expected<void> resolveBuffers(DeviceImpl& device);
   Expected<void> placeReadbacks(DeviceImpl& device, FrameSlot& slot);

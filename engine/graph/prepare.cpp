@@ -19,6 +19,7 @@ Expected<void> GraphImpl::prepare(Device& owner) {
   if (usesGraphics && !d.hasGraphics)
     return Error{ErrorKind::NoDevice, "the frame uses graphics, but the queue family on '" + d.info.name + "' has none"};
   if (auto ok = queryImageRequirements(d); !ok) return ok;
+  if (auto ok = checkSizes(d); !ok) return ok;
   if (auto ok = growHeaps(d); !ok) return ok;
   if (auto ok = resolveBuffers(d); !ok) return ok;
 
@@ -57,21 +58,21 @@ Expected<void> GraphImpl::prepare(Device& owner) {
   return {};
 }
 
-/// Packs the read-backs into buffers of at most kMaxBufferBytes.
+/// Packs the read-backs into buffers of at most kSharedBufferBytes; a larger one has a buffer of its own.
 Expected<void> GraphImpl::placeReadbacks(DeviceImpl& d, FrameSlot& target) {
   uint32_t buffer = 0;
   uint64_t bytes = 0;
   const auto finish = [&]() -> Expected<void> {
     if (target.readbacks.size() <= buffer) target.readbacks.resize(buffer + 1);
     if (bytes <= target.readbacks[buffer].size()) return {};
-    auto made = d.createBuffer("read-back", std::max(bytes, std::bit_ceil(std::min(bytes, kMaxBufferBytes / 2))), MemoryKind::Readback);
+    auto made = d.createBuffer("read-back", std::max(bytes, std::bit_ceil(std::min(bytes, kSharedBufferBytes / 2))), MemoryKind::Readback);
     if (!made) return made.error();
     target.readbacks[buffer] = std::move(*made);
     return {};
   };
   for (Readback& readback : readbacks) {
     const uint64_t size = (readback.size + 15) & ~15ull;
-    if (bytes + size > kMaxBufferBytes && bytes > 0) {
+    if (bytes + size > kSharedBufferBytes && bytes > 0) {
       if (auto ok = finish(); !ok) return ok;
       ++buffer;
       bytes = 0;
@@ -101,13 +102,22 @@ Expected<void> GraphImpl::queryImageRequirements(DeviceImpl& d) {
   return {};
 }
 
+Expected<void> GraphImpl::checkSizes(const DeviceImpl& d) const {
+  for (const ResourceData& resource : resources)
+    if (!resource.isImage && resource.size > d.info.maxBufferBytes)
+      return Error{ErrorKind::TooLarge, "buffer " + quoted(resource.name) + " of " + bytesText(resource.size) + "; " + d.info.name +
+                                            " supports at most " + bytesText(d.info.maxBufferBytes) + " (" +
+                                            std::string(d.info.maxBufferName) + ")"};
+  return {};
+}
+
 Expected<void> GraphImpl::growHeaps(DeviceImpl& d) {
   const std::vector<uint64_t>& heapSizes = plans[0].heapSizes;
   if (heaps.size() < heapSizes.size()) heaps.resize(heapSizes.size());
   for (size_t i = 0; i < heapSizes.size(); ++i) {
     if (heapSizes[i] <= heaps[i].size()) continue;
     constexpr uint64_t step = 64 * 1024;
-    auto heap = d.createBuffer("transients", std::min((heapSizes[i] + step - 1) / step * step, kMaxBufferBytes), MemoryKind::Device);
+    auto heap = d.createBuffer("transients", std::min((heapSizes[i] + step - 1) / step * step, d.info.maxBufferBytes), MemoryKind::Device);
     if (!heap) return heap.error();
     heaps[i] = std::move(*heap);  // the old heap is retired, since frames in flight may still use it
   }

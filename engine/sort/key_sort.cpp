@@ -1,5 +1,6 @@
 #include "sort/key_sort.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <string>
 #include <utility>
@@ -11,20 +12,25 @@ namespace {
 
 Error badInput(std::string message) { return {ErrorKind::BadInput, "sort: " + std::move(message)}; }
 
-Expected<void> validate(const KeySortDesc& desc) {
+Expected<void> validate(const Device& device, const KeySortDesc& desc) {
   if (desc.count > KeySortDesc::kMaxCount)
     return badInput(std::to_string(desc.count) + " keys; expected at most " + std::to_string(KeySortDesc::kMaxCount));
   if (desc.keyRange < 1 || desc.keyRange > KeySortDesc::kMaxKeyRange)
     return badInput("key range " + std::to_string(desc.keyRange) + "; expected 1 to 2^32");
   if (desc.keys && desc.fusedEnds) return badInput("fusedEnds and keys are both set; expected at most one");
   const bool table = desc.start || desc.method == SortMethod::Counting;
-  if (table && desc.keyRange > KeySortDesc::kMaxStartRange)
+  if (table && desc.keyRange > maxStartRange(device))
     return badInput("a start table of " + std::to_string(desc.keyRange) + " keys; expected at most " +
-                    std::to_string(KeySortDesc::kMaxStartRange) + " (128 MiB)");
+                    std::to_string(maxStartRange(device)) + " on " + device.info().name);
   return {};
 }
 
 }  // namespace
+
+uint64_t maxStartRange(const Device& device) {
+  const uint64_t entries = device.info().maxBufferBytes / sizeof(uint32_t) / 4 * 4;  // see paddedWords()
+  return std::min<uint64_t>(KeySortDesc::kMaxStartRange, entries - 1);
+}
 
 SortMethod chooseSortMethod(const KeySortDesc& desc) {
   if (desc.method != SortMethod::Auto) return desc.method;
@@ -39,8 +45,8 @@ SortMethod chooseSortMethod(const KeySortDesc& desc) {
 }
 
 Expected<KeySort> KeySort::create(Device& device, const KeySortDesc& desc) {
-  if (auto valid = validate(desc); !valid) return valid.error();
-  if (chooseSortMethod(desc) == SortMethod::Counting) {
+  if (auto valid = validate(device, desc); !valid) return valid.error();
+  if (chooseSortMethod(desc) == SortMethod::Counting && desc.keyRange <= maxStartRange(device)) {
     auto sort = CountingSort::create(device, desc);
     if (!sort) return sort.error();
     return KeySort(*std::move(sort), desc);

@@ -52,4 +52,7 @@ class KeySort {
 /// desc.method, or the method that Auto selects for this description.
 SortMethod chooseSortMethod(const KeySortDesc& desc);
 
+/// The largest key range with a `start` table: keyRange + 1 entries fit into a buffer of the device.
+uint64_t maxStartRange(const Device& device);
+
 }  // namespace rill

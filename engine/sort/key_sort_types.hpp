@@ -13,15 +13,15 @@ enum class SortMethod : uint8_t {
 };
 
 struct KeySortDesc {
-  static constexpr uint32_t kMaxCount = 4u << 20;
+  static constexpr uint32_t kMaxCount = 1u << 26;  ///< as many as a fluid has particles
   static constexpr uint64_t kMaxKeyRange = uint64_t{1} << 32;
-  /// Largest key range with a `start` table, which the counting sort needs: keyRange + 1 entries fit in 128 MiB.
-  static constexpr uint64_t kMaxStartRange = (128u << 20) / sizeof(uint32_t) - 1;
+  /// Largest key range with a `start` table, which the counting sort needs; see also maxStartRange().
+  static constexpr uint64_t kMaxStartRange = (1u << 30) - 1;
 
   uint32_t count = 0;     ///< number of keys, 0 .. kMaxCount
   uint64_t keyRange = 0;  ///< exclusive upper bound of the keys, 1 .. kMaxKeyRange
   SortMethod method = SortMethod::Auto;
-  bool start = false;         ///< produce SortedKeys::start; keyRange must be at most kMaxStartRange
+  bool start = false;         ///< produce SortedKeys::start; keyRange must be at most maxStartRange()
   bool keys = false;          ///< produce SortedKeys::keys
   bool storageReads = false;  ///< read through storage buffers instead of texel buffers; same result
   /// The caller fuses the first and last step into its own passes: the pass that writes the keys also counts

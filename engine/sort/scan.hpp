@@ -20,8 +20,7 @@ struct ScanNames {
 /// waits for another.
 class Scan {
  public:
-  /// The number of values that fit in a buffer of 128 MiB.
-  static constexpr uint32_t kMaxCount = (128u << 20) / sizeof(uint32_t);
+  static constexpr uint32_t kMaxCount = 1u << 30;
 
   /// `count`: 0 .. kMaxCount values, otherwise BadInput. kMaxCount creates the pipelines for every count.
   /// `storageReads`: read through storage buffers instead of texel buffers; same result.

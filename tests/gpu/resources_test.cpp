@@ -20,7 +20,7 @@ TEST_F(Resources, BufferMemoryMatchesKind) {
 }
 
 TEST_F(Resources, RejectsInvalidSizes) {
-  for (const uint64_t size : std::initializer_list<uint64_t>{0, kMaxBufferBytes + 1, UINT64_MAX}) {
+  for (const uint64_t size : std::initializer_list<uint64_t>{0, device().info().maxBufferBytes + 1, UINT64_MAX}) {
     const auto made = createBuffer(device(), "positions", size);
     ASSERT_FALSE(made);
     EXPECT_EQ(made.error().kind, ErrorKind::BadInput);

@@ -87,7 +87,7 @@ TEST_F(DeclarationErrors, RejectsInvalidBufferSizes) {
   EXPECT_MESSAGE("buffer 'nothing': size is 0");
   graph.reset();
   (void)graph.create("list", {kMaxBufferBytes + 1});
-  EXPECT_MESSAGE("buffer 'list' of 134217729 bytes; expected at most 134217728");
+  EXPECT_MESSAGE("buffer 'list' of 4294967297 bytes; expected at most 4294967296");
 }
 
 TEST_F(DeclarationErrors, RejectsOverlappingImportsWithWrites) {

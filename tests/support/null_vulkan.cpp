@@ -43,7 +43,7 @@ void properties(VkPhysicalDevice, VkPhysicalDeviceProperties2* out) {
   p.apiVersion = given.api;
   p.vendorID = given.vendor;
   std::snprintf(p.deviceName, sizeof p.deviceName, "%s", given.name);
-  p.limits.maxStorageBufferRange = 1u << 30;
+  p.limits.maxStorageBufferRange = given.storageBufferRange;
   p.limits.maxUniformBufferRange = 65536;
   p.limits.maxImageDimension2D = 4096;
   p.limits.maxPerStageDescriptorStorageImages = p.limits.maxPerStageDescriptorSampledImages = 16;
@@ -59,6 +59,10 @@ void properties(VkPhysicalDevice, VkPhysicalDeviceProperties2* out) {
       s.subgroupSize = given.subgroupSize;
       s.supportedStages = VK_SHADER_STAGE_COMPUTE_BIT;
       s.supportedOperations = given.subgroupOperations;
+    } else if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES) {
+      reinterpret_cast<VkPhysicalDeviceMaintenance3Properties*>(next)->maxMemoryAllocationSize = given.maxAllocation;
+    } else if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES) {
+      reinterpret_cast<VkPhysicalDeviceMaintenance4Properties*>(next)->maxBufferSize = given.maxBufferSize;
     } else if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES) {
       auto& s = *reinterpret_cast<VkPhysicalDeviceSubgroupSizeControlProperties*>(next);
       s.minSubgroupSize = given.minSubgroupSize;
@@ -81,7 +85,24 @@ void memoryProperties(VkPhysicalDevice, VkPhysicalDeviceMemoryProperties* out) {
   out->memoryTypeCount = out->memoryHeapCount = 1;
   out->memoryTypes[0].propertyFlags =
       VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-  out->memoryHeaps[0] = {1ull << 32, VK_MEMORY_HEAP_DEVICE_LOCAL_BIT};
+  out->memoryHeaps[0] = {current->properties.heapBytes, VK_MEMORY_HEAP_DEVICE_LOCAL_BIT};
+}
+
+VkResult extensions(VkPhysicalDevice, const char*, uint32_t* count, VkExtensionProperties* out) {
+  *count = current->properties.availableBytes ? 1 : 0;
+  if (out && *count == 1) *out = {VK_EXT_MEMORY_BUDGET_EXTENSION_NAME, 1};
+  return VK_SUCCESS;
+}
+
+void memoryBudget(VkPhysicalDevice device, VkPhysicalDeviceMemoryProperties2* out) {
+  memoryProperties(device, &out->memoryProperties);
+  for (auto* next = static_cast<VkBaseOutStructure*>(out->pNext); next; next = next->pNext)
+    if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT) {
+      auto& budget = *reinterpret_cast<VkPhysicalDeviceMemoryBudgetPropertiesEXT*>(next);
+      constexpr uint64_t used = 1000;
+      budget.heapBudget[0] = current->properties.availableBytes.value() + used;
+      budget.heapUsage[0] = used;
+    }
 }
 
 void queueFamilies(VkPhysicalDevice, uint32_t* count, VkQueueFamilyProperties* out) {
@@ -242,9 +263,11 @@ void cmdTimestamp(VkCommandBuffer, VkPipelineStageFlags2, VkQueryPool, uint32_t 
 PFN_vkVoidFunction lookUp(std::string_view name) {
 #define RILL_FUNCTION(vulkan, function) \
   if (name == #vulkan) return reinterpret_cast<PFN_vkVoidFunction>(static_cast<PFN_##vulkan>(function));
+  RILL_FUNCTION(vkEnumerateDeviceExtensionProperties, extensions)
   RILL_FUNCTION(vkGetPhysicalDeviceFeatures2, features)
   RILL_FUNCTION(vkGetPhysicalDeviceFormatProperties, formatProperties)
   RILL_FUNCTION(vkGetPhysicalDeviceMemoryProperties, memoryProperties)
+  RILL_FUNCTION(vkGetPhysicalDeviceMemoryProperties2, memoryBudget)
   RILL_FUNCTION(vkGetPhysicalDeviceProperties2, properties)
   RILL_FUNCTION(vkGetPhysicalDeviceQueueFamilyProperties, queueFamilies)
   RILL_FUNCTION(vkAllocateDescriptorSets, allocateSets)

@@ -1,5 +1,6 @@
 #pragma once
 // A Vulkan device that only records calls, to test prepare() and record() without a driver and its allocations.
+#include <optional>
 #include <vector>
 
 #include "rill/device.hpp"
@@ -45,6 +46,10 @@ struct NullProperties {
   uint32_t storageBuffers = 64;         ///< that a shader can bind
   uint32_t workgroupInvocations = 256;  ///< at most, and in each dimension
   bool texelBuffers = true;             ///< of each format
+  uint32_t storageBufferRange = 1u << 30;
+  uint64_t maxBufferSize = uint64_t{1} << 40, maxAllocation = uint64_t{1} << 40;
+  uint64_t heapBytes = uint64_t{1} << 32;
+  std::optional<uint64_t> availableBytes = {};  ///< as VK_EXT_memory_budget tells; empty: no such extension
   std::vector<VkBool32 VkPhysicalDeviceVulkan13Features::*> missingFeatures = {};
 };
 

@@ -71,7 +71,7 @@ Samples timedOnHost(uint32_t repeat, const std::vector<Pair>& pairs, std::vector
 Expected<Samples> timedOnDevice(Workbench& workbench, uint32_t repeat, const KeySortDesc& desc, const Buffer& keys,
                                 const std::vector<Pair>& expected, const std::string& name, Report& report) {
   Samples samples;
-  if (desc.method == SortMethod::Counting && desc.keyRange > KeySortDesc::kMaxStartRange) {
+  if (desc.method == SortMethod::Counting && desc.keyRange > maxStartRange(workbench.device())) {
     samples.skipReason = "key range above the limit of counting sort";
     return samples;
   }
@@ -136,8 +136,8 @@ Expected<Report> runAll(Bench& bench) {
   table.columns = {"case", "counting", "radix", "std::sort", "std::stable_sort", "Auto", "Auto / best", "Auto / std"};
   table.note =
       "Auto: method that SortMethod::Auto chooses. Auto / best: its time divided by the faster of the two methods; Auto / std: by the\n"
-      "faster of the standard library's sorts on one thread. -: not supported, counting sort is limited to key ranges of " +
-      grouped(KeySortDesc::kMaxStartRange) + ".";
+      "faster of the standard library's sorts on one thread. -: not supported, the counters of a counting sort of this key range do not "
+      "fit into a buffer of the device.";
   for (const Kind& kind : kKinds) table.note += "\n" + std::string(kind.name) + ": " + std::string(kind.description);
 
   for (const Kind& kind : kKinds) {

@@ -111,11 +111,12 @@ struct FrameClock {
 
 /// Properties of the device in use.
 struct DeviceInfo {
-  std::string name;                    ///< as the driver reports it
-  std::string driver;                  ///< driver name and version
-  std::string api;                     ///< "1.3.230"
-  uint64_t deviceLocalBytes = 0;       ///< size of the largest device-local heap
-  uint64_t maxStorageBufferBytes = 0;  ///< maxStorageBufferRange, clamped to 128 MiB (the largest buffer that Rill creates)
+  std::string name;                ///< as the driver reports it
+  std::string driver;              ///< driver name and version
+  std::string api;                 ///< "1.3.230"
+  uint64_t deviceLocalBytes = 0;   ///< size of the largest device-local heap
+  uint64_t maxBufferBytes = 0;     ///< of one buffer: the smallest of maxStorageBufferRange, maxBufferSize and maxMemoryAllocationSize
+  std::string_view maxBufferName;  ///< the limit that this is, as Vulkan calls it
   uint32_t maxTexelBufferElements = 0;
   uint32_t subgroupSize = 0, minSubgroupSize = 0, maxSubgroupSize = 0;
 };
@@ -147,6 +148,9 @@ class RILL_API Device {
   void abandon(uint64_t frame);
 
   const DeviceInfo& info() const;  ///< queried by borrow()
+  /// Device-local memory that this process may still allocate, in bytes, as the driver says at the moment: VK_EXT_memory_budget.
+  /// Without it, or with HostDevice::memory, the size of the largest device-local heap.
+  uint64_t availableBytes() const;
   /// Receives warnings such as a failed shader reload, on the thread that calls Rill. Without a callback
   /// they are dropped.
   void setMessageCallback(MessageCallback callback);

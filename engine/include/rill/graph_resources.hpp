@@ -28,7 +28,7 @@ struct ImageRef : ResourceRef {};
 
 /// A buffer of the graph.
 struct BufferDesc {
-  uint64_t size = 0;  ///< bytes, 1 .. 128 MiB
+  uint64_t size = 0;  ///< bytes, 1 .. DeviceInfo::maxBufferBytes of the device that prepares the graph
 };
 
 /// A buffer that outlives the frame. The graph synchronizes it with earlier and later work on the same
@@ -42,7 +42,7 @@ struct BufferDesc {
 struct BufferImport {
   VkBuffer handle = VK_NULL_HANDLE;
   uint64_t offset = 0;                ///< bytes; a multiple of the device's storage, uniform and texel offset alignments
-  uint64_t size = 0;                  ///< bytes, 1 .. 128 MiB
+  uint64_t size = 0;                  ///< bytes, likewise
   ImportState before = Use::Unknown;  ///< its last use before this graph
   ImportState after = Use::Nothing;   ///< its first use after this graph; synchronized even if every pass is culled
 };
