@@ -21,9 +21,8 @@ namespace {
 
 using apps::badInput, apps::numberIn;
 
-constexpr uint32_t kMaxSide = 8192;            // pixels
-constexpr uint64_t kMaxPixels = 1ull << 25;    // an image is one buffer of at most 128 MiB
-constexpr uint64_t kMaxParticles = 4'194'304;  // limit of the solver
+constexpr uint32_t kMaxSide = 8192;          // pixels
+constexpr uint64_t kMaxPixels = 1ull << 25;  // an image is one buffer of at most 128 MiB
 
 /// Options as text: numbers are parsed here, so that messages do not depend on the version of CLI11.
 struct Raw {

@@ -3,27 +3,27 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "core/words.hpp"
 #include "fluid/fluid_impl.hpp"
+#include "fluid/room.hpp"
 #include "fluid/snapshot.hpp"
 #include "gpu/texel_reads.hpp"
+#include "gpu/vulkan_error.hpp"
 
 namespace rill {
 namespace {
 
-constexpr uint64_t kMaxBuffer = uint64_t{128} << 20;
 static_assert(kMaxParticles == KeySortDesc::kMaxCount);
-static_assert(kMaxParticles <= 1u << 24);  // sorted particles carry their numbers as floats
 
 uint64_t blocks(uint64_t particles) { return divideUp(particles, kListBlock); }
 
-std::string mebibytes(uint64_t bytes) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.1f MiB", double(bytes) / (1 << 20));
-  return text;
+// Bytes of a buffer of the neighbor list: within the texels of a view where lists may be read through one.
+uint64_t maxListBytes(const DeviceInfo& info) {
+  constexpr uint64_t kTexelBytes = 4 * kListEntryBytes;
+  return info.maxTexelBufferElements > kFewTexels ? std::min(info.maxBufferBytes, kTexelBytes * info.maxTexelBufferElements)
+                                                  : info.maxBufferBytes;
 }
 
 /// All but the numbers of the particles, each of which may be anything.
@@ -59,13 +59,7 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   auto impl = std::make_unique<FluidImpl>();
   impl->device_ = &implOf(device);
   impl->memory = fluidMemory(scene, capacity);
-  const uint64_t available = device.info().deviceLocalBytes;
-  const uint64_t largest = std::max((capacity + 1) * 16, capacity * 32);  // positions, with the dummy; wall samples
-  if (impl->memory.total() > available || largest > kMaxBuffer || capacity > kMaxParticles)
-    return Error{ErrorKind::TooLarge, std::to_string(capacity) + " particles need " + mebibytes(impl->memory.total()) +
-                                          " on the device; \"" + device.info().name + "\" has " + mebibytes(available) +
-                                          " and holds at most " + std::to_string(kMaxParticles) +
-                                          " particles: make fluid.spacing larger or fluid.particles smaller"};
+  if (auto fits = checkRoom(device, scene, capacity); !fits) return fits.error();
 
   StartFigures start{.capacity = static_cast<uint32_t>(capacity)};
   Double3 low = {0, 0, 0}, high = {0, 0, 0};
@@ -113,15 +107,15 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
   const FluidParams& p = setup.params;
 
   const uint64_t blockBytes = uint64_t{kListBlock} * p.listCapacity * kListEntryBytes;
-  const uint64_t wanted = p.listCapacity == 0 ? 1 : (blocks(n) * blockBytes + kMaxBuffer - 1) / kMaxBuffer;
-  const uint64_t chunkBlocks = (blocks(n) + wanted - 1) / wanted;
+  const uint64_t wanted = p.listCapacity == 0 ? 1 : divideUp(blocks(n), std::max<uint64_t>(maxListBytes(device.info()) / blockBytes, 1));
+  const uint64_t chunkBlocks = divideUp(blocks(n), wanted);
   const uint32_t chunk = p.listCapacity == 0 ? capacity : static_cast<uint32_t>(chunkBlocks * kListBlock);
   setup.params.chunkParticles = chunk;
   for (uint32_t first = 0; first < capacity; first += chunk) chunks_.push_back({first, std::min(capacity, first + chunk)});
   if (chunks_.size() > kMaxListChunks)
     return Error{ErrorKind::TooLarge, "the neighbor list of " + std::to_string(n) + " particles at this smoothing_ratio needs " +
-                                          mebibytes(memory.listBytes) + ", more than the " + std::to_string(kMaxListChunks) +
-                                          " buffers of 128 MiB that are available: make smoothing_ratio smaller"};
+                                          bytesText(memory.listBytes) + ", more than " + std::to_string(kMaxListChunks) + " buffers of " +
+                                          bytesText(maxListBytes(device.info())) + ": make smoothing_ratio smaller"};
   const uint64_t maxTexels = std::max({more, 2 * uint64_t{n}, uint64_t{chunk} * p.listCapacity / 4, paddedWords(setup.grid.cells() + 1),
                                        uint64_t{setup.tables.size() / 4}});
   texel_ = !storageReads && usesTexelReads(device, maxTexels);

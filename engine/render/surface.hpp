@@ -11,6 +11,7 @@
 #include "rill/fluid.hpp"
 #include "rill/fluid_renderer.hpp"
 #include "rill/graph.hpp"
+#include "rill/particles.hpp"
 #include "sort/scan.hpp"
 
 namespace rill {
@@ -38,8 +39,8 @@ inline constexpr ThicknessNames kFluidShadow{"fluid shadow", "fluid shadow clear
 
 class SurfaceStage {
  public:
-  /// A buffer holds at most as many planes, of 32 bytes.
-  static constexpr uint32_t kMaxParticles = (128u << 20) / 32;
+  /// As a Fluid on any device. Graph::prepare() fails where planes of 32 bytes a particle do not fit into a buffer of the device.
+  static constexpr uint32_t kMaxParticles = rill::kMaxParticles;
 
   static Expected<SurfaceStage> create(Device& device);
 

@@ -1,6 +1,7 @@
 // What a fluid says that it needs, against the buffers that are created: for the fluid, and for the transients of a frame.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "fluid/fluid_impl.hpp"
@@ -22,6 +23,7 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 class CountedMemory : public ::testing::Test {
  protected:
   void SetUp() override {
+    vulkan.properties.storageBufferRange = 1u << 27;
     auto borrowed = Device::borrow(vulkan.host());
     ASSERT_TRUE(borrowed);
     device = std::move(*borrowed);
@@ -85,24 +87,81 @@ TEST_F(CountedMemory, DisabledFeaturesHaveNoBuffer) {
   EXPECT_GE(bytesOf("iteration multipliers"), 4000u);
 }
 
-TEST_F(CountedMemory, RejectsTooLargeFluidsWithNeededAndAvailableBytes) {
-  const auto refusal = [&](size_t n) {
-    particles.positions.assign(n, {});
-    particles.velocities.assign(n, {});
+TEST_F(CountedMemory, RejectsTooLargeFluidsWithTheLimitAndWhatFits) {
+  const auto refusal = [&](uint32_t capacity) {
     const size_t before = vulkan.buffersCreated;
-    auto fluid = Fluid::create(*device, {.scene = &scene, .particles = &particles});
+    auto fluid = Fluid::create(*device, {.scene = &scene, .particles = &particles, .capacity = capacity});
     EXPECT_FALSE(fluid);
     EXPECT_EQ(vulkan.buffersCreated, before) << "nothing is allocated";
     return fluid ? Error{} : fluid.error();
   };
-  const Error many = refusal((4u << 20) + 1);
-  EXPECT_EQ(many.kind, ErrorKind::TooLarge);
-  EXPECT_NE(many.message.find("4194305 particles need"), std::string::npos) << many.message;
-  EXPECT_NE(many.message.find("has 4096.0 MiB"), std::string::npos) << many.message;
-  scene.fluid.smoothing_ratio = 4;
-  const Error wide = refusal(3000000);
+  const Error wide = refusal((8u << 20));
   EXPECT_EQ(wide.kind, ErrorKind::TooLarge);
-  EXPECT_NE(wide.message.find("make smoothing_ratio smaller"), std::string::npos) << wide.message;
+  EXPECT_EQ(wide.message,
+            "8388608 particles do not fit on \"null device\": the buffer of positions would have 128.0 MiB, and one has at most 128.0 MiB "
+            "(maxStorageBufferRange). At most 8388607 fit: make fluid.spacing larger or fluid.particles smaller");
+  scene.domain = Domain{};
+  EXPECT_NE(refusal((4u << 20) + 1).message.find("the buffer of wall samples"), std::string::npos);
+  EXPECT_EQ(maxParticles(*device, scene), 4u << 20);
+  const Error any = refusal(kMaxParticles + 1);
+  EXPECT_NE(any.message.find("a fluid has at most 67108864 on any device"), std::string::npos) << any.message;
+  scene.domain.reset();
+  scene.fluid.smoothing_ratio = 4;
+  const Error lists = refusal(6000000);
+  EXPECT_EQ(lists.kind, ErrorKind::TooLarge);
+  EXPECT_NE(lists.message.find("of device memory, and 4096.0 MiB are available"), std::string::npos) << lists.message;
+}
+
+TEST_F(CountedMemory, FollowsTheBudget) {
+  const uint32_t byHeap = maxParticles(*device, scene);
+  vulkan.properties.availableBytes = uint64_t{1} << 30;
+  EXPECT_EQ(maxParticles(*device, scene), byHeap) << "the extension is looked for when the device is borrowed";
+  device = *Device::borrow(vulkan.host());
+  device->beginFrame({1, 0});
+  EXPECT_EQ(device->availableBytes(), uint64_t{1} << 30);
+  const uint32_t most = maxParticles(*device, scene);
+  EXPECT_LE(fluidMemory(scene, most).total(), uint64_t{1} << 30);
+  EXPECT_GT(fluidMemory(scene, most + 1).total(), uint64_t{1} << 30);
+  EXPECT_TRUE(Fluid::create(*device, {.scene = &scene, .particles = &particles, .capacity = most}));
+  const auto refused = Fluid::create(*device, {.scene = &scene, .particles = &particles, .capacity = most + 1});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("and 1024.0 MiB are available. At most " + std::to_string(most) + " fit"), std::string::npos)
+      << refused.error().message;
+  vulkan.properties.availableBytes = 0;
+  EXPECT_EQ(maxParticles(*device, scene), 0u) << "others have taken the memory since";
+}
+
+// Limits as NVIDIA's driver has them; modelled.
+TEST_F(CountedMemory, HoldsTwentyMillionParticlesOn24Gigabytes) {
+  vulkan.properties.storageBufferRange = 0xFFFFFFFF;
+  vulkan.properties.maxAllocation = 0xFFE00000;
+  vulkan.properties.maxTexelBufferElements = 1u << 27;
+  vulkan.properties.heapBytes = 24'000'000'000;
+  device = *Device::borrow(vulkan.host());
+  device->beginFrame({1, 0});
+  scene.domain = Domain{};
+  scene.solids.push_back(Solid{.shape = SphereShape{{0, 0, 0}, 0.5}});
+  constexpr uint32_t kParticles = 20'000'000;
+  EXPECT_GE(maxParticles(*device, scene), kParticles);
+  particles.positions.resize(1000);
+  particles.velocities.resize(1000);
+  auto fluid = Fluid::create(*device, {.scene = &scene, .particles = &particles, .capacity = kParticles});
+  ASSERT_TRUE(fluid) << fluid.error().message;
+  for (const FluidBuffer& buffer : fluid->buffers()) EXPECT_LE(buffer.bytes, device->info().maxBufferBytes) << buffer.name;
+  Graph graph;
+  (void)fluid->addTo(graph, {.advance_s = 0.01, .stats = true});
+  ASSERT_TRUE(graph.compile());
+  const auto prepared = graph.prepare(*device);
+  ASSERT_TRUE(prepared) << prepared.error().message;
+  EXPECT_LE(vulkan.bufferBytes, vulkan.properties.heapBytes);
+  graph.record(NullVulkan::commandBuffer());
+  uint64_t most = 0;
+  for (const NullCommand& command : vulkan.commands)
+    if (command.kind == NullCommand::Dispatch) {
+      EXPECT_LE(std::max({command.a, command.b, command.c}), 65535u);
+      most = std::max(most, command.a * command.b);
+    }
+  EXPECT_GE(most, 1u) << "nothing was dispatched";
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, FluidMemoryTest,

@@ -80,8 +80,8 @@ TEST_F(RendererInput, RejectsInvalidStates) {
   bad = state();
   bad.capacity = 11;
   EXPECT_EQ(compileError(bad, view), "FluidState::position has 160 bytes; expected 16 for each of its 11 particles");
-  bad.capacity = (4u << 20) + 1;
-  EXPECT_EQ(compileError(bad, view, {}, true), "FluidState::capacity is 4194305; expected at most 4194304");
+  bad.capacity = (1u << 26) + 1;
+  EXPECT_EQ(compileError(bad, view, {}, true), "FluidState::capacity is 67108865; expected at most 67108864");
   bad = state();
   bad.spacing = kNan;
   EXPECT_EQ(compileError(bad, view), "FluidState::spacing is nan; expected a length above 0 (m)");

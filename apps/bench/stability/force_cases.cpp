@@ -169,7 +169,7 @@ std::vector<StressCase> sizeCases() {
     return c;
   };
   for (const uint64_t count : {0, 1, 63, 64, 65, 4095, 4096, 4097}) cases.push_back(sized(count, false));
-  // Limits: one list buffer of 128 MiB in whole blocks; 65,535 workgroups of 64; the maximum number of particles.
+  // Limits: one list buffer of 128 MiB in whole blocks; 65,535 workgroups of 64; wall samples of 128 MiB.
   const uint64_t block = uint64_t{kListBlock} * listCapacity(Scene{}.fluid.smoothing_ratio + kListSkin) * kListEntryBytes,
                  buffer = (uint64_t{1} << 27) / block * kListBlock;
   for (const uint64_t count :

@@ -62,6 +62,10 @@ struct FluidBuffer {
 /// The memory that a Fluid of `particles` particles needs, without allocating it. `scene` must pass checkScene().
 RILL_API FluidMemory fluidMemory(const Scene& scene, uint64_t particles);
 
+/// The largest number of particles, or capacity, of a Fluid of this scene on the device: within the memory that is available at the moment
+/// (Device::availableBytes), in buffers of DeviceInfo::maxBufferBytes. `scene` must pass checkScene().
+RILL_API uint32_t maxParticles(const Device& device, const Scene& scene);
+
 /// Target position of a driven solid at the end of an advance.
 struct SolidTarget {
   uint32_t solid = 0;          ///< index into Scene::solids; a solid with `driven` 0 does not move

@@ -17,8 +17,9 @@
 
 namespace rill {
 
-/// Largest number of particles of a Fluid.
-inline constexpr uint64_t kMaxParticles = uint64_t{4} << 20;
+/// Largest number of particles of a Fluid on any device: neighbors are stored as steps that go no further. What a device has room for
+/// is fewer; see maxParticles().
+inline constexpr uint64_t kMaxParticles = uint64_t{1} << 26;
 
 /// Initial particles of a simulation, in the order of the fills. Positions are relative to `origin` (the domain's minimum, or the
 /// fluid's center rounded to whole spacings), so that precision does not depend on the location of the scene.

@@ -43,7 +43,7 @@ struct FluidSnapshot {
   friend bool operator==(const FluidSnapshot&, const FluidSnapshot&) = default;
 };
 
-/// Reads the state of a fluid back for a checkpoint, in graphs of at most 128 MiB each:
+/// Reads the state of a fluid back for a checkpoint, one buffer of the fluid a graph:
 ///   for (SnapshotReader reader(fluid); !reader.done(); reader.take(graph)) { graph.reset(); reader.declare(graph); ... run it ... }
 /// Requires that a frame with `advance_s` = 0 has completed. Do not use the fluid otherwise until done().
 class RILL_API SnapshotReader {

@@ -1,0 +1,49 @@
+#include "fluid/room.hpp"
+
+#include <optional>
+#include <string>
+
+#include "fluid/arrays.hpp"
+#include "gpu/vulkan_error.hpp"
+#include "rill/fluid.hpp"
+#include "rill/particles.hpp"
+
+namespace rill {
+namespace {
+
+/// What of the device so many particles exceed; empty: they fit. `available` in bytes.
+std::optional<std::string> exceeded(const DeviceInfo& info, uint64_t available, const Scene& scene, uint64_t particles) {
+  if (particles > kMaxParticles) return "a fluid has at most " + std::to_string(kMaxParticles) + " on any device";
+  const ArrayShape shape = arrayShape(scene, particles);
+  for (const ArrayRow& row : arrayTable()) {
+    if (row.account == Account::None || row.id == FluidArray::List) continue;  // a list is split over several buffers
+    if (const uint64_t bytes = arrayBytes(row.id, shape); bytes > info.maxBufferBytes)
+      return "the buffer of " + std::string(row.label) + " would have " + bytesText(bytes) + ", and one has at most " +
+             bytesText(info.maxBufferBytes) + " (" + std::string(info.maxBufferName) + ")";
+  }
+  if (const uint64_t needed = memoryOf(shape).total(); needed > available)
+    return "they need " + bytesText(needed) + " of device memory, and " + bytesText(available) + " are available";
+  return std::nullopt;
+}
+
+}  // namespace
+
+uint32_t maxParticles(const Device& device, const Scene& scene) {
+  const uint64_t available = device.availableBytes();
+  uint64_t fits = 0, tooMany = kMaxParticles + 1;
+  while (tooMany - fits > 1) {
+    const uint64_t middle = fits + (tooMany - fits) / 2;
+    (exceeded(device.info(), available, scene, middle) ? tooMany : fits) = middle;
+  }
+  return static_cast<uint32_t>(fits);
+}
+
+Expected<void> checkRoom(const Device& device, const Scene& scene, uint64_t particles) {
+  const auto limit = exceeded(device.info(), device.availableBytes(), scene, particles);
+  if (!limit) return {};
+  return Error{ErrorKind::TooLarge, std::to_string(particles) + " particles do not fit on \"" + device.info().name + "\": " + *limit +
+                                        ". At most " + std::to_string(maxParticles(device, scene)) +
+                                        " fit: make fluid.spacing larger or fluid.particles smaller"};
+}
+
+}  // namespace rill
