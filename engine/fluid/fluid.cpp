@@ -22,8 +22,7 @@ uint64_t blocks(uint64_t particles) { return divideUp(particles, kListBlock); }
 // Bytes of a buffer of the neighbor list: within the texels of a view where lists may be read through one.
 uint64_t maxListBytes(const DeviceInfo& info) {
   constexpr uint64_t kTexelBytes = 4 * kListEntryBytes;
-  return info.maxTexelBufferElements > kFewTexels ? std::min(info.maxBufferBytes, kTexelBytes * info.maxTexelBufferElements)
-                                                  : info.maxBufferBytes;
+  return info.texelReads ? std::min(info.maxBufferBytes, kTexelBytes * info.maxTexelBufferElements) : info.maxBufferBytes;
 }
 
 /// All but the numbers of the particles, each of which may be anything.

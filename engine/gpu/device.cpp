@@ -52,6 +52,22 @@ void describe(DeviceImpl& impl, const HostDevice& host) {
   info.maxSubgroupSize = sizes.maxSubgroupSize;
 }
 
+// Vendors: see docs/notes/reading-variant.md. Devices with only the guaranteed minimum of 65,536 texels use storage buffers: SwiftShader
+// miscompiles the texel variant (shaders/shared/loops.glsl).
+void chooseReads(DeviceImpl& impl, ArrayReads wanted) {
+  constexpr uint32_t kNvidia = 0x10de, kFewTexels = 65536;
+  DeviceInfo& info = impl.info;
+  const auto choose = [&](bool texels, std::string_view because) {
+    info.texelReads = texels;
+    info.readsBecause = because;
+  };
+  if (wanted == ArrayReads::Storage) return choose(false, "asked for");
+  if (info.maxTexelBufferElements <= kFewTexels) return choose(false, "the device has too few texels in a buffer");
+  if (wanted == ArrayReads::Texels) return choose(true, "asked for");
+  if (impl.vendor == kNvidia) return choose(false, "faster on NVIDIA's devices");
+  choose(true, "as fast or faster on devices other than NVIDIA's");
+}
+
 bool hasExtension(const InstanceTable& instance, VkPhysicalDevice device, const char* name) {
   uint32_t count = 0;
   if (instance.EnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr) != VK_SUCCESS) return false;
@@ -103,6 +119,7 @@ Expected<Device> Device::borrow(const HostDevice& host) {
   impl->timestampMask = bits == 0 ? 0 : bits >= 64 ? ~0ull : (1ull << bits) - 1;
   describe(*impl, host);
   impl->reconvergence = reconvergenceOf(*host.enabled);
+  chooseReads(*impl, host.reads);
   impl->hasMemoryBudget = hasExtension(impl->instance, host.physicalDevice, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
   impl->reload = ShaderReload::fromEnvironment();
   return Device(std::move(impl));

@@ -44,8 +44,12 @@ Expected<MemoryBlock> allocateFromDevice(DeviceImpl& device, const VkMemoryRequi
   VkMemoryDedicatedAllocateInfo dedicated{VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO};
   dedicated.buffer = owner.buffer;
   const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, owner.buffer ? &dedicated : nullptr, needs.size, type};
-  if (VkResult r = device.vk.AllocateMemory(device.handle, &info, device.callbacks, &block.memory); r != VK_SUCCESS)
-    return vulkanError(r, "allocating " + bytesText(needs.size) + " for " + owner.description());
+  if (VkResult r = device.vk.AllocateMemory(device.handle, &info, device.callbacks, &block.memory); r != VK_SUCCESS) {
+    Error error = vulkanError(r, "allocating " + bytesText(needs.size) + " for " + owner.description());
+    if (r == VK_ERROR_OUT_OF_DEVICE_MEMORY && device.hasMemoryBudget)
+      error.message += "; " + device.info.name + " has " + bytesText(device.device->availableBytes()) + " left for this process";
+    return error;
+  }
   if (kind == MemoryKind::Device) return block;
   if (VkResult r = device.vk.MapMemory(device.handle, block.memory, 0, VK_WHOLE_SIZE, 0, &block.mapped); r != VK_SUCCESS) {
     freeMemory(device, block);

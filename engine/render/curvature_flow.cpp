@@ -26,22 +26,21 @@ struct Level {
 
 }  // namespace
 
-Expected<CurvatureFlow> CurvatureFlow::create(Device& device) {
+Expected<CurvatureFlow> CurvatureFlow::create(Device& device, bool texels) {
   CurvatureFlow out;
   ModulePipelines pipelines(device);
-  for (uint32_t level = 0; level <= kMaxLevels; ++level)
-    for (const bool texels : {false, true}) {
-      const NamedConstant step{"kStep", std::bit_cast<uint32_t>(kFlowStable)}, block{"kBlock", kSampleBlock >> level};
-      out.flow_[level][texels] = pipelines.make("render/surface_flow", texels, {step, block});
-      if (level > 0) out.down_[level][texels] = pipelines.make("render/surface_flow_down", texels, {step, block});
-      if (level < kMaxLevels) out.up_[level][texels] = pipelines.make("render/surface_flow_up", texels, {step, block});
-    }
+  for (uint32_t level = 0; level <= kMaxLevels; ++level) {
+    const NamedConstant step{"kStep", std::bit_cast<uint32_t>(kFlowStable)}, block{"kBlock", kSampleBlock >> level};
+    out.flow_[level] = pipelines.make("render/surface_flow", texels, {step, block});
+    if (level > 0) out.down_[level] = pipelines.make("render/surface_flow_down", texels, {step, block});
+    if (level < kMaxLevels) out.up_[level] = pipelines.make("render/surface_flow_up", texels, {step, block});
+  }
   if (auto made = pipelines.result(); !made) return made.error();
   return out;
 }
 
-BufferRef CurvatureFlow::addTo(Graph& graph, BufferRef depth, const SurfaceBuffers& surface, double side, double time, uint32_t maxLevels,
-                               bool texels) const {
+BufferRef CurvatureFlow::addTo(Graph& graph, BufferRef depth, const SurfaceBuffers& surface, double side, double time,
+                               uint32_t maxLevels) const {
   const double spacing = double{surface.push.spacing};
   uint32_t coarsest = 0;
   while (coarsest < std::min(maxLevels, kMaxLevels) && side * (2 << coarsest) <= kCoarsest * spacing) ++coarsest;
@@ -69,7 +68,7 @@ BufferRef CurvatureFlow::addTo(Graph& graph, BufferRef depth, const SurfaceBuffe
   const DispatchSize blocks(surface.arguments, kSampleBlockArguments * 4);
   const Named counters{"counters", surface.counters}, list{"blocks", surface.blocks};
   for (uint32_t l = 1; l <= coarsest; ++l)
-    addDispatch(graph, "surface flow down", down_[l][texels], blocks, levels[l].push,
+    addDispatch(graph, "surface flow down", down_[l], blocks, levels[l].push,
                 {{"finer", levels[l - 1].start}, {"coarse", levels[l].start}, counters, list});
   BufferRef from;
   for (uint32_t l = coarsest + 1; l-- > 0;) {
@@ -78,15 +77,14 @@ BufferRef CurvatureFlow::addTo(Graph& graph, BufferRef depth, const SurfaceBuffe
     if (l == coarsest) {
       from = level.start;
     } else {
-      addDispatch(graph, "surface flow up", up_[l][texels], blocks, level.push,
+      addDispatch(graph, "surface flow up", up_[l], blocks, level.push,
                   {{"before", level.start}, {"started", levels[l + 1].start}, {"flowed", from}, {"after", level.to[0]}, counters, list});
       from = level.to[0];
       target = 1;
     }
     for (uint32_t k = 0; k < (l == coarsest ? level.steps : std::min(level.steps, kFineSteps)); ++k) {
       BufferRef& to = level.to[target++ % 2];
-      addDispatch(graph, "surface flow", flow_[l][texels], blocks, FlowPush{level.push, k},
-                  {{"before", from}, {"after", to}, counters, list});
+      addDispatch(graph, "surface flow", flow_[l], blocks, FlowPush{level.push, k}, {{"before", from}, {"after", to}, counters, list});
       from = to;
     }
   }

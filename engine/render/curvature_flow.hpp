@@ -17,16 +17,16 @@ class CurvatureFlow {
  public:
   static constexpr uint32_t kMaxLevels = 2;  ///< above the samples; limited by a margin that is a multiple of four samples
 
-  static Expected<CurvatureFlow> create(Device& device);
+  /// `texels`: inputs are read as texel buffers.
+  static Expected<CurvatureFlow> create(Device& device, bool texels);
 
   /// Smooths the spheres' depth, a float per sample. `side`: width of a sample at the focus, m. `time`: total time, squared spacings.
   /// The number of steps suffices at the focus: nearer fluid, with smaller samples, is smoothed less. `maxLevels`: of the pyramid above
-  /// the samples. `texels`: inputs are read as texel buffers.
-  BufferRef addTo(Graph& graph, BufferRef depth, const SurfaceBuffers& surface, double side, double time, uint32_t maxLevels,
-                  bool texels) const;
+  /// the samples.
+  BufferRef addTo(Graph& graph, BufferRef depth, const SurfaceBuffers& surface, double side, double time, uint32_t maxLevels) const;
 
  private:
-  const ComputePipeline *flow_[kMaxLevels + 1][2] = {}, *down_[kMaxLevels + 1][2] = {}, *up_[kMaxLevels + 1][2] = {};
+  const ComputePipeline *flow_[kMaxLevels + 1] = {}, *down_[kMaxLevels + 1] = {}, *up_[kMaxLevels + 1] = {};
 };
 
 }  // namespace rill

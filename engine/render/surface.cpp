@@ -41,9 +41,12 @@ uint32_t sampleStep(const SurfacePush& camera, float spacing, double depth, doub
   return pixels >= kMaxStep ? kMaxStep : std::bit_floor(static_cast<uint32_t>(std::max(pixels, 1.0)));
 }
 
-Expected<SurfaceStage> SurfaceStage::create(Device& device) {
+Expected<SurfaceStage> SurfaceStage::create(Device& device, bool storageReads) {
   SurfaceStage stage;
   stage.device_ = &implOf(device);
+  stage.storageReads_ = storageReads;
+  static_assert(2 * uint64_t{kMaxParticles} <= kReadTexels, "start, center, plane and the inputs of filters are read");
+  const bool texels = !storageReads && usesTexelReads(device);
   ModulePipelines pipelines(device);
   stage.particleGroups_ = pipelines.make("render/particle_groups");
   stage.occlude_ = pipelines.make("render/surface_occlude");
@@ -57,21 +60,19 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device) {
   stage.compose_ = pipelines.make("render/surface_compose");
   stage.thickness_ = pipelines.make("render/surface_thickness");
   stage.thicknessNoScene_ = pipelines.make("render/surface_thickness_no_scene");
-  for (const bool texels : {false, true}) {
-    stage.planes_[texels] = pipelines.make("render/surface_planes", texels);
-    stage.blend_[texels] = pipelines.make("render/surface_blend", texels);
-    stage.edges_[texels] = pipelines.make("render/surface_edges", texels);
-    stage.edgesFiltered_[texels] = pipelines.make("render/surface_edges_filtered", texels);
-    stage.normals_[texels] = pipelines.make("render/surface_normals", texels);
-    for (const bool vertical : {false, true})
-      stage.narrow_[texels][vertical] = pipelines.make("render/surface_narrow", texels, {{"VERTICAL", vertical}});
-  }
+  stage.planes_ = pipelines.make("render/surface_planes", texels);
+  stage.blend_ = pipelines.make("render/surface_blend", texels);
+  stage.edges_ = pipelines.make("render/surface_edges", texels);
+  stage.edgesFiltered_ = pipelines.make("render/surface_edges_filtered", texels);
+  stage.normals_ = pipelines.make("render/surface_normals", texels);
+  for (const bool vertical : {false, true})
+    stage.narrow_[vertical] = pipelines.make("render/surface_narrow", texels, {{"VERTICAL", vertical}});
   if (auto made = pipelines.result(); !made) return made.error();
-  auto flow = CurvatureFlow::create(device);
+  auto flow = CurvatureFlow::create(device, texels);
   if (!flow) return flow.error();
   stage.flow_ = *flow;
   // Creates the pipelines of scans of any size, so that addGrid() finds them in the cache.
-  if (auto scan = Scan::create(device, Scan::kMaxCount); !scan) return scan.error();
+  if (auto scan = Scan::create(device, 1, storageReads); !scan) return scan.error();
   return stage;
 }
 
@@ -80,9 +81,6 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
   assert(fluid.capacity > 0);
   const bool filtered = settings.filter || method == SurfaceMethod::CurvatureFlow || method == SurfaceMethod::NarrowRange;
   Frame frame = makeFrame(fluid, camera, method, focus, settings);
-  const uint64_t maxTexels = std::max({2 * uint64_t{fluid.capacity}, paddedWords(frame.cells + 1), sampleCount(frame.out.push)});
-  frame.storageReads = settings.storage_reads;
-  frame.texels = !frame.storageReads && usesTexelReads(*device_->device, maxTexels);
   frame.narrowRange = method == SurfaceMethod::NarrowRange && !settings.filter;
   frame.position = fluid.position;
   frame.out.particles = countParticles(graph, fluid, particleGroups_, kSurfaceGroup);
@@ -93,7 +91,7 @@ SurfaceBuffers SurfaceStage::addTo(Graph& graph, const FluidState& fluid, Surfac
     addFiltered(graph, frame, settings);
   else
     addPlanes(graph, frame);
-  addCompose(graph, frame, (filtered ? edgesFiltered_ : edges_)[frame.texels]);
+  addCompose(graph, frame, filtered ? edgesFiltered_ : edges_);
   return frame.out;
 }
 
@@ -192,7 +190,7 @@ void SurfaceStage::addGrid(Graph& graph, const FluidState& fluid, Frame& frame) 
   frame.arrived = graph.create("surface arrived", {uint64_t{fluid.capacity} * 8});
   addCounted(graph, "surface pick", pick_, kSurvivorArguments, frame);
   addArguments(graph, frame);
-  auto scan = Scan::create(*device_->device, static_cast<uint32_t>(frame.cells + 1), frame.storageReads,
+  auto scan = Scan::create(*device_->device, static_cast<uint32_t>(frame.cells + 1), storageReads_,
                            {"surface scan", "surface scan reduce", "surface scan tiles", "surface scan apply"});
   assert(scan && "its pipelines were made in create()");
   frame.start = scan->addTo(graph, frame.start);
@@ -203,8 +201,8 @@ void SurfaceStage::addGrid(Graph& graph, const FluidState& fluid, Frame& frame) 
 /// A plane per particle, then their blend.
 void SurfaceStage::addPlanes(Graph& graph, Frame& frame) const {
   frame.plane = graph.create("surface planes", {uint64_t{frame.out.push.count} * 32});
-  addCounted(graph, "surface planes", planes_[frame.texels], kSurfaceArguments, frame);
-  addCounted(graph, "surface blend", blend_[frame.texels], kSampleBlockArguments, frame);
+  addCounted(graph, "surface planes", planes_, kSurfaceArguments, frame);
+  addCounted(graph, "surface blend", blend_, kSampleBlockArguments, frame);
 }
 
 /// Smoothed depth and its normals.
@@ -213,16 +211,16 @@ void SurfaceStage::addFiltered(Graph& graph, Frame& frame, const SurfaceSettings
   if (settings.filter) {
     frame.before = settings.filter(graph, frame.before, frame.out.push);
   } else if (!frame.narrowRange) {
-    frame.before = flow_.addTo(graph, frame.before, frame.out, frame.sampleSide, settings.flow_time, settings.flow_levels, frame.texels);
+    frame.before = flow_.addTo(graph, frame.before, frame.out, frame.sampleSide, settings.flow_time, settings.flow_levels);
   } else {
     for (uint32_t k = 0; k < kNarrowPasses; ++k)
       for (const bool vertical : {false, true}) {
         frame.after = frame.filtered[vertical];
-        addCounted(graph, "surface narrow range", narrow_[frame.texels][vertical], kSampleBlockArguments, frame);
+        addCounted(graph, "surface narrow range", narrow_[vertical], kSampleBlockArguments, frame);
         frame.before = frame.filtered[vertical] = frame.after;
       }
   }
-  addCounted(graph, "surface normals", normals_[frame.texels], kSampleBlockArguments, frame);
+  addCounted(graph, "surface normals", normals_, kSampleBlockArguments, frame);
 }
 
 /// From samples to pixels of the tiles with fluid, then pixels at edges.

@@ -21,13 +21,12 @@ using DepthFilter = std::function<BufferRef(Graph&, BufferRef depth, const surfa
 
 /// Sampling and smoothing of the surface. Pictures use the defaults; `rill-bench render` varies them.
 struct SurfaceSettings {
-  double samples = 3;          ///< minimal samples per spacing at the focus; a sample is 1, 2, 4 ... pixels wide
-  double fit_reach = 2.5;      ///< planes: reach of a plane's fit, spacings
-  double flow_time = 0.9;      ///< curvature flow: total time, squared spacings; blurs over about its square root
-  uint32_t flow_levels = 2;    ///< curvature flow: maximal levels of the pyramid above the samples
-  double narrow_sigma = 0.8;   ///< narrow range: standard deviation of the Gaussian, spacings
-  DepthFilter filter = {};     ///< replaces the method's smoothing; for baselines
-  bool storage_reads = false;  ///< never uses texel buffers; the bits are the same
+  double samples = 3;         ///< minimal samples per spacing at the focus; a sample is 1, 2, 4 ... pixels wide
+  double fit_reach = 2.5;     ///< planes: reach of a plane's fit, spacings
+  double flow_time = 0.9;     ///< curvature flow: total time, squared spacings; blurs over about its square root
+  uint32_t flow_levels = 2;   ///< curvature flow: maximal levels of the pyramid above the samples
+  double narrow_sigma = 0.8;  ///< narrow range: standard deviation of the Gaussian, spacings
+  DepthFilter filter = {};    ///< replaces the method's smoothing; for baselines
 };
 
 /// Names of the passes and buffers of a thickness, as seen from the eye or from the sun.
@@ -42,7 +41,8 @@ class SurfaceStage {
   /// As a Fluid on any device. Graph::prepare() fails where planes of 32 bytes a particle do not fit into a buffer of the device.
   static constexpr uint32_t kMaxParticles = rill::kMaxParticles;
 
-  static Expected<SurfaceStage> create(Device& device);
+  /// `storageReads`: never uses texel buffers; the bits are the same.
+  static Expected<SurfaceStage> create(Device& device, bool storageReads = false);
 
   /// `camera`: viewPush() of the view with its step. `whole`: also writes pixels without fluid. `focus`: distance of the fluid, m.
   /// The state must have particles.
@@ -72,8 +72,6 @@ class SurfaceStage {
     BufferRef edges;                                          ///< listed pixels
     bool narrowRange = false;                                 ///< uses the narrow-range filter
     std::array<BufferRef, 2> filtered;                        ///< ping-pong buffers of the narrow-range filter
-    bool texels = false;                                      ///< start, center, plane and the filters' inputs are read as texel buffers
-    bool storageReads = false;                                ///< SurfaceSettings::storage_reads
   };
   static Frame makeFrame(const FluidState& fluid, surface::SurfacePush camera, SurfaceMethod method, double focus,
                          const SurfaceSettings& settings);
@@ -89,10 +87,11 @@ class SurfaceStage {
   void addCompose(Graph& graph, Frame& frame, const ComputePipeline* edges) const;
 
   DeviceImpl* device_ = nullptr;
+  bool storageReads_ = false;
   CurvatureFlow flow_;
   const ComputePipeline *particleGroups_ = nullptr, *occlude_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr,
-                        *pick_ = nullptr, *scatter_ = nullptr, *order_ = nullptr, *planes_[2] = {}, *blend_[2] = {}, *tiles_ = nullptr,
-                        *compose_ = nullptr, *edges_[2] = {}, *edgesFiltered_[2] = {}, *narrow_[2][2] = {}, *normals_[2] = {},
+                        *pick_ = nullptr, *scatter_ = nullptr, *order_ = nullptr, *planes_ = nullptr, *blend_ = nullptr, *tiles_ = nullptr,
+                        *compose_ = nullptr, *edges_ = nullptr, *edgesFiltered_ = nullptr, *narrow_[2] = {}, *normals_ = nullptr,
                         *thickness_ = nullptr, *thicknessNoScene_ = nullptr;
 };
 

@@ -16,7 +16,7 @@ struct KeySortDesc {
   static constexpr uint32_t kMaxCount = 1u << 26;  ///< as many as a fluid has particles
   static constexpr uint64_t kMaxKeyRange = uint64_t{1} << 32;
   /// Largest key range with a `start` table, which the counting sort needs; see also maxStartRange().
-  static constexpr uint64_t kMaxStartRange = (1u << 30) - 1;
+  static constexpr uint64_t kMaxStartRange = (1u << 29) - 1;
 
   uint32_t count = 0;     ///< number of keys, 0 .. kMaxCount
   uint64_t keyRange = 0;  ///< exclusive upper bound of the keys, 1 .. kMaxKeyRange

@@ -23,19 +23,13 @@ Expected<Scan> Scan::create(Device& device, uint32_t count, bool storageReads, c
   scan.count_ = count;
   scan.names_ = names;
   if (count == 0) return scan;
-  const bool texels = !storageReads && usesTexelReads(device, paddedWords(count) / 4);
+  static_assert(kMaxCount / 4 <= kReadTexels);
+  const bool texels = !storageReads && usesTexelReads(device);
   ModulePipelines pipelines(device);
   const SubgroupNeed full = fullSubgroups(device.info(), kScanThreads);  // see workgroup_scan.glsl
-  const auto make = [&](bool texelReads) {
-    Pipelines made;
-    made.single = pipelines.make("sort/scan_single", false, {}, full);
-    made.reduce = pipelines.make("sort/scan_reduce", texelReads, {}, full);
-    made.apply = pipelines.make("sort/scan_apply", texelReads, {{"SUMS_SCANNED", false}}, full);
-    made.applyScanned = pipelines.make("sort/scan_apply", texelReads, {{"SUMS_SCANNED", true}}, full);
-    return made;
-  };
-  scan.pipelines_ = make(texels);
-  if (count == kMaxCount) make(!texels);  // smaller counts may use the other variant
+  scan.pipelines_ = {pipelines.make("sort/scan_single", false, {}, full), pipelines.make("sort/scan_reduce", texels, {}, full),
+                     pipelines.make("sort/scan_apply", texels, {{"SUMS_SCANNED", false}}, full),
+                     pipelines.make("sort/scan_apply", texels, {{"SUMS_SCANNED", true}}, full)};
   if (auto made = pipelines.result(); !made) return made.error();
   return scan;
 }

@@ -20,9 +20,10 @@ struct ScanNames {
 /// waits for another.
 class Scan {
  public:
-  static constexpr uint32_t kMaxCount = 1u << 30;
+  static constexpr uint32_t kMaxCount = 1u << 29;
 
-  /// `count`: 0 .. kMaxCount values, otherwise BadInput. kMaxCount creates the pipelines for every count.
+  /// `count`: 0 .. kMaxCount values, otherwise BadInput. The pipelines are the same for every count, once 1
+  /// or more.
   /// `storageReads`: read through storage buffers instead of texel buffers; same result.
   static Expected<Scan> create(Device& device, uint32_t count, bool storageReads = false, const ScanNames& names = {});
 

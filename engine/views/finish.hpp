@@ -14,8 +14,7 @@ class Finish {
   BufferRef addTo(Graph& graph, ImageRef color, uint32_t width, uint32_t height) const;
 
  private:
-  DeviceImpl* device_ = nullptr;
-  const ComputePipeline *tone_ = nullptr, *antialias_[2] = {};  // by texel reads
+  const ComputePipeline *tone_ = nullptr, *antialias_ = nullptr;
 };
 
 }  // namespace rill

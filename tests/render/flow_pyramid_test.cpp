@@ -111,7 +111,7 @@ class FlowPyramid : public SurfaceOnGpu {
   }
 
   Map onDevice(const Level& level, double side, double time, uint32_t maxLevels, bool asTexels) {
-    auto flow = CurvatureFlow::create(device());
+    auto flow = CurvatureFlow::create(device(), asTexels);
     EXPECT_TRUE(flow);
     constexpr int kBlock = surface::kSampleBlock;
     const int columns = (level.map.columns + kBlock - 1) / kBlock, rows = (level.map.rows + kBlock - 1) / kBlock;
@@ -136,8 +136,7 @@ class FlowPyramid : public SurfaceOnGpu {
     surface.counters = graph.import("counters", importOf(counters));
     surface.arguments = graph.import("arguments", importOf(arguments));
     surface.push = level.push;
-    const Ticket ticket =
-        graph.readback(flow->addTo(graph, graph.import("depth", importOf(depth)), surface, side, time, maxLevels, asTexels));
+    const Ticket ticket = graph.readback(flow->addTo(graph, graph.import("depth", importOf(depth)), surface, side, time, maxLevels));
     run(graph);
     Map out = level.map;
     out.z = read<float>(graph, ticket);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
+#include <map>
 #include <memory>
 #include <string_view>
 
@@ -155,19 +156,40 @@ VkResult mapMemory(VkDevice, VkDeviceMemory, VkDeviceSize, VkDeviceSize, VkMemor
   return VK_SUCCESS;
 }
 
-std::vector<uint32_t> newestModule;  // relies on a pipeline being made of the module created last
+std::map<VkShaderModule, std::vector<uint32_t>> moduleWords;
 
 VkResult createModule(VkDevice, const VkShaderModuleCreateInfo* info, const VkAllocationCallbacks*, VkShaderModule* out) {
-  newestModule.assign(info->pCode, info->pCode + info->codeSize / 4);
   *out = newHandle<VkShaderModule>();
+  moduleWords[*out].assign(info->pCode, info->pCode + info->codeSize / 4);
   return VK_SUCCESS;
 }
 
-VkResult createPipelines(VkDevice, VkPipelineCache, uint32_t count, const VkComputePipelineCreateInfo* infos, const VkAllocationCallbacks*,
-                         VkPipeline* out) {
+/// A stage's part of the key of a pipeline.
+std::string keyOf(const VkPipelineShaderStageCreateInfo& stage) {
+  const std::vector<uint32_t>& words = moduleWords.at(stage.module);
+  std::string key(reinterpret_cast<const char*>(words.data()), words.size() * 4);
+  key += std::to_string(stage.flags);
+  if (const VkSpecializationInfo* info = stage.pSpecializationInfo) key.append(static_cast<const char*>(info->pData), info->dataSize);
+  for (auto* next = static_cast<const VkBaseInStructure*>(stage.pNext); next; next = next->pNext)
+    if (next->sType == VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO)
+      key += std::to_string(reinterpret_cast<const VkPipelineShaderStageRequiredSubgroupSizeCreateInfo*>(next)->requiredSubgroupSize);
+  return key;
+}
+
+void compile(VkPipelineCache given, const std::string& key) {
+  auto* cache = reinterpret_cast<NullCache*>(given);
+  if (!cache || cache->insert(key).second) ++current->pipelinesCompiled;
+}
+
+VkResult createPipelines(VkDevice, VkPipelineCache cache, uint32_t count, const VkComputePipelineCreateInfo* infos,
+                         const VkAllocationCallbacks*, VkPipeline* out) {
   for (uint32_t i = 0; i < count; ++i) {
     out[i] = newHandle<VkPipeline>();
-    NullPipeline made{0, (infos[i].stage.flags & VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT) != 0, {}, newestModule};
+    compile(cache, keyOf(infos[i].stage));
+    NullPipeline made{0,
+                      (infos[i].stage.flags & VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT) != 0,
+                      {},
+                      moduleWords.at(infos[i].stage.module)};
     if (const VkSpecializationInfo* info = infos[i].stage.pSpecializationInfo) {
       made.constants.resize(info->dataSize / 4);
       std::memcpy(made.constants.data(), info->pData, made.constants.size() * 4);
@@ -181,9 +203,14 @@ VkResult createPipelines(VkDevice, VkPipelineCache, uint32_t count, const VkComp
   return VK_SUCCESS;
 }
 
-VkResult createGraphics(VkDevice, VkPipelineCache, uint32_t count, const VkGraphicsPipelineCreateInfo*, const VkAllocationCallbacks*,
-                        VkPipeline* out) {
-  for (uint32_t i = 0; i < count; ++i) out[i] = newHandle<VkPipeline>();
+VkResult createGraphics(VkDevice, VkPipelineCache cache, uint32_t count, const VkGraphicsPipelineCreateInfo* infos,
+                        const VkAllocationCallbacks*, VkPipeline* out) {
+  for (uint32_t i = 0; i < count; ++i) {
+    out[i] = newHandle<VkPipeline>();
+    std::string key;  // of what the engine varies: formats are the same in one test
+    for (uint32_t s = 0; s < infos[i].stageCount; ++s) key += keyOf(infos[i].pStages[s]);
+    compile(cache, key);
+  }
   return VK_SUCCESS;
 }
 
@@ -351,6 +378,7 @@ HostDevice NullVulkan::host(void* further) {
   host.device = reinterpret_cast<VkDevice>(uintptr_t(1));
   host.getInstanceProcAddr = &getInstanceProc;
   host.enabled = &features_;
+  host.cache = reinterpret_cast<VkPipelineCache>(cache);
   return host;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 // A Vulkan device that only records calls, to test prepare() and record() without a driver and its allocations.
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "rill/device.hpp"
@@ -53,6 +55,9 @@ struct NullProperties {
   std::vector<VkBool32 VkPhysicalDeviceVulkan13Features::*> missingFeatures = {};
 };
 
+/// What a VkPipelineCache holds: keys of pipelines.
+using NullCache = std::set<std::string>;
+
 /// A compute pipeline that was created.
 struct NullPipeline {
   uint32_t requiredSubgroupSize;  ///< 0: any
@@ -76,6 +81,8 @@ class NullVulkan {
   NullProperties properties;  ///< read when the device is borrowed
   std::vector<NullCommand> commands;
   std::vector<NullPipeline> pipelines;
+  NullCache* cache = nullptr;                        ///< that of the host, if it has one
+  size_t pipelinesCompiled = 0;                      ///< graphics too, without those that the cache had
   std::vector<VkImageMemoryBarrier2> imageBarriers;  ///< of all barriers, in order
   VkResult allocationResult = VK_SUCCESS;            ///< returned by vkAllocateMemory
   uint64_t bufferBytes = 0;                          ///< of all buffers that were created

@@ -65,6 +65,13 @@
 
 namespace rill {
 
+/// How kernels read arrays that they gather from. The bits are the same.
+enum class ArrayReads : uint8_t {
+  Auto,     ///< what is faster on devices of this vendor, as far as measurements are known (docs/notes/reading-variant.md)
+  Storage,  ///< storage buffers
+  Texels    ///< uniform texel buffers, where arrays fit into them
+};
+
 /// Handles that Rill borrows. The host keeps them alive until the rill::Device is destroyed and the
 /// recorded work has finished. Only Device::borrow reads the structures pointed to, except `callbacks`.
 struct HostDevice {
@@ -78,6 +85,7 @@ struct HostDevice {
   VkPipelineCache cache = VK_NULL_HANDLE;                   ///< optional
   const VkAllocationCallbacks* callbacks = nullptr;         ///< optional; must live as long as the handles
   const MemoryHooks* memory = nullptr;                      ///< optional; its `user` object must live as long as the handles
+  ArrayReads reads = ArrayReads::Auto;
 };
 
 /// Features that Rill requires. The host sets further features of these two structures in place, and
@@ -118,6 +126,8 @@ struct DeviceInfo {
   uint64_t maxBufferBytes = 0;     ///< of one buffer: the smallest of maxStorageBufferRange, maxBufferSize and maxMemoryAllocationSize
   std::string_view maxBufferName;  ///< the limit that this is, as Vulkan calls it
   uint32_t maxTexelBufferElements = 0;
+  bool texelReads = false;        ///< kernels read arrays through uniform texel buffers
+  std::string_view readsBecause;  ///< why they do, or do not
   uint32_t subgroupSize = 0, minSubgroupSize = 0, maxSubgroupSize = 0;
 };
 
