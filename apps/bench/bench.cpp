@@ -13,6 +13,7 @@
 #include "rill/version.hpp"
 #include "shared/atomic_file.hpp"
 #include "shared/exit_code.hpp"
+#include "shared/pipeline_cache_folder.hpp"
 #include "shared/scene_folders.hpp"
 #include "shared/signals.hpp"
 
@@ -45,6 +46,7 @@ Expected<DeviceInfo> deviceInfo(const Options& options) {
   empty.fluid.spacing = 1;
   offline::Options settings;
   settings.device = options.device;
+  settings.pipelineCache = apps::pipelineCacheFolder();
   auto simulation = offline::Simulation::open(empty, settings);
   if (!simulation) return simulation.error();
   return simulation->device();
@@ -86,6 +88,7 @@ Expected<RunFigures> runScene(const Bench& bench, const SceneRun& run) {
   const Clock::time_point begin = Clock::now();
   offline::Options settings;
   settings.device = bench.options().device;
+  settings.pipelineCache = apps::pipelineCacheFolder();
   settings.passTimes = run.passTimes;
   settings.validation = run.validation;
   auto opened = run.start ? offline::Simulation::open(run.scene, *run.start, settings) : offline::Simulation::open(run.scene, settings);

@@ -7,6 +7,7 @@
 #include "bench/bench.hpp"
 #include "core/words.hpp"
 #include "rill/version.hpp"
+#include "shared/pipeline_cache_folder.hpp"
 #include "shared/usage.hpp"
 #include "shared/words.hpp"
 
@@ -85,7 +86,8 @@ Expected<apps::CommandLine<Options>> parseCommandLine(int count, const char* con
       "  rill-bench speed --only particles-100k --json speed.json\n"
       "      the cost per particle and pass at 100,000 particles, with every sample\n"
       "\nExit codes: 0 success, 1 runtime error, 2 invalid usage, 3 a check of the suite failed, 4 no usable Vulkan device;\n"
-      "130, 143 or 129 after a signal (results measured until then are written).";
+      "130, 143 or 129 after a signal (results measured until then are written).\n";
+  footer += apps::kPipelineCacheHelp;
   app.footer(footer);
   auto answer = apps::parsed(app, "rill-bench " RILL_VERSION, [&] { app.parse(count, arguments); });
   if (!answer) return answer.error();

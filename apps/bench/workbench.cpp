@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "bench/count_allocations.hpp"
+#include "shared/pipeline_cache_folder.hpp"
 
 namespace rill::bench {
 namespace {
@@ -15,6 +16,7 @@ double millisecondsSince(Clock::time_point begin) { return 1e3 * std::chrono::du
 Expected<Workbench> Workbench::open(const Bench& bench) {
   offline::ContextDesc desc;
   desc.device = bench.options().device;
+  desc.pipelineCache = apps::pipelineCacheFolder();
   desc.framesInFlight = 1;  // run() waits for every graph
   auto context = offline::Context::create(desc);
   if (!context) return context.error();

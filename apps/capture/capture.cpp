@@ -19,6 +19,7 @@
 #include "shared/atomic_file.hpp"
 #include "shared/exit_code.hpp"
 #include "shared/message.hpp"
+#include "shared/pipeline_cache_folder.hpp"
 #include "shared/ply.hpp"
 #include "shared/png.hpp"
 #include "shared/progress.hpp"
@@ -39,6 +40,8 @@ class Capture {
     if (const auto outputs = checkOutputs(); !outputs) return refuse(outputs.error());
     offline::Options settings;
     settings.device = options_.device;
+    settings.reads = options_.reads;
+    settings.pipelineCache = apps::pipelineCacheFolder();
     settings.orbit_degPerS = options_.orbit_degPerS;
     settings.passTimes = options_.passTimes && (options_.stats || options_.explain);
     auto simulation = resumed_ ? offline::Simulation::resume(scene_, *resumed_, settings) : offline::Simulation::open(scene_, settings);
@@ -216,7 +219,9 @@ class Capture {
   /// --stats goes to standard output.
   Expected<void> report() const {
     const bool jsonOnStdout = options_.stats && apps::isStandardOutput(*options_.stats);
-    std::string text = options_.explain ? record_->passTable() + offline::memoryTable(simulation_->transientMemory()) : "";
+    std::string text;
+    if (options_.explain)
+      text = record_->passTable() + offline::memoryTable(simulation_->transientMemory()) + offline::readsText(simulation_->device());
     if (!options_.quiet && record_->frames() > 0 && !jsonOnStdout) {
       if (!text.empty()) text += "\n";
       for (const Figure& figure : record_->figures()) {

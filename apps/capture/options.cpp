@@ -12,6 +12,7 @@
 #include "rill/version.hpp"
 #include "shared/atomic_file.hpp"
 #include "shared/option_text.hpp"
+#include "shared/pipeline_cache_folder.hpp"
 #include "shared/scene_folders.hpp"
 #include "shared/usage.hpp"
 #include "shared/words.hpp"
@@ -27,7 +28,7 @@ constexpr uint64_t kMaxPixels = 1ull << 25;  // an image is one buffer of at mos
 /// Options as text: numbers are parsed here, so that messages do not depend on the version of CLI11.
 struct Raw {
   std::string scene, frames, fps, size, out, view, video, stats, exportAs, particles, device, checkpoint, checkpointEvery, resume, play,
-      orbit, graph;
+      orbit, graph, reads;
   std::vector<std::string> set, require;
   bool explain = false, noImages = false, noPassTimes = false, quiet = false;
 };
@@ -81,6 +82,8 @@ void declare(CLI::App& app, Raw& raw) {
   app.add_flag("--no-pass-times", raw.noPassTimes, "do not time passes for --stats and --explain, which slows down software devices")
       ->group(run);
   once("--device", raw.device, "name of a device, a part that no other has, or its index", "NAME", run);
+  once("--reads", raw.reads, "how kernels read arrays: auto (by the device's vendor), storage (buffers) or texels (default: auto)", "KIND",
+       run);
   list("--require", raw.require, "exit with 3 unless it holds, for example 'outside<1'", "FIGURE<NUMBER", run);
   app.add_flag("--explain", raw.explain, "list all passes: how often recorded and run, time, or the reason why skipped")->group(run);
   app.add_flag("--quiet", raw.quiet, "print nothing but errors")->group(run);
@@ -212,6 +215,13 @@ Expected<Options> validated(const Raw& raw, const CLI::App& app) {
   }
   if (given("--device") && raw.device.empty()) return badInput("--device", raw.device, "part of a device's name, or its index");
   options.device = raw.device;
+  if (given("--reads")) {
+    constexpr std::pair<std::string_view, ArrayReads> kinds[] = {
+        {"auto", ArrayReads::Auto}, {"storage", ArrayReads::Storage}, {"texels", ArrayReads::Texels}};
+    const auto* found = std::ranges::find(kinds, raw.reads, [](const auto& kind) { return kind.first; });
+    if (found == std::end(kinds)) return badInput("--reads", raw.reads, "auto, storage or texels");
+    options.reads = found->second;
+  }
   for (const std::string& text : raw.set) {
     auto assignment = parseOverride(text);
     if (!assignment) return assignment.error();
@@ -257,7 +267,8 @@ Expected<apps::CommandLine<Options>> parseCommandLine(int count, const char* con
              "      draws frames/*.ply with the camera, solids and appearance of dam-break\n"
              "\nExit codes: 0 success, 1 error while running, 2 bad usage or input, 3 a --require does not hold,\n"
              "4 no usable Vulkan device; 130, 143 or 129 after SIGINT, SIGTERM or SIGHUP, once the frame in progress is written.\n"
-             "A standard output or standard error that is closed is not an error.");
+             "A standard output or standard error that is closed is not an error.\n" +
+             std::string(apps::kPipelineCacheHelp));
   std::vector<std::string> expanded = expandLists(count, arguments);
   std::reverse(expanded.begin(), expanded.end());  // CLI11 parses a vector from its end
   auto text = apps::parsed(app, "rill-capture " RILL_VERSION, [&] { app.parse(expanded); });

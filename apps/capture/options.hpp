@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "capture/requirement.hpp"
+#include "rill/device.hpp"
 #include "rill/expected.hpp"
 #include "rill/scene_io.hpp"
 #include "shared/program.hpp"
@@ -35,6 +36,7 @@ struct Options {
   std::optional<std::filesystem::path> play;        ///< folder of PLY files to draw instead of simulating
   std::vector<Override> overrides;                  ///< of scene keys, in order; --particles is the last one
   std::string device;
+  ArrayReads reads = ArrayReads::Auto;
   std::vector<Requirement> requirements;
   bool explain = false, images = true, quiet = false;
   bool passTimes = true;  ///< for --stats and --explain

@@ -16,6 +16,7 @@
 #include "shared/atomic_file.hpp"
 #include "shared/exit_code.hpp"
 #include "shared/message.hpp"
+#include "shared/pipeline_cache_folder.hpp"
 #include "shared/png.hpp"
 #include "shared/progress.hpp"
 #include "shared/scene_folders.hpp"
@@ -86,6 +87,8 @@ int runPlayback(const Options& options) {
 
   offline::Options settings;
   settings.device = options.device;
+  settings.reads = options.reads;
+  settings.pipelineCache = apps::pipelineCacheFolder();
   settings.orbit_degPerS = options.orbit_degPerS;
   auto player = offline::Player::open(*std::move(scene), settings);
   if (!player) return refuse(player.error());

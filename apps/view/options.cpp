@@ -7,6 +7,7 @@
 #include "rill/offline.hpp"
 #include "rill/version.hpp"
 #include "shared/option_text.hpp"
+#include "shared/pipeline_cache_folder.hpp"
 #include "shared/usage.hpp"
 #include "shared/words.hpp"
 #include "view/keys.hpp"
@@ -62,7 +63,8 @@ void declare(CLI::App& app, Raw& raw) {
              "  rill-view dam10k --lockstep --frames 30 --screenshot shot.png\n"
              "      writes the window at 29/60 s and prints the hash of the state, as in --stats of rill-capture\n"
              "\nExit codes: 0 success, 1 error while running, 2 bad usage, bad input or no display, 4 no Vulkan device that can present;\n"
-             "130, 143 or 129 after SIGINT, SIGTERM or SIGHUP.");
+             "130, 143 or 129 after SIGINT, SIGTERM or SIGHUP.\n" +
+             apps::kPipelineCacheHelp);
 }
 
 Expected<Options> validated(const Raw& raw, const CLI::App& app) {

@@ -15,6 +15,7 @@
 #include "shared/atomic_file.hpp"
 #include "shared/exit_code.hpp"
 #include "shared/message.hpp"
+#include "shared/pipeline_cache_folder.hpp"
 #include "shared/png.hpp"
 #include "shared/scene_folders.hpp"
 #include "shared/signals.hpp"
@@ -82,6 +83,7 @@ class Viewer {
 
     offline::ContextDesc desc;
     desc.device = options_.device;
+    desc.pipelineCache = apps::pipelineCacheFolder();
     desc.validation = options_.validate;
     desc.framesInFlight = kSubmitsInFlight;
     desc.instanceExtensions = window_->instanceExtensions();

@@ -27,6 +27,8 @@ ContextImpl::~ContextImpl() {
   if (device) {
     if (vk.DeviceWaitIdle) (void)vk.DeviceWaitIdle(device);  // a lost device is destroyed as well
     rill.reset();
+    if (pipelines) pipelines->save();
+    pipelines.reset();
     if (timeline) vk.DestroySemaphore(device, timeline, nullptr);
     if (pool) vk.DestroyCommandPool(device, pool, nullptr);
     if (vk.DestroyDevice) vk.DestroyDevice(device, nullptr);

@@ -2,6 +2,7 @@
 // A Vulkan instance, device and queue for programs without their own: capture, bench, tests, the viewer.
 // libvulkan is opened at run time, so that a missing loader is an error message.
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -23,6 +24,9 @@ struct ContextDesc {
   std::vector<const char*> instanceExtensions = {};  ///< e.g. those required by the window system
   std::vector<const char*> deviceExtensions = {};
   std::string applicationName = "rill";
+  /// Folder of a file with the pipelines that the driver has compiled; written when the context ends. Empty: none is kept.
+  std::filesystem::path pipelineCache = {};
+  ArrayReads reads = ArrayReads::Auto;
   /// Whether a queue family can present to the program's windows; devices without one are not chosen. Empty: not required.
   std::function<bool(VkInstance, VkPhysicalDevice, uint32_t queueFamily)> presents = {};
 };

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "offline/context.hpp"
+#include "offline/pipeline_cache.hpp"
 
 #define RILL_CONTEXT_INSTANCE_FUNCTIONS(X) \
   X(CreateDevice)                          \
@@ -18,13 +19,16 @@
   X(AllocateCommandBuffers)              \
   X(BeginCommandBuffer)                  \
   X(CreateCommandPool)                   \
+  X(CreatePipelineCache)                 \
   X(CreateSemaphore)                     \
   X(DestroyCommandPool)                  \
   X(DestroyDevice)                       \
+  X(DestroyPipelineCache)                \
   X(DestroySemaphore)                    \
   X(DeviceWaitIdle)                      \
   X(EndCommandBuffer)                    \
   X(GetDeviceQueue)                      \
+  X(GetPipelineCacheData)                \
   X(GetSemaphoreCounterValue)            \
   X(QueueSubmit2)                        \
   X(ResetCommandBuffer)                  \
@@ -58,6 +62,7 @@ class ContextImpl {
   VkDevice device = VK_NULL_HANDLE;
   VkQueue queue = VK_NULL_HANDLE;
   uint32_t queueFamily = 0;
+  std::optional<PipelineCache> pipelines;
   std::optional<Device> rill;
 
   VkCommandPool pool = VK_NULL_HANDLE;

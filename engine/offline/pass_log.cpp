@@ -75,6 +75,11 @@ std::string passTable(std::span<const PassTime> passes, std::span<const SkippedP
   return text;
 }
 
+std::string readsText(const DeviceInfo& device) {
+  return std::string("arrays are read through ") + (device.texelReads ? "texel" : "storage") +
+         " buffers: " + std::string(device.readsBecause) + "\n";
+}
+
 std::string memoryTable(std::span<const FrameMemory> frames) {
   if (frames.empty()) return "";
   char line[256];

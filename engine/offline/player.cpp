@@ -31,6 +31,8 @@ class Player::Impl {
     ContextDesc desc;
     desc.device = options.device;
     desc.validation = options.validation;
+    desc.pipelineCache = options.pipelineCache;
+    desc.reads = options.reads;
     desc.framesInFlight = 1;
     auto context = Context::create(desc);
     if (!context) return context.error();

@@ -69,6 +69,8 @@ class Simulation::Impl {
     ContextDesc desc;
     desc.device = options_.device;
     desc.validation = options_.validation;
+    desc.pipelineCache = options_.pipelineCache;
+    desc.reads = options_.reads;
     desc.framesInFlight = 1;  // every frame is waited for
     auto context = Context::create(desc);
     if (!context) return context.error();
@@ -197,7 +199,9 @@ class Simulation::Impl {
   const Scene& scene() const { return scene_; }
   const ParticleSet& start() const { return start_; }
   const DeviceInfo& device() const { return context_->device().info(); }
-  std::string explain() const { return passTable(log_.times(), log_.skipped()) + memoryTable(transientMemory()); }
+  std::string explain() const {
+    return passTable(log_.times(), log_.skipped()) + memoryTable(transientMemory()) + readsText(context_->device().info());
+  }
   std::vector<FrameMemory> transientMemory() const {
     std::vector<FrameMemory> all;
     for (const auto& [frame, graph] : {std::pair{"advance", &advanceGraph_}, {"measure", &measureGraph_}, {"picture", &renderGraph_}})

@@ -215,6 +215,13 @@ Expected<void> ContextImpl::makeDevice(const ContextDesc& desc) {
 #undef RILL_LOAD
   vk.GetDeviceQueue(device, queueFamily, 0, &queue);
 
+  if (!desc.pipelineCache.empty()) {
+    VkPhysicalDeviceProperties properties{};
+    vki.GetPhysicalDeviceProperties(physicalDevice, &properties);
+    pipelines.emplace(desc.pipelineCache, properties, device,
+                      PipelineCache::Functions{vk.CreatePipelineCache, vk.DestroyPipelineCache, vk.GetPipelineCacheData});
+  }
+
   HostDevice host;
   host.instance = instance;
   host.physicalDevice = physicalDevice;
@@ -222,6 +229,8 @@ Expected<void> ContextImpl::makeDevice(const ContextDesc& desc) {
   host.queueFamily = queueFamily;
   host.getInstanceProcAddr = get;
   host.enabled = &needs.features;
+  host.cache = pipelines ? pipelines->handle() : VK_NULL_HANDLE;
+  host.reads = desc.reads;
   auto borrowed = Device::borrow(host);
   if (!borrowed) return borrowed.error();
   rill = std::move(*borrowed);

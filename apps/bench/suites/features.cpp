@@ -6,6 +6,7 @@
 
 #include "bench/suites/suites.hpp"
 #include "core/words.hpp"
+#include "shared/pipeline_cache_folder.hpp"
 
 namespace rill::bench {
 namespace {
@@ -72,6 +73,7 @@ class FrameStepper {
     if (!read) return read.error();
     offline::Options options;
     options.device = bench.options().device;
+    options.pipelineCache = apps::pipelineCacheFolder();
     options.passTimes = passTimes;
     auto simulation = Simulation::open(std::move(*read), options);
     if (!simulation) return simulation.error();

@@ -13,6 +13,7 @@
 #include "bench/surface_errors.hpp"
 #include "bench/workbench.hpp"
 #include "render/fluid_renderer_impl.hpp"
+#include "shared/pipeline_cache_folder.hpp"
 #include "views/scenery.hpp"
 
 namespace rill::bench {
@@ -326,6 +327,7 @@ class Render {
     if (!scene) return scene.error();
     offline::Options options;
     options.device = bench_.options().device;
+    options.pipelineCache = apps::pipelineCacheFolder();
     auto simulation = offline::Simulation::open(*scene, options);
     if (!simulation) return simulation.error();
     std::vector<Points> points;

@@ -27,13 +27,15 @@ namespace rill::offline {
 
 /// Options of Simulation and Player.
 struct Options {
-  double orbit_degPerS = 0;              ///< angular speed of the camera around its target, counter-clockwise seen from above
-  std::string device = {};               ///< part of a name, or an index; empty: the most capable device
-  std::vector<Override> overrides = {};  ///< applied to the scene
-  bool validation = false;               ///< enable the validation layer with synchronization validation; it must be installed
-  bool passTimes = false;                ///< measure Stats::passes; costs time, on CPU drivers up to a fifth of the run
-  uint32_t substepsPerSubmit = 0;        ///< 0: automatic; results do not depend on it
-  double longestFrame_s = 1.0 / 60;      ///< s, >= 1e-6; longer advances are split into equal frames, each with max_substeps
+  double orbit_degPerS = 0;                  ///< angular speed of the camera around its target, counter-clockwise seen from above
+  std::string device = {};                   ///< a name, a part that no other has, or an index; empty: the most capable device
+  std::vector<Override> overrides = {};      ///< applied to the scene
+  bool validation = false;                   ///< enable the validation layer with synchronization validation; it must be installed
+  bool passTimes = false;                    ///< measure Stats::passes; costs time, on CPU drivers up to a fifth of the run
+  uint32_t substepsPerSubmit = 0;            ///< 0: automatic; results do not depend on it
+  std::filesystem::path pipelineCache = {};  ///< folder of a file with what the driver has compiled, for the next run; empty: none is kept
+  ArrayReads reads = ArrayReads::Auto;       ///< results do not depend on it
+  double longestFrame_s = 1.0 / 60;          ///< s, >= 1e-6; longer advances are split into equal frames, each with max_substeps
 };
 
 /// Order of particles in arrays: that of the device, or by id.
@@ -64,6 +66,9 @@ using SkippedPass = std::pair<std::string, std::string>;  ///< name of a pass an
 
 /// A text table of passes: recorded, executed, time; then the skipped passes with reasons.
 std::string passTable(std::span<const PassTime> passes, std::span<const SkippedPass> skipped);
+
+/// A line of text that says how kernels read arrays on this device, and why.
+std::string readsText(const DeviceInfo& device);
 
 /// Temporary device memory of a kind of frame.
 struct FrameMemory {
@@ -145,7 +150,7 @@ class Simulation {
   const ParticleSet& start() const;  ///< the initial particles, with the numbers left out
   const DeviceInfo& device() const;
   std::vector<std::string> warnings() const;
-  std::string explain() const;                        ///< passTable() and memoryTable() of the last advance
+  std::string explain() const;                        ///< passTable() and memoryTable() of the last advance, and readsText()
   std::vector<FrameMemory> transientMemory() const;   ///< of the last frame of each kind: advance, measure, picture
   std::string graphDot() const;                       ///< Graphviz graph of the last advance
   std::string pictureDot() const;                     ///< Graphviz graph of the last picture
