@@ -3,11 +3,14 @@
 #include <cstring>
 #include <string_view>
 
+#include "gpu/spirv.hpp"
+
 namespace rill {
 namespace {
 
-// SPIR-V 1.6, section 3; the two modes: SPV_KHR_subgroup_uniform_control_flow and SPV_KHR_maximal_reconvergence.
-constexpr uint32_t kHeader = 5, kOpExtension = 10, kOpEntryPoint = 15, kOpExecutionMode = 16, kOpCapability = 17;
+using namespace spirv;
+
+// Execution modes of SPV_KHR_subgroup_uniform_control_flow and SPV_KHR_maximal_reconvergence.
 constexpr uint32_t kSubgroupUniformControlFlow = 4421, kMaximallyReconverges = 6023;
 
 std::vector<uint32_t> extension(std::string_view name) {
@@ -39,8 +42,8 @@ std::vector<uint32_t> withReconvergence(std::span<const uint32_t> words, Reconve
   const bool isMaximal = wanted == Reconvergence::Maximal;
   size_t extensions = 0, modes = 0;  // where they belong: behind the capabilities and extensions, behind the entry points
   std::vector<uint32_t> added;
-  for (size_t at = kHeader; at < words.size() && words[at] >> 16 != 0; at += words[at] >> 16) {
-    const uint32_t op = words[at] & 0xffffu, size = words[at] >> 16;
+  for (size_t at = kHeader; at < words.size() && lengthOf(words[at]) != 0; at += lengthOf(words[at])) {
+    const uint32_t op = opcodeOf(words[at]), size = lengthOf(words[at]);
     if (op == kOpCapability || op == kOpExtension) extensions = at + size;
     if (op != kOpEntryPoint || at + 2 >= words.size()) continue;
     modes = at + size;

@@ -3,29 +3,20 @@
 #include <array>
 #include <unordered_map>
 
+#include "gpu/spirv.hpp"
+
 namespace rill {
 namespace {
 
-// Of the SPIR-V specification; the package of its headers is not needed for these alone.
-enum Op : uint32_t {
-  kOpEntryPoint = 15,
-  kOpExecutionMode = 16,
-  kOpConstant = 43,
-  kOpConstantComposite = 44,
-  kOpSpecConstant = 50,
-  kOpSpecConstantComposite = 51,
-  kOpFunction = 54,
-  kOpDecorate = 71,
-  kOpExecutionModeId = 331
-};
+using namespace spirv;
+
 constexpr uint32_t kGlCompute = 5, kLocalSize = 17, kLocalSizeId = 38, kSpecId = 1, kBuiltIn = 11, kWorkgroupSize = 25;
-constexpr size_t kHeader = 5;  // words
 
 /// Calls visit(opcode, words of the instruction) up to the first function.
 template <class Visit>
 void forEachDeclaration(std::span<const uint32_t> spirv, Visit&& visit) {
   for (size_t at = kHeader; at < spirv.size();) {
-    const uint32_t length = spirv[at] >> 16, opcode = spirv[at] & 0xffffu;
+    const uint32_t length = lengthOf(spirv[at]), opcode = opcodeOf(spirv[at]);
     if (length == 0 || at + length > spirv.size() || opcode == kOpFunction) return;
     visit(opcode, spirv.subspan(at, length));
     at += length;
