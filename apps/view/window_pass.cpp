@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "gpu/device_impl.hpp"
+#include "graph/import_whole.hpp"
 #include "graph/shader_pass.hpp"
 
 namespace rill {
@@ -64,9 +65,13 @@ Expected<std::unique_ptr<WindowPass>> WindowPass::create(Device& device, VkForma
   int width = 0, height = 0;
   fonts.GetTexDataAsAlpha8(&texels, &width, &height);
   const size_t bytes = static_cast<size_t>(width) * static_cast<size_t>(height);
-  auto font = createBuffer(device, "font", (bytes + 3) / 4 * 4, MemoryKind::Upload);
+  const uint64_t wholeWords = (bytes + 3) / 4 * 4;
+  auto staging = createBuffer(device, "font staging", wholeWords, MemoryKind::Upload);
+  if (!staging) return staging.error();
+  auto font = createBuffer(device, "font", wholeWords);
   if (!font) return font.error();
-  std::memcpy(font->mapped(), texels, bytes);
+  std::memcpy(staging->mapped(), texels, bytes);
+  made->fontStaging_ = std::move(*staging);
   made->font_ = std::move(*font);
   made->fontWidth_ = static_cast<uint32_t>(width);
   made->fontHeight_ = static_cast<uint32_t>(height);
@@ -97,7 +102,20 @@ void WindowPass::upload(Graph& graph, const ImDrawData& lists) {
   if (parts_.empty()) return;
   vertexRef_ = uploaded(graph, "ui vertices", vertices_);
   indexRef_ = uploaded(graph, "ui indices", indices_);
-  fontRef_ = graph.import("font", {font_.handle(), 0, font_.size(), Use::Nothing, Use::Nothing});
+  fontRef_ = importWhole(graph, "font", font_);
+  if (fontCopied_) {
+    fontStaging_ = {};
+    return;
+  }
+  const BufferRef staging = graph.import("font staging", {fontStaging_.handle(), 0, fontStaging_.size(), Use::Nothing, Use::Nothing});
+  graph.pass("font upload", [&](Pass& pass) {
+    pass.read(staging, Use::CopySource);
+    fontRef_ = pass.write(fontRef_, Use::CopyTarget, true);
+    return [this, staging, font = fontRef_](Commands& commands) {
+      commands.copy(staging, font, font_.size());
+      fontCopied_ = true;
+    };
+  });
 }
 
 ImageRef WindowPass::draw(Graph& graph, ImageRef target, const ShownPicture& picture, const ImVec4& behind) const {

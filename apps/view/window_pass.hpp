@@ -39,6 +39,8 @@ class WindowPass {
   uint32_t fontWidth_ = 0, fontHeight_ = 0;
   std::vector<ImDrawVert> vertices_;
   std::vector<uint32_t> indices_;
+  Buffer fontStaging_;  ///< until it has been copied to font_
+  bool fontCopied_ = false;
   std::vector<Part> parts_;
   BufferRef vertexRef_, indexRef_, fontRef_;
 };

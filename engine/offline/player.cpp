@@ -78,8 +78,8 @@ class Player::Impl {
     fluid.spacing = static_cast<float>(scene_.fluid.spacing);
     fluid.origin = origin_;
     if (count_ > 0) {
-      fluid.position = graph_.import("played positions", {position_.handle(), 0, position_.size(), Use::Nothing, Use::Nothing});
-      fluid.velocity = graph_.import("played velocities", {velocity_.handle(), 0, velocity_.size(), Use::Nothing, Use::Nothing});
+      fluid.position = staged("played positions", position_);
+      fluid.velocity = staged("played velocities", velocity_);
     }
     const PictureTickets tickets = painter_.declare(graph_, fluid, view, width, height, time_s_);
     if (auto ran = context_->run(graph_); !ran) return ran.error();
@@ -101,6 +101,18 @@ class Player::Impl {
   const Scene& scene() const { return scene_; }
 
  private:
+  /// A copy of the particles in the device's memory: passes read them many times.
+  BufferRef staged(std::string_view name, const Buffer& buffer) {
+    const BufferRef host = graph_.import("played particles", {buffer.handle(), 0, buffer.size(), Use::Nothing, Use::Nothing});
+    BufferRef copied = graph_.create(name, {buffer.size()});
+    graph_.pass("upload particles", [&](Pass& pass) {
+      pass.read(host, Use::CopySource);
+      copied = pass.write(copied, Use::CopyTarget, true);
+      return [host, copied, bytes = buffer.size()](Commands& commands) { commands.copy(host, copied, bytes); };
+    });
+    return copied;
+  }
+
   Scene scene_;
   ParticleSet start_;  ///< framed if the scene has no camera
   std::optional<Context> context_;
