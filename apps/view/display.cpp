@@ -7,11 +7,11 @@
 
 namespace rill::view {
 
-Expected<std::unique_ptr<Display>> Display::create(offline::Context& context, Window& window, ImFontAtlas& fonts) {
+Expected<std::unique_ptr<Display>> Display::create(offline::Context& context, Window& window, ImFontAtlas& fonts, VkPresentModeKHR mode) {
   auto surface = window.surface(context.instance());
   if (!surface) return surface.error();
   std::unique_ptr<Display> made(new Display(context));
-  auto swapchain = Swapchain::create(context, *surface);
+  auto swapchain = Swapchain::create(context, *surface, mode);
   if (!swapchain) return swapchain.error();
   made->swapchain_ = std::move(*swapchain);
   auto pass = WindowPass::create(context.device(), made->swapchain_->format(), fonts);
@@ -82,12 +82,14 @@ Expected<void> Display::show(const ImDrawData& lists, const ImVec4& behind, offl
   window_.reset();
   const ShownPicture picture{importWhole(window_, "shown picture", shown_), shownWidth_, shownHeight_, area_};
   pass_->upload(window_, lists);
-  const ImageDesc desc{swapchain_->format(), target.width, target.height};
-  const ImageRef image = window_.import("window", {target.image, desc, Use::Unknown, Use::Present});
-  static_cast<void>(pass_->draw(window_, image, picture, behind));
+  const SurfaceFormat& format = swapchain_->format();
+  const ImageDesc desc{format.canvas, target.width, target.height};
+  const ImageRef image = window_.import("window", {target.image, {format.format, target.width, target.height}, Use::Unknown, Use::Present});
+  ImageRef canvas = pass_->draw(window_, format.isCanvas() ? image : window_.create("canvas", desc), picture, behind);
+  if (!format.isCanvas()) static_cast<void>(pass_->copy(window_, canvas, image));
   Ticket ticket;
-  if (screenshot) {
-    const ImageRef copied = pass_->draw(window_, window_.create("screenshot", desc), picture, behind);
+  if (screenshot) {  // the window's own image cannot be copied from
+    const ImageRef copied = format.isCanvas() ? pass_->draw(window_, window_.create("screenshot", desc), picture, behind) : canvas;
     BufferRef bytes = window_.create("screenshot bytes", {uint64_t{target.width} * target.height * 4});
     window_.pass("screenshot", [&](Pass& pass) {
       pass.read(copied, Use::CopySource);
@@ -109,7 +111,7 @@ Expected<void> Display::show(const ImDrawData& lists, const ImVec4& behind, offl
   const auto bytes = window_.data(ticket);
   *screenshot = {target.width, target.height, {}};
   screenshot->rgba.resize(bytes.size());
-  const bool swapped = swapchain_->format() == VK_FORMAT_B8G8R8A8_UNORM;
+  const bool swapped = format.canvas == VK_FORMAT_B8G8R8A8_UNORM;
   for (size_t at = 0; at + 3 < bytes.size(); at += 4)
     for (size_t c = 0; c < 4; ++c) screenshot->rgba[at + c] = static_cast<uint8_t>(bytes[at + (swapped && c < 3 ? 2 - c : c)]);
   return {};

@@ -14,7 +14,7 @@ namespace rill::view {
 
 class Display {
  public:
-  static Expected<std::unique_ptr<Display>> create(offline::Context& context, Window& window, ImFontAtlas& fonts);
+  static Expected<std::unique_ptr<Display>> create(offline::Context& context, Window& window, ImFontAtlas& fonts, VkPresentModeKHR mode);
 
   /// Recreates the swapchain where the window's size or the present mode has changed.
   Expected<void> fit(Window::Size size);

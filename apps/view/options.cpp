@@ -23,7 +23,7 @@ constexpr uint64_t kMaxFrames = 1'000'000'000;
 
 /// Options as text: numbers are parsed here, so that messages do not depend on the version of CLI11.
 struct Raw {
-  std::string scene, device, size, scale, view, frames, screenshot, script;
+  std::string scene, device, size, scale, view, present, frames, screenshot, script;
   std::vector<std::string> set;
   bool lockstep = false, validate = false;
 };
@@ -43,6 +43,10 @@ void declare(CLI::App& app, Raw& raw) {
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->expected(1);
+  text("--present", raw.present,
+       "when a frame is shown: " + presentModeNames() +
+           " (default: fifo). fifo waits for the display; mailbox and immediate do not, immediate may tear",
+       "MODE", run);
   text("--device", raw.device, "name of a device, a part that no other has, or its index", "NAME", run);
   text("--frames", raw.frames, "close the window after N displayed frames", "N", run);
   text("--screenshot", raw.screenshot, "write the last frame of the window, including the panels, as PNG", "FILE", run);
@@ -89,6 +93,11 @@ Expected<Options> validated(const Raw& raw, const CLI::App& app) {
   if (given("--view")) {
     if (auto known = apps::checkView(raw.view); !known) return known.error();
     options.view = raw.view;
+  }
+  if (given("--present")) {
+    const auto mode = presentModeNamed(raw.present);
+    if (!mode) return badInput("--present", raw.present, "one of " + presentModeNames());
+    options.present = *mode;
   }
   if (given("--frames")) {
     options.frames = numberIn<uint64_t>(raw.frames);

@@ -18,22 +18,7 @@ VkSemaphoreSubmitInfo submitInfo(VkSemaphore semaphore, VkPipelineStageFlags2 st
 
 }  // namespace
 
-std::string_view presentModeName(VkPresentModeKHR mode) {
-  switch (mode) {
-    case VK_PRESENT_MODE_FIFO_KHR:
-      return "fifo";
-    case VK_PRESENT_MODE_MAILBOX_KHR:
-      return "mailbox";
-    case VK_PRESENT_MODE_IMMEDIATE_KHR:
-      return "immediate";
-    case VK_PRESENT_MODE_FIFO_RELAXED_KHR:
-      return "fifo relaxed";
-    default:
-      return "other";
-  }
-}
-
-Expected<std::unique_ptr<Swapchain>> Swapchain::create(offline::Context& context, VkSurfaceKHR surface) {
+Expected<std::unique_ptr<Swapchain>> Swapchain::create(offline::Context& context, VkSurfaceKHR surface, VkPresentModeKHR mode) {
   std::unique_ptr<Swapchain> made(new Swapchain(context, surface));
   if (auto ok = made->load(); !ok) return ok.error();
   const VkPhysicalDevice device = context.physicalDevice();
@@ -42,19 +27,16 @@ Expected<std::unique_ptr<Swapchain>> Swapchain::create(offline::Context& context
     return vulkanError(r, "querying the window's formats");
   std::vector<VkSurfaceFormatKHR> formats(count);
   (void)made->vki_.GetPhysicalDeviceSurfaceFormatsKHR(device, surface, &count, formats.data());
-  // Images are already in sRGB: a UNORM format shows them unchanged.
-  const auto bytes = std::ranges::find_if(formats, [](const VkSurfaceFormatKHR& f) {
-    return (f.format == VK_FORMAT_B8G8R8A8_UNORM || f.format == VK_FORMAT_R8G8B8A8_UNORM) &&
-           f.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR;
-  });
-  if (bytes == formats.end())
-    return Error{ErrorKind::NoDevice, "the window supports no 8-bit sRGB format; expected B8G8R8A8_UNORM or R8G8B8A8_UNORM"};
-  made->format_ = bytes->format;
-  made->space_ = bytes->colorSpace;
+  const auto format = chooseSurfaceFormat(formats);
+  if (!format) return format.error();
+  made->format_ = *format;
   (void)made->vki_.GetPhysicalDeviceSurfacePresentModesKHR(device, surface, &count, nullptr);
   made->modes_.resize(count);
   (void)made->vki_.GetPhysicalDeviceSurfacePresentModesKHR(device, surface, &count, made->modes_.data());
   made->modes_.resize(count);
+  std::erase_if(made->modes_, [](VkPresentModeKHR other) { return presentModeName(other).empty(); });
+  if (auto offered = checkPresentMode(mode, made->modes_); !offered) return offered.error();
+  made->mode_ = mode;
   for (uint32_t k = 0; k <= kSubmitsInFlight; ++k) {
     auto ready = made->semaphore();
     if (!ready) return ready.error();
@@ -119,8 +101,8 @@ Expected<void> Swapchain::make(uint32_t width, uint32_t height) {
     VkSwapchainCreateInfoKHR create{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
     create.surface = surface_;
     create.minImageCount = std::max(can.minImageCount, can.maxImageCount == 0 ? 3u : std::min(3u, can.maxImageCount));
-    create.imageFormat = format_;
-    create.imageColorSpace = space_;
+    create.imageFormat = format_.format;
+    create.imageColorSpace = format_.space;
     create.imageExtent = {width, height};
     create.imageArrayLayers = 1;
     create.imageUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
@@ -176,8 +158,8 @@ Expected<bool> Swapchain::present(const Target& target) {
   info.pSwapchains = &swapchain_;
   info.pImageIndices = &target.index;
   const VkResult r = vk_.QueuePresentKHR(context_.queue(), &info);
-  if (r == VK_ERROR_OUT_OF_DATE_KHR || r == VK_SUBOPTIMAL_KHR) return false;
-  if (r != VK_SUCCESS) return vulkanError(r, "showing a frame");
+  if (r == VK_ERROR_OUT_OF_DATE_KHR) return false;
+  if (r != VK_SUCCESS && r != VK_SUBOPTIMAL_KHR) return vulkanError(r, "showing a frame");
   return true;
 }
 

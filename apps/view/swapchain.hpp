@@ -2,10 +2,11 @@
 // The swapchain of a window, recreated when the window's size or the present mode changes.
 #include <memory>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "offline/context.hpp"
+#include "view/present_mode.hpp"
+#include "view/surface_format.hpp"
 
 #define RILL_SWAPCHAIN_INSTANCE_FUNCTIONS(X) \
   X(DestroySurfaceKHR)                       \
@@ -36,18 +37,20 @@ class Swapchain {
     VkSemaphoreSubmitInfo ready{}, drawn{};
   };
 
-  /// Takes ownership of `surface`. NoDevice where the device cannot present to it.
-  static Expected<std::unique_ptr<Swapchain>> create(offline::Context& context, VkSurfaceKHR surface);
+  /// Takes ownership of `surface`. NoDevice where the device cannot present to it, BadInput where the surface lacks the mode.
+  static Expected<std::unique_ptr<Swapchain>> create(offline::Context& context, VkSurfaceKHR surface, VkPresentModeKHR mode);
   ~Swapchain();
 
-  VkFormat format() const { return format_; }
+  const SurfaceFormat& format() const { return format_; }
   /// Creates the images, in this size or the one that the surface requires. Waits for the queue.
   Expected<void> make(uint32_t width, uint32_t height);
-  /// nullopt where the swapchain must be recreated, or the window is not visible.
+  /// nullopt where the swapchain must be recreated, or the window is not visible. A swapchain that is only suboptimal is kept: some
+  /// window systems report that for ever, and a changed size is noticed by the window.
   Expected<std::optional<Target>> acquire();
   /// False where the swapchain must be recreated.
   Expected<bool> present(const Target& target);
 
+  /// Those that have a name.
   std::span<const VkPresentModeKHR> modes() const { return modes_; }
   VkPresentModeKHR mode() const { return mode_; }
   void choose(VkPresentModeKHR mode) { mode_ = mode; }  ///< one of modes(); used from the next make() on
@@ -61,8 +64,7 @@ class Swapchain {
   offline::Context& context_;
   VkSurfaceKHR surface_;
   VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
-  VkFormat format_ = VK_FORMAT_UNDEFINED;
-  VkColorSpaceKHR space_ = VK_COLOR_SPACE_SRGB_NONLINEAR_KHR;
+  SurfaceFormat format_;
   std::vector<VkPresentModeKHR> modes_;
   VkPresentModeKHR mode_ = VK_PRESENT_MODE_FIFO_KHR;
   uint32_t width_ = 0, height_ = 0;
@@ -80,9 +82,6 @@ class Swapchain {
   } vk_;
 #undef RILL_DECLARE
 };
-
-/// "fifo", "mailbox", "immediate", "fifo relaxed".
-std::string_view presentModeName(VkPresentModeKHR mode);
 
 /// Command buffers of the viewer's context: two displayed frames, each with a piece of a step.
 constexpr uint32_t kSubmitsInFlight = 4;

@@ -102,7 +102,7 @@ class Viewer {
     interface_ = std::make_unique<Interface>(
         options_.scale.value_or(window_->contentScale()), [this] { return window_->clipboard(); },
         [this](const char* text) { window_->setClipboard(text); });
-    auto display = Display::create(*context_, *window_, interface_->fonts());
+    auto display = Display::create(*context_, *window_, interface_->fonts(), options_.present);
     if (!display) return display.error();
     display_ = std::move(*display);
     settings_.view = options_.view;

@@ -49,9 +49,9 @@ BufferRef uploaded(Graph& graph, std::string_view name, const std::vector<Record
 
 }  // namespace
 
-Expected<std::unique_ptr<WindowPass>> WindowPass::create(Device& device, VkFormat target, ImFontAtlas& fonts) {
+Expected<std::unique_ptr<WindowPass>> WindowPass::create(Device& device, const SurfaceFormat& format, ImFontAtlas& fonts) {
   auto made = std::make_unique<WindowPass>();
-  const VkFormat colors[] = {target};
+  const VkFormat colors[] = {format.canvas};
   implOf(device).shaders.add(viewShaders());
   auto ui = graphicsPipeline(device,
                              {.vertex = "view/ui_vertex", .fragment = "view/ui_fragment", .colors = colors, .blend = Blend::Premultiplied});
@@ -60,6 +60,14 @@ Expected<std::unique_ptr<WindowPass>> WindowPass::create(Device& device, VkForma
   auto picture = graphicsPipeline(device, {.vertex = "view/picture_vertex", .fragment = "view/picture_fragment", .colors = colors});
   if (!picture) return picture.error();
   made->picture_ = *picture;
+  if (!format.isCanvas()) {
+    const VkFormat target[] = {format.format};
+    const uint32_t encodes[] = {format.encodes};
+    auto surface = graphicsPipeline(
+        device, {.vertex = "view/picture_vertex", .fragment = "view/surface_fragment", .constants = encodes, .colors = target});
+    if (!surface) return surface.error();
+    made->surface_ = *surface;
+  }
 
   unsigned char* texels = nullptr;
   int width = 0, height = 0;
@@ -118,10 +126,10 @@ void WindowPass::upload(Graph& graph, const ImDrawData& lists) {
   });
 }
 
-ImageRef WindowPass::draw(Graph& graph, ImageRef target, const ShownPicture& picture, const ImVec4& behind) const {
+ImageRef WindowPass::draw(Graph& graph, ImageRef canvas, const ShownPicture& picture, const ImVec4& behind) const {
   graph.pass("window", [&](Pass& pass) {
     const VkClearValue clear{.color = {.float32 = {behind.x, behind.y, behind.z, 1}}};
-    target = pass.write(target, Use::ColorTarget, Load::Clear, clear);
+    canvas = pass.write(canvas, Use::ColorTarget, Load::Clear, clear);
     const Kernel stretched = bindNamed(pass, picture_, {{"picture", picture.pixels}});
     Kernel ui;
     if (!parts_.empty()) ui = bindNamed(pass, ui_, {{"vertices", vertexRef_}, {"indices", indexRef_}, {"font", fontRef_}});
@@ -145,6 +153,16 @@ ImageRef WindowPass::draw(Graph& graph, ImageRef target, const ShownPicture& pic
         commands.draw(ui, p.indices, 1, uiPush);
       }
     };
+  });
+  return canvas;
+}
+
+ImageRef WindowPass::copy(Graph& graph, ImageRef canvas, ImageRef target) const {
+  graph.pass("window copy", [&](Pass& pass) {
+    pass.read(canvas, Use::DrawSampled);
+    target = pass.write(target, Use::ColorTarget, Load::Discard);
+    const Kernel copied = pass.kernel(surface_, {canvas});
+    return [copied](Commands& commands) { commands.draw(copied, 3, 1); };
   });
   return target;
 }

@@ -8,6 +8,7 @@
 #include "gpu/resources.hpp"
 #include "rill/graph.hpp"
 #include "view/layout.hpp"
+#include "view/surface_format.hpp"
 
 namespace rill::view {
 
@@ -20,13 +21,15 @@ struct ShownPicture {
 
 class WindowPass {
  public:
-  /// `target`: the format of the window's images (UNORM). `fonts` must be built; its texture is copied.
-  static Expected<std::unique_ptr<WindowPass>> create(Device& device, VkFormat target, ImFontAtlas& fonts);
+  /// `fonts` must be built; its texture is copied.
+  static Expected<std::unique_ptr<WindowPass>> create(Device& device, const SurfaceFormat& format, ImFontAtlas& fonts);
 
   /// Uploads the draw lists, once per frame. They are kept until the graph is recorded.
   void upload(Graph& graph, const ImDrawData& lists);
-  /// Draws all of `target`, with the background color `behind`.
-  ImageRef draw(Graph& graph, ImageRef target, const ShownPicture& picture, const ImVec4& behind) const;
+  /// Draws all of `canvas`, an image of the format SurfaceFormat::canvas, with the background color `behind`.
+  ImageRef draw(Graph& graph, ImageRef canvas, const ShownPicture& picture, const ImVec4& behind) const;
+  /// Copies a canvas to `target`, an image of another format. Only where SurfaceFormat::isCanvas() is false.
+  ImageRef copy(Graph& graph, ImageRef canvas, ImageRef target) const;
 
  private:
   struct Part {
@@ -34,13 +37,13 @@ class WindowPass {
     uint32_t firstIndex, indices;
   };
 
-  const GraphicsPipeline *ui_ = nullptr, *picture_ = nullptr;
+  const GraphicsPipeline *ui_ = nullptr, *picture_ = nullptr, *surface_ = nullptr;
   Buffer font_;
+  Buffer fontStaging_;  ///< until it has been copied to font_
+  bool fontCopied_ = false;
   uint32_t fontWidth_ = 0, fontHeight_ = 0;
   std::vector<ImDrawVert> vertices_;
   std::vector<uint32_t> indices_;
-  Buffer fontStaging_;  ///< until it has been copied to font_
-  bool fontCopied_ = false;
   std::vector<Part> parts_;
   BufferRef vertexRef_, indexRef_, fontRef_;
 };

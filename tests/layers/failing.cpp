@@ -1,9 +1,17 @@
-// A Vulkan layer that makes one call fail: RILL_TEST_FAIL="vkQueueSubmit2 3 -4" has the third vkQueueSubmit2 return -4
-// (VK_ERROR_DEVICE_LOST).
+// A Vulkan layer that replaces the results of calls, by RILL_TEST_FAIL: a list of FUNCTION CALL RESULT, separated by semicolons.
+// "vkQueueSubmit2 3 -4" has the third vkQueueSubmit2 return -4 (VK_ERROR_DEVICE_LOST); with "*" in place of a number every call does.
+// An error is returned without the call; a success, such as VK_SUBOPTIMAL_KHR, after it. RILL_TEST_SURFACE_FORMAT=50 leaves windows
+// the one format of that number.
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <list>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "layer.hpp"
 
@@ -12,19 +20,32 @@ namespace {
 
 struct Plan {
   char function[64] = "";
-  int call = 0, result = 0;
-  Plan() {
-    if (const char* text = std::getenv("RILL_TEST_FAIL"); text && std::sscanf(text, "%63s %d %d", function, &call, &result) != 3) call = 0;
-  }
+  int call = 0, result = 0;  ///< call 0: every one
+  std::atomic<int> calls{0};
 };
 
-/// Whether this call of `function` is the one to fail.
-bool fails(const char* function, VkResult& result) {
-  static const Plan plan;
-  static std::atomic<int> calls{0};
-  if (std::strcmp(plan.function, function) != 0 || ++calls != plan.call) return false;
-  result = static_cast<VkResult>(plan.result);
-  return true;
+std::list<Plan> plansOf(const char* text) {
+  std::list<Plan> plans;
+  std::istringstream list(text ? text : "");
+  for (std::string one; std::getline(list, one, ';');) {
+    Plan& plan = plans.emplace_back();
+    char call[16] = "";
+    if (std::sscanf(one.c_str(), "%63s %15s %d", plan.function, call, &plan.result) != 3)
+      plans.pop_back();
+    else
+      plan.call = std::strcmp(call, "*") == 0 ? 0 : std::atoi(call);
+  }
+  return plans;
+}
+
+/// The result that this call of `function` is to return, if any.
+std::optional<VkResult> replaced(const char* function) {
+  static std::list<Plan> plans = plansOf(std::getenv("RILL_TEST_FAIL"));
+  std::optional<VkResult> result;
+  for (Plan& plan : plans)
+    if (std::strcmp(plan.function, function) == 0)
+      if (const int call = ++plan.calls; plan.call == 0 || call == plan.call) result = static_cast<VkResult>(plan.result);
+  return result;
 }
 
 #define FAILING_FUNCTIONS(X) \
@@ -33,6 +54,7 @@ bool fails(const char* function, VkResult& result) {
   X(CreateBuffer)            \
   X(CreateComputePipelines)  \
   X(CreateShaderModule)      \
+  X(CreateSwapchainKHR)      \
   X(QueuePresentKHR)         \
   X(QueueSubmit2)            \
   X(WaitSemaphores)
@@ -47,8 +69,10 @@ struct Failing<VkResult(VKAPI_PTR*)(Arguments...)> {
     static inline Pointer next = nullptr;
     static inline const char* name = nullptr;
     static VKAPI_ATTR VkResult VKAPI_CALL call(Arguments... arguments) {
-      VkResult result;
-      return fails(name, result) ? result : next(arguments...);
+      const std::optional<VkResult> result = replaced(name);
+      if (result && *result < 0) return *result;
+      const VkResult done = next(arguments...);
+      return result && done == VK_SUCCESS ? *result : done;
     }
   };
 };
@@ -59,9 +83,27 @@ enum FunctionIndex : int {
 #undef INDEX
 };
 
+PFN_vkGetPhysicalDeviceSurfaceFormatsKHR nextSurfaceFormats = nullptr;
+
+VKAPI_ATTR VkResult VKAPI_CALL surfaceFormats(VkPhysicalDevice device, VkSurfaceKHR surface, uint32_t* count, VkSurfaceFormatKHR* formats) {
+  const char* wanted = std::getenv("RILL_TEST_SURFACE_FORMAT");
+  if (!wanted) return nextSurfaceFormats(device, surface, count, formats);
+  uint32_t offered = 0;
+  if (VkResult r = nextSurfaceFormats(device, surface, &offered, nullptr); r != VK_SUCCESS) return r;
+  std::vector<VkSurfaceFormatKHR> all(offered);
+  if (VkResult r = nextSurfaceFormats(device, surface, &offered, all.data()); r != VK_SUCCESS) return r;
+  std::erase_if(all, [&](const VkSurfaceFormatKHR& format) { return format.format != std::atoi(wanted); });
+  if (formats) std::copy_n(all.begin(), std::min<size_t>(*count, all.size()), formats);
+  *count = static_cast<uint32_t>(all.size());
+  return VK_SUCCESS;
+}
+
 }  // namespace
 
-void instanceCreated(VkInstance) {}
+void instanceCreated(VkInstance instance) {
+  nextSurfaceFormats =
+      reinterpret_cast<PFN_vkGetPhysicalDeviceSurfaceFormatsKHR>(nextInstanceProc(instance, "vkGetPhysicalDeviceSurfaceFormatsKHR"));
+}
 
 void deviceCreated(VkDevice device) {
 #define FIND(function)                                               \
@@ -72,6 +114,7 @@ void deviceCreated(VkDevice device) {
 }
 
 PFN_vkVoidFunction replacement(const char* name) {
+  if (std::strcmp(name, "vkGetPhysicalDeviceSurfaceFormatsKHR") == 0) return reinterpret_cast<PFN_vkVoidFunction>(&surfaceFormats);
 #define LOOK(function)                        \
   if (std::strcmp(name, "vk" #function) == 0) \
     return reinterpret_cast<PFN_vkVoidFunction>(&Failing<PFN_vk##function>::Of<k##function>::call);

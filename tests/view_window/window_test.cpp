@@ -1,65 +1,11 @@
 // rill-view from end to end, in a window on a virtual display (Xvfb), with validation.
-#include <gtest/gtest.h>
-
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
-#include "support/child_process.hpp"
-#include "support/temporary_folder.hpp"
+#include "view_window/view_window.hpp"
 
 namespace rill::test {
 namespace {
-
-constexpr const char* kDam = R"({
-  "rill": "0.1", "domain": {"min": [0, 0, 0], "max": [1, 1, 0.3]}, "fluid": {"spacing": 0.05},
-  "fill": [{"box": {"min": [0, 0, 0], "max": [0.5, 0.5, 0.3]}}]
-})";
-
-class ViewWindowTest : public ::testing::Test {
- protected:
-  void SetUp() override { scene = folder.write("dam.json", kDam).string(); }
-  static std::string program() { return std::string(RILL_BINARY_DIR) + "/apps/view/rill-view"; }
-  /// xvfb-run searches a free display from a number, and concurrent searches from one number may take the same display. With its own
-  /// authority file it sometimes fails to remove it, which replaces the program's exit code.
-  std::vector<std::string> onADisplay() const {
-    const std::string number = std::to_string(100 + ::getpid() % 20000), authority = folder.write("Xauthority", "").string();
-    return {"/usr/bin/xvfb-run", "-a", "-n", number, "-f", authority, "-s", "-screen 0 1280x720x24"};
-  }
-  std::vector<std::string> command(std::vector<std::string> arguments) const {
-    std::vector<std::string> all = onADisplay();
-    all.push_back(program());
-    all.insert(all.end(), arguments.begin(), arguments.end());
-    return all;
-  }
-  Outcome view(std::vector<std::string> arguments) const { return Child(command(std::move(arguments)), folder.string()).wait(); }
-  /// With a Vulkan call that fails, see layers/failing.cpp.
-  Outcome viewFailing(const std::string& plan, std::vector<std::string> arguments) const {
-    const Child::Environment failing{
-        {"VK_LAYER_PATH", RILL_LAYERS_FOLDER}, {"VK_INSTANCE_LAYERS", "VK_LAYER_RILL_failing"}, {"RILL_TEST_FAIL", plan}};
-    return Child(command(std::move(arguments)), folder.string(), failing).wait();
-  }
-  /// The figure after `name` in a run's output.
-  static std::string figure(const Outcome& outcome, const std::string& name) {
-    std::istringstream words(outcome.out);
-    for (std::string word, value; words >> word >> value;)
-      if (word == name) return value;
-    return {};
-  }
-  std::pair<int, int> sizeOf(const std::string& png) const {
-    const std::string bytes = contentOf(folder / png);
-    if (bytes.size() < 24 || bytes.substr(0, 8) != "\x89PNG\r\n\x1a\n") return {0, 0};
-    const auto number = [&](size_t at) {
-      int value = 0;
-      for (size_t k = 0; k < 4; ++k) value = value << 8 | static_cast<unsigned char>(bytes[at + k]);
-      return value;
-    };
-    return {number(16), number(20)};
-  }
-
-  TemporaryFolder folder;
-  std::string scene;
-};
 
 TEST_F(ViewWindowTest, OpensDrawsAndCloses) {
   for (const char* scale : {"1", "2.5"}) {
@@ -201,25 +147,6 @@ TEST_F(ViewWindowTest, UnwritablePictureIsAnError) {
     EXPECT_EQ(outcome.code, 1) << script;
     EXPECT_NE(outcome.err.find("a.png"), std::string::npos) << outcome.err;
   }
-}
-
-TEST_F(ViewWindowTest, RecoversFromOutOfDateSwapchains) {
-  for (const char* plan : {"vkAcquireNextImageKHR 3 -1000001004", "vkQueuePresentKHR 3 -1000001004", "vkQueuePresentKHR 3 1000001003"}) {
-    const Outcome outcome = viewFailing(plan, {scene, "--frames", "8"});
-    EXPECT_EQ(outcome.code, 0) << plan << ": " << outcome.err;
-    EXPECT_EQ(figure(outcome, "frames"), "8");
-  }
-}
-
-TEST_F(ViewWindowTest, ReportsALostDevice) {
-  for (const char* plan : {"vkQueueSubmit2 9 -4", "vkWaitSemaphores 6 -4", "vkAcquireNextImageKHR 3 -4", "vkQueuePresentKHR 3 -4"}) {
-    const Outcome outcome = viewFailing(plan, {scene, "--frames", "30"});
-    EXPECT_EQ(outcome.code, 1) << plan;
-    EXPECT_NE(outcome.err.find("lost"), std::string::npos) << plan << ": " << outcome.err;
-  }
-  const Outcome full = viewFailing("vkAllocateMemory 30 -2", {scene, "--frames", "30"});
-  EXPECT_EQ(full.code, 1);
-  EXPECT_NE(full.err.find("memory"), std::string::npos) << full.err;
 }
 
 TEST_F(ViewWindowTest, CyclesThroughScenes) {
