@@ -13,6 +13,11 @@
 #include "view/clock.hpp"
 
 namespace rill::view {
+namespace {
+
+constexpr uint32_t kMaxKept = 2'000'000;  // particles of a kept snapshot, which needs some 400 MiB of host memory then
+
+}  // namespace
 
 Expected<std::unique_ptr<Runner>> Runner::create(offline::Context& context, Scene scene) {
   std::unique_ptr<Runner> runner(new Runner(context, std::move(scene)));
@@ -21,11 +26,28 @@ Expected<std::unique_ptr<Runner>> Runner::create(offline::Context& context, Scen
   runner->start_ = std::move(*start);
   runner->scene_.fluid.spacing = runner->start_.spacing;
   runner->firstBounds_ = fluidBounds(runner->scene_, runner->start_);
-  auto fluid = Fluid::create(context.device(), {.scene = &runner->scene_, .particles = &runner->start_});
-  if (!fluid) return fluid.error();
-  runner->fluid_ = std::move(*fluid);
-  runner->pacing_ = Pacing(std::max(1u, runner->fluid_->substepsPerBlock()));
+  if (auto made = runner->makeFluid(nullptr); !made) return made.error();
+  runner->kept_ = {runner->scene_, runner->start_, runner->firstBounds_};
   return runner;
+}
+
+Expected<std::unique_ptr<Runner>> Runner::resume(offline::Context& context, const KeptState& kept) {
+  std::unique_ptr<Runner> runner(new Runner(context, kept.scene));
+  runner->start_ = kept.start;
+  runner->firstBounds_ = kept.firstBounds;
+  runner->steps_ = kept.steps;
+  if (auto made = runner->makeFluid(kept.snapshot ? &*kept.snapshot : nullptr); !made) return made.error();
+  if (auto begun = runner->begin(); !begun) return begun.error();
+  runner->kept_ = kept;
+  return runner;
+}
+
+Expected<void> Runner::makeFluid(const FluidSnapshot* from) {
+  auto fluid = Fluid::create(context_.device(), {.scene = &scene_, .particles = &start_, .snapshot = from});
+  if (!fluid) return fluid.error();
+  fluid_ = std::move(*fluid);
+  pacing_ = Pacing(std::max(1u, fluid_->substepsPerBlock()));
+  return {};
 }
 
 template <class Declare>
@@ -111,14 +133,28 @@ Expected<FluidSnapshot> Runner::snapshot() {
   return std::move(reader.snapshot());
 }
 
-Expected<void> Runner::continueFrom(Scene scene, ParticleSet start, const FluidSnapshot& from) {
+Expected<void> Runner::continueFrom(Scene scene, ParticleSet start, FluidSnapshot from) {
   auto fluid = Fluid::create(context_.device(), {.scene = &scene, .particles = &start, .snapshot = count() > 0 ? &from : nullptr});
   if (!fluid) return fluid.error();
   fluid_ = std::move(*fluid);
   pacing_.setBlock(std::max(1u, fluid_->substepsPerBlock()));
   scene_ = std::move(scene);
   start_ = std::move(start);
+  keep(std::move(from));
   return begin();
+}
+
+void Runner::keep(FluidSnapshot now) {
+  kept_ = {scene_, start_, firstBounds_, {}, steps_};
+  if (count() > 0 && count() <= kMaxKept) kept_.snapshot = std::move(now);
+}
+
+Expected<void> Runner::keep() {
+  if (count() > kMaxKept) return {};
+  auto now = snapshot();
+  if (!now) return now.error();
+  keep(std::move(*now));
+  return {};
 }
 
 Expected<void> Runner::change(Scene scene) {
@@ -128,7 +164,7 @@ Expected<void> Runner::change(Scene scene) {
   scene.solids = scene_.solids;
   // The snapshot contains the current gravity.
   if (scene.gravity_changes.empty() && count() > 0) setGravity(*now, scene.gravity);
-  return continueFrom(std::move(scene), start_, *now);
+  return continueFrom(std::move(scene), start_, std::move(*now));
 }
 
 Expected<void> Runner::changeSolids(std::vector<Solid> solids) {
@@ -144,7 +180,7 @@ Expected<void> Runner::changeSolids(std::vector<Solid> solids) {
   if (!anyMoves) now->solids.clear();
   Scene scene = scene_;
   scene.solids = std::move(solids);
-  if (auto done = continueFrom(std::move(scene), start_, *now); !done) return done;
+  if (auto done = continueFrom(std::move(scene), start_, std::move(*now)); !done) return done;
   targets_.clear();
   return {};
 }
@@ -179,7 +215,7 @@ Expected<uint64_t> Runner::add(const Fill& fill) {
   start.positions.insert(start.positions.end(), positions.begin(), positions.end());
   start.velocities.insert(start.velocities.end(), velocities.begin(), velocities.end());
   if (count() > 0) append(*now, positions, velocities);
-  if (auto done = continueFrom(scene_, std::move(start), *now); !done) return done.error();
+  if (auto done = continueFrom(scene_, std::move(start), std::move(*now)); !done) return done.error();
   return positions.size();
 }
 

@@ -23,12 +23,23 @@ struct StepFigures {
   double wall_s = 0;  ///< of its pieces
 };
 
+/// What a simulation needs to continue on the same or another device.
+struct KeptState {
+  Scene scene;
+  ParticleSet start;  ///< including particles that were added
+  Bounds firstBounds;
+  std::optional<FluidSnapshot> snapshot = {};  ///< none: from the start
+  uint64_t steps = 0;                          ///< finished
+};
+
 /// After N steps the state is bitwise equal to frame N of `rill-capture --fps 60`, however the steps are split. Each piece
 /// is waited for, as only then it is known whether the step is complete.
 class Runner {
  public:
   /// BadInput, TooLarge, OutOfMemory as Fluid::create. The context outlives it.
   static Expected<std::unique_ptr<Runner>> create(offline::Context& context, Scene scene);
+  /// Continues from kept() of another one, whose context may be gone. Errors as create().
+  static Expected<std::unique_ptr<Runner>> resume(offline::Context& context, const KeptState& kept);
 
   /// Starts a step or continues the current one for about `budget_s` of real time, and waits for the device.
   Expected<void> advancePiece(double budget_s);
@@ -55,6 +66,11 @@ class Runner {
   Expected<void> changeSolids(std::vector<Solid> solids);
   /// Adds the particles of a fill where there is room, and returns their number. BadInput where less than a quarter fit.
   Expected<uint64_t> add(const Fill& fill);
+
+  /// Only between steps: takes a snapshot for kept(), of at most two million particles. Does not change later results.
+  Expected<void> keep();
+  /// The state at the last keep() or change that continued the simulation, else the start.
+  const KeptState& kept() const { return kept_; }
 
   /// Current pose of a solid, m in scene coordinates.
   Pose pose(uint32_t solid) const;
@@ -85,7 +101,9 @@ class Runner {
   Expected<void> run(Graph& graph, Declare&& declare);
   Expected<FluidSnapshot> snapshot();
   uint32_t count() const { return fluid_->count(); }
-  Expected<void> continueFrom(Scene scene, ParticleSet start, const FluidSnapshot& from);
+  Expected<void> continueFrom(Scene scene, ParticleSet start, FluidSnapshot from);
+  Expected<void> makeFluid(const FluidSnapshot* from);
+  void keep(FluidSnapshot now);
 
   offline::Context& context_;
   Scene scene_;
@@ -99,6 +117,7 @@ class Runner {
   uint32_t recorded_ = 0;  ///< substeps recorded in the current step
   uint32_t done_ = 0;      ///< of them, those that were executed
   StepFigures current_, last_;
+  KeptState kept_;
   offline::PassLog log_, shown_;
 };
 

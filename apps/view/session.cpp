@@ -58,6 +58,21 @@ Expected<uint64_t> Session::add(const Fill& fill) {
   return added;
 }
 
+void Session::release() {
+  painter_.reset();
+  if (runner_) released_ = runner_->kept();
+  runner_.reset();
+}
+
+Expected<void> Session::resume() {
+  auto runner = Runner::resume(context_, released_);
+  if (!runner) return runner.error();
+  runner_ = std::move(*runner);
+  released_ = {};
+  resetPainter();
+  return {};
+}
+
 Expected<void> Session::restart() { return begin(text_, changes_); }
 
 Expected<void> Session::reload() { return read(changes_); }

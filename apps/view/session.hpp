@@ -37,6 +37,13 @@ class Session {
   Expected<void> restart();
   /// Reads the file again and restarts. Where it is invalid the scene and its text stay as they are.
   Expected<void> reload();
+  /// Only between steps: takes a snapshot for resume(). Does not change the simulation.
+  Expected<void> keep() { return runner_->keep(); }
+  /// Frees all on the device, which may be lost. Until resume() only that and file() may be called.
+  void release();
+  /// Continues on the context's new device from the last snapshot, else from the start. May be called again after an error.
+  Expected<void> resume();
+
   /// True where the file was modified since it was read; checked at most twice per second of `now_s`.
   bool fileChanged(double now_s) { return watch_.changed(now_s); }
   const std::filesystem::path& file() const { return watch_.file(); }
@@ -60,6 +67,7 @@ class Session {
   std::string text_;  ///< of the file, as it was read
   std::vector<Override> changes_;
   std::unique_ptr<Runner> runner_;
+  KeptState released_;                         ///< from release() to resume()
   std::unique_ptr<offline::Painter> painter_;  // refers to the runner's scene
 };
 

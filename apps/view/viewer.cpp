@@ -80,9 +80,18 @@ class Viewer {
     auto window = Window::open("rill-view", options_.width, options_.height);
     if (!window) return scene ? window.error() : scene.error();
     window_ = std::move(*window);
+    interface_ = std::make_unique<Interface>(
+        options_.scale.value_or(window_->contentScale()), [this] { return window_->clipboard(); },
+        [this](const char* text) { window_->setClipboard(text); });
+    if (auto opened = openDevice(options_.device, options_.present); !opened) return opened;
+    settings_.view = options_.view;
+    return scene ? openScene(*file, options_.overrides) : waitForValidFile(*file, scene.error());
+  }
 
+  /// `device`: as ContextDesc::device.
+  Expected<void> openDevice(const std::string& device, VkPresentModeKHR mode) {
     offline::ContextDesc desc;
-    desc.device = options_.device;
+    desc.device = device;
     desc.pipelineCache = apps::pipelineCacheFolder();
     desc.validation = options_.validate;
     desc.framesInFlight = kSubmitsInFlight;
@@ -99,14 +108,51 @@ class Viewer {
     context_ = std::move(*context);
     const DeviceInfo& info = context_->device().info();
     deviceName_ = info.name + ", " + info.driver;
-    interface_ = std::make_unique<Interface>(
-        options_.scale.value_or(window_->contentScale()), [this] { return window_->clipboard(); },
-        [this](const char* text) { window_->setClipboard(text); });
-    auto display = Display::create(*context_, *window_, interface_->fonts(), options_.present);
+    auto display = Display::create(*context_, *window_, interface_->fonts(), mode);
     if (!display) return display.error();
     display_ = std::move(*display);
-    settings_.view = options_.view;
-    return scene ? openScene(*file, options_.overrides) : waitForValidFile(*file, scene.error());
+    return {};
+  }
+
+  void closeDevice() {
+    session_->release();
+    display_.reset();
+    context_.reset();
+    picture_ = {};
+    controls_.reset();  // what it holds may not be part of the snapshot
+    dirty_ = true;
+  }
+
+  /// After a loss of the device: continues on a new one from the last snapshot. An error ends the program.
+  Expected<void> recover(const Error& lost) {
+    constexpr double kTooSoon = 10;  // s; what caused the first loss is likely to cause the next
+    if (lostAt_s_ && now_s_ - *lostAt_s_ < kTooSoon) return Error{lost.kind, lost.message + "; it was lost a moment before, too"};
+    lostAt_s_ = now_s_;
+    interface_->skip();
+    const VkPresentModeKHR mode = display_->mode();
+    takeValidationMessages();
+    closeDevice();
+    Expected<void> opened = lost;
+    for (int tries = 0; !opened && tries < 5; ++tries) {  // a driver that resets its device needs a moment
+      if (tries > 0) std::this_thread::sleep_for(std::chrono::seconds(1));
+      opened = openDevice(options_.device, mode);
+      if (opened) opened = session_->resume();
+      if (!opened) closeDevice();
+    }
+    if (!opened) return Error{opened.error().kind, lost.message + "\nno new device: " + opened.error().message};
+    char from[64];
+    std::snprintf(from, sizeof from, "%.4g s", session_->runner().time_s());
+    const std::string notice = lost.message + "\nThe simulation continues on " + deviceName_ + " from " + from;
+    logError(notice);
+    showMessage(notice);
+    return {};
+  }
+
+  void takeValidationMessages() {
+    for (const std::string& message : context_->takeMessages()) {
+      logError(message);
+      sawValidationMessage_ = true;
+    }
   }
 
   /// Shows the error about a scene that is invalid at the start, until the file changes or another scene is opened.
@@ -183,12 +229,12 @@ class Viewer {
       const double seconds = options_.lockstep ? Clock::kStep : std::min(passed, 0.25);
       frameTime_ += 0.1 * (passed - frameTime_);
       if ((options_.frames || !script_.empty()) && frame_ > 0) frames_ms_.push_back(1e3 * passed);
-      if (auto done = frame(seconds); !done) return done;
-      ++frame_;
-      for (const std::string& message : context_->takeMessages()) {
-        logError(message);
-        sawValidationMessage_ = true;
+      if (auto done = frame(seconds); !done) {
+        if (done.error().kind != ErrorKind::DeviceLost) return done;
+        if (auto recovered = recover(done.error()); !recovered) return recovered;
       }
+      ++frame_;
+      takeValidationMessages();
     }
     return context_->wait();
   }
@@ -245,7 +291,17 @@ class Viewer {
     const auto ended = playback_.advance(session_->runner(), frame);
     if (!ended) return ended.error();
     dirty_ |= *ended;
-    return {};
+    return *ended && now_s_ >= keepAt_s_ ? keepSnapshot() : Expected<void>();
+  }
+
+  /// A snapshot for recover(), so rarely that it takes a hundredth of the time.
+  Expected<void> keepSnapshot() {
+    constexpr double kInterval = 2, kShare = 0.01;  // s
+    if (!session_->runner().betweenSteps()) return {};
+    const Now::time_point begin = Now::now();
+    auto kept = session_->keep();
+    keepAt_s_ = now_s_ + std::max(kInterval, secondsSince(begin) / kShare);
+    return kept;
   }
 
   Expected<void> paint() {
@@ -570,6 +626,8 @@ class Viewer {
   uint64_t frame_ = 0;
   std::vector<double> frames_ms_;  // of a bounded run
   double now_s_ = 0, frameTime_ = 0;
+  double keepAt_s_ = 0;             // when the next snapshot is due
+  std::optional<double> lostAt_s_;  // the last loss of the device
 };
 
 }  // namespace

@@ -67,6 +67,30 @@ TEST_F(ViewRunnerTest, StepsEqualCaptureBitwise) {
   EXPECT_GT(maxPieces, 1u) << "some of them were cut";
 }
 
+TEST_F(ViewRunnerTest, ResumesOnAnotherDeviceBitwise) {
+  auto runner = Runner::create(context(), scene());
+  ASSERT_TRUE(runner) << runner.error().message;
+  EXPECT_FALSE((*runner)->kept().snapshot) << "the start";
+  for (int k = 0; k < 4; ++k) ASSERT_TRUE((*runner)->step());
+  ASSERT_TRUE((*runner)->keep());
+  const KeptState kept = (*runner)->kept();
+  for (int k = 0; k < 3; ++k) ASSERT_TRUE((*runner)->step());
+  auto other = offline::Context::create({.validation = true});
+  ASSERT_TRUE(other) << other.error().message;
+  {
+    auto resumed = Runner::resume(*other, kept);
+    ASSERT_TRUE(resumed) << resumed.error().message;
+    EXPECT_EQ((*resumed)->steps(), 4u);
+    EXPECT_NEAR((*resumed)->time_s(), 4 / 60.0, 1e-6);
+    EXPECT_TRUE((*resumed)->kept().snapshot) << "for the next loss";
+    for (int k = 0; k < 3; ++k) ASSERT_TRUE((*resumed)->step());
+    const auto straight = (*runner)->hash(), again = (*resumed)->hash();
+    ASSERT_TRUE(straight && again);
+    EXPECT_EQ(*straight, *again);
+  }
+  EXPECT_EQ(other->takeMessages(), std::vector<std::string>());
+}
+
 TEST(ViewContext, RejectsDeviceWithoutPresentation) {
   offline::ContextDesc desc;
   uint32_t asked = 0;

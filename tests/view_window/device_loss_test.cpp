@@ -1,15 +1,45 @@
 // A device that is lost while the viewer runs.
+#include <nlohmann/json.hpp>
+
 #include "view_window/view_window.hpp"
 
 namespace rill::test {
 namespace {
 
-TEST_F(ViewWindowTest, ReportsALostDevice) {
+TEST_F(ViewWindowTest, ContinuesOnANewDevice) {
   for (const char* plan : {"vkQueueSubmit2 9 -4", "vkWaitSemaphores 6 -4", "vkAcquireNextImageKHR 3 -4", "vkQueuePresentKHR 3 -4"}) {
-    const Outcome outcome = viewFailing(plan, {scene, "--frames", "30"});
-    EXPECT_EQ(outcome.code, 1) << plan;
+    const Outcome outcome = viewFailing(plan, {scene, "--frames", "30", "--validate"});
+    EXPECT_EQ(outcome.code, 0) << plan << ": " << outcome.err;
+    EXPECT_EQ(figure(outcome, "frames"), "30");
     EXPECT_NE(outcome.err.find("lost"), std::string::npos) << plan << ": " << outcome.err;
+    EXPECT_NE(outcome.err.find("The simulation continues on"), std::string::npos) << plan << ": " << outcome.err;
   }
+}
+
+// A change of the scene leaves a snapshot; from there on the bits are those of a run that lost nothing.
+TEST_F(ViewWindowTest, ContinuesFromTheLastSnapshotBitwise) {
+  folder.write("hands.txt", "8 set fluid.viscosity=0.1\n24 view particles\n");
+  const std::vector<std::string> arguments{scene, "--script", "hands.txt", "--size", "320x200"};
+  const Outcome lost = viewFailing("vkQueuePresentKHR 16 -4", arguments);
+  ASSERT_EQ(lost.code, 0) << lost.err;
+  EXPECT_NE(lost.err.find("from 0.1167 s"), std::string::npos) << "frame 8 shows step 8, of which 7 were finished before: " << lost.err;
+  const int steps = std::stoi("0" + figure(lost, "steps"));
+  ASSERT_EQ(steps, 7 + 24 - 15) << "as many as there were frames after the loss";
+  folder.write("hands.txt", "8 set fluid.viscosity=0.1\n" + std::to_string(steps) + " view particles\n");
+  const Outcome kept = view(arguments);
+  ASSERT_EQ(figure(kept, "steps"), std::to_string(steps)) << kept.err;
+  EXPECT_EQ(figure(lost, "state_hash"), figure(kept, "state_hash"));
+}
+
+TEST_F(ViewWindowTest, GivesUpOnADeviceThatIsLostAgain) {
+  const Outcome again = viewFailing("vkQueueSubmit2 9 -4; vkQueueSubmit2 40 -4", {scene, "--frames", "60"});
+  EXPECT_EQ(again.code, 1);
+  EXPECT_NE(again.err.find("lost a moment before"), std::string::npos) << again.err;
+  const Outcome always = viewFailing("vkQueuePresentKHR * -4", {scene, "--frames", "30"});
+  EXPECT_EQ(always.code, 1);
+}
+
+TEST_F(ViewWindowTest, ReportsExhaustedMemory) {
   const Outcome full = viewFailing("vkAllocateMemory 30 -2", {scene, "--frames", "30"});
   EXPECT_EQ(full.code, 1);
   EXPECT_NE(full.err.find("memory"), std::string::npos) << full.err;
