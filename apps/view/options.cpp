@@ -25,7 +25,7 @@ constexpr uint64_t kMaxFrames = 1'000'000'000;
 struct Raw {
   std::string scene, device, size, scale, view, present, frames, screenshot, script;
   std::vector<std::string> set;
-  bool lockstep = false, validate = false;
+  bool lockstep = false, validate = false, listDevices = false;
 };
 
 void declare(CLI::App& app, Raw& raw) {
@@ -43,6 +43,7 @@ void declare(CLI::App& app, Raw& raw) {
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->expected(1);
+  app.add_flag("--list-devices", raw.listDevices, "print the Vulkan devices with their index, discrete ones first, and end")->group(run);
   text("--present", raw.present,
        "when a frame is shown: " + presentModeNames() +
            " (default: fifo). fifo waits for the display; mailbox and immediate do not, immediate may tear",
@@ -122,6 +123,7 @@ Expected<Options> validated(const Raw& raw, const CLI::App& app) {
   }
   options.lockstep = raw.lockstep || options.script;
   options.validate = raw.validate;
+  options.listDevices = raw.listDevices;
   return options;
 }
 

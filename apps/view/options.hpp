@@ -23,7 +23,8 @@ struct Options {
   std::optional<uint64_t> frames;   ///< displayed frames after which the program ends
   std::optional<std::filesystem::path> screenshot;
   std::optional<std::filesystem::path> script;
-  bool lockstep = false;  ///< one step per displayed frame, however long it takes
+  bool listDevices = false;  ///< print the devices and end
+  bool lockstep = false;     ///< one step per displayed frame, however long it takes
   bool validate = false;
 };
 

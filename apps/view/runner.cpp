@@ -13,11 +13,6 @@
 #include "view/clock.hpp"
 
 namespace rill::view {
-namespace {
-
-constexpr uint32_t kMaxKept = 2'000'000;  // particles of a kept snapshot, which needs some 400 MiB of host memory then
-
-}  // namespace
 
 Expected<std::unique_ptr<Runner>> Runner::create(offline::Context& context, Scene scene) {
   std::unique_ptr<Runner> runner(new Runner(context, std::move(scene)));
@@ -146,11 +141,11 @@ Expected<void> Runner::continueFrom(Scene scene, ParticleSet start, FluidSnapsho
 
 void Runner::keep(FluidSnapshot now) {
   kept_ = {scene_, start_, firstBounds_, {}, steps_};
-  if (count() > 0 && count() <= kMaxKept) kept_.snapshot = std::move(now);
+  if (count() > 0) kept_.snapshot = std::move(now);
 }
 
-Expected<void> Runner::keep() {
-  if (count() > kMaxKept) return {};
+Expected<void> Runner::keep(uint32_t particles) {
+  if (count() > particles) return {};
   auto now = snapshot();
   if (!now) return now.error();
   keep(std::move(*now));

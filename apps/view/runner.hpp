@@ -67,8 +67,8 @@ class Runner {
   /// Adds the particles of a fill where there is room, and returns their number. BadInput where less than a quarter fit.
   Expected<uint64_t> add(const Fill& fill);
 
-  /// Only between steps: takes a snapshot for kept(), of at most two million particles. Does not change later results.
-  Expected<void> keep();
+  /// Completes the current step and takes a snapshot for kept(), of at most `particles`. Does not change later results.
+  Expected<void> keep(uint32_t particles = UINT32_MAX);
   /// The state at the last keep() or change that continued the simulation, else the start.
   const KeptState& kept() const { return kept_; }
 

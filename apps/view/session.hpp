@@ -37,8 +37,8 @@ class Session {
   Expected<void> restart();
   /// Reads the file again and restarts. Where it is invalid the scene and its text stay as they are.
   Expected<void> reload();
-  /// Only between steps: takes a snapshot for resume(). Does not change the simulation.
-  Expected<void> keep() { return runner_->keep(); }
+  /// As Runner::keep(), for resume().
+  Expected<void> keep(uint32_t particles = UINT32_MAX) { return runner_->keep(particles); }
   /// Frees all on the device, which may be lost. Until resume() only that and file() may be called.
   void release();
   /// Continues on the context's new device from the last snapshot, else from the start. May be called again after an error.

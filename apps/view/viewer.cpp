@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "core/words.hpp"
+#include "offline/device_list.hpp"
 #include "shared/atomic_file.hpp"
 #include "shared/exit_code.hpp"
 #include "shared/message.hpp"
@@ -23,6 +24,7 @@
 #include "view/display.hpp"
 #include "view/gravity_tilt.hpp"
 #include "view/keys.hpp"
+#include "view/memory_meter.hpp"
 #include "view/panels/board.hpp"
 #include "view/picture.hpp"
 #include "view/playback.hpp"
@@ -83,13 +85,15 @@ class Viewer {
     interface_ = std::make_unique<Interface>(
         options_.scale.value_or(window_->contentScale()), [this] { return window_->clipboard(); },
         [this](const char* text) { window_->setClipboard(text); });
-    if (auto opened = openDevice(options_.device, options_.present); !opened) return opened;
+    device_ = options_.device;
+    if (auto opened = openDevice(device_, options_.present); !opened) return opened;
+    if (auto listed = offline::findDevices(deviceDesc({}))) devices_ = std::move(*listed);
     settings_.view = options_.view;
     return scene ? openScene(*file, options_.overrides) : waitForValidFile(*file, scene.error());
   }
 
   /// `device`: as ContextDesc::device.
-  Expected<void> openDevice(const std::string& device, VkPresentModeKHR mode) {
+  offline::ContextDesc deviceDesc(const std::string& device) const {
     offline::ContextDesc desc;
     desc.device = device;
     desc.pipelineCache = apps::pipelineCacheFolder();
@@ -99,7 +103,11 @@ class Viewer {
     desc.deviceExtensions = {VK_KHR_SWAPCHAIN_EXTENSION_NAME};
     desc.applicationName = "rill-view";
     desc.presents = Window::presents;
-    auto context = offline::Context::create(desc);
+    return desc;
+  }
+
+  Expected<void> openDevice(const std::string& device, VkPresentModeKHR mode) {
+    auto context = offline::Context::create(deviceDesc(device));
     if (!context) {
       Error error = context.error();
       if (error.kind == ErrorKind::NoDevice) error.message += "\nrill-capture needs no window: it writes images to files";
@@ -108,6 +116,7 @@ class Viewer {
     context_ = std::move(*context);
     const DeviceInfo& info = context_->device().info();
     deviceName_ = info.name + ", " + info.driver;
+    meter_.emplace(*context_);
     auto display = Display::create(*context_, *window_, interface_->fonts(), mode);
     if (!display) return display.error();
     display_ = std::move(*display);
@@ -117,6 +126,7 @@ class Viewer {
   void closeDevice() {
     session_->release();
     display_.reset();
+    meter_.reset();
     context_.reset();
     picture_ = {};
     controls_.reset();  // what it holds may not be part of the snapshot
@@ -135,7 +145,7 @@ class Viewer {
     Expected<void> opened = lost;
     for (int tries = 0; !opened && tries < 5; ++tries) {  // a driver that resets its device needs a moment
       if (tries > 0) std::this_thread::sleep_for(std::chrono::seconds(1));
-      opened = openDevice(options_.device, mode);
+      opened = openDevice(device_, mode);
       if (opened) opened = session_->resume();
       if (!opened) closeDevice();
     }
@@ -146,6 +156,27 @@ class Viewer {
     logError(notice);
     showMessage(notice);
     return {};
+  }
+
+  /// Continues on another device, or on the same one where that fails.
+  Expected<void> changeDevice(const std::string& device) {
+    if (auto kept = session_->keep(); !kept) return kept;
+    const VkPresentModeKHR mode = display_->mode();
+    takeValidationMessages();
+    Expected<void> changed;
+    for (const std::string& next : {device, device_}) {
+      closeDevice();
+      auto opened = openDevice(next, VK_PRESENT_MODE_FIFO_KHR);  // every device offers it
+      if (opened) opened = session_->resume();
+      if (changed) changed = opened;
+      if (!opened) continue;
+      device_ = next;
+      if (std::ranges::find(display_->modes(), mode) != display_->modes().end()) display_->choose(mode);
+      window_->setTitle("Rill: " + sceneName_ + " (" + deviceName_ + ")");
+      showMessage(changed ? "The simulation continues on " + deviceName_ : changed.error().message);
+      return {};
+    }
+    return changed;
   }
 
   void takeValidationMessages() {
@@ -297,9 +328,10 @@ class Viewer {
   /// A snapshot for recover(), so rarely that it takes a hundredth of the time.
   Expected<void> keepSnapshot() {
     constexpr double kInterval = 2, kShare = 0.01;  // s
+    constexpr uint32_t kMaxKept = 2'000'000;        // particles; some 400 MiB of host memory
     if (!session_->runner().betweenSteps()) return {};
     const Now::time_point begin = Now::now();
-    auto kept = session_->keep();
+    auto kept = session_->keep(kMaxKept);
     keepAt_s_ = now_s_ + std::max(kInterval, secondsSince(begin) / kShare);
     return kept;
   }
@@ -322,6 +354,8 @@ class Viewer {
     board.pictureScale = picture_.scale();
     board.picture_s = picture_.seconds();
     board.lockstep = options_.lockstep;
+    board.devices = devices_;
+    board.memory = meter_->at(now_s_);
     drawPanels(board);
     const ImDrawData& lists = interface_->end();
     offline::Image image;
@@ -345,6 +379,8 @@ class Viewer {
   /// Carries out the requests of the panels.
   Expected<void> handle(const Requests& requests) {
     if (requests.mode) display_->choose(*requests.mode);
+    if (requests.device)
+      if (auto done = changeDevice(std::to_string(*requests.device)); !done) return done;
     if (requests.oneStep) oneStepAndPause();
     if (requests.save) save();
     if (requests.open)
@@ -607,10 +643,13 @@ class Viewer {
   // In the order of their dependencies.
   std::unique_ptr<Window> window_;
   std::optional<offline::Context> context_;
+  std::optional<MemoryMeter> meter_;
   std::unique_ptr<Interface> interface_;
   std::unique_ptr<Display> display_;
   std::unique_ptr<Session> session_;
 
+  std::string device_;  // as ContextDesc::device
+  std::vector<offline::ListedDevice> devices_;
   std::string deviceName_, sceneName_, message_;
   Settings settings_;
   Layout layout_;
@@ -632,6 +671,13 @@ class Viewer {
 
 }  // namespace
 
-int runViewer(const Options& options) { return Viewer(options).run(); }
+int runViewer(const Options& options) {
+  if (!options.listDevices) return Viewer(options).run();
+  const auto devices = offline::findDevices();
+  const auto written = devices ? apps::writeStream(STDOUT_FILENO, apps::printable(offline::deviceTable(*devices))) : devices.error();
+  if (written) return apps::kDone;
+  apps::printMessage("rill-view", written.error().message);
+  return devices ? apps::kFailed : apps::exitCodeBeforeRun(devices.error());
+}
 
 }  // namespace rill::view

@@ -1,5 +1,6 @@
-// A device that is lost while the viewer runs.
-#include <nlohmann/json.hpp>
+// A device that is lost, or exchanged, while the viewer runs.
+#include <algorithm>
+#include <cstdlib>
 
 #include "view_window/view_window.hpp"
 
@@ -37,6 +38,32 @@ TEST_F(ViewWindowTest, GivesUpOnADeviceThatIsLostAgain) {
   EXPECT_NE(again.err.find("lost a moment before"), std::string::npos) << again.err;
   const Outcome always = viewFailing("vkQueuePresentKHR * -4", {scene, "--frames", "30"});
   EXPECT_EQ(always.code, 1);
+}
+
+// A second driver file makes the one driver report its device twice.
+TEST_F(ViewWindowTest, ChangesTheDeviceBitwise) {
+  const char* driver = std::getenv("VK_DRIVER_FILES");
+  if (!driver || !std::filesystem::is_regular_file(driver)) GTEST_SKIP() << "VK_DRIVER_FILES names no file";
+  const std::string drivers = folder.write("second.json", contentOf(driver)).string() + ":" + driver;
+  const Child::Environment two{{"VK_DRIVER_FILES", drivers}, {"VK_ICD_FILENAMES", drivers}};
+  const Outcome list = Child({program(), "--list-devices"}, folder.string(), two).wait();
+  EXPECT_EQ(list.code, 0) << list.err;
+  EXPECT_EQ(std::ranges::count(list.out, '\n'), 3) << list.out;
+  // The list below "present", and its second row.
+  folder.write("hands.txt", "2 move 97 201\n2 press left\n3 release left\n8 move 97 246\n9 press left\n10 release left\n20 view final\n");
+  const std::vector<std::string> arguments{scene, "--script", "hands.txt", "--screenshot", "end.png", "--validate"};
+  const Outcome changed = Child(command(arguments), folder.string(), two).wait(), same = view(arguments);
+  ASSERT_EQ(changed.code, 0) << changed.err;
+  EXPECT_EQ(changed.err, "");
+  EXPECT_EQ(figure(changed, "steps"), "20");
+  EXPECT_EQ(figure(changed, "state_hash"), figure(same, "state_hash"));
+  // That the device has changed: its window gets a second swapchain.
+  Child::Environment failing{{"VK_ADD_LAYER_PATH", RILL_LAYERS_FOLDER},
+                             {"VK_INSTANCE_LAYERS", "VK_LAYER_RILL_failing"},
+                             {"RILL_TEST_FAIL", "vkCreateSwapchainKHR 2 -3"}};
+  EXPECT_EQ(Child(command(arguments), folder.string(), failing).wait().code, 0);
+  failing.insert(failing.end(), two.begin(), two.end());
+  EXPECT_EQ(Child(command(arguments), folder.string(), failing).wait().code, 1);
 }
 
 TEST_F(ViewWindowTest, ReportsExhaustedMemory) {

@@ -7,9 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "offline/device_list.hpp"
 #include "view/display.hpp"
 #include "view/interface.hpp"
 #include "view/layout.hpp"
+#include "view/memory_meter.hpp"
 #include "view/playback.hpp"
 #include "view/session.hpp"
 
@@ -34,6 +36,7 @@ struct Requests {
   std::optional<std::string> reset;  ///< key
   std::optional<std::filesystem::path> open;
   std::optional<VkPresentModeKHR> mode;
+  std::optional<size_t> device;  ///< index
   bool restart = false, oneStep = false, save = false;
 };
 
@@ -54,6 +57,8 @@ struct Board {
   double speed = 1;         ///< simulated over real time
   double pictureScale = 1;  ///< now
   double picture_s = 0;     ///< device time of the last picture
+  std::span<const offline::ListedDevice> devices;
+  DeviceMemory memory;
   bool lockstep = false;
   Requests requests;
 };

@@ -41,6 +41,15 @@ void figurePanel(Board& board) {
     figureLine("outside; not finite", "%llu; %llu", static_cast<unsigned long long>(board.stats->outside),
                static_cast<unsigned long long>(board.stats->nonFinite));
   }
+  const DeviceMemory& memory = board.memory;
+  if (memory.used)
+    figureLine("device memory", "%s of %s MiB", grouped(*memory.used >> 20).c_str(), grouped(*memory.budget >> 20).c_str());
+  else if (memory.size > 0)
+    figureLine("device memory", "%s MiB in all", grouped(memory.size >> 20).c_str());
+  if (memory.size > 0 && ImGui::IsItemHovered())
+    ImGui::SetTooltip(memory.used ? "used by this program, of what the driver grants it now; the device has %s MiB"
+                                  : "the driver does not report use (VK_EXT_memory_budget); the device has %s MiB",
+                      grouped(memory.size >> 20).c_str());
 }
 
 }  // namespace rill::view

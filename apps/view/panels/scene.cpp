@@ -64,6 +64,19 @@ void scenePanel(Board& board) {
       if (ImGui::Selectable(std::string(presentModeName(mode)).c_str(), mode == board.display.mode())) requests.mode = mode;
     ImGui::EndCombo();
   }
+  if (board.devices.size() > 1) {
+    ImGui::SetNextItemWidth(-80 * ImGui::GetFontSize() / 15);
+    if (ImGui::BeginCombo("device", board.device.c_str())) {
+      for (const offline::ListedDevice& device : board.devices) {
+        const std::string name = device.name + ", " + device.driver + "##" + std::to_string(device.index);
+        const auto flags = device.unusable.empty() ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
+        if (ImGui::Selectable(name.c_str(), device.name + ", " + device.driver == board.device, flags)) requests.device = device.index;
+        if (!device.unusable.empty() && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+          ImGui::SetTooltip("%s", device.unusable.c_str());
+      }
+      ImGui::EndCombo();
+    }
+  }
   ImGui::PushTextWrapPos(0);
   ImGui::TextDisabled("%s", board.device.c_str());
   if (!board.session.scene().about.empty()) ImGui::TextDisabled("%s", board.session.scene().about.c_str());
