@@ -18,8 +18,8 @@ void FluidImpl::importAll(Graph& graph) {
     refs_[slotOf(FluidArray::List, c)] = importWhole(graph, rowOf(FluidArray::List).label, buffer(FluidArray::List, c));
 }
 
-void FluidImpl::declareBegin(Graph& graph, double advance) {
-  declare(graph, FluidPass::Begin, Start::Always, BeginPush{static_cast<float>(advance), advance > 0 ? drivenSpeed_ : 0.0f});
+void FluidImpl::declareBegin(Graph& graph, double advance, bool queued) {
+  declare(graph, FluidPass::Begin, Start::Always, BeginPush{static_cast<float>(advance), advance > 0 ? drivenSpeed_ : 0.0f, queued});
   if (advance > 0) declare(graph, FluidPass::Predict, Start::Predict);
 }
 
@@ -88,6 +88,7 @@ bool FluidImpl::validate(Graph& graph, const FluidStep& step) const {
   };
   if (!(step.advance_s >= 0 && step.advance_s <= std::numeric_limits<float>::max()))
     return invalid("advance_s is " + shortestNumber(step.advance_s) + "; expected a finite time of at least 0 (s)");
+  if (step.queued && !setup.driven.empty()) return invalid("queued is set; expected false where solids are driven");
   for (size_t k = 0; k < step.targets.size(); ++k)
     if (step.targets[k].solid >= setup.solids.size())
       return invalid("targets[" + std::to_string(k) + "].solid is " + std::to_string(step.targets[k].solid) + "; the scene has " +
@@ -122,7 +123,7 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   }
   uploaded_ = true;
   if (!step.resume && step.advance_s > 0 && !setup.driven.empty()) declareDrive(graph, step);
-  if (!step.resume) declareBegin(graph, std::max(step.advance_s, 0.0));
+  if (!step.resume) declareBegin(graph, std::max(step.advance_s, 0.0), step.queued);
   const uint32_t blocks = advances ? static_cast<uint32_t>(divideUp(std::max(step.substeps, 1u), setup.substepsPerBlock)) : 0;
   for (uint32_t block = 0; block < blocks; ++block) {
     declareRebuild(graph);

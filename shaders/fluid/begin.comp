@@ -20,6 +20,10 @@ layout(std430, binding = 6) writeonly buffer DensityCommandBlock { uint densityC
 
 void main() {
   control = stored.control;
+  if (push.queued != 0u && control.timeLeft > 0.0) {
+    switchCommands(kNoBegin);
+    return;
+  }
   control.timeDropped = max(control.timeLeft, 0.0);  // an advance that was not recorded to its end
   control.timeLeft = push.advance;
   control.substeps = 0u;

@@ -2,7 +2,7 @@
 #ifndef RILL_DISPATCH_COMMANDS_GLSL
 #define RILL_DISPATCH_COMMANDS_GLSL
 // The starts whose commands run, a bit each, once the control block is settled. `parity`: of
-// the substep whose density pass has just run; kNoSubstep: none has.
+// the substep whose density pass has just run; kNoSubstep, kNoBegin: none has.
 uint startsOn(uint parity) {
   bool rebuilds = control.listState == kListNone || (control.listState == kListDue && control.timeLeft > 0.0);
   return 1u << kStartAlways | 1u << kStartFigures |
@@ -11,7 +11,7 @@ uint startsOn(uint parity) {
          uint(control.again != 0u) << kStartIterate |
          uint(parity == 0u) << kStartCorrect |
          uint(parity == 1u) << kStartCorrectOdd |
-         uint(parity != kNoSubstep && control.noiseDamping > 0.0) << kStartNoiseDamping |
+         uint(parity < kNoSubstep && control.noiseDamping > 0.0) << kStartNoiseDamping |
          uint(rebuilds) << kStartRebuild;
 }
 
