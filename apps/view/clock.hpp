@@ -13,9 +13,10 @@ class Clock {
   /// Adds real time during which the simulation was not paused.
   void addRealTime(double real_s);
   /// True where the next step is due.
-  bool due() const { return pending_ >= kStep; }
-  /// Call at the start of a step.
-  void beginStep() { pending_ -= kStep; }
+  bool due() const { return stepsDue() >= 1; }
+  double stepsDue() const { return pending_ / kStep; }
+  /// Call at the start of steps; negative: some have not begun after all.
+  void beginSteps(int64_t count) { pending_ -= static_cast<double>(count) * kStep; }
   /// Call at the end of a step.
   void endStep();
   /// Resets the clock: after a pause, for another scene.

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "view/display.hpp"
-#include "view/pacing.hpp"
+#include "view/picture_scale.hpp"
 
 namespace rill::view {
 

@@ -21,19 +21,36 @@ Expected<bool> Playback::advance(Runner& runner, const Frame& frame) {
     if (auto ran = runner.advancePiece(frame.budget_s); !ran) return ran.error();
     if (runner.betweenSteps()) return finished(runner, frame);
   }
+  const bool measures = frame.measureEvery_s && frame.now_s - measured_s_ >= *frame.measureEvery_s;
+  const bool queues = frame.queues && !frame.paused && !measures && singles_ == 0;
+  const bool staysBusy = queues && runner.mayStayBusy();
   const Now::time_point begin = Now::now();
   for (double left = frame.budget_s; left > 0; left = frame.budget_s - std::chrono::duration<double>(Now::now() - begin).count()) {
     if (runner.betweenSteps()) {
       if (frame.paused || !clock_.due()) return ended;
-      clock_.beginStep();
     }
-    if (auto ran = runner.advancePiece(left); !ran) return ran.error();
-    if (!runner.betweenSteps()) continue;
-    clock_.endStep();
+    const bool more = queues && clock_.stepsDue() >= (runner.betweenSteps() ? 2 : 1);
+    // Where none may be left in flight, two pieces are waited for in this frame.
+    auto step = counted(runner, [&] { return runner.advancePiece(staysBusy ? left : 0.5 * left, more); });
+    if (!step) return step;
+    if (!*step) continue;
     ended = true;
     if (auto done = finished(runner, frame); !done) return done;
   }
-  return ended;
+  if (staysBusy) return ended;
+  auto step = counted(runner, [&] { return runner.settle(); });
+  if (!step || !*step) return step ? Expected<bool>(ended) : step;
+  return finished(runner, frame);
+}
+
+template <class Work>
+Expected<bool> Playback::counted(Runner& runner, Work&& work) {
+  const uint64_t steps = runner.steps(), begun = runner.begun();
+  if (auto done = work(); !done) return done.error();
+  clock_.beginSteps(static_cast<int64_t>(runner.begun() - begun));
+  if (runner.steps() == steps) return false;
+  clock_.endStep();
+  return true;
 }
 
 Expected<bool> Playback::finished(Runner& runner, const Frame& frame) {
@@ -41,8 +58,8 @@ Expected<bool> Playback::finished(Runner& runner, const Frame& frame) {
   histories_.particles.add(runner.fluid().count());
   histories_.substeps.add(step.substeps);
   histories_.iterations.add(step.iterations);
-  histories_.wall_ms.add(1e3 * step.wall_s);
-  if (!frame.measureEvery_s || frame.now_s - measured_s_ < *frame.measureEvery_s) return true;
+  histories_.wall_ms.add(1e3 * step.seconds);
+  if (!runner.betweenSteps() || !frame.measureEvery_s || frame.now_s - measured_s_ < *frame.measureEvery_s) return true;
   measured_s_ = frame.now_s;
   auto stats = runner.measure();
   if (!stats) return stats.error();

@@ -41,6 +41,7 @@ class Playback {
     bool paused = false;
     bool lockstep = false;                 ///< one step per frame except the first, however long it takes
     std::optional<double> measureEvery_s;  ///< interval between measurements of the fluid, if any
+    bool queues = true;                    ///< the next step may be submitted before the last is known to be complete
   };
   /// Simulates for a frame. True where a step was completed.
   Expected<bool> advance(Runner& runner, const Frame& frame);
@@ -54,6 +55,9 @@ class Playback {
 
  private:
   Expected<bool> finished(Runner& runner, const Frame& frame);
+  /// Does `work`, which ends at most one step, and tells the clock. True where a step was completed.
+  template <class Work>
+  Expected<bool> counted(Runner& runner, Work&& work);
 
   Clock clock_;
   Histories histories_;

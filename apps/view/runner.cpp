@@ -1,10 +1,8 @@
 #include "view/runner.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 #include "fluid/snapshot.hpp"
 #include "offline/readout.hpp"
@@ -41,7 +39,7 @@ Expected<void> Runner::makeFluid(const FluidSnapshot* from) {
   auto fluid = Fluid::create(context_.device(), {.scene = &scene_, .particles = &start_, .snapshot = from});
   if (!fluid) return fluid.error();
   fluid_ = std::move(*fluid);
-  pacing_ = Pacing(std::max(1u, fluid_->substepsPerBlock()));
+  advances_.setFluid(*fluid_, scene_);
   return {};
 }
 
@@ -57,58 +55,57 @@ Expected<void> Runner::begin() {
   return run(measureGraph_, [&](Graph& graph) { static_cast<void>(fluid_->addTo(graph, {})); });
 }
 
-Expected<void> Runner::advancePiece(double budget_s) {
-  using Now = std::chrono::steady_clock;
-  if (auto idle = context_.wait(); !idle) return idle;  // rendering is not part of the measured time
-  const Now::time_point before = Now::now();
-  if (recorded_ == 0) {
-    current_ = {};
-    log_.clear();
-  }
-  const uint32_t limit = fluid_->substepsToComplete();
-  const uint32_t substeps = std::min(pacing_.next(budget_s), limit - recorded_);
-  const FluidStep part{recorded_ == 0 ? Clock::kStep : 0.0, recorded_ > 0, substeps, false, targets_};
-  if (auto ran = run(graph_, [&](Graph& graph) { static_cast<void>(fluid_->addTo(graph, part)); }); !ran) return ran;
-  log_.add(graph_.report(), true);
-  log_.add(graph_.timings());
-  log_.add(fluid_->passRuns(), graph_.report());
+Expected<void> Runner::advancePiece(double budget_s, bool more) {
+  if (advances_.inFlight() == 0)
+    if (auto idle = context_.wait(); !idle) return idle;  // rendering is not part of the measured time
+  const offline::Advances::Work work{
+      .advance_s = Clock::kStep, .advances = advances_.ended() + (more ? 2 : 1), .budget_s = budget_s, .targets = targets_};
+  if (auto submitted = advances_.submit(work); !submitted) return submitted;
+  return finishPiece();
+}
 
-  const double seconds = std::chrono::duration<double>(Now::now() - before).count();
-  const FluidProgress& progress = fluid_->progress();
-  recorded_ += substeps;
-  // During settling, substeps consist of iterations only.
-  const uint32_t due = std::max(progress.substeps, progress.iterations / scene_.solver.iterations);
-  pacing_.addPiece(substeps, due - std::min(done_, due), seconds);
-  done_ = due;
-  ++current_.pieces;
-  current_.wall_s += seconds;
-  if (progress.timeLeft_s > 0 && recorded_ < limit) return {};
-
-  pacing_.endStep(progress.substeps);
-  current_.substeps = progress.substeps;
-  current_.iterations = progress.iterations;
-  current_.timeDropped_s = std::max(progress.timeDropped_s, progress.timeLeft_s);
-  last_ = current_;
+Expected<void> Runner::finishPiece() {
+  const auto ended = advances_.finish(log_, true);
+  if (!ended) return ended.error();
+  if (!*ended) return {};
+  const offline::AdvanceFigures& done = advances_.last();
+  last_ = {.substeps = done.progress.substeps,
+           .iterations = done.progress.iterations,
+           .pieces = done.pieces,
+           .timeDropped_s = std::max(done.progress.timeDropped_s, done.progress.timeLeft_s),
+           .seconds = done.seconds};
   shown_ = log_;
-  recorded_ = done_ = 0;
   ++steps_;
   return {};
 }
 
-Expected<void> Runner::step() {
-  do {
-    if (auto ran = advancePiece(std::numeric_limits<double>::infinity()); !ran) return ran;
-  } while (!betweenSteps());
+Expected<void> Runner::settle() {
+  while (advances_.inFlight() > 0)
+    if (auto finished = finishPiece(); !finished) return finished;
   return {};
 }
 
+bool Runner::mayStayBusy() const {
+  return timed_ && std::ranges::none_of(scene_.solids, [](const Solid& solid) { return solid.driven > 0 || !solid.motion.empty(); });
+}
+
+Expected<void> Runner::step() {
+  constexpr double kPiece = 0.1;  // s
+  do {
+    if (auto ran = advancePiece(kPiece); !ran) return ran;
+  } while (!betweenSteps());
+  return settle();
+}
+
 Expected<FluidStats> Runner::measure() {
+  if (auto settled = settle(); !settled) return settled.error();
   auto ran = run(measureGraph_, [&](Graph& graph) { static_cast<void>(fluid_->addTo(graph, {.stats = true})); });
   if (!ran) return ran.error();
   return fluid_->stats().value_or(FluidStats{});
 }
 
 Expected<uint64_t> Runner::hash() {
+  if (auto settled = settle(); !settled) return settled.error();
   offline::ReadoutTickets tickets;
   auto ran = run(measureGraph_, [&](Graph& graph) { tickets = offline::readout(graph, fluid_->addTo(graph, {})); });
   if (!ran) return ran.error();
@@ -119,6 +116,7 @@ Expected<uint64_t> Runner::hash() {
 Expected<FluidSnapshot> Runner::snapshot() {
   if (!betweenSteps())
     if (auto ended = step(); !ended) return ended.error();
+  if (auto settled = settle(); !settled) return settled.error();
   if (auto ready = begin(); !ready) return ready.error();
   SnapshotReader reader(*fluid_);
   for (Graph graph; !reader.done();) {
@@ -132,8 +130,8 @@ Expected<void> Runner::continueFrom(Scene scene, ParticleSet start, FluidSnapsho
   auto fluid = Fluid::create(context_.device(), {.scene = &scene, .particles = &start, .snapshot = count() > 0 ? &from : nullptr});
   if (!fluid) return fluid.error();
   fluid_ = std::move(*fluid);
-  pacing_.setBlock(std::max(1u, fluid_->substepsPerBlock()));
   scene_ = std::move(scene);
+  advances_.setFluid(*fluid_, scene_);
   start_ = std::move(start);
   keep(std::move(from));
   return begin();

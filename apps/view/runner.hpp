@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "offline/advances.hpp"
 #include "offline/context.hpp"
 #include "offline/pass_log.hpp"
 #include "rill/fluid.hpp"
 #include "rill/scene_io.hpp"
 #include "rill/snapshot.hpp"
 #include "shape/pose.hpp"
-#include "view/pacing.hpp"
 #include "views/bounds.hpp"
 
 namespace rill::view {
@@ -20,7 +20,7 @@ namespace rill::view {
 struct StepFigures {
   uint32_t substeps = 0, iterations = 0, pieces = 0;
   double timeDropped_s = 0;
-  double wall_s = 0;  ///< of its pieces
+  double seconds = 0;  ///< of its pieces
 };
 
 /// What a simulation needs to continue on the same or another device.
@@ -32,8 +32,8 @@ struct KeptState {
   uint64_t steps = 0;                          ///< finished
 };
 
-/// After N steps the state is bitwise equal to frame N of `rill-capture --fps 60`, however the steps are split. Each piece
-/// is waited for, as only then it is known whether the step is complete.
+/// After N steps the state is bitwise equal to frame N of `rill-capture --fps 60`, however the steps are split. Pieces, of the next step,
+/// too, are submitted before it is known whether the step is complete.
 class Runner {
  public:
   /// BadInput, TooLarge, OutOfMemory as Fluid::create. The context outlives it.
@@ -41,16 +41,20 @@ class Runner {
   /// Continues from kept() of another one, whose context may be gone. Errors as create().
   static Expected<std::unique_ptr<Runner>> resume(offline::Context& context, const KeptState& kept);
 
-  /// Starts a step or continues the current one for about `budget_s` of real time, and waits for the device.
-  Expected<void> advancePiece(double budget_s);
-  /// Completes the current step, or simulates a whole one.
+  /// Starts a step or continues the current one by pieces of about `budget_s` of real time. Waits for the oldest piece; one may still
+  /// be in flight then. `more`: a step may begin behind the current one.
+  Expected<void> advancePiece(double budget_s, bool more = false);
+  /// Waits for all pieces in flight. The step that they belong to may need more.
+  Expected<void> settle();
+  /// Completes the steps that have begun, or simulates a whole one.
   Expected<void> step();
-  bool betweenSteps() const { return recorded_ == 0; }
+  bool betweenSteps() const { return advances_.idle(); }
 
   uint64_t steps() const { return steps_; }  ///< finished
+  /// With those that are under way, of which the last may not have begun after all.
+  uint64_t begun() const { return steps_ + advances_.begun() - advances_.ended(); }
   double time_s() const { return fluid_->progress().known ? fluid_->progress().time_s : 0; }
   const StepFigures& last() const { return last_; }
-  const Pacing& pacing() const { return pacing_; }
 
   /// Only between steps: measures figures, and the density for the view `density`. Does not change later results.
   Expected<FluidStats> measure();
@@ -85,7 +89,13 @@ class Runner {
   FluidState present(Graph& graph) const { return fluid_->present(graph); }
   /// Passes of the last step: runs, milliseconds if timed, and skipped passes with the reason.
   const offline::PassLog& log() const { return shown_; }
-  void timePasses(bool enabled) { graph_.enableTimings(enabled); }
+  void timePasses(bool enabled) {
+    timed_ = enabled;
+    graph_.enableTimings(enabled);
+  }
+  /// Whether a piece may be in flight while the window is drawn: the device measures its time, and the particles, which are drawn as they
+  /// are after it, go with solids that are drawn where they were before.
+  bool mayStayBusy() const;
   const Graph& stepGraph() const { return graph_; }
 
   const Scene& scene() const { return scene_; }
@@ -96,7 +106,8 @@ class Runner {
   std::vector<std::string> warnings() const;
 
  private:
-  Runner(offline::Context& context, Scene scene) : context_(context), scene_(std::move(scene)) {}
+  Runner(offline::Context& context, Scene scene) : context_(context), scene_(std::move(scene)), advances_(context, graph_) {}
+  Expected<void> finishPiece();
   template <class Declare>
   Expected<void> run(Graph& graph, Declare&& declare);
   Expected<FluidSnapshot> snapshot();
@@ -112,11 +123,10 @@ class Runner {
   std::optional<Fluid> fluid_;
   std::vector<SolidTarget> targets_;
   Graph graph_, measureGraph_;
-  Pacing pacing_{1};
+  offline::Advances advances_;
   uint64_t steps_ = 0;
-  uint32_t recorded_ = 0;  ///< substeps recorded in the current step
-  uint32_t done_ = 0;      ///< of them, those that were executed
-  StepFigures current_, last_;
+  bool timed_ = true;
+  StepFigures last_;
   KeptState kept_;
   offline::PassLog log_, shown_;
 };

@@ -314,7 +314,8 @@ class Viewer {
   /// Simulates for this frame, about as long as the image takes to render, so that the window stays responsive.
   Expected<void> simulate(double seconds) {
     session_->runner().timePasses(settings_.panels);
-    Playback::Frame frame{seconds, now_s_, std::clamp(picture_.seconds(), kMinPiece, kMaxPiece), settings_.paused, options_.lockstep, {}};
+    Playback::Frame frame{
+        seconds, now_s_, std::clamp(picture_.seconds(), kMinPiece, kMaxPiece), settings_.paused, options_.lockstep, {}, now_s_ < keepAt_s_};
     if (settings_.view == "density")
       frame.measureEvery_s = 0;
     else if (settings_.panels)

@@ -66,7 +66,10 @@ Expected<void> ContextImpl::waitFor(uint64_t frame) {
     if (VkResult r = vk.WaitSemaphores(device, &info, UINT64_MAX); r != VK_SUCCESS)
       return vulkanError(r, "waiting for frame " + std::to_string(frame) + " on " + deviceName);
   }
-  return updateCompleted();
+  // No later frame: whoever waits for frames in turn finds the figures of each.
+  completed = std::max(completed, frame);
+  rill->beginFrame({submitted + 1, completed});
+  return {};
 }
 
 Expected<void> ContextImpl::updateCompleted() {
@@ -86,6 +89,7 @@ Expected<FrameClock> Context::beginFrame() {
   const uint64_t count = c.commandBuffers.size();
   const uint64_t frame = c.submitted + 1;
   if (auto ok = c.waitFor(frame > count ? frame - count : 0); !ok) return ok.error();
+  if (auto ok = c.updateCompleted(); !ok) return ok.error();
   c.begun = true;
   return FrameClock{frame, c.completed};
 }

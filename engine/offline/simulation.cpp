@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/words.hpp"
+#include "offline/advances.hpp"
 #include "offline/context.hpp"
 #include "offline/painter.hpp"
 #include "offline/pass_log.hpp"
@@ -19,9 +20,7 @@
 namespace rill::offline {
 namespace {
 
-constexpr uint32_t kFirstPiece = 16;  // substeps recorded before any statistics are known
-
-uint32_t wholeBlocks(uint32_t substeps, uint32_t block) { return (std::max(substeps, 1u) + block - 1) / block * block; }
+constexpr double kPiece = 0.1;  // s that a submission should take: drivers give up on one after about two seconds
 
 /// Runs `work` and turns std::bad_alloc into an error.
 template <class Work>
@@ -71,13 +70,15 @@ class Simulation::Impl {
     desc.validation = options_.validation;
     desc.pipelineCache = options_.pipelineCache;
     desc.reads = options_.reads;
-    desc.framesInFlight = 1;  // every frame is waited for
+    desc.framesInFlight = PieceQueue::kMaxInFlight;
     auto context = Context::create(desc);
     if (!context) return context.error();
     context_ = std::move(*context);
     auto fluid = Fluid::create(context_->device(), {.scene = &scene_, .particles = &start_, .snapshot = from ? &from->fluid : nullptr});
     if (!fluid) return fluid.error().kind == ErrorKind::OutOfMemory ? withMemoryNeeded(fluid.error()) : fluid.error();
     fluid_ = std::move(*fluid);
+    advances_.emplace(*context_, advanceGraph_);
+    advances_->setFluid(*fluid_, scene_);
     if (from) {
       time_s_ = from->time_s;
       addResumeWarnings(*from);
@@ -91,19 +92,12 @@ class Simulation::Impl {
       return Error{ErrorKind::BadInput, "advance: found " + std::to_string(seconds) + " s, expected a finite time of at least 0"};
     if (seconds == 0) return {};
     beginAdvance();
-    const auto frames = static_cast<uint64_t>(std::max(1.0, std::ceil(seconds / options_.longestFrame_s - 1e-9)));
-    for (uint64_t frame = 0; frame < frames; ++frame) {
-      const auto before = std::chrono::steady_clock::now();
-      if (auto ran = advanceFrame(seconds / double(frames)); !ran) return ran;
-      wall_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
-      const FluidProgress& done = fluid_->progress();
-      advanced_.substeps += done.substeps;
-      advanced_.iterations += done.iterations;
-      advanced_.listBuilds += done.listBuilds;
-      // Time that the recorded substeps did not cover is dropped by the next advance.
-      advanced_.timeDropped_s += std::max(done.timeDropped_s, done.timeLeft_s);
-      if (done.substeps > 0) expected_ = std::max(done.substeps, done.listBuilds * fluid_->substepsPerBlock());
+    const auto before = std::chrono::steady_clock::now();
+    if (auto ran = advanceFrames(seconds); !ran) {
+      advances_->abandon();
+      return ran;
     }
+    wall_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
     time_s_ += seconds;
     return {};
   }
@@ -269,20 +263,24 @@ class Simulation::Impl {
     return {};
   }
 
-  /// Runs one advance of the solver, recorded in pieces until no time is left.
-  Expected<void> advanceFrame(double seconds) {
-    const uint32_t block = std::max(1u, fluid_->substepsPerBlock());
-    const uint32_t maxSubsteps = fluid_->substepsToComplete();
-    const uint32_t estimate = wholeBlocks(expected_, block);
-    for (uint32_t recorded = 0; recorded < maxSubsteps;) {
-      // The first piece has the substeps of the previous frame, further pieces a quarter of that.
-      uint32_t piece = recorded == 0 ? estimate : wholeBlocks(estimate / 4, block);
-      if (options_.substepsPerSubmit > 0) piece = wholeBlocks(options_.substepsPerSubmit, block);
-      piece = std::min(piece, maxSubsteps - recorded);
-      const FluidStep step{recorded == 0 ? seconds : 0.0, recorded > 0, piece, false};
-      if (auto ran = run(advanceGraph_, [&](Graph& graph) { static_cast<void>(fluid_->addTo(graph, step)); }); !ran) return ran;
-      recorded += piece;
-      if (!(fluid_->progress().timeLeft_s > 0)) break;
+  /// Runs `seconds` in frames of equal length, at most longestFrame_s.
+  Expected<void> advanceFrames(double seconds) {
+    const auto frames = static_cast<uint64_t>(std::max(1.0, std::ceil(seconds / options_.longestFrame_s - 1e-9)));
+    const Advances::Work work{.advance_s = seconds / double(frames),
+                              .advances = advances_->ended() + frames,
+                              .budget_s = kPiece,
+                              .substeps = options_.substepsPerSubmit};
+    while (advances_->ended() < work.advances || advances_->inFlight() > 0) {
+      if (auto submitted = advances_->submit(work); !submitted) return submitted;
+      auto ended = advances_->finish(log_);
+      if (!ended) return ended.error();
+      if (!*ended) continue;
+      const FluidProgress& done = advances_->last().progress;
+      advanced_.substeps += done.substeps;
+      advanced_.iterations += done.iterations;
+      advanced_.listBuilds += done.listBuilds;
+      // Time that the recorded substeps did not cover is dropped by the next advance.
+      advanced_.timeDropped_s += std::max(done.timeDropped_s, done.timeLeft_s);
     }
     return {};
   }
@@ -312,11 +310,11 @@ class Simulation::Impl {
   Painter painter_{scene_, start_, options_.orbit_degPerS};
   // One graph per kind of frame, so that each keeps its memory plan.
   Graph advanceGraph_, measureGraph_, renderGraph_;
+  std::optional<Advances> advances_;
   PassLog log_;                         ///< since the last advance() began
   FluidProgress advanced_;              ///< of the last advance(), summed over its frames
   std::optional<FluidStats> measured_;  ///< at the current time
   Readout readout_;                     ///< at the current time
-  uint32_t expected_ = kFirstPiece;     ///< estimated substeps of the next frame
   double time_s_ = 0;
   double wall_s_ = 0;
   uint64_t pictureBoundHits_ = 0;  ///< at the current time

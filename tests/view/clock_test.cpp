@@ -11,7 +11,7 @@ int stepsIn(Clock& clock, double seconds, double frame_s, int most) {
   for (double t = 0; t < seconds - 1e-9; t += frame_s) {
     clock.addRealTime(frame_s);
     for (int k = 0; k < most && clock.due(); ++k) {
-      clock.beginStep();
+      clock.beginSteps(1);
       clock.endStep();
       ++steps;
     }
@@ -41,7 +41,7 @@ TEST(Clock, LongFrameIsNotCaughtUp) {
   Clock clock;
   clock.addRealTime(30);
   int steps = 0;
-  for (; clock.due(); ++steps) clock.beginStep();
+  for (; clock.due(); ++steps) clock.beginSteps(1);
   EXPECT_LE(steps, 6) << "a tenth of a second";
 }
 

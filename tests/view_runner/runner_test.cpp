@@ -8,6 +8,7 @@
 #include "rill/offline.hpp"
 #include "support/gpu_test.hpp"
 #include "support/temporary_folder.hpp"
+#include "view/playback.hpp"
 #include "view/session.hpp"
 
 namespace rill::view {
@@ -65,6 +66,54 @@ TEST_F(ViewRunnerTest, StepsEqualCaptureBitwise) {
     EXPECT_NEAR((*runner)->time_s(), kSteps / 60.0, 1e-6);
   }
   EXPECT_GT(maxPieces, 1u) << "some of them were cut";
+}
+
+TEST_F(ViewRunnerTest, QueuedStepsEqualCaptureBitwise) {
+  constexpr uint64_t kSteps = 9;
+  auto captured = offline::Simulation::open(scene());
+  ASSERT_TRUE(captured);
+  for (uint64_t k = 0; k < kSteps; ++k) ASSERT_TRUE(captured->advance(1.0 / 60));
+  const auto stats = captured->stats();
+  ASSERT_TRUE(stats);
+  for (const double budget : {0.0, 0.002, 1e9}) {
+    auto runner = Runner::create(context(), scene());
+    ASSERT_TRUE(runner) << runner.error().message;
+    while ((*runner)->steps() < kSteps) {
+      const bool more = (*runner)->begun() < kSteps && !((*runner)->betweenSteps() && (*runner)->begun() + 1 == kSteps);
+      ASSERT_TRUE((*runner)->advancePiece(budget, more));
+      Graph graph;  // a picture between the pieces
+      static_cast<void>(graph.readback((*runner)->present(graph).position));
+      ASSERT_TRUE(context().run(graph));
+    }
+    EXPECT_TRUE((*runner)->betweenSteps());
+    const auto hash = (*runner)->hash();
+    ASSERT_TRUE(hash);
+    EXPECT_EQ(*hash, stats->stateHash) << budget;
+  }
+}
+
+// On a machine that never reaches real time.
+TEST_F(ViewRunnerTest, PlaybackCountsTheStepsOfTheDevice) {
+  auto runner = Runner::create(context(), scene());
+  ASSERT_TRUE(runner) << runner.error().message;
+  Playback playback;
+  uint64_t ended = 0;
+  Playback::Frame frame{.passed_s = 0.2, .budget_s = 1e-9};
+  for (int k = 0; k < 60; ++k, frame.now_s += frame.passed_s) {
+    const auto done = playback.advance(**runner, frame);
+    ASSERT_TRUE(done) << done.error().message;
+    ended += *done;
+    if (k == 40) frame.paused = true;
+  }
+  EXPECT_TRUE((*runner)->betweenSteps()) << "paused";
+  EXPECT_GE(ended, 3u);
+  EXPECT_EQ((*runner)->steps(), ended);
+  auto captured = offline::Simulation::open(scene());
+  ASSERT_TRUE(captured);
+  for (uint64_t k = 0; k < ended; ++k) ASSERT_TRUE(captured->advance(1.0 / 60));
+  const auto hash = (*runner)->hash();
+  ASSERT_TRUE(hash);
+  EXPECT_EQ(*hash, captured->stats()->stateHash);
 }
 
 TEST_F(ViewRunnerTest, ResumesOnAnotherDeviceBitwise) {

@@ -42,7 +42,7 @@ void statusLine(Board& board) {
   add("step %llu", static_cast<unsigned long long>(runner.steps()));
   add(board.framesPerSecond < 10 ? "%.1f frames/s" : "%.0f frames/s", board.framesPerSecond);
   if (board.pictureScale < 1) add("picture at %.0f %% (%.0f ms)", 100 * board.pictureScale, 1e3 * board.picture_s);
-  if (runner.last().pieces > 1) add("a step takes %.0f ms, in %u pieces", 1e3 * runner.last().wall_s, runner.last().pieces);
+  if (runner.last().pieces > 1) add("a step takes %.0f ms, in %u pieces", 1e3 * runner.last().seconds, runner.last().pieces);
   if (runner.last().timeDropped_s > 0) add("%.3g ms dropped (solver.max_substeps)", 1e3 * runner.last().timeDropped_s);
   ImGui::TextUnformatted(text.c_str());
 }

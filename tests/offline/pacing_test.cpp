@@ -1,10 +1,10 @@
-#include "view/pacing.hpp"
+#include "offline/pacing.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-namespace rill::view {
+namespace rill::offline {
 namespace {
 
 constexpr uint32_t kBlock = 6;
@@ -20,6 +20,7 @@ Course stepOf(Pacing& pacing, uint32_t substeps, double cost, double budget) {
     const uint32_t recorded = pacing.next(budget), due = std::min(recorded, left);
     EXPECT_EQ(recorded % kBlock, 0u);
     EXPECT_GT(recorded, 0u);
+    pacing.submit(recorded);
     pacing.addPiece(recorded, due, due * cost);
     left -= due;
     run.longest = std::max(run.longest, due * cost);
@@ -57,6 +58,7 @@ TEST(Pacing, PiecesOfFirstStepDouble) {
   Pacing pacing(kBlock);
   for (const uint32_t piece : {kBlock, 2 * kBlock, 4 * kBlock, 8 * kBlock}) {
     EXPECT_EQ(pacing.next(std::numeric_limits<double>::infinity()), piece);
+    pacing.submit(piece);
     pacing.addPiece(piece, piece, 0.001 * piece);
   }
 }
@@ -81,43 +83,31 @@ TEST(Pacing, AdaptsToSlowerMachine) {
   EXPECT_LE(stepOf(pacing, 48, 0.01, 0.07).longest, 0.07);
 }
 
-/// Pictures on a machine that takes `fixed` s, and `whole` s more at a scale of 1.
-void draw(PictureScale& scale, double fixed, double whole, int pictures) {
-  for (int k = 0; k < pictures; ++k) scale.addImage(fixed + whole * scale.scale() * scale.scale());
+TEST(Pacing, PiecesInFlightCoverTheExpectedRest) {
+  Pacing pacing(kBlock);
+  stepOf(pacing, 24, 0.001, 1);
+  pacing.submit(pacing.next(0.012));
+  EXPECT_EQ(pacing.next(0.012), 12u) << "while the first is in flight";
+  pacing.submit(12);
+  EXPECT_EQ(pacing.next(0.012), 0u) << "24 were expected";
+  EXPECT_EQ(pacing.first(0.012), 12u) << "of the next advance";
+  pacing.submit(12, true);
+  pacing.addPiece(12, 12, 0.012);
+  pacing.addPiece(12, 12, 0.012);
+  pacing.endStep(24);
+  EXPECT_EQ(pacing.next(0.1), 12u) << "the other half";
 }
 
-TEST(PictureScale, KeepsFullResolutionWhenFast) {
-  PictureScale scale;
-  scale.addImage(3);  // shaders are compiled
-  draw(scale, 0.01, 0.04, 300);
-  EXPECT_EQ(scale.scale(), 1);
-}
-
-TEST(PictureScale, LowersResolutionWhenSlowWithoutOscillation) {
-  PictureScale scale;
-  draw(scale, 0, 0.15, 20);
-  EXPECT_EQ(scale.scale(), 0.5) << "0.0375 s";
-  for (int k = 0; k < 90; ++k) {
-    draw(scale, 0, 0.15, 1);
-    EXPECT_EQ(scale.scale(), 0.5);
-  }
-  draw(scale, 0, 10, 20);
-  EXPECT_EQ(scale.scale(), 0.375) << "the least";
-}
-
-TEST(PictureScale, RaisesResolutionWhenFastAgain) {
-  PictureScale scale;
-  draw(scale, 0, 1, 20);
-  EXPECT_LT(scale.scale(), 1);
-  draw(scale, 0, 0.02, 100);
-  EXPECT_EQ(scale.scale(), 1);
-}
-
-TEST(PictureScale, KeepsResolutionWhenLoweringDoesNotHelp) {
-  PictureScale scale;
-  draw(scale, 0.5, 0.01, 20);
-  EXPECT_EQ(scale.scale(), 1) << "particles cost the same at any size";
+TEST(Pacing, PieceAheadMayServeALongerAdvance) {
+  Pacing pacing(kBlock);
+  stepOf(pacing, 12, 0.001, 1);
+  pacing.submit(12);
+  pacing.submit(12, true);
+  pacing.addPiece(12, 12, 0.012);
+  pacing.addPiece(12, 6, 0.006, true);  // this advance took it
+  pacing.endStep(18);
+  EXPECT_EQ(pacing.next(1), 18u) << "nothing of the next advance has run";
 }
 
 }  // namespace
-}  // namespace rill::view
+}  // namespace rill::offline

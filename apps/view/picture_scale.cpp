@@ -1,31 +1,6 @@
-#include "view/pacing.hpp"
-
-#include <algorithm>
+#include "view/picture_scale.hpp"
 
 namespace rill::view {
-
-uint32_t Pacing::next(double budget_s) const {
-  if (!(cost_ > 0)) return block_;  // the first piece measures the cost
-  const double fits = std::clamp(budget_s / cost_, 0.0, 1e6);
-  const uint32_t affordable = std::max(static_cast<uint32_t>(fits) / block_ * block_, block_);
-  // Substeps that are not executed cost empty dispatches: pieces of the first step double, and a step that is longer than
-  // the one before is extended block by block.
-  const uint32_t needed = expected_ == 0 ? wholeBlocks(done_ + 1) : expected_ > done_ ? wholeBlocks(expected_ - done_) : block_;
-  return std::min(affordable, needed);
-}
-
-void Pacing::addPiece(uint32_t recorded, uint32_t executed, double seconds) {
-  done_ += executed;
-  if (executed == 0) return;  // no measurement of the cost
-  const double cost = seconds / std::min(executed, recorded);
-  // Increases apply at once, decreases gradually: shader compilation and other programs cause outliers.
-  cost_ = cost_ > 0 && cost < cost_ ? 0.7 * cost_ + 0.3 * cost : cost_ > 0 ? std::min(cost, 4 * cost_) : cost;
-}
-
-void Pacing::endStep(uint32_t substeps) {
-  expected_ = substeps;
-  done_ = 0;
-}
 
 namespace {
 
