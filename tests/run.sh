@@ -14,6 +14,7 @@ Installs missing packages (Debian 12, Ubuntu 24.04 or newer; uses sudo if not ro
   tests with the label subgroups on lavapipe with a subgroup size of 16,
   tests with the label threads on lavapipe with one thread per core,
   tests with the label hostile-driver on lavapipe (they use what the specification leaves to drivers),
+  tests with the label gpu-assisted on lavapipe (the validation layer checks each access to a buffer),
   tests with the labels gpu and subgroups on SwiftShader, which has a subgroup size of 4;
     if it is not installed, those with the label subgroups on lavapipe with that size.
 Tests of a program share a few processes. With CTEST OPTIONs each runs in its own, so that -R selects by name.
@@ -77,9 +78,9 @@ swiftshader=$(first_file /usr/lib/chromium/vk_swiftshader_icd.json)
 [ -n "$lavapipe" ] || fail "/usr/share/vulkan/icd.d: lvp_icd.*.json of lavapipe was not found"
 
 if [ $shards = yes ]; then
-  round=(-C shards) prefix='' skipped='long|threads|hostile-driver|single-.*'
+  round=(-C shards) prefix='' skipped='long|threads|hostile-driver|gpu-assisted|single-.*'
 else
-  round=() prefix='(single-)?' skipped='long|threads|hostile-driver'
+  round=() prefix='(single-)?' skipped='long|threads|hostile-driver|gpu-assisted'
 fi
 
 # LP_NUM_THREADS=0: lavapipe works in the thread of the test, which for dispatches this small takes a third of the time. Workgroups run
@@ -92,6 +93,7 @@ if [ -z "$swiftshader" ]; then
 fi
 LP_NATIVE_VECTOR_WIDTH=512 run_tests "lavapipe with subgroups of 16" "$lavapipe" $none "${round[@]}" -L "^${prefix}subgroups$" "$@"
 run_tests "hostile drivers" "$lavapipe" $none -L '^hostile-driver$' "$@"
+run_tests "lavapipe with gpu-assisted validation" "$lavapipe" $none -L '^gpu-assisted$' "$@"
 unset LP_NUM_THREADS
 LP_NATIVE_VECTOR_WIDTH=512 run_tests "lavapipe with subgroups of 16 and threads" "$lavapipe" $none -L '^threads$' "$@"
 export LP_NUM_THREADS=0

@@ -1,10 +1,12 @@
 // A Vulkan layer that makes any driver a hostile one, by what the specification leaves to drivers. RILL_TEST_HOSTILE names it, separated
 // by commas: flush-denormals, assume-finite, perturb=SEED, poison-shuffles, groups=SEED rewrite shaders (spirv_rewrites.hpp);
-// varying-subgroups=SIZE says that no subgroup size can be required and that they may be as small as SIZE.
+// varying-subgroups=SIZE says that no subgroup size can be required and that they may be as small as SIZE. gpu-assisted is no hostility: it
+// stands between Rill and the packaged validation layer, whose gpu-assisted validation cannot do without.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -16,6 +18,10 @@ namespace {
 
 PFN_vkCreateShaderModule nextCreateShaderModule = nullptr;
 PFN_vkGetPhysicalDeviceProperties2 nextGetProperties = nullptr;
+PFN_vkWaitSemaphores nextWaitSemaphores = nullptr;
+PFN_vkDeviceWaitIdle nextDeviceWaitIdle = nullptr;
+PFN_vkGetSemaphoreCounterValue nextGetCounter = nullptr;
+PFN_vkQueueSubmit2 nextQueueSubmit2 = nullptr;
 
 struct Behavior {
   std::string name;
@@ -47,6 +53,8 @@ std::vector<uint32_t> rewritten(std::vector<uint32_t> words) {
       words = poisonShuffles(words);
     } else if (name == "groups") {
       words = permuteWorkgroups(words, seed);
+    } else if (name == "gpu-assisted") {
+      words = splitLoopHeaders(words);
     } else if (name != "varying-subgroups") {
       std::fprintf(stderr, "RILL_TEST_HOSTILE: unknown name \"%s\"\n", name.c_str());
       std::abort();
@@ -75,6 +83,32 @@ VKAPI_ATTR void VKAPI_CALL getProperties(VkPhysicalDevice physical, VkPhysicalDe
       }
 }
 
+bool isGpuAssisted() {
+  const auto all = behaviors();
+  return std::ranges::any_of(all, [](const Behavior& one) { return one.name == "gpu-assisted"; });
+}
+
+// Gpu-assisted validation of 1.3.239 holds a lock while it waits for a semaphore's state, which its own thread needs to change it, and
+// goes on after ten seconds. So it sees no question about semaphores: the whole device is waited for, and then all signals have come.
+std::map<VkSemaphore, uint64_t> signals;
+
+VKAPI_ATTR VkResult VKAPI_CALL queueSubmit2(VkQueue queue, uint32_t count, const VkSubmitInfo2* submits, VkFence fence) {
+  for (uint32_t k = 0; k < count; ++k)
+    for (uint32_t s = 0; s < submits[k].signalSemaphoreInfoCount; ++s)
+      signals[submits[k].pSignalSemaphoreInfos[s].semaphore] = submits[k].pSignalSemaphoreInfos[s].value;
+  return nextQueueSubmit2(queue, count, submits, fence);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL waitSemaphores(VkDevice device, const VkSemaphoreWaitInfo* info, uint64_t timeout) {
+  return isGpuAssisted() ? nextDeviceWaitIdle(device) : nextWaitSemaphores(device, info, timeout);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL getCounter(VkDevice device, VkSemaphore semaphore, uint64_t* value) {
+  if (!isGpuAssisted()) return nextGetCounter(device, semaphore, value);
+  *value = signals[semaphore];
+  return nextDeviceWaitIdle(device);
+}
+
 }  // namespace
 
 void instanceCreated(VkInstance instance) {
@@ -83,10 +117,17 @@ void instanceCreated(VkInstance instance) {
 
 void deviceCreated(VkDevice device) {
   nextCreateShaderModule = reinterpret_cast<PFN_vkCreateShaderModule>(nextDeviceProc(device, "vkCreateShaderModule"));
+  nextWaitSemaphores = reinterpret_cast<PFN_vkWaitSemaphores>(nextDeviceProc(device, "vkWaitSemaphores"));
+  nextDeviceWaitIdle = reinterpret_cast<PFN_vkDeviceWaitIdle>(nextDeviceProc(device, "vkDeviceWaitIdle"));
+  nextGetCounter = reinterpret_cast<PFN_vkGetSemaphoreCounterValue>(nextDeviceProc(device, "vkGetSemaphoreCounterValue"));
+  nextQueueSubmit2 = reinterpret_cast<PFN_vkQueueSubmit2>(nextDeviceProc(device, "vkQueueSubmit2"));
 }
 
 PFN_vkVoidFunction replacement(const char* name) {
   if (std::strcmp(name, "vkCreateShaderModule") == 0) return reinterpret_cast<PFN_vkVoidFunction>(&createShaderModule);
+  if (std::strcmp(name, "vkWaitSemaphores") == 0) return reinterpret_cast<PFN_vkVoidFunction>(&waitSemaphores);
+  if (std::strcmp(name, "vkGetSemaphoreCounterValue") == 0) return reinterpret_cast<PFN_vkVoidFunction>(&getCounter);
+  if (std::strcmp(name, "vkQueueSubmit2") == 0) return reinterpret_cast<PFN_vkVoidFunction>(&queueSubmit2);
   if (std::strcmp(name, "vkGetPhysicalDeviceProperties2") == 0) return reinterpret_cast<PFN_vkVoidFunction>(&getProperties);
   return nullptr;
 }

@@ -28,6 +28,7 @@ class SpirvModule {
 
   /// Replaces each instruction of the functions by those that `rewrite` returns.
   void rewriteFunctions(const std::function<std::vector<Instruction>(const Instruction&)>& rewrite);
+  std::vector<Instruction>& functions() { return functions_; }
   /// The position of the result's id among the operands: 1 after a type, 0 without, -1 if there is no result.
   static int resultIndex(spv::Op op);
 

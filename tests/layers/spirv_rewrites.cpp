@@ -363,4 +363,29 @@ std::vector<uint32_t> permuteWorkgroups(std::span<const uint32_t> words, uint32_
   return module.words();
 }
 
+std::vector<uint32_t> splitLoopHeaders(std::span<const uint32_t> words) {
+  SpirvModule module(words);
+  std::map<uint32_t, uint32_t> second;  // of each split block, by its label
+  std::vector<Instruction> out;
+  size_t label = 0, body = 0;  // where the block starts in `out`, and what follows its phis
+  for (const Instruction& instruction : module.functions()) {
+    if (instruction.op == Op::OpLabel) label = out.size();
+    if (instruction.op == Op::OpLabel || instruction.op == Op::OpPhi) body = out.size() + 1;
+    if (instruction.op != Op::OpLoopMerge) {
+      out.push_back(instruction);
+      continue;
+    }
+    const uint32_t next = second[out[label].operands[0]] = module.newId();
+    out.insert(out.begin() + static_cast<std::ptrdiff_t>(body), {instruction, {Op::OpBranch, {next}}, {Op::OpLabel, {next}}});
+  }
+  for (Instruction& instruction : out) {
+    auto& operands = instruction.operands;
+    const auto moved = [&](uint32_t& block) { block = second.contains(block) ? second[block] : block; };
+    for (size_t k = 3; instruction.op == Op::OpPhi && k < operands.size(); k += 2) moved(operands[k]);
+    if (instruction.op == Op::OpLoopMerge && second.contains(operands[1])) moved(operands[1]);  // of a loop that is one block
+  }
+  module.functions() = std::move(out);
+  return module.words();
+}
+
 }  // namespace rill::layer
