@@ -3,6 +3,7 @@
 // shared/neighbor_list.h, and the sorted arrays copied back in place. A particle with more entries than
 // the list holds walks the grid in every pass, and is counted. Gathers from the sorted predictions.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_memory_scope_semantics : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_shuffle : require

@@ -2,12 +2,13 @@
 // particles inside the domain, as integers, so that their order does not matter. Needs `params` and `sums`.
 #ifndef RILL_COLUMNS_GLSL
 #define RILL_COLUMNS_GLSL
+#include "shared/atomic_load.glsl"
 // One reduction: with four the list build took a tenth longer on lavapipe. Extremes are rarely exceeded.
 #define ADD_TO_COLUMN(AXIS, PLACE)                                                                 \
   if (params.columnGravity##AXIS != 0.0) {                                                         \
     uint place = min(uint(PLACE), kMaxColumnPlace);                                                \
-    if (counts && place < sums.columnLow##AXIS) atomicMin(sums.columnLow##AXIS, place);            \
-    if (counts && place > sums.columnHigh##AXIS) atomicMax(sums.columnHigh##AXIS, place);          \
+    if (counts && place < ATOMIC_LOAD(sums.columnLow##AXIS)) atomicMin(sums.columnLow##AXIS, place);   \
+    if (counts && place > ATOMIC_LOAD(sums.columnHigh##AXIS)) atomicMax(sums.columnHigh##AXIS, place); \
     uint both = subgroupAdd(counts ? kColumnOne | place : 0u), add = both % kColumnOne;            \
     if (subgroupElect()) {                                                                         \
       atomicAdd(sums.columnCount##AXIS, both / kColumnOne);                                        \

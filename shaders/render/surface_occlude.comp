@@ -1,7 +1,9 @@
 #version 460
 // Each particle marks the occlusion cells that its sphere covers completely with the depth of its center, which hides all behind it.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_memory_scope_semantics : require
 #include "render/surface.glsl"
+#include "shared/atomic_load.glsl"
 
 layout(local_size_x = kSurfaceGroup) in;
 layout(std430, set = 0, binding = 0) readonly buffer Position { vec4 position[]; };
@@ -26,6 +28,6 @@ void main() {
   for (int y = first.y; y <= limit.y; ++y)
     for (int x = first.x; x <= limit.x; ++x) {
       const uint at = uint(y * cells.x + x);
-      if (bits < occluders[at]) atomicMin(occluders[at], bits);
+      if (bits < ATOMIC_LOAD(occluders[at])) atomicMin(occluders[at], bits);
     }
 }

@@ -1,7 +1,9 @@
 #version 460
 // Depth before smoothing: the nearest sphere at each sample.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_memory_scope_semantics : require
 #include "render/surface.glsl"
+#include "shared/atomic_load.glsl"
 
 layout(local_size_x = kSurfaceGroup) in;
 layout(std430, set = 0, binding = 0) readonly buffer Position { vec4 position[]; };
@@ -14,7 +16,7 @@ void visitSample(vec3 center, float radius, ivec2 p) {
   if (t < 0.0) return;
   const uint at = uint(p.y) * sampleGrid().x + uint(p.x);
   const uint bits = floatBitsToUint(t);
-  if (bits < depth[at]) atomicMin(depth[at], bits);
+  if (bits < ATOMIC_LOAD(depth[at])) atomicMin(depth[at], bits);
 }
 void endVisit(uint owner) {}
 #include "render/surface_visit.glsl"

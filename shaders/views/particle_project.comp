@@ -1,7 +1,9 @@
 #version 460
 // Each particle marks the light map, and the occlusion cells that it covers completely, with its largest depth over the cells.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_memory_scope_semantics : require
 #include "views/particle_view.glsl"
+#include "shared/atomic_load.glsl"
 
 layout(local_size_x = 64) in;
 layout(std140, set = 0, binding = 0) uniform Scene { SceneRecord scene; };
@@ -20,7 +22,7 @@ void markLight(vec3 world) {
   for (int y = first.y; y <= last.y; ++y) {
     for (int x = first.x; x <= last.x; ++x) {
       const uint texel = uint(y) * scene.counts.y + uint(x);
-      if (bits < light_map[texel]) atomicMin(light_map[texel], bits);
+      if (bits < ATOMIC_LOAD(light_map[texel])) atomicMin(light_map[texel], bits);
     }
   }
 }
@@ -47,7 +49,7 @@ void markCells(vec3 center, float radius) {
   for (int y = first.y; y <= last.y; ++y) {
     for (int x = first.x; x <= last.x; ++x) {
       const uint index = uint(y * cells.x + x);
-      if (bits < occluders[index]) atomicMin(occluders[index], bits);
+      if (bits < ATOMIC_LOAD(occluders[index])) atomicMin(occluders[index], bits);
     }
   }
 }

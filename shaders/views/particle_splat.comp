@@ -2,7 +2,9 @@
 // Depth of the small survivors, one invocation per sphere. The second run finds the smallest index among those at a pixel's depth; both
 // runs use one shader, so that they compute exactly the same depths.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_memory_scope_semantics : require
 #include "views/particle_view.glsl"
+#include "shared/atomic_load.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 0) readonly buffer Position { vec4 position[]; };
@@ -25,7 +27,7 @@ void main() {
     if (t > 0.0) {
       const uint at = uint(pixel.y) * view.width + uint(pixel.x);
       const uint bits = floatBitsToUint(t);
-      const uint before = depth[at];
+      const uint before = ATOMIC_LOAD(depth[at]);
       if (view.winners == 0u) {
         if (bits < before) atomicMin(depth[at], bits);
       } else {

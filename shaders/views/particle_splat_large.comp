@@ -1,7 +1,9 @@
 #version 460
 // Depth of the large survivors: a workgroup has a tile of pixels and a chunk of spheres. Two runs, as in particle_splat.comp.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_memory_scope_semantics : require
 #include "views/particle_view.glsl"
+#include "shared/atomic_load.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 layout(std430, set = 0, binding = 0) readonly buffer Position { vec4 position[]; };
@@ -24,7 +26,7 @@ void main() {
   const uvec2 pixel = tile + gl_LocalInvocationID.xy;
   const bool inside = pixel.x < view.width && pixel.y < view.height;
   const uint at = inside ? pixel.y * view.width + pixel.x : 0u;
-  const uint before = depth[at];
+  const uint before = ATOMIC_LOAD(depth[at]);
   uint best = before, owner = kNobody;
   for (uint base = first; base < last; base += 256u) {
     barrier();

@@ -106,6 +106,9 @@ void Subgroup::executeLane(const Instruction& instruction, uint32_t index) {
     case Op::OpStore:
       for (uint32_t k = 0; k < componentsOf(program_, program_.typeOf[operands[1]]); ++k) word(value(0), lane, k) = value(1)[k];
       return;
+    case Op::OpAtomicLoad:
+      lane.values[instruction.result] = {word(value(0), lane, 0)};
+      return;
     case Op::OpAtomicIAdd:
       return atomic([](uint32_t a, uint32_t b) { return a + b; });
     case Op::OpAtomicUMin:
