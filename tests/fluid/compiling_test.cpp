@@ -79,13 +79,13 @@ TEST_F(CompilingTest, CompilesOneReadingVariant) {
   start();
   EXPECT_TRUE(info.texelReads) << info.readsBecause;
   EXPECT_EQ(unwanted(), "");
-  EXPECT_TRUE(compiled(*shaderNamed("fluid/density_texel")));
+  EXPECT_TRUE(compiled(*shaderNamed("fluid/correct_texel")));
   vulkan.pipelines.clear();
   vulkan.properties.vendor = kNvidia;
   start();
   EXPECT_FALSE(info.texelReads) << info.readsBecause;
   EXPECT_EQ(unwanted(), "");
-  EXPECT_TRUE(compiled(*shaderNamed("fluid/density")));
+  EXPECT_TRUE(compiled(*shaderNamed("fluid/correct")));
 }
 
 TEST_F(CompilingTest, ReadsAsAskedFor) {
