@@ -8,8 +8,9 @@ build cmake                   CMake 3.25 or newer
 build ninja-build             Ninja
 build libvulkan-dev           Vulkan headers 1.3.239 or newer
 build glslang-tools           glslang (glslangValidator)
-build spirv-tools             SPIRV-Tools (spirv-opt, spirv-val)
+build spirv-tools             SPIRV-Tools (spirv-opt, spirv-val, and its library)
 build spirv-cross             SPIRV-Cross (reflects the bindings of shaders)
+build spirv-headers           SPIR-V headers
 build libglm-dev              GLM
 build nlohmann-json3-dev      nlohmann/json 3.11 or newer
 build libcli11-dev            CLI11
@@ -25,7 +26,6 @@ test  clang                   clang (also compiles the public headers)
 test  libgtest-dev            GoogleTest
 test  libvulkan-volk-dev      volk (used by a test host)
 test  pkgconf                 pkg-config (builds a test host)
-test  spirv-headers           SPIR-V headers (the layers of the tests)
 test  glslang-dev             glslang (library, for shader reload in development builds and a test)
 test  binutils                binutils (nm)
 test  ffmpeg                  ffmpeg with libx264, and ffprobe (the videos of rill-capture)

@@ -8,6 +8,7 @@ Expected<Report> runStability(Bench& bench);
 Expected<Report> runSort(Bench& bench);
 Expected<Report> runGraph(Bench& bench);
 Expected<Report> runSpeed(Bench& bench);
+Expected<Report> runTraffic(Bench& bench);
 Expected<Report> runFeatures(Bench& bench);
 Expected<Report> runRender(Bench& bench);
 Expected<Report> runValidation(Bench& bench);

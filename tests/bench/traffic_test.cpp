@@ -1,0 +1,161 @@
+// What is counted of a substep, and upper bounds of it: a change that makes a GPU read, dispatch or wait more fails here, without a GPU.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "bench/bench.hpp"
+#include "bench/traffic/cost_model.hpp"
+#include "bench/traffic/fluid_traffic.hpp"
+#include "bench/traffic/shader_accesses.hpp"
+#include "gpu/shader_library.hpp"
+#include "shared/fluid_records.h"
+
+namespace rill::bench {
+namespace {
+
+/// Of a recorded substep.
+struct Bounds {
+  double bytes, rebuildBytes, dispatches, barriers;
+  uint32_t serialCommands;
+};
+
+struct Counted {
+  FluidTraffic traffic;
+  std::vector<FluidPassRuns> runs;
+};
+
+Expected<Counted> count(const std::string& name, bool mergePasses) {
+  auto scene = namedScene(name, {{"fluid.particles", "3000"}});
+  if (!scene) return scene.error();
+  Options options;
+  options.quiet = true;
+  const Bench bench(options);
+  auto workbench = Workbench::open(bench);
+  if (!workbench) return workbench.error();
+  const auto start = makeParticles(*scene);
+  if (!start) return start.error();
+  auto fluid = Fluid::create(workbench->device(), {.scene = &*scene, .particles = &*start, .mergePasses = mergePasses});
+  if (!fluid) return fluid.error();
+  for (int frame = 0; frame < 6; ++frame)
+    if (auto advanced = advanceFluid(*workbench, *fluid, 1.0 / 60); !advanced) return advanced.error();
+  auto traffic = measureTraffic(*workbench, *fluid, 2.0 / 60, 4 * fluid->progress().substeps);
+  if (!traffic) return traffic.error();
+  return Counted{std::move(*traffic), fluid->passRuns()};
+}
+
+double recordedPerSubstep(const FluidTraffic& t, uint64_t total) { return double(total) / t.recordedSubsteps; }
+
+void expectWithin(const FluidTraffic& t, const Bounds& bounds) {
+  const PassTraffic substep = t.total(Section::Substep);
+  ASSERT_GT(t.substeps, 0);
+  EXPECT_LE(t.bytesPerParticleSubstep(Section::Substep), bounds.bytes);
+  EXPECT_GT(t.bytesPerParticleSubstep(Section::Substep), 100) << "two passes read positions and a list";
+  EXPECT_LE(t.bytesPerParticleSubstep(Section::Rebuild), bounds.rebuildBytes);
+  EXPECT_LE(recordedPerSubstep(t, substep.recorded), bounds.dispatches);
+  EXPECT_LE(recordedPerSubstep(t, substep.barriers), bounds.barriers);
+  EXPECT_LE(substep.serialCommands, bounds.serialCommands);
+}
+
+void expectAsReported(const Counted& counted, bool merged) {
+  for (const char* name : {"correct", "build list", "walls and solids", "density"}) {
+    const auto pass = std::ranges::find(counted.traffic.passes, name, &PassTraffic::name);
+    const auto runs = std::ranges::find(counted.runs, name, &FluidPassRuns::name);
+    ASSERT_NE(pass, counted.traffic.passes.end()) << name;
+    ASSERT_NE(runs, counted.runs.end()) << name;
+    // Walls are two dispatches where passes are separate, and both have particles.
+    const bool both = !merged && runs->name == "walls and solids";
+    EXPECT_EQ(pass->executed, (both ? 2u : 1u) * runs->executed) << name << ", merged: " << merged;
+    EXPECT_GE(pass->recorded, runs->recorded) << name;
+  }
+}
+
+// As on a GPU. Lower a bound with the change that makes it possible. A substep of a dam break has 5 dispatches and 3 barriers; the rest is
+// noise damping, once a block.
+TEST(Traffic, StaysWithinItsBounds) {
+  const auto dam = count("dam-break", true), separate = count("dam-break", false), solids = count("box-and-sphere", true);
+  ASSERT_TRUE(dam) << dam.error().message;
+  ASSERT_TRUE(separate) << separate.error().message;
+  ASSERT_TRUE(solids) << solids.error().message;
+  expectWithin(dam->traffic, {.bytes = 430, .rebuildBytes = 26, .dispatches = 5.7, .barriers = 3.5, .serialCommands = 1});
+  expectWithin(solids->traffic, {.bytes = 490, .rebuildBytes = 30, .dispatches = 6.9, .barriers = 4.7, .serialCommands = 1});
+  expectAsReported(*dam, true);
+  expectAsReported(*separate, false);
+
+  const PassTraffic merged = dam->traffic.total(Section::Substep), apart = separate->traffic.total(Section::Substep);
+  EXPECT_EQ(dam->traffic.substeps, separate->traffic.substeps);
+  EXPECT_LT(merged.recorded, apart.recorded);
+  EXPECT_LT(merged.barriers, apart.barriers);
+  EXPECT_LT(merged.serialCommands, apart.serialCommands);
+}
+
+ShaderAccesses accessesOf(std::string_view shader, std::string_view constant, uint32_t value) {
+  const auto found = std::ranges::find(embeddedShaders(), shader, &EmbeddedShader::name);
+  if (found == embeddedShaders().end()) {
+    ADD_FAILURE() << "no shader " << shader;
+    return {};
+  }
+  std::vector<uint32_t> constants;
+  for (const ShaderConstant& c : found->constants) {
+    if (c.id >= constants.size()) constants.resize(c.id + 1);
+    constants[c.id] = c.name == constant ? value : c.name == "CLUSTER" ? 8 : c.name == "LIST_CAPACITY" ? 64 : 0;
+  }
+  auto accesses = shaderAccesses(found->words, constants);
+  EXPECT_TRUE(accesses) << accesses.error().message;
+  if (!accesses) return {};
+  accesses->bindings.resize(found->bindings.size());
+  return std::move(*accesses);
+}
+
+size_t bindingNamed(std::string_view shader, std::string_view name) {
+  const auto found = std::ranges::find(embeddedShaders(), shader, &EmbeddedShader::name);
+  return size_t(std::ranges::find(found->bindings, name, &ShaderBinding::name) - found->bindings.begin());
+}
+
+TEST(ShaderAccesses, FollowSpecializationConstants) {
+  const size_t multiplier = bindingNamed("fluid/density", "multiplier");
+  EXPECT_FALSE(accessesOf("fluid/density", "ITERATED", 0).bindings[multiplier].writes);
+  const BindingAccess access = accessesOf("fluid/density", "ITERATED", 1).bindings[multiplier];
+  EXPECT_TRUE(access.reads && access.writes);
+  EXPECT_EQ(access.writeBytes, 4u);
+  EXPECT_FALSE(access.readsInLoop);
+}
+
+TEST(ShaderAccesses, TellGathersFromReadsOfOwnElement) {
+  const ShaderAccesses accesses = accessesOf("fluid/density", "WARM", 1);
+  EXPECT_EQ(accesses.groupSize, kFluidGroup);
+  const BindingAccess& particle = accesses.bindings[bindingNamed("fluid/density", "particle")];
+  EXPECT_TRUE(particle.readsInLoop);
+  EXPECT_EQ(particle.readBytes, 16u);
+  const BindingAccess& work = accesses.bindings[bindingNamed("fluid/density", "work")];
+  EXPECT_TRUE(work.writes);
+  EXPECT_FALSE(work.reads);
+}
+
+TEST(ShaderAccesses, RejectsWordsThatAreNoShader) {
+  const uint32_t words[] = {1, 2, 3, 4, 5, 6};
+  const auto accesses = shaderAccesses(words, {});
+  ASSERT_FALSE(accesses);
+  EXPECT_EQ(accesses.error().kind, ErrorKind::Shader);
+}
+
+TEST(CostModel, AddsBandwidthAndLatency) {
+  const Card card{"test", 100, 2, 5, ""};
+  EXPECT_DOUBLE_EQ(predictedSeconds(card, {kReachedBandwidth * 100e9, 0, 0}), 1);
+  EXPECT_DOUBLE_EQ(predictedSeconds(card, {0, 10, 4}), 40e-6);
+  const DeviceWork twice = DeviceWork{1, 2, 3} * 2 + DeviceWork{1, 1, 1};
+  EXPECT_DOUBLE_EQ(twice.bytes + 10 * twice.dispatches + 100 * twice.barriers, 3 + 50 + 700);
+}
+
+TEST(CostModel, FindsCardsByTheNamesOfDrivers) {
+  ASSERT_NE(cardOf("NVIDIA H100 80GB HBM3"), nullptr);
+  EXPECT_EQ(cardOf("NVIDIA H100 80GB HBM3")->bandwidth_GBps, 3350);
+  EXPECT_NE(cardOf("Intel(R) Arc(tm) A770 Graphics (DG2)"), nullptr);
+  EXPECT_NE(cardOf("AMD Radeon RX 7800 XT (RADV NAVI32)"), nullptr);
+  EXPECT_NE(cardOf("V3D 7.1.7.0"), nullptr);
+  EXPECT_EQ(cardOf("llvmpipe (LLVM 15.0.6, 256 bits)"), nullptr);
+  EXPECT_EQ(cardOf("NVIDIA GeForce RTX 4070 Ti"), nullptr) << "another card";
+  for (const Card& card : cards()) EXPECT_FALSE(card.source.empty()) << card.name;
+}
+
+}  // namespace
+}  // namespace rill::bench
