@@ -1,6 +1,7 @@
 #include "lanes/walk_scene.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -60,7 +61,7 @@ WalkScene::WalkScene() {
   for (int k = 0; k < 5; ++k) add(kInactivePosition, kInactivePosition, kInactivePosition);
   std::ranges::stable_sort(made, {}, [](const auto& entry) { return entry.first; });
   for (auto& [key, place] : made) {
-    place[3] = float(particles.size());
+    place[3] = std::bit_cast<float>(static_cast<uint32_t>(particles.size()) + 0x00800000u);  // shared/number.glsl
     keys.push_back(key);
     particles.push_back(place);
   }

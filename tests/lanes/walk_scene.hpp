@@ -14,7 +14,7 @@ constexpr uint32_t kListCapacity = 16;
 struct WalkScene {
   WalkScene();
   FluidParams params{};
-  std::vector<std::array<float, 4>> particles;  ///< m, sorted; w: the place; the dummy is the last
+  std::vector<std::array<float, 4>> particles;  ///< m, sorted; w: the number as numberFromFloat() reads it; the dummy is the last
   std::vector<uint32_t> keys, cellStart;
 
   uint32_t count() const { return static_cast<uint32_t>(particles.size() - 1); }
