@@ -79,7 +79,7 @@ class DeviceImpl {
   bool canSetSubgroupSize = false;     ///< compute pipelines can require a subgroup size
   uint32_t maxWorkgroupSubgroups = 0;  ///< where a size is required
   Reconvergence reconvergence = Reconvergence::Workgroup;
-  bool hasMemoryBudget = false;        ///< VK_EXT_memory_budget
+  bool hasMemoryBudget = false;  ///< VK_EXT_memory_budget
   FrameClock clock;
   RetireQueue retired;
   ShaderLibrary shaders;

@@ -5,7 +5,10 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 layout(local_size_x = 64) in;
 layout(binding = 0) readonly buffer Source { float one, denormal, halves[2]; uint half_; float nan, infinite, factors[8]; };
-layout(binding = 1) buffer Target { uint flushed, bits, packed, unpacked, ordered, found_nan, found_infinity, lowest, shuffled, next, products[8], quotients[8], turn[64]; };
+layout(binding = 1) buffer Target {
+  uint flushed, bits, packed, unpacked, ordered, found_nan, found_infinity, lowest, shuffled, next;
+  uint products[8], quotients[8], turn[64];
+};
 void main() {
   uint received = 0u;
   if ((gl_SubgroupInvocationID & 1u) == 1u) received = subgroupShuffle(7u, gl_SubgroupInvocationID - 1u);  // that lane is not here
