@@ -162,7 +162,7 @@ TEST_F(SnapshotCheck, RejectsInvalidIndices) {
   s.id[1] = s.id[0];
   expectRejected("an id appears twice");
   s.id[1] = kMaxIds;
-  expectRejected("its largest id is 16777216");
+  expectRejected("its largest id is 2130706432; expected less than 2130706432");
   s.nearCorner.push_back(0);
   expectRejected("near walls");
   s.nearWall[0] = 1000;
