@@ -48,7 +48,8 @@ constexpr std::array<ArrayRow, kArrays> kArrayTable = {{
     {ListHead, "listHead", "list heads", Fluid, kWord, [](const ArrayShape& s) { return s.lists || s.near ? s.particles : 0; },
      Account::Particles},
     {Cell, "cell", "cells", Fluid, kWord, perParticle, Account::Particles},
-    {NearSample, "nearSample", "wall samples", Fluid, 2 * kVector, perParticleIf<&ArrayShape::near>, Account::Particles},
+    {NearDisplaced, "nearDisplaced", "density that walls displace", Fluid, kVector, perParticleIf<&ArrayShape::near>, Account::Particles},
+    {NearTangential, "nearTangential", "tangential scales at walls", Fluid, kVector, perParticleIf<&ArrayShape::near>, Account::Particles},
     {NearPlane, "nearPlane", "particles near one wall", Fluid, kWord, perParticleIf<&ArrayShape::near>, Account::Particles},
     {NearCorner, "nearCorner", "particles near corners", Fluid, kWord, perParticleIf<&ArrayShape::near>, Account::Particles},
 

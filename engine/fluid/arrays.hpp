@@ -37,7 +37,8 @@ enum class FluidArray : uint8_t {
   Multiplier,
   ListHead,
   Cell,
-  NearSample,
+  NearDisplaced,
+  NearTangential,
   NearPlane,
   NearCorner,
   // The neighbor search.

@@ -115,8 +115,8 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
     return Error{ErrorKind::TooLarge, "the neighbor list of " + std::to_string(n) + " particles at this smoothing_ratio needs " +
                                           bytesText(memory.listBytes) + ", more than " + std::to_string(kMaxListChunks) + " buffers of " +
                                           bytesText(maxListBytes(device.info())) + ": make smoothing_ratio smaller"};
-  const uint64_t maxTexels = std::max({more, 2 * uint64_t{n}, uint64_t{chunk} * p.listCapacity / 4, paddedWords(setup.grid.cells() + 1),
-                                       uint64_t{setup.tables.size() / 4}});
+  const uint64_t maxTexels =
+      std::max({more, uint64_t{chunk} * p.listCapacity / 4, paddedWords(setup.grid.cells() + 1), uint64_t{setup.tables.size() / 4}});
   texel_ = !storageReads && usesTexelReads(device, maxTexels);
 
   auto sort = KeySort::create(

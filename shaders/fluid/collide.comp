@@ -17,7 +17,7 @@ layout(std430, binding = 8) readonly buffer SolidBlock { SolidRecord solids[]; }
 layout(std430, binding = 9) readonly buffer FreeBlock { vec4 freeVelocity[]; };
 layout(std430, binding = 10) readonly buffer WorkBlock { uvec4 work[]; };
 layout(std430, binding = 11) readonly buffer WarmBlock { float warm[]; };
-layout(std430, binding = 12) readonly buffer NearBlock { vec4 nearSample[]; };
+layout(std430, binding = 12) readonly buffer DisplacedBlock { vec4 nearDisplaced[]; };
 
 void predict(uint i, vec3 x, vec3 v) {
   if (FORCES) return;  // predict.comp, after them
@@ -44,7 +44,7 @@ void main() {
   // share of the change already.
   float change = unpackHalf2x16(work[i].w).x * (params.inverseRestGradient / kMultiplierScale);
   float multiplier = min(0.0, (WARM ? warm[i] : 0.0) + (1.0 - control.warmGain) * change);
-  vec3 given = multiplier * nearSample[NEAR_DISPLACED(i)].xyz / control.step + (x - from) / control.step;
+  vec3 given = multiplier * nearDisplaced[i].xyz / control.step + (x - from) / control.step;
   for (uint k = 0u; k < params.solidCount; ++k) {
     if (solids[k].friction <= 0.0 && solids[k].restitution <= 0.0) continue;
     vec3 normal;

@@ -18,13 +18,14 @@ layout(local_size_x = kFluidGroup) in;
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer PositionBlock { vec4 position[]; };
 layout(std430, binding = 9) buffer VelocityBlock { vec4 velocity[]; };
-READ_NEAR(10)
+READ_NEAR_DISPLACED(10)
 layout(std430, binding = 11) buffer PredictionBlock { vec4 prediction[]; };
 // m/s^2; w, in the initial-pressure phase: the last multiplier
 layout(std430, binding = 12) buffer WarmAccelerationBlock { vec4 warmAcceleration[]; };
 // before the solve: what contacts with solids compare with; w: the prediction's
 layout(std430, binding = 13) writeonly buffer FreeBlock { vec4 freeVelocity[]; };
 layout(std430, binding = 14) buffer WarmBlock { float warm[]; };
+READ_NEAR_TANGENTIAL(15)
 
 vec3 here;
 vec2 own;                           // multiplier change, warm start; in the unit

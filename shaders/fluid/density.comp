@@ -18,12 +18,13 @@ layout(local_size_x = kFluidGroup) in;
 layout(push_constant) uniform Push { DensityPush push; };
 layout(std430, binding = 8) buffer WarmBlock { float warm[]; };
 layout(std430, binding = 9) writeonly buffer WorkBlock { uvec4 work[]; };
-READ_NEAR(10)
+READ_NEAR_DISPLACED(10)
 layout(std430, binding = 11) buffer MultiplierBlock { float multiplier[]; };
+READ_NEAR_TANGENTIAL(12)
 #ifdef CONTROLS
-layout(std430, binding = 12) readonly buffer ShapeBlock { uint shapes[]; };
-layout(std430, binding = 13) coherent buffer CommandBlock { uint commands[]; };
-layout(std430, binding = 14) readonly buffer GravityBlock { vec4 gravityChanges[]; };
+layout(std430, binding = 13) readonly buffer ShapeBlock { uint shapes[]; };
+layout(std430, binding = 14) coherent buffer CommandBlock { uint commands[]; };
+layout(std430, binding = 15) readonly buffer GravityBlock { vec4 gravityChanges[]; };
 #endif
 
 vec3 here;

@@ -14,7 +14,8 @@ layout(local_size_x = kFluidGroup) in;
 
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer PredictionBlock { vec4 prediction[]; };
-READ_NEAR(9)
+READ_NEAR_DISPLACED(9)
+READ_NEAR_TANGENTIAL(10)
 
 vec3 here;
 float own;

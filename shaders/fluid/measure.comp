@@ -15,7 +15,7 @@
 layout(local_size_x = kFluidGroup) in;
 READ_FLOAT4(2, orderedPosition)  // w: the particle's place in the solver's arrays
 READ_UINT(3, cellStart)
-READ_NEAR(4)
+READ_NEAR_DISPLACED(4)
 layout(std430, binding = 5) buffer SumsBlock { FluidSums sums; };
 layout(std430, binding = 6) buffer HistogramBlock { uint histogram[]; };  // compression; then inside the fluid: above, below rest density
 layout(std430, binding = 7) buffer VelocityBlock { vec4 velocity[]; };    // w: density over rest density

@@ -1,9 +1,9 @@
-// What walls and solids do to a particle that they are near, two vectors a particle in one array; undefined for others.
+// What walls and solids do to a particle that they are near, in two arrays, each as large as the positions; undefined for others:
+// nearDisplaced, the gradient of the displaced density, with its value in w; and nearTangential, the diagonal of the tangential scale less
+// 1, with the rest packed in w.
 #ifndef RILL_WALL_SAMPLES_GLSL
 #define RILL_WALL_SAMPLES_GLSL
 #include "shared/arrays.glsl"
-#define NEAR_DISPLACED(i) (2u * (i))         // gradient of the displaced density; w: its value
-#define NEAR_TANGENTIAL(i) (2u * (i) + 1u)   // tangential scale: its diagonal less 1; w: the rest, packed
 
 // What a wall does to a correction: the neighbors' share is multiplied by a symmetric matrix that
 // makes up, along each wall, for the support that is missing behind it.
@@ -43,10 +43,11 @@ vec3 unpackMixed(float packed) {
 
 WallScale unpackWallScale(vec4 stored) { return WallScale(1.0 + stored.xyz, unpackMixed(stored.w)); }
 
-// Samples of particle i with this list head; 0 where no wall is near.
-#define READ_NEAR(BINDING) \
-  READ_FLOAT4(BINDING, nearSample) \
-  vec4 sampleAt(uint k, uint head) { return (head & kNearWallsBit) != 0u ? nearSampleAt(k) : vec4(0.0); } \
-  vec4 displacedAt(uint i, uint head) { return sampleAt(NEAR_DISPLACED(i), head); } \
-  WallScale wallScaleAt(uint i, uint head) { return unpackWallScale(sampleAt(NEAR_TANGENTIAL(i), head)); }
+// Of particle i with this list head; 0 where no wall is near.
+#define READ_NEAR_DISPLACED(BINDING) \
+  READ_FLOAT4(BINDING, nearDisplaced) \
+  vec4 displacedAt(uint i, uint head) { return (head & kNearWallsBit) != 0u ? nearDisplacedAt(i) : vec4(0.0); }
+#define READ_NEAR_TANGENTIAL(BINDING) \
+  READ_FLOAT4(BINDING, nearTangential) \
+  WallScale wallScaleAt(uint i, uint head) { return unpackWallScale((head & kNearWallsBit) != 0u ? nearTangentialAt(i) : vec4(0.0)); }
 #endif

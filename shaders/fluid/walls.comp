@@ -19,7 +19,8 @@ READ_UINT(4, nearCorner)
 layout(std430, binding = 5) readonly buffer SumsBlock { FluidSums sums; };
 READ_FLOAT4(6, table)  // value and slope of a node, and of the next one along the first axis
 layout(std430, binding = 7) readonly buffer SolidBlock { SolidRecord solids[]; };
-layout(std430, binding = 8) writeonly buffer NearBlock { vec4 nearSample[]; };
+layout(std430, binding = 8) writeonly buffer DisplacedBlock { vec4 nearDisplaced[]; };
+layout(std430, binding = 9) writeonly buffer TangentialBlock { vec4 nearTangential[]; };
 
 // Node and weight of a distance; beyond the table both nodes are its last, which is 0.
 void locate(float s, float step, uint nodes, out uint node, out float weight) {
@@ -137,8 +138,8 @@ vec4 solidSample(SolidRecord s, vec3 x) {
 }
 
 void store(uint i, vec4 displaced, WallCoverage coverage) {
-  nearSample[NEAR_DISPLACED(i)] = displaced;
-  nearSample[NEAR_TANGENTIAL(i)] = packWallScale(coverage);
+  nearDisplaced[i] = displaced;
+  nearTangential[i] = packWallScale(coverage);
 }
 
 void nearOneWall(uint i) {

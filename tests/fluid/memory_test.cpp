@@ -74,7 +74,9 @@ TEST_F(CountedMemory, DisabledFeaturesHaveNoBuffer) {
     return bytes;
   };
   const auto expectOff = [&](std::string_view name) { EXPECT_LE(bytesOf(name), 64u) << name; };  // a binding must be something
-  for (const char* name : {"iteration multipliers", "wall samples", "particles near one wall", "particles near corners"}) expectOff(name);
+  for (const char* name : {"iteration multipliers", "density that walls displace", "tangential scales at walls", "particles near one wall",
+                           "particles near corners"})
+    expectOff(name);
   for (const char* name : {"warm-start accelerations", "warm-start multipliers", "list heads", "neighbor list"})
     EXPECT_GE(bytesOf(name), 4000u) << name;
   scene.solver.warm_start = 0;
@@ -101,8 +103,7 @@ TEST_F(CountedMemory, RejectsTooLargeFluidsWithTheLimitAndWhatFits) {
             "8388608 particles do not fit on \"null device\": the buffer of positions would have 128.0 MiB, and one has at most 128.0 MiB "
             "(maxStorageBufferRange). At most 8388607 fit: make fluid.spacing larger or fluid.particles smaller");
   scene.domain = Domain{};
-  EXPECT_NE(refusal((4u << 20) + 1).message.find("the buffer of wall samples"), std::string::npos);
-  EXPECT_EQ(maxParticles(*device, scene), 4u << 20);
+  EXPECT_EQ(maxParticles(*device, scene), (8u << 20) - 1) << "walls need no larger buffers";
   const Error any = refusal(kMaxParticles + 1);
   EXPECT_NE(any.message.find("a fluid has at most 67108864 on any device"), std::string::npos) << any.message;
   scene.domain.reset();

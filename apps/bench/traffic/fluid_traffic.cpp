@@ -42,7 +42,8 @@ bool isPerParticle(const ArrayRow& row, ArrayShape shape) {
 /// the sort, whose invocations take several keys, count as a whole.
 double touched(const ArrayRow& row, double covered, const FluidCounts& counts) {
   switch (row.id) {
-    case FluidArray::NearSample:  // the list head says which particles are near: only they look (wall_samples.glsl)
+    case FluidArray::NearDisplaced:
+    case FluidArray::NearTangential:  // the list head says which particles are near: only they look (wall_samples.glsl)
       return std::min(covered, counts.near);
     case FluidArray::NearPlane:
       return std::min(covered, counts.nearOneWall);
