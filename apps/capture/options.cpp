@@ -23,7 +23,7 @@ namespace {
 using apps::badInput, apps::numberIn;
 
 constexpr uint32_t kMaxSide = 8192;          // pixels
-constexpr uint64_t kMaxPixels = 1ull << 25;  // an image is one buffer of at most 128 MiB
+constexpr uint64_t kMaxPixels = 1ull << 25;  // an image is one buffer of 128 MiB, which every device has
 
 /// Options as text: numbers are parsed here, so that messages do not depend on the version of CLI11.
 struct Raw {

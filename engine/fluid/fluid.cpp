@@ -2,6 +2,7 @@
 #include "rill/fluid.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -18,12 +19,6 @@ namespace {
 static_assert(kMaxParticles == KeySortDesc::kMaxCount);
 
 uint64_t blocks(uint64_t particles) { return divideUp(particles, kListBlock); }
-
-// Bytes of a buffer of the neighbor list: within the texels of a view where lists may be read through one.
-uint64_t maxListBytes(const DeviceInfo& info) {
-  constexpr uint64_t kTexelBytes = 4 * kListEntryBytes;
-  return info.texelReads ? std::min(info.maxBufferBytes, kTexelBytes * info.maxTexelBufferElements) : info.maxBufferBytes;
-}
 
 /// All but the numbers of the particles, each of which may be anything.
 Expected<void> checkGiven(const FluidDesc& desc) {
@@ -106,15 +101,11 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
   const FluidParams& p = setup.params;
 
   const uint64_t blockBytes = uint64_t{kListBlock} * p.listCapacity * kListEntryBytes;
-  const uint64_t wanted = p.listCapacity == 0 ? 1 : divideUp(blocks(n), std::max<uint64_t>(maxListBytes(device.info()) / blockBytes, 1));
-  const uint64_t chunkBlocks = divideUp(blocks(n), wanted);
+  const uint64_t chunkBlocks = divideUp(blocks(n), listChunks(device.info(), arrayShape(setup)));
   const uint32_t chunk = p.listCapacity == 0 ? capacity : static_cast<uint32_t>(chunkBlocks * kListBlock);
   setup.params.chunkParticles = chunk;
   for (uint32_t first = 0; first < capacity; first += chunk) chunks_.push_back({first, std::min(capacity, first + chunk)});
-  if (chunks_.size() > kMaxListChunks)
-    return Error{ErrorKind::TooLarge, "the neighbor list of " + std::to_string(n) + " particles at this smoothing_ratio needs " +
-                                          bytesText(memory.listBytes) + ", more than " + std::to_string(kMaxListChunks) + " buffers of " +
-                                          bytesText(maxListBytes(device.info())) + ": make smoothing_ratio smaller"};
+  assert(chunks_.size() <= kMaxListChunks);  // checkRoom()
   const uint64_t maxTexels =
       std::max({more, uint64_t{chunk} * p.listCapacity / 4, paddedWords(setup.grid.cells() + 1), uint64_t{setup.tables.size() / 4}});
   texel_ = !storageReads && usesTexelReads(device, maxTexels);

@@ -11,6 +11,7 @@
 #include "fluid/arrays.hpp"
 #include "fluid/dispatch_commands.hpp"
 #include "fluid/pass_table.hpp"
+#include "fluid/room.hpp"
 #include "fluid/settings.hpp"
 #include "fluid/staging.hpp"
 #include "gpu/resources.hpp"
@@ -24,8 +25,6 @@ namespace rill {
 inline bool finite(const Float3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 /// As a float: infinite where its square does not fit.
 inline float speedOf(const Float3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
-
-constexpr uint32_t kMaxListChunks = 16;
 
 /// Range of entries that one list buffer serves; the whole fluid where there is no list.
 struct Chunk {

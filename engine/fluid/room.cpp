@@ -1,15 +1,22 @@
 #include "fluid/room.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
-#include "fluid/arrays.hpp"
 #include "gpu/vulkan_error.hpp"
 #include "rill/fluid.hpp"
 #include "rill/particles.hpp"
+#include "sort/dispatches.hpp"
 
 namespace rill {
 namespace {
+
+/// Of a buffer of the neighbor list: within the texels of a view where lists may be read through one.
+uint64_t maxListBytes(const DeviceInfo& info) {
+  constexpr uint64_t kTexelBytes = 4 * kListEntryBytes;
+  return info.texelReads ? std::min(info.maxBufferBytes, kTexelBytes * info.maxTexelBufferElements) : info.maxBufferBytes;
+}
 
 /// What of the device so many particles exceed; empty: they fit. `available` in bytes.
 std::optional<std::string> exceeded(const DeviceInfo& info, uint64_t available, const Scene& scene, uint64_t particles) {
@@ -21,12 +28,23 @@ std::optional<std::string> exceeded(const DeviceInfo& info, uint64_t available, 
       return "the buffer of " + std::string(row.label) + " would have " + bytesText(bytes) + ", and one has at most " +
              bytesText(info.maxBufferBytes) + " (" + std::string(info.maxBufferName) + ")";
   }
+  if (listChunks(info, shape) > kMaxListChunks)
+    return "their neighbor lists would have " + bytesText(arrayBytes(FluidArray::List, shape)) + ", more than " +
+           std::to_string(kMaxListChunks) + " buffers of " + bytesText(maxListBytes(info)) +
+           " (a smaller fluid.smoothing_ratio makes them shorter)";
   if (const uint64_t needed = memoryOf(shape).total(); needed > available)
     return "they need " + bytesText(needed) + " of device memory, and " + bytesText(available) + " are available";
   return std::nullopt;
 }
 
 }  // namespace
+
+uint64_t listChunks(const DeviceInfo& info, const ArrayShape& shape) {
+  const uint64_t blocks = divideUp(shape.particles, kListBlock);
+  if (shape.listEntries == 0 || blocks == 0) return 1;
+  const uint64_t blockBytes = shape.listEntries / blocks * kListEntryBytes;
+  return divideUp(blocks, std::max<uint64_t>(maxListBytes(info) / blockBytes, 1));
+}
 
 uint32_t maxParticles(const Device& device, const Scene& scene) {
   const uint64_t available = device.availableBytes();

@@ -1,6 +1,7 @@
 #include "fluid/settings.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -229,7 +230,9 @@ uint32_t listCapacity(double reachInSpacings) {
   constexpr double kMaxReach = 5;  // spacings: more than any scene has that is allowed
   const double reach = std::fmin(std::fmax(reachInSpacings, 0), kMaxReach);
   const double ball = 4.0 / 3.0 * std::numbers::pi * std::pow(reach, 3);
-  return (static_cast<uint32_t>(std::ceil(1.2 * ball)) + 3u) / 4u * 4u;
+  const uint32_t entries = (static_cast<uint32_t>(std::ceil(1.2 * ball)) + 3u) / 4u * 4u;
+  assert(entries < kUnlisted);
+  return entries;
 }
 
 Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& start) {

@@ -68,7 +68,7 @@ bool startsWarm(const Scene& scene);
 /// The dynamic viscosity that damps particle noise in a fluid at rest, Pa s; 0 without noise damping.
 double artificialViscosity(const Scene& scene);
 
-/// Neighbors that the list holds a particle, a multiple of 4: what a lattice compressed by a fifth puts within the reach.
+/// Entries that the list holds a particle, a multiple of 4: of the neighbors that a lattice compressed by a fifth puts within the reach.
 uint32_t listCapacity(double reachInSpacings);
 
 constexpr uint32_t kListEntryBytes = 2;

@@ -85,6 +85,9 @@ Expected<void> SnapshotReader::take(const Graph& graph) {
   } else if (part == slotOf(FluidArray::ListHead)) {
     heads_ = records<uint32_t>(bytes, n);
     s.neighborCount.reserve(n);
+    uint64_t entries = 0;
+    for (const uint32_t head : heads_) entries += (head & kUnlisted) <= s.listCapacity ? head & kUnlisted : 0;
+    s.neighbors.reserve(entries);
   } else if (part == slotOf(FluidArray::Cell)) {
     s.cell = records<uint32_t>(bytes, n);
   } else {

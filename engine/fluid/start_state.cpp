@@ -114,8 +114,11 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
     staging_->add(slotOf(FluidArray::NearPlane), s.nearWall.data(), s.nearWall.size() * 4);
     staging_->add(slotOf(FluidArray::NearCorner), s.nearCorner.data(), s.nearCorner.size() * 4);
   }
-  const std::vector<uint32_t> heads = layOutHeads(s);
-  staging_->add(slotOf(FluidArray::ListHead), heads.size() * 4, bytesOf(heads));
+  if (rowOf(FluidArray::ListHead).length(shape) > 0) {
+    std::vector<uint32_t> heads = layOutHeads(s);
+    const uint64_t bytes = heads.size() * 4;
+    staging_->add(slotOf(FluidArray::ListHead), bytes, bytesOf(std::move(heads)));
+  }
   if (!hasNeighbors(s)) return;
   if (!s.cell.empty()) {
     staging_->add(slotOf(FluidArray::Cell), s.cell.data(), s.cell.size() * 4);

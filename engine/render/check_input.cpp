@@ -13,7 +13,7 @@ namespace rill {
 namespace {
 
 constexpr uint32_t kMaxSide = 8192;
-constexpr uint64_t kMaxPixels = uint64_t{1} << 24;  // of eight bytes: a buffer's 128 MiB
+constexpr uint64_t kMaxPixels = uint64_t{1} << 24;  // of eight bytes: 128 MiB, which a buffer has on every device
 
 Error badInput(std::string message) { return {ErrorKind::BadInput, std::move(message)}; }
 Error invalidValue(const char* type, unsigned value) {

@@ -6,7 +6,6 @@
 #include "fluid/gains.glsl"
 #include "fluid/step_plan.glsl"
 #include "fluid/time.glsl"
-const uint kAsBefore = 3u;  // in place of a parity: the commands stay as they are
 
 // Settling: particles that overlap at the start are separated by position corrections without a
 // step in time, which add no velocity.

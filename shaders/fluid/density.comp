@@ -107,12 +107,11 @@ void addCompression(float sum, float most) {
 #include "fluid/control.glsl"
 #include "fluid/dispatch_commands.glsl"
 
-// One invocation of each subgroup calls this. The starts to switch the commands by, if its subgroup is the last of all.
-uint startsAfterLast() {
-  uint chunks = divideUp(params.capacity, params.chunkParticles);
-  uint subgroups = gl_NumSubgroups * gl_NumWorkGroups.x * gl_NumWorkGroups.y * chunks;
+// One invocation of each subgroup, which has `mine`, calls this. The starts to switch the commands by, if its subgroup is the last of all.
+uint startsAfterLast(uint mine) {
+  uint invocations = kFluidGroup * gl_NumWorkGroups.x * gl_NumWorkGroups.y * divideUp(params.capacity, params.chunkParticles);
   memoryBarrierBuffer();  // what was added to the sums comes before the ticket
-  if (atomicAdd(commands[kTicketWord], 1u) + 1u != subgroups) return 0u;
+  if (atomicAdd(commands[kTicketWord], mine) + mine != invocations) return 0u;
   memoryBarrierBuffer();
   commands[kTicketWord] = 0u;
   uint parity = accountSubstep(push.iteration, push.parity, push.blockStart != 0u);
@@ -133,13 +132,14 @@ void main() {
   float sum = subgroupAdd(compression);  // of 64 lanes, in kErrorUnit, it fits into 32 bits
   float most = subgroupMax(compression);
 #ifdef CONTROLS
-  uint on = 0u;
+  uint on = 0u, lanes = subgroupAdd(1u);
+  subgroupBarrier();  // all have read the control block
   if (subgroupElect()) {
     if (going) addCompression(sum, most);
-    on = startsAfterLast();
+    on = startsAfterLast(lanes);
   }
   on = subgroupMax(on);
-  if (on != 0u) switchCommands(on, subgroupExclusiveAdd(1u), subgroupAdd(1u));
+  if (on != 0u) switchCommands(on, subgroupExclusiveAdd(1u), lanes);
 #else
   if (subgroupElect()) addCompression(sum, most);
 #endif

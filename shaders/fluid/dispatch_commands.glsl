@@ -1,6 +1,7 @@
 // Enabling dispatch commands. Needs `params`, `sums`, `shapes`, and `control` and `commands` to write.
 #ifndef RILL_DISPATCH_COMMANDS_GLSL
 #define RILL_DISPATCH_COMMANDS_GLSL
+#include "shared/dispatch.glsl"
 // The starts whose commands run, a bit each, once the control block is settled. `parity`: of
 // the substep whose density pass has just run; kNoSubstep, kNoBegin: none has.
 uint startsOn(uint parity) {
@@ -15,10 +16,7 @@ uint startsOn(uint parity) {
          uint(rebuilds) << kStartRebuild;
 }
 
-uvec3 groupsFor(uint particles, uint each) {
-  uint needed = (particles + each - 1u) / each;
-  return uvec3(min(needed, 65535u), needed == 0u ? 0u : (needed + 65534u) / 65535u, 1u);
-}
+uvec3 groupsFor(uint particles, uint each) { return foldGroups(divideUp(particles, each)); }
 
 bool someWalk(uint overflow) { return params.listCapacity == 0u || overflow > 0u; }
 
@@ -38,7 +36,7 @@ void switchCommands(uint on, uint lane, uint lanes) {
       case kOverGrid: groups = groupsFor(walks ? min(count, params.chunkParticles) : 0u, shape.x); break;
       case kOverPlane: groups = groupsFor(one, shape.x); break;
       case kOverCorner: groups = groupsFor(several, shape.x); break;
-      case kOverNear: groups = groupsFor((several + shape.x - 1u) / shape.x * shape.x + one, shape.x); break;
+      case kOverNear: groups = groupsFor(divideUp(several, shape.x) * shape.x + one, shape.x); break;
     }
     if ((on >> (shape.z >> 4u) & 1u) == 0u) groups = uvec3(0u);
     commands[3u * k] = groups.x;

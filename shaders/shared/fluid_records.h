@@ -41,6 +41,7 @@ RILL_CONST uint kStartNoiseDamping = 6u;   // the end of the first substep of a 
 RILL_CONST uint kStartRebuild = 7u;        // the neighbor list is due
 RILL_CONST uint kStartFigures = 8u;        // figures were asked for
 RILL_CONST uint kNoSubstep = 2u;           // in place of a parity
+RILL_CONST uint kAsBefore = 3u;            // likewise: the commands stay as they are
 RILL_CONST uint kNoBegin = 4u;             // likewise, where an advance goes on: nothing is to be predicted
 
 // What it is over.
@@ -53,7 +54,7 @@ RILL_CONST uint kOverPlane = 5u;           // the particles near one wall
 RILL_CONST uint kOverCorner = 6u;          // those near several walls or a solid
 RILL_CONST uint kOverNear = 7u;            // the latter, and in workgroups of their own the former
 RILL_CONST uint kMaxCommands = 64u;
-RILL_CONST uint kTicketWord = 3u * kMaxCommands;  // behind the commands: subgroups of a density pass that have finished
+RILL_CONST uint kTicketWord = 3u * kMaxCommands;  // behind the commands: invocations of a density pass that have finished
 
 // Constant over a run; a uniform block.
 struct FluidParams {

@@ -64,6 +64,7 @@ TEST_F(CapacityTest, SortsByDigitsWithRoomToSpare) {
 
 // A wide support makes long lists, which two buffers share. The particles end in the first of them, or in the second.
 TEST_F(CapacityTest, FillsPartOfSeveralLists) {
+  if (rillDevice().info().maxBufferBytes > uint64_t{128} << 20) GTEST_SKIP() << "one buffer holds the list";
   for (const int side : {14, 46}) {
     SCOPED_TRACE(side);
     Trial t = trial();

@@ -1,4 +1,4 @@
-// A neighbor list too long for one buffer of 128 MiB.
+// A neighbor list too long for one buffer.
 #include <glm/geometric.hpp>
 
 #include "rig.hpp"
@@ -9,6 +9,7 @@ namespace chunks_test {
 using Chunks = FluidTest;
 
 TEST_F(Chunks, TwoListChunksEqualTheGrid) {
+  if (rillDevice().info().maxBufferBytes > uint64_t{128} << 20) GTEST_SKIP() << "one buffer holds the list";
   Trial t = trial();
   t.scene.fluid.smoothing_ratio = 3;
   t.x = block({80, 75, 80}, t.d(), glm::dvec3(0), 0.1);

@@ -107,10 +107,25 @@ TEST_F(CountedMemory, RejectsTooLargeFluidsWithTheLimitAndWhatFits) {
   const Error any = refusal(kMaxParticles + 1);
   EXPECT_NE(any.message.find("a fluid has at most 67108864 on any device"), std::string::npos) << any.message;
   scene.domain.reset();
-  scene.fluid.smoothing_ratio = 4;
-  const Error lists = refusal(6000000);
+  vulkan.properties.heapBytes = uint64_t{1} << 31;
+  device = *Device::borrow(vulkan.host());
+  scene.fluid.smoothing_ratio = 3;
+  const Error lists = refusal(5000000);
   EXPECT_EQ(lists.kind, ErrorKind::TooLarge);
-  EXPECT_NE(lists.message.find("of device memory, and 4096.0 MiB are available"), std::string::npos) << lists.message;
+  EXPECT_NE(lists.message.find("of device memory, and 2048.0 MiB are available"), std::string::npos) << lists.message;
+}
+
+// Lists are split over 16 buffers at most: of 720 bytes a particle, 3 million fill 17.
+TEST_F(CountedMemory, RejectsListsOfTooManyBuffers) {
+  vulkan.properties.heapBytes = uint64_t{1} << 40;
+  device = *Device::borrow(vulkan.host());
+  device->beginFrame({1, 0});
+  scene.fluid.smoothing_ratio = 4;
+  auto fluid = Fluid::create(*device, {.scene = &scene, .particles = &particles, .capacity = 3000000});
+  ASSERT_FALSE(fluid);
+  EXPECT_NE(fluid.error().message.find("more than 16 buffers"), std::string::npos) << fluid.error().message;
+  const uint32_t most = maxParticles(*device, scene);
+  EXPECT_TRUE(Fluid::create(*device, {.scene = &scene, .particles = &particles, .capacity = most}));
 }
 
 TEST_F(CountedMemory, FollowsTheBudget) {

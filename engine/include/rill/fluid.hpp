@@ -90,7 +90,7 @@ struct FluidStep {
 struct FluidState {
   BufferRef position = {};  ///< vec4 per particle: xyz in m relative to `origin`; w unused
   BufferRef velocity = {};  ///< vec4 per particle: xyz in m/s; w: density over rest density with FluidStep::stats, else 1
-  BufferRef id = {};        ///< uint per particle, which it keeps: unique, below 2^24; at the start its index in the ParticleSet
+  BufferRef id = {};        ///< uint per particle, which it keeps: unique, below 0x7F000000; at the start its index in the ParticleSet
   BufferRef control = {};   ///< FluidControl (shaders/shared/fluid_records.h)
   /// Its first uint is the number of particles: they are the first entries of the arrays. Null: renderers take `capacity`.
   BufferRef countBuffer = {};
