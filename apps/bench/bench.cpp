@@ -41,6 +41,16 @@ std::string platform() {
   return ::uname(&system) == 0 ? std::string(system.sysname) + " " + system.machine : "unknown";
 }
 
+/// The file of --report.
+std::string markdown(const Options& options, const DeviceInfo& device, const Report& report) {
+  std::string text = "# rill-bench " + options.suite + ": " + device.name + "\n\nRill " RILL_VERSION ", " + device.driver + ", Vulkan " +
+                     device.api + ", " + processor() + ", " + platform() + ". `" + options.command + "`\n";
+  if (apps::signalReceived() != 0) text += "\nStopped by a signal: the rest is missing.\n";
+  for (const std::string& failure : report.failures) text += "\nFAILED " + failure + "\n";
+  for (const Table& table : report.tables) text += "\n" + tableMarkdown(table);
+  return text;
+}
+
 Expected<DeviceInfo> deviceInfo(const Options& options) {
   Scene empty;
   empty.fluid.spacing = 1;
@@ -153,13 +163,18 @@ int runBench(const Options& options) {
     return apps::exitCodeBeforeRun(error);
   };
   const auto suite = std::ranges::find(suites(), std::string_view(options.suite), &Suite::name);
-  for (const auto& [option, file] : {std::pair{"--json", options.json}, std::pair{"--plot", options.plot}})
+  const std::pair<const char*, const std::optional<std::filesystem::path>&> files[] = {
+      {"--json", options.json}, {"--plot", options.plot}, {"--report", options.report}};
+  for (const auto& [option, file] : files)
     if (file)
       if (auto writable = apps::checkFilePlace(option, *file); !writable) return fail(writable.error());
   if (options.plot)
     if (auto plotter = checkPlotter(); !plotter) return fail(plotter.error());
   const auto device = deviceInfo(options);
   if (!device) return fail(device.error());
+  for (const auto& [option, file] : files)  // now: the suite may take minutes
+    if (file && file->has_parent_path())
+      if (auto made = apps::makeFolder(option, file->parent_path()); !made) return fail(made.error());
   if (!options.quiet)
     message(options.suite + (options.quick ? ", quick" : "") + ": " + device->name + " (" + device->driver + "), " + processor());
 
@@ -179,9 +194,10 @@ int runBench(const Options& options) {
   std::string text;
   for (const Table& table : report->tables) text += tableText(table) + "\n";
   for (const std::string& failure : report->failures) text += "FAILED " + failure + "\n";
-  const bool jsonOnStdout = options.json && apps::isStandardOutput(*options.json);
+  const auto onStdout = [](const auto& file) { return file && apps::isStandardOutput(*file); };
+  const bool textOnStderr = onStdout(options.json) || onStdout(options.report);
   if (!options.quiet || !report->failures.empty())
-    if (auto written = apps::writeAll(jsonOnStdout ? STDERR_FILENO : STDOUT_FILENO, "standard output", text); !written) {
+    if (auto written = apps::writeAll(textOnStderr ? STDERR_FILENO : STDOUT_FILENO, "standard output", text); !written) {
       message(written.error().message);
       return apps::kFailed;
     }
@@ -202,6 +218,11 @@ int runBench(const Options& options) {
       return apps::kFailed;
     }
   }
+  if (options.report)
+    if (auto written = apps::writeFile(*options.report, markdown(options, *device, *report)); !written) {
+      message(written.error().message);
+      return apps::kFailed;
+    }
   if (options.plot && !report->plots.empty())
     if (auto drawn = writePlots(*options.plot, report->plots); !drawn) {
       message(drawn.error().message);

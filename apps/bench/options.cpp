@@ -15,7 +15,7 @@ namespace rill::bench {
 namespace {
 
 struct Raw {
-  std::string suite, json, plot, device, repeat, only;
+  std::string suite, json, plot, report, budget, device, repeat, only;
   bool quick = false, quiet = false;
 };
 
@@ -48,7 +48,19 @@ Expected<Options> validated(const Raw& raw, const CLI::App& app) {
   } else if (raw.quick) {
     options.repeat = 1;
   }
-  for (const auto& [name, text, file] : {std::tuple{"--json", &raw.json, &options.json}, std::tuple{"--plot", &raw.plot, &options.plot}})
+  if (given("--budget")) {
+    uint32_t budget = 0;
+    const auto [end, error] = std::from_chars(raw.budget.data(), raw.budget.data() + raw.budget.size(), budget);
+    if (error != std::errc{} || end != raw.budget.data() + raw.budget.size() || budget < 10 || budget > 3600)
+      return Error{ErrorKind::BadInput, "--budget: found " + inQuotes(raw.budget) + ", expected a whole number of seconds from 10 to 3600"};
+    if (raw.suite != "device")
+      return Error{ErrorKind::BadInput, "--budget: the suite " + raw.suite + " has none; expected the suite device"};
+    options.budget_s = budget;
+  } else if (raw.quick) {
+    options.budget_s = 60;
+  }
+  for (const auto& [name, text, file] : {std::tuple{"--json", &raw.json, &options.json}, std::tuple{"--plot", &raw.plot, &options.plot},
+                                         std::tuple{"--report", &raw.report, &options.report}})
     if (given(name)) {
       if (text->empty()) return Error{ErrorKind::BadInput, std::string(name) + ": found \"\", expected the name of a file"};
       *file = *text;
@@ -67,6 +79,8 @@ Expected<apps::CommandLine<Options>> parseCommandLine(int count, const char* con
   app.add_flag("--quick", raw.quick, "run fewer and smaller cases with one sample per time: under a minute; stability takes about two");
   app.add_option("--json", raw.json, "write all results and samples as JSON; - writes to standard output")->type_name("FILE");
   app.add_option("--plot", raw.plot, "draw the diagrams of the suite as SVG (requires gnuplot)")->type_name("FILE.svg");
+  app.add_option("--report", raw.report, "write the tables as Markdown; - writes to standard output")->type_name("FILE.md");
+  app.add_option("--budget", raw.budget, "time of the suite device (default: 480; with --quick: 60)")->type_name("SECONDS");
   app.add_option("--only", raw.only, "run only the cases whose name contains TEXT")->type_name("TEXT");
   app.add_option("--repeat", raw.repeat, "measure each time N times and report the median (default: 3; with --quick: 1)")->type_name("N");
   app.add_option("--device", raw.device, "Vulkan device: its name, a part that no other has, or its index")->type_name("NAME");
@@ -79,6 +93,8 @@ Expected<apps::CommandLine<Options>> parseCommandLine(int count, const char* con
               std::string(suite.description) + "\n";
   footer +=
       "\nExamples:\n"
+      "  rill-bench device --report report.md\n"
+      "      what this device computes and how fast, in at most eight minutes, for an issue\n"
       "  rill-bench accuracy --quick --plot accuracy.svg\n"
       "      run time against error for a few solver settings, in under a minute\n"
       "  rill-bench stability --only random-17\n"

@@ -17,8 +17,9 @@ struct Options {
   uint32_t repeat = 3;  ///< samples per time; the median is reported
   std::string only;     ///< runs only cases whose name contains this
   std::string device;   ///< part of the device's name, or its index
-  std::optional<std::filesystem::path> json, plot;
-  std::string command;  ///< the command line, quoted for a shell where necessary
+  std::optional<std::filesystem::path> json, plot, report;
+  double budget_s = 480;  ///< of the suite device, 10 to 3,600
+  std::string command;    ///< the command line, quoted for a shell where necessary
 };
 
 /// Fails with BadInput; the message names the option, the value found and the expected one.

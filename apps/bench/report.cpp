@@ -46,6 +46,22 @@ std::string tableText(const Table& table) {
   return text;
 }
 
+std::string tableMarkdown(const Table& table) {
+  const auto line = [](const std::vector<std::string>& cells) {
+    std::string text = "|";
+    for (const std::string& cell : cells) {
+      text += " ";
+      for (const char c : cell) text += c == '|' ? std::string("\\|") : c == '\n' ? std::string("<br>") : std::string(1, c);
+      text += " |";
+    }
+    return text + "\n";
+  };
+  std::string text = "## " + table.title + "\n\n" + line(table.columns) + line(std::vector<std::string>(table.columns.size(), "---"));
+  for (const auto& row : table.rows) text += line(row);
+  if (!table.note.empty()) text += "\n" + table.note + "\n";
+  return text;
+}
+
 double median(std::vector<double> samples) {
   if (samples.empty()) return std::numeric_limits<double>::quiet_NaN();
   const auto middle = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);

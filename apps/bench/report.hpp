@@ -19,6 +19,9 @@ struct Table {
 /// Formats a table; columns of numbers are aligned right.
 std::string tableText(const Table& table);
 
+/// The same in Markdown, under a heading of the second level.
+std::string tableMarkdown(const Table& table);
+
 /// A curve or a scatter plot.
 struct Series {
   enum class Style { Points, Lines, Both };

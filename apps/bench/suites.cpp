@@ -4,6 +4,7 @@ namespace rill::bench {
 namespace {
 
 constexpr Suite kSuites[] = {
+    {"device", "one report of a device: checks, variants, times by number of particles beside a prediction", runDevice},
     {"accuracy", "run time against density and trajectory error, with Pareto fronts and points of SPlisHSPlasH", runAccuracy},
     {"stability", "stress tests: degenerate starts, extreme forces, sizes and parameters, random scenes", runStability},
     {"sort", "counting and radix sort against std::sort, by number, range and order of the keys", runSort},

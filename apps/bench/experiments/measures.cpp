@@ -9,7 +9,7 @@
 namespace rill::bench {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnmeasured = std::numeric_limits<double>::quiet_NaN();
 constexpr double kVoidRadius = 1.25;  // spacings; points inside a cubic lattice are at most 0.87 from it
 
 /// Wendland C2 without its constant factor: densities are calibrated on the rest lattice.
@@ -160,8 +160,8 @@ BulkDensity bulkDensity(const Cloud& cloud, const Walls& walls, double solver_su
     ++count;
   }
   const double count = double(interior.size());
-  bulk.error = interior.empty() ? kNaN : sum / count;
-  bulk.spread = interior.empty() ? kNaN : std::sqrt(std::max(0.0, squares / count - bulk.error * bulk.error));
+  bulk.error = interior.empty() ? kUnmeasured : sum / count;
+  bulk.spread = interior.empty() ? kUnmeasured : std::sqrt(std::max(0.0, squares / count - bulk.error * bulk.error));
   for (const auto& [bin, content] : bins)
     bulk.profile.emplace_back((double(bin) + 0.5) * 2 * cloud.spacing, content.first / double(content.second));
   return bulk;
@@ -192,7 +192,7 @@ double surfaceLevel(const Cloud& cloud, double floor_m, double min_x_m, double m
     });
     if (!covered) heights.push_back(point[1] + 0.5 * cloud.spacing - floor_m);
   }
-  if (heights.empty()) return kNaN;
+  if (heights.empty()) return kUnmeasured;
   const double highest = *std::ranges::max_element(heights);
   std::erase_if(heights, [&](double height) { return height < 0.5 * highest; });
   return std::accumulate(heights.begin(), heights.end(), 0.0) / double(heights.size());
@@ -208,7 +208,7 @@ double frontAlongX(const Cloud& cloud) {
     grid.within(cloud.position[i], 2 * cloud.spacing, [&](size_t, double) { ++others; });
     if (others > 5) return cloud.position[i][0] + 0.5 * cloud.spacing;
   }
-  return kNaN;
+  return kUnmeasured;
 }
 
 double heightAtWall(const Cloud& cloud, double wall_m, double floor_m) {

@@ -3,6 +3,7 @@
 
 namespace rill::bench {
 
+Expected<Report> runDevice(Bench& bench);
 Expected<Report> runAccuracy(Bench& bench);
 Expected<Report> runStability(Bench& bench);
 Expected<Report> runSort(Bench& bench);
