@@ -42,7 +42,10 @@ Expected<bool> Advances::finish(PassLog& log, bool clear) {
     const bool queued = pieces_.front().queued, begins = pieces_.front().begins || (queued && !open_);
     if (clear && begins) log.clear();
     auto piece = pieces_.finish(*fluid_, log);
-    if (!piece) return piece.error();
+    if (!piece) {
+      abandon();
+      return piece.error();
+    }
     if (begins) {
       open_ = true;
       current_ = {};
@@ -72,6 +75,7 @@ Expected<bool> Advances::finish(PassLog& log, bool clear) {
 
 void Advances::abandon() {
   pieces_.abandon();
+  pacing_.abandon();
   open_ = false;
   executed_ = recorded_ = 0;
 }

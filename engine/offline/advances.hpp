@@ -34,9 +34,10 @@ class Advances {
   /// Submits pieces until enough are in flight or nothing else is expected to be necessary.
   Expected<void> submit(const Work& work);
   /// Waits for the oldest piece and adds its passes to `log`. True where it completed an advance: last().
-  /// `clear`: the log is emptied where an advance begins.
+  /// `clear`: the log is emptied where an advance begins. After an error nothing is in flight.
   Expected<bool> finish(PassLog& log, bool clear = false);
-  void abandon();  ///< after an error
+  /// Gives up the advance under way and all pieces in flight, after an error; the next submit() begins an advance.
+  void abandon();
 
   uint64_t ended() const { return ended_; }
   /// Advances that have ended, that is under way, and that may have begun behind it.

@@ -23,6 +23,8 @@ class Pacing {
   void addPiece(uint32_t recorded, uint32_t executed, double seconds, bool ahead = false);
   /// Call after an advance, with the substeps that had to be recorded for it; 0: as before. What is in flight counts for the next one.
   void endStep(uint32_t needed);
+  /// Forgets the advance under way and all pieces in flight; the cost and the expected length stay.
+  void abandon() { recorded_ = ahead_ = inFlight_ = 0; }
 
   /// Recent cost of a substep, s; 0: unknown.
   double cost() const { return cost_; }

@@ -92,11 +92,9 @@ class Simulation::Impl {
       return Error{ErrorKind::BadInput, "advance: found " + std::to_string(seconds) + " s, expected a finite time of at least 0"};
     if (seconds == 0) return {};
     beginAdvance();
+    advances_->abandon();  // what an error or an exception has left of the last one
     const auto before = std::chrono::steady_clock::now();
-    if (auto ran = advanceFrames(seconds); !ran) {
-      advances_->abandon();
-      return ran;
-    }
+    if (auto ran = advanceFrames(seconds); !ran) return ran;
     wall_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
     time_s_ += seconds;
     return {};

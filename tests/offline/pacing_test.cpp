@@ -109,5 +109,17 @@ TEST(Pacing, PieceAheadMayServeALongerAdvance) {
   EXPECT_EQ(pacing.next(1), 18u) << "nothing of the next advance has run";
 }
 
+TEST(Pacing, AbandonedPiecesDoNotCount) {
+  Pacing pacing(kBlock);
+  stepOf(pacing, 24, 0.001, 1);
+  pacing.submit(12);
+  pacing.submit(12);
+  pacing.submit(24, true);
+  pacing.abandon();
+  EXPECT_EQ(pacing.next(1), 24u) << "the whole advance again";
+  EXPECT_EQ(stepOf(pacing, 24, 0.001, 1).pieces, 1);
+  EXPECT_EQ(pacing.next(1), 24u);
+}
+
 }  // namespace
 }  // namespace rill::offline
