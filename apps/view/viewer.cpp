@@ -86,7 +86,7 @@ class Viewer {
         options_.scale.value_or(window_->contentScale()), [this] { return window_->clipboard(); },
         [this](const char* text) { window_->setClipboard(text); });
     device_ = options_.device;
-    if (auto opened = openDevice(device_, options_.present); !opened) return opened;
+    if (auto opened = openDevice(device_, present_); !opened) return opened;
     if (auto listed = offline::findDevices(deviceDesc({}))) devices_ = std::move(*listed);
     settings_.view = options_.view;
     return scene ? openScene(*file, options_.overrides) : waitForValidFile(*file, scene.error());
@@ -133,20 +133,25 @@ class Viewer {
     dirty_ = true;
   }
 
+  /// Opens a device after closeDevice() and continues on it from the last snapshot.
+  Expected<void> reopenDevice(const std::string& device) {
+    if (auto opened = openDevice(device, VK_PRESENT_MODE_FIFO_KHR); !opened) return opened;  // every device offers this mode
+    if (std::ranges::find(display_->modes(), present_) != display_->modes().end()) display_->choose(present_);
+    return session_->resume();
+  }
+
   /// After a loss of the device: continues on a new one from the last snapshot. An error ends the program.
   Expected<void> recover(const Error& lost) {
     constexpr double kTooSoon = 10;  // s; what caused the first loss is likely to cause the next
     if (lostAt_s_ && now_s_ - *lostAt_s_ < kTooSoon) return Error{lost.kind, lost.message + "; it was lost a moment before, too"};
     lostAt_s_ = now_s_;
     interface_->skip();
-    const VkPresentModeKHR mode = display_->mode();
     takeValidationMessages();
     closeDevice();
     Expected<void> opened = lost;
     for (int tries = 0; !opened && tries < 5; ++tries) {  // a driver that resets its device needs a moment
       if (tries > 0) std::this_thread::sleep_for(std::chrono::seconds(1));
-      opened = openDevice(device_, mode);
-      if (opened) opened = session_->resume();
+      opened = reopenDevice(device_);
       if (!opened) closeDevice();
     }
     if (!opened) return Error{opened.error().kind, lost.message + "\nno new device: " + opened.error().message};
@@ -161,17 +166,14 @@ class Viewer {
   /// Continues on another device, or on the same one where that fails.
   Expected<void> changeDevice(const std::string& device) {
     if (auto kept = session_->keep(); !kept) return kept;
-    const VkPresentModeKHR mode = display_->mode();
     takeValidationMessages();
     Expected<void> changed;
     for (const std::string& next : {device, device_}) {
       closeDevice();
-      auto opened = openDevice(next, VK_PRESENT_MODE_FIFO_KHR);  // every device offers it
-      if (opened) opened = session_->resume();
+      const auto opened = reopenDevice(next);
       if (changed) changed = opened;
       if (!opened) continue;
       device_ = next;
-      if (std::ranges::find(display_->modes(), mode) != display_->modes().end()) display_->choose(mode);
       window_->setTitle("Rill: " + sceneName_ + " (" + deviceName_ + ")");
       showMessage(changed ? "The simulation continues on " + deviceName_ : changed.error().message);
       return {};
@@ -180,6 +182,7 @@ class Viewer {
   }
 
   void takeValidationMessages() {
+    if (!context_) return;  // no device could be opened
     for (const std::string& message : context_->takeMessages()) {
       logError(message);
       sawValidationMessage_ = true;
@@ -379,7 +382,10 @@ class Viewer {
 
   /// Carries out the requests of the panels.
   Expected<void> handle(const Requests& requests) {
-    if (requests.mode) display_->choose(*requests.mode);
+    if (requests.mode) {
+      present_ = *requests.mode;
+      display_->choose(present_);
+    }
     if (requests.device)
       if (auto done = changeDevice(std::to_string(*requests.device)); !done) return done;
     if (requests.oneStep) oneStepAndPause();
@@ -649,7 +655,8 @@ class Viewer {
   std::unique_ptr<Display> display_;
   std::unique_ptr<Session> session_;
 
-  std::string device_;  // as ContextDesc::device
+  std::string device_;                           // as ContextDesc::device
+  VkPresentModeKHR present_ = options_.present;  // as last chosen, whether the device offers it or not
   std::vector<offline::ListedDevice> devices_;
   std::string deviceName_, sceneName_, message_;
   Settings settings_;
