@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdio>
 #include <cstring>
+#include <exception>
 #include <fstream>
 #include <string>
 #include <string_view>
@@ -18,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kMagic = "RILLPIP1";
-constexpr uint64_t kMaxBytes = uint64_t{1} << 30;                          // of a file
+constexpr size_t kHeader = kMagic.size() + 2 * sizeof(uint64_t);           // before the driver's data
 constexpr size_t kDriverHeader = sizeof(VkPipelineCacheHeaderVersionOne);  // bytes that every driver's data begins with
 
 uint64_t checksum(std::span<const std::byte> bytes) {
@@ -30,7 +31,7 @@ uint64_t checksum(std::span<const std::byte> bytes) {
 std::vector<std::byte> read(const fs::path& file) {
   std::error_code failed;
   const uint64_t size = fs::is_regular_file(file, failed) ? fs::file_size(file, failed) : 0;
-  if (failed || size == 0 || size > kMaxBytes) return {};
+  if (failed || size == 0 || size > kMaxPipelineCacheBytes) return {};
   std::ifstream stream(file, std::ios::binary);
   std::vector<std::byte> bytes(size);
   stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
@@ -93,9 +94,11 @@ std::span<const std::byte> decodePipelineCache(std::span<const std::byte> conten
 PipelineCache::PipelineCache(const fs::path& folder, const VkPhysicalDeviceProperties& properties, VkDevice device,
                              const Functions& functions)
     : file_(pipelineCacheFile(folder, properties)), device_(device), functions_(functions) {
-  const std::vector<std::byte> content = read(file_);
-  const auto data = decodePipelineCache(content, properties);
-  saved_.assign(data.begin(), data.end());
+  try {
+    const std::vector<std::byte> content = read(file_);
+    const auto data = decodePipelineCache(content, properties);
+    saved_.assign(data.begin(), data.end());
+  } catch (const std::exception&) {}  // no memory for it: all is compiled anew
   VkPipelineCacheCreateInfo create{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
   create.initialDataSize = saved_.size();
   create.pInitialData = saved_.data();
@@ -107,9 +110,16 @@ PipelineCache::~PipelineCache() {
   if (handle_) functions_.destroy(device_, handle_, nullptr);
 }
 
-void PipelineCache::save() {
+void PipelineCache::save() noexcept {
+  try {
+    saveNew();
+  } catch (const std::exception&) {}
+}
+
+void PipelineCache::saveNew() {
   size_t size = 0;
-  if (!handle_ || functions_.data(device_, handle_, &size, nullptr) != VK_SUCCESS || size <= kDriverHeader || size > kMaxBytes) return;
+  if (!handle_ || functions_.data(device_, handle_, &size, nullptr) != VK_SUCCESS) return;
+  if (size <= kDriverHeader || size > kMaxPipelineCacheBytes - kHeader) return;
   std::vector<std::byte> data(size);
   if (functions_.data(device_, handle_, &size, data.data()) != VK_SUCCESS) return;
   data.resize(size);

@@ -2,11 +2,14 @@
 // What a driver has compiled, kept in a file from one run of a program to the next.
 #include <vulkan/vulkan_core.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <vector>
 
 namespace rill::offline {
+
+inline constexpr uint64_t kMaxPipelineCacheBytes = uint64_t{256} << 20;  ///< of a file; larger ones are neither read nor written
 
 /// The file that holds the pipelines of a device and driver in `folder`.
 std::filesystem::path pipelineCacheFile(const std::filesystem::path& folder, const VkPhysicalDeviceProperties& device);
@@ -33,9 +36,11 @@ class PipelineCache {
 
   VkPipelineCache handle() const { return handle_; }
   /// Replaces the file, at once for its readers, if anything was added to what it had.
-  void save();
+  void save() noexcept;
 
  private:
+  void saveNew();
+
   std::filesystem::path file_;
   VkDevice device_;
   Functions functions_;

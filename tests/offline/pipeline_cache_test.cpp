@@ -5,6 +5,7 @@
 
 #include <cstring>
 #include <fstream>
+#include <new>
 
 #include "support/temporary_folder.hpp"
 
@@ -46,6 +47,12 @@ VkResult create(VkDevice, const VkPipelineCacheCreateInfo* info, const VkAllocat
   return VK_SUCCESS;
 }
 void destroy(VkDevice, VkPipelineCache, const VkAllocationCallbacks*) { --alive; }
+VkResult exhausted(VkDevice, VkPipelineCache, size_t*, void*) { throw std::bad_alloc(); }
+VkResult tooMuch(VkDevice, VkPipelineCache, size_t* size, void* out) {
+  EXPECT_EQ(out, nullptr) << "nobody asks for that much";
+  *size = offline::kMaxPipelineCacheBytes;  // with a header more than a file may have
+  return VK_SUCCESS;
+}
 VkResult data(VkDevice, VkPipelineCache, size_t* size, void* out) {
   if (out) std::memcpy(out, held.data(), std::min(*size, held.size()));
   *size = held.size();
@@ -131,6 +138,14 @@ TEST_F(PipelineCacheTest, IgnoresFilesOfOtherDevices) {
   VkPhysicalDeviceProperties newer = properties();
   newer.driverVersion = 43;
   EXPECT_NE(offline::pipelineCacheFile(folder(), newer), file());
+}
+
+TEST_F(PipelineCacheTest, KeepsNothingThatIsTooLarge) {
+  for (const auto give : {exhausted, tooMuch}) {
+    PipelineCache cache(folder(), properties(), VK_NULL_HANDLE, {create, destroy, give});
+    cache.save();
+    EXPECT_FALSE(fs::exists(folder()));
+  }
 }
 
 TEST_F(PipelineCacheTest, RunsWhereNothingCanBeWritten) {
