@@ -18,7 +18,8 @@
 namespace rill::offline {
 
 struct ContextDesc {
-  std::string device;       ///< a device's name, a part that no other has (case-insensitive) or its index; empty: the most capable kind
+  /// A device's name, a part that no other has (case-insensitive) or its index; empty: the first usable one of findDevices().
+  std::string device;
   bool validation = false;  ///< VK_LAYER_KHRONOS_validation with synchronization validation; an error if it is not installed
   uint32_t framesInFlight = 2;
   std::vector<const char*> instanceExtensions = {};  ///< e.g. those required by the window system

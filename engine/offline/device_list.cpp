@@ -8,9 +8,8 @@
 #include "offline/context_impl.hpp"
 
 namespace rill::offline {
-namespace {
 
-int placeOf(VkPhysicalDeviceType type) {
+int deviceRank(VkPhysicalDeviceType type) {
   switch (type) {
     case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
       return 0;
@@ -25,15 +24,13 @@ int placeOf(VkPhysicalDeviceType type) {
   }
 }
 
-}  // namespace
-
 std::string_view deviceKind(VkPhysicalDeviceType type) {
   constexpr std::string_view kKinds[] = {"discrete", "virtual", "other", "integrated", "CPU"};
-  return kKinds[placeOf(type)];
+  return kKinds[deviceRank(type)];
 }
 
 void sortDevices(std::vector<ListedDevice>& devices) {
-  std::ranges::sort(devices, {}, [](const ListedDevice& device) { return std::pair(placeOf(device.type), device.index); });
+  std::ranges::sort(devices, {}, [](const ListedDevice& device) { return std::pair(deviceRank(device.type), device.index); });
 }
 
 Expected<std::vector<ListedDevice>> findDevices(const ContextDesc& desc) {

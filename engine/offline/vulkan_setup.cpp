@@ -8,6 +8,7 @@
 #include "gpu/vulkan_error.hpp"
 #include "offline/context_impl.hpp"
 #include "offline/device_choice.hpp"
+#include "offline/device_list.hpp"
 
 namespace rill::offline {
 namespace {
@@ -20,21 +21,6 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
   const std::lock_guard lock(context.messagesMutex);
   context.messages.emplace_back(data->pMessage);
   return VK_FALSE;
-}
-
-int rank(VkPhysicalDeviceType type) {
-  switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
-      return 0;
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
-      return 1;
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
-      return 2;
-    case VK_PHYSICAL_DEVICE_TYPE_CPU:
-      return 3;
-    default:
-      return 4;
-  }
 }
 
 struct Candidate {
@@ -157,7 +143,7 @@ Expected<void> ContextImpl::chooseDevice(const ContextDesc& desc) {
     for (size_t i = 0; i < devices.size(); ++i) {
       if (auto ok = usable(devices[i]); !ok)
         reasons += "\n  " + ok.error().message;
-      else if (!chosen || rank(devices[i].type) < rank(devices[*chosen].type))
+      else if (!chosen || deviceRank(devices[i].type) < deviceRank(devices[*chosen].type))
         chosen = i;
     }
     if (!chosen) return Error{ErrorKind::NoDevice, "no usable Vulkan device:" + reasons};
