@@ -30,9 +30,12 @@ Expected<std::unique_ptr<Swapchain>> Swapchain::create(offline::Context& context
   const auto format = chooseSurfaceFormat(formats);
   if (!format) return format.error();
   made->format_ = *format;
-  (void)made->vki_.GetPhysicalDeviceSurfacePresentModesKHR(device, surface, &count, nullptr);
+  if (VkResult r = made->vki_.GetPhysicalDeviceSurfacePresentModesKHR(device, surface, &count, nullptr); r != VK_SUCCESS)
+    return vulkanError(r, "querying the window's present modes");
   made->modes_.resize(count);
-  (void)made->vki_.GetPhysicalDeviceSurfacePresentModesKHR(device, surface, &count, made->modes_.data());
+  if (VkResult r = made->vki_.GetPhysicalDeviceSurfacePresentModesKHR(device, surface, &count, made->modes_.data());
+      r != VK_SUCCESS && r != VK_INCOMPLETE)
+    return vulkanError(r, "querying the window's present modes");
   made->modes_.resize(count);
   std::erase_if(made->modes_, [](VkPresentModeKHR other) { return presentModeName(other).empty(); });
   if (auto offered = checkPresentMode(mode, made->modes_); !offered) return offered.error();
