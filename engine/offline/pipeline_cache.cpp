@@ -57,8 +57,9 @@ void replace(const fs::path& file, std::span<const std::byte> bytes) {
 }  // namespace
 
 fs::path pipelineCacheFile(const fs::path& folder, const VkPhysicalDeviceProperties& device) {
-  std::string name = "pipelines-";
-  char text[16];
+  char text[32];
+  std::snprintf(text, sizeof text, "pipelines-%08x-%08x-", device.vendorID, device.deviceID);
+  std::string name = text;
   for (const uint8_t byte : device.pipelineCacheUUID) {
     std::snprintf(text, sizeof text, "%02x", unsigned{byte});
     name += text;

@@ -138,6 +138,13 @@ TEST_F(PipelineCacheTest, IgnoresFilesOfOtherDevices) {
   VkPhysicalDeviceProperties newer = properties();
   newer.driverVersion = 43;
   EXPECT_NE(offline::pipelineCacheFile(folder(), newer), file());
+  // Drivers of a vendor may give all of its devices one UUID.
+  VkPhysicalDeviceProperties sibling = properties();
+  sibling.deviceID = 0x5679;
+  EXPECT_NE(offline::pipelineCacheFile(folder(), sibling), file());
+  VkPhysicalDeviceProperties other = properties();
+  other.vendorID = 0x1235;
+  EXPECT_NE(offline::pipelineCacheFile(folder(), other), file());
 }
 
 TEST_F(PipelineCacheTest, KeepsNothingThatIsTooLarge) {
