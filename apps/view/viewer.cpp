@@ -681,7 +681,13 @@ class Viewer {
 
 int runViewer(const Options& options) {
   if (!options.listDevices) return Viewer(options).run();
-  const auto devices = offline::findDevices();
+  offline::ContextDesc desc;
+  if (Window::openDisplay()) {  // without one the devices are listed all the same
+    desc.instanceExtensions = Window::instanceExtensions();
+    desc.presents = Window::presents;
+  }
+  const auto devices = offline::findDevices(desc);
+  Window::closeDisplay();
   const auto written = devices ? apps::writeStream(STDOUT_FILENO, apps::printable(offline::deviceTable(*devices))) : devices.error();
   if (written) return apps::kDone;
   apps::printMessage("rill-view", written.error().message);

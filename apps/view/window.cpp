@@ -76,11 +76,15 @@ void Window::listen() {
       window_, [](GLFWwindow* w, int focused) { of(w).push({.kind = InputEvent::Kind::Focus, .down = focused == GLFW_TRUE}); });
 }
 
-std::vector<const char*> Window::instanceExtensions() const {
+std::vector<const char*> Window::instanceExtensions() {
   uint32_t count = 0;
   const char** names = glfwGetRequiredInstanceExtensions(&count);
   return {names, names + count};
 }
+
+bool Window::openDisplay() { return glfwInit() == GLFW_TRUE && glfwVulkanSupported() == GLFW_TRUE; }
+
+void Window::closeDisplay() { glfwTerminate(); }
 
 bool Window::presents(VkInstance instance, VkPhysicalDevice device, uint32_t queueFamily) {
   return glfwGetPhysicalDevicePresentationSupport(instance, device, queueFamily) == GLFW_TRUE;

@@ -23,7 +23,11 @@ class Window {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  std::vector<const char*> instanceExtensions() const;
+  static std::vector<const char*> instanceExtensions();
+  /// For a list of devices without a window: instanceExtensions() and presents() may be called until closeDisplay(). False where there is
+  /// no display.
+  static bool openDisplay();
+  static void closeDisplay();
   static bool presents(VkInstance instance, VkPhysicalDevice device, uint32_t queueFamily);
   Expected<VkSurfaceKHR> surface(VkInstance instance);
 

@@ -1,7 +1,7 @@
 // A Vulkan layer that replaces the results of calls, by RILL_TEST_FAIL: a list of FUNCTION CALL RESULT, separated by semicolons.
 // "vkQueueSubmit2 3 -4" has the third vkQueueSubmit2 return -4 (VK_ERROR_DEVICE_LOST); with "*" in place of a number every call does.
 // An error is returned without the call; a success, such as VK_SUBOPTIMAL_KHR, after it. RILL_TEST_SURFACE_FORMAT=50 leaves windows
-// the one format of that number.
+// the one format of that number, RILL_TEST_PRESENTS=0 has no queue present to them.
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
@@ -98,11 +98,23 @@ VKAPI_ATTR VkResult VKAPI_CALL surfaceFormats(VkPhysicalDevice device, VkSurface
   return VK_SUCCESS;
 }
 
+PFN_vkGetPhysicalDeviceSurfacePresentModesKHR nextPresentModes = nullptr;
+
+VKAPI_ATTR VkResult VKAPI_CALL presentModes(VkPhysicalDevice device, VkSurfaceKHR surface, uint32_t* count, VkPresentModeKHR* modes) {
+  const std::optional<VkResult> result = replaced("vkGetPhysicalDeviceSurfacePresentModesKHR");
+  return result ? *result : nextPresentModes(device, surface, count, modes);
+}
+
+/// In place of the window systems' functions, which take other arguments after the first two.
+VKAPI_ATTR VkBool32 VKAPI_CALL presentsNever(VkPhysicalDevice, uint32_t) { return VK_FALSE; }
+
 }  // namespace
 
 void instanceCreated(VkInstance instance) {
   nextSurfaceFormats =
       reinterpret_cast<PFN_vkGetPhysicalDeviceSurfaceFormatsKHR>(nextInstanceProc(instance, "vkGetPhysicalDeviceSurfaceFormatsKHR"));
+  nextPresentModes = reinterpret_cast<PFN_vkGetPhysicalDeviceSurfacePresentModesKHR>(
+      nextInstanceProc(instance, "vkGetPhysicalDeviceSurfacePresentModesKHR"));
 }
 
 void deviceCreated(VkDevice device) {
@@ -115,6 +127,10 @@ void deviceCreated(VkDevice device) {
 
 PFN_vkVoidFunction replacement(const char* name) {
   if (std::strcmp(name, "vkGetPhysicalDeviceSurfaceFormatsKHR") == 0) return reinterpret_cast<PFN_vkVoidFunction>(&surfaceFormats);
+  if (std::strcmp(name, "vkGetPhysicalDeviceSurfacePresentModesKHR") == 0) return reinterpret_cast<PFN_vkVoidFunction>(&presentModes);
+  if (const char* presents = std::getenv("RILL_TEST_PRESENTS"); presents && std::strcmp(presents, "0") == 0)
+    for (const char* function : {"vkGetPhysicalDeviceXcbPresentationSupportKHR", "vkGetPhysicalDeviceXlibPresentationSupportKHR"})
+      if (std::strcmp(name, function) == 0) return reinterpret_cast<PFN_vkVoidFunction>(&presentsNever);
 #define LOOK(function)                        \
   if (std::strcmp(name, "vk" #function) == 0) \
     return reinterpret_cast<PFN_vkVoidFunction>(&Failing<PFN_vk##function>::Of<k##function>::call);

@@ -66,6 +66,26 @@ TEST_F(ViewWindowTest, ChangesTheDeviceBitwise) {
   EXPECT_EQ(Child(command(arguments), folder.string(), failing).wait().code, 1);
 }
 
+TEST_F(ViewWindowTest, ListsDevicesThatCannotPresent) {
+  const Outcome able = viewFailing("", {"--list-devices"});
+  EXPECT_EQ(able.code, 0) << able.err;
+  EXPECT_EQ(able.out.find("cannot be used"), std::string::npos) << able.out;
+  const Child::Environment environment{
+      {"VK_ADD_LAYER_PATH", RILL_LAYERS_FOLDER}, {"VK_INSTANCE_LAYERS", "VK_LAYER_RILL_failing"}, {"RILL_TEST_PRESENTS", "0"}};
+  const Outcome unable = Child(command({"--list-devices"}), folder.string(), environment).wait();
+  EXPECT_EQ(unable.code, 0) << unable.err;
+  EXPECT_NE(unable.out.find("presentation to this display"), std::string::npos) << unable.out;
+}
+
+TEST_F(ViewWindowTest, ReportsUnknownPresentModes) {
+  for (const char* call : {"1", "2"}) {
+    const Outcome outcome = viewFailing("vkGetPhysicalDeviceSurfacePresentModesKHR " + std::string(call) + " -1",
+                                        {scene, "--frames", "2", "--present", "immediate"});
+    EXPECT_NE(outcome.code, 0);
+    EXPECT_NE(outcome.err.find("present modes"), std::string::npos) << outcome.err;
+  }
+}
+
 TEST_F(ViewWindowTest, ReportsExhaustedMemory) {
   const Outcome full = viewFailing("vkAllocateMemory 30 -2", {scene, "--frames", "30"});
   EXPECT_EQ(full.code, 1);
