@@ -150,11 +150,11 @@ std::string signedDifference(uint64_t count, uint64_t base) {
   return count > base ? "+" + std::to_string(count - base) : std::to_string(int64_t(count) - int64_t(base));
 }
 
-/// Checks that a disabled feature runs the same passes as the base and gives a bitwise identical state.
+/// Checks that a disabled feature runs the same passes as the base and gives a bitwise identical state. How often they are recorded depends
+/// on the pieces that an advance is cut into, which are sized by time.
 void checkDisabled(const std::string& name, const Samples& off, const Samples& base, Report& report) {
-  const std::string passes = passList(off.end.passes), expected = passList(base.end.passes);
-  if (passes != expected)
-    report.failures.push_back(name + " disabled: found passes " + passes + ", expected those of the base scene: " + expected);
+  if (const std::string changes = passChanges(off.end.passes, base.end.passes); !changes.empty())
+    report.failures.push_back(name + " disabled: expected the passes of the base scene, found " + changes);
   if (off.end.stateHash != base.end.stateHash)
     report.failures.push_back(name + " disabled: the state hash differs from that of the base scene");
 }
