@@ -14,13 +14,13 @@ Installs missing packages (Debian 12, Ubuntu 24.04 or newer; uses sudo if not ro
   tests with the label subgroups on lavapipe with a subgroup size of 16,
   tests with the label threads on lavapipe with one thread per core,
   tests with the label hostile-driver on lavapipe (they use what the specification leaves to drivers),
-  tests with the label gpu-assisted on lavapipe (the validation layer checks each access to a buffer),
   tests with the labels gpu and subgroups on SwiftShader, which has a subgroup size of 4;
     if it is not installed, those with the label subgroups on lavapipe with that size.
 Tests of a program share a few processes. With CTEST OPTIONs each runs in its own, so that -R selects by name.
 
   --no-install   build and run without installing packages
-  --long         also run tests with the label long on lavapipe: several minutes of fuzzing, requires clang
+  --long         also run tests with the label gpu-assisted (the validation layer checks each access to a buffer)
+                 and those with the label long on lavapipe: several minutes of fuzzing, requires clang
   CTEST OPTION   options for ctest
 
 Examples:
@@ -93,7 +93,6 @@ if [ -z "$swiftshader" ]; then
 fi
 LP_NATIVE_VECTOR_WIDTH=512 run_tests "lavapipe with subgroups of 16" "$lavapipe" $none "${round[@]}" -L "^${prefix}subgroups$" "$@"
 run_tests "hostile drivers" "$lavapipe" $none -L '^hostile-driver$' "$@"
-run_tests "lavapipe with gpu-assisted validation" "$lavapipe" $none -L '^gpu-assisted$' "$@"
 unset LP_NUM_THREADS
 LP_NATIVE_VECTOR_WIDTH=512 run_tests "lavapipe with subgroups of 16 and threads" "$lavapipe" $none -L '^threads$' "$@"
 export LP_NUM_THREADS=0
@@ -105,6 +104,7 @@ fi
 for tool in clang-format clang-tidy; do
   [ -n "$(clang_tool $tool)" ] || results+=("$tool: version $clang_version is not installed, so its test was skipped")
 done
+[ $long = no ] || run_tests "lavapipe with gpu-assisted validation" "$lavapipe" $none -L '^gpu-assisted$' "$@"
 [ $long = no ] || run_tests "lavapipe, long tests" "$lavapipe" $none -L '^long$' "$@"
 
 phase "Results"

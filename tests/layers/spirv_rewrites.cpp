@@ -247,9 +247,9 @@ std::vector<uint32_t> perturbRounding(std::span<const uint32_t> words, uint32_t 
       case Op::OpFDiv:
       case Op::OpDot:
         break;
-      case Op::OpExtInst: {  // of GLSL.std.450: sines to square roots, length to normalize; not rounding, minimum, packing
+      case Op::OpExtInst: {  // of GLSL.std.450: sines to square roots, length to normalize; not rounding, minimum, packing,
+                             // nor Fma, which a driver may do as a product and a sum, both rounded right
         const uint32_t function = instruction.operands[3];
-        if (function == GLSLstd450Fma && !isPowerOfTwo(instruction.operands[4]) && !isPowerOfTwo(instruction.operands[5])) break;
         if (!((function >= 13 && function <= 32) || (function >= 66 && function <= 69))) return {instruction};
         break;
       }
