@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fluid/fluid_impl.hpp"
+#include "gpu/device_impl.hpp"
 #include "reference/solver.hpp"
 #include "rill/fluid.hpp"
 #include "rill/snapshot.hpp"
@@ -114,6 +115,21 @@ class FluidTest : public GpuTest {
   void runGraph(Graph& graph) { run(graph); }
   void runGraphs(std::span<Graph* const> graphs) { run(graphs); }
   Device& rillDevice() { return device(); }
+
+  /// Buffers are of at most `bytes` while it lives: a long list is then split over several, on any device.
+  class SmallBuffers {
+   public:
+    SmallBuffers(FluidTest& test, uint64_t bytes) : info_(implOf(test.rillDevice()).info), before_(info_.maxBufferBytes) {
+      info_.maxBufferBytes = bytes;
+    }
+    ~SmallBuffers() { info_.maxBufferBytes = before_; }
+    SmallBuffers(const SmallBuffers&) = delete;
+    SmallBuffers& operator=(const SmallBuffers&) = delete;
+
+   private:
+    DeviceInfo& info_;
+    uint64_t before_;
+  };
 
   /// After `substeps` of both solvers.
   Difference difference(const Trial& trial, int substeps);

@@ -1,4 +1,4 @@
-// The shaders that walk the grid, run on lanes that come together only where a rule promises it: no device at hand does less than it may.
+// The shaders that walk the grid, run on lanes that reconverge only where a rule guarantees it. No installed driver reconverges as little.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include "shared/neighbor_list.h"
 
 namespace rill {
-std::span<const EmbeddedShader> leavingShaders();  // built with loops that each cluster leaves by itself: shaders/fluid/cluster.glsl
+std::span<const EmbeddedShader> leavingShaders();  // built with loops that each cluster leaves separately: shaders/fluid/cluster.glsl
 }
 
 namespace rill::lanes {
@@ -29,9 +29,6 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.shader << ", subgroup
 
 class ReconvergenceTest : public testing::TestWithParam<Case> {
  protected:
-  void SetUp() override {
-    if (!isInlined(shaderNamed(embeddedShaders(), GetParam().shader).words)) GTEST_SKIP() << "calls are not inlined: no spirv-opt";
-  }
   static const WalkScene& scene() {
     static const WalkScene made;
     return made;
@@ -62,7 +59,7 @@ TEST_P(ReconvergenceTest, NoShuffleReadsAnAbsentLane) {
     }
 }
 
-// Shows that the lanes here do what they may, and what a device must promise if clusters leave loops by themselves.
+// Shows that the emulator separates lanes, and what a device must guarantee where clusters leave loops separately.
 TEST_P(ReconvergenceTest, LoopsThatClustersLeaveNeedMaximalReconvergence) {
   const Case& c = GetParam();
   const Outcome wanted = expected(), maximal = run(leavingShaders(), Rules::Maximal, 1);
@@ -95,7 +92,6 @@ std::vector<uint32_t> listed(const Outcome& build, uint32_t i) {
 }
 
 TEST(LaneEmulator, FindsAllPairs) {
-  if (!isInlined(shaderNamed(embeddedShaders(), "fluid/build").words)) GTEST_SKIP() << "calls are not inlined: no spirv-opt";
   const WalkScene scene;
   const Outcome build = walk(scene, shaderNamed(embeddedShaders(), "fluid/build"), 64, 32, Rules::SubgroupUniform, 3);
   const Outcome measure = walk(scene, shaderNamed(embeddedShaders(), "fluid/measure"), 64, 32, Rules::SubgroupUniform, 3);

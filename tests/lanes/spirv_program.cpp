@@ -1,7 +1,9 @@
 #include "lanes/spirv_program.hpp"
 
+#include <spirv-tools/optimizer.hpp>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace rill::lanes {
 
@@ -20,16 +22,20 @@ Instruction decode(std::span<const uint32_t> words) {
   return out;
 }
 
-}  // namespace
-
-bool isInlined(std::span<const uint32_t> words) {
-  uint32_t functions = 0;
-  for (size_t at = 5; at < words.size(); at += words[at] >> 16) functions += static_cast<Op>(words[at] & 0xffffu) == Op::OpFunction;
-  return functions == 1;
+// With calls inlined, as in release builds.
+std::vector<uint32_t> optimized(std::span<const uint32_t> words) {
+  spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_3);
+  optimizer.RegisterPerformancePasses();
+  std::vector<uint32_t> out;
+  if (!optimizer.Run(words.data(), words.size(), &out)) throw std::runtime_error("the shader cannot be optimized");
+  return out;
 }
 
-Program::Program(std::span<const uint32_t> words, const std::map<uint32_t, uint32_t>& specialization) {
-  if (!isInlined(words)) throw std::runtime_error("the shader has several functions; expected calls inlined by spirv-opt");
+}  // namespace
+
+Program::Program(std::span<const uint32_t> shader, const std::map<uint32_t, uint32_t>& specialization) {
+  const std::vector<uint32_t> optimizedWords = optimized(shader);
+  const std::span<const uint32_t> words(optimizedWords);
   bound = words[3];
   typeOf.resize(bound);
   std::vector<Instruction>* block = nullptr;

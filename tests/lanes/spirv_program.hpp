@@ -37,9 +37,7 @@ struct Variable {
   uint32_t type = 0;                                                   ///< what it holds
 };
 
-/// Whether the shader has one function, which Program can run. Builds without spirv-opt, or for debugging, have more.
-bool isInlined(std::span<const uint32_t> words);
-
+/// A shader of one function: calls are inlined.
 struct Program {
   /// Specialization constants by their constant_id. Throws std::runtime_error for what it cannot run.
   Program(std::span<const uint32_t> words, const std::map<uint32_t, uint32_t>& specialization);

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # gpu_assisted.sh RILL_CAPTURE LAYERS scene|view NAME: a frame of a scene without a picture, or of a view of box-and-sphere, draws no
 # message of gpu-assisted validation. It instruments shaders to find accesses out of bounds; that it finds them here is tested in
-# gpu/gpu_assisted_test.cpp.
+# gpu_assisted_test.cpp.
 set -euo pipefail
 capture=$1 what=$3 name=$4
 export VK_ADD_LAYER_PATH=$2 RILL_TEST_HOSTILE=gpu-assisted VK_INSTANCE_LAYERS=VK_LAYER_RILL_hostile:VK_LAYER_KHRONOS_validation
