@@ -10,6 +10,7 @@
 #include "fluid/fluid_impl.hpp"
 #include "fluid/room.hpp"
 #include "fluid/snapshot.hpp"
+#include "gpu/device_impl.hpp"
 #include "gpu/texel_reads.hpp"
 #include "gpu/vulkan_error.hpp"
 

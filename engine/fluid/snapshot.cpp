@@ -7,6 +7,7 @@
 #include <cstring>
 #include <string>
 
+#include "fluid/arrays.hpp"
 #include "fluid/neighbor_list.hpp"
 #include "shape/records.hpp"
 
