@@ -106,6 +106,9 @@ std::span<const FluidPassRow, kFluidPasses> fluidPassTable();
 inline const FluidPassRow& rowOf(FluidPass pass) { return fluidPassTable()[static_cast<size_t>(pass)]; }
 inline bool exists(FluidPass pass, const FluidSetup& setup) { return rowOf(pass).condition.holds(setup); }
 
+/// Whether a pass also does what follows from it, in place of the control pass (FluidDesc::mergePasses).
+inline bool runsControl(FluidPass pass, const FluidSetup& setup) { return pass == FluidPass::Density && setup.mergesPasses; }
+
 /// Whether viscosity or another force changes velocities in every substep: the prediction then follows after them.
 bool hasForces(const FluidSetup& setup);
 

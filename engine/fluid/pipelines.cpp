@@ -37,7 +37,6 @@ std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
           // Where a pass or a variant of it does not say otherwise:
           {"WALKS", false},
           {"CORNER", false},
-          {"MERGED", setup.mergesPasses},
           {"ARTIFICIAL_PRESSURE", false},
           {"REBUILDS", false}};
 }
@@ -67,9 +66,10 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
   const bool counted = sort_->method() == SortMethod::Counting;
   std::string shader(row.shader);
   if (row.extent == Extent::Keys && counted) shader += "_counted";
-  const bool accounts = row.id == FluidPass::Density && setup.mergesPasses;
-  if (accounts) shader += "_control", prepared.arguments = FluidArray::DensityCommands;
-  shader = readingVariant(device, shader, texel_);
+  const bool controls = runsControl(row.id, setup);
+  if (controls) prepared.arguments = FluidArray::DensityCommands;
+  shader = shaderVariant(device, shader, "_merged", setup.mergesPasses);
+  shader = shaderVariant(device, shader, "_texel", texel_);
   const ClusterChoice choice = clusterOf(device);
 
   const auto add = [&](uint32_t over, std::initializer_list<NamedConstant> own, SubgroupNeed subgroups = {}) -> Expected<void> {
@@ -92,7 +92,7 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
       const GroupCount groups = over == kOverShape ? foldGroups(fixedGroups(row.extent)) : GroupCount{kFluidGroup, 0, 1};
       const auto share = [&](Start when) {
         const auto k = static_cast<uint32_t>(when);
-        commands[k] = accounts ? uint32_t{over == kOverGrid} : commands_.shared(k, over, groups);
+        commands[k] = controls ? uint32_t{over == kOverGrid} : commands_.shared(k, over, groups);
       };
       share(start);
       if (start == Start::Correct) share(Start::CorrectOdd);

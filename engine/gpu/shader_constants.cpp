@@ -21,9 +21,9 @@ Expected<const ComputePipeline*> shaderPipeline(Device& device, std::string_view
                          {.shader = shader, .constants = values, .requiredSubgroupSize = subgroups.size, .fullSubgroups = subgroups.full});
 }
 
-std::string readingVariant(const Device& device, std::string_view shader, bool texels) {
-  const std::string variant = std::string(shader) + "_texel";
-  return texels && embeddedShader(implOf(device), variant) ? variant : std::string(shader);
+std::string shaderVariant(const Device& device, std::string_view shader, std::string_view suffix, bool wanted) {
+  const std::string variant = std::string(shader) + std::string(suffix);
+  return wanted && embeddedShader(implOf(device), variant) ? variant : std::string(shader);
 }
 
 }  // namespace rill

@@ -2,20 +2,22 @@
 // Begins an advance: its length, the first step, and the commands of its first block.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/fluid_records.h"
-layout(local_size_x = 1) in;
+#include "fluid/control_copy.glsl"
 layout(push_constant) uniform Push { BeginPush push; };
 layout(binding = 0) uniform ParamsBlock { FluidParams params; };
-layout(std430, binding = 1) buffer ControlBlock { FluidControl control; } stored;
-FluidControl control;
 layout(std430, binding = 2) readonly buffer SumsBlock { FluidSums sums; };
 layout(std430, binding = 3) readonly buffer ShapeBlock { uint shapes[]; };
 layout(std430, binding = 4) buffer CommandBlock { uint commands[]; };
 layout(std430, binding = 5) readonly buffer GravityBlock { vec4 gravityChanges[]; };
+#ifdef MERGED
 layout(std430, binding = 6) writeonly buffer DensityCommandBlock { uint densityCommands[]; };
+#endif
 #include "fluid/gains.glsl"
 #include "fluid/step_plan.glsl"
 #include "fluid/dispatch_commands.glsl"
+#ifdef MERGED
 #include "fluid/density_commands.glsl"
+#endif
 #include "fluid/time.glsl"
 
 void main() {
@@ -49,6 +51,8 @@ void main() {
   control.running = going && control.listState == kListValid ? 1u : 0u;
   control.again = 0u;
   switchCommands(kNoSubstep);
+#ifdef MERGED
   setDensityCommands();
-  stored.control = control;
+#endif
+  storeControl();
 }

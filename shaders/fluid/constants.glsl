@@ -14,6 +14,5 @@ layout(constant_id = 9) const bool ARTIFICIAL_PRESSURE = false;  // in the first
 layout(constant_id = 10) const bool CORNER = false;    // over the particles near several walls or a solid; else near one wall, or all
 layout(constant_id = 11) const bool THIN = true;       // opposite walls can both be near a particle
 layout(constant_id = 12) const bool REBUILDS = false;  // the list is built after the sort
-layout(constant_id = 14) const bool MERGED = false;    // one dispatch in place of two: see FluidDesc::mergePasses
 #define LIST_OVERSIZED_ID 13
 #endif

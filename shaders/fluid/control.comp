@@ -2,15 +2,13 @@
 // After a density pass, where it does not do it itself: see control.glsl. And enables the dispatch commands that follow.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/fluid_records.h"
-layout(local_size_x = 1) in;
+#include "fluid/control_copy.glsl"
 layout(push_constant) uniform Push { ControlPush push; };
 layout(binding = 0) uniform ParamsBlock { FluidParams params; };
-layout(std430, binding = 1) buffer ControlBlock { FluidControl control; } stored;
 layout(std430, binding = 2) buffer SumsBlock { FluidSums sums; };
 layout(std430, binding = 3) readonly buffer ShapeBlock { uint shapes[]; };
 layout(std430, binding = 4) buffer CommandBlock { uint commands[]; };
 layout(std430, binding = 5) readonly buffer GravityBlock { vec4 gravityChanges[]; };
-FluidControl control;
 #include "fluid/control.glsl"
 #include "fluid/dispatch_commands.glsl"
 
@@ -19,5 +17,5 @@ void main() {
   uint parity = accountSubstep(push.iteration, push.parity, push.blockStart != 0u);
   if (parity == kAsBefore) return;
   switchCommands(parity);
-  stored.control = control;
+  storeControl();
 }

@@ -1,7 +1,7 @@
 #version 460
 // Density of the prediction, the constraint's gradient and the multiplier (Macklin and Mueller
 // 2013, equations 1, 2, 9 and 11), with the integral warm start: see docs/method.md.
-// Gathers from the predicted positions. CONTROLS: the subgroup that finishes last accounts for the
+// Gathers from the predicted positions. MERGED: the subgroup that finishes last accounts for the
 // substep, which is a pass less on GPUs; CPU drivers would execute that code, masked, in every subgroup.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
@@ -21,7 +21,7 @@ layout(std430, binding = 9) writeonly buffer WorkBlock { uvec4 work[]; };
 READ_NEAR_DISPLACED(10)
 layout(std430, binding = 11) buffer MultiplierBlock { float multiplier[]; };
 READ_NEAR_TANGENTIAL(12)
-#ifdef CONTROLS
+#ifdef MERGED
 layout(std430, binding = 13) readonly buffer ShapeBlock { uint shapes[]; };
 layout(std430, binding = 14) coherent buffer CommandBlock { uint commands[]; };
 layout(std430, binding = 15) readonly buffer GravityBlock { vec4 gravityChanges[]; };
@@ -89,7 +89,7 @@ float updateMultiplier(uint i, uint head) {
 
 // Whether there is something to do.
 bool runs() {
-#ifdef CONTROLS
+#ifdef MERGED
   return (push.iteration == 0u ? control.running : control.again) != 0u;
 #else
   return true;
@@ -103,7 +103,7 @@ void addCompression(float sum, float most) {
   atomicMax(sums.errorMax, floatBitsToUint(most));
 }
 
-#ifdef CONTROLS
+#ifdef MERGED
 #include "fluid/control.glsl"
 #include "fluid/dispatch_commands.glsl"
 
@@ -131,7 +131,7 @@ void main() {
   float compression = inRange ? updateMultiplier(i, head) : 0.0;
   float sum = subgroupAdd(compression);  // of 64 lanes, in kErrorUnit, it fits into 32 bits
   float most = subgroupMax(compression);
-#ifdef CONTROLS
+#ifdef MERGED
   uint on = 0u, lanes = subgroupAdd(1u);
   subgroupBarrier();  // all have read the control block
   if (subgroupElect()) {

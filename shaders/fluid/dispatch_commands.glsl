@@ -45,6 +45,6 @@ void switchCommands(uint on, uint lane, uint lanes) {
   }
 }
 
-// In one invocation: a barrier costs lavapipe more than the loop.
-void switchCommands(uint parity) { switchCommands(startsOn(parity), 0u, 1u); }
+// By all invocations of a workgroup.
+void switchCommands(uint parity) { switchCommands(startsOn(parity), gl_LocalInvocationID.x, gl_WorkGroupSize.x); }
 #endif

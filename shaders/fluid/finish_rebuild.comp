@@ -2,17 +2,19 @@
 // After a list build: enables the substeps of the block.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/fluid_records.h"
-layout(local_size_x = 1) in;
+#include "fluid/control_copy.glsl"
 layout(binding = 0) uniform ParamsBlock { FluidParams params; };
-layout(std430, binding = 1) buffer ControlBlock { FluidControl control; } stored;
-FluidControl control;
 layout(std430, binding = 2) readonly buffer SumsBlock { FluidSums sums; };
 layout(std430, binding = 3) readonly buffer ShapeBlock { uint shapes[]; };
 layout(std430, binding = 4) buffer CommandBlock { uint commands[]; };
+#ifdef MERGED
 layout(std430, binding = 5) writeonly buffer DensityCommandBlock { uint densityCommands[]; };
+#endif
 #include "fluid/stability.glsl"
 #include "fluid/dispatch_commands.glsl"
+#ifdef MERGED
 #include "fluid/density_commands.glsl"
+#endif
 
 // Bounds only rise: see docs/notes/column-height.md.
 void followColumn(float head) {
@@ -35,6 +37,8 @@ void main() {
   FluidSums s = sums;
   followColumn(columnHead(s));
   switchCommands(kNoSubstep);  // the sort's own, too: another rebuild may be recorded behind this one
+#ifdef MERGED
   setDensityCommands();
-  stored.control = control;
+#endif
+  storeControl();
 }

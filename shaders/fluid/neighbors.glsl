@@ -10,7 +10,7 @@
 #include "shared/loops.glsl"
 
 READ_UINT(6, cellStart)
-#ifdef CONTROLS
+#ifdef MERGED
 layout(std430, binding = 7) coherent buffer SumsBlock { FluidSums sums; };
 #else
 layout(std430, binding = 7) buffer SumsBlock { FluidSums sums; };

@@ -1,4 +1,4 @@
-// The two uniform blocks of every fluid pass, at bindings 0 and 1. CONTROLS: the pass writes the control block.
+// The two uniform blocks of every fluid pass, at bindings 0 and 1. MERGED: the pass may write the control block.
 #ifndef RILL_UNIFORMS_GLSL
 #define RILL_UNIFORMS_GLSL
 #include "shared/fluid_records.h"
@@ -6,7 +6,7 @@
 #include "shared/dispatch.glsl"
 #include "fluid/constants.glsl"
 layout(binding = 0) uniform ParamsBlock { FluidParams params; };
-#ifdef CONTROLS
+#ifdef MERGED
 layout(std430, binding = 1) buffer ControlBlock { FluidControl control; };
 #else
 layout(binding = 1) uniform ControlBlock { FluidControl control; };

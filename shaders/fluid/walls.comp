@@ -170,12 +170,12 @@ void nearSeveral(uint i) {
 
 void main() {
   uint n = flatInvocation();
-  if (!MERGED) {
-    if (CORNER && n < sums.cornerCount) nearSeveral(nearCornerAt(n));
-    if (!CORNER && n < sums.planeCount) nearOneWall(nearPlaneAt(n));
-    return;
-  }
+#ifdef MERGED
   uint several = sums.cornerCount, wholeGroups = divideUp(several, kFluidGroup) * kFluidGroup;
   if (n < several) nearSeveral(nearCornerAt(n));
   else if (n >= wholeGroups && n - wholeGroups < sums.planeCount) nearOneWall(nearPlaneAt(n - wholeGroups));
+#else
+  if (CORNER && n < sums.cornerCount) nearSeveral(nearCornerAt(n));
+  if (!CORNER && n < sums.planeCount) nearOneWall(nearPlaneAt(n));
+#endif
 }
