@@ -18,7 +18,7 @@ struct AdvanceFigures {
 /// (FluidStep::queued).
 class Advances {
  public:
-  /// Both outlive it; nobody else uses the graph.
+  /// `context` and `graph` must outlive it; no other code may use `graph`.
   Advances(Context& context, Graph& graph) : pieces_(context, graph) {}
   /// Continues with this fluid, which outlives its use; nothing may be in flight. `cost` of substeps is kept.
   void setFluid(Fluid& fluid, const Scene& scene);

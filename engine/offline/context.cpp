@@ -66,7 +66,7 @@ Expected<void> ContextImpl::waitFor(uint64_t frame) {
     if (VkResult r = vk.WaitSemaphores(device, &info, UINT64_MAX); r != VK_SUCCESS)
       return vulkanError(r, "waiting for frame " + std::to_string(frame) + " on " + deviceName);
   }
-  // No later frame: whoever waits for frames in turn finds the figures of each.
+  // Not read from the semaphore, which may be further: a caller that waits for frames in order gets the figures of each.
   completed = std::max(completed, frame);
   rill->beginFrame({submitted + 1, completed});
   return {};

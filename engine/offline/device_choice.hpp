@@ -12,8 +12,8 @@ namespace rill::offline {
 /// A line for each device: its index and its name.
 std::string listDevices(std::span<const std::string> names);
 
-/// The device whose index is `wanted`, whose whole name it is, or whose name alone contains it; upper and lower case are the same. BadInput
-/// with the devices to choose from if there is none, or more than one.
+/// The device whose index or whole name is `wanted`, or the only one whose name contains it; case-insensitive. BadInput if none matches,
+/// or more than one; the message lists the candidates.
 Expected<size_t> chooseDevice(std::span<const std::string> names, std::string_view wanted);
 
 }  // namespace rill::offline

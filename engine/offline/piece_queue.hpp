@@ -20,7 +20,7 @@ class PieceQueue {
     double seconds = 0;     ///< on the device, if its passes were timed, else since it or the wait for the one before began
   };
 
-  /// Both outlive it; nobody else uses the graph.
+  /// `context` and `graph` must outlive it; no other code may use `graph`.
   PieceQueue(Context& context, Graph& graph) : context_(context), graph_(graph) {}
 
   /// A piece in flight.
