@@ -9,26 +9,15 @@
 
 #include "offline/device_list.hpp"
 #include "view/display.hpp"
+#include "view/held_edit.hpp"
 #include "view/interface.hpp"
 #include "view/layout.hpp"
 #include "view/memory_meter.hpp"
 #include "view/playback.hpp"
 #include "view/session.hpp"
+#include "view/settings.hpp"
 
 namespace rill::view {
-
-/// A number that is being dragged; it is applied to the scene when the drag ends.
-struct HeldEdit {
-  std::string key;
-  Double3 value{};
-};
-
-/// Settings of the window.
-struct Settings {
-  std::string view = "final";
-  bool paused = false, panels = true, help = false;
-  double scale = 0;  ///< resolution of the image; 0: automatic
-};
 
 /// Requests of this frame.
 struct Requests {

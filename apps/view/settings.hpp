@@ -1,0 +1,13 @@
+#pragma once
+#include <string>
+
+namespace rill::view {
+
+/// Settings of the window, which keys, panels and scripts change.
+struct Settings {
+  std::string view = "final";
+  bool paused = false, panels = true, help = false;
+  double scale = 0;  ///< resolution of the image; 0: automatic
+};
+
+}  // namespace rill::view
