@@ -1,7 +1,7 @@
 // A device that is lost, or exchanged, while the viewer runs.
 #include <algorithm>
-#include <cstdlib>
 
+#include "support/two_devices.hpp"
 #include "view_window/view_window.hpp"
 
 namespace rill::test {
@@ -40,12 +40,9 @@ TEST_F(ViewWindowTest, GivesUpOnADeviceThatIsLostAgain) {
   EXPECT_EQ(always.code, 1);
 }
 
-// A second driver file makes the one driver report its device twice.
 TEST_F(ViewWindowTest, ChangesTheDeviceBitwise) {
-  const char* driver = std::getenv("VK_DRIVER_FILES");
-  if (!driver || !std::filesystem::is_regular_file(driver)) GTEST_SKIP() << "VK_DRIVER_FILES names no file";
-  const std::string drivers = folder.write("second.json", contentOf(driver)).string() + ":" + driver;
-  const Child::Environment two{{"VK_DRIVER_FILES", drivers}, {"VK_ICD_FILENAMES", drivers}};
+  const Child::Environment two = twoDevices(folder);
+  ASSERT_FALSE(two.empty());
   const Outcome list = Child({program(), "--list-devices"}, folder.string(), two).wait();
   EXPECT_EQ(list.code, 0) << list.err;
   EXPECT_EQ(std::ranges::count(list.out, '\n'), 3) << list.out;
