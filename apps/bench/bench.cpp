@@ -55,7 +55,8 @@ Expected<DeviceInfo> deviceInfo(const Options& options) {
   Scene empty;
   empty.fluid.spacing = 1;
   offline::Options settings;
-  settings.device = options.device;
+  settings.device = options.device.name;
+  settings.deviceOrigin = options.device.origin;
   settings.pipelineCache = apps::pipelineCacheFolder();
   auto simulation = offline::Simulation::open(empty, settings);
   if (!simulation) return simulation.error();
@@ -97,7 +98,7 @@ Expected<Scene> namedScene(const std::string& name, const std::vector<Override>&
 Expected<RunFigures> runScene(const Bench& bench, const SceneRun& run) {
   const Clock::time_point begin = Clock::now();
   offline::Options settings;
-  settings.device = bench.options().device;
+  settings.device = bench.options().device.name;
   settings.pipelineCache = apps::pipelineCacheFolder();
   settings.passTimes = run.passTimes;
   settings.validation = run.validation;

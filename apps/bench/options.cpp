@@ -7,6 +7,7 @@
 #include "bench/bench.hpp"
 #include "core/words.hpp"
 #include "rill/version.hpp"
+#include "shared/device_option.hpp"
 #include "shared/pipeline_cache_folder.hpp"
 #include "shared/usage.hpp"
 #include "shared/words.hpp"
@@ -36,9 +37,9 @@ Expected<Options> validated(const Raw& raw, const CLI::App& app) {
   options.quick = raw.quick;
   options.quiet = raw.quiet;
   options.only = raw.only;
-  options.device = raw.device;
-  if (given("--device") && raw.device.empty())
-    return Error{ErrorKind::BadInput, "--device: found \"\", expected part of a device name or an index"};
+  auto device = apps::deviceOption(given("--device") ? std::optional(raw.device) : std::nullopt);
+  if (!device) return device.error();
+  options.device = std::move(*device);
   if (given("--repeat")) {
     uint32_t repeat = 0;
     const auto [end, error] = std::from_chars(raw.repeat.data(), raw.repeat.data() + raw.repeat.size(), repeat);
@@ -83,7 +84,7 @@ Expected<apps::CommandLine<Options>> parseCommandLine(int count, const char* con
   app.add_option("--budget", raw.budget, "time of the suite device (default: 480; with --quick: 60)")->type_name("SECONDS");
   app.add_option("--only", raw.only, "run only the cases whose name contains TEXT")->type_name("TEXT");
   app.add_option("--repeat", raw.repeat, "measure each time N times and report the median (default: 3; with --quick: 1)")->type_name("N");
-  app.add_option("--device", raw.device, "Vulkan device: its name, a part that no other has, or its index")->type_name("NAME");
+  app.add_option("--device", raw.device, apps::kDeviceHelp)->type_name("NAME");
   app.add_flag("--quiet", raw.quiet, "print only errors and failed checks");
   app.set_help_flag("-h,--help", "print this help");
   app.set_version_flag("--version", std::string("rill-bench ") + RILL_VERSION, "print the version");

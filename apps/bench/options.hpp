@@ -5,6 +5,7 @@
 #include <string>
 
 #include "rill/expected.hpp"
+#include "shared/device_option.hpp"
 #include "shared/program.hpp"
 
 namespace rill::bench {
@@ -16,7 +17,7 @@ struct Options {
   bool quiet = false;
   uint32_t repeat = 3;  ///< samples per time; the median is reported
   std::string only;     ///< runs only cases whose name contains this
-  std::string device;   ///< part of the device's name, or its index
+  apps::DeviceOption device;
   std::optional<std::filesystem::path> json, plot, report;
   double budget_s = 480;  ///< of the suite device, 10 to 3,600
   std::string command;    ///< the command line, quoted for a shell where necessary

@@ -15,7 +15,7 @@ double millisecondsSince(Clock::time_point begin) { return 1e3 * std::chrono::du
 
 Expected<Workbench> Workbench::open(const Bench& bench) {
   offline::ContextDesc desc;
-  desc.device = bench.options().device;
+  desc.device = bench.options().device.name;
   desc.pipelineCache = apps::pipelineCacheFolder();
   desc.framesInFlight = 1;  // run() waits for every graph
   auto context = offline::Context::create(desc);

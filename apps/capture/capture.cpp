@@ -39,7 +39,8 @@ class Capture {
     if (const auto scene = readScene(); !scene) return refuse(scene.error());
     if (const auto outputs = checkOutputs(); !outputs) return refuse(outputs.error());
     offline::Options settings;
-    settings.device = options_.device;
+    settings.device = options_.device.name;
+    settings.deviceOrigin = options_.device.origin;
     settings.reads = options_.reads;
     settings.pipelineCache = apps::pipelineCacheFolder();
     settings.orbit_degPerS = options_.orbit_degPerS;

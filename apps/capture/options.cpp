@@ -11,6 +11,7 @@
 #include "rill/offline.hpp"
 #include "rill/version.hpp"
 #include "shared/atomic_file.hpp"
+#include "shared/device_option.hpp"
 #include "shared/option_text.hpp"
 #include "shared/pipeline_cache_folder.hpp"
 #include "shared/scene_folders.hpp"
@@ -81,7 +82,7 @@ void declare(CLI::App& app, Raw& raw) {
 
   app.add_flag("--no-pass-times", raw.noPassTimes, "do not time passes for --stats and --explain, which slows down software devices")
       ->group(run);
-  once("--device", raw.device, "name of a device, a part that no other has, or its index", "NAME", run);
+  once("--device", raw.device, apps::kDeviceHelp, "NAME", run);
   once("--reads", raw.reads, "how kernels read arrays: auto (by the device's vendor), storage (buffers) or texels (default: auto)", "KIND",
        run);
   list("--require", raw.require, "exit with 3 unless it holds, for example 'outside<1'", "FIGURE<NUMBER", run);
@@ -213,8 +214,9 @@ Expected<Options> validated(const Raw& raw, const CLI::App& app) {
     if (raw.noImages && !options.video)
       return Error{ErrorKind::BadInput, "--no-images: with --play there is nothing to write; expected --video FILE"};
   }
-  if (given("--device") && raw.device.empty()) return badInput("--device", raw.device, "part of a device's name, or its index");
-  options.device = raw.device;
+  auto device = apps::deviceOption(given("--device") ? std::optional(raw.device) : std::nullopt);
+  if (!device) return device.error();
+  options.device = std::move(*device);
   if (given("--reads")) {
     constexpr std::pair<std::string_view, ArrayReads> kinds[] = {
         {"auto", ArrayReads::Auto}, {"storage", ArrayReads::Storage}, {"texels", ArrayReads::Texels}};

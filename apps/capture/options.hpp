@@ -9,6 +9,7 @@
 #include "rill/device.hpp"
 #include "rill/expected.hpp"
 #include "rill/scene_io.hpp"
+#include "shared/device_option.hpp"
 #include "shared/program.hpp"
 
 namespace rill::capture {
@@ -35,7 +36,7 @@ struct Options {
   std::optional<std::filesystem::path> resume;      ///< checkpoint to resume from
   std::optional<std::filesystem::path> play;        ///< folder of PLY files to draw instead of simulating
   std::vector<Override> overrides;                  ///< of scene keys, in order; --particles is the last one
-  std::string device;
+  apps::DeviceOption device;
   ArrayReads reads = ArrayReads::Auto;
   std::vector<Requirement> requirements;
   bool explain = false, images = true, quiet = false;

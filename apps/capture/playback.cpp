@@ -86,7 +86,8 @@ int runPlayback(const Options& options) {
     if (auto valid = Video::check(*options.video); !valid) return refuse(valid.error());
 
   offline::Options settings;
-  settings.device = options.device;
+  settings.device = options.device.name;
+  settings.deviceOrigin = options.device.origin;
   settings.reads = options.reads;
   settings.pipelineCache = apps::pipelineCacheFolder();
   settings.orbit_degPerS = options.orbit_degPerS;

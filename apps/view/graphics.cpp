@@ -13,6 +13,7 @@ Graphics::Graphics(const Options& options, Window& window, ImFontAtlas& fonts)
 offline::ContextDesc Graphics::contextDesc(const std::string& device) const {
   offline::ContextDesc desc;
   desc.device = device;
+  if (device == options_.device.name) desc.deviceOrigin = options_.device.origin;
   desc.pipelineCache = apps::pipelineCacheFolder();
   desc.validation = options_.validate;
   desc.framesInFlight = kSubmitsInFlight;
@@ -40,8 +41,8 @@ Expected<void> Graphics::create(const std::string& device, VkPresentModeKHR mode
   return {};
 }
 
-Expected<void> Graphics::open(const std::string& device) {
-  if (auto created = create(device, mode_); !created) return created;
+Expected<void> Graphics::open() {
+  if (auto created = create(options_.device.name, mode_); !created) return created;
   if (auto listed = offline::findDevices(contextDesc({}))) devices_ = std::move(*listed);
   return {};
 }

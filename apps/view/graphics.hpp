@@ -18,9 +18,9 @@ class Graphics {
   /// `window` and `fonts` must outlive it.
   Graphics(const Options& options, Window& window, ImFontAtlas& fonts);
 
-  /// Opens a device, as ContextDesc::device, and a swapchain with the present mode of the options.
-  Expected<void> open(const std::string& device);
-  /// Opens a device after close(), with the present mode that was last chosen if it offers that, else FIFO.
+  /// Opens the device of the options, and a swapchain with their present mode.
+  Expected<void> open();
+  /// Opens a device, as ContextDesc::device, after close(), with the present mode that was last chosen if it offers that, else FIFO.
   Expected<void> reopen(const std::string& device);
   /// What uses context() must have released all on the device, which may be lost.
   void close();

@@ -6,6 +6,7 @@
 #include "core/words.hpp"
 #include "rill/offline.hpp"
 #include "rill/version.hpp"
+#include "shared/device_option.hpp"
 #include "shared/option_text.hpp"
 #include "shared/pipeline_cache_folder.hpp"
 #include "shared/usage.hpp"
@@ -48,7 +49,7 @@ void declare(CLI::App& app, Raw& raw) {
        "when a frame is shown: " + presentModeNames() +
            " (default: fifo). fifo waits for the display; mailbox and immediate do not, immediate may tear",
        "MODE", run);
-  text("--device", raw.device, "name of a device, a part that no other has, or its index", "NAME", run);
+  text("--device", raw.device, apps::kDeviceHelp, "NAME", run);
   text("--frames", raw.frames, "close the window after N displayed frames", "N", run);
   text("--screenshot", raw.screenshot, "write the last frame of the window, including the panels, as PNG", "FILE", run);
   text("--script", raw.script, "replay input from a file, in lockstep (commands below)", "FILE", run);
@@ -105,8 +106,9 @@ Expected<Options> validated(const Raw& raw, const CLI::App& app) {
     if (!options.frames || *options.frames < 1 || *options.frames > kMaxFrames)
       return badInput("--frames", raw.frames, "a whole number from 1 to " + std::to_string(kMaxFrames));
   }
-  if (given("--device") && raw.device.empty()) return badInput("--device", raw.device, "part of a device's name, or its index");
-  options.device = raw.device;
+  auto device = apps::deviceOption(given("--device") ? std::optional(raw.device) : std::nullopt);
+  if (!device) return device.error();
+  options.device = std::move(*device);
   if (given("--screenshot")) {
     if (raw.screenshot.empty()) return badInput("--screenshot", raw.screenshot, "the name of a file");
     if (auto place = apps::checkFilePlace("--screenshot", raw.screenshot); !place) return place.error();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "rill/scene_io.hpp"
+#include "shared/device_option.hpp"
 #include "shared/program.hpp"
 #include "view/present_mode.hpp"
 
@@ -14,7 +15,7 @@ namespace rill::view {
 /// The options of a command line, validated as far as that is possible without the scene.
 struct Options {
   std::string scene = "dam-break";  ///< a name or a path
-  std::string device;
+  apps::DeviceOption device;
   uint32_t width = 1280, height = 720;  ///< of the window, pixels
   std::optional<float> scale;           ///< of text and buttons; none: the display's
   std::string view = "final";

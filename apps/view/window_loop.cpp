@@ -31,12 +31,12 @@ WindowLoop::WindowLoop(const Options& options, std::unique_ptr<Window> window, c
       graphics_(options, *window_, interface_.fonts()),
       shown_(*window_, interface_, graphics_, settings_, message_, options.lockstep),
       scenes_(folders, shown_, message_),
-      devices_(options.device, graphics_, shown_, message_),
+      devices_(options.device.name, graphics_, shown_, message_),
       input_(settings_, interface_, shown_, scenes_),
       script_(std::move(script), *window_, settings_, shown_, scenes_) {}
 
 Expected<void> WindowLoop::open(const fs::path& file, const Expected<void>& valid) {
-  if (auto opened = graphics_.open(options_.device); !opened) return opened;
+  if (auto opened = graphics_.open(); !opened) return opened;
   return valid ? scenes_.open(file, options_.overrides) : scenes_.waitForValidFile(file, options_.overrides, valid.error());
 }
 

@@ -20,7 +20,8 @@ namespace rill::offline {
 struct ContextDesc {
   /// A device's name, a part that no other has (case-insensitive) or its index; empty: the first usable one of findDevices().
   std::string device;
-  bool validation = false;  ///< VK_LAYER_KHRONOS_validation with synchronization validation; an error if it is not installed
+  std::string deviceOrigin = {};  ///< what messages about `device` begin with, for example the option that it comes from; may be empty
+  bool validation = false;        ///< VK_LAYER_KHRONOS_validation with synchronization validation; an error if it is not installed
   uint32_t framesInFlight = 2;
   std::vector<const char*> instanceExtensions = {};  ///< e.g. those required by the window system
   std::vector<const char*> deviceExtensions = {};

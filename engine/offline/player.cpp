@@ -30,6 +30,7 @@ class Player::Impl {
                    "fluid.spacing: not given, and no fill to compute it from fluid.particles; expected a number above 0 (m)"};
     ContextDesc desc;
     desc.device = options.device;
+    desc.deviceOrigin = options.deviceOrigin;
     desc.validation = options.validation;
     desc.pipelineCache = options.pipelineCache;
     desc.reads = options.reads;

@@ -67,6 +67,7 @@ class Simulation::Impl {
         return Error{ErrorKind::BadInput, "the checkpoint was written by another scene: " + difference};
     ContextDesc desc;
     desc.device = options_.device;
+    desc.deviceOrigin = options_.deviceOrigin;
     desc.validation = options_.validation;
     desc.pipelineCache = options_.pipelineCache;
     desc.reads = options_.reads;

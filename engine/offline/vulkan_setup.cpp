@@ -134,10 +134,13 @@ Expected<void> ContextImpl::chooseDevice(const ContextDesc& desc) {
   if (!wanted.empty()) {
     std::vector<std::string> names;
     for (const Candidate& candidate : devices) names.push_back(candidate.name);
+    const auto aboutOption = [&](const Error& error) {
+      return desc.deviceOrigin.empty() ? error : Error{error.kind, desc.deviceOrigin + ": " + error.message};
+    };
     const auto named = offline::chooseDevice(names, wanted);
-    if (!named) return named.error();
+    if (!named) return aboutOption(named.error());
     chosen = *named;
-    if (auto ok = usable(devices[*chosen]); !ok) return ok;
+    if (auto ok = usable(devices[*chosen]); !ok) return aboutOption(ok.error());
   } else {
     std::string reasons;
     for (size_t i = 0; i < devices.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/bench.hpp"
+#include "support/scoped_variable.hpp"
 
 namespace rill::bench {
 namespace {
@@ -42,8 +43,14 @@ TEST(Options, ParsesFilesAndNames) {
   EXPECT_EQ(line->options->json, "a b.json");
   EXPECT_EQ(line->options->plot, "p.svg");
   EXPECT_EQ(line->options->only, "random");
-  EXPECT_EQ(line->options->device, "0");
+  EXPECT_EQ(line->options->device.name, "0");
   EXPECT_EQ(line->options->command, "rill-bench sort --json 'a b.json' --plot p.svg --only random --device 0");
+}
+
+TEST(Options, TakesDeviceFromVariable) {
+  const test::ScopedVariable variable("RILL_DEVICE", "radeon");
+  EXPECT_EQ(parsed({"sort"})->options->device.name, "radeon");
+  EXPECT_EQ(parsed({"sort", "--device", "0"})->options->device.name, "0");
 }
 
 TEST(Options, ErrorsNameOptionAndValue) {

@@ -25,7 +25,7 @@ Expected<offline::Simulation> checkedRun(const Bench& bench, int frames, uint32_
   auto scene = checkScene();
   if (!scene) return scene.error();
   offline::Options options;
-  options.device = bench.options().device;
+  options.device = bench.options().device.name;
   options.substepsPerSubmit = substepsPerSubmit;
   auto simulation = offline::Simulation::open(std::move(*scene), options);
   if (!simulation) return simulation.error();

@@ -83,7 +83,7 @@ Expected<SimulationTimes> timeSimulation(const Bench& bench, uint32_t count, con
   }
 
   offline::Options options;
-  options.device = bench.options().device;
+  options.device = bench.options().device.name;
   auto simulation = offline::Simulation::open(*scene, options);
   if (!simulation) {
     if (simulation.error().kind != ErrorKind::TooLarge && simulation.error().kind != ErrorKind::OutOfMemory) return simulation.error();

@@ -50,7 +50,7 @@ ViewerRate viewerRate(const Bench& bench, const std::string& scene, uint32_t fra
     return rate;
   }
   std::string command = quoted(program->string()) + " " + scene + " --frames " + std::to_string(frames);
-  if (!bench.options().device.empty()) command += " --device " + quoted(bench.options().device);
+  if (!bench.options().device.name.empty()) command += " --device " + quoted(bench.options().device.name);
   std::FILE* const pipe = ::popen((command + " 2>&1").c_str(), "r");
   std::string output;
   char part[512];

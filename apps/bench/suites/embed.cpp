@@ -67,7 +67,7 @@ class Stopwatch {
 };
 
 Expected<Start> measureStart(const Bench& bench, const Scene& scene, const ParticleSet& particles, std::span<const std::byte> saved) {
-  auto context = offline::Context::create({.device = bench.options().device});
+  auto context = offline::Context::create({.device = bench.options().device.name});
   if (!context) return context.error();
   const HostCache cache(*context, saved);
   DeviceRequirements needs;

@@ -72,7 +72,7 @@ class FrameStepper {
     auto read = namedScene(scene, overrides);
     if (!read) return read.error();
     offline::Options options;
-    options.device = bench.options().device;
+    options.device = bench.options().device.name;
     options.pipelineCache = apps::pipelineCacheFolder();
     options.passTimes = passTimes;
     auto simulation = Simulation::open(std::move(*read), options);

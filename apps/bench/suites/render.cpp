@@ -326,7 +326,7 @@ class Render {
     const auto scene = namedScene(recorded.scene, recorded.changes);
     if (!scene) return scene.error();
     offline::Options options;
-    options.device = bench_.options().device;
+    options.device = bench_.options().device.name;
     options.pipelineCache = apps::pipelineCacheFolder();
     auto simulation = offline::Simulation::open(*scene, options);
     if (!simulation) return simulation.error();

@@ -29,6 +29,7 @@ namespace rill::offline {
 struct Options {
   double orbit_degPerS = 0;                  ///< angular speed of the camera around its target, counter-clockwise seen from above
   std::string device = {};                   ///< a name, a part that no other has, or an index; empty: the most capable device
+  std::string deviceOrigin = {};             ///< what messages about `device` begin with, such as the user's option; may be empty
   std::vector<Override> overrides = {};      ///< applied to the scene
   bool validation = false;                   ///< enable the validation layer with synchronization validation; it must be installed
   bool passTimes = false;                    ///< measure Stats::passes; costs time, on CPU drivers up to a fifth of the run
