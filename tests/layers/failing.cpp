@@ -1,7 +1,8 @@
 // A Vulkan layer that replaces the results of calls, by RILL_TEST_FAIL: a list of FUNCTION CALL RESULT, separated by semicolons.
 // "vkQueueSubmit2 3 -4" has the third vkQueueSubmit2 return -4 (VK_ERROR_DEVICE_LOST); with "*" in place of a number every call does.
 // An error is returned without the call; a success, such as VK_SUBOPTIMAL_KHR, after it. RILL_TEST_SURFACE_FORMAT=50 leaves windows
-// the one format of that number, RILL_TEST_PRESENTS=0 has no queue present to them.
+// the one format of that number, RILL_TEST_PRESENTS=0 has no queue present to them. With RILL_TEST_PIPELINE_CACHE the driver keeps compiled
+// pipelines, and what a cache begins with is printed.
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
@@ -105,6 +106,40 @@ VKAPI_ATTR VkResult VKAPI_CALL presentModes(VkPhysicalDevice device, VkSurfaceKH
   return result ? *result : nextPresentModes(device, surface, count, modes);
 }
 
+// A driver that keeps compiled pipelines: lavapipe and SwiftShader give no more than a header.
+PFN_vkCreatePipelineCache nextCreatePipelineCache = nullptr;
+PFN_vkGetPipelineCacheData nextPipelineCacheData = nullptr;
+std::atomic<uint64_t> filledCache{0};  // the handle that pipelines were compiled with
+
+VKAPI_ATTR VkResult VKAPI_CALL createPipelineCache(VkDevice device, const VkPipelineCacheCreateInfo* info,
+                                                   const VkAllocationCallbacks* callbacks, VkPipelineCache* cache) {
+  std::fprintf(stderr, "initialDataSize=%zu\n", info->initialDataSize);
+  VkPipelineCacheCreateInfo empty = *info;  // the driver did not make that data
+  empty.initialDataSize = 0;
+  return nextCreatePipelineCache(device, &empty, callbacks, cache);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL computePipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
+                                                const VkComputePipelineCreateInfo* infos, const VkAllocationCallbacks* callbacks,
+                                                VkPipeline* pipelines) {
+  if (cache != VK_NULL_HANDLE) filledCache = reinterpret_cast<uint64_t>(cache);
+  return Failing<PFN_vkCreateComputePipelines>::Of<kCreateComputePipelines>::call(device, cache, count, infos, callbacks, pipelines);
+}
+
+/// What the driver gives, which begins with a header for the device, and 16 bytes if pipelines were compiled with the cache.
+VKAPI_ATTR VkResult VKAPI_CALL pipelineCacheData(VkDevice device, VkPipelineCache cache, size_t* size, void* data) {
+  size_t driversSize = 0;
+  if (VkResult r = nextPipelineCacheData(device, cache, &driversSize, nullptr); r != VK_SUCCESS) return r;
+  std::vector<unsigned char> all(driversSize);
+  if (VkResult r = nextPipelineCacheData(device, cache, &driversSize, all.data()); r != VK_SUCCESS) return r;
+  all.resize(driversSize);
+  if (filledCache == reinterpret_cast<uint64_t>(cache)) all.insert(all.end(), 16, 0xA5);
+  const bool fits = !data || *size >= all.size();
+  if (data && fits) std::ranges::copy(all, static_cast<unsigned char*>(data));
+  *size = fits ? all.size() : 0;
+  return fits ? VK_SUCCESS : VK_INCOMPLETE;
+}
+
 /// In place of the window systems' functions, which take other arguments after the first two.
 VKAPI_ATTR VkBool32 VKAPI_CALL presentsNever(VkPhysicalDevice, uint32_t) { return VK_FALSE; }
 
@@ -123,6 +158,8 @@ void deviceCreated(VkDevice device) {
   Failing<PFN_vk##function>::Of<k##function>::next = reinterpret_cast<PFN_vk##function>(nextDeviceProc(device, "vk" #function));
   FAILING_FUNCTIONS(FIND)
 #undef FIND
+  nextCreatePipelineCache = reinterpret_cast<PFN_vkCreatePipelineCache>(nextDeviceProc(device, "vkCreatePipelineCache"));
+  nextPipelineCacheData = reinterpret_cast<PFN_vkGetPipelineCacheData>(nextDeviceProc(device, "vkGetPipelineCacheData"));
 }
 
 PFN_vkVoidFunction replacement(const char* name) {
@@ -131,6 +168,11 @@ PFN_vkVoidFunction replacement(const char* name) {
   if (const char* presents = std::getenv("RILL_TEST_PRESENTS"); presents && std::strcmp(presents, "0") == 0)
     for (const char* function : {"vkGetPhysicalDeviceXcbPresentationSupportKHR", "vkGetPhysicalDeviceXlibPresentationSupportKHR"})
       if (std::strcmp(name, function) == 0) return reinterpret_cast<PFN_vkVoidFunction>(&presentsNever);
+  if (std::getenv("RILL_TEST_PIPELINE_CACHE")) {
+    if (std::strcmp(name, "vkCreatePipelineCache") == 0) return reinterpret_cast<PFN_vkVoidFunction>(&createPipelineCache);
+    if (std::strcmp(name, "vkCreateComputePipelines") == 0) return reinterpret_cast<PFN_vkVoidFunction>(&computePipelines);
+    if (std::strcmp(name, "vkGetPipelineCacheData") == 0) return reinterpret_cast<PFN_vkVoidFunction>(&pipelineCacheData);
+  }
 #define LOOK(function)                        \
   if (std::strcmp(name, "vk" #function) == 0) \
     return reinterpret_cast<PFN_vkVoidFunction>(&Failing<PFN_vk##function>::Of<k##function>::call);
