@@ -46,6 +46,10 @@ class ContextImpl {
   Expected<void> chooseDevice(const ContextDesc& desc);
   /// The preferred queue family: one with graphics, if available. Empty if none supports compute, or presentation if required.
   std::optional<uint32_t> familyOf(VkPhysicalDevice handle, const ContextDesc& desc) const;
+  /// All devices of the instance; empty where no driver has one.
+  Expected<std::vector<VkPhysicalDevice>> physicalDevices() const;
+  /// NoDevice, with the device's name and the reason, if it cannot be used with `desc`.
+  Expected<void> usable(VkPhysicalDevice handle, const ContextDesc& desc) const;
   bool offers(const char* extension, void* features) const;
   Expected<void> makeDevice(const ContextDesc& desc);
   // context.cpp

@@ -4,7 +4,6 @@
 #include <cstdio>
 
 #include "core/words.hpp"
-#include "gpu/vulkan_error.hpp"
 #include "offline/context_impl.hpp"
 
 namespace rill::offline {
@@ -41,15 +40,10 @@ Expected<std::vector<ListedDevice>> findDevices(const ContextDesc& desc) {
   const auto memory2 =
       reinterpret_cast<PFN_vkGetPhysicalDeviceMemoryProperties>(impl.get(impl.instance, "vkGetPhysicalDeviceMemoryProperties"));
   if (!properties2 || !memory2) return Error{ErrorKind::NoDevice, "the Vulkan instance lacks vkGetPhysicalDeviceProperties2"};
-  uint32_t count = 0;
-  if (VkResult r = impl.vki.EnumeratePhysicalDevices(impl.instance, &count, nullptr);
-      r != VK_SUCCESS && r != VK_ERROR_INITIALIZATION_FAILED)
-    return vulkanError(r, "listing Vulkan devices");
-  std::vector<VkPhysicalDevice> handles(count);
-  if (count != 0) (void)impl.vki.EnumeratePhysicalDevices(impl.instance, &count, handles.data());
-  handles.resize(count);
+  const auto handles = impl.physicalDevices();
+  if (!handles) return handles.error();
   std::vector<ListedDevice> devices;
-  for (const VkPhysicalDevice handle : handles) {
+  for (const VkPhysicalDevice handle : *handles) {
     VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver};
     properties2(handle, &properties);
@@ -63,12 +57,7 @@ Expected<std::vector<ListedDevice>> findDevices(const ContextDesc& desc) {
     for (uint32_t h = 0; h < memory.memoryHeapCount; ++h)
       if (memory.memoryHeaps[h].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT)
         listed.localBytes = std::max<uint64_t>(listed.localBytes, memory.memoryHeaps[h].size);
-    DeviceRequirements ignored;
-    if (auto able = appendRequired(impl.get, impl.instance, handle, ignored); !able)
-      listed.unusable = able.error().message;
-    else if (!impl.familyOf(handle, desc))
-      listed.unusable =
-          desc.presents ? "no queue supports compute, graphics and presentation to this display" : "no queue supports compute";
+    if (auto able = impl.usable(handle, desc); !able) listed.unusable = able.error().message;
     devices.push_back(std::move(listed));
   }
   sortDevices(devices);

@@ -106,30 +106,39 @@ std::optional<uint32_t> ContextImpl::familyOf(VkPhysicalDevice handle, const Con
   return find(VK_QUEUE_COMPUTE_BIT);  // compute-only devices can simulate
 }
 
-Expected<void> ContextImpl::chooseDevice(const ContextDesc& desc) {
-  const std::string& wanted = desc.device;
+Expected<std::vector<VkPhysicalDevice>> ContextImpl::physicalDevices() const {
   uint32_t count = 0;
   if (VkResult r = vki.EnumeratePhysicalDevices(instance, &count, nullptr); r != VK_SUCCESS && r != VK_ERROR_INITIALIZATION_FAILED)
     return vulkanError(r, "listing Vulkan devices");
   std::vector<VkPhysicalDevice> handles(count);
   if (count != 0) (void)vki.EnumeratePhysicalDevices(instance, &count, handles.data());
   handles.resize(count);
+  return handles;
+}
+
+Expected<void> ContextImpl::usable(VkPhysicalDevice handle, const ContextDesc& desc) const {
+  DeviceRequirements ignored;
+  if (auto ok = appendRequired(get, instance, handle, ignored); !ok) return ok;
+  if (familyOf(handle, desc)) return {};
+  VkPhysicalDeviceProperties properties{};
+  vki.GetPhysicalDeviceProperties(handle, &properties);
+  return Error{ErrorKind::NoDevice,
+               std::string("device '") + properties.deviceName + "' has no queue that " +
+                   (desc.presents ? "supports compute, graphics and presentation to this display" : "supports compute")};
+}
+
+Expected<void> ContextImpl::chooseDevice(const ContextDesc& desc) {
+  const std::string& wanted = desc.device;
+  const auto handles = physicalDevices();
+  if (!handles) return handles.error();
   std::vector<Candidate> devices;
-  for (VkPhysicalDevice handle : handles) {
+  for (VkPhysicalDevice handle : *handles) {
     VkPhysicalDeviceProperties properties{};
     vki.GetPhysicalDeviceProperties(handle, &properties);
     devices.push_back({handle, properties.deviceName, properties.deviceType});
   }
   if (devices.empty()) return Error{ErrorKind::NoDevice, "no Vulkan device found (Debian: mesa-vulkan-drivers includes a CPU driver)"};
 
-  const auto usable = [&](const Candidate& candidate) -> Expected<void> {
-    DeviceRequirements ignored;
-    if (auto ok = appendRequired(get, instance, candidate.handle, ignored); !ok) return ok;
-    if (familyOf(candidate.handle, desc)) return {};
-    return Error{ErrorKind::NoDevice,
-                 "device '" + candidate.name + "' has no queue that " +
-                     (desc.presents ? "supports compute, graphics and presentation to this display" : "supports compute")};
-  };
   std::optional<size_t> chosen;
   if (!wanted.empty()) {
     std::vector<std::string> names;
@@ -140,11 +149,11 @@ Expected<void> ContextImpl::chooseDevice(const ContextDesc& desc) {
     const auto named = offline::chooseDevice(names, wanted);
     if (!named) return aboutOption(named.error());
     chosen = *named;
-    if (auto ok = usable(devices[*chosen]); !ok) return aboutOption(ok.error());
+    if (auto ok = usable(devices[*chosen].handle, desc); !ok) return aboutOption(ok.error());
   } else {
     std::string reasons;
     for (size_t i = 0; i < devices.size(); ++i) {
-      if (auto ok = usable(devices[i]); !ok)
+      if (auto ok = usable(devices[i].handle, desc); !ok)
         reasons += "\n  " + ok.error().message;
       else if (!chosen || deviceRank(devices[i].type) < deviceRank(devices[*chosen].type))
         chosen = i;
