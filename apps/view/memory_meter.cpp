@@ -1,8 +1,6 @@
 #include "view/memory_meter.hpp"
 
-#include <algorithm>
-#include <string_view>
-#include <vector>
+#include "gpu/device_impl.hpp"
 
 namespace rill::view {
 
@@ -19,27 +17,17 @@ DeviceMemory deviceMemory(const VkPhysicalDeviceMemoryProperties& heaps, const V
   return all;
 }
 
-MemoryMeter::MemoryMeter(const offline::Context& context) : device_(context.physicalDevice()) {
-  const auto function = [&](const char* name) { return context.getInstanceProcAddr()(context.instance(), name); };
-  query_ = reinterpret_cast<PFN_vkGetPhysicalDeviceMemoryProperties2>(function("vkGetPhysicalDeviceMemoryProperties2"));
-  const auto list = reinterpret_cast<PFN_vkEnumerateDeviceExtensionProperties>(function("vkEnumerateDeviceExtensionProperties"));
-  uint32_t count = 0;
-  if (!list || list(device_, nullptr, &count, nullptr) != VK_SUCCESS) return;
-  std::vector<VkExtensionProperties> extensions(count);
-  if (list(device_, nullptr, &count, extensions.data()) != VK_SUCCESS) return;
-  // A query of a physical device needs the extension there, but not enabled.
-  reportsBudget_ = std::ranges::any_of(
-      extensions, [](const VkExtensionProperties& e) { return std::string_view(e.extensionName) == VK_EXT_MEMORY_BUDGET_EXTENSION_NAME; });
-}
+MemoryMeter::MemoryMeter(const offline::Context& context) : device_(&implOf(context.device())) {}
 
 const DeviceMemory& MemoryMeter::at(double now_s) {
   constexpr double kInterval = 0.5;  // s
-  if (now_s < askAt_s_ || !query_) return last_;
+  if (now_s < askAt_s_) return last_;
   askAt_s_ = now_s + kInterval;
+  const bool hasBudget = device_->hasMemoryBudget;
   VkPhysicalDeviceMemoryBudgetPropertiesEXT budget{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT};
-  VkPhysicalDeviceMemoryProperties2 memory{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2, reportsBudget_ ? &budget : nullptr};
-  query_(device_, &memory);
-  last_ = deviceMemory(memory.memoryProperties, reportsBudget_ ? &budget : nullptr);
+  VkPhysicalDeviceMemoryProperties2 memory{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2, hasBudget ? &budget : nullptr};
+  device_->instance.GetPhysicalDeviceMemoryProperties2(device_->physical, &memory);
+  last_ = deviceMemory(memory.memoryProperties, hasBudget ? &budget : nullptr);
   return last_;
 }
 

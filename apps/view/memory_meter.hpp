@@ -19,14 +19,13 @@ DeviceMemory deviceMemory(const VkPhysicalDeviceMemoryProperties& heaps, const V
 /// Asks the driver at most twice a second.
 class MemoryMeter {
  public:
+  /// The context outlives it.
   explicit MemoryMeter(const offline::Context& context);
   /// `now_s`: real time.
   const DeviceMemory& at(double now_s);
 
  private:
-  VkPhysicalDevice device_;
-  PFN_vkGetPhysicalDeviceMemoryProperties2 query_;
-  bool reportsBudget_ = false;
+  const DeviceImpl* device_;
   double askAt_s_ = 0;
   DeviceMemory last_;
 };

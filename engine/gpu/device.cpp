@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstring>
 #include <tuple>
 
 #include "gpu/device_impl.hpp"
@@ -68,15 +67,6 @@ void chooseReads(DeviceImpl& impl, ArrayReads wanted) {
   choose(true, "as fast or faster on devices other than NVIDIA's");
 }
 
-bool hasExtension(const InstanceTable& instance, VkPhysicalDevice device, const char* name) {
-  uint32_t count = 0;
-  if (instance.EnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr) != VK_SUCCESS) return false;
-  std::vector<VkExtensionProperties> all(count);
-  if (instance.EnumerateDeviceExtensionProperties(device, nullptr, &count, all.data()) != VK_SUCCESS) return false;
-  all.resize(count);
-  return std::ranges::any_of(all, [&](const VkExtensionProperties& e) { return std::strcmp(e.extensionName, name) == 0; });
-}
-
 /// The number of valid timestamp bits of the host's queue family, or -1 if the device has no such family.
 int64_t timestampBits(const DeviceImpl& impl, const HostDevice& host, VkQueueFlags& queueFlags) {
   uint32_t count = 0;
@@ -120,7 +110,7 @@ Expected<Device> Device::borrow(const HostDevice& host) {
   describe(*impl, host);
   impl->reconvergence = reconvergenceOf(*host.enabled);
   chooseReads(*impl, host.reads);
-  impl->hasMemoryBudget = hasExtension(impl->instance, host.physicalDevice, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
+  impl->hasMemoryBudget = hasExtension(impl->instance.EnumerateDeviceExtensionProperties, host.physicalDevice, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
   impl->reload = ShaderReload::fromEnvironment();
   return Device(std::move(impl));
 }

@@ -1,5 +1,8 @@
 #include "gpu/function_table.hpp"
 
+#include <algorithm>
+#include <vector>
+
 namespace rill {
 
 #define RILL_LOAD(name)                                          \
@@ -14,6 +17,15 @@ const char* InstanceTable::load(PFN_vkGetInstanceProcAddr get, VkInstance owner)
 const char* DeviceTable::load(PFN_vkGetDeviceProcAddr get, VkDevice owner) {
   RILL_DEVICE_FUNCTIONS(RILL_LOAD)
   return nullptr;
+}
+
+bool hasExtension(PFN_vkEnumerateDeviceExtensionProperties enumerate, VkPhysicalDevice device, std::string_view name) {
+  uint32_t count = 0;
+  if (enumerate(device, nullptr, &count, nullptr) != VK_SUCCESS) return false;
+  std::vector<VkExtensionProperties> all(count);
+  if (enumerate(device, nullptr, &count, all.data()) != VK_SUCCESS) return false;
+  all.resize(count);
+  return std::ranges::any_of(all, [&](const VkExtensionProperties& one) { return one.extensionName == name; });
 }
 
 }  // namespace rill

@@ -1,6 +1,8 @@
 #pragma once
 // The Vulkan functions that Rill calls, as private tables. The library neither defines nor imports vk*
 // symbols, so it works with hosts that use the loader's prototypes, volk or their own tables.
+#include <string_view>
+
 #include "rill/device.hpp"
 
 #define RILL_INSTANCE_FUNCTIONS(X)      \
@@ -82,5 +84,8 @@ struct DeviceTable {
   const char* load(PFN_vkGetDeviceProcAddr get, VkDevice device);
 };
 #undef RILL_DECLARE
+
+/// Whether a device has the extension; false where the driver cannot say.
+bool hasExtension(PFN_vkEnumerateDeviceExtensionProperties enumerate, VkPhysicalDevice device, std::string_view name);
 
 }  // namespace rill

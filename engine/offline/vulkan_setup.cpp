@@ -1,9 +1,9 @@
 // Vulkan setup: loader, instance, validation, choice of device.
 #include <dlfcn.h>
 
-#include <algorithm>
 #include <optional>
 
+#include "gpu/function_table.hpp"
 #include "gpu/reconvergence.hpp"
 #include "gpu/vulkan_error.hpp"
 #include "offline/context_impl.hpp"
@@ -169,11 +169,7 @@ Expected<void> ContextImpl::chooseDevice(const ContextDesc& desc) {
 
 /// Whether the device has the extension; its features are written to `features`, a structure for the chain.
 bool ContextImpl::offers(const char* extension, void* features) const {
-  uint32_t count = 0;
-  vki.EnumerateDeviceExtensionProperties(physicalDevice, nullptr, &count, nullptr);
-  std::vector<VkExtensionProperties> offered(count);
-  vki.EnumerateDeviceExtensionProperties(physicalDevice, nullptr, &count, offered.data());
-  if (std::ranges::none_of(offered, [&](const auto& one) { return std::string_view(one.extensionName) == extension; })) return false;
+  if (!hasExtension(vki.EnumerateDeviceExtensionProperties, physicalDevice, extension)) return false;
   VkPhysicalDeviceFeatures2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, features, {}};
   vki.GetPhysicalDeviceFeatures2(physicalDevice, &all);
   return true;
