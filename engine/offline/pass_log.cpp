@@ -5,6 +5,10 @@
 
 namespace rill::offline {
 
+bool runsAnything(std::span<const PassReport> report) {
+  return std::ranges::any_of(report, [](const PassReport& pass) { return !pass.culled && pass.reason.empty() && pass.runs > 0; });
+}
+
 PassLog::Entry& PassLog::entry(std::string_view name) {
   // With a few dozen passes, linear search is faster than a map.
   const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.name == name; });

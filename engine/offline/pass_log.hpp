@@ -10,6 +10,9 @@
 
 namespace rill::offline {
 
+/// Whether a compiled graph has a pass to execute.
+bool runsAnything(std::span<const PassReport> report);
+
 /// Sums the pass reports of the graphs of one advance.
 class PassLog {
  public:

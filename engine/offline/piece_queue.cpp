@@ -15,9 +15,7 @@ Expected<void> PieceQueue::submit(Fluid& fluid, const FluidStep& step) {
   Piece piece{0, step.substeps, !step.resume && !step.queued, step.queued, Clock::now()};
   const auto report = graph_.report();
   piece.report.assign(report.begin(), report.end());  // names and reasons outlive the frame
-  const bool anything =
-      std::ranges::any_of(report, [](const PassReport& pass) { return !pass.culled && pass.reason.empty() && pass.runs > 0; });
-  if (anything) {
+  if (runsAnything(report)) {
     auto begun = context_.beginFrame();
     if (!begun) return begun.error();
     piece.frame = begun->recording;

@@ -249,8 +249,7 @@ class Simulation::Impl {
     declare(graph);
     if (auto compiled = graph.compile(); !compiled) return compiled;
     const auto report = graph.report();
-    const bool anything = std::any_of(report.begin(), report.end(),
-                                      [](const PassReport& pass) { return !pass.culled && pass.reason.empty() && pass.runs > 0; });
+    const bool anything = runsAnything(report);
     log_.add(report, anything);
     if (!anything) return {};
     if (auto began = context_->beginFrame(); !began) return began.error();
