@@ -16,9 +16,9 @@ Expected<std::unique_ptr<Runner>> Runner::create(offline::Context& context, Scen
   std::unique_ptr<Runner> runner(new Runner(context, std::move(scene)));
   auto start = makeParticles(runner->scene_);
   if (!start) return start.error();
-  runner->start_ = std::move(*start);
-  runner->scene_.fluid.spacing = runner->start_.spacing;
-  runner->firstBounds_ = fluidBounds(runner->scene_, runner->start_);
+  runner->start_ = std::make_shared<const ParticleSet>(std::move(*start));
+  runner->scene_.fluid.spacing = runner->start_->spacing;
+  runner->firstBounds_ = fluidBounds(runner->scene_, *runner->start_);
   if (auto made = runner->makeFluid(nullptr); !made) return made.error();
   runner->kept_ = {runner->scene_, runner->start_, runner->firstBounds_};
   return runner;
@@ -36,7 +36,7 @@ Expected<std::unique_ptr<Runner>> Runner::resume(offline::Context& context, cons
 }
 
 Expected<void> Runner::makeFluid(const FluidSnapshot* from) {
-  auto fluid = Fluid::create(context_.device(), {.scene = &scene_, .particles = &start_, .snapshot = from});
+  auto fluid = Fluid::create(context_.device(), {.scene = &scene_, .particles = start_.get(), .snapshot = from});
   if (!fluid) return fluid.error();
   fluid_ = std::move(*fluid);
   advances_.setFluid(*fluid_, scene_);
@@ -126,8 +126,8 @@ Expected<FluidSnapshot> Runner::snapshot() {
   return std::move(reader.snapshot());
 }
 
-Expected<void> Runner::continueFrom(Scene scene, ParticleSet start, FluidSnapshot from) {
-  auto fluid = Fluid::create(context_.device(), {.scene = &scene, .particles = &start, .snapshot = count() > 0 ? &from : nullptr});
+Expected<void> Runner::continueFrom(Scene scene, std::shared_ptr<const ParticleSet> start, FluidSnapshot from) {
+  auto fluid = Fluid::create(context_.device(), {.scene = &scene, .particles = start.get(), .snapshot = count() > 0 ? &from : nullptr});
   if (!fluid) return fluid.error();
   fluid_ = std::move(*fluid);
   scene_ = std::move(scene);
@@ -167,7 +167,7 @@ Expected<void> Runner::changeSolids(std::vector<Solid> solids) {
   now->solids.clear();
   for (size_t k = 0; k < solids.size(); ++k) {
     const Pose current = k < scene_.solids.size() ? pose(static_cast<uint32_t>(k)) : solidPose(solids[k], 0);
-    appendPose(recordOf(current, start_.origin), now->solids);
+    appendPose(recordOf(current, start_->origin), now->solids);
   }
   const bool anyMoves = std::ranges::any_of(solids, [](const Solid& solid) { return solid.driven > 0 || !solid.motion.empty(); });
   if (!anyMoves) now->solids.clear();
@@ -193,7 +193,7 @@ Expected<uint64_t> Runner::add(const Fill& fill) {
   const auto more = makeParticles(only);
   if (!more) return more.error();
 
-  ParticleSet start = start_;
+  ParticleSet start = *start_;
   std::vector<Float3> positions;
   const double apart = 0.9 * scene_.fluid.spacing;
   for (const Float3& p : more->positions) {
@@ -208,7 +208,7 @@ Expected<uint64_t> Runner::add(const Fill& fill) {
   start.positions.insert(start.positions.end(), positions.begin(), positions.end());
   start.velocities.insert(start.velocities.end(), velocities.begin(), velocities.end());
   if (count() > 0) append(*now, positions, velocities);
-  if (auto done = continueFrom(scene_, std::move(start), std::move(*now)); !done) return done.error();
+  if (auto done = continueFrom(scene_, std::make_shared<const ParticleSet>(std::move(start)), std::move(*now)); !done) return done.error();
   return positions.size();
 }
 
@@ -236,7 +236,7 @@ Expected<std::vector<Float3>> Runner::positions() {
 }
 
 std::vector<std::string> Runner::warnings() const {
-  std::vector<std::string> all = start_.warnings;
+  std::vector<std::string> all = start_->warnings;
   all.insert(all.end(), fluid_->warnings().begin(), fluid_->warnings().end());
   return all;
 }

@@ -26,7 +26,7 @@ struct StepFigures {
 /// What a simulation needs to continue on the same or another device.
 struct KeptState {
   Scene scene;
-  ParticleSet start;  ///< including particles that were added
+  std::shared_ptr<const ParticleSet> start;  ///< including particles that were added
   Bounds firstBounds;
   std::optional<FluidSnapshot> snapshot = {};  ///< none: from the start
   uint64_t steps = 0;                          ///< finished
@@ -99,7 +99,7 @@ class Runner {
   const Graph& stepGraph() const { return graph_; }
 
   const Scene& scene() const { return scene_; }
-  const ParticleSet& start() const { return start_; }
+  const ParticleSet& start() const { return *start_; }
   const Bounds& firstBounds() const { return firstBounds_; }  ///< of the fluid at the start
   Fluid& fluid() { return *fluid_; }
   const Fluid& fluid() const { return *fluid_; }
@@ -112,13 +112,13 @@ class Runner {
   Expected<void> run(Graph& graph, Declare&& declare);
   Expected<FluidSnapshot> snapshot();
   uint32_t count() const { return fluid_->count(); }
-  Expected<void> continueFrom(Scene scene, ParticleSet start, FluidSnapshot from);
+  Expected<void> continueFrom(Scene scene, std::shared_ptr<const ParticleSet> start, FluidSnapshot from);
   Expected<void> makeFluid(const FluidSnapshot* from);
   void keep(FluidSnapshot now);
 
   offline::Context& context_;
   Scene scene_;
-  ParticleSet start_;  ///< including particles that were added
+  std::shared_ptr<const ParticleSet> start_;  ///< including particles that were added
   Bounds firstBounds_;
   std::optional<Fluid> fluid_;
   std::vector<SolidTarget> targets_;
