@@ -235,8 +235,10 @@ Expected<void> PipelineStore::begin(DeviceImpl& device, Pipeline& pipeline, std:
 
 Expected<VkPipeline> PipelineStore::build(DeviceImpl& device, const ComputePipeline& pipeline, std::span<const uint32_t> words) {
   // Shaders that ask for full subgroups are those that shuffle.
-  const Reconvergence reconvergence = pipeline.subgroups.full ? device.reconvergence : Reconvergence::Workgroup;
-  auto module = ShaderModule::make(device, pipeline.shader, withReconvergence(words, reconvergence));
+  std::vector<uint32_t> changed;
+  if (pipeline.subgroups.full && device.reconvergence != Reconvergence::Workgroup)
+    words = changed = withReconvergence(words, device.reconvergence);
+  auto module = ShaderModule::make(device, pipeline.shader, words);
   if (!module) return module.error();
   const Constants constants(pipeline.constants);
   VkPipelineShaderStageRequiredSubgroupSizeCreateInfo subgroupSize{

@@ -42,15 +42,15 @@ std::vector<uint32_t> withReconvergence(std::span<const uint32_t> words, Reconve
   const bool isMaximal = wanted == Reconvergence::Maximal;
   size_t extensions = 0, modes = 0;  // where they belong: behind the capabilities and extensions, behind the entry points
   std::vector<uint32_t> added;
-  for (size_t at = kHeader; at < words.size() && lengthOf(words[at]) != 0; at += lengthOf(words[at])) {
-    const uint32_t op = opcodeOf(words[at]), size = lengthOf(words[at]);
-    if (op == kOpCapability || op == kOpExtension) extensions = at + size;
-    if (op != kOpEntryPoint || at + 2 >= words.size()) continue;
-    modes = at + size;
+  forEachDeclaration(words, [&](uint32_t op, std::span<const uint32_t> instruction) {
+    const size_t end = size_t(instruction.data() - words.data()) + instruction.size();
+    if (op == kOpCapability || op == kOpExtension) extensions = end;
+    if (op != kOpEntryPoint || instruction.size() < 3) return;
+    modes = end;
     added.insert(added.end(),
-                 {3u << 16 | kOpExecutionMode, words[at + 2], isMaximal ? kMaximallyReconverges : kSubgroupUniformControlFlow});
-  }
-  if (extensions == 0 || modes < extensions || modes > words.size()) return out;  // invalid, which the driver finds
+                 {3u << 16 | kOpExecutionMode, instruction[2], isMaximal ? kMaximallyReconverges : kSubgroupUniformControlFlow});
+  });
+  if (extensions == 0 || modes < extensions) return out;  // invalid, which the driver finds
   out.insert(out.begin() + std::ptrdiff_t(modes), added.begin(), added.end());
   const std::vector<uint32_t> name = extension(isMaximal ? "SPV_KHR_maximal_reconvergence" : "SPV_KHR_subgroup_uniform_control_flow");
   out.insert(out.begin() + std::ptrdiff_t(extensions), name.begin(), name.end());

@@ -12,17 +12,6 @@ using namespace spirv;
 
 constexpr uint32_t kGlCompute = 5, kLocalSize = 17, kLocalSizeId = 38, kSpecId = 1, kBuiltIn = 11, kWorkgroupSize = 25;
 
-/// Calls visit(opcode, words of the instruction) up to the first function.
-template <class Visit>
-void forEachDeclaration(std::span<const uint32_t> spirv, Visit&& visit) {
-  for (size_t at = kHeader; at < spirv.size();) {
-    const uint32_t length = lengthOf(spirv[at]), opcode = opcodeOf(spirv[at]);
-    if (length == 0 || at + length > spirv.size() || opcode == kOpFunction) return;
-    visit(opcode, spirv.subspan(at, length));
-    at += length;
-  }
-}
-
 }  // namespace
 
 bool isCompute(std::span<const uint32_t> spirv) {
