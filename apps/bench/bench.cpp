@@ -51,14 +51,10 @@ std::string markdown(const Options& options, const DeviceInfo& device, const Rep
   return text;
 }
 
-Expected<DeviceInfo> deviceInfo(const Options& options) {
+Expected<DeviceInfo> deviceInfo(const Bench& bench) {
   Scene empty;
   empty.fluid.spacing = 1;
-  offline::Options settings;
-  settings.device = options.device.name;
-  settings.deviceOrigin = options.device.origin;
-  settings.pipelineCache = apps::pipelineCacheFolder();
-  auto simulation = offline::Simulation::open(empty, settings);
+  auto simulation = offline::Simulation::open(empty, simulationOptions(bench));
   if (!simulation) return simulation.error();
   return simulation->device();
 }
@@ -89,6 +85,14 @@ void Bench::finish() {
 
 bool Bench::stopped() const { return apps::signalReceived() != 0; }
 
+offline::Options simulationOptions(const Bench& bench) {
+  offline::Options options;
+  options.device = bench.options().device.name;
+  options.deviceOrigin = bench.options().device.origin;
+  options.pipelineCache = apps::pipelineCacheFolder();
+  return options;
+}
+
 Expected<Scene> namedScene(const std::string& name, const std::vector<Override>& overrides) {
   const auto file = apps::SceneFolders::standard().find(name);
   if (!file) return file.error();
@@ -97,9 +101,7 @@ Expected<Scene> namedScene(const std::string& name, const std::vector<Override>&
 
 Expected<RunFigures> runScene(const Bench& bench, const SceneRun& run) {
   const Clock::time_point begin = Clock::now();
-  offline::Options settings;
-  settings.device = bench.options().device.name;
-  settings.pipelineCache = apps::pipelineCacheFolder();
+  offline::Options settings = simulationOptions(bench);
   settings.passTimes = run.passTimes;
   settings.validation = run.validation;
   auto opened = run.start ? offline::Simulation::open(run.scene, *run.start, settings) : offline::Simulation::open(run.scene, settings);
@@ -171,7 +173,8 @@ int runBench(const Options& options) {
       if (auto writable = apps::checkFilePlace(option, *file); !writable) return fail(writable.error());
   if (options.plot)
     if (auto plotter = checkPlotter(); !plotter) return fail(plotter.error());
-  const auto device = deviceInfo(options);
+  Bench bench(options);
+  const auto device = deviceInfo(bench);
   if (!device) return fail(device.error());
   for (const auto& [option, file] : files)  // now: the suite may take minutes
     if (file && file->has_parent_path())
@@ -179,7 +182,6 @@ int runBench(const Options& options) {
   if (!options.quiet)
     message(options.suite + (options.quick ? ", quick" : "") + ": " + device->name + " (" + device->driver + "), " + processor());
 
-  Bench bench(options);
   const Clock::time_point begin = Clock::now();
   auto report = suite->run(bench);
   bench.finish();

@@ -38,6 +38,9 @@ class Bench {
   std::chrono::steady_clock::time_point begin_;
 };
 
+/// The options of every simulation of a suite: the device of --device and the pipeline cache of the user.
+offline::Options simulationOptions(const Bench& bench);
+
 /// A scene to run, and what to measure.
 struct SceneRun {
   Scene scene;

@@ -24,8 +24,7 @@ Expected<Scene> checkScene() { return namedScene("dam-break", {{"fluid.particles
 Expected<offline::Simulation> checkedRun(const Bench& bench, int frames, uint32_t substepsPerSubmit = 0) {
   auto scene = checkScene();
   if (!scene) return scene.error();
-  offline::Options options;
-  options.device = bench.options().device.name;
+  offline::Options options = simulationOptions(bench);
   options.substepsPerSubmit = substepsPerSubmit;
   auto simulation = offline::Simulation::open(std::move(*scene), options);
   if (!simulation) return simulation.error();

@@ -82,9 +82,7 @@ Expected<SimulationTimes> timeSimulation(const Bench& bench, uint32_t count, con
     return times;
   }
 
-  offline::Options options;
-  options.device = bench.options().device.name;
-  auto simulation = offline::Simulation::open(*scene, options);
+  auto simulation = offline::Simulation::open(*scene, simulationOptions(bench));
   if (!simulation) {
     if (simulation.error().kind != ErrorKind::TooLarge && simulation.error().kind != ErrorKind::OutOfMemory) return simulation.error();
     times.leftOut = simulation.error().message;

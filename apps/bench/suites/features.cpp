@@ -6,7 +6,6 @@
 
 #include "bench/suites/suites.hpp"
 #include "core/words.hpp"
-#include "shared/pipeline_cache_folder.hpp"
 
 namespace rill::bench {
 namespace {
@@ -71,9 +70,7 @@ class FrameStepper {
                                      bool measuresFigures = false) {
     auto read = namedScene(scene, overrides);
     if (!read) return read.error();
-    offline::Options options;
-    options.device = bench.options().device.name;
-    options.pipelineCache = apps::pipelineCacheFolder();
+    offline::Options options = simulationOptions(bench);
     options.passTimes = passTimes;
     auto simulation = Simulation::open(std::move(*read), options);
     if (!simulation) return simulation.error();

@@ -13,7 +13,6 @@
 #include "bench/surface_errors.hpp"
 #include "bench/workbench.hpp"
 #include "render/fluid_renderer_impl.hpp"
-#include "shared/pipeline_cache_folder.hpp"
 #include "views/scenery.hpp"
 
 namespace rill::bench {
@@ -325,10 +324,7 @@ class Render {
     if (variants.empty() || bench_.stopped()) return {};
     const auto scene = namedScene(recorded.scene, recorded.changes);
     if (!scene) return scene.error();
-    offline::Options options;
-    options.device = bench_.options().device.name;
-    options.pipelineCache = apps::pipelineCacheFolder();
-    auto simulation = offline::Simulation::open(*scene, options);
+    auto simulation = offline::Simulation::open(*scene, simulationOptions(bench_));
     if (!simulation) return simulation.error();
     std::vector<Points> points;
     for (int k = 0; k < frames() && !bench_.stopped(); ++k) {
