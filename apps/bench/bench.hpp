@@ -38,6 +38,9 @@ class Bench {
   std::chrono::steady_clock::time_point begin_;
 };
 
+/// Whether the error is a limit of the device or host, which is reported as a result instead of a failure.
+inline bool isLimit(const Error& error) { return error.kind == ErrorKind::TooLarge || error.kind == ErrorKind::OutOfMemory; }
+
 /// The options of every simulation of a suite: the device of --device and the pipeline cache of the user.
 offline::Options simulationOptions(const Bench& bench);
 

@@ -60,9 +60,8 @@ Expected<SimulationTimes> timeSimulation(const Bench& bench, uint32_t count, con
   const Clock::time_point begin = Clock::now();
   const auto scene = tank(count);
   if (!scene) return scene.error();
-  const double layers = 1 / scene->fluid.spacing;
   SimulationTimes times;
-  times.particles = static_cast<uint64_t>(std::llround(6.25 * layers * layers * layers));
+  times.particles = tankParticles(*scene);
   const double particles = double(times.particles);
 
   auto workbench = Workbench::open(bench);
@@ -74,7 +73,7 @@ Expected<SimulationTimes> timeSimulation(const Bench& bench, uint32_t count, con
   }
   const double substep_s = 1e-9 * pace.ns * particles;
   const double frame_s = substep_s * pace.substeps * std::cbrt(particles / pace.particles);
-  const double start_s = kStartOfDevice_s + kStartOfParticle_s * particles + kSubstepsOfStart * layers * substep_s;
+  const double start_s = kStartOfDevice_s + kStartOfParticle_s * particles + kSubstepsOfStart * substep_s / scene->fluid.spacing;
   const double estimate_s = start_s + (kMinFrames + 1) * frame_s;
   if (estimate_s > budget_s) {
     times.leftOut = "would take about " + secondsText(estimate_s) + " for " + std::to_string(kMinFrames) + " frames; " +
@@ -84,7 +83,7 @@ Expected<SimulationTimes> timeSimulation(const Bench& bench, uint32_t count, con
 
   auto simulation = offline::Simulation::open(*scene, simulationOptions(bench));
   if (!simulation) {
-    if (simulation.error().kind != ErrorKind::TooLarge && simulation.error().kind != ErrorKind::OutOfMemory) return simulation.error();
+    if (!isLimit(simulation.error())) return simulation.error();
     times.leftOut = simulation.error().message;
     return times;
   }

@@ -97,16 +97,12 @@ struct Case {
   }
 };
 
-/// Whether the error is a limit of the device or host, which is reported as a result instead of a failure.
-bool isLimit(const Error& error) { return error.kind == ErrorKind::TooLarge || error.kind == ErrorKind::OutOfMemory; }
-
 Expected<Case> measure(Bench& bench, uint32_t nominal) {
   Case made;
   made.nominal = nominal;
   const auto scene = tank(nominal, {{"fill[0].velocity", kSpeed}});
   if (!scene) return scene.error();
-  const double layers = 1 / scene->fluid.spacing;
-  made.particles = static_cast<uint64_t>(std::llround(6.25 * layers * layers * layers));
+  made.particles = tankParticles(*scene);
   made.memory = fluidMemory(*scene, made.particles);
   for (uint32_t k = 0; k < samplesOf(bench, nominal) && !bench.stopped(); ++k) {
     bench.step(made.name(), partsOf(nominal));
