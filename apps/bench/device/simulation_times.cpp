@@ -27,12 +27,6 @@ std::string secondsText(double s) { return number(s, s < 100 ? 2 : 3) + " s"; }
 
 }  // namespace
 
-DeviceWork frameWork(const FluidTraffic& traffic, double particles, double substeps) {
-  DeviceWork work = traffic.advance() * (substeps / traffic.substeps);
-  work.bytes *= particles / double(traffic.particles);
-  return work;
-}
-
 Expected<SmallRun> smallRun(const Bench& bench) {
   const auto scene = tank(kSmallRun);
   if (!scene) return scene.error();

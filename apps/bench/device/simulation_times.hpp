@@ -34,7 +34,4 @@ Expected<SmallRun> smallRun(const Bench& bench);
 /// small.
 Expected<SimulationTimes> timeSimulation(const Bench& bench, uint32_t count, const Pace& pace, double budget_s);
 
-/// The work of a frame of `substeps` substeps of `particles` particles, by counted traffic.
-DeviceWork frameWork(const FluidTraffic& traffic, double particles, double substeps);
-
 }  // namespace rill::bench

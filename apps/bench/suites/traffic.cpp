@@ -61,12 +61,10 @@ Table passTable(const std::string& name, const FluidTraffic& t) {
   return table;
 }
 
-/// The frame of the same scene with another number of particles: bytes grow with it, substeps with its cube root.
-DeviceWork frameOf(const FluidTraffic& t, double particles) {
-  const double ratio = particles / double(t.particles), substeps = std::cbrt(ratio);
-  DeviceWork work = t.advance() * (substeps / kFrames);
-  work.bytes *= ratio;
-  return work;
+/// A frame of the same scene with another number of particles: substeps grow with its cube root.
+double predictedFrame_ms(const Card& card, const FluidTraffic& t, double particles) {
+  const double substeps = t.substeps / kFrames * std::cbrt(particles / double(t.particles));
+  return 1e3 * predictedSeconds(card, frameWork(t, particles, substeps));
 }
 
 Table cardTable(const std::string& name, const FluidTraffic& t) {
@@ -79,7 +77,7 @@ Table cardTable(const std::string& name, const FluidTraffic& t) {
   for (const double count : kCounts) table.columns.push_back(grouped(static_cast<uint64_t>(count)));
   for (const Card& card : cards()) {
     std::vector<std::string> row{std::string(card.name), number(card.bandwidth_GBps)};
-    for (const double count : kCounts) row.push_back(number(1e3 * predictedSeconds(card, frameOf(t, count))));
+    for (const double count : kCounts) row.push_back(number(predictedFrame_ms(card, t, count)));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -108,8 +106,7 @@ Json json(const std::string& name, const FluidTraffic& t) {
                               {"serial_commands", pass.serialCommands}});
   for (const Card& card : cards())
     for (const double count : kCounts)
-      json["predicted_ms"][std::string(card.name)][std::to_string(static_cast<uint64_t>(count))] =
-          1e3 * predictedSeconds(card, frameOf(t, count));
+      json["predicted_ms"][std::string(card.name)][std::to_string(static_cast<uint64_t>(count))] = predictedFrame_ms(card, t, count);
   return json;
 }
 

@@ -146,6 +146,12 @@ DeviceWork FluidTraffic::advance() const {
   return work;
 }
 
+DeviceWork frameWork(const FluidTraffic& traffic, double particles, double substeps) {
+  DeviceWork work = traffic.advance() * (substeps / traffic.substeps);
+  work.bytes *= particles / double(traffic.particles);
+  return work;
+}
+
 Expected<void> advanceFluid(Workbench& workbench, Fluid& fluid, double advance_s) {
   FluidStep step{.advance_s = advance_s, .substeps = 4 * fluid.substepsPerBlock()};
   for (uint32_t recorded = 0; recorded < fluid.substepsToComplete(); recorded += step.substeps) {

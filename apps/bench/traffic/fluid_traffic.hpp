@@ -41,6 +41,9 @@ struct FluidTraffic {
   DeviceWork advance() const;
 };
 
+/// The work of a frame of `substeps` substeps of `particles` particles, by the traffic of another advance of the same scene.
+DeviceWork frameWork(const FluidTraffic& traffic, double particles, double substeps);
+
 /// Advances a fluid without counting, in as many pieces as it takes.
 Expected<void> advanceFluid(Workbench& workbench, Fluid& fluid, double advance_s);
 
