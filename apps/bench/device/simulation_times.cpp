@@ -50,7 +50,7 @@ Expected<SmallRun> smallRun(const Bench& bench) {
   return small;
 }
 
-Expected<SimulationTimes> timeSimulation(const Bench& bench, uint32_t count, const Pace& pace, double budget_s) {
+Expected<SimulationTimes> timeSimulation(const Bench& bench, uint32_t count, const Pace& pace, uint64_t availableBytes, double budget_s) {
   const Clock::time_point begin = Clock::now();
   const auto scene = tank(count);
   if (!scene) return scene.error();
@@ -58,11 +58,9 @@ Expected<SimulationTimes> timeSimulation(const Bench& bench, uint32_t count, con
   times.particles = tankParticles(*scene);
   const double particles = double(times.particles);
 
-  auto workbench = Workbench::open(bench);
-  if (!workbench) return workbench.error();
   const double needed = kTemporaryMemory * double(fluidMemory(*scene, times.particles).total());
-  if (const double available = double(workbench->device().availableBytes()); needed > available) {
-    times.leftOut = "needs " + bytesText(uint64_t(needed)) + " of device memory; " + bytesText(uint64_t(available)) + " are available";
+  if (needed > double(availableBytes)) {
+    times.leftOut = "needs " + bytesText(uint64_t(needed)) + " of device memory; " + bytesText(availableBytes) + " are available";
     return times;
   }
   const double substep_s = 1e-9 * pace.ns * particles;

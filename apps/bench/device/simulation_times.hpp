@@ -30,8 +30,8 @@ struct SmallRun {
 };
 Expected<SmallRun> smallRun(const Bench& bench);
 
-/// Runs `count` particles for at most about `budget_s`; leaves them out where even two frames would take longer, or the memory is too
-/// small.
-Expected<SimulationTimes> timeSimulation(const Bench& bench, uint32_t count, const Pace& pace, double budget_s);
+/// Runs `count` particles for at most about `budget_s`; leaves them out where even two frames would take longer, or need more than
+/// `availableBytes` of device memory.
+Expected<SimulationTimes> timeSimulation(const Bench& bench, uint32_t count, const Pace& pace, uint64_t availableBytes, double budget_s);
 
 }  // namespace rill::bench

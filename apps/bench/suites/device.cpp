@@ -74,12 +74,13 @@ class DeviceReport {
     const DeviceInfo& info = device.info;
     const ClusterChoice cluster = chooseCluster(info, device.canSetSubgroupSize, device.vendor, kFluidGroup);
     const VkPhysicalDeviceLimits& limits = device.limits;
+    availableBytes_ = workbench->device().availableBytes();
     Table table{"Device, limits and chosen variants", {"what", "value"}, {}, ""};
     const auto add = [&](const char* what, std::string value) { table.rows.push_back({what, std::move(value)}); };
     add("device", info.name);
     add("driver", info.driver);
     add("Vulkan", info.api);
-    add("device memory", bytesText(info.deviceLocalBytes) + ", available " + bytesText(workbench->device().availableBytes()));
+    add("device memory", bytesText(info.deviceLocalBytes) + ", available " + bytesText(availableBytes_));
     add("largest buffer", bytesText(info.maxBufferBytes) + " (" + std::string(info.maxBufferName) + ")");
     add("texels of a buffer", grouped(info.maxTexelBufferElements));
     add("workgroup",
@@ -103,7 +104,7 @@ class DeviceReport {
                                  {"cluster", cluster.cluster},
                                  {"required_subgroup_size", cluster.need.size},
                                  {"texel_reads", info.texelReads},
-                                 {"available_bytes", workbench->device().availableBytes()}});
+                                 {"available_bytes", availableBytes_}});
     if (!table.rows.empty()) report_.tables.push_back(std::move(table));
     return {};
   }
@@ -175,7 +176,7 @@ class DeviceReport {
       const std::string name = "simulation-" + countName(count);
       if (!selected(name)) continue;
       bench_.step(grouped(count) + " particles");
-      const auto times = timeSimulation(bench_, count, pace, std::max(end - elapsed(), 0.0));
+      const auto times = timeSimulation(bench_, count, pace, availableBytes_, std::max(end - elapsed(), 0.0));
       if (!times) return times.error();
       if (times->frames == 0) {
         table.rows.push_back({grouped(times->particles), "-", "-", "-", "-", "-", "-", "0", times->leftOut});
@@ -304,6 +305,7 @@ class DeviceReport {
   Table summary_{"For an issue", {"what", "found"}, {}, ""};
   const Clock::time_point begin_ = Clock::now();
   std::string name_;
+  uint64_t availableBytes_ = 0;  ///< of device memory, at the start
   Card measured_;
   const Card* vendors_ = nullptr;
   SmallRun small_;
