@@ -19,16 +19,6 @@ std::string usageMessage(const CLI::App& app, const CLI::ParseError& error) {
   return error.what();
 }
 
-std::string shellQuoted(std::string_view argument) {
-  const bool plain =
-      !argument.empty() &&
-      argument.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%") == std::string_view::npos;
-  if (plain) return std::string(argument);
-  std::string text = "'";
-  for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
 }  // namespace
 
 Expected<std::string> parsed(CLI::App& app, const std::string& version, const std::function<void()>& parse) {

@@ -18,4 +18,14 @@ std::string joined(std::span<const std::string> words) {
   return text;
 }
 
+std::string shellQuoted(std::string_view argument) {
+  const bool plain =
+      !argument.empty() &&
+      argument.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%") == std::string_view::npos;
+  if (plain) return std::string(argument);
+  std::string text = "'";
+  for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
 }  // namespace rill::apps

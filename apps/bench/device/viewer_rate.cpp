@@ -30,12 +30,6 @@ std::optional<fs::path> viewerProgram() {
   return apps::findProgram("rill-view");
 }
 
-std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
 }  // namespace
 
 ViewerRate viewerRate(const Bench& bench, const std::string& scene, uint32_t frames) {
@@ -49,8 +43,8 @@ ViewerRate viewerRate(const Bench& bench, const std::string& scene, uint32_t fra
     rate.leftOut = "rill-view is neither beside rill-bench nor in PATH";
     return rate;
   }
-  std::string command = quoted(program->string()) + " " + scene + " --frames " + std::to_string(frames);
-  if (!bench.options().device.name.empty()) command += " --device " + quoted(bench.options().device.name);
+  std::string command = apps::shellQuoted(program->string()) + " " + scene + " --frames " + std::to_string(frames);
+  if (!bench.options().device.name.empty()) command += " --device " + apps::shellQuoted(bench.options().device.name);
   std::FILE* const pipe = ::popen((command + " 2>&1").c_str(), "r");
   std::string output;
   char part[512];
