@@ -2,12 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 
 #include "bench/bench.hpp"
 #include "core/words.hpp"
 #include "rill/version.hpp"
 #include "shared/device_option.hpp"
+#include "shared/option_text.hpp"
 #include "shared/pipeline_cache_folder.hpp"
 #include "shared/usage.hpp"
 #include "shared/words.hpp"
@@ -26,6 +26,13 @@ std::vector<std::string> suiteNames() {
   return names;
 }
 
+Expected<uint32_t> wholeNumber(const std::string& name, const std::string& text, uint32_t least, uint32_t most, const char* unit) {
+  const auto value = apps::numberIn<uint32_t>(text);
+  if (value && *value >= least && *value <= most) return *value;
+  return Error{ErrorKind::BadInput, name + ": found " + inQuotes(text) + ", expected a whole number" + unit + " from " +
+                                        std::to_string(least) + " to " + std::to_string(most)};
+}
+
 Expected<Options> validated(const Raw& raw, const CLI::App& app) {
   const auto given = [&](const char* name) { return app.count(name) > 0; };
   const std::vector<std::string> names = suiteNames();
@@ -41,22 +48,18 @@ Expected<Options> validated(const Raw& raw, const CLI::App& app) {
   if (!device) return device.error();
   options.device = std::move(*device);
   if (given("--repeat")) {
-    uint32_t repeat = 0;
-    const auto [end, error] = std::from_chars(raw.repeat.data(), raw.repeat.data() + raw.repeat.size(), repeat);
-    if (error != std::errc{} || end != raw.repeat.data() + raw.repeat.size() || repeat < 1 || repeat > 1000)
-      return Error{ErrorKind::BadInput, "--repeat: found " + inQuotes(raw.repeat) + ", expected a whole number from 1 to 1000"};
-    options.repeat = repeat;
+    const auto repeat = wholeNumber("--repeat", raw.repeat, 1, 1000, "");
+    if (!repeat) return repeat.error();
+    options.repeat = *repeat;
   } else if (raw.quick) {
     options.repeat = 1;
   }
   if (given("--budget")) {
-    uint32_t budget = 0;
-    const auto [end, error] = std::from_chars(raw.budget.data(), raw.budget.data() + raw.budget.size(), budget);
-    if (error != std::errc{} || end != raw.budget.data() + raw.budget.size() || budget < 10 || budget > 3600)
-      return Error{ErrorKind::BadInput, "--budget: found " + inQuotes(raw.budget) + ", expected a whole number of seconds from 10 to 3600"};
+    const auto budget = wholeNumber("--budget", raw.budget, 10, 3600, " of seconds");
+    if (!budget) return budget.error();
     if (raw.suite != "device")
       return Error{ErrorKind::BadInput, "--budget: the suite " + raw.suite + " has none; expected the suite device"};
-    options.budget_s = budget;
+    options.budget_s = *budget;
   } else if (raw.quick) {
     options.budget_s = 60;
   }
