@@ -62,9 +62,6 @@ class DeviceReport {
   double elapsed() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
   double left() const { return std::max(0.0, bench_.options().budget_s - elapsed()); }
   bool selected(std::string_view name) const { return bench_.selected(name); }
-  bool selectedAny(std::string_view prefix, std::span<const uint32_t> counts) const {
-    return std::ranges::any_of(counts, [&](uint32_t count) { return selected(std::string(prefix) + countName(count)); });
-  }
   void summarize(const std::string& what, const std::string& found) { summary_.rows.push_back({what, found}); }
 
   Expected<void> describe() {
@@ -105,7 +102,7 @@ class DeviceReport {
                                  {"required_subgroup_size", cluster.need.size},
                                  {"texel_reads", info.texelReads},
                                  {"available_bytes", availableBytes_}});
-    if (!table.rows.empty()) report_.tables.push_back(std::move(table));
+    report_.tables.push_back(std::move(table));
     return {};
   }
 
@@ -127,12 +124,13 @@ class DeviceReport {
     }
     if (table.rows.empty()) return {};
     summarize("checks", std::to_string(passed) + " of " + std::to_string(table.rows.size()) + " passed");
-    if (!table.rows.empty()) report_.tables.push_back(std::move(table));
+    report_.tables.push_back(std::move(table));
     return {};
   }
 
   Expected<void> measureSpeed() {
-    if (!selected("speed") && !selectedAny("simulation-", kCounts)) return {};
+    const bool simulates = std::ranges::any_of(kCounts, [&](uint32_t count) { return selected("simulation-" + countName(count)); });
+    if (!selected("speed") && !simulates) return {};
     bench_.step("bandwidth and latency");
     auto workbench = Workbench::open(bench_);
     if (!workbench) return workbench.error();
