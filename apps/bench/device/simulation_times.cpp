@@ -40,9 +40,8 @@ Expected<SmallRun> smallRun(const Bench& bench) {
   for (int frame = 0; frame < 4; ++frame) {  // the last is timed: drivers compile shaders at their first use
     const Clock::time_point begin = Clock::now();
     if (auto advanced = advanceFluid(*workbench, *fluid, kTimedFrame_s); !advanced) return advanced.error();
-    small.pace.particles = fluid->count();
-    small.pace.substeps = std::max(1u, fluid->progress().substeps);
-    small.pace.ns = 1e9 * secondsFrom(begin) / (small.pace.particles * small.pace.substeps);
+    const double particles = fluid->count(), substeps = std::max(1u, fluid->progress().substeps);
+    small.pace = {1e9 * secondsFrom(begin) / (particles * substeps), substeps, particles};
   }
   auto traffic = measureTraffic(*workbench, *fluid, 2 * kTimedFrame_s, fluid->progress().substeps);
   if (!traffic) return traffic.error();
@@ -63,8 +62,8 @@ Expected<SimulationTimes> timeSimulation(const Bench& bench, uint32_t count, con
     times.leftOut = "needs " + bytesText(uint64_t(needed)) + " of device memory; " + bytesText(availableBytes) + " are available";
     return times;
   }
-  const double substep_s = 1e-9 * pace.ns * particles;
-  const double frame_s = substep_s * pace.substeps * std::cbrt(particles / pace.particles);
+  const double substep_s = 1e-9 * pace.nsPerParticleSubstep * particles;
+  const double frame_s = substep_s * pace.substepsPerFrame * std::cbrt(particles / pace.atParticles);
   const double start_s = kStartOfDevice_s + kStartOfParticle_s * particles + kSubstepsOfStart * substep_s / scene->fluid.spacing;
   const double estimate_s = start_s + (kMinFrames + 1) * frame_s;
   if (estimate_s > budget_s) {

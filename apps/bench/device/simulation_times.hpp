@@ -10,9 +10,9 @@ namespace rill::bench {
 
 /// What is known of a device before a size is run: enough to say how long it will take.
 struct Pace {
-  double ns = 0;        ///< per particle and substep
-  double substeps = 0;  ///< per frame, at
-  double particles = 0;
+  double nsPerParticleSubstep = 0;
+  double substepsPerFrame = 0;  ///< with this many particles:
+  double atParticles = 0;
 };
 
 struct SimulationTimes {
