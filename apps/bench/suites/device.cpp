@@ -1,4 +1,4 @@
-// One report of a device, for somebody who has a card and an issue to write: what it is, whether its results are right, how fast it is.
+// A report of one device for an issue: limits and chosen variants, checks, times.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -43,7 +43,7 @@ bool isPerParticle(const ArrayRow& row, ArrayShape shape) {
 double touched(const ArrayRow& row, double covered, const FluidCounts& counts) {
   switch (row.id) {
     case FluidArray::NearDisplaced:
-    case FluidArray::NearTangential:  // the list head says which particles are near: only they look (wall_samples.glsl)
+    case FluidArray::NearTangential:  // the list head says which particles are near: only those read the samples (wall_samples.glsl)
       return std::min(covered, counts.near);
     case FluidArray::NearPlane:
       return std::min(covered, counts.nearOneWall);

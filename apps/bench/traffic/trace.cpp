@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint32_t kMaxIndirect = 65536;  // dispatches of a graph whose group counts are read back
 
-/// Stands between a graph and the driver while the graph is recorded: the device's table of functions leads here.
+/// Intercepts the commands of a graph while it is recorded, by replacing functions in the device's table.
 class Recorder {
  public:
   Recorder(DeviceImpl& device, const Buffer& counts) : device_(device), driver_(device.vk), counts_(counts) {
@@ -50,7 +50,7 @@ class Recorder {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Call once the graph is declared: from now on each pass tells when it is recorded.
+  /// Call once the graph is declared: from now on the pass that is being recorded is known.
   void follow(GraphImpl& graph) {
     graph_ = &graph;
     calls_.reserve(graph.passes.size());
