@@ -48,8 +48,7 @@ Expected<void> checkWorkgroups(const DeviceImpl& device, std::string_view shader
 
 const EmbeddedShader* embeddedShader(const DeviceImpl& device, std::string_view name) {
   for (const auto& table : device.shaders.tables())
-    for (const EmbeddedShader& shader : table)
-      if (shader.name == name) return &shader;
+    if (const EmbeddedShader* shader = findShader(table, name)) return shader;
   return nullptr;
 }
 

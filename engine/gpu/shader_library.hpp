@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -33,6 +34,12 @@ struct EmbeddedShader {
 };
 
 std::span<const EmbeddedShader> embeddedShaders();
+
+/// Null if `table` has none of this name.
+inline const EmbeddedShader* findShader(std::span<const EmbeddedShader> table, std::string_view name) {
+  const auto found = std::ranges::find(table, name, &EmbeddedShader::name);
+  return found == table.end() ? nullptr : &*found;
+}
 
 /// The tables in which a device looks up shaders: those of the engine and of additional modules.
 class ShaderLibrary {

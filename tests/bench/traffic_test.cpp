@@ -89,8 +89,8 @@ TEST(Traffic, StaysWithinItsBounds) {
 }
 
 ShaderAccesses accessesOf(std::string_view shader, std::string_view constant, uint32_t value) {
-  const auto found = std::ranges::find(embeddedShaders(), shader, &EmbeddedShader::name);
-  if (found == embeddedShaders().end()) {
+  const EmbeddedShader* found = findShader(embeddedShaders(), shader);
+  if (!found) {
     ADD_FAILURE() << "no shader " << shader;
     return {};
   }
@@ -107,8 +107,8 @@ ShaderAccesses accessesOf(std::string_view shader, std::string_view constant, ui
 }
 
 size_t bindingNamed(std::string_view shader, std::string_view name) {
-  const auto found = std::ranges::find(embeddedShaders(), shader, &EmbeddedShader::name);
-  return size_t(std::ranges::find(found->bindings, name, &ShaderBinding::name) - found->bindings.begin());
+  const auto& bindings = findShader(embeddedShaders(), shader)->bindings;
+  return size_t(std::ranges::find(bindings, name, &ShaderBinding::name) - bindings.begin());
 }
 
 TEST(ShaderAccesses, FollowSpecializationConstants) {

@@ -46,16 +46,11 @@ class CompilingTest : public ::testing::Test {
   bool compiled(const EmbeddedShader& shader) const {
     return std::ranges::any_of(vulkan.pipelines, [&](const NullPipeline& made) { return std::ranges::equal(made.words, shader.words); });
   }
-  static const EmbeddedShader* shaderNamed(const std::string& name) {
-    for (const EmbeddedShader& shader : embeddedShaders())
-      if (shader.name == name) return &shader;
-    return nullptr;
-  }
   /// Shaders of which both reading variants were compiled, or the one that was not chosen.
   std::string unwanted() const {
     std::string names;
     for (const EmbeddedShader& shader : embeddedShaders()) {
-      const EmbeddedShader* texel = shaderNamed(std::string(shader.name) + "_texel");
+      const EmbeddedShader* texel = findShader(embeddedShaders(), std::string(shader.name) + "_texel");
       if (texel && compiled(info.texelReads ? shader : *texel)) names += " " + std::string(shader.name);
     }
     return names;
@@ -79,13 +74,13 @@ TEST_F(CompilingTest, CompilesOneReadingVariant) {
   start();
   EXPECT_TRUE(info.texelReads) << info.readsBecause;
   EXPECT_EQ(unwanted(), "");
-  EXPECT_TRUE(compiled(*shaderNamed("fluid/correct_texel")));
+  EXPECT_TRUE(compiled(*findShader(embeddedShaders(), "fluid/correct_texel")));
   vulkan.pipelines.clear();
   vulkan.properties.vendor = kNvidia;
   start();
   EXPECT_FALSE(info.texelReads) << info.readsBecause;
   EXPECT_EQ(unwanted(), "");
-  EXPECT_TRUE(compiled(*shaderNamed("fluid/correct")));
+  EXPECT_TRUE(compiled(*findShader(embeddedShaders(), "fluid/correct")));
 }
 
 TEST_F(CompilingTest, ReadsAsAskedFor) {

@@ -12,8 +12,7 @@ namespace rill::test {
 namespace workgroups_test {
 
 std::span<const uint32_t> builtIn(std::string_view name) {
-  for (const EmbeddedShader& shader : embeddedShaders())
-    if (shader.name == name) return shader.words;
+  if (const EmbeddedShader* shader = findShader(embeddedShaders(), name)) return shader->words;
   ADD_FAILURE() << "no shader '" << name << "'";
   return {};
 }

@@ -15,12 +15,6 @@ std::span<const EmbeddedShader> leavingShaders();  // built with loops that each
 namespace rill::lanes {
 namespace {
 
-const EmbeddedShader& shaderNamed(std::span<const EmbeddedShader> shaders, std::string_view name) {
-  for (const EmbeddedShader& shader : shaders)
-    if (shader.name == name) return shader;
-  throw std::runtime_error("no shader of this name");
-}
-
 struct Case {
   const char* shader;
   uint32_t size, cluster;
@@ -35,10 +29,10 @@ class ReconvergenceTest : public testing::TestWithParam<Case> {
   }
   Outcome run(std::span<const EmbeddedShader> shaders, Rules rules, uint32_t seed) const {
     const Case& c = GetParam();
-    return walk(scene(), shaderNamed(shaders, c.shader), c.size, c.cluster, rules, seed);
+    return walk(scene(), *findShader(shaders, c.shader), c.size, c.cluster, rules, seed);
   }
   /// Where a cluster is its subgroup and lanes come together again: what CPU drivers do.
-  Outcome expected() const { return walk(scene(), shaderNamed(embeddedShaders(), GetParam().shader), 4, 4, Rules::Maximal, 1); }
+  Outcome expected() const { return walk(scene(), *findShader(embeddedShaders(), GetParam().shader), 4, 4, Rules::Maximal, 1); }
   static void expectSameParticles(const Outcome& found, const Outcome& wanted) {
     for (const auto& [name, words] : wanted.arrays) {
       if (name != "sums") {  // of floats, by subgroups
@@ -93,8 +87,8 @@ std::vector<uint32_t> listed(const Outcome& build, uint32_t i) {
 
 TEST(LaneEmulator, FindsAllPairs) {
   const WalkScene scene;
-  const Outcome build = walk(scene, shaderNamed(embeddedShaders(), "fluid/build"), 64, 32, Rules::SubgroupUniform, 3);
-  const Outcome measure = walk(scene, shaderNamed(embeddedShaders(), "fluid/measure"), 64, 32, Rules::SubgroupUniform, 3);
+  const Outcome build = walk(scene, *findShader(embeddedShaders(), "fluid/build"), 64, 32, Rules::SubgroupUniform, 3);
+  const Outcome measure = walk(scene, *findShader(embeddedShaders(), "fluid/measure"), 64, 32, Rules::SubgroupUniform, 3);
   uint32_t overflowing = 0, wrapped = 0;
   for (uint32_t i = 0; i < scene.count(); ++i) {
     const std::vector<uint32_t> neighbors = scene.neighborsOf(i, scene.params.reach);
