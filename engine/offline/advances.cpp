@@ -7,8 +7,7 @@ namespace rill::offline {
 void Advances::setFluid(Fluid& fluid, const Scene& scene) {
   fluid_ = &fluid;
   iterations_ = scene.solver.iterations;
-  block_ = std::max(1u, fluid.substepsPerBlock());
-  pacing_.setBlock(block_);
+  pacing_.setBlock(std::max(1u, fluid.substepsPerBlock()));
   mayQueue_ = std::ranges::none_of(scene.solids, [](const Solid& solid) { return solid.driven > 0; });
 }
 
@@ -27,7 +26,7 @@ Expected<void> Advances::submit(const Work& work) {
     } else {
       return {};
     }
-    if (work.substeps > 0) step.substeps = (work.substeps + block_ - 1) / block_ * block_;
+    if (work.substeps > 0) step.substeps = pacing_.wholeBlocks(work.substeps);
     if (auto submitted = pieces_.submit(*fluid_, step); !submitted) return submitted;
     pacing_.submit(step.substeps, step.queued);
   }
@@ -66,7 +65,7 @@ Expected<bool> Advances::finish(PassLog& log, bool clear) {
   }
   current_.progress = fluid_->progress();
   last_ = current_;
-  pacing_.endStep(std::max(last_.progress.substeps, last_.progress.listBuilds * block_));
+  pacing_.endStep(std::max(last_.progress.substeps, last_.progress.listBuilds * pacing_.block()));
   open_ = false;
   executed_ = recorded_ = 0;
   ++ended_;

@@ -53,7 +53,7 @@ class Advances {
   PieceQueue pieces_;
   Fluid* fluid_ = nullptr;
   Pacing pacing_{1};
-  uint32_t iterations_ = 1, block_ = 1;
+  uint32_t iterations_ = 1;
   bool mayQueue_ = false;
   bool open_ = false;      ///< an advance has begun and is not known to be complete
   uint32_t executed_ = 0;  ///< of its substeps, and

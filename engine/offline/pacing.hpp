@@ -11,6 +11,9 @@ class Pacing {
   explicit Pacing(uint32_t block) : block_(block) {}
   /// Call where a change of settings changes the length of a block.
   void setBlock(uint32_t block) { block_ = block; }
+  uint32_t block() const { return block_; }
+  /// The least number of substeps in whole blocks that is not below `substeps`.
+  uint32_t wholeBlocks(uint32_t substeps) const { return (substeps + block_ - 1) / block_ * block_; }
 
   /// Substeps of the next piece of this advance, a multiple of the block: limited by the budget and by the expected rest of the advance.
   /// 0: it is expected to be complete after the pieces in flight. In the first advance each piece is twice as long as the one before.
@@ -30,7 +33,6 @@ class Pacing {
   double cost() const { return cost_; }
 
  private:
-  uint32_t wholeBlocks(uint32_t substeps) const { return (substeps + block_ - 1) / block_ * block_; }
   uint32_t affordable(double budget_s) const;
 
   uint32_t block_;
