@@ -15,11 +15,6 @@ layout(std430, set = 0, binding = 4) buffer Picture { uint picture[]; };
 
 const vec3 kLine = vec3(0.045, 0.055, 0.07);
 
-vec3 decodeSrgb(uint pixel) {
-  const vec3 c = vec3(float(pixel & 0xFFu), float((pixel >> 8) & 0xFFu), float((pixel >> 16) & 0xFFu)) / 255.0;
-  return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), vec3(greaterThan(c, vec3(0.04045))));
-}
-
 void main() {
   const uint group = groupIndex();
   if (group >= counters[kTileCount + kTilesEdge]) return;
@@ -38,5 +33,5 @@ void main() {
     const float line_depth = 0.9995 / max(edge.depth.x + edge.depth.y * (along - edge.along.z), 1e-30);
     if (own > line_depth) cover = max(cover, clamp(half_width + 0.5 - distance, 0.0, 1.0) * clamp(ends, 0.0, 1.0) * edge.line.w);
   }
-  if (cover > 0.0) picture[index] = encodeSrgb(mix(decodeSrgb(picture[index]), view.unlit != 0u ? kPlainSolid : kLine, 0.62 * cover));
+  if (cover > 0.0) picture[index] = encodeSrgb(mix(decodeSrgb(unpackUnorm4x8(picture[index]).rgb), view.unlit != 0u ? kPlainSolid : kLine, 0.62 * cover));
 }
