@@ -21,8 +21,7 @@ Expected<bool> Playback::advance(Runner& runner, const Frame& frame) {
     if (auto ran = runner.advancePiece(frame.budget_s); !ran) return ran.error();
     if (runner.betweenSteps()) return finished(runner, frame);
   }
-  const bool measures = frame.measureEvery_s && frame.now_s - measured_s_ >= *frame.measureEvery_s;
-  const bool queues = frame.queues && !frame.paused && !measures && singles_ == 0;
+  const bool queues = frame.queues && !frame.paused && !measuresIn(frame) && singles_ == 0;
   const bool staysBusy = queues && runner.mayStayBusy();
   const Now::time_point begin = Now::now();
   for (double left = frame.budget_s; left > 0; left = frame.budget_s - std::chrono::duration<double>(Now::now() - begin).count()) {
@@ -59,7 +58,7 @@ Expected<bool> Playback::finished(Runner& runner, const Frame& frame) {
   histories_.substeps.add(step.substeps);
   histories_.iterations.add(step.iterations);
   histories_.wall_ms.add(1e3 * step.seconds);
-  if (!runner.betweenSteps() || !frame.measureEvery_s || frame.now_s - measured_s_ < *frame.measureEvery_s) return true;
+  if (!runner.betweenSteps() || !measuresIn(frame)) return true;
   measured_s_ = frame.now_s;
   auto stats = runner.measure();
   if (!stats) return stats.error();

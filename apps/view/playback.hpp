@@ -54,6 +54,7 @@ class Playback {
   double speed() const { return clock_.speed(); }  ///< simulated over real time
 
  private:
+  bool measuresIn(const Frame& frame) const { return frame.measureEvery_s && frame.now_s - measured_s_ >= *frame.measureEvery_s; }
   Expected<bool> finished(Runner& runner, const Frame& frame);
   /// Does `work`, which ends at most one step, and tells the clock. True where a step was completed.
   template <class Work>

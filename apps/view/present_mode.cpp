@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "core/words.hpp"
+#include "shared/words.hpp"
 
 namespace rill::view {
 namespace {
@@ -28,17 +30,18 @@ std::optional<VkPresentModeKHR> presentModeNamed(std::string_view name) {
 }
 
 std::string presentModeNames() {
-  std::string names;
-  for (const auto& row : kModes) names += (names.empty() ? "" : ", ") + std::string(row.second);
-  return names;
+  std::vector<std::string> names;
+  for (const auto& row : kModes) names.emplace_back(row.second);
+  return apps::joined(names);
 }
 
 Expected<void> checkPresentMode(VkPresentModeKHR mode, std::span<const VkPresentModeKHR> offered) {
   if (std::ranges::find(offered, mode) != offered.end()) return {};
-  std::string names;
+  std::vector<std::string> names;
   for (const VkPresentModeKHR other : offered)
-    if (const std::string_view name = presentModeName(other); !name.empty()) names += (names.empty() ? "" : ", ") + std::string(name);
-  return Error{ErrorKind::BadInput, "--present: " + inQuotes(presentModeName(mode)) + " is not offered by this window; expected " + names};
+    if (const std::string_view name = presentModeName(other); !name.empty()) names.emplace_back(name);
+  return Error{ErrorKind::BadInput,
+               "--present: " + inQuotes(presentModeName(mode)) + " is not offered by this window; expected " + apps::joined(names)};
 }
 
 }  // namespace rill::view
