@@ -61,22 +61,12 @@ void Program::decorate(const Instruction& instruction) {
   if (instruction.op == Op::OpMemberDecorate && operands[2] == static_cast<uint32_t>(spv::Decoration::Offset))
     offsets_[operands[0]][operands[1]] = operands[3];
   if (instruction.op != Op::OpDecorate) return;
-  switch (static_cast<spv::Decoration>(operands[1])) {
-    case spv::Decoration::SpecId:
-      specIds_[operands[0]] = operands[2];
-      break;
-    case spv::Decoration::Binding:
-      bindings_[operands[0]] = operands[2];
-      break;
-    case spv::Decoration::BuiltIn:
-      builtIns_[operands[0]] = operands[2];
-      break;
-    case spv::Decoration::ArrayStride:
-      strides_[operands[0]] = operands[2];
-      break;
-    default:
-      break;
-  }
+  if (operands.size() > 2) decorations_[{operands[0], static_cast<spv::Decoration>(operands[1])}] = operands[2];
+}
+
+std::optional<uint32_t> Program::decoration(uint32_t id, spv::Decoration decoration) const {
+  const auto found = decorations_.find({id, decoration});
+  return found == decorations_.end() ? std::nullopt : std::optional(found->second);
 }
 
 void Program::declare(const Instruction& instruction, const std::map<uint32_t, uint32_t>& specialization) {
@@ -84,18 +74,16 @@ void Program::declare(const Instruction& instruction, const std::map<uint32_t, u
   const auto& operands = instruction.operands;
   const auto constant = [&](const Value& value) { constants[id] = value; };
   const auto specialized = [&](uint32_t otherwise) {
-    const auto given = specIds_.contains(id) ? specialization.find(specIds_[id]) : specialization.end();
+    const auto constantId = decoration(id, spv::Decoration::SpecId);
+  const auto given = constantId ? specialization.find(*constantId) : specialization.end();
     return given == specialization.end() ? otherwise : given->second;
   };
-  Type type{instruction.op, false, 0, 1, strides_[id], {}, {}};
+  Type type{instruction.op, 0, 1, decoration(id, spv::Decoration::ArrayStride).value_or(0), {}, {}};
   switch (instruction.op) {
     case Op::OpTypeVoid:
     case Op::OpTypeBool:
     case Op::OpTypeFloat:
-      types[id] = type;
-      break;
     case Op::OpTypeInt:
-      type.isSigned = operands[1] != 0;
       types[id] = type;
       break;
     case Op::OpTypeVector:
@@ -154,12 +142,12 @@ void Program::declare(const Instruction& instruction, const std::map<uint32_t, u
     }
     case Op::OpVariable: {
       Variable variable{Variable::Kind::Local, 0, spv::BuiltIn::Max, types[instruction.type].element};
-      if (bindings_.contains(id)) {
+      if (const auto binding = decoration(id, spv::Decoration::Binding)) {
         variable.kind = Variable::Kind::Buffer;
-        variable.binding = bindings_[id];
-      } else if (builtIns_.contains(id)) {
+        variable.binding = *binding;
+      } else if (const auto builtIn = decoration(id, spv::Decoration::BuiltIn)) {
         variable.kind = Variable::Kind::Input;
-        variable.builtIn = static_cast<spv::BuiltIn>(builtIns_[id]);
+        variable.builtIn = static_cast<spv::BuiltIn>(*builtIn);
       } else if (static_cast<spv::StorageClass>(operands[0]) == spv::StorageClass::PushConstant) {
         variable.kind = Variable::Kind::Push;
       } else if (static_cast<spv::StorageClass>(operands[0]) == spv::StorageClass::Workgroup) {
@@ -174,10 +162,5 @@ void Program::declare(const Instruction& instruction, const std::map<uint32_t, u
 }
 
 uint32_t componentsOf(const Program& program, uint32_t type) { return program.types.at(type).components; }
-
-const Type& scalarOf(const Program& program, uint32_t type) {
-  const Type& found = program.types.at(type);
-  return found.op == Op::OpTypeVector ? program.types.at(found.element) : found;
-}
 
 }  // namespace rill::lanes

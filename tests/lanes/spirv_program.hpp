@@ -5,8 +5,10 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <spirv/unified1/spirv.hpp11>
+#include <utility>
 #include <vector>
 
 namespace rill::lanes {
@@ -16,7 +18,6 @@ using Value = std::array<uint32_t, 4>;
 
 struct Type {
   spv::Op op = spv::Op::OpTypeVoid;
-  bool isSigned = false;
   uint32_t element = 0;           ///< the type's id, of vectors, arrays and pointers
   uint32_t components = 1;        ///< of vectors
   uint32_t stride = 0;            ///< bytes, of arrays
@@ -53,14 +54,13 @@ struct Program {
  private:
   void decorate(const Instruction& instruction);
   void declare(const Instruction& instruction, const std::map<uint32_t, uint32_t>& specialization);
-  std::map<uint32_t, uint32_t> specIds_, bindings_, builtIns_, strides_;
+  std::optional<uint32_t> decoration(uint32_t id, spv::Decoration decoration) const;  ///< its operand
+  std::map<std::pair<uint32_t, spv::Decoration>, uint32_t> decorations_;
   std::map<uint32_t, std::map<uint32_t, uint32_t>> offsets_;
 };
 
 /// The number of components of a scalar or vector.
 uint32_t componentsOf(const Program& program, uint32_t type);
-/// The scalar that a scalar or vector consists of.
-const Type& scalarOf(const Program& program, uint32_t type);
 
 /// The result of an instruction without side effects, from its operands' values; false if there is no such instruction.
 bool evaluate(const Program& program, const Instruction& instruction, std::span<const Value* const> operands, Value& result);
