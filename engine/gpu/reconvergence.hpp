@@ -1,5 +1,5 @@
 #pragma once
-// Whether lanes of a subgroup that took different paths come together again: core SPIR-V promises it only to whole workgroups.
+// Whether lanes of a subgroup that took different paths come together again: core SPIR-V guarantees it only for whole workgroups.
 #include <vulkan/vulkan_core.h>
 
 #include <cstdint>
@@ -25,10 +25,10 @@ enum class Reconvergence {
   Maximal,    ///< of any invocations: VK_KHR_shader_maximal_reconvergence
 };
 
-/// The most that a device promises whose host enabled these features.
+/// The strongest guarantee among the enabled features.
 Reconvergence reconvergenceOf(const VkPhysicalDeviceFeatures2& enabled);
 
-/// The module with the promise asked for, of all its entry points; as it was where `wanted` is Workgroup.
+/// The module with the execution mode for `wanted` on all entry points; unchanged for Workgroup.
 std::vector<uint32_t> withReconvergence(std::span<const uint32_t> words, Reconvergence wanted);
 
 }  // namespace rill

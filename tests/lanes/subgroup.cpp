@@ -65,8 +65,8 @@ void Subgroup::runBlock(const Tangle& tangle) {
 }
 
 void Subgroup::open(const Tangle& tangle, uint32_t merge, uint32_t continueTarget, bool isLoop) {
-  const auto add = [&](uint32_t to, bool isPromised, bool loop) {
-    const auto construct = std::make_shared<Construct>(Construct{to, tangle.block, loop, isPromised, tangle.lanes, 0});
+  const auto add = [&](uint32_t to, bool isGuaranteed, bool loop) {
+    const auto construct = std::make_shared<Construct>(Construct{to, tangle.block, loop, isGuaranteed, tangle.lanes, 0});
     forEach(tangle.lanes, [&](uint32_t lane) { lanes_[lane].constructs.push_back(construct); });
   };
   const bool isUniform = tangle.lanes == allOf(place_.size);
@@ -83,7 +83,7 @@ void Subgroup::leave(uint32_t lane, size_t kept) {
     const std::shared_ptr<Construct> construct = held.back();
     held.pop_back();
     construct->inside &= ~(1ull << lane);
-    if (construct->isPromised && !construct->inside && construct->arrived) enter(std::exchange(construct->arrived, 0), construct->merge);
+    if (construct->isGuaranteed && !construct->inside && construct->arrived) enter(std::exchange(construct->arrived, 0), construct->merge);
   }
 }
 
@@ -96,7 +96,7 @@ void Subgroup::enter(uint64_t lanes, uint32_t block) {
     if (k == 0) return;
     const std::shared_ptr<Construct> construct = held[k - 1];
     going &= ~(1ull << lane);
-    (construct->isPromised ? construct->arrived : again) |= 1ull << lane;
+    (construct->isGuaranteed ? construct->arrived : again) |= 1ull << lane;
     leave(lane, k - 1);  // the construct that it arrives at, too
   });
   if (going) ready_.push_back({going, block});

@@ -1,4 +1,4 @@
-// Runs a shader on the lanes of a subgroup, each with a program counter of its own. Lanes come together where the chosen rules promise it
+// Runs a shader on the lanes of a subgroup, each with a program counter of its own. Lanes come together where the chosen rules guarantee it
 // and nowhere else; of what is ready, chance decides what runs next. This is what no CPU driver does, and GPUs may.
 #pragma once
 #include <memory>
@@ -40,7 +40,7 @@ class Subgroup {
  private:
   struct Construct {  // that lanes have entered: a selection, a loop, or one turn of a loop
     uint32_t merge = 0, header = 0;
-    bool isLoop = false, isPromised = false;
+    bool isLoop = false, isGuaranteed = false;
     uint64_t inside = 0, arrived = 0;  // a bit a lane
   };
   struct Lane {
