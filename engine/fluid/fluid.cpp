@@ -12,7 +12,6 @@
 #include "fluid/snapshot.hpp"
 #include "gpu/device_impl.hpp"
 #include "gpu/texel_reads.hpp"
-#include "gpu/vulkan_error.hpp"
 
 namespace rill {
 namespace {

@@ -60,9 +60,9 @@ void chooseReads(DeviceImpl& impl, ArrayReads wanted) {
     info.texelReads = texels;
     info.readsBecause = because;
   };
-  if (wanted == ArrayReads::Storage) return choose(false, "asked for");
+  if (wanted == ArrayReads::Storage) return choose(false, "requested");
   if (info.maxTexelBufferElements <= kFewTexels) return choose(false, "the device has too few texels in a buffer");
-  if (wanted == ArrayReads::Texels) return choose(true, "asked for");
+  if (wanted == ArrayReads::Texels) return choose(true, "requested");
   if (impl.vendor == kNvidia) return choose(false, "faster on NVIDIA's devices");
   choose(true, "as fast or faster on devices other than NVIDIA's");
 }

@@ -21,7 +21,7 @@ struct ListedDevice {
 /// kind. NoDevice without a Vulkan loader or driver; no device is an empty list.
 Expected<std::vector<ListedDevice>> findDevices(const ContextDesc& desc = {});
 
-/// The lower, the sooner it is listed, and taken where no device is asked for.
+/// Sort key: lower ranks are listed first, and preferred where ContextDesc::device is empty.
 int deviceRank(VkPhysicalDeviceType type);
 /// Sorts as findDevices() does.
 void sortDevices(std::vector<ListedDevice>& devices);

@@ -15,7 +15,7 @@ layout(std430, binding = 5) readonly buffer GravityBlock { vec4 gravityChanges[]
 void main() {
   control = stored.control;
   uint parity = accountSubstep(push.iteration, push.parity, push.blockStart != 0u);
-  if (parity == kAsBefore) return;
+  if (parity == kKeepCommands) return;
   switchCommands(parity);
   storeControl();
 }

@@ -115,7 +115,7 @@ uint startsAfterLast(uint mine) {
   memoryBarrierBuffer();
   commands[kTicketWord] = 0u;
   uint parity = accountSubstep(push.iteration, push.parity, push.blockStart != 0u);
-  return parity == kAsBefore ? 0u : startsOn(parity);
+  return parity == kKeepCommands ? 0u : startsOn(parity);
 }
 #endif
 

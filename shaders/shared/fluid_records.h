@@ -41,8 +41,8 @@ RILL_CONST uint kStartNoiseDamping = 6u;   // the end of the first substep of a 
 RILL_CONST uint kStartRebuild = 7u;        // the neighbor list is due
 RILL_CONST uint kStartFigures = 8u;        // figures were asked for
 RILL_CONST uint kNoSubstep = 2u;           // in place of a parity
-RILL_CONST uint kAsBefore = 3u;            // likewise: the commands stay as they are
-RILL_CONST uint kNoBegin = 4u;             // likewise, where an advance goes on: nothing is to be predicted
+RILL_CONST uint kKeepCommands = 3u;        // likewise: the commands stay as they are
+RILL_CONST uint kNoBegin = 4u;             // likewise, where an advance continues: nothing is to be predicted
 
 // What it is over.
 RILL_CONST uint kOverShape = 0u;           // a number of groups that was fixed when the fluid was made
@@ -203,7 +203,7 @@ RILL_CONST float kErrorUnit = 1.0f / 16777216.0f;
 struct BeginPush {
   float advance;       // s
   float drivenSpeed;   // m/s, the fastest driven solid of the advance
-  uint queued;         // 1: only if the last advance has no time left; else that one goes on
+  uint queued;         // 1: only if the last advance has no time left; else that one continues
 };
 
 struct DensityPush {

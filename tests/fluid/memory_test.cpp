@@ -143,14 +143,14 @@ TEST_F(CountedMemory, FollowsTheBudget) {
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("and 1024.0 MiB are available. At most " + std::to_string(most) + " fit"), std::string::npos)
       << refused.error().message;
-  vulkan.allocationResult = VK_ERROR_OUT_OF_DEVICE_MEMORY;  // the budget was promised to others as well
+  vulkan.allocationResult = VK_ERROR_OUT_OF_DEVICE_MEMORY;  // other processes have used the budget
   const auto failed = Fluid::create(*device, {.scene = &scene, .particles = &particles, .capacity = 1000});
   ASSERT_FALSE(failed);
   EXPECT_EQ(failed.error().kind, ErrorKind::OutOfMemory);
   EXPECT_NE(failed.error().message.find("null device has 1024.0 MiB left for this process"), std::string::npos) << failed.error().message;
   vulkan.allocationResult = VK_SUCCESS;
   vulkan.properties.availableBytes = 0;
-  EXPECT_EQ(maxParticles(*device, scene), 0u) << "others have taken the memory since";
+  EXPECT_EQ(maxParticles(*device, scene), 0u) << "other processes have allocated it since";
 }
 
 // Limits as NVIDIA's driver has them; modelled.

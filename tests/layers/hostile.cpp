@@ -1,7 +1,7 @@
 // A Vulkan layer that makes any driver a hostile one, by what the specification leaves to drivers. RILL_TEST_HOSTILE names it, separated
 // by commas: flush-denormals, assume-finite, perturb=SEED, poison-shuffles, groups=SEED rewrite shaders (spirv_rewrites.hpp);
-// varying-subgroups=SIZE says that no subgroup size can be required and that they may be as small as SIZE. gpu-assisted is no hostility: it
-// stands between Rill and the packaged validation layer, whose gpu-assisted validation cannot do without.
+// varying-subgroups=SIZE reports that no subgroup size can be required and that subgroups may be as small as SIZE. gpu-assisted is not
+// hostile: it works around two faults of the packaged validation layer, see splitLoopHeaders in spirv_rewrites.hpp.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>

@@ -27,7 +27,7 @@ std::vector<uint32_t> poisonShuffles(std::span<const uint32_t> words);
 std::vector<uint32_t> permuteWorkgroups(std::span<const uint32_t> words, uint32_t seed);
 
 /// Headers of loops hold nothing but their merge instruction: the packaged validation layer (1.3.239) splits the block of each access
-/// that it checks, and a loop's header that it splits is none anymore.
+/// that it checks, and a loop header that was split is not a valid loop header.
 std::vector<uint32_t> splitLoopHeaders(std::span<const uint32_t> words);
 
 }  // namespace rill::layer

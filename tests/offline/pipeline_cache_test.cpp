@@ -49,7 +49,7 @@ VkResult create(VkDevice, const VkPipelineCacheCreateInfo* info, const VkAllocat
 void destroy(VkDevice, VkPipelineCache, const VkAllocationCallbacks*) { --alive; }
 VkResult exhausted(VkDevice, VkPipelineCache, size_t*, void*) { throw std::bad_alloc(); }
 VkResult tooMuch(VkDevice, VkPipelineCache, size_t* size, void* out) {
-  EXPECT_EQ(out, nullptr) << "nobody asks for that much";
+  EXPECT_EQ(out, nullptr) << "data of this size must not be requested";
   *size = offline::kMaxPipelineCacheBytes;  // with a header more than a file may have
   return VK_SUCCESS;
 }

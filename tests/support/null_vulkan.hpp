@@ -51,7 +51,7 @@ struct NullProperties {
   uint32_t storageBufferRange = 1u << 30;
   uint64_t maxBufferSize = uint64_t{1} << 40, maxAllocation = uint64_t{1} << 40;
   uint64_t heapBytes = uint64_t{1} << 32;
-  std::optional<uint64_t> availableBytes = {};  ///< as VK_EXT_memory_budget tells; empty: no such extension
+  std::optional<uint64_t> availableBytes = {};  ///< as VK_EXT_memory_budget reports; empty: no such extension
   std::vector<VkBool32 VkPhysicalDeviceVulkan13Features::*> missingFeatures = {};
 };
 

@@ -81,7 +81,7 @@ struct FluidStep {
   /// Targets of driven solids. Each moves in a straight line at constant speed, at most Solid::driven; solids without a target rest.
   /// Not kept after addTo(). Ignored with `resume`, and without particles.
   std::span<const SolidTarget> targets = {};
-  /// The advance begins only if the last one has no time left when the device comes to it; else the last one goes on, as with `resume`.
+  /// The advance begins only if the last one has no time left when the device comes to it; else the last one continues, as with `resume`.
   /// So the next advance can be recorded before the last is known to be complete. Not where solids are driven: BadInput.
   bool queued = false;
 };

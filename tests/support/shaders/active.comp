@@ -1,4 +1,4 @@
-// The functions of active.glsl, of numbers that no compiler knows.
+// The functions of active.glsl, applied to numbers that are known at run time only.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/active.glsl"
