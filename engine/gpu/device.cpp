@@ -110,7 +110,8 @@ Expected<Device> Device::borrow(const HostDevice& host) {
   describe(*impl, host);
   impl->reconvergence = reconvergenceOf(*host.enabled);
   chooseReads(*impl, host.reads);
-  impl->hasMemoryBudget = hasExtension(impl->instance.EnumerateDeviceExtensionProperties, host.physicalDevice, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
+  impl->hasMemoryBudget =
+      hasExtension(impl->instance.EnumerateDeviceExtensionProperties, host.physicalDevice, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
   impl->reload = ShaderReload::fromEnvironment();
   return Device(std::move(impl));
 }

@@ -33,5 +33,7 @@ void main() {
     const float line_depth = 0.9995 / max(edge.depth.x + edge.depth.y * (along - edge.along.z), 1e-30);
     if (own > line_depth) cover = max(cover, clamp(half_width + 0.5 - distance, 0.0, 1.0) * clamp(ends, 0.0, 1.0) * edge.line.w);
   }
-  if (cover > 0.0) picture[index] = encodeSrgb(mix(decodeSrgb(unpackUnorm4x8(picture[index]).rgb), view.unlit != 0u ? kPlainSolid : kLine, 0.62 * cover));
+  if (cover == 0.0) return;
+  const vec3 color = decodeSrgb(unpackUnorm4x8(picture[index]).rgb);
+  picture[index] = encodeSrgb(mix(color, view.unlit != 0u ? kPlainSolid : kLine, 0.62 * cover));
 }

@@ -75,7 +75,7 @@ void Program::declare(const Instruction& instruction, const std::map<uint32_t, u
   const auto constant = [&](const Value& value) { constants[id] = value; };
   const auto specialized = [&](uint32_t otherwise) {
     const auto constantId = decoration(id, spv::Decoration::SpecId);
-  const auto given = constantId ? specialization.find(*constantId) : specialization.end();
+    const auto given = constantId ? specialization.find(*constantId) : specialization.end();
     return given == specialization.end() ? otherwise : given->second;
   };
   Type type{instruction.op, 0, 1, decoration(id, spv::Decoration::ArrayStride).value_or(0), {}, {}};
