@@ -47,7 +47,8 @@ void iteratePressure() {
 // the commands are to be switched by.
 uint accountSubstep(uint iteration, uint parity, bool blockStart) {
   bool first = iteration == 0u;
-  if ((first ? control.running : control.again) == 0u) return first ? kNoSubstep : kKeepCommands;  // the last correction's command was still on
+  // Without a first substep, the last correction's command was still on.
+  if ((first ? control.running : control.again) == 0u) return first ? kNoSubstep : kKeepCommands;
 
   float errorMax = uintBitsToFloat(sums.errorMax);
   float error = (float(sums.errorHigh) * 4294967296.0 + float(sums.errorLow)) * kErrorUnit / float(max(control.count, 1u));
