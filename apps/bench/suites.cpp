@@ -15,6 +15,7 @@ constexpr Suite kSuites[] = {
     {"render", "surface reconstruction: time against error of normals on analytic surfaces", runRender},
     {"embed", "startup time of a host with and without a pipeline cache, device memory", runEmbed},
     {"validation", "published experiments and exact solutions, with an aim and a pass band per figure", runValidation},
+    {"waves", "standing, solitary and leveling waves against theory; error against run time for a few settings", runWaves},
 };
 
 }  // namespace

@@ -62,6 +62,20 @@ constexpr Band kBands[] = {
     {"free-drop", "energy, peak", kNoAim, {kNotChecked, kNotChecked, kNotChecked}, "%", ""},
     {"torricelli", "speed over Torricelli's", kNoAim, {0.08, 0.06, 0.05}, "%", ""},
     {"torricelli", "contraction", kNoAim, {0.12, 0.11, 0.1}, "%", ""},
+    // The suite `waves`: shown, not checked.
+    {"deep", "period", 0.02, {kNotChecked, kNotChecked, kNotChecked}, "%", ""},
+    {"deep", "loss a period", kNoAim, {kNotChecked, kNotChecked, kNotChecked}, "%", ""},
+    {"shallow", "period", 0.02, {kNotChecked, kNotChecked, kNotChecked}, "%", ""},
+    {"shallow", "loss a period", kNoAim, {kNotChecked, kNotChecked, kNotChecked}, "%", ""},
+    {"viscosity", "period", 0.02, {kNotChecked, kNotChecked, kNotChecked}, "%", ""},
+    {"viscosity", "loss a period", kNoAim, {kNotChecked, kNotChecked, kNotChecked}, "%", ""},
+    {"setting", "period", 0.02, {kNotChecked, kNotChecked, kNotChecked}, "%", ""},
+    {"setting", "loss a period", kNoAim, {kNotChecked, kNotChecked, kNotChecked}, "%", ""},
+    {"viscosity", "decay", kNoAim, {kNotChecked, kNotChecked, kNotChecked}, "1/s", ""},
+    {"solitary", "speed", 0.02, {kNotChecked, kNotChecked, kNotChecked}, "%", ""},
+    {"solitary", "speed at its height", kNoAim, {kNotChecked, kNotChecked, kNotChecked}, "%", ""},
+    {"solitary", "height kept", kNoAim, {kNotChecked, kNotChecked, kNotChecked}, "%", ""},
+    {"level", "shift", 0.02, {kNotChecked, kNotChecked, kNotChecked}, "%", ""},
 };
 
 }  // namespace

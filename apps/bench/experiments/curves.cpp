@@ -23,19 +23,6 @@ double rmsDistance(const Curve& curve, const Curve& points, double shift) {
   return std::sqrt(sum / double(points.size()));
 }
 
-/// Slope of the least-squares line.
-double slope(const Curve& points) {
-  double x = 0, y = 0, xx = 0, xy = 0;
-  for (const auto& [px, py] : points) {
-    x += px;
-    y += py;
-    xx += px * px;
-    xy += px * py;
-  }
-  const double n = double(points.size());
-  return (n * xy - x * y) / (n * xx - x * x);
-}
-
 /// Time and magnitude of the maximum of |y| in samples first .. last, refined by a parabola.
 std::pair<double, double> extreme(const Curve& curve, size_t first, size_t last) {
   size_t best = first;
@@ -57,6 +44,18 @@ double at(const Curve& curve, double x) {
   if (after == curve.end()) return curve.back().second;
   const auto before = after - 1;
   return before->second + (after->second - before->second) * (x - before->first) / (after->first - before->first);
+}
+
+double slope(const Curve& points) {
+  double x = 0, y = 0, xx = 0, xy = 0;
+  for (const auto& [px, py] : points) {
+    x += px;
+    y += py;
+    xx += px * px;
+    xy += px * py;
+  }
+  const double n = double(points.size());
+  return (n * xy - x * y) / (n * xx - x * x);
 }
 
 ShiftFit fitShift(const Curve& curve, const Curve& points) {

@@ -14,6 +14,9 @@ using Curve = std::vector<std::pair<double, double>>;  ///< increasing in the fi
 /// Linear interpolation; constant outside the samples.
 double at(const Curve& curve, double x);
 
+/// Slope of the least-squares line.
+double slope(const Curve& points);
+
 /// Root mean square of the relative differences between a curve and published points.
 struct ShiftFit {
   double shift = 0;      ///< time by which the points lag the curve; minimizes `shifted` within [-1, 1]

@@ -1,11 +1,11 @@
 // First standing wave of a tank: period against linear theory, damping against zero.
-#include <cmath>
-#include <numbers>
+#include <algorithm>
 
 #include "bench/experiments/curves.hpp"
 #include "bench/experiments/exact.hpp"
 #include "bench/experiments/experiment.hpp"
 #include "bench/experiments/start_file.hpp"
+#include "bench/experiments/wave_starts.hpp"
 
 namespace rill::bench {
 namespace {
@@ -17,25 +17,11 @@ constexpr int kTankThickness = 4;                       // spacings in z, betwee
 constexpr double kPeriods = 5.3;                        // long enough for ten crossings
 constexpr double kWide = 2.3;                           // smoothing ratio of additional runs at the medium depth
 
-/// A rest lattice displaced by the linear wave: divergence-free, with a cosine surface.
-Cloud wave(double depth, double spacing) {
-  // Small enough for linear theory: below pi A / L = 0.13 the next order changes the period by less than 0.2 %.
-  const double amplitude = std::min(0.04, 0.08 * depth), k = std::numbers::pi / kLength;
-  Cloud cloud;
-  cloud.spacing = spacing;
-  for (int i = 0; (i + 0.5) * spacing < kLength; ++i)
-    for (int j = 0; (j + 0.5) * spacing < depth; ++j)
-      for (int l = 0; l < kTankThickness; ++l) {
-        const double x = (i + 0.5) * spacing, y = (j + 0.5) * spacing, z = (l + 0.5) * spacing, scale = amplitude / std::sinh(k * depth);
-        cloud.position.push_back({x - scale * std::sin(k * x) * std::cosh(k * y), y + scale * std::cos(k * x) * std::sinh(k * y), z});
-        cloud.velocity.push_back({0, 0, 0});
-      }
-  return cloud;
-}
-
 Expected<Outcome> slosh(const Bench& bench, double depth, unsigned level, double smoothingRatio) {
   const double spacing = kLength / kTankResolution[level];
-  const auto start = StartFile::write(wave(depth, spacing));
+  // Small enough for linear theory: below pi A / L = 0.13 the next order changes the period by less than 0.2 %.
+  const StandingWave wave{.length_m = kLength, .depth_m = depth, .amplitude_m = std::min(0.04, 0.08 * depth)};
+  const auto start = StartFile::write(standingWave(wave, spacing, kTankThickness));
   if (!start) return start.error();
   Scene scene = boxScene(spacing, {0, 0, 0}, {kLength, 2 * depth, kTankThickness * spacing});
   scene.fluid.smoothing_ratio = smoothingRatio;

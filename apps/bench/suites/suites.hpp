@@ -14,5 +14,6 @@ Expected<Report> runFeatures(Bench& bench);
 Expected<Report> runRender(Bench& bench);
 Expected<Report> runValidation(Bench& bench);
 Expected<Report> runEmbed(Bench& bench);
+Expected<Report> runWaves(Bench& bench);
 
 }  // namespace rill::bench

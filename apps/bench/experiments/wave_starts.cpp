@@ -1,0 +1,38 @@
+#include "bench/experiments/wave_starts.hpp"
+
+#include <cmath>
+
+namespace rill::bench {
+
+Cloud standingWave(const StandingWave& wave, double spacing, int thickness) {
+  const double k = wave.waveNumber(), scale = wave.amplitude_m / std::sinh(k * wave.depth_m);
+  Cloud cloud;
+  cloud.spacing = spacing;
+  for (int i = 0; (i + 0.5) * spacing < wave.length_m; ++i)
+    for (int j = 0; (j + 0.5) * spacing < wave.depth_m; ++j)
+      for (int l = 0; l < thickness; ++l) {
+        const double x = (i + 0.5) * spacing, y = (j + 0.5) * spacing;
+        cloud.position.push_back(
+            {x - scale * std::sin(k * x) * std::cosh(k * y), y + scale * std::cos(k * x) * std::sinh(k * y), (l + 0.5) * spacing});
+        cloud.velocity.push_back({0, 0, 0});
+      }
+  return cloud;
+}
+
+Cloud solitaryWave(const SolitaryWave& wave, double length_m, double crest_m, double spacing, int thickness) {
+  Cloud cloud;
+  cloud.spacing = spacing;
+  for (int i = 0; (i + 0.5) * spacing < length_m; ++i)
+    for (int l = 0; l < thickness; ++l) {
+      const double x = (i + 0.5) * spacing, threshold = (l + 0.5) / thickness;
+      const double layers = std::floor((wave.depth_m + wave.elevation(x - crest_m)) / spacing + threshold + 1e-9);
+      for (int j = 0; j < layers; ++j) {
+        const double y = (j + 0.5) * spacing;
+        cloud.position.push_back({x, y, (l + 0.5) * spacing});
+        cloud.velocity.push_back({wave.velocity(x - crest_m), y * wave.stretching(x - crest_m), 0});
+      }
+    }
+  return cloud;
+}
+
+}  // namespace rill::bench
