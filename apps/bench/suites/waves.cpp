@@ -13,8 +13,7 @@
 namespace rill::bench {
 namespace {
 
-using namespace std::string_literals;
-
+constexpr size_t kParts = 4;             // of progress in an experiment; one in a repetition of a setting
 constexpr double kSmallestShown = 1e-4;  // errors below it are drawn there: axes are logarithmic
 
 struct WaveDiagram {
@@ -33,9 +32,9 @@ constexpr WaveDiagram kWaveDiagrams[] = {
 struct WaveResult {
   Experiment experiment;
   Outcome outcome;
+  std::vector<double> wall = {};  ///< samples of settingCost()
 
   const Figure& figure(std::string_view name) const { return *std::ranges::find(outcome.figures, name, &Figure::name); }
-  std::vector<double> wall = {};  ///< samples of settingCost()
   double residual() const { return outcome.curves["fit"]["residual"]; }
   double cost() const { return outcome.run.wall_s / std::max(outcome.run.simulated_s, 1e-12); }  // wall seconds per simulated second
 };
@@ -100,10 +99,9 @@ std::vector<WaveGroup> waveGroups() {
        solitaryWaveExperiments(),
        {"theory m/s", "speed m/s", "error", "at its height", "height kept"},
        solitaryRow,
-       "theory: sqrt(g (h + a)); measured over the last 18 depths. At its height: error against the theory's speed at the heights that "
-       "the\n"
-       "wave had. Height: of the surface in a Hann window two depths wide, mean over the last two depths against the start. The crest\n"
-       "is followed from frame to frame."},
+       "theory: sqrt(g (h + a)); measured over the last 18 depths. At its height: error against the theory's speed at the heights that\n"
+       "the wave had. Height: of the surface in a Hann window two depths wide, mean over the last two depths against the start. The\n"
+       "crest is followed from frame to frame."},
       {"Leveling of a tilted tank",
        levelExperiments(),
        {"hydrostatic mm", "shift mm", "share"},
@@ -118,17 +116,17 @@ class Waves {
 
   Expected<Report> run() {
     std::vector<WaveGroup> groups = waveGroups();
-    size_t steps = 0;
+    size_t parts = 0;
     for (WaveGroup& group : groups) {
       std::erase_if(group.experiments, [&](const Experiment& e) { return (bench_.quick() && !e.quick) || !bench_.selected(e.name()); });
-      steps += group.experiments.size() * (group.row ? 1 : bench_.options().repeat);
+      parts += group.experiments.size() * (kParts + (group.row ? 0 : bench_.options().repeat - 1));
     }
-    bench_.plan(steps);
+    bench_.plan(parts, "part");
     for (const WaveGroup& group : groups) {
       std::vector<WaveResult> results;
       for (const Experiment& experiment : group.experiments) {
         if (bench_.stopped()) break;
-        bench_.step(experiment.name());
+        bench_.step(experiment.name(), kParts);
         auto outcome = experiment.run(bench_);
         if (!outcome) return outcome.error();
         if (bench_.stopped()) break;  // incomplete runs have no figures
@@ -195,7 +193,7 @@ class Waves {
 
   static const WaveSetting& settingOf(const WaveResult& result) {
     return *std::ranges::find_if(comparedSettings(),
-                                 [&](const WaveSetting& one) { return result.experiment.family == "setting "s + one.name; });
+                                 [&](const WaveSetting& one) { return result.experiment.family == std::string("setting ") + one.name; });
   }
 
   /// Times a period of each setting again, one setting after the other, so that other load on the machine falls on all.
