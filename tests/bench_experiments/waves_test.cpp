@@ -182,11 +182,13 @@ TEST(WaveMeasures, FitIgnoresNoiseAndReportsIt) {
 }
 
 TEST(WaveMeasures, WindowMeanIgnoresSlosh) {
-  Curve curve;
-  for (int k = 0; k < 600; ++k) curve.emplace_back(k / 60.0, 3 + std::cos(2 * kPi * k / 60.0 / 1.9 + 0.7));
-  EXPECT_NEAR(windowMean(curve, 4, 8), 3, 0.02);  // 2.1 periods
-  EXPECT_NEAR(windowMean(curve, 4, 7.8), 3, 0.002);
-  EXPECT_TRUE(std::isnan(windowMean(curve, 20, 21)));
+  for (const double phase : {0.0, 0.8, 1.6, 2.4}) {
+    Curve curve;
+    for (int k = 0; k < 600; ++k) curve.emplace_back(k / 60.0, 3 + std::cos(2 * kPi * k / 60.0 / 2 + phase));
+    EXPECT_NEAR(windowMean(curve, 4, 8), 3, 1e-3) << "two periods";
+    EXPECT_NEAR(windowMean(curve, 3.5, 8.5), 3, 0.03) << "two and a half; without the window 0.13";
+  }
+  EXPECT_TRUE(std::isnan(windowMean({{0, 1}, {1, 2}}, 20, 21)));
 }
 
 TEST(WaveMeasures, SmoothSurfaceIsDepthOfLattice) {
