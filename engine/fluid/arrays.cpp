@@ -14,6 +14,8 @@ uint64_t withDummy(const ArrayShape& s) { return s.particles + 1; }  // the neig
 
 uint64_t perKey(const ArrayShape& s) { return divideUp(s.particles, kCountThreads) * kCountThreads; }  // see keys.comp
 
+uint64_t perParticleIfSolids(const ArrayShape& s) { return s.solids > 0 ? s.particles : 0; }
+
 template <bool ArrayShape::*Feature>
 uint64_t perParticleIf(const ArrayShape& s) {
   return s.*Feature ? s.particles : 0;
@@ -31,7 +33,7 @@ constexpr std::array<ArrayRow, kArrays> kArrayTable = {{
     {Commands, "commands", "dispatch commands", Fluid, 4, [](const ArrayShape&) { return uint64_t{kTicketWord} + 1; }},
     {DensityCommands, "densityCommands", "density dispatch commands", Fluid, 12, [](const ArrayShape&) { return uint64_t{2}; }},
     {GravityChanges, "gravityChanges", "gravity schedule", Fluid, kVector, [](const ArrayShape& s) { return s.gravityChanges; }},
-    {Table, "table", "wall tables", Fluid, kVector, [](const ArrayShape& s) { return s.tableEntries; }},
+    {Table, "table", "density tables of solids", Fluid, kVector, [](const ArrayShape& s) { return s.tableEntries; }},
     {Solids, "solids", "solids", Fluid, sizeof(SolidRecord), [](const ArrayShape& s) { return s.solids; }},
     {Keyframes, "keyframes", "keyframes", Fluid, sizeof(KeyframeRecord), [](const ArrayShape& s) { return s.keyframes; }},
 
@@ -45,13 +47,12 @@ constexpr std::array<ArrayRow, kArrays> kArrayTable = {{
      "warm", true},
     {Id, "id", "ids", Fluid, kWord, perParticle, Account::Particles, &FluidSnapshot::id, "id"},
     {Multiplier, "multiplier", "iteration multipliers", Fluid, kWord, perParticleIf<&ArrayShape::iterated>, Account::Particles},
-    {ListHead, "listHead", "list heads", Fluid, kWord, [](const ArrayShape& s) { return s.lists || s.near ? s.particles : 0; },
+    {ListHead, "listHead", "list heads", Fluid, kWord, [](const ArrayShape& s) { return s.lists || s.solids > 0 ? s.particles : 0; },
      Account::Particles},
     {Cell, "cell", "cells", Fluid, kWord, perParticle, Account::Particles},
-    {NearDisplaced, "nearDisplaced", "density that walls displace", Fluid, kVector, perParticleIf<&ArrayShape::near>, Account::Particles},
-    {NearTangential, "nearTangential", "tangential scales at walls", Fluid, kVector, perParticleIf<&ArrayShape::near>, Account::Particles},
-    {NearPlane, "nearPlane", "particles near one wall", Fluid, kWord, perParticleIf<&ArrayShape::near>, Account::Particles},
-    {NearCorner, "nearCorner", "particles near corners", Fluid, kWord, perParticleIf<&ArrayShape::near>, Account::Particles},
+    {NearDisplaced, "nearDisplaced", "density that solids displace", Fluid, kVector, perParticleIfSolids, Account::Particles},
+    {NearTangential, "nearTangential", "tangential scales at solids", Fluid, kVector, perParticleIfSolids, Account::Particles},
+    {NearSolids, "nearSolids", "particles near solids", Fluid, kWord, perParticleIfSolids, Account::Particles},
 
     {CellStart, "cellStart", "cell starts", Fluid, kWord, [](const ArrayShape& s) { return s.cellStarts; }, Account::Grid},
     {List, "list", "neighbor list", Fluid, kListEntryBytes, [](const ArrayShape& s) { return s.listEntries; }, Account::List},
@@ -60,8 +61,7 @@ constexpr std::array<ArrayRow, kArrays> kArrayTable = {{
     {SortedPosition, "sortedPosition", "sorted positions", Section, kVector, perParticle, Account::Particles},
     {SortedPrediction, "sortedPrediction", "sorted predictions", Section, kVector, perParticle, Account::Particles},
     {SortedVelocity, "sortedVelocity", "sorted velocities", Section, kVector, perParticle, Account::Particles},
-    {FreeVelocity, "freeVelocity", "free velocities", Section, kVector, [](const ArrayShape& s) { return s.solids > 0 ? s.particles : 0; },
-     Account::Particles},
+    {FreeVelocity, "freeVelocity", "free velocities", Section, kVector, perParticleIfSolids, Account::Particles},
     {Smoothed, "smoothed", "smoothed velocities", Section, kVector, [](const ArrayShape& s) { return s.smooths ? s.particles + 1 : 0; },
      Account::Particles},
     {Curl, "curl", "curl", Section, kVector, [](const ArrayShape& s) { return s.vorticity ? s.particles + 1 : 0; }, Account::Particles},
@@ -101,7 +101,6 @@ ArrayShape arrayShape(const FluidSetup& setup) {
           .keyframes = setup.keyframes.size() / kKeyframeNumbers,
           .lists = p.listCapacity > 0,
           .warm = setup.warm,
-          .near = setup.near,
           .iterated = p.iterations > 1,
           .smooths = setup.viscositySweeps > 0 || p.noiseDampingRate > 0,
           .vorticity = p.vorticity > 0};
@@ -109,14 +108,13 @@ ArrayShape arrayShape(const FluidSetup& setup) {
 
 ArrayShape arrayShape(const Scene& scene, uint64_t particles) {
   const bool lists = scene.solver.neighbors != NeighborChoice::Grid;
-  const uint64_t capacity = lists ? listCapacity(scene.fluid.smoothing_ratio + kListSkin) : 0;
+  const uint64_t capacity = lists ? listCapacity(scene.fluid.smoothing_ratio + kListSkin, hasWalls(scene)) : 0;
   return {.particles = particles,
           .listEntries = divideUp(particles, kListBlock) * kListBlock * capacity,
           .cellStarts = maxGridCells(particles) + 1,
           .solids = scene.solids.size(),
           .lists = lists,
           .warm = startsWarm(scene),
-          .near = scene.domain.has_value() || !scene.solids.empty(),
           .iterated = scene.solver.iterations > 1,
           .smooths = scene.fluid.viscosity > 0,  // noise damping shares memory with a rebuild
           .vorticity = scene.fluid.vorticity > 0};

@@ -39,8 +39,7 @@ enum class FluidArray : uint8_t {
   Cell,
   NearDisplaced,
   NearTangential,
-  NearPlane,
-  NearCorner,
+  NearSolids,
   // The neighbor search.
   CellStart,
   List,
@@ -76,7 +75,7 @@ struct ArrayShape {
   uint64_t listEntries = 0;  ///< of all particles
   uint64_t cellStarts = 0;   ///< entries
   uint64_t gravityChanges = 1, tableEntries = 0, solids = 0, keyframes = 0;
-  bool lists = true, warm = false, near = false, iterated = false, smooths = false, vorticity = false;
+  bool lists = true, warm = false, iterated = false, smooths = false, vorticity = false;
 };
 ArrayShape arrayShape(const FluidSetup& setup);
 /// An upper bound, from the scene alone.

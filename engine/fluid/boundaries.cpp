@@ -7,8 +7,8 @@
 #include "core/overloaded.hpp"
 #include "fluid/numbers.hpp"
 #include "shape/records.hpp"
+#include "sph/half_space.hpp"
 #include "sph/solid_density.hpp"
-#include "sph/wall.hpp"
 
 namespace rill {
 namespace {
@@ -96,18 +96,12 @@ void setWalls(const Scene& scene, const Double3& origin, FluidParams& p) {
   p.margin = f(margin);
 }
 
-void addWallTables(const SmoothingKernel& kernel, FluidSetup& setup) {
-  FluidParams& p = setup.params;
-  const WallTables tables = makeWallTables(kernel);
+void addHalfSpaceTable(const SmoothingKernel& kernel, FluidSetup& setup) {
+  const HalfSpaceTable half = makeHalfSpaceTable(kernel);
   uint32_t first = 0;
-  appendTable(setup.tables, tables.plane, first);
-  appendTable(setup.tables, tables.edge, p.tableOffset2);
-  appendTable(setup.tables, tables.corner, p.tableOffset3);
-  appendTable(setup.tables, tables.face, p.tableOffsetFace);
-  p.tableStep = f(tables.step);
-  p.cornerStep = f(tables.cornerStep);
-  p.tableNodes = tables.nodes;
-  p.cornerNodes = tables.cornerNodes;
+  appendTable(setup.tables, half.table, first);
+  setup.params.tableStep = f(half.step);
+  setup.params.tableNodes = half.nodes;
 }
 
 }  // namespace rill

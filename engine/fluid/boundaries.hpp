@@ -14,7 +14,7 @@ double fastestDriven(const Scene& scene);
 void addSolids(const Scene& scene, const SmoothingKernel& kernel, const Double3& origin, FluidSetup& setup);
 /// Walls, the domain's bounds, and how near a center may come to them.
 void setWalls(const Scene& scene, const Double3& origin, FluidParams& p);
-/// The density that walls displace: plane, edge, corner and face.
-void addWallTables(const SmoothingKernel& kernel, FluidSetup& setup);
+/// The density that a half-space displaces, which boxes are made of.
+void addHalfSpaceTable(const SmoothingKernel& kernel, FluidSetup& setup);
 
 }  // namespace rill

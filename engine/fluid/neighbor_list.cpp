@@ -7,25 +7,44 @@
 namespace rill {
 namespace {
 
-/// From which particle the first step starts: the head's distance.
+bool hasSegments(std::span<const uint32_t> neighbors) { return !neighbors.empty() && neighbors.front() >= kImageOfNeighbors; }
+
+/// From which particle the first step of each segment starts: the head's distance.
 uint32_t headDistance(uint32_t particle, std::span<const uint32_t> neighbors) {
-  if (neighbors.empty()) return 0;
-  return std::min(particle - std::min(particle, neighbors.front()), kMaxHeadDistance);
+  const auto first = std::ranges::find_if(neighbors, [](uint32_t j) { return j < kImageOfNeighbors; });
+  return first == neighbors.end() ? 0 : std::min(particle - std::min(particle, *first), kMaxHeadDistance);
 }
 
-/// Calls add(entry) for each entry of a list.
+/// Calls add(entry) for each entry of a list, those that fill groups of four too, but for the last of a list without segments.
 template <class Add>
 void forEachEntry(uint32_t particle, std::span<const uint32_t> neighbors, Add&& add) {
-  uint32_t last = particle - headDistance(particle, neighbors);
+  const uint32_t first = particle - headDistance(particle, neighbors);
+  std::vector<uint32_t> segment;
+  uint32_t last = first, image = 0;
+  const bool segmented = hasSegments(neighbors);
+  const auto finish = [&] {
+    while (segmented && segment.size() % 4 != 0) segment.push_back(kLongStep);
+    if (segmented && !segment.empty()) segment.front() = kLongStep | image << kSegmentGroupBits | static_cast<uint32_t>(segment.size() / 4);
+    for (const uint32_t entry : segment) add(entry);
+    segment.clear();
+  };
   for (const uint32_t j : neighbors) {
+    if (j >= kImageOfNeighbors) {
+      finish();
+      image = j - kImageOfNeighbors;
+      segment.push_back(0);
+      last = first;
+      continue;
+    }
     if (j - last >= kLongStep) {
       const uint32_t far = static_cast<uint32_t>(static_cast<int32_t>(j - last) >> kLongStepShift);
-      add(kLongStep | (far & 0xFFF));
+      segment.push_back(kLongStep | (far & 0xFFF));
       last += far << kLongStepShift;
     }
-    add(j - last);
+    segment.push_back(j - last);
     last = j;
   }
+  finish();
 }
 
 /// Where a particle's groups lie in its chunk's list, in words; groups follow at a distance of 2 kListBlock.
@@ -59,10 +78,10 @@ std::vector<uint32_t> layOutHeads(const FluidSnapshot& s) {
   std::vector<uint32_t> heads(s.id.size());
   forEachListed(s, 0, UINT32_MAX, [&](uint32_t i, std::span<const uint32_t> neighbors) {
     const bool listed = s.neighborCount[i] <= s.listCapacity;
-    heads[i] = (listed ? listEntries(i, neighbors) : kUnlisted) | headDistance(i, neighbors) << kHeadDistanceShift;
+    heads[i] = (listed ? listEntries(i, neighbors) : kUnlisted) | (hasSegments(neighbors) ? kSegmentsBit : 0) |
+               headDistance(i, neighbors) << kHeadDistanceShift;
   });
-  for (const auto* nearWalls : {&s.nearWall, &s.nearCorner})
-    for (const uint32_t i : *nearWalls) heads[i] |= kNearWallsBit;
+  for (const uint32_t i : s.nearSolids) heads[i] |= kNearSolidsBit;
   return heads;
 }
 
@@ -88,16 +107,23 @@ void gatherList(FluidSnapshot& s, uint32_t first, uint32_t last, std::span<const
       s.neighborCount.push_back(s.listCapacity + 1);
       continue;
     }
+    const bool segmented = heads[i] & kSegmentsBit;
     const uint64_t at = firstWord(i - first, s.listCapacity);
-    uint32_t j = i - (heads[i] >> kHeadDistanceShift), count = 0;
+    const uint32_t start = i - (heads[i] >> kHeadDistanceShift);
+    uint32_t j = start, segmentEnd = 0;
+    const size_t before = s.neighbors.size();
     for (uint32_t k = 0; k < entries; ++k) {
       const uint32_t entry = list[at + wordOf(k)] >> 16 * (k % 2) & 0xFFFF;
+      if (segmented && k == segmentEnd) {
+        segmentEnd += std::max(4 * (entry & kMaxSegmentGroups), 4u);
+        s.neighbors.push_back(kImageOfNeighbors + ((entry & 0xFFF) >> kSegmentGroupBits));
+        j = start;
+        continue;
+      }
       j += entry < kLongStep ? entry : static_cast<uint32_t>(static_cast<int32_t>(entry << 20) >> (20 - kLongStepShift));
-      if (entry >= kLongStep) continue;
-      s.neighbors.push_back(j);
-      ++count;
+      if (entry < kLongStep) s.neighbors.push_back(j);
     }
-    s.neighborCount.push_back(count);
+    s.neighborCount.push_back(static_cast<uint32_t>(s.neighbors.size() - before));
   }
 }
 

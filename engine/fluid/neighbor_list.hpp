@@ -8,7 +8,7 @@
 
 namespace rill {
 
-/// Entries that a particle's neighbors take on the device: more than there are neighbors where some are far apart.
+/// Entries that a particle's neighbors take on the device: more than there are neighbors where some are far apart, or images.
 uint32_t listEntries(uint32_t particle, std::span<const uint32_t> neighbors);
 
 /// The list heads of all particles.

@@ -3,7 +3,6 @@
 namespace rill {
 namespace {
 
-bool near(const FluidSetup& s) { return s.near; }
 bool solids(const FluidSetup& s) { return s.params.solidCount > 0; }
 bool moves(const FluidSetup& s) { return s.movingSolids; }
 bool iterates(const FluidSetup& s) { return s.params.iterations > 1; }
@@ -17,7 +16,7 @@ bool copies(const FluidSetup& s) { return s.viscositySweeps % 2 == 1 || noisy(s)
 bool forcesOrDamping(const FluidSetup& s) { return hasForces(s) || noisy(s); }
 bool forcesOrDampingAtSolids(const FluidSetup& s) { return forcesOrDamping(s) && solids(s); }
 
-constexpr PassCondition kAlways, kNear{near, "no domain and no solids"}, kSolids{solids, "no solids"}, kMoves{moves, "no solid moves"},
+constexpr PassCondition kAlways, kSolids{solids, "no solids"}, kMoves{moves, "no solid moves"},
     kIterates{iterates, "one iteration a substep"}, kViscous{viscous, "viscosity is 0"}, kSwirls{swirls, "vorticity is 0"},
     kDrags{drags, "drag is 0"}, kNoisy{noisy, nullptr, &FluidSetup::whyNoNoiseDamping},
     kClustering{clustering, nullptr, &FluidSetup::whyNoArtificialPressure, "artificial pressure"};
@@ -40,7 +39,7 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
 
     {P::MoveSolids, "move solids", "fluid/pose", E::One, {S::Density}, kMoves},
     {P::Iterate, "iterate", "fluid/iterate", E::Gather, {S::Iterate}, kIterates},
-    {P::Walls, "walls and solids", "fluid/walls", E::Near, kSolve, kNear},
+    {P::DisplaceDensity, "density of solids", "fluid/solids", E::NearSolids, kSolve, kSolids},
     {P::Density, "density", "fluid/density", E::Gather, kSolve},
     {P::Control, "control", "fluid/control", E::One, {}, {separate}},
     {P::CorrectWithArtificialPressure,
@@ -51,7 +50,7 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
      kClustering,
      {.constant = {"ARTIFICIAL_PRESSURE", true}}},
     {P::Correct, "correct", "fluid/correct", E::Gather, kEnd},
-    {P::Collide, "collide", "fluid/collide", E::Corner, kEnd, kSolids},
+    {P::Collide, "collide", "fluid/collide", E::NearSolids, kEnd, kSolids},
 
     {P::Viscosity, "viscosity", "fluid/viscosity", E::Gather, kEnd, kViscous},
     {P::NoiseDamping, "noise damping", "fluid/viscosity", E::Gather, {S::NoiseDamping}, kNoisy},
@@ -66,9 +65,9 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
      kEndOrDamped,
      {forcesOrDamping},
      {.constant = {"SOLIDS", false}}},
-    {P::PredictAtSolids, "predict at solids", "fluid/predict", E::Corner, kEndOrDamped, {forcesOrDampingAtSolids}},
+    {P::PredictAtSolids, "predict at solids", "fluid/predict", E::NearSolids, kEndOrDamped, {forcesOrDampingAtSolids}},
 
-    {P::MeasureWalls, "measure walls", "fluid/walls", E::Near, kFigures, {near}},
+    {P::MeasureDisplaced, "measure solids", "fluid/solids", E::NearSolids, kFigures, {solids}},
     {P::MeasureKeys, "measure keys", "fluid/keys", E::Keys, kFigures},
     {P::MeasureOrder, "measure order", "fluid/measure_order", E::Particles, kFigures},
     {P::Measure, "measure", "fluid/measure", E::Particles, kFigures, kAlways, kClusters},

@@ -25,7 +25,7 @@ enum class FluidPass : uint8_t {
   // A substep.
   MoveSolids,
   Iterate,
-  Walls,
+  DisplaceDensity,
   Density,
   Control,
   CorrectWithArtificialPressure,
@@ -40,7 +40,7 @@ enum class FluidPass : uint8_t {
   PredictAfterForces,
   PredictAtSolids,
   // Figures.
-  MeasureWalls,
+  MeasureDisplaced,
   MeasureKeys,
   MeasureOrder,
   Measure,
@@ -73,8 +73,7 @@ enum class Extent : uint8_t {
   Partials,   ///< the workgroups that add up figures
   Chunks,     ///< all particles, a dispatch for each buffer of the neighbor list
   Gather,     ///< the same over neighbors, in two variants: the device starts the one that reads lists or the one that can walk the grid
-  Near,       ///< particles near one wall, and those near several or a solid, in two variants or in one
-  Corner      ///< the latter alone
+  NearSolids  ///< particles near solids
 };
 
 /// When a pass exists, and what the report of skipped passes says where it does not.

@@ -27,7 +27,7 @@ std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
   return {{"KERNEL", setup.kernel},
           {"CLUSTER", clusterOf(device).cluster},
           {"LIST_CAPACITY", p.listCapacity},
-          {"NEAR", setup.near},
+          {"WALLS", setup.walls},
           {"WARM", setup.warm},
           {"ITERATED", p.iterations > 1},
           {"SOLIDS", p.solidCount > 0},
@@ -36,7 +36,7 @@ std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
           {"LIST_OVERSIZED", sort_->listsOversized()},
           // Where a pass or a variant of it does not say otherwise:
           {"WALKS", false},
-          {"CORNER", false},
+          {"NEAR_SOLIDS", false},
           {"ARTIFICIAL_PRESSURE", false},
           {"REBUILDS", false}};
 }
@@ -104,12 +104,8 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
       if (setup.params.listCapacity > 0)
         if (auto ok = add(kOverLists, {}, withoutCluster(device.info(), choice, kFluidGroup)); !ok) return ok;
       return add(kOverGrid, {{"WALKS", true}}, choice.need);
-    case Extent::Near:
-      if (setup.mergesPasses) return add(kOverNear, {});
-      if (auto ok = add(kOverCorner, {{"CORNER", true}}); !ok) return ok;
-      return add(kOverPlane, {{"CORNER", false}, {"SOLIDS", false}, {"THIN", false}});
-    case Extent::Corner:
-      return add(kOverCorner, {{"CORNER", true}});
+    case Extent::NearSolids:
+      return add(kOverNearSolids, {{"NEAR_SOLIDS", true}});
     case Extent::Chunks:
       return add(kOverChunk, {}, choice.need);
     case Extent::Particles:

@@ -10,8 +10,8 @@
 #include "fluid/numbers.hpp"
 #include "fluid/stability_limits.hpp"
 #include "sph/artificial_pressure.hpp"
+#include "sph/half_space.hpp"
 #include "sph/kernel.hpp"
-#include "sph/wall.hpp"
 
 namespace rill {
 namespace {
@@ -26,6 +26,9 @@ constexpr double kMinCfl = 0.01;       // spacings a substep
 constexpr uint32_t kLongestBlock = 6;  // substeps
 // Spacings: beyond it, positions have lost their meaning: float holds 24 bits.
 constexpr double kFarSpacings = 1.0e6;
+// Entries for what begins and fills the segments of a particle in a corner, but for those that its neighbors leave.
+constexpr uint32_t kSegmentRoom = 16;
+constexpr SideMask kEverySide = 0b111111;
 // For the device, where a limit is infinite.
 constexpr double kLargest = 1e30;
 
@@ -123,8 +126,8 @@ void setColumn(const Scene& scene, const StartFigures& start, FluidSetup& setup)
   const double drop = 1.5 * cubeEdge(scene, start);
   Double3 height;
   for (int a = 0; a < 3; ++a) {
-    height[a] = setup.near ? start.extent[a] : std::min(start.extent[a], drop);
-    *gravity[a] = setup.near ? f(strongestGravity(scene, a)) : 0.0f;
+    height[a] = setup.held ? start.extent[a] : std::min(start.extent[a], drop);
+    *gravity[a] = setup.held ? f(strongestGravity(scene, a)) : 0.0f;
     const double room = scene.domain ? scene.domain->max[a] - scene.domain->min[a] : std::max(start.extent[a], drop);
     *limit[a] = f(std::max(room, scene.fluid.spacing));
   }
@@ -161,7 +164,7 @@ void setLongestStep(const Scene& scene, FluidSetup& setup) {
 
 // Where nothing holds the fluid up there is no initial pressure.
 void setInitialPressure(const Scene& scene, const SmoothingKernel& kernel, const Double3& room, FluidSetup& setup) {
-  if (!setup.near) return;
+  if (!setup.held) return;
   const InitialPressure pressure = initialPressure(scene, kernel, setup.limits, setup.head, widest(room));
   setup.params.initialPressureIterations = pressure.iterations;
   setup.params.initialPressureMomentum = f(pressure.momentum);
@@ -224,14 +227,16 @@ double artificialViscosity(const Scene& scene) {
   return std::max(0.0, wanted - scene.fluid.viscosity);
 }
 
+bool hasWalls(const Scene& scene) { return scene.domain && scene.domain->open != kEverySide; }
+
 bool startsWarm(const Scene& scene) { return boundedWarmGain(scene).wanted > 0; }
 
-uint32_t listCapacity(double reachInSpacings) {
+uint32_t listCapacity(double reachInSpacings, bool walls) {
   constexpr double kMaxReach = 5;  // spacings: more than any scene has that is allowed
   const double reach = std::fmin(std::fmax(reachInSpacings, 0), kMaxReach);
   const double ball = 4.0 / 3.0 * std::numbers::pi * std::pow(reach, 3);
-  const uint32_t entries = (static_cast<uint32_t>(std::ceil(1.2 * ball)) + 3u) / 4u * 4u;
-  assert(entries < kUnlisted);
+  const uint32_t entries = (static_cast<uint32_t>(std::ceil(1.2 * ball)) + 3u) / 4u * 4u + (walls ? kSegmentRoom : 0);
+  assert(entries < kUnlisted && entries / 4 <= kMaxSegmentGroups);
   return entries;
 }
 
@@ -260,7 +265,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   p.reach = f(h + kListSkin * d);
   p.travelLimit = f(kTravel * d);
   setup.substepsPerBlock = substepsPerBlock(scene.solver);
-  p.listCapacity = scene.solver.neighbors == NeighborChoice::List ? listCapacity((h + kListSkin * d) / d) : 0u;
+  p.listCapacity = scene.solver.neighbors == NeighborChoice::List ? listCapacity((h + kListSkin * d) / d, hasWalls(scene)) : 0u;
   p.cfl = f(std::max(scene.solver.cfl, kMinCfl));
   if (scene.solver.cfl < kMinCfl)
     setup.warnings.push_back("solver.cfl: expected at least " + roundedNumber(kMinCfl) + ", found " +
@@ -272,7 +277,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   p.maxStep = f(scene.solver.time_step.value_or(1.0 / 60));
   p.particleMass = f(scene.fluid.density * d * d * d);
   p.farLimit = f(kFarSpacings * d);
-  p.nearLimit = f(wallReach(kernel) + (kTravel + 0.2) * d);
+  p.nearLimit = f(solidReach(kernel) + (kTravel + 0.2) * d);
   p.solidSpeed = f(fastestSolid(scene));
   p.vorticity = f(scene.fluid.vorticity);
   p.drag = f(scene.fluid.drag);
@@ -280,10 +285,11 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   p.fullNeighbors = static_cast<uint32_t>(0.8 * 4.0 / 3.0 * std::numbers::pi * std::pow(h / d, 3));
 
   setWalls(scene, origin, p);
-  setup.near = scene.domain.has_value() || !scene.solids.empty();
-  if (setup.near) addWallTables(kernel, setup);
-  for (int a = 0; a < 3 && scene.domain; ++a)
-    setup.thin |= scene.domain->max[a] - scene.domain->min[a] < 2 * wallReach(kernel) + scene.fluid.spacing;
+  setup.walls = hasWalls(scene);
+  setup.held = setup.walls || !scene.solids.empty();
+  // Where both walls of an axis can be within a support of the centers between them.
+  for (int a = 0; a < 3 && scene.domain; ++a) setup.thin |= scene.domain->max[a] - scene.domain->min[a] < 2 * h;
+  if (!scene.solids.empty()) addHalfSpaceTable(kernel, setup);
   addSolids(scene, kernel, origin, setup);
   p.solidCount = static_cast<uint32_t>(setup.solids.size());
   setViscosity(scene, kernel, setup);

@@ -29,7 +29,7 @@ struct DrivenSolid {
 struct FluidSetup {
   FluidParams params{};
   GridSize grid;
-  std::vector<float> tables;                             ///< wall and ball tables: value and slope, then those of the next entry
+  std::vector<float> tables;                             ///< half-space and ball tables: value and slope, then those of the next entry
   std::vector<SolidRecord> solids;                       ///< relative to the particles' origin, at time 0
   std::vector<float> keyframes;                          ///< KeyframeRecords
   std::vector<DrivenSolid> driven;                       ///< at the start; their keyframes follow from each advance
@@ -43,7 +43,8 @@ struct FluidSetup {
   StabilityLimits limits;
   double head = 0;                        ///< m^2/s^2, of the start's column
   double longestStep = 0, firstStep = 0;  ///< s, of the start
-  bool near = false;                      ///< walls or solids displace density
+  bool walls = false;                     ///< the domain has a wall
+  bool held = false;                      ///< walls or solids can hold the fluid up
   bool thin = false;                      ///< walls that face each other can both be near a particle
   bool movingSolids = false;
   bool mergesPasses = false;  ///< see FluidDesc::mergePasses
@@ -62,14 +63,18 @@ struct StartFigures {
 /// BadInput where the scene cannot run.
 Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& start);
 
+/// Whether a side of the domain is closed.
+bool hasWalls(const Scene& scene);
+
 /// Whether a scene's substeps start from the multipliers of the ones before.
 bool startsWarm(const Scene& scene);
 
 /// The dynamic viscosity that damps particle noise in a fluid at rest, Pa s; 0 without noise damping.
 double artificialViscosity(const Scene& scene);
 
-/// Entries that the list holds a particle, a multiple of 4: of the neighbors that a lattice compressed by a fifth puts within the reach.
-uint32_t listCapacity(double reachInSpacings);
+/// Entries that the list holds a particle, a multiple of 4: of the neighbors that a lattice compressed by a fifth puts within the reach,
+/// and where there are walls of what segments take.
+uint32_t listCapacity(double reachInSpacings, bool walls);
 
 constexpr uint32_t kListEntryBytes = 2;
 

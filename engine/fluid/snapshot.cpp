@@ -62,13 +62,22 @@ bool markNew(std::vector<bool>& seen, std::span<const uint32_t> entries) {
 }
 
 Expected<void> checkNear(const FluidSnapshot& s, const FluidSums& sums, const SnapshotShape& shape) {
-  if (s.nearWall.size() != sums.planeCount || s.nearCorner.size() != sums.cornerCount ||
-      (!shape.near && sums.planeCount + sums.cornerCount > 0))
-    return wrong("the lists of particles near walls have other lengths than their counts");
+  if (s.nearSolids.size() != sums.nearSolids || (shape.solidCount == 0 && sums.nearSolids > 0))
+    return wrong("the list of particles near solids has another length than its count");
   std::vector<bool> seen(s.id.size());
-  if (!markNew(seen, s.nearWall) || !markNew(seen, s.nearCorner))
-    return wrong("a list of particles near walls has an index that is out of range or appears twice");
+  if (!markNew(seen, s.nearSolids)) return wrong("the list of particles near solids has an index that is out of range or appears twice");
   return {};
+}
+
+/// The first neighbor names an image if any does; images come in order.
+bool imagesInOrder(std::span<const uint32_t> neighbors) {
+  uint32_t last = 0;
+  for (size_t k = 0; k < neighbors.size(); ++k) {
+    if (neighbors[k] < kImageOfNeighbors) continue;
+    if (k > 0 && (last == 0 || neighbors[k] <= last)) return false;
+    last = neighbors[k];
+  }
+  return true;
 }
 
 Expected<void> checkNeighbors(const FluidSnapshot& s, const FluidSums& sums, const SnapshotShape& shape) {
@@ -85,13 +94,16 @@ Expected<void> checkNeighbors(const FluidSnapshot& s, const FluidSums& sums, con
   }
   if (auto right = checkLength("neighbors", s.neighbors.size(), entries); !right) return right;
   if (lists && overflow != sums.overflow) return wrong("its number of overflowed neighbor lists is not that of its neighbor counts");
-  if (std::any_of(s.neighbors.begin(), s.neighbors.end(), [&](uint32_t j) { return j >= s.id.size(); }))
-    return wrong("a neighbor index is out of range");
+  const uint32_t images = shape.segments ? kSegmentImages : 0;
+  const auto outOfRange = [&](uint32_t j) { return j < kImageOfNeighbors ? j >= s.id.size() : j - kImageOfNeighbors >= images; };
+  if (std::ranges::any_of(s.neighbors, outOfRange)) return wrong("a neighbor index is out of range");
   uint64_t from = 0;
   for (uint32_t i = 0; i < s.neighborCount.size(); ++i) {
     const uint32_t n = s.neighborCount[i];
     if (n > shape.listCapacity) continue;
-    if (listEntries(i, std::span(s.neighbors).subspan(from, n)) > shape.listCapacity)
+    const auto neighbors = std::span(s.neighbors).subspan(from, n);
+    if (!imagesInOrder(neighbors)) return wrong("the images of a particle's neighbors are not in order");
+    if (listEntries(i, neighbors) > shape.listCapacity)
       return wrong("the neighbors of a particle take more entries than its list has; expected them in increasing order");
     from += n;
   }
@@ -119,7 +131,7 @@ SnapshotShape snapshotShape(const FluidSetup& setup) {
           setup.params.listCapacity,
           setup.grid.cells(),
           setup.params.initialPressureIterations,
-          setup.near,
+          setup.walls && !setup.thin,
           setup.movingSolids};
 }
 
@@ -131,11 +143,10 @@ void forgetNeighbors(FluidSnapshot& s) {
   control.listState = kListDue;
   // What the solve goes by is not put in a new order: the pressure found so far has to do.
   if (control.nextPhase == kPhaseInitialPressure) control.nextPhase = kPhaseAdvancing, control.phaseLeft = 0;
-  sums.planeCount = sums.cornerCount = 0;
+  sums.nearSolids = 0;
   s.control = wordsOf(control);
   s.sums = wordsOf(sums);
-  s.nearWall.clear();
-  s.nearCorner.clear();
+  s.nearSolids.clear();
   s.neighborCount.clear();
   s.neighbors.clear();
   s.cell.clear();

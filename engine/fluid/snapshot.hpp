@@ -16,9 +16,9 @@ struct SnapshotShape {
   uint32_t capacity = 0;  ///< particles at most
   uint32_t solidCount = 0;
   uint32_t listCapacity = 0;
-  uint64_t cells = 0;                       ///< of the grid
-  uint32_t initialPressureIterations = 0;   ///< FluidParams::initialPressureIterations
-  bool near = false, movingSolids = false;  ///< as in FluidSetup
+  uint64_t cells = 0;                      ///< of the grid
+  uint32_t initialPressureIterations = 0;  ///< FluidParams::initialPressureIterations
+  bool segments = false, movingSolids = false;
 };
 SnapshotShape snapshotShape(const FluidSetup& setup);
 

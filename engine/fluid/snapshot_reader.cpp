@@ -73,15 +73,11 @@ Expected<void> SnapshotReader::take(const Graph& graph) {
     read(bytes, n, s.*member);
   });
   if (saved) return {};
-  if (part == slotOf(FluidArray::NearPlane) || part == slotOf(FluidArray::NearCorner)) {
+  if (part == slotOf(FluidArray::NearSolids)) {
     FluidSums sums;
     std::memcpy(&sums, s.sums.data(), sizeof sums);
-    if (uint64_t{sums.planeCount} + sums.cornerCount > n)
-      return Error{ErrorKind::Failed, "reading the state back: its counts make no sense"};
-    if (part == slotOf(FluidArray::NearPlane))
-      s.nearWall = sorted(records<uint32_t>(bytes, sums.planeCount));
-    else
-      s.nearCorner = sorted(records<uint32_t>(bytes, sums.cornerCount));
+    if (sums.nearSolids > n) return Error{ErrorKind::Failed, "reading the state back: its counts make no sense"};
+    s.nearSolids = sorted(records<uint32_t>(bytes, sums.nearSolids));
   } else if (part == slotOf(FluidArray::ListHead)) {
     heads_ = records<uint32_t>(bytes, n);
     s.neighborCount.reserve(n);
@@ -119,10 +115,7 @@ void SnapshotReader::plan() {
   forEachSaved([&](const ArrayRow& row, auto) {
     if (row.length(shape) > 0) add(row.id);
   });
-  if (fluid_.setup.near) {
-    add(FluidArray::NearPlane);
-    add(FluidArray::NearCorner);
-  }
+  if (fluid_.setup.params.solidCount > 0) add(FluidArray::NearSolids);
   if (!hasNeighbors(snapshot_)) return;
   if (walksGrid(snapshot_)) add(FluidArray::Cell);
   if (snapshot_.listCapacity == 0) return;

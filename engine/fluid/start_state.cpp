@@ -110,10 +110,7 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
     else
       staging_->add(slotOf(row.id), array.data(), array.size() * sizeof array[0]);
   });
-  if (setup.near) {
-    staging_->add(slotOf(FluidArray::NearPlane), s.nearWall.data(), s.nearWall.size() * 4);
-    staging_->add(slotOf(FluidArray::NearCorner), s.nearCorner.data(), s.nearCorner.size() * 4);
-  }
+  if (setup.params.solidCount > 0) staging_->add(slotOf(FluidArray::NearSolids), s.nearSolids.data(), s.nearSolids.size() * 4);
   if (rowOf(FluidArray::ListHead).length(shape) > 0) {
     std::vector<uint32_t> heads = layOutHeads(s);
     const uint64_t bytes = heads.size() * 4;

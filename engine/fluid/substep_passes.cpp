@@ -1,4 +1,4 @@
-// The passes of one substep: walls, density, correction, contact, and the forces that a scene has. See docs/method.md.
+// The passes of one substep: density, correction, contact, and the forces that a scene has. See docs/method.md.
 #include "fluid/fluid_impl.hpp"
 
 namespace rill {
@@ -15,7 +15,7 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
     alias(Particle, Work);
     if (iteration > 0) declare(graph, FluidPass::Iterate, start, push);
     alias(Place, Prediction);
-    declare(graph, FluidPass::Walls, start);
+    declare(graph, FluidPass::DisplaceDensity, start);
     alias(Particle, Prediction);
     declare(graph, FluidPass::Density, start, DensityPush{0, 0, iteration, parity, first});
     declare(graph, FluidPass::Control, Start::Always, ControlPush{iteration, parity, first});

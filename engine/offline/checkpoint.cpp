@@ -24,7 +24,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers are copied without byte swapping");
 
 constexpr std::string_view kMagic = "RILLCKPT";
-constexpr uint32_t kFormat = 8;
+constexpr uint32_t kFormat = 9;
 constexpr uint64_t kHeaderBytes = 24, kTableEntryBytes = 16, kChecksumBytes = 8;
 
 /// Calls visit(section name, array) for the arrays of the state in the order of the file.
@@ -34,8 +34,7 @@ void forEachArray(Snapshot& s, Visit&& visit) {
   visit("sums", s.sums);
   visit("solids", s.solids);
   forEachSaved([&](const ArrayRow& row, auto member) { visit(row.savedName, s.*member); });
-  visit("nearwall", s.nearWall);
-  visit("nearcorn", s.nearCorner);
+  visit("nearsol", s.nearSolids);
   visit("nbrcount", s.neighborCount);
   visit("nbrs", s.neighbors);
   visit("cell", s.cell);

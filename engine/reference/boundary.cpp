@@ -1,4 +1,4 @@
-// Walls and solids: density contribution, collisions, contact.
+// Walls and solids: images, density contribution, collisions, contact.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -7,6 +7,24 @@
 #include "shared/fluid_records.h"
 
 namespace rill::reference {
+namespace {
+
+/// How much of a solid's image counts, which has the particle at `at`: of a solid that reaches through a wall the part behind it counts
+/// itself, so that its image fades within a spacing.
+double shareOfImage(const Shape& shape, const Pose& pose, const glm::dvec3& at, const Walls& walls, double spacing) {
+  const glm::dvec3 reach = vec(sceneExtents(shape, pose));
+  double share = 1;
+  for (int a = 0; a < 3; ++a) {
+    const double center = pose.center[static_cast<size_t>(a)];
+    const double through = at[a] < walls.lo[a]   ? walls.lo[a] - (center - reach[a])
+                           : at[a] > walls.hi[a] ? center + reach[a] - walls.hi[a]
+                                                 : 0;
+    share *= 1 - std::clamp(through / spacing, 0.0, 1.0);
+  }
+  return share;
+}
+
+}  // namespace
 
 std::vector<Pose> ReferenceSolver::poses(double t, double dt) const {
   std::vector<Pose> all;
@@ -18,26 +36,45 @@ std::vector<Pose> ReferenceSolver::poses(double t, double dt) const {
   return all;
 }
 
-WallSample ReferenceSolver::boundaryAt(const glm::dvec3& x, double t) const { return boundaryOf(x, poses(t, 0)); }
+SolidSample ReferenceSolver::boundaryAt(const glm::dvec3& x, double t) const { return boundaryOf(x, poses(t, 0)); }
 
-WallSample ReferenceSolver::boundaryOf(const glm::dvec3& x, std::span<const Pose> solids) const {
-  Double3 lo, hi;
-  for (int a = 0; a < 3; ++a) lo[a] = x[a] - settings.lo[a], hi[a] = settings.hi[a] - x[a];
-  WallSample sum = settings.tabulated ? tables_.sample(lo, hi) : exactWall(kernel_, lo, hi);
-  for (size_t n = 0; n < solids.size(); ++n) {
-    const Shape& shape = settings.solids[n].shape;
-    const Double3 local = localPoint(solids[n], {x.x, x.y, x.z});
-    const WallSample own = settings.tabulated ? solidSample(tables_, sphereTables_[n], shape, local) : solidSample(kernel_, shape, local);
-    const Double3 gradient = toScene(solids[n], own.gradient);
-    sum.value += own.value;
-    for (size_t a = 0; a < 3; ++a) sum.gradient[a] += gradient[a];
-    sum.cover(own.value, gradient);
+SolidSample ReferenceSolver::boundaryOf(const glm::dvec3& x, std::span<const Pose> solids) const {
+  SolidSample sum;
+  if (solids.empty()) return sum;
+  std::vector<Image> images = imagesNear(x, walls_, kernel_.h());
+  images.insert(images.begin(), Image{});
+  for (const Image& image : images) {
+    const glm::dvec3 at = image.of(x);
+    for (size_t n = 0; n < solids.size(); ++n) {
+      const Shape& shape = settings.solids[n].shape;
+      const Double3 local = localPoint(solids[n], {at.x, at.y, at.z});
+      const SolidSample own =
+          settings.tabulated ? solidSample(halfSpace_, sphereTables_[n], shape, local) : solidSample(kernel_, shape, local);
+      const double share = shareOfImage(shape, solids[n], at, walls_, settings.spacing);
+      const glm::dvec3 gradient = share * image.sign * vec(toScene(solids[n], own.gradient));
+      sum.value += share * own.value;
+      for (int a = 0; a < 3; ++a) sum.gradient[static_cast<size_t>(a)] += gradient[a];
+      sum.cover(share * own.value, {gradient.x, gradient.y, gradient.z});
+    }
   }
   return sum;
 }
 
+void ReferenceSolver::addImages(uint32_t i, std::span<const uint32_t> neighbors) {
+  const glm::dvec3 x = state.predicted[i];
+  for (const Image& image : imagesNear(x, walls_, kernel_.h())) {
+    const auto add = [&](uint32_t j) {
+      const glm::dvec3 r = image.sign * (image.of(x) - state.predicted[j]);
+      const double length = glm::length(r);
+      if (length < kernel_.h()) pairs_.push_back({j, image.sign, kernel_.value(length), kernel_.gradientOverR(length) * r, {}});
+    };
+    add(i);
+    for (const uint32_t j : neighbors) add(j);
+  }
+}
+
 glm::dmat3 ReferenceSolver::tangentialScale(size_t i) const {
-  const WallScale s = wallScale(boundary_[i]);
+  const SolidScale s = solidScale(boundary_[i]);
   return {s.diagonal[0], s.mixed[2], s.mixed[1], s.mixed[2], s.diagonal[1], s.mixed[0], s.mixed[1], s.mixed[0], s.diagonal[2]};
 }
 

@@ -39,8 +39,10 @@ ReferenceSolver::ReferenceSolver(const ReferenceSettings& s, std::span<const glm
   gain_ = wallPosition_ = std::vector<glm::dvec3>(count, glm::dvec3(0));
   for (const glm::dvec3& v : state.velocity)
     if (finite(v)) fastest_ = std::max(fastest_, glm::length(v));
+  walls_ = {settings.lo, settings.hi, settings.spacing / 2};
+  for (int a = 0; a < 3; ++a) walls_.margin = std::min(walls_.margin, (settings.hi[a] - settings.lo[a]) / 2);
   if (settings.tabulated) {
-    tables_ = makeWallTables(kernel_);
+    halfSpace_ = makeHalfSpaceTable(kernel_);
     const Overloaded tableFor{[&](const SphereShape& sphere) { return makeSphereTable(kernel_, sphere.radius); },
                               [](const BoxShape&) { return SphereTable{}; }};
     for (const Solid& solid : settings.solids) sphereTables_.push_back(std::visit(tableFor, solid.shape));
@@ -112,7 +114,7 @@ void ReferenceSolver::updateRestFactor() {
 ReferenceSolver::Pair ReferenceSolver::makePair(uint32_t i, uint32_t j) const {
   const glm::dvec3 r = state.predicted[i] - state.predicted[j];
   const double length = glm::length(r), h = kernel_.h();
-  Pair pair{j, kernel_.value(length), {}, {}};
+  Pair pair{.j = j, .value = kernel_.value(length)};
   if (length >= kCoincidentDistance * h) {
     pair.gradient = kernel_.gradientOverR(length) * r;
   } else {
@@ -126,7 +128,8 @@ ReferenceSolver::Pair ReferenceSolver::makePair(uint32_t i, uint32_t j) const {
 void ReferenceSolver::density() {
   const Neighbors found = findNeighbors(state.predicted, kernel_.h());
   const std::vector<Pose> solids = poses(time_, step_);
-  first_ = found.first;
+  first_.assign(1, 0);
+  neighborCount_.resize(size());
   pairs_.clear();
   densityRatio_.resize(size());
   denominator_.resize(size());
@@ -136,11 +139,14 @@ void ReferenceSolver::density() {
     boundary_[i] = boundaryOf(state.predicted[i], solids);
     double ratio = kernel_.value(0) + boundary_[i].value, squares = 0;
     glm::dvec3 sum = vec(boundary_[i].gradient);
-    for (const uint32_t j : found.of(i)) {
-      pairs_.push_back(makePair(i, j));
-      ratio += pairs_.back().value;
-      sum += pairs_.back().gradient;
-      squares += glm::dot(pairs_.back().gradient, pairs_.back().gradient);
+    for (const uint32_t j : found.of(i)) pairs_.push_back(makePair(i, j));
+    neighborCount_[i] = static_cast<uint32_t>(found.of(i).size());
+    addImages(i, found.of(i));
+    first_.push_back(static_cast<uint32_t>(pairs_.size()));
+    for (const Pair& pair : pairs(i)) {
+      ratio += pair.value;
+      sum += pair.gradient;
+      squares += glm::dot(pair.gradient, pair.gradient);
     }
     densityRatio_[i] = ratio;
     const glm::dmat3 scale = tangentialScale(i);
@@ -229,7 +235,7 @@ void ReferenceSolver::dampNoise(double dt) {
 void ReferenceSolver::applyXsph(double coefficient) {
   const std::vector<glm::dvec3> v = state.velocity;
   for (size_t i = 0; i < size(); ++i)
-    for (const Pair& pair : pairs(i)) state.velocity[i] += coefficient * pair.value * (v[pair.j] - v[i]);
+    for (const Pair& pair : pairs(i)) state.velocity[i] += coefficient * pair.value * (pair.sign * v[pair.j] - v[i]);
 }
 
 void ReferenceSolver::vorticity(double dt) {
@@ -237,13 +243,13 @@ void ReferenceSolver::vorticity(double dt) {
   const double h = kernel_.h();
   for (size_t i = 0; i < size(); ++i) {
     curl_[i] = glm::dvec3(0);
-    for (const Pair& pair : pairs(i)) curl_[i] += glm::cross(pair.gradient, v[pair.j] - v[i]);
+    for (const Pair& pair : neighbors(i)) curl_[i] += glm::cross(pair.gradient, v[pair.j] - v[i]);
   }
   for (size_t i = 0; i < size(); ++i) {
     const double strength = glm::length(curl_[i]);
     if (strength <= 0) continue;
     glm::dvec3 eta(0);
-    for (const Pair& pair : pairs(i)) eta += (glm::length(curl_[pair.j]) - strength) * pair.gradient;
+    for (const Pair& pair : neighbors(i)) eta += (glm::length(curl_[pair.j]) - strength) * pair.gradient;
     const glm::dvec3 toward = eta / (glm::length(eta) + 0.001 * strength / h);
     state.velocity[i] += dt * settings.vorticity * h * strength * glm::cross(toward, curl_[i]);
   }

@@ -2,8 +2,9 @@
 // Reference implementation of Position Based Fluids (Macklin and Mueller 2013) with walls, solids and an integral warm start, in double
 // precision on one thread. It documents the method and is the oracle of the shaders' tests; readability comes before speed.
 //
-// A substep of dt. Notation: K = d^3 W as in sph/kernel.hpp, G_ij = grad_i K(x*_i - x*_j), B_i = density contribution of walls and
-// solids, grad B_i its gradient, a_i = tangential scale, a symmetric matrix: wallScale() in sph/wall.hpp.
+// A substep of dt. Notation: K = d^3 W as in sph/kernel.hpp, G_ij = grad_i K(x*_i - x*_j); sums over j are over neighbors and, but for
+// vorticity, over their images behind walls and the particle's own (reference/images.hpp), which move as in a mirror; B_i = density
+// contribution of solids, grad B_i its gradient, a_i = tangential scale, a symmetric matrix: solidScale() in sph/solid_scale.hpp.
 //   density       rho_i/rho0 = K(0) + sum_j K_ij + B_i,   C_i = rho_i/rho0 - 1,
 //                 D_i = g . a_i g + tr(a_i) / 3 sum_j |G_ij|^2 + eps D_rest with g = sum_j G_ij + grad B_i
 //   multipliers   delta_i = -omega C_i / D_i,   lambda_i = min(0, lambda_i + delta_i), initially w_i; its change is dlambda_i.
@@ -24,12 +25,14 @@
 #include <span>
 #include <vector>
 
+#include "reference/images.hpp"
 #include "rill/scene.hpp"
 #include "shape/pose.hpp"
 #include "sph/artificial_pressure.hpp"
+#include "sph/half_space.hpp"
 #include "sph/kernel.hpp"
 #include "sph/solid_density.hpp"
-#include "sph/wall.hpp"
+#include "sph/solid_scale.hpp"
 
 namespace rill::reference {
 
@@ -57,7 +60,7 @@ struct ReferenceSettings {
   glm::dvec3 hi = glm::dvec3(std::numeric_limits<double>::infinity());   ///< m, walls; infinity: open
   glm::dvec3 origin = {0, 0, 0};                                         ///< m, origin of the positions in scene coordinates
   std::vector<Solid> solids;  ///< in scene coordinates; should not overlap each other or walls, since densities add up
-  bool tabulated = false;     ///< use the shaders' tables for walls and solids instead of lattice sums
+  bool tabulated = false;     ///< use the shaders' tables for solids instead of lattice sums
 
   int iterations = 1;         ///< Jacobi iterations per substep, >= 1
   double relaxation = 0.5;    ///< omega in motion, > 0 .. 2
@@ -88,9 +91,10 @@ struct ReferenceSettings {
 
 class ReferenceSolver {
  public:
-  /// A neighbor j of particle i in the last density evaluation.
+  /// A neighbor j of particle i in the last density evaluation, or its image behind a wall (of i itself, too).
   struct Pair {
     uint32_t j = 0;
+    glm::dvec3 sign = {1, 1, 1};      ///< of the image: -1 along the normals of the walls that it is behind
     double value = 0;                 ///< K_ij
     glm::dvec3 gradient = {0, 0, 0};  ///< G_ij, 1/m
     glm::dvec3 apart = {0, 0, 0};     ///< unit direction from j to i of a coincident pair; else 0
@@ -143,14 +147,16 @@ class ReferenceSolver {
   double mass() const;                             ///< of a particle: rho0 d^3, kg
   uint64_t inactive() const { return inactive_; }  ///< number of deactivations of non-finite particles
 
+  /// Neighbors of particle i, then images.
   std::span<const Pair> pairs(size_t i) const { return std::span(pairs_).subspan(first_[i], first_[i + 1] - first_[i]); }
+  std::span<const Pair> neighbors(size_t i) const { return pairs(i).first(neighborCount_[i]); }
   std::span<const double> densityRatio() const { return densityRatio_; }  ///< rho/rho0
   std::span<const double> lambda() const { return lambda_; }              ///< m^2, <= 0
   std::span<const double> lambdaChange() const { return lambdaChange_; }  ///< dlambda, m^2
   std::span<const glm::dvec3> curl() const { return curl_; }              ///< of v, 1/s, of the last vorticity()
 
   /// B and grad B at a point, with solids at time `t` (s).
-  WallSample boundaryAt(const glm::dvec3& x, double t) const;
+  SolidSample boundaryAt(const glm::dvec3& x, double t) const;
   /// s_corr (eq. 13) of a pair with kernel value `value`, m^2, <= 0; `push` as in correction(). See sph/artificial_pressure.hpp.
   double artificialPressureTerm(double value, double push) const;
   /// Coefficient c of XSPH for a substep, dimensionless: 2 mu dt / (rho0 sigma^2).
@@ -160,9 +166,10 @@ class ReferenceSolver {
   glm::dvec3 collide(glm::dvec3 x, std::span<const Pose> poses) const;
   glm::dvec3 contact(size_t i, glm::dvec3 v, double dt, std::span<const Pose> poses) const;
   std::vector<Pose> poses(double t, double dt) const;
-  WallSample boundaryOf(const glm::dvec3& x, std::span<const Pose> poses) const;
+  SolidSample boundaryOf(const glm::dvec3& x, std::span<const Pose> poses) const;
   glm::dmat3 tangentialScale(size_t i) const;  ///< a_i
   Pair makePair(uint32_t i, uint32_t j) const;
+  void addImages(uint32_t i, std::span<const uint32_t> neighbors);
   void predictPositions(double dt, bool atRest);
   void deactivate(size_t i);
   void updateRestFactor();
@@ -170,16 +177,17 @@ class ReferenceSolver {
 
   SmoothingKernel kernel_;
   ArtificialPressure artificial_;
-  WallTables tables_;
+  Walls walls_;
+  HalfSpaceTable halfSpace_;
   std::vector<SphereTable> sphereTables_;  ///< one per solid; empty for boxes
   double time_ = 0;
   double step_ = 0;                 ///< s; state.predicted is at time_ + step_
   double initialPressureStep_ = 0;  ///< s, `dt` of solveInitialPressure(); 0: not called
   uint64_t inactive_ = 0;
-  std::vector<uint32_t> first_;
+  std::vector<uint32_t> first_, neighborCount_;
   std::vector<Pair> pairs_;
   std::vector<double> densityRatio_, denominator_, delta_, lambda_, lambdaChange_;
-  std::vector<WallSample> boundary_;
+  std::vector<SolidSample> boundary_;
   std::vector<glm::dvec3> curl_;
   double blockTime_ = 0;                  ///< s, since the first substep of the last block
   int substeps_ = 0;                      ///< since the start

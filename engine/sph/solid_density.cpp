@@ -44,7 +44,7 @@ double ballOverHalfSpace(const SmoothingKernel& kernel, double R, double s) {
 }
 
 template <class HalfSpace>
-WallSample boxOf(const HalfSpace& halfSpaceAt, const Double3& local, const Double3& half) {
+SolidSample boxOf(const HalfSpace& halfSpaceAt, const Double3& local, const Double3& half) {
   LineSample slab[3];
   for (size_t a = 0; a < 3; ++a) {
     const double x = std::abs(local[a]);
@@ -53,21 +53,21 @@ WallSample boxOf(const HalfSpace& halfSpaceAt, const Double3& local, const Doubl
     slab[a].value = std::clamp(front.value - back.value, 0.0, 1.0);
     slab[a].slope = (local[a] < 0 ? -1 : 1) * (front.slope - back.slope);
   }
-  WallSample sum;
+  SolidSample sum;
   sum.value = slab[0].value * slab[1].value * slab[2].value;
   for (size_t a = 0; a < 3; ++a) sum.gradient[a] = slab[a].slope * slab[(a + 1) % 3].value * slab[(a + 2) % 3].value;
   return sum;
 }
 
 /// A function of the distance from a sphere, as a sample.
-WallSample radial(const LineSample& along, const SurfacePoint& surface) {
-  WallSample sum{.value = along.value};
+SolidSample radial(const LineSample& along, const SurfacePoint& surface) {
+  SolidSample sum{.value = along.value};
   for (size_t a = 0; a < 3; ++a) sum.gradient[a] = along.slope * surface.normal[a];
   return sum;
 }
 
 template <class Sphere, class Box>
-WallSample sampleOf(const Shape& shape, const Double3& local, const Sphere& sphereAt, const Box& boxAt) {
+SolidSample sampleOf(const Shape& shape, const Double3& local, const Sphere& sphereAt, const Box& boxAt) {
   return std::visit(Overloaded{[&](const SphereShape& sphere) {
                                  const SurfacePoint surface = surfaceAt(sphere, local);
                                  return radial(sphereAt(sphere.radius, surface.distance), surface);
@@ -79,7 +79,7 @@ WallSample sampleOf(const Shape& shape, const Double3& local, const Sphere& sphe
 }  // namespace
 
 LineSample exactSphere(const SmoothingKernel& kernel, double R, double s) {
-  if (s >= wallReach(kernel)) return {};
+  if (s >= solidReach(kernel)) return {};
   // The distance has a kink at the center: clamp just outside of it.
   const double at = std::max(s, -R * (1 - 1e-6)), step = 1e-5 * std::min(R, kernel.spacing());
   const LineSample f = halfSpace(kernel, at);
@@ -92,7 +92,7 @@ LineSample exactSphere(const SmoothingKernel& kernel, double R, double s) {
 SphereTable makeSphereTable(const SmoothingKernel& kernel, double R) {
   SphereTable t;
   t.step = kernel.spacing() / 16;
-  const double reach = wallReach(kernel) * (1 - 1e-9);
+  const double reach = solidReach(kernel) * (1 - 1e-9);
   t.first = -t.step * std::floor(std::min(R, reach) / t.step);
   t.nodes = static_cast<uint32_t>(std::ceil((reach - t.first) / t.step - 1e-6)) + 2;
   for (uint32_t i = 0; i < t.nodes; ++i) {
@@ -112,26 +112,25 @@ LineSample SphereTable::sample(double s) const {
   return {n[0] * (1 - t) + n[2] * t, n[1] * (1 - t) + n[3] * t};
 }
 
-WallSample boxSample(const SmoothingKernel& kernel, const Double3& local, const Double3& half) {
+SolidSample boxSample(const SmoothingKernel& kernel, const Double3& local, const Double3& half) {
   for (size_t a = 0; a < 3; ++a)
-    if (std::abs(local[a]) - half[a] >= wallReach(kernel)) return {};
+    if (std::abs(local[a]) - half[a] >= solidReach(kernel)) return {};
   return boxOf([&](double s) { return halfSpace(kernel, s); }, local, half);
 }
 
-WallSample boxSample(const WallTables& tables, const Double3& local, const Double3& half) {
-  return boxOf([&](double s) { return tables.sampleFace(s); }, local, half);
+SolidSample boxSample(const HalfSpaceTable& table, const Double3& local, const Double3& half) {
+  return boxOf([&](double s) { return table.sample(s); }, local, half);
 }
 
-WallSample solidSample(const SmoothingKernel& kernel, const Shape& shape, const Double3& local) {
+SolidSample solidSample(const SmoothingKernel& kernel, const Shape& shape, const Double3& local) {
   return sampleOf(
       shape, local, [&](double radius, double s) { return exactSphere(kernel, radius, s); },
       [&](const Double3& half) { return boxSample(kernel, local, half); });
 }
 
-WallSample solidSample(const WallTables& tables, const SphereTable& sphere, const Shape& shape, const Double3& local) {
+SolidSample solidSample(const HalfSpaceTable& table, const SphereTable& sphere, const Shape& shape, const Double3& local) {
   return sampleOf(
-      shape, local, [&](double, double s) { return sphere.sample(s); },
-      [&](const Double3& half) { return boxSample(tables, local, half); });
+      shape, local, [&](double, double s) { return sphere.sample(s); }, [&](const Double3& half) { return boxSample(table, local, half); });
 }
 
 }  // namespace rill

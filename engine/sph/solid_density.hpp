@@ -1,10 +1,11 @@
 #pragma once
-// Density contribution of spheres and boxes, built from that of a half-space, F in wall.hpp.
+// Density contribution of spheres and boxes, built from that of a half-space, F in half_space.hpp.
 #include <cstdint>
 #include <vector>
 
 #include "shape/shape.hpp"
-#include "sph/wall.hpp"
+#include "sph/half_space.hpp"
+#include "sph/solid_scale.hpp"
 
 namespace rill {
 
@@ -33,17 +34,17 @@ SphereTable makeSphereTable(const SmoothingKernel& kernel, double R);
 /// Density contribution of a box centered on 0 with half extents `half` (m) at `local` (m), both in the frame of the box: the product
 /// over the axes of the contribution of a slab,
 ///   P_a = clamp(F(|x_a| - half_a) - F(|x_a| + half_a), 0, 1),  dP_a/dx_a = sign(x_a) (F'(|x_a| - half_a) - F'(|x_a| + half_a)).
-/// Faces of thick and wide boxes equal the plane wall from d/2 on. The gradient is in the frame of the box; `wallCoverage` is 0, since it
+/// Faces of thick and wide boxes equal the plane wall from d/2 on. The gradient is in the frame of the box; `coverage` is 0, since it
 /// refers to the axes of the scene.
-WallSample boxSample(const SmoothingKernel& kernel, const Double3& local, const Double3& half);
+SolidSample boxSample(const SmoothingKernel& kernel, const Double3& local, const Double3& half);
 
-/// The same with F from the tables, as in the shaders.
-WallSample boxSample(const WallTables& tables, const Double3& local, const Double3& half);
+/// The same with F from the table, as in the shaders.
+SolidSample boxSample(const HalfSpaceTable& table, const Double3& local, const Double3& half);
 
-/// Density contribution of a shape at `local`; gradient and `local` are in its frame, `wallCoverage` is 0.
-WallSample solidSample(const SmoothingKernel& kernel, const Shape& shape, const Double3& local);
+/// Density contribution of a shape at `local`; gradient and `local` are in its frame, `coverage` is 0.
+SolidSample solidSample(const SmoothingKernel& kernel, const Shape& shape, const Double3& local);
 
 /// The same from the tables. `sphere`: of its radius, if the shape is a sphere.
-WallSample solidSample(const WallTables& tables, const SphereTable& sphere, const Shape& shape, const Double3& local);
+SolidSample solidSample(const HalfSpaceTable& table, const SphereTable& sphere, const Shape& shape, const Double3& local);
 
 }  // namespace rill

@@ -9,10 +9,11 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "fluid/uniforms.glsl"
+#include "fluid/images.glsl"
 #include "fluid/cluster.glsl"
 #include "shared/pose.glsl"
 #include "shared/shape.glsl"
-#include "fluid/wall_samples.glsl"
+#include "shared/arrays.glsl"
 #include "shared/loops.glsl"
 #include "shared/number.glsl"
 #include "shared/pair_hash.h"
@@ -33,27 +34,21 @@ layout(std430, binding = 11) writeonly buffer PredictionBlock { vec4 prediction[
 layout(std430, binding = 12) writeonly buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 13) writeonly buffer WarmBlock { float warm[]; };
 layout(std430, binding = 14) writeonly buffer IdBlock { uint id[]; };
-layout(std430, binding = 15) writeonly buffer NearPlaneBlock { uint nearPlane[]; };
-layout(std430, binding = 16) writeonly buffer NearCornerBlock { uint nearCorner[]; };
-layout(std430, binding = 17) readonly buffer SolidBlock { SolidRecord solids[]; };
+layout(std430, binding = 15) writeonly buffer NearSolidsBlock { uint nearSolids[]; };
+layout(std430, binding = 16) readonly buffer SolidBlock { SolidRecord solids[]; };
 
 const uint kNone = 0xffffffffu;
 
-// Lists the particle among those near one wall, or among those near several walls or a solid; whether it is.
+// Lists the particle among those near solids; whether it is.
 bool listNear(uint i, vec3 x) {
-  vec3 low = x - vec3(params.lowX, params.lowY, params.lowZ);
-  vec3 high = vec3(params.highX, params.highY, params.highZ) - x;
-  uvec3 sides = uvec3(lessThan(low, vec3(params.nearLimit))) + uvec3(lessThan(high, vec3(params.nearLimit)));
-  uint walls = sides.x + sides.y + sides.z;
   bool solid = false;
   for (uint s = 0u; s < params.solidCount; ++s) {
     vec3 normal;
     if (surfaceDistance(solids[s].shape, localPoint(solids[s].pose, x), normal) < params.nearLimit) solid = true;
   }
-  if (!isActive(x)) return false;
-  if (solid || walls > 1u) nearCorner[atomicAdd(sums.cornerCount, 1u)] = i;
-  else if (walls == 1u) nearPlane[atomicAdd(sums.planeCount, 1u)] = i;
-  return solid || walls > 0u;
+  if (!isActive(x) || !solid) return false;
+  nearSolids[atomicAdd(sums.nearSolids, 1u)] = i;
+  return true;
 }
 
 uint self;
@@ -63,27 +58,56 @@ uvec2 held;
 uint holds = 0u;
 uint stored = 0u;  // entries
 uint at;
-uint headDistance;  // see the list head
-uint last = kNone;  // the neighbor that was listed last
+uint headDistance = 0u;  // see the list head
+uint last = kNone;       // the neighbor that was listed last
+bool begun = false;      // a neighbor has set headDistance
 
 void hold(uint k, uint entry) {
   held[k / 2u] = k % 2u == 0u ? entry : held[k / 2u] | entry << 16;
   holds = k + 1u;
 }
 
+// The segment in progress: where it begins, and its first group, whose first entry is known at its end.
+uint segmentAt, segmentBegin = 0u;
+uvec2 segmentHeld;
+
 void store() {
   if (stored < LIST_CAPACITY) list[at] = held;
+  if (stored == segmentBegin) segmentHeld = held;
   at += kListBlock;
   stored += holds;
   holds = 0u;
 }
 
+// Fills the last group.
+void padAndStore() {
+  for (uint k = 1u; k < 4u; ++k)
+    if (holds == k) hold(k, kLongStep);
+  if (holds == 4u) store();
+}
+
+void beginSegment() {
+  segmentAt = at;
+  segmentBegin = stored;
+  hold(0u, kLongStep);
+  last = kNone;
+}
+
+void endSegment(uint image) {
+  if (last == kNone) holds = 0u;  // without neighbors there is none
+  padAndStore();
+  uint groups = (stored - segmentBegin) / 4u;
+  uint entry = kLongStep | image << kSegmentGroupBits | groups;
+  if (groups > 0u && stored <= LIST_CAPACITY) list[segmentAt] = uvec2((segmentHeld.x & 0xffff0000u) | entry, segmentHeld.y);
+}
+
 // Goes on to a neighbor near enough to `j` for one step to it.
 void approach(uint j) {
-  if (last == kNone) {
+  if (!begun) {
     headDistance = min(self - min(self, j), kMaxHeadDistance);
-    last = self - headDistance;
+    begun = true;
   }
+  if (last == kNone) last = self - headDistance;
   if (j - last < kLongStep) return;
   uint far = uint(int(j - last) >> kLongStepShift), next = holds;
   for (uint k = 0u; k < 4u; ++k)
@@ -107,6 +131,8 @@ void listNeighbors(uint base, uint mask) {
   } LOOP_END(mask != 0u);
 }
 
+bool listable = true;  // a list can hold the neighbors
+uint image = 0u;  // behind walls, whose neighbors come next; 0: the particle
 vec3 place, here;
 uint coincident = kNone;
 float reachSquared = params.reach * params.reach;
@@ -130,10 +156,10 @@ void candidates(uint first, uint end) {
     base += CLUSTER;
   } LOOP_END(ANY_LANE(base < end));
   if (end - first < kWindow) mask &= (1u << (end - first)) - 1u;
-  if (self - first < kWindow) mask &= ~(1u << (self - first));
-  coincidents &= mask;
+  if (image == 0u && self - first < kWindow) mask &= ~(1u << (self - first));
+  coincidents &= image == 0u ? mask : 0u;
   if (coincidents != 0u) coincident = first + findMSB(coincidents);
-  if (LIST_CAPACITY != 0u) listNeighbors(first, mask);
+  if (LIST_CAPACITY != 0u) listNeighbors(first, listable ? mask : 0u);
 }
 #include "fluid/walk.glsl"
 
@@ -150,19 +176,27 @@ void main() {
   self = i;
   vec3 scaled = scaledPosition(x);
   addToColumns(inRange, x);
-  walkGrid(scaled, scaled, inRange && isActive(x), params.reach);
+  Images images = imagesNear(x, params.reach);
+  bool more = inRange && isActive(x), nearWall = more && images.near != uvec3(1u);
+  listable = !(THIN && nearWall);  // a segment cannot name the images of thin domains: the particle walks the grid
+  bool segments = LIST_CAPACITY != 0u && listable && nearWall;
+  LOOP_WHILE (subgroupAny(more)) {
+    vec3 signs;
+    image = nextImage(images);
+    place = image == 0u ? x : imageOf(image, x, signs);
+    if (segments && more) beginSegment();
+    walkGrid(scaled, scaled, more, params.reach);
+    if (segments && more) endSegment(image);
+    more = segments && advance(images) && more;
+  } LOOP_END(subgroupAny(more));
   if (!inRange) return;
   cell[i] = cellKey(cellOf(x));
   uint head = 0u;
   if (LIST_CAPACITY != 0u) {
     uint all = stored + holds;
-    if (holds != 0u) {
-      for (uint k = 1u; k < 4u; ++k)
-        if (holds == k) hold(k, kLongStep);
-      store();
-    }
-    bool fits = all <= LIST_CAPACITY;
-    head = (fits ? all : kUnlisted) | (last == kNone ? 0u : headDistance << kHeadDistanceShift);
+    padAndStore();
+    bool fits = listable && all <= LIST_CAPACITY;
+    head = (fits ? all : kUnlisted) | (segments ? kSegmentsBit : 0u) | headDistance << kHeadDistanceShift;
     if (!fits) atomicAdd(sums.overflow, 1u);
   }
 
@@ -181,6 +215,6 @@ void main() {
   velocity[i] = vec4(moving.xyz, 1.0);
   if (WARM) warm[i] = moving.w;
   id[i] = own;
-  if (NEAR && listNear(i, x)) head |= kNearWallsBit;
-  if (LIST_CAPACITY != 0u || NEAR) listHead[i] = head;
+  if (SOLIDS && listNear(i, x)) head |= kNearSolidsBit;
+  if (LIST_CAPACITY != 0u || SOLIDS) listHead[i] = head;
 }

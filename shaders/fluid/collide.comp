@@ -4,13 +4,13 @@
 // displaced density and the projection gave, so that friction feels the weight of the column above.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
-#include "fluid/wall_samples.glsl"
+#include "fluid/solid_samples.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(std430, binding = 2) buffer PositionBlock { vec4 position[]; };
 layout(std430, binding = 3) buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 4) buffer PredictionBlock { vec4 prediction[]; };
 layout(std430, binding = 5) readonly buffer WarmAccelerationBlock { vec4 warmAcceleration[]; };
-layout(std430, binding = 6) readonly buffer NearCornerBlock { uint nearCorner[]; };
+layout(std430, binding = 6) readonly buffer NearSolidsBlock { uint nearSolids[]; };
 layout(std430, binding = 7) readonly buffer SumsBlock { FluidSums sums; };
 layout(std430, binding = 8) readonly buffer SolidBlock { SolidRecord solids[]; };
 #include "fluid/outside.glsl"
@@ -28,8 +28,8 @@ void predict(uint i, vec3 x, vec3 v) {
 
 void main() {
   uint n = flatInvocation();
-  if (n >= sums.cornerCount) return;
-  uint i = nearCorner[n];
+  if (n >= sums.nearSolids) return;
+  uint i = nearSolids[n];
   vec3 from = position[i].xyz;
   if (!isActive(from)) return;
   float pushed;

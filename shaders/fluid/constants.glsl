@@ -5,13 +5,13 @@ layout(constant_id = 0) const uint KERNEL = 0;         // 0: Wendland C2; 1: pol
 layout(constant_id = 1) const uint CLUSTER = 8;        // particles that walk the grid together: 4, 8, 16 or 32, at most a subgroup
 layout(constant_id = 2) const uint LIST_CAPACITY = 0;  // entries a particle of the neighbor list; 0: no list
 layout(constant_id = 3) const bool WALKS = false;      // the variant that can walk the grid, for particles whose list overflowed
-layout(constant_id = 4) const bool NEAR = false;       // walls or solids displace density
+layout(constant_id = 4) const bool WALLS = false;      // the domain has a wall
 layout(constant_id = 5) const bool WARM = true;        // multipliers and accelerations of the warm start are kept
 layout(constant_id = 6) const bool ITERATED = false;   // more than one iteration a substep
 layout(constant_id = 7) const bool SOLIDS = false;     // there are solids
 layout(constant_id = 8) const bool FORCES = false;     // viscosity or another force changes velocities in every substep
 layout(constant_id = 9) const bool ARTIFICIAL_PRESSURE = false;  // in the first substep of a block
-layout(constant_id = 10) const bool CORNER = false;    // over the particles near several walls or a solid; else near one wall, or all
+layout(constant_id = 10) const bool NEAR_SOLIDS = false;  // over the particles near solids; else over all
 layout(constant_id = 11) const bool THIN = true;       // opposite walls can both be near a particle
 layout(constant_id = 12) const bool REBUILDS = false;  // the list is built after the sort
 #define LIST_OVERSIZED_ID 13

@@ -12,7 +12,7 @@
 #include "fluid/arrays.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
-#include "fluid/wall_samples.glsl"
+#include "fluid/solid_samples.glsl"
 layout(local_size_x = kFluidGroup) in;
 
 layout(push_constant) uniform Push { ChunkPush push; };
@@ -51,6 +51,11 @@ void visit(uvec4 particle) {
   correction += both.x * gradient;
   if (WARM) warmDisplacement += both.y * gradient;
 }
+void reflectSums(vec3 signs) {
+  correction *= signs;
+  warmDisplacement *= signs;
+}
+#define IMAGES
 #include "fluid/neighbors.glsl"
 
 // Displacement from the start of the substep to its prediction. Computed from the velocity where
@@ -67,11 +72,11 @@ vec3 predictedDisplacement(vec3 from, vec3 velocity, vec3 acceleration) {
 float endSubstep(uint i, uint head) {
   correction *= unit * params.gradientScale;
   warmDisplacement *= unit * params.gradientScale;
-  if (NEAR) {
-    vec3 wall = unit * displacedAt(i, head).xyz;
-    WallScale walls = wallScaleAt(i, head);  // see docs/notes/walls-and-solids.md
-    correction = atWalls(walls, SOLIDS, correction, own.x * wall);
-    warmDisplacement = atWalls(walls, SOLIDS, warmDisplacement, own.y * wall);
+  if (SOLIDS) {
+    vec3 displaced = unit * displacedAt(i, head).xyz;
+    SolidScale scale = solidScaleAt(i, head);  // see docs/notes/walls-and-solids.md
+    correction = scaled(scale, correction) + own.x * displaced;
+    warmDisplacement = scaled(scale, warmDisplacement) + own.y * displaced;
   }
 
   vec3 from = position[i].xyz, before = velocity[i].xyz;

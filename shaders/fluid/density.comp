@@ -12,7 +12,7 @@
 #include "fluid/arrays.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
-#include "fluid/wall_samples.glsl"
+#include "fluid/solid_samples.glsl"
 layout(local_size_x = kFluidGroup) in;
 
 layout(push_constant) uniform Push { DensityPush push; };
@@ -41,6 +41,8 @@ void visit(vec4 particle) {
   gradientSum += gradient * r;
   gradientSquares += gradient * gradient * squared;
 }
+void reflectSums(vec3 signs) { gradientSum *= signs; }
+#define IMAGES
 #include "fluid/neighbors.glsl"
 
 // Compression of the particle, from 0 to 1; its multiplier is updated.
@@ -48,16 +50,16 @@ float updateMultiplier(uint i, uint head) {
   rho = params.valueScale * (rho + kernelShape(0.0));
   gradientSum *= params.gradientScale;
   gradientSquares *= params.gradientScale * params.gradientScale;
-  WallScale walls = kNoWalls;
-  if (NEAR) {
+  SolidScale solids = kNoSolids;
+  if (SOLIDS) {
     vec4 displaced = displacedAt(i, head);
     gradientSum += displaced.xyz;
     rho += displaced.w;
-    walls = wallScaleAt(i, head);
+    solids = solidScaleAt(i, head);
   }
 
   float constraint = isActive(here) ? rho - 1.0 : -1.0;  // inactive particles coincide; exclude them from the error
-  float stiffness = stiffnessAtWalls(walls, gradientSum, gradientSquares, params.regularization);
+  float stiffness = stiffnessAtSolids(solids, gradientSum, gradientSquares, params.regularization);
   bool first = push.iteration == 0u;
   float delta = -(first ? control.nextRelaxation : control.relaxation) * constraint / max(stiffness, 1.0e-20);
 

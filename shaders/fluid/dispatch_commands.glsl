@@ -24,7 +24,7 @@ bool someWalk(uint overflow) { return params.listCapacity == 0u || overflow > 0u
 // is over and started by, as engine/fluid/dispatch_commands.hpp packs them; `commands` is what the device
 // dispatches. Of the commands, every `lanes`-th from `lane` on.
 void switchCommands(uint on, uint lane, uint lanes) {
-  uint count = control.count, several = sums.cornerCount, one = sums.planeCount;
+  uint count = control.count;
   bool walks = someWalk(sums.overflow);
   for (uint k = lane; k < params.commandCount; k += lanes) {
     uvec3 shape = uvec3(shapes[3u * k], shapes[3u * k + 1u], shapes[3u * k + 2u]);
@@ -34,9 +34,7 @@ void switchCommands(uint on, uint lane, uint lanes) {
       case kOverChunk: groups = groupsFor(min(count, params.chunkParticles), shape.x); break;
       case kOverLists: groups = groupsFor(walks ? 0u : min(count, params.chunkParticles), shape.x); break;
       case kOverGrid: groups = groupsFor(walks ? min(count, params.chunkParticles) : 0u, shape.x); break;
-      case kOverPlane: groups = groupsFor(one, shape.x); break;
-      case kOverCorner: groups = groupsFor(several, shape.x); break;
-      case kOverNear: groups = groupsFor(divideUp(several, shape.x) * shape.x + one, shape.x); break;
+      case kOverNearSolids: groups = groupsFor(sums.nearSolids, shape.x); break;
     }
     if ((on >> (shape.z >> 4u) & 1u) == 0u) groups = uvec3(0u);
     commands[3u * k] = groups.x;

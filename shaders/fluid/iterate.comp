@@ -9,7 +9,7 @@
 #include "fluid/arrays.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
-#include "fluid/wall_samples.glsl"
+#include "fluid/solid_samples.glsl"
 layout(local_size_x = kFluidGroup) in;
 
 layout(push_constant) uniform Push { ChunkPush push; };
@@ -29,6 +29,8 @@ void visit(uvec4 particle) {
   vec3 r = here - uintBitsToFloat(particle.xyz);
   moved += (own + multiplier(particle)) * gradientShape(sqrt(dot(r, r))) * r;
 }
+void reflectSums(vec3 signs) { moved *= signs; }
+#define IMAGES
 #include "fluid/neighbors.glsl"
 
 void main() {
@@ -43,6 +45,6 @@ void main() {
   visitNeighbors(i, head, local, inRange);
   if (!inRange) return;
   moved *= unit * params.gradientScale;
-  if (NEAR) moved = atWalls(wallScaleAt(i, head), SOLIDS, moved, unit * own * displacedAt(i, head).xyz);
+  if (SOLIDS) moved = scaled(solidScaleAt(i, head), moved) + unit * own * displacedAt(i, head).xyz;
   prediction[i] = vec4(insideWalls(here + moved), prediction[i].w);
 }

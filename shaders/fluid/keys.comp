@@ -17,8 +17,7 @@ layout(std430, binding = 4) buffer SumsBlock { FluidSums sums; };
 void main() {
   uint i = flatInvocation();
   if (REBUILDS && i == 0u) {
-    sums.planeCount = 0u;
-    sums.cornerCount = 0u;
+    sums.nearSolids = 0u;
     sums.overflow = 0u;
     sums.columnCountX = sums.columnCountY = sums.columnCountZ = 0u;
     sums.columnLowX = sums.columnLowY = sums.columnLowZ = 0xffffffffu;

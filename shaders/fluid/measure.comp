@@ -1,5 +1,5 @@
 #version 460
-// Density at the positions of the present instant (walls included), and histograms of its error for
+// Density at the positions of the present instant (images and solids included), and histograms of its error for
 // the percentiles. Walks a grid of its own, made of the positions: no neighbor that the solver's
 // list has missed is missed here.
 #extension GL_GOOGLE_include_directive : require
@@ -9,7 +9,8 @@
 #include "fluid/uniforms.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
-#include "fluid/wall_samples.glsl"
+#include "fluid/images.glsl"
+#include "fluid/solid_samples.glsl"
 #include "shared/loops.glsl"
 #include "shared/number.glsl"
 layout(local_size_x = kFluidGroup) in;
@@ -23,7 +24,7 @@ READ_UINT(8, listHead)
 
 vec3 here;
 float rho = 0.0;
-uint inside = 0u;
+uint within = 0u;  // particles, and images, nearer than the support
 float support = params.support;
 
 vec3 place;
@@ -36,7 +37,7 @@ void candidates(uint first, uint end) {
       vec3 r = here - SPREAD(candidate, lane);
       float distance = sqrt(dot(r, r));
       rho += kernelShape(distance);
-      inside += uint(distance < support);
+      within += uint(distance < support);
     }
     base += CLUSTER;
   } LOOP_END(ANY_LANE(base < end));
@@ -54,11 +55,21 @@ void main() {
   inRange = inRange && isActive(particle.xyz);
   place = particle.xyz;
   vec3 scaled = scaledPosition(place);
-  walkGrid(scaled, scaled, inRange, support);
+  uint inside = 0u;  // neighbors alone
+  Images images = imagesNear(particle.xyz, support);
+  bool more = inRange;
+  LOOP_WHILE (subgroupAny(more)) {
+    uint n = nextImage(images);
+    vec3 signs;
+    place = n == 0u ? particle.xyz : imageOf(n, particle.xyz, signs);
+    walkGrid(scaled, scaled, more, support);
+    if (n == 0u) inside = within;
+    more = advance(images) && more;
+  } LOOP_END(subgroupAny(more));
   if (!inRange) return;
   uint i = numberFromFloat(particle.w);
   rho *= params.valueScale;
-  if (NEAR) rho += displacedAt(i, listHeadAt(i)).w;
+  if (SOLIDS) rho += displacedAt(i, listHeadAt(i)).w;
   velocity[i].w = rho;
   float error = rho - 1.0;
   if (error > 0.0) atomicAdd(histogram[binOf(error)], 1u);

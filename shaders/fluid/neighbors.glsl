@@ -4,10 +4,12 @@
 // includes this the shader includes fluid/arrays.glsl, defines `vec3 here`, the particle's place,
 // and `void visit(PARTICLE particle)`, and binds at 2 the array whose elements are handed over; with
 // COMPANION(j) defined, `void visit(PARTICLE particle, vec4 companion)`. Particles beyond the support
-// and dummies are visited too.
+// and dummies are visited too. With IMAGES defined, also the images of the particle and its neighbors
+// behind walls (fluid/images.glsl), for which the shader defines `void reflectSums(vec3 signs)`.
 #ifndef RILL_NEIGHBORS_GLSL
 #define RILL_NEIGHBORS_GLSL
 #include "shared/loops.glsl"
+#include "fluid/images.glsl"
 
 READ_UINT(6, cellStart)
 #ifdef MERGED
@@ -60,20 +62,36 @@ uint nextNeighbor(inout uint j, uint entry) {
 
 // The list head of particle i; of none if it is not `inRange`.
 uint headOf(uint i, bool inRange) {
-  return (LIST_CAPACITY != 0u || NEAR) && inRange ? listHeadAt(i) : 0u;
+  return (LIST_CAPACITY != 0u || SOLIDS) && inRange ? listHeadAt(i) : 0u;
 }
 
-// Visits the neighbors of particle i, if `inRange`, at invocation `local` of its chunk. All lanes
-// of a cluster call this.
-void visitNeighbors(uint i, uint head, uint local, bool inRange) {
+#ifndef IMAGES
+void reflectSums(vec3 signs) {}
+#endif
+
+// Visits the particles of the list of particle i, at invocation `local` of its chunk.
+void visitListed(uint i, uint head, uint local) {
   uint count = head & kUnlisted;
-  bool listed = LIST_CAPACITY != 0u && count != kUnlisted;
-  if (LIST_CAPACITY != 0u) {
-    uint at = (local / kListBlock) * (kListBlock * (LIST_CAPACITY / 4u)) + local % kListBlock;
-    uint groups = listed ? (count + 3u) / 4u : 0u;
-    uint j = i - (head >> kHeadDistanceShift);
-    uint k = 0u;
-    LOOP_WHILE (k < groups) {
+  uint at = (local / kListBlock) * (kListBlock * (LIST_CAPACITY / 4u)) + local % kListBlock;
+  uint groups = count == kUnlisted ? 0u : (count + 3u) / 4u;
+  uint first = i - (head >> kHeadDistanceShift);
+  uint k = 0u;
+  vec3 from = here;
+  LOOP_WHILE (k < groups) {
+    uint end = groups, j = first;
+    vec3 signs = vec3(1.0);
+    if (WALLS && (head & kSegmentsBit) != 0u) {
+      uint segment = listAt(at).x & 0xfffu, image = segment >> kSegmentGroupBits;
+      end = k + max(segment & kMaxSegmentGroups, 1u);
+#ifdef IMAGES
+      here = imageOf(image, from, signs);
+#else
+      if (image != 0u) groups = end = k;
+#endif
+      j -= uint(int(segment << 20) >> (20 - kLongStepShift));  // the segment's first entry is read as a step, too
+    }
+    reflectSums(signs);
+    LOOP_WHILE (k < end) {
       uvec2 entries = listAt(at);
       uint x = nextNeighbor(j, entries.x & 0xffffu), y = nextNeighbor(j, entries.x >> 16);
       uint z = nextNeighbor(j, entries.y & 0xffffu), w = nextNeighbor(j, entries.y >> 16);
@@ -84,14 +102,39 @@ void visitNeighbors(uint i, uint head, uint local, bool inRange) {
       VISIT(w, atW);
       at += kListBlock;
       ++k;
-    } LOOP_END(k < groups);
-  }
-  if (!WALKS) return;
-  bool walks = inRange && !listed && isActive(here);
-  vec3 home = cellFromKey(cellAt(inRange ? i : 0u));
-  place = here;
-  self = i;
-  walkGrid(home, home + 1.0, walks, params.reach);
-  here = place;
+    } LOOP_END(k < end);
+    reflectSums(signs);
+  } LOOP_END(k < groups);
+  here = from;
+}
+
+// Visits what is around the cells that particle i was sorted by, if it `walks`. All lanes of a cluster call this.
+void visitAround(uint i, bool walks) {
+  vec3 home = cellFromKey(cellAt(walks ? i : 0u)), from = here;
+  Images images = imagesNear(from, params.support);
+  bool more = walks;
+  LOOP_WHILE (subgroupAny(more)) {
+    uint n = nextImage(images);
+    vec3 signs = vec3(1.0);
+    place = n == 0u ? from : imageOf(n, from, signs);
+    self = n == 0u ? i : 0xffffffffu;
+    reflectSums(signs);
+    walkGrid(home, home + 1.0, more, params.reach);
+    reflectSums(signs);
+#ifdef IMAGES
+    more = advance(images) && more;
+#else
+    more = false;
+#endif
+  } LOOP_END(subgroupAny(more));
+  here = from;
+}
+
+// Visits the neighbors of particle i, if `inRange`, at invocation `local` of its chunk; with IMAGES theirs
+// and its own images, too. All lanes of a cluster call this.
+void visitNeighbors(uint i, uint head, uint local, bool inRange) {
+  bool listed = LIST_CAPACITY != 0u && (head & kUnlisted) != kUnlisted;
+  if (LIST_CAPACITY != 0u) visitListed(i, head, local);
+  if (WALKS) visitAround(i, inRange && !listed && isActive(here));
 }
 #endif

@@ -1,7 +1,7 @@
 #version 460
 // The prediction x* = x + dt (v + dt (g + a)), a the warm start's acceleration; w: m that solids pushed it
 // out. Runs where the correction could not make it: for an advance's first substep, whose step was not
-// known, and after forces that changed velocities. CORNER: for the particles that solids may push alone.
+// known, and after forces that changed velocities. NEAR_SOLIDS: for the particles that solids may push alone.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "shared/arrays.glsl"
@@ -10,15 +10,15 @@ READ_FLOAT4(3, velocity)
 READ_FLOAT4(4, warmAcceleration)
 layout(std430, binding = 5) writeonly buffer PredictionBlock { vec4 prediction[]; };
 layout(std430, binding = 6) readonly buffer SolidBlock { SolidRecord solids[]; };
-layout(std430, binding = 7) readonly buffer NearCornerBlock { uint nearCorner[]; };
+layout(std430, binding = 7) readonly buffer NearSolidsBlock { uint nearSolids[]; };
 layout(std430, binding = 8) readonly buffer SumsBlock { FluidSums sums; };
 #include "fluid/outside.glsl"
 layout(local_size_x = kFluidGroup) in;
 
 void main() {
   uint i = flatInvocation();
-  if (i >= (CORNER ? sums.cornerCount : control.count)) return;
-  if (CORNER) i = nearCorner[i];
+  if (i >= (NEAR_SOLIDS ? sums.nearSolids : control.count)) return;
+  if (NEAR_SOLIDS) i = nearSolids[i];
   vec3 x = positionAt(i).xyz;
   vec3 next = predicted(x, velocityAt(i).xyz, keptWarmAcceleration(warmAccelerationAt(i)));
   float pushed = 0.0;

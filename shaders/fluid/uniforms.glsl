@@ -12,11 +12,13 @@ layout(std430, binding = 1) buffer ControlBlock { FluidControl control; };
 layout(binding = 1) uniform ControlBlock { FluidControl control; };
 #endif
 
+vec3 wallsLow() { return vec3(params.lowX, params.lowY, params.lowZ); }
+vec3 wallsHigh() { return vec3(params.highX, params.highY, params.highZ); }
+
 // Keeps a center half a spacing off the domain's walls. NaN and inactive particles are returned unchanged.
 vec3 insideWalls(vec3 x) {
   if (!isActive(x) || !isWithin(x, 3.0e38)) return x;
-  vec3 low = vec3(params.lowX, params.lowY, params.lowZ) + params.margin;
-  vec3 high = vec3(params.highX, params.highY, params.highZ) - params.margin;
+  vec3 low = wallsLow() + params.margin, high = wallsHigh() - params.margin;
   return vec3(x.x < low.x ? low.x : (x.x > high.x ? high.x : x.x),
               x.y < low.y ? low.y : (x.y > high.y ? high.y : x.y),
               x.z < low.z ? low.z : (x.z > high.z ? high.z : x.z));

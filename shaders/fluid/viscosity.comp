@@ -25,6 +25,11 @@ void visit(vec4 particle, vec4 companion) {
   vec3 r = here - particle.xyz;
   change += kernelShape(sqrt(dot(r, r))) * (companion.xyz - own.xyz);
 }
+void reflectSums(vec3 signs) {  // images move as in a mirror
+  change *= signs;
+  own.xyz *= signs;
+}
+#define IMAGES
 #include "fluid/neighbors.glsl"
 
 void main() {

@@ -33,12 +33,13 @@ void rowRange(float low, float high, vec2 row, vec4 gaps, float reach, uint side
   end = cellStartAt(base + min(uint(part == 0u ? past : past - gridSize.x), size));
 }
 
+uint walked = 0u;  // candidates, in all walks of the invocation
+
 // `boxLow` to `boxHigh`: a box in one cell, in cells, that held the lane's particle when the cells
 // were sorted; `waits`: whether the lane still has to visit its neighbors. `reach` (m): at most a
 // cell's edge in y.
 void walkGrid(vec3 boxLow, vec3 boxHigh, bool waits, float reach) {
   vec2 cell = floor(boxLow.yz);
-  uint walked = 0u;
   uint leader = clusterMin(waits ? clusterLane : CLUSTER), turn = 0u;
   LOOP_WHILE (ANY_LANE(leader < CLUSTER) && turn < CLUSTER) {
     vec2 row = SPREAD(cell, leader & (CLUSTER - 1u));

@@ -16,9 +16,9 @@ RILL_CONST float kMotionShare = 0.5f;
 // about seven.
 RILL_CONST float kErrorSubsteps = 10.0f;
 RILL_CONST float kMaxNoiseDamping = 0.5f;     // XSPH coefficient of a noise damping pass, at most
-// share of the kernel behind walls that the tangential scale makes up for, at most. See
+// share of the kernel inside solids that the tangential scale makes up for, at most. See
 // docs/notes/walls-and-solids.md
-RILL_CONST float kMaxWallCoverage = 0.4f;
+RILL_CONST float kMaxSolidCoverage = 0.4f;
 RILL_CONST uint kWindow = 32u;            // candidates that a grid walk looks at together, a bit of a mask each
 // Candidates that the particles of a cluster look at together, at most, in whole windows; more are
 // counted as a bound hit. Lavapipe ends a shader after 65,535 steps of its loops: a window takes
@@ -50,9 +50,7 @@ RILL_CONST uint kOverParticles = 1u;       // all particles
 RILL_CONST uint kOverChunk = 2u;           // those of a buffer of the neighbor list
 RILL_CONST uint kOverLists = 3u;           // the same, of the variant that reads lists alone: no list overflowed
 RILL_CONST uint kOverGrid = 4u;            // the same, of the variant that walks the grid: a list overflowed, or the fluid has no list
-RILL_CONST uint kOverPlane = 5u;           // the particles near one wall
-RILL_CONST uint kOverCorner = 6u;          // those near several walls or a solid
-RILL_CONST uint kOverNear = 7u;            // the latter, and in workgroups of their own the former
+RILL_CONST uint kOverNearSolids = 5u;      // the particles near solids
 RILL_CONST uint kMaxCommands = 64u;
 RILL_CONST uint kTicketWord = 3u * kMaxCommands;  // behind the commands: invocations of a density pass that have finished
 
@@ -91,13 +89,8 @@ struct FluidParams {
   float margin;           // m, how near a center may come to a wall or a solid: half a spacing
   uint gridSizeX, gridSizeY, gridSizeZ;  // cells a dimension
   float inverseCell;      // 1/m, in y and z
-  float tableStep;        // m between nodes of the plane and edge tables
-  float cornerStep;       // and of the corner table
-  uint tableNodes;        // nodes an axis
-  uint cornerNodes;
-  uint tableOffset2;      // entries into the table buffer
-  uint tableOffset3;
-  uint tableOffsetFace;
+  float tableStep;        // m between nodes of the tables
+  uint tableNodes;        // of the half-space's table, which comes first
   float viscosityRate;    // XSPH coefficient a second of step, 1/s
   float noiseDampingRate;      // the same, of the noise's damping in a fluid at rest
   float vorticity;        // dimensionless
@@ -112,7 +105,7 @@ struct FluidParams {
   float particleMass;     // kg
   uint gravityChanges;    // entries of the schedule
   float farLimit;         // m from the origin beyond which a particle becomes inactive
-  float nearLimit;        // m from a wall or a solid's surface within which a particle is listed as near
+  float nearLimit;        // m from a solid's surface within which a particle is listed as near
   float solidSpeed;       // m/s, the fastest solid that keyframes move
   float minSpeedGain, maxSpeedGain;  // m/s: what a correction may add to a speed in a substep is held between them
   float speedLimit;       // m/s, of any particle
@@ -186,8 +179,7 @@ struct FluidSums {
   uint nonFinite;            // particles that became inactive since the start
   uint overflow;             // particles with more entries than the list holds, at the last build
   uint boundHits;            // loops cut at their bound since the start
-  uint planeCount;           // particles near one wall, at the last build
-  uint cornerCount;          // particles near several walls or a solid, at the last build
+  uint nearSolids;           // particles near a solid, at the last build
   // of the active particles inside the domain, at the last build: how many, and of their places
   // above its lower bounds, in spacings over kColumnUnits, the least, the largest and the 64-bit sum
   uint columnCountX, columnCountY, columnCountZ;

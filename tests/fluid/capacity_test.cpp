@@ -85,6 +85,8 @@ TEST_F(CapacityTest, FillsPartOfSeveralLists) {
     };
     const FluidSnapshot one = after(1);
     EXPECT_GT(one.neighbors.size(), 100 * t.x.size());
+    const Expected<void> fits = checkSnapshot(one, snapshotShape(implOf(start(t)->fluid()).setup));
+    EXPECT_TRUE(fits) << fits.error().message;
     t.capacity = 16000;
     const SmallBuffers small(*this, uint64_t{8} << 20);
     EXPECT_TRUE(after(2) == one);

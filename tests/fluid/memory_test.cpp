@@ -74,8 +74,7 @@ TEST_F(CountedMemory, DisabledFeaturesHaveNoBuffer) {
     return bytes;
   };
   const auto expectOff = [&](std::string_view name) { EXPECT_LE(bytesOf(name), 64u) << name; };  // a binding must be something
-  for (const char* name : {"iteration multipliers", "density that walls displace", "tangential scales at walls", "particles near one wall",
-                           "particles near corners"})
+  for (const char* name : {"iteration multipliers", "density that solids displace", "tangential scales at solids", "particles near solids"})
     expectOff(name);
   for (const char* name : {"warm-start accelerations", "warm-start multipliers", "list heads", "neighbor list"})
     EXPECT_GE(bytesOf(name), 4000u) << name;

@@ -55,7 +55,7 @@ TEST_F(PassRunsTest, CountsPassesThatMayBeEmpty) {
   EXPECT_EQ(ran.at("sort/"), p.listBuilds + 1u);
   for (const char* each : {"correct", "collide", "predict after forces", "predict at solids", "viscosity", "curl", "confine"})
     EXPECT_EQ(ran.at(each), p.substeps) << each;
-  for (const char* each : {"density", "walls and solids"}) EXPECT_EQ(ran.at(each), p.iterations) << each;
+  for (const char* each : {"density", "density of solids"}) EXPECT_EQ(ran.at(each), p.iterations) << each;
   EXPECT_EQ(ran.at("iterate"), p.iterations - p.substeps);
   EXPECT_EQ(ran.count("move solids"), 0u) << "no solid moves";
 }

@@ -57,7 +57,7 @@ class SnapshotTest : public FluidTest {
     EXPECT_EQ(a.solids, b.solids);
     EXPECT_TRUE(a.position == b.position && a.velocity == b.velocity && a.warmAcceleration == b.warmAcceleration &&
                 a.warmStart == b.warmStart && a.id == b.id);
-    EXPECT_TRUE(a.nearWall == b.nearWall && a.nearCorner == b.nearCorner);
+    EXPECT_TRUE(a.nearSolids == b.nearSolids);
     EXPECT_TRUE(a.neighborCount == b.neighborCount && a.neighbors == b.neighbors && a.cell == b.cell);
     EXPECT_EQ(a, b) << "a member that is not compared above";
   }

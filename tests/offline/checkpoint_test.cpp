@@ -73,8 +73,11 @@ TEST(CheckpointFile, DistinguishesForeignAndNewerFiles) {
 // The checksum is valid, so that the lengths themselves are checked.
 TEST(CheckpointFile, RejectsInvalidLengths) {
   const auto whole = offline::encodeCheckpoint(seedCheckpoint());
+  uint32_t sections = 0;
+  std::memcpy(&sections, whole.data() + 12, 4);
+  ASSERT_GT(sections, 10u);
   for (uint64_t wrong : {uint64_t{1}, uint64_t{1} << 40, ~uint64_t{0}, ~uint64_t{7}, uint64_t{1} << 63}) {
-    for (size_t row = 0; row < 14; ++row) {
+    for (size_t row = 0; row < sections; ++row) {
       auto bytes = whole;
       std::memcpy(bytes.data() + 24 + 16 * row + 8, &wrong, 8);
       seal(bytes);
@@ -84,7 +87,7 @@ TEST(CheckpointFile, RejectsInvalidLengths) {
     std::memcpy(bytes.data() + 16, &wrong, 8);  // of the whole file
     EXPECT_NE(decodeError(bytes), "");
     bytes = whole;
-    std::memcpy(bytes.data() + 24 + 16 * 14, &wrong, 8);  // of the first text
+    std::memcpy(bytes.data() + 24 + 16 * sections, &wrong, 8);  // of the first text
     seal(bytes);
     EXPECT_NE(decodeError(bytes).find("is corrupted"), std::string::npos) << wrong;
   }
@@ -149,6 +152,14 @@ TEST_F(SnapshotCheck, AcceptsSparseIdsAndFewerParticlesThanCapacity) {
   }
 }
 
+TEST_F(SnapshotCheck, RejectsImagesWhereThereAreNoSegments) {
+  s.neighbors[3] = kImageOfNeighbors;
+  EXPECT_TRUE(checkSnapshot(s, seedShape()));
+  SnapshotShape without = seedShape();
+  without.segments = false;
+  EXPECT_FALSE(checkSnapshot(s, without));
+}
+
 TEST_F(SnapshotCheck, RejectsMoreParticlesThanCapacity) {
   SnapshotShape smaller = seedShape();
   smaller.capacity = 5;
@@ -163,14 +174,21 @@ TEST_F(SnapshotCheck, RejectsInvalidIndices) {
   expectRejected("an id appears twice");
   s.id[1] = kMaxIds;
   expectRejected("its largest id is 2130706432; expected less than 2130706432");
-  s.nearCorner.push_back(0);
-  expectRejected("near walls");
-  s.nearWall[0] = 1000;
-  expectRejected("near walls");
-  s.nearCorner[0] = s.nearWall[0];
-  expectRejected("near walls");
+  s.nearSolids.push_back(0);
+  expectRejected("near solids");
+  s.nearSolids[0] = 1000;
+  expectRejected("near solids");
+  s.nearSolids[1] = s.nearSolids[0];
+  expectRejected("near solids");
   s.neighbors[0] = static_cast<uint32_t>(s.id.size());
   expectRejected("a neighbor index is out of range");
+  s.neighbors[0] = kImageOfNeighbors + kSegmentImages;
+  expectRejected("a neighbor index is out of range");
+  s.neighbors[4] = kImageOfNeighbors + 1;  // of a particle whose list begins without an image
+  expectRejected("images of a particle's neighbors are not in order");
+  s.neighbors[3] = kImageOfNeighbors + 2;
+  s.neighbors[4] = kImageOfNeighbors + 1;
+  expectRejected("images of a particle's neighbors are not in order");
   s.neighbors.pop_back();
   expectRejected("neighbors has");
   std::swap(s.neighbors[3], s.neighbors[6]);  // 5 before 0: a step back takes an entry of its own
@@ -202,8 +220,8 @@ TEST_F(SnapshotCheck, RejectsInvalidIndices) {
   expectRejected("control block");
   s.control.clear();
   expectRejected("control has 0 entries");
-  s.sums[offsetof(FluidSums, planeCount) / 4] = 5;
-  expectRejected("near walls");
+  s.sums[offsetof(FluidSums, nearSolids) / 4] = 5;
+  expectRejected("near solids");
   s.warmAcceleration.pop_back();
   expectRejected("warmacc has");
   s.solids.push_back(0);
@@ -259,6 +277,28 @@ TEST(SnapshotNeighborList, ReachesDistantNeighbors) {
   std::vector<uint32_t> list(12 * kListBlock / 2);
   layOutList(s, 0, 4, list);
   gatherList(back, 0, 4, layOutHeads(s), list);
+  EXPECT_EQ(back, s);
+}
+
+// Near walls a list is made of segments, each with an image of the neighbors.
+TEST(SnapshotNeighborList, RoundTripsImages) {
+  constexpr uint32_t kImage = kImageOfNeighbors;
+  FluidSnapshot s;
+  s.listCapacity = 24;
+  s.id.resize(5);
+  s.neighborCount = {8, 4, 0, 2, 25};
+  s.neighbors = {kImage, 1, 2, 3, 4, kImage + 1, 0, 3, kImage + 3, 1, kImage + 26, 0, 0, 1};
+  FluidSnapshot back = s;
+  back.neighbors.clear();
+  back.neighborCount.clear();
+  EXPECT_EQ(listEntries(0, std::span(s.neighbors).first(8)), 8u + 4u) << "whole groups";
+  const std::vector<uint32_t> heads = layOutHeads(s);
+  EXPECT_TRUE(heads[0] & kSegmentsBit);
+  EXPECT_FALSE(heads[3] & kSegmentsBit);
+  std::vector<uint32_t> list(24 * kListBlock / 2, 0xdead);
+  layOutList(s, 0, 5, list);
+  EXPECT_EQ(list[0] & 0xFFFF, kLongStep | 2u) << "image 0, two groups";
+  gatherList(back, 0, 5, heads, list);
   EXPECT_EQ(back, s);
 }
 

@@ -65,28 +65,28 @@ TEST(Boundary, SolidCoversDirectionsAlongItsSurface) {
   const auto at = [](const Solid& solid, const glm::dvec3& x) {
     return ReferenceSolver(over(solid), std::vector<glm::dvec3>{x}).boundaryAt(x, 0);
   };
-  const WallSample floor = at(plate(0, 0), {0, kSpacing / 2, 0});
+  const SolidSample floor = at(plate(0, 0), {0, kSpacing / 2, 0});
   EXPECT_GT(floor.value, 0.1);
-  EXPECT_NEAR(floor.wallCoverage[0], floor.value, 1e-12);
-  EXPECT_NEAR(floor.wallCoverage[1], 0, 1e-12);
-  EXPECT_NEAR(floor.wallCoverage[2], floor.value, 1e-12);
+  EXPECT_NEAR(floor.coverage[0], floor.value, 1e-12);
+  EXPECT_NEAR(floor.coverage[1], 0, 1e-12);
+  EXPECT_NEAR(floor.coverage[2], floor.value, 1e-12);
   Solid turned = plate(0, 0);  // by 45 degrees: the face x + y = 7.07 m covers x and y by one half
   turned.shape = BoxShape{{-5, -5, -5}, {5, 5, 5}};
   turned.rotation[2] = std::sin(std::numbers::pi / 8);
   turned.rotation[3] = std::cos(std::numbers::pi / 8);
   const double out = (5 + kSpacing / 2) / std::numbers::sqrt2;
-  const WallSample slope = at(turned, {out, out, 0});
+  const SolidSample slope = at(turned, {out, out, 0});
   EXPECT_NEAR(slope.value, floor.value, 1e-6);
-  EXPECT_NEAR(slope.wallCoverage[0], slope.value / 2, 1e-6);
-  EXPECT_NEAR(slope.wallCoverage[1], slope.value / 2, 1e-6);
-  EXPECT_NEAR(slope.wallCoverage[2], slope.value, 1e-6);
-  EXPECT_NEAR(slope.wallCoverageMixed[2], -slope.value / 2, 1e-6);
-  EXPECT_NEAR(slope.wallCoverageMixed[0], 0, 1e-12);
+  EXPECT_NEAR(slope.coverage[0], slope.value / 2, 1e-6);
+  EXPECT_NEAR(slope.coverage[1], slope.value / 2, 1e-6);
+  EXPECT_NEAR(slope.coverage[2], slope.value, 1e-6);
+  EXPECT_NEAR(slope.coverageMixed[2], -slope.value / 2, 1e-6);
+  EXPECT_NEAR(slope.coverageMixed[0], 0, 1e-12);
   Solid ball;
   ball.shape = SphereShape{{0, 0, 0}, 4 * kSpacing};
-  const WallSample pole = at(ball, {0, 0, 4.5 * kSpacing});
-  EXPECT_NEAR(pole.wallCoverage[0], pole.value, 1e-12);
-  EXPECT_NEAR(pole.wallCoverage[2], 0, 1e-12);
+  const SolidSample pole = at(ball, {0, 0, 4.5 * kSpacing});
+  EXPECT_NEAR(pole.coverage[0], pole.value, 1e-12);
+  EXPECT_NEAR(pole.coverage[2], 0, 1e-12);
 }
 
 TEST(Boundary, OpenSideLetsParticlesLeave) {

@@ -23,7 +23,7 @@ class SolidTest : public testing::TestWithParam<std::tuple<KernelChoice, double>
 TEST_P(SolidTest, LargeSphereMatchesWall) {
   const SmoothingKernel k = kernel();
   for (int i = 0; i <= 20; ++i) {
-    const double s = kSolidSpacing / 2 + (wallReach(k) - kSolidSpacing / 2) * i / 20;
+    const double s = kSolidSpacing / 2 + (solidReach(k) - kSolidSpacing / 2) * i / 20;
     const LineSample plane = exactPlane(k, s), ball = exactSphere(k, 1e5 * kSolidSpacing, s);
     EXPECT_NEAR(ball.value, plane.value, 1e-4);
     EXPECT_NEAR(ball.slope * kSolidSpacing, plane.slope * kSolidSpacing, 1e-4);
@@ -50,7 +50,7 @@ TEST_P(SolidTest, SphereTableMatchesFormula) {
   for (const double R : {0.2, 0.7, 2.0, 5.5, 40.0}) {
     const SphereTable table = makeSphereTable(k, R * kSolidSpacing);
     for (int i = 0; i <= 200; ++i) {
-      const double s = table.first + (1.1 * wallReach(k) - table.first) * i / 200;
+      const double s = table.first + (1.1 * solidReach(k) - table.first) * i / 200;
       const LineSample exact = exactSphere(k, R * kSolidSpacing, s), linear = table.sample(s);
       EXPECT_NEAR(exact.value, linear.value, bound) << "R/d " << R << " s/d " << s / kSolidSpacing;
       if (s > table.first + kSolidSpacing / 8) {
@@ -64,19 +64,19 @@ TEST_P(SolidTest, SphereTableMatchesFormula) {
 
 TEST_P(SolidTest, ThickBoxMatchesWallAndThinPlateDisplacesLess) {
   const SmoothingKernel k = kernel();
-  const WallTables tables = makeWallTables(k);
+  const HalfSpaceTable table = makeHalfSpaceTable(k);
   const double wide = 10 * k.h();
   for (int i = 0; i <= 20; ++i) {
-    const double s = kSolidSpacing / 2 + (wallReach(k) - kSolidSpacing / 2) * i / 20;
+    const double s = kSolidSpacing / 2 + (solidReach(k) - kSolidSpacing / 2) * i / 20;
     const LineSample plane = exactPlane(k, s);
     double last = plane.value;
     for (const double thickness : {2 * k.h(), 1.5 * kSolidSpacing, kSolidSpacing, 0.3 * kSolidSpacing}) {
       const Double3 half = {wide, wide, thickness / 2}, at = {0.1 * kSolidSpacing, -0.2 * kSolidSpacing, -(s + thickness / 2)};
-      const WallSample box = boxSample(k, at, half);
+      const SolidSample box = boxSample(k, at, half);
       if (thickness > k.h()) {
         EXPECT_NEAR(box.value, plane.value, 1e-12);
         EXPECT_NEAR(box.gradient[2], -plane.slope, 1e-9 / kSolidSpacing);
-        EXPECT_NEAR(boxSample(tables, at, half).value, tables.samplePlane(s).value, 1e-6);
+        EXPECT_NEAR(boxSample(table, at, half).value, table.sample(s).value, 1e-6);
       }
       EXPECT_LE(box.value, last + 1e-12);
       EXPECT_GE(box.value, 0);
@@ -102,7 +102,7 @@ TEST(WendlandBox, GradientIsTheDerivativeOfTheValue) {
   std::uniform_real_distribution<double> place(-4 * kSolidSpacing, 4 * kSolidSpacing), size(0.2 * kSolidSpacing, 2 * kSolidSpacing);
   for (int sample = 0; sample < 300; ++sample) {
     const Double3 at = {place(random), place(random), place(random)}, half = {size(random), size(random), size(random)};
-    const WallSample box = boxSample(k, at, half);
+    const SolidSample box = boxSample(k, at, half);
     for (size_t a = 0; a < 3; ++a) {
       const double step = 1e-6 * kSolidSpacing;
       Double3 low = at, high = at;

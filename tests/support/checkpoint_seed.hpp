@@ -11,10 +11,10 @@ namespace rill::test {
 
 /// The shape that matches seedCheckpoint().
 inline SnapshotShape seedShape() {
-  return {.capacity = 6, .solidCount = 1, .listCapacity = 4, .cells = 256, .near = true, .movingSolids = true};
+  return {.capacity = 6, .solidCount = 1, .listCapacity = 4, .cells = 256, .segments = true, .movingSolids = true};
 }
 
-/// Six particles: one near a wall, two near more, one of them with more neighbors than its list holds.
+/// Six particles: two near a solid, one of them with more neighbors than its list holds.
 inline offline::Checkpoint seedCheckpoint() {
   offline::Checkpoint c;
   c.rill = "0.1.0";
@@ -31,8 +31,7 @@ inline offline::Checkpoint seedCheckpoint() {
   control.desiredStep = 1e-3f;
   FluidSums sums{};
   sums.overflow = 1;
-  sums.planeCount = 1;
-  sums.cornerCount = 2;
+  sums.nearSolids = 2;
   const auto words = [](const auto& record) {
     std::vector<uint32_t> all(sizeof record / 4);
     std::memcpy(all.data(), &record, sizeof record);
@@ -50,8 +49,7 @@ inline offline::Checkpoint seedCheckpoint() {
     s.id.push_back(5 - i);
     s.cell.push_back(3 * i);
   }
-  s.nearWall = {2};
-  s.nearCorner = {0, 5};
+  s.nearSolids = {0, 5};
   s.listCapacity = 4;
   s.neighborCount = {1, 2, 0, 4, 9, 1};
   s.neighbors = {1, 0, 3, 0, 1, 2, 5, 3};

@@ -170,7 +170,7 @@ std::vector<StressCase> sizeCases() {
   };
   for (const uint64_t count : {0, 1, 63, 64, 65, 4095, 4096, 4097}) cases.push_back(sized(count, false));
   // Limits: a list buffer of 128 MiB, lavapipe's largest, in whole blocks; 65,535 workgroups of 64; more than 4 x 2^20.
-  const uint64_t block = uint64_t{kListBlock} * listCapacity(Scene{}.fluid.smoothing_ratio + kListSkin) * kListEntryBytes,
+  const uint64_t block = uint64_t{kListBlock} * listCapacity(Scene{}.fluid.smoothing_ratio + kListSkin, true) * kListEntryBytes,
                  buffer = (uint64_t{1} << 27) / block * kListBlock;
   for (const uint64_t count :
        {buffer - 1, buffer, buffer + 1, uint64_t{4'194'240}, uint64_t{4'194'241}, uint64_t{4'194'304}, uint64_t{4'194'305}})

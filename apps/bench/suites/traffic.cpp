@@ -84,8 +84,8 @@ Table cardTable(const std::string& name, const FluidTraffic& t) {
 }
 
 Json json(const std::string& name, const FluidTraffic& t) {
-  Json json{{"case", name},       {"particles", t.particles},      {"substeps", t.substeps},   {"recorded_substeps", t.recordedSubsteps},
-            {"builds", t.builds}, {"list_entries", t.listEntries}, {"near_walls", t.nearWalls}};
+  Json json{{"case", name},       {"particles", t.particles},     {"substeps", t.substeps}, {"recorded_substeps", t.recordedSubsteps},
+            {"builds", t.builds}, {"list_entries", t.listEntries}};
   const double each = double(t.particles) * t.substeps;
   for (const Section section : {Section::Start, Section::Rebuild, Section::Substep}) {
     const PassTraffic sum = t.total(section);
@@ -118,8 +118,7 @@ Expected<Report> runAll(Bench& bench) {
   Report report;
   Table summary{
       "A substep, its share of the rebuilds apart",
-      {"scene", "particles", "bytes", "rebuild, B", "dispatches", "with effect", "barriers", "entries", "near walls", "substeps",
-       "recorded", "builds"},
+      {"scene", "particles", "bytes", "rebuild, B", "dispatches", "with effect", "barriers", "entries", "substeps", "recorded", "builds"},
       {},
       "bytes: read and written per particle and substep. dispatches, barriers: per recorded substep. entries: of the neighbor list per\n"
       "particle. substeps, recorded, builds: of four frames of 1/60 s."};
@@ -139,8 +138,7 @@ Expected<Report> runAll(Bench& bench) {
         {c.scene, grouped(traffic->particles), number(traffic->bytesPerParticleSubstep(Section::Substep)),
          number(traffic->bytesPerParticleSubstep(Section::Rebuild)), perSubstep(double(substep.recorded), traffic->recordedSubsteps),
          perSubstep(double(substep.executed), traffic->substeps), perSubstep(double(substep.barriers), traffic->recordedSubsteps),
-         number(traffic->listEntries), percent(traffic->nearWalls), number(traffic->substeps), number(traffic->recordedSubsteps),
-         number(traffic->builds)});
+         number(traffic->listEntries), number(traffic->substeps), number(traffic->recordedSubsteps), number(traffic->builds)});
     details.push_back(passTable(c.scene, *traffic));
     details.push_back(cardTable(c.scene, *traffic));
     report.results.push_back(json(c.scene, *traffic));

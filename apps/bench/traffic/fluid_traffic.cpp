@@ -12,7 +12,8 @@ namespace {
 
 /// The last count and list of a fluid.
 struct FluidCounts {
-  double particles = 0, entries = 0, near = 0, nearOneWall = 0, nearCorners = 0;
+  double particles = 0, entries = 0;  // of a list
+  double nearSolids = 0;
 };
 
 const FluidPassRow* rowNamed(std::string_view name) {
@@ -43,12 +44,9 @@ bool isPerParticle(const ArrayRow& row, ArrayShape shape) {
 double touched(const ArrayRow& row, double covered, const FluidCounts& counts) {
   switch (row.id) {
     case FluidArray::NearDisplaced:
-    case FluidArray::NearTangential:  // the list head says which particles are near: only those read the samples (wall_samples.glsl)
-      return std::min(covered, counts.near);
-    case FluidArray::NearPlane:
-      return std::min(covered, counts.nearOneWall);
-    case FluidArray::NearCorner:
-      return std::min(covered, counts.nearCorners);
+    case FluidArray::NearTangential:  // the list head says which particles are near: only those read the samples (solid_samples.glsl)
+    case FluidArray::NearSolids:
+      return std::min(covered, counts.nearSolids);
     default:
       return covered;
   }
@@ -88,9 +86,7 @@ Expected<FluidCounts> countsOf(Workbench& workbench, const FluidImpl& fluid) {
   if (!heads) return heads.error();
   FluidCounts counts;
   counts.particles = fluid.count;
-  counts.nearOneWall = sums->front().planeCount;
-  counts.nearCorners = sums->front().cornerCount;
-  counts.near = counts.nearOneWall + counts.nearCorners;
+  counts.nearSolids = sums->front().nearSolids;
   double listed = 0;
   for (uint32_t i = 0; i < fluid.count && fluid.setup.params.listCapacity > 0; ++i) {
     const uint32_t entries = (*heads)[i] & kUnlisted;
@@ -177,7 +173,6 @@ Expected<FluidTraffic> measureTraffic(Workbench& workbench, Fluid& fluid, double
     if (!counts) return counts.error();
     traffic.recordedSubsteps += recordedAtOnce;
     traffic.listEntries = counts->entries;
-    traffic.nearWalls = counts->particles > 0 ? counts->near / counts->particles : 0;
     Section section = Section::Start;
     for (const TracedPass& pass : *passes) {
       const FluidPassRow* row = rowNamed(pass.name);

@@ -30,7 +30,6 @@ struct FluidTraffic {
   uint64_t particles = 0;
   double substeps = 0, recordedSubsteps = 0, builds = 0;  ///< of the advance
   double listEntries = 0;                                 ///< a particle, of those with a list
-  double nearWalls = 0;                                   ///< share of the particles
   std::vector<PassTraffic> passes;                        ///< in the order in which they first ran
 
   /// Sums over the passes of a section.

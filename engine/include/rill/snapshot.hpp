@@ -23,6 +23,9 @@
 
 namespace rill {
 
+/// See FluidSnapshot::neighbors.
+inline constexpr uint32_t kImageOfNeighbors = 0x80000000;
+
 /// The persistent state of a fluid between two advances, on the host: everything that later steps depend on, bit by bit
 /// (docs/architecture.md, "What is persisted"). Arrays have one entry per particle, in the order of the device.
 struct FluidSnapshot {
@@ -34,12 +37,14 @@ struct FluidSnapshot {
   std::vector<Float4> warmAcceleration = {};  ///< m/s^2; w: last multiplier (m^2) while the initial pressure is solved for
   std::vector<float> warmStart = {};          ///< multipliers, m^2
   std::vector<uint32_t> id = {};
-  std::vector<uint32_t> nearWall = {}, nearCorner = {};  ///< indices of particles near one wall; near several walls or a solid; increasing
+  std::vector<uint32_t> nearSolids = {};  ///< indices of particles near a solid, increasing
   // Neighbor list; empty if the next step rebuilds it.
   uint32_t listCapacity = 0;                 ///< capacity of the list, entries per particle; a neighbor takes one or two
   std::vector<uint32_t> neighborCount = {};  ///< neighbors of each particle; empty without a valid list
-  std::vector<uint32_t> neighbors = {};      ///< concatenated by particle; without those of particles that exceed the capacity
-  std::vector<uint32_t> cell = {};           ///< cell of each sorted particle, if some particles search the grid
+  /// Concatenated by particle; without those of particles that exceed the capacity. Near walls an entry kImageOfNeighbors + k comes before
+  /// those whose image k (shaders/fluid/images.glsl) is near; 0 is the neighbors themselves.
+  std::vector<uint32_t> neighbors = {};
+  std::vector<uint32_t> cell = {};  ///< cell of each sorted particle, if some particles search the grid
   friend bool operator==(const FluidSnapshot&, const FluidSnapshot&) = default;
 };
 

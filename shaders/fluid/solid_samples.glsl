@@ -1,0 +1,48 @@
+// What solids do to a particle that they are near, in two arrays, each as large as the positions; undefined for others:
+// nearDisplaced, the gradient of the displaced density, with its value in w; and nearTangential, the diagonal of the tangential scale less
+// 1, with the rest packed in w.
+#ifndef RILL_SOLID_SAMPLES_GLSL
+#define RILL_SOLID_SAMPLES_GLSL
+#include "shared/arrays.glsl"
+
+// What solids do to a correction: the neighbors' share is multiplied by a symmetric matrix that
+// makes up, along each surface, for the support that is missing behind it.
+struct SolidScale {
+  vec3 diagonal;
+  vec3 mixed;  // yz, zx, xy; 0 where all surfaces are along the axes
+};
+const SolidScale kNoSolids = SolidScale(vec3(1.0), vec3(0.0));
+
+vec3 scaled(SolidScale s, vec3 neighbors) {
+  return s.diagonal * neighbors + s.mixed.zxy * neighbors.yzx + s.mixed.yzx * neighbors.zxy;
+}
+
+// D of docs/method.md: of the gradient's sum and its squares, and `more`.
+float stiffnessAtSolids(SolidScale s, vec3 gradient, float squares, float more) {
+  return dot(gradient, scaled(s, gradient)) + squares * (s.diagonal.x + s.diagonal.y + s.diagonal.z) / 3.0 + more;
+}
+
+// Off the diagonal: at most 1/3, as three numbers of 10 bits around 512, a float that is neither denormal nor NaN. 0: none.
+const float kMixedUnits = 1500.0;
+
+float packMixed(vec3 mixed) {
+  uvec3 q = uvec3(clamp(round(mixed * kMixedUnits) + 512.0, 12.0, 1012.0));
+  return uintBitsToFloat(q.x | q.y << 10 | q.z << 20);
+}
+
+vec3 unpackMixed(float packed) {
+  uint q = floatBitsToUint(packed);
+  vec3 mixed = (vec3(q & 1023u, q >> 10 & 1023u, q >> 20) - 512.0) / kMixedUnits;
+  return q == 0u ? vec3(0.0) : mixed;
+}
+
+SolidScale unpackSolidScale(vec4 stored) { return SolidScale(1.0 + stored.xyz, unpackMixed(stored.w)); }
+
+// Of particle i with this list head; 0 where no solid is near.
+#define READ_NEAR_DISPLACED(BINDING) \
+  READ_FLOAT4(BINDING, nearDisplaced) \
+  vec4 displacedAt(uint i, uint head) { return (head & kNearSolidsBit) != 0u ? nearDisplacedAt(i) : vec4(0.0); }
+#define READ_NEAR_TANGENTIAL(BINDING) \
+  READ_FLOAT4(BINDING, nearTangential) \
+  SolidScale solidScaleAt(uint i, uint head) { return unpackSolidScale((head & kNearSolidsBit) != 0u ? nearTangentialAt(i) : vec4(0.0)); }
+#endif
