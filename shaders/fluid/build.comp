@@ -94,7 +94,7 @@ void beginSegment() {
 }
 
 void endSegment(uint image) {
-  if (last == kNone) holds = 0u;  // without neighbors there is none
+  if (last == kNone) holds = 0u;  // drop a segment without neighbors
   padAndStore();
   uint groups = (stored - segmentBegin) / 4u;
   uint entry = kLongStep | image << kSegmentGroupBits | groups;
@@ -183,7 +183,7 @@ void main() {
   LOOP_WHILE (subgroupAny(more)) {
     vec3 signs;
     image = nextImage(images);
-    place = image == 0u ? x : imageOf(image, x, signs);
+    place = imageOf(image, x, signs);
     if (segments && more) beginSegment();
     walkGrid(scaled, scaled, more, params.reach);
     if (segments && more) endSegment(image);

@@ -12,13 +12,12 @@ const uint kImagesAlongAxis = THIN ? 9u : 3u;
 
 // Image `which` along an axis of a place x; sign -1 if it is reflected.
 float imageAlongAxis(uint which, float x, float low, float high, out float sign) {
-  float reflections = THIN ? float((which + 1u) / 2u) : 1.0, side = which % 2u == 1u ? -1.0 : 1.0;
-  bool shifted = THIN && which != 0u && (which + 1u) / 2u % 2u == 0u;
-  sign = which == 0u || shifted ? 1.0 : -1.0;
-  if (which == 0u) return x;
-  if (shifted) return x + side * reflections * (high - low);
-  float image = 2.0 * (side < 0.0 ? low : high) - x;
-  return THIN ? image + side * (reflections - 1.0) * (high - low) : image;
+  uint reflections = (which + 1u) / 2u;
+  bool reflected = reflections % 2u == 1u, lowSide = which % 2u == 1u;
+  sign = reflected ? -1.0 : 1.0;
+  float across = lowSide ? low - high : high - low;  // from the other wall to this one
+  float image = reflected ? 2.0 * (lowSide ? low : high) - x : x;
+  return image + float(reflected ? reflections - 1u : reflections) * across;
 }
 
 // Image `n` of x, of which 0 is x itself, and the signs of its axes.

@@ -61,7 +61,7 @@ void main() {
   LOOP_WHILE (subgroupAny(more)) {
     uint n = nextImage(images);
     vec3 signs;
-    place = n == 0u ? particle.xyz : imageOf(n, particle.xyz, signs);
+    place = imageOf(n, particle.xyz, signs);
     walkGrid(scaled, scaled, more, support);
     if (n == 0u) inside = within;
     more = advance(images) && more;

@@ -115,8 +115,8 @@ void visitAround(uint i, bool walks) {
   bool more = walks;
   LOOP_WHILE (subgroupAny(more)) {
     uint n = nextImage(images);
-    vec3 signs = vec3(1.0);
-    place = n == 0u ? from : imageOf(n, from, signs);
+    vec3 signs;
+    place = imageOf(n, from, signs);
     self = n == 0u ? i : 0xffffffffu;
     reflectSums(signs);
     walkGrid(home, home + 1.0, more, params.reach);
