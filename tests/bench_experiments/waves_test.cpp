@@ -8,7 +8,6 @@
 #include <random>
 
 #include "bench/experiments/bands.hpp"
-#include "bench/experiments/exact.hpp"
 #include "bench/experiments/wave_starts.hpp"
 
 namespace rill::bench {
@@ -43,8 +42,6 @@ TEST(WaveTheory, DispersionHasDeepAndShallowLimits) {
   EXPECT_NEAR(deep.waveNumber(), 3 * kPi, 1e-12);
   EXPECT_NEAR(deep.frequency(), std::sqrt(9.81 * 3 * kPi), 1e-9);
   EXPECT_NEAR(shallow.frequency(), kPi * std::sqrt(9.81 * 0.01), 1e-3 * kPi * std::sqrt(9.81 * 0.01));
-  const StandingWave slosh{.length_m = 1, .depth_m = 0.5};
-  EXPECT_NEAR(slosh.period(), sloshPeriod(1, 0.5, 9.81), 1e-12);
 }
 
 TEST(WaveTheory, SecondOrderLowersFrequencyInDeepWaterOnly) {

@@ -1,7 +1,6 @@
 #include "bench/experiments/exact.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace rill::bench {
 namespace {
@@ -27,11 +26,6 @@ EllipticDrop ellipticDrop(double time) {
     drop = advanced(advanced(advanced(advanced(drop, k1, step / 6), k2, step / 3), k3, step / 3), k4, step / 6);
   }
   return drop;
-}
-
-double sloshPeriod(double length_m, double depth_m, double gravity) {
-  const double k = std::numbers::pi / length_m;
-  return 2 * std::numbers::pi / std::sqrt(gravity * k * std::tanh(k * depth_m));
 }
 
 }  // namespace rill::bench

@@ -11,7 +11,4 @@ struct EllipticDrop {
 /// A' = A^2 (a^2 - b^2) / (a^2 + b^2), a' = -A a, b' = A b. `time` is A0 t.
 EllipticDrop ellipticDrop(double time);
 
-/// Period of the first standing wave in a tank `length_m` long, filled to `depth_m`: linear theory, s.
-double sloshPeriod(double length_m, double depth_m, double gravity);
-
 }  // namespace rill::bench

@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "bench/experiments/curves.hpp"
-#include "bench/experiments/exact.hpp"
 #include "bench/experiments/experiment.hpp"
 #include "bench/experiments/start_file.hpp"
 #include "bench/experiments/wave_starts.hpp"
@@ -26,7 +25,7 @@ Expected<Outcome> slosh(const Bench& bench, double depth, unsigned level, double
   Scene scene = boxScene(spacing, {0, 0, 0}, {kLength, 2 * depth, kTankThickness * spacing});
   scene.fluid.smoothing_ratio = smoothingRatio;
   scene.fill.push_back(start->fill());
-  const double expected = sloshPeriod(kLength, depth, -scene.gravity[1]);
+  const double expected = wave.period();
   auto run = runSampled(
       bench, scene, kPeriods * expected, 1.0 / 60, [](double) { return false; }, [](const Cloud&, double) {});
   if (!run) return run.error();
