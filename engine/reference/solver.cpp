@@ -85,24 +85,44 @@ void ReferenceSolver::solveInitialPressure(double dt, double momentum, int itera
 }
 
 void ReferenceSolver::substep(double dt, double dtNext) {
+  const auto done = [this](Stage stage) {
+    if (onStage) onStage(stage);
+  };
   const bool first = substeps_++ % settings.substepsPerBlock == 0;
   blockTime_ += dt;
   const double push = std::min(artificial_.rate * blockTime_, artificial_.most / blockTime_) * dt;
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
     density();
+    done(Stage::Density);
     multipliers(iteration == 0);
+    done(Stage::Multipliers);
     correction(dt, first && iteration + 1 == settings.iterations ? push : 0);
+    done(Stage::Correction);
   }
   updateRestFactor();
   velocities(dt);
-  if (settings.viscosity > 0) viscosity(dt);
+  done(Stage::Velocities);
+  if (settings.viscosity > 0) {
+    viscosity(dt);
+    done(Stage::Viscosity);
+  }
   if (first) {
-    if (settings.viscosityAtRest > 0) dampNoise(blockTime_);
+    if (settings.viscosityAtRest > 0) {
+      dampNoise(blockTime_);
+      done(Stage::NoiseDamping);
+    }
     blockTime_ = 0;
   }
-  if (settings.vorticity > 0) vorticity(dt);
-  if (settings.drag > 0) drag(dt);
+  if (settings.vorticity > 0) {
+    vorticity(dt);
+    done(Stage::Vorticity);
+  }
+  if (settings.drag > 0) {
+    drag(dt);
+    done(Stage::Drag);
+  }
   predict(dt, dtNext);
+  done(Stage::Prediction);
 }
 
 // Uses the largest speed at the start of the substep.
@@ -176,6 +196,7 @@ double ReferenceSolver::artificialPressureTerm(double value, double push) const 
 }
 
 void ReferenceSolver::correction(double dt, double push) {
+  push_ = push;
   const std::vector<Pose> solids = poses(time_, dt);
   for (size_t i = 0; i < size(); ++i) {
     glm::dvec3 sum(0), apart(0);

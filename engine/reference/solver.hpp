@@ -19,6 +19,7 @@
 // Density to correction repeat for every iteration. The pairs of the last density evaluation (neighbors, K_ij and G_ij) are used by all
 // stages up to the next one.
 #include <cstdint>
+#include <functional>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
@@ -89,6 +90,9 @@ struct ReferenceSettings {
   double maxSpeedGain = std::numeric_limits<double>::infinity();
 };
 
+/// What a substep does in turn. Pressure is Density, Multipliers and Correction, for every iteration.
+enum class Stage { Density, Multipliers, Correction, Velocities, Viscosity, NoiseDamping, Vorticity, Drag, Prediction };
+
 class ReferenceSolver {
  public:
   /// A neighbor j of particle i in the last density evaluation, or its image behind a wall (of i itself, too).
@@ -138,6 +142,9 @@ class ReferenceSolver {
   void drag(double dt);                    ///< v: dv/dt = -drag v
   void predict(double dt, double dtNext);  ///< w, x*
 
+  /// Called by substep() after each of its stages; empty: not called.
+  std::function<void(Stage)> onStage;
+
   State state;
   ReferenceSettings settings;  ///< gravity, coefficients and solids may change between substeps; kernel, spacing and walls may not
 
@@ -159,6 +166,7 @@ class ReferenceSolver {
   SolidSample boundaryAt(const glm::dvec3& x, double t) const;
   /// s_corr (eq. 13) of a pair with kernel value `value`, m^2, <= 0; `push` as in correction(). See sph/artificial_pressure.hpp.
   double artificialPressureTerm(double value, double push) const;
+  double artificialPressurePush() const { return push_; }  ///< `push` of the last correction(), m^2
   /// Coefficient c of XSPH for a substep, dimensionless: 2 mu dt / (rho0 sigma^2).
   double xsphCoefficient(double viscosity, double dt) const;
 
@@ -190,6 +198,7 @@ class ReferenceSolver {
   std::vector<SolidSample> boundary_;
   std::vector<glm::dvec3> curl_;
   double blockTime_ = 0;                  ///< s, since the first substep of the last block
+  double push_ = 0;                       ///< m^2, of the last correction
   int substeps_ = 0;                      ///< since the start
   double restFactor_ = 0;                 ///< 1: at rest, 0: at motionSpeed or faster
   double fastest_ = 0;                    ///< largest speed, m/s, initially or in the last velocities()

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "offline/readout.hpp"
+#include "reference/scene_settings.hpp"
 
 namespace rill::test {
 namespace {
@@ -35,41 +36,9 @@ FluidSetup setupOf(const Trial& trial) {
 }
 
 reference::ReferenceSettings settingsOf(const Trial& trial) {
-  const Scene& scene = trial.scene;
-  const FluidSetup setup = setupOf(trial);
-  reference::ReferenceSettings s;
-  s.kernel = scene.solver.kernel;
-  s.spacing = scene.fluid.spacing;
-  s.smoothingRatio = scene.fluid.smoothing_ratio;
-  s.density = scene.fluid.density;
-  for (int a = 0; a < 3; ++a) {
-    s.gravity[a] = scene.gravity[a];
-    s.origin[a] = trial.origin[a];
-    if (!scene.domain) continue;
-    if (!(scene.domain->open & (1u << (2 * a)))) s.lo[a] = scene.domain->min[a] - trial.origin[a];
-    if (!(scene.domain->open & (2u << (2 * a)))) s.hi[a] = scene.domain->max[a] - trial.origin[a];
-  }
-  s.solids = scene.solids;
+  reference::ReferenceSettings s = reference::settingsOf(trial.scene, setupOf(trial), trial.origin);
   s.tabulated = true;
-  s.iterations = static_cast<int>(scene.solver.iterations);
-  s.relaxation = setup.params.relaxationInMotion;
-  s.regularization = scene.solver.regularization.value();
-  s.warmStart = setup.params.warmGainInMotion;
-  s.tensile = scene.fluid.tensile;
-  s.tensileRadius = scene.fluid.tensile_radius;
-  s.tensilePower = scene.fluid.tensile_power;
-  s.viscosity = scene.fluid.viscosity;
-  s.viscositySweeps = scene.fluid.viscosity > 0 ? static_cast<int>(setup.viscositySweeps) : 1;
-  s.vorticity = scene.fluid.vorticity;
-  s.drag = scene.fluid.drag;
-  s.warmLimit = setup.params.warmLimit;
-  s.motionSpeed = setup.limits.motionSpeed(setup.head);
-  s.relaxationAtRest = setup.params.relaxationAtRest;
-  s.warmStartAtRest = setup.limits.warmGainAtRest(setup.head);
-  s.viscosityAtRest = setup.artificialViscosity;
-  s.substepsPerBlock = trial.stepwise ? 1 : static_cast<int>(setup.substepsPerBlock);
-  s.minSpeedGain = setup.params.minSpeedGain;
-  s.maxSpeedGain = setup.params.maxSpeedGain;
+  if (trial.stepwise) s.substepsPerBlock = 1;
   return s;
 }
 

@@ -57,6 +57,26 @@ TEST(ReferenceSolver, DropFallsFreely) {
   }
 }
 
+TEST(ReferenceSolver, ReportsStagesInOrder) {
+  ReferenceSettings s;
+  s.spacing = kTankSpacing;
+  s.iterations = 2;
+  s.viscosity = s.drag = s.vorticity = 0.1;
+  s.motionSpeed = 1;
+  s.viscosityAtRest = 1;
+  s.tensile = 1;
+  ReferenceSolver solver(s, lattice(3, 3, 3, 0.8 * kTankSpacing));
+  std::vector<Stage> stages;
+  solver.onStage = [&](Stage stage) { stages.push_back(stage); };
+  solver.begin(1e-3);
+  EXPECT_TRUE(stages.empty());
+  solver.substep(1e-3, 1e-3);
+  EXPECT_EQ(stages, (std::vector<Stage>{Stage::Density, Stage::Multipliers, Stage::Correction, Stage::Density, Stage::Multipliers,
+                                        Stage::Correction, Stage::Velocities, Stage::Viscosity, Stage::NoiseDamping, Stage::Vorticity,
+                                        Stage::Drag, Stage::Prediction}));
+  EXPECT_GT(solver.artificialPressurePush(), 0) << "the last correction has artificial pressure";
+}
+
 TEST(ReferenceSolver, ColumnStaysAtRest) {
   const int layers = 8;
   ReferenceSettings s = tank(kTankSpacing, kTankSpacing * glm::dvec3(6, 3 * layers, 6));

@@ -1,0 +1,43 @@
+#include "reference/scene_settings.hpp"
+
+#include "fluid/stability_limits.hpp"
+
+namespace rill::reference {
+
+ReferenceSettings settingsOf(const Scene& scene, const FluidSetup& setup, const Double3& origin) {
+  ReferenceSettings s;
+  s.kernel = scene.solver.kernel;
+  s.spacing = scene.fluid.spacing;
+  s.smoothingRatio = scene.fluid.smoothing_ratio;
+  s.density = scene.fluid.density;
+  s.origin = vec(origin);
+  for (int a = 0; a < 3; ++a) {
+    s.gravity[a] = scene.gravity[a];
+    if (!scene.domain) continue;
+    if (!(scene.domain->open & (1u << (2 * a)))) s.lo[a] = scene.domain->min[a] - origin[a];
+    if (!(scene.domain->open & (2u << (2 * a)))) s.hi[a] = scene.domain->max[a] - origin[a];
+  }
+  s.solids = scene.solids;
+  s.iterations = static_cast<int>(scene.solver.iterations);
+  s.relaxation = setup.params.relaxationInMotion;
+  s.relaxationAtRest = setup.params.relaxationAtRest;
+  s.regularization = boundedRegularization(scene).taken;
+  s.warmStart = setup.params.warmGainInMotion;
+  s.warmStartAtRest = setup.limits.warmGainAtRest(setup.head);
+  s.warmLimit = setup.params.warmLimit;
+  s.motionSpeed = setup.limits.motionSpeed(setup.head);
+  s.tensile = scene.fluid.tensile;
+  s.tensileRadius = scene.fluid.tensile_radius;
+  s.tensilePower = scene.fluid.tensile_power;
+  s.viscosity = scene.fluid.viscosity;
+  s.viscositySweeps = scene.fluid.viscosity > 0 ? static_cast<int>(setup.viscositySweeps) : 1;
+  s.viscosityAtRest = setup.artificialViscosity;
+  s.substepsPerBlock = static_cast<int>(setup.substepsPerBlock);
+  s.vorticity = scene.fluid.vorticity;
+  s.drag = scene.fluid.drag;
+  s.minSpeedGain = setup.params.minSpeedGain;
+  s.maxSpeedGain = setup.params.maxSpeedGain;
+  return s;
+}
+
+}  // namespace rill::reference
