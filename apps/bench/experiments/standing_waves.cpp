@@ -56,15 +56,20 @@ Expected<Scene> waveSettings(std::string_view changes) {
   return parseScene(R"({"rill": "0.1", "fluid": {"spacing": 1}})", "waves", std::filesystem::path("."), overrides);
 }
 
+Scene waveScene(const WaveTank& tank, const Scene& settings) {
+  Scene scene = boxScene(tank.spacing_m, {0, 0, 0}, {tank.wave.length_m, 2 * tank.wave.depth_m, tank.thickness * tank.spacing_m});
+  scene.fluid = settings.fluid;
+  scene.fluid.spacing = tank.spacing_m;
+  scene.solver = settings.solver;
+  return scene;
+}
+
 Expected<Outcome> releaseWave(const Bench& bench, const WaveTank& tank, const Scene& settings, const std::string& plot,
                               const std::string& label) {
   const StandingWave& wave = tank.wave;
   const auto start = StartFile::write(standingWave(wave, tank.spacing_m, tank.thickness));
   if (!start) return start.error();
-  Scene scene = boxScene(tank.spacing_m, {0, 0, 0}, {wave.length_m, 2 * wave.depth_m, tank.thickness * tank.spacing_m});
-  scene.fluid = settings.fluid;
-  scene.fluid.spacing = tank.spacing_m;
-  scene.solver = settings.solver;
+  Scene scene = waveScene(tank, settings);
   scene.fill.push_back(start->fill());
   Curve amplitude;  // m over s
   auto run = runSampled(

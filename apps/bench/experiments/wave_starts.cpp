@@ -5,15 +5,14 @@
 namespace rill::bench {
 
 Cloud standingWave(const StandingWave& wave, double spacing, int thickness) {
-  const double k = wave.waveNumber(), scale = wave.amplitude_m / std::sinh(k * wave.depth_m);
   Cloud cloud;
   cloud.spacing = spacing;
   for (int i = 0; (i + 0.5) * spacing < wave.length_m; ++i)
     for (int j = 0; (j + 0.5) * spacing < wave.depth_m; ++j)
       for (int l = 0; l < thickness; ++l) {
         const double x = (i + 0.5) * spacing, y = (j + 0.5) * spacing;
-        cloud.position.push_back(
-            {x - scale * std::sin(k * x) * std::cosh(k * y), y + scale * std::cos(k * x) * std::sinh(k * y), (l + 0.5) * spacing});
+        const Double3 shape = wave.shape(x, y);
+        cloud.position.push_back({x + wave.amplitude_m * shape.x, y + wave.amplitude_m * shape.y, (l + 0.5) * spacing});
         cloud.velocity.push_back({0, 0, 0});
       }
   return cloud;

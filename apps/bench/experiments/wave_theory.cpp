@@ -9,6 +9,11 @@ double StandingWave::waveNumber() const { return mode * std::numbers::pi / lengt
 double StandingWave::frequency() const { return std::sqrt(gravity * waveNumber() * std::tanh(waveNumber() * depth_m)); }
 double StandingWave::period() const { return 2 * std::numbers::pi / frequency(); }
 
+Double3 StandingWave::shape(double x, double y) const {
+  const double k = waveNumber(), scale = 1 / std::sinh(k * depth_m);
+  return {-scale * std::sin(k * x) * std::cosh(k * y), scale * std::cos(k * x) * std::sinh(k * y), 0};
+}
+
 double StandingWave::secondOrder() const {
   // With omega0 = sqrt(tanh(k h)) and e = k a: omega = omega0 + e^2 omega2 / 2.
   const double steepness = waveNumber() * amplitude_m, first = std::sqrt(std::tanh(waveNumber() * depth_m));

@@ -1,6 +1,8 @@
 #pragma once
 // Theory of waves between frictionless walls: SI units, y up, the floor at y = 0.
 
+#include "rill/vectors.hpp"
+
 namespace rill::bench {
 
 /// A standing wave of small amplitude in a tank, cos(k x) with k = mode pi / length.
@@ -13,6 +15,8 @@ struct StandingWave {
   double waveNumber() const;  ///< k, rad/m
   double frequency() const;   ///< linear theory, omega^2 = g k tanh(k h), rad/s
   double period() const;      ///< linear theory, s
+  /// Displacement and velocity at a point are this times those of the surface at the wall x = 0: linear theory.
+  Double3 shape(double x, double y) const;
   /// Relative change of the frequency at this amplitude: the second order of Tadjbakhsh and Keller 1960.
   double secondOrder() const;
 };

@@ -20,6 +20,9 @@ struct WaveTank {
 WaveTank deepTank(int mode, unsigned level);     ///< depth 0.6 m
 WaveTank shallowTank(int mode, unsigned level);  ///< depth 0.16 m
 
+/// The tank, with fluid and solver of `settings` but its own spacing, and no particles.
+Scene waveScene(const WaveTank& tank, const Scene& settings);
+
 /// Releases the wave and fits a damped cosine to its modal amplitude. Figures: period, loss a period.
 /// `settings` has the fluid and the solver; its spacing is replaced. `plot`: key of the diagram for the overlay; empty: none.
 Expected<Outcome> releaseWave(const Bench& bench, const WaveTank& tank, const Scene& settings, const std::string& plot,

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "bench/experiments/bands.hpp"
+#include "bench/experiments/energy_budget.hpp"
 #include "bench/pareto.hpp"
 #include "bench/suites/suites.hpp"
 
@@ -78,6 +79,19 @@ std::vector<std::string> levelRow(const WaveResult& r, const std::vector<WaveRes
   return {number(1e3 * shift.expected), number(1e3 * shift.measured), number(shift.measured / shift.expected)};
 }
 
+std::vector<std::string> energyColumns() {
+  std::vector<std::string> columns{"wave", "noise", "other potential"};
+  columns.insert(columns.end(), std::begin(kTermNames), std::end(kTermNames));
+  return columns;
+}
+
+std::vector<std::string> energyRow(const WaveResult& r, const std::vector<WaveResult>&) {
+  std::vector<std::string> cells;
+  for (const char* kind : {"wave", "noise", "other_potential"}) cells.push_back(percent(r.outcome.curves["energy"][kind].get<double>(), 2));
+  for (const char* term : kTermNames) cells.push_back(percent(r.outcome.curves["work"][term].get<double>(), 2));
+  return cells;
+}
+
 std::vector<WaveGroup> waveGroups() {
   return {
       {"Standing waves, default settings",
@@ -107,6 +121,11 @@ std::vector<WaveGroup> waveGroups() {
        {"hydrostatic mm", "shift mm", "share"},
        levelRow,
        "Shift of the center of mass, mean over two periods of the slosh around 8 s (Hann window)."},
+      {"Energy of a slosh after a period, in shares of its start: what is left, and the work of each term", energyBudgetExperiments(),
+       energyColumns(), energyRow,
+       "Reference solver (one core), deep tank, mode 1, from the rest lattice with the wave's speeds. wave: in the particles' velocities\n"
+       "and the surface, projected on the wave. noise: other kinetic energy. wave + noise + other potential energy = 100 % + the work\n"
+       "of all terms."},
       {"Settings of the solver, deep tank, mode 1", waveSettingExperiments(), {}, {}, ""}};
 }
 
