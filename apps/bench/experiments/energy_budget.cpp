@@ -98,11 +98,11 @@ struct Energy {
   double kinetic = 0, potential = 0, waveKinetic = 0, wavePotential = 0;  // J
 };
 
-/// Amplitude of the wave in the surface, m: modalAmplitude() of the solver's particles.
+/// Amplitude of the wave in the surface, m.
 double surfaceOf(const ReferenceSolver& solver, const StandingWave& wave) {
-  double sum = 0;
-  for (const glm::dvec3& x : solver.state.position) sum += std::cos(wave.waveNumber() * x.x);
-  return 2 * wave.depth_m * sum / double(solver.size());
+  Cloud cloud;
+  for (const glm::dvec3& x : solver.state.position) cloud.position.push_back({x.x, x.y, x.z});
+  return modalAmplitude(cloud, wave.waveNumber(), wave.depth_m);
 }
 
 Energy energyOf(const ReferenceSolver& solver, const WaveTank& tank) {
@@ -123,7 +123,7 @@ Energy energyOf(const ReferenceSolver& solver, const WaveTank& tank) {
 }
 
 constexpr int kBudgetThickness = 4;     // layers: the solver runs on one core
-constexpr double kBudgetRate = 444;     // substeps a second, as many as the device takes in this tank
+constexpr double kBudgetRate = 444;     // substeps a second: those of the device at 2 d
 constexpr double kBudgetPeriods = 1.3;  // of theory, at most
 constexpr WaveSetting kBudgetSettings[] = {{"energy-2", ""},
                                            {"energy-2.3", "fluid.smoothing_ratio=2.3"},
