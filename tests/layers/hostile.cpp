@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <map>
+#include <spirv-tools/libspirv.hpp>
 #include <string>
 #include <string_view>
 
@@ -63,9 +64,19 @@ std::vector<uint32_t> rewritten(std::vector<uint32_t> words) {
   return words;
 }
 
+/// Ends the program if the module is not valid SPIR-V for Vulkan 1.3.
+void requireValid(const std::vector<uint32_t>& words) {
+  spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_3);
+  tools.SetMessageConsumer([](spv_message_level_t, const char*, const spv_position_t&, const char* message) {
+    std::fprintf(stderr, "RILL_TEST_HOSTILE: a rewritten shader is not valid: %s\n", message);
+  });
+  if (!tools.Validate(words)) std::abort();
+}
+
 VKAPI_ATTR VkResult VKAPI_CALL createShaderModule(VkDevice device, const VkShaderModuleCreateInfo* info,
                                                   const VkAllocationCallbacks* callbacks, VkShaderModule* module) {
   const std::vector<uint32_t> words = rewritten({info->pCode, info->pCode + info->codeSize / 4});
+  requireValid(words);
   VkShaderModuleCreateInfo changed = *info;
   changed.codeSize = words.size() * 4;
   changed.pCode = words.data();

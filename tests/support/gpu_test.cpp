@@ -1,5 +1,6 @@
 #include "support/gpu_test.hpp"
 
+#include <cstdlib>
 #include <cstring>
 #include <optional>
 
@@ -23,7 +24,8 @@ class SharedContext : public ::testing::Environment {
   offline::Context* context() {
     if (!context_ && error_.empty()) {
       offline::ContextDesc desc;
-      desc.validation = true;
+      const char* validation = std::getenv("RILL_TEST_VALIDATION");
+      desc.validation = !validation || std::strcmp(validation, "off") != 0;
       auto made = offline::Context::create(desc);
       if (made)
         context_ = std::move(*made);

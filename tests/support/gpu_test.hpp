@@ -1,6 +1,6 @@
 #pragma once
 // Tests on the driver selected by the environment (VK_DRIVER_FILES), with validation and synchronization
-// validation. Any message fails the test.
+// validation unless RILL_TEST_VALIDATION is "off". Any message fails the test.
 #include <gtest/gtest.h>
 
 #include <span>
