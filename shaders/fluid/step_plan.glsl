@@ -13,14 +13,17 @@ float cflStep(float speed, float acceleration, float head) {
 
 // The step that meets the tolerance, from the error of the last one: error / step^2 hardly depends
 // on the step. It changes slowly, since an error left by a long step becomes a velocity jump in a
-// short one. In fluid at rest it follows a mean over many steps: a step that follows each pressure
-// wave would amplify it.
+// short one. In fluid at rest it follows a mean of means over many steps: a step that follows each
+// pressure wave would amplify it, and so would one mean, which lags it by a quarter of its period.
+// See docs/notes/noise-damping.md (4).
 float tolerableStep(float error) {
   if (params.tolerance <= 0.0) return longestStep(control.head);
   if (control.errorRate == 0.0) control.errorRate = params.tolerance / (control.desiredStep * control.desiredStep);
   float now = max(error, 1.0e-9) / (control.step * control.step);
-  control.errorRate = mix(control.errorRate, now, pow(errorRateShareAtRest(control.head), control.restFraction));
-  return clamp(sqrt(params.tolerance / control.errorRate), 0.995 * control.desiredStep, 1.002 * control.desiredStep);
+  float share = pow(errorRateShareAtRest(control.head), control.restFraction);
+  control.errorRate = mix(control.errorRate, now, share);
+  float wanted = mix(control.desiredStep, sqrt(params.tolerance / control.errorRate), share);
+  return clamp(wanted, 0.995 * control.desiredStep, 1.002 * control.desiredStep);
 }
 
 // Meeting max_substeps has priority over the tolerance: the step is long enough for the remaining
