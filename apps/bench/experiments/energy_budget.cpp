@@ -165,12 +165,11 @@ Expected<EnergyBudget> energyBudget(const WaveTank& tank, const Scene& settings,
   const StandingWave& wave = tank.wave;
   Scene scene = waveScene(tank, settings);
   scene.solver.time_step = step_s;
-  StandingWave flat = wave;
-  flat.amplitude_m = 0;
+  const Cloud cloud = standingWave(wave, tank.spacing_m, tank.thickness);
   Vectors lattice, velocity;
-  for (const Double3& x : standingWave(flat, tank.spacing_m, tank.thickness).position) {
-    lattice.push_back(reference::vec(x));
-    velocity.push_back(wave.frequency() * wave.amplitude_m * reference::vec(wave.shape(x.x, x.y)));
+  for (size_t i = 0; i < cloud.size(); ++i) {
+    lattice.push_back(reference::vec(cloud.position[i]));
+    velocity.push_back(reference::vec(cloud.velocity[i]));
   }
   double fastest = 0;
   for (const glm::dvec3& v : velocity) fastest = std::max(fastest, glm::length(v));

@@ -1,5 +1,6 @@
 // First standing wave of a tank: period against linear theory, damping against zero.
 #include <algorithm>
+#include <cmath>
 
 #include "bench/experiments/curves.hpp"
 #include "bench/experiments/experiment.hpp"
@@ -33,8 +34,9 @@ Expected<Outcome> slosh(const Bench& bench, double depth, unsigned level, double
   outcome.run = std::move(*run);
   Curve sway, drawn;
   for (const apps::Instant& instant : outcome.run.instants) sway.emplace_back(instant.time_s, instant.stats.centerOfMass[0] - kLength / 2);
-  for (const auto& [time, x] : sway) drawn.emplace_back(time / expected, x / sway.front().second);
-  const Oscillation found = oscillation(sway, 0);
+  const double highest = 2 * wave.amplitude_m / (std::pow(wave.waveNumber(), 2) * kLength * depth);  // sway of linear theory
+  for (const auto& [time, x] : sway) drawn.emplace_back(time / expected, x / highest);
+  const Oscillation found = oscillation(sway, expected / 8);
   outcome.figures.push_back(relativeFigure("period", found.period, expected));
   outcome.figures.push_back({"damping a period", found.decrement, 0, found.decrement});
   outcome.figures.push_back(plainFigure("energy, peak", outcome.run.energy.ratio - 1));

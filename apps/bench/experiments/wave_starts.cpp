@@ -10,10 +10,10 @@ Cloud standingWave(const StandingWave& wave, double spacing, int thickness) {
   for (int i = 0; (i + 0.5) * spacing < wave.length_m; ++i)
     for (int j = 0; (j + 0.5) * spacing < wave.depth_m; ++j)
       for (int l = 0; l < thickness; ++l) {
-        const double x = (i + 0.5) * spacing, y = (j + 0.5) * spacing;
+        const double x = (i + 0.5) * spacing, y = (j + 0.5) * spacing, speed = wave.frequency() * wave.amplitude_m;
         const Double3 shape = wave.shape(x, y);
-        cloud.position.push_back({x + wave.amplitude_m * shape.x, y + wave.amplitude_m * shape.y, (l + 0.5) * spacing});
-        cloud.velocity.push_back({0, 0, 0});
+        cloud.position.push_back({x, y, (l + 0.5) * spacing});
+        cloud.velocity.push_back({speed * shape.x, speed * shape.y, 0});
       }
   return cloud;
 }

@@ -1,12 +1,12 @@
 #pragma once
-// Initial particles of waves: the rest lattice, displaced as the wave displaces the fluid.
+// Initial particles of waves: the rest lattice with the velocities of theory. A displaced lattice is too dense in places: it rises
+// before time begins, and its depth oscillates.
 #include "bench/experiments/measures.hpp"
 #include "bench/experiments/wave_theory.hpp"
 
 namespace rill::bench {
 
-/// A standing wave at its highest, at rest. The displacement is that of linear theory, which keeps volumes.
-/// `thickness`: layers in z.
+/// A standing wave as its surface passes through level, with the velocities of linear theory. `thickness`: layers in z.
 Cloud standingWave(const StandingWave& wave, double spacing, int thickness);
 
 /// A tank with a solitary wave whose crest is at `crest_m`: the rest lattice up to the surface. Where the surface is between two layers,

@@ -22,9 +22,9 @@ struct WaveDiagram {
 };
 constexpr WaveDiagram kWaveDiagrams[] = {
     {"dispersion", "Standing waves: dispersion", "k h", "omega / sqrt(g k)"},
-    {"amplitude-deep", "Standing waves, deep tank: amplitude", "t / theoretical period", "amplitude / initial"},
-    {"amplitude-shallow", "Standing waves, shallow tank: amplitude", "t / theoretical period", "amplitude / initial"},
-    {"amplitude-viscous", "Standing wave, tank of 0.1 m: amplitude", "t / theoretical period", "amplitude / initial"},
+    {"amplitude-deep", "Standing waves, deep tank: amplitude", "t / theoretical period", "amplitude / linear theory"},
+    {"amplitude-shallow", "Standing waves, shallow tank: amplitude", "t / theoretical period", "amplitude / linear theory"},
+    {"amplitude-viscous", "Standing wave, tank of 0.1 m: amplitude", "t / theoretical period", "amplitude / linear theory"},
     {"solitary", "Solitary wave: height of the crest", "depths traveled", "height / initial"},
     {"level", "Tilted tank: shift of the center of mass", "s", "shift / hydrostatic"},
 };
