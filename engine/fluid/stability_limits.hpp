@@ -48,7 +48,7 @@ struct StabilityLimits {
   double firstStep(double head) const;
   double warmGainAtRest(double head) const;        ///< kappa
   double motionSpeed(double head) const;           ///< m/s of the fastest particle, from which on a fluid is no longer at rest
-  double errorRateShareAtRest(double head) const;  ///< of a substep in the mean error that the step follows
+  double errorRateShareAtRest(double head) const;  ///< of a substep in the means of error and step
 };
 StabilityLimits stabilityLimits(const Scene& scene, const SmoothingKernel& kernel);
 

@@ -19,7 +19,7 @@ float warmGainAtRest(float head) {
   return min(params.maxWarmGainAtRest, params.layerWarmGainAtRest / max(layers * layers, 1.0e-20));
 }
 
-// Of a substep in the mean error that the step follows in a fluid at rest.
+// Of a substep in the means of error and step in a fluid at rest.
 float errorRateShareAtRest(float head) { return 1.0 / max(1.0, kErrorSubsteps * columnLayers(head)); }
 
 // Twice the mean height above the lowest particle or below the highest, whichever is less: exact for

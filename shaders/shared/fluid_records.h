@@ -12,8 +12,7 @@ RILL_CONST uint kSettleSubsteps = 512u;    // at most, before the first substep 
 RILL_CONST uint kMaxInitialPressureIterations = 1024u;    // iterations of the initial pressure, at most, after settling
 // motionSpeed, of the speed of falling through the column: see docs/notes/noise-damping.md
 RILL_CONST float kMotionShare = 0.5f;
-// a layer: substeps in the mean error that the step follows at rest. The column's first wave takes
-// about seven.
+// a layer: substeps in the mean error at rest, and in the mean of the steps that it asks for
 RILL_CONST float kErrorSubsteps = 10.0f;
 RILL_CONST float kMaxNoiseDamping = 0.5f;     // XSPH coefficient of a noise damping pass, at most
 // share of the kernel inside solids that the tangential scale makes up for, at most. See
@@ -152,7 +151,7 @@ struct FluidControl {
   uint iterations;     // of the advance
   uint builds;         // list builds of the advance
   uint gravityIndex;   // next entry of the schedule
-  float desiredStep;   // s, what cfl and tolerance ask for, before it is fitted to the advance
+  float desiredStep;   // s, what cfl and tolerance ask for, before it is fitted to the advance; in fluid at rest a mean over many steps
   uint running;        // the next density pass runs
   uint again;          // so does the next iteration
   float relaxation, nextRelaxation;  // omega of this substep, and of the next, whose density pass comes before control.glsl

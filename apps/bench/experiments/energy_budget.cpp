@@ -123,7 +123,7 @@ Energy energyOf(const ReferenceSolver& solver, const WaveTank& tank) {
 }
 
 constexpr int kBudgetThickness = 4;     // layers: the solver runs on one core
-constexpr double kBudgetRate = 444;     // substeps a second: those of the device at 2 d
+constexpr double kBudgetRate = 444;     // substeps a second: about those of the device at 2 d
 constexpr double kBudgetPeriods = 1.3;  // of theory, at most
 constexpr WaveSetting kBudgetSettings[] = {{"energy-2", ""},
                                            {"energy-2.3", "fluid.smoothing_ratio=2.3"},

@@ -34,8 +34,8 @@ Expected<Outcome> slosh(const Bench& bench, double depth, unsigned level, double
   outcome.run = std::move(*run);
   Curve sway, drawn;
   for (const apps::Instant& instant : outcome.run.instants) sway.emplace_back(instant.time_s, instant.stats.centerOfMass[0] - kLength / 2);
-  const double highest = 2 * wave.amplitude_m / (std::pow(wave.waveNumber(), 2) * kLength * depth);  // sway of linear theory
-  for (const auto& [time, x] : sway) drawn.emplace_back(time / expected, x / highest);
+  const double farthest = -2 * wave.amplitude_m / (std::pow(wave.waveNumber(), 2) * kLength * depth);  // linear theory
+  for (const auto& [time, x] : sway) drawn.emplace_back(time / expected, x / farthest);
   const Oscillation found = oscillation(sway, expected / 8);
   outcome.figures.push_back(relativeFigure("period", found.period, expected));
   outcome.figures.push_back({"damping a period", found.decrement, 0, found.decrement});

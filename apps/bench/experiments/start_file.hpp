@@ -7,7 +7,7 @@
 
 namespace rill::bench {
 
-/// Initial particles that fills cannot describe (velocity fields): a temporary PLY file, deleted by the destructor.
+/// Initial particles that fills cannot describe (velocity fields, sloped surfaces): a temporary PLY file, deleted by the destructor.
 class StartFile {
  public:
   /// Io with the name of the file.

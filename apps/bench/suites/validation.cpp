@@ -21,7 +21,7 @@ constexpr Diagram kDiagrams[] = {
     {"column-2-front", "Martin & Moyce, column 2a high: front", "T = t sqrt(2g/a)", "x / a", "martin_moyce_n2_2_front"},
     {"column-2-height", "Martin & Moyce, column 2a high: height at the wall", "t sqrt(g/a)", "h / 2a", "martin_moyce_n2_2_height"},
     {"elliptic", "Elliptic drop: long axis", "A0 t", "b / R", "elliptic_drop"},
-    {"slosh", "Slosh: center of mass", "t / theoretical period", "x / initial x", nullptr},
+    {"slosh", "Slosh: center of mass", "t / theoretical period", "x / linear theory", nullptr},
     {"residual-motion", "Still tank, 1 m deep: rms speed", "s", "m/s", nullptr},
     {"jet", "Torricelli's jet", "s", "speed / sqrt(2 g head)", nullptr},
 };
