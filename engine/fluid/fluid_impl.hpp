@@ -128,7 +128,8 @@ class FluidImpl {
   // substep_passes.cpp
   void declareSubstep(Graph& graph, uint32_t parity, bool first);  ///< first of its block
   void declareForces(Graph& graph, bool first);
-  void declareSweeps(Graph& graph, FluidPass pass, Start start, uint32_t sweeps, float share);
+  void declareViscosity(Graph& graph);
+  void declareNoiseDamping(Graph& graph);
   // measure_passes.cpp
   void declareMeasure(Graph& graph, Pending& pending);
   // declare.cpp

@@ -12,7 +12,7 @@ bool noisy(const FluidSetup& s) { return s.params.noiseDampingRate > 0; }
 bool swirls(const FluidSetup& s) { return s.params.vorticity > 0; }
 bool drags(const FluidSetup& s) { return s.params.drag > 0; }
 bool separate(const FluidSetup& s) { return !s.mergesPasses; }
-bool copies(const FluidSetup& s) { return s.viscositySweeps % 2 == 1 || noisy(s); }
+bool copies(const FluidSetup& s) { return s.viscositySweeps % 2 == 1; }
 bool forcesOrDamping(const FluidSetup& s) { return hasForces(s) || noisy(s); }
 bool forcesOrDampingAtSolids(const FluidSetup& s) { return forcesOrDamping(s) && solids(s); }
 
@@ -53,8 +53,9 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::Collide, "collide", "fluid/collide", E::NearSolids, kEnd, kSolids},
 
     {P::Viscosity, "viscosity", "fluid/viscosity", E::Gather, kEnd, kViscous},
-    {P::NoiseDamping, "noise damping", "fluid/viscosity", E::Gather, {S::NoiseDamping}, kNoisy},
-    {P::CopyVelocities, "copy velocities", "fluid/copy_velocity", E::Particles, kEndOrDamped, {copies}},
+    {P::CopyVelocities, "copy velocities", "fluid/copy_velocity", E::Particles, kEnd, {copies}},
+    {P::VelocityNoise, "velocity noise", "fluid/velocity_noise", E::Gather, {S::NoiseDamping}, kNoisy},
+    {P::NoiseDamping, "noise damping", "fluid/noise_damping", E::Gather, {S::NoiseDamping}, kNoisy},
     {P::Curl, "curl", "fluid/curl", E::Gather, kEnd, kSwirls, kForce},
     {P::Confine, "confine", "fluid/confine", E::Gather, kEnd, kSwirls, kForce},
     {P::Drag, "drag", "fluid/drag", E::Particles, kEnd, kDrags, kForce},

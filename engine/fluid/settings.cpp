@@ -17,7 +17,7 @@ namespace rill {
 namespace {
 
 // Of a fluid at rest, over density x spacing x sqrt(g spacing).
-constexpr double kArtificialViscosity = 0.03;
+constexpr double kArtificialViscosity = 0.3;
 // The gain where density is too low, over that where it is too high: what builds up slower than it goes pumps less energy.
 constexpr double kWarmRelease = 1.5;
 // Spacings that the fastest particle may move before the list is rebuilt.

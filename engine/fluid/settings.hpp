@@ -69,7 +69,7 @@ bool hasWalls(const Scene& scene);
 /// Whether a scene's substeps start from the multipliers of the ones before.
 bool startsWarm(const Scene& scene);
 
-/// The dynamic viscosity that damps particle noise in a fluid at rest, Pa s; 0 without noise damping.
+/// The dynamic viscosity that damps the shortest waves, particle noise, in a fluid at rest, Pa s; 0 without noise damping.
 double artificialViscosity(const Scene& scene);
 
 /// Entries that the list holds a particle, a multiple of 4: of the neighbors that a lattice compressed by a fifth puts within the reach,

@@ -29,9 +29,8 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
 
 // Forces change velocities only. One pass after all of them predicts positions from the resulting velocities.
 void FluidImpl::declareForces(Graph& graph, bool first) {
-  if (exists(FluidPass::Viscosity, setup))
-    declareSweeps(graph, FluidPass::Viscosity, Start::Correct, setup.viscositySweeps, 1.0f / float(setup.viscositySweeps));
-  if (first && exists(FluidPass::NoiseDamping, setup)) declareSweeps(graph, FluidPass::NoiseDamping, Start::NoiseDamping, 1, 0);
+  if (exists(FluidPass::Viscosity, setup)) declareViscosity(graph);
+  if (first && exists(FluidPass::NoiseDamping, setup)) declareNoiseDamping(graph);
   for (const FluidPassRow& row : fluidPassTable()) {
     if (!row.options.force) continue;
     if (row.extent == Extent::Gather)
@@ -46,15 +45,24 @@ void FluidImpl::declareForces(Graph& graph, bool first) {
 }
 
 // Sweeps of XSPH, there and back between the velocities and a copy.
-void FluidImpl::declareSweeps(Graph& graph, FluidPass pass, Start start, uint32_t sweeps, float share) {
+void FluidImpl::declareViscosity(Graph& graph) {
   using enum FluidArray;
-  for (uint32_t sweep = 0; sweep < sweeps; ++sweep) {
+  for (uint32_t sweep = 0; sweep < setup.viscositySweeps; ++sweep) {
     alias(SweepFrom, sweep % 2 == 0 ? Velocity : Smoothed);
     alias(SweepTo, sweep % 2 == 0 ? Smoothed : Velocity);
-    declare(graph, pass, start, SweepPush{0, 0, share});
+    declare(graph, FluidPass::Viscosity, Start::Correct, SweepPush{0, 0, 1.0f / float(setup.viscositySweeps)});
   }
   alias(SweepFrom, Smoothed);
-  if (sweeps % 2 == 1) declare(graph, FluidPass::CopyVelocities, start);
+  if (setup.viscositySweeps % 2 == 1) declare(graph, FluidPass::CopyVelocities, Start::Correct);
+}
+
+void FluidImpl::declareNoiseDamping(Graph& graph) {
+  using enum FluidArray;
+  alias(SweepFrom, Velocity);
+  alias(SweepTo, Smoothed);
+  declare(graph, FluidPass::VelocityNoise, Start::NoiseDamping, ChunkPush{});
+  alias(SweepFrom, Smoothed);
+  declare(graph, FluidPass::NoiseDamping, Start::NoiseDamping, ChunkPush{});
 }
 
 }  // namespace rill

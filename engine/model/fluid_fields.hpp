@@ -108,8 +108,8 @@ struct Table<SolverSettings> {
             &SolverSettings::warm_start},
       Field{Info{.key = "artificial_viscosity",
                  .range = between(0, 0.3),
-                 .help = "noise damping: viscosity of slow fluid, over density x spacing x sqrt(g x spacing), of which fluid.viscosity is "
-                         "a part; auto: 0.03. 0 keeps small waves undamped"},
+                 .help = "noise damping: viscosity of waves as short as the spacing in slow fluid, over density x spacing x sqrt(g x "
+                         "spacing), of which fluid.viscosity is a part; long waves keep their energy. auto: 0.3"},
             &SolverSettings::artificial_viscosity},
       Field{Info{.key = "kernel",
                  .help = "smoothing kernel; wendland: Wendland C2 for density and gradient. poly6_spiky: the pair of Macklin and Mueller "

@@ -246,17 +246,23 @@ double ReferenceSolver::xsphCoefficient(double viscosity, double dt) const {
 
 void ReferenceSolver::viscosity(double dt) {
   const double c = xsphCoefficient(settings.viscosity, dt) / settings.viscositySweeps;
-  for (int sweep = 0; sweep < settings.viscositySweeps; ++sweep) applyXsph(c);
+  for (int sweep = 0; sweep < settings.viscositySweeps; ++sweep) add(c, meanDifference(state.velocity));
 }
 
 void ReferenceSolver::dampNoise(double dt) {
-  applyXsph(std::min(xsphCoefficient(restFactor_ * settings.viscosityAtRest, dt), double{kMaxNoiseDamping}));
+  const double c = std::min(xsphCoefficient(restFactor_ * settings.viscosityAtRest, dt), double{kMaxNoiseDamping});
+  add(-c, meanDifference(meanDifference(state.velocity)));
 }
 
-void ReferenceSolver::applyXsph(double coefficient) {
-  const std::vector<glm::dvec3> v = state.velocity;
+std::vector<glm::dvec3> ReferenceSolver::meanDifference(const std::vector<glm::dvec3>& v) const {
+  std::vector<glm::dvec3> difference(size(), glm::dvec3(0));
   for (size_t i = 0; i < size(); ++i)
-    for (const Pair& pair : pairs(i)) state.velocity[i] += coefficient * pair.value * (pair.sign * v[pair.j] - v[i]);
+    for (const Pair& pair : pairs(i)) difference[i] += pair.value * (pair.sign * v[pair.j] - v[i]);
+  return difference;
+}
+
+void ReferenceSolver::add(double factor, const std::vector<glm::dvec3>& change) {
+  for (size_t i = 0; i < size(); ++i) state.velocity[i] += factor * change[i];
 }
 
 void ReferenceSolver::vorticity(double dt) {

@@ -134,7 +134,7 @@ class ReferenceSolver {
   void correction(double dt, double push);  ///< x*; `push`: artificial pressure times D_rest
   void velocities(double dt);               ///< v, x; adds dt to time()
   void viscosity(double dt);                ///< v: v_i += c/n sum_j K_ij (v_j - v_i), n times; conserves momentum
-  void dampNoise(double dt);                ///< v: the same once, with the additional viscosity of slow fluid
+  void dampNoise(double dt);  ///< v: v -= c L(L v), (L v)_i = sum_j K_ij (v_j - v_i), c of viscosityAtRest, at most kMaxNoiseDamping
   /// Vorticity confinement (Macklin and Mueller 2013, eq. 15 and 16, with a dimensionless coefficient):
   ///   v += dt eps_v h |omega| (N x omega), omega_i = sum_j G_ij x (v_j - v_i), eta_i = sum_j G_ij (|omega_j| - |omega_i|),
   ///   N = eta / (|eta| + 0.001 |omega| / h).
@@ -181,7 +181,8 @@ class ReferenceSolver {
   void predictPositions(double dt, bool atRest);
   void deactivate(size_t i);
   void updateRestFactor();
-  void applyXsph(double coefficient);
+  std::vector<glm::dvec3> meanDifference(const std::vector<glm::dvec3>& v) const;  ///< sum_j K_ij (v_j - v_i)
+  void add(double factor, const std::vector<glm::dvec3>& change);                  ///< to the velocities
 
   SmoothingKernel kernel_;
   ArtificialPressure artificial_;

@@ -14,7 +14,7 @@ RILL_CONST uint kMaxInitialPressureIterations = 1024u;    // iterations of the i
 RILL_CONST float kMotionShare = 0.5f;
 // a layer: substeps in the mean error at rest, and in the mean of the steps that it asks for
 RILL_CONST float kErrorSubsteps = 10.0f;
-RILL_CONST float kMaxNoiseDamping = 0.5f;     // XSPH coefficient of a noise damping pass, at most
+RILL_CONST float kMaxNoiseDamping = 0.5f;     // coefficient of noise damping, at most: no wave is turned around below 0.69
 // share of the kernel inside solids that the tangential scale makes up for, at most. See
 // docs/notes/walls-and-solids.md
 RILL_CONST float kMaxSolidCoverage = 0.4f;
@@ -233,7 +233,7 @@ struct MeasureResult {
 
 struct SweepPush {
   uint first, last;    // as in ChunkPush
-  float share;         // 1 / sweeps; 0: the noise damping pass
+  float share;         // 1 / sweeps
 };
 
 struct ChunkPush {

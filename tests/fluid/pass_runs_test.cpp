@@ -68,7 +68,7 @@ TEST_F(PassRunsTest, CountsPassesOfABlock) {
   const uint64_t damped = ran.at("noise damping");
   EXPECT_GE(damped, 1u);
   EXPECT_LT(damped, run->progress().substeps) << "blocks have several substeps";
-  for (const char* each : {"copy velocities", "predict after forces", "predict at solids"}) EXPECT_EQ(ran.at(each), damped) << each;
+  for (const char* each : {"velocity noise", "predict after forces", "predict at solids"}) EXPECT_EQ(ran.at(each), damped) << each;
   EXPECT_EQ(ran.count("viscosity"), 0u);
 }
 

@@ -247,6 +247,34 @@ TEST(Viscosity, ConservesMomentumAndDissipatesEnergy) {
   EXPECT_LT(energy(solver), kinetic);
 }
 
+/// What noise damping takes of the shear wave v_x = cos(2 pi y / (n d)) in the middle of a lattice, over its theory: c (k^2 M / 2)^2, M the
+/// kernel's second moment, which follows from the decay by the viscosity that is c's: c k^2 M / 2 = nu k^2 dt.
+double noiseDampingOverTheory(int wavelength) {
+  constexpr int kWide = 11, kMiddle = kWide * kWide * kWide / 2;
+  const double dt = 1e-3, k = 2 * std::numbers::pi / (wavelength * kStageSpacing);
+  ReferenceSettings s = freeSpace();
+  s.motionSpeed = 1e6;
+  s.viscosityAtRest = 10;
+  ReferenceSolver solver(s, lattice(kWide, kWide, kWide, kStageSpacing));
+  const double middle = solver.state.position[kMiddle].y, c = 2 * s.viscosityAtRest * dt / (s.density * solver.kernel().secondMoment());
+  double kept = 1;
+  solver.onStage = [&](Stage stage) {
+    if (stage == Stage::Velocities)
+      for (size_t i = 0; i < solver.size(); ++i) solver.state.velocity[i] = {std::cos(k * (solver.state.position[i].y - middle)), 0, 0};
+    if (stage == Stage::NoiseDamping) kept = solver.state.velocity[kMiddle].x;
+  };
+  solver.begin(dt);
+  solver.substep(dt, dt);
+  const double once = s.viscosityAtRest / s.density * k * k * dt;
+  return (1 - kept) / (once * once / c);
+}
+
+TEST(NoiseDamping, TakesFourthPowerOfWaveNumber) {
+  EXPECT_NEAR(noiseDampingOverTheory(48), 1, 0.02);
+  EXPECT_NEAR(noiseDampingOverTheory(24), 1, 0.05);
+  EXPECT_LT(noiseDampingOverTheory(4), 0.8) << "waves as short as the support lose less than the theory of long ones";
+}
+
 TEST(Vorticity, MeasuresCurlAndAcceleratesVortex) {
   ReferenceSettings s = freeSpace();
   s.vorticity = 0.3;

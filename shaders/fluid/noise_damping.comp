@@ -1,0 +1,24 @@
+#version 460
+// Noise damping: velocities lose a part of the difference between their noise and its mean. So a wave loses
+// with the fourth power of its wave number, where XSPH takes the second: see docs/notes/noise-damping.md, 5.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_vote : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+#include "fluid/uniforms.glsl"
+#include "fluid/arrays.glsl"
+layout(local_size_x = kFluidGroup) in;
+layout(push_constant) uniform Push { ChunkPush push; };
+READ_FLOAT4(8, sweepFrom)
+layout(std430, binding = 9) buffer VelocityBlock { vec4 velocity[]; };
+#include "fluid/xsph.glsl"
+
+void main() {
+  uint local = clusterInvocation();
+  uint i = push.first + local;
+  bool inRange = i < min(push.last, control.count);
+  if (!inRange) i = params.capacity;
+  vec3 difference = meanDifference(i, local, inRange);
+  if (!inRange) return;
+  velocity[i].xyz -= control.noiseDamping * difference;
+}

@@ -1,0 +1,24 @@
+#version 460
+// What noise damping filters a second time: how far each velocity is from the kernel's mean.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_vote : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+#include "fluid/uniforms.glsl"
+#include "fluid/arrays.glsl"
+layout(local_size_x = kFluidGroup) in;
+layout(push_constant) uniform Push { ChunkPush push; };
+READ_FLOAT4(8, sweepFrom)
+layout(std430, binding = 9) writeonly buffer SweepToBlock { vec4 sweepTo[]; };
+#include "fluid/xsph.glsl"
+
+void main() {
+  uint local = clusterInvocation();
+  uint i = push.first + local;
+  bool inRange = i < min(push.last, control.count);
+  if (!inRange) i = params.capacity;
+  vec3 difference = meanDifference(i, local, inRange);
+  if (!inRange) return;
+  sweepTo[i] = vec4(difference, 0.0);
+  if (i == 0u) sweepTo[params.capacity] = vec4(0.0);  // the dummy neighbor, whose weight of 0 would not do away with a NaN
+}
