@@ -14,7 +14,7 @@
 namespace rill {
 
 /// Spacings beyond the support that the list reaches.
-inline constexpr double kListSkin = 0.15;
+inline constexpr double kListSkin = 0.1;
 
 /// Floats of a KeyframeRecord.
 inline constexpr size_t kKeyframeNumbers = sizeof(KeyframeRecord) / sizeof(float);

@@ -46,12 +46,12 @@ TEST_F(InitialPressureTest, EqualsTheWeightAbove) {
   auto run = start(t);
   run->substeps(1);
   const auto p = pressures(*run, t);
-  const SmoothingKernel kernel(KernelChoice::Wendland, 2 * t.d(), t.d());
-  // Force of a unit pressure gradient on the cubic lattice, 0.95: the gradient that balances the weight is larger by its inverse.
+  const SmoothingKernel kernel(KernelChoice::Wendland, t.scene.fluid.smoothing_ratio * t.d(), t.d());
+  // Force of a unit pressure gradient on the cubic lattice: the gradient that balances the weight is larger by its inverse.
   double force = 0;
-  for (int x = -1; x <= 1; ++x)
-    for (int y = -1; y <= 1; ++y)
-      for (int z = -1; z <= 1; ++z) force -= kernel.gradientOverR(t.d() * std::sqrt(double(x * x + y * y + z * z))) * y * y * t.d() * t.d();
+  for (int x = -2; x <= 2; ++x)
+    for (int y = -2; y <= 2; ++y)
+      for (int z = -2; z <= 2; ++z) force -= kernel.gradientOverR(t.d() * std::sqrt(double(x * x + y * y + z * z))) * y * y * t.d() * t.d();
   double low[6][6] = {}, high[6][6] = {};
   for (size_t i = 0; i < p.size(); ++i) {
     const auto at = [&](int a) { return static_cast<int>(t.x[i][a] / t.d()); };

@@ -120,7 +120,7 @@ TEST_F(CountedMemory, RejectsListsOfTooManyBuffers) {
   device = *Device::borrow(vulkan.host());
   device->beginFrame({1, 0});
   scene.fluid.smoothing_ratio = 4;
-  auto fluid = Fluid::create(*device, {.scene = &scene, .particles = &particles, .capacity = 3000000});
+  auto fluid = Fluid::create(*device, {.scene = &scene, .particles = &particles, .capacity = 3500000});
   ASSERT_FALSE(fluid);
   EXPECT_NE(fluid.error().message.find("more than 16 buffers"), std::string::npos) << fluid.error().message;
   const uint32_t most = maxParticles(*device, scene);

@@ -256,7 +256,7 @@ TEST_F(SubstepTest, TensileOnceABlockMatchesReference) {
   t.scene.fluid.tensile = 1;
   t.stepwise = false;
   t.scene.fluid.tensile_radius = 0.3;
-  t.x = block({6, 7, 6}, t.d(), {}, 0.2);
+  t.x = block({6, 7, 6}, t.d(), {}, 0.15);
   expectEqual(t, 8, kTen, kTen, kAgeing);
 }
 

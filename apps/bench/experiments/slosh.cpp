@@ -15,16 +15,14 @@ constexpr double kDepths[] = {0.25, 0.5, 1};            // m, as in sloshing_fir
 constexpr int kTankResolution[kLevels] = {20, 28, 40};  // spacings; multiples of 4, so that each depth is a multiple of the spacing
 constexpr int kTankThickness = 4;                       // spacings in z, between frictionless walls
 constexpr double kPeriods = 5.3;                        // long enough for ten crossings
-constexpr double kWide = 2.3;                           // smoothing ratio of additional runs at the medium depth
 
-Expected<Outcome> slosh(const Bench& bench, double depth, unsigned level, double smoothingRatio) {
+Expected<Outcome> slosh(const Bench& bench, double depth, unsigned level) {
   const double spacing = kLength / kTankResolution[level];
   // Small enough for linear theory: below pi A / L = 0.13 the next order changes the period by less than 0.2 %.
   const StandingWave wave{.length_m = kLength, .depth_m = depth, .amplitude_m = std::min(0.04, 0.08 * depth)};
   const auto start = StartFile::write(standingWave(wave, spacing, kTankThickness));
   if (!start) return start.error();
   Scene scene = boxScene(spacing, {0, 0, 0}, {kLength, 2 * depth, kTankThickness * spacing});
-  scene.fluid.smoothing_ratio = smoothingRatio;
   scene.fill.push_back(start->fill());
   const double expected = wave.period();
   auto run = runSampled(
@@ -42,9 +40,7 @@ Expected<Outcome> slosh(const Bench& bench, double depth, unsigned level, double
   outcome.figures.push_back(plainFigure("energy, peak", outcome.run.energy.ratio - 1));
   outcome.curves["center_of_mass_x"] = curveJson(sway);
   outcome.curves["peaks"] = curveJson(found.peaks);
-  outcome.overlays.push_back(
-      {"slosh",
-       {"H = " + number(depth) + ", d = " + number(spacing) + ", h = " + number(smoothingRatio) + " d", Series::Style::Lines, drawn, {}}});
+  outcome.overlays.push_back({"slosh", {"H = " + number(depth) + ", d = " + number(spacing), Series::Style::Lines, drawn, {}}});
   return outcome;
 }
 
@@ -52,13 +48,10 @@ Expected<Outcome> slosh(const Bench& bench, double depth, unsigned level, double
 
 std::vector<Experiment> sloshExperiments() {
   std::vector<Experiment> all;
-  const auto add = [&](const std::string& name, double depth, double smoothingRatio) {
+  for (const double depth : kDepths)
     for (unsigned level = 0; level < kLevels; ++level)
-      all.push_back({name + number(depth), level, level == 0 && depth == kDepths[1], kLength / kTankResolution[level],
-                     [=](const Bench& bench) { return slosh(bench, depth, level, smoothingRatio); }});
-  };
-  for (const double depth : kDepths) add("slosh-", depth, Scene().fluid.smoothing_ratio);
-  add("slosh-wide-", kDepths[1], kWide);
+      all.push_back({"slosh-" + number(depth), level, level == 0 && depth == kDepths[1], kLength / kTankResolution[level],
+                     [=](const Bench& bench) { return slosh(bench, depth, level); }});
   return all;
 }
 

@@ -11,16 +11,15 @@ constexpr double kCostFrom = 0.1;  // s: the start, which solves for the initial
 
 constexpr WaveSetting kComparedSettings[] = {
     {"default", "", true},
-    {"h 2.3", "fluid.smoothing_ratio=2.3", true},
+    {"h 2", "fluid.smoothing_ratio=2", true},
     {"h 2.5", "fluid.smoothing_ratio=2.5"},
-    {"pressure 0.5", "fluid.tensile=0.5"},
-    {"h 2.3, pressure 0.5", "fluid.smoothing_ratio=2.3 fluid.tensile=0.5"},
+    {"pressure 0.2", "fluid.tensile=0.2"},
     {"no noise damping", "solver.artificial_viscosity=0"},
-    {"h 2.3, no noise damping", "fluid.smoothing_ratio=2.3 solver.artificial_viscosity=0"},
+    {"h 2, no noise damping", "fluid.smoothing_ratio=2 solver.artificial_viscosity=0"},
     {"tol 0.0004", "solver.tolerance=0.0004"},
     {"tol 0.003", "solver.tolerance=0.003", true},
     {"cfl 0.1", "solver.cfl=0.1"},
-    {"h 2.3, grid", "fluid.smoothing_ratio=2.3 solver.neighbors=grid"},
+    {"grid", "solver.neighbors=grid"},
     {"paper's kernels", "solver.kernel=poly6_spiky"},
 };
 

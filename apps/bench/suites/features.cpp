@@ -47,7 +47,7 @@ std::vector<Feature> features() {
       {"vorticity", {{"fluid.vorticity", "0.2"}}, {{"fluid.vorticity", "0"}}},
       {"drag", {{"rill", "\"0.2\""}, {"fluid.drag", "0.5"}}, {{"rill", "\"0.2\""}, {"fluid.drag", "0"}}},
       // When it is off, its other settings must have no effect.
-      {"tensile", {{"fluid.tensile", "0.2"}}, {{"fluid.tensile", "0"}, {"fluid.tensile_radius", "0.4"}, {"fluid.tensile_power", "2"}}},
+      {"tensile", {{"fluid.tensile", "0.5"}}, {{"fluid.tensile", "0"}, {"fluid.tensile_radius", "0.4"}, {"fluid.tensile_power", "2"}}},
       {"solid box", {{"solids", kBox}}, {{"solids", "[]"}}},
       {"solid out of reach", {{"solids", kDistantBox}}},  // without a solid it equals "solid box" off
       {"solid sphere", {{"solids", kSphere}}},

@@ -48,11 +48,11 @@ struct FluidSettings {
   double spacing = 0;            ///< distance of particles at rest, m, > 0; 0 if `particles` is given
   uint64_t particles = 0;        ///< approximate number of particles; 0 if `spacing` is given
   double density = 1000;         ///< rest density, kg/m^3, > 0
-  double smoothing_ratio = 2.0;  ///< smoothing length (support radius of the kernel) over spacing, 1.2 .. 4
+  double smoothing_ratio = 2.3;  ///< smoothing length (support radius of the kernel) over spacing, 1.2 .. 4
   double viscosity = 0;          ///< dynamic viscosity, Pa s, >= 0
   double vorticity = 0;          ///< strength of vorticity confinement (Macklin and Mueller 2013, eq. 16), 0 .. 1
   double drag = 0;               ///< linear drag against air at rest, 1/s, >= 0: dv/dt = -drag v
-  double tensile = 0.2;          ///< strength of the artificial pressure s_corr (eq. 13), 0 .. 1
+  double tensile = 0.5;          ///< strength of the artificial pressure s_corr (eq. 13), 0 .. 1
   double tensile_radius = 0.25;  ///< delta q of s_corr over the smoothing length, 0 .. 1 exclusive
   double tensile_power = 16;     ///< exponent n of s_corr, 1 .. 16
 };
