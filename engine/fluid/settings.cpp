@@ -12,12 +12,15 @@
 #include "sph/artificial_pressure.hpp"
 #include "sph/half_space.hpp"
 #include "sph/kernel.hpp"
+#include "sph/liquid_scale.hpp"
 
 namespace rill {
 namespace {
 
 // Of a fluid at rest, over density x spacing x sqrt(g spacing).
-constexpr double kArtificialViscosity = 0.3;
+constexpr double kArtificialViscosity = 1;
+// In which the lattice of a fill at h = 2.3 d becomes a liquid, over sqrt(spacing / g). See docs/notes/rest-state.md.
+constexpr double kMeltingTime = 20;
 // The gain where density is too low, over that where it is too high: what builds up slower than it goes pumps less energy.
 constexpr double kWarmRelease = 1.5;
 // Spacings that the fastest particle may move before the list is rebuilt.
@@ -227,6 +230,11 @@ double artificialViscosity(const Scene& scene) {
   return std::max(0.0, wanted - scene.fluid.viscosity);
 }
 
+double meltingTime(const Scene& scene) {
+  const double gravity = strongestGravity(scene);
+  return gravity > 0 ? kMeltingTime * std::sqrt(scene.fluid.spacing / gravity) : 0;
+}
+
 bool hasWalls(const Scene& scene) { return scene.domain && scene.domain->open != kEverySide; }
 
 bool startsWarm(const Scene& scene) { return boundedWarmGain(scene).wanted > 0; }
@@ -256,6 +264,8 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   p.support = f(h);
   p.inverseSupport = f(1 / h);
   p.valueScale = f(kernel.valueScale());
+  p.liquidExcess = f(liquidScale(kernel) - 1);
+  p.inverseMeltingTime = meltingTime(scene) > 0 ? f(1 / meltingTime(scene)) : 0;
   p.gradientScale = f(setup.kernel == 0 ? kernel.gradientScale() : kernel.gradientScale() / h);
   p.inverseRestGradient = f(1 / kernel.restGradientSum());
   setup.limits = stabilityLimits(scene, kernel);

@@ -107,9 +107,9 @@ struct Table<SolverSettings> {
                          "at rest, 0 with several iterations"},
             &SolverSettings::warm_start},
       Field{Info{.key = "artificial_viscosity",
-                 .range = between(0, 0.3),
+                 .range = between(0, 1),
                  .help = "noise damping: viscosity of waves as short as the spacing in slow fluid, over density x spacing x sqrt(g x "
-                         "spacing), of which fluid.viscosity is a part; long waves keep their energy. auto: 0.3"},
+                         "spacing), of which fluid.viscosity is a part; long waves keep their energy. auto: 1"},
             &SolverSettings::artificial_viscosity},
       Field{Info{.key = "kernel",
                  .help = "smoothing kernel; wendland: Wendland C2 for density and gradient. poly6_spiky: the pair of Macklin and Mueller "

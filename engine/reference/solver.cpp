@@ -11,6 +11,7 @@
 #include "reference/neighbors.hpp"
 #include "shared/fluid_records.h"
 #include "shared/pair_hash.h"
+#include "sph/liquid_scale.hpp"
 
 namespace rill::reference {
 namespace {
@@ -22,7 +23,8 @@ bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.
 ReferenceSolver::ReferenceSolver(const ReferenceSettings& s, std::span<const glm::dvec3> positions, std::span<const glm::dvec3> velocities)
     : settings(s),
       kernel_(s.kernel, s.smoothingRatio * s.spacing, s.spacing),
-      artificial_(kernel_, s.tensile, s.tensileRadius, s.tensilePower) {
+      artificial_(kernel_, s.tensile, s.tensileRadius, s.tensilePower),
+      time_(s.startTime) {
   assert(velocities.empty() || velocities.size() == positions.size());
   const size_t count = positions.size();
   state.position.assign(positions.begin(), positions.end());
@@ -145,6 +147,10 @@ ReferenceSolver::Pair ReferenceSolver::makePair(uint32_t i, uint32_t j) const {
   return pair;
 }
 
+double ReferenceSolver::densityScale() const {
+  return settings.meltingTime > 0 ? std::lerp(1.0, liquidScale(kernel_), std::min(time_ / settings.meltingTime, 1.0)) : 1;
+}
+
 void ReferenceSolver::density() {
   const Neighbors found = findNeighbors(state.predicted, kernel_.h());
   const std::vector<Pose> solids = poses(time_, step_);
@@ -154,10 +160,10 @@ void ReferenceSolver::density() {
   densityRatio_.resize(size());
   denominator_.resize(size());
   boundary_.resize(size());
-  const double rest = kernel_.restGradientSum();
+  const double rest = kernel_.restGradientSum(), scale = densityScale();
   for (uint32_t i = 0; i < size(); ++i) {
     boundary_[i] = boundaryOf(state.predicted[i], solids);
-    double ratio = kernel_.value(0) + boundary_[i].value, squares = 0;
+    double ratio = kernel_.value(0), squares = 0;
     glm::dvec3 sum = vec(boundary_[i].gradient);
     for (const uint32_t j : found.of(i)) pairs_.push_back(makePair(i, j));
     neighborCount_[i] = static_cast<uint32_t>(found.of(i).size());
@@ -168,9 +174,9 @@ void ReferenceSolver::density() {
       sum += pair.gradient;
       squares += glm::dot(pair.gradient, pair.gradient);
     }
-    densityRatio_[i] = ratio;
-    const glm::dmat3 scale = tangentialScale(i);
-    const double all = glm::dot(sum, scale * sum) + squares * (scale[0].x + scale[1].y + scale[2].z) / 3;
+    densityRatio_[i] = scale * ratio + boundary_[i].value;
+    const glm::dmat3 along = tangentialScale(i);
+    const double all = glm::dot(sum, along * sum) + squares * (along[0].x + along[1].y + along[2].z) / 3;
     denominator_[i] = std::max(all + settings.regularization * rest, kMinDenominator * rest);
   }
 }

@@ -72,8 +72,10 @@ struct ReferenceSettings {
   double motionSpeed = 0;       ///< largest speed, m/s, from which on omega and kappa are those above; 0: always
   double relaxationAtRest = 0;  ///< omega at rest; interpolated by the fourth power of the speed
   double warmStartAtRest = 0;   ///< kappa at rest
-  double viscosityAtRest = 0;   ///< noise damping: viscosity at rest in addition to `viscosity`, Pa s; 0 at motionSpeed
-  int substepsPerBlock = 1;     ///< noise damping and artificial pressure are applied once per block of this many substeps
+  double startTime = 0;         ///< s, time() at the beginning
+  double meltingTime = 0;      ///< s, in which the scale of the density goes from the lattice's to liquidScale(); 0: it stays the lattice's
+  double viscosityAtRest = 0;  ///< noise damping: viscosity at rest in addition to `viscosity`, Pa s; 0 at motionSpeed
+  int substepsPerBlock = 1;    ///< noise damping and artificial pressure are applied once per block of this many substeps
 
   double tensile = 0;           ///< strength of the artificial pressure, 0 .. 1; see sph/artificial_pressure.hpp
   double tensileRadius = 0.25;  ///< delta q / h
@@ -181,6 +183,7 @@ class ReferenceSolver {
   void predictPositions(double dt, bool atRest);
   void deactivate(size_t i);
   void updateRestFactor();
+  double densityScale() const;                                                     ///< factor on the fluid's part of the density
   std::vector<glm::dvec3> meanDifference(const std::vector<glm::dvec3>& v) const;  ///< sum_j K_ij (v_j - v_i)
   void add(double factor, const std::vector<glm::dvec3>& change);                  ///< to the velocities
 

@@ -12,6 +12,7 @@
 #include "fluid/arrays.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
+#include "fluid/density_scale.glsl"
 #include "fluid/solid_samples.glsl"
 layout(local_size_x = kFluidGroup) in;
 
@@ -47,7 +48,7 @@ void reflectSums(vec3 signs) { gradientSum *= signs; }
 
 // Compression of the particle, from 0 to 1; its multiplier is updated.
 float updateMultiplier(uint i, uint head) {
-  rho = params.valueScale * (rho + kernelShape(0.0));
+  rho = densityScale() * (rho + kernelShape(0.0));
   gradientSum *= params.gradientScale;
   gradientSquares *= params.gradientScale * params.gradientScale;
   SolidScale solids = kNoSolids;

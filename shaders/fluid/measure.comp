@@ -9,6 +9,7 @@
 #include "fluid/uniforms.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
+#include "fluid/density_scale.glsl"
 #include "fluid/images.glsl"
 #include "fluid/solid_samples.glsl"
 #include "shared/loops.glsl"
@@ -68,7 +69,7 @@ void main() {
   } LOOP_END(subgroupAny(more));
   if (!inRange) return;
   uint i = numberFromFloat(particle.w);
-  rho *= params.valueScale;
+  rho *= densityScale();
   if (SOLIDS) rho += displacedAt(i, listHeadAt(i)).w;
   velocity[i].w = rho;
   float error = rho - 1.0;

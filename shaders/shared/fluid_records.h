@@ -63,6 +63,8 @@ struct FluidParams {
   float support;          // m, the kernel's support radius h
   float inverseSupport;   // 1/m
   float valueScale;       // of the kernel's polynomial
+  float liquidExcess;     // by how much of it a liquid's sum is scaled more than the lattice's
+  float inverseMeltingTime;  // 1/s, 1 over the time in which a fill becomes a liquid; 0: it does not
   float gradientScale;    // of its gradient's polynomial, negative, 1/m^2 (see kernel.glsl)
   float inverseRestGradient;  // 1 / sum |grad K|^2 of the rest lattice, m^2
   float regularization;   // epsilon times sum |grad K|^2 of the rest lattice, 1/m^2

@@ -8,6 +8,7 @@
 
 #include "bench/workbench.hpp"
 #include "core/words.hpp"
+#include "fluid/settings.hpp"
 #include "reference/solver.hpp"
 #include "sort/key_sort.hpp"
 
@@ -66,7 +67,8 @@ Expected<CheckResult> radixSort(const Bench& bench) { return sortsLikeHost(bench
 Expected<CheckResult> densityMatches(const Bench& bench) {
   auto simulation = checkedRun(bench, kCheckFrames);
   if (!simulation) return simulation.error();
-  if (auto stats = simulation->stats(); !stats) return stats.error();
+  const auto stats = simulation->stats();
+  if (!stats) return stats.error();
   const auto particles = simulation->particles();
   if (!particles) return particles.error();
   const Scene& scene = simulation->scene();
@@ -76,6 +78,8 @@ Expected<CheckResult> densityMatches(const Bench& bench) {
   settings.smoothingRatio = scene.fluid.smoothing_ratio;
   settings.density = scene.fluid.density;
   settings.tabulated = true;
+  settings.startTime = stats->time_s;
+  settings.meltingTime = meltingTime(scene);
   for (int a = 0; a < 3; ++a) {
     if (!(scene.domain->open & (1u << (2 * a)))) settings.lo[a] = scene.domain->min[a];
     if (!(scene.domain->open & (2u << (2 * a)))) settings.hi[a] = scene.domain->max[a];

@@ -156,8 +156,8 @@ class Stability {
     auto other = runScene(bench_, {.scene = reference, .duration_s = kDuration});
     if (!other) return other.error().message;
     if (bench_.stopped()) return {};
-    if (!(outcome.run.density.mean <= 1.1 * other->density.mean))
-      return "mean error: found " + percent(outcome.run.density.mean) + ", expected at most 1.1 times that of the reference scene, " +
+    if (!(outcome.run.density.mean <= 1.25 * other->density.mean))
+      return "mean error: found " + percent(outcome.run.density.mean) + ", expected at most 1.25 times that of the reference scene, " +
              percent(other->density.mean);
     if (!(std::abs(outcome.run.energy.end_ratio - other->energy.end_ratio) <= 0.02))
       return "final energy / initial energy: found " + number(outcome.run.energy.end_ratio, 4) +

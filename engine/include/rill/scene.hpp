@@ -67,7 +67,7 @@ struct SolverSettings {
   std::optional<double> relaxation = {};      ///< relaxation factor of the Jacobi iteration, > 0 .. 2
   std::optional<double> regularization = {};  ///< epsilon (eq. 11) over the rest lattice's sum of |grad C|^2, >= 0
   std::optional<double> warm_start = {};      ///< gain of the integral warm start, 0 .. 0.5; 0: none
-  std::optional<double> artificial_viscosity = {};  ///< noise damping at rest, over density x spacing x sqrt(g x spacing), 0 .. 0.3
+  std::optional<double> artificial_viscosity = {};  ///< noise damping at rest, over density x spacing x sqrt(g x spacing), 0 .. 1
   KernelChoice kernel = KernelChoice::Wendland;
   NeighborChoice neighbors = NeighborChoice::List;
 };
