@@ -19,7 +19,7 @@ namespace {
 
 // Of a fluid at rest, over density x spacing x sqrt(g spacing).
 constexpr double kArtificialViscosity = 1;
-// In which the lattice of a fill at h = 2.3 d becomes a liquid, over sqrt(spacing / g). See docs/notes/rest-state.md.
+// The time in which the lattice of a fill at h = 2.3 d becomes a liquid, over sqrt(spacing / g). See docs/notes/rest-state.md.
 constexpr double kMeltingTime = 20;
 // The gain where density is too low, over that where it is too high: what builds up slower than it goes pumps less energy.
 constexpr double kWarmRelease = 1.5;
@@ -232,7 +232,8 @@ double artificialViscosity(const Scene& scene) {
 
 double meltingTime(const Scene& scene) {
   const double gravity = strongestGravity(scene);
-  return gravity > 0 ? kMeltingTime * std::sqrt(scene.fluid.spacing / gravity) : 0;
+  const bool held = hasWalls(scene) || !scene.solids.empty();  // in free fall there is no pressure
+  return held && gravity > 0 ? kMeltingTime * std::sqrt(scene.fluid.spacing / gravity) : 0;
 }
 
 bool hasWalls(const Scene& scene) { return scene.domain && scene.domain->open != kEverySide; }
@@ -265,7 +266,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   p.inverseSupport = f(1 / h);
   p.valueScale = f(kernel.valueScale());
   p.liquidExcess = f(liquidScale(kernel) - 1);
-  p.inverseMeltingTime = meltingTime(scene) > 0 ? f(1 / meltingTime(scene)) : 0;
+  if (const double time = meltingTime(scene); time > 0) p.inverseMeltingTime = f(1 / time);
   p.gradientScale = f(setup.kernel == 0 ? kernel.gradientScale() : kernel.gradientScale() / h);
   p.inverseRestGradient = f(1 / kernel.restGradientSum());
   setup.limits = stabilityLimits(scene, kernel);

@@ -69,7 +69,7 @@ bool hasWalls(const Scene& scene);
 /// Whether a scene's substeps start from the multipliers of the ones before.
 bool startsWarm(const Scene& scene);
 
-/// The time in which gravity makes a liquid of a fill's lattice, s; 0 without gravity, which does not.
+/// The time in which weight makes a liquid of a fill's lattice, s; 0 without gravity, or without walls and solids that hold the fluid.
 double meltingTime(const Scene& scene);
 
 /// The dynamic viscosity that damps the shortest waves, particle noise, in a fluid at rest, Pa s; 0 without noise damping.

@@ -52,8 +52,9 @@ void FluidImpl::declareViscosity(Graph& graph) {
     alias(SweepTo, sweep % 2 == 0 ? Smoothed : Velocity);
     declare(graph, FluidPass::Viscosity, Start::Correct, SweepPush{0, 0, 1.0f / float(setup.viscositySweeps)});
   }
+  if (!exists(FluidPass::CopyVelocities, setup)) return;
   alias(SweepFrom, Smoothed);
-  if (setup.viscositySweeps % 2 == 1) declare(graph, FluidPass::CopyVelocities, Start::Correct);
+  declare(graph, FluidPass::CopyVelocities, Start::Correct);
 }
 
 void FluidImpl::declareNoiseDamping(Graph& graph) {

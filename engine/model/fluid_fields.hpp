@@ -91,11 +91,12 @@ struct Table<SolverSettings> {
                  .help = "largest mean compression, as a fraction of the rest density; iterations and substeps are reduced as far as it "
                          "allows. 0: always the full number of iterations"},
             &SolverSettings::tolerance},
-      Field{Info{.key = "relaxation",
-                 .range = aboveTo(0, 2),
-                 .help = "relaxation factor of the Jacobi iteration; auto: 0.7 in motion, 0.46 at rest (with the default kernel). Lower it "
-                         "if the fluid jitters"},
-            &SolverSettings::relaxation},
+      Field{
+          Info{.key = "relaxation",
+               .range = aboveTo(0, 2),
+               .help = "relaxation factor of the Jacobi iteration; auto: 0.56 in motion, 0.37 at rest (with the default kernel). Lower it "
+                       "if the fluid jitters"},
+          &SolverSettings::relaxation},
       Field{Info{.key = "regularization",
                  .range = atLeast(0),
                  .help = "epsilon of Macklin and Mueller 2013, eq. 11, as a fraction of the rest lattice's sum of |grad C|^2; larger "

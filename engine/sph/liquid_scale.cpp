@@ -9,7 +9,7 @@
 namespace rill {
 namespace {
 
-constexpr double kMaxLiquidScale = 1.01;
+constexpr double kMinRatio = 2;  // below, sums of the lattices are up to 7 % apart, and rest states were not measured
 
 /// Sum of K over the particles of a lattice around one of them; `atoms` a cubic cell, one of them at 0, in cells.
 double sumOver(const SmoothingKernel& kernel, std::initializer_list<glm::dvec3> atoms) {
@@ -26,10 +26,10 @@ double sumOver(const SmoothingKernel& kernel, std::initializer_list<glm::dvec3> 
 }  // namespace
 
 double liquidScale(const SmoothingKernel& kernel) {
-  if (kernel.choice() != KernelChoice::Wendland) return 1;
+  if (kernel.choice() != KernelChoice::Wendland || kernel.h() < kMinRatio * kernel.spacing()) return 1;
   const double bodyCentered = sumOver(kernel, {{0, 0, 0}, {0.5, 0.5, 0.5}});
   const double faceCentered = sumOver(kernel, {{0, 0, 0}, {0, 0.5, 0.5}, {0.5, 0, 0.5}, {0.5, 0.5, 0}});
-  return std::min(1 / std::min({1.0, bodyCentered, faceCentered}), kMaxLiquidScale);
+  return 1 / std::min({1.0, bodyCentered, faceCentered});
 }
 
 }  // namespace rill

@@ -4,10 +4,9 @@
 
 namespace rill {
 
-/// Factor on the kernel's sum with which a liquid at rest has rest density: 1 over the least of the sums over the cubic, the body-centered
-/// and the face-centered cubic lattice, at one particle per d^3, which is what a melt tends to. 1 .. 1.01: 1 where the cubic lattice has
-/// the least sum, and for Poly6Spiky, whose particles move along another kernel's gradient; at most 1.01 for supports as short as neighbors
-/// are far.
+/// Factor on the kernel's sum with which a liquid at rest has rest density: one over the least of the sums over the cubic, the
+/// body-centered and the face-centered cubic lattice, at one particle per d^3. 1 where the cubic lattice has the least sum, for supports
+/// under 2 d, and for Poly6Spiky, whose particles move along the gradient of another kernel; at most 1.006.
 double liquidScale(const SmoothingKernel& kernel);
 
 }  // namespace rill

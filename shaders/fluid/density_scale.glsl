@@ -1,5 +1,5 @@
-// What the kernel's sum is multiplied by: the lattice of a fill has rest density at the start, and the liquid
-// that it becomes once it has melted. See docs/notes/rest-state.md.
+// Factor on the kernel's sum: the lattice of a fill has rest density at the start, and the liquid that it
+// becomes after the melting time. See docs/notes/rest-state.md.
 #ifndef RILL_FLUID_DENSITY_SCALE_GLSL
 #define RILL_FLUID_DENSITY_SCALE_GLSL
 float densityScale() {

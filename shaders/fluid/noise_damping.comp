@@ -1,6 +1,6 @@
 #version 460
-// Noise damping: velocities lose a part of the difference between their noise and its mean. So a wave loses
-// with the fourth power of its wave number, where XSPH takes the second: see docs/notes/noise-damping.md, 5.
+// Noise damping, v -= c L(L v) with (L v)_i = sum_j K_ij (v_j - v_i) from velocity_noise.comp. A wave loses with
+// the fourth power of its wave number, where XSPH takes the second: see docs/notes/noise-damping.md.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_vote : require

@@ -1,5 +1,5 @@
 #version 460
-// What noise damping filters a second time: how far each velocity is from the kernel's mean.
+// L v, which noise damping filters a second time: the difference of the kernel's mean from each velocity.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_vote : require

@@ -93,7 +93,7 @@ struct FluidParams {
   float tableStep;        // m between nodes of the tables
   uint tableNodes;        // of the half-space's table, which comes first
   float viscosityRate;    // XSPH coefficient a second of step, 1/s
-  float noiseDampingRate;      // the same, of the noise's damping in a fluid at rest
+  float noiseDampingRate;      // coefficient of noise damping a second of block, in a fluid at rest, 1/s
   float vorticity;        // dimensionless
   float drag;             // 1/s
   // artificial pressure, 1/s^2: times the square of the time since the last one it is a multiplier
@@ -160,7 +160,7 @@ struct FluidControl {
   float warmGain, nextWarmGain;      // kappa, likewise
   float errorRate;     // mean compression over the step's square, 1/s^2; in fluid at rest a mean over many steps
   float restFraction;      // 1: at rest, 0: at motionSpeed or faster
-  float noiseDamping;       // XSPH coefficient of the noise damping pass after this substep; 0: it does not run
+  float noiseDamping;       // coefficient of noise damping after this substep; 0: its passes do not run
   float head;          // m^2/s^2, gravity times the height of the column that the fluid has stood in so far
   float artificialPressure;       // artificial pressure of this substep, over 1 / D of the rest lattice; 0 in all but the first of a block
   float blockTime;     // s since the last substep that was the first of its block

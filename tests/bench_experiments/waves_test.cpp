@@ -275,9 +275,9 @@ TEST(WaveSuite, SettingsAreSceneKeys) {
     const auto scene = waveSettings(setting.changes);
     EXPECT_TRUE(scene) << setting.name << ": " << scene.error().message;
   }
-  const auto changed = waveSettings("fluid.smoothing_ratio=2.3 solver.neighbors=grid");
+  const auto changed = waveSettings("fluid.smoothing_ratio=2.4 solver.neighbors=grid");
   ASSERT_TRUE(changed);
-  EXPECT_EQ(changed->fluid.smoothing_ratio, 2.3);
+  EXPECT_EQ(changed->fluid.smoothing_ratio, 2.4);
   EXPECT_EQ(changed->solver.neighbors, NeighborChoice::Grid);
   EXPECT_FALSE(waveSettings("fluid.smothing_ratio=2.3"));
 }
@@ -296,7 +296,7 @@ TEST(WaveSuite, SettingCostIsThatOfOnePeriodAfterStart) {
 }
 
 TEST(WaveSuite, FiguresHaveRowsOfBands) {
-  for (const char* family : {"deep-mode-1", "shallow-mode-3", "viscosity-0.1", "setting h 2.3"})
+  for (const char* family : {"deep-mode-1", "shallow-mode-3", "viscosity-0.1", "setting h 2"})
     for (const char* figure : {"period", "loss a period"}) EXPECT_NE(bandOf(family, figure), nullptr) << family << ", " << figure;
   EXPECT_NE(bandOf("viscosity-0", "decay"), nullptr);
   for (const char* figure : {"speed", "speed at its height", "height kept"}) EXPECT_NE(bandOf("solitary-8", figure), nullptr) << figure;

@@ -109,7 +109,7 @@ TEST_F(SubstepTest, OneSweepOfViscosityMatchesReference) {
   expectEqual(t, 10, kTen, kTen, kAgeing);
 }
 
-// Gains and damping between those of a fluid at rest and of one that is rough; ten times the default artificial viscosity.
+// Gains and damping between those of a fluid at rest and of one that is rough.
 Trial calmed() {
   Trial t = trial();
   t.scene.solver.relaxation.reset();

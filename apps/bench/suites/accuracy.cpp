@@ -179,7 +179,7 @@ class Accuracy {
   void addToReport(const Case& c, const std::vector<Measured>& measured, double seedSpread) {
     const auto density = [](const Measured& m) { return m.diverged ? kDivergedError : m.run.density.mean; };
     const auto trajectory = [](const Measured& m) { return m.diverged ? kDivergedTrajectory : m.trajectory; };
-    const std::string kernel = "Wendland or poly6, support h = 2 d unless noted";
+    const std::string kernel = "Wendland or poly6, support h = 2.3 d unless noted";
     std::vector<CostError> byDensity, byTrajectory;
     for (const Measured& m : measured) {
       byDensity.emplace_back(m.cost(), m.diverged ? std::numeric_limits<double>::quiet_NaN() : density(m));
@@ -223,7 +223,7 @@ class Accuracy {
 
     Plot first{c.name + ": density error",
                "wall seconds per simulated second",
-               "mean compression (kernel of h = 2 d unless noted)",
+               "mean compression (kernel of h = 2.3 d unless noted)",
                true,
                true,
                {}};

@@ -129,7 +129,7 @@ struct FluidStats {
   uint64_t neighborOverflow = 0;        ///< particles that exceeded the list capacity at the last build and search the grid instead
   uint64_t loopBoundHits = 0;           ///< times that a shader loop reached its iteration limit since the start
   uint32_t listBuilds = 0;              ///< neighbor list builds in the last advance
-  double artificialViscosity_Pa_s = 0;  ///< viscosity that solver.artificial_viscosity adds now, Pa s; 0 in fast motion
+  double artificialViscosity_Pa_s = 0;  ///< what solver.artificial_viscosity adds to the shortest waves now, Pa s, before its bound
 };
 
 /// How often a pass that the device can skip was recorded and executed; the difference were empty dispatches.
