@@ -23,6 +23,7 @@ bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.
 ReferenceSolver::ReferenceSolver(const ReferenceSettings& s, std::span<const glm::dvec3> positions, std::span<const glm::dvec3> velocities)
     : settings(s),
       kernel_(s.kernel, s.smoothingRatio * s.spacing, s.spacing),
+      liquidScale_(liquidScale(kernel_)),
       artificial_(kernel_, s.tensile, s.tensileRadius, s.tensilePower),
       time_(s.startTime) {
   assert(velocities.empty() || velocities.size() == positions.size());
@@ -148,7 +149,7 @@ ReferenceSolver::Pair ReferenceSolver::makePair(uint32_t i, uint32_t j) const {
 }
 
 double ReferenceSolver::densityScale() const {
-  return settings.meltingTime > 0 ? std::lerp(1.0, liquidScale(kernel_), std::min(time_ / settings.meltingTime, 1.0)) : 1;
+  return settings.meltingTime > 0 ? std::lerp(1.0, liquidScale_, std::min(time_ / settings.meltingTime, 1.0)) : 1;
 }
 
 void ReferenceSolver::density() {
@@ -175,8 +176,8 @@ void ReferenceSolver::density() {
       squares += glm::dot(pair.gradient, pair.gradient);
     }
     densityRatio_[i] = scale * ratio + boundary_[i].value;
-    const glm::dmat3 along = tangentialScale(i);
-    const double all = glm::dot(sum, along * sum) + squares * (along[0].x + along[1].y + along[2].z) / 3;
+    const glm::dmat3 tangential = tangentialScale(i);
+    const double all = glm::dot(sum, tangential * sum) + squares * (tangential[0].x + tangential[1].y + tangential[2].z) / 3;
     denominator_[i] = std::max(all + settings.regularization * rest, kMinDenominator * rest);
   }
 }

@@ -188,6 +188,7 @@ class ReferenceSolver {
   void add(double factor, const std::vector<glm::dvec3>& change);                  ///< to the velocities
 
   SmoothingKernel kernel_;
+  double liquidScale_;
   ArtificialPressure artificial_;
   Walls walls_;
   HalfSpaceTable halfSpace_;

@@ -14,11 +14,7 @@ layout(std430, binding = 9) buffer VelocityBlock { vec4 velocity[]; };
 #include "fluid/xsph.glsl"
 
 void main() {
-  uint local = clusterInvocation();
-  uint i = push.first + local;
-  bool inRange = i < min(push.last, control.count);
-  if (!inRange) i = params.capacity;
-  vec3 difference = meanDifference(i, local, inRange);
-  if (!inRange) return;
+  uint i;
+  if (!gatherDifference(i)) return;
   velocity[i].xyz -= control.noiseDamping * difference;
 }

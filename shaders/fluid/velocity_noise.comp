@@ -13,12 +13,8 @@ layout(std430, binding = 9) writeonly buffer SweepToBlock { vec4 sweepTo[]; };
 #include "fluid/xsph.glsl"
 
 void main() {
-  uint local = clusterInvocation();
-  uint i = push.first + local;
-  bool inRange = i < min(push.last, control.count);
-  if (!inRange) i = params.capacity;
-  vec3 difference = meanDifference(i, local, inRange);
-  if (!inRange) return;
+  uint i;
+  if (!gatherDifference(i)) return;
   sweepTo[i] = vec4(difference, 0.0);
   if (i == 0u) sweepTo[params.capacity] = vec4(0.0);  // the dummy neighbor, whose weight of 0 would not do away with a NaN
 }

@@ -1,6 +1,6 @@
-// The difference of each particle's velocity from the kernel's mean around it, which XSPH removes
-// (Schechter and Bridson 2012; Macklin and Mueller 2013, equation 17). Include it after the neighbors' array
-// `sweepFrom` is declared. The pairs are those of the density pass: gathers from `work`.
+// The difference of the kernel's mean of `sweepFrom` from a particle's own, sum_j K_ij (v_j - v_i), which XSPH
+// adds (Schechter and Bridson 2012; Macklin and Mueller 2013, equation 17). The pairs are those of the density
+// pass: gathers from `work`. Include it after `push` and `sweepFrom` are declared.
 #ifndef RILL_FLUID_XSPH_GLSL
 #define RILL_FLUID_XSPH_GLSL
 #include "fluid/cluster.glsl"
@@ -10,24 +10,29 @@
 
 vec3 here;
 vec4 own;
-vec3 change = vec3(0.0);
+vec3 difference = vec3(0.0);  // over params.valueScale until it is gathered
 
 void visit(vec4 particle, vec4 companion) {
   vec3 r = here - particle.xyz;
-  change += kernelShape(sqrt(dot(r, r))) * (companion.xyz - own.xyz);
+  difference += kernelShape(sqrt(dot(r, r))) * (companion.xyz - own.xyz);
 }
 void reflectSums(vec3 signs) {  // images move as in a mirror
-  change *= signs;
+  difference *= signs;
   own.xyz *= signs;
 }
 #define IMAGES
 #include "fluid/neighbors.glsl"
 
-// The kernel's mean of the neighbors' values less the particle's own.
-vec3 meanDifference(uint i, uint local, bool inRange) {
+// Gathers `own` and `difference` of the invocation's particle i; false where it has none.
+bool gatherDifference(out uint i) {
+  uint local = clusterInvocation();
+  i = push.first + local;
+  bool inRange = i < min(push.last, control.count);
+  if (!inRange) i = params.capacity;
   here = particleAt(i).xyz;
   own = sweepFromAt(i);
   visitNeighbors(i, headOf(i, inRange), local, inRange);
-  return params.valueScale * change;
+  difference *= params.valueScale;
+  return inRange;
 }
 #endif

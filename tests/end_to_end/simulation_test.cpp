@@ -76,7 +76,7 @@ double restingSpeed(std::optional<double> artificialViscosity) {
   EXPECT_TRUE(stats);
   if (!stats) return 0;
   EXPECT_EQ(stats->artificialViscosity_Pa_s > 0, artificialViscosity != 0.0);
-  EXPECT_LT(stats->densityErrorMean, 0.002);
+  EXPECT_LT(stats->densityErrorMean, artificialViscosity == 0.0 ? 0.0015 : 0.001);
   return std::sqrt(2 * stats->kinetic_J / (1000 * 0.4 * 0.8 * 0.4));
 }
 
@@ -84,7 +84,7 @@ TEST(Simulation, WaterAtRestStaysAtRest) {
   const double still = restingSpeed({}), undamped = restingSpeed(0.0);
   EXPECT_LT(still, 0.04);
   EXPECT_LT(still, undamped);
-  EXPECT_LT(undamped, 0.25) << "what the lattice sets free as it gives way";
+  EXPECT_LT(undamped, 0.2) << "0.16 was measured: what the lattice sets free as it gives way";
 }
 
 // A fill that is not a multiple of the spacing: its last layer overlaps the one before. Separating them must not add speed
@@ -103,7 +103,7 @@ TEST(Simulation, OverlappingFillsStartWithoutBurst) {
   ASSERT_TRUE(simulation->advance(1.0 / 60));
   const auto after = simulation->stats();
   ASSERT_TRUE(after);
-  EXPECT_LT(after->maxSpeed, 0.9) << "0.65 was measured; falling gives 0.16, and parting without settling 2.6";
+  EXPECT_LT(after->maxSpeed, 0.75) << "0.65 was measured; falling gives 0.16, and parting without settling 2.6";
   EXPECT_LT(after->densityErrorMean, 0.001);
   EXPECT_LT(after->kinetic_J + after->potential_J, 1.02 * before->potential_J) << "it rises by what was too dense";
 }

@@ -77,7 +77,7 @@ TEST_F(RotatingSolidTest, BallDragsByFriction) {
   const auto [without, referenceWithout] = momenta(t, 40);
   t.scene.solids[0].friction = 0.5;
   const auto [with, referenceWith] = momenta(t, 40);
-  EXPECT_GT(with - without, 0.1) << "m^2/s";
+  EXPECT_GT(with - without, 0.15) << "m^2/s; 0.171 was measured";
   EXPECT_NEAR(with - without, referenceWith - referenceWithout, 0.05 * std::abs(referenceWith));
 }
 

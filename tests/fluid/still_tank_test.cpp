@@ -12,11 +12,10 @@ constexpr double kFrame = 1.0 / 60;
 
 using StillTankTest = FluidTest;
 
-/// A room of so many spacings at h = 2.3 d, with the solver's defaults; without particles.
+/// A room of so many spacings with the solver's defaults, h = 2.3 d; without particles.
 Trial liquid(glm::ivec3 room) {
   Trial t = trial();
   t.scene.fluid.spacing = 0.02;
-  t.scene.fluid.smoothing_ratio = 2.3;
   t.scene.solver = SolverSettings{};
   setWalls(t, glm::dvec3(room) * t.d());
   t.step = kFrame;
@@ -25,7 +24,6 @@ Trial liquid(glm::ivec3 room) {
 
 TEST_F(StillTankTest, ComesToRestBesideWalls) {
   Trial t = liquid({10, 20, 10});
-  t.scene.fluid.tensile = 0.5;
   t.x = block({10, 10, 10}, t.d());
   auto run = start(t);
   // Advances; root mean square speed, m/s.
@@ -45,6 +43,13 @@ TEST_F(StillTankTest, ComesToRestBesideWalls) {
   EXPECT_LT(late, 0.006) << "0.0022 was measured";
   const auto [sunk, height] = std::pair(run->stats().centerOfMass[1], 5 * t.d());
   EXPECT_NEAR(sunk / height, 1, 0.0015) << "calibrated on the lattice alone it sinks by 0.0045";
+  // Four seconds are longer than the melting time: figures have the scale of the liquid.
+  reference::ReferenceSettings settings = Oracle(t).solver().settings;
+  settings.startTime = 4;
+  const Snapshot measured = run->measured();
+  reference::ReferenceSolver exact(settings, measured.x);
+  exact.density();
+  for (size_t i = 0; i < measured.x.size(); ++i) EXPECT_NEAR(measured.density[i], exact.densityRatio()[i], 1e-4) << i;
 }
 
 // A step that follows the mean error of a column at rest follows its first pressure wave, a quarter of a period late, and feeds it.
@@ -68,7 +73,7 @@ TEST_F(StillTankTest, PressureWaveOfDeepColumnDoesNotGrow) {
   const double early = waveUntil(30, 60);
   waveUntil(60, 120);
   const double late = waveUntil(120, 150);
-  EXPECT_LT(late, 0.8 * early);
+  EXPECT_LT(late, 0.8 * early) << "0.0397 and 0.0893 m/s with one mean";
 }
 
 }  // namespace still_tank_test

@@ -249,12 +249,12 @@ TEST(Viscosity, ConservesMomentumAndDissipatesEnergy) {
 
 /// What noise damping takes of the shear wave v_x = cos(2 pi y / (n d)) in the middle of a lattice, over its theory: c (k^2 M / 2)^2, M the
 /// kernel's second moment, which follows from the decay by the viscosity that is c's: c k^2 M / 2 = nu k^2 dt.
-double noiseDampingOverTheory(int wavelength) {
+double noiseDampingOverTheory(int wavelength, double viscosity = 10) {
   constexpr int kWide = 11, kMiddle = kWide * kWide * kWide / 2;
   const double dt = 1e-3, k = 2 * std::numbers::pi / (wavelength * kStageSpacing);
   ReferenceSettings s = freeSpace();
   s.motionSpeed = 1e6;
-  s.viscosityAtRest = 10;
+  s.viscosityAtRest = viscosity;
   ReferenceSolver solver(s, lattice(kWide, kWide, kWide, kStageSpacing));
   const double middle = solver.state.position[kMiddle].y, c = 2 * s.viscosityAtRest * dt / (s.density * solver.kernel().secondMoment());
   double kept = 1;
@@ -267,6 +267,11 @@ double noiseDampingOverTheory(int wavelength) {
   solver.substep(dt, dt);
   const double once = s.viscosityAtRest / s.density * k * k * dt;
   return (1 - kept) / (once * once / c);
+}
+
+TEST(NoiseDamping, IsBounded) {
+  // Theory without the bound takes in proportion to the viscosity.
+  EXPECT_NEAR(noiseDampingOverTheory(48, 1e7) * 10 / noiseDampingOverTheory(48, 1e6), 1, 1e-9);
 }
 
 TEST(NoiseDamping, TakesFourthPowerOfWaveNumber) {

@@ -156,12 +156,14 @@ class Stability {
     auto other = runScene(bench_, {.scene = reference, .duration_s = kDuration});
     if (!other) return other.error().message;
     if (bench_.stopped()) return {};
-    if (!(outcome.run.density.mean <= 1.25 * other->density.mean))
-      return "mean error: found " + percent(outcome.run.density.mean) + ", expected at most 1.25 times that of the reference scene, " +
-             percent(other->density.mean);
-    if (!(std::abs(outcome.run.energy.end_ratio - other->energy.end_ratio) <= 0.02))
-      return "final energy / initial energy: found " + number(outcome.run.energy.end_ratio, 4) +
-             ", expected within 0.02 of the reference scene, " + number(other->energy.end_ratio, 4);
+    // Rounding alone: spacings of 49, 50 and 51 m have errors of 1.01, 1.10 and 1.01 times the reference's.
+    constexpr double kErrorScatter = 1.25, kEnergyScatter = 0.02;
+    if (!(outcome.run.density.mean <= kErrorScatter * other->density.mean))
+      return "mean error: found " + percent(outcome.run.density.mean) + ", expected at most " + number(kErrorScatter) +
+             " times that of the reference scene, " + percent(other->density.mean);
+    if (!(std::abs(outcome.run.energy.end_ratio - other->energy.end_ratio) <= kEnergyScatter))
+      return "final energy / initial energy: found " + number(outcome.run.energy.end_ratio, 4) + ", expected within " +
+             number(kEnergyScatter) + " of the reference scene, " + number(other->energy.end_ratio, 4);
     return {};
   }
 
