@@ -40,12 +40,10 @@ std::vector<FluidPassRuns> FluidImpl::passRuns() const {
   };
   std::vector<FluidPassRuns> all;
   for (const FluidPassRow& row : fluidPassTable()) {
-    if (row.id == FluidPass::CorrectWithArtificialPressure) continue;  // counted with the other corrections
     FluidPassRuns runs{row.name, 0, 0};
     for (Start start : row.starts) {
       if (start == Start::Always || start == Start::Predict || start == Start::Figures) continue;  // whatever is recorded of these runs
-      uint32_t times = recorded(row.id, start);
-      if (row.id == FluidPass::Correct) times += recorded(FluidPass::CorrectWithArtificialPressure, start);
+      const uint32_t times = recorded(row.id, start);
       if (times > 0) runs.executed += executed(start);
       runs.recorded += times;
     }

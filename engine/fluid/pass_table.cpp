@@ -6,7 +6,6 @@ namespace {
 bool solids(const FluidSetup& s) { return s.params.solidCount > 0; }
 bool moves(const FluidSetup& s) { return s.movingSolids; }
 bool iterates(const FluidSetup& s) { return s.params.iterations > 1; }
-bool clustering(const FluidSetup& s) { return s.params.tensileRate > 0; }
 bool viscous(const FluidSetup& s) { return s.viscositySweeps > 0; }
 bool noisy(const FluidSetup& s) { return s.params.noiseDampingRate > 0; }
 bool swirls(const FluidSetup& s) { return s.params.vorticity > 0; }
@@ -18,8 +17,7 @@ bool forcesOrDampingAtSolids(const FluidSetup& s) { return forcesOrDamping(s) &&
 
 constexpr PassCondition kAlways, kSolids{solids, "no solids"}, kMoves{moves, "no solid moves"},
     kIterates{iterates, "one iteration a substep"}, kViscous{viscous, "viscosity is 0"}, kSwirls{swirls, "vorticity is 0"},
-    kDrags{drags, "drag is 0"}, kNoisy{noisy, nullptr, &FluidSetup::whyNoNoiseDamping},
-    kClustering{clustering, nullptr, &FluidSetup::whyNoArtificialPressure, "artificial pressure"};
+    kDrags{drags, "drag is 0"}, kNoisy{noisy, nullptr, &FluidSetup::whyNoNoiseDamping};
 
 using P = FluidPass;
 using E = Extent;
@@ -42,13 +40,6 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::DisplaceDensity, "density of solids", "fluid/solids", E::NearSolids, kSolve, kSolids},
     {P::Density, "density", "fluid/density", E::Gather, kSolve},
     {P::Control, "control", "fluid/control", E::One, {}, {separate}},
-    {P::CorrectWithArtificialPressure,
-     "correct",
-     "fluid/correct",
-     E::Gather,
-     kEnd,
-     kClustering,
-     {.constant = {"ARTIFICIAL_PRESSURE", true}}},
     {P::Correct, "correct", "fluid/correct", E::Gather, kEnd},
     {P::Collide, "collide", "fluid/collide", E::NearSolids, kEnd, kSolids},
 

@@ -28,7 +28,6 @@ enum class FluidPass : uint8_t {
   DisplaceDensity,
   Density,
   Control,
-  CorrectWithArtificialPressure,
   Correct,
   Collide,
   Viscosity,
@@ -82,7 +81,6 @@ struct PassCondition {
   bool (*holds)(const FluidSetup&) = [](const FluidSetup&) { return true; };
   const char* reason = nullptr;            ///< null: it goes unsaid
   std::string FluidSetup::*why = nullptr;  ///< in place of `reason`
-  const char* feature = nullptr;           ///< in place of the pass's name
 };
 
 struct PassOptions {

@@ -55,8 +55,9 @@ void FluidImpl::declareSkipped(Graph& graph) const {
   for (const FluidPassRow& row : fluidPassTable()) {
     const PassCondition& c = row.condition;
     if (c.holds(setup) || (!c.reason && !c.why)) continue;
-    graph.skipped(c.feature ? std::string_view(c.feature) : row.name, c.why ? std::string_view(setup.*c.why) : c.reason);
+    graph.skipped(row.name, c.why ? std::string_view(setup.*c.why) : c.reason);
   }
+  if (!(setup.params.tensileRate > 0)) graph.skipped("artificial pressure", setup.whyNoArtificialPressure);
   if (setup.driven.empty()) graph.skipped("drive solids", "the host moves none");
 }
 

@@ -12,6 +12,12 @@ ClusterChoice clusterOf(const Device& device) {
   return chooseCluster(impl.info, impl.canSetSubgroupSize, impl.vendor, kFluidGroup);
 }
 
+/// `power`, 1 to 16, if it is whole; else 0, for which shaders compute any power.
+uint32_t wholePower(float power) {
+  const auto whole = static_cast<uint32_t>(power);
+  return static_cast<float>(whole) == power ? whole : 0;
+}
+
 }  // namespace
 
 Expected<void> FluidImpl::checkClusters(const Device& device) {
@@ -32,12 +38,13 @@ std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
           {"ITERATED", p.iterations > 1},
           {"SOLIDS", p.solidCount > 0},
           {"FORCES", hasForces(setup)},
+          {"ARTIFICIAL_PRESSURE", p.tensileRate > 0},
+          {"TENSILE_POWER", wholePower(p.tensilePower)},
           {"THIN", setup.thin},
           {"LIST_OVERSIZED", sort_->listsOversized()},
           // Where a pass or a variant of it does not say otherwise:
           {"WALKS", false},
           {"NEAR_SOLIDS", false},
-          {"ARTIFICIAL_PRESSURE", false},
           {"REBUILDS", false}};
 }
 

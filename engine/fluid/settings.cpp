@@ -206,7 +206,7 @@ void setArtificialPressure(const Scene& scene, const SmoothingKernel& kernel, Fl
     p.tensileLimit = f(pressure.most);
     p.tensilePower = f(pressure.power);
     p.tensileInverse = f(pressure.inverse);
-    p.tensileAtRest = f(pressure.atRest);
+    p.tensileLeast = f(pressure.least);
   } else {
     setup.whyNoArtificialPressure = "tensile_radius reaches neighbors at rest";
     setup.warnings.push_back("fluid.tensile does nothing: it leaves pairs from 0.95 spacings on alone, and tensile_radius is " +

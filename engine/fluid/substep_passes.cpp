@@ -21,8 +21,7 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
     declare(graph, FluidPass::Control, Start::Always, ControlPush{iteration, parity, first});
   }
   alias(Particle, Work);
-  const bool artificialPressure = first && exists(FluidPass::CorrectWithArtificialPressure, setup);
-  declare(graph, artificialPressure ? FluidPass::CorrectWithArtificialPressure : FluidPass::Correct, Start::Correct, ChunkPush{});
+  declare(graph, FluidPass::Correct, Start::Correct, ChunkPush{});
   declare(graph, FluidPass::Collide, Start::Correct);
   declareForces(graph, first);
 }

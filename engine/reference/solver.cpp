@@ -93,13 +93,13 @@ void ReferenceSolver::substep(double dt, double dtNext) {
   };
   const bool first = substeps_++ % settings.substepsPerBlock == 0;
   blockTime_ += dt;
-  const double push = std::min(artificial_.rate * blockTime_, artificial_.most / blockTime_) * dt;
+  const double push = std::min(artificial_.rate * dt * dt, artificial_.most);
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
     density();
     done(Stage::Density);
     multipliers(iteration == 0);
     done(Stage::Multipliers);
-    correction(dt, first && iteration + 1 == settings.iterations ? push : 0);
+    correction(dt, iteration + 1 == settings.iterations ? push : 0);
     done(Stage::Correction);
   }
   updateRestFactor();

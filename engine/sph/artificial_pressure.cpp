@@ -19,14 +19,16 @@ double maxGradient(const SmoothingKernel& kernel) {
 
 }  // namespace
 
-ArtificialPressure::ArtificialPressure(const SmoothingKernel& kernel, double strength, double radius, double n) : power(n), atRest(0) {
+ArtificialPressure::ArtificialPressure(const SmoothingKernel& kernel, double strength, double radius, double n) : power(n) {
   const double d = kernel.spacing(), scale = kernel.restGradientSum() / maxGradient(kernel);
   inverse = 1 / kernel.value(radius * kernel.h());
-  atRest = factor(kernel.value(0.95 * d));
-  rate = atRest < 1 ? 28.7 * 9.81 * strength * scale : 0;
+  least = std::min(kernel.value(0.95 * d) * inverse, 1.0);
+  rate = least < 1 ? 28.7 * 9.81 * strength * scale : 0;
   most = 0.05 * d * scale;
 }
 
-double ArtificialPressure::factor(double value) const { return std::max(std::pow(std::min(value * inverse, 1.0), power) - atRest, 0.0); }
+double ArtificialPressure::factor(double value) const {
+  return std::pow(std::clamp(value * inverse, least, 1.0), power) - std::pow(least, power);
+}
 
 }  // namespace rill

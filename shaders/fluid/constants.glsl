@@ -10,9 +10,10 @@ layout(constant_id = 5) const bool WARM = true;        // multipliers and accele
 layout(constant_id = 6) const bool ITERATED = false;   // more than one iteration a substep
 layout(constant_id = 7) const bool SOLIDS = false;     // there are solids
 layout(constant_id = 8) const bool FORCES = false;     // viscosity or another force changes velocities in every substep
-layout(constant_id = 9) const bool ARTIFICIAL_PRESSURE = false;  // in the first substep of a block
+layout(constant_id = 9) const bool ARTIFICIAL_PRESSURE = false;
 layout(constant_id = 10) const bool NEAR_SOLIDS = false;  // over the particles near solids; else over all
 layout(constant_id = 11) const bool THIN = true;       // opposite walls can both be near a particle
 layout(constant_id = 12) const bool REBUILDS = false;  // the list is built after the sort
+layout(constant_id = 14) const uint TENSILE_POWER = 0; // n of artificial pressure if that is whole, else 0
 #define LIST_OVERSIZED_ID 13
 #endif

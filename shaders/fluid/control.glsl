@@ -75,7 +75,8 @@ uint accountSubstep(uint iteration, uint parity, bool blockStart) {
     control.speed = max(uintBitsToFloat(sums.speedMax), 0.0);
     sums.speedMax = 0u;
     setGains();
-    planBlock(blockStart);
+    planNoiseDamping(blockStart);
+    control.artificialPressure = min(params.tensileRate * control.step * control.step, params.tensileLimit);
     control.warmStep = control.step;
     control.timeLeft -= control.step;
     control.substeps += 1u;

@@ -10,6 +10,7 @@
 #include "fluid/uniforms.glsl"
 #define PARTICLE uvec4
 #include "fluid/arrays.glsl"
+#include "fluid/artificial_pressure.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
 #include "fluid/solid_samples.glsl"
@@ -33,10 +34,7 @@ vec3 correction = vec3(0.0);        // m, once scaled
 vec3 warmDisplacement = vec3(0.0);  // m, once scaled
 
 float unit = params.inverseRestGradient / kMultiplierScale;  // m^2, of the multipliers
-float tensile = control.artificialPressure * kMultiplierScale;
-float tensileScale = params.valueScale * params.tensileInverse;
-float tensilePower = params.tensilePower;
-float tensileAtRest = params.tensileAtRest;
+float pressure = control.artificialPressure * kMultiplierScale;
 
 vec2 multipliers(uvec4 particle) { return unpackHalf2x16(particle.w); }
 
@@ -45,9 +43,7 @@ void visit(uvec4 particle) {
   float distance = sqrt(dot(r, r));
   vec3 gradient = gradientShape(distance) * r;
   vec2 both = own + multipliers(particle);
-  if (ARTIFICIAL_PRESSURE) {
-    both.x -= tensile * max(pow(min(kernelShape(distance) * tensileScale, 1.0), tensilePower) - tensileAtRest, 0.0);
-  }
+  if (ARTIFICIAL_PRESSURE) both.x -= pressure * artificialPressure(distance);
   correction += both.x * gradient;
   if (WARM) warmDisplacement += both.y * gradient;
 }

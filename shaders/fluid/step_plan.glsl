@@ -44,14 +44,12 @@ void setNextPhase(uint phase, uint left) {
   control.phaseLeft = left;
 }
 
-// Noise damping and artificial pressure act in the first substep of a block, for the time since the last one.
-void planBlock(bool blockStart) {
+// Noise damping acts in the first substep of a block, for the time since the last one.
+void planNoiseDamping(bool blockStart) {
   control.noiseDamping = 0.0;
-  control.artificialPressure = 0.0;
   control.blockTime += control.step;
   if (!blockStart) return;
   control.noiseDamping = min(params.noiseDampingRate * control.restFraction * control.blockTime, kMaxNoiseDamping);
-  control.artificialPressure = min(params.tensileRate * control.blockTime, params.tensileLimit / control.blockTime) * control.step;
   control.blockTime = 0.0;
 }
 #endif

@@ -96,13 +96,13 @@ struct FluidParams {
   float noiseDampingRate;      // coefficient of noise damping a second of block, in a fluid at rest, 1/s
   float vorticity;        // dimensionless
   float drag;             // 1/s
-  // artificial pressure, 1/s^2: times the square of the time since the last one it is a multiplier
-  // over 1 / D of the rest lattice
+  // artificial pressure, 1/s^2: times the square of the step it is a multiplier over 1 / D of the
+  // rest lattice; see engine/sph/artificial_pressure.hpp
   float tensileRate;
-  float tensileLimit;      // and at most this
+  float tensileLimit;     // and at most this
   float tensilePower;     // n
   float tensileInverse;   // 1 / K(delta q)
-  float tensileAtRest;    // share of neighbors at rest, which is taken off: see engine/sph/artificial_pressure.hpp
+  float tensileLeast;     // K / K(delta q) of neighbors at rest
   float particleMass;     // kg
   uint gravityChanges;    // entries of the schedule
   float farLimit;         // m from the origin beyond which a particle becomes inactive
@@ -162,7 +162,7 @@ struct FluidControl {
   float restFraction;      // 1: at rest, 0: at motionSpeed or faster
   float noiseDamping;       // coefficient of noise damping after this substep; 0: its passes do not run
   float head;          // m^2/s^2, gravity times the height of the column that the fluid has stood in so far
-  float artificialPressure;       // artificial pressure of this substep, over 1 / D of the rest lattice; 0 in all but the first of a block
+  float artificialPressure;       // artificial pressure of this substep, over 1 / D of the rest lattice
   float blockTime;     // s since the last substep that was the first of its block
   uint phase, nextPhase;  // of the substep that control.glsl has accounted for last, and of the next, as with step and nextStep
   uint phaseLeft;      // substeps of the next phase left, at most; 0 while time advances

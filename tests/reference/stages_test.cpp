@@ -155,23 +155,6 @@ TEST(ArtificialPressureStage, AccelerationIsIndependentOfStepAndScale) {
   EXPECT_NEAR(expected, 14.35, 0.1) << "half of strength 1";
 }
 
-TEST(ArtificialPressureStage, AppliesWholeBlockInItsFirstSubstep) {
-  const double d = 0.05, r = 0.4 * d, dt = 2e-4;
-  const auto speed = [&](int block) {
-    ReferenceSettings s;
-    s.spacing = d;
-    s.tensile = 0.1;
-    s.gravity = glm::dvec3(0);
-    s.substepsPerBlock = block;
-    ReferenceSolver solver(s, std::vector<glm::dvec3>{{0, 0, 0}, {r, 0, 0}});
-    solver.begin(dt);
-    for (int step = 0; step < 7; ++step) solver.substep(dt, dt);  // 1 + 3 + 3: the first block applies a single substep
-    return solver.state.velocity[1].x;
-  };
-  EXPECT_GT(speed(1), 0.02);
-  EXPECT_NEAR(speed(3), speed(1), 0.01 * speed(1));
-}
-
 TEST(ArtificialPressureStage, LimitsDisplacementToATwentiethOfASpacing) {
   ReferenceSettings s;
   s.spacing = 0.05;

@@ -52,7 +52,7 @@ struct FluidSettings {
   double viscosity = 0;          ///< dynamic viscosity, Pa s, >= 0
   double vorticity = 0;          ///< strength of vorticity confinement (Macklin and Mueller 2013, eq. 16), 0 .. 1
   double drag = 0;               ///< linear drag against air at rest, 1/s, >= 0: dv/dt = -drag v
-  double tensile = 0.5;          ///< strength of the artificial pressure s_corr (eq. 13), 0 .. 1
+  double tensile = 1;            ///< strength of the artificial pressure s_corr (eq. 13), 0 .. 1
   double tensile_radius = 0.25;  ///< delta q of s_corr over the smoothing length, 0 .. 1 exclusive
   double tensile_power = 16;     ///< exponent n of s_corr, 1 .. 16
 };
