@@ -89,23 +89,30 @@ TEST(Simulation, WaterAtRestStaysAtRest) {
 
 // A fill that is not a multiple of the spacing: its last layer overlaps the one before. Separating them must not add speed
 // or pressure.
+// The densities part while the fluid settles; pairs that are still close do so in the first frame, by artificial pressure.
 TEST(Simulation, OverlappingFillsStartWithoutBurst) {
-  const auto scene = parseScene(R"({
-    "rill": "0.1", "domain": {"min": [0, 0, 0], "max": [1.4, 1.6, 0.5]}, "fluid": {"spacing": 0.0523},
-    "fill": [{"box": {"min": [0, 0, 0], "max": [0.7, 1.2, 0.5]}}]})",
-                                "overlapping", ".");
-  ASSERT_TRUE(scene);
-  auto simulation = open({}, *scene);
-  ASSERT_TRUE(simulation);
-  const auto before = simulation->stats();
-  ASSERT_TRUE(before);
-  EXPECT_GT(before->densityErrorMean, 0.01) << "it does overlap";
-  ASSERT_TRUE(simulation->advance(1.0 / 60));
-  const auto after = simulation->stats();
-  ASSERT_TRUE(after);
-  EXPECT_LT(after->maxSpeed, 0.75) << "0.65 was measured; falling gives 0.16, and parting without settling 2.6";
-  EXPECT_LT(after->densityErrorMean, 0.001);
-  EXPECT_LT(after->kinetic_J + after->potential_J, 1.02 * before->potential_J) << "it rises by what was too dense";
+  struct Case {
+    double tensile, speed;  // 0.38 and 0.85 m/s were measured; falling gives 0.16, and parting without settling 2.6
+  };
+  for (const Case& c : {Case{0, 0.45}, Case{FluidSettings{}.tensile, 0.95}}) {
+    auto scene = parseScene(R"({
+      "rill": "0.1", "domain": {"min": [0, 0, 0], "max": [1.4, 1.6, 0.5]}, "fluid": {"spacing": 0.0523},
+      "fill": [{"box": {"min": [0, 0, 0], "max": [0.7, 1.2, 0.5]}}]})",
+                            "overlapping", ".");
+    ASSERT_TRUE(scene);
+    scene->fluid.tensile = c.tensile;
+    auto simulation = open({}, *scene);
+    ASSERT_TRUE(simulation);
+    const auto before = simulation->stats();
+    ASSERT_TRUE(before);
+    EXPECT_GT(before->densityErrorMean, 0.01) << "it does overlap";
+    ASSERT_TRUE(simulation->advance(1.0 / 60));
+    const auto after = simulation->stats();
+    ASSERT_TRUE(after);
+    EXPECT_LT(after->maxSpeed, c.speed) << c.tensile;
+    EXPECT_LT(after->densityErrorMean, 0.001) << c.tensile;
+    EXPECT_LT(after->kinetic_J + after->potential_J, 1.02 * before->potential_J) << "it rises by what was too dense";
+  }
 }
 
 // In free fall the distance between drops changes neither the substeps nor the speed.
