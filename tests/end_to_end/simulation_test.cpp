@@ -89,7 +89,7 @@ TEST(Simulation, WaterAtRestStaysAtRest) {
 
 // A fill that is not a multiple of the spacing: its last layer overlaps the one before. Separating them must not add speed
 // or pressure.
-// The densities part while the fluid settles; pairs that are still close do so in the first frame, by artificial pressure.
+// Settling takes away what is too dense; pairs that are still close part in the first frame, by artificial pressure.
 TEST(Simulation, OverlappingFillsStartWithoutBurst) {
   struct Case {
     double tensile, speed;  // 0.38 and 0.85 m/s were measured; falling gives 0.16, and parting without settling 2.6
