@@ -22,7 +22,11 @@ void main() {
   const vec3 from = worldPoint(rayFrom(axis)), ray = worldDirection(rayAlong(axis));
   vec3 normal;
   const float z = solidHit(placed[index], from, ray, normal);
+#ifdef LIGHT
+  if (z < 0.0) discard;  // a miss: depth counts from a plane that all solids are behind
+#else
   if (!(z > view.near_depth)) discard;
+#endif
   gl_FragDepth = clamp(targetDepth(z), 0.0, 1.0);
 #ifndef LIGHT
   const vec3 p = from + z * ray;
