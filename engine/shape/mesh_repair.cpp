@@ -1,0 +1,197 @@
+#include "shape/mesh_repair.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <unordered_map>
+
+#include "core/words.hpp"
+#include "shape/triangle_tree.hpp"
+
+namespace rill {
+namespace {
+
+Error badInput(const std::string& why) { return {ErrorKind::BadInput, why}; }
+
+std::string placeText(const Double3& p) { return "[" + roundedNumber(p.x) + ", " + roundedNumber(p.y) + ", " + roundedNumber(p.z) + "]"; }
+
+std::string trianglesText(size_t count) { return grouped(count) + (count == 1 ? " triangle" : " triangles"); }
+
+/// An edge of a triangle, with its smaller vertex first.
+struct Edge {
+  uint32_t low = 0, high = 0;
+  uint32_t triangle = 0;
+  bool forward = false;  ///< the triangle runs from `low` to `high`
+};
+
+std::vector<Edge> sortedEdges(const std::vector<Triangle>& triangles) {
+  std::vector<Edge> edges;
+  edges.reserve(3 * triangles.size());
+  for (uint32_t t = 0; t < triangles.size(); ++t)
+    for (size_t k = 0; k < 3; ++k) {
+      const uint32_t from = triangles[t][k], to = triangles[t][(k + 1) % 3];
+      edges.push_back({std::min(from, to), std::max(from, to), t, from < to});
+    }
+  std::ranges::sort(edges, {}, [](const Edge& e) { return std::array{e.low, e.high, e.triangle}; });
+  return edges;
+}
+
+/// Calls visit(span of the edges between the same two vertices) until it returns false.
+template <class Visit>
+void forEachGroup(const std::vector<Edge>& edges, const Visit& visit) {
+  for (size_t first = 0, end = 0; first < edges.size(); first = end) {
+    for (end = first; end < edges.size() && edges[end].low == edges[first].low && edges[end].high == edges[first].high;) ++end;
+    if (!visit(std::span(edges).subspan(first, end - first))) return;
+  }
+}
+
+/// Whether as many triangles use each edge in one direction as in the other.
+bool isBalanced(const std::vector<Edge>& edges) {
+  bool balanced = true;
+  forEachGroup(edges, [&](std::span<const Edge> group) {
+    balanced = 2 * std::ranges::count(group, true, &Edge::forward) == std::ssize(group);
+    return balanced;
+  });
+  return balanced;
+}
+
+/// Triangles that share an edge of exactly two.
+std::vector<std::vector<std::pair<uint32_t, bool>>> neighborsOf(const std::vector<Edge>& edges, size_t triangles) {
+  std::vector<std::vector<std::pair<uint32_t, bool>>> neighbors(triangles);  // and whether one of the two has to be turned
+  forEachGroup(edges, [&](std::span<const Edge> group) {
+    if (group.size() != 2) return true;
+    const bool turned = group[0].forward == group[1].forward;
+    neighbors[group[0].triangle].push_back({group[1].triangle, turned});
+    neighbors[group[1].triangle].push_back({group[0].triangle, turned});
+    return true;
+  });
+  return neighbors;
+}
+
+void turn(MeshData& data, size_t triangle) {
+  std::swap(data.triangles[triangle][1], data.triangles[triangle][2]);
+  if (!data.normals.empty()) std::swap(data.normals[3 * triangle + 1], data.normals[3 * triangle + 2]);
+}
+
+struct HashOfPlace {
+  size_t operator()(const Double3& p) const {
+    size_t hash = 0;
+    for (double x : p) hash = hash * 0x9E3779B97F4A7C15ULL + std::hash<double>()(x == 0 ? 0.0 : x);
+    return hash;
+  }
+};
+
+}  // namespace
+
+Expected<void> checkMeshData(const MeshData& data) {
+  constexpr size_t kMost = std::numeric_limits<uint32_t>::max() / 8;
+  if (data.triangles.empty()) return badInput("found no triangles, expected a mesh");
+  if (data.triangles.size() > kMost || data.vertices.size() > kMost)
+    return badInput("found " + grouped(std::max(data.triangles.size(), data.vertices.size())) +
+                    " triangles or vertices, expected at most " + grouped(kMost));
+  if (!data.normals.empty() && data.normals.size() != 3 * data.triangles.size())
+    return badInput("found " + grouped(data.normals.size()) + " normals, expected three a triangle, or none");
+  if (!data.colors.empty() && data.colors.size() != data.triangles.size())
+    return badInput("found " + grouped(data.colors.size()) + " colors, expected one a triangle, or none");
+  for (size_t v = 0; v < data.vertices.size(); ++v)
+    for (double x : data.vertices[v])
+      if (!(std::abs(x) <= std::numeric_limits<float>::max()))
+        return badInput("vertex " + std::to_string(v) + ": found the coordinate " + shortestNumber(x) + ", expected a 32-bit float");
+  for (size_t t = 0; t < data.triangles.size(); ++t)
+    for (uint32_t corner : data.triangles[t])
+      if (corner >= data.vertices.size())
+        return badInput("triangle " + std::to_string(t) + ": found the vertex " + std::to_string(corner) + ", expected an index below " +
+                        std::to_string(data.vertices.size()));
+  return {};
+}
+
+void weld(MeshData& data, std::vector<std::string>& warnings) {
+  std::unordered_map<Double3, uint32_t, HashOfPlace> known;
+  std::vector<Double3> vertices;
+  std::vector<uint32_t> number;
+  for (const Double3& v : data.vertices) {
+    const auto [at, fresh] = known.emplace(v, static_cast<uint32_t>(vertices.size()));
+    if (fresh) vertices.push_back(v);
+    number.push_back(at->second);
+  }
+  data.vertices = std::move(vertices);
+  size_t kept = 0;
+  for (size_t t = 0; t < data.triangles.size(); ++t) {
+    Triangle corners;
+    for (size_t k = 0; k < 3; ++k) corners[k] = number[data.triangles[t][k]];
+    if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
+    data.triangles[kept] = corners;
+    if (!data.colors.empty()) data.colors[kept] = data.colors[t];
+    for (size_t k = 0; k < 3 && !data.normals.empty(); ++k) data.normals[3 * kept + k] = data.normals[3 * t + k];
+    ++kept;
+  }
+  if (const size_t dropped = data.triangles.size() - kept; dropped > 0)
+    warnings.push_back(trianglesText(dropped) + " with coinciding corners dropped");
+  data.triangles.resize(kept);
+  if (!data.colors.empty()) data.colors.resize(kept);
+  if (!data.normals.empty()) data.normals.resize(3 * kept);
+}
+
+Expected<void> orient(MeshData& data, std::vector<std::string>& warnings) {
+  std::vector<Edge> edges = sortedEdges(data.triangles);
+  const Edge* open = nullptr;
+  size_t count = 0;
+  forEachGroup(edges, [&](std::span<const Edge> group) {
+    if (group.size() % 2 == 0) return true;
+    if (open == nullptr) open = group.data();
+    ++count;
+    return true;
+  });
+  if (open != nullptr)
+    return badInput("the mesh is not closed: found " + grouped(count) + (count == 1 ? " open edge" : " open edges") + ", the first from " +
+                    placeText(data.vertices[open->low]) + " to " + placeText(data.vertices[open->high]) +
+                    "; expected a closed mesh, or \"two_sided\": true for a sheet");
+  if (isBalanced(edges)) return {};
+  const auto neighbors = neighborsOf(edges, data.triangles.size());
+  std::vector<int> turned(data.triangles.size(), -1);
+  std::vector<uint32_t> pending;
+  size_t total = 0;
+  for (uint32_t seed = 0; seed < data.triangles.size(); ++seed) {
+    if (turned[seed] >= 0) continue;
+    std::vector<uint32_t> part{seed};
+    turned[seed] = 0;
+    size_t turns = 0;
+    for (size_t n = 0; n < part.size(); ++n)
+      for (const auto& [other, against] : neighbors[part[n]]) {
+        if (turned[other] >= 0) continue;
+        turned[other] = turned[part[n]] ^ static_cast<int>(against);
+        turns += static_cast<size_t>(turned[other]);
+        part.push_back(other);
+      }
+    if (2 * turns > part.size())  // the fewer ones
+      for (uint32_t t : part) turned[t] ^= 1;
+    total += std::min(turns, part.size() - turns);
+  }
+  for (uint32_t t = 0; t < data.triangles.size(); ++t)
+    if (turned[t] == 1) turn(data, t);
+  edges = sortedEdges(data.triangles);
+  if (!isBalanced(edges)) return badInput("the triangles face in contradictory directions; expected a mesh with an inside and an outside");
+  warnings.push_back(trianglesText(total) + " turned to face as their neighbors do");
+  return {};
+}
+
+void turnInsideOut(MeshData& data) {
+  for (size_t t = 0; t < data.triangles.size(); ++t) turn(data, t);
+}
+
+double signedVolume(const MeshData& data) {
+  const Double3 origin = data.vertices.empty() ? Double3{} : data.vertices[data.triangles.empty() ? 0 : data.triangles[0][0]];
+  double sum = 0;
+  for (const Triangle& t : data.triangles) {
+    Double3 c[3];
+    for (size_t k = 0; k < 3; ++k)
+      for (size_t a = 0; a < 3; ++a) c[k][a] = data.vertices[t[k]][a] - origin[a];
+    sum += c[0].x * (c[1].y * c[2].z - c[1].z * c[2].y) + c[0].y * (c[1].z * c[2].x - c[1].x * c[2].z) +
+           c[0].z * (c[1].x * c[2].y - c[1].y * c[2].x);
+  }
+  return sum / 6;
+}
+
+}  // namespace rill
