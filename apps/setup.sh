@@ -15,6 +15,8 @@ build libglm-dev              GLM
 build nlohmann-json3-dev      nlohmann/json 3.11 or newer
 build libcli11-dev            CLI11
 build libstb-dev              stb (stb_image.h, stb_image_write.h)
+build libtinyobjloader-dev    tinyobjloader 2.0 (tiny_obj_loader.h)
+build libtinygltf-dev         tinygltf 2.7 or newer (tiny_gltf.h)
 build libglfw3-dev            GLFW 3.3 or newer
 build libimgui-dev            Dear ImGui 1.86 or newer
 run   libvulkan1              the Vulkan loader

@@ -64,6 +64,7 @@ void expectNoCrash(Target target, const std::vector<std::string>& seeds, int rou
 
 TEST(Mutations, ScenesDoNotCrash) { expectNoCrash(fuzzScene, sceneSeeds(), 300); }
 TEST(Mutations, PlyFilesDoNotCrash) { expectNoCrash(fuzzPly, plySeeds(), 1500); }
+TEST(Mutations, MeshFilesDoNotCrash) { expectNoCrash(fuzzMesh, meshSeeds(), 1500); }
 TEST(Mutations, CheckpointsDoNotCrash) { expectNoCrash(fuzzCheckpoint, checkpointSeeds(), 3000); }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "support/checkpoint_seed.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/tetrahedron_files.hpp"
 
 namespace rill::test {
 
@@ -33,6 +34,24 @@ inline std::vector<std::string> plySeeds() {
       "vy\n"
       "property float vz\nend_header\n0 0.5 1e-3 0 0 0\n-1 2 3 4 5 6\n",
       little, big};
+}
+
+/// The first letter names the format.
+inline std::vector<std::string> meshSeeds() {
+  GltfFile transformed;
+  transformed.primitives = R"({"attributes":{"POSITION":5,"NORMAL":6},"indices":7,"mode":5,"material":0})";
+  transformed.nodes =
+      R"({"mesh":0,"scale":[-1,2,1],"rotation":[0,0,0,1],"translation":[1,2,3]},{"children":[0],"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,1,2,3,1]})";
+  transformed.more = R"(,"scene":0,"scenes":[{"nodes":[1]}],"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,1]}}])";
+  return {"o" + tetrahedronObj(),
+          "ov 0 0 0\nv 1 0 0\nv 1 1 0\nv 0.5 0.2 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\ng a\nusemtl b\nf -5/1/1 -4/1/1 -3/1/1 -2/1/1 -1//1\n",
+          "s" + asciiStl(),
+          "s" + binaryStl(),
+          "p" + asciiPly(),
+          "p" + binaryPly(false),
+          "p" + binaryPly(true),
+          "g" + transformed.gltf(),
+          "b" + GltfFile{}.glb()};
 }
 
 inline std::vector<std::string> checkpointSeeds() {

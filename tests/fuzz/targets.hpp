@@ -9,6 +9,8 @@ namespace rill::test {
 int fuzzScene(const uint8_t* data, size_t size);
 /// A PLY file of particles.
 int fuzzPly(const uint8_t* data, size_t size);
+/// A mesh file, after a letter for its format: o OBJ, s STL, g glTF, b binary glTF, else PLY.
+int fuzzMesh(const uint8_t* data, size_t size);
 /// A checkpoint file, unmodified and with corrected size and checksum.
 int fuzzCheckpoint(const uint8_t* data, size_t size);
 
