@@ -72,7 +72,7 @@ Expected<bool> Touch::grab(Session& session, const CameraView& eye, const Ray& r
     if (solids[held].driven != speed) {
       Double3 moved = poses[held].center;
       for (size_t a = 0; a < 3; ++a) moved[a] -= solidPose(solids[held], 0).center[a];
-      translate(solids[held].shape, moved);
+      translate(solids[held], moved);
       solids[held].rotation = poses[held].rotation;
       solids[held].motion.clear();
       solids[held].driven = speed;

@@ -11,17 +11,19 @@ size_t InsideSolids::cellAlong(size_t axis, double x) const {
   return static_cast<size_t>(std::clamp(at, 0.0, static_cast<double>(cells_ - 1)));
 }
 
-InsideSolids::InsideSolids(std::span<const Solid> solids) {
+InsideSolids::InsideSolids(std::span<const Solid> solids, double spacing) {
   for (size_t axis = 0; axis < 3; ++axis) {
     low_[axis] = std::numeric_limits<double>::infinity();
     high_[axis] = -low_[axis];
   }
   for (const Solid& solid : solids) {
     const Pose pose = solidPose(solid, 0);
-    const Body& body = bodies_.emplace_back(Body{solid.shape, pose, sceneExtents(solid.shape, pose)});
+    Body& body = bodies_.emplace_back(Body{solid.shape, pose, shellOf(solid.shape, spacing), sceneBox(solid.shape, pose)});
     for (size_t axis = 0; axis < 3; ++axis) {
-      low_[axis] = std::min(low_[axis], body.pose.center[axis] - body.extents[axis]);
-      high_[axis] = std::max(high_[axis], body.pose.center[axis] + body.extents[axis]);
+      body.box.low[axis] -= body.shell;
+      body.box.high[axis] += body.shell;
+      low_[axis] = std::min(low_[axis], body.box.low[axis]);
+      high_[axis] = std::max(high_[axis], body.box.high[axis]);
     }
   }
   cells_ = bodies_.size() > 8 ? 16 : 1;
@@ -29,8 +31,8 @@ InsideSolids::InsideSolids(std::span<const Solid> solids) {
   for (uint32_t i = 0; i < bodies_.size(); ++i) {
     size_t from[3], to[3];
     for (size_t axis = 0; axis < 3; ++axis) {
-      from[axis] = cellAlong(axis, bodies_[i].pose.center[axis] - bodies_[i].extents[axis]);
-      to[axis] = cellAlong(axis, bodies_[i].pose.center[axis] + bodies_[i].extents[axis]);
+      from[axis] = cellAlong(axis, bodies_[i].box.low[axis]);
+      to[axis] = cellAlong(axis, bodies_[i].box.high[axis]);
     }
     for (size_t z = from[2]; z <= to[2]; ++z) {
       for (size_t y = from[1]; y <= to[1]; ++y) {
@@ -45,8 +47,12 @@ bool InsideSolids::contain(const Double3& p, double margin) const {
     if (!(p[axis] > low_[axis] && p[axis] < high_[axis])) return false;
   }
   const auto& near = inCell_[(cellAlong(2, p[2]) * cells_ + cellAlong(1, p[1])) * cells_ + cellAlong(0, p[0])];
-  return std::any_of(near.begin(), near.end(),
-                     [&](uint32_t i) { return surfaceAt(bodies_[i].shape, bodies_[i].pose, p).distance < -margin; });
+  return std::any_of(near.begin(), near.end(), [&](uint32_t i) {
+    const Body& body = bodies_[i];
+    for (size_t axis = 0; axis < 3; ++axis)
+      if (p[axis] < body.box.low[axis] || p[axis] > body.box.high[axis]) return false;
+    return surfaceAt(body.shape, body.pose, p).distance - body.shell < -margin;
+  });
 }
 
 }  // namespace rill

@@ -11,7 +11,8 @@ namespace rill {
 /// The solids of a scene at t = 0, in a coarse grid so that a query stays cheap with thousands of them.
 class InsideSolids {
  public:
-  explicit InsideSolids(std::span<const Solid> solids);
+  /// `spacing`: of the fluid, m.
+  InsideSolids(std::span<const Solid> solids, double spacing);
 
   /// Whether p (m, scene coordinates) is deeper than `margin` (m) inside a solid.
   bool contain(const Double3& p, double margin) const;
@@ -20,7 +21,8 @@ class InsideSolids {
   struct Body {
     Shape shape;
     Pose pose;
-    Double3 extents;  ///< half extents of the axis-aligned bounds
+    double shell;  ///< half the thickness of a sheet, m
+    SceneBox box;
   };
   size_t cellAlong(size_t axis, double x) const;
 

@@ -105,7 +105,7 @@ bool mayOverlap(const std::vector<Source>& sources, const std::vector<Bounds>& b
 class Placer {
  public:
   Placer(const Scene& scene, ParticleSet& out, PointHash* placed)
-      : scene_(scene), out_(out), solids_(scene.solids), placed_(placed), spacing_(scene.fluid.spacing) {}
+      : scene_(scene), out_(out), solids_(scene.solids, scene.fluid.spacing), placed_(placed), spacing_(scene.fluid.spacing) {}
 
   /// `p`: position in scene coordinates, m. `number`: index within the fill.
   void add(const Double3& p, const Float3& velocity, size_t fill, uint64_t number, Source& source) {
@@ -179,13 +179,13 @@ void placeFill(const Scene& scene, size_t index, Source& source, Placer& placer)
              nz = static_cast<uint64_t>(lattice.size[2]);
   for (uint64_t k = 0; k < nz; ++k) {
     for (uint64_t j = 0; j < ny; ++j) {
-      uint64_t begin = 0, end = 0;
-      rowOf(lattice, j, k, begin, end);
-      for (uint64_t i = begin; i < end; ++i) {
-        const Double3 p = {lattice.first[0] + static_cast<double>(i) * lattice.spacing,
-                           lattice.first[1] + static_cast<double>(j) * lattice.spacing,
-                           lattice.first[2] + static_cast<double>(k) * lattice.spacing};
-        placer.add(p, velocity, index, (k * ny + j) * nx + i, source);
+      for (const Run& run : rowOf(lattice, j, k)) {
+        for (uint64_t i = run.begin; i < run.end; ++i) {
+          const Double3 p = {lattice.first[0] + static_cast<double>(i) * lattice.spacing,
+                             lattice.first[1] + static_cast<double>(j) * lattice.spacing,
+                             lattice.first[2] + static_cast<double>(k) * lattice.spacing};
+          placer.add(p, velocity, index, (k * ny + j) * nx + i, source);
+        }
       }
     }
   }

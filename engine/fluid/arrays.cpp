@@ -35,6 +35,7 @@ constexpr std::array<ArrayRow, kArrays> kArrayTable = {{
     {GravityChanges, "gravityChanges", "gravity schedule", Fluid, kVector, [](const ArrayShape& s) { return s.gravityChanges; }},
     {Table, "table", "density tables of solids", Fluid, kVector, [](const ArrayShape& s) { return s.tableEntries; }},
     {Solids, "solids", "solids", Fluid, sizeof(SolidRecord), [](const ArrayShape& s) { return s.solids; }},
+    {MeshWords, "meshWord", "fields of meshes", Fluid, kWord, [](const ArrayShape& s) { return s.meshWords; }},
     {Keyframes, "keyframes", "keyframes", Fluid, sizeof(KeyframeRecord), [](const ArrayShape& s) { return s.keyframes; }},
 
     {Position, "position", "positions", Fluid, kVector, withDummy, Account::Particles, &FluidSnapshot::position, "position"},
@@ -98,6 +99,7 @@ ArrayShape arrayShape(const FluidSetup& setup) {
           .gravityChanges = setup.gravity.size() / 4,
           .tableEntries = setup.tables.size() / 4,
           .solids = p.solidCount,
+          .meshWords = setup.meshWords.size(),
           .keyframes = setup.keyframes.size() / kKeyframeNumbers,
           .lists = p.listCapacity > 0,
           .warm = setup.warm,

@@ -25,6 +25,7 @@ enum class FluidArray : uint8_t {
   GravityChanges,
   Table,
   Solids,
+  MeshWords,
   Keyframes,
   // Per particle.
   Position,
@@ -74,7 +75,7 @@ struct ArrayShape {
   uint64_t particles = 0;    ///< at most
   uint64_t listEntries = 0;  ///< of all particles
   uint64_t cellStarts = 0;   ///< entries
-  uint64_t gravityChanges = 1, tableEntries = 0, solids = 0, keyframes = 0;
+  uint64_t gravityChanges = 1, tableEntries = 0, solids = 0, meshWords = 0, keyframes = 0;
   bool lists = true, warm = false, iterated = false, smooths = false, vorticity = false;
 };
 ArrayShape arrayShape(const FluidSetup& setup);

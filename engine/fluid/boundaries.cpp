@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <map>
 
 #include "core/overloaded.hpp"
+#include "core/vector_math.hpp"
+#include "core/words.hpp"
 #include "fluid/numbers.hpp"
 #include "shape/records.hpp"
 #include "sph/half_space.hpp"
+#include "sph/mesh_field.hpp"
 #include "sph/solid_density.hpp"
 
 namespace rill {
@@ -20,6 +24,22 @@ void appendTable(std::vector<float>& tables, const std::vector<float>& table, ui
     const size_t next = std::min(k + 2, table.size() - 2);
     tables.insert(tables.end(), {table[k], table[k + 1], table[next], table[next + 1]});
   }
+}
+
+/// Where the field of a mesh begins among the words; solids with the same mesh share it.
+Expected<uint32_t> addMesh(const std::shared_ptr<const Mesh>& mesh, const std::string& key, const SmoothingKernel& kernel,
+                           std::map<const Mesh*, uint32_t>& known, FluidSetup& setup) {
+  const auto [at, fresh] = known.emplace(mesh.get(), static_cast<uint32_t>(setup.meshWords.size()));
+  if (!fresh) return at->second;
+  const auto field = MeshField::create(*mesh, kernel);
+  if (!field) return Error{field.error().kind, key + ": " + field.error().message};
+  if (field->cell() > 0.6 * kernel.spacing())
+    setup.warnings.push_back(key + ": the mesh is so large for this spacing that its distances are sampled every " +
+                             roundedNumber(field->cell()) + " m, not every half spacing");
+  for (const std::string& warning : mesh->warnings()) setup.warnings.push_back(key + ": " + warning);
+  const std::vector<uint32_t>& words = field->words();
+  setup.meshWords.insert(setup.meshWords.end(), words.begin(), words.end());
+  return at->second;
 }
 
 }  // namespace
@@ -42,8 +62,10 @@ double fastestDriven(const Scene& scene) {
   return fastest;
 }
 
-void addSolids(const Scene& scene, const SmoothingKernel& kernel, const Double3& origin, FluidSetup& setup) {
+Expected<void> addSolids(const Scene& scene, const SmoothingKernel& kernel, const Double3& origin, FluidSetup& setup) {
+  std::map<const Mesh*, uint32_t> meshes;
   for (const Solid& solid : scene.solids) {
+    const std::string path = elementPath("solids", setup.solids.size()) + ".mesh";
     SolidRecord record{};
     record.pose = recordOf(solidPose(solid, 0.0), origin);
     record.shape = recordOf(solid.shape);
@@ -71,10 +93,16 @@ void addSolids(const Scene& scene, const SmoothingKernel& kernel, const Double3&
                             record.tableNodes = table.nodes;
                             record.tableFirst = f(table.first);
                           },
-                          [](const BoxShape&) {}},  // reads the table of a half-space
+                          [](const BoxShape&) {}, [](const MeshShape&) {}},  // read the table of a half-space
                solid.shape);
+    if (const auto* mesh = std::get_if<MeshShape>(&solid.shape)) {
+      const auto field = addMesh(mesh->mesh, path, kernel, meshes, setup);
+      if (!field) return field.error();
+      record.shape.field = *field;
+    }
     setup.solids.push_back(record);
   }
+  return {};
 }
 
 void setWalls(const Scene& scene, const Double3& origin, FluidParams& p) {

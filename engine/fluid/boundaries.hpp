@@ -10,8 +10,9 @@ double fastestSolid(const Scene& scene);
 /// m/s, of all solids that the host moves.
 double fastestDriven(const Scene& scene);
 
-/// The records of a scene's solids at time 0, their keyframes, and the tables of its spheres.
-void addSolids(const Scene& scene, const SmoothingKernel& kernel, const Double3& origin, FluidSetup& setup);
+/// The records of a scene's solids at time 0, their keyframes, the tables of its spheres and the fields of its meshes. TooLarge for a mesh
+/// that is too large for the spacing.
+Expected<void> addSolids(const Scene& scene, const SmoothingKernel& kernel, const Double3& origin, FluidSetup& setup);
 /// Walls, the domain's bounds, and how near a center may come to them.
 void setWalls(const Scene& scene, const Double3& origin, FluidParams& p);
 /// The density that a half-space displaces, which boxes are made of.

@@ -76,7 +76,8 @@ FluidState FluidImpl::present(Graph& graph) const {
   state.velocity = importWhole(graph, "velocities", buffer(FluidArray::Velocity));
   state.id = importWhole(graph, "ids", buffer(FluidArray::Id));
   state.countBuffer = state.control = importWhole(graph, "control", buffer(FluidArray::Control));
-  if (!setup.driven.empty()) state.solids = importWhole(graph, "solids", buffer(FluidArray::Solids));
+  if (!setup.driven.empty() || !setup.meshWords.empty()) state.solids = importWhole(graph, "solids", buffer(FluidArray::Solids));
+  if (!setup.meshWords.empty()) state.meshWords = importWhole(graph, "fields of meshes", buffer(FluidArray::MeshWords));
   return state;
 }
 
@@ -148,7 +149,8 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   state.velocity = ref(FluidArray::Velocity);
   state.id = ref(FluidArray::Id);
   state.countBuffer = state.control = ref(FluidArray::Control);
-  if (!setup.driven.empty()) state.solids = ref(FluidArray::Solids);
+  if (!setup.driven.empty() || !setup.meshWords.empty()) state.solids = ref(FluidArray::Solids);
+  if (!setup.meshWords.empty()) state.meshWords = ref(FluidArray::MeshWords);
   return state;
 }
 

@@ -37,6 +37,7 @@ std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
           {"WARM", setup.warm},
           {"ITERATED", p.iterations > 1},
           {"SOLIDS", p.solidCount > 0},
+          {"MESHES", !setup.meshWords.empty()},
           {"FORCES", hasForces(setup)},
           {"ARTIFICIAL_PRESSURE", p.tensileRate > 0},
           {"TENSILE_POWER", wholePower(p.tensilePower)},

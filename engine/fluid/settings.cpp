@@ -301,7 +301,8 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   // Where both walls of an axis can be within a support of the centers between them.
   for (int a = 0; a < 3 && scene.domain; ++a) setup.thin |= scene.domain->max[a] - scene.domain->min[a] < 2 * h;
   if (!scene.solids.empty()) addHalfSpaceTable(kernel, setup);
-  addSolids(scene, kernel, origin, setup);
+  if (auto added = addSolids(scene, kernel, origin, setup); !added)
+    return Error{added.error().kind, (scene.file.empty() ? "" : scene.file.string() + ": ") + added.error().message};
   p.solidCount = static_cast<uint32_t>(setup.solids.size());
   setViscosity(scene, kernel, setup);
   setNoiseDamping(scene, kernel, setup);

@@ -31,6 +31,7 @@ struct FluidSetup {
   GridSize grid;
   std::vector<float> tables;                             ///< half-space and ball tables: value and slope, then those of the next entry
   std::vector<SolidRecord> solids;                       ///< relative to the particles' origin, at time 0
+  std::vector<uint32_t> meshWords;                       ///< the fields of all meshes (mesh_field.h)
   std::vector<float> keyframes;                          ///< KeyframeRecords
   std::vector<DrivenSolid> driven;                       ///< at the start; their keyframes follow from each advance
   std::vector<float> gravity;                            ///< the schedule: value and time, four floats each; the scene's own first

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/vector_math.hpp"
 #include "fluid/numbers.hpp"
 #include "shared/fluid_records.h"
 #include "sph/jacobi_limit.hpp"

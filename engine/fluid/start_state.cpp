@@ -37,6 +37,7 @@ void FluidImpl::stageScene() {
   staging_->add(slotOf(FluidArray::Shapes), shapes.size() * sizeof shapes[0], bytesOf(shapes));
   staging_->add(slotOf(FluidArray::GravityChanges), setup.gravity.data(), setup.gravity.size() * 4);
   staging_->add(slotOf(FluidArray::Table), setup.tables.data(), setup.tables.size() * 4);
+  staging_->add(slotOf(FluidArray::MeshWords), setup.meshWords.data(), setup.meshWords.size() * 4);
   staging_->add(slotOf(FluidArray::Keyframes), setup.keyframes.data(), setup.keyframes.size() * 4);
   staging_->clear(slotOf(FluidArray::Commands));
   staging_->clear(slotOf(FluidArray::DensityCommands));

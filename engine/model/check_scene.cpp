@@ -21,6 +21,8 @@ class Checker {
       using Value = typename std::remove_cvref_t<decltype(field)>::Value;
       if constexpr (model::kHasMember<Value>) {
         const Value* member = field.find(owner);
+        if constexpr (std::is_same_v<Owner, MeshShape> && std::is_same_v<Value, std::filesystem::path>)
+          return;  // a host has a mesh instead
         const bool choice = std::ranges::find(one_of, field.info.key) != one_of.end();
         if (!ok || member == nullptr || (choice && !given(*member))) return;
         if (choice) chosen.push_back(field.info.key);
@@ -64,6 +66,7 @@ class Checker {
     return accept(path, model::checkNumber(info, static_cast<double>(given), true, std::to_string(given)));
   }
   bool value(const std::string& path, const model::Info& info, uint32_t given) { return value(path, info, uint64_t{given}); }
+  bool value(const std::string&, const model::Info&, bool) { return true; }
   bool value(const std::string& path, const model::Info& info, SideMask given) {
     if (given >> info.words.size() == 0) return true;
     return accept(path,

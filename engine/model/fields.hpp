@@ -49,6 +49,24 @@ struct Table<SphereShape> {
                                      Field{Info{.key = "radius", .unit = "m", .range = above(0), .help = "radius"}, &SphereShape::radius}};
 };
 
+inline constexpr std::array<std::string_view, 2> kUpWords{"y", "z"};  // UpAxis
+
+template <>
+struct Table<MeshShape> {
+  static constexpr std::string_view about = "A triangle mesh";
+  static constexpr std::array one_of = kNoWords;
+  static constexpr std::tuple fields{
+      Field{Info{.key = "file", .help = "OBJ, STL, PLY, glTF or GLB file; the path is relative to the scene file", .required = true},
+            &MeshShape::file},
+      Field{Info{.key = "scale", .unit = "m", .range = above(0), .help = "length of a unit of the file"}, &MeshShape::scale},
+      Field{Info{.key = "up", .help = "axis of the file that points up", .words = kUpWords}, &MeshShape::up},
+      Field{
+          Info{.key = "two_sided",
+               .help = "a sheet, which may have open edges: a shell of half a spacing to each side. Otherwise the mesh must be closed, and "
+                       "the solid is where its winding number is not 0"},
+          &MeshShape::two_sided}};
+};
+
 template <>
 struct Table<ParticleFile> {
   static constexpr std::string_view about = "A file of particles";
@@ -61,7 +79,7 @@ struct Table<ParticleFile> {
 template <>
 struct Table<Fill> {
   static constexpr std::string_view about = "Initial fluid, on a lattice of the spacing or from a file";
-  static constexpr std::array<std::string_view, 3> one_of{"box", "sphere", "particles"};
+  static constexpr std::array<std::string_view, 4> one_of{"box", "sphere", "mesh", "particles"};
   static constexpr std::tuple fields{
       alternative<BoxShape>(
           Info{.key = "box",
@@ -69,7 +87,16 @@ struct Table<Fill> {
           &Fill::shape),
       alternative<SphereShape>(Info{.key = "sphere", .help = "sphere that contains the points of a lattice centered on its center"},
                                &Fill::shape),
+      alternative<MeshShape>(
+          Info{.key = "mesh", .help = "closed mesh that contains the points of a lattice centered on the mesh's bounds", .since = "0.2"},
+          &Fill::shape),
       alternative<ParticleFile>(Info{.key = "particles", .help = "positions from a file, and velocities if it has them"}, &Fill::shape),
+      Field{Info{.key = "translation", .unit = "m", .help = "of a mesh: position of its origin [x, y, z]", .since = "0.2"},
+            &Fill::translation},
+      Field{Info{.key = "rotation",
+                 .help = "of a mesh: rotation about its origin, a quaternion [x, y, z, w], normalized when read",
+                 .since = "0.2"},
+            &Fill::rotation},
       Field{Info{.key = "velocity", .unit = "m/s", .help = "initial velocity [x, y, z]; added to a file's velocities"}, &Fill::velocity},
       Field{Info{.key = "jitter",
                  .range = between(0, 0.5),
@@ -96,13 +123,18 @@ struct Table<Keyframe> {
 template <>
 struct Table<Solid> {
   static constexpr std::string_view about = "A solid that the fluid flows around";
-  static constexpr std::array<std::string_view, 2> one_of{"box", "sphere"};
+  static constexpr std::array<std::string_view, 3> one_of{"box", "sphere", "mesh"};
   static constexpr std::tuple fields{
+      Field{Info{.key = "name", .help = "name of the solid; unique, or empty", .since = "0.2"}, &Solid::name},
       alternative<BoxShape>(Info{.key = "box", .help = "corners before the rotation"}, &Solid::shape),
       alternative<SphereShape>(Info{.key = "sphere", .help = "center and radius"}, &Solid::shape),
-      Field{
-          Info{.key = "rotation", .help = "rotation about the solid's center: a quaternion [x, y, z, w], as in glTF; normalized when read"},
-          &Solid::rotation},
+      alternative<MeshShape>(Info{.key = "mesh", .help = "triangle mesh from a file", .since = "0.2"}, &Solid::shape),
+      Field{Info{.key = "translation", .unit = "m", .help = "translation after the rotation [x, y, z]", .since = "0.2"},
+            &Solid::translation},
+      Field{Info{.key = "rotation",
+                 .help = "rotation about the solid's center, or the mesh's origin: a quaternion [x, y, z, w], as in glTF; normalized when "
+                         "read"},
+            &Solid::rotation},
       Field{Info{.key = "friction", .range = atLeast(0), .help = "coefficient of friction (Coulomb)"}, &Solid::friction},
       Field{Info{.key = "restitution",
                  .range = between(0, 1),

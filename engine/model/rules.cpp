@@ -36,6 +36,22 @@ CheckResult increasingTimes(const std::vector<Timed>& entries) {
   return {};
 }
 
+/// `list`: the key of the entries. Unless names are `required`, some may be empty.
+template <class Named>
+CheckResult uniqueNames(const std::vector<Named>& entries, std::string_view list, bool required) {
+  std::unordered_map<std::string_view, size_t> seen;
+  for (size_t i = 0; i < entries.size(); ++i) {
+    const std::string& name = entries[i].name;
+    const std::string here = memberPath(elementPath("", i), "name");
+    if (name.empty() && !required) continue;
+    if (name.empty()) return Fault{"found an empty name, expected a unique name", {here}};
+    const auto [first, fresh] = seen.emplace(name, i);
+    if (!fresh)
+      return Fault{inQuotes(name) + " is also the name of " + elementPath(list, first->second) + "; expected unique names", {here}};
+  }
+  return {};
+}
+
 CheckResult unitQuaternion(const Quaternion& parts, std::string_view key) {
   const double length = std::hypot(std::hypot(parts.x, parts.y, parts.z), parts.w);
   if (!(length > 0))
@@ -118,6 +134,25 @@ CheckResult checkRules(const FluidSettings& fluid) {
                {"spacing", "density"}};
 }
 
+CheckResult checkRules(const MeshShape& shape) {
+  if (!shape.mesh) return Fault{"found no mesh; expected one of Mesh::create(), or a file that loadScene() reads", {"mesh"}};
+  if (shape.mesh->twoSided() != shape.two_sided)
+    return Fault{std::string("found ") + (shape.two_sided ? "true" : "false") + "; expected what the mesh was created with", {"two_sided"}};
+  return {};
+}
+
+CheckResult checkRules(const Fill& fill) {
+  if (const auto* shape = std::get_if<MeshShape>(&fill.shape)) {
+    if (shape->two_sided) return Fault{"found true; expected a closed mesh, which can be filled", {"mesh.two_sided"}};
+    return unitQuaternion(fill.rotation, "rotation");
+  }
+  if (fill.translation != Double3{}) return Fault{"found a translation; only a mesh can be translated", {"translation"}};
+  if (fill.rotation != Quaternion{0, 0, 0, 1}) return Fault{"found a rotation; only a mesh can be rotated", {"rotation"}};
+  return {};
+}
+
+CheckResult checkRules(const std::vector<Solid>& solids) { return uniqueNames(solids, "solids", false); }
+
 CheckResult checkRules(const Solid& solid) {
   if (CheckResult fault = unitQuaternion(solid.rotation, "rotation")) return fault;
   // Set by hosts only: JSON has no key for it.
@@ -141,17 +176,6 @@ CheckResult checkRules(const Camera& camera) {
 CheckResult checkRules(const std::vector<Keyframe>& motion) { return increasingTimes(motion); }
 CheckResult checkRules(const std::vector<GravityChange>& changes) { return increasingTimes(changes); }
 
-CheckResult checkRules(const std::vector<Probe>& probes) {
-  std::unordered_map<std::string_view, size_t> seen;
-  for (size_t i = 0; i < probes.size(); ++i) {
-    const std::string here = memberPath(elementPath("", i), "name");
-    if (probes[i].name.empty()) return Fault{"found an empty name, expected a unique name", {here}};
-    const auto [first, fresh] = seen.emplace(probes[i].name, i);
-    if (!fresh)
-      return Fault{inQuotes(probes[i].name) + " is also the name of " + elementPath("probes", first->second) + "; expected unique names",
-                   {here}};
-  }
-  return {};
-}
+CheckResult checkRules(const std::vector<Probe>& probes) { return uniqueNames(probes, "probes", true); }
 
 }  // namespace rill::model

@@ -36,11 +36,14 @@ CheckResult checkOneOf(std::span<const std::string_view> keys, std::span<const s
 CheckResult checkRules(const BoxShape& box);
 CheckResult checkRules(const Domain& domain);
 CheckResult checkRules(const FluidSettings& fluid);
+CheckResult checkRules(const MeshShape& shape);
+CheckResult checkRules(const Fill& fill);
 CheckResult checkRules(const Solid& solid);
 CheckResult checkRules(const Keyframe& keyframe);
 CheckResult checkRules(const Camera& camera);
 CheckResult checkRules(const std::vector<Keyframe>& motion);
 CheckResult checkRules(const std::vector<GravityChange>& changes);
+CheckResult checkRules(const std::vector<Solid>& solids);
 CheckResult checkRules(const std::vector<Probe>& probes);
 template <class T>
 CheckResult checkRules(const T&) {

@@ -14,6 +14,22 @@ namespace {
 
 constexpr std::array<std::string_view, 7> kExcluded{"title", "about", "duration", "probes", "camera", "look", "fluid.particles"};
 
+std::string textOf(const Fnv1a& hash) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash.value()));
+  return text;
+}
+
+std::string hashOf(const Mesh& mesh) {
+  Fnv1a hash;
+  hash.add(uint32_t{mesh.twoSided()});
+  for (const Double3& v : mesh.data().vertices)
+    for (double x : v) hash.add(std::bit_cast<uint64_t>(x));
+  for (const auto& triangle : mesh.data().triangles)
+    for (uint32_t corner : triangle) hash.add(corner);
+  return textOf(hash);
+}
+
 class KeyCollector {
  public:
   template <class Owner>
@@ -57,6 +73,8 @@ class KeyCollector {
   }
   /// The name of the file may change; its particles are covered by the hash of the initial particles.
   void add(const model::Info&, std::string key, const ParticleFile&) { keys_.emplace_back(std::move(key), "a file"); }
+  /// The name of the file may change, too.
+  void add(const model::Info&, std::string key, const MeshShape& shape) { keys_.emplace_back(std::move(key), hashOf(*shape.mesh)); }
   template <model::Described Struct>
   void add(const model::Info&, std::string key, const Struct& value) {
     collect(key, value);
@@ -84,9 +102,7 @@ std::string hashOf(const ParticleSet& start) {
   for (const std::vector<Float3>* vectors : {&start.positions, &start.velocities})
     for (const Float3& v : *vectors)
       for (float number : {v.x, v.y, v.z}) hash.add(std::bit_cast<uint32_t>(number));
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash.value()));
-  return text;
+  return textOf(hash);
 }
 
 const std::string* find(const SimulationKeys& keys, const std::string& key) {

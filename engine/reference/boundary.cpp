@@ -12,13 +12,11 @@ namespace {
 /// How much of a solid's image counts, which has the particle at `at`: of a solid that reaches through a wall the part behind it counts
 /// itself, so that its image fades within a spacing.
 double shareOfImage(const Shape& shape, const Pose& pose, const glm::dvec3& at, const Walls& walls, double spacing) {
-  const glm::dvec3 reach = vec(sceneExtents(shape, pose));
+  const SceneBox box = sceneBox(shape, pose);
   double share = 1;
   for (int a = 0; a < 3; ++a) {
-    const double center = pose.center[static_cast<size_t>(a)];
-    const double through = at[a] < walls.lo[a]   ? walls.lo[a] - (center - reach[a])
-                           : at[a] > walls.hi[a] ? center + reach[a] - walls.hi[a]
-                                                 : 0;
+    const auto axis = static_cast<size_t>(a);
+    const double through = at[a] < walls.lo[a] ? walls.lo[a] - box.low[axis] : at[a] > walls.hi[a] ? box.high[axis] - walls.hi[a] : 0;
     share *= 1 - std::clamp(through / spacing, 0.0, 1.0);
   }
   return share;
@@ -48,8 +46,7 @@ SolidSample ReferenceSolver::boundaryOf(const glm::dvec3& x, std::span<const Pos
     for (size_t n = 0; n < solids.size(); ++n) {
       const Shape& shape = settings.solids[n].shape;
       const Double3 local = localPoint(solids[n], {at.x, at.y, at.z});
-      const SolidSample own =
-          settings.tabulated ? solidSample(halfSpace_, sphereTables_[n], shape, local) : solidSample(kernel_, shape, local);
+      const SolidSample own = displacedBy(n, local);
       const double share = shareOfImage(shape, solids[n], at, walls_, settings.spacing);
       const glm::dvec3 gradient = share * image.sign * vec(toScene(solids[n], own.gradient));
       sum.value += share * own.value;
@@ -58,6 +55,21 @@ SolidSample ReferenceSolver::boundaryOf(const glm::dvec3& x, std::span<const Pos
     }
   }
   return sum;
+}
+
+SolidSample ReferenceSolver::displacedBy(size_t solid, const Double3& local) const {
+  if (solid < meshFields_.size() && meshFields_[solid]) return meshSample(halfSpace_, *meshFields_[solid], local);
+  const Shape& shape = settings.solids[solid].shape;
+  return settings.tabulated ? solidSample(halfSpace_, sphereTables_[solid], shape, local) : solidSample(kernel_, shape, local);
+}
+
+SurfacePoint ReferenceSolver::surfaceOf(size_t solid, const Pose& pose, const glm::dvec3& x) const {
+  if (solid >= meshFields_.size() || !meshFields_[solid]) return surfaceAt(settings.solids[solid].shape, pose, {x.x, x.y, x.z});
+  const MeshField::Sample sample = meshFields_[solid]->sample(localPoint(pose, {x.x, x.y, x.z}));
+  const glm::dvec3 gradient = vec(toScene(pose, sample.gradient));
+  const double slope = glm::length(gradient);
+  const glm::dvec3 normal = slope > 1e-6 ? gradient / slope : vec(toScene(pose, {0, 1, 0}));
+  return {sample.distance, {normal.x, normal.y, normal.z}};
 }
 
 void ReferenceSolver::addImages(uint32_t i, std::span<const uint32_t> neighbors) {
@@ -83,7 +95,7 @@ glm::dmat3 ReferenceSolver::tangentialScale(size_t i) const {
 glm::dvec3 ReferenceSolver::collide(glm::dvec3 x, std::span<const Pose> solids) const {
   const double clearance = settings.spacing / 2;
   for (size_t n = 0; n < solids.size(); ++n) {
-    const SurfacePoint surface = surfaceAt(settings.solids[n].shape, solids[n], {x.x, x.y, x.z});
+    const SurfacePoint surface = surfaceOf(n, solids[n], x);
     if (surface.distance < clearance) x += (clearance - surface.distance) * vec(surface.normal);
   }
   for (int a = 0; a < 3; ++a) {
@@ -103,7 +115,7 @@ glm::dvec3 ReferenceSolver::contact(size_t i, glm::dvec3 v, double dt, std::span
   for (size_t k = 0; k < solids.size(); ++k) {
     const double restitution = settings.solids[k].restitution, friction = settings.solids[k].friction;
     if (restitution <= 0 && friction <= 0) continue;
-    const SurfacePoint surface = surfaceAt(settings.solids[k].shape, solids[k], {x.x, x.y, x.z});
+    const SurfacePoint surface = surfaceOf(k, solids[k], x);
     if (surface.distance > kContactDistance * settings.spacing) continue;
     const glm::dvec3 n = vec(surface.normal);
     const glm::dvec3 solid = vec(velocityAt(solids[k], {x.x, x.y, x.z}));

@@ -44,11 +44,14 @@ ReferenceSolver::ReferenceSolver(const ReferenceSettings& s, std::span<const glm
     if (finite(v)) fastest_ = std::max(fastest_, glm::length(v));
   walls_ = {settings.lo, settings.hi, settings.spacing / 2};
   for (int a = 0; a < 3; ++a) walls_.margin = std::min(walls_.margin, (settings.hi[a] - settings.lo[a]) / 2);
-  if (settings.tabulated) {
-    halfSpace_ = makeHalfSpaceTable(kernel_);
-    const Overloaded tableFor{[&](const SphereShape& sphere) { return makeSphereTable(kernel_, sphere.radius); },
-                              [](const BoxShape&) { return SphereTable{}; }};
-    for (const Solid& solid : settings.solids) sphereTables_.push_back(std::visit(tableFor, solid.shape));
+  if (!settings.solids.empty()) halfSpace_ = makeHalfSpaceTable(kernel_);
+  for (const Solid& solid : settings.solids) {
+    const auto* sphere = std::get_if<SphereShape>(&solid.shape);
+    const auto* mesh = std::get_if<MeshShape>(&solid.shape);
+    sphereTables_.push_back(settings.tabulated && sphere ? makeSphereTable(kernel_, sphere->radius) : SphereTable{});
+    auto& field = meshFields_.emplace_back();
+    if (mesh)
+      if (auto made = MeshField::create(*mesh->mesh, kernel_)) field = *std::move(made);
   }
 }
 

@@ -23,6 +23,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,6 +33,7 @@
 #include "sph/artificial_pressure.hpp"
 #include "sph/half_space.hpp"
 #include "sph/kernel.hpp"
+#include "sph/mesh_field.hpp"
 #include "sph/solid_density.hpp"
 #include "sph/solid_scale.hpp"
 
@@ -177,7 +179,9 @@ class ReferenceSolver {
   glm::dvec3 contact(size_t i, glm::dvec3 v, double dt, std::span<const Pose> poses) const;
   std::vector<Pose> poses(double t, double dt) const;
   SolidSample boundaryOf(const glm::dvec3& x, std::span<const Pose> poses) const;
-  glm::dmat3 tangentialScale(size_t i) const;  ///< a_i
+  SolidSample displacedBy(size_t solid, const Double3& local) const;                  ///< in the solid's frame
+  SurfacePoint surfaceOf(size_t solid, const Pose& pose, const glm::dvec3& x) const;  ///< of a mesh from its field
+  glm::dmat3 tangentialScale(size_t i) const;                                         ///< a_i
   Pair makePair(uint32_t i, uint32_t j) const;
   void addImages(uint32_t i, std::span<const uint32_t> neighbors);
   void predictPositions(double dt, bool atRest);
@@ -192,7 +196,8 @@ class ReferenceSolver {
   ArtificialPressure artificial_;
   Walls walls_;
   HalfSpaceTable halfSpace_;
-  std::vector<SphereTable> sphereTables_;  ///< one per solid; empty for boxes
+  std::vector<SphereTable> sphereTables_;             ///< one per solid; empty but for spheres
+  std::vector<std::optional<MeshField>> meshFields_;  ///< one per solid; of meshes
   double time_ = 0;
   double step_ = 0;                 ///< s; state.predicted is at time_ + step_
   double initialPressureStep_ = 0;  ///< s, `dt` of solveInitialPressure(); 0: not called

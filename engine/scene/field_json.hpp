@@ -28,6 +28,7 @@ OrderedJson numbersJson(const Vector& vector) {
 inline OrderedJson defaultJson(const model::Info& info, double value) {
   return info.range.contains(value) ? tidyNumber(value) : OrderedJson();
 }
+inline OrderedJson defaultJson(const model::Info&, bool value) { return value; }
 inline OrderedJson defaultJson(const model::Info& info, uint32_t value) { return defaultJson(info, static_cast<double>(value)); }
 inline OrderedJson defaultJson(const model::Info& info, uint64_t value) { return defaultJson(info, static_cast<double>(value)); }
 inline OrderedJson defaultJson(const model::Info& info, const std::string& value) {

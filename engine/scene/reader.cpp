@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "rill/version.hpp"
+#include "scene/mesh_file.hpp"
 
 namespace rill {
 namespace {
@@ -106,6 +107,21 @@ bool Reader::accept(const std::string& path, const model::CheckResult& result) {
 void Reader::normalize(Quaternion& quaternion) {
   const double length = std::hypot(std::hypot(quaternion.x, quaternion.y, quaternion.z), quaternion.w);
   for (size_t i = 0; i < 4 && length > 0; ++i) quaternion[i] /= length;
+}
+
+bool Reader::loadMesh(const std::string& path, MeshShape& shape) {
+  auto data = readMesh(shape.file);
+  if (!data) return fail(memberPath(path, "file"), data.error().message);
+  for (Double3& v : data->vertices) {
+    if (shape.up == UpAxis::Z) v = {v.x, v.z, -v.y};
+    for (double& x : v) x *= shape.scale;
+  }
+  if (shape.up == UpAxis::Z)
+    for (Float3& n : data->normals) n = {n.x, n.z, -n.y};
+  auto mesh = Mesh::create(*std::move(data), shape.two_sided);
+  if (!mesh) return fail(memberPath(path, "file"), shape.file.string() + ": " + mesh.error().message);
+  shape.mesh = *std::move(mesh);
+  return true;
 }
 
 bool Reader::allowed(const std::string& path, const model::Info& info) {
@@ -215,6 +231,12 @@ bool Reader::value(const Json& json, const std::string& path, const model::Info&
   } else {
     return fail(path, foundText(json).substr(6) + " is out of range; expected " + model::expectedNumber(info, true));
   }
+  return true;
+}
+
+bool Reader::value(const Json& json, const std::string& path, const model::Info&, bool& out) {
+  if (!json.is_boolean()) return fail(path, foundText(json) + ", expected true or false");
+  out = json.get<bool>();
   return true;
 }
 

@@ -36,8 +36,9 @@ class Reader {
     model::forEachField<Owner>([&](const auto& field) {
       if (ok) ok = member(json, path, field, owner);
     });
-    if constexpr (std::is_same_v<Owner, Solid>) normalize(owner.rotation);
+    if constexpr (std::is_same_v<Owner, Solid> || std::is_same_v<Owner, Fill>) normalize(owner.rotation);
     if constexpr (std::is_same_v<Owner, Keyframe>) normalize(owner.rotate);
+    if constexpr (std::is_same_v<Owner, MeshShape>) ok = ok && loadMesh(path, owner);
     return ok && exactlyOne(json, path, model::Table<Owner>::one_of) && accept(path, model::checkRules(owner));
   }
 
@@ -46,6 +47,8 @@ class Reader {
   /// On a fault, reports the first candidate key that an override has set, else the first candidate.
   bool accept(const std::string& path, const model::CheckResult& result);
   static void normalize(Quaternion& quaternion);
+  /// Reads the file of a mesh.
+  bool loadMesh(const std::string& path, MeshShape& shape);
   bool unknownKey(const std::string& path, const std::string& key, const std::vector<std::string_view>& keys);
   /// Whether the scene's version has the key.
   bool allowed(const std::string& path, const model::Info& info);
@@ -81,6 +84,7 @@ class Reader {
   }
   bool value(const Json& json, const std::string& path, const model::Info& info, uint32_t& out);
   bool value(const Json& json, const std::string& path, const model::Info& info, uint64_t& out);
+  bool value(const Json& json, const std::string& path, const model::Info& info, bool& out);
   bool value(const Json& json, const std::string& path, const model::Info& info, std::string& out);
   bool value(const Json& json, const std::string& path, const model::Info& info, SideMask& out);
   bool value(const Json& json, const std::string& path, const model::Info& info, std::optional<double>& out);

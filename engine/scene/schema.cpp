@@ -35,6 +35,8 @@ OrderedJson typeSchema(const model::Info& info) {
     return OrderedJson::object();
   } else if constexpr (std::is_same_v<T, model::Version>) {
     return {{"type", "string"}, {"pattern", "^[0-9]+\\.[0-9]+(\\.[0-9]+)?$"}};
+  } else if constexpr (std::is_same_v<T, bool>) {
+    return {{"type", "boolean"}};
   } else if constexpr (std::is_same_v<T, double>) {
     return numberSchema(info, "number");
   } else if constexpr (std::is_same_v<T, uint32_t> || std::is_same_v<T, uint64_t>) {
@@ -130,6 +132,8 @@ std::string valuesText(const model::Info& info) {
     return "anything";
   } else if constexpr (std::is_same_v<T, model::Version>) {
     return "`\"MAJOR.MINOR\"` or `\"MAJOR.MINOR.PATCH\"`";
+  } else if constexpr (std::is_same_v<T, bool>) {
+    return "`true` or `false`";
   } else if constexpr (std::is_same_v<T, double>) {
     return withRange("number", info.range);
   } else if constexpr (std::is_same_v<T, uint32_t> || std::is_same_v<T, uint64_t>) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "core/overloaded.hpp"
+#include "core/vector_math.hpp"
 
 namespace rill {
 namespace {
@@ -16,8 +16,6 @@ Double3 rotate(const Quaternion& q, double sign, const Double3& v) {
   const Double3 u = {y * t[2] - z * t[1], z * t[0] - x * t[2], x * t[1] - y * t[0]};
   return {v[0] + w * t[0] + u[0], v[1] + w * t[1] + u[1], v[2] + w * t[2] + u[2]};
 }
-
-Double3 minus(const Double3& a, const Double3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 Double3 over(const Double3& v, double divisor) { return {v[0] / divisor, v[1] / divisor, v[2] / divisor}; }
 
@@ -58,8 +56,8 @@ Displacement displacementAt(const Solid& solid, double t) {
   return out;
 }
 
-Double3 boxExtents(const BoxShape& box, const Pose& pose) {
-  const Double3 half = halfExtents(box);
+/// Of a box with these half extents.
+Double3 turnedExtents(const Double3& half, const Pose& pose) {
   Double3 extents = {};
   for (size_t own = 0; own < 3; ++own) {
     Double3 axis = {};
@@ -86,7 +84,7 @@ Pose solidPose(const Solid& solid, double t) {
             .rotation = composed(by.rotation, solid.rotation),
             .velocity = by.velocity,
             .angularVelocity = by.angularVelocity};
-  const Double3 center = centerOf(solid.shape);
+  const Double3 center = centerOf(solid);
   for (size_t a = 0; a < 3; ++a) pose.center[a] += center[a];
   return pose;
 }
@@ -106,10 +104,7 @@ Double3 toSolid(const Pose& pose, const Double3& direction) { return rotate(pose
 Double3 localPoint(const Pose& pose, const Double3& x) { return toSolid(pose, minus(x, pose.center)); }
 
 Double3 velocityAt(const Pose& pose, const Double3& x) {
-  const Double3& w = pose.angularVelocity;
-  const Double3 r = minus(x, pose.center);
-  return {pose.velocity[0] + w[1] * r[2] - w[2] * r[1], pose.velocity[1] + w[2] * r[0] - w[0] * r[2],
-          pose.velocity[2] + w[0] * r[1] - w[1] * r[0]};
+  return along(pose.velocity, 1, cross(pose.angularVelocity, minus(x, pose.center)));
 }
 
 SurfacePoint surfaceAt(const Shape& shape, const Pose& pose, const Double3& x) {
@@ -117,10 +112,15 @@ SurfacePoint surfaceAt(const Shape& shape, const Pose& pose, const Double3& x) {
   return {local.distance, toScene(pose, local.normal)};
 }
 
-Double3 sceneExtents(const Shape& shape, const Pose& pose) {
-  return std::visit(
-      Overloaded{[](const SphereShape& sphere) { return halfExtents(sphere); }, [&](const BoxShape& box) { return boxExtents(box, pose); }},
-      shape);
+SceneBox sceneBox(const Shape& shape, const Pose& pose) {
+  const Double3 half = std::holds_alternative<SphereShape>(shape) ? halfExtents(shape) : turnedExtents(halfExtents(shape), pose);
+  const Double3 middle = toScene(pose, middleOf(shape));
+  SceneBox bounds;
+  for (size_t a = 0; a < 3; ++a) {
+    bounds.low[a] = pose.center[a] + middle[a] - half[a];
+    bounds.high[a] = pose.center[a] + middle[a] + half[a];
+  }
+  return bounds;
 }
 
 }  // namespace rill

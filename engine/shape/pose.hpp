@@ -36,7 +36,10 @@ Double3 velocityAt(const Pose& pose, const Double3& x);
 /// Distance of `x` from a shape with this pose; `x` and the normal are in the frame of `pose.center`.
 SurfacePoint surfaceAt(const Shape& shape, const Pose& pose, const Double3& x);
 
-/// Half extents along the axes of the scene of the box around a shape with this pose, m.
-Double3 sceneExtents(const Shape& shape, const Pose& pose);
+/// The bounding box along the axes of the scene of a shape with this pose, in the frame of `pose.center`, m.
+struct SceneBox {
+  Double3 low = {}, high = {};
+};
+SceneBox sceneBox(const Shape& shape, const Pose& pose);
 
 }  // namespace rill

@@ -12,14 +12,16 @@ namespace {
 float f(double value) { return static_cast<float>(value); }
 
 uint32_t kindOf(const Shape& shape) {
-  return std::visit(Overloaded{[](const BoxShape&) { return kShapeBox; }, [](const SphereShape&) { return kShapeSphere; }}, shape);
+  return std::visit(Overloaded{[](const BoxShape&) { return kShapeBox; }, [](const SphereShape&) { return kShapeSphere; },
+                               [](const MeshShape&) { return kShapeMesh; }},
+                    shape);
 }
 
 }  // namespace
 
 ShapeRecord recordOf(const Shape& shape) {
-  const Double3 half = halfExtents(shape);
-  return {f(half[0]), f(half[1]), f(half[2]), kindOf(shape)};
+  const Double3 half = halfExtents(shape), middle = middleOf(shape);
+  return {f(half[0]), f(half[1]), f(half[2]), kindOf(shape), f(middle[0]), f(middle[1]), f(middle[2]), 0};
 }
 
 PoseRecord recordOf(const Pose& pose, const Double3& origin) {
@@ -30,7 +32,7 @@ PoseRecord recordOf(const Pose& pose, const Double3& origin) {
 }
 
 PoseRecord baseRecord(const Solid& solid, const Double3& origin) {
-  return recordOf(Pose{.center = centerOf(solid.shape), .rotation = solid.rotation}, origin);
+  return recordOf(Pose{.center = centerOf(solid), .rotation = solid.rotation}, origin);
 }
 
 std::vector<KeyframeRecord> keyframeRecords(const Solid& solid) {

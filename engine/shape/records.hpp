@@ -7,6 +7,7 @@
 
 namespace rill {
 
+/// Without the field of a mesh.
 ShapeRecord recordOf(const Shape& shape);
 
 /// `origin`: what the record's center is relative to, in the frame of `pose.center`, m.

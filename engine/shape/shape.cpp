@@ -5,10 +5,11 @@
 #include <limits>
 #include <numbers>
 
+#include "core/vector_math.hpp"
+#include "shape/mesh_impl.hpp"
+
 namespace rill {
 namespace {
-
-double dot(const Double3& a, const Double3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 std::optional<double> ifAhead(double distance) { return distance > 0 ? std::optional(distance) : std::nullopt; }
 
@@ -20,6 +21,7 @@ Double3 centerOf(const BoxShape& box) {
   return center;
 }
 Double3 centerOf(const SphereShape& sphere) { return sphere.center; }
+Double3 centerOf(const MeshShape&) { return {}; }
 
 Double3 halfExtents(const BoxShape& box) {
   Double3 half;
@@ -27,18 +29,36 @@ Double3 halfExtents(const BoxShape& box) {
   return half;
 }
 Double3 halfExtents(const SphereShape& sphere) { return {sphere.radius, sphere.radius, sphere.radius}; }
+Double3 halfExtents(const MeshShape& mesh) {
+  const Double3 low = mesh.mesh->min(), high = mesh.mesh->max();
+  return {(high.x - low.x) / 2, (high.y - low.y) / 2, (high.z - low.z) / 2};
+}
+
+Double3 middleOf(const Shape& shape) {
+  const auto* mesh = std::get_if<MeshShape>(&shape);
+  if (mesh == nullptr) return {};
+  const Double3 low = mesh->mesh->min(), high = mesh->mesh->max();
+  return {(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2};
+}
+
+double shellOf(const Shape& shape, double spacing) {
+  const auto* mesh = std::get_if<MeshShape>(&shape);
+  return mesh != nullptr && mesh->two_sided ? 0.5 * spacing : 0;
+}
 
 double boundingRadius(const BoxShape& box) {
   const Double3 half = halfExtents(box);
   return std::sqrt(dot(half, half));
 }
 double boundingRadius(const SphereShape& sphere) { return sphere.radius; }
+double boundingRadius(const MeshShape& mesh) { return implOf(*mesh.mesh).radius; }
 
 double volumeOf(const BoxShape& box) {
   double volume = 1;
   for (size_t a = 0; a < 3; ++a) volume *= box.max[a] - box.min[a];
   return volume;
 }
+double volumeOf(const MeshShape& mesh) { return mesh.mesh->volume(); }
 double volumeOf(const SphereShape& sphere) { return 4.0 / 3.0 * std::numbers::pi * std::pow(sphere.radius, 3); }
 
 SurfacePoint surfaceAt(const BoxShape& box, const Double3& local) {
@@ -64,6 +84,16 @@ SurfacePoint surfaceAt(const SphereShape& sphere, const Double3& local) {
   point.distance = r - sphere.radius;
   if (r > 0)
     for (size_t a = 0; a < 3; ++a) point.normal[a] = local[a] / r;
+  return point;
+}
+
+SurfacePoint surfaceAt(const MeshShape& mesh, const Double3& local) {
+  const MeshImpl& impl = implOf(*mesh.mesh);
+  const NearestPoint nearest = impl.tree.nearest(local);
+  const double distance = std::sqrt(nearest.squared), sign = !impl.twoSided && impl.tree.winding(local) != 0 ? -1 : 1;
+  SurfacePoint point{.distance = sign * distance};
+  if (distance > 0)
+    for (size_t a = 0; a < 3; ++a) point.normal[a] = sign * (local[a] - nearest.point[a]) / distance;
   return point;
 }
 
@@ -93,18 +123,23 @@ std::optional<double> rayEntry(const SphereShape& sphere, const Double3& from, c
   return across > square ? std::nullopt : ifAhead(nearest - std::sqrt(square - across));
 }
 
-void translate(BoxShape& box, const Double3& by) {
-  for (size_t a = 0; a < 3; ++a) {
-    box.min[a] += by[a];
-    box.max[a] += by[a];
-  }
+std::optional<double> rayEntry(const MeshShape& mesh, const Double3& from, const Double3& along) {
+  const MeshImpl& impl = implOf(*mesh.mesh);
+  if (!impl.twoSided && impl.tree.winding(from) != 0) return std::nullopt;
+  return impl.tree.firstHit(from, along);
 }
-void translate(SphereShape& sphere, const Double3& by) {
-  for (size_t a = 0; a < 3; ++a) sphere.center[a] += by[a];
+
+void translate(Solid& solid, const Double3& by) {
+  for (size_t a = 0; a < 3; ++a) solid.translation[a] += by[a];
 }
 
 Double3 centerOf(const Shape& shape) {
   return std::visit([](const auto& s) { return centerOf(s); }, shape);
+}
+Double3 centerOf(const Solid& solid) {
+  Double3 center = centerOf(solid.shape);
+  for (size_t a = 0; a < 3; ++a) center[a] += solid.translation[a];
+  return center;
 }
 Double3 halfExtents(const Shape& shape) {
   return std::visit([](const auto& s) { return halfExtents(s); }, shape);
@@ -117,9 +152,6 @@ SurfacePoint surfaceAt(const Shape& shape, const Double3& local) {
 }
 std::optional<double> rayEntry(const Shape& shape, const Double3& from, const Double3& along) {
   return std::visit([&](const auto& s) { return rayEntry(s, from, along); }, shape);
-}
-void translate(Shape& shape, const Double3& by) {
-  std::visit([&](auto& s) { translate(s, by); }, shape);
 }
 
 }  // namespace rill

@@ -68,12 +68,13 @@ SolidSample radial(const LineSample& along, const SurfacePoint& surface) {
 
 template <class Sphere, class Box>
 SolidSample sampleOf(const Shape& shape, const Double3& local, const Sphere& sphereAt, const Box& boxAt) {
-  return std::visit(Overloaded{[&](const SphereShape& sphere) {
-                                 const SurfacePoint surface = surfaceAt(sphere, local);
-                                 return radial(sphereAt(sphere.radius, surface.distance), surface);
-                               },
-                               [&](const BoxShape& box) { return boxAt(halfExtents(box)); }},
-                    shape);
+  return std::visit(
+      Overloaded{[&](const SphereShape& sphere) {
+                   const SurfacePoint surface = surfaceAt(sphere, local);
+                   return radial(sphereAt(sphere.radius, surface.distance), surface);
+                 },
+                 [&](const BoxShape& box) { return boxAt(halfExtents(box)); }, [](const MeshShape&) { return SolidSample{}; }},
+      shape);
 }
 
 }  // namespace

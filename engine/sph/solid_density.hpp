@@ -41,7 +41,8 @@ SolidSample boxSample(const SmoothingKernel& kernel, const Double3& local, const
 /// The same with F from the table, as in the shaders.
 SolidSample boxSample(const HalfSpaceTable& table, const Double3& local, const Double3& half);
 
-/// Density contribution of a shape at `local`; gradient and `local` are in its frame, `coverage` is 0.
+/// Density contribution of a sphere or box at `local`; gradient and `local` are in its frame, `coverage` is 0. That of a mesh is in
+/// mesh_field.hpp.
 SolidSample solidSample(const SmoothingKernel& kernel, const Shape& shape, const Double3& local);
 
 /// The same from the tables. `sphere`: of its radius, if the shape is a sphere.

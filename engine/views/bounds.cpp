@@ -18,7 +18,7 @@ Bounds fluidBounds(const Scene& scene, const ParticleSet& particles) {
 
 void addSolids(Bounds& bounds, const Scene& scene) {
   for (const Solid& solid : scene.solids) {
-    const Double3 center = centerOf(solid.shape);
+    const Double3 center = centerOf(solid);
     const double radius = boundingRadius(solid.shape);
     if (solid.motion.empty()) bounds.add(center, radius);
     for (const Keyframe& key : solid.motion) {

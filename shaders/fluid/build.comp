@@ -11,9 +11,11 @@
 #include "fluid/uniforms.glsl"
 #include "fluid/images.glsl"
 #include "fluid/cluster.glsl"
+#include "shared/arrays.glsl"
+READ_UINT(17, meshWord)
+#define MESH_WORDS
 #include "shared/pose.glsl"
 #include "shared/shape.glsl"
-#include "shared/arrays.glsl"
 #include "shared/loops.glsl"
 #include "shared/number.glsl"
 #include "shared/pair_hash.h"

@@ -13,6 +13,8 @@ layout(std430, binding = 5) readonly buffer WarmAccelerationBlock { vec4 warmAcc
 layout(std430, binding = 6) readonly buffer NearSolidsBlock { uint nearSolids[]; };
 layout(std430, binding = 7) readonly buffer SumsBlock { FluidSums sums; };
 layout(std430, binding = 8) readonly buffer SolidBlock { SolidRecord solids[]; };
+#include "shared/arrays.glsl"
+READ_UINT(13, meshWord)
 #include "fluid/outside.glsl"
 layout(std430, binding = 9) readonly buffer FreeBlock { vec4 freeVelocity[]; };
 layout(std430, binding = 10) readonly buffer WorkBlock { uvec4 work[]; };

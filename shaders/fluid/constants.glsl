@@ -15,5 +15,6 @@ layout(constant_id = 10) const bool NEAR_SOLIDS = false;  // over the particles 
 layout(constant_id = 11) const bool THIN = true;       // opposite walls can both be near a particle
 layout(constant_id = 12) const bool REBUILDS = false;  // the list is built after the sort
 layout(constant_id = 14) const uint TENSILE_POWER = 0; // n of artificial pressure if that is whole, else 0
+layout(constant_id = 15) const bool MESHES = false;    // some solids are meshes
 #define LIST_OVERSIZED_ID 13
 #endif

@@ -1,6 +1,7 @@
-// Projects centers out of solids. Needs `params` and the storage array `solids`.
+// Projects centers out of solids. Needs `params`, the storage array `solids` and meshWordAt().
 #ifndef RILL_OUTSIDE_GLSL
 #define RILL_OUTSIDE_GLSL
+#define MESH_WORDS
 #include "shared/pose.glsl"
 #include "shared/shape.glsl"
 

@@ -12,6 +12,7 @@ layout(std430, binding = 5) writeonly buffer PredictionBlock { vec4 prediction[]
 layout(std430, binding = 6) readonly buffer SolidBlock { SolidRecord solids[]; };
 layout(std430, binding = 7) readonly buffer NearSolidsBlock { uint nearSolids[]; };
 layout(std430, binding = 8) readonly buffer SumsBlock { FluidSums sums; };
+READ_UINT(9, meshWord)
 #include "fluid/outside.glsl"
 layout(local_size_x = kFluidGroup) in;
 

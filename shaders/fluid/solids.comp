@@ -5,6 +5,9 @@
 #include "fluid/uniforms.glsl"
 #include "fluid/images.glsl"
 #include "shared/loops.glsl"
+#include "shared/arrays.glsl"
+READ_UINT(9, meshWord)
+#define MESH_WORDS
 #include "shared/pose.glsl"
 #include "shared/shape.glsl"
 #include "fluid/solid_coverage.glsl"
@@ -32,9 +35,14 @@ vec2 face(float s) {
   return s < 0.0 ? vec2(1.0 - f.x, f.y) : f;
 }
 
-// A box displaces the product of its slabs, a ball what its own table says.
+// A box displaces the product of its slabs, a ball what its own table says, a mesh what a half-space does times a factor.
 vec4 solidSample(SolidRecord s, vec3 x) {
   vec3 local = localPoint(s.pose, x);
+  if (MESHES && s.shape.kind == kShapeMesh) {
+    MeshSample mesh = meshSample(s.shape.field, local);
+    vec2 f = face(mesh.distance);
+    return vec4(toScene(s.pose, f.y * mesh.factor * mesh.gradient + f.x * mesh.factorGradient), f.x * mesh.factor);
+  }
   if (s.shape.kind == kShapeSphere) {
     vec3 normal;
     float distance = surfaceDistance(s.shape, local, normal);
@@ -61,9 +69,9 @@ float shareOfImage(SolidRecord s, vec3 image) {
     reach += abs(toScene(s.pose, edge));
   }
   if (s.shape.kind == kShapeSphere) reach = vec3(s.shape.halfX);
-  vec3 low = wallsLow(), high = wallsHigh();
-  vec3 through = mix(vec3(0.0), low - (centerOf(s.pose) - reach), lessThan(image, low));
-  through = mix(through, centerOf(s.pose) + reach - high, greaterThan(image, high));
+  vec3 low = wallsLow(), high = wallsHigh(), middle = centerOf(s.pose) + toScene(s.pose, middleOf(s.shape));
+  vec3 through = mix(vec3(0.0), low - (middle - reach), lessThan(image, low));
+  through = mix(through, middle + reach - high, greaterThan(image, high));
   vec3 share = 1.0 - clamp(through / params.spacing, vec3(0.0), vec3(1.0));
   return share.x * share.y * share.z;
 }

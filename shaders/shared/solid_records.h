@@ -5,11 +5,13 @@
 #include "shared/interop.h"
 RILL_RECORDS_BEGIN
 
-RILL_CONST uint kShapeBox = 0u, kShapeSphere = 1u;
+RILL_CONST uint kShapeBox = 0u, kShapeSphere = 1u, kShapeMesh = 2u;
 
 struct ShapeRecord {
-  float halfX, halfY, halfZ;  // m, half extents; of a sphere its radius
-  uint kind;                  // kShapeBox or kShapeSphere
+  float halfX, halfY, halfZ;        // m, half extents; of a sphere its radius
+  uint kind;                        // kShapeBox, kShapeSphere or kShapeMesh
+  float middleX, middleY, middleZ;  // m, of the bounds: 0 but for a mesh
+  uint field;                       // mesh: where its field begins among the words (mesh_field.h)
 };
 
 struct PoseRecord {

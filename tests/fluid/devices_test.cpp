@@ -116,7 +116,7 @@ std::vector<Refused> refusedDevices() {
     rows.push_back({std::move(device), std::move(missing)});
     return rows.back().device;
   };
-  const std::string buffers = "storage buffers in a shader: expected maxPerStageDescriptorStorageBuffers of at least 15, found 8";
+  const std::string buffers = "storage buffers in a shader: expected maxPerStageDescriptorStorageBuffers of at least 16, found 8";
   // Mesa: v3dv_limits.h (MAX_STORAGE_BUFFERS), v3dv_device.c: the operations from V3D 7.1 on.
   add(device("V3D 7.1 (Raspberry Pi 5)", kBroadcom, 16, 16, 16), {buffers}).storageBuffers = 8;
   NullProperties& pi4 = add(device("V3D 4.2 (Raspberry Pi 4)", kBroadcom, 16, 16, 16),
@@ -132,7 +132,7 @@ std::vector<Refused> refusedDevices() {
                             {version + "1.1", subgroups + "vote", subgroups + "arithmetic", subgroups + "shuffle",
                              "workgroups that are large enough: expected maxComputeWorkGroupInvocations of at least 256, found 128",
                              "workgroups that are wide enough: expected maxComputeWorkGroupSize[0] of at least 256, found 128",
-                             "storage buffers in a shader: expected maxPerStageDescriptorStorageBuffers of at least 15, found 4",
+                             "storage buffers in a shader: expected maxPerStageDescriptorStorageBuffers of at least 16, found 4",
                              "uniform texel buffers of R32G32B32A32_SFLOAT", "uniform texel buffers of R32G32B32A32_UINT",
                              "uniform texel buffers of R32G32_UINT", "uniform texel buffers of R32_UINT"});
   old.api = VK_API_VERSION_1_1;

@@ -142,7 +142,7 @@ TEST(Overrides, ErrorsNameTheOverride) {
   EXPECT_EQ(message("rill", "999.5").rfind("--set rill: the scene needs Rill 999.5 or later; this is Rill ", 0), 0U);
   EXPECT_EQ(message("fill[0]", R"({"box": {"mn": 1}})"), "--set fill[0]: fill[0].box.mn: unknown key; did you mean \"min\"?");
   EXPECT_EQ(message("fill[0].sphere", "{}"),
-            "--set fill[0].sphere: expected exactly one of \"box\", \"sphere\", \"particles\"; found \"box\", \"sphere\"");
+            "--set fill[0].sphere: expected exactly one of \"box\", \"sphere\", \"mesh\", \"particles\"; found \"box\", \"sphere\"");
   EXPECT_EQ(message("fill[0].box.max", "[0,1,1]"),
             "--set fill[0].box.max: fill[0].box.max[0]: max is 0 and min is 0 along x; expected min below max on every axis");
   EXPECT_EQ(message("fill[5].jitter", "0"),

@@ -115,8 +115,8 @@ TEST_F(TouchTest, DrivenSolidIsDrawnAtItsPose) {
   EXPECT_NEAR(there.center[0], 1.5, 1e-4);
   Scene still = session().scene();
   Double3 moved = there.center;
-  for (size_t a = 0; a < 3; ++a) moved[a] -= centerOf(still.solids[1].shape)[a];
-  translate(still.solids[1].shape, moved);
+  for (size_t a = 0; a < 3; ++a) moved[a] -= centerOf(still.solids[1])[a];
+  translate(still.solids[1], moved);
   still.solids[1].driven = 0;
   const ParticleSet start = runner().start();
   offline::Painter other(still, start, 0);

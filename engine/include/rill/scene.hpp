@@ -10,6 +10,7 @@
 //   if (auto ok = rill::checkScene(scene); !ok) return fail(ok.error().message);
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -17,6 +18,7 @@
 
 #include "rill/expected.hpp"
 #include "rill/export.hpp"
+#include "rill/mesh.hpp"
 #include "rill/vectors.hpp"
 
 namespace rill {
@@ -82,8 +84,20 @@ struct SphereShape {
   double radius = 1;           ///< m, > 0
 };
 
+/// The axis of a mesh file that points up.
+enum class UpAxis : uint8_t { Y, Z };
+
+/// A triangle mesh. Its frame is that of the file after `up` and `scale`; its center is the origin of this frame.
+struct MeshShape {
+  std::filesystem::path file = {};  ///< OBJ, STL, PLY, glTF or GLB; an absolute path once the scene is loaded; empty: `mesh` is the host's
+  double scale = 1;                 ///< m per unit of the file, > 0
+  UpAxis up = UpAxis::Y;
+  bool two_sided = false;                 ///< a sheet: a shell that reaches half a spacing to each side
+  std::shared_ptr<const Mesh> mesh = {};  ///< in m; read from `file` by loadScene(), or the host's
+};
+
 /// The shape of a solid.
-using Shape = std::variant<BoxShape, SphereShape>;
+using Shape = std::variant<BoxShape, SphereShape, MeshShape>;
 
 /// A file of particles.
 struct ParticleFile {
@@ -92,9 +106,11 @@ struct ParticleFile {
 
 /// Initial fluid: a lattice inside a shape, or the particles of a file.
 struct Fill {
-  std::variant<BoxShape, SphereShape, ParticleFile> shape = {};
-  Double3 velocity = {0, 0, 0};  ///< initial velocity, m/s; added to that of a file
-  double jitter = 0;             ///< largest random offset along each axis, fraction of the spacing, 0 .. 0.5
+  std::variant<BoxShape, SphereShape, MeshShape, ParticleFile> shape = {};
+  Double3 translation = {0, 0, 0};     ///< of a mesh's origin, m, after the rotation
+  Quaternion rotation = {0, 0, 0, 1};  ///< of a mesh about its origin: unit quaternion x y z w
+  Double3 velocity = {0, 0, 0};        ///< initial velocity, m/s; added to that of a file
+  double jitter = 0;                   ///< largest random offset along each axis, fraction of the spacing, 0 .. 0.5
 };
 
 /// Displacement of a solid at a time, relative to its initial pose.
@@ -104,15 +120,17 @@ struct Keyframe {
   Quaternion rotate = {0, 0, 0, 1};  ///< unit quaternion x y z w, about the center; after Solid::rotation
 };
 
-/// A solid. It is rotated about its center and moved by keyframes: linear and spherical linear (the shorter way) between them,
-/// constant outside.
+/// A solid. It is rotated about its center (a mesh about its origin), then translated, and moved by keyframes: linear and spherical linear
+/// (the shorter way) between them, constant outside.
 struct Solid {
   Shape shape = {};
   Quaternion rotation = {0, 0, 0, 1};  ///< unit quaternion x y z w
+  Double3 translation = {0, 0, 0};     ///< m
   double friction = 0;                 ///< coefficient of friction (Coulomb), >= 0
   double restitution = 0;              ///< coefficient of restitution, 0 .. 1
   std::vector<Keyframe> motion = {};
-  double driven = 0;  ///< largest speed, m/s, of a solid that the host moves (FluidStep::targets); 0: not moved by the host
+  double driven = 0;      ///< largest speed, m/s, of a solid that the host moves (FluidStep::targets); 0: not moved by the host
+  std::string name = {};  ///< unique among solids, or empty
 };
 
 /// Gravity from a given time on.
