@@ -60,6 +60,10 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
   auto stage = SurfaceStage::create(device);
   if (!stage) return stage.error();
   out->stage_ = *stage;
+  auto meshes = SceneMeshes::create(device, scene);
+  if (!meshes) return meshes.error();
+  out->meshes_ = *std::move(meshes);
+  out->hasRayCast_ = std::ranges::any_of(out->buffers_.host.solids, [](const auto& s) { return s.shape.kind != kShapeMesh; });
   const bool solids = !out->buffers_.host.solids.empty();
   const std::span<const VkFormat> color{&formats.color, 1};
   struct Wanted {
@@ -76,6 +80,7 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
   };
   const std::string around = out->hasGround() ? (solids ? "ground_solids" : "ground") : "sky", sky = environment ? "_environment" : "";
   const std::string groundShader = "views/scenery_" + around + sky + "_fragment", solidShader = "views/scenery_solid" + sky + "_fragment";
+  const std::string meshShader = "views/scenery_mesh" + sky + "_fragment";
   GraphicsPipelineDesc ground = desc("views/scenery_ground_vertex", groundShader);
   ground.depthCompare = VK_COMPARE_OP_ALWAYS;
   GraphicsPipelineDesc edges = desc("views/scenery_edges_vertex", "views/scenery_edges_fragment");
@@ -85,13 +90,19 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
   GraphicsPipelineDesc over = edges;
   over.fragment = "views/scenery_edges_over_fluid_fragment";
   std::vector<Wanted> all{{out->ground_, ground}, {out->edges_, edges}, {out->edgesOverFluid_, over}};
-  if (solids) {
-    GraphicsPipelineDesc light = desc("views/scenery_solid_light_vertex", "views/scenery_solid_light_fragment");
-    light.colors = {};
-    light.depth = kShadowFormat;
-    light.depthCompare = VK_COMPARE_OP_LESS;
+  GraphicsPipelineDesc light = desc("views/scenery_solid_light_vertex", "views/scenery_solid_light_fragment");
+  light.colors = {};
+  light.depth = kShadowFormat;
+  light.depthCompare = VK_COMPARE_OP_LESS;
+  if (out->hasRayCast_) {
     all.push_back({out->solid_, desc("views/scenery_solid_vertex", solidShader)});
     all.push_back({out->solidLight_, light});
+  }
+  if (out->hasMeshes()) {
+    light.vertex = "views/scenery_mesh_light_vertex";
+    light.fragment = {};
+    all.push_back({out->mesh_, desc("views/scenery_mesh_vertex", meshShader)});
+    all.push_back({out->meshLight_, light});
   }
   for (const Wanted& wanted : all) {
     auto made = graphicsPipeline(device, wanted.desc);
@@ -135,6 +146,49 @@ SurfacePush Scenery::lightPush(const FluidState& fluid, const Double3& origin) c
   return push;
 }
 
+/// Depth of the solids from the light.
+ImageRef Scenery::addSolidShadows(Graph& graph, BufferRef poses, const SceneMeshes::Refs& meshes, const SurfacePush& light) const {
+  ImageRef depth = graph.create("scenery light depth", {kShadowFormat, light.width, light.height});
+  graph.pass("scenery shadows", [&](Pass& pass) {
+    depth = pass.write(depth, Use::DepthTarget, Load::Clear, depthClear(1));
+    Kernel solid, triangles;
+    if (hasRayCast_) solid = bindNamed(pass, solidLight_, {{"placed", poses}});
+    if (hasMeshes())
+      triangles = bindNamed(pass, meshLight_, {{"placed", poses}, {"mesh_parts", meshes.parts}, {"mesh_triangles", meshes.triangles}});
+    return [this, solid, triangles, light](Commands& commands) {
+      if (hasRayCast_) commands.draw(solid, kSolidVertices, static_cast<uint32_t>(buffers_.host.solids.size()), light);
+      if (hasMeshes()) meshes_.draw(commands, triangles, light);
+    };
+  });
+  return depth;
+}
+
+/// The solids into the targets; `lit` is what their shaders read.
+void Scenery::addSolids(Graph& graph, SceneTargets& targets, const SurfacePush& camera, std::span<const Named> lit) const {
+  if (hasRayCast_) {
+    graph.pass("scenery solids", [&](Pass& pass) {
+      targets.color = pass.write(targets.color, Use::ColorTarget);
+      targets.depth = pass.write(targets.depth, Use::DepthTarget);
+      const Kernel kernel = bindNamed(pass, solid_, lit);
+      return [kernel, camera, count = static_cast<uint32_t>(buffers_.host.solids.size())](Commands& commands) {
+        commands.draw(kernel, kSolidVertices, count, camera);
+      };
+    });
+  } else {
+    graph.skipped("scenery solids", "all solids are meshes");
+  }
+  if (!hasMeshes()) {
+    graph.skipped("scenery meshes", "no solid is a mesh");
+    return;
+  }
+  graph.pass("scenery meshes", [&](Pass& pass) {
+    targets.color = pass.write(targets.color, Use::ColorTarget);
+    targets.depth = pass.write(targets.depth, Use::DepthTarget);
+    const Kernel kernel = bindNamed(pass, mesh_, lit);
+    return [this, kernel, camera](Commands& commands) { meshes_.draw(commands, kernel, camera); };
+  });
+}
+
 SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view, const FluidLook& look,
                             double time_s, BufferRef texels) const {
   const bool solids = !buffers_.host.solids.empty();
@@ -150,39 +204,25 @@ SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets 
   const BufferRef record = addLook(graph, lookRecord(look, light, environment_));
   BufferRef poses;
   ImageRef lightDepth;
+  const SceneMeshes::Refs meshes = hasMeshes() ? meshes_.addTo(graph) : SceneMeshes::Refs{};
   if (solids) {
     particle_view::ViewPush push{};
     push.time = static_cast<float>(time_s);
     for (int a = 0; a < 3; ++a) push.offset[a] = static_cast<float>(fluid.origin[a] - buffers_.host.origin[a]);
     poses = buffers_.addPoses(graph, fluid, scene, push);
-    lightDepth = graph.create("scenery light depth", {kShadowFormat, light.width, light.height});
-    graph.pass("scenery shadows", [&](Pass& pass) {
-      lightDepth = pass.write(lightDepth, Use::DepthTarget, Load::Clear, depthClear(1));
-      const Kernel kernel = bindNamed(pass, solidLight_, {{"placed", poses}});
-      return [kernel, push = lightPush(fluid, buffers_.host.origin), count = static_cast<uint32_t>(buffers_.host.solids.size())](
-                 Commands& commands) { commands.draw(kernel, kSolidVertices, count, push); };
-    });
+    lightDepth = addSolidShadows(graph, poses, meshes, lightPush(fluid, buffers_.host.origin));
   } else {
     graph.skipped("scenery solids", "the scene has no solids");
   }
-  const Named lit[] = {{"scene", scene},  {"look", record},       {"fluid_shadow", shadow}, {"light_depth", lightDepth},
-                       {"placed", poses}, {"environment", texels}};
+  const Named lit[] = {{"scene", scene},  {"look", record},        {"fluid_shadow", shadow},     {"light_depth", lightDepth},
+                       {"placed", poses}, {"environment", texels}, {"mesh_parts", meshes.parts}, {"mesh_triangles", meshes.triangles}};
   graph.pass("scenery ground", [&](Pass& pass) {
     targets.color = pass.write(targets.color, Use::ColorTarget, Load::Discard);
     targets.depth = pass.write(targets.depth, Use::DepthTarget, Load::Discard);
     const Kernel kernel = bindNamed(pass, ground_, lit);
     return [kernel, camera](Commands& commands) { commands.draw(kernel, 3, 1, camera); };
   });
-  if (solids) {
-    graph.pass("scenery solids", [&](Pass& pass) {
-      targets.color = pass.write(targets.color, Use::ColorTarget);
-      targets.depth = pass.write(targets.depth, Use::DepthTarget);
-      const Kernel kernel = bindNamed(pass, solid_, lit);
-      return [kernel, camera, count = static_cast<uint32_t>(buffers_.host.solids.size())](Commands& commands) {
-        commands.draw(kernel, kSolidVertices, count, camera);
-      };
-    });
-  }
+  if (solids) addSolids(graph, targets, camera, lit);
   if (!hasEdges()) return targets;
   graph.pass("scenery edges", [&](Pass& pass) {
     targets.color = pass.write(targets.color, Use::ColorTarget);

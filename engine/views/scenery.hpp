@@ -2,6 +2,7 @@
 // What stands around the fluid: sky, floor, solids and the domain's edges, drawn as graphics passes with shadows of solids and fluid.
 #include <memory>
 
+#include "graph/shader_pass.hpp"
 #include "render/environment.hpp"
 #include "render/surface.hpp"
 #include "rill/fluid_renderer.hpp"
@@ -9,6 +10,7 @@
 #include "rill/scene.hpp"
 #include "views/camera.hpp"
 #include "views/scene_buffers.hpp"
+#include "views/scene_meshes.hpp"
 
 namespace rill {
 
@@ -35,10 +37,17 @@ class Scenery {
   bool hasGround() const { return hasEdges() && (buffers_.host.scene.counts.w & 4u) != 0; }  // a floor that is closed
   bool hasEdges() const { return buffers_.host.scene.domain_min.w > 0; }
 
+  ImageRef addSolidShadows(Graph& graph, BufferRef poses, const SceneMeshes::Refs& meshes, const surface::SurfacePush& light) const;
+  void addSolids(Graph& graph, SceneTargets& targets, const surface::SurfacePush& camera, std::span<const Named> lit) const;
+  bool hasMeshes() const { return !meshes_.empty(); }
+
   const Environment* environment_ = nullptr;
   SceneBuffers buffers_;
+  SceneMeshes meshes_;
+  bool hasRayCast_ = false;  ///< there are solids that are not drawn as triangles
   SurfaceStage stage_;
   const GraphicsPipeline *ground_ = nullptr, *solid_ = nullptr, *solidLight_ = nullptr, *edges_ = nullptr, *edgesOverFluid_ = nullptr;
+  const GraphicsPipeline *mesh_ = nullptr, *meshLight_ = nullptr;
 };
 
 }  // namespace rill

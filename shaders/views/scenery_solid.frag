@@ -12,6 +12,7 @@ layout(std140, set = 0, binding = 0) uniform Scene { SceneRecord scene; };
 layout(std140, set = 0, binding = 1) uniform Look { LookRecord look; };
 layout(std430, set = 0, binding = 4) readonly buffer Placed { PlacedSolid placed[]; };
 #include "views/scenery.glsl"
+#include "views/scenery_lit.glsl"
 layout(location = 0) out vec4 color;
 #endif
 #include "views/particle_solids.glsl"
@@ -29,11 +30,6 @@ void main() {
 #endif
   gl_FragDepth = clamp(targetDepth(z), 0.0, 1.0);
 #ifndef LIGHT
-  const vec3 p = from + z * ray;
-  const float facing = max(dot(normal, scene.light_to.xyz), 0.0);
-  const float bias = scene.light_texel.x * (1.0 + 2.0 * sqrt(max(1.0 - facing * facing, 0.0)) / max(facing, 0.1));
-  const vec3 sunlight = kSun * facing * pastSolids(p, bias) * throughFluid(p);
-  const vec3 albedo = vec3(0.66, 0.50, 0.36);
-  color = vec4(albedo * (0.55 * skyLight(normal) + 0.85 * sunlight), 1.0);
+  color = vec4(litSolid(from + z * ray, normal, kSolidAlbedo), 1.0);
 #endif
 }

@@ -1,5 +1,5 @@
 #version 460
-// The box around each solid; its fragments find the solid itself.
+// The box around each solid that is no mesh; its fragments find the solid itself.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 #include "views/particle_records.h"
@@ -21,5 +21,6 @@ void main() {
   const int corner = n < 3 ? n : (n == 3 ? 2 : (n == 4 ? 1 : 3));
   const float side = (face & 1) == 0 ? -1.0 : 1.0, a = (corner & 1) == 0 ? -1.0 : 1.0, b = (corner & 2) == 0 ? -1.0 : 1.0;
   const vec3 unit = face < 2 ? vec3(side, a, b) : (face < 4 ? vec3(a, side, b) : vec3(a, b, side));
-  gl_Position = clipPoint(viewPoint(centerOf(solid.pose) + toScene(solid.pose, unit * halfExtents(solid.shape))));
+  gl_Position = clipPoint(viewPoint(centerOf(solid.pose) + toScene(solid.pose, middleOf(solid.shape) + unit * halfExtents(solid.shape))));
+  if (solid.shape.kind == kShapeMesh) gl_Position = vec4(0.0, 0.0, -1.0, 1.0);  // drawn as triangles
 }
