@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "shape/pose.hpp"
 #include "shape/shape.hpp"
 
 namespace rill {
@@ -16,15 +17,27 @@ Bounds fluidBounds(const Scene& scene, const ParticleSet& particles) {
   return bounds;
 }
 
+namespace {
+
+bool turns(const Solid& solid) {
+  return std::ranges::any_of(solid.motion, [&](const Keyframe& key) { return key.rotate != solid.motion.front().rotate; });
+}
+
+}  // namespace
+
 void addSolids(Bounds& bounds, const Scene& scene) {
   for (const Solid& solid : scene.solids) {
-    const Double3 center = centerOf(solid);
+    // The origin of a mesh may be far from it.
+    const bool mesh = std::holds_alternative<MeshShape>(solid.shape) && !turns(solid);
     const double radius = boundingRadius(solid.shape);
-    if (solid.motion.empty()) bounds.add(center, radius);
-    for (const Keyframe& key : solid.motion) {
-      const Double3 moved = {center[0] + key.translate[0], center[1] + key.translate[1], center[2] + key.translate[2]};
-      bounds.add(moved, radius);
-    }
+    const auto add = [&](const Pose& pose) {
+      if (!mesh) return bounds.add(pose.center, radius);
+      const SceneBox box = sceneBox(solid.shape, pose);
+      bounds.add(box.low);
+      bounds.add(box.high);
+    };
+    if (solid.motion.empty()) add(solidPose(solid, 0));
+    for (const Keyframe& key : solid.motion) add(solidPose(solid, key.at));
   }
 }
 

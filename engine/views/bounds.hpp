@@ -24,7 +24,7 @@ struct Bounds {
 
 /// The particles with half a spacing around each; empty without any. Particles that are not finite, or beyond 1e15 m, are left out.
 Bounds fluidBounds(const Scene& scene, const ParticleSet& particles);
-/// Adds the solids' bounding spheres, over all of their keyframes.
+/// Adds the solids over all of their keyframes: bounding spheres, of a mesh that does not turn the box around it.
 void addSolids(Bounds& bounds, const Scene& scene);
 
 }  // namespace rill

@@ -10,27 +10,13 @@ namespace rill {
 using namespace particle_view;
 
 void ParticleView::add(Graph& graph, std::string_view name, const ComputePipeline* pipeline, const DispatchSize& size, Frame& f) const {
-  const BufferRef &scene = f.scene, &position = f.position, &velocity = f.velocity, &count = f.particles.count;
-  addDispatch(graph, name, pipeline, size, f.push,
-              {{"scene", scene},
-               {"position", position},
-               {"particle_count", count},
-               {"velocity", velocity},
-               {"placed", f.poses},
-               {"edges", f.edges},
-               {"masks", f.masks},
-               {"depth", f.depth},
-               {"winner", f.winner},
-               {"light_map", f.light},
-               {"floor_light", f.floor},
-               {"occluders", f.occluders},
-               {"counters", f.counters},
-               {"survivors", f.survivors},
-               {"tint", f.tint},
-               {"tiles", f.tiles},
-               {"shaded", f.shaded},
-               {"rims", f.rims},
-               {"picture", f.picture}});
+  const BufferRef &scene = f.scene, &position = f.position, &velocity = f.velocity, &words = f.meshWords, &count = f.particles.count;
+  addDispatch(
+      graph, name, pipeline, size, f.push,
+      {{"scene", scene},       {"position", position},   {"particle_count", count},  {"velocity", velocity},   {"placed", f.poses},
+       {"mesh_words", words},  {"edges", f.edges},       {"masks", f.masks},         {"depth", f.depth},       {"winner", f.winner},
+       {"light_map", f.light}, {"floor_light", f.floor}, {"occluders", f.occluders}, {"counters", f.counters}, {"survivors", f.survivors},
+       {"tint", f.tint},       {"tiles", f.tiles},       {"shaded", f.shaded},       {"rims", f.rims},         {"picture", f.picture}});
 }
 
 void ParticleView::addSetup(Graph& graph, const FluidState& fluid, Frame& frame) const {
@@ -60,7 +46,7 @@ void ParticleView::addSurfaces(Graph& graph, Frame& frame) const {
   if (solids) addSolidMasks(graph, frame, false);
   frame.depth = graph.create("view depth", {frame.pixels * 4});
   frame.winner = graph.create("view winner", {frame.pixels * 4});
-  add(graph, "view surfaces", solids ? surfaces_ : floor_, gridCells(frame.push.width, frame.push.height, kPixelTile), frame);
+  add(graph, "view surfaces", solids ? rays(frame).surfaces : floor_, gridCells(frame.push.width, frame.push.height, kPixelTile), frame);
 }
 
 /// The light map as the solids alone fill it.
@@ -73,7 +59,7 @@ void ParticleView::addLightMap(Graph& graph, Frame& frame) const {
     return;
   }
   addSolidMasks(graph, frame, true);
-  add(graph, "view light solids", lightSolids_, gridCells(scene().scene.counts.y, scene().scene.counts.z, kPixelTile), frame);
+  add(graph, "view light solids", rays(frame).lightSolids, gridCells(scene().scene.counts.y, scene().scene.counts.z, kPixelTile), frame);
 }
 
 /// Particles into the light map, and the list of those that may be visible.
@@ -134,7 +120,7 @@ void ParticleView::addShade(Graph& graph, Frame& frame) const {
   onTiles("view shade sky", shadeSky_, kTilesSky);
   if (hasFloor()) onTiles("view shade floor", shadows ? shadeShadowedFloor_ : shadeFloor_, kTilesFloor);
   if (fluid) onTiles("view shade fluid", shadeFluid_, kTilesFluid);
-  if (solids) onTiles("view shade solids", shadeSolids_, kTilesSolid);
+  if (solids) onTiles("view shade solids", rays(frame).shadeSolids, kTilesSolid);
   if (fluid || solids) onTiles("view resolve", resolve_, kTilesOutline);
   if (scene().scene.domain_min.w > 0) onTiles("view draw edges", drawEdges_, kTilesEdge);
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace rill {
 namespace {
@@ -28,13 +29,13 @@ Expected<std::unique_ptr<ParticleView>> ParticleView::create(Device& device, con
   auto out = std::make_unique<ParticleView>();
   out->buffers_ = *std::move(uploaded);
 
-  const std::pair<const ComputePipeline*&, const char*> all[] = {
+  std::vector<std::pair<const ComputePipeline*&, const char*>> all = {
       {out->edges_, "edges"},
       {out->solidTiles_, "solid_tiles"},
       {out->lightTiles_, "light_tiles"},
-      {out->surfaces_, "surfaces"},
+      {out->rays_.surfaces, "surfaces"},
       {out->floor_, "floor"},
-      {out->lightSolids_, "light_solids"},
+      {out->rays_.lightSolids, "light_solids"},
       {out->project_, "project"},
       {out->cull_, "cull"},
       {out->arguments_, "arguments"},
@@ -47,10 +48,16 @@ Expected<std::unique_ptr<ParticleView>> ParticleView::create(Device& device, con
       {out->shadeFloor_, "shade_floor"},
       {out->shadeShadowedFloor_, "shade_floor_shadows"},
       {out->shadeSky_, "shade_sky"},
-      {out->shadeSolids_, "shade_solids"},
+      {out->rays_.shadeSolids, "shade_solids"},
       {out->resolve_, "resolve"},
       {out->drawEdges_, "draw_edges"},
   };
+  const bool meshes = std::ranges::any_of(out->scene().solids, [](const SceneSolid& s) { return s.shape.kind == kShapeMesh; });
+  if (meshes) {
+    all.emplace_back(out->meshRays_.surfaces, "surfaces_meshes");
+    all.emplace_back(out->meshRays_.lightSolids, "light_solids_meshes");
+    all.emplace_back(out->meshRays_.shadeSolids, "shade_solids_meshes");
+  }
   for (const auto& [pipeline, shader] : all) {
     auto made = computePipeline(device, {.shader = std::string("views/particle_") + shader});
     if (!made) return made.error();
@@ -100,6 +107,7 @@ BufferRef ParticleView::addTo(Graph& graph, const FluidState& fluid, const Camer
   frame.pixels = uint64_t{desc.width} * desc.height;
   frame.position = fluid.position;
   frame.velocity = fluid.velocity;
+  if (meshRays_.surfaces) frame.meshWords = fluid.meshWords;
   if (fluid.capacity > 0) frame.particles = countParticles(graph, fluid, particleGroups_, kParticleGroup);
   addSetup(graph, fluid, frame);
   addSurfaces(graph, frame);

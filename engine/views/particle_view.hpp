@@ -52,6 +52,7 @@ class ParticleView {
     particle_view::ViewPush push;
     uint64_t pixels = 0;
     BufferRef scene, poses, edges, depth, winner, light, floor, tint, position, velocity, counters, survivors;
+    BufferRef meshWords;         ///< of the fluid, if the view can draw its meshes
     CountedParticles particles;  ///< without any, empty
     BufferRef masks, occluders, tiles, shaded, rims, picture;
   };
@@ -77,13 +78,20 @@ class ParticleView {
   bool hasFloor() const { return scene().scene.domain_min.w > 0 && (scene().scene.counts.w & 4u) != 0; }
   bool hasShadows(const Frame& frame) const { return frame.push.count > 0 || scene().scene.counts.x > 0; }
 
+  /// Kernels that meet solids with rays. Those of `meshRays_` know the fields of meshes; without meshes they are null.
+  struct RayKernels {
+    const ComputePipeline *surfaces = nullptr, *lightSolids = nullptr, *shadeSolids = nullptr;
+  };
+  const RayKernels& rays(const Frame& frame) const { return frame.meshWords != BufferRef{} ? meshRays_ : rays_; }
+
   SceneBuffers buffers_;
-  const ComputePipeline *edges_ = nullptr, *solidTiles_ = nullptr, *lightTiles_ = nullptr, *surfaces_ = nullptr, *floor_ = nullptr;
-  const ComputePipeline *lightSolids_ = nullptr, *particleGroups_ = nullptr, *project_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr,
-                        *splat_ = nullptr, *splatLarge_ = nullptr;
+  RayKernels rays_, meshRays_;
+  const ComputePipeline *edges_ = nullptr, *solidTiles_ = nullptr, *lightTiles_ = nullptr, *floor_ = nullptr;
+  const ComputePipeline *particleGroups_ = nullptr, *project_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr,
+                        *splatLarge_ = nullptr;
   const ComputePipeline *floorShadow_ = nullptr, *tint_ = nullptr, *classify_ = nullptr, *shadeFluid_ = nullptr, *shadeFloor_ = nullptr,
                         *shadeShadowedFloor_ = nullptr;
-  const ComputePipeline *shadeSky_ = nullptr, *shadeSolids_ = nullptr, *resolve_ = nullptr, *drawEdges_ = nullptr;
+  const ComputePipeline *shadeSky_ = nullptr, *resolve_ = nullptr, *drawEdges_ = nullptr;
 };
 
 }  // namespace rill

@@ -1,5 +1,5 @@
 #version 460
-// Poses of the solids at the frame's time; with DRIVEN, of those that the fluid drives where it has them.
+// Poses of the solids at the frame's time; with DRIVEN, of those that the fluid drives where it has them, and fields of meshes.
 #extension GL_GOOGLE_include_directive : require
 #include "views/particle_view.glsl"
 
@@ -17,8 +17,10 @@ void main() {
   const uint i = groupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
   if (i >= scene.counts.x) return;
   const SceneSolid solid = solids[i];
+  ShapeRecord shape = solid.shape;
   PoseRecord pose = keyframedPose(solid.base, solid.firstKey, solid.keyCount, view.time);
 #ifdef DRIVEN
+  shape.field = fluidSolids[i].shape.field;
   if (solid.driven != 0u) {
     pose = fluidSolids[i].pose;  // relative to the fluid's origin
     pose.centerX += view.offset[0];
@@ -27,5 +29,5 @@ void main() {
   }
 #endif
   const vec3 seen = viewPoint(centerOf(pose));
-  placed[i] = PlacedSolid(pose, solid.shape, seen.x, seen.y, seen.z, solid.radius);
+  placed[i] = PlacedSolid(pose, shape, seen.x, seen.y, seen.z, solid.radius);
 }

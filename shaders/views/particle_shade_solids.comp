@@ -21,22 +21,22 @@ layout(std430, set = 0, binding = 7) writeonly buffer Rims { uint rims[]; };
 const vec3 kSolid = vec3(0.62, 0.50, 0.36);      // sand, against the blues of speed
 const vec3 kSolidGray = vec3(0.36, 0.40, 0.44);  // against the warm colors of compression
 
-// Whether a box is seen through a point of the image; spheres have a rim of their own.
-bool seesBox(PlacedSolid solid, vec2 pixel) {
+// Whether a box or a mesh is seen through a point of the image; spheres have a rim of their own.
+bool sees(PlacedSolid solid, vec2 pixel) {
   vec3 normal;
   return solidHit(solid, eyePoint(), rayOf(tangentOf(pixel)), normal) >= view.near_depth;
 }
 
-// The rim of a box: the nearest of four neighboring points that miss it, and by bisection where.
-uint boxRim(PlacedSolid solid, vec2 pixel) {
+// The rim of a box or a mesh: the nearest of four neighboring points that miss it, and by bisection where.
+uint rimByRays(PlacedSolid solid, vec2 pixel) {
   uint best = kNoRim;
   RILL_LOOP for (uint side = 0u; side < 4u; ++side) {
     const vec2 step = vec2(rimStep(side));
     float low = 0.0, high = 1.0;
-    if (seesBox(solid, pixel + step)) low = 1.0;
+    if (sees(solid, pixel + step)) low = 1.0;
     RILL_LOOP for (int k = 0; k < 6; ++k) {
       const float middle = 0.5 * (low + high);
-      if (seesBox(solid, pixel + middle * step)) low = middle; else high = middle;
+      if (sees(solid, pixel + middle * step)) low = middle; else high = middle;
     }
     if (low < 1.0 && low < rimDistance(best)) best = packRim(side, low);
   }
@@ -72,5 +72,5 @@ void main() {
   shaded[index] = packColor(view.unlit != 0u ? kPlainSolid * min(lit.g, 1.0) : (view.compression != 0u ? kSolidGray : kSolid) * lit);
   const bool sphere = solid.shape.kind == kShapeSphere;
   const vec3 center = vec3(solid.viewX, solid.viewY, solid.viewZ);
-  rims[index] = sphere ? sphereRim(center, solid.radius, tangentOf(middle)) : boxRim(solid, middle);
+  rims[index] = sphere ? sphereRim(center, solid.radius, tangentOf(middle)) : rimByRays(solid, middle);
 }

@@ -10,6 +10,7 @@
 #include "rill/particles.hpp"
 #include "support/gpu_test.hpp"
 #include "support/meshes.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace rill::test {
 namespace {
@@ -92,6 +93,40 @@ TEST_F(MeshView, BoxOfTrianglesLooksLikeABox) {
   }
 }
 
+/// By rays through the fluid's field, whose edges are a little round.
+TEST_F(MeshView, ParticlesShowTheField) {
+  for (const double time : {0.0, 0.5}) {
+    Solid rays{.shape = BoxShape{{0.3, 0.1, 0.2}, {0.6, 0.5, 0.5}}, .rotation = {0, std::sin(0.3), 0, std::cos(0.3)}};
+    rays.motion = {{0, {0, 0, 0}}, {1, {0.1, 0.1, 0}}};
+    Solid triangles = rays;
+    triangles.shape = solid(boxMesh({-0.15, -0.2, -0.15}, {0.15, 0.2, 0.15}), {}).shape;
+    triangles.translation = {0.45, 0.3, 0.35};
+    scene_.solids.clear();
+    const auto bare = picture("particles", time);
+    scene_.solids = {rays};
+    const auto wanted = picture("particles", time);
+    scene_.solids = {triangles};
+    EXPECT_GT(different(bare, wanted, 12), 1200u);
+    EXPECT_LT(different(wanted, picture("particles", time), 24), 150u) << time;
+  }
+  scene_.solids = {solid(ballMesh(0.15, 4), {0.3, 0.4, 0.3}), Solid{.shape = SphereShape{{0.7, 0.4, 0.3}, 0.1}}};
+  const auto seen = picture("particles");
+  scene_.solids.front() = Solid{.shape = SphereShape{{0.3, 0.4, 0.3}, 0.15}};
+  EXPECT_LT(different(picture("particles"), seen, 24), 120u);
+}
+
+TEST_F(MeshView, FramesAMeshFarFromItsOrigin) {
+  scene_.camera.reset();
+  scene_.domain.reset();
+  scene_.fill.front().shape = BoxShape{{0, 0, 0}, {0.4, 0.2, 0.4}};
+  scene_.solids = {solid(boxMesh({5, 0, 7}, {5.2, 0.3, 7.2}), {-4.5, 0, -7})};
+  const auto start = makeParticles(scene_);
+  ASSERT_TRUE(start);
+  const CameraView camera = sceneCamera(scene_, *start, 1);
+  EXPECT_NEAR(camera.target[0], 0.35, 0.1);
+  EXPECT_LT(std::hypot(camera.eye[0] - camera.target[0], camera.eye[1] - camera.target[1], camera.eye[2] - camera.target[2]), 3);
+}
+
 TEST_F(MeshView, ColorsAreThoseOfTheTriangles) {
   MeshData box = boxMesh({-0.2, 0, -0.2}, {0.2, 0.4, 0.2});
   scene_.solids = {solid(box, {0.5, 0, 0.3})};
@@ -131,11 +166,23 @@ TEST_F(MeshView, CastsShadows) {
   EXPECT_GT(different(wanted, picture("final"), 12), 600u);
 }
 
+TEST_F(MeshView, EnvironmentLightsMeshes) {
+  const TemporaryFolder folder;
+  std::string sky = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n";
+  for (int k = 0; k < 32; ++k) sky += {'\x10', '\x40', '\x10', '\x81'};  // green
+  scene_.look.environment = folder.write("green.hdr", sky);
+  scene_.solids = {solid(ballMesh(0.12, 4), {0.5, 0.5, 0.4})};
+  const auto seen = picture("final");
+  scene_.solids = {Solid{.shape = SphereShape{{0.5, 0.5, 0.4}, 0.12}}};
+  EXPECT_LT(different(picture("final"), seen, 12), 120u);
+}
+
 TEST_F(MeshView, ManySolidsOfAllKinds) {
   const auto ball = meshOf(ballMesh(0.08, 3));
   scene_.solids.clear();
   for (int k = 0; k < 9; ++k) {
-    const Double3 at = {0.2 + 0.3 * (k % 3), 0.15 + 0.2 * (k / 3), 0.3};
+    const int column = k % 3, row = k / 3;
+    const Double3 at = {0.2 + 0.3 * column, 0.15 + 0.2 * row, 0.3};
     if (k % 3 == 0) scene_.solids.push_back(Solid{.shape = SphereShape{at, 0.08}});
     if (k % 3 == 1) scene_.solids.push_back(solid(boxMesh({-0.07, -0.07, -0.07}, {0.07, 0.07, 0.07}), at));
     if (k % 3 == 2) scene_.solids.push_back(Solid{.shape = MeshShape{.mesh = ball}, .translation = at});
