@@ -49,6 +49,8 @@ constexpr Band kBands[] = {
     {"slosh-0.25", "damping a period", kNoAim, {1.8, 1.2, 0.9}, "", ""},
     {"slosh", "damping a period", kNoAim, {1.1, 0.5, 0.35}, "", ""},
     {"slosh", "energy, peak", kNoAim, {0.02, 0.02, 0.02}, "%", ""},
+    {"dam-over-", "levels, mesh", 0.01, {0.01, 0.01, 0.01}, "%", ""},
+    {"dam-over-", "levels, scatter", kNoAim, {kNotChecked, kNotChecked, kNotChecked}, "%", ""},
     {"elliptic-drop", "long axis, end", 0.03, {0.03, 0.06, 0.05}, "%", kElliptic},
     {"elliptic-drop", "long axis, worst", 0.03, {0.03, 0.06, 0.05}, "%", kElliptic},
     {"elliptic-drop", "short axis, end", kNoAim, {1.3, 6, 3}, "%", ""},

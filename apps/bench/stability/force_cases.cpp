@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "bench/experiments/measures.hpp"
+#include "bench/mesh_shapes.hpp"
 #include "bench/stability/stress_case.hpp"
 #include "fluid/settings.hpp"
 
@@ -24,6 +25,29 @@ StressCase scaled(const std::string& name, double spacing) {
   const double time = std::sqrt(spacing / 0.05);
   c.duration_s = 0.5 * time;
   c.frame_s = time / 60;
+  return c;
+}
+
+/// Water in a cup that gravity, turning ten times a second, shakes. The walls are a spacing thick, or a sheet.
+StressCase shakenCup(bool sheet) {
+  constexpr double d = 0.05, seconds = 60;
+  const Double3 low{4 * d, 2 * d, 4 * d}, high{12 * d, 42 * d, 12 * d};
+  Scene scene = tankScene(d, {1, 1, 1}, {16 * d, 44 * d, 16 * d});
+  scene.fill[0].shape = BoxShape{low, {high.x, low.y + 6 * d, high.z}};
+  for (int k = 1; k < 10 * seconds; ++k)
+    scene.gravity_changes.push_back({0.1 * k, {12 * std::sin(2.1 * k), -9.81, 12 * std::cos(3.3 * k)}});
+  if (auto mesh = Mesh::create(sheet ? openBox(low, high) : cupMesh(low, high, d), sheet))
+    scene.solids.push_back(Solid{.shape = MeshShape{.two_sided = sheet, .mesh = *std::move(mesh)}});
+  StressCase c = make(sheet ? "shaken-sheet" : "shaken-cup", "no particle leaves through the walls, which are thin, in 60 s", scene);
+  c.duration_s = seconds;
+  c.externalWork = true;
+  c.longRun = true;
+  c.check = [low, high](const StressOutcome& o) {
+    const Cloud cloud = cloudOf(o.particles, d);
+    size_t left = 0;
+    for (const Double3& at : cloud.position) left += at.x < low.x || at.x > high.x || at.y < low.y || at.z < low.z || at.z > high.z;
+    return left > 0 ? "outside of the cup: found " + std::to_string(left) + " particles, expected none" : std::string();
+  };
   return c;
 }
 
@@ -127,6 +151,7 @@ std::vector<StressCase> forceCases() {
     };
     cases.push_back(std::move(c));
   }
+  for (const bool sheet : {false, true}) cases.push_back(shakenCup(sheet));
   for (const bool longRun : {false, true}) {
     // The long case settles, the short one starts at rest: sloshing exchanges energy with the lattice and looks like drift.
     Scene small = tankScene(0.05, longRun ? Double3{0.2, 0.2, 0.2} : Double3{0.4, 0.1, 0.2}, {0.4, 0.4, 0.2});

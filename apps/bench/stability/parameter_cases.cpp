@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include "bench/mesh_shapes.hpp"
 #include "bench/stability/stress_case.hpp"
 #include "model/fields.hpp"
 
@@ -61,6 +62,17 @@ void addExtremes(std::vector<StressCase>& cases, const std::string& owner, Owner
   });
 }
 
+/// A ball or a box, or, half of them, a sheet of some of its triangles.
+Solid randomMesh(std::mt19937_64& random, const Double3& at, double size) {
+  MeshData data = random() % 2 == 0 ? ballMesh(size, 2) : boxMesh({-size, -size, -size}, {size, size, size});
+  const bool sheet = random() % 2 == 0;
+  if (sheet) data.triangles.resize(1 + random() % data.triangles.size());
+  Solid solid;
+  solid.translation = at;
+  if (auto mesh = Mesh::create(std::move(data), sheet)) solid.shape = MeshShape{.two_sided = sheet, .mesh = *std::move(mesh)};
+  return solid;
+}
+
 }  // namespace
 
 std::vector<StressCase> parameterCases() {
@@ -73,7 +85,7 @@ std::vector<StressCase> parameterCases() {
 std::vector<StressCase> randomCases(uint64_t first, uint64_t count) {
   std::vector<StressCase> cases;
   for (uint64_t seed = first; seed < first + count; ++seed) {
-    std::mt19937_64 random(seed);
+    std::mt19937_64 random(seed), shapes(seed);
     const auto uniform = [&](double low, double high) { return low + (high - low) * double(random() >> 11) * 0x1p-53; };
     const auto chance = [&](double probability) { return uniform(0, 1) < probability; };
     const double d = std::pow(10.0, uniform(-3, 1));
@@ -105,6 +117,7 @@ std::vector<StressCase> randomCases(uint64_t first, uint64_t count) {
         solid.shape = SphereShape{at, size};
       else
         solid.shape = BoxShape{{at[0] - size, at[1] - size, at[2] - size}, {at[0] + size, at[1] + size, at[2] + size}};
+      if (shapes() % 3 == 0) solid = randomMesh(shapes, at, size);
       solid.friction = uniform(0, 1);
       solid.restitution = uniform(0, 1);
       if (chance(0.3)) solid.motion = {{0, {0, 0, 0}}, {0.2, {uniform(-4, 4) * d, uniform(-4, 4) * d, uniform(-4, 4) * d}}};

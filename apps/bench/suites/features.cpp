@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "bench/mesh_shapes.hpp"
 #include "bench/suites/suites.hpp"
 #include "core/words.hpp"
 
@@ -23,9 +24,10 @@ using Overrides = std::vector<Override>;
 struct Feature {
   std::string_view name;
   Overrides on;
-  Overrides off = {};            ///< disables it explicitly, in place of the base scene's defaults
-  bool passTimes = false;        ///< the feature is timing of passes
-  bool measuresFigures = false;  ///< the feature is measuring figures every frame
+  Overrides off = {};               ///< disables it explicitly, in place of the base scene's defaults
+  bool passTimes = false;           ///< the feature is timing of passes
+  bool measuresFigures = false;     ///< the feature is measuring figures every frame
+  std::optional<Solid> solid = {};  ///< in the scene when it is on
 };
 
 const Overrides kBase = {{"solver.time_step", "0.00083333333"},
@@ -41,6 +43,13 @@ constexpr const char* kSphere = R"([{"sphere": {"center": [2.8, 0.3, 0.5], "radi
 constexpr const char* kMoving =
     R"([{"box": {"min": [2.6, 0, 0.3], "max": [2.9, 0.6, 0.7]}, "motion": [{"at": 0}, {"at": 1, "translate": [0.5, 0, 0]}]}])";
 
+/// The ball of kSphere as a mesh.
+Solid meshBall() {
+  Solid solid{.translation = {2.8, 0.3, 0.5}};
+  if (auto mesh = Mesh::create(ballMesh(0.25, 5))) solid.shape = MeshShape{.mesh = *std::move(mesh)};
+  return solid;
+}
+
 std::vector<Feature> features() {
   return {
       {"viscosity", {{"fluid.viscosity", "1"}}, {{"fluid.viscosity", "0"}}},
@@ -51,6 +60,7 @@ std::vector<Feature> features() {
       {"solid box", {{"solids", kBox}}, {{"solids", "[]"}}},
       {"solid out of reach", {{"solids", kDistantBox}}},  // without a solid it equals "solid box" off
       {"solid sphere", {{"solids", kSphere}}},
+      {.name = "mesh of 8,192 triangles", .on = {}, .off = {{"solids", "[]"}}, .solid = meshBall()},
       {"moving solid", {{"solids", kMoving}}},
       {"3 iterations", {{"solver.iterations", "3"}, {"solver.warm_start", "0.02"}}, {{"solver.iterations", "1"}}},
       {"no artificial viscosity", {{"solver.artificial_viscosity", "0"}}},  // its dispatches are empty at the speeds of the base scene
@@ -66,17 +76,18 @@ std::vector<Feature> features() {
 /// A simulation that advances frame by frame, so that several can be interleaved.
 class FrameStepper {
  public:
-  static Expected<FrameStepper> open(const Bench& bench, const std::string& scene, const Overrides& overrides, bool passTimes = false,
-                                     bool measuresFigures = false) {
+  static Expected<FrameStepper> open(const Bench& bench, const std::string& scene, const Overrides& overrides,
+                                     const Feature* feature = nullptr) {
     auto read = namedScene(scene, overrides);
     if (!read) return read.error();
+    if (feature && feature->solid) read->solids.push_back(*feature->solid);
     offline::Options options = simulationOptions(bench);
-    options.passTimes = passTimes;
+    options.passTimes = feature && feature->passTimes;
     auto simulation = Simulation::open(std::move(*read), options);
     if (!simulation) return simulation.error();
     FrameStepper stepper;
     stepper.simulation_ = std::move(*simulation);
-    stepper.measuresFigures_ = measuresFigures;
+    stepper.measuresFigures_ = feature && feature->measuresFigures;
     return stepper;
   }
 
@@ -186,19 +197,19 @@ Expected<std::vector<Cost>> measured(Bench& bench, std::span<const Feature> grou
   for (uint32_t k = 0; k < bench.options().repeat && !bench.stopped(); ++k) {
     bench.step(names, group.size());
     std::vector<FrameStepper> steppers;
-    const auto open = [&](const Overrides& more, bool passTimes, bool measuresFigures) -> Expected<void> {
+    const auto open = [&](const Overrides& more, const Feature* feature) -> Expected<void> {
       Overrides overrides = kBase;
       overrides.insert(overrides.end(), more.begin(), more.end());
-      auto stepper = FrameStepper::open(bench, "dam10k", overrides, passTimes, measuresFigures);
+      auto stepper = FrameStepper::open(bench, "dam10k", overrides, feature);
       if (!stepper) return stepper.error();
       steppers.push_back(std::move(*stepper));
       return {};
     };
-    if (auto opened = open({}, false, false); !opened) return opened.error();
+    if (auto opened = open({}, nullptr); !opened) return opened.error();
     for (const Feature& feature : group) {
-      if (auto opened = open(feature.on, feature.passTimes, feature.measuresFigures); !opened) return opened.error();
+      if (auto opened = open(feature.on, &feature); !opened) return opened.error();
       if (feature.off.empty()) continue;
-      if (auto opened = open(feature.off, false, false); !opened) return opened.error();
+      if (auto opened = open(feature.off, nullptr); !opened) return opened.error();
     }
     samples.resize(steppers.size());
     if (auto done = runInterleaved(bench, steppers, bench.quick() ? 6 : 16, samples); !done) return done.error();
