@@ -53,7 +53,7 @@ constexpr std::array<ArrayRow, kArrays> kArrayTable = {{
     {Cell, "cell", "cells", Fluid, kWord, perParticle, Account::Particles},
     {NearDisplaced, "nearDisplaced", "density that solids displace", Fluid, kVector, perParticleIfSolids, Account::Particles},
     {NearTangential, "nearTangential", "tangential scales at solids", Fluid, kVector, perParticleIfSolids, Account::Particles},
-    {NearSolids, "nearSolids", "particles near solids", Fluid, kWord, perParticleIfSolids, Account::Particles},
+    {NearSolids, "nearSolids", "particles near solids", Fluid, sizeof(NearSolidRecord), perParticleIfSolids, Account::Particles},
 
     {CellStart, "cellStart", "cell starts", Fluid, kWord, [](const ArrayShape& s) { return s.cellStarts; }, Account::Grid},
     {List, "list", "neighbor list", Fluid, kListEntryBytes, [](const ArrayShape& s) { return s.listEntries; }, Account::List},

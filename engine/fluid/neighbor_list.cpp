@@ -81,7 +81,7 @@ std::vector<uint32_t> layOutHeads(const FluidSnapshot& s) {
     heads[i] = (listed ? listEntries(i, neighbors) : kUnlisted) | (hasSegments(neighbors) ? kSegmentsBit : 0) |
                headDistance(i, neighbors) << kHeadDistanceShift;
   });
-  for (const uint32_t i : s.nearSolids) heads[i] |= kNearSolidsBit;
+  for (const NearSolids& near : s.nearSolids) heads[near.particle] |= kNearSolidsBit;
   return heads;
 }
 

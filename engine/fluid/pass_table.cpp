@@ -29,6 +29,7 @@ constexpr std::array<S, 2> kEnd{S::Correct}, kEndOrDamped{S::Correct, S::NoiseDa
 constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::Begin, "begin", "fluid/begin"},
     {P::Predict, "predict", "fluid/predict", E::Particles, {S::Predict}},
+    {P::PredictFirstAtSolids, "predict first at solids", "fluid/predict", E::NearSolids, {S::Predict}, {solids}},
 
     {P::Keys, "keys", "fluid/keys", E::Keys, kRebuild, kAlways, {.constant = {"REBUILDS", true}}},
     {P::Reorder, "reorder", "fluid/reorder", E::Particles, kRebuild},
@@ -50,13 +51,7 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::Curl, "curl", "fluid/curl", E::Gather, kEnd, kSwirls, kForce},
     {P::Confine, "confine", "fluid/confine", E::Gather, kEnd, kSwirls, kForce},
     {P::Drag, "drag", "fluid/drag", E::Particles, kEnd, kDrags, kForce},
-    {P::PredictAfterForces,
-     "predict after forces",
-     "fluid/predict",
-     E::Particles,
-     kEndOrDamped,
-     {forcesOrDamping},
-     {.constant = {"SOLIDS", false}}},
+    {P::PredictAfterForces, "predict after forces", "fluid/predict", E::Particles, kEndOrDamped, {forcesOrDamping}},
     {P::PredictAtSolids, "predict at solids", "fluid/predict", E::NearSolids, kEndOrDamped, {forcesOrDampingAtSolids}},
 
     {P::MeasureDisplaced, "measure solids", "fluid/solids", E::NearSolids, kFigures, {solids}},

@@ -17,6 +17,7 @@ namespace rill {
 enum class FluidPass : uint8_t {
   Begin,
   Predict,
+  PredictFirstAtSolids,
   // A rebuild.
   Keys,
   Reorder,

@@ -20,7 +20,9 @@ void FluidImpl::importAll(Graph& graph) {
 
 void FluidImpl::declareBegin(Graph& graph, double advance, bool queued) {
   declare(graph, FluidPass::Begin, Start::Always, BeginPush{static_cast<float>(advance), advance > 0 ? drivenSpeed_ : 0.0f, queued});
-  if (advance > 0) declare(graph, FluidPass::Predict, Start::Predict);
+  if (!(advance > 0)) return;
+  declare(graph, FluidPass::Predict, Start::Predict);
+  declare(graph, FluidPass::PredictFirstAtSolids, Start::Predict);
 }
 
 void FluidImpl::declareRebuild(Graph& graph) {

@@ -7,6 +7,8 @@
 namespace rill {
 namespace {
 
+constexpr uint32_t kFewSolids = 16;  // tested one by one; of more, a workgroup finds those near it first
+
 ClusterChoice clusterOf(const Device& device) {
   const DeviceImpl& impl = implOf(device);
   return chooseCluster(impl.info, impl.canSetSubgroupSize, impl.vendor, kFluidGroup);
@@ -38,6 +40,7 @@ std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
           {"ITERATED", p.iterations > 1},
           {"SOLIDS", p.solidCount > 0},
           {"MESHES", !setup.meshWords.empty()},
+          {"CULL_SOLIDS", p.solidCount > kFewSolids},
           {"FORCES", hasForces(setup)},
           {"ARTIFICIAL_PRESSURE", p.tensileRate > 0},
           {"TENSILE_POWER", wholePower(p.tensilePower)},

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <string>
 
 #include "fluid/arrays.hpp"
@@ -13,6 +14,8 @@
 
 namespace rill {
 namespace {
+
+static_assert(sizeof(NearSolids) == sizeof(NearSolidRecord) && sizeof(NearSolids::solids) == kListedSolids * sizeof(uint16_t));
 
 template <class Record>
 Record record(std::span<const uint32_t> words) {
@@ -61,11 +64,25 @@ bool markNew(std::vector<bool>& seen, std::span<const uint32_t> entries) {
   return true;
 }
 
+/// Whether the solids of an entry exist, increase, and end.
+bool listsSolids(const NearSolids& near, uint32_t solidCount) {
+  if (near.solids[0] == kAllSolids) return true;
+  const auto end = std::ranges::find(near.solids, uint16_t{kNoSolid});
+  return end != near.solids.begin() && std::all_of(end, near.solids.end(), [](uint16_t k) { return k == kNoSolid; }) &&
+         std::all_of(near.solids.begin(), end, [&](uint16_t k) { return k < solidCount; }) &&
+         std::adjacent_find(near.solids.begin(), end, std::greater_equal<>()) == end;
+}
+
 Expected<void> checkNear(const FluidSnapshot& s, const FluidSums& sums, const SnapshotShape& shape) {
   if (s.nearSolids.size() != sums.nearSolids || (shape.solidCount == 0 && sums.nearSolids > 0))
     return wrong("the list of particles near solids has another length than its count");
+  std::vector<uint32_t> particles;
+  for (const NearSolids& near : s.nearSolids) {
+    particles.push_back(near.particle);
+    if (!listsSolids(near, shape.solidCount)) return wrong("a particle near solids has a list of solids that is not valid");
+  }
   std::vector<bool> seen(s.id.size());
-  if (!markNew(seen, s.nearSolids)) return wrong("the list of particles near solids has an index that is out of range or appears twice");
+  if (!markNew(seen, particles)) return wrong("the list of particles near solids has an index that is out of range or appears twice");
   return {};
 }
 

@@ -29,12 +29,6 @@ void read(std::span<const std::byte> bytes, size_t count, std::vector<Element>& 
   for (size_t i = 0; i < count; ++i) std::memcpy(&all[i], bytes.data() + stride * i, sizeof(Element));
 }
 
-/// Theirs is the order in which threads met, which no bit depends on; a file should not, either.
-std::vector<uint32_t> sorted(std::vector<uint32_t> words) {
-  std::sort(words.begin(), words.end());
-  return words;
-}
-
 }  // namespace
 
 SnapshotReader::SnapshotReader(const Fluid& fluid) : fluid_(implOf(fluid)) {
@@ -77,7 +71,9 @@ Expected<void> SnapshotReader::take(const Graph& graph) {
     FluidSums sums;
     std::memcpy(&sums, s.sums.data(), sizeof sums);
     if (sums.nearSolids > n) return Error{ErrorKind::Failed, "reading the state back: its counts make no sense"};
-    s.nearSolids = sorted(records<uint32_t>(bytes, sums.nearSolids));
+    s.nearSolids = records<NearSolids>(bytes, sums.nearSolids);
+    // Theirs is the order in which threads met, which no bit depends on; a file should not, either.
+    std::ranges::sort(s.nearSolids, {}, &NearSolids::particle);
   } else if (part == slotOf(FluidArray::ListHead)) {
     heads_ = records<uint32_t>(bytes, n);
     s.neighborCount.reserve(n);

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 
 #include "fluid/fluid_impl.hpp"
@@ -12,6 +13,14 @@
 
 namespace rill {
 namespace {
+
+/// Which solids are near which particles. Before the first list of neighbors any solid may be near any particle.
+std::vector<NearSolids> firstNearSolids(const FluidSnapshot& s) {
+  if (!s.nearSolids.empty() || hasNeighbors(s)) return s.nearSolids;
+  std::vector<NearSolids> all(s.id.size());
+  for (uint32_t i = 0; i < all.size(); ++i) all[i] = {.particle = i, .solids = {uint16_t{kAllSolids}}};
+  return all;
+}
 
 /// The vectors as four floats each, then `rest` up to `entries`.
 std::function<void(std::byte*)> quads(std::vector<Float3> vectors, float w, Float4 rest, size_t entries) {
@@ -97,7 +106,9 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
   resumed_ = true;
   stageParticles(s.position, s.velocity);
   staging_->add(slotOf(FluidArray::Control), s.control.data(), s.control.size() * 4);
-  staging_->add(slotOf(FluidArray::Sums), s.sums.data(), s.sums.size() * 4);
+  std::vector<uint32_t> sums = s.sums;
+  if (setup.params.solidCount > 0) sums[offsetof(FluidSums, nearSolids) / 4] = static_cast<uint32_t>(firstNearSolids(s).size());
+  staging_->add(slotOf(FluidArray::Sums), sums.size() * 4, bytesOf(sums));
   std::vector<SolidRecord> solids = setup.solids;
   for (size_t k = 0; kPoseNumbers * k < s.solids.size(); ++k) solids[k].pose = poseAt(s.solids, k);
   for (DrivenSolid& driven : setup.driven) std::copy_n(s.solids.data() + kPoseNumbers * driven.solid, 3, driven.center.begin());
@@ -111,7 +122,11 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
     else
       staging_->add(slotOf(row.id), array.data(), array.size() * sizeof array[0]);
   });
-  if (setup.params.solidCount > 0) staging_->add(slotOf(FluidArray::NearSolids), s.nearSolids.data(), s.nearSolids.size() * 4);
+  if (setup.params.solidCount > 0) {
+    std::vector<NearSolids> near = firstNearSolids(s);
+    const uint64_t bytes = near.size() * sizeof near[0];
+    staging_->add(slotOf(FluidArray::NearSolids), bytes, bytesOf(std::move(near)));
+  }
   if (rowOf(FluidArray::ListHead).length(shape) > 0) {
     std::vector<uint32_t> heads = layOutHeads(s);
     const uint64_t bytes = heads.size() * 4;

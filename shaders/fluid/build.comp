@@ -14,8 +14,6 @@
 #include "shared/arrays.glsl"
 READ_UINT(17, meshWord)
 #define MESH_WORDS
-#include "shared/pose.glsl"
-#include "shared/shape.glsl"
 #include "shared/loops.glsl"
 #include "shared/number.glsl"
 #include "shared/pair_hash.h"
@@ -36,20 +34,33 @@ layout(std430, binding = 11) writeonly buffer PredictionBlock { vec4 prediction[
 layout(std430, binding = 12) writeonly buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 13) writeonly buffer WarmBlock { float warm[]; };
 layout(std430, binding = 14) writeonly buffer IdBlock { uint id[]; };
-layout(std430, binding = 15) writeonly buffer NearSolidsBlock { uint nearSolids[]; };
+layout(std430, binding = 15) writeonly buffer NearSolidsBlock { uvec4 nearSolids[]; };  // NearSolidRecord
 layout(std430, binding = 16) readonly buffer SolidBlock { SolidRecord solids[]; };
+#include "fluid/near_solids.glsl"
+#include "fluid/cull_solids.glsl"
 
 const uint kNone = 0xffffffffu;
 
-// Lists the particle among those near solids; whether it is.
+// Lists the particle and the solids near it; whether there are any.
 bool listNear(uint i, vec3 x) {
-  bool solid = false;
-  for (uint s = 0u; s < params.solidCount; ++s) {
-    vec3 normal;
-    if (surfaceDistance(solids[s].shape, localPoint(solids[s].pose, x), normal) < params.nearLimit) solid = true;
+  if (!isActive(x)) return false;
+  uvec3 listed = kNothingNear;
+  uint found = 0u;
+  for (uint word = 0u; 32u * word < params.solidCount; ++word) {
+    uint mask = solidsMayBeNear(word);
+    LOOP_WHILE (mask != 0u) {
+      uint k = 32u * word + findLSB(mask);
+      vec3 normal;
+      if (surfaceDistance(solids[k].shape, localPoint(solids[k].pose, x), normal) < params.nearLimit) {
+        if (found < kListedSolids) addSolid(listed, found, k);
+        ++found;
+      }
+      mask &= mask - 1u;
+    } LOOP_END(mask != 0u);
   }
-  if (!isActive(x) || !solid) return false;
-  nearSolids[atomicAdd(sums.nearSolids, 1u)] = i;
+  if (found == 0u) return false;
+  if (found > kListedSolids) addSolid(listed, 0u, kAllSolids);
+  nearSolids[atomicAdd(sums.nearSolids, 1u)] = uvec4(i, listed);
   return true;
 }
 
@@ -172,6 +183,7 @@ void main() {
   if (!inRange) i = push.first;
   vec4 predicted = sortedPredictionAt(i);
   vec3 x = predicted.xyz;
+  if (CULL_SOLIDS) cullSolids(x, inRange && isActive(x));
 
   at = (local / kListBlock) * (kListBlock * (LIST_CAPACITY / 4u)) + local % kListBlock;
   place = x;

@@ -10,7 +10,7 @@ layout(std430, binding = 2) buffer PositionBlock { vec4 position[]; };
 layout(std430, binding = 3) buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 4) buffer PredictionBlock { vec4 prediction[]; };
 layout(std430, binding = 5) readonly buffer WarmAccelerationBlock { vec4 warmAcceleration[]; };
-layout(std430, binding = 6) readonly buffer NearSolidsBlock { uint nearSolids[]; };
+layout(std430, binding = 6) readonly buffer NearSolidsBlock { uvec4 nearSolids[]; };  // NearSolidRecord
 layout(std430, binding = 7) readonly buffer SumsBlock { FluidSums sums; };
 layout(std430, binding = 8) readonly buffer SolidBlock { SolidRecord solids[]; };
 #include "shared/arrays.glsl"
@@ -21,24 +21,25 @@ layout(std430, binding = 10) readonly buffer WorkBlock { uvec4 work[]; };
 layout(std430, binding = 11) readonly buffer WarmBlock { float warm[]; };
 layout(std430, binding = 12) readonly buffer DisplacedBlock { vec4 nearDisplaced[]; };
 
-void predict(uint i, vec3 x, vec3 v) {
+void predict(uint i, uvec3 near, vec3 x, vec3 v) {
   if (FORCES) return;  // predict.comp, after them
   float pushed;
-  vec3 next = outside(predicted(x, v, keptWarmAcceleration(warmAcceleration[i])), ahead(), pushed);
+  vec3 next = outside(predicted(x, v, keptWarmAcceleration(warmAcceleration[i])), near, ahead(), pushed);
   prediction[i] = vec4(next, pushed);
 }
 
 void main() {
   uint n = flatInvocation();
   if (n >= sums.nearSolids) return;
-  uint i = nearSolids[n];
+  uint i = nearSolids[n].x;
+  uvec3 near = nearSolids[n].yzw;
   vec3 from = position[i].xyz;
   if (!isActive(from)) return;
   float pushed;
-  vec3 x = outside(from, 0.0, pushed);
+  vec3 x = outside(from, near, 0.0, pushed);
   if (control.phase != kPhaseAdvancing) {
     position[i] = vec4(x, 0.0);
-    predict(i, x, velocity[i].xyz);
+    predict(i, near, x, velocity[i].xyz);
     return;
   }
   vec3 v = velocity[i].xyz + (x - from) / control.step;
@@ -47,7 +48,7 @@ void main() {
   float change = unpackHalf2x16(work[i].w).x * (params.inverseRestGradient / kMultiplierScale);
   float multiplier = min(0.0, (WARM ? warm[i] : 0.0) + (1.0 - control.warmGain) * change);
   vec3 given = multiplier * nearDisplaced[i].xyz / control.step + (x - from) / control.step;
-  for (uint k = 0u; k < params.solidCount; ++k) {
+  for (uint m = 0u, k; nextSolid(near, m, k); ++m) {
     if (solids[k].friction <= 0.0 && solids[k].restitution <= 0.0) continue;
     vec3 normal;
     if (surfaceDistance(solids[k].shape, localPoint(solids[k].pose, x), normal) > 1.1 * params.margin) continue;
@@ -69,5 +70,5 @@ void main() {
   v *= min(1.0, params.speedLimit / max(sqrt(dot(v, v)), 1.0e-20));
   position[i] = vec4(x, 0.0);
   velocity[i] = vec4(v, 1.0);
-  predict(i, x, v);
+  predict(i, near, x, v);
 }

@@ -16,5 +16,6 @@ layout(constant_id = 11) const bool THIN = true;       // opposite walls can bot
 layout(constant_id = 12) const bool REBUILDS = false;  // the list is built after the sort
 layout(constant_id = 14) const uint TENSILE_POWER = 0; // n of artificial pressure if that is whole, else 0
 layout(constant_id = 15) const bool MESHES = false;    // some solids are meshes
+layout(constant_id = 16) const bool CULL_SOLIDS = false;  // many solids: each workgroup finds those near it
 #define LIST_OVERSIZED_ID 13
 #endif

@@ -2,14 +2,15 @@
 #ifndef RILL_OUTSIDE_GLSL
 #define RILL_OUTSIDE_GLSL
 #define MESH_WORDS
+#include "fluid/near_solids.glsl"
 #include "shared/pose.glsl"
 #include "shared/shape.glsl"
 
-// Moves a center out of every solid, where each will be `ahead` seconds from now, walls last.
+// Moves a center out of the solids `near` it, where each will be `ahead` seconds from now, walls last.
 // `pushed`: m that solids moved it.
-vec3 outside(vec3 x, float ahead, out float pushed) {
+vec3 outside(vec3 x, uvec3 near, float ahead, out float pushed) {
   pushed = 0.0;
-  for (uint k = 0u; k < params.solidCount; ++k) {
+  for (uint n = 0u, k; nextSolid(near, n, k); ++n) {
     PoseRecord pose = later(solids[k].pose, ahead);
     vec3 normal;
     float distance = surfaceDistance(solids[k].shape, localPoint(pose, x), normal);

@@ -10,7 +10,7 @@ READ_FLOAT4(3, velocity)
 READ_FLOAT4(4, warmAcceleration)
 layout(std430, binding = 5) writeonly buffer PredictionBlock { vec4 prediction[]; };
 layout(std430, binding = 6) readonly buffer SolidBlock { SolidRecord solids[]; };
-layout(std430, binding = 7) readonly buffer NearSolidsBlock { uint nearSolids[]; };
+layout(std430, binding = 7) readonly buffer NearSolidsBlock { uvec4 nearSolids[]; };  // NearSolidRecord
 layout(std430, binding = 8) readonly buffer SumsBlock { FluidSums sums; };
 READ_UINT(9, meshWord)
 #include "fluid/outside.glsl"
@@ -19,10 +19,11 @@ layout(local_size_x = kFluidGroup) in;
 void main() {
   uint i = flatInvocation();
   if (i >= (NEAR_SOLIDS ? sums.nearSolids : control.count)) return;
-  if (NEAR_SOLIDS) i = nearSolids[i];
+  uvec3 near = NEAR_SOLIDS ? nearSolids[i].yzw : kNothingNear;
+  if (NEAR_SOLIDS) i = nearSolids[i].x;
   vec3 x = positionAt(i).xyz;
   vec3 next = predicted(x, velocityAt(i).xyz, keptWarmAcceleration(warmAccelerationAt(i)));
   float pushed = 0.0;
-  next = SOLIDS ? outside(next, ahead(), pushed) : insideWalls(next);
+  next = NEAR_SOLIDS ? outside(next, near, ahead(), pushed) : insideWalls(next);
   prediction[i] = vec4(isFinite(next) ? next : x, pushed);
 }

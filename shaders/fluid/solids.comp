@@ -10,11 +10,12 @@ READ_UINT(9, meshWord)
 #define MESH_WORDS
 #include "shared/pose.glsl"
 #include "shared/shape.glsl"
+#include "fluid/near_solids.glsl"
 #include "fluid/solid_coverage.glsl"
 layout(local_size_x = kFluidGroup) in;
 
 READ_FLOAT4(2, place)
-READ_UINT(3, nearSolids)
+READ_UINT4(3, nearSolids)  // NearSolidRecord
 layout(std430, binding = 4) readonly buffer SumsBlock { FluidSums sums; };
 READ_FLOAT4(5, table)  // value and slope of a node, and of the next one
 layout(std430, binding = 6) readonly buffer SolidBlock { SolidRecord solids[]; };
@@ -79,7 +80,8 @@ float shareOfImage(SolidRecord s, vec3 image) {
 void main() {
   uint n = flatInvocation();
   if (n >= sums.nearSolids) return;
-  uint i = nearSolidsAt(n);
+  uvec4 near = nearSolidsAt(n);
+  uint i = near.x;
   vec3 x = placeAt(i).xyz;
   SolidCoverage coverage = SolidCoverage(vec3(0.0), vec3(0.0));
   vec4 displaced = vec4(0.0);
@@ -87,7 +89,7 @@ void main() {
   bool more = true;
   LOOP_WHILE (more) {
     vec3 signs, image = imageOf(nextImage(images), x, signs);
-    for (uint k = 0u; k < params.solidCount; ++k) {
+    for (uint m = 0u, k; nextSolid(near.yzw, m, k); ++m) {
       vec4 solid = shareOfImage(solids[k], image) * solidSample(solids[k], image) * vec4(signs, 1.0);
       displaced += solid;
       cover(coverage, solid.w, solid.xyz);

@@ -43,5 +43,13 @@ struct SolidRecord {
   float tableFirst;            // sphere: signed distance of the table's first node, m
 };
 
+// A particle near solids, and up to kListedSolids of them by increasing index, two a word, the first in the low half; kNoSolid after the
+// last. kAllSolids as the first: any solid may be near.
+struct NearSolidRecord {
+  uint particle;
+  uint solids01, solids23, solids45;
+};
+RILL_CONST uint kMaxSolids = 4096u, kListedSolids = 6u, kNoSolid = 0xffffu, kAllSolids = 0xfffeu;
+
 RILL_RECORDS_END
 #endif

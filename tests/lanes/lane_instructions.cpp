@@ -68,6 +68,7 @@ Value Subgroup::pointer(const Instruction& instruction, const Lane& lane) const 
 
 uint32_t& Subgroup::word(const Value& pointer, Lane& lane, uint32_t component) {
   const Variable& variable = program_.variables.at(pointer[0]);
+  if (variable.kind == Variable::Kind::Shared) throw std::runtime_error("access to a shared variable: subgroups run one by one");
   const size_t index = pointer[1] / 4 + component;
   std::vector<uint32_t>* words = &memory_.push;
   if (variable.kind == Variable::Kind::Buffer) words = &memory_.buffers[variable.binding];

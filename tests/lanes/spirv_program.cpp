@@ -151,7 +151,7 @@ void Program::declare(const Instruction& instruction, const std::map<uint32_t, u
       } else if (static_cast<spv::StorageClass>(operands[0]) == spv::StorageClass::PushConstant) {
         variable.kind = Variable::Kind::Push;
       } else if (static_cast<spv::StorageClass>(operands[0]) == spv::StorageClass::Workgroup) {
-        throw std::runtime_error("shared variables are not supported");
+        variable.kind = Variable::Kind::Shared;
       }
       variables[id] = variable;
       break;

@@ -32,10 +32,10 @@ struct Instruction {
 };
 
 struct Variable {
-  enum class Kind { Buffer, Push, Input, Local } kind = Kind::Buffer;  ///< Local: a lane's own
-  uint32_t binding = 0;                                                ///< of buffers
-  spv::BuiltIn builtIn = spv::BuiltIn::Max;                            ///< of inputs
-  uint32_t type = 0;                                                   ///< what it holds
+  enum class Kind { Buffer, Push, Shared, Input, Local } kind = Kind::Buffer;  ///< Local: a lane's own
+  uint32_t binding = 0;                                                        ///< of buffers
+  spv::BuiltIn builtIn = spv::BuiltIn::Max;                                    ///< of inputs
+  uint32_t type = 0;                                                           ///< what it holds
 };
 
 /// A shader of one function: calls are inlined.

@@ -174,12 +174,19 @@ TEST_F(SnapshotCheck, RejectsInvalidIndices) {
   expectRejected("an id appears twice");
   s.id[1] = kMaxIds;
   expectRejected("its largest id is 2130706432; expected less than 2130706432");
-  s.nearSolids.push_back(0);
+  s.nearSolids.push_back(s.nearSolids[0]);
   expectRejected("near solids");
-  s.nearSolids[0] = 1000;
+  s.nearSolids[0].particle = 1000;
   expectRejected("near solids");
   s.nearSolids[1] = s.nearSolids[0];
   expectRejected("near solids");
+  using Solids = std::array<uint16_t, 6>;
+  constexpr uint16_t kEnd = 0xffff;
+  for (const Solids& solids : {Solids{kEnd, kEnd, kEnd, kEnd, kEnd, kEnd}, Solids{1, kEnd, kEnd, kEnd, kEnd, kEnd},
+                               Solids{0, 0, kEnd, kEnd, kEnd, kEnd}, Solids{0, kEnd, 0, kEnd, kEnd, kEnd}}) {
+    s.nearSolids[0].solids = solids;
+    expectRejected("a list of solids that is not valid");
+  }
   s.neighbors[0] = static_cast<uint32_t>(s.id.size());
   expectRejected("a neighbor index is out of range");
   s.neighbors[0] = kImageOfNeighbors + kSegmentImages;

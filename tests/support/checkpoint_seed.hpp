@@ -49,7 +49,7 @@ inline offline::Checkpoint seedCheckpoint() {
     s.id.push_back(5 - i);
     s.cell.push_back(3 * i);
   }
-  s.nearSolids = {0, 5};
+  s.nearSolids = {{0, {0, 0xffff, 0xffff, 0xffff, 0xffff, 0xffff}}, {5, {0xfffe}}};
   s.listCapacity = 4;
   s.neighborCount = {1, 2, 0, 4, 9, 1};
   s.neighbors = {1, 0, 3, 0, 1, 2, 5, 3};

@@ -10,6 +10,7 @@
 //   }
 //   const rill::FluidSnapshot state = std::move(reader.snapshot());
 //   auto again = rill::Fluid::create(device, {.scene = &scene, .particles = &particles, .snapshot = &state});
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -26,6 +27,14 @@ namespace rill {
 /// See FluidSnapshot::neighbors.
 inline constexpr uint32_t kImageOfNeighbors = 0x80000000;
 
+/// A particle near solids.
+struct NearSolids {
+  uint32_t particle = 0;  ///< its index
+  /// Indices of the solids, increasing; 0xffff after the last. If the first is 0xfffe, any solid may be near.
+  std::array<uint16_t, 6> solids = {};
+  friend bool operator==(const NearSolids&, const NearSolids&) = default;
+};
+
 /// The persistent state of a fluid between two advances, on the host: everything that later steps depend on, bit by bit
 /// (docs/architecture.md, "What is persisted"). Arrays have one entry per particle, in the order of the device.
 struct FluidSnapshot {
@@ -37,7 +46,7 @@ struct FluidSnapshot {
   std::vector<Float4> warmAcceleration = {};  ///< m/s^2; w: last multiplier (m^2) while the initial pressure is solved for
   std::vector<float> warmStart = {};          ///< multipliers, m^2
   std::vector<uint32_t> id = {};
-  std::vector<uint32_t> nearSolids = {};  ///< indices of particles near a solid, increasing
+  std::vector<NearSolids> nearSolids = {};  ///< by increasing particle
   // Neighbor list; empty if the next step rebuilds it.
   uint32_t listCapacity = 0;                 ///< capacity of the list, entries per particle; a neighbor takes one or two
   std::vector<uint32_t> neighborCount = {};  ///< neighbors of each particle; empty without a valid list

@@ -1,0 +1,50 @@
+// Which solids may be near the particles of a workgroup: those whose bounding spheres reach the box around them. With CULL_SOLIDS, which
+// scenes of many solids have; else every solid may. Needs `params` and the storage array `solids`.
+#ifndef RILL_CULL_SOLIDS_GLSL
+#define RILL_CULL_SOLIDS_GLSL
+#include "shared/pose.glsl"
+#include "shared/shape.glsl"
+
+shared uint groupLow[3], groupHigh[3], groupSolids[kMaxSolids / 32u];
+
+// Numbers in the order of the floats.
+uvec3 ordered(vec3 x) {
+  uvec3 bits = floatBitsToUint(x);
+  return mix(bits | 0x80000000u, ~bits, notEqual(bits & 0x80000000u, uvec3(0u)));
+}
+vec3 fromOrdered(uvec3 bits) { return uintBitsToFloat(mix(~bits, bits & 0x7fffffffu, notEqual(bits & 0x80000000u, uvec3(0u)))); }
+
+// By all invocations of the workgroup; `counts`: x is that of a particle.
+void cullSolids(vec3 x, bool counts) {
+  uint lane = gl_LocalInvocationIndex;
+  if (lane < 3u) {
+    groupLow[lane] = 0xffffffffu;
+    groupHigh[lane] = 0u;
+  }
+  for (uint word = lane; word < kMaxSolids / 32u; word += kFluidGroup) groupSolids[word] = 0u;
+  barrier();
+  uvec3 low = subgroupMin(counts ? ordered(x) : uvec3(0xffffffffu)), high = subgroupMax(counts ? ordered(x) : uvec3(0u));
+  if (subgroupElect()) {
+    for (uint axis = 0u; axis < 3u; ++axis) {
+      atomicMin(groupLow[axis], low[axis]);
+      atomicMax(groupHigh[axis], high[axis]);
+    }
+  }
+  barrier();
+  vec3 from = fromOrdered(uvec3(groupLow[0], groupLow[1], groupLow[2])), to = fromOrdered(uvec3(groupHigh[0], groupHigh[1], groupHigh[2]));
+  bool some = groupHigh[0] != 0u;
+  for (uint k = lane; some && k < params.solidCount; k += kFluidGroup) {
+    vec3 middle = centerOf(solids[k].pose) + toScene(solids[k].pose, middleOf(solids[k].shape));
+    float radius = solids[k].shape.kind == kShapeSphere ? solids[k].shape.halfX : length(halfExtents(solids[k].shape));
+    radius += params.nearLimit + params.spacing;  // a sheet is thicker than its bounds, and rounding
+    if (distance(middle, clamp(middle, from, to)) < radius) atomicOr(groupSolids[k / 32u], 1u << k % 32u);
+  }
+  barrier();
+}
+
+// The solids 32 `word` + b for the bits b.
+uint solidsMayBeNear(uint word) {
+  uint left = params.solidCount - 32u * word;
+  return CULL_SOLIDS ? groupSolids[word] : 0xffffffffu >> (32u - min(left, 32u));
+}
+#endif

@@ -1,0 +1,83 @@
+// Scenes of many solids: each particle visits those near it alone, with the same result as if it visited all.
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <set>
+
+#include "fluid/rig.hpp"
+#include "shape/pose.hpp"
+#include "shared/solid_records.h"
+#include "sph/solid_density.hpp"
+#include "support/meshes.hpp"
+
+namespace rill::test {
+namespace many_solids_test {
+
+/// Fluid that falls onto 48 balls, boxes and meshes; the first twelve overlap, so that particles have more near than a list holds.
+Trial falling() {
+  Trial t = trial();
+  const double d = t.d();
+  setWalls(t, {4, 1, 1});
+  const auto mesh = meshOf(ballMesh(1.5 * d, 2));
+  for (int k = 0; k < 48; ++k) {
+    const int column = k % 12, row = k / 12;
+    const glm::dvec3 at = row == 0 ? glm::dvec3(0.2 + 0.02 * column, 0.1, 0.5) : glm::dvec3(0.2 + 0.33 * column, 0.1, 0.33 * row - 0.16);
+    if (k % 3 == 0) t.scene.solids.push_back(ball(at, 1.2 * d));
+    if (k % 3 == 1) t.scene.solids.push_back(slab(at - 0.9 * d, at + 0.9 * d));
+    if (k % 3 == 2) t.scene.solids.push_back(Solid{.shape = MeshShape{.mesh = mesh}, .translation = {at.x, at.y, at.z}});
+  }
+  t.scene.solids.back().motion = {{0, {0, 0, 0}}, {1, {0, 0.3, 0}}};
+  t.x = block({24, 5, 14}, d, {0.06, 0.2, 0.06}, 0.05);
+  return t;
+}
+
+class ManySolidsTest : public FluidTest {};
+
+TEST_F(ManySolidsTest, MatchReference) {
+  const Trial t = falling();
+  expectEqual(t, 1, 2e-5, 2e-3);
+  expectEqual(t, 10, 1e-3, 1e-1);
+}
+
+TEST_F(ManySolidsTest, ListsHoldAllThatAreNear) {
+  const Trial t = falling();
+  auto run = start(t);
+  run->substeps(1);
+  const FluidSnapshot saved = run->saved();
+  const double d = t.d(), limit = solidReach(SmoothingKernel(t.scene.solver.kernel, t.scene.fluid.smoothing_ratio * d, d));
+  std::map<uint32_t, const NearSolids*> listed;
+  for (const NearSolids& near : saved.nearSolids) listed[near.particle] = &near;
+  size_t whole = 0, some = 0, none = 0;
+  for (uint32_t i = 0; i < saved.position.size(); ++i) {
+    const Double3 x{saved.position[i].x, saved.position[i].y, saved.position[i].z};
+    std::set<uint16_t> near;
+    for (uint16_t k = 0; k < t.scene.solids.size(); ++k)
+      if (surfaceAt(t.scene.solids[k].shape, solidPose(t.scene.solids[k], 0), x).distance < limit) near.insert(k);
+    const NearSolids* own = listed.contains(i) ? listed[i] : nullptr;
+    if (near.empty()) none += own == nullptr;
+    if (own && own->solids[0] == kAllSolids) {
+      ++whole;
+      continue;
+    }
+    if (near.empty()) continue;
+    ASSERT_TRUE(own) << i;
+    ++some;
+    for (const uint16_t k : near) EXPECT_TRUE(std::ranges::find(own->solids, k) != own->solids.end()) << "particle " << i << " solid " << k;
+  }
+  EXPECT_GT(whole, 10u);
+  EXPECT_GT(some, 40u);
+  EXPECT_GT(none, 10u) << "the list is no list of all";
+}
+
+TEST_F(ManySolidsTest, GoOnFromASnapshotBitwise) {
+  const Trial t = falling();
+  auto whole = start(t);
+  whole->substeps(10);
+  const FluidSnapshot saved = whole->saved();
+  whole->substeps(10);
+  auto second = start(t, &saved);
+  second->substeps(10);
+  EXPECT_EQ(whole->snapshot(), second->snapshot());
+}
+
+}  // namespace many_solids_test
+}  // namespace rill::test
