@@ -103,6 +103,10 @@ std::string roundedNumber(double number) {
   return text.data();
 }
 
+std::string roundedPlace(const Double3& place) {
+  return "[" + roundedNumber(place.x) + ", " + roundedNumber(place.y) + ", " + roundedNumber(place.z) + "]";
+}
+
 std::string quotedList(std::span<const std::string_view> words) {
   std::string out;
   for (const std::string_view word : words) {

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "rill/vectors.hpp"
+
 namespace rill {
 
 /// The word of `known` that `word` is most likely a typo or a prefix of, ignoring case. Empty if none is
@@ -22,6 +24,8 @@ std::string shortestNumber(double number);
 
 /// Four significant digits, for measured or estimated values: "0.002307".
 std::string roundedNumber(double number);
+/// Such numbers as "[x, y, z]".
+std::string roundedPlace(const Double3& place);
 
 /// `words` in quotes, separated by commas: "\"a\", \"b\"".
 std::string quotedList(std::span<const std::string_view> words);

@@ -208,6 +208,8 @@ void addFillWarnings(const Scene& scene, const std::vector<Source>& sources, std
                      : "yields no particles: it is too thin for a spacing of " + roundedNumber(scene.fluid.spacing) + " m");
       continue;
     }
+    if (const auto* mesh = std::get_if<MeshShape>(&scene.fill[i].shape))
+      for (const std::string& text : mesh->mesh->warnings()) warn(i, text);
     if (s.domain > 0) warn(i, grouped(s.domain) + of + "start outside the domain's walls and are left out");
     if (s.solid > 0) warn(i, grouped(s.solid) + of + "start inside a solid and are left out");
     if (s.overlap > 0)
@@ -264,6 +266,10 @@ Expected<ParticleSet> placeAll(const Scene& scene, std::vector<Source>& sources,
     s.overlap = s.solid = s.domain = s.kept = 0;
     if (!s.file) {
       s.lattice = latticeOf(scene.fill[i], spacing);
+      if (const double rows = s.lattice.size[1] * s.lattice.size[2]; s.lattice.mesh && rows > kExactRows)
+        return badInput(scene, elementPath("fill", i) + ".mesh: its bounds have " + countText(rows) +
+                                   " rows of particles at a spacing of " + roundedNumber(spacing) + " m; expected at most " +
+                                   countText(kExactRows));
       s.count = countPoints(s.lattice, kExactRows);
     }
     total += s.count;
@@ -339,7 +345,7 @@ Expected<ParticleSet> placeByCount(const Scene& given, std::vector<Source>& sour
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     scene.fluid.spacing = spacingFor(scene.fill, target);
     if (scene.fluid.spacing <= 0)
-      return bad("no fill is a box or a sphere, so the spacing cannot be computed; expected fluid.spacing instead");
+      return bad("no fill is a box, a sphere or a mesh, so the spacing cannot be computed; expected fluid.spacing instead");
     auto set = place(scene, sources, std::max(maxParticles, static_cast<uint64_t>(2 * kMaxTried * wanted)));
     if (!set) return set;
     const auto kept = static_cast<double>(set->positions.size());

@@ -10,6 +10,7 @@
 #include "core/words.hpp"
 #include "fluid/numbers.hpp"
 #include "shape/records.hpp"
+#include "shape/thin_parts.hpp"
 #include "sph/half_space.hpp"
 #include "sph/mesh_field.hpp"
 #include "sph/solid_density.hpp"
@@ -36,8 +37,19 @@ Expected<uint32_t> addMesh(const std::shared_ptr<const Mesh>& mesh, const std::s
   if (field->cell() > 0.6 * kernel.spacing())
     setup.warnings.push_back(key + ": the mesh is so large for this spacing that its distances are sampled every " +
                              roundedNumber(field->cell()) + " m, not every half spacing");
+  if (const auto thin = thinnestPart(*mesh, 0.5 * kernel.spacing()))
+    setup.warnings.push_back(key + ": " + grouped(thin->triangles) + (thin->triangles == 1 ? " triangle is" : " triangles are") +
+                             " on parts thinner than half a spacing, which may not hold fluid; the thinnest is " +
+                             roundedNumber(thin->thickness) + " m at " + roundedPlace(thin->place) + " of the mesh");
   for (const std::string& warning : mesh->warnings()) setup.warnings.push_back(key + ": " + warning);
+  constexpr double kFloatStep = 0x1p-24, kTooCoarse = 1e-3;
+  if (const double far = boundingRadius(MeshShape{.mesh = mesh}); far * kFloatStep > kTooCoarse * kernel.spacing())
+    setup.warnings.push_back(key + ": the mesh reaches " + roundedNumber(far) +
+                             " m from its origin, where positions are rounded to more than a thousandth of the spacing");
   const std::vector<uint32_t>& words = field->words();
+  if (setup.meshWords.size() + words.size() > MeshField::kMaxWords)
+    return Error{ErrorKind::TooLarge, key + ": the fields of the scene's meshes need more than " + grouped(4 * MeshField::kMaxWords) +
+                                          " bytes; expected smaller meshes, fewer of them, or a larger spacing"};
   setup.meshWords.insert(setup.meshWords.end(), words.begin(), words.end());
   return at->second;
 }

@@ -87,7 +87,7 @@ double gridWords(const Mesh& mesh, double cell, const DistanceBand& band) {
   return blocks + corners;
 }
 
-DistanceGrid sampleDistances(const Mesh& mesh, double cell, const DistanceBand& band, double shell) {
+std::optional<DistanceGrid> sampleDistances(const Mesh& mesh, double cell, const DistanceBand& band, double shell, uint64_t maxNodes) {
   const Extent extent = extentOf(mesh, cell, band.outside + shell);
   DistanceGrid grid{.low = extent.low, .cell = cell};
   for (size_t a = 0; a < 3; ++a) grid.blocks[a] = static_cast<uint32_t>(extent.blocks[a]);
@@ -113,6 +113,7 @@ DistanceGrid sampleDistances(const Mesh& mesh, double cell, const DistanceBand& 
         }
         grid.fine.push_back(meets ? fine++ : DistanceGrid::kCoarse);
         if (!meets) continue;
+        if (grid.nodes.size() + DistanceGrid::kBlockNodes > maxNodes) return std::nullopt;
         // What blocks before it have on the faces that they share.
         const uint32_t before[3] = {x > 0 ? grid.fine[grid.fine.size() - 2] : DistanceGrid::kCoarse,
                                     y > 0 ? grid.fine[grid.fine.size() - 1 - nx] : DistanceGrid::kCoarse,

@@ -2,6 +2,7 @@
 // Signed distances from a mesh at the nodes of a grid that is fine near the surface. Lengths in m, in the mesh's frame.
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "rill/mesh.hpp"
@@ -35,7 +36,7 @@ struct DistanceGrid {
 /// Words of 32 bits that a grid of this cell needs at least: those of its blocks and corners.
 double gridWords(const Mesh& mesh, double cell, const DistanceBand& band);
 
-/// `shell`: subtracted from all distances, which makes a body of a sheet.
-DistanceGrid sampleDistances(const Mesh& mesh, double cell, const DistanceBand& band, double shell);
+/// `shell`: subtracted from all distances, which makes a body of a sheet. Nothing where it takes more than `maxNodes` fine nodes.
+std::optional<DistanceGrid> sampleDistances(const Mesh& mesh, double cell, const DistanceBand& band, double shell, uint64_t maxNodes);
 
 }  // namespace rill

@@ -3,6 +3,7 @@
 #include <exception>
 #include <limits>
 #include <new>
+#include <numeric>
 
 #include "core/words.hpp"
 #include "shape/mesh_impl.hpp"
@@ -20,11 +21,12 @@ Expected<std::shared_ptr<const Mesh>> Mesh::create(MeshData data, bool twoSided)
   if (data.triangles.empty()) return Error{ErrorKind::BadInput, "found no triangle with three corners, expected a mesh"};
   if (!twoSided)
     if (auto ok = orient(data, warnings); !ok) return ok.error();
-  double volume = twoSided ? 0 : signedVolume(data);
-  if (volume < 0) {
-    turnInsideOut(data);
-    volume = -volume;
-    warnings.push_back("the mesh was inside out: all triangles turned");
+  double volume = 0;
+  if (!twoSided) {
+    turnInvertedParts(data, warnings);
+    std::vector<uint32_t> all(data.triangles.size());
+    std::iota(all.begin(), all.end(), 0u);
+    volume = signedVolume(data, all);
   }
   auto impl = std::make_unique<MeshImpl>(std::move(data), twoSided);
   constexpr double kFar = std::numeric_limits<double>::infinity();

@@ -5,8 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <span>
 #include <unordered_map>
 
+#include "core/vector_math.hpp"
 #include "core/words.hpp"
 #include "shape/triangle_tree.hpp"
 
@@ -14,8 +17,6 @@ namespace rill {
 namespace {
 
 Error badInput(const std::string& why) { return {ErrorKind::BadInput, why}; }
-
-std::string placeText(const Double3& p) { return "[" + roundedNumber(p.x) + ", " + roundedNumber(p.y) + ", " + roundedNumber(p.z) + "]"; }
 
 std::string trianglesText(size_t count) { return grouped(count) + (count == 1 ? " triangle" : " triangles"); }
 
@@ -47,14 +48,14 @@ void forEachGroup(const std::vector<Edge>& edges, const Visit& visit) {
   }
 }
 
-/// Whether as many triangles use each edge in one direction as in the other.
-bool isBalanced(const std::vector<Edge>& edges) {
-  bool balanced = true;
+/// The first edge that not as many triangles use in one direction as in the other.
+const Edge* unbalanced(const std::vector<Edge>& edges) {
+  const Edge* first = nullptr;
   forEachGroup(edges, [&](std::span<const Edge> group) {
-    balanced = 2 * std::ranges::count(group, true, &Edge::forward) == std::ssize(group);
-    return balanced;
+    if (2 * std::ranges::count(group, true, &Edge::forward) != std::ssize(group)) first = group.data();
+    return first == nullptr;
   });
-  return balanced;
+  return first;
 }
 
 /// Triangles that share an edge of exactly two.
@@ -70,9 +71,53 @@ std::vector<std::vector<std::pair<uint32_t, bool>>> neighborsOf(const std::vecto
   return neighbors;
 }
 
+/// Twice the area of a triangle, along its normal.
+Double3 areaOf(const MeshData& data, size_t triangle) {
+  const auto& [a, b, c] = data.triangles[triangle];
+  return cross(minus(data.vertices[b], data.vertices[a]), minus(data.vertices[c], data.vertices[a]));
+}
+
+/// Triangles that hang together by edges; each part by increasing index.
+std::vector<std::vector<uint32_t>> partsOf(const std::vector<Triangle>& triangles) {
+  std::vector<uint32_t> parent(triangles.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](uint32_t t) {
+    while (parent[t] != t) t = parent[t] = parent[parent[t]];
+    return t;
+  };
+  forEachGroup(sortedEdges(triangles), [&](std::span<const Edge> group) {
+    for (const Edge& edge : group) parent[root(edge.triangle)] = root(group[0].triangle);
+    return true;
+  });
+  std::unordered_map<uint32_t, size_t> known;
+  std::vector<std::vector<uint32_t>> parts;
+  for (uint32_t t = 0; t < triangles.size(); ++t) {
+    const auto [at, fresh] = known.emplace(root(t), parts.size());
+    if (fresh) parts.emplace_back();
+    parts[at->second].push_back(t);
+  }
+  return parts;
+}
+
+/// Whether a part whose triangles face inward borders on the outside: a cavity in another part does not.
+bool bordersOutside(const MeshData& data, const TriangleTree& tree, const std::vector<uint32_t>& part) {
+  return std::ranges::any_of(part, [&](uint32_t t) {
+    const Double3 area = areaOf(data, t);
+    const double size = length(area);
+    if (!(size > 0)) return false;
+    Double3 at = along({}, -1e-4 / std::sqrt(size), area);
+    for (uint32_t corner : data.triangles[t]) at = along(at, 1.0 / 3, data.vertices[corner]);
+    return tree.winding(at) == 0;
+  });
+}
+
 void turn(MeshData& data, size_t triangle) {
   std::swap(data.triangles[triangle][1], data.triangles[triangle][2]);
-  if (!data.normals.empty()) std::swap(data.normals[3 * triangle + 1], data.normals[3 * triangle + 2]);
+  if (data.normals.empty()) return;
+  std::swap(data.normals[3 * triangle + 1], data.normals[3 * triangle + 2]);
+  const Double3 face = areaOf(data, triangle);
+  for (size_t k = 0; k < 3; ++k)
+    if (Float3& n = data.normals[3 * triangle + k]; face.x * n.x + face.y * n.y + face.z * n.z < 0) n = {-n.x, -n.y, -n.z};
 }
 
 struct HashOfPlace {
@@ -146,9 +191,9 @@ Expected<void> orient(MeshData& data, std::vector<std::string>& warnings) {
   });
   if (open != nullptr)
     return badInput("the mesh is not closed: found " + grouped(count) + (count == 1 ? " open edge" : " open edges") + ", the first from " +
-                    placeText(data.vertices[open->low]) + " to " + placeText(data.vertices[open->high]) +
+                    roundedPlace(data.vertices[open->low]) + " to " + roundedPlace(data.vertices[open->high]) +
                     "; expected a closed mesh, or \"two_sided\": true for a sheet");
-  if (isBalanced(edges)) return {};
+  if (unbalanced(edges) == nullptr) return {};
   const auto neighbors = neighborsOf(edges, data.triangles.size());
   std::vector<int> turned(data.triangles.size(), -1);
   std::vector<uint32_t> pending;
@@ -172,25 +217,32 @@ Expected<void> orient(MeshData& data, std::vector<std::string>& warnings) {
   for (uint32_t t = 0; t < data.triangles.size(); ++t)
     if (turned[t] == 1) turn(data, t);
   edges = sortedEdges(data.triangles);
-  if (!isBalanced(edges)) return badInput("the triangles face in contradictory directions; expected a mesh with an inside and an outside");
+  if (const Edge* bad = unbalanced(edges))
+    return badInput("the triangles face in contradictory directions, first at the edge from " + roundedPlace(data.vertices[bad->low]) +
+                    " to " + roundedPlace(data.vertices[bad->high]) + "; expected a mesh with an inside and an outside");
   warnings.push_back(trianglesText(total) + " turned to face as their neighbors do");
   return {};
 }
 
-void turnInsideOut(MeshData& data) {
-  for (size_t t = 0; t < data.triangles.size(); ++t) turn(data, t);
+void turnInvertedParts(MeshData& data, std::vector<std::string>& warnings) {
+  std::vector<uint32_t> inverted;
+  std::optional<TriangleTree> tree;
+  for (const std::vector<uint32_t>& part : partsOf(data.triangles)) {
+    if (signedVolume(data, part) >= 0) continue;
+    if (!tree) tree.emplace(data.vertices, data.triangles);
+    if (bordersOutside(data, *tree, part)) inverted.insert(inverted.end(), part.begin(), part.end());
+  }
+  for (uint32_t t : inverted) turn(data, t);
+  if (inverted.size() == data.triangles.size())
+    warnings.push_back("the mesh was inside out: all triangles turned");
+  else if (!inverted.empty())
+    warnings.push_back("parts of the mesh were inside out: " + trianglesText(inverted.size()) + " turned");
 }
 
-double signedVolume(const MeshData& data) {
-  const Double3 origin = data.vertices.empty() ? Double3{} : data.vertices[data.triangles.empty() ? 0 : data.triangles[0][0]];
+double signedVolume(const MeshData& data, std::span<const uint32_t> triangles) {
+  const Double3 origin = triangles.empty() ? Double3{} : data.vertices[data.triangles[triangles[0]][0]];
   double sum = 0;
-  for (const Triangle& t : data.triangles) {
-    Double3 c[3];
-    for (size_t k = 0; k < 3; ++k)
-      for (size_t a = 0; a < 3; ++a) c[k][a] = data.vertices[t[k]][a] - origin[a];
-    sum += c[0].x * (c[1].y * c[2].z - c[1].z * c[2].y) + c[0].y * (c[1].z * c[2].x - c[1].x * c[2].z) +
-           c[0].z * (c[1].x * c[2].y - c[1].y * c[2].x);
-  }
+  for (uint32_t t : triangles) sum += dot(minus(data.vertices[data.triangles[t][0]], origin), areaOf(data, t));
   return sum / 6;
 }
 

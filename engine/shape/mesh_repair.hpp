@@ -1,5 +1,7 @@
 #pragma once
 // Checks and repairs of a mesh's triangles.
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,10 +18,10 @@ void weld(MeshData& data, std::vector<std::string>& warnings);
 /// Turns triangles, so that two neighbors use their edge in opposite directions. BadInput for an edge that is open, with its place.
 Expected<void> orient(MeshData& data, std::vector<std::string>& warnings);
 
-/// Turns all triangles.
-void turnInsideOut(MeshData& data);
+/// Turns the parts that face inward and border on the outside: all that are not cavities of others.
+void turnInvertedParts(MeshData& data, std::vector<std::string>& warnings);
 
-/// Sum over the triangles of the volume that each spans with the origin, m^3: negative where they face inward.
-double signedVolume(const MeshData& data);
+/// Sum over triangles of the volume that each spans with a corner of the first, m^3: negative where closed ones face inward.
+double signedVolume(const MeshData& data, std::span<const uint32_t> triangles);
 
 }  // namespace rill

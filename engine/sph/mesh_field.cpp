@@ -12,7 +12,7 @@ namespace {
 
 static_assert(kFieldCells == DistanceGrid::kCells && kFieldNodes == DistanceGrid::kNodes);
 
-constexpr double kMaxWords = 30e6;  // 120 MB: below the range of a storage buffer on every device that runs a fluid
+constexpr double kMaxCoarseWords = 4e6;  // blocks and their corners, each of which is a search for the nearest triangle
 
 /// Computes c of the header by sums over the nodes that the kernel reaches. The same sums over the half-space make it 1 at flat faces.
 class FactorSums {
@@ -113,19 +113,18 @@ Expected<MeshField> MeshField::create(const Mesh& mesh, const SmoothingKernel& k
   double words = 0;
   for (double cell = 0.5 * d; cell <= 4 * d; cell *= 2) {
     words = gridWords(mesh, cell, band);
-    if (words > kMaxWords) continue;
-    grid = sampleDistances(mesh, cell, band, shell);
-    words += static_cast<double>(grid.nodes.size());
-    if (words > kMaxWords) continue;
+    if (words > kMaxCoarseWords) continue;
+    auto sampled = sampleDistances(mesh, cell, band, shell, kMaxWords - static_cast<uint64_t>(words));
+    if (!sampled) continue;
+    grid = *std::move(sampled);
     field.cell_ = cell;
     break;
   }
   if (field.cell_ == 0)
-    return Error{ErrorKind::TooLarge, "a mesh of " + roundedNumber(mesh.max()[0] - mesh.min()[0]) + " x " +
-                                          roundedNumber(mesh.max()[1] - mesh.min()[1]) + " x " +
-                                          roundedNumber(mesh.max()[2] - mesh.min()[2]) + " m needs a field of " +
-                                          grouped(static_cast<uint64_t>(4 * std::min(words, 1e15))) + " bytes at a spacing of " +
-                                          roundedNumber(d) + " m; expected at most " + grouped(static_cast<uint64_t>(4 * kMaxWords))};
+    return Error{ErrorKind::TooLarge,
+                 "a mesh of " + roundedNumber(mesh.max()[0] - mesh.min()[0]) + " x " + roundedNumber(mesh.max()[1] - mesh.min()[1]) +
+                     " x " + roundedNumber(mesh.max()[2] - mesh.min()[2]) + " m needs a field of more than " + grouped(4 * kMaxWords) +
+                     " bytes at a spacing of " + roundedNumber(d) + " m; expected a smaller mesh, or a larger spacing"};
   const double range = rangeOf(grid);
   std::vector<uint32_t>& out = field.words_;
   const auto header = [&](uint32_t at, uint32_t value) { out[at] = value; };

@@ -26,6 +26,9 @@ class MeshField {
     Double3 factorGradient = {};  ///< 1/m
   };
 
+  /// Words of all fields of a fluid: 120 MB, below the range of a storage buffer on every device that runs one.
+  static constexpr uint64_t kMaxWords = 30'000'000;
+
   /// Nodes are half a spacing apart, or, where the device's words would not suffice, 1, 2 or 4 spacings. TooLarge where that does not do
   /// either.
   static Expected<MeshField> create(const Mesh& mesh, const SmoothingKernel& kernel);

@@ -4,8 +4,10 @@
 #include <limits>
 #include <random>
 
+#include "core/vector_math.hpp"
 #include "shape/mesh_impl.hpp"
 #include "shape/shape.hpp"
+#include "shape/thin_parts.hpp"
 #include "support/meshes.hpp"
 
 namespace rill::test {
@@ -49,24 +51,61 @@ TEST(Mesh, RejectsWhatIsNoBody) {
   }
 }
 
-TEST(Mesh, RejectsMobiusStrip) {
-  MeshData strip;  // closed by a second layer, so that no edge is open
-  constexpr uint32_t kSteps = 8;
-  for (uint32_t k = 0; k < kSteps; ++k) {
-    const double turn = 2 * std::numbers::pi * k / kSteps, half = turn / 2;
-    for (double side : {-0.3, 0.3}) {
-      const double r = 1 + side * std::cos(half);
-      strip.vertices.push_back({r * std::cos(turn), side * std::sin(half), r * std::sin(turn)});
+// A Klein bottle: closed, but with one side alone.
+TEST(Mesh, RejectsWhatHasNoInside) {
+  MeshData bottle;
+  constexpr uint32_t kAround = 12, kAcross = 8;
+  for (uint32_t i = 0; i < kAround; ++i)
+    for (uint32_t j = 0; j < kAcross; ++j) {
+      const double u = 2 * std::numbers::pi * i / kAround, v = 2 * std::numbers::pi * j / kAcross;
+      const double r = 3 + std::cos(u / 2) * std::sin(v) - std::sin(u / 2) * std::sin(2 * v);
+      bottle.vertices.push_back({r * std::cos(u), std::sin(u / 2) * std::sin(v) + std::cos(u / 2) * std::sin(2 * v), r * std::sin(u)});
+    }
+  // After a turn it meets itself upside down.
+  const auto at = [](uint32_t i, uint32_t j) { return i < kAround ? i * kAcross + j % kAcross : (kAcross - j % kAcross) % kAcross; };
+  for (uint32_t i = 0; i < kAround; ++i)
+    for (uint32_t j = 0; j < kAcross; ++j) {
+      bottle.triangles.push_back({at(i, j), at(i + 1, j), at(i, j + 1)});
+      bottle.triangles.push_back({at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  const auto mesh = Mesh::create(bottle);
+  ASSERT_FALSE(mesh);
+  EXPECT_NE(mesh.error().message.find("the triangles face in contradictory directions, first at the edge from ["), std::string::npos)
+      << mesh.error().message;
+  EXPECT_TRUE(Mesh::create(bottle, true)) << "as a sheet it is fine";
+}
+
+TEST(Mesh, TurnsPartsThatAreInsideOut) {
+  const MeshData one = boxMesh({0, 0, 0}, {2, 1, 1});
+  for (const double from : {3.0, 1.0}) {  // apart, overlapping
+    const auto mesh = meshOf(joined(one, turned(boxMesh({from, 0, 0}, {from + 2, 1, 1}))));
+    ASSERT_TRUE(mesh) << from;
+    EXPECT_TRUE(isInside(*mesh, {0.5, 0.5, 0.5}));
+    EXPECT_TRUE(isInside(*mesh, {1.5, 0.5, 0.5})) << "where they overlap";
+    EXPECT_TRUE(isInside(*mesh, {from + 1.5, 0.5, 0.5}));
+    ASSERT_EQ(mesh->warnings().size(), 1U);
+    EXPECT_EQ(mesh->warnings()[0], "parts of the mesh were inside out: 12 triangles turned");
+  }
+}
+
+TEST(Mesh, NormalsFollowTurnedTriangles) {
+  MeshData box = turned(boxMesh(kLow, kHigh));
+  for (const auto& [a, b, c] : box.triangles) {  // normals that point inward, as the triangles do
+    const Double3 n = cross(minus(box.vertices[b], box.vertices[a]), minus(box.vertices[c], box.vertices[a]));
+    const auto length_ = static_cast<float>(length(n));
+    for (int k = 0; k < 3; ++k) box.normals.push_back({float(n.x) / length_, float(n.y) / length_, float(n.z) / length_});
+  }
+  const auto mesh = meshOf(box);
+  ASSERT_TRUE(mesh);
+  const MeshData& data = mesh->data();
+  for (size_t t = 0; t < data.triangles.size(); ++t) {
+    const auto& [a, b, c] = data.triangles[t];
+    const Double3 face = cross(minus(data.vertices[b], data.vertices[a]), minus(data.vertices[c], data.vertices[a]));
+    for (size_t k = 0; k < 3; ++k) {
+      const Float3& n = data.normals[3 * t + k];
+      EXPECT_GT(face.x * n.x + face.y * n.y + face.z * n.z, 0);
     }
   }
-  for (uint32_t k = 0; k < kSteps; ++k) {
-    uint32_t a = 2 * k, b = a + 1, c = 2 * (k + 1), d = c + 1;
-    if (k + 1 == kSteps) c = 1, d = 0;
-    strip.triangles.push_back({a, b, c});
-    strip.triangles.push_back({b, d, c});
-  }
-  EXPECT_FALSE(Mesh::create(strip));
-  EXPECT_TRUE(Mesh::create(strip, true)) << "as a sheet it is fine";
 }
 
 TEST(Mesh, RepairsWhatCanBeRepaired) {
@@ -110,6 +149,21 @@ TEST(Mesh, OverlappingPartsAreOneBody) {
   EXPECT_NEAR(hollow->volume(), 26, 1e-12);
   EXPECT_FALSE(isInside(*hollow, {1.5, 1.5, 1.5}));
   EXPECT_TRUE(isInside(*hollow, {0.5, 1.5, 1.5}));
+}
+
+TEST(Mesh, FindsPartsThinnerThanALimit) {
+  const auto plate = meshOf(boxMesh({0, 0, 0}, {1, 0.01, 1}));
+  const auto thin = thinnestPart(*plate, 0.02);
+  ASSERT_TRUE(thin);
+  EXPECT_NEAR(thin->thickness, 0.01, 1e-12);
+  EXPECT_EQ(thin->triangles, 4u);
+  EXPECT_NEAR(thin->place.y * (thin->place.y - 0.01), 0, 1e-12) << "on one of its faces";
+  EXPECT_FALSE(thinnestPart(*plate, 0.005));
+  EXPECT_FALSE(thinnestPart(*meshOf(ballMesh(1, 4)), 0.1));
+  // Faces of boxes that overlap lie inside the cup, near its surface.
+  EXPECT_FALSE(thinnestPart(*meshOf(cupMesh({0, 0, 0}, {1, 1, 1}, 0.1)), 0.09));
+  EXPECT_TRUE(thinnestPart(*meshOf(cupMesh({0, 0, 0}, {1, 1, 1}, 0.1)), 0.11));
+  EXPECT_FALSE(thinnestPart(*meshOf(openBox({0, 0, 0}, {1, 1, 1}), true), 0.1));
 }
 
 // Rows of points that run exactly along edges and through vertices.

@@ -33,7 +33,7 @@ struct MeshImpl;
 class Mesh {
  public:
   /// Checks and repairs `data`: triangles with fewer than three vertices are dropped, and triangles that face against their
-  /// neighbors, or all where the mesh is inside out, are turned. A point is inside where the winding number is not 0: closed parts may
+  /// neighbors, or parts that are inside out, are turned. A point is inside where the winding number is not 0: closed parts may
   /// overlap. `twoSided`: a sheet, which may have open edges and encloses nothing.
   /// BadInput, with the number or the place of the triangle, where an index or a coordinate is out of range, where there is no triangle,
   /// and, unless `twoSided`, for an open edge or where no volume is enclosed.
@@ -44,9 +44,9 @@ class Mesh {
 
   RILL_API const MeshData& data() const;  ///< after the repair
   RILL_API bool twoSided() const;
-  RILL_API Double3 min() const;                               ///< lowest corner of the bounds, m
-  RILL_API Double3 max() const;                               ///< highest corner, m
-  RILL_API double volume() const;                             ///< m^3 of where the winding number is not 0, by its parts; 0 if two-sided
+  RILL_API Double3 min() const;    ///< lowest corner of the bounds, m
+  RILL_API Double3 max() const;    ///< highest corner, m
+  RILL_API double volume() const;  ///< m^3, of all closed parts: where they overlap it counts twice; 0 if two-sided
   RILL_API const std::vector<std::string>& warnings() const;  ///< what was repaired
 
  private:
