@@ -41,30 +41,9 @@ class BufferFiles {
 
   /// Checks what tinygltf does not: lengths, and which buffers may be in the file itself.
   Expected<void> check(const Json& document, bool binary) {
-    const auto buffers = document.find("buffers");
-    if (buffers == document.end() || !buffers->is_array()) return {};
-    uint64_t all = 0;
-    for (size_t i = 0; i < buffers->size(); ++i) {
-      const Json& buffer = (*buffers)[i];
-      const std::string path = elementPath("buffers", i);
-      if (!buffer.is_object()) return meshError(file_, path, "expected an object");
-      const auto length = buffer.find("byteLength"), uri = buffer.find("uri");
-      if (length == buffer.end() || !length->is_number_unsigned() || *length == 0U)
-        return meshError(file_, memberPath(path, "byteLength"), "missing or invalid, expected a whole number from 1");
-      const auto size = length->get<uint64_t>();
-      if (size > kMaxMeshBytes - all)
-        return meshError(file_, path, "found more than " + grouped(kMaxMeshBytes) + " bytes of buffers, expected at most that");
-      all += size;
-      const bool text = uri != buffer.end() && uri->is_string() && !uri->get_ref<const std::string&>().empty();
-      if (!text && !(binary && i == 0)) return meshError(file_, memberPath(path, "uri"), "missing, expected the buffer's file or data");
-      if (!text) continue;
-      const auto& name = uri->get_ref<const std::string&>();
-      if (tinygltf::IsDataURI(name)) continue;
-      if (name.starts_with("data:"))
-        return meshError(file_, memberPath(path, "uri"), "found " + inQuotes(name) + ", expected data:application/octet-stream;base64,...");
-      wanted_.push_back({i, size});
-    }
-    return {};
+    std::vector<uint64_t> sizes;
+    if (auto ok = checkBuffers(document, binary, sizes); !ok) return ok;
+    return checkViews(document, sizes);
   }
 
   const std::optional<Error>& problem() const { return problem_; }
@@ -87,6 +66,55 @@ class BufferFiles {
     size_t buffer;
     uint64_t bytes;
   };
+
+  Expected<void> checkBuffers(const Json& document, bool binary, std::vector<uint64_t>& sizes) {
+    const auto buffers = document.find("buffers");
+    if (buffers == document.end() || !buffers->is_array()) return {};
+    uint64_t all = 0;
+    for (size_t i = 0; i < buffers->size(); ++i) {
+      const Json& buffer = (*buffers)[i];
+      const std::string path = elementPath("buffers", i);
+      if (!buffer.is_object()) return meshError(file_, path, "expected an object");
+      const auto length = buffer.find("byteLength"), uri = buffer.find("uri");
+      if (length == buffer.end() || !length->is_number_unsigned() || *length == 0U)
+        return meshError(file_, memberPath(path, "byteLength"), "missing or invalid, expected a whole number from 1");
+      const auto size = length->get<uint64_t>();
+      if (size > kMaxMeshBytes - all)
+        return meshError(file_, path, "found more than " + grouped(kMaxMeshBytes) + " bytes of buffers, expected at most that");
+      all += size;
+      sizes.push_back(size);
+      const bool text = uri != buffer.end() && uri->is_string() && !uri->get_ref<const std::string&>().empty();
+      if (!text && !(binary && i == 0)) return meshError(file_, memberPath(path, "uri"), "missing, expected the buffer's file or data");
+      if (!text) continue;
+      const auto& name = uri->get_ref<const std::string&>();
+      if (tinygltf::IsDataURI(name)) continue;
+      if (name.starts_with("data:"))
+        return meshError(file_, memberPath(path, "uri"), "found " + inQuotes(name) + ", expected data:application/octet-stream;base64,...");
+      wanted_.push_back({i, size});
+    }
+    return {};
+  }
+
+  /// tinygltf reads images at the offset of their view, wherever that is.
+  Expected<void> checkViews(const Json& document, const std::vector<uint64_t>& sizes) const {
+    const auto views = document.find("bufferViews");
+    if (views == document.end() || !views->is_array()) return {};
+    for (size_t i = 0; i < views->size(); ++i) {
+      const Json& view = (*views)[i];
+      const std::string path = elementPath("bufferViews", i);
+      if (!view.is_object()) return meshError(file_, path, "expected an object");
+      const auto number = [&](const char* key, uint64_t missing) {
+        const auto found = view.find(key);
+        return found == view.end() ? missing : found->is_number_unsigned() ? found->get<uint64_t>() : UINT64_MAX;
+      };
+      const uint64_t buffer = number("buffer", UINT64_MAX), offset = number("byteOffset", 0), length = number("byteLength", UINT64_MAX);
+      if (buffer < sizes.size() && (length == 0 || offset > sizes[buffer] || length > sizes[buffer] - offset))
+        return meshError(file_, path,
+                         "found " + grouped(length) + " bytes from " + grouped(offset) + ", expected them within the " +
+                             grouped(sizes[buffer]) + " of the buffer");
+    }
+    return {};
+  }
 
   /// A callback of tinygltf 2.9 and later, which require it.
   template <class Callbacks>

@@ -110,6 +110,13 @@ void Reader::normalize(Quaternion& quaternion) {
 }
 
 bool Reader::loadMesh(const std::string& path, MeshShape& shape) {
+  std::shared_ptr<const Mesh>& known = meshes_[{shape.file.string(), shape.scale, shape.up, shape.two_sided}];
+  if (!known && !readMeshOf(path, shape, known)) return false;
+  shape.mesh = known;
+  return true;
+}
+
+bool Reader::readMeshOf(const std::string& path, const MeshShape& shape, std::shared_ptr<const Mesh>& out) {
   auto data = readMesh(shape.file);
   if (!data) return fail(memberPath(path, "file"), data.error().message);
   for (Double3& v : data->vertices) {
@@ -120,7 +127,7 @@ bool Reader::loadMesh(const std::string& path, MeshShape& shape) {
     for (Float3& n : data->normals) n = {n.x, n.z, -n.y};
   auto mesh = Mesh::create(*std::move(data), shape.two_sided);
   if (!mesh) return fail(memberPath(path, "file"), shape.file.string() + ": " + mesh.error().message);
-  shape.mesh = *std::move(mesh);
+  out = *std::move(mesh);
   return true;
 }
 

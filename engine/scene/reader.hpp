@@ -1,8 +1,11 @@
 #pragma once
 // Reads JSON into the structs of a Scene by the table in model/fields.hpp. Reading stops at the first error.
+#include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "core/words.hpp"
@@ -47,8 +50,9 @@ class Reader {
   /// On a fault, reports the first candidate key that an override has set, else the first candidate.
   bool accept(const std::string& path, const model::CheckResult& result);
   static void normalize(Quaternion& quaternion);
-  /// Reads the file of a mesh.
+  /// Reads the file of a mesh, once for all solids and fills that have the same.
   bool loadMesh(const std::string& path, MeshShape& shape);
+  bool readMeshOf(const std::string& path, const MeshShape& shape, std::shared_ptr<const Mesh>& out);
   bool unknownKey(const std::string& path, const std::string& key, const std::vector<std::string_view>& keys);
   /// Whether the scene's version has the key.
   bool allowed(const std::string& path, const model::Info& info);
@@ -132,7 +136,8 @@ class Reader {
   std::string name_;
   const OverrideMarks& marks_;
   std::filesystem::path folder_;
-  std::string version_ = "0";  // as the scene gives it
+  std::string version_ = "0";                                                                    // as the scene gives it
+  std::map<std::tuple<std::string, double, UpAxis, bool>, std::shared_ptr<const Mesh>> meshes_;  // by file, scale, up, two_sided
   std::string message_;
 };
 

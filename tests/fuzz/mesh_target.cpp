@@ -36,6 +36,12 @@ int fuzzMesh(const uint8_t* data, size_t size) {
   for (const Float3& normal : mesh->normals) RILL_REQUIRE(std::abs(std::hypot(normal.x, normal.y, normal.z) - 1) < 1e-4F);
   RILL_REQUIRE(mesh->normals.empty() || mesh->normals.size() == 3 * mesh->triangles.size());
   RILL_REQUIRE(mesh->colors.empty() || mesh->colors.size() == mesh->triangles.size());
+  constexpr size_t kFew = 2000;  // triangles that are repaired in no time
+  for (const bool twoSided : {false, true}) {
+    if (mesh->triangles.size() > kFew) break;
+    const auto made = Mesh::create(*mesh, twoSided);
+    RILL_REQUIRE(made ? twoSided || (*made)->volume() > 0 : !made.error().message.empty());
+  }
   return 0;
 }
 

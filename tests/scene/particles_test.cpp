@@ -270,8 +270,9 @@ TEST(Particles, WarnsIfParticleCountIsMissed) {
 
 TEST(Particles, ParticleCountRequiresAFill) {
   Scene s = scene(R"({"rill": "0.1", "fluid": {"particles": 100}})");
-  EXPECT_EQ(makeParticles(s, kMany).error().message,
-            "dam: fluid.particles: no fill is a box or a sphere, so the spacing cannot be computed; expected fluid.spacing instead");
+  EXPECT_EQ(
+      makeParticles(s, kMany).error().message,
+      "dam: fluid.particles: no fill is a box, a sphere or a mesh, so the spacing cannot be computed; expected fluid.spacing instead");
   Scene unset;
   EXPECT_EQ(makeParticles(unset, kMany).error().message, "fluid: expected exactly one of \"spacing\", \"particles\"; found none");
 }

@@ -30,7 +30,7 @@ TEST(SceneFormat, ExamplesAreAccepted) {
     const size_t first = begin + fence.size(), end = text.find("```", first);
     ASSERT_NE(end, std::string::npos);
     const std::string example = text.substr(first, end - first);
-    const auto scene = parseScene(example, "docs/scene-format.md", RILL_SOURCE_DIR, {});
+    const auto scene = parseScene(example, "docs/scene-format.md", std::filesystem::path(RILL_SOURCE_DIR) / "assets/scenes", {});
     EXPECT_TRUE(scene) << (scene ? "" : scene.error().message) << "\n" << example;
     ++examples;
   }
