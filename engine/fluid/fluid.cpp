@@ -106,8 +106,8 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
   setup.params.chunkParticles = chunk;
   for (uint32_t first = 0; first < capacity; first += chunk) chunks_.push_back({first, std::min(capacity, first + chunk)});
   assert(chunks_.size() <= kMaxListChunks);  // checkRoom()
-  const uint64_t maxTexels =
-      std::max({more, uint64_t{chunk} * p.listCapacity / 4, paddedWords(setup.grid.cells() + 1), uint64_t{setup.tables.size() / 4}});
+  const uint64_t maxTexels = std::max({more, uint64_t{chunk} * p.listCapacity / 4, paddedWords(setup.grid.cells() + 1),
+                                       uint64_t{setup.tables.size() / 4}, uint64_t{setup.meshWords.size()}});
   texel_ = !storageReads && usesTexelReads(device, maxTexels);
 
   auto sort = KeySort::create(

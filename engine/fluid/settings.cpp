@@ -25,7 +25,10 @@ constexpr double kMeltingTime = 20;
 constexpr double kWarmRelease = 1.5;
 // Spacings that the fastest particle may move before the list is rebuilt.
 constexpr double kTravel = 1.2;
-constexpr double kMinCfl = 0.01;       // spacings a substep
+constexpr double kMinCfl = 0.01;  // spacings a substep
+// Where walls may be one spacing thick: a substep moves a center by twice that at most, and a solid by it, together not past the wall's
+// middle.
+constexpr double kThinWallCfl = 0.3;
 constexpr uint32_t kLongestBlock = 6;  // substeps
 // Spacings: beyond it, positions have lost their meaning: float holds 24 bits.
 constexpr double kFarSpacings = 1.0e6;
@@ -102,6 +105,18 @@ void setRelaxation(FluidSetup& setup) {
     setup.warnings.push_back("solver.relaxation: expected at most " + roundedNumber(limits.relaxationLimit) +
                              ", beyond which this kernel does not converge, found " +
                              usedInstead(limits.relaxationWanted, limits.relaxationLimit));
+}
+
+void setCfl(const Scene& scene, FluidSetup& setup) {
+  const bool thin = std::ranges::any_of(scene.solids, [](const Solid& s) { return std::holds_alternative<MeshShape>(s.shape); });
+  const double wanted = scene.solver.cfl, taken = std::clamp(wanted, kMinCfl, thin ? kThinWallCfl : kLargest);
+  setup.params.cfl = f(taken);
+  setup.params.solidSpeedInCfl = thin ? 1 : 0;
+  if (taken > wanted)
+    setup.warnings.push_back("solver.cfl: expected at least " + roundedNumber(taken) + ", found " + usedInstead(wanted, taken));
+  if (taken < wanted)
+    setup.warnings.push_back("solver.cfl: expected at most " + roundedNumber(taken) + " beside meshes, whose walls may be thin, found " +
+                             usedInstead(wanted, taken));
 }
 
 void setGains(const Scene& scene, FluidSetup& setup) {
@@ -277,10 +292,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   p.travelLimit = f(kTravel * d);
   setup.substepsPerBlock = substepsPerBlock(scene.solver);
   p.listCapacity = scene.solver.neighbors == NeighborChoice::List ? listCapacity((h + kListSkin * d) / d, hasWalls(scene)) : 0u;
-  p.cfl = f(std::max(scene.solver.cfl, kMinCfl));
-  if (scene.solver.cfl < kMinCfl)
-    setup.warnings.push_back("solver.cfl: expected at least " + roundedNumber(kMinCfl) + ", found " +
-                             usedInstead(scene.solver.cfl, kMinCfl));
+  setCfl(scene, setup);
   p.iterations = scene.solver.iterations;
   // Iterations do not stop at an error at which the fluid is unstable.
   p.tolerance = f(p.iterations > 1 ? std::min(scene.solver.tolerance, kStableError) : scene.solver.tolerance);

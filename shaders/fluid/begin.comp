@@ -36,7 +36,7 @@ void main() {
   float acceleration = length(vec3(control.gravityX, control.gravityY, control.gravityZ));
   control.speed = uintBitsToFloat(sums.speedMax);
   if (control.nextRelaxation == 0.0) setGains();  // the first advance: from then on each substep sets those of the next
-  control.desiredStep = plannedStep(control.desiredStep, cflStep(control.speed, acceleration, control.head));
+  control.desiredStep = plannedStep(control.desiredStep, cflStep(acceleration, control.head));
   bool going = push.advance > 0.0;
   if (going) {
     control.nextStep = fittedStep(push.advance, control.desiredStep);

@@ -84,7 +84,7 @@ uint accountSubstep(uint iteration, uint parity, bool blockStart) {
     control.travel += (control.speed + control.solidSpeed) * control.step;
     gravityAt();
     float acceleration = length(vec3(control.gravityX, control.gravityY, control.gravityZ));
-    control.desiredStep = plannedStep(tolerableStep(error), cflStep(control.speed, acceleration, control.head));
+    control.desiredStep = plannedStep(tolerableStep(error), cflStep(acceleration, control.head));
     if (control.timeLeft < 1.0e-4 * control.step) control.timeLeft = 0.0;
     if (control.timeLeft > 0.0 && control.substeps >= params.maxSubsteps) {
       control.timeDropped += control.timeLeft;

@@ -90,6 +90,7 @@ float endSubstep(uint i, uint head) {
   vec3 displacement = (0.5 + 0.5 * kept) * predictedDisplacement(from, before, lastAcceleration.xyz) + gained * kept;
   // At most twice the distance that cfl allows: the next step shrinks to follow a faster particle.
   float limit = max(2.0 * params.cfl, 0.02) * params.spacing;
+  if (MESHES && control.phase == kPhaseSettling) limit = min(limit, 0.45 * params.spacing);  // a fill may begin inside a sheet
   vec3 whole = to - from;
   float far = sqrt(dot(whole, whole));
   if (far > limit) { displacement *= limit / far; to = insideWalls(from + whole * (limit / far)); }

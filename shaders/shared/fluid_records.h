@@ -121,6 +121,7 @@ struct FluidParams {
   float initialPressureErrorLimit;       // mean compression of the start up to which it is looked for
   uint fullNeighbors;    // within the support: a particle with as many is inside the fluid
   uint commandCount;     // dispatches that the device switches on and off
+  float solidSpeedInCfl; // share of the speed of solids that the step follows: 1 where their walls may be thin
 };
 
 // Phases of the solver; the two before time begins need no step in time.

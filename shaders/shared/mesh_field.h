@@ -11,7 +11,7 @@ RILL_CONST uint kFieldCells = 4u, kFieldNodes = 5u;  // cells and nodes along a 
 RILL_CONST uint kFieldBlocks = 0u, kFieldLow = 3u, kFieldEdge = 6u, kFieldCorners = 7u, kFieldFine = 8u, kFieldRange = 9u;
 RILL_CONST uint kFieldHeader = 10u;
 RILL_CONST uint kFieldCoarse = 0u;  // where the nodes of a block begin that has none
-// A node: the distance over the range and a half of the factor's excess over 1, as two signed numbers of 16 bits.
+// A node: the distance over the range and the factor's excess over 1 over kFieldFactorRange, as two signed numbers of 16 bits.
 RILL_CONST float kFieldFactorRange = 3.0;
 
 RILL_RECORDS_END

@@ -5,6 +5,7 @@
 
 #include "fluid/rig.hpp"
 #include "fluid/settings.hpp"
+#include "support/meshes.hpp"
 
 namespace rill::test {
 namespace bounds_test {
@@ -98,11 +99,20 @@ TEST_F(BoundsTest, StrongTensileGainsNoEnergy) {
   EXPECT_LT(maxEnergy(t, 40), 1.02);
 }
 
-TEST_F(BoundsTest, WarnsOfTooSmallCfl) {
+TEST_F(BoundsTest, WarnsOfCflOutOfBounds) {
   Scene scene = dam().scene;
   EXPECT_FALSE(warned(setupOf(scene), "solver.cfl"));
   scene.solver.cfl = 0.001;
   EXPECT_TRUE(warned(setupOf(scene), "solver.cfl: expected at least 0.01, found 0.001; 0.01 is used"));
+  scene.solver.cfl = 2;
+  EXPECT_FALSE(warned(setupOf(scene), "solver.cfl"));
+  scene.solids = {Solid{.shape = MeshShape{.mesh = meshOf(boxMesh({0, 0, 0}, {1, 1, 1}))}}};
+  EXPECT_TRUE(warned(setupOf(scene), "solver.cfl: expected at most 0.3 beside meshes, whose walls may be thin, found 2; 0.3 is used"));
+  EXPECT_FALSE(warned(setupOf(scene), "solids[0].mesh: "));
+  scene.solids = {Solid{.shape = MeshShape{.mesh = meshOf(boxMesh({0, 0, 0}, {1, 0.001, 1}))}}};
+  EXPECT_TRUE(warned(setupOf(scene),
+                     "solids[0].mesh: 4 triangles are on parts thinner than half a spacing, which may not hold fluid; "
+                     "the thinnest is 0.001 m at ["));
 }
 
 TEST_F(BoundsTest, DisablesTensileThatReachesTheRestLatticeAndWarns) {

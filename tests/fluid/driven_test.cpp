@@ -6,6 +6,7 @@
 
 #include "fluid/rig.hpp"
 #include "shared/fluid_records.h"
+#include "support/meshes.hpp"
 
 namespace rill::test {
 namespace driven_test {
@@ -63,6 +64,29 @@ TEST_F(DrivenTest, EqualsKeyframedSolidOnTheSamePath) {
   EXPECT_GT(moved, host.d()) << "it has pushed them";
   EXPECT_LT(apart, 0.005 * host.d());
   EXPECT_LT(wrong, 0.08 * host.d()) << "0.053 was measured: in 120 substeps a flow amplifies rounding";
+}
+
+TEST_F(DrivenTest, MovesMeshesAsKeyframesDo) {
+  Trial host = tank(), keyed = tank();
+  const double speed = 2, advance = 10 * host.step;
+  const Solid ball{.shape = MeshShape{.mesh = meshOf(ballMesh(0.1, 3))}, .translation = {0.75, 0.2, 0.1875}};
+  host.scene.solids = {driven(ball, 2)};
+  keyed.scene.solids = {ball};
+  keyed.scene.solids[0].motion = {{0, {0, 0, 0}}, {1, {-speed, 0, 0}}};
+  auto pushed = start(host), followed = start(keyed);
+  for (int n = 1; n <= 12; ++n) {
+    pushed->targets = {target(0, 0.75 - n * speed * advance, 0.2, 0.1875)};
+    pushed->advance(advance);
+    followed->advance(advance);
+  }
+  const Snapshot a = pushed->snapshot(), b = followed->snapshot();
+  double apart = 0, moved = 0;
+  for (size_t i = 0; i < a.x.size(); ++i) {
+    apart = std::max(apart, glm::length(a.x[i] - b.x[i]));
+    moved = std::max(moved, glm::length(a.x[i] - host.x[i]));
+  }
+  EXPECT_GT(moved, host.d()) << "it has pushed them";
+  EXPECT_LT(apart, 0.02 * host.d());
 }
 
 TEST_F(DrivenTest, KeepsToItsMaximumSpeed) {
