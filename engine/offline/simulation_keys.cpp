@@ -39,6 +39,7 @@ class KeyCollector {
       if constexpr (model::kHasMember<Value>) {
         std::string key = (path.empty() ? "" : path + ".") + std::string(field.info.key);
         const Value* value = field.find(owner);
+        if (field.info.key == "name") return;  // of a solid: no bit depends on it
         if (value && std::find(kExcluded.begin(), kExcluded.end(), key) == kExcluded.end()) add(field.info, std::move(key), *value);
       }
     });

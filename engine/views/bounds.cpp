@@ -29,12 +29,12 @@ void addSolids(Bounds& bounds, const Scene& scene) {
   for (const Solid& solid : scene.solids) {
     // The origin of a mesh may be far from it.
     const bool mesh = std::holds_alternative<MeshShape>(solid.shape) && !turns(solid);
-    const double radius = boundingRadius(solid.shape);
+    const double shell = shellOf(solid.shape, scene.fluid.spacing), radius = boundingRadius(solid.shape) + shell;
     const auto add = [&](const Pose& pose) {
       if (!mesh) return bounds.add(pose.center, radius);
       const SceneBox box = sceneBox(solid.shape, pose);
-      bounds.add(box.low);
-      bounds.add(box.high);
+      bounds.add(box.low, shell);
+      bounds.add(box.high, shell);
     };
     if (solid.motion.empty()) add(solidPose(solid, 0));
     for (const Keyframe& key : solid.motion) add(solidPose(solid, key.at));

@@ -91,7 +91,7 @@ void fillSolids(ParticleScene& out, const Scene& scene) {
     const std::vector<KeyframeRecord> keyframes = keyframeRecords(solid);
     out.solids.push_back({.base = baseRecord(solid, out.origin),
                           .shape = recordOf(solid.shape),
-                          .radius = static_cast<float>(boundingRadius(solid.shape)),
+                          .radius = static_cast<float>(boundingRadius(solid.shape) + shellOf(solid.shape, scene.fluid.spacing)),
                           .firstKey = static_cast<uint32_t>(out.keyframes.size()),
                           .keyCount = static_cast<uint32_t>(keyframes.size()),
                           .driven = solid.driven > 0});
