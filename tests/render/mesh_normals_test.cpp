@@ -56,7 +56,7 @@ TEST(MeshNormals, OwnNormalsWin) {
   data.normals[4] = {std::numeric_limits<float>::quiet_NaN(), 0, 1};
   const auto normals = cornerNormals(data);
   for (size_t corner = 0; corner < 4; ++corner) EXPECT_EQ(normals[corner], (Float3{0, 0, 1}));
-  for (size_t corner : {4u, 5u}) EXPECT_GT(normals[corner].y, 0.9f) << "in place of one that is none";
+  for (size_t corner : {4u, 5u}) EXPECT_GT(normals[corner].y, 0.9f) << "a normal of zero length is replaced";
 }
 
 TEST(MeshNormals, TriangleWithoutAreaHasAUnitNormal) {

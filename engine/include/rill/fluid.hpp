@@ -95,7 +95,7 @@ struct FluidState {
   /// Its first uint is the number of particles: they are the first entries of the arrays. Null: renderers take `capacity`.
   BufferRef countBuffer = {};
   BufferRef solids = {};       ///< SolidRecord (solid_records.h) per solid, at the present time; null if no solid is driven or a mesh
-  BufferRef meshWords = {};    ///< fields of the meshes (mesh_field.h); null if there is none
+  BufferRef meshWords = {};    ///< fields of the meshes (mesh_field.h); null without meshes
   uint32_t capacity = 0;       ///< entries of the arrays: particles at most; those beyond the particles are inactive, far from all others
   float spacing = 0;           ///< m
   Double3 origin = {0, 0, 0};  ///< m
