@@ -9,9 +9,10 @@
 #include <span>
 #include <unordered_map>
 
+#include "core/disjoint_sets.hpp"
 #include "core/vector_math.hpp"
 #include "core/words.hpp"
-#include "shape/triangle_tree.hpp"
+#include "shape/mesh_edges.hpp"
 
 namespace rill {
 namespace {
@@ -20,48 +21,20 @@ Error badInput(const std::string& why) { return {ErrorKind::BadInput, why}; }
 
 std::string trianglesText(size_t count) { return grouped(count) + (count == 1 ? " triangle" : " triangles"); }
 
-/// An edge of a triangle, with its smaller vertex first.
-struct Edge {
-  uint32_t low = 0, high = 0;
-  uint32_t triangle = 0;
-  bool forward = false;  ///< the triangle runs from `low` to `high`
-};
-
-std::vector<Edge> sortedEdges(const std::vector<Triangle>& triangles) {
-  std::vector<Edge> edges;
-  edges.reserve(3 * triangles.size());
-  for (uint32_t t = 0; t < triangles.size(); ++t)
-    for (size_t k = 0; k < 3; ++k) {
-      const uint32_t from = triangles[t][k], to = triangles[t][(k + 1) % 3];
-      edges.push_back({std::min(from, to), std::max(from, to), t, from < to});
-    }
-  std::ranges::sort(edges, {}, [](const Edge& e) { return std::array{e.low, e.high, e.triangle}; });
-  return edges;
-}
-
-/// Calls visit(span of the edges between the same two vertices) until it returns false.
-template <class Visit>
-void forEachGroup(const std::vector<Edge>& edges, const Visit& visit) {
-  for (size_t first = 0, end = 0; first < edges.size(); first = end) {
-    for (end = first; end < edges.size() && edges[end].low == edges[first].low && edges[end].high == edges[first].high;) ++end;
-    if (!visit(std::span(edges).subspan(first, end - first))) return;
-  }
-}
-
 /// The first edge that not as many triangles use in one direction as in the other.
-const Edge* unbalanced(const std::vector<Edge>& edges) {
-  const Edge* first = nullptr;
-  forEachGroup(edges, [&](std::span<const Edge> group) {
-    if (2 * std::ranges::count(group, true, &Edge::forward) != std::ssize(group)) first = group.data();
+const MeshEdge* unbalanced(const std::vector<MeshEdge>& edges) {
+  const MeshEdge* first = nullptr;
+  forEachGroup(edges, [&](std::span<const MeshEdge> group) {
+    if (2 * std::ranges::count(group, true, &MeshEdge::forward) != std::ssize(group)) first = group.data();
     return first == nullptr;
   });
   return first;
 }
 
 /// Triangles that share an edge of exactly two.
-std::vector<std::vector<std::pair<uint32_t, bool>>> neighborsOf(const std::vector<Edge>& edges, size_t triangles) {
+std::vector<std::vector<std::pair<uint32_t, bool>>> neighborsOf(const std::vector<MeshEdge>& edges, size_t triangles) {
   std::vector<std::vector<std::pair<uint32_t, bool>>> neighbors(triangles);  // and whether one of the two has to be turned
-  forEachGroup(edges, [&](std::span<const Edge> group) {
+  forEachGroup(edges, [&](std::span<const MeshEdge> group) {
     if (group.size() != 2) return true;
     const bool turned = group[0].forward == group[1].forward;
     neighbors[group[0].triangle].push_back({group[1].triangle, turned});
@@ -79,20 +52,15 @@ Double3 areaOf(const MeshData& data, size_t triangle) {
 
 /// Triangles that hang together by edges; each part by increasing index.
 std::vector<std::vector<uint32_t>> partsOf(const std::vector<Triangle>& triangles) {
-  std::vector<uint32_t> parent(triangles.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root = [&](uint32_t t) {
-    while (parent[t] != t) t = parent[t] = parent[parent[t]];
-    return t;
-  };
-  forEachGroup(sortedEdges(triangles), [&](std::span<const Edge> group) {
-    for (const Edge& edge : group) parent[root(edge.triangle)] = root(group[0].triangle);
+  DisjointSets sets(triangles.size());
+  forEachGroup(sortedEdges(triangles), [&](std::span<const MeshEdge> group) {
+    for (const MeshEdge& edge : group) sets.join(edge.triangle, group[0].triangle);
     return true;
   });
   std::unordered_map<uint32_t, size_t> known;
   std::vector<std::vector<uint32_t>> parts;
   for (uint32_t t = 0; t < triangles.size(); ++t) {
-    const auto [at, fresh] = known.emplace(root(t), parts.size());
+    const auto [at, fresh] = known.emplace(sets.root(t), parts.size());
     if (fresh) parts.emplace_back();
     parts[at->second].push_back(t);
   }
@@ -180,10 +148,10 @@ void weld(MeshData& data, std::vector<std::string>& warnings) {
 }
 
 Expected<void> orient(MeshData& data, std::vector<std::string>& warnings) {
-  std::vector<Edge> edges = sortedEdges(data.triangles);
-  const Edge* open = nullptr;
+  std::vector<MeshEdge> edges = sortedEdges(data.triangles);
+  const MeshEdge* open = nullptr;
   size_t count = 0;
-  forEachGroup(edges, [&](std::span<const Edge> group) {
+  forEachGroup(edges, [&](std::span<const MeshEdge> group) {
     if (group.size() % 2 == 0) return true;
     if (open == nullptr) open = group.data();
     ++count;
@@ -217,7 +185,7 @@ Expected<void> orient(MeshData& data, std::vector<std::string>& warnings) {
   for (uint32_t t = 0; t < data.triangles.size(); ++t)
     if (turned[t] == 1) turn(data, t);
   edges = sortedEdges(data.triangles);
-  if (const Edge* bad = unbalanced(edges))
+  if (const MeshEdge* bad = unbalanced(edges))
     return badInput("the triangles face in contradictory directions, first at the edge from " + roundedPlace(data.vertices[bad->low]) +
                     " to " + roundedPlace(data.vertices[bad->high]) + "; expected a mesh with an inside and an outside");
   warnings.push_back(trianglesText(total) + " turned to face as their neighbors do");

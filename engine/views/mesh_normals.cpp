@@ -5,24 +5,14 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include "core/disjoint_sets.hpp"
+#include "shape/mesh_edges.hpp"
+
 namespace rill {
 namespace {
 namespace mesh_normals {
 
 constexpr double kSmoothCosine = 0.766;  // of 40 degrees
-
-using Triangle = std::array<uint32_t, 3>;
-
-/// An edge of a triangle, from its corner `first` to the next.
-struct Edge {
-  uint32_t low, high;  // vertices
-  uint32_t triangle, first;
-  bool joins(const Edge& other) const { return low == other.low && high == other.high; }
-  bool operator<(const Edge& other) const {
-    return std::pair(low, high) != std::pair(other.low, other.high) ? std::pair(low, high) < std::pair(other.low, other.high)
-                                                                    : triangle < other.triangle;
-  }
-};
 
 glm::dvec3 point(const MeshData& data, uint32_t vertex) {
   const Double3& v = data.vertices[vertex];
@@ -46,39 +36,10 @@ std::vector<glm::dvec3> faceNormals(const MeshData& data) {
   return faces;
 }
 
-std::vector<Edge> sortedEdges(const std::vector<Triangle>& triangles) {
-  std::vector<Edge> edges;
-  edges.reserve(3 * triangles.size());
-  for (uint32_t t = 0; t < triangles.size(); ++t)
-    for (uint32_t k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax(triangles[t][k], triangles[t][(k + 1) % 3]);
-      edges.push_back({low, high, t, k});
-    }
-  std::sort(edges.begin(), edges.end());
-  return edges;
-}
-
-/// Sets of corners that share a normal: a forest, where each corner has a parent and roots have themselves.
-class CornerSets {
- public:
-  explicit CornerSets(size_t corners) {
-    parent_.reserve(corners);
-    for (uint32_t corner = 0; corner < corners; ++corner) parent_.push_back(corner);
-  }
-  uint32_t root(uint32_t corner) {
-    while (parent_[corner] != corner) corner = parent_[corner] = parent_[parent_[corner]];
-    return corner;
-  }
-  void join(uint32_t a, uint32_t b) { parent_[root(a)] = root(b); }
-
- private:
-  std::vector<uint32_t> parent_;
-};
-
 /// Joins the corners on both sides of an edge that is smooth.
-void joinAcross(const Edge& a, const Edge& b, const std::vector<Triangle>& triangles, CornerSets& sets) {
-  for (const uint32_t k : {a.first, (a.first + 1) % 3})
-    for (const uint32_t n : {b.first, (b.first + 1) % 3})
+void joinAcross(const MeshEdge& a, const MeshEdge& b, const std::vector<Triangle>& triangles, DisjointSets& sets) {
+  for (const uint32_t k : {a.corner, (a.corner + 1) % 3})
+    for (const uint32_t n : {b.corner, (b.corner + 1) % 3})
       if (triangles[a.triangle][k] == triangles[b.triangle][n]) sets.join(3 * a.triangle + k, 3 * b.triangle + n);
 }
 
@@ -95,13 +56,12 @@ double angleAt(const MeshData& data, const Triangle& triangle, size_t corner) {
 std::vector<Float3> cornerNormals(const MeshData& data) {
   using namespace mesh_normals;
   const std::vector<glm::dvec3> faces = faceNormals(data);
-  const std::vector<Edge> edges = sortedEdges(data.triangles);
-  CornerSets sets(3 * faces.size());
-  for (size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
-    while (end < edges.size() && edges[end].joins(edges[begin])) ++end;
-    const Edge &a = edges[begin], &b = edges[end - 1];
-    if (end - begin == 2 && glm::dot(faces[a.triangle], faces[b.triangle]) > kSmoothCosine) joinAcross(a, b, data.triangles, sets);
-  }
+  DisjointSets sets(3 * faces.size());
+  forEachGroup(sortedEdges(data.triangles), [&](std::span<const MeshEdge> group) {
+    const MeshEdge &a = group.front(), &b = group.back();
+    if (group.size() == 2 && glm::dot(faces[a.triangle], faces[b.triangle]) > kSmoothCosine) joinAcross(a, b, data.triangles, sets);
+    return true;
+  });
   std::vector<glm::dvec3> sums(3 * faces.size(), glm::dvec3(0));
   for (uint32_t corner = 0; corner < sums.size(); ++corner)
     sums[sets.root(corner)] += angleAt(data, data.triangles[corner / 3], corner % 3) * faces[corner / 3];
