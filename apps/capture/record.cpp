@@ -1,6 +1,7 @@
 #include "capture/record.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -24,9 +25,45 @@ std::string hexadecimal(uint64_t value) {
 /// JSON on one line, so that grep finds a frame.
 std::string oneLine(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
+Json jsonOf(double value) { return value; }
+Json jsonOf(const offline::LoadValue& load) { return {{"force", load.force}, {"torque", load.torque}}; }
+Json jsonOf(const offline::PoseValue& pose) {
+  return {{"position", pose.position},
+          {"rotation", std::array{pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.rotation.w}},
+          {"velocity", pose.velocity},
+          {"angular_velocity", pose.angularVelocity}};
+}
+
+/// The numbers of a probe's value, each with a name that ends the probe's.
+void addFigures(const std::string& name, double value, std::vector<Figure>& figures) { figures.push_back({name, value, "m"}); }
+template <class Vector>
+void addComponents(const std::string& name, const Vector& v, const char* unit, std::vector<Figure>& figures) {
+  constexpr const char* kAxes[] = {".x", ".y", ".z", ".w"};
+  for (size_t a = 0; a < std::ranges::size(v); ++a) figures.push_back({name + kAxes[a], v[a], unit});
+}
+void addFigures(const std::string& name, const offline::LoadValue& load, std::vector<Figure>& figures) {
+  addComponents(name + ".force", load.force, "N", figures);
+  addComponents(name + ".torque", load.torque, "N m", figures);
+}
+void addFigures(const std::string& name, const offline::PoseValue& pose, std::vector<Figure>& figures) {
+  addComponents(name + ".position", pose.position, "m", figures);
+  addComponents(name + ".rotation", pose.rotation, "", figures);
+  addComponents(name + ".velocity", pose.velocity, "m/s", figures);
+  addComponents(name + ".angular_velocity", pose.angularVelocity, "rad/s", figures);
+}
+
+/// What a probe gives before it has measured.
+offline::ProbeValue noValue(const Probe& probe) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  constexpr Double3 kNoVector{kNone, kNone, kNone};
+  if (!probe.load.empty()) return offline::LoadValue{kNoVector, kNoVector};
+  if (!probe.pose.empty()) return offline::PoseValue{kNoVector, {kNone, kNone, kNone, kNone}, kNoVector, kNoVector};
+  return kNone;
+}
+
 Json frameJson(double time_s, const offline::Stats& stats) {
   Json probes = Json::object(), pass_ms = Json::object(), skipped = Json::object();
-  for (const auto& [name, value] : stats.probes) probes[name] = value;
+  for (const auto& [name, value] : stats.probes) probes[name] = std::visit([](const auto& v) { return jsonOf(v); }, value);
   for (const offline::PassTime& pass : stats.passes)
     if (pass.ms > 0) pass_ms[pass.name] = pass.ms;
   for (const auto& [name, reason] : stats.skipped) skipped[name] = reason;
@@ -127,7 +164,8 @@ std::vector<Figure> Record::figures() const {
   for (const Probe& probe : scene_->probes) {
     const auto found =
         std::find_if(last.probes.begin(), last.probes.end(), [&](const auto& measured) { return measured.first == probe.name; });
-    figures.push_back({"probes." + probe.name, found == last.probes.end() ? none : found->second, "m"});
+    std::visit([&](const auto& value) { addFigures("probes." + probe.name, value, figures); },
+               found == last.probes.end() ? noValue(probe) : found->second);
   }
   return figures;
 }

@@ -16,6 +16,8 @@ uint64_t perKey(const ArrayShape& s) { return divideUp(s.particles, kCountThread
 
 uint64_t perParticleIfSolids(const ArrayShape& s) { return s.solids > 0 ? s.particles : 0; }
 
+uint64_t perSolidIfLoads(const ArrayShape& s) { return s.loads ? s.solids : 0; }
+
 template <bool ArrayShape::*Feature>
 uint64_t perParticleIf(const ArrayShape& s) {
   return s.*Feature ? s.particles : 0;
@@ -35,6 +37,8 @@ constexpr std::array<ArrayRow, kArrays> kArrayTable = {{
     {GravityChanges, "gravityChanges", "gravity schedule", Fluid, kVector, [](const ArrayShape& s) { return s.gravityChanges; }},
     {Table, "table", "density tables of solids", Fluid, kVector, [](const ArrayShape& s) { return s.tableEntries; }},
     {Solids, "solids", "solids", Fluid, sizeof(SolidRecord), [](const ArrayShape& s) { return s.solids; }},
+    {SolidSums, "solidSums", "sums of solids", Fluid, kSolidSumWords* kWord, perSolidIfLoads},
+    {SolidLoads, "solidLoads", "loads on solids", Fluid, sizeof(SolidLoadRecord), perSolidIfLoads},
     {MeshWords, "meshWord", "fields of meshes", Fluid, kWord, [](const ArrayShape& s) { return s.meshWords; }},
     {Keyframes, "keyframes", "keyframes", Fluid, sizeof(KeyframeRecord), [](const ArrayShape& s) { return s.keyframes; }},
 
@@ -52,7 +56,8 @@ constexpr std::array<ArrayRow, kArrays> kArrayTable = {{
      Account::Particles},
     {Cell, "cell", "cells", Fluid, kWord, perParticle, Account::Particles},
     {NearDisplaced, "nearDisplaced", "density that solids displace", Fluid, kVector, perParticleIfSolids, Account::Particles},
-    {NearTangential, "nearTangential", "tangential scales at solids", Fluid, kVector, perParticleIfSolids, Account::Particles},
+    {NearTangential, "nearTangential", "tangential scales at solids", Fluid, kVector,
+     [](const ArrayShape& s) { return s.solids > 0 ? withDummy(s) : 0; }, Account::Particles},
     {NearSolids, "nearSolids", "particles near solids", Fluid, sizeof(NearSolidRecord), perParticleIfSolids, Account::Particles},
 
     {CellStart, "cellStart", "cell starts", Fluid, kWord, [](const ArrayShape& s) { return s.cellStarts; }, Account::Grid},
@@ -63,6 +68,7 @@ constexpr std::array<ArrayRow, kArrays> kArrayTable = {{
     {SortedPrediction, "sortedPrediction", "sorted predictions", Section, kVector, perParticle, Account::Particles},
     {SortedVelocity, "sortedVelocity", "sorted velocities", Section, kVector, perParticle, Account::Particles},
     {FreeVelocity, "freeVelocity", "free velocities", Section, kVector, perParticleIfSolids, Account::Particles},
+    {NearMultipliers, "nearMultipliers", "multipliers near solids", Section, 8, perParticleIf<&ArrayShape::loads>, Account::Particles},
     {Smoothed, "smoothed", "smoothed velocities", Section, kVector, [](const ArrayShape& s) { return s.smooths ? s.particles + 1 : 0; },
      Account::Particles},
     {Curl, "curl", "curl", Section, kVector, [](const ArrayShape& s) { return s.vorticity ? s.particles + 1 : 0; }, Account::Particles},
@@ -105,7 +111,8 @@ ArrayShape arrayShape(const FluidSetup& setup) {
           .warm = setup.warm,
           .iterated = p.iterations > 1,
           .smooths = setup.viscositySweeps > 0 || p.noiseDampingRate > 0,
-          .vorticity = p.vorticity > 0};
+          .vorticity = p.vorticity > 0,
+          .loads = setup.loads};
 }
 
 ArrayShape arrayShape(const Scene& scene, uint64_t particles) {
@@ -119,7 +126,8 @@ ArrayShape arrayShape(const Scene& scene, uint64_t particles) {
           .warm = startsWarm(scene),
           .iterated = scene.solver.iterations > 1,
           .smooths = scene.fluid.viscosity > 0,  // noise damping shares memory with a rebuild
-          .vorticity = scene.fluid.vorticity > 0};
+          .vorticity = scene.fluid.vorticity > 0,
+          .loads = measuresLoads(scene)};
 }
 
 uint64_t arrayBytes(FluidArray array, const ArrayShape& shape) {

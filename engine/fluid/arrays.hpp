@@ -25,6 +25,8 @@ enum class FluidArray : uint8_t {
   GravityChanges,
   Table,
   Solids,
+  SolidSums,
+  SolidLoads,
   MeshWords,
   Keyframes,
   // Per particle.
@@ -50,6 +52,7 @@ enum class FluidArray : uint8_t {
   SortedPrediction,
   SortedVelocity,
   FreeVelocity,
+  NearMultipliers,
   Smoothed,
   Curl,
   OrderedPosition,
@@ -76,7 +79,7 @@ struct ArrayShape {
   uint64_t listEntries = 0;  ///< of all particles
   uint64_t cellStarts = 0;   ///< entries
   uint64_t gravityChanges = 1, tableEntries = 0, solids = 0, meshWords = 0, keyframes = 0;
-  bool lists = true, warm = false, iterated = false, smooths = false, vorticity = false;
+  bool lists = true, warm = false, iterated = false, smooths = false, vorticity = false, loads = false;
 };
 ArrayShape arrayShape(const FluidSetup& setup);
 /// An upper bound, from the scene alone.

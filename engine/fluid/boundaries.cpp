@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <map>
 
 #include "core/overloaded.hpp"
@@ -115,6 +116,12 @@ Expected<void> addSolids(const Scene& scene, const SmoothingKernel& kernel, cons
     setup.solids.push_back(record);
   }
   return {};
+}
+
+double loadLever(const Scene& scene, double support) {
+  double radius = 0;
+  for (const Solid& solid : scene.solids) radius = std::max(radius, boundingRadius(solid.shape));
+  return std::exp2(std::ceil(std::log2(radius + support)));
 }
 
 void setWalls(const Scene& scene, const Double3& origin, FluidParams& p) {

@@ -17,7 +17,27 @@ bool read(std::span<const std::byte> bytes, Record& record) {
   return true;
 }
 
+SolidLoad loadOf(const SolidLoadRecord& r) {
+  SolidLoad load;
+  const auto sum = [&](size_t c) { return double{r.impulseHigh[c]} + r.impulseLow[c]; };
+  for (size_t a = 0; a < 3; ++a) {
+    load.force[a] = r.mean[a];
+    load.torque[a] = r.mean[a + 3];
+    load.impulse[a] = sum(a);
+    load.angularImpulse[a] = sum(a + 3);
+  }
+  return load;
+}
+
 }  // namespace
+
+void FluidImpl::takeLoads(std::span<const std::byte> records) const {
+  for (size_t k = 0; k < solidLoads.size(); ++k) {
+    SolidLoadRecord record{};
+    if (!read(records.subspan(std::min(k * sizeof record, records.size())), record)) return;
+    solidLoads[k] = loadOf(record);
+  }
+}
 
 std::vector<FluidPassRuns> FluidImpl::passRuns() const {
   const Executed done{executed_.substeps - executedBefore_.substeps, executed_.iterations - executedBefore_.iterations,
@@ -80,6 +100,7 @@ void FluidImpl::poll() const {
                 .substeps = control.substeps,
                 .iterations = control.iterations,
                 .listBuilds = control.builds};
+    if (setup.loads) takeLoads(pending.graph.lock()->data(pending.loads));
     MeasureResult result{};
     if (pending.measured && read(pending.graph.lock()->data(pending.measure), result)) {
       const MeasurePartial& m = result.sums;

@@ -76,6 +76,8 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   auto setup = makeFluidSetup(scene, start);
   if (!setup) return setup.error();
   impl->setup = std::move(*setup);
+  impl->setup.loads = !scene.solids.empty() && (desc.loads || measuresLoads(scene));
+  if (impl->setup.loads) impl->solidLoads.resize(scene.solids.size());
   impl->setup.mergesPasses = desc.mergePasses.value_or(!impl->device_->isCpu);
   impl->capacity = static_cast<uint32_t>(capacity);
   impl->count = static_cast<uint32_t>(desc.snapshot ? desc.snapshot->id.size() : n);

@@ -37,6 +37,11 @@ std::vector<FluidPassRuns> Fluid::passRuns() const {
   return impl_->passRuns();
 }
 
+std::span<const SolidLoad> Fluid::solidLoads() const {
+  impl_->poll();
+  return impl_->solidLoads;
+}
+
 Double3 Fluid::drivenCenter(uint32_t solid) const {
   const auto& driven = impl_->setup.driven;
   const auto found = std::find_if(driven.begin(), driven.end(), [solid](const DrivenSolid& d) { return d.solid == solid; });

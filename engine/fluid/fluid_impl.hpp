@@ -59,6 +59,7 @@ class FluidImpl {
   FluidState present(Graph& graph) const;
   void poll() const;
   std::vector<FluidPassRuns> passRuns() const;
+  void takeLoads(std::span<const std::byte> records) const;  ///< SolidLoadRecords
   std::span<const Chunk> chunks() const { return chunks_; }
   const Buffer& buffer(FluidArray array, uint32_t chunk = 0) const { return slot(slotOf(array, chunk)); }
   const Buffer& slot(size_t slot) const { return buffers_[slot]; }
@@ -71,6 +72,7 @@ class FluidImpl {
   Double3 origin = {0, 0, 0};
   mutable std::optional<FluidStats> stats;
   mutable FluidProgress progress;
+  mutable std::vector<SolidLoad> solidLoads;
 
  private:
   /// What was recorded, since the start, of what the device switches on and off.
@@ -86,7 +88,7 @@ class FluidImpl {
 
   struct Pending {
     std::weak_ptr<GraphImpl> graph;
-    Ticket control, sums, measure;
+    Ticket control, sums, measure, loads;
     bool measured;
     bool uploads;  ///< the start state has been copied once this frame has finished
     Recorded recorded;

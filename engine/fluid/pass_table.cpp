@@ -5,6 +5,7 @@ namespace {
 
 bool solids(const FluidSetup& s) { return s.params.solidCount > 0; }
 bool moves(const FluidSetup& s) { return s.movingSolids; }
+bool loads(const FluidSetup& s) { return s.loads; }
 bool iterates(const FluidSetup& s) { return s.params.iterations > 1; }
 bool viscous(const FluidSetup& s) { return s.viscositySweeps > 0; }
 bool noisy(const FluidSetup& s) { return s.params.noiseDampingRate > 0; }
@@ -15,7 +16,7 @@ bool copies(const FluidSetup& s) { return s.viscositySweeps % 2 == 1; }
 bool forcesOrDamping(const FluidSetup& s) { return hasForces(s) || noisy(s); }
 bool forcesOrDampingAtSolids(const FluidSetup& s) { return forcesOrDamping(s) && solids(s); }
 
-constexpr PassCondition kAlways, kSolids{solids, "no solids"}, kMoves{moves, "no solid moves"},
+constexpr PassCondition kAlways, kSolids{solids, "no solids"}, kMoves{moves, "no solid moves"}, kLoads{loads, "no loads asked for"},
     kIterates{iterates, "one iteration a substep"}, kViscous{viscous, "viscosity is 0"}, kSwirls{swirls, "vorticity is 0"},
     kDrags{drags, "drag is 0"}, kNoisy{noisy, nullptr, &FluidSetup::whyNoNoiseDamping};
 
@@ -43,6 +44,9 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::Control, "control", "fluid/control", E::One, {}, {separate}},
     {P::Correct, "correct", "fluid/correct", E::Gather, kEnd},
     {P::Collide, "collide", "fluid/collide", E::NearSolids, kEnd, kSolids},
+
+    {P::SumLoads, "sum loads", "fluid/loads", E::NearSolids, {S::Correct, S::Iterate}, kLoads},
+    {P::SolidLoads, "loads on solids", "fluid/solid_loads", E::One, kEnd, kLoads},
 
     {P::Viscosity, "viscosity", "fluid/viscosity", E::Gather, kEnd, kViscous},
     {P::CopyVelocities, "copy velocities", "fluid/copy_velocity", E::Particles, kEnd, {copies}},

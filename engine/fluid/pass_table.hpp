@@ -31,6 +31,8 @@ enum class FluidPass : uint8_t {
   Control,
   Correct,
   Collide,
+  SumLoads,
+  SolidLoads,
   Viscosity,
   CopyVelocities,
   VelocityNoise,

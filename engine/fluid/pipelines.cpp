@@ -41,6 +41,7 @@ std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
           {"SOLIDS", p.solidCount > 0},
           {"MESHES", !setup.meshWords.empty()},
           {"CULL_SOLIDS", p.solidCount > kFewSolids},
+          {"LOADS", setup.loads},
           {"FORCES", hasForces(setup)},
           {"ARTIFICIAL_PRESSURE", p.tensileRate > 0},
           {"TENSILE_POWER", wholePower(p.tensilePower)},

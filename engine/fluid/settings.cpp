@@ -253,6 +253,10 @@ double meltingTime(const Scene& scene) {
 
 bool hasWalls(const Scene& scene) { return scene.domain && scene.domain->open != kEverySide; }
 
+bool measuresLoads(const Scene& scene) {
+  return std::ranges::any_of(scene.probes, [](const Probe& probe) { return !probe.load.empty(); });
+}
+
 bool startsWarm(const Scene& scene) { return boundedWarmGain(scene).wanted > 0; }
 
 uint32_t listCapacity(double reachInSpacings, bool walls) {
@@ -302,6 +306,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   p.farLimit = f(kFarSpacings * d);
   p.nearLimit = f(solidReach(kernel) + (kTravel + 0.2) * d);
   p.solidSpeed = f(fastestSolid(scene));
+  p.loadLever = f(loadLever(scene, h));
   p.vorticity = f(scene.fluid.vorticity);
   p.drag = f(scene.fluid.drag);
   setArtificialPressure(scene, kernel, setup);

@@ -19,6 +19,9 @@ inline constexpr double kListSkin = 0.1;
 /// Floats of a KeyframeRecord.
 inline constexpr size_t kKeyframeNumbers = sizeof(KeyframeRecord) / sizeof(float);
 
+/// Floats of a SolidLoadRecord.
+inline constexpr size_t kLoadNumbers = sizeof(SolidLoadRecord) / sizeof(float);
+
 /// A solid that the host moves.
 struct DrivenSolid {
   uint32_t solid = 0;
@@ -48,6 +51,7 @@ struct FluidSetup {
   bool held = false;                      ///< walls or solids can hold the fluid up
   bool thin = false;                      ///< walls that face each other can both be near a particle
   bool movingSolids = false;
+  bool loads = false;         ///< loads on solids are measured
   bool mergesPasses = false;  ///< see FluidDesc::mergePasses
   bool warm = false;          ///< there is a warm start: multipliers and accelerations are kept
   std::vector<std::string> warnings;
@@ -69,6 +73,9 @@ bool hasWalls(const Scene& scene);
 
 /// Whether a scene's substeps start from the multipliers of the ones before.
 bool startsWarm(const Scene& scene);
+
+/// Whether a probe needs loads on solids.
+bool measuresLoads(const Scene& scene);
 
 /// The time in which weight makes a liquid of a fill's lattice, s; 0 without gravity, or without walls and solids that hold the fluid.
 double meltingTime(const Scene& scene);

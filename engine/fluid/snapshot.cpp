@@ -43,6 +43,8 @@ Expected<void> checkLengths(const FluidSnapshot& s, const SnapshotShape& shape) 
   if (auto right = checkLength("sums", s.sums.size(), sizeof(FluidSums) / 4); !right) return right;
   const uint64_t poses = shape.movingSolids ? uint64_t{kPoseNumbers} * shape.solidCount : 0;
   if (auto right = checkLength("solids", s.solids.size(), poses); !right) return right;
+  if (!s.loads.empty())  // they may be of no use to the scene that goes on
+    if (auto right = checkLength("loads", s.loads.size(), uint64_t{kLoadNumbers} * shape.solidCount); !right) return right;
   const uint32_t count = record<FluidControl>(s.control).count;
   if (count > shape.capacity)
     return wrong("it has " + std::to_string(count) + " particles; expected at most " + std::to_string(shape.capacity));

@@ -48,6 +48,8 @@ void FluidImpl::stageScene() {
   staging_->add(slotOf(FluidArray::Table), setup.tables.data(), setup.tables.size() * 4);
   staging_->add(slotOf(FluidArray::MeshWords), setup.meshWords.data(), setup.meshWords.size() * 4);
   staging_->add(slotOf(FluidArray::Keyframes), setup.keyframes.data(), setup.keyframes.size() * 4);
+  staging_->clear(slotOf(FluidArray::NearTangential));
+  staging_->clear(slotOf(FluidArray::SolidSums));
   staging_->clear(slotOf(FluidArray::Commands));
   staging_->clear(slotOf(FluidArray::DensityCommands));
 }
@@ -96,6 +98,7 @@ void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
   staging_->add(slotOf(FluidArray::Control), sizeof control, bytesOf(std::vector{control}));
   staging_->add(slotOf(FluidArray::Sums), sizeof sums, bytesOf(std::vector{sums}));
   staging_->add(slotOf(FluidArray::Solids), setup.solids.data(), setup.solids.size() * sizeof(SolidRecord));
+  staging_->clear(slotOf(FluidArray::SolidLoads));
   staging_->add(slotOf(FluidArray::Id), id.size() * 4, bytesOf(id));
   staging_->clear(slotOf(FluidArray::Warm));
   staging_->clear(slotOf(FluidArray::WarmAcceleration));
@@ -113,6 +116,11 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
   for (size_t k = 0; kPoseNumbers * k < s.solids.size(); ++k) solids[k].pose = poseAt(s.solids, k);
   for (DrivenSolid& driven : setup.driven) std::copy_n(s.solids.data() + kPoseNumbers * driven.solid, 3, driven.center.begin());
   staging_->add(slotOf(FluidArray::Solids), solids.size() * sizeof(SolidRecord), bytesOf(solids));
+  takeLoads(std::as_bytes(std::span(s.loads)));
+  if (setup.loads && !s.loads.empty())
+    staging_->add(slotOf(FluidArray::SolidLoads), s.loads.data(), s.loads.size() * sizeof s.loads[0]);
+  else
+    staging_->clear(slotOf(FluidArray::SolidLoads));
   const ArrayShape shape = arrayShape(setup);
   forEachSaved([&](const ArrayRow& row, auto member) {
     const auto& array = s.*member;

@@ -13,7 +13,10 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
     const Start start = iteration == 0 ? Start::Density : Start::Iterate;
     const ChunkPush push{0, 0, iteration};
     alias(Particle, Work);
-    if (iteration > 0) declare(graph, FluidPass::Iterate, start, push);
+    if (iteration > 0) {
+      declare(graph, FluidPass::Iterate, start, push);
+      declare(graph, FluidPass::SumLoads, start);
+    }
     alias(Place, Prediction);
     declare(graph, FluidPass::DisplaceDensity, start);
     alias(Particle, Prediction);
@@ -23,6 +26,8 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
   alias(Particle, Work);
   declare(graph, FluidPass::Correct, Start::Correct, ChunkPush{});
   declare(graph, FluidPass::Collide, Start::Correct);
+  declare(graph, FluidPass::SumLoads, Start::Correct);
+  declare(graph, FluidPass::SolidLoads, Start::Correct);
   declareForces(graph, first);
 }
 

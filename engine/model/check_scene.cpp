@@ -55,6 +55,7 @@ class Checker {
   static bool given(const std::optional<T>& value) {
     return value.has_value();
   }
+  static bool given(const std::string& text) { return !text.empty(); }
   template <class T>
   requires std::is_class_v<T>
   static bool given(const T&) { return true; }

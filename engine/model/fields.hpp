@@ -156,14 +156,24 @@ struct Table<GravityChange> {
 template <>
 struct Table<Probe> {
   static constexpr std::string_view about = "A measurement that is recorded with the statistics";
-  static constexpr std::array<std::string_view, 2> one_of{"level", "front"};
+  static constexpr std::array<std::string_view, 4> one_of{"level", "front", "load", "pose"};
   static constexpr std::tuple fields{
       Field{Info{.key = "name", .help = "name in the statistics; unique, not empty", .required = true}, &Probe::name},
       Field{Info{.key = "level", .unit = "m", .help = "height of the fluid column above the floor at [x, z]"}, &Probe::level},
       Field{Info{.key = "front",
                  .help = "farthest position of the fluid along this axis, relative to the domain's minimum",
                  .words = kAxisWords},
-            &Probe::front}};
+            &Probe::front},
+      Field{Info{.key = "load",
+                 .help = "name of a solid: force (N) and torque (N m, about its center) of the fluid on it, mean over the time since "
+                         "the frame before",
+                 .since = "0.2"},
+            &Probe::load},
+      Field{Info{.key = "pose",
+                 .help = "name of a solid: position of its center (of a mesh: its origin) (m), rotation [x, y, z, w], velocity (m/s) and "
+                         "angular velocity (rad/s)",
+                 .since = "0.2"},
+            &Probe::pose}};
 };
 
 template <>

@@ -178,4 +178,24 @@ CheckResult checkRules(const std::vector<GravityChange>& changes) { return incre
 
 CheckResult checkRules(const std::vector<Probe>& probes) { return uniqueNames(probes, "probes", true); }
 
+// Solids that probes name exist.
+CheckResult checkRules(const Scene& scene) {
+  std::vector<std::string_view> names;
+  for (const Solid& solid : scene.solids)
+    if (!solid.name.empty()) names.push_back(solid.name);
+  for (size_t i = 0; i < scene.probes.size(); ++i) {
+    const Probe& probe = scene.probes[i];
+    if (probe.level || probe.front) continue;
+    const bool load = !probe.load.empty();
+    const std::string& wanted = load ? probe.load : probe.pose;
+    if (std::ranges::find(names, wanted) != names.end()) continue;
+    const std::string_view suggestion = nearestWord(wanted, names);
+    return Fault{"no solid is named " + inQuotes(wanted) + "; expected " +
+                     (names.empty() ? "the name of a solid, but no solid has one" : "one of " + quotedList(names)) +
+                     (suggestion.empty() ? "" : "; did you mean " + inQuotes(suggestion) + "?"),
+                 {memberPath(elementPath("probes", i), load ? "load" : "pose")}};
+  }
+  return {};
+}
+
 }  // namespace rill::model

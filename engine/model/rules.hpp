@@ -45,6 +45,7 @@ CheckResult checkRules(const std::vector<Keyframe>& motion);
 CheckResult checkRules(const std::vector<GravityChange>& changes);
 CheckResult checkRules(const std::vector<Solid>& solids);
 CheckResult checkRules(const std::vector<Probe>& probes);
+CheckResult checkRules(const Scene& scene);
 template <class T>
 CheckResult checkRules(const T&) {
   return {};

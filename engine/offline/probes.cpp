@@ -26,11 +26,6 @@ ProbeReader::ProbeReader(const Scene& scene, std::span<const Float3> positions, 
 
 ProbeReader::~ProbeReader() = default;
 
-double ProbeReader::measure(const Probe& probe) const {
-  if (probe.level) return level(probe.level->first, probe.level->second);
-  return probe.front ? front(*probe.front) : 0.0;
-}
-
 double ProbeReader::level(double x, double z) const {
   const double lineX = x - minimum_[0], lineZ = z - minimum_[2];
   std::vector<double> heights;

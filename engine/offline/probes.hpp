@@ -15,8 +15,6 @@ class ProbeReader {
   ProbeReader(const Scene& scene, std::span<const Float3> positions, const Double3& origin);
   ~ProbeReader();
 
-  double measure(const Probe& probe) const;
-
   /// Height of the fluid column above the floor at x, z (m, scene coordinates): the highest particle within one spacing of the vertical
   /// line and below the first empty bin of 1.5 spacings, plus half a spacing; 0 without fluid.
   double level(double x, double z) const;

@@ -16,6 +16,7 @@
 #include "offline/state_hash.hpp"
 #include "rill/offline.hpp"
 #include "rill/version.hpp"
+#include "shape/pose.hpp"
 
 namespace rill::offline {
 namespace {
@@ -98,6 +99,7 @@ class Simulation::Impl {
     if (auto ran = advanceFrames(seconds); !ran) return ran;
     wall_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
     time_s_ += seconds;
+    advanced_s_ = seconds;
     return {};
   }
 
@@ -136,7 +138,7 @@ class Simulation::Impl {
     const ProbeReader reader(scene_, readout_.positions, start_.origin);
     stats.front_m = reader.front(Axis::PlusX);
     stats.stateHash = stateHash(readout_.positions, readout_.velocities, readout_.ids);
-    for (const Probe& probe : scene_.probes) stats.probes.emplace_back(probe.name, reader.measure(probe));
+    for (const Probe& probe : scene_.probes) stats.probes.emplace_back(probe.name, valueOf(probe, reader));
     stats.pictureBoundHits = pictureBoundHits_;
     stats.wall_s = wall_s_;
     stats.passes = log_.times();
@@ -213,7 +215,35 @@ class Simulation::Impl {
   }
 
  private:
+  ProbeValue valueOf(const Probe& probe, const ProbeReader& reader) const {
+    if (probe.level) return reader.level(probe.level->first, probe.level->second);
+    if (probe.front) return reader.front(*probe.front);
+    const auto solid = static_cast<size_t>(std::ranges::find(scene_.solids, probe.load.empty() ? probe.pose : probe.load, &Solid::name) -
+                                           scene_.solids.begin());
+    if (probe.load.empty()) {
+      const Pose pose = solidPose(scene_.solids[solid], measured_->time_s);
+      return PoseValue{pose.center, pose.rotation, pose.velocity, pose.angularVelocity};
+    }
+    return loadOn(solid);
+  }
+
+  /// Mean over the last advance().
+  LoadValue loadOn(size_t solid) const {
+    LoadValue value;
+    const double seconds = advanced_s_ - advanced_.timeDropped_s;
+    if (!(seconds > 0) || loadsBefore_.size() <= solid) return value;
+    const SolidLoad &before = loadsBefore_[solid], &now = fluid_->solidLoads()[solid];
+    for (size_t a = 0; a < 3; ++a) {
+      value.force[a] = (now.impulse[a] - before.impulse[a]) / seconds;
+      value.torque[a] = (now.angularImpulse[a] - before.angularImpulse[a]) / seconds;
+    }
+    return value;
+  }
+
   void beginAdvance() {
+    const auto loads = fluid_->solidLoads();
+    loadsBefore_.assign(loads.begin(), loads.end());
+    advanced_s_ = 0;
     measured_.reset();
     advanced_ = {};
     wall_s_ = 0;
@@ -315,7 +345,9 @@ class Simulation::Impl {
   Readout readout_;                     ///< at the current time
   double time_s_ = 0;
   double wall_s_ = 0;
-  uint64_t pictureBoundHits_ = 0;  ///< at the current time
+  uint64_t pictureBoundHits_ = 0;       ///< at the current time
+  std::vector<SolidLoad> loadsBefore_;  ///< before the last advance()
+  double advanced_s_ = 0;               ///< of the last advance(), dropped time included
 };
 
 Simulation::Simulation(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

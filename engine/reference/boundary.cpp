@@ -38,7 +38,18 @@ SolidSample ReferenceSolver::boundaryAt(const glm::dvec3& x, double t) const { r
 
 SolidSample ReferenceSolver::boundaryOf(const glm::dvec3& x, std::span<const Pose> solids) const {
   SolidSample sum;
-  if (solids.empty()) return sum;
+  forEachSample(x, solids, [&](size_t, const SolidSample& own, const Image& image) {
+    const glm::dvec3 gradient = image.sign * vec(own.gradient);
+    sum.value += own.value;
+    for (int a = 0; a < 3; ++a) sum.gradient[static_cast<size_t>(a)] += gradient[a];
+    sum.cover(own.value, {gradient.x, gradient.y, gradient.z});
+  });
+  return sum;
+}
+
+void ReferenceSolver::forEachSample(const glm::dvec3& x, std::span<const Pose> solids,
+                                    const std::function<void(size_t, const SolidSample&, const Image&)>& visit) const {
+  if (solids.empty()) return;
   std::vector<Image> images = imagesNear(x, walls_, kernel_.h());
   images.insert(images.begin(), Image{});
   for (const Image& image : images) {
@@ -48,13 +59,23 @@ SolidSample ReferenceSolver::boundaryOf(const glm::dvec3& x, std::span<const Pos
       const Double3 local = localPoint(solids[n], {at.x, at.y, at.z});
       const SolidSample own = displacedBy(n, local);
       const double share = shareOfImage(shape, solids[n], at, walls_, settings.spacing);
-      const glm::dvec3 gradient = share * image.sign * vec(toScene(solids[n], own.gradient));
-      sum.value += share * own.value;
-      for (int a = 0; a < 3; ++a) sum.gradient[static_cast<size_t>(a)] += gradient[a];
-      sum.cover(share * own.value, {gradient.x, gradient.y, gradient.z});
+      const glm::dvec3 gradient = share * vec(toScene(solids[n], own.gradient));
+      visit(n, {.value = share * own.value, .gradient = {gradient.x, gradient.y, gradient.z}}, image);
     }
   }
-  return sum;
+}
+
+void ReferenceSolver::give(size_t i, double multiplier, std::span<const Pose> solids, const Given& given) const {
+  const glm::dvec3& x = boundaryPlace_[i];
+  forEachSample(x, solids,
+                [&](size_t n, const SolidSample& own, const Image& image) { given(n, multiplier * vec(own.gradient), image.of(x)); });
+}
+
+ReferenceSolver::Given ReferenceSolver::addTo(std::vector<Impulse>& impulses, std::span<const Pose> solids, double factor) const {
+  return [&impulses, solids, reaction = -mass() * factor](size_t n, const glm::dvec3& amount, const glm::dvec3& at) {
+    impulses[n].linear += reaction * amount;
+    impulses[n].angular += reaction * glm::cross(at - vec(solids[n].center), amount);
+  };
 }
 
 SolidSample ReferenceSolver::displacedBy(size_t solid, const Double3& local) const {
@@ -90,13 +111,22 @@ glm::dmat3 ReferenceSolver::tangentialScale(size_t i) const {
   return {s.diagonal[0], s.mixed[2], s.mixed[1], s.mixed[2], s.diagonal[1], s.mixed[0], s.mixed[1], s.mixed[0], s.diagonal[2]};
 }
 
+glm::dmat3 ReferenceSolver::pairScale(size_t i, const Pair& pair) const {
+  const glm::dmat3 one(1), own = tangentialScale(i) - one, other = tangentialScale(pair.j) - one;
+  const glm::dmat3 mirror(pair.sign.x, 0, 0, 0, pair.sign.y, 0, 0, 0, pair.sign.z);
+  return one + kScaleOfPair * (own + mirror * other * mirror);
+}
+
 /// Moves a center to half a spacing from every surface that is closer: solids in order, walls last, so that no particle ends outside.
 /// Between walls that are less than a spacing apart it is moved to the middle.
-glm::dvec3 ReferenceSolver::collide(glm::dvec3 x, std::span<const Pose> solids) const {
+glm::dvec3 ReferenceSolver::collide(glm::dvec3 x, std::span<const Pose> solids, const Given& given) const {
   const double clearance = settings.spacing / 2;
   for (size_t n = 0; n < solids.size(); ++n) {
     const SurfacePoint surface = surfaceOf(n, solids[n], x);
-    if (surface.distance < clearance) x += (clearance - surface.distance) * vec(surface.normal);
+    if (surface.distance >= clearance) continue;
+    const glm::dvec3 by = (clearance - surface.distance) * vec(surface.normal);
+    if (given) given(n, by, x);
+    x += by;
   }
   for (int a = 0; a < 3; ++a) {
     const double lo = settings.lo[a] + clearance, hi = settings.hi[a] - clearance;
@@ -106,11 +136,11 @@ glm::dvec3 ReferenceSolver::collide(glm::dvec3 x, std::span<const Pose> solids) 
 }
 
 /// Velocity after contact with solids, with restitution e and Coulomb friction mu, relative to the velocity of the solid. With the velocity
-/// before the solve, u = v_old + g dt - v_solid, and the contribution of the neighbors' pressure, f = a_i sum_j (lambda_i + lambda_j) G_ij
+/// before the solve, u = v_old + g dt - v_solid, and the contribution of the neighbors' pressure, f = sum_j a_ij (lambda_i + lambda_j) G_ij
 /// / dt:
 ///   v_n >= -e u_n if u_n < 0;   the tangential speed is reduced by at most mu max(0, v_n - u_n - f_n), the impulse of the solid.
 /// The term f makes friction include the weight of the column above. Domain walls have e = 0 and mu = 0.
-glm::dvec3 ReferenceSolver::contact(size_t i, glm::dvec3 v, double dt, std::span<const Pose> solids) const {
+glm::dvec3 ReferenceSolver::contact(size_t i, glm::dvec3 v, double dt, std::span<const Pose> solids, const Given& given) const {
   const glm::dvec3& x = state.predicted[i];
   for (size_t k = 0; k < solids.size(); ++k) {
     const double restitution = settings.solids[k].restitution, friction = settings.solids[k].friction;
@@ -125,11 +155,13 @@ glm::dvec3 ReferenceSolver::contact(size_t i, glm::dvec3 v, double dt, std::span
     glm::dvec3 tangential = relative - normal * n;
     if (before < 0 && restitution > 0) normal = std::max(normal, -restitution * before);
     glm::dvec3 pressure(0);
-    for (const Pair& pair : pairs(i)) pressure += (lambda_[i] + lambda_[pair.j]) / dt * pair.gradient;
-    const double impulse = std::max(0.0, normal - before - glm::dot(tangentialScale(i) * pressure, n));
+    for (const Pair& pair : pairs(i)) pressure += (lambda_[i] + lambda_[pair.j]) / dt * (pairScale(i, pair) * pair.gradient);
+    const double impulse = std::max(0.0, normal - before - glm::dot(pressure, n));
     const double slip = glm::length(tangential);
     if (slip > 0) tangential *= std::max(0.0, 1 - friction * impulse / slip);
-    v = solid + normal * n + tangential;
+    const glm::dvec3 after = solid + normal * n + tangential;
+    given(k, dt * (after - v), x);
+    v = after;
   }
   return v;
 }

@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <utility>
 
 #include "core/overloaded.hpp"
 #include "reference/neighbors.hpp"
@@ -95,6 +96,7 @@ void ReferenceSolver::substep(double dt, double dtNext) {
     if (onStage) onStage(stage);
   };
   const bool first = substeps_++ % settings.substepsPerBlock == 0;
+  impulses_ = warmImpulses_;
   blockTime_ += dt;
   const double push = std::min(artificial_.rate * dt * dt, artificial_.most);
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
@@ -164,6 +166,7 @@ void ReferenceSolver::density() {
   densityRatio_.resize(size());
   denominator_.resize(size());
   boundary_.resize(size());
+  boundaryPlace_ = state.predicted;
   const double rest = kernel_.restGradientSum(), scale = densityScale();
   for (uint32_t i = 0; i < size(); ++i) {
     boundary_[i] = boundaryOf(state.predicted[i], solids);
@@ -208,18 +211,22 @@ double ReferenceSolver::artificialPressureTerm(double value, double push) const 
 void ReferenceSolver::correction(double dt, double push) {
   push_ = push;
   const std::vector<Pose> solids = poses(time_, dt);
+  const Given given = addTo(impulses_, solids, 1 / dt);
+  for (const Gift& gift : std::exchange(gifts_, {})) given(gift.solid, gift.amount, gift.at);  // of the iteration before
   for (size_t i = 0; i < size(); ++i) {
+    const Given later = [&](size_t n, const glm::dvec3& amount, const glm::dvec3& at) { gifts_.push_back({i, n, amount, at}); };
     glm::dvec3 sum(0), apart(0);
     for (const Pair& pair : pairs(i)) {
-      sum += (lambdaChange_[i] + lambdaChange_[pair.j] + artificialPressureTerm(pair.value, push)) * pair.gradient;
+      sum += (lambdaChange_[i] + lambdaChange_[pair.j] + artificialPressureTerm(pair.value, push)) * (pairScale(i, pair) * pair.gradient);
       apart += kCoincidentDistance * kernel_.h() * pair.apart;
     }
-    const glm::dvec3 moved = state.predicted[i] + tangentialScale(i) * sum + lambdaChange_[i] * vec(boundary_[i].gradient) + apart;
+    give(i, lambdaChange_[i], solids, later);
+    const glm::dvec3 moved = state.predicted[i] + sum + lambdaChange_[i] * vec(boundary_[i].gradient) + apart;
     gain_[i] = glm::dvec3(0);
     if (finite(moved)) {
       wallPosition_[i] = collide(moved, {});
       gain_[i] = wallPosition_[i] - state.predicted[i];
-      state.predicted[i] = collide(moved, solids);
+      state.predicted[i] = collide(moved, solids, given);
     } else {
       deactivate(i);
     }
@@ -230,13 +237,16 @@ void ReferenceSolver::velocities(double dt) {
   const std::vector<Pose> solids = poses(time_, dt);
   const double maxGain =
       dt * (std::clamp(0.5 * fastest_, settings.minSpeedGain, settings.maxSpeedGain) + 4 * dt * glm::length(settings.gravity));
+  const Given given = addTo(impulses_, solids, 1 / dt);
+  std::vector<double> kept(size(), 1);
   fastest_ = 0;  // excludes solids, as in the shaders
   for (size_t i = 0; i < size(); ++i) {
     const double gain = glm::length(gain_[i]);
-    const double removed = gain > maxGain ? 1 - maxGain / gain : 0;
+    kept[i] = gain > maxGain ? maxGain / gain : 1;
+    const double removed = 1 - kept[i];
     const glm::dvec3 excess = removed * (gain_[i] + 0.5 * (wallPosition_[i] - gain_[i] - state.position[i]));
     if (finite(wallPosition_[i])) fastest_ = std::max(fastest_, glm::length(wallPosition_[i] - state.position[i] - excess) / dt);
-    glm::dvec3 v = contact(i, (state.predicted[i] - state.position[i] - excess) / dt, dt, solids);
+    glm::dvec3 v = contact(i, (state.predicted[i] - state.position[i] - excess) / dt, dt, solids, given);
     const double speed = glm::length(v);
     if (speed > settings.speedLimit) v *= settings.speedLimit / speed;
     if (finite(v)) {
@@ -246,6 +256,7 @@ void ReferenceSolver::velocities(double dt) {
       deactivate(i);
     }
   }
+  for (const Gift& gift : std::exchange(gifts_, {})) given(gift.solid, kept[gift.particle] * gift.amount, gift.at);
   time_ += dt;
   step_ = 0;
 }
@@ -303,14 +314,17 @@ void ReferenceSolver::predict(double dt, double dtNext) {
 }
 
 void ReferenceSolver::predictPositions(double dt, bool atRest) {
-  const std::vector<Pose> solids = poses(time_, atRest ? 0 : dt);
+  const std::vector<Pose> present = poses(time_, 0), solids = poses(time_, atRest ? 0 : dt);
+  warmImpulses_.assign(settings.solids.size(), {});
+  const Given given = addTo(warmImpulses_, present, 1 / dt), pushed = addTo(warmImpulses_, solids, 1 / dt);
   for (size_t i = 0; i < size(); ++i) {
     const glm::dvec3 v = atRest ? glm::dvec3(0) : state.velocity[i];
     glm::dvec3 x = state.position[i] + dt * (v + dt * settings.gravity) + state.warm[i] * vec(boundary_[i].gradient), push(0);
-    for (const Pair& pair : pairs(i)) push += (state.warm[i] + state.warm[pair.j]) * pair.gradient;
-    x += tangentialScale(i) * push;
+    for (const Pair& pair : pairs(i)) push += (state.warm[i] + state.warm[pair.j]) * (pairScale(i, pair) * pair.gradient);
+    give(i, state.warm[i], present, given);
+    x += push;
     if (finite(x)) {
-      state.predicted[i] = collide(x, solids);
+      state.predicted[i] = collide(x, solids, pushed);
     } else {
       deactivate(i);
     }

@@ -4,17 +4,18 @@
 //
 // A substep of dt. Notation: K = d^3 W as in sph/kernel.hpp, G_ij = grad_i K(x*_i - x*_j); sums over j are over neighbors and, but for
 // vorticity, over their images behind walls and the particle's own (reference/images.hpp), which move as in a mirror; B_i = density
-// contribution of solids, grad B_i its gradient, a_i = tangential scale, a symmetric matrix: solidScale() in sph/solid_scale.hpp.
+// contribution of solids, grad B_i its gradient, a_i = tangential scale, a symmetric matrix: solidScale() in
+// sph/solid_scale.hpp, a_ij = 1 + s (a_i - 1) + s (a_j - 1).
 //   density       rho_i/rho0 = K(0) + sum_j K_ij + B_i,   C_i = rho_i/rho0 - 1,
 //                 D_i = g . a_i g + tr(a_i) / 3 sum_j |G_ij|^2 + eps D_rest with g = sum_j G_ij + grad B_i
 //   multipliers   delta_i = -omega C_i / D_i,   lambda_i = min(0, lambda_i + delta_i), initially w_i; its change is dlambda_i.
 //                 In the first iteration w_i = min(0, w_i + kappa delta_i): an integral that keeps the pressure of a fluid at rest from
 //                 substep to substep (warm start)
-//   correction    x*_i += a_i sum_j (dlambda_i + dlambda_j + s_ij) G_ij + dlambda_i grad B_i, then projected out of solids and walls
+//   correction    x*_i += sum_j a_ij (dlambda_i + dlambda_j + s_ij) G_ij + dlambda_i grad B_i, then projected out of solids and walls
 //   velocities    v = (x* - x) / dt, contact with solids, |v| <= the limit, x = x*
 //   viscosity     XSPH, and noise damping of slow fluid;  vorticity   confinement;  drag   linear
 //   predict       w_i *= (dt_next/dt)^2,
-//                 x*_i = x_i + dt_next (v_i + g dt_next) + a_i sum_j (w_i + w_j) G_ij + w_i grad B_i, then projected out of solids and
+//                 x*_i = x_i + dt_next (v_i + g dt_next) + sum_j a_ij (w_i + w_j) G_ij + w_i grad B_i, then projected out of solids and
 //                 walls
 // Density to correction repeat for every iteration. The pairs of the last density evaluation (neighbors, K_ij and G_ij) are used by all
 // stages up to the next one.
@@ -47,6 +48,9 @@ inline constexpr double kCoincidentDistance = 1e-3, kCoincidentGradient = 0.05;
 
 /// A particle is in contact with a solid if its center is within this many spacings of the surface; centers are kept at 0.5.
 inline constexpr double kContactDistance = 0.55;
+
+/// s of a_ij = 1 + s (a_i - 1) + s (a_j - 1); see docs/notes/walls-and-solids.md.
+inline constexpr double kScaleOfPair = 0.4;
 
 /// Lower limit of D_i over D_rest, which avoids division by zero for isolated particles with eps = 0.
 inline constexpr double kMinDenominator = 1e-6;
@@ -125,8 +129,8 @@ class ReferenceSolver {
   void begin(double dt);
 
   /// Solves for the initial hydrostatic pressure, w for a step of `dt` (s, > 0). Call before begin(), with finite particles. Jacobi
-  /// iterations with heavy-ball momentum (Polyak 1964) at fixed positions: x*_i = x_i + g dt^2 + a_i sum_j (w_i + w_j) G_ij + w_i grad B_i,
-  /// projected out of solids and walls, then w_i = min(0, min(0, w_i + momentum * previous change of w_i) + delta_i).
+  /// iterations with heavy-ball momentum (Polyak 1964) at fixed positions: x*_i = x_i + g dt^2 + sum_j a_ij (w_i + w_j) G_ij + w_i grad
+  /// B_i, projected out of solids and walls, then w_i = min(0, min(0, w_i + momentum * previous change of w_i) + delta_i).
   void solveInitialPressure(double dt, double momentum, int iterations);
 
   /// Runs a substep of `dt`, the `dtNext` of the previous call or the `dt` of begin(), and predicts one of `dtNext`. s, > 0.
@@ -145,6 +149,14 @@ class ReferenceSolver {
   void vorticity(double dt);
   void drag(double dt);                    ///< v: dv/dt = -drag v
   void predict(double dt, double dtNext);  ///< w, x*
+
+  /// Impulse and angular impulse of the fluid on a solid in a substep, N s and N m s, about its center; gravity on the solid is not
+  /// included. They are the reaction to what the particle's displacement owes to the solid: its density, collisions
+  /// and contact.
+  struct Impulse {
+    glm::dvec3 linear = {0, 0, 0}, angular = {0, 0, 0};
+  };
+  std::span<const Impulse> impulses() const { return impulses_; }  ///< one per solid, of the last substep
 
   /// Called by substep() after each of its stages; empty: not called.
   std::function<void(Stage)> onStage;
@@ -175,13 +187,21 @@ class ReferenceSolver {
   double xsphCoefficient(double viscosity, double dt) const;
 
  private:
-  glm::dvec3 collide(glm::dvec3 x, std::span<const Pose> poses) const;
-  glm::dvec3 contact(size_t i, glm::dvec3 v, double dt, std::span<const Pose> poses) const;
+  /// What a solid gives a particle, of any unit, and the point that its reaction acts at.
+  using Given = std::function<void(size_t solid, const glm::dvec3& amount, const glm::dvec3& at)>;
+  glm::dvec3 collide(glm::dvec3 x, std::span<const Pose> poses, const Given& given = {}) const;
+  glm::dvec3 contact(size_t i, glm::dvec3 v, double dt, std::span<const Pose> poses, const Given& given) const;
+  void give(size_t i, double multiplier, std::span<const Pose> poses, const Given& given) const;  ///< multiplier times grad B_i
+  Given addTo(std::vector<Impulse>& impulses, std::span<const Pose> poses, double factor) const;
   std::vector<Pose> poses(double t, double dt) const;
   SolidSample boundaryOf(const glm::dvec3& x, std::span<const Pose> poses) const;
+  /// Calls visit(solid, sample, image) with what each solid displaces at each image of x, in the scene's frame and not reflected.
+  void forEachSample(const glm::dvec3& x, std::span<const Pose> poses,
+                     const std::function<void(size_t, const SolidSample&, const Image&)>& visit) const;
   SolidSample displacedBy(size_t solid, const Double3& local) const;                  ///< in the solid's frame
   SurfacePoint surfaceOf(size_t solid, const Pose& pose, const glm::dvec3& x) const;  ///< of a mesh from its field
   glm::dmat3 tangentialScale(size_t i) const;                                         ///< a_i
+  glm::dmat3 pairScale(size_t i, const Pair& pair) const;                             ///< a_ij
   Pair makePair(uint32_t i, uint32_t j) const;
   void addImages(uint32_t i, std::span<const uint32_t> neighbors);
   void predictPositions(double dt, bool atRest);
@@ -206,6 +226,14 @@ class ReferenceSolver {
   std::vector<Pair> pairs_;
   std::vector<double> densityRatio_, denominator_, delta_, lambda_, lambdaChange_;
   std::vector<SolidSample> boundary_;
+  std::vector<glm::dvec3> boundaryPlace_;         ///< m, that it is of
+  std::vector<Impulse> impulses_, warmImpulses_;  ///< of the present substep; of the prediction of the next one
+  /// What solids gave in the last correction, m, before gains are bounded.
+  struct Gift {
+    size_t particle, solid;
+    glm::dvec3 amount, at;
+  };
+  std::vector<Gift> gifts_;
   std::vector<glm::dvec3> curl_;
   double blockTime_ = 0;                  ///< s, since the first substep of the last block
   double push_ = 0;                       ///< m^2, of the last correction

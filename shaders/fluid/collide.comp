@@ -15,11 +15,32 @@ layout(std430, binding = 7) readonly buffer SumsBlock { FluidSums sums; };
 layout(std430, binding = 8) readonly buffer SolidBlock { SolidRecord solids[]; };
 #include "shared/arrays.glsl"
 READ_UINT(13, meshWord)
+layout(std430, binding = 14) buffer SolidSumsBlock { uint solidSums[]; };
+#include "shared/pose.glsl"
+#include "fluid/solid_sums.glsl"
+bool loads = false;  // whether what pushes a center counts
+#define PUSHED(k, x, by) if (LOADS && loads) addToSolid(k, by, x)
 #include "fluid/outside.glsl"
 layout(std430, binding = 9) readonly buffer FreeBlock { vec4 freeVelocity[]; };
 layout(std430, binding = 10) readonly buffer WorkBlock { uvec4 work[]; };
 layout(std430, binding = 11) readonly buffer WarmBlock { float warm[]; };
 layout(std430, binding = 12) readonly buffer DisplacedBlock { vec4 nearDisplaced[]; };
+
+// The listed solid nearest to x, which pushed its prediction, and the direction.
+uint nearestSolid(uvec3 near, vec3 x, out vec3 direction) {
+  uint nearest = kNoSolid;
+  float least = 3.0e38;
+  direction = vec3(0.0);
+  for (uint m = 0u, k; nextSolid(near, m, k); ++m) {
+    vec3 normal;
+    float distance = surfaceDistance(solids[k].shape, localPoint(solids[k].pose, x), normal);
+    if (distance >= least) continue;
+    least = distance;
+    nearest = k;
+    direction = toScene(solids[k].pose, normal);
+  }
+  return nearest;
+}
 
 void predict(uint i, uvec3 near, vec3 x, vec3 v) {
   if (FORCES) return;  // predict.comp, after them
@@ -36,7 +57,9 @@ void main() {
   vec3 from = position[i].xyz;
   if (!isActive(from)) return;
   float pushed;
+  loads = control.phase == kPhaseAdvancing;
   vec3 x = outside(from, near, 0.0, pushed);
+  loads = false;
   if (control.phase != kPhaseAdvancing) {
     position[i] = vec4(x, 0.0);
     predict(i, near, x, velocity[i].xyz);
@@ -48,6 +71,11 @@ void main() {
   float change = unpackHalf2x16(work[i].w).x * (params.inverseRestGradient / kMultiplierScale);
   float multiplier = min(0.0, (WARM ? warm[i] : 0.0) + (1.0 - control.warmGain) * change);
   vec3 given = multiplier * nearDisplaced[i].xyz / control.step + (x - from) / control.step;
+  if (LOADS && freeVelocity[i].w > 0.0) {
+    vec3 direction, at = uintBitsToFloat(work[i].xyz);
+    uint pushing = nearestSolid(near, at, direction);
+    if (pushing != kNoSolid) addToSolid(pushing, freeVelocity[i].w * direction, at);
+  }
   for (uint m = 0u, k; nextSolid(near, m, k); ++m) {
     if (solids[k].friction <= 0.0 && solids[k].restitution <= 0.0) continue;
     vec3 normal;
@@ -65,7 +93,9 @@ void main() {
     }
     float slip = length(along);
     along *= slip > 0.0 ? max(0.0, 1.0 - solids[k].friction * impulse / slip) : 0.0;
-    v = moving + along + away * normal;
+    vec3 after = moving + along + away * normal;
+    if (LOADS) addToSolid(k, control.step * (after - v), x);
+    v = after;
   }
   v *= min(1.0, params.speedLimit / max(sqrt(dot(v, v)), 1.0e-20));
   position[i] = vec4(x, 0.0);

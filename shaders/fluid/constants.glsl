@@ -17,5 +17,6 @@ layout(constant_id = 12) const bool REBUILDS = false;  // the list is built afte
 layout(constant_id = 14) const uint TENSILE_POWER = 0; // n of artificial pressure if that is whole, else 0
 layout(constant_id = 15) const bool MESHES = false;    // some solids are meshes
 layout(constant_id = 16) const bool CULL_SOLIDS = false;  // many solids: each workgroup finds those near it
+layout(constant_id = 17) const bool LOADS = false;     // loads on solids are asked for
 #define LIST_OVERSIZED_ID 13
 #endif

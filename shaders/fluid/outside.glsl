@@ -6,6 +6,11 @@
 #include "shared/pose.glsl"
 #include "shared/shape.glsl"
 
+// PUSHED(k, x, by), if defined, is told that solid k moved the center at x.
+#ifndef PUSHED
+#define PUSHED(k, x, by)
+#endif
+
 // Moves a center out of the solids `near` it, where each will be `ahead` seconds from now, walls last.
 // `pushed`: m that solids moved it.
 vec3 outside(vec3 x, uvec3 near, float ahead, out float pushed) {
@@ -15,7 +20,9 @@ vec3 outside(vec3 x, uvec3 near, float ahead, out float pushed) {
     vec3 normal;
     float distance = surfaceDistance(solids[k].shape, localPoint(pose, x), normal);
     if (distance < params.margin) {
-      x += toScene(pose, normal) * (params.margin - distance);
+      vec3 by = toScene(pose, normal) * (params.margin - distance);
+      PUSHED(k, x, by);
+      x += by;
       pushed += params.margin - distance;
     }
   }

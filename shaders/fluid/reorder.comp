@@ -14,10 +14,12 @@ READ_UINT(10, id)
 layout(std430, binding = 11) writeonly buffer SortedPositionBlock { vec4 sortedPosition[]; };
 layout(std430, binding = 12) writeonly buffer SortedPredictionBlock { vec4 sortedPrediction[]; };
 layout(std430, binding = 13) writeonly buffer SortedVelocityBlock { vec4 sortedVelocity[]; };
+layout(std430, binding = 14) writeonly buffer TangentialBlock { vec4 nearTangential[]; };  // 0 until solids are found to be near
 
 void main() {
   uint slot = flatInvocation();
   if (slot >= control.count) return;
+  if (SOLIDS) nearTangential[slot] = vec4(0.0);
   uint place, from = arrival(slot, place);
   sortedPosition[place] = vec4(positionAt(from).xyz, numberToFloat(idAt(from)));
   sortedPrediction[place] = predictionAt(from);

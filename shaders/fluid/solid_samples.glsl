@@ -1,12 +1,11 @@
-// What solids do to a particle that they are near, in two arrays, each as large as the positions; undefined for others:
-// nearDisplaced, the gradient of the displaced density, with its value in w; and nearTangential, the diagonal of the tangential scale less
-// 1, with the rest packed in w.
+// What solids do to a particle that they are near, in two arrays, each as large as the positions: nearDisplaced, the gradient of the
+// displaced density, with its value in w, undefined for others; and nearTangential, the diagonal of the tangential scale less 1, with the
+// rest packed in w, 0 for others.
 #ifndef RILL_SOLID_SAMPLES_GLSL
 #define RILL_SOLID_SAMPLES_GLSL
 #include "shared/arrays.glsl"
 
-// What solids do to a correction: the neighbors' share is multiplied by a symmetric matrix that
-// makes up, along each surface, for the support that is missing behind it.
+// A symmetric matrix that makes up, along each surface, for the support that is missing behind it.
 struct SolidScale {
   vec3 diagonal;
   vec3 mixed;  // yz, zx, xy; 0 where all surfaces are along the axes
@@ -16,6 +15,10 @@ const SolidScale kNoSolids = SolidScale(vec3(1.0), vec3(0.0));
 vec3 scaled(SolidScale s, vec3 neighbors) {
   return s.diagonal * neighbors + s.mixed.zxy * neighbors.yzx + s.mixed.yzx * neighbors.zxy;
 }
+
+// A pair's correction is multiplied by 1 + b_i + b_j, so that it stays opposite for the two; b is this share of the scale less 1.
+const float kScaleOfPair = 0.4;
+vec3 scaledExcess(SolidScale s, vec3 neighbors) { return kScaleOfPair * (scaled(s, neighbors) - neighbors); }
 
 // D of docs/method.md: of the gradient's sum and its squares, and `more`.
 float stiffnessAtSolids(SolidScale s, vec3 gradient, float squares, float more) {

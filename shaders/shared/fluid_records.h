@@ -3,6 +3,7 @@
 #define RILL_FLUID_RECORDS_H
 #include "shared/interop.h"
 #include "shared/neighbor_list.h"
+#include "shared/solid_loads.h"
 #include "shared/solid_records.h"
 RILL_RECORDS_BEGIN
 
@@ -121,6 +122,7 @@ struct FluidParams {
   float initialPressureErrorLimit;       // mean compression of the start up to which it is looked for
   uint fullNeighbors;    // within the support: a particle with as many is inside the fluid
   uint commandCount;     // dispatches that the device switches on and off
+  float loadLever;       // m, a length of which moments about the centers of solids are counted in units
   float solidSpeedInCfl; // share of the speed of solids that the step follows: 1 where their walls may be thin
 };
 

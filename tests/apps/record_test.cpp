@@ -16,7 +16,7 @@ Scene scene() {
   made.name = "small";
   made.domain = Domain{{0, 0, 0}, {1, 1, 1}, 0};
   made.fluid.spacing = 0.1;
-  made.probes = {{"H1", std::pair(0.3, 0.1), std::nullopt}};
+  made.probes = {{.name = "H1", .level = std::pair(0.3, 0.1)}};
   return made;
 }
 

@@ -174,6 +174,7 @@ FluidTest::Run::Run(FluidTest& test, const Trial& trial, const FluidSnapshot* fr
                                                 .settle = trial.settle,
                                                 .capacity = trial.capacity,
                                                 .storageReads = trial.gather == Gather::Storage,
+                                                .loads = trial.loads,
                                                 .mergePasses = trial.mergePasses.value_or(trial.gather == Gather::Storage)});
   if (!made) throw std::runtime_error(made.error().message);
   fluid_ = std::move(*made);

@@ -28,6 +28,7 @@ struct Trial {
   double step = 1e-3;            ///< s
   Gather gather = Gather::Texel;
   uint32_t capacity = 0;  ///< 0: as many as there are particles
+  bool loads = false;     ///< loads on solids are measured
   bool settle = false;    ///< the oracle finds the start's pressure, but parts no particles: what settles should fit its room
   std::optional<bool> mergePasses = {};  ///< without a value: with Gather::Storage
   bool stepwise = false;                 ///< each substep is an advance of its own: the noise damping pass then runs in every one

@@ -97,13 +97,6 @@ TEST(Level, UsesSceneCoordinates) {
   EXPECT_NEAR(level(scene, block(10, 6, 5), 100.5, 7.25, {100, -5, 7}), 0.6, 1e-6);
 }
 
-TEST(Probe, MeasuresSelectedQuantity) {
-  const auto points = block(10, 6, 5);
-  const ProbeReader reader(tank(), points, {0, 0, 0});
-  EXPECT_NEAR(reader.measure({"H", std::pair(0.5, 0.25), std::nullopt}), 0.6, 1e-6);
-  EXPECT_NEAR(reader.measure({"F", std::nullopt, Axis::PlusX}), 1.0, 1e-6);
-}
-
 TEST(NeighborCounter, AgreesWithBruteForce) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> anywhere(-0.7f, 0.7f);

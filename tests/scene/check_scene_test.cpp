@@ -120,6 +120,15 @@ TEST(CheckScene, RejectsInvalidValuesNamingKeyAndExpectation) {
       {[](Scene& s) { s.probes[1].front = Axis(6); },
        "probes[1].front: invalid enum value 6; expected the value of \"+x\", \"-x\", \"+y\", \"-y\", \"+z\", \"-z\""},
       {[](Scene& s) { s.probes[0].level->second = kNan; }, "probes[0].level[1]: nan is not finite; expected a number (m)"},
+      {[](Scene& s) { s.probes.push_back({.name = "l", .load = "crate"}); },
+       "probes[2].load: no solid is named \"crate\"; expected the name of a solid, but no solid has one"},
+      {[](Scene& s) {
+         s.solids[0].name = "crate";
+         s.probes.push_back({.name = "p", .pose = "crat"});
+       },
+       "probes[2].pose: no solid is named \"crat\"; expected one of \"crate\"; did you mean \"crate\"?"},
+      {[](Scene& s) { s.probes[0].load = "crate"; },
+       "probes[0]: expected exactly one of \"level\", \"front\", \"load\", \"pose\"; found \"level\", \"load\""},
       {[](Scene& s) { s.camera->eye[2] = 0; }, "camera.target: eye and target are the same point; expected two different points"},
       {[](Scene& s) { s.look.preset = "watr"; },
        "look.preset: found the string \"watr\", expected one of \"water\", \"milk\", \"ink\", \"clay\"; did you mean \"water\"?"},

@@ -51,6 +51,8 @@ constexpr Band kBands[] = {
     {"slosh", "energy, peak", kNoAim, {0.02, 0.02, 0.02}, "%", ""},
     {"dam-over-", "levels, mesh", 0.01, {0.01, 0.01, 0.01}, "%", ""},
     {"dam-over-", "levels, scatter", kNoAim, {kNotChecked, kNotChecked, kNotChecked}, "%", ""},
+    {"lift-", "lift", 0.01, {0.03, 0.02, 0.015}, "%", ""},
+    {"lift-", "lift, rms", 0.01, {0.01, 0.01, 0.01}, "%", ""},
     {"elliptic-drop", "long axis, end", 0.03, {0.03, 0.06, 0.05}, "%", kElliptic},
     {"elliptic-drop", "long axis, worst", 0.03, {0.03, 0.06, 0.05}, "%", kElliptic},
     {"elliptic-drop", "short axis, end", kNoAim, {1.3, 6, 3}, "%", ""},

@@ -43,8 +43,15 @@ struct FluidDesc {
   /// Particles that there is room for; at least those at the start, for which 0 stands.
   uint32_t capacity = 0;
   bool storageReads = false;  ///< never use texel buffers to read arrays (slower on most CPU drivers)
+  bool loads = false;         ///< measure loads on solids, as a scene with a probe of a load does: FluidState::loads, Fluid::solidLoads()
   /// Fewer and larger passes, with the same results: less latency on GPUs, slower on CPU drivers. Without a value: on all but CPU devices.
   std::optional<bool> mergePasses = {};
+};
+
+/// What the fluid does to a solid, in the axes of the scene; torques are about the solid's center (of a mesh: its origin).
+struct SolidLoad {
+  Double3 force = {0, 0, 0}, torque = {0, 0, 0};            ///< mean over the last advance that has ended, N and N m
+  Double3 impulse = {0, 0, 0}, angularImpulse = {0, 0, 0};  ///< since the start, N s and N m s
 };
 
 /// Device memory of a Fluid, bytes.
@@ -96,6 +103,7 @@ struct FluidState {
   BufferRef countBuffer = {};
   BufferRef solids = {};       ///< SolidRecord (solid_records.h) per solid, at the present time; null if no solid is driven or a mesh
   BufferRef meshWords = {};    ///< fields of the meshes (mesh_field.h); null without meshes
+  BufferRef loads = {};        ///< SolidLoadRecord (solid_loads.h) per solid; null unless loads are measured
   uint32_t capacity = 0;       ///< entries of the arrays: particles at most; those beyond the particles are inactive, far from all others
   float spacing = 0;           ///< m
   Double3 origin = {0, 0, 0};  ///< m
@@ -163,6 +171,9 @@ class RILL_API Fluid {
   const FluidProgress& progress() const;
   /// Executions of passes between the two last frames known to have finished. Passes that are not listed always execute.
   std::vector<FluidPassRuns> passRuns() const;
+
+  /// Loads on the solids after the last finished frame; zeros before the first. Empty unless loads are measured.
+  std::span<const SolidLoad> solidLoads() const;
 
   /// Center of a driven solid at the end of the last declared advance, m: the target, or a point on the path to it if the target was too
   /// far. NaN for a solid that is not driven.

@@ -16,6 +16,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "rill/expected.hpp"
@@ -80,11 +81,28 @@ struct FrameMemory {
 /// A text table of the heaps with and without aliasing.
 std::string memoryTable(std::span<const FrameMemory> frames);
 
+/// Value of a probe of a load: of the fluid on a solid, mean over the last advance().
+struct LoadValue {
+  Double3 force = {0, 0, 0};   ///< N
+  Double3 torque = {0, 0, 0};  ///< N m, about the solid's center
+};
+
+/// Value of a probe of a pose, in the scene.
+struct PoseValue {
+  Double3 position = {0, 0, 0};         ///< of the center, m
+  Quaternion rotation = {0, 0, 0, 1};   ///< unit quaternion x y z w, from the solid's frame to the scene's
+  Double3 velocity = {0, 0, 0};         ///< m/s
+  Double3 angularVelocity = {0, 0, 0};  ///< rad/s
+};
+
+/// A length (m) of a level or a front, or one of the above.
+using ProbeValue = std::variant<double, LoadValue, PoseValue>;
+
 /// Statistics at one time, as written by `rill-capture --stats`.
 struct Stats : FluidStats {
-  double front_m = 0;                                       ///< farthest fluid along +x, relative to the domain's minimum, m
-  uint64_t stateHash = 0;                                   ///< FNV-1a of positions and velocities in id order
-  std::vector<std::pair<std::string, double>> probes = {};  ///< name and value, m
+  double front_m = 0;                                           ///< farthest fluid along +x, relative to the domain's minimum, m
+  uint64_t stateHash = 0;                                       ///< FNV-1a of positions and velocities in id order
+  std::vector<std::pair<std::string, ProbeValue>> probes = {};  ///< name and value
   uint64_t pictureBoundHits = 0;      ///< times that shader loops of the renderer reached their limit in pictures at this time
   double wall_s = 0;                  ///< wall-clock time of the last advance()
   std::vector<PassTime> passes = {};  ///< recorded passes of the last advance

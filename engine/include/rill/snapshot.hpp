@@ -38,9 +38,10 @@ struct NearSolids {
 /// The persistent state of a fluid between two advances, on the host: everything that later steps depend on, bit by bit
 /// (docs/architecture.md, "What is persisted"). Arrays have one entry per particle, in the order of the device.
 struct FluidSnapshot {
-  std::vector<uint32_t> control = {};                ///< FluidControl (shaders/shared/fluid_records.h), word by word
-  std::vector<uint32_t> sums = {};                   ///< FluidSums, word by word
-  std::vector<float> solids = {};                    ///< the pose of each solid (shaders/shared/solid_records.h); empty if no solid moves
+  std::vector<uint32_t> control = {};  ///< FluidControl (shaders/shared/fluid_records.h), word by word
+  std::vector<uint32_t> sums = {};     ///< FluidSums, word by word
+  std::vector<float> solids = {};      ///< the pose of each solid (shaders/shared/solid_records.h); empty if no solid moves
+  std::vector<float> loads = {};       ///< SolidLoadRecord (solid_loads.h) of each solid, word by word; empty unless loads are measured
   std::vector<Float3> position = {}, velocity = {};  ///< m, m/s
   // Warm start; empty without one.
   std::vector<Float4> warmAcceleration = {};  ///< m/s^2; w: last multiplier (m^2) while the initial pressure is solved for

@@ -1,0 +1,60 @@
+// The density that a solid displaces, from the tables of engine/sph/solid_density.hpp and the fields of engine/sph/mesh_field.hpp.
+// Needs `params`, tableAt(k), the storage array `solids`, and shared/pose.glsl and shared/shape.glsl.
+#ifndef RILL_SOLID_DENSITY_GLSL
+#define RILL_SOLID_DENSITY_GLSL
+
+// Value and slope at distance s of the table that begins at `offset`; beyond it those of its last node, which are 0.
+vec2 line(uint offset, uint nodes, float s) {
+  float at = clamp(s, 0.0, params.support * 2.0) / params.tableStep;
+  uint node = min(uint(at), nodes - 2u);
+  vec4 both = tableAt(offset + node);
+  return mix(both.xy, both.zw, clamp(at - float(node), 0.0, 1.0));
+}
+
+// F of engine/sph/half_space.hpp: the share that a half-space at signed distance s displaces, and its slope.
+vec2 face(float s) {
+  vec2 f = line(0u, params.tableNodes, abs(s));
+  return s < 0.0 ? vec2(1.0 - f.x, f.y) : f;
+}
+
+// A box displaces the product of its slabs, a ball what its own table says, a mesh what a half-space does times a factor.
+vec4 solidSample(SolidRecord s, vec3 x) {
+  vec3 local = localPoint(s.pose, x);
+  if (MESHES && s.shape.kind == kShapeMesh) {
+    MeshSample mesh = meshSample(s.shape.field, local);
+    vec2 f = face(mesh.distance);
+    return vec4(toScene(s.pose, f.y * mesh.factor * mesh.gradient + f.x * mesh.factorGradient), f.x * mesh.factor);
+  }
+  if (s.shape.kind == kShapeSphere) {
+    vec3 normal;
+    float distance = surfaceDistance(s.shape, local, normal);
+    vec2 f = line(s.tableOffset, s.tableNodes, distance - s.tableFirst);
+    return vec4(toScene(s.pose, normal * f.y), f.x);
+  }
+  vec3 half_ = halfExtents(s.shape), slab, slope;
+  for (int a = 0; a < 3; ++a) {
+    vec2 near = face(local[a] - half_[a]), far = face(local[a] + half_[a]);
+    slab[a] = near.x - far.x;
+    slope[a] = near.y - far.y;
+  }
+  vec3 gradient = vec3(slope.x * slab.y * slab.z, slab.x * slope.y * slab.z, slab.x * slab.y * slope.z);
+  return vec4(toScene(s.pose, gradient), slab.x * slab.y * slab.z);
+}
+
+// How much of a solid's image counts, which has x at `image`: of a solid that reaches through a wall the part behind it
+// counts itself, so that its image fades within a spacing.
+float shareOfImage(SolidRecord s, vec3 image) {
+  vec3 half_ = halfExtents(s.shape), reach = vec3(0.0);  // along the scene's axes
+  for (int a = 0; a < 3; ++a) {
+    vec3 edge = vec3(0.0);
+    edge[a] = half_[a];
+    reach += abs(toScene(s.pose, edge));
+  }
+  if (s.shape.kind == kShapeSphere) reach = vec3(s.shape.halfX);
+  vec3 low = wallsLow(), high = wallsHigh(), middle = centerOf(s.pose) + toScene(s.pose, middleOf(s.shape));
+  vec3 through = mix(vec3(0.0), low - (middle - reach), lessThan(image, low));
+  through = mix(through, middle + reach - high, greaterThan(image, high));
+  vec3 share = 1.0 - clamp(through / params.spacing, vec3(0.0), vec3(1.0));
+  return share.x * share.y * share.z;
+}
+#endif

@@ -1,0 +1,43 @@
+// Adds displacements that solids give particles to the sums of the solids (shared/solid_loads.h). Needs `params`, shared/pose.glsl,
+// and the storage arrays `solids` and `solidSums`.
+#ifndef RILL_SOLID_SUMS_GLSL
+#define RILL_SOLID_SUMS_GLSL
+#include "shared/solid_loads.h"
+
+// Adds `high` 2^24 + `low` to the sum at `word`.
+void addWide(uint word, int high, uint low) {
+  uint carry, add = uaddCarry(uint(high) << 24, low, carry), old = atomicAdd(solidSums[word], add);
+  uint above = uint(high >> 8) + carry + uint(old + add < old);
+  if (above != 0u) atomicAdd(solidSums[word + 1u], above);
+}
+
+// A number of units as high 2^24 + low; 0 for one that is not finite.
+void split(float units, out int high, out uint low) {
+  const float most = kMaxDisplacement / kDisplacementUnits;
+  float whole = isWithin(vec3(units), 3.0e38) ? round(clamp(units, -most, most)) : 0.0, upper = floor(whole / 16777216.0);
+  high = int(upper);
+  low = uint(whole - upper * 16777216.0);
+}
+
+// Of a displacement (m) that solid k gives a particle, whose reaction acts at `at`, as units of the six components.
+void toUnits(uint k, vec3 displacement, vec3 at, out float units[kLoadComponents]) {
+  vec3 linear = displacement / (params.spacing * kDisplacementUnits);
+  vec3 angular = cross(at - centerOf(solids[k].pose), linear) / params.loadLever;
+  for (int a = 0; a < 3; ++a) {
+    units[a] = linear[a];
+    units[a + 3] = angular[a];
+  }
+}
+
+void addToSolid(uint k, vec3 displacement, vec3 at) {
+  if (displacement == vec3(0.0)) return;
+  float units[kLoadComponents];
+  toUnits(k, displacement, at, units);
+  for (uint c = 0u; c < kLoadComponents; ++c) {
+    int high;
+    uint low;
+    split(units[c], high, low);
+    addWide(k * kSolidSumWords + kSolveSums + 2u * c, high, low);
+  }
+}
+#endif

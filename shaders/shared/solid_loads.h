@@ -1,0 +1,30 @@
+// What the fluid does to solids: sums of a substep, and the loads that follow from them.
+#ifndef RILL_SOLID_LOADS_H
+#define RILL_SOLID_LOADS_H
+#include "shared/interop.h"
+RILL_RECORDS_BEGIN
+
+// Components of a load: those of the force, then those of the torque about the solid's center.
+RILL_CONST uint kLoadComponents = 6u;
+
+// Sums of a solid over the particles near it, in 64-bit integers of two words, the low one first, so that their order does not matter:
+// displacements that the solid gives particles in a substep, in kDisplacementUnits of the spacing, and their moments about its center,
+// in these times FluidParams::loadLever. First those of the solve, then those of the warm start, which the next substep applies.
+RILL_CONST uint kSolveSums = 0u;
+RILL_CONST uint kWarmSums = 2u * kLoadComponents;
+RILL_CONST uint kSolidSumWords = 4u * kLoadComponents;
+RILL_CONST float kDisplacementUnits = 1.0f / 1099511627776.0f;  // 2^-40
+RILL_CONST float kMaxDisplacement = 8.0f;                       // spacings: what one particle adds, at most
+
+// N and N m; N s and N m s. In the axes of the scene, about the solid's center. Without the solid's own weight.
+struct SolidLoadRecord {
+  float mean[kLoadComponents];         // over the last advance that has ended
+  float impulseHigh[kLoadComponents];  // since the start, as the sum of two floats
+  float impulseLow[kLoadComponents];
+  float advance[kLoadComponents];      // of the present advance
+  float advanceTime;                   // s, likewise
+  float warm[kLoadComponents];         // N and N m, of the warm start: the next substep applies it
+};
+
+RILL_RECORDS_END
+#endif

@@ -1,0 +1,116 @@
+// Loads of the fluid on solids: against the reference, against the momentum that the fluid got, and against Archimedes.
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "fluid/rig.hpp"
+#include "shape/shape.hpp"
+#include "support/meshes.hpp"
+
+namespace rill::test {
+namespace loads_test {
+
+glm::dvec3 vec(const Double3& v) { return {v.x, v.y, v.z}; }
+
+/// Particles outside of the solids.
+void place(Trial& t, const std::vector<glm::dvec3>& points) {
+  for (const glm::dvec3& x : points) {
+    bool outside = true;
+    for (const Solid& solid : t.scene.solids)
+      outside &= surfaceAt(solid.shape, solidPose(solid, 0), {x.x, x.y, x.z}).distance > 0.52 * t.d();
+    if (outside) t.x.push_back(x);
+  }
+}
+
+/// Fluid under gravity around a box that is turned and a ball, both near walls.
+Trial crowded() {
+  Trial t = trial();
+  setWalls(t, {0.9, 1.2, 0.7});
+  Solid box = slab({0.05, 0.1, 0.1}, {0.35, 0.3, 0.4});
+  box.rotation = {0, 0, std::sin(0.2), std::cos(0.2)};
+  t.scene.solids = {box, ball({0.65, 0.3, 0.4}, 0.12)};
+  t.loads = true;
+  place(t, block({14, 10, 11}, t.d(), {0, 0, 0}, 0.02));
+  t.v.assign(t.x.size(), {4, -6, 3});  // so fast that no gain is bounded, which acts on each particle alone
+  return t;
+}
+
+class LoadsTest : public FluidTest {
+ protected:
+  /// Impulses since the start, on the device and of the reference.
+  void expectReferenceLoads(const Trial& t, int substeps, double limit) {
+    Oracle oracle(t);
+    std::vector<reference::ReferenceSolver::Impulse> sums(t.scene.solids.size());
+    for (int n = 0; n < substeps; ++n) {
+      oracle.advance(1);
+      for (size_t k = 0; k < sums.size(); ++k) {
+        sums[k].linear += oracle.solver().impulses()[k].linear;
+        sums[k].angular += oracle.solver().impulses()[k].angular;
+      }
+    }
+    for (Gather gather : kGathers) {
+      SCOPED_TRACE(nameOf(gather));
+      Trial own = t;
+      own.gather = gather;
+      auto run = start(own);
+      run->substeps(substeps);
+      ASSERT_EQ(run->fluid().solidLoads().size(), sums.size());
+      for (size_t k = 0; k < sums.size(); ++k) {
+        const SolidLoad& load = run->fluid().solidLoads()[k];
+        const double size = glm::length(sums[k].linear);
+        ASSERT_GT(size, 0) << k;
+        EXPECT_LT(glm::length(vec(load.impulse) - sums[k].linear), limit * size) << k;
+        EXPECT_LT(glm::length(vec(load.angularImpulse) - sums[k].angular), limit * (0.1 * size + glm::length(sums[k].angular))) << k;
+        for (int a = 0; a < 3; ++a) EXPECT_NEAR(load.force[a] * substeps * t.step, load.impulse[a], 1e-5 * size) << "one advance";
+      }
+    }
+  }
+};
+
+TEST_F(LoadsTest, MatchReference) {
+  expectReferenceLoads(crowded(), 3, 2e-3);
+  expectReferenceLoads(crowded(), 10, 4e-2);  // particles differ by a hundredth of the spacing then
+}
+
+TEST_F(LoadsTest, ContactMatchesReference) {
+  Trial t = crowded();
+  for (Solid& solid : t.scene.solids) {
+    solid.friction = 0.4;
+    solid.restitution = 0.3;
+  }
+  expectReferenceLoads(t, 3, 2e-3);
+  expectReferenceLoads(t, 10, 4e-2);
+}
+
+/// Fluid that meets two solids far from walls, without gravity.
+Trial free() {
+  Trial t = trial();
+  t.scene.gravity[1] = 0;
+  t.scene.solver.cfl = 10;
+  t.loads = true;
+  Solid box = slab({-0.2, -0.3, -0.25}, {0.2, -0.05, 0.2});
+  box.rotation = {0.1, 0, std::sin(0.2), std::sqrt(1 - 0.01 - std::sin(0.2) * std::sin(0.2))};
+  t.scene.solids = {box, ball({0.15, 0.2, 0.1}, 0.13)};
+  place(t, block({10, 12, 10}, 0.985 * t.d(), glm::dvec3(-0.3), 0.02));
+  t.v.assign(t.x.size(), {8, -6, 5});
+  return t;
+}
+
+TEST_F(LoadsTest, AreWhatTheFluidGot) {
+  Trial t = free();
+  for (int iterations : {1, 3}) {
+    t.scene.solver.iterations = static_cast<uint32_t>(iterations);
+    SCOPED_TRACE(iterations);
+    auto run = start(t);
+    const glm::dvec3 before = run->snapshot().velocitySum();
+    run->substeps(10);
+    const glm::dvec3 got = Oracle(t).solver().mass() * (run->snapshot().velocitySum() - before);
+    glm::dvec3 given(0);
+    for (const SolidLoad& load : run->fluid().solidLoads()) given += vec(load.impulse);
+    EXPECT_GT(glm::length(got), 100) << "N s";
+    // Where a solid pushed a prediction is known after the iterations alone, which turn the direction.
+    EXPECT_LT(glm::length(got + given), (iterations == 1 ? 1e-5 : 1e-3) * glm::length(got));
+  }
+}
+
+}  // namespace loads_test
+}  // namespace rill::test
