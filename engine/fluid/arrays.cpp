@@ -58,6 +58,8 @@ constexpr std::array<ArrayRow, kArrays> kArrayTable = {{
     {NearDisplaced, "nearDisplaced", "density that solids displace", Fluid, kVector, perParticleIfSolids, Account::Particles},
     {NearTangential, "nearTangential", "tangential scales at solids", Fluid, kVector,
      [](const ArrayShape& s) { return s.solids > 0 ? withDummy(s) : 0; }, Account::Particles},
+    {NearExcess, "nearExcess", "corrections by scales of neighbors", Fluid, kVector,
+     [](const ArrayShape& s) { return 2 * perParticleIfSolids(s); }, Account::Particles},
     {NearSolids, "nearSolids", "particles near solids", Fluid, sizeof(NearSolidRecord), perParticleIfSolids, Account::Particles},
 
     {CellStart, "cellStart", "cell starts", Fluid, kWord, [](const ArrayShape& s) { return s.cellStarts; }, Account::Grid},
@@ -127,7 +129,7 @@ ArrayShape arrayShape(const Scene& scene, uint64_t particles) {
           .iterated = scene.solver.iterations > 1,
           .smooths = scene.fluid.viscosity > 0,  // noise damping shares memory with a rebuild
           .vorticity = scene.fluid.vorticity > 0,
-          .loads = measuresLoads(scene)};
+          .loads = !scene.solids.empty()};  // a host may ask for them
 }
 
 uint64_t arrayBytes(FluidArray array, const ArrayShape& shape) {

@@ -42,6 +42,7 @@ enum class FluidArray : uint8_t {
   Cell,
   NearDisplaced,
   NearTangential,
+  NearExcess,
   NearSolids,
   // The neighbor search.
   CellStart,

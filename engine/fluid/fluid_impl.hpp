@@ -188,7 +188,7 @@ void FluidImpl::declare(Graph& graph, FluidPass pass, Start start, Push push) {
     };
     std::array<Dispatched, 2 * kMaxListChunks> all;
     size_t dispatches = 0;
-    const bool chunked = row.extent == Extent::Chunks || row.extent == Extent::Gather;
+    const bool chunked = row.extent == Extent::Chunks || row.extent == Extent::Gather || row.extent == Extent::NearGather;
     if (start != Start::Always) declared.read(ref(prepared.arguments), Use::Indirect);
     for (uint32_t c = 0; c < (chunked ? chunkCount() : 1); ++c)
       for (size_t v = 0; v < prepared.variants.size(); ++v) {

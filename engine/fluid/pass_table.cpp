@@ -42,6 +42,7 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::DisplaceDensity, "density of solids", "fluid/solids", E::NearSolids, kSolve, kSolids},
     {P::Density, "density", "fluid/density", E::Gather, kSolve},
     {P::Control, "control", "fluid/control", E::One, {}, {separate}},
+    {P::Pairs, "pairs at solids", "fluid/pairs", E::NearGather, {S::Correct, S::Iterate}, kSolids},
     {P::Correct, "correct", "fluid/correct", E::Gather, kEnd},
     {P::Collide, "collide", "fluid/collide", E::NearSolids, kEnd, kSolids},
 

@@ -29,6 +29,7 @@ enum class FluidPass : uint8_t {
   DisplaceDensity,
   Density,
   Control,
+  Pairs,
   Correct,
   Collide,
   SumLoads,
@@ -70,13 +71,14 @@ constexpr size_t kStarts = static_cast<size_t>(Start::kCount);
 
 /// What a pass is over.
 enum class Extent : uint8_t {
-  One,        ///< one workgroup
-  Particles,  ///< all particles
-  Keys,       ///< the keys of a sort: of all particles, which a variant of the shader counts, or of all entries if it is by digits
-  Partials,   ///< the workgroups that add up figures
-  Chunks,     ///< all particles, a dispatch for each buffer of the neighbor list
-  Gather,     ///< the same over neighbors, in two variants: the device starts the one that reads lists or the one that can walk the grid
-  NearSolids  ///< particles near solids
+  One,         ///< one workgroup
+  Particles,   ///< all particles
+  Keys,        ///< the keys of a sort: of all particles, which a variant of the shader counts, or of all entries if it is by digits
+  Partials,    ///< the workgroups that add up figures
+  Chunks,      ///< all particles, a dispatch for each buffer of the neighbor list
+  Gather,      ///< the same over neighbors, in two variants: the device starts the one that reads lists or the one that can walk the grid
+  NearSolids,  ///< particles near solids
+  NearGather   ///< the same over their neighbors, a dispatch for each buffer of the list, in the variant that can walk the grid
 };
 
 /// When a pass exists, and what the report of skipped passes says where it does not.

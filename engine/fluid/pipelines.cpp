@@ -116,6 +116,8 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
       if (setup.params.listCapacity > 0)
         if (auto ok = add(kOverLists, {}, withoutCluster(device.info(), choice, kFluidGroup)); !ok) return ok;
       return add(kOverGrid, {{"WALKS", true}}, choice.need);
+    case Extent::NearGather:
+      return add(kOverNearSolids, {{"WALKS", true}}, choice.need);
     case Extent::NearSolids:
       return add(kOverNearSolids, {{"NEAR_SOLIDS", true}});
     case Extent::Chunks:

@@ -14,6 +14,7 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
     const ChunkPush push{0, 0, iteration};
     alias(Particle, Work);
     if (iteration > 0) {
+      declare(graph, FluidPass::Pairs, start, push);
       declare(graph, FluidPass::Iterate, start, push);
       declare(graph, FluidPass::SumLoads, start);
     }
@@ -24,6 +25,7 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
     declare(graph, FluidPass::Control, Start::Always, ControlPush{iteration, parity, first});
   }
   alias(Particle, Work);
+  declare(graph, FluidPass::Pairs, Start::Correct, ChunkPush{});
   declare(graph, FluidPass::Correct, Start::Correct, ChunkPush{});
   declare(graph, FluidPass::Collide, Start::Correct);
   declare(graph, FluidPass::SumLoads, Start::Correct);

@@ -28,14 +28,13 @@ layout(std430, binding = 13) writeonly buffer FreeBlock { vec4 freeVelocity[]; }
 layout(std430, binding = 14) buffer WarmBlock { float warm[]; };
 READ_NEAR_TANGENTIAL(15)
 // LOADS, near solids: the change of multipliers and the warm start, times 1 over the gradient of the displaced density, m^2
+READ_FLOAT4(17, nearExcess)  // of pairs.comp
 layout(std430, binding = 16) writeonly buffer NearMultipliersBlock { vec2 nearMultipliers[]; };
 
 vec3 here;
 vec2 own;                           // multiplier change, warm start; in the unit
 vec3 correction = vec3(0.0);        // m, once scaled
 vec3 warmDisplacement = vec3(0.0);  // m, once scaled
-vec3 excess = vec3(0.0), warmExcess = vec3(0.0);  // of both, what the tangential scales of neighbors add
-bool atSolids;
 
 float unit = params.inverseRestGradient / kMultiplierScale;  // m^2, of the multipliers
 float pressure = control.artificialPressure * kMultiplierScale;
@@ -51,23 +50,11 @@ void visit(uvec4 particle) {
   correction += both.x * gradient;
   if (WARM) warmDisplacement += both.y * gradient;
 }
-void visitAtSolids(uvec4 particle, vec4 tangential) {
-  vec3 r = here - uintBitsToFloat(particle.xyz);
-  float distance = sqrt(dot(r, r));
-  vec3 gradient = scaledExcess(unpackSolidScale(tangential), gradientShape(distance) * r);
-  vec2 both = own + multipliers(particle);
-  if (ARTIFICIAL_PRESSURE) both.x -= pressure * artificialPressure(distance);
-  excess += both.x * gradient;
-  if (WARM) warmExcess += both.y * gradient;
-}
 void reflectSums(vec3 signs) {
   correction *= signs;
   warmDisplacement *= signs;
-  excess *= signs;
-  warmExcess *= signs;
 }
 #define IMAGES
-#define AT_SOLIDS
 #include "fluid/neighbors.glsl"
 
 // Displacement from the start of the substep to its prediction. Computed from the velocity where
@@ -87,9 +74,10 @@ float endSubstep(uint i, uint head) {
   if (SOLIDS) {
     vec3 displaced = unit * displacedAt(i, head).xyz;
     SolidScale scale = solidScaleAt(i, head);  // see docs/notes/walls-and-solids.md
-    float toMeters = unit * params.gradientScale;
-    correction += scaledExcess(scale, correction) + toMeters * excess + own.x * displaced;
-    warmDisplacement += scaledExcess(scale, warmDisplacement) + toMeters * warmExcess + own.y * displaced;
+    bool atSolids = (head & kNearSolidsBit) != 0u;
+    vec3 excess = atSolids ? nearExcessAt(2u * i).xyz : vec3(0.0), warmExcess = atSolids ? nearExcessAt(2u * i + 1u).xyz : vec3(0.0);
+    correction += scaledExcess(scale, correction) + excess + own.x * displaced;
+    warmDisplacement += scaledExcess(scale, warmDisplacement) + warmExcess + own.y * displaced;
   }
 
   vec3 from = position[i].xyz, before = velocity[i].xyz;
@@ -151,7 +139,6 @@ void main() {
   here = uintBitsToFloat(particle.xyz);
   own = multipliers(particle);
   uint head = headOf(i, inRange);
-  atSolids = SOLIDS && (head & kNearSolidsBit) != 0u;
   visitNeighbors(i, head, local, inRange);
   // No lane leaves before the maximum: those that are left need not come together again.
   float fastest = subgroupMax(inRange ? endSubstep(i, head) : 0.0);

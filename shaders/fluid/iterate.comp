@@ -16,12 +16,12 @@ layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer PredictionBlock { vec4 prediction[]; };
 READ_NEAR_DISPLACED(9)
 READ_NEAR_TANGENTIAL(10)
+READ_FLOAT4(12, nearExcess)  // of pairs.comp
 layout(std430, binding = 11) writeonly buffer NearMultipliersBlock { vec2 nearMultipliers[]; };  // as in correct.comp
 
 vec3 here;
 float own;
-vec3 moved = vec3(0.0), excess = vec3(0.0);
-bool atSolids;
+vec3 moved = vec3(0.0);
 
 float unit = params.inverseRestGradient / kMultiplierScale;  // m^2, of the multipliers
 
@@ -31,16 +31,8 @@ void visit(uvec4 particle) {
   vec3 r = here - uintBitsToFloat(particle.xyz);
   moved += (own + multiplier(particle)) * gradientShape(sqrt(dot(r, r))) * r;
 }
-void visitAtSolids(uvec4 particle, vec4 tangential) {
-  vec3 r = here - uintBitsToFloat(particle.xyz);
-  excess += (own + multiplier(particle)) * scaledExcess(unpackSolidScale(tangential), gradientShape(sqrt(dot(r, r))) * r);
-}
-void reflectSums(vec3 signs) {
-  moved *= signs;
-  excess *= signs;
-}
+void reflectSums(vec3 signs) { moved *= signs; }
 #define IMAGES
-#define AT_SOLIDS
 #include "fluid/neighbors.glsl"
 
 void main() {
@@ -52,12 +44,12 @@ void main() {
   here = uintBitsToFloat(particle.xyz);
   own = multiplier(particle);
   uint head = headOf(i, inRange);
-  atSolids = SOLIDS && (head & kNearSolidsBit) != 0u;
   visitNeighbors(i, head, local, inRange);
   if (!inRange) return;
   moved *= unit * params.gradientScale;
   if (SOLIDS) {
-    moved += scaledExcess(solidScaleAt(i, head), moved) + unit * (params.gradientScale * excess + own * displacedAt(i, head).xyz);
+    vec3 excess = (head & kNearSolidsBit) != 0u ? nearExcessAt(2u * i).xyz : vec3(0.0);
+    moved += scaledExcess(solidScaleAt(i, head), moved) + excess + unit * own * displacedAt(i, head).xyz;
     if (LOADS && (head & kNearSolidsBit) != 0u) nearMultipliers[i] = vec2(unit * own, 0.0);
   }
   prediction[i] = vec4(insideWalls(here + moved), prediction[i].w);

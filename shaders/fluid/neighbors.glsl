@@ -5,8 +5,7 @@
 // and `void visit(PARTICLE particle)`, and binds at 2 the array whose elements are handed over; with
 // COMPANION(j) defined, `void visit(PARTICLE particle, vec4 companion)`. Particles beyond the support
 // and dummies are visited too. With IMAGES defined, also the images of the particle and its neighbors
-// behind walls (fluid/images.glsl), for which the shader defines `void reflectSums(vec3 signs)`. With AT_SOLIDS defined it also defines
-// `bool atSolids` and `void visitAtSolids(PARTICLE particle, vec4 tangential)`, which then sees the neighbors, too.
+// behind walls (fluid/images.glsl), for which the shader defines `void reflectSums(vec3 signs)`.
 #ifndef RILL_NEIGHBORS_GLSL
 #define RILL_NEIGHBORS_GLSL
 #include "shared/loops.glsl"
@@ -32,9 +31,6 @@ void candidates(uint first, uint end) {
 #ifdef COMPANION
     vec4 companion = COMPANION(j);
 #endif
-#ifdef AT_SOLIDS
-    vec4 tangential = nearTangentialAt(j);
-#endif
     for (uint lane = 0u; lane < CLUSTER; ++lane) {
       PARTICLE other = SPREAD(particle, lane);
       if (base + lane == self) other = asInactive(other);
@@ -42,9 +38,6 @@ void candidates(uint first, uint end) {
       visit(other, SPREAD(companion, lane));
 #else
       visit(other);
-#endif
-#ifdef AT_SOLIDS
-      if (SOLIDS) visitAtSolids(other, SPREAD(tangential, lane));
 #endif
     }
     base += CLUSTER;
@@ -107,16 +100,6 @@ void visitListed(uint i, uint head, uint local) {
       VISIT(y, atY);
       VISIT(z, atZ);
       VISIT(w, atW);
-#ifdef AT_SOLIDS
-      bool visits = SOLIDS && atSolids;  // a loop, which CPU drivers skip where no lane takes it
-      LOOP_WHILE (visits) {
-        visitAtSolids(atX, nearTangentialAt(x));
-        visitAtSolids(atY, nearTangentialAt(y));
-        visitAtSolids(atZ, nearTangentialAt(z));
-        visitAtSolids(atW, nearTangentialAt(w));
-        visits = false;
-      } LOOP_END(visits);
-#endif
       at += kListBlock;
       ++k;
     } LOOP_END(k < end);
