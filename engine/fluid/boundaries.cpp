@@ -42,7 +42,7 @@ Expected<uint32_t> addMesh(const std::shared_ptr<const Mesh>& mesh, const std::s
     setup.warnings.push_back(key + ": " + grouped(thin->triangles) + (thin->triangles == 1 ? " triangle is" : " triangles are") +
                              " on parts thinner than half a spacing, which may not hold fluid; the thinnest is " +
                              roundedNumber(thin->thickness) + " m at " + roundedPlace(thin->place) + " of the mesh");
-  for (const std::string& warning : mesh->warnings()) setup.warnings.push_back(key + ": " + warning);
+  for (const std::string& warning : mesh->warnings()) setup.warnings.push_back(std::string(key).append(": ").append(warning));
   constexpr double kFloatStep = 0x1p-24, kTooCoarse = 1e-3;
   if (const double far = boundingRadius(MeshShape{.mesh = mesh}); far * kFloatStep > kTooCoarse * kernel.spacing())
     setup.warnings.push_back(key + ": the mesh reaches " + roundedNumber(far) +

@@ -10,7 +10,7 @@ double fastestSolid(const Scene& scene);
 /// m/s, of all solids that the host moves.
 double fastestDriven(const Scene& scene);
 
-/// A power of two that is no shorter than the distance from a solid's center to a particle near it, m.
+/// A power of two that is no shorter than the distance from a solid's center to a particle whose density it displaces, m.
 double loadLever(const Scene& scene, double support);
 
 /// The records of a scene's solids at time 0, their keyframes, the tables of its spheres and the fields of its meshes. TooLarge for a mesh

@@ -186,6 +186,8 @@ CheckResult checkRules(const Scene& scene) {
   for (size_t i = 0; i < scene.probes.size(); ++i) {
     const Probe& probe = scene.probes[i];
     if (probe.level || probe.front) continue;
+    if (probe.load.empty() && probe.pose.empty())
+      return Fault{"found an empty name, expected the name of a solid", {elementPath("probes", i)}};
     const bool load = !probe.load.empty();
     const std::string& wanted = load ? probe.load : probe.pose;
     if (std::ranges::find(names, wanted) != names.end()) continue;

@@ -65,16 +65,16 @@ void ReferenceSolver::forEachSample(const glm::dvec3& x, std::span<const Pose> s
   }
 }
 
-void ReferenceSolver::give(size_t i, double multiplier, std::span<const Pose> solids, const Given& given) const {
+void ReferenceSolver::addReactions(size_t i, double multiplier, std::span<const Pose> solids, const AddReaction& add) const {
   const glm::dvec3& x = boundaryPlace_[i];
   forEachSample(x, solids,
-                [&](size_t n, const SolidSample& own, const Image& image) { given(n, multiplier * vec(own.gradient), image.of(x)); });
+                [&](size_t n, const SolidSample& own, const Image& image) { add(n, multiplier * vec(own.gradient), image.of(x)); });
 }
 
-ReferenceSolver::Given ReferenceSolver::addTo(std::vector<Impulse>& impulses, std::span<const Pose> solids, double factor) const {
-  return [&impulses, solids, reaction = -mass() * factor](size_t n, const glm::dvec3& amount, const glm::dvec3& at) {
-    impulses[n].linear += reaction * amount;
-    impulses[n].angular += reaction * glm::cross(at - vec(solids[n].center), amount);
+ReferenceSolver::AddReaction ReferenceSolver::addTo(std::vector<Impulse>& impulses, std::span<const Pose> solids, double factor) const {
+  return [&impulses, solids, reaction = -mass() * factor](size_t n, const glm::dvec3& by, const glm::dvec3& at) {
+    impulses[n].linear += reaction * by;
+    impulses[n].angular += reaction * glm::cross(at - vec(solids[n].center), by);
   };
 }
 
@@ -112,20 +112,22 @@ glm::dmat3 ReferenceSolver::tangentialScale(size_t i) const {
 }
 
 glm::dmat3 ReferenceSolver::pairScale(size_t i, const Pair& pair) const {
-  const glm::dmat3 one(1), own = tangentialScale(i) - one, other = tangentialScale(pair.j) - one;
+  const glm::dmat3 one(1);
+  if (scale_.empty()) return one;
+  const glm::dmat3 own = scale_[i] - one, other = scale_[pair.j] - one;
   const glm::dmat3 mirror(pair.sign.x, 0, 0, 0, pair.sign.y, 0, 0, 0, pair.sign.z);
   return one + kScaleOfPair * (own + mirror * other * mirror);
 }
 
 /// Moves a center to half a spacing from every surface that is closer: solids in order, walls last, so that no particle ends outside.
 /// Between walls that are less than a spacing apart it is moved to the middle.
-glm::dvec3 ReferenceSolver::collide(glm::dvec3 x, std::span<const Pose> solids, const Given& given) const {
+glm::dvec3 ReferenceSolver::collide(glm::dvec3 x, std::span<const Pose> solids, const AddReaction& add) const {
   const double clearance = settings.spacing / 2;
   for (size_t n = 0; n < solids.size(); ++n) {
     const SurfacePoint surface = surfaceOf(n, solids[n], x);
     if (surface.distance >= clearance) continue;
     const glm::dvec3 by = (clearance - surface.distance) * vec(surface.normal);
-    if (given) given(n, by, x);
+    if (add) add(n, by, x);
     x += by;
   }
   for (int a = 0; a < 3; ++a) {
@@ -140,7 +142,7 @@ glm::dvec3 ReferenceSolver::collide(glm::dvec3 x, std::span<const Pose> solids, 
 /// / dt:
 ///   v_n >= -e u_n if u_n < 0;   the tangential speed is reduced by at most mu max(0, v_n - u_n - f_n), the impulse of the solid.
 /// The term f makes friction include the weight of the column above. Domain walls have e = 0 and mu = 0.
-glm::dvec3 ReferenceSolver::contact(size_t i, glm::dvec3 v, double dt, std::span<const Pose> solids, const Given& given) const {
+glm::dvec3 ReferenceSolver::contact(size_t i, glm::dvec3 v, double dt, std::span<const Pose> solids, const AddReaction& add) const {
   const glm::dvec3& x = state.predicted[i];
   for (size_t k = 0; k < solids.size(); ++k) {
     const double restitution = settings.solids[k].restitution, friction = settings.solids[k].friction;
@@ -160,7 +162,7 @@ glm::dvec3 ReferenceSolver::contact(size_t i, glm::dvec3 v, double dt, std::span
     const double slip = glm::length(tangential);
     if (slip > 0) tangential *= std::max(0.0, 1 - friction * impulse / slip);
     const glm::dvec3 after = solid + normal * n + tangential;
-    given(k, dt * (after - v), x);
+    add(k, dt * (after - v), x);
     v = after;
   }
   return v;

@@ -167,6 +167,7 @@ void ReferenceSolver::density() {
   denominator_.resize(size());
   boundary_.resize(size());
   boundaryPlace_ = state.predicted;
+  if (!settings.solids.empty()) scale_.resize(size());
   const double rest = kernel_.restGradientSum(), scale = densityScale();
   for (uint32_t i = 0; i < size(); ++i) {
     boundary_[i] = boundaryOf(state.predicted[i], solids);
@@ -183,6 +184,7 @@ void ReferenceSolver::density() {
     }
     densityRatio_[i] = scale * ratio + boundary_[i].value;
     const glm::dmat3 tangential = tangentialScale(i);
+    if (!scale_.empty()) scale_[i] = tangential;
     const double all = glm::dot(sum, tangential * sum) + squares * (tangential[0].x + tangential[1].y + tangential[2].z) / 3;
     denominator_[i] = std::max(all + settings.regularization * rest, kMinDenominator * rest);
   }
@@ -211,22 +213,22 @@ double ReferenceSolver::artificialPressureTerm(double value, double push) const 
 void ReferenceSolver::correction(double dt, double push) {
   push_ = push;
   const std::vector<Pose> solids = poses(time_, dt);
-  const Given given = addTo(impulses_, solids, 1 / dt);
-  for (const Gift& gift : std::exchange(gifts_, {})) given(gift.solid, gift.amount, gift.at);  // of the iteration before
+  const AddReaction add = addTo(impulses_, solids, 1 / dt);
+  for (const Contribution& c : std::exchange(contributions_, {})) add(c.solid, c.displacement, c.at);  // of the iteration before
   for (size_t i = 0; i < size(); ++i) {
-    const Given later = [&](size_t n, const glm::dvec3& amount, const glm::dvec3& at) { gifts_.push_back({i, n, amount, at}); };
+    const AddReaction later = [&](size_t n, const glm::dvec3& by, const glm::dvec3& at) { contributions_.push_back({i, n, by, at}); };
     glm::dvec3 sum(0), apart(0);
     for (const Pair& pair : pairs(i)) {
       sum += (lambdaChange_[i] + lambdaChange_[pair.j] + artificialPressureTerm(pair.value, push)) * (pairScale(i, pair) * pair.gradient);
       apart += kCoincidentDistance * kernel_.h() * pair.apart;
     }
-    give(i, lambdaChange_[i], solids, later);
+    addReactions(i, lambdaChange_[i], solids, later);
     const glm::dvec3 moved = state.predicted[i] + sum + lambdaChange_[i] * vec(boundary_[i].gradient) + apart;
     gain_[i] = glm::dvec3(0);
     if (finite(moved)) {
       wallPosition_[i] = collide(moved, {});
       gain_[i] = wallPosition_[i] - state.predicted[i];
-      state.predicted[i] = collide(moved, solids, given);
+      state.predicted[i] = collide(moved, solids, add);
     } else {
       deactivate(i);
     }
@@ -237,7 +239,7 @@ void ReferenceSolver::velocities(double dt) {
   const std::vector<Pose> solids = poses(time_, dt);
   const double maxGain =
       dt * (std::clamp(0.5 * fastest_, settings.minSpeedGain, settings.maxSpeedGain) + 4 * dt * glm::length(settings.gravity));
-  const Given given = addTo(impulses_, solids, 1 / dt);
+  const AddReaction add = addTo(impulses_, solids, 1 / dt);
   std::vector<double> kept(size(), 1);
   fastest_ = 0;  // excludes solids, as in the shaders
   for (size_t i = 0; i < size(); ++i) {
@@ -246,7 +248,7 @@ void ReferenceSolver::velocities(double dt) {
     const double removed = 1 - kept[i];
     const glm::dvec3 excess = removed * (gain_[i] + 0.5 * (wallPosition_[i] - gain_[i] - state.position[i]));
     if (finite(wallPosition_[i])) fastest_ = std::max(fastest_, glm::length(wallPosition_[i] - state.position[i] - excess) / dt);
-    glm::dvec3 v = contact(i, (state.predicted[i] - state.position[i] - excess) / dt, dt, solids, given);
+    glm::dvec3 v = contact(i, (state.predicted[i] - state.position[i] - excess) / dt, dt, solids, add);
     const double speed = glm::length(v);
     if (speed > settings.speedLimit) v *= settings.speedLimit / speed;
     if (finite(v)) {
@@ -256,7 +258,7 @@ void ReferenceSolver::velocities(double dt) {
       deactivate(i);
     }
   }
-  for (const Gift& gift : std::exchange(gifts_, {})) given(gift.solid, kept[gift.particle] * gift.amount, gift.at);
+  for (const Contribution& c : std::exchange(contributions_, {})) add(c.solid, kept[c.particle] * c.displacement, c.at);
   time_ += dt;
   step_ = 0;
 }
@@ -316,12 +318,12 @@ void ReferenceSolver::predict(double dt, double dtNext) {
 void ReferenceSolver::predictPositions(double dt, bool atRest) {
   const std::vector<Pose> present = poses(time_, 0), solids = poses(time_, atRest ? 0 : dt);
   warmImpulses_.assign(settings.solids.size(), {});
-  const Given given = addTo(warmImpulses_, present, 1 / dt), pushed = addTo(warmImpulses_, solids, 1 / dt);
+  const AddReaction add = addTo(warmImpulses_, present, 1 / dt), pushed = addTo(warmImpulses_, solids, 1 / dt);
   for (size_t i = 0; i < size(); ++i) {
     const glm::dvec3 v = atRest ? glm::dvec3(0) : state.velocity[i];
     glm::dvec3 x = state.position[i] + dt * (v + dt * settings.gravity) + state.warm[i] * vec(boundary_[i].gradient), push(0);
     for (const Pair& pair : pairs(i)) push += (state.warm[i] + state.warm[pair.j]) * (pairScale(i, pair) * pair.gradient);
-    give(i, state.warm[i], present, given);
+    addReactions(i, state.warm[i], present, add);
     x += push;
     if (finite(x)) {
       state.predicted[i] = collide(x, solids, pushed);

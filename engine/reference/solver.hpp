@@ -187,12 +187,12 @@ class ReferenceSolver {
   double xsphCoefficient(double viscosity, double dt) const;
 
  private:
-  /// What a solid gives a particle, of any unit, and the point that its reaction acts at.
-  using Given = std::function<void(size_t solid, const glm::dvec3& amount, const glm::dvec3& at)>;
-  glm::dvec3 collide(glm::dvec3 x, std::span<const Pose> poses, const Given& given = {}) const;
-  glm::dvec3 contact(size_t i, glm::dvec3 v, double dt, std::span<const Pose> poses, const Given& given) const;
-  void give(size_t i, double multiplier, std::span<const Pose> poses, const Given& given) const;  ///< multiplier times grad B_i
-  Given addTo(std::vector<Impulse>& impulses, std::span<const Pose> poses, double factor) const;
+  /// Is called with a displacement of a particle by a solid, and the point that the reaction acts at.
+  using AddReaction = std::function<void(size_t solid, const glm::dvec3& displacement, const glm::dvec3& at)>;
+  glm::dvec3 collide(glm::dvec3 x, std::span<const Pose> poses, const AddReaction& add = {}) const;
+  glm::dvec3 contact(size_t i, glm::dvec3 v, double dt, std::span<const Pose> poses, const AddReaction& add) const;
+  void addReactions(size_t i, double multiplier, std::span<const Pose> poses, const AddReaction& add) const;  ///< multiplier times grad B_i
+  AddReaction addTo(std::vector<Impulse>& impulses, std::span<const Pose> poses, double factor) const;
   std::vector<Pose> poses(double t, double dt) const;
   SolidSample boundaryOf(const glm::dvec3& x, std::span<const Pose> poses) const;
   /// Calls visit(solid, sample, image) with what each solid displaces at each image of x, in the scene's frame and not reflected.
@@ -224,16 +224,17 @@ class ReferenceSolver {
   uint64_t inactive_ = 0;
   std::vector<uint32_t> first_, neighborCount_;
   std::vector<Pair> pairs_;
+  std::vector<glm::dmat3> scale_;  ///< a_i; empty without solids
   std::vector<double> densityRatio_, denominator_, delta_, lambda_, lambdaChange_;
   std::vector<SolidSample> boundary_;
   std::vector<glm::dvec3> boundaryPlace_;         ///< m, that it is of
   std::vector<Impulse> impulses_, warmImpulses_;  ///< of the present substep; of the prediction of the next one
-  /// What solids gave in the last correction, m, before gains are bounded.
-  struct Gift {
+  /// A displacement in the last correction, m, before gains are bounded.
+  struct Contribution {
     size_t particle, solid;
-    glm::dvec3 amount, at;
+    glm::dvec3 displacement, at;
   };
-  std::vector<Gift> gifts_;
+  std::vector<Contribution> contributions_;
   std::vector<glm::dvec3> curl_;
   double blockTime_ = 0;                  ///< s, since the first substep of the last block
   double push_ = 0;                       ///< m^2, of the last correction

@@ -18,8 +18,11 @@ READ_UINT(13, meshWord)
 layout(std430, binding = 14) buffer SolidSumsBlock { uint solidSums[]; };
 #include "shared/pose.glsl"
 #include "fluid/solid_sums.glsl"
-bool loads = false;  // whether what pushes a center counts
-#define PUSHED(k, x, by) if (LOADS && loads) addToSolid(k, by, x)
+bool countsPushes = false;
+void pushedBy(uint k, vec3 x, vec3 by) {
+  if (LOADS && countsPushes) addToSolid(k, by, x);
+}
+#define PUSHED(k, x, by) pushedBy(k, x, by)
 #include "fluid/outside.glsl"
 layout(std430, binding = 9) readonly buffer FreeBlock { vec4 freeVelocity[]; };
 layout(std430, binding = 10) readonly buffer WorkBlock { uvec4 work[]; };
@@ -57,9 +60,9 @@ void main() {
   vec3 from = position[i].xyz;
   if (!isActive(from)) return;
   float pushed;
-  loads = control.phase == kPhaseAdvancing;
+  countsPushes = control.phase == kPhaseAdvancing;
   vec3 x = outside(from, near, 0.0, pushed);
-  loads = false;
+  countsPushes = false;
   if (control.phase != kPhaseAdvancing) {
     position[i] = vec4(x, 0.0);
     predict(i, near, x, velocity[i].xyz);

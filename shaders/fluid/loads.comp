@@ -54,6 +54,10 @@ void addSolid(inout Reaction r, uint k, vec3 x, vec2 multipliers) {
 }
 
 void addToSums(uint k, Reaction r, bool mine) {
+  bool some = false;
+  for (uint c = 0u; c < 2u * kLoadComponents; ++c) some = some || r.units[c] != 0.0;
+  mine = mine && some;
+  if (!subgroupAny(mine)) return;
   uint lowest = subgroupMin(mine ? k : 0xffffffffu), highest = subgroupMax(mine ? k : 0u);
   bool together = lowest == highest;  // the lanes that have a solid have the same one
   for (uint c = 0u; c < 2u * kLoadComponents; ++c) {

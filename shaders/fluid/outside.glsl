@@ -6,7 +6,7 @@
 #include "shared/pose.glsl"
 #include "shared/shape.glsl"
 
-// PUSHED(k, x, by), if defined, is told that solid k moved the center at x.
+// PUSHED(k, x, by), if defined, is called where solid k moves a center from x.
 #ifndef PUSHED
 #define PUSHED(k, x, by)
 #endif

@@ -6,6 +6,7 @@
 
 // Adds `high` 2^24 + `low` to the sum at `word`.
 void addWide(uint word, int high, uint low) {
+  if (high == 0 && low == 0u) return;
   uint carry, add = uaddCarry(uint(high) << 24, low, carry), old = atomicAdd(solidSums[word], add);
   uint above = uint(high >> 8) + carry + uint(old + add < old);
   if (above != 0u) atomicAdd(solidSums[word + 1u], above);
@@ -13,8 +14,8 @@ void addWide(uint word, int high, uint low) {
 
 // A number of units as high 2^24 + low; 0 for one that is not finite.
 void split(float units, out int high, out uint low) {
-  const float most = kMaxDisplacement / kDisplacementUnits;
-  float whole = isWithin(vec3(units), 3.0e38) ? round(clamp(units, -most, most)) : 0.0, upper = floor(whole / 16777216.0);
+  const float kMaxUnits = kMaxDisplacement / kDisplacementUnits;
+  float whole = isWithin(vec3(units), 3.0e38) ? round(clamp(units, -kMaxUnits, kMaxUnits)) : 0.0, upper = floor(whole / 16777216.0);
   high = int(upper);
   low = uint(whole - upper * 16777216.0);
 }

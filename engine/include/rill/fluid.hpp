@@ -50,7 +50,7 @@ struct FluidDesc {
 
 /// What the fluid does to a solid, in the axes of the scene; torques are about the solid's center (of a mesh: its origin).
 struct SolidLoad {
-  Double3 force = {0, 0, 0}, torque = {0, 0, 0};            ///< mean over the last advance that has ended, N and N m
+  Double3 force = {0, 0, 0}, torque = {0, 0, 0};            ///< mean over the time that the last ended advance took, N and N m
   Double3 impulse = {0, 0, 0}, angularImpulse = {0, 0, 0};  ///< since the start, N s and N m s
 };
 
@@ -103,7 +103,7 @@ struct FluidState {
   BufferRef countBuffer = {};
   BufferRef solids = {};       ///< SolidRecord (solid_records.h) per solid, at the present time; null if no solid is driven or a mesh
   BufferRef meshWords = {};    ///< fields of the meshes (mesh_field.h); null without meshes
-  BufferRef loads = {};        ///< SolidLoadRecord (solid_loads.h) per solid; null unless loads are measured
+  BufferRef loads = {};        ///< SolidLoadRecord (solid_loads.h) per solid; null unless loads are measured, and with capacity 0
   uint32_t capacity = 0;       ///< entries of the arrays: particles at most; those beyond the particles are inactive, far from all others
   float spacing = 0;           ///< m
   Double3 origin = {0, 0, 0};  ///< m
@@ -172,7 +172,8 @@ class RILL_API Fluid {
   /// Executions of passes between the two last frames known to have finished. Passes that are not listed always execute.
   std::vector<FluidPassRuns> passRuns() const;
 
-  /// Loads on the solids after the last finished frame; zeros before the first. Empty unless loads are measured.
+  /// Loads on the solids after the last finished frame; before the first, zeros or those of the snapshot. Empty unless loads are
+  /// measured. Valid until the fluid is moved or destroyed; the next call that reads results may change the values.
   std::span<const SolidLoad> solidLoads() const;
 
   /// Center of a driven solid at the end of the last declared advance, m: the target, or a point on the path to it if the target was too

@@ -81,7 +81,7 @@ struct FrameMemory {
 /// A text table of the heaps with and without aliasing.
 std::string memoryTable(std::span<const FrameMemory> frames);
 
-/// Value of a probe of a load: of the fluid on a solid, mean over the last advance().
+/// Value of a probe of a load: of the fluid on a solid, mean over the last advance(); zeros before the first.
 struct LoadValue {
   Double3 force = {0, 0, 0};   ///< N
   Double3 torque = {0, 0, 0};  ///< N m, about the solid's center
