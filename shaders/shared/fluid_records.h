@@ -7,169 +7,169 @@
 #include "shared/solid_records.h"
 RILL_RECORDS_BEGIN
 
-RILL_CONST uint kFluidGroup = 64u;                      // invocations a workgroup of every per-particle pass
-RILL_CONST uint kCellsPerReach = 2u;                    // grid cells in x as long as one in y or z
-RILL_CONST uint kSettleSubsteps = 512u;                 // at most, before the first substep in time
-RILL_CONST uint kMaxInitialPressureIterations = 1024u;  // iterations of the initial pressure, at most, after settling
+RILL_CONST uint kFluidGroup = 64u;        // invocations a workgroup of every per-particle pass
+RILL_CONST uint kCellsPerReach = 2u;       // grid cells in x as long as one in y or z
+RILL_CONST uint kSettleSubsteps = 512u;    // at most, before the first substep in time
+RILL_CONST uint kMaxInitialPressureIterations = 1024u;    // iterations of the initial pressure, at most, after settling
 // motionSpeed, of the speed of falling through the column: see docs/notes/noise-damping.md
 RILL_CONST float kMotionShare = 0.5f;
 // a layer: substeps in the mean error at rest, and in the mean of the steps that it asks for
 RILL_CONST float kErrorSubsteps = 10.0f;
-RILL_CONST float kMaxNoiseDamping = 0.5f;  // coefficient of noise damping, at most: no wave is turned around below 0.69
+RILL_CONST float kMaxNoiseDamping = 0.5f;     // coefficient of noise damping, at most: no wave is turned around below 0.69
 // share of the kernel inside solids that the tangential scale makes up for, at most. See
 // docs/notes/walls-and-solids.md
 RILL_CONST float kMaxSolidCoverage = 0.4f;
-RILL_CONST uint kWindow = 32u;  // candidates that a grid walk looks at together, a bit of a mask each
+RILL_CONST uint kWindow = 32u;            // candidates that a grid walk looks at together, a bit of a mask each
 // Candidates that the particles of a cluster look at together, at most, in whole windows; more are
 // counted as a bound hit. Lavapipe ends a shader after 65,535 steps of its loops: a window takes
 // about 20 where a cluster is 4, so that 1,024 windows leave room for the loops around them.
 RILL_CONST uint kWalkBound = 32768u;
-RILL_CONST float kInactivePosition = 1.0e9f;  // m: position of inactive particles and of the dummy neighbor that pads the list
-RILL_CONST float kInactiveLimit = 5.0e8f;     // m: from this coordinate on a particle is inactive
-RILL_CONST float kNoWall = 1.0e9f;            // m, a coordinate
+RILL_CONST float kInactivePosition = 1.0e9f;        // m: position of inactive particles and of the dummy neighbor that pads the list
+RILL_CONST float kInactiveLimit = 5.0e8f;           // m: from this coordinate on a particle is inactive
+RILL_CONST float kNoWall = 1.0e9f;        // m, a coordinate
 RILL_CONST float kMultiplierScale = 1024.0f;  // multipliers travel as halves in units of 1 / (restGradient * this)
 
 // What starts a dispatch: the host, or a decision of the device (fluid/dispatch_commands.glsl). The
 // values of enum Start in engine/fluid/pass_table.hpp.
-RILL_CONST uint kStartAlways = 0u;        // the host
-RILL_CONST uint kStartPredict = 1u;       // the begin of an advance
-RILL_CONST uint kStartDensity = 2u;       // a substep
-RILL_CONST uint kStartIterate = 3u;       // a further iteration of it
-RILL_CONST uint kStartCorrect = 4u;       // the end of a substep that is recorded with an even number: the density
-RILL_CONST uint kStartCorrectOdd = 5u;    // pass of the next one, which does not run, switches it off; with an odd one
-RILL_CONST uint kStartNoiseDamping = 6u;  // the end of the first substep of a block, if the fluid is at rest
-RILL_CONST uint kStartRebuild = 7u;       // the neighbor list is due
-RILL_CONST uint kStartFigures = 8u;       // figures were asked for
-RILL_CONST uint kNoSubstep = 2u;          // in place of a parity
-RILL_CONST uint kKeepCommands = 3u;       // likewise: the commands stay as they are
-RILL_CONST uint kNoBegin = 4u;            // likewise, where an advance continues: nothing is to be predicted
+RILL_CONST uint kStartAlways = 0u;         // the host
+RILL_CONST uint kStartPredict = 1u;        // the begin of an advance
+RILL_CONST uint kStartDensity = 2u;        // a substep
+RILL_CONST uint kStartIterate = 3u;        // a further iteration of it
+RILL_CONST uint kStartCorrect = 4u;        // the end of a substep that is recorded with an even number: the density
+RILL_CONST uint kStartCorrectOdd = 5u;     // pass of the next one, which does not run, switches it off; with an odd one
+RILL_CONST uint kStartNoiseDamping = 6u;   // the end of the first substep of a block, if the fluid is at rest
+RILL_CONST uint kStartRebuild = 7u;        // the neighbor list is due
+RILL_CONST uint kStartFigures = 8u;        // figures were asked for
+RILL_CONST uint kNoSubstep = 2u;           // in place of a parity
+RILL_CONST uint kKeepCommands = 3u;        // likewise: the commands stay as they are
+RILL_CONST uint kNoBegin = 4u;             // likewise, where an advance continues: nothing is to be predicted
 
 // What it is over.
-RILL_CONST uint kOverShape = 0u;       // a number of groups that was fixed when the fluid was made
-RILL_CONST uint kOverParticles = 1u;   // all particles
-RILL_CONST uint kOverChunk = 2u;       // those of a buffer of the neighbor list
-RILL_CONST uint kOverLists = 3u;       // the same, of the variant that reads lists alone: no list overflowed
-RILL_CONST uint kOverGrid = 4u;        // the same, of the variant that walks the grid: a list overflowed, or the fluid has no list
-RILL_CONST uint kOverNearSolids = 5u;  // the particles near solids
+RILL_CONST uint kOverShape = 0u;           // a number of groups that was fixed when the fluid was made
+RILL_CONST uint kOverParticles = 1u;       // all particles
+RILL_CONST uint kOverChunk = 2u;           // those of a buffer of the neighbor list
+RILL_CONST uint kOverLists = 3u;           // the same, of the variant that reads lists alone: no list overflowed
+RILL_CONST uint kOverGrid = 4u;            // the same, of the variant that walks the grid: a list overflowed, or the fluid has no list
+RILL_CONST uint kOverNearSolids = 5u;      // the particles near solids
 RILL_CONST uint kMaxCommands = 64u;
 RILL_CONST uint kTicketWord = 3u * kMaxCommands;  // behind the commands: invocations of a density pass that have finished
 
 // Constant over a run; a uniform block.
 struct FluidParams {
-  uint capacity;        // entries of the arrays; the dummy neighbor is the next
-  uint listCapacity;    // entries that the list holds a particle, a multiple of 4; 0: no list
-  uint chunkParticles;  // particles a list buffer, a multiple of kListBlock
+  uint capacity;          // entries of the arrays; the dummy neighbor is the next
+  uint listCapacity;      // entries that the list holds a particle, a multiple of 4; 0: no list
+  uint chunkParticles;    // particles a list buffer, a multiple of kListBlock
   uint solidCount;
-  float spacing;                                         // m
-  float support;                                         // m, the kernel's support radius h
-  float inverseSupport;                                  // 1/m
-  float valueScale;                                      // of the kernel's polynomial
-  float liquidExcess;                                    // by how much of it a liquid's sum is scaled more than the lattice's
-  float inverseMeltingTime;                              // 1/s, 1 over the time in which a fill becomes a liquid; 0: it does not
-  float gradientScale;                                   // of its gradient's polynomial, negative, 1/m^2 (see kernel.glsl)
-  float inverseRestGradient;                             // 1 / sum |grad K|^2 of the rest lattice, m^2
-  float regularization;                                  // epsilon times sum |grad K|^2 of the rest lattice, 1/m^2
-  float relaxationAtRest, relaxationInMotion;            // omega of a fluid at rest, and of one that moves at motionSpeed (see gains.glsl)
-  float warmGainInMotion;                                // kappa of a fluid that moves; at rest see stability.glsl
-  float maxWarmGainAtRest;                               // at most, and
-  float layerWarmGainAtRest;                             // this over the square of the column's layers
-  float layerHead;                                       // m^2/s^2, gravity times the spacing
-  float stableStep;                                      // m, over the square root of the head: the longest stable step
-  float toleratedStep;                                   // m, likewise: the first step, half of what the tolerance allows
+  float spacing;          // m
+  float support;          // m, the kernel's support radius h
+  float inverseSupport;   // 1/m
+  float valueScale;       // of the kernel's polynomial
+  float liquidExcess;     // by how much of it a liquid's sum is scaled more than the lattice's
+  float inverseMeltingTime;  // 1/s, 1 over the time in which a fill becomes a liquid; 0: it does not
+  float gradientScale;    // of its gradient's polynomial, negative, 1/m^2 (see kernel.glsl)
+  float inverseRestGradient;  // 1 / sum |grad K|^2 of the rest lattice, m^2
+  float regularization;   // epsilon times sum |grad K|^2 of the rest lattice, 1/m^2
+  float relaxationAtRest, relaxationInMotion;  // omega of a fluid at rest, and of one that moves at motionSpeed (see gains.glsl)
+  float warmGainInMotion;      // kappa of a fluid that moves; at rest see stability.glsl
+  float maxWarmGainAtRest;     // at most, and
+  float layerWarmGainAtRest;   // this over the square of the column's layers
+  float layerHead;             // m^2/s^2, gravity times the spacing
+  float stableStep;            // m, over the square root of the head: the longest stable step
+  float toleratedStep;         // m, likewise: the first step, half of what the tolerance allows
   float columnGravityX, columnGravityY, columnGravityZ;  // m/s^2, the strongest; 0: the head does not follow the fluid along this axis
   float columnLimitX, columnLimitY, columnLimitZ;        // m, the largest height of a column
-  float warmRelease;                                     // times kappa where density is below rest density
-  float reach;                                           // m, support plus skin: the list holds what was nearer when it was built
-  float travelLimit;                                     // m that the fastest particle may move before the list is rebuilt
-  float cfl;                                             // spacings a substep
-  float maxStep;                         // s, as the scene asks for, and at which its viscosity is stable; see stability.glsl
-  float tolerance;                       // mean compression aimed for; 0: none
-  uint maxSubsteps;                      // an advance
-  uint iterations;                       // Jacobi iterations a substep, at most
-  float lowX, lowY, lowZ;                // m, walls; -kNoWall without a wall
-  float highX, highY, highZ;             // m; kNoWall without a wall
-  float margin;                          // m, how near a center may come to a wall or a solid: half a spacing
+  float warmRelease;      // times kappa where density is below rest density
+  float reach;            // m, support plus skin: the list holds what was nearer when it was built
+  float travelLimit;      // m that the fastest particle may move before the list is rebuilt
+  float cfl;              // spacings a substep
+  float maxStep;          // s, as the scene asks for, and at which its viscosity is stable; see stability.glsl
+  float tolerance;        // mean compression aimed for; 0: none
+  uint maxSubsteps;       // an advance
+  uint iterations;        // Jacobi iterations a substep, at most
+  float lowX, lowY, lowZ;     // m, walls; -kNoWall without a wall
+  float highX, highY, highZ;  // m; kNoWall without a wall
+  float margin;           // m, how near a center may come to a wall or a solid: half a spacing
   uint gridSizeX, gridSizeY, gridSizeZ;  // cells a dimension
-  float inverseCell;                     // 1/m, in y and z
-  float tableStep;                       // m between nodes of the tables
-  uint tableNodes;                       // of the half-space's table, which comes first
-  float viscosityRate;                   // XSPH coefficient a second of step, 1/s
-  float noiseDampingRate;                // coefficient of noise damping a second of block, in a fluid at rest, 1/s
-  float vorticity;                       // dimensionless
-  float drag;                            // 1/s
+  float inverseCell;      // 1/m, in y and z
+  float tableStep;        // m between nodes of the tables
+  uint tableNodes;        // of the half-space's table, which comes first
+  float viscosityRate;    // XSPH coefficient a second of step, 1/s
+  float noiseDampingRate;      // coefficient of noise damping a second of block, in a fluid at rest, 1/s
+  float vorticity;        // dimensionless
+  float drag;             // 1/s
   // artificial pressure, 1/s^2: times the square of the step it is a multiplier over 1 / D of the
   // rest lattice; see engine/sph/artificial_pressure.hpp
   float tensileRate;
-  float tensileLimit;                     // and at most this
-  float tensilePower;                     // n
-  float tensileInverse;                   // 1 / K(delta q)
-  float tensileLeast;                     // K / K(delta q) of neighbors at rest
-  float particleMass;                     // kg
-  uint gravityChanges;                    // entries of the schedule
-  float farLimit;                         // m from the origin beyond which a particle becomes inactive
-  float nearLimit;                        // m from a solid's surface within which a particle is listed as near
-  float solidSpeed;                       // m/s, the fastest solid that keyframes move
-  float minSpeedGain, maxSpeedGain;       // m/s: what a correction may add to a speed in a substep is held between them
-  float speedLimit;                       // m/s, of any particle
-  float warmLimit;                        // m^2/s^2: the warm start is at most this times the step squared
-  float boundLowX, boundLowY, boundLowZ;  // m, the domain, open sides too: particles beyond it count as outside
+  float tensileLimit;     // and at most this
+  float tensilePower;     // n
+  float tensileInverse;   // 1 / K(delta q)
+  float tensileLeast;     // K / K(delta q) of neighbors at rest
+  float particleMass;     // kg
+  uint gravityChanges;    // entries of the schedule
+  float farLimit;         // m from the origin beyond which a particle becomes inactive
+  float nearLimit;        // m from a solid's surface within which a particle is listed as near
+  float solidSpeed;       // m/s, the fastest solid that keyframes move
+  float minSpeedGain, maxSpeedGain;  // m/s: what a correction may add to a speed in a substep is held between them
+  float speedLimit;       // m/s, of any particle
+  float warmLimit;        // m^2/s^2: the warm start is at most this times the step squared
+  float boundLowX, boundLowY, boundLowZ;     // m, the domain, open sides too: particles beyond it count as outside
   float boundHighX, boundHighY, boundHighZ;
   // iterations that find the pressure of the start (see engine/sph/start_pressure.hpp); 0: it
   // starts without
   uint initialPressureIterations;
   float initialPressureStep;        // s, the step that it is found for
   float initialPressureMomentum;    // of a multiplier's last change, what is added to the next
-  float initialPressureErrorLimit;  // mean compression of the start up to which it is looked for
-  uint fullNeighbors;               // within the support: a particle with as many is inside the fluid
-  uint commandCount;                // dispatches that the device switches on and off
-  float loadLever;                  // m, unit length of the moments in the sums of solids
-  float solidSpeedInCfl;            // share of the speed of solids that the step follows: 1 where their walls may be thin
+  float initialPressureErrorLimit;       // mean compression of the start up to which it is looked for
+  uint fullNeighbors;    // within the support: a particle with as many is inside the fluid
+  uint commandCount;     // dispatches that the device switches on and off
+  float loadLever;       // m, unit length of the moments in the sums of solids
+  float solidSpeedInCfl; // share of the speed of solids that the step follows: 1 where their walls may be thin
 };
 
 // Phases of the solver; the two before time begins need no step in time.
 RILL_CONST uint kPhaseAdvancing = 0u;
-RILL_CONST uint kPhaseSettling = 1u;         // particles that overlap at the start part without gaining speed
-RILL_CONST uint kPhaseInitialPressure = 2u;  // the hydrostatic pressure is solved for; nothing moves
+RILL_CONST uint kPhaseSettling = 1u;          // particles that overlap at the start part without gaining speed
+RILL_CONST uint kPhaseInitialPressure = 2u;   // the hydrostatic pressure is solved for; nothing moves
 
 // States of the neighbor list.
 RILL_CONST uint kListValid = 0u;
-RILL_CONST uint kListDue = 1u;   // it must be rebuilt before the next substep
-RILL_CONST uint kListNone = 2u;  // there has been none yet
+RILL_CONST uint kListDue = 1u;                // it must be rebuilt before the next substep
+RILL_CONST uint kListNone = 2u;               // there has been none yet
 
 // Decided on the device, substep by substep; read as a uniform block by the passes, written by
 // control.glsl and begin.comp.
 struct FluidControl {
-  uint count;      // particles: the first entries of the arrays, inactive ones among them. First, for hosts that read it alone
-  float step;      // s, of the substep that control.glsl has accounted for last; 0 before time begins
-  float nextStep;  // s, of the one whose prediction is at hand or is about to be made
-  float warmStep;  // s, the step that the stored multipliers are expressed for
-  float timeLeft;  // s of the advance
-  float timeHigh;  // simulated time, s, as the sum of two floats
+  uint count;          // particles: the first entries of the arrays, inactive ones among them. First, for hosts that read it alone
+  float step;          // s, of the substep that control.glsl has accounted for last; 0 before time begins
+  float nextStep;      // s, of the one whose prediction is at hand or is about to be made
+  float warmStep;      // s, the step that the stored multipliers are expressed for
+  float timeLeft;      // s of the advance
+  float timeHigh;      // simulated time, s, as the sum of two floats
   float timeLow;
-  float timeDropped;                   // s, of the advance
-  float travel;                        // m that the fastest particle moved since the list was built
-  float speed;                         // m/s, the fastest particle
-  float error;                         // mean compression of the last prediction
+  float timeDropped;   // s, of the advance
+  float travel;        // m that the fastest particle moved since the list was built
+  float speed;         // m/s, the fastest particle
+  float error;         // mean compression of the last prediction
   float gravityX, gravityY, gravityZ;  // m/s^2, for the prediction of the next substep
-  uint listState;                      // kListValid, kListDue or kListNone
-  uint substeps;                       // of the advance
-  uint iterations;                     // of the advance
-  uint builds;                         // list builds of the advance
-  uint gravityIndex;                   // next entry of the schedule
-  float desiredStep;  // s, what cfl and tolerance ask for, before it is fitted to the advance; in fluid at rest a mean over many steps
-  uint running;       // the next density pass runs
-  uint again;         // so does the next iteration
+  uint listState;      // kListValid, kListDue or kListNone
+  uint substeps;       // of the advance
+  uint iterations;     // of the advance
+  uint builds;         // list builds of the advance
+  uint gravityIndex;   // next entry of the schedule
+  float desiredStep;   // s, what cfl and tolerance ask for, before it is fitted to the advance; in fluid at rest a mean over many steps
+  uint running;        // the next density pass runs
+  uint again;          // so does the next iteration
   float relaxation, nextRelaxation;  // omega of this substep, and of the next, whose density pass comes before control.glsl
   float warmGain, nextWarmGain;      // kappa, likewise
-  float errorRate;                   // mean compression over the step's square, 1/s^2; in fluid at rest a mean over many steps
-  float restFraction;                // 1: at rest, 0: at motionSpeed or faster
-  float noiseDamping;                // coefficient of noise damping after this substep; 0: its passes do not run
-  float head;                        // m^2/s^2, gravity times the height of the column that the fluid has stood in so far
-  float artificialPressure;          // artificial pressure of this substep, over 1 / D of the rest lattice
-  float blockTime;                   // s since the last substep that was the first of its block
-  uint phase, nextPhase;             // of the substep that control.glsl has accounted for last, and of the next, as with step and nextStep
-  uint phaseLeft;                    // substeps of the next phase left, at most; 0 while time advances
-  float solidSpeed;                  // m/s, the fastest solid of the advance
+  float errorRate;     // mean compression over the step's square, 1/s^2; in fluid at rest a mean over many steps
+  float restFraction;      // 1: at rest, 0: at motionSpeed or faster
+  float noiseDamping;       // coefficient of noise damping after this substep; 0: its passes do not run
+  float head;          // m^2/s^2, gravity times the height of the column that the fluid has stood in so far
+  float artificialPressure;       // artificial pressure of this substep, over 1 / D of the rest lattice
+  float blockTime;     // s since the last substep that was the first of its block
+  uint phase, nextPhase;  // of the substep that control.glsl has accounted for last, and of the next, as with step and nextStep
+  uint phaseLeft;      // substeps of the next phase left, at most; 0 while time advances
+  float solidSpeed;    // m/s, the fastest solid of the advance
   // Since the start, what prepares it too: for the host, which takes differences. The noise damping
   // pass runs in the first substeps of blocks.
   uint executedSubsteps, executedIterations, executedBuilds, executedNoiseDampings;
@@ -197,38 +197,38 @@ RILL_CONST uint kMaxColumnPlace = (1u << 18) - 1u;
 RILL_CONST float kErrorUnit = 1.0f / 16777216.0f;
 
 struct BeginPush {
-  float advance;      // s
-  float drivenSpeed;  // m/s, the fastest driven solid of the advance
-  uint queued;        // 1: only if the last advance has no time left; else that one continues
+  float advance;       // s
+  float drivenSpeed;   // m/s, the fastest driven solid of the advance
+  uint queued;         // 1: only if the last advance has no time left; else that one continues
 };
 
 struct DensityPush {
-  uint first, last;  // as in ChunkPush
-  uint iteration;    // as in ControlPush
+  uint first, last;    // as in ChunkPush
+  uint iteration;      // as in ControlPush
   uint parity;
   uint blockStart;
 };
 
 struct ControlPush {
-  uint iteration;   // 0 is the first
-  uint parity;      // of the recorded substep
-  uint blockStart;  // the substep is recorded as the first of its block
+  uint iteration;      // 0 is the first
+  uint parity;         // of the recorded substep
+  uint blockStart;     // the substep is recorded as the first of its block
 };
 
 // Sums over one workgroup of measure_sums.comp.
 struct MeasurePartial {
-  float compression, compressionMax;  // fraction of rest density
-  float kinetic;                      // sum of v^2
-  float speedMax;                     // m/s
+  float compression, compressionMax;   // fraction of rest density
+  float kinetic;                       // sum of v^2
+  float speedMax;                      // m/s
   float velocityX, velocityY, velocityZ;
   float positionX, positionY, positionZ;
   uint outside;
-  uint inactive;  // outside, and in no other figure
+  uint inactive;                         // outside, and in no other figure
 };
-RILL_CONST uint kMeasureFirst = 107u << 9;  // bin 0: |C| = 2^-20, by the top bits of the float
-RILL_CONST uint kMeasureBins = 23u << 9;    // up to 8, 512 bins an octave
-RILL_CONST uint kMeasurePartials = 32u;     // workgroups that add up, at most
-RILL_CONST uint kMeasureShare = 64u;        // particles of an invocation, while there are fewer
+RILL_CONST uint kMeasureFirst = 107u << 9;          // bin 0: |C| = 2^-20, by the top bits of the float
+RILL_CONST uint kMeasureBins = 23u << 9;            // up to 8, 512 bins an octave
+RILL_CONST uint kMeasurePartials = 32u;               // workgroups that add up, at most
+RILL_CONST uint kMeasureShare = 64u;                  // particles of an invocation, while there are fewer
 
 // What measure_reduce.comp finds, for the host.
 struct MeasureResult {
@@ -237,14 +237,14 @@ struct MeasureResult {
 };
 
 struct SweepPush {
-  uint first, last;  // as in ChunkPush
-  float share;       // 1 / sweeps
+  uint first, last;    // as in ChunkPush
+  float share;         // 1 / sweeps
 };
 
 struct ChunkPush {
-  uint first;      // particle that the list buffer starts with
-  uint last;       // one past its last particle
-  uint iteration;  // 0 is the first
+  uint first;          // particle that the list buffer starts with
+  uint last;           // one past its last particle
+  uint iteration;      // 0 is the first
 };
 
 RILL_RECORDS_END

@@ -4,9 +4,7 @@
 #define RILL_INTEROP_H
 #ifdef __cplusplus
 #include <cstdint>
-#define RILL_RECORDS_BEGIN \
-  namespace rill {         \
-  using uint = uint32_t;
+#define RILL_RECORDS_BEGIN namespace rill { using uint = uint32_t;
 #define RILL_RECORDS_END }
 #define RILL_CONST inline constexpr
 #else

@@ -21,9 +21,9 @@ struct SolidLoadRecord {
   float mean[kLoadComponents];         // over the last advance that has ended
   float impulseHigh[kLoadComponents];  // since the start, as the sum of two floats
   float impulseLow[kLoadComponents];
-  float advance[kLoadComponents];  // of the present advance
-  float advanceTime;               // s, likewise
-  float warm[kLoadComponents];     // N and N m, of the warm start: the next substep applies it
+  float advance[kLoadComponents];      // of the present advance
+  float advanceTime;                   // s, likewise
+  float warm[kLoadComponents];         // N and N m, of the warm start: the next substep applies it
 };
 
 RILL_RECORDS_END

@@ -35,12 +35,12 @@ struct SolidRecord {
   PoseRecord pose;
   ShapeRecord shape;
   float friction, restitution;
-  PoseRecord base;          // before any motion; of a driven solid its center is 0
-  uint firstKey, keyCount;  // entries of the keyframe buffer
-  uint driven;              // 1: two keyframes, where it is at the begin and at the end of the advance, with seconds since its begin
-  uint tableOffset;         // sphere: entries into the table buffer
+  PoseRecord base;             // before any motion; of a driven solid its center is 0
+  uint firstKey, keyCount;     // entries of the keyframe buffer
+  uint driven;                 // 1: two keyframes, where it is at the begin and at the end of the advance, with seconds since its begin
+  uint tableOffset;            // sphere: entries into the table buffer
   uint tableNodes;
-  float tableFirst;  // sphere: signed distance of the table's first node, m
+  float tableFirst;            // sphere: signed distance of the table's first node, m
 };
 
 // A particle near solids, and up to kListedSolids of them by increasing index, two a word, the first in the low half; kNoSolid after the
