@@ -2,7 +2,8 @@
 // Geometry of the shapes of solids and fills. Points and directions are in the shape's frame: relative to its center, before its rotation.
 // A further shape is an alternative of rill::Shape, an overload of each function here, and a lambda in each `Overloaded` that does not
 // compile without. On the device it is a kind (shaders/shared/solid_records.h) and a branch where shaders take what is no sphere for a
-// box: surfaceDistance and rayEntry in shared/shape.glsl, solidSample in fluid/solids.comp, the rim in views/particle_shade_solids.comp.
+// box: surfaceDistance and rayEntry in shared/shape.glsl, solidSample in fluid/solid_density.glsl, the rim in
+// views/particle_shade_solids.comp.
 #include <array>
 #include <optional>
 

@@ -27,8 +27,8 @@ layout(std430, binding = 12) buffer WarmAccelerationBlock { vec4 warmAcceleratio
 layout(std430, binding = 13) writeonly buffer FreeBlock { vec4 freeVelocity[]; };
 layout(std430, binding = 14) buffer WarmBlock { float warm[]; };
 READ_NEAR_TANGENTIAL(15)
-// LOADS, near solids: the change of multipliers and the warm start, times 1 over the gradient of the displaced density, m^2
 READ_FLOAT4(17, nearExcess)  // of pairs.comp
+// LOADS, near solids: by what the gradient of the displaced density is multiplied in this substep, and in the warm start of the next, m^2
 layout(std430, binding = 16) writeonly buffer NearMultipliersBlock { vec2 nearMultipliers[]; };
 
 vec3 here;
