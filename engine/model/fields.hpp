@@ -120,6 +120,26 @@ struct Table<Keyframe> {
           &Keyframe::rotate}};
 };
 
+inline constexpr std::array<std::string_view, 6> kFreedomWords{"x", "y", "z", "rx", "ry", "rz"};  // bits of FreedomMask
+
+template <>
+struct Table<Body> {
+  static constexpr std::string_view about = "A rigid body, which fluid, contacts and gravity move";
+  static constexpr std::array<std::string_view, 2> one_of{"density", "mass"};
+  static constexpr std::tuple fields{
+      Field{Info{.key = "density", .unit = "kg/m^3", .range = above(0), .help = "mass over volume"}, &Body::density},
+      Field{Info{.key = "mass", .unit = "kg", .range = above(0), .help = "mass, evenly distributed"}, &Body::mass},
+      Field{Info{.key = "velocity", .unit = "m/s", .help = "initial velocity of the center of mass [x, y, z]"}, &Body::velocity},
+      Field{Info{.key = "angular_velocity", .unit = "rad/s", .help = "initial angular velocity in the axes of the scene [x, y, z]"},
+            &Body::angular_velocity},
+      Field{Info{.key = "locked",
+                 .help = "degrees of freedom that are held: translations along the axes of the scene, and rotations about them",
+                 .words = kFreedomWords},
+            &Body::locked},
+      Field{Info{.key = "from", .unit = "s", .range = atLeast(0), .help = "time until which the body is held, and its load measured"},
+            &Body::from}};
+};
+
 template <>
 struct Table<Solid> {
   static constexpr std::string_view about = "A solid that the fluid flows around";
@@ -140,6 +160,8 @@ struct Table<Solid> {
                  .range = between(0, 1),
                  .help = "coefficient of restitution: normal speed after an impact over normal speed before it"},
             &Solid::restitution},
+      Field{Info{.key = "body", .help = "makes it a rigid body; not with motion, and not of a two-sided mesh", .since = "0.2"},
+            &Solid::body},
       Field{Info{.key = "motion", .help = "keyframes in order of time; linear between them, constant before the first and after the last"},
             &Solid::motion}};
 };
@@ -170,7 +192,8 @@ struct Table<Probe> {
                  .since = "0.2"},
             &Probe::load},
       Field{Info{.key = "pose",
-                 .help = "name of a solid: position of its center (of a mesh: its origin) (m), rotation [x, y, z, w], velocity (m/s) and "
+                 .help = "name of a solid: position of its center (of a mesh: its origin, of a body: its center of mass) (m), rotation [x, "
+                         "y, z, w], velocity (m/s) and "
                          "angular velocity (rad/s)",
                  .since = "0.2"},
             &Probe::pose}};

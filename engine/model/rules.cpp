@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <unordered_map>
 
 #include "core/words.hpp"
@@ -59,6 +60,15 @@ CheckResult unitQuaternion(const Quaternion& parts, std::string_view key) {
   constexpr double kTolerance = 1e-3;  // rounding in products of float quaternions
   if (std::abs(length - 1) > kTolerance)
     return Fault{"the quaternion's length is " + roundedNumber(length) + "; expected 1", {std::string(key)}};
+  return {};
+}
+
+CheckResult checkBody(const Solid& solid) {
+  if (!solid.body) return {};
+  if (!solid.motion.empty()) return Fault{"found a body with keyframes; expected \"body\" or \"motion\", not both", {"body", "motion"}};
+  if (solid.driven > 0) return Fault{"found a body that the host drives; expected \"body\" or \"driven\", not both", {"body"}};
+  const auto* mesh = std::get_if<MeshShape>(&solid.shape);
+  if (mesh && mesh->two_sided) return Fault{"found a body of a two-sided mesh, which has no volume; expected a closed mesh", {"body"}};
   return {};
 }
 
@@ -161,6 +171,18 @@ CheckResult checkRules(const Solid& solid) {
   if (solid.driven > 0 && !solid.motion.empty())
     return Fault{"found " + shortestNumber(solid.driven) + " for a solid with keyframes; expected 0, or a solid without motion",
                  {"driven"}};
+  return checkBody(solid);
+}
+
+CheckResult checkRules(const Body& body) {
+  for (const auto& [velocity, key, first] : {std::tuple{body.velocity, "velocity", 0U}, {body.angular_velocity, "angular_velocity", 3U}})
+    for (unsigned a = 0; a < 3; ++a) {
+      constexpr double kFastest = 1e9;
+      const std::string where = std::string("along ") + "xyz"[a];
+      if (std::abs(velocity[a]) > kFastest) return Fault{"found " + shortestNumber(velocity[a]) + "; expected at most 1e9", {key}};
+      if (velocity[a] != 0 && (body.locked >> (first + a) & 1U) != 0)
+        return Fault{"found " + shortestNumber(velocity[a]) + " " + where + ", which is locked; expected 0", {key, "locked"}};
+    }
   return {};
 }
 

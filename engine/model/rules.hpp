@@ -39,6 +39,7 @@ CheckResult checkRules(const FluidSettings& fluid);
 CheckResult checkRules(const MeshShape& shape);
 CheckResult checkRules(const Fill& fill);
 CheckResult checkRules(const Solid& solid);
+CheckResult checkRules(const Body& body);
 CheckResult checkRules(const Keyframe& keyframe);
 CheckResult checkRules(const Camera& camera);
 CheckResult checkRules(const std::vector<Keyframe>& motion);

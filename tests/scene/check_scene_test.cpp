@@ -129,6 +129,16 @@ TEST(CheckScene, RejectsInvalidValuesNamingKeyAndExpectation) {
        "probes[2].pose: no solid is named \"crat\"; expected one of \"crate\"; did you mean \"crate\"?"},
       {[](Scene& s) { s.probes[0].load = "crate"; },
        "probes[0]: expected exactly one of \"level\", \"front\", \"load\", \"pose\"; found \"level\", \"load\""},
+      {[](Scene& s) { s.solids[0].body = Body{}; }, "solids[0].body: expected exactly one of \"density\", \"mass\"; found none"},
+      {[](Scene& s) { s.solids[0].body = Body{.density = 500, .mass = 3}; },
+       "solids[0].body: expected exactly one of \"density\", \"mass\"; found \"density\", \"mass\""},
+      {[](Scene& s) { s.solids[0].body = Body{.mass = kInf}; }, "solids[0].body.mass: inf is not finite; expected a number above 0 (kg)"},
+      {[](Scene& s) {
+         s.solids[0].motion.clear();
+         s.solids[0].driven = 1;
+         s.solids[0].body = Body{.density = 500};
+       },
+       "solids[0].body: found a body that the host drives; expected \"body\" or \"driven\", not both"},
       {[](Scene& s) { s.camera->eye[2] = 0; }, "camera.target: eye and target are the same point; expected two different points"},
       {[](Scene& s) { s.look.preset = "watr"; },
        "look.preset: found the string \"watr\", expected one of \"water\", \"milk\", \"ink\", \"clay\"; did you mean \"water\"?"},

@@ -120,6 +120,20 @@ struct Keyframe {
   Quaternion rotate = {0, 0, 0, 1};  ///< unit quaternion x y z w, about the center; after Solid::rotation
 };
 
+/// Degrees of freedom, as bits in the order x y z rx ry rz: translations along the axes of the scene, rotations about them.
+using FreedomMask = uint8_t;
+
+/// A rigid body, which fluid, contacts with walls and other solids, and gravity move; fluid and body move each other. Exactly one
+/// of `density` and `mass` is given; the inertia is that of the shape with uniform density.
+struct Body {
+  double density = 0;                    ///< kg/m^3, > 0; 0 if `mass` is given
+  double mass = 0;                       ///< kg, > 0; 0 if `density` is given
+  Double3 velocity = {0, 0, 0};          ///< initial, of the center of mass, m/s
+  Double3 angular_velocity = {0, 0, 0};  ///< initial, rad/s, in the axes of the scene
+  FreedomMask locked = 0;                ///< degrees of freedom that are held
+  double from = 0;                       ///< s, >= 0: held until then, its load measured
+};
+
 /// A solid. It is rotated about its center (a mesh about its origin), then translated, and moved by keyframes: linear and spherical linear
 /// (the shorter way) between them, constant outside.
 struct Solid {
@@ -129,8 +143,9 @@ struct Solid {
   double friction = 0;                 ///< coefficient of friction (Coulomb), >= 0
   double restitution = 0;              ///< coefficient of restitution, 0 .. 1
   std::vector<Keyframe> motion = {};
-  double driven = 0;      ///< largest speed, m/s, of a solid that the host moves (FluidStep::targets); 0: not moved by the host
-  std::string name = {};  ///< unique among solids, or empty
+  std::optional<Body> body = {};  ///< a rigid body; without motion, not driven, not a two-sided mesh
+  double driven = 0;              ///< largest speed, m/s, of a solid that the host moves (FluidStep::targets); 0: not moved by the host
+  std::string name = {};          ///< unique among solids, or empty
 };
 
 /// Gravity from a given time on.
@@ -182,6 +197,13 @@ struct Scene {
   std::optional<Camera> camera = {};  ///< empty: frames the domain or the fluid
   Look look = {};
 };
+
+/// The number of solids that are rigid bodies.
+inline size_t bodyCount(const Scene& scene) {
+  size_t count = 0;
+  for (const Solid& solid : scene.solids) count += solid.body.has_value();
+  return count;
+}
 
 /// Validates a scene that was made in code by the rules that apply to scene files. Opens no file. makeParticles() and Fluid::create()
 /// call it. BadInput naming the key as in a file ("solids[2].friction"), what was found and what was expected.
